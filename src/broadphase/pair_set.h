@@ -1,0 +1,26 @@
+// pair_set.h - the pairs of shapes that have a contact record: (a, b) -> contact index.
+//
+// Open addressing, linear probing, load at most 1/2. Never iterated, so its layout cannot show in a result.
+#ifndef FE_BROADPHASE_PAIR_SET_H
+#define FE_BROADPHASE_PAIR_SET_H
+#include "core/memory.h"
+
+typedef struct fe__pair_entry {
+    uint64_t key; // low << 32 | high, +1 so that 0 is empty
+    int32_t value;
+    int32_t spare;
+} fe__pair_entry;
+
+typedef struct fe__pair_set {
+    fe__pair_entry *entries;
+    int32_t capacity; // a power of two, or 0
+    int32_t count;
+} fe__pair_set;
+
+void fe__pair_set_destroy(fe__pair_set *set, fe__memory *memory);
+int32_t fe__pair_set_reserve(fe__pair_set *set, fe__memory *memory, int32_t extra); // 0: no memory; the `extra` insertions that follow cannot fail
+void fe__pair_set_insert(fe__pair_set *set, int32_t a, int32_t b, int32_t value);   // a != b, in any order; not there yet
+int32_t fe__pair_set_find(const fe__pair_set *set, int32_t a, int32_t b);           // value, -1: not there
+void fe__pair_set_remove(fe__pair_set *set, int32_t a, int32_t b);                  // nothing when not there
+
+#endif

@@ -1,0 +1,59 @@
+// tree.h - an 8-wide tree of boxes, for pairs and rays.
+//
+// A node has 8 lanes; a lane holds a box and a child: an inner node (>= 0), a proxy (~child), or nothing (FE_TREE_EMPTY, with an inside-out box
+// that no test ever hits). There are no leaf objects: a proxy's box is tested side by side with its neighbours'. A proxy is an index of the
+// caller's (a shape). Boxes are floats relative to `origin`, rounded outwards: a test may say "meets" too often, never too seldom, and what
+// decides is the caller's exact test. So the tree's form is invisible in every answer.
+//
+// Invariant: a node's index is above its parent's (nodes are appended between builds), so that one backward pass refits the tree.
+#ifndef FE_BROADPHASE_TREE_H
+#define FE_BROADPHASE_TREE_H
+#include "collision/form.h"
+#include "core/memory.h"
+
+enum { FE_TREE_WIDTH = 8 };
+#define FE_TREE_EMPTY INT32_MIN
+
+typedef struct fe__tree_node {
+    _Alignas(64) float box[6][FE_TREE_WIDTH]; // rows 0-2 low, 3-5 high
+    int32_t child[FE_TREE_WIDTH];
+    int32_t parent, lane; // parent -1: the root, or dead
+    int32_t spare[6];
+} fe__tree_node;
+
+typedef struct fe__tree {
+    fe__tree_node *nodes;
+    int32_t node_count, node_capacity, dead;
+    int32_t *slot; // of a proxy: node * 8 + lane, -1: not in this tree
+    int32_t slot_capacity;
+    int32_t proxy_count;
+    float built_cost;
+    fe_dvec3 origin;
+} fe__tree;
+
+void fe__tree_destroy(fe__tree *tree, fe__memory *memory);
+// Room for `extra` more proxies with indices below `limit`: the insertions that follow cannot fail. 0: no memory, nothing changed.
+int32_t fe__tree_reserve(fe__tree *tree, fe__memory *memory, int32_t limit, int32_t extra);
+void fe__tree_insert(fe__tree *tree, int32_t proxy, const fe__bounds *fat);
+void fe__tree_remove(fe__tree *tree, int32_t proxy);
+// 1 while `tight` lies in the proxy's box: reads only, any thread
+int32_t fe__tree_holds(const fe__tree *tree, int32_t proxy, const fe__bounds *tight);
+void fe__tree_get(const fe__tree *tree, int32_t proxy, fe__bounds *out_box);
+// New boxes for `count` proxies; refits what is above them (all nodes at once when many moved).
+void fe__tree_move(fe__tree *tree, const int32_t *proxies, const fe__bounds *fat, int32_t count);
+// Builds anew when the tree has degenerated (cost, dead nodes, depth), or always when `force`. Needs scratch memory: 0 when there is none, and the
+// tree stays as it was.
+int32_t fe__tree_rebuild(fe__tree *tree, fe__memory *memory, int32_t force);
+
+// Proxies whose boxes meet `box`. Depth first; the order is the tree's, so the caller sorts what it keeps. `visit` returns 0 to stop.
+typedef int32_t (*fe__tree_visit)(void *context, int32_t proxy);
+void fe__tree_query(const fe__tree *tree, const fe__bounds *box, fe__tree_visit visit, void *context);
+// the same against the box the proxy has in `of` (margins included)
+void fe__tree_query_proxy(const fe__tree *tree, const fe__tree *of, int32_t proxy, fe__tree_visit visit, void *context);
+
+// Proxies whose boxes meet origin + t * translation, 0 <= t <= limit, nearest boxes first. `visit` gets the limit and returns the new one (never
+// greater). Boxes at exactly the limit are still visited, so that ties can be decided by the caller.
+typedef double (*fe__tree_ray_visit)(void *context, int32_t proxy, double limit);
+double fe__tree_ray(const fe__tree *tree, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__tree_ray_visit visit, void *context);
+
+#endif

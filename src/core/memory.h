@@ -1,0 +1,31 @@
+// memory.h - one allocator per world, counted, and arrays that grow.
+//
+// Only the thread that uses the world allocates. Growing never loses: a failed fe__reserve leaves the array as it was. All blocks are aligned
+// to 64 bytes and new memory is zeroed, so that padding lanes and spare fields hold zeros.
+#ifndef FE_CORE_MEMORY_H
+#define FE_CORE_MEMORY_H
+#include "feather.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct fe__memory {
+    fe_allocator allocator;
+    int64_t bytes;       // now
+    int64_t allocations; // ever
+} fe__memory;
+
+void fe__memory_init(fe__memory *memory, const fe_allocator *allocator); // NULL: malloc
+void *fe__allocate(fe__memory *memory, size_t size);                     // zeroed, 64-byte aligned, NULL on failure
+void fe__release(fe__memory *memory, void *block, size_t size);          // NULL is fine
+
+// Makes room for `need` records of `size` bytes in *array (of *capacity records), by doubling. 0 on failure, with nothing changed.
+int32_t fe__reserve(fe__memory *memory, void *array, int32_t *capacity, int64_t need, size_t size);
+// Gives the array back and sets pointer and capacity to 0.
+void fe__free_array(fe__memory *memory, void *array, int32_t *capacity, size_t size);
+
+// FE_RESERVE(memory, world->bodies, world->body_capacity, n): typed wrapper of fe__reserve
+#define FE_RESERVE(memory, array, capacity, need) fe__reserve((memory), &(array), &(capacity), (int64_t)(need), sizeof *(array))
+#define FE_FREE(memory, array, capacity) fe__free_array((memory), &(array), &(capacity), sizeof *(array))
+
+#endif

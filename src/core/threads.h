@@ -1,0 +1,50 @@
+// threads.h - workers: a pool of persistent threads, or the host's task system, behind one call.
+//
+// fe__run is the only way to other threads: it calls task(argument, i) once for each i in [0, count) and returns when all have returned. A task
+// never waits for one that has not started, so that any number of real threads, down to one, finishes; tasks share work through atomic
+// counters of their own. The pool's threads spin for a few microseconds after a run, then sleep; two worlds may run at once on one pool: each
+// caller works too, and whoever is free helps.
+#ifndef FE_CORE_THREADS_H
+#define FE_CORE_THREADS_H
+#include "feather.h"
+
+#include <stdatomic.h>
+#include <stdint.h>
+
+enum { FE_MAX_WORKERS = 64, FE_CACHE_LINE = 64 };
+
+// fe_pool is the pool; worlds count themselves in and out
+fe_pool *fe__pool_create(int32_t worker_count); // NULL when memory or threads are not to be had
+void fe__pool_destroy(fe_pool *pool);           // no world may use it
+int32_t fe__pool_worker_count(const fe_pool *pool);
+void fe__pool_retain(fe_pool *pool);
+void fe__pool_release(fe_pool *pool);
+int32_t fe__pool_users(const fe_pool *pool);
+void fe__pool_run(fe_pool *pool, fe_task task, void *argument, int32_t count);
+
+// what a world runs on
+typedef struct fe__workers {
+    int32_t count; // 1: inline, no thread
+    fe_pool *pool; // or NULL
+    fe_task_system tasks; // run == NULL: the pool
+} fe__workers;
+void fe__run(const fe__workers *workers, fe_task task, void *argument, int32_t count);
+
+// Blocks of [0, count) claimed by whoever comes: each worker gets a disjoint range [first, end). Runs inline when one block holds it all.
+typedef void (*fe__range_task)(void *argument, int32_t first, int32_t end, int32_t worker);
+void fe__parallel_for(const fe__workers *workers, int32_t count, int32_t block, fe__range_task task, void *argument);
+
+void fe__pause(void); // inside a spin
+void fe__yield(void); // after a long spin
+
+// The floating-point state that every result rests on: round to nearest, denormals kept, no traps. Saved and set on entry, restored on exit of each
+// call that computes, and on every worker.
+typedef struct fe__fp_state {
+    uint64_t saved;
+} fe__fp_state;
+fe__fp_state fe__fp_enter(void);
+void fe__fp_leave(fe__fp_state state);
+
+double fe__clock(void); // s, monotonic
+
+#endif
