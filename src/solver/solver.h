@@ -1,0 +1,134 @@
+// solver.h - TGS Soft: what a step solves, and the kernels that solve it.
+//
+// The graph (graph.c) sorts awake bodies and linked contacts into batches: small islands, several to a batch, each solved whole by one worker; an
+// island above FE__ISLAND_LARGE contacts is a batch of its own, spread over the workers colour by colour. Which of the two an island gets never
+// changes its result. In a batch, contacts lie in groups by (colour, kind of row); a group's contacts share no dynamic body, W of them make a row.
+//
+// The kernels (*.simd.c) are compiled once per SIMD set into a table; the world picks one at its creation.
+#ifndef FE_SOLVER_SOLVER_H
+#define FE_SOLVER_SOLVER_H
+#include "core/math.h"
+#include "core/memory.h"
+#include "core/threads.h"
+#include "solver/contact.h"
+#include "solver/body.h"
+
+enum {
+    FE__LINE = 8,        // floats in a line: two quads, 32 bytes
+    FE__MAX_WIDTH = 16,  // lanes of the widest kernel: blocks of lines are padded to it
+    FE__STATIC_LINE = 0, // all zeros: what static bodies read
+
+    // kinds of rows, bits
+    FE__ROW_PAIR = 1,    // both bodies are dynamic; otherwise A is static or kinematic and only B is written
+    FE__ROW_SINGLE = 2,  // one point: a sphere is in it
+    FE__ROW_SPECIAL = 4, // locks, restitution, rolling or spinning resistance, surface velocity, a kinematic body
+    FE__ROW_KINDS = 8,
+
+    FE__PAIR_COLOURS = 40,   // of contacts between dynamic bodies: 0..39
+    FE__STATIC_COLOURS = 23, // of contacts with static and kinematic ones: 40..62, solved last
+    FE__OVERFLOW_COLOUR = 63, // one contact a row, in order of creation
+    FE__COLOURS = 64,
+
+    // contacts above which an island is spread over the workers, and up to which small islands are batched: rows of one batch then stay in a
+    // second-level cache. A constant, not the machine's: it decides who executes an island
+    FE__BATCH_CONTACTS = 1024
+};
+
+// An implicitly integrated spring and damper (Catto, Soft Constraints, GDC 2011)
+typedef struct fe__softness {
+    float bias_rate, mass_scale, impulse_scale;
+} fe__softness;
+
+typedef struct fe__step_constants {
+    float h, inverse_h; // of a substep, s
+    float push_speed;   // overlap is pushed out no faster, m/s
+    float threshold;    // of restitution, m/s
+    float warm_scale;   // h now / h of the stored impulses
+    float max_speed;    // m/s
+    float speculative;  // m
+    int32_t substeps;
+    fe_vec3 gravity;
+    fe__softness between_dynamic, against_static;
+} fe__step_constants;
+
+// Lanes of one group: `count` rows of one kind at `row` (bytes into the batch's row memory), lanes from `lane`
+typedef struct fe__group {
+    int32_t lane; // first, a multiple of W
+    int32_t rows;
+    int32_t kind; // FE__ROW_*
+    int32_t colour;
+    int64_t offset; // of the first row, bytes
+} fe__group;
+
+typedef struct fe__batch {
+    int32_t first_line, line_count; // a multiple of FE__MAX_WIDTH
+    int32_t first_group, group_count;
+    int32_t contact_count, body_count, island_count;
+    int32_t bounces;                // a contact with restitution is in it
+    int64_t row_bytes;
+} fe__batch;
+
+typedef struct fe__lane {
+    int32_t contact;        // 0 is no contact: record 0 is zeros
+    int32_t line_a, line_b; // FE__STATIC_LINE for static
+} fe__lane;
+
+typedef struct fe__solver {
+    // lines of bodies, W at a time. Line 0 (and its block) is zeros
+    float (*velocity)[FE__LINE]; // v, inverse mass | w, lock bits
+    float (*motion)[FE__LINE];   // since the step began: centre, 0 | rotation x y z w
+    float (*start)[FE__LINE];    // v, _ | w, _ before this substep's constraint impulses
+    float (*inertia)[FE__LINE];  // inverse, world: xx xy xz yy | yz zz 0 0
+    float (*drive)[FE__LINE];    // acceleration by gravity and forces, 1/(1 + h c) | by torques, 1/(1 + h c)
+    float (*spin)[FE__LINE];     // principal axes x y z w, world, when the step began | principal moments, 1: gyroscopic torque
+    int32_t line_count, line_capacity;
+    int32_t *body_of_line;       // -1: padding
+    int32_t body_of_line_capacity;
+
+    // the graph, kept while nothing links, unlinks, wakes or sleeps
+    int32_t graph_changed;
+    fe__batch *batches; // large islands first
+    int32_t batch_count, batch_capacity, large_count;
+    fe__group *groups;
+    int32_t group_count, group_capacity;
+    fe__lane *lanes;
+    int32_t lane_count, lane_capacity;
+    int32_t island_count;
+    int32_t *island_scratch; // union-find and sorting
+    int32_t island_scratch_capacity;
+
+    unsigned char *rows; // of the large batch at hand, or one block per worker
+    int32_t row_capacity; // bytes / 64
+    int64_t worker_row_bytes;
+} fe__solver;
+
+// What a special row needs of its pair beyond the contact, by contact index
+typedef struct fe__extra {
+    float restitution;
+    float rolling;  // resistance times radius, m
+    float spinning; // m
+    fe_vec3 surface_velocity; // of B's surface against A's, world, m/s
+} fe__extra;
+
+typedef struct fe__kernels {
+    int32_t simd, width;                 // fe_simd, W
+    int32_t row_size[FE__ROW_KINDS];     // bytes of a row of W contacts
+    // contacts: separations at the start of the step of pairs that moved little; bit i of out_moved[k] set: contact index[W k + i] needs a new manifold
+    void (*recycle)(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, uint16_t *out_moved);
+    // bodies of lines first..first + count - 1
+    void (*load_bodies)(fe__solver *s, const fe__body *bodies, int32_t first, int32_t count, const fe__step_constants *c);
+    void (*begin_velocities)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);
+    void (*carry_velocities)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);
+    void (*integrate_positions)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);
+    // rows first..first + count - 1 of a group
+    void (*prepare[FE__ROW_KINDS])(fe__solver *s, fe__contact *contacts, const struct fe__extra *extras, const fe__lane *lanes, void *rows, int32_t count, const fe__step_constants *c);
+    void (*solve[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
+    void (*relax[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
+    void (*bounce[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c); // special kinds, else NULL
+    void (*store[FE__ROW_KINDS])(fe__contact *contacts, const fe__lane *lanes, const void *rows, int32_t count, const fe__step_constants *c);
+} fe__kernels;
+
+// The table of a set, NULL when it was not built or this CPU lacks it. FE_SIMD_AUTO: the environment's FE_SIMD, else the widest.
+const fe__kernels *fe__kernels_of(int32_t simd);
+
+#endif

@@ -1,0 +1,40 @@
+// pair.h - two shapes whose boxes meet: the cold half of a contact. Record i of the pairs and record i of the contacts are one thing.
+#ifndef FE_WORLD_PAIR_H
+#define FE_WORLD_PAIR_H
+#include "core/math.h"
+
+enum {
+    FE__PAIR_SENSOR = 1,    // a trigger is in it: no contact, only events
+    FE__PAIR_TOUCHING = 2,  // entered: an exit is owed
+    FE__PAIR_LINKED = 4,    // has points and is in the constraint graph
+    FE__PAIR_FLIPPED = 8,   // the solver's A is shape B
+    FE__PAIR_SWAPPED = 16,  // fe__collide's A is shape B
+    FE__PAIR_RECYCLED = 32, // kept its manifold in this step
+    FE__PAIR_ROUND = 64,    // a sphere or capsule is in it: a new manifold each step
+    FE__PAIR_NEW = 128      // made in this step
+};
+
+// What the narrow phase says of a pair in this step, applied afterwards in a fixed order
+enum { FE__RESULT_NONE, FE__RESULT_BEGIN, FE__RESULT_END, FE__RESULT_APART };
+
+typedef struct fe__link {
+    int32_t next, previous; // pair index, -1: none
+} fe__link;
+
+typedef struct fe__pair {
+    int32_t shape_a, shape_b; // A was created first
+    int32_t body_a, body_b;
+    fe__link links[2];        // in the lists of body A and body B
+    uint64_t serial_a, serial_b; // of the shapes: the order of everything
+    uint32_t flags;           // FE__PAIR_*
+    int32_t colour;           // -1: not in the graph
+    int32_t awake_index;      // place in the list of awake pairs, -1: both sides sleep
+    int32_t result;           // FE__RESULT_*
+    int32_t axis;             // of the narrow phase: fe__manifold.axis, axis_separation
+    float axis_separation;
+    uint32_t ids[4];          // features of the points
+    uint32_t events;          // fe_shape_events of either shape
+    float approach;           // speed of the impact in this step, m/s
+} fe__pair;
+
+#endif

@@ -1,0 +1,158 @@
+// world.h - the world: plain arrays of records, lists by index, and the stages' scratch.
+//
+// Below the API nothing checks handles or arguments: an index is a living record (asserts say so). Whatever a call needs is reserved before it
+// changes anything, so that a failed allocation leaves no trace.
+#ifndef FE_WORLD_WORLD_H
+#define FE_WORLD_WORLD_H
+#include "broadphase/pair_set.h"
+#include "broadphase/tree.h"
+#include "core/id_pool.h"
+#include "core/memory.h"
+#include "core/threads.h"
+#include "solver/solver.h"
+#include "solver/body.h"
+#include "world/pair.h"
+#include "world/shape.h"
+
+enum { FE__KIND_BODY = 1, FE__KIND_SHAPE = 2, FE__KIND_JOINT = 3, FE__KIND_ASSET = 4 };
+
+// An event as the step writes it. Serials order it; handles name it also after a destruction.
+typedef struct fe__pair_event_record {
+    uint64_t serial_a, serial_b;
+    fe_pair_event event;
+} fe__pair_event_record;
+
+typedef struct fe__body_event_record {
+    uint64_t serial;
+    fe_body_event event;
+} fe__body_event_record;
+
+typedef struct fe__hit_event_record {
+    uint64_t serial_a, serial_b;
+    fe_hit_event event;
+} fe__hit_event_record;
+
+struct fe_world {
+    fe__memory memory;
+    fe__workers workers;
+    fe_pool *own_pool;       // or NULL
+    _Atomic int32_t stepping;
+    fe_handle user_data;
+
+    // settings
+    fe_vec3 gravity;
+    int32_t substeps;
+    fe_world_tuning tuning;
+    const fe__kernels *kernels; // of the SIMD set
+    int32_t simd;               // fe_simd
+
+    // records
+    fe__id_pool body_ids, shape_ids;
+    fe__body *bodies;
+    int32_t body_capacity;
+    fe__shape *shapes;
+    int32_t shape_capacity;
+    uint64_t next_serial;    // of bodies and shapes alike
+    int32_t first_body, last_body, body_count; // in the order of creation
+    int32_t shape_count;
+
+    // contacts: hot and cold halves by the same index; free ones are linked through links[0].next
+    fe__contact *contacts;
+    fe__pair *pairs;
+    fe__extra *extras;       // mixed materials of special rows
+    int32_t contact_capacity, pair_capacity, extra_capacity;
+    int32_t pair_limit;      // indices below were used
+    int32_t first_free_pair; // -1: none
+    int32_t pair_count, linked_count, touching_count;
+    fe__pair_set pair_set;   // by shape indices
+    fe__pair_set ignored;    // by body indices: fe_world_ignore_collision
+
+    // who is awake: dense lists of indices, in no order that matters
+    int32_t *awake_bodies;
+    int32_t awake_body_count, awake_body_capacity;
+    int32_t *awake_pairs;
+    int32_t awake_pair_count, awake_pair_capacity;
+
+    // broad phase
+    fe__tree static_tree, moving_tree; // proxies are shape indices; kinematic bodies' are in the moving tree
+    int32_t *planes;                   // shapes
+    int32_t plane_count, plane_capacity;
+    int32_t *moved;                    // shapes whose box is new since the last step's pairs
+    int32_t moved_count, moved_capacity;
+
+    // events of the last step, and exits owed to the next one by what the API ended in between
+    fe__pair_event_record *pair_events;
+    int32_t pair_event_count, pair_event_capacity;
+    fe__pair_event_record *owed_events;
+    int32_t owed_event_count, owed_event_capacity;
+    fe__body_event_record *body_events;
+    int32_t body_event_count, body_event_capacity;
+    fe__body_event_record *owed_body_events; // woken by the API between steps
+    int32_t owed_body_event_count, owed_body_event_capacity;
+    fe__hit_event_record *hit_events;
+    int32_t hit_event_count, hit_event_capacity;
+
+    fe__solver solver;       // graph, rows, body lines
+    struct fe__step_scratch *scratch; // of the step's stages (step.h)
+    float last_h;            // substep length that the stored impulses belong to, 0: none
+
+    fe_profile profile;
+    fe_counters counters;
+};
+
+// ---- life of bodies and shapes (bodies.c, shapes.c) -----------------------------------------------------------------------------
+// Indices in and out; negative: fe_result of the failure, with nothing changed.
+int32_t fe__body_create(fe_world *world, const fe_body_def *desc);
+void fe__body_destroy(fe_world *world, int32_t body);
+fe_result fe__body_set_type(fe_world *world, int32_t body, int32_t type);
+fe_result fe__body_set_transform(fe_world *world, int32_t body, const fe_transform *transform); // wakes
+fe_result fe__body_set_enabled(fe_world *world, int32_t body, int32_t enabled);
+void fe__body_set_locks(fe_world *world, int32_t body, uint32_t linear, uint32_t angular);
+void fe__body_update_mass(fe_world *world, int32_t body);                             // from the shapes, unless given
+void fe__body_set_mass(fe_world *world, int32_t body, const fe_mass_data *data);      // given
+void fe__body_mass_data(const fe_world *world, int32_t body, fe_mass_data *out_data);
+void fe__body_place(fe_world *world, int32_t body);                                   // shapes' poses from the body's
+
+int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *desc, const fe__form *form);
+void fe__shape_destroy(fe_world *world, int32_t shape);
+fe_result fe__shape_set_form(fe_world *world, int32_t shape, const fe__form *form);
+fe_result fe__shape_set_local_pose(fe_world *world, int32_t shape, fe_vec3 position, fe_quat rotation);
+fe_result fe__shape_set_filter(fe_world *world, int32_t shape, uint32_t layer, uint32_t mask);
+fe_result fe__shape_set_trigger(fe_world *world, int32_t shape, int32_t trigger);
+void fe__shape_material_changed(fe_world *world, int32_t shape); // material, events, surface velocity: its pairs mix anew
+fe__bounds fe__shape_bounds(const fe_world *world, int32_t shape, float margin);
+// Puts the shape into its tree or list, takes it out, tells it to look for pairs. Room was reserved by fe__reserve_proxies.
+int32_t fe__reserve_proxies(fe_world *world, int32_t extra);
+void fe__shape_enter(fe_world *world, int32_t shape);
+void fe__shape_leave(fe_world *world, int32_t shape);
+void fe__shape_touch(fe_world *world, int32_t shape); // box is new
+
+// ---- filter (filter.c) --------------------------------------------------------------------------------------------------------
+// May these two shapes have a pair? Kinds of bodies, layers, ignored pairs.
+int32_t fe__may_collide(const fe_world *world, int32_t shape_a, int32_t shape_b);
+
+// ---- pairs (pairs.c) ------------------------------------------------------------------------------------------------------------
+int32_t fe__reserve_pairs(fe_world *world, int32_t extra);
+int32_t fe__pair_create(fe_world *world, int32_t shape_a, int32_t shape_b); // room was reserved; A created first
+void fe__pair_destroy(fe_world *world, int32_t pair);                       // unlinks, sends the exit it owes
+void fe__pair_mix(fe_world *world, int32_t pair);                           // materials, events, row kind
+void fe__body_drop_pairs(fe_world *world, int32_t body);                    // all of them
+void fe__body_refilter(fe_world *world, int32_t body);                      // those that may no longer collide
+void fe__pair_link(fe_world *world, int32_t pair);                          // into the constraint graph, with a colour
+void fe__pair_unlink(fe_world *world, int32_t pair);
+
+// ---- sleep (sleep.c) --------------------------------------------------------------------------------------------------------------
+void fe__wake(fe_world *world, int32_t body);          // it and all that touches it, through dynamic bodies; nothing on static ones
+void fe__wake_neighbours(fe_world *world, int32_t body); // all that touches it, not the body
+fe_result fe__put_to_sleep(fe_world *world, int32_t body); // the body's island; FE_ERROR_STATE when part of it may not
+void fe__body_awaken_alone(fe_world *world, int32_t body); // into the awake lists, its pairs too
+void fe__body_retire(fe_world *world, int32_t body);       // out of the awake lists
+
+// ---- the step (step.c), events (events.c), hash (hash.c) --------------------------------------------------------------------------
+fe_result fe__step(fe_world *world, float dt);
+void fe__step_scratch_destroy(fe_world *world);
+uint64_t fe__world_hash(const fe_world *world);
+fe_handle fe__body_handle(const fe_world *world, int32_t body);
+fe_handle fe__shape_handle(const fe_world *world, int32_t shape);
+
+#endif
