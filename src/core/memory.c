@@ -1,0 +1,85 @@
+// memory.c - see memory.h. Called from the world's own thread by the API and by the step's stages before they fan out; never by workers.
+#include "core/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    BLOCK_ALIGNMENT = 64, // a cache line, and the widest SIMD load
+    FIRST_CAPACITY = 16,  // records: below that, doubling would allocate at every other call
+};
+
+// aligned_alloc wants a multiple of the alignment
+static void *default_allocate(void *user, uint64_t size, uint64_t alignment)
+{
+    (void)user;
+    if (size > SIZE_MAX - alignment) return NULL;
+    return aligned_alloc((size_t)alignment, (size_t)((size + alignment - 1) / alignment * alignment));
+}
+
+static void default_release(void *user, void *block, uint64_t size)
+{
+    (void)user, (void)size;
+    free(block);
+}
+
+void fe__memory_init(fe__memory *memory, const fe_allocator *allocator)
+{
+    *memory = (fe__memory){.allocator = {.struct_size = sizeof(fe_allocator), .allocate = default_allocate, .release = default_release}};
+    if (allocator) memory->allocator = *allocator;
+}
+
+void *fe__allocate(fe__memory *memory, size_t size)
+{
+    if (size == 0 || size > PTRDIFF_MAX) return NULL;
+    void *block = memory->allocator.allocate(memory->allocator.user, size, BLOCK_ALIGNMENT);
+    if (!block) return NULL;
+    memset(block, 0, size);
+    memory->bytes += (int64_t)size;
+    memory->allocations += 1;
+    return block;
+}
+
+void fe__release(fe__memory *memory, void *block, size_t size)
+{
+    if (!block) return;
+    memory->allocator.release(memory->allocator.user, block, size);
+    memory->bytes -= (int64_t)size;
+}
+
+// `array` is the address of a pointer of any type. It is read and written as bytes, because a T* may not be accessed as a void*.
+static void *load_pointer(const void *array)
+{
+    void *pointer;
+    memcpy(&pointer, array, sizeof pointer);
+    return pointer;
+}
+
+static void store_pointer(void *array, void *pointer) { memcpy(array, &pointer, sizeof pointer); }
+
+int32_t fe__reserve(fe__memory *memory, void *array, int32_t *capacity, int64_t need, size_t size)
+{
+    if (need <= *capacity) return 1;
+    if (need > INT32_MAX) return 0;
+    int64_t grown = *capacity < FIRST_CAPACITY ? FIRST_CAPACITY : *capacity;
+    while (grown < need) grown *= 2;
+    if (grown > INT32_MAX) grown = INT32_MAX;
+    if ((uint64_t)grown > PTRDIFF_MAX / size) return 0;
+
+    void *block = fe__allocate(memory, (size_t)grown * size);
+    if (!block) return 0;
+    void *old = load_pointer(array);
+    size_t old_size = (size_t)*capacity * size;
+    if (old) memcpy(block, old, old_size);
+    fe__release(memory, old, old_size);
+    store_pointer(array, block);
+    *capacity = (int32_t)grown;
+    return 1;
+}
+
+void fe__free_array(fe__memory *memory, void *array, int32_t *capacity, size_t size)
+{
+    fe__release(memory, load_pointer(array), (size_t)*capacity * size);
+    store_pointer(array, NULL);
+    *capacity = 0;
+}
