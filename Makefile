@@ -1,0 +1,224 @@
+# Feather's build for Linux and other systems with GNU make and gcc or clang. CMakeLists.txt builds the same library.
+#
+#   make            build/libfeather.a and build/libfeather.so
+#   make demo       builds the library and runs examples/demo.c; needs a C compiler and make, nothing else
+#   make test       everything that is checked before a change is accepted (TESTS=pattern: the matching programs only)
+#   make bench      speed, beside Bullet and ODE where they are installed
+#   make install    PREFIX, LIBDIR, INCLUDEDIR, DESTDIR;  make uninstall takes it away again
+#   make examples, deps, format, clean
+#
+# CC, CXX, CFLAGS, CXXFLAGS, LDFLAGS, AR and BUILD (the folder) may be given. WERROR=1: warnings are errors (CI=true implies it).
+# V=1: show the commands.
+
+.DEFAULT_GOAL := all
+.DELETE_ON_ERROR:
+.SECONDARY:
+.SUFFIXES:
+
+BUILD ?= build
+PREFIX ?= /usr/local
+LIBDIR ?= $(PREFIX)/lib
+INCLUDEDIR ?= $(PREFIX)/include
+PKG_CONFIG ?= pkg-config
+CLANG_FORMAT ?= clang-format
+ifeq ($(origin CC),default)
+CC := $(notdir $(firstword $(shell command -v cc || command -v gcc || command -v clang || echo cc)))
+endif
+ifeq ($(CI),true)
+WERROR ?= 1
+endif
+RUN = $(if $(V),,@echo '  $@';)
+
+# ---- flags ----------------------------------------------------------------------------------------------------------------------
+
+OPT ?= -O2
+SIMD_OPT ?= -O3
+WARNINGS := -Wall -Wextra -Wpedantic -Wconversion $(if $(filter 1,$(WERROR)),-Werror)
+CXX_WARNINGS := -Wall -Wextra $(if $(filter 1,$(WERROR)),-Werror)
+SANITIZE_FLAGS := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all -fno-omit-frame-pointer -g -DFE_SANITIZED=1)
+
+# The target's machine, from the compiler itself, so that a cross compiler is understood.
+MACROS := $(shell printf '' | $(CC) $(CFLAGS) -dM -E -x c - 2>/dev/null | awk '{ print $$2 }')
+ifneq ($(filter __x86_64__,$(MACROS)),)
+SIMD_SETS := plain sse2 avx2 avx512
+else ifneq ($(filter __aarch64__,$(MACROS)),)
+SIMD_SETS := plain neon
+else
+SIMD_SETS := plain
+endif
+# The 387 computes in 80 bits and would give results of its own.
+MACHINE_FLAGS := $(if $(filter __i386__,$(MACROS)),-msse2 -mfpmath=sse)
+
+SIMD_plain := -DFE_W=4 -DFE_PLAIN_C
+SIMD_sse2 := -DFE_W=4 -msse2
+SIMD_avx2 := -DFE_W=8 -mavx2
+SIMD_avx512 := -DFE_W=16 -mavx512f -mprefer-vector-width=512
+SIMD_neon := -DFE_W=4
+HAVE_plain :=
+HAVE_sse2 := -DFE_HAVE_SSE2=1
+HAVE_avx2 := -DFE_HAVE_AVX2=1
+HAVE_avx512 := -DFE_HAVE_AVX512=1
+HAVE_neon := -DFE_HAVE_NEON=1
+
+# STRICT comes last on every command line: whatever CFLAGS hold, results keep their bits.
+STRICT := -fno-fast-math -fno-math-errno -ffp-contract=off
+DEFINES := -DFE_BUILD $(foreach set,$(SIMD_SETS),$(HAVE_$(set)))
+C_FLAGS = -std=gnu11 $(OPT) -fvisibility=hidden -fPIC -pthread $(WARNINGS) -Iinclude -Isrc $(DEFINES) $(SANITIZE_FLAGS) $(CFLAGS) $(MACHINE_FLAGS)
+CXX_FLAGS = -std=c++17 $(OPT) -pthread $(CXX_WARNINGS) -Iinclude $(CXXFLAGS)
+LINK_FLAGS = $(SANITIZE_FLAGS) $(LDFLAGS) -pthread
+DEPENDENCIES = -MMD -MP -MF $(@:.o=).d
+
+# ---- the library ----------------------------------------------------------------------------------------------------------------
+
+SOURCES := $(sort $(wildcard src/*/*.c src/*/*/*.c))
+SIMD_SOURCES := $(filter %.simd.c,$(SOURCES))
+PLAIN_SOURCES := $(filter-out %.simd.c,$(SOURCES))
+OBJECTS := $(PLAIN_SOURCES:src/%.c=$(BUILD)/obj/%.o) \
+           $(foreach set,$(SIMD_SETS),$(SIMD_SOURCES:src/%.simd.c=$(BUILD)/obj/%.$(set).o))
+
+SONAME := libfeather.so.1
+STATIC := $(BUILD)/libfeather.a
+SHARED := $(BUILD)/libfeather.so
+VERSION = $(shell awk '/define FE_VERSION_(MAJOR|MINOR|PATCH)/ { v = v dot $$3; dot = "." } END { print v }' include/feather.h)
+
+.PHONY: all static shared demo examples tests test bench bench-build install uninstall deps format clean FORCE
+all: static shared
+static: $(STATIC)
+shared: $(SHARED)
+
+# Rewritten only when it changes, so that another compiler, other flags or a removed source rebuild what they concern.
+define stamp
+@mkdir -p $(@D)
+@echo '$(1)' | cmp -s - $@ || echo '$(1)' > $@
+endef
+$(BUILD)/flags: FORCE
+	$(call stamp,$(subst ','"'"',$(CC) $(C_FLAGS) $(SIMD_OPT) $(STRICT) $(LINK_FLAGS)))
+$(BUILD)/objects: FORCE
+	$(call stamp,$(OBJECTS))
+
+$(BUILD)/obj/%.o: src/%.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(RUN)$(CC) $(C_FLAGS) $(STRICT) $(DEPENDENCIES) -c $< -o $@
+
+# Once per SIMD set. SIMD_OPT follows CFLAGS: a distribution's -O2 must not slow the kernels down.
+define simd_rule
+$(BUILD)/obj/%.$(1).o: src/%.simd.c $(BUILD)/flags
+	@mkdir -p $$(@D)
+	$$(RUN)$(CC) $$(C_FLAGS) -Wno-psabi -Wno-ignored-attributes $(SIMD_OPT) -DFE_SIMD_SET=$(1) $(SIMD_$(1)) $(STRICT) $$(DEPENDENCIES) -c $$< -o $$@
+endef
+$(foreach set,$(SIMD_SETS),$(eval $(call simd_rule,$(set))))
+
+$(STATIC): $(OBJECTS) $(BUILD)/objects
+	@rm -f $@
+	$(RUN)$(AR) rcs $@ $(OBJECTS)
+
+$(BUILD)/$(SONAME): $(OBJECTS) $(BUILD)/objects feather.map
+	$(RUN)$(CC) -shared -Wl,-soname,$(SONAME) -Wl,--version-script=feather.map $(if $(SANITIZE),,-Wl,-z,defs) $(OBJECTS) $(LINK_FLAGS) -lm -o $@
+$(SHARED): $(BUILD)/$(SONAME)
+	@ln -sf $(SONAME) $@
+
+# ---- examples -------------------------------------------------------------------------------------------------------------------
+
+EXAMPLES := $(patsubst examples/%.c,$(BUILD)/feather-%,$(sort $(wildcard examples/*.c)))
+
+$(BUILD)/feather-%: $(BUILD)/examples/%.o $(STATIC)
+	$(RUN)$(CC) $< $(STATIC) $(LINK_FLAGS) -lm -o $@
+$(BUILD)/examples/%.o: examples/%.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(RUN)$(CC) $(C_FLAGS) $(STRICT) $(DEPENDENCIES) -c $< -o $@
+
+examples: $(EXAMPLES)
+demo: $(BUILD)/feather-demo
+	@$(BUILD)/feather-demo
+
+# ---- tests ----------------------------------------------------------------------------------------------------------------------
+# tests/<folder>/test_*.c are programs; tests/*.c and tests/support/*.c are linked with each of them.
+
+TEST_SOURCES := $(sort $(wildcard tests/*/test_*.c))
+TEST_SUPPORT := $(patsubst tests/%.c,$(BUILD)/tests/%.o,$(sort $(wildcard tests/*.c tests/support/*.c)))
+TEST_PROGRAMS := $(TEST_SOURCES:tests/%.c=$(BUILD)/tests/%)
+
+$(BUILD)/tests/%.o: tests/%.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(RUN)$(CC) $(C_FLAGS) -Itests $(STRICT) $(DEPENDENCIES) -c $< -o $@
+$(TEST_PROGRAMS): %: %.o $(TEST_SUPPORT) $(STATIC)
+	$(RUN)$(CC) $< $(TEST_SUPPORT) $(STATIC) $(LINK_FLAGS) -lcmocka -lm -o $@
+
+tests: $(TEST_PROGRAMS)
+test: export MAKE := $(MAKE)
+test: export CC := $(CC)
+test: export CXX := $(CXX)
+test: export CFLAGS := $(CFLAGS)
+test: export LDFLAGS := $(LDFLAGS)
+test:
+	@tools/deps.sh test
+	@+tests/run $(TESTS)
+
+# ---- bench ----------------------------------------------------------------------------------------------------------------------
+
+BENCH_SOURCES := $(sort $(wildcard bench/*.c bench/scenes/*.c))
+BENCH_OBJECTS := $(BENCH_SOURCES:%.c=$(BUILD)/%.o)
+BENCH_PEERS := $(if $(filter bench bench-build $(BUILD)/feather-bench,$(MAKECMDGOALS)),$(foreach peer,bullet ode,\
+    $(shell test -f bench/peers/$(peer).cpp && $(PKG_CONFIG) --exists $(peer) 2>/dev/null && echo $(peer))))
+BENCH_PEERS := $(strip $(BENCH_PEERS))
+PEER_OBJECTS := $(BENCH_PEERS:%=$(BUILD)/bench/peers/%.o)
+PEER_DEFINES := $(if $(filter bullet,$(BENCH_PEERS)),-DFE_PEER_BULLET=1) $(if $(filter ode,$(BENCH_PEERS)),-DFE_PEER_ODE=1)
+
+$(BUILD)/bench-peers: FORCE
+	$(call stamp,$(PEER_DEFINES))
+$(BENCH_OBJECTS): $(BUILD)/bench/%.o: bench/%.c $(BUILD)/flags $(BUILD)/bench-peers
+	@mkdir -p $(@D)
+	$(RUN)$(CC) $(C_FLAGS) -Ibench $(PEER_DEFINES) $(STRICT) $(DEPENDENCIES) -c $< -o $@
+$(PEER_OBJECTS): $(BUILD)/bench/peers/%.o: bench/peers/%.cpp $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(RUN)$(CXX) $(CXX_FLAGS) -Ibench $(subst -I,-isystem ,$(shell $(PKG_CONFIG) --cflags $*)) $(DEPENDENCIES) -c $< -o $@
+$(BUILD)/feather-bench: $(BENCH_OBJECTS) $(PEER_OBJECTS) $(STATIC)
+	$(RUN)$(if $(BENCH_PEERS),$(CXX),$(CC)) $(BENCH_OBJECTS) $(PEER_OBJECTS) $(STATIC) $(LINK_FLAGS) \
+	    $(foreach peer,$(BENCH_PEERS),$(shell $(PKG_CONFIG) --libs $(peer))) -lm -o $@
+
+bench-build: $(BUILD)/feather-bench
+	@for peer in bullet ode; do case ' $(BENCH_PEERS) ' in *" $$peer "*) ;; *) \
+	    echo "*** BENCH WITHOUT $$peer: it is not installed (make deps), so there is nothing to compare with ***" ;; esac; done
+bench: bench-build
+	$(BUILD)/feather-bench speed
+
+# ---- install --------------------------------------------------------------------------------------------------------------------
+# LIBDIR and INCLUDEDIR lie under PREFIX, so that the installed tree can be moved: the files written here name both relative to it.
+
+empty :=
+LIB_NAME = $(patsubst $(PREFIX)/%,%,$(LIBDIR))
+INCLUDE_NAME = $(patsubst $(PREFIX)/%,%,$(INCLUDEDIR))
+CMAKE_DIR = $(LIBDIR)/cmake/feather
+UP = $(subst $(empty) $(empty),/,$(patsubst %,..,$(subst /, ,$(LIB_NAME)/cmake/feather)))
+FILL = sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@LIB_NAME@|$(LIB_NAME)|' -e 's|@INCLUDE_NAME@|$(INCLUDE_NAME)|' \
+           -e 's|@VERSION@|$(VERSION)|' -e 's|@UP@|$(UP)|'
+INSTALLED = $(INCLUDEDIR)/feather.h $(LIBDIR)/libfeather.a $(LIBDIR)/libfeather.so $(LIBDIR)/$(SONAME) $(LIBDIR)/libfeather.so.$(VERSION) \
+            $(LIBDIR)/pkgconfig/feather.pc $(addprefix $(CMAKE_DIR)/feather-,config.cmake config-version.cmake targets.cmake)
+
+install: all
+	mkdir -p $(DESTDIR)$(INCLUDEDIR) $(DESTDIR)$(LIBDIR)/pkgconfig $(DESTDIR)$(CMAKE_DIR)
+	install -m 644 include/feather.h $(DESTDIR)$(INCLUDEDIR)/feather.h
+	install -m 644 $(STATIC) $(DESTDIR)$(LIBDIR)/libfeather.a
+	install -m 755 $(BUILD)/$(SONAME) $(DESTDIR)$(LIBDIR)/libfeather.so.$(VERSION)
+	ln -sf libfeather.so.$(VERSION) $(DESTDIR)$(LIBDIR)/$(SONAME)
+	ln -sf $(SONAME) $(DESTDIR)$(LIBDIR)/libfeather.so
+	$(FILL) feather.pc.in > $(DESTDIR)$(LIBDIR)/pkgconfig/feather.pc
+	$(FILL) cmake/feather-config.cmake > $(DESTDIR)$(CMAKE_DIR)/feather-config.cmake
+	$(FILL) cmake/feather-config-version.cmake.in > $(DESTDIR)$(CMAKE_DIR)/feather-config-version.cmake
+	$(FILL) cmake/feather-targets.cmake.in > $(DESTDIR)$(CMAKE_DIR)/feather-targets.cmake
+uninstall:
+	rm -f $(addprefix $(DESTDIR),$(INSTALLED))
+	-rmdir $(DESTDIR)$(CMAKE_DIR) 2>/dev/null || true
+
+# ---- the rest -------------------------------------------------------------------------------------------------------------------
+
+deps:
+	@tools/deps.sh all
+
+format:
+	$(CLANG_FORMAT) -i $(wildcard include/*.h $(foreach top,src tests bench examples,$(foreach ext,c h cpp,$(foreach depth,* */* */*/*,$(top)/$(depth).$(ext)))))
+
+clean:
+	rm -rf $(BUILD)
+
+-include $(OBJECTS:.o=.d) $(TEST_PROGRAMS:=.d) $(TEST_SUPPORT:.o=.d) $(BENCH_OBJECTS:.o=.d) $(PEER_OBJECTS:.o=.d) $(wildcard $(BUILD)/examples/*.d)
