@@ -1,9 +1,10 @@
 // threads.h - workers: a pool of persistent threads, or the host's task system, behind one call.
 //
-// fe__run is the only way to other threads: it calls task(argument, i) once for each i in [0, count) and returns when all have returned. A task
-// never waits for one that has not started, so that any number of real threads, down to one, finishes; tasks share work through atomic
-// counters of their own. The pool's threads spin for a few microseconds after a run, then sleep; two worlds may run at once on one pool: each
-// caller works too, and whoever is free helps.
+// fe__run is the only way to other threads: it calls task(argument, i) once for each i in [0, count) and returns when all have returned. A
+// task never waits for one that has not started, so that any number of real threads, down to one, finishes; tasks share work through atomic
+// counters of their own. A run from inside a task is done by that task's thread alone. The pool's threads spin for a few microseconds after
+// a run, longer between fe__pool_begin and fe__pool_end, then sleep; several worlds may run at once on one pool: each caller works too, and
+// whoever is free helps.
 #ifndef FE_CORE_THREADS_H
 #define FE_CORE_THREADS_H
 #include "feather.h"
@@ -21,11 +22,16 @@ void fe__pool_retain(fe_pool *pool);
 void fe__pool_release(fe_pool *pool);
 int32_t fe__pool_users(const fe_pool *pool);
 void fe__pool_run(fe_pool *pool, fe_task task, void *argument, int32_t count);
+// Around a step: more runs follow soon, so that idle workers spin for longer before they sleep. NULL is fine; pairs may nest and overlap.
+void fe__pool_begin(fe_pool *pool);
+void fe__pool_end(fe_pool *pool);
+// As if the machine had that many cores; no more threads than cores are ever called to work. For tests.
+void fe__pool_assume_cores(fe_pool *pool, int32_t core_count);
 
 // what a world runs on
 typedef struct fe__workers {
-    int32_t count; // 1: inline, no thread
-    fe_pool *pool; // or NULL
+    int32_t count;        // 1: inline, no thread
+    fe_pool *pool;        // or NULL
     fe_task_system tasks; // run == NULL: the pool
 } fe__workers;
 void fe__run(const fe__workers *workers, fe_task task, void *argument, int32_t count);
@@ -37,8 +43,8 @@ void fe__parallel_for(const fe__workers *workers, int32_t count, int32_t block, 
 void fe__pause(void); // inside a spin
 void fe__yield(void); // after a long spin
 
-// The floating-point state that every result rests on: round to nearest, denormals kept, no traps. Saved and set on entry, restored on exit of each
-// call that computes, and on every worker.
+// The floating-point state that every result rests on: round to nearest, denormals kept, no traps. Saved and set on entry, restored on exit
+// of each call that computes, and on every worker.
 typedef struct fe__fp_state {
     uint64_t saved;
 } fe__fp_state;

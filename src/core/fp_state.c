@@ -1,0 +1,45 @@
+// fp_state.c - the floating-point state of a thread, see fe__fp_enter in threads.h.
+//
+// Audio and game threads switch flush-to-zero on, some hosts round otherwise or trap. One register of each CPU says so, for scalar and
+// vector instructions of any width. It is written by a function of its own file, so that no arithmetic of the caller moves across the
+// switch. x86-64: Intel 64 Manual 1, 10.2.3 (MXCSR governs SSE, AVX and AVX-512). AArch64: Arm ARM C5.2.8 (FPCR). WebAssembly has only the
+// one state.
+#include "core/threads.h"
+
+#if defined(__x86_64__)
+#include <xmmintrin.h>
+
+// all six exceptions masked (bits 7-12), round to nearest (13-14), flush to zero (15) and denormals are zero (6) off, no flag raised (0-5)
+enum { MXCSR_STATE = 0x1F80 };
+
+fe__fp_state fe__fp_enter(void)
+{
+    fe__fp_state state = {_mm_getcsr()};
+    _mm_setcsr(MXCSR_STATE);
+    return state;
+}
+
+void fe__fp_leave(fe__fp_state state) { _mm_setcsr((uint32_t)state.saved); }
+
+#elif defined(__aarch64__)
+
+// FPCR 0: no traps, round to nearest, no flushing of inputs or results, NaNs kept
+fe__fp_state fe__fp_enter(void)
+{
+    fe__fp_state state;
+    __asm__ volatile("mrs %0, fpcr" : "=r"(state.saved) : : "memory");
+    __asm__ volatile("msr fpcr, %0" : : "r"((uint64_t)0) : "memory");
+    return state;
+}
+
+void fe__fp_leave(fe__fp_state state) { __asm__ volatile("msr fpcr, %0" : : "r"(state.saved) : "memory"); }
+
+#elif defined(__wasm__)
+
+fe__fp_state fe__fp_enter(void) { return (fe__fp_state){0}; }
+
+void fe__fp_leave(fe__fp_state state) { (void)state; }
+
+#else
+#error "which register holds this machine's rounding and flushing modes?"
+#endif

@@ -1,0 +1,480 @@
+// threads.c - see threads.h. Posix threads and C11 atomics; sleeping is a futex on Linux, a condition variable elsewhere.
+//
+// A run takes one of the pool's slots, says how many tasks it has, and raises its bit in `open`. Whoever sees the bit, the caller first of
+// all, claims tasks by counting `unclaimed` down, and counts `unfinished` down when one has returned; at 0 the caller takes its slot back.
+// A slot's task and argument are read only by who has claimed one of its tasks, and until that task is finished the slot cannot change
+// hands: so a worker that comes late to a slot that was given away meanwhile claims a task of the new run, or nothing, and either is right.
+// No run allocates. When all slots are taken, or from inside a task, the caller does its run alone.
+#if defined(__linux__)
+#define _GNU_SOURCE // sched_getaffinity
+#endif
+#include "core/threads.h"
+
+#include "core/memory.h"
+
+#include <sched.h>
+#include <unistd.h>
+
+#if !defined(__wasm__) || defined(_REENTRANT)
+#include <pthread.h>
+#include <signal.h>
+#define HAS_THREADS 1
+#else
+#define HAS_THREADS 0
+#endif
+#if defined(__linux__)
+#include <linux/futex.h>
+#include <sys/syscall.h>
+#endif
+
+enum {
+    SLOTS = 32,               // bits of fe_pool.open
+    PAUSES_PER_LOOK = 16,     // spins between two looks at the clock
+    WAKE_AT_ONCE = 2,         // sleepers; each of them wakes two more while there is work, so that the caller does not pay for all
+    STACK_SIZE = 1024 * 1024, // bytes of a thread: libraries' own sizes differ by a factor of 60
+};
+
+// Waking a sleeping thread takes some 50 us: spinning for less than that costs little more than it can save. During a step the next run is
+// near.
+static const double spin_time = 20e-6;       // s
+static const double spin_time_step = 200e-6; // s
+
+typedef struct run_slot {
+    _Alignas(FE_CACHE_LINE) _Atomic int32_t unclaimed;
+    int32_t count;
+    fe_task task;
+    void *argument;
+    _Alignas(FE_CACHE_LINE) _Atomic uint32_t unfinished; // what the caller sleeps on
+    _Atomic int32_t caller_sleeps;
+} run_slot;
+
+// Three lines by who writes them: spinning workers read the first only.
+struct fe_pool {
+    _Alignas(FE_CACHE_LINE) _Atomic uint32_t open; // bit s: slot s has unclaimed tasks
+    _Atomic int32_t stopping;
+    _Atomic int32_t steps;                            // now under way
+    _Alignas(FE_CACHE_LINE) _Atomic uint32_t taken;   // bit s: slot s belongs to a caller
+    _Alignas(FE_CACHE_LINE) _Atomic int32_t spinning; // workers
+    _Atomic int32_t sleeping;                         // workers that nobody has called; a call takes them off before they are awake
+    _Atomic uint32_t calls;                           // calls not yet taken by a sleeper, what they sleep on
+    run_slot slots[SLOTS];
+
+    fe__memory memory;
+    int32_t worker_count;
+    int32_t thread_count; // worker_count - 1, or 0 where there are no threads
+    int32_t started;      // of these; fewer only while the pool is created
+    _Atomic int32_t core_count;
+    _Atomic int32_t users;
+#if HAS_THREADS
+    pthread_t threads[FE_MAX_WORKERS - 1];
+    pthread_mutex_t mutex; // where there is no futex
+    pthread_cond_t changed;
+#endif
+};
+
+static _Thread_local int inside_task;
+
+// ---- pausing, yielding, sleeping --------------------------------------------------------------------------------------------
+
+void fe__pause(void)
+{
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#elif defined(__aarch64__)
+    __asm__ volatile("isb" : : : "memory"); // "yield" is a no-op on most cores, this takes about as long as x86's pause
+#endif
+}
+
+void fe__yield(void) { sched_yield(); }
+
+// Returns when the word may have changed from `value`, at once if it has.
+static void sleep_while(fe_pool *pool, _Atomic uint32_t *word, uint32_t value)
+{
+#if defined(__linux__)
+    (void)pool;
+    syscall(SYS_futex, word, FUTEX_WAIT_PRIVATE, value, NULL, NULL, 0);
+#elif HAS_THREADS
+    pthread_mutex_lock(&pool->mutex);
+    if (atomic_load(word) == value) pthread_cond_wait(&pool->changed, &pool->mutex);
+    pthread_mutex_unlock(&pool->mutex);
+#else
+    (void)pool, (void)word, (void)value;
+#endif
+}
+
+// After the word has changed.
+static void wake(fe_pool *pool, _Atomic uint32_t *word, int32_t count)
+{
+#if defined(__linux__)
+    (void)pool;
+    syscall(SYS_futex, word, FUTEX_WAKE_PRIVATE, count, NULL, NULL, 0);
+#elif HAS_THREADS
+    (void)word, (void)count; // one condition for all words: who was not meant sleeps on
+    pthread_mutex_lock(&pool->mutex);
+    pthread_cond_broadcast(&pool->changed);
+    pthread_mutex_unlock(&pool->mutex);
+#else
+    (void)pool, (void)word, (void)count;
+#endif
+}
+
+// ---- spinning ---------------------------------------------------------------------------------------------------------------
+
+typedef struct spinner {
+    int32_t turns;
+    double start; // s, of the first look at the clock
+} spinner;
+
+// More threads want to run than there are cores: who spins keeps from work who has some.
+static int is_crowded(fe_pool *pool)
+{
+    int32_t awake = pool->thread_count - atomic_load_explicit(&pool->sleeping, memory_order_relaxed);
+    return awake + 1 > atomic_load_explicit(&pool->core_count, memory_order_relaxed);
+}
+
+// One turn. 0: it has lasted long enough, sleep.
+static int spin(fe_pool *pool, spinner *spinner)
+{
+    fe__pause();
+    spinner->turns += 1;
+    if (spinner->turns % PAUSES_PER_LOOK != 0) return 1;
+    if (is_crowded(pool)) return 0;
+    double now = fe__clock();
+    if (spinner->turns == PAUSES_PER_LOOK) spinner->start = now;
+    int32_t steps = atomic_load_explicit(&pool->steps, memory_order_relaxed);
+    return now - spinner->start < (steps > 0 ? spin_time_step : spin_time);
+}
+
+// ---- tasks ------------------------------------------------------------------------------------------------------------------
+
+static void perform(fe_task task, void *argument, int32_t index)
+{
+    int outer = inside_task;
+    fe__fp_state state = fe__fp_enter();
+    inside_task = 1;
+    task(argument, index);
+    inside_task = outer;
+    fe__fp_leave(state);
+}
+
+static void perform_all(fe_task task, void *argument, int32_t count)
+{
+    for (int32_t i = 0; i < count; ++i) perform(task, argument, i);
+}
+
+// How many tasks were unclaimed before; 0: none is left.
+static int32_t claim(run_slot *slot)
+{
+    int32_t left = atomic_load_explicit(&slot->unclaimed, memory_order_relaxed);
+    while (left > 0) {
+        if (atomic_compare_exchange_weak_explicit(&slot->unclaimed, &left, left - 1, memory_order_acq_rel, memory_order_relaxed))
+            return left;
+    }
+    return 0;
+}
+
+static void finish(fe_pool *pool, run_slot *slot)
+{
+    // The caller says that it sleeps before it looks at the count a last time, we count before we look whether it does: one of us notices.
+    // It may have gone on, and the slot be another's, by the time we look: then somebody is woken in vain.
+    if (atomic_fetch_sub(&slot->unfinished, 1) == 1 && atomic_load(&slot->caller_sleeps)) wake(pool, &slot->unfinished, 1);
+}
+
+static void close_slot(fe_pool *pool, int32_t s)
+{
+    uint32_t bit = 1u << s;
+    if (atomic_load_explicit(&pool->open, memory_order_relaxed) & bit) atomic_fetch_and(&pool->open, ~bit);
+}
+
+static void work_on(fe_pool *pool, int32_t s)
+{
+    run_slot *slot = &pool->slots[s];
+    for (int32_t left = claim(slot); left > 0; left = claim(slot)) {
+        if (left == 1) close_slot(pool, s);
+        perform(slot->task, slot->argument, slot->count - left);
+        finish(pool, slot);
+    }
+}
+
+// ---- calling sleepers -------------------------------------------------------------------------------------------------------
+
+// Wakes helpers for so many tasks, as far as spinning workers and the caller do not suffice and cores are free.
+static void call_helpers(fe_pool *pool, int32_t tasks)
+{
+    int32_t sleeping = atomic_load(&pool->sleeping), count;
+    int32_t core_count = atomic_load_explicit(&pool->core_count, memory_order_relaxed);
+    do {
+        int32_t awake = pool->thread_count - sleeping;
+        int32_t wanted = tasks - atomic_load(&pool->spinning);
+        int32_t cores = core_count - 1 - awake;
+        count = wanted < cores ? wanted : cores;
+        count = count < WAKE_AT_ONCE ? count : WAKE_AT_ONCE;
+        count = count < sleeping ? count : sleeping;
+        if (count <= 0) return;
+    } while (!atomic_compare_exchange_weak(&pool->sleeping, &sleeping, sleeping - count));
+    atomic_fetch_add(&pool->calls, (uint32_t)count);
+    wake(pool, &pool->calls, count);
+}
+
+// ---- workers ----------------------------------------------------------------------------------------------------------------
+
+#if HAS_THREADS
+static int has_news(fe_pool *pool) { return atomic_load(&pool->open) != 0 || atomic_load(&pool->stopping) != 0; }
+
+// Off the list of sleepers, unless somebody has called just now: that call is ours to take.
+static int withdraw(fe_pool *pool)
+{
+    int32_t sleeping = atomic_load(&pool->sleeping);
+    while (sleeping > 0) {
+        if (atomic_compare_exchange_weak(&pool->sleeping, &sleeping, sleeping - 1)) return 1;
+    }
+    return 0;
+}
+
+static void sleep_until_called(fe_pool *pool)
+{
+    // first on the list, then a last look: a run that is opened after the look finds us on the list
+    atomic_fetch_add(&pool->sleeping, 1);
+    if (has_news(pool) && withdraw(pool)) return;
+    for (;;) {
+        uint32_t calls = atomic_load(&pool->calls);
+        while (calls > 0) {
+            if (atomic_compare_exchange_weak(&pool->calls, &calls, calls - 1)) return;
+        }
+        sleep_while(pool, &pool->calls, 0);
+    }
+}
+
+// The open slot after `last`, in a circle: workers spread over the runs of several callers.
+static int32_t next_slot(uint32_t open, int32_t last)
+{
+    uint32_t later = last + 1 < SLOTS ? open & (~0u << (last + 1)) : 0;
+    return __builtin_ctz(later ? later : open);
+}
+
+static void wait_for_work(fe_pool *pool)
+{
+    spinner spinner = {0};
+    int spins = 1;
+    atomic_fetch_add(&pool->spinning, 1);
+    while (spins && !has_news(pool)) spins = spin(pool, &spinner);
+    atomic_fetch_sub(&pool->spinning, 1);
+    if (!spins) sleep_until_called(pool);
+}
+
+static void *work(void *argument)
+{
+    fe_pool *pool = argument;
+    int32_t last = SLOTS - 1;
+    while (!atomic_load(&pool->stopping)) {
+        uint32_t open = atomic_load_explicit(&pool->open, memory_order_acquire);
+        if (open == 0) {
+            wait_for_work(pool);
+            continue;
+        }
+        last = next_slot(open, last);
+        call_helpers(pool, atomic_load_explicit(&pool->slots[last].unclaimed, memory_order_relaxed) - 1);
+        work_on(pool, last);
+    }
+    return NULL;
+}
+#endif
+
+// ---- runs -------------------------------------------------------------------------------------------------------------------
+
+// -1: all are taken
+static int32_t take_slot(fe_pool *pool)
+{
+    uint32_t taken = atomic_load_explicit(&pool->taken, memory_order_relaxed);
+    while (taken != ~0u) {
+        int32_t s = __builtin_ctz(~taken);
+        if (atomic_compare_exchange_weak_explicit(&pool->taken, &taken, taken | 1u << s, memory_order_acquire, memory_order_relaxed))
+            return s;
+    }
+    return -1;
+}
+
+static void await_finish(fe_pool *pool, run_slot *slot)
+{
+    spinner spinner = {0};
+    while (atomic_load_explicit(&slot->unfinished, memory_order_acquire) > 0) {
+        if (spin(pool, &spinner)) continue;
+        atomic_store(&slot->caller_sleeps, 1);
+        for (uint32_t left = atomic_load(&slot->unfinished); left > 0; left = atomic_load(&slot->unfinished)) {
+            sleep_while(pool, &slot->unfinished, left);
+        }
+        atomic_store_explicit(&slot->caller_sleeps, 0, memory_order_relaxed);
+    }
+}
+
+void fe__pool_run(fe_pool *pool, fe_task task, void *argument, int32_t count)
+{
+    if (count <= 0) return;
+    int alone = count == 1 || inside_task || pool->thread_count == 0;
+    int32_t s = alone ? -1 : take_slot(pool);
+    if (s < 0) {
+        perform_all(task, argument, count);
+        return;
+    }
+    run_slot *slot = &pool->slots[s];
+    slot->task = task;
+    slot->argument = argument;
+    slot->count = count;
+    atomic_store_explicit(&slot->unfinished, (uint32_t)count, memory_order_relaxed);
+    atomic_store_explicit(&slot->unclaimed, count, memory_order_release);
+    atomic_fetch_or(&pool->open, 1u << s);
+    call_helpers(pool, count - 1);
+
+    work_on(pool, s);
+    close_slot(pool, s); // a worker that came before the bit was up may have claimed the last task
+    await_finish(pool, slot);
+    atomic_fetch_and_explicit(&pool->taken, ~(1u << s), memory_order_release);
+}
+
+void fe__pool_begin(fe_pool *pool)
+{
+    if (pool) atomic_fetch_add(&pool->steps, 1);
+}
+
+void fe__pool_end(fe_pool *pool)
+{
+    if (pool) atomic_fetch_sub(&pool->steps, 1);
+}
+
+// ---- a pool's life ----------------------------------------------------------------------------------------------------------
+
+#if HAS_THREADS
+static int32_t count_cores(void)
+{
+#if defined(__linux__)
+    cpu_set_t set; // a host may keep the process off some
+    if (sched_getaffinity(0, sizeof set, &set) == 0) return (int32_t)CPU_COUNT(&set);
+#endif
+    long count = sysconf(_SC_NPROCESSORS_ONLN);
+    return count < 1 ? 1 : (int32_t)count;
+}
+
+static void join_threads(fe_pool *pool)
+{
+    atomic_store(&pool->stopping, 1);
+    atomic_fetch_add(&pool->calls, (uint32_t)pool->thread_count);
+    wake(pool, &pool->calls, pool->thread_count);
+    for (int32_t i = 0; i < pool->started; ++i) pthread_join(pool->threads[i], NULL);
+    pthread_cond_destroy(&pool->changed);
+    pthread_mutex_destroy(&pool->mutex);
+}
+
+// Signals are the host's: its handlers run on its own threads.
+static int start_threads(fe_pool *pool)
+{
+    pthread_attr_t attributes;
+    sigset_t all, before;
+    pool->thread_count = pool->worker_count - 1;
+    atomic_store(&pool->core_count, count_cores());
+    pthread_mutex_init(&pool->mutex, NULL);
+    pthread_cond_init(&pool->changed, NULL);
+    if (pthread_attr_init(&attributes) != 0) return 0;
+    pthread_attr_setstacksize(&attributes, STACK_SIZE);
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    while (pool->started < pool->thread_count) {
+        if (pthread_create(&pool->threads[pool->started], &attributes, work, pool) != 0) break;
+        pool->started += 1;
+    }
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    pthread_attr_destroy(&attributes);
+    return pool->started == pool->thread_count;
+}
+#else
+static void join_threads(fe_pool *pool) { (void)pool; }
+
+static int start_threads(fe_pool *pool)
+{
+    (void)pool;
+    return 1;
+}
+#endif
+
+fe_pool *fe__pool_create(int32_t worker_count)
+{
+    if (worker_count < 1 || worker_count > FE_MAX_WORKERS) return NULL;
+    fe__memory memory;
+    fe__memory_init(&memory, NULL);
+    fe_pool *pool = fe__allocate(&memory, sizeof *pool);
+    if (!pool) return NULL;
+    pool->memory = memory;
+    pool->worker_count = worker_count;
+    if (start_threads(pool)) return pool;
+    fe__pool_destroy(pool);
+    return NULL;
+}
+
+void fe__pool_destroy(fe_pool *pool)
+{
+    join_threads(pool);
+    fe__memory memory = pool->memory;
+    fe__release(&memory, pool, sizeof *pool);
+}
+
+int32_t fe__pool_worker_count(const fe_pool *pool) { return pool->worker_count; }
+void fe__pool_retain(fe_pool *pool) { atomic_fetch_add(&pool->users, 1); }
+void fe__pool_release(fe_pool *pool) { atomic_fetch_sub(&pool->users, 1); }
+int32_t fe__pool_users(const fe_pool *pool) { return atomic_load(&pool->users); }
+void fe__pool_assume_cores(fe_pool *pool, int32_t core_count) { atomic_store(&pool->core_count, core_count); }
+
+// ---- what a world runs on ---------------------------------------------------------------------------------------------------
+
+typedef struct host_run {
+    fe_task task;
+    void *argument;
+} host_run;
+
+static void perform_for_host(void *argument, int32_t index)
+{
+    const host_run *run = argument;
+    perform(run->task, run->argument, index);
+}
+
+void fe__run(const fe__workers *workers, fe_task task, void *argument, int32_t count)
+{
+    int alone = count <= 1 || workers->count == 1 || inside_task;
+    if (!alone && workers->tasks.run) {
+        host_run run = {task, argument};
+        workers->tasks.run(workers->tasks.user, perform_for_host, &run, count);
+    } else if (!alone && workers->pool) {
+        fe__pool_run(workers->pool, task, argument, count);
+    } else {
+        perform_all(task, argument, count);
+    }
+}
+
+typedef struct range_run {
+    _Alignas(FE_CACHE_LINE) _Atomic int32_t next_block; // alone on its line: every claim writes it
+    _Alignas(FE_CACHE_LINE) fe__range_task task;
+    void *argument;
+    int32_t count, block, block_count;
+} range_run;
+
+static void claim_blocks(void *argument, int32_t worker)
+{
+    range_run *run = argument;
+    for (;;) {
+        int32_t block = atomic_fetch_add_explicit(&run->next_block, 1, memory_order_relaxed);
+        if (block >= run->block_count) return;
+        int32_t first = block * run->block;
+        int32_t rest = run->count - first;
+        run->task(run->argument, first, first + (rest < run->block ? rest : run->block), worker);
+    }
+}
+
+void fe__parallel_for(const fe__workers *workers, int32_t count, int32_t block, fe__range_task task, void *argument)
+{
+    if (count <= 0) return;
+    if (count <= block || workers->count == 1 || inside_task) {
+        task(argument, 0, count, 0);
+        return;
+    }
+    int32_t block_count = count / block + (count % block != 0);
+    range_run run = {.task = task, .argument = argument, .count = count, .block = block, .block_count = block_count};
+    fe__run(workers, claim_blocks, &run, workers->count < block_count ? workers->count : block_count);
+}
