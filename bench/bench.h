@@ -1,0 +1,10 @@
+/// @file bench.h
+/// The commands of feather-bench. main.c finds a command in a table; each gets the arguments after its name and returns the exit code.
+#ifndef BENCH_BENCH_H
+#define BENCH_BENCH_H
+
+int bench_command_speed(int argc, char **argv);
+int bench_command_list(int argc, char **argv);
+int bench_command_help(int argc, char **argv);
+
+#endif

@@ -1,0 +1,71 @@
+// feather-bench: measures Feather beside the engines that anyone can install. This file finds the command and runs it.
+#include "bench.h"
+
+#include "peers/peer.h"
+#include "scene.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct command {
+    const char *name;
+    int (*run)(int argc, char **argv);
+    const char *about;
+} command;
+
+static const command commands[] = {
+    {"speed", bench_command_speed, "time per step of all engines, interleaved"},
+    {"list", bench_command_list, "the scenes and the engines"},
+    {"help", bench_command_help, "this text"},
+};
+static const size_t command_count = sizeof commands / sizeof commands[0];
+
+int bench_command_list(int argc, char **argv)
+{
+    (void)argc, (void)argv;
+    printf("scenes (a number after the name sets n):\n");
+    for (int32_t i = 0; i < bench_family_count; i++) {
+        const bench_family *family = &bench_families[i];
+        char name[32];
+        snprintf(name, sizeof name, "%s-%d", family->name, family->usual);
+        printf("  %-12s %s%s\n", name, family->about, family->is_default ? "" : " (only when named)");
+    }
+    printf("engines:\n");
+    for (int32_t i = 0; i < bench_engine_count; i++) {
+        const bench_engine_entry *entry = &bench_engines[i];
+        if (entry->engine != NULL) {
+            printf("  %s\n", entry->name);
+        } else {
+            printf("  %-8s missing: install %s and build again\n", entry->name, entry->package);
+        }
+    }
+    return 0;
+}
+
+int bench_command_help(int argc, char **argv)
+{
+    (void)argc, (void)argv;
+    printf("usage: feather-bench COMMAND [OPTION]...\n");
+    for (size_t i = 0; i < command_count; i++) printf("  %-8s %s\n", commands[i].name, commands[i].about);
+    printf("options of speed:\n"
+           "  --scene NAME[,NAME]   scenes to run (default: those of the list); may be given several times\n"
+           "  --peers bullet,ode    engines beside Feather, or none (default: all that were built in)\n"
+           "  --workers N[,N]       Feather's workers (default: 1, and 2 at 4 substeps)\n"
+           "  --substeps N[,N]      Feather's substeps (default: 4 and 8); every number of workers runs with every one of substeps\n"
+           "  --steps N             timed steps, instead of the scene's own\n"
+           "  --rays                times 20 000 raycasts after the steps\n"
+           "  --profile             Feather's phases and counters\n"
+           "  --only-peers          leaves Feather out\n"
+           "  --out FILE            where the figures go as CSV (default: build/bench.csv)\n");
+    return 0;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc < 2) return bench_command_help(argc, argv);
+    for (size_t i = 0; i < command_count; i++) {
+        if (strcmp(argv[1], commands[i].name) == 0) return commands[i].run(argc - 2, argv + 2);
+    }
+    fprintf(stderr, "feather-bench: no command \"%s\"; try: feather-bench help\n", argv[1]);
+    return 2;
+}

@@ -1,0 +1,19 @@
+// Arrays that are there or end the program (memory.h).
+#include "memory.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static void *present_or_exit(void *memory)
+{
+    if (memory == NULL) {
+        fprintf(stderr, "feather-bench: out of memory\n");
+        exit(1);
+    }
+    return memory;
+}
+
+// calloc and realloc may give NULL for no bytes at all, hence at least one item.
+void *bench_allocate(size_t count, size_t size) { return present_or_exit(calloc(count > 0 ? count : 1, size)); }
+
+void *bench_resize(void *items, size_t count, size_t size) { return present_or_exit(realloc(items, (count > 0 ? count : 1) * size)); }

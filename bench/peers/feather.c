@@ -1,0 +1,223 @@
+// Feather as one of the measured engines (peer.h), through its public interface only and with its default tuning.
+#include "peer.h"
+
+#include "../memory.h"
+#include "feather.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+struct bench_world {
+    fe_world *world;
+    fe_body *bodies; // in the scene's order
+    int32_t count;
+    fe_transform *transforms; // scratch of read_poses
+};
+
+static void complain(const char *what) { fprintf(stderr, "feather: %s: %s\n", what, fe_last_error()); }
+
+static fe_geometry geometry_of(const bench_shape *shape)
+{
+    fe_geometry geometry;
+    switch (shape->form) {
+    case BENCH_SPHERE:
+        fe_geometry_sphere(&geometry, shape->radius);
+        break;
+    case BENCH_CAPSULE:
+        fe_geometry_capsule(&geometry, shape->half_height, shape->radius);
+        break;
+    case BENCH_BOX:
+    default:
+        fe_geometry_box(&geometry, shape->half[0], shape->half[1], shape->half[2]);
+        break;
+    }
+    return geometry;
+}
+
+static fe_result add_body(fe_world *world, const bench_scene *scene, const bench_body *body, fe_body *out_body)
+{
+    const bench_shape *shape = &scene->shapes[body->shape];
+    const double *p = body->start.position, *q = body->start.rotation;
+    fe_body_def def;
+    fe_body_def_init(&def, sizeof def);
+    def.type = body->dynamic ? FE_BODY_DYNAMIC : FE_BODY_STATIC;
+    def.transform.position = fe_make_dvec3(p[0], p[1], p[2]);
+    def.transform.rotation = (fe_quat){(float)q[0], (float)q[1], (float)q[2], (float)q[3]};
+    def.linear_velocity = fe_make_vec3(body->linear_velocity[0], body->linear_velocity[1], body->linear_velocity[2]);
+    def.angular_velocity = fe_make_vec3(body->angular_velocity[0], body->angular_velocity[1], body->angular_velocity[2]);
+    def.sleep_allowed = 0;
+    fe_result result = fe_body_create(world, &def, out_body);
+    if (result != FE_OK) return result;
+
+    fe_shape_def form;
+    fe_shape_def_init(&form, sizeof form);
+    form.density = shape->density;
+    form.material.static_friction = form.material.dynamic_friction = shape->friction;
+    form.material.restitution = shape->restitution;
+    if (!body->collides) form.mask = 0;
+    fe_geometry geometry = geometry_of(shape);
+    fe_shape created;
+    return fe_shape_create(world, *out_body, &form, &geometry, &created);
+}
+
+static void destroy(bench_world *w)
+{
+    if (w->world != NULL) (void)fe_world_destroy(w->world);
+    free(w->bodies);
+    free(w->transforms);
+    free(w);
+}
+
+static bench_world *create(const bench_scene *scene, int32_t workers, int32_t substeps)
+{
+    if (scene->joint_count > 0) {
+        fprintf(stderr, "feather: %s has joints, which its interface lacks\n", scene->name);
+        return NULL;
+    }
+    bench_world *w = bench_allocate(1, sizeof *w);
+    w->count = scene->body_count;
+    w->bodies = bench_allocate((size_t)w->count, sizeof *w->bodies);
+    w->transforms = bench_allocate((size_t)w->count, sizeof *w->transforms);
+
+    fe_world_def def;
+    fe_world_def_init(&def, sizeof def);
+    def.worker_count = workers;
+    def.substeps = substeps;
+    def.gravity = fe_make_vec3((float)scene->gravity[0], (float)scene->gravity[1], (float)scene->gravity[2]);
+    fe_result result = fe_world_create(&def, &w->world);
+    for (int32_t i = 0; i < w->count && result == FE_OK; i++) result = add_body(w->world, scene, &scene->bodies[i], &w->bodies[i]);
+    if (result != FE_OK) {
+        complain(scene->name);
+        destroy(w);
+        return NULL;
+    }
+    return w;
+}
+
+static int32_t step(bench_world *w, float dt)
+{
+    fe_result result = fe_world_step(w->world, dt);
+    if (result != FE_OK) complain("step");
+    return result;
+}
+
+static int32_t count_bodies(bench_world *w) { return fe_world_get_bodies(w->world, NULL, 0); }
+
+static double read_mass(bench_world *w)
+{
+    double sum = 0.0;
+    for (int32_t i = 0; i < w->count; i++) {
+        float mass = 0.0f;
+        if (fe_body_get_mass(w->world, w->bodies[i], &mass) != FE_OK) complain("mass");
+        sum += (double)mass;
+    }
+    return sum;
+}
+
+static void read_poses(bench_world *w, bench_pose *out_poses)
+{
+    if (fe_world_get_transforms(w->world, w->bodies, w->transforms, 0, w->count) != FE_OK) complain("poses");
+    for (int32_t i = 0; i < w->count; i++) {
+        const fe_transform *t = &w->transforms[i];
+        out_poses[i] = (bench_pose){
+            {t->position.x, t->position.y, t->position.z},
+            {(double)t->rotation.x, (double)t->rotation.y, (double)t->rotation.z, (double)t->rotation.w},
+        };
+    }
+}
+
+static void add_contact(bench_contacts *sum, const fe_contact *contact)
+{
+    sum->pairs++;
+    sum->points += contact->point_count;
+    for (int32_t p = 0; p < contact->point_count; p++) {
+        double overlap = -(double)contact->points[p].separation;
+        if (overlap > sum->deepest) sum->deepest = overlap;
+    }
+}
+
+static void measure_contacts(bench_world *w, bench_contacts *out_contacts)
+{
+    *out_contacts = (bench_contacts){0, 0, 0.0};
+    if (fe_world_step(w->world, 0.0f) != FE_OK) complain("contacts"); // brings separations up to the final poses, moves nothing
+    fe_contact *contacts = NULL;
+    int32_t capacity = 0;
+    for (int32_t i = 0; i < w->count; i++) {
+        int32_t count = fe_body_get_contacts(w->world, w->bodies[i], NULL, 0, 0);
+        if (count > capacity) {
+            capacity = 2 * count;
+            contacts = bench_resize(contacts, (size_t)capacity, sizeof *contacts);
+        }
+        if (count > 0) count = fe_body_get_contacts(w->world, w->bodies[i], contacts, 0, capacity);
+        if (count < 0) complain("contacts");
+        for (int32_t k = 0; k < count; k++) {
+            if (contacts[k].body_a == w->bodies[i]) add_contact(out_contacts, &contacts[k]); // each pair once
+        }
+    }
+    free(contacts);
+}
+
+static int32_t raycast(bench_world *w, const bench_ray *ray, double *out_fraction)
+{
+    fe_dvec3 origin = fe_make_dvec3(ray->origin[0], ray->origin[1], ray->origin[2]);
+    fe_dvec3 translation = fe_make_dvec3(ray->translation[0], ray->translation[1], ray->translation[2]);
+    fe_hit hit;
+    fe_result result = fe_world_raycast(w->world, &origin, &translation, NULL, &hit);
+    if (result < 0) complain("raycast");
+    if (result != FE_OK) return 0;
+    *out_fraction = hit.fraction;
+    return 1;
+}
+
+static const char *const phase_names[] = {"step",       "pairs",    "collide", "islands", "solve",
+                                          "continuous", "finalize", "events",  "sleep",   NULL};
+
+static void read_phases(bench_world *w, double *out_ms)
+{
+    fe_profile p = {.struct_size = sizeof p};
+    if (fe_world_get_profile(w->world, &p) != FE_OK) complain("profile");
+    const float ms[] = {p.step, p.pairs, p.collide, p.islands, p.solve, p.continuous, p.finalize, p.events, p.sleep};
+    _Static_assert(sizeof ms / sizeof ms[0] + 1 == sizeof phase_names / sizeof phase_names[0], "a name for each phase");
+    for (size_t i = 0; i < sizeof ms / sizeof ms[0]; i++) out_ms[i] = (double)ms[i];
+}
+
+static void read_counters(bench_world *w, bench_counters *out_counters)
+{
+    fe_counters c = {.struct_size = sizeof c};
+    if (fe_world_get_counters(w->world, &c) != FE_OK) complain("counters");
+    double lanes = (double)c.rows * c.simd_width;
+    *out_counters = (bench_counters){
+        .islands = c.islands,
+        .colours = c.colours,
+        .rows = c.rows,
+        .whole_share = c.rows > 0 ? (double)c.rows_whole / c.rows : 0.0,
+        .fill = lanes > 0.0 ? c.lanes / lanes : 0.0,
+        .contacts = c.contacts,
+        .recycled = c.recycled,
+        .bytes = c.bytes,
+    };
+}
+
+static uint64_t read_hash(bench_world *w)
+{
+    uint32_t words[2] = {0, 0};
+    if (fe_world_hash(w->world, words) != FE_OK) complain("hash");
+    return (uint64_t)words[1] << 32 | words[0];
+}
+
+const bench_engine bench_feather = {
+    .name = "feather",
+    .has_workers = 1,
+    .create = create,
+    .destroy = destroy,
+    .step = step,
+    .count_bodies = count_bodies,
+    .read_mass = read_mass,
+    .read_poses = read_poses,
+    .measure_contacts = measure_contacts,
+    .raycast = raycast,
+    .phase_names = phase_names,
+    .read_phases = read_phases,
+    .read_counters = read_counters,
+    .read_hash = read_hash,
+};

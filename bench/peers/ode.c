@@ -1,0 +1,249 @@
+// ODE as a measuring stick (peer.h): dWorldQuickStep with 20 iterations, hash space, up to 8 contacts a pair, one thread, no sleeping.
+#include "peer.h"
+
+#ifdef FE_BENCH_ODE
+
+#include "../memory.h"
+
+#include <math.h>
+#include <ode/ode.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum {
+    ITERATIONS = 20,
+    CONTACTS_A_PAIR = 8,
+    DIRECTION_Y = 2, // ODE's number of the y axis for a capsule's mass
+};
+
+struct bench_world {
+    dWorldID world;
+    dSpaceID space;
+    dJointGroupID contact_joints; // of the present step
+    dGeomID *geoms;               // in the scene's order
+    int32_t count;
+};
+
+static void set_mass(dBodyID body, const bench_shape *shape)
+{
+    const double density = (double)shape->density, radius = (double)shape->radius;
+    dMass mass;
+    switch (shape->form) {
+    case BENCH_SPHERE:
+        dMassSetSphere(&mass, density, radius);
+        break;
+    case BENCH_CAPSULE:
+        dMassSetCapsule(&mass, density, DIRECTION_Y, radius, 2.0 * (double)shape->half_height);
+        break;
+    case BENCH_BOX:
+    default:
+        dMassSetBox(&mass, density, 2.0 * (double)shape->half[0], 2.0 * (double)shape->half[1], 2.0 * (double)shape->half[2]);
+        break;
+    }
+    dBodySetMass(body, &mass);
+}
+
+static dGeomID make_geom(dSpaceID space, const bench_shape *shape)
+{
+    switch (shape->form) {
+    case BENCH_SPHERE:
+        return dCreateSphere(space, (double)shape->radius);
+    case BENCH_CAPSULE:
+        return dCreateCapsule(space, (double)shape->radius, 2.0 * (double)shape->half_height);
+    case BENCH_BOX:
+    default:
+        return dCreateBox(space, 2.0 * (double)shape->half[0], 2.0 * (double)shape->half[1], 2.0 * (double)shape->half[2]);
+    }
+}
+
+// A static body is a geom alone: it has no body, and the pose is the geom's.
+static void add_body(bench_world *w, const bench_scene *scene, const bench_body *body)
+{
+    bench_shape *shape = &scene->shapes[body->shape];
+    const double *p = body->start.position, *q = body->start.rotation;
+    const dQuaternion rotation = {q[3], q[0], q[1], q[2]};
+    dGeomID geom = make_geom(w->space, shape);
+    dGeomSetData(geom, shape);
+    if (body->dynamic) {
+        dBodyID rigid = dBodyCreate(w->world);
+        set_mass(rigid, shape);
+        dGeomSetBody(geom, rigid);
+        if (shape->form == BENCH_CAPSULE) { // ODE's lie along z
+            dMatrix3 turn;
+            dRFromAxisAndAngle(turn, 1.0, 0.0, 0.0, -M_PI / 2.0);
+            dGeomSetOffsetRotation(geom, turn);
+        }
+        const float *v = body->linear_velocity, *u = body->angular_velocity;
+        dBodySetLinearVel(rigid, (double)v[0], (double)v[1], (double)v[2]);
+        dBodySetAngularVel(rigid, (double)u[0], (double)u[1], (double)u[2]);
+        dBodySetPosition(rigid, p[0], p[1], p[2]);
+        dBodySetQuaternion(rigid, rotation);
+    } else {
+        dGeomSetPosition(geom, p[0], p[1], p[2]);
+        dGeomSetQuaternion(geom, rotation);
+    }
+    if (!body->collides) {
+        dGeomSetCategoryBits(geom, 0);
+        dGeomSetCollideBits(geom, 0);
+    }
+    w->geoms[w->count++] = geom;
+}
+
+static void add_joint(bench_world *w, const bench_joint *joint)
+{
+    dJointID ball = dJointCreateBall(w->world, NULL);
+    dJointAttach(ball, dGeomGetBody(w->geoms[joint->body_a]), dGeomGetBody(w->geoms[joint->body_b]));
+    dJointSetBallAnchor(ball, joint->anchor[0], joint->anchor[1], joint->anchor[2]);
+}
+
+static bench_world *create(const bench_scene *scene, int32_t workers, int32_t substeps)
+{
+    (void)workers, (void)substeps;
+    static int initialised;
+    if (!initialised) initialised = dInitODE2(0);
+    for (int32_t i = 0; i < scene->body_count; i++) {
+        const bench_body *body = &scene->bodies[i];
+        if (body->dynamic || scene->shapes[body->shape].form != BENCH_CAPSULE) continue;
+        fprintf(stderr, "ode: %s has a static capsule, which a geom along z without a body cannot be\n", scene->name);
+        return NULL;
+    }
+    bench_world *w = bench_allocate(1, sizeof *w);
+    w->geoms = bench_allocate((size_t)scene->body_count, sizeof *w->geoms);
+    w->world = dWorldCreate();
+    w->space = dHashSpaceCreate(NULL);
+    w->contact_joints = dJointGroupCreate(0);
+    dWorldSetGravity(w->world, scene->gravity[0], scene->gravity[1], scene->gravity[2]);
+    dWorldSetQuickStepNumIterations(w->world, ITERATIONS);
+    dWorldSetAutoDisableFlag(w->world, 0);
+    dRandSetSeed(0); // QuickStep shuffles its rows: the same way in each run
+    for (int32_t i = 0; i < scene->body_count; i++) add_body(w, scene, &scene->bodies[i]);
+    for (int32_t i = 0; i < scene->joint_count; i++) add_joint(w, &scene->joints[i]);
+    return w;
+}
+
+static void destroy(bench_world *w)
+{
+    dJointGroupDestroy(w->contact_joints);
+    dSpaceDestroy(w->space);
+    dWorldDestroy(w->world);
+    free(w->geoms);
+    free(w);
+}
+
+static int can_touch(dGeomID a, dGeomID b)
+{
+    dBodyID body_a = dGeomGetBody(a), body_b = dGeomGetBody(b);
+    if (body_a == NULL && body_b == NULL) return 0;
+    return body_a == NULL || body_b == NULL || !dAreConnectedExcluding(body_a, body_b, dJointTypeContact);
+}
+
+static void make_contacts(void *user, dGeomID a, dGeomID b)
+{
+    bench_world *w = user;
+    if (!can_touch(a, b)) return;
+    dContact contacts[CONTACTS_A_PAIR];
+    int count = dCollide(a, b, CONTACTS_A_PAIR, &contacts[0].geom, sizeof contacts[0]);
+    const bench_shape *shape_a = dGeomGetData(a), *shape_b = dGeomGetData(b);
+    for (int i = 0; i < count; i++) {
+        dSurfaceParameters *surface = &contacts[i].surface;
+        surface->mode = dContactApprox1; // friction in proportion to the normal force, not a fixed force
+        surface->mu = sqrt((double)shape_a->friction * (double)shape_b->friction);
+        surface->bounce = (double)(shape_a->restitution > shape_b->restitution ? shape_a->restitution : shape_b->restitution);
+        surface->bounce_vel = 1.0; // m/s, Feather's default threshold
+        if (surface->bounce > 0.0) surface->mode |= dContactBounce;
+        dJointAttach(dJointCreateContact(w->world, w->contact_joints, &contacts[i]), dGeomGetBody(a), dGeomGetBody(b));
+    }
+}
+
+static int32_t step(bench_world *w, float dt)
+{
+    dSpaceCollide(w->space, w, make_contacts);
+    int ok = dWorldQuickStep(w->world, (double)dt);
+    dJointGroupEmpty(w->contact_joints);
+    if (!ok) fprintf(stderr, "ode: the step found no memory\n");
+    return ok ? 0 : -1;
+}
+
+static int32_t count_bodies(bench_world *w) { return dSpaceGetNumGeoms(w->space); }
+
+static double read_mass(bench_world *w)
+{
+    double sum = 0.0;
+    for (int32_t i = 0; i < w->count; i++) {
+        dBodyID body = dGeomGetBody(w->geoms[i]);
+        dMass mass;
+        if (body == NULL) continue;
+        dBodyGetMass(body, &mass);
+        sum += mass.mass;
+    }
+    return sum;
+}
+
+static void read_poses(bench_world *w, bench_pose *out_poses)
+{
+    for (int32_t i = 0; i < w->count; i++) {
+        dBodyID body = dGeomGetBody(w->geoms[i]);
+        const dReal *p = body != NULL ? dBodyGetPosition(body) : dGeomGetPosition(w->geoms[i]);
+        dQuaternion q;
+        if (body != NULL) {
+            dBodyCopyQuaternion(body, q);
+        } else {
+            dGeomGetQuaternion(w->geoms[i], q);
+        }
+        out_poses[i] = (bench_pose){{p[0], p[1], p[2]}, {q[1], q[2], q[3], q[0]}};
+    }
+}
+
+static void measure_pair(void *user, dGeomID a, dGeomID b)
+{
+    bench_contacts *sum = user;
+    if (!can_touch(a, b)) return;
+    dContactGeom points[CONTACTS_A_PAIR];
+    int count = dCollide(a, b, CONTACTS_A_PAIR, points, sizeof points[0]);
+    sum->pairs += count > 0;
+    sum->points += count;
+    for (int i = 0; i < count; i++) {
+        if (points[i].depth > sum->deepest) sum->deepest = points[i].depth;
+    }
+}
+
+static void measure_contacts(bench_world *w, bench_contacts *out_contacts)
+{
+    *out_contacts = (bench_contacts){0, 0, 0.0};
+    dSpaceCollide(w->space, out_contacts, measure_pair);
+}
+
+static void keep_nearest(void *user, dGeomID a, dGeomID b)
+{
+    double *nearest = user;
+    dContactGeom point;
+    if (dCollide(a, b, 1, &point, sizeof point) > 0 && point.depth < *nearest) *nearest = point.depth;
+}
+
+static int32_t raycast(bench_world *w, const bench_ray *ray, double *out_fraction)
+{
+    const double *p = ray->origin, *d = ray->translation;
+    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    double nearest = HUGE_VAL; // a ray's depth is the distance of its hit
+    dGeomID geom = dCreateRay(NULL, length);
+    dGeomRaySet(geom, p[0], p[1], p[2], d[0], d[1], d[2]);
+    dSpaceCollide2(geom, (dGeomID)w->space, &nearest, keep_nearest);
+    dGeomDestroy(geom);
+    if (nearest > length) return 0;
+    *out_fraction = length > 0.0 ? nearest / length : 0.0;
+    return 1;
+}
+
+const bench_engine bench_ode = {
+    .name = "ode",
+    .create = create,
+    .destroy = destroy,
+    .step = step,
+    .count_bodies = count_bodies,
+    .read_mass = read_mass,
+    .read_poses = read_poses,
+    .measure_contacts = measure_contacts,
+    .raycast = raycast,
+};
+
+#endif

@@ -1,0 +1,153 @@
+// Builds scenes from their names and adds bodies to them (scene.h). The table below is the list of all families.
+#include "scene.h"
+
+#include "memory.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const bench_family bench_families[] = {
+    {"rest", "n boxes and spheres at rest, one layer", 1, 1000000, 500, 1, bench_build_rest},
+    {"pyramid", "flat pyramid of n rows of boxes", 1, 1000, 100, 1, bench_build_pyramid},
+    {"many", "n x n flat pyramids of 55 boxes", 2, 100, 14, 1, bench_build_many},
+    {"wide", "square pyramid of n levels of boxes", 1, 100, 15, 1, bench_build_wide},
+    {"joints", "cloth of n x n spheres on ball joints", 2, 1000, 100, 0, bench_build_joints},
+    {"bowl", "n boxes, spheres and capsules poured into a pit", 1, 1000000, 1500, 1, bench_build_bowl},
+};
+const int32_t bench_family_count = (int32_t)(sizeof bench_families / sizeof bench_families[0]);
+
+static const double PI = 3.14159265358979323846;
+
+static void init_scene(bench_scene *scene, const char *family, int32_t n)
+{
+    memset(scene, 0, sizeof *scene);
+    snprintf(scene->name, sizeof scene->name, "%s-%d", family, n);
+    scene->gravity[1] = -9.81;
+    scene->dt = 1.0f / 60.0f;
+    scene->warm_up_steps = 1;
+    scene->timed_steps = 200;
+}
+
+int bench_scene_build(const char *name, bench_scene *out_scene)
+{
+    const char *dash = strrchr(name, '-');
+    size_t length = dash != NULL ? (size_t)(dash - name) : strlen(name);
+    for (int32_t i = 0; i < bench_family_count; i++) {
+        const bench_family *family = &bench_families[i];
+        if (strlen(family->name) != length || strncmp(family->name, name, length) != 0) continue;
+        char *end = NULL;
+        long n = dash != NULL ? strtol(dash + 1, &end, 10) : family->usual;
+        if (end != NULL && (end == dash + 1 || *end != '\0')) return -1;
+        if (n < family->smallest || n > family->largest) return -1;
+        init_scene(out_scene, family->name, (int32_t)n);
+        family->build(out_scene, (int32_t)n);
+        return 0;
+    }
+    return -1;
+}
+
+void bench_scene_destroy(bench_scene *scene)
+{
+    free(scene->shapes);
+    free(scene->bodies);
+    free(scene->joints);
+    memset(scene, 0, sizeof *scene);
+}
+
+static bench_shape make_shape(bench_form form)
+{
+    bench_shape shape;
+    memset(&shape, 0, sizeof shape);
+    shape.form = form;
+    shape.density = 1000.0f;
+    shape.friction = 0.6f;
+    return shape;
+}
+
+bench_shape bench_make_box(float half_x, float half_y, float half_z)
+{
+    bench_shape shape = make_shape(BENCH_BOX);
+    shape.half[0] = half_x, shape.half[1] = half_y, shape.half[2] = half_z;
+    return shape;
+}
+
+bench_shape bench_make_sphere(float radius)
+{
+    bench_shape shape = make_shape(BENCH_SPHERE);
+    shape.radius = radius;
+    return shape;
+}
+
+bench_shape bench_make_capsule(float half_height, float radius)
+{
+    bench_shape shape = make_shape(BENCH_CAPSULE);
+    shape.half_height = half_height, shape.radius = radius;
+    return shape;
+}
+
+double bench_shape_volume(const bench_shape *shape)
+{
+    double r = shape->radius;
+    switch (shape->form) {
+    case BENCH_BOX:
+        return 8.0 * (double)shape->half[0] * (double)shape->half[1] * (double)shape->half[2];
+    case BENCH_SPHERE:
+        return 4.0 / 3.0 * PI * r * r * r;
+    case BENCH_CAPSULE:
+        return PI * r * r * (2.0 * (double)shape->half_height + 4.0 / 3.0 * r);
+    }
+    return 0.0;
+}
+
+double bench_scene_mass(const bench_scene *scene)
+{
+    double mass = 0.0;
+    for (int32_t i = 0; i < scene->body_count; i++) {
+        const bench_body *body = &scene->bodies[i];
+        const bench_shape *shape = &scene->shapes[body->shape];
+        if (body->dynamic) mass += (double)shape->density * bench_shape_volume(shape);
+    }
+    return mass;
+}
+
+// Room for one item more; the capacity doubles so that n additions copy no more than 2 n items.
+static void *grow(void *items, int32_t count, int32_t *capacity, size_t size)
+{
+    if (count < *capacity) return items;
+    *capacity = *capacity > 0 ? 2 * *capacity : 16;
+    return bench_resize(items, (size_t)*capacity, size);
+}
+
+int32_t bench_add_shape(bench_scene *scene, bench_shape shape)
+{
+    scene->shapes = grow(scene->shapes, scene->shape_count, &scene->shape_capacity, sizeof *scene->shapes);
+    scene->shapes[scene->shape_count] = shape;
+    return scene->shape_count++;
+}
+
+static int32_t add_body(bench_scene *scene, int32_t shape, int32_t dynamic, double x, double y, double z)
+{
+    scene->bodies = grow(scene->bodies, scene->body_count, &scene->body_capacity, sizeof *scene->bodies);
+    bench_body *body = &scene->bodies[scene->body_count];
+    memset(body, 0, sizeof *body);
+    body->start.position[0] = x, body->start.position[1] = y, body->start.position[2] = z;
+    body->start.rotation[3] = 1.0;
+    body->shape = shape;
+    body->dynamic = dynamic;
+    body->collides = 1;
+    return scene->body_count++;
+}
+
+int32_t bench_add_static(bench_scene *scene, int32_t shape, double x, double y, double z) { return add_body(scene, shape, 0, x, y, z); }
+
+int32_t bench_add_dynamic(bench_scene *scene, int32_t shape, double x, double y, double z) { return add_body(scene, shape, 1, x, y, z); }
+
+int32_t bench_add_joint(bench_scene *scene, int32_t body_a, int32_t body_b, double x, double y, double z)
+{
+    scene->joints = grow(scene->joints, scene->joint_count, &scene->joint_capacity, sizeof *scene->joints);
+    bench_joint *joint = &scene->joints[scene->joint_count];
+    joint->body_a = body_a, joint->body_b = body_b;
+    joint->anchor[0] = x, joint->anchor[1] = y, joint->anchor[2] = z;
+    return scene->joint_count++;
+}
