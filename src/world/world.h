@@ -14,8 +14,6 @@
 #include "world/pair.h"
 #include "world/shape.h"
 
-enum { FE__KIND_BODY = 1, FE__KIND_SHAPE = 2, FE__KIND_JOINT = 3, FE__KIND_ASSET = 4 };
-
 // An event as the step writes it. Serials order it; handles name it also after a destruction.
 typedef struct fe__pair_event_record {
     uint64_t serial_a, serial_b;
@@ -77,7 +75,9 @@ struct fe_world {
     fe__tree static_tree, moving_tree; // proxies are shape indices; kinematic bodies' are in the moving tree
     int32_t *planes;                   // shapes
     int32_t plane_count, plane_capacity;
-    int32_t *moved;                    // shapes whose box is new since the last step's pairs
+    // shapes whose box is new since the last step's pairs. One that has left since is still listed (neither IN_TREE nor IN_PLANES): skip it. Who
+    // empties the list clears FE__SHAPE_MOVED of all in it
+    int32_t *moved;
     int32_t moved_count, moved_capacity;
 
     // events of the last step, and exits owed to the next one by what the API ended in between
@@ -100,36 +100,62 @@ struct fe_world {
     fe_counters counters;
 };
 
-// ---- life of bodies and shapes (bodies.c, shapes.c) -----------------------------------------------------------------------------
-// Indices in and out; negative: fe_result of the failure, with nothing changed.
-int32_t fe__body_create(fe_world *world, const fe_body_def *desc);
+// ---- the world (world.c) --------------------------------------------------------------------------------------------------------
+// An empty world, all its memory from the definition's allocator. FE_ERROR_MEMORY; FE_ERROR_UNSUPPORTED: no such SIMD set here.
+fe_result fe__world_create(const fe_world_def *desc, fe_world **out_world);
+void fe__world_destroy(fe_world *world);
+fe_world_tuning fe__default_tuning(void);
+
+// ---- life of bodies (bodies.c) ----------------------------------------------------------------------------------------------------
+// What cannot fail returns void; otherwise FE_OK or the reason, with nothing changed.
+fe_result fe__reserve_bodies(fe_world *world, int32_t extra);            // the `extra` creations that follow cannot fail
+int32_t fe__body_create(fe_world *world, const fe_body_def *desc);       // index; room was reserved
 void fe__body_destroy(fe_world *world, int32_t body);
 fe_result fe__body_set_type(fe_world *world, int32_t body, int32_t type);
-fe_result fe__body_set_transform(fe_world *world, int32_t body, const fe_transform *transform); // wakes
 fe_result fe__body_set_enabled(fe_world *world, int32_t body, int32_t enabled);
+void fe__body_set_transform(fe_world *world, int32_t body, const fe_transform *transform); // wakes
 void fe__body_set_locks(fe_world *world, int32_t body, uint32_t linear, uint32_t angular);
-void fe__body_update_mass(fe_world *world, int32_t body);                             // from the shapes, unless given
-void fe__body_set_mass(fe_world *world, int32_t body, const fe_mass_data *data);      // given
-void fe__body_mass_data(const fe_world *world, int32_t body, fe_mass_data *out_data);
-void fe__body_place(fe_world *world, int32_t body);                                   // shapes' poses from the body's
+void fe__body_place(fe_world *world, int32_t body);   // shapes' poses from the body's
+void fe__body_disturb(fe_world *world, int32_t body); // wakes it and what touches it; of a static body what touches it
+fe_quat fe__unit_rotation(fe_quat q);                 // unchanged when its length is 1 already, q/|q| else
 
-int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *desc, const fe__form *form);
+// ---- motion between steps (motion.c) ----------------------------------------------------------------------------------------------
+// NULL: as it is. Locked components stay 0; wakes the body unless both are 0. Not for static bodies.
+void fe__body_set_velocity(fe_world *world, int32_t body, const fe_vec3 *linear, const fe_vec3 *angular);
+void fe__body_stop_locked(fe__body *body); // zeros the locked components of its velocities
+void fe__body_add_force(fe_world *world, int32_t body, fe_vec3 force, fe_vec3 torque);
+// The change of the angular velocity by an impulse about the centre: the exact inverse of the inertia over the free axes.
+fe_vec3 fe__body_spin_change(const fe__body *body, fe_vec3 angular_impulse);
+// The angular velocity that turns `from` into `to` by the shorter way in `seconds`.
+fe_vec3 fe__spin_between(fe_quat from, fe_quat to, double seconds);
+
+// ---- mass (mass.c) ----------------------------------------------------------------------------------------------------------------
+void fe__body_update_mass(fe_world *world, int32_t body); // from the shapes, unless given; reach always
+void fe__body_set_mass(fe_world *world, int32_t body, const fe_mass_data *data); // given
+void fe__body_mass_data(const fe_world *world, int32_t body, fe_mass_data *out_data);
+
+// ---- life of shapes (shapes.c) ----------------------------------------------------------------------------------------------------
+int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *desc, const fe__form *form); // index, or negative: fe_result
 void fe__shape_destroy(fe_world *world, int32_t shape);
 fe_result fe__shape_set_form(fe_world *world, int32_t shape, const fe__form *form);
-fe_result fe__shape_set_local_pose(fe_world *world, int32_t shape, fe_vec3 position, fe_quat rotation);
-fe_result fe__shape_set_filter(fe_world *world, int32_t shape, uint32_t layer, uint32_t mask);
-fe_result fe__shape_set_trigger(fe_world *world, int32_t shape, int32_t trigger);
+void fe__shape_set_local_pose(fe_world *world, int32_t shape, fe_vec3 position, fe_quat rotation);
+void fe__shape_set_filter(fe_world *world, int32_t shape, uint32_t layer, uint32_t mask);
+void fe__shape_set_trigger(fe_world *world, int32_t shape, int32_t trigger);
 void fe__shape_material_changed(fe_world *world, int32_t shape); // material, events, surface velocity: its pairs mix anew
 fe__bounds fe__shape_bounds(const fe_world *world, int32_t shape, float margin);
+fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t shape); // as the trees hold them
 // Puts the shape into its tree or list, takes it out, tells it to look for pairs. Room was reserved by fe__reserve_proxies.
-int32_t fe__reserve_proxies(fe_world *world, int32_t extra);
+int32_t fe__reserve_proxies(fe_world *world, int32_t extra); // 0: no memory
 void fe__shape_enter(fe_world *world, int32_t shape);
 void fe__shape_leave(fe_world *world, int32_t shape);
-void fe__shape_touch(fe_world *world, int32_t shape); // box is new
+void fe__shape_touch(fe_world *world, int32_t shape); // its pose or form is new: a new box, new pairs
+void fe__shape_mark_moved(fe_world *world, int32_t shape); // looks for pairs in the next step
 
 // ---- filter (filter.c) --------------------------------------------------------------------------------------------------------
 // May these two shapes have a pair? Kinds of bodies, layers, ignored pairs.
 int32_t fe__may_collide(const fe_world *world, int32_t shape_a, int32_t shape_b);
+fe_result fe__ignore_collision(fe_world *world, int32_t body_a, int32_t body_b, int32_t ignore);
+void fe__forget_ignored(fe_world *world, int32_t body); // of a body that is destroyed
 
 // ---- pairs (pairs.c) ------------------------------------------------------------------------------------------------------------
 int32_t fe__reserve_pairs(fe_world *world, int32_t extra);
