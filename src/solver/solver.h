@@ -102,30 +102,35 @@ typedef struct fe__solver {
     int64_t worker_row_bytes;
 } fe__solver;
 
-// What a special row needs of its pair beyond the contact, by contact index
-typedef struct fe__extra {
-    float restitution;
-    float rolling;  // resistance times radius, m
-    float spinning; // m
-    fe_vec3 surface_velocity; // of B's surface against A's, world, m/s
-} fe__extra;
+// Passes over the rows of a group: `rows` is its first row, `lanes` its first lane, `count` rows. One entry for each kind of row.
+typedef struct fe__contact_kernels {
+    int32_t row_size[FE__ROW_KINDS]; // bytes of a row of W contacts
+    // contacts to rows; the stored impulses go to the bodies
+    void (*prepare[FE__ROW_KINDS])(fe__solver *s, fe__contact *contacts, const fe__extra *extras, const fe__lane *lanes, void *rows, int32_t count,
+                                   const fe__step_constants *c);
+    void (*solve[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
+    void (*relax[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
+    void (*bounce[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
+    void (*store[FE__ROW_KINDS])(fe__contact *contacts, fe__extra *extras, const fe__lane *lanes, const void *rows, int32_t count);
+} fe__contact_kernels;
 
-typedef struct fe__kernels {
-    int32_t simd, width;                 // fe_simd, W
-    int32_t row_size[FE__ROW_KINDS];     // bytes of a row of W contacts
-    // contacts: separations at the start of the step of pairs that moved little; bit i of out_moved[k] set: contact index[W k + i] needs a new manifold
-    void (*recycle)(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, uint16_t *out_moved);
-    // bodies of lines first..first + count - 1
-    void (*load_bodies)(fe__solver *s, const fe__body *bodies, int32_t first, int32_t count, const fe__step_constants *c);
+// Passes over lines first..first + count - 1, both multiples of FE__MAX_WIDTH
+typedef struct fe__body_kernels {
+    void (*load)(fe__solver *s, const fe__body *bodies, int32_t first, int32_t count, const fe__step_constants *c);
     void (*begin_velocities)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);
     void (*carry_velocities)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);
     void (*integrate_positions)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);
-    // rows first..first + count - 1 of a group
-    void (*prepare[FE__ROW_KINDS])(fe__solver *s, fe__contact *contacts, const struct fe__extra *extras, const fe__lane *lanes, void *rows, int32_t count, const fe__step_constants *c);
-    void (*solve[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
-    void (*relax[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
-    void (*bounce[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c); // special kinds, else NULL
-    void (*store[FE__ROW_KINDS])(fe__contact *contacts, const fe__lane *lanes, const void *rows, int32_t count, const fe__step_constants *c);
+} fe__body_kernels;
+
+// Separations at the start of the step of contacts that moved little. Byte i of out_moved is 1 when contact index[i] moved too far and needs a new
+// manifold, else 0.
+typedef void fe__recycle_kernel(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, uint8_t *out_moved);
+
+typedef struct fe__kernels {
+    int32_t simd, width; // fe_simd, W
+    const fe__contact_kernels *contact;
+    const fe__body_kernels *body;
+    fe__recycle_kernel *recycle;
 } fe__kernels;
 
 // The table of a set, NULL when it was not built or this CPU lacks it. FE_SIMD_AUTO: the environment's FE_SIMD, else the widest.

@@ -27,7 +27,6 @@ typedef struct fe__pair {
     fe__link links[2];        // in the lists of body A and body B
     uint64_t serial_a, serial_b; // of the shapes: the order of everything
     uint32_t flags;           // FE__PAIR_*
-    int32_t colour;           // -1: not in the graph
     int32_t awake_index;      // place in the list of awake pairs, -1: both sides sleep
     int32_t result;           // FE__RESULT_*
     int32_t axis;             // of the narrow phase: fe__manifold.axis, axis_separation

@@ -1,0 +1,192 @@
+// bodies.simd.c - velocities and positions of bodies, W consecutive lines at a time. Compiled once per SIMD set.
+//
+// Within a step J, M and l at the end of a substep are those that warm-start the next, so the warm start's effect on a body is v_end - start: one
+// pass over bodies replaces a pass over rows. It holds as long as everything that is no constraint acts on `start` too; see carry_velocities.
+#include "core/simd.h"
+#include "solver/solver.h"
+#include "solver/wide_body.h"
+
+static const int32_t in_order[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+
+FE_INLINE wide4 load_low(float (*lines)[FE__LINE], int32_t i) { return w_gather(lines[i], FE__LINE, in_order); }
+FE_INLINE wide4 load_high(float (*lines)[FE__LINE], int32_t i) { return w_gather(lines[i] + 4, FE__LINE, in_order); }
+FE_INLINE void store_line(float (*lines)[FE__LINE], int32_t i, wide4 low, wide4 high)
+{
+    w_scatter(lines[i], FE__LINE, in_order, low);
+    w_scatter(lines[i] + 4, FE__LINE, in_order, high);
+}
+
+// ---- records to lines, once per step ------------------------------------------------------------------------------------------------
+enum { BODY_STRIDE = sizeof(fe__body) / sizeof(float) };
+#define BODY_QUAD(field) w_gather(bodies->field, BODY_STRIDE, index)
+
+// world axes of the principal inertia, and its inverse R I^-1 R^T
+FE_INLINE wide_sym world_inverse_inertia(wide4 axes, wide3 inverse)
+{
+    wide3 x = {w_set(1.0f), w_set(0.0f), w_set(0.0f)}, y = {x.y, x.x, x.y}, z = {x.y, x.y, x.x};
+    x = w_add(x, w_turn(axes, x)), y = w_add(y, w_turn(axes, y)), z = w_add(z, w_turn(axes, z));
+    wide3 ix = w_scale(inverse.x, x), iy = w_scale(inverse.y, y), iz = w_scale(inverse.z, z);
+    return (wide_sym){ix.x * x.x + iy.x * y.x + iz.x * z.x, ix.x * x.y + iy.x * y.y + iz.x * z.y, ix.x * x.z + iy.x * y.z + iz.x * z.z,
+                      ix.y * x.y + iy.y * y.y + iz.y * z.y, ix.y * x.z + iy.y * y.z + iz.y * z.z, ix.z * x.z + iy.z * y.z + iz.z * z.z};
+}
+
+// A locked body's inverse inertia is the inverse of the sub-block of R I R^T over its free axes, zero elsewhere: what a body on an axle has.
+static void lock_line(fe__solver *s, const fe__body *body, int32_t line, fe_quat axes)
+{
+    int locks = (int)body->spin[3], n = 0, free_axis[3];
+    const fe__mat3 r = fe__matrix(axes);
+    const float *m = body->inertia;
+    float i[3][3] = {{0}}, inverse[3][3] = {{0}};
+    const float column[3][3] = {{r.x.x, r.x.y, r.x.z}, {r.y.x, r.y.y, r.y.z}, {r.z.x, r.z.y, r.z.z}};
+    for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b)
+            for (int k = 0; k < 3; ++k) i[a][b] += m[k] * column[k][a] * column[k][b];
+    for (int k = 0; k < 3; ++k)
+        if (!(locks >> (3 + k) & 1)) free_axis[n++] = k;
+    if (n == 1) inverse[free_axis[0]][free_axis[0]] = 1.0f / i[free_axis[0]][free_axis[0]];
+    if (n == 2) {
+        int a = free_axis[0], b = free_axis[1];
+        float k = 1.0f / (i[a][a] * i[b][b] - i[a][b] * i[a][b]);
+        inverse[a][a] = k * i[b][b], inverse[b][b] = k * i[a][a], inverse[a][b] = inverse[b][a] = -(k * i[a][b]);
+    }
+    float *out = s->inertia[line], *drive = s->drive[line];
+    if (n < 3) {
+        const float packed[6] = {inverse[0][0], inverse[0][1], inverse[0][2], inverse[1][1], inverse[1][2], inverse[2][2]};
+        for (int k = 0; k < 6; ++k) out[k] = packed[k];
+        const fe__sym3 sym = {out[0], out[1], out[2], out[3], out[4], out[5]};
+        const fe_vec3 turn = fe__mul_sym(&sym, fe__vec3(body->torque[0], body->torque[1], body->torque[2]));
+        drive[4] = turn.x, drive[5] = turn.y, drive[6] = turn.z;
+    }
+    for (int k = 0; k < 3; ++k)
+        if (locks >> k & 1) drive[k] = 0.0f;
+}
+
+FE_INLINE void load_block(fe__solver *s, const fe__body *bodies, int32_t line, const fe__step_constants *c)
+{
+    _Alignas(64) int32_t index[FE_W];
+    _Alignas(64) float scale[FE_W], gyroscopic[FE_W], is_there[FE_W];
+    int locked = 0;
+    for (int i = 0; i < FE_W; ++i) {
+        int32_t body = s->body_of_line[line + i];
+        index[i] = body < 0 ? 0 : body;
+        is_there[i] = body < 0 ? 0.0f : 1.0f;
+        scale[i] = bodies[index[i]].type == FE_BODY_DYNAMIC ? bodies[index[i]].gravity_scale : 0.0f;
+        gyroscopic[i] = bodies[index[i]].flags & FE__BODY_ISOTROPIC || bodies[index[i]].type != FE_BODY_DYNAMIC ? 0.0f : 1.0f;
+        locked |= body >= 0 && bodies[body].locked && bodies[body].type == FE_BODY_DYNAMIC;
+    }
+    wide zero = w_set(0.0f), one = w_set(1.0f), there = *(wide *)is_there;
+    wide4 v = BODY_QUAD(velocity), w = BODY_QUAD(spin), force = BODY_QUAD(force), torque = BODY_QUAD(torque);
+    wide4 inertia = BODY_QUAD(inertia), axes = w_product(BODY_QUAD(rotation), BODY_QUAD(inertia_axes));
+    wide_mask moves = w_greater(v.w * there, zero);
+    wide3 inverse = {w_choose(moves, one / inertia.x, zero), w_choose(moves, one / inertia.y, zero), w_choose(moves, one / inertia.z, zero)};
+    wide_sym i = world_inverse_inertia(axes, inverse);
+    wide mass = w_choose(moves, v.w, zero), g = w_choose(moves, *(wide *)scale, zero);
+    wide3 push = {g * c->gravity.x + mass * force.x, g * c->gravity.y + mass * force.y, g * c->gravity.z + mass * force.z};
+    wide damping = w_choose(moves, one / (1.0f + c->h * force.w), one), spin_damping = w_choose(moves, one / (1.0f + c->h * torque.w), one);
+    store_line(s->velocity, line, (wide4){v.x * there, v.y * there, v.z * there, mass}, (wide4){w.x * there, w.y * there, w.z * there, w.w * there});
+    store_line(s->motion, line, (wide4){zero, zero, zero, zero}, (wide4){zero, zero, zero, one});
+    store_line(s->inertia, line, (wide4){i.xx, i.xy, i.xz, i.yy}, (wide4){i.yz, i.zz, zero, zero});
+    store_line(s->drive, line, w_with(push, damping), w_with(w_mul(&i, w_xyz(torque)), spin_damping));
+    store_line(s->spin, line, axes, (wide4){inertia.x, inertia.y, inertia.z, *(wide *)gyroscopic * there});
+    for (int k = 0; k < FE_W && locked; ++k) {
+        const fe__body *body = bodies + index[k];
+        const float *a = s->spin[line + k];
+        if (is_there[k] != 0.0f && body->locked && body->type == FE_BODY_DYNAMIC) lock_line(s, body, line + k, (fe_quat){a[0], a[1], a[2], a[3]});
+    }
+}
+
+static void load(fe__solver *s, const fe__body *bodies, int32_t first, int32_t count, const fe__step_constants *c)
+{
+    for (int32_t i = first; i < first + count; i += FE_W) load_block(s, bodies, i, c);
+}
+
+// ---- gyroscopic torque -----------------------------------------------------------------------------------------------------------------
+// In principal axes  I w' + w x I w = 0.  Implicit midpoint, I (m - w) + h/2 m x I m = 0, w2 = 2 m - w, keeps the energy and |I w|; two Newton steps
+// from m = w solve it. What two steps leave open may add energy: the result is then shortened to the energy before.
+
+// m - J^-1 f, J = I + h/2 ([m] I - [I m]), by cofactors; m itself where J is not safe to invert
+FE_INLINE wide3 newton(wide3 m, wide3 w, wide3 in, wide3 d)
+{
+    wide3 f = {in.x * (m.x - w.x) + d.x * m.y * m.z, in.y * (m.y - w.y) + d.y * m.z * m.x, in.z * (m.z - w.z) + d.z * m.x * m.y};
+    wide xy = d.x * m.z, xz = d.x * m.y, yx = d.y * m.z, yz = d.y * m.x, zx = d.z * m.y, zy = d.z * m.x;
+    wide3 c0 = {in.y * in.z - yz * zy, yz * zx - yx * in.z, yx * zy - in.y * zx};
+    wide3 c1 = {xz * zy - xy * in.z, in.x * in.z - xz * zx, xy * zx - in.x * zy};
+    wide3 c2 = {xy * yz - xz * in.y, xz * yx - in.x * yz, in.x * in.y - xy * yx};
+    wide det = in.x * c0.x + xy * c0.y + xz * c0.z, safe = in.x * in.y * in.z * 0.25f;
+    wide k = w_choose(w_greater(det, safe), 1.0f / det, w_set(0.0f));
+    wide3 e = w_add_scaled(w_add_scaled(w_scale(f.x, c0), f.y, c1), f.z, c2);
+    return w_sub_scaled(m, k, e);
+}
+
+FE_INLINE wide twice_energy(wide3 w, wide3 in) { return in.x * w.x * w.x + in.y * w.y * w.y + in.z * w.z * w.z; }
+
+FE_INLINE wide3 turn_freely(wide3 world, wide4 axes, wide3 in, wide half_h)
+{
+    wide3 w = w_add(world, w_turn_back(axes, world));
+    wide3 d = {half_h * (in.z - in.y), half_h * (in.x - in.z), half_h * (in.y - in.x)};
+    wide3 m = newton(newton(w, w, in, d), w, in, d);
+    wide3 w2 = w_sub(w_add(m, m), w);
+    wide before = twice_energy(w, in), after = twice_energy(w2, in);
+    wide k = w_choose(w_greater(after, before), w_sqrt(before / after), w_set(1.0f));
+    wide3 change = w_sub(w_scale(k, w2), w);
+    return w_add(world, w_add(change, w_turn(axes, change))); // only the change is turned: w keeps its digits
+}
+
+// ---- velocities --------------------------------------------------------------------------------------------------------------------------
+// f(v): all that changes a velocity and is no constraint. Gyroscopic torque, gravity and forces, damping 1 / (1 + h c), the speed limit.
+FE_INLINE void advance(const fe__solver *s, int32_t i, const fe__step_constants *c, wide3 *v, wide3 *w)
+{
+    wide4 push = load_low(s->drive, i), turn = load_high(s->drive, i), principal = load_high(s->spin, i);
+    wide_mask gyroscopic = w_greater(principal.w, w_set(0.0f));
+    if (w_any(gyroscopic)) {
+        wide4 axes = w_product(load_high(s->motion, i), load_low(s->spin, i));
+        *w = w_choose3(gyroscopic, turn_freely(*w, axes, w_xyz(principal), w_set(0.5f * c->h)), *w);
+    }
+    *v = w_scale(push.w, w_add_scaled(*v, w_set(c->h), w_xyz(push)));
+    *w = w_scale(turn.w, w_add_scaled(*w, w_set(c->h), w_xyz(turn)));
+    wide square = w_dot(*v, *v), most = w_set(c->max_speed);
+    wide_mask fast = w_greater(square, most * most);
+    if (w_any(fast)) *v = w_scale(w_choose(fast, most / w_sqrt(square), w_set(1.0f)), *v);
+}
+
+// the first substep: v0 = f(v). The rows' warm start adds to v; start keeps v0.
+static void begin_velocities(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c)
+{
+    for (int32_t i = first; i < first + count; i += FE_W) {
+        wide4 v = load_low(s->velocity, i), w = load_high(s->velocity, i);
+        wide3 v0 = w_xyz(v), w0 = w_xyz(w);
+        advance(s, i, c, &v0, &w0);
+        store_line(s->velocity, i, w_with(v0, v.w), w_with(w0, w.w));
+        store_line(s->start, i, w_with(v0, v.w), w_with(w0, w.w));
+    }
+}
+
+// The next substeps. Warm starting adds M^-1 J^T l, summed over a body's constraints; J, M and l are those that the last substep ended with, and it
+// began from `start` with no constraint impulse: the sum is d = v - start.
+static void carry_velocities(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c)
+{
+    for (int32_t i = first; i < first + count; i += FE_W) {
+        wide4 v = load_low(s->velocity, i), w = load_high(s->velocity, i);
+        wide3 dv = w_sub(w_xyz(v), w_xyz(load_low(s->start, i))), dw = w_sub(w_xyz(w), w_xyz(load_high(s->start, i)));
+        wide3 v0 = w_xyz(v), w0 = w_xyz(w);
+        advance(s, i, c, &v0, &w0);
+        store_line(s->start, i, w_with(v0, v.w), w_with(w0, w.w));
+        store_line(s->velocity, i, w_with(w_add(v0, dv), v.w), w_with(w_add(w0, dw), w.w));
+    }
+}
+
+// dp += h v, dq = normalize(dq + h/2 (w, 0) dq)
+static void integrate_positions(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c)
+{
+    for (int32_t i = first; i < first + count; i += FE_W) {
+        wide4 p = load_low(s->motion, i), q = load_high(s->motion, i);
+        wide3 v = w_xyz(load_low(s->velocity, i)), half = w_scale(w_set(0.5f * c->h), w_xyz(load_high(s->velocity, i)));
+        wide3 u = w_add(w_xyz(q), w_add(w_scale(q.w, half), w_cross(half, w_xyz(q))));
+        wide a = q.w - w_dot(half, w_xyz(q));
+        wide k = 1.0f / w_sqrt(w_dot(u, u) + a * a);
+        store_line(s->motion, i, w_with(w_add_scaled(w_xyz(p), w_set(c->h), v), p.w), w_with(w_scale(k, u), k * a));
+    }
+}
+
+const fe__body_kernels FE_NAME(fe__body_kernels) = {
+    .load = load, .begin_velocities = begin_velocities, .carry_velocities = carry_velocities, .integrate_positions = integrate_positions};

@@ -1,0 +1,133 @@
+// contact.simd.c - the contact solver: rows of W contacts, of 4 points or of one. Compiled once per SIMD set; see core/simd.h.
+//
+// TGS Soft after E. Catto, "Soft Constraints" (GDC 2011) and Solver2D (2024): in each substep a soft push, then positions, then a rigid pass with
+// friction. The first warm start is part of prepare; the later ones are carried by the bodies (bodies.simd.c).
+#include "core/simd.h"
+#include "solver/solver.h"
+#include "solver/wide_body.h"
+
+#define UNROLL _Pragma("GCC unroll 8")
+
+// a shift of one body against the other up to which a contact's arms stay as found, m: what recycling leaves alone at rest, and little beside the
+// arms of anything that tumbles
+#define FROZEN_SHIFT 0.0005f
+// sweeps in which the points of a bouncing contact share their impulses: 3 suffice for 0.1 %
+#define BOUNCE_SWEEPS 4
+
+typedef struct {
+    wide r[3];       // from A's centre (from B's when A is static: then span is 0)
+    wide separation; // when the step began
+    wide mass;       // m_i = 1 / K_ii, 0 for a point that is not there
+    wide impulse;
+    wide total;      // of the impulses of the substeps so far
+} point_row;
+
+typedef struct {
+    side a, b;
+    wide3 normal, span;
+} pair; // what a pass over a row holds in registers
+
+// a quantity of a point: constant + slope . rA
+typedef struct {
+    wide constant;
+    wide3 slope;
+} affine;
+
+FE_INLINE wide at(const affine *f, wide3 r) { return f->constant + w_dot(f->slope, r); }
+
+static const int coupling_of[FE__POINTS][FE__POINTS] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
+
+// Two unit vectors that make a basis with n (Duff et al., "Building an Orthonormal Basis, Revisited", 2017). They flip where n.z changes sign, so
+// they live no longer than a step.
+FE_INLINE void tangents(wide3 n, wide3 *t1, wide3 *t2)
+{
+    wide one = w_set(1.0f);
+    wide sign = w_choose(w_greater(w_set(0.0f), n.z), -one, one);
+    wide a = -one / (sign + n.z), b = n.x * n.y * a;
+    *t1 = (wide3){one + sign * n.x * n.x * a, sign * b, -(sign * n.x)};
+    *t2 = (wide3){b, sign + n.y * n.y * a, -n.y};
+}
+
+FE_INLINE wide inverse_or_zero(wide a) { return w_choose(w_greater(a, w_set(0.0f)), 1.0f / a, w_set(0.0f)); }
+
+// angular arms of a unit impulse at a point, and the spin they cause
+typedef struct {
+    wide3 a, b, spin_a, spin_b;
+} arm;
+
+FE_INLINE wide angular_response(const arm *m, const arm *n, int kind)
+{
+    wide b = w_dot(m->b, n->spin_b);
+    return kind & FE__ROW_PAIR ? w_dot(m->a, n->spin_a) + b : b;
+}
+
+// inverse of a symmetric positive matrix by cofactors; zero where it is singular
+FE_INLINE wide_sym inverse_sym(const wide_sym *m)
+{
+    wide cxx = m->yy * m->zz - m->yz * m->yz, cxy = m->xz * m->yz - m->xy * m->zz, cxz = m->xy * m->yz - m->xz * m->yy;
+    wide k = inverse_or_zero(m->xx * cxx + m->xy * cxy + m->xz * cxz);
+    return (wide_sym){k * cxx,
+                      k * cxy,
+                      k * cxz,
+                      k * (m->xx * m->zz - m->xz * m->xz),
+                      k * (m->xy * m->xz - m->xx * m->yz),
+                      k * (m->xx * m->yy - m->xy * m->xy)};
+}
+
+enum { CONTACT_STRIDE = sizeof(fe__contact) / sizeof(float) };
+
+// a point that opened to twice the speculative distance still counts a little for the friction centre: the weights never all vanish
+#define LEAST_WEIGHT 1e-10f
+// of the trace of a rolling mass, added to its diagonal
+#define REGULAR 1e-6f
+
+FE_INLINE void prefetch_contact(const fe__contact *m)
+{
+    for (unsigned k = 0; k < offsetof(fe__contact, found_a); k += 64) __builtin_prefetch((const char *)m + k);
+}
+
+// Lanes of contact 0 are padding: record 0 stays zero and is written by nobody
+FE_INLINE void store_lanes(fe__contact *contacts, const int32_t *index, wide4 normal, wide4 friction, wide4 total)
+{
+    static const int32_t in_order[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    _Alignas(64) float n[FE_W][4], f[FE_W][4], t[FE_W][4];
+    w_scatter(n[0], 4, in_order, normal);
+    w_scatter(f[0], 4, in_order, friction);
+    w_scatter(t[0], 4, in_order, total);
+    for (int i = 0; i < FE_W; ++i) {
+        if (!index[i]) continue;
+        fe__contact *m = contacts + index[i];
+        *(quad *)m->normal_impulse = *(const quad *)n[i];
+        *(quad *)m->friction_impulse = *(const quad *)f[i];
+        *(quad *)m->total_impulse = *(const quad *)t[i];
+    }
+}
+
+#define POINTS 4
+#include "solver/contact_rows.h"
+#define POINTS 1
+#include "solver/contact_rows.h"
+
+#define OF_KINDS(verb)                                                                                                                               \
+    {                                                                                                                                                \
+        [0] = verb##_fixed_4, [FE__ROW_PAIR] = verb##_pair_4, [FE__ROW_SPECIAL] = verb##_fixed_special_4,                                            \
+        [FE__ROW_PAIR | FE__ROW_SPECIAL] = verb##_pair_special_4, [FE__ROW_SINGLE] = verb##_fixed_1,                                                 \
+        [FE__ROW_SINGLE | FE__ROW_PAIR] = verb##_pair_1, [FE__ROW_SINGLE | FE__ROW_SPECIAL] = verb##_fixed_special_1,                                \
+        [FE__ROW_SINGLE | FE__ROW_PAIR | FE__ROW_SPECIAL] = verb##_pair_special_1                                                                    \
+    }
+
+const fe__contact_kernels FE_NAME(fe__contact_kernels) = {
+    .row_size = {[0] = sizeof(contact_row_4),
+                 [FE__ROW_PAIR] = sizeof(contact_row_4),
+                 [FE__ROW_SPECIAL] = sizeof(special_row_4),
+                 [FE__ROW_PAIR | FE__ROW_SPECIAL] = sizeof(special_row_4),
+                 [FE__ROW_SINGLE] = sizeof(contact_row_1),
+                 [FE__ROW_SINGLE | FE__ROW_PAIR] = sizeof(contact_row_1),
+                 [FE__ROW_SINGLE | FE__ROW_SPECIAL] = sizeof(special_row_1),
+                 [FE__ROW_SINGLE | FE__ROW_PAIR | FE__ROW_SPECIAL] = sizeof(special_row_1)},
+    .prepare = OF_KINDS(prepare),
+    .solve = OF_KINDS(solve),
+    .relax = OF_KINDS(relax),
+    .bounce = OF_KINDS(bounce),
+    .store = OF_KINDS(store),
+};

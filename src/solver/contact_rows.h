@@ -1,0 +1,395 @@
+// contact_rows.h - TGS Soft on rows of W contacts, POINTS points each. Included by contact.simd.c once per number of points.
+//
+// A contact of several points shares one normal n, and rB = rA + span with span = cA - cB. Whatever is asked of a point is then affine in rA, and
+// the work per point is one dot product:
+//
+//     normal velocity   vn_i = n.(vB - vA) + (n x wB).span + (n x (wB - wA)).rA_i            since n.(w x r) = (n x w).r
+//     separation        s_i  = s0_i + n.(dpB - dpA) + nB.span + (nB - nA).rA_i               nX = R(dqX)^T n - n, exact
+//     torque on A       sum_i rA_i x (n l_i) = (sum_i l_i rA_i) x n                          torque on B: that + span x (n sum l_i)
+//
+// A round side (sphere, capsule) is its core swelled by a radius rho: the core turns with the body, the radius stays along n. Its point is
+// core + rho n on A, core - rho n on B, so the separation gains  rhoA nA.n + rhoB nB.n: a ball that rolls keeps its distance.
+//
+// One Gauss-Seidel sweep over the points runs on the impulses with the stored matrix K_ij = n.M^-1.n between points, and the bodies are touched
+// once, by the sum: what sequential updates of the bodies give, up to rounding, at half their arithmetic.
+//
+// `kind` is a constant of each instance: FE__ROW_PAIR both sides are dynamic, else only B moves; FE__ROW_SPECIAL the row carries a special_row.
+
+#define NAMED(name) FE_PASTE(name, POINTS)
+#define ROW NAMED(contact_row)
+#define SPECIAL_ROW NAMED(special_row)
+
+typedef struct ROW {
+    int32_t line_a[FE_W], line_b[FE_W];
+    wide normal[3];
+    wide span[3];            // for torques: follows the bodies once they shifted by more than FROZEN_SHIFT, see follow_span
+    wide first_span[3];      // when the step began: for separations
+    wide round_a, round_b;
+    point_row point[POINTS];
+    wide coupling[POINTS == 1 ? 1 : 6]; // m_j K_ij for i < j: 01 02 03 12 13 23
+    wide_sym inertia_b, inertia_a;      // inverse, world. A copy streams faster than a gather
+    // relax only
+    wide shift[3];           // of B against A, when span was set
+    wide static_friction, dynamic_friction;
+    wide centre[3];          // of friction, from A's centre
+    wide tangent_mass[3];    // inverse of the 2 x 2 matrix: 11 12 22
+    wide tangent_impulse[2];
+    wide twist_mass, twist_impulse;
+    wide twist_tangent[2];   // tangent velocity that a unit of twist adds
+    wide lever[POINTS];      // |r_i - centre|
+} ROW;
+
+typedef struct SPECIAL_ROW {
+    ROW row;
+    wide mass_a[3], mass_b[3];          // inverse, along the world's axes: 0 where locked
+    wide restitution, closing;          // acceleration of the bodies towards each other along n, m/s2
+    wide approach[POINTS], flight[POINTS]; // of a touch in this substep: its speed (0: none) and Q, see record_touch
+    wide rolling, spinning;             // torque caps over the normal force, m
+    wide_sym rolling_mass;              // inverse of IA^-1 + IB^-1
+    wide spinning_mass;
+    wide rolling_impulse[3];
+    wide surface[3];                    // velocity of B's surface against A's
+} SPECIAL_ROW;
+
+// ---- bodies in and out ----------------------------------------------------------------------------------------------------------
+FE_INLINE pair NAMED(gather_pair)(const ROW *row, const fe__solver *s, int kind)
+{
+    side still = {w_zero3(), w_zero3(), w_set(0.0f), w_set(0.0f)};
+    side a = kind & (FE__ROW_PAIR | FE__ROW_SPECIAL) ? gather_side(s, row->line_a) : still;
+    return (pair){a, gather_side(s, row->line_b), load3(row->normal), load3(row->span)};
+}
+
+FE_INLINE void NAMED(scatter_pair)(const ROW *row, const fe__solver *s, const pair *p, int kind)
+{
+    if (kind & FE__ROW_PAIR) scatter_side(s->velocity, row->line_a, &p->a);
+    scatter_side(s->velocity, row->line_b, &p->b);
+}
+
+// Impulse on B, its opposite on A; its moment about A's centre. About B's centre the moment is greater by span x impulse.
+FE_INLINE void NAMED(apply)(const ROW *row, pair *p, wide3 impulse, wide3 moment, int kind)
+{
+    const SPECIAL_ROW *x = (const SPECIAL_ROW *)row;
+    wide3 moment_b = w_add(moment, w_cross(p->span, impulse));
+    p->b.v = kind & FE__ROW_SPECIAL ? w_add(p->b.v, w_times(load3(x->mass_b), impulse)) : w_add_scaled(p->b.v, p->b.inverse_mass, impulse);
+    p->b.w = w_add(p->b.w, w_mul(&row->inertia_b, moment_b));
+    if (!(kind & FE__ROW_PAIR)) return;
+    p->a.v = kind & FE__ROW_SPECIAL ? w_sub(p->a.v, w_times(load3(x->mass_a), impulse)) : w_sub_scaled(p->a.v, p->a.inverse_mass, impulse);
+    p->a.w = w_sub(p->a.w, w_mul(&row->inertia_a, moment));
+}
+
+// a pure torque on B, its opposite on A
+FE_INLINE void NAMED(apply_torque)(const ROW *row, pair *p, wide3 torque, int kind)
+{
+    p->b.w = w_add(p->b.w, w_mul(&row->inertia_b, torque));
+    if (kind & FE__ROW_PAIR) p->a.w = w_sub(p->a.w, w_mul(&row->inertia_a, torque));
+}
+
+// ---- normals --------------------------------------------------------------------------------------------------------------------
+FE_INLINE wide3 NAMED(shift_in_step)(const ROW *row, const fe__solver *s, int kind)
+{
+    wide3 b = w_xyz(gather_low(s->motion, row->line_b));
+    return kind & (FE__ROW_PAIR | FE__ROW_SPECIAL) ? w_sub(b, w_xyz(gather_low(s->motion, row->line_a))) : b;
+}
+
+FE_INLINE affine NAMED(separation_change)(const ROW *row, const fe__solver *s, const pair *p, wide3 shift, int kind)
+{
+    wide3 nb = w_turn_back(gather_high(s->motion, row->line_b), p->normal), na = w_zero3();
+    wide constant = w_dot(p->normal, shift) + w_dot(nb, load3(row->first_span)) + row->round_b * w_dot(nb, p->normal);
+    if (kind & (FE__ROW_PAIR | FE__ROW_SPECIAL)) {
+        na = w_turn_back(gather_high(s->motion, row->line_a), p->normal);
+        constant = constant + row->round_a * w_dot(na, p->normal);
+    }
+    return (affine){constant, w_sub(nb, na)};
+}
+
+FE_INLINE affine NAMED(normal_velocity)(const pair *p)
+{
+    wide3 spin = w_cross(p->normal, p->b.w);
+    return (affine){w_dot(p->normal, w_sub(p->b.v, p->a.v)) + w_dot(spin, p->span), w_cross(p->normal, w_sub(p->b.w, p->a.w))};
+}
+
+// A point without impulse is about to touch: note its speed u and the energy of its flight, exact for the discrete motion v += h g, x += h v:
+//     Q = u (u - g h) + 2 g s  before the bodies moved in this substep,   u (u + g h) + 2 g s  after       (s: gap, g: acceleration closing it)
+FE_INLINE void NAMED(record_touch)(SPECIAL_ROW *x, int i, wide impulse, wide vn, wide distance, const fe__step_constants *c, int moved)
+{
+    wide zero = w_set(0.0f), u = -vn, gap = w_max(distance, zero), g = x->closing;
+    wide flight = (moved ? u * (u + c->h * g) : u * (u - c->h * g)) + 2.0f * g * gap;
+    wide_mask touches = w_and(w_greater(u * c->h, distance), w_greater(u, w_set(c->threshold)));
+    touches = w_and(touches, w_greater(x->row.point[i].mass * x->restitution, zero));
+    touches = w_and(touches, w_not(w_or(w_greater(impulse, zero), w_greater(x->approach[i], zero))));
+    x->approach[i] = w_choose(touches, u, x->approach[i]);
+    x->flight[i] = w_choose(touches, w_max(flight, zero), x->flight[i]);
+}
+
+// Runs the points against each other on their impulses. wish[i] is the new impulse of point i before max(., 0); a change d at point i lowers
+// wish[j] by scale_j m_j K_ij d. Returns the sum of the changes and their moment about A's centre.
+FE_INLINE wide3 NAMED(sweep_points)(ROW *row, wide *wish, const wide *scale, wide *out_sum)
+{
+    wide zero = w_set(0.0f), sum = zero;
+    wide3 moment = w_zero3();
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        point_row *q = row->point + i;
+        wide impulse = w_max(wish[i], zero), change = impulse - q->impulse;
+        q->impulse = impulse;
+        UNROLL for (int j = i + 1; j < POINTS; ++j)
+        {
+            wide k = row->coupling[coupling_of[i][j]];
+            wish[j] = wish[j] - (scale ? scale[j] * k : k) * change;
+        }
+        sum = sum + change;
+        moment = w_add_scaled(moment, change, load3(q->r));
+    }
+    *out_sum = sum;
+    return moment;
+}
+
+// Soft (pushing):   l' = max(l - m (ms vn + bias) - is l, 0);  apart (s > 0): bias = s / h, ms = 1, is = 0
+// Rigid (relaxing): l' = max(l - m (vn + max(s / h, 0)), 0)
+FE_INLINE void NAMED(solve_normals)(ROW *row, const fe__solver *s, const fe__step_constants *c, pair *p, wide3 shift, int kind, int soft)
+{
+    const fe__softness *k = kind & FE__ROW_PAIR ? &c->between_dynamic : &c->against_static;
+    wide zero = w_set(0.0f), one = w_set(1.0f), slowest = w_set(-c->push_speed), rate = w_set(k->mass_scale * k->bias_rate);
+    wide mass_scale = w_set(k->mass_scale), impulse_scale = w_set(k->impulse_scale);
+    wide wish[POINTS], scale[POINTS];
+    affine gap = NAMED(separation_change)(row, s, p, shift, kind), velocity = NAMED(normal_velocity)(p);
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        const point_row *q = row->point + i;
+        wide3 r = load3(q->r);
+        wide vn = at(&velocity, r), distance = q->separation + at(&gap, r), ahead = distance * c->inverse_h;
+        if (kind & FE__ROW_SPECIAL) NAMED(record_touch)((SPECIAL_ROW *)row, i, q->impulse, vn, distance, c, !soft);
+        if (soft) {
+            wide_mask apart = w_greater(distance, zero);
+            wide bias = w_choose(apart, ahead, w_max(rate * distance, slowest));
+            scale[i] = w_choose(apart, one, mass_scale);
+            wide kept = q->impulse - w_choose(apart, zero, impulse_scale) * q->impulse;
+            wish[i] = kept - q->mass * (scale[i] * vn + bias);
+        } else
+            wish[i] = q->impulse - q->mass * (vn + w_max(ahead, zero));
+    }
+    wide sum;
+    wide3 moment = NAMED(sweep_points)(row, wish, soft ? scale : 0, &sum);
+    NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
+}
+
+// ---- friction --------------------------------------------------------------------------------------------------------------------
+FE_INLINE wide NAMED(load_of)(const ROW *row)
+{
+    wide load = row->point[0].impulse;
+    UNROLL for (int i = 1; i < POINTS; ++i) load = load + row->point[i].impulse;
+    return load;
+}
+
+// Twist about n, |l| <= mu sum lever_i l_i; then the two tangents at the friction centre as one block, |l| <= mu sum l_i. Twist reaches the tangents
+// through twist_tangent, so that both are applied to the bodies at once. A contact sticks up to the static friction; one that would need more
+// slides, with the dynamic one.
+FE_INLINE void NAMED(solve_friction)(ROW *row, pair *p, int kind)
+{
+    wide3 t1, t2, ra = load3(row->centre), rb = w_add(ra, p->span);
+    tangents(p->normal, &t1, &t2);
+    wide load = NAMED(load_of)(row), twisted = w_set(0.0f);
+    if (POINTS > 1) {
+        wide twist_load = row->lever[0] * row->point[0].impulse;
+        UNROLL for (int i = 1; i < POINTS; ++i) twist_load = twist_load + row->lever[i] * row->point[i].impulse;
+        wide twist = row->twist_impulse - row->twist_mass * w_dot(p->normal, w_sub(p->b.w, p->a.w));
+        wide slide = row->dynamic_friction * twist_load, stick = row->static_friction * twist_load;
+        twist = w_choose(w_greater(w_abs(twist), stick), w_clamp(twist, -slide, slide), twist);
+        twisted = twist - row->twist_impulse;
+        row->twist_impulse = twist;
+    }
+    wide3 slip = w_sub(w_add(p->b.v, w_cross(p->b.w, rb)), w_add(p->a.v, w_cross(p->a.w, ra)));
+    if (kind & FE__ROW_SPECIAL) slip = w_add(slip, load3(((const SPECIAL_ROW *)row)->surface));
+    wide v1 = w_dot(t1, slip) + row->twist_tangent[0] * twisted, v2 = w_dot(t2, slip) + row->twist_tangent[1] * twisted;
+    const wide *m = row->tangent_mass;
+    wide l1 = row->tangent_impulse[0] - (m[0] * v1 + m[1] * v2), l2 = row->tangent_impulse[1] - (m[1] * v1 + m[2] * v2);
+    wide stick = row->static_friction * load, slide = row->dynamic_friction * load, square = l1 * l1 + l2 * l2;
+    wide shrink = w_choose(w_greater(square, stick * stick), slide / w_sqrt(square), w_set(1.0f));
+    l1 = l1 * shrink;
+    l2 = l2 * shrink;
+    wide3 impulse = w_add_scaled(w_scale(l1 - row->tangent_impulse[0], t1), l2 - row->tangent_impulse[1], t2);
+    row->tangent_impulse[0] = l1;
+    row->tangent_impulse[1] = l2;
+    NAMED(apply)(row, p, impulse, w_add_scaled(w_cross(ra, impulse), twisted, p->normal), kind);
+}
+
+// Rolling resistance: a torque in the tangent plane against the relative spin, at most rolling * load. Spinning resistance: the same about n.
+FE_INLINE void NAMED(solve_rolling)(SPECIAL_ROW *x, pair *p, int kind)
+{
+    wide load = NAMED(load_of)(&x->row), one = w_set(1.0f);
+    wide3 n = p->normal, relative = w_sub(p->b.w, p->a.w), before = load3(x->rolling_impulse);
+    wide along = w_dot(n, before), turning = w_dot(n, relative), cap = x->spinning * load;
+    wide spin = w_clamp(along - x->spinning_mass * turning, -cap, cap);
+    wide3 roll = w_sub_scaled(before, along, n);
+    roll = w_sub(roll, w_mul(&x->rolling_mass, w_sub_scaled(relative, turning, n)));
+    roll = w_sub_scaled(roll, w_dot(n, roll), n);
+    wide most = x->rolling * load, square = w_dot(roll, roll);
+    roll = w_scale(w_choose(w_greater(square, most * most), most / w_sqrt(square), one), roll);
+    wide3 after = w_add_scaled(roll, spin, n);
+    store3(x->rolling_impulse, after);
+    NAMED(apply_torque)(&x->row, p, w_sub(after, before), kind);
+}
+
+// ---- arms that follow -------------------------------------------------------------------------------------------------------------
+FE_INLINE wide3 NAMED(friction_impulse)(const ROW *row, wide3 normal)
+{
+    wide3 t1, t2;
+    tangents(normal, &t1, &t2);
+    return w_add_scaled(w_scale(row->tangent_impulse[0], t1), row->tangent_impulse[1], t2);
+}
+
+// Angular momentum is kept only while rB - rA is the distance of the centres, so span follows the bodies' shift. It does so in jumps: within
+// FROZEN_SHIFT it stays as found, as the arms do (see contact.h). The carried warm start then holds an impulse P applied at the old arm; the rule
+// for a changed arm is  start.wB -= IB^-1 ((rB' - rB) x P). Lanes that stay are not touched, so a neighbour never shows.
+FE_INLINE void NAMED(follow_span)(ROW *row, const fe__solver *s, pair *p, wide3 shift)
+{
+    wide3 moved = w_sub(shift, load3(row->shift));
+    wide_mask jumps = w_greater(w_dot(moved, moved), w_set(FROZEN_SHIFT * FROZEN_SHIFT));
+    if (!w_any(jumps)) return;
+    wide3 impulse = w_add_scaled(NAMED(friction_impulse)(row, p->normal), NAMED(load_of)(row), p->normal);
+    wide4 v = gather_low(s->start, row->line_b), w = gather_high(s->start, row->line_b);
+    wide3 corrected = w_add(w_xyz(w), w_mul(&row->inertia_b, w_cross(moved, impulse)));
+    w_scatter(s->start[0], FE__LINE, row->line_b, v);
+    w_scatter(s->start[0] + 4, FE__LINE, row->line_b, w_with(w_choose3(jumps, corrected, w_xyz(w)), w.w));
+    p->span = w_choose3(jumps, w_sub(p->span, moved), p->span);
+    store3(row->span, p->span);
+    store3(row->shift, w_choose3(jumps, shift, load3(row->shift)));
+}
+
+// ---- restitution ----------------------------------------------------------------------------------------------------------------------
+// The speed that a touched point must leave with, at the gap s where it is now:
+//     v' = min( sqrt(e^2 Q - 2 g s) + g h / 2,  sqrt(Q - 2 g s) )
+// so that it flies to e^2 times the height it fell from, and never has more energy than it came with. Q: record_touch.
+FE_INLINE wide NAMED(bounce_speed)(const SPECIAL_ROW *x, int i, wide distance, const fe__step_constants *c)
+{
+    wide zero = w_set(0.0f), g = x->closing, used = 2.0f * g * w_max(distance, zero), e = x->restitution, q = x->flight[i];
+    wide wanted = w_sqrt(w_max(e * e * q - used, zero)) + 0.5f * c->h * g;
+    return w_choose(w_greater(x->approach[i], zero), w_min(wanted, w_sqrt(w_max(q - used, zero))), zero);
+}
+
+// What the touched contacts gave leaves the warm start: start takes M^-1 J^T l, and l becomes 0. `old`: impulses that `total` already has.
+FE_INLINE void NAMED(leave_warm_start)(SPECIAL_ROW *x, fe__solver *s, const pair *p, const wide *old, wide_mask touched, int kind)
+{
+    ROW *row = &x->row;
+    wide zero = w_set(0.0f);
+    pair start = {start_side(s, row->line_a), start_side(s, row->line_b), p->normal, p->span}, was = start;
+    wide3 moment = w_zero3(), friction = NAMED(friction_impulse)(row, p->normal);
+    UNROLL for (int i = 0; i < POINTS; ++i) moment = w_add_scaled(moment, row->point[i].impulse, load3(row->point[i].r));
+    moment = w_add(w_cross(moment, p->normal), w_cross(load3(row->centre), friction));
+    moment = w_add_scaled(moment, row->twist_impulse, p->normal);
+    NAMED(apply)(row, &start, w_add_scaled(friction, NAMED(load_of)(row), p->normal), moment, kind);
+    NAMED(apply_torque)(row, &start, load3(x->rolling_impulse), kind);
+    start.a.v = w_choose3(touched, start.a.v, was.a.v), start.a.w = w_choose3(touched, start.a.w, was.a.w);
+    start.b.v = w_choose3(touched, start.b.v, was.b.v), start.b.w = w_choose3(touched, start.b.w, was.b.w);
+    if (kind & FE__ROW_PAIR) scatter_side(s->start, row->line_a, &start.a);
+    scatter_side(s->start, row->line_b, &start.b);
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        point_row *q = row->point + i;
+        q->total = q->total + w_choose(touched, q->impulse - old[i], zero);
+        q->impulse = w_choose(touched, zero, q->impulse);
+        x->approach[i] = zero;
+    }
+    for (int i = 0; i < 2; ++i) row->tangent_impulse[i] = w_choose(touched, zero, row->tangent_impulse[i]);
+    for (int i = 0; i < 3; ++i) x->rolling_impulse[i] = w_choose(touched, zero, x->rolling_impulse[i]);
+    row->twist_impulse = w_choose(touched, zero, row->twist_impulse);
+}
+
+// After relax, for contacts that touched in this substep: the points together reach their speeds.
+FE_INLINE void NAMED(bounce_row)(SPECIAL_ROW *x, fe__solver *s, const fe__step_constants *c, int kind)
+{
+    ROW *row = &x->row;
+    wide zero = w_set(0.0f), approach = x->approach[0];
+    UNROLL for (int i = 1; i < POINTS; ++i) approach = w_max(x->approach[i], approach);
+    wide_mask touched = w_greater(approach, zero);
+    if (!w_any(touched)) return;
+    pair p = NAMED(gather_pair)(row, s, kind), before = p;
+    affine gap = NAMED(separation_change)(row, s, &p, NAMED(shift_in_step)(row, s, kind), kind);
+    wide target[POINTS], old[POINTS];
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        old[i] = row->point[i].impulse;
+        target[i] = NAMED(bounce_speed)(x, i, row->point[i].separation + at(&gap, load3(row->point[i].r)), c);
+    }
+    for (int sweep = 0; sweep < BOUNCE_SWEEPS; ++sweep) {
+        affine velocity = NAMED(normal_velocity)(&p);
+        wide wish[POINTS], sum;
+        UNROLL for (int i = 0; i < POINTS; ++i) wish[i] = row->point[i].impulse - row->point[i].mass * (at(&velocity, load3(row->point[i].r)) - target[i]);
+        wide3 moment = NAMED(sweep_points)(row, wish, 0, &sum);
+        NAMED(apply)(row, &p, w_scale(sum, p.normal), w_cross(moment, p.normal), kind);
+    }
+    NAMED(leave_warm_start)(x, s, &p, old, touched, kind);
+    p.a.v = w_choose3(touched, p.a.v, before.a.v), p.a.w = w_choose3(touched, p.a.w, before.a.w);
+    p.b.v = w_choose3(touched, p.b.v, before.b.v), p.b.w = w_choose3(touched, p.b.w, before.b.w);
+    NAMED(scatter_pair)(row, s, &p, kind);
+}
+
+// ---- passes over the rows -----------------------------------------------------------------------------------------------------------
+FE_INLINE ROW *NAMED(row_at)(void *rows, int32_t i, int kind) { return kind & FE__ROW_SPECIAL ? &((SPECIAL_ROW *)rows)[i].row : (ROW *)rows + i; }
+
+FE_INLINE void NAMED(solve)(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c, int kind)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        ROW *row = NAMED(row_at)(rows, i, kind);
+        pair p = NAMED(gather_pair)(row, s, kind);
+        NAMED(solve_normals)(row, s, c, &p, NAMED(shift_in_step)(row, s, kind), kind, 1);
+        NAMED(scatter_pair)(row, s, &p, kind);
+    }
+}
+
+FE_INLINE void NAMED(relax)(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c, int kind)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        ROW *row = NAMED(row_at)(rows, i, kind);
+        pair p = NAMED(gather_pair)(row, s, kind);
+        wide3 shift = NAMED(shift_in_step)(row, s, kind);
+        if (kind & FE__ROW_PAIR) NAMED(follow_span)(row, s, &p, shift);
+        NAMED(solve_normals)(row, s, c, &p, shift, kind, 0);
+        if (kind & FE__ROW_SPECIAL) NAMED(solve_rolling)((SPECIAL_ROW *)row, &p, kind);
+        NAMED(solve_friction)(row, &p, kind);
+        UNROLL for (int j = 0; j < POINTS; ++j) row->point[j].total = row->point[j].total + row->point[j].impulse;
+        NAMED(scatter_pair)(row, s, &p, kind);
+    }
+}
+
+FE_INLINE void NAMED(bounce)(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c, int kind)
+{
+    for (int32_t i = 0; i < count; ++i) NAMED(bounce_row)((SPECIAL_ROW *)rows + i, s, c, kind);
+}
+
+#include "solver/contact_prepare.h"
+
+// ---- the kernels of each kind --------------------------------------------------------------------------------------------------------
+#define INSTANCE(kind_name, kind)                                                                                                                    \
+    static void NAMED(prepare_##kind_name)(fe__solver * s, fe__contact * contacts, const fe__extra *extras, const fe__lane *lanes, void *rows,      \
+                                           int32_t count, const fe__step_constants *c)                                                              \
+    {                                                                                                                                               \
+        NAMED(prepare)(s, contacts, extras, lanes, rows, count, c, kind);                                                                           \
+    }                                                                                                                                               \
+    static void NAMED(solve_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c)                                    \
+    {                                                                                                                                               \
+        NAMED(solve)(s, rows, count, c, kind);                                                                                                      \
+    }                                                                                                                                               \
+    static void NAMED(relax_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c)                                    \
+    {                                                                                                                                               \
+        NAMED(relax)(s, rows, count, c, kind);                                                                                                      \
+    }                                                                                                                                               \
+    static void NAMED(bounce_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c)                                   \
+    {                                                                                                                                               \
+        if ((kind)&FE__ROW_SPECIAL) NAMED(bounce)(s, rows, count, c, kind);                                                                         \
+    }                                                                                                                                               \
+    static void NAMED(store_##kind_name)(fe__contact * contacts, fe__extra * extras, const fe__lane *lanes, const void *rows, int32_t count)        \
+    {                                                                                                                                               \
+        NAMED(store)(contacts, extras, lanes, rows, count, kind);                                                                                   \
+    }
+
+INSTANCE(fixed, 0)
+INSTANCE(pair, FE__ROW_PAIR)
+INSTANCE(fixed_special, FE__ROW_SPECIAL)
+INSTANCE(pair_special, FE__ROW_PAIR | FE__ROW_SPECIAL)
+
+#undef INSTANCE
+#undef SPECIAL_ROW
+#undef ROW
+#undef NAMED
+#undef POINTS

@@ -1,0 +1,74 @@
+// kernels.c - which SIMD sets were built, which of them this CPU has, and the choice between them.
+#include "solver/solver.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define DECLARE_SET(name)                                                                                                                            \
+    extern const fe__contact_kernels fe__contact_kernels_##name;                                                                                     \
+    extern const fe__body_kernels fe__body_kernels_##name;                                                                                           \
+    extern fe__recycle_kernel fe__recycle_##name;
+#define TABLE(simd, lanes, name)                                                                                                                     \
+    {                                                                                                                                                \
+        simd, lanes, &fe__contact_kernels_##name, &fe__body_kernels_##name, fe__recycle_##name                                                       \
+    }
+
+DECLARE_SET(plain)
+#ifdef FE_HAVE_SSE2
+DECLARE_SET(sse2)
+#endif
+#ifdef FE_HAVE_AVX2
+DECLARE_SET(avx2)
+#endif
+#ifdef FE_HAVE_AVX512
+DECLARE_SET(avx512)
+#endif
+#ifdef FE_HAVE_NEON
+DECLARE_SET(neon)
+#endif
+
+// widest last
+static const fe__kernels sets[] = {
+    TABLE(FE_SIMD_PLAIN, 4, plain),
+#ifdef FE_HAVE_SSE2
+    TABLE(FE_SIMD_SSE2, 4, sse2),
+#endif
+#ifdef FE_HAVE_NEON
+    TABLE(FE_SIMD_NEON, 4, neon),
+#endif
+#ifdef FE_HAVE_AVX2
+    TABLE(FE_SIMD_AVX2, 8, avx2),
+#endif
+#ifdef FE_HAVE_AVX512
+    TABLE(FE_SIMD_AVX512, 16, avx512),
+#endif
+};
+enum { SET_COUNT = sizeof sets / sizeof *sets };
+
+static int32_t cpu_has(int32_t simd)
+{
+#if defined(__x86_64__) || defined(__i386__)
+    __builtin_cpu_init();
+    if (simd == FE_SIMD_SSE2) return __builtin_cpu_supports("sse2") != 0;
+    if (simd == FE_SIMD_AVX2) return __builtin_cpu_supports("avx2") != 0;
+    if (simd == FE_SIMD_AVX512) return __builtin_cpu_supports("avx512f") != 0;
+#endif
+    return simd == FE_SIMD_PLAIN || simd == FE_SIMD_NEON;
+}
+
+static int32_t environment_choice(void)
+{
+    static const char *const names[] = {"auto", "plain", "sse2", "avx2", "avx512", "neon"}; // by fe_simd
+    const char *wanted = getenv("FE_SIMD");
+    for (int32_t i = 1; wanted && i < (int32_t)(sizeof names / sizeof *names); ++i)
+        if (!strcmp(wanted, names[i])) return i;
+    return FE_SIMD_AUTO;
+}
+
+const fe__kernels *fe__kernels_of(int32_t simd)
+{
+    if (simd == FE_SIMD_AUTO) simd = environment_choice();
+    for (int32_t i = SET_COUNT - 1; i >= 0; --i)
+        if ((simd == FE_SIMD_AUTO || sets[i].simd == simd) && cpu_has(sets[i].simd)) return sets + i;
+    return NULL;
+}

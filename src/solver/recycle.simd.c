@@ -1,0 +1,75 @@
+// recycle.simd.c - contacts that keep their manifold: the separations at the beginning of a step from the bodies' poses, W contacts at a time.
+//
+// A pair that moved less than a tolerance since its last full narrow phase keeps normal, arms and ids; only the separations follow, exactly for the
+// material points it has. Compared with the last full test, not with the last step, so that drift is seen. Compiled once per SIMD set.
+#include "core/simd.h"
+#include "solver/solver.h"
+#include "solver/wide_body.h"
+
+enum { CONTACT_STRIDE = sizeof(fe__contact) / sizeof(float), BODY_STRIDE = sizeof(fe__body) / sizeof(float) };
+#define BODY_QUAD(field, index) w_xyz(w_gather(bodies->field, BODY_STRIDE, index))
+#define CONTACT_QUAD(field) w_gather(contacts->field, CONTACT_STRIDE, index)
+
+// a - b and what its rounding lost (Knuth's TwoSum): exact together
+FE_INLINE wide difference(wide a, wide b, wide *error)
+{
+    wide d = a - b, bb = a - d, aa = d + bb;
+    *error = (a - aa) + (bb - b);
+    return d;
+}
+
+// By how much B's centre moved against A's since the contact was found: (cB - cA) + found span. The bodies' and the contact's high parts cancel
+// first, so that metres or a thousand kilometres between the centres cost no digit.
+FE_INLINE wide3 shift_since_found(const fe__contact *contacts, const fe__body *bodies, const int32_t *index, const int32_t *a, const int32_t *b)
+{
+    wide3 high_a = BODY_QUAD(centre_high, a), high_b = BODY_QUAD(centre_high, b), e;
+    wide3 low = w_sub(BODY_QUAD(centre_low, b), BODY_QUAD(centre_low, a));
+    wide3 span = w_xyz(CONTACT_QUAD(found_span)), span_low = w_xyz(CONTACT_QUAD(found_low));
+    wide3 d = {difference(high_b.x, high_a.x, &e.x), difference(high_b.y, high_a.y, &e.y), difference(high_b.z, high_a.z, &e.z)};
+    return w_add(w_add(d, span), w_add(w_add(e, low), span_low));
+}
+
+FE_INLINE wide4 turn_since_found(const fe__body *bodies, const int32_t *body, wide4 found)
+{
+    return w_product(w_gather(bodies->rotation, BODY_STRIDE, body), w_conjugate(found));
+}
+
+// As in contact_rows.h: s = s0 + n.shift + (nB - nA).r + nB.span + rhoA nA.n + rhoB nB.n with nX = R(dqX)^T n - n
+static void recycle_block(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, uint8_t *out_moved)
+{
+    _Alignas(64) int32_t a[FE_W], b[FE_W];
+    for (int i = 0; i < FE_W; ++i) a[i] = contacts[index[i]].body_a, b[i] = contacts[index[i]].body_b;
+    wide4 normal = CONTACT_QUAD(normal), surface = CONTACT_QUAD(surface), found = CONTACT_QUAD(found_span);
+    wide3 n = w_xyz(normal), shift = shift_since_found(contacts, bodies, index, a, b);
+    wide4 turn_a = turn_since_found(bodies, a, CONTACT_QUAD(found_a)), turn_b = turn_since_found(bodies, b, CONTACT_QUAD(found_b));
+    wide3 na = w_turn_back(turn_a, n), nb = w_turn_back(turn_b, n), slope = w_sub(nb, na);
+    wide constant = w_dot(n, shift) + w_dot(nb, w_xyz(CONTACT_QUAD(span))) + surface.y * w_dot(na, n) + surface.z * w_dot(nb, n);
+
+    // a point moves by at most |shift| + 2 |sin(turn / 2)| reach of either body, and (x + y + z)^2 <= 3 (x^2 + y^2 + z^2)
+    wide turned = w_dot(w_xyz(turn_a), w_xyz(turn_a)) + w_dot(w_xyz(turn_b), w_xyz(turn_b));
+    wide moved = 3.0f * (w_dot(shift, shift) + 4.0f * found.w * found.w * turned), limit = surface.w * surface.w;
+    unsigned far = w_bits(w_not(w_greater(limit, moved)));
+
+    _Alignas(64) float now[FE__POINTS][FE_W];
+    for (int i = 0; i < FE__POINTS; ++i) {
+        wide4 point = CONTACT_QUAD(point[i]);
+        *(wide *)now[i] = point.w + (constant + w_dot(slope, w_xyz(point)));
+    }
+    for (int i = 0; i < count; ++i) {
+        out_moved[i] = far >> i & 1;
+        if (out_moved[i]) continue;
+        for (int k = 0; k < FE__POINTS; ++k) contacts[index[i]].separation[k] = now[k][i];
+    }
+}
+
+void FE_NAME(fe__recycle)(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, uint8_t *out_moved);
+
+void FE_NAME(fe__recycle)(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, uint8_t *out_moved)
+{
+    int32_t i = 0;
+    for (; i + FE_W <= count; i += FE_W) recycle_block(contacts, bodies, index + i, FE_W, out_moved + i);
+    if (i == count) return;
+    int32_t rest[FE_W] = {0};
+    for (int32_t k = i; k < count; ++k) rest[k - i] = index[k];
+    recycle_block(contacts, bodies, rest, count - i, out_moved + i);
+}
