@@ -92,7 +92,7 @@ define stamp
 @echo '$(1)' | cmp -s - $@ || echo '$(1)' > $@
 endef
 $(BUILD)/flags: FORCE
-	$(call stamp,$(subst ','"'"',$(CC) $(C_FLAGS) $(SIMD_OPT) $(STRICT) $(LINK_FLAGS)))
+	$(call stamp,$(subst ','"'"',$(CC) $(filter-out -Werror,$(C_FLAGS)) $(SIMD_OPT) $(STRICT) $(LINK_FLAGS)))
 $(BUILD)/objects: FORCE
 	$(call stamp,$(OBJECTS))
 
@@ -156,25 +156,26 @@ test:
 
 # ---- bench ----------------------------------------------------------------------------------------------------------------------
 
-BENCH_SOURCES := $(sort $(wildcard bench/*.c bench/scenes/*.c))
-BENCH_OBJECTS := $(BENCH_SOURCES:%.c=$(BUILD)/%.o)
-BENCH_PEERS := $(if $(filter bench bench-build $(BUILD)/feather-bench,$(MAKECMDGOALS)),$(foreach peer,bullet ode,\
-    $(shell test -f bench/peers/$(peer).cpp && $(PKG_CONFIG) --exists $(peer) 2>/dev/null && echo $(peer))))
+BENCH_PEERS := $(if $(filter bench bench-build %/feather-bench,$(MAKECMDGOALS)),$(foreach peer,bullet ode,\
+    $(shell $(PKG_CONFIG) --exists $(peer) 2>/dev/null && echo $(peer))))
 BENCH_PEERS := $(strip $(BENCH_PEERS))
-PEER_OBJECTS := $(BENCH_PEERS:%=$(BUILD)/bench/peers/%.o)
-PEER_DEFINES := $(if $(filter bullet,$(BENCH_PEERS)),-DFE_PEER_BULLET=1) $(if $(filter ode,$(BENCH_PEERS)),-DFE_PEER_ODE=1)
+BENCH_SOURCES := $(sort $(wildcard bench/*.c bench/*/*.c)) $(if $(BENCH_PEERS),$(sort $(wildcard bench/peers/*.cpp)))
+BENCH_OBJECTS := $(addprefix $(BUILD)/,$(addsuffix .o,$(basename $(BENCH_SOURCES))))
+# The peers' headers as system headers: their warnings are theirs.
+PEER_CFLAGS := $(if $(filter bullet,$(BENCH_PEERS)),-DFE_BENCH_BULLET=1) $(if $(filter ode,$(BENCH_PEERS)),-DFE_BENCH_ODE=1) \
+    $(if $(BENCH_PEERS),$(patsubst -I%,-isystem%,$(filter-out -I/usr/include,$(shell $(PKG_CONFIG) --cflags $(BENCH_PEERS)))))
+PEER_LIBS := $(if $(BENCH_PEERS),$(shell $(PKG_CONFIG) --libs $(BENCH_PEERS)))
 
 $(BUILD)/bench-peers: FORCE
-	$(call stamp,$(PEER_DEFINES))
-$(BENCH_OBJECTS): $(BUILD)/bench/%.o: bench/%.c $(BUILD)/flags $(BUILD)/bench-peers
+	$(call stamp,$(PEER_CFLAGS))
+$(BUILD)/bench/%.o: bench/%.c $(BUILD)/flags $(BUILD)/bench-peers
 	@mkdir -p $(@D)
-	$(RUN)$(CC) $(C_FLAGS) -Ibench $(PEER_DEFINES) $(STRICT) $(DEPENDENCIES) -c $< -o $@
-$(PEER_OBJECTS): $(BUILD)/bench/peers/%.o: bench/peers/%.cpp $(BUILD)/flags
+	$(RUN)$(CC) $(C_FLAGS) -Ibench $(PEER_CFLAGS) $(STRICT) $(DEPENDENCIES) -c $< -o $@
+$(BUILD)/bench/%.o: bench/%.cpp $(BUILD)/flags $(BUILD)/bench-peers
 	@mkdir -p $(@D)
-	$(RUN)$(CXX) $(CXX_FLAGS) -Ibench $(subst -I,-isystem ,$(shell $(PKG_CONFIG) --cflags $*)) $(DEPENDENCIES) -c $< -o $@
-$(BUILD)/feather-bench: $(BENCH_OBJECTS) $(PEER_OBJECTS) $(STATIC)
-	$(RUN)$(if $(BENCH_PEERS),$(CXX),$(CC)) $(BENCH_OBJECTS) $(PEER_OBJECTS) $(STATIC) $(LINK_FLAGS) \
-	    $(foreach peer,$(BENCH_PEERS),$(shell $(PKG_CONFIG) --libs $(peer))) -lm -o $@
+	$(RUN)$(CXX) $(CXX_FLAGS) -Ibench $(PEER_CFLAGS) $(DEPENDENCIES) -c $< -o $@
+$(BUILD)/feather-bench: $(BENCH_OBJECTS) $(STATIC)
+	$(RUN)$(if $(BENCH_PEERS),$(CXX),$(CC)) $(BENCH_OBJECTS) $(STATIC) $(LINK_FLAGS) $(PEER_LIBS) -lm -o $@
 
 bench-build: $(BUILD)/feather-bench
 	@for peer in bullet ode; do case ' $(BENCH_PEERS) ' in *" $$peer "*) ;; *) \
@@ -221,4 +222,4 @@ format:
 clean:
 	rm -rf $(BUILD)
 
--include $(OBJECTS:.o=.d) $(TEST_PROGRAMS:=.d) $(TEST_SUPPORT:.o=.d) $(BENCH_OBJECTS:.o=.d) $(PEER_OBJECTS:.o=.d) $(wildcard $(BUILD)/examples/*.d)
+-include $(OBJECTS:.o=.d) $(TEST_PROGRAMS:=.d) $(TEST_SUPPORT:.o=.d) $(BENCH_OBJECTS:.o=.d) $(wildcard $(BUILD)/examples/*.d)

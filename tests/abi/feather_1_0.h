@@ -1,0 +1,645 @@
+/// @file feather.h
+/// Feather: 3D rigid-body physics with a C99 interface.
+///
+/// A **world** holds everything. Inside it, bodies, shapes and joints are named by **handles**: integers with a generation, so that the
+/// handle of something destroyed, or a number made up, is an error and never a crash. A body has a pose, a mass and velocities; its shapes
+/// give it form, material and filters. `fe_world_step` moves the world on; then events and poses are read as arrays. Nothing calls back.
+///
+/// **Units and frames.** Metres, kilograms, seconds, radians. Right-handed axes, no built-in up. Quaternions are x, y, z, w. World positions
+/// are double, everything else float. A contact's normal points from its body A to its body B.
+///
+/// **Results.** What can fail returns an `fe_result`: FE_OK is 0, positive values inform, negative values are errors and have changed
+/// nothing. Every function that takes them checks these, and the notes at each function name only what is special to it:
+///   - a NULL pointer that is not documented as optional, NaN or infinity, a value out of its range: FE_ERROR_ARGUMENT
+///   - a handle of something destroyed, or of nothing: FE_ERROR_STALE;  a shape's handle where a body's is asked: FE_ERROR_KIND
+///   - a call that writes, or a query, while this world steps on another thread: FE_ERROR_STEPPING
+///   - no memory: FE_ERROR_MEMORY
+/// `fe_last_error` tells the last failure of the calling thread in a sentence. Values come out through `out_` pointers, which are written on
+/// success only.
+///
+/// **Arrays.** `int32_t fe_x_get_many(world, out, stride, capacity)` returns how many there are, or a negative fe_result; it writes the first
+/// `capacity` of them, `stride` bytes apart (0: packed). NULL, 0, 0 asks for the number only.
+///
+/// **Growth.** A definition begins with `struct_size` and is filled by its `_init`; a shorter one of an older client and a longer one with a
+/// zero tail are accepted. fe_vec3, fe_quat, fe_dvec3, fe_transform and fe_material never change.
+///
+/// **Threads.** Different worlds are independent. Within one world: functions that take a `const fe_world *` only read, and any number of
+/// threads may call them at once while none writes; all others write and need the world to themselves.
+///
+/// **Determinism.** The same calls in the same order give the same bits, handles and events: on every machine, with every number of workers
+/// and every SIMD width. `fe_world_hash` compares two runs.
+#ifndef FEATHER_H
+#define FEATHER_H
+
+#include <stdint.h>
+
+#define FE_VERSION_MAJOR 1
+#define FE_VERSION_MINOR 0
+#define FE_VERSION_PATCH 0
+
+#ifdef SWIG
+#define FE_API
+#elif defined(_WIN32) && defined(FE_SHARED)
+#ifdef FE_BUILD
+#define FE_API __declspec(dllexport)
+#else
+#define FE_API __declspec(dllimport)
+#endif
+#elif defined(__GNUC__)
+#define FE_API __attribute__((visibility("default")))
+#else
+#define FE_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// ---- basics -------------------------------------------------------------------------------------------------------------------
+
+/// Names something inside a world. 0 is nothing; every other value is below 2^53, so that it survives a double.
+typedef unsigned long long fe_handle;
+typedef fe_handle fe_body;
+typedef fe_handle fe_shape;
+typedef fe_handle fe_joint;
+
+typedef struct fe_world fe_world; ///< everything that can touch each other
+typedef struct fe_pool fe_pool;   ///< worker threads that several worlds may share
+
+typedef struct fe_vec3 {
+    float x, y, z;
+} fe_vec3;
+
+/// A world position, m, or a translation of a query.
+typedef struct fe_dvec3 {
+    double x, y, z;
+} fe_dvec3;
+
+/// A rotation. Read as q/|q|: any length but zero will do.
+typedef struct fe_quat {
+    float x, y, z, w;
+} fe_quat;
+
+typedef struct fe_transform {
+    fe_dvec3 position; ///< m
+    fe_quat rotation;
+} fe_transform;
+
+typedef enum fe_result {
+    FE_OK = 0,
+    FE_MISS = 1,                ///< a query that found nothing
+    FE_ERROR_ARGUMENT = -1,     ///< NULL, NaN, infinity, out of range
+    FE_ERROR_STALE = -2,        ///< the handle of something destroyed, or of nothing
+    FE_ERROR_KIND = -3,         ///< a shape's handle where a body's is asked
+    FE_ERROR_STEPPING = -4,     ///< the world is in a step
+    FE_ERROR_MEMORY = -5,       ///< the allocator gave nothing
+    FE_ERROR_LIMIT = -6,        ///< more than a world or a handle can hold
+    FE_ERROR_UNSUPPORTED = -7,  ///< this CPU or this kind of body cannot
+    FE_ERROR_STATE = -8,        ///< not now: the pool still has worlds, the body is not kinematic...
+    FE_RESULT_FORCE32 = 0x7fffffff
+} fe_result;
+
+/// The library's version: major << 16 | minor << 8 | patch. Compare with FE_VERSION_MAJOR... to find a mismatch of header and binary.
+FE_API uint32_t fe_version(void);
+/// The last failure of the calling thread: function, argument, value, legal range. Valid until that thread's next failure; success does
+/// not clear it. Never NULL.
+FE_API const char *fe_last_error(void);
+/// "FE_ERROR_STALE" for FE_ERROR_STALE, and so on; "unknown" for what is no result.
+FE_API const char *fe_result_name(int32_t result);
+
+// ---- pools --------------------------------------------------------------------------------------------------------------------
+
+/// Starts a pool of workers that worlds can share (fe_world_def.pool). The thread that steps a world works too, so that a pool of n workers
+/// starts n - 1 threads; they sleep while nothing steps.
+/// @param worker_count  1..64
+FE_API fe_result fe_pool_create(int32_t worker_count, fe_pool **out_pool);
+/// Ends the threads. FE_ERROR_STATE while a world uses the pool.
+FE_API fe_result fe_pool_destroy(fe_pool *pool);
+
+// ---- worlds -------------------------------------------------------------------------------------------------------------------
+
+typedef enum fe_simd {
+    FE_SIMD_AUTO = 0,   ///< the widest that this CPU has (the environment variable FE_SIMD = plain, sse2, avx2, avx512, neon overrides)
+    FE_SIMD_PLAIN = 1,  ///< C without intrinsics
+    FE_SIMD_SSE2 = 2,
+    FE_SIMD_AVX2 = 3,
+    FE_SIMD_AVX512 = 4,
+    FE_SIMD_NEON = 5,
+    FE_SIMD_FORCE32 = 0x7fffffff
+} fe_simd;
+
+/// The host's allocator. Both are called from the thread that uses the world, never by workers.
+typedef struct fe_allocator {
+    uint32_t struct_size;
+    uint32_t reserved; ///< 0
+    /// `size` bytes aligned to `alignment` (a power of two, at most 64), or NULL
+    void *(*allocate)(void *user, uint64_t size, uint64_t alignment);
+    void (*release)(void *user, void *memory, uint64_t size);
+    void *user;
+} fe_allocator;
+
+typedef void (*fe_task)(void *argument, int32_t index);
+
+/// The host's job system, instead of a pool. `run` calls task(argument, i) once for each i in [0, count), on any threads, in any order, and
+/// returns when all have returned. A task never waits for one that has not started, so one thread is enough.
+typedef struct fe_task_system {
+    uint32_t struct_size;
+    int32_t worker_count; ///< 1..64: the largest count it is asked for
+    void (*run)(void *user, fe_task task, void *argument, int32_t count);
+    void *user;
+} fe_task_system;
+
+typedef struct fe_world_def {
+    uint32_t struct_size;
+    int32_t worker_count;          ///< 1..64 workers of its own, 1: none; ignored with a pool or a task system. Default 1
+    fe_vec3 gravity;               ///< m/s2. Default 0, -9.81, 0
+    int32_t substeps;              ///< 1..64. Default 8
+    int32_t simd;                  ///< fe_simd. Default FE_SIMD_AUTO
+    fe_pool *pool;                 ///< or NULL
+    const fe_allocator *allocator; ///< copied; NULL: malloc
+    const fe_task_system *tasks;   ///< copied; NULL: the pool or the world's own workers
+    fe_handle user_data;
+} fe_world_def;
+
+FE_API void fe_world_def_init(fe_world_def *desc, uint32_t struct_size);
+/// @param desc  NULL: the defaults
+/// @return FE_ERROR_UNSUPPORTED when this CPU lacks the SIMD set asked for
+FE_API fe_result fe_world_create(const fe_world_def *desc, fe_world **out_world);
+/// Destroys the world and all in it; the pointer is dead afterwards. NULL is FE_ERROR_ARGUMENT.
+FE_API fe_result fe_world_destroy(fe_world *world);
+/// Moves the world on by dt seconds.
+///
+/// FE_ERROR_MEMORY leaves the world as it was before the call, and it can be stepped again.
+/// @param dt  0..1 s; 0 updates contacts and events and moves nothing
+FE_API fe_result fe_world_step(fe_world *world, float dt);
+
+FE_API fe_result fe_world_set_gravity(fe_world *world, const fe_vec3 *gravity);
+FE_API fe_result fe_world_get_gravity(const fe_world *world, fe_vec3 *out_gravity);
+/// @param substeps  1..64
+FE_API fe_result fe_world_set_substeps(fe_world *world, int32_t substeps);
+FE_API fe_result fe_world_get_substeps(const fe_world *world, int32_t *out_substeps);
+FE_API fe_result fe_world_get_user_data(const fe_world *world, fe_handle *out_user_data);
+
+/// How the solver behaves. Each value may change between steps.
+typedef struct fe_world_tuning {
+    uint32_t struct_size;
+    float contact_hertz;         ///< stiffness of contacts, 1/s, > 0; twice that against static bodies; at most an eighth of the substep rate. 30
+    float contact_damping_ratio; ///< >= 0; 1 is critical, higher pushes out more gently. 10
+    float contact_push_speed;    ///< overlap is pushed out no faster, m/s, >= 0. 3
+    float joint_hertz;           ///< stiffness of joints, 1/s, > 0; at most a quarter of the substep rate. 60
+    float joint_damping_ratio;   ///< >= 0. 2
+    float restitution_threshold; ///< slower impacts do not bounce, m/s, >= 0. 1
+    float hit_event_threshold;   ///< slower impacts make no hit event, m/s, >= 0. 1
+    float sleep_time;            ///< how long a body must be slow before it may sleep, s, >= 0. 0.5
+    float speculative_distance;  ///< contacts are made up to this gap, m, 0.001..0.1. 0.02
+    float max_linear_speed;      ///< m/s, > 0. 4000
+} fe_world_tuning;
+
+FE_API void fe_world_tuning_init(fe_world_tuning *tuning, uint32_t struct_size);
+FE_API fe_result fe_world_set_tuning(fe_world *world, const fe_world_tuning *tuning);
+/// @param out_tuning  its struct_size must be set
+FE_API fe_result fe_world_get_tuning(const fe_world *world, fe_world_tuning *out_tuning);
+
+/// While ignored, two bodies never collide, whatever their layers. Takes effect at the next step.
+FE_API fe_result fe_world_ignore_collision(fe_world *world, fe_body a, fe_body b, int32_t ignore);
+/// Rebalances the trees that serve the queries. Never needed for right answers; worth a call after a level is loaded.
+FE_API fe_result fe_world_sync_queries(fe_world *world);
+
+/// Where the last step's time went, ms of the stepping thread's clock.
+typedef struct fe_profile {
+    uint32_t struct_size;
+    float step;       ///< all of it
+    float pairs;      ///< tree queries, new pairs
+    float collide;    ///< narrow phase, recycling
+    float islands;    ///< islands, colours, batches
+    float solve;      ///< all substeps
+    float continuous; ///< bodies too fast for their size
+    float finalize;   ///< poses, bounds, trees
+    float events;
+    float sleep;
+} fe_profile;
+
+FE_API fe_result fe_world_get_profile(const fe_world *world, fe_profile *out_profile);
+
+typedef struct fe_counters {
+    uint32_t struct_size;
+    int32_t bodies, shapes, joints;
+    int32_t awake_bodies;
+    int32_t pairs;            ///< pairs of shapes whose bounds meet
+    int32_t contacts;         ///< of these, touching, triggers not counted
+    int32_t recycled;         ///< contacts that kept their manifold in the last step
+    int32_t islands;          ///< awake
+    int32_t colours;          ///< of the largest island
+    int32_t rows;             ///< of W contacts each
+    int32_t rows_whole;       ///< of these, in islands that one worker solved whole
+    int32_t lanes;            ///< contacts in all rows: lanes / (rows simd_width) is the fill
+    int32_t simd;             ///< fe_simd in use
+    int32_t simd_width;       ///< W, floats side by side
+    int32_t workers;
+    int64_t bytes;            ///< allocated now
+    int64_t allocations;      ///< since the world was created
+} fe_counters;
+
+FE_API fe_result fe_world_get_counters(const fe_world *world, fe_counters *out_counters);
+/// 64 bits over poses, velocities, contacts and events, low word first. Equal for equal runs, whatever the workers, the SIMD set, the compiler.
+/// @param out_words  2 words
+FE_API fe_result fe_world_hash(const fe_world *world, uint32_t *out_words);
+/// All bodies, in the order of creation.
+FE_API int32_t fe_world_get_bodies(const fe_world *world, fe_body *out_bodies, int32_t capacity);
+
+// ---- bodies -------------------------------------------------------------------------------------------------------------------
+
+typedef enum fe_body_type {
+    FE_BODY_STATIC = 0,    ///< never moves by itself
+    FE_BODY_KINEMATIC = 1, ///< moves by its velocities, which nothing else changes
+    FE_BODY_DYNAMIC = 2,   ///< moves by forces and contacts
+    FE_BODY_TYPE_FORCE32 = 0x7fffffff
+} fe_body_type;
+
+typedef enum fe_axis {
+    FE_AXIS_NONE = 0,
+    FE_AXIS_X = 1,
+    FE_AXIS_Y = 2,
+    FE_AXIS_Z = 4,
+    FE_AXIS_ALL = 7,
+    FE_AXIS_FORCE32 = 0x7fffffff
+} fe_axis;
+
+typedef struct fe_body_def {
+    uint32_t struct_size;
+    int32_t type;            ///< fe_body_type. Default FE_BODY_DYNAMIC
+    fe_transform transform;  ///< of the body's origin
+    fe_vec3 linear_velocity; ///< of the centre of mass, m/s
+    fe_vec3 angular_velocity; ///< rad/s, world axes
+    float linear_damping;    ///< 1/s, >= 0: v /= 1 + h c in each substep. Default 0
+    float angular_damping;   ///< 1/s, >= 0. Default 0
+    float gravity_scale;     ///< Default 1
+    float sleep_threshold;   ///< may sleep when its fastest point is slower, m/s, >= 0. Default 0.05
+    uint32_t linear_locks;   ///< FE_AXIS_X | ...: world axes along which it cannot move
+    uint32_t angular_locks;  ///< world axes around which it cannot turn
+    int32_t awake;           ///< 0: starts asleep. Default 1
+    int32_t sleep_allowed;   ///< Default 1
+    int32_t enabled;         ///< 0: neither moves, nor collides, nor is seen by queries. Default 1
+    int32_t bullet;          ///< 1: stopped by moving bodies too when it is fast. Default 0
+    fe_handle user_data;
+} fe_body_def;
+
+FE_API void fe_body_def_init(fe_body_def *desc, uint32_t struct_size);
+/// A dynamic body without shapes has 1 kg and the inertia of a sphere of 1 m until it gets a shape or a mass.
+/// @param desc  NULL: the defaults
+FE_API fe_result fe_body_create(fe_world *world, const fe_body_def *desc, fe_body *out_body);
+/// All or none. @param stride  bytes from one def to the next, 0: packed
+FE_API fe_result fe_body_create_many(fe_world *world, const fe_body_def *descs, uint32_t stride, int32_t count, fe_body *out_bodies);
+/// Destroys its shapes and joints too; pairs that touched send their exit with the next step's events.
+FE_API fe_result fe_body_destroy(fe_world *world, fe_body body);
+/// All or none: one stale handle, or one given twice, and none is destroyed.
+FE_API fe_result fe_body_destroy_many(fe_world *world, const fe_body *bodies, int32_t count);
+/// 1 for a living body of this world, 0 for anything else.
+FE_API int32_t fe_body_is_valid(const fe_world *world, fe_body body);
+
+FE_API fe_result fe_body_set_type(fe_world *world, fe_body body, int32_t type);
+FE_API fe_result fe_body_get_type(const fe_world *world, fe_body body, int32_t *out_type);
+/// Puts the body there at once, through whatever is between, and wakes it and what it touched.
+FE_API fe_result fe_body_set_transform(fe_world *world, fe_body body, const fe_transform *transform);
+FE_API fe_result fe_body_get_transform(const fe_world *world, fe_body body, fe_transform *out_transform);
+/// Centre of mass, m, world space.
+FE_API fe_result fe_body_get_centre(const fe_world *world, fe_body body, fe_dvec3 *out_centre);
+/// Of the centre of mass, m/s. Setting a velocity wakes the body; what is locked stays 0. FE_ERROR_STATE on a static body.
+FE_API fe_result fe_body_set_linear_velocity(fe_world *world, fe_body body, const fe_vec3 *velocity);
+FE_API fe_result fe_body_get_linear_velocity(const fe_world *world, fe_body body, fe_vec3 *out_velocity);
+/// rad/s, world axes.
+FE_API fe_result fe_body_set_angular_velocity(fe_world *world, fe_body body, const fe_vec3 *velocity);
+FE_API fe_result fe_body_get_angular_velocity(const fe_world *world, fe_body body, fe_vec3 *out_velocity);
+/// Of the material point now at `point`, m/s.
+FE_API fe_result fe_body_get_point_velocity(const fe_world *world, fe_body body, const fe_dvec3 *point, fe_vec3 *out_velocity);
+/// Gives a kinematic body the velocities that bring it to `target` in `seconds`. FE_ERROR_STATE on other types.
+/// @param seconds  > 0
+FE_API fe_result fe_body_set_target(fe_world *world, fe_body body, const fe_transform *target, float seconds);
+
+/// Force at the centre of mass, N, world axes, during all of the next step only. Wakes the body; on a body that is not dynamic, nothing.
+FE_API fe_result fe_body_add_force(fe_world *world, fe_body body, const fe_vec3 *force);
+/// Force at a point of the world, N; its torque is the one of that point now.
+FE_API fe_result fe_body_add_force_at(fe_world *world, fe_body body, const fe_vec3 *force, const fe_dvec3 *point);
+/// N m, world axes, during all of the next step only.
+FE_API fe_result fe_body_add_torque(fe_world *world, fe_body body, const fe_vec3 *torque);
+/// Changes the velocity at once by impulse / mass. N s.
+FE_API fe_result fe_body_add_impulse(fe_world *world, fe_body body, const fe_vec3 *impulse);
+FE_API fe_result fe_body_add_impulse_at(fe_world *world, fe_body body, const fe_vec3 *impulse, const fe_dvec3 *point);
+/// N m s.
+FE_API fe_result fe_body_add_angular_impulse(fe_world *world, fe_body body, const fe_vec3 *impulse);
+
+typedef struct fe_mass_data {
+    uint32_t struct_size;
+    float mass;             ///< kg, > 0
+    fe_vec3 centre;         ///< of mass, m, body space
+    fe_vec3 inertia;        ///< principal moments about the centre of mass, kg m2, > 0, none above the sum of the other two
+    fe_quat inertia_rotation; ///< principal axes in body space
+} fe_mass_data;
+
+/// Overrides what the shapes give, until fe_body_reset_mass. FE_ERROR_STATE on a body that is not dynamic.
+FE_API fe_result fe_body_set_mass_data(fe_world *world, fe_body body, const fe_mass_data *data);
+/// What the solver uses. @param out_data  its struct_size must be set
+FE_API fe_result fe_body_get_mass_data(const fe_world *world, fe_body body, fe_mass_data *out_data);
+/// Sets the mass, kg, > 0, and scales the inertia with it; overrides until fe_body_reset_mass.
+FE_API fe_result fe_body_set_mass(fe_world *world, fe_body body, float mass);
+/// kg; 0 for a body that is not dynamic.
+FE_API fe_result fe_body_get_mass(const fe_world *world, fe_body body, float *out_mass);
+/// Mass and inertia from the shapes and their densities again.
+FE_API fe_result fe_body_reset_mass(fe_world *world, fe_body body);
+
+/// World axes along and around which the body cannot move: its coordinates there stay bit for bit, and the solver knows. FE_AXIS_*.
+FE_API fe_result fe_body_set_locks(fe_world *world, fe_body body, uint32_t linear_axes, uint32_t angular_axes);
+FE_API fe_result fe_body_get_locks(const fe_world *world, fe_body body, uint32_t *out_linear_axes, uint32_t *out_angular_axes);
+/// 1/s, >= 0.
+FE_API fe_result fe_body_set_damping(fe_world *world, fe_body body, float linear, float angular);
+FE_API fe_result fe_body_get_damping(const fe_world *world, fe_body body, float *out_linear, float *out_angular);
+FE_API fe_result fe_body_set_gravity_scale(fe_world *world, fe_body body, float scale);
+FE_API fe_result fe_body_get_gravity_scale(const fe_world *world, fe_body body, float *out_scale);
+/// Waking a body wakes all it touches; putting it to sleep stops it (FE_ERROR_STATE while it touches an awake moving body).
+FE_API fe_result fe_body_set_awake(fe_world *world, fe_body body, int32_t awake);
+/// 1 awake, 0 asleep; static bodies are never awake.
+FE_API fe_result fe_body_get_awake(const fe_world *world, fe_body body, int32_t *out_awake);
+FE_API fe_result fe_body_set_sleep_allowed(fe_world *world, fe_body body, int32_t allowed);
+FE_API fe_result fe_body_get_sleep_allowed(const fe_world *world, fe_body body, int32_t *out_allowed);
+/// m/s, >= 0.
+FE_API fe_result fe_body_set_sleep_threshold(fe_world *world, fe_body body, float speed);
+FE_API fe_result fe_body_get_sleep_threshold(const fe_world *world, fe_body body, float *out_speed);
+/// A disabled body keeps its place but neither moves, nor collides, nor is seen by queries. Its touching pairs send their exit.
+FE_API fe_result fe_body_set_enabled(fe_world *world, fe_body body, int32_t enabled);
+FE_API fe_result fe_body_get_enabled(const fe_world *world, fe_body body, int32_t *out_enabled);
+FE_API fe_result fe_body_set_bullet(fe_world *world, fe_body body, int32_t bullet);
+FE_API fe_result fe_body_get_bullet(const fe_world *world, fe_body body, int32_t *out_bullet);
+FE_API fe_result fe_body_set_user_data(fe_world *world, fe_body body, fe_handle user_data);
+FE_API fe_result fe_body_get_user_data(const fe_world *world, fe_body body, fe_handle *out_user_data);
+/// Layer and mask of all its shapes (see fe_shape_def). FE_ERROR_STATE when it has none.
+FE_API fe_result fe_body_set_filter(fe_world *world, fe_body body, uint32_t layer, uint32_t mask);
+/// Its shapes in the order of creation.
+FE_API int32_t fe_body_get_shapes(const fe_world *world, fe_body body, fe_shape *out_shapes, int32_t capacity);
+
+// ---- shapes -------------------------------------------------------------------------------------------------------------------
+
+typedef enum fe_geometry_type {
+    FE_GEOMETRY_SPHERE = 0,  ///< radius
+    FE_GEOMETRY_CAPSULE = 1, ///< half_height of the axis, along local Y, and radius
+    FE_GEOMETRY_BOX = 2,     ///< half_extents
+    FE_GEOMETRY_PLANE = 3,   ///< the half space normal . p <= distance; static bodies only
+    FE_GEOMETRY_TYPE_FORCE32 = 0x7fffffff
+} fe_geometry_type;
+
+/// The form of a shape, in the shape's frame, m. Every length lies in [0.001, 100000].
+typedef struct fe_geometry {
+    uint32_t struct_size;
+    int32_t type; ///< fe_geometry_type
+    float radius;
+    float half_height;
+    fe_vec3 half_extents;
+    fe_vec3 normal; ///< any length but zero
+    float distance;
+} fe_geometry;
+
+/// Fills a geometry; what is out of range is found where the geometry is used. NULL does nothing.
+FE_API void fe_geometry_sphere(fe_geometry *out_geometry, float radius);
+FE_API void fe_geometry_capsule(fe_geometry *out_geometry, float half_height, float radius);
+FE_API void fe_geometry_box(fe_geometry *out_geometry, float half_x, float half_y, float half_z);
+FE_API void fe_geometry_plane(fe_geometry *out_geometry, float normal_x, float normal_y, float normal_z, float distance);
+
+/// Two materials mix: friction sqrt(a b), the other three max(a, b).
+typedef struct fe_material {
+    float static_friction;     ///< while the contact sticks, >= 0. Default 0.6
+    float dynamic_friction;    ///< when it slides, >= 0. Default 0.5
+    float restitution;         ///< 0..1. Default 0
+    float rolling_resistance;  ///< no unit, >= 0: torque cap = it x radius x normal force. Default 0
+    float spinning_resistance; ///< m, >= 0: torque cap about the normal = it x normal force. Default 0
+} fe_material;
+
+typedef enum fe_shape_events {
+    FE_EVENTS_NONE = 0,
+    FE_EVENTS_TOUCH = 1, ///< enter and exit
+    FE_EVENTS_STAY = 2,  ///< every step while it lasts
+    FE_EVENTS_HIT = 4,   ///< impacts above fe_world_tuning.hit_event_threshold
+    FE_SHAPE_EVENTS_FORCE32 = 0x7fffffff
+} fe_shape_events;
+
+typedef struct fe_shape_def {
+    uint32_t struct_size;
+    float density;           ///< kg/m3, >= 0. Default 1000
+    fe_vec3 local_position;  ///< in the body's frame, m
+    fe_quat local_rotation;
+    fe_material material;
+    uint32_t layer;          ///< exactly one bit. Default 1
+    uint32_t mask;           ///< the layers it collides with; 0: seen by queries only. Default all
+    int32_t trigger;         ///< 1: reports what it touches and pushes nothing. Default 0
+    uint32_t events;         ///< fe_shape_events; a pair has what either shape asks for. Default FE_EVENTS_TOUCH
+    fe_vec3 surface_velocity; ///< of a conveyor belt, m/s, shape frame; only its part along the contact acts
+    fe_handle user_data;
+} fe_shape_def;
+
+FE_API void fe_shape_def_init(fe_shape_def *desc, uint32_t struct_size);
+/// Two shapes collide when each one's layer is in the other's mask. Mass and inertia of the body follow.
+/// @param desc  NULL: the defaults
+/// @return FE_ERROR_UNSUPPORTED for a plane on a body that is not static
+FE_API fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *desc, const fe_geometry *geometry, fe_shape *out_shape);
+FE_API fe_result fe_shape_destroy(fe_world *world, fe_shape shape);
+FE_API int32_t fe_shape_is_valid(const fe_world *world, fe_shape shape);
+FE_API fe_result fe_shape_get_body(const fe_world *world, fe_shape shape, fe_body *out_body);
+FE_API fe_result fe_shape_set_geometry(fe_world *world, fe_shape shape, const fe_geometry *geometry);
+/// @param out_geometry  its struct_size must be set
+FE_API fe_result fe_shape_get_geometry(const fe_world *world, fe_shape shape, fe_geometry *out_geometry);
+FE_API fe_result fe_shape_set_local_pose(fe_world *world, fe_shape shape, const fe_vec3 *position, const fe_quat *rotation);
+FE_API fe_result fe_shape_get_local_pose(const fe_world *world, fe_shape shape, fe_vec3 *out_position, fe_quat *out_rotation);
+FE_API fe_result fe_shape_set_density(fe_world *world, fe_shape shape, float density);
+FE_API fe_result fe_shape_get_density(const fe_world *world, fe_shape shape, float *out_density);
+FE_API fe_result fe_shape_set_material(fe_world *world, fe_shape shape, const fe_material *material);
+FE_API fe_result fe_shape_get_material(const fe_world *world, fe_shape shape, fe_material *out_material);
+/// Takes effect at the next step. @param layer  exactly one bit
+FE_API fe_result fe_shape_set_filter(fe_world *world, fe_shape shape, uint32_t layer, uint32_t mask);
+FE_API fe_result fe_shape_get_filter(const fe_world *world, fe_shape shape, uint32_t *out_layer, uint32_t *out_mask);
+FE_API fe_result fe_shape_set_trigger(fe_world *world, fe_shape shape, int32_t trigger);
+FE_API fe_result fe_shape_get_trigger(const fe_world *world, fe_shape shape, int32_t *out_trigger);
+FE_API fe_result fe_shape_set_events(fe_world *world, fe_shape shape, uint32_t events);
+FE_API fe_result fe_shape_get_events(const fe_world *world, fe_shape shape, uint32_t *out_events);
+FE_API fe_result fe_shape_set_surface_velocity(fe_world *world, fe_shape shape, const fe_vec3 *velocity);
+FE_API fe_result fe_shape_get_surface_velocity(const fe_world *world, fe_shape shape, fe_vec3 *out_velocity);
+FE_API fe_result fe_shape_set_user_data(fe_world *world, fe_shape shape, fe_handle user_data);
+FE_API fe_result fe_shape_get_user_data(const fe_world *world, fe_shape shape, fe_handle *out_user_data);
+
+// ---- queries ------------------------------------------------------------------------------------------------------------------
+
+typedef enum fe_query_flags {
+    FE_QUERY_DEFAULT = 0,
+    FE_QUERY_TRIGGERS = 1, ///< triggers count too
+    FE_QUERY_FLAGS_FORCE32 = 0x7fffffff
+} fe_query_flags;
+
+/// Who counts. NULL for every layer, without triggers.
+typedef struct fe_query_filter {
+    uint32_t struct_size;
+    uint32_t mask;           ///< layers that count
+    uint32_t flags;          ///< fe_query_flags
+    int32_t excluded_count;
+    const fe_body *excluded; ///< bodies that do not count; stale ones are ignored
+} fe_query_filter;
+
+FE_API void fe_query_filter_init(fe_query_filter *filter, uint32_t struct_size);
+
+typedef enum fe_hit_flags {
+    FE_HIT_STARTED_INSIDE = 1,
+    FE_HIT_FLAGS_FORCE32 = 0x7fffffff
+} fe_hit_flags;
+
+typedef struct fe_hit {
+    fe_body body;
+    fe_shape shape;
+    fe_dvec3 point;   ///< m, world space
+    double fraction;  ///< 0..1 of the translation
+    fe_vec3 normal;   ///< unit, out of the body; against the direction when started inside
+    int32_t triangle; ///< of a heightfield, else -1
+    float depth;      ///< when started inside, m, else 0
+    uint32_t flags;   ///< fe_hit_flags
+} fe_hit;
+
+/// The first body on a segment.
+///
+/// Exact on every shape. At equal fractions the body created first wins, whatever the number of workers.
+/// @param origin       start, m, world space
+/// @param translation  from the start to the end, m; zero asks whether the start is inside a shape
+/// @param filter       who counts; NULL: every layer, no triggers
+/// @param out_hit      written only when FE_OK is returned
+/// @return FE_OK on a hit, FE_MISS
+FE_API fe_result fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
+                                  fe_hit *out_hit);
+
+// ---- after the step: events, contacts, bulk reads ---------------------------------------------------------------------------------
+
+typedef enum fe_event_kind {
+    FE_ENTER = 1,
+    FE_STAY = 2,
+    FE_EXIT = 3,
+    FE_SLEEP = 4,
+    FE_WAKE = 5,
+    FE_EVENT_KIND_FORCE32 = 0x7fffffff
+} fe_event_kind;
+
+/// Two shapes began, went on, or ceased to touch: a point had an impulse, or a gap of 0 or less, during the step. A is the body created
+/// first. After the exit caused by a destruction, the handles of what was destroyed are stale.
+typedef struct fe_pair_event {
+    fe_body body_a, body_b;
+    fe_shape shape_a, shape_b;
+    int32_t kind;       ///< FE_ENTER, FE_STAY, FE_EXIT
+    int32_t is_trigger; ///< 1 when either is a trigger
+} fe_pair_event;
+
+/// Events of the last step, ordered by the creation of A, then B.
+FE_API int32_t fe_world_get_pair_events(const fe_world *world, fe_pair_event *out_events, uint32_t stride, int32_t capacity);
+
+typedef struct fe_body_event {
+    fe_body body;
+    int32_t kind; ///< FE_SLEEP, FE_WAKE
+    int32_t reserved;
+} fe_body_event;
+
+FE_API int32_t fe_world_get_body_events(const fe_world *world, fe_body_event *out_events, uint32_t stride, int32_t capacity);
+
+typedef struct fe_hit_event {
+    fe_body body_a, body_b;
+    fe_shape shape_a, shape_b;
+    fe_dvec3 point;  ///< m, world space
+    fe_vec3 normal;  ///< from A to B
+    float speed;     ///< of approach, m/s
+    float impulse;   ///< of the step, along the normal, N s
+    int32_t reserved;
+} fe_hit_event;
+
+FE_API int32_t fe_world_get_hit_events(const fe_world *world, fe_hit_event *out_events, uint32_t stride, int32_t capacity);
+
+typedef struct fe_contact_point {
+    fe_dvec3 point;       ///< between the surfaces, m, world space
+    float separation;     ///< m, negative when they overlap
+    float normal_impulse; ///< of the last step's end, per substep, N s
+    float total_impulse;  ///< along the normal, over the whole last step, bounces included, N s
+    uint32_t id;          ///< of the features that meet; stays while they do
+} fe_contact_point;
+
+typedef struct fe_contact {
+    fe_body body_a, body_b;
+    fe_shape shape_a, shape_b;
+    fe_vec3 normal;           ///< unit, from A to B
+    int32_t point_count;      ///< 1..4
+    fe_contact_point points[4];
+    fe_vec3 friction_impulse; ///< on B, of the last substep, N s
+    float twist_impulse;      ///< on B, about the normal, N m s
+} fe_contact;
+
+/// The contacts of a body: pairs with at least one point within the speculative distance. Triggers have none.
+FE_API int32_t fe_body_get_contacts(const fe_world *world, fe_body body, fe_contact *out_contacts, uint32_t stride, int32_t capacity);
+FE_API int32_t fe_shape_get_contacts(const fe_world *world, fe_shape shape, fe_contact *out_contacts, uint32_t stride, int32_t capacity);
+
+/// The bodies that the last step moved, in the order of creation, and where they are now.
+/// @param out_transforms  or NULL; `stride` bytes apart (0: packed)
+FE_API int32_t fe_world_get_moved(const fe_world *world, fe_body *out_bodies, fe_transform *out_transforms, uint32_t stride, int32_t capacity);
+/// All or none. @param stride  bytes from one transform to the next, 0: packed
+FE_API fe_result fe_world_get_transforms(const fe_world *world, const fe_body *bodies, fe_transform *out_transforms, uint32_t stride, int32_t count);
+FE_API fe_result fe_world_set_transforms(fe_world *world, const fe_body *bodies, const fe_transform *transforms, uint32_t stride, int32_t count);
+/// Position relative to `origin` and rotation, 7 floats a body: x y z, x y z w. @param stride  bytes, 0: packed
+FE_API fe_result fe_world_get_transforms_f32(const fe_world *world, const fe_body *bodies, const fe_dvec3 *origin, float *out_floats, uint32_t stride,
+                                             int32_t count);
+/// Linear, then angular velocity, 6 floats a body. @param stride  bytes, 0: packed
+FE_API fe_result fe_world_get_velocities(const fe_world *world, const fe_body *bodies, float *out_floats, uint32_t stride, int32_t count);
+FE_API fe_result fe_world_set_velocities(fe_world *world, const fe_body *bodies, const float *floats, uint32_t stride, int32_t count);
+/// Force at the centre, N, then torque, N m, 6 floats a body, during the next step. @param stride  bytes, 0: packed
+FE_API fe_result fe_world_add_forces(fe_world *world, const fe_body *bodies, const float *floats, uint32_t stride, int32_t count);
+
+#ifdef __cplusplus
+}
+#endif
+
+// ---- sugar for C and C++, no part of the ABI ---------------------------------------------------------------------------------------
+#ifndef SWIG
+
+static inline fe_vec3 fe_make_vec3(float x, float y, float z)
+{
+    fe_vec3 a;
+    a.x = x, a.y = y, a.z = z;
+    return a;
+}
+
+static inline fe_dvec3 fe_make_dvec3(double x, double y, double z)
+{
+    fe_dvec3 a;
+    a.x = x, a.y = y, a.z = z;
+    return a;
+}
+
+/// No rotation, at a position.
+static inline fe_transform fe_make_transform(double x, double y, double z)
+{
+    fe_transform t;
+    t.position = fe_make_dvec3(x, y, z);
+    t.rotation.x = t.rotation.y = t.rotation.z = 0.0f, t.rotation.w = 1.0f;
+    return t;
+}
+
+/// Where a body is; the origin when the handle is stale.
+static inline fe_transform fe_body_transform(const fe_world *world, fe_body body)
+{
+    fe_transform t = fe_make_transform(0, 0, 0);
+    (void)fe_body_get_transform(world, body, &t);
+    return t;
+}
+
+static inline fe_vec3 fe_body_linear_velocity(const fe_world *world, fe_body body)
+{
+    fe_vec3 v = fe_make_vec3(0, 0, 0);
+    (void)fe_body_get_linear_velocity(world, body, &v);
+    return v;
+}
+
+static inline fe_vec3 fe_body_angular_velocity(const fe_world *world, fe_body body)
+{
+    fe_vec3 w = fe_make_vec3(0, 0, 0);
+    (void)fe_body_get_angular_velocity(world, body, &w);
+    return w;
+}
+
+#endif
+#endif

@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# What the tests (tools/deps.sh test) and the bench (tools/deps.sh all) need beyond the C compiler: installs what is missing with apt where it
+# may, and otherwise says what to install and fails. Needs are tried out, not looked up by package name.
+set -uo pipefail
+wanted=${1:-all}
+CC=${CC:-cc} CXX=${CXX:-c++}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+echo 'int main(void) { return 0; }' > "$work/empty.c"
+cp "$work/empty.c" "$work/empty.cpp"
+printf '#include <stdarg.h>\n#include <stddef.h>\n#include <setjmp.h>\n#include <stdint.h>\n#include <cmocka.h>\nint main(void) { return 0; }\n' > "$work/cmocka.c"
+
+has() { command -v "$1" > /dev/null; }
+links() { "$@" -o "$work/program" > /dev/null 2>&1; }
+
+# Prints the missing packages, by their Debian names.
+missing() {
+    has gcc && links gcc "$work/empty.c" || echo gcc libc6-dev
+    has clang && links clang "$work/empty.c" || echo clang
+    links "$CXX" "$work/empty.cpp" || echo g++
+    has objdump || echo binutils
+    links "$CC" "$work/cmocka.c" -lcmocka || echo libcmocka-dev
+    links "$CC" -fsanitize=address,undefined "$work/empty.c" && links "$CC" -fsanitize=thread "$work/empty.c" ||
+        echo "$("$CC" --version | awk '/clang/ && match($0, /version [0-9]+/) { print "libclang-rt-" substr($0, RSTART + 8, RLENGTH - 8) "-dev" }')"
+    has cmake || echo cmake
+    has pkg-config || echo pkg-config
+    has valgrind || echo valgrind
+    if test "$wanted" = all; then
+        pkg-config --exists bullet 2> /dev/null || echo libbullet-dev
+        pkg-config --exists ode 2> /dev/null || echo libode-dev
+        has clang-format || echo clang-format
+    fi
+}
+
+as_root() {
+    if test "$(id -u)" = 0; then "$@"; else sudo -n "$@"; fi
+}
+install_packages() {
+    has apt-get && { test "$(id -u)" = 0 || sudo -n true 2> /dev/null; } || return 1
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@" > "$work/log" 2>&1 && return
+    as_root apt-get update >> "$work/log" 2>&1
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@" >> "$work/log" 2>&1 || { tail -5 "$work/log"; return 1; }
+}
+
+packages=$(missing | sort -u | xargs)
+if test -z "$packages"; then exit 0; fi
+echo "installing: $packages"
+# shellcheck disable=SC2086
+install_packages $packages
+packages=$(missing | sort -u | xargs)
+if test -z "$packages"; then exit 0; fi
+echo "*** MISSING, please install (names of Debian packages): $packages"
+exit 1
