@@ -216,8 +216,10 @@ uninstall:
 deps:
 	@tools/deps.sh all
 
+# Without the records of the ABI, which stay as they were written.
+FORMATTED = $(foreach top,src tests bench examples,$(foreach ext,c h cpp,$(foreach depth,* */* */*/*,$(wildcard $(top)/$(depth).$(ext)))))
 format:
-	$(CLANG_FORMAT) -i $(wildcard include/*.h $(foreach top,src tests bench examples,$(foreach ext,c h cpp,$(foreach depth,* */* */*/*,$(top)/$(depth).$(ext)))))
+	$(CLANG_FORMAT) -i include/feather.h $(filter-out tests/abi/feather_% tests/abi/layout.h,$(FORMATTED))
 
 clean:
 	rm -rf $(BUILD)

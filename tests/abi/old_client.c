@@ -1,25 +1,25 @@
-// A program written for version 1.0, compiled with that version's header and linked with today's library. Each struct has its old size; what
-// lies behind it must stay as it was.
+// A program written for version 1.0, compiled with that version's header and linked with today's library. Each struct has its old size;
+// what lies behind it must stay as it was.
 #include "feather_1_0.h"
 #include <stdio.h>
 #include <string.h>
 
 enum { STEPS = 120, CANARY = 0xA5 };
 
-#define CHECK(condition)                                                                                                                   \
-    do {                                                                                                                                   \
-        if (!(condition)) {                                                                                                                \
-            printf("line %d: %s; last error: %s\n", __LINE__, #condition, fe_last_error());                                                \
-            return 1;                                                                                                                      \
-        }                                                                                                                                  \
+#define CHECK(condition)                                                                    \
+    do {                                                                                    \
+        if (!(condition)) {                                                                 \
+            printf("line %d: %s; last error: %s\n", __LINE__, #condition, fe_last_error()); \
+            return 1;                                                                       \
+        }                                                                                   \
     } while (0)
 
 // Room behind the old struct, where a library that thinks it is longer would write.
-#define GUARDED(type, name)                                                                                                                \
-    struct {                                                                                                                               \
-        type value;                                                                                                                        \
-        unsigned char canary[64];                                                                                                          \
-    } name;                                                                                                                                \
+#define GUARDED(type, name)       \
+    struct {                      \
+        type value;               \
+        unsigned char canary[64]; \
+    } name;                       \
     memset(&name, CANARY, sizeof name)
 
 static int intact(const unsigned char *canary)
