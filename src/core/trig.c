@@ -134,8 +134,13 @@ double fe__atan2(double y, double x)
     return y < 0.0 ? -angle : angle;
 }
 
-// The cosine of asin(x) and the sine of acos(x). The product form keeps its digits near |x| = 1, where 1 - x^2 would lose them.
-static double other_leg(double x) { return sqrt((1.0 - x) * (1.0 + x)); }
+// sqrt(1 - x^2), the cosine of asin(x) and the sine of acos(x), to 1 unit in the last place. Beyond 1/2, where x^2 would take digits from
+// the difference, 1 - x is exact and the product keeps them.
+static double other_leg(double x)
+{
+    if (fe__absd(x) <= 0.5) return sqrt(1.0 - x * x);
+    return sqrt((1.0 - x) * (1.0 + x));
+}
 
 double fe__asin(double x)
 {

@@ -1,8 +1,8 @@
 // trig.h - sine, cosine and their inverses, the same bits on every machine: IEEE + - * / and sqrt in a fixed order, no libm.
 //
-// Errors: at most 1 unit in the last place of the sine and cosine for |x| <= 1e5, 2 units of the inverse functions. The float versions
-// compute in double and round once. A NaN gives a NaN. Zeros have no sign here: -0 is taken, or given, as +0 where the standard library
-// would tell them apart.
+// Errors: at most 1 unit in the last place of the sine and cosine for |x| <= 1e5, 2 units of the arc tangent, and 3 of arc sine and cosine,
+// which reach it through one more rounded number. The float versions compute in double and round once. A NaN gives a NaN. Zeros have no
+// sign here: -0 is taken, or given, as +0 where the standard library would tell them apart.
 #ifndef FE_CORE_TRIG_H
 #define FE_CORE_TRIG_H
 #include <stdint.h>
