@@ -1,11 +1,12 @@
 // tree.h - an 8-wide tree of boxes, for pairs and rays.
 //
-// A node has 8 lanes; a lane holds a box and a child: an inner node (>= 0), a proxy (~child), or nothing (FE_TREE_EMPTY, with an inside-out box
-// that no test ever hits). There are no leaf objects: a proxy's box is tested side by side with its neighbours'. A proxy is an index of the
-// caller's (a shape). Boxes are floats relative to `origin`, rounded outwards: a test may say "meets" too often, never too seldom, and what
-// decides is the caller's exact test. So the tree's form is invisible in every answer.
+// A node has 8 lanes; a lane holds a box and a child: an inner node (>= 0), a proxy (~child), or nothing (FE_TREE_EMPTY, with an inside-out
+// box that no test ever hits). There are no leaf objects: a proxy's box is tested side by side with its neighbours'. A proxy is an index of
+// the caller's (a shape). Boxes are floats relative to `origin`, rounded outwards: a test may say "meets" too often, never too seldom, and
+// what decides is the caller's exact test. So the tree's form is invisible in every answer.
 //
-// Invariant: a node's index is above its parent's (nodes are appended between builds), so that one backward pass refits the tree.
+// Invariants: a node's index is above its parent's (nodes are appended between builds), so that one backward pass refits the tree; every
+// node but the root has at least two children, so that there are fewer nodes than proxies.
 #ifndef FE_BROADPHASE_TREE_H
 #define FE_BROADPHASE_TREE_H
 #include "collision/form.h"
@@ -20,20 +21,24 @@ typedef struct fe__tree_node {
     int32_t parent, lane; // parent -1: the root, or dead
     int32_t spare[6];
 } fe__tree_node;
+_Static_assert(sizeof(fe__tree_node) == 256, "four cache lines");
 
+// All zeros is an empty tree.
 typedef struct fe__tree {
-    fe__tree_node *nodes;
+    fe__tree_node *nodes; // the root is the first
     int32_t node_count, node_capacity, dead;
     int32_t *slot; // of a proxy: node * 8 + lane, -1: not in this tree
     int32_t slot_capacity;
     int32_t proxy_count;
-    float built_cost;
+    int32_t depth;    // no node is deeper; the root's is 0
+    float built_cost; // when it was last built, 0: never
     fe_dvec3 origin;
 } fe__tree;
 
 void fe__tree_destroy(fe__tree *tree, fe__memory *memory);
 // Room for `extra` more proxies with indices below `limit`: the insertions that follow cannot fail. 0: no memory, nothing changed.
 int32_t fe__tree_reserve(fe__tree *tree, fe__memory *memory, int32_t limit, int32_t extra);
+// Bounds are finite, low <= high.
 void fe__tree_insert(fe__tree *tree, int32_t proxy, const fe__bounds *fat);
 void fe__tree_remove(fe__tree *tree, int32_t proxy);
 // 1 while `tight` lies in the proxy's box: reads only, any thread
@@ -41,18 +46,20 @@ int32_t fe__tree_holds(const fe__tree *tree, int32_t proxy, const fe__bounds *ti
 void fe__tree_get(const fe__tree *tree, int32_t proxy, fe__bounds *out_box);
 // New boxes for `count` proxies; refits what is above them (all nodes at once when many moved).
 void fe__tree_move(fe__tree *tree, const int32_t *proxies, const fe__bounds *fat, int32_t count);
-// Builds anew when the tree has degenerated (cost, dead nodes, depth), or always when `force`. Needs scratch memory: 0 when there is none, and the
-// tree stays as it was.
+// Builds anew when the tree has degenerated (cost, dead nodes, depth, an origin far off), or always when `force`. Needs scratch memory: 0
+// when there is none, and the tree stays as it was. What was reserved stays reserved.
 int32_t fe__tree_rebuild(fe__tree *tree, fe__memory *memory, int32_t force);
 
-// Proxies whose boxes meet `box`. Depth first; the order is the tree's, so the caller sorts what it keeps. `visit` returns 0 to stop.
+// Proxies whose boxes meet `box`, each once. Depth first; the order is the tree's, so the caller sorts what it keeps. `visit` returns 0 to
+// stop and must not change the tree. Reads only, any thread.
 typedef int32_t (*fe__tree_visit)(void *context, int32_t proxy);
 void fe__tree_query(const fe__tree *tree, const fe__bounds *box, fe__tree_visit visit, void *context);
-// the same against the box the proxy has in `of` (margins included)
+// the same against the box the proxy has in `of` (margins included), which may be the same tree: then the proxy itself is visited too
 void fe__tree_query_proxy(const fe__tree *tree, const fe__tree *of, int32_t proxy, fe__tree_visit visit, void *context);
 
-// Proxies whose boxes meet origin + t * translation, 0 <= t <= limit, nearest boxes first. `visit` gets the limit and returns the new one (never
-// greater). Boxes at exactly the limit are still visited, so that ties can be decided by the caller.
+// Proxies whose boxes meet origin + t * translation, 0 <= t <= limit <= 1, each once, of a node's children the nearest first. `visit` gets
+// the limit and returns the new one (never greater; below 0 stops). Boxes at exactly the limit are still visited, so that ties can be
+// decided by the caller. Returns the last limit. Reads only, any thread.
 typedef double (*fe__tree_ray_visit)(void *context, int32_t proxy, double limit);
 double fe__tree_ray(const fe__tree *tree, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__tree_ray_visit visit, void *context);
 

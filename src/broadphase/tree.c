@@ -1,0 +1,79 @@
+// tree.c - the tree's memory, and what a single proxy's box is.
+//
+// tree_change.c inserts, removes and moves; tree_build.c builds; tree_query.c and tree_ray.c ask.
+#include "broadphase/tree.h"
+
+#include "broadphase/tree_node.h"
+
+void fe__tree_destroy(fe__tree *tree, fe__memory *memory)
+{
+    FE_FREE(memory, tree->nodes, tree->node_capacity);
+    FE_FREE(memory, tree->slot, tree->slot_capacity);
+    *tree = (fe__tree){0};
+}
+
+// Closes the gaps that dead nodes left. The order stays, so a node's index stays above its parent's.
+static void compact(fe__tree *tree)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < tree->node_count; ++i) {
+        fe__tree_node *node = &tree->nodes[i];
+        if (i > 0 && node->parent < 0) continue;
+        int32_t to = count++;
+        if (to == i) continue;
+        tree->nodes[to] = *node;
+        tree->nodes[node->parent].child[node->lane] = to;
+        for (int32_t lane = 0; lane < FE_TREE_WIDTH; ++lane) {
+            int32_t child = node->child[lane];
+            if (child >= 0)
+                tree->nodes[child].parent = to;
+            else if (child != FE_TREE_EMPTY)
+                tree->slot[~child] = to * FE_TREE_WIDTH + lane;
+        }
+    }
+    tree->node_count = count;
+    tree->dead = 0;
+}
+
+// An insertion makes one node at most.
+int32_t fe__tree_reserve(fe__tree *tree, fe__memory *memory, int32_t limit, int32_t extra)
+{
+    int32_t known = tree->slot_capacity;
+    if (!FE_RESERVE(memory, tree->slot, tree->slot_capacity, limit)) return 0;
+    for (int32_t i = known; i < tree->slot_capacity; ++i) tree->slot[i] = -1;
+
+    int64_t need = (int64_t)tree->node_count + extra;
+    if (need <= tree->node_capacity) return 1;
+    // a quarter is worth a pass; less is not, or pairs of insertion and removal could ask for one each time
+    if (tree->dead > tree->node_count / 4) {
+        compact(tree);
+        need = (int64_t)tree->node_count + extra;
+    }
+    return FE_RESERVE(memory, tree->nodes, tree->node_capacity, need);
+}
+
+int32_t fe__tree_holds(const fe__tree *tree, int32_t proxy, const fe__bounds *tight)
+{
+    int32_t slot = tree->slot[proxy];
+    fe__tree_box fat = fe__lane_box(&tree->nodes[slot / FE_TREE_WIDTH], slot % FE_TREE_WIDTH);
+    fe__tree_box box = fe__tree_box_of(&tree->origin, tight);
+    fe__quad_int in = (fat.low <= box.low) & (box.high <= fat.high); // the fourth lane is 0 in all
+    return fe__quad_signs(in) == 15u;
+}
+
+// The sum of origin and offset rounds, too: one unit in the last place to the side of `sign`.
+static fe_dvec3 outwards(fe_dvec3 p, double sign)
+{
+    double k = sign * DBL_EPSILON;
+    return (fe_dvec3){p.x + k * fe__absd(p.x), p.y + k * fe__absd(p.y), p.z + k * fe__absd(p.z)};
+}
+
+void fe__tree_get(const fe__tree *tree, int32_t proxy, fe__bounds *out_box)
+{
+    int32_t slot = tree->slot[proxy];
+    fe__tree_box box = fe__lane_box(&tree->nodes[slot / FE_TREE_WIDTH], slot % FE_TREE_WIDTH);
+    fe_dvec3 low = {(double)box.low[0], (double)box.low[1], (double)box.low[2]};
+    fe_dvec3 high = {(double)box.high[0], (double)box.high[1], (double)box.high[2]};
+    out_box->low = outwards(fe__dadd(tree->origin, low), -1.0);
+    out_box->high = outwards(fe__dadd(tree->origin, high), 1.0);
+}

@@ -1,0 +1,106 @@
+// tree_node.h - what the tree's files share: boxes as floats rounded outwards, and the eight boxes of a node at once.
+//
+// Why no test misses: a coordinate is moved outwards by 2^-23 of itself, which is more than the roundings of the subtraction of the origin
+// and of the conversion to float together, and by FE_TREE_PAD, which is more than a denormal's error. Beyond FE_TREE_FAR the outer side is
+// put at
+// +-FLT_MAX: the areas of what is nearer stay finite.
+#ifndef FE_BROADPHASE_TREE_NODE_H
+#define FE_BROADPHASE_TREE_NODE_H
+#include "broadphase/lanes.h"
+#include "broadphase/tree.h"
+
+#include <float.h>
+
+#define FE_TREE_ULP 0x1p-23 // relative
+#define FE_TREE_PAD 1e-30   // m
+#define FE_TREE_FAR 1e15    // m from the tree's origin
+
+// x y z of a box relative to the tree's origin; the fourth lane means nothing
+typedef struct fe__tree_box {
+    fe__quad low, high;
+} fe__tree_box;
+
+static inline float fe__tree_round_down(double x)
+{
+    double y = x - (fe__absd(x) * FE_TREE_ULP + FE_TREE_PAD);
+    return x > FE_TREE_FAR ? (float)FE_TREE_FAR : x < -FE_TREE_FAR ? -FLT_MAX : (float)y;
+}
+static inline float fe__tree_round_up(double x)
+{
+    double y = x + (fe__absd(x) * FE_TREE_ULP + FE_TREE_PAD);
+    return x > FE_TREE_FAR ? FLT_MAX : x < -FE_TREE_FAR ? -(float)FE_TREE_FAR : (float)y;
+}
+
+static inline fe__tree_box fe__tree_box_of(const fe_dvec3 *origin, const fe__bounds *bounds)
+{
+    fe_dvec3 low = fe__dsub(bounds->low, *origin), high = fe__dsub(bounds->high, *origin);
+    return (fe__tree_box){{fe__tree_round_down(low.x), fe__tree_round_down(low.y), fe__tree_round_down(low.z), 0.0f},
+                          {fe__tree_round_up(high.x), fe__tree_round_up(high.y), fe__tree_round_up(high.z), 0.0f}};
+}
+
+// ---- one lane -----------------------------------------------------------------------------------------------------------------
+static inline fe__tree_box fe__lane_box(const fe__tree_node *node, int32_t lane)
+{
+    return (fe__tree_box){{node->box[0][lane], node->box[1][lane], node->box[2][lane], 0.0f},
+                          {node->box[3][lane], node->box[4][lane], node->box[5][lane], 0.0f}};
+}
+static inline void fe__lane_set_box(fe__tree_node *node, int32_t lane, fe__tree_box box)
+{
+    for (int32_t k = 0; k < 3; ++k) {
+        node->box[k][lane] = box.low[k];
+        node->box[3 + k][lane] = box.high[k];
+    }
+}
+static inline void fe__lane_clear(fe__tree_node *node, int32_t lane)
+{
+    fe__lane_set_box(node, lane, (fe__tree_box){fe__quad_set(INFINITY), fe__quad_set(-INFINITY)});
+    node->child[lane] = FE_TREE_EMPTY;
+}
+
+// ---- eight lanes --------------------------------------------------------------------------------------------------------------
+static inline void fe__node_init(fe__tree_node *node, int32_t parent, int32_t lane)
+{
+    for (int32_t k = 0; k < FE_TREE_WIDTH; ++k) fe__lane_clear(node, k);
+    node->parent = parent;
+    node->lane = lane;
+}
+
+// x y z z of the least of the eight in three rows: fold halves, then turn the three quads into one
+static inline fe__quad fe__node_low(const fe__tree_node *node)
+{
+    fe__lanes r0 = fe__lanes_load(node->box[0]), r1 = fe__lanes_load(node->box[1]), r2 = fe__lanes_load(node->box[2]);
+    fe__quad x = fe__quad_min(r0.a, r0.b), y = fe__quad_min(r1.a, r1.b), z = fe__quad_min(r2.a, r2.b);
+    fe__quad xy = fe__quad_min(__builtin_shufflevector(x, y, 0, 1, 4, 5), __builtin_shufflevector(x, y, 2, 3, 6, 7));
+    fe__quad zz = fe__quad_min(z, __builtin_shufflevector(z, z, 2, 3, 0, 1));
+    return fe__quad_min(__builtin_shufflevector(xy, zz, 0, 2, 4, 4), __builtin_shufflevector(xy, zz, 1, 3, 5, 5));
+}
+static inline fe__quad fe__node_high(const fe__tree_node *node)
+{
+    fe__lanes r0 = fe__lanes_load(node->box[3]), r1 = fe__lanes_load(node->box[4]), r2 = fe__lanes_load(node->box[5]);
+    fe__quad x = fe__quad_max(r0.a, r0.b), y = fe__quad_max(r1.a, r1.b), z = fe__quad_max(r2.a, r2.b);
+    fe__quad xy = fe__quad_max(__builtin_shufflevector(x, y, 0, 1, 4, 5), __builtin_shufflevector(x, y, 2, 3, 6, 7));
+    fe__quad zz = fe__quad_max(z, __builtin_shufflevector(z, z, 2, 3, 0, 1));
+    return fe__quad_max(__builtin_shufflevector(xy, zz, 0, 2, 4, 4), __builtin_shufflevector(xy, zz, 1, 3, 5, 5));
+}
+static inline fe__tree_box fe__node_box(const fe__tree_node *node) { return (fe__tree_box){fe__node_low(node), fe__node_high(node)}; }
+
+// bit i: the box of lane i meets the box whose sides are spread over `low` and `high`
+static inline uint32_t fe__node_meets(const fe__tree_node *node, const fe__lanes low[3], const fe__lanes high[3])
+{
+    fe__quad_int a = {-1, -1, -1, -1}, b = a;
+    for (int32_t k = 0; k < 3; ++k) {
+        fe__lanes node_low = fe__lanes_load(node->box[k]), node_high = fe__lanes_load(node->box[3 + k]);
+        a &= (node_low.a <= high[k].a) & (low[k].a <= node_high.a);
+        b &= (node_low.b <= high[k].b) & (low[k].b <= node_high.b);
+    }
+    return fe__quad_signs(a) | fe__quad_signs(b) << 4;
+}
+
+// half the surface of a box, m2: what a random ray's chance to meet it is proportional to
+static inline float fe__box_area(fe__tree_box box)
+{
+    fe__quad d = fe__quad_min(box.high - box.low, fe__quad_set((float)FE_TREE_FAR));
+    return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
+}
+
+#endif

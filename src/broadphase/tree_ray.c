@@ -1,0 +1,164 @@
+// tree_ray.c - which proxies' boxes a segment meets, nearest first.
+//
+// Slabs: along axis k the segment is between two planes for t in [(low - o) / d, (high - o) / d]. Floats, on the safe side: o is rounded
+// both ways and each plane takes the side that widens the interval; the quotients' roundings are covered by `slack`. Little work is done
+// per ray, so mispredicted branches and the set-up are the cost: the signs of the direction, which are random, do not branch.
+#include "broadphase/tree.h"
+
+#include "broadphase/tree_node.h"
+
+enum { STACK = 256 }; // 7 entries a level: enough for a depth of 36
+
+// four roundings of 2^-24 on each side of near <= far
+static const float slack = 1.000001f;
+// A component that moves less than FE_TREE_PAD in the whole segment does not move: boxes and origin are swelled by more. The finite inverse
+// keeps 0 * inverse = 0, never NaN.
+static const float largest_inverse = 1e30f;
+// m; longer ones are scaled, so that inverses stay normal numbers
+static const double longest_translation = 1e18;
+
+typedef struct slabs {
+    fe__lanes near_origin[3], far_origin[3], inverse[3];
+    int32_t near_row[3], far_row[3]; // of a node's box
+} slabs;
+
+typedef struct entry {
+    float t;
+    int32_t child;
+} entry;
+
+typedef struct cast {
+    const fe__tree *tree;
+    slabs slabs;
+    double stretch; // slab parameters per t
+    double limit;
+    float slab_limit; // limit * stretch, rounded up
+    fe__tree_ray_visit visit;
+    void *context;
+} cast;
+
+static void prepare_slabs(slabs *s, fe_dvec3 o, fe_dvec3 translation)
+{
+    const fe__quad d = {(float)translation.x, (float)translation.y, (float)translation.z, 1.0f};
+    const fe__quad low = {fe__tree_round_down(o.x), fe__tree_round_down(o.y), fe__tree_round_down(o.z), 0.0f};
+    const fe__quad high = {fe__tree_round_up(o.x), fe__tree_round_up(o.y), fe__tree_round_up(o.z), 0.0f};
+    fe__quad_int backwards = d < fe__quad_set(0.0f);
+    fe__quad_int moves = (d > fe__quad_set((float)FE_TREE_PAD)) | (d < fe__quad_set(-(float)FE_TREE_PAD));
+    fe__quad still = fe__quad_choose(backwards, fe__quad_set(-largest_inverse), fe__quad_set(largest_inverse));
+    fe__quad inverse = fe__quad_choose(moves, 1.0f / d, still);
+    fe__quad near_origin = fe__quad_choose(backwards, low, high), far_origin = fe__quad_choose(backwards, high, low);
+    for (int32_t k = 0; k < 3; ++k) {
+        s->near_origin[k] = fe__lanes_set(near_origin[k]);
+        s->far_origin[k] = fe__lanes_set(far_origin[k]);
+        s->inverse[k] = fe__lanes_set(inverse[k]);
+        s->near_row[k] = k - 3 * backwards[k]; // a true lane is -1
+        s->far_row[k] = k + 3 + 3 * backwards[k];
+    }
+}
+
+// bit i: the segment meets lane i, at t[i] or later
+static inline uint32_t hit_lanes(const fe__tree_node *node, const slabs *s, float limit, float t[FE_TREE_WIDTH])
+{
+    fe__lanes enter = fe__lanes_set(0.0f), leave = fe__lanes_set(limit);
+    for (int32_t k = 0; k < 3; ++k) {
+        fe__lanes near_side = fe__lanes_load(node->box[s->near_row[k]]), far_side = fe__lanes_load(node->box[s->far_row[k]]);
+        enter = fe__lanes_max(enter, fe__lanes_mul(fe__lanes_sub(near_side, s->near_origin[k]), s->inverse[k]));
+        leave = fe__lanes_min(leave, fe__lanes_mul(fe__lanes_sub(far_side, s->far_origin[k]), s->inverse[k]));
+    }
+    fe__lanes_store(t, enter);
+    return fe__lanes_at_most(enter, fe__lanes_mul(leave, fe__lanes_set(slack)));
+}
+
+static inline void visit_proxy(cast *c, int32_t proxy)
+{
+    c->limit = c->visit(c->context, proxy, c->limit);
+    c->slab_limit = fe__tree_round_up(c->limit * c->stretch);
+}
+
+// The subtree at `top` when the stack is full: parents and lanes lead back up.
+static void walk_without_stack(cast *c, int32_t top)
+{
+    _Alignas(16) float t[FE_TREE_WIDTH];
+    int32_t index = top;
+    uint32_t from = 0;
+    for (;;) {
+        const fe__tree_node *node = &c->tree->nodes[index];
+        uint32_t hits = hit_lanes(node, &c->slabs, c->slab_limit, t) >> from << from;
+        if (hits) {
+            uint32_t lane = (uint32_t)__builtin_ctz(hits);
+            int32_t child = node->child[lane];
+            if (child >= 0) {
+                index = child;
+                from = 0;
+                continue;
+            }
+            visit_proxy(c, ~child);
+            from = lane + 1;
+        } else {
+            if (index == top) return;
+            from = (uint32_t)node->lane + 1;
+            index = node->parent;
+        }
+    }
+}
+
+// Puts the children of the lanes in `hits` on the stack, nearest on top, and gives back the nearest of all instead of pushing it.
+static inline int32_t push_farther(const fe__tree_node *node, uint32_t hits, const float t[FE_TREE_WIDTH], entry *stack, int32_t *top)
+{
+    uint32_t lane = (uint32_t)__builtin_ctz(hits);
+    entry nearest = {t[lane], node->child[lane]};
+    int32_t base = *top;
+    for (hits &= hits - 1; hits; hits &= hits - 1) {
+        lane = (uint32_t)__builtin_ctz(hits);
+        entry e = {t[lane], node->child[lane]};
+        if (e.t < nearest.t) {
+            entry swapped = e;
+            e = nearest;
+            nearest = swapped;
+        }
+        int32_t i = (*top)++;
+        for (; i > base && stack[i - 1].t < e.t; --i) stack[i] = stack[i - 1];
+        stack[i] = e;
+    }
+    return nearest.child;
+}
+
+static void walk(cast *c)
+{
+    _Alignas(16) float t[FE_TREE_WIDTH];
+    entry stack[STACK];
+    int32_t top = 0, child = 0;
+    for (;;) {
+        while (child >= 0) {
+            if (top > STACK - FE_TREE_WIDTH) {
+                walk_without_stack(c, child);
+                break;
+            }
+            const fe__tree_node *node = &c->tree->nodes[child];
+            uint32_t hits = hit_lanes(node, &c->slabs, c->slab_limit, t);
+            if (!hits) break;
+            child = push_farther(node, hits, t, stack, &top);
+        }
+        if (child < 0) visit_proxy(c, ~child);
+        do {
+            if (top == 0) return;
+            top -= 1;
+        } while (stack[top].t > c->slab_limit * slack);
+        child = stack[top].child;
+    }
+}
+
+double fe__tree_ray(const fe__tree *tree, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__tree_ray_visit visit, void *context)
+{
+    if (tree->proxy_count == 0 || limit < 0.0) return limit;
+    cast c = {.tree = tree, .stretch = 1.0, .limit = limit, .visit = visit, .context = context};
+    double longest = fe__maxd(fe__maxd(fe__absd(translation.x), fe__absd(translation.y)), fe__absd(translation.z));
+    if (longest > longest_translation) {
+        translation = fe__dscale(longest_translation / longest, translation);
+        c.stretch = longest / longest_translation;
+    }
+    c.slab_limit = fe__tree_round_up(limit * c.stretch);
+    prepare_slabs(&c.slabs, fe__dsub(origin, tree->origin), translation);
+    walk(&c);
+    return c.limit;
+}
