@@ -48,7 +48,7 @@ typedef struct run_slot {
     _Atomic int32_t caller_sleeps;
 } run_slot;
 
-// Three lines by who writes them: spinning workers read the first only.
+// Each line holds what is written together; spinning workers watch the first.
 struct fe_pool {
     _Alignas(FE_CACHE_LINE) _Atomic uint32_t open; // bit s: slot s has unclaimed tasks
     _Atomic int32_t stopping;
