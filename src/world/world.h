@@ -115,6 +115,7 @@ fe_result fe__body_set_type(fe_world *world, int32_t body, int32_t type);
 fe_result fe__body_set_enabled(fe_world *world, int32_t body, int32_t enabled);
 void fe__body_set_transform(fe_world *world, int32_t body, const fe_transform *transform); // wakes
 void fe__body_set_locks(fe_world *world, int32_t body, uint32_t linear, uint32_t angular);
+void fe__body_place_centre(fe__body *body);           // centre from origin, rotation and local centre
 void fe__body_place(fe_world *world, int32_t body);   // shapes' poses from the body's
 void fe__body_disturb(fe_world *world, int32_t body); // wakes it and what touches it; of a static body what touches it
 fe_quat fe__unit_rotation(fe_quat q);                 // unchanged when its length is 1 already, q/|q| else

@@ -1,0 +1,250 @@
+// bodies.c - the life of bodies: birth, pose, type, locks, enabling, death.
+//
+// Called by the API layer with checked arguments, between steps. A body's pose is its origin and rotation as they were set; the step moves
+// the centre of mass and derives the origin from it. Mass is in mass.c, velocities and forces in motion.c, shapes in shapes.c.
+#include "world/world.h"
+
+#include <string.h>
+
+// A rotation is kept bit for bit when its length is 1 to this accuracy. Rounding q/|q| to floats leaves less (half a unit in the last
+// place, 6e-8), so that normalising twice changes nothing.
+#define UNIT_TOLERANCE 1e-7
+
+fe_quat fe__unit_rotation(fe_quat q)
+{
+    double x = (double)q.x, y = (double)q.y, z = (double)q.z, w = (double)q.w;
+    double length = sqrt(x * x + y * y + z * z + w * w);
+    return fe__absd(length - 1.0) < UNIT_TOLERANCE ? q : fe__normalized(q);
+}
+
+fe_result fe__reserve_bodies(fe_world *world, int32_t extra)
+{
+    fe_result ids = fe__id_pool_reserve(&world->body_ids, &world->memory, extra);
+    if (ids != FE_OK) return ids;
+    int64_t opened = world->body_ids.slot_count, fresh = fe__maxi(0, extra - world->body_ids.free_count);
+    if (!FE_RESERVE(&world->memory, world->bodies, world->body_capacity, opened + fresh)) return FE_ERROR_MEMORY;
+    int64_t alive = (int64_t)world->body_count + extra;
+    return FE_RESERVE(&world->memory, world->awake_bodies, world->awake_body_capacity, alive) ? FE_OK : FE_ERROR_MEMORY;
+}
+
+static void append_to_order(fe_world *world, int32_t index)
+{
+    fe__body *body = &world->bodies[index];
+    body->order_next = -1;
+    body->order_previous = world->last_body;
+    if (world->last_body >= 0)
+        world->bodies[world->last_body].order_next = index;
+    else
+        world->first_body = index;
+    world->last_body = index;
+    world->body_count += 1;
+}
+
+static void remove_from_order(fe_world *world, int32_t index)
+{
+    const fe__body *body = &world->bodies[index];
+    if (body->order_previous >= 0)
+        world->bodies[body->order_previous].order_next = body->order_next;
+    else
+        world->first_body = body->order_next;
+    if (body->order_next >= 0)
+        world->bodies[body->order_next].order_previous = body->order_previous;
+    else
+        world->last_body = body->order_previous;
+    world->body_count -= 1;
+}
+
+// centre = origin + R(q) local centre; high + low carry it to 48 bits for the float kernels
+void fe__body_place_centre(fe__body *body)
+{
+    fe_quat q = {body->rotation[0], body->rotation[1], body->rotation[2], body->rotation[3]};
+    fe_vec3 local = {body->local_centre[0], body->local_centre[1], body->local_centre[2]};
+    fe_dvec3 arm = fe__drotate(q, fe__widen(local));
+    double c[3] = {body->origin[0] + arm.x, body->origin[1] + arm.y, body->origin[2] + arm.z};
+    for (int k = 0; k < 3; ++k) {
+        body->centre[k] = c[k];
+        body->centre_high[k] = (float)c[k];
+        body->centre_low[k] = (float)(c[k] - (double)body->centre_high[k]);
+    }
+}
+
+static void set_pose(fe__body *body, const fe_transform *transform)
+{
+    fe_quat q = fe__unit_rotation(transform->rotation);
+    body->rotation[0] = q.x, body->rotation[1] = q.y, body->rotation[2] = q.z, body->rotation[3] = q.w;
+    body->origin[0] = transform->position.x, body->origin[1] = transform->position.y, body->origin[2] = transform->position.z;
+    fe__body_place_centre(body);
+}
+
+static void set_lock_bits(fe__body *body, uint32_t linear, uint32_t angular)
+{
+    body->spin[3] = (float)(linear | angular << 3);
+    body->locked = (linear | angular) != 0;
+    fe__body_stop_locked(body);
+}
+
+static uint32_t initial_flags(const fe_body_def *desc)
+{
+    uint32_t flags = 0;
+    if (desc->enabled) flags |= FE__BODY_ENABLED;
+    if (desc->bullet) flags |= FE__BODY_BULLET;
+    if (desc->sleep_allowed) flags |= FE__BODY_SLEEP_ALLOWED;
+    return flags;
+}
+
+// A body that starts asleep starts at rest: sleeping and moving exclude each other.
+static void set_initial_velocities(fe__body *body, const fe_body_def *desc)
+{
+    if (body->type == FE_BODY_STATIC || !desc->awake) return;
+    fe_vec3 v = desc->linear_velocity, w = desc->angular_velocity;
+    body->velocity[0] = v.x, body->velocity[1] = v.y, body->velocity[2] = v.z;
+    body->spin[0] = w.x, body->spin[1] = w.y, body->spin[2] = w.z;
+}
+
+int32_t fe__body_create(fe_world *world, const fe_body_def *desc)
+{
+    int32_t index = fe__id_slot_of(fe__id_pool_allocate(&world->body_ids));
+    fe__body *body = &world->bodies[index];
+    memset(body, 0, sizeof *body);
+    body->type = desc->type;
+    body->flags = initial_flags(desc);
+    body->serial = world->next_serial++;
+    body->user_data = desc->user_data;
+    body->line = body->awake_index = body->island = -1;
+    body->first_contact = body->first_shape = body->last_shape = -1;
+    body->gravity_scale = desc->gravity_scale;
+    body->sleep_threshold = desc->sleep_threshold;
+    body->force[3] = desc->linear_damping;
+    body->torque[3] = desc->angular_damping;
+    set_pose(body, &desc->transform);
+    set_initial_velocities(body, desc);
+    set_lock_bits(body, desc->linear_locks, desc->angular_locks);
+    append_to_order(world, index);
+    fe__body_update_mass(world, index);
+    if (desc->enabled && desc->awake && desc->type != FE_BODY_STATIC) fe__body_awaken_alone(world, index);
+    return index;
+}
+
+// Wakes the neighbours before the pairs go, because it finds them through the pairs.
+static void part_from_neighbours(fe_world *world, int32_t body)
+{
+    fe__wake_neighbours(world, body);
+    fe__body_drop_pairs(world, body);
+}
+
+void fe__body_destroy(fe_world *world, int32_t index)
+{
+    part_from_neighbours(world, index);
+    fe__body *body = &world->bodies[index];
+    if (body->awake_index >= 0) fe__body_retire(world, index);
+    // without pairs and out of the awake lists nothing is left to disturb: the shapes only have to leave the trees
+    for (int32_t shape = body->first_shape; shape >= 0; shape = world->shapes[shape].next) {
+        fe__shape_leave(world, shape);
+        fe__id_pool_release(&world->shape_ids, shape);
+        world->shape_count -= 1;
+    }
+    if (body->flags & FE__BODY_IGNORES) fe__forget_ignored(world, index);
+    remove_from_order(world, index);
+    fe__id_pool_release(&world->body_ids, index);
+}
+
+static void enter_shapes(fe_world *world, int32_t body)
+{
+    for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next) fe__shape_enter(world, shape);
+}
+
+static void leave_shapes(fe_world *world, int32_t body)
+{
+    for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next) fe__shape_leave(world, shape);
+}
+
+static void forget_forces(fe__body *body)
+{
+    for (int k = 0; k < 3; ++k) body->force[k] = body->torque[k] = 0.0f;
+}
+
+// The pairs end (with their exits) and are found anew in the next step: what a pair may be depends on the types.
+fe_result fe__body_set_type(fe_world *world, int32_t index, int32_t type)
+{
+    fe__body *body = &world->bodies[index];
+    if (body->type == type) return FE_OK;
+    if (!fe__reserve_proxies(world, body->shape_count)) return FE_ERROR_MEMORY;
+
+    part_from_neighbours(world, index);
+    if (body->awake_index >= 0) fe__body_retire(world, index);
+    leave_shapes(world, index);
+    body->type = type;
+    body->sleep_timer = 0.0f;
+    forget_forces(body);
+    if (type == FE_BODY_STATIC) {
+        for (int k = 0; k < 3; ++k) body->velocity[k] = body->spin[k] = 0.0f;
+    }
+    if (type != FE_BODY_DYNAMIC) body->flags &= ~(uint32_t)FE__BODY_MASS_GIVEN;
+    fe__body_update_mass(world, index);
+    if (!(body->flags & FE__BODY_ENABLED)) return FE_OK;
+    enter_shapes(world, index);
+    if (type != FE_BODY_STATIC) fe__body_awaken_alone(world, index);
+    return FE_OK;
+}
+
+fe_result fe__body_set_enabled(fe_world *world, int32_t index, int32_t enabled)
+{
+    fe__body *body = &world->bodies[index];
+    if (enabled == ((body->flags & FE__BODY_ENABLED) != 0)) return FE_OK;
+    if (!enabled) {
+        part_from_neighbours(world, index);
+        if (body->awake_index >= 0) fe__body_retire(world, index);
+        leave_shapes(world, index);
+        forget_forces(body);
+        body->flags &= ~(uint32_t)FE__BODY_ENABLED;
+        return FE_OK;
+    }
+    if (!fe__reserve_proxies(world, body->shape_count)) return FE_ERROR_MEMORY;
+    body->flags |= FE__BODY_ENABLED;
+    body->sleep_timer = 0.0f;
+    enter_shapes(world, index);
+    if (body->type != FE_BODY_STATIC) fe__body_awaken_alone(world, index);
+    return FE_OK;
+}
+
+void fe__body_place(fe_world *world, int32_t index)
+{
+    const fe__body *body = &world->bodies[index];
+    fe__pose pose = {{body->origin[0], body->origin[1], body->origin[2]},
+                     {body->rotation[0], body->rotation[1], body->rotation[2], body->rotation[3]}};
+    for (int32_t i = body->first_shape; i >= 0; i = world->shapes[i].next) {
+        fe__shape *shape = &world->shapes[i];
+        shape->pose = shape->flags & FE__SHAPE_CENTRED ? pose : fe__compose(&pose, shape->local_position, shape->local_rotation);
+    }
+}
+
+void fe__body_disturb(fe_world *world, int32_t index)
+{
+    const fe__body *body = &world->bodies[index];
+    if (!(body->flags & FE__BODY_ENABLED)) return;
+    if (body->type == FE_BODY_STATIC)
+        fe__wake_neighbours(world, index);
+    else
+        fe__wake(world, index);
+}
+
+// Pairs stay: the narrow phase sees how far the body went, and those that came apart end in the next step with their exits.
+void fe__body_set_transform(fe_world *world, int32_t index, const fe_transform *transform)
+{
+    fe__body *body = &world->bodies[index];
+    fe__body_disturb(world, index);
+    set_pose(body, transform);
+    fe__body_place(world, index);
+    for (int32_t shape = body->first_shape; shape >= 0; shape = world->shapes[shape].next) fe__shape_touch(world, shape);
+}
+
+void fe__body_set_locks(fe_world *world, int32_t index, uint32_t linear, uint32_t angular)
+{
+    fe__body_disturb(world, index);
+    set_lock_bits(&world->bodies[index], linear, angular);
+    fe__body_update_mass(world, index);
+    // locked bodies' contacts go to rows of another kind
+    for (int32_t shape = world->bodies[index].first_shape; shape >= 0; shape = world->shapes[shape].next) {
+        fe__shape_material_changed(world, shape);
+    }
+}

@@ -1,0 +1,57 @@
+// filter.c - who may touch whom.
+//
+// Asked by the broad phase before a pair exists, so that what may not touch costs no narrow phase, wakes nobody and makes no event.
+#include "world/world.h"
+
+// Contacts need a dynamic body; a trigger also reports a kinematic one. Nothing changes between two static bodies.
+static int32_t types_meet(const fe_world *world, const fe__shape *a, const fe__shape *b)
+{
+    int32_t type_a = world->bodies[a->body].type, type_b = world->bodies[b->body].type;
+    if (type_a == FE_BODY_DYNAMIC || type_b == FE_BODY_DYNAMIC) return 1;
+    return (a->flags | b->flags) & FE__SHAPE_TRIGGER && (type_a == FE_BODY_KINEMATIC || type_b == FE_BODY_KINEMATIC);
+}
+
+int32_t fe__may_collide(const fe_world *world, int32_t shape_a, int32_t shape_b)
+{
+    const fe__shape *a = &world->shapes[shape_a], *b = &world->shapes[shape_b];
+    if (a->body == b->body) return 0;
+    if (!(a->layer & b->mask) || !(b->layer & a->mask)) return 0;
+    const fe__body *body_a = &world->bodies[a->body], *body_b = &world->bodies[b->body];
+    uint32_t both = body_a->flags & body_b->flags;
+    if (!(both & FE__BODY_ENABLED) || !types_meet(world, a, b)) return 0;
+    return !(both & FE__BODY_IGNORES) || fe__pair_set_find(&world->ignored, a->body, b->body) < 0;
+}
+
+fe_result fe__ignore_collision(fe_world *world, int32_t a, int32_t b, int32_t ignore)
+{
+    int32_t ignored = fe__pair_set_find(&world->ignored, a, b) >= 0;
+    if (ignored == ignore) return FE_OK;
+    if (!ignore) {
+        fe__pair_set_remove(&world->ignored, a, b);
+        for (int32_t i = world->bodies[a].first_shape; i >= 0; i = world->shapes[i].next) fe__shape_mark_moved(world, i);
+        return FE_OK;
+    }
+    if (!fe__pair_set_reserve(&world->ignored, &world->memory, 1)) return FE_ERROR_MEMORY;
+    fe__body_disturb(world, a);
+    fe__body_disturb(world, b);
+    fe__pair_set_insert(&world->ignored, a, b, 0);
+    world->bodies[a].flags |= FE__BODY_IGNORES;
+    world->bodies[b].flags |= FE__BODY_IGNORES;
+    fe__body_refilter(world, a);
+    return FE_OK;
+}
+
+// The slot's next body must not inherit them. A removal moves entries only towards the place it emptied, so that the walk stays where it is
+// after one and misses none.
+void fe__forget_ignored(fe_world *world, int32_t body)
+{
+    fe__pair_set *set = &world->ignored;
+    for (int32_t i = 0; i < set->capacity;) {
+        uint64_t key = set->entries[i].key;
+        int32_t low = (int32_t)((key - 1) >> 32), high = (int32_t)((key - 1) & UINT32_MAX);
+        if (key != 0 && (low == body || high == body))
+            fe__pair_set_remove(set, low, high);
+        else
+            ++i;
+    }
+}

@@ -1,0 +1,228 @@
+// mass.c - what a body weighs: from its shapes and their densities, or as given.
+//
+// Called when shapes, type or locks change; the solver reads velocity[3] (inverse mass), inertia, inertia_axes and local_centre. Only
+// dynamic bodies have mass; the centre of the others is their origin, so that a kinematic body turns about the point its owner placed.
+// Computed in double: the parts of a large body far from its centre would cancel in float.
+#include "world/world.h"
+
+// A body lighter than this, kg, would have an inverse mass or inertia that floats cannot hold: it counts as weightless. (A sphere of the
+// smallest radius, 1 mm, of water weighs 4e-6 kg.)
+#define LEAST_MASS 1e-9
+// What a weightless dynamic body has instead: 1 kg, and the inertia of a sphere of 1 m, 2/5 m r^2
+#define DEFAULT_MASS 1.0f
+#define DEFAULT_INERTIA 0.4f
+// Principal moments that differ by less are equal: the gyroscopic torque of the difference is below the solver's rounding
+#define ISOTROPY 1e-6f
+
+enum { JACOBI_SWEEPS = 12 }; // converges quadratically: 5 or 6 are used
+
+typedef struct mass_properties {
+    float mass;
+    fe_vec3 centre, inertia;
+    fe_quat axes;
+} mass_properties;
+
+// ---- velocities follow the centre ---------------------------------------------------------------------------------------------------
+
+// The velocity is that of the centre of mass. When the centre becomes another material point, its velocity there is v + w x (R delta): no
+// point of the body changes its motion.
+static void set_local_centre(fe__body *body, fe_vec3 centre)
+{
+    fe_quat q = {body->rotation[0], body->rotation[1], body->rotation[2], body->rotation[3]};
+    fe_vec3 old = {body->local_centre[0], body->local_centre[1], body->local_centre[2]}, w = {body->spin[0], body->spin[1], body->spin[2]};
+    fe_dvec3 delta = fe__drotate(q, fe__dsub(fe__widen(centre), fe__widen(old)));
+    fe_vec3 change = fe__narrow(fe__dcross(fe__widen(w), delta));
+    body->velocity[0] += change.x, body->velocity[1] += change.y, body->velocity[2] += change.z;
+    fe__body_stop_locked(body);
+
+    body->local_centre[0] = centre.x, body->local_centre[1] = centre.y, body->local_centre[2] = centre.z;
+    fe__body_place_centre(body);
+}
+
+static void set_reach(const fe_world *world, fe__body *body)
+{
+    fe_vec3 centre = {body->local_centre[0], body->local_centre[1], body->local_centre[2]};
+    float reach = 0.0f;
+    for (int32_t i = body->first_shape; i >= 0; i = world->shapes[i].next) {
+        const fe__shape *shape = &world->shapes[i];
+        fe_vec3 in_form = fe__rotate_back(shape->local_rotation, fe__sub(centre, shape->local_position));
+        reach = fe__maxf(reach, fe__form_reach(&shape->form, in_form));
+    }
+    body->local_centre[3] = reach;
+}
+
+static void apply(const fe_world *world, fe__body *body, const mass_properties *p)
+{
+    int32_t dynamic = body->type == FE_BODY_DYNAMIC;
+    fe_vec3 inertia = p->inertia;
+    body->velocity[3] = dynamic ? 1.0f / p->mass : 0.0f;
+    body->inertia[0] = inertia.x, body->inertia[1] = inertia.y, body->inertia[2] = inertia.z, body->inertia[3] = p->mass;
+    body->inertia_axes[0] = p->axes.x, body->inertia_axes[1] = p->axes.y, body->inertia_axes[2] = p->axes.z,
+    body->inertia_axes[3] = p->axes.w;
+    if (p->centre.x != body->local_centre[0] || p->centre.y != body->local_centre[1] || p->centre.z != body->local_centre[2]) {
+        set_local_centre(body, p->centre);
+    }
+    set_reach(world, body);
+
+    float largest = fe__maxf(fe__maxf(inertia.x, inertia.y), inertia.z), least = fe__minf(fe__minf(inertia.x, inertia.y), inertia.z);
+    int32_t turns_locked = (uint32_t)body->spin[3] >> 3 != 0;
+    body->flags &= ~(uint32_t)FE__BODY_ISOTROPIC;
+    if (turns_locked || largest - least <= ISOTROPY * largest) body->flags |= FE__BODY_ISOTROPIC;
+}
+
+// ---- sums over shapes -----------------------------------------------------------------------------------------------------------------
+
+static fe__mass shape_mass(const fe__shape *shape) { return fe__form_mass(&shape->form, shape->density); }
+
+typedef struct tensor {
+    double m[3][3];
+} tensor;
+
+// Adds the inertia of a shape about the body's centre: R diag(I) R^T + m (d^2 1 - d d^T), d from the body's centre to the shape's
+static void add_shape(tensor *sum, const fe__shape *shape, const fe__mass *mass, fe_dvec3 centre)
+{
+    fe_dvec3 d = fe__dsub(fe__widen(shape->local_position), centre);
+    double offset[3] = {d.x, d.y, d.z}, square = fe__ddot(d, d),
+           principal[3] = {(double)mass->inertia.x, (double)mass->inertia.y, (double)mass->inertia.z};
+    double axis[3][3];
+    for (int k = 0; k < 3; ++k) {
+        fe_dvec3 a = fe__drotate(shape->local_rotation, (fe_dvec3){k == 0, k == 1, k == 2});
+        axis[k][0] = a.x, axis[k][1] = a.y, axis[k][2] = a.z;
+    }
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            for (int k = 0; k < 3; ++k) sum->m[i][j] += principal[k] * axis[k][i] * axis[k][j];
+            sum->m[i][j] += (double)mass->mass * ((i == j ? square : 0.0) - offset[i] * offset[j]);
+        }
+    }
+}
+
+// One Jacobi rotation in the plane (p, q) that zeroes a[p][q]; `v` collects the rotations, its columns become the axes. Golub and Van Loan,
+// Matrix Computations, 8.5
+static void rotate_plane(tensor *a, tensor *v, int p, int q)
+{
+    double apq = a->m[p][q];
+    if (apq == 0.0) return;
+    double tau = (a->m[q][q] - a->m[p][p]) / (2.0 * apq);
+    double t = (tau >= 0.0 ? 1.0 : -1.0) / (fe__absd(tau) + sqrt(1.0 + tau * tau));
+    double c = 1.0 / sqrt(1.0 + t * t), s = t * c;
+    for (int k = 0; k < 3; ++k) {
+        double x = a->m[k][p], y = a->m[k][q];
+        a->m[k][p] = c * x - s * y, a->m[k][q] = s * x + c * y;
+    }
+    for (int k = 0; k < 3; ++k) {
+        double x = a->m[p][k], y = a->m[q][k];
+        a->m[p][k] = c * x - s * y, a->m[q][k] = s * x + c * y;
+        x = v->m[k][p], y = v->m[k][q];
+        v->m[k][p] = c * x - s * y, v->m[k][q] = s * x + c * y;
+    }
+    a->m[p][q] = a->m[q][p] = 0.0;
+}
+
+static tensor diagonalise(tensor *a)
+{
+    tensor axes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    // products of inertia at the rounding of the sums are none: symmetric bodies keep the axes they were built on
+    double none = 1e-14 * (a->m[0][0] + a->m[1][1] + a->m[2][2]);
+    for (int sweep = 0; sweep < JACOBI_SWEEPS; ++sweep) {
+        double off = fe__absd(a->m[0][1]) + fe__absd(a->m[0][2]) + fe__absd(a->m[1][2]);
+        if (off <= none) break;
+        rotate_plane(a, &axes, 0, 1);
+        rotate_plane(a, &axes, 0, 2);
+        rotate_plane(a, &axes, 1, 2);
+    }
+    return axes;
+}
+
+// The quaternion of a rotation matrix, from its largest component so that nothing cancels (Shepperd 1978). Jacobi's product of rotations is
+// one.
+static fe_quat quaternion_of(const tensor *r)
+{
+    double trace = r->m[0][0] + r->m[1][1] + r->m[2][2], q[4];
+    int k = r->m[0][0] > r->m[1][1] ? 0 : 1;
+    if (r->m[2][2] > r->m[k][k]) k = 2;
+    if (trace >= r->m[k][k]) {
+        q[3] = 0.5 * sqrt(1.0 + trace);
+        double scale = 0.25 / q[3];
+        q[0] = scale * (r->m[2][1] - r->m[1][2]), q[1] = scale * (r->m[0][2] - r->m[2][0]), q[2] = scale * (r->m[1][0] - r->m[0][1]);
+    } else {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        q[k] = 0.5 * sqrt(1.0 + r->m[k][k] - r->m[i][i] - r->m[j][j]);
+        double scale = 0.25 / q[k];
+        q[i] = scale * (r->m[i][k] + r->m[k][i]), q[j] = scale * (r->m[j][k] + r->m[k][j]), q[3] = scale * (r->m[j][i] - r->m[i][j]);
+    }
+    return fe__unit_rotation((fe_quat){(float)q[0], (float)q[1], (float)q[2], (float)q[3]});
+}
+
+static mass_properties weightless(void)
+{
+    return (mass_properties){DEFAULT_MASS, {0, 0, 0}, {DEFAULT_INERTIA, DEFAULT_INERTIA, DEFAULT_INERTIA}, fe__identity()};
+}
+
+static mass_properties combine(const fe_world *world, const fe__body *body, double total, fe_dvec3 moment)
+{
+    fe_vec3 centre = fe__narrow(fe__dscale(1.0 / total, moment));
+    tensor sum = {{{0}}};
+    for (int32_t i = body->first_shape; i >= 0; i = world->shapes[i].next) {
+        fe__mass mass = shape_mass(&world->shapes[i]);
+        add_shape(&sum, &world->shapes[i], &mass, fe__widen(centre));
+    }
+    tensor axes = diagonalise(&sum);
+    return (mass_properties){(float)total, centre, {(float)sum.m[0][0], (float)sum.m[1][1], (float)sum.m[2][2]}, quaternion_of(&axes)};
+}
+
+static mass_properties from_shapes(const fe_world *world, const fe__body *body)
+{
+    double total = 0.0;
+    fe_dvec3 moment = {0, 0, 0};
+    int32_t heavy = 0;
+    const fe__shape *only = NULL;
+    for (int32_t i = body->first_shape; i >= 0; i = world->shapes[i].next) {
+        const fe__shape *shape = &world->shapes[i];
+        double mass = (double)shape_mass(shape).mass;
+        if (mass == 0.0) continue;
+        total += mass;
+        moment = fe__dadd(moment, fe__dscale(mass, fe__widen(shape->local_position)));
+        heavy += 1;
+        only = shape;
+    }
+    if (total < LEAST_MASS) return weightless();
+    if (heavy > 1) return combine(world, body, total, moment);
+    fe__mass mass = shape_mass(only); // exactly the form's
+    return (mass_properties){mass.mass, only->local_position, mass.inertia, only->local_rotation};
+}
+
+// ---- the interface --------------------------------------------------------------------------------------------------------------------
+
+void fe__body_update_mass(fe_world *world, int32_t index)
+{
+    fe__body *body = &world->bodies[index];
+    mass_properties p = {.axes = fe__identity()};
+    if (body->flags & FE__BODY_MASS_GIVEN) {
+        p.mass = body->inertia[3];
+        p.centre = (fe_vec3){body->local_centre[0], body->local_centre[1], body->local_centre[2]};
+        p.inertia = (fe_vec3){body->inertia[0], body->inertia[1], body->inertia[2]};
+        p.axes = (fe_quat){body->inertia_axes[0], body->inertia_axes[1], body->inertia_axes[2], body->inertia_axes[3]};
+    } else if (body->type == FE_BODY_DYNAMIC) {
+        p = from_shapes(world, body);
+    }
+    apply(world, body, &p);
+}
+
+void fe__body_set_mass(fe_world *world, int32_t index, const fe_mass_data *data)
+{
+    fe__body *body = &world->bodies[index];
+    mass_properties p = {data->mass, data->centre, data->inertia, fe__unit_rotation(data->inertia_rotation)};
+    fe__body_disturb(world, index);
+    body->flags |= FE__BODY_MASS_GIVEN;
+    apply(world, body, &p);
+}
+
+void fe__body_mass_data(const fe_world *world, int32_t index, fe_mass_data *out_data)
+{
+    const fe__body *body = &world->bodies[index];
+    out_data->mass = body->inertia[3];
+    out_data->centre = (fe_vec3){body->local_centre[0], body->local_centre[1], body->local_centre[2]};
+    out_data->inertia = (fe_vec3){body->inertia[0], body->inertia[1], body->inertia[2]};
+    out_data->inertia_rotation = (fe_quat){body->inertia_axes[0], body->inertia_axes[1], body->inertia_axes[2], body->inertia_axes[3]};
+}

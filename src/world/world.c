@@ -1,0 +1,126 @@
+// world.c - the world's memory: all of it is made and given back here.
+//
+// Called by the API layer. A new world holds nothing but itself: its arrays grow with what it is given.
+#include "world/world.h"
+
+#include "solver/graph.h"
+
+fe_world_tuning fe__default_tuning(void)
+{
+    return (fe_world_tuning){.struct_size = sizeof(fe_world_tuning),
+                             .contact_hertz = 30.0f,
+                             .contact_damping_ratio = 10.0f,
+                             .contact_push_speed = 3.0f,
+                             .joint_hertz = 60.0f,
+                             .joint_damping_ratio = 2.0f,
+                             .restitution_threshold = 1.0f,
+                             .hit_event_threshold = 1.0f,
+                             .sleep_time = 0.5f,
+                             .speculative_distance = 0.02f,
+                             .max_linear_speed = 4000.0f};
+}
+
+// The host's task system, a shared pool, or workers of the world's own
+static fe_result hire_workers(fe_world *world, const fe_world_def *desc)
+{
+    fe__workers *workers = &world->workers;
+    workers->count = 1;
+    if (desc->tasks) {
+        workers->tasks = *desc->tasks;
+        workers->count = desc->tasks->worker_count;
+        return FE_OK;
+    }
+    if (desc->pool) {
+        workers->pool = desc->pool;
+    } else if (desc->worker_count > 1) {
+        world->own_pool = fe__pool_create(desc->worker_count);
+        if (!world->own_pool) return FE_ERROR_MEMORY;
+        workers->pool = world->own_pool;
+    }
+    if (!workers->pool) return FE_OK;
+    fe__pool_retain(workers->pool);
+    workers->count = fe__pool_worker_count(workers->pool);
+    return FE_OK;
+}
+
+static void dismiss_workers(fe_world *world)
+{
+    if (world->workers.pool) fe__pool_release(world->workers.pool);
+    if (world->own_pool) fe__pool_destroy(world->own_pool);
+}
+
+fe_result fe__world_create(const fe_world_def *desc, fe_world **out_world)
+{
+    const fe__kernels *kernels = fe__kernels_of(desc->simd);
+    if (!kernels) return FE_ERROR_UNSUPPORTED;
+    fe__memory memory;
+    fe__memory_init(&memory, desc->allocator);
+    fe_world *world = fe__allocate(&memory, sizeof *world);
+    if (!world) return FE_ERROR_MEMORY;
+    world->memory = memory;
+    world->kernels = kernels;
+    world->simd = kernels->simd;
+    world->gravity = desc->gravity;
+    world->substeps = desc->substeps;
+    world->user_data = desc->user_data;
+    world->tuning = fe__default_tuning();
+    fe__id_pool_init(&world->body_ids, FE_KIND_BODY);
+    fe__id_pool_init(&world->shape_ids, FE_KIND_SHAPE);
+    world->next_serial = 1;
+    world->first_body = world->last_body = world->first_free_pair = -1;
+    world->pair_limit = 1; // contact 0 is no contact
+    fe_result result = hire_workers(world, desc);
+    if (result != FE_OK) {
+        fe__world_destroy(world);
+        return result;
+    }
+    *out_world = world;
+    return FE_OK;
+}
+
+static void free_records(fe_world *world)
+{
+    fe__memory *memory = &world->memory;
+    fe__id_pool_free(&world->body_ids, memory);
+    fe__id_pool_free(&world->shape_ids, memory);
+    FE_FREE(memory, world->bodies, world->body_capacity);
+    FE_FREE(memory, world->shapes, world->shape_capacity);
+    FE_FREE(memory, world->contacts, world->contact_capacity);
+    FE_FREE(memory, world->pairs, world->pair_capacity);
+    FE_FREE(memory, world->extras, world->extra_capacity);
+    fe__pair_set_destroy(&world->pair_set, memory);
+    fe__pair_set_destroy(&world->ignored, memory);
+    FE_FREE(memory, world->awake_bodies, world->awake_body_capacity);
+    FE_FREE(memory, world->awake_pairs, world->awake_pair_capacity);
+}
+
+static void free_broad_phase(fe_world *world)
+{
+    fe__memory *memory = &world->memory;
+    fe__tree_destroy(&world->static_tree, memory);
+    fe__tree_destroy(&world->moving_tree, memory);
+    FE_FREE(memory, world->planes, world->plane_capacity);
+    FE_FREE(memory, world->moved, world->moved_capacity);
+}
+
+static void free_events(fe_world *world)
+{
+    fe__memory *memory = &world->memory;
+    FE_FREE(memory, world->pair_events, world->pair_event_capacity);
+    FE_FREE(memory, world->owed_events, world->owed_event_capacity);
+    FE_FREE(memory, world->body_events, world->body_event_capacity);
+    FE_FREE(memory, world->owed_body_events, world->owed_body_event_capacity);
+    FE_FREE(memory, world->hit_events, world->hit_event_capacity);
+}
+
+void fe__world_destroy(fe_world *world)
+{
+    fe__step_scratch_destroy(world);
+    fe__solver_destroy(&world->solver, &world->memory);
+    free_events(world);
+    free_broad_phase(world);
+    free_records(world);
+    dismiss_workers(world);
+    fe__memory memory = world->memory;
+    fe__release(&memory, world, sizeof *world);
+}
