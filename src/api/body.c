@@ -1,0 +1,528 @@
+// body.c - the API of bodies: life, pose, mass, locks, switches. Velocities and forces are in body_motion.c.
+#include "api/check.h"
+
+#include <string.h>
+
+// ---- life -----------------------------------------------------------------------------------------------------------------------------
+
+static fe_body_def default_body(void)
+{
+    return (fe_body_def){.struct_size = sizeof(fe_body_def),
+                         .type = FE_BODY_DYNAMIC,
+                         .transform.rotation.w = 1.0f,
+                         .gravity_scale = 1.0f,
+                         .sleep_threshold = 0.05f,
+                         .awake = 1,
+                         .sleep_allowed = 1,
+                         .enabled = 1};
+}
+
+void fe_body_def_init(fe_body_def *desc, uint32_t struct_size)
+{
+    fe_body_def defaults = default_body();
+    fe__init_struct(desc, &defaults, sizeof defaults, struct_size);
+}
+
+static fe_result read_body_def(const char *function, const fe_body_def *desc, fe_body_def *def)
+{
+    *def = default_body();
+    if (!desc) return FE_OK;
+    FE_READ_STRUCT(desc, def);
+    FE_CHECK_INT(def->type, FE_BODY_STATIC, FE_BODY_DYNAMIC);
+    FE_CHECK_TRANSFORM(&def->transform);
+    FE_CHECK_VEC3(&def->linear_velocity, FE_MAX_SPEED);
+    FE_CHECK_VEC3(&def->angular_velocity, FE_MAX_SPEED);
+    FE_CHECK_FLOAT(def->linear_damping, 0.0f, FE_MAX_VALUE);
+    FE_CHECK_FLOAT(def->angular_damping, 0.0f, FE_MAX_VALUE);
+    FE_CHECK_FLOAT(def->gravity_scale, -FE_MAX_VALUE, FE_MAX_VALUE);
+    FE_CHECK_FLOAT(def->sleep_threshold, 0.0f, FE_MAX_SPEED);
+    FE_CHECK_BITS(def->linear_locks, FE_AXIS_ALL);
+    FE_CHECK_BITS(def->angular_locks, FE_AXIS_ALL);
+    FE_CHECK_BOOL(def->awake);
+    FE_CHECK_BOOL(def->sleep_allowed);
+    FE_CHECK_BOOL(def->enabled);
+    FE_CHECK_BOOL(def->bullet);
+    return FE_OK;
+}
+
+static fe_body create(fe_world *world, const fe_body_def *def)
+{
+    fe__fp_state fp = fe__fp_enter();
+    int32_t index = fe__body_create(world, def);
+    fe__fp_leave(fp);
+    return fe__body_handle(world, index);
+}
+
+fe_result fe_body_create(fe_world *world, const fe_body_def *desc, fe_body *out_body)
+{
+    if (out_body) *out_body = 0;
+    FE_BEGIN(world);
+    FE_CHECK_POINTER(out_body);
+    fe_body_def def;
+    FE_TRY(read_body_def(function, desc, &def));
+    FE_TRY(fe__report(function, fe__reserve_bodies(world, 1)));
+    *out_body = create(world, &def);
+    return FE_OK;
+}
+
+fe_result fe_body_create_many(fe_world *world, const fe_body_def *descs, uint32_t stride, int32_t count, fe_body *out_bodies)
+{
+    if (out_bodies && count > 0) memset(out_bodies, 0, sizeof *out_bodies * (size_t)count);
+    FE_BEGIN(world);
+    FE_CHECK_ARRAY(descs, count);
+    FE_CHECK_ARRAY(out_bodies, count);
+    if (count == 0) return FE_OK;
+    FE_CHECK_STRUCT_SIZE(descs);
+    FE_CHECK_STRIDE(stride, descs->struct_size, descs->struct_size);
+    fe_body_def def;
+    for (int32_t i = 0; i < count; ++i) {
+        const fe_body_def *desc = fe__at_const(descs, stride, i);
+        FE_TRY(read_body_def(function, desc, &def));
+    }
+    FE_TRY(fe__report(function, fe__reserve_bodies(world, count)));
+    for (int32_t i = 0; i < count; ++i) {
+        (void)read_body_def(function, fe__at_const(descs, stride, i), &def);
+        out_bodies[i] = create(world, &def);
+    }
+    return FE_OK;
+}
+
+static void destroy(fe_world *world, int32_t index)
+{
+    fe__fp_state fp = fe__fp_enter();
+    fe__body_destroy(world, index);
+    fe__fp_leave(fp);
+}
+
+fe_result fe_body_destroy(fe_world *world, fe_body body)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    destroy(world, index);
+    return FE_OK;
+}
+
+// Finds all of them, each once; what is found is marked until the call ends.
+static fe_result mark_bodies(const char *function, fe_world *world, const fe_body *bodies, int32_t count, int32_t *out_marked)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        FE_FIND_BODY(index, bodies[i]);
+        if (world->bodies[index].flags & FE__BODY_STARTED) {
+            return fe__fail(function, FE_ERROR_ARGUMENT, "bodies[%d] is body 0x%llx for the second time", (int)i, bodies[i]);
+        }
+        world->bodies[index].flags |= FE__BODY_STARTED;
+        *out_marked = i + 1;
+    }
+    return FE_OK;
+}
+
+fe_result fe_body_destroy_many(fe_world *world, const fe_body *bodies, int32_t count)
+{
+    FE_BEGIN(world);
+    FE_CHECK_ARRAY(bodies, count);
+    int32_t marked = 0;
+    fe_result result = mark_bodies(function, world, bodies, count, &marked);
+    for (int32_t i = 0; i < marked; ++i) world->bodies[fe__id_slot_of(bodies[i])].flags &= ~(uint32_t)FE__BODY_STARTED;
+    FE_TRY(result);
+    for (int32_t i = 0; i < count; ++i) destroy(world, fe__id_slot_of(bodies[i]));
+    return FE_OK;
+}
+
+int32_t fe_body_is_valid(const fe_world *world, fe_body body)
+{
+    int32_t index;
+    return world && fe__id_pool_find(&world->body_ids, body, &index) == FE_OK;
+}
+
+// ---- type and pose --------------------------------------------------------------------------------------------------------------------
+
+static int32_t has_plane(const fe_world *world, int32_t body)
+{
+    for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next) {
+        if (world->shapes[shape].form.type == FE_GEOMETRY_PLANE) return 1;
+    }
+    return 0;
+}
+
+fe_result fe_body_set_type(fe_world *world, fe_body body, int32_t type)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_INT(type, FE_BODY_STATIC, FE_BODY_DYNAMIC);
+    if (type != FE_BODY_STATIC && has_plane(world, index)) {
+        return fe__fail(function, FE_ERROR_UNSUPPORTED, "body 0x%llx has a plane, so that it must be static", body);
+    }
+    fe__fp_state fp = fe__fp_enter();
+    fe_result result = fe__body_set_type(world, index, type);
+    fe__fp_leave(fp);
+    return fe__report(function, result);
+}
+
+fe_result fe_body_get_type(const fe_world *world, fe_body body, int32_t *out_type)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_POINTER(out_type);
+    *out_type = world->bodies[index].type;
+    return FE_OK;
+}
+
+fe_result fe_body_set_transform(fe_world *world, fe_body body, const fe_transform *transform)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_TRANSFORM(transform);
+    fe_transform copy = *transform;
+    fe__fp_state fp = fe__fp_enter();
+    fe__body_set_transform(world, index, &copy);
+    fe__fp_leave(fp);
+    return FE_OK;
+}
+
+fe_result fe_body_get_transform(const fe_world *world, fe_body body, fe_transform *out_transform)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_POINTER(out_transform);
+    *out_transform = fe__body_transform(&world->bodies[index]);
+    return FE_OK;
+}
+
+fe_result fe_body_get_centre(const fe_world *world, fe_body body, fe_dvec3 *out_centre)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_POINTER(out_centre);
+    const double *centre = world->bodies[index].centre;
+    *out_centre = (fe_dvec3){centre[0], centre[1], centre[2]};
+    return FE_OK;
+}
+
+// ---- mass -----------------------------------------------------------------------------------------------------------------------------
+
+static fe_result check_dynamic(const char *function, const fe_world *world, int32_t index, fe_body body)
+{
+    if (world->bodies[index].type == FE_BODY_DYNAMIC) return FE_OK;
+    return fe__fail(function, FE_ERROR_STATE, "body 0x%llx is not dynamic, it has no mass", body);
+}
+
+// A moment is the integral of two of the squares x^2, y^2, z^2 over the mass: none exceeds the sum of the others. Flat bodies reach it, and
+// rounding passes it by a little.
+static fe_result check_triangle(const char *function, const fe_vec3 *inertia)
+{
+    const double slack = 1.0 + 1e-5;
+    double x = (double)inertia->x, y = (double)inertia->y, z = (double)inertia->z;
+    if (x <= (y + z) * slack && y <= (z + x) * slack && z <= (x + y) * slack) return FE_OK;
+    return fe__fail(function, FE_ERROR_ARGUMENT, "data->inertia is (%.9g, %.9g, %.9g): no body has a moment above the sum of the other two",
+                    x, y, z);
+}
+
+static fe_result read_mass_data(const char *function, const fe_mass_data *data, fe_mass_data *copy)
+{
+    *copy = (fe_mass_data){.struct_size = sizeof *copy, .inertia_rotation.w = 1.0f};
+    FE_READ_STRUCT(data, copy);
+    FE_CHECK_FLOAT(copy->mass, FE_LEAST_MASS, FE_MAX_MASS);
+    FE_CHECK_VEC3(&copy->centre, FE_MAX_LOCAL);
+    FE_CHECK_FLOAT(copy->inertia.x, FE_LEAST_INERTIA, FE_MAX_INERTIA);
+    FE_CHECK_FLOAT(copy->inertia.y, FE_LEAST_INERTIA, FE_MAX_INERTIA);
+    FE_CHECK_FLOAT(copy->inertia.z, FE_LEAST_INERTIA, FE_MAX_INERTIA);
+    FE_CHECK_QUAT(&copy->inertia_rotation);
+    return check_triangle(function, &copy->inertia);
+}
+
+static void give_mass(fe_world *world, int32_t index, const fe_mass_data *data)
+{
+    fe__fp_state fp = fe__fp_enter();
+    fe__body_set_mass(world, index, data);
+    fe__fp_leave(fp);
+}
+
+fe_result fe_body_set_mass_data(fe_world *world, fe_body body, const fe_mass_data *data)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    fe_mass_data copy;
+    FE_TRY(read_mass_data(function, data, &copy));
+    FE_TRY(check_dynamic(function, world, index, body));
+    give_mass(world, index, &copy);
+    return FE_OK;
+}
+
+fe_result fe_body_get_mass_data(const fe_world *world, fe_body body, fe_mass_data *out_data)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_STRUCT_SIZE(out_data);
+    fe_mass_data data = {.struct_size = sizeof data};
+    fe__body_mass_data(world, index, &data);
+    fe__write_struct(out_data, &data, sizeof data);
+    return FE_OK;
+}
+
+static fe_mass_data scaled_mass(const fe_world *world, int32_t index, float mass)
+{
+    fe__fp_state fp = fe__fp_enter();
+    fe_mass_data data = {.struct_size = sizeof data};
+    fe__body_mass_data(world, index, &data);
+    double scale = (double)mass / (double)data.mass;
+    data.mass = mass;
+    data.inertia = fe__narrow(fe__dscale(scale, fe__widen(data.inertia)));
+    fe__fp_leave(fp);
+    return data;
+}
+
+fe_result fe_body_set_mass(fe_world *world, fe_body body, float mass)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_FLOAT(mass, FE_LEAST_MASS, FE_MAX_MASS);
+    FE_TRY(check_dynamic(function, world, index, body));
+    fe_mass_data scaled = scaled_mass(world, index, mass);
+    FE_CHECK_FLOAT(scaled.inertia.x, FE_LEAST_INERTIA, FE_MAX_INERTIA);
+    FE_CHECK_FLOAT(scaled.inertia.y, FE_LEAST_INERTIA, FE_MAX_INERTIA);
+    FE_CHECK_FLOAT(scaled.inertia.z, FE_LEAST_INERTIA, FE_MAX_INERTIA);
+    give_mass(world, index, &scaled);
+    return FE_OK;
+}
+
+fe_result fe_body_get_mass(const fe_world *world, fe_body body, float *out_mass)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_POINTER(out_mass);
+    *out_mass = world->bodies[index].inertia[3];
+    return FE_OK;
+}
+
+fe_result fe_body_reset_mass(fe_world *world, fe_body body)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    if (!(world->bodies[index].flags & FE__BODY_MASS_GIVEN)) return FE_OK;
+    fe__fp_state fp = fe__fp_enter();
+    world->bodies[index].flags &= ~(uint32_t)FE__BODY_MASS_GIVEN;
+    fe__body_disturb(world, index);
+    fe__body_update_mass(world, index);
+    fe__fp_leave(fp);
+    return FE_OK;
+}
+
+// ---- locks, damping, gravity ------------------------------------------------------------------------------------------------------------
+
+fe_result fe_body_set_locks(fe_world *world, fe_body body, uint32_t linear_axes, uint32_t angular_axes)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_BITS(linear_axes, FE_AXIS_ALL);
+    FE_CHECK_BITS(angular_axes, FE_AXIS_ALL);
+    fe__fp_state fp = fe__fp_enter();
+    fe__body_set_locks(world, index, linear_axes, angular_axes);
+    fe__fp_leave(fp);
+    return FE_OK;
+}
+
+fe_result fe_body_get_locks(const fe_world *world, fe_body body, uint32_t *out_linear_axes, uint32_t *out_angular_axes)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_POINTER(out_linear_axes);
+    FE_CHECK_POINTER(out_angular_axes);
+    uint32_t bits = (uint32_t)world->bodies[index].spin[3];
+    *out_linear_axes = bits & FE_AXIS_ALL;
+    *out_angular_axes = bits >> 3;
+    return FE_OK;
+}
+
+fe_result fe_body_set_damping(fe_world *world, fe_body body, float linear, float angular)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_FLOAT(linear, 0.0f, FE_MAX_VALUE);
+    FE_CHECK_FLOAT(angular, 0.0f, FE_MAX_VALUE);
+    world->bodies[index].force[3] = linear;
+    world->bodies[index].torque[3] = angular;
+    return FE_OK;
+}
+
+fe_result fe_body_get_damping(const fe_world *world, fe_body body, float *out_linear, float *out_angular)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_POINTER(out_linear);
+    FE_CHECK_POINTER(out_angular);
+    *out_linear = world->bodies[index].force[3];
+    *out_angular = world->bodies[index].torque[3];
+    return FE_OK;
+}
+
+fe_result fe_body_set_gravity_scale(fe_world *world, fe_body body, float scale)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_FLOAT(scale, -FE_MAX_VALUE, FE_MAX_VALUE);
+    if (world->bodies[index].gravity_scale == scale) return FE_OK;
+    world->bodies[index].gravity_scale = scale;
+    fe__body_disturb(world, index);
+    return FE_OK;
+}
+
+fe_result fe_body_get_gravity_scale(const fe_world *world, fe_body body, float *out_scale)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_POINTER(out_scale);
+    *out_scale = world->bodies[index].gravity_scale;
+    return FE_OK;
+}
+
+// ---- sleep ------------------------------------------------------------------------------------------------------------------------------
+
+fe_result fe_body_set_awake(fe_world *world, fe_body body, int32_t awake)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_BOOL(awake);
+    if (awake) {
+        fe__body_disturb(world, index);
+        return FE_OK;
+    }
+    if (world->bodies[index].awake_index < 0) return FE_OK;
+    fe_result result = fe__put_to_sleep(world, index);
+    if (result != FE_ERROR_STATE) return fe__report(function, result);
+    return fe__fail(function, result, "body 0x%llx touches an awake body that moves", body);
+}
+
+fe_result fe_body_get_awake(const fe_world *world, fe_body body, int32_t *out_awake)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_POINTER(out_awake);
+    *out_awake = world->bodies[index].awake_index >= 0;
+    return FE_OK;
+}
+
+static void set_flag(fe_world *world, int32_t index, uint32_t flag, int32_t on)
+{
+    uint32_t *flags = &world->bodies[index].flags;
+    *flags = on ? *flags | flag : *flags & ~flag;
+}
+
+fe_result fe_body_set_sleep_allowed(fe_world *world, fe_body body, int32_t allowed)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_BOOL(allowed);
+    set_flag(world, index, FE__BODY_SLEEP_ALLOWED, allowed);
+    if (!allowed) fe__body_disturb(world, index);
+    return FE_OK;
+}
+
+fe_result fe_body_get_sleep_allowed(const fe_world *world, fe_body body, int32_t *out_allowed)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_POINTER(out_allowed);
+    *out_allowed = (world->bodies[index].flags & FE__BODY_SLEEP_ALLOWED) != 0;
+    return FE_OK;
+}
+
+fe_result fe_body_set_sleep_threshold(fe_world *world, fe_body body, float speed)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_FLOAT(speed, 0.0f, FE_MAX_SPEED);
+    world->bodies[index].sleep_threshold = speed;
+    return FE_OK;
+}
+
+fe_result fe_body_get_sleep_threshold(const fe_world *world, fe_body body, float *out_speed)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_POINTER(out_speed);
+    *out_speed = world->bodies[index].sleep_threshold;
+    return FE_OK;
+}
+
+// ---- switches ---------------------------------------------------------------------------------------------------------------------------
+
+fe_result fe_body_set_enabled(fe_world *world, fe_body body, int32_t enabled)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_BOOL(enabled);
+    fe__fp_state fp = fe__fp_enter();
+    fe_result result = fe__body_set_enabled(world, index, enabled);
+    fe__fp_leave(fp);
+    return fe__report(function, result);
+}
+
+fe_result fe_body_get_enabled(const fe_world *world, fe_body body, int32_t *out_enabled)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_POINTER(out_enabled);
+    *out_enabled = (world->bodies[index].flags & FE__BODY_ENABLED) != 0;
+    return FE_OK;
+}
+
+fe_result fe_body_set_bullet(fe_world *world, fe_body body, int32_t bullet)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_BOOL(bullet);
+    set_flag(world, index, FE__BODY_BULLET, bullet);
+    return FE_OK;
+}
+
+fe_result fe_body_get_bullet(const fe_world *world, fe_body body, int32_t *out_bullet)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_POINTER(out_bullet);
+    *out_bullet = (world->bodies[index].flags & FE__BODY_BULLET) != 0;
+    return FE_OK;
+}
+
+fe_result fe_body_set_user_data(fe_world *world, fe_body body, fe_handle user_data)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    world->bodies[index].user_data = user_data;
+    return FE_OK;
+}
+
+fe_result fe_body_get_user_data(const fe_world *world, fe_body body, fe_handle *out_user_data)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_POINTER(out_user_data);
+    *out_user_data = world->bodies[index].user_data;
+    return FE_OK;
+}
+
+// ---- its shapes -------------------------------------------------------------------------------------------------------------------------
+
+fe_result fe_body_set_filter(fe_world *world, fe_body body, uint32_t layer, uint32_t mask)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_FILTER(layer);
+    if (world->bodies[index].shape_count == 0) return fe__fail(function, FE_ERROR_STATE, "body 0x%llx has no shapes to filter", body);
+    for (int32_t shape = world->bodies[index].first_shape; shape >= 0; shape = world->shapes[shape].next) {
+        fe__shape_set_filter(world, shape, layer, mask);
+    }
+    return FE_OK;
+}
+
+int32_t fe_body_get_shapes(const fe_world *world, fe_body body, fe_shape *out_shapes, int32_t capacity)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_ARRAY(out_shapes, capacity);
+    int32_t count = 0;
+    for (int32_t shape = world->bodies[index].first_shape; shape >= 0 && count < capacity; shape = world->shapes[shape].next) {
+        out_shapes[count++] = fe__shape_handle(world, shape);
+    }
+    return world->bodies[index].shape_count;
+}

@@ -1,0 +1,187 @@
+// check.c - see check.h.
+#include "api/check.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+enum {
+    LARGEST_STRUCT = 4096, // bytes: no version of any struct will be larger, so that more is garbage
+    LEAST_STRIDE = 4       // all records are made of words
+};
+
+static const char *const kind_names[] = {"nothing", "body", "shape", "joint", "asset"};
+
+fe_result fe__check_world(const char *function, const fe_world *world)
+{
+    if (!world) return fe__fail(function, FE_ERROR_ARGUMENT, "world is NULL");
+    if (atomic_load_explicit(&world->stepping, memory_order_acquire)) {
+        return fe__fail(function, FE_ERROR_STEPPING, "the world is in a step; call it when fe_world_step has returned");
+    }
+    return FE_OK;
+}
+
+// ---- handles ------------------------------------------------------------------------------------------------------------------------
+
+static fe_result find(const char *function, const char *name, const fe__id_pool *pool, fe_handle handle, int32_t *out_slot)
+{
+    fe_result result = fe__id_pool_find(pool, handle, out_slot);
+    if (result == FE_OK) return FE_OK;
+    const char *kind = kind_names[pool->kind];
+    if (handle == 0) return fe__fail(function, result, "%s is 0, the handle of nothing", name);
+    if (result == FE_ERROR_KIND) {
+        return fe__fail(function, result, "%s 0x%llx is a %s, not a %s", name, handle, kind_names[fe__id_kind_of(handle)], kind);
+    }
+    int32_t slot = fe__id_slot_of(handle), now = fe__id_pool_generation(pool, slot), then = fe__id_generation_of(handle);
+    if (fe__id_kind_of(handle) != 0 && then > 0 && then < now) {
+        return fe__fail(function, result,
+                        "%s 0x%llx was destroyed (slot %" PRId32 " is at generation %" PRId32 ", the handle has %" PRId32 ")", kind, handle,
+                        slot, now, then);
+    }
+    return fe__fail(function, result, "%s 0x%llx was never the handle of a %s in this world", name, handle, kind);
+}
+
+fe_result fe__find_body(const char *function, const char *name, const fe_world *world, fe_body handle, int32_t *out_index)
+{
+    return find(function, name, &world->body_ids, handle, out_index);
+}
+
+fe_result fe__find_shape(const char *function, const char *name, const fe_world *world, fe_shape handle, int32_t *out_index)
+{
+    return find(function, name, &world->shape_ids, handle, out_index);
+}
+
+// ---- values -------------------------------------------------------------------------------------------------------------------------
+
+fe_result fe__check_pointer(const char *function, const char *name, int32_t there)
+{
+    return there ? FE_OK : fe__fail(function, FE_ERROR_ARGUMENT, "%s is NULL", name);
+}
+
+// Finite first, by a comparison that raises nothing: a host may have unmasked the exceptions of NaNs.
+fe_result fe__check_number(const char *function, const char *name, const char *part, double value, double low, double high)
+{
+    if (__builtin_isfinite(value) && value >= low && value <= high) return FE_OK;
+    return fe__fail(function, FE_ERROR_ARGUMENT, "%s%s is %.9g, must lie in [%.9g, %.9g]", name, part, value, low, high);
+}
+
+fe_result fe__check_int(const char *function, const char *name, int64_t value, int64_t low, int64_t high)
+{
+    if (value >= low && value <= high) return FE_OK;
+    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is %" PRId64 ", must lie in %" PRId64 "..%" PRId64, name, value, low, high);
+}
+
+fe_result fe__check_bits(const char *function, const char *name, uint32_t value, uint32_t allowed)
+{
+    if (!(value & ~allowed)) return FE_OK;
+    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is 0x%" PRIx32 ", only the bits of 0x%" PRIx32 " have a meaning", name, value,
+                    allowed);
+}
+
+fe_result fe__check_layer(const char *function, const char *name, uint32_t layer)
+{
+    if (layer != 0 && !(layer & (layer - 1))) return FE_OK;
+    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is 0x%" PRIx32 ", must be exactly one bit", name, layer);
+}
+
+fe_result fe__check_vec3(const char *function, const char *name, const fe_vec3 *v, float most)
+{
+    double limit = (double)most;
+    FE_TRY(fe__check_pointer(function, name, v != NULL));
+    FE_TRY(fe__check_number(function, name, ".x", (double)v->x, -limit, limit));
+    FE_TRY(fe__check_number(function, name, ".y", (double)v->y, -limit, limit));
+    return fe__check_number(function, name, ".z", (double)v->z, -limit, limit);
+}
+
+fe_result fe__check_dvec3(const char *function, const char *name, const fe_dvec3 *v, double most)
+{
+    FE_TRY(fe__check_pointer(function, name, v != NULL));
+    FE_TRY(fe__check_number(function, name, ".x", v->x, -most, most));
+    FE_TRY(fe__check_number(function, name, ".y", v->y, -most, most));
+    return fe__check_number(function, name, ".z", v->z, -most, most);
+}
+
+// Any float will do: their squares stay inside a double.
+fe_result fe__check_quat(const char *function, const char *name, const fe_quat *q)
+{
+    FE_TRY(fe__check_pointer(function, name, q != NULL));
+    int32_t finite = __builtin_isfinite(q->x) && __builtin_isfinite(q->y) && __builtin_isfinite(q->z) && __builtin_isfinite(q->w);
+    if (finite && (q->x != 0.0f || q->y != 0.0f || q->z != 0.0f || q->w != 0.0f)) return FE_OK;
+    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is (%.9g, %.9g, %.9g, %.9g), a rotation must be finite and not zero", name,
+                    (double)q->x, (double)q->y, (double)q->z, (double)q->w);
+}
+
+fe_result fe__check_transform(const char *function, const char *name, const fe_transform *transform)
+{
+    FE_TRY(fe__check_pointer(function, name, transform != NULL));
+    FE_TRY(fe__check_dvec3(function, name, &transform->position, FE_MAX_POSITION));
+    return fe__check_quat(function, name, &transform->rotation);
+}
+
+// ---- arrays -------------------------------------------------------------------------------------------------------------------------
+
+fe_result fe__check_array(const char *function, const char *name, const void *array, int32_t count)
+{
+    if (count < 0) return fe__fail(function, FE_ERROR_ARGUMENT, "room or number of %s is %" PRId32 ", must not be negative", name, count);
+    if (!array && count > 0) return fe__fail(function, FE_ERROR_ARGUMENT, "%s is NULL, for %" PRId32 " of them", name, count);
+    return FE_OK;
+}
+
+fe_result fe__check_stride(const char *function, uint32_t *stride, uint32_t packed, uint32_t least)
+{
+    if (*stride == 0) {
+        *stride = packed;
+    } else if (*stride < least || *stride % LEAST_STRIDE != 0) {
+        return fe__fail(function, FE_ERROR_ARGUMENT, "stride is %" PRIu32 ", must be 0 (packed) or a multiple of %d of at least %" PRIu32,
+                        *stride, LEAST_STRIDE, least);
+    }
+    return FE_OK;
+}
+
+// ---- structs that grow ----------------------------------------------------------------------------------------------------------------
+
+static uint32_t size_of(const void *given)
+{
+    uint32_t size;
+    memcpy(&size, given, sizeof size);
+    return size;
+}
+
+fe_result fe__check_struct_size(const char *function, const char *name, const void *given)
+{
+    FE_TRY(fe__check_pointer(function, name, given != NULL));
+    uint32_t size = size_of(given);
+    if (size >= sizeof size && size <= LARGEST_STRUCT && size % sizeof size == 0) return FE_OK;
+    return fe__fail(function, FE_ERROR_ARGUMENT, "%s->struct_size is %" PRIu32 ", must be sizeof *%s: is it filled by its init function?",
+                    name, size, name);
+}
+
+// The front that both sides know is taken. What an older client does not have keeps its default; what a newer one has beyond must be zero,
+// because this version cannot honour it.
+fe_result fe__read_struct(const char *function, const char *name, const void *given, void *copy, uint32_t size)
+{
+    FE_TRY(fe__check_struct_size(function, name, given));
+    uint32_t given_size = size_of(given);
+    const unsigned char *bytes = given;
+    for (uint32_t i = size; i < given_size; ++i) {
+        if (bytes[i] == 0) continue;
+        return fe__fail(function, FE_ERROR_ARGUMENT, "%s has a value at byte %" PRIu32 ", this version knows %" PRIu32 " bytes of it", name,
+                        i, size);
+    }
+    memcpy(copy, given, given_size < size ? given_size : size);
+    memcpy(copy, &size, sizeof size);
+    return FE_OK;
+}
+
+void fe__write_struct(void *out, const void *full, uint32_t size)
+{
+    uint32_t given_size = size_of(out), shared = given_size < size ? given_size : size;
+    memcpy((unsigned char *)out + sizeof size, (const unsigned char *)full + sizeof size, shared - sizeof size);
+}
+
+void fe__init_struct(void *out, const void *defaults, uint32_t size, uint32_t struct_size)
+{
+    if (!out || struct_size < sizeof struct_size || struct_size > LARGEST_STRUCT) return;
+    memset(out, 0, struct_size);
+    memcpy(out, defaults, struct_size < size ? struct_size : size);
+    memcpy(out, &struct_size, sizeof struct_size);
+}

@@ -1,0 +1,104 @@
+// check.h - the door of the library: what every API function asks of its arguments.
+//
+// An API function opens with FE_BEGIN(world), then one line for each argument; each line leaves the function with an error and its sentence
+// when the argument is wrong. Past these lines nothing is checked again. The names in the sentences are the expressions as written:
+//
+//     fe_result fe_body_set_gravity_scale(fe_world *world, fe_body body, float scale)
+//     {
+//         FE_BEGIN(world);
+//         FE_FIND_BODY(index, body);
+//         FE_CHECK_FLOAT(scale, -FE_MAX_VALUE, FE_MAX_VALUE);
+//         ...
+#ifndef FE_API_CHECK_H
+#define FE_API_CHECK_H
+#include "api/error.h"
+#include "world/world.h"
+
+// The largest numbers taken. Squares and products of them stay far inside a float, so that no argument can make an infinity.
+#define FE_MAX_POSITION 1e9     // m, each coordinate: a double resolves 0.1 um there
+#define FE_MAX_TRANSLATION 1e10 // m, of a query
+#define FE_MAX_LOCAL 1e6f       // m, in a body's frame
+#define FE_MAX_SPEED 1e6f       // m/s, rad/s, m/s2
+#define FE_MAX_FORCE 1e15f      // N, N m, N s, N m s
+#define FE_MAX_VALUE 1e6f       // dampings, hertz, ratios, frictions...
+#define FE_LEAST_VALUE 1e-6f    // of what must be above 0
+#define FE_MAX_DENSITY 1e7f     // kg/m3
+#define FE_LEAST_MASS 1e-9f     // kg
+#define FE_MAX_MASS 1e18f
+#define FE_LEAST_INERTIA 1e-18f // kg m2
+#define FE_MAX_INERTIA 1e30f
+#define FE_LEAST_LENGTH 1e-3f // m, of a form
+#define FE_MAX_LENGTH 1e5f
+#define FE_MAX_DT 1.0f // s
+enum { FE_MAX_SUBSTEPS = 64 };
+
+// Leaves the function with what `call` returned unless that is FE_OK.
+#define FE_TRY(call)                      \
+    do {                                  \
+        fe_result tried = (call);         \
+        if (tried != FE_OK) return tried; \
+    } while (0)
+
+#define FE_BEGIN(world)              \
+    const char *function = __func__; \
+    FE_TRY(fe__check_world(function, world))
+#define FE_BEGIN_WITHOUT_WORLD() const char *function = __func__
+// Declares `index`, the record that a handle names.
+#define FE_FIND_BODY(index, handle) \
+    int32_t index;                  \
+    FE_TRY(fe__find_body(function, #handle, world, handle, &index))
+#define FE_FIND_SHAPE(index, handle) \
+    int32_t index;                   \
+    FE_TRY(fe__find_shape(function, #handle, world, handle, &index))
+#define FE_CHECK_POINTER(pointer) FE_TRY(fe__check_pointer(function, #pointer, (pointer) != NULL))
+#define FE_CHECK_FLOAT(value, low, high) FE_TRY(fe__check_number(function, #value, "", (double)(value), (double)(low), (double)(high)))
+#define FE_CHECK_INT(value, low, high) FE_TRY(fe__check_int(function, #value, value, low, high))
+#define FE_CHECK_BOOL(value) FE_TRY(fe__check_int(function, #value, value, 0, 1))
+#define FE_CHECK_BITS(value, allowed) FE_TRY(fe__check_bits(function, #value, value, allowed))
+#define FE_CHECK_VEC3(pointer, most) FE_TRY(fe__check_vec3(function, #pointer, pointer, most))
+#define FE_CHECK_DVEC3(pointer, most) FE_TRY(fe__check_dvec3(function, #pointer, pointer, most))
+#define FE_CHECK_QUAT(pointer) FE_TRY(fe__check_quat(function, #pointer, pointer))
+#define FE_CHECK_TRANSFORM(pointer) FE_TRY(fe__check_transform(function, #pointer, pointer))
+#define FE_CHECK_FILTER(layer) FE_TRY(fe__check_layer(function, #layer, layer))
+// An array of `count` things; NULL only for none
+#define FE_CHECK_ARRAY(array, count) FE_TRY(fe__check_array(function, #array, array, count))
+// Makes the bytes from one thing to the next of 0 for packed ones; refuses what is smaller than `least`
+#define FE_CHECK_STRIDE(stride, packed, least) FE_TRY(fe__check_stride(function, &(stride), packed, least))
+// `copy` holds the defaults; what the caller's struct has replaces them
+#define FE_READ_STRUCT(given, copy) FE_TRY(fe__read_struct(function, #given, given, copy, (uint32_t)sizeof *(copy)))
+#define FE_CHECK_STRUCT_SIZE(given) FE_TRY(fe__check_struct_size(function, #given, given))
+
+fe_result fe__check_world(const char *function, const fe_world *world);
+fe_result fe__find_body(const char *function, const char *name, const fe_world *world, fe_body handle, int32_t *out_index);
+fe_result fe__find_shape(const char *function, const char *name, const fe_world *world, fe_shape handle, int32_t *out_index);
+fe_result fe__check_pointer(const char *function, const char *name, int32_t there);
+fe_result fe__check_number(const char *function, const char *name, const char *part, double value, double low, double high);
+fe_result fe__check_int(const char *function, const char *name, int64_t value, int64_t low, int64_t high);
+fe_result fe__check_bits(const char *function, const char *name, uint32_t value, uint32_t allowed);
+fe_result fe__check_layer(const char *function, const char *name, uint32_t layer);
+fe_result fe__check_vec3(const char *function, const char *name, const fe_vec3 *v, float most);
+fe_result fe__check_dvec3(const char *function, const char *name, const fe_dvec3 *v, double most);
+fe_result fe__check_quat(const char *function, const char *name, const fe_quat *q);
+fe_result fe__check_transform(const char *function, const char *name, const fe_transform *transform);
+fe_result fe__check_array(const char *function, const char *name, const void *array, int32_t count);
+fe_result fe__check_stride(const char *function, uint32_t *stride, uint32_t packed, uint32_t least);
+fe_result fe__check_struct_size(const char *function, const char *name, const void *given);
+fe_result fe__read_struct(const char *function, const char *name, const void *given, void *copy, uint32_t size);
+
+// Fills a caller's struct: as much as both sides know, but for struct_size, which stays the caller's.
+void fe__write_struct(void *out, const void *full, uint32_t size);
+// Fills a definition with its defaults; a struct_size of an older client gets the front of it, the tail of a longer one is zeroed.
+void fe__init_struct(void *out, const void *defaults, uint32_t size, uint32_t struct_size);
+static inline fe_transform fe__body_transform(const fe__body *body)
+{
+    return (fe_transform){{body->origin[0], body->origin[1], body->origin[2]},
+                          {body->rotation[0], body->rotation[1], body->rotation[2], body->rotation[3]}};
+}
+// Record i of a caller's array
+static inline void *fe__at(void *array, uint32_t stride, int32_t i) { return (unsigned char *)array + (size_t)stride * (size_t)i; }
+static inline const void *fe__at_const(const void *array, uint32_t stride, int32_t i)
+{
+    return (const unsigned char *)array + (size_t)stride * (size_t)i;
+}
+
+#endif

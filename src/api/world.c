@@ -1,0 +1,274 @@
+// world.c - the API of worlds: creation, step, settings, counters.
+#include "api/check.h"
+
+// ---- creation -------------------------------------------------------------------------------------------------------------------------
+
+static fe_world_def default_world(void)
+{
+    return (fe_world_def){.struct_size = sizeof(fe_world_def), .worker_count = 1, .gravity = {0.0f, -9.81f, 0.0f}, .substeps = 8};
+}
+
+void fe_world_def_init(fe_world_def *desc, uint32_t struct_size)
+{
+    fe_world_def defaults = default_world();
+    fe__init_struct(desc, &defaults, sizeof defaults, struct_size);
+}
+
+static fe_result read_allocator(const char *function, const fe_allocator *allocator, fe_allocator *copy)
+{
+    FE_READ_STRUCT(allocator, copy);
+    FE_CHECK_POINTER(copy->allocate);
+    FE_CHECK_POINTER(copy->release);
+    FE_CHECK_INT(copy->reserved, 0, 0);
+    return FE_OK;
+}
+
+static fe_result read_tasks(const char *function, const fe_task_system *tasks, fe_task_system *copy)
+{
+    FE_READ_STRUCT(tasks, copy);
+    FE_CHECK_POINTER(copy->run);
+    FE_CHECK_INT(copy->worker_count, 1, FE_MAX_WORKERS);
+    return FE_OK;
+}
+
+// The definition with everything it points to
+typedef struct whole_def {
+    fe_world_def desc;
+    fe_allocator allocator;
+    fe_task_system tasks;
+} whole_def;
+
+static fe_result read_world_def(const char *function, const fe_world_def *desc, whole_def *whole)
+{
+    fe_world_def *def = &whole->desc;
+    *whole = (whole_def){.desc = default_world()};
+    if (!desc) return FE_OK;
+    FE_READ_STRUCT(desc, def);
+    FE_CHECK_INT(def->worker_count, 1, FE_MAX_WORKERS);
+    FE_CHECK_VEC3(&def->gravity, FE_MAX_SPEED);
+    FE_CHECK_INT(def->substeps, 1, FE_MAX_SUBSTEPS);
+    FE_CHECK_INT(def->simd, FE_SIMD_AUTO, FE_SIMD_NEON);
+    if (def->allocator) {
+        FE_TRY(read_allocator(function, def->allocator, &whole->allocator));
+        def->allocator = &whole->allocator;
+    }
+    if (def->tasks) {
+        FE_TRY(read_tasks(function, def->tasks, &whole->tasks));
+        def->tasks = &whole->tasks;
+    }
+    return FE_OK;
+}
+
+fe_result fe_world_create(const fe_world_def *desc, fe_world **out_world)
+{
+    FE_BEGIN_WITHOUT_WORLD();
+    FE_CHECK_POINTER(out_world);
+    whole_def whole;
+    FE_TRY(read_world_def(function, desc, &whole));
+    fe_world *world;
+    fe_result result = fe__world_create(&whole.desc, &world);
+    if (result == FE_ERROR_UNSUPPORTED) {
+        return fe__fail(function, result, "desc->simd is %d, a set that this CPU or this build does not have", (int)whole.desc.simd);
+    }
+    FE_TRY(fe__report(function, result));
+    *out_world = world;
+    return FE_OK;
+}
+
+fe_result fe_world_destroy(fe_world *world)
+{
+    FE_BEGIN(world);
+    fe__world_destroy(world);
+    return FE_OK;
+}
+
+// ---- the step -------------------------------------------------------------------------------------------------------------------------
+
+fe_result fe_world_step(fe_world *world, float dt)
+{
+    FE_BEGIN(world);
+    FE_CHECK_FLOAT(dt, 0.0f, FE_MAX_DT);
+    int32_t idle = 0;
+    if (!atomic_compare_exchange_strong(&world->stepping, &idle, 1)) {
+        return fe__fail(function, FE_ERROR_STEPPING, "the world is already in a step, on another thread");
+    }
+    fe__fp_state fp = fe__fp_enter();
+    fe_result result = fe__step(world, dt);
+    fe__fp_leave(fp);
+    atomic_store_explicit(&world->stepping, 0, memory_order_release);
+    return fe__report(function, result);
+}
+
+// ---- settings -------------------------------------------------------------------------------------------------------------------------
+
+static void wake_all(fe_world *world)
+{
+    for (int32_t body = world->first_body; body >= 0; body = world->bodies[body].order_next) {
+        if (world->bodies[body].type == FE_BODY_DYNAMIC) fe__body_disturb(world, body);
+    }
+}
+
+// Another gravity sets everything in motion.
+fe_result fe_world_set_gravity(fe_world *world, const fe_vec3 *gravity)
+{
+    FE_BEGIN(world);
+    FE_CHECK_VEC3(gravity, FE_MAX_SPEED);
+    int32_t same = gravity->x == world->gravity.x && gravity->y == world->gravity.y && gravity->z == world->gravity.z;
+    world->gravity = *gravity;
+    if (!same) wake_all(world);
+    return FE_OK;
+}
+
+fe_result fe_world_get_gravity(const fe_world *world, fe_vec3 *out_gravity)
+{
+    FE_BEGIN(world);
+    FE_CHECK_POINTER(out_gravity);
+    *out_gravity = world->gravity;
+    return FE_OK;
+}
+
+fe_result fe_world_set_substeps(fe_world *world, int32_t substeps)
+{
+    FE_BEGIN(world);
+    FE_CHECK_INT(substeps, 1, FE_MAX_SUBSTEPS);
+    world->substeps = substeps;
+    return FE_OK;
+}
+
+fe_result fe_world_get_substeps(const fe_world *world, int32_t *out_substeps)
+{
+    FE_BEGIN(world);
+    FE_CHECK_POINTER(out_substeps);
+    *out_substeps = world->substeps;
+    return FE_OK;
+}
+
+fe_result fe_world_get_user_data(const fe_world *world, fe_handle *out_user_data)
+{
+    FE_BEGIN(world);
+    FE_CHECK_POINTER(out_user_data);
+    *out_user_data = world->user_data;
+    return FE_OK;
+}
+
+void fe_world_tuning_init(fe_world_tuning *tuning, uint32_t struct_size)
+{
+    fe_world_tuning defaults = fe__default_tuning();
+    fe__init_struct(tuning, &defaults, sizeof defaults, struct_size);
+}
+
+static fe_result read_tuning(const char *function, const fe_world_tuning *tuning, fe_world_tuning *copy)
+{
+    FE_READ_STRUCT(tuning, copy);
+    FE_CHECK_FLOAT(copy->contact_hertz, FE_LEAST_VALUE, FE_MAX_VALUE);
+    FE_CHECK_FLOAT(copy->contact_damping_ratio, 0.0f, FE_MAX_VALUE);
+    FE_CHECK_FLOAT(copy->contact_push_speed, 0.0f, FE_MAX_SPEED);
+    FE_CHECK_FLOAT(copy->joint_hertz, FE_LEAST_VALUE, FE_MAX_VALUE);
+    FE_CHECK_FLOAT(copy->joint_damping_ratio, 0.0f, FE_MAX_VALUE);
+    FE_CHECK_FLOAT(copy->restitution_threshold, 0.0f, FE_MAX_SPEED);
+    FE_CHECK_FLOAT(copy->hit_event_threshold, 0.0f, FE_MAX_SPEED);
+    FE_CHECK_FLOAT(copy->sleep_time, 0.0f, FE_MAX_VALUE);
+    FE_CHECK_FLOAT(copy->speculative_distance, 0.001f, 0.1f);
+    FE_CHECK_FLOAT(copy->max_linear_speed, FE_LEAST_VALUE, FE_MAX_SPEED);
+    return FE_OK;
+}
+
+// The boxes of the broad phase reach as far as contacts do.
+static void renew_boxes(fe_world *world)
+{
+    for (int32_t body = world->first_body; body >= 0; body = world->bodies[body].order_next) {
+        for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next) fe__shape_touch(world, shape);
+    }
+}
+
+fe_result fe_world_set_tuning(fe_world *world, const fe_world_tuning *tuning)
+{
+    FE_BEGIN(world);
+    fe_world_tuning copy = world->tuning;
+    FE_TRY(read_tuning(function, tuning, &copy));
+    int32_t same_reach = copy.speculative_distance == world->tuning.speculative_distance;
+    world->tuning = copy;
+    if (same_reach) return FE_OK;
+    fe__fp_state fp = fe__fp_enter();
+    renew_boxes(world);
+    fe__fp_leave(fp);
+    return FE_OK;
+}
+
+fe_result fe_world_get_tuning(const fe_world *world, fe_world_tuning *out_tuning)
+{
+    FE_BEGIN(world);
+    FE_CHECK_STRUCT_SIZE(out_tuning);
+    fe__write_struct(out_tuning, &world->tuning, sizeof world->tuning);
+    return FE_OK;
+}
+
+fe_result fe_world_ignore_collision(fe_world *world, fe_body a, fe_body b, int32_t ignore)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index_a, a);
+    FE_FIND_BODY(index_b, b);
+    FE_CHECK_BOOL(ignore);
+    if (a == b) return fe__fail(function, FE_ERROR_ARGUMENT, "a and b are the same body 0x%llx", a);
+    return fe__report(function, fe__ignore_collision(world, index_a, index_b, ignore));
+}
+
+fe_result fe_world_sync_queries(fe_world *world)
+{
+    FE_BEGIN(world);
+    fe__fp_state fp = fe__fp_enter();
+    int32_t built = fe__tree_rebuild(&world->static_tree, &world->memory, 1) && fe__tree_rebuild(&world->moving_tree, &world->memory, 1);
+    fe__fp_leave(fp);
+    return built ? FE_OK : fe__report(function, FE_ERROR_MEMORY);
+}
+
+// ---- measures -------------------------------------------------------------------------------------------------------------------------
+
+fe_result fe_world_get_profile(const fe_world *world, fe_profile *out_profile)
+{
+    FE_BEGIN(world);
+    FE_CHECK_STRUCT_SIZE(out_profile);
+    fe__write_struct(out_profile, &world->profile, sizeof world->profile);
+    return FE_OK;
+}
+
+// The step's own counts are its last ones; what calls between steps change is counted now.
+fe_result fe_world_get_counters(const fe_world *world, fe_counters *out_counters)
+{
+    FE_BEGIN(world);
+    FE_CHECK_STRUCT_SIZE(out_counters);
+    fe_counters c = world->counters;
+    c.bodies = world->body_count;
+    c.shapes = world->shape_count;
+    c.awake_bodies = world->awake_body_count;
+    c.pairs = world->pair_count;
+    c.contacts = world->touching_count;
+    c.simd = world->simd;
+    c.simd_width = world->kernels->width;
+    c.workers = world->workers.count;
+    c.bytes = world->memory.bytes;
+    c.allocations = world->memory.allocations;
+    fe__write_struct(out_counters, &c, sizeof c);
+    return FE_OK;
+}
+
+fe_result fe_world_hash(const fe_world *world, uint32_t *out_words)
+{
+    FE_BEGIN(world);
+    FE_CHECK_POINTER(out_words);
+    uint64_t hash = fe__world_hash(world);
+    out_words[0] = (uint32_t)hash;
+    out_words[1] = (uint32_t)(hash >> 32);
+    return FE_OK;
+}
+
+int32_t fe_world_get_bodies(const fe_world *world, fe_body *out_bodies, int32_t capacity)
+{
+    FE_BEGIN(world);
+    FE_CHECK_ARRAY(out_bodies, capacity);
+    int32_t count = 0;
+    for (int32_t body = world->first_body; body >= 0 && count < capacity; body = world->bodies[body].order_next) {
+        out_bodies[count++] = fe__body_handle(world, body);
+    }
+    return world->body_count;
+}
