@@ -18,9 +18,10 @@ typedef struct fe__pair_set {
 } fe__pair_set;
 
 void fe__pair_set_destroy(fe__pair_set *set, fe__memory *memory);
-int32_t fe__pair_set_reserve(fe__pair_set *set, fe__memory *memory, int32_t extra); // 0: no memory; the `extra` insertions that follow cannot fail
-void fe__pair_set_insert(fe__pair_set *set, int32_t a, int32_t b, int32_t value);   // a != b, in any order; not there yet
-int32_t fe__pair_set_find(const fe__pair_set *set, int32_t a, int32_t b);           // value, -1: not there
-void fe__pair_set_remove(fe__pair_set *set, int32_t a, int32_t b);                  // nothing when not there
+int32_t fe__pair_set_reserve(fe__pair_set *set, fe__memory *memory,
+                             int32_t extra); // 0: no memory; the `extra` insertions that follow cannot fail
+void fe__pair_set_insert(fe__pair_set *set, int32_t a, int32_t b, int32_t value); // a != b, in any order; not there yet
+int32_t fe__pair_set_find(const fe__pair_set *set, int32_t a, int32_t b);         // value, -1: not there
+void fe__pair_set_remove(fe__pair_set *set, int32_t a, int32_t b);                // nothing when not there
 
 #endif

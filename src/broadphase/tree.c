@@ -1,9 +1,10 @@
 // tree.c - the tree's memory, and what a single proxy's box is.
 //
-// tree_change.c inserts, removes and moves; tree_build.c builds; tree_query.c and tree_ray.c ask.
-#include "broadphase/tree.h"
-
+// tree_insert.c and tree_change.c change it; tree_build.c builds it; tree_query.c and tree_ray.c ask.
 #include "broadphase/tree_node.h"
+
+// Spare nodes beyond one for each insertion, so that nodes can be split: one for each level of a deep tree.
+enum { SPLIT_ROOM = 32 };
 
 void fe__tree_destroy(fe__tree *tree, fe__memory *memory)
 {
@@ -12,7 +13,7 @@ void fe__tree_destroy(fe__tree *tree, fe__memory *memory)
     *tree = (fe__tree){0};
 }
 
-// Closes the gaps that dead nodes left. The order stays, so a node's index stays above its parent's.
+// Closes the gaps that dead nodes left, without any memory.
 static void compact(fe__tree *tree)
 {
     int32_t count = 0;
@@ -23,33 +24,25 @@ static void compact(fe__tree *tree)
         if (to == i) continue;
         tree->nodes[to] = *node;
         tree->nodes[node->parent].child[node->lane] = to;
-        for (int32_t lane = 0; lane < FE_TREE_WIDTH; ++lane) {
-            int32_t child = node->child[lane];
-            if (child >= 0)
-                tree->nodes[child].parent = to;
-            else if (child != FE_TREE_EMPTY)
-                tree->slot[~child] = to * FE_TREE_WIDTH + lane;
-        }
+        for (int32_t lane = 0; lane < FE_TREE_WIDTH; ++lane)
+            if (node->child[lane] != FE_TREE_EMPTY) fe__tree_hang(tree, to, lane, fe__lane_box(node, lane), node->child[lane]);
     }
     tree->node_count = count;
     tree->dead = 0;
 }
 
-// An insertion makes one node at most.
 int32_t fe__tree_reserve(fe__tree *tree, fe__memory *memory, int32_t limit, int32_t extra)
 {
     int32_t known = tree->slot_capacity;
     if (!FE_RESERVE(memory, tree->slot, tree->slot_capacity, limit)) return 0;
     for (int32_t i = known; i < tree->slot_capacity; ++i) tree->slot[i] = -1;
 
-    int64_t need = (int64_t)tree->node_count + extra;
-    if (need <= tree->node_capacity) return 1;
-    // a quarter is worth a pass; less is not, or pairs of insertion and removal could ask for one each time
-    if (tree->dead > tree->node_count / 4) {
-        compact(tree);
-        need = (int64_t)tree->node_count + extra;
-    }
-    return FE_RESERVE(memory, tree->nodes, tree->node_capacity, need);
+    int64_t more = (int64_t)extra + SPLIT_ROOM;
+    // A quarter is worth a pass; less is not, or pairs of insertion and removal could ask for one each time.
+    if (tree->node_count + more > tree->node_capacity && tree->dead > tree->node_count / 4) compact(tree);
+    if (!FE_RESERVE(memory, tree->nodes, tree->node_capacity, tree->node_count + more)) return 0;
+    tree->promised = fe__maxi(tree->promised, extra);
+    return 1;
 }
 
 int32_t fe__tree_holds(const fe__tree *tree, int32_t proxy, const fe__bounds *tight)

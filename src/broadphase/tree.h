@@ -5,8 +5,7 @@
 // the caller's (a shape). Boxes are floats relative to `origin`, rounded outwards: a test may say "meets" too often, never too seldom, and
 // what decides is the caller's exact test. So the tree's form is invisible in every answer.
 //
-// Invariants: a node's index is above its parent's (nodes are appended between builds), so that one backward pass refits the tree; every
-// node but the root has at least two children, so that there are fewer nodes than proxies.
+// Invariant: every node but the root has at least two children, so there are fewer nodes than proxies.
 #ifndef FE_BROADPHASE_TREE_H
 #define FE_BROADPHASE_TREE_H
 #include "collision/form.h"
@@ -30,6 +29,7 @@ typedef struct fe__tree {
     int32_t *slot; // of a proxy: node * 8 + lane, -1: not in this tree
     int32_t slot_capacity;
     int32_t proxy_count;
+    int32_t promised; // insertions that were reserved and have not come
     int32_t depth;    // no node is deeper; the root's is 0
     float built_cost; // when it was last built, 0: never
     fe_dvec3 origin;

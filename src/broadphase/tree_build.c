@@ -3,8 +3,6 @@
 // A node's proxies are cut in two, and its costliest part again, until there are eight parts; each becomes a lane. A cut lies where the sum
 // of area x count of both sides is least (the surface area heuristic), tried at the borders of eight bins along the longest axis of the
 // centres (Wald 2007). The tree is made beside the old one and takes its place when it is whole.
-#include "broadphase/tree.h"
-
 #include "broadphase/tree_node.h"
 
 enum {

@@ -57,6 +57,19 @@ static inline void fe__lane_clear(fe__tree_node *node, int32_t lane)
     node->child[lane] = FE_TREE_EMPTY;
 }
 
+// Puts a child, with its box, into a lane.
+static inline void fe__tree_hang(fe__tree *tree, int32_t index, int32_t lane, fe__tree_box box, int32_t child)
+{
+    fe__lane_set_box(&tree->nodes[index], lane, box);
+    tree->nodes[index].child[lane] = child;
+    if (child >= 0) {
+        tree->nodes[child].parent = index;
+        tree->nodes[child].lane = lane;
+    } else {
+        tree->slot[~child] = index * FE_TREE_WIDTH + lane;
+    }
+}
+
 // ---- eight lanes --------------------------------------------------------------------------------------------------------------
 static inline void fe__node_init(fe__tree_node *node, int32_t parent, int32_t lane)
 {
@@ -95,6 +108,9 @@ static inline uint32_t fe__node_meets(const fe__tree_node *node, const fe__lanes
     }
     return fe__quad_signs(a) | fe__quad_signs(b) << 4;
 }
+
+// Tightens or widens the boxes above a node, up to the first that needs no change.
+void fe__tree_refit_above(fe__tree *tree, int32_t index);
 
 // half the surface of a box, m2: what a random ray's chance to meet it is proportional to
 static inline float fe__box_area(fe__tree_box box)

@@ -3,8 +3,6 @@
 // Slabs: along axis k the segment is between two planes for t in [(low - o) / d, (high - o) / d]. Floats, on the safe side: o is rounded
 // both ways and each plane takes the side that widens the interval; the quotients' roundings are covered by `slack`. Little work is done
 // per ray, so mispredicted branches and the set-up are the cost: the signs of the direction, which are random, do not branch.
-#include "broadphase/tree.h"
-
 #include "broadphase/tree_node.h"
 
 enum { STACK = 256 }; // 7 entries a level: enough for a depth of 36
