@@ -202,8 +202,8 @@ static void touch_faces(const box_pair *q, int32_t axis, float margin, fe__manif
 
 // ---- an edge against an edge --------------------------------------------------------------------------------------------------------
 // The support edges along n: pa + s A_i and pb + r B_j, and their nearest points. Lines that meet outside their edges while the boxes are
-// apart touch nothing within the margin.
-static void touch_edges(const box_pair *q, int32_t axis, float separation, float margin, fe__manifold *manifold)
+// apart say nothing: something else of the boxes is nearest.
+static void touch_edges(const box_pair *q, int32_t axis, float separation, fe__manifold *manifold)
 {
     int32_t i = (axis - EDGE) / 3, j = (axis - EDGE) % 3, u = next[i + 1], v = next[i + 2], k = next[j + 1], l = next[j + 2];
     float nu = -q->row[v][j], nv = q->row[u][j], square = nu * nu + nv * nv, inverse = 1.0f / sqrtf(square);
@@ -224,7 +224,8 @@ static void touch_edges(const box_pair *q, int32_t axis, float separation, float
     fe_vec3 on_a = {pa[0], pa[1], pa[2]};
     on_b = fe__add_scaled(on_b, r, edge_b);
     d = fe__sub(on_b, on_a);
-    if (separation > 0.0f && fe__dot(d, d) > margin * margin) return;
+    float most = separation + q->tie;
+    if (separation > 0.0f && fe__dot(d, d) > most * most) return;
     manifold->normal = normal;
     uint32_t signs = (uint32_t)(nu > 0.0f) | (uint32_t)(nv > 0.0f) << 1 | (uint32_t)(nk > 0.0f) << 2 | (uint32_t)(nl > 0.0f) << 3;
     fe__add_point(manifold, fe__scale(0.5f, fe__add(on_a, on_b)), separation, (uint32_t)axis << 16 | signs);
@@ -259,7 +260,7 @@ void fe__collide_box_box(const fe__form *a, const fe__form *b, const fe__relativ
     if (axis < EDGE)
         touch_faces(&q, axis, margin, manifold);
     else
-        touch_edges(&q, axis, separation, margin, manifold);
-    // no axis separates them by more than the margin, yet the faces do not meet over each other: a corner near a rim
+        touch_edges(&q, axis, separation, manifold);
+    // no axis separates them by more than the margin, yet neither faces nor edges meet: a corner near a rim
     if (manifold->count == 0) fe__collide_convex(a, b, b_in_a, margin, manifold);
 }

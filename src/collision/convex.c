@@ -9,12 +9,14 @@
 #include "collision/support.h"
 
 #include <assert.h>
+#include <float.h>
 
 // What GJK or EPA found, in A's frame.
 typedef struct nearest {
     fe_vec3 normal;     // from A to B
     float separation;   // of the surfaces
     fe_vec3 on_a, on_b; // of the cores
+    int32_t overlap;    // of the cores
 } nearest;
 
 static fe__cores make_cores(const fe__form *a, const fe__form *b, const fe__relative *b_in_a)
@@ -31,10 +33,10 @@ static int32_t find_nearest(const fe__cores *cores, float margin, nearest *found
     if (gjk.distance > limit) return 0;
     if (gjk.overlap) {
         fe__penetration p = fe__epa_depth(cores, &gjk);
-        *found = (nearest){fe__narrow(p.normal), (float)(-p.depth - radii), fe__narrow(p.on_a), fe__narrow(p.on_b)};
+        *found = (nearest){fe__narrow(p.normal), (float)(-p.depth - radii), fe__narrow(p.on_a), fe__narrow(p.on_b), 1};
     } else {
         fe_dvec3 normal = fe__dscale(1.0 / gjk.distance, fe__dsub(gjk.on_b, gjk.on_a));
-        *found = (nearest){fe__narrow(normal), (float)(gjk.distance - radii), fe__narrow(gjk.on_a), fe__narrow(gjk.on_b)};
+        *found = (nearest){fe__narrow(normal), (float)(gjk.distance - radii), fe__narrow(gjk.on_a), fe__narrow(gjk.on_b), 0};
     }
     return 1;
 }
@@ -66,6 +68,13 @@ static void project(const plane_frame *frame, const fe__face *face, fe__clip_ver
     }
 }
 
+static float lowest(const fe__clip_vertex *vertex, int32_t count)
+{
+    float low = FLT_MAX;
+    for (int32_t i = 0; i < count; ++i) low = fe__minf(low, vertex[i].height);
+    return low;
+}
+
 static float extent(const fe__face *face)
 {
     float most = 0.0f;
@@ -77,7 +86,8 @@ static float extent(const fe__face *face)
 }
 
 // Cuts `incident` by `reference` (a polygon whose normal is near the contact's) and gives the vertices below the margin, when the deepest
-// of them says the same as the nearest points do; else nothing. `flip` is 1 when the reference is B's.
+// of them says the same as the nearest points do; else nothing. Where the cores overlap, what hangs over the rim has to come out too.
+// `flip` is 1 when the reference is B's.
 static int32_t clip_faces(const fe__face *reference, const fe__face *incident, float reference_radius, float incident_radius, int32_t flip,
                           const nearest *found, float margin, fe__manifold *manifold)
 {
@@ -88,14 +98,15 @@ static int32_t clip_faces(const fe__face *reference, const fe__face *incident, f
     project(&frame, incident, vertex);
     fe_vec3 diagonal = fe__sub(reference->vertex[2], reference->vertex[0]);
     float tie = fe__tie(0.25f * fe__length(diagonal));
+    float least = found->separation - tie - rounding, most = found->separation + tie + rounding;
+    if (found->overlap && lowest(vertex, incident->count) - radii < least) return 0;
     int32_t count = fe__clip_polygon(side, reference->count, vertex, incident->count, 0.1f * tie + rounding), near = 0;
-    float deepest = margin;
+    float deepest = lowest(vertex, count) - radii;
+    if (deepest < least || deepest > fe__minf(most, margin)) return 0;
     for (int32_t i = 0; i < count; ++i) {
         vertex[i].height -= radii;
-        deepest = fe__minf(deepest, vertex[i].height);
         if (vertex[i].height <= margin) vertex[near++] = vertex[i];
     }
-    if (near == 0 || fe__absf(deepest - found->separation) > tie + rounding) return 0;
     near = fe__reduce_to_four(vertex, near, 0.1f * tie);
     manifold->normal = flip ? fe__neg(frame.n) : frame.n;
     uint32_t faces = (uint32_t)flip << 31 | (reference->id & 0x7f) << 24 | (incident->id & 0xff) << 16;
@@ -114,6 +125,7 @@ static int32_t touch_along_features(const fe__form *a, const fe__form *b, const 
     fe__face face_a, face_b;
     fe__form_face(a, found->normal, &face_a);
     fe__form_face(b, fe__neg(fe__mul_transposed(&b_in_a->rotation, found->normal)), &face_b);
+    if (face_a.count == 1 || face_b.count == 1) return 0; // nothing but the nearest points
     move_face(&face_b, b_in_a);
     float cos_a = face_a.count > 2 ? fe__dot(face_a.normal, found->normal) : 0.0f;
     float cos_b = face_b.count > 2 ? -fe__dot(face_b.normal, found->normal) : 0.0f;

@@ -175,19 +175,29 @@ static fe__penetration flat_answer(const fe__cores *cores, const fe__gjk *g, fe_
     return (fe__penetration){across, 0.0, g->on_a, g->on_b};
 }
 
+// The origin's foot on the face lies in the face or, where several triangles make up one face of the difference, in one of those.
 static fe__penetration face_answer(const polytope *p, const face *f)
 {
-    // The origin's projection on the face is the nearest point of the face moved so that the projection is the origin.
-    fe_dvec3 foot = fe__dscale(f->distance, f->normal);
-    fe__vertex corner[3];
-    for (int32_t i = 0; i < 3; ++i) {
-        corner[i] = p->vertex[f->corner[i]];
-        corner[i].difference = fe__dsub(corner[i].difference, foot);
+    fe_dvec3 foot = fe__dscale(f->distance, f->normal), on_a = {0.0, 0.0, 0.0};
+    double nearest = (double)INFINITY;
+    for (int32_t i = 0; i < p->face_count && nearest > 0.0; ++i) {
+        const face *g = &p->face[i];
+        if (!g->alive || g->distance > f->distance + EXACT * p->size) continue;
+        fe__vertex corner[3];
+        for (int32_t k = 0; k < 3; ++k) {
+            corner[k] = p->vertex[g->corner[k]];
+            corner[k].difference = fe__dsub(corner[k].difference, foot);
+        }
+        double weight[3];
+        int32_t count = fe__nearest_in_simplex(corner, weight, 3);
+        fe__vertex sum = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+        for (int32_t k = 0; k < count; ++k) {
+            sum.difference = fe__dadd(sum.difference, fe__dscale(weight[k], corner[k].difference));
+            sum.on_a = fe__dadd(sum.on_a, fe__dscale(weight[k], corner[k].on_a));
+        }
+        double square = fe__ddot(sum.difference, sum.difference);
+        if (square < nearest) nearest = square, on_a = sum.on_a;
     }
-    double weight[3];
-    int32_t count = fe__nearest_in_simplex(corner, weight, 3);
-    fe_dvec3 on_a = {0.0, 0.0, 0.0};
-    for (int32_t i = 0; i < count; ++i) on_a = fe__dadd(on_a, fe__dscale(weight[i], corner[i].on_a));
     return (fe__penetration){f->normal, fe__maxd(f->distance, 0.0), on_a, fe__dsub(on_a, foot)};
 }
 
