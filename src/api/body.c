@@ -389,7 +389,7 @@ fe_result fe_body_set_awake(fe_world *world, fe_body body, int32_t awake)
     if (world->bodies[index].awake_index < 0) return FE_OK;
     fe_result result = fe__put_to_sleep(world, index);
     if (result != FE_ERROR_STATE) return fe__report(function, result);
-    return fe__fail(function, result, "body 0x%llx touches an awake body that moves", body);
+    return fe__fail(function, result, "body 0x%llx, or one that it touches, is not allowed to sleep now", body);
 }
 
 fe_result fe_body_get_awake(const fe_world *world, fe_body body, int32_t *out_awake)

@@ -94,6 +94,8 @@ static inline fe_transform fe__body_transform(const fe__body *body)
     return (fe_transform){{body->origin[0], body->origin[1], body->origin[2]},
                           {body->rotation[0], body->rotation[1], body->rotation[2], body->rotation[3]}};
 }
+static inline fe_vec3 fe__body_velocity(const fe__body *body) { return (fe_vec3){body->velocity[0], body->velocity[1], body->velocity[2]}; }
+static inline fe_vec3 fe__body_spin(const fe__body *body) { return (fe_vec3){body->spin[0], body->spin[1], body->spin[2]}; }
 // Record i of a caller's array
 static inline void *fe__at(void *array, uint32_t stride, int32_t i) { return (unsigned char *)array + (size_t)stride * (size_t)i; }
 static inline const void *fe__at_const(const void *array, uint32_t stride, int32_t i)

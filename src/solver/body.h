@@ -14,7 +14,9 @@ enum {
     FE__BODY_MOVED = 16,       // by the last step
     FE__BODY_ISOTROPIC = 32,   // equal principal moments, or a rotation lock: no gyroscopic torque
     FE__BODY_STARTED = 64,     // scratch of a walk: over an island, over a list of handles
-    FE__BODY_IGNORES = 128     // named in fe_world.ignored
+    FE__BODY_IGNORES = 128,    // named in fe_world.ignored
+    FE__BODY_STIRRED = 256,    // in the list of bodies that woke or fell asleep
+    FE__BODY_SEEN_AWAKE = 512  // when the events of the last step were written
 };
 
 typedef struct fe__body {
@@ -46,6 +48,7 @@ typedef struct fe__body {
     uint64_t colours;
     uint64_t serial;        // of creation, never reused
     int32_t first_contact, contact_count; // list of pairs, threaded through fe__pair.links
+    int32_t coming_contacts; // while a step reserves: candidates with this body, else 0
     int32_t first_shape, last_shape, shape_count; // list in the order of creation
     int32_t locked;         // 1: any lock bit is set
     fe_handle user_data;

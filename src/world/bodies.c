@@ -24,7 +24,9 @@ fe_result fe__reserve_bodies(fe_world *world, int32_t extra)
     int64_t opened = world->body_ids.slot_count, fresh = fe__maxi(0, extra - world->body_ids.free_count);
     if (!FE_RESERVE(&world->memory, world->bodies, world->body_capacity, opened + fresh)) return FE_ERROR_MEMORY;
     int64_t alive = (int64_t)world->body_count + extra;
-    return FE_RESERVE(&world->memory, world->awake_bodies, world->awake_body_capacity, alive) ? FE_OK : FE_ERROR_MEMORY;
+    int32_t room = FE_RESERVE(&world->memory, world->awake_bodies, world->awake_body_capacity, alive) &&
+                   FE_RESERVE(&world->memory, world->stirred, world->stirred_capacity, world->body_capacity);
+    return room ? FE_OK : FE_ERROR_MEMORY;
 }
 
 static void append_to_order(fe_world *world, int32_t index)
@@ -105,9 +107,10 @@ int32_t fe__body_create(fe_world *world, const fe_body_def *desc)
 {
     int32_t index = fe__id_slot_of(fe__id_pool_allocate(&world->body_ids));
     fe__body *body = &world->bodies[index];
+    uint32_t listed = body->flags & FE__BODY_STIRRED; // the list names the slot, whoever has it
     memset(body, 0, sizeof *body);
     body->type = desc->type;
-    body->flags = initial_flags(desc);
+    body->flags = initial_flags(desc) | listed;
     body->serial = world->next_serial++;
     body->user_data = desc->user_data;
     body->line = body->awake_index = body->island = -1;
@@ -121,7 +124,10 @@ int32_t fe__body_create(fe_world *world, const fe_body_def *desc)
     set_lock_bits(body, desc->linear_locks, desc->angular_locks);
     append_to_order(world, index);
     fe__body_update_mass(world, index);
-    if (desc->enabled && desc->awake && desc->type != FE_BODY_STATIC) fe__body_awaken_alone(world, index);
+    if (desc->enabled && desc->awake && desc->type != FE_BODY_STATIC) {
+        fe__body_awaken_alone(world, index);
+        body->flags |= FE__BODY_SEEN_AWAKE; // born awake: no event
+    }
     return index;
 }
 

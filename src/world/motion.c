@@ -14,6 +14,9 @@ void fe__body_stop_locked(fe__body *body)
     }
 }
 
+// N, N m: with the least mass, 1e-9 kg, and a step of 1 s the speed is still a float
+#define MOST_FORCE 1e20f
+
 static int32_t moves(const fe__body *body)
 {
     return body->velocity[0] != 0.0f || body->velocity[1] != 0.0f || body->velocity[2] != 0.0f || body->spin[0] != 0.0f ||
@@ -38,8 +41,8 @@ void fe__body_add_force(fe_world *world, int32_t index, fe_vec3 force, fe_vec3 t
     if (!any) return;
     fe__body_disturb(world, index);
     for (int k = 0; k < 3; ++k) {
-        body->force[k] += f[k];
-        body->torque[k] += t[k];
+        body->force[k] = fe__clampf(body->force[k] + f[k], -MOST_FORCE, MOST_FORCE);
+        body->torque[k] = fe__clampf(body->torque[k] + t[k], -MOST_FORCE, MOST_FORCE);
     }
 }
 

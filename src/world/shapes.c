@@ -175,18 +175,11 @@ int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *desc
     return index;
 }
 
-// The pair after `pair` in the list of `body`
-static int32_t next_pair(const fe_world *world, int32_t pair, int32_t body)
-{
-    const fe__pair *p = &world->pairs[pair];
-    return p->links[p->body_a == body ? 0 : 1].next;
-}
-
 static void drop_pairs(fe_world *world, int32_t index)
 {
     int32_t body = world->shapes[index].body;
     for (int32_t pair = world->bodies[body].first_contact, next; pair >= 0; pair = next) {
-        next = next_pair(world, pair, body);
+        next = fe__next_pair(world, pair, body);
         const fe__pair *p = &world->pairs[pair];
         if (p->shape_a == index || p->shape_b == index) fe__pair_destroy(world, pair);
     }
@@ -259,7 +252,7 @@ void fe__shape_set_trigger(fe_world *world, int32_t index, int32_t trigger)
 void fe__shape_material_changed(fe_world *world, int32_t index)
 {
     int32_t body = world->shapes[index].body;
-    for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = next_pair(world, pair, body)) {
+    for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, body)) {
         const fe__pair *p = &world->pairs[pair];
         if (p->shape_a == index || p->shape_b == index) fe__pair_mix(world, pair);
     }

@@ -88,6 +88,7 @@ static void free_records(fe_world *world)
     FE_FREE(memory, world->contacts, world->contact_capacity);
     FE_FREE(memory, world->pairs, world->pair_capacity);
     FE_FREE(memory, world->extras, world->extra_capacity);
+    FE_FREE(memory, world->pair_serials, world->serial_capacity);
     fe__pair_set_destroy(&world->pair_set, memory);
     fe__pair_set_destroy(&world->ignored, memory);
     FE_FREE(memory, world->awake_bodies, world->awake_body_capacity);
@@ -109,7 +110,7 @@ static void free_events(fe_world *world)
     FE_FREE(memory, world->pair_events, world->pair_event_capacity);
     FE_FREE(memory, world->owed_events, world->owed_event_capacity);
     FE_FREE(memory, world->body_events, world->body_event_capacity);
-    FE_FREE(memory, world->owed_body_events, world->owed_body_event_capacity);
+    FE_FREE(memory, world->stirred, world->stirred_capacity);
     FE_FREE(memory, world->hit_events, world->hit_event_capacity);
 }
 

@@ -58,10 +58,15 @@ struct fe_world {
     fe__contact *contacts;
     fe__pair *pairs;
     fe__extra *extras;       // mixed materials of special rows
-    int32_t contact_capacity, pair_capacity, extra_capacity;
+    uint64_t *pair_serials;  // of shape A, of shape B: the order of everything
+    int32_t contact_capacity, pair_capacity, extra_capacity, serial_capacity;
     int32_t pair_limit;      // indices below were used
     int32_t first_free_pair; // -1: none
-    int32_t pair_count, linked_count, touching_count;
+    int32_t pair_count, linked_count;
+    // bounds for what a step may need; they only grow
+    int32_t most_contacts;   // of one dynamic body
+    uint32_t row_kinds;      // 1 << FE__ROW_* of every pair
+    int32_t wants_hits;      // a pair asked for hit events
     fe__pair_set pair_set;   // by shape indices
     fe__pair_set ignored;    // by body indices: fe_world_ignore_collision
 
@@ -87,8 +92,8 @@ struct fe_world {
     int32_t owed_event_count, owed_event_capacity;
     fe__body_event_record *body_events;
     int32_t body_event_count, body_event_capacity;
-    fe__body_event_record *owed_body_events; // woken by the API between steps
-    int32_t owed_body_event_count, owed_body_event_capacity;
+    int32_t *stirred;        // bodies that woke or fell asleep since the last step's events, each once
+    int32_t stirred_count, stirred_capacity;
     fe__hit_event_record *hit_events;
     int32_t hit_event_count, hit_event_capacity;
 
@@ -124,6 +129,9 @@ fe_quat fe__unit_rotation(fe_quat q);                 // unchanged when its leng
 // NULL: as it is. Locked components stay 0; wakes the body unless both are 0. Not for static bodies.
 void fe__body_set_velocity(fe_world *world, int32_t body, const fe_vec3 *linear, const fe_vec3 *angular);
 void fe__body_stop_locked(fe__body *body); // zeros the locked components of its velocities
+// Only an enabled dynamic body does; on others forces and impulses do nothing, which is no error.
+static inline int32_t fe__body_feels_forces(const fe__body *body) { return body->type == FE_BODY_DYNAMIC && body->flags & FE__BODY_ENABLED; }
+// Sums are clamped, so that no number of calls makes an infinity.
 void fe__body_add_force(fe_world *world, int32_t body, fe_vec3 force, fe_vec3 torque);
 // The change of the angular velocity by an impulse about the centre: the exact inverse of the inertia over the free axes.
 fe_vec3 fe__body_spin_change(const fe__body *body, fe_vec3 angular_impulse);
@@ -161,8 +169,12 @@ void fe__forget_ignored(fe_world *world, int32_t body); // of a body that is des
 // ---- pairs (pairs.c) ------------------------------------------------------------------------------------------------------------
 int32_t fe__reserve_pairs(fe_world *world, int32_t extra);
 int32_t fe__pair_create(fe_world *world, int32_t shape_a, int32_t shape_b); // room was reserved; A created first
+int32_t fe__pair_kind(const fe_world *world, int32_t shape_a, int32_t shape_b); // FE__ROW_* of their contact
 void fe__pair_destroy(fe_world *world, int32_t pair);                       // unlinks, sends the exit it owes
 void fe__pair_mix(fe_world *world, int32_t pair);                           // materials, events, row kind
+int32_t fe__next_pair(const fe_world *world, int32_t pair, int32_t body);   // in the list of `body`
+void fe__pair_awaken(fe_world *world, int32_t pair);
+void fe__pair_retire(fe_world *world, int32_t pair);
 void fe__body_drop_pairs(fe_world *world, int32_t body);                    // all of them
 void fe__body_refilter(fe_world *world, int32_t body);                      // those that may no longer collide
 void fe__pair_link(fe_world *world, int32_t pair);                          // into the constraint graph, with a colour
@@ -174,10 +186,16 @@ void fe__wake_neighbours(fe_world *world, int32_t body); // all that touches it,
 fe_result fe__put_to_sleep(fe_world *world, int32_t body); // the body's island; FE_ERROR_STATE when part of it may not
 void fe__body_awaken_alone(fe_world *world, int32_t body); // into the awake lists, its pairs too
 void fe__body_retire(fe_world *world, int32_t body);       // out of the awake lists
+void fe__body_fall_asleep(fe_world *world, int32_t body);  // stops and retires it
+
+// ---- the narrow phase (narrow.c), one pair at a time; only the pair is written -----------------------------------------------------
+void fe__collide_pair(fe_world *world, int32_t pair);
 
 // ---- the step (step.c), events (events.c), hash (hash.c) --------------------------------------------------------------------------
-fe_result fe__step(fe_world *world, float dt);
+fe_result fe__world_step(fe_world *world, float dt);
 void fe__step_scratch_destroy(fe_world *world);
+fe_dvec3 fe__contact_point(const fe_world *world, int32_t pair, int32_t point); // m, world
+void fe__owe_exit(fe_world *world, int32_t pair);   // a touching pair ends: its exit goes to the next step's events
 uint64_t fe__world_hash(const fe_world *world);
 fe_handle fe__body_handle(const fe_world *world, int32_t body);
 fe_handle fe__shape_handle(const fe_world *world, int32_t shape);
