@@ -7,6 +7,7 @@
 // The kernels (*.simd.c) are compiled once per SIMD set into a table; the world picks one at its creation.
 #ifndef FE_SOLVER_SOLVER_H
 #define FE_SOLVER_SOLVER_H
+#include "core/array_sort.h"
 #include "core/math.h"
 #include "core/memory.h"
 #include "core/threads.h"
@@ -29,9 +30,10 @@ enum {
     FE__OVERFLOW_COLOUR = 63, // one contact a row, in order of creation
     FE__COLOURS = 64,
 
-    // contacts above which an island is spread over the workers, and up to which small islands are batched: rows of one batch then stay in a
-    // second-level cache. A constant, not the machine's: it decides who executes an island
-    FE__BATCH_CONTACTS = 1024
+    // contacts above which an island is spread over the workers, and up to which smaller ones are batched, so that the rows of a batch stay in a
+    // second-level cache and fill their lanes. Constants, not the machine's: they decide who executes an island, never what comes out
+    FE__ISLAND_LARGE = 1024,
+    FE__BATCH_CONTACTS = 512
 };
 
 // An implicitly integrated spring and damper (Catto, Soft Constraints, GDC 2011)
@@ -64,7 +66,7 @@ typedef struct fe__batch {
     int32_t first_line, line_count; // a multiple of FE__MAX_WIDTH
     int32_t first_group, group_count;
     int32_t contact_count, body_count, island_count;
-    int32_t bounces;                // a contact with restitution is in it
+    int32_t bounces;                // special rows are in it
     int64_t row_bytes;
 } fe__batch;
 
@@ -73,32 +75,38 @@ typedef struct fe__lane {
     int32_t line_a, line_b; // FE__STATIC_LINE for static
 } fe__lane;
 
+typedef struct fe__row_block {
+    _Alignas(64) unsigned char bytes[64];
+} fe__row_block;
+
 typedef struct fe__solver {
-    // lines of bodies, W at a time. Line 0 (and its block) is zeros
+    // lines of bodies, W at a time. The block of FE__STATIC_LINE is zeros and read only
     float (*velocity)[FE__LINE]; // v, inverse mass | w, lock bits
     float (*motion)[FE__LINE];   // since the step began: centre, 0 | rotation x y z w
     float (*start)[FE__LINE];    // v, _ | w, _ before this substep's constraint impulses
     float (*inertia)[FE__LINE];  // inverse, world: xx xy xz yy | yz zz 0 0
     float (*drive)[FE__LINE];    // acceleration by gravity and forces, 1/(1 + h c) | by torques, 1/(1 + h c)
     float (*spin)[FE__LINE];     // principal axes x y z w, world, when the step began | principal moments, 1: gyroscopic torque
-    int32_t line_count, line_capacity;
+    int32_t line_count, line_capacity[6];
     int32_t *body_of_line;       // -1: padding
     int32_t body_of_line_capacity;
 
-    // the graph, kept while nothing links, unlinks, wakes or sleeps
+    // the graph (graph.c), kept while nothing links, unlinks, wakes or sleeps
     int32_t graph_changed;
-    fe__batch *batches; // large islands first
+    fe__batch *batches;          // large islands first, kinematic bodies last
     int32_t batch_count, batch_capacity, large_count;
-    fe__group *groups;
+    fe__group *groups;           // of a batch: by rising colour
     int32_t group_count, group_capacity;
     fe__lane *lanes;
     int32_t lane_count, lane_capacity;
     int32_t island_count;
-    int32_t *island_scratch; // union-find and sorting
-    int32_t island_scratch_capacity;
+    int32_t *scratch;
+    int32_t scratch_capacity;
+    fe__sort_item *sort_items;
+    int32_t sort_capacity;
 
-    unsigned char *rows; // of the large batch at hand, or one block per worker
-    int32_t row_capacity; // bytes / 64
+    fe__row_block *rows;         // of the large batch at hand, or one stretch of worker_row_bytes for each worker
+    int32_t row_capacity;        // blocks
     int64_t worker_row_bytes;
 } fe__solver;
 

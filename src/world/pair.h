@@ -25,7 +25,6 @@ typedef struct fe__pair {
     int32_t shape_a, shape_b; // A was created first
     int32_t body_a, body_b;
     fe__link links[2];        // in the lists of body A and body B
-    uint64_t serial_a, serial_b; // of the shapes: the order of everything
     uint32_t flags;           // FE__PAIR_*
     int32_t awake_index;      // place in the list of awake pairs, -1: both sides sleep
     int32_t result;           // FE__RESULT_*

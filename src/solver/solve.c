@@ -1,0 +1,282 @@
+// solve.c - runs the substeps: a program of passes for each batch.
+//
+// A small batch is run whole by one worker, its rows in that worker's stretch of row memory. A large one is run by all workers together: they walk
+// the same program, claim blocks of each pass, and go on when the last block of a pass is done. Both walk the same passes over the same groups in
+// the same order of colours, so that who executes a batch never shows.
+#include "solver/graph.h"
+
+#include <string.h>
+
+enum {
+    MOST_PASSES = 4 * FE__COLOURS + 8,
+    ROWS_IN_BLOCK = 16,   // some microseconds of work
+    LINES_IN_BLOCK = 256, // a multiple of FE__MAX_WIDTH
+    SERIAL_ROWS = 24,     // colours are merged into one block while they have no more: a barrier would cost more than they do
+    ROWS_PER_WORKER = 32  // a large batch calls a worker for so many rows of its largest colour
+};
+
+typedef enum verb { LOAD, PREPARE, SOLVE, INTEGRATE, RELAX, BOUNCE, CARRY, STORE } verb;
+
+typedef struct pass {
+    verb verb;
+    int32_t first_group, group_count; // of consecutive colours
+    int32_t blocks;
+    int32_t serial; // one block, groups in order
+} pass;
+
+typedef struct program {
+    pass passes[MOST_PASSES];
+    int32_t prologue, substep, epilogue; // passes each; the last substep leaves out its last pass
+    int32_t substeps;
+} program;
+
+typedef struct job {
+    fe__solver *s;
+    const fe__kernels *k;
+    const fe__body *bodies;
+    fe__contact *contacts;
+    fe__extra *extras;
+    const fe__step_constants *c;
+    const fe__batch *batch; // large
+    program program;
+    _Alignas(FE_CACHE_LINE) _Atomic uint64_t claim; // pass << 32 | next block
+    _Alignas(FE_CACHE_LINE) _Atomic uint64_t done;  // blocks of the pass at hand
+    _Alignas(FE_CACHE_LINE) _Atomic int32_t next_batch;
+} job;
+
+fe__softness fe__make_softness(float hertz, float damping_ratio, float h)
+{
+    // an implicit spring and damper of that frequency: w / a1, a2 a3, a3
+    float omega = 2.0f * FE_PI * hertz, a1 = 2.0f * damping_ratio + h * omega, a2 = h * omega * a1, a3 = 1.0f / (1.0f + a2);
+    return (fe__softness){omega / a1, a2 * a3, a3};
+}
+
+// ---- the program of a batch ------------------------------------------------------------------------------------------------------------
+static int32_t blocks_of(int32_t items, int32_t block) { return (items + block - 1) / block; }
+
+static void add_pass(program *p, int32_t *part, verb verb, int32_t first_group, int32_t groups, int32_t blocks, int32_t serial)
+{
+    int32_t i = p->prologue + p->substep + p->epilogue;
+    p->passes[i] = (pass){verb, first_group, groups, blocks, serial};
+    ++*part;
+}
+
+static int32_t colour_end(const fe__solver *s, int32_t group, int32_t end)
+{
+    int32_t colour = s->groups[group].colour;
+    while (group < end && s->groups[group].colour == colour) ++group;
+    return group;
+}
+
+static int32_t block_count(const fe__solver *s, int32_t group, int32_t end)
+{
+    int32_t blocks = 0;
+    for (; group < end; ++group) blocks += blocks_of(s->groups[group].rows, ROWS_IN_BLOCK);
+    return blocks;
+}
+
+static int32_t row_count(const fe__solver *s, int32_t group, int32_t end)
+{
+    int32_t rows = 0;
+    for (; group < end; ++group) rows += s->groups[group].rows;
+    return rows;
+}
+
+// one pass a colour; neighbouring colours with few rows are one serial pass, as is the overflow
+static void add_colours(program *p, int32_t *part, const fe__solver *s, const fe__batch *b, verb verb)
+{
+    int32_t end = b->first_group + b->group_count;
+    for (int32_t g = b->first_group; g < end;) {
+        int32_t last = colour_end(s, g, end), rows = row_count(s, g, last), serial = rows <= SERIAL_ROWS || s->groups[g].colour == FE__OVERFLOW_COLOUR;
+        while (serial && last < end) {
+            int32_t next = colour_end(s, last, end);
+            if (s->groups[last].colour != FE__OVERFLOW_COLOUR && row_count(s, last, next) > SERIAL_ROWS) break;
+            last = next;
+        }
+        add_pass(p, part, verb, g, last - g, serial ? 1 : block_count(s, g, last), serial);
+        g = last;
+    }
+}
+
+static void make_program(program *p, const fe__solver *s, const fe__batch *b, int32_t substeps)
+{
+    int32_t line_blocks = blocks_of(b->line_count, LINES_IN_BLOCK), end = b->first_group + b->group_count;
+    p->prologue = p->substep = p->epilogue = 0;
+    p->substeps = substeps;
+    add_pass(p, &p->prologue, LOAD, 0, 0, line_blocks, 0);
+    add_colours(p, &p->prologue, s, b, PREPARE);
+    add_colours(p, &p->substep, s, b, SOLVE);
+    add_pass(p, &p->substep, INTEGRATE, 0, 0, line_blocks, 0);
+    add_colours(p, &p->substep, s, b, RELAX);
+    if (b->bounces) add_colours(p, &p->substep, s, b, BOUNCE);
+    add_pass(p, &p->substep, CARRY, 0, 0, line_blocks, 0);
+    if (b->group_count) add_pass(p, &p->epilogue, STORE, b->first_group, b->group_count, block_count(s, b->first_group, end), 0);
+}
+
+static int32_t pass_count(const program *p) { return p->prologue + p->substeps * p->substep - 1 + p->epilogue; }
+
+// the i-th pass to run
+static const pass *pass_at(const program *p, int32_t i)
+{
+    int32_t looped = p->substeps * p->substep - 1;
+    if (i < p->prologue) return p->passes + i;
+    if (i - p->prologue < looped) return p->passes + p->prologue + (i - p->prologue) % p->substep;
+    return p->passes + p->prologue + p->substep + (i - p->prologue - looped);
+}
+
+// ---- one block of one pass ----------------------------------------------------------------------------------------------------------------
+static void run_lines(const job *j, const fe__batch *b, verb verb, int32_t block)
+{
+    int32_t first = b->first_line + block * LINES_IN_BLOCK, count = fe__mini(LINES_IN_BLOCK, b->first_line + b->line_count - first);
+    const fe__body_kernels *k = j->k->body;
+    if (verb == LOAD) k->load(j->s, j->bodies, first, count, j->c);
+    if (verb == LOAD) k->begin_velocities(j->s, first, count, j->c);
+    if (verb == INTEGRATE) k->integrate_positions(j->s, first, count, j->c);
+    if (verb == CARRY) k->carry_velocities(j->s, first, count, j->c);
+}
+
+static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char *rows, int32_t first, int32_t count)
+{
+    const fe__contact_kernels *k = j->k->contact;
+    unsigned char *row = rows + g->offset + (int64_t)first * k->row_size[g->kind];
+    const fe__lane *lanes = j->s->lanes + g->lane + first * j->k->width;
+    switch (verb) {
+    case PREPARE: k->prepare[g->kind](j->s, j->contacts, j->extras, lanes, row, count, j->c); break;
+    case SOLVE: k->solve[g->kind](j->s, row, count, j->c); break;
+    case RELAX: k->relax[g->kind](j->s, row, count, j->c); break;
+    case BOUNCE: k->bounce[g->kind](j->s, row, count, j->c); break;
+    case STORE: k->store[g->kind](j->contacts, j->extras, lanes, row, count); break;
+    case LOAD:
+    case INTEGRATE:
+    case CARRY: break;
+    }
+}
+
+static void run_block(const job *j, const fe__batch *b, const pass *p, unsigned char *rows, int32_t block)
+{
+    if (!p->group_count) {
+        run_lines(j, b, p->verb, block);
+        return;
+    }
+    const fe__group *g = j->s->groups + p->first_group;
+    if (p->serial) {
+        for (int32_t i = 0; i < p->group_count; ++i) run_rows(j, g + i, p->verb, rows, 0, g[i].rows);
+        return;
+    }
+    for (;; ++g) {
+        int32_t blocks = blocks_of(g->rows, ROWS_IN_BLOCK);
+        if (block < blocks) break;
+        block -= blocks;
+    }
+    int32_t first = block * ROWS_IN_BLOCK;
+    run_rows(j, g, p->verb, rows, first, fe__mini(ROWS_IN_BLOCK, g->rows - first));
+}
+
+// ---- a small batch, whole --------------------------------------------------------------------------------------------------------------------
+static void run_batch(const job *j, const fe__batch *b, unsigned char *rows)
+{
+    const fe__group *groups = j->s->groups + b->first_group;
+    static const verb substep[] = {SOLVE, INTEGRATE, RELAX, BOUNCE, CARRY};
+    int32_t line_blocks = blocks_of(b->line_count, LINES_IN_BLOCK), verbs = (int32_t)(sizeof substep / sizeof *substep);
+    for (int32_t i = 0; i < line_blocks; ++i) run_lines(j, b, LOAD, i);
+    for (int32_t i = 0; i < b->group_count; ++i) run_rows(j, groups + i, PREPARE, rows, 0, groups[i].rows);
+    for (int32_t n = 0; n < j->c->substeps; ++n)
+        for (int32_t v = 0; v < verbs; ++v) {
+            verb verb = substep[v];
+            if ((verb == BOUNCE && !b->bounces) || (verb == CARRY && n + 1 == j->c->substeps)) continue;
+            for (int32_t i = 0; i < line_blocks && (verb == INTEGRATE || verb == CARRY); ++i) run_lines(j, b, verb, i);
+            for (int32_t i = 0; i < b->group_count && verb != INTEGRATE && verb != CARRY; ++i) run_rows(j, groups + i, verb, rows, 0, groups[i].rows);
+        }
+    for (int32_t i = 0; i < b->group_count; ++i) run_rows(j, groups + i, STORE, rows, 0, groups[i].rows);
+}
+
+static void run_small_batches(void *argument, int32_t worker)
+{
+    job *j = argument;
+    unsigned char *rows = (unsigned char *)j->s->rows + worker * j->s->worker_row_bytes;
+    for (;;) {
+        int32_t i = atomic_fetch_add_explicit(&j->next_batch, 1, memory_order_relaxed);
+        if (i >= j->s->batch_count) return;
+        run_batch(j, j->s->batches + i, rows);
+    }
+}
+
+// ---- a large batch, together --------------------------------------------------------------------------------------------------------------------
+static int32_t claim_block(job *j, uint64_t pass_index, int32_t blocks)
+{
+    uint64_t claim = atomic_load_explicit(&j->claim, memory_order_acquire);
+    while (claim >> 32 == pass_index && (int32_t)(claim & UINT32_MAX) < blocks)
+        if (atomic_compare_exchange_weak_explicit(&j->claim, &claim, claim + 1, memory_order_acq_rel, memory_order_acquire))
+            return (int32_t)(claim & UINT32_MAX);
+    return -1;
+}
+
+// whoever finishes the last block of a pass opens the next one
+static void finish_block(job *j, uint64_t pass_index, int32_t blocks)
+{
+    if ((int32_t)atomic_fetch_add_explicit(&j->done, 1, memory_order_acq_rel) + 1 < blocks) return;
+    atomic_store_explicit(&j->done, 0, memory_order_relaxed);
+    atomic_store_explicit(&j->claim, (pass_index + 1) << 32, memory_order_release);
+}
+
+static void wait_for_pass(job *j, uint64_t pass_index)
+{
+    enum { SPINS_BEFORE_YIELD = 2000 };
+    for (int32_t spins = 0; atomic_load_explicit(&j->claim, memory_order_acquire) >> 32 <= pass_index; ++spins) {
+        if (spins < SPINS_BEFORE_YIELD)
+            fe__pause();
+        else
+            fe__yield();
+    }
+}
+
+static void run_large_batch(void *argument, int32_t worker)
+{
+    job *j = argument;
+    (void)worker;
+    int32_t count = pass_count(&j->program);
+    for (int32_t i = 0; i < count; ++i) {
+        const pass *p = pass_at(&j->program, i);
+        for (int32_t block; (block = claim_block(j, (uint64_t)i, p->blocks)) >= 0;) {
+            run_block(j, j->batch, p, (unsigned char *)j->s->rows, block);
+            finish_block(j, (uint64_t)i, p->blocks);
+        }
+        wait_for_pass(j, (uint64_t)i);
+    }
+}
+
+static int32_t useful_workers(const fe__solver *s, const fe__batch *b, int32_t workers)
+{
+    int32_t most = 0, end = b->first_group + b->group_count;
+    for (int32_t g = b->first_group; g < end;) {
+        int32_t last = colour_end(s, g, end);
+        most = fe__maxi(most, row_count(s, g, last));
+        g = last;
+    }
+    return fe__mini(workers, fe__maxi(1, most / ROWS_PER_WORKER));
+}
+
+static void clear_static_line(fe__solver *s)
+{
+    for (int32_t i = 0; i < FE__MAX_WIDTH; ++i) {
+        for (int32_t k = 0; k < FE__LINE; ++k)
+            s->velocity[i][k] = s->motion[i][k] = s->start[i][k] = s->inertia[i][k] = s->drive[i][k] = s->spin[i][k] = 0.0f;
+        s->motion[i][FE__LINE - 1] = 1.0f;
+    }
+}
+
+void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *workers, const fe__body *bodies, fe__contact *contacts, fe__extra *extras,
+               const fe__step_constants *c)
+{
+    job j = {.s = s, .k = kernels, .bodies = bodies, .contacts = contacts, .extras = extras, .c = c};
+    clear_static_line(s);
+    for (int32_t i = 0; i < s->large_count; ++i) {
+        j.batch = s->batches + i;
+        make_program(&j.program, s, j.batch, c->substeps);
+        atomic_store(&j.claim, 0);
+        atomic_store(&j.done, 0);
+        fe__run(workers, run_large_batch, &j, useful_workers(s, j.batch, workers->count));
+    }
+    atomic_store(&j.next_batch, s->large_count);
+    fe__run(workers, run_small_batches, &j, fe__mini(workers->count, s->batch_count - s->large_count));
+}

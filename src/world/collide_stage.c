@@ -1,0 +1,122 @@
+// collide_stage.c - stages 2 and 3: manifolds of the awake pairs, what begins and ends to touch, who wakes; then the constraint graph.
+//
+// A pair that moved little keeps its manifold (recycling, wide); the others go through the narrow phase one by one. Workers only write their pairs'
+// own records and a list of results; the results are applied afterwards, sorted by creation, so that colours and wake-ups follow no thread.
+#include "solver/graph.h"
+#include "world/step.h"
+
+enum { PAIRS_IN_BLOCK = 64 };
+
+typedef struct collide_job {
+    fe__step *step;
+    int32_t first; // of this round, in the list of awake pairs
+} collide_job;
+
+// ---- one pair --------------------------------------------------------------------------------------------------------------------------
+static void box_of(const fe_world *w, int32_t shape, fe__bounds *out)
+{
+    int32_t is_static = w->bodies[w->shapes[shape].body].type == FE_BODY_STATIC;
+    fe__tree_get(is_static ? &w->static_tree : &w->moving_tree, shape, out);
+}
+
+static int32_t boxes_part(const fe_world *w, const fe__pair *p)
+{
+    fe__bounds a, b;
+    const fe__shape *x = w->shapes + p->shape_a, *y = w->shapes + p->shape_b;
+    if (x->flags & FE__SHAPE_IN_TREE) box_of(w, p->shape_a, &a);
+    if (y->flags & FE__SHAPE_IN_TREE) box_of(w, p->shape_b, &b);
+    if (x->flags & FE__SHAPE_IN_PLANES) return !fe__box_meets_plane(x, &b);
+    if (y->flags & FE__SHAPE_IN_PLANES) return !fe__box_meets_plane(y, &a);
+    return a.high.x < b.low.x || b.high.x < a.low.x || a.high.y < b.low.y || b.high.y < a.low.y || a.high.z < b.low.z || b.high.z < a.low.z;
+}
+
+static int32_t judge(const fe_world *w, int32_t pair)
+{
+    const fe__pair *p = w->pairs + pair;
+    int32_t has_points = w->contacts[pair].normal[3] > 0.0f, linked = (p->flags & FE__PAIR_LINKED) != 0;
+    if (has_points) return linked || p->flags & FE__PAIR_SENSOR ? FE__RESULT_NONE : FE__RESULT_BEGIN;
+    if (boxes_part(w, p)) return FE__RESULT_APART;
+    return linked ? FE__RESULT_END : FE__RESULT_NONE;
+}
+
+static void collide_block(void *argument, int32_t first, int32_t end, int32_t worker)
+{
+    const collide_job *job = argument;
+    fe_world *w = job->step->world;
+    fe__step_scratch *s = job->step->scratch;
+    (void)worker;
+    first += job->first, end += job->first;
+    w->kernels->recycle(w->contacts, w->bodies, w->awake_pairs + first, end - first, s->moved + first);
+    int32_t recycled = end - first;
+    for (int32_t i = first; i < end; ++i) {
+        if (!s->moved[i]) continue;
+        int32_t pair = w->awake_pairs[i];
+        --recycled;
+        fe__collide_pair(w, pair);
+        w->pairs[pair].result = judge(w, pair);
+        if (w->pairs[pair].result != FE__RESULT_NONE) s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
+    }
+    atomic_fetch_add_explicit(&s->recycled, recycled, memory_order_relaxed);
+}
+
+// ---- results ------------------------------------------------------------------------------------------------------------------------------
+void fe__sort_pairs(fe__step *step, int32_t *pairs, int32_t count)
+{
+    const fe_world *w = step->world;
+    fe__sort_item *items = step->scratch->sort_items;
+    for (int32_t i = 0; i < count; ++i) items[i] = (fe__sort_item){w->pair_serials[2 * pairs[i] + 1], pairs[i], 0};
+    fe__sort_keys(items, count, items + count);
+    for (int32_t i = 0; i < count; ++i) items[i].key = w->pair_serials[2 * items[i].value];
+    fe__sort_keys(items, count, items + count);
+    for (int32_t i = 0; i < count; ++i) pairs[i] = items[i].value;
+}
+
+static void wake_sleeping(fe_world *w, int32_t body)
+{
+    if (w->bodies[body].type == FE_BODY_DYNAMIC && w->bodies[body].awake_index < 0) fe__wake(w, body);
+}
+
+// ends before beginnings, so that a colour given back can be taken in the same step
+static void apply_results(fe__step *step, int32_t first)
+{
+    fe_world *w = step->world;
+    fe__step_scratch *s = step->scratch;
+    int32_t *results = s->results + first, count = atomic_load(&s->result_count) - first;
+    fe__sort_pairs(step, results, count);
+    for (int32_t i = 0; i < count; ++i)
+        if (w->pairs[results[i]].result == FE__RESULT_END || w->pairs[results[i]].result == FE__RESULT_APART) fe__pair_unlink(w, results[i]);
+    for (int32_t i = 0; i < count; ++i) {
+        const fe__pair *p = w->pairs + results[i];
+        if (p->result != FE__RESULT_BEGIN) continue;
+        fe__pair_link(w, results[i]);
+        wake_sleeping(w, p->body_a);
+        wake_sleeping(w, p->body_b);
+    }
+}
+
+void fe__update_contacts(fe__step *step)
+{
+    fe_world *w = step->world;
+    fe__step_scratch *s = step->scratch;
+    atomic_store(&s->result_count, 0);
+    atomic_store(&s->recycled, 0);
+    // what wakes brings its pairs: they are looked at in another round
+    for (int32_t first = 0; first < w->awake_pair_count;) {
+        int32_t end = w->awake_pair_count, results = atomic_load(&s->result_count);
+        collide_job job = {step, first};
+        fe__parallel_for(&w->workers, end - first, PAIRS_IN_BLOCK, collide_block, &job);
+        apply_results(step, results);
+        first = end;
+    }
+    int32_t count = atomic_load(&s->result_count);
+    for (int32_t i = 0; i < count; ++i)
+        if (w->pairs[s->results[i]].result == FE__RESULT_APART) fe__pair_destroy(w, s->results[i]);
+}
+
+void fe__build_islands(fe__step *step)
+{
+    fe_world *w = step->world;
+    if (!w->solver.graph_changed) return;
+    const fe__graph_input in = {w->bodies, w->contacts, w->pair_serials, w->awake_bodies, w->awake_body_count, w->awake_pairs, w->awake_pair_count};
+    fe__graph_build(&w->solver, w->kernels, &in);
+}

@@ -1,0 +1,136 @@
+// events.c - what the step has to tell: touching begun, kept, ended; impacts; bodies that woke or fell asleep. In the order of creation.
+//
+// A pair touches when a point had an impulse, or a gap of 0 or less, during the step. Exits of pairs that ended otherwise (destroyed, re-filtered,
+// boxes apart) wait in fe_world.owed_events and come out here.
+#include "world/step.h"
+
+static fe_pair_event event_of(const fe_world *w, int32_t pair, int32_t kind)
+{
+    const fe__pair *p = w->pairs + pair;
+    return (fe_pair_event){fe__body_handle(w, p->body_a),   fe__body_handle(w, p->body_b),   fe__shape_handle(w, p->shape_a),
+                           fe__shape_handle(w, p->shape_b), kind, (p->flags & FE__PAIR_SENSOR) != 0};
+}
+
+static fe__pair_event_record record_of(const fe_world *w, int32_t pair, int32_t kind)
+{
+    return (fe__pair_event_record){w->pair_serials[2 * pair], w->pair_serials[2 * pair + 1], event_of(w, pair, kind)};
+}
+
+void fe__owe_exit(fe_world *w, int32_t pair)
+{
+    if (w->pairs[pair].events & FE_EVENTS_TOUCH) w->owed_events[w->owed_event_count++] = record_of(w, pair, FE_EXIT);
+}
+
+// arms count from the centre of the solver's A, or of B when A is static; between them lies what the pair moved since it was found
+fe_dvec3 fe__contact_point(const fe_world *w, int32_t pair, int32_t point)
+{
+    const fe__contact *m = w->contacts + pair;
+    const fe__body *a = w->bodies + m->body_a, *from = a->type == FE_BODY_STATIC ? w->bodies + m->body_b : a;
+    const float *r = m->point[point];
+    return (fe_dvec3){from->centre[0] + (double)r[0], from->centre[1] + (double)r[1], from->centre[2] + (double)r[2]};
+}
+
+static int32_t touches(const fe_world *w, int32_t pair)
+{
+    const fe__contact *m = w->contacts + pair;
+    int32_t points = (int32_t)m->normal[3], sensor = (w->pairs[pair].flags & FE__PAIR_SENSOR) != 0;
+    for (int32_t i = 0; i < points; ++i)
+        if (m->separation[i] <= 0.0f || (!sensor && m->total_impulse[i] > 0.0f)) return 1;
+    return 0;
+}
+
+static void add_hit(fe_world *w, int32_t pair)
+{
+    const fe__pair *p = w->pairs + pair;
+    const fe__contact *m = w->contacts + pair;
+    if (!(p->events & FE_EVENTS_HIT) || p->approach < w->tuning.hit_event_threshold) return;
+    float impulse = 0.0f;
+    int32_t deepest = 0;
+    for (int32_t i = 0; i < (int32_t)m->normal[3]; ++i) {
+        impulse += m->total_impulse[i];
+        if (m->total_impulse[i] > m->total_impulse[deepest]) deepest = i;
+    }
+    if (impulse <= 0.0f) return;
+    float sign = p->flags & FE__PAIR_FLIPPED ? -1.0f : 1.0f;
+    fe_pair_event e = event_of(w, pair, FE_ENTER);
+    fe__hit_event_record *r = w->hit_events + w->hit_event_count++;
+    *r = (fe__hit_event_record){w->pair_serials[2 * pair], w->pair_serials[2 * pair + 1],
+                                {e.body_a, e.body_b, e.shape_a, e.shape_b, fe__contact_point(w, pair, deepest),
+                                 fe__scale(sign, fe__vec3(m->normal[0], m->normal[1], m->normal[2])), p->approach, impulse, 0}};
+}
+
+static void look_at_pair(fe_world *w, int32_t pair)
+{
+    fe__pair *p = w->pairs + pair;
+    int32_t now = touches(w, pair), before = (p->flags & FE__PAIR_TOUCHING) != 0;
+    int32_t kind = now ? (before ? FE_STAY : FE_ENTER) : FE_EXIT;
+    if (now) p->flags |= FE__PAIR_TOUCHING;
+    if (!now) p->flags &= ~(uint32_t)FE__PAIR_TOUCHING;
+    if (now && !(p->flags & FE__PAIR_SENSOR)) add_hit(w, pair);
+    if (!now && !before) return;
+    if (p->events & (kind == FE_STAY ? (uint32_t)FE_EVENTS_STAY : (uint32_t)FE_EVENTS_TOUCH)) w->pair_events[w->pair_event_count++] = record_of(w, pair, kind);
+}
+
+// ---- order --------------------------------------------------------------------------------------------------------------------------------
+// Stable sorts by B, then by A. The records are moved once, along the cycles of the permutation.
+static void sort_records(fe__step *step, unsigned char *records, int32_t count, size_t size)
+{
+    fe__sort_item *items = step->scratch->sort_items;
+    for (int32_t key = 1; key >= 0; --key) {
+        for (int32_t i = 0; i < count; ++i) {
+            if (key) items[i].value = i;
+            items[i].key = ((const uint64_t *)(const void *)(records + (size_t)items[i].value * size))[key];
+        }
+        fe__sort_keys(items, count, items + count);
+    }
+    union {
+        fe__pair_event_record pair;
+        fe__hit_event_record hit;
+        unsigned char bytes[sizeof(fe__hit_event_record)];
+    } held;
+    for (int32_t i = 0; i < count; ++i) {
+        if (items[i].value == i || items[i].value < 0) continue;
+        __builtin_memcpy(held.bytes, records + (size_t)i * size, size);
+        for (int32_t at = i, from; at >= 0; at = from) {
+            from = items[at].value;
+            items[at].value = -1;
+            if (from == i) {
+                __builtin_memcpy(records + (size_t)at * size, held.bytes, size);
+                break;
+            }
+            __builtin_memcpy(records + (size_t)at * size, records + (size_t)from * size, size);
+        }
+    }
+}
+
+void fe__collect_events(fe__step *step)
+{
+    fe_world *w = step->world;
+    w->pair_event_count = w->hit_event_count = 0;
+    for (int32_t i = 0; i < w->owed_event_count; ++i) w->pair_events[w->pair_event_count++] = w->owed_events[i];
+    w->owed_event_count = 0;
+    for (int32_t i = 0; i < w->awake_pair_count; ++i) look_at_pair(w, w->awake_pairs[i]);
+    sort_records(step, (unsigned char *)w->pair_events, w->pair_event_count, sizeof *w->pair_events);
+    sort_records(step, (unsigned char *)w->hit_events, w->hit_event_count, sizeof *w->hit_events);
+}
+
+void fe__collect_body_events(fe__step *step)
+{
+    fe_world *w = step->world;
+    fe__sort_item *items = step->scratch->sort_items;
+    int32_t count = 0;
+    for (int32_t i = 0; i < w->stirred_count; ++i) {
+        int32_t index = w->stirred[i];
+        fe__body *body = w->bodies + index;
+        int32_t awake = body->awake_index >= 0, before = (body->flags & FE__BODY_SEEN_AWAKE) != 0;
+        body->flags &= ~(uint32_t)(FE__BODY_STIRRED | FE__BODY_SEEN_AWAKE);
+        if (awake) body->flags |= FE__BODY_SEEN_AWAKE;
+        int32_t tells = fe__id_pool_is_alive(&w->body_ids, index) && body->flags & FE__BODY_ENABLED && body->type != FE_BODY_STATIC;
+        if (tells && awake != before) items[count++] = (fe__sort_item){body->serial, index, awake};
+    }
+    w->stirred_count = 0;
+    fe__sort_keys(items, count, items + count);
+    w->body_event_count = count;
+    for (int32_t i = 0; i < count; ++i)
+        w->body_events[i] = (fe__body_event_record){items[i].key, {fe__body_handle(w, items[i].value), items[i].spare ? FE_WAKE : FE_SLEEP, 0}};
+}

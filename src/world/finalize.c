@@ -1,0 +1,130 @@
+// finalize.c - stages after the solver: poses and boxes from what the bodies did, then islands fall asleep.
+//
+// Each body is its own; the trees are written by the stepping thread, from a list of the shapes that left their boxes.
+#include "world/step.h"
+
+#include <float.h>
+
+enum { BODIES_IN_BLOCK = 64, BOXES_IN_BLOCK = 64, STEPS_BETWEEN_REBUILDS = 8 };
+
+// ---- poses ---------------------------------------------------------------------------------------------------------------------------
+// q = dq q. A body that did not turn keeps its quaternion: no rounding of what stood still.
+static int32_t turn(fe__body *body, const float *dq)
+{
+    if (dq[0] == 0.0f && dq[1] == 0.0f && dq[2] == 0.0f) return 0;
+    fe_quat q = {body->rotation[0], body->rotation[1], body->rotation[2], body->rotation[3]};
+    q = fe__normalized(fe__product((fe_quat){dq[0], dq[1], dq[2], dq[3]}, q));
+    body->rotation[0] = q.x, body->rotation[1] = q.y, body->rotation[2] = q.z, body->rotation[3] = q.w;
+    return 1;
+}
+
+static int32_t shift(fe__body *body, const float *dp)
+{
+    if (dp[0] == 0.0f && dp[1] == 0.0f && dp[2] == 0.0f) return 0;
+    for (int k = 0; k < 3; ++k) {
+        body->centre[k] += (double)dp[k];
+        body->centre_high[k] = (float)body->centre[k];
+        body->centre_low[k] = (float)(body->centre[k] - (double)body->centre_high[k]);
+    }
+    return 1;
+}
+
+static void place_origin(fe__body *body)
+{
+    const float *c = body->local_centre;
+    fe_dvec3 arm = {0.0, 0.0, 0.0};
+    if (c[0] != 0.0f || c[1] != 0.0f || c[2] != 0.0f)
+        arm = fe__drotate((fe_quat){body->rotation[0], body->rotation[1], body->rotation[2], body->rotation[3]}, fe__widen(fe__vec3(c[0], c[1], c[2])));
+    body->origin[0] = body->centre[0] - arm.x, body->origin[1] = body->centre[1] - arm.y, body->origin[2] = body->centre[2] - arm.z;
+}
+
+// its fastest point can be no faster than |v| + |w| reach
+static void tick_sleep_timer(fe__body *body, float dt)
+{
+    const float *v = body->velocity, *w = body->spin;
+    float speed = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + sqrtf(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) * body->local_centre[3];
+    int32_t slow = body->flags & FE__BODY_SLEEP_ALLOWED && speed < body->sleep_threshold;
+    body->sleep_timer = slow ? body->sleep_timer + dt : 0.0f;
+}
+
+static void follow_body(fe__step *step, int32_t index)
+{
+    fe_world *w = step->world;
+    fe__step_scratch *s = step->scratch;
+    fe__body_place(w, index);
+    for (int32_t i = w->bodies[index].first_shape; i >= 0; i = w->shapes[i].next) {
+        if (!(w->shapes[i].flags & FE__SHAPE_IN_TREE)) continue;
+        fe__bounds tight = fe__shape_bounds(w, i, w->tuning.speculative_distance);
+        if (!fe__tree_holds(&w->moving_tree, i, &tight)) s->left[atomic_fetch_add_explicit(&s->left_count, 1, memory_order_relaxed)] = i;
+    }
+}
+
+static void move_block(void *argument, int32_t first, int32_t end, int32_t worker)
+{
+    fe__step *step = argument;
+    fe_world *w = step->world;
+    (void)worker;
+    for (int32_t i = first; i < end; ++i) {
+        fe__body *body = w->bodies + w->awake_bodies[i];
+        const float *velocity = w->solver.velocity[body->line], *motion = w->solver.motion[body->line];
+        for (int k = 0; k < 3; ++k) {
+            body->velocity[k] = velocity[k], body->spin[k] = velocity[4 + k];
+            body->force[k] = body->torque[k] = 0.0f;
+        }
+        int32_t moved = shift(body, motion) | turn(body, motion + 4);
+        body->flags &= ~(uint32_t)FE__BODY_MOVED;
+        tick_sleep_timer(body, step->dt);
+        if (!moved) continue;
+        body->flags |= FE__BODY_MOVED;
+        place_origin(body);
+        follow_body(step, w->awake_bodies[i]);
+    }
+}
+
+static void box_block(void *argument, int32_t first, int32_t end, int32_t worker)
+{
+    const fe__step *step = argument;
+    (void)worker;
+    for (int32_t i = first; i < end; ++i) step->scratch->boxes[i] = fe__shape_fat_bounds(step->world, step->scratch->left[i]);
+}
+
+void fe__move_bodies(fe__step *step)
+{
+    fe_world *w = step->world;
+    fe__step_scratch *s = step->scratch;
+    atomic_store(&s->left_count, 0);
+    fe__parallel_for(&w->workers, w->awake_body_count, BODIES_IN_BLOCK, move_block, step);
+    int32_t left = atomic_load(&s->left_count);
+    fe__parallel_for(&w->workers, left, BOXES_IN_BLOCK, box_block, step);
+    if (left) fe__tree_move(&w->moving_tree, s->left, s->boxes, left);
+    for (int32_t i = 0; i < left; ++i) fe__shape_mark_moved(w, s->left[i]);
+    if (++s->step_count % STEPS_BETWEEN_REBUILDS == 0) {
+        fe__tree_rebuild(&w->moving_tree, &w->memory, 0);
+        fe__tree_rebuild(&w->static_tree, &w->memory, 0);
+    }
+}
+
+// ---- sleep ------------------------------------------------------------------------------------------------------------------------------
+static int32_t stands_still(const fe__body *body)
+{
+    const float *v = body->velocity, *w = body->spin;
+    return v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f && w[0] == 0.0f && w[1] == 0.0f && w[2] == 0.0f;
+}
+
+// An island sleeps when all its bodies have been slow for long enough; a kinematic body when it stands still
+void fe__put_islands_to_sleep(fe__step *step)
+{
+    fe_world *w = step->world;
+    float *timers = step->scratch->island_timers;
+    for (int32_t i = 0; i < w->solver.island_count; ++i) timers[i] = FLT_MAX;
+    for (int32_t i = 0; i < w->awake_body_count; ++i) {
+        const fe__body *body = w->bodies + w->awake_bodies[i];
+        if (body->island >= 0) timers[body->island] = fe__minf(timers[body->island], body->sleep_timer);
+    }
+    for (int32_t i = w->awake_body_count - 1; i >= 0; --i) {
+        int32_t index = w->awake_bodies[i];
+        const fe__body *body = w->bodies + index;
+        int32_t sleeps = body->type == FE_BODY_KINEMATIC ? stands_still(body) : timers[body->island] >= w->tuning.sleep_time;
+        if (sleeps) fe__body_fall_asleep(w, index);
+    }
+}

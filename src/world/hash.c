@@ -1,0 +1,81 @@
+// hash.c - the fingerprint of a world: poses, velocities, contacts, events. It knows nothing of rows, lanes, slots or lists.
+#include "core/hash.h"
+#include "world/world.h"
+
+static void hash_floats(fe__hash *h, const float *a, int count)
+{
+    for (int i = 0; i < count; ++i) fe__hash_float(h, a[i]);
+}
+
+static void hash_body(fe__hash *h, const fe__body *b)
+{
+    fe__hash_u64(h, b->serial);
+    fe__hash_u32(h, (uint32_t)b->type | (b->flags & FE__BODY_ENABLED) << 8 | (uint32_t)(b->awake_index >= 0) << 16);
+    for (int k = 0; k < 3; ++k) fe__hash_double(h, b->origin[k]);
+    hash_floats(h, b->rotation, 4);
+    hash_floats(h, b->velocity, 3);
+    hash_floats(h, b->spin, 3);
+    hash_floats(h, b->force, 3);
+    hash_floats(h, b->torque, 3);
+    fe__hash_float(h, b->sleep_timer);
+}
+
+// contacts have no order of their own: their fingerprints are summed
+static uint64_t hash_contact(const fe_world *w, int32_t pair)
+{
+    const fe__contact *m = w->contacts + pair;
+    fe__hash h = fe__hash_begin();
+    fe__hash_u64(&h, w->pair_serials[2 * pair]);
+    fe__hash_u64(&h, w->pair_serials[2 * pair + 1]);
+    hash_floats(&h, m->normal, 4);
+    hash_floats(&h, m->separation, (int)m->normal[3]);
+    hash_floats(&h, m->normal_impulse, FE__POINTS);
+    hash_floats(&h, m->friction_impulse, 4);
+    hash_floats(&h, m->total_impulse, FE__POINTS);
+    hash_floats(&h, w->extras[pair].rolling_impulse, 3);
+    return fe__hash_end(&h);
+}
+
+static void hash_pair_events(fe__hash *h, const fe__pair_event_record *r, int32_t count)
+{
+    fe__hash_i32(h, count);
+    for (int32_t i = 0; i < count; ++i) {
+        fe__hash_u64(h, r[i].serial_a);
+        fe__hash_u64(h, r[i].serial_b);
+        fe__hash_i32(h, r[i].event.kind << 1 | r[i].event.is_trigger);
+    }
+}
+
+static void hash_other_events(fe__hash *h, const fe_world *w)
+{
+    fe__hash_i32(h, w->body_event_count);
+    for (int32_t i = 0; i < w->body_event_count; ++i) {
+        fe__hash_u64(h, w->body_events[i].serial);
+        fe__hash_i32(h, w->body_events[i].event.kind);
+    }
+    fe__hash_i32(h, w->hit_event_count);
+    for (int32_t i = 0; i < w->hit_event_count; ++i) {
+        const fe__hit_event_record *r = w->hit_events + i;
+        fe__hash_u64(h, r->serial_a);
+        fe__hash_u64(h, r->serial_b);
+        fe__hash_dvec3(h, r->event.point);
+        fe__hash_vec3(h, r->event.normal);
+        fe__hash_floats2(h, r->event.speed, r->event.impulse);
+    }
+}
+
+uint64_t fe__world_hash(const fe_world *w)
+{
+    fe__hash h = fe__hash_begin();
+    uint64_t contacts = 0;
+    fe__hash_i32(&h, w->body_count);
+    for (int32_t i = w->first_body; i >= 0; i = w->bodies[i].order_next) {
+        hash_body(&h, w->bodies + i);
+        for (int32_t pair = w->bodies[i].first_contact; pair >= 0; pair = fe__next_pair(w, pair, i))
+            if (w->pairs[pair].body_a == i && w->pairs[pair].flags & FE__PAIR_LINKED) contacts += hash_contact(w, pair);
+    }
+    fe__hash_u64(&h, contacts);
+    hash_pair_events(&h, w->pair_events, w->pair_event_count);
+    hash_other_events(&h, w);
+    return fe__hash_end(&h);
+}

@@ -1,0 +1,219 @@
+// pairs.c - the life of pairs: birth, mixed materials, places in lists and in the constraint graph, death with the exit it owes.
+#include "world/world.h"
+
+#include <assert.h>
+#include <string.h>
+
+#define PAIR_COLOURS ((UINT64_C(1) << FE__PAIR_COLOURS) - 1)
+#define STATIC_COLOURS (((UINT64_C(1) << FE__STATIC_COLOURS) - 1) << FE__PAIR_COLOURS)
+
+int32_t fe__reserve_pairs(fe_world *world, int32_t extra)
+{
+    fe__memory *memory = &world->memory;
+    int64_t limit = (int64_t)world->pair_limit + extra, count = (int64_t)world->pair_count + world->owed_event_count + extra;
+    return FE_RESERVE(memory, world->contacts, world->contact_capacity, limit) && FE_RESERVE(memory, world->pairs, world->pair_capacity, limit) &&
+           FE_RESERVE(memory, world->extras, world->extra_capacity, limit) && FE_RESERVE(memory, world->pair_serials, world->serial_capacity, 2 * limit) &&
+           FE_RESERVE(memory, world->awake_pairs, world->awake_pair_capacity, limit) &&
+           FE_RESERVE(memory, world->owed_events, world->owed_event_capacity, count) && fe__pair_set_reserve(&world->pair_set, memory, extra);
+}
+
+// ---- lists ---------------------------------------------------------------------------------------------------------------------------
+static fe__link *link_of(fe_world *world, int32_t pair, int32_t body) { return &world->pairs[pair].links[world->pairs[pair].body_a == body ? 0 : 1]; }
+
+int32_t fe__next_pair(const fe_world *world, int32_t pair, int32_t body) { return world->pairs[pair].links[world->pairs[pair].body_a == body ? 0 : 1].next; }
+
+static void add_to_body(fe_world *world, int32_t pair, int32_t index)
+{
+    fe__body *body = world->bodies + index;
+    *link_of(world, pair, index) = (fe__link){body->first_contact, -1};
+    if (body->first_contact >= 0) link_of(world, body->first_contact, index)->previous = pair;
+    body->first_contact = pair;
+    ++body->contact_count;
+    if (body->type == FE_BODY_DYNAMIC) world->most_contacts = fe__maxi(world->most_contacts, body->contact_count);
+}
+
+static void remove_from_body(fe_world *world, int32_t pair, int32_t index)
+{
+    fe__body *body = world->bodies + index;
+    fe__link link = *link_of(world, pair, index);
+    if (link.previous >= 0)
+        link_of(world, link.previous, index)->next = link.next;
+    else
+        body->first_contact = link.next;
+    if (link.next >= 0) link_of(world, link.next, index)->previous = link.previous;
+    --body->contact_count;
+}
+
+void fe__pair_awaken(fe_world *world, int32_t pair)
+{
+    if (world->pairs[pair].awake_index >= 0) return;
+    world->pairs[pair].awake_index = world->awake_pair_count;
+    world->awake_pairs[world->awake_pair_count++] = pair;
+}
+
+void fe__pair_retire(fe_world *world, int32_t pair)
+{
+    int32_t place = world->pairs[pair].awake_index;
+    if (place < 0) return;
+    int32_t last = world->awake_pairs[--world->awake_pair_count];
+    world->awake_pairs[place] = last;
+    world->pairs[last].awake_index = place;
+    world->pairs[pair].awake_index = -1;
+}
+
+// ---- materials ---------------------------------------------------------------------------------------------------------------------------
+static float form_radius(const fe__shape *a, const fe__shape *b) { return fe__maxf(a->form.radius, b->form.radius); }
+
+static int32_t has_extra(const fe__shape *shape)
+{
+    const fe_material *m = &shape->material;
+    fe_vec3 s = shape->surface_velocity;
+    return m->restitution > 0.0f || m->rolling_resistance > 0.0f || m->spinning_resistance > 0.0f || s.x != 0.0f || s.y != 0.0f || s.z != 0.0f;
+}
+
+int32_t fe__pair_kind(const fe_world *world, int32_t shape_a, int32_t shape_b)
+{
+    const fe__shape *x = world->shapes + shape_a, *y = world->shapes + shape_b;
+    const fe__body *a = world->bodies + x->body, *b = world->bodies + y->body;
+    int32_t kind = a->type == FE_BODY_DYNAMIC && b->type == FE_BODY_DYNAMIC ? FE__ROW_PAIR : 0;
+    int32_t kinematic = a->type == FE_BODY_KINEMATIC || b->type == FE_BODY_KINEMATIC;
+    if (x->form.type == FE_GEOMETRY_SPHERE || y->form.type == FE_GEOMETRY_SPHERE) kind |= FE__ROW_SINGLE;
+    if (a->locked || b->locked || kinematic || has_extra(x) || has_extra(y)) kind |= FE__ROW_SPECIAL;
+    return kind;
+}
+
+// velocity of a shape's surface, world axes
+static fe_vec3 surface_of(const fe__shape *shape) { return fe__rotate(shape->pose.rotation, shape->surface_velocity); }
+
+void fe__pair_mix(fe_world *world, int32_t pair)
+{
+    fe__pair *p = world->pairs + pair;
+    fe__contact *m = world->contacts + pair;
+    fe__extra *e = world->extras + pair;
+    const fe__shape *a = world->shapes + p->shape_a, *b = world->shapes + p->shape_b;
+    const fe_material *x = &a->material, *y = &b->material;
+    fe_vec3 surface = fe__sub(surface_of(b), surface_of(a));
+    if (p->flags & FE__PAIR_FLIPPED) surface = fe__neg(surface);
+    m->span[3] = sqrtf(x->static_friction * y->static_friction);
+    m->surface[0] = sqrtf(x->dynamic_friction * y->dynamic_friction);
+    e->restitution = fe__maxf(x->restitution, y->restitution);
+    e->rolling = fe__maxf(x->rolling_resistance, y->rolling_resistance) * form_radius(a, b);
+    e->spinning = fe__maxf(x->spinning_resistance, y->spinning_resistance);
+    e->surface_velocity[0] = surface.x, e->surface_velocity[1] = surface.y, e->surface_velocity[2] = surface.z;
+    p->events = a->events | b->events;
+    world->wants_hits |= (p->events & FE_EVENTS_HIT) != 0;
+    int32_t kind = fe__pair_kind(world, p->shape_a, p->shape_b);
+    world->row_kinds |= 1u << kind;
+    if (kind == m->kind) return;
+    m->kind = kind;
+    if (m->colour >= 0) world->solver.graph_changed = 1;
+}
+
+// ---- the constraint graph ------------------------------------------------------------------------------------------------------------------
+// First colour that neither dynamic body uses yet. A body's contacts have different colours, so contacts of one colour share no dynamic body.
+void fe__pair_link(fe_world *world, int32_t pair)
+{
+    fe__contact *m = world->contacts + pair;
+    assert(m->colour < 0);
+    fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
+    uint64_t used = b->colours | (m->kind & FE__ROW_PAIR ? a->colours : 0), free = ~used & (m->kind & FE__ROW_PAIR ? PAIR_COLOURS : STATIC_COLOURS);
+    m->colour = free ? __builtin_ctzll(free) : FE__OVERFLOW_COLOUR;
+    if (free) {
+        b->colours |= UINT64_C(1) << m->colour;
+        if (m->kind & FE__ROW_PAIR) a->colours |= UINT64_C(1) << m->colour;
+    }
+    world->pairs[pair].flags |= FE__PAIR_LINKED;
+    world->solver.graph_changed = 1;
+    ++world->linked_count;
+}
+
+void fe__pair_unlink(fe_world *world, int32_t pair)
+{
+    fe__contact *m = world->contacts + pair;
+    if (m->colour < 0) return;
+    if (m->colour != FE__OVERFLOW_COLOUR) {
+        world->bodies[m->body_b].colours &= ~(UINT64_C(1) << m->colour);
+        if (m->kind & FE__ROW_PAIR) world->bodies[m->body_a].colours &= ~(UINT64_C(1) << m->colour);
+    }
+    m->colour = -1;
+    for (int k = 0; k < FE__POINTS; ++k) m->normal_impulse[k] = m->friction_impulse[k] = m->total_impulse[k] = 0.0f;
+    for (int k = 0; k < 3; ++k) world->extras[pair].rolling_impulse[k] = 0.0f;
+    world->pairs[pair].flags &= ~(uint32_t)FE__PAIR_LINKED;
+    world->solver.graph_changed = 1;
+    --world->linked_count;
+}
+
+// ---- birth and death ------------------------------------------------------------------------------------------------------------------------
+static float half_size(const fe__form *form) { return fe__maxf(fe__maxf(form->half.x, form->half.y), form->half.z); }
+
+// Which shape is fe__collide's A (see collide.h), and which body is the solver's A: the one that is not dynamic, else that shape's.
+static uint32_t sides(const fe_world *world, const fe__shape *a, const fe__shape *b)
+{
+    int32_t swapped = a->form.type != b->form.type ? a->form.type < b->form.type : half_size(&a->form) < half_size(&b->form);
+    int32_t dynamic_a = world->bodies[a->body].type == FE_BODY_DYNAMIC, dynamic_b = world->bodies[b->body].type == FE_BODY_DYNAMIC;
+    int32_t flipped = dynamic_a != dynamic_b ? dynamic_a : swapped;
+    return (swapped ? (uint32_t)FE__PAIR_SWAPPED : 0u) | (flipped ? (uint32_t)FE__PAIR_FLIPPED : 0u);
+}
+
+static int32_t take_slot(fe_world *world)
+{
+    if (world->first_free_pair < 0) return world->pair_limit++;
+    int32_t pair = world->first_free_pair;
+    world->first_free_pair = world->pairs[pair].links[0].next;
+    return pair;
+}
+
+int32_t fe__pair_create(fe_world *world, int32_t shape_a, int32_t shape_b)
+{
+    int32_t pair = take_slot(world);
+    const fe__shape *a = world->shapes + shape_a, *b = world->shapes + shape_b;
+    fe__pair *p = world->pairs + pair;
+    fe__contact *m = world->contacts + pair;
+    memset(p, 0, sizeof *p);
+    memset(m, 0, sizeof *m);
+    memset(world->extras + pair, 0, sizeof *world->extras);
+    p->shape_a = shape_a, p->shape_b = shape_b;
+    p->body_a = a->body, p->body_b = b->body;
+    world->pair_serials[2 * pair] = a->serial, world->pair_serials[2 * pair + 1] = b->serial;
+    p->flags = sides(world, a, b);
+    if ((a->flags | b->flags) & FE__SHAPE_TRIGGER) p->flags |= FE__PAIR_SENSOR;
+    p->awake_index = p->axis = -1;
+    m->colour = m->kind = -1;
+    m->body_a = p->flags & FE__PAIR_FLIPPED ? p->body_b : p->body_a;
+    m->body_b = p->flags & FE__PAIR_FLIPPED ? p->body_a : p->body_b;
+    fe__pair_mix(world, pair);
+    add_to_body(world, pair, p->body_a);
+    add_to_body(world, pair, p->body_b);
+    fe__pair_set_insert(&world->pair_set, shape_a, shape_b, pair);
+    if (world->bodies[p->body_a].awake_index >= 0 || world->bodies[p->body_b].awake_index >= 0) fe__pair_awaken(world, pair);
+    ++world->pair_count;
+    return pair;
+}
+
+void fe__pair_destroy(fe_world *world, int32_t pair)
+{
+    fe__pair *p = world->pairs + pair;
+    if (p->flags & FE__PAIR_TOUCHING) fe__owe_exit(world, pair);
+    fe__pair_unlink(world, pair);
+    fe__pair_retire(world, pair);
+    remove_from_body(world, pair, p->body_a);
+    remove_from_body(world, pair, p->body_b);
+    fe__pair_set_remove(&world->pair_set, p->shape_a, p->shape_b);
+    p->flags = 0;
+    p->links[0].next = world->first_free_pair;
+    world->first_free_pair = pair;
+    --world->pair_count;
+}
+
+void fe__body_drop_pairs(fe_world *world, int32_t body)
+{
+    while (world->bodies[body].first_contact >= 0) fe__pair_destroy(world, world->bodies[body].first_contact);
+}
+
+void fe__body_refilter(fe_world *world, int32_t body)
+{
+    for (int32_t pair = world->bodies[body].first_contact, next; pair >= 0; pair = next) {
+        next = fe__next_pair(world, pair, body);
+        if (!fe__may_collide(world, world->pairs[pair].shape_a, world->pairs[pair].shape_b)) fe__pair_destroy(world, pair);
+    }
+}

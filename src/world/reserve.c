@@ -1,0 +1,102 @@
+// reserve.c - all memory that a step can need, before it changes anything.
+//
+// The bounds follow from what is awake, what may wake, and the candidates just found. When one allocation fails, the step fails with the world as it
+// was; later stages cannot fail, so that no contact and no event is ever dropped.
+#include "solver/graph.h"
+#include "world/step.h"
+
+// Can anything asleep be touched in this step? Then all of it may wake.
+static int32_t may_wake(const fe__step *step)
+{
+    const fe_world *w = step->world;
+    const fe__step_scratch *s = step->scratch;
+    if (w->awake_body_count == w->body_count) return 0;
+    for (int32_t i = 0; i < s->candidate_count; ++i) {
+        const fe__body *a = w->bodies + w->shapes[s->candidates[i].shape_a].body, *b = w->bodies + w->shapes[s->candidates[i].shape_b].body;
+        if ((a->awake_index < 0 && a->type == FE_BODY_DYNAMIC) || (b->awake_index < 0 && b->type == FE_BODY_DYNAMIC)) return 1;
+    }
+    for (int32_t i = 0; i < w->awake_pair_count; ++i) {
+        const fe__contact *m = w->contacts + w->awake_pairs[i];
+        const fe__body *a = w->bodies + m->body_a, *b = w->bodies + m->body_b;
+        if (m->colour < 0 && ((a->awake_index < 0 && a->type == FE_BODY_DYNAMIC) || (b->awake_index < 0 && b->type == FE_BODY_DYNAMIC))) return 1;
+    }
+    return 0;
+}
+
+// contacts of bodies that may run out of colours
+static int32_t crowded_contacts(const fe_world *w, int32_t most)
+{
+    int64_t crowded = 0;
+    if (most <= FE__STATIC_COLOURS) return 0;
+    for (int32_t i = w->first_body; i >= 0; i = w->bodies[i].order_next) {
+        int32_t contacts = w->bodies[i].contact_count + w->bodies[i].coming_contacts;
+        if (w->bodies[i].type == FE_BODY_DYNAMIC && contacts > FE__STATIC_COLOURS) crowded += contacts;
+    }
+    return crowded < INT32_MAX ? (int32_t)crowded : INT32_MAX;
+}
+
+// what the candidates add: contacts of one body, kinds of rows
+static void add_candidates(const fe__step *step, fe__graph_bound *b, uint32_t *kinds)
+{
+    const fe_world *w = step->world;
+    const fe__step_scratch *s = step->scratch;
+    for (int32_t i = 0; i < s->candidate_count; ++i) {
+        const fe__candidate *c = s->candidates + i;
+        const int32_t shapes[2] = {c->shape_a, c->shape_b};
+        *kinds |= 1u << fe__pair_kind(w, c->shape_a, c->shape_b);
+        for (int k = 0; k < 2; ++k) {
+            fe__body *body = w->bodies + w->shapes[shapes[k]].body;
+            ++body->coming_contacts;
+            if (body->type == FE_BODY_DYNAMIC) b->most_contacts = fe__maxi(b->most_contacts, body->contact_count + body->coming_contacts);
+        }
+    }
+}
+
+static void forget_candidates(const fe__step *step)
+{
+    const fe_world *w = step->world;
+    for (int32_t i = 0; i < step->scratch->candidate_count; ++i) {
+        const fe__candidate *c = step->scratch->candidates + i;
+        w->bodies[w->shapes[c->shape_a].body].coming_contacts = w->bodies[w->shapes[c->shape_b].body].coming_contacts = 0;
+    }
+}
+
+static fe__graph_bound bound_of(const fe__step *step)
+{
+    const fe_world *w = step->world;
+    int32_t all = may_wake(step);
+    uint32_t kinds = w->row_kinds;
+    fe__graph_bound b = {0};
+    b.bodies = all ? w->body_count : w->awake_body_count;
+    b.contacts = (all ? w->pair_count : w->awake_pair_count) + step->scratch->candidate_count;
+    b.most_contacts = w->most_contacts;
+    add_candidates(step, &b, &kinds);
+    b.crowded = crowded_contacts(w, b.most_contacts);
+    b.kinds = __builtin_popcount(kinds);
+    b.special = kinds >> FE__ROW_SPECIAL != 0;
+    forget_candidates(step);
+    return b;
+}
+
+static int32_t reserve_scratch(fe__step *step, const fe__graph_bound *b)
+{
+    fe_world *w = step->world;
+    fe__step_scratch *s = step->scratch;
+    fe__memory *memory = &w->memory;
+    int64_t sorted = fe__maxi(fe__maxi(b->contacts, step->scratch->candidate_count), w->body_count);
+    sorted += w->owed_event_count;
+    return FE_RESERVE(memory, s->results, s->result_capacity, b->contacts) && FE_RESERVE(memory, s->moved, s->moved_capacity, b->contacts) &&
+           FE_RESERVE(memory, s->left, s->left_capacity, w->shape_count) && FE_RESERVE(memory, s->boxes, s->box_capacity, w->shape_count) &&
+           FE_RESERVE(memory, s->island_timers, s->island_capacity, b->bodies) && FE_RESERVE(memory, s->sort_items, s->sort_capacity, 2 * sorted) &&
+           FE_RESERVE(memory, w->pair_events, w->pair_event_capacity, (int64_t)b->contacts + w->owed_event_count) &&
+           FE_RESERVE(memory, w->body_events, w->body_event_capacity, w->body_count) &&
+           FE_RESERVE(memory, w->hit_events, w->hit_event_capacity, w->wants_hits ? b->contacts : 0);
+}
+
+int32_t fe__reserve_step(fe__step *step)
+{
+    fe_world *w = step->world;
+    fe__graph_bound bound = bound_of(step);
+    return fe__reserve_pairs(w, step->scratch->candidate_count) && reserve_scratch(step, &bound) &&
+           fe__graph_reserve(&w->solver, &w->memory, w->kernels, &bound, w->workers.count);
+}

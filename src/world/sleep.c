@@ -1,0 +1,104 @@
+// sleep.c - who is awake: dense lists of bodies and pairs, islands that fall asleep and wake together.
+//
+// A pair is in its list while one of its bodies is. The order of the lists is of no consequence: everything that could show is sorted by creation.
+#include "world/world.h"
+
+// Bodies whose state changed since the last step's events: each once, whatever happens in between
+static void stir(fe_world *world, int32_t index)
+{
+    if (world->bodies[index].flags & FE__BODY_STIRRED) return;
+    world->bodies[index].flags |= FE__BODY_STIRRED;
+    world->stirred[world->stirred_count++] = index;
+}
+
+void fe__body_awaken_alone(fe_world *world, int32_t index)
+{
+    fe__body *body = world->bodies + index;
+    body->sleep_timer = 0.0f;
+    if (body->awake_index >= 0) return;
+    body->awake_index = world->awake_body_count;
+    world->awake_bodies[world->awake_body_count++] = index;
+    for (int32_t pair = body->first_contact; pair >= 0; pair = fe__next_pair(world, pair, index)) fe__pair_awaken(world, pair);
+    world->solver.graph_changed = 1;
+    stir(world, index);
+}
+
+void fe__body_retire(fe_world *world, int32_t index)
+{
+    fe__body *body = world->bodies + index;
+    int32_t place = body->awake_index, last = world->awake_bodies[--world->awake_body_count];
+    world->awake_bodies[place] = last;
+    world->bodies[last].awake_index = place;
+    body->awake_index = body->line = body->island = -1;
+    for (int32_t pair = body->first_contact; pair >= 0; pair = fe__next_pair(world, pair, index)) {
+        const fe__pair *p = world->pairs + pair;
+        int32_t other = p->body_a == index ? p->body_b : p->body_a;
+        if (world->bodies[other].awake_index < 0) fe__pair_retire(world, pair);
+    }
+    world->solver.graph_changed = 1;
+    stir(world, index);
+}
+
+static int32_t dynamic_neighbour(const fe_world *world, int32_t pair, int32_t body)
+{
+    const fe__pair *p = world->pairs + pair;
+    int32_t other = p->body_a == body ? p->body_b : p->body_a;
+    return p->flags & FE__PAIR_LINKED && world->bodies[other].type == FE_BODY_DYNAMIC ? other : -1;
+}
+
+// The list of awake bodies is the queue of the walk: what is woken is appended, and looked at in its turn
+void fe__wake(fe_world *world, int32_t body)
+{
+    int32_t next = world->awake_body_count;
+    if (world->bodies[body].type == FE_BODY_STATIC) return;
+    fe__body_awaken_alone(world, body);
+    for (; next < world->awake_body_count; ++next) {
+        int32_t at = world->awake_bodies[next];
+        for (int32_t pair = world->bodies[at].first_contact; pair >= 0; pair = fe__next_pair(world, pair, at)) {
+            int32_t other = dynamic_neighbour(world, pair, at);
+            if (other >= 0 && world->bodies[other].awake_index < 0) fe__body_awaken_alone(world, other);
+        }
+    }
+}
+
+void fe__wake_neighbours(fe_world *world, int32_t body)
+{
+    for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, body)) {
+        int32_t other = dynamic_neighbour(world, pair, body);
+        if (other >= 0) fe__wake(world, other);
+    }
+}
+
+static void swap_places(fe_world *world, int32_t i, int32_t j)
+{
+    int32_t a = world->awake_bodies[i], b = world->awake_bodies[j];
+    world->awake_bodies[i] = b, world->awake_bodies[j] = a;
+    world->bodies[b].awake_index = i, world->bodies[a].awake_index = j;
+}
+
+void fe__body_fall_asleep(fe_world *world, int32_t index)
+{
+    fe__body *body = world->bodies + index;
+    for (int k = 0; k < 3; ++k) body->velocity[k] = body->spin[k] = body->force[k] = body->torque[k] = 0.0f;
+    fe__body_retire(world, index);
+}
+
+// The island gathers at the end of the list, which grows downwards as its queue
+fe_result fe__put_to_sleep(fe_world *world, int32_t body)
+{
+    int32_t end = world->awake_body_count, low = end;
+    if (world->bodies[body].awake_index < 0) return FE_OK;
+    swap_places(world, world->bodies[body].awake_index, --low);
+    for (int32_t next = end - 1; next >= low; --next) {
+        int32_t at = world->awake_bodies[next];
+        if (!(world->bodies[at].flags & FE__BODY_SLEEP_ALLOWED)) return FE_ERROR_STATE;
+        for (int32_t pair = world->bodies[at].first_contact; pair >= 0; pair = fe__next_pair(world, pair, at)) {
+            int32_t other = dynamic_neighbour(world, pair, at);
+            if (other >= 0 && world->bodies[other].awake_index >= 0 && world->bodies[other].awake_index < low)
+                swap_places(world, world->bodies[other].awake_index, --low);
+        }
+    }
+    world->solver.graph_changed = 1;
+    while (world->awake_body_count > low) fe__body_fall_asleep(world, world->awake_bodies[world->awake_body_count - 1]);
+    return FE_OK;
+}

@@ -1,0 +1,133 @@
+// step.c - the step: its table of contents, its constants, its clock.
+#include "world/step.h"
+
+#include "solver/graph.h"
+
+typedef struct stage {
+    void (*run)(fe__step *step);
+    size_t time; // of fe_profile, offset of its milliseconds
+    int32_t moves; // 1: left out when dt is 0
+} stage;
+
+static const stage stages[] = {
+    {fe__find_new_pairs, offsetof(fe_profile, pairs), 0},         // queries of moved proxies -> new pairs; all memory reserved
+    {fe__update_contacts, offsetof(fe_profile, collide), 0},      // narrow phase or recycling -> manifolds, begin and end, wakes
+    {fe__build_islands, offsetof(fe_profile, islands), 0},        // small ones into batches, large ones into colours
+    {fe__solve_islands, offsetof(fe_profile, solve), 1},          // all substeps -> velocities, motion, impulses
+    {fe__move_bodies, offsetof(fe_profile, finalize), 1},         // poses, bounds, trees
+    {fe__collect_events, offsetof(fe_profile, events), 0},        // touching begun, kept, ended; impacts
+    {fe__put_islands_to_sleep, offsetof(fe_profile, sleep), 1},   // islands slow for long enough
+    {fe__collect_body_events, offsetof(fe_profile, sleep), 0},    // who woke, who fell asleep
+};
+
+// Hertz are limited to what the substeps can follow: an eighth of their rate
+static fe__step_constants constants_of(const fe_world *w, float dt)
+{
+    const fe_world_tuning *t = &w->tuning;
+    float h = dt / (float)w->substeps, rate = h > 0.0f ? 1.0f / h : 0.0f, hertz = fe__minf(t->contact_hertz, 0.125f * rate);
+    fe__step_constants c = {.h = h,
+                            .inverse_h = rate,
+                            .push_speed = t->contact_push_speed,
+                            .threshold = t->restitution_threshold,
+                            .warm_scale = w->last_h > 0.0f ? h / w->last_h : 0.0f,
+                            .max_speed = t->max_linear_speed,
+                            .speculative = t->speculative_distance,
+                            .substeps = w->substeps,
+                            .gravity = w->gravity};
+    c.between_dynamic = fe__make_softness(hertz, t->contact_damping_ratio, h);
+    c.against_static = fe__make_softness(fe__minf(2.0f * t->contact_hertz, 0.25f * rate), t->contact_damping_ratio, h);
+    return c;
+}
+
+// speed at which the points of a contact close, before the solver; for hit events
+static float approach_of(const fe_world *w, int32_t pair)
+{
+    const fe__contact *m = w->contacts + pair;
+    const fe__body *a = w->bodies + m->body_a, *b = w->bodies + m->body_b;
+    fe_vec3 n = {m->normal[0], m->normal[1], m->normal[2]}, span = {m->span[0], m->span[1], m->span[2]};
+    fe_vec3 va = {a->velocity[0], a->velocity[1], a->velocity[2]}, wa = {a->spin[0], a->spin[1], a->spin[2]};
+    fe_vec3 vb = {b->velocity[0], b->velocity[1], b->velocity[2]}, wb = {b->spin[0], b->spin[1], b->spin[2]};
+    float most = 0.0f;
+    for (int32_t i = 0; i < (int32_t)m->normal[3]; ++i) {
+        fe_vec3 r = {m->point[i][0], m->point[i][1], m->point[i][2]};
+        fe_vec3 slip = fe__sub(fe__add(vb, fe__cross(wb, fe__add(r, span))), fe__add(va, fe__cross(wa, r)));
+        most = fe__maxf(most, -fe__dot(n, slip));
+    }
+    return most;
+}
+
+void fe__solve_islands(fe__step *step)
+{
+    fe_world *w = step->world;
+    for (int32_t i = 0; i < w->awake_pair_count && w->wants_hits; ++i)
+        if (w->pairs[w->awake_pairs[i]].events & FE_EVENTS_HIT) w->pairs[w->awake_pairs[i]].approach = approach_of(w, w->awake_pairs[i]);
+    fe__solve(&w->solver, w->kernels, &w->workers, w->bodies, w->contacts, w->extras, &step->constants);
+    w->last_h = step->constants.h;
+}
+
+static void count(const fe__step *step)
+{
+    fe_world *w = step->world;
+    const fe__solver *s = &w->solver;
+    fe_counters *c = &w->counters;
+    c->recycled = atomic_load(&step->scratch->recycled);
+    c->islands = s->island_count;
+    c->rows = c->rows_whole = c->lanes = c->colours = 0;
+    for (int32_t i = 0; i < s->batch_count; ++i) {
+        const fe__batch *b = s->batches + i;
+        int32_t rows = 0, colours = 0;
+        for (int32_t g = b->first_group; g < b->first_group + b->group_count; ++g) {
+            rows += s->groups[g].rows;
+            colours += g == b->first_group || s->groups[g].colour != s->groups[g - 1].colour;
+        }
+        c->rows += rows;
+        c->rows_whole += i >= s->large_count ? rows : 0;
+        c->lanes += b->contact_count;
+        c->colours = fe__maxi(c->colours, colours);
+    }
+}
+
+static fe_result open_scratch(fe_world *w)
+{
+    if (!w->scratch) w->scratch = fe__allocate(&w->memory, sizeof *w->scratch);
+    return w->scratch ? FE_OK : FE_ERROR_MEMORY;
+}
+
+fe_result fe__world_step(fe_world *w, float dt)
+{
+    enum { MILLISECONDS = 1000 };
+    if (open_scratch(w) != FE_OK) return FE_ERROR_MEMORY;
+    fe__step step = {.world = w, .scratch = w->scratch, .dt = dt, .constants = constants_of(w, dt)};
+    fe_profile profile = {.struct_size = sizeof profile};
+    double start = fe__clock(), mark = start;
+    fe__pool_begin(w->workers.pool);
+    for (size_t i = 0; i < sizeof stages / sizeof *stages && !step.failed; ++i) {
+        if (stages[i].moves && dt == 0.0f) continue;
+        stages[i].run(&step);
+        double now = fe__clock();
+        *(float *)(void *)((char *)&profile + stages[i].time) += (float)((now - mark) * MILLISECONDS);
+        mark = now;
+    }
+    fe__pool_end(w->workers.pool);
+    if (step.failed) return FE_ERROR_MEMORY;
+    profile.step = (float)((fe__clock() - start) * MILLISECONDS);
+    w->profile = profile;
+    count(&step);
+    return FE_OK;
+}
+
+void fe__step_scratch_destroy(fe_world *w)
+{
+    fe__step_scratch *s = w->scratch;
+    fe__memory *memory = &w->memory;
+    if (!s) return;
+    FE_FREE(memory, s->candidates, s->candidate_capacity);
+    FE_FREE(memory, s->results, s->result_capacity);
+    FE_FREE(memory, s->left, s->left_capacity);
+    FE_FREE(memory, s->boxes, s->box_capacity);
+    FE_FREE(memory, s->moved, s->moved_capacity);
+    FE_FREE(memory, s->island_timers, s->island_capacity);
+    FE_FREE(memory, s->sort_items, s->sort_capacity);
+    fe__release(memory, s, sizeof *s);
+    w->scratch = NULL;
+}

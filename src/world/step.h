@@ -1,0 +1,66 @@
+// step.h - what the stages of a step share.
+//
+// The scratch lives from step to step, so that a settled scene's step allocates nothing. Everything is reserved before the world changes
+// (reserve.c); from there on nothing allocates.
+#ifndef FE_WORLD_STEP_H
+#define FE_WORLD_STEP_H
+#include "world/world.h"
+
+// A pair of shapes that the trees found and that has no record yet; A was created first
+typedef struct fe__candidate {
+    int32_t shape_a, shape_b;
+} fe__candidate;
+
+typedef struct fe__candidate_buffer {
+    _Alignas(FE_CACHE_LINE) fe__candidate *items; // a stretch of fe__step_scratch.candidates
+    int32_t count;                                // found; those beyond the capacity were not written
+} fe__candidate_buffer;
+
+typedef struct fe__step_scratch {
+    fe__candidate *candidates; // a stretch for each worker; merged and sorted in the first
+    int32_t candidate_capacity, candidate_room, candidate_count;
+    fe__candidate_buffer buffers[FE_MAX_WORKERS];
+
+    int32_t *results; // pairs that begin, end or part in this step
+    int32_t result_capacity;
+    _Atomic int32_t result_count;
+    _Atomic int32_t recycled;
+
+    int32_t *left; // shapes that left their box in this step, and their new ones
+    fe__bounds *boxes;
+    int32_t left_capacity, box_capacity;
+    _Atomic int32_t left_count;
+
+    uint8_t *moved; // answers of the recycling, by place in the list of awake pairs
+    int32_t moved_capacity;
+    float *island_timers;
+    int32_t island_capacity;
+    fe__sort_item *sort_items; // two stretches
+    int32_t sort_capacity;
+    int32_t step_count;
+} fe__step_scratch;
+
+typedef struct fe__step {
+    fe_world *world;
+    fe__step_scratch *scratch;
+    float dt; // s
+    fe__step_constants constants;
+    int32_t failed; // no memory; nothing was changed
+} fe__step;
+
+// The stages, in order
+void fe__find_new_pairs(fe__step *step);    // pairs_stage.c: queries of moved proxies -> candidates; reserves all; new pairs
+void fe__update_contacts(fe__step *step);   // collide_stage.c: narrow phase or recycling -> manifolds, begin and end, wakes
+void fe__build_islands(fe__step *step);     // collide_stage.c: the graph, when it changed
+void fe__solve_islands(fe__step *step);     // step.c: all substeps -> velocities, motion, impulses
+void fe__move_bodies(fe__step *step);       // finalize.c: poses, bounds, trees
+void fe__collect_events(fe__step *step);    // events.c
+void fe__put_islands_to_sleep(fe__step *step); // finalize.c
+void fe__collect_body_events(fe__step *step);  // events.c
+
+int32_t fe__reserve_step(fe__step *step); // reserve.c; 0: no memory
+int32_t fe__box_meets_plane(const fe__shape *plane, const fe__bounds *box); // does the box reach into the half space?
+// sorts pairs by the creation of their shapes
+void fe__sort_pairs(fe__step *step, int32_t *pairs, int32_t count);
+
+#endif
