@@ -93,7 +93,7 @@ fe_result fe_world_step(fe_world *world, float dt)
         return fe__fail(function, FE_ERROR_STEPPING, "the world is already in a step, on another thread");
     }
     fe__fp_state fp = fe__fp_enter();
-    fe_result result = fe__step(world, dt);
+    fe_result result = fe__world_step(world, dt);
     fe__fp_leave(fp);
     atomic_store_explicit(&world->stepping, 0, memory_order_release);
     return fe__report(function, result);

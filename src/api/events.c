@@ -1,0 +1,128 @@
+// events.c - the API of what a step left behind: events and contacts.
+#include "api/check.h"
+
+#include <string.h>
+
+// Records grow at their tail: an older client's stride may be shorter than a record, it gets the front.
+enum { LEAST_RECORD = 8 };
+
+static void put(void *out, uint32_t stride, int32_t i, const void *record, size_t size)
+{
+    memcpy(fe__at(out, stride, i), record, size < stride ? size : stride);
+}
+
+// ---- events
+// -----------------------------------------------------------------------------------------------------------------------------------
+
+int32_t fe_world_get_pair_events(const fe_world *world, fe_pair_event *out_events, uint32_t stride, int32_t capacity)
+{
+    FE_BEGIN(world);
+    FE_CHECK_ARRAY(out_events, capacity);
+    FE_CHECK_STRIDE(stride, sizeof *out_events, LEAST_RECORD);
+    int32_t count = fe__mini(world->pair_event_count, capacity);
+    for (int32_t i = 0; i < count; ++i) put(out_events, stride, i, &world->pair_events[i].event, sizeof *out_events);
+    return world->pair_event_count;
+}
+
+int32_t fe_world_get_body_events(const fe_world *world, fe_body_event *out_events, uint32_t stride, int32_t capacity)
+{
+    FE_BEGIN(world);
+    FE_CHECK_ARRAY(out_events, capacity);
+    FE_CHECK_STRIDE(stride, sizeof *out_events, LEAST_RECORD);
+    int32_t count = fe__mini(world->body_event_count, capacity);
+    for (int32_t i = 0; i < count; ++i) put(out_events, stride, i, &world->body_events[i].event, sizeof *out_events);
+    return world->body_event_count;
+}
+
+int32_t fe_world_get_hit_events(const fe_world *world, fe_hit_event *out_events, uint32_t stride, int32_t capacity)
+{
+    FE_BEGIN(world);
+    FE_CHECK_ARRAY(out_events, capacity);
+    FE_CHECK_STRIDE(stride, sizeof *out_events, LEAST_RECORD);
+    int32_t count = fe__mini(world->hit_event_count, capacity);
+    for (int32_t i = 0; i < count; ++i) put(out_events, stride, i, &world->hit_events[i].event, sizeof *out_events);
+    return world->hit_event_count;
+}
+
+// ---- contacts
+// ---------------------------------------------------------------------------------------------------------------------------------
+
+static int32_t point_count(const fe_world *world, int32_t pair)
+{
+    return world->pairs[pair].flags & FE__PAIR_SENSOR ? 0 : (int32_t)world->contacts[pair].normal[3];
+}
+
+// Arms are from the centre of the solver's A, or of its B when A is static.
+static fe_contact_point describe_point(const fe_world *world, int32_t pair, int32_t i)
+{
+    const fe__contact *c = &world->contacts[pair];
+    const fe__body *a = &world->bodies[c->body_a], *b = &world->bodies[c->body_b];
+    const double *centre = a->type == FE_BODY_STATIC ? b->centre : a->centre;
+    fe_dvec3 point = {centre[0] + (double)c->point[i][0], centre[1] + (double)c->point[i][1], centre[2] + (double)c->point[i][2]};
+    return (fe_contact_point){.point = point,
+                              .separation = c->separation[i],
+                              .normal_impulse = c->normal_impulse[i],
+                              .total_impulse = c->total_impulse[i],
+                              .id = world->pairs[pair].ids[i]};
+}
+
+// The solver may hold the pair with its sides exchanged: what is said of its B is then the negative of what B here feels. A twist about the
+// normal stays: both its axis and its owner change sides.
+static fe_contact describe(const fe_world *world, int32_t pair)
+{
+    const fe__pair *p = &world->pairs[pair];
+    const fe__contact *c = &world->contacts[pair];
+    float side = p->flags & FE__PAIR_FLIPPED ? -1.0f : 1.0f;
+    fe_contact contact = {.body_a = fe__body_handle(world, p->body_a),
+                          .body_b = fe__body_handle(world, p->body_b),
+                          .shape_a = fe__shape_handle(world, p->shape_a),
+                          .shape_b = fe__shape_handle(world, p->shape_b),
+                          .normal = {side * c->normal[0], side * c->normal[1], side * c->normal[2]},
+                          .point_count = point_count(world, pair),
+                          .friction_impulse = {side * c->friction_impulse[0], side * c->friction_impulse[1], side * c->friction_impulse[2]},
+                          .twist_impulse = c->friction_impulse[3]};
+    for (int32_t i = 0; i < contact.point_count; ++i) contact.points[i] = describe_point(world, pair, i);
+    return contact;
+}
+
+// Of a body, or of one of its shapes (-1: all)
+static int32_t write_contacts(const fe_world *world, int32_t body, int32_t shape, fe_contact *out_contacts, uint32_t stride,
+                              int32_t capacity)
+{
+    int32_t count = 0;
+    for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, body)) {
+        const fe__pair *p = &world->pairs[pair];
+        if (shape >= 0 && p->shape_a != shape && p->shape_b != shape) continue;
+        if (point_count(world, pair) == 0) continue;
+        if (count < capacity) {
+            fe_contact contact = describe(world, pair);
+            put(out_contacts, stride, count, &contact, sizeof contact);
+        }
+        count += 1;
+    }
+    return count;
+}
+
+int32_t fe_body_get_contacts(const fe_world *world, fe_body body, fe_contact *out_contacts, uint32_t stride, int32_t capacity)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_ARRAY(out_contacts, capacity);
+    FE_CHECK_STRIDE(stride, sizeof *out_contacts, LEAST_RECORD);
+    fe__fp_state fp = fe__fp_enter();
+    int32_t count = write_contacts(world, index, -1, out_contacts, stride, capacity);
+    fe__fp_leave(fp);
+    return count;
+}
+
+int32_t fe_shape_get_contacts(const fe_world *world, fe_shape shape, fe_contact *out_contacts, uint32_t stride, int32_t capacity)
+{
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_ARRAY(out_contacts, capacity);
+    FE_CHECK_STRIDE(stride, sizeof *out_contacts, LEAST_RECORD);
+    fe__fp_state fp = fe__fp_enter();
+    int32_t count = write_contacts(world, world->shapes[index].body, index, out_contacts, stride, capacity);
+    fe__fp_leave(fp);
+    return count;
+}

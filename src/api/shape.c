@@ -1,0 +1,399 @@
+// shape.c - the API of shapes: geometry, material, filter, life.
+#include "api/check.h"
+
+// ---- geometry
+// -------------------------------------------------------------------------------------------------------------------------------
+
+void fe_geometry_sphere(fe_geometry *out_geometry, float radius)
+{
+    if (!out_geometry) return;
+    *out_geometry = (fe_geometry){.struct_size = sizeof *out_geometry, .type = FE_GEOMETRY_SPHERE, .radius = radius};
+}
+
+void fe_geometry_capsule(fe_geometry *out_geometry, float half_height, float radius)
+{
+    if (!out_geometry) return;
+    *out_geometry =
+        (fe_geometry){.struct_size = sizeof *out_geometry, .type = FE_GEOMETRY_CAPSULE, .half_height = half_height, .radius = radius};
+}
+
+void fe_geometry_box(fe_geometry *out_geometry, float half_x, float half_y, float half_z)
+{
+    if (!out_geometry) return;
+    *out_geometry = (fe_geometry){.struct_size = sizeof *out_geometry, .type = FE_GEOMETRY_BOX, .half_extents = {half_x, half_y, half_z}};
+}
+
+void fe_geometry_plane(fe_geometry *out_geometry, float normal_x, float normal_y, float normal_z, float distance)
+{
+    if (!out_geometry) return;
+    *out_geometry = (fe_geometry){.struct_size = sizeof *out_geometry,
+                                  .type = FE_GEOMETRY_PLANE,
+                                  .normal = {normal_x, normal_y, normal_z},
+                                  .distance = distance};
+}
+
+#define FE_CHECK_LENGTH(value) FE_CHECK_FLOAT(value, FE_LEAST_LENGTH, FE_MAX_LENGTH)
+
+// Kept as given when its length is 1 to the rounding of floats, so that reading a plane and setting it again changes nothing.
+static fe_vec3 unit_normal(fe_vec3 n)
+{
+    const double tolerance = 1e-7;
+    fe__fp_state fp = fe__fp_enter();
+    fe_dvec3 wide = fe__widen(n);
+    double length = sqrt(fe__ddot(wide, wide));
+    if (fe__absd(length - 1.0) >= tolerance) n = fe__narrow(fe__dscale(1.0 / length, wide));
+    fe__fp_leave(fp);
+    return n;
+}
+
+static fe_result read_plane(const char *function, const fe_geometry *geometry, fe__form *out_form)
+{
+    const fe_vec3 *normal = &geometry->normal;
+    int32_t finite = __builtin_isfinite(normal->x) && __builtin_isfinite(normal->y) && __builtin_isfinite(normal->z);
+    if (!finite || (normal->x == 0.0f && normal->y == 0.0f && normal->z == 0.0f)) {
+        return fe__fail(function, FE_ERROR_ARGUMENT, "geometry->normal is (%.9g, %.9g, %.9g), must be finite and not zero",
+                        (double)normal->x, (double)normal->y, (double)normal->z);
+    }
+    FE_CHECK_FLOAT(geometry->distance, -FE_MAX_LOCAL, FE_MAX_LOCAL);
+    out_form->normal = unit_normal(*normal);
+    out_form->distance = geometry->distance;
+    return FE_OK;
+}
+
+// What a form does not use stays 0 (see form.h).
+static fe_result read_geometry(const char *function, const fe_geometry *geometry, fe__form *out_form)
+{
+    fe_geometry whole = {.struct_size = sizeof whole};
+    FE_READ_STRUCT(geometry, &whole);
+    geometry = &whole;
+    FE_CHECK_INT(geometry->type, FE_GEOMETRY_SPHERE, FE_GEOMETRY_PLANE);
+    *out_form = (fe__form){.type = geometry->type};
+    switch (geometry->type) {
+    case FE_GEOMETRY_SPHERE:
+        FE_CHECK_LENGTH(geometry->radius);
+        out_form->radius = geometry->radius;
+        return FE_OK;
+    case FE_GEOMETRY_CAPSULE:
+        FE_CHECK_LENGTH(geometry->half_height);
+        FE_CHECK_LENGTH(geometry->radius);
+        out_form->half_height = geometry->half_height;
+        out_form->radius = geometry->radius;
+        return FE_OK;
+    case FE_GEOMETRY_BOX:
+        FE_CHECK_LENGTH(geometry->half_extents.x);
+        FE_CHECK_LENGTH(geometry->half_extents.y);
+        FE_CHECK_LENGTH(geometry->half_extents.z);
+        out_form->half = geometry->half_extents;
+        return FE_OK;
+    default:
+        return read_plane(function, geometry, out_form);
+    }
+}
+
+static fe_result check_plane_owner(const char *function, const fe_world *world, int32_t body, const fe__form *form)
+{
+    if (form->type != FE_GEOMETRY_PLANE || world->bodies[body].type == FE_BODY_STATIC) return FE_OK;
+    return fe__fail(function, FE_ERROR_UNSUPPORTED, "body 0x%llx is not static, a plane needs a static one", fe__body_handle(world, body));
+}
+
+// ---- life
+// -----------------------------------------------------------------------------------------------------------------------------------
+
+enum { ALL_EVENTS = FE_EVENTS_TOUCH | FE_EVENTS_STAY | FE_EVENTS_HIT };
+
+static fe_shape_def default_shape(void)
+{
+    return (fe_shape_def){.struct_size = sizeof(fe_shape_def),
+                          .density = 1000.0f,
+                          .local_rotation.w = 1.0f,
+                          .material = {.static_friction = 0.6f, .dynamic_friction = 0.5f},
+                          .layer = 1,
+                          .mask = UINT32_MAX,
+                          .events = FE_EVENTS_TOUCH};
+}
+
+void fe_shape_def_init(fe_shape_def *desc, uint32_t struct_size)
+{
+    fe_shape_def defaults = default_shape();
+    fe__init_struct(desc, &defaults, sizeof defaults, struct_size);
+}
+
+static fe_result check_material(const char *function, const fe_material *material)
+{
+    FE_CHECK_POINTER(material);
+    FE_CHECK_FLOAT(material->static_friction, 0.0f, FE_MAX_VALUE);
+    FE_CHECK_FLOAT(material->dynamic_friction, 0.0f, FE_MAX_VALUE);
+    FE_CHECK_FLOAT(material->restitution, 0.0f, 1.0f);
+    FE_CHECK_FLOAT(material->rolling_resistance, 0.0f, FE_MAX_VALUE);
+    FE_CHECK_FLOAT(material->spinning_resistance, 0.0f, FE_MAX_VALUE);
+    return FE_OK;
+}
+
+static fe_result read_shape_def(const char *function, const fe_shape_def *desc, fe_shape_def *def)
+{
+    *def = default_shape();
+    if (!desc) return FE_OK;
+    FE_READ_STRUCT(desc, def);
+    FE_CHECK_FLOAT(def->density, 0.0f, FE_MAX_DENSITY);
+    FE_CHECK_VEC3(&def->local_position, FE_MAX_LOCAL);
+    FE_CHECK_QUAT(&def->local_rotation);
+    FE_TRY(check_material(function, &def->material));
+    FE_CHECK_FILTER(def->layer);
+    FE_CHECK_BOOL(def->trigger);
+    FE_CHECK_BITS(def->events, ALL_EVENTS);
+    FE_CHECK_VEC3(&def->surface_velocity, FE_MAX_SPEED);
+    return FE_OK;
+}
+
+fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *desc, const fe_geometry *geometry, fe_shape *out_shape)
+{
+    if (out_shape) *out_shape = 0;
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_POINTER(out_shape);
+    fe_shape_def def;
+    FE_TRY(read_shape_def(function, desc, &def));
+    fe__form form;
+    FE_TRY(read_geometry(function, geometry, &form));
+    FE_TRY(check_plane_owner(function, world, index, &form));
+    fe__fp_state fp = fe__fp_enter();
+    int32_t shape = fe__shape_create(world, index, &def, &form);
+    fe__fp_leave(fp);
+    if (shape < 0) return fe__report(function, (fe_result)shape);
+    *out_shape = fe__shape_handle(world, shape);
+    return FE_OK;
+}
+
+fe_result fe_shape_destroy(fe_world *world, fe_shape shape)
+{
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    fe__fp_state fp = fe__fp_enter();
+    fe__shape_destroy(world, index);
+    fe__fp_leave(fp);
+    return FE_OK;
+}
+
+int32_t fe_shape_is_valid(const fe_world *world, fe_shape shape)
+{
+    int32_t index;
+    return world && fe__id_pool_find(&world->shape_ids, shape, &index) == FE_OK;
+}
+
+fe_result fe_shape_get_body(const fe_world *world, fe_shape shape, fe_body *out_body)
+{
+    if (out_body) *out_body = 0;
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_POINTER(out_body);
+    *out_body = fe__body_handle(world, world->shapes[index].body);
+    return FE_OK;
+}
+
+// ---- form
+// -----------------------------------------------------------------------------------------------------------------------------------
+
+fe_result fe_shape_set_geometry(fe_world *world, fe_shape shape, const fe_geometry *geometry)
+{
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    fe__form form;
+    FE_TRY(read_geometry(function, geometry, &form));
+    FE_TRY(check_plane_owner(function, world, world->shapes[index].body, &form));
+    fe__fp_state fp = fe__fp_enter();
+    fe_result result = fe__shape_set_form(world, index, &form);
+    fe__fp_leave(fp);
+    return fe__report(function, result);
+}
+
+fe_result fe_shape_get_geometry(const fe_world *world, fe_shape shape, fe_geometry *out_geometry)
+{
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_STRUCT_SIZE(out_geometry);
+    const fe__form *form = &world->shapes[index].form;
+    fe_geometry geometry = {.struct_size = sizeof geometry,
+                            .type = form->type,
+                            .radius = form->radius,
+                            .half_height = form->half_height,
+                            .half_extents = form->half,
+                            .normal = form->normal,
+                            .distance = form->distance};
+    fe__write_struct(out_geometry, &geometry, sizeof geometry);
+    return FE_OK;
+}
+
+fe_result fe_shape_set_local_pose(fe_world *world, fe_shape shape, const fe_vec3 *position, const fe_quat *rotation)
+{
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_VEC3(position, FE_MAX_LOCAL);
+    FE_CHECK_QUAT(rotation);
+    fe__fp_state fp = fe__fp_enter();
+    fe__shape_set_local_pose(world, index, *position, *rotation);
+    fe__fp_leave(fp);
+    return FE_OK;
+}
+
+fe_result fe_shape_get_local_pose(const fe_world *world, fe_shape shape, fe_vec3 *out_position, fe_quat *out_rotation)
+{
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_POINTER(out_position);
+    FE_CHECK_POINTER(out_rotation);
+    *out_position = world->shapes[index].local_position;
+    *out_rotation = world->shapes[index].local_rotation;
+    return FE_OK;
+}
+
+fe_result fe_shape_set_density(fe_world *world, fe_shape shape, float density)
+{
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_FLOAT(density, 0.0f, FE_MAX_DENSITY);
+    if (world->shapes[index].density == density) return FE_OK;
+    fe__fp_state fp = fe__fp_enter();
+    world->shapes[index].density = density;
+    fe__body_disturb(world, world->shapes[index].body);
+    fe__body_update_mass(world, world->shapes[index].body);
+    fe__fp_leave(fp);
+    return FE_OK;
+}
+
+fe_result fe_shape_get_density(const fe_world *world, fe_shape shape, float *out_density)
+{
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_POINTER(out_density);
+    *out_density = world->shapes[index].density;
+    return FE_OK;
+}
+
+// ---- surface
+// --------------------------------------------------------------------------------------------------------------------------------
+
+// What rests by friction may start to slide, what lies on a belt to move.
+static void renew_surface(fe_world *world, int32_t index)
+{
+    fe__fp_state fp = fe__fp_enter();
+    fe__body_disturb(world, world->shapes[index].body);
+    fe__shape_material_changed(world, index);
+    fe__fp_leave(fp);
+}
+
+fe_result fe_shape_set_material(fe_world *world, fe_shape shape, const fe_material *material)
+{
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_TRY(check_material(function, material));
+    world->shapes[index].material = *material;
+    renew_surface(world, index);
+    return FE_OK;
+}
+
+fe_result fe_shape_get_material(const fe_world *world, fe_shape shape, fe_material *out_material)
+{
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_POINTER(out_material);
+    *out_material = world->shapes[index].material;
+    return FE_OK;
+}
+
+fe_result fe_shape_set_surface_velocity(fe_world *world, fe_shape shape, const fe_vec3 *velocity)
+{
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_VEC3(velocity, FE_MAX_SPEED);
+    world->shapes[index].surface_velocity = *velocity;
+    renew_surface(world, index);
+    return FE_OK;
+}
+
+fe_result fe_shape_get_surface_velocity(const fe_world *world, fe_shape shape, fe_vec3 *out_velocity)
+{
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_POINTER(out_velocity);
+    *out_velocity = world->shapes[index].surface_velocity;
+    return FE_OK;
+}
+
+// ---- filter, trigger, events
+// ------------------------------------------------------------------------------------------------------------------
+
+fe_result fe_shape_set_filter(fe_world *world, fe_shape shape, uint32_t layer, uint32_t mask)
+{
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_FILTER(layer);
+    fe__shape_set_filter(world, index, layer, mask);
+    return FE_OK;
+}
+
+fe_result fe_shape_get_filter(const fe_world *world, fe_shape shape, uint32_t *out_layer, uint32_t *out_mask)
+{
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_POINTER(out_layer);
+    FE_CHECK_POINTER(out_mask);
+    *out_layer = world->shapes[index].layer;
+    *out_mask = world->shapes[index].mask;
+    return FE_OK;
+}
+
+fe_result fe_shape_set_trigger(fe_world *world, fe_shape shape, int32_t trigger)
+{
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_BOOL(trigger);
+    fe__shape_set_trigger(world, index, trigger);
+    return FE_OK;
+}
+
+fe_result fe_shape_get_trigger(const fe_world *world, fe_shape shape, int32_t *out_trigger)
+{
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_POINTER(out_trigger);
+    *out_trigger = (world->shapes[index].flags & FE__SHAPE_TRIGGER) != 0;
+    return FE_OK;
+}
+
+fe_result fe_shape_set_events(fe_world *world, fe_shape shape, uint32_t events)
+{
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_BITS(events, ALL_EVENTS);
+    world->shapes[index].events = events;
+    fe__fp_state fp = fe__fp_enter();
+    fe__shape_material_changed(world, index);
+    fe__fp_leave(fp);
+    return FE_OK;
+}
+
+fe_result fe_shape_get_events(const fe_world *world, fe_shape shape, uint32_t *out_events)
+{
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_POINTER(out_events);
+    *out_events = world->shapes[index].events;
+    return FE_OK;
+}
+
+fe_result fe_shape_set_user_data(fe_world *world, fe_shape shape, fe_handle user_data)
+{
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    world->shapes[index].user_data = user_data;
+    return FE_OK;
+}
+
+fe_result fe_shape_get_user_data(const fe_world *world, fe_shape shape, fe_handle *out_user_data)
+{
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_POINTER(out_user_data);
+    *out_user_data = world->shapes[index].user_data;
+    return FE_OK;
+}
