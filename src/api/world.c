@@ -242,7 +242,7 @@ fe_result fe_world_get_counters(const fe_world *world, fe_counters *out_counters
     c.shapes = world->shape_count;
     c.awake_bodies = world->awake_body_count;
     c.pairs = world->pair_count;
-    c.contacts = world->touching_count;
+    c.contacts = world->linked_count;
     c.simd = world->simd;
     c.simd_width = world->kernels->width;
     c.workers = world->workers.count;
