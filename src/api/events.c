@@ -52,14 +52,10 @@ static int32_t point_count(const fe_world *world, int32_t pair)
     return world->pairs[pair].flags & FE__PAIR_SENSOR ? 0 : (int32_t)world->contacts[pair].normal[3];
 }
 
-// Arms are from the centre of the solver's A, or of its B when A is static.
 static fe_contact_point describe_point(const fe_world *world, int32_t pair, int32_t i)
 {
     const fe__contact *c = &world->contacts[pair];
-    const fe__body *a = &world->bodies[c->body_a], *b = &world->bodies[c->body_b];
-    const double *centre = a->type == FE_BODY_STATIC ? b->centre : a->centre;
-    fe_dvec3 point = {centre[0] + (double)c->point[i][0], centre[1] + (double)c->point[i][1], centre[2] + (double)c->point[i][2]};
-    return (fe_contact_point){.point = point,
+    return (fe_contact_point){.point = fe__contact_point(world, pair, i),
                               .separation = c->separation[i],
                               .normal_impulse = c->normal_impulse[i],
                               .total_impulse = c->total_impulse[i],

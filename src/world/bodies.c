@@ -254,3 +254,5 @@ void fe__body_set_locks(fe_world *world, int32_t index, uint32_t linear, uint32_
         fe__shape_material_changed(world, shape);
     }
 }
+
+fe_handle fe__body_handle(const fe_world *world, int32_t body) { return fe__id_pool_handle(&world->body_ids, body); }

@@ -257,3 +257,5 @@ void fe__shape_material_changed(fe_world *world, int32_t index)
         if (p->shape_a == index || p->shape_b == index) fe__pair_mix(world, pair);
     }
 }
+
+fe_handle fe__shape_handle(const fe_world *world, int32_t shape) { return fe__id_pool_handle(&world->shape_ids, shape); }
