@@ -172,12 +172,28 @@ int32_t fe__clip_polygon(const fe__clip_vertex *reference, int32_t reference_cou
 }
 
 // ---- four of many -------------------------------------------------------------------------------------------------------------------
+static float apart(const fe__clip_vertex *p, const fe__clip_vertex *q)
+{
+    float du = p->u - q->u, dv = p->v - q->v;
+    return sqrtf(du * du + dv * dv);
+}
+
+// Of those as deep as the deepest the one farthest from the middle: a vertex amid an edge must not stand for a corner.
 static int32_t deepest(const fe__clip_vertex *p, int32_t count, float tie)
 {
-    float low = p[0].height;
-    for (int32_t i = 1; i < count; ++i) low = fe__minf(low, p[i].height);
+    fe__clip_vertex low = p[0], high = p[0];
+    for (int32_t i = 1; i < count; ++i) {
+        low.u = fe__minf(low.u, p[i].u), high.u = fe__maxf(high.u, p[i].u);
+        low.v = fe__minf(low.v, p[i].v), high.v = fe__maxf(high.v, p[i].v);
+        low.height = fe__minf(low.height, p[i].height);
+    }
+    fe__clip_vertex middle = {0.5f * (low.u + high.u), 0.5f * (low.v + high.v), low.height, 0};
     int32_t k = 0;
-    while (p[k].height > low + tie) ++k;
+    float best = -1.0f;
+    for (int32_t i = 0; i < count; ++i) {
+        float distance = apart(&p[i], &middle);
+        if (p[i].height <= low.height + tie && distance > best + tie) best = distance, k = i;
+    }
     return k;
 }
 
@@ -186,7 +202,7 @@ static int32_t farthest(const fe__clip_vertex *p, int32_t count, int32_t from, f
     int32_t k = from;
     float best = 0.0f;
     for (int32_t i = 0; i < count; ++i) {
-        float du = p[i].u - p[from].u, dv = p[i].v - p[from].v, distance = sqrtf(du * du + dv * dv);
+        float distance = apart(&p[i], &p[from]);
         if (distance > best + tie) best = distance, k = i;
     }
     return k;

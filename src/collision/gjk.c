@@ -6,6 +6,7 @@
 
 enum { MAX_ITERATIONS = 64 }; // boxes and segments need at most 12
 #define OVERLAP_SIZE 1e-10    // of the cores' size: nearer than this they overlap; a million roundings
+#define FLAT 1e-12            // of the size: a tetrahedron no higher than that has no inside
 #define CONVERGED 1e-13       // of the squared distance
 
 fe__vertex fe__cores_support(const fe__cores *cores, fe_dvec3 direction)
@@ -74,16 +75,16 @@ static fe_dvec3 weighted(const fe__vertex *vertex, const double *weight, int32_t
     return sum;
 }
 
-// 1 when the origin and d lie on different sides of the triangle's plane; in a flat tetrahedron no side is sure, and every face counts.
-static int32_t is_outside(fe_dvec3 a, fe_dvec3 b, fe_dvec3 c, fe_dvec3 d)
+// 1 when the origin and d lie on different sides of the triangle's plane. In a tetrahedron as flat as rounding no side is sure: 1.
+static int32_t is_outside(fe_dvec3 a, fe_dvec3 b, fe_dvec3 c, fe_dvec3 d, double size)
 {
     fe_dvec3 normal = fe__dcross(fe__dsub(b, a), fe__dsub(c, a));
-    double origin = -fe__ddot(normal, a), other = fe__ddot(normal, fe__dsub(d, a));
-    return !(origin * other > 0.0);
+    double origin = -fe__ddot(normal, a), other = fe__ddot(normal, fe__dsub(d, a)), flat = FLAT * size;
+    return !(origin * other > 0.0) || other * other <= flat * flat * fe__ddot(normal, normal);
 }
 
 // The nearest of the faces that the origin is outside of; 4, unchanged, when it is inside all of them.
-static int32_t nearest_in_tetrahedron(fe__vertex *vertex, double *weight)
+static int32_t nearest_in_tetrahedron(fe__vertex *vertex, double *weight, double size)
 {
     static const int8_t faces[4][4] = {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}};
     fe__vertex best[3];
@@ -91,7 +92,7 @@ static int32_t nearest_in_tetrahedron(fe__vertex *vertex, double *weight)
     double best_square = 0.0;
     for (int32_t f = 0; f < 4; ++f) {
         fe__vertex part[3] = {vertex[faces[f][0]], vertex[faces[f][1]], vertex[faces[f][2]]};
-        if (!is_outside(part[0].difference, part[1].difference, part[2].difference, vertex[faces[f][3]].difference)) continue;
+        if (!is_outside(part[0].difference, part[1].difference, part[2].difference, vertex[faces[f][3]].difference, size)) continue;
         double w[3];
         int32_t count = nearest_in_triangle(part, w);
         fe_dvec3 v = weighted(part, w, count);
@@ -146,7 +147,7 @@ void fe__gjk_distance(const fe__cores *cores, double limit, fe__gjk *g)
         fe__gjk last = *g;
         double last_weight[4] = {weight[0], weight[1], weight[2], weight[3]};
         g->vertex[g->count++] = w;
-        g->count = g->count == 4 ? nearest_in_tetrahedron(g->vertex, weight) : fe__nearest_in_simplex(g->vertex, weight, g->count);
+        g->count = g->count == 4 ? nearest_in_tetrahedron(g->vertex, weight, g->size) : fe__nearest_in_simplex(g->vertex, weight, g->count);
         if (g->count == 4) {
             g->overlap = 1;
             break;

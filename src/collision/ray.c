@@ -13,8 +13,6 @@
 // is exact, and brings the whole range of double (5e-324 to 1.8e308) to within 1e-114 and 1e98.
 static const double shortest = 1e-100, longest = 1e100;
 static const double scale_up = 0x1p700, scale_down = 0x1p-700;
-// Slower across than this part of the speed along: parallel. A metre aside in 1e30 m.
-static const double parallel = 1e-30;
 
 static double largest(fe_dvec3 a) { return fe__maxd(fe__maxd(fe__absd(a.x), fe__absd(a.y)), fe__absd(a.z)); }
 static double length(fe_dvec3 a) { return sqrt(fe__ddot(a, a)); }
@@ -112,8 +110,7 @@ static int32_t ray_capsule(const fe__form *form, const ray *r, fe__ray_hit *hit)
     double y = o.y;
     if (depth_in_round(across, radius, aside, &unused) < 0.0) {
         entry e;
-        if (largest(drift) <= parallel * fe__absd(d.y)) return 0;
-        if (fe__ddot(fe__dscale(scale_for(largest(across)), across), drift) >= 0.0) return 0;
+        if (fe__ddot(fe__dscale(scale_for(largest(across)), across), drift) >= 0.0) return 0; // parallel to the axis, or away from it
         if (!enter_round(across, drift, radius, &e)) return 0;
         y = o.y + fe__maxd(e.s, 0.0) * d.y;
         if (fe__absd(y) <= half) return meet(r, e.s, e.normal, hit);
