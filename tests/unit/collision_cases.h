@@ -14,15 +14,19 @@ static inline double uniform(double low, double high)
     return low + (high - low) * (double)(noise >> 11) * 0x1p-53;
 }
 
+// One number a statement, in these functions: the order in which a compiler evaluates arguments is its own.
 static inline fe_vec3 random_vector(double size)
 {
-    return fe__vec3((float)uniform(-size, size), (float)uniform(-size, size), (float)uniform(-size, size));
+    float x = (float)uniform(-size, size);
+    float y = (float)uniform(-size, size);
+    float z = (float)uniform(-size, size);
+    return fe__vec3(x, y, z);
 }
 
 static inline fe_dvec3 random_direction(void)
 {
     for (;;) {
-        fe_dvec3 v = {uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(-1.0, 1.0)};
+        fe_dvec3 v = fe__widen(random_vector(1.0));
         double square = fe__ddot(v, v);
         if (square > 1e-4 && square <= 1.0) return fe__dscale(1.0 / sqrt(square), v);
     }
@@ -31,7 +35,8 @@ static inline fe_dvec3 random_direction(void)
 static inline fe_quat random_rotation(void)
 {
     for (;;) {
-        fe_quat q = {(float)uniform(-1.0, 1.0), (float)uniform(-1.0, 1.0), (float)uniform(-1.0, 1.0), (float)uniform(-1.0, 1.0)};
+        fe_vec3 v = random_vector(1.0);
+        fe_quat q = {v.x, v.y, v.z, (float)uniform(-1.0, 1.0)};
         float square = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
         if (square > 0.01f && square <= 1.0f) return fe__normalized(q);
     }
@@ -57,7 +62,10 @@ static inline fe__form plane(fe_vec3 normal, float distance)
 // Sizes of 5 cm to 1 m.
 static inline fe__form random_form(int32_t type)
 {
-    float p = (float)uniform(0.05, 1.0), q = (float)uniform(0.05, 1.0), r = (float)uniform(0.05, 1.0);
+    float p = (float)uniform(0.05, 1.0);
+    float q = (float)uniform(0.05, 1.0);
+    float r = (float)uniform(0.05, 1.0);
+    fe_vec3 normal = fe__narrow(random_direction());
     switch (type) {
     case FE_GEOMETRY_SPHERE:
         return sphere(p);
@@ -66,7 +74,7 @@ static inline fe__form random_form(int32_t type)
     case FE_GEOMETRY_BOX:
         return box(p, q, r);
     default:
-        return plane(fe__narrow(random_direction()), (float)uniform(-1.0, 1.0));
+        return plane(normal, 2.0f * p - 1.0f);
     }
 }
 
