@@ -40,6 +40,7 @@ static fe_dvec3 any_direction(void)
         int32_t axis = (int32_t)uniform(0.0, 3.0); // parallel to an axis
         for (int32_t k = 0; k < 3; ++k) axes[k] = k == axis ? (v.x < 0.0 ? -1.0 : 1.0) : 0.0;
     }
+    if (one_in(4)) axes[(int32_t)uniform(0.0, 3.0)] *= any_size(1e-18, 1e-3); // nearly so
     v = (fe_dvec3){axes[0], axes[1], axes[2]};
     return fe__dscale(1.0 / sqrt(fe__ddot(v, v)), v);
 }
@@ -314,6 +315,32 @@ static void grazing_rays_meet_where_the_chord_begins(void **state)
     }
 }
 
+// On its surface one is in a closed set, at a depth of 0, also when leaving.
+static void a_start_on_the_surface_is_a_start_inside(void **state)
+{
+    (void)state;
+    fe__form forms[4] = {{.type = FE_GEOMETRY_SPHERE, .radius = 2.0f},
+                         {.type = FE_GEOMETRY_CAPSULE, .radius = 2.0f, .half_height = 3.0f},
+                         {.type = FE_GEOMETRY_BOX, .half = {2.0f, 2.0f, 2.0f}},
+                         {.type = FE_GEOMETRY_PLANE, .normal = {1.0f, 0.0f, 0.0f}, .distance = 2.0f}};
+    for (int32_t i = 0; i < 4; ++i) {
+        for (double d = -1.0; d <= 1.0; d += 1.0) {
+            fe__ray_hit hit;
+            FE_TRUE(fe__form_ray(&forms[i], (fe_dvec3){2.0, 0.0, 0.0}, (fe_dvec3){d, 0.0, 0.0}, 1.0, &hit));
+            FE_TRUE(hit.t == 0.0 && hit.inside == 1 && hit.depth == 0.0 && hit.normal.x == (d > 0.0 ? -1.0 : 1.0));
+        }
+    }
+}
+
+static void on_an_edge_the_lowest_axis_gives_the_normal(void **state)
+{
+    (void)state;
+    fe__form box = {.type = FE_GEOMETRY_BOX, .half = {1.0f, 1.0f, 1.0f}};
+    fe__ray_hit hit;
+    FE_TRUE(fe__form_ray(&box, (fe_dvec3){2.0, 2.0, 2.0}, (fe_dvec3){-2.0, -2.0, -2.0}, 1.0, &hit) && hit.t == 0.5 && hit.normal.x == 1.0);
+    FE_TRUE(fe__form_ray(&box, (fe_dvec3){0.0, -2.0, 2.0}, (fe_dvec3){0.0, 2.0, -2.0}, 1.0, &hit) && hit.t == 0.5 && hit.normal.y == -1.0);
+}
+
 static void the_limit_is_the_last_moment_that_counts(void **state)
 {
     (void)state;
@@ -364,6 +391,18 @@ static void every_finite_ray_gets_an_answer_without_nan(void **state)
     FE_TRUE(hits > CASES / 20);
 }
 
+// n . o is a sum of three products that would overflow before it is compared.
+static void a_plane_is_met_from_the_end_of_the_range(void **state)
+{
+    (void)state;
+    float third = 0.57735027f;
+    double far = 1.5e308;
+    fe__form f = {.type = FE_GEOMETRY_PLANE, .normal = {third, third, third}, .distance = 1.0f};
+    fe__ray_hit hit;
+    FE_TRUE(fe__form_ray(&f, (fe_dvec3){far, far, far}, (fe_dvec3){-1.1 * far, -1.1 * far, -1.1 * far}, 1.0, &hit));
+    FE_NEAR(hit.t, 1.0 / 1.1, 1e-15);
+}
+
 // Along an axis nothing is lost to rounding, from however far.
 static void rays_along_an_axis_are_exact_at_any_length(void **state)
 {
@@ -394,6 +433,9 @@ int main(void)
         cmocka_unit_test(the_centre_has_a_way_out),
         cmocka_unit_test(touching_is_meeting_and_one_ulp_aside_is_not),
         cmocka_unit_test(grazing_rays_meet_where_the_chord_begins),
+        cmocka_unit_test(a_start_on_the_surface_is_a_start_inside),
+        cmocka_unit_test(on_an_edge_the_lowest_axis_gives_the_normal),
+        cmocka_unit_test(a_plane_is_met_from_the_end_of_the_range),
         cmocka_unit_test(the_limit_is_the_last_moment_that_counts),
         cmocka_unit_test(every_finite_ray_gets_an_answer_without_nan),
         cmocka_unit_test(rays_along_an_axis_are_exact_at_any_length),
