@@ -14,8 +14,8 @@ void fe__body_stop_locked(fe__body *body)
     }
 }
 
-// N, N m: with the least mass, 1e-9 kg, and a step of 1 s the speed is still a float
-#define MOST_FORCE 1e20f
+// m/s2, rad/s2: what a step of 1 s makes of it can still be squared in a float
+#define MOST_ACCELERATION 1e9f
 
 static int32_t moves(const fe__body *body)
 {
@@ -40,9 +40,11 @@ void fe__body_add_force(fe_world *world, int32_t index, fe_vec3 force, fe_vec3 t
     for (int k = 0; k < 3; ++k) any |= f[k] != 0.0f || t[k] != 0.0f;
     if (!any) return;
     fe__body_disturb(world, index);
+    float most_force = MOST_ACCELERATION * body->inertia[3];
+    float most_torque = MOST_ACCELERATION * fe__minf(fe__minf(body->inertia[0], body->inertia[1]), body->inertia[2]);
     for (int k = 0; k < 3; ++k) {
-        body->force[k] = fe__clampf(body->force[k] + f[k], -MOST_FORCE, MOST_FORCE);
-        body->torque[k] = fe__clampf(body->torque[k] + t[k], -MOST_FORCE, MOST_FORCE);
+        body->force[k] = fe__clampf(body->force[k] + f[k], -most_force, most_force);
+        body->torque[k] = fe__clampf(body->torque[k] + t[k], -most_torque, most_torque);
     }
 }
 
