@@ -10,6 +10,9 @@ enum {
     SIDE = 2, // a split leaves at least so many of the nine on each side
 };
 
+// Of areas. Boxes that are each a little larger than the one before must not stay above: they would make a chain.
+#define MUCH_LARGER 4.0f
+
 // What a lane holds, or is to hold.
 typedef struct entry {
     fe__tree_box box;
@@ -91,7 +94,7 @@ static int32_t descend(fe__tree *tree, fe__tree_box box, int32_t *out_lane, int3
         lane_costs c;
         find_costs(node, box, &c);
         int32_t lane = *out_lane = cheapest_lane(&c);
-        if (node->child[lane] < 0 || (area > c.area[lane] && free_lane(node) >= 0)) return index;
+        if (node->child[lane] < 0 || (area > MUCH_LARGER * c.area[lane] && free_lane(node) >= 0)) return index;
         fe__lane_set_box(node, lane, join(fe__lane_box(node, lane), box));
         index = node->child[lane];
     }

@@ -12,7 +12,8 @@ static const float slack = 1.000001f;
 // A component that moves less than FE_TREE_PAD in the whole segment does not move: boxes and origin are swelled by more. The finite inverse
 // keeps 0 * inverse = 0, never NaN.
 static const float largest_inverse = 1e30f;
-// m; longer ones are scaled, so that inverses stay normal numbers
+// m; longer ones are scaled, so that inverses stay normal numbers. What moves less than FE_TREE_PAD in 1e18 m is taken for still then,
+// which is right on the first 1e25 m.
 static const double longest_translation = 1e18;
 
 typedef struct slabs {
@@ -38,12 +39,16 @@ typedef struct cast {
 static void prepare_slabs(slabs *s, fe_dvec3 o, fe_dvec3 translation)
 {
     const fe__quad d = {(float)translation.x, (float)translation.y, (float)translation.z, 1.0f};
-    const fe__quad low = {fe__tree_round_down(o.x), fe__tree_round_down(o.y), fe__tree_round_down(o.z), 0.0f};
-    const fe__quad high = {fe__tree_round_up(o.x), fe__tree_round_up(o.y), fe__tree_round_up(o.z), 0.0f};
+    fe__quad low = {fe__tree_round_down(o.x), fe__tree_round_down(o.y), fe__tree_round_down(o.z), 0.0f};
+    fe__quad high = {fe__tree_round_up(o.x), fe__tree_round_up(o.y), fe__tree_round_up(o.z), 0.0f};
+    // an axis on which the start is beyond what floats tell apart excludes nothing
+    fe__quad_int lost = (low >= fe__quad_set((float)FE_TREE_FAR)) | (high <= fe__quad_set(-(float)FE_TREE_FAR));
+    low = fe__quad_choose(lost, fe__quad_set(-FLT_MAX), low);
+    high = fe__quad_choose(lost, fe__quad_set(FLT_MAX), high);
     fe__quad_int backwards = d < fe__quad_set(0.0f);
     fe__quad_int moves = (d > fe__quad_set((float)FE_TREE_PAD)) | (d < fe__quad_set(-(float)FE_TREE_PAD));
     fe__quad still = fe__quad_choose(backwards, fe__quad_set(-largest_inverse), fe__quad_set(largest_inverse));
-    fe__quad inverse = fe__quad_choose(moves, 1.0f / d, still);
+    fe__quad inverse = fe__quad_choose(moves & ~lost, 1.0f / d, still);
     fe__quad near_origin = fe__quad_choose(backwards, low, high), far_origin = fe__quad_choose(backwards, high, low);
     for (int32_t k = 0; k < 3; ++k) {
         s->near_origin[k] = fe__lanes_set(near_origin[k]);

@@ -72,7 +72,7 @@ static int32_t lay_on_face(const core *q, int32_t k, float side, float separatio
     return manifold->count;
 }
 
-// The nearest point lies on the edge along axis k, at the signs of d across it.
+// The nearest point lies on the edge along axis k, at the signs of d across it: on that edge or beyond it by no more than a rounding.
 static int32_t lay_on_edge(const core *q, int32_t k, const float d[3], fe_vec3 n, float separation, float margin, fe__manifold *manifold)
 {
     float centre[3], half[3] = {0.0f, 0.0f, 0.0f};
@@ -89,15 +89,16 @@ enum { SINGLE_ID = 32, EDGE_ID = 16 };
 static void touch_outside(const core *q, float t, const float d[3], float distance, float margin, fe__manifold *manifold)
 {
     float separation = distance - q->radius;
-    int32_t face = 0, inside = -1, inside_count = 0;
-    for (int32_t i = 0; i < 3; ++i) {
-        if (fe__absf(d[i]) > fe__absf(d[face])) face = i;
-        if (d[i] == 0.0f) inside = i, ++inside_count;
+    int32_t most = 0, least = 0;
+    for (int32_t i = 1; i < 3; ++i) {
+        if (fe__absf(d[i]) > fe__absf(d[most])) most = i;
+        if (fe__absf(d[i]) < fe__absf(d[least])) least = i;
     }
-    if (fe__absf(d[face]) > FE_FACE_COS * distance && lay_on_face(q, face, d[face] > 0.0f ? 1.0f : -1.0f, separation, margin, manifold))
+    if (fe__absf(d[most]) > FE_FACE_COS * distance && lay_on_face(q, most, d[most] > 0.0f ? 1.0f : -1.0f, separation, margin, manifold))
         return;
-    fe_vec3 n = fe__scale(1.0f / distance, fe__vec3(d[0], d[1], d[2]));
-    if (inside_count == 1 && lay_on_edge(q, inside, d, n, separation, margin, manifold)) {
+    fe_vec3 n = fe__direction(fe__vec3(d[0], d[1], d[2]), distance);
+    const float beyond_edge = 0.01f; // of the distance: where the core leaves the edge's end, rounding may call it beyond
+    if (fe__absf(d[least]) < beyond_edge * distance && lay_on_edge(q, least, d, n, separation, margin, manifold)) {
         for (int32_t i = 0; i < manifold->count; ++i) manifold->points[i].id += EDGE_ID;
         return;
     }

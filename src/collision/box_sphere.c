@@ -30,6 +30,6 @@ void fe__collide_box_sphere(const fe__form *a, const fe__form *b, const fe__rela
         return;
     }
     float distance = sqrtf(square), separation = distance - b->radius;
-    manifold->normal = fe__scale(1.0f / distance, d);
+    manifold->normal = fe__direction(d, distance);
     fe__add_point(manifold, fe__add_scaled(nearest, 0.5f * separation, manifold->normal), separation, 0);
 }

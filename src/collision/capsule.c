@@ -52,7 +52,7 @@ void fe__collide_capsule_capsule(const fe__form *a, const fe__form *b, const fe_
     float distance = fe__length(d), radii = a->radius + b->radius, separation = distance - radii;
     if (separation > margin) return;
     const float clear = 1e-6f; // of the radii: nearer cores have a direction of rounding errors
-    fe_vec3 n = distance > clear * radii ? fe__scale(1.0f / distance, d) : crossing_normal(c, e);
+    fe_vec3 n = distance > clear * radii ? fe__direction(d, distance) : crossing_normal(c, e);
     fe__segment core_a = {{0.0f, 0.0f, 0.0f}, {0.0f, a->half_height, 0.0f}, a->radius};
     fe__segment core_b = {c, fe__scale(b->half_height, e), b->radius};
     if (fe__lay_segments(&core_a, &core_b, n, separation, margin, manifold) > 0) return;

@@ -24,11 +24,12 @@ static inline float fe__tie(float width) { return fe__minf(0.0005f, 0.02f * widt
 // cos 5 degrees: a normal this near to a face's is taken for the face's, so that a form lying on it has all its points
 #define FE_FACE_COS 0.9962f
 
-// d / length; where there is no length there is no direction, and symmetry leaves the normal open: x.
+// d / length, by division: along an axis the result is exactly 1. Where there is no length there is no direction, and symmetry leaves the
+// normal open: x.
 static inline fe_vec3 fe__direction(fe_vec3 d, float length)
 {
     const float no_length = 1e-15f; // m: its square is still a normal float
-    return length > no_length ? fe__scale(1.0f / length, d) : fe__vec3(1.0f, 0.0f, 0.0f);
+    return length > no_length ? fe__vec3(d.x / length, d.y / length, d.z / length) : fe__vec3(1.0f, 0.0f, 0.0f);
 }
 
 static inline void fe__add_point(fe__manifold *manifold, fe_vec3 point, float separation, uint32_t id)

@@ -45,9 +45,11 @@ static void recycle_block(fe__contact *contacts, const fe__body *bodies, const i
     wide3 na = w_turn_back(turn_a, n), nb = w_turn_back(turn_b, n), slope = w_sub(nb, na);
     wide constant = w_dot(n, shift) + w_dot(nb, w_xyz(CONTACT_QUAD(span))) + surface.y * w_dot(na, n) + surface.z * w_dot(nb, n);
 
-    // a point moves by at most |shift| + 2 |sin(turn / 2)| reach of either body, and (x + y + z)^2 <= 3 (x^2 + y^2 + z^2)
+    // Along the normal the separations follow exactly; what ages a manifold is sliding and turning. A point slides by at most |slide| +
+    // 2 |sin(turn / 2)| reach of either body, and (x + y + z)^2 <= 3 (x^2 + y^2 + z^2)
+    wide3 slide = w_sub_scaled(shift, w_dot(n, shift), n);
     wide turned = w_dot(w_xyz(turn_a), w_xyz(turn_a)) + w_dot(w_xyz(turn_b), w_xyz(turn_b));
-    wide moved = 3.0f * (w_dot(shift, shift) + 4.0f * found.w * found.w * turned), limit = surface.w * surface.w;
+    wide moved = 3.0f * (w_dot(slide, slide) + 4.0f * found.w * found.w * turned), limit = surface.w * surface.w;
     unsigned far = w_bits(w_not(w_greater(limit, moved)));
 
     _Alignas(64) float now[FE__POINTS][FE_W];

@@ -8,7 +8,7 @@
 #include <string.h>
 
 // How far a pair may move before it needs a new manifold: at most this, m, and a share of the thinner form
-#define RECYCLE_MOST 0.01f
+#define RECYCLE_MOST 0.03f
 #define RECYCLE_SHARE 0.1f
 
 typedef struct view {
