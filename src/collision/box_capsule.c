@@ -116,7 +116,10 @@ void fe__collide_box_capsule(const fe__form *a, const fe__form *b, const fe__rel
         d[i] = over(q.centre[i] + t * q.reach[i], q.half[i]);
         square += d[i] * d[i];
     }
-    if (square > limit * limit) return;
+    if (square > limit * limit) {
+        fe__stay_apart(manifold, sqrtf(square) - b->radius);
+        return;
+    }
     // Nearer than 1/100 of the radius, rounding (of c, against large boxes) starts to turn d: the general way computes in double.
     float clear = 0.01f * b->radius;
     if (square > clear * clear)

@@ -24,7 +24,10 @@ void fe__collide_box_sphere(const fe__form *a, const fe__form *b, const fe__rela
     fe_vec3 c = b_in_a->position, h = a->half;
     fe_vec3 nearest = {fe__clampf(c.x, -h.x, h.x), fe__clampf(c.y, -h.y, h.y), fe__clampf(c.z, -h.z, h.z)}, d = fe__sub(c, nearest);
     float square = fe__dot(d, d), limit = b->radius + margin;
-    if (square > limit * limit) return;
+    if (square > limit * limit) {
+        fe__stay_apart(manifold, sqrtf(square) - b->radius);
+        return;
+    }
     if (!(square > 0.0f)) {
         leave_box(a, c, b->radius, manifold);
         return;

@@ -9,7 +9,10 @@ void fe__collide_capsule_sphere(const fe__form *a, const fe__form *b, const fe__
     float y = fe__clampf(b_in_a->position.y, -a->half_height, a->half_height);
     fe_vec3 d = {b_in_a->position.x, b_in_a->position.y - y, b_in_a->position.z};
     float distance = fe__length(d), separation = distance - a->radius - b->radius;
-    if (separation > margin) return;
+    if (separation > margin) {
+        fe__stay_apart(manifold, separation);
+        return;
+    }
     manifold->normal = fe__direction(d, distance);
     fe__add_point(manifold, fe__add_scaled(fe__vec3(0.0f, y, 0.0f), a->radius + 0.5f * separation, manifold->normal), separation, 0);
 }
@@ -50,7 +53,10 @@ void fe__collide_capsule_capsule(const fe__form *a, const fe__form *b, const fe_
     float t, s = nearest_segments(a->half_height, c, e, b->half_height, &t);
     fe_vec3 on_a = {0.0f, s, 0.0f}, d = fe__sub(fe__add_scaled(c, t, e), on_a);
     float distance = fe__length(d), radii = a->radius + b->radius, separation = distance - radii;
-    if (separation > margin) return;
+    if (separation > margin) {
+        fe__stay_apart(manifold, separation);
+        return;
+    }
     const float clear = 1e-6f; // of the radii: nearer cores have a direction of rounding errors
     fe_vec3 n = distance > clear * radii ? fe__direction(d, distance) : crossing_normal(c, e);
     fe__segment core_a = {{0.0f, 0.0f, 0.0f}, {0.0f, a->half_height, 0.0f}, a->radius};

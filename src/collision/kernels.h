@@ -32,6 +32,9 @@ static inline fe_vec3 fe__direction(fe_vec3 d, float length)
     return length > no_length ? fe__vec3(d.x / length, d.y / length, d.z / length) : fe__vec3(1.0f, 0.0f, 0.0f);
 }
 
+// should no point be added, the forms are `separation` apart, or more
+static inline void fe__stay_apart(fe__manifold *manifold, float separation) { manifold->axis_separation = separation; }
+
 static inline void fe__add_point(fe__manifold *manifold, fe_vec3 point, float separation, uint32_t id)
 {
     manifold->points[manifold->count++] = (fe__manifold_point){point, separation, id};

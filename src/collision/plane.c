@@ -19,13 +19,16 @@ static void add_below(const fe__form *plane, fe_vec3 p, float radius, float sepa
 
 void fe__collide_plane_sphere(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold)
 {
-    add_below(a, b_in_a->position, b->radius, height(a, b_in_a->position) - b->radius, margin, 0, manifold);
+    float separation = height(a, b_in_a->position) - b->radius;
+    fe__stay_apart(manifold, separation);
+    add_below(a, b_in_a->position, b->radius, separation, margin, 0, manifold);
 }
 
 void fe__collide_plane_capsule(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold)
 {
     fe_vec3 half = fe__scale(b->half_height, b_in_a->rotation.y);
     float middle = height(a, b_in_a->position) - b->radius, rise = fe__dot(a->normal, half);
+    fe__stay_apart(manifold, middle - fe__absf(rise));
     add_below(a, fe__sub(b_in_a->position, half), b->radius, middle - rise, margin, 0, manifold);
     add_below(a, fe__add(b_in_a->position, half), b->radius, middle + rise, margin, 1, manifold);
 }
@@ -44,7 +47,9 @@ void fe__collide_plane_box(const fe__form *a, const fe__form *b, const fe__relat
     }
     int32_t u = (k + 1) % 3, v = (k + 2) % 3;
     float side = cosine[k] > 0.0f ? -1.0f : 1.0f, middle = height(a, b_in_a->position) + side * rise[k];
-    if (middle - fe__absf(rise[u]) - fe__absf(rise[v]) > margin) return;
+    float lowest = middle - fe__absf(rise[u]) - fe__absf(rise[v]);
+    fe__stay_apart(manifold, lowest);
+    if (lowest > margin) return;
     fe_vec3 face = fe__add_scaled(b_in_a->position, side, edge[k]);
     for (int32_t i = 0; i < 4; ++i) {
         float su = i == 1 || i == 2 ? 1.0f : -1.0f, sv = i >= 2 ? 1.0f : -1.0f; // around the face

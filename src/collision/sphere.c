@@ -7,7 +7,10 @@ void fe__collide_sphere_sphere(const fe__form *a, const fe__form *b, const fe__r
 {
     fe_vec3 d = b_in_a->position;
     float radii = a->radius + b->radius, distance = fe__length(d), separation = distance - radii;
-    if (separation > margin) return;
+    if (separation > margin) {
+        fe__stay_apart(manifold, separation);
+        return;
+    }
     manifold->normal = fe__direction(d, distance);
     fe__add_point(manifold, fe__scale(a->radius + 0.5f * separation, manifold->normal), separation, 0);
 }

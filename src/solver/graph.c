@@ -25,13 +25,15 @@ typedef struct builder {
     fe__solver *s;
     const fe__graph_input *in;
     int32_t width;
-    int32_t *parent;           // by awake index of a body
-    int32_t *island_of;        // of a root
+    int32_t *parent;           // by awake index of a body; a parent's index is never above its child's
+    int32_t *island_of;        // by awake index, NONE: kinematic
     int32_t *island_contacts;  // by island
     int32_t *island_bodies;
     int32_t *batch_of;         // of an island
     int32_t *kinematic_line;   // by awake index: line of the copy in the batch at hand
     int32_t *body_order;       // awake indices by batch
+    int32_t *linked;           // contacts in the graph, each with the awake index of its body B
+    int32_t linked_count;
     int32_t *contact_order;    // contacts by batch
     int32_t *body_start;       // by batch, one more than there are
     int32_t *contact_start;
@@ -60,7 +62,7 @@ static int64_t row_bound(const fe__graph_bound *b, int32_t contacts, int32_t wid
 
 static int64_t scratch_bound(const fe__graph_bound *b)
 {
-    return 7 * (int64_t)b->bodies + b->contacts + 2 * (batch_bound(b) + 1) + GROUP_KEYS;
+    return 7 * (int64_t)b->bodies + 3 * (int64_t)b->contacts + 2 * (batch_bound(b) + 1) + GROUP_KEYS;
 }
 
 int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *kernels, const fe__graph_bound *b, int32_t workers)
@@ -123,6 +125,7 @@ static builder make_builder(fe__solver *s, const fe__kernels *kernels, const fe_
     b.batch_of = carve(&at, n);
     b.kinematic_line = carve(&at, n);
     b.body_order = carve(&at, n);
+    b.linked = carve(&at, 2 * (int64_t)in->contact_count);
     b.contact_order = carve(&at, in->contact_count);
     b.key_count = carve(&at, GROUP_KEYS);
     b.body_start = carve(&at, (s->scratch + s->scratch_capacity - at) / 2);
@@ -140,37 +143,51 @@ static int32_t root_of(int32_t *parent, int32_t i)
 static const fe__body *awake_body(const builder *b, int32_t i) { return b->in->bodies + b->in->awake_bodies[i]; }
 static int32_t is_kinematic(const fe__body *body) { return body->type == FE_BODY_KINEMATIC; }
 
+static void join(int32_t *parent, int32_t a, int32_t b)
+{
+    int32_t x = root_of(parent, a), y = root_of(parent, b);
+    if (x < y)
+        parent[y] = x;
+    else
+        parent[x] = y;
+}
+
 // B is dynamic in every contact; A may be anything
-static int32_t awake_index_of(const builder *b, const fe__contact *m) { return b->in->bodies[m->body_b].awake_index; }
+static void join_contacts(builder *b)
+{
+    const fe__graph_input *in = b->in;
+    b->linked_count = 0;
+    for (int32_t i = 0; i < in->contact_count; ++i) {
+        int32_t contact = in->awake_contacts[i];
+        const fe__contact *m = in->contacts + contact;
+        if (m->colour < 0) continue;
+        int32_t awake = in->bodies[m->body_b].awake_index;
+        b->linked[2 * b->linked_count] = contact;
+        b->linked[2 * b->linked_count++ + 1] = awake;
+        if (m->kind & FE__ROW_PAIR) join(b->parent, in->bodies[m->body_a].awake_index, awake);
+    }
+}
 
 static void find_islands(builder *b)
 {
     const fe__graph_input *in = b->in;
     for (int32_t i = 0; i < in->body_count; ++i) b->parent[i] = i;
-    for (int32_t i = 0; i < in->contact_count; ++i) {
-        const fe__contact *m = in->contacts + in->awake_contacts[i];
-        if (m->colour < 0 || !(m->kind & FE__ROW_PAIR)) continue;
-        int32_t x = root_of(b->parent, in->bodies[m->body_a].awake_index), y = root_of(b->parent, in->bodies[m->body_b].awake_index);
-        if (x < y)
-            b->parent[y] = x;
-        else
-            b->parent[x] = y;
-    }
+    join_contacts(b);
     int32_t count = 0;
     for (int32_t i = 0; i < in->body_count; ++i) {
-        if (is_kinematic(awake_body(b, i))) continue;
-        int32_t root = root_of(b->parent, i);
-        if (root == i) {
-            b->island_of[i] = count;
-            b->island_contacts[count] = b->island_bodies[count] = 0;
-            ++count;
+        int32_t is_root = b->parent[i] == i; // else its parent came before it
+        if (is_kinematic(awake_body(b, i))) {
+            b->island_of[i] = NONE;
+            continue;
         }
-        ++b->island_bodies[b->island_of[root]];
+        if (is_root) {
+            b->island_contacts[count] = b->island_bodies[count] = 0;
+            b->island_of[i] = count++;
+        } else
+            b->island_of[i] = b->island_of[b->parent[i]];
+        ++b->island_bodies[b->island_of[i]];
     }
-    for (int32_t i = 0; i < in->contact_count; ++i) {
-        const fe__contact *m = in->contacts + in->awake_contacts[i];
-        if (m->colour >= 0) ++b->island_contacts[b->island_of[root_of(b->parent, awake_index_of(b, m))]];
-    }
+    for (int32_t i = 0; i < b->linked_count; ++i) ++b->island_contacts[b->island_of[b->linked[2 * i + 1]]];
     b->s->island_count = count;
 }
 
@@ -212,10 +229,7 @@ static void make_batches(builder *b)
     open_batch(s); // of the kinematic bodies
 }
 
-static int32_t batch_of_body(builder *b, int32_t i)
-{
-    return is_kinematic(awake_body(b, i)) ? b->s->batch_count - 1 : b->batch_of[b->island_of[root_of(b->parent, i)]];
-}
+static int32_t batch_of_body(const builder *b, int32_t i) { return b->island_of[i] < 0 ? b->s->batch_count - 1 : b->batch_of[b->island_of[i]]; }
 
 // counts in start[k + 1] become first places; places are then taken by start[k]++ and put right by unwind
 static void sum_up(int32_t *start, int32_t count)
@@ -240,11 +254,8 @@ static void sort_by_batch(builder *b)
     for (int32_t i = 0; i < in->body_count; ++i) b->body_order[b->body_start[batch_of_body(b, i)]++] = i;
     unwind(b->body_start, batches);
     for (int32_t k = 0; k < batches; ++k) b->contact_start[k + 1] = b->contact_start[k] + b->s->batches[k].contact_count;
-    for (int32_t i = 0; i < in->contact_count; ++i) {
-        const fe__contact *m = in->contacts + in->awake_contacts[i];
-        if (m->colour < 0) continue;
-        b->contact_order[b->contact_start[batch_of_body(b, awake_index_of(b, m))]++] = in->awake_contacts[i];
-    }
+    for (int32_t i = 0; i < b->linked_count; ++i)
+        b->contact_order[b->contact_start[batch_of_body(b, b->linked[2 * i + 1])]++] = b->linked[2 * i];
     unwind(b->contact_start, batches);
 }
 
@@ -266,7 +277,7 @@ static void assign_lines(builder *b, int32_t k)
     for (int32_t i = b->body_start[k]; i < b->body_start[k + 1]; ++i) {
         fe__body *body = b->in->bodies + b->in->awake_bodies[b->body_order[i]];
         body->line = s->line_count;
-        body->island = is_kinematic(body) ? NONE : b->island_of[root_of(b->parent, b->body_order[i])];
+        body->island = b->island_of[b->body_order[i]];
         b->kinematic_line[b->body_order[i]] = NONE;
         add_line(s, b->in->awake_bodies[b->body_order[i]]);
     }

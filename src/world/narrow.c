@@ -7,22 +7,22 @@
 
 #include <string.h>
 
-// How far a pair may move before it needs a new manifold: at most this, m, and a share of the thinner form
+// How far a pair may slide or turn before it needs a new manifold: at most this, m, and a share of the thinner form. Less for round forms, whose
+// normal turns with them.
 #define RECYCLE_MOST 0.03f
 #define RECYCLE_SHARE 0.1f
+#define RECYCLE_ROUND 0.0005f
+
+// Closer than this to each other, m, shapes are placed in floats: a float of it is a micrometre fine. Beyond (a wide ground) in double.
+#define NEAR 16.0
 
 typedef struct view {
     const fe__shape *a, *b; // fe__collide's
     fe__form form_a;        // a plane's is moved next to B
     fe__relative relative;
     fe_dvec3 origin;        // of the frame of A, world
-    fe_quat rotation;
+    fe__mat3 rotation;
 } view;
-
-static fe__mat3 transposed_product(const fe__mat3 *a, const fe__mat3 *b)
-{
-    return (fe__mat3){fe__mul_transposed(a, b->x), fe__mul_transposed(a, b->y), fe__mul_transposed(a, b->z)};
-}
 
 // B in A's frame. A plane has no centre that matters: its frame is put at B, so that a plane is as exact a thousand kilometres off.
 static view view_of(const fe_world *world, const fe__pair *p)
@@ -30,17 +30,19 @@ static view view_of(const fe_world *world, const fe__pair *p)
     view v = {.a = world->shapes + p->shape_a, .b = world->shapes + p->shape_b};
     if (p->flags & FE__PAIR_SWAPPED) v.a = world->shapes + p->shape_b, v.b = world->shapes + p->shape_a;
     v.form_a = v.a->form;
-    v.rotation = v.a->pose.rotation;
     v.origin = v.a->pose.position;
-    fe_dvec3 between = fe__drotate_back(v.rotation, fe__dsub(v.b->pose.position, v.origin));
-    fe__mat3 a = fe__matrix(v.rotation), b = fe__matrix(v.b->pose.rotation);
-    v.relative.rotation = transposed_product(&a, &b);
-    v.relative.position = fe__narrow(between);
+    v.rotation = fe__matrix(v.a->pose.rotation);
+    v.relative.rotation = fe__matrix(fe__product(fe__conjugate(v.a->pose.rotation), v.b->pose.rotation));
+    fe_dvec3 between = fe__dsub(v.b->pose.position, v.origin);
     if (v.form_a.type == FE_GEOMETRY_PLANE) {
-        v.form_a.distance = (float)((double)v.form_a.distance - fe__ddot(fe__widen(v.form_a.normal), between));
+        fe_dvec3 normal = fe__drotate(v.a->pose.rotation, fe__widen(v.form_a.normal));
+        v.form_a.distance = (float)((double)v.form_a.distance - fe__ddot(normal, between));
         v.relative.position = fe__vec3(0.0f, 0.0f, 0.0f);
         v.origin = v.b->pose.position;
-    }
+    } else if (fe__ddot(between, between) < NEAR * NEAR)
+        v.relative.position = fe__mul_transposed(&v.rotation, fe__narrow(between));
+    else
+        v.relative.position = fe__narrow(fe__drotate_back(v.a->pose.rotation, between));
     return v;
 }
 
@@ -78,7 +80,7 @@ static void set_points(fe__contact *m, const view *v, const fe__manifold *found,
     float reach = 0.0f;
     for (int i = 0; i < FE__POINTS; ++i) {
         int there = i < found->count;
-        fe_vec3 arm = there ? fe__add(base, fe__rotate(v->rotation, found->points[i].point)) : fe__vec3(0.0f, 0.0f, 0.0f);
+        fe_vec3 arm = there ? fe__add(base, fe__mul(&v->rotation, found->points[i].point)) : fe__vec3(0.0f, 0.0f, 0.0f);
         fe_vec3 arm_b = fe__add(arm, fe__vec3(m->span[0], m->span[1], m->span[2]));
         copy3(m->point[i], arm);
         m->point[i][3] = m->separation[i] = there ? found->points[i].separation : 0.0f;
@@ -89,12 +91,11 @@ static void set_points(fe__contact *m, const view *v, const fe__manifold *found,
     m->found_span[3] = sqrtf(reach);
 }
 
-// Round forms turn their point off the ground as they roll, and cost less than a recycling: a new manifold each step. A pair without points need not
-// be looked at until it may have moved through its gap.
+// A pair without points need not be looked at until it may have moved through its gap.
 static float tolerance(const view *v, const fe__manifold *found, float margin)
 {
     if (!found->count) return fe__maxf(found->axis_separation - margin, 0.0f);
-    if (v->a->form.radius > 0.0f || v->b->form.radius > 0.0f) return 0.0f;
+    if (v->a->form.radius > 0.0f || v->b->form.radius > 0.0f) return RECYCLE_ROUND;
     return fe__minf(RECYCLE_MOST, RECYCLE_SHARE * fe__minf(fe__form_thickness(&v->a->form), fe__form_thickness(&v->b->form)));
 }
 
@@ -118,7 +119,7 @@ void fe__collide_pair(fe_world *world, int32_t pair)
     if (!found.count) forget_impulses(m);
     // the manifold's normal points away from fe__collide's A; the solver's A may be the other one
     int32_t a_is_b = m->body_a != v.a->body;
-    fe_vec3 normal = fe__rotate(v.rotation, found.normal);
+    fe_vec3 normal = fe__mul(&v.rotation, found.normal);
     copy3(m->normal, a_is_b ? fe__neg(normal) : normal);
     m->normal[3] = (float)found.count;
     m->surface[1] = a_is_b ? v.b->form.radius : v.form_a.radius;
