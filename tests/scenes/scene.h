@@ -197,6 +197,12 @@ static inline fe_body add_plane(scene *s, vec normal, double distance, fe_materi
 
 static inline fe_body add_ground(scene *s, fe_material material) { return add_plane(s, v3(0, 1, 0), 0, material); }
 
+// A plane through the origin that rises by `angle` towards +x
+static inline vec slope_normal(double angle) { return v3(-sin(angle), cos(angle), 0); }
+static inline vec downhill(double angle) { return v3(-cos(angle), -sin(angle), 0); }
+static inline fe_quat slope_turn(double angle) { return turned(v3(0, 0, 1), angle); }
+static inline fe_body add_slope(scene *s, double angle, fe_material material) { return add_plane(s, slope_normal(angle), 0, material); }
+
 static inline void set_velocity(scene *s, fe_body body, vec linear, vec angular)
 {
     fe_vec3 v = narrow(to_world(s, linear)), w = narrow(to_world(s, angular));
