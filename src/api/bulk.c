@@ -53,7 +53,7 @@ int32_t fe_world_get_moved(const fe_world *world, fe_body *out_bodies, fe_transf
     FE_CHECK_STRIDE(stride, sizeof *out_transforms, sizeof *out_transforms);
     int32_t count = 0;
     for (int32_t i = world->first_body; i >= 0; i = world->bodies[i].order_next) {
-        if (!(world->bodies[i].flags & FE__BODY_MOVED)) continue;
+        if (world->step_number == 0 || world->bodies[i].moved_step != world->step_number) continue;
         if (count < capacity) {
             out_bodies[count] = fe__body_handle(world, i);
             fe_transform t = fe__body_transform(&world->bodies[i]);

@@ -11,7 +11,6 @@ enum {
     FE__BODY_BULLET = 2,
     FE__BODY_SLEEP_ALLOWED = 4,
     FE__BODY_MASS_GIVEN = 8,   // mass data set by hand: shapes no longer change it
-    FE__BODY_MOVED = 16,       // by the last step
     FE__BODY_ISOTROPIC = 32,   // equal principal moments, or a rotation lock: no gyroscopic torque
     FE__BODY_STARTED = 64,     // scratch of a walk: over an island, over a list of handles
     FE__BODY_IGNORES = 128,    // named in fe_world.ignored
@@ -45,12 +44,13 @@ typedef struct fe__body {
     double centre[3];       // of mass, m
     double origin[3];       // of the body's frame, m
     // colours taken by its contacts in the constraint graph, one bit each
-    uint64_t colours;
+    uint64_t colours[2];
     uint64_t serial;        // of creation, never reused
     int32_t first_contact, contact_count; // list of pairs, threaded through fe__pair.links
     int32_t coming_contacts; // while a step reserves: candidates with this body, else 0
     int32_t first_shape, last_shape, shape_count; // list in the order of creation
     int32_t locked;         // 1: any lock bit is set
+    int64_t moved_step;     // number of the last step that moved it, 0: none
     fe_handle user_data;
     int32_t order_next, order_previous; // list of all bodies in the order of creation
 } fe__body;

@@ -72,10 +72,9 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
             body->force[k] = body->torque[k] = 0.0f;
         }
         int32_t moved = shift(body, motion) | turn(body, motion + 4);
-        body->flags &= ~(uint32_t)FE__BODY_MOVED;
         tick_sleep_timer(body, step->dt);
         if (!moved) continue;
-        body->flags |= FE__BODY_MOVED;
+        body->moved_step = w->step_number + 1;
         place_origin(body);
         follow_body(step, w->awake_bodies[i]);
     }

@@ -112,6 +112,7 @@ fe_result fe__world_step(fe_world *w, float dt)
     if (step.failed) return FE_ERROR_MEMORY;
     profile.step = (float)((fe__clock() - start) * MILLISECONDS);
     w->profile = profile;
+    w->step_number += 1;
     count(&step);
     return FE_OK;
 }

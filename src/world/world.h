@@ -99,6 +99,7 @@ struct fe_world {
 
     fe__solver solver;       // graph, rows, body lines
     struct fe__step_scratch *scratch; // of the step's stages (step.h)
+    int64_t step_number;     // of the last step, 0: none yet
     float last_h;            // substep length that the stored impulses belong to, 0: none
 
     fe_profile profile;
