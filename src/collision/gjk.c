@@ -18,54 +18,44 @@ fe__vertex fe__cores_support(const fe__cores *cores, fe_dvec3 direction)
     return (fe__vertex){fe__dsub(on_a, fe__dadd(cores->position, turned)), on_a};
 }
 
-// ---- nearest points of simplices ------------------------------------------------------------------------------------------------------
-static int32_t keep_one(fe__vertex *vertex, double *weight, int32_t k)
+// ---- nearest points of simplices ------------------------------------------------------------------------------------------------
+// Each gives the weights of the corners in the point nearest the origin; a corner outside the nearest feature has 0.
+static void weigh_line(fe_dvec3 a, fe_dvec3 b, double *weight)
 {
-    vertex[0] = vertex[k];
-    weight[0] = 1.0;
-    return 1;
-}
-
-// t of the way from vertex j to vertex k, j < k
-static int32_t keep_two(fe__vertex *vertex, double *weight, int32_t j, int32_t k, double t)
-{
-    vertex[0] = vertex[j], vertex[1] = vertex[k];
-    weight[0] = 1.0 - t, weight[1] = t;
-    return 2;
-}
-
-static int32_t nearest_in_line(fe__vertex *vertex, double *weight)
-{
-    fe_dvec3 a = vertex[0].difference, ab = fe__dsub(vertex[1].difference, a);
+    fe_dvec3 ab = fe__dsub(b, a);
     double along = -fe__ddot(a, ab), square = fe__ddot(ab, ab);
-    if (!(along > 0.0)) return keep_one(vertex, weight, 0);
-    if (along >= square) return keep_one(vertex, weight, 1);
-    return keep_two(vertex, weight, 0, 1, along / square);
+    double t = !(along > 0.0) ? 0.0 : along >= square ? 1.0 : along / square;
+    weight[0] = 1.0 - t, weight[1] = t;
 }
 
-static int32_t nearest_in_triangle(fe__vertex *vertex, double *weight)
+static void set_weights(double *weight, double a, double b, double c) { weight[0] = a, weight[1] = b, weight[2] = c; }
+
+static void weigh_triangle(fe_dvec3 a, fe_dvec3 b, fe_dvec3 c, double *weight)
 {
-    fe_dvec3 a = vertex[0].difference, b = vertex[1].difference, c = vertex[2].difference, ab = fe__dsub(b, a), ac = fe__dsub(c, a);
-    double a_ab = -fe__ddot(a, ab), a_ac = -fe__ddot(a, ac);
-    if (a_ab <= 0.0 && a_ac <= 0.0) return keep_one(vertex, weight, 0);
-    double b_ab = -fe__ddot(b, ab), b_ac = -fe__ddot(b, ac);
-    if (b_ab >= 0.0 && b_ac <= b_ab) return keep_one(vertex, weight, 1);
-    double in_c = a_ab * b_ac - b_ab * a_ac;
-    if (in_c <= 0.0 && a_ab >= 0.0 && b_ab <= 0.0) return keep_two(vertex, weight, 0, 1, a_ab / (a_ab - b_ab));
+    fe_dvec3 ab = fe__dsub(b, a), ac = fe__dsub(c, a);
+    double a_ab = -fe__ddot(a, ab), a_ac = -fe__ddot(a, ac), b_ab = -fe__ddot(b, ab), b_ac = -fe__ddot(b, ac);
     double c_ab = -fe__ddot(c, ab), c_ac = -fe__ddot(c, ac);
-    if (c_ac >= 0.0 && c_ab <= c_ac) return keep_one(vertex, weight, 2);
-    double in_b = c_ab * a_ac - a_ab * c_ac;
-    if (in_b <= 0.0 && a_ac >= 0.0 && c_ac <= 0.0) return keep_two(vertex, weight, 0, 2, a_ac / (a_ac - c_ac));
-    double in_a = b_ab * c_ac - c_ab * b_ac, bc = b_ac - b_ab, cb = c_ab - c_ac;
-    if (in_a <= 0.0 && bc >= 0.0 && cb >= 0.0) return keep_two(vertex, weight, 1, 2, bc / (bc + cb));
-    double inverse = 1.0 / (in_a + in_b + in_c);
-    weight[1] = in_b * inverse, weight[2] = in_c * inverse, weight[0] = 1.0 - weight[1] - weight[2];
-    return 3;
-}
-
-int32_t fe__nearest_in_simplex(fe__vertex *vertex, double *weight, int32_t count)
-{
-    return count == 1 ? keep_one(vertex, weight, 0) : count == 2 ? nearest_in_line(vertex, weight) : nearest_in_triangle(vertex, weight);
+    double in_a = b_ab * c_ac - c_ab * b_ac, in_b = c_ab * a_ac - a_ab * c_ac, in_c = a_ab * b_ac - b_ab * a_ac;
+    double bc = b_ac - b_ab, cb = c_ab - c_ac;
+    if (a_ab <= 0.0 && a_ac <= 0.0) {
+        set_weights(weight, 1.0, 0.0, 0.0);
+    } else if (b_ab >= 0.0 && b_ac <= b_ab) {
+        set_weights(weight, 0.0, 1.0, 0.0);
+    } else if (c_ac >= 0.0 && c_ab <= c_ac) {
+        set_weights(weight, 0.0, 0.0, 1.0);
+    } else if (in_c <= 0.0 && a_ab >= 0.0 && b_ab <= 0.0) {
+        double t = a_ab / (a_ab - b_ab);
+        set_weights(weight, 1.0 - t, t, 0.0);
+    } else if (in_b <= 0.0 && a_ac >= 0.0 && c_ac <= 0.0) {
+        double t = a_ac / (a_ac - c_ac);
+        set_weights(weight, 1.0 - t, 0.0, t);
+    } else if (in_a <= 0.0 && bc >= 0.0 && cb >= 0.0) {
+        double t = bc / (bc + cb);
+        set_weights(weight, 0.0, 1.0 - t, t);
+    } else {
+        double inverse = 1.0 / (in_a + in_b + in_c), u = in_b * inverse, v = in_c * inverse;
+        set_weights(weight, 1.0 - u - v, u, v);
+    }
 }
 
 static fe_dvec3 weighted(const fe__vertex *vertex, const double *weight, int32_t count)
@@ -83,27 +73,46 @@ static int32_t is_outside(fe_dvec3 a, fe_dvec3 b, fe_dvec3 c, fe_dvec3 d, double
     return !(origin * other > 0.0) || other * other <= flat * flat * fe__ddot(normal, normal);
 }
 
-// The nearest of the faces that the origin is outside of; 4, unchanged, when it is inside all of them.
-static int32_t nearest_in_tetrahedron(fe__vertex *vertex, double *weight, double size)
+// The nearest of the faces that the origin is outside of; 0 when it is inside all of them.
+static int32_t weigh_tetrahedron(const fe__vertex *vertex, double *weight, double size)
 {
     static const int8_t faces[4][4] = {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}};
-    fe__vertex best[3];
-    int32_t best_count = 0;
-    double best_square = 0.0;
+    double best = (double)INFINITY;
     for (int32_t f = 0; f < 4; ++f) {
-        fe__vertex part[3] = {vertex[faces[f][0]], vertex[faces[f][1]], vertex[faces[f][2]]};
-        if (!is_outside(part[0].difference, part[1].difference, part[2].difference, vertex[faces[f][3]].difference, size)) continue;
+        const int8_t *k = faces[f];
+        fe_dvec3 a = vertex[k[0]].difference, b = vertex[k[1]].difference, c = vertex[k[2]].difference, d = vertex[k[3]].difference;
+        if (!is_outside(a, b, c, d, size)) continue;
         double w[3];
-        int32_t count = nearest_in_triangle(part, w);
-        fe_dvec3 v = weighted(part, w, count);
+        weigh_triangle(a, b, c, w);
+        fe_dvec3 v = fe__dadd(fe__dadd(fe__dscale(w[0], a), fe__dscale(w[1], b)), fe__dscale(w[2], c));
         double square = fe__ddot(v, v);
-        if (best_count > 0 && square >= best_square) continue;
-        best_count = count, best_square = square;
-        for (int32_t i = 0; i < count; ++i) best[i] = part[i], weight[i] = w[i];
+        if (!(square < best)) continue;
+        best = square;
+        weight[k[0]] = w[0], weight[k[1]] = w[1], weight[k[2]] = w[2], weight[k[3]] = 0.0;
     }
-    if (best_count == 0) return 4;
-    for (int32_t i = 0; i < best_count; ++i) vertex[i] = best[i];
-    return best_count;
+    return best < (double)INFINITY;
+}
+
+static int32_t drop_weightless(fe__vertex *vertex, double *weight, int32_t count)
+{
+    int32_t left = 0;
+    for (int32_t i = 0; i < count; ++i) {
+        if (weight[i] == 0.0) continue;
+        vertex[left] = vertex[i];
+        weight[left++] = weight[i];
+    }
+    return left;
+}
+
+int32_t fe__nearest_in_simplex(fe__vertex *vertex, double *weight, int32_t count)
+{
+    if (count == 1)
+        weight[0] = 1.0;
+    else if (count == 2)
+        weigh_line(vertex[0].difference, vertex[1].difference, weight);
+    else
+        weigh_triangle(vertex[0].difference, vertex[1].difference, vertex[2].difference, weight);
+    return drop_weightless(vertex, weight, count);
 }
 
 // ---- the walk towards the origin --------------------------------------------------------------------------------------------------------
@@ -147,8 +156,11 @@ void fe__gjk_distance(const fe__cores *cores, double limit, fe__gjk *g)
         fe__gjk last = *g;
         double last_weight[4] = {weight[0], weight[1], weight[2], weight[3]};
         g->vertex[g->count++] = w;
-        g->count = g->count == 4 ? nearest_in_tetrahedron(g->vertex, weight, g->size) : fe__nearest_in_simplex(g->vertex, weight, g->count);
-        if (g->count == 4) {
+        if (g->count < 4) {
+            g->count = fe__nearest_in_simplex(g->vertex, weight, g->count);
+        } else if (weigh_tetrahedron(g->vertex, weight, g->size)) {
+            g->count = drop_weightless(g->vertex, weight, 4);
+        } else {
             g->overlap = 1;
             break;
         }
