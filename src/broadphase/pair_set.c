@@ -10,7 +10,7 @@ enum { FIRST_CAPACITY = 64, LARGEST_CAPACITY = 1 << 30 };
 static uint64_t key_of(int32_t a, int32_t b)
 {
     uint64_t low = (uint64_t)(a < b ? a : b), high = (uint64_t)(a < b ? b : a);
-    return (low << 32 | high) + 1;
+    return low << 32 | high;
 }
 
 static uint32_t home_of(const fe__pair_set *set, uint64_t key)

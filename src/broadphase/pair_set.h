@@ -6,7 +6,7 @@
 #include "core/memory.h"
 
 typedef struct fe__pair_entry {
-    uint64_t key; // low << 32 | high, +1 so that 0 is empty
+    uint64_t key; // low << 32 | high; 0: empty, which no pair is, because high > low >= 0
     int32_t value;
     int32_t spare;
 } fe__pair_entry;

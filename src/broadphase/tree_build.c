@@ -6,14 +6,13 @@
 #include "broadphase/tree_node.h"
 
 enum {
-    BINS = 8,            // 4 to 16 were measured: no difference above the noise
-    BALANCED_DEPTH = 16, // from here on parts are halved: a depth below MAX_DEPTH is certain
-    MAX_DEPTH = 30,      // deeper trees are built anew
+    BINS = 8,          // 4 to 16 were measured: no difference above the noise
+    HALVED_DEPTH = 16, // from here on parts are halved, so that whatever the boxes, the depth is bounded
+    MAX_DEPTH = 30,    // deeper trees are built anew
     FIRST_NODES = 16,
 };
 static const double worn_cost = 1.3;      // of the cost when built
 static const double far_origin = 1000.0;  // m: up to there a float is good to 0.1 mm
-static const float least_area = 1e-30f;   // m2: counts still matter where boxes are flat
 static const float largest_scale = 1e30f; // 1/m: centres that are closer are taken for equal
 
 // A box on its way into a node. The fourth lane of `low` holds the proxy's bits.
@@ -25,7 +24,6 @@ typedef struct item {
 typedef struct part {
     fe__quad low, high;
     int32_t first, count;
-    float worth; // of cutting it, 0: it fits one node
 } part;
 
 typedef struct builder {
@@ -43,7 +41,7 @@ static fe__quad low_of(const item *i)
     return (fe__quad)((fe__quad_int)i->low & xyz);
 }
 
-static part nothing(int32_t first) { return (part){fe__quad_set(INFINITY), fe__quad_set(-INFINITY), first, 0, 0.0f}; }
+static part nothing(int32_t first) { return (part){fe__quad_set(INFINITY), fe__quad_set(-INFINITY), first, 0}; }
 
 static void swell(part *p, fe__quad low, fe__quad high)
 {
@@ -134,7 +132,7 @@ static void halve(const item *items, const part *p, part *left, part *right)
 static void cut(item *items, const part *p, int32_t depth, part *left, part *right)
 {
     binning b = choose_bins(items, p);
-    if (b.axis < 0 || depth >= BALANCED_DEPTH) {
+    if (b.axis < 0 || depth >= HALVED_DEPTH) {
         halve(items, p, left, right);
         return;
     }
@@ -161,11 +159,18 @@ static void cut(item *items, const part *p, int32_t depth, part *left, part *rig
 }
 
 // ---- nodes --------------------------------------------------------------------------------------------------------------------
-// What fits one node is not cut further; beyond BALANCED_DEPTH only the counts matter.
-static float worth_of(const part *p, int32_t depth)
+// The part with the largest area x count of those that do not fit one node; -1: all do.
+static int32_t costliest(const part parts[FE_TREE_WIDTH], int32_t count)
 {
-    if (p->count <= FE_TREE_WIDTH) return 0.0f;
-    return depth < BALANCED_DEPTH ? (part_area(p) + least_area) * (float)p->count : (float)p->count;
+    int32_t best = -1;
+    float best_cost = -1.0f;
+    for (int32_t k = 0; k < count; ++k) {
+        float cost = part_area(&parts[k]) * (float)parts[k].count;
+        if (parts[k].count <= FE_TREE_WIDTH || cost <= best_cost) continue;
+        best = k;
+        best_cost = cost;
+    }
+    return best;
 }
 
 // Two proxies in a free lane each are cheaper than a node of their own.
@@ -186,18 +191,11 @@ static int32_t make_parts(item *items, const part *whole, int32_t depth, part pa
         for (int32_t k = 0; k < whole->count; ++k) parts[k] = part_of(items, whole->first + k, 1);
         return whole->count;
     }
-    int32_t count = 1;
+    int32_t count = 1, best;
     parts[0] = *whole;
-    parts[0].worth = worth_of(whole, depth);
-    while (count < FE_TREE_WIDTH) {
-        int32_t best = 0;
-        for (int32_t k = 1; k < count; ++k)
-            if (parts[k].worth > parts[best].worth) best = k;
-        if (parts[best].worth <= 0.0f) break;
+    while (count < FE_TREE_WIDTH && (best = costliest(parts, count)) >= 0) {
         part left, right;
         cut(items, &parts[best], depth, &left, &right);
-        left.worth = worth_of(&left, depth);
-        right.worth = worth_of(&right, depth);
         parts[best] = left;
         parts[count++] = right;
     }

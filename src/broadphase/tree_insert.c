@@ -176,20 +176,20 @@ static int32_t push_root_down(fe__tree *tree)
     return fresh;
 }
 
-// Adds to a node, or splits it and adds the new half to its parent, and so on. Uses one node a level and one for a new root.
+// Adds to a node, or splits it and adds the new half to its parent, and so on. Uses one node a level and one for a new root. The boxes
+// above were grown on the way down, and a split does not change their union.
 static void add(fe__tree *tree, int32_t index, entry e)
 {
     for (;;) {
         int32_t lane = free_lane(&tree->nodes[index]);
         if (lane >= 0) {
             fe__tree_hang(tree, index, lane, e.box, e.child);
-            break;
+            return;
         }
         if (index == 0) index = push_root_down(tree);
         e = split(tree, index, &e);
         index = tree->nodes[index].parent;
     }
-    fe__tree_refit_above(tree, index);
 }
 
 // A node in the place of a proxy's lane, for it and the new one.

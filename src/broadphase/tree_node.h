@@ -12,7 +12,7 @@
 #include <float.h>
 
 #define FE_TREE_ULP 0x1p-23 // relative
-#define FE_TREE_PAD 1e-30   // m
+#define FE_TREE_PAD 1e-20   // m
 #define FE_TREE_FAR 1e15    // m from the tree's origin
 
 // x y z of a box relative to the tree's origin; the fourth lane means nothing

@@ -11,10 +11,9 @@ enum { STACK = 256 }; // 7 entries a level: enough for a depth of 36
 static const float slack = 1.000001f;
 // A component that moves less than FE_TREE_PAD in the whole segment does not move: boxes and origin are swelled by more. The finite inverse
 // keeps 0 * inverse = 0, never NaN.
-static const float largest_inverse = 1e30f;
-// m; longer ones are scaled, so that inverses stay normal numbers. What moves less than FE_TREE_PAD in 1e18 m is taken for still then,
-// which is right on the first 1e25 m.
-static const double longest_translation = 1e18;
+static const float largest_inverse = (float)(1.0 / FE_TREE_PAD);
+// m: the rounding of a denormal quotient (7e-46) stays below FE_TREE_PAD
+static const double longest_translation = 1e24;
 
 typedef struct slabs {
     fe__lanes near_origin[3], far_origin[3], inverse[3];
@@ -29,20 +28,22 @@ typedef struct entry {
 typedef struct cast {
     const fe__tree *tree;
     slabs slabs;
-    double stretch; // slab parameters per t
     double limit;
-    float slab_limit; // limit * stretch, rounded up
+    float limit_up; // rounded up
     fe__tree_ray_visit visit;
     void *context;
 } cast;
 
+static float narrow(double x) { return (float)fe__maxd(fe__mind(x, longest_translation), -longest_translation); }
+
 static void prepare_slabs(slabs *s, fe_dvec3 o, fe_dvec3 translation)
 {
-    const fe__quad d = {(float)translation.x, (float)translation.y, (float)translation.z, 1.0f};
+    const fe__quad d = {narrow(translation.x), narrow(translation.y), narrow(translation.z), 1.0f};
     fe__quad low = {fe__tree_round_down(o.x), fe__tree_round_down(o.y), fe__tree_round_down(o.z), 0.0f};
     fe__quad high = {fe__tree_round_up(o.x), fe__tree_round_up(o.y), fe__tree_round_up(o.z), 0.0f};
-    // an axis on which the start is beyond what floats tell apart excludes nothing
-    fe__quad_int lost = (low >= fe__quad_set((float)FE_TREE_FAR)) | (high <= fe__quad_set(-(float)FE_TREE_FAR));
+    // an axis beyond what floats can tell excludes nothing
+    const fe__quad far = fe__quad_set((float)FE_TREE_FAR), fast = fe__quad_set((float)longest_translation);
+    fe__quad_int lost = (low >= far) | (high <= -far) | (d >= fast) | (d <= -fast);
     low = fe__quad_choose(lost, fe__quad_set(-FLT_MAX), low);
     high = fe__quad_choose(lost, fe__quad_set(FLT_MAX), high);
     fe__quad_int backwards = d < fe__quad_set(0.0f);
@@ -75,7 +76,7 @@ static inline uint32_t hit_lanes(const fe__tree_node *node, const slabs *s, floa
 static inline void visit_proxy(cast *c, int32_t proxy)
 {
     c->limit = c->visit(c->context, proxy, c->limit);
-    c->slab_limit = fe__tree_round_up(c->limit * c->stretch);
+    c->limit_up = fe__tree_round_up(c->limit);
 }
 
 // The subtree at `top` when the stack is full: parents and lanes lead back up.
@@ -86,7 +87,7 @@ static void walk_without_stack(cast *c, int32_t top)
     uint32_t from = 0;
     for (;;) {
         const fe__tree_node *node = &c->tree->nodes[index];
-        uint32_t hits = hit_lanes(node, &c->slabs, c->slab_limit, t) >> from << from;
+        uint32_t hits = hit_lanes(node, &c->slabs, c->limit_up, t) >> from << from;
         if (hits) {
             uint32_t lane = (uint32_t)__builtin_ctz(hits);
             int32_t child = node->child[lane];
@@ -138,7 +139,7 @@ static void walk(cast *c)
                 break;
             }
             const fe__tree_node *node = &c->tree->nodes[child];
-            uint32_t hits = hit_lanes(node, &c->slabs, c->slab_limit, t);
+            uint32_t hits = hit_lanes(node, &c->slabs, c->limit_up, t);
             if (!hits) break;
             child = push_farther(node, hits, t, stack, &top);
         }
@@ -146,7 +147,7 @@ static void walk(cast *c)
         do {
             if (top == 0) return;
             top -= 1;
-        } while (stack[top].t > c->slab_limit * slack);
+        } while (stack[top].t > c->limit_up * slack);
         child = stack[top].child;
     }
 }
@@ -154,13 +155,7 @@ static void walk(cast *c)
 double fe__tree_ray(const fe__tree *tree, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__tree_ray_visit visit, void *context)
 {
     if (tree->proxy_count == 0 || limit < 0.0) return limit;
-    cast c = {.tree = tree, .stretch = 1.0, .limit = limit, .visit = visit, .context = context};
-    double longest = fe__maxd(fe__maxd(fe__absd(translation.x), fe__absd(translation.y)), fe__absd(translation.z));
-    if (longest > longest_translation) {
-        translation = fe__dscale(longest_translation / longest, translation);
-        c.stretch = longest / longest_translation;
-    }
-    c.slab_limit = fe__tree_round_up(limit * c.stretch);
+    cast c = {.tree = tree, .limit = limit, .limit_up = fe__tree_round_up(limit), .visit = visit, .context = context};
     prepare_slabs(&c.slabs, fe__dsub(origin, tree->origin), translation);
     walk(&c);
     return c.limit;

@@ -7,6 +7,7 @@
 enum {
     BLOCK_ALIGNMENT = 64, // a cache line, and the widest SIMD load
     FIRST_CAPACITY = 16,  // records: below that, doubling would allocate at every other call
+    DOUBLE_BELOW = 4096,  // records: a larger array grows by a quarter
 };
 
 // aligned_alloc wants a multiple of the alignment
@@ -57,12 +58,13 @@ static void *load_pointer(const void *array)
 
 static void store_pointer(void *array, void *pointer) { memcpy(array, &pointer, sizeof pointer); }
 
+// Doubling, and by a quarter once an array is large: still O(log n) times, and little room is left over
 int32_t fe__reserve(fe__memory *memory, void *array, int32_t *capacity, int64_t need, size_t size)
 {
     if (need <= *capacity) return 1;
     if (need > INT32_MAX) return 0;
     int64_t grown = *capacity < FIRST_CAPACITY ? FIRST_CAPACITY : *capacity;
-    while (grown < need) grown *= 2;
+    while (grown < need) grown += grown < DOUBLE_BELOW ? grown : grown / 4;
     if (grown > INT32_MAX) grown = INT32_MAX;
     if ((uint64_t)grown > PTRDIFF_MAX / size) return 0;
 

@@ -70,7 +70,8 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
     int32_t batches = batch_bound(b), width = kernels->width;
     int64_t groups = (int64_t)fe__mini(group_bound(b) * batches, b->contacts) + fe__mini(b->crowded, b->contacts);
     int64_t lanes = b->contacts + (int64_t)(width - 1) * groups;
-    int64_t lines = FE__MAX_WIDTH + 2 * (int64_t)b->bodies + (int64_t)batches * (DUMMY_LINES + FE__MAX_WIDTH) + b->contacts / 8;
+    // each contact of a kinematic body may bring a copy of it
+    int64_t lines = FE__MAX_WIDTH + (int64_t)b->bodies + (int64_t)batches * (DUMMY_LINES + FE__MAX_WIDTH) + (b->special ? b->contacts : 0);
     int64_t lane_limit = b->contacts * (int64_t)width;
     if (lanes > lane_limit) lanes = lane_limit;
     int64_t widest = kernels->contact->row_size[b->special ? FE__ROW_PAIR | FE__ROW_SPECIAL : FE__ROW_PAIR];

@@ -59,15 +59,34 @@ static void add_hit(fe_world *w, int32_t pair)
                                  fe__scale(sign, fe__vec3(m->normal[0], m->normal[1], m->normal[2])), p->approach, impulse, 0}};
 }
 
-static void look_at_pair(fe_world *w, int32_t pair)
+// ---- looking, on any thread: pairs that have something to tell go to the list of results -----------------------------------------------
+enum { PAIRS_IN_BLOCK = 256 };
+
+static void look_block(void *argument, int32_t first, int32_t end, int32_t worker)
+{
+    const fe__step *step = argument;
+    const fe_world *w = step->world;
+    fe__step_scratch *s = step->scratch;
+    (void)worker;
+    for (int32_t i = first; i < end; ++i) {
+        int32_t pair = w->awake_pairs[i], now = touches(w, pair);
+        fe__pair *p = w->pairs + pair;
+        int32_t before = (p->flags & FE__PAIR_TOUCHING) != 0, tells = now != before;
+        if (now && before) tells = (p->events & (FE_EVENTS_STAY | FE_EVENTS_HIT)) != 0;
+        p->result = now ? (before ? FE_STAY : FE_ENTER) : FE_EXIT;
+        if (tells) s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
+    }
+}
+
+static void tell(fe_world *w, int32_t pair)
 {
     fe__pair *p = w->pairs + pair;
-    int32_t now = touches(w, pair), before = (p->flags & FE__PAIR_TOUCHING) != 0;
-    int32_t kind = now ? (before ? FE_STAY : FE_ENTER) : FE_EXIT;
-    if (now) p->flags |= FE__PAIR_TOUCHING;
-    if (!now) p->flags &= ~(uint32_t)FE__PAIR_TOUCHING;
-    if (now && !(p->flags & FE__PAIR_SENSOR)) add_hit(w, pair);
-    if (!now && !before) return;
+    int32_t kind = p->result;
+    if (kind == FE_EXIT)
+        p->flags &= ~(uint32_t)FE__PAIR_TOUCHING;
+    else
+        p->flags |= FE__PAIR_TOUCHING;
+    if (kind != FE_EXIT && !(p->flags & FE__PAIR_SENSOR)) add_hit(w, pair);
     if (p->events & (kind == FE_STAY ? (uint32_t)FE_EVENTS_STAY : (uint32_t)FE_EVENTS_TOUCH)) w->pair_events[w->pair_event_count++] = record_of(w, pair, kind);
 }
 
@@ -109,7 +128,11 @@ void fe__collect_events(fe__step *step)
     w->pair_event_count = w->hit_event_count = 0;
     for (int32_t i = 0; i < w->owed_event_count; ++i) w->pair_events[w->pair_event_count++] = w->owed_events[i];
     w->owed_event_count = 0;
-    for (int32_t i = 0; i < w->awake_pair_count; ++i) look_at_pair(w, w->awake_pairs[i]);
+    fe__step_scratch *s = step->scratch;
+    atomic_store(&s->result_count, 0);
+    fe__parallel_for(&w->workers, w->awake_pair_count, PAIRS_IN_BLOCK, look_block, step);
+    int32_t count = atomic_load(&s->result_count);
+    for (int32_t i = 0; i < count; ++i) tell(w, s->results[i]);
     sort_records(step, (unsigned char *)w->pair_events, w->pair_event_count, sizeof *w->pair_events);
     sort_records(step, (unsigned char *)w->hit_events, w->hit_event_count, sizeof *w->hit_events);
 }

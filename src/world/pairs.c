@@ -4,9 +4,6 @@
 #include <assert.h>
 #include <string.h>
 
-#define PAIR_COLOURS ((UINT64_C(1) << FE__PAIR_COLOURS) - 1)
-#define STATIC_COLOURS (((UINT64_C(1) << FE__STATIC_COLOURS) - 1) << FE__PAIR_COLOURS)
-
 int32_t fe__reserve_pairs(fe_world *world, int32_t extra)
 {
     fe__memory *memory = &world->memory;
@@ -110,17 +107,33 @@ void fe__pair_mix(fe_world *world, int32_t pair)
 }
 
 // ---- the constraint graph ------------------------------------------------------------------------------------------------------------------
+static int32_t first_colour(uint64_t used_low, uint64_t used_high, int32_t first, int32_t end)
+{
+    for (int32_t word = first / 64; word <= (end - 1) / 64; ++word) {
+        uint64_t free = ~(word ? used_high : used_low);
+        if (word == first / 64) free &= UINT64_MAX << first % 64;
+        if (!free) continue;
+        int32_t colour = 64 * word + __builtin_ctzll(free);
+        if (colour < end) return colour;
+    }
+    return FE__OVERFLOW_COLOUR;
+}
+
+static void take_colour(fe__body *body, int32_t colour) { body->colours[colour / 64] |= UINT64_C(1) << colour % 64; }
+static void return_colour(fe__body *body, int32_t colour) { body->colours[colour / 64] &= ~(UINT64_C(1) << colour % 64); }
+
 // First colour that neither dynamic body uses yet. A body's contacts have different colours, so contacts of one colour share no dynamic body.
 void fe__pair_link(fe_world *world, int32_t pair)
 {
     fe__contact *m = world->contacts + pair;
     assert(m->colour < 0);
     fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
-    uint64_t used = b->colours | (m->kind & FE__ROW_PAIR ? a->colours : 0), free = ~used & (m->kind & FE__ROW_PAIR ? PAIR_COLOURS : STATIC_COLOURS);
-    m->colour = free ? __builtin_ctzll(free) : FE__OVERFLOW_COLOUR;
-    if (free) {
-        b->colours |= UINT64_C(1) << m->colour;
-        if (m->kind & FE__ROW_PAIR) a->colours |= UINT64_C(1) << m->colour;
+    int32_t both = m->kind & FE__ROW_PAIR;
+    m->colour = both ? first_colour(a->colours[0] | b->colours[0], a->colours[1] | b->colours[1], 0, FE__PAIR_COLOURS)
+                     : first_colour(b->colours[0], b->colours[1], FE__PAIR_COLOURS, FE__PAIR_COLOURS + FE__STATIC_COLOURS);
+    if (m->colour != FE__OVERFLOW_COLOUR) {
+        take_colour(b, m->colour);
+        if (both) take_colour(a, m->colour);
     }
     world->pairs[pair].flags |= FE__PAIR_LINKED;
     world->solver.graph_changed = 1;
@@ -132,8 +145,8 @@ void fe__pair_unlink(fe_world *world, int32_t pair)
     fe__contact *m = world->contacts + pair;
     if (m->colour < 0) return;
     if (m->colour != FE__OVERFLOW_COLOUR) {
-        world->bodies[m->body_b].colours &= ~(UINT64_C(1) << m->colour);
-        if (m->kind & FE__ROW_PAIR) world->bodies[m->body_a].colours &= ~(UINT64_C(1) << m->colour);
+        return_colour(world->bodies + m->body_b, m->colour);
+        if (m->kind & FE__ROW_PAIR) return_colour(world->bodies + m->body_a, m->colour);
     }
     m->colour = -1;
     for (int k = 0; k < FE__POINTS; ++k) m->normal_impulse[k] = m->friction_impulse[k] = m->total_impulse[k] = 0.0f;

@@ -5,6 +5,9 @@
 #include "solver/graph.h"
 #include "world/step.h"
 
+// with no more contacts each, two bodies have colours enough for a contact between them
+enum { CROWD = FE__STATIC_COLOURS < FE__PAIR_COLOURS / 2 ? FE__STATIC_COLOURS : FE__PAIR_COLOURS / 2 };
+
 // Can anything asleep be touched in this step? Then all of it may wake.
 static int32_t may_wake(const fe__step *step)
 {
@@ -27,10 +30,10 @@ static int32_t may_wake(const fe__step *step)
 static int32_t crowded_contacts(const fe_world *w, int32_t most)
 {
     int64_t crowded = 0;
-    if (most <= FE__STATIC_COLOURS) return 0;
+    if (most <= CROWD) return 0;
     for (int32_t i = w->first_body; i >= 0; i = w->bodies[i].order_next) {
         int32_t contacts = w->bodies[i].contact_count + w->bodies[i].coming_contacts;
-        if (w->bodies[i].type == FE_BODY_DYNAMIC && contacts > FE__STATIC_COLOURS) crowded += contacts;
+        if (w->bodies[i].type == FE_BODY_DYNAMIC && contacts > CROWD) crowded += contacts;
     }
     return crowded < INT32_MAX ? (int32_t)crowded : INT32_MAX;
 }

@@ -147,6 +147,12 @@ static void set_local_pose(fe__shape *shape, fe_vec3 position, fe_quat rotation)
     if (centred) shape->flags |= FE__SHAPE_CENTRED;
 }
 
+// A pair may be found and hit within one step: the step must know before that hits are asked for.
+static void note_events(fe_world *world, uint32_t events)
+{
+    if (events & FE_EVENTS_HIT) world->wants_hits = 1;
+}
+
 // A sleeping body goes on sleeping: a level may be built asleep.
 int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *desc, const fe__form *form)
 {
@@ -172,6 +178,7 @@ int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *desc
     fe__body_update_mass(world, body);
     fe__body_place(world, body);
     if (world->bodies[body].flags & FE__BODY_ENABLED) fe__shape_enter(world, index);
+    note_events(world, desc->events);
     return index;
 }
 
@@ -252,6 +259,7 @@ void fe__shape_set_trigger(fe_world *world, int32_t index, int32_t trigger)
 void fe__shape_material_changed(fe_world *world, int32_t index)
 {
     int32_t body = world->shapes[index].body;
+    note_events(world, world->shapes[index].events);
     for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, body)) {
         const fe__pair *p = &world->pairs[pair];
         if (p->shape_a == index || p->shape_b == index) fe__pair_mix(world, pair);

@@ -66,7 +66,7 @@ struct fe_world {
     // bounds for what a step may need; they only grow
     int32_t most_contacts;   // of one dynamic body
     uint32_t row_kinds;      // 1 << FE__ROW_* of every pair
-    int32_t wants_hits;      // a pair asked for hit events
+    int32_t wants_hits;      // a shape asked for hit events
     fe__pair_set pair_set;   // by shape indices
     fe__pair_set ignored;    // by body indices: fe_world_ignore_collision
 
