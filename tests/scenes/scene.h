@@ -81,13 +81,17 @@ typedef struct scene {
 } scene;
 
 // the cyclic turns are exact in float; the last one is nobody's axis
-static setup upright = {{0, 0, 0, 1}, 8}, upright_4 = {{0, 0, 0, 1}, 4};
-static setup up_along_z = {{0.5f, 0.5f, 0.5f, 0.5f}, 8}, up_along_x = {{-0.5f, -0.5f, -0.5f, 0.5f}, 8};
-static setup upside_down = {{1, 0, 0, 0}, 8}, askew = {{0.35f, -0.61f, 0.27f, 0.66f}, 8};
+#define SETUP static __attribute__((unused)) setup
+SETUP upright = {{0, 0, 0, 1}, 8};
+SETUP upright_4 = {{0, 0, 0, 1}, 4};
+SETUP up_along_z = {{0.5f, 0.5f, 0.5f, 0.5f}, 8};
+SETUP up_along_x = {{-0.5f, -0.5f, -0.5f, 0.5f}, 8};
+SETUP upside_down = {{1, 0, 0, 0}, 8};
+SETUP askew = {{0.35f, -0.61f, 0.27f, 0.66f}, 8};
 
-#define TEST_WITH(f, name, how)      \
-    {                                \
-#f name, f, NULL, NULL, &how \
+#define TEST_WITH(f, how_it_is, how)                                \
+    {                                                               \
+        .name = #f how_it_is, .test_func = f, .initial_state = &how \
     }
 #define TEST(f) TEST_WITH(f, "", upright)
 #define WITH_4_SUBSTEPS(f) TEST_WITH(f, ", 4 substeps", upright_4)
