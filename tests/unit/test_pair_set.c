@@ -22,6 +22,7 @@ typedef struct host {
 
 static void *host_allocate(void *user, uint64_t size, uint64_t alignment)
 {
+    FE_TRUE(size <= (UINT64_C(1) << 30) * sizeof(fe__pair_entry)); // what an int32_t counts
     if (((host *)user)->refuses) return NULL;
     return aligned_alloc((size_t)alignment, (size_t)((size + alignment - 1) / alignment * alignment));
 }
