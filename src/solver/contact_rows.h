@@ -259,15 +259,17 @@ FE_INLINE void NAMED(follow_span)(ROW *row, const fe__solver *s, pair *p, wide3 
 // ---- restitution ----------------------------------------------------------------------------------------------------------------------
 // The speed that a touched point must leave with, at the gap s where it is now:
 //     v' = min( sqrt(e^2 Q - 2 g s) + g h / 2,  sqrt(Q - 2 g s) )
-// so that it flies to e^2 times the height it fell from, and never has more energy than it came with. Q: record_touch.
+// so that it flies to e^2 times the height it fell from, and never has more energy than it came with. Q: record_touch. A point that did not touch may
+// go on closing its gap, as in relax.
 FE_INLINE wide NAMED(bounce_speed)(const SPECIAL_ROW *x, int i, wide distance, const fe__step_constants *c)
 {
-    wide zero = w_set(0.0f), g = x->closing, used = 2.0f * g * w_max(distance, zero), e = x->restitution, q = x->flight[i];
+    wide zero = w_set(0.0f), g = x->closing, gap = w_max(distance, zero), used = 2.0f * g * gap, e = x->restitution, q = x->flight[i];
     wide wanted = w_sqrt(w_max(e * e * q - used, zero)) + 0.5f * c->h * g;
-    return w_choose(w_greater(x->approach[i], zero), w_min(wanted, w_sqrt(w_max(q - used, zero))), zero);
+    return w_choose(w_greater(x->approach[i], zero), w_min(wanted, w_sqrt(w_max(q - used, zero))), -(gap * c->inverse_h));
 }
 
-// What the touched contacts gave leaves the warm start: start takes M^-1 J^T l, and l becomes 0. `old`: impulses that `total` already has.
+// What the touched contacts gave leaves the warm start: start takes M^-1 J^T l, and l becomes 0. `old`: impulses that `total` already has, and that
+// the other lanes, which the sweeps ran over too, get back.
 FE_INLINE void NAMED(leave_warm_start)(SPECIAL_ROW *x, fe__solver *s, const pair *p, const wide *old, wide_mask touched, int kind)
 {
     ROW *row = &x->row;
@@ -287,7 +289,7 @@ FE_INLINE void NAMED(leave_warm_start)(SPECIAL_ROW *x, fe__solver *s, const pair
     {
         point_row *q = row->point + i;
         q->total = q->total + w_choose(touched, q->impulse - old[i], zero);
-        q->impulse = w_choose(touched, zero, q->impulse);
+        q->impulse = w_choose(touched, zero, old[i]);
         x->approach[i] = zero;
     }
     for (int i = 0; i < 2; ++i) row->tangent_impulse[i] = w_choose(touched, zero, row->tangent_impulse[i]);
