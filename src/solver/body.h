@@ -21,7 +21,7 @@ enum {
 typedef struct fe__body {
     // pose. centre = high + low to 48 bits: the difference of two bodies' centres, taken in floats, is exact to the last digit of a float
     _Alignas(64) float centre_high[4]; // centre of mass, m, rounded to float; lane 3: 0
-    float centre_low[4];               // what the rounding left; lane 3: 0
+    float centre_low[4];               // what the rounding left; lane 3: speed of the fastest point, m/s, at least
     float rotation[4];                 // unit quaternion of the body's frame
     float local_centre[4];             // of mass, m, body's frame; lane 3: reach, the largest distance from it to a point of the body
     // velocities and what changes them

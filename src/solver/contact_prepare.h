@@ -142,7 +142,9 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
     row->round_b = surface.z;
     store3(row->normal, w_xyz(normal));
     store3(row->span, w_xyz(span));
-    store3(row->first_span, w_xyz(span));
+    // the arms of a static A are counted from B's centre: no span between them
+    wide3 first_span = kind & (FE__ROW_PAIR | FE__ROW_SPECIAL) ? w_xyz(w_gather(m->found_span, CONTACT_STRIDE, index)) : w_zero3();
+    store3(row->first_span, first_span);
     store3(row->shift, w_zero3());
     if (kind & FE__ROW_SPECIAL) NAMED(prepare_special)((SPECIAL_ROW *)row, s, extras, index, c);
 

@@ -34,23 +34,36 @@ FE_INLINE wide4 turn_since_found(const fe__body *bodies, const int32_t *body, wi
     return w_product(w_gather(bodies->rotation, BODY_STRIDE, body), w_conjugate(found));
 }
 
+// 0 for a static A, 1 otherwise
+FE_INLINE wide spans_of(const fe__body *bodies, const int32_t *a)
+{
+    _Alignas(64) float spans[FE_W];
+    for (int i = 0; i < FE_W; ++i) spans[i] = bodies[a[i]].type == FE_BODY_STATIC ? 0.0f : 1.0f;
+    return *(const wide *)spans;
+}
+
 // As in contact_rows.h: s = s0 + n.shift + (nB - nA).r + nB.span + rhoA nA.n + rhoB nB.n with nX = R(dqX)^T n - n
-static void recycle_block(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, uint8_t *out_moved)
+static void recycle_block(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, float dt, uint8_t *out_moved)
 {
     _Alignas(64) int32_t a[FE_W], b[FE_W];
     for (int i = 0; i < FE_W; ++i) a[i] = contacts[index[i]].body_a, b[i] = contacts[index[i]].body_b;
     wide4 normal = CONTACT_QUAD(normal), surface = CONTACT_QUAD(surface), found = CONTACT_QUAD(found_span);
     wide3 n = w_xyz(normal), shift = shift_since_found(contacts, bodies, index, a, b);
     wide4 turn_a = turn_since_found(bodies, a, CONTACT_QUAD(found_a)), turn_b = turn_since_found(bodies, b, CONTACT_QUAD(found_b));
+    // a static A has its arms from B's centre: no span between them, and it does not turn
+    wide3 arms_span = w_choose3(w_greater(w_set(0.5f), spans_of(bodies, a)), w_zero3(), w_xyz(found));
     wide3 na = w_turn_back(turn_a, n), nb = w_turn_back(turn_b, n), slope = w_sub(nb, na);
-    wide constant = w_dot(n, shift) + w_dot(nb, w_xyz(CONTACT_QUAD(span))) + surface.y * w_dot(na, n) + surface.z * w_dot(nb, n);
+    wide constant = w_dot(n, shift) + w_dot(nb, arms_span) + surface.y * w_dot(na, n) + surface.z * w_dot(nb, n);
 
     // Along the normal the separations follow exactly; what ages a manifold is sliding and turning. A point slides by at most |slide| +
     // 2 |sin(turn / 2)| reach of either body, and (x + y + z)^2 <= 3 (x^2 + y^2 + z^2)
     wide3 slide = w_sub_scaled(shift, w_dot(n, shift), n);
     wide turned = w_dot(w_xyz(turn_a), w_xyz(turn_a)) + w_dot(w_xyz(turn_b), w_xyz(turn_b));
-    wide moved = 3.0f * (w_dot(slide, slide) + 4.0f * found.w * found.w * turned), limit = surface.w * surface.w;
-    unsigned far = w_bits(w_not(w_greater(limit, moved)));
+    wide moved = 3.0f * (w_dot(slide, slide) + 4.0f * found.w * found.w * turned), zero = w_set(0.0f);
+    // without points the bodies must not be able to meet in this step either
+    wide travel = dt * (w_gather(bodies->centre_low, BODY_STRIDE, a).w + w_gather(bodies->centre_low, BODY_STRIDE, b).w);
+    wide limit = w_choose(w_greater(normal.w, zero), surface.w, w_max(surface.w - travel, zero));
+    unsigned far = w_bits(w_not(w_greater(limit * limit, moved)));
 
     _Alignas(64) float now[FE__POINTS][FE_W];
     for (int i = 0; i < FE__POINTS; ++i) {
@@ -64,14 +77,14 @@ static void recycle_block(fe__contact *contacts, const fe__body *bodies, const i
     }
 }
 
-void FE_NAME(fe__recycle)(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, uint8_t *out_moved);
+fe__recycle_kernel FE_NAME(fe__recycle);
 
-void FE_NAME(fe__recycle)(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, uint8_t *out_moved)
+void FE_NAME(fe__recycle)(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, float dt, uint8_t *out_moved)
 {
     int32_t i = 0;
-    for (; i + FE_W <= count; i += FE_W) recycle_block(contacts, bodies, index + i, FE_W, out_moved + i);
+    for (; i + FE_W <= count; i += FE_W) recycle_block(contacts, bodies, index + i, FE_W, dt, out_moved + i);
     if (i == count) return;
     int32_t rest[FE_W] = {0};
     for (int32_t k = i; k < count; ++k) rest[k - i] = index[k];
-    recycle_block(contacts, bodies, rest, count - i, out_moved + i);
+    recycle_block(contacts, bodies, rest, count - i, dt, out_moved + i);
 }

@@ -184,6 +184,7 @@ fe_result fe__body_set_type(fe_world *world, int32_t index, int32_t type)
     forget_forces(body);
     if (type == FE_BODY_STATIC) {
         for (int k = 0; k < 3; ++k) body->velocity[k] = body->spin[k] = 0.0f;
+        fe__body_note_speed(body);
     }
     if (type != FE_BODY_DYNAMIC) body->flags &= ~(uint32_t)FE__BODY_MASS_GIVEN;
     fe__body_update_mass(world, index);

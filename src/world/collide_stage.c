@@ -46,13 +46,13 @@ static void collide_block(void *argument, int32_t first, int32_t end, int32_t wo
     fe__step_scratch *s = job->step->scratch;
     (void)worker;
     first += job->first, end += job->first;
-    w->kernels->recycle(w->contacts, w->bodies, w->awake_pairs + first, end - first, s->moved + first);
+    w->kernels->recycle(w->contacts, w->bodies, w->awake_pairs + first, end - first, job->step->dt, s->moved + first);
     int32_t recycled = end - first;
     for (int32_t i = first; i < end; ++i) {
         if (!s->moved[i]) continue;
         int32_t pair = w->awake_pairs[i];
         --recycled;
-        fe__collide_pair(w, pair);
+        fe__collide_pair(w, pair, job->step->dt);
         w->pairs[pair].result = judge(w, pair);
         if (w->pairs[pair].result != FE__RESULT_NONE) s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
     }

@@ -38,12 +38,10 @@ static void place_origin(fe__body *body)
     body->origin[0] = body->centre[0] - arm.x, body->origin[1] = body->centre[1] - arm.y, body->origin[2] = body->centre[2] - arm.z;
 }
 
-// its fastest point can be no faster than |v| + |w| reach
 static void tick_sleep_timer(fe__body *body, float dt)
 {
-    const float *v = body->velocity, *w = body->spin;
-    float speed = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + sqrtf(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) * body->local_centre[3];
-    int32_t slow = body->flags & FE__BODY_SLEEP_ALLOWED && speed < body->sleep_threshold;
+    fe__body_note_speed(body);
+    int32_t slow = body->flags & FE__BODY_SLEEP_ALLOWED && body->centre_low[3] < body->sleep_threshold;
     body->sleep_timer = slow ? body->sleep_timer + dt : 0.0f;
 }
 
@@ -54,8 +52,8 @@ static void follow_body(fe__step *step, int32_t index)
     fe__body_place(w, index);
     for (int32_t i = w->bodies[index].first_shape; i >= 0; i = w->shapes[i].next) {
         if (!(w->shapes[i].flags & FE__SHAPE_IN_TREE)) continue;
-        fe__bounds tight = fe__shape_bounds(w, i, w->tuning.speculative_distance);
-        if (!fe__tree_holds(&w->moving_tree, i, &tight)) s->left[atomic_fetch_add_explicit(&s->left_count, 1, memory_order_relaxed)] = i;
+        fe__bounds reach = fe__shape_reach_bounds(w, i);
+        if (!fe__tree_holds(&w->moving_tree, i, &reach)) s->left[atomic_fetch_add_explicit(&s->left_count, 1, memory_order_relaxed)] = i;
     }
 }
 

@@ -4,6 +4,14 @@
 #include "core/trig.h"
 #include "world/world.h"
 
+// What the narrow phase asks: how fast the fastest point may be
+void fe__body_note_speed(fe__body *body)
+{
+    const float *v = body->velocity, *w = body->spin;
+    float turning = sqrtf(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) * body->local_centre[3];
+    body->centre_low[3] = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + turning;
+}
+
 // Locked components are exactly +0, so that the solver's masks never meet a velocity they would have to keep.
 void fe__body_stop_locked(fe__body *body)
 {
@@ -12,6 +20,7 @@ void fe__body_stop_locked(fe__body *body)
         if (bits >> k & 1) body->velocity[k] = 0.0f;
         if (bits >> (k + 3) & 1) body->spin[k] = 0.0f;
     }
+    fe__body_note_speed(body);
 }
 
 // m/s2, rad/s2: what a step of 1 s makes of it can still be squared in a float
@@ -30,6 +39,7 @@ void fe__body_set_velocity(fe_world *world, int32_t index, const fe_vec3 *linear
     if (angular) body->spin[0] = angular->x, body->spin[1] = angular->y, body->spin[2] = angular->z;
     fe__body_stop_locked(body);
     if (moves(body)) fe__body_disturb(world, index);
+    fe__body_stretch_boxes(world, index);
 }
 
 void fe__body_add_force(fe_world *world, int32_t index, fe_vec3 force, fe_vec3 torque)

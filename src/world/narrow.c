@@ -24,26 +24,84 @@ typedef struct view {
     fe__mat3 rotation;
 } view;
 
+// where the two bodies are when the manifold is looked for: the solver's A and B
+typedef struct places {
+    fe_dvec3 centre_a, centre_b;
+    fe_quat rotation_a, rotation_b;
+} places;
+
+static fe_quat rotation_of(const fe__body *b) { return (fe_quat){b->rotation[0], b->rotation[1], b->rotation[2], b->rotation[3]}; }
+static fe_dvec3 centre_of(const fe__body *b) { return (fe_dvec3){b->centre[0], b->centre[1], b->centre[2]}; }
+static fe_vec3 vector_of(const float *a) { return (fe_vec3){a[0], a[1], a[2]}; }
+
 // B in A's frame. A plane has no centre that matters: its frame is put at B, so that a plane is as exact a thousand kilometres off.
-static view view_of(const fe_world *world, const fe__pair *p)
+static view view_of(const fe__shape *a, const fe__shape *b, const fe__pose *pose_a, const fe__pose *pose_b)
 {
-    view v = {.a = world->shapes + p->shape_a, .b = world->shapes + p->shape_b};
-    if (p->flags & FE__PAIR_SWAPPED) v.a = world->shapes + p->shape_b, v.b = world->shapes + p->shape_a;
-    v.form_a = v.a->form;
-    v.origin = v.a->pose.position;
-    v.rotation = fe__matrix(v.a->pose.rotation);
-    v.relative.rotation = fe__matrix(fe__product(fe__conjugate(v.a->pose.rotation), v.b->pose.rotation));
-    fe_dvec3 between = fe__dsub(v.b->pose.position, v.origin);
+    view v = {.a = a, .b = b, .form_a = a->form, .origin = pose_a->position, .rotation = fe__matrix(pose_a->rotation)};
+    v.relative.rotation = fe__matrix(fe__product(fe__conjugate(pose_a->rotation), pose_b->rotation));
+    fe_dvec3 between = fe__dsub(pose_b->position, v.origin);
     if (v.form_a.type == FE_GEOMETRY_PLANE) {
-        fe_dvec3 normal = fe__drotate(v.a->pose.rotation, fe__widen(v.form_a.normal));
+        fe_dvec3 normal = fe__drotate(pose_a->rotation, fe__widen(v.form_a.normal));
         v.form_a.distance = (float)((double)v.form_a.distance - fe__ddot(normal, between));
         v.relative.position = fe__vec3(0.0f, 0.0f, 0.0f);
-        v.origin = v.b->pose.position;
+        v.origin = pose_b->position;
     } else if (fe__ddot(between, between) < NEAR * NEAR)
         v.relative.position = fe__mul_transposed(&v.rotation, fe__narrow(between));
     else
-        v.relative.position = fe__narrow(fe__drotate_back(v.a->pose.rotation, between));
+        v.relative.position = fe__narrow(fe__drotate_back(pose_a->rotation, between));
     return v;
+}
+
+// ---- ahead of time --------------------------------------------------------------------------------------------------------------------
+// Contacts are made once per step. What will touch only later in the step needs its contact now, or it would be found a step late, up to v dt deep.
+
+// how far the pair can close in the step, m
+static float reach_in_step(const fe_world *world, const fe__body *a, const fe__body *b, float dt)
+{
+    float fall = fe__length(world->gravity) * dt * dt;
+    return (a->centre_low[3] + b->centre_low[3]) * dt + fall;
+}
+
+// where a body would be at the end of a step without contacts
+static void advance(const fe_world *world, const fe__body *body, float dt, fe_dvec3 *centre, fe_quat *rotation)
+{
+    *centre = centre_of(body), *rotation = rotation_of(body);
+    if (body->awake_index < 0) return;
+    fe_vec3 v = vector_of(body->velocity), w = fe__scale(0.5f * dt, vector_of(body->spin));
+    if (body->type == FE_BODY_DYNAMIC && !body->locked) v = fe__add_scaled(v, dt * body->gravity_scale, world->gravity);
+    *centre = fe__dadd(*centre, fe__dscale((double)dt, fe__widen(v)));
+    fe_quat q = *rotation, turn = fe__product((fe_quat){w.x, w.y, w.z, 0.0f}, q);
+    *rotation = fe__normalized((fe_quat){q.x + turn.x, q.y + turn.y, q.z + turn.z, q.w + turn.w});
+}
+
+static fe__pose shape_pose(const fe__body *body, const fe__shape *shape, fe_dvec3 centre, fe_quat rotation)
+{
+    fe_dvec3 arm = fe__drotate(rotation, fe__widen(vector_of(body->local_centre)));
+    fe__pose pose = {fe__dsub(centre, arm), rotation};
+    return fe__compose(&pose, shape->local_position, shape->local_rotation);
+}
+
+// The manifold of the poses at the end of the step: the right features for an impact on the way, none for bodies that pass each other by. Deep in,
+// features say nothing any more, and the nearest ones of now must do.
+static int32_t look_ahead(const fe_world *world, const fe__contact *m, float dt, view *v, places *at, fe__manifold *found)
+{
+    const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
+    places then;
+    advance(world, a, dt, &then.centre_a, &then.rotation_a);
+    advance(world, b, dt, &then.centre_b, &then.rotation_b);
+    int32_t a_is_b = m->body_a != v->a->body;
+    fe__pose pose_a = a_is_b ? shape_pose(b, v->a, then.centre_b, then.rotation_b) : shape_pose(a, v->a, then.centre_a, then.rotation_a);
+    fe__pose pose_b = a_is_b ? shape_pose(a, v->b, then.centre_a, then.rotation_a) : shape_pose(b, v->b, then.centre_b, then.rotation_b);
+    view ahead = view_of(v->a, v->b, &pose_a, &pose_b);
+    fe__manifold manifold = {.axis = -1};
+    fe__collide(&ahead.form_a, &v->b->form, &ahead.relative, world->tuning.speculative_distance, &manifold);
+    if (!manifold.count) return 0;
+    float deepest = manifold.points[0].separation;
+    for (int32_t i = 1; i < manifold.count; ++i) deepest = fe__minf(deepest, manifold.points[i].separation);
+    if (-deepest > fe__minf(fe__form_thickness(&v->a->form), fe__form_thickness(&v->b->form)) && v->a->form.type != FE_GEOMETRY_PLANE)
+        return found->count > 0;
+    *v = ahead, *at = then, *found = manifold;
+    return 1;
 }
 
 static void copy3(float *out, fe_vec3 a) { out[0] = a.x, out[1] = a.y, out[2] = a.z; }
@@ -60,28 +118,28 @@ static void match_impulses(fe__pair *p, fe__contact *m, const fe__manifold *foun
     for (int i = 0; i < found->count; ++i) p->ids[i] = found->points[i].id;
 }
 
-static void note_poses(fe__contact *m, const fe__body *a, const fe__body *b)
+static void note_poses(fe__contact *m, const places *at, const fe__body *a, const fe__body *b)
 {
-    memcpy(m->found_a, a->rotation, sizeof m->found_a);
-    memcpy(m->found_b, b->rotation, sizeof m->found_b);
-    for (int k = 0; k < 3; ++k) {
-        double span = a->centre[k] - b->centre[k];
-        m->found_span[k] = (float)span;
-        m->found_low[k] = (float)(span - (double)m->found_span[k]);
-        m->span[k] = a->type == FE_BODY_STATIC ? 0.0f : m->found_span[k];
-    }
+    const float found_a[4] = {at->rotation_a.x, at->rotation_a.y, at->rotation_a.z, at->rotation_a.w};
+    const float found_b[4] = {at->rotation_b.x, at->rotation_b.y, at->rotation_b.z, at->rotation_b.w};
+    memcpy(m->found_a, found_a, sizeof found_a);
+    memcpy(m->found_b, found_b, sizeof found_b);
+    fe_dvec3 span = fe__dsub(at->centre_a, at->centre_b), now = fe__dsub(centre_of(a), centre_of(b));
+    copy3(m->found_span, fe__narrow(span));
+    copy3(m->found_low, fe__narrow(fe__dsub(span, fe__widen(vector_of(m->found_span)))));
+    copy3(m->span, a->type == FE_BODY_STATIC ? fe__vec3(0.0f, 0.0f, 0.0f) : fe__narrow(now));
 }
 
 // points from A's frame to arms: from the centre of the solver's A, or of B when A is static (its centre may be far)
-static void set_points(fe__contact *m, const view *v, const fe__manifold *found, const fe__body *a, const fe__body *b)
+static void set_points(fe__contact *m, const view *v, const places *at, const fe__manifold *found, const fe__body *a, const fe__body *b)
 {
-    const double *c = a->type == FE_BODY_STATIC ? b->centre : a->centre;
-    fe_vec3 base = {(float)(v->origin.x - c[0]), (float)(v->origin.y - c[1]), (float)(v->origin.z - c[2])};
+    int32_t is_static = a->type == FE_BODY_STATIC;
+    fe_vec3 base = fe__narrow(fe__dsub(v->origin, is_static ? at->centre_b : at->centre_a)), zero = {0.0f, 0.0f, 0.0f};
+    fe_vec3 span = is_static ? zero : vector_of(m->found_span);
     float reach = 0.0f;
     for (int i = 0; i < FE__POINTS; ++i) {
         int there = i < found->count;
-        fe_vec3 arm = there ? fe__add(base, fe__mul(&v->rotation, found->points[i].point)) : fe__vec3(0.0f, 0.0f, 0.0f);
-        fe_vec3 arm_b = fe__add(arm, fe__vec3(m->span[0], m->span[1], m->span[2]));
+        fe_vec3 arm = there ? fe__add(base, fe__mul(&v->rotation, found->points[i].point)) : zero, arm_b = fe__add(arm, span);
         copy3(m->point[i], arm);
         m->point[i][3] = m->separation[i] = there ? found->points[i].separation : 0.0f;
         reach = fe__maxf(reach, fe__maxf(fe__dot(arm, arm), fe__dot(arm_b, arm_b)));
@@ -89,6 +147,18 @@ static void set_points(fe__contact *m, const view *v, const fe__manifold *found,
     // without points, whatever part of the bodies may come near
     if (!found->count) reach = fe__maxf(a->local_centre[3] * a->local_centre[3], b->local_centre[3] * b->local_centre[3]);
     m->found_span[3] = sqrtf(reach);
+}
+
+// Separations now of a manifold found ahead of time, along its normal: as in recycle.simd.c
+static void step_back(fe__contact *m, const places *at, const fe__body *a, const fe__body *b)
+{
+    fe_quat turn_a = fe__product(rotation_of(a), fe__conjugate(at->rotation_a)), turn_b = fe__product(rotation_of(b), fe__conjugate(at->rotation_b));
+    fe_vec3 n = vector_of(m->normal), zero = {0.0f, 0.0f, 0.0f};
+    fe_vec3 na = fe__sub(fe__rotate_back(turn_a, n), n), nb = fe__sub(fe__rotate_back(turn_b, n), n), slope = fe__sub(nb, na);
+    fe_dvec3 then = fe__dsub(at->centre_b, at->centre_a), now = fe__dsub(centre_of(b), centre_of(a));
+    fe_vec3 span = a->type == FE_BODY_STATIC ? zero : vector_of(m->found_span);
+    float constant = fe__dot(n, fe__narrow(fe__dsub(now, then))) + fe__dot(nb, span) + m->surface[1] * fe__dot(na, n) + m->surface[2] * fe__dot(nb, n);
+    for (int i = 0; i < (int)m->normal[3]; ++i) m->separation[i] = m->point[i][3] + constant + fe__dot(slope, vector_of(m->point[i]));
 }
 
 // A pair without points need not be looked at until it may have moved through its gap.
@@ -104,27 +174,44 @@ static void forget_impulses(fe__contact *m)
     for (int k = 0; k < FE__POINTS; ++k) m->normal_impulse[k] = m->friction_impulse[k] = m->total_impulse[k] = 0.0f;
 }
 
-void fe__collide_pair(fe_world *world, int32_t pair)
+static void write_contact(fe__contact *m, const view *v, const fe__manifold *found, int32_t a_is_b)
+{
+    // the manifold's normal points away from fe__collide's A; the solver's A may be the other one
+    fe_vec3 normal = fe__mul(&v->rotation, found->normal);
+    copy3(m->normal, a_is_b ? fe__neg(normal) : normal);
+    m->normal[3] = (float)found->count;
+    m->surface[1] = a_is_b ? v->b->form.radius : v->form_a.radius;
+    m->surface[2] = a_is_b ? v->form_a.radius : v->b->form.radius;
+}
+
+static int32_t is_near(const fe__manifold *found, float distance)
+{
+    for (int32_t i = 0; i < found->count; ++i)
+        if (found->points[i].separation <= distance) return 1;
+    return 0;
+}
+
+void fe__collide_pair(fe_world *world, int32_t pair, float dt)
 {
     fe__pair *p = world->pairs + pair;
     fe__contact *m = world->contacts + pair;
     const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
-    float margin = world->tuning.speculative_distance;
-    view v = view_of(world, p);
+    const fe__shape *x = world->shapes + p->shape_a, *y = world->shapes + p->shape_b;
+    float margin = world->tuning.speculative_distance, reach = reach_in_step(world, a, b, dt);
+    places at = {centre_of(a), centre_of(b), rotation_of(a), rotation_of(b)};
+    view v = p->flags & FE__PAIR_SWAPPED ? view_of(y, x, &y->pose, &x->pose) : view_of(x, y, &x->pose, &y->pose);
     fe__manifold found = {.axis = p->axis, .axis_separation = p->axis_separation, .count = (int32_t)m->normal[3]};
-    fe__collide(&v.form_a, &v.b->form, &v.relative, margin, &found);
+    fe__collide(&v.form_a, &v.b->form, &v.relative, fe__maxf(margin, reach), &found);
     p->axis = found.axis, p->axis_separation = found.axis_separation;
 
+    // farther than the margin now, but closing
+    int32_t ahead = found.count && !is_near(&found, margin);
+    if (ahead && (p->flags & FE__PAIR_SENSOR || !look_ahead(world, m, dt, &v, &at, &found))) found.count = 0;
     match_impulses(p, m, &found);
     if (!found.count) forget_impulses(m);
-    // the manifold's normal points away from fe__collide's A; the solver's A may be the other one
-    int32_t a_is_b = m->body_a != v.a->body;
-    fe_vec3 normal = fe__mul(&v.rotation, found.normal);
-    copy3(m->normal, a_is_b ? fe__neg(normal) : normal);
-    m->normal[3] = (float)found.count;
-    m->surface[1] = a_is_b ? v.b->form.radius : v.form_a.radius;
-    m->surface[2] = a_is_b ? v.form_a.radius : v.b->form.radius;
-    m->surface[3] = tolerance(&v, &found, margin);
-    note_poses(m, a, b);
-    set_points(m, &v, &found, a, b);
+    write_contact(m, &v, &found, m->body_a != v.a->body);
+    m->surface[3] = ahead ? 0.0f : tolerance(&v, &found, margin);
+    note_poses(m, &at, a, b);
+    set_points(m, &v, &at, &found, a, b);
+    if (ahead) step_back(m, &at, a, b);
 }

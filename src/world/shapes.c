@@ -11,6 +11,9 @@
 // body may move a while before its tree changes: larger ones move further before it matters.
 #define FAT_SHARE 0.12 // of the largest half extent
 #define FAT_MOST 0.05  // m
+// It also reaches where the body will be after so many steps at its velocity: what it meets in the next step must have a pair before.
+#define STEPS_AHEAD 2.0f
+#define FIRST_DT (1.0f / 60.0f) // s, before the first step has told
 
 // ---- bounds ---------------------------------------------------------------------------------------------------------------------------
 
@@ -25,11 +28,27 @@ fe__bounds fe__shape_bounds(const fe_world *world, int32_t index, float margin)
     return grown(fe__form_bounds(&shape->form, &shape->pose), (double)margin);
 }
 
+static fe__bounds swept(const fe_world *world, int32_t index, fe__bounds b, float steps)
+{
+    const fe__body *body = &world->bodies[world->shapes[index].body];
+    double dt = (double)(steps * (world->last_dt > 0.0f ? world->last_dt : FIRST_DT));
+    fe_dvec3 way = fe__dscale(dt, fe__widen(fe__vec3(body->velocity[0], body->velocity[1], body->velocity[2])));
+    b.low = fe__dadd(b.low, (fe_dvec3){fe__mind(way.x, 0.0), fe__mind(way.y, 0.0), fe__mind(way.z, 0.0)});
+    b.high = fe__dadd(b.high, (fe_dvec3){fe__maxd(way.x, 0.0), fe__maxd(way.y, 0.0), fe__maxd(way.z, 0.0)});
+    return b;
+}
+
+fe__bounds fe__shape_reach_bounds(const fe_world *world, int32_t index)
+{
+    return swept(world, index, fe__shape_bounds(world, index, world->tuning.speculative_distance), 1.0f);
+}
+
 fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t index)
 {
     fe__bounds b = fe__shape_bounds(world, index, 0.0f);
     fe_dvec3 size = fe__dsub(b.high, b.low);
     double half = 0.5 * fe__maxd(fe__maxd(size.x, size.y), size.z);
+    b = swept(world, index, b, STEPS_AHEAD);
     return grown(b, (double)world->tuning.speculative_distance + fe__mind(FAT_MOST, FAT_SHARE * half));
 }
 
@@ -92,6 +111,15 @@ void fe__shape_touch(fe_world *world, int32_t index)
         fe__tree_move(tree_of(world, shape), &index, &fat, 1);
     }
     fe__shape_mark_moved(world, index);
+}
+
+void fe__body_stretch_boxes(fe_world *world, int32_t index)
+{
+    for (int32_t i = world->bodies[index].first_shape; i >= 0; i = world->shapes[i].next) {
+        fe__bounds reach = fe__shape_reach_bounds(world, i);
+        int32_t in_tree = world->shapes[i].flags & FE__SHAPE_IN_TREE;
+        if (in_tree && !fe__tree_holds(tree_of(world, &world->shapes[i]), i, &reach)) fe__shape_touch(world, i);
+    }
 }
 
 // ---- birth and death ------------------------------------------------------------------------------------------------------------------

@@ -63,6 +63,7 @@ void fe__solve_islands(fe__step *step)
         if (w->pairs[w->awake_pairs[i]].events & FE_EVENTS_HIT) w->pairs[w->awake_pairs[i]].approach = approach_of(w, w->awake_pairs[i]);
     fe__solve(&w->solver, w->kernels, &w->workers, w->bodies, w->contacts, w->extras, &step->constants);
     w->last_h = step->constants.h;
+    w->last_dt = step->dt;
 }
 
 static void count(const fe__step *step)

@@ -100,7 +100,8 @@ struct fe_world {
     fe__solver solver;       // graph, rows, body lines
     struct fe__step_scratch *scratch; // of the step's stages (step.h)
     int64_t step_number;     // of the last step, 0: none yet
-    float last_h;            // substep length that the stored impulses belong to, 0: none
+    float last_h;            // substep length that the stored impulses belong to, s, 0: none
+    float last_dt;           // of the last step that moved anything, s: how far ahead boxes look
 
     fe_profile profile;
     fe_counters counters;
@@ -123,6 +124,8 @@ void fe__body_set_transform(fe_world *world, int32_t body, const fe_transform *t
 void fe__body_set_locks(fe_world *world, int32_t body, uint32_t linear, uint32_t angular);
 void fe__body_place_centre(fe__body *body);           // centre from origin, rotation and local centre
 void fe__body_place(fe_world *world, int32_t body);   // shapes' poses from the body's
+void fe__body_note_speed(fe__body *body);             // after each change of velocity
+void fe__body_stretch_boxes(fe_world *world, int32_t body); // boxes that no longer hold what the next step may reach
 void fe__body_disturb(fe_world *world, int32_t body); // wakes it and what touches it; of a static body what touches it
 fe_quat fe__unit_rotation(fe_quat q);                 // unchanged when its length is 1 already, q/|q| else
 
@@ -153,6 +156,7 @@ void fe__shape_set_filter(fe_world *world, int32_t shape, uint32_t layer, uint32
 void fe__shape_set_trigger(fe_world *world, int32_t shape, int32_t trigger);
 void fe__shape_material_changed(fe_world *world, int32_t shape); // material, events, surface velocity: its pairs mix anew
 fe__bounds fe__shape_bounds(const fe_world *world, int32_t shape, float margin);
+fe__bounds fe__shape_reach_bounds(const fe_world *world, int32_t shape); // what it may touch in a step
 fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t shape); // as the trees hold them
 // Puts the shape into its tree or list, takes it out, tells it to look for pairs. Room was reserved by fe__reserve_proxies.
 int32_t fe__reserve_proxies(fe_world *world, int32_t extra); // 0: no memory
@@ -190,7 +194,7 @@ void fe__body_retire(fe_world *world, int32_t body);       // out of the awake l
 void fe__body_fall_asleep(fe_world *world, int32_t body);  // stops and retires it
 
 // ---- the narrow phase (narrow.c), one pair at a time; only the pair is written -----------------------------------------------------
-void fe__collide_pair(fe_world *world, int32_t pair);
+void fe__collide_pair(fe_world *world, int32_t pair, float dt); // for a step of dt seconds
 
 // ---- the step (step.c), events (events.c), hash (hash.c) --------------------------------------------------------------------------
 fe_result fe__world_step(fe_world *world, float dt);
