@@ -327,6 +327,7 @@ static void add_overflow(builder *b, int32_t k, const fe__kernels *kernels)
         int32_t c = b->contact_order[i];
         if (b->in->contacts[c].colour == FE__OVERFLOW_COLOUR) s->sort_items[n++] = (fe__sort_item){b->in->serials[2 * c + 1], c, 0};
     }
+    if (n == 0) return; // then there may be no items at all
     fe__sort_keys(s->sort_items, n, s->sort_items + n);
     for (int32_t i = 0; i < n; ++i) s->sort_items[i].key = b->in->serials[2 * s->sort_items[i].value];
     fe__sort_keys(s->sort_items, n, s->sort_items + n);
