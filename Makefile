@@ -60,8 +60,9 @@ HAVE_avx2 := -DFE_HAVE_AVX2=1
 HAVE_avx512 := -DFE_HAVE_AVX512=1
 HAVE_neon := -DFE_HAVE_NEON=1
 
-# STRICT comes last on every command line: whatever CFLAGS hold, results keep their bits.
-STRICT := -fno-fast-math -fno-math-errno -ffp-contract=off
+# STRICT comes last on every command line: whatever CFLAGS hold, results keep their bits. No SLP vectorizer: that of gcc 12 takes a double
+# rounded to float and back for the double itself.
+STRICT := -fno-fast-math -fno-math-errno -ffp-contract=off -fno-tree-slp-vectorize
 DEFINES := -DFE_BUILD $(foreach set,$(SIMD_SETS),$(HAVE_$(set)))
 C_FLAGS = -std=gnu11 $(OPT) -fvisibility=hidden -fPIC -pthread $(WARNINGS) -Iinclude -Isrc $(DEFINES) $(SANITIZE_FLAGS) $(CFLAGS) $(MACHINE_FLAGS)
 CXX_FLAGS = -std=c++17 $(OPT) -pthread $(CXX_WARNINGS) -Iinclude $(CXXFLAGS)
