@@ -1,0 +1,202 @@
+// Free rotation: the box of the Gazebo benchmark flips when theory says, stable axes stay stable, and nothing gains energy at any speed.
+#include "scenes/mechanics.h"
+
+// 0.1 x 0.4 x 0.9 m, 10 kg: moments 0.808333, 0.683333, 0.141667 kg m2
+static fe_body add_gazebo_box(scene *s, vec linear, vec angular)
+{
+    fe_body body = add_dynamic(s, box(0.05, 0.2, 0.45), v3(0, 0, 0), UNTURNED, friction(0.6), (float)(10 / (0.1 * 0.4 * 0.9)));
+    set_velocity(s, body, linear, angular);
+    return body;
+}
+
+typedef struct flips {
+    double times[8]; // s, when the spin about the body's y axis changed its sign
+    int count;
+} flips;
+
+static double spin_about(const scene *s, fe_body body, vec local) { return dot(spin(s, body), axis_of(s, body, local)); }
+
+static void note_flip(flips *f, double before, double now, double t)
+{
+    if (before * now > 0 || f->count == 8) return;
+    f->times[f->count++] = t - STEP * now / (now - before); // linear between two steps
+}
+
+// T/2 = 2 K(k) sqrt(I1 I2 I3 / ((I3 - I2)(L^2 - 2 E I1))) = 3.0284 s. The first change of sign, after 1.1660 s, tells of the start; later intervals
+// are logarithmic in what rounding adds, hence 3 %. Angular momentum within 0.5 % in size and 1 % in direction; energy within 1 %, never above.
+static void the_intermediate_axis_flips_on_time(void **state)
+{
+    scene s = scene_begin(state);
+    set_gravity(&s, v3(0, 0, 0));
+    fe_body body = add_gazebo_box(&s, v3(0, 0, 0), v3(0.1, 5, 0.1));
+    totals before = totals_of(&s, &body, 1);
+    FE_NEAR(before.energy, 8.546417, 1e-5 * 8.546417);
+    FE_NEAR(length(before.angular), 3.417652, 1e-5 * 3.417652);
+    flips f = {.count = 0};
+    double last = spin_about(&s, body, v3(0, 1, 0));
+    for (int i = 1; i <= 600; ++i) {
+        run(&s, 1);
+        totals t = totals_of(&s, &body, 1);
+        double now = spin_about(&s, body, v3(0, 1, 0));
+        note_flip(&f, last, now, i * STEP);
+        last = now;
+        FE_WITHIN(t.energy / before.energy, 0.99, 1 + ENERGY_GAIN);
+        FE_NEAR(length(t.angular) / length(before.angular), 1, 0.005);
+        FE_WITHIN(between(t.angular, before.angular), 0, 0.01);
+        // what turns must be the body, at the speed it says: the gyroscope's own frame stays orthonormal
+        FE_NEAR(dot(axis_of(&s, body, v3(1, 0, 0)), axis_of(&s, body, v3(0, 1, 0))), 0, 1e-6);
+    }
+    FE_TRUE(f.count >= 3);
+    FE_NEAR(f.times[0], 1.1660, 0.02 * 1.1660);
+    FE_NEAR(f.times[1] - f.times[0], 3.0284, 0.03 * 3.0284);
+    FE_NEAR(f.times[2] - f.times[1], 3.0284, 0.03 * 3.0284);
+    scene_end(&s);
+}
+
+// Gravity and a linear velocity change nothing of it: E0 = 368.546412 J, and the centre flies its parabola (P3).
+static void a_thrown_box_flips_as_a_floating_one(void **state)
+{
+    scene s = scene_begin(state);
+    set_gravity(&s, v3(0, 0, -9.8));
+    fe_body body = add_gazebo_box(&s, v3(-2, 2, 8), v3(0.1, 5, 0.1));
+    double mass = mass_of(&s, body), g = (double)9.8f, start = totals_of(&s, &body, 1).energy;
+    vec v = v3(-2, 2, 8), w = v3(0.1, 5, 0.1);
+    fe_mass_data data = mass_data_of(&s, body);
+    double kinetic = 0.5 * mass * dot(v, v) + 0.5 * ((double)data.inertia.x * w.x * w.x + (double)data.inertia.y * w.y * w.y + (double)data.inertia.z * w.z * w.z);
+    FE_NEAR(kinetic, 368.546412, 1e-5 * 368.546412);
+    flips f = {.count = 0};
+    double last = spin_about(&s, body, v3(0, 1, 0));
+    for (int i = 1; i <= 600; ++i) {
+        run(&s, 1);
+        double now = spin_about(&s, body, v3(0, 1, 0)), t = i * STEP;
+        note_flip(&f, last, now, t);
+        last = now;
+        FE_NEAR(position(&s, body).z, 8 * t - discrete_way(g, t, s.h), 1e-5 * (1 + g * t * t));
+        vec u = velocity(&s, body); // floats of this size, added i x substeps times
+        FE_NEAR(totals_of(&s, &body, 1).energy, start, 0.01 * 8.546417 + rounding(i * s.substeps) * mass * dot(u, u));
+    }
+    FE_TRUE(f.count >= 3);
+    FE_NEAR(f.times[1] - f.times[0], 3.0284, 0.03 * 3.0284);
+    scene_end(&s);
+}
+
+// About the axis of the largest or the smallest moment a perturbed spin precesses on a small cone for ever: sin(angle) = 1 % of the spin across.
+static void spins_about_the_outer_axes_stay(void **state)
+{
+    static const vec axes[] = {{1, 0, 0}, {0, 0, 1}};
+    for (int k = 0; k < 2; ++k) {
+        scene s = scene_begin(state);
+        set_gravity(&s, v3(0, 0, 0));
+        vec across = v3(0.05, 0.05, 0.05);
+        fe_body body = add_gazebo_box(&s, v3(0, 0, 0), plus(times(5, axes[k]), minus(across, times(dot(across, axes[k]), axes[k]))));
+        vec first = axis_of(&s, body, axes[k]);
+        double energy = totals_of(&s, &body, 1).energy;
+        int minutes = SLOW_BUILD ? 600 : 3600;
+        for (int i = 0; i < minutes; ++i) {
+            run(&s, 1);
+            // the axis circles the angular momentum: twice the tilt that the moments' ratio (5.7 at most) makes of 1.4 %
+            FE_WITHIN(between(axis_of(&s, body, axes[k]), first), 0, 2 * 5.7 * 0.0142);
+            FE_WITHIN(between(spin(&s, body), axis_of(&s, body, axes[k])), 0, 5.7 * 0.0142);
+            FE_WITHIN(totals_of(&s, &body, 1).energy / energy, 0.99, 1 + ENERGY_GAIN);
+        }
+        scene_end(&s);
+    }
+}
+
+// A symmetric top's spin turns in the body, about the axis, at (I3 - I1) / I1 w3: 0.9231 w3 for 1 x 0.2 x 1 m.
+static void a_symmetric_top_precesses_at_eulers_rate(void **state)
+{
+    scene s = scene_begin(state);
+    set_gravity(&s, v3(0, 0, 0));
+    fe_body body = add_dynamic(&s, box(0.5, 0.1, 0.5), v3(0, 0, 0), UNTURNED, friction(0.6), WATER);
+    set_velocity(&s, body, v3(0, 0, 0), v3(0.3, 2, 0));
+    double turned_by = 0, last = 0, rate = 12.0 / 13.0 * 2; // (2 - 1.04) / 1.04
+    for (int i = 1; i <= 600; ++i) {
+        run(&s, 1);
+        // from x towards z, about -y
+        double now = atan2(spin_about(&s, body, v3(0, 0, 1)), spin_about(&s, body, v3(1, 0, 0)));
+        double change = now - last;
+        turned_by += change - 2 * PI * floor((change + PI) / (2 * PI));
+        last = now;
+    }
+    FE_NEAR(fabs(turned_by), rate * 600 * STEP, 0.01 * rate * 600 * STEP);
+    FE_NEAR(spin_about(&s, body, v3(0, 1, 0)), 2, 1e-4 * 2);
+    scene_end(&s);
+}
+
+// However fast: implicit midpoint with its cap never raises the energy, where explicit Euler explodes.
+static void no_speed_gains_energy(void **state)
+{
+    static const double speeds[] = {10, 30, 100, 300, 1000, 10000};
+    dice d = {11};
+    for (int k = 0; k < 6; ++k)
+        for (int i = 0; i < 10; ++i) {
+            scene s = scene_begin(state);
+            set_gravity(&s, v3(0, 0, 0));
+            fe_geometry form = box(uniform(&d, 0.02, 1), uniform(&d, 0.02, 1), uniform(&d, 0.02, 1));
+            fe_body body = add_dynamic(&s, form, v3(0, 0, 0), any_rotation(&d), friction(0.6), WATER);
+            vec w = somewhere(&d, 1);
+            set_velocity(&s, body, v3(0, 0, 0), times(speeds[k] / length(w), w));
+            double energy = totals_of(&s, &body, 1).energy, lowest = energy;
+            for (int n = 0; n < 60; ++n) {
+                run(&s, 1);
+                double now = totals_of(&s, &body, 1).energy;
+                // the rotation read back is a float quaternion: what turns fast is known to 1e-7 rad of pose, 1e-6 of energy
+                FE_WITHIN(now, 0, lowest + ENERGY_GAIN * energy);
+                lowest = fmin(lowest, now);
+            }
+            scene_end(&s);
+        }
+}
+
+// Upright on its round end a spinning capsule touches in one point below its centre: nothing brakes the spin but a spinning resistance.
+static void an_upright_capsule_spins_on(void **state)
+{
+    scene s = scene_begin(state);
+    add_ground(&s, friction(0.6));
+    fe_body body = add_dynamic(&s, capsule(0.3, 0.2), v3(0, 0.5, 0), UNTURNED, friction(0.6), WATER);
+    set_velocity(&s, body, v3(0, 0, 0), v3(0, 30, 0));
+    run(&s, 600);
+    FE_NEAR(spin(&s, body).y, 30, 30 * rounding(600 * s.substeps));
+    FE_WITHIN(tilt(&s, body), 0, 1e-3);
+    scene_end(&s);
+}
+
+// Without its spin a tilted capsule falls at once; with it, it stands. Steiner: a sleeping top stands while (I3 w)^2 > 4 I1 m g l.
+static void a_fast_capsule_stands_and_a_slow_one_falls(void **state)
+{
+    for (int fast = 0; fast < 2; ++fast) {
+        scene s = scene_begin(state);
+        add_ground(&s, friction(0.6));
+        fe_body body = add_dynamic(&s, capsule(0.3, 0.2), v3(0, 0.5, 0), turned(v3(0, 0, 1), 2 * DEGREES), friction(0.6), WATER);
+        set_velocity(&s, body, v3(0, 0, 0), v3(0, fast ? 120 : 2, 0));
+        totals start = totals_of(&s, &body, 1);
+        double lowest = start.energy, scale = start.energy, most = 0;
+        for (int i = 0; i < 180; ++i) {
+            run(&s, 1);
+            double energy = totals_of(&s, &body, 1).energy;
+            FE_WITHIN(energy, -scale, lowest + ENERGY_GAIN * scale);
+            lowest = fmin(lowest, energy);
+            most = fmax(most, tilt(&s, body));
+        }
+        if (fast) FE_WITHIN(most, 0, 15 * DEGREES);
+        if (!fast) FE_WITHIN(most, 80 * DEGREES, PI);
+        scene_end(&s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        EVERY_WAY_UP(the_intermediate_axis_flips_on_time),
+        WITH_4_SUBSTEPS(the_intermediate_axis_flips_on_time),
+        TEST(a_thrown_box_flips_as_a_floating_one),
+        TEST(spins_about_the_outer_axes_stay),
+        TEST(a_symmetric_top_precesses_at_eulers_rate),
+        TEST(no_speed_gains_energy),
+        WITH_4_SUBSTEPS(no_speed_gains_energy),
+        TEST(an_upright_capsule_spins_on),
+        TEST(a_fast_capsule_stands_and_a_slow_one_falls),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
