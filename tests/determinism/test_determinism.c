@@ -1,0 +1,278 @@
+// test_determinism.c - the same calls give the same bits: with every number of workers, every SIMD set, every compiler (the same golden.txt serves all
+// builds), whatever else is in the world.
+//
+//   test_determinism           all
+//   test_determinism brief     fewer numbers of workers: for builds whose code is slow
+//   test_determinism update    writes golden.txt: after a change that was meant to change results
+#include "fe_test.h"
+#include "support/play.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define GOLDEN "tests/determinism/golden.txt"
+enum { STEPS_BETWEEN_CHECKS = 50, MOST_LINES = 64 };
+
+typedef struct golden {
+    char script[16];
+    int step;
+    uint64_t hash; // of the world
+    uint64_t told; // of all events, moved bodies and rays up to here
+} golden;
+
+static golden lines[MOST_LINES];
+static int32_t line_count;
+static int32_t is_brief;
+
+static void read_golden(void)
+{
+    FILE *file = fopen(GOLDEN, "r");
+    if (!file) return;
+    while (line_count < MOST_LINES) {
+        golden *g = lines + line_count;
+        if (fscanf(file, "%15s %d %" SCNx64 " %" SCNx64, g->script, &g->step, &g->hash, &g->told) != 4) break;
+        ++line_count;
+    }
+    fclose(file);
+}
+
+static const golden *find_golden(const char *script, int32_t step)
+{
+    for (int32_t i = 0; i < line_count; ++i)
+        if (lines[i].step == step && strcmp(lines[i].script, script) == 0) return lines + i;
+    return NULL;
+}
+
+// ---- worlds -------------------------------------------------------------------------------------------------------------------------------
+
+// NULL: this CPU has no such set
+static fe_world *new_world(int32_t simd, int32_t workers)
+{
+    fe_world_def def;
+    fe_world *world = NULL;
+    fe_world_def_init(&def, sizeof def);
+    def.simd = simd;
+    def.worker_count = workers;
+    fe_result result = fe_world_create(&def, &world);
+    if (result == FE_ERROR_UNSUPPORTED) return NULL;
+    FE_TRUE(result == FE_OK);
+    return world;
+}
+
+static void compare(const play *p, const script *s, int32_t workers)
+{
+    const golden *g = find_golden(s->name, p->step);
+    if (!g) fail_msg("no golden hash of %s at step %d: write it with 'test_determinism update'", s->name, (int)p->step);
+    if (g->hash == play_hash(p) && g->told == play_told(p)) return;
+    fail_msg("%s, %d workers, step %d: hash %016" PRIx64 " and told %016" PRIx64 ", golden are %016" PRIx64 " and %016" PRIx64
+             "\n(if results were meant to change: run 'test_determinism update' and commit the file)",
+             s->name, (int)workers, (int)p->step, play_hash(p), play_told(p), g->hash, g->told);
+}
+
+static void run(const script *s, int32_t simd, int32_t workers, int32_t steps)
+{
+    play p;
+    play_begin(&p, new_world(simd, workers));
+    while (p.step < steps) {
+        play_until(&p, s, p.step + STEPS_BETWEEN_CHECKS);
+        compare(&p, s, workers);
+    }
+    assert_int_equal(p.errors, 0);
+    fe_world_destroy(p.world);
+}
+
+// ---- every number of workers, every SIMD set ------------------------------------------------------------------------------------------------
+
+typedef struct condition {
+    const script *script;
+    int32_t simd;
+} condition;
+
+static void gives_the_golden_hashes(void **state)
+{
+    const condition *c = *state;
+    static const int32_t all[] = {1, 2, 3, 8, 16}, few[] = {1, 3};
+    const int32_t *workers = all;
+    int32_t count = 5, steps = c->script->steps;
+#ifdef FE_SANITIZED
+    workers = few, count = 2, steps = 100;
+#endif
+    if (is_brief) workers = few, count = 2;
+    fe_world *probe = new_world(c->simd, 1);
+    if (!probe) {
+        print_message("*** NOT TESTED: SIMD set %d is not on this CPU ***\n", (int)c->simd);
+        skip();
+    }
+    fe_world_destroy(probe);
+    for (int32_t i = 0; i < count; ++i) run(c->script, c->simd, workers[i], steps);
+}
+
+// The scene is worth its name only while it has the contacts that spread an island over workers
+static void crowd_has_more_than_1000_contacts(void **state)
+{
+    (void)state;
+    play p;
+    fe_counters counters = {.struct_size = sizeof counters};
+    int32_t most = 0, most_rows = 0;
+    play_begin(&p, new_world(FE_SIMD_AUTO, 1));
+    while (p.step < script_crowd.steps) {
+        play_until(&p, &script_crowd, p.step + STEPS_BETWEEN_CHECKS);
+        fe_world_get_counters(p.world, &counters);
+        if (counters.contacts > most) most = counters.contacts;
+        if (counters.rows - counters.rows_whole > most_rows) most_rows = counters.rows - counters.rows_whole;
+    }
+    assert_in_range(most, 1000, 100000);
+    assert_in_range(most_rows, 1, 100000); // an island was spread
+    fe_world_destroy(p.world);
+}
+
+// ---- other bodies -------------------------------------------------------------------------------------------------------------------------
+
+typedef struct motion {
+    fe_transform transform;
+    fe_vec3 velocity, spin;
+} motion;
+
+static motion motion_of(const play *p, int32_t actor)
+{
+    motion m;
+    memset(&m, 0, sizeof m);
+    fe_body body = p->actors[actor];
+    if (!body) return m;
+    FE_TRUE(fe_body_get_transform(p->world, body, &m.transform) == FE_OK);
+    FE_TRUE(fe_body_get_linear_velocity(p->world, body, &m.velocity) == FE_OK);
+    FE_TRUE(fe_body_get_angular_velocity(p->world, body, &m.spin) == FE_OK);
+    return m;
+}
+
+// Bit for bit, so that -0 is not +0
+static void same_motions(const play *a, const play *b)
+{
+    assert_int_equal(a->actor_count, b->actor_count);
+    for (int32_t i = 0; i < a->actor_count; ++i) {
+        motion x = motion_of(a, i), y = motion_of(b, i);
+        if (memcmp(&x, &y, sizeof x) != 0) fail_msg("actor %d moves otherwise at step %d", (int)i, (int)a->step);
+    }
+}
+
+// heaps of their own on a ground of their own, 500 m away
+static void add_strangers(play *p)
+{
+    part ground = part_static_box(20.0f, 1.0f, 20.0f, 500.0, 2.0, 0.0);
+    fe_body body;
+    fe_shape shape;
+    PLAY(p, fe_body_create(p->world, &ground.body, &body));
+    PLAY(p, fe_shape_create(p->world, body, &ground.shape, &ground.geometry, &shape));
+    for (int32_t i = 0; i < 100; ++i) {
+        part a = i % 2 ? part_box(0.3f, 0.2f, 0.4f, 500.0 + 0.1 * (i % 7), 3.5 + 0.4 * i, 0.2 * (i % 3)) : part_sphere(0.3f, 500.0, 3.5 + 0.4 * i, 0.1 * (i % 5));
+        PLAY(p, fe_body_create(p->world, &a.body, &body));
+        PLAY(p, fe_shape_create(p->world, body, &a.shape, &a.geometry, &shape));
+    }
+}
+
+static void add_and_take_away(play *p)
+{
+    fe_body bodies[40];
+    fe_shape shape;
+    for (int32_t i = 0; i < 40; ++i) {
+        part a = part_sphere(0.3f, 0.25 * i, 1.0, 0.0);
+        PLAY(p, fe_body_create(p->world, &a.body, bodies + i));
+        PLAY(p, fe_shape_create(p->world, bodies[i], &a.shape, &a.geometry, &shape));
+    }
+    for (int32_t i = 0; i < 5; ++i) PLAY(p, fe_world_step(p->world, p->dt));
+    for (int32_t i = 0; i < 40; ++i) PLAY(p, fe_body_destroy(p->world, bodies[(i * 7) % 40]));
+    PLAY(p, fe_world_step(p->world, p->dt));
+}
+
+static void compare_with_strangers(const script *s, int32_t steps, void (*before)(play *p), void (*later)(play *p))
+{
+    play alone, crowded;
+    play_begin(&alone, new_world(FE_SIMD_AUTO, 1));
+    play_begin(&crowded, new_world(FE_SIMD_AUTO, 2));
+    if (before) before(&crowded);
+    while (alone.step < steps) {
+        play_until(&alone, s, alone.step + STEPS_BETWEEN_CHECKS / 2);
+        play_until(&crowded, s, alone.step);
+        same_motions(&alone, &crowded);
+        if (later && alone.step == STEPS_BETWEEN_CHECKS) later(&crowded);
+    }
+    assert_int_equal(alone.errors + crowded.errors, 0);
+    fe_world_destroy(alone.world);
+    fe_world_destroy(crowded.world);
+}
+
+#ifdef FE_SANITIZED
+enum { STRANGER_STEPS = 100 };
+#else
+enum { STRANGER_STEPS = 300 };
+#endif
+
+static void bodies_far_away_change_no_trajectory(void **state)
+{
+    (void)state;
+    compare_with_strangers(&script_mixed, STRANGER_STEPS, add_strangers, NULL);
+    compare_with_strangers(&script_mixed, STRANGER_STEPS, NULL, add_strangers);
+}
+
+static void bodies_far_away_change_no_trajectory_in_a_crowd(void **state)
+{
+    (void)state;
+    compare_with_strangers(&script_crowd, STRANGER_STEPS, add_strangers, NULL);
+}
+
+static void bodies_that_came_and_went_change_no_trajectory(void **state)
+{
+    (void)state;
+    compare_with_strangers(&script_mixed, STRANGER_STEPS, add_and_take_away, NULL);
+    compare_with_strangers(&script_crowd, STRANGER_STEPS, add_and_take_away, NULL);
+}
+
+// ---- main ---------------------------------------------------------------------------------------------------------------------------------
+
+static int update(void)
+{
+    FILE *file = fopen(GOLDEN, "w");
+    if (!file) return 1;
+    const script *const scripts[] = {&script_crowd, &script_mixed};
+    for (int32_t i = 0; i < 2; ++i) {
+        play p;
+        play_begin(&p, new_world(FE_SIMD_PLAIN, 1));
+        while (p.step < scripts[i]->steps) {
+            play_until(&p, scripts[i], p.step + STEPS_BETWEEN_CHECKS);
+            fprintf(file, "%s %d %016" PRIx64 " %016" PRIx64 "\n", scripts[i]->name, (int)p.step, play_hash(&p), play_told(&p));
+        }
+        fe_world_destroy(p.world);
+    }
+    return fclose(file) != 0;
+}
+
+#define GOLDEN_TEST(script, name, set) {#script "_has_the_golden_hashes_with_" name, gives_the_golden_hashes, NULL, NULL, &(condition){&script_##script, set}}
+
+int main(int count, char **arguments)
+{
+    if (count > 1 && strcmp(arguments[1], "update") == 0) return update();
+    is_brief = count > 1 && strcmp(arguments[1], "brief") == 0;
+    read_golden();
+    const struct CMUnitTest tests[] = {
+        GOLDEN_TEST(crowd, "plain", FE_SIMD_PLAIN),
+        GOLDEN_TEST(mixed, "plain", FE_SIMD_PLAIN),
+#if defined(__x86_64__)
+        GOLDEN_TEST(crowd, "sse2", FE_SIMD_SSE2),
+        GOLDEN_TEST(crowd, "avx2", FE_SIMD_AVX2),
+        GOLDEN_TEST(crowd, "avx512", FE_SIMD_AVX512),
+        GOLDEN_TEST(mixed, "sse2", FE_SIMD_SSE2),
+        GOLDEN_TEST(mixed, "avx2", FE_SIMD_AVX2),
+        GOLDEN_TEST(mixed, "avx512", FE_SIMD_AVX512),
+#elif defined(__aarch64__)
+        GOLDEN_TEST(crowd, "neon", FE_SIMD_NEON),
+        GOLDEN_TEST(mixed, "neon", FE_SIMD_NEON),
+#endif
+        cmocka_unit_test(crowd_has_more_than_1000_contacts),
+        cmocka_unit_test(bodies_far_away_change_no_trajectory),
+        cmocka_unit_test(bodies_far_away_change_no_trajectory_in_a_crowd),
+        cmocka_unit_test(bodies_that_came_and_went_change_no_trajectory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
