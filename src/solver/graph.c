@@ -105,6 +105,8 @@ void fe__solver_destroy(fe__solver *s, fe__memory *memory)
     FE_FREE(memory, s->sort_items, s->sort_capacity);
     FE_FREE(memory, s->scratch, s->scratch_capacity);
     FE_FREE(memory, s->rows, s->row_capacity);
+    s->batch_count = s->large_count = s->group_count = s->lane_count = s->line_count = s->island_count = 0;
+    s->graph_changed = 1;
 }
 
 static int32_t *carve(int32_t **from, int64_t count)

@@ -1,11 +1,12 @@
 // finalize.c - stages after the solver: poses and boxes from what the bodies did, then islands fall asleep.
 //
 // Each body is its own; the trees are written by the stepping thread, from a list of the shapes that left their boxes.
+#include "solver/graph.h"
 #include "world/step.h"
 
 #include <float.h>
 
-enum { BODIES_IN_BLOCK = 64, BOXES_IN_BLOCK = 64, STEPS_BETWEEN_REBUILDS = 8 };
+enum { BODIES_IN_BLOCK = 64, BOXES_IN_BLOCK = 64, STEPS_BETWEEN_REBUILDS = 8, KEPT_LINES = 256 };
 
 // ---- poses ---------------------------------------------------------------------------------------------------------------------------
 // q = dq q. A body that did not turn keeps its quaternion: no rounding of what stood still.
@@ -124,4 +125,6 @@ void fe__put_islands_to_sleep(fe__step *step)
         int32_t sleeps = body->type == FE_BODY_KINEMATIC ? stands_still(body) : timers[body->island] >= w->tuning.sleep_time;
         if (sleeps) fe__body_fall_asleep(w, index);
     }
+    // a sleeping world keeps no rows
+    if (!w->awake_body_count && w->solver.line_capacity[0] > KEPT_LINES) fe__solver_destroy(&w->solver, &w->memory);
 }
