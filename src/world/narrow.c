@@ -208,7 +208,10 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
     int32_t ahead = found.count && !is_near(&found, margin);
     if (ahead && (p->flags & FE__PAIR_SENSOR || !look_ahead(world, m, dt, &v, &at, &found))) found.count = 0;
     match_impulses(p, m, &found);
-    if (!found.count) forget_impulses(m);
+    if (!found.count) {
+        forget_impulses(m);
+        p->axis = -1; // a kernel's memory begins with the first points, whenever the pair was made: unrelated bodies must not matter
+    }
     write_contact(m, &v, &found, m->body_a != v.a->body);
     m->surface[3] = ahead ? 0.0f : tolerance(&v, &found, margin);
     note_poses(m, &at, a, b);
