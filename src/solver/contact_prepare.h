@@ -1,4 +1,5 @@
-// contact_prepare.h - contacts to rows at the beginning of a step, impulses back at its end. Part of contact_rows.h, once per number of points.
+// contact_prepare.h - contacts to rows at the beginning of a step, impulses back at its end. Part of contact_rows.h, once per number of
+// points.
 //
 // Contacts come from the whole of memory, in the order of the colours: those of the next row are asked for while this one is computed.
 
@@ -22,7 +23,8 @@ FE_INLINE wide NAMED(linear_response)(const ROW *row, const pair *p, wide3 u, wi
 }
 
 // fills the points, returns the friction centre: the mean of the points weighted by how close they are
-FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int32_t *index, const pair *p, wide points, const fe__step_constants *c, int kind)
+FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int32_t *index, const pair *p, wide points,
+                                      const fe__step_constants *c, int kind)
 {
     wide zero = w_set(0.0f), one = w_set(1.0f), sum = zero, linear = NAMED(linear_response)(row, p, p->normal, p->normal, one, kind);
     wide4 impulse = w_gather(m->normal_impulse, CONTACT_STRIDE, index), separation = w_gather(m->separation, CONTACT_STRIDE, index);
@@ -41,7 +43,8 @@ FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int3
         q->mass = w_choose(there, inverse_or_zero(linear + angular_response(arms + i, arms + i, kind)), zero);
         q->impulse = impulses[i] * c->warm_scale;
         q->total = zero;
-        UNROLL for (int j = 0; j < i; ++j) row->coupling[coupling_of[j][i]] = q->mass * (linear + angular_response(arms + j, arms + i, kind));
+        UNROLL for (int j = 0; j < i; ++j) row->coupling[coupling_of[j][i]] =
+            q->mass * (linear + angular_response(arms + j, arms + i, kind));
         wide weight = w_choose(there, w_clamp(2.0f - q->separation * (1.0f / c->speculative), w_set(LEAST_WEIGHT), one), zero);
         sum = sum + weight;
         weighted = w_add_scaled(weighted, weight, r);
@@ -49,7 +52,8 @@ FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int3
     return w_scale(inverse_or_zero(sum), weighted);
 }
 
-FE_INLINE void NAMED(prepare_friction)(ROW *row, const pair *p, wide3 centre, wide4 impulse, wide3 t1, wide3 t2, const fe__step_constants *c, int kind)
+FE_INLINE void NAMED(prepare_friction)(ROW *row, const pair *p, wide3 centre, wide4 impulse, wide3 t1, wide3 t2,
+                                       const fe__step_constants *c, int kind)
 {
     wide zero = w_set(0.0f), one = w_set(1.0f);
     arm m1 = NAMED(arm_of)(row, centre, p->span, t1, kind), m2 = NAMED(arm_of)(row, centre, p->span, t2, kind);
@@ -88,7 +92,8 @@ FE_INLINE void NAMED(warm_start)(const ROW *row, pair *p, wide3 t1, wide3 t2, in
 }
 
 // Scalar, a lane at a time: special rows are few
-FE_INLINE void NAMED(prepare_special)(SPECIAL_ROW *x, const fe__solver *s, const fe__extra *extras, const int32_t *index, const fe__step_constants *c)
+FE_INLINE void NAMED(prepare_special)(SPECIAL_ROW *x, const fe__solver *s, const fe__extra *extras, const int32_t *index,
+                                      const fe__step_constants *c)
 {
     for (int i = 0; i < FE_W; ++i) {
         const fe__extra *e = extras + index[i];
@@ -123,8 +128,18 @@ FE_INLINE void NAMED(prepare_rolling)(SPECIAL_ROW *x, const fe__solver *s, const
     UNROLL for (int i = 0; i < POINTS; ++i) x->approach[i] = x->flight[i] = w_set(0.0f);
 }
 
-FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s, const fe__contact *m, const fe__extra *extras, const fe__step_constants *c,
-                                  int kind)
+// Of the arms as found. Those of a static A are counted from B's centre: no span between them. A special row has static and kinematic A's
+FE_INLINE wide3 NAMED(span_found)(const ROW *row, const fe__contact *m, const int32_t *index, int kind)
+{
+    if (!(kind & (FE__ROW_PAIR | FE__ROW_SPECIAL))) return w_zero3();
+    wide3 span = w_xyz(w_gather(m->found_span, CONTACT_STRIDE, index));
+    _Alignas(64) float is_static[FE_W];
+    for (int i = 0; i < FE_W; ++i) is_static[i] = row->line_a[i] == FE__STATIC_LINE ? 1.0f : 0.0f;
+    return w_choose3(w_greater(*(const wide *)is_static, w_set(0.0f)), w_zero3(), span);
+}
+
+FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s, const fe__contact *m, const fe__extra *extras,
+                                  const fe__step_constants *c, int kind)
 {
     _Alignas(64) int32_t index[FE_W];
     for (int i = 0; i < FE_W; ++i) {
@@ -142,9 +157,7 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
     row->round_b = surface.z;
     store3(row->normal, w_xyz(normal));
     store3(row->span, w_xyz(span));
-    // the arms of a static A are counted from B's centre: no span between them
-    wide3 first_span = kind & (FE__ROW_PAIR | FE__ROW_SPECIAL) ? w_xyz(w_gather(m->found_span, CONTACT_STRIDE, index)) : w_zero3();
-    store3(row->first_span, first_span);
+    store3(row->first_span, NAMED(span_found)(row, m, index, kind));
     store3(row->shift, w_zero3());
     if (kind & FE__ROW_SPECIAL) NAMED(prepare_special)((SPECIAL_ROW *)row, s, extras, index, c);
 
@@ -158,8 +171,8 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
     NAMED(scatter_pair)(row, s, &p, kind);
 }
 
-FE_INLINE void NAMED(prepare)(fe__solver *s, fe__contact *contacts, const fe__extra *extras, const fe__lane *lanes, void *rows, int32_t count,
-                              const fe__step_constants *c, int kind)
+FE_INLINE void NAMED(prepare)(fe__solver *s, fe__contact *contacts, const fe__extra *extras, const fe__lane *lanes, void *rows,
+                              int32_t count, const fe__step_constants *c, int kind)
 {
     for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
         for (int j = 0; j < FE_W && i + 1 < count; ++j) prefetch_contact(contacts + lanes[FE_W + j].contact);
