@@ -41,15 +41,15 @@ static void prepare_slabs(slabs *s, fe_dvec3 o, fe_dvec3 translation)
     const fe__quad d = {narrow(translation.x), narrow(translation.y), narrow(translation.z), 1.0f};
     fe__quad low = {fe__tree_round_down(o.x), fe__tree_round_down(o.y), fe__tree_round_down(o.z), 0.0f};
     fe__quad high = {fe__tree_round_up(o.x), fe__tree_round_up(o.y), fe__tree_round_up(o.z), 0.0f};
-    // an axis beyond what floats can tell excludes nothing
-    const fe__quad far = fe__quad_set((float)FE_TREE_FAR), fast = fe__quad_set((float)longest_translation);
-    fe__quad_int lost = (low >= far) | (high <= -far) | (d >= fast) | (d <= -fast);
-    low = fe__quad_choose(lost, fe__quad_set(-FLT_MAX), low);
-    high = fe__quad_choose(lost, fe__quad_set(FLT_MAX), high);
+    // an axis too fast for floats excludes nothing
+    const fe__quad fast = fe__quad_set((float)longest_translation);
+    fe__quad_int blind = (d >= fast) | (d <= -fast);
+    low = fe__quad_choose(blind, fe__quad_set(-FLT_MAX), low);
+    high = fe__quad_choose(blind, fe__quad_set(FLT_MAX), high);
     fe__quad_int backwards = d < fe__quad_set(0.0f);
     fe__quad_int moves = (d > fe__quad_set((float)FE_TREE_PAD)) | (d < fe__quad_set(-(float)FE_TREE_PAD));
     fe__quad still = fe__quad_choose(backwards, fe__quad_set(-largest_inverse), fe__quad_set(largest_inverse));
-    fe__quad inverse = fe__quad_choose(moves & ~lost, 1.0f / d, still);
+    fe__quad inverse = fe__quad_choose(moves, 1.0f / d, still);
     fe__quad near_origin = fe__quad_choose(backwards, low, high), far_origin = fe__quad_choose(backwards, high, low);
     for (int32_t k = 0; k < 3; ++k) {
         s->near_origin[k] = fe__lanes_set(near_origin[k]);
