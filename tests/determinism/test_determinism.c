@@ -1,5 +1,5 @@
-// test_determinism.c - the same calls give the same bits: with every number of workers, every SIMD set, every compiler (the same golden.txt serves all
-// builds), whatever else is in the world.
+// test_determinism.c - the same calls give the same bits: with every number of workers, every SIMD set, every compiler (the same golden.txt
+// serves all builds), whatever else is in the world.
 //
 //   test_determinism           all
 //   test_determinism brief     fewer numbers of workers: for builds whose code is slow
@@ -45,7 +45,8 @@ static const golden *find_golden(const char *script, int32_t step)
     return NULL;
 }
 
-// ---- worlds -------------------------------------------------------------------------------------------------------------------------------
+// ---- worlds
+// -------------------------------------------------------------------------------------------------------------------------------
 
 // NULL: this CPU has no such set
 static fe_world *new_world(int32_t simd, int32_t workers)
@@ -83,7 +84,8 @@ static void run(const script *s, int32_t simd, int32_t workers, int32_t steps)
     fe_world_destroy(p.world);
 }
 
-// ---- every number of workers, every SIMD set ------------------------------------------------------------------------------------------------
+// ---- every number of workers, every SIMD set
+// ------------------------------------------------------------------------------------------------
 
 typedef struct condition {
     const script *script;
@@ -128,7 +130,8 @@ static void crowd_has_more_than_1000_contacts(void **state)
     fe_world_destroy(p.world);
 }
 
-// ---- other bodies -------------------------------------------------------------------------------------------------------------------------
+// ---- other bodies
+// -------------------------------------------------------------------------------------------------------------------------
 
 typedef struct motion {
     fe_transform transform;
@@ -166,7 +169,8 @@ static void add_strangers(play *p)
     PLAY(p, fe_body_create(p->world, &ground.body, &body));
     PLAY(p, fe_shape_create(p->world, body, &ground.shape, &ground.geometry, &shape));
     for (int32_t i = 0; i < 100; ++i) {
-        part a = i % 2 ? part_box(0.3f, 0.2f, 0.4f, 500.0 + 0.1 * (i % 7), 3.5 + 0.4 * i, 0.2 * (i % 3)) : part_sphere(0.3f, 500.0, 3.5 + 0.4 * i, 0.1 * (i % 5));
+        part a = i % 2 ? part_box(0.3f, 0.2f, 0.4f, 500.0 + 0.1 * (i % 7), 3.5 + 0.4 * i, 0.2 * (i % 3))
+                       : part_sphere(0.3f, 500.0, 3.5 + 0.4 * i, 0.1 * (i % 5));
         PLAY(p, fe_body_create(p->world, &a.body, &body));
         PLAY(p, fe_shape_create(p->world, body, &a.shape, &a.geometry, &shape));
     }
@@ -229,7 +233,8 @@ static void bodies_that_came_and_went_change_no_trajectory(void **state)
     compare_with_strangers(&script_crowd, STRANGER_STEPS, add_and_take_away, NULL);
 }
 
-// ---- main ---------------------------------------------------------------------------------------------------------------------------------
+// ---- main
+// ---------------------------------------------------------------------------------------------------------------------------------
 
 static int update(void)
 {
@@ -248,7 +253,10 @@ static int update(void)
     return fclose(file) != 0;
 }
 
-#define GOLDEN_TEST(script, name, set) {#script "_has_the_golden_hashes_with_" name, gives_the_golden_hashes, NULL, NULL, &(condition){&script_##script, set}}
+#define GOLDEN_TEST(script, name, set)                                                                                           \
+    {                                                                                                                            \
+#script "_has_the_golden_hashes_with_" name, gives_the_golden_hashes, NULL, NULL, &(condition) { &script_##script, set } \
+    }
 
 int main(int count, char **arguments)
 {

@@ -5,10 +5,7 @@
 
 #include <stdlib.h>
 
-void play_begin(play *p, fe_world *world)
-{
-    *p = (play){.world = world, .seed = 1, .dt = 1.0f / 60.0f, .told = fe__hash_begin()};
-}
+void play_begin(play *p, fe_world *world) { *p = (play){.world = world, .seed = 1, .dt = 1.0f / 60.0f, .told = fe__hash_begin()}; }
 
 void play_before(play *p)
 {
@@ -33,7 +30,8 @@ uint64_t play_hash(const play *p)
 
 uint64_t play_told(const play *p) { return fe__hash_end(&p->told); }
 
-// ---- what the world tells after each step ------------------------------------------------------------------------------------------------
+// ---- what the world tells after each step
+// ------------------------------------------------------------------------------------------------
 
 static void hear_pairs(play *p)
 {
@@ -130,10 +128,7 @@ uint32_t play_draw(play *p)
     return p->seed >> 8;
 }
 
-float play_between(play *p, float low, float high)
-{
-    return low + (high - low) * ((float)play_draw(p) / 16777216.0f);
-}
+float play_between(play *p, float low, float high) { return low + (high - low) * ((float)play_draw(p) / 16777216.0f); }
 
 static part new_part(double x, double y, double z)
 {

@@ -1,8 +1,8 @@
 // play.h - scripts: whole runs of a world, told once, played under many conditions.
 //
-// A script builds a scene and says which calls come before each step. Every call that can fail goes through PLAY, so that a test can look at the
-// world before and after it, make it fail, or change the thread's state around it. Two plays of one script make the same calls in the same order;
-// numbers come from integers, and no rule of C leaves the order of two draws open.
+// A script builds a scene and says which calls come before each step. Every call that can fail goes through PLAY, so that a test can look
+// at the world before and after it, make it fail, or change the thread's state around it. Two plays of one script make the same calls in
+// the same order; numbers come from integers, and no rule of C leaves the order of two draws open.
 #ifndef FE_TESTS_PLAY_H
 #define FE_TESTS_PLAY_H
 #include "core/hash.h"
@@ -13,15 +13,15 @@ enum { PLAY_MOST_ACTORS = 1024 };
 typedef struct play play;
 struct play {
     fe_world *world;
-    fe_body actors[PLAY_MOST_ACTORS]; // 0: not there now
+    fe_body actors[PLAY_MOST_ACTORS];  // 0: not there now
     fe_shape shapes[PLAY_MOST_ACTORS]; // the first shape of each
     int32_t actor_count;
     int32_t groups[16]; // first actors, as the script needs them
     uint32_t seed;
-    int32_t step;       // steps made
-    float dt;           // s, of the steps
-    fe__hash told;      // events, moved bodies and rays so far
-    int32_t errors;     // calls that failed and were not repeated
+    int32_t step;   // steps made
+    float dt;       // s, of the steps
+    fe__hash told;  // events, moved bodies and rays so far
+    int32_t errors; // calls that failed and were not repeated
 
     // Around each call. `after` returns 1 to have it repeated; NULL: errors are printed and counted
     void (*before)(play *p);
@@ -40,20 +40,20 @@ extern const script script_crowd; // 1000 contacts, every feature, bodies come a
 extern const script script_mixed; // 300 bodies fall and come to rest
 extern const script script_brief; // two dozen bodies, 200 steps, every kind of call
 
-void play_begin(play *p, fe_world *world); // an empty play; `world` has been made
+void play_begin(play *p, fe_world *world);               // an empty play; `world` has been made
 void play_until(play *p, const script *s, int32_t step); // builds before the first step
-uint64_t play_hash(const play *p);  // of the world
+uint64_t play_hash(const play *p);                       // of the world
 uint64_t play_told(const play *p);
 
 void play_before(play *p);
 int32_t play_after(play *p, fe_result result, const char *text);
-#define PLAY(p, call)                        \
-    do {                                     \
-        play_before(p);                      \
+#define PLAY(p, call)   \
+    do {                \
+        play_before(p); \
     } while (play_after((p), (call), #call))
 
 // ---- what scripts are written with ------------------------------------------------------------------------------------------------------
-uint32_t play_draw(play *p);                          // the next of 2^24 numbers
+uint32_t play_draw(play *p); // the next of 2^24 numbers
 float play_between(play *p, float low, float high);
 
 typedef struct part {

@@ -1,12 +1,13 @@
-// play_crowd.c - the script with everything in it: a tilted pit full of boxes, spheres and capsules, rolling and bouncing things on a tilted
-// plane, locked bodies, riders on a kinematic platform, a conveyor, triggers, stacks that sleep and are woken, bodies that come and go, settings that
-// change. More than 1000 contacts in one island, so that it is spread over the workers, and small islands beside it.
+// play_crowd.c - the script with everything in it: a tilted pit full of boxes, spheres and capsules, rolling and bouncing things on a
+// tilted plane, locked bodies, riders on a kinematic platform, a conveyor, triggers, stacks that sleep and are woken, bodies that come and
+// go, settings that change. More than 1000 contacts in one island, so that it is spread over the workers, and small islands beside it.
 #include "support/play.h"
 
 enum { PIT_BODIES = 480, ROLLERS = 24, BOUNCERS = 9, LOCKED = 16, RIDERS = 6, STACKS = 4, STACK_BOXES = 5, CARGO = 4 };
 enum { PIT, ROLLER, BOUNCER, LOCK, PLATFORM, RIDER, STACK, CARGO_BOX, FLOOR, TRIGGER }; // groups
 
-// ---- the pit ------------------------------------------------------------------------------------------------------------------------------
+// ---- the pit
+// ------------------------------------------------------------------------------------------------------------------------------
 
 static const double pit_x = -12.0, pit_half = 2.4; // m
 
@@ -18,9 +19,14 @@ static part pit_part(play *p, int32_t i)
     double y = 1.0 + 0.045 * (double)i;
     part a;
     switch (i % 4) {
-    case 0: a = part_sphere(size, x, y, z); break;
-    case 1: a = part_capsule(0.6f * long_side, 0.7f * size, x, y, z); break;
-    default: a = part_box(size, 0.7f * size, long_side, x, y, z);
+    case 0:
+        a = part_sphere(size, x, y, z);
+        break;
+    case 1:
+        a = part_capsule(0.6f * long_side, 0.7f * size, x, y, z);
+        break;
+    default:
+        a = part_box(size, 0.7f * size, long_side, x, y, z);
     }
     a.body.transform.rotation.x = play_between(p, -1.0f, 1.0f);
     a.body.transform.rotation.z = play_between(p, -1.0f, 1.0f);
@@ -54,7 +60,8 @@ static void build_pit(play *p)
     }
 }
 
-// ---- on the plane -------------------------------------------------------------------------------------------------------------------------
+// ---- on the plane
+// -------------------------------------------------------------------------------------------------------------------------
 
 static void build_rollers(play *p)
 {
@@ -64,7 +71,7 @@ static void build_rollers(play *p)
         double z = -10.0 - 1.0 * i;
         part a = i % 3 == 2 ? part_capsule(0.3f, r, -6.0, (double)r, z) : part_sphere(r, -6.0, (double)r + 0.01, z);
         if (i % 3 == 2) a.body.transform.rotation.x = 1.0f, a.body.transform.rotation.w = 1.0f; // its axis along z
-        a.body.linear_velocity.x = 10.0f; // m/s
+        a.body.linear_velocity.x = 10.0f;                                                       // m/s
         a.body.angular_velocity.z = -10.0f / r;
         a.shape.material.rolling_resistance = 0.01f * (float)(i % 4);
         a.shape.material.spinning_resistance = 0.005f * (float)(i % 3);
@@ -144,7 +151,8 @@ static void build(play *p)
     build_stacks(p);
 }
 
-// ---- what happens -------------------------------------------------------------------------------------------------------------------------
+// ---- what happens
+// -------------------------------------------------------------------------------------------------------------------------
 
 // along a triangle wave of 1 m and 2 s, turning slowly
 static void drive_platform(play *p)

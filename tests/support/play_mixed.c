@@ -1,5 +1,5 @@
-// play_mixed.c - 300 bodies of all forms fall on flat ground in heaps, come to rest and sleep: many small islands. And a brief script, in which two
-// dozen bodies meet with every kind of call: for tests that play it hundreds of times.
+// play_mixed.c - 300 bodies of all forms fall on flat ground in heaps, come to rest and sleep: many small islands. And a brief script, in
+// which two dozen bodies meet with every kind of call: for tests that play it hundreds of times.
 #include "support/play.h"
 
 enum { HEAPS = 20, HEAP_BODIES = 15 };
@@ -11,6 +11,7 @@ static part any_part(play *p, int32_t i, double x, double y, double z)
     made.body.transform.rotation.x = play_between(p, -1.0f, 1.0f);
     made.body.transform.rotation.y = play_between(p, -1.0f, 1.0f);
     made.shape.material.rolling_resistance = 0.2f; // or spheres would never stop
+    made.shape.material.spinning_resistance = 0.02f;
     if (i % 13 == 0) made.shape.events = FE_EVENTS_TOUCH | FE_EVENTS_HIT;
     return made;
 }
@@ -32,7 +33,8 @@ static void act_mixed(play *p) { (void)p; }
 
 const script script_mixed = {"mixed", 600, build_mixed, act_mixed};
 
-// ---- the brief one ------------------------------------------------------------------------------------------------------------------------
+// ---- the brief one
+// ------------------------------------------------------------------------------------------------------------------------
 
 enum { BRIEF_BODIES = 18, ROOF = 1, TRIGGER = 2, FIRST = 3 };
 

@@ -1,0 +1,56 @@
+// counting_allocator.h - an allocator that counts, checks what it is given back, and fails when it is told to.
+#ifndef FE_TESTS_COUNTING_ALLOCATOR_H
+#define FE_TESTS_COUNTING_ALLOCATOR_H
+#include "feather.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct counting {
+    int64_t calls;         // of allocate
+    int64_t blocks, bytes; // out now
+    int64_t most_bytes;
+    int64_t fail_from, fail_count; // the call with this number fails, and so many from there; 0: none
+    int64_t failures;
+    int64_t wrong; // releases of another size than the allocation's
+} counting;
+
+// the size stands before the block, which keeps its alignment
+static void *counting_allocate(void *user, uint64_t size, uint64_t alignment)
+{
+    counting *c = user;
+    c->calls += 1;
+    if (c->calls >= c->fail_from && c->calls < c->fail_from + c->fail_count) {
+        c->failures += 1;
+        return NULL;
+    }
+    unsigned char *memory = aligned_alloc((size_t)alignment, (size_t)((size + 2 * alignment - 1) / alignment * alignment));
+    if (!memory) return NULL;
+    memcpy(memory, &size, sizeof size);
+    memset(memory + alignment, 0xA5, (size_t)size); // nobody may count on zeros
+    c->blocks += 1;
+    c->bytes += (int64_t)size;
+    if (c->bytes > c->most_bytes) c->most_bytes = c->bytes;
+    return memory + alignment;
+}
+
+enum { COUNTING_ALIGNMENT = 64 }; // of all blocks that a world asks for
+
+static void counting_release(void *user, void *block, uint64_t size)
+{
+    counting *c = user;
+    uint64_t given;
+    unsigned char *memory = (unsigned char *)block - COUNTING_ALIGNMENT;
+    memcpy(&given, memory, sizeof given);
+    if (given != size) c->wrong += 1;
+    c->blocks -= 1;
+    c->bytes -= (int64_t)size;
+    free(memory);
+}
+
+static inline fe_allocator counting_allocator(counting *c)
+{
+    return (fe_allocator){sizeof(fe_allocator), 0, counting_allocate, counting_release, c};
+}
+
+#endif
