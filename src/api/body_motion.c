@@ -1,7 +1,7 @@
 // body_motion.c - the API of velocities, forces and impulses.
 #include "api/check.h"
 
-// ---- velocities -------------------------------------------------------------------------------------------------------------------------
+// ---- velocities -----------------------------------------------------------------------------------------------------------------
 
 static fe_result check_moves(const char *function, const fe_world *world, int32_t index, fe_body body)
 {
@@ -15,7 +15,9 @@ fe_result fe_body_set_linear_velocity(fe_world *world, fe_body body, const fe_ve
     FE_FIND_BODY(index, body);
     FE_CHECK_VEC3(velocity, FE_MAX_SPEED);
     FE_TRY(check_moves(function, world, index, body));
+    fe__fp_state fp = fe__fp_enter();
     fe__body_set_velocity(world, index, velocity, NULL);
+    fe__fp_leave(fp);
     return FE_OK;
 }
 
@@ -34,7 +36,9 @@ fe_result fe_body_set_angular_velocity(fe_world *world, fe_body body, const fe_v
     FE_FIND_BODY(index, body);
     FE_CHECK_VEC3(velocity, FE_MAX_SPEED);
     FE_TRY(check_moves(function, world, index, body));
+    fe__fp_state fp = fe__fp_enter();
     fe__body_set_velocity(world, index, NULL, velocity);
+    fe__fp_leave(fp);
     return FE_OK;
 }
 
@@ -94,8 +98,7 @@ fe_result fe_body_set_target(fe_world *world, fe_body body, const fe_transform *
     return FE_OK;
 }
 
-// ---- forces
-// -------------------------------------------------------------------------------------------------------------------------------
+// ---- forces ---------------------------------------------------------------------------------------------------------------------
 
 static void push(fe_world *world, int32_t index, fe_vec3 force, fe_vec3 torque)
 {
@@ -144,8 +147,7 @@ fe_result fe_body_add_torque(fe_world *world, fe_body body, const fe_vec3 *torqu
     return FE_OK;
 }
 
-// ---- impulses
-// -----------------------------------------------------------------------------------------------------------------------------
+// ---- impulses -------------------------------------------------------------------------------------------------------------------
 
 static fe_result strike(const char *function, fe_world *world, int32_t index, fe_vec3 impulse, fe_vec3 angular_impulse)
 {

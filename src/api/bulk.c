@@ -43,8 +43,7 @@ static fe_result find_all(const char *function, const fe_world *world, const fe_
     return FE_OK;
 }
 
-// ---- poses
-// --------------------------------------------------------------------------------------------------------------------------------
+// ---- poses ----------------------------------------------------------------------------------------------------------------------
 
 int32_t fe_world_get_moved(const fe_world *world, fe_body *out_bodies, fe_transform *out_transforms, uint32_t stride, int32_t capacity)
 {
@@ -118,8 +117,7 @@ fe_result fe_world_get_transforms_f32(const fe_world *world, const fe_body *bodi
     return FE_OK;
 }
 
-// ---- velocities and forces
-// ----------------------------------------------------------------------------------------------------------------
+// ---- velocities and forces ------------------------------------------------------------------------------------------------------
 
 fe_result fe_world_get_velocities(const fe_world *world, const fe_body *bodies, float *out_floats, uint32_t stride, int32_t count)
 {
@@ -151,10 +149,12 @@ fe_result fe_world_set_velocities(fe_world *world, const fe_body *bodies, const 
         FE_CHECK_VEC3(&velocity.linear, FE_MAX_SPEED);
         FE_CHECK_VEC3(&velocity.angular, FE_MAX_SPEED);
     }
+    fe__fp_state fp = fe__fp_enter();
     for (int32_t i = 0; i < count; ++i) {
         twist velocity = twist_at(floats, stride, i);
         fe__body_set_velocity(world, fe__id_slot_of(bodies[i]), &velocity.linear, &velocity.angular);
     }
+    fe__fp_leave(fp);
     return FE_OK;
 }
 

@@ -20,7 +20,7 @@ fe_result fe__check_world(const char *function, const fe_world *world)
     return FE_OK;
 }
 
-// ---- handles ------------------------------------------------------------------------------------------------------------------------
+// ---- handles --------------------------------------------------------------------------------------------------------------------
 
 static fe_result find(const char *function, const char *name, const fe__id_pool *pool, fe_handle handle, int32_t *out_slot)
 {
@@ -50,7 +50,7 @@ fe_result fe__find_shape(const char *function, const char *name, const fe_world 
     return find(function, name, &world->shape_ids, handle, out_index);
 }
 
-// ---- values -------------------------------------------------------------------------------------------------------------------------
+// ---- values ---------------------------------------------------------------------------------------------------------------------
 
 fe_result fe__check_pointer(const char *function, const char *name, int32_t there)
 {
@@ -117,7 +117,7 @@ fe_result fe__check_transform(const char *function, const char *name, const fe_t
     return fe__check_quat(function, name, &transform->rotation);
 }
 
-// ---- arrays -------------------------------------------------------------------------------------------------------------------------
+// ---- arrays ---------------------------------------------------------------------------------------------------------------------
 
 fe_result fe__check_array(const char *function, const char *name, const void *array, int32_t count)
 {
@@ -137,7 +137,7 @@ fe_result fe__check_stride(const char *function, uint32_t *stride, uint32_t pack
     return FE_OK;
 }
 
-// ---- structs that grow ----------------------------------------------------------------------------------------------------------------
+// ---- structs that grow ----------------------------------------------------------------------------------------------------------
 
 static uint32_t size_of(const void *given)
 {

@@ -11,8 +11,7 @@ static void put(void *out, uint32_t stride, int32_t i, const void *record, size_
     memcpy(fe__at(out, stride, i), record, size < stride ? size : stride);
 }
 
-// ---- events
-// -----------------------------------------------------------------------------------------------------------------------------------
+// ---- events ---------------------------------------------------------------------------------------------------------------------
 
 int32_t fe_world_get_pair_events(const fe_world *world, fe_pair_event *out_events, uint32_t stride, int32_t capacity)
 {
@@ -44,8 +43,7 @@ int32_t fe_world_get_hit_events(const fe_world *world, fe_hit_event *out_events,
     return world->hit_event_count;
 }
 
-// ---- contacts
-// ---------------------------------------------------------------------------------------------------------------------------------
+// ---- contacts -------------------------------------------------------------------------------------------------------------------
 
 static int32_t point_count(const fe_world *world, int32_t pair)
 {

@@ -1,8 +1,7 @@
 // shape.c - the API of shapes: geometry, material, filter, life.
 #include "api/check.h"
 
-// ---- geometry
-// -------------------------------------------------------------------------------------------------------------------------------
+// ---- geometry -------------------------------------------------------------------------------------------------------------------
 
 void fe_geometry_sphere(fe_geometry *out_geometry, float radius)
 {
@@ -96,8 +95,7 @@ static fe_result check_plane_owner(const char *function, const fe_world *world, 
     return fe__fail(function, FE_ERROR_UNSUPPORTED, "body 0x%llx is not static, a plane needs a static one", fe__body_handle(world, body));
 }
 
-// ---- life
-// -----------------------------------------------------------------------------------------------------------------------------------
+// ---- life -----------------------------------------------------------------------------------------------------------------------
 
 enum { ALL_EVENTS = FE_EVENTS_TOUCH | FE_EVENTS_STAY | FE_EVENTS_HIT };
 
@@ -190,8 +188,7 @@ fe_result fe_shape_get_body(const fe_world *world, fe_shape shape, fe_body *out_
     return FE_OK;
 }
 
-// ---- form
-// -----------------------------------------------------------------------------------------------------------------------------------
+// ---- form -----------------------------------------------------------------------------------------------------------------------
 
 fe_result fe_shape_set_geometry(fe_world *world, fe_shape shape, const fe_geometry *geometry)
 {
@@ -269,8 +266,7 @@ fe_result fe_shape_get_density(const fe_world *world, fe_shape shape, float *out
     return FE_OK;
 }
 
-// ---- surface
-// --------------------------------------------------------------------------------------------------------------------------------
+// ---- surface --------------------------------------------------------------------------------------------------------------------
 
 // What rests by friction may start to slide, what lies on a belt to move.
 static void renew_surface(fe_world *world, int32_t index)
@@ -319,8 +315,7 @@ fe_result fe_shape_get_surface_velocity(const fe_world *world, fe_shape shape, f
     return FE_OK;
 }
 
-// ---- filter, trigger, events
-// ------------------------------------------------------------------------------------------------------------------
+// ---- filter, trigger, events ----------------------------------------------------------------------------------------------------
 
 fe_result fe_shape_set_filter(fe_world *world, fe_shape shape, uint32_t layer, uint32_t mask)
 {

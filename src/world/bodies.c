@@ -149,7 +149,8 @@ void fe__body_destroy(fe_world *world, int32_t index)
         fe__id_pool_release(&world->shape_ids, shape);
         world->shape_count -= 1;
     }
-    if (body->flags & FE__BODY_IGNORES) fe__forget_ignored(world, index);
+    // the slot's next body must not inherit whom this one ignored
+    if (body->flags & FE__BODY_IGNORES) fe__pair_set_remove_all(&world->ignored, index);
     remove_from_order(world, index);
     fe__id_pool_release(&world->body_ids, index);
 }
@@ -243,6 +244,8 @@ void fe__body_set_transform(fe_world *world, int32_t index, const fe_transform *
     set_pose(body, transform);
     fe__body_place(world, index);
     for (int32_t shape = body->first_shape; shape >= 0; shape = world->shapes[shape].next) fe__shape_touch(world, shape);
+    if (body->type != FE_BODY_STATIC) return;
+    for (int32_t pair = body->first_contact; pair >= 0; pair = fe__next_pair(world, pair, index)) fe__pair_look_once(world, pair);
 }
 
 void fe__body_set_locks(fe_world *world, int32_t index, uint32_t linear, uint32_t angular)

@@ -40,18 +40,3 @@ fe_result fe__ignore_collision(fe_world *world, int32_t a, int32_t b, int32_t ig
     fe__body_refilter(world, a);
     return FE_OK;
 }
-
-// The slot's next body must not inherit them. A removal moves entries only towards the place it emptied, so that the walk stays where it is
-// after one and misses none.
-void fe__forget_ignored(fe_world *world, int32_t body)
-{
-    fe__pair_set *set = &world->ignored;
-    for (int32_t i = 0; i < set->capacity;) {
-        uint64_t key = set->entries[i].key;
-        int32_t low = (int32_t)((key - 1) >> 32), high = (int32_t)((key - 1) & UINT32_MAX);
-        if (key != 0 && (low == body || high == body))
-            fe__pair_set_remove(set, low, high);
-        else
-            ++i;
-    }
-}

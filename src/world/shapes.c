@@ -15,7 +15,7 @@
 #define STEPS_AHEAD 2.0f
 #define FIRST_DT (1.0f / 60.0f) // s, before the first step has told
 
-// ---- bounds ---------------------------------------------------------------------------------------------------------------------------
+// ---- bounds ---------------------------------------------------------------------------------------------------------------------
 
 static fe__bounds grown(fe__bounds b, double margin)
 {
@@ -52,7 +52,7 @@ fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t index)
     return grown(b, (double)world->tuning.speculative_distance + fe__mind(FAT_MOST, FAT_SHARE * half));
 }
 
-// ---- broad phase ----------------------------------------------------------------------------------------------------------------------
+// ---- broad phase ----------------------------------------------------------------------------------------------------------------
 
 int32_t fe__reserve_proxies(fe_world *world, int32_t extra)
 {
@@ -122,7 +122,7 @@ void fe__body_stretch_boxes(fe_world *world, int32_t index)
     }
 }
 
-// ---- birth and death ------------------------------------------------------------------------------------------------------------------
+// ---- birth and death ------------------------------------------------------------------------------------------------------------
 
 static fe_result reserve_shape(fe_world *world)
 {
@@ -231,7 +231,7 @@ void fe__shape_destroy(fe_world *world, int32_t index)
     fe__body_update_mass(world, body);
 }
 
-// ---- change -----------------------------------------------------------------------------------------------------------------------------
+// ---- change ---------------------------------------------------------------------------------------------------------------------
 
 // The shape's pairs end and are found anew: a manifold of the old form means nothing on the new one.
 static void change(fe_world *world, int32_t index, const fe__form *form, fe_vec3 position, fe_quat rotation)

@@ -169,7 +169,6 @@ void fe__shape_mark_moved(fe_world *world, int32_t shape); // looks for pairs in
 // May these two shapes have a pair? Kinds of bodies, layers, ignored pairs.
 int32_t fe__may_collide(const fe_world *world, int32_t shape_a, int32_t shape_b);
 fe_result fe__ignore_collision(fe_world *world, int32_t body_a, int32_t body_b, int32_t ignore);
-void fe__forget_ignored(fe_world *world, int32_t body); // of a body that is destroyed
 
 // ---- pairs (pairs.c) ------------------------------------------------------------------------------------------------------------
 int32_t fe__reserve_pairs(fe_world *world, int32_t extra);
@@ -180,6 +179,7 @@ void fe__pair_mix(fe_world *world, int32_t pair);                           // m
 int32_t fe__next_pair(const fe_world *world, int32_t pair, int32_t body);   // in the list of `body`
 void fe__pair_awaken(fe_world *world, int32_t pair);
 void fe__pair_retire(fe_world *world, int32_t pair);
+void fe__pair_look_once(fe_world *world, int32_t pair); // in the next step, whoever sleeps
 void fe__body_drop_pairs(fe_world *world, int32_t body);                    // all of them
 void fe__body_refilter(fe_world *world, int32_t body);                      // those that may no longer collide
 void fe__pair_link(fe_world *world, int32_t pair);                          // into the constraint graph, with a colour

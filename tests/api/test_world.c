@@ -1,9 +1,10 @@
 // The API of worlds: definitions, settings, the step and who may call during one, memory that runs out.
 #include "api/api_test.h"
 
+#include <fenv.h>
 #include <stdlib.h>
 
-// ---- creation -------------------------------------------------------------------------------------------------------------------------
+// ---- creation -------------------------------------------------------------------------------------------------------------------
 
 static void defaults_are_those_of_the_header(void **state)
 {
@@ -105,7 +106,7 @@ static void an_older_definition_gets_the_defaults(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- settings ---------------------------------------------------------------------------------------------------------------------------
+// ---- settings -------------------------------------------------------------------------------------------------------------------
 
 static void settings_are_read_back_and_refuse_nonsense(void **state)
 {
@@ -243,7 +244,7 @@ static void counters_count(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- two worlds -------------------------------------------------------------------------------------------------------------------------
+// ---- two worlds -----------------------------------------------------------------------------------------------------------------
 
 static void worlds_know_nothing_of_each_other(void **state)
 {
@@ -318,8 +319,7 @@ static void a_destroyed_body_is_ignored_by_nobody(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- the step
-// -----------------------------------------------------------------------------------------------------------------------------
+// ---- the step -------------------------------------------------------------------------------------------------------------------
 
 static void a_bad_time_step_is_refused(void **state)
 {
@@ -385,8 +385,61 @@ static void calls_during_a_step_are_refused(void **state)
     OK(fe_world_destroy(plain));
 }
 
-// ---- memory
-// -------------------------------------------------------------------------------------------------------------------------------
+// ---- the host's floating-point state --------------------------------------------------------------------------------------------
+
+// Everything that computes, as one script. Its own arithmetic is exact, so that the mode can only show in the library's.
+static uint64_t play_script(void)
+{
+    fe_world *world = new_world();
+    new_ground(world);
+    fe_body boxes[6];
+    for (int i = 0; i < 6; ++i) boxes[i] = new_box(world, 0.25 * i, 0.5 + 1.0625 * i, 0.125 * i);
+    fe_transform t = {{1.0 / 3, 9, 1.0 / 7}, {0.1f, 0.2f, 0.3f, 0.9f}};
+    fe_vec3 push = {1.0f / 3, 700, -1.0f / 7};
+    fe_dvec3 point = {0.3, 1.1, 0.2}, down = {0.01, -20, 0.02};
+    OK(fe_body_set_transform(world, boxes[5], &t));
+    add_sphere(world, boxes[4], 0.7f);
+    OK(fe_body_set_mass(world, boxes[3], 333.3f));
+    OK(fe_body_set_type(world, boxes[2], FE_BODY_KINEMATIC));
+    OK(fe_body_set_target(world, boxes[2], &t, 0.7f));
+    for (int i = 0; i < 20; ++i) {
+        OK(fe_body_add_force_at(world, boxes[1], &push, &point));
+        OK(fe_body_add_impulse_at(world, boxes[0], &push, &point));
+        OK(fe_body_add_angular_impulse(world, boxes[5], &push));
+        step(world, 1);
+    }
+    fe_hit hit;
+    fe_vec3 velocity;
+    uint64_t bits;
+    uint32_t more;
+    OK(fe_world_raycast(world, &t.position, &down, NULL, &hit));
+    OK(fe_body_get_point_velocity(world, boxes[1], &point, &velocity));
+    memcpy(&bits, &hit.point.x, sizeof bits);
+    memcpy(&more, &velocity.x, sizeof more);
+    bits ^= hash_of(world) ^ more;
+    OK(fe_world_destroy(world));
+    return bits;
+}
+
+static void the_host_s_rounding_does_not_show(void **state)
+{
+    (void)state;
+    const int modes[] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
+    uint64_t got[4];
+    int left[4];
+    for (int i = 0; i < 4; ++i) {
+        fesetround(modes[i]);
+        got[i] = play_script();
+        left[i] = fegetround();
+    }
+    fesetround(FE_TONEAREST);
+    for (int i = 0; i < 4; ++i) {
+        assert_true(got[i] == got[0]);
+        assert_int_equal(left[i], modes[i]); // the host gets its mode back
+    }
+}
+
+// ---- memory ---------------------------------------------------------------------------------------------------------------------
 
 typedef struct miser {
     int64_t live;
@@ -511,21 +564,14 @@ static void a_world_that_cannot_be_made_leaves_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(defaults_are_those_of_the_header),
-        cmocka_unit_test(a_bad_definition_is_refused),
-        cmocka_unit_test(an_older_definition_gets_the_defaults),
-        cmocka_unit_test(settings_are_read_back_and_refuse_nonsense),
-        cmocka_unit_test(tuning_is_read_back_and_refuses_nonsense),
-        cmocka_unit_test(a_longer_speculative_distance_finds_what_is_there),
-        cmocka_unit_test(another_gravity_wakes_everything),
-        cmocka_unit_test(counters_count),
-        cmocka_unit_test(worlds_know_nothing_of_each_other),
-        cmocka_unit_test(an_ignored_pair_passes_through),
-        cmocka_unit_test(a_destroyed_body_is_ignored_by_nobody),
-        cmocka_unit_test(a_bad_time_step_is_refused),
-        cmocka_unit_test(calls_during_a_step_are_refused),
-        cmocka_unit_test(without_memory_nothing_changes),
-        cmocka_unit_test(a_world_that_cannot_be_made_leaves_nothing),
+        cmocka_unit_test(defaults_are_those_of_the_header),         cmocka_unit_test(a_bad_definition_is_refused),
+        cmocka_unit_test(an_older_definition_gets_the_defaults),    cmocka_unit_test(settings_are_read_back_and_refuse_nonsense),
+        cmocka_unit_test(tuning_is_read_back_and_refuses_nonsense), cmocka_unit_test(a_longer_speculative_distance_finds_what_is_there),
+        cmocka_unit_test(another_gravity_wakes_everything),         cmocka_unit_test(counters_count),
+        cmocka_unit_test(worlds_know_nothing_of_each_other),        cmocka_unit_test(an_ignored_pair_passes_through),
+        cmocka_unit_test(a_destroyed_body_is_ignored_by_nobody),    cmocka_unit_test(a_bad_time_step_is_refused),
+        cmocka_unit_test(calls_during_a_step_are_refused),          cmocka_unit_test(the_host_s_rounding_does_not_show),
+        cmocka_unit_test(without_memory_nothing_changes),           cmocka_unit_test(a_world_that_cannot_be_made_leaves_nothing),
     };
     return cmocka_run_group_tests_name("world", tests, NULL, NULL);
 }
