@@ -6,6 +6,9 @@
 #include "solver/solver.h"
 #include "solver/wide_body.h"
 
+// m along the normal, whatever the manifold's tolerance: some overlaps of a deep pile, and no more than the speculative distance
+#define MOST_ALONG 0.02f
+
 enum { CONTACT_STRIDE = sizeof(fe__contact) / sizeof(float), BODY_STRIDE = sizeof(fe__body) / sizeof(float) };
 #define BODY_QUAD(field, index) w_xyz(w_gather(bodies->field, BODY_STRIDE, index))
 #define CONTACT_QUAD(field) w_gather(contacts->field, CONTACT_STRIDE, index)
@@ -55,15 +58,17 @@ static void recycle_block(fe__contact *contacts, const fe__body *bodies, const i
     wide3 na = w_turn_back(turn_a, n), nb = w_turn_back(turn_b, n), slope = w_sub(nb, na);
     wide constant = w_dot(n, shift) + w_dot(nb, arms_span) + surface.y * w_dot(na, n) + surface.z * w_dot(nb, n);
 
-    // Along the normal the separations follow exactly; what ages a manifold is sliding and turning. A point slides by at most |slide| +
+    // Along the normal the separations follow exactly (a pair that came so far apart, or so deep, has other features); what ages a manifold is
+    // sliding and turning. A point slides by at most |slide| +
     // 2 |sin(turn / 2)| reach of either body, and (x + y + z)^2 <= 3 (x^2 + y^2 + z^2)
-    wide3 slide = w_sub_scaled(shift, w_dot(n, shift), n);
+    wide along = w_dot(n, shift);
+    wide3 slide = w_sub_scaled(shift, along, n);
     wide turned = w_dot(w_xyz(turn_a), w_xyz(turn_a)) + w_dot(w_xyz(turn_b), w_xyz(turn_b));
     wide moved = 3.0f * (w_dot(slide, slide) + 4.0f * found.w * found.w * turned), zero = w_set(0.0f);
     // without points the bodies must not be able to meet in this step either
     wide travel = dt * (w_gather(bodies->centre_low, BODY_STRIDE, a).w + w_gather(bodies->centre_low, BODY_STRIDE, b).w);
     wide limit = w_choose(w_greater(normal.w, zero), surface.w, w_max(surface.w - travel, zero));
-    unsigned far = w_bits(w_not(w_greater(limit * limit, moved)));
+    unsigned far = w_bits(w_or(w_not(w_greater(limit * limit, moved)), w_greater(w_abs(along), w_set(MOST_ALONG))));
 
     _Alignas(64) float now[FE__POINTS][FE_W];
     for (int i = 0; i < FE__POINTS; ++i) {

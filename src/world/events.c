@@ -73,15 +73,25 @@ static void look_block(void *argument, int32_t first, int32_t end, int32_t worke
         fe__pair *p = w->pairs + pair;
         int32_t before = (p->flags & FE__PAIR_TOUCHING) != 0, tells = now != before;
         if (now && before) tells = (p->events & (FE_EVENTS_STAY | FE_EVENTS_HIT)) != 0;
+        tells |= (p->flags & FE__PAIR_ONCE) != 0;
         p->result = now ? (before ? FE_STAY : FE_ENTER) : FE_EXIT;
         if (tells) s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
     }
+}
+
+static void forget_if_asleep(fe_world *w, int32_t pair)
+{
+    fe__pair *p = w->pairs + pair;
+    p->flags &= ~(uint32_t)FE__PAIR_ONCE;
+    if (w->bodies[p->body_a].awake_index < 0 && w->bodies[p->body_b].awake_index < 0) fe__pair_retire(w, pair);
 }
 
 static void tell(fe_world *w, int32_t pair)
 {
     fe__pair *p = w->pairs + pair;
     int32_t kind = p->result;
+    if (p->flags & FE__PAIR_ONCE) forget_if_asleep(w, pair);
+    if (kind == FE_EXIT && !(p->flags & FE__PAIR_TOUCHING)) return;
     if (kind == FE_EXIT)
         p->flags &= ~(uint32_t)FE__PAIR_TOUCHING;
     else

@@ -11,7 +11,7 @@ enum {
     FE__PAIR_SWAPPED = 16,  // fe__collide's A is shape B
     FE__PAIR_RECYCLED = 32, // kept its manifold in this step
     FE__PAIR_ROUND = 64,    // a sphere or capsule is in it: a new manifold each step
-    FE__PAIR_NEW = 128      // made in this step
+    FE__PAIR_ONCE = 128     // looked at in the next step although both sides sleep
 };
 
 // What the narrow phase says of a pair in this step, applied afterwards in a fixed order

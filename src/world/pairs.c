@@ -58,6 +58,21 @@ void fe__pair_retire(fe_world *world, int32_t pair)
     world->pairs[pair].awake_index = -1;
 }
 
+void fe__pair_look_once(fe_world *world, int32_t pair)
+{
+    world->pairs[pair].flags |= FE__PAIR_ONCE;
+    fe__pair_awaken(world, pair);
+}
+
+// Triggers see sleepers, and a static body that comes to a sleeper wakes it. Bodies that are created asleep stay so, whatever they touch.
+static int32_t concerns_sleepers(const fe_world *world, const fe__pair *p)
+{
+    const fe__shape *a = world->shapes + p->shape_a, *b = world->shapes + p->shape_b;
+    int32_t dynamic_a = world->bodies[p->body_a].type == FE_BODY_DYNAMIC, dynamic_b = world->bodies[p->body_b].type == FE_BODY_DYNAMIC;
+    const fe__shape *sleeper = dynamic_a ? a : b;
+    return p->flags & FE__PAIR_SENSOR || (dynamic_a != dynamic_b && !(sleeper->flags & FE__SHAPE_MOVED));
+}
+
 // ---- materials ---------------------------------------------------------------------------------------------------------------------------
 static float form_radius(const fe__shape *a, const fe__shape *b) { return fe__maxf(a->form.radius, b->form.radius); }
 
@@ -198,7 +213,10 @@ int32_t fe__pair_create(fe_world *world, int32_t shape_a, int32_t shape_b)
     add_to_body(world, pair, p->body_a);
     add_to_body(world, pair, p->body_b);
     fe__pair_set_insert(&world->pair_set, shape_a, shape_b, pair);
-    if (world->bodies[p->body_a].awake_index >= 0 || world->bodies[p->body_b].awake_index >= 0) fe__pair_awaken(world, pair);
+    if (world->bodies[p->body_a].awake_index >= 0 || world->bodies[p->body_b].awake_index >= 0)
+        fe__pair_awaken(world, pair);
+    else if (concerns_sleepers(world, p))
+        fe__pair_look_once(world, pair);
     ++world->pair_count;
     return pair;
 }

@@ -129,8 +129,8 @@ void fe__find_new_pairs(fe__step *step)
     fe__step_scratch *s = step->scratch;
     step->failed = !search_all(step) || !fe__reserve_step(step);
     if (step->failed) return;
-    for (int32_t i = 0; i < w->moved_count; ++i) w->shapes[w->moved[i]].flags &= ~(uint32_t)FE__SHAPE_MOVED;
-    w->moved_count = 0;
     sort_candidates(step);
     for (int32_t i = 0; i < s->candidate_count; ++i) fe__pair_create(w, s->candidates[i].shape_a, s->candidates[i].shape_b);
+    for (int32_t i = 0; i < w->moved_count; ++i) w->shapes[w->moved[i]].flags &= ~(uint32_t)FE__SHAPE_MOVED;
+    w->moved_count = 0;
 }

@@ -83,6 +83,9 @@ static void a_landing_enters_stays_and_exits(void **state)
             exits += told(&s, ground, body, FE_EXIT);
         }
         FE_TRUE(exits == 1);
+        // far off there is no contact to read either
+        FE_WITHIN(position(&s, body).y, 1, 2);
+        FE_TRUE(fe_body_get_contacts(s.world, body, NULL, 0, 0) == 0);
         scene_end(&s);
     }
 }

@@ -197,7 +197,7 @@ static void a_sleeping_world_does_not_change_one_bit(void **state)
     scene_end(&s);
 }
 
-// Waking gives the stack back its impulses: it must not sag, hop or slide. The slow pole of an overdamped contact is w / (2 zeta) = 9.4 1/s: after 3 s
+// Waking gives the stack back its impulses: it must not sag, hop or slide. The slow pole of an overdamped contact is w / (2 zeta) = 9.4 1/s: after 8 s
 // nothing moves that is not rounding, and the fall of one step without impulses would be 0.16 m/s.
 static void waking_disturbs_nothing(void **state)
 {
@@ -206,11 +206,11 @@ static void waking_disturbs_nothing(void **state)
     vec before[TOWER];
     fe_world_tuning tuning;
     fe_world_tuning_init(&tuning, sizeof tuning);
-    tuning.sleep_time = 3;
+    tuning.sleep_time = 8;
     MUST(fe_world_set_tuning(s.world, &tuning));
     add_ground(&s, friction(0.6));
     build_tower(&s, bodies, 0);
-    settle(&s, 600);
+    settle(&s, 900);
     for (int i = 0; i < TOWER; ++i) before[i] = position(&s, bodies[i]);
     MUST(fe_body_set_awake(s.world, bodies[0], 1));
     FE_TRUE(all_awake(&s, bodies, TOWER));
@@ -381,6 +381,41 @@ static void destroying_a_support_wakes_what_rested_on_it(void **state)
     }
 }
 
+// A static body made in a sleeper, or moved into it, is a touch like any other; a world that is loaded asleep stays asleep.
+static void a_static_body_that_comes_to_a_sleeper_wakes_it(void **state)
+{
+    for (int made = 0; made < 2; ++made) {
+        scene s = scene_begin(state);
+        add_ground(&s, friction(0.6));
+        fe_body wall = made ? 0 : add_static(&s, cube(), v3(5, 0.5, 0), UNTURNED, friction(0.6));
+        fe_body body = add_sleeper(&s, cube(), v3(0, 0.5, 0));
+        settle(&s, 600);
+        run(&s, 1);
+        fe_transform in = {to_world(&s, v3(0.99, 0.5, 0)), s.turn};
+        if (made) wall = add_static(&s, cube(), v3(0.99, 0.5, 0), UNTURNED, friction(0.6));
+        if (!made) MUST(fe_body_set_transform(s.world, wall, &in));
+        run(&s, 1);
+        FE_TRUE(awake(&s, body));
+        run(&s, 60);
+        FE_WITHIN(position(&s, body).x, -0.011, -0.009 + LINEAR_SLOP);
+        scene_end(&s);
+    }
+    scene s = scene_begin(state);
+    fe_body_def def;
+    fe_body_def_init(&def, sizeof def);
+    def.awake = 0;
+    def.transform.position = to_world(&s, v3(0, 0.5, 0));
+    fe_body body;
+    fe_shape shape;
+    fe_geometry form = cube();
+    MUST(fe_body_create(s.world, &def, &body));
+    MUST(fe_shape_create(s.world, body, NULL, &form, &shape));
+    add_ground(&s, friction(0.6));
+    run(&s, 3);
+    FE_TRUE(!awake(&s, body));
+    scene_end(&s);
+}
+
 // Its island stops with it. A body created asleep stays where it is, in the air or not, until something happens to it.
 static void a_body_can_be_put_to_sleep_by_hand(void **state)
 {
@@ -455,6 +490,7 @@ int main(void)
         TEST(a_touch_wakes_the_island_and_is_reported),
         TEST(a_moving_kinematic_body_wakes_and_a_still_one_lets_sleep),
         TEST(destroying_a_support_wakes_what_rested_on_it),
+        TEST(a_static_body_that_comes_to_a_sleeper_wakes_it),
         TEST(a_body_can_be_put_to_sleep_by_hand),
         TEST(contacts_survive_sleep_without_events),
     };
