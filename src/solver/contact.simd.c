@@ -6,6 +6,8 @@
 #include "solver/solver.h"
 #include "solver/wide_body.h"
 
+#include <float.h>
+
 #define UNROLL _Pragma("GCC unroll 8")
 
 // a shift of one body against the other up to which a contact's arms stay as found, m: what recycling leaves alone at rest, and little beside the
@@ -48,7 +50,8 @@ FE_INLINE void tangents(wide3 n, wide3 *t1, wide3 *t2)
     *t2 = (wide3){b, sign + n.y * n.y * a, -n.y};
 }
 
-FE_INLINE wide inverse_or_zero(wide a) { return w_choose(w_greater(a, w_set(0.0f)), 1.0f / a, w_set(0.0f)); }
+// of what is positive; of a denormal the quotient may be infinite
+FE_INLINE wide inverse_or_zero(wide a) { return w_choose(w_greater(a, w_set(FLT_MIN)), 1.0f / a, w_set(0.0f)); }
 
 // angular arms of a unit impulse at a point, and the spin they cause
 typedef struct {
@@ -78,6 +81,10 @@ enum { CONTACT_STRIDE = sizeof(fe__contact) / sizeof(float) };
 
 // a point that opened to twice the speculative distance still counts a little for the friction centre: the weights never all vanish
 #define LEAST_WEIGHT 1e-10f
+// ratio of the lesser to the greater eigenvalue below which a tangent matrix has one: far above rounding, far below what a shape can have
+#define ONE_WAY 1e-5f
+// of the bodies' inverse masses: what answers a push by less stands for a direction within 1e-5 of a locked one
+#define RIGID 1e-10f
 // of the trace of a rolling mass, added to its diagonal
 #define REGULAR 1e-6f
 

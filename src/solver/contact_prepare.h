@@ -22,6 +22,13 @@ FE_INLINE wide NAMED(linear_response)(const ROW *row, const pair *p, wide3 u, wi
     return (kind & FE__ROW_PAIR ? p->a.inverse_mass + p->b.inverse_mass : p->b.inverse_mass) * uv;
 }
 
+// 1 / k. Where locks leave nothing to move, k is 0 or what rounding left of it: then 0
+FE_INLINE wide NAMED(mass_along)(const pair *p, wide k, int kind)
+{
+    wide least = kind & FE__ROW_SPECIAL ? RIGID * (p->a.inverse_mass + p->b.inverse_mass) : w_set(0.0f);
+    return w_choose(w_greater(k, least), inverse_or_zero(k), w_set(0.0f));
+}
+
 // fills the points, returns the friction centre: the mean of the points weighted by how close they are
 FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int32_t *index, const pair *p, wide points,
                                       const fe__step_constants *c, int kind)
@@ -40,7 +47,7 @@ FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int3
         arms[i] = NAMED(arm_of)(row, r, p->span, p->normal, kind);
         store3(q->r, r);
         q->separation = separations[i];
-        q->mass = w_choose(there, inverse_or_zero(linear + angular_response(arms + i, arms + i, kind)), zero);
+        q->mass = w_choose(there, NAMED(mass_along)(p, linear + angular_response(arms + i, arms + i, kind), kind), zero);
         q->impulse = impulses[i] * c->warm_scale;
         q->total = zero;
         UNROLL for (int j = 0; j < i; ++j) row->coupling[coupling_of[j][i]] =
@@ -52,6 +59,22 @@ FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int3
     return w_scale(inverse_or_zero(sum), weighted);
 }
 
+// Inverse of the 2 x 2 matrix of the tangents. Where locks leave one direction u to slide in, it is k u u^T up to rounding, whose inverse
+// would fill the friction cone with noise across u: the pseudo-inverse, itself over the square of its trace, knows u only.
+FE_INLINE void NAMED(invert_tangents)(ROW *row, const pair *p, wide k11, wide k12, wide k22, int kind)
+{
+    wide det = k11 * k22 - k12 * k12, inverse = inverse_or_zero(det), trace = k11 + k22;
+    row->tangent_mass[0] = inverse * k22;
+    row->tangent_mass[1] = -(inverse * k12);
+    row->tangent_mass[2] = inverse * k11;
+    if (!(kind & FE__ROW_SPECIAL)) return;
+    wide over_trace = NAMED(mass_along)(p, trace, kind);
+    wide_mask two_ways = w_greater(det, ONE_WAY * trace * trace);
+    row->tangent_mass[0] = w_choose(two_ways, row->tangent_mass[0], over_trace * k11 * over_trace);
+    row->tangent_mass[1] = w_choose(two_ways, row->tangent_mass[1], over_trace * k12 * over_trace);
+    row->tangent_mass[2] = w_choose(two_ways, row->tangent_mass[2], over_trace * k22 * over_trace);
+}
+
 FE_INLINE void NAMED(prepare_friction)(ROW *row, const pair *p, wide3 centre, wide4 impulse, wide3 t1, wide3 t2,
                                        const fe__step_constants *c, int kind)
 {
@@ -60,12 +83,9 @@ FE_INLINE void NAMED(prepare_friction)(ROW *row, const pair *p, wide3 centre, wi
     wide k11 = NAMED(linear_response)(row, p, t1, t1, one, kind) + angular_response(&m1, &m1, kind);
     wide k22 = NAMED(linear_response)(row, p, t2, t2, one, kind) + angular_response(&m2, &m2, kind);
     wide k12 = NAMED(linear_response)(row, p, t1, t2, zero, kind) + angular_response(&m1, &m2, kind);
-    wide inverse = inverse_or_zero(k11 * k22 - k12 * k12);
+    NAMED(invert_tangents)(row, p, k11, k12, k22, kind);
     arm spin = {p->normal, p->normal, w_zero3(), w_mul(&row->inertia_b, p->normal)};
     if (kind & FE__ROW_PAIR) spin.spin_a = w_mul(&row->inertia_a, p->normal);
-    row->tangent_mass[0] = inverse * k22;
-    row->tangent_mass[1] = -(inverse * k12);
-    row->tangent_mass[2] = inverse * k11;
     row->tangent_impulse[0] = w_dot(w_xyz(impulse), t1) * c->warm_scale;
     row->tangent_impulse[1] = w_dot(w_xyz(impulse), t2) * c->warm_scale;
     row->twist_mass = inverse_or_zero(angular_response(&spin, &spin, kind));

@@ -3,7 +3,7 @@
 
 static const fe_material SMOOTH = {0, 0, 0, 0, 0};
 
-// ---- slopes -----------------------------------------------------------------------------------------------------------------------------
+// ---- slopes ---------------------------------------------------------------------------------------------------------------------
 
 // A box lying flush on a slope
 static fe_body add_box_on_slope(scene *s, double angle, double half_along, double half_up, double mu)
@@ -54,23 +54,41 @@ static void a_box_slides_just_above_the_angle_of_friction(void **state)
     }
 }
 
-// a = g (sin - mu cos): 9.655 m from 0.5 to 2.5 s at 8 substeps, straight down the slope
+// a = g (sin - mu cos): 9.655 m from 0.5 to 2.5 s at 8 substeps and 35 degrees, straight down the slope
+static void check_slide(scene *s, fe_body block, double angle, double mu)
+{
+    double a = G * (sin(angle) - mu * cos(angle));
+    run(s, 30);
+    vec start = position(s, block);
+    run(s, 120);
+    vec way = minus(position(s, block), start);
+    FE_NEAR(dot(way, downhill(angle)), discrete_way_between(a, 0.5, 2.5, s->h), LINEAR_SLOP);
+    FE_NEAR(way.z, 0, LINEAR_SLOP);
+    FE_NEAR(dot(way, slope_normal(angle)), 0, LINEAR_SLOP);
+}
+
 static void a_sliding_box_follows_coulomb(void **state)
 {
     scene s = scene_begin(state);
-    double angle = 35 * DEGREES, a = G * (sin(angle) - 0.3 * cos(angle));
-    fe_body block = add_box_on_slope(&s, angle, 0.5, 0.5, 0.3);
-    run(&s, 30);
-    vec start = position(&s, block);
-    run(&s, 120);
-    vec way = minus(position(&s, block), start);
-    FE_NEAR(dot(way, downhill(angle)), discrete_way_between(a, 0.5, 2.5, s.h), LINEAR_SLOP);
-    FE_NEAR(way.z, 0, LINEAR_SLOP);
-    FE_NEAR(dot(way, slope_normal(angle)), 0, LINEAR_SLOP);
+    check_slide(&s, add_box_on_slope(&s, 35 * DEGREES, 0.5, 0.5, 0.3), 35 * DEGREES, 0.3);
     scene_end(&s);
 }
 
-// ---- on the level ----------------------------------------------------------------------------------------------------------------------
+// a plank of 40 m instead of a plane; and locks that are not in the way, which take the solver's special rows
+static void a_sliding_box_follows_coulomb_on_a_plank(void **state)
+{
+    for (int locked = 0; locked < 2; ++locked) {
+        scene s = scene_begin(state);
+        double angle = 35 * DEGREES;
+        add_static(&s, box(20, 0.5, 2), times(-0.5, slope_normal(angle)), slope_turn(angle), friction(0.3));
+        fe_body block = add_dynamic(&s, box(0.5, 0.5, 0.5), times(0.5, slope_normal(angle)), slope_turn(angle), friction(0.3), WATER);
+        if (locked) MUST(fe_body_set_locks(s.world, block, FE_AXIS_Z, FE_AXIS_X | FE_AXIS_Y));
+        check_slide(&s, block, angle, 0.3);
+        scene_end(&s);
+    }
+}
+
+// ---- on the level ---------------------------------------------------------------------------------------------------------------
 
 // 10 kg: a cube of 0.2 m. A force that grows by 1 N/s moves it above mu_s m g, and then only mu_d m g resist.
 static void static_friction_holds_and_dynamic_friction_brakes(void **state)
@@ -122,8 +140,30 @@ static void a_sliding_box_stops_after_the_same_way_in_every_direction(void **sta
     scene_end(&s);
 }
 
-// ---- tipping
-// -----------------------------------------------------------------------------------------------------------------------------
+// A block thrown onto a slab that glides freely: friction brakes the one and drags the other until both have  m v0 / (m + M),  after
+// v0 / (mu g (1 + m / M)) and  v0 / 2  times that against each other
+static void a_block_drags_a_free_slab_to_their_common_velocity(void **state)
+{
+    scene s = scene_begin(state);
+    const double mu = 0.5, v0 = 4;
+    add_ground(&s, SMOOTH);
+    fe_body slab = add_dynamic(&s, box(4, 0.25, 4), v3(0, 0.25, 0), UNTURNED, friction(mu), 100);
+    fe_body block = add_dynamic(&s, box(0.5, 0.25, 0.5), v3(0, 0.75, 0), UNTURNED, friction(mu), WATER);
+    double m = mass_of(&s, block), mass = mass_of(&s, slab), common = m * v0 / (m + mass), time = v0 / (mu * G * (1 + m / mass));
+    int half_time = (int)(time / 2 / STEP);
+    vec ahead = v3(0.6, 0, 0.8);
+    set_velocity(&s, block, times(v0, ahead), v3(0, 0, 0));
+    run(&s, half_time);
+    FE_NEAR(dot(velocity(&s, block), ahead), v0 - mu * G * half_time * STEP, 0.01 * v0);
+    FE_NEAR(dot(velocity(&s, slab), ahead), mu * G * m / mass * half_time * STEP, 0.01 * common);
+    run(&s, 90);
+    FE_NEAR(length(minus(velocity(&s, block), times(common, ahead))), 0, 0.01 * common);
+    FE_NEAR(length(minus(velocity(&s, slab), times(common, ahead))), 0, 0.01 * common);
+    FE_NEAR(length(minus(position(&s, block), position(&s, slab))), hypot(0.5, v0 * time / 2), v0 * s.h + LINEAR_SLOP);
+    scene_end(&s);
+}
+
+// ---- tipping --------------------------------------------------------------------------------------------------------------------
 
 // between the body's y axis and the slope's normal, rad
 static double lean(const scene *s, fe_body body, double angle) { return between(axis_of(s, body, v3(0, 1, 0)), slope_normal(angle)); }
@@ -187,8 +227,8 @@ static void a_cube_pushed_at_its_top_tips_at_half_its_weight(void **state)
     scene_end(&s);
 }
 
-// ---- the ladder
-// ----------------------------------------------------------------------------------------------------------------------------- A plank of
+// ---- the ladder -----------------------------------------------------------------------------------------------------------------
+// A plank of
 // length L and thickness t, at `angle` to the floor, between it (mu) and a smooth wall. It stands on the corners of its lower side: moments
 // about the lower one give the wall's force  N = m g (1 / (2 tan) - t / (2 L)). It holds as long as N <= mu m g.
 
@@ -239,6 +279,8 @@ int main(void)
         TEST(a_box_slides_just_above_the_angle_of_friction),
         EVERY_WAY_UP(a_sliding_box_follows_coulomb),
         WITH_4_SUBSTEPS(a_sliding_box_follows_coulomb),
+        TEST(a_sliding_box_follows_coulomb_on_a_plank),
+        EVERY_WAY_UP(a_block_drags_a_free_slab_to_their_common_velocity),
         EVERY_WAY_UP(static_friction_holds_and_dynamic_friction_brakes),
         EVERY_WAY_UP(a_sliding_box_stops_after_the_same_way_in_every_direction),
         EVERY_WAY_UP(a_box_stands_below_its_tipping_angle),

@@ -5,7 +5,7 @@
 
 static setup one_substep = {{0, 0, 0, 1}, 1};
 
-// ---- free flight --------------------------------------------------------------------------------------------------------------------
+// ---- free flight ----------------------------------------------------------------------------------------------------------------
 
 // y = g t (t + h) / 2 after 1 s, 10 mm more than g t^2 / 2 at 8 substeps; v = g t
 static void free_fall_takes_the_discrete_way(void **state)
@@ -56,7 +56,7 @@ static void free_flight_only_loses_the_energy_of_the_discrete_scheme(void **stat
     scene_end(&s);
 }
 
-// ---- forces and damping ---------------------------------------------------------------------------------------------------------------
+// ---- forces and damping ---------------------------------------------------------------------------------------------------------
 
 // v = F t / m, and not one bit more once the calls end
 static void a_force_acts_in_all_substeps_of_the_next_step_only(void **state)
@@ -114,7 +114,7 @@ static void damping_follows_its_discrete_law(void **state)
     scene_end(&s);
 }
 
-// ---- locks ------------------------------------------------------------------------------------------------------------------------------
+// ---- locks ----------------------------------------------------------------------------------------------------------------------
 
 enum { LINEAR_BITS = 7, ALL_LOCKS = 64 };
 
@@ -180,6 +180,27 @@ static void locked_coordinates_stay_bit_for_bit_and_free_ones_move(void **state)
 {
     (void)state;
     for (uint32_t locks = 1; locks < ALL_LOCKS; ++locks) run_locked(locks & LINEAR_BITS, locks >> 3);
+}
+
+// Locked along the ground's normal, a body rests on its lock and the ground has nothing to carry: no friction, also where rounding tilts
+// the normal
+static void the_ground_does_not_hold_what_cannot_move_into_it(void **state)
+{
+    const double tilts[] = {0, 1e-7, -1e-7};
+    for (int i = 0; i < 3; ++i) {
+        scene s = scene_begin(state);
+        add_plane(&s, v3(tilts[i], 1, 0), 0, friction(0.6));
+        fe_body block = add_dynamic(&s, box(0.5, 0.5, 0.5), v3(0, 0.499, 0), UNTURNED, friction(0.6), WATER);
+        MUST(fe_body_set_locks(s.world, block, FE_AXIS_Y, FE_AXIS_ALL));
+        for (int k = 0; k < 60; ++k) {
+            add_force(&s, block, v3(3000, 0, 1000));
+            run(&s, 1);
+        }
+        double t = 60 * STEP / 1000;
+        FE_NEAR(velocity(&s, block).x, 3000 * t, 3000 * t * rounding(60 * s.substeps));
+        FE_NEAR(velocity(&s, block).z, 1000 * t, 3000 * t * rounding(60 * s.substeps));
+        scene_end(&s);
+    }
 }
 
 // Same bits as a body that never had a lock, and beside a locked body that it does not touch
@@ -275,6 +296,7 @@ int main(void)
         TEST(damping_follows_its_discrete_law),
         WITH_4_SUBSTEPS(damping_follows_its_discrete_law),
         TEST(locked_coordinates_stay_bit_for_bit_and_free_ones_move),
+        TEST(the_ground_does_not_hold_what_cannot_move_into_it),
         TEST(locks_taken_off_leave_no_trace),
         TEST(a_body_on_an_axle_has_its_exact_inertia),
         TEST(two_free_axes_turn_by_the_inertia_between_them),
