@@ -5,6 +5,8 @@
 
 #include <stdlib.h>
 
+enum { ERRORS_TOLD = 5 }; // of a play
+
 void play_begin(play *p, fe_world *world) { *p = (play){.world = world, .seed = 1, .dt = 1.0f / 60.0f, .told = fe__hash_begin()}; }
 
 void play_before(play *p)
@@ -16,8 +18,7 @@ int32_t play_after(play *p, fe_result result, const char *text)
 {
     if (p->after) return p->after(p, result);
     if (result >= 0) return 0;
-    print_error("step %d: %s: %s\n", (int)p->step, text, fe_last_error());
-    p->errors += 1;
+    if (p->errors++ < ERRORS_TOLD) print_error("step %d: %s: %s\n", (int)p->step, text, fe_last_error());
     return 0;
 }
 
