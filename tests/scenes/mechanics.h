@@ -6,8 +6,8 @@
 
 #include "scenes/scene.h"
 
-// Velocities are floats: momentum keeps 1e-5 of what the bodies carry through many collisions, angular momentum 1e-4 (arms are frozen while the
-// bodies shift by less than half a millimetre)
+// Velocities are floats: momentum keeps 1e-5 of what the bodies carry through many collisions, angular momentum 1e-4 (arms are frozen while
+// the bodies shift by less than half a millimetre)
 #define MOMENTUM_DRIFT 1e-5
 #define ANGULAR_DRIFT 1e-4
 // of the energy: what no step may gain
@@ -88,9 +88,12 @@ static inline fe_geometry any_form(dice *d, double size)
 {
     double a = uniform(d, 0.6, 1), b = uniform(d, 0.6, 1), c = uniform(d, 0.6, 1);
     switch (pick(d, 3)) {
-    case 0: return sphere(0.5 * size * a);
-    case 1: return box(0.4 * size * a, 0.4 * size * b, 0.4 * size * c);
-    default: return capsule(0.25 * size * a, 0.25 * size * b);
+    case 0:
+        return sphere(0.5 * size * a);
+    case 1:
+        return box(0.4 * size * a, 0.4 * size * b, 0.4 * size * c);
+    default:
+        return capsule(0.25 * size * a, 0.25 * size * b);
     }
 }
 

@@ -110,15 +110,32 @@ typedef enum ending { DESTROY, DESTROY_SHAPE, DISABLE, REFILTER, IGNORE, TELEPOR
 static void end_touch(scene *s, ending how, fe_body body, fe_body other)
 {
     switch (how) {
-    case DESTROY: MUST(fe_body_destroy(s->world, body)); break;
-    case DESTROY_SHAPE: MUST(fe_shape_destroy(s->world, shape_of(s, body))); break;
-    case DISABLE: MUST(fe_body_set_enabled(s->world, body, 0)); break;
-    case REFILTER: MUST(fe_body_set_filter(s->world, body, 2, 2)); break;
-    case IGNORE: MUST(fe_world_ignore_collision(s->world, body, other, 1)); break;
-    case TELEPORT: place(s, body, v3(50, 50, 50)); break;
-    case TYPE: MUST(fe_body_set_type(s->world, body, FE_BODY_STATIC)); break; // on a static ground: no pair any more
-    case MAKE_STATIC_BOTH: MUST(fe_body_set_type(s->world, body, FE_BODY_KINEMATIC)); break;
-    case ENDINGS: break;
+    case DESTROY:
+        MUST(fe_body_destroy(s->world, body));
+        break;
+    case DESTROY_SHAPE:
+        MUST(fe_shape_destroy(s->world, shape_of(s, body)));
+        break;
+    case DISABLE:
+        MUST(fe_body_set_enabled(s->world, body, 0));
+        break;
+    case REFILTER:
+        MUST(fe_body_set_filter(s->world, body, 2, 2));
+        break;
+    case IGNORE:
+        MUST(fe_world_ignore_collision(s->world, body, other, 1));
+        break;
+    case TELEPORT:
+        place(s, body, v3(50, 50, 50));
+        break;
+    case TYPE:
+        MUST(fe_body_set_type(s->world, body, FE_BODY_STATIC));
+        break; // on a static ground: no pair any more
+    case MAKE_STATIC_BOTH:
+        MUST(fe_body_set_type(s->world, body, FE_BODY_KINEMATIC));
+        break;
+    case ENDINGS:
+        break;
     }
 }
 

@@ -22,8 +22,9 @@ static void note_flip(flips *f, double before, double now, double t)
     f->times[f->count++] = t - STEP * now / (now - before); // linear between two steps
 }
 
-// T/2 = 2 K(k) sqrt(I1 I2 I3 / ((I3 - I2)(L^2 - 2 E I1))) = 3.0284 s. The first change of sign, after 1.1660 s, tells of the start; later intervals
-// are logarithmic in what rounding adds, hence 3 %. Angular momentum within 0.5 % in size and 1 % in direction; energy within 1 %, never above.
+// T/2 = 2 K(k) sqrt(I1 I2 I3 / ((I3 - I2)(L^2 - 2 E I1))) = 3.0284 s. The first change of sign, after 1.1660 s, tells of the start; later
+// intervals are logarithmic in what rounding adds, hence 3 %. Angular momentum within 0.5 % in size and 1 % in direction; energy within 1
+// %, never above.
 static void the_intermediate_axis_flips_on_time(void **state)
 {
     scene s = scene_begin(state);
@@ -62,7 +63,8 @@ static void a_thrown_box_flips_as_a_floating_one(void **state)
     double mass = mass_of(&s, body), g = (double)9.8f, start = totals_of(&s, &body, 1).energy;
     vec v = v3(-2, 2, 8), w = v3(0.1, 5, 0.1);
     fe_mass_data data = mass_data_of(&s, body);
-    double kinetic = 0.5 * mass * dot(v, v) + 0.5 * ((double)data.inertia.x * w.x * w.x + (double)data.inertia.y * w.y * w.y + (double)data.inertia.z * w.z * w.z);
+    double kinetic = 0.5 * mass * dot(v, v) +
+                     0.5 * ((double)data.inertia.x * w.x * w.x + (double)data.inertia.y * w.y * w.y + (double)data.inertia.z * w.z * w.z);
     FE_NEAR(kinetic, 368.546412, 1e-5 * 368.546412);
     flips f = {.count = 0};
     double last = spin_about(&s, body, v3(0, 1, 0));
@@ -80,7 +82,8 @@ static void a_thrown_box_flips_as_a_floating_one(void **state)
     scene_end(&s);
 }
 
-// About the axis of the largest or the smallest moment a perturbed spin precesses on a small cone for ever: sin(angle) = 1 % of the spin across.
+// About the axis of the largest or the smallest moment a perturbed spin precesses on a small cone for ever: sin(angle) = 1 % of the spin
+// across.
 static void spins_about_the_outer_axes_stay(void **state)
 {
     static const vec axes[] = {{1, 0, 0}, {0, 0, 1}};

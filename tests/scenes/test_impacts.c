@@ -31,8 +31,8 @@ static double dropped(void **state, fe_geometry form, double rest, double height
     return top;
 }
 
-// Newton: v' = e v, so e^2 h, whatever the height and so whatever part of a step is left at the impact. 0.1 %; at e = 1 the speed is capped by
-// the energy of the discrete flight, which costs up to 2 %. Never higher by more than 1e-5 of the drop.
+// Newton: v' = e v, so e^2 h, whatever the height and so whatever part of a step is left at the impact. 0.1 %; at e = 1 the speed is capped
+// by the energy of the discrete flight, which costs up to 2 %. Never higher by more than 1e-5 of the drop.
 static void rises_as_it_must(void **state, fe_geometry form, double rest)
 {
     static const double restitutions[] = {0.3, 0.5, 0.8, 1};
@@ -116,8 +116,8 @@ static void restitution_1_keeps_20_bounces(void **state)
     scene_end(&s);
 }
 
-// Boxes in any pose land on a corner or an edge. With restitution 1 and without friction nothing is lost but what the cap takes; with any other
-// nothing is gained.
+// Boxes in any pose land on a corner or an edge. With restitution 1 and without friction nothing is lost but what the cap takes; with any
+// other nothing is gained.
 static void tilted_boxes_keep_their_energy(void **state)
 {
     dice d = {7};
@@ -140,8 +140,8 @@ static void tilted_boxes_keep_their_energy(void **state)
     }
 }
 
-// A box that lands on one end turns: the point of impact leaves at e of its speed (Newton). For a rod of mass m, half length a, moment I hit at its
-// end with speed u, frictionless:  impulse = m u (1 + e) / (1 + m a^2 / I).
+// A box that lands on one end turns: the point of impact leaves at e of its speed (Newton). For a rod of mass m, half length a, moment I
+// hit at its end with speed u, frictionless:  impulse = m u (1 + e) / (1 + m a^2 / I).
 static void box_landing_on_its_edge_gets_newtons_impulse(void **state)
 {
     const double angle = 20 * DEGREES, height = 1;
@@ -151,7 +151,8 @@ static void box_landing_on_its_edge_gets_newtons_impulse(void **state)
         scene s = scene_begin(state);
         add_ground(&s, bouncy(0, e));
         vec half = v3(0.5, 0.05, 0.2), corner = rotate(turned(v3(0, 0, 1), angle), v3(-half.x, -half.y, 0));
-        fe_body body = add_dynamic(&s, box(half.x, half.y, half.z), v3(0, height - corner.y, 0), turned(v3(0, 0, 1), angle), bouncy(0, e), WATER);
+        fe_body body =
+            add_dynamic(&s, box(half.x, half.y, half.z), v3(0, height - corner.y, 0), turned(v3(0, 0, 1), angle), bouncy(0, e), WATER);
         double mass = mass_of(&s, body), moment = (double)mass_data_of(&s, body).inertia.z, before = 0;
         while (spin(&s, body).z == 0) {
             before = velocity(&s, body).y;
@@ -194,8 +195,8 @@ static void collisions_in_a_line_follow_newton(void **state)
         }
 }
 
-// The target leaves along the line of centres at the moment of the touch, asin(b / 2r) off the way of the striker, and the striker at a right angle
-// to it, whatever part of a step is left when they touch.
+// The target leaves along the line of centres at the moment of the touch, asin(b / 2r) off the way of the striker, and the striker at a
+// right angle to it, whatever part of a step is left when they touch.
 static void billiard_balls_part_at_right_angles(void **state)
 {
     const double radius = 0.5, speed = 5;
@@ -295,7 +296,8 @@ static void free_cluster_keeps_momentum_and_gains_no_energy(void **state)
         for (int k = 0; k < COUNT; ++k) {
             vec at = times(1.2, v3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
             fe_geometry form = any_form(&d, 1);
-            bodies[k] = add_dynamic(&s, form, at, any_rotation(&d), bouncy(uniform(&d, 0, 1), restitutions[i % 3]), (float)uniform(&d, 200, 2000));
+            bodies[k] =
+                add_dynamic(&s, form, at, any_rotation(&d), bouncy(uniform(&d, 0, 1), restitutions[i % 3]), (float)uniform(&d, 200, 2000));
             vec w = somewhere(&d, 4);
             set_velocity(&s, bodies[k], plus(times(-2, at), somewhere(&d, 1)), w);
         }
@@ -329,7 +331,9 @@ static void cargo_in_a_free_drum_keeps_momentum_and_gains_no_energy(void **state
             double side = k % 2 ? half + wall : -half - wall;
             vec at = k < 2 ? v3(0, side, 0) : k < 4 ? v3(side, 0, 0) : v3(0, 0, side);
             def.local_position = narrow(at);
-            fe_geometry form = k < 2 ? box(half + 2 * wall, wall, half + 2 * wall) : k < 4 ? box(wall, half, half + 2 * wall) : box(half, half, wall);
+            fe_geometry form = k < 2   ? box(half + 2 * wall, wall, half + 2 * wall)
+                               : k < 4 ? box(wall, half, half + 2 * wall)
+                                       : box(half, half, wall);
             MUST(fe_shape_create(s.world, bodies[0], &def, &form, &shape));
         }
         set_velocity(&s, bodies[0], v3(0, 0, 0), v3(0.5, 0.3, 4));

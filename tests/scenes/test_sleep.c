@@ -197,8 +197,8 @@ static void a_sleeping_world_does_not_change_one_bit(void **state)
     scene_end(&s);
 }
 
-// Waking gives the stack back its impulses: it must not sag, hop or slide. The slow pole of an overdamped contact is w / (2 zeta) = 9.4 1/s: after 8 s
-// nothing moves that is not rounding, and the fall of one step without impulses would be 0.16 m/s.
+// Waking gives the stack back its impulses: it must not sag, hop or slide. The slow pole of an overdamped contact is w / (2 zeta) = 9.4
+// 1/s: after 8 s nothing moves that is not rounding, and the fall of one step without impulses would be 0.16 m/s.
 static void waking_disturbs_nothing(void **state)
 {
     scene s = scene_begin(state);
@@ -266,8 +266,8 @@ static void by_form(scene *s, fe_body body)
 
 static void every_change_wakes_the_island(void **state)
 {
-    static stimulus *const stimuli[] = {by_force, by_torque, by_impulse, by_angular_impulse, by_velocity, by_spin, by_call, by_teleport,
-                                        by_filter, by_type, by_disabling, by_destroying, by_locks, by_mass, by_form};
+    static stimulus *const stimuli[] = {by_force,  by_torque, by_impulse,   by_angular_impulse, by_velocity, by_spin, by_call, by_teleport,
+                                        by_filter, by_type,   by_disabling, by_destroying,      by_locks,    by_mass, by_form};
     enum { COUNT = sizeof stimuli / sizeof *stimuli };
     for (int i = 0; i < COUNT; ++i) {
         scene s = scene_begin(state);
