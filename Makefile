@@ -67,7 +67,7 @@ HAVE_neon := -DFE_HAVE_NEON=1
 # STRICT comes last on every command line: whatever CFLAGS hold, results keep their bits. No SLP vectorizer: that of gcc 12 takes a double
 # rounded to float and back for the double itself.
 STRICT := -fno-fast-math -fno-math-errno -ffp-contract=off -fno-tree-slp-vectorize
-DEFINES := -DFE_BUILD $(foreach set,$(SIMD_SETS),$(HAVE_$(set)))
+DEFINES := -DFE_BUILD $(if $(SANITIZE),,-DNDEBUG) $(foreach set,$(SIMD_SETS),$(HAVE_$(set)))
 C_FLAGS = -std=gnu11 $(OPT) -fvisibility=hidden -fPIC -pthread $(WARNINGS) -Iinclude -Isrc $(DEFINES) $(SANITIZE_FLAGS) $(CFLAGS) $(MACHINE_FLAGS)
 CXX_FLAGS = -std=c++17 $(OPT) -pthread $(CXX_WARNINGS) -Iinclude $(CXXFLAGS)
 LINK_FLAGS = $(SANITIZE_FLAGS) $(LDFLAGS) -pthread
@@ -124,6 +124,9 @@ $(SHARED): $(BUILD)/$(SONAME)
 
 # ---- examples -------------------------------------------------------------------------------------------------------------------
 
+# For who types `make demo` and nothing more: as many compilers at once as there are processors.
+PARALLEL = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell getconf _NPROCESSORS_ONLN 2>/dev/null))
+
 EXAMPLES := $(patsubst examples/%.c,$(BUILD)/feather-%,$(sort $(wildcard examples/*.c)))
 
 $(BUILD)/feather-%: $(BUILD)/examples/%.o $(STATIC)
@@ -133,7 +136,8 @@ $(BUILD)/examples/%.o: examples/%.c $(BUILD)/flags
 	$(RUN)$(CC) $(C_FLAGS) $(STRICT) $(DEPENDENCIES) -c $< -o $@
 
 examples: $(EXAMPLES)
-demo: $(BUILD)/feather-demo
+demo:
+	@+$(MAKE) --no-print-directory $(PARALLEL) $(BUILD)/feather-demo
 	@$(BUILD)/feather-demo
 
 # ---- tests ----------------------------------------------------------------------------------------------------------------------
