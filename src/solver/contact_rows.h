@@ -1,7 +1,7 @@
 // contact_rows.h - TGS Soft on rows of W contacts, POINTS points each. Included by contact.simd.c once per number of points.
 //
-// A contact of several points shares one normal n, and rB = rA + span with span = cA - cB. Whatever is asked of a point is then affine in rA, and
-// the work per point is one dot product:
+// A contact of several points shares one normal n, and rB = rA + span with span = cA - cB. Whatever is asked of a point is then affine in
+// rA, and the work per point is one dot product:
 //
 //     normal velocity   vn_i = n.(vB - vA) + (n x wB).span + (n x (wB - wA)).rA_i            since n.(w x r) = (n x w).r
 //     separation        s_i  = s0_i + n.(dpB - dpA) + nB.span + (nB - nA).rA_i               nX = R(dqX)^T n - n, exact
@@ -10,10 +10,11 @@
 // A round side (sphere, capsule) is its core swelled by a radius rho: the core turns with the body, the radius stays along n. Its point is
 // core + rho n on A, core - rho n on B, so the separation gains  rhoA nA.n + rhoB nB.n: a ball that rolls keeps its distance.
 //
-// One Gauss-Seidel sweep over the points runs on the impulses with the stored matrix K_ij = n.M^-1.n between points, and the bodies are touched
-// once, by the sum: what sequential updates of the bodies give, up to rounding, at half their arithmetic.
+// One Gauss-Seidel sweep over the points runs on the impulses with the stored matrix K_ij = n.M^-1.n between points, and the bodies are
+// touched once, by the sum: what sequential updates of the bodies give, up to rounding, at half their arithmetic.
 //
-// `kind` is a constant of each instance: FE__ROW_PAIR both sides are dynamic, else only B moves; FE__ROW_SPECIAL the row carries a special_row.
+// `kind` is a constant of each instance: FE__ROW_PAIR both sides are dynamic, else only B moves; FE__ROW_SPECIAL the row carries a
+// special_row.
 
 #define NAMED(name) FE_PASTE(name, POINTS)
 #define ROW NAMED(contact_row)
@@ -22,33 +23,33 @@
 typedef struct ROW {
     int32_t line_a[FE_W], line_b[FE_W];
     wide normal[3];
-    wide span[3];            // for torques: follows the bodies once they shifted by more than FROZEN_SHIFT, see follow_span
-    wide first_span[3];      // when the step began: for separations
+    wide span[3];       // for torques: follows the bodies once they shifted by more than FROZEN_SHIFT, see follow_span
+    wide first_span[3]; // when the step began: for separations
     wide round_a, round_b;
     point_row point[POINTS];
     wide coupling[POINTS == 1 ? 1 : 6]; // m_j K_ij for i < j: 01 02 03 12 13 23
     wide_sym inertia_b, inertia_a;      // inverse, world. A copy streams faster than a gather
     // relax only
-    wide shift[3];           // of B against A, when span was set
+    wide shift[3]; // of B against A, when span was set
     wide static_friction, dynamic_friction;
-    wide centre[3];          // of friction, from A's centre
-    wide tangent_mass[3];    // inverse of the 2 x 2 matrix: 11 12 22
+    wide centre[3];       // of friction, from A's centre
+    wide tangent_mass[3]; // inverse of the 2 x 2 matrix: 11 12 22
     wide tangent_impulse[2];
     wide twist_mass, twist_impulse;
-    wide twist_tangent[2];   // tangent velocity that a unit of twist adds
-    wide lever[POINTS];      // |r_i - centre|
+    wide twist_tangent[2]; // tangent velocity that a unit of twist adds
+    wide lever[POINTS];    // |r_i - centre|
 } ROW;
 
 typedef struct SPECIAL_ROW {
     ROW row;
-    wide mass_a[3], mass_b[3];          // inverse, along the world's axes: 0 where locked
-    wide restitution, closing;          // acceleration of the bodies towards each other along n, m/s2
+    wide mass_a[3], mass_b[3];             // inverse, along the world's axes: 0 where locked
+    wide restitution, closing;             // acceleration of the bodies towards each other along n, m/s2
     wide approach[POINTS], flight[POINTS]; // of a touch in this substep: its speed (0: none) and Q, see record_touch
-    wide rolling, spinning;             // torque caps over the normal force, m
-    wide_sym rolling_mass;              // inverse of IA^-1 + IB^-1
+    wide rolling, spinning;                // torque caps over the normal force, m
+    wide_sym rolling_mass;                 // inverse of IA^-1 + IB^-1
     wide spinning_mass;
     wide rolling_impulse[3];
-    wide surface[3];                    // velocity of B's surface against A's
+    wide surface[3]; // velocity of B's surface against A's
 } SPECIAL_ROW;
 
 // ---- bodies in and out ----------------------------------------------------------------------------------------------------------
@@ -108,8 +109,10 @@ FE_INLINE affine NAMED(normal_velocity)(const pair *p)
     return (affine){w_dot(p->normal, w_sub(p->b.v, p->a.v)) + w_dot(spin, p->span), w_cross(p->normal, w_sub(p->b.w, p->a.w))};
 }
 
-// A point without impulse is about to touch: note its speed u and the energy of its flight, exact for the discrete motion v += h g, x += h v:
-//     Q = u (u - g h) + 2 g s  before the bodies moved in this substep,   u (u + g h) + 2 g s  after       (s: gap, g: acceleration closing it)
+// A point without impulse is about to touch: note its speed u and the energy of its flight, exact for the discrete motion v += h g, x += h
+// v:
+//     Q = u (u - g h) + 2 g s  before the bodies moved in this substep,   u (u + g h) + 2 g s  after       (s: gap, g: acceleration closing
+//     it)
 FE_INLINE void NAMED(record_touch)(SPECIAL_ROW *x, int i, wide impulse, wide vn, wide distance, const fe__step_constants *c, int moved)
 {
     wide zero = w_set(0.0f), u = -vn, gap = w_max(distance, zero), g = x->closing;
@@ -121,8 +124,8 @@ FE_INLINE void NAMED(record_touch)(SPECIAL_ROW *x, int i, wide impulse, wide vn,
     x->flight[i] = w_choose(touches, w_max(flight, zero), x->flight[i]);
 }
 
-// Runs the points against each other on their impulses. wish[i] is the new impulse of point i before max(., 0); a change d at point i lowers
-// wish[j] by scale_j m_j K_ij d. Returns the sum of the changes and their moment about A's centre.
+// Runs the points against each other on their impulses. wish[i] is the new impulse of point i before max(., 0); a change d at point i
+// lowers wish[j] by scale_j m_j K_ij d. Returns the sum of the changes and their moment about A's centre.
 FE_INLINE wide3 NAMED(sweep_points)(ROW *row, wide *wish, const wide *scale, wide *out_sum)
 {
     wide zero = w_set(0.0f), sum = zero;
@@ -181,9 +184,9 @@ FE_INLINE wide NAMED(load_of)(const ROW *row)
     return load;
 }
 
-// Twist about n, |l| <= mu sum lever_i l_i; then the two tangents at the friction centre as one block, |l| <= mu sum l_i. Twist reaches the tangents
-// through twist_tangent, so that both are applied to the bodies at once. A contact sticks up to the static friction; one that would need more
-// slides, with the dynamic one.
+// Twist about n, |l| <= mu sum lever_i l_i; then the two tangents at the friction centre as one block, |l| <= mu sum l_i. Twist reaches the
+// tangents through twist_tangent, so that both are applied to the bodies at once. A contact sticks up to the static friction; one that
+// would need more slides, with the dynamic one.
 FE_INLINE void NAMED(solve_friction)(ROW *row, pair *p, int kind)
 {
     wide3 t1, t2, ra = load3(row->centre), rb = w_add(ra, p->span);
@@ -213,7 +216,8 @@ FE_INLINE void NAMED(solve_friction)(ROW *row, pair *p, int kind)
     NAMED(apply)(row, p, impulse, w_add_scaled(w_cross(ra, impulse), twisted, p->normal), kind);
 }
 
-// Rolling resistance: a torque in the tangent plane against the relative spin, at most rolling * load. Spinning resistance: the same about n.
+// Rolling resistance: a torque in the tangent plane against the relative spin, at most rolling * load. Spinning resistance: the same about
+// n.
 FE_INLINE void NAMED(solve_rolling)(SPECIAL_ROW *x, pair *p, int kind)
 {
     wide load = NAMED(load_of)(&x->row), one = w_set(1.0f);
@@ -238,19 +242,44 @@ FE_INLINE wide3 NAMED(friction_impulse)(const ROW *row, wide3 normal)
     return w_add_scaled(w_scale(row->tangent_impulse[0], t1), row->tangent_impulse[1], t2);
 }
 
-// Angular momentum is kept only while rB - rA is the distance of the centres, so span follows the bodies' shift. It does so in jumps: within
-// FROZEN_SHIFT it stays as found, as the arms do (see contact.h). The carried warm start then holds an impulse P applied at the old arm; the rule
-// for a changed arm is  start.wB -= IB^-1 ((rB' - rB) x P). Lanes that stay are not touched, so a neighbour never shows.
+// Angular momentum is kept only while rB - rA is the distance of the centres, so span follows the bodies' shift. It does so in jumps:
+// within FROZEN_SHIFT it stays as found, as the arms do (see contact.h). The points stay on A, and B's arms change; but a round side of B
+// rolls over a flat A, and takes its points along: kept behind, they would be carried up by its spin, and the ball would sink. The carried
+// warm start then holds an impulse P applied at the old arm; the rule for a changed arm is  start.wB -= IB^-1 ((rB' - rB) x P)  and
+// start.wA += IA^-1 ((rA' - rA) x P). Lanes that stay are not touched, so a neighbour never shows.
+FE_INLINE void NAMED(turn_start)(const fe__solver *s, const int32_t *line, const wide_sym *inertia, wide3 moment, wide_mask lanes)
+{
+    wide4 w = gather_high(s->start, line);
+    wide3 corrected = w_add(w_xyz(w), w_mul(inertia, moment));
+    w_scatter(s->start[0] + 4, FE__LINE, line, w_with(w_choose3(lanes, corrected, w_xyz(w)), w.w));
+}
+
+// the arms of A change; those of B, for separations too, stay
+FE_INLINE void NAMED(move_points)(ROW *row, wide3 moved, wide_mask lanes)
+{
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        wide3 r = load3(row->point[i].r);
+        store3(row->point[i].r, w_choose3(lanes, w_add(r, moved), r));
+    }
+    wide3 centre = load3(row->centre), span = load3(row->first_span);
+    store3(row->centre, w_choose3(lanes, w_add(centre, moved), centre));
+    store3(row->first_span, w_choose3(lanes, w_sub(span, moved), span));
+}
+
 FE_INLINE void NAMED(follow_span)(ROW *row, const fe__solver *s, pair *p, wide3 shift)
 {
+    wide zero = w_set(0.0f);
     wide3 moved = w_sub(shift, load3(row->shift));
     wide_mask jumps = w_greater(w_dot(moved, moved), w_set(FROZEN_SHIFT * FROZEN_SHIFT));
     if (!w_any(jumps)) return;
-    wide3 impulse = w_add_scaled(NAMED(friction_impulse)(row, p->normal), NAMED(load_of)(row), p->normal);
-    wide4 v = gather_low(s->start, row->line_b), w = gather_high(s->start, row->line_b);
-    wide3 corrected = w_add(w_xyz(w), w_mul(&row->inertia_b, w_cross(moved, impulse)));
-    w_scatter(s->start[0], FE__LINE, row->line_b, v);
-    w_scatter(s->start[0] + 4, FE__LINE, row->line_b, w_with(w_choose3(jumps, corrected, w_xyz(w)), w.w));
+    wide_mask rolls = w_and(jumps, w_and(w_greater(row->round_b, zero), w_not(w_greater(row->round_a, zero))));
+    wide3 impulse = w_add_scaled(NAMED(friction_impulse)(row, p->normal), NAMED(load_of)(row), p->normal), moment = w_cross(moved, impulse);
+    NAMED(turn_start)(s, row->line_b, &row->inertia_b, moment, w_and(jumps, w_not(rolls)));
+    if (w_any(rolls)) {
+        NAMED(turn_start)(s, row->line_a, &row->inertia_a, moment, rolls);
+        NAMED(move_points)(row, moved, rolls);
+    }
     p->span = w_choose3(jumps, w_sub(p->span, moved), p->span);
     store3(row->span, p->span);
     store3(row->shift, w_choose3(jumps, shift, load3(row->shift)));
@@ -259,8 +288,8 @@ FE_INLINE void NAMED(follow_span)(ROW *row, const fe__solver *s, pair *p, wide3 
 // ---- restitution ----------------------------------------------------------------------------------------------------------------------
 // The speed that a touched point must leave with, at the gap s where it is now:
 //     v' = min( sqrt(e^2 Q - 2 g s) + g h / 2,  sqrt(Q - 2 g s) )
-// so that it flies to e^2 times the height it fell from, and never has more energy than it came with. Q: record_touch. A point that did not touch may
-// go on closing its gap, as in relax.
+// so that it flies to e^2 times the height it fell from, and never has more energy than it came with. Q: record_touch. A point that did not
+// touch may go on closing its gap, as in relax.
 FE_INLINE wide NAMED(bounce_speed)(const SPECIAL_ROW *x, int i, wide distance, const fe__step_constants *c)
 {
     wide zero = w_set(0.0f), g = x->closing, gap = w_max(distance, zero), used = 2.0f * g * gap, e = x->restitution, q = x->flight[i];
@@ -268,8 +297,8 @@ FE_INLINE wide NAMED(bounce_speed)(const SPECIAL_ROW *x, int i, wide distance, c
     return w_choose(w_greater(x->approach[i], zero), w_min(wanted, w_sqrt(w_max(q - used, zero))), -(gap * c->inverse_h));
 }
 
-// What the touched contacts gave leaves the warm start: start takes M^-1 J^T l, and l becomes 0. `old`: impulses that `total` already has, and that
-// the other lanes, which the sweeps ran over too, get back.
+// What the touched contacts gave leaves the warm start: start takes M^-1 J^T l, and l becomes 0. `old`: impulses that `total` already has,
+// and that the other lanes, which the sweeps ran over too, get back.
 FE_INLINE void NAMED(leave_warm_start)(SPECIAL_ROW *x, fe__solver *s, const pair *p, const wide *old, wide_mask touched, int kind)
 {
     ROW *row = &x->row;
@@ -316,7 +345,8 @@ FE_INLINE void NAMED(bounce_row)(SPECIAL_ROW *x, fe__solver *s, const fe__step_c
     for (int sweep = 0; sweep < BOUNCE_SWEEPS; ++sweep) {
         affine velocity = NAMED(normal_velocity)(&p);
         wide wish[POINTS], sum;
-        UNROLL for (int i = 0; i < POINTS; ++i) wish[i] = row->point[i].impulse - row->point[i].mass * (at(&velocity, load3(row->point[i].r)) - target[i]);
+        UNROLL for (int i = 0; i < POINTS; ++i) wish[i] =
+            row->point[i].impulse - row->point[i].mass * (at(&velocity, load3(row->point[i].r)) - target[i]);
         wide3 moment = NAMED(sweep_points)(row, wish, 0, &sum);
         NAMED(apply)(row, &p, w_scale(sum, p.normal), w_cross(moment, p.normal), kind);
     }
@@ -327,7 +357,10 @@ FE_INLINE void NAMED(bounce_row)(SPECIAL_ROW *x, fe__solver *s, const fe__step_c
 }
 
 // ---- passes over the rows -----------------------------------------------------------------------------------------------------------
-FE_INLINE ROW *NAMED(row_at)(void *rows, int32_t i, int kind) { return kind & FE__ROW_SPECIAL ? &((SPECIAL_ROW *)rows)[i].row : (ROW *)rows + i; }
+FE_INLINE ROW *NAMED(row_at)(void *rows, int32_t i, int kind)
+{
+    return kind & FE__ROW_SPECIAL ? &((SPECIAL_ROW *)rows)[i].row : (ROW *)rows + i;
+}
 
 FE_INLINE void NAMED(solve)(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c, int kind)
 {
@@ -362,27 +395,28 @@ FE_INLINE void NAMED(bounce)(fe__solver *s, void *rows, int32_t count, const fe_
 #include "solver/contact_prepare.h"
 
 // ---- the kernels of each kind --------------------------------------------------------------------------------------------------------
-#define INSTANCE(kind_name, kind)                                                                                                                    \
-    static void NAMED(prepare_##kind_name)(fe__solver * s, fe__contact * contacts, const fe__extra *extras, const fe__lane *lanes, void *rows,      \
-                                           int32_t count, const fe__step_constants *c)                                                              \
-    {                                                                                                                                               \
-        NAMED(prepare)(s, contacts, extras, lanes, rows, count, c, kind);                                                                           \
-    }                                                                                                                                               \
-    static void NAMED(solve_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c)                                    \
-    {                                                                                                                                               \
-        NAMED(solve)(s, rows, count, c, kind);                                                                                                      \
-    }                                                                                                                                               \
-    static void NAMED(relax_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c)                                    \
-    {                                                                                                                                               \
-        NAMED(relax)(s, rows, count, c, kind);                                                                                                      \
-    }                                                                                                                                               \
-    static void NAMED(bounce_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c)                                   \
-    {                                                                                                                                               \
-        if ((kind)&FE__ROW_SPECIAL) NAMED(bounce)(s, rows, count, c, kind);                                                                         \
-    }                                                                                                                                               \
-    static void NAMED(store_##kind_name)(fe__contact * contacts, fe__extra * extras, const fe__lane *lanes, const void *rows, int32_t count)        \
-    {                                                                                                                                               \
-        NAMED(store)(contacts, extras, lanes, rows, count, kind);                                                                                   \
+#define INSTANCE(kind_name, kind)                                                                                                  \
+    static void NAMED(prepare_##kind_name)(fe__solver * s, fe__contact * contacts, const fe__extra *extras, const fe__lane *lanes, \
+                                           void *rows, int32_t count, const fe__step_constants *c)                                 \
+    {                                                                                                                              \
+        NAMED(prepare)(s, contacts, extras, lanes, rows, count, c, kind);                                                          \
+    }                                                                                                                              \
+    static void NAMED(solve_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c)                   \
+    {                                                                                                                              \
+        NAMED(solve)(s, rows, count, c, kind);                                                                                     \
+    }                                                                                                                              \
+    static void NAMED(relax_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c)                   \
+    {                                                                                                                              \
+        NAMED(relax)(s, rows, count, c, kind);                                                                                     \
+    }                                                                                                                              \
+    static void NAMED(bounce_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c)                  \
+    {                                                                                                                              \
+        if ((kind)&FE__ROW_SPECIAL) NAMED(bounce)(s, rows, count, c, kind);                                                        \
+    }                                                                                                                              \
+    static void NAMED(store_##kind_name)(fe__contact * contacts, fe__extra * extras, const fe__lane *lanes, const void *rows,      \
+                                         int32_t count)                                                                            \
+    {                                                                                                                              \
+        NAMED(store)(contacts, extras, lanes, rows, count, kind);                                                                  \
     }
 
 INSTANCE(fixed, 0)
