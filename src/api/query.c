@@ -20,6 +20,17 @@ static fe_result read_filter(const char *function, const fe_query_filter *filter
     return FE_OK;
 }
 
+static fe__scene scene_of(const fe_world *world)
+{
+    return (fe__scene){.shapes = world->shapes,
+                       .static_tree = &world->static_tree,
+                       .moving_tree = &world->moving_tree,
+                       .planes = world->planes,
+                       .plane_count = world->plane_count,
+                       .body_ids = &world->body_ids,
+                       .shape_ids = &world->shape_ids};
+}
+
 fe_result fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
                            fe_hit *out_hit)
 {
@@ -30,7 +41,8 @@ fe_result fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const 
     fe_query_filter whole;
     FE_TRY(read_filter(function, filter, &whole));
     fe__fp_state fp = fe__fp_enter();
-    int32_t hit = fe__raycast(world, origin, translation, &whole, out_hit);
+    fe__scene scene = scene_of(world);
+    int32_t hit = fe__raycast(&scene, origin, translation, &whole, out_hit);
     fe__fp_leave(fp);
     return hit ? FE_OK : FE_MISS;
 }

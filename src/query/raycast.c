@@ -6,7 +6,7 @@
 #include "query/raycast.h"
 
 typedef struct cast {
-    const fe_world *world;
+    const fe__scene *scene;
     const fe_query_filter *filter;
     fe_dvec3 origin, translation;
     int32_t shape; // nearest so far, -1: none
@@ -15,7 +15,7 @@ typedef struct cast {
 
 static int32_t is_excluded(const cast *c, int32_t body)
 {
-    fe_body handle = fe__body_handle(c->world, body);
+    fe_body handle = fe__id_pool_handle(c->scene->body_ids, body);
     for (int32_t i = 0; i < c->filter->excluded_count; ++i) {
         if (c->filter->excluded[i] == handle) return 1;
     }
@@ -29,22 +29,21 @@ static int32_t counts(const cast *c, const fe__shape *shape)
     return c->filter->excluded_count == 0 || !is_excluded(c, shape->body);
 }
 
-static int32_t created_before(const fe_world *world, const fe__shape *a, const fe__shape *b)
+static int32_t created_before(const fe__shape *a, const fe__shape *b)
 {
-    if (a->body == b->body) return a->serial < b->serial;
-    return world->bodies[a->body].serial < world->bodies[b->body].serial;
+    return a->body == b->body ? a->serial < b->serial : a->body_serial < b->body_serial;
 }
 
 static double visit(void *context, int32_t index, double limit)
 {
     cast *c = context;
-    const fe__shape *shape = &c->world->shapes[index];
+    const fe__shape *shape = &c->scene->shapes[index];
     if (!counts(c, shape)) return limit;
     fe_quat q = shape->pose.rotation;
     fe_dvec3 origin = fe__drotate_back(q, fe__dsub(c->origin, shape->pose.position)), translation = fe__drotate_back(q, c->translation);
     fe__ray_hit hit;
     if (!fe__form_ray(&shape->form, origin, translation, limit, &hit)) return limit;
-    if (c->shape >= 0 && hit.t == c->hit.t && !created_before(c->world, shape, &c->world->shapes[c->shape])) return limit;
+    if (c->shape >= 0 && hit.t == c->hit.t && !created_before(shape, &c->scene->shapes[c->shape])) return limit;
     c->shape = index;
     c->hit = hit;
     return hit.t;
@@ -61,9 +60,9 @@ static fe_vec3 world_normal(const cast *c, const fe__shape *shape)
 
 static void describe(const cast *c, fe_hit *out_hit)
 {
-    const fe__shape *shape = &c->world->shapes[c->shape];
-    *out_hit = (fe_hit){.body = fe__body_handle(c->world, shape->body),
-                        .shape = fe__shape_handle(c->world, c->shape),
+    const fe__shape *shape = &c->scene->shapes[c->shape];
+    *out_hit = (fe_hit){.body = fe__id_pool_handle(c->scene->body_ids, shape->body),
+                        .shape = fe__id_pool_handle(c->scene->shape_ids, c->shape),
                         .point = fe__dadd(c->origin, fe__dscale(c->hit.t, c->translation)),
                         .fraction = c->hit.t,
                         .normal = world_normal(c, shape),
@@ -72,14 +71,14 @@ static void describe(const cast *c, fe_hit *out_hit)
                         .flags = c->hit.inside ? FE_HIT_STARTED_INSIDE : 0u};
 }
 
-int32_t fe__raycast(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
+int32_t fe__raycast(const fe__scene *scene, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
                     fe_hit *out_hit)
 {
-    cast c = {.world = world, .filter = filter, .origin = *origin, .translation = *translation, .shape = -1};
+    cast c = {.scene = scene, .filter = filter, .origin = *origin, .translation = *translation, .shape = -1};
     double limit = 1.0;
-    for (int32_t i = 0; i < world->plane_count; ++i) limit = visit(&c, world->planes[i], limit);
-    limit = fe__tree_ray(&world->static_tree, *origin, *translation, limit, visit, &c);
-    (void)fe__tree_ray(&world->moving_tree, *origin, *translation, limit, visit, &c);
+    for (int32_t i = 0; i < scene->plane_count; ++i) limit = visit(&c, scene->planes[i], limit);
+    limit = fe__tree_ray(scene->static_tree, *origin, *translation, limit, visit, &c);
+    (void)fe__tree_ray(scene->moving_tree, *origin, *translation, limit, visit, &c);
     if (c.shape < 0) return 0;
     describe(&c, out_hit);
     return 1;

@@ -201,6 +201,7 @@ int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *desc
     shape->user_data = desc->user_data;
     shape->body = body;
     shape->serial = world->next_serial++;
+    shape->body_serial = world->bodies[body].serial;
     set_local_pose(shape, desc->local_position, desc->local_rotation);
     append_to_body(world, index);
     fe__body_update_mass(world, body);

@@ -12,7 +12,7 @@
 #include "solver/solver.h"
 #include "solver/body.h"
 #include "world/pair.h"
-#include "world/shape.h"
+#include "collision/shape.h"
 
 // An event as the step writes it. Serials order it; handles name it also after a destruction.
 typedef struct fe__pair_event_record {

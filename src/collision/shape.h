@@ -1,6 +1,6 @@
 // shape.h - the record of a shape: form, local pose, material, filter; where it is now and its box in the broad phase.
-#ifndef FE_WORLD_SHAPE_H
-#define FE_WORLD_SHAPE_H
+#ifndef FE_COLLISION_SHAPE_H
+#define FE_COLLISION_SHAPE_H
 #include "collision/form.h"
 
 enum {
@@ -24,7 +24,8 @@ typedef struct fe__shape {
     fe_vec3 surface_velocity;
     int32_t body;
     int32_t next, previous;  // of the body's shapes, in the order of creation
-    uint64_t serial;
+    uint64_t serial;         // of creation, never reused
+    uint64_t body_serial;    // of its body
     fe_handle user_data;
 } fe__shape;
 
