@@ -118,9 +118,8 @@ static void what_rolls_fast_keeps_its_height_and_its_speed(void **state)
     scene_end(&s);
 }
 
-// A ball on a slab that moves with a under it: friction F = m a_ball turns it by F r = 2/5 m r^2 w', and  a_ball + w' r = a:  a_ball = 2/7
-// a
-// It stands on the slab by P1. Either may be the contact's first body: the one created first.
+// A ball on a slab that moves with a under it: friction F = m a_ball turns it by F r = 2/5 m r^2 w', and  a_ball + w' r = a, so that
+// a_ball = 2/7 a. It stands on the slab by P1. Either may be the contact's first body: the one created first.
 static void a_ball_on_a_pulled_slab_follows_with_two_sevenths(void **state)
 {
     for (int ball_first = 0; ball_first < 2; ++ball_first) {
