@@ -13,8 +13,8 @@
 // a shift of one body against the other up to which a contact's arms stay as found, m: what recycling leaves alone at rest, and little beside the
 // arms of anything that tumbles
 #define FROZEN_SHIFT 0.0005f
-// sweeps in which the points of a bouncing contact share their impulses: 3 suffice for 0.1 %
-#define BOUNCE_SWEEPS 4
+// sweeps in which the points of a contact share the impulses of an impact: each leaves a third of the last one's error
+#define IMPACT_SWEEPS 8
 
 typedef struct {
     wide r[3];       // from A's centre (from B's when A is static: then span is 0)
