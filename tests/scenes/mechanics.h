@@ -15,6 +15,7 @@
 
 typedef struct totals {
     double energy;      // J, kinetic and of the height, exact for the discrete flight
+    double kinetic;     // J
     vec momentum;       // N s
     vec angular;        // N m s, about the origin
     double momenta;     // sum of the bodies' |m v|, N s: the scale of rounding
@@ -47,12 +48,14 @@ static inline totals totals_of(const scene *s, const fe_body *bodies, int count)
         MUST(fe_body_get_centre(s->world, bodies[i], &centre));
         vec x = from_world(s, centre), v = velocity(s, bodies[i]), own = own_angular_momentum(s, bodies[i], &mass);
         vec p = times((double)mass.mass, v), orbit = cross(x, p);
-        t.energy += 0.5 * dot(p, v) + 0.5 * dot(own, spin(s, bodies[i])) + (double)mass.mass * (0.5 * s->h * dot(g, v) - dot(g, x));
+        t.kinetic += 0.5 * dot(p, v) + 0.5 * dot(own, spin(s, bodies[i]));
+        t.energy += (double)mass.mass * (0.5 * s->h * dot(g, v) - dot(g, x));
         t.momentum = plus(t.momentum, p);
         t.angular = plus(t.angular, plus(own, orbit));
         t.momenta += length(p);
         t.angular_all += length(own) + length(orbit);
     }
+    t.energy += t.kinetic;
     return t;
 }
 
