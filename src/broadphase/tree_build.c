@@ -80,7 +80,12 @@ static binning choose_bins(const item *items, const part *p)
     return (binning){usable ? axis : -1, low[axis], scale};
 }
 
-static int32_t bin_of(const binning *b, const item *i) { return (int32_t)((i->low[b->axis] + i->high[b->axis] - b->start) * b->scale); }
+// Sums of the largest coordinates may overflow: whatever comes out is a bin.
+static int32_t bin_of(const binning *b, const item *i)
+{
+    float bin = (i->low[b->axis] + i->high[b->axis] - b->start) * b->scale;
+    return bin > 0.0f ? (int32_t)fe__minf(bin, (float)(BINS - 1)) : 0;
+}
 
 // The border before which bin to cut; 0: none leaves something on both sides.
 static int32_t cheapest_border(const part bins[BINS], int32_t count)

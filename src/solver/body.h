@@ -11,6 +11,7 @@ enum {
     FE__BODY_BULLET = 2,
     FE__BODY_SLEEP_ALLOWED = 4,
     FE__BODY_MASS_GIVEN = 8,   // mass data set by hand: shapes no longer change it
+    FE__BODY_LOST = 16,        // overflowed in this step, see finalize.c
     FE__BODY_ISOTROPIC = 32,   // equal principal moments, or a rotation lock: no gyroscopic torque
     FE__BODY_STARTED = 64,     // scratch of a walk: over an island, over a list of handles
     FE__BODY_IGNORES = 128,    // named in fe_world.ignored

@@ -35,7 +35,8 @@ static void place_origin(fe__body *body)
     const float *c = body->local_centre;
     fe_dvec3 arm = {0.0, 0.0, 0.0};
     if (c[0] != 0.0f || c[1] != 0.0f || c[2] != 0.0f)
-        arm = fe__drotate((fe_quat){body->rotation[0], body->rotation[1], body->rotation[2], body->rotation[3]}, fe__widen(fe__vec3(c[0], c[1], c[2])));
+        arm = fe__drotate((fe_quat){body->rotation[0], body->rotation[1], body->rotation[2], body->rotation[3]},
+                          fe__widen(fe__vec3(c[0], c[1], c[2])));
     body->origin[0] = body->centre[0] - arm.x, body->origin[1] = body->centre[1] - arm.y, body->origin[2] = body->centre[2] - arm.z;
 }
 
@@ -58,6 +59,38 @@ static void follow_body(fe__step *step, int32_t index)
     }
 }
 
+// Forces, masses and time steps at the limits of the API may overflow a float. Such a body stops where it stood, and its contacts forget
+// their impulses: no NaN outlives the step that made it, and none reaches a pose or a box. Ten times the fastest that the API takes, m/s
+// and rad/s:
+#define MOST_SPEED 1e7f
+
+static int32_t makes_sense(const float *velocity, const float *motion)
+{
+    const float *v = velocity, *w = velocity + 4, *dp = motion, *dq = motion + 4, most = MOST_SPEED * MOST_SPEED;
+    float turned = dq[0] * dq[0] + dq[1] * dq[1] + dq[2] * dq[2] + dq[3] * dq[3];
+    return v[0] * v[0] + v[1] * v[1] + v[2] * v[2] < most && w[0] * w[0] + w[1] * w[1] + w[2] * w[2] < most &&
+           dp[0] * dp[0] + dp[1] * dp[1] + dp[2] * dp[2] < most && turned > 0.0f && turned < most; // a NaN is less than nothing
+}
+
+static void stop_lost(fe__step *step, fe__body *body)
+{
+    for (int k = 0; k < 3; ++k) body->velocity[k] = body->spin[k] = body->force[k] = body->torque[k] = 0.0f;
+    body->flags |= FE__BODY_LOST;
+    body->sleep_timer = 0.0f;
+    atomic_fetch_add_explicit(&step->scratch->lost_count, 1, memory_order_relaxed);
+}
+
+static void forget_lost(fe_world *w)
+{
+    for (int32_t i = 0; i < w->awake_body_count; ++i) {
+        fe__body *body = w->bodies + w->awake_bodies[i];
+        if (!(body->flags & FE__BODY_LOST)) continue;
+        body->flags &= ~(uint32_t)FE__BODY_LOST;
+        for (int32_t pair = body->first_contact; pair >= 0; pair = fe__next_pair(w, pair, w->awake_bodies[i]))
+            fe__pair_forget_impulses(w, pair);
+    }
+}
+
 static void move_block(void *argument, int32_t first, int32_t end, int32_t worker)
 {
     fe__step *step = argument;
@@ -66,6 +99,10 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
     for (int32_t i = first; i < end; ++i) {
         fe__body *body = w->bodies + w->awake_bodies[i];
         const float *velocity = w->solver.velocity[body->line], *motion = w->solver.motion[body->line];
+        if (!makes_sense(velocity, motion)) {
+            stop_lost(step, body);
+            continue;
+        }
         for (int k = 0; k < 3; ++k) {
             body->velocity[k] = velocity[k], body->spin[k] = velocity[4 + k];
             body->force[k] = body->torque[k] = 0.0f;
@@ -91,7 +128,9 @@ void fe__move_bodies(fe__step *step)
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     atomic_store(&s->left_count, 0);
+    atomic_store(&s->lost_count, 0);
     fe__parallel_for(&w->workers, w->awake_body_count, BODIES_IN_BLOCK, move_block, step);
+    if (atomic_load(&s->lost_count)) forget_lost(w);
     int32_t left = atomic_load(&s->left_count);
     fe__parallel_for(&w->workers, left, BOXES_IN_BLOCK, box_block, step);
     if (left) fe__tree_move(&w->moving_tree, s->left, s->boxes, left);

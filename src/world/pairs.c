@@ -8,16 +8,25 @@ int32_t fe__reserve_pairs(fe_world *world, int32_t extra)
 {
     fe__memory *memory = &world->memory;
     int64_t limit = (int64_t)world->pair_limit + extra, count = (int64_t)world->pair_count + world->owed_event_count + extra;
-    return FE_RESERVE(memory, world->contacts, world->contact_capacity, limit) && FE_RESERVE(memory, world->pairs, world->pair_capacity, limit) &&
-           FE_RESERVE(memory, world->extras, world->extra_capacity, limit) && FE_RESERVE(memory, world->pair_serials, world->serial_capacity, 2 * limit) &&
+    return FE_RESERVE(memory, world->contacts, world->contact_capacity, limit) &&
+           FE_RESERVE(memory, world->pairs, world->pair_capacity, limit) &&
+           FE_RESERVE(memory, world->extras, world->extra_capacity, limit) &&
+           FE_RESERVE(memory, world->pair_serials, world->serial_capacity, 2 * limit) &&
            FE_RESERVE(memory, world->awake_pairs, world->awake_pair_capacity, limit) &&
-           FE_RESERVE(memory, world->owed_events, world->owed_event_capacity, count) && fe__pair_set_reserve(&world->pair_set, memory, extra);
+           FE_RESERVE(memory, world->owed_events, world->owed_event_capacity, count) &&
+           fe__pair_set_reserve(&world->pair_set, memory, extra);
 }
 
 // ---- lists ---------------------------------------------------------------------------------------------------------------------------
-static fe__link *link_of(fe_world *world, int32_t pair, int32_t body) { return &world->pairs[pair].links[world->pairs[pair].body_a == body ? 0 : 1]; }
+static fe__link *link_of(fe_world *world, int32_t pair, int32_t body)
+{
+    return &world->pairs[pair].links[world->pairs[pair].body_a == body ? 0 : 1];
+}
 
-int32_t fe__next_pair(const fe_world *world, int32_t pair, int32_t body) { return world->pairs[pair].links[world->pairs[pair].body_a == body ? 0 : 1].next; }
+int32_t fe__next_pair(const fe_world *world, int32_t pair, int32_t body)
+{
+    return world->pairs[pair].links[world->pairs[pair].body_a == body ? 0 : 1].next;
+}
 
 static void add_to_body(fe_world *world, int32_t pair, int32_t index)
 {
@@ -73,14 +82,16 @@ static int32_t concerns_sleepers(const fe_world *world, const fe__pair *p)
     return p->flags & FE__PAIR_SENSOR || (dynamic_a != dynamic_b && !(sleeper->flags & FE__SHAPE_MOVED));
 }
 
-// ---- materials ---------------------------------------------------------------------------------------------------------------------------
+// ---- materials
+// ---------------------------------------------------------------------------------------------------------------------------
 static float form_radius(const fe__shape *a, const fe__shape *b) { return fe__maxf(a->form.radius, b->form.radius); }
 
 static int32_t has_extra(const fe__shape *shape)
 {
     const fe_material *m = &shape->material;
     fe_vec3 s = shape->surface_velocity;
-    return m->restitution > 0.0f || m->rolling_resistance > 0.0f || m->spinning_resistance > 0.0f || s.x != 0.0f || s.y != 0.0f || s.z != 0.0f;
+    return m->restitution > 0.0f || m->rolling_resistance > 0.0f || m->spinning_resistance > 0.0f || s.x != 0.0f || s.y != 0.0f ||
+           s.z != 0.0f;
 }
 
 int32_t fe__pair_kind(const fe_world *world, int32_t shape_a, int32_t shape_b)
@@ -121,7 +132,8 @@ void fe__pair_mix(fe_world *world, int32_t pair)
     if (m->colour >= 0) world->solver.graph_changed = 1;
 }
 
-// ---- the constraint graph ------------------------------------------------------------------------------------------------------------------
+// ---- the constraint graph
+// ------------------------------------------------------------------------------------------------------------------
 static int32_t first_colour(uint64_t used_low, uint64_t used_high, int32_t first, int32_t end)
 {
     for (int32_t word = first / 64; word <= (end - 1) / 64; ++word) {
@@ -137,7 +149,8 @@ static int32_t first_colour(uint64_t used_low, uint64_t used_high, int32_t first
 static void take_colour(fe__body *body, int32_t colour) { body->colours[colour / 64] |= UINT64_C(1) << colour % 64; }
 static void return_colour(fe__body *body, int32_t colour) { body->colours[colour / 64] &= ~(UINT64_C(1) << colour % 64); }
 
-// First colour that neither dynamic body uses yet. A body's contacts have different colours, so contacts of one colour share no dynamic body.
+// First colour that neither dynamic body uses yet. A body's contacts have different colours, so contacts of one colour share no dynamic
+// body.
 void fe__pair_link(fe_world *world, int32_t pair)
 {
     fe__contact *m = world->contacts + pair;
@@ -155,6 +168,13 @@ void fe__pair_link(fe_world *world, int32_t pair)
     ++world->linked_count;
 }
 
+void fe__pair_forget_impulses(fe_world *world, int32_t pair)
+{
+    fe__contact *m = world->contacts + pair;
+    for (int k = 0; k < FE__POINTS; ++k) m->normal_impulse[k] = m->friction_impulse[k] = m->total_impulse[k] = 0.0f;
+    for (int k = 0; k < 3; ++k) world->extras[pair].rolling_impulse[k] = 0.0f;
+}
+
 void fe__pair_unlink(fe_world *world, int32_t pair)
 {
     fe__contact *m = world->contacts + pair;
@@ -164,14 +184,14 @@ void fe__pair_unlink(fe_world *world, int32_t pair)
         if (m->kind & FE__ROW_PAIR) return_colour(world->bodies + m->body_a, m->colour);
     }
     m->colour = -1;
-    for (int k = 0; k < FE__POINTS; ++k) m->normal_impulse[k] = m->friction_impulse[k] = m->total_impulse[k] = 0.0f;
-    for (int k = 0; k < 3; ++k) world->extras[pair].rolling_impulse[k] = 0.0f;
+    fe__pair_forget_impulses(world, pair);
     world->pairs[pair].flags &= ~(uint32_t)FE__PAIR_LINKED;
     world->solver.graph_changed = 1;
     --world->linked_count;
 }
 
-// ---- birth and death ------------------------------------------------------------------------------------------------------------------------
+// ---- birth and death
+// ------------------------------------------------------------------------------------------------------------------------
 static float half_size(const fe__form *form) { return fe__maxf(fe__maxf(form->half.x, form->half.y), form->half.z); }
 
 // Which shape is fe__collide's A (see collide.h), and which body is the solver's A: the one that is not dynamic, else that shape's.

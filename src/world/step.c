@@ -5,20 +5,23 @@
 
 typedef struct stage {
     void (*run)(fe__step *step);
-    size_t time; // of fe_profile, offset of its milliseconds
+    size_t time;   // of fe_profile, offset of its milliseconds
     int32_t moves; // 1: left out when dt is 0
 } stage;
 
 static const stage stages[] = {
-    {fe__find_new_pairs, offsetof(fe_profile, pairs), 0},         // queries of moved proxies -> new pairs; all memory reserved
-    {fe__update_contacts, offsetof(fe_profile, collide), 0},      // narrow phase or recycling -> manifolds, begin and end, wakes
-    {fe__build_islands, offsetof(fe_profile, islands), 0},        // small ones into batches, large ones into colours
-    {fe__solve_islands, offsetof(fe_profile, solve), 1},          // all substeps -> velocities, motion, impulses
-    {fe__move_bodies, offsetof(fe_profile, finalize), 1},         // poses, bounds, trees
-    {fe__collect_events, offsetof(fe_profile, events), 0},        // touching begun, kept, ended; impacts
-    {fe__put_islands_to_sleep, offsetof(fe_profile, sleep), 1},   // islands slow for long enough
-    {fe__collect_body_events, offsetof(fe_profile, sleep), 0},    // who woke, who fell asleep
+    {fe__find_new_pairs, offsetof(fe_profile, pairs), 0},       // queries of moved proxies -> new pairs; all memory reserved
+    {fe__update_contacts, offsetof(fe_profile, collide), 0},    // narrow phase or recycling -> manifolds, begin and end, wakes
+    {fe__build_islands, offsetof(fe_profile, islands), 0},      // small ones into batches, large ones into colours
+    {fe__solve_islands, offsetof(fe_profile, solve), 1},        // all substeps -> velocities, motion, impulses
+    {fe__move_bodies, offsetof(fe_profile, finalize), 1},       // poses, bounds, trees
+    {fe__collect_events, offsetof(fe_profile, events), 0},      // touching begun, kept, ended; impacts
+    {fe__put_islands_to_sleep, offsetof(fe_profile, sleep), 1}, // islands slow for long enough
+    {fe__collect_body_events, offsetof(fe_profile, sleep), 0},  // who woke, who fell asleep
 };
+
+// Impulses of rest grow with the substep, those of an impact do not: after a much shorter substep they are too large a guess
+#define MOST_WARM_SCALE 16.0f
 
 // Hertz are limited to what the substeps can follow: an eighth of their rate
 static fe__step_constants constants_of(const fe_world *w, float dt)
@@ -29,7 +32,7 @@ static fe__step_constants constants_of(const fe_world *w, float dt)
                             .inverse_h = rate,
                             .push_speed = t->contact_push_speed,
                             .threshold = t->restitution_threshold,
-                            .warm_scale = w->last_h > 0.0f ? h / w->last_h : 0.0f,
+                            .warm_scale = w->last_h > 0.0f ? fe__minf(h / w->last_h, MOST_WARM_SCALE) : 0.0f,
                             .max_speed = t->max_linear_speed,
                             .speculative = t->speculative_distance,
                             .substeps = w->substeps,

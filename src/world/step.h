@@ -30,6 +30,7 @@ typedef struct fe__step_scratch {
     fe__bounds *boxes;
     int32_t left_capacity, box_capacity;
     _Atomic int32_t left_count;
+    _Atomic int32_t lost_count; // bodies that overflowed in this step
 
     uint8_t *moved; // answers of the recycling, by place in the list of awake pairs
     int32_t moved_capacity;
@@ -49,16 +50,16 @@ typedef struct fe__step {
 } fe__step;
 
 // The stages, in order
-void fe__find_new_pairs(fe__step *step);    // pairs_stage.c: queries of moved proxies -> candidates; reserves all; new pairs
-void fe__update_contacts(fe__step *step);   // collide_stage.c: narrow phase or recycling -> manifolds, begin and end, wakes
-void fe__build_islands(fe__step *step);     // collide_stage.c: the graph, when it changed
-void fe__solve_islands(fe__step *step);     // step.c: all substeps -> velocities, motion, impulses
-void fe__move_bodies(fe__step *step);       // finalize.c: poses, bounds, trees
-void fe__collect_events(fe__step *step);    // events.c
+void fe__find_new_pairs(fe__step *step);       // pairs_stage.c: queries of moved proxies -> candidates; reserves all; new pairs
+void fe__update_contacts(fe__step *step);      // collide_stage.c: narrow phase or recycling -> manifolds, begin and end, wakes
+void fe__build_islands(fe__step *step);        // collide_stage.c: the graph, when it changed
+void fe__solve_islands(fe__step *step);        // step.c: all substeps -> velocities, motion, impulses
+void fe__move_bodies(fe__step *step);          // finalize.c: poses, bounds, trees
+void fe__collect_events(fe__step *step);       // events.c
 void fe__put_islands_to_sleep(fe__step *step); // finalize.c
 void fe__collect_body_events(fe__step *step);  // events.c
 
-int32_t fe__reserve_step(fe__step *step); // reserve.c; 0: no memory
+int32_t fe__reserve_step(fe__step *step);                                   // reserve.c; 0: no memory
 int32_t fe__box_meets_plane(const fe__shape *plane, const fe__bounds *box); // does the box reach into the half space?
 // sorts pairs by the creation of their shapes
 void fe__sort_pairs(fe__step *step, int32_t *pairs, int32_t count);

@@ -184,6 +184,7 @@ void fe__body_drop_pairs(fe_world *world, int32_t body);                    // a
 void fe__body_refilter(fe_world *world, int32_t body);                      // those that may no longer collide
 void fe__pair_link(fe_world *world, int32_t pair);                          // into the constraint graph, with a colour
 void fe__pair_unlink(fe_world *world, int32_t pair);
+void fe__pair_forget_impulses(fe_world *world, int32_t pair);
 
 // ---- sleep (sleep.c) --------------------------------------------------------------------------------------------------------------
 void fe__wake(fe_world *world, int32_t body);          // it and all that touches it, through dynamic bodies; nothing on static ones

@@ -1,0 +1,52 @@
+// test_fuzz.c - the fuzzer's harness on streams of random bytes: bounded, the same at every run. Each stream is run in two settings, which
+// must tell the same.
+#include "fe_test.h"
+#include "feather.h"
+#include "support/fuzz.h"
+
+#ifdef FE_SANITIZED
+enum { STREAMS = 60 };
+#else
+enum { STREAMS = 300 };
+#endif
+enum { STREAM_BYTES = 3000 };
+
+static void fill(uint8_t *bytes, uint32_t seed)
+{
+    uint64_t x = UINT64_C(0x9E3779B97F4A7C15) * (seed + 1);
+    for (int32_t i = 0; i < STREAM_BYTES; ++i) {
+        x ^= x << 13, x ^= x >> 7, x ^= x << 17;
+        bytes[i] = (uint8_t)(x >> 56);
+    }
+}
+
+static void no_stream_of_calls_breaks_a_world(void **state)
+{
+    (void)state;
+    static uint8_t bytes[STREAM_BYTES];
+    const fuzz_setting alone = {1, FE_SIMD_PLAIN, 0}, together = {4, FE_SIMD_AUTO, 0};
+    for (uint32_t seed = 0; seed < STREAMS; ++seed) {
+        fill(bytes, seed);
+        if (fuzz_run(bytes, STREAM_BYTES, &alone) != fuzz_run(bytes, STREAM_BYTES, &together))
+            fail_msg("stream %u ends otherwise with more workers", seed);
+    }
+}
+
+// values up to the limits of the API, which no result needs to survive: nothing crashes, and errors change nothing
+static void no_stream_of_wild_values_crashes(void **state)
+{
+    (void)state;
+    static uint8_t bytes[STREAM_BYTES];
+    const fuzz_setting wild = {4, FE_SIMD_AUTO, 1};
+    for (uint32_t seed = 0; seed < STREAMS; ++seed) {
+        fill(bytes, STREAMS + seed);
+        fuzz_run(bytes, STREAM_BYTES, &wild);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(no_stream_of_calls_breaks_a_world),
+                                       cmocka_unit_test(no_stream_of_wild_values_crashes)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,614 @@
+// fuzz_calls.c - every function of the API with arguments from the stream. See fuzz.c.
+#include "support/fuzz_state.h"
+
+#include <string.h>
+
+#define COUNT(array) ((int32_t)(sizeof(array) / sizeof *(array)))
+
+// NULL now and then, where a pointer is asked
+static const void *or_null(fuzz *f, const void *pointer) { return fuzz_byte(f) == 1 ? NULL : pointer; }
+
+// ---- definitions
+// ----------------------------------------------------------------------------------------------------------------------------
+
+typedef struct long_body_def {
+    fe_body_def def;
+    unsigned char tail[FUZZ_TAIL];
+} long_body_def;
+
+typedef struct long_shape_def {
+    fe_shape_def def;
+    unsigned char tail[FUZZ_TAIL];
+} long_shape_def;
+
+typedef struct long_geometry {
+    fe_geometry geometry;
+    unsigned char tail[FUZZ_TAIL];
+} long_geometry;
+
+static fe_body_def some_body(fuzz *f)
+{
+    fe_body_def d;
+    fe_body_def_init(&d, sizeof d);
+    uint8_t kind = fuzz_byte(f), more = fuzz_byte(f);
+    d.type = kind < 40 ? FE_BODY_STATIC : kind < 60 ? FE_BODY_KINEMATIC : kind < 64 ? (int32_t)kind : FE_BODY_DYNAMIC;
+    d.transform = fuzz_transform(f);
+    if (more & 1) d.linear_velocity = fuzz_vec3(f);
+    if (more & 2) d.angular_velocity = fuzz_vec3(f);
+    if ((more & 12) == 12) d.linear_locks = fuzz_byte(f) % 9u, d.angular_locks = fuzz_byte(f) % 9u;
+    if ((more & 48) == 48) d.linear_damping = fuzz_float(f), d.gravity_scale = fuzz_float(f), d.sleep_threshold = fuzz_float(f);
+    if ((more & 80) == 80)
+        d.awake = fuzz_byte(f) % 3, d.enabled = fuzz_byte(f) % 3, d.bullet = fuzz_byte(f) % 3, d.sleep_allowed = fuzz_byte(f) % 2;
+    return d;
+}
+
+static fe_geometry some_geometry(fuzz *f)
+{
+    fe_geometry g;
+    memset(&g, 0, sizeof g);
+    g.struct_size = sizeof g;
+    g.type = fuzz_byte(f) % 16;
+    if (g.type > FE_GEOMETRY_PLANE && g.type < 15) g.type %= 3;
+    g.radius = fuzz_size(f);
+    g.half_height = fuzz_size(f);
+    g.half_extents.x = fuzz_size(f);
+    g.half_extents.y = fuzz_size(f);
+    g.half_extents.z = fuzz_size(f);
+    if (g.type == FE_GEOMETRY_PLANE) g.normal = fuzz_vec3(f), g.distance = fuzz_float(f);
+    return g;
+}
+
+static fe_material some_material(fuzz *f)
+{
+    fe_material m = {0.6f, 0.5f, 0.0f, 0.0f, 0.0f};
+    uint8_t which = fuzz_byte(f);
+    if (which & 1) m.static_friction = fuzz_size(f);
+    if (which & 2) m.dynamic_friction = fuzz_size(f);
+    if (which & 4) m.restitution = fuzz_size(f);
+    if (which & 8) m.rolling_resistance = fuzz_size(f);
+    if (which & 16) m.spinning_resistance = fuzz_size(f);
+    return m;
+}
+
+static fe_shape_def some_shape(fuzz *f)
+{
+    fe_shape_def d;
+    fe_shape_def_init(&d, sizeof d);
+    uint8_t which = fuzz_byte(f);
+    if (which & 1) d.material = some_material(f);
+    if ((which & 6) == 6) d.local_position = fuzz_vec3(f), d.local_rotation = fuzz_quat(f);
+    if ((which & 24) == 24) d.layer = fuzz_byte(f) % 5u, d.mask = fuzz_byte(f);
+    if (which & 32) d.events = fuzz_byte(f) % 9u;
+    if ((which & 192) == 192) d.trigger = fuzz_byte(f) % 3, d.density = fuzz_float(f), d.surface_velocity = fuzz_vec3(f);
+    return d;
+}
+
+// ---- worlds
+// -----------------------------------------------------------------------------------------------------------------------------------
+
+static int32_t step(fuzz *f)
+{
+    static const float lengths[] = {1.0f / 60.0f, 1.0f / 60.0f, 1.0f / 60.0f, 0.0f, 1.0f / 240.0f, 0.1f, 1.0f, 1e-6f};
+    uint8_t kind = fuzz_byte(f);
+    float dt = kind < 240 ? lengths[kind % 8] : fuzz_float(f);
+    if (f->steps >= FUZZ_MOST_STEPS) return FE_OK;
+    fe_result result = fe_world_step(f->world, dt);
+    if (result == FE_OK) f->steps += 1;
+    return result;
+}
+
+static int32_t step_some(fuzz *f)
+{
+    for (int32_t i = 0; i < 10 && f->steps < FUZZ_MOST_STEPS; ++i, ++f->steps) {
+        fe_result result = fe_world_step(f->world, 1.0f / 60.0f);
+        while (result == FE_ERROR_MEMORY) result = fe_world_step(f->world, 1.0f / 60.0f);
+        if (result != FE_OK) fuzz_fail(f, "a step fails");
+        fuzz_check(f);
+    }
+    return FE_OK;
+}
+
+static int32_t set_gravity(fuzz *f)
+{
+    fe_vec3 g = fuzz_vec3(f);
+    return fe_world_set_gravity(f->world, or_null(f, &g));
+}
+
+static int32_t set_substeps(fuzz *f) { return fe_world_set_substeps(f->world, (int32_t)fuzz_byte(f) - 2); }
+
+static int32_t set_tuning(fuzz *f)
+{
+    struct {
+        fe_world_tuning tuning;
+        unsigned char tail[FUZZ_TAIL];
+    } t;
+    memset(&t, 0, sizeof t);
+    fe_world_tuning_init(&t.tuning, sizeof t.tuning);
+    float *fields[] = {&t.tuning.contact_hertz,         &t.tuning.contact_damping_ratio, &t.tuning.contact_push_speed,
+                       &t.tuning.restitution_threshold, &t.tuning.hit_event_threshold,   &t.tuning.sleep_time,
+                       &t.tuning.speculative_distance,  &t.tuning.max_linear_speed};
+    *fields[fuzz_byte(f) % COUNT(fields)] = fuzz_size(f);
+    t.tuning.struct_size = fuzz_struct_size(f, sizeof t.tuning);
+    return fe_world_set_tuning(f->world, or_null(f, &t));
+}
+
+static int32_t ignore(fuzz *f)
+{
+    fe_body a = fuzz_body(f), b = fuzz_body(f);
+    return fe_world_ignore_collision(f->world, a, b, fuzz_byte(f) % 3);
+}
+
+static int32_t sync_queries(fuzz *f) { return fe_world_sync_queries(f->world); }
+
+static int32_t raycast(fuzz *f)
+{
+    fe_query_filter filter;
+    fe_hit hit;
+    fe_query_filter_init(&filter, sizeof filter);
+    filter.mask = fuzz_byte(f) * 3u;
+    filter.flags = fuzz_byte(f) % 3u;
+    filter.excluded = f->bodies;
+    filter.excluded_count = fuzz_byte(f) % 8 - 1;
+    filter.struct_size = fuzz_struct_size(f, sizeof filter);
+    if (filter.struct_size > sizeof filter) filter.struct_size = sizeof filter;
+    fe_dvec3 origin = fuzz_dvec3(f), along = fuzz_dvec3(f);
+    fe_result result = fe_world_raycast(f->world, or_null(f, &origin), &along, or_null(f, &filter), &hit);
+    if (result != FE_OK) return result;
+    if (!(hit.fraction >= 0.0 && hit.fraction <= 1.0) && !f->is_wild) fuzz_fail(f, "a fraction outside the segment");
+    if (!fe_body_is_valid(f->world, hit.body) || !fe_shape_is_valid(f->world, hit.shape)) fuzz_fail(f, "a hit on nothing");
+    float square = hit.normal.x * hit.normal.x + hit.normal.y * hit.normal.y + hit.normal.z * hit.normal.z;
+    int32_t no_direction = along.x == 0.0 && along.y == 0.0 && along.z == 0.0;
+    if (!f->is_wild && !no_direction && !(square > 0.999f && square < 1.001f)) fuzz_fail(f, "a normal that is no unit vector");
+    fe__hash_double(&f->told, hit.fraction);
+    return result;
+}
+
+static int32_t fail_memory(fuzz *f)
+{
+    f->fail_after = 1 + fuzz_byte(f) % 8;
+    return FE_OK;
+}
+
+// ---- bodies
+// -----------------------------------------------------------------------------------------------------------------------------------
+
+static void note_body(fuzz *f, fe_body body)
+{
+    f->bodies[f->body_count++ % FUZZ_HANDLES] = body;
+    fe__hash_u64(&f->told, body);
+}
+
+// the ring's next place may hold a living body: it goes, so that a stream cannot fill the world
+static int32_t create_body(fuzz *f)
+{
+    long_body_def d;
+    fe_body body = 0;
+    memset(&d, 0, sizeof d);
+    d.def = some_body(f);
+    d.def.struct_size = fuzz_struct_size(f, sizeof d.def);
+    if (fuzz_byte(f) == 9) d.tail[0] = 1;
+    fe_body oldest = f->bodies[f->body_count % FUZZ_HANDLES];
+    if (fe_body_is_valid(f->world, oldest)) return fe_body_destroy(f->world, oldest);
+    fe_result result = fe_body_create(f->world, or_null(f, &d), or_null(f, &body) ? &body : NULL);
+    if (result == FE_OK) note_body(f, body);
+    return result;
+}
+
+static void note_shape(fuzz *f, fe_shape shape)
+{
+    f->shapes[f->shape_count++ % FUZZ_HANDLES] = shape;
+    fe__hash_u64(&f->told, shape);
+}
+
+static int32_t create_shape(fuzz *f)
+{
+    long_shape_def d;
+    long_geometry g;
+    fe_shape shape = 0;
+    memset(&d, 0, sizeof d);
+    memset(&g, 0, sizeof g);
+    fe_body body = fuzz_body(f);
+    d.def = some_shape(f);
+    g.geometry = some_geometry(f);
+    d.def.struct_size = fuzz_struct_size(f, sizeof d.def);
+    g.geometry.struct_size = fuzz_struct_size(f, sizeof g.geometry);
+    fe_shape oldest = f->shapes[f->shape_count % FUZZ_HANDLES];
+    if (fe_shape_is_valid(f->world, oldest)) return fe_shape_destroy(f->world, oldest);
+    fe_result result = fe_shape_create(f->world, body, or_null(f, &d), or_null(f, &g), &shape);
+    if (result == FE_OK) note_shape(f, shape);
+    return result;
+}
+
+// a body that a game could have, on or above the ground: so that much happens
+static int32_t create_whole(fuzz *f)
+{
+    fe_body_def d;
+    fe_geometry g;
+    fe_body body;
+    fe_shape shape;
+    fe_body_def_init(&d, sizeof d);
+    uint8_t kind = fuzz_byte(f), x = fuzz_byte(f), y = fuzz_byte(f);
+    float size = 0.1f + (float)(kind % 16) * 0.05f;
+    d.transform = fe_make_transform((double)(x % 16) * 0.25 - 2.0, (double)y / 64.0, (double)(x / 16) * 0.25 - 2.0);
+    d.type = kind > 250 ? FE_BODY_STATIC : FE_BODY_DYNAMIC;
+    fe_geometry_box(&g, size, 0.5f * size, 0.7f * size);
+    if (kind & 16) fe_geometry_sphere(&g, size);
+    if (kind & 32) fe_geometry_capsule(&g, size, 0.5f * size);
+    if (kind > 253) fe_geometry_plane(&g, 0.0f, 1.0f, 0.0f, 0.0f);
+    fe_body oldest = f->bodies[f->body_count % FUZZ_HANDLES];
+    if (fe_body_is_valid(f->world, oldest)) return fe_body_destroy(f->world, oldest);
+    fe_result result = fe_body_create(f->world, &d, &body);
+    if (result != FE_OK) return result;
+    note_body(f, body);
+    do result = fe_shape_create(f->world, body, NULL, &g, &shape);
+    while (result == FE_ERROR_MEMORY);
+    if (result == FE_OK) note_shape(f, shape);
+    return FE_OK;
+}
+
+static int32_t create_bodies(fuzz *f)
+{
+    enum { MOST = 6 };
+    fe_body_def d[MOST];
+    fe_body bodies[MOST] = {0};
+    int32_t count = fuzz_byte(f) % 8 - 1;
+    if (count > MOST) count = MOST;
+    for (int32_t i = 0; i < MOST; ++i) d[i] = some_body(f);
+    for (int32_t i = 0; i < count; ++i)
+        if (fe_body_is_valid(f->world, f->bodies[(f->body_count + i) % FUZZ_HANDLES])) return FE_OK;
+    fe_result result = fe_body_create_many(f->world, d, fuzz_byte(f) == 3 ? fuzz_byte(f) : 0, count, bodies);
+    for (int32_t i = 0; i < count && result == FE_OK; ++i) note_body(f, bodies[i]);
+    return result;
+}
+
+static int32_t destroy_body(fuzz *f) { return fe_body_destroy(f->world, fuzz_body(f)); }
+
+static int32_t destroy_bodies(fuzz *f)
+{
+    fe_body bodies[4];
+    for (int32_t i = 0; i < 4; ++i) bodies[i] = fuzz_body(f);
+    return fe_body_destroy_many(f->world, or_null(f, bodies), fuzz_byte(f) % 6 - 1);
+}
+
+static int32_t set_type(fuzz *f)
+{
+    fe_body body = fuzz_body(f);
+    return fe_body_set_type(f->world, body, fuzz_byte(f) % 5 - 1);
+}
+
+static int32_t set_transform(fuzz *f)
+{
+    fe_body body = fuzz_body(f);
+    fe_transform t = fuzz_transform(f);
+    return fe_body_set_transform(f->world, body, or_null(f, &t));
+}
+
+static int32_t set_target(fuzz *f)
+{
+    fe_body body = fuzz_body(f);
+    fe_transform t = fuzz_transform(f);
+    return fe_body_set_target(f->world, body, &t, fuzz_size(f));
+}
+
+static int32_t set_mass_data(fuzz *f)
+{
+    struct {
+        fe_mass_data data;
+        unsigned char tail[FUZZ_TAIL];
+    } m;
+    memset(&m, 0, sizeof m);
+    fe_body body = fuzz_body(f);
+    m.data.mass = fuzz_size(f);
+    if (fuzz_byte(f) % 4 == 0) m.data.centre = fuzz_vec3(f);
+    m.data.inertia.x = fuzz_size(f);
+    m.data.inertia.y = fuzz_size(f);
+    m.data.inertia.z = fuzz_size(f);
+    m.data.inertia_rotation = fuzz_quat(f);
+    m.data.struct_size = fuzz_struct_size(f, sizeof m.data);
+    return fe_body_set_mass_data(f->world, body, or_null(f, &m));
+}
+
+static int32_t set_mass(fuzz *f)
+{
+    fe_body body = fuzz_body(f);
+    return fe_body_set_mass(f->world, body, fuzz_size(f));
+}
+
+static int32_t reset_mass(fuzz *f) { return fe_body_reset_mass(f->world, fuzz_body(f)); }
+
+static int32_t set_locks(fuzz *f)
+{
+    fe_body body = fuzz_body(f);
+    uint32_t linear = fuzz_byte(f) % 9u;
+    return fe_body_set_locks(f->world, body, linear, fuzz_byte(f) % 9u);
+}
+
+static int32_t set_damping(fuzz *f)
+{
+    fe_body body = fuzz_body(f);
+    float linear = fuzz_size(f);
+    return fe_body_set_damping(f->world, body, linear, fuzz_size(f));
+}
+
+static int32_t set_gravity_scale(fuzz *f)
+{
+    fe_body body = fuzz_body(f);
+    return fe_body_set_gravity_scale(f->world, body, fuzz_float(f));
+}
+
+static int32_t set_switch(fuzz *f)
+{
+    static fe_result (*const switches[])(fe_world *, fe_body, int32_t) = {fe_body_set_awake, fe_body_set_sleep_allowed, fe_body_set_enabled,
+                                                                          fe_body_set_bullet};
+    fe_body body = fuzz_body(f);
+    int32_t which = fuzz_byte(f) % COUNT(switches);
+    return switches[which](f->world, body, fuzz_byte(f) % 3);
+}
+
+static int32_t push(fuzz *f)
+{
+    static fe_result (*const pushes[])(fe_world *, fe_body, const fe_vec3 *) = {fe_body_set_linear_velocity, fe_body_set_angular_velocity,
+                                                                                fe_body_add_force,           fe_body_add_torque,
+                                                                                fe_body_add_impulse,         fe_body_add_angular_impulse};
+    fe_body body = fuzz_body(f);
+    fe_vec3 v = fuzz_vec3(f);
+    int32_t which = fuzz_byte(f) % COUNT(pushes);
+    return pushes[which](f->world, body, or_null(f, &v));
+}
+
+static int32_t push_at(fuzz *f)
+{
+    fe_body body = fuzz_body(f);
+    fe_vec3 v = fuzz_vec3(f);
+    fe_dvec3 point = fuzz_dvec3(f);
+    if (fuzz_byte(f) % 2) return fe_body_add_force_at(f->world, body, &v, or_null(f, &point));
+    return fe_body_add_impulse_at(f->world, body, &v, &point);
+}
+
+static int32_t set_body_filter(fuzz *f)
+{
+    fe_body body = fuzz_body(f);
+    uint32_t layer = fuzz_byte(f) % 5u;
+    return fe_body_set_filter(f->world, body, layer, fuzz_byte(f));
+}
+
+static int32_t set_sleep_threshold(fuzz *f)
+{
+    fe_body body = fuzz_body(f);
+    return fe_body_set_sleep_threshold(f->world, body, fuzz_float(f));
+}
+
+static int32_t read_body(fuzz *f)
+{
+    fe_body body = fuzz_body(f);
+    fe_dvec3 point = fuzz_dvec3(f);
+    fe_vec3 velocity;
+    float a, b;
+    fe_result result = fe_body_get_point_velocity(f->world, body, &point, &velocity);
+    if (result != FE_OK) return result;
+    if (fe_body_get_damping(f->world, body, &a, &b) != FE_OK || fe_body_get_mass(f->world, body, &a) != FE_OK)
+        fuzz_fail(f, "a living body cannot be read");
+    return FE_OK;
+}
+
+// ---- shapes
+// -----------------------------------------------------------------------------------------------------------------------------------
+
+static int32_t destroy_shape(fuzz *f) { return fe_shape_destroy(f->world, fuzz_shape(f)); }
+
+static int32_t set_geometry(fuzz *f)
+{
+    long_geometry g;
+    memset(&g, 0, sizeof g);
+    fe_shape shape = fuzz_shape(f);
+    g.geometry = some_geometry(f);
+    g.geometry.struct_size = fuzz_struct_size(f, sizeof g.geometry);
+    return fe_shape_set_geometry(f->world, shape, or_null(f, &g));
+}
+
+static int32_t set_local_pose(fuzz *f)
+{
+    fe_shape shape = fuzz_shape(f);
+    fe_vec3 p = fuzz_vec3(f);
+    fe_quat q = fuzz_quat(f);
+    return fe_shape_set_local_pose(f->world, shape, &p, or_null(f, &q));
+}
+
+static int32_t set_density(fuzz *f)
+{
+    fe_shape shape = fuzz_shape(f);
+    return fe_shape_set_density(f->world, shape, fuzz_float(f));
+}
+
+static int32_t set_material(fuzz *f)
+{
+    fe_shape shape = fuzz_shape(f);
+    fe_material m = some_material(f);
+    return fe_shape_set_material(f->world, shape, or_null(f, &m));
+}
+
+static int32_t set_shape_filter(fuzz *f)
+{
+    fe_shape shape = fuzz_shape(f);
+    uint32_t layer = fuzz_byte(f) % 5u;
+    return fe_shape_set_filter(f->world, shape, layer, fuzz_byte(f));
+}
+
+static int32_t set_trigger(fuzz *f)
+{
+    fe_shape shape = fuzz_shape(f);
+    return fe_shape_set_trigger(f->world, shape, fuzz_byte(f) % 3);
+}
+
+static int32_t set_events(fuzz *f)
+{
+    fe_shape shape = fuzz_shape(f);
+    return fe_shape_set_events(f->world, shape, fuzz_byte(f) % 9u);
+}
+
+static int32_t set_surface_velocity(fuzz *f)
+{
+    fe_shape shape = fuzz_shape(f);
+    fe_vec3 v = fuzz_vec3(f);
+    return fe_shape_set_surface_velocity(f->world, shape, or_null(f, &v));
+}
+
+static int32_t read_shape(fuzz *f)
+{
+    fe_shape shape = fuzz_shape(f);
+    long_geometry g;
+    memset(&g, 0, sizeof g);
+    g.geometry.struct_size = fuzz_struct_size(f, sizeof g.geometry);
+    if (g.geometry.struct_size > sizeof g) g.geometry.struct_size = sizeof g;
+    fe_body body;
+    fe_material m;
+    fe_result result = fe_shape_get_geometry(f->world, shape, &g.geometry);
+    if (result != FE_OK) return result;
+    if (fe_shape_get_body(f->world, shape, &body) != FE_OK || fe_shape_get_material(f->world, shape, &m) != FE_OK)
+        fuzz_fail(f, "a living shape cannot be read");
+    return FE_OK;
+}
+
+// ---- arrays
+// -----------------------------------------------------------------------------------------------------------------------------------
+
+static int32_t read_events(fuzz *f)
+{
+    fuzz_span a;
+    switch (fuzz_byte(f) % 6) {
+    case 0:
+        fuzz_array(f, sizeof(fe_pair_event), &a);
+        return fe_world_get_pair_events(f->world, a.data, a.stride, a.count);
+    case 1:
+        fuzz_array(f, sizeof(fe_body_event), &a);
+        return fe_world_get_body_events(f->world, a.data, a.stride, a.count);
+    case 2:
+        fuzz_array(f, sizeof(fe_hit_event), &a);
+        return fe_world_get_hit_events(f->world, a.data, a.stride, a.count);
+    case 3:
+        fuzz_array(f, sizeof(fe_contact), &a);
+        return fe_body_get_contacts(f->world, fuzz_body(f), a.data, a.stride, a.count);
+    case 4:
+        fuzz_array(f, sizeof(fe_contact), &a);
+        return fe_shape_get_contacts(f->world, fuzz_shape(f), a.data, a.stride, a.count);
+    default:
+        break;
+    }
+    fe_body bodies[64];
+    fuzz_array(f, sizeof(fe_transform), &a);
+    return fe_world_get_moved(f->world, bodies, a.data, a.stride, a.count);
+}
+
+static int32_t read_lists(fuzz *f)
+{
+    fe_handle handles[64];
+    int32_t capacity = fuzz_byte(f) % 66 - 1;
+    if (capacity > 64) capacity = 64;
+    if (fuzz_byte(f) % 2) return fe_world_get_bodies(f->world, or_null(f, handles) ? handles : NULL, capacity);
+    return fe_body_get_shapes(f->world, fuzz_body(f), handles, capacity);
+}
+
+static int32_t read_bulk(fuzz *f)
+{
+    fuzz_span a;
+    uint8_t which = fuzz_byte(f) % 3;
+    fe_dvec3 origin = fuzz_dvec3(f);
+    fuzz_array(f, which == 0 ? sizeof(fe_transform) : which == 1 ? 28 : 24, &a);
+    if (which == 0) return fe_world_get_transforms(f->world, f->bodies, a.data, a.stride, a.count);
+    if (which == 1) return fe_world_get_transforms_f32(f->world, f->bodies, or_null(f, &origin), a.data, a.stride, a.count);
+    return fe_world_get_velocities(f->world, f->bodies, a.data, a.stride, a.count);
+}
+
+// good floats first, so that some are accepted
+static void fill_room(fuzz *f)
+{
+    float numbers[64];
+    for (int32_t i = 0; i < COUNT(numbers); ++i) numbers[i] = (float)(i % 7) * 0.25f;
+    numbers[fuzz_byte(f) % COUNT(numbers)] = fuzz_float(f);
+    for (size_t at = 0; at + sizeof numbers <= sizeof f->room; at += sizeof numbers) memcpy(f->room + at, numbers, sizeof numbers);
+}
+
+static int32_t write_bulk(fuzz *f)
+{
+    fuzz_span a;
+    fe_body bodies[40];
+    uint8_t which = fuzz_byte(f) % 3;
+    fill_room(f);
+    fuzz_array(f, which == 0 ? sizeof(fe_transform) : 24, &a);
+    for (int32_t i = 0; i < COUNT(bodies); ++i) bodies[i] = i < 3 ? fuzz_body(f) : f->bodies[i % FUZZ_HANDLES];
+    if (which == 0) {
+        const fe_transform good[2] = {fe_make_transform(1.0, 2.0, 0.5), fe_make_transform(-1.0, 1.0, 0.0)};
+        if (fuzz_byte(f) % 2) memcpy(f->room, good, sizeof good);
+        return fe_world_set_transforms(f->world, bodies, a.data, a.stride, a.count);
+    }
+    if (which == 1) return fe_world_set_velocities(f->world, bodies, a.data, a.stride, a.count);
+    return fe_world_add_forces(f->world, bodies, a.data, a.stride, a.count);
+}
+
+static int32_t read_measures(fuzz *f)
+{
+    struct {
+        fe_counters counters;
+        unsigned char tail[FUZZ_TAIL];
+    } c;
+    memset(&c, 0, sizeof c);
+    c.counters.struct_size = fuzz_struct_size(f, sizeof c.counters);
+    if (c.counters.struct_size > sizeof c) c.counters.struct_size = sizeof c;
+    return fe_world_get_counters(f->world, &c.counters) < 0 ? FE_ERROR_ARGUMENT : FE_OK;
+}
+
+// what makes a scene comes more than once
+const fuzz_call fuzz_calls[] = {
+    {"fe_world_step", step, 1},
+    {"fe_world_step", step, 1},
+    {"ten steps", step_some, 1},
+    {"ten steps", step_some, 1},
+    {"a whole body", create_whole, 0},
+    {"a whole body", create_whole, 0},
+    {"a whole body", create_whole, 0},
+    {"a whole body", create_whole, 0},
+    {"fe_body_create", create_body, 1},
+    {"fe_shape_create", create_shape, 1},
+    {"fe_shape_create", create_shape, 1},
+    {"fe_body_create_many", create_bodies, 1},
+    {"fe_body_destroy", destroy_body, 0},
+    {"fe_body_destroy_many", destroy_bodies, 0},
+    {"fe_shape_destroy", destroy_shape, 1},
+    {"fe_world_set_gravity", set_gravity, 0},
+    {"fe_world_set_substeps", set_substeps, 0},
+    {"fe_world_set_tuning", set_tuning, 0},
+    {"fe_world_ignore_collision", ignore, 0},
+    {"fe_world_sync_queries", sync_queries, 0},
+    {"fe_world_raycast", raycast, 0},
+    {"no memory", fail_memory, 0},
+    {"fe_body_set_type", set_type, 1},
+    {"fe_body_set_transform", set_transform, 1},
+    {"fe_body_set_target", set_target, 1},
+    {"fe_body_set_mass_data", set_mass_data, 1},
+    {"fe_body_set_mass", set_mass, 1},
+    {"fe_body_reset_mass", reset_mass, 1},
+    {"fe_body_set_locks", set_locks, 1},
+    {"fe_body_set_damping", set_damping, 0},
+    {"fe_body_set_gravity_scale", set_gravity_scale, 0},
+    {"fe_body_set_awake and such", set_switch, 1},
+    {"fe_body_add_impulse and such", push, 1},
+    {"fe_body_add_force_at, impulse_at", push_at, 1},
+    {"fe_body_set_filter", set_body_filter, 0},
+    {"fe_body_set_sleep_threshold", set_sleep_threshold, 0},
+    {"fe_body_get_point_velocity", read_body, 0},
+    {"fe_shape_set_geometry", set_geometry, 1},
+    {"fe_shape_set_local_pose", set_local_pose, 1},
+    {"fe_shape_set_density", set_density, 1},
+    {"fe_shape_set_material", set_material, 0},
+    {"fe_shape_set_filter", set_shape_filter, 0},
+    {"fe_shape_set_trigger", set_trigger, 0},
+    {"fe_shape_set_events", set_events, 0},
+    {"fe_shape_set_surface_velocity", set_surface_velocity, 0},
+    {"fe_shape_get_geometry", read_shape, 0},
+    {"events and contacts", read_events, 0},
+    {"lists", read_lists, 0},
+    {"bulk reads", read_bulk, 0},
+    {"bulk writes", write_bulk, 1},
+    {"fe_world_get_counters", read_measures, 0},
+};
+const int32_t fuzz_call_count = COUNT(fuzz_calls);

@@ -1,0 +1,58 @@
+// fuzz_state.h - what the harness and the calls share: the stream, the handles that were ever given, room for arrays.
+#ifndef FE_TESTS_FUZZ_STATE_H
+#define FE_TESTS_FUZZ_STATE_H
+#include "core/hash.h"
+#include "feather.h"
+#include "support/fuzz.h"
+
+enum { FUZZ_HANDLES = 48, FUZZ_MOST_STEPS = 300, FUZZ_TAIL = 64, FUZZ_ROOM = 1 << 14 };
+
+typedef struct fuzz {
+    const uint8_t *bytes;
+    size_t size, at;
+    fe_world *world;
+    fe_body bodies[FUZZ_HANDLES]; // last given ones, in a ring: dead ones stay until they are overwritten
+    fe_shape shapes[FUZZ_HANDLES];
+    int32_t body_count, shape_count; // given
+    int32_t steps;
+    int32_t call_count;
+    const char *call_name;
+    fe__hash told;
+    int32_t fail_after; // allocations: the one that brings it to 0 fails
+    int64_t blocks;
+    int32_t is_wild;
+    int32_t tells;                                          // the environment has FE_FUZZ_TELL: prints each call
+    _Alignas(64) unsigned char room[FUZZ_ROOM + FUZZ_TAIL]; // for arrays in and out
+} fuzz;
+
+typedef struct fuzz_call {
+    const char *name;
+    int32_t (*run)(fuzz *f); // fe_result or a count
+    int32_t moves;           // 1: all numbers are checked afterwards
+} fuzz_call;
+extern const fuzz_call fuzz_calls[];
+extern const int32_t fuzz_call_count;
+
+typedef struct fuzz_span {
+    void *data;
+    uint32_t stride;
+    int32_t count;
+} fuzz_span;
+
+void fuzz_fail(const fuzz *f, const char *what);
+void fuzz_check(fuzz *f); // all that can be read is a number
+uint8_t fuzz_byte(fuzz *f);
+uint32_t fuzz_word(fuzz *f);
+float fuzz_float(fuzz *f);
+float fuzz_size(fuzz *f);
+fe_vec3 fuzz_vec3(fuzz *f);
+fe_dvec3 fuzz_dvec3(fuzz *f);
+fe_quat fuzz_quat(fuzz *f);
+fe_transform fuzz_transform(fuzz *f);
+fe_handle fuzz_handle(fuzz *f, const fe_handle *known, const fe_handle *other);
+fe_body fuzz_body(fuzz *f);
+fe_shape fuzz_shape(fuzz *f);
+uint32_t fuzz_struct_size(fuzz *f, uint32_t right);
+void fuzz_array(fuzz *f, uint32_t packed, fuzz_span *out); // in f->room, stride and count as a client might give them
+
+#endif
