@@ -9,10 +9,10 @@
 
 enum {
     MOST_PASSES = 4 * FE__COLOURS + 8,
-    ROWS_IN_BLOCK = 16,   // some microseconds of work
+    LANES_IN_BLOCK = 64,  // rows of a block, in contacts: a microsecond of work
     LINES_IN_BLOCK = 256, // a multiple of FE__MAX_WIDTH
-    SERIAL_ROWS = 24,     // colours are merged into one block while they have no more: a barrier would cost more than they do
-    ROWS_PER_WORKER = 32  // a large batch calls a worker for so many rows of its largest colour
+    SERIAL_LANES = 128,   // colours are merged into one block while they have no more contacts: a barrier would cost more than they do
+    LANES_PER_WORKER = 128 // a large batch calls a worker for so many contacts of its largest colour
 };
 
 typedef enum verb { LOAD, PREPARE, SOLVE, INTEGRATE, RELAX, BOUNCE, CARRY, STORE } verb;
@@ -25,6 +25,7 @@ typedef struct pass {
 } pass;
 
 typedef struct program {
+    int32_t width, rows_in_block;
     pass passes[MOST_PASSES];
     int32_t prologue, substep, epilogue; // passes each; the last substep leaves out its last pass
     int32_t substeps;
@@ -68,10 +69,10 @@ static int32_t colour_end(const fe__solver *s, int32_t group, int32_t end)
     return group;
 }
 
-static int32_t block_count(const fe__solver *s, int32_t group, int32_t end)
+static int32_t block_count(const program *p, const fe__solver *s, int32_t group, int32_t end)
 {
     int32_t blocks = 0;
-    for (; group < end; ++group) blocks += blocks_of(s->groups[group].rows, ROWS_IN_BLOCK);
+    for (; group < end; ++group) blocks += blocks_of(s->groups[group].rows, p->rows_in_block);
     return blocks;
 }
 
@@ -87,22 +88,25 @@ static void add_colours(program *p, int32_t *part, const fe__solver *s, const fe
 {
     int32_t end = b->first_group + b->group_count;
     for (int32_t g = b->first_group; g < end;) {
-        int32_t last = colour_end(s, g, end), rows = row_count(s, g, last), serial = rows <= SERIAL_ROWS || s->groups[g].colour == FE__OVERFLOW_COLOUR;
+        int32_t last = colour_end(s, g, end), rows = row_count(s, g, last);
+        int32_t serial = rows * p->width <= SERIAL_LANES || s->groups[g].colour == FE__OVERFLOW_COLOUR;
         while (serial && last < end) {
             int32_t next = colour_end(s, last, end);
-            if (s->groups[last].colour != FE__OVERFLOW_COLOUR && row_count(s, last, next) > SERIAL_ROWS) break;
+            if (s->groups[last].colour != FE__OVERFLOW_COLOUR && row_count(s, last, next) * p->width > SERIAL_LANES) break;
             last = next;
         }
-        add_pass(p, part, verb, g, last - g, serial ? 1 : block_count(s, g, last), serial);
+        add_pass(p, part, verb, g, last - g, serial ? 1 : block_count(p, s, g, last), serial);
         g = last;
     }
 }
 
-static void make_program(program *p, const fe__solver *s, const fe__batch *b, int32_t substeps)
+static void make_program(program *p, const fe__solver *s, const fe__batch *b, int32_t substeps, int32_t width)
 {
     int32_t line_blocks = blocks_of(b->line_count, LINES_IN_BLOCK), end = b->first_group + b->group_count;
     p->prologue = p->substep = p->epilogue = 0;
     p->substeps = substeps;
+    p->width = width;
+    p->rows_in_block = LANES_IN_BLOCK / width;
     add_pass(p, &p->prologue, LOAD, 0, 0, line_blocks, 0);
     add_colours(p, &p->prologue, s, b, PREPARE);
     add_colours(p, &p->substep, s, b, SOLVE);
@@ -110,7 +114,7 @@ static void make_program(program *p, const fe__solver *s, const fe__batch *b, in
     add_colours(p, &p->substep, s, b, RELAX);
     if (b->bounces) add_colours(p, &p->substep, s, b, BOUNCE);
     add_pass(p, &p->substep, CARRY, 0, 0, line_blocks, 0);
-    if (b->group_count) add_pass(p, &p->epilogue, STORE, b->first_group, b->group_count, block_count(s, b->first_group, end), 0);
+    if (b->group_count) add_pass(p, &p->epilogue, STORE, b->first_group, b->group_count, block_count(p, s, b->first_group, end), 0);
 }
 
 static int32_t pass_count(const program *p) { return p->prologue + p->substeps * p->substep - 1 + p->epilogue; }
@@ -154,6 +158,7 @@ static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char 
 
 static void run_block(const job *j, const fe__batch *b, const pass *p, unsigned char *rows, int32_t block)
 {
+    int32_t rows_in_block = j->program.rows_in_block;
     if (!p->group_count) {
         run_lines(j, b, p->verb, block);
         return;
@@ -164,12 +169,12 @@ static void run_block(const job *j, const fe__batch *b, const pass *p, unsigned 
         return;
     }
     for (;; ++g) {
-        int32_t blocks = blocks_of(g->rows, ROWS_IN_BLOCK);
+        int32_t blocks = blocks_of(g->rows, rows_in_block);
         if (block < blocks) break;
         block -= blocks;
     }
-    int32_t first = block * ROWS_IN_BLOCK;
-    run_rows(j, g, p->verb, rows, first, fe__mini(ROWS_IN_BLOCK, g->rows - first));
+    int32_t first = block * rows_in_block;
+    run_rows(j, g, p->verb, rows, first, fe__mini(rows_in_block, g->rows - first));
 }
 
 // ---- a small batch, whole --------------------------------------------------------------------------------------------------------------------
@@ -245,7 +250,7 @@ static void run_large_batch(void *argument, int32_t worker)
     }
 }
 
-static int32_t useful_workers(const fe__solver *s, const fe__batch *b, int32_t workers)
+static int32_t useful_workers(const fe__solver *s, const fe__batch *b, int32_t workers, int32_t width)
 {
     int32_t most = 0, end = b->first_group + b->group_count;
     for (int32_t g = b->first_group; g < end;) {
@@ -253,7 +258,7 @@ static int32_t useful_workers(const fe__solver *s, const fe__batch *b, int32_t w
         most = fe__maxi(most, row_count(s, g, last));
         g = last;
     }
-    return fe__mini(workers, fe__maxi(1, most / ROWS_PER_WORKER));
+    return fe__mini(workers, fe__maxi(1, most * width / LANES_PER_WORKER));
 }
 
 static void clear_static_line(fe__solver *s)
@@ -272,10 +277,10 @@ void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *wor
     clear_static_line(s);
     for (int32_t i = 0; i < s->large_count; ++i) {
         j.batch = s->batches + i;
-        make_program(&j.program, s, j.batch, c->substeps);
+        make_program(&j.program, s, j.batch, c->substeps, kernels->width);
         atomic_store(&j.claim, 0);
         atomic_store(&j.done, 0);
-        fe__run(workers, run_large_batch, &j, useful_workers(s, j.batch, workers->count));
+        fe__run(workers, run_large_batch, &j, useful_workers(s, j.batch, workers->count, kernels->width));
     }
     atomic_store(&j.next_batch, s->large_count);
     fe__run(workers, run_small_batches, &j, fe__mini(workers->count, s->batch_count - s->large_count));

@@ -160,7 +160,7 @@ static void capacities_stay_below_2_to_the_31(void **state)
     fe__memory memory = memory_of(&h);
     char *bytes = NULL;
     int32_t capacity = 0;
-    assert_false(fe__reserve(&memory, &bytes, &capacity, (INT64_C(1) << 30) + 1, 1));
+    assert_false(fe__reserve(&memory, &bytes, &capacity, INT32_MAX - INT64_C(1), 1));
     assert_int_equal(h.last_size, INT32_MAX);
     h.last_size = 0;
     assert_false(fe__reserve(&memory, &bytes, &capacity, INT32_MAX, SIZE_MAX / 1024));
