@@ -1,14 +1,14 @@
 // narrow.c - the narrow phase of one pair: two shapes, one manifold, one contact.
 //
-// Called by the collide stage on any thread, for pairs that cannot be recycled. Double positions are subtracted here, so that everything below is
-// float and small. Only the pair's own records are written.
+// Called by the collide stage on any thread, for pairs that cannot be recycled. Double positions are subtracted here, so that everything
+// below is float and small. Only the pair's own records are written.
 #include "collision/collide.h"
 #include "world/world.h"
 
 #include <string.h>
 
-// How far a pair may slide or turn before it needs a new manifold: at most this, m, and a share of the thinner form. Less for round forms, whose
-// normal turns with them.
+// How far a pair may slide or turn before it needs a new manifold: at most this, m, and a share of the thinner form. Less for round forms,
+// whose normal turns with them.
 #define RECYCLE_MOST 0.03f
 #define RECYCLE_SHARE 0.1f
 #define RECYCLE_ROUND 0.0005f
@@ -16,11 +16,14 @@
 // Closer than this to each other, m, shapes are placed in floats: a float of it is a micrometre fine. Beyond (a wide ground) in double.
 #define NEAR 16.0
 
+// A gap on whose way the features of two shapes change little, m
+#define TURNS_LITTLE 0.005f
+
 typedef struct view {
     const fe__shape *a, *b; // fe__collide's
     fe__form form_a;        // a plane's is moved next to B
     fe__relative relative;
-    fe_dvec3 origin;        // of the frame of A, world
+    fe_dvec3 origin; // of the frame of A, world
     fe__mat3 rotation;
 } view;
 
@@ -53,7 +56,8 @@ static view view_of(const fe__shape *a, const fe__shape *b, const fe__pose *pose
 }
 
 // ---- ahead of time --------------------------------------------------------------------------------------------------------------------
-// Contacts are made once per step. What will touch only later in the step needs its contact now, or it would be found a step late, up to v dt deep.
+// Contacts are made once per step. What will touch only later in the step needs its contact now, or it would be found a step late, up to v
+// dt deep.
 
 // how far the pair can close in the step, m
 static float reach_in_step(const fe_world *world, const fe__body *a, const fe__body *b, float dt)
@@ -81,26 +85,50 @@ static fe__pose shape_pose(const fe__body *body, const fe__shape *shape, fe_dvec
     return fe__compose(&pose, shape->local_position, shape->local_rotation);
 }
 
-// The manifold of the poses at the end of the step: the right features for an impact on the way, none for bodies that pass each other by. Deep in,
-// features say nothing any more, and the nearest ones of now must do.
-static int32_t look_ahead(const fe_world *world, const fe__contact *m, float dt, view *v, places *at, fe__manifold *found)
+typedef struct prediction {
+    view v;
+    places at;
+    fe__manifold found;
+} prediction;
+
+static void predict(const fe_world *world, const fe__contact *m, const view *v, float time, prediction *out)
 {
     const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
-    places then;
-    advance(world, a, dt, &then.centre_a, &then.rotation_a);
-    advance(world, b, dt, &then.centre_b, &then.rotation_b);
+    places *at = &out->at;
+    advance(world, a, time, &at->centre_a, &at->rotation_a);
+    advance(world, b, time, &at->centre_b, &at->rotation_b);
     int32_t a_is_b = m->body_a != v->a->body;
-    fe__pose pose_a = a_is_b ? shape_pose(b, v->a, then.centre_b, then.rotation_b) : shape_pose(a, v->a, then.centre_a, then.rotation_a);
-    fe__pose pose_b = a_is_b ? shape_pose(a, v->b, then.centre_a, then.rotation_a) : shape_pose(b, v->b, then.centre_b, then.rotation_b);
-    view ahead = view_of(v->a, v->b, &pose_a, &pose_b);
-    fe__manifold manifold = {.axis = -1};
-    fe__collide(&ahead.form_a, &v->b->form, &ahead.relative, world->tuning.speculative_distance, &manifold);
-    if (!manifold.count) return 0;
-    float deepest = manifold.points[0].separation;
-    for (int32_t i = 1; i < manifold.count; ++i) deepest = fe__minf(deepest, manifold.points[i].separation);
-    if (-deepest > fe__minf(fe__form_thickness(&v->a->form), fe__form_thickness(&v->b->form)) && v->a->form.type != FE_GEOMETRY_PLANE)
+    fe__pose pose_a = a_is_b ? shape_pose(b, v->a, at->centre_b, at->rotation_b) : shape_pose(a, v->a, at->centre_a, at->rotation_a);
+    fe__pose pose_b = a_is_b ? shape_pose(a, v->b, at->centre_a, at->rotation_a) : shape_pose(b, v->b, at->centre_b, at->rotation_b);
+    out->v = view_of(v->a, v->b, &pose_a, &pose_b);
+    out->found = (fe__manifold){.axis = -1};
+    fe__collide(&out->v.form_a, &v->b->form, &out->v.relative, world->tuning.speculative_distance, &out->found);
+}
+
+static float deepest_of(const fe__manifold *found)
+{
+    float deepest = found->points[0].separation;
+    for (int32_t i = 1; i < found->count; ++i) deepest = fe__minf(deepest, found->points[i].separation);
+    return deepest;
+}
+
+// The manifold of the poses at the end of the step, or, when they overlap there, of the poses on the way where they touch at the mean
+// speed: the right features and normal for an impact, none for bodies that pass each other by. Deep in, features say nothing any more, and
+// the nearest ones of now must do.
+static int32_t look_ahead(const fe_world *world, const fe__contact *m, float dt, view *v, places *at, fe__manifold *found)
+{
+    prediction end, touch;
+    predict(world, m, v, dt, &end);
+    if (!end.found.count) return 0;
+    float now = deepest_of(found), then = deepest_of(&end.found);
+    if (now > 0.0f && then < 0.0f) {
+        predict(world, m, v, dt * (now / (now - then)), &touch);
+        if (touch.found.count) end = touch;
+    }
+    if (-deepest_of(&end.found) > fe__minf(fe__form_thickness(&v->a->form), fe__form_thickness(&v->b->form)) &&
+        v->a->form.type != FE_GEOMETRY_PLANE)
         return found->count > 0;
-    *v = ahead, *at = then, *found = manifold;
+    *v = end.v, *at = end.at, *found = end.found;
     return 1;
 }
 
@@ -152,12 +180,14 @@ static void set_points(fe__contact *m, const view *v, const places *at, const fe
 // Separations now of a manifold found ahead of time, along its normal: as in recycle.simd.c
 static void step_back(fe__contact *m, const places *at, const fe__body *a, const fe__body *b)
 {
-    fe_quat turn_a = fe__product(rotation_of(a), fe__conjugate(at->rotation_a)), turn_b = fe__product(rotation_of(b), fe__conjugate(at->rotation_b));
+    fe_quat turn_a = fe__product(rotation_of(a), fe__conjugate(at->rotation_a)),
+            turn_b = fe__product(rotation_of(b), fe__conjugate(at->rotation_b));
     fe_vec3 n = vector_of(m->normal), zero = {0.0f, 0.0f, 0.0f};
     fe_vec3 na = fe__sub(fe__rotate_back(turn_a, n), n), nb = fe__sub(fe__rotate_back(turn_b, n), n), slope = fe__sub(nb, na);
     fe_dvec3 then = fe__dsub(at->centre_b, at->centre_a), now = fe__dsub(centre_of(b), centre_of(a));
     fe_vec3 span = a->type == FE_BODY_STATIC ? zero : vector_of(m->found_span);
-    float constant = fe__dot(n, fe__narrow(fe__dsub(now, then))) + fe__dot(nb, span) + m->surface[1] * fe__dot(na, n) + m->surface[2] * fe__dot(nb, n);
+    float constant =
+        fe__dot(n, fe__narrow(fe__dsub(now, then))) + fe__dot(nb, span) + m->surface[1] * fe__dot(na, n) + m->surface[2] * fe__dot(nb, n);
     for (int i = 0; i < (int)m->normal[3]; ++i) m->separation[i] = m->point[i][3] + constant + fe__dot(slope, vector_of(m->point[i]));
 }
 
@@ -204,9 +234,10 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
     fe__collide(&v.form_a, &v.b->form, &v.relative, fe__maxf(margin, reach), &found);
     p->axis = found.axis, p->axis_separation = found.axis_separation;
 
-    // farther than the margin now, but closing
-    int32_t ahead = found.count && !is_near(&found, margin);
-    if (ahead && (p->flags & FE__PAIR_SENSOR || !look_ahead(world, m, dt, &v, &at, &found))) found.count = 0;
+    // some way off now, but closing: the normal may turn on that way
+    int32_t near = is_near(&found, margin), ahead = found.count && !(p->flags & FE__PAIR_SENSOR) && !is_near(&found, TURNS_LITTLE);
+    if (ahead) ahead = look_ahead(world, m, dt, &v, &at, &found);
+    if (!ahead && !near) found.count = 0;
     match_impulses(p, m, &found);
     if (!found.count) {
         forget_impulses(m);
