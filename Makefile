@@ -3,6 +3,7 @@
 #   make            build/libfeather.a and build/libfeather.so
 #   make demo       builds the library and runs examples/demo.c; needs a C compiler and make, nothing else
 #   make test       everything that is checked before a change is accepted (TESTS=pattern: the matching programs only)
+#   make fuzz       FUZZ_SECONDS=600 of random calls of the API, with clang's libFuzzer and sanitizers
 #   make bench      speed, beside Bullet and ODE where they are installed
 #   make install    PREFIX, LIBDIR, INCLUDEDIR, DESTDIR;  make uninstall takes it away again
 #   make examples, deps, format, clean
@@ -86,7 +87,7 @@ STATIC := $(BUILD)/libfeather.a
 SHARED := $(BUILD)/libfeather.so
 VERSION = $(shell awk '/define FE_VERSION_(MAJOR|MINOR|PATCH)/ { v = v dot $$3; dot = "." } END { print v }' include/feather.h)
 
-.PHONY: all static shared demo examples tests test bench bench-build install uninstall deps format clean FORCE
+.PHONY: all static shared demo examples tests test fuzz bench bench-build install uninstall deps format clean FORCE
 all: static shared
 static: $(STATIC)
 shared: $(SHARED)
@@ -162,6 +163,21 @@ test: export LDFLAGS := $(LDFLAGS)
 test:
 	@tools/deps.sh test
 	@+tests/run $(TESTS)
+
+# ---- fuzz -----------------------------------------------------------------------------------------------------------------------
+# What breaks it is left as build/fuzz/crash-*, to be given to build/fuzz/feather-fuzz again.
+
+FUZZ_SECONDS ?= 600
+FUZZ_OBJECTS := $(addprefix $(BUILD)/tests/,fuzz/fuzz_api.o support/fuzz.o support/fuzz_calls.o)
+
+$(BUILD)/feather-fuzz: $(FUZZ_OBJECTS) $(STATIC)
+	$(RUN)$(CC) $(FUZZ_OBJECTS) $(STATIC) -fsanitize=fuzzer $(LINK_FLAGS) -lm -o $@
+fuzz:
+	@tools/deps.sh fuzz
+	@+$(MAKE) --no-print-directory $(PARALLEL) CC=clang BUILD=$(BUILD)/fuzz OPT=-O1 SIMD_OPT=-O1 SANITIZE=address,undefined \
+	    CFLAGS='$(CFLAGS) -fsanitize=fuzzer-no-link' $(BUILD)/fuzz/feather-fuzz
+	@mkdir -p $(BUILD)/fuzz/corpus
+	cd $(BUILD)/fuzz && ./feather-fuzz -max_total_time=$(FUZZ_SECONDS) -max_len=4096 -timeout=30 corpus
 
 # ---- bench ----------------------------------------------------------------------------------------------------------------------
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What the tests (tools/deps.sh test) and the bench (tools/deps.sh all) need beyond the C compiler: installs what is missing with apt where it
+# What the tests (tools/deps.sh test), the fuzzer (fuzz) and the bench (all) need beyond the C compiler: installs what is missing with apt where it
 # may, and otherwise says what to install and fails. Needs are tried out, not looked up by package name.
 set -uo pipefail
 wanted=${1:-all}
@@ -8,6 +8,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 echo 'int main(void) { return 0; }' > "$work/empty.c"
 cp "$work/empty.c" "$work/empty.cpp"
+echo 'int LLVMFuzzerTestOneInput(const unsigned char *bytes, unsigned long size) { return bytes && size > 1u << 30; }' > "$work/fuzz.c"
 printf '#include <stdarg.h>\n#include <stddef.h>\n#include <setjmp.h>\n#include <stdint.h>\n#include <cmocka.h>\nint main(void) { return 0; }\n' > "$work/cmocka.c"
 
 has() { command -v "$1" > /dev/null; }
@@ -25,6 +26,10 @@ missing() {
     has cmake || echo cmake
     has pkg-config || echo pkg-config
     has valgrind || echo valgrind
+    if test "$wanted" != test; then
+        clang -fsanitize=fuzzer,address,undefined "$work/fuzz.c" -o "$work/program" > /dev/null 2>&1 ||
+            clang --version | awk 'match($0, /version [0-9]+/) { print "libclang-rt-" substr($0, RSTART + 8, RLENGTH - 8) "-dev" }'
+    fi
     if test "$wanted" = all; then
         pkg-config --exists bullet 2> /dev/null || echo libbullet-dev
         pkg-config --exists ode 2> /dev/null || echo libode-dev
