@@ -1,7 +1,7 @@
 // reserve.c - all memory that a step can need, before it changes anything.
 //
-// The bounds follow from what is awake, what may wake, and the candidates just found. When one allocation fails, the step fails with the world as it
-// was; later stages cannot fail, so that no contact and no event is ever dropped.
+// The bounds follow from what is awake, what may wake, and the candidates just found. When one allocation fails, the step fails with the
+// world as it was; later stages cannot fail, so that no contact and no event is ever dropped.
 #include "solver/graph.h"
 #include "world/step.h"
 
@@ -21,7 +21,8 @@ static int32_t may_wake(const fe__step *step)
     for (int32_t i = 0; i < w->awake_pair_count; ++i) {
         const fe__contact *m = w->contacts + w->awake_pairs[i];
         const fe__body *a = w->bodies + m->body_a, *b = w->bodies + m->body_b;
-        if (m->colour < 0 && ((a->awake_index < 0 && a->type == FE_BODY_DYNAMIC) || (b->awake_index < 0 && b->type == FE_BODY_DYNAMIC))) return 1;
+        if (m->colour < 0 && ((a->awake_index < 0 && a->type == FE_BODY_DYNAMIC) || (b->awake_index < 0 && b->type == FE_BODY_DYNAMIC)))
+            return 1;
     }
     return 0;
 }
@@ -86,11 +87,14 @@ static int32_t reserve_scratch(fe__step *step, const fe__graph_bound *b)
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     fe__memory *memory = &w->memory;
-    int64_t sorted = fe__maxi(fe__maxi(b->contacts, step->scratch->candidate_count), w->body_count);
+    // at least one, so that an empty stretch has an address too
+    int64_t sorted = 1 + fe__maxi(fe__maxi(b->contacts, step->scratch->candidate_count), w->body_count);
     sorted += w->owed_event_count;
-    return FE_RESERVE(memory, s->results, s->result_capacity, b->contacts) && FE_RESERVE(memory, s->moved, s->moved_capacity, b->contacts) &&
-           FE_RESERVE(memory, s->left, s->left_capacity, w->shape_count) && FE_RESERVE(memory, s->boxes, s->box_capacity, w->shape_count) &&
-           FE_RESERVE(memory, s->island_timers, s->island_capacity, b->bodies) && FE_RESERVE(memory, s->sort_items, s->sort_capacity, 2 * sorted) &&
+    return FE_RESERVE(memory, s->results, s->result_capacity, (int64_t)b->contacts + 1) &&
+           FE_RESERVE(memory, s->moved, s->moved_capacity, b->contacts) && FE_RESERVE(memory, s->left, s->left_capacity, w->shape_count) &&
+           FE_RESERVE(memory, s->boxes, s->box_capacity, w->shape_count) &&
+           FE_RESERVE(memory, s->island_timers, s->island_capacity, b->bodies) &&
+           FE_RESERVE(memory, s->sort_items, s->sort_capacity, 2 * sorted) &&
            FE_RESERVE(memory, w->pair_events, w->pair_event_capacity, (int64_t)b->contacts + w->owed_event_count) &&
            FE_RESERVE(memory, w->body_events, w->body_event_capacity, w->body_count) &&
            FE_RESERVE(memory, w->hit_events, w->hit_event_capacity, w->wants_hits ? b->contacts : 0);
