@@ -177,7 +177,7 @@ fuzz:
 	@+$(MAKE) --no-print-directory $(PARALLEL) CC=clang BUILD=$(BUILD)/fuzz OPT=-O1 SIMD_OPT=-O1 SANITIZE=address,undefined \
 	    CFLAGS='$(CFLAGS) -fsanitize=fuzzer-no-link' $(BUILD)/fuzz/feather-fuzz
 	@mkdir -p $(BUILD)/fuzz/corpus
-	cd $(BUILD)/fuzz && ./feather-fuzz -max_total_time=$(FUZZ_SECONDS) -max_len=4096 -timeout=30 corpus
+	cd $(BUILD)/fuzz && ./feather-fuzz -max_total_time=$(FUZZ_SECONDS) -max_len=1500 -timeout=30 corpus
 
 # ---- bench ----------------------------------------------------------------------------------------------------------------------
 

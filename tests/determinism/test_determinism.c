@@ -1,8 +1,7 @@
 // test_determinism.c - the same calls give the same bits: with every number of workers, every SIMD set, every compiler (the same golden.txt
 // serves all builds), whatever else is in the world.
 //
-//   test_determinism           all
-//   test_determinism brief     fewer numbers of workers: for builds whose code is slow
+//   test_determinism           all; a part of it where the code is slow, without optimization or with sanitizers
 //   test_determinism update    writes golden.txt: after a change that was meant to change results
 #include "fe_test.h"
 #include "support/play.h"
@@ -24,7 +23,6 @@ typedef struct golden {
 
 static golden lines[MOST_LINES];
 static int32_t line_count;
-static int32_t is_brief;
 
 static void read_golden(void)
 {
@@ -95,13 +93,16 @@ typedef struct condition {
 static void gives_the_golden_hashes(void **state)
 {
     const condition *c = *state;
-    static const int32_t all[] = {1, 2, 3, 8, 16}, few[] = {1, 3};
-    const int32_t *workers = all;
-    int32_t count = 5, steps = c->script->steps;
-#ifdef FE_SANITIZED
-    workers = few, count = 2, steps = 100;
+#if defined(FE_SANITIZED)
+    static const int32_t workers[] = {1, 3};
+    const int32_t count = 2, steps = 100;
+#elif !defined(__OPTIMIZE__)
+    static const int32_t workers[] = {2};
+    const int32_t count = 1, steps = c->script->steps / 2;
+#else
+    static const int32_t workers[] = {1, 2, 3, 8, 16};
+    const int32_t count = 5, steps = c->script->steps;
 #endif
-    if (is_brief) workers = few, count = 2;
     fe_world *probe = new_world(c->simd, 1);
     if (!probe) {
         print_message("*** NOT TESTED: SIMD set %d is not on this CPU ***\n", (int)c->simd);
@@ -119,7 +120,7 @@ static void crowd_has_more_than_1000_contacts(void **state)
     fe_counters counters = {.struct_size = sizeof counters};
     int32_t most = 0, most_rows = 0;
     play_begin(&p, new_world(FE_SIMD_AUTO, 1));
-    while (p.step < script_crowd.steps) {
+    while (p.step < script_crowd.steps / 2) {
         play_until(&p, &script_crowd, p.step + STEPS_BETWEEN_CHECKS);
         fe_world_get_counters(p.world, &counters);
         if (counters.contacts > most) most = counters.contacts;
@@ -207,7 +208,7 @@ static void compare_with_strangers(const script *s, int32_t steps, void (*before
     fe_world_destroy(crowded.world);
 }
 
-#ifdef FE_SANITIZED
+#if defined(FE_SANITIZED) || !defined(__OPTIMIZE__)
 enum { STRANGER_STEPS = 100 };
 #else
 enum { STRANGER_STEPS = 300 };
@@ -261,7 +262,6 @@ static int update(void)
 int main(int count, char **arguments)
 {
     if (count > 1 && strcmp(arguments[1], "update") == 0) return update();
-    is_brief = count > 1 && strcmp(arguments[1], "brief") == 0;
     read_golden();
     const struct CMUnitTest tests[] = {
         GOLDEN_TEST(crowd, "plain", FE_SIMD_PLAIN),

@@ -39,7 +39,7 @@ typedef struct fuzz_span {
     int32_t count;
 } fuzz_span;
 
-void fuzz_fail(const fuzz *f, const char *what);
+_Noreturn void fuzz_fail(const fuzz *f, const char *what);
 void fuzz_check(fuzz *f); // all that can be read is a number
 uint8_t fuzz_byte(fuzz *f);
 uint32_t fuzz_word(fuzz *f);
