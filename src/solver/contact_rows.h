@@ -190,10 +190,17 @@ static __attribute__((noinline)) void NAMED(share_impact)(ROW *row, const affine
                                                           wide_mask fresh, int kind, int soft)
 {
     pair settled = *p;
-    wide old[POINTS];
+    SPECIAL_ROW *x = (SPECIAL_ROW *)row;
+    int special = kind & FE__ROW_SPECIAL;
+    wide old[POINTS], approach[POINTS], flight[POINTS];
     for (int i = 0; i < POINTS; ++i) old[i] = row->point[i].impulse;
+    for (int i = 0; special && i < POINTS; ++i) approach[i] = x->approach[i], flight[i] = x->flight[i];
     for (int sweep = 1; sweep < IMPACT_SWEEPS; ++sweep) NAMED(solve_normals_once)(row, gap, c, &settled, kind, soft);
     for (int i = 0; i < POINTS; ++i) row->point[i].impulse = w_choose(fresh, row->point[i].impulse, old[i]);
+    for (int i = 0; special && i < POINTS; ++i) {
+        x->approach[i] = w_choose(fresh, x->approach[i], approach[i]);
+        x->flight[i] = w_choose(fresh, x->flight[i], flight[i]);
+    }
     p->a.v = w_choose3(fresh, settled.a.v, p->a.v), p->a.w = w_choose3(fresh, settled.a.w, p->a.w);
     p->b.v = w_choose3(fresh, settled.b.v, p->b.v), p->b.w = w_choose3(fresh, settled.b.w, p->b.w);
 }
