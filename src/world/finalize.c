@@ -148,6 +148,16 @@ static int32_t stands_still(const fe__body *body)
     return v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f && w[0] == 0.0f && w[1] == 0.0f && w[2] == 0.0f;
 }
 
+// What a moving kinematic body touches stays awake, however slow: the contact pushes.
+static void keep_awake(fe_world *w, int32_t kinematic, float *timers)
+{
+    for (int32_t pair = w->bodies[kinematic].first_contact; pair >= 0; pair = fe__next_pair(w, pair, kinematic)) {
+        const fe__pair *p = w->pairs + pair;
+        const fe__body *other = w->bodies + (p->body_a == kinematic ? p->body_b : p->body_a);
+        if (p->flags & FE__PAIR_LINKED && other->island >= 0) timers[other->island] = 0.0f;
+    }
+}
+
 // An island sleeps when all its bodies have been slow for long enough; a kinematic body when it stands still
 void fe__put_islands_to_sleep(fe__step *step)
 {
@@ -157,11 +167,13 @@ void fe__put_islands_to_sleep(fe__step *step)
     for (int32_t i = 0; i < w->awake_body_count; ++i) {
         const fe__body *body = w->bodies + w->awake_bodies[i];
         if (body->island >= 0) timers[body->island] = fe__minf(timers[body->island], body->sleep_timer);
+        if (body->type == FE_BODY_KINEMATIC && !stands_still(body)) keep_awake(w, w->awake_bodies[i], timers);
     }
     for (int32_t i = w->awake_body_count - 1; i >= 0; --i) {
         int32_t index = w->awake_bodies[i];
         const fe__body *body = w->bodies + index;
-        int32_t sleeps = body->type == FE_BODY_KINEMATIC ? stands_still(body) : timers[body->island] >= w->tuning.sleep_time;
+        int32_t sleeps = stands_still(body); // a timer of 0 is one of a body that is not slow, also when none need be slow for long
+        if (body->type == FE_BODY_DYNAMIC) sleeps = timers[body->island] > 0.0f && timers[body->island] >= w->tuning.sleep_time;
         if (sleeps) fe__body_fall_asleep(w, index);
     }
     // a sleeping world keeps no rows

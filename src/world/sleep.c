@@ -1,6 +1,7 @@
 // sleep.c - who is awake: dense lists of bodies and pairs, islands that fall asleep and wake together.
 //
-// A pair is in its list while one of its bodies is. The order of the lists is of no consequence: everything that could show is sorted by creation.
+// A pair is in its list while one of its bodies is. The order of the lists is of no consequence: everything that could show is sorted by
+// creation.
 #include "world/world.h"
 
 // Bodies whose state changed since the last step's events: each once, whatever happens in between
@@ -69,6 +70,14 @@ void fe__wake_neighbours(fe_world *world, int32_t body)
     }
 }
 
+// does it touch a kinematic body that is awake, other than those from `low` on, which fall asleep with it?
+static int32_t is_pushed(const fe_world *world, int32_t pair, int32_t body, int32_t low)
+{
+    const fe__pair *p = world->pairs + pair;
+    const fe__body *other = world->bodies + (p->body_a == body ? p->body_b : p->body_a);
+    return p->flags & FE__PAIR_LINKED && other->type == FE_BODY_KINEMATIC && other->awake_index >= 0 && other->awake_index < low;
+}
+
 static void swap_places(fe_world *world, int32_t i, int32_t j)
 {
     int32_t a = world->awake_bodies[i], b = world->awake_bodies[j];
@@ -95,6 +104,7 @@ fe_result fe__put_to_sleep(fe_world *world, int32_t body)
         if (!(world->bodies[at].flags & FE__BODY_SLEEP_ALLOWED)) return FE_ERROR_STATE;
         for (int32_t pair = world->bodies[at].first_contact; pair >= 0; pair = fe__next_pair(world, pair, at)) {
             int32_t other = dynamic_neighbour(world, pair, at);
+            if (is_pushed(world, pair, at, low)) return FE_ERROR_STATE;
             if (other >= 0 && world->bodies[other].awake_index >= 0 && world->bodies[other].awake_index < low)
                 swap_places(world, world->bodies[other].awake_index, --low);
         }

@@ -297,6 +297,61 @@ static void types_and_shapes_change_between_steps(void **state)
     close_world(&p, &memory);
 }
 
+static int32_t awake(const fe_world *world, fe_body body)
+{
+    int32_t is_awake = -1;
+    FE_TRUE(fe_body_get_awake(world, body, &is_awake) == FE_OK);
+    return is_awake;
+}
+
+// Slower than every sleep threshold, but moving: its load is carried along, and sleeps when it stops
+static void what_rests_on_a_moving_platform_stays_awake(void **state)
+{
+    (void)state;
+    counting memory = {0};
+    play p;
+    open_world(&p, &memory);
+    part platform = part_box(2.0f, 0.1f, 2.0f, 0.0, 0.0, 0.0), load = part_box(0.3f, 0.3f, 0.3f, 0.0, 0.4, 0.0);
+    platform.body.type = FE_BODY_KINEMATIC;
+    platform.body.linear_velocity.x = 0.02f; // m/s
+    int32_t below = play_add(&p, &platform), above = play_add(&p, &load);
+    step(&p, 240);
+    assert_int_equal(awake(p.world, p.actors[above]), 1);
+    assert_int_equal(fe_body_set_awake(p.world, p.actors[above], 0), FE_ERROR_STATE);
+    double offset = fe_body_transform(p.world, p.actors[above]).position.x - fe_body_transform(p.world, p.actors[below]).position.x;
+    FE_NEAR(offset, 0.0, 0.002); // it slips until its speed is that of the platform: v^2 / (2 mu g), far below
+    const fe_vec3 still = {0.0f, 0.0f, 0.0f};
+    PLAY(&p, fe_body_set_linear_velocity(p.world, p.actors[below], &still));
+    step(&p, 60);
+    assert_int_equal(awake(p.world, p.actors[above]), 0);
+    assert_int_equal(awake(p.world, p.actors[below]), 0);
+    const fe_vec3 up = {0.0f, 0.01f, 0.0f};
+    PLAY(&p, fe_body_set_linear_velocity(p.world, p.actors[below], &up));
+    assert_int_equal(awake(p.world, p.actors[above]), 1);
+    close_world(&p, &memory);
+}
+
+static void without_a_sleep_time_only_slow_bodies_sleep(void **state)
+{
+    (void)state;
+    counting memory = {0};
+    play p;
+    open_world(&p, &memory);
+    fe_world_tuning tuning;
+    fe_world_tuning_init(&tuning, sizeof tuning);
+    tuning.sleep_time = 0.0f;
+    PLAY(&p, fe_world_set_tuning(p.world, &tuning));
+    part falling = part_sphere(0.5f, 0.0, 10.0, 0.0), floating = part_sphere(0.5f, 3.0, 10.0, 0.0);
+    floating.body.gravity_scale = 0.0f;
+    int32_t a = play_add(&p, &falling), b = play_add(&p, &floating);
+    step(&p, 1);
+    assert_int_equal(awake(p.world, p.actors[a]), 1);
+    assert_int_equal(awake(p.world, p.actors[b]), 0);
+    step(&p, 30);
+    assert_int_equal(awake(p.world, p.actors[a]), 1);
+    close_world(&p, &memory);
+}
+
 // Far away and back, into the ground, onto another: poses are exactly where they were put before the next step
 static void teleports_between_steps(void **state)
 {
@@ -370,6 +425,8 @@ int main(void)
         cmocka_unit_test(thousands_can_be_created_one_by_one),
         cmocka_unit_test(a_body_born_inside_another_gets_out),
         cmocka_unit_test(types_and_shapes_change_between_steps),
+        cmocka_unit_test(what_rests_on_a_moving_platform_stays_awake),
+        cmocka_unit_test(without_a_sleep_time_only_slow_bodies_sleep),
         cmocka_unit_test(teleports_between_steps),
         cmocka_unit_test(events_balance_when_bodies_go_in_the_event_loop),
     };
