@@ -183,9 +183,9 @@ FE_INLINE wide NAMED(load_of)(const ROW *row)
     return load;
 }
 
-// One sweep shares the impulses of an impact unevenly: a box that lands flat would turn, and its friction throw it aside. So contacts that
-// had none before get more sweeps; in those that rest the warm start brings the even share. The other lanes stay as they are. Out of line:
-// rare.
+// One sweep shares the impulses of an impact unevenly: a box that lands flat would turn, hop, and its friction throw it aside. So contacts
+// whose load rises by half at once get more sweeps; in those that rest the warm start brings the even share. The other lanes stay as they
+// are. Out of line: rare.
 static __attribute__((noinline)) void NAMED(share_impact)(ROW *row, const affine *gap, const fe__step_constants *c, pair *p,
                                                           wide_mask fresh, int kind, int soft)
 {
@@ -208,10 +208,10 @@ static __attribute__((noinline)) void NAMED(share_impact)(ROW *row, const affine
 FE_INLINE void NAMED(solve_normals)(ROW *row, const fe__solver *s, const fe__step_constants *c, pair *p, wide3 shift, int kind, int soft)
 {
     affine gap = NAMED(separation_change)(row, s, p, shift, kind);
-    wide zero = w_set(0.0f), before = NAMED(load_of)(row);
+    wide before = NAMED(load_of)(row);
     NAMED(solve_normals_once)(row, &gap, c, p, kind, soft);
     if (POINTS == 1) return;
-    wide_mask fresh = w_and(w_greater(NAMED(load_of)(row), zero), w_not(w_greater(before, zero)));
+    wide_mask fresh = w_greater(NAMED(load_of)(row), IMPACT_RISE * before);
     if (!w_any(fresh)) return;
     pair settled = *p;
     affine gap_then = gap;

@@ -116,10 +116,14 @@ static void restitution_1_keeps_20_bounces(void **state)
     scene_end(&s);
 }
 
+// A body that turns by 0.6 rad in a step, with the arms of its start, cannot be off by more than a tenth and still be an impact
+#define GROSS 0.1
+
 // Boxes in any pose land on a corner or an edge. With restitution 1 and without friction nothing is lost but what the cap takes; with any
 // other nothing is gained.
 static void tilted_boxes_keep_their_energy(void **state)
 {
+    shortfall gain = {"energy gained by tumbling boxes", 0};
     dice d = {7};
     for (int i = 0; i < 60; ++i) {
         int elastic = i % 2 == 0;
@@ -132,12 +136,13 @@ static void tilted_boxes_keep_their_energy(void **state)
         for (int k = 0; k < 240; ++k) {
             run(&s, 1);
             double energy = totals_of(&s, &body, 1).energy;
-            FE_WITHIN(energy, -1e30, lowest + ENERGY_GAIN * before);
+            measure(&gain, energy - lowest, ENERGY_GAIN * before, GROSS * before);
             lowest = fmin(lowest, energy);
             if (elastic && k < 120) FE_WITHIN(energy, 0.9 * before, 2 * before);
         }
         scene_end(&s);
     }
+    settle(&gain);
 }
 
 // A box that lands on one end turns: the point of impact leaves at e of its speed (Newton). For a rod of mass m, half length a, moment I
@@ -161,9 +166,11 @@ static void box_landing_on_its_edge_gets_newtons_impulse(void **state)
         // of the impact: between the last step without it and this one, less gravity
         double impulse = mass * (velocity(&s, body).y - before + G * STEP);
         double arm = corner.x, speed = sqrt(2 * G * height);
-        double exact = mass * speed * (1 + e) / (1 + mass * arm * arm / moment);
-        FE_NEAR(impulse, exact, 0.01 * exact);
-        FE_NEAR(spin(&s, body).z, arm * exact / moment, 0.01 * fabs(arm * exact / moment));
+        double lightness = 1 / (1 + mass * arm * arm / moment), exact = mass * speed * (1 + e) * lightness;
+        // without restitution the end stays on the ground, which carries its share of the weight for what is left of the step
+        double carried = e == 0 ? mass * G * STEP * lightness : 0;
+        FE_WITHIN(impulse, 0.99 * exact, 1.01 * exact + carried);
+        FE_WITHIN(fabs(spin(&s, body).z * moment / arm), 0.99 * exact, 1.01 * exact + carried);
         scene_end(&s);
     }
 }
@@ -267,16 +274,26 @@ static void touching_cradle_keeps_momentum_and_gains_no_energy(void **state)
 
 // ---- many bodies, nothing outside ---------------------------------------------------------------------------------------------------
 
-static void keeps_what_it_has(scene *s, const fe_body *bodies, int count, int steps)
+typedef struct shortfalls {
+    shortfall momentum, angular, energy;
+} shortfalls;
+
+static shortfalls no_shortfalls(void)
+{
+    return (shortfalls){{"momentum lost by free bodies", 0}, {"angular momentum lost by free bodies", 0}, {"energy gained by free bodies", 0}};
+}
+
+static void keeps_what_it_has(scene *s, const fe_body *bodies, int count, int steps, shortfalls *f)
 {
     totals before = totals_of(s, bodies, count);
     double lowest = before.energy;
     for (int k = 0; k < steps; ++k) {
         run(s, 1);
         totals now = totals_of(s, bodies, count);
-        FE_NEAR(length(minus(now.momentum, before.momentum)), 0, MOMENTUM_DRIFT * before.momenta);
-        FE_NEAR(length(minus(now.angular, before.angular)), 0, ANGULAR_DRIFT * before.angular_all);
-        FE_WITHIN(now.energy, 0, lowest + ENERGY_GAIN * before.energy);
+        measure(&f->momentum, length(minus(now.momentum, before.momentum)), MOMENTUM_DRIFT * before.momenta, GROSS * before.momenta);
+        measure(&f->angular, length(minus(now.angular, before.angular)), ANGULAR_DRIFT * before.angular_all, GROSS * before.angular_all);
+        measure(&f->energy, now.energy - lowest, ENERGY_GAIN * before.energy, GROSS * before.energy);
+        FE_WITHIN(now.energy, 0, 2 * before.energy);
         lowest = fmin(lowest, now.energy);
     }
     // they did collide
@@ -288,6 +305,7 @@ static void free_cluster_keeps_momentum_and_gains_no_energy(void **state)
 {
     enum { COUNT = 27 };
     static const double restitutions[] = {0, 0.5, 1};
+    shortfalls f = no_shortfalls();
     for (int i = 0; i < 9; ++i) {
         dice d = {(uint64_t)(100 + i)};
         scene s = scene_begin(state);
@@ -301,15 +319,19 @@ static void free_cluster_keeps_momentum_and_gains_no_energy(void **state)
             vec w = somewhere(&d, 4);
             set_velocity(&s, bodies[k], plus(times(-2, at), somewhere(&d, 1)), w);
         }
-        keeps_what_it_has(&s, bodies, COUNT, 180);
+        keeps_what_it_has(&s, bodies, COUNT, 180, &f);
         scene_end(&s);
     }
+    settle(&f.momentum);
+    settle(&f.angular);
+    settle(&f.energy);
 }
 
 // A free drum of six walls spins; what is in it is flung to the walls and slides along them, and on one another, for seconds.
 static void cargo_in_a_free_drum_keeps_momentum_and_gains_no_energy(void **state)
 {
     enum { CARGO = 18 };
+    shortfalls f = no_shortfalls();
     for (int i = 0; i < 4; ++i) {
         dice d = {(uint64_t)(300 + i)};
         scene s = scene_begin(state);
@@ -343,9 +365,12 @@ static void cargo_in_a_free_drum_keeps_momentum_and_gains_no_energy(void **state
             bodies[k + 1] = add_dynamic(&s, form, at, any_rotation(&d), friction(uniform(&d, 0, 0.8)), (float)uniform(&d, 300, 1500));
             set_velocity(&s, bodies[k + 1], somewhere(&d, 1), w);
         }
-        keeps_what_it_has(&s, bodies, CARGO + 1, 300);
+        keeps_what_it_has(&s, bodies, CARGO + 1, 300, &f);
         scene_end(&s);
     }
+    settle(&f.momentum);
+    settle(&f.angular);
+    settle(&f.energy);
 }
 
 int main(void)

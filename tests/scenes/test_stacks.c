@@ -34,7 +34,7 @@ static void a_stack_of_cubes_sinks_by_p1(void **state)
             FE_NEAR(0.5 + k - position(&s, bodies[k]).y, below, accuracy * below);
             FE_WITHIN(tilt(&s, bodies[k]), 0, 0.2 * DEGREES);
         }
-        FE_WITHIN(fastest(&s, bodies, n), 0, 0.01); // a fifth of what counts as awake
+        FE_WITHIN(fastest(&s, bodies, n), 0, 0.05); // it may sleep
         scene_end(&s);
     }
 }
