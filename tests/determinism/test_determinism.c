@@ -12,7 +12,7 @@
 #include <string.h>
 
 #define GOLDEN "tests/determinism/golden.txt"
-enum { STEPS_BETWEEN_CHECKS = 50, MOST_LINES = 64 };
+enum { MOST_LINES = 64 };
 
 typedef struct golden {
     char script[16];
@@ -75,7 +75,7 @@ static void run(const script *s, int32_t simd, int32_t workers, int32_t steps)
     play p;
     play_begin(&p, new_world(simd, workers));
     while (p.step < steps) {
-        play_until(&p, s, p.step + STEPS_BETWEEN_CHECKS);
+        play_until(&p, s, p.step + PLAY_CHECK_STEPS);
         compare(&p, s, workers);
     }
     assert_int_equal(p.errors, 0);
@@ -121,7 +121,7 @@ static void crowd_has_more_than_1000_contacts(void **state)
     int32_t most = 0, most_rows = 0;
     play_begin(&p, new_world(FE_SIMD_AUTO, 1));
     while (p.step < script_crowd.steps / 2) {
-        play_until(&p, &script_crowd, p.step + STEPS_BETWEEN_CHECKS);
+        play_until(&p, &script_crowd, p.step + PLAY_CHECK_STEPS);
         fe_world_get_counters(p.world, &counters);
         if (counters.contacts > most) most = counters.contacts;
         if (counters.rows - counters.rows_whole > most_rows) most_rows = counters.rows - counters.rows_whole;
@@ -198,10 +198,10 @@ static void compare_with_strangers(const script *s, int32_t steps, void (*before
     play_begin(&crowded, new_world(FE_SIMD_AUTO, 2));
     if (before) before(&crowded);
     while (alone.step < steps) {
-        play_until(&alone, s, alone.step + STEPS_BETWEEN_CHECKS / 2);
+        play_until(&alone, s, alone.step + PLAY_CHECK_STEPS / 2);
         play_until(&crowded, s, alone.step);
         same_motions(&alone, &crowded);
-        if (later && alone.step == STEPS_BETWEEN_CHECKS) later(&crowded);
+        if (later && alone.step == PLAY_CHECK_STEPS) later(&crowded);
     }
     assert_int_equal(alone.errors + crowded.errors, 0);
     fe_world_destroy(alone.world);
@@ -243,13 +243,9 @@ static int update(void)
     if (!file) return 1;
     const script *const scripts[] = {&script_crowd, &script_mixed};
     for (int32_t i = 0; i < 2; ++i) {
-        play p;
-        play_begin(&p, new_world(FE_SIMD_PLAIN, 1));
-        while (p.step < scripts[i]->steps) {
-            play_until(&p, scripts[i], p.step + STEPS_BETWEEN_CHECKS);
-            fprintf(file, "%s %d %016" PRIx64 " %016" PRIx64 "\n", scripts[i]->name, (int)p.step, play_hash(&p), play_told(&p));
-        }
-        fe_world_destroy(p.world);
+        fe_world *world = new_world(FE_SIMD_PLAIN, 1);
+        play_print(file, scripts[i], world, scripts[i]->steps);
+        fe_world_destroy(world);
     }
     return fclose(file) != 0;
 }

@@ -1,8 +1,7 @@
-// play.c - see play.h.
+// play.c - see play.h. Without cmocka, so that a program for another machine can be made of it.
 #include "support/play.h"
 
-#include "fe_test.h"
-
+#include <inttypes.h>
 #include <stdlib.h>
 
 enum { ERRORS_TOLD = 5 }; // of a play
@@ -18,14 +17,14 @@ int32_t play_after(play *p, fe_result result, const char *text)
 {
     if (p->after) return p->after(p, result);
     if (result >= 0) return 0;
-    if (p->errors++ < ERRORS_TOLD) print_error("step %d: %s: %s\n", (int)p->step, text, fe_last_error());
+    if (p->errors++ < ERRORS_TOLD) fprintf(stderr, "step %d: %s: %s\n", (int)p->step, text, fe_last_error());
     return 0;
 }
 
 uint64_t play_hash(const play *p)
 {
     uint32_t words[2] = {0, 0};
-    if (fe_world_hash(p->world, words) != FE_OK) print_error("no hash: %s\n", fe_last_error());
+    if (fe_world_hash(p->world, words) != FE_OK) fprintf(stderr, "no hash: %s\n", fe_last_error());
     return words[0] | (uint64_t)words[1] << 32;
 }
 
@@ -120,6 +119,16 @@ void play_until(play *p, const script *s, int32_t step)
     }
 }
 
+void play_print(FILE *out, const script *s, fe_world *world, int32_t steps)
+{
+    play p;
+    play_begin(&p, world);
+    while (p.step < steps && p.step < s->steps) {
+        play_until(&p, s, p.step + PLAY_CHECK_STEPS);
+        fprintf(out, "%s %d %016" PRIx64 " %016" PRIx64 "\n", s->name, (int)p.step, play_hash(&p), play_told(&p));
+    }
+}
+
 // ---- what scripts are written with ------------------------------------------------------------------------------------------------------
 
 // Knuth's line of numbers modulo 2^32; its high bits are the random ones
@@ -184,7 +193,7 @@ void play_put(play *p, int32_t actor, const part *part)
 
 int32_t play_add(play *p, const part *part)
 {
-    FE_TRUE(p->actor_count < PLAY_MOST_ACTORS);
+    if (p->actor_count == PLAY_MOST_ACTORS) abort();
     play_put(p, p->actor_count, part);
     return p->actor_count++;
 }

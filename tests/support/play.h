@@ -8,7 +8,9 @@
 #include "core/hash.h"
 #include "feather.h"
 
-enum { PLAY_MOST_ACTORS = 1024 };
+#include <stdio.h>
+
+enum { PLAY_MOST_ACTORS = 1024, PLAY_CHECK_STEPS = 50 }; // from one golden hash to the next
 
 typedef struct play play;
 struct play {
@@ -44,6 +46,7 @@ void play_begin(play *p, fe_world *world);               // an empty play; `worl
 void play_until(play *p, const script *s, int32_t step); // builds before the first step
 uint64_t play_hash(const play *p);                       // of the world
 uint64_t play_told(const play *p);
+void play_print(FILE *out, const script *s, fe_world *world, int32_t steps); // a line for each check, as in golden.txt
 
 void play_before(play *p);
 int32_t play_after(play *p, fe_result result, const char *text);

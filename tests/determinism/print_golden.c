@@ -1,0 +1,26 @@
+// print_golden.c - prints what golden.txt holds, as this machine computes it; without cmocka, for machines that are only emulated
+// (tests/determinism/aarch64).
+//
+//   feather-golden [simd] [steps]    fe_simd, 0: the widest; of each script, at most
+#include "support/play.h"
+
+#include <stdlib.h>
+
+int main(int count, char **arguments)
+{
+    const script *const scripts[] = {&script_crowd, &script_mixed};
+    fe_world_def def;
+    fe_world_def_init(&def, sizeof def);
+    int32_t steps = count > 2 ? atoi(arguments[2]) : INT32_MAX;
+    def.simd = count > 1 ? atoi(arguments[1]) : FE_SIMD_AUTO;
+    for (int32_t i = 0; i < 2; ++i) {
+        fe_world *world;
+        if (fe_world_create(&def, &world) != FE_OK) {
+            fprintf(stderr, "%s\n", fe_last_error());
+            return 1;
+        }
+        play_print(stdout, scripts[i], world, steps);
+        fe_world_destroy(world);
+    }
+    return 0;
+}
