@@ -26,7 +26,7 @@ static inline void measure(shortfall *f, double value, double bound, double gros
     f->worst = fmax(f->worst, value / bound);
 }
 
-static inline void settle(const shortfall *f)
+static inline void report_shortfall(const shortfall *f)
 {
     if (f->worst <= 1) return;
     print_message("known limit: %s, %.3g times the bound\n", f->what, f->worst);

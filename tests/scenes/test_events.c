@@ -157,7 +157,7 @@ static void every_end_of_a_touch_sends_one_exit(void **state)
                 }
                 FE_TRUE(balance == 1);
                 if (trigger && how == MAKE_STATIC_BOTH) { // a trigger still sees a kinematic body
-                    end_touch(&s, how, body, other);
+                    end_touch(&s, (ending)how, body, other);
                     run(&s, 2);
                     FE_TRUE(told(&s, other, body, FE_EXIT) == 0);
                     scene_end(&s);

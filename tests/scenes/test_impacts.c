@@ -142,7 +142,7 @@ static void tilted_boxes_keep_their_energy(void **state)
         }
         scene_end(&s);
     }
-    settle(&gain);
+    report_shortfall(&gain);
 }
 
 // A box that lands on one end turns: the point of impact leaves at e of its speed (Newton). For a rod of mass m, half length a, moment I
@@ -285,13 +285,15 @@ static shortfalls no_shortfalls(void)
 
 static void keeps_what_it_has(scene *s, const fe_body *bodies, int count, int steps, shortfalls *f)
 {
-    totals before = totals_of(s, bodies, count);
+    totals before = totals_of(s, bodies, count), most = before;
     double lowest = before.energy;
     for (int k = 0; k < steps; ++k) {
         run(s, 1);
         totals now = totals_of(s, bodies, count);
-        measure(&f->momentum, length(minus(now.momentum, before.momentum)), MOMENTUM_DRIFT * before.momenta, GROSS * before.momenta);
-        measure(&f->angular, length(minus(now.angular, before.angular)), ANGULAR_DRIFT * before.angular_all, GROSS * before.angular_all);
+        // the scale of rounding is the most that the bodies have carried
+        most.momenta = fmax(most.momenta, now.momenta), most.angular_all = fmax(most.angular_all, now.angular_all);
+        measure(&f->momentum, length(minus(now.momentum, before.momentum)), MOMENTUM_DRIFT * most.momenta, GROSS * most.momenta);
+        measure(&f->angular, length(minus(now.angular, before.angular)), ANGULAR_DRIFT * most.angular_all, GROSS * most.angular_all);
         measure(&f->energy, now.energy - lowest, ENERGY_GAIN * before.energy, GROSS * before.energy);
         FE_WITHIN(now.energy, 0, 2 * before.energy);
         lowest = fmin(lowest, now.energy);
@@ -322,9 +324,9 @@ static void free_cluster_keeps_momentum_and_gains_no_energy(void **state)
         keeps_what_it_has(&s, bodies, COUNT, 180, &f);
         scene_end(&s);
     }
-    settle(&f.momentum);
-    settle(&f.angular);
-    settle(&f.energy);
+    const shortfall *all[] = {&f.momentum, &f.angular, &f.energy};
+    for (int k = 0; k < 3; ++k) print_message("%s: %.3g times the bound\n", all[k]->what, all[k]->worst);
+    for (int k = 0; k < 3; ++k) report_shortfall(all[k]);
 }
 
 // A free drum of six walls spins; what is in it is flung to the walls and slides along them, and on one another, for seconds.
@@ -368,9 +370,9 @@ static void cargo_in_a_free_drum_keeps_momentum_and_gains_no_energy(void **state
         keeps_what_it_has(&s, bodies, CARGO + 1, 300, &f);
         scene_end(&s);
     }
-    settle(&f.momentum);
-    settle(&f.angular);
-    settle(&f.energy);
+    const shortfall *all[] = {&f.momentum, &f.angular, &f.energy};
+    for (int k = 0; k < 3; ++k) print_message("%s: %.3g times the bound\n", all[k]->what, all[k]->worst);
+    for (int k = 0; k < 3; ++k) report_shortfall(all[k]);
 }
 
 int main(void)
