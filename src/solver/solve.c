@@ -274,6 +274,7 @@ void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *wor
                const fe__step_constants *c)
 {
     job j = {.s = s, .k = kernels, .bodies = bodies, .contacts = contacts, .extras = extras, .c = c};
+    if (!s->batch_count) return; // all sleep; there may be no lines at all
     clear_static_line(s);
     for (int32_t i = 0; i < s->large_count; ++i) {
         j.batch = s->batches + i;

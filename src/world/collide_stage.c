@@ -1,7 +1,8 @@
 // collide_stage.c - stages 2 and 3: manifolds of the awake pairs, what begins and ends to touch, who wakes; then the constraint graph.
 //
-// A pair that moved little keeps its manifold (recycling, wide); the others go through the narrow phase one by one. Workers only write their pairs'
-// own records and a list of results; the results are applied afterwards, sorted by creation, so that colours and wake-ups follow no thread.
+// A pair that moved little keeps its manifold (recycling, wide); the others go through the narrow phase one by one. Workers only write
+// their pairs' own records and a list of results; the results are applied afterwards, sorted by creation, so that colours and wake-ups
+// follow no thread.
 #include "solver/graph.h"
 #include "world/step.h"
 
@@ -54,12 +55,13 @@ static void collide_block(void *argument, int32_t first, int32_t end, int32_t wo
         --recycled;
         fe__collide_pair(w, pair, job->step->dt);
         w->pairs[pair].result = judge(w, pair);
-        if (w->pairs[pair].result != FE__RESULT_NONE) s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
+        if (w->pairs[pair].result != FE__RESULT_NONE)
+            s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
     }
     atomic_fetch_add_explicit(&s->recycled, recycled, memory_order_relaxed);
 }
 
-// ---- results ------------------------------------------------------------------------------------------------------------------------------
+// ---- results -------------------------------------------------------------------------------------------------------------------
 void fe__sort_pairs(fe__step *step, int32_t *pairs, int32_t count)
 {
     const fe_world *w = step->world;
@@ -84,7 +86,8 @@ static void apply_results(fe__step *step, int32_t first)
     int32_t *results = s->results + first, count = atomic_load(&s->result_count) - first;
     fe__sort_pairs(step, results, count);
     for (int32_t i = 0; i < count; ++i)
-        if (w->pairs[results[i]].result == FE__RESULT_END || w->pairs[results[i]].result == FE__RESULT_APART) fe__pair_unlink(w, results[i]);
+        if (w->pairs[results[i]].result == FE__RESULT_END || w->pairs[results[i]].result == FE__RESULT_APART)
+            fe__pair_unlink(w, results[i]);
     for (int32_t i = 0; i < count; ++i) {
         const fe__pair *p = w->pairs + results[i];
         if (p->result != FE__RESULT_BEGIN) continue;
@@ -116,7 +119,13 @@ void fe__update_contacts(fe__step *step)
 void fe__build_islands(fe__step *step)
 {
     fe_world *w = step->world;
-    if (!w->solver.graph_changed) return;
-    const fe__graph_input in = {w->bodies, w->contacts, w->pair_serials, w->awake_bodies, w->awake_body_count, w->awake_pairs, w->awake_pair_count};
+    fe__solver *s = &w->solver;
+    if (!s->graph_changed) return;
+    if (!w->awake_body_count) { // built when somebody wakes
+        s->batch_count = s->large_count = s->group_count = s->lane_count = s->line_count = s->island_count = 0;
+        return;
+    }
+    const fe__graph_input in = {w->bodies,           w->contacts,    w->pair_serials,    w->awake_bodies,
+                                w->awake_body_count, w->awake_pairs, w->awake_pair_count};
     fe__graph_build(&w->solver, w->kernels, &in);
 }

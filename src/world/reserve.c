@@ -104,6 +104,6 @@ int32_t fe__reserve_step(fe__step *step)
 {
     fe_world *w = step->world;
     fe__graph_bound bound = bound_of(step);
-    return fe__reserve_pairs(w, step->scratch->candidate_count) && reserve_scratch(step, &bound) &&
-           fe__graph_reserve(&w->solver, &w->memory, w->kernels, &bound, w->workers.count);
+    if (!fe__reserve_pairs(w, step->scratch->candidate_count) || !reserve_scratch(step, &bound)) return 0;
+    return bound.bodies == 0 || fe__graph_reserve(&w->solver, &w->memory, w->kernels, &bound, w->workers.count);
 }
