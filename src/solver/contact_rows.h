@@ -185,7 +185,7 @@ FE_INLINE wide NAMED(load_of)(const ROW *row)
 
 // One sweep shares the impulses of an impact unevenly: a box that lands flat would turn, hop, and its friction throw it aside. So contacts
 // whose load rises by half at once get more sweeps; in those that rest the warm start brings the even share. The other lanes stay as they
-// are. Out of line: rare.
+// are, and touches are those of the first sweep, before anything was stopped. Out of line: rare.
 static __attribute__((noinline)) void NAMED(share_impact)(ROW *row, const affine *gap, const fe__step_constants *c, pair *p,
                                                           wide_mask fresh, int kind, int soft)
 {
@@ -197,10 +197,7 @@ static __attribute__((noinline)) void NAMED(share_impact)(ROW *row, const affine
     for (int i = 0; special && i < POINTS; ++i) approach[i] = x->approach[i], flight[i] = x->flight[i];
     for (int sweep = 1; sweep < IMPACT_SWEEPS; ++sweep) NAMED(solve_normals_once)(row, gap, c, &settled, kind, soft);
     for (int i = 0; i < POINTS; ++i) row->point[i].impulse = w_choose(fresh, row->point[i].impulse, old[i]);
-    for (int i = 0; special && i < POINTS; ++i) {
-        x->approach[i] = w_choose(fresh, x->approach[i], approach[i]);
-        x->flight[i] = w_choose(fresh, x->flight[i], flight[i]);
-    }
+    for (int i = 0; special && i < POINTS; ++i) x->approach[i] = approach[i], x->flight[i] = flight[i];
     p->a.v = w_choose3(fresh, settled.a.v, p->a.v), p->a.w = w_choose3(fresh, settled.a.w, p->a.w);
     p->b.v = w_choose3(fresh, settled.b.v, p->b.v), p->b.w = w_choose3(fresh, settled.b.w, p->b.w);
 }
@@ -334,12 +331,10 @@ FE_INLINE wide NAMED(bounce_speed)(const SPECIAL_ROW *x, int i, wide distance, c
     return w_choose(w_greater(x->approach[i], zero), w_min(wanted, w_sqrt(w_max(q - used, zero))), -(gap * c->inverse_h));
 }
 
-// What the touched contacts gave leaves the warm start: start takes M^-1 J^T l, and l becomes 0. `old`: impulses that `total` already has,
-// and that the other lanes, which the sweeps ran over too, get back.
-FE_INLINE void NAMED(leave_warm_start)(SPECIAL_ROW *x, fe__solver *s, const pair *p, const wide *old, wide_mask touched, int kind)
+// What the touched contacts gave so far leaves the warm start: start takes M^-1 J^T l.
+FE_INLINE void NAMED(leave_warm_start)(const SPECIAL_ROW *x, fe__solver *s, const pair *p, wide_mask touched, int kind)
 {
-    ROW *row = &x->row;
-    wide zero = w_set(0.0f);
+    const ROW *row = &x->row;
     pair start = {start_side(s, row->line_a), start_side(s, row->line_b), p->normal, p->span}, was = start;
     wide3 moment = w_zero3(), friction = NAMED(friction_impulse)(row, p->normal);
     UNROLL for (int i = 0; i < POINTS; ++i) moment = w_add_scaled(moment, row->point[i].impulse, load3(row->point[i].r));
@@ -351,6 +346,14 @@ FE_INLINE void NAMED(leave_warm_start)(SPECIAL_ROW *x, fe__solver *s, const pair
     start.b.v = w_choose3(touched, start.b.v, was.b.v), start.b.w = w_choose3(touched, start.b.w, was.b.w);
     if (kind & FE__ROW_PAIR) scatter_side(s->start, row->line_a, &start.a);
     scatter_side(s->start, row->line_b, &start.b);
+}
+
+// Of the touched lanes: nothing is left to warm-start. The others, which the sweeps ran over too, get their impulses back. `old`: impulses
+// that `total` already has.
+FE_INLINE void NAMED(forget_touched)(SPECIAL_ROW *x, const wide *old, wide_mask touched)
+{
+    ROW *row = &x->row;
+    wide zero = w_set(0.0f);
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
         point_row *q = row->point + i;
@@ -363,13 +366,39 @@ FE_INLINE void NAMED(leave_warm_start)(SPECIAL_ROW *x, fe__solver *s, const pair
     row->twist_impulse = w_choose(touched, zero, row->twist_impulse);
 }
 
-// After relax, for contacts that touched in this substep: the points together reach their speeds.
+// The points together reach their speeds: each sweep looks at the bodies anew.
+FE_INLINE void NAMED(sweep_bounce)(ROW *row, pair *p, const wide *target, int kind)
+{
+    for (int sweep = 0; sweep < IMPACT_SWEEPS; ++sweep) {
+        affine velocity = NAMED(normal_velocity)(p);
+        wide wish[POINTS], sum;
+        UNROLL for (int i = 0; i < POINTS; ++i)
+        {
+            const point_row *q = row->point + i;
+            wish[i] = q->impulse - q->mass * (at(&velocity, load3(q->r)) - target[i]);
+        }
+        wide3 moment = NAMED(sweep_points)(row, wish, 0, &sum);
+        NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
+    }
+}
+
+// the points' impulses once more, or, with sign -1, off the bodies again
+FE_INLINE void NAMED(apply_normals)(const ROW *row, pair *p, float sign, int kind)
+{
+    wide3 moment = w_zero3();
+    wide load = sign * NAMED(load_of)(row);
+    UNROLL for (int i = 0; i < POINTS; ++i) moment = w_add_scaled(moment, sign * row->point[i].impulse, load3(row->point[i].r));
+    NAMED(apply)(row, p, w_scale(load, p->normal), w_cross(moment, p->normal), kind);
+}
+
+// After relax, for contacts that touched in this substep. A bounce adds no energy only with the inertia that the bodies have now, after
+// what they turned since the step began: what stopped them is given anew with it.
 FE_INLINE void NAMED(bounce_row)(SPECIAL_ROW *x, fe__solver *s, const fe__step_constants *c, int kind)
 {
     ROW *row = &x->row;
-    wide zero = w_set(0.0f), approach = x->approach[0];
+    wide approach = x->approach[0];
     UNROLL for (int i = 1; i < POINTS; ++i) approach = w_max(x->approach[i], approach);
-    wide_mask touched = w_greater(approach, zero);
+    wide_mask touched = w_greater(approach, w_set(0.0f));
     if (!w_any(touched)) return;
     pair p = NAMED(gather_pair)(row, s, kind), before = p;
     affine gap = NAMED(separation_change)(row, s, &p, NAMED(shift_in_step)(row, s, kind), kind);
@@ -379,18 +408,17 @@ FE_INLINE void NAMED(bounce_row)(SPECIAL_ROW *x, fe__solver *s, const fe__step_c
         old[i] = row->point[i].impulse;
         target[i] = NAMED(bounce_speed)(x, i, row->point[i].separation + at(&gap, load3(row->point[i].r)), c);
     }
-    for (int sweep = 0; sweep < IMPACT_SWEEPS; ++sweep) {
-        affine velocity = NAMED(normal_velocity)(&p);
-        wide wish[POINTS], sum;
-        UNROLL for (int i = 0; i < POINTS; ++i) wish[i] =
-            row->point[i].impulse - row->point[i].mass * (at(&velocity, load3(row->point[i].r)) - target[i]);
-        wide3 moment = NAMED(sweep_points)(row, wish, 0, &sum);
-        NAMED(apply)(row, &p, w_scale(sum, p.normal), w_cross(moment, p.normal), kind);
-    }
-    NAMED(leave_warm_start)(x, s, &p, old, touched, kind);
-    p.a.v = w_choose3(touched, p.a.v, before.a.v), p.a.w = w_choose3(touched, p.a.w, before.a.w);
-    p.b.v = w_choose3(touched, p.b.v, before.b.v), p.b.w = w_choose3(touched, p.b.w, before.b.w);
-    NAMED(scatter_pair)(row, s, &p, kind);
+    NAMED(leave_warm_start)(x, s, &p, touched, kind);
+    NAMED(apply_normals)(row, &p, -1.0f, kind);
+    wide_sym first_a = row->inertia_a, first_b = row->inertia_b;
+    row->inertia_b = turned_inertia(s, row->line_b, p.b.locks);
+    if (kind & FE__ROW_PAIR) row->inertia_a = turned_inertia(s, row->line_a, p.a.locks);
+    NAMED(apply_normals)(row, &p, 1.0f, kind);
+    NAMED(sweep_bounce)(row, &p, target, kind);
+    row->inertia_a = first_a, row->inertia_b = first_b;
+    NAMED(forget_touched)(x, old, touched);
+    if (kind & FE__ROW_PAIR) add_change(s, row->line_a, &before.a, &p.a, touched);
+    add_change(s, row->line_b, &before.b, &p.b, touched);
 }
 
 // ---- passes over the rows -----------------------------------------------------------------------------------------------------------

@@ -33,4 +33,30 @@ FE_INLINE wide_sym gather_inertia(const fe__solver *s, const int32_t *index)
     return (wide_sym){low.x, low.y, low.z, low.w, high.x, high.y};
 }
 
+// The inverse inertia of bodies that turned by dq since the step began: R I^-1 R^T, row i of R being R^T e_i = e_i + (R^T e_i - e_i). What a
+// lock leaves of it is kept as it was.
+FE_INLINE wide_sym turned_inertia(const fe__solver *s, const int32_t *index, wide locks)
+{
+    wide_sym i = gather_inertia(s, index);
+    wide4 q = gather_high(s->motion, index);
+    wide zero = w_set(0.0f), one = w_set(1.0f);
+    wide3 x = {one, zero, zero}, y = {zero, one, zero}, z = {zero, zero, one};
+    x = w_add(x, w_turn_back(q, x)), y = w_add(y, w_turn_back(q, y)), z = w_add(z, w_turn_back(q, z));
+    wide3 ix = w_mul(&i, x), iy = w_mul(&i, y), iz = w_mul(&i, z);
+    wide_mask locked = w_greater(locks, zero);
+    return (wide_sym){w_choose(locked, i.xx, w_dot(x, ix)), w_choose(locked, i.xy, w_dot(x, iy)), w_choose(locked, i.xz, w_dot(x, iz)),
+                      w_choose(locked, i.yy, w_dot(y, iy)), w_choose(locked, i.yz, w_dot(y, iz)), w_choose(locked, i.zz, w_dot(z, iz))};
+}
+
+// in the given lanes: what bodies got and no warm start shall repeat, to velocity and start alike
+FE_INLINE void add_change(const fe__solver *s, const int32_t *index, const side *before, const side *after, wide_mask lanes)
+{
+    side start = start_side(s, index), now = *before;
+    start.v = w_choose3(lanes, w_add(start.v, w_sub(after->v, before->v)), start.v);
+    start.w = w_choose3(lanes, w_add(start.w, w_sub(after->w, before->w)), start.w);
+    now.v = w_choose3(lanes, after->v, now.v), now.w = w_choose3(lanes, after->w, now.w);
+    scatter_side(s->start, index, &start);
+    scatter_side(s->velocity, index, &now);
+}
+
 #endif
