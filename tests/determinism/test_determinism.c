@@ -94,8 +94,8 @@ static void gives_the_golden_hashes(void **state)
 {
     const condition *c = *state;
 #if defined(FE_SANITIZED)
-    static const int32_t workers[] = {1, 3};
-    const int32_t count = 2, steps = 100;
+    static const int32_t workers[] = {3};
+    const int32_t count = 1, steps = 100;
 #elif !defined(__OPTIMIZE__)
     static const int32_t workers[] = {2};
     const int32_t count = 1, steps = c->script->steps / 2;
