@@ -3,6 +3,7 @@
 
 #include "memory.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -100,6 +101,44 @@ double bench_shape_volume(const bench_shape *shape)
     return 0.0;
 }
 
+double bench_shape_area(const bench_shape *shape)
+{
+    double r = shape->radius;
+    switch (shape->form) {
+    case BENCH_BOX:
+        return 4.0 * (double)shape->half[0] * (double)shape->half[1];
+    case BENCH_SPHERE:
+        return PI * r * r;
+    case BENCH_CAPSULE:
+        return PI * r * r + 4.0 * r * (double)shape->half_height;
+    }
+    return 0.0;
+}
+
+void bench_make_planar(bench_scene *scene)
+{
+    for (int32_t i = 0; i < scene->shape_count; i++) {
+        bench_shape *shape = &scene->shapes[i];
+        if (shape->form == BENCH_BOX) {
+            shape->half[2] = 0.5f;
+        } else {
+            shape->density *= (float)(bench_shape_area(shape) / bench_shape_volume(shape));
+        }
+    }
+    for (int32_t i = 0; i < scene->body_count; i++) {
+        if (!scene->bodies[i].dynamic) continue;
+        scene->bodies[i].linear_locks |= 4;
+        scene->bodies[i].angular_locks |= 3;
+    }
+    scene->planar = 1;
+}
+
+void bench_turn_z(bench_body *body, double angle)
+{
+    body->start.rotation[2] = sin(0.5 * angle);
+    body->start.rotation[3] = cos(0.5 * angle);
+}
+
 double bench_scene_mass(const bench_scene *scene)
 {
     double mass = 0.0;
@@ -136,6 +175,7 @@ static int32_t add_body(bench_scene *scene, int32_t shape, int32_t dynamic, doub
     body->shape = shape;
     body->dynamic = dynamic;
     body->collides = 1;
+    body->gravity_scale = 1.0f;
     return scene->body_count++;
 }
 
@@ -147,6 +187,7 @@ int32_t bench_add_joint(bench_scene *scene, int32_t body_a, int32_t body_b, doub
 {
     scene->joints = grow(scene->joints, scene->joint_count, &scene->joint_capacity, sizeof *scene->joints);
     bench_joint *joint = &scene->joints[scene->joint_count];
+    memset(joint, 0, sizeof *joint);
     joint->body_a = body_a, joint->body_b = body_b;
     joint->anchor[0] = x, joint->anchor[1] = y, joint->anchor[2] = z;
     return scene->joint_count++;

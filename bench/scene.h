@@ -26,6 +26,7 @@ typedef struct bench_shape {
     float density;     ///< kg/m3
     float friction;    ///< static = dynamic; engines mix two by sqrt(a b)
     float restitution; ///< 0..1
+    float rolling;     ///< resistance to rolling: torque over radius and normal force
 } bench_shape;
 
 typedef struct bench_pose {
@@ -40,12 +41,36 @@ typedef struct bench_body {
     int32_t shape;             ///< index into bench_scene.shapes
     int32_t dynamic;           ///< 0: static
     int32_t collides;          ///< 0: touches nothing
+    int32_t group;             ///< bodies of one group, if it is not 0, do not touch each other
+    int32_t linear_locks;      ///< bits: 1 x, 2 y, 4 z of the world
+    int32_t angular_locks;     ///< likewise, turns about the axes
+    float gravity_scale;
+    float linear_damping, angular_damping; ///< 1/s
 } bench_body;
 
-/// Holds the point `anchor` of both bodies together.
+typedef enum bench_joint_kind {
+    BENCH_BALL,    ///< the point stays together; `limits` bound the twist about `axis`, `cone` the swing of `axis`
+    BENCH_HINGE,   ///< the point and the axis; `limits` bound the angle
+    BENCH_SLIDER,  ///< moves along the axis and does not turn; `limits` bound the way, m
+    BENCH_FIXED,   ///< moves not at all
+    BENCH_DISTANCE ///< `anchor` of A and `anchor_b` of B keep their distance
+} bench_joint_kind;
+
+/// Zero is "none" for all but kind, bodies and anchor; the pose at the start is the zero of angles and ways.
 typedef struct bench_joint {
+    bench_joint_kind kind;
     int32_t body_a, body_b; ///< indices into bench_scene.bodies
     double anchor[3];       ///< at the start, m, world space
+    double anchor_b[3];     ///< of B, where it is not `anchor` (is_open), m
+    int32_t is_open;        ///< 1: the points do not meet at the start
+    double axis[3];         ///< unit, world space
+    int32_t has_limits;
+    double limits[2];       ///< rad or m
+    double cone;            ///< largest swing, rad
+    double motor_speed;     ///< rad/s or m/s
+    double motor_force;     ///< largest, N m or N; with speed 0 it is a friction
+    double hertz, damping;  ///< of a spring towards the zero: frequency, damping ratio
+    double stiffness_hertz; ///< of the joint itself, 0: the engine's own
 } bench_joint;
 
 typedef struct bench_scene {
@@ -54,6 +79,7 @@ typedef struct bench_scene {
     float dt;          ///< s
     int32_t warm_up_steps;
     int32_t timed_steps;
+    int32_t planar; ///< 1: all happens in the plane z = 0, see bench_make_planar
     bench_shape *shapes;
     bench_body *bodies;
     bench_joint *joints;
@@ -83,6 +109,12 @@ void bench_scene_destroy(bench_scene *scene);
 bench_shape bench_make_box(float half_x, float half_y, float half_z);
 bench_shape bench_make_sphere(float radius);
 bench_shape bench_make_capsule(float half_height, float radius);
+/// A scene laid out in the plane z = 0 becomes the twin of a two-dimensional one: bodies are locked to the plane; boxes get the depth 1 m;
+/// spheres and capsules get the mass of a disc or a stadium of depth 1 m and the same density (a sphere's inertia stays 2/5 m r2 where a
+/// disc has 1/2).
+void bench_make_planar(bench_scene *scene);
+/// m2, of the outline in the plane z = 0
+double bench_shape_area(const bench_shape *shape);
 /// m3
 double bench_shape_volume(const bench_shape *shape);
 /// kg, of all dynamic bodies.
@@ -92,7 +124,9 @@ double bench_scene_mass(const bench_scene *scene);
 int32_t bench_add_shape(bench_scene *scene, bench_shape shape);
 int32_t bench_add_static(bench_scene *scene, int32_t shape, double x, double y, double z);
 int32_t bench_add_dynamic(bench_scene *scene, int32_t shape, double x, double y, double z);
-int32_t bench_add_joint(bench_scene *scene, int32_t body_a, int32_t body_b, double x, double y, double z);
+int32_t bench_add_joint(bench_scene *scene, int32_t body_a, int32_t body_b, double x, double y, double z); ///< a ball joint
+/// Turns a body about the world's z axis, rad.
+void bench_turn_z(bench_body *body, double angle);
 
 void bench_build_rest(bench_scene *scene, int32_t n);
 void bench_build_pyramid(bench_scene *scene, int32_t n);

@@ -80,7 +80,7 @@ static void add_peer_runs(bench_table *table, const bench_options *options)
     for (int32_t i = 0; i < bench_engine_count; i++) {
         const bench_engine_entry *entry = &bench_engines[i];
         if (entry->engine == &bench_feather || !is_asked(options, entry->name)) continue;
-        if (entry->engine != NULL) add_run(table, entry->engine, 0, 0);
+        if (entry->engine != NULL && (table->scene.planar || !entry->engine->planar_only)) add_run(table, entry->engine, 0, 0);
     }
 }
 

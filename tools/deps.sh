@@ -33,6 +33,7 @@ missing() {
     if test "$wanted" = all; then
         pkg-config --exists bullet 2> /dev/null || echo libbullet-dev
         pkg-config --exists ode 2> /dev/null || echo libode-dev
+        pkg-config --exists box2d 2> /dev/null || echo libbox2d-dev
         has clang-format || echo clang-format
     fi
 }

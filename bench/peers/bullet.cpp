@@ -11,6 +11,8 @@
 #include <btBulletDynamicsCommon.h>
 #pragma GCC diagnostic pop
 
+#include <cmath>
+#include <cstdio>
 #include <memory>
 #include <vector>
 
@@ -25,6 +27,7 @@ struct bench_world {
     btDbvtBroadphase broadphase;
     btSequentialImpulseConstraintSolver solver;
     btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
+    const bench_scene *scene = nullptr;
 };
 
 namespace
@@ -33,6 +36,9 @@ namespace
 btVector3 vector(const double *v) { return btVector3(float(v[0]), float(v[1]), float(v[2])); }
 
 btVector3 vector(const float *v) { return btVector3(v[0], v[1], v[2]); }
+
+// 1 where a body may move or turn, 0 where it is locked
+btVector3 free_axes(int32_t locks) { return btVector3(locks & 1 ? 0.0f : 1.0f, locks & 2 ? 0.0f : 1.0f, locks & 4 ? 0.0f : 1.0f); }
 
 std::unique_ptr<btCollisionShape> make_shape(const bench_shape &shape)
 {
@@ -66,21 +72,112 @@ void add_body(bench_world *w, const bench_scene &scene, const bench_body &body)
     rigid->setLinearVelocity(vector(body.linear_velocity));
     rigid->setAngularVelocity(vector(body.angular_velocity));
     rigid->setActivationState(DISABLE_DEACTIVATION);
+    rigid->setDamping(1.0f - std::exp(-body.linear_damping), 1.0f - std::exp(-body.angular_damping)); // the share lost in a second
+    rigid->setRollingFriction(shape.rolling);
+    rigid->setLinearFactor(free_axes(body.linear_locks));
+    rigid->setAngularFactor(free_axes(body.angular_locks));
+    rigid->setUserIndex(body.group);
     if (body.collides) {
         w->world.addRigidBody(rigid.get());
     } else {
         w->world.addRigidBody(rigid.get(), btBroadphaseProxy::DefaultFilter, 0);
     }
+    if (body.dynamic) rigid->setGravity(body.gravity_scale * vector(scene.gravity)); // after joining the world, which sets its own
     w->bodies.push_back(std::move(rigid));
 }
 
-void add_joint(bench_world *w, const bench_joint &joint)
+// The joint's frame at the start, in the space of `body`: `turn` takes the engine's axis of the joint (x or z) to the scene's.
+btTransform frame_in(const btRigidBody &body, const bench_joint &joint, const btQuaternion &turn)
 {
-    btRigidBody &a = *w->bodies[size_t(joint.body_a)], &b = *w->bodies[size_t(joint.body_b)];
-    btVector3 anchor = vector(joint.anchor);
-    btVector3 in_a = a.getWorldTransform().inverse() * anchor, in_b = b.getWorldTransform().inverse() * anchor;
-    w->joints.push_back(std::make_unique<btPoint2PointConstraint>(a, b, in_a, in_b));
-    w->world.addConstraint(w->joints.back().get(), true);
+    return body.getWorldTransform().inverse() * btTransform(turn, vector(joint.anchor));
+}
+
+std::unique_ptr<btTypedConstraint> make_hinge(btRigidBody &a, btRigidBody &b, const bench_joint &joint)
+{
+    const btQuaternion turn = shortestArcQuat(btVector3(0, 0, 1), vector(joint.axis));
+    // the engine's angle grows with its first body turning about the axis, the scene's with B
+    auto hinge = std::make_unique<btHingeConstraint>(b, a, frame_in(b, joint, turn), frame_in(a, joint, turn));
+    if (joint.has_limits) hinge->setLimit(btScalar(joint.limits[0]), btScalar(joint.limits[1]));
+    if (joint.motor_force > 0.0)
+        hinge->enableAngularMotor(true, btScalar(joint.motor_speed), btScalar(joint.motor_force / 60.0)); // N m s a step
+    return hinge;
+}
+
+std::unique_ptr<btTypedConstraint> make_slider(btRigidBody &a, btRigidBody &b, const bench_joint &joint)
+{
+    const btQuaternion turn = shortestArcQuat(btVector3(1, 0, 0), vector(joint.axis));
+    auto slider = std::make_unique<btSliderConstraint>(a, b, frame_in(a, joint, turn), frame_in(b, joint, turn), true);
+    slider->setLowerLinLimit(joint.has_limits ? btScalar(joint.limits[0]) : 1.0f); // low above high: none
+    slider->setUpperLinLimit(joint.has_limits ? btScalar(joint.limits[1]) : -1.0f);
+    slider->setLowerAngLimit(0.0f);
+    slider->setUpperAngLimit(0.0f);
+    if (joint.motor_force > 0.0) {
+        slider->setPoweredLinMotor(true);
+        slider->setTargetLinMotorVelocity(btScalar(joint.motor_speed));
+        slider->setMaxLinMotorForce(btScalar(joint.motor_force));
+    }
+    return slider;
+}
+
+std::unique_ptr<btTypedConstraint> make_ball(btRigidBody &a, btRigidBody &b, const bench_joint &joint)
+{
+    const btQuaternion turn = shortestArcQuat(btVector3(1, 0, 0), vector(joint.axis));
+    if (joint.cone == 0.0 && !joint.has_limits) {
+        const btTransform none(btQuaternion::getIdentity(), btVector3(0, 0, 0));
+        return std::make_unique<btPoint2PointConstraint>(a, b, frame_in(a, joint, none.getRotation()).getOrigin(),
+                                                         frame_in(b, joint, none.getRotation()).getOrigin());
+    }
+    auto cone = std::make_unique<btConeTwistConstraint>(a, b, frame_in(a, joint, turn), frame_in(b, joint, turn));
+    const btScalar twist = btScalar(0.5 * (joint.limits[1] - joint.limits[0])); // it knows symmetric ranges only
+    cone->setLimit(btScalar(joint.cone), btScalar(joint.cone), twist);
+    return cone;
+}
+
+// nullptr: the engine has nothing of the kind
+std::unique_ptr<btTypedConstraint> make_joint(btRigidBody &a, btRigidBody &b, const bench_joint &joint)
+{
+    if (joint.hertz > 0.0 || joint.is_open) return nullptr;
+    switch (joint.kind) {
+    case BENCH_BALL:
+        return make_ball(a, b, joint);
+    case BENCH_HINGE:
+        return make_hinge(a, b, joint);
+    case BENCH_SLIDER:
+        return make_slider(a, b, joint);
+    case BENCH_FIXED: {
+        const btQuaternion turn = btQuaternion::getIdentity();
+        return std::make_unique<btFixedConstraint>(a, b, frame_in(a, joint, turn), frame_in(b, joint, turn));
+    }
+    case BENCH_DISTANCE:
+        break;
+    }
+    return nullptr;
+}
+
+bool add_joint(bench_world *w, const bench_joint &joint)
+{
+    auto made = make_joint(*w->bodies[size_t(joint.body_a)], *w->bodies[size_t(joint.body_b)], joint);
+    if (!made) return false;
+    w->world.addConstraint(made.get(), true);
+    w->joints.push_back(std::move(made));
+    return true;
+}
+
+struct group_filter final : btOverlapFilterCallback {
+    bool needBroadphaseCollision(btBroadphaseProxy *a, btBroadphaseProxy *b) const override
+    {
+        const auto *body_a = static_cast<const btCollisionObject *>(a->m_clientObject),
+                   *body_b = static_cast<const btCollisionObject *>(b->m_clientObject);
+        if (body_a->getUserIndex() > 0 && body_a->getUserIndex() == body_b->getUserIndex()) return false;
+        return (a->m_collisionFilterGroup & b->m_collisionFilterMask) != 0 && (b->m_collisionFilterGroup & a->m_collisionFilterMask) != 0;
+    }
+};
+
+void destroy(bench_world *w)
+{
+    for (auto &joint : w->joints) w->world.removeConstraint(joint.get());
+    for (auto &body : w->bodies) w->world.removeRigidBody(body.get());
+    delete w;
 }
 
 // The scenes' rule; Bullet's own is the product.
@@ -92,17 +189,18 @@ bench_world *create(const bench_scene *scene, int32_t, int32_t)
     gCalculateCombinedFrictionCallback = mix_friction;
     w->world.setGravity(vector(scene->gravity));
     w->world.getSolverInfo().m_numIterations = 10;
+    w->scene = scene;
+    static group_filter groups;
+    w->world.getPairCache()->setOverlapFilterCallback(&groups);
     for (int32_t i = 0; i < scene->shape_count; i++) w->shapes.push_back(make_shape(scene->shapes[i]));
     for (int32_t i = 0; i < scene->body_count; i++) add_body(w.get(), *scene, scene->bodies[i]);
-    for (int32_t i = 0; i < scene->joint_count; i++) add_joint(w.get(), scene->joints[i]);
+    for (int32_t i = 0; i < scene->joint_count; i++) {
+        if (add_joint(w.get(), scene->joints[i])) continue;
+        std::fprintf(stderr, "bullet: %s has joints that it lacks\n", scene->name);
+        destroy(w.release());
+        return nullptr;
+    }
     return w.release();
-}
-
-void destroy(bench_world *w)
-{
-    for (auto &joint : w->joints) w->world.removeConstraint(joint.get());
-    for (auto &body : w->bodies) w->world.removeRigidBody(body.get());
-    delete w;
 }
 
 int32_t step(bench_world *w, float dt)
@@ -130,6 +228,30 @@ void read_poses(bench_world *w, bench_pose *out_poses)
         const btQuaternion q = t.getRotation();
         out_poses[i] = bench_pose{{p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z(), q.w()}};
     }
+}
+
+void read_motions(bench_world *w, bench_motion *out_motions)
+{
+    for (size_t i = 0; i < w->bodies.size(); i++) {
+        const btVector3 &v = w->bodies[i]->getLinearVelocity(), &u = w->bodies[i]->getAngularVelocity();
+        out_motions[i] = bench_motion{{v.x(), v.y(), v.z()}, {u.x(), u.y(), u.z()}};
+    }
+}
+
+void add_force(bench_world *w, int32_t body, const double *force) { w->bodies[size_t(body)]->applyCentralForce(vector(force)); }
+
+void add_impulse(bench_world *w, int32_t body, const double *impulse, const double *point)
+{
+    btRigidBody &rigid = *w->bodies[size_t(body)];
+    rigid.applyImpulse(vector(impulse), vector(point) - rigid.getCenterOfMassPosition());
+}
+
+// It stays in the list of bodies, a ghost that nothing touches.
+void take_away(bench_world *w, int32_t body)
+{
+    btRigidBody *rigid = w->bodies[size_t(body)].get();
+    w->world.removeRigidBody(rigid);
+    w->world.addRigidBody(rigid, 0, 0);
 }
 
 void measure_contacts(bench_world *w, bench_contacts *out_contacts)
@@ -161,7 +283,26 @@ int32_t raycast(bench_world *w, const bench_ray *ray, double *out_fraction)
 } // namespace
 
 const bench_engine bench_bullet = {
-    "bullet", 0, create, destroy, step, count_bodies, read_mass, read_poses, measure_contacts, raycast, nullptr, nullptr, nullptr, nullptr,
+    "bullet",
+    "sequential impulses, 10 iterations",
+    0,
+    0,
+    create,
+    destroy,
+    step,
+    count_bodies,
+    read_mass,
+    read_poses,
+    read_motions,
+    add_force,
+    add_impulse,
+    take_away,
+    measure_contacts,
+    raycast,
+    nullptr,
+    nullptr,
+    nullptr,
+    nullptr,
 };
 
 #endif

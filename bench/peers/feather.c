@@ -12,6 +12,7 @@ struct bench_world {
     fe_body *bodies; // in the scene's order
     int32_t count;
     fe_transform *transforms; // scratch of read_poses
+    float (*velocities)[6];   // scratch of read_motions
 };
 
 static void complain(const char *what) { fprintf(stderr, "feather: %s: %s\n", what, fe_last_error()); }
@@ -45,6 +46,9 @@ static fe_result add_body(fe_world *world, const bench_scene *scene, const bench
     def.transform.rotation = (fe_quat){(float)q[0], (float)q[1], (float)q[2], (float)q[3]};
     def.linear_velocity = fe_make_vec3(body->linear_velocity[0], body->linear_velocity[1], body->linear_velocity[2]);
     def.angular_velocity = fe_make_vec3(body->angular_velocity[0], body->angular_velocity[1], body->angular_velocity[2]);
+    def.linear_damping = body->linear_damping, def.angular_damping = body->angular_damping;
+    def.gravity_scale = body->gravity_scale;
+    def.linear_locks = (uint32_t)body->linear_locks, def.angular_locks = (uint32_t)body->angular_locks;
     def.sleep_allowed = 0;
     fe_result result = fe_body_create(world, &def, out_body);
     if (result != FE_OK) return result;
@@ -54,6 +58,7 @@ static fe_result add_body(fe_world *world, const bench_scene *scene, const bench
     form.density = shape->density;
     form.material.static_friction = form.material.dynamic_friction = shape->friction;
     form.material.restitution = shape->restitution;
+    form.material.rolling_resistance = shape->rolling;
     if (!body->collides) form.mask = 0;
     fe_geometry geometry = geometry_of(shape);
     fe_shape created;
@@ -65,7 +70,22 @@ static void destroy(bench_world *w)
     if (w->world != NULL) (void)fe_world_destroy(w->world);
     free(w->bodies);
     free(w->transforms);
+    free(w->velocities);
     free(w);
+}
+
+// Bodies of one group do not touch each other.
+static fe_result part_groups(const bench_world *w, const bench_scene *scene)
+{
+    fe_result result = FE_OK;
+    for (int32_t i = 0; i < w->count && result == FE_OK; i++) {
+        if (scene->bodies[i].group == 0) continue;
+        for (int32_t k = 0; k < i && result == FE_OK; k++) {
+            if (scene->bodies[k].group == scene->bodies[i].group)
+                result = fe_world_ignore_collision(w->world, w->bodies[k], w->bodies[i], 1);
+        }
+    }
+    return result;
 }
 
 static bench_world *create(const bench_scene *scene, int32_t workers, int32_t substeps)
@@ -78,6 +98,7 @@ static bench_world *create(const bench_scene *scene, int32_t workers, int32_t su
     w->count = scene->body_count;
     w->bodies = bench_allocate((size_t)w->count, sizeof *w->bodies);
     w->transforms = bench_allocate((size_t)w->count, sizeof *w->transforms);
+    w->velocities = bench_allocate((size_t)w->count, sizeof *w->velocities);
 
     fe_world_def def;
     fe_world_def_init(&def, sizeof def);
@@ -86,6 +107,7 @@ static bench_world *create(const bench_scene *scene, int32_t workers, int32_t su
     def.gravity = fe_make_vec3((float)scene->gravity[0], (float)scene->gravity[1], (float)scene->gravity[2]);
     fe_result result = fe_world_create(&def, &w->world);
     for (int32_t i = 0; i < w->count && result == FE_OK; i++) result = add_body(w->world, scene, &scene->bodies[i], &w->bodies[i]);
+    if (result == FE_OK) result = part_groups(w, scene);
     if (result != FE_OK) {
         complain(scene->name);
         destroy(w);
@@ -124,6 +146,38 @@ static void read_poses(bench_world *w, bench_pose *out_poses)
             {(double)t->rotation.x, (double)t->rotation.y, (double)t->rotation.z, (double)t->rotation.w},
         };
     }
+}
+
+static void read_motions(bench_world *w, bench_motion *out_motions)
+{
+    if (fe_world_get_velocities(w->world, w->bodies, w->velocities[0], 0, w->count) != FE_OK) complain("velocities");
+    for (int32_t i = 0; i < w->count; i++) {
+        for (int k = 0; k < 3; k++) {
+            out_motions[i].linear[k] = (double)w->velocities[i][k];
+            out_motions[i].angular[k] = (double)w->velocities[i][3 + k];
+        }
+    }
+}
+
+static fe_vec3 narrow(const double *v) { return fe_make_vec3((float)v[0], (float)v[1], (float)v[2]); }
+
+static void add_force(bench_world *w, int32_t body, const double *force)
+{
+    const fe_vec3 f = narrow(force);
+    if (fe_body_add_force(w->world, w->bodies[body], &f) != FE_OK) complain("force");
+}
+
+static void add_impulse(bench_world *w, int32_t body, const double *impulse, const double *point)
+{
+    const fe_vec3 j = narrow(impulse);
+    const fe_dvec3 p = fe_make_dvec3(point[0], point[1], point[2]);
+    if (fe_body_add_impulse_at(w->world, w->bodies[body], &j, &p) != FE_OK) complain("impulse");
+}
+
+// It stays in the list of bodies, disabled.
+static void take_away(bench_world *w, int32_t body)
+{
+    if (fe_body_set_enabled(w->world, w->bodies[body], 0) != FE_OK) complain("take away");
 }
 
 static void add_contact(bench_contacts *sum, const fe_contact *contact)
@@ -207,6 +261,7 @@ static uint64_t read_hash(bench_world *w)
 
 const bench_engine bench_feather = {
     .name = "feather",
+    .settings = "TGS Soft",
     .has_workers = 1,
     .create = create,
     .destroy = destroy,
@@ -214,6 +269,10 @@ const bench_engine bench_feather = {
     .count_bodies = count_bodies,
     .read_mass = read_mass,
     .read_poses = read_poses,
+    .read_motions = read_motions,
+    .add_force = add_force,
+    .add_impulse = add_impulse,
+    .take_away = take_away,
     .measure_contacts = measure_contacts,
     .raycast = raycast,
     .phase_names = phase_names,

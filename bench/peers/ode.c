@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <ode/ode.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -21,6 +22,7 @@ struct bench_world {
     dSpaceID space;
     dJointGroupID contact_joints; // of the present step
     dGeomID *geoms;               // in the scene's order
+    const bench_scene *scene;
     int32_t count;
 };
 
@@ -56,14 +58,20 @@ static dGeomID make_geom(dSpaceID space, const bench_shape *shape)
     }
 }
 
+// A body kept in the plane z = 0; ODE has no locks of single axes. The engine's own way: dPlane2D keeps a body in x and y, turning about z.
+static void lock_body(bench_world *w, const bench_body *body, dBodyID rigid)
+{
+    if (body->linear_locks == 4 && body->angular_locks == 3) dJointAttach(dJointCreatePlane2D(w->world, NULL), rigid, NULL);
+}
+
 // A static body is a geom alone: it has no body, and the pose is the geom's.
 static void add_body(bench_world *w, const bench_scene *scene, const bench_body *body)
 {
-    bench_shape *shape = &scene->shapes[body->shape];
+    const bench_shape *shape = &scene->shapes[body->shape];
     const double *p = body->start.position, *q = body->start.rotation;
     const dQuaternion rotation = {q[3], q[0], q[1], q[2]};
     dGeomID geom = make_geom(w->space, shape);
-    dGeomSetData(geom, shape);
+    dGeomSetData(geom, (void *)(uintptr_t)body);
     if (body->dynamic) {
         dBodyID rigid = dBodyCreate(w->world);
         set_mass(rigid, shape);
@@ -78,6 +86,10 @@ static void add_body(bench_world *w, const bench_scene *scene, const bench_body 
         dBodySetAngularVel(rigid, (double)u[0], (double)u[1], (double)u[2]);
         dBodySetPosition(rigid, p[0], p[1], p[2]);
         dBodySetQuaternion(rigid, rotation);
+        dBodySetLinearDamping(rigid, (double)body->linear_damping * (double)scene->dt); // ODE's is the share lost in a step
+        dBodySetAngularDamping(rigid, (double)body->angular_damping * (double)scene->dt);
+        dBodySetGravityMode(rigid, body->gravity_scale == 1.0f); // of other scales: see add_scaled_gravity
+        lock_body(w, body, rigid);
     } else {
         dGeomSetPosition(geom, p[0], p[1], p[2]);
         dGeomSetQuaternion(geom, rotation);
@@ -89,11 +101,71 @@ static void add_body(bench_world *w, const bench_scene *scene, const bench_body 
     w->geoms[w->count++] = geom;
 }
 
-static void add_joint(bench_world *w, const bench_joint *joint)
+// A hinge's angle grows with body 1 turning about the axis against body 2; the scene's, with B against A.
+static dJointID make_hinge(bench_world *w, const bench_joint *joint, dBodyID a, dBodyID b)
 {
-    dJointID ball = dJointCreateBall(w->world, NULL);
-    dJointAttach(ball, dGeomGetBody(w->geoms[joint->body_a]), dGeomGetBody(w->geoms[joint->body_b]));
-    dJointSetBallAnchor(ball, joint->anchor[0], joint->anchor[1], joint->anchor[2]);
+    dJointID hinge = dJointCreateHinge(w->world, NULL);
+    dJointAttach(hinge, b, a);
+    dJointSetHingeAnchor(hinge, joint->anchor[0], joint->anchor[1], joint->anchor[2]);
+    dJointSetHingeAxis(hinge, joint->axis[0], joint->axis[1], joint->axis[2]);
+    if (joint->has_limits) {
+        dJointSetHingeParam(hinge, dParamLoStop, joint->limits[0]);
+        dJointSetHingeParam(hinge, dParamHiStop, joint->limits[1]);
+    }
+    dJointSetHingeParam(hinge, dParamVel, joint->motor_speed);
+    dJointSetHingeParam(hinge, dParamFMax, joint->motor_force);
+    return hinge;
+}
+
+static dJointID make_slider(bench_world *w, const bench_joint *joint, dBodyID a, dBodyID b)
+{
+    dJointID slider = dJointCreateSlider(w->world, NULL);
+    dJointAttach(slider, b, a);
+    dJointSetSliderAxis(slider, joint->axis[0], joint->axis[1], joint->axis[2]);
+    if (joint->has_limits) {
+        dJointSetSliderParam(slider, dParamLoStop, joint->limits[0]);
+        dJointSetSliderParam(slider, dParamHiStop, joint->limits[1]);
+    }
+    dJointSetSliderParam(slider, dParamVel, joint->motor_speed);
+    dJointSetSliderParam(slider, dParamFMax, joint->motor_force);
+    return slider;
+}
+
+// ODE's ball joint has no cone and no friction.
+static int add_joint(bench_world *w, const bench_joint *joint)
+{
+    dBodyID a = dGeomGetBody(w->geoms[joint->body_a]), b = dGeomGetBody(w->geoms[joint->body_b]);
+    if (joint->hertz > 0.0 || joint->is_open) return -1;
+    switch (joint->kind) {
+    case BENCH_BALL: {
+        dJointID ball = dJointCreateBall(w->world, NULL);
+        dJointAttach(ball, a, b);
+        dJointSetBallAnchor(ball, joint->anchor[0], joint->anchor[1], joint->anchor[2]);
+        return 0;
+    }
+    case BENCH_HINGE:
+        return make_hinge(w, joint, a, b) != NULL ? 0 : -1;
+    case BENCH_SLIDER:
+        return make_slider(w, joint, a, b) != NULL ? 0 : -1;
+    case BENCH_FIXED: {
+        dJointID fixed = dJointCreateFixed(w->world, NULL);
+        dJointAttach(fixed, a, b);
+        dJointSetFixed(fixed);
+        return 0;
+    }
+    case BENCH_DISTANCE:
+        break;
+    }
+    return -1;
+}
+
+static void destroy(bench_world *w)
+{
+    dJointGroupDestroy(w->contact_joints);
+    dSpaceDestroy(w->space);
+    dWorldDestroy(w->world);
+    free(w->geoms);
+    free(w);
 }
 
 static bench_world *create(const bench_scene *scene, int32_t workers, int32_t substeps)
@@ -109,6 +181,7 @@ static bench_world *create(const bench_scene *scene, int32_t workers, int32_t su
     }
     bench_world *w = bench_allocate(1, sizeof *w);
     w->geoms = bench_allocate((size_t)scene->body_count, sizeof *w->geoms);
+    w->scene = scene;
     w->world = dWorldCreate();
     w->space = dHashSpaceCreate(NULL);
     w->contact_joints = dJointGroupCreate(0);
@@ -117,21 +190,19 @@ static bench_world *create(const bench_scene *scene, int32_t workers, int32_t su
     dWorldSetAutoDisableFlag(w->world, 0);
     dRandSetSeed(0); // QuickStep shuffles its rows: the same way in each run
     for (int32_t i = 0; i < scene->body_count; i++) add_body(w, scene, &scene->bodies[i]);
-    for (int32_t i = 0; i < scene->joint_count; i++) add_joint(w, &scene->joints[i]);
+    for (int32_t i = 0; i < scene->joint_count; i++) {
+        if (add_joint(w, &scene->joints[i]) == 0) continue;
+        fprintf(stderr, "ode: %s has joints that it lacks\n", scene->name);
+        destroy(w);
+        return NULL;
+    }
     return w;
-}
-
-static void destroy(bench_world *w)
-{
-    dJointGroupDestroy(w->contact_joints);
-    dSpaceDestroy(w->space);
-    dWorldDestroy(w->world);
-    free(w->geoms);
-    free(w);
 }
 
 static int can_touch(dGeomID a, dGeomID b)
 {
+    const bench_body *bench_a = dGeomGetData(a), *bench_b = dGeomGetData(b);
+    if (bench_a->group != 0 && bench_a->group == bench_b->group) return 0;
     dBodyID body_a = dGeomGetBody(a), body_b = dGeomGetBody(b);
     if (body_a == NULL && body_b == NULL) return 0;
     return body_a == NULL || body_b == NULL || !dAreConnectedExcluding(body_a, body_b, dJointTypeContact);
@@ -143,7 +214,8 @@ static void make_contacts(void *user, dGeomID a, dGeomID b)
     if (!can_touch(a, b)) return;
     dContact contacts[CONTACTS_A_PAIR];
     int count = dCollide(a, b, CONTACTS_A_PAIR, &contacts[0].geom, sizeof contacts[0]);
-    const bench_shape *shape_a = dGeomGetData(a), *shape_b = dGeomGetData(b);
+    const bench_body *bench_a = dGeomGetData(a), *bench_b = dGeomGetData(b);
+    const bench_shape *shape_a = &w->scene->shapes[bench_a->shape], *shape_b = &w->scene->shapes[bench_b->shape];
     for (int i = 0; i < count; i++) {
         dSurfaceParameters *surface = &contacts[i].surface;
         surface->mode = dContactApprox1; // friction in proportion to the normal force, not a fixed force
@@ -155,8 +227,21 @@ static void make_contacts(void *user, dGeomID a, dGeomID b)
     }
 }
 
+static void add_scaled_gravity(bench_world *w)
+{
+    for (int32_t i = 0; i < w->count; i++) {
+        const double scale = (double)w->scene->bodies[i].gravity_scale, *g = w->scene->gravity;
+        dBodyID body = dGeomGetBody(w->geoms[i]);
+        if (body == NULL || scale == 1.0 || scale == 0.0) continue;
+        dMass mass;
+        dBodyGetMass(body, &mass);
+        dBodyAddForce(body, scale * mass.mass * g[0], scale * mass.mass * g[1], scale * mass.mass * g[2]);
+    }
+}
+
 static int32_t step(bench_world *w, float dt)
 {
+    add_scaled_gravity(w);
     dSpaceCollide(w->space, w, make_contacts);
     int ok = dWorldQuickStep(w->world, (double)dt);
     dJointGroupEmpty(w->contact_joints);
@@ -192,6 +277,34 @@ static void read_poses(bench_world *w, bench_pose *out_poses)
         }
         out_poses[i] = (bench_pose){{p[0], p[1], p[2]}, {q[1], q[2], q[3], q[0]}};
     }
+}
+
+static void read_motions(bench_world *w, bench_motion *out_motions)
+{
+    for (int32_t i = 0; i < w->count; i++) {
+        dBodyID body = dGeomGetBody(w->geoms[i]);
+        out_motions[i] = (bench_motion){{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+        if (body == NULL) continue;
+        const dReal *v = dBodyGetLinearVel(body), *u = dBodyGetAngularVel(body);
+        for (int k = 0; k < 3; k++) out_motions[i].linear[k] = v[k], out_motions[i].angular[k] = u[k];
+    }
+}
+
+static void add_force(bench_world *w, int32_t body, const double *force)
+{
+    dBodyAddForce(dGeomGetBody(w->geoms[body]), force[0], force[1], force[2]);
+}
+
+static void add_impulse(bench_world *w, int32_t body, const double *impulse, const double *point)
+{
+    const double rate = 1.0 / (double)w->scene->dt; // a force during one step
+    dBodyAddForceAtPos(dGeomGetBody(w->geoms[body]), rate * impulse[0], rate * impulse[1], rate * impulse[2], point[0], point[1], point[2]);
+}
+
+static void take_away(bench_world *w, int32_t body)
+{
+    dGeomDisable(w->geoms[body]);
+    dBodyDisable(dGeomGetBody(w->geoms[body]));
 }
 
 static void measure_pair(void *user, dGeomID a, dGeomID b)
@@ -236,12 +349,17 @@ static int32_t raycast(bench_world *w, const bench_ray *ray, double *out_fractio
 
 const bench_engine bench_ode = {
     .name = "ode",
+    .settings = "QuickStep, 20 iterations",
     .create = create,
     .destroy = destroy,
     .step = step,
     .count_bodies = count_bodies,
     .read_mass = read_mass,
     .read_poses = read_poses,
+    .read_motions = read_motions,
+    .add_force = add_force,
+    .add_impulse = add_impulse,
+    .take_away = take_away,
     .measure_contacts = measure_contacts,
     .raycast = raycast,
 };

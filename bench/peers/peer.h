@@ -17,6 +17,11 @@ typedef struct bench_ray {
     double translation[3]; ///< m
 } bench_ray;
 
+typedef struct bench_motion {
+    double linear[3];  ///< of the centre, m/s
+    double angular[3]; ///< rad/s
+} bench_motion;
+
 /// By the engine's own narrow phase, at the bodies' present poses.
 typedef struct bench_contacts {
     int32_t pairs;  ///< with at least one point; engines differ in how early they make one
@@ -38,7 +43,9 @@ enum { BENCH_MAX_PHASES = 16 };
 
 typedef struct bench_engine {
     const char *name;
-    int32_t has_workers; ///< 1: takes workers and substeps; 0: always one thread, its own iterations
+    const char *settings; ///< iterations and the like, as tables print them
+    int32_t planar_only;  ///< 1: knows scenes in the plane alone
+    int32_t has_workers;  ///< 1: takes workers and substeps; 0: always one thread, its own iterations
     /// The scene outlives the world. NULL when the engine cannot; it has said why on stderr.
     bench_world *(*create)(const bench_scene *scene, int32_t workers, int32_t substeps);
     void (*destroy)(bench_world *world);
@@ -48,6 +55,10 @@ typedef struct bench_engine {
     double (*read_mass)(bench_world *world); ///< kg, of all dynamic bodies, by the engine's own bookkeeping
     /// One pose per body of the scene, in its order.
     void (*read_poses)(bench_world *world, bench_pose *out_poses);
+    void (*read_motions)(bench_world *world, bench_motion *out_motions);      ///< likewise; zeros for static bodies
+    void (*add_force)(bench_world *world, int32_t body, const double *force); ///< at the centre, N, in the next step
+    void (*add_impulse)(bench_world *world, int32_t body, const double *impulse, const double *point); ///< N s, m, world space
+    void (*take_away)(bench_world *world, int32_t body); ///< out of play: no contacts, no joints; its pose is of no interest any more
     /// May touch the engine's contact caches: the last call on a world before its destruction.
     void (*measure_contacts)(bench_world *world, bench_contacts *out_contacts);
     /// 1 on a hit.
@@ -62,6 +73,7 @@ typedef struct bench_engine {
 extern const bench_engine bench_feather;
 extern const bench_engine bench_bullet; ///< with FE_BENCH_BULLET
 extern const bench_engine bench_ode;    ///< with FE_BENCH_ODE
+extern const bench_engine bench_box2d;  ///< with FE_BENCH_BOX2D; planar scenes only
 
 /// An engine that the program knows by name; `engine` is NULL when it was built without.
 typedef struct bench_engine_entry {

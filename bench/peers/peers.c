@@ -13,5 +13,10 @@ const bench_engine_entry bench_engines[] = {
 #else
     {"ode", NULL, "libode-dev"},
 #endif
+#ifdef FE_BENCH_BOX2D
+    {"box2d", &bench_box2d, "libbox2d-dev"},
+#else
+    {"box2d", NULL, "libbox2d-dev"},
+#endif
 };
 const int32_t bench_engine_count = (int32_t)(sizeof bench_engines / sizeof bench_engines[0]);
