@@ -12,13 +12,18 @@
 /// nothing. Every function that takes them checks these, and the notes at each function name only what is special to it:
 ///   - a NULL pointer that is not documented as optional, NaN or infinity, a value out of its range: FE_ERROR_ARGUMENT
 ///   - a handle of something destroyed, or of nothing: FE_ERROR_STALE;  a shape's handle where a body's is asked: FE_ERROR_KIND
-///   - a call that writes, or a query, while this world steps on another thread: FE_ERROR_STEPPING
+///   - any call but `_is_valid` while this world steps on another thread: FE_ERROR_STEPPING
 ///   - no memory: FE_ERROR_MEMORY
 /// `fe_last_error` tells the last failure of the calling thread in a sentence. Values come out through `out_` pointers, which are written on
 /// success only.
 ///
+/// **Ranges.** Beyond what a function says: positions within 1e9 m, translations of queries 1e10 m, local positions 1e6 m; speeds, spins and
+/// gravity 1e6; forces, torques and impulses 1e15 a call (what is summed for a step accelerates by at most 1e9 m/s2); densities 1e7 kg/m3; masses
+/// 1e-9..1e18 kg, moments of inertia 1e-18..1e30 kg m2; other values 1e6. Switches (int32_t enabled, trigger...) are 0 or 1.
+///
 /// **Arrays.** `int32_t fe_x_get_many(world, out, stride, capacity)` returns how many there are, or a negative fe_result; it writes the first
-/// `capacity` of them, `stride` bytes apart (0: packed). NULL, 0, 0 asks for the number only.
+/// `capacity` of them, `stride` bytes apart (0: packed; a shorter stride than the record's size, at least 8, gives its front only). NULL, 0, 0 asks
+/// for the number only.
 ///
 /// **Growth.** A definition begins with `struct_size` and is filled by its `_init`; a shorter one of an older client and a longer one with a
 /// zero tail are accepted. fe_vec3, fe_quat, fe_dvec3, fe_transform and fe_material never change.
@@ -173,6 +178,7 @@ FE_API fe_result fe_world_destroy(fe_world *world);
 /// @param dt  0..1 s; 0 updates contacts and events and moves nothing
 FE_API fe_result fe_world_step(fe_world *world, float dt);
 
+/// m/s2. A change wakes all dynamic bodies.
 FE_API fe_result fe_world_set_gravity(fe_world *world, const fe_vec3 *gravity);
 FE_API fe_result fe_world_get_gravity(const fe_world *world, fe_vec3 *out_gravity);
 /// @param substeps  1..64
@@ -277,7 +283,7 @@ typedef struct fe_body_def {
     float sleep_threshold;   ///< may sleep when its fastest point is slower, m/s, >= 0. Default 0.05
     uint32_t linear_locks;   ///< FE_AXIS_X | ...: world axes along which it cannot move
     uint32_t angular_locks;  ///< world axes around which it cannot turn
-    int32_t awake;           ///< 0: starts asleep. Default 1
+    int32_t awake;           ///< 0: starts asleep, at rest. Default 1
     int32_t sleep_allowed;   ///< Default 1
     int32_t enabled;         ///< 0: neither moves, nor collides, nor is seen by queries. Default 1
     int32_t bullet;          ///< 1: stopped by moving bodies too when it is fast. Default 0
@@ -285,7 +291,8 @@ typedef struct fe_body_def {
 } fe_body_def;
 
 FE_API void fe_body_def_init(fe_body_def *desc, uint32_t struct_size);
-/// A dynamic body without shapes has 1 kg and the inertia of a sphere of 1 m until it gets a shape or a mass.
+/// A dynamic body without shapes, or with shapes that weigh less than 1e-9 kg, has 1 kg and the inertia of a sphere of 1 m until it gets a shape or a
+/// mass.
 /// @param desc  NULL: the defaults
 FE_API fe_result fe_body_create(fe_world *world, const fe_body_def *desc, fe_body *out_body);
 /// All or none. @param stride  bytes from one def to the next, 0: packed
@@ -316,7 +323,7 @@ FE_API fe_result fe_body_get_point_velocity(const fe_world *world, fe_body body,
 /// @param seconds  > 0
 FE_API fe_result fe_body_set_target(fe_world *world, fe_body body, const fe_transform *target, float seconds);
 
-/// Force at the centre of mass, N, world axes, during all of the next step only. Wakes the body; on a body that is not dynamic, nothing.
+/// Force at the centre of mass, N, world axes, during all of the next step only. Wakes the body; on a body that is disabled or not dynamic, nothing.
 FE_API fe_result fe_body_add_force(fe_world *world, fe_body body, const fe_vec3 *force);
 /// Force at a point of the world, N; its torque is the one of that point now.
 FE_API fe_result fe_body_add_force_at(fe_world *world, fe_body body, const fe_vec3 *force, const fe_dvec3 *point);
@@ -336,7 +343,7 @@ typedef struct fe_mass_data {
     fe_quat inertia_rotation; ///< principal axes in body space
 } fe_mass_data;
 
-/// Overrides what the shapes give, until fe_body_reset_mass. FE_ERROR_STATE on a body that is not dynamic.
+/// Overrides what the shapes give, until fe_body_reset_mass or a change of type. FE_ERROR_STATE on a body that is not dynamic.
 FE_API fe_result fe_body_set_mass_data(fe_world *world, fe_body body, const fe_mass_data *data);
 /// What the solver uses. @param out_data  its struct_size must be set
 FE_API fe_result fe_body_get_mass_data(const fe_world *world, fe_body body, fe_mass_data *out_data);
@@ -355,7 +362,8 @@ FE_API fe_result fe_body_set_damping(fe_world *world, fe_body body, float linear
 FE_API fe_result fe_body_get_damping(const fe_world *world, fe_body body, float *out_linear, float *out_angular);
 FE_API fe_result fe_body_set_gravity_scale(fe_world *world, fe_body body, float scale);
 FE_API fe_result fe_body_get_gravity_scale(const fe_world *world, fe_body body, float *out_scale);
-/// Waking a body wakes all it touches; putting it to sleep stops it (FE_ERROR_STATE while it touches an awake moving body).
+/// Waking a body wakes all it touches, through other dynamic bodies. Putting it to sleep stops it and all those (FE_ERROR_STATE when one of them may
+/// not sleep: then nothing changes).
 FE_API fe_result fe_body_set_awake(fe_world *world, fe_body body, int32_t awake);
 /// 1 awake, 0 asleep; static bodies are never awake.
 FE_API fe_result fe_body_get_awake(const fe_world *world, fe_body body, int32_t *out_awake);
@@ -422,20 +430,20 @@ typedef enum fe_shape_events {
 
 typedef struct fe_shape_def {
     uint32_t struct_size;
-    float density;           ///< kg/m3, >= 0. Default 1000
+    float density;           ///< kg/m3, >= 0; a trigger weighs too. Default 1000
     fe_vec3 local_position;  ///< in the body's frame, m
     fe_quat local_rotation;
     fe_material material;
     uint32_t layer;          ///< exactly one bit. Default 1
     uint32_t mask;           ///< the layers it collides with; 0: seen by queries only. Default all
-    int32_t trigger;         ///< 1: reports what it touches and pushes nothing. Default 0
+    int32_t trigger;         ///< 1: reports what it touches (dynamic and kinematic bodies, asleep or awake) and pushes nothing. Default 0
     uint32_t events;         ///< fe_shape_events; a pair has what either shape asks for. Default FE_EVENTS_TOUCH
     fe_vec3 surface_velocity; ///< of a conveyor belt, m/s, shape frame; only its part along the contact acts
     fe_handle user_data;
 } fe_shape_def;
 
 FE_API void fe_shape_def_init(fe_shape_def *desc, uint32_t struct_size);
-/// Two shapes collide when each one's layer is in the other's mask. Mass and inertia of the body follow.
+/// Two shapes collide when each one's layer is in the other's mask. Mass and inertia of the body follow; it is not woken.
 /// @param desc  NULL: the defaults
 /// @return FE_ERROR_UNSUPPORTED for a plane on a body that is not static
 FE_API fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *desc, const fe_geometry *geometry, fe_shape *out_shape);
