@@ -46,6 +46,8 @@ typedef struct fe__body {
     double origin[3];       // of the body's frame, m
     // colours taken by its contacts in the constraint graph, one bit each
     uint64_t colours[2];
+    uint32_t joint_colours; // the same of its joints
+    int32_t joint_count;    // linked ones, see joint.h
     uint64_t serial;        // of creation, never reused
     int32_t first_contact, contact_count; // list of pairs, threaded through fe__pair.links
     int32_t coming_contacts; // while a step reserves: candidates with this body, else 0

@@ -14,6 +14,9 @@ typedef struct fe__graph_input {
     int32_t body_count;
     const int32_t *awake_contacts; // linked or not: colour -1 is not
     int32_t contact_count;
+    const fe__joints *joints;      // NULL: none
+    const int32_t *awake_joints;   // a dynamic end is awake; linked or not
+    int32_t joint_count;
 } fe__graph_input;
 
 // What a graph of so many bodies and contacts may need at most
@@ -23,6 +26,10 @@ typedef struct fe__graph_bound {
     int32_t crowded;       // contacts of bodies with more than fit the colours
     int32_t kinds;         // kinds of rows in use
     int32_t special;       // 1: special rows are among them
+    int32_t joints;        // linked
+    int32_t joint_rows;    // parts of all of them
+    int32_t joint_kinds;   // kinds of parts in use
+    int32_t most_joints;   // of one dynamic body
 } fe__graph_bound;
 
 // Room for every graph within the bound. 0: no memory, nothing changed but capacities.
@@ -30,9 +37,9 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
 void fe__graph_build(fe__solver *s, const fe__kernels *kernels, const fe__graph_input *input);
 void fe__solver_destroy(fe__solver *s, fe__memory *memory);
 
-// All substeps of all batches. The lines then hold what the step did; contacts their impulses.
+// All substeps of all batches. The lines then hold what the step did; contacts and joints their impulses.
 void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *workers, const fe__body *bodies, fe__contact *contacts, fe__extra *extras,
-               const fe__step_constants *c);
+               const fe__joints *joints, const fe__step_constants *c);
 fe__softness fe__make_softness(float hertz, float damping_ratio, float h);
 
 #endif

@@ -37,6 +37,7 @@ typedef struct job {
     const fe__body *bodies;
     fe__contact *contacts;
     fe__extra *extras;
+    const fe__joints *joints;
     const fe__step_constants *c;
     const fe__batch *batch; // large
     program program;
@@ -271,9 +272,9 @@ static void clear_static_line(fe__solver *s)
 }
 
 void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *workers, const fe__body *bodies, fe__contact *contacts, fe__extra *extras,
-               const fe__step_constants *c)
+               const fe__joints *joints, const fe__step_constants *c)
 {
-    job j = {.s = s, .k = kernels, .bodies = bodies, .contacts = contacts, .extras = extras, .c = c};
+    job j = {.s = s, .k = kernels, .bodies = bodies, .contacts = contacts, .extras = extras, .joints = joints, .c = c};
     if (!s->batch_count) return; // all sleep; there may be no lines at all
     clear_static_line(s);
     for (int32_t i = 0; i < s->large_count; ++i) {

@@ -13,6 +13,7 @@
 #include "core/threads.h"
 #include "solver/contact.h"
 #include "solver/body.h"
+#include "solver/joint.h"
 
 enum {
     FE__LINE = 8,        // floats in a line: two quads, 32 bytes
@@ -50,7 +51,8 @@ typedef struct fe__step_constants {
     float speculative;  // m
     int32_t substeps;
     fe_vec3 gravity;
-    fe__softness between_dynamic, against_static;
+    fe__softness between_dynamic, against_static, joint;
+    float joint_hertz; // at most, 1/s
 } fe__step_constants;
 
 // Lanes of one group: `count` rows of one kind at `row` (bytes into the batch's row memory), lanes from `lane`

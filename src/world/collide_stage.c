@@ -125,7 +125,12 @@ void fe__build_islands(fe__step *step)
         s->batch_count = s->large_count = s->group_count = s->lane_count = s->line_count = s->island_count = 0;
         return;
     }
-    const fe__graph_input in = {w->bodies,           w->contacts,    w->pair_serials,    w->awake_bodies,
-                                w->awake_body_count, w->awake_pairs, w->awake_pair_count};
+    const fe__graph_input in = {.bodies = w->bodies,
+                                .contacts = w->contacts,
+                                .serials = w->pair_serials,
+                                .awake_bodies = w->awake_bodies,
+                                .body_count = w->awake_body_count,
+                                .awake_contacts = w->awake_pairs,
+                                .contact_count = w->awake_pair_count};
     fe__graph_build(&w->solver, w->kernels, &in);
 }

@@ -23,7 +23,7 @@ static const stage stages[] = {
 // Impulses of rest grow with the substep, those of an impact do not: after a much shorter substep they are too large a guess
 #define MOST_WARM_SCALE 16.0f
 
-// Hertz are limited to what the substeps can follow: an eighth of their rate
+// Hertz are limited to what the substeps can follow: an eighth of their rate for contacts, a quarter for joints
 static fe__step_constants constants_of(const fe_world *w, float dt)
 {
     const fe_world_tuning *t = &w->tuning;
@@ -37,6 +37,8 @@ static fe__step_constants constants_of(const fe_world *w, float dt)
                             .speculative = t->speculative_distance,
                             .substeps = w->substeps,
                             .gravity = w->gravity};
+    c.joint_hertz = 0.25f * rate;
+    c.joint = fe__make_softness(fe__minf(t->joint_hertz, c.joint_hertz), t->joint_damping_ratio, h);
     c.between_dynamic = fe__make_softness(hertz, t->contact_damping_ratio, h);
     c.against_static = fe__make_softness(fe__minf(2.0f * t->contact_hertz, 0.25f * rate), t->contact_damping_ratio, h);
     return c;
@@ -64,7 +66,7 @@ void fe__solve_islands(fe__step *step)
     fe_world *w = step->world;
     for (int32_t i = 0; i < w->awake_pair_count && w->wants_hits; ++i)
         if (w->pairs[w->awake_pairs[i]].events & FE_EVENTS_HIT) w->pairs[w->awake_pairs[i]].approach = approach_of(w, w->awake_pairs[i]);
-    fe__solve(&w->solver, w->kernels, &w->workers, w->bodies, w->contacts, w->extras, &step->constants);
+    fe__solve(&w->solver, w->kernels, &w->workers, w->bodies, w->contacts, w->extras, NULL, &step->constants);
     w->last_h = step->constants.h;
     w->last_dt = step->dt;
 }
