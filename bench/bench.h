@@ -4,6 +4,9 @@
 #define BENCH_BENCH_H
 
 int bench_command_speed(int argc, char **argv);
+int bench_command_scenes(int argc, char **argv);
+int bench_command_run(int argc, char **argv);
+int bench_command_compare(int argc, char **argv);
 int bench_command_list(int argc, char **argv);
 int bench_command_help(int argc, char **argv);
 

@@ -3,6 +3,7 @@
 
 #include "peers/peer.h"
 #include "scene.h"
+#include "trial.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -15,7 +16,10 @@ typedef struct command {
 
 static const command commands[] = {
     {"speed", bench_command_speed, "time per step of all engines, interleaved"},
-    {"list", bench_command_list, "the scenes and the engines"},
+    {"scenes", bench_command_scenes, "every case in Feather, judged"},
+    {"run", bench_command_run, "one case: run NAME, with every measure"},
+    {"compare", bench_command_compare, "cases in all engines, side by side"},
+    {"list", bench_command_list, "the scenes, the cases and the engines"},
     {"help", bench_command_help, "this text"},
 };
 static const size_t command_count = sizeof commands / sizeof commands[0];
@@ -29,6 +33,11 @@ int bench_command_list(int argc, char **argv)
         char name[32];
         snprintf(name, sizeof name, "%s-%d", family->name, family->usual);
         printf("  %-12s %s%s\n", name, family->about, family->is_default ? "" : " (only when named)");
+    }
+    printf("cases (name-2d: in the plane, where * stands):\n");
+    for (int32_t i = 0; i < bench_case_count(); i++) {
+        const bench_case *rule = bench_case_at(i);
+        printf("  %-22s %s %s (%s)\n", rule->name, rule->planar ? "*" : " ", rule->about, rule->source);
     }
     printf("engines:\n");
     for (int32_t i = 0; i < bench_engine_count; i++) {
@@ -47,7 +56,7 @@ int bench_command_help(int argc, char **argv)
     (void)argc, (void)argv;
     printf("usage: feather-bench COMMAND [OPTION]...\n");
     for (size_t i = 0; i < command_count; i++) printf("  %-8s %s\n", commands[i].name, commands[i].about);
-    printf("options of speed:\n"
+    printf("options of scenes, run and compare: --scene, --peers, --workers, --substeps (default: 4 and 8), --out\noptions of speed:\n"
            "  --scene NAME[,NAME]   scenes to run (default: those of the list); may be given several times\n"
            "  --peers bullet,ode    engines beside Feather, or none (default: all that were built in)\n"
            "  --workers N[,N]       Feather's workers (default: 1, and 2 at 4 substeps)\n"

@@ -58,7 +58,7 @@ static int read_substeps(bench_options *o, char *value) { return parse_numbers(v
 
 static int read_steps(bench_options *o, char *value) { return parse_number(value, 1, INT_MAX / 2, &o->steps); }
 
-static int read_out(bench_options *o, char *value) { return o->out = value, 0; }
+static int read_out(bench_options *o, char *value) { return o->out = value, o->out_given = 1, 0; }
 
 static int set_rays(bench_options *o, char *value) { return (void)value, o->rays = 1, 0; }
 

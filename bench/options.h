@@ -1,5 +1,5 @@
 /// @file options.h
-/// What the user asked of `feather-bench speed`.
+/// What the user asked of `feather-bench speed`, `scenes`, `run`, `compare`.
 #ifndef BENCH_OPTIONS_H
 #define BENCH_OPTIONS_H
 
@@ -23,6 +23,7 @@ typedef struct bench_options {
     int32_t rays;
     int32_t profile;
     const char *out;
+    int32_t out_given; ///< 0: `out` is the default
 } bench_options;
 
 /// Lists are split in place: `argv` is changed. 0 on success; else it has said on stderr what is wrong.

@@ -18,8 +18,6 @@ const bench_family bench_families[] = {
 };
 const int32_t bench_family_count = (int32_t)(sizeof bench_families / sizeof bench_families[0]);
 
-static const double PI = 3.14159265358979323846;
-
 static void init_scene(bench_scene *scene, const char *family, int32_t n)
 {
     memset(scene, 0, sizeof *scene);
@@ -94,9 +92,9 @@ double bench_shape_volume(const bench_shape *shape)
     case BENCH_BOX:
         return 8.0 * (double)shape->half[0] * (double)shape->half[1] * (double)shape->half[2];
     case BENCH_SPHERE:
-        return 4.0 / 3.0 * PI * r * r * r;
+        return 4.0 / 3.0 * BENCH_PI * r * r * r;
     case BENCH_CAPSULE:
-        return PI * r * r * (2.0 * (double)shape->half_height + 4.0 / 3.0 * r);
+        return BENCH_PI * r * r * (2.0 * (double)shape->half_height + 4.0 / 3.0 * r);
     }
     return 0.0;
 }
@@ -108,9 +106,9 @@ double bench_shape_area(const bench_shape *shape)
     case BENCH_BOX:
         return 4.0 * (double)shape->half[0] * (double)shape->half[1];
     case BENCH_SPHERE:
-        return PI * r * r;
+        return BENCH_PI * r * r;
     case BENCH_CAPSULE:
-        return PI * r * r + 4.0 * r * (double)shape->half_height;
+        return BENCH_PI * r * r + 4.0 * r * (double)shape->half_height;
     }
     return 0.0;
 }

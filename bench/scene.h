@@ -11,6 +11,8 @@
 extern "C" {
 #endif
 
+#define BENCH_PI 3.14159265358979323846
+
 typedef enum bench_form {
     BENCH_BOX,    ///< half
     BENCH_SPHERE, ///< radius

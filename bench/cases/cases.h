@@ -1,0 +1,27 @@
+/// @file cases.h
+/// What the cases share: grounds, forms, and their table's entries.
+#ifndef BENCH_CASES_CASES_H
+#define BENCH_CASES_CASES_H
+
+#include "../trial.h"
+
+/// A static box half (half_x, 1, half_x) with its top at y = 0.
+int32_t bench_add_ground(bench_scene *scene, double half_x, double friction);
+/// Shapes with density and friction; the index.
+int32_t bench_box(bench_scene *scene, double half_x, double half_y, double half_z, double density, double friction);
+int32_t bench_sphere(bench_scene *scene, double radius, double density, double friction);
+int32_t bench_capsule(bench_scene *scene, double half_height, double radius, double density, double friction);
+/// A hinge about z; in the plane every engine's revolute joint.
+bench_joint *bench_add_hinge_z(bench_scene *scene, int32_t body_a, int32_t body_b, double x, double y);
+
+/// Names of the measures that several cases share.
+#define BENCH_DRIFT "largest drift, m"
+#define BENCH_TILT "largest tilt, rad"
+#define BENCH_SPEED "largest speed at the end, m/s"
+#define BENCH_GAP "largest joint gap, m"
+#define BENCH_DEEPEST "deepest overlap, m"
+
+extern const bench_case bench_solver2d_stack[], bench_solver2d_contact[], bench_solver2d_far[], bench_solver2d_joint[];
+extern const int32_t bench_solver2d_stack_count, bench_solver2d_contact_count, bench_solver2d_far_count, bench_solver2d_joint_count;
+
+#endif

@@ -1,0 +1,188 @@
+// `feather-bench scenes`, `run` and `compare`: the cases, judged by their criteria, in Feather and in the engines beside it.
+#include "bench.h"
+
+#include "memory.h"
+#include "options.h"
+#include "trial.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { FEW = 4, MANY = 8 }; // substeps
+
+typedef struct outcome {
+    int32_t passed, failed, refused; // refused: the engine cannot
+} outcome;
+
+static void show_progress(const char *name, const char *engine)
+{
+    if (isatty(STDERR_FILENO)) fprintf(stderr, "\r\033[K%s: %s", name, engine);
+}
+
+static void end_progress(void)
+{
+    if (isatty(STDERR_FILENO)) fprintf(stderr, "\r\033[K");
+}
+
+// ---- lines ------------------------------------------------------------------------------------------------------------------------------
+
+static void print_label(const bench_trial *t)
+{
+    char settings[16] = "";
+    if (t->engine->has_workers) snprintf(settings, sizeof settings, "%d", t->substeps);
+    printf("%-24s %-8s %-2s", t->scene.name, t->engine->name, settings);
+}
+
+static void print_check(const bench_trial *t, const bench_check *c)
+{
+    printf("      %s %-44s %14.6g  in [%.6g, %.6g]%s\n", bench_check_passed(t, c) ? "  " : "->", c->what, c->value, c->low, c->high,
+           c->own && !t->engine->has_workers ? "  (Feather's own)" : "");
+}
+
+static void print_trial(const bench_trial *t, int32_t all_checks)
+{
+    print_label(t);
+    printf(" %s %9.3f ms a step\n", bench_trial_passed(t) ? "ok  " : "FAIL", t->step > 0 ? t->ms / t->step : 0.0);
+    if (!t->finite) printf("      -> a pose is NaN or infinite after %d steps\n", t->step);
+    for (int32_t i = 0; i < t->check_count; i++) {
+        if (all_checks || !bench_check_passed(t, &t->checks[i])) print_check(t, &t->checks[i]);
+    }
+    fflush(stdout);
+}
+
+static void write_csv(FILE *csv, const bench_trial *t)
+{
+    for (int32_t i = 0; i < t->check_count; i++) {
+        const bench_check *c = &t->checks[i];
+        fprintf(csv, "%s,%s,%d,\"%s\",%.9g,%.9g,%.9g,%d,%.6f,%016" PRIx64 "\n", t->scene.name, t->engine->name, t->substeps, c->what,
+                c->value, c->low, c->high, bench_check_passed(t, c), t->step > 0 ? t->ms / t->step : 0.0, t->hash);
+    }
+}
+
+static FILE *open_csv(const char *path)
+{
+    FILE *csv = fopen(path, "w");
+    if (csv == NULL) {
+        fprintf(stderr, "feather-bench: %s: %s\n", path, strerror(errno));
+        return NULL;
+    }
+    fprintf(csv, "case,engine,substeps,measure,value,low,high,ok,ms_per_step,hash\n");
+    return csv;
+}
+
+// ---- one case in one engine
+// -----------------------------------------------------------------------------------------------------------------
+
+typedef struct session {
+    const bench_options *options;
+    FILE *csv;
+    int32_t all_checks; // print those that hold too
+    outcome sum;
+} session;
+
+static void try_case(session *s, const bench_case *rule, int32_t planar, const bench_engine *engine, int32_t substeps)
+{
+    bench_trial trial;
+    const int32_t workers = s->options->worker_count > 0 ? s->options->workers[0] : 1;
+    show_progress(rule->name, engine->name);
+    const int status = bench_trial_run(&trial, rule, planar, engine, workers, engine->has_workers ? substeps : 0);
+    end_progress();
+    if (status == 0) {
+        print_trial(&trial, s->all_checks);
+        write_csv(s->csv, &trial);
+        bench_trial_passed(&trial) ? s->sum.passed++ : s->sum.failed++;
+    } else {
+        s->sum.refused++;
+    }
+    bench_trial_free(&trial);
+}
+
+static void try_feather(session *s, const bench_case *rule, int32_t planar)
+{
+    static const int32_t usual[] = {FEW, MANY};
+    const bench_options *o = s->options;
+    const int32_t count = o->substep_count > 0 ? o->substep_count : 2;
+    for (int32_t i = 0; i < count; i++) try_case(s, rule, planar, &bench_feather, o->substep_count > 0 ? o->substeps[i] : usual[i]);
+}
+
+static int32_t is_asked(const bench_options *o, const char *peer)
+{
+    if (o->no_peers) return 0;
+    for (int32_t i = 0; i < o->peer_count; i++) {
+        if (strcmp(o->peers[i], peer) == 0) return 1;
+    }
+    return o->peer_count == 0;
+}
+
+static void try_peers(session *s, const bench_case *rule, int32_t planar)
+{
+    for (int32_t i = 0; i < bench_engine_count; i++) {
+        const bench_engine *engine = bench_engines[i].engine;
+        if (engine == NULL || engine == &bench_feather || (engine->planar_only && !planar)) continue;
+        if (is_asked(s->options, engine->name)) try_case(s, rule, planar, engine, 0);
+    }
+}
+
+// ---- the commands
+// -----------------------------------------------------------------------------------------------------------------------------
+
+static int try_named(session *s, const char *name, int32_t with_peers)
+{
+    int32_t planar = 0;
+    const bench_case *rule = bench_case_find(name, &planar);
+    if (rule == NULL) {
+        fprintf(stderr, "feather-bench: no case \"%s\"; try: feather-bench list\n", name);
+        return -1;
+    }
+    try_feather(s, rule, planar);
+    if (with_peers) try_peers(s, rule, planar);
+    return 0;
+}
+
+static void try_all(session *s, int32_t with_peers)
+{
+    for (int32_t i = 0; i < bench_case_count(); i++) {
+        const bench_case *rule = bench_case_at(i);
+        for (int32_t planar = 0; planar <= rule->planar; planar++) {
+            try_feather(s, rule, planar);
+            if (with_peers) try_peers(s, rule, planar);
+        }
+    }
+}
+
+static int run_cases(int argc, char **argv, const char *out, int32_t with_peers, int32_t all_checks)
+{
+    bench_options options;
+    if (bench_options_parse(&options, argc, argv) != 0) return 2;
+    session s = {.options = &options, .all_checks = all_checks};
+    s.csv = open_csv(options.out_given ? options.out : out);
+    if (s.csv == NULL) return 1;
+    int status = 0;
+    for (int32_t i = 0; i < options.scene_count; i++) status |= try_named(&s, options.scenes[i], with_peers);
+    if (options.scene_count == 0) try_all(&s, with_peers);
+    fclose(s.csv);
+    printf("%d passed, %d failed, %d refused\n", s.sum.passed, s.sum.failed, s.sum.refused);
+    return status == 0 && (with_peers || s.sum.failed + s.sum.refused == 0) ? 0 : 1;
+}
+
+int bench_command_scenes(int argc, char **argv) { return run_cases(argc, argv, "build/scenes.csv", 0, 0); }
+
+int bench_command_compare(int argc, char **argv) { return run_cases(argc, argv, "build/compare.csv", 1, 1); }
+
+// run NAME [OPTION]...
+int bench_command_run(int argc, char **argv)
+{
+    enum { MOST = 64 };
+    static char scene[] = "--scene";
+    char *all[MOST] = {scene};
+    if (argc < 1 || argc >= MOST) {
+        fprintf(stderr, "usage: feather-bench run NAME [OPTION]...\n");
+        return 2;
+    }
+    for (int i = 0; i < argc; i++) all[i + 1] = argv[i];
+    return run_cases(argc + 1, all, "build/run.csv", 0, 1);
+}

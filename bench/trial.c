@@ -1,0 +1,385 @@
+// Runs a case in an engine and keeps what judges ask for (trial.h).
+#include "trial.h"
+
+#include "memory.h"
+#include "stats.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+// ---- geometry of poses --------------------------------------------------------------------------------------------------------------
+
+static void rotate(const double *q, const double *v, double *out)
+{
+    double t[3];
+    for (int k = 0; k < 3; k++) t[k] = 2.0 * (q[(k + 1) % 3] * v[(k + 2) % 3] - q[(k + 2) % 3] * v[(k + 1) % 3]);
+    for (int k = 0; k < 3; k++) out[k] = v[k] + q[3] * t[k] + q[(k + 1) % 3] * t[(k + 2) % 3] - q[(k + 2) % 3] * t[(k + 1) % 3];
+}
+
+static void point_in_body(const bench_pose *pose, const double *point, double *out)
+{
+    const double back[4] = {-pose->rotation[0], -pose->rotation[1], -pose->rotation[2], pose->rotation[3]};
+    double d[3];
+    for (int k = 0; k < 3; k++) d[k] = point[k] - pose->position[k];
+    rotate(back, d, out);
+}
+
+static void point_in_world(const bench_pose *pose, const double *arm, double *out)
+{
+    rotate(pose->rotation, arm, out);
+    for (int k = 0; k < 3; k++) out[k] += pose->position[k];
+}
+
+static double length(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+static double horizontal_distance(const bench_pose *a, const bench_pose *b)
+{
+    return hypot(a->position[0] - b->position[0], a->position[2] - b->position[2]);
+}
+
+static double angle_of_y_axes(const bench_pose *a, const bench_pose *b)
+{
+    const double y[3] = {0.0, 1.0, 0.0};
+    double u[3], v[3], cross[3], dot = 0.0;
+    rotate(a->rotation, y, u);
+    rotate(b->rotation, y, v);
+    for (int k = 0; k < 3; k++) {
+        cross[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+        dot += u[k] * v[k];
+    }
+    return atan2(length(cross), dot);
+}
+
+// ---- energy ---------------------------------------------------------------------------------------------------------------------------
+
+// Principal moments in the body's frame, kg m2
+static void inertia_of(const bench_shape *s, double mass, double *out)
+{
+    const double r = (double)s->radius, h = (double)s->half_height;
+    if (s->form == BENCH_SPHERE) {
+        out[0] = out[1] = out[2] = 0.4 * mass * r * r;
+    } else if (s->form == BENCH_BOX) {
+        for (int k = 0; k < 3; k++) {
+            const double a = (double)s->half[(k + 1) % 3], b = (double)s->half[(k + 2) % 3];
+            out[k] = mass * (a * a + b * b) / 3.0;
+        }
+    } else { // a cylinder of height 2 h and two half balls, whose centres of mass are 3/8 r beyond its ends
+        const double cylinder = 2.0 * BENCH_PI * r * r * h, balls = 4.0 / 3.0 * BENCH_PI * r * r * r, density = mass / (cylinder + balls);
+        out[1] = density * (cylinder * 0.5 * r * r + balls * 0.4 * r * r);
+        out[0] = out[2] = density * (cylinder * (0.25 * r * r + h * h / 3.0) + balls * (0.4 * r * r + h * h + 0.75 * h * r));
+    }
+}
+
+static double kinetic_of(const bench_trial *t, int32_t i)
+{
+    const bench_body *body = &t->scene.bodies[i];
+    const double mass = t->masses[i], *v = t->motions[i].linear, *q = t->poses[i].rotation;
+    const double back[4] = {-q[0], -q[1], -q[2], q[3]};
+    double inertia[3], w[3], sum = mass * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    inertia_of(&t->scene.shapes[body->shape], mass, inertia);
+    rotate(back, t->motions[i].angular, w);
+    for (int k = 0; k < 3; k++) sum += inertia[k] * w[k] * w[k];
+    return 0.5 * sum;
+}
+
+static double potential_of(const bench_trial *t, int32_t i)
+{
+    double sum = 0.0;
+    for (int k = 0; k < 3; k++) sum -= t->scene.gravity[k] * t->poses[i].position[k];
+    return t->masses[i] * (double)t->scene.bodies[i].gravity_scale * sum;
+}
+
+// ---- records --------------------------------------------------------------------------------------------------------------------------
+
+static void note_track(bench_trial *t, int32_t i)
+{
+    bench_track *track = &t->tracks[i];
+    const double y = t->poses[i].position[1];
+    track->lowest = fmin(track->lowest, y);
+    track->highest = fmax(track->highest, y);
+    track->drift = fmax(track->drift, bench_drift(t, i));
+    track->tilt = fmax(track->tilt, bench_tilt(t, i));
+    track->speed = fmax(track->speed, bench_speed(t, i));
+}
+
+static double gap_of(const bench_trial *t, int32_t joint)
+{
+    const bench_joint *j = &t->scene.joints[joint];
+    double a[3], b[3], d[3];
+    if (t->away[j->body_a] || t->away[j->body_b]) return 0.0;
+    if (j->kind == BENCH_SLIDER || j->kind == BENCH_DISTANCE) return 0.0; // their anchors may part
+    point_in_world(&t->poses[j->body_a], t->arms[joint][0], a);
+    point_in_world(&t->poses[j->body_b], t->arms[joint][1], b);
+    for (int k = 0; k < 3; k++) d[k] = a[k] - b[k];
+    return length(d);
+}
+
+static int all_finite(const bench_trial *t)
+{
+    for (int32_t i = 0; i < t->scene.body_count; i++) {
+        const double *p = t->poses[i].position, *q = t->poses[i].rotation;
+        if (t->away[i]) continue;
+        if (!isfinite(p[0] + p[1] + p[2]) || !isfinite(q[0] + q[1] + q[2] + q[3])) return 0;
+    }
+    return 1;
+}
+
+static void record(bench_trial *t)
+{
+    t->engine->read_poses(t->world, t->poses);
+    t->engine->read_motions(t->world, t->motions);
+    t->finite = all_finite(t);
+    double kinetic = 0.0, potential = 0.0, fastest = 0.0, gap = 0.0;
+    for (int32_t i = 0; i < t->scene.body_count; i++) {
+        if (!t->scene.bodies[i].dynamic || t->away[i]) continue;
+        note_track(t, i);
+        kinetic += kinetic_of(t, i);
+        potential += potential_of(t, i);
+        fastest = fmax(fastest, bench_speed(t, i));
+    }
+    for (int32_t i = 0; i < t->scene.joint_count; i++) gap = fmax(gap, gap_of(t, i));
+    t->kinetic[t->step] = kinetic;
+    t->energy[t->step] = kinetic + potential;
+    t->gap[t->step] = gap;
+    t->fastest[t->step] = fastest;
+}
+
+void bench_trial_forget(bench_trial *t)
+{
+    for (int32_t i = 0; i < t->scene.body_count; i++) t->tracks[i] = (bench_track){HUGE_VAL, -HUGE_VAL, 0.0, 0.0, 0.0};
+}
+
+void bench_trial_take_away(bench_trial *t, int32_t body)
+{
+    t->engine->take_away(t->world, body);
+    t->away[body] = 1;
+}
+
+// ---- a run ----------------------------------------------------------------------------------------------------------------------------
+
+const bench_case *bench_case_find(const char *name, int32_t *out_planar)
+{
+    for (int32_t i = 0; i < bench_case_count(); i++) {
+        const bench_case *rule = bench_case_at(i);
+        const size_t size = strlen(rule->name);
+        if (strncmp(rule->name, name, size) != 0) continue;
+        *out_planar = rule->planar && strcmp(name + size, "-2d") == 0;
+        if (name[size] == '\0' || *out_planar) return rule;
+    }
+    return NULL;
+}
+
+static void prepare(bench_trial *t)
+{
+    const bench_scene *s = &t->scene;
+    const size_t bodies = (size_t)s->body_count, steps = (size_t)t->step_count + 1;
+    t->poses = bench_allocate(bodies, sizeof *t->poses);
+    t->motions = bench_allocate(bodies, sizeof *t->motions);
+    t->tracks = bench_allocate(bodies, sizeof *t->tracks);
+    t->away = bench_allocate(bodies, sizeof *t->away);
+    t->masses = bench_allocate(bodies, sizeof *t->masses);
+    t->arms = bench_allocate((size_t)s->joint_count, sizeof *t->arms);
+    t->energy = bench_allocate(steps, sizeof *t->energy);
+    t->kinetic = bench_allocate(steps, sizeof *t->kinetic);
+    t->gap = bench_allocate(steps, sizeof *t->gap);
+    t->fastest = bench_allocate(steps, sizeof *t->fastest);
+    for (int32_t i = 0; i < s->body_count; i++) {
+        const bench_shape *shape = &s->shapes[s->bodies[i].shape];
+        if (s->bodies[i].dynamic) t->masses[i] = (double)shape->density * bench_shape_volume(shape);
+    }
+    for (int32_t i = 0; i < s->joint_count; i++) {
+        const bench_joint *j = &s->joints[i];
+        point_in_body(&s->bodies[j->body_a].start, j->anchor, t->arms[i][0]);
+        point_in_body(&s->bodies[j->body_b].start, j->is_open ? j->anchor_b : j->anchor, t->arms[i][1]);
+    }
+    bench_trial_forget(t);
+}
+
+static void build_scene(bench_scene *scene, const bench_case *rule, int32_t planar)
+{
+    memset(scene, 0, sizeof *scene);
+    snprintf(scene->name, sizeof scene->name, "%s%s", rule->name, planar ? "-2d" : "");
+    scene->gravity[1] = -10.0;
+    scene->dt = 1.0f / 60.0f;
+    rule->build(scene);
+    if (planar) bench_make_planar(scene);
+}
+
+static double now_ms(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
+}
+
+static int make_steps(bench_trial *t)
+{
+    record(t);
+    while (t->step < t->step_count && t->finite) {
+        if (t->rule->act != NULL) t->rule->act(t);
+        const double start = now_ms();
+        if (t->engine->step(t->world, t->scene.dt) != 0) return -1;
+        t->ms += now_ms() - start;
+        t->step++;
+        t->time = t->step * (double)t->scene.dt;
+        record(t);
+        if (t->rule->watch != NULL) t->rule->watch(t);
+    }
+    return 0;
+}
+
+int bench_trial_run(bench_trial *t, const bench_case *rule, int32_t planar, const bench_engine *engine, int32_t workers, int32_t substeps)
+{
+    memset(t, 0, sizeof *t);
+    t->rule = rule;
+    t->engine = engine;
+    t->workers = workers;
+    t->substeps = substeps;
+    build_scene(&t->scene, rule, planar);
+    t->step_count = (int32_t)lround(rule->seconds / (double)t->scene.dt);
+    prepare(t);
+    t->world = engine->create(&t->scene, workers, substeps);
+    if (t->world == NULL || make_steps(t) != 0) return -1;
+    if (t->finite) rule->judge(t);
+    if (engine->read_hash != NULL) t->hash = engine->read_hash(t->world);
+    return 0;
+}
+
+void bench_trial_free(bench_trial *t)
+{
+    void *owned[] = {t->poses, t->motions, t->tracks, t->away, t->masses, t->arms, t->energy, t->kinetic, t->gap, t->fastest};
+    if (t->world != NULL) t->engine->destroy(t->world);
+    for (size_t i = 0; i < sizeof owned / sizeof owned[0]; i++) free(owned[i]);
+    bench_scene_destroy(&t->scene);
+    memset(t, 0, sizeof *t);
+}
+
+int32_t bench_check_passed(const bench_trial *t, const bench_check *c)
+{
+    if (c->own && !t->engine->has_workers) return 1;
+    return c->value >= c->low && c->value <= c->high;
+}
+
+int32_t bench_trial_passed(const bench_trial *t)
+{
+    if (!t->finite) return 0;
+    for (int32_t i = 0; i < t->check_count; i++) {
+        if (!bench_check_passed(t, &t->checks[i])) return 0;
+    }
+    return 1;
+}
+
+// ---- for judges -----------------------------------------------------------------------------------------------------------------------
+
+static void add_check(bench_trial *t, const bench_check *check)
+{
+    if (t->check_count == BENCH_MAX_CHECKS) {
+        fprintf(stderr, "feather-bench: %s has more than %d checks\n", t->scene.name, BENCH_MAX_CHECKS);
+        exit(1);
+    }
+    t->checks[t->check_count++] = *check;
+}
+
+void bench_expect(bench_trial *t, const char *what, double value, double low, double high)
+{
+    add_check(t, &(bench_check){what, value, low, high, 0});
+}
+
+void bench_expect_own(bench_trial *t, const char *what, double value, double low, double high)
+{
+    add_check(t, &(bench_check){what, value, low, high, 1});
+}
+
+double bench_tilt(const bench_trial *t, int32_t i) { return angle_of_y_axes(&t->poses[i], &t->scene.bodies[i].start); }
+
+double bench_drift(const bench_trial *t, int32_t i) { return horizontal_distance(&t->poses[i], &t->scene.bodies[i].start); }
+
+double bench_speed(const bench_trial *t, int32_t i) { return length(t->motions[i].linear); }
+
+static double sink(const bench_trial *t, int32_t i) { return t->scene.bodies[i].start.position[1] - t->poses[i].position[1]; }
+
+static double largest(const bench_trial *t, double (*of)(const bench_trial *, int32_t))
+{
+    double most = 0.0;
+    for (int32_t i = 0; i < t->scene.body_count; i++) {
+        if (t->scene.bodies[i].dynamic && !t->away[i]) most = fmax(most, of(t, i));
+    }
+    return most;
+}
+
+double bench_largest_tilt(const bench_trial *t) { return largest(t, bench_tilt); }
+
+double bench_largest_drift(const bench_trial *t) { return largest(t, bench_drift); }
+
+double bench_largest_speed(const bench_trial *t) { return largest(t, bench_speed); }
+
+double bench_largest_sink(const bench_trial *t) { return largest(t, sink); }
+
+double bench_highest(const double *series, int32_t from, int32_t to)
+{
+    double most = -HUGE_VAL;
+    for (int32_t i = from; i <= to; i++) most = fmax(most, series[i]);
+    return most;
+}
+
+double bench_rms(const double *series, int32_t from, int32_t to)
+{
+    double sum = 0.0;
+    for (int32_t i = from; i <= to; i++) sum += series[i] * series[i];
+    return sqrt(sum / (to - from + 1));
+}
+
+double bench_rise(const double *series, int32_t from, int32_t to)
+{
+    double low = series[from], rise = 0.0;
+    for (int32_t i = from; i <= to; i++) {
+        rise = fmax(rise, series[i] - low);
+        low = fmin(low, series[i]);
+    }
+    return rise;
+}
+
+int32_t bench_step_at(const bench_trial *t, double seconds)
+{
+    const int32_t step = (int32_t)lround(seconds / (double)t->scene.dt);
+    return step < t->step ? step : t->step;
+}
+
+// The same ruler for all engines: Feather's narrow phase on the poses, which moves nothing in a step of no time.
+double bench_deepest(const bench_trial *t)
+{
+    bench_scene copy = t->scene;
+    bench_contacts contacts = {0, 0, 0.0};
+    copy.joint_count = 0;
+    copy.bodies = bench_allocate((size_t)copy.body_count, sizeof *copy.bodies);
+    for (int32_t i = 0; i < copy.body_count; i++) {
+        copy.bodies[i] = t->scene.bodies[i];
+        copy.bodies[i].start = t->poses[i];
+        copy.bodies[i].collides &= !t->away[i];
+    }
+    bench_world *ruler = bench_feather.create(&copy, 1, 1);
+    if (ruler != NULL) {
+        bench_feather.measure_contacts(ruler, &contacts);
+        bench_feather.destroy(ruler);
+    }
+    free(copy.bodies);
+    return contacts.deepest;
+}
+
+static double stiffness(double hertz, double share, const bench_trial *t)
+{
+    const double rate = t->substeps / (double)t->scene.dt, w = 2.0 * BENCH_PI * fmin(hertz, share * rate);
+    return w * w;
+}
+
+double bench_contact_stiffness(const bench_trial *t, int32_t against_static)
+{
+    return stiffness(30.0, 0.125, t) * (against_static ? 4.0 : 1.0);
+}
+
+double bench_joint_stiffness(const bench_trial *t) { return stiffness(60.0, 0.25, t); }
+
+double bench_face_factor(const bench_trial *t) { return t->scene.planar ? 0.625 : 1.0; }

@@ -1,0 +1,113 @@
+/// @file trial.h
+/// A case is a scene with a script and a criterion; a trial is one engine's run of it. The script pushes and takes bodies away, the watcher
+/// looks on after each step, the judge states at the end what must hold: measures with their bounds, which come from physics or from the
+/// engine's own constants (linear slop, the overlap and the gap of soft constraints). scenes.c runs the cases of cases/, compare.c puts the
+/// engines side by side.
+#ifndef BENCH_TRIAL_H
+#define BENCH_TRIAL_H
+
+#include "peers/peer.h"
+#include "scene.h"
+
+typedef struct bench_trial bench_trial;
+
+typedef struct bench_case {
+    const char *name;
+    const char *source; ///< where the scene comes from
+    const char *about;
+    double seconds; ///< simulated
+    int32_t planar; ///< 1: has a twin in the plane, "name-2d", beside which Box2D can stand
+    void (*build)(bench_scene *scene);
+    void (*act)(bench_trial *trial);   ///< before each step, may be NULL
+    void (*watch)(bench_trial *trial); ///< after each step, may be NULL
+    void (*judge)(bench_trial *trial);
+} bench_case;
+
+int32_t bench_case_count(void);
+const bench_case *bench_case_at(int32_t index);
+
+/// What a body did since the start, or since the last bench_trial_forget.
+typedef struct bench_track {
+    double lowest, highest; ///< y of its centre, m
+    double drift;           ///< largest horizontal distance from its start, m
+    double tilt;            ///< largest angle of its y axis to where it pointed at the start, rad
+    double speed;           ///< largest, m/s
+} bench_track;
+
+typedef struct bench_check {
+    const char *what; ///< with its unit
+    double value, low, high;
+    int32_t own; ///< 1: the bound is a predictor of Feather's soft constraints, which says nothing of other engines
+} bench_check;
+
+enum { BENCH_MAX_CHECKS = 24, BENCH_NOTES = 64 };
+
+struct bench_trial {
+    const bench_case *rule;
+    bench_scene scene;
+    const bench_engine *engine;
+    bench_world *world;
+    int32_t workers, substeps;
+    int32_t step, step_count; ///< steps made, to be made
+    double time;              ///< s
+
+    bench_pose *poses;     ///< now, by body
+    bench_motion *motions; ///< likewise
+    bench_track *tracks;   ///< likewise
+    int32_t *away;         ///< 1: was taken away
+    double *masses;        ///< kg, 0 for static bodies
+    double (*arms)[2][3];  ///< of a joint's anchor in body A and in body B, m
+
+    double *energy;            ///< after each step, kinetic and potential, J; [0] is the start
+    double *kinetic;           ///< likewise, J
+    double *gap;               ///< likewise, largest distance of a joint's two anchors, m
+    double *fastest;           ///< likewise, speed of the fastest body, m/s
+    double notes[BENCH_NOTES]; ///< the case's own, 0 at the start
+
+    bench_check checks[BENCH_MAX_CHECKS];
+    int32_t check_count;
+    int32_t finite; ///< 0: some pose was NaN or infinite, and the run ended there
+    double ms;      ///< of all steps
+    uint64_t hash;  ///< at the end, where the engine tells
+};
+
+/// The case called `name`, or "name-2d" for its planar twin. NULL: none.
+const bench_case *bench_case_find(const char *name, int32_t *out_planar);
+
+/// Runs a case. 0: done (the checks tell how); -1: the engine cannot, and has said why on stderr.
+int bench_trial_run(bench_trial *trial, const bench_case *rule, int32_t planar, const bench_engine *engine, int32_t workers,
+                    int32_t substeps);
+void bench_trial_free(bench_trial *trial);
+/// 1: finite, and every check within its bounds. For other engines those of Feather's predictors do not count.
+int32_t bench_trial_passed(const bench_trial *trial);
+int32_t bench_check_passed(const bench_trial *trial, const bench_check *check);
+
+// ---- for judges -------------------------------------------------------------------------------------------------------------------
+
+void bench_expect(bench_trial *trial, const char *what, double value, double low, double high);
+void bench_expect_own(bench_trial *trial, const char *what, double value, double low, double high);
+void bench_trial_forget(bench_trial *trial); ///< tracks start anew
+void bench_trial_take_away(bench_trial *trial, int32_t body);
+
+double bench_tilt(const bench_trial *trial, int32_t body);  ///< now, rad
+double bench_drift(const bench_trial *trial, int32_t body); ///< now, m
+double bench_speed(const bench_trial *trial, int32_t body); ///< now, of the centre, m/s
+double bench_largest_tilt(const bench_trial *trial);        ///< now, of all dynamic bodies
+double bench_largest_drift(const bench_trial *trial);
+double bench_largest_speed(const bench_trial *trial);
+double bench_largest_sink(const bench_trial *trial);                  ///< now, below its start, m
+double bench_highest(const double *series, int32_t from, int32_t to); ///< of series[from..to]
+double bench_rms(const double *series, int32_t from, int32_t to);
+double bench_rise(const double *series, int32_t from, int32_t to); ///< largest rise above an earlier value
+int32_t bench_step_at(const bench_trial *trial, double seconds);
+double bench_deepest(const bench_trial *trial); ///< overlap, by Feather's narrow phase whoever made the poses, m
+
+/// Bounds of the soft constraints. A loaded point rests at an overlap of force / (effective mass w2), w = 2 pi hertz; a cube on its face,
+/// four corner points, at g / w2 times a factor that a lock to the plane changes (its corners lose one of their two levers).
+double bench_contact_stiffness(const bench_trial *trial, int32_t against_static); ///< w2, 1/s2
+double bench_joint_stiffness(const bench_trial *trial);                           ///< likewise
+double bench_face_factor(const bench_trial *trial);                               ///< 1, in the plane 0.625
+
+#define BENCH_LINEAR_SLOP 0.005 ///< m
+
+#endif
