@@ -16,7 +16,7 @@
 // sweeps in which the points of a contact share the impulses of an impact: each leaves a third of the last one's error
 #define IMPACT_SWEEPS 8
 // what makes a change of load an impact
-#define IMPACT_RISE 1.5f
+#define IMPACT_CHANGE 1.5f
 
 typedef struct {
     wide r[3];       // from A's centre (from B's when A is static: then span is 0)

@@ -147,31 +147,49 @@ FE_INLINE wide3 NAMED(sweep_points)(ROW *row, wide *wish, const wide *scale, wid
     return moment;
 }
 
+// Sets the points' impulses. Returns the sum of the changes and their moment about A's centre.
+FE_INLINE wide3 NAMED(share_out)(ROW *row, const wide *impulse, wide *out_sum)
+{
+    wide3 moment = w_zero3();
+    *out_sum = w_set(0.0f);
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        wide change = impulse[i] - row->point[i].impulse;
+        row->point[i].impulse = impulse[i];
+        *out_sum = *out_sum + change;
+        moment = w_add_scaled(moment, change, load3(row->point[i].r));
+    }
+    return moment;
+}
+
+// The impulse that point i asks for while the others keep theirs, before max(., 0). out_scale: what its velocity counts.
 // Soft (pushing):   l' = max(l - m (ms vn + bias) - is l, 0);  apart (s > 0): bias = s / h, ms = 1, is = 0
 // Rigid (relaxing): l' = max(l - m (vn + max(s / h, 0)), 0)
-FE_INLINE void NAMED(solve_normals_once)(ROW *row, const affine *gap, const fe__step_constants *c, pair *p, int kind, int soft)
+FE_INLINE wide NAMED(wish_of)(const point_row *q, wide vn, wide distance, const fe__step_constants *c, int kind, int soft, wide *out_scale)
 {
     const fe__softness *k = kind & FE__ROW_PAIR ? &c->between_dynamic : &c->against_static;
-    wide zero = w_set(0.0f), one = w_set(1.0f), slowest = w_set(-c->push_speed), rate = w_set(k->mass_scale * k->bias_rate);
-    wide mass_scale = w_set(k->mass_scale), impulse_scale = w_set(k->impulse_scale);
-    wide wish[POINTS], scale[POINTS];
+    wide zero = w_set(0.0f), one = w_set(1.0f), ahead = distance * c->inverse_h;
+    *out_scale = one;
+    if (!soft) return q->impulse - q->mass * (vn + w_max(ahead, zero));
+    wide_mask apart = w_greater(distance, zero);
+    wide bias = w_choose(apart, ahead, w_max(w_set(k->mass_scale * k->bias_rate) * distance, w_set(-c->push_speed)));
+    *out_scale = w_choose(apart, one, w_set(k->mass_scale));
+    wide kept = q->impulse - w_choose(apart, zero, w_set(k->impulse_scale)) * q->impulse;
+    return kept - q->mass * (*out_scale * vn + bias);
+}
+
+FE_INLINE void NAMED(solve_normals_once)(ROW *row, const affine *gap, const fe__step_constants *c, pair *p, int kind, int soft)
+{
+    wide wish[POINTS], scale[POINTS], sum;
     affine velocity = NAMED(normal_velocity)(p);
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
         const point_row *q = row->point + i;
         wide3 r = load3(q->r);
-        wide vn = at(&velocity, r), distance = q->separation + at(gap, r), ahead = distance * c->inverse_h;
+        wide vn = at(&velocity, r), distance = q->separation + at(gap, r);
         if (kind & FE__ROW_SPECIAL) NAMED(record_touch)((SPECIAL_ROW *)row, i, q->impulse, vn, distance, c, !soft);
-        if (soft) {
-            wide_mask apart = w_greater(distance, zero);
-            wide bias = w_choose(apart, ahead, w_max(rate * distance, slowest));
-            scale[i] = w_choose(apart, one, mass_scale);
-            wide kept = q->impulse - w_choose(apart, zero, impulse_scale) * q->impulse;
-            wish[i] = kept - q->mass * (scale[i] * vn + bias);
-        } else
-            wish[i] = q->impulse - q->mass * (vn + w_max(ahead, zero));
+        wish[i] = NAMED(wish_of)(q, vn, distance, c, kind, soft, scale + i);
     }
-    wide sum;
     wide3 moment = NAMED(sweep_points)(row, wish, soft ? scale : 0, &sum);
     NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
 }
@@ -183,9 +201,42 @@ FE_INLINE wide NAMED(load_of)(const ROW *row)
     return load;
 }
 
+// Gives every point that is there the same impulse, of a size that their wishes together ask for. With K_ij = coupling_ij / m_j for i < j:
+//     l = mean,  then  l += d,  d = sum_i (wish_i - l) / m_i  /  (sum_ij scale_i K_ij + sum_i is / m_i)
+// A box that lands flat is done with that, exactly, whatever the order of its points; sweeps find what the others need.
+FE_INLINE void NAMED(even_out)(ROW *row, const affine *gap, const fe__step_constants *c, pair *p, int kind, int soft)
+{
+    const fe__softness *k = kind & FE__ROW_PAIR ? &c->between_dynamic : &c->against_static;
+    wide zero = w_set(0.0f), wish[POINTS], scale[POINTS], inverse[POINTS], asked = zero, resistance = zero, count = zero, sum;
+    UNROLL for (int i = 0; i < POINTS; ++i) inverse[i] = inverse_or_zero(row->point[i].mass);
+    UNROLL for (int i = 0; i < POINTS; ++i) count = count + w_choose(w_greater(inverse[i], zero), w_set(1.0f), zero);
+    wide mean = NAMED(load_of)(row) * inverse_or_zero(count);
+    UNROLL for (int i = 0; i < POINTS; ++i) wish[i] = w_choose(w_greater(inverse[i], zero), mean, zero);
+    wide3 moment = NAMED(share_out)(row, wish, &sum);
+    NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
+    affine velocity = NAMED(normal_velocity)(p);
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        const point_row *q = row->point + i;
+        wide distance = q->separation + at(gap, load3(q->r));
+        wide change = NAMED(wish_of)(q, at(&velocity, load3(q->r)), distance, c, kind, soft, scale + i) - q->impulse;
+        asked = asked + inverse[i] * change;
+        wide_mask soft_point = w_greater(zero, distance);
+        if (soft) resistance = resistance + w_choose(soft_point, inverse[i] * k->impulse_scale, zero);
+        resistance = resistance + scale[i] * inverse[i];
+        for (int j = 0; j < i; ++j) resistance = resistance + (scale[i] + scale[j]) * row->coupling[coupling_of[j][i]] * inverse[i];
+    }
+    wide each = asked * inverse_or_zero(resistance);
+    UNROLL for (int i = 0; i < POINTS; ++i) wish[i] =
+        w_choose(w_greater(inverse[i], zero), w_max(row->point[i].impulse + each, zero), zero);
+    moment = NAMED(share_out)(row, wish, &sum);
+    NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
+}
+
 // One sweep shares the impulses of an impact unevenly: a box that lands flat would turn, hop, and its friction throw it aside. So contacts
-// whose load rises by half at once get more sweeps; in those that rest the warm start brings the even share. The other lanes stay as they
-// are, and touches are those of the first sweep, before anything was stopped. Out of line: rare.
+// whose load rises or falls by half at once (the substep after an impact takes its warm start back) get more sweeps; in those that rest the
+// warm start brings the even share. The other lanes stay as they are, and touches are those of the first sweep, before anything was
+// stopped. Out of line: rare.
 static __attribute__((noinline)) void NAMED(share_impact)(ROW *row, const affine *gap, const fe__step_constants *c, pair *p,
                                                           wide_mask fresh, int kind, int soft)
 {
@@ -195,6 +246,7 @@ static __attribute__((noinline)) void NAMED(share_impact)(ROW *row, const affine
     wide old[POINTS], approach[POINTS], flight[POINTS];
     for (int i = 0; i < POINTS; ++i) old[i] = row->point[i].impulse;
     for (int i = 0; special && i < POINTS; ++i) approach[i] = x->approach[i], flight[i] = x->flight[i];
+    NAMED(even_out)(row, gap, c, &settled, kind, soft);
     for (int sweep = 1; sweep < IMPACT_SWEEPS; ++sweep) NAMED(solve_normals_once)(row, gap, c, &settled, kind, soft);
     for (int i = 0; i < POINTS; ++i) row->point[i].impulse = w_choose(fresh, row->point[i].impulse, old[i]);
     for (int i = 0; special && i < POINTS; ++i) x->approach[i] = approach[i], x->flight[i] = flight[i];
@@ -208,7 +260,8 @@ FE_INLINE void NAMED(solve_normals)(ROW *row, const fe__solver *s, const fe__ste
     wide before = NAMED(load_of)(row);
     NAMED(solve_normals_once)(row, &gap, c, p, kind, soft);
     if (POINTS == 1) return;
-    wide_mask fresh = w_greater(NAMED(load_of)(row), IMPACT_RISE * before);
+    wide after = NAMED(load_of)(row);
+    wide_mask fresh = w_or(w_greater(after, IMPACT_CHANGE * before), w_greater(before, IMPACT_CHANGE * after));
     if (!w_any(fresh)) return;
     pair settled = *p;
     affine gap_then = gap;
