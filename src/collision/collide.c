@@ -8,10 +8,8 @@
 #include <assert.h>
 #include <stddef.h>
 
-enum { TYPE_COUNT = FE_GEOMETRY_PLANE + 1 };
-
 // [type of A][type of B]
-static fe__kernel *const kernels[TYPE_COUNT][TYPE_COUNT] = {
+static fe__kernel *const kernels[FE__FORM_TYPES][FE__FORM_TYPES] = {
     [FE_GEOMETRY_SPHERE] = {[FE_GEOMETRY_SPHERE] = fe__collide_sphere_sphere},
     [FE_GEOMETRY_CAPSULE] = {[FE_GEOMETRY_SPHERE] = fe__collide_capsule_sphere, [FE_GEOMETRY_CAPSULE] = fe__collide_capsule_capsule},
     [FE_GEOMETRY_BOX] = {[FE_GEOMETRY_SPHERE] = fe__collide_box_sphere,

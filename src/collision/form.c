@@ -75,9 +75,31 @@ static fe_dvec3 turned_widths(fe_quat q, fe_dvec3 half)
                       fe__absd(xz - wy) * half.x + fe__absd(yz + wx) * half.y + fe__absd(1.0 - xx - yy) * half.z};
 }
 
+static fe__bounds triangle_bounds(const fe__form *form, const fe__pose *pose)
+{
+    fe_dvec3 p = fe__drotate(pose->rotation, fe__widen(form->vertex[0])), low = p, high = p;
+    for (int32_t i = 1; i < 3; ++i) {
+        p = fe__drotate(pose->rotation, fe__widen(form->vertex[i]));
+        low = (fe_dvec3){fe__mind(low.x, p.x), fe__mind(low.y, p.y), fe__mind(low.z, p.z)};
+        high = (fe_dvec3){fe__maxd(high.x, p.x), fe__maxd(high.y, p.y), fe__maxd(high.z, p.z)};
+    }
+    return (fe__bounds){fe__dadd(pose->position, low), fe__dadd(pose->position, high)};
+}
+
+// the turned box of its own bounds
+static fe__bounds heightfield_bounds(const fe__form *form, const fe__pose *pose)
+{
+    fe_dvec3 low = fe__widen(form->low), high = fe__widen(form->high), half = fe__dscale(0.5, fe__dsub(high, low));
+    fe_dvec3 centre = fe__dadd(pose->position, fe__drotate(pose->rotation, fe__dscale(0.5, fe__dadd(low, high))));
+    half = turned_widths(pose->rotation, half);
+    return (fe__bounds){fe__dsub(centre, half), fe__dadd(centre, half)};
+}
+
 fe__bounds fe__form_bounds(const fe__form *form, const fe__pose *pose)
 {
     if (form->type == FE_GEOMETRY_PLANE) return plane_bounds(form, pose);
+    if (form->type == FE_GEOMETRY_HEIGHTFIELD) return heightfield_bounds(form, pose);
+    if (form->type == FE__FORM_TRIANGLE) return triangle_bounds(form, pose);
     // half is 0 but for a box, half_height is 0 but for a capsule: the core is the box of both
     fe_dvec3 half = fe__widen(form->half), p = pose->position;
     half.y += (double)form->half_height;
@@ -89,7 +111,7 @@ fe__bounds fe__form_bounds(const fe__form *form, const fe__pose *pose)
 
 float fe__form_reach(const fe__form *form, fe_vec3 centre)
 {
-    if (form->type == FE_GEOMETRY_PLANE) return 0.0f;
+    if (form->type >= FE_GEOMETRY_PLANE) return 0.0f;
     fe_vec3 far = {fe__absf(centre.x) + form->half.x, fe__absf(centre.y) + form->half.y + form->half_height,
                    fe__absf(centre.z) + form->half.z};
     return fe__length(far) + form->radius;
@@ -101,6 +123,7 @@ float fe__form_thickness(const fe__form *form)
     case FE_GEOMETRY_BOX:
         return fe__minf(form->half.x, fe__minf(form->half.y, form->half.z));
     case FE_GEOMETRY_PLANE:
+    case FE_GEOMETRY_HEIGHTFIELD:
         return FLT_MAX;
     default:
         return form->radius;

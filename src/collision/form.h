@@ -1,20 +1,33 @@
 // form.h - the forms of shapes: what they weigh, where they end, how a ray meets them.
 //
-// A form lives in the frame of its shape. Everything below this layer knows forms and poses only; bodies and shapes are the world's. No other
-// folder switches over the kinds of forms.
+// A form lives in the frame of its shape. Everything below this layer knows forms and poses only; bodies and shapes are the world's. No
+// other folder switches over the kinds of forms.
 #ifndef FE_COLLISION_FORM_H
 #define FE_COLLISION_FORM_H
 #include "core/math.h"
 
+// A triangle is no public form: heightfields hand out theirs one by one.
+enum { FE__FORM_TRIANGLE = FE_GEOMETRY_HEIGHTFIELD + 1, FE__FORM_TYPES };
+
 // sphere: radius.  capsule: half_height along y, radius.  box: half.  plane: the half space normal . p <= distance, normal of length 1.
-// Unused fields are 0, so that every form is a core (point, segment, box) swelled by its radius.
+// Unused fields are 0, so that each of these is a core (point, segment, box) swelled by its radius. triangle: vertices, turning left around
+// the side that counts.  heightfield: its record's index, its bounds (heightfield.h).
 typedef struct fe__form {
     int32_t type; // fe_geometry_type
     float radius;
-    float half_height;
-    float distance;
-    fe_vec3 half;
-    fe_vec3 normal;
+    union {
+        struct {
+            float half_height;
+            float distance;
+            fe_vec3 half;
+            fe_vec3 normal;
+        };
+        fe_vec3 vertex[3];
+        struct {
+            int32_t field; // of the world's heightfields
+            fe_vec3 low, high;
+        };
+    };
 } fe__form;
 
 // A pose in the world: double position, unit rotation.
@@ -26,36 +39,39 @@ typedef struct fe__pose {
 // pose of `local` (position, rotation in the body's frame) on a body at `body`
 static inline fe__pose fe__compose(const fe__pose *body, fe_vec3 position, fe_quat rotation)
 {
-    return (fe__pose){fe__dadd(body->position, fe__drotate(body->rotation, fe__widen(position))), fe__normalized(fe__product(body->rotation, rotation))};
+    return (fe__pose){fe__dadd(body->position, fe__drotate(body->rotation, fe__widen(position))),
+                      fe__normalized(fe__product(body->rotation, rotation))};
 }
 
-// Mass properties for a density: mass, kg; centre of mass and principal moments about it, in the form's frame (every form's principal axes are
-// its own axes). A plane has none.
+// Mass properties for a density: mass, kg; centre of mass and principal moments about it, in the form's frame (every form's principal axes
+// are its own axes). What is static only has none.
 typedef struct fe__mass {
     float mass;
     fe_vec3 inertia;
 } fe__mass;
 fe__mass fe__form_mass(const fe__form *form, float density);
 
-// Bounds of a form at a pose, in the world, as tight as the form allows. A plane's are infinite on all sides but the one its normal faces, if
-// that is an axis; callers treat planes apart.
+// Bounds of a form at a pose, in the world, as tight as the form allows. A plane's are infinite on all sides but the one its normal faces,
+// if that is an axis; callers treat planes apart.
 typedef struct fe__bounds {
     fe_dvec3 low, high;
 } fe__bounds;
 fe__bounds fe__form_bounds(const fe__form *form, const fe__pose *pose);
 
-// largest distance from `centre` (form's frame) to a point of the form; 0 for a plane
+// largest distance from `centre` (form's frame) to a point of the form; 0 for what is static only
 float fe__form_reach(const fe__form *form, fe_vec3 centre);
-// smallest half width of the form: what a fast body may not outrun
+// smallest half width of the form: what a fast body may not outrun; FLT_MAX for planes and heightfields
 float fe__form_thickness(const fe__form *form);
 
 // A ray against a form, exact, in double, in the form's frame: origin + t * translation, 0 <= t <= limit. Starting in the form is a hit at
-// t = 0 with the normal against the direction (for a zero translation: the shortest way out) and the depth below the surface.
+// t = 0 with the normal against the direction (for a zero translation: the shortest way out) and the depth below the surface. A triangle is
+// hit from its side only and has no inside; a heightfield's ray is in heightfield.h.
 typedef struct fe__ray_hit {
     double t;
     fe_dvec3 normal; // unit, form's frame
     double depth;    // > 0 when inside, else 0
     int32_t inside;
+    int32_t triangle; // of a heightfield, else -1
 } fe__ray_hit;
 int32_t fe__form_ray(const fe__form *form, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__ray_hit *hit); // 1: hit
 

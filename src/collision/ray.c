@@ -31,7 +31,7 @@ static int32_t start_inside(const ray *r, double depth, fe_dvec3 way_out, fe__ra
 {
     double speed = length(r->direction);
     fe_dvec3 normal = speed > 0.0 ? fe__dscale(-1.0 / speed, r->direction) : way_out;
-    *hit = (fe__ray_hit){.t = 0.0, .normal = normal, .depth = fe__maxd(depth, 0.0), .inside = 1};
+    *hit = (fe__ray_hit){.t = 0.0, .normal = normal, .depth = fe__maxd(depth, 0.0), .inside = 1, .triangle = -1};
     return 1;
 }
 
@@ -40,7 +40,7 @@ static int32_t meet(const ray *r, double s, fe_dvec3 normal, fe__ray_hit *hit)
 {
     double t = fe__maxd(s, 0.0) * r->per_s;
     if (!(t <= r->limit)) return 0;
-    *hit = (fe__ray_hit){.t = t, .normal = normal, .depth = 0.0, .inside = 0};
+    *hit = (fe__ray_hit){.t = t, .normal = normal, .depth = 0.0, .inside = 0, .triangle = -1};
     return 1;
 }
 
@@ -177,6 +177,23 @@ static int32_t ray_plane(const fe__form *form, const ray *r, fe__ray_hit *hit)
     return rate < 0.0 && meet(r, above / -rate, unit, hit);
 }
 
+// From the side around which the vertices turn left:  n = e1 x e2,  t = n.(o - v0) / -n.d,  and the point is left of every side.
+static int32_t ray_triangle(const fe__form *form, const ray *r, fe__ray_hit *hit)
+{
+    const fe_dvec3 v[3] = {fe__widen(form->vertex[0]), fe__widen(form->vertex[1]), fe__widen(form->vertex[2])};
+    fe_dvec3 n = fe__dcross(fe__dsub(v[1], v[0]), fe__dsub(v[2], v[0]));
+    double above = fe__ddot(n, fe__dsub(r->origin, v[0])), rate = fe__ddot(n, r->direction);
+    if (!(above >= 0.0 && rate < 0.0)) return 0;
+    double s = above / -rate;
+    if (!(s * r->per_s <= r->limit)) return 0;
+    fe_dvec3 p = fe__dadd(r->origin, fe__dscale(s, r->direction));
+    for (int32_t i = 0; i < 3; ++i) {
+        fe_dvec3 side = fe__dsub(v[(i + 1) % 3], v[i]);
+        if (!(fe__ddot(n, fe__dcross(side, fe__dsub(p, v[i]))) >= 0.0)) return 0;
+    }
+    return meet(r, s, fe__dscale(1.0 / length(n), n), hit);
+}
+
 int32_t fe__form_ray(const fe__form *form, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__ray_hit *hit)
 {
     double scale = scale_for(largest(translation));
@@ -188,6 +205,8 @@ int32_t fe__form_ray(const fe__form *form, fe_dvec3 origin, fe_dvec3 translation
         return ray_capsule(form, &r, hit);
     case FE_GEOMETRY_BOX:
         return ray_box(form, &r, hit);
+    case FE__FORM_TRIANGLE:
+        return ray_triangle(form, &r, hit);
     default:
         return ray_plane(form, &r, hit);
     }
