@@ -391,6 +391,7 @@ typedef enum fe_geometry_type {
     FE_GEOMETRY_CAPSULE = 1, ///< half_height of the axis, along local Y, and radius
     FE_GEOMETRY_BOX = 2,     ///< half_extents
     FE_GEOMETRY_PLANE = 3,   ///< the half space normal . p <= distance; static bodies only
+    FE_GEOMETRY_HEIGHTFIELD = 4, ///< asset: a grid of heights; static bodies only
     FE_GEOMETRY_TYPE_FORCE32 = 0x7fffffff
 } fe_geometry_type;
 
