@@ -1,7 +1,15 @@
 // query.c - the API of queries. They only read: any number of threads may ask while none writes.
-#include "api/check.h"
-#include "query/raycast.h"
+#include "api/query.h"
 
+#include "query/closest.h"
+#include "query/overlap.h"
+
+#include <stddef.h>
+
+// Hits are ordered in the caller's array, by what stands up to their fraction.
+enum { LEAST_SORTED_HIT = offsetof(fe_hit, fraction) + sizeof(double) };
+
+// ---- arguments ------------------------------------------------------------------------------------------------------------------
 static fe_query_filter default_filter(void) { return (fe_query_filter){.struct_size = sizeof(fe_query_filter), .mask = UINT32_MAX}; }
 
 void fe_query_filter_init(fe_query_filter *filter, uint32_t struct_size)
@@ -10,7 +18,7 @@ void fe_query_filter_init(fe_query_filter *filter, uint32_t struct_size)
     fe__init_struct(filter, &defaults, sizeof defaults, struct_size);
 }
 
-static fe_result read_filter(const char *function, const fe_query_filter *filter, fe_query_filter *copy)
+fe_result fe__read_filter(const char *function, const fe_query_filter *filter, fe_query_filter *copy)
 {
     *copy = default_filter();
     if (!filter) return FE_OK;
@@ -20,7 +28,38 @@ static fe_result read_filter(const char *function, const fe_query_filter *filter
     return FE_OK;
 }
 
-static fe__scene scene_of(const fe_world *world)
+#define FE_CHECK_LENGTH(value) FE_CHECK_FLOAT(value, FE_LEAST_LENGTH, FE_MAX_LENGTH)
+
+fe_result fe__read_moving_form(const char *function, const fe_geometry *geometry, fe__form *out_form)
+{
+    fe_geometry whole = {.struct_size = sizeof whole};
+    FE_READ_STRUCT(geometry, &whole);
+    geometry = &whole;
+    *out_form = (fe__form){.type = geometry->type};
+    switch (geometry->type) {
+    case FE_GEOMETRY_SPHERE:
+        if (geometry->radius != 0.0f) FE_CHECK_LENGTH(geometry->radius);
+        out_form->radius = geometry->radius;
+        return FE_OK;
+    case FE_GEOMETRY_CAPSULE:
+        FE_CHECK_LENGTH(geometry->half_height);
+        FE_CHECK_LENGTH(geometry->radius);
+        out_form->half_height = geometry->half_height;
+        out_form->radius = geometry->radius;
+        return FE_OK;
+    case FE_GEOMETRY_BOX:
+        FE_CHECK_LENGTH(geometry->half_extents.x);
+        FE_CHECK_LENGTH(geometry->half_extents.y);
+        FE_CHECK_LENGTH(geometry->half_extents.z);
+        out_form->half = geometry->half_extents;
+        return FE_OK;
+    default:
+        return fe__fail(function, FE_ERROR_UNSUPPORTED, "geometry->type is %d; a sphere, a capsule or a box can be asked with",
+                        geometry->type);
+    }
+}
+
+fe__scene fe__scene_of(const fe_world *world, const fe_query_filter *whole_filter)
 {
     return (fe__scene){.shapes = world->shapes,
                        .static_tree = &world->static_tree,
@@ -28,9 +67,11 @@ static fe__scene scene_of(const fe_world *world)
                        .planes = world->planes,
                        .plane_count = world->plane_count,
                        .body_ids = &world->body_ids,
-                       .shape_ids = &world->shape_ids};
+                       .shape_ids = &world->shape_ids,
+                       .filter = whole_filter};
 }
 
+// ---- what a ray meets -----------------------------------------------------------------------------------------------------------
 fe_result fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
                            fe_hit *out_hit)
 {
@@ -39,10 +80,220 @@ fe_result fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const 
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     FE_CHECK_POINTER(out_hit);
     fe_query_filter whole;
-    FE_TRY(read_filter(function, filter, &whole));
+    FE_TRY(fe__read_filter(function, filter, &whole));
     fe__fp_state fp = fe__fp_enter();
-    fe__scene scene = scene_of(world);
-    int32_t hit = fe__raycast(&scene, origin, translation, &whole, out_hit);
+    fe__scene scene = fe__scene_of(world, &whole);
+    fe__probe probe = fe__probe_ray(*origin, *translation);
+    int32_t hit = fe__cast_closest(&scene, &probe, out_hit);
     fe__fp_leave(fp);
     return hit ? FE_OK : FE_MISS;
+}
+
+fe_result fe_world_raycast_any(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter)
+{
+    FE_BEGIN(world);
+    FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
+    FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
+    fe_query_filter whole;
+    FE_TRY(fe__read_filter(function, filter, &whole));
+    fe__fp_state fp = fe__fp_enter();
+    fe__scene scene = fe__scene_of(world, &whole);
+    fe__probe probe = fe__probe_ray(*origin, *translation);
+    int32_t hit = fe__cast_any(&scene, &probe);
+    fe__fp_leave(fp);
+    return hit ? FE_OK : FE_MISS;
+}
+
+int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
+                             fe_hit *out_hits, uint32_t stride, int32_t capacity)
+{
+    FE_BEGIN(world);
+    FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
+    FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
+    FE_CHECK_ARRAY(out_hits, capacity);
+    FE_CHECK_STRIDE(stride, sizeof *out_hits, LEAST_SORTED_HIT);
+    fe_query_filter whole;
+    FE_TRY(fe__read_filter(function, filter, &whole));
+    fe__fp_state fp = fe__fp_enter();
+    fe__scene scene = fe__scene_of(world, &whole);
+    fe__probe probe = fe__probe_ray(*origin, *translation);
+    int32_t count = fe__cast_all(&scene, &probe, out_hits, stride, capacity);
+    fe__fp_leave(fp);
+    return count;
+}
+
+// ---- what a moving form meets ---------------------------------------------------------------------------------------------------
+fe_result fe_world_sweep(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
+                         const fe_query_filter *filter, fe_hit *out_hit)
+{
+    FE_BEGIN(world);
+    fe__form form;
+    FE_TRY(fe__read_moving_form(function, geometry, &form));
+    FE_CHECK_TRANSFORM(start);
+    FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
+    FE_CHECK_POINTER(out_hit);
+    fe_query_filter whole;
+    FE_TRY(fe__read_filter(function, filter, &whole));
+    fe__fp_state fp = fe__fp_enter();
+    fe__scene scene = fe__scene_of(world, &whole);
+    fe__probe probe = fe__probe_form(&form, start, *translation);
+    int32_t hit = fe__cast_closest(&scene, &probe, out_hit);
+    fe__fp_leave(fp);
+    return hit ? FE_OK : FE_MISS;
+}
+
+fe_result fe_world_sweep_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
+                             const fe_query_filter *filter)
+{
+    FE_BEGIN(world);
+    fe__form form;
+    FE_TRY(fe__read_moving_form(function, geometry, &form));
+    FE_CHECK_TRANSFORM(start);
+    FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
+    fe_query_filter whole;
+    FE_TRY(fe__read_filter(function, filter, &whole));
+    fe__fp_state fp = fe__fp_enter();
+    fe__scene scene = fe__scene_of(world, &whole);
+    fe__probe probe = fe__probe_form(&form, start, *translation);
+    int32_t hit = fe__cast_any(&scene, &probe);
+    fe__fp_leave(fp);
+    return hit ? FE_OK : FE_MISS;
+}
+
+int32_t fe_world_sweep_all(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
+                           const fe_query_filter *filter, fe_hit *out_hits, uint32_t stride, int32_t capacity)
+{
+    FE_BEGIN(world);
+    fe__form form;
+    FE_TRY(fe__read_moving_form(function, geometry, &form));
+    FE_CHECK_TRANSFORM(start);
+    FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
+    FE_CHECK_ARRAY(out_hits, capacity);
+    FE_CHECK_STRIDE(stride, sizeof *out_hits, LEAST_SORTED_HIT);
+    fe_query_filter whole;
+    FE_TRY(fe__read_filter(function, filter, &whole));
+    fe__fp_state fp = fe__fp_enter();
+    fe__scene scene = fe__scene_of(world, &whole);
+    fe__probe probe = fe__probe_form(&form, start, *translation);
+    int32_t count = fe__cast_all(&scene, &probe, out_hits, stride, capacity);
+    fe__fp_leave(fp);
+    return count;
+}
+
+// ---- what a form overlaps -------------------------------------------------------------------------------------------------------
+static const fe_dvec3 nowhere = {0.0, 0.0, 0.0};
+
+int32_t fe_world_overlap(const fe_world *world, const fe_geometry *geometry, const fe_transform *at, const fe_query_filter *filter,
+                         fe_body *out_bodies, int32_t capacity)
+{
+    FE_BEGIN(world);
+    fe__form form;
+    FE_TRY(fe__read_moving_form(function, geometry, &form));
+    FE_CHECK_TRANSFORM(at);
+    FE_CHECK_ARRAY(out_bodies, capacity);
+    fe_query_filter whole;
+    FE_TRY(fe__read_filter(function, filter, &whole));
+    fe__fp_state fp = fe__fp_enter();
+    fe__scene scene = fe__scene_of(world, &whole);
+    fe__probe probe = fe__probe_form(&form, at, nowhere);
+    int32_t count = fe__overlap(&scene, &probe, out_bodies, capacity);
+    fe__fp_leave(fp);
+    return count;
+}
+
+fe_result fe_world_overlap_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *at, const fe_query_filter *filter)
+{
+    FE_BEGIN(world);
+    fe__form form;
+    FE_TRY(fe__read_moving_form(function, geometry, &form));
+    FE_CHECK_TRANSFORM(at);
+    fe_query_filter whole;
+    FE_TRY(fe__read_filter(function, filter, &whole));
+    fe__fp_state fp = fe__fp_enter();
+    fe__scene scene = fe__scene_of(world, &whole);
+    fe__probe probe = fe__probe_form(&form, at, nowhere);
+    int32_t overlaps = fe__overlap_any(&scene, &probe);
+    fe__fp_leave(fp);
+    return overlaps ? FE_OK : FE_MISS;
+}
+
+// ---- what is near ---------------------------------------------------------------------------------------------------------------
+fe_result fe_world_closest_point(const fe_world *world, const fe_dvec3 *point, double max_distance, const fe_query_filter *filter,
+                                 fe_closest *out_closest)
+{
+    FE_BEGIN(world);
+    FE_CHECK_DVEC3(point, FE_MAX_POSITION);
+    FE_CHECK_FLOAT(max_distance, 0.0, FE_MAX_TRANSLATION);
+    FE_CHECK_POINTER(out_closest);
+    fe_query_filter whole;
+    FE_TRY(fe__read_filter(function, filter, &whole));
+    fe__fp_state fp = fe__fp_enter();
+    fe__scene scene = fe__scene_of(world, &whole);
+    int32_t found = fe__closest(&scene, *point, max_distance, out_closest);
+    fe__fp_leave(fp);
+    return found ? FE_OK : FE_MISS;
+}
+
+// ---- one body, one shape --------------------------------------------------------------------------------------------------------
+// From shape `first` to before `end` in a body's list.
+static fe_result raycast_shapes(const fe_world *world, int32_t first, int32_t end, const fe_dvec3 *origin, const fe_dvec3 *translation,
+                                fe_hit *out_hit)
+{
+    fe_query_filter everything = default_filter();
+    everything.flags = FE_QUERY_TRIGGERS;
+    fe__fp_state fp = fe__fp_enter();
+    fe__scene scene = fe__scene_of(world, &everything);
+    fe__probe probe = fe__probe_ray(*origin, *translation);
+    int32_t hit = fe__cast_shapes(&scene, &probe, first, end, out_hit);
+    fe__fp_leave(fp);
+    return hit ? FE_OK : FE_MISS;
+}
+
+static fe_result closest_of_shapes(const fe_world *world, int32_t first, int32_t end, const fe_dvec3 *point, fe_closest *out_closest)
+{
+    fe_query_filter everything = default_filter();
+    everything.flags = FE_QUERY_TRIGGERS;
+    fe__fp_state fp = fe__fp_enter();
+    fe__scene scene = fe__scene_of(world, &everything);
+    int32_t found = fe__closest_on_shapes(&scene, *point, first, end, out_closest);
+    fe__fp_leave(fp);
+    return found ? FE_OK : FE_MISS;
+}
+
+fe_result fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_dvec3 *origin, const fe_dvec3 *translation, fe_hit *out_hit)
+{
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
+    FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
+    FE_CHECK_POINTER(out_hit);
+    return raycast_shapes(world, index, world->shapes[index].next, origin, translation, out_hit);
+}
+
+fe_result fe_body_raycast(const fe_world *world, fe_body body, const fe_dvec3 *origin, const fe_dvec3 *translation, fe_hit *out_hit)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
+    FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
+    FE_CHECK_POINTER(out_hit);
+    return raycast_shapes(world, world->bodies[index].first_shape, -1, origin, translation, out_hit);
+}
+
+fe_result fe_shape_closest_point(const fe_world *world, fe_shape shape, const fe_dvec3 *point, fe_closest *out_closest)
+{
+    FE_BEGIN(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_DVEC3(point, FE_MAX_POSITION);
+    FE_CHECK_POINTER(out_closest);
+    return closest_of_shapes(world, index, world->shapes[index].next, point, out_closest);
+}
+
+fe_result fe_body_closest_point(const fe_world *world, fe_body body, const fe_dvec3 *point, fe_closest *out_closest)
+{
+    FE_BEGIN(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_DVEC3(point, FE_MAX_POSITION);
+    FE_CHECK_POINTER(out_closest);
+    return closest_of_shapes(world, world->bodies[index].first_shape, -1, point, out_closest);
 }

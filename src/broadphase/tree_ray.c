@@ -1,4 +1,4 @@
-// tree_ray.c - which proxies' boxes a segment meets, nearest first.
+// tree_ray.c - which proxies' boxes a segment, or a box that moves along it, meets, nearest first.
 //
 // Slabs: along axis k the segment is between two planes for t in [(low - o) / d, (high - o) / d]. Floats, on the safe side: o is rounded
 // both ways and each plane takes the side that widens the interval; the quotients' roundings are covered by `slack`. Little work is done
@@ -29,18 +29,23 @@ typedef struct cast {
     const fe__tree *tree;
     slabs slabs;
     double limit;
-    float limit_up; // rounded up
+    float limit_up; // rounded up; of a nearest search squared, m2
     fe__tree_ray_visit visit;
     void *context;
 } cast;
 
+// What a walk asks of the boxes: where a ray enters them, or how far they are from a point. Each walk is compiled for each question.
+typedef enum question { RAY, NEAREST } question;
+#define FE_COMPILED_FOR static inline __attribute__((always_inline))
+
 static float narrow(double x) { return (float)fe__maxd(fe__mind(x, longest_translation), -longest_translation); }
 
-static void prepare_slabs(slabs *s, fe_dvec3 o, fe_dvec3 translation)
+// A box that moves meets another when its centre meets that one swelled by its half widths: the origin is an interval to begin with.
+static void prepare_slabs(slabs *s, fe_dvec3 o, fe_dvec3 half, fe_dvec3 translation)
 {
     const fe__quad d = {narrow(translation.x), narrow(translation.y), narrow(translation.z), 1.0f};
-    fe__quad low = {fe__tree_round_down(o.x), fe__tree_round_down(o.y), fe__tree_round_down(o.z), 0.0f};
-    fe__quad high = {fe__tree_round_up(o.x), fe__tree_round_up(o.y), fe__tree_round_up(o.z), 0.0f};
+    fe__quad low = {fe__tree_round_down(o.x - half.x), fe__tree_round_down(o.y - half.y), fe__tree_round_down(o.z - half.z), 0.0f};
+    fe__quad high = {fe__tree_round_up(o.x + half.x), fe__tree_round_up(o.y + half.y), fe__tree_round_up(o.z + half.z), 0.0f};
     // an axis too fast for floats excludes nothing
     const fe__quad fast = fe__quad_set((float)longest_translation);
     fe__quad_int blind = (d >= fast) | (d <= -fast);
@@ -73,21 +78,48 @@ static inline uint32_t hit_lanes(const fe__tree_node *node, const slabs *s, floa
     return fe__lanes_at_most(enter, fe__lanes_mul(leave, fe__lanes_set(slack)));
 }
 
-static inline void visit_proxy(cast *c, int32_t proxy)
+// The squared distance is  sum_k max(low_k - p_k, p_k - high_k, 0)^2. The origin's two roundings are in near_origin and far_origin.
+static inline uint32_t near_lanes(const fe__tree_node *node, const slabs *s, float limit, float t[FE_TREE_WIDTH])
+{
+    fe__lanes square = fe__lanes_set(0.0f), zero = square;
+    for (int32_t k = 0; k < 3; ++k) {
+        fe__lanes below = fe__lanes_sub(fe__lanes_load(node->box[k]), s->near_origin[k]);
+        fe__lanes above = fe__lanes_sub(s->far_origin[k], fe__lanes_load(node->box[3 + k]));
+        fe__lanes away = fe__lanes_max(fe__lanes_max(below, above), zero);
+        square = fe__lanes_add(square, fe__lanes_mul(away, away));
+    }
+    fe__lanes_store(t, square);
+    return fe__lanes_at_most(square, fe__lanes_set(limit * slack));
+}
+
+FE_COMPILED_FOR uint32_t meet_lanes(question q, const cast *c, const fe__tree_node *node, float t[FE_TREE_WIDTH])
+{
+    return q == RAY ? hit_lanes(node, &c->slabs, c->limit_up, t) : near_lanes(node, &c->slabs, c->limit_up, t);
+}
+
+// Beyond the largest distance in a world, so that nothing is lost, and its square stays finite in a float.
+#define FARTHEST 1e15 // m
+static float square_up(double limit)
+{
+    double x = fe__mind(limit, FARTHEST);
+    return (float)(x * x * (1.0 + FE_TREE_ULP) + FE_TREE_PAD);
+}
+
+FE_COMPILED_FOR void visit_proxy(question q, cast *c, int32_t proxy)
 {
     c->limit = c->visit(c->context, proxy, c->limit);
-    c->limit_up = fe__tree_round_up(c->limit);
+    c->limit_up = q == RAY ? fe__tree_round_up(c->limit) : square_up(c->limit);
 }
 
 // The subtree at `top` when the stack is full: parents and lanes lead back up.
-static void walk_without_stack(cast *c, int32_t top)
+FE_COMPILED_FOR void walk_without_stack(question q, cast *c, int32_t top)
 {
     _Alignas(16) float t[FE_TREE_WIDTH];
     int32_t index = top;
     uint32_t from = 0;
     for (;;) {
         const fe__tree_node *node = &c->tree->nodes[index];
-        uint32_t hits = hit_lanes(node, &c->slabs, c->limit_up, t) >> from << from;
+        uint32_t hits = meet_lanes(q, c, node, t) >> from << from;
         if (hits) {
             uint32_t lane = (uint32_t)__builtin_ctz(hits);
             int32_t child = node->child[lane];
@@ -96,7 +128,7 @@ static void walk_without_stack(cast *c, int32_t top)
                 from = 0;
                 continue;
             }
-            visit_proxy(c, ~child);
+            visit_proxy(q, c, ~child);
             from = lane + 1;
         } else {
             if (index == top) return;
@@ -127,7 +159,7 @@ static inline int32_t push_farther(const fe__tree_node *node, uint32_t hits, con
     return nearest.child;
 }
 
-static void walk(cast *c)
+FE_COMPILED_FOR void walk(question q, cast *c)
 {
     _Alignas(16) float t[FE_TREE_WIDTH];
     entry stack[STACK];
@@ -135,15 +167,15 @@ static void walk(cast *c)
     for (;;) {
         while (child >= 0) {
             if (top > STACK - FE_TREE_WIDTH) {
-                walk_without_stack(c, child);
+                walk_without_stack(q, c, child);
                 break;
             }
             const fe__tree_node *node = &c->tree->nodes[child];
-            uint32_t hits = hit_lanes(node, &c->slabs, c->limit_up, t);
+            uint32_t hits = meet_lanes(q, c, node, t);
             if (!hits) break;
             child = push_farther(node, hits, t, stack, &top);
         }
-        if (child < 0) visit_proxy(c, ~child);
+        if (child < 0) visit_proxy(q, c, ~child);
         do {
             if (top == 0) return;
             top -= 1;
@@ -152,11 +184,26 @@ static void walk(cast *c)
     }
 }
 
-double fe__tree_ray(const fe__tree *tree, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__tree_ray_visit visit, void *context)
+double fe__tree_sweep(const fe__tree *tree, fe_dvec3 origin, fe_dvec3 half, fe_dvec3 translation, double limit, fe__tree_ray_visit visit,
+                      void *context)
 {
     if (tree->proxy_count == 0 || limit < 0.0) return limit;
     cast c = {.tree = tree, .limit = limit, .limit_up = fe__tree_round_up(limit), .visit = visit, .context = context};
-    prepare_slabs(&c.slabs, fe__dsub(origin, tree->origin), translation);
-    walk(&c);
+    prepare_slabs(&c.slabs, fe__dsub(origin, tree->origin), half, translation);
+    walk(RAY, &c);
+    return c.limit;
+}
+
+double fe__tree_nearest(const fe__tree *tree, fe_dvec3 point, double limit, fe__tree_ray_visit visit, void *context)
+{
+    if (tree->proxy_count == 0 || limit < 0.0) return limit;
+    fe_dvec3 o = fe__dsub(point, tree->origin);
+    cast c = {.tree = tree, .limit = limit, .limit_up = square_up(limit), .visit = visit, .context = context};
+    const double at[3] = {o.x, o.y, o.z};
+    for (int32_t k = 0; k < 3; ++k) {
+        c.slabs.near_origin[k] = fe__lanes_set(fe__tree_round_up(at[k]));
+        c.slabs.far_origin[k] = fe__lanes_set(fe__tree_round_down(at[k]));
+    }
+    walk(NEAREST, &c);
     return c.limit;
 }

@@ -1,0 +1,117 @@
+// query_many.c - the API of queries by the thousand: one check of world and filter, and the world's workers when asked for.
+#include "api/query.h"
+
+#include <string.h>
+
+enum { BLOCK = 32 }; // queries that a worker claims at once: some 10 us
+
+// Every argument is checked before the first answer is written.
+typedef struct batch {
+    fe__scene scene;
+    const fe__form *form; // NULL: rays
+    const void *ways;     // fe_ray or fe_path
+    uint32_t way_stride;
+    fe_hit *out_hits;
+    uint32_t stride;
+    _Atomic int32_t hits;
+} batch;
+
+// A stride may put them where no double is aligned.
+static fe_ray ray_at(const void *rays, uint32_t stride, int32_t i)
+{
+    fe_ray ray;
+    memcpy(&ray, fe__at_const(rays, stride, i), sizeof ray);
+    return ray;
+}
+
+static fe_path path_at(const void *paths, uint32_t stride, int32_t i)
+{
+    fe_path path;
+    memcpy(&path, fe__at_const(paths, stride, i), sizeof path);
+    return path;
+}
+
+static fe__probe probe_of(const batch *b, int32_t i)
+{
+    if (!b->form) {
+        fe_ray ray = ray_at(b->ways, b->way_stride, i);
+        return fe__probe_ray(ray.origin, ray.translation);
+    }
+    fe_path path = path_at(b->ways, b->way_stride, i);
+    return fe__probe_form(b->form, &path.start, path.translation);
+}
+
+static void answer(void *argument, int32_t first, int32_t end, int32_t worker)
+{
+    (void)worker;
+    batch *b = argument;
+    int32_t hits = 0;
+    for (int32_t i = first; i < end; ++i) {
+        fe__probe probe = probe_of(b, i);
+        fe_hit hit;
+        if (fe__cast_closest(&b->scene, &probe, &hit))
+            hits += 1;
+        else
+            hit = (fe_hit){.point = fe__dadd(probe.origin, probe.translation), .fraction = 1.0, .triangle = -1};
+        memcpy(fe__at(b->out_hits, b->stride, i), &hit, b->stride < sizeof hit ? b->stride : sizeof hit);
+    }
+    atomic_fetch_add_explicit(&b->hits, hits, memory_order_relaxed);
+}
+
+static int32_t answer_all(const fe_world *world, batch *b, int32_t count, int32_t spread)
+{
+    fe__fp_state fp = fe__fp_enter();
+    if (spread)
+        fe__parallel_for(&world->workers, count, BLOCK, answer, b);
+    else
+        answer(b, 0, count, 0);
+    fe__fp_leave(fp);
+    return atomic_load_explicit(&b->hits, memory_order_relaxed);
+}
+
+int32_t fe_world_raycast_many(const fe_world *world, const fe_ray *rays, uint32_t ray_stride, int32_t count, const fe_query_filter *filter,
+                              int32_t spread, fe_hit *out_hits, uint32_t stride)
+{
+    FE_BEGIN(world);
+    FE_CHECK_ARRAY(rays, count);
+    FE_CHECK_STRIDE(ray_stride, sizeof *rays, sizeof *rays);
+    FE_CHECK_BOOL(spread);
+    FE_CHECK_ARRAY(out_hits, count);
+    FE_CHECK_STRIDE(stride, sizeof *out_hits, FE_LEAST_RECORD);
+    fe_query_filter whole;
+    FE_TRY(fe__read_filter(function, filter, &whole));
+    for (int32_t i = 0; i < count; ++i) {
+        fe_ray ray = ray_at(rays, ray_stride, i);
+        FE_CHECK_DVEC3(&ray.origin, FE_MAX_POSITION);
+        FE_CHECK_DVEC3(&ray.translation, FE_MAX_TRANSLATION);
+    }
+    batch b = {.scene = fe__scene_of(world, &whole), .ways = rays, .way_stride = ray_stride, .out_hits = out_hits, .stride = stride};
+    return answer_all(world, &b, count, spread);
+}
+
+int32_t fe_world_sweep_many(const fe_world *world, const fe_geometry *geometry, const fe_path *paths, uint32_t path_stride, int32_t count,
+                            const fe_query_filter *filter, int32_t spread, fe_hit *out_hits, uint32_t stride)
+{
+    FE_BEGIN(world);
+    fe__form form;
+    FE_TRY(fe__read_moving_form(function, geometry, &form));
+    FE_CHECK_ARRAY(paths, count);
+    FE_CHECK_STRIDE(path_stride, sizeof *paths, sizeof *paths);
+    FE_CHECK_BOOL(spread);
+    FE_CHECK_ARRAY(out_hits, count);
+    FE_CHECK_STRIDE(stride, sizeof *out_hits, FE_LEAST_RECORD);
+    fe_query_filter whole;
+    FE_TRY(fe__read_filter(function, filter, &whole));
+    for (int32_t i = 0; i < count; ++i) {
+        fe_path path = path_at(paths, path_stride, i);
+        FE_CHECK_TRANSFORM(&path.start);
+        FE_CHECK_DVEC3(&path.translation, FE_MAX_TRANSLATION);
+    }
+    batch b = {.scene = fe__scene_of(world, &whole),
+               .form = &form,
+               .ways = paths,
+               .way_stride = path_stride,
+               .out_hits = out_hits,
+               .stride = stride};
+    return answer_all(world, &b, count, spread);
+}

@@ -1,0 +1,40 @@
+// approach.h - what the sweep's files share: two cores, one moving in the frame of the other.
+//
+// Every form but the plane is a core - a point, a segment along y, a box - swelled by its radius. Of two forms the one whose core has more
+// dimensions gives the frame, whichever of them moves: so there are six kinds of pairs. A point is a box of no size, a segment one of only
+// a height: what separates boxes serves all.
+#ifndef FE_COLLISION_APPROACH_H
+#define FE_COLLISION_APPROACH_H
+#include "collision/sweep.h"
+
+typedef enum fe__core_kind { FE_CORE_POINT, FE_CORE_SEGMENT, FE_CORE_BOX } fe__core_kind;
+
+typedef struct fe__approach {
+    int32_t frame_kind, other_kind;      // fe__core_kind, frame_kind >= other_kind
+    double frame_half[3], other_half[3]; // of the cores, along their own axes, m
+    fe__axes axes;                       // the other's, in the frame
+    fe_dvec3 position, translation;      // of the other relative to the frame, m
+    double radius;                       // both radii: the cores touch at this distance, m
+    double gap;                          // where a sweep stops, m
+} fe__approach;
+
+// Nearest points of the cores, with the other one's centre at `position`.
+typedef struct fe__core_gap {
+    double distance; // 0: they overlap
+    fe_dvec3 on_frame;
+    fe_dvec3 away; // from there to the other core's nearest point
+} fe__core_gap;
+void fe__core_gap_of(const fe__approach *a, fe_dvec3 position, fe__core_gap *gap); // not of two boxes
+
+// The overlap of two cores as boxes: how far, and along which unit axis, the other must move out. Below 0: they are apart.
+double fe__core_depth(const fe__approach *a, fe_dvec3 *way_out);
+
+typedef struct fe__approach_hit {
+    double t;
+    fe_dvec3 normal; // unit, from the frame's core to the other
+    fe_dvec3 point;  // on the frame's core
+} fe__approach_hit;
+// Two boxes, apart at the start. 1: they meet at t <= limit.
+int32_t fe__boxes_sweep(const fe__approach *a, double limit, fe__approach_hit *hit);
+
+#endif

@@ -1,0 +1,242 @@
+// cast.c - see cast.h.
+//
+// The trees offer the shapes whose boxes the probe meets; each is tested exactly, in double, in its own frame, where the distance from the
+// world's origin costs nothing. What is nearer wins; at equal fractions the body created first, then its shape created first. So neither
+// the form of the trees nor the order of the tests shows in the answer.
+#include "query/cast.h"
+
+#include "query/keep.h"
+
+#include <stddef.h>
+#include <string.h>
+
+// ---- the probe ------------------------------------------------------------------------------------------------------------------
+fe__probe fe__probe_ray(fe_dvec3 origin, fe_dvec3 translation)
+{
+    return (fe__probe){.form = {.type = FE_GEOMETRY_SPHERE}, .origin = origin, .translation = translation};
+}
+
+fe__probe fe__probe_form(const fe__form *form, const fe_transform *from, fe_dvec3 translation)
+{
+    fe__pose turned = {{0.0, 0.0, 0.0}, from->rotation};
+    return (fe__probe){.form = *form,
+                       .origin = from->position,
+                       .translation = translation,
+                       .axes = fe__axes_of(from->rotation),
+                       .half = fe__form_bounds(form, &turned).high};
+}
+
+static int32_t is_ray(const fe__probe *probe) { return probe->form.type == FE_GEOMETRY_SPHERE && probe->form.radius == 0.0f; }
+
+// ---- one shape ------------------------------------------------------------------------------------------------------------------
+// A hit in the world, its normal and point relative to the origin of the shape.
+typedef struct found {
+    double t, depth;
+    fe_dvec3 normal, point;
+    int32_t inside;
+} found;
+
+static int32_t meet_ray(const fe__probe *probe, const fe__shape *shape, double limit, found *f)
+{
+    fe_quat q = shape->pose.rotation;
+    fe_dvec3 origin = fe__drotate_back(q, fe__dsub(probe->origin, shape->pose.position)), way = fe__drotate_back(q, probe->translation);
+    fe__ray_hit hit;
+    if (!fe__form_ray(&shape->form, origin, way, limit, &hit)) return 0;
+    *f = (found){.t = hit.t, .depth = hit.depth, .normal = fe__drotate(q, hit.normal), .inside = hit.inside};
+    return 1;
+}
+
+static fe__mover mover_of(const fe__probe *probe, const fe__shape *shape, const fe__axes *m)
+{
+    const fe__axes *a = &probe->axes;
+    return (fe__mover){.form = &probe->form,
+                       .axes = {fe__turn_back(m, a->x), fe__turn_back(m, a->y), fe__turn_back(m, a->z)},
+                       .position = fe__turn_back(m, fe__dsub(probe->origin, shape->pose.position)),
+                       .translation = fe__turn_back(m, probe->translation)};
+}
+
+static int32_t meet_form(const fe__probe *probe, const fe__shape *shape, double limit, found *f)
+{
+    fe__axes m = fe__axes_of(shape->pose.rotation);
+    fe__mover mover = mover_of(probe, shape, &m);
+    fe__sweep_hit hit;
+    if (!fe__form_sweep(&shape->form, &mover, limit, &hit)) return 0;
+    *f = (found){hit.t, hit.depth, fe__turn(&m, hit.normal), fe__turn(&m, hit.point), hit.inside};
+    return 1;
+}
+
+int32_t fe__probe_overlaps(const fe__probe *probe, const fe__shape *shape)
+{
+    if (is_ray(probe)) {
+        fe__probe still = fe__probe_ray(probe->origin, (fe_dvec3){0.0, 0.0, 0.0});
+        found f;
+        return meet_ray(&still, shape, 0.0, &f);
+    }
+    fe__axes m = fe__axes_of(shape->pose.rotation);
+    fe__mover mover = mover_of(probe, shape, &m);
+    return fe__form_overlap(&shape->form, &mover);
+}
+
+static int32_t meet(const fe__probe *probe, const fe__shape *shape, double limit, found *f)
+{
+    return is_ray(probe) ? meet_ray(probe, shape, limit, f) : meet_form(probe, shape, limit, f);
+}
+
+// ---- telling --------------------------------------------------------------------------------------------------------------------
+// As a float a grazing normal may lean along the way by a rounding: it is turned back until it does not.
+static fe_vec3 against_way(fe_dvec3 normal, fe_dvec3 way)
+{
+    const double turn = 1e-7; // more than a float's rounding
+    double square = fe__ddot(way, way);
+    fe_vec3 n = fe__narrow(normal);
+    if (!(square > 0.0)) return n;
+    fe_dvec3 unit = fe__dscale(1.0 / sqrt(square), way);
+    for (int32_t i = 0; i < 4 && fe__ddot(fe__widen(n), unit) > 0.0; ++i) {
+        normal = fe__dsub(normal, fe__dscale(fe__ddot(normal, unit) + turn, unit));
+        n = fe__narrow(normal);
+    }
+    return n;
+}
+
+static fe_hit hit_of(const fe__scene *scene, const fe__probe *probe, int32_t index, const found *f)
+{
+    const fe__shape *shape = &scene->shapes[index];
+    fe_dvec3 way = probe->translation, normal = f->normal, point = fe__dadd(shape->pose.position, f->point);
+    double square = fe__ddot(way, way);
+    if (f->inside && square > 0.0) normal = fe__dscale(-1.0 / sqrt(square), way);
+    if (f->inside || is_ray(probe)) point = fe__dadd(probe->origin, fe__dscale(f->t, way));
+    return (fe_hit){.body = fe__id_pool_handle(scene->body_ids, shape->body),
+                    .shape = fe__id_pool_handle(scene->shape_ids, index),
+                    .point = point,
+                    .fraction = f->t,
+                    .normal = against_way(normal, way),
+                    .triangle = -1,
+                    .depth = (float)f->depth,
+                    .flags = f->inside ? FE_HIT_STARTED_INSIDE : 0u};
+}
+
+// ---- the nearest ----------------------------------------------------------------------------------------------------------------
+typedef struct cast {
+    const fe__scene *scene;
+    const fe__probe *probe;
+    int32_t body;  // only shapes of this body, or FE_ANY_BODY
+    int32_t shape; // nearest so far, -1: none
+    found found;
+} cast;
+
+static double visit_nearest(void *context, int32_t index, double limit)
+{
+    cast *c = context;
+    const fe__shape *shape = &c->scene->shapes[index];
+    if (c->body != FE_ANY_BODY && shape->body != c->body) return limit;
+    if (!fe__scene_counts(c->scene, shape)) return limit;
+    found f;
+    if (!meet(c->probe, shape, limit, &f)) return limit;
+    if (c->shape >= 0 && f.t == c->found.t && !fe__created_before(shape, &c->scene->shapes[c->shape])) return limit;
+    c->shape = index;
+    c->found = f;
+    return f.t;
+}
+
+// Planes first: they are few, and shorten the way.
+static void walk(const fe__scene *scene, const fe__probe *probe, double limit, fe__tree_ray_visit visit, void *context)
+{
+    for (int32_t i = 0; i < scene->plane_count && limit >= 0.0; ++i) limit = visit(context, scene->planes[i], limit);
+    limit = fe__tree_sweep(scene->static_tree, probe->origin, probe->half, probe->translation, limit, visit, context);
+    (void)fe__tree_sweep(scene->moving_tree, probe->origin, probe->half, probe->translation, limit, visit, context);
+}
+
+static int32_t tell_nearest(const cast *c, fe_hit *out_hit)
+{
+    if (c->shape < 0) return 0;
+    *out_hit = hit_of(c->scene, c->probe, c->shape, &c->found);
+    return 1;
+}
+
+int32_t fe__cast_closest(const fe__scene *scene, const fe__probe *probe, fe_hit *out_hit)
+{
+    cast c = {.scene = scene, .probe = probe, .body = FE_ANY_BODY, .shape = -1};
+    walk(scene, probe, 1.0, visit_nearest, &c);
+    return tell_nearest(&c, out_hit);
+}
+
+int32_t fe__cast_shapes(const fe__scene *scene, const fe__probe *probe, int32_t first, int32_t end, fe_hit *out_hit)
+{
+    cast c = {.scene = scene, .probe = probe, .body = FE_ANY_BODY, .shape = -1};
+    double limit = 1.0;
+    for (int32_t i = first; i != end; i = scene->shapes[i].next) limit = visit_nearest(&c, i, limit);
+    return tell_nearest(&c, out_hit);
+}
+
+// ---- any ------------------------------------------------------------------------------------------------------------------------
+static double visit_any(void *context, int32_t index, double limit)
+{
+    const double stop = -1.0;
+    double next = visit_nearest(context, index, limit);
+    const cast *c = context;
+    return c->shape >= 0 ? stop : next;
+}
+
+int32_t fe__cast_any(const fe__scene *scene, const fe__probe *probe)
+{
+    cast c = {.scene = scene, .probe = probe, .body = FE_ANY_BODY, .shape = -1};
+    walk(scene, probe, 1.0, visit_any, &c);
+    return c.shape >= 0;
+}
+
+// ---- all ------------------------------------------------------------------------------------------------------------------------
+typedef struct collection {
+    const fe__scene *scene;
+    const fe__probe *probe;
+    fe__keep keep;
+} collection;
+
+// A body of several shapes is told once, by that of its hits that comes first: this one?
+static int32_t is_first_of_body(const collection *c, int32_t index, const found *f)
+{
+    const fe__shape *shape = &c->scene->shapes[index];
+    if (fe__is_only_shape(shape)) return 1;
+    cast of_body = {.scene = c->scene, .probe = c->probe, .body = shape->body, .shape = -1};
+    walk(c->scene, c->probe, f->t, visit_nearest, &of_body);
+    return of_body.shape == index;
+}
+
+static double visit_all(void *context, int32_t index, double limit)
+{
+    collection *c = context;
+    const fe__shape *shape = &c->scene->shapes[index];
+    found f;
+    if (!fe__scene_counts(c->scene, shape) || !meet(c->probe, shape, limit, &f) || !is_first_of_body(c, index, &f)) return limit;
+    fe_hit hit = hit_of(c->scene, c->probe, index, &f);
+    fe__keep_add(&c->keep, &hit);
+    return limit;
+}
+
+// Each hit is of another body.
+static int32_t hit_before(const void *context, const void *a, const void *b)
+{
+    const fe__scene *scene = context;
+    double of_a, of_b;
+    fe_shape shape_a, shape_b;
+    memcpy(&of_a, (const char *)a + offsetof(fe_hit, fraction), sizeof of_a);
+    memcpy(&of_b, (const char *)b + offsetof(fe_hit, fraction), sizeof of_b);
+    if (of_a != of_b) return of_a < of_b;
+    memcpy(&shape_a, (const char *)a + offsetof(fe_hit, shape), sizeof shape_a);
+    memcpy(&shape_b, (const char *)b + offsetof(fe_hit, shape), sizeof shape_b);
+    return fe__created_before(&scene->shapes[fe__id_slot_of(shape_a)], &scene->shapes[fe__id_slot_of(shape_b)]);
+}
+
+int32_t fe__cast_all(const fe__scene *scene, const fe__probe *probe, fe_hit *out_hits, uint32_t stride, int32_t capacity)
+{
+    collection c = {.scene = scene,
+                    .probe = probe,
+                    .keep = {.records = out_hits,
+                             .stride = stride,
+                             .size = stride < sizeof(fe_hit) ? stride : (uint32_t)sizeof(fe_hit),
+                             .capacity = capacity,
+                             .before = hit_before,
+                             .context = scene}};
+    walk(scene, probe, 1.0, visit_all, &c);
+    fe__keep_sort(&c.keep);
+    return (int32_t)c.keep.found;
+}

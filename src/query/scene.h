@@ -1,0 +1,43 @@
+// scene.h - what a query sees of a world, and which of it counts.
+//
+// Filled by the API for each call. Queries read it and write their answer, nothing else: any number of threads may ask at once. A shape in
+// a tree or in the list of planes belongs to an enabled body.
+#ifndef FE_QUERY_SCENE_H
+#define FE_QUERY_SCENE_H
+#include "broadphase/tree.h"
+#include "collision/shape.h"
+#include "core/id_pool.h"
+
+typedef struct fe__scene {
+    const fe__shape *shapes;
+    const fe__tree *static_tree, *moving_tree;
+    const int32_t *planes;
+    int32_t plane_count;
+    const fe__id_pool *body_ids, *shape_ids;
+    const fe_query_filter *filter; // whole: mask, flags, excluded
+} fe__scene;
+
+enum { FE_ANY_BODY = -1 };
+
+// Does the shape count for the filter?
+static inline int32_t fe__scene_counts(const fe__scene *scene, const fe__shape *shape)
+{
+    const fe_query_filter *filter = scene->filter;
+    if (!(shape->layer & filter->mask)) return 0;
+    if (shape->flags & FE__SHAPE_TRIGGER && !(filter->flags & FE_QUERY_TRIGGERS)) return 0;
+    if (filter->excluded_count == 0) return 1;
+    fe_body handle = fe__id_pool_handle(scene->body_ids, shape->body);
+    for (int32_t i = 0; i < filter->excluded_count; ++i) {
+        if (filter->excluded[i] == handle) return 0;
+    }
+    return 1;
+}
+
+// The order of all answers: by the body's creation, then by the shape's.
+static inline int32_t fe__created_before(const fe__shape *a, const fe__shape *b)
+{
+    return a->body == b->body ? a->serial < b->serial : a->body_serial < b->body_serial;
+}
+static inline int32_t fe__is_only_shape(const fe__shape *shape) { return shape->next < 0 && shape->previous < 0; }
+
+#endif
