@@ -492,20 +492,32 @@ typedef struct fe_query_filter {
 FE_API void fe_query_filter_init(fe_query_filter *filter, uint32_t struct_size);
 
 typedef enum fe_hit_flags {
-    FE_HIT_STARTED_INSIDE = 1,
+    FE_HIT_STARTED_INSIDE = 1, ///< overlaps at the start: fraction 0
     FE_HIT_FLAGS_FORCE32 = 0x7fffffff
 } fe_hit_flags;
 
 typedef struct fe_hit {
     fe_body body;
     fe_shape shape;
-    fe_dvec3 point;   ///< m, world space
+    fe_dvec3 point;   ///< on the body's surface, m, world space; started inside: where the ray or the moving form's centre started
     double fraction;  ///< 0..1 of the translation
-    fe_vec3 normal;   ///< unit, out of the body; against the direction when started inside
+    fe_vec3 normal;   ///< unit, out of the body, never along the translation; started inside: against it, or the shortest way out when it is zero
     int32_t triangle; ///< of a heightfield, else -1
-    float depth;      ///< when started inside, m, else 0
+    float depth;      ///< started inside: length of the shortest way out, m, else 0
     uint32_t flags;   ///< fe_hit_flags
 } fe_hit;
+
+/// A segment of fe_world_raycast_many.
+typedef struct fe_ray {
+    fe_dvec3 origin;      ///< m, world space
+    fe_dvec3 translation; ///< to the end, m
+} fe_ray;
+
+/// A way of fe_world_sweep_many.
+typedef struct fe_path {
+    fe_transform start;
+    fe_dvec3 translation; ///< m
+} fe_path;
 
 /// The first body on a segment.
 ///
@@ -517,6 +529,76 @@ typedef struct fe_hit {
 /// @return FE_OK on a hit, FE_MISS
 FE_API fe_result fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
                                   fe_hit *out_hit);
+/// Is anything on the segment? Faster than the first: it stops at whatever it finds.
+/// @return FE_OK on a hit, FE_MISS
+FE_API fe_result fe_world_raycast_any(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter);
+/// Every body on a segment, each once, at its first hit, ordered by fraction, then by creation.
+/// @param stride  at least 48: up to the fraction
+/// @return how many bodies are hit; when they are more than `capacity` the nearest are written
+FE_API int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
+                                    fe_hit *out_hits, uint32_t stride, int32_t capacity);
+/// fe_world_raycast for many segments with one filter. The answers do not depend on `spread`.
+/// @param ray_stride  bytes from one ray to the next, 0: packed
+/// @param spread      1: over the workers of the world, 0: on the calling thread
+/// @param out_hits    one a ray, `stride` bytes apart (0: packed); of a miss body and shape are 0, the fraction is 1, the point is the end
+/// @return how many hit
+FE_API int32_t fe_world_raycast_many(const fe_world *world, const fe_ray *rays, uint32_t ray_stride, int32_t count, const fe_query_filter *filter,
+                                     int32_t spread, fe_hit *out_hits, uint32_t stride);
+
+/// What a sphere, capsule or box that moves without turning touches first.
+///
+/// It stops at most 1 micrometre before the body (0.1 mm: a box before a box; 1e-15 of distances far beyond), never in it. What overlaps at the start is a hit at fraction 0, flagged
+/// FE_HIT_STARTED_INSIDE; what is touched there without overlap, too, unless the form moves away from it or along it, which is no hit. At equal
+/// fractions the body created first wins.
+/// @param geometry     sphere, capsule or box; a sphere of radius 0 sweeps as a ray
+/// @param start        pose of the geometry at the start
+/// @param translation  m; zero asks what overlaps
+/// @param filter       who counts; NULL: every layer, no triggers
+/// @param out_hit      written only when FE_OK is returned
+/// @return FE_OK on a hit, FE_MISS; FE_ERROR_UNSUPPORTED for other geometries
+FE_API fe_result fe_world_sweep(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
+                                const fe_query_filter *filter, fe_hit *out_hit);
+/// Does it touch anything? Faster than the first: it stops at whatever it finds.
+FE_API fe_result fe_world_sweep_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
+                                    const fe_query_filter *filter);
+/// Every body that it touches on its way, as if the others were not there; see fe_world_raycast_all.
+FE_API int32_t fe_world_sweep_all(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
+                                  const fe_query_filter *filter, fe_hit *out_hits, uint32_t stride, int32_t capacity);
+/// fe_world_sweep of one geometry along many paths; see fe_world_raycast_many. Of a miss the point is the end of the centre's way.
+FE_API int32_t fe_world_sweep_many(const fe_world *world, const fe_geometry *geometry, const fe_path *paths, uint32_t path_stride, int32_t count,
+                                   const fe_query_filter *filter, int32_t spread, fe_hit *out_hits, uint32_t stride);
+
+/// The bodies that a sphere, capsule or box overlaps, in the order of creation: exactly those that a sweep from there would start inside of.
+/// @param geometry  as for fe_world_sweep; a sphere of radius 0 is a point
+/// @param at        pose of the geometry
+/// @return how many there are; when they are more than `capacity` those created first are written
+FE_API int32_t fe_world_overlap(const fe_world *world, const fe_geometry *geometry, const fe_transform *at, const fe_query_filter *filter,
+                                fe_body *out_bodies, int32_t capacity);
+/// @return FE_OK when it overlaps anything, FE_MISS
+FE_API fe_result fe_world_overlap_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *at, const fe_query_filter *filter);
+
+typedef struct fe_closest {
+    fe_body body;
+    fe_shape shape;
+    fe_dvec3 point;   ///< of the shape's surface, m, world space
+    double distance;  ///< to the surface, m; below 0 inside
+    fe_vec3 normal;   ///< unit, out of the body
+    int32_t triangle; ///< of a heightfield, else -1
+} fe_closest;
+
+/// The point of all surfaces that is closest to a point. Inside of a body its distance is below 0; the smallest wins, then the body created first.
+/// @param max_distance  farther ones are not looked for, m, >= 0
+/// @param out_closest   written only when FE_OK is returned
+/// @return FE_OK, FE_MISS when there is none
+FE_API fe_result fe_world_closest_point(const fe_world *world, const fe_dvec3 *point, double max_distance, const fe_query_filter *filter,
+                                        fe_closest *out_closest);
+
+/// fe_world_raycast against one shape or one body only, whatever its layers, a trigger or not, enabled or not.
+FE_API fe_result fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_dvec3 *origin, const fe_dvec3 *translation, fe_hit *out_hit);
+FE_API fe_result fe_body_raycast(const fe_world *world, fe_body body, const fe_dvec3 *origin, const fe_dvec3 *translation, fe_hit *out_hit);
+/// The closest point of one shape or body, however far. FE_MISS for a body without shapes.
+FE_API fe_result fe_shape_closest_point(const fe_world *world, fe_shape shape, const fe_dvec3 *point, fe_closest *out_closest);
+FE_API fe_result fe_body_closest_point(const fe_world *world, fe_body body, const fe_dvec3 *point, fe_closest *out_closest);
 
 // ---- after the step: events, contacts, bulk reads ---------------------------------------------------------------------------------
 
