@@ -12,39 +12,58 @@
 enum {
     NONE = -1,
     GROUP_KEYS = FE__COLOURS * FE__ROW_KINDS,
+    SIDES = 3, // A, B, both: FE__MOVES_* - 1
+    JOINT_KEYS = FE__JOINT_KEYS * SIDES,
     // a batch of islands without contacts ends here: about as many lines as a second-level cache holds
     BATCH_BODIES = 1024,
-    // lines of zeros before a batch's bodies, one for each kind of row: what its padding lanes name. A batch's own, so that no two workers write
-    // one line
+    // lines of zeros before a batch's bodies, one for each kind of row: what its padding lanes name. A batch's own, so that no two workers
+    // write one line
     DUMMY_LINES = FE__MAX_WIDTH
 };
-_Static_assert((int)DUMMY_LINES >= (int)FE__ROW_KINDS, "one dummy line for each kind");
+_Static_assert((int)DUMMY_LINES >= (int)FE__ROW_KINDS + (int)SIDES, "one dummy line for each kind that may be in a colour");
 
 // scratch of a build, carved from one block of ints
 typedef struct builder {
     fe__solver *s;
     const fe__graph_input *in;
     int32_t width;
-    int32_t *parent;           // by awake index of a body; a parent's index is never above its child's
-    int32_t *island_of;        // by awake index, NONE: kinematic
-    int32_t *island_contacts;  // by island
+    int32_t *parent;          // by awake index of a body; a parent's index is never above its child's
+    int32_t *island_of;       // by awake index, NONE: kinematic
+    int32_t *island_contacts; // by island
+    int32_t *island_joints;
+    int32_t *island_lanes; // contacts and parts of joints
     int32_t *island_bodies;
-    int32_t *batch_of;         // of an island
-    int32_t *kinematic_line;   // by awake index: line of the copy in the batch at hand
-    int32_t *body_order;       // awake indices by batch
-    int32_t *linked;           // contacts in the graph, each with the awake index of its body B
+    int32_t *batch_of;       // of an island
+    int32_t *kinematic_line; // by awake index: line of the copy in the batch at hand
+    int32_t *body_order;     // awake indices by batch
+    int32_t *linked;         // contacts in the graph, each with the awake index of its body B
     int32_t linked_count;
-    int32_t *contact_order;    // contacts by batch
-    int32_t *body_start;       // by batch, one more than there are
+    int32_t *contact_order; // contacts by batch
+    int32_t *body_start;    // by batch, one more than there are
     int32_t *contact_start;
-    int32_t *key_count;        // by colour and kind
+    int32_t *joint_order; // joints by batch
+    int32_t *joint_start;
+    int32_t *key_count;       // by colour and kind
+    int32_t *joint_key_count; // by part, colour and sides
 } builder;
 
 // ---- room ---------------------------------------------------------------------------------------------------------------------------
+static int32_t joint_rows(const fe__graph_bound *b)
+{
+    return b->joint_set ? (int32_t)fe__minl(b->joint_set->rows, (int64_t)b->joints * __builtin_popcount(b->joint_set->row_kinds)) : 0;
+}
+
+static int32_t crowded_joint_rows(const fe__graph_bound *b)
+{
+    if (!b->joint_set) return 0;
+    return (int32_t)fe__minl(joint_rows(b), (int64_t)b->joint_set->crowded * __builtin_popcount(b->joint_set->row_kinds));
+}
+
 static int32_t batch_bound(const fe__graph_bound *b)
 {
     // two neighbouring small batches together exceed a limit; large islands exceed theirs; one for kinematic bodies, one that stayed open
-    return 2 * (b->contacts / FE__BATCH_CONTACTS + b->bodies / BATCH_BODIES) + b->contacts / FE__ISLAND_LARGE + 3;
+    int32_t lanes = b->contacts + joint_rows(b);
+    return 2 * (lanes / FE__BATCH_CONTACTS + b->bodies / BATCH_BODIES) + lanes / FE__ISLAND_LARGE + 3;
 }
 
 // distinct groups of one batch: a greedy colour is below the contacts of both bodies
@@ -54,37 +73,67 @@ static int32_t group_bound(const fe__graph_bound *b)
     return colours * b->kinds;
 }
 
+static int32_t joint_group_bound(const fe__graph_bound *b)
+{
+    if (!b->joint_set) return 0;
+    return fe__mini(2 * b->joint_set->most, FE__JOINT_COLOURS) * __builtin_popcount(b->joint_set->row_kinds) * SIDES;
+}
+
+static int64_t joint_row_bound(const fe__graph_bound *b, int32_t lanes, int32_t width)
+{
+    int64_t rows = lanes / width + fe__mini(joint_group_bound(b), lanes) + fe__mini(crowded_joint_rows(b), lanes);
+    return rows < lanes ? rows : lanes;
+}
+
+static int64_t widest_joint(const fe__graph_bound *b, const fe__kernels *kernels)
+{
+    int32_t widest = 0;
+    for (int32_t part = 0; b->joint_set && part < FE__PARTS; ++part)
+        if (b->joint_set->row_kinds >> part & 1) widest = fe__maxi(widest, kernels->joint->of[part].row_size);
+    return widest;
+}
+
 static int64_t row_bound(const fe__graph_bound *b, int32_t contacts, int32_t width)
 {
     int64_t rows = contacts / width + fe__mini(group_bound(b), contacts) + fe__mini(b->crowded, contacts);
     return rows < contacts ? rows : contacts;
 }
 
+// bytes of rows of so many contacts and parts of joints
+static int64_t row_bytes(const fe__graph_bound *b, const fe__kernels *kernels, int32_t contacts, int32_t joint_lanes)
+{
+    int64_t widest = kernels->contact->row_size[b->special ? FE__ROW_PAIR | FE__ROW_SPECIAL : FE__ROW_PAIR];
+    return row_bound(b, contacts, kernels->width) * widest + joint_row_bound(b, joint_lanes, kernels->width) * widest_joint(b, kernels);
+}
+
 static int64_t scratch_bound(const fe__graph_bound *b)
 {
-    return 7 * (int64_t)b->bodies + 3 * (int64_t)b->contacts + 2 * (batch_bound(b) + 1) + GROUP_KEYS;
+    return 9 * (int64_t)b->bodies + 3 * (int64_t)b->contacts + b->joints + 3 * (batch_bound(b) + 1) + GROUP_KEYS + JOINT_KEYS;
 }
 
 int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *kernels, const fe__graph_bound *b, int32_t workers)
 {
-    int32_t batches = batch_bound(b), width = kernels->width;
-    int64_t groups = (int64_t)fe__mini(group_bound(b) * batches, b->contacts) + fe__mini(b->crowded, b->contacts);
-    int64_t lanes = b->contacts + (int64_t)(width - 1) * groups;
-    // each contact of a kinematic body may bring a copy of it
-    int64_t lines = FE__MAX_WIDTH + (int64_t)b->bodies + (int64_t)batches * (DUMMY_LINES + FE__MAX_WIDTH) + (b->special ? b->contacts : 0);
-    int64_t lane_limit = b->contacts * (int64_t)width;
-    if (lanes > lane_limit) lanes = lane_limit;
-    int64_t widest = kernels->contact->row_size[b->special ? FE__ROW_PAIR | FE__ROW_SPECIAL : FE__ROW_PAIR];
-    int64_t small = row_bound(b, fe__mini(b->contacts, FE__BATCH_CONTACTS + FE__ISLAND_LARGE), width) * widest;
-    int64_t large = b->contacts > FE__ISLAND_LARGE ? row_bound(b, b->contacts, width) * widest : 0;
+    int32_t batches = batch_bound(b), width = kernels->width, parts = joint_rows(b), some = FE__BATCH_CONTACTS + FE__ISLAND_LARGE;
+    int64_t all_lanes = (int64_t)b->contacts + parts;
+    int64_t groups = fe__minl((int64_t)group_bound(b) * batches, b->contacts) + fe__mini(b->crowded, b->contacts) +
+                     fe__minl((int64_t)joint_group_bound(b) * batches, parts) + crowded_joint_rows(b);
+    int64_t lanes = fe__minl(all_lanes + (int64_t)(width - 1) * groups, all_lanes * width);
+    // each contact or joint of a kinematic body may bring a copy of it
+    int64_t copies = (b->special ? b->contacts : 0) + (b->joint_set ? b->joint_set->kinematic : 0);
+    int64_t lines = FE__MAX_WIDTH + (int64_t)b->bodies + (int64_t)batches * (DUMMY_LINES + FE__MAX_WIDTH) + copies;
+    int64_t small = row_bytes(b, kernels, fe__mini(b->contacts, some), fe__mini(parts, some));
+    int64_t large = all_lanes > FE__ISLAND_LARGE ? row_bytes(b, kernels, b->contacts, parts) : 0;
     int64_t rows = small * workers > large ? small * workers : large;
+    int64_t sorted = fe__maxi(fe__mini(b->crowded, b->contacts), b->joint_set ? fe__mini(b->joint_set->crowded, b->joints) : 0);
     if (!FE_RESERVE(memory, s->velocity, s->line_capacity[0], lines) || !FE_RESERVE(memory, s->motion, s->line_capacity[1], lines) ||
         !FE_RESERVE(memory, s->start, s->line_capacity[2], lines) || !FE_RESERVE(memory, s->inertia, s->line_capacity[3], lines) ||
         !FE_RESERVE(memory, s->drive, s->line_capacity[4], lines) || !FE_RESERVE(memory, s->spin, s->line_capacity[5], lines) ||
-        !FE_RESERVE(memory, s->body_of_line, s->body_of_line_capacity, lines) || !FE_RESERVE(memory, s->batches, s->batch_capacity, batches) ||
-        !FE_RESERVE(memory, s->groups, s->group_capacity, groups + 1) || !FE_RESERVE(memory, s->lanes, s->lane_capacity, lanes + width) ||
-        !FE_RESERVE(memory, s->sort_items, s->sort_capacity, 2 * (int64_t)fe__mini(b->crowded, b->contacts)) ||
-        !FE_RESERVE(memory, s->scratch, s->scratch_capacity, scratch_bound(b)) || !FE_RESERVE(memory, s->rows, s->row_capacity, rows / 64 + 1))
+        !FE_RESERVE(memory, s->body_of_line, s->body_of_line_capacity, lines) ||
+        !FE_RESERVE(memory, s->batches, s->batch_capacity, batches) || !FE_RESERVE(memory, s->groups, s->group_capacity, groups + 1) ||
+        !FE_RESERVE(memory, s->lanes, s->lane_capacity, lanes + width) ||
+        !FE_RESERVE(memory, s->sort_items, s->sort_capacity, 2 * sorted) ||
+        !FE_RESERVE(memory, s->scratch, s->scratch_capacity, scratch_bound(b)) ||
+        !FE_RESERVE(memory, s->rows, s->row_capacity, rows / 64 + 1))
         return 0;
     s->worker_row_bytes = (small + 63) / 64 * 64;
     return 1;
@@ -124,15 +173,21 @@ static builder make_builder(fe__solver *s, const fe__kernels *kernels, const fe_
     b.parent = carve(&at, n);
     b.island_of = carve(&at, n);
     b.island_contacts = carve(&at, n);
+    b.island_joints = carve(&at, n);
+    b.island_lanes = carve(&at, n);
     b.island_bodies = carve(&at, n);
     b.batch_of = carve(&at, n);
     b.kinematic_line = carve(&at, n);
     b.body_order = carve(&at, n);
     b.linked = carve(&at, 2 * (int64_t)in->contact_count);
     b.contact_order = carve(&at, in->contact_count);
+    b.joint_order = carve(&at, in->joint_count);
     b.key_count = carve(&at, GROUP_KEYS);
-    b.body_start = carve(&at, (s->scratch + s->scratch_capacity - at) / 2);
-    b.contact_start = at;
+    b.joint_key_count = carve(&at, JOINT_KEYS);
+    int64_t starts = (s->scratch + s->scratch_capacity - at) / 3;
+    b.body_start = carve(&at, starts);
+    b.contact_start = carve(&at, starts);
+    b.joint_start = at;
     return b;
 }
 
@@ -171,11 +226,42 @@ static void join_contacts(builder *b)
     }
 }
 
+static const fe__joint *joint_at(const builder *b, int32_t i) { return b->in->joints->joints + b->in->awake_joints[i]; }
+static uint32_t sides_of(const fe__joint *j) { return j->rows >> FE__SIDES_SHIFT & (FE__MOVES_A | FE__MOVES_B); }
+
+static void join_joints(builder *b)
+{
+    const fe__body *bodies = b->in->bodies;
+    for (int32_t i = 0; i < b->in->joint_count; ++i) {
+        const fe__joint *j = joint_at(b, i);
+        if (j->colour >= 0 && sides_of(j) == (FE__MOVES_A | FE__MOVES_B))
+            join(b->parent, bodies[j->body_a].awake_index, bodies[j->body_b].awake_index);
+    }
+}
+
+static int32_t island_of_joint(const builder *b, const fe__joint *j)
+{
+    return b->island_of[b->in->bodies[sides_of(j) & FE__MOVES_B ? j->body_b : j->body_a].awake_index];
+}
+
+static void count_constraints(builder *b)
+{
+    for (int32_t i = 0; i < b->linked_count; ++i) ++b->island_contacts[b->island_of[b->linked[2 * i + 1]]];
+    for (int32_t i = 0; i < b->s->island_count; ++i) b->island_lanes[i] = b->island_contacts[i];
+    for (int32_t i = 0; i < b->in->joint_count; ++i) {
+        const fe__joint *j = joint_at(b, i);
+        if (j->colour < 0) continue;
+        ++b->island_joints[island_of_joint(b, j)];
+        b->island_lanes[island_of_joint(b, j)] += __builtin_popcount(j->rows & ((1u << FE__PARTS) - 1u));
+    }
+}
+
 static void find_islands(builder *b)
 {
     const fe__graph_input *in = b->in;
     for (int32_t i = 0; i < in->body_count; ++i) b->parent[i] = i;
     join_contacts(b);
+    join_joints(b);
     int32_t count = 0;
     for (int32_t i = 0; i < in->body_count; ++i) {
         int32_t is_root = b->parent[i] == i; // else its parent came before it
@@ -184,14 +270,14 @@ static void find_islands(builder *b)
             continue;
         }
         if (is_root) {
-            b->island_contacts[count] = b->island_bodies[count] = 0;
+            b->island_contacts[count] = b->island_joints[count] = b->island_bodies[count] = 0;
             b->island_of[i] = count++;
         } else
             b->island_of[i] = b->island_of[b->parent[i]];
         ++b->island_bodies[b->island_of[i]];
     }
-    for (int32_t i = 0; i < b->linked_count; ++i) ++b->island_contacts[b->island_of[b->linked[2 * i + 1]]];
     b->s->island_count = count;
+    count_constraints(b);
 }
 
 // ---- batches ------------------------------------------------------------------------------------------------------------------------
@@ -206,6 +292,8 @@ static void add_island(builder *b, int32_t island)
 {
     fe__batch *batch = b->s->batches + b->s->batch_count - 1;
     batch->contact_count += b->island_contacts[island];
+    batch->joint_count += b->island_joints[island];
+    batch->lane_count += b->island_lanes[island];
     batch->body_count += b->island_bodies[island];
     ++batch->island_count;
     b->batch_of[island] = b->s->batch_count - 1;
@@ -217,22 +305,25 @@ static void make_batches(builder *b)
     fe__solver *s = b->s;
     s->batch_count = 0;
     for (int32_t i = 0; i < s->island_count; ++i) {
-        if (b->island_contacts[i] <= FE__ISLAND_LARGE) continue;
+        if (b->island_lanes[i] <= FE__ISLAND_LARGE) continue;
         open_batch(s);
         add_island(b, i);
     }
     s->large_count = s->batch_count;
     const fe__batch *open = NULL;
     for (int32_t i = 0; i < s->island_count; ++i) {
-        if (b->island_contacts[i] > FE__ISLAND_LARGE) continue;
-        if (!open || open->contact_count + b->island_contacts[i] > FE__BATCH_CONTACTS || open->body_count + b->island_bodies[i] > BATCH_BODIES)
+        if (b->island_lanes[i] > FE__ISLAND_LARGE) continue;
+        if (!open || open->lane_count + b->island_lanes[i] > FE__BATCH_CONTACTS || open->body_count + b->island_bodies[i] > BATCH_BODIES)
             open = open_batch(s);
         add_island(b, i);
     }
     open_batch(s); // of the kinematic bodies
 }
 
-static int32_t batch_of_body(const builder *b, int32_t i) { return b->island_of[i] < 0 ? b->s->batch_count - 1 : b->batch_of[b->island_of[i]]; }
+static int32_t batch_of_body(const builder *b, int32_t i)
+{
+    return b->island_of[i] < 0 ? b->s->batch_count - 1 : b->batch_of[b->island_of[i]];
+}
 
 // counts in start[k + 1] become first places; places are then taken by start[k]++ and put right by unwind
 static void sum_up(int32_t *start, int32_t count)
@@ -260,6 +351,13 @@ static void sort_by_batch(builder *b)
     for (int32_t i = 0; i < b->linked_count; ++i)
         b->contact_order[b->contact_start[batch_of_body(b, b->linked[2 * i + 1])]++] = b->linked[2 * i];
     unwind(b->contact_start, batches);
+    b->joint_start[0] = 0;
+    for (int32_t k = 0; k < batches; ++k) b->joint_start[k + 1] = b->joint_start[k] + b->s->batches[k].joint_count;
+    for (int32_t i = 0; i < in->joint_count; ++i) {
+        const fe__joint *j = joint_at(b, i);
+        if (j->colour >= 0) b->joint_order[b->joint_start[b->batch_of[island_of_joint(b, j)]]++] = in->awake_joints[i];
+    }
+    unwind(b->joint_start, batches);
 }
 
 // ---- lines --------------------------------------------------------------------------------------------------------------------------
@@ -270,7 +368,15 @@ static void close_block(fe__solver *s)
 
 static void add_line(fe__solver *s, int32_t body) { s->body_of_line[s->line_count++] = body; }
 
-// its dummies, its bodies, and copies of the kinematic bodies that its contacts read: those a worker moves along by itself
+static void add_kinematic(builder *b, const fe__batch *batch, int32_t body)
+{
+    int32_t awake = b->in->bodies[body].awake_index;
+    if (!is_kinematic(b->in->bodies + body) || awake < 0 || b->kinematic_line[awake] >= batch->first_line) return;
+    b->kinematic_line[awake] = b->s->line_count;
+    add_line(b->s, body);
+}
+
+// its dummies, its bodies, and copies of the kinematic bodies that its contacts and joints read: those a worker moves along by itself
 static void assign_lines(builder *b, int32_t k)
 {
     fe__solver *s = b->s;
@@ -284,40 +390,53 @@ static void assign_lines(builder *b, int32_t k)
         b->kinematic_line[b->body_order[i]] = NONE;
         add_line(s, b->in->awake_bodies[b->body_order[i]]);
     }
-    for (int32_t i = b->contact_start[k]; i < b->contact_start[k + 1]; ++i) {
-        int32_t body = b->in->contacts[b->contact_order[i]].body_a, awake = b->in->bodies[body].awake_index;
-        if (!is_kinematic(b->in->bodies + body) || awake < 0 || b->kinematic_line[awake] >= batch->first_line) continue;
-        b->kinematic_line[awake] = s->line_count;
-        add_line(s, body);
+    for (int32_t i = b->contact_start[k]; i < b->contact_start[k + 1]; ++i)
+        add_kinematic(b, batch, b->in->contacts[b->contact_order[i]].body_a);
+    for (int32_t i = b->joint_start[k]; i < b->joint_start[k + 1]; ++i) {
+        const fe__joint *j = b->in->joints->joints + b->joint_order[i];
+        if (!(j->rows >> FE__SIDES_SHIFT & FE__KINEMATIC_END)) continue;
+        add_kinematic(b, batch, j->body_a);
+        add_kinematic(b, batch, j->body_b);
     }
     close_block(s);
     batch->line_count = s->line_count - batch->first_line;
 }
 
 // ---- lanes --------------------------------------------------------------------------------------------------------------------------
+static int32_t line_of(const builder *b, int32_t body)
+{
+    const fe__body *a = b->in->bodies + body;
+    if (a->type == FE_BODY_DYNAMIC) return a->line;
+    return is_kinematic(a) && a->awake_index >= 0 ? b->kinematic_line[a->awake_index] : FE__STATIC_LINE;
+}
+
 static fe__lane lane_of(const builder *b, const fe__batch *batch, int32_t contact)
 {
     const fe__contact *m = b->in->contacts + contact;
-    const fe__body *a = b->in->bodies + m->body_a;
-    int32_t line_a = FE__STATIC_LINE;
-    if (a->type == FE_BODY_DYNAMIC) line_a = a->line;
-    if (is_kinematic(a) && a->awake_index >= 0) line_a = b->kinematic_line[a->awake_index];
     assert(b->in->bodies[m->body_b].line >= batch->first_line);
     (void)batch;
-    return (fe__lane){contact, line_a, b->in->bodies[m->body_b].line};
+    return (fe__lane){contact, line_of(b, m->body_a), b->in->bodies[m->body_b].line};
 }
 
-static fe__group *open_group(builder *b, fe__batch *batch, int32_t colour, int32_t kind, int32_t contacts, const fe__kernels *kernels)
+// `like` tells all but the place
+static fe__group *open_group(builder *b, fe__batch *batch, fe__group like, int32_t lanes, int32_t row_size)
 {
     fe__solver *s = b->s;
     fe__group *g = s->groups + s->group_count++;
-    int32_t rows = (contacts + b->width - 1) / b->width, dummy = batch->first_line + kind;
-    *g = (fe__group){s->lane_count, rows, kind, colour, batch->row_bytes};
-    for (int32_t i = 0; i < rows * b->width; ++i) s->lanes[s->lane_count + i] = (fe__lane){0, dummy, dummy};
-    s->lane_count += rows * b->width;
-    batch->row_bytes += (int64_t)rows * kernels->contact->row_size[kind];
+    int32_t dummy = batch->first_line + (like.kind < FE__ROW_KINDS ? like.kind : FE__ROW_KINDS - 1 + like.sides);
+    *g = like;
+    g->lane = s->lane_count, g->offset = batch->row_bytes, g->rows = (lanes + b->width - 1) / b->width;
+    for (int32_t i = 0; i < g->rows * b->width; ++i) s->lanes[s->lane_count + i] = (fe__lane){0, dummy, dummy};
+    s->lane_count += g->rows * b->width;
+    batch->row_bytes += (int64_t)g->rows * row_size;
     ++batch->group_count;
     return g;
+}
+
+static fe__group *open_contacts(builder *b, fe__batch *batch, int32_t colour, int32_t kind, int32_t contacts, const fe__kernels *kernels)
+{
+    fe__group like = {.kind = kind, .colour = FE__JOINT_KEYS + colour, .alone = colour == FE__OVERFLOW_COLOUR};
+    return open_group(b, batch, like, contacts, kernels->contact->row_size[kind]);
 }
 
 // contacts beyond the colours of a crowded body: one a row, in the order of the pairs' creation
@@ -335,9 +454,79 @@ static void add_overflow(builder *b, int32_t k, const fe__kernels *kernels)
     fe__sort_keys(s->sort_items, n, s->sort_items + n);
     for (int32_t i = 0; i < n; ++i) {
         int32_t c = s->sort_items[i].value;
-        fe__group *g = open_group(b, s->batches + k, FE__OVERFLOW_COLOUR, b->in->contacts[c].kind, 1, kernels);
+        fe__group *g = open_contacts(b, s->batches + k, FE__OVERFLOW_COLOUR, b->in->contacts[c].kind, 1, kernels);
         s->lanes[g->lane] = lane_of(b, s->batches + k, c);
     }
+}
+
+// ---- joints' lanes: by part, then by colour, then by which ends move
+// ---------------------------------------------------------------------
+static int32_t joint_key(int32_t part, const fe__joint *j)
+{
+    return (part * (FE__JOINT_COLOURS + 1) + j->colour) * SIDES + (int32_t)sides_of(j) - 1;
+}
+
+static fe__group *open_joints(builder *b, fe__batch *batch, int32_t key, int32_t lanes, const fe__kernels *kernels)
+{
+    int32_t colour = key / SIDES, part = colour / (FE__JOINT_COLOURS + 1);
+    fe__group like = {.kind = FE__ROW_KINDS + part, .colour = colour, .sides = 1 + key % SIDES};
+    like.alone = colour % (FE__JOINT_COLOURS + 1) == FE__JOINT_OVERFLOW;
+    return open_group(b, batch, like, lanes, kernels->joint->of[part].row_size);
+}
+
+static fe__lane joint_lane(const builder *b, int32_t joint)
+{
+    const fe__joint *j = b->in->joints->joints + joint;
+    return (fe__lane){joint, line_of(b, j->body_a), line_of(b, j->body_b)};
+}
+
+// joints beyond the colours of a crowded body, sorted by creation: their number
+static int32_t sort_overflow(builder *b, int32_t k)
+{
+    fe__sort_item *items = b->s->sort_items;
+    int32_t n = 0;
+    for (int32_t i = b->joint_start[k]; i < b->joint_start[k + 1]; ++i) {
+        int32_t joint = b->joint_order[i];
+        if (b->in->joints->joints[joint].colour == FE__JOINT_OVERFLOW)
+            items[n++] = (fe__sort_item){b->in->joints->frames[joint].serial, joint, 0};
+    }
+    if (n) fe__sort_keys(items, n, items + n);
+    return n;
+}
+
+static void open_part(builder *b, fe__batch *batch, int32_t part, int32_t overflowing, const fe__kernels *kernels)
+{
+    enum { KEYS = FE__JOINT_COLOURS * SIDES };
+    fe__solver *s = b->s;
+    int32_t first = part * (FE__JOINT_COLOURS + 1) * SIDES;
+    for (int32_t key = first; key < first + KEYS; ++key)
+        if (b->joint_key_count[key]) b->joint_key_count[key] = open_joints(b, batch, key, b->joint_key_count[key], kernels)->lane;
+    for (int32_t i = 0; i < overflowing; ++i) {
+        int32_t joint = s->sort_items[i].value;
+        const fe__joint *j = b->in->joints->joints + joint;
+        if (j->rows >> part & 1) s->lanes[open_joints(b, batch, joint_key(part, j), 1, kernels)->lane] = joint_lane(b, joint);
+    }
+}
+
+static void make_joint_groups(builder *b, int32_t k, const fe__kernels *kernels)
+{
+    fe__batch *batch = b->s->batches + k;
+    if (!batch->joint_count) return;
+    memset(b->joint_key_count, 0, sizeof(int32_t) * JOINT_KEYS);
+    for (int32_t i = b->joint_start[k]; i < b->joint_start[k + 1]; ++i) {
+        const fe__joint *j = b->in->joints->joints + b->joint_order[i];
+        for (int32_t part = 0; part < FE__PARTS; ++part) b->joint_key_count[joint_key(part, j)] += (int32_t)(j->rows >> part & 1);
+    }
+    int32_t overflowing = sort_overflow(b, k);
+    for (int32_t part = 0; part < FE__PARTS; ++part) open_part(b, batch, part, overflowing, kernels);
+    for (int32_t i = b->joint_start[k]; i < b->joint_start[k + 1]; ++i) {
+        const fe__joint *j = b->in->joints->joints + b->joint_order[i];
+        if (j->colour == FE__JOINT_OVERFLOW) continue;
+        fe__lane lane = joint_lane(b, b->joint_order[i]);
+        for (int32_t part = 0; part < FE__PARTS; ++part)
+            if (j->rows >> part & 1) b->s->lanes[b->joint_key_count[joint_key(part, j)]++] = lane;
+    }
+    batch->joint_groups = batch->group_count;
 }
 
 static void make_groups(builder *b, int32_t k, const fe__kernels *kernels)
@@ -345,6 +534,7 @@ static void make_groups(builder *b, int32_t k, const fe__kernels *kernels)
     fe__solver *s = b->s;
     fe__batch *batch = s->batches + k;
     batch->first_group = s->group_count;
+    make_joint_groups(b, k, kernels);
     memset(b->key_count, 0, sizeof(int32_t) * GROUP_KEYS);
     for (int32_t i = b->contact_start[k]; i < b->contact_start[k + 1]; ++i) {
         const fe__contact *m = b->in->contacts + b->contact_order[i];
@@ -353,11 +543,12 @@ static void make_groups(builder *b, int32_t k, const fe__kernels *kernels)
     }
     for (int32_t key = 0; key < FE__OVERFLOW_COLOUR * FE__ROW_KINDS; ++key) {
         int32_t contacts = b->key_count[key];
-        if (contacts) b->key_count[key] = open_group(b, batch, key / FE__ROW_KINDS, key % FE__ROW_KINDS, contacts, kernels)->lane;
+        if (contacts) b->key_count[key] = open_contacts(b, batch, key / FE__ROW_KINDS, key % FE__ROW_KINDS, contacts, kernels)->lane;
     }
     for (int32_t i = b->contact_start[k]; i < b->contact_start[k + 1]; ++i) {
         const fe__contact *m = b->in->contacts + b->contact_order[i];
-        if (m->colour != FE__OVERFLOW_COLOUR) s->lanes[b->key_count[m->colour * FE__ROW_KINDS + m->kind]++] = lane_of(b, batch, b->contact_order[i]);
+        if (m->colour != FE__OVERFLOW_COLOUR)
+            s->lanes[b->key_count[m->colour * FE__ROW_KINDS + m->kind]++] = lane_of(b, batch, b->contact_order[i]);
     }
     add_overflow(b, k, kernels);
 }

@@ -1,7 +1,7 @@
 // graph.h - which contacts are solved together: islands, batches, colours, rows.
 //
-// Input: the awake bodies and the linked contacts. Output: batches of lines, groups of lanes in fe__solver. The graph lives on while nothing links,
-// unlinks, wakes or sleeps.
+// Input: the awake bodies and the linked contacts. Output: batches of lines, groups of lanes in fe__solver. The graph lives on while
+// nothing links, unlinks, wakes or sleeps.
 #ifndef FE_SOLVER_GRAPH_H
 #define FE_SOLVER_GRAPH_H
 #include "solver/solver.h"
@@ -9,27 +9,25 @@
 typedef struct fe__graph_input {
     fe__body *bodies;
     const fe__contact *contacts;
-    const uint64_t *serials;       // of the pairs, two a contact: orders overflowing contacts
-    const int32_t *awake_bodies;   // dynamic and kinematic; bodies[awake_bodies[i]].awake_index == i
+    const uint64_t *serials;     // of the pairs, two a contact: orders overflowing contacts
+    const int32_t *awake_bodies; // dynamic and kinematic; bodies[awake_bodies[i]].awake_index == i
     int32_t body_count;
     const int32_t *awake_contacts; // linked or not: colour -1 is not
     int32_t contact_count;
-    const fe__joints *joints;      // NULL: none
-    const int32_t *awake_joints;   // a dynamic end is awake; linked or not
+    const fe__joints *joints;    // NULL: none
+    const int32_t *awake_joints; // a dynamic end is awake; linked or not
     int32_t joint_count;
 } fe__graph_input;
 
 // What a graph of so many bodies and contacts may need at most
 typedef struct fe__graph_bound {
     int32_t bodies, contacts;
-    int32_t most_contacts; // of one body, linked or not
-    int32_t crowded;       // contacts of bodies with more than fit the colours
-    int32_t kinds;         // kinds of rows in use
-    int32_t special;       // 1: special rows are among them
-    int32_t joints;        // linked
-    int32_t joint_rows;    // parts of all of them
-    int32_t joint_kinds;   // kinds of parts in use
-    int32_t most_joints;   // of one dynamic body
+    int32_t most_contacts;       // of one body, linked or not
+    int32_t crowded;             // contacts of bodies with more than fit the colours
+    int32_t kinds;               // kinds of rows in use
+    int32_t special;             // 1: special rows are among them
+    const fe__joints *joint_set; // NULL: none
+    int32_t joints;              // of them, awake or about to wake, at most
 } fe__graph_bound;
 
 // Room for every graph within the bound. 0: no memory, nothing changed but capacities.
@@ -38,8 +36,8 @@ void fe__graph_build(fe__solver *s, const fe__kernels *kernels, const fe__graph_
 void fe__solver_destroy(fe__solver *s, fe__memory *memory);
 
 // All substeps of all batches. The lines then hold what the step did; contacts and joints their impulses.
-void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *workers, const fe__body *bodies, fe__contact *contacts, fe__extra *extras,
-               const fe__joints *joints, const fe__step_constants *c);
+void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *workers, const fe__body *bodies, fe__contact *contacts,
+               fe__extra *extras, const fe__joints *joints, const fe__step_constants *c);
 fe__softness fe__make_softness(float hertz, float damping_ratio, float h);
 
 #endif

@@ -18,6 +18,7 @@ static uint32_t rows_of(const fe__joint *j, const fe__joint_frame *f, const fe__
     if (rows & point && (a->locked || b->locked || j->arm_a[3] > 0.0f)) rows = (rows & ~point) | 1u << FE__PART_SLIDE;
     if (a->type == FE_BODY_DYNAMIC) sides |= FE__MOVES_A;
     if (b->type == FE_BODY_DYNAMIC) sides |= FE__MOVES_B;
+    if (a->type == FE_BODY_KINEMATIC || b->type == FE_BODY_KINEMATIC) sides |= FE__KINEMATIC_END;
     return rows | sides << FE__SIDES_SHIFT;
 }
 
@@ -28,6 +29,16 @@ static int32_t dynamic_ends(const fe__joint *j, fe__body *bodies, fe__body **end
     if (sides_of(j) & FE__MOVES_A) ends[count++] = bodies + j->body_a;
     if (sides_of(j) & FE__MOVES_B) ends[count++] = bodies + j->body_b;
     return count;
+}
+
+// what a body with so many joints adds to fe__joints.crowded
+static int32_t crowd_of(int32_t count) { return count > FE__JOINT_CROWD ? count : 0; }
+
+static void count_joint(fe__joints *joints, const fe__joint *j, int32_t sign)
+{
+    joints->linked += sign;
+    joints->rows += sign * __builtin_popcount(j->rows & all_parts);
+    joints->kinematic += sides_of(j) & FE__KINEMATIC_END ? sign : 0;
 }
 
 void fe__joint_link(fe__joints *joints, fe__body *bodies, int32_t joint)
@@ -45,10 +56,10 @@ void fe__joint_link(fe__joints *joints, fe__body *bodies, int32_t joint)
     j->colour = ~taken & all_colours ? __builtin_ctz(~taken & all_colours) : FE__JOINT_OVERFLOW;
     for (int32_t k = 0; k < count; ++k) {
         joints->most = fe__maxi(joints->most, ++ends[k]->joint_count);
+        joints->crowded += crowd_of(ends[k]->joint_count) - crowd_of(ends[k]->joint_count - 1);
         if (j->colour != FE__JOINT_OVERFLOW) ends[k]->joint_colours |= 1u << j->colour;
     }
-    ++joints->linked;
-    joints->rows += __builtin_popcount(j->rows & all_parts);
+    count_joint(joints, j, 1);
     joints->row_kinds |= j->rows & all_parts;
 }
 
@@ -60,11 +71,11 @@ void fe__joint_unlink(fe__joints *joints, fe__body *bodies, int32_t joint)
     int32_t count = dynamic_ends(j, bodies, ends);
     for (int32_t k = 0; k < count; ++k) {
         --ends[k]->joint_count;
+        joints->crowded -= crowd_of(ends[k]->joint_count + 1) - crowd_of(ends[k]->joint_count);
         if (j->colour != FE__JOINT_OVERFLOW) ends[k]->joint_colours &= ~(1u << j->colour);
     }
     j->colour = -1;
-    --joints->linked;
-    joints->rows -= __builtin_popcount(j->rows & all_parts);
+    count_joint(joints, j, -1);
 }
 
 void fe__joint_forget_impulses(fe__joints *joints, int32_t joint)
@@ -96,6 +107,11 @@ static fe_dvec3 anchor_of(const fe__body *body, const float *arm)
                     fe__drotate(quat_of(body->rotation), fe__widen(vec_of(arm))));
 }
 
+fe_dvec3 fe__joint_gap(const fe__joint *joint, const fe__body *bodies)
+{
+    return fe__dsub(anchor_of(bodies + joint->body_b, joint->arm_b), anchor_of(bodies + joint->body_a, joint->arm_a));
+}
+
 // the swing of q as e sin(angle / 2), cos(angle / 2) with a unit e = (0, y, z)
 typedef struct swing {
     float y, z; // of e; Y where there is no swing
@@ -123,7 +139,7 @@ void fe__joint_pose_of(const fe__joints *joints, const fe__body *bodies, int32_t
     const fe__body *a = bodies + j->body_a, *b = bodies + j->body_b;
     fe_quat frame_a = fe__product(quat_of(a->rotation), quat_of(f->frame_a)),
             frame_b = fe__product(quat_of(b->rotation), quat_of(f->frame_b));
-    fe_dvec3 d = fe__dsub(anchor_of(b, j->arm_b), anchor_of(a, j->arm_a));
+    fe_dvec3 d = fe__joint_gap(j, bodies);
     fe_quat q = positive(fe__product(fe__conjugate(frame_a), frame_b));
     swing s = swing_of(q);
     *out_pose = (fe__joint_pose){.q = q,

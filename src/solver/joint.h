@@ -37,6 +37,7 @@ enum {
     // which ends are dynamic, so are written
     FE__MOVES_A = 1,
     FE__MOVES_B = 2,
+    FE__KINEMATIC_END = 4,
     FE__SIDES_SHIFT = 16, // of them in fe__joint.rows
 
     // locked translations in fe__joint_frame.locked
@@ -46,6 +47,7 @@ enum {
 
     FE__JOINT_COLOURS = 31,  // joints of a colour share no dynamic body
     FE__JOINT_OVERFLOW = 31, // one joint a row, in order of creation
+    FE__JOINT_CROWD = 15,    // with no more joints each, two bodies have a colour left for the next
 
     // places in fe__joint_axes.axis
     FE__AXIS_LINEAR = 0, // X, Y, Z; DISTANCE in the first
@@ -119,6 +121,8 @@ typedef struct fe__joints {
     fe__joint_axes *axes;
     int32_t linked;     // joints in the graph, awake or asleep
     int32_t rows;       // parts of all of them
+    int32_t kinematic;  // joints with a kinematic end
+    int32_t crowded;    // joints of bodies that have more than fit the colours, each end counts
     uint32_t row_kinds; // bits of the parts there ever were
     int32_t most;       // joints that one dynamic body ever had
 } fe__joints;
@@ -137,6 +141,7 @@ typedef struct fe__joint_pose {
     float twist, swing_y, swing_z; // rad
 } fe__joint_pose;
 void fe__joint_pose_of(const fe__joints *joints, const fe__body *bodies, int32_t joint, fe__joint_pose *out_pose);
+fe_dvec3 fe__joint_gap(const fe__joint *joint, const fe__body *bodies); // anchor of B - anchor of A, m, world axes
 // The angle next to `before` that is `twist` plus whole turns. A twist with a range is unwound: it goes on beyond pi, so that a limit there
 // holds; FE__PART_TWIST's state[0] remembers where it was. Whoever makes or moves a joint writes it: fe__joint_wind(twist, middle of the
 // range).

@@ -4,13 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define DECLARE_SET(name)                                                                                                                            \
-    extern const fe__contact_kernels fe__contact_kernels_##name;                                                                                     \
-    extern const fe__body_kernels fe__body_kernels_##name;                                                                                           \
+#define DECLARE_SET(name)                                        \
+    extern const fe__contact_kernels fe__contact_kernels_##name; \
+    extern const fe__joint_kernels fe__joint_kernels_##name;     \
+    extern const fe__body_kernels fe__body_kernels_##name;       \
     extern fe__recycle_kernel fe__recycle_##name;
-#define TABLE(simd, lanes, name)                                                                                                                     \
-    {                                                                                                                                                \
-        simd, lanes, &fe__contact_kernels_##name, &fe__body_kernels_##name, fe__recycle_##name                                                       \
+#define TABLE(simd, lanes, name)                                                                                          \
+    {                                                                                                                     \
+        simd, lanes, &fe__contact_kernels_##name, &fe__joint_kernels_##name, &fe__body_kernels_##name, fe__recycle_##name \
     }
 
 DECLARE_SET(plain)

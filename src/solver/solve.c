@@ -1,17 +1,17 @@
 // solve.c - runs the substeps: a program of passes for each batch.
 //
-// A small batch is run whole by one worker, its rows in that worker's stretch of row memory. A large one is run by all workers together: they walk
-// the same program, claim blocks of each pass, and go on when the last block of a pass is done. Both walk the same passes over the same groups in
-// the same order of colours, so that who executes a batch never shows.
+// A small batch is run whole by one worker, its rows in that worker's stretch of row memory. A large one is run by all workers together:
+// they walk the same program, claim blocks of each pass, and go on when the last block of a pass is done. Both walk the same passes over
+// the same groups in the same order of colours, so that who executes a batch never shows.
 #include "solver/graph.h"
 
 #include <string.h>
 
 enum {
-    MOST_PASSES = 4 * FE__COLOURS + 8,
-    LANES_IN_BLOCK = 64,  // rows of a block, in contacts: a microsecond of work
-    LINES_IN_BLOCK = 256, // a multiple of FE__MAX_WIDTH
-    SERIAL_LANES = 128,   // colours are merged into one block while they have no more contacts: a barrier would cost more than they do
+    MOST_PASSES = 4 * FE__COLOURS + 3 * FE__JOINT_KEYS + 8,
+    LANES_IN_BLOCK = 64,   // rows of a block, in contacts: a microsecond of work
+    LINES_IN_BLOCK = 256,  // a multiple of FE__MAX_WIDTH
+    SERIAL_LANES = 128,    // colours are merged into one block while they have no more contacts: a barrier would cost more than they do
     LANES_PER_WORKER = 128 // a large batch calls a worker for so many contacts of its largest colour
 };
 
@@ -88,12 +88,12 @@ static int32_t row_count(const fe__solver *s, int32_t group, int32_t end)
 static void add_colours(program *p, int32_t *part, const fe__solver *s, const fe__batch *b, verb verb)
 {
     int32_t end = b->first_group + b->group_count;
-    for (int32_t g = b->first_group; g < end;) {
+    for (int32_t g = b->first_group + (verb == BOUNCE ? b->joint_groups : 0); g < end;) {
         int32_t last = colour_end(s, g, end), rows = row_count(s, g, last);
-        int32_t serial = rows * p->width <= SERIAL_LANES || s->groups[g].colour == FE__OVERFLOW_COLOUR;
+        int32_t serial = rows * p->width <= SERIAL_LANES || s->groups[g].alone;
         while (serial && last < end) {
             int32_t next = colour_end(s, last, end);
-            if (s->groups[last].colour != FE__OVERFLOW_COLOUR && row_count(s, last, next) * p->width > SERIAL_LANES) break;
+            if (!s->groups[last].alone && row_count(s, last, next) * p->width > SERIAL_LANES) break;
             last = next;
         }
         add_pass(p, part, verb, g, last - g, serial ? 1 : block_count(p, s, g, last), serial);
@@ -129,7 +129,8 @@ static const pass *pass_at(const program *p, int32_t i)
     return p->passes + p->prologue + p->substep + (i - p->prologue - looped);
 }
 
-// ---- one block of one pass ----------------------------------------------------------------------------------------------------------------
+// ---- one block of one pass
+// ----------------------------------------------------------------------------------------------------------------
 static void run_lines(const job *j, const fe__batch *b, verb verb, int32_t block)
 {
     int32_t first = b->first_line + block * LINES_IN_BLOCK, count = fe__mini(LINES_IN_BLOCK, b->first_line + b->line_count - first);
@@ -140,20 +141,61 @@ static void run_lines(const job *j, const fe__batch *b, verb verb, int32_t block
     if (verb == CARRY) k->carry_velocities(j->s, first, count, j->c);
 }
 
+static void run_joints(const job *j, const fe__group *g, verb verb, unsigned char *rows, int32_t first, int32_t count)
+{
+    const fe__joint_kernel *k = j->k->joint->of + (g->kind - FE__ROW_KINDS);
+    unsigned char *row = rows + g->offset + (int64_t)first * k->row_size;
+    const fe__lane *lanes = j->s->lanes + g->lane + first * j->k->width;
+    switch (verb) {
+    case PREPARE:
+        k->prepare(j->s, j->bodies, j->joints, lanes, row, count, g->sides, j->c);
+        break;
+    case SOLVE:
+        k->solve(j->s, row, count, g->sides, j->c);
+        break;
+    case RELAX:
+        k->relax(j->s, row, count, g->sides, j->c);
+        break;
+    case STORE:
+        k->store(j->joints, lanes, row, count, j->c);
+        break;
+    case LOAD:
+    case INTEGRATE:
+    case BOUNCE:
+    case CARRY:
+        break;
+    }
+}
+
 static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char *rows, int32_t first, int32_t count)
 {
+    if (g->kind >= FE__ROW_KINDS) {
+        run_joints(j, g, verb, rows, first, count);
+        return;
+    }
     const fe__contact_kernels *k = j->k->contact;
     unsigned char *row = rows + g->offset + (int64_t)first * k->row_size[g->kind];
     const fe__lane *lanes = j->s->lanes + g->lane + first * j->k->width;
     switch (verb) {
-    case PREPARE: k->prepare[g->kind](j->s, j->contacts, j->extras, lanes, row, count, j->c); break;
-    case SOLVE: k->solve[g->kind](j->s, row, count, j->c); break;
-    case RELAX: k->relax[g->kind](j->s, row, count, j->c); break;
-    case BOUNCE: k->bounce[g->kind](j->s, row, count, j->c); break;
-    case STORE: k->store[g->kind](j->contacts, j->extras, lanes, row, count); break;
+    case PREPARE:
+        k->prepare[g->kind](j->s, j->contacts, j->extras, lanes, row, count, j->c);
+        break;
+    case SOLVE:
+        k->solve[g->kind](j->s, row, count, j->c);
+        break;
+    case RELAX:
+        k->relax[g->kind](j->s, row, count, j->c);
+        break;
+    case BOUNCE:
+        k->bounce[g->kind](j->s, row, count, j->c);
+        break;
+    case STORE:
+        k->store[g->kind](j->contacts, j->extras, lanes, row, count);
+        break;
     case LOAD:
     case INTEGRATE:
-    case CARRY: break;
+    case CARRY:
+        break;
     }
 }
 
@@ -178,7 +220,8 @@ static void run_block(const job *j, const fe__batch *b, const pass *p, unsigned 
     run_rows(j, g, p->verb, rows, first, fe__mini(rows_in_block, g->rows - first));
 }
 
-// ---- a small batch, whole --------------------------------------------------------------------------------------------------------------------
+// ---- a small batch, whole
+// --------------------------------------------------------------------------------------------------------------------
 static void run_batch(const job *j, const fe__batch *b, unsigned char *rows)
 {
     const fe__group *groups = j->s->groups + b->first_group;
@@ -191,7 +234,8 @@ static void run_batch(const job *j, const fe__batch *b, unsigned char *rows)
             verb verb = substep[v];
             if ((verb == BOUNCE && !b->bounces) || (verb == CARRY && n + 1 == j->c->substeps)) continue;
             for (int32_t i = 0; i < line_blocks && (verb == INTEGRATE || verb == CARRY); ++i) run_lines(j, b, verb, i);
-            for (int32_t i = 0; i < b->group_count && verb != INTEGRATE && verb != CARRY; ++i) run_rows(j, groups + i, verb, rows, 0, groups[i].rows);
+            for (int32_t i = 0; i < b->group_count && verb != INTEGRATE && verb != CARRY; ++i)
+                run_rows(j, groups + i, verb, rows, 0, groups[i].rows);
         }
     for (int32_t i = 0; i < b->group_count; ++i) run_rows(j, groups + i, STORE, rows, 0, groups[i].rows);
 }
@@ -207,7 +251,8 @@ static void run_small_batches(void *argument, int32_t worker)
     }
 }
 
-// ---- a large batch, together --------------------------------------------------------------------------------------------------------------------
+// ---- a large batch, together
+// --------------------------------------------------------------------------------------------------------------------
 static int32_t claim_block(job *j, uint64_t pass_index, int32_t blocks)
 {
     uint64_t claim = atomic_load_explicit(&j->claim, memory_order_acquire);
@@ -271,8 +316,8 @@ static void clear_static_line(fe__solver *s)
     }
 }
 
-void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *workers, const fe__body *bodies, fe__contact *contacts, fe__extra *extras,
-               const fe__joints *joints, const fe__step_constants *c)
+void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *workers, const fe__body *bodies, fe__contact *contacts,
+               fe__extra *extras, const fe__joints *joints, const fe__step_constants *c)
 {
     job j = {.s = s, .k = kernels, .bodies = bodies, .contacts = contacts, .extras = extras, .joints = joints, .c = c};
     if (!s->batch_count) return; // all sleep; there may be no lines at all

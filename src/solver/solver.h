@@ -1,8 +1,9 @@
 // solver.h - TGS Soft: what a step solves, and the kernels that solve it.
 //
-// The graph (graph.c) sorts awake bodies and linked contacts into batches: small islands, several to a batch, each solved whole by one worker; an
-// island above FE__ISLAND_LARGE contacts is a batch of its own, spread over the workers colour by colour. Which of the two an island gets never
-// changes its result. In a batch, contacts lie in groups by (colour, kind of row); a group's contacts share no dynamic body, W of them make a row.
+// The graph (graph.c) sorts awake bodies and linked contacts into batches: small islands, several to a batch, each solved whole by one
+// worker; an island above FE__ISLAND_LARGE contacts is a batch of its own, spread over the workers colour by colour. Which of the two an
+// island gets never changes its result. In a batch, contacts lie in groups by (colour, kind of row); a group's contacts share no dynamic
+// body, W of them make a row.
 //
 // The kernels (*.simd.c) are compiled once per SIMD set into a table; the world picks one at its creation.
 #ifndef FE_SOLVER_SOLVER_H
@@ -31,8 +32,8 @@ enum {
     FE__OVERFLOW_COLOUR = 127, // one contact a row, in order of creation
     FE__COLOURS = 128,
 
-    // contacts above which an island is spread over the workers, and up to which smaller ones are batched, so that the rows of a batch stay in a
-    // second-level cache and fill their lanes. Constants, not the machine's: they decide who executes an island, never what comes out
+    // contacts above which an island is spread over the workers, and up to which smaller ones are batched, so that the rows of a batch stay
+    // in a second-level cache and fill their lanes. Constants, not the machine's: they decide who executes an island, never what comes out
     FE__ISLAND_LARGE = 1024,
     FE__BATCH_CONTACTS = 512
 };
@@ -59,23 +60,32 @@ typedef struct fe__step_constants {
 typedef struct fe__group {
     int32_t lane; // first, a multiple of W
     int32_t rows;
-    int32_t kind; // FE__ROW_*
-    int32_t colour;
+    int32_t kind;   // FE__ROW_*, or FE__ROW_KINDS + part of joints
+    int32_t colour; // rises; groups of one share no dynamic body
+    int32_t sides;  // FE__MOVES_*, of joints
+    int32_t alone;  // 1: overflow, one row after another
     int64_t offset; // of the first row, bytes
 } fe__group;
 
 typedef struct fe__batch {
-    int32_t first_line, line_count; // a multiple of FE__MAX_WIDTH
-    int32_t first_group, group_count;
-    int32_t contact_count, body_count, island_count;
-    int32_t bounces;                // special rows are in it
+    int32_t first_line, line_count;   // a multiple of FE__MAX_WIDTH
+    int32_t first_group, group_count; // joints' first
+    int32_t joint_groups;
+    int32_t contact_count, joint_count, body_count, island_count;
+    int32_t lane_count; // contacts and parts of joints
+    int32_t bounces;    // special rows are in it
     int64_t row_bytes;
 } fe__batch;
 
 typedef struct fe__lane {
-    int32_t contact;        // 0 is no contact: record 0 is zeros
+    int32_t contact;        // or joint. 0 is none: record 0 is zeros
     int32_t line_a, line_b; // FE__STATIC_LINE for static
 } fe__lane;
+
+enum {
+    FE__JOINT_KEYS = FE__PARTS * (FE__JOINT_COLOURS + 1), // colours of joints' groups: part, then colour
+    FE__GROUP_COLOURS = FE__JOINT_KEYS + FE__COLOURS      // contacts' come after them
+};
 
 typedef struct fe__row_block {
     _Alignas(64) unsigned char bytes[64];
@@ -90,14 +100,14 @@ typedef struct fe__solver {
     float (*drive)[FE__LINE];    // acceleration by gravity and forces, 1/(1 + h c) | by torques, 1/(1 + h c)
     float (*spin)[FE__LINE];     // principal axes x y z w, world, when the step began | principal moments, 1: gyroscopic torque
     int32_t line_count, line_capacity[6];
-    int32_t *body_of_line;       // -1: padding
+    int32_t *body_of_line; // -1: padding
     int32_t body_of_line_capacity;
 
     // the graph (graph.c), kept while nothing links, unlinks, wakes or sleeps
     int32_t graph_changed;
-    fe__batch *batches;          // large islands first, kinematic bodies last
+    fe__batch *batches; // large islands first, kinematic bodies last
     int32_t batch_count, batch_capacity, large_count;
-    fe__group *groups;           // of a batch: by rising colour
+    fe__group *groups; // of a batch: by rising colour
     int32_t group_count, group_capacity;
     fe__lane *lanes;
     int32_t lane_count, lane_capacity;
@@ -107,8 +117,8 @@ typedef struct fe__solver {
     fe__sort_item *sort_items;
     int32_t sort_capacity;
 
-    fe__row_block *rows;         // of the large batch at hand, or one stretch of worker_row_bytes for each worker
-    int32_t row_capacity;        // blocks
+    fe__row_block *rows;  // of the large batch at hand, or one stretch of worker_row_bytes for each worker
+    int32_t row_capacity; // blocks
     int64_t worker_row_bytes;
 } fe__solver;
 
@@ -116,13 +126,27 @@ typedef struct fe__solver {
 typedef struct fe__contact_kernels {
     int32_t row_size[FE__ROW_KINDS]; // bytes of a row of W contacts
     // contacts to rows; the stored impulses go to the bodies
-    void (*prepare[FE__ROW_KINDS])(fe__solver *s, fe__contact *contacts, const fe__extra *extras, const fe__lane *lanes, void *rows, int32_t count,
-                                   const fe__step_constants *c);
+    void (*prepare[FE__ROW_KINDS])(fe__solver *s, fe__contact *contacts, const fe__extra *extras, const fe__lane *lanes, void *rows,
+                                   int32_t count, const fe__step_constants *c);
     void (*solve[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
     void (*relax[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
     void (*bounce[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
     void (*store[FE__ROW_KINDS])(fe__contact *contacts, fe__extra *extras, const fe__lane *lanes, const void *rows, int32_t count);
 } fe__contact_kernels;
+
+// The same for one kind of part of joints. `sides`: FE__MOVES_* of all lanes
+typedef struct fe__joint_kernel {
+    int32_t row_size;
+    void (*prepare)(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes, void *rows, int32_t count,
+                    int32_t sides, const fe__step_constants *c);
+    void (*solve)(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c);
+    void (*relax)(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c);
+    void (*store)(const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count, const fe__step_constants *c);
+} fe__joint_kernel;
+
+typedef struct fe__joint_kernels {
+    fe__joint_kernel of[FE__PARTS];
+} fe__joint_kernels;
 
 // Passes over lines first..first + count - 1, both multiples of FE__MAX_WIDTH
 typedef struct fe__body_kernels {
@@ -132,13 +156,15 @@ typedef struct fe__body_kernels {
     void (*integrate_positions)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);
 } fe__body_kernels;
 
-// Separations at the start of the step, of length dt, of contacts that moved little. Byte i of out_moved is 1 when contact index[i] moved too far
-// and needs a new manifold, else 0.
-typedef void fe__recycle_kernel(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, float dt, uint8_t *out_moved);
+// Separations at the start of the step, of length dt, of contacts that moved little. Byte i of out_moved is 1 when contact index[i] moved
+// too far and needs a new manifold, else 0.
+typedef void fe__recycle_kernel(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, float dt,
+                                uint8_t *out_moved);
 
 typedef struct fe__kernels {
     int32_t simd, width; // fe_simd, W
     const fe__contact_kernels *contact;
+    const fe__joint_kernels *joint;
     const fe__body_kernels *body;
     fe__recycle_kernel *recycle;
 } fe__kernels;

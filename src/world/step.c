@@ -88,7 +88,7 @@ static void count(const fe__step *step)
         }
         c->rows += rows;
         c->rows_whole += i >= s->large_count ? rows : 0;
-        c->lanes += b->contact_count;
+        c->lanes += b->lane_count;
         c->colours = fe__maxi(c->colours, colours);
     }
 }
