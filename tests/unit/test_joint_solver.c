@@ -1,0 +1,177 @@
+// test_joint_solver.c - the rows of joints, straight on the solver (joint_rig.h): energy, stretch, and the same bits at every width and
+// with any number of workers. Scenes through the API are in tests/scenes.
+#include "joint_rig.h"
+
+#ifdef FE_SANITIZED
+#define SHORTER(steps, seldom) (seldom)
+#else
+#define SHORTER(steps, seldom) (steps)
+#endif
+
+static void add_chain(rig *r, int32_t links, double angle, double ball_ratio)
+{
+    double c = cos(angle), s = sin(angle);
+    int32_t before = 0;
+    for (int32_t i = 0; i < links; ++i) {
+        int32_t b = rig_capsule(r, i * c, i * s, (i + 1) * c, (i + 1) * s, 0.125, 1000.0);
+        rig_ball(r, before, b, i * c, i * s, 0.0);
+        before = b;
+    }
+    if (ball_ratio == 0.0) return;
+    float m = (float)(ball_ratio * r->bodies[before].inertia[3]), inertia = 0.4f * m * 4.0f;
+    int32_t b = rig_body(r, (links + 2) * c, (links + 2) * s, 0.0, m, inertia, inertia, inertia);
+    rig_ball(r, before, b, links * c, links * s, 0.0);
+}
+
+// a trunk with four limbs of three capsules each, turning about an axis between y and z
+static void add_tree(rig *r)
+{
+    int32_t trunk = rig_capsule(r, 0.0, -0.4, 0.0, 0.4, 0.2, 1000.0);
+    for (int32_t limb = 0; limb < 4; ++limb) {
+        double sign = limb & 1 ? 1.0 : -1.0, y = limb & 2 ? 0.4 : -0.4;
+        int32_t before = trunk;
+        for (int32_t k = 0; k < 3; ++k) {
+            double x = sign * (0.2 + 0.5 * k);
+            int32_t b = rig_capsule(r, x, y, x + sign * 0.5, y, 0.08, 1000.0);
+            rig_ball(r, before, b, x, y, 0.0);
+            before = b;
+        }
+    }
+    const fe_dvec3 w = {0.0, 8.0, 1.0};
+    for (int32_t i = 1; i < r->body_count; ++i) {
+        fe__body *b = r->bodies + i;
+        fe_vec3 v = fe__narrow(fe__dcross(w, (fe_dvec3){b->centre[0], b->centre[1], b->centre[2]}));
+        b->velocity[0] = v.x, b->velocity[1] = v.y, b->velocity[2] = v.z;
+        b->spin[1] = (float)w.y, b->spin[2] = (float)w.z;
+    }
+}
+
+// spheres of radius 0.4 and density 1000, a metre apart, hanging from their first row
+static void add_cloth(rig *r, int32_t n)
+{
+    const float m = 1000.0f * 4.0f / 3.0f * FE_PI * 0.064f, inertia = 0.4f * m * 0.16f;
+    int32_t above, left[128];
+    for (int32_t k = 0; k < n; ++k) {
+        above = 0;
+        for (int32_t i = 1; i < n; ++i) {
+            int32_t b = rig_body(r, k, -i, 0.0, m, inertia, inertia, inertia);
+            rig_ball(r, above, b, k, 0.5 - i, 0.0);
+            if (k > 0) rig_ball(r, left[i], b, k - 0.5, -i, 0.0);
+            above = left[i] = b;
+        }
+    }
+}
+
+// A pendulum of one capsule let go horizontally: its 10 s cost less than 0.3 % of the drop m g L/2, and give nothing.
+static void pendulum_keeps_its_energy(void **state)
+{
+    (void)state;
+    rig r = rig_make(FE_SIMD_AUTO, NULL, 1, 4);
+    add_chain(&r, 1, 0.0, 0.0);
+    double scale = (double)r.bodies[1].inertia[3] * 10.0 * 0.5;
+    for (int32_t i = 0; i < 600; ++i) rig_step(&r);
+    FE_WITHIN(rig_energy(&r) / scale, -0.003, 1e-5);
+    rig_free(&r);
+}
+
+// Limbs that whirl in free flight: damping of the soft joints is all that happens to their energy. At every step, because arms that turn
+// without their correction of the warm start gain within a second.
+static void tree_in_free_flight_never_gains_energy(void **state)
+{
+    (void)state;
+    rig r = rig_make(FE_SIMD_AUTO, NULL, 1, 4);
+    r.gravity = 0.0f;
+    add_tree(&r);
+    double start = rig_energy(&r);
+    for (int32_t i = 0; i < SHORTER(600, 200); ++i) {
+        rig_step(&r);
+        FE_WITHIN(rig_energy(&r), 0.5 * start, start * (1.0 + 1e-5));
+    }
+    FE_WITHIN(rig_largest_gap(&r), 0.0, 0.005);
+    rig_free(&r);
+}
+
+// 30 capsules carry a ball of 585 times their mass. P2: a link of mass m between two joints stretches its joints by (M/m) 2 g / w^2 at
+// most, w of 60 Hz; 3.3 times that while it swings.
+static void chain_carries_a_ball_of_585_links(void **state)
+{
+    (void)state;
+    rig r = rig_make(FE_SIMD_AUTO, NULL, 1, 4);
+    add_chain(&r, 30, -1.5, 585.0);
+    double w = 2.0 * 3.14159265 * 60.0, p2 = 585.0 * 2.0 * 10.0 / (w * w), start = rig_energy(&r);
+    for (int32_t i = 0; i < SHORTER(1200, 300); ++i) {
+        rig_step(&r);
+        FE_WITHIN(rig_largest_gap(&r), 0.0, 3.3 * p2);
+        FE_WITHIN(rig_energy(&r), -1e9, start * (1.0 - 1e-5)); // energies are negative here
+    }
+    rig_free(&r);
+}
+
+// A cloth of n rows: a joint that carries k spheres opens by 2 k g / w^2 (P2). The cloth is a spring that is let go: it swings to twice its
+// rest.
+static void cloth_hangs_as_predicted(void **state)
+{
+    enum { N = 12 };
+    (void)state;
+    rig r = rig_make(FE_SIMD_AUTO, NULL, 1, 4);
+    add_cloth(&r, N);
+    double w = 2.0 * 3.14159265 * 60.0, sink = 0.0;
+    for (int32_t k = 1; k < N - 1; ++k) sink += 2.0 * k * 10.0 / (w * w);
+    sink += (N - 1) * 10.0 / (w * w); // the topmost joint's other end is static
+    for (int32_t i = 0; i < SHORTER(1200, 400); ++i) rig_step(&r);
+    for (int32_t i = 1; i < r.body_count; ++i) FE_NEAR(r.bodies[i].centre[2], 0.0, 0.0);
+    FE_NEAR(-(N - 1) - r.bodies[N - 1].centre[1], sink, 0.05 * sink);
+    rig_free(&r);
+}
+
+// more joints than colours: a wheel of 70 spokes about a hub, in order of creation whatever runs it
+static void add_wheel(rig *r)
+{
+    int32_t hub = rig_body(r, 0.0, 0.0, 0.0, 50.0f, 5.0f, 5.0f, 5.0f);
+    rig_ball(r, 0, hub, 0.0, 0.0, 0.0);
+    for (int32_t i = 0; i < 70; ++i) {
+        double angle = 0.09 * i;
+        int32_t b = rig_capsule(r, cos(angle), sin(angle), 2.0 * cos(angle), 2.0 * sin(angle), 0.02, 1000.0);
+        rig_ball(r, hub, b, cos(angle), sin(angle), 0.0);
+    }
+}
+
+static uint64_t play(int32_t simd, fe_pool *pool, int32_t workers)
+{
+    rig r = rig_make(simd, pool, workers, 4);
+    add_cloth(&r, 30); // 1653 joints: a large island
+    add_tree(&r);
+    add_wheel(&r);
+    for (int32_t i = 0; i < SHORTER(60, 20); ++i) rig_step(&r);
+    FE_TRUE(r.solver.large_count == 1);
+    uint64_t hash = rig_hash(&r);
+    rig_free(&r);
+    return hash;
+}
+
+static void results_do_not_depend_on_width_or_workers(void **state)
+{
+    static const int32_t sets[] = {FE_SIMD_SSE2, FE_SIMD_AVX2, FE_SIMD_AVX512, FE_SIMD_NEON}, workers[] = {2, 3, 8, 16};
+    (void)state;
+    uint64_t expected = play(FE_SIMD_PLAIN, NULL, 1);
+    for (size_t i = 0; i < sizeof sets / sizeof *sets; ++i)
+        if (fe__kernels_of(sets[i])) FE_TRUE(play(sets[i], NULL, 1) == expected);
+    for (size_t i = 0; i < sizeof workers / sizeof *workers; ++i) {
+        fe_pool *pool = fe__pool_create(workers[i]);
+        fe__pool_assume_cores(pool, workers[i]);
+        FE_TRUE(play(FE_SIMD_AUTO, pool, workers[i]) == expected);
+        fe__pool_destroy(pool);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pendulum_keeps_its_energy),
+        cmocka_unit_test(tree_in_free_flight_never_gains_energy),
+        cmocka_unit_test(chain_carries_a_ball_of_585_links),
+        cmocka_unit_test(cloth_hangs_as_predicted),
+        cmocka_unit_test(results_do_not_depend_on_width_or_workers),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
