@@ -42,7 +42,7 @@ static void judge_far_pyramid(bench_trial *t)
 {
     double drop = 0.0;
     for (int32_t i = 1; i < t->scene.body_count; i++) {
-        const double row = floor((t->scene.bodies[i].start.position[1] - t->scene.bodies[0].start.position[1] - 1.5) / 1.25 + 0.5);
+        const double row = floor((t->scene.bodies[i].start.position[1] - t->scene.bodies[0].start.position[1] - 2.125) / 1.25 + 0.5);
         const double height = t->poses[i].position[1] - t->poses[0].position[1] - 1.0;
         drop = fmax(drop, fabs(height - row - 0.5));
     }
