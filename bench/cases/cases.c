@@ -1,14 +1,16 @@
 // The table of cases, and what they share (cases.h).
 #include "cases.h"
 
+#include <math.h>
+
 static const struct group {
     const bench_case *cases;
     const int32_t *count;
 } groups[] = {
-    {bench_solver2d_stack, &bench_solver2d_stack_count},
-    {bench_solver2d_contact, &bench_solver2d_contact_count},
-    {bench_solver2d_far, &bench_solver2d_far_count},
-    {bench_solver2d_joint, &bench_solver2d_joint_count},
+    {bench_solver2d_stack, &bench_solver2d_stack_count}, {bench_solver2d_contact, &bench_solver2d_contact_count},
+    {bench_solver2d_far, &bench_solver2d_far_count},     {bench_solver2d_joint, &bench_solver2d_joint_count},
+    {bench_box3d_stack, &bench_box3d_stack_count},       {bench_box3d_slide, &bench_box3d_slide_count},
+    {bench_box3d_motion, &bench_box3d_motion_count},
 };
 static const size_t group_count = sizeof groups / sizeof groups[0];
 
@@ -50,6 +52,13 @@ int32_t bench_capsule(bench_scene *s, double half_height, double radius, double 
 int32_t bench_add_ground(bench_scene *s, double half_x, double friction)
 {
     return bench_add_static(s, bench_box(s, half_x, 1.0, half_x, 1.0, friction), 0.0, -1.0, 0.0);
+}
+
+void bench_turn(bench_body *body, double x, double y, double z, double angle)
+{
+    const double axis[3] = {x, y, z}, length = sqrt(x * x + y * y + z * z);
+    for (int k = 0; k < 3; k++) body->start.rotation[k] = sin(0.5 * angle) * axis[k] / length;
+    body->start.rotation[3] = cos(0.5 * angle);
 }
 
 bench_joint *bench_add_hinge_z(bench_scene *s, int32_t body_a, int32_t body_b, double x, double y)
