@@ -617,12 +617,12 @@ typedef struct fe_fixed_def {
     float angular_damping_ratio; ///< Default 1
 } fe_fixed_def;
 
-typedef enum fe_axis_mode {
-    FE_AXIS_LOCKED = 0,  ///< stays 0
-    FE_AXIS_LIMITED = 1, ///< within min..max
-    FE_AXIS_FREE = 2,
-    FE_AXIS_MODE_FORCE32 = 0x7fffffff
-} fe_axis_mode;
+typedef enum fe_motion {
+    FE_MOTION_LOCKED = 0,  ///< stays 0
+    FE_MOTION_LIMITED = 1, ///< within min..max
+    FE_MOTION_FREE = 2,
+    FE_MOTION_FORCE32 = 0x7fffffff
+} fe_motion;
 
 typedef enum fe_drive {
     FE_DRIVE_NONE = 0,
@@ -633,7 +633,7 @@ typedef enum fe_drive {
 
 /// One axis of a configurable joint. Never changes.
 typedef struct fe_joint_axis {
-    int32_t mode;                ///< fe_axis_mode. Default FE_AXIS_LOCKED
+    int32_t mode;                ///< fe_motion. Default FE_MOTION_LOCKED
     float low, high;             ///< range, m or rad (-pi..pi), low <= high. Default 0
     float limit_hertz;           ///< of the range, 1/s, >= 0; 0: rigid. Default 0
     float limit_damping_ratio;   ///< >= 0. Default 1

@@ -136,11 +136,19 @@ static void part_from_neighbours(fe_world *world, int32_t body)
 {
     fe__wake_neighbours(world, body);
     fe__body_drop_pairs(world, body);
+    fe__body_unlink_joints(world, body);
+}
+
+static void meet_neighbours(fe_world *world, int32_t body)
+{
+    fe__body_link_joints(world, body);
+    fe__body_disturb(world, body);
 }
 
 void fe__body_destroy(fe_world *world, int32_t index)
 {
     part_from_neighbours(world, index);
+    fe__body_drop_joints(world, index);
     fe__body *body = &world->bodies[index];
     if (body->awake_index >= 0) fe__body_retire(world, index);
     // without pairs and out of the awake lists nothing is left to disturb: the shapes only have to leave the trees
@@ -191,7 +199,7 @@ fe_result fe__body_set_type(fe_world *world, int32_t index, int32_t type)
     fe__body_update_mass(world, index);
     if (!(body->flags & FE__BODY_ENABLED)) return FE_OK;
     enter_shapes(world, index);
-    if (type != FE_BODY_STATIC) fe__body_awaken_alone(world, index);
+    meet_neighbours(world, index);
     return FE_OK;
 }
 
@@ -211,7 +219,7 @@ fe_result fe__body_set_enabled(fe_world *world, int32_t index, int32_t enabled)
     body->flags |= FE__BODY_ENABLED;
     body->sleep_timer = 0.0f;
     enter_shapes(world, index);
-    if (body->type != FE_BODY_STATIC) fe__body_awaken_alone(world, index);
+    meet_neighbours(world, index);
     return FE_OK;
 }
 
@@ -243,6 +251,7 @@ void fe__body_set_transform(fe_world *world, int32_t index, const fe_transform *
     fe__body_disturb(world, index);
     set_pose(body, transform);
     fe__body_place(world, index);
+    fe__body_place_joints(world, index);
     for (int32_t shape = body->first_shape; shape >= 0; shape = world->shapes[shape].next) fe__shape_touch(world, shape);
     if (body->type != FE_BODY_STATIC) return;
     for (int32_t pair = body->first_contact; pair >= 0; pair = fe__next_pair(world, pair, index)) fe__pair_look_once(world, pair);
@@ -251,8 +260,10 @@ void fe__body_set_transform(fe_world *world, int32_t index, const fe_transform *
 void fe__body_set_locks(fe_world *world, int32_t index, uint32_t linear, uint32_t angular)
 {
     fe__body_disturb(world, index);
+    fe__body_unlink_joints(world, index);
     set_lock_bits(&world->bodies[index], linear, angular);
     fe__body_update_mass(world, index);
+    fe__body_link_joints(world, index);
     // locked bodies' contacts go to rows of another kind
     for (int32_t shape = world->bodies[index].first_shape; shape >= 0; shape = world->shapes[shape].next) {
         fe__shape_material_changed(world, shape);

@@ -19,7 +19,8 @@ int32_t fe__may_collide(const fe_world *world, int32_t shape_a, int32_t shape_b)
     const fe__body *body_a = &world->bodies[a->body], *body_b = &world->bodies[b->body];
     uint32_t both = body_a->flags & body_b->flags;
     if (!(both & FE__BODY_ENABLED) || !types_meet(world, a, b)) return 0;
-    return !(both & FE__BODY_IGNORES) || fe__pair_set_find(&world->ignored, a->body, b->body) < 0;
+    if (both & FE__BODY_IGNORES && fe__pair_set_find(&world->ignored, a->body, b->body) >= 0) return 0;
+    return !body_a->first_joint || !body_b->first_joint || !fe__bodies_joined(world, a->body, b->body);
 }
 
 fe_result fe__ignore_collision(fe_world *world, int32_t a, int32_t b, int32_t ignore)

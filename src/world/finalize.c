@@ -88,6 +88,7 @@ static void forget_lost(fe_world *w)
         body->flags &= ~(uint32_t)FE__BODY_LOST;
         for (int32_t pair = body->first_contact; pair >= 0; pair = fe__next_pair(w, pair, w->awake_bodies[i]))
             fe__pair_forget_impulses(w, pair);
+        fe__body_forget_joints(w, w->awake_bodies[i]);
     }
 }
 
@@ -148,13 +149,17 @@ static int32_t stands_still(const fe__body *body)
     return v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f && w[0] == 0.0f && w[1] == 0.0f && w[2] == 0.0f;
 }
 
-// What a moving kinematic body touches stays awake, however slow: the contact pushes.
+// What a moving kinematic body touches or holds stays awake, however slow.
 static void keep_awake(fe_world *w, int32_t kinematic, float *timers)
 {
     for (int32_t pair = w->bodies[kinematic].first_contact; pair >= 0; pair = fe__next_pair(w, pair, kinematic)) {
         const fe__pair *p = w->pairs + pair;
         const fe__body *other = w->bodies + (p->body_a == kinematic ? p->body_b : p->body_a);
         if (p->flags & FE__PAIR_LINKED && other->island >= 0) timers[other->island] = 0.0f;
+    }
+    for (int32_t joint = w->bodies[kinematic].first_joint; joint; joint = fe__next_joint(w, joint, kinematic)) {
+        const fe__body *other = w->bodies + fe__joint_other(w, joint, kinematic);
+        if (w->joints.joints[joint].colour >= 0 && other->island >= 0) timers[other->island] = 0.0f;
     }
 }
 

@@ -20,6 +20,7 @@ void fe__body_awaken_alone(fe_world *world, int32_t index)
     body->awake_index = world->awake_body_count;
     world->awake_bodies[world->awake_body_count++] = index;
     for (int32_t pair = body->first_contact; pair >= 0; pair = fe__next_pair(world, pair, index)) fe__pair_awaken(world, pair);
+    for (int32_t joint = body->first_joint; joint; joint = fe__next_joint(world, joint, index)) fe__joint_awaken(world, joint);
     world->solver.graph_changed = 1;
     stir(world, index);
 }
@@ -36,6 +37,7 @@ void fe__body_retire(fe_world *world, int32_t index)
         int32_t other = p->body_a == index ? p->body_b : p->body_a;
         if (world->bodies[other].awake_index < 0) fe__pair_retire(world, pair);
     }
+    for (int32_t joint = body->first_joint; joint; joint = fe__next_joint(world, joint, index)) fe__joint_retire(world, joint);
     world->solver.graph_changed = 1;
     stir(world, index);
 }
@@ -47,6 +49,17 @@ static int32_t dynamic_neighbour(const fe_world *world, int32_t pair, int32_t bo
     return p->flags & FE__PAIR_LINKED && world->bodies[other].type == FE_BODY_DYNAMIC ? other : -1;
 }
 
+static int32_t joined_dynamic(const fe_world *world, int32_t joint, int32_t body)
+{
+    int32_t other = fe__joint_other(world, joint, body);
+    return world->joints.joints[joint].colour >= 0 && world->bodies[other].type == FE_BODY_DYNAMIC ? other : -1;
+}
+
+static void awaken_asleep(fe_world *world, int32_t body)
+{
+    if (body >= 0 && world->bodies[body].awake_index < 0) fe__body_awaken_alone(world, body);
+}
+
 // The list of awake bodies is the queue of the walk: what is woken is appended, and looked at in its turn
 void fe__wake(fe_world *world, int32_t body)
 {
@@ -55,10 +68,10 @@ void fe__wake(fe_world *world, int32_t body)
     fe__body_awaken_alone(world, body);
     for (; next < world->awake_body_count; ++next) {
         int32_t at = world->awake_bodies[next];
-        for (int32_t pair = world->bodies[at].first_contact; pair >= 0; pair = fe__next_pair(world, pair, at)) {
-            int32_t other = dynamic_neighbour(world, pair, at);
-            if (other >= 0 && world->bodies[other].awake_index < 0) fe__body_awaken_alone(world, other);
-        }
+        for (int32_t pair = world->bodies[at].first_contact; pair >= 0; pair = fe__next_pair(world, pair, at))
+            awaken_asleep(world, dynamic_neighbour(world, pair, at));
+        for (int32_t joint = world->bodies[at].first_joint; joint; joint = fe__next_joint(world, joint, at))
+            awaken_asleep(world, joined_dynamic(world, joint, at));
     }
 }
 
@@ -68,14 +81,28 @@ void fe__wake_neighbours(fe_world *world, int32_t body)
         int32_t other = dynamic_neighbour(world, pair, body);
         if (other >= 0) fe__wake(world, other);
     }
+    for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body)) {
+        int32_t other = joined_dynamic(world, joint, body);
+        if (other >= 0) fe__wake(world, other);
+    }
 }
 
-// does it touch a kinematic body that is awake, other than those from `low` on, which fall asleep with it?
-static int32_t is_pushed(const fe_world *world, int32_t pair, int32_t body, int32_t low)
+static int32_t is_driving(const fe_world *world, int32_t body, int32_t low)
 {
-    const fe__pair *p = world->pairs + pair;
-    const fe__body *other = world->bodies + (p->body_a == body ? p->body_b : p->body_a);
-    return p->flags & FE__PAIR_LINKED && other->type == FE_BODY_KINEMATIC && other->awake_index >= 0 && other->awake_index < low;
+    const fe__body *b = world->bodies + body;
+    return b->type == FE_BODY_KINEMATIC && b->awake_index >= 0 && b->awake_index < low;
+}
+
+// does a kinematic body that is awake push it or pull at it, other than those from `low` on, which fall asleep with it?
+static int32_t is_driven(const fe_world *world, int32_t body, int32_t low)
+{
+    for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, body)) {
+        const fe__pair *p = world->pairs + pair;
+        if (p->flags & FE__PAIR_LINKED && is_driving(world, p->body_a == body ? p->body_b : p->body_a, low)) return 1;
+    }
+    for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body))
+        if (world->joints.joints[joint].colour >= 0 && is_driving(world, fe__joint_other(world, joint, body), low)) return 1;
+    return 0;
 }
 
 static void swap_places(fe_world *world, int32_t i, int32_t j)
@@ -93,6 +120,13 @@ void fe__body_fall_asleep(fe_world *world, int32_t index)
     fe__body_retire(world, index);
 }
 
+// An awake body joins the island that gathers
+static void gather(fe_world *world, int32_t body, int32_t *low)
+{
+    if (body >= 0 && world->bodies[body].awake_index >= 0 && world->bodies[body].awake_index < *low)
+        swap_places(world, world->bodies[body].awake_index, --*low);
+}
+
 // The island gathers at the end of the list, which grows downwards as its queue
 fe_result fe__put_to_sleep(fe_world *world, int32_t body)
 {
@@ -102,12 +136,11 @@ fe_result fe__put_to_sleep(fe_world *world, int32_t body)
     for (int32_t next = end - 1; next >= low; --next) {
         int32_t at = world->awake_bodies[next];
         if (!(world->bodies[at].flags & FE__BODY_SLEEP_ALLOWED)) return FE_ERROR_STATE;
-        for (int32_t pair = world->bodies[at].first_contact; pair >= 0; pair = fe__next_pair(world, pair, at)) {
-            int32_t other = dynamic_neighbour(world, pair, at);
-            if (is_pushed(world, pair, at, low)) return FE_ERROR_STATE;
-            if (other >= 0 && world->bodies[other].awake_index >= 0 && world->bodies[other].awake_index < low)
-                swap_places(world, world->bodies[other].awake_index, --low);
-        }
+        if (is_driven(world, at, low)) return FE_ERROR_STATE;
+        for (int32_t pair = world->bodies[at].first_contact; pair >= 0; pair = fe__next_pair(world, pair, at))
+            gather(world, dynamic_neighbour(world, pair, at), &low);
+        for (int32_t joint = world->bodies[at].first_joint; joint; joint = fe__next_joint(world, joint, at))
+            gather(world, joined_dynamic(world, joint, at), &low);
     }
     world->solver.graph_changed = 1;
     while (world->awake_body_count > low) fe__body_fall_asleep(world, world->awake_bodies[world->awake_body_count - 1]);

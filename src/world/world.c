@@ -66,6 +66,7 @@ fe_result fe__world_create(const fe_world_def *desc, fe_world **out_world)
     world->tuning = fe__default_tuning();
     fe__id_pool_init(&world->body_ids, FE_KIND_BODY);
     fe__id_pool_init(&world->shape_ids, FE_KIND_SHAPE);
+    fe__joints_init(world);
     world->next_serial = 1;
     world->first_body = world->last_body = world->first_free_pair = -1;
     world->pair_limit = 1; // contact 0 is no contact
@@ -93,6 +94,7 @@ static void free_records(fe_world *world)
     fe__pair_set_destroy(&world->ignored, memory);
     FE_FREE(memory, world->awake_bodies, world->awake_body_capacity);
     FE_FREE(memory, world->awake_pairs, world->awake_pair_capacity);
+    fe__joints_free(world);
 }
 
 static void free_broad_phase(fe_world *world)

@@ -8,9 +8,11 @@
 #include "broadphase/tree.h"
 #include "core/id_pool.h"
 #include "core/memory.h"
+#include "core/record_pool.h"
 #include "core/threads.h"
 #include "solver/solver.h"
 #include "solver/body.h"
+#include "world/joint_record.h"
 #include "world/pair.h"
 #include "collision/shape.h"
 
@@ -50,7 +52,7 @@ struct fe_world {
     int32_t body_capacity;
     fe__shape *shapes;
     int32_t shape_capacity;
-    uint64_t next_serial;    // of bodies and shapes alike
+    uint64_t next_serial;    // of bodies, shapes and joints alike
     int32_t first_body, last_body, body_count; // in the order of creation
     int32_t shape_count;
 
@@ -70,11 +72,23 @@ struct fe_world {
     fe__pair_set pair_set;   // by shape indices
     fe__pair_set ignored;    // by body indices: fe_world_ignore_collision
 
+    // joints: what the solver reads, and the rest by the same index; slot i - 1 of the handles is joint i
+    fe__id_pool joint_ids;
+    fe__joints joints;
+    fe__joint_record *joint_records;
+    int32_t joint_capacity[4];
+    fe__record_pool joint_axes;                      // fe__joints.axes
+    fe__record_pool joint_settings[FE__JOINT_TYPES]; // what a type's definition has beyond the common front
+    int32_t first_joint, last_joint, joint_count;    // in the order of creation
+    int32_t breakable_count;                         // joints with a break force or torque
+
     // who is awake: dense lists of indices, in no order that matters
     int32_t *awake_bodies;
     int32_t awake_body_count, awake_body_capacity;
     int32_t *awake_pairs;
     int32_t awake_pair_count, awake_pair_capacity;
+    int32_t *awake_joints;
+    int32_t awake_joint_count, awake_joint_capacity;
 
     // broad phase
     fe__tree static_tree, moving_tree; // proxies are shape indices; kinematic bodies' are in the moving tree
@@ -96,6 +110,8 @@ struct fe_world {
     int32_t stirred_count, stirred_capacity;
     fe__hit_event_record *hit_events;
     int32_t hit_event_count, hit_event_capacity;
+    fe__joint_event_record *joint_events;
+    int32_t joint_event_count, joint_event_capacity;
 
     fe__solver solver;       // graph, rows, body lines
     struct fe__step_scratch *scratch; // of the step's stages (step.h)
@@ -185,6 +201,28 @@ void fe__body_refilter(fe_world *world, int32_t body);                      // t
 void fe__pair_link(fe_world *world, int32_t pair);                          // into the constraint graph, with a colour
 void fe__pair_unlink(fe_world *world, int32_t pair);
 void fe__pair_forget_impulses(fe_world *world, int32_t pair);
+
+// ---- joints (joints.c; what they are made of: joint_parts.c; what they read: joint_state.c) ---------------------------------------------
+void fe__joints_init(fe_world *world);
+void fe__joints_free(fe_world *world);
+// From a checked definition of that type. FE_ERROR_MEMORY, FE_ERROR_LIMIT: nothing changed. Both wake the bodies.
+fe_result fe__joint_create(fe_world *world, int32_t type, const fe__joint_any *desc, const int32_t *bodies, int32_t *out_joint);
+fe_result fe__joint_change(fe_world *world, int32_t joint, const fe__joint_any *desc); // all but its bodies
+void fe__joint_destroy(fe_world *world, int32_t joint);
+void fe__joint_describe(const fe_world *world, int32_t joint, fe__joint_any *out_desc); // as it was set; struct_size is that of its type
+int32_t fe__next_joint(const fe_world *world, int32_t joint, int32_t body); // in the list of `body`
+int32_t fe__joint_other(const fe_world *world, int32_t joint, int32_t body);
+int32_t fe__bodies_joined(const fe_world *world, int32_t body_a, int32_t body_b); // by a joint that keeps them from touching
+void fe__joint_awaken(fe_world *world, int32_t joint);
+void fe__joint_retire(fe_world *world, int32_t joint);
+void fe__body_drop_joints(fe_world *world, int32_t body);   // in the order of creation
+void fe__body_unlink_joints(fe_world *world, int32_t body); // before its type, its locks or whether it is enabled change
+void fe__body_link_joints(fe_world *world, int32_t body);   // after
+void fe__body_place_joints(fe_world *world, int32_t body);  // its pose was set, or its centre of mass is another point
+void fe__body_forget_joints(fe_world *world, int32_t body); // impulses of its joints
+fe_handle fe__joint_handle(const fe_world *world, int32_t joint);
+fe_transform fe__joint_frame_now(const fe_world *world, int32_t joint, int32_t side); // 0: A's, 1: B's; world space
+void fe__joint_state_of(const fe_world *world, int32_t joint, fe_joint_state *out_state);
 
 // ---- sleep (sleep.c) --------------------------------------------------------------------------------------------------------------
 void fe__wake(fe_world *world, int32_t body);          // it and all that touches it, through dynamic bodies; nothing on static ones

@@ -1,0 +1,239 @@
+// joint_parts.c - what each type of joint is made of: locks, limits, drives and motors, as the solver knows them (solver/joint.h).
+//
+// Called when a joint is made or changed, with a checked definition. Targets are clamped to the limits here, so that no drive presses on a stop for
+// good.
+#include "world/joint_parts.h"
+
+#include "core/trig.h"
+
+static uint32_t bit(fe__joint_part part) { return 1u << part; }
+
+// ---- one axis ---------------------------------------------------------------------------------------------------------------------------
+static void set_limit(fe__joint_axis *axis, float low, float high, float hertz, float damping_ratio)
+{
+    axis->limit[0] = low, axis->limit[1] = high, axis->limit[2] = hertz, axis->limit[3] = damping_ratio;
+}
+
+static void set_unlimited(fe__joint_axis *axis) { set_limit(axis, -FE__UNLIMITED, FE__UNLIMITED, 0.0f, 0.0f); }
+
+static void set_drive(fe__joint_axis *axis, float target, float stiffness, float damping, float cap, int32_t unit)
+{
+    axis->drive[0] = fe__clampf(target, axis->limit[0], axis->limit[1]);
+    axis->drive[1] = stiffness, axis->drive[2] = damping, axis->drive[3] = cap;
+    axis->motor[2] = (float)unit;
+}
+
+static void set_motor(fe__joint_axis *axis, float speed, float cap) { axis->motor[0] = speed, axis->motor[1] = cap; }
+
+// ---- distance, hinge, fixed -------------------------------------------------------------------------------------------------------------
+static void plan_distance(const fe_distance_def *d, fe__joint_plan *plan)
+{
+    fe__joint_axis *axis = plan->axes.axis + FE__AXIS_LINEAR;
+    plan->parts = bit(FE__PART_DISTANCE);
+    set_limit(axis, d->min_length, d->max_length, d->hertz, d->damping_ratio);
+    if (d->spring_hertz > 0.0f) set_drive(axis, d->length, d->spring_hertz, d->spring_damping_ratio, d->spring_force, FE__DRIVE_HERTZ);
+    set_motor(axis, d->motor_speed, d->motor_force);
+}
+
+static void plan_point(fe__joint_plan *plan)
+{
+    plan->parts |= bit(FE__PART_POINT);
+    plan->locked = FE__LOCK_X | FE__LOCK_Y | FE__LOCK_Z;
+}
+
+static void plan_hinge(const fe_hinge_def *d, fe__joint_plan *plan)
+{
+    fe__joint_axis *axis = plan->axes.axis + FE__AXIS_TWIST;
+    plan_point(plan);
+    plan->parts |= bit(FE__PART_HINGE);
+    if (!d->limited && d->spring_hertz == 0.0f && d->motor_torque == 0.0f) return;
+    plan->parts |= bit(FE__PART_TWIST);
+    set_unlimited(axis);
+    if (d->limited) set_limit(axis, d->min_angle, d->max_angle, d->limit_hertz, d->limit_damping_ratio);
+    if (d->spring_hertz > 0.0f) set_drive(axis, d->target, d->spring_hertz, d->spring_damping_ratio, d->spring_torque, FE__DRIVE_HERTZ);
+    set_motor(axis, d->motor_speed, d->motor_torque);
+}
+
+// A rotation with a softness of its own is a drive towards none
+static void plan_fixed(const fe_fixed_def *d, fe__joint_plan *plan)
+{
+    plan_point(plan);
+    if (d->angular_hertz == d->hertz && (d->hertz == 0.0f || d->angular_damping_ratio == d->damping_ratio)) {
+        plan->parts |= bit(FE__PART_FIXED);
+        return;
+    }
+    fe__joint_axis *axes = plan->axes.axis;
+    if (d->angular_hertz == 0.0f) { // rigid in rotation, soft at the points
+        plan->parts = bit(FE__PART_FIXED) | bit(FE__PART_X) | bit(FE__PART_Y) | bit(FE__PART_Z);
+        plan->locked = 0;
+        plan->hertz = plan->damping_ratio = 0.0f;
+        for (int k = 0; k < 3; ++k) {
+            set_unlimited(axes + k);
+            set_drive(axes + k, 0.0f, d->hertz, d->damping_ratio, FE__UNLIMITED, FE__DRIVE_HERTZ);
+        }
+        return;
+    }
+    fe__joint_turn *turn = &plan->axes.turn;
+    plan->parts |= bit(FE__PART_TURN);
+    turn->target[3] = 1.0f;
+    turn->drive[0] = d->angular_hertz, turn->drive[1] = d->angular_damping_ratio, turn->drive[2] = FE__UNLIMITED, turn->drive[3] = FE__DRIVE_HERTZ;
+}
+
+// ---- rotations of three angles ----------------------------------------------------------------------------------------------------------
+typedef struct angles {
+    float twist, swing_y, swing_z; // rad
+} angles;
+
+// q = swing twist, see solver/joint.h
+static fe_quat rotation_of(angles a)
+{
+    float length = sqrtf(a.swing_y * a.swing_y + a.swing_z * a.swing_z), sine, cosine, k, c;
+    fe__sincosf(0.5f * a.twist, &sine, &cosine);
+    fe__sincosf(0.5f * length, &k, &c);
+    k = length > 0.0f ? k / length : 0.0f;
+    return fe__product((fe_quat){0.0f, k * a.swing_y, k * a.swing_z, c}, (fe_quat){sine, 0.0f, 0.0f, cosine});
+}
+
+static angles angles_of(fe_quat q)
+{
+    if (q.w < 0.0f) q = (fe_quat){-q.x, -q.y, -q.z, -q.w};
+    float n = sqrtf(q.w * q.w + q.x * q.x), sine = sqrtf(q.y * q.y + q.z * q.z), angle = 2.0f * fe__atan2f(sine, n);
+    float y = n > 0.0f ? q.w * q.y - q.x * q.z : q.y, z = n > 0.0f ? q.w * q.z + q.x * q.y : q.z, length = sqrtf(y * y + z * z);
+    float k = length > 0.0f ? angle / length : 0.0f;
+    return (angles){2.0f * fe__atan2f(q.x, q.w), k * y, k * z};
+}
+
+static void set_target(fe__joint_turn *turn, fe_quat q)
+{
+    turn->target[0] = q.x, turn->target[1] = q.y, turn->target[2] = q.z, turn->target[3] = q.w;
+}
+
+// the target within cone and range: a swing too wide comes back along its own direction
+static fe_quat clamped_target(const fe_ball_def *d)
+{
+    fe_quat q = fe__normalized(d->target);
+    angles a = angles_of(q);
+    float y = a.swing_y / d->cone_y, z = a.swing_z / d->cone_z, out = y * y + z * z;
+    int32_t twists = d->twist_limited && (a.twist < d->min_twist || a.twist > d->max_twist), swings = d->swing_limited && out > 1.0f;
+    if (!twists && !swings) return q;
+    if (twists) a.twist = fe__clampf(a.twist, d->min_twist, d->max_twist);
+    if (swings) a.swing_y /= sqrtf(out), a.swing_z /= sqrtf(out);
+    return rotation_of(a);
+}
+
+static void plan_ball(const fe_ball_def *d, fe__joint_plan *plan)
+{
+    plan_point(plan);
+    if (d->swing_limited) {
+        plan->parts |= bit(FE__PART_CONE);
+        set_limit(plan->axes.axis + FE__AXIS_SWING, d->cone_y, d->cone_z, d->limit_hertz, d->limit_damping_ratio);
+    }
+    if (d->twist_limited) {
+        plan->parts |= bit(FE__PART_TWIST);
+        set_limit(plan->axes.axis + FE__AXIS_TWIST, d->min_twist, d->max_twist, d->limit_hertz, d->limit_damping_ratio);
+    }
+    if (d->drive_hertz == 0.0f && d->motor_torque == 0.0f) return;
+    fe__joint_turn *turn = &plan->axes.turn;
+    plan->parts |= bit(FE__PART_TURN);
+    set_target(turn, clamped_target(d));
+    if (d->drive_hertz > 0.0f)
+        turn->drive[0] = d->drive_hertz, turn->drive[1] = d->drive_damping_ratio, turn->drive[2] = d->drive_torque, turn->drive[3] = FE__DRIVE_HERTZ;
+    turn->motor[0] = d->motor_velocity.x, turn->motor[1] = d->motor_velocity.y, turn->motor[2] = d->motor_velocity.z;
+    turn->motor[3] = d->motor_torque;
+}
+
+// ---- configurable -----------------------------------------------------------------------------------------------------------------------
+static int32_t drives(const fe_joint_axis *a) { return a->drive != FE_DRIVE_NONE && (a->stiffness > 0.0f || a->damping > 0.0f); }
+
+// Limits, drive and motor of an axis that is not locked. 0: it has none
+static int32_t plan_axis(const fe_joint_axis *a, fe__joint_axis *axis)
+{
+    if (a->mode == FE_MOTION_FREE && !drives(a) && a->motor_force == 0.0f) return 0;
+    set_unlimited(axis);
+    if (a->mode == FE_MOTION_LIMITED) set_limit(axis, a->low, a->high, a->limit_hertz, a->limit_damping_ratio);
+    int32_t unit = a->drive == FE_DRIVE_STIFFNESS ? FE__DRIVE_STIFFNESS : FE__DRIVE_HERTZ;
+    if (drives(a)) set_drive(axis, a->target, a->stiffness, a->damping, a->drive_force, unit);
+    set_motor(axis, a->motor_speed, a->motor_force);
+    return 1;
+}
+
+// One drive for three free rotations, when they are driven alike: angles about three axes do not add up when they are large
+static int32_t plan_turn(const fe_joint_axis *a, fe__joint_plan *plan)
+{
+    for (int k = 0; k < 3; ++k) {
+        int32_t alike = a[k].drive == a[0].drive && a[k].stiffness == a[0].stiffness && a[k].damping == a[0].damping &&
+                        a[k].drive_force == a[0].drive_force && a[k].motor_force == a[0].motor_force;
+        if (a[k].mode != FE_MOTION_FREE || !alike) return 0;
+    }
+    if (!drives(a) && a->motor_force == 0.0f) return 0;
+    fe__joint_turn *turn = &plan->axes.turn;
+    plan->parts |= bit(FE__PART_TURN);
+    set_target(turn, rotation_of((angles){a[0].target, a[1].target, a[2].target}));
+    if (drives(a)) {
+        turn->drive[0] = a->stiffness, turn->drive[1] = a->damping, turn->drive[2] = a->drive_force;
+        turn->drive[3] = a->drive == FE_DRIVE_STIFFNESS ? FE__DRIVE_STIFFNESS : FE__DRIVE_HERTZ;
+    }
+    for (int k = 0; k < 3; ++k) turn->motor[k] = a[k].motor_speed;
+    turn->motor[3] = a->motor_force;
+    return 1;
+}
+
+static void plan_rotations(const fe_configurable_def *d, fe__joint_plan *plan)
+{
+    static const fe__joint_part parts[3] = {FE__PART_TWIST, FE__PART_SWING_Y, FE__PART_SWING_Z};
+    const fe_joint_axis *about = d->axes + FE_ABOUT_X;
+    int32_t locked[3], all = 1;
+    for (int k = 0; k < 3; ++k) all &= locked[k] = about[k].mode == FE_MOTION_LOCKED;
+    if (all) {
+        plan->parts |= bit(FE__PART_FIXED);
+        return;
+    }
+    if (plan_turn(about, plan)) return;
+    int32_t hinge = locked[1] && locked[2];
+    if (hinge) plan->parts |= bit(FE__PART_HINGE);
+    for (int k = 0; k < 3; ++k) {
+        fe__joint_axis *axis = plan->axes.axis + FE__AXIS_TWIST + k;
+        if (locked[k] && hinge) continue;
+        if (locked[k]) set_limit(axis, 0.0f, 0.0f, d->hertz, d->damping_ratio);
+        if (locked[k] || plan_axis(about + k, axis)) plan->parts |= bit(parts[k]);
+    }
+}
+
+static void plan_configurable(const fe_configurable_def *d, fe__joint_plan *plan)
+{
+    static const fe__joint_part parts[3] = {FE__PART_X, FE__PART_Y, FE__PART_Z};
+    static const uint32_t locks[3] = {FE__LOCK_X, FE__LOCK_Y, FE__LOCK_Z};
+    for (int k = 0; k < 3; ++k) {
+        if (d->axes[k].mode == FE_MOTION_LOCKED)
+            plan->locked |= locks[k];
+        else if (plan_axis(d->axes + k, plan->axes.axis + FE__AXIS_LINEAR + k))
+            plan->parts |= bit(parts[k]);
+    }
+    if (plan->locked == (FE__LOCK_X | FE__LOCK_Y | FE__LOCK_Z))
+        plan->parts |= bit(FE__PART_POINT);
+    else if (plan->locked)
+        plan->parts |= bit(FE__PART_SLIDE);
+    plan_rotations(d, plan);
+}
+
+// ---- all --------------------------------------------------------------------------------------------------------------------------------
+void fe__joint_make_plan(int32_t type, const fe__joint_any *desc, fe__joint_plan *out_plan)
+{
+    *out_plan = (fe__joint_plan){.hertz = desc->common.hertz, .damping_ratio = desc->common.damping_ratio};
+    switch (type) {
+    case FE_JOINT_DISTANCE: plan_distance(&desc->distance, out_plan); break;
+    case FE_JOINT_BALL: plan_ball(&desc->ball, out_plan); break;
+    case FE_JOINT_HINGE: plan_hinge(&desc->hinge, out_plan); break;
+    case FE_JOINT_FIXED: plan_fixed(&desc->fixed, out_plan); break;
+    default: plan_configurable(&desc->configurable, out_plan); break;
+    }
+}
+
+fe__joint_part fe__joint_part_at(uint32_t parts, int32_t place)
+{
+    static const fe__joint_part plain[FE__AXES] = {FE__PART_X, FE__PART_Y, FE__PART_Z, FE__PART_TWIST, FE__PART_SWING_Y, FE__PART_SWING_Z};
+    if (parts >> plain[place] & 1) return plain[place];
+    if (place == FE__AXIS_LINEAR && parts >> FE__PART_DISTANCE & 1) return FE__PART_DISTANCE;
+    if (place == FE__AXIS_SWING && parts >> FE__PART_CONE & 1) return FE__PART_CONE;
+    return FE__PARTS;
+}

@@ -1,0 +1,23 @@
+// joint_parts.h - from a joint's definition to the parts that the solver knows.
+#ifndef FE_WORLD_JOINT_PARTS_H
+#define FE_WORLD_JOINT_PARTS_H
+#include "solver/joint.h"
+#include "world/joint_record.h"
+
+typedef struct fe__joint_plan {
+    uint32_t parts;  // 1 << fe__joint_part
+    uint32_t locked; // FE__LOCK_*
+    float hertz, damping_ratio; // of the locks, 0: the world's
+    fe__joint_axes axes; // limits, drives, motors; no impulses, no states
+} fe__joint_plan;
+
+void fe__joint_make_plan(int32_t type, const fe__joint_any *desc, fe__joint_plan *out_plan);
+// Do its parts need a record of axes?
+static inline int32_t fe__joint_needs_axes(const fe__joint_plan *plan)
+{
+    return (plan->parts & ~(1u << FE__PART_HINGE | 1u << FE__PART_FIXED | 1u << FE__PART_SLIDE | 1u << FE__PART_POINT)) != 0;
+}
+// The part that uses a place in fe__joint_axes.axis, FE__PARTS: none
+fe__joint_part fe__joint_part_at(uint32_t parts, int32_t place);
+
+#endif
