@@ -251,7 +251,7 @@ void fe__body_set_transform(fe_world *world, int32_t index, const fe_transform *
     fe__body_disturb(world, index);
     set_pose(body, transform);
     fe__body_place(world, index);
-    fe__body_place_joints(world, index);
+    fe__body_wind_joints(world, index);
     for (int32_t shape = body->first_shape; shape >= 0; shape = world->shapes[shape].next) fe__shape_touch(world, shape);
     if (body->type != FE_BODY_STATIC) return;
     for (int32_t pair = body->first_contact; pair >= 0; pair = fe__next_pair(world, pair, index)) fe__pair_look_once(world, pair);

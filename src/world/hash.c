@@ -1,4 +1,4 @@
-// hash.c - the fingerprint of a world: poses, velocities, contacts, events. It knows nothing of rows, lanes, slots or lists.
+// hash.c - the fingerprint of a world: poses, velocities, contacts, joints, events. It knows nothing of rows, lanes, slots or lists.
 #include "core/hash.h"
 #include "world/world.h"
 
@@ -64,6 +64,47 @@ static void hash_other_events(fe__hash *h, const fe_world *w)
     }
 }
 
+static void hash_axes(fe__hash *h, const fe__joint_axes *axes)
+{
+    for (int k = 0; k < FE__AXES; ++k) {
+        hash_floats(h, axes->axis[k].impulse, 4);
+        hash_floats(h, axes->axis[k].state, 2);
+    }
+    hash_floats(h, axes->turn.impulse, 3);
+    hash_floats(h, axes->turn.motor_impulse, 3);
+    hash_floats(h, axes->turn.torque, 3);
+}
+
+// settings, as they were set, and impulses
+static void hash_joint(fe__hash *h, const fe_world *w, int32_t joint)
+{
+    const fe__joint_record *r = w->joint_records + joint;
+    const fe__joint *j = w->joints.joints + joint;
+    const fe__joint_frame *f = w->joints.frames + joint;
+    fe__joint_any desc;
+    fe__joint_describe(w, joint, &desc);
+    fe__hash_u64(h, f->serial);
+    fe__hash_i32(h, r->type);
+    fe__hash_bytes(h, &desc, desc.common.struct_size);
+    hash_floats(h, j->impulse, 3);
+    hash_floats(h, f->impulse, 3);
+    hash_floats(h, w->joints.reactions[joint].force, 3);
+    hash_floats(h, w->joints.reactions[joint].torque, 3);
+    if (f->axes) hash_axes(h, w->joints.axes + f->axes);
+}
+
+// Nothing where there are none
+static void hash_joints(fe__hash *h, const fe_world *w)
+{
+    for (int32_t joint = w->first_joint; joint; joint = w->joint_records[joint].order_next) hash_joint(h, w, joint);
+    for (int32_t i = 0; i < w->joint_event_count; ++i) {
+        const fe__joint_event_record *r = w->joint_events + i;
+        fe__hash_u64(h, r->serial);
+        fe__hash_vec3(h, r->event.force);
+        fe__hash_vec3(h, r->event.torque);
+    }
+}
+
 uint64_t fe__world_hash(const fe_world *w)
 {
     fe__hash h = fe__hash_begin();
@@ -77,5 +118,6 @@ uint64_t fe__world_hash(const fe_world *w)
     fe__hash_u64(&h, contacts);
     hash_pair_events(&h, w->pair_events, w->pair_event_count);
     hash_other_events(&h, w);
+    hash_joints(&h, w);
     return fe__hash_end(&h);
 }

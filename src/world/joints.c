@@ -219,12 +219,14 @@ static void place_anchors(fe_world *world, int32_t joint)
     set_vec(j->arm_b, fe__sub(r->frame[1].position, local_centre(world->bodies + r->body[1])));
 }
 
-void fe__body_place_joints(fe_world *world, int32_t body)
+void fe__body_place_anchors(fe_world *world, int32_t body)
 {
-    for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body)) {
-        place_anchors(world, joint);
-        wind(world, joint);
-    }
+    for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body)) place_anchors(world, joint);
+}
+
+void fe__body_wind_joints(fe_world *world, int32_t body)
+{
+    for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body)) wind(world, joint);
 }
 
 // Impulses and states of an axis go on while the part does that has them

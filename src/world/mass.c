@@ -207,6 +207,7 @@ void fe__body_update_mass(fe_world *world, int32_t index)
         p = from_shapes(world, body);
     }
     apply(world, body, &p);
+    fe__body_place_anchors(world, index);
 }
 
 void fe__body_set_mass(fe_world *world, int32_t index, const fe_mass_data *data)
@@ -216,6 +217,7 @@ void fe__body_set_mass(fe_world *world, int32_t index, const fe_mass_data *data)
     fe__body_disturb(world, index);
     body->flags |= FE__BODY_MASS_GIVEN;
     apply(world, body, &p);
+    fe__body_place_anchors(world, index);
 }
 
 void fe__body_mass_data(const fe_world *world, int32_t index, fe_mass_data *out_data)

@@ -218,7 +218,8 @@ void fe__joint_retire(fe_world *world, int32_t joint);
 void fe__body_drop_joints(fe_world *world, int32_t body);   // in the order of creation
 void fe__body_unlink_joints(fe_world *world, int32_t body); // before its type, its locks or whether it is enabled change
 void fe__body_link_joints(fe_world *world, int32_t body);   // after
-void fe__body_place_joints(fe_world *world, int32_t body);  // its pose was set, or its centre of mass is another point
+void fe__body_place_anchors(fe_world *world, int32_t body); // its centre of mass is another point
+void fe__body_wind_joints(fe_world *world, int32_t body);   // its pose was set
 void fe__body_forget_joints(fe_world *world, int32_t body); // impulses of its joints
 fe_handle fe__joint_handle(const fe_world *world, int32_t joint);
 fe_transform fe__joint_frame_now(const fe_world *world, int32_t joint, int32_t side); // 0: A's, 1: B's; world space
