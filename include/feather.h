@@ -691,7 +691,8 @@ FE_API fe_result fe_fixed_def_at(const fe_world *world, fe_fixed_def *desc, fe_b
 FE_API fe_result fe_configurable_def_at(const fe_world *world, fe_configurable_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
                                         const fe_vec3 *axis);
 
-/// These make a definition ready for fe_distance_create or fe_configurable_create, from its init to its frames; change what you like before.
+/// These make a whole definition, defaults and all, ready for fe_distance_create or fe_configurable_create or for changes before. Only struct_size of
+/// the given one counts.
 /// A rope: the points come no farther from each other than `max_length`.
 FE_API fe_result fe_rope_def_at(const fe_world *world, fe_distance_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point_a,
                                 const fe_dvec3 *point_b, float max_length);
@@ -700,7 +701,7 @@ FE_API fe_result fe_slider_def_at(const fe_world *world, fe_configurable_def *de
                                   const fe_vec3 *axis);
 /// A wheel B on a chassis A: rolls freely about the axle. axes[FE_ABOUT_X] is its motor and brake; axes[FE_ALONG_Z] the suspension along `up`: a
 /// spring of `hertz` and `damping_ratio` within +-travel; axes[FE_ABOUT_Z] steers about `up`: locked, set a range and a drive to steer by its target.
-/// @param axle  of the wheel, world space; with it and `up` horizontal and upwards, positive spin rolls towards up x axle
+/// @param axle  of the wheel, world space; with it and `up` horizontal and upwards, positive spin rolls towards axle x up
 FE_API fe_result fe_wheel_def_at(const fe_world *world, fe_configurable_def *desc, fe_body chassis, fe_body wheel, const fe_dvec3 *point,
                                  const fe_vec3 *axle, const fe_vec3 *up, float hertz, float damping_ratio, float travel);
 /// Pulls and turns B towards a pose relative to A (the targets of all six axes, at first where it is), with no more than a force, N, and a torque, N m.

@@ -50,6 +50,15 @@ fe_result fe__find_shape(const char *function, const char *name, const fe_world 
     return find(function, name, &world->shape_ids, handle, out_index);
 }
 
+// A joint's record is one above its slot: record 0 is no joint
+fe_result fe__find_joint(const char *function, const char *name, const fe_world *world, fe_joint handle, int32_t *out_index)
+{
+    int32_t slot;
+    FE_TRY(find(function, name, &world->joint_ids, handle, &slot));
+    *out_index = slot + 1;
+    return FE_OK;
+}
+
 // ---- values ---------------------------------------------------------------------------------------------------------------------
 
 fe_result fe__check_pointer(const char *function, const char *name, int32_t there)
@@ -90,6 +99,15 @@ fe_result fe__check_vec3(const char *function, const char *name, const fe_vec3 *
     FE_TRY(fe__check_number(function, name, ".x", (double)v->x, -limit, limit));
     FE_TRY(fe__check_number(function, name, ".y", (double)v->y, -limit, limit));
     return fe__check_number(function, name, ".z", (double)v->z, -limit, limit);
+}
+
+fe_result fe__check_direction(const char *function, const char *name, const fe_vec3 *v)
+{
+    FE_TRY(fe__check_pointer(function, name, v != NULL));
+    int32_t finite = __builtin_isfinite(v->x) && __builtin_isfinite(v->y) && __builtin_isfinite(v->z);
+    if (finite && (v->x != 0.0f || v->y != 0.0f || v->z != 0.0f)) return FE_OK;
+    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is (%.9g, %.9g, %.9g), must be finite and not zero", name, (double)v->x, (double)v->y,
+                    (double)v->z);
 }
 
 fe_result fe__check_dvec3(const char *function, const char *name, const fe_dvec3 *v, double most)

@@ -50,6 +50,9 @@ enum { FE_MAX_SUBSTEPS = 64 };
 #define FE_FIND_SHAPE(index, handle) \
     int32_t index;                   \
     FE_TRY(fe__find_shape(function, #handle, world, handle, &index))
+#define FE_FIND_JOINT(index, handle) \
+    int32_t index;                   \
+    FE_TRY(fe__find_joint(function, #handle, world, handle, &index))
 #define FE_CHECK_POINTER(pointer) FE_TRY(fe__check_pointer(function, #pointer, (pointer) != NULL))
 #define FE_CHECK_FLOAT(value, low, high) FE_TRY(fe__check_number(function, #value, "", (double)(value), (double)(low), (double)(high)))
 #define FE_CHECK_INT(value, low, high) FE_TRY(fe__check_int(function, #value, value, low, high))
@@ -59,6 +62,8 @@ enum { FE_MAX_SUBSTEPS = 64 };
 #define FE_CHECK_DVEC3(pointer, most) FE_TRY(fe__check_dvec3(function, #pointer, pointer, most))
 #define FE_CHECK_QUAT(pointer) FE_TRY(fe__check_quat(function, #pointer, pointer))
 #define FE_CHECK_TRANSFORM(pointer) FE_TRY(fe__check_transform(function, #pointer, pointer))
+// Any length but zero
+#define FE_CHECK_DIRECTION(pointer) FE_TRY(fe__check_direction(function, #pointer, pointer))
 #define FE_CHECK_FILTER(layer) FE_TRY(fe__check_layer(function, #layer, layer))
 // An array of `count` things; NULL only for none
 #define FE_CHECK_ARRAY(array, count) FE_TRY(fe__check_array(function, #array, array, count))
@@ -71,12 +76,14 @@ enum { FE_MAX_SUBSTEPS = 64 };
 fe_result fe__check_world(const char *function, const fe_world *world);
 fe_result fe__find_body(const char *function, const char *name, const fe_world *world, fe_body handle, int32_t *out_index);
 fe_result fe__find_shape(const char *function, const char *name, const fe_world *world, fe_shape handle, int32_t *out_index);
+fe_result fe__find_joint(const char *function, const char *name, const fe_world *world, fe_joint handle, int32_t *out_index);
 fe_result fe__check_pointer(const char *function, const char *name, int32_t there);
 fe_result fe__check_number(const char *function, const char *name, const char *part, double value, double low, double high);
 fe_result fe__check_int(const char *function, const char *name, int64_t value, int64_t low, int64_t high);
 fe_result fe__check_bits(const char *function, const char *name, uint32_t value, uint32_t allowed);
 fe_result fe__check_layer(const char *function, const char *name, uint32_t layer);
 fe_result fe__check_vec3(const char *function, const char *name, const fe_vec3 *v, float most);
+fe_result fe__check_direction(const char *function, const char *name, const fe_vec3 *v);
 fe_result fe__check_dvec3(const char *function, const char *name, const fe_dvec3 *v, double most);
 fe_result fe__check_quat(const char *function, const char *name, const fe_quat *q);
 fe_result fe__check_transform(const char *function, const char *name, const fe_transform *transform);

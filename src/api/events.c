@@ -43,6 +43,16 @@ int32_t fe_world_get_hit_events(const fe_world *world, fe_hit_event *out_events,
     return world->hit_event_count;
 }
 
+int32_t fe_world_get_joint_events(const fe_world *world, fe_joint_event *out_events, uint32_t stride, int32_t capacity)
+{
+    FE_BEGIN(world);
+    FE_CHECK_ARRAY(out_events, capacity);
+    FE_CHECK_STRIDE(stride, sizeof *out_events, LEAST_RECORD);
+    int32_t count = fe__mini(world->joint_event_count, capacity);
+    for (int32_t i = 0; i < count; ++i) put(out_events, stride, i, &world->joint_events[i].event, sizeof *out_events);
+    return world->joint_event_count;
+}
+
 // ---- contacts -------------------------------------------------------------------------------------------------------------------
 
 static int32_t point_count(const fe_world *world, int32_t pair)

@@ -240,6 +240,7 @@ fe_result fe_world_get_counters(const fe_world *world, fe_counters *out_counters
     fe_counters c = world->counters;
     c.bodies = world->body_count;
     c.shapes = world->shape_count;
+    c.joints = world->joint_count;
     c.awake_bodies = world->awake_body_count;
     c.pairs = world->pair_count;
     c.contacts = world->linked_count;

@@ -1,7 +1,7 @@
 // record_pool.h - records of one size, given out by index and taken back.
 //
-// Index 0 is never given: it is a record of zeros that means "none". A record given out is all zeros. Which index is next depends on the order of calls
-// alone.
+// Index 0 is never given: it is a record of zeros that means "none". A record given out is all zeros. Which index is next depends on the
+// order of calls alone.
 #ifndef FE_CORE_RECORD_POOL_H
 #define FE_CORE_RECORD_POOL_H
 #include "core/memory.h"

@@ -131,6 +131,9 @@ void fe__build_islands(fe__step *step)
                                 .awake_bodies = w->awake_bodies,
                                 .body_count = w->awake_body_count,
                                 .awake_contacts = w->awake_pairs,
-                                .contact_count = w->awake_pair_count};
+                                .contact_count = w->awake_pair_count,
+                                .joints = &w->joints,
+                                .awake_joints = w->awake_joints,
+                                .joint_count = w->awake_joint_count};
     fe__graph_build(&w->solver, w->kernels, &in);
 }

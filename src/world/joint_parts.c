@@ -1,7 +1,7 @@
 // joint_parts.c - what each type of joint is made of: locks, limits, drives and motors, as the solver knows them (solver/joint.h).
 //
-// Called when a joint is made or changed, with a checked definition. Targets are clamped to the limits here, so that no drive presses on a stop for
-// good.
+// Called when a joint is made or changed, with a checked definition. Targets are clamped to the limits here, so that no drive presses on a
+// stop for good.
 #include "world/joint_parts.h"
 
 #include "core/trig.h"
@@ -76,7 +76,8 @@ static void plan_fixed(const fe_fixed_def *d, fe__joint_plan *plan)
     fe__joint_turn *turn = &plan->axes.turn;
     plan->parts |= bit(FE__PART_TURN);
     turn->target[3] = 1.0f;
-    turn->drive[0] = d->angular_hertz, turn->drive[1] = d->angular_damping_ratio, turn->drive[2] = FE__UNLIMITED, turn->drive[3] = FE__DRIVE_HERTZ;
+    turn->drive[0] = d->angular_hertz, turn->drive[1] = d->angular_damping_ratio, turn->drive[2] = FE__UNLIMITED,
+    turn->drive[3] = FE__DRIVE_HERTZ;
 }
 
 // ---- rotations of three angles ----------------------------------------------------------------------------------------------------------
@@ -137,7 +138,8 @@ static void plan_ball(const fe_ball_def *d, fe__joint_plan *plan)
     plan->parts |= bit(FE__PART_TURN);
     set_target(turn, clamped_target(d));
     if (d->drive_hertz > 0.0f)
-        turn->drive[0] = d->drive_hertz, turn->drive[1] = d->drive_damping_ratio, turn->drive[2] = d->drive_torque, turn->drive[3] = FE__DRIVE_HERTZ;
+        turn->drive[0] = d->drive_hertz, turn->drive[1] = d->drive_damping_ratio, turn->drive[2] = d->drive_torque,
+        turn->drive[3] = FE__DRIVE_HERTZ;
     turn->motor[0] = d->motor_velocity.x, turn->motor[1] = d->motor_velocity.y, turn->motor[2] = d->motor_velocity.z;
     turn->motor[3] = d->motor_torque;
 }
@@ -221,11 +223,21 @@ void fe__joint_make_plan(int32_t type, const fe__joint_any *desc, fe__joint_plan
 {
     *out_plan = (fe__joint_plan){.hertz = desc->common.hertz, .damping_ratio = desc->common.damping_ratio};
     switch (type) {
-    case FE_JOINT_DISTANCE: plan_distance(&desc->distance, out_plan); break;
-    case FE_JOINT_BALL: plan_ball(&desc->ball, out_plan); break;
-    case FE_JOINT_HINGE: plan_hinge(&desc->hinge, out_plan); break;
-    case FE_JOINT_FIXED: plan_fixed(&desc->fixed, out_plan); break;
-    default: plan_configurable(&desc->configurable, out_plan); break;
+    case FE_JOINT_DISTANCE:
+        plan_distance(&desc->distance, out_plan);
+        break;
+    case FE_JOINT_BALL:
+        plan_ball(&desc->ball, out_plan);
+        break;
+    case FE_JOINT_HINGE:
+        plan_hinge(&desc->hinge, out_plan);
+        break;
+    case FE_JOINT_FIXED:
+        plan_fixed(&desc->fixed, out_plan);
+        break;
+    default:
+        plan_configurable(&desc->configurable, out_plan);
+        break;
     }
 }
 

@@ -5,10 +5,10 @@
 #include "world/joint_record.h"
 
 typedef struct fe__joint_plan {
-    uint32_t parts;  // 1 << fe__joint_part
-    uint32_t locked; // FE__LOCK_*
+    uint32_t parts;             // 1 << fe__joint_part
+    uint32_t locked;            // FE__LOCK_*
     float hertz, damping_ratio; // of the locks, 0: the world's
-    fe__joint_axes axes; // limits, drives, motors; no impulses, no states
+    fe__joint_axes axes;        // limits, drives, motors; no impulses, no states
 } fe__joint_plan;
 
 void fe__joint_make_plan(int32_t type, const fe__joint_any *desc, fe__joint_plan *out_plan);

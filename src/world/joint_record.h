@@ -1,11 +1,13 @@
 // joint_record.h - the cold half of a joint: what the API set, and its places in lists.
 //
-// Record i here, fe__joints' records i and slot i - 1 of the handles are one thing; index 0 is no joint. What only one type has lies in a pool of
-// that type's settings, so that a cloth of ball joints does not pay for configurable ones.
+// Record i here, fe__joints' records i and slot i - 1 of the handles are one thing; index 0 is no joint. What only one type has lies in a
+// pool of that type's settings, so that a cloth of ball joints does not pay for configurable ones.
 #ifndef FE_WORLD_JOINT_RECORD_H
 #define FE_WORLD_JOINT_RECORD_H
 #include "core/math.h"
 #include "world/pair.h"
+
+#include <stddef.h>
 
 enum { FE__JOINT_TYPES = FE_JOINT_CONFIGURABLE + 1 }; // 0 is none
 
@@ -31,14 +33,14 @@ enum {
 };
 
 typedef struct fe__joint_record {
-    int32_t type;            // fe_joint_type, 0: a free record
-    uint32_t flags;          // FE__JOINT_*
-    int32_t body[2];         // A, B
-    fe__link links[2];       // joints of A, of B in the order of creation, 0: none
+    int32_t type;                       // fe_joint_type, 0: a free record
+    uint32_t flags;                     // FE__JOINT_*
+    int32_t body[2];                    // A, B
+    fe__link links[2];                  // joints of A, of B in the order of creation, 0: none
     int32_t order_next, order_previous; // all joints in the order of creation, 0: none
-    int32_t awake_index;     // place in the list of awake joints, -1: no dynamic end is awake
-    int32_t settings;        // record in the pool of its type
-    fe_frame frame[2];       // in A's and B's space, unit rotations
+    int32_t awake_index;                // place in the list of awake joints, -1: no dynamic end is awake
+    int32_t settings;                   // record in the pool of its type
+    fe_frame frame[2];                  // in A's and B's space, unit rotations
     float hertz, damping_ratio;
     float break_force, break_torque; // N, N m, 0: never
     fe_handle user_data;
@@ -52,8 +54,8 @@ typedef struct fe__joint_event_record {
 // bytes of a type's definition
 static inline int32_t fe__joint_def_size(int32_t type)
 {
-    static const int32_t sizes[FE__JOINT_TYPES] = {0, sizeof(fe_distance_def), sizeof(fe_ball_def), sizeof(fe_hinge_def), sizeof(fe_fixed_def),
-                                                   sizeof(fe_configurable_def)};
+    static const int32_t sizes[FE__JOINT_TYPES] = {
+        0, sizeof(fe_distance_def), sizeof(fe_ball_def), sizeof(fe_hinge_def), sizeof(fe_fixed_def), sizeof(fe_configurable_def)};
     return sizes[type];
 }
 

@@ -1,6 +1,7 @@
 // joint_state.c - how joints stand: frames, coordinates, speeds, errors; and which of them break.
 //
 // Read from the bodies' poses and velocities as they are, by the API and after the solver.
+#include "core/trig.h"
 #include "world/step.h"
 
 static fe_quat rotation_of(const fe__body *b) { return (fe_quat){b->rotation[0], b->rotation[1], b->rotation[2], b->rotation[3]}; }
@@ -76,7 +77,8 @@ void fe__joint_state_of(const fe_world *world, int32_t joint, fe_joint_state *s)
     s->swing_y = pose.swing_y, s->swing_z = pose.swing_z;
     s->angular_velocity = fe__rotate_back(frame_a.rotation, fe__sub(spin_of(b), spin_of(a)));
     s->translation = pose.d;
-    // frame A turns under the moving point: d/dt (R^T x) = R^T (x' - wA x x), x from A's point, is the velocity against A's matter at B's point
+    // frame A turns under the moving point: d/dt (R^T x) = R^T (x' - wA x x), x from A's point, is the velocity against A's matter at B's
+    // point
     s->linear_velocity = fe__rotate_back(frame_a.rotation, fe__sub(velocity_at(b, frame_b.position), velocity_at(a, frame_b.position)));
     s->length = pose.length;
     s->speed = pose.length > 0.0f ? fe__dot(pose.d, s->linear_velocity) / pose.length : fe__length(s->linear_velocity);
@@ -109,8 +111,14 @@ void fe__break_joints(fe__step *step)
     for (int32_t i = 0; i < count; ++i) {
         int32_t joint = items[i].value;
         const fe__joint_record *r = w->joint_records + joint;
-        fe_joint_event e = {fe__joint_handle(w, joint), fe__body_handle(w, r->body[0]), fe__body_handle(w, r->body[1]), r->user_data, FE_BREAK,
-                            r->type, {0, 0, 0}, {0, 0, 0}};
+        fe_joint_event e = {fe__joint_handle(w, joint),
+                            fe__body_handle(w, r->body[0]),
+                            fe__body_handle(w, r->body[1]),
+                            r->user_data,
+                            FE_BREAK,
+                            r->type,
+                            {0, 0, 0},
+                            {0, 0, 0}};
         fe__joint_reaction_of(&w->joints, w->bodies, joint, &e.force, &e.torque);
         w->joint_events[i] = (fe__joint_event_record){items[i].key, e};
     }

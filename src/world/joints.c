@@ -1,7 +1,7 @@
 // joints.c - the life of joints: birth, change, places in lists and in the constraint graph, death.
 //
-// Called by the API layer with checked definitions, between steps, and by the life of bodies. A joint is linked while it is enabled, its bodies are, and
-// one of them is dynamic.
+// Called by the API layer with checked definitions, between steps, and by the life of bodies. A joint is linked while it is enabled, its
+// bodies are, and one of them is dynamic.
 #include "world/joint_parts.h"
 #include "world/world.h"
 
@@ -130,11 +130,13 @@ void fe__joint_retire(fe_world *world, int32_t joint)
     r->awake_index = -1;
 }
 
-// ---- the constraint graph -----------------------------------------------------------------------------------------------------------------
+// ---- the constraint graph
+// -----------------------------------------------------------------------------------------------------------------
 static int32_t acts(const fe_world *world, const fe__joint_record *r)
 {
     const fe__body *a = world->bodies + r->body[0], *b = world->bodies + r->body[1];
-    return r->flags & FE__JOINT_ENABLED && a->flags & b->flags & FE__BODY_ENABLED && (a->type == FE_BODY_DYNAMIC || b->type == FE_BODY_DYNAMIC);
+    return r->flags & FE__JOINT_ENABLED && a->flags & b->flags & FE__BODY_ENABLED &&
+           (a->type == FE_BODY_DYNAMIC || b->type == FE_BODY_DYNAMIC);
 }
 
 static void link(fe_world *world, int32_t joint)
@@ -168,7 +170,10 @@ void fe__body_forget_joints(fe_world *world, int32_t body)
 }
 
 // ---- filter -----------------------------------------------------------------------------------------------------------------------------
-static int32_t parts_bodies(const fe__joint_record *r) { return (r->flags & (FE__JOINT_ENABLED | FE__JOINT_COLLIDES)) == FE__JOINT_ENABLED; }
+static int32_t parts_bodies(const fe__joint_record *r)
+{
+    return (r->flags & (FE__JOINT_ENABLED | FE__JOINT_COLLIDES)) == FE__JOINT_ENABLED;
+}
 
 int32_t fe__bodies_joined(const fe_world *world, int32_t a, int32_t b)
 {
@@ -195,7 +200,8 @@ static void wake_bodies(fe_world *world, const int32_t *bodies)
         if (world->bodies[bodies[k]].flags & FE__BODY_ENABLED) fe__wake(world, bodies[k]);
 }
 
-// ---- what the solver reads ----------------------------------------------------------------------------------------------------------------
+// ---- what the solver reads
+// ----------------------------------------------------------------------------------------------------------------
 static void set_vec(float *out, fe_vec3 a) { out[0] = a.x, out[1] = a.y, out[2] = a.z; }
 static void set_quat(float *out, fe_quat q) { out[0] = q.x, out[1] = q.y, out[2] = q.z, out[3] = q.w; }
 static fe_vec3 local_centre(const fe__body *b) { return fe__vec3(b->local_centre[0], b->local_centre[1], b->local_centre[2]); }
@@ -267,7 +273,8 @@ static void fill(fe_world *world, int32_t joint, const fe__joint_plan *plan)
     wind(world, joint);
 }
 
-// ---- birth, change, death -----------------------------------------------------------------------------------------------------------------
+// ---- birth, change, death
+// -----------------------------------------------------------------------------------------------------------------
 static fe_result reserve_axes(fe_world *world, int32_t extra)
 {
     fe_result result = fe__record_pool_reserve(&world->joint_axes, &world->memory, extra);

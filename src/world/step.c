@@ -15,6 +15,7 @@ static const stage stages[] = {
     {fe__build_islands, offsetof(fe_profile, islands), 0},      // small ones into batches, large ones into colours
     {fe__solve_islands, offsetof(fe_profile, solve), 1},        // all substeps -> velocities, motion, impulses
     {fe__move_bodies, offsetof(fe_profile, finalize), 1},       // poses, bounds, trees
+    {fe__break_joints, offsetof(fe_profile, events), 0},        // joints that bore too much
     {fe__collect_events, offsetof(fe_profile, events), 0},      // touching begun, kept, ended; impacts
     {fe__put_islands_to_sleep, offsetof(fe_profile, sleep), 1}, // islands slow for long enough
     {fe__collect_body_events, offsetof(fe_profile, sleep), 0},  // who woke, who fell asleep
@@ -66,7 +67,7 @@ void fe__solve_islands(fe__step *step)
     fe_world *w = step->world;
     for (int32_t i = 0; i < w->awake_pair_count && w->wants_hits; ++i)
         if (w->pairs[w->awake_pairs[i]].events & FE_EVENTS_HIT) w->pairs[w->awake_pairs[i]].approach = approach_of(w, w->awake_pairs[i]);
-    fe__solve(&w->solver, w->kernels, &w->workers, w->bodies, w->contacts, w->extras, NULL, &step->constants);
+    fe__solve(&w->solver, w->kernels, &w->workers, w->bodies, w->contacts, w->extras, &w->joints, &step->constants);
     w->last_h = step->constants.h;
     w->last_dt = step->dt;
 }

@@ -55,6 +55,7 @@ void fe__update_contacts(fe__step *step);      // collide_stage.c: narrow phase 
 void fe__build_islands(fe__step *step);        // collide_stage.c: the graph, when it changed
 void fe__solve_islands(fe__step *step);        // step.c: all substeps -> velocities, motion, impulses
 void fe__move_bodies(fe__step *step);          // finalize.c: poses, bounds, trees
+void fe__break_joints(fe__step *step);         // joint_state.c
 void fe__collect_events(fe__step *step);       // events.c
 void fe__put_islands_to_sleep(fe__step *step); // finalize.c
 void fe__collect_body_events(fe__step *step);  // events.c

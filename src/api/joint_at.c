@@ -1,0 +1,247 @@
+// joint_at.c - definitions of joints from points and axes of the world: the present pose is the zero.
+#include "api/joint_def.h"
+#include "core/trig.h"
+
+// ---- frames
+// -------------------------------------------------------------------------------------------------------------------------------
+typedef struct ends {
+    int32_t body[2];
+} ends;
+
+static fe_result find_ends(const char *function, const fe_world *world, fe_body body_a, fe_body body_b, ends *out_ends)
+{
+    FE_TRY(fe__find_body(function, "body_a", world, body_a, &out_ends->body[0]));
+    FE_TRY(fe__find_body(function, "body_b", world, body_b, &out_ends->body[1]));
+    if (out_ends->body[0] != out_ends->body[1]) return FE_OK;
+    return fe__fail(function, FE_ERROR_ARGUMENT, "both ends are body 0x%llx", body_a);
+}
+
+// A point of the world in body space; far ones are found where the definition is used
+static fe_vec3 into_body(const fe__body *body, const fe_dvec3 *point)
+{
+    fe_dvec3 arm = {point->x - body->origin[0], point->y - body->origin[1], point->z - body->origin[2]};
+    return fe__narrow(fe__drotate_back(fe__body_transform(body).rotation, arm));
+}
+
+static fe_frame frame_in(const fe__body *body, const fe_dvec3 *point, fe_quat rotation)
+{
+    return (fe_frame){into_body(body, point), fe__normalized(fe__product(fe__conjugate(fe__body_transform(body).rotation), rotation))};
+}
+
+// The shortest turn from X to a direction: (x cross a, 1 + x . a), normalised; half a turn about Z for -X
+static fe_quat turn_to(fe_vec3 axis)
+{
+    const double opposite = 1e-12; // 1 + cosine below which the turn's axis is lost
+    double x = (double)axis.x, y = (double)axis.y, z = (double)axis.z, k = 1.0 / sqrt(x * x + y * y + z * z), w = 1.0 + k * x;
+    if (w < opposite) return (fe_quat){0.0f, 0.0f, 1.0f, 0.0f};
+    double qy = -k * z, qz = k * y, n = 1.0 / sqrt(qy * qy + qz * qz + w * w);
+    return (fe_quat){0.0f, (float)(n * qy), (float)(n * qz), (float)(n * w)};
+}
+
+// The rotation with Z along `up` made square to X along `axis`; they are not parallel
+static fe_quat turn_upright(fe_vec3 axis, fe_vec3 up)
+{
+    fe_quat first = turn_to(axis);
+    fe_dvec3 v = fe__drotate_back(first, fe__widen(up)); // then about X until it has no Y
+    double half = 0.5 * fe__atan2(-v.y, v.z), sine, cosine;
+    fe__sincos(half, &sine, &cosine);
+    return fe__normalized(fe__product(first, (fe_quat){(float)sine, 0.0f, 0.0f, (float)cosine}));
+}
+
+static void set_ends(const fe_world *world, fe_joint_def *front, const ends *e, const fe_dvec3 *point_a, const fe_dvec3 *point_b,
+                     fe_quat rotation)
+{
+    front->body_a = fe__body_handle(world, e->body[0]);
+    front->body_b = fe__body_handle(world, e->body[1]);
+    front->frame_a = frame_in(&world->bodies[e->body[0]], point_a, rotation);
+    front->frame_b = frame_in(&world->bodies[e->body[1]], point_b, rotation);
+}
+
+// The caller's definition, as far as both sides know it, into a whole one and back
+static fe_result open(const char *function, const fe_world *world, int32_t type, const void *desc, fe_body body_a, fe_body body_b,
+                      ends *out_ends, fe__joint_any *def)
+{
+    FE_TRY(fe__check_world(function, world));
+    fe__joint_defaults(type, def);
+    FE_TRY(fe__read_struct(function, "desc", desc, def, def->common.struct_size));
+    return find_ends(function, world, body_a, body_b, out_ends);
+}
+
+static fe_result at_point(const char *function, const fe_world *world, int32_t type, void *desc, fe_body body_a, fe_body body_b,
+                          const fe_dvec3 *point, const fe_vec3 *axis)
+{
+    ends e;
+    fe__joint_any def;
+    FE_TRY(open(function, world, type, desc, body_a, body_b, &e, &def));
+    FE_CHECK_DVEC3(point, FE_MAX_POSITION);
+    if (axis) FE_CHECK_DIRECTION(axis);
+    fe__fp_state fp = fe__fp_enter();
+    fe_quat rotation = axis ? turn_to(*axis) : fe__body_transform(&world->bodies[e.body[0]]).rotation;
+    set_ends(world, &def.common, &e, point, point, rotation);
+    fe__fp_leave(fp);
+    fe__write_struct(desc, &def, def.common.struct_size);
+    return FE_OK;
+}
+
+// ---- the five types
+// -----------------------------------------------------------------------------------------------------------------------
+fe_result fe_ball_def_at(const fe_world *world, fe_ball_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
+                         const fe_vec3 *axis)
+{
+    FE_BEGIN(world);
+    FE_CHECK_POINTER(axis);
+    return at_point(function, world, FE_JOINT_BALL, desc, body_a, body_b, point, axis);
+}
+
+fe_result fe_hinge_def_at(const fe_world *world, fe_hinge_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
+                          const fe_vec3 *axis)
+{
+    FE_BEGIN(world);
+    FE_CHECK_POINTER(axis);
+    return at_point(function, world, FE_JOINT_HINGE, desc, body_a, body_b, point, axis);
+}
+
+fe_result fe_fixed_def_at(const fe_world *world, fe_fixed_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point)
+{
+    return at_point(__func__, world, FE_JOINT_FIXED, desc, body_a, body_b, point, NULL);
+}
+
+fe_result fe_configurable_def_at(const fe_world *world, fe_configurable_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
+                                 const fe_vec3 *axis)
+{
+    FE_BEGIN(world);
+    FE_CHECK_POINTER(axis);
+    return at_point(function, world, FE_JOINT_CONFIGURABLE, desc, body_a, body_b, point, axis);
+}
+
+static fe_result between_points(const char *function, const fe_world *world, fe__joint_any *def, const ends *e, const fe_dvec3 *point_a,
+                                const fe_dvec3 *point_b)
+{
+    FE_CHECK_DVEC3(point_a, FE_MAX_POSITION);
+    FE_CHECK_DVEC3(point_b, FE_MAX_POSITION);
+    fe_dvec3 d = fe__dsub(*point_b, *point_a);
+    set_ends(world, &def->common, e, point_a, point_b, fe__body_transform(&world->bodies[e->body[0]]).rotation);
+    def->distance.length = def->distance.min_length = def->distance.max_length = (float)sqrt(fe__ddot(d, d));
+    return FE_OK;
+}
+
+fe_result fe_distance_def_at(const fe_world *world, fe_distance_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point_a,
+                             const fe_dvec3 *point_b)
+{
+    const char *function = __func__;
+    ends e;
+    fe__joint_any def;
+    FE_TRY(open(function, world, FE_JOINT_DISTANCE, desc, body_a, body_b, &e, &def));
+    fe__fp_state fp = fe__fp_enter();
+    fe_result result = between_points(function, world, &def, &e, point_a, point_b);
+    fe__fp_leave(fp);
+    if (result == FE_OK) fe__write_struct(desc, &def, def.common.struct_size);
+    return result;
+}
+
+// ---- ready-made joints
+// --------------------------------------------------------------------------------------------------------------------
+// A definition with the defaults, whatever the caller's holds beyond its size
+static fe_result begin_ready(const char *function, const fe_world *world, int32_t type, const void *desc, fe_body body_a, fe_body body_b,
+                             ends *out_ends, fe__joint_any *def)
+{
+    FE_CHECK_STRUCT_SIZE(desc);
+    fe__joint_defaults(type, def);
+    return find_ends(function, world, body_a, body_b, out_ends);
+}
+
+fe_result fe_rope_def_at(const fe_world *world, fe_distance_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point_a,
+                         const fe_dvec3 *point_b, float max_length)
+{
+    FE_BEGIN(world);
+    ends e;
+    fe__joint_any def;
+    FE_TRY(begin_ready(function, world, FE_JOINT_DISTANCE, desc, body_a, body_b, &e, &def));
+    FE_CHECK_FLOAT(max_length, FE_LEAST_LENGTH, FE_MAX_LOCAL);
+    fe__fp_state fp = fe__fp_enter();
+    fe_result result = between_points(function, world, &def, &e, point_a, point_b);
+    fe__fp_leave(fp);
+    FE_TRY(result);
+    def.distance.min_length = 0.0f;
+    def.distance.max_length = max_length;
+    fe__write_struct(desc, &def, def.common.struct_size);
+    return FE_OK;
+}
+
+fe_result fe_slider_def_at(const fe_world *world, fe_configurable_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
+                           const fe_vec3 *axis)
+{
+    FE_BEGIN(world);
+    ends e;
+    fe__joint_any def;
+    FE_TRY(begin_ready(function, world, FE_JOINT_CONFIGURABLE, desc, body_a, body_b, &e, &def));
+    FE_CHECK_DVEC3(point, FE_MAX_POSITION);
+    FE_CHECK_DIRECTION(axis);
+    fe__fp_state fp = fe__fp_enter();
+    set_ends(world, &def.common, &e, point, point, turn_to(*axis));
+    fe__fp_leave(fp);
+    def.configurable.axes[FE_ALONG_X].mode = FE_MOTION_FREE;
+    fe__write_struct(desc, &def, def.common.struct_size);
+    return FE_OK;
+}
+
+static int32_t are_parallel(const fe_vec3 *a, const fe_vec3 *b)
+{
+    const double least = 1e-6; // of the sine squared
+    fe_dvec3 x = fe__widen(*a), y = fe__widen(*b), n = fe__dcross(x, y);
+    return fe__ddot(n, n) <= least * fe__ddot(x, x) * fe__ddot(y, y);
+}
+
+fe_result fe_wheel_def_at(const fe_world *world, fe_configurable_def *desc, fe_body chassis, fe_body wheel, const fe_dvec3 *point,
+                          const fe_vec3 *axle, const fe_vec3 *up, float hertz, float damping_ratio, float travel)
+{
+    FE_BEGIN(world);
+    ends e;
+    fe__joint_any def;
+    FE_TRY(begin_ready(function, world, FE_JOINT_CONFIGURABLE, desc, chassis, wheel, &e, &def));
+    FE_CHECK_DVEC3(point, FE_MAX_POSITION);
+    FE_CHECK_DIRECTION(axle);
+    FE_CHECK_DIRECTION(up);
+    if (are_parallel(axle, up)) return fe__fail(function, FE_ERROR_ARGUMENT, "axle and up are parallel");
+    FE_CHECK_FLOAT(hertz, 0.0f, FE_MAX_VALUE);
+    FE_CHECK_FLOAT(damping_ratio, 0.0f, FE_MAX_VALUE);
+    FE_CHECK_FLOAT(travel, 0.0f, FE_MAX_LOCAL);
+    fe__fp_state fp = fe__fp_enter();
+    set_ends(world, &def.common, &e, point, point, turn_upright(*axle, *up));
+    fe__fp_leave(fp);
+    fe_joint_axis *axes = def.configurable.axes;
+    axes[FE_ABOUT_X].mode = FE_MOTION_FREE;
+    axes[FE_ALONG_Z].mode = FE_MOTION_LIMITED;
+    axes[FE_ALONG_Z].low = -travel, axes[FE_ALONG_Z].high = travel;
+    axes[FE_ALONG_Z].drive = FE_DRIVE_HERTZ;
+    axes[FE_ALONG_Z].stiffness = hertz, axes[FE_ALONG_Z].damping = damping_ratio;
+    fe__write_struct(desc, &def, def.common.struct_size);
+    return FE_OK;
+}
+
+fe_result fe_motor_def_at(const fe_world *world, fe_configurable_def *desc, fe_body body_a, fe_body body_b, float hertz,
+                          float damping_ratio, float max_force, float max_torque)
+{
+    FE_BEGIN(world);
+    ends e;
+    fe__joint_any def;
+    FE_TRY(begin_ready(function, world, FE_JOINT_CONFIGURABLE, desc, body_a, body_b, &e, &def));
+    FE_CHECK_FLOAT(hertz, 0.0f, FE_MAX_VALUE);
+    FE_CHECK_FLOAT(damping_ratio, 0.0f, FE_MAX_VALUE);
+    FE_CHECK_FLOAT(max_force, 0.0f, FE_MAX_FORCE);
+    FE_CHECK_FLOAT(max_torque, 0.0f, FE_MAX_FORCE);
+    const fe__body *b = &world->bodies[e.body[1]];
+    fe_dvec3 centre = {b->centre[0], b->centre[1], b->centre[2]};
+    fe__fp_state fp = fe__fp_enter();
+    set_ends(world, &def.common, &e, &centre, &centre, fe__body_transform(&world->bodies[e.body[0]]).rotation);
+    fe__fp_leave(fp);
+    for (int k = 0; k < 6; ++k) {
+        fe_joint_axis *axis = def.configurable.axes + k;
+        axis->mode = FE_MOTION_FREE;
+        axis->drive = FE_DRIVE_HERTZ;
+        axis->stiffness = hertz, axis->damping = damping_ratio;
+        axis->drive_force = k < FE_ABOUT_X ? max_force : max_torque;
+    }
+    fe__write_struct(desc, &def, def.common.struct_size);
+    return FE_OK;
+}

@@ -1,0 +1,12 @@
+// joint_def.h - definitions of joints, by type: defaults, checks, between the caller's structs and the world's.
+#ifndef FE_API_JOINT_DEF_H
+#define FE_API_JOINT_DEF_H
+#include "api/check.h"
+
+// The defaults of a type; struct_size is that of its definition
+void fe__joint_defaults(int32_t type, fe__joint_any *out_desc);
+// What a definition of that type says, but for its bodies and its struct_size
+fe_result fe__check_joint_def(const char *function, int32_t type, const fe__joint_any *def);
+fe_result fe__check_joint_common(const char *function, const fe_joint_def *def);
+
+#endif
