@@ -78,10 +78,8 @@ static fe__graph_bound bound_of(const fe__step *step)
     b.crowded = crowded_contacts(w, b.most_contacts);
     b.kinds = __builtin_popcount(kinds);
     b.special = kinds >> FE__ROW_SPECIAL != 0;
-    b.joints = w->joints.linked;
-    b.joint_rows = w->joints.rows;
-    b.joint_kinds = __builtin_popcount(w->joints.row_kinds);
-    b.most_joints = w->joints.most;
+    b.joint_set = &w->joints;
+    b.joints = all ? w->joint_count : w->awake_joint_count;
     forget_candidates(step);
     return b;
 }
