@@ -472,6 +472,305 @@ FE_API fe_result fe_shape_get_surface_velocity(const fe_world *world, fe_shape s
 FE_API fe_result fe_shape_set_user_data(fe_world *world, fe_shape shape, fe_handle user_data);
 FE_API fe_result fe_shape_get_user_data(const fe_world *world, fe_shape shape, fe_handle *out_user_data);
 
+// ---- joints -------------------------------------------------------------------------------------------------------------------
+//
+// A joint ties body B to body A: each has a frame on it, in body space, and the joint compares the two. With p, q the position and rotation of a
+// body, f and r those of its frame in it:
+//
+//   d = (qA rA)^-1 (pB + qB fB - pA - qA fA)      translation, m, along the axes of frame A
+//   q = (qA rA)^-1 (qB rB) = swing twist          rotation; the twist is about X, and comes first
+//   twist = 2 atan2(q.x, q.w);   swing: rotation vector (0, swing_y, swing_z), rad, at most pi long
+//
+// All limits, targets, speeds and readings are these numbers, the angle of a hinge is the twist. q and -q are one rotation, the one with q.w >= 0
+// counts; a twist with a range is followed beyond pi, so that a range that ends at pi holds there. Targets beyond a limit count as the limit.
+//
+// **Frames.** `fe_hinge_def_at` and its like make them from a point (and an axis) of the world, so that the present pose is the zero; or set both
+// frames by hand.
+//
+// **Stiffness.** Springs, limits and what a joint holds are springs and dampers given by hertz, 1/s, and damping ratio (1: critical), on the masses that
+// move, so that they do not depend on them. Hertz of 0 mean no spring where one is optional, and as stiff as the world allows
+// (fe_world_tuning.joint_hertz, joint_damping_ratio) for a limit and for what is held. All are limited to a quarter of the substep rate.
+//
+// **Springs and motors** push no harder than their cap, N or N m. A motor reaches for its speed; with speed 0 it is friction. A cap of 0 switches
+// it off.
+//
+// A joint acts while it and both bodies are enabled and at least one of them is dynamic. Changing one wakes its bodies.
+
+/// A frame in body space. Never changes.
+typedef struct fe_frame {
+    fe_vec3 position; ///< m
+    fe_quat rotation;
+} fe_frame;
+
+typedef enum fe_joint_type {
+    FE_JOINT_DISTANCE = 1,     ///< two points keep a distance or a range of it
+    FE_JOINT_BALL = 2,         ///< two points stay together
+    FE_JOINT_HINGE = 3,        ///< two points and their axes X stay together
+    FE_JOINT_FIXED = 4,        ///< nothing moves
+    FE_JOINT_CONFIGURABLE = 5, ///< each of three translations and three rotations as you say
+    FE_JOINT_TYPE_FORCE32 = 0x7fffffff
+} fe_joint_type;
+
+/// All definitions of joints begin with the fields of this one, which is what fe_joint_get and fe_joint_set read and write on joints of any type.
+typedef struct fe_joint_def {
+    uint32_t struct_size;
+    int32_t enabled;           ///< 0: as if it were not there. Default 1
+    fe_body body_a, body_b;    ///< two different ones; 0 in a _set: as they are
+    fe_handle user_data;
+    fe_frame frame_a, frame_b; ///< in body space. Default: the bodies' own
+    int32_t collide_connected; ///< 1: its two bodies may touch. Default 0: they never do
+    float hertz;               ///< stiffness of what is held, 1/s, >= 0; 0: rigid. Default 0
+    float damping_ratio;       ///< of what is held, >= 0; counts when hertz > 0. Default 1
+    float break_force;         ///< it breaks when its reaction exceeds this, N, >= 0; 0: never. Default 0
+    float break_torque;        ///< N m, >= 0; 0: never. Default 0
+    int32_t reserved;          ///< 0
+} fe_joint_def;
+
+/// Two points keep their distance: within [min_length, max_length] (equal: a rod; from 0: a rope), a spring pulls it to `length`, a motor changes it.
+/// Only the positions of the frames count. (The first fields are those of fe_joint_def, here and below.)
+typedef struct fe_distance_def {
+    uint32_t struct_size;
+    int32_t enabled;
+    fe_body body_a, body_b;
+    fe_handle user_data;
+    fe_frame frame_a, frame_b;
+    int32_t collide_connected;
+    float hertz, damping_ratio; ///< of both ends of the range
+    float break_force, break_torque;
+    int32_t reserved;
+
+    float min_length;           ///< m, >= 0, at most max_length. Default 1
+    float max_length;           ///< m, >= 0.001. Default 1
+    float length;               ///< the spring's, m, >= 0. Default 1
+    float spring_hertz;         ///< 1/s, >= 0; 0: no spring. Default 0
+    float spring_damping_ratio; ///< >= 0. Default 1
+    float spring_force;         ///< cap of the spring, N, >= 0. Default 1e15
+    float motor_speed;          ///< at which the motor makes it longer, m/s. Default 0
+    float motor_force;          ///< cap, N, >= 0; with speed 0 a friction; 0: no motor. Default 0
+} fe_distance_def;
+
+/// Two points stay together. The swing of axis X may be bound by an elliptic cone, the twist about it by a range; a drive turns B to a rotation.
+typedef struct fe_ball_def {
+    uint32_t struct_size;
+    int32_t enabled;
+    fe_body body_a, body_b;
+    fe_handle user_data;
+    fe_frame frame_a, frame_b;
+    int32_t collide_connected;
+    float hertz, damping_ratio; ///< of the points
+    float break_force, break_torque;
+    int32_t reserved;
+
+    int32_t swing_limited;      ///< 1: (swing_y / cone_y)^2 + (swing_z / cone_z)^2 <= 1. Default 0
+    float cone_y, cone_z;       ///< rad, 0.01..pi. Default pi
+    int32_t twist_limited;      ///< 1: min_twist <= twist <= max_twist. Default 0
+    float min_twist, max_twist; ///< rad, -pi..pi. Default -pi, pi
+    float limit_hertz;          ///< of cone and range, 1/s, >= 0; 0: rigid. Default 0
+    float limit_damping_ratio;  ///< Default 1
+    float drive_hertz;          ///< of the spring that turns B to `target`, 1/s, >= 0; 0: none. Default 0
+    float drive_damping_ratio;  ///< Default 1
+    float drive_torque;         ///< its cap, N m, >= 0. Default 1e15
+    fe_quat target;             ///< q to reach
+    fe_vec3 motor_velocity;     ///< of B against A, rad/s, frame A. Default 0
+    float motor_torque;         ///< cap, N m, >= 0; with velocity 0 a friction; 0: no motor. Default 0
+    int32_t reserved_end;       ///< 0
+} fe_ball_def;
+
+/// Two points and their axes X stay together: a door, an elbow, an axle. The angle is the twist.
+typedef struct fe_hinge_def {
+    uint32_t struct_size;
+    int32_t enabled;
+    fe_body body_a, body_b;
+    fe_handle user_data;
+    fe_frame frame_a, frame_b;
+    int32_t collide_connected;
+    float hertz, damping_ratio; ///< of points and axes
+    float break_force, break_torque;
+    int32_t reserved;
+
+    int32_t limited;            ///< 1: min_angle <= angle <= max_angle. Default 0
+    float min_angle, max_angle; ///< rad, -pi..pi. Default -pi, pi
+    float limit_hertz;          ///< 1/s, >= 0; 0: rigid. Default 0
+    float limit_damping_ratio;  ///< Default 1
+    float spring_hertz;         ///< of the spring that turns it to `target`, 1/s, >= 0; 0: none. Default 0
+    float spring_damping_ratio; ///< Default 1
+    float spring_torque;        ///< its cap, N m, >= 0. Default 1e15
+    float target;               ///< rad, -pi..pi. Default 0
+    float motor_speed;          ///< rad/s. Default 0
+    float motor_torque;         ///< cap, N m, >= 0; with speed 0 a friction; 0: no motor. Default 0
+    int32_t reserved_end;       ///< 0
+} fe_hinge_def;
+
+/// The frames stay one.
+typedef struct fe_fixed_def {
+    uint32_t struct_size;
+    int32_t enabled;
+    fe_body body_a, body_b;
+    fe_handle user_data;
+    fe_frame frame_a, frame_b;
+    int32_t collide_connected;
+    float hertz, damping_ratio; ///< of the points
+    float break_force, break_torque;
+    int32_t reserved;
+
+    float angular_hertz;         ///< of the rotation, 1/s, >= 0; 0: rigid. Default 0
+    float angular_damping_ratio; ///< Default 1
+} fe_fixed_def;
+
+typedef enum fe_motion {
+    FE_MOTION_LOCKED = 0,  ///< stays 0
+    FE_MOTION_LIMITED = 1, ///< within min..max
+    FE_MOTION_FREE = 2,
+    FE_MOTION_FORCE32 = 0x7fffffff
+} fe_motion;
+
+typedef enum fe_drive {
+    FE_DRIVE_NONE = 0,
+    FE_DRIVE_HERTZ = 1,     ///< `stiffness` in hertz, 1/s, `damping` as a ratio
+    FE_DRIVE_STIFFNESS = 2, ///< `stiffness` in N/m or N m/rad, `damping` in N s/m or N m s/rad
+    FE_DRIVE_FORCE32 = 0x7fffffff
+} fe_drive;
+
+/// One axis of a configurable joint. Never changes.
+typedef struct fe_joint_axis {
+    int32_t mode;                ///< fe_motion. Default FE_MOTION_LOCKED
+    float low, high;             ///< range, m or rad (-pi..pi), low <= high. Default 0
+    float limit_hertz;           ///< of the range, 1/s, >= 0; 0: rigid. Default 0
+    float limit_damping_ratio;   ///< >= 0. Default 1
+    int32_t drive;               ///< fe_drive: a spring towards `target`. Default FE_DRIVE_NONE. A locked axis has neither drive nor motor
+    float target;                ///< m or rad. Default 0
+    float stiffness, damping;    ///< see fe_drive, >= 0. Default 0, 0
+    float drive_force;           ///< cap of the drive, N or N m, >= 0. Default 1e15
+    float motor_speed;           ///< m/s or rad/s. Default 0
+    float motor_force;           ///< cap, N or N m, >= 0; with speed 0 a friction; 0: no motor. Default 0
+} fe_joint_axis;
+
+typedef enum fe_joint_coordinate {
+    FE_ALONG_X = 0, ///< translation
+    FE_ALONG_Y = 1,
+    FE_ALONG_Z = 2,
+    FE_ABOUT_X = 3, ///< twist
+    FE_ABOUT_Y = 4, ///< swing_y
+    FE_ABOUT_Z = 5, ///< swing_z
+    FE_JOINT_COORDINATE_FORCE32 = 0x7fffffff
+} fe_joint_coordinate;
+
+/// Six axes, each locked, limited or free, with drives: sliders, wheels, motors and whatever else.
+typedef struct fe_configurable_def {
+    uint32_t struct_size;
+    int32_t enabled;
+    fe_body body_a, body_b;
+    fe_handle user_data;
+    fe_frame frame_a, frame_b;
+    int32_t collide_connected;
+    float hertz, damping_ratio; ///< of the locked axes
+    float break_force, break_torque;
+    int32_t reserved;
+
+    fe_joint_axis axes[6];      ///< by fe_joint_coordinate. Default: all locked
+} fe_configurable_def;
+
+FE_API void fe_distance_def_init(fe_distance_def *desc, uint32_t struct_size);
+FE_API void fe_ball_def_init(fe_ball_def *desc, uint32_t struct_size);
+FE_API void fe_hinge_def_init(fe_hinge_def *desc, uint32_t struct_size);
+FE_API void fe_fixed_def_init(fe_fixed_def *desc, uint32_t struct_size);
+FE_API void fe_configurable_def_init(fe_configurable_def *desc, uint32_t struct_size);
+
+/// These set bodies and frames of a definition that is initialised already, so that the present pose is the zero; nothing else of it changes.
+/// A rod between two points as far apart as they are now: sets the lengths too.
+/// @param point_a, point_b  m, world space
+FE_API fe_result fe_distance_def_at(const fe_world *world, fe_distance_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point_a,
+                                    const fe_dvec3 *point_b);
+/// @param point  m, world space
+/// @param axis   X of both frames, world space, any length but zero: what swings and twists, along a limb for example
+FE_API fe_result fe_ball_def_at(const fe_world *world, fe_ball_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point, const fe_vec3 *axis);
+/// @param axis  of the hinge, world space, any length but zero; B turns against A counterclockwise about it
+FE_API fe_result fe_hinge_def_at(const fe_world *world, fe_hinge_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point, const fe_vec3 *axis);
+FE_API fe_result fe_fixed_def_at(const fe_world *world, fe_fixed_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point);
+/// @param axis  X of both frames, world space, any length but zero
+FE_API fe_result fe_configurable_def_at(const fe_world *world, fe_configurable_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
+                                        const fe_vec3 *axis);
+
+/// These make a whole definition, defaults and all, ready for fe_distance_create or fe_configurable_create or for changes before. Only struct_size of
+/// the given one counts.
+/// A rope: the points come no farther from each other than `max_length`.
+FE_API fe_result fe_rope_def_at(const fe_world *world, fe_distance_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point_a,
+                                const fe_dvec3 *point_b, float max_length);
+/// B slides along an axis and does not turn. Its range, spring and motor: axes[FE_ALONG_X].
+FE_API fe_result fe_slider_def_at(const fe_world *world, fe_configurable_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
+                                  const fe_vec3 *axis);
+/// A wheel B on a chassis A: rolls freely about the axle. axes[FE_ABOUT_X] is its motor and brake; axes[FE_ALONG_Z] the suspension along `up`: a
+/// spring of `hertz` and `damping_ratio` within +-travel; axes[FE_ABOUT_Z] steers about `up`: locked, set a range and a drive to steer by its target.
+/// @param axle  of the wheel, world space; with it and `up` horizontal and upwards, positive spin rolls towards axle x up
+FE_API fe_result fe_wheel_def_at(const fe_world *world, fe_configurable_def *desc, fe_body chassis, fe_body wheel, const fe_dvec3 *point,
+                                 const fe_vec3 *axle, const fe_vec3 *up, float hertz, float damping_ratio, float travel);
+/// Pulls and turns B towards a pose relative to A (the targets of all six axes, at first where it is), with no more than a force, N, and a torque, N m.
+FE_API fe_result fe_motor_def_at(const fe_world *world, fe_configurable_def *desc, fe_body body_a, fe_body body_b, float hertz, float damping_ratio,
+                                 float max_force, float max_torque);
+
+/// Each makes a joint from its definition. @return FE_ERROR_ARGUMENT also when both ends are one body
+FE_API fe_result fe_distance_create(fe_world *world, const fe_distance_def *desc, fe_joint *out_joint);
+FE_API fe_result fe_ball_create(fe_world *world, const fe_ball_def *desc, fe_joint *out_joint);
+FE_API fe_result fe_hinge_create(fe_world *world, const fe_hinge_def *desc, fe_joint *out_joint);
+FE_API fe_result fe_fixed_create(fe_world *world, const fe_fixed_def *desc, fe_joint *out_joint);
+FE_API fe_result fe_configurable_create(fe_world *world, const fe_configurable_def *desc, fe_joint *out_joint);
+/// Each changes all of a joint of its type but the bodies, and keeps what an older client's shorter definition does not know.
+/// @return FE_ERROR_STATE for a joint of another type
+FE_API fe_result fe_distance_set(fe_world *world, fe_joint joint, const fe_distance_def *desc);
+FE_API fe_result fe_ball_set(fe_world *world, fe_joint joint, const fe_ball_def *desc);
+FE_API fe_result fe_hinge_set(fe_world *world, fe_joint joint, const fe_hinge_def *desc);
+FE_API fe_result fe_fixed_set(fe_world *world, fe_joint joint, const fe_fixed_def *desc);
+FE_API fe_result fe_configurable_set(fe_world *world, fe_joint joint, const fe_configurable_def *desc);
+/// Each reads what was set. @param out_desc  its struct_size must be set
+/// @return FE_ERROR_STATE for a joint of another type
+FE_API fe_result fe_distance_get(const fe_world *world, fe_joint joint, fe_distance_def *out_desc);
+FE_API fe_result fe_ball_get(const fe_world *world, fe_joint joint, fe_ball_def *out_desc);
+FE_API fe_result fe_hinge_get(const fe_world *world, fe_joint joint, fe_hinge_def *out_desc);
+FE_API fe_result fe_fixed_get(const fe_world *world, fe_joint joint, fe_fixed_def *out_desc);
+FE_API fe_result fe_configurable_get(const fe_world *world, fe_joint joint, fe_configurable_def *out_desc);
+
+/// Its bodies wake. They may collide again from the next step on.
+FE_API fe_result fe_joint_destroy(fe_world *world, fe_joint joint);
+/// 1 for a living joint of this world, 0 for anything else.
+FE_API int32_t fe_joint_is_valid(const fe_world *world, fe_joint joint);
+/// fe_joint_type
+FE_API fe_result fe_joint_get_type(const fe_world *world, fe_joint joint, int32_t *out_type);
+FE_API fe_result fe_joint_get_bodies(const fe_world *world, fe_joint joint, fe_body *out_body_a, fe_body *out_body_b);
+/// What all types have: see fe_joint_def. Sets all of it but the bodies.
+FE_API fe_result fe_joint_set(fe_world *world, fe_joint joint, const fe_joint_def *desc);
+/// @param out_desc  its struct_size must be set
+FE_API fe_result fe_joint_get(const fe_world *world, fe_joint joint, fe_joint_def *out_desc);
+FE_API fe_result fe_joint_set_enabled(fe_world *world, fe_joint joint, int32_t enabled);
+FE_API fe_result fe_joint_get_enabled(const fe_world *world, fe_joint joint, int32_t *out_enabled);
+FE_API fe_result fe_joint_set_user_data(fe_world *world, fe_joint joint, fe_handle user_data);
+FE_API fe_result fe_joint_get_user_data(const fe_world *world, fe_joint joint, fe_handle *out_user_data);
+/// Where its frames are, world space.
+FE_API fe_result fe_joint_get_frames(const fe_world *world, fe_joint joint, fe_transform *out_frame_a, fe_transform *out_frame_b);
+
+/// How a joint stands now. What its limits and drives act on.
+typedef struct fe_joint_state {
+    uint32_t struct_size;
+    float angle;             ///< the twist; of a hinge the angle, rad
+    float swing_y, swing_z;  ///< rad
+    fe_vec3 angular_velocity; ///< of B against A, rad/s, axes of frame A
+    fe_vec3 translation;     ///< of frame B's point in frame A, m
+    fe_vec3 linear_velocity; ///< its rate of change, m/s
+    float length;            ///< between the two points, m
+    float speed;             ///< its rate of change, m/s
+    float linear_error;      ///< how far the points are from where they should be held, or beyond a range, m
+    float angular_error;     ///< likewise, rad
+} fe_joint_state;
+
+/// @param out_state  its struct_size must be set
+FE_API fe_result fe_joint_get_state(const fe_world *world, fe_joint joint, fe_joint_state *out_state);
+/// What the joint did to B in the last step, on average: force at frame B's point, N, and torque about it, N m, world axes. A feels the opposite at the
+/// same point.
+FE_API fe_result fe_joint_get_reaction(const fe_world *world, fe_joint joint, fe_vec3 *out_force, fe_vec3 *out_torque);
+/// All joints, in the order of creation.
+FE_API int32_t fe_world_get_joints(const fe_world *world, fe_joint *out_joints, int32_t capacity);
+/// Those of a body, in the order of creation.
+FE_API int32_t fe_body_get_joints(const fe_world *world, fe_body body, fe_joint *out_joints, int32_t capacity);
+
 // ---- queries ------------------------------------------------------------------------------------------------------------------
 
 typedef enum fe_query_flags {
@@ -608,6 +907,7 @@ typedef enum fe_event_kind {
     FE_EXIT = 3,
     FE_SLEEP = 4,
     FE_WAKE = 5,
+    FE_BREAK = 6,
     FE_EVENT_KIND_FORCE32 = 0x7fffffff
 } fe_event_kind;
 
@@ -642,6 +942,20 @@ typedef struct fe_hit_event {
 } fe_hit_event;
 
 FE_API int32_t fe_world_get_hit_events(const fe_world *world, fe_hit_event *out_events, uint32_t stride, int32_t capacity);
+
+/// A joint's reaction exceeded its break_force or break_torque in the last step: it is gone, its handle stale.
+typedef struct fe_joint_event {
+    fe_joint joint;
+    fe_body body_a, body_b;
+    fe_handle user_data; ///< of the joint
+    int32_t kind;        ///< FE_BREAK
+    int32_t type;        ///< fe_joint_type
+    fe_vec3 force;       ///< reaction that broke it, see fe_joint_get_reaction
+    fe_vec3 torque;
+} fe_joint_event;
+
+/// Events of the last step, in the order of the joints' creation.
+FE_API int32_t fe_world_get_joint_events(const fe_world *world, fe_joint_event *out_events, uint32_t stride, int32_t capacity);
 
 typedef struct fe_contact_point {
     fe_dvec3 point;       ///< between the surfaces, m, world space
@@ -730,6 +1044,14 @@ static inline fe_vec3 fe_body_angular_velocity(const fe_world *world, fe_body bo
     fe_vec3 w = fe_make_vec3(0, 0, 0);
     (void)fe_body_get_angular_velocity(world, body, &w);
     return w;
+}
+
+/// Of a hinge or a twist, rad; 0 when the handle is stale.
+static inline float fe_joint_angle(const fe_world *world, fe_joint joint)
+{
+    fe_joint_state state;
+    state.struct_size = sizeof(state);
+    return fe_joint_get_state(world, joint, &state) == FE_OK ? state.angle : 0.0f;
 }
 
 #endif
