@@ -130,6 +130,9 @@ static swing swing_of(fe_quat q)
     return s;
 }
 
+// half a turn of swing, where y cot y is infinite, is kept away from by this cosine of half the angle
+#define LEAST_COSINE 0.02f
+
 static fe_quat positive(fe_quat q) { return q.w < 0.0f ? (fe_quat){-q.x, -q.y, -q.z, -q.w} : q; }
 
 void fe__joint_pose_of(const fe__joints *joints, const fe__body *bodies, int32_t joint, fe__joint_pose *out_pose)
@@ -156,21 +159,20 @@ float fe__joint_wind(float twist, float before)
     return twist + whole * (2.0f * FE_PI);
 }
 
-// d(coordinate)/dt = gradient . (wB - wA) in frame A; see joint_angles.h for the derivation
+// d(coordinate)/dt = gradient . (wB - wA) in frame A; see joint_axis.h, where the same is wide
 static fe_vec3 angular_gradient(fe_quat q, fe__joint_part part, const fe__joint_axis *axis)
 {
     swing s = swing_of(q);
     fe_vec3 e = {0.0f, s.y, s.z}, u = {0.0f, s.z, -s.y};
-    float g_e = s.y, g_u = s.z, n2 = q.w * q.w + q.x * q.x;
-    if (part == FE__PART_TWIST)
-        return n2 > 0.0f ? fe__vec3(1.0f, (q.x * q.y + q.z * q.w) / n2, (q.x * q.z - q.y * q.w) / n2) : fe__vec3(1, 0, 0);
+    float g_e = s.y, g_u = s.z, n2 = fe__maxf(q.w * q.w + q.x * q.x, LEAST_COSINE * LEAST_COSINE);
+    if (part == FE__PART_TWIST) return fe__vec3(1.0f, (q.x * q.y + q.z * q.w) / n2, (q.x * q.z - q.y * q.w) / n2);
     if (part == FE__PART_SWING_Z) g_e = s.z, g_u = -s.y;
     if (part == FE__PART_CONE) {
         float y = s.y / (axis->limit[0] * axis->limit[0]), z = s.z / (axis->limit[1] * axis->limit[1]), k = -1.0f / sqrtf(y * y + z * z);
         g_e = k * (y * s.y + z * s.z), g_u = k * (y * s.z - z * s.y);
     }
-    float sine = 2.0f * s.sine * s.cosine, cosine = s.cosine * s.cosine - s.sine * s.sine;
-    float cot = sine > 1e-4f ? s.angle * cosine / sine : 1.0f;
+    float over_sine = s.sine > 1e-4f ? s.angle / (2.0f * s.sine * fe__maxf(s.cosine, LEAST_COSINE)) : 1.0f;
+    float cot = over_sine * (s.cosine * s.cosine - s.sine * s.sine);
     return fe__add_scaled(fe__scale(g_e, e), g_u, fe__vec3(-s.angle, cot * u.y, cot * u.z));
 }
 

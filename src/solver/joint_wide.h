@@ -40,7 +40,7 @@ FE_INLINE wide3 minus(wide3 a) { return (wide3){-a.x, -a.y, -a.z}; }
 // of what is positive; of a denormal the quotient may be infinite
 FE_INLINE wide inverse_or_zero(wide a) { return w_choose(w_greater(a, w_set(FLT_MIN)), 1.0f / a, w_set(0.0f)); }
 
-// inverse of a symmetric positive matrix by cofactors; zero where it is singular
+// inverse of a symmetric positive matrix by cofactors; zero where it is singular, or so large or small that its determinant is
 FE_INLINE wide_sym inverse_sym(const wide_sym *m)
 {
     wide cxx = m->yy * m->zz - m->yz * m->yz, cxy = m->xz * m->yz - m->xy * m->zz, cxz = m->xy * m->yz - m->xz * m->yy;
@@ -107,8 +107,14 @@ FE_INLINE row_joints joints_of(const fe__joints *joints, const fe__lane *lanes, 
         r.real += lanes[i].contact != 0;
         line->a[i] = lanes[i].line_a, line->b[i] = lanes[i].line_b;
         r.body_a[i] = joints->joints[r.joint[i]].body_a, r.body_b[i] = joints->joints[r.joint[i]].body_b;
+        r.axes[i] = 0;
     }
     return r;
+}
+
+FE_INLINE void find_axes(const fe__joints *joints, row_joints *r)
+{
+    for (int i = 0; i < FE_W; ++i) r->axes[i] = joints->frames[r->joint[i]].axes;
 }
 
 #define JOINT_QUAD(field) w_gather(joints->joints->field, JOINT_STRIDE, r->joint)
@@ -157,3 +163,141 @@ FE_INLINE anchors first_anchors(const fe__joints *joints, const fe__body *bodies
 
 // from the sum of a step's impulses to the mean force
 FE_INLINE float mean_of(const fe__step_constants *c) { return c->inverse_h / (float)c->substeps; }
+
+// ---- softness
+// ----------------------------------------------------------------------------------------------------------------------------- change = -m
+// ((1 - fade) v + rate C) - fade l. With w = 2 pi hertz:  fade = 1 / (1 + h w (2 zeta + h w)),  rate = h w^2 fade
+typedef struct {
+    wide rate, fade;
+} lane_softness;
+
+// hertz 0: as `otherwise`
+FE_INLINE lane_softness softness_of(wide hertz, wide ratio, const lane_softness *otherwise, const fe__step_constants *c)
+{
+    wide omega = 2.0f * FE_PI * w_min(hertz, w_set(c->joint_hertz));
+    wide fade = 1.0f / (1.0f + c->h * omega * (2.0f * ratio + c->h * omega));
+    wide_mask own = w_greater(hertz, w_set(0.0f));
+    return (lane_softness){w_choose(own, c->h * omega * omega * fade, otherwise->rate), w_choose(own, fade, otherwise->fade)};
+}
+
+// of a joint's locks
+FE_INLINE lane_softness lock_softness(const fe__joints *joints, const row_joints *r, const fe__step_constants *c)
+{
+    lane_softness world = {w_set(c->joint.mass_scale * c->joint.bias_rate), w_set(c->joint.impulse_scale)};
+    return softness_of(JOINT_QUAD(arm_a).w, JOINT_QUAD(arm_b).w, &world, c);
+}
+
+// the same for any size
+FE_INLINE wide_sym inverse_scaled(const wide_sym *m)
+{
+    wide k = inverse_or_zero(m->xx + m->yy + m->zz);
+    wide_sym i = {k * m->xx, k * m->xy, k * m->xz, k * m->yy, k * m->yz, k * m->zz};
+    i = inverse_sym(&i);
+    return (wide_sym){k * i.xx, k * i.xy, k * i.xz, k * i.yy, k * i.yz, k * i.zz};
+}
+
+// Locked bodies may leave a matrix without an inverse: then what cannot move gives a little, as a share of what can. Others keep theirs.
+#define LOCKED_GIVE 1e-4f
+FE_INLINE wide_sym give(wide_sym k, wide_mask locked)
+{
+    wide more = w_choose(locked, LOCKED_GIVE * (k.xx + k.yy + k.zz), w_set(0.0f));
+    k.xx = k.xx + more, k.yy = k.yy + more, k.zz = k.zz + more;
+    return k;
+}
+FE_INLINE wide_mask any_locks(const ends *e) { return w_greater(e->a.locks + e->b.locks, w_set(0.0f)); }
+
+FE_INLINE wide_sym sum_sym(const wide_sym *a, const wide_sym *b)
+{
+    return (wide_sym){a->xx + b->xx, a->xy + b->xy, a->xz + b->xz, a->yy + b->yy, a->yz + b->yz, a->zz + b->zz};
+}
+
+// ---- rotations
+// ----------------------------------------------------------------------------------------------------------------------------
+FE_INLINE wide4 load4(const wide *p) { return (wide4){p[0], p[1], p[2], p[3]}; }
+FE_INLINE void store4(wide *p, wide4 a) { p[0] = a.x, p[1] = a.y, p[2] = a.z, p[3] = a.w; }
+FE_INLINE wide4 first_frame(const fe__body *bodies, const int32_t *body, wide4 frame)
+{
+    return w_product(BODY_QUAD(rotation, body), frame);
+}
+FE_INLINE wide4 frame_now(const fe__solver *s, const int32_t *line, const wide *first)
+{
+    return w_product(gather_high(s->motion, line), load4(first));
+}
+
+// the same rotation with w >= 0
+FE_INLINE wide4 positive(wide4 q)
+{
+    wide sign = w_choose(w_greater(w_set(0.0f), q.w), w_set(-1.0f), w_set(1.0f));
+    return (wide4){sign * q.x, sign * q.y, sign * q.z, sign * q.w};
+}
+
+// The angle of (x, y) from the x axis, x >= 0: from -pi/2 to pi/2, error below 2e-7. atan(t) = t + t^3 P(t^2) for |t| <= tan(pi/8), P by
+// Remez exchange with a relative error of 7e-10; beyond it around pi/4.
+FE_INLINE wide w_atan2(wide y, wide x)
+{
+    wide one = w_set(1.0f), height = w_abs(y);
+    wide_mask steep = w_greater(height, x);
+    wide t = w_choose(steep, x, height) / w_max(w_choose(steep, height, x), w_set(FLT_MIN));
+    wide_mask far = w_greater(t, w_set(0.41421356f));
+    wide u = w_choose(far, (t - one) / (t + one), t), z = u * u;
+    wide p = -0.0607850988f * z + 0.105939222f;
+    p = p * z - 0.142435472f;
+    p = p * z + 0.199984722f;
+    p = p * z - 0.333333152f;
+    wide a = u + u * z * p;
+    a = w_choose(far, a + 0.25f * FE_PI, a);
+    a = w_choose(steep, 0.5f * FE_PI - a, a);
+    return w_choose(w_greater(w_set(0.0f), y), -a, a);
+}
+
+// nearest whole number, for |a| < 2^22: adding 1.5 * 2^23 leaves no bits for a fraction
+FE_INLINE wide w_round(wide a)
+{
+    wide magic = w_set(12582912.0f);
+    return (a + magic) - magic;
+}
+
+// inverse masses along the world's axes
+FE_INLINE wide3 free_mass(const side *b)
+{
+    _Alignas(64) float mass[3][FE_W], locks[FE_W], inverse[FE_W];
+    *(wide *)locks = b->locks, *(wide *)inverse = b->inverse_mass;
+    for (int i = 0; i < FE_W; ++i)
+        for (int k = 0; k < 3; ++k) mass[k][i] = (int)locks[i] >> k & 1 ? 0.0f : inverse[i];
+    return (wide3){*(wide *)mass[0], *(wide *)mass[1], *(wide *)mass[2]};
+}
+
+FE_INLINE wide3 frame_axis(wide4 q, int k)
+{
+    wide3 e = w_zero3();
+    if (k == 0) e.x = w_set(1.0f);
+    if (k == 1) e.y = w_set(1.0f);
+    if (k == 2) e.z = w_set(1.0f);
+    return turned(q, e);
+}
+
+// ---- bodies that only turn
+// ------------------------------------------------------------------------------------------------------------------
+typedef struct {
+    wide3 a, b;
+    wide locks_a, locks_b;
+} spins;
+
+FE_INLINE spins gather_spins(float (*lines)[FE__LINE], const line_pair *line)
+{
+    wide4 a = gather_high(lines, line->a), b = gather_high(lines, line->b);
+    return (spins){w_xyz(a), w_xyz(b), a.w, b.w};
+}
+
+FE_INLINE void scatter_spins(float (*lines)[FE__LINE], const line_pair *line, const spins *e, int sides)
+{
+    if (sides & FE__MOVES_A) w_scatter(lines[0] + 4, FE__LINE, line->a, w_with(e->a, e->locks_a));
+    if (sides & FE__MOVES_B) w_scatter(lines[0] + 4, FE__LINE, line->b, w_with(e->b, e->locks_b));
+}
+
+// a torque on B, its opposite on A
+FE_INLINE void twist_ends(spins *e, const wide_sym *inertia_a, const wide_sym *inertia_b, wide3 torque)
+{
+    e->a = w_sub(e->a, w_mul(inertia_a, torque));
+    e->b = w_add(e->b, w_mul(inertia_b, torque));
+}
