@@ -88,12 +88,109 @@ static fe_result part_groups(const bench_world *w, const bench_scene *scene)
     return result;
 }
 
+// ---- joints -----------------------------------------------------------------------------------------------------------------------------
+#define OWN_DAMPING_RATIO 2.0f // of joints with a stiffness of their own: as those of the world's
+
+static fe_result add_ball(bench_world *w, const bench_joint *joint, const fe_dvec3 *anchor, const fe_vec3 *axis)
+{
+    fe_ball_def def, open;
+    fe_ball_def_init(&def, sizeof def);
+    fe_body a = w->bodies[joint->body_a], b = w->bodies[joint->body_b];
+    fe_result result = fe_ball_def_at(w->world, &def, a, b, anchor, axis);
+    if (result == FE_OK && joint->is_open) {
+        const fe_dvec3 other = {joint->anchor_b[0], joint->anchor_b[1], joint->anchor_b[2]};
+        fe_ball_def_init(&open, sizeof open);
+        result = fe_ball_def_at(w->world, &open, a, b, &other, axis);
+        def.frame_b = open.frame_b;
+    }
+    def.hertz = (float)joint->stiffness_hertz, def.damping_ratio = OWN_DAMPING_RATIO;
+    def.swing_limited = joint->cone > 0.0;
+    if (joint->cone > 0.0) def.cone_y = def.cone_z = (float)joint->cone;
+    def.twist_limited = joint->has_limits;
+    if (joint->has_limits) def.min_twist = (float)joint->limits[0], def.max_twist = (float)joint->limits[1];
+    def.drive_hertz = (float)joint->hertz, def.drive_damping_ratio = (float)joint->damping;
+    def.motor_torque = (float)joint->motor_force;
+    fe_joint created;
+    return result == FE_OK ? fe_ball_create(w->world, &def, &created) : result;
+}
+
+static fe_result add_hinge(bench_world *w, const bench_joint *joint, const fe_dvec3 *anchor, const fe_vec3 *axis)
+{
+    fe_hinge_def def;
+    fe_hinge_def_init(&def, sizeof def);
+    fe_result result = fe_hinge_def_at(w->world, &def, w->bodies[joint->body_a], w->bodies[joint->body_b], anchor, axis);
+    def.hertz = (float)joint->stiffness_hertz, def.damping_ratio = OWN_DAMPING_RATIO;
+    def.limited = joint->has_limits;
+    if (joint->has_limits) def.min_angle = (float)joint->limits[0], def.max_angle = (float)joint->limits[1];
+    def.spring_hertz = (float)joint->hertz, def.spring_damping_ratio = (float)joint->damping;
+    def.motor_speed = (float)joint->motor_speed, def.motor_torque = (float)joint->motor_force;
+    fe_joint created;
+    return result == FE_OK ? fe_hinge_create(w->world, &def, &created) : result;
+}
+
+static fe_result add_slider(bench_world *w, const bench_joint *joint, const fe_dvec3 *anchor, const fe_vec3 *axis)
+{
+    fe_configurable_def def;
+    fe_configurable_def_init(&def, sizeof def);
+    fe_result result = fe_slider_def_at(w->world, &def, w->bodies[joint->body_a], w->bodies[joint->body_b], anchor, axis);
+    fe_joint_axis *along = &def.axes[FE_ALONG_X];
+    def.hertz = (float)joint->stiffness_hertz, def.damping_ratio = OWN_DAMPING_RATIO;
+    if (joint->has_limits) along->mode = FE_MOTION_LIMITED, along->low = (float)joint->limits[0], along->high = (float)joint->limits[1];
+    if (joint->hertz > 0.0) along->drive = FE_DRIVE_HERTZ, along->stiffness = (float)joint->hertz, along->damping = (float)joint->damping;
+    along->motor_speed = (float)joint->motor_speed, along->motor_force = (float)joint->motor_force;
+    fe_joint created;
+    return result == FE_OK ? fe_configurable_create(w->world, &def, &created) : result;
+}
+
+static fe_result add_fixed(bench_world *w, const bench_joint *joint, const fe_dvec3 *anchor)
+{
+    fe_fixed_def def;
+    fe_fixed_def_init(&def, sizeof def);
+    fe_result result = fe_fixed_def_at(w->world, &def, w->bodies[joint->body_a], w->bodies[joint->body_b], anchor);
+    def.hertz = def.angular_hertz = (float)joint->stiffness_hertz;
+    def.damping_ratio = def.angular_damping_ratio = OWN_DAMPING_RATIO;
+    fe_joint created;
+    return result == FE_OK ? fe_fixed_create(w->world, &def, &created) : result;
+}
+
+static fe_result add_distance(bench_world *w, const bench_joint *joint, const fe_dvec3 *anchor)
+{
+    fe_distance_def def;
+    fe_distance_def_init(&def, sizeof def);
+    const fe_dvec3 other = {joint->anchor_b[0], joint->anchor_b[1], joint->anchor_b[2]};
+    fe_result result = fe_distance_def_at(w->world, &def, w->bodies[joint->body_a], w->bodies[joint->body_b], anchor, &other);
+    def.hertz = (float)joint->stiffness_hertz, def.damping_ratio = OWN_DAMPING_RATIO;
+    if (joint->hertz > 0.0) {
+        def.min_length = 0.0f, def.max_length = 1e6f; // only the spring
+        def.spring_hertz = (float)joint->hertz, def.spring_damping_ratio = (float)joint->damping;
+    }
+    if (joint->has_limits) def.min_length = (float)joint->limits[0], def.max_length = (float)joint->limits[1];
+    fe_joint created;
+    return result == FE_OK ? fe_distance_create(w->world, &def, &created) : result;
+}
+
+static fe_result add_joint(bench_world *w, const bench_joint *joint)
+{
+    const fe_dvec3 anchor = {joint->anchor[0], joint->anchor[1], joint->anchor[2]};
+    fe_vec3 axis = {(float)joint->axis[0], (float)joint->axis[1], (float)joint->axis[2]};
+    if (axis.x == 0.0f && axis.y == 0.0f && axis.z == 0.0f) axis.x = 1.0f;
+    switch (joint->kind) {
+    case BENCH_BALL:
+        return add_ball(w, joint, &anchor, &axis);
+    case BENCH_HINGE:
+        return add_hinge(w, joint, &anchor, &axis);
+    case BENCH_SLIDER:
+        return add_slider(w, joint, &anchor, &axis);
+    case BENCH_FIXED:
+        return add_fixed(w, joint, &anchor);
+    case BENCH_DISTANCE:
+    default:
+        return add_distance(w, joint, &anchor);
+    }
+}
+
 static bench_world *create(const bench_scene *scene, int32_t workers, int32_t substeps)
 {
-    if (scene->joint_count > 0) {
-        fprintf(stderr, "feather: %s has joints, which its interface lacks\n", scene->name);
-        return NULL;
-    }
     bench_world *w = bench_allocate(1, sizeof *w);
     w->count = scene->body_count;
     w->bodies = bench_allocate((size_t)w->count, sizeof *w->bodies);
@@ -108,6 +205,7 @@ static bench_world *create(const bench_scene *scene, int32_t workers, int32_t su
     fe_result result = fe_world_create(&def, &w->world);
     for (int32_t i = 0; i < w->count && result == FE_OK; i++) result = add_body(w->world, scene, &scene->bodies[i], &w->bodies[i]);
     if (result == FE_OK) result = part_groups(w, scene);
+    for (int32_t i = 0; i < scene->joint_count && result == FE_OK; i++) result = add_joint(w, &scene->joints[i]);
     if (result != FE_OK) {
         complain(scene->name);
         destroy(w);
