@@ -136,10 +136,11 @@ int32_t fe_body_is_valid(const fe_world *world, fe_body body)
 
 // ---- type and pose --------------------------------------------------------------------------------------------------------------
 
-static int32_t has_plane(const fe_world *world, int32_t body)
+// has a form that only static bodies may have
+static int32_t must_be_static(const fe_world *world, int32_t body)
 {
     for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next) {
-        if (world->shapes[shape].form.type == FE_GEOMETRY_PLANE) return 1;
+        if (world->shapes[shape].form.type >= FE_GEOMETRY_PLANE) return 1;
     }
     return 0;
 }
@@ -149,8 +150,8 @@ fe_result fe_body_set_type(fe_world *world, fe_body body, int32_t type)
     FE_BEGIN(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_INT(type, FE_BODY_STATIC, FE_BODY_DYNAMIC);
-    if (type != FE_BODY_STATIC && has_plane(world, index)) {
-        return fe__fail(function, FE_ERROR_UNSUPPORTED, "body 0x%llx has a plane, so that it must be static", body);
+    if (type != FE_BODY_STATIC && must_be_static(world, index)) {
+        return fe__fail(function, FE_ERROR_UNSUPPORTED, "body 0x%llx has a plane or a heightfield, so that it must be static", body);
     }
     fe__fp_state fp = fe__fp_enter();
     fe_result result = fe__body_set_type(world, index, type);

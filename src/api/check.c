@@ -59,6 +59,13 @@ fe_result fe__find_joint(const char *function, const char *name, const fe_world 
     return FE_OK;
 }
 
+fe_result fe__find_asset(const char *function, const char *name, const fe_world *world, fe_asset handle, int32_t *out_index)
+{
+    FE_TRY(find(function, name, &world->asset_ids, handle, out_index));
+    if (!world->assets[*out_index].destroyed) return FE_OK;
+    return fe__fail(function, FE_ERROR_STALE, "asset 0x%llx was destroyed; it lives on for its shapes only", handle);
+}
+
 // ---- values ---------------------------------------------------------------------------------------------------------------------
 
 fe_result fe__check_pointer(const char *function, const char *name, int32_t there)
@@ -202,4 +209,15 @@ void fe__init_struct(void *out, const void *defaults, uint32_t size, uint32_t st
     memset(out, 0, struct_size);
     memcpy(out, defaults, struct_size < size ? struct_size : size);
     memcpy(out, &struct_size, sizeof struct_size);
+}
+
+fe_result fe__check_material(const char *function, const fe_material *material)
+{
+    FE_CHECK_POINTER(material);
+    FE_CHECK_FLOAT(material->static_friction, 0.0f, FE_MAX_VALUE);
+    FE_CHECK_FLOAT(material->dynamic_friction, 0.0f, FE_MAX_VALUE);
+    FE_CHECK_FLOAT(material->restitution, 0.0f, 1.0f);
+    FE_CHECK_FLOAT(material->rolling_resistance, 0.0f, FE_MAX_VALUE);
+    FE_CHECK_FLOAT(material->spinning_resistance, 0.0f, FE_MAX_VALUE);
+    return FE_OK;
 }

@@ -31,6 +31,12 @@ void fe_geometry_plane(fe_geometry *out_geometry, float normal_x, float normal_y
                                   .distance = distance};
 }
 
+void fe_geometry_heightfield(fe_geometry *out_geometry, fe_asset heightfield)
+{
+    if (!out_geometry) return;
+    *out_geometry = (fe_geometry){.struct_size = sizeof *out_geometry, .type = FE_GEOMETRY_HEIGHTFIELD, .asset = heightfield};
+}
+
 #define FE_CHECK_LENGTH(value) FE_CHECK_FLOAT(value, FE_LEAST_LENGTH, FE_MAX_LENGTH)
 
 // Kept as given when its length is 1 to the rounding of floats, so that reading a plane and setting it again changes nothing.
@@ -59,13 +65,20 @@ static fe_result read_plane(const char *function, const fe_geometry *geometry, f
     return FE_OK;
 }
 
+static fe_result read_heightfield(const char *function, const fe_world *world, const fe_geometry *geometry, fe__form *out_form)
+{
+    FE_FIND_ASSET(index, geometry->asset);
+    *out_form = fe__heightfield_form(world->fields + index, index);
+    return FE_OK;
+}
+
 // What a form does not use stays 0 (see form.h).
-static fe_result read_geometry(const char *function, const fe_geometry *geometry, fe__form *out_form)
+static fe_result read_geometry(const char *function, const fe_world *world, const fe_geometry *geometry, fe__form *out_form)
 {
     fe_geometry whole = {.struct_size = sizeof whole};
     FE_READ_STRUCT(geometry, &whole);
     geometry = &whole;
-    FE_CHECK_INT(geometry->type, FE_GEOMETRY_SPHERE, FE_GEOMETRY_PLANE);
+    FE_CHECK_INT(geometry->type, FE_GEOMETRY_SPHERE, FE_GEOMETRY_HEIGHTFIELD);
     *out_form = (fe__form){.type = geometry->type};
     switch (geometry->type) {
     case FE_GEOMETRY_SPHERE:
@@ -84,15 +97,19 @@ static fe_result read_geometry(const char *function, const fe_geometry *geometry
         FE_CHECK_LENGTH(geometry->half_extents.z);
         out_form->half = geometry->half_extents;
         return FE_OK;
+    case FE_GEOMETRY_HEIGHTFIELD:
+        return read_heightfield(function, world, geometry, out_form);
     default:
         return read_plane(function, geometry, out_form);
     }
 }
 
-static fe_result check_plane_owner(const char *function, const fe_world *world, int32_t body, const fe__form *form)
+// planes and heightfields are static only
+static fe_result check_owner(const char *function, const fe_world *world, int32_t body, const fe__form *form)
 {
-    if (form->type != FE_GEOMETRY_PLANE || world->bodies[body].type == FE_BODY_STATIC) return FE_OK;
-    return fe__fail(function, FE_ERROR_UNSUPPORTED, "body 0x%llx is not static, a plane needs a static one", fe__body_handle(world, body));
+    if (form->type < FE_GEOMETRY_PLANE || world->bodies[body].type == FE_BODY_STATIC) return FE_OK;
+    return fe__fail(function, FE_ERROR_UNSUPPORTED, "body 0x%llx is not static, a %s needs a static one", fe__body_handle(world, body),
+                    form->type == FE_GEOMETRY_PLANE ? "plane" : "heightfield");
 }
 
 // ---- life -----------------------------------------------------------------------------------------------------------------------
@@ -116,17 +133,6 @@ void fe_shape_def_init(fe_shape_def *desc, uint32_t struct_size)
     fe__init_struct(desc, &defaults, sizeof defaults, struct_size);
 }
 
-static fe_result check_material(const char *function, const fe_material *material)
-{
-    FE_CHECK_POINTER(material);
-    FE_CHECK_FLOAT(material->static_friction, 0.0f, FE_MAX_VALUE);
-    FE_CHECK_FLOAT(material->dynamic_friction, 0.0f, FE_MAX_VALUE);
-    FE_CHECK_FLOAT(material->restitution, 0.0f, 1.0f);
-    FE_CHECK_FLOAT(material->rolling_resistance, 0.0f, FE_MAX_VALUE);
-    FE_CHECK_FLOAT(material->spinning_resistance, 0.0f, FE_MAX_VALUE);
-    return FE_OK;
-}
-
 static fe_result read_shape_def(const char *function, const fe_shape_def *desc, fe_shape_def *def)
 {
     *def = default_shape();
@@ -135,7 +141,7 @@ static fe_result read_shape_def(const char *function, const fe_shape_def *desc, 
     FE_CHECK_FLOAT(def->density, 0.0f, FE_MAX_DENSITY);
     FE_CHECK_VEC3(&def->local_position, FE_MAX_LOCAL);
     FE_CHECK_QUAT(&def->local_rotation);
-    FE_TRY(check_material(function, &def->material));
+    FE_TRY(fe__check_material(function, &def->material));
     FE_CHECK_FILTER(def->layer);
     FE_CHECK_BOOL(def->trigger);
     FE_CHECK_BITS(def->events, ALL_EVENTS);
@@ -152,8 +158,8 @@ fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *des
     fe_shape_def def;
     FE_TRY(read_shape_def(function, desc, &def));
     fe__form form;
-    FE_TRY(read_geometry(function, geometry, &form));
-    FE_TRY(check_plane_owner(function, world, index, &form));
+    FE_TRY(read_geometry(function, world, geometry, &form));
+    FE_TRY(check_owner(function, world, index, &form));
     fe__fp_state fp = fe__fp_enter();
     int32_t shape = fe__shape_create(world, index, &def, &form);
     fe__fp_leave(fp);
@@ -195,8 +201,8 @@ fe_result fe_shape_set_geometry(fe_world *world, fe_shape shape, const fe_geomet
     FE_BEGIN(world);
     FE_FIND_SHAPE(index, shape);
     fe__form form;
-    FE_TRY(read_geometry(function, geometry, &form));
-    FE_TRY(check_plane_owner(function, world, world->shapes[index].body, &form));
+    FE_TRY(read_geometry(function, world, geometry, &form));
+    FE_TRY(check_owner(function, world, world->shapes[index].body, &form));
     fe__fp_state fp = fe__fp_enter();
     fe_result result = fe__shape_set_form(world, index, &form);
     fe__fp_leave(fp);
@@ -209,13 +215,15 @@ fe_result fe_shape_get_geometry(const fe_world *world, fe_shape shape, fe_geomet
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_STRUCT_SIZE(out_geometry);
     const fe__form *form = &world->shapes[index].form;
-    fe_geometry geometry = {.struct_size = sizeof geometry,
-                            .type = form->type,
-                            .radius = form->radius,
-                            .half_height = form->half_height,
-                            .half_extents = form->half,
-                            .normal = form->normal,
-                            .distance = form->distance};
+    fe_geometry geometry = {.struct_size = sizeof geometry, .type = form->type, .radius = form->radius};
+    if (form->type == FE_GEOMETRY_HEIGHTFIELD) {
+        geometry.asset = fe__asset_handle(world, form->field);
+    } else {
+        geometry.half_height = form->half_height;
+        geometry.half_extents = form->half;
+        geometry.normal = form->normal;
+        geometry.distance = form->distance;
+    }
     fe__write_struct(out_geometry, &geometry, sizeof geometry);
     return FE_OK;
 }
@@ -281,7 +289,7 @@ fe_result fe_shape_set_material(fe_world *world, fe_shape shape, const fe_materi
 {
     FE_BEGIN(world);
     FE_FIND_SHAPE(index, shape);
-    FE_TRY(check_material(function, material));
+    FE_TRY(fe__check_material(function, material));
     world->shapes[index].material = *material;
     renew_surface(world, index);
     return FE_OK;

@@ -6,6 +6,26 @@
 
 static float height_of(const fe__heightfield *f, int32_t row, int32_t column) { return f->heights[(int64_t)row * f->columns + column]; }
 
+void fe__heightfield_measure(fe__heightfield *f, int32_t row, int32_t rows)
+{
+    for (int32_t r = row; r < row + rows; ++r) {
+        const float *h = f->heights + (int64_t)r * f->columns;
+        float low = h[0], high = h[0];
+        for (int32_t c = 1; c < f->columns; ++c) low = fe__minf(low, h[c]), high = fe__maxf(high, h[c]);
+        f->ranges[r][0] = low, f->ranges[r][1] = high;
+    }
+    f->low = f->ranges[0][0], f->high = f->ranges[0][1];
+    for (int32_t r = 1; r < f->rows; ++r) f->low = fe__minf(f->low, f->ranges[r][0]), f->high = fe__maxf(f->high, f->ranges[r][1]);
+}
+
+// The far corner is rounded outwards.
+fe__form fe__heightfield_form(const fe__heightfield *f, int32_t index)
+{
+    const double up = 1.0 + 1e-7;
+    float x = (float)(up * (double)(f->columns - 1) * f->cell_x), z = (float)(up * (double)(f->rows - 1) * f->cell_z);
+    return (fe__form){.type = FE_GEOMETRY_HEIGHTFIELD, .field = index, .low = {0.0f, f->low, 0.0f}, .high = {x, f->high, z}};
+}
+
 static fe_vec3 vertex_of(const fe__heightfield *f, int32_t row, int32_t column, fe_dvec3 origin)
 {
     fe_dvec3 p = {(double)column * f->cell_x, (double)height_of(f, row, column), (double)row * f->cell_z};

@@ -21,8 +21,13 @@ typedef struct fe__heightfield {
     double cell_x, cell_z; // m
     float *heights;        // rows x columns, m
     uint8_t *cells;        // (rows - 1) x (columns - 1), NULL: no holes and one material
-    float low, high;       // of all heights
+    float (*ranges)[2];    // lowest and highest sample of each row
+    float low, high;       // of all
 } fe__heightfield;
+
+// The form of a shape that has it; `index` is its record's.
+fe__form fe__heightfield_form(const fe__heightfield *field, int32_t index);
+void fe__heightfield_measure(fe__heightfield *field, int32_t row, int32_t rows); // after rows got new heights: ranges, low, high
 
 static inline int32_t fe__heightfield_is_hole(const fe__heightfield *field, int32_t cell)
 {

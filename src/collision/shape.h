@@ -27,6 +27,7 @@ typedef struct fe__shape {
     uint64_t serial;         // of creation, never reused
     uint64_t body_serial;    // of its body
     fe_handle user_data;
+    int32_t next_user;       // of the same heightfield, -1: none
 } fe__shape;
 
 #endif

@@ -34,15 +34,20 @@ typedef struct found {
     double t, depth;
     fe_dvec3 normal, point;
     int32_t inside;
+    int32_t triangle; // of a heightfield, else -1
 } found;
 
-static int32_t meet_ray(const fe__probe *probe, const fe__shape *shape, double limit, found *f)
+static int32_t meet_ray(const fe__scene *scene, const fe__probe *probe, const fe__shape *shape, double limit, found *f)
 {
     fe_quat q = shape->pose.rotation;
     fe_dvec3 origin = fe__drotate_back(q, fe__dsub(probe->origin, shape->pose.position)), way = fe__drotate_back(q, probe->translation);
     fe__ray_hit hit;
-    if (!fe__form_ray(&shape->form, origin, way, limit, &hit)) return 0;
-    *f = (found){.t = hit.t, .depth = hit.depth, .normal = fe__drotate(q, hit.normal), .inside = hit.inside};
+    int32_t is_field = shape->form.type == FE_GEOMETRY_HEIGHTFIELD;
+    int32_t met = is_field ? fe__heightfield_ray(scene->fields + shape->form.field, origin, way, limit, &hit)
+                           : fe__form_ray(&shape->form, origin, way, limit, &hit);
+    if (!met) return 0;
+    *f = (found){
+        .t = hit.t, .depth = hit.depth, .normal = fe__drotate(q, hit.normal), .inside = hit.inside, .triangle = hit.triangle};
     return 1;
 }
 
@@ -57,29 +62,31 @@ static fe__mover mover_of(const fe__probe *probe, const fe__shape *shape, const 
 
 static int32_t meet_form(const fe__probe *probe, const fe__shape *shape, double limit, found *f)
 {
+    if (shape->form.type == FE_GEOMETRY_HEIGHTFIELD) return 0;
     fe__axes m = fe__axes_of(shape->pose.rotation);
     fe__mover mover = mover_of(probe, shape, &m);
     fe__sweep_hit hit;
     if (!fe__form_sweep(&shape->form, &mover, limit, &hit)) return 0;
-    *f = (found){hit.t, hit.depth, fe__turn(&m, hit.normal), fe__turn(&m, hit.point), hit.inside};
+    *f = (found){hit.t, hit.depth, fe__turn(&m, hit.normal), fe__turn(&m, hit.point), hit.inside, -1};
     return 1;
 }
 
-int32_t fe__probe_overlaps(const fe__probe *probe, const fe__shape *shape)
+int32_t fe__probe_overlaps(const fe__scene *scene, const fe__probe *probe, const fe__shape *shape)
 {
     if (is_ray(probe)) {
         fe__probe still = fe__probe_ray(probe->origin, (fe_dvec3){0.0, 0.0, 0.0});
         found f;
-        return meet_ray(&still, shape, 0.0, &f);
+        return meet_ray(scene, &still, shape, 0.0, &f);
     }
+    if (shape->form.type == FE_GEOMETRY_HEIGHTFIELD) return 0;
     fe__axes m = fe__axes_of(shape->pose.rotation);
     fe__mover mover = mover_of(probe, shape, &m);
     return fe__form_overlap(&shape->form, &mover);
 }
 
-static int32_t meet(const fe__probe *probe, const fe__shape *shape, double limit, found *f)
+static int32_t meet(const fe__scene *scene, const fe__probe *probe, const fe__shape *shape, double limit, found *f)
 {
-    return is_ray(probe) ? meet_ray(probe, shape, limit, f) : meet_form(probe, shape, limit, f);
+    return is_ray(probe) ? meet_ray(scene, probe, shape, limit, f) : meet_form(probe, shape, limit, f);
 }
 
 // ---- telling --------------------------------------------------------------------------------------------------------------------
@@ -110,7 +117,7 @@ static fe_hit hit_of(const fe__scene *scene, const fe__probe *probe, int32_t ind
                     .point = point,
                     .fraction = f->t,
                     .normal = against_way(normal, way),
-                    .triangle = -1,
+                    .triangle = f->triangle,
                     .depth = (float)f->depth,
                     .flags = f->inside ? FE_HIT_STARTED_INSIDE : 0u};
 }
@@ -131,7 +138,7 @@ static double visit_nearest(void *context, int32_t index, double limit)
     if (c->body != FE_ANY_BODY && shape->body != c->body) return limit;
     if (!fe__scene_counts(c->scene, shape)) return limit;
     found f;
-    if (!meet(c->probe, shape, limit, &f)) return limit;
+    if (!meet(c->scene, c->probe, shape, limit, &f)) return limit;
     if (c->shape >= 0 && f.t == c->found.t && !fe__created_before(shape, &c->scene->shapes[c->shape])) return limit;
     c->shape = index;
     c->found = f;
@@ -206,7 +213,7 @@ static double visit_all(void *context, int32_t index, double limit)
     collection *c = context;
     const fe__shape *shape = &c->scene->shapes[index];
     found f;
-    if (!fe__scene_counts(c->scene, shape) || !meet(c->probe, shape, limit, &f) || !is_first_of_body(c, index, &f)) return limit;
+    if (!fe__scene_counts(c->scene, shape) || !meet(c->scene, c->probe, shape, limit, &f) || !is_first_of_body(c, index, &f)) return limit;
     fe_hit hit = hit_of(c->scene, c->probe, index, &f);
     fe__keep_add(&c->keep, &hit);
     return limit;

@@ -34,7 +34,7 @@ static double visit(void *context, int32_t index, double limit)
 {
     search *s = context;
     const fe__shape *shape = &s->scene->shapes[index];
-    if (!fe__scene_counts(s->scene, shape)) return limit;
+    if (!fe__scene_counts(s->scene, shape) || shape->form.type == FE_GEOMETRY_HEIGHTFIELD) return limit;
     fe__nearest n = nearest_on(shape, s->point);
     if (!(n.distance <= limit)) return limit;
     if (s->shape >= 0) {

@@ -17,7 +17,7 @@ typedef struct search {
 
 static int32_t touches(const search *s, const fe__shape *shape)
 {
-    return (s->body == FE_ANY_BODY || shape->body == s->body) && fe__scene_counts(s->scene, shape) && fe__probe_overlaps(s->probe, shape);
+    return (s->body == FE_ANY_BODY || shape->body == s->body) && fe__scene_counts(s->scene, shape) && fe__probe_overlaps(s->scene, s->probe, shape);
 }
 
 static void walk(search *s, fe__tree_visit visit)

@@ -5,11 +5,13 @@
 #ifndef FE_QUERY_SCENE_H
 #define FE_QUERY_SCENE_H
 #include "broadphase/tree.h"
+#include "collision/heightfield.h"
 #include "collision/shape.h"
 #include "core/id_pool.h"
 
 typedef struct fe__scene {
     const fe__shape *shapes;
+    const fe__heightfield *fields; // of shapes that have one, by fe__form.field
     const fe__tree *static_tree, *moving_tree;
     const int32_t *planes;
     int32_t plane_count;

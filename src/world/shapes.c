@@ -204,6 +204,7 @@ int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *desc
     shape->body_serial = world->bodies[body].serial;
     set_local_pose(shape, desc->local_position, desc->local_rotation);
     append_to_body(world, index);
+    fe__shape_take_asset(world, index);
     fe__body_update_mass(world, body);
     fe__body_place(world, body);
     if (world->bodies[body].flags & FE__BODY_ENABLED) fe__shape_enter(world, index);
@@ -228,11 +229,23 @@ void fe__shape_destroy(fe_world *world, int32_t index)
     drop_pairs(world, index);
     fe__shape_leave(world, index);
     remove_from_body(world, index);
+    fe__shape_release_asset(world, index);
     fe__id_pool_release(&world->shape_ids, index);
     fe__body_update_mass(world, body);
 }
 
 // ---- change ---------------------------------------------------------------------------------------------------------------------
+
+static void exchange_asset(fe_world *world, int32_t index, const fe__form *before)
+{
+    fe__shape *shape = &world->shapes[index];
+    fe__form now = shape->form;
+    if (before->type == now.type && before->field == now.field) return;
+    shape->form = *before;
+    fe__shape_release_asset(world, index);
+    shape->form = now;
+    fe__shape_take_asset(world, index);
+}
 
 // The shape's pairs end and are found anew: a manifold of the old form means nothing on the new one.
 static void change(fe_world *world, int32_t index, const fe__form *form, fe_vec3 position, fe_quat rotation)
@@ -242,7 +255,9 @@ static void change(fe_world *world, int32_t index, const fe__form *form, fe_vec3
     fe__body_disturb(world, body);
     drop_pairs(world, index);
     fe__shape_leave(world, index);
+    fe__form before = shape->form;
     shape->form = *form;
+    if (before.type == FE_GEOMETRY_HEIGHTFIELD || form->type == FE_GEOMETRY_HEIGHTFIELD) exchange_asset(world, index, &before);
     set_local_pose(shape, position, rotation);
     fe__body_update_mass(world, body);
     fe__body_place(world, body);

@@ -67,6 +67,7 @@ fe_result fe__world_create(const fe_world_def *desc, fe_world **out_world)
     fe__id_pool_init(&world->body_ids, FE_KIND_BODY);
     fe__id_pool_init(&world->shape_ids, FE_KIND_SHAPE);
     fe__joints_init(world);
+    fe__id_pool_init(&world->asset_ids, FE_KIND_ASSET);
     world->next_serial = 1;
     world->first_body = world->last_body = world->first_free_pair = -1;
     world->pair_limit = 1; // contact 0 is no contact
@@ -84,6 +85,7 @@ static void free_records(fe_world *world)
     fe__memory *memory = &world->memory;
     fe__id_pool_free(&world->body_ids, memory);
     fe__id_pool_free(&world->shape_ids, memory);
+    fe__assets_free(world);
     FE_FREE(memory, world->bodies, world->body_capacity);
     FE_FREE(memory, world->shapes, world->shape_capacity);
     FE_FREE(memory, world->contacts, world->contact_capacity);

@@ -14,6 +14,7 @@
 #include "solver/body.h"
 #include "world/joint_record.h"
 #include "world/pair.h"
+#include "collision/heightfield.h"
 #include "collision/shape.h"
 
 // An event as the step writes it. Serials order it; handles name it also after a destruction.
@@ -32,6 +33,15 @@ typedef struct fe__hit_event_record {
     fe_hit_event event;
 } fe__hit_event_record;
 
+// What shapes share. Record i of the assets and record i of the heightfields are one thing.
+typedef struct fe__asset {
+    fe_material *materials;  // of the cells
+    int32_t material_count;
+    int32_t special;         // a material needs special rows
+    int32_t first_user;      // shapes, threaded through fe__shape.next_user; -1: none
+    int32_t destroyed;       // by its owner: it goes with its last user
+} fe__asset;
+
 struct fe_world {
     fe__memory memory;
     fe__workers workers;
@@ -47,11 +57,14 @@ struct fe_world {
     int32_t simd;               // fe_simd
 
     // records
-    fe__id_pool body_ids, shape_ids;
+    fe__id_pool body_ids, shape_ids, asset_ids;
     fe__body *bodies;
     int32_t body_capacity;
     fe__shape *shapes;
     int32_t shape_capacity;
+    fe__heightfield *fields; // heightfields, and the rest of the same assets
+    fe__asset *assets;
+    int32_t field_capacity, asset_capacity;
     uint64_t next_serial;    // of bodies, shapes and joints alike
     int32_t first_body, last_body, body_count; // in the order of creation
     int32_t shape_count;
@@ -180,6 +193,17 @@ void fe__shape_enter(fe_world *world, int32_t shape);
 void fe__shape_leave(fe_world *world, int32_t shape);
 void fe__shape_touch(fe_world *world, int32_t shape); // its pose or form is new: a new box, new pairs
 void fe__shape_mark_moved(fe_world *world, int32_t shape); // looks for pairs in the next step
+
+// ---- heightfields (assets.c) -----------------------------------------------------------------------------------------------------
+int32_t fe__heightfield_create(fe_world *world, const fe_heightfield_def *desc); // index, or negative: fe_result
+void fe__heightfield_set_heights(fe_world *world, int32_t index, int32_t row, int32_t column, int32_t rows, int32_t columns, const float *heights);
+void fe__asset_destroy(fe_world *world, int32_t index); // now, or with its last shape
+void fe__shape_take_asset(fe_world *world, int32_t shape);    // becomes a user of its form's, if it has one
+void fe__shape_release_asset(fe_world *world, int32_t shape); // the last user of a destroyed one frees it
+void fe__assets_free(fe_world *world);
+fe_handle fe__asset_handle(const fe_world *world, int32_t index);
+// of a cell (-1: none in particular) of a shape
+const fe_material *fe__shape_material(const fe_world *world, const fe__shape *shape, int32_t cell);
 
 // ---- filter (filter.c) --------------------------------------------------------------------------------------------------------
 // May these two shapes have a pair? Kinds of bodies, layers, ignored pairs.
