@@ -67,6 +67,7 @@ typedef unsigned long long fe_handle;
 typedef fe_handle fe_body;
 typedef fe_handle fe_shape;
 typedef fe_handle fe_joint;
+typedef fe_handle fe_asset; ///< what shapes share: a heightfield
 
 typedef struct fe_world fe_world; ///< everything that can touch each other
 typedef struct fe_pool fe_pool;   ///< worker threads that several worlds may share
@@ -404,6 +405,7 @@ typedef struct fe_geometry {
     fe_vec3 half_extents;
     fe_vec3 normal; ///< any length but zero
     float distance;
+    fe_asset asset; ///< of a heightfield
 } fe_geometry;
 
 /// Fills a geometry; what is out of range is found where the geometry is used. NULL does nothing.
@@ -411,6 +413,7 @@ FE_API void fe_geometry_sphere(fe_geometry *out_geometry, float radius);
 FE_API void fe_geometry_capsule(fe_geometry *out_geometry, float half_height, float radius);
 FE_API void fe_geometry_box(fe_geometry *out_geometry, float half_x, float half_y, float half_z);
 FE_API void fe_geometry_plane(fe_geometry *out_geometry, float normal_x, float normal_y, float normal_z, float distance);
+FE_API void fe_geometry_heightfield(fe_geometry *out_geometry, fe_asset heightfield);
 
 /// Two materials mix: friction sqrt(a b), the other three max(a, b).
 typedef struct fe_material {
@@ -446,7 +449,7 @@ typedef struct fe_shape_def {
 FE_API void fe_shape_def_init(fe_shape_def *desc, uint32_t struct_size);
 /// Two shapes collide when each one's layer is in the other's mask. Mass and inertia of the body follow; it is not woken.
 /// @param desc  NULL: the defaults
-/// @return FE_ERROR_UNSUPPORTED for a plane on a body that is not static
+/// @return FE_ERROR_UNSUPPORTED for a plane or a heightfield on a body that is not static
 FE_API fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *desc, const fe_geometry *geometry, fe_shape *out_shape);
 FE_API fe_result fe_shape_destroy(fe_world *world, fe_shape shape);
 FE_API int32_t fe_shape_is_valid(const fe_world *world, fe_shape shape);
@@ -770,6 +773,43 @@ FE_API fe_result fe_joint_get_reaction(const fe_world *world, fe_joint joint, fe
 FE_API int32_t fe_world_get_joints(const fe_world *world, fe_joint *out_joints, int32_t capacity);
 /// Those of a body, in the order of creation.
 FE_API int32_t fe_body_get_joints(const fe_world *world, fe_body body, fe_joint *out_joints, int32_t capacity);
+// ---- heightfields ---------------------------------------------------------------------------------------------------------------
+
+/// A grid of heights: terrain. In the shape's frame, sample (row, column) stands at x = column * cell_x, z = row * cell_z, its height along y. The
+/// cell between samples (row, column) and (row + 1, column + 1), cell row * (columns - 1) + column of the arrays below, is cut by the diagonal
+/// between these two into triangle 2 * cell (its z side) and 2 * cell + 1 (its x side): the numbers that hits and contacts tell.
+///
+/// Only the upper side counts: rays from below pass, and a body whose every point is below a triangle's plane does not feel that triangle. Edges
+/// between triangles are felt only where the surface is convex, also across the border of two heightfields that meet; the rims of holes and of the
+/// whole carry like any edge.
+typedef struct fe_heightfield_def {
+    uint32_t struct_size;
+    int32_t rows;                ///< of samples, along z, 2..32768; rows * columns <= 2^28
+    int32_t columns;             ///< of samples, along x, 2..32768
+    float cell_x;                ///< from column to column, m, 0.001..100000; all columns within 1e6 m
+    float cell_z;                ///< from row to row
+    const float *heights;        ///< rows x columns, row by row, m, within +-1e6. All arrays are copied
+    const uint8_t *holes;        ///< a cell each: 1 is a hole, 0 is none; NULL: no holes
+    const uint8_t *cell_materials; ///< a cell each: index into `materials`; NULL: every cell has the shape's material
+    const fe_material *materials; ///< take the place of the shape's material
+    uint32_t material_stride;    ///< bytes from one to the next, 0: packed
+    int32_t material_count;      ///< 0..255
+} fe_heightfield_def;
+
+FE_API void fe_heightfield_def_init(fe_heightfield_def *desc, uint32_t struct_size);
+/// Belongs to this world; any number of shapes may share it (fe_geometry_heightfield).
+FE_API fe_result fe_heightfield_create(fe_world *world, const fe_heightfield_def *desc, fe_asset *out_asset);
+/// Changes the samples of a rectangle. Bodies near it wake, and touch the new surface in the next step.
+/// @param row, column    its first sample
+/// @param rows, columns  its size, >= 1
+/// @param heights        rows x columns, row by row, m
+FE_API fe_result fe_heightfield_set_heights(fe_world *world, fe_asset asset, int32_t row, int32_t column, int32_t rows, int32_t columns,
+                                            const float *heights);
+FE_API fe_result fe_heightfield_get_heights(const fe_world *world, fe_asset asset, int32_t row, int32_t column, int32_t rows, int32_t columns,
+                                            float *out_heights);
+/// The handle dies at once, its heights live until the last shape that has them is gone.
+FE_API fe_result fe_asset_destroy(fe_world *world, fe_asset asset);
+FE_API int32_t fe_asset_is_valid(const fe_world *world, fe_asset asset);
 
 // ---- queries ------------------------------------------------------------------------------------------------------------------
 
