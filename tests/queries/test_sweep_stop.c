@@ -1,0 +1,142 @@
+// How far before a body a sweep stops: at most 1 micrometre (0.1 mm between two boxes), never in it.
+//
+//     build/tests/queries/test_sweep_stop 100000      that many cases a pair of forms, and the table of docs/QUERIES.md
+//
+// Shapes of 1 cm to 1 km, ways of 1 mm to 10 km, at the world's origin and 1e6 m off it. The judge is exact.h, in long double.
+#include "api/api_test.h"
+#include "queries/exact.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#if defined(FE_SANITIZED)
+enum { CASES = 300 };
+#else
+enum { CASES = 3000 };
+#endif
+
+static int32_t cases = CASES;
+
+typedef struct bench {
+    fe_world *world;
+    fe_body body;
+    fe_shape shape;
+    uint64_t random;
+} bench;
+
+static double uniform(bench *b, double low, double high)
+{
+    b->random ^= b->random << 13, b->random ^= b->random >> 7, b->random ^= b->random << 17;
+    return low + (high - low) * (double)(b->random >> 11) * 0x1p-53;
+}
+
+static double spread(bench *b, double low, double high) { return low * pow(high / low, uniform(b, 0, 1)); }
+
+static fe_dvec3 direction(bench *b)
+{
+    for (;;) {
+        double x = uniform(b, -1, 1), y = uniform(b, -1, 1), z = uniform(b, -1, 1), square = x * x + y * y + z * z;
+        if (square > 1 || square < 0.01) continue;
+        double k = 1 / sqrt(square);
+        return fe_make_dvec3(k * x, k * y, k * z);
+    }
+}
+
+// Now and then along the axes: faces on faces, edges along edges.
+static fe_quat rotation(bench *b)
+{
+    if (uniform(b, 0, 1) < 0.2) return (fe_quat){0, 0, 0, 1};
+    float x = (float)uniform(b, -1, 1), y = (float)uniform(b, -1, 1), z = (float)uniform(b, -1, 1), w = (float)uniform(b, 0.1, 1);
+    return (fe_quat){x, y, z, w};
+}
+
+static fe_geometry geometry_of(bench *b, int32_t type)
+{
+    fe_geometry g;
+    float sizes[3];
+    for (int k = 0; k < 3; ++k) sizes[k] = (float)spread(b, 0.01, 1000);
+    if (type == FE_GEOMETRY_SPHERE) fe_geometry_sphere(&g, sizes[0]);
+    if (type == FE_GEOMETRY_CAPSULE) fe_geometry_capsule(&g, sizes[0], sizes[1]);
+    if (type == FE_GEOMETRY_BOX) fe_geometry_box(&g, sizes[0], sizes[1], sizes[2]);
+    fe_dvec3 n = direction(b);
+    if (type == FE_GEOMETRY_PLANE) fe_geometry_plane(&g, (float)n.x, (float)n.y, (float)n.z, sizes[0]);
+    return g;
+}
+
+static fe_dvec3 along(fe_dvec3 p, double s, fe_dvec3 d) { return fe_make_dvec3(p.x + s * d.x, p.y + s * d.y, p.z + s * d.z); }
+
+typedef struct tally {
+    int32_t hits;
+    double least, most, normal; // m, m, sine of the largest error
+} tally;
+
+// A way that meets the body somewhere in the middle: aimed from afar first, then taken from a start nearer by.
+static void one_case(bench *b, int32_t moving, int32_t standing, tally *t)
+{
+    double middle = uniform(b, 0, 1) < 0.5 ? 0 : 1e6;
+    fe_geometry still = geometry_of(b, standing), mover = geometry_of(b, moving);
+    fe_transform pose = {fe_make_dvec3(middle + uniform(b, -10, 10), -middle + uniform(b, -10, 10), uniform(b, -10, 10)), rotation(b)};
+    fe_transform start = {pose.position, rotation(b)};
+    OK(fe_shape_set_geometry(b->world, b->shape, &still));
+    OK(fe_body_set_transform(b->world, b->body, &pose));
+    OK(fe_body_get_transform(b->world, b->body, &pose)); // its rotation brought to length 1, in floats
+    solid of_still = make_solid(&still, v_of(pose.position), pose.rotation),
+          of_mover = make_solid(&mover, v_of(start.position), start.rotation);
+    double reach = (double)of_mover.reach + (standing == FE_GEOMETRY_PLANE ? 1000 : (double)of_still.reach);
+    fe_dvec3 way = direction(b), far;
+    start.position = along(along(pose.position, uniform(b, 0, 0.7) * reach, direction(b)), -3 * reach, way);
+    far = along(fe_make_dvec3(0, 0, 0), 6 * reach, way);
+    fe_hit hit;
+    if (fe_world_sweep(b->world, &mover, &start, &far, NULL, &hit) != FE_OK || hit.flags) return;
+    double length = spread(b, 1e-3, 1e4);
+    start.position = along(along(start.position, hit.fraction * 6 * reach, way), -length * uniform(b, 0, 1), way);
+    fe_dvec3 translation = along(fe_make_dvec3(0, 0, 0), length, way);
+    if (fe_world_sweep(b->world, &mover, &start, &translation, NULL, &hit) != FE_OK || hit.flags) return;
+    of_mover = make_solid(&mover, v_of(start.position), start.rotation);
+    vec shift = v_scale(hit.fraction, v_of(translation));
+    nearness n = nearest(&of_mover, shift, &of_still);
+    double gap = (double)(n.distance - of_mover.radius - of_still.radius);
+    vec away = standing == FE_GEOMETRY_PLANE ? of_still.normal : v_sub(n.on_mover, n.on_still);
+    double error = (double)(v_length(v_cross(away, v_off(hit.normal))) / v_length(away));
+    t->hits += 1;
+    t->least = fmin(t->least, gap), t->most = fmax(t->most, gap), t->normal = fmax(t->normal, error);
+}
+
+static const char *const names[] = {"sphere", "capsule", "box", "plane"};
+
+static tally tally_of(int32_t moving, int32_t standing)
+{
+    bench b = {.world = new_world(), .random = UINT64_C(0x9e3779b97f4a7c15) + (uint32_t)(moving * 8 + standing)};
+    b.body = new_body(b.world, FE_BODY_STATIC, 0, 0, 0);
+    b.shape = add_box(b.world, b.body, 1);
+    tally t = {0, INFINITY, -INFINITY, 0};
+    for (int32_t i = 0; i < cases; ++i) one_case(&b, moving, standing, &t);
+    OK(fe_world_destroy(b.world));
+    printf("| %-7s | %-7s | %6d | %9.4f | %9.4f | %7.1e |\n", names[moving], names[standing], (int)t.hits, 1e6 * t.least, 1e6 * t.most,
+           t.normal);
+    return t;
+}
+
+// The narrowing of the normal to floats takes 1e-7 of it.
+static void a_sweep_stops_before_the_body(void **state)
+{
+    (void)state;
+    printf("| moving  | stands  | hits   | least, um | most, um  | normal  |\n|---|---|---|---|---|---|\n");
+    for (int32_t moving = FE_GEOMETRY_SPHERE; moving <= FE_GEOMETRY_BOX; ++moving) {
+        for (int32_t standing = FE_GEOMETRY_SPHERE; standing <= FE_GEOMETRY_PLANE; ++standing) {
+            double bound = moving == FE_GEOMETRY_BOX && standing == FE_GEOMETRY_BOX ? 1e-4 : 1e-6;
+            tally t = tally_of(moving, standing);
+            FE_WITHIN(t.hits, cases / 4, cases);
+            FE_WITHIN(t.least, 0, bound);
+            FE_WITHIN(t.most, 0, bound);
+            FE_WITHIN(t.normal, 0, 1e-5);
+        }
+    }
+}
+
+int main(int argc, char **argv)
+{
+    if (argc > 1) cases = atoi(argv[1]);
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_sweep_stops_before_the_body)};
+    return cmocka_run_group_tests_name("sweep_stop", tests, NULL, NULL);
+}
