@@ -1,0 +1,463 @@
+// Every query against a walk over every body: 300 of every kind, judged in long double (exact.h).
+//
+//     build/tests/queries/test_walk 100000            that many queries of each kind
+//
+// What passes within 2 micrometres without a touch, or goes as little in, may count either way.
+#include "api/api_test.h"
+#include "queries/exact.h"
+
+#include "collision/form.h"
+
+#include <stdlib.h>
+
+#if defined(FE_SANITIZED)
+enum { QUERIES = 150 };
+#else
+enum { QUERIES = 2500 };
+#endif
+enum { BODIES = 300, SHAPES = 800 };
+#define GRAZE 2e-6L // m
+
+static int32_t queries = QUERIES;
+
+// ---- a world of every kind ----------------------------------------------------------------------------------------------------------
+typedef struct known_shape {
+    fe_shape shape;
+    solid solid;
+    int32_t body; // index
+    uint32_t layer;
+    int32_t trigger;
+} known_shape;
+
+typedef struct known_world {
+    fe_world *world;
+    fe_dvec3 middle;
+    fe_body bodies[BODIES];
+    known_shape shapes[SHAPES];
+    int32_t count;
+    uint64_t random;
+} known_world;
+
+static double uniform(known_world *k, double low, double high)
+{
+    k->random ^= k->random << 13, k->random ^= k->random >> 7, k->random ^= k->random << 17;
+    return low + (high - low) * (double)(k->random >> 11) * 0x1p-53;
+}
+static int32_t one_of(known_world *k, int32_t count) { return (int32_t)uniform(k, 0, count); }
+static int32_t chance(known_world *k, double share) { return uniform(k, 0, 1) < share; }
+
+static fe_dvec3 random_vector(known_world *k, double most)
+{
+    double x = uniform(k, -most, most), y = uniform(k, -most, most);
+    return fe_make_dvec3(x, y, uniform(k, -most, most));
+}
+
+static fe_quat random_rotation(known_world *k)
+{
+    if (chance(k, 0.2)) return fe__identity();
+    fe_vec3 u = fe__narrow(random_vector(k, 1));
+    return (fe_quat){u.x, u.y, u.z, (float)uniform(k, 0.1, 1)};
+}
+
+static fe_geometry random_geometry(known_world *k, int32_t types)
+{
+    fe_geometry g;
+    float a = (float)uniform(k, 0.05, 2), b = (float)uniform(k, 0.05, 2), c = (float)uniform(k, 0.05, 2);
+    int32_t type = one_of(k, types);
+    if (type == FE_GEOMETRY_SPHERE) fe_geometry_sphere(&g, a);
+    if (type == FE_GEOMETRY_CAPSULE) fe_geometry_capsule(&g, a, b);
+    if (type == FE_GEOMETRY_BOX) fe_geometry_box(&g, a, b, c);
+    return g;
+}
+
+static void add_known_shape(known_world *k, int32_t body, const fe_geometry *g)
+{
+    known_shape *s = &k->shapes[k->count++];
+    fe_shape_def def;
+    fe_shape_def_init(&def, sizeof def);
+    if (chance(k, 0.6)) def.local_position = fe__narrow(random_vector(k, 2)), def.local_rotation = random_rotation(k);
+    def.layer = s->layer = 1u << one_of(k, 3);
+    def.trigger = s->trigger = chance(k, 0.2);
+    s->body = body;
+    OK(fe_shape_create(k->world, k->bodies[body], &def, g, &s->shape));
+}
+
+static void add_body(known_world *k, int32_t index)
+{
+    fe_body_def def;
+    fe_body_def_init(&def, sizeof def);
+    def.type = one_of(k, 3);
+    def.transform.position = fe__dadd(k->middle, random_vector(k, 25));
+    def.transform.rotation = random_rotation(k);
+    def.awake = one_of(k, 2);
+    if (chance(k, 0.3)) def.linear_locks = (uint32_t)one_of(k, 8), def.angular_locks = (uint32_t)one_of(k, 8);
+    OK(fe_body_create(k->world, &def, &k->bodies[index]));
+    for (int32_t shapes = 1 + (int32_t)(2.5 * uniform(k, 0, 1) * uniform(k, 0, 1)); shapes > 0; --shapes) {
+        fe_geometry g = random_geometry(k, 3);
+        add_known_shape(k, index, &g);
+    }
+    if (def.type == FE_BODY_STATIC && chance(k, 0.03)) {
+        fe_geometry g;
+        fe_geometry_plane(&g, (float)uniform(k, -0.2, 0.2), 1, 0, -22);
+        add_known_shape(k, index, &g);
+    }
+}
+
+// Where everything is now, as the library composes it.
+static void learn_poses(known_world *k)
+{
+    for (int32_t i = 0; i < k->count; ++i) {
+        known_shape *s = &k->shapes[i];
+        fe_transform t = fe_body_transform(k->world, k->bodies[s->body]);
+        fe_vec3 position;
+        fe_quat rotation;
+        fe_geometry g = {.struct_size = sizeof g};
+        OK(fe_shape_get_local_pose(k->world, s->shape, &position, &rotation));
+        OK(fe_shape_get_geometry(k->world, s->shape, &g));
+        fe__pose body = {t.position, t.rotation}, pose = body;
+        int32_t centred = position.x == 0.0f && position.y == 0.0f && position.z == 0.0f && rotation.w == 1.0f;
+        if (!centred) pose = fe__compose(&body, position, rotation);
+        s->solid = make_solid(&g, v_of(pose.position), pose.rotation);
+    }
+}
+
+static void make_world(known_world *k, double middle, uint64_t seed)
+{
+    *k = (known_world){.world = new_world(), .middle = fe_make_dvec3(middle, -middle, middle / 2), .random = seed};
+    for (int32_t i = 0; i < BODIES; ++i) add_body(k, i);
+    step(k->world, 2);
+    learn_poses(k);
+}
+
+// ---- queries and who counts -----------------------------------------------------------------------------------------------------------
+typedef struct query {
+    fe_geometry geometry;
+    fe_transform start;
+    fe_dvec3 way;
+    fe_query_filter filter;
+    fe_body excluded[3];
+    solid mover;
+    int32_t is_ray;
+} query;
+
+static void random_query(known_world *k, query *q, int32_t is_ray)
+{
+    fe_query_filter_init(&q->filter, sizeof q->filter);
+    if (chance(k, 0.3)) q->filter.mask = 1u << one_of(k, 4);
+    if (chance(k, 0.3)) q->filter.flags = FE_QUERY_TRIGGERS;
+    if (chance(k, 0.3)) {
+        for (int32_t i = 0; i < 3; ++i) q->excluded[i] = k->bodies[one_of(k, BODIES)];
+        q->filter.excluded = q->excluded, q->filter.excluded_count = 3;
+    }
+    q->is_ray = is_ray;
+    q->start.position = fe__dadd(k->middle, random_vector(k, 35));
+    q->start.rotation = random_rotation(k);
+    q->way = fe__dsub(fe__dadd(k->middle, random_vector(k, 35)), q->start.position);
+    if (chance(k, 0.2)) q->way = fe__dscale(uniform(k, 0, 0.2), q->way);
+    q->geometry = random_geometry(k, 3);
+    if (is_ray) fe_geometry_sphere(&q->geometry, 0);
+    q->mover = make_solid(&q->geometry, v_of(q->start.position), q->start.rotation);
+}
+
+static int32_t counts(const known_world *k, const query *q, const known_shape *s)
+{
+    if (!(s->layer & q->filter.mask) || (s->trigger && !(q->filter.flags & FE_QUERY_TRIGGERS))) return 0;
+    for (int32_t i = 0; i < q->filter.excluded_count; ++i) {
+        if (q->filter.excluded[i] == k->bodies[s->body]) return 0;
+    }
+    return 1;
+}
+
+// Bounding spheres: 0 when they stay apart.
+static int32_t comes_near(const query *q, const known_shape *s, real end)
+{
+    if (s->solid.type == FE_GEOMETRY_PLANE) return 1;
+    vec o = q->mover.centre, near = nearest_on_edge(o, v_add(v_add(o, v_scale(end, v_of(q->way))), (vec){1e-9L, 0, 0}), s->solid.centre);
+    return v_length(v_sub(near, s->solid.centre)) <= s->solid.reach + q->mover.reach + 1e-3L;
+}
+
+// 1: it is met before `end`, -1: not, 0: it is so close that both will do
+static int meets(const query *q, const known_shape *s, real end)
+{
+    return comes_near(q, s, end) ? meets_on_the_way(&q->mover, &s->solid, v_of(q->way), end, GRAZE) : -1;
+}
+
+static int overlaps(const query *q, const known_shape *s)
+{
+    return comes_near(q, s, 0) ? overlap_at(&q->mover, &s->solid, (vec){0, 0, 0}, GRAZE) : -1;
+}
+
+static int32_t body_index(const known_world *k, fe_body body)
+{
+    int32_t i = 0;
+    while (i < BODIES && k->bodies[i] != body) ++i;
+    return i;
+}
+static int32_t shape_index(const known_world *k, fe_shape shape)
+{
+    int32_t i = 0;
+    while (i < k->count && k->shapes[i].shape != shape) ++i;
+    return i;
+}
+
+// ---- hits -----------------------------------------------------------------------------------------------------------------------------
+static int32_t cast(const known_world *k, const query *q, fe_hit *hit)
+{
+    return q->is_ray ? fe_world_raycast(k->world, &q->start.position, &q->way, &q->filter, hit)
+                     : fe_world_sweep(k->world, &q->geometry, &q->start, &q->way, &q->filter, hit);
+}
+static int32_t cast_any(const known_world *k, const query *q)
+{
+    return q->is_ray ? fe_world_raycast_any(k->world, &q->start.position, &q->way, &q->filter)
+                     : fe_world_sweep_any(k->world, &q->geometry, &q->start, &q->way, &q->filter);
+}
+static int32_t cast_all(const known_world *k, const query *q, fe_hit *hits, int32_t capacity)
+{
+    return q->is_ray ? fe_world_raycast_all(k->world, &q->start.position, &q->way, &q->filter, hits, 0, capacity)
+                     : fe_world_sweep_all(k->world, &q->geometry, &q->start, &q->way, &q->filter, hits, 0, capacity);
+}
+
+// Signed: below 0 inside.
+static real distance_of(const solid *s, vec p)
+{
+    solid point = {.type = FE_GEOMETRY_SPHERE, .vertices = 1, .vertex = {p}, .centre = p};
+    real d = nearest(&point, (vec){0, 0, 0}, s).distance - s->radius;
+    if (s->type != FE_GEOMETRY_BOX || d > 0) return d;
+    d = -INFINITY;
+    for (int k = 0; k < 3; ++k) d = fmaxl(d, fabsl(v_dot(v_sub(p, s->centre), s->axis[k])) - s->half[k]);
+    return d;
+}
+
+// A hit is true: the gap to that shape is what it must be, and its normal is where the nearest points say.
+static void check_hit(const known_world *k, const query *q, const fe_hit *hit)
+{
+    int32_t index = shape_index(k, hit->shape);
+    assert_true(index < k->count && k->bodies[k->shapes[index].body] == hit->body && hit->triangle == -1);
+    const known_shape *s = &k->shapes[index];
+    assert_true(counts(k, q, s));
+    vec way = v_of(q->way), shift = v_scale(hit->fraction, way);
+    FE_WITHIN(hit->fraction, 0, 1);
+    FE_NEAR(v_length(v_off(hit->normal)), 1, 1e-6);
+    FE_TRUE(v_dot(v_off(hit->normal), way) <= 0);
+    if (hit->flags & FE_HIT_STARTED_INSIDE) {
+        FE_NEAR(hit->fraction, 0, 0);
+        FE_TRUE(overlap_at(&q->mover, &s->solid, shift, GRAZE) >= 0);
+        FE_TRUE(v_dot(v_off(hit->normal), way) <= -0.999999L * v_length(way));
+        FE_WITHIN(hit->depth, 0, 100);
+        return;
+    }
+    nearness n = nearest(&q->mover, shift, &s->solid);
+    real gap = n.distance - q->mover.radius - s->solid.radius, rounding = q->is_ray ? 1e-12L * (1 + v_length(way)) : 0;
+    int32_t boxes = q->mover.type == FE_GEOMETRY_BOX && s->solid.type == FE_GEOMETRY_BOX;
+    FE_WITHIN(gap, -rounding, boxes ? 1e-4L : q->is_ray ? rounding : 1e-6L);
+    vec away = s->solid.type == FE_GEOMETRY_PLANE ? s->solid.normal : v_sub(n.on_mover, n.on_still);
+    if (v_length(away) > 1e-8L) FE_WITHIN(v_length(v_sub(v_scale(1 / v_length(away), away), v_off(hit->normal))), 0, 1e-5);
+    // the point is on both surfaces
+    vec point = v_of(hit->point);
+    real far = 1e-6L + v_length(point) * 1e-15L;
+    FE_WITHIN(distance_of(&s->solid, point), -far, far);
+    if (!q->is_ray) FE_WITHIN(distance_of(&q->mover, v_sub(point, shift)), -far, far + (boxes ? 1e-4L : 1e-6L));
+}
+
+// Nothing else that counts is met before the nearest hit; or, without one, nothing at all.
+static int32_t check_nearest(const known_world *k, const query *q)
+{
+    fe_hit hit;
+    memset(&hit, 0x55, sizeof hit);
+    int32_t result = cast(k, q, &hit), any = cast_any(k, q);
+    assert_true(result == FE_OK || result == FE_MISS);
+    assert_int_equal(any, result);
+    real end = result == FE_OK ? hit.fraction : 1;
+    if (result == FE_OK) check_hit(k, q, &hit);
+    for (int32_t i = 0; i < k->count; ++i) {
+        const known_shape *s = &k->shapes[i];
+        if (!counts(k, q, s) || (result == FE_OK && (s->shape == hit.shape || hit.flags))) continue;
+        if (meets(q, s, end) > 0) {
+            print_error("shape %d is met before fraction %.17Lg (result %d, shape %d)\n", i, end, result,
+                        result == FE_OK ? shape_index(k, hit.shape) : -1);
+            fail();
+        }
+    }
+    return result == FE_OK;
+}
+
+// Each body that is met is told once, at its first shape, in order; with little room the front of the same.
+static int32_t check_all(const known_world *k, const query *q)
+{
+    static fe_hit hits[BODIES], few[3];
+    static int32_t told[BODIES];
+    int32_t count = cast_all(k, q, hits, BODIES);
+    FE_WITHIN(count, 0, BODIES);
+    memset(told, -1, sizeof told);
+    for (int32_t i = 0; i < count; ++i) {
+        check_hit(k, q, &hits[i]);
+        int32_t body = body_index(k, hits[i].body);
+        assert_int_equal(told[body], -1);
+        told[body] = i;
+        if (i == 0) continue;
+        FE_TRUE(hits[i - 1].fraction < hits[i].fraction ||
+                (hits[i - 1].fraction == hits[i].fraction && body_index(k, hits[i - 1].body) < body));
+    }
+    for (int32_t i = 0; i < k->count; ++i) {
+        const known_shape *s = &k->shapes[i];
+        const fe_hit *hit = told[s->body] >= 0 ? &hits[told[s->body]] : NULL;
+        if (!counts(k, q, s) || (hit && (hit->shape == s->shape || hit->flags))) continue;
+        FE_TRUE(meets(q, s, hit ? hit->fraction : 1) <= 0);
+    }
+    assert_int_equal(cast_all(k, q, few, 3), count);
+    assert_memory_equal(few, hits, sizeof *hits * (size_t)(count < 3 ? count : 3));
+    assert_int_equal(cast_all(k, q, NULL, 0), count);
+    fe_hit first;
+    assert_int_equal(cast(k, q, &first), count > 0 ? FE_OK : FE_MISS);
+    if (count > 0) assert_memory_equal(&first, hits, sizeof first);
+    return count;
+}
+
+static void casts_find_what_a_walk_finds(int32_t is_ray)
+{
+    static known_world k;
+    const double middles[] = {0, 1e6};
+    query q;
+    for (uint64_t w = 0; w < 2; ++w) {
+        int64_t hits = 0, all = 0;
+        make_world(&k, middles[w], UINT64_C(88172645463325252) + w);
+        for (int32_t i = 0; i < queries / 2; ++i) {
+            random_query(&k, &q, is_ray);
+            hits += check_nearest(&k, &q);
+            all += check_all(&k, &q);
+        }
+        FE_WITHIN(hits, queries / 8, queries / 2);
+        FE_WITHIN(all, hits, 100 * hits);
+        OK(fe_world_destroy(k.world));
+    }
+}
+
+static void rays_find_what_a_walk_finds(void **state)
+{
+    (void)state;
+    casts_find_what_a_walk_finds(1);
+}
+
+static void sweeps_find_what_a_walk_finds(void **state)
+{
+    (void)state;
+    casts_find_what_a_walk_finds(0);
+}
+
+// ---- overlaps -------------------------------------------------------------------------------------------------------------------------
+static int32_t check_overlap(const known_world *k, const query *q)
+{
+    static fe_body found[BODIES], few[2];
+    static int32_t told[BODIES];
+    int32_t count = fe_world_overlap(k->world, &q->geometry, &q->start, &q->filter, found, BODIES), last = -1;
+    FE_WITHIN(count, 0, BODIES);
+    memset(told, 0, sizeof told);
+    for (int32_t i = 0; i < count; ++i) {
+        int32_t body = body_index(k, found[i]);
+        FE_TRUE(body > last); // bodies were made in this order
+        told[body] = 1, last = body;
+    }
+    int best[BODIES];
+    for (int32_t i = 0; i < BODIES; ++i) best[i] = -1;
+    for (int32_t i = 0; i < k->count; ++i) {
+        const known_shape *s = &k->shapes[i];
+        int o = counts(k, q, s) ? overlaps(q, s) : -1;
+        if (o > best[s->body]) best[s->body] = o;
+    }
+    for (int32_t i = 0; i < BODIES; ++i) {
+        if (best[i] != 0) FE_TRUE(told[i] == (best[i] > 0));
+    }
+    assert_int_equal(fe_world_overlap_any(k->world, &q->geometry, &q->start, &q->filter), count > 0 ? FE_OK : FE_MISS);
+    assert_int_equal(fe_world_overlap(k->world, &q->geometry, &q->start, &q->filter, few, 2), count);
+    assert_memory_equal(few, found, sizeof *few * (size_t)(count < 2 ? count : 2));
+    return count;
+}
+
+static void overlaps_find_what_a_walk_finds(void **state)
+{
+    (void)state;
+    static known_world k;
+    query q;
+    make_world(&k, 3000, UINT64_C(0x9e3779b97f4a7c15));
+    int64_t all = 0;
+    for (int32_t i = 0; i < queries; ++i) {
+        random_query(&k, &q, i % 4 == 0);
+        all += check_overlap(&k, &q);
+    }
+    FE_WITHIN(all, queries / 4, 20 * queries);
+    OK(fe_world_destroy(k.world));
+}
+
+// What overlaps can be moved out along the normal by the depth, and not by less.
+static void the_way_out_of_an_overlap_is_as_long_as_told(void **state)
+{
+    (void)state;
+    static known_world k;
+    query q;
+    make_world(&k, 0, 12345);
+    int32_t checked = 0;
+    for (int32_t i = 0; i < queries; ++i) {
+        fe_hit hit;
+        random_query(&k, &q, 0);
+        q.way = fe_make_dvec3(0, 0, 0);
+        if (cast(&k, &q, &hit) != FE_OK) continue;
+        assert_int_equal(hit.flags, FE_HIT_STARTED_INSIDE);
+        const solid *still = &k.shapes[shape_index(&k, hit.shape)].solid;
+        vec n = v_scale(1 / v_length(v_off(hit.normal)), v_off(hit.normal));
+        real depth = hit.depth, rounding = 1e-5L; // floats: 1e-7 of depth and normal, over some 10 m
+        FE_TRUE(overlap_at(&q.mover, still, v_scale(depth + rounding, n), 1e-7L) <= 0);
+        FE_TRUE(overlap_at(&q.mover, still, v_scale(depth - rounding, n), 1e-7L) >= 0);
+        checked += 1;
+    }
+    FE_WITHIN(checked, queries / 8, queries);
+    OK(fe_world_destroy(k.world));
+}
+
+// ---- the closest point ----------------------------------------------------------------------------------------------------------------
+static void the_closest_point_is_that_of_a_walk(void **state)
+{
+    (void)state;
+    static known_world k;
+    query q;
+    make_world(&k, 1e6, 777);
+    int32_t found = 0;
+    for (int32_t i = 0; i < queries; ++i) {
+        random_query(&k, &q, 1);
+        double most = chance(&k, 0.5) ? uniform(&k, 0, 2) : 1e4;
+        real best = INFINITY;
+        vec p = v_of(q.start.position);
+        for (int32_t s = 0; s < k.count; ++s) {
+            if (counts(&k, &q, &k.shapes[s])) best = fminl(best, distance_of(&k.shapes[s].solid, p));
+        }
+        fe_closest c;
+        int32_t result = fe_world_closest_point(k.world, &q.start.position, most, &q.filter, &c);
+        if (result == FE_MISS) {
+            FE_TRUE(best > most - 1e-9);
+            continue;
+        }
+        assert_int_equal(result, FE_OK);
+        found += 1;
+        const known_shape *s = &k.shapes[shape_index(&k, c.shape)];
+        assert_true(counts(&k, &q, s) && k.bodies[s->body] == c.body && c.triangle == -1);
+        FE_NEAR(c.distance, best, 1e-9);
+        FE_NEAR(distance_of(&s->solid, v_of(c.point)), 0, 2e-9); // a double at 1e6 m
+        vec back = v_sub(p, v_scale(c.distance, v_off(c.normal)));
+        FE_NEAR(v_length(v_sub(back, v_of(c.point))), 0, 2e-7 * (1 + fabs(c.distance)));
+        fe_closest alone;
+        OK(fe_shape_closest_point(k.world, c.shape, &q.start.position, &alone));
+        assert_memory_equal(&alone, &c, sizeof c);
+    }
+    FE_WITHIN(found, queries / 2, queries);
+    OK(fe_world_destroy(k.world));
+}
+
+int main(int argc, char **argv)
+{
+    if (argc > 1) queries = atoi(argv[1]);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rays_find_what_a_walk_finds),         cmocka_unit_test(sweeps_find_what_a_walk_finds),
+        cmocka_unit_test(overlaps_find_what_a_walk_finds),     cmocka_unit_test(the_way_out_of_an_overlap_is_as_long_as_told),
+        cmocka_unit_test(the_closest_point_is_that_of_a_walk),
+    };
+    return cmocka_run_group_tests_name("walk", tests, NULL, NULL);
+}
