@@ -6,8 +6,8 @@
 
 #include <stddef.h>
 
-// Hits are ordered in the caller's array, by what stands up to their fraction.
-enum { LEAST_SORTED_HIT = offsetof(fe_hit, fraction) + sizeof(double) };
+// Hits are ordered in the caller's array, which needs them whole, as version 1.0 knew them.
+enum { LEAST_SORTED_HIT = offsetof(fe_hit, flags) + sizeof(uint32_t) };
 
 // ---- arguments ------------------------------------------------------------------------------------------------------------------
 static fe_query_filter default_filter(void) { return (fe_query_filter){.struct_size = sizeof(fe_query_filter), .mask = UINT32_MAX}; }

@@ -7,7 +7,6 @@
 
 #include "query/keep.h"
 
-#include <stddef.h>
 #include <string.h>
 
 // ---- the probe ------------------------------------------------------------------------------------------------------------------
@@ -131,6 +130,12 @@ typedef struct cast {
     found found;
 } cast;
 
+// At equal fractions.
+static int32_t comes_before(const found *a, const fe__shape *of_a, const found *b, const fe__shape *of_b)
+{
+    return a->inside != b->inside ? a->inside : fe__created_before(of_a, of_b);
+}
+
 static double visit_nearest(void *context, int32_t index, double limit)
 {
     cast *c = context;
@@ -139,7 +144,7 @@ static double visit_nearest(void *context, int32_t index, double limit)
     if (!fe__scene_counts(c->scene, shape)) return limit;
     found f;
     if (!meet(c->scene, c->probe, shape, limit, &f)) return limit;
-    if (c->shape >= 0 && f.t == c->found.t && !fe__created_before(shape, &c->scene->shapes[c->shape])) return limit;
+    if (c->shape >= 0 && f.t == c->found.t && !comes_before(&f, shape, &c->found, &c->scene->shapes[c->shape])) return limit;
     c->shape = index;
     c->found = f;
     return f.t;
@@ -219,18 +224,15 @@ static double visit_all(void *context, int32_t index, double limit)
     return limit;
 }
 
-// Each hit is of another body.
 static int32_t hit_before(const void *context, const void *a, const void *b)
 {
     const fe__scene *scene = context;
-    double of_a, of_b;
-    fe_shape shape_a, shape_b;
-    memcpy(&of_a, (const char *)a + offsetof(fe_hit, fraction), sizeof of_a);
-    memcpy(&of_b, (const char *)b + offsetof(fe_hit, fraction), sizeof of_b);
-    if (of_a != of_b) return of_a < of_b;
-    memcpy(&shape_a, (const char *)a + offsetof(fe_hit, shape), sizeof shape_a);
-    memcpy(&shape_b, (const char *)b + offsetof(fe_hit, shape), sizeof shape_b);
-    return fe__created_before(&scene->shapes[fe__id_slot_of(shape_a)], &scene->shapes[fe__id_slot_of(shape_b)]);
+    fe_hit h, k; // records may be unaligned
+    memcpy(&h, a, sizeof h);
+    memcpy(&k, b, sizeof k);
+    if (h.fraction != k.fraction) return h.fraction < k.fraction;
+    if (h.flags != k.flags) return h.flags > k.flags;
+    return fe__created_before(&scene->shapes[fe__id_slot_of(h.shape)], &scene->shapes[fe__id_slot_of(k.shape)]);
 }
 
 int32_t fe__cast_all(const fe__scene *scene, const fe__probe *probe, fe_hit *out_hits, uint32_t stride, int32_t capacity)
@@ -239,7 +241,7 @@ int32_t fe__cast_all(const fe__scene *scene, const fe__probe *probe, fe_hit *out
                     .probe = probe,
                     .keep = {.records = out_hits,
                              .stride = stride,
-                             .size = stride < sizeof(fe_hit) ? stride : (uint32_t)sizeof(fe_hit),
+                             .size = sizeof(fe_hit),
                              .capacity = capacity,
                              .before = hit_before,
                              .context = scene}};

@@ -20,7 +20,7 @@ fe__probe fe__probe_form(const fe__form *form, const fe_transform *from, fe_dvec
 // Does it overlap the shape where it starts? Exactly when a cast would start inside.
 int32_t fe__probe_overlaps(const fe__scene *scene, const fe__probe *probe, const fe__shape *shape);
 
-// The nearest; of equally near ones that of the body created first. 1: hit.
+// The nearest; of equally near ones what overlaps at the start, then that of the body created first. 1: hit.
 int32_t fe__cast_closest(const fe__scene *scene, const fe__probe *probe, fe_hit *out_hit);
 int32_t fe__cast_any(const fe__scene *scene, const fe__probe *probe);
 // The nearest hit of each body, the nearest `capacity` of these in order. Returns how many bodies are hit.

@@ -161,6 +161,7 @@ static const char *broken_by_sweep(const fe_world *world, const input *in)
     int32_t result = fe_world_sweep(world, &in->geometry, &in->start, &in->way, NULL, &first);
     if (result != (all > 0 ? FE_OK : FE_MISS) || fe_world_sweep_any(world, &in->geometry, &in->start, &in->way, NULL) != result)
         return "first, any and all agree";
+    if ((result == FE_OK && first.flags != 0) != (overlap > 0)) return "overlap and a start inside are one for the first hit";
     if (all > 0 && memcmp(&first, hits, sizeof first) != 0) return "the first of all is the first";
     if (in->way.x == 0 && in->way.y == 0 && in->way.z == 0 && all != overlap) return "a zero translation is an overlap test";
     return NULL;
