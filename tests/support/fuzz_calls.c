@@ -163,6 +163,80 @@ static int32_t raycast(fuzz *f)
     return result;
 }
 
+static void check_fuzz_hit(fuzz *f, const fe_hit *hit)
+{
+    if (!fe_body_is_valid(f->world, hit->body) || !fe_shape_is_valid(f->world, hit->shape)) fuzz_fail(f, "a hit on nothing");
+    if (!(hit->fraction >= 0.0 && hit->fraction <= 1.0) && !f->is_wild) fuzz_fail(f, "a fraction outside the way");
+    fe__hash_double(&f->told, hit->fraction);
+}
+
+static int32_t query_many(fuzz *f)
+{
+    enum { MOST = 4 };
+    fe_hit hits[MOST];
+    fe_ray rays[MOST];
+    fe_path paths[MOST];
+    fe_geometry g = some_geometry(f);
+    for (int32_t i = 0; i < MOST; ++i) {
+        rays[i].origin = fuzz_dvec3(f);
+        rays[i].translation = paths[i].translation = fuzz_dvec3(f);
+        paths[i].start = fuzz_transform(f);
+    }
+    int32_t spread = fuzz_byte(f) % 3, count = fuzz_byte(f) % (MOST + 1);
+    int32_t found = fuzz_byte(f) & 1 ? fe_world_raycast_many(f->world, or_null(f, rays), 0, count, NULL, spread, hits, 0)
+                                     : fe_world_sweep_many(f->world, or_null(f, &g), paths, 0, count, NULL, spread, hits, 0);
+    for (int32_t i = 0; i < count && found >= 0; ++i) {
+        if (hits[i].body) check_fuzz_hit(f, &hits[i]);
+    }
+    return found;
+}
+
+static int32_t query_forms(fuzz *f)
+{
+    enum { MOST = 4 };
+    fe_hit hits[MOST];
+    fe_body bodies[MOST];
+    fe_geometry g = some_geometry(f);
+    if (fuzz_byte(f) % 8 == 0) g.type = FE_GEOMETRY_SPHERE, g.radius = 0.0f;
+    fe_transform t = fuzz_transform(f);
+    fe_dvec3 way = fuzz_dvec3(f);
+    fe_query_filter filter;
+    fe_query_filter_init(&filter, sizeof filter);
+    filter.flags = fuzz_byte(f) % 3u;
+    int32_t room = fuzz_byte(f) % (MOST + 1), overlap = fe_world_overlap(f->world, &g, &t, &filter, bodies, room);
+    int32_t all = fe_world_sweep_all(f->world, or_null(f, &g), &t, &way, &filter, hits, 0, room);
+    int32_t first = fe_world_sweep(f->world, &g, &t, &way, or_null(f, &filter), hits);
+    if (first == FE_OK) check_fuzz_hit(f, hits);
+    fe__hash_u64(&f->told, (uint64_t)(uint32_t)all);
+    fe__hash_u64(&f->told, (uint64_t)(uint32_t)overlap);
+    return fe_world_sweep_any(f->world, &g, &t, or_null(f, &way), &filter);
+}
+
+static int32_t query_rays(fuzz *f)
+{
+    enum { MOST = 4, WIDEST = 80 };
+    fe_hit hits[MOST + 1]; // so that MOST of the widest fit
+    fe_dvec3 origin = fuzz_dvec3(f), way = fuzz_dvec3(f);
+    int32_t room = fuzz_byte(f) % (MOST + 1);
+    uint32_t stride = fuzz_byte(f) % (WIDEST + 1);
+    int32_t all = fe_world_raycast_all(f->world, or_null(f, &origin), &way, NULL, hits, stride < WIDEST / 2 ? 0 : stride, room);
+    fe__hash_u64(&f->told, (uint64_t)(uint32_t)all);
+    if (fe_body_raycast(f->world, fuzz_body(f), &origin, &way, hits) == FE_OK) check_fuzz_hit(f, hits);
+    if (fe_shape_raycast(f->world, fuzz_shape(f), &origin, &way, hits) == FE_OK) check_fuzz_hit(f, hits);
+    return fe_world_raycast_any(f->world, &origin, or_null(f, &way), NULL);
+}
+
+static int32_t query_points(fuzz *f)
+{
+    fe_closest c;
+    fe_dvec3 point = fuzz_dvec3(f);
+    double most = (double)fuzz_size(f);
+    fe_result result = fe_world_closest_point(f->world, or_null(f, &point), most, NULL, &c);
+    if (result == FE_OK && !f->is_wild && !(c.distance <= most)) fuzz_fail(f, "a closest point too far off");
+    (void)fe_body_closest_point(f->world, fuzz_body(f), &point, &c);
+    return fe_shape_closest_point(f->world, fuzz_shape(f), &point, or_null(f, &c) ? &c : NULL);
+}
+
 static int32_t fail_memory(fuzz *f)
 {
     f->fail_after = 1 + fuzz_byte(f) % 8;
@@ -580,6 +654,10 @@ const fuzz_call fuzz_calls[] = {
     {"fe_world_ignore_collision", ignore, 0},
     {"fe_world_sync_queries", sync_queries, 0},
     {"fe_world_raycast", raycast, 0},
+    {"fe_world_raycast_all, _any, fe_body_raycast, fe_shape_raycast", query_rays, 0},
+    {"fe_world_sweep, _all, _any, fe_world_overlap", query_forms, 0},
+    {"fe_world_raycast_many, fe_world_sweep_many", query_many, 0},
+    {"fe_world_closest_point, fe_body_closest_point, fe_shape_closest_point", query_points, 0},
     {"no memory", fail_memory, 0},
     {"fe_body_set_type", set_type, 1},
     {"fe_body_set_transform", set_transform, 1},
