@@ -872,7 +872,7 @@ FE_API fe_result fe_world_raycast(const fe_world *world, const fe_dvec3 *origin,
 /// @return FE_OK on a hit, FE_MISS
 FE_API fe_result fe_world_raycast_any(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter);
 /// Every body on a segment, each once, at its first hit, ordered by fraction, then by creation.
-/// @param stride  at least 48: up to the fraction
+/// @param stride  at least 72: the hits are ordered where they lie
 /// @return how many bodies are hit; when they are more than `capacity` the nearest are written
 FE_API int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
                                     fe_hit *out_hits, uint32_t stride, int32_t capacity);
@@ -886,9 +886,9 @@ FE_API int32_t fe_world_raycast_many(const fe_world *world, const fe_ray *rays, 
 
 /// What a sphere, capsule or box that moves without turning touches first.
 ///
-/// It stops at most 1 micrometre before the body (0.1 mm: a box before a box; 1e-15 of distances far beyond), never in it. What overlaps at the start is a hit at fraction 0, flagged
-/// FE_HIT_STARTED_INSIDE; what is touched there without overlap, too, unless the form moves away from it or along it, which is no hit. At equal
-/// fractions the body created first wins.
+/// It stops at most 1 micrometre before the body (0.1 mm: a box before a box), never in it. What overlaps at the start is a hit at fraction 0, flagged
+/// FE_HIT_STARTED_INSIDE; so is, without the flag, what it starts to touch, but what it leaves or slides along is no hit. At equal fractions
+/// what overlaps comes first, then the body created first.
 /// @param geometry     sphere, capsule or box; a sphere of radius 0 sweeps as a ray
 /// @param start        pose of the geometry at the start
 /// @param translation  m; zero asks what overlaps
