@@ -63,7 +63,8 @@ void bench_turn(bench_body *body, double x, double y, double z, double angle)
 
 bench_joint *bench_add_hinge_z(bench_scene *s, int32_t body_a, int32_t body_b, double x, double y)
 {
-    bench_joint *joint = &s->joints[bench_add_joint(s, body_a, body_b, x, y, 0.0)];
+    int32_t index = bench_add_joint(s, body_a, body_b, x, y, 0.0); // first: it may move the array
+    bench_joint *joint = &s->joints[index];
     joint->kind = BENCH_HINGE;
     joint->axis[2] = 1.0;
     return joint;

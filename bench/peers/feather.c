@@ -116,9 +116,16 @@ static fe_result add_ball(bench_world *w, const bench_joint *joint, const fe_dve
 
 static fe_result add_hinge(bench_world *w, const bench_joint *joint, const fe_dvec3 *anchor, const fe_vec3 *axis)
 {
-    fe_hinge_def def;
+    fe_hinge_def def, open;
     fe_hinge_def_init(&def, sizeof def);
-    fe_result result = fe_hinge_def_at(w->world, &def, w->bodies[joint->body_a], w->bodies[joint->body_b], anchor, axis);
+    fe_body a = w->bodies[joint->body_a], b = w->bodies[joint->body_b];
+    fe_result result = fe_hinge_def_at(w->world, &def, a, b, anchor, axis);
+    if (result == FE_OK && joint->is_open) {
+        const fe_dvec3 other = {joint->anchor_b[0], joint->anchor_b[1], joint->anchor_b[2]};
+        fe_hinge_def_init(&open, sizeof open);
+        result = fe_hinge_def_at(w->world, &open, a, b, &other, axis);
+        def.frame_b = open.frame_b;
+    }
     def.hertz = (float)joint->stiffness_hertz, def.damping_ratio = OWN_DAMPING_RATIO;
     def.limited = joint->has_limits;
     if (joint->has_limits) def.min_angle = (float)joint->limits[0], def.max_angle = (float)joint->limits[1];

@@ -73,11 +73,11 @@ FE_INLINE void aim_drive(freedom *f, wide error, const fe__step_constants *c)
     f->drive_push = c->h * k * f->drive_fade * error;
 }
 
-// x is known: mass and drive from the new gradient
-FE_INLINE void aim(freedom *f, wide response, int part, const fe__step_constants *c)
+// x is known: mass and drive from the new gradient. A response no greater than `least` is none
+FE_INLINE void aim(freedom *f, wide response, wide least, int part, const fe__step_constants *c)
 {
-    f->response = response;
-    f->mass = inverse_or_zero(response);
+    f->response = w_choose(w_greater(response, least), response, w_set(0.0f));
+    f->mass = inverse_or_zero(f->response);
     wide error = f->x - f->target;
     // a twist without limits goes the shorter way
     if (part == FE__PART_TWIST)
@@ -127,6 +127,7 @@ typedef struct {
     wide spin_a[3], spin_b[3];     // what they turn
     wide mass_a[3], mass_b[3];     // inverse, along the world's axes: 0 where locked
     freedom f;
+    wide unlocked; // inverse masses, locks aside
     wide_sym inertia_a, inertia_b;
     wide first_frame[4]; // A's
     wide first_arm_a[3], first_arm_b[3], first_gap[3];
@@ -150,7 +151,7 @@ FE_INLINE void place_linear(linear_row *row, const fe__solver *s, int part, cons
     wide3 ma = w_cross(arm, u), mb = w_cross(now.rb, u), sa = w_mul(&row->inertia_a, ma), sb = w_mul(&row->inertia_b, mb);
     wide linear = w_dot(u, w_times(w_add(load3(row->mass_a), load3(row->mass_b)), u));
     store3(row->u, u), store3(row->moment_a, ma), store3(row->moment_b, mb), store3(row->spin_a, sa), store3(row->spin_b, sb);
-    aim(&row->f, linear + (w_dot(ma, sa) + w_dot(mb, sb)), part, c);
+    aim(&row->f, linear + (w_dot(ma, sa) + w_dot(mb, sb)), RIGID * row->unlocked, part, c);
 }
 
 FE_INLINE void push_linear(const linear_row *row, ends *e, wide impulse)
@@ -190,6 +191,7 @@ FE_INLINE void prepare_linear(fe__solver *s, const fe__body *bodies, const fe__j
         row->inertia_a = gather_inertia(s, row->line.a), row->inertia_b = gather_inertia(s, row->line.b);
         ends e = gather_ends(s, &row->line);
         store3(row->mass_a, free_mass(&e.a)), store3(row->mass_b, free_mass(&e.b));
+        row->unlocked = e.a.inverse_mass + e.b.inverse_mass;
         read_freedom(&row->f, joints, r, slot, 0, c);
         place_linear(row, s, part, c);
         push_linear(row, &e, impulse_of(&row->f));
@@ -305,7 +307,7 @@ FE_INLINE void place_angular(angular_row *row, const fe__solver *s, int part, co
     g = turned(qa, g);
     wide3 sa = w_mul(&row->inertia_a, g), sb = w_mul(&row->inertia_b, g);
     store3(row->g, g), store3(row->spin_a, sa), store3(row->spin_b, sb);
-    aim(&row->f, w_dot(g, w_add(sa, sb)), part, c);
+    aim(&row->f, w_dot(g, w_add(sa, sb)), RIGID * (trace(&row->inertia_a) + trace(&row->inertia_b)), part, c);
 }
 
 FE_INLINE void push_angular(const angular_row *row, spins *e, wide impulse)

@@ -39,7 +39,7 @@ FE_INLINE wide_sym slide_mass(const slide_row *row, wide3 ra, wide3 rb)
     wide3 x = in_frame(row, w_mul(&k, load3(row->u[0]))), y = in_frame(row, w_mul(&k, load3(row->u[1]))),
           z = in_frame(row, w_mul(&k, load3(row->u[2])));
     wide_sym f = {keep.x * x.x, keep.x * keep.y * x.y, keep.x * keep.z * x.z, keep.y * y.y, keep.y * keep.z * y.z, keep.z * z.z};
-    f = give(f, w_greater(row->locked, zero));
+    f = give(f, trace(&k), w_greater(row->locked, zero));
     // a free axis counts as much as the others, so that the inverse keeps its digits; times 0 in the end
     wide scale = w_max(f.xx, w_max(f.yy, f.zz));
     f.xx = f.xx + (one - keep.x) * scale, f.yy = f.yy + (one - keep.y) * scale, f.zz = f.zz + (one - keep.z) * scale;

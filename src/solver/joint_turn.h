@@ -26,7 +26,7 @@ FE_INLINE void hinge_mass(hinge_row *row, wide3 t1, wide3 t2)
     wide_sym k = sum_sym(&row->inertia_a, &row->inertia_b);
     wide3 k1 = w_mul(&k, t1), k2 = w_mul(&k, t2);
     wide k11 = w_dot(t1, k1), k12 = w_dot(t1, k2), k22 = w_dot(t2, k2);
-    wide more = w_choose(w_greater(row->locked, w_set(0.0f)), LOCKED_GIVE * (k11 + k22), w_set(0.0f));
+    wide more = w_choose(w_greater(row->locked, w_set(0.0f)), LOCKED_GIVE * trace(&k), w_set(0.0f));
     k11 = k11 + more, k22 = k22 + more;
     wide d = inverse_or_zero(k11 * k22 - k12 * k12);
     row->mass[0] = d * k22, row->mass[1] = -(d * k12), row->mass[2] = d * k11;
@@ -151,7 +151,8 @@ static void prepare_fixed(fe__solver *s, const fe__body *bodies, const fe__joint
         store4(row->first, w_product(qb, w_conjugate(qa)));
         row->inertia_a = gather_inertia(s, row->line.a), row->inertia_b = gather_inertia(s, row->line.b);
         spins e = gather_spins(s->velocity, &row->line);
-        wide_sym k = give(sum_sym(&row->inertia_a, &row->inertia_b), w_greater(e.locks_a + e.locks_b, w_set(0.0f)));
+        wide_sym k = sum_sym(&row->inertia_a, &row->inertia_b);
+        k = give(k, trace(&k), w_greater(e.locks_a + e.locks_b, w_set(0.0f)));
         row->mass = inverse_scaled(&k);
         store3(row->impulse, w_scale(w_set(c->warm_scale), w_xyz(FRAME_QUAD(impulse)))), store3(row->total, w_zero3());
         place_fixed(row, s);
@@ -239,7 +240,8 @@ FE_INLINE void aim_turn(turn_row *row, wide4 drive, wide_mask locked, const fe__
 {
     wide zero = w_set(0.0f), one = w_set(1.0f), omega = 2.0f * FE_PI * drive.x;
     wide_mask newtons = w_greater(drive.w, zero), on;
-    wide_sym k = give(sum_sym(&row->inertia_a, &row->inertia_b), locked);
+    wide_sym k = sum_sym(&row->inertia_a, &row->inertia_b);
+    k = give(k, trace(&k), locked);
     row->mass = inverse_scaled(&k);
     wide fade = 1.0f / (1.0f + c->h * omega * (2.0f * drive.y + c->h * omega));
     wide given = inverse_or_zero(c->h * (drive.y + c->h * drive.x)), stiff = one - fade;

@@ -196,15 +196,18 @@ FE_INLINE wide_sym inverse_scaled(const wide_sym *m)
     return (wide_sym){k * i.xx, k * i.xy, k * i.xz, k * i.yy, k * i.yz, k * i.zz};
 }
 
+FE_INLINE wide trace(const wide_sym *k) { return k->xx + k->yy + k->zz; }
+
 // Locked bodies may leave a matrix without an inverse: then what cannot move gives a little, as a share of what can. Others keep theirs.
 #define LOCKED_GIVE 1e-4f
-FE_INLINE wide_sym give(wide_sym k, wide_mask locked)
+FE_INLINE wide_sym give(wide_sym k, wide all, wide_mask locked)
 {
-    wide more = w_choose(locked, LOCKED_GIVE * (k.xx + k.yy + k.zz), w_set(0.0f));
+    wide more = w_choose(locked, LOCKED_GIVE * all, w_set(0.0f));
     k.xx = k.xx + more, k.yy = k.yy + more, k.zz = k.zz + more;
     return k;
 }
-FE_INLINE wide_mask any_locks(const ends *e) { return w_greater(e->a.locks + e->b.locks, w_set(0.0f)); }
+// of all that moves: what answers by less is what rounding left of a locked direction
+#define RIGID 1e-6f
 
 FE_INLINE wide_sym sum_sym(const wide_sym *a, const wide_sym *b)
 {
