@@ -7,7 +7,7 @@
 enum {
     BLOCK_ALIGNMENT = 64, // a cache line, and the widest SIMD load
     FIRST_CAPACITY = 16,  // records: below that, doubling would allocate at every other call
-    DOUBLE_BELOW = 4096,  // records: a larger array grows by a quarter
+    DOUBLE_BELOW = 16384, // records: a larger array grows by a quarter
 };
 
 // aligned_alloc wants a multiple of the alignment

@@ -1,7 +1,7 @@
 // contact.simd.c - the contact solver: rows of W contacts, of 4 points or of one. Compiled once per SIMD set; see core/simd.h.
 //
-// TGS Soft after E. Catto, "Soft Constraints" (GDC 2011) and Solver2D (2024): in each substep a soft push, then positions, then a rigid pass with
-// friction. The first warm start is part of prepare; the later ones are carried by the bodies (bodies.simd.c).
+// TGS Soft after E. Catto, "Soft Constraints" (GDC 2011) and Solver2D (2024): in each substep a soft push, then positions, then a rigid
+// pass with friction. The first warm start is part of prepare; the later ones are carried by the bodies (bodies.simd.c).
 #include "core/simd.h"
 #include "solver/solver.h"
 #include "solver/wide_body.h"
@@ -10,20 +10,21 @@
 
 #define UNROLL _Pragma("GCC unroll 8")
 
-// a shift of one body against the other up to which a contact's arms stay as found, m: what recycling leaves alone at rest, and little beside the
-// arms of anything that tumbles
+// a shift of one body against the other up to which a contact's arms stay as found, m: what recycling leaves alone at rest, and little
+// beside the arms of anything that tumbles
 #define FROZEN_SHIFT 0.0005f
-// sweeps in which the points of a contact share the impulses of an impact: each leaves a third of the last one's error
-#define IMPACT_SWEEPS 8
-// what makes a change of load an impact
-#define IMPACT_CHANGE 1.5f
+// a gap up to which a loaded point is soft as if it touched, m. Of a face that just touches, rounding would otherwise make some points soft
+// and others rigid, and a box that landed flat would turn
+#define TOUCHING 1e-4f
+// in which the points of a contact reach the speeds of their bounce: each leaves a third of the last one's error
+#define BOUNCE_SWEEPS 8
 
 typedef struct {
     wide r[3];       // from A's centre (from B's when A is static: then span is 0)
     wide separation; // when the step began
     wide mass;       // m_i = 1 / K_ii, 0 for a point that is not there
     wide impulse;
-    wide total;      // of the impulses of the substeps so far
+    wide total; // of the impulses of the substeps so far
 } point_row;
 
 typedef struct {
@@ -41,8 +42,8 @@ FE_INLINE wide at(const affine *f, wide3 r) { return f->constant + w_dot(f->slop
 
 static const int coupling_of[FE__POINTS][FE__POINTS] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
 
-// Two unit vectors that make a basis with n (Duff et al., "Building an Orthonormal Basis, Revisited", 2017). They flip where n.z changes sign, so
-// they live no longer than a step.
+// Two unit vectors that make a basis with n (Duff et al., "Building an Orthonormal Basis, Revisited", 2017). They flip where n.z changes
+// sign, so they live no longer than a step.
 FE_INLINE void tangents(wide3 n, wide3 *t1, wide3 *t2)
 {
     wide one = w_set(1.0f);
@@ -117,12 +118,12 @@ FE_INLINE void store_lanes(fe__contact *contacts, const int32_t *index, wide4 no
 #define POINTS 1
 #include "solver/contact_rows.h"
 
-#define OF_KINDS(verb)                                                                                                                               \
-    {                                                                                                                                                \
-        [0] = verb##_fixed_4, [FE__ROW_PAIR] = verb##_pair_4, [FE__ROW_SPECIAL] = verb##_fixed_special_4,                                            \
-        [FE__ROW_PAIR | FE__ROW_SPECIAL] = verb##_pair_special_4, [FE__ROW_SINGLE] = verb##_fixed_1,                                                 \
-        [FE__ROW_SINGLE | FE__ROW_PAIR] = verb##_pair_1, [FE__ROW_SINGLE | FE__ROW_SPECIAL] = verb##_fixed_special_1,                                \
-        [FE__ROW_SINGLE | FE__ROW_PAIR | FE__ROW_SPECIAL] = verb##_pair_special_1                                                                    \
+#define OF_KINDS(verb)                                                                                                \
+    {                                                                                                                 \
+        [0] = verb##_fixed_4, [FE__ROW_PAIR] = verb##_pair_4, [FE__ROW_SPECIAL] = verb##_fixed_special_4,             \
+        [FE__ROW_PAIR | FE__ROW_SPECIAL] = verb##_pair_special_4, [FE__ROW_SINGLE] = verb##_fixed_1,                  \
+        [FE__ROW_SINGLE | FE__ROW_PAIR] = verb##_pair_1, [FE__ROW_SINGLE | FE__ROW_SPECIAL] = verb##_fixed_special_1, \
+        [FE__ROW_SINGLE | FE__ROW_PAIR | FE__ROW_SPECIAL] = verb##_pair_special_1                                     \
     }
 
 const fe__contact_kernels FE_NAME(fe__contact_kernels) = {

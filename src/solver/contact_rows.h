@@ -10,8 +10,8 @@
 // A round side (sphere, capsule) is its core swelled by a radius rho: the core turns with the body, the radius stays along n. Its point is
 // core + rho n on A, core - rho n on B, so the separation gains  rhoA nA.n + rhoB nB.n: a ball that rolls keeps its distance.
 //
-// One Gauss-Seidel sweep over the points runs on the impulses with the stored matrix K_ij = n.M^-1.n between points, and the bodies are
-// touched once, by the sum: what sequential updates of the bodies give, up to rounding, at half their arithmetic.
+// The points are solved on their impulses with the stored matrix K_ij = n.M^-1.n between points, and the bodies are touched once, by the
+// sum: a step for all points at once, which treats them alike, then a Gauss-Seidel sweep for what is left.
 //
 // `kind` is a constant of each instance: FE__ROW_PAIR both sides are dynamic, else only B moves; FE__ROW_SPECIAL the row carries a
 // special_row.
@@ -117,19 +117,54 @@ FE_INLINE void NAMED(record_touch)(SPECIAL_ROW *x, int i, wide impulse, wide vn,
 {
     wide zero = w_set(0.0f), u = -vn, gap = w_max(distance, zero), g = x->closing;
     wide flight = (moved ? u * (u + c->h * g) : u * (u - c->h * g)) + 2.0f * g * gap;
-    wide_mask touches = w_and(w_greater(u * c->h, distance), w_greater(u, w_set(c->threshold)));
+    // as the impulse is computed, so that none is given to a point that is not noted
+    wide_mask closes = w_greater(zero, vn + w_max(distance * c->inverse_h, zero));
+    wide_mask touches = w_and(closes, w_greater(u, w_set(c->threshold)));
     touches = w_and(touches, w_greater(x->row.point[i].mass * x->restitution, zero));
     touches = w_and(touches, w_not(w_or(w_greater(impulse, zero), w_greater(x->approach[i], zero))));
     x->approach[i] = w_choose(touches, u, x->approach[i]);
     x->flight[i] = w_choose(touches, w_max(flight, zero), x->flight[i]);
 }
 
+// What changes d of the other points take from the wish of point j: scale_j sum_i m_j K_ij d_i. The stored m_j K_ij, i < j, stand for m_i
+// K_ij too.
+FE_INLINE wide NAMED(lost_at)(const ROW *row, const wide *scale, const wide *d, int j)
+{
+    wide sum = w_set(0.0f);
+    UNROLL for (int i = 0; i < POINTS; ++i) if (i != j) sum = sum + row->coupling[coupling_of[i][j]] * d[i];
+    return scale ? scale[j] * sum : sum;
+}
+
+// All points at once, each by the same share of what it asks for, e_i = wish_i - l_i:  d = a e,  a = e.e / e.(M e),  M_ij = m_j K_ij. A
+// step of steepest descent, and what it knows nothing of is the order of the points: a box that lands flat gets four equal impulses and
+// does not turn, where a sweep alone gives the first point the most.
+FE_INLINE void NAMED(predict_points)(ROW *row, wide *wish, const wide *scale)
+{
+    wide zero = w_set(0.0f), one = w_set(1.0f), square = zero, along = zero, d[POINTS];
+    UNROLL for (int i = 0; i < POINTS; ++i) d[i] = wish[i] - row->point[i].impulse;
+    UNROLL for (int j = 0; j < POINTS; ++j)
+    {
+        square = square + d[j] * d[j];
+        along = along + d[j] * (d[j] + NAMED(lost_at)(row, scale, d, j));
+    }
+    wide share = w_choose(w_greater(along, 0.5f * square), square / along, one);
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        wide before = row->point[i].impulse;
+        row->point[i].impulse = w_max(before + share * d[i], zero);
+        d[i] = row->point[i].impulse - before;
+    }
+    UNROLL for (int j = 0; j < POINTS; ++j) wish[j] = wish[j] - NAMED(lost_at)(row, scale, d, j);
+}
+
 // Runs the points against each other on their impulses. wish[i] is the new impulse of point i before max(., 0); a change d at point i
 // lowers wish[j] by scale_j m_j K_ij d. Returns the sum of the changes and their moment about A's centre.
 FE_INLINE wide3 NAMED(sweep_points)(ROW *row, wide *wish, const wide *scale, wide *out_sum)
 {
-    wide zero = w_set(0.0f), sum = zero;
+    wide zero = w_set(0.0f), sum = zero, first[POINTS];
     wide3 moment = w_zero3();
+    UNROLL for (int i = 0; i < POINTS; ++i) first[i] = row->point[i].impulse;
+    if (POINTS > 1) NAMED(predict_points)(row, wish, scale);
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
         point_row *q = row->point + i;
@@ -140,58 +175,12 @@ FE_INLINE wide3 NAMED(sweep_points)(ROW *row, wide *wish, const wide *scale, wid
             wide k = row->coupling[coupling_of[i][j]];
             wish[j] = wish[j] - (scale ? scale[j] * k : k) * change;
         }
+        change = impulse - first[i];
         sum = sum + change;
         moment = w_add_scaled(moment, change, load3(q->r));
     }
     *out_sum = sum;
     return moment;
-}
-
-// Sets the points' impulses. Returns the sum of the changes and their moment about A's centre.
-FE_INLINE wide3 NAMED(share_out)(ROW *row, const wide *impulse, wide *out_sum)
-{
-    wide3 moment = w_zero3();
-    *out_sum = w_set(0.0f);
-    UNROLL for (int i = 0; i < POINTS; ++i)
-    {
-        wide change = impulse[i] - row->point[i].impulse;
-        row->point[i].impulse = impulse[i];
-        *out_sum = *out_sum + change;
-        moment = w_add_scaled(moment, change, load3(row->point[i].r));
-    }
-    return moment;
-}
-
-// The impulse that point i asks for while the others keep theirs, before max(., 0). out_scale: what its velocity counts.
-// Soft (pushing):   l' = max(l - m (ms vn + bias) - is l, 0);  apart (s > 0): bias = s / h, ms = 1, is = 0
-// Rigid (relaxing): l' = max(l - m (vn + max(s / h, 0)), 0)
-FE_INLINE wide NAMED(wish_of)(const point_row *q, wide vn, wide distance, const fe__step_constants *c, int kind, int soft, wide *out_scale)
-{
-    const fe__softness *k = kind & FE__ROW_PAIR ? &c->between_dynamic : &c->against_static;
-    wide zero = w_set(0.0f), one = w_set(1.0f), ahead = distance * c->inverse_h;
-    *out_scale = one;
-    if (!soft) return q->impulse - q->mass * (vn + w_max(ahead, zero));
-    wide_mask apart = w_greater(distance, zero);
-    wide bias = w_choose(apart, ahead, w_max(w_set(k->mass_scale * k->bias_rate) * distance, w_set(-c->push_speed)));
-    *out_scale = w_choose(apart, one, w_set(k->mass_scale));
-    wide kept = q->impulse - w_choose(apart, zero, w_set(k->impulse_scale)) * q->impulse;
-    return kept - q->mass * (*out_scale * vn + bias);
-}
-
-FE_INLINE void NAMED(solve_normals_once)(ROW *row, const affine *gap, const fe__step_constants *c, pair *p, int kind, int soft)
-{
-    wide wish[POINTS], scale[POINTS], sum;
-    affine velocity = NAMED(normal_velocity)(p);
-    UNROLL for (int i = 0; i < POINTS; ++i)
-    {
-        const point_row *q = row->point + i;
-        wide3 r = load3(q->r);
-        wide vn = at(&velocity, r), distance = q->separation + at(gap, r);
-        if (kind & FE__ROW_SPECIAL) NAMED(record_touch)((SPECIAL_ROW *)row, i, q->impulse, vn, distance, c, !soft);
-        wish[i] = NAMED(wish_of)(q, vn, distance, c, kind, soft, scale + i);
-    }
-    wide3 moment = NAMED(sweep_points)(row, wish, soft ? scale : 0, &sum);
-    NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
 }
 
 FE_INLINE wide NAMED(load_of)(const ROW *row)
@@ -201,72 +190,39 @@ FE_INLINE wide NAMED(load_of)(const ROW *row)
     return load;
 }
 
-// Gives every point that is there the same impulse, of a size that their wishes together ask for. With K_ij = coupling_ij / m_j for i < j:
-//     l = mean,  then  l += d,  d = sum_i (wish_i - l) / m_i  /  (sum_ij scale_i K_ij + sum_i is / m_i)
-// A box that lands flat is done with that, exactly, whatever the order of its points; sweeps find what the others need.
-FE_INLINE void NAMED(even_out)(ROW *row, const affine *gap, const fe__step_constants *c, pair *p, int kind, int soft)
+// The impulses that the points ask for while the others keep theirs, before max(., 0). out_scale: what their velocities count.
+// Soft (pushing):   l' = max((1 - is) l - m (ms vn + bias), 0);  bias = ms s / h where the gap s > 0, the spring's otherwise
+// Rigid (relaxing, and where there is a gap: for a loaded point, one of more than TOUCHING): l' = max(l - m (vn + max(s / h, 0)), 0)
+FE_INLINE void NAMED(wishes)(ROW *row, const affine *gap, const fe__step_constants *c, const pair *p, int kind, int soft, wide *wish,
+                             wide *scale)
 {
     const fe__softness *k = kind & FE__ROW_PAIR ? &c->between_dynamic : &c->against_static;
-    wide zero = w_set(0.0f), wish[POINTS], scale[POINTS], inverse[POINTS], asked = zero, resistance = zero, count = zero, sum;
-    UNROLL for (int i = 0; i < POINTS; ++i) inverse[i] = inverse_or_zero(row->point[i].mass);
-    UNROLL for (int i = 0; i < POINTS; ++i) count = count + w_choose(w_greater(inverse[i], zero), w_set(1.0f), zero);
-    wide mean = NAMED(load_of)(row) * inverse_or_zero(count);
-    UNROLL for (int i = 0; i < POINTS; ++i) wish[i] = w_choose(w_greater(inverse[i], zero), mean, zero);
-    wide3 moment = NAMED(share_out)(row, wish, &sum);
-    NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
+    wide zero = w_set(0.0f), one = w_set(1.0f), slowest = w_set(-c->push_speed), rate = w_set(k->mass_scale * k->bias_rate);
     affine velocity = NAMED(normal_velocity)(p);
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
         const point_row *q = row->point + i;
-        wide distance = q->separation + at(gap, load3(q->r));
-        wide change = NAMED(wish_of)(q, at(&velocity, load3(q->r)), distance, c, kind, soft, scale + i) - q->impulse;
-        asked = asked + inverse[i] * change;
-        wide_mask soft_point = w_greater(zero, distance);
-        if (soft) resistance = resistance + w_choose(soft_point, inverse[i] * k->impulse_scale, zero);
-        resistance = resistance + scale[i] * inverse[i];
-        for (int j = 0; j < i; ++j) resistance = resistance + (scale[i] + scale[j]) * row->coupling[coupling_of[j][i]] * inverse[i];
+        wide3 r = load3(q->r);
+        wide vn = at(&velocity, r), distance = q->separation + at(gap, r), ahead = distance * c->inverse_h;
+        if (kind & FE__ROW_SPECIAL) NAMED(record_touch)((SPECIAL_ROW *)row, i, q->impulse, vn, distance, c, !soft);
+        if (!soft) {
+            wish[i] = q->impulse - q->mass * (vn + w_max(ahead, zero));
+            continue;
+        }
+        wide_mask apart = w_greater(distance, w_choose(w_greater(q->impulse, zero), w_set(TOUCHING), zero));
+        scale[i] = w_choose(apart, one, w_set(k->mass_scale));
+        wide bias = w_choose(w_greater(distance, zero), scale[i] * ahead, w_max(rate * distance, slowest));
+        wish[i] = w_choose(apart, one, w_set(1.0f - k->impulse_scale)) * q->impulse - q->mass * (scale[i] * vn + bias);
     }
-    wide each = asked * inverse_or_zero(resistance);
-    UNROLL for (int i = 0; i < POINTS; ++i) wish[i] =
-        w_choose(w_greater(inverse[i], zero), w_max(row->point[i].impulse + each, zero), zero);
-    moment = NAMED(share_out)(row, wish, &sum);
-    NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
-}
-
-// One sweep shares the impulses of an impact unevenly: a box that lands flat would turn, hop, and its friction throw it aside. So contacts
-// whose load rises or falls by half at once (the substep after an impact takes its warm start back) get more sweeps; in those that rest the
-// warm start brings the even share. The other lanes stay as they are, and touches are those of the first sweep, before anything was
-// stopped. Out of line: rare.
-static __attribute__((noinline)) void NAMED(share_impact)(ROW *row, const affine *gap, const fe__step_constants *c, pair *p,
-                                                          wide_mask fresh, int kind, int soft)
-{
-    pair settled = *p;
-    SPECIAL_ROW *x = (SPECIAL_ROW *)row;
-    int special = kind & FE__ROW_SPECIAL;
-    wide old[POINTS], approach[POINTS], flight[POINTS];
-    for (int i = 0; i < POINTS; ++i) old[i] = row->point[i].impulse;
-    for (int i = 0; special && i < POINTS; ++i) approach[i] = x->approach[i], flight[i] = x->flight[i];
-    NAMED(even_out)(row, gap, c, &settled, kind, soft);
-    for (int sweep = 1; sweep < IMPACT_SWEEPS; ++sweep) NAMED(solve_normals_once)(row, gap, c, &settled, kind, soft);
-    for (int i = 0; i < POINTS; ++i) row->point[i].impulse = w_choose(fresh, row->point[i].impulse, old[i]);
-    for (int i = 0; special && i < POINTS; ++i) x->approach[i] = approach[i], x->flight[i] = flight[i];
-    p->a.v = w_choose3(fresh, settled.a.v, p->a.v), p->a.w = w_choose3(fresh, settled.a.w, p->a.w);
-    p->b.v = w_choose3(fresh, settled.b.v, p->b.v), p->b.w = w_choose3(fresh, settled.b.w, p->b.w);
 }
 
 FE_INLINE void NAMED(solve_normals)(ROW *row, const fe__solver *s, const fe__step_constants *c, pair *p, wide3 shift, int kind, int soft)
 {
+    wide wish[POINTS], scale[POINTS], sum;
     affine gap = NAMED(separation_change)(row, s, p, shift, kind);
-    wide before = NAMED(load_of)(row);
-    NAMED(solve_normals_once)(row, &gap, c, p, kind, soft);
-    if (POINTS == 1) return;
-    wide after = NAMED(load_of)(row);
-    wide_mask fresh = w_or(w_greater(after, IMPACT_CHANGE * before), w_greater(before, IMPACT_CHANGE * after));
-    if (!w_any(fresh)) return;
-    pair settled = *p;
-    affine gap_then = gap;
-    NAMED(share_impact)(row, &gap_then, c, &settled, fresh, kind, soft);
-    *p = settled;
+    NAMED(wishes)(row, &gap, c, p, kind, soft, wish, scale);
+    wide3 moment = NAMED(sweep_points)(row, wish, soft ? scale : 0, &sum);
+    NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
 }
 
 // ---- friction --------------------------------------------------------------------------------------------------------------------
@@ -422,7 +378,7 @@ FE_INLINE void NAMED(forget_touched)(SPECIAL_ROW *x, const wide *old, wide_mask 
 // The points together reach their speeds: each sweep looks at the bodies anew.
 FE_INLINE void NAMED(sweep_bounce)(ROW *row, pair *p, const wide *target, int kind)
 {
-    for (int sweep = 0; sweep < IMPACT_SWEEPS; ++sweep) {
+    for (int sweep = 0; sweep < BOUNCE_SWEEPS; ++sweep) {
         affine velocity = NAMED(normal_velocity)(p);
         wide wish[POINTS], sum;
         UNROLL for (int i = 0; i < POINTS; ++i)

@@ -95,8 +95,7 @@ static void forty_boxes_stand_for_20_seconds(void **state)
     scene_end(&s);
 }
 
-// S8: 15 boxes fall into place from gaps of 0.1 m, shifted by 10 mm in turn; none ends up by more than a twentieth of its width beside its
-// place
+// S8: 15 boxes fall into place from gaps of 0.1 m, shifted by 10 mm in turn; none ends up by more than 20 mm beside its place
 static void a_stack_that_falls_into_place_stands(void **state)
 {
     enum { COUNT = 15 };
@@ -110,12 +109,46 @@ static void a_stack_that_falls_into_place_stands(void **state)
     for (int k = 1; k < COUNT; ++k) below += sink((COUNT - k) * G, 0.5, 0);
     FE_WITHIN(COUNT - 0.5 - position(&s, bodies[COUNT - 1]).y, 0.8 * below, 1.25 * below);
     for (int k = 0; k < COUNT; ++k) {
-        FE_NEAR(position(&s, bodies[k]).x, k % 2 ? 0.01 : -0.01, 0.05);
-        FE_NEAR(position(&s, bodies[k]).z, 0, 0.05);
+        FE_NEAR(position(&s, bodies[k]).x, k % 2 ? 0.01 : -0.01, 0.02);
+        FE_NEAR(position(&s, bodies[k]).z, 0, 0.02);
         FE_WITHIN(tilt(&s, bodies[k]), 0, 0.5 * DEGREES);
     }
     FE_WITHIN(fastest(&s, bodies, COUNT), 0, 0.01);
     scene_end(&s);
+}
+
+// B4: boxes right above each other, a quarter of their size apart, fall: nothing in it points to a side, so that none may go there.
+// Rounding is all that is left, far below the linear slop; a solver that takes the corners of a box one after the other throws the column
+// over.
+static void boxes_that_fall_onto_each_other_stay_in_line(void **state)
+{
+    enum { COUNT = SLOW_BUILD ? 15 : 40 };
+    fe_body bodies[COUNT];
+    scene s = scene_begin(state);
+    add_ground(&s, friction(0.6));
+    for (int k = 0; k < COUNT; ++k) bodies[k] = add_dynamic(&s, cube(0.5), v3(0, 0.75 + 1.25 * k, 0), UNTURNED, friction(0.6), WATER);
+    run(&s, 600);
+    for (int k = 0; k < COUNT; ++k) {
+        FE_WITHIN(hypot(position(&s, bodies[k]).x, position(&s, bodies[k]).z), 0, LINEAR_SLOP);
+        FE_WITHIN(tilt(&s, bodies[k]), 0, 0.1 * DEGREES);
+    }
+    scene_end(&s);
+}
+
+// A box of any proportions that lands flat neither turns nor moves aside: its corners get their impulses at once.
+static void a_box_that_lands_flat_stays_where_it_landed(void **state)
+{
+    static const double halves[][3] = {{1, 1, 1}, {0.8, 0.1, 0.3}, {0.2, 1.5, 0.4}, {2, 0.02, 2}};
+    for (int i = 0; i < 4; ++i) {
+        const double *half = halves[i];
+        scene s = scene_begin(state);
+        add_ground(&s, friction(0.5));
+        fe_body body = add_dynamic(&s, box(half[0], half[1], half[2]), v3(0, half[1] + 3, 0), UNTURNED, friction(0.5), WATER);
+        run(&s, 120);
+        FE_WITHIN(hypot(position(&s, body).x, position(&s, body).z), 0, 0.02 * LINEAR_SLOP);
+        FE_WITHIN(tilt(&s, body), 0, 1e-4);
+        scene_end(&s);
+    }
 }
 
 // A column of n light boxes is one of n links with springs between them: per interface, with the points at +-a, K = m/2 w^2 a^2. It carries
@@ -350,6 +383,10 @@ int main(void)
         TEST(a_stack_of_spheres_stands_by_symmetry_and_sinks_by_p1),
         TEST(forty_boxes_stand_for_20_seconds),
         TEST(a_stack_that_falls_into_place_stands),
+        TEST(boxes_that_fall_onto_each_other_stay_in_line),
+        WITH_4_SUBSTEPS(boxes_that_fall_onto_each_other_stay_in_line),
+        TEST(a_box_that_lands_flat_stays_where_it_landed),
+        WITH_4_SUBSTEPS(a_box_that_lands_flat_stays_where_it_landed),
         WITH_4_SUBSTEPS(a_stack_that_falls_into_place_stands),
         TEST(a_column_carries_a_hundred_times_its_boxes_below_eulers_load),
         TEST(an_overloaded_column_comes_down_and_settles),
