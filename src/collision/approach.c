@@ -66,6 +66,10 @@ static double nearest_on_other(const fe__approach *s, fe_dvec3 p)
 
 void fe__core_gap_of(const fe__approach *s, fe_dvec3 position, fe__core_gap *gap)
 {
+    if (s->frame_kind == FE_CORE_TRIANGLE) {
+        fe__triangle_gap_of(s, position, gap);
+        return;
+    }
     double u = nearest_on_other(s, position);
     fe_dvec3 q = fe__dadd(position, fe__dscale(u, s->axes.y));
     gap->on_frame = (fe_dvec3){clamp(q.x, s->frame_half[0]), clamp(q.y, s->frame_half[1]), clamp(q.z, s->frame_half[2])};

@@ -24,64 +24,61 @@ fe__axes fe__axes_of(fe_quat q)
 }
 
 // ---- which frame ----------------------------------------------------------------------------------------------------------------
-static int32_t core_kind(const fe__form *form)
+int32_t fe__core_kind_of(const fe__form *form)
 {
     return form->type == FE_GEOMETRY_BOX ? FE_CORE_BOX : form->type == FE_GEOMETRY_CAPSULE ? FE_CORE_SEGMENT : FE_CORE_POINT;
 }
 
-static void core_half(const fe__form *form, double half[3])
+void fe__core_half(const fe__form *form, double half[3])
 {
     half[0] = (double)form->half.x, half[1] = (double)form->half.y + (double)form->half_height, half[2] = (double)form->half.z;
 }
 
 // What keeps the bodies apart is never below what rounding may take.
 static double size(fe_dvec3 a) { return fe__absd(a.x) + fe__absd(a.y) + fe__absd(a.z); }
-static double stop_gap(const fe__mover *mover) { return FE_SWEEP_GAP + ROUNDING * (size(mover->position) + size(mover->translation)); }
+double fe__stop_gap(const fe__mover *mover) { return FE_SWEEP_GAP + ROUNDING * (size(mover->position) + size(mover->translation)); }
 
 // 1: the mover gives the frame
 static int32_t set_up(const fe__form *still, const fe__mover *mover, fe__approach *s)
 {
-    int32_t still_kind = core_kind(still), mover_kind = core_kind(mover->form), swapped = mover_kind > still_kind;
+    int32_t still_kind = fe__core_kind_of(still), mover_kind = fe__core_kind_of(mover->form), swapped = mover_kind > still_kind;
     const fe__axes *m = &mover->axes;
     s->radius = (double)still->radius + (double)mover->form->radius;
     if (swapped) {
         s->frame_kind = mover_kind, s->other_kind = still_kind;
-        core_half(mover->form, s->frame_half), core_half(still, s->other_half);
+        fe__core_half(mover->form, s->frame_half), fe__core_half(still, s->other_half);
         s->axes = (fe__axes){{m->x.x, m->y.x, m->z.x}, {m->x.y, m->y.y, m->z.y}, {m->x.z, m->y.z, m->z.z}};
         s->position = fe__dscale(-1.0, fe__turn_back(m, mover->position));
         s->translation = fe__dscale(-1.0, fe__turn_back(m, mover->translation));
     } else {
         s->frame_kind = still_kind, s->other_kind = mover_kind;
-        core_half(still, s->frame_half), core_half(mover->form, s->other_half);
+        fe__core_half(still, s->frame_half), fe__core_half(mover->form, s->other_half);
         s->axes = *m, s->position = mover->position, s->translation = mover->translation;
     }
-    s->gap = stop_gap(mover);
+    s->gap = fe__stop_gap(mover);
     return swapped;
 }
 
 // ---- overlap --------------------------------------------------------------------------------------------------------------------
-typedef struct overlap {
-    double depth; // below 0: apart
-    fe_dvec3 way_out;
-} overlap;
-
 static double plane_height(const fe__form *plane, const fe__mover *mover)
 {
     fe_dvec3 n = fe__widen(plane->normal);
     double half[3], length = sqrt(fe__ddot(n, n)); // 1 up to the rounding of floats
-    core_half(mover->form, half);
+    fe__core_half(mover->form, half);
     double e = half[0] * fe__absd(fe__ddot(n, mover->axes.x)) + half[1] * fe__absd(fe__ddot(n, mover->axes.y)) +
                half[2] * fe__absd(fe__ddot(n, mover->axes.z));
     return (fe__ddot(n, mover->position) - (double)plane->distance - e) / length - (double)mover->form->radius;
 }
 
-// In the approach's frame. `gap` is of the start; two boxes have none.
-static overlap cores_overlap(const fe__approach *s, const fe__core_gap *gap)
+// In the approach's frame.
+fe__overlap fe__approach_overlap(const fe__approach *s)
 {
-    overlap o;
-    if (s->other_kind != FE_CORE_BOX && gap->distance > 0.0) {
-        o.depth = s->radius - gap->distance;
-        o.way_out = fe__dscale(1.0 / gap->distance, gap->away);
+    fe__overlap o;
+    fe__core_gap gap = {0};
+    if (s->other_kind != FE_CORE_BOX) fe__core_gap_of(s, s->position, &gap);
+    if (gap.distance > 0.0) {
+        o.depth = s->radius - gap.distance;
+        o.way_out = fe__dscale(1.0 / gap.distance, gap.away);
     } else {
         o.depth = fe__core_depth(s, &o.way_out) + s->radius;
         if (s->other_kind != FE_CORE_BOX) o.depth = fe__maxd(o.depth, s->radius); // cores that touch
@@ -89,37 +86,43 @@ static overlap cores_overlap(const fe__approach *s, const fe__core_gap *gap)
     return o;
 }
 
-static overlap overlap_of(const fe__approach *s)
-{
-    fe__core_gap gap = {0};
-    if (s->other_kind != FE_CORE_BOX) fe__core_gap_of(s, s->position, &gap);
-    return cores_overlap(s, &gap);
-}
-
 int32_t fe__form_overlap(const fe__form *still, const fe__mover *mover)
 {
     if (still->type == FE_GEOMETRY_PLANE) return plane_height(still, mover) <= 0.0;
     fe__approach s;
     (void)set_up(still, mover, &s);
-    return overlap_of(&s).depth >= 0.0;
+    return fe__approach_overlap(&s).depth >= 0.0;
 }
 
 // ---- sweeps ---------------------------------------------------------------------------------------------------------------------
-static int32_t advance(const fe__approach *s, double limit, fe__approach_hit *hit)
+// Newton's method from `t` to where the distance is `goal`, to the left of it by at most `tolerance`. 0: it never comes so near.
+static int32_t advance(const fe__approach *s, double goal, double tolerance, double *t, fe__core_gap *gap)
 {
-    double goal = s->radius + s->gap, near = goal + (double)GAP_TOLERANCE * s->gap, t = 0.0;
     for (int32_t i = 0;; ++i) {
-        fe__core_gap gap;
-        fe__core_gap_of(s, fe__dadd(s->position, fe__dscale(t, s->translation)), &gap);
-        double rate = fe__ddot(gap.away, s->translation) / gap.distance; // of the distance, m per t
+        fe__core_gap_of(s, fe__dadd(s->position, fe__dscale(*t, s->translation)), gap);
+        double rate = fe__ddot(gap->away, s->translation) / gap->distance; // of the distance, m per t
         if (!(rate < 0.0)) return 0;
-        if (gap.distance <= near || i == MAX_STEPS) {
-            *hit = (fe__approach_hit){t, fe__dscale(1.0 / gap.distance, gap.away), gap.on_frame};
-            return 1;
-        }
-        t += (gap.distance - goal) / -rate;
-        if (!(t <= limit)) return 0;
+        if (gap->distance <= goal + tolerance || i == MAX_STEPS) return 1;
+        *t += (gap->distance - goal) / -rate;
+        if (!(*t <= 1.0)) return 0;
     }
+}
+
+// It stops where the gap begins, or at once within it; and only when it would come through half of that, for what slides along a surface
+// must not stick to it by a rounding.
+static int32_t sweep_round(const fe__approach *s, double limit, fe__approach_hit *hit)
+{
+    double tolerance = (double)GAP_TOLERANCE * s->gap, t = 0.0, clearance;
+    fe__core_gap gap, nearer;
+    if (!advance(s, s->radius + s->gap, tolerance, &t, &gap) || !(t <= limit)) return 0;
+    *hit = (fe__approach_hit){t, fe__dscale(1.0 / gap.distance, gap.away), gap.on_frame};
+    clearance = fe__mind(gap.distance - s->radius, s->gap);
+    return advance(s, s->radius + 0.5 * clearance, (double)GAP_TOLERANCE * clearance, &t, &nearer);
+}
+
+int32_t fe__approach_sweep(const fe__approach *s, double limit, fe__approach_hit *hit)
+{
+    return s->other_kind == FE_CORE_BOX ? fe__boxes_sweep(s, limit, hit) : sweep_round(s, limit, hit);
 }
 
 static int32_t sweep_plane(const fe__form *plane, const fe__mover *mover, double limit, fe__sweep_hit *hit)
@@ -131,13 +134,13 @@ static int32_t sweep_plane(const fe__form *plane, const fe__mover *mover, double
         hit->inside = 1, hit->depth = -height;
         return 1;
     }
-    if (!(rate < 0.0)) return 0;
-    hit->t = fe__maxd((height - stop_gap(mover)) / -rate, 0.0);
+    if (!(rate < 0.0) || height > -rate) return 0;
+    hit->t = fe__maxd((height - fe__stop_gap(mover)) / -rate, 0.0);
     if (!(hit->t <= limit)) return 0;
     // the lowest point of the mover: of several the middle
     const fe__axes *m = &mover->axes;
     double half[3];
-    core_half(mover->form, half);
+    fe__core_half(mover->form, half);
     fe_dvec3 low = fe__turn_back(m, unit), along = {low.x > 0.0   ? -half[0]
                                                     : low.x < 0.0 ? half[0]
                                                                   : 0.0,
@@ -175,7 +178,7 @@ int32_t fe__form_sweep(const fe__form *still, const fe__mover *mover, double lim
     if (still->type == FE_GEOMETRY_PLANE) return sweep_plane(still, mover, limit, hit);
     fe__approach s;
     int32_t swapped = set_up(still, mover, &s);
-    overlap o = overlap_of(&s);
+    fe__overlap o = fe__approach_overlap(&s);
     *hit = (fe__sweep_hit){0};
     if (o.depth >= 0.0) {
         fe_dvec3 out = swapped ? fe__turn(&mover->axes, fe__dscale(-1.0, o.way_out)) : o.way_out;
@@ -183,7 +186,7 @@ int32_t fe__form_sweep(const fe__form *still, const fe__mover *mover, double lim
         return 1;
     }
     fe__approach_hit h;
-    int32_t met = s.other_kind == FE_CORE_BOX ? fe__boxes_sweep(&s, limit, &h) : advance(&s, limit, &h);
-    if (met) tell(still, mover, swapped, &h, hit);
-    return met;
+    if (!fe__approach_sweep(&s, limit, &h)) return 0;
+    tell(still, mover, swapped, &h, hit);
+    return 1;
 }
