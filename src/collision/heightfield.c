@@ -47,6 +47,19 @@ fe__form fe__heightfield_triangle(const fe__heightfield *f, int32_t triangle, fe
     return triangle_of(f, cell / (f->columns - 1), cell % (f->columns - 1), triangle & 1, origin);
 }
 
+static fe_dvec3 sample_of(const fe__heightfield *f, int32_t row, int32_t column)
+{
+    return (fe_dvec3){(double)column * f->cell_x, (double)height_of(f, row, column), (double)row * f->cell_z};
+}
+
+void fe__heightfield_corners(const fe__heightfield *f, int32_t triangle, fe_dvec3 corner[3])
+{
+    int32_t cell = triangle >> 1, row = cell / (f->columns - 1), column = cell % (f->columns - 1), half = triangle & 1;
+    corner[0] = sample_of(f, row, column);
+    corner[1] = half ? sample_of(f, row + 1, column + 1) : sample_of(f, row + 1, column);
+    corner[2] = half ? sample_of(f, row, column + 1) : sample_of(f, row + 1, column + 1);
+}
+
 fe_dvec3 fe__heightfield_normal(const fe__heightfield *f, int32_t triangle)
 {
     int32_t cell = triangle >> 1, row = cell / (f->columns - 1), column = cell % (f->columns - 1), half = triangle & 1;

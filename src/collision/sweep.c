@@ -129,7 +129,7 @@ static int32_t sweep_plane(const fe__form *plane, const fe__mover *mover, double
 {
     fe_dvec3 n = fe__widen(plane->normal), unit = fe__dscale(1.0 / sqrt(fe__ddot(n, n)), n);
     double height = plane_height(plane, mover), rate = fe__ddot(unit, mover->translation);
-    *hit = (fe__sweep_hit){.normal = unit, .point = mover->position};
+    *hit = (fe__sweep_hit){.normal = unit, .point = mover->position, .triangle = -1};
     if (height <= 0.0) {
         hit->inside = 1, hit->depth = -height;
         return 1;
@@ -179,10 +179,10 @@ int32_t fe__form_sweep(const fe__form *still, const fe__mover *mover, double lim
     fe__approach s;
     int32_t swapped = set_up(still, mover, &s);
     fe__overlap o = fe__approach_overlap(&s);
-    *hit = (fe__sweep_hit){0};
+    *hit = (fe__sweep_hit){.triangle = -1};
     if (o.depth >= 0.0) {
         fe_dvec3 out = swapped ? fe__turn(&mover->axes, fe__dscale(-1.0, o.way_out)) : o.way_out;
-        *hit = (fe__sweep_hit){.normal = out, .point = mover->position, .depth = o.depth, .inside = 1};
+        *hit = (fe__sweep_hit){.normal = out, .point = mover->position, .depth = o.depth, .inside = 1, .triangle = -1};
         return 1;
     }
     fe__approach_hit h;

@@ -5,7 +5,7 @@
 // t = 0, and what starts within the gap and comes nearer stops at once. What does not come nearer is never hit, however close it passes.
 #ifndef FE_COLLISION_SWEEP_H
 #define FE_COLLISION_SWEEP_H
-#include "collision/form.h"
+#include "collision/heightfield.h"
 
 #define FE_SWEEP_GAP 1e-7 // m
 
@@ -32,16 +32,22 @@ typedef struct fe__mover {
 } fe__mover;
 
 typedef struct fe__sweep_hit {
-    double t;        // of the translation
-    fe_dvec3 normal; // unit, out of the standing form; inside: the shortest way out
-    fe_dvec3 point;  // of the standing form's surface, where it is met; inside: the mover's position
-    double depth;    // inside: how far out that way, m
-    int32_t inside;  // the forms overlap at the start
+    double t;         // of the translation
+    fe_dvec3 normal;  // unit, out of the standing form; inside: the shortest way out
+    fe_dvec3 point;   // of the standing form's surface, where it is met; inside: the mover's position
+    double depth;     // inside: how far out that way, m
+    int32_t inside;   // the forms overlap at the start
+    int32_t triangle; // of a heightfield, else -1
 } fe__sweep_hit;
 
 // The first t in [0, limit] at which they meet. 1: hit.
 int32_t fe__form_sweep(const fe__form *still, const fe__mover *mover, double limit, fe__sweep_hit *hit);
 // 1 exactly when a sweep from there would start inside.
 int32_t fe__form_overlap(const fe__form *still, const fe__mover *mover);
+
+// The same for a heightfield, in its frame: holes are not there, and a triangle is met from its upper side only. What cuts the surface
+// overlaps it; what comes from below passes.
+int32_t fe__heightfield_sweep(const fe__heightfield *field, const fe__mover *mover, double limit, fe__sweep_hit *hit);
+int32_t fe__heightfield_overlap(const fe__heightfield *field, const fe__mover *mover);
 
 #endif

@@ -45,8 +45,7 @@ static int32_t meet_ray(const fe__scene *scene, const fe__probe *probe, const fe
     int32_t met = is_field ? fe__heightfield_ray(scene->fields + shape->form.field, origin, way, limit, &hit)
                            : fe__form_ray(&shape->form, origin, way, limit, &hit);
     if (!met) return 0;
-    *f = (found){
-        .t = hit.t, .depth = hit.depth, .normal = fe__drotate(q, hit.normal), .inside = hit.inside, .triangle = hit.triangle};
+    *f = (found){.t = hit.t, .depth = hit.depth, .normal = fe__drotate(q, hit.normal), .inside = hit.inside, .triangle = hit.triangle};
     return 1;
 }
 
@@ -59,14 +58,16 @@ static fe__mover mover_of(const fe__probe *probe, const fe__shape *shape, const 
                        .translation = fe__turn_back(m, probe->translation)};
 }
 
-static int32_t meet_form(const fe__probe *probe, const fe__shape *shape, double limit, found *f)
+static int32_t meet_form(const fe__scene *scene, const fe__probe *probe, const fe__shape *shape, double limit, found *f)
 {
-    if (shape->form.type == FE_GEOMETRY_HEIGHTFIELD) return 0;
     fe__axes m = fe__axes_of(shape->pose.rotation);
     fe__mover mover = mover_of(probe, shape, &m);
     fe__sweep_hit hit;
-    if (!fe__form_sweep(&shape->form, &mover, limit, &hit)) return 0;
-    *f = (found){hit.t, hit.depth, fe__turn(&m, hit.normal), fe__turn(&m, hit.point), hit.inside, -1};
+    int32_t is_field = shape->form.type == FE_GEOMETRY_HEIGHTFIELD;
+    int32_t met = is_field ? fe__heightfield_sweep(scene->fields + shape->form.field, &mover, limit, &hit)
+                           : fe__form_sweep(&shape->form, &mover, limit, &hit);
+    if (!met) return 0;
+    *f = (found){hit.t, hit.depth, fe__turn(&m, hit.normal), fe__turn(&m, hit.point), hit.inside, hit.triangle};
     return 1;
 }
 
@@ -77,15 +78,15 @@ int32_t fe__probe_overlaps(const fe__scene *scene, const fe__probe *probe, const
         found f;
         return meet_ray(scene, &still, shape, 0.0, &f);
     }
-    if (shape->form.type == FE_GEOMETRY_HEIGHTFIELD) return 0;
     fe__axes m = fe__axes_of(shape->pose.rotation);
     fe__mover mover = mover_of(probe, shape, &m);
+    if (shape->form.type == FE_GEOMETRY_HEIGHTFIELD) return fe__heightfield_overlap(scene->fields + shape->form.field, &mover);
     return fe__form_overlap(&shape->form, &mover);
 }
 
 static int32_t meet(const fe__scene *scene, const fe__probe *probe, const fe__shape *shape, double limit, found *f)
 {
-    return is_ray(probe) ? meet_ray(scene, probe, shape, limit, f) : meet_form(probe, shape, limit, f);
+    return is_ray(probe) ? meet_ray(scene, probe, shape, limit, f) : meet_form(scene, probe, shape, limit, f);
 }
 
 // ---- telling --------------------------------------------------------------------------------------------------------------------

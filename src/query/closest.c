@@ -13,9 +13,12 @@ typedef struct search {
     fe__nearest found; // in the frame of the shape
 } search;
 
-static fe__nearest nearest_on(const fe__shape *shape, fe_dvec3 point)
+static int32_t nearest_on(const fe__scene *scene, const fe__shape *shape, fe_dvec3 point, double limit, fe__nearest *nearest)
 {
-    return fe__form_nearest(&shape->form, fe__drotate_back(shape->pose.rotation, fe__dsub(point, shape->pose.position)));
+    fe_dvec3 p = fe__drotate_back(shape->pose.rotation, fe__dsub(point, shape->pose.position));
+    if (shape->form.type == FE_GEOMETRY_HEIGHTFIELD) return fe__heightfield_nearest(scene->fields + shape->form.field, p, limit, nearest);
+    *nearest = fe__form_nearest(&shape->form, p);
+    return nearest->distance <= limit;
 }
 
 static fe_closest closest_of(const fe__scene *scene, int32_t index, const fe__nearest *found)
@@ -27,16 +30,16 @@ static fe_closest closest_of(const fe__scene *scene, int32_t index, const fe__ne
                         .point = fe__dadd(shape->pose.position, fe__drotate(q, found->point)),
                         .distance = found->distance,
                         .normal = fe__narrow(fe__drotate(q, found->normal)),
-                        .triangle = -1};
+                        .triangle = found->triangle};
 }
 
 static double visit(void *context, int32_t index, double limit)
 {
     search *s = context;
     const fe__shape *shape = &s->scene->shapes[index];
-    if (!fe__scene_counts(s->scene, shape) || shape->form.type == FE_GEOMETRY_HEIGHTFIELD) return limit;
-    fe__nearest n = nearest_on(shape, s->point);
-    if (!(n.distance <= limit)) return limit;
+    if (!fe__scene_counts(s->scene, shape)) return limit;
+    fe__nearest n;
+    if (!nearest_on(s->scene, shape, s->point, limit, &n)) return limit;
     if (s->shape >= 0) {
         if (n.distance > s->found.distance) return limit;
         if (n.distance == s->found.distance && !fe__created_before(shape, &s->scene->shapes[s->shape])) return limit;

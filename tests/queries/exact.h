@@ -82,6 +82,34 @@ static inline solid make_solid(const fe_geometry *g, vec position, fe_quat q)
     return s;
 }
 
+// Corners turning left around the side that counts.
+static inline solid make_triangle_solid(vec a, vec b, vec c)
+{
+    solid s;
+    memset(&s, 0, sizeof s);
+    s.type = EXACT_TRIANGLE, s.vertices = s.edges = 3;
+    s.vertex[0] = a, s.vertex[1] = b, s.vertex[2] = c;
+    for (int i = 0; i < 3; ++i) s.edge[i][0] = i, s.edge[i][1] = (i + 1) % 3;
+    s.normal = v_cross(v_sub(b, a), v_sub(c, a));
+    s.normal = v_scale(1 / v_length(s.normal), s.normal);
+    s.centre = v_scale((real)1 / 3, v_add(a, v_add(b, c)));
+    for (int i = 0; i < 3; ++i) s.reach = fmaxl(s.reach, v_length(v_sub(s.vertex[i], s.centre)));
+    return s;
+}
+
+// Triangle `half` of a cell of a heightfield at a pose, as feather.h describes it.
+static inline solid make_field_solid(const fe_heightfield_def *d, int row, int column, int half, vec position, fe_quat q)
+{
+    const int rows[2][3] = {{0, 1, 1}, {0, 1, 0}}, columns[2][3] = {{0, 0, 1}, {0, 1, 1}};
+    vec v[3];
+    for (int i = 0; i < 3; ++i) {
+        int r = row + rows[half][i], c = column + columns[half][i];
+        vec p = {(real)c * (real)d->cell_x, (real)d->heights[r * d->columns + c], (real)r * (real)d->cell_z};
+        v[i] = v_add(position, v_turn(q, p));
+    }
+    return make_triangle_solid(v[0], v[1], v[2]);
+}
+
 // ---- nearest points ---------------------------------------------------------------------------------------------------------------
 typedef struct nearness {
     real distance; // of the cores; of a half space signed
@@ -225,6 +253,21 @@ static inline int overlap_at(const solid *mover, const solid *still, vec shift, 
     if (mover->radius + still->radius > 0 || still->type == FE_GEOMETRY_PLANE) return 0;
     solid a = shrunk(mover, margin), b = shrunk(still, margin);
     return nearest(&a, shift, &b).distance == 0;
+}
+
+// A ray against a triangle from its upper side: 1 it is met before `end`, -1 not, 0 it passes by an edge, an end or the plane too closely
+// to tell.
+static inline int ray_meets_triangle(vec origin, vec way, const solid *s, real end, real margin)
+{
+    real above = v_dot(s->normal, v_sub(origin, s->vertex[0])), rate = v_dot(s->normal, way), inside = INFINITY;
+    if (above < -margin || rate >= 0 || above + end * rate > margin) return -1;
+    vec p = v_add(origin, v_scale(-above / rate, way));
+    for (int i = 0; i < 3; ++i) {
+        vec side = v_sub(s->vertex[(i + 1) % 3], s->vertex[i]);
+        inside = fminl(inside, v_dot(v_cross(s->normal, side), v_sub(p, s->vertex[i])) / v_length(side));
+    }
+    if (inside < -margin) return -1;
+    return inside > margin && above > margin && above + end * rate < -margin;
 }
 
 // ---- on the way -----------------------------------------------------------------------------------------------------------------

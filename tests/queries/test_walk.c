@@ -15,14 +15,16 @@ enum { QUERIES = 150 };
 #else
 enum { QUERIES = 2500 };
 #endif
-enum { BODIES = 300, SHAPES = 800 };
+enum { BODIES = 300, FIELDS = 2, SAMPLES = 8, TRIANGLES = 2 * (SAMPLES - 1) * (SAMPLES - 1), SHAPES = 800 + FIELDS * TRIANGLES };
 #define GRAZE 2e-6L // m
 
 static int32_t queries = QUERIES;
 
 // ---- a world of every kind ----------------------------------------------------------------------------------------------------------
+// A shape, or a triangle of a heightfield
 typedef struct known_shape {
     fe_shape shape;
+    int32_t triangle; // else -1
     solid solid;
     int32_t body; // index
     uint32_t layer;
@@ -78,8 +80,37 @@ static void add_known_shape(known_world *k, int32_t body, const fe_geometry *g)
     if (chance(k, 0.6)) def.local_position = fe__narrow(random_vector(k, 2)), def.local_rotation = random_rotation(k);
     def.layer = s->layer = 1u << one_of(k, 3);
     def.trigger = s->trigger = chance(k, 0.2);
-    s->body = body;
+    s->body = body, s->triangle = -1;
     OK(fe_shape_create(k->world, k->bodies[body], &def, g, &s->shape));
+}
+
+// Hills with holes, tilted: an entry for each triangle.
+static void add_field(known_world *k, int32_t body)
+{
+    float heights[SAMPLES * SAMPLES];
+    uint8_t holes[(SAMPLES - 1) * (SAMPLES - 1)];
+    for (int32_t i = 0; i < SAMPLES * SAMPLES; ++i) heights[i] = (float)uniform(k, -2, 2);
+    for (int32_t i = 0; i < (SAMPLES - 1) * (SAMPLES - 1); ++i) holes[i] = (uint8_t)chance(k, 0.1);
+    fe_heightfield_def def;
+    fe_heightfield_def_init(&def, sizeof def);
+    def.rows = def.columns = SAMPLES, def.cell_x = 4.5f, def.cell_z = 5.25f, def.heights = heights, def.holes = holes;
+    fe_asset asset;
+    fe_geometry g;
+    fe_shape shape;
+    fe_transform t = {fe__dadd(k->middle, fe_make_dvec3(uniform(k, -25, -10), uniform(k, -15, 15), uniform(k, -25, -10))),
+                      {(float)uniform(k, -0.2, 0.2), 0, (float)uniform(k, -0.2, 0.2), 1}};
+    OK(fe_heightfield_create(k->world, &def, &asset));
+    OK(fe_body_set_type(k->world, k->bodies[body], FE_BODY_STATIC));
+    OK(fe_body_set_transform(k->world, k->bodies[body], &t));
+    OK(fe_body_get_transform(k->world, k->bodies[body], &t));
+    fe_geometry_heightfield(&g, asset);
+    OK(fe_shape_create(k->world, k->bodies[body], NULL, &g, &shape));
+    for (int32_t i = 0; i < TRIANGLES; ++i) {
+        int32_t cell = i / 2;
+        if (holes[cell]) continue;
+        solid s = make_field_solid(&def, cell / (SAMPLES - 1), cell % (SAMPLES - 1), i % 2, v_of(t.position), t.rotation);
+        k->shapes[k->count++] = (known_shape){.shape = shape, .triangle = i, .solid = s, .body = body, .layer = 1};
+    }
 }
 
 static void add_body(known_world *k, int32_t index)
@@ -92,6 +123,10 @@ static void add_body(known_world *k, int32_t index)
     def.awake = one_of(k, 2);
     if (chance(k, 0.3)) def.linear_locks = (uint32_t)one_of(k, 8), def.angular_locks = (uint32_t)one_of(k, 8);
     OK(fe_body_create(k->world, &def, &k->bodies[index]));
+    if (index % (BODIES / FIELDS) == 7) {
+        add_field(k, index);
+        return;
+    }
     for (int32_t shapes = 1 + (int32_t)(2.5 * uniform(k, 0, 1) * uniform(k, 0, 1)); shapes > 0; --shapes) {
         fe_geometry g = random_geometry(k, 3);
         add_known_shape(k, index, &g);
@@ -108,6 +143,7 @@ static void learn_poses(known_world *k)
 {
     for (int32_t i = 0; i < k->count; ++i) {
         known_shape *s = &k->shapes[i];
+        if (s->triangle >= 0) continue;
         fe_transform t = fe_body_transform(k->world, k->bodies[s->body]);
         fe_vec3 position;
         fe_quat rotation;
@@ -176,10 +212,30 @@ static int32_t comes_near(const query *q, const known_shape *s, real end)
     return v_length(v_sub(near, s->solid.centre)) <= s->solid.reach + q->mover.reach + 1e-3L;
 }
 
+// A triangle counts from its upper side: the nearest points just before the first touch tell.
+static int meets_from_above(const query *q, const known_shape *s, real end)
+{
+    real low = 0, high = end;
+    if (overlap_at(&q->mover, &s->solid, (vec){0, 0, 0}, GRAZE) >= 0) return 1;
+    for (int32_t i = 0; i < 60; ++i) {
+        real middle = (low + high) / 2;
+        if (meets_on_the_way(&q->mover, &s->solid, v_of(q->way), middle, GRAZE) > 0)
+            high = middle;
+        else
+            low = middle;
+    }
+    nearness n = nearest(&q->mover, v_scale(low - 1e-5L / (1e-5L + v_length(v_of(q->way))), v_of(q->way)), &s->solid);
+    real up = v_dot(v_sub(n.on_mover, n.on_still), s->solid.normal) / n.distance;
+    return n.distance > 0 && fabsl(up) > 0.01L ? (up > 0 ? 1 : -1) : 0;
+}
+
 // 1: it is met before `end`, -1: not, 0: it is so close that both will do
 static int meets(const query *q, const known_shape *s, real end)
 {
-    return comes_near(q, s, end) ? meets_on_the_way(&q->mover, &s->solid, v_of(q->way), end, GRAZE) : -1;
+    if (!comes_near(q, s, end)) return -1;
+    if (s->triangle >= 0 && q->is_ray) return ray_meets_triangle(q->mover.centre, v_of(q->way), &s->solid, end, GRAZE);
+    int met = meets_on_the_way(&q->mover, &s->solid, v_of(q->way), end, GRAZE);
+    return met > 0 && s->triangle >= 0 ? meets_from_above(q, s, end) : met;
 }
 
 static int overlaps(const query *q, const known_shape *s)
@@ -193,10 +249,10 @@ static int32_t body_index(const known_world *k, fe_body body)
     while (i < BODIES && k->bodies[i] != body) ++i;
     return i;
 }
-static int32_t shape_index(const known_world *k, fe_shape shape)
+static int32_t shape_index(const known_world *k, fe_shape shape, int32_t triangle)
 {
     int32_t i = 0;
-    while (i < k->count && k->shapes[i].shape != shape) ++i;
+    while (i < k->count && (k->shapes[i].shape != shape || k->shapes[i].triangle != triangle)) ++i;
     return i;
 }
 
@@ -217,9 +273,10 @@ static int32_t cast_all(const known_world *k, const query *q, fe_hit *hits, int3
                      : fe_world_sweep_all(k->world, &q->geometry, &q->start, &q->way, &q->filter, hits, 0, capacity);
 }
 
-// Signed: below 0 inside.
+// Signed: below 0 inside. A triangle is not seen from below.
 static real distance_of(const solid *s, vec p)
 {
+    if (s->type == EXACT_TRIANGLE && v_dot(s->normal, v_sub(p, s->vertex[0])) < -1e-9L) return INFINITY;
     solid point = {.type = FE_GEOMETRY_SPHERE, .vertices = 1, .vertex = {p}, .centre = p};
     real d = nearest(&point, (vec){0, 0, 0}, s).distance - s->radius;
     if (s->type != FE_GEOMETRY_BOX || d > 0) return d;
@@ -231,8 +288,8 @@ static real distance_of(const solid *s, vec p)
 // A hit is true: the gap to that shape is what it must be, and its normal is where the nearest points say.
 static void check_hit(const known_world *k, const query *q, const fe_hit *hit)
 {
-    int32_t index = shape_index(k, hit->shape);
-    assert_true(index < k->count && k->bodies[k->shapes[index].body] == hit->body && hit->triangle == -1);
+    int32_t index = shape_index(k, hit->shape, hit->triangle);
+    assert_true(index < k->count && k->bodies[k->shapes[index].body] == hit->body);
     const known_shape *s = &k->shapes[index];
     assert_true(counts(k, q, s));
     vec way = v_of(q->way), shift = v_scale(hit->fraction, way);
@@ -251,6 +308,7 @@ static void check_hit(const known_world *k, const query *q, const fe_hit *hit)
     int32_t boxes = q->mover.type == FE_GEOMETRY_BOX && s->solid.type == FE_GEOMETRY_BOX;
     FE_WITHIN(gap, -rounding, boxes ? 1e-4L : q->is_ray ? rounding : 1e-6L);
     vec away = s->solid.type == FE_GEOMETRY_PLANE ? s->solid.normal : v_sub(n.on_mover, n.on_still);
+    if (s->triangle >= 0 && q->is_ray) away = s->solid.normal;
     if (v_length(away) > 1e-8L) FE_WITHIN(v_length(v_sub(v_scale(1 / v_length(away), away), v_off(hit->normal))), 0, 1e-5);
     // the point is on both surfaces
     vec point = v_of(hit->point);
@@ -271,10 +329,10 @@ static int32_t check_nearest(const known_world *k, const query *q)
     if (result == FE_OK) check_hit(k, q, &hit);
     for (int32_t i = 0; i < k->count; ++i) {
         const known_shape *s = &k->shapes[i];
-        if (!counts(k, q, s) || (result == FE_OK && (s->shape == hit.shape || hit.flags))) continue;
+        if (!counts(k, q, s) || (result == FE_OK && ((s->shape == hit.shape && s->triangle == hit.triangle) || hit.flags))) continue;
         if (meets(q, s, end) > 0) {
             print_error("shape %d is met before fraction %.17Lg (result %d, shape %d)\n", i, end, result,
-                        result == FE_OK ? shape_index(k, hit.shape) : -1);
+                        result == FE_OK ? shape_index(k, hit.shape, hit.triangle) : -1);
             fail();
         }
     }
@@ -301,7 +359,7 @@ static int32_t check_all(const known_world *k, const query *q)
     for (int32_t i = 0; i < k->count; ++i) {
         const known_shape *s = &k->shapes[i];
         const fe_hit *hit = told[s->body] >= 0 ? &hits[told[s->body]] : NULL;
-        if (!counts(k, q, s) || (hit && (hit->shape == s->shape || hit->flags))) continue;
+        if (!counts(k, q, s) || (hit && ((hit->shape == s->shape && hit->triangle == s->triangle) || hit->flags))) continue;
         FE_TRUE(meets(q, s, hit ? hit->fraction : 1) <= 0);
     }
     assert_int_equal(cast_all(k, q, few, 3), count);
@@ -402,11 +460,12 @@ static void the_way_out_of_an_overlap_is_as_long_as_told(void **state)
         q.way = fe_make_dvec3(0, 0, 0);
         if (cast(&k, &q, &hit) != FE_OK) continue;
         assert_int_equal(hit.flags, FE_HIT_STARTED_INSIDE);
-        const solid *still = &k.shapes[shape_index(&k, hit.shape)].solid;
+        const solid *still = &k.shapes[shape_index(&k, hit.shape, hit.triangle)].solid;
         vec n = v_scale(1 / v_length(v_off(hit.normal)), v_off(hit.normal));
         real depth = hit.depth, rounding = 1e-5L; // floats: 1e-7 of depth and normal, over some 10 m
         FE_TRUE(overlap_at(&q.mover, still, v_scale(depth + rounding, n), 1e-7L) <= 0);
-        FE_TRUE(overlap_at(&q.mover, still, v_scale(depth - rounding, n), 1e-7L) >= 0);
+        // over a part of a triangle the way out may be shorter than that over its plane
+        if (hit.triangle < 0) FE_TRUE(overlap_at(&q.mover, still, v_scale(depth - rounding, n), 1e-7L) >= 0);
         checked += 1;
     }
     FE_WITHIN(checked, queries / 8, queries);
@@ -437,8 +496,8 @@ static void the_closest_point_is_that_of_a_walk(void **state)
         }
         assert_int_equal(result, FE_OK);
         found += 1;
-        const known_shape *s = &k.shapes[shape_index(&k, c.shape)];
-        assert_true(counts(&k, &q, s) && k.bodies[s->body] == c.body && c.triangle == -1);
+        const known_shape *s = &k.shapes[shape_index(&k, c.shape, c.triangle)];
+        assert_true(counts(&k, &q, s) && k.bodies[s->body] == c.body);
         FE_NEAR(c.distance, best, 1e-9);
         FE_NEAR(distance_of(&s->solid, v_of(c.point)), 0, 2e-9); // a double at 1e6 m
         vec back = v_sub(p, v_scale(c.distance, v_off(c.normal)));
