@@ -926,6 +926,7 @@ typedef struct fe_closest {
 } fe_closest;
 
 /// The point of all surfaces that is closest to a point. Inside of a body its distance is below 0; the smallest wins, then the body created first.
+/// A heightfield has no inside; from below it is not seen.
 /// @param max_distance  farther ones are not looked for, m, >= 0
 /// @param out_closest   written only when FE_OK is returned
 /// @return FE_OK, FE_MISS when there is none
@@ -935,7 +936,7 @@ FE_API fe_result fe_world_closest_point(const fe_world *world, const fe_dvec3 *p
 /// fe_world_raycast against one shape or one body only, whatever its layers, a trigger or not, enabled or not.
 FE_API fe_result fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_dvec3 *origin, const fe_dvec3 *translation, fe_hit *out_hit);
 FE_API fe_result fe_body_raycast(const fe_world *world, fe_body body, const fe_dvec3 *origin, const fe_dvec3 *translation, fe_hit *out_hit);
-/// The closest point of one shape or body, however far. FE_MISS for a body without shapes.
+/// The closest point of one shape or body, however far. FE_MISS for a body without shapes, and from below a heightfield.
 FE_API fe_result fe_shape_closest_point(const fe_world *world, fe_shape shape, const fe_dvec3 *point, fe_closest *out_closest);
 FE_API fe_result fe_body_closest_point(const fe_world *world, fe_body body, const fe_dvec3 *point, fe_closest *out_closest);
 
