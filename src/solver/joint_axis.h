@@ -128,6 +128,7 @@ typedef struct {
     wide mass_a[3], mass_b[3];     // inverse, along the world's axes: 0 where locked
     freedom f;
     wide unlocked; // inverse masses, locks aside
+    wide shaped;
     wide_sym inertia_a, inertia_b;
     wide first_frame[4]; // A's
     wide first_arm_a[3], first_arm_b[3], first_gap[3];
@@ -189,6 +190,7 @@ FE_INLINE void prepare_linear(fe__solver *s, const fe__body *bodies, const fe__j
         store3(row->first_arm_a, first.ra), store3(row->first_arm_b, first.rb), store3(row->first_gap, first.gap);
         store4(row->first_frame, first_frame(bodies, r->body_a, FRAME_QUAD(frame_a)));
         row->inertia_a = gather_inertia(s, row->line.a), row->inertia_b = gather_inertia(s, row->line.b);
+        row->shaped = shape_of(s, &row->line);
         ends e = gather_ends(s, &row->line);
         store3(row->mass_a, free_mass(&e.a)), store3(row->mass_b, free_mass(&e.b));
         row->unlocked = e.a.inverse_mass + e.b.inverse_mass;
@@ -212,6 +214,7 @@ FE_INLINE void relax_linear(fe__solver *s, void *rows, int32_t count, int32_t si
 {
     for (linear_row *row = rows, *end = row + count; row < end; ++row) {
         wide3 u = load3(row->u), spin_a = load3(row->spin_a), spin_b = load3(row->spin_b);
+        TURN_INERTIA(row, w_zero3(), w_zero3()); // owe_linear sees the change of the spins
         place_linear(row, s, part, c);
         owe_linear(row, s, u, spin_a, spin_b, sides);
         ends e = gather_ends(s, &row->line);
@@ -241,6 +244,7 @@ typedef struct {
     wide spin_a[3], spin_b[3]; // what a unit impulse turns
     freedom f;
     wide_sym inertia_a, inertia_b;
+    wide shaped;
     wide cone[2];                // half angles
     wide first_a[4], first_b[4]; // frames
 } angular_row;
@@ -326,6 +330,7 @@ FE_INLINE void prepare_angular(fe__solver *s, const fe__body *bodies, const fe__
         store4(row->first_a, first_frame(bodies, r->body_a, FRAME_QUAD(frame_a)));
         store4(row->first_b, first_frame(bodies, r->body_b, FRAME_QUAD(frame_b)));
         row->inertia_a = gather_inertia(s, row->line.a), row->inertia_b = gather_inertia(s, row->line.b);
+        row->shaped = shape_of(s, &row->line);
         read_freedom(&row->f, joints, r, slot, part == FE__PART_CONE, c);
         wide4 limit = AXES_QUAD(axis[slot].limit);
         row->cone[0] = limit.x, row->cone[1] = limit.y;
@@ -348,6 +353,7 @@ static void solve_angular(fe__solver *s, void *rows, int32_t count, int32_t side
 FE_INLINE void relax_angular(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c, int part)
 {
     for (angular_row *row = rows, *end = row + count; row < end; ++row) {
+        TURN_INERTIA(row, w_zero3(), w_zero3());
         spins start = gather_spins(s->start, &row->line), e = gather_spins(s->velocity, &row->line);
         wide3 spin_a = load3(row->spin_a), spin_b = load3(row->spin_b);
         wide l = impulse_of(&row->f);

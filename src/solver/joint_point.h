@@ -4,7 +4,7 @@
 //     soft   change = -(K^-1 (mass_scale v + mass_scale bias_rate gap) + impulse_scale l)          (Catto, Soft Constraints, GDC 2011)
 //     rigid  change = -K^-1 v
 
-// 44 W floats, 176 bytes a joint; solve reads up to `total`
+// 45 W floats, 180 bytes a joint; solve reads up to `total`
 typedef struct {
     line_pair line;
     wide arm_a[3], arm_b[3]; // now: turned with the bodies after each substep
@@ -12,6 +12,7 @@ typedef struct {
     wide_sym mass;           // K^-1
     wide impulse[3];
     wide_sym inertia_a, inertia_b;                     // inverse, world
+    wide shaped;                                       // see shape_of
     wide total[3];                                     // of the impulses of the substeps so far
     wide first_arm_a[3], first_arm_b[3], first_gap[3]; // when the step began
 } point_row;
@@ -58,6 +59,7 @@ static void prepare_point(fe__solver *s, const fe__body *bodies, const fe__joint
         const row_joints *r = &of;
         anchors first = first_anchors(joints, bodies, r, sides);
         row->inertia_a = gather_inertia(s, row->line.a), row->inertia_b = gather_inertia(s, row->line.b);
+        row->shaped = shape_of(s, &row->line);
         ends e = gather_ends(s, &row->line);
         row->mass = point_mass(row, e.a.inverse_mass + e.b.inverse_mass, first.ra, first.rb);
         wide3 impulse = w_scale(w_set(c->warm_scale), w_xyz(JOINT_QUAD(impulse)));
@@ -90,6 +92,8 @@ static void relax_point(fe__solver *s, void *rows, int32_t count, int32_t sides,
     for (point_row *row = rows, *end = row + count; row < end; ++row) {
         const anchors first = {load3(row->first_arm_a), load3(row->first_arm_b), load3(row->first_gap)};
         anchors now = anchors_now(s, &row->line, &first);
+        wide3 old = load3(row->impulse);
+        TURN_INERTIA(row, w_cross(load3(row->arm_a), old), w_cross(load3(row->arm_b), old));
         owe_point(row, s, now.ra, now.rb, sides);
         store3(row->arm_a, now.ra), store3(row->arm_b, now.rb), store3(row->gap, now.gap);
         ends e = gather_ends(s, &row->line);

@@ -1,18 +1,18 @@
 // joint_slide.h - SLIDE: the anchors stay together along some axes u of frame A; and every point that is not plain. Part of joint.simd.c.
 //
-//     C_i = u_i.d,   v_i = u_i.(vB + wB x rB - vA - wA x (rA + d)),   K_ij = u_i.K u_j    for locked i, j
+//     C_i = u_i.d,   v_i = u_i.(vB + wB x rB - vA - wA x (rA + f)),   K_ij = u_i.K u_j    for locked i, j; f: d along the free axes
 // A free axis has 1 in the diagonal of K and wishes nothing. The impulse turns with frame A: its warm start owes in v and w.
 typedef struct {
     line_pair line;
     wide u[3][3];  // axes of frame A, world
-    wide arm_a[3]; // to the anchor of B
+    wide arm_a[3]; // rA + f
     wide arm_b[3];
     wide error[3];             // C
     wide_sym mass;             // K^-1, frame A
     wide impulse[3];           // frame A
     wide mass_a[3], mass_b[3]; // inverse, along the world's axes: 0 where locked
     wide_sym inertia_a, inertia_b;
-    wide rate, fade;
+    wide rate, fade, shaped;
     wide total[3]; // world, of the impulses of the substeps so far
     wide keep[3];  // 1 for a locked axis, 0 for a free one
     wide locked;   // > 0: a body has locks
@@ -48,13 +48,20 @@ FE_INLINE wide_sym slide_mass(const slide_row *row, wide3 ra, wide3 rb)
     return f;
 }
 
+// the way along the free axes. (An arm that took the errors of the locked ones in too would feed wide gaps: nets of 1000:1 explode.)
+FE_INLINE wide3 free_way(const slide_row *row, wide3 gap)
+{
+    wide3 way = in_frame(row, gap), keep = load3(row->keep);
+    return to_world(row, (wide3){(1.0f - keep.x) * way.x, (1.0f - keep.y) * way.y, (1.0f - keep.z) * way.z});
+}
+
 FE_INLINE void place_slide(slide_row *row, const fe__solver *s)
 {
     const anchors first = {load3(row->first_arm_a), load3(row->first_arm_b), load3(row->first_gap)};
     anchors now = anchors_now(s, &row->line, &first);
     wide4 q = frame_now(s, row->line.a, row->first_frame);
-    wide3 arm = w_add(now.ra, now.gap);
     for (int k = 0; k < 3; ++k) store3(row->u[k], frame_axis(q, k));
+    wide3 arm = w_add(now.ra, free_way(row, now.gap));
     store3(row->arm_a, arm), store3(row->arm_b, now.rb);
     store3(row->error, w_times(load3(row->keep), in_frame(row, now.gap)));
     row->mass = slide_mass(row, arm, now.rb);
@@ -104,6 +111,7 @@ static void prepare_slide(fe__solver *s, const fe__body *bodies, const fe__joint
         store3(row->first_arm_a, first.ra), store3(row->first_arm_b, first.rb), store3(row->first_gap, first.gap);
         store4(row->first_frame, first_frame(bodies, r->body_a, FRAME_QUAD(frame_a)));
         row->inertia_a = gather_inertia(s, row->line.a), row->inertia_b = gather_inertia(s, row->line.b);
+        row->shaped = shape_of(s, &row->line);
         ends e = gather_ends(s, &row->line);
         store3(row->mass_a, free_mass(&e.a)), store3(row->mass_b, free_mass(&e.b)), store3(row->keep, locked_axes(joints, r));
         row->locked = e.a.locks + e.b.locks;
@@ -139,6 +147,7 @@ static void relax_slide(fe__solver *s, void *rows, int32_t count, int32_t sides,
     (void)c;
     for (slide_row *row = rows, *end = row + count; row < end; ++row) {
         wide3 impulse = to_world(row, load3(row->impulse)), arm_a = load3(row->arm_a), arm_b = load3(row->arm_b);
+        TURN_INERTIA(row, w_cross(arm_a, impulse), w_cross(arm_b, impulse));
         place_slide(row, s);
         owe_slide(row, s, impulse, arm_a, arm_b, sides);
         ends e = gather_ends(s, &row->line);

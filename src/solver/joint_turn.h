@@ -1,7 +1,7 @@
 // joint_turn.h - HINGE, FIXED: locks of rotations; TURN: drive to a rotation and friction about all axes. Part of joint.simd.c.
 //
 //     HINGE   t1, t2: Y and Z of A; C = (-t2.X', t1.X') with X' of B;  v = (t1.w, t2.w), w = wB - wA;  2 x 2 block
-//     FIXED   C = 2 vec(QB QA^-1), world axes; v = w: dC/dt = w up to C^2. K = IA^-1 + IB^-1 stays as it is, nothing turns
+//     FIXED   C = 2 vec(QB QA^-1), world axes; v = w: dC/dt = w up to C^2. K = IA^-1 + IB^-1, nothing turns
 //     TURN    error = rotation vector of q target^-1 in frame A, turned to the world; v = w
 // Order of a hinge: these first, its point last, in blocks of their own. One soft block of five would share its compliance: a bending
 // moment would open the anchors three times as far.
@@ -15,7 +15,7 @@ typedef struct {
     wide mass[3];      // inverse of K: 11 12 22
     wide impulse[2];
     wide_sym inertia_a, inertia_b;
-    wide rate, fade;
+    wide rate, fade, shaped;
     wide total[3];                                  // world, of the impulses of the substeps so far
     wide first_t1[3], first_t2[3], first_axis_b[3]; // when the step began
     wide locked;                                    // > 0: a body has locks
@@ -59,6 +59,7 @@ static void prepare_hinge(fe__solver *s, const fe__body *bodies, const fe__joint
         row->rate = soft.rate, row->fade = soft.fade;
         store3(row->first_t1, frame_axis(qa, 1)), store3(row->first_t2, frame_axis(qa, 2)), store3(row->first_axis_b, frame_axis(qb, 0));
         row->inertia_a = gather_inertia(s, row->line.a), row->inertia_b = gather_inertia(s, row->line.b);
+        row->shaped = shape_of(s, &row->line);
         spins e = gather_spins(s->velocity, &row->line);
         row->locked = e.locks_a + e.locks_b;
         row->impulse[0] = c->warm_scale * impulse.x, row->impulse[1] = c->warm_scale * impulse.y;
@@ -94,7 +95,8 @@ static void relax_hinge(fe__solver *s, void *rows, int32_t count, int32_t sides,
 {
     (void)c;
     for (hinge_row *row = rows, *end = row + count; row < end; ++row) {
-        wide3 t1 = load3(row->t1), t2 = load3(row->t2);
+        wide3 t1 = load3(row->t1), t2 = load3(row->t2), torque = hinge_torque(row, row->impulse[0], row->impulse[1]);
+        TURN_INERTIA(row, torque, torque);
         place_hinge(row, s);
         wide3 owed = w_add_scaled(w_scale(row->impulse[0], w_sub(load3(row->t1), t1)), row->impulse[1], w_sub(load3(row->t2), t2));
         spins start = gather_spins(s->start, &row->line), e = gather_spins(s->velocity, &row->line);
@@ -127,13 +129,22 @@ typedef struct {
     wide_sym mass;   // (IA^-1 + IB^-1)^-1
     wide impulse[3]; // world
     wide_sym inertia_a, inertia_b;
-    wide rate, fade;
+    wide rate, fade, shaped;
     wide total[3];
     wide first[4]; // QB QA^-1 when the step began
+    wide locked;   // > 0: a body has locks
 } fixed_row;
+
+FE_INLINE wide_sym turn_mass(const wide_sym *a, const wide_sym *b, wide locked)
+{
+    wide_sym k = sum_sym(a, b);
+    k = give(k, trace(&k), w_greater(locked, w_set(0.0f)));
+    return inverse_scaled(&k);
+}
 
 FE_INLINE void place_fixed(fixed_row *row, const fe__solver *s)
 {
+    row->mass = turn_mass(&row->inertia_a, &row->inertia_b, row->locked);
     wide4 qa = gather_high(s->motion, row->line.a), qb = gather_high(s->motion, row->line.b);
     wide4 q = positive(w_product(w_product(qb, load4(row->first)), w_conjugate(qa)));
     store3(row->error, w_scale(w_set(2.0f), w_xyz(q)));
@@ -150,10 +161,9 @@ static void prepare_fixed(fe__solver *s, const fe__body *bodies, const fe__joint
         row->rate = soft.rate, row->fade = soft.fade;
         store4(row->first, w_product(qb, w_conjugate(qa)));
         row->inertia_a = gather_inertia(s, row->line.a), row->inertia_b = gather_inertia(s, row->line.b);
+        row->shaped = shape_of(s, &row->line);
         spins e = gather_spins(s->velocity, &row->line);
-        wide_sym k = sum_sym(&row->inertia_a, &row->inertia_b);
-        k = give(k, trace(&k), w_greater(e.locks_a + e.locks_b, w_set(0.0f)));
-        row->mass = inverse_scaled(&k);
+        row->locked = e.locks_a + e.locks_b;
         store3(row->impulse, w_scale(w_set(c->warm_scale), w_xyz(FRAME_QUAD(impulse)))), store3(row->total, w_zero3());
         place_fixed(row, s);
         twist_ends(&e, &row->inertia_a, &row->inertia_b, load3(row->impulse));
@@ -178,6 +188,7 @@ static void relax_fixed(fe__solver *s, void *rows, int32_t count, int32_t sides,
 {
     (void)c;
     for (fixed_row *row = rows, *end = row + count; row < end; ++row) {
+        TURN_INERTIA(row, load3(row->impulse), load3(row->impulse));
         place_fixed(row, s);
         spins e = gather_spins(s->velocity, &row->line);
         wide3 change = minus(w_mul(&row->mass, w_sub(e.b, e.a))), impulse = w_add(load3(row->impulse), change);
@@ -213,12 +224,14 @@ typedef struct {
     wide push, inner, outer, drive_cap;
     wide impulse[3], motor_impulse[3]; // world
     wide velocity[3];                  // wanted of B against A, world
-    wide motor_cap;
+    wide motor_cap, shaped;
     wide_sym inertia_a, inertia_b;
     wide total[3];
     wide first_a[4], first_b[4];
     wide target[4];
     wide motor[3]; // frame A
+    wide drive[4]; // as in fe__joint_turn
+    wide locked;   // > 0: a body has locks
 } turn_row;
 
 FE_INLINE wide3 rotation_vector(wide4 q)
@@ -236,12 +249,13 @@ FE_INLINE void place_turn(turn_row *row, const fe__solver *s)
     store3(row->velocity, turned(qa, load3(row->motor)));
 }
 
-FE_INLINE void aim_turn(turn_row *row, wide4 drive, wide_mask locked, const fe__step_constants *c)
+FE_INLINE void aim_turn(turn_row *row, const fe__step_constants *c)
 {
+    wide4 drive = load4(row->drive);
     wide zero = w_set(0.0f), one = w_set(1.0f), omega = 2.0f * FE_PI * drive.x;
     wide_mask newtons = w_greater(drive.w, zero), on;
     wide_sym k = sum_sym(&row->inertia_a, &row->inertia_b);
-    k = give(k, trace(&k), locked);
+    k = give(k, trace(&k), w_greater(row->locked, zero));
     row->mass = inverse_scaled(&k);
     wide fade = 1.0f / (1.0f + c->h * omega * (2.0f * drive.y + c->h * omega));
     wide given = inverse_or_zero(c->h * (drive.y + c->h * drive.x)), stiff = one - fade;
@@ -277,8 +291,11 @@ static void prepare_turn(fe__solver *s, const fe__body *bodies, const fe__joints
         store4(row->target, AXES_QUAD(turn.target)), store3(row->motor, w_xyz(motor));
         row->motor_cap = c->h * motor.w;
         row->inertia_a = gather_inertia(s, row->line.a), row->inertia_b = gather_inertia(s, row->line.b);
+        row->shaped = shape_of(s, &row->line);
         spins e = gather_spins(s->velocity, &row->line);
-        aim_turn(row, AXES_QUAD(turn.drive), w_greater(e.locks_a + e.locks_b, w_set(0.0f)), c);
+        row->locked = e.locks_a + e.locks_b;
+        store4(row->drive, AXES_QUAD(turn.drive));
+        aim_turn(row, c);
         store3(row->impulse, w_scale(scale, w_xyz(AXES_QUAD(turn.impulse))));
         store3(row->motor_impulse, w_scale(scale, w_xyz(AXES_QUAD(turn.motor_impulse)))), store3(row->total, w_zero3());
         place_turn(row, s);
@@ -317,8 +334,10 @@ static void solve_turn(fe__solver *s, void *rows, int32_t count, int32_t sides, 
 
 static void relax_turn(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c)
 {
-    (void)c;
     for (turn_row *row = rows, *end = row + count; row < end; ++row) {
+        wide3 torque = w_add(load3(row->impulse), load3(row->motor_impulse));
+        TURN_INERTIA(row, torque, torque);
+        aim_turn(row, c);
         place_turn(row, s);
         spins e = gather_spins(s->velocity, &row->line);
         run_motor(row, &e);

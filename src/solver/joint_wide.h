@@ -298,6 +298,46 @@ FE_INLINE void scatter_spins(float (*lines)[FE__LINE], const line_pair *line, co
     if (sides & FE__MOVES_B) w_scatter(lines[0] + 4, FE__LINE, line->b, w_with(e->b, e->locks_b));
 }
 
+// ---- inertia that turns ---------------------------------------------------------------------------------------------------------------
+// sin^2 of half the angle from which on a body's turn within the step counts for its inertia: 0.02 rad
+#define TURNED 1e-4f
+
+// > 0 where a body's inertia is not that of a ball
+FE_INLINE wide shape_of(const fe__solver *s, const line_pair *line)
+{
+    _Alignas(64) float shaped[FE_W];
+    for (int i = 0; i < FE_W; ++i) shaped[i] = s->spin[line->a[i]][FE__LINE - 1] + s->spin[line->b[i]][FE__LINE - 1];
+    return *(wide *)shaped;
+}
+
+FE_INLINE wide_sym change_inertia(const fe__solver *s, const int32_t *line, wide_mask shaped, wide_sym *inertia)
+{
+    wide3 u = w_xyz(gather_high(s->motion, line));
+    wide_mask turns = w_and(shaped, w_greater(w_dot(u, u), w_set(TURNED)));
+    wide_sym was = *inertia, zero = {w_set(0), w_set(0), w_set(0), w_set(0), w_set(0), w_set(0)};
+    if (!w_any(turns)) return zero;
+    wide_sym now = turned_inertia(s, line, gather_high(s->velocity, line).w);
+    *inertia = (wide_sym){w_choose(turns, now.xx, was.xx), w_choose(turns, now.xy, was.xy), w_choose(turns, now.xz, was.xz),
+                          w_choose(turns, now.yy, was.yy), w_choose(turns, now.yz, was.yz), w_choose(turns, now.zz, was.zz)};
+    now = *inertia;
+    return (wide_sym){now.xx - was.xx, now.xy - was.xy, now.xz - was.xz, now.yy - was.yy, now.yz - was.yz, now.zz - was.zz};
+}
+
+// The inertias that a row copied follow the turn of its bodies: with those of the step's beginning, a rod that spins in a chain gains
+// energy. start takes what the row's moments owe to it.
+static void turn_inertia(const fe__solver *s, const line_pair *line, wide shaped, wide_sym *a, wide_sym *b, wide3 moment_a, wide3 moment_b,
+                         int sides)
+{
+    wide_mask lanes = w_greater(shaped, w_set(0.0f));
+    if (!w_any(lanes)) return;
+    wide_sym change_a = change_inertia(s, line->a, lanes, a), change_b = change_inertia(s, line->b, lanes, b);
+    spins start = gather_spins(s->start, line);
+    start.a = w_add(start.a, w_mul(&change_a, moment_a)), start.b = w_sub(start.b, w_mul(&change_b, moment_b));
+    scatter_spins(s->start, line, &start, sides);
+}
+#define TURN_INERTIA(row, moment_a, moment_b) \
+    turn_inertia(s, &(row)->line, (row)->shaped, &(row)->inertia_a, &(row)->inertia_b, moment_a, moment_b, sides)
+
 // a torque on B, its opposite on A
 FE_INLINE void twist_ends(spins *e, const wide_sym *inertia_a, const wide_sym *inertia_b, wide3 torque)
 {

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { RIG_BODIES = 10200, RIG_JOINTS = 20200 };
+enum { RIG_BODIES = 10200, RIG_JOINTS = 20200, RIG_AXES = 64 };
 
 typedef struct rig {
     fe__memory memory;
@@ -34,7 +34,7 @@ static inline rig rig_make(int32_t simd, fe_pool *pool, int32_t workers, int32_t
     r.joints.joints = fe__allocate(&r.memory, sizeof(fe__joint) * RIG_JOINTS);
     r.joints.frames = fe__allocate(&r.memory, sizeof(fe__joint_frame) * RIG_JOINTS);
     r.joints.reactions = fe__allocate(&r.memory, sizeof(fe__joint_reaction) * RIG_JOINTS);
-    r.joints.axes = fe__allocate(&r.memory, sizeof(fe__joint_axes) * 64);
+    r.joints.axes = fe__allocate(&r.memory, sizeof(fe__joint_axes) * RIG_AXES);
     r.bodies[0] = (fe__body){.rotation = {0, 0, 0, 1}, .inertia_axes = {0, 0, 0, 1}, .type = FE_BODY_STATIC, .awake_index = -1};
     r.body_count = 1;
     return r;
@@ -49,7 +49,7 @@ static inline void rig_free(rig *r)
     fe__release(&r->memory, r->joints.joints, sizeof(fe__joint) * RIG_JOINTS);
     fe__release(&r->memory, r->joints.frames, sizeof(fe__joint_frame) * RIG_JOINTS);
     fe__release(&r->memory, r->joints.reactions, sizeof(fe__joint_reaction) * RIG_JOINTS);
-    fe__release(&r->memory, r->joints.axes, sizeof(fe__joint_axes) * 64);
+    fe__release(&r->memory, r->joints.axes, sizeof(fe__joint_axes) * RIG_AXES);
 }
 
 static inline int32_t rig_body(rig *r, double x, double y, double z, float mass, float ix, float iy, float iz)
@@ -105,6 +105,28 @@ static inline int32_t rig_ball(rig *r, int32_t a, int32_t b, double x, double y,
     int32_t j = rig_joint(r, a, b, (fe_dvec3){x, y, z}, fe__identity(), 1u << FE__PART_POINT);
     fe__joint_link(&r->joints, r->bodies, j);
     return j;
+}
+
+static inline void rig_kinematic(rig *r, int32_t body, fe_vec3 velocity, fe_vec3 spin)
+{
+    fe__body *b = r->bodies + body;
+    b->type = FE_BODY_KINEMATIC;
+    const float v[4] = {velocity.x, velocity.y, velocity.z, 0.0f}, w[3] = {spin.x, spin.y, spin.z};
+    memcpy(b->velocity, v, sizeof v), memcpy(b->spin, w, sizeof w);
+}
+
+// a dynamic body's axes, linear | angular << 3; its joints are linked anew
+static inline void rig_lock(rig *r, int32_t body, int32_t locks)
+{
+    for (int32_t i = 1; i <= r->joint_count; ++i) {
+        const fe__joint *j = r->joints.joints + i;
+        if (j->body_a == body || j->body_b == body) fe__joint_unlink(&r->joints, r->bodies, i);
+    }
+    r->bodies[body].locked = locks != 0;
+    r->bodies[body].spin[3] = (float)locks;
+    if (locks >> 3) r->bodies[body].flags |= FE__BODY_ISOTROPIC;
+    for (int32_t i = 1; i <= r->joint_count; ++i)
+        if (r->joints.joints[i].colour < 0) fe__joint_link(&r->joints, r->bodies, i);
 }
 
 static inline void rig_build(rig *r)
@@ -193,6 +215,13 @@ static inline uint64_t rig_hash(const rig *r)
             fe__hash_float(&h, b->velocity[k]), fe__hash_float(&h, b->spin[k]), fe__hash_float(&h, b->rotation[k]);
         }
     }
+    for (int32_t i = 1; i <= r->joint_count; ++i)
+        for (int k = 0; k < 3; ++k) {
+            fe__hash_float(&h, r->joints.joints[i].impulse[k]), fe__hash_float(&h, r->joints.frames[i].impulse[k]);
+            fe__hash_float(&h, r->joints.reactions[i].force[k]), fe__hash_float(&h, r->joints.reactions[i].torque[k]);
+        }
+    const float *axes = r->joints.axes[0].axis[0].limit;
+    for (size_t i = 0; i < RIG_AXES * sizeof(fe__joint_axes) / sizeof(float); ++i) fe__hash_float(&h, axes[i]);
     return fe__hash_end(&h);
 }
 

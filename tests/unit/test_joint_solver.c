@@ -136,9 +136,152 @@ static void add_wheel(rig *r)
     }
 }
 
+// ---- every kind
+// ---------------------------------------------------------------------------------------------------------------------------
+#define PART(name) (1u << FE__PART_##name)
+
+typedef struct kind {
+    const char *name;
+    uint32_t parts, locked;
+} kind;
+
+static const kind kinds[] = {
+    {"ball", PART(POINT), 0},
+    {"hinge", PART(HINGE) | PART(POINT), 0},
+    {"hinge with limits", PART(TWIST) | PART(HINGE) | PART(POINT), 0},
+    {"fixed", PART(FIXED) | PART(POINT), 0},
+    {"slider", PART(FIXED) | PART(SLIDE), FE__LOCK_Y | FE__LOCK_Z},
+    {"slider with limits", PART(X) | PART(FIXED) | PART(SLIDE), FE__LOCK_Y | FE__LOCK_Z},
+    {"cylinder", PART(HINGE) | PART(SLIDE), FE__LOCK_Y | FE__LOCK_Z},
+    {"plane", PART(HINGE) | PART(SLIDE), FE__LOCK_X},
+    {"universal", PART(TWIST) | PART(POINT), 0},
+    {"cone and twist", PART(TWIST) | PART(CONE) | PART(POINT), 0},
+    {"swings", PART(SWING_Y) | PART(SWING_Z) | PART(POINT), 0},
+    {"rod", PART(DISTANCE), 0},
+    {"box of ways", PART(X) | PART(Y) | PART(Z), 0},
+};
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+// limits that a tumbling tree runs into: 0.3 rad, 0.2 m
+static void set_limits(fe__joint_axes *axes, uint32_t parts)
+{
+    for (int k = 0; k < FE__AXES; ++k) {
+        float most = k < FE__AXIS_TWIST ? 0.2f : 0.3f;
+        axes->axis[k].limit[0] = -most, axes->axis[k].limit[1] = most;
+    }
+    if (parts & PART(CONE)) axes->axis[FE__AXIS_SWING].limit[0] = 0.2f, axes->axis[FE__AXIS_SWING].limit[1] = 0.4f;
+    if (parts & PART(DISTANCE)) axes->axis[FE__AXIS_LINEAR].limit[0] = axes->axis[FE__AXIS_LINEAR].limit[1] = 0.25f;
+    if (!(parts & (PART(CONE) | PART(HINGE))) && parts & PART(TWIST))
+        axes->axis[FE__AXIS_TWIST].limit[0] = axes->axis[FE__AXIS_TWIST].limit[1] = 0.0f;
+    axes->turn.target[3] = 1.0f;
+}
+
+// between neighbours of a tree, along a skew axis
+static int32_t add_kind(rig *r, const kind *k, int32_t a, int32_t b, fe_dvec3 point)
+{
+    const fe_quat skew = fe__normalized((fe_quat){0.2f, -0.5f, 0.3f, 0.8f});
+    int32_t j = rig_joint(r, a, b, point, skew, k->parts);
+    r->joints.frames[j].locked = (uint16_t)k->locked;
+    r->joints.frames[j].axes = j;
+    if (k->parts == PART(DISTANCE)) r->joints.joints[j].arm_b[0] += 0.25f;
+    set_limits(r->joints.axes + j, k->parts);
+    fe__joint_link(&r->joints, r->bodies, j);
+    return j;
+}
+
+static void add_bough(rig *r, const kind *k, int32_t root, double y)
+{
+    int32_t before = root;
+    for (int32_t i = 0; i < 4; ++i) {
+        int32_t b = rig_capsule(r, 0.5 * i, y, 0.5 * (i + 1), y, 0.08 + 0.02 * i, 1000.0);
+        add_kind(r, k, before, b, (fe_dvec3){0.5 * i, y, 0.0});
+        before = b;
+    }
+}
+
+static void whirl(rig *r, fe_dvec3 w)
+{
+    for (int32_t i = 1; i < r->body_count; ++i) {
+        fe__body *b = r->bodies + i;
+        if (b->type != FE_BODY_DYNAMIC) continue;
+        fe_vec3 v = fe__narrow(fe__dcross(w, (fe_dvec3){b->centre[0], b->centre[1], b->centre[2]}));
+        b->velocity[0] = v.x, b->velocity[1] = v.y, b->velocity[2] = v.z;
+        b->spin[0] = (float)w.x + 0.5f * (float)(i % 3), b->spin[1] = (float)w.y - 0.4f * (float)(i % 2), b->spin[2] = (float)w.z;
+    }
+}
+
+// Boughs of five bodies that whirl freely, a bough for each kind of joint: no kind gives energy, none loses what it holds together.
+static void no_kind_of_joint_adds_energy(void **state)
+{
+    (void)state;
+    for (int32_t k = 0; k < KINDS; ++k) {
+        rig r = rig_make(FE_SIMD_AUTO, NULL, 1, 8);
+        r.gravity = 0.0f;
+        int32_t root = rig_capsule(&r, -0.5, 0.0, 0.0, 0.0, 0.15, 1000.0);
+        add_bough(&r, kinds + k, root, 0.0);
+        whirl(&r, (fe_dvec3){1.0, 2.0, 4.0});
+        double start = rig_energy(&r);
+        for (int32_t i = 0; i < SHORTER(600, 100); ++i) {
+            rig_step(&r);
+            double energy = rig_energy(&r);
+            if (!(energy <= start * (1.0 + 1e-4))) print_error("%s, step %d\n", kinds[k].name, i);
+            FE_WITHIN(energy, 0.0, start * (1.0 + 1e-4));
+        }
+        rig_free(&r);
+    }
+}
+
+// a bough of each kind, on bodies of each type, some of them locked; drives, motors and a turn drive too
+static void add_everything(rig *r)
+{
+    for (int32_t k = 0; k < KINDS; ++k) {
+        int32_t root = 0;
+        if (k % 3) root = rig_capsule(r, -0.5, k, 0.0, k, 0.15, 1000.0);
+        if (k % 3 == 2) rig_kinematic(r, root, (fe_vec3){0.1f, 0.0f, 0.2f}, (fe_vec3){0.3f, 1.0f, 0.0f});
+        add_bough(r, kinds + k, root, k);
+        if (k % 4 == 3) rig_lock(r, r->body_count - 2, 1 + k);
+    }
+    for (int32_t j = 1; j <= r->joint_count; ++j) {
+        fe__joint_axis *axis = r->joints.axes[j].axis;
+        for (int k = 0; k < FE__AXES && j % 2; ++k)
+            axis[k].drive[0] = 0.1f, axis[k].drive[1] = 2.0f, axis[k].drive[2] = 0.5f, axis[k].drive[3] = 50.0f;
+        for (int k = 0; k < FE__AXES && j % 3; ++k) axis[k].motor[0] = 0.5f, axis[k].motor[1] = 5.0f;
+    }
+    const fe__joint_turn turn = {
+        {0.1f, 0.2f, 0.0f, 0.97f}, {20.0f, 2.0f, 30.0f, FE__DRIVE_STIFFNESS}, {0.0f, 0.1f, 0.0f, 1.0f}, {0}, {0}, {0}};
+    int32_t b = rig_capsule(r, 0.0, -2.0, 1.0, -2.0, 0.1, 1000.0);
+    int32_t j = rig_joint(r, 0, b, (fe_dvec3){0.0, -2.0, 0.0}, fe__identity(), PART(POINT) | PART(TURN));
+    r->joints.frames[j].axes = j;
+    r->joints.axes[j].turn = turn;
+    fe__joint_link(&r->joints, r->bodies, j);
+}
+
+// What is locked keeps its coordinate bit for bit, whatever joint pulls at it.
+static void locks_hold_exactly_against_every_kind(void **state)
+{
+    (void)state;
+    for (int32_t k = 0; k < KINDS; ++k)
+        for (int32_t locks = 1; locks < 64; locks += SHORTER(1, 5)) {
+            rig r = rig_make(FE_SIMD_AUTO, NULL, 1, 4);
+            add_bough(&r, kinds + k, 0, 0.0);
+            rig_lock(&r, 2, locks);
+            const fe__body before = r.bodies[2];
+            for (int32_t i = 0; i < 20; ++i) rig_step(&r);
+            const fe__body *b = r.bodies + 2;
+            for (int n = 0; n < 3; ++n) {
+                if (locks >> n & 1) FE_TRUE(b->centre[n] == before.centre[n] && b->velocity[n] == 0.0f);
+                if (locks >> (3 + n) & 1) FE_TRUE(b->spin[n] == 0.0f);
+            }
+            if (locks >> 3 == 7) FE_TRUE(!memcmp(b->rotation, before.rotation, sizeof before.rotation));
+            FE_WITHIN(rig_energy(&r), -1e9, 1e9); // no NaN
+            rig_free(&r);
+        }
+}
+
 static uint64_t play(int32_t simd, fe_pool *pool, int32_t workers)
 {
     rig r = rig_make(simd, pool, workers, 4);
+    add_everything(&r);
     add_cloth(&r, 30); // 1653 joints: a large island
     add_tree(&r);
     add_wheel(&r);
@@ -171,6 +314,8 @@ int main(void)
         cmocka_unit_test(tree_in_free_flight_never_gains_energy),
         cmocka_unit_test(chain_carries_a_ball_of_585_links),
         cmocka_unit_test(cloth_hangs_as_predicted),
+        cmocka_unit_test(no_kind_of_joint_adds_energy),
+        cmocka_unit_test(locks_hold_exactly_against_every_kind),
         cmocka_unit_test(results_do_not_depend_on_width_or_workers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
