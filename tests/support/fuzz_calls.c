@@ -688,5 +688,13 @@ const fuzz_call fuzz_calls[] = {
     {"bulk reads", read_bulk, 0},
     {"bulk writes", write_bulk, 1},
     {"fe_world_get_counters", read_measures, 0},
+    {"fe_hinge_create and such", fuzz_create_joint, 1},
+    {"a whole joint", fuzz_join, 1},
+    {"a whole joint", fuzz_join, 1},
+    {"fe_hinge_set and such", fuzz_set_joint, 1},
+    {"fe_joint_set, set_enabled", fuzz_set_joint_front, 1},
+    {"fe_joint_destroy", fuzz_destroy_joint, 0},
+    {"fe_joint_get_state and such", fuzz_read_joint, 0},
+    {"lists and events of joints", fuzz_list_joints, 0},
 };
 const int32_t fuzz_call_count = COUNT(fuzz_calls);

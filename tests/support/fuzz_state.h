@@ -13,7 +13,8 @@ typedef struct fuzz {
     fe_world *world;
     fe_body bodies[FUZZ_HANDLES]; // last given ones, in a ring: dead ones stay until they are overwritten
     fe_shape shapes[FUZZ_HANDLES];
-    int32_t body_count, shape_count; // given
+    fe_joint joints[FUZZ_HANDLES];
+    int32_t body_count, shape_count, joint_count; // given
     int32_t steps;
     int32_t call_count;
     const char *call_name;
@@ -54,5 +55,14 @@ fe_body fuzz_body(fuzz *f);
 fe_shape fuzz_shape(fuzz *f);
 uint32_t fuzz_struct_size(fuzz *f, uint32_t right);
 void fuzz_array(fuzz *f, uint32_t packed, fuzz_span *out); // in f->room, stride and count as a client might give them
+
+// fuzz_joints.c
+int32_t fuzz_create_joint(fuzz *f);
+int32_t fuzz_join(fuzz *f);
+int32_t fuzz_set_joint(fuzz *f);
+int32_t fuzz_set_joint_front(fuzz *f);
+int32_t fuzz_destroy_joint(fuzz *f);
+int32_t fuzz_read_joint(fuzz *f);
+int32_t fuzz_list_joints(fuzz *f);
 
 #endif
