@@ -163,12 +163,6 @@ void fe__body_link_joints(fe_world *world, int32_t body)
     for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body)) link(world, joint);
 }
 
-void fe__body_forget_joints(fe_world *world, int32_t body)
-{
-    for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body))
-        fe__joint_forget_impulses(&world->joints, joint);
-}
-
 // ---- filter -----------------------------------------------------------------------------------------------------------------------------
 static int32_t parts_bodies(const fe__joint_record *r)
 {
@@ -233,6 +227,17 @@ void fe__body_place_anchors(fe_world *world, int32_t body)
 void fe__body_wind_joints(fe_world *world, int32_t body)
 {
     for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body)) wind(world, joint);
+}
+
+// What the last step left in them may be no number
+void fe__body_forget_joints(fe_world *world, int32_t body)
+{
+    for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body)) {
+        const fe__joint_frame *f = world->joints.frames + joint;
+        fe__joint_forget_impulses(&world->joints, joint);
+        for (int32_t k = 0; f->axes && k < FE__AXES; ++k) world->joints.axes[f->axes].axis[k].state[0] = 0.0f;
+        wind(world, joint);
+    }
 }
 
 // Impulses and states of an axis go on while the part does that has them

@@ -244,7 +244,7 @@ void fe__body_unlink_joints(fe_world *world, int32_t body); // before its type, 
 void fe__body_link_joints(fe_world *world, int32_t body);   // after
 void fe__body_place_anchors(fe_world *world, int32_t body); // its centre of mass is another point
 void fe__body_wind_joints(fe_world *world, int32_t body);   // its pose was set
-void fe__body_forget_joints(fe_world *world, int32_t body); // impulses of its joints
+void fe__body_forget_joints(fe_world *world, int32_t body); // impulses and states of its joints
 fe_handle fe__joint_handle(const fe_world *world, int32_t joint);
 fe_transform fe__joint_frame_now(const fe_world *world, int32_t joint, int32_t side); // 0: A's, 1: B's; world space
 void fe__joint_state_of(const fe_world *world, int32_t joint, fe_joint_state *out_state);
