@@ -1,0 +1,177 @@
+// joint_scene.h - what the scenes with joints share: joints made in the frame of the scene, and what they should read.
+#ifndef JOINT_SCENE_H
+#define JOINT_SCENE_H
+
+#include "scenes/mechanics.h"
+
+// ---- bodies -----------------------------------------------------------------------------------------------------------------------
+
+// a static body without a shape: a place to hold on to
+static inline fe_body add_anchor(scene *s, vec at)
+{
+    fe_body_def def;
+    fe_body body;
+    fe_body_def_init(&def, sizeof def);
+    def.type = FE_BODY_STATIC;
+    def.transform.position = to_world(s, at);
+    def.transform.rotation = s->turn;
+    MUST(fe_body_create(s->world, &def, &body));
+    return body;
+}
+
+static inline fe_body add_plain(scene *s, fe_geometry form, vec at) { return add_dynamic(s, form, at, UNTURNED, friction(0.6), WATER); }
+
+// ---- joints, points and axes in the scene's frame ------------------------------------------------------------------------------------
+
+static inline fe_ball_def ball_def(void)
+{
+    fe_ball_def d;
+    fe_ball_def_init(&d, sizeof d);
+    return d;
+}
+
+static inline fe_hinge_def hinge_def(void)
+{
+    fe_hinge_def d;
+    fe_hinge_def_init(&d, sizeof d);
+    return d;
+}
+
+static inline fe_distance_def distance_def(void)
+{
+    fe_distance_def d;
+    fe_distance_def_init(&d, sizeof d);
+    return d;
+}
+
+static inline fe_fixed_def fixed_def(void)
+{
+    fe_fixed_def d;
+    fe_fixed_def_init(&d, sizeof d);
+    return d;
+}
+
+static inline fe_configurable_def configurable_def(void)
+{
+    fe_configurable_def d;
+    fe_configurable_def_init(&d, sizeof d);
+    return d;
+}
+
+static inline fe_joint add_ball(scene *s, fe_ball_def d, fe_body a, fe_body b, vec point, vec axis)
+{
+    fe_joint joint;
+    fe_vec3 x = narrow(to_world(s, axis));
+    vec p = to_world(s, point);
+    MUST(fe_ball_def_at(s->world, &d, a, b, &p, &x));
+    MUST(fe_ball_create(s->world, &d, &joint));
+    return joint;
+}
+
+static inline fe_joint add_hinge(scene *s, fe_hinge_def d, fe_body a, fe_body b, vec point, vec axis)
+{
+    fe_joint joint;
+    fe_vec3 x = narrow(to_world(s, axis));
+    vec p = to_world(s, point);
+    MUST(fe_hinge_def_at(s->world, &d, a, b, &p, &x));
+    MUST(fe_hinge_create(s->world, &d, &joint));
+    return joint;
+}
+
+static inline fe_joint add_fixed(scene *s, fe_fixed_def d, fe_body a, fe_body b, vec point)
+{
+    fe_joint joint;
+    vec p = to_world(s, point);
+    MUST(fe_fixed_def_at(s->world, &d, a, b, &p));
+    MUST(fe_fixed_create(s->world, &d, &joint));
+    return joint;
+}
+
+static inline fe_joint add_configurable(scene *s, fe_configurable_def d, fe_body a, fe_body b, vec point, vec axis)
+{
+    fe_joint joint;
+    fe_vec3 x = narrow(to_world(s, axis));
+    vec p = to_world(s, point);
+    MUST(fe_configurable_def_at(s->world, &d, a, b, &p, &x));
+    MUST(fe_configurable_create(s->world, &d, &joint));
+    return joint;
+}
+
+// between two points as they are; the range and the rest length of `d` count when they were changed from the defaults
+static inline fe_joint add_rod(scene *s, fe_body a, fe_body b, vec from, vec to)
+{
+    fe_distance_def d = distance_def();
+    fe_joint joint;
+    vec p = to_world(s, from), q = to_world(s, to);
+    MUST(fe_distance_def_at(s->world, &d, a, b, &p, &q));
+    MUST(fe_distance_create(s->world, &d, &joint));
+    return joint;
+}
+
+static inline fe_joint add_distance(scene *s, fe_distance_def d, fe_body a, fe_body b, vec from, vec to)
+{
+    fe_joint joint;
+    fe_distance_def at = distance_def();
+    vec p = to_world(s, from), q = to_world(s, to);
+    MUST(fe_distance_def_at(s->world, &at, a, b, &p, &q));
+    d.body_a = at.body_a, d.body_b = at.body_b, d.frame_a = at.frame_a, d.frame_b = at.frame_b;
+    MUST(fe_distance_create(s->world, &d, &joint));
+    return joint;
+}
+
+// a slider's definition: free along X
+static inline fe_configurable_def slider_def(void)
+{
+    fe_configurable_def d = configurable_def();
+    d.axes[FE_ALONG_X].mode = FE_MOTION_FREE;
+    return d;
+}
+
+// ---- reading --------------------------------------------------------------------------------------------------------------------------
+
+static inline fe_joint_state state_of(const scene *s, fe_joint joint)
+{
+    fe_joint_state state = {.struct_size = sizeof state};
+    MUST(fe_joint_get_state(s->world, joint, &state));
+    return state;
+}
+
+static inline double gap_of(const scene *s, fe_joint joint) { return (double)state_of(s, joint).linear_error; }
+
+static inline vec force_of(const scene *s, fe_joint joint)
+{
+    fe_vec3 force, torque;
+    MUST(fe_joint_get_reaction(s->world, joint, &force, &torque));
+    return from_world(s, widen(force));
+}
+
+static inline vec torque_of(const scene *s, fe_joint joint)
+{
+    fe_vec3 force, torque;
+    MUST(fe_joint_get_reaction(s->world, joint, &force, &torque));
+    return from_world(s, widen(torque));
+}
+
+static inline double worst_gap(const scene *s, const fe_joint *joints, int count)
+{
+    double worst = 0;
+    for (int i = 0; i < count; ++i) worst = fmax(worst, gap_of(s, joints[i]));
+    return worst;
+}
+
+// P2: a soft joint gives by load / (effective mass w^2), w = 2 pi min(60 Hz, a quarter of the substep rate); m or rad
+static inline double joint_give(const scene *s, double load, double effective_mass)
+{
+    double w = 2 * PI * fmin(60, 0.25 / s->h);
+    return load / (effective_mass * w * w);
+}
+
+// Moment of inertia about a point `arm` from the centre, about the body's axis `local`
+static inline double moment_of(const scene *s, fe_body body, int axis, double arm)
+{
+    fe_mass_data m = mass_data_of(s, body);
+    const float moments[3] = {m.inertia.x, m.inertia.y, m.inertia.z};
+    return (double)moments[axis] + (double)m.mass * arm * arm;
+}
+
+#endif
