@@ -214,6 +214,7 @@ fe_result fe__body_set_enabled(fe_world *world, int32_t index, int32_t enabled)
         leave_shapes(world, index);
         forget_forces(body);
         body->flags &= ~(uint32_t)FE__BODY_ENABLED;
+        fe__body_link_joints(world, index); // none of them acts now
         return FE_OK;
     }
     if (!fe__reserve_proxies(world, body->shape_count)) return FE_ERROR_MEMORY;

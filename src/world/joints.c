@@ -139,9 +139,13 @@ static int32_t acts(const fe_world *world, const fe__joint_record *r)
            (a->type == FE_BODY_DYNAMIC || b->type == FE_BODY_DYNAMIC);
 }
 
+// A joint that does not act bears nothing
 static void link(fe_world *world, int32_t joint)
 {
-    if (!acts(world, world->joint_records + joint)) return;
+    if (!acts(world, world->joint_records + joint)) {
+        fe__joint_forget_impulses(&world->joints, joint);
+        return;
+    }
     fe__joint_link(&world->joints, world->bodies, joint);
     world->solver.graph_changed = 1;
 }
