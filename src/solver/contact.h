@@ -9,13 +9,14 @@
 #include <stdint.h>
 
 enum { FE__POINTS = 4 };
+#define FE__FOLLOWS (-1e15f)
 
 typedef struct fe__contact {
     // now: read by prepare
     _Alignas(64) float separation[FE__POINTS]; // m, when the step begins
     float normal[4];                           // unit, from A to B, world; lane 3: number of points
     float span[4];                             // centre of A - centre of B, m, for torques on B; 0 when A is static; lane 3: static friction
-    float surface[4];                          // dynamic friction | radius of A's round side, of B's, m | how far the pair may move, m
+    float surface[4];                          // dynamic friction | radius of A's round side, of B's, m | how far the pair may move, m; FE__FOLLOWS: as far as its head
     // impulses
     float normal_impulse[FE__POINTS];          // N s
     float friction_impulse[4];                 // on B, world (a tangent basis may flip between steps); lane 3: twist, N m s

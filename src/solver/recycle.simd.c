@@ -6,6 +6,8 @@
 #include "solver/solver.h"
 #include "solver/wide_body.h"
 
+#include <float.h>
+
 // m along the normal, whatever the manifold's tolerance: some overlaps of a deep pile, and no more than the speculative distance
 #define MOST_ALONG 0.02f
 
@@ -68,7 +70,9 @@ static void recycle_block(fe__contact *contacts, const fe__body *bodies, const i
     // without points the bodies must not be able to meet in this step either
     wide travel = dt * (w_gather(bodies->centre_low, BODY_STRIDE, a).w + w_gather(bodies->centre_low, BODY_STRIDE, b).w);
     wide limit = w_choose(w_greater(normal.w, zero), surface.w, w_max(surface.w - travel, zero));
-    unsigned far = w_bits(w_or(w_not(w_greater(limit * limit, moved)), w_greater(w_abs(along), w_set(MOST_ALONG))));
+    // a patch of a heightfield goes with its head: its tolerance is below 0
+    wide most_along = w_choose(w_greater(zero, surface.w), w_set(FLT_MAX), w_set(MOST_ALONG));
+    unsigned far = w_bits(w_or(w_not(w_greater(limit * limit, moved)), w_greater(w_abs(along), most_along)));
 
     _Alignas(64) float now[FE__POINTS][FE_W];
     for (int i = 0; i < FE__POINTS; ++i) {

@@ -153,7 +153,7 @@ static void renew_pairs(fe_world *world, int32_t index, const fe__bounds *part)
     const fe__shape *field = world->shapes + index;
     for (int32_t pair = world->bodies[field->body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, field->body)) {
         const fe__pair *p = world->pairs + pair;
-        if (p->shape_a != index && p->shape_b != index) continue;
+        if (p->flags & FE__PAIR_PATCH || (p->shape_a != index && p->shape_b != index)) continue;
         int32_t other = p->shape_a == index ? p->shape_b : p->shape_a;
         if (!is_over(world, field, other, part)) continue;
         world->contacts[pair].surface[3] = 0.0f; // what moved by nothing has moved too far

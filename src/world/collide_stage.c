@@ -36,10 +36,60 @@ static int32_t judge(const fe_world *w, int32_t pair)
     const fe__pair *p = w->pairs + pair;
     int32_t has_points = w->contacts[pair].normal[3] > 0.0f, linked = (p->flags & FE__PAIR_LINKED) != 0;
     if (has_points) return linked || p->flags & FE__PAIR_SENSOR ? FE__RESULT_NONE : FE__RESULT_BEGIN;
-    if (boxes_part(w, p)) return FE__RESULT_APART;
+    if (!(p->flags & FE__PAIR_PATCH) && boxes_part(w, p)) return FE__RESULT_APART;
     return linked ? FE__RESULT_END : FE__RESULT_NONE;
 }
 
+static void note_result(fe__step *step, int32_t pair)
+{
+    fe_world *w = step->world;
+    fe__step_scratch *s = step->scratch;
+    w->pairs[pair].result = judge(w, pair);
+    if (w->pairs[pair].result != FE__RESULT_NONE) s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
+}
+
+// ---- with heightfields: patches follow their heads, on the head's thread -----------------------------------------------------------------
+static void collide_with_patches(fe__step *step, int32_t head)
+{
+    fe_world *w = step->world;
+    if (w->pairs[head].next_patch < 0)
+        fe__collide_pair(w, head, step->dt);
+    else
+        fe__collide_field_pair(w, head, step->dt);
+    for (int32_t pair = head; pair >= 0; pair = w->pairs[pair].next_patch) note_result(step, pair);
+}
+
+// up to PAIRS_IN_BLOCK of the awake pairs
+static void collide_chunk(fe__step *step, const int32_t *pairs, int32_t count)
+{
+    fe_world *w = step->world;
+    int32_t heads[PAIRS_IN_BLOCK], patches[PAIRS_IN_BLOCK * (FE__PATCHES - 1)], head_count = 0, patch_count = 0, again = 0;
+    uint8_t moved[PAIRS_IN_BLOCK * (FE__PATCHES - 1)];
+    for (int32_t i = 0; i < count; ++i)
+        if (!(w->pairs[pairs[i]].flags & FE__PAIR_PATCH)) heads[head_count++] = pairs[i];
+    w->kernels->recycle(w->contacts, w->bodies, heads, head_count, step->dt, moved);
+    for (int32_t i = 0; i < head_count; ++i) {
+        if (moved[i]) {
+            heads[again++] = heads[i];
+            continue;
+        }
+        for (int32_t patch = w->pairs[heads[i]].next_patch; patch >= 0; patch = w->pairs[patch].next_patch)
+            if (w->contacts[patch].normal[3] > 0.0f) patches[patch_count++] = patch;
+    }
+    if (patch_count) w->kernels->recycle(w->contacts, w->bodies, patches, patch_count, step->dt, moved);
+    for (int32_t i = 0; i < again; ++i) collide_with_patches(step, heads[i]);
+    atomic_fetch_add_explicit(&step->scratch->recycled, head_count - again, memory_order_relaxed);
+}
+
+static void collide_chunks(void *argument, int32_t first, int32_t end, int32_t worker)
+{
+    const collide_job *job = argument;
+    (void)worker;
+    for (int32_t i = first; i < end; i += PAIRS_IN_BLOCK)
+        collide_chunk(job->step, job->step->world->awake_pairs + job->first + i, fe__mini(end - i, PAIRS_IN_BLOCK));
+}
+
+// ---- without ------------------------------------------------------------------------------------------------------------------------------
 static void collide_block(void *argument, int32_t first, int32_t end, int32_t worker)
 {
     const collide_job *job = argument;
@@ -54,9 +104,7 @@ static void collide_block(void *argument, int32_t first, int32_t end, int32_t wo
         int32_t pair = w->awake_pairs[i];
         --recycled;
         fe__collide_pair(w, pair, job->step->dt);
-        w->pairs[pair].result = judge(w, pair);
-        if (w->pairs[pair].result != FE__RESULT_NONE)
-            s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
+        note_result(job->step, pair);
     }
     atomic_fetch_add_explicit(&s->recycled, recycled, memory_order_relaxed);
 }
@@ -107,11 +155,14 @@ void fe__update_contacts(fe__step *step)
     for (int32_t first = 0; first < w->awake_pair_count;) {
         int32_t end = w->awake_pair_count, results = atomic_load(&s->result_count);
         collide_job job = {step, first};
-        fe__parallel_for(&w->workers, end - first, PAIRS_IN_BLOCK, collide_block, &job);
+        fe__parallel_for(&w->workers, end - first, PAIRS_IN_BLOCK, w->field_pair_count ? collide_chunks : collide_block, &job);
         apply_results(step, results);
         first = end;
     }
     int32_t count = atomic_load(&s->result_count);
+    for (int32_t i = 0; i < count; ++i)
+        if (w->pairs[s->results[i]].result == FE__RESULT_END && w->pairs[s->results[i]].flags & FE__PAIR_PATCH)
+            fe__patch_leave(w, s->results[i]);
     for (int32_t i = 0; i < count; ++i)
         if (w->pairs[s->results[i]].result == FE__RESULT_APART) fe__pair_destroy(w, s->results[i]);
 }

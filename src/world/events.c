@@ -30,33 +30,50 @@ fe_dvec3 fe__contact_point(const fe_world *w, int32_t pair, int32_t point)
     return (fe_dvec3){from->centre[0] + (double)r[0], from->centre[1] + (double)r[1], from->centre[2] + (double)r[2]};
 }
 
-static int32_t touches(const fe_world *w, int32_t pair)
+static int32_t touches(const fe_world *w, int32_t head)
 {
-    const fe__contact *m = w->contacts + pair;
-    int32_t points = (int32_t)m->normal[3], sensor = (w->pairs[pair].flags & FE__PAIR_SENSOR) != 0;
-    for (int32_t i = 0; i < points; ++i)
-        if (m->separation[i] <= 0.0f || (!sensor && m->total_impulse[i] > 0.0f)) return 1;
+    int32_t sensor = (w->pairs[head].flags & FE__PAIR_SENSOR) != 0;
+    for (int32_t pair = head; pair >= 0; pair = w->pairs[pair].next_patch) {
+        const fe__contact *m = w->contacts + pair;
+        for (int32_t i = 0; i < (int32_t)m->normal[3]; ++i)
+            if (m->separation[i] <= 0.0f || (!sensor && m->total_impulse[i] > 0.0f)) return 1;
+    }
     return 0;
+}
+
+// Of a pair: sum of the impulses, fastest approach; point and normal where the impulse is largest.
+typedef struct impact {
+    float impulse, largest, approach;
+    int32_t pair, point;
+} impact;
+
+static impact impact_of(const fe_world *w, int32_t head)
+{
+    impact sum = {.pair = head};
+    for (int32_t pair = head; pair >= 0; pair = w->pairs[pair].next_patch) {
+        const fe__contact *m = w->contacts + pair;
+        if (m->normal[3] > 0.0f) sum.approach = fe__maxf(sum.approach, w->pairs[pair].approach);
+        for (int32_t i = 0; i < (int32_t)m->normal[3]; ++i) {
+            sum.impulse += m->total_impulse[i];
+            if (m->total_impulse[i] > sum.largest) sum.largest = m->total_impulse[i], sum.pair = pair, sum.point = i;
+        }
+    }
+    return sum;
 }
 
 static void add_hit(fe_world *w, int32_t pair)
 {
     const fe__pair *p = w->pairs + pair;
-    const fe__contact *m = w->contacts + pair;
-    if (!(p->events & FE_EVENTS_HIT) || p->approach < w->tuning.hit_event_threshold) return;
-    float impulse = 0.0f;
-    int32_t deepest = 0;
-    for (int32_t i = 0; i < (int32_t)m->normal[3]; ++i) {
-        impulse += m->total_impulse[i];
-        if (m->total_impulse[i] > m->total_impulse[deepest]) deepest = i;
-    }
-    if (impulse <= 0.0f) return;
+    if (!(p->events & FE_EVENTS_HIT)) return;
+    impact sum = impact_of(w, pair);
+    if (sum.approach < w->tuning.hit_event_threshold || sum.impulse <= 0.0f) return;
+    const fe__contact *m = w->contacts + sum.pair;
     float sign = p->flags & FE__PAIR_FLIPPED ? -1.0f : 1.0f;
     fe_pair_event e = event_of(w, pair, FE_ENTER);
     fe__hit_event_record *r = w->hit_events + w->hit_event_count++;
     *r = (fe__hit_event_record){w->pair_serials[2 * pair], w->pair_serials[2 * pair + 1],
-                                {e.body_a, e.body_b, e.shape_a, e.shape_b, fe__contact_point(w, pair, deepest),
-                                 fe__scale(sign, fe__vec3(m->normal[0], m->normal[1], m->normal[2])), p->approach, impulse, 0}};
+                                {e.body_a, e.body_b, e.shape_a, e.shape_b, fe__contact_point(w, sum.pair, sum.point),
+                                 fe__scale(sign, fe__vec3(m->normal[0], m->normal[1], m->normal[2])), sum.approach, sum.impulse, 0}};
 }
 
 // ---- looking, on any thread: pairs that have something to tell go to the list of results -----------------------------------------------
@@ -69,8 +86,10 @@ static void look_block(void *argument, int32_t first, int32_t end, int32_t worke
     fe__step_scratch *s = step->scratch;
     (void)worker;
     for (int32_t i = first; i < end; ++i) {
-        int32_t pair = w->awake_pairs[i], now = touches(w, pair);
+        int32_t pair = w->awake_pairs[i];
         fe__pair *p = w->pairs + pair;
+        if (p->flags & FE__PAIR_PATCH) continue;
+        int32_t now = touches(w, pair);
         int32_t before = (p->flags & FE__PAIR_TOUCHING) != 0, tells = now != before;
         if (now && before) tells = (p->events & (FE_EVENTS_STAY | FE_EVENTS_HIT)) != 0;
         tells |= (p->flags & FE__PAIR_ONCE) != 0;

@@ -15,7 +15,6 @@ int32_t fe__may_collide(const fe_world *world, int32_t shape_a, int32_t shape_b)
 {
     const fe__shape *a = &world->shapes[shape_a], *b = &world->shapes[shape_b];
     if (a->body == b->body) return 0;
-    if (a->form.type == FE_GEOMETRY_HEIGHTFIELD || b->form.type == FE_GEOMETRY_HEIGHTFIELD) return 0;
     if (!(a->layer & b->mask) || !(b->layer & a->mask)) return 0;
     const fe__body *body_a = &world->bodies[a->body], *body_b = &world->bodies[b->body];
     uint32_t both = body_a->flags & body_b->flags;

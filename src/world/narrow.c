@@ -3,7 +3,7 @@
 // Called by the collide stage on any thread, for pairs that cannot be recycled. Double positions are subtracted here, so that everything
 // below is float and small. Only the pair's own records are written.
 #include "collision/collide.h"
-#include "world/world.h"
+#include "world/narrow.h"
 
 #include <string.h>
 
@@ -16,31 +16,10 @@
 // Closer than this to each other, m, shapes are placed in floats: a float of it is a micrometre fine. Beyond (a wide ground) in double.
 #define NEAR 16.0
 
-// A gap on whose way the features of two shapes change little, m
-#define TURNS_LITTLE 0.005f
-
-typedef struct view {
-    const fe__shape *a, *b; // fe__collide's
-    fe__form form_a;        // a plane's is moved next to B
-    fe__relative relative;
-    fe_dvec3 origin; // of the frame of A, world
-    fe__mat3 rotation;
-} view;
-
-// where the two bodies are when the manifold is looked for: the solver's A and B
-typedef struct places {
-    fe_dvec3 centre_a, centre_b;
-    fe_quat rotation_a, rotation_b;
-} places;
-
-static fe_quat rotation_of(const fe__body *b) { return (fe_quat){b->rotation[0], b->rotation[1], b->rotation[2], b->rotation[3]}; }
-static fe_dvec3 centre_of(const fe__body *b) { return (fe_dvec3){b->centre[0], b->centre[1], b->centre[2]}; }
-static fe_vec3 vector_of(const float *a) { return (fe_vec3){a[0], a[1], a[2]}; }
-
 // B in A's frame. A plane has no centre that matters: its frame is put at B, so that a plane is as exact a thousand kilometres off.
-static view view_of(const fe__shape *a, const fe__shape *b, const fe__pose *pose_a, const fe__pose *pose_b)
+static fe__view view_of(const fe__shape *a, const fe__shape *b, const fe__pose *pose_a, const fe__pose *pose_b)
 {
-    view v = {.a = a, .b = b, .form_a = a->form, .origin = pose_a->position, .rotation = fe__matrix(pose_a->rotation)};
+    fe__view v = {.a = a, .b = b, .form_a = a->form, .origin = pose_a->position, .rotation = fe__matrix(pose_a->rotation)};
     v.relative.rotation = fe__matrix(fe__product(fe__conjugate(pose_a->rotation), pose_b->rotation));
     fe_dvec3 between = fe__dsub(pose_b->position, v.origin);
     if (v.form_a.type == FE_GEOMETRY_PLANE) {
@@ -60,46 +39,48 @@ static view view_of(const fe__shape *a, const fe__shape *b, const fe__pose *pose
 // dt deep.
 
 // how far the pair can close in the step, m
-static float reach_in_step(const fe_world *world, const fe__body *a, const fe__body *b, float dt)
+float fe__reach_in_step(const fe_world *world, const fe__body *a, const fe__body *b, float dt)
 {
     float fall = fe__length(world->gravity) * dt * dt;
     return (a->centre_low[3] + b->centre_low[3]) * dt + fall;
 }
 
 // where a body would be at the end of a step without contacts
-static void advance(const fe_world *world, const fe__body *body, float dt, fe_dvec3 *centre, fe_quat *rotation)
+void fe__advance(const fe_world *world, const fe__body *body, float dt, fe_dvec3 *centre, fe_quat *rotation)
 {
-    *centre = centre_of(body), *rotation = rotation_of(body);
+    *centre = fe__centre_of(body), *rotation = fe__rotation_of(body);
     if (body->awake_index < 0) return;
-    fe_vec3 v = vector_of(body->velocity), w = fe__scale(0.5f * dt, vector_of(body->spin));
+    fe_vec3 v = fe__quad_vector(body->velocity), w = fe__scale(0.5f * dt, fe__quad_vector(body->spin));
     if (body->type == FE_BODY_DYNAMIC && !body->locked) v = fe__add_scaled(v, dt * body->gravity_scale, world->gravity);
     *centre = fe__dadd(*centre, fe__dscale((double)dt, fe__widen(v)));
     fe_quat q = *rotation, turn = fe__product((fe_quat){w.x, w.y, w.z, 0.0f}, q);
     *rotation = fe__normalized((fe_quat){q.x + turn.x, q.y + turn.y, q.z + turn.z, q.w + turn.w});
 }
 
-static fe__pose shape_pose(const fe__body *body, const fe__shape *shape, fe_dvec3 centre, fe_quat rotation)
+fe__pose fe__shape_pose_at(const fe__body *body, const fe__shape *shape, fe_dvec3 centre, fe_quat rotation)
 {
-    fe_dvec3 arm = fe__drotate(rotation, fe__widen(vector_of(body->local_centre)));
+    fe_dvec3 arm = fe__drotate(rotation, fe__widen(fe__quad_vector(body->local_centre)));
     fe__pose pose = {fe__dsub(centre, arm), rotation};
     return fe__compose(&pose, shape->local_position, shape->local_rotation);
 }
 
 typedef struct prediction {
-    view v;
-    places at;
+    fe__view v;
+    fe__places at;
     fe__manifold found;
 } prediction;
 
-static void predict(const fe_world *world, const fe__contact *m, const view *v, float time, prediction *out)
+static void predict(const fe_world *world, const fe__contact *m, const fe__view *v, float time, prediction *out)
 {
     const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
-    places *at = &out->at;
-    advance(world, a, time, &at->centre_a, &at->rotation_a);
-    advance(world, b, time, &at->centre_b, &at->rotation_b);
+    fe__places *at = &out->at;
+    fe__advance(world, a, time, &at->centre_a, &at->rotation_a);
+    fe__advance(world, b, time, &at->centre_b, &at->rotation_b);
     int32_t a_is_b = m->body_a != v->a->body;
-    fe__pose pose_a = a_is_b ? shape_pose(b, v->a, at->centre_b, at->rotation_b) : shape_pose(a, v->a, at->centre_a, at->rotation_a);
-    fe__pose pose_b = a_is_b ? shape_pose(a, v->b, at->centre_a, at->rotation_a) : shape_pose(b, v->b, at->centre_b, at->rotation_b);
+    fe__pose pose_a =
+        a_is_b ? fe__shape_pose_at(b, v->a, at->centre_b, at->rotation_b) : fe__shape_pose_at(a, v->a, at->centre_a, at->rotation_a);
+    fe__pose pose_b =
+        a_is_b ? fe__shape_pose_at(a, v->b, at->centre_a, at->rotation_a) : fe__shape_pose_at(b, v->b, at->centre_b, at->rotation_b);
     out->v = view_of(v->a, v->b, &pose_a, &pose_b);
     out->found = (fe__manifold){.axis = -1};
     fe__collide(&out->v.form_a, &v->b->form, &out->v.relative, world->tuning.speculative_distance, &out->found);
@@ -115,7 +96,7 @@ static float deepest_of(const fe__manifold *found)
 // The manifold of the poses at the end of the step, or, when they overlap there, of the poses on the way where they touch at the mean
 // speed: the right features and normal for an impact, none for bodies that pass each other by. Deep in, features say nothing any more, and
 // the nearest ones of now must do.
-static int32_t look_ahead(const fe_world *world, const fe__contact *m, float dt, view *v, places *at, fe__manifold *found)
+static int32_t look_ahead(const fe_world *world, const fe__contact *m, float dt, fe__view *v, fe__places *at, fe__manifold *found)
 {
     prediction end, touch;
     predict(world, m, v, dt, &end);
@@ -132,8 +113,6 @@ static int32_t look_ahead(const fe_world *world, const fe__contact *m, float dt,
     return 1;
 }
 
-static void copy3(float *out, fe_vec3 a) { out[0] = a.x, out[1] = a.y, out[2] = a.z; }
-
 // impulses stay with the features that meet
 static void match_impulses(fe__pair *p, fe__contact *m, const fe__manifold *found)
 {
@@ -146,29 +125,30 @@ static void match_impulses(fe__pair *p, fe__contact *m, const fe__manifold *foun
     for (int i = 0; i < found->count; ++i) p->ids[i] = found->points[i].id;
 }
 
-static void note_poses(fe__contact *m, const places *at, const fe__body *a, const fe__body *b)
+static void note_poses(fe__contact *m, const fe__places *at, const fe__body *a, const fe__body *b)
 {
     const float found_a[4] = {at->rotation_a.x, at->rotation_a.y, at->rotation_a.z, at->rotation_a.w};
     const float found_b[4] = {at->rotation_b.x, at->rotation_b.y, at->rotation_b.z, at->rotation_b.w};
     memcpy(m->found_a, found_a, sizeof found_a);
     memcpy(m->found_b, found_b, sizeof found_b);
-    fe_dvec3 span = fe__dsub(at->centre_a, at->centre_b), now = fe__dsub(centre_of(a), centre_of(b));
-    copy3(m->found_span, fe__narrow(span));
-    copy3(m->found_low, fe__narrow(fe__dsub(span, fe__widen(vector_of(m->found_span)))));
-    copy3(m->span, a->type == FE_BODY_STATIC ? fe__vec3(0.0f, 0.0f, 0.0f) : fe__narrow(now));
+    fe_dvec3 span = fe__dsub(at->centre_a, at->centre_b), now = fe__dsub(fe__centre_of(a), fe__centre_of(b));
+    fe__copy3(m->found_span, fe__narrow(span));
+    fe__copy3(m->found_low, fe__narrow(fe__dsub(span, fe__widen(fe__quad_vector(m->found_span)))));
+    fe__copy3(m->span, a->type == FE_BODY_STATIC ? fe__vec3(0.0f, 0.0f, 0.0f) : fe__narrow(now));
 }
 
 // points from A's frame to arms: from the centre of the solver's A, or of B when A is static (its centre may be far)
-static void set_points(fe__contact *m, const view *v, const places *at, const fe__manifold *found, const fe__body *a, const fe__body *b)
+static void set_points(fe__contact *m, const fe__view *v, const fe__places *at, const fe__manifold *found, const fe__body *a,
+                       const fe__body *b)
 {
     int32_t is_static = a->type == FE_BODY_STATIC;
     fe_vec3 base = fe__narrow(fe__dsub(v->origin, is_static ? at->centre_b : at->centre_a)), zero = {0.0f, 0.0f, 0.0f};
-    fe_vec3 span = is_static ? zero : vector_of(m->found_span);
+    fe_vec3 span = is_static ? zero : fe__quad_vector(m->found_span);
     float reach = 0.0f;
     for (int i = 0; i < FE__POINTS; ++i) {
         int there = i < found->count;
         fe_vec3 arm = there ? fe__add(base, fe__mul(&v->rotation, found->points[i].point)) : zero, arm_b = fe__add(arm, span);
-        copy3(m->point[i], arm);
+        fe__copy3(m->point[i], arm);
         m->point[i][3] = m->separation[i] = there ? found->points[i].separation : 0.0f;
         reach = fe__maxf(reach, fe__maxf(fe__dot(arm, arm), fe__dot(arm_b, arm_b)));
     }
@@ -178,25 +158,29 @@ static void set_points(fe__contact *m, const view *v, const places *at, const fe
 }
 
 // Separations now of a manifold found ahead of time, along its normal: as in recycle.simd.c
-static void step_back(fe__contact *m, const places *at, const fe__body *a, const fe__body *b)
+static void step_back(fe__contact *m, const fe__places *at, const fe__body *a, const fe__body *b)
 {
-    fe_quat turn_a = fe__product(rotation_of(a), fe__conjugate(at->rotation_a)),
-            turn_b = fe__product(rotation_of(b), fe__conjugate(at->rotation_b));
-    fe_vec3 n = vector_of(m->normal), zero = {0.0f, 0.0f, 0.0f};
+    fe_quat turn_a = fe__product(fe__rotation_of(a), fe__conjugate(at->rotation_a)),
+            turn_b = fe__product(fe__rotation_of(b), fe__conjugate(at->rotation_b));
+    fe_vec3 n = fe__quad_vector(m->normal), zero = {0.0f, 0.0f, 0.0f};
     fe_vec3 na = fe__sub(fe__rotate_back(turn_a, n), n), nb = fe__sub(fe__rotate_back(turn_b, n), n), slope = fe__sub(nb, na);
-    fe_dvec3 then = fe__dsub(at->centre_b, at->centre_a), now = fe__dsub(centre_of(b), centre_of(a));
-    fe_vec3 span = a->type == FE_BODY_STATIC ? zero : vector_of(m->found_span);
+    fe_dvec3 then = fe__dsub(at->centre_b, at->centre_a), now = fe__dsub(fe__centre_of(b), fe__centre_of(a));
+    fe_vec3 span = a->type == FE_BODY_STATIC ? zero : fe__quad_vector(m->found_span);
     float constant =
         fe__dot(n, fe__narrow(fe__dsub(now, then))) + fe__dot(nb, span) + m->surface[1] * fe__dot(na, n) + m->surface[2] * fe__dot(nb, n);
-    for (int i = 0; i < (int)m->normal[3]; ++i) m->separation[i] = m->point[i][3] + constant + fe__dot(slope, vector_of(m->point[i]));
+    for (int i = 0; i < (int)m->normal[3]; ++i) m->separation[i] = m->point[i][3] + constant + fe__dot(slope, fe__quad_vector(m->point[i]));
 }
 
 // A pair without points need not be looked at until it may have moved through its gap.
-static float tolerance(const view *v, const fe__manifold *found, float margin)
+float fe__recycle_tolerance(const fe__view *v)
 {
-    if (!found->count) return fe__maxf(found->axis_separation - margin, 0.0f);
     if (v->a->form.radius > 0.0f || v->b->form.radius > 0.0f) return RECYCLE_ROUND;
     return fe__minf(RECYCLE_MOST, RECYCLE_SHARE * fe__minf(fe__form_thickness(&v->a->form), fe__form_thickness(&v->b->form)));
+}
+
+static float tolerance(const fe__view *v, const fe__manifold *found, float margin)
+{
+    return found->count ? fe__recycle_tolerance(v) : fe__maxf(found->axis_separation - margin, 0.0f);
 }
 
 static void forget_impulses(fe__contact *m)
@@ -204,14 +188,24 @@ static void forget_impulses(fe__contact *m)
     for (int k = 0; k < FE__POINTS; ++k) m->normal_impulse[k] = m->friction_impulse[k] = m->total_impulse[k] = 0.0f;
 }
 
-static void write_contact(fe__contact *m, const view *v, const fe__manifold *found, int32_t a_is_b)
+static void write_contact(fe__contact *m, const fe__view *v, const fe__manifold *found, int32_t a_is_b)
 {
     // the manifold's normal points away from fe__collide's A; the solver's A may be the other one
     fe_vec3 normal = fe__mul(&v->rotation, found->normal);
-    copy3(m->normal, a_is_b ? fe__neg(normal) : normal);
+    fe__copy3(m->normal, a_is_b ? fe__neg(normal) : normal);
     m->normal[3] = (float)found->count;
     m->surface[1] = a_is_b ? v->b->form.radius : v->form_a.radius;
     m->surface[2] = a_is_b ? v->form_a.radius : v->b->form.radius;
+}
+
+void fe__write_manifold(const fe_world *world, fe__contact *m, const fe__view *v, const fe__places *at, const fe__manifold *found,
+                        int32_t ahead)
+{
+    const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
+    write_contact(m, v, found, m->body_a != v->a->body);
+    note_poses(m, at, a, b);
+    set_points(m, v, at, found, a, b);
+    if (ahead) step_back(m, at, a, b);
 }
 
 static int32_t is_near(const fe__manifold *found, float distance)
@@ -227,15 +221,15 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
     fe__contact *m = world->contacts + pair;
     const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
     const fe__shape *x = world->shapes + p->shape_a, *y = world->shapes + p->shape_b;
-    float margin = world->tuning.speculative_distance, reach = reach_in_step(world, a, b, dt);
-    places at = {centre_of(a), centre_of(b), rotation_of(a), rotation_of(b)};
-    view v = p->flags & FE__PAIR_SWAPPED ? view_of(y, x, &y->pose, &x->pose) : view_of(x, y, &x->pose, &y->pose);
+    float margin = world->tuning.speculative_distance, reach = fe__reach_in_step(world, a, b, dt);
+    fe__places at = {fe__centre_of(a), fe__centre_of(b), fe__rotation_of(a), fe__rotation_of(b)};
+    fe__view v = p->flags & FE__PAIR_SWAPPED ? view_of(y, x, &y->pose, &x->pose) : view_of(x, y, &x->pose, &y->pose);
     fe__manifold found = {.axis = p->axis, .axis_separation = p->axis_separation, .count = (int32_t)m->normal[3]};
     fe__collide(&v.form_a, &v.b->form, &v.relative, fe__maxf(margin, reach), &found);
     p->axis = found.axis, p->axis_separation = found.axis_separation;
 
     // some way off now, but closing: the normal may turn on that way
-    int32_t near = is_near(&found, margin), ahead = found.count && !(p->flags & FE__PAIR_SENSOR) && !is_near(&found, TURNS_LITTLE);
+    int32_t near = is_near(&found, margin), ahead = found.count && !(p->flags & FE__PAIR_SENSOR) && !is_near(&found, FE__TURNS_LITTLE);
     if (ahead) ahead = look_ahead(world, m, dt, &v, &at, &found);
     if (!ahead && !near) found.count = 0;
     match_impulses(p, m, &found);
@@ -243,9 +237,6 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
         forget_impulses(m);
         p->axis = -1; // a kernel's memory begins with the first points, whenever the pair was made: unrelated bodies must not matter
     }
-    write_contact(m, &v, &found, m->body_a != v.a->body);
     m->surface[3] = ahead ? 0.0f : tolerance(&v, &found, margin);
-    note_poses(m, &at, a, b);
-    set_points(m, &v, &at, &found, a, b);
-    if (ahead) step_back(m, &at, a, b);
+    fe__write_manifold(world, m, &v, &at, &found, ahead);
 }

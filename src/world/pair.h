@@ -11,7 +11,8 @@ enum {
     FE__PAIR_SWAPPED = 16,  // fe__collide's A is shape B
     FE__PAIR_RECYCLED = 32, // kept its manifold in this step
     FE__PAIR_ROUND = 64,    // a sphere or capsule is in it: a new manifold each step
-    FE__PAIR_ONCE = 128     // looked at in the next step although both sides sleep
+    FE__PAIR_ONCE = 128,    // looked at in the next step although both sides sleep
+    FE__PAIR_PATCH = 256    // a further patch of a pair with a heightfield
 };
 
 // What the narrow phase says of a pair in this step, applied afterwards in a fixed order
@@ -21,6 +22,9 @@ typedef struct fe__link {
     int32_t next, previous; // pair index, -1: none
 } fe__link;
 
+// A pair with a heightfield has a patch of points for each direction: its own contact, and those of FE__PATCHES - 1 patch records that live as long
+// as it does. To the solver each is a contact; while linked it is in the lists of bodies and of awake pairs. Events, filters and recycling are the
+// head's alone. Of all patches the head has points first.
 typedef struct fe__pair {
     int32_t shape_a, shape_b; // A was created first
     int32_t body_a, body_b;
@@ -33,6 +37,9 @@ typedef struct fe__pair {
     uint32_t ids[4];          // features of the points
     uint32_t events;          // fe_shape_events of either shape
     float approach;           // speed of the impact in this step, m/s
+    int32_t next_patch;       // of the same pair, -1: none
+    int32_t head;             // of a patch
+    int32_t cell;             // of the heightfield under a patch, -1: none
 } fe__pair;
 
 #endif

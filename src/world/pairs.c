@@ -28,17 +28,15 @@ int32_t fe__next_pair(const fe_world *world, int32_t pair, int32_t body)
     return world->pairs[pair].links[world->pairs[pair].body_a == body ? 0 : 1].next;
 }
 
-static void add_to_body(fe_world *world, int32_t pair, int32_t index)
+static void add_to_list(fe_world *world, int32_t pair, int32_t index)
 {
     fe__body *body = world->bodies + index;
     *link_of(world, pair, index) = (fe__link){body->first_contact, -1};
     if (body->first_contact >= 0) link_of(world, body->first_contact, index)->previous = pair;
     body->first_contact = pair;
-    ++body->contact_count;
-    if (body->type == FE_BODY_DYNAMIC) world->most_contacts = fe__maxi(world->most_contacts, body->contact_count);
 }
 
-static void remove_from_body(fe_world *world, int32_t pair, int32_t index)
+static void remove_from_list(fe_world *world, int32_t pair, int32_t index)
 {
     fe__body *body = world->bodies + index;
     fe__link link = *link_of(world, pair, index);
@@ -47,7 +45,26 @@ static void remove_from_body(fe_world *world, int32_t pair, int32_t index)
     else
         body->first_contact = link.next;
     if (link.next >= 0) link_of(world, link.next, index)->previous = link.previous;
-    --body->contact_count;
+}
+
+int32_t fe__is_field_pair(const fe_world *world, int32_t shape_a, int32_t shape_b)
+{
+    return world->shapes[shape_a].form.type == FE_GEOMETRY_HEIGHTFIELD || world->shapes[shape_b].form.type == FE_GEOMETRY_HEIGHTFIELD;
+}
+
+// Contacts count as many as the pair may have
+static void add_to_body(fe_world *world, int32_t pair, int32_t index)
+{
+    fe__body *body = world->bodies + index;
+    add_to_list(world, pair, index);
+    body->contact_count += world->pairs[pair].next_patch >= 0 ? FE__PATCHES : 1;
+    if (body->type == FE_BODY_DYNAMIC) world->most_contacts = fe__maxi(world->most_contacts, body->contact_count);
+}
+
+static void remove_from_body(fe_world *world, int32_t pair, int32_t index)
+{
+    remove_from_list(world, pair, index);
+    world->bodies[index].contact_count -= world->pairs[pair].next_patch >= 0 ? FE__PATCHES : 1;
 }
 
 void fe__pair_awaken(fe_world *world, int32_t pair)
@@ -69,6 +86,7 @@ void fe__pair_retire(fe_world *world, int32_t pair)
 
 void fe__pair_look_once(fe_world *world, int32_t pair)
 {
+    if (world->pairs[pair].flags & FE__PAIR_PATCH) return; // looked at with its head
     world->pairs[pair].flags |= FE__PAIR_ONCE;
     fe__pair_awaken(world, pair);
 }
@@ -86,8 +104,9 @@ static int32_t concerns_sleepers(const fe_world *world, const fe__pair *p)
 // ---------------------------------------------------------------------------------------------------------------------------
 static float form_radius(const fe__shape *a, const fe__shape *b) { return fe__maxf(a->form.radius, b->form.radius); }
 
-static int32_t has_extra(const fe__shape *shape)
+static int32_t has_extra(const fe_world *world, const fe__shape *shape)
 {
+    if (shape->form.type == FE_GEOMETRY_HEIGHTFIELD && world->assets[shape->form.field].special) return 1;
     const fe_material *m = &shape->material;
     fe_vec3 s = shape->surface_velocity;
     return m->restitution > 0.0f || m->rolling_resistance > 0.0f || m->spinning_resistance > 0.0f || s.x != 0.0f || s.y != 0.0f ||
@@ -101,20 +120,20 @@ int32_t fe__pair_kind(const fe_world *world, int32_t shape_a, int32_t shape_b)
     int32_t kind = a->type == FE_BODY_DYNAMIC && b->type == FE_BODY_DYNAMIC ? FE__ROW_PAIR : 0;
     int32_t kinematic = a->type == FE_BODY_KINEMATIC || b->type == FE_BODY_KINEMATIC;
     if (x->form.type == FE_GEOMETRY_SPHERE || y->form.type == FE_GEOMETRY_SPHERE) kind |= FE__ROW_SINGLE;
-    if (a->locked || b->locked || kinematic || has_extra(x) || has_extra(y)) kind |= FE__ROW_SPECIAL;
+    if (a->locked || b->locked || kinematic || has_extra(world, x) || has_extra(world, y)) kind |= FE__ROW_SPECIAL;
     return kind;
 }
 
 // velocity of a shape's surface, world axes
 static fe_vec3 surface_of(const fe__shape *shape) { return fe__rotate(shape->pose.rotation, shape->surface_velocity); }
 
-void fe__pair_mix(fe_world *world, int32_t pair)
+void fe__pair_mix_surface(fe_world *world, int32_t pair)
 {
-    fe__pair *p = world->pairs + pair;
+    const fe__pair *p = world->pairs + pair;
     fe__contact *m = world->contacts + pair;
     fe__extra *e = world->extras + pair;
     const fe__shape *a = world->shapes + p->shape_a, *b = world->shapes + p->shape_b;
-    const fe_material *x = &a->material, *y = &b->material;
+    const fe_material *x = fe__shape_material(world, a, p->cell), *y = fe__shape_material(world, b, p->cell);
     fe_vec3 surface = fe__sub(surface_of(b), surface_of(a));
     if (p->flags & FE__PAIR_FLIPPED) surface = fe__neg(surface);
     m->span[3] = sqrtf(x->static_friction * y->static_friction);
@@ -123,7 +142,15 @@ void fe__pair_mix(fe_world *world, int32_t pair)
     e->rolling = fe__maxf(x->rolling_resistance, y->rolling_resistance) * form_radius(a, b);
     e->spinning = fe__maxf(x->spinning_resistance, y->spinning_resistance);
     e->surface_velocity[0] = surface.x, e->surface_velocity[1] = surface.y, e->surface_velocity[2] = surface.z;
-    p->events = a->events | b->events;
+}
+
+void fe__pair_mix(fe_world *world, int32_t pair)
+{
+    fe__pair *p = world->pairs + pair;
+    fe__contact *m = world->contacts + pair;
+    if (p->next_patch >= 0) fe__pair_mix(world, p->next_patch);
+    fe__pair_mix_surface(world, pair);
+    p->events = world->shapes[p->shape_a].events | world->shapes[p->shape_b].events;
     world->wants_hits |= (p->events & FE_EVENTS_HIT) != 0;
     int32_t kind = fe__pair_kind(world, p->shape_a, p->shape_b);
     world->row_kinds |= 1u << kind;
@@ -149,6 +176,15 @@ static int32_t first_colour(uint64_t used_low, uint64_t used_high, int32_t first
 static void take_colour(fe__body *body, int32_t colour) { body->colours[colour / 64] |= UINT64_C(1) << colour % 64; }
 static void return_colour(fe__body *body, int32_t colour) { body->colours[colour / 64] &= ~(UINT64_C(1) << colour % 64); }
 
+// A patch stands before its head in the bodies' lists, so that who walks them may destroy heads on the way.
+static void enter_lists(fe_world *world, int32_t patch)
+{
+    const fe__pair *p = world->pairs + patch;
+    add_to_list(world, patch, p->body_a);
+    add_to_list(world, patch, p->body_b);
+    if (world->pairs[p->head].awake_index >= 0) fe__pair_awaken(world, patch);
+}
+
 // First colour that neither dynamic body uses yet. A body's contacts have different colours, so contacts of one colour share no dynamic
 // body.
 void fe__pair_link(fe_world *world, int32_t pair)
@@ -166,6 +202,7 @@ void fe__pair_link(fe_world *world, int32_t pair)
     world->pairs[pair].flags |= FE__PAIR_LINKED;
     world->solver.graph_changed = 1;
     ++world->linked_count;
+    if (world->pairs[pair].flags & FE__PAIR_PATCH) enter_lists(world, pair);
 }
 
 void fe__pair_forget_impulses(fe_world *world, int32_t pair)
@@ -190,6 +227,14 @@ void fe__pair_unlink(fe_world *world, int32_t pair)
     --world->linked_count;
 }
 
+void fe__patch_leave(fe_world *world, int32_t patch)
+{
+    const fe__pair *p = world->pairs + patch;
+    fe__pair_retire(world, patch);
+    remove_from_list(world, patch, p->body_a);
+    remove_from_list(world, patch, p->body_b);
+}
+
 // ---- birth and death
 // ------------------------------------------------------------------------------------------------------------------------
 static float half_size(const fe__form *form) { return fe__maxf(fe__maxf(form->half.x, form->half.y), form->half.z); }
@@ -211,8 +256,10 @@ static int32_t take_slot(fe_world *world)
     return pair;
 }
 
-int32_t fe__pair_create(fe_world *world, int32_t shape_a, int32_t shape_b)
+// A record of its own, in no list. Patches have numbers from 1, which make their serials theirs alone.
+static int32_t create_record(fe_world *world, int32_t shape_a, int32_t shape_b, int32_t number)
 {
+    enum { NUMBER_SHIFT = 56 };
     int32_t pair = take_slot(world);
     const fe__shape *a = world->shapes + shape_a, *b = world->shapes + shape_b;
     fe__pair *p = world->pairs + pair;
@@ -222,13 +269,34 @@ int32_t fe__pair_create(fe_world *world, int32_t shape_a, int32_t shape_b)
     memset(world->extras + pair, 0, sizeof *world->extras);
     p->shape_a = shape_a, p->shape_b = shape_b;
     p->body_a = a->body, p->body_b = b->body;
-    world->pair_serials[2 * pair] = a->serial, world->pair_serials[2 * pair + 1] = b->serial;
+    world->pair_serials[2 * pair] = a->serial;
+    world->pair_serials[2 * pair + 1] = b->serial | (uint64_t)number << NUMBER_SHIFT;
     p->flags = sides(world, a, b);
     if ((a->flags | b->flags) & FE__SHAPE_TRIGGER) p->flags |= FE__PAIR_SENSOR;
-    p->awake_index = p->axis = -1;
+    if (number) p->flags |= FE__PAIR_PATCH;
+    p->awake_index = p->axis = p->next_patch = p->head = p->cell = -1;
     m->colour = m->kind = -1;
     m->body_a = p->flags & FE__PAIR_FLIPPED ? p->body_b : p->body_a;
     m->body_b = p->flags & FE__PAIR_FLIPPED ? p->body_a : p->body_b;
+    return pair;
+}
+
+static void create_patches(fe_world *world, int32_t head)
+{
+    for (int32_t number = FE__PATCHES - 1; number > 0; --number) {
+        int32_t patch = create_record(world, world->pairs[head].shape_a, world->pairs[head].shape_b, number);
+        world->pairs[patch].head = head;
+        world->pairs[patch].next_patch = world->pairs[head].next_patch;
+        world->pairs[head].next_patch = patch;
+    }
+    ++world->field_pair_count;
+}
+
+int32_t fe__pair_create(fe_world *world, int32_t shape_a, int32_t shape_b)
+{
+    int32_t pair = create_record(world, shape_a, shape_b, 0);
+    if (fe__is_field_pair(world, shape_a, shape_b)) create_patches(world, pair);
+    const fe__pair *p = world->pairs + pair;
     fe__pair_mix(world, pair);
     add_to_body(world, pair, p->body_a);
     add_to_body(world, pair, p->body_b);
@@ -241,30 +309,52 @@ int32_t fe__pair_create(fe_world *world, int32_t shape_a, int32_t shape_b)
     return pair;
 }
 
+static void release_slot(fe_world *world, int32_t pair)
+{
+    world->pairs[pair].flags = 0;
+    world->pairs[pair].links[0].next = world->first_free_pair;
+    world->first_free_pair = pair;
+}
+
+static void destroy_patches(fe_world *world, int32_t head)
+{
+    if (world->pairs[head].next_patch < 0) return;
+    for (int32_t patch = world->pairs[head].next_patch, next; patch >= 0; patch = next) {
+        next = world->pairs[patch].next_patch;
+        if (world->pairs[patch].flags & FE__PAIR_LINKED) {
+            fe__pair_unlink(world, patch);
+            fe__patch_leave(world, patch);
+        }
+        release_slot(world, patch);
+    }
+    --world->field_pair_count;
+}
+
 void fe__pair_destroy(fe_world *world, int32_t pair)
 {
-    fe__pair *p = world->pairs + pair;
+    const fe__pair *p = world->pairs + pair;
+    destroy_patches(world, pair);
     if (p->flags & FE__PAIR_TOUCHING) fe__owe_exit(world, pair);
     fe__pair_unlink(world, pair);
     fe__pair_retire(world, pair);
     remove_from_body(world, pair, p->body_a);
     remove_from_body(world, pair, p->body_b);
     fe__pair_set_remove(&world->pair_set, p->shape_a, p->shape_b);
-    p->flags = 0;
-    p->links[0].next = world->first_free_pair;
-    world->first_free_pair = pair;
+    release_slot(world, pair);
     --world->pair_count;
 }
 
 void fe__body_drop_pairs(fe_world *world, int32_t body)
 {
-    while (world->bodies[body].first_contact >= 0) fe__pair_destroy(world, world->bodies[body].first_contact);
+    for (int32_t pair; (pair = world->bodies[body].first_contact) >= 0;)
+        fe__pair_destroy(world, world->pairs[pair].flags & FE__PAIR_PATCH ? world->pairs[pair].head : pair);
 }
 
 void fe__body_refilter(fe_world *world, int32_t body)
 {
     for (int32_t pair = world->bodies[body].first_contact, next; pair >= 0; pair = next) {
         next = fe__next_pair(world, pair, body);
+        if (world->pairs[pair].flags & FE__PAIR_PATCH) continue;
         if (!fe__may_collide(world, world->pairs[pair].shape_a, world->pairs[pair].shape_b)) fe__pair_destroy(world, pair);
     }
 }

@@ -42,15 +42,19 @@ static int32_t crowded_contacts(const fe_world *w, int32_t most)
 // what the candidates add: contacts of one body, kinds of rows
 static void add_candidates(const fe__step *step, fe__graph_bound *b, uint32_t *kinds)
 {
+    step->scratch->candidate_patches = 0;
     const fe_world *w = step->world;
     const fe__step_scratch *s = step->scratch;
     for (int32_t i = 0; i < s->candidate_count; ++i) {
         const fe__candidate *c = s->candidates + i;
         const int32_t shapes[2] = {c->shape_a, c->shape_b};
         *kinds |= 1u << fe__pair_kind(w, c->shape_a, c->shape_b);
+        int32_t patches = fe__is_field_pair(w, c->shape_a, c->shape_b) ? FE__PATCHES : 1;
+        b->contacts += patches - 1;
+        step->scratch->candidate_patches += patches - 1;
         for (int k = 0; k < 2; ++k) {
             fe__body *body = w->bodies + w->shapes[shapes[k]].body;
-            ++body->coming_contacts;
+            body->coming_contacts += patches;
             if (body->type == FE_BODY_DYNAMIC) b->most_contacts = fe__maxi(b->most_contacts, body->contact_count + body->coming_contacts);
         }
     }
@@ -72,7 +76,7 @@ static fe__graph_bound bound_of(const fe__step *step)
     uint32_t kinds = w->row_kinds;
     fe__graph_bound b = {0};
     b.bodies = all ? w->body_count : w->awake_body_count;
-    b.contacts = (all ? w->pair_count : w->awake_pair_count) + step->scratch->candidate_count;
+    b.contacts = (all ? w->pair_count : w->awake_pair_count) + step->scratch->candidate_count + w->field_pair_count * (FE__PATCHES - 1);
     b.most_contacts = w->most_contacts;
     add_candidates(step, &b, &kinds);
     b.crowded = crowded_contacts(w, b.most_contacts);
@@ -107,6 +111,6 @@ int32_t fe__reserve_step(fe__step *step)
 {
     fe_world *w = step->world;
     fe__graph_bound bound = bound_of(step);
-    if (!fe__reserve_pairs(w, step->scratch->candidate_count) || !reserve_scratch(step, &bound)) return 0;
+    if (!fe__reserve_pairs(w, step->scratch->candidate_count + step->scratch->candidate_patches) || !reserve_scratch(step, &bound)) return 0;
     return bound.bodies == 0 || fe__graph_reserve(&w->solver, &w->memory, w->kernels, &bound, w->workers.count);
 }

@@ -218,6 +218,7 @@ static void drop_pairs(fe_world *world, int32_t index)
     for (int32_t pair = world->bodies[body].first_contact, next; pair >= 0; pair = next) {
         next = fe__next_pair(world, pair, body);
         const fe__pair *p = &world->pairs[pair];
+        if (p->flags & FE__PAIR_PATCH) continue;
         if (p->shape_a == index || p->shape_b == index) fe__pair_destroy(world, pair);
     }
 }

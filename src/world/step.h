@@ -19,6 +19,7 @@ typedef struct fe__candidate_buffer {
 typedef struct fe__step_scratch {
     fe__candidate *candidates; // a stretch for each worker; merged and sorted in the first
     int32_t candidate_capacity, candidate_room, candidate_count;
+    int32_t candidate_patches; // further records that the candidates with heightfields need
     fe__candidate_buffer buffers[FE_MAX_WORKERS];
 
     int32_t *results; // pairs that begin, end or part in this step

@@ -16,6 +16,7 @@
 #include "world/pair.h"
 #include "collision/heightfield.h"
 #include "collision/shape.h"
+#include "collision/terrain.h"
 
 // An event as the step writes it. Serials order it; handles name it also after a destruction.
 typedef struct fe__pair_event_record {
@@ -77,7 +78,8 @@ struct fe_world {
     int32_t contact_capacity, pair_capacity, extra_capacity, serial_capacity;
     int32_t pair_limit;      // indices below were used
     int32_t first_free_pair; // -1: none
-    int32_t pair_count, linked_count;
+    int32_t pair_count, linked_count; // patches count with their head, and each that is linked
+    int32_t field_pair_count;         // with a heightfield in them
     // bounds for what a step may need; they only grow
     int32_t most_contacts;   // of one dynamic body
     uint32_t row_kinds;      // 1 << FE__ROW_* of every pair
@@ -225,6 +227,10 @@ void fe__body_refilter(fe_world *world, int32_t body);                      // t
 void fe__pair_link(fe_world *world, int32_t pair);                          // into the constraint graph, with a colour
 void fe__pair_unlink(fe_world *world, int32_t pair);
 void fe__pair_forget_impulses(fe_world *world, int32_t pair);
+// of a pair with a heightfield
+int32_t fe__is_field_pair(const fe_world *world, int32_t shape_a, int32_t shape_b);
+void fe__patch_leave(fe_world *world, int32_t patch);                       // an unlinked one leaves the lists
+void fe__pair_mix_surface(fe_world *world, int32_t pair);                   // frictions and the like; writes the pair's records only
 
 // ---- joints (joints.c; what they are made of: joint_parts.c; what they read: joint_state.c) ---------------------------------------------
 void fe__joints_init(fe_world *world);
@@ -257,8 +263,9 @@ void fe__body_awaken_alone(fe_world *world, int32_t body); // into the awake lis
 void fe__body_retire(fe_world *world, int32_t body);       // out of the awake lists
 void fe__body_fall_asleep(fe_world *world, int32_t body);  // stops and retires it
 
-// ---- the narrow phase (narrow.c), one pair at a time; only the pair is written -----------------------------------------------------
-void fe__collide_pair(fe_world *world, int32_t pair, float dt); // for a step of dt seconds
+// ---- the narrow phase (narrow.c, narrow_field.c), one pair at a time; only the pair and its patches are written ----------------------
+void fe__collide_pair(fe_world *world, int32_t pair, float dt);       // for a step of dt seconds
+void fe__collide_field_pair(fe_world *world, int32_t head, float dt); // with a heightfield
 
 // ---- the step (step.c), events (events.c), hash (hash.c) --------------------------------------------------------------------------
 fe_result fe__world_step(fe_world *world, float dt);

@@ -1,0 +1,139 @@
+// terrain.c - the triangles under a form, one by one, and the patches that their points make; see terrain.h.
+#include "collision/terrain_surface.h"
+
+#include "collision/clip.h"
+#include "collision/kernels.h"
+
+#include <float.h>
+
+// cos 1.8 degrees: normals of one patch
+#define SAME_NORMAL 0.9995f
+// Deeper below a triangle than this share of half its smallest width a form does not feel it: three quarters of that width
+#define FELT 1.5f
+
+// ---- patches
+// ------------------------------------------------------------------------------------------------------------------------------ Leaves at
+// most `most` (4) of the points; a point's index goes through the clipper's id.
+static void reduce(fe__raw_patch *p, float tie)
+{
+    fe_vec3 n = p->normal, a = fe__absf(n.x) < 0.7f ? fe__vec3(1.0f, 0.0f, 0.0f) : fe__vec3(0.0f, 1.0f, 0.0f), u = fe__cross(n, a);
+    u = fe__scale(1.0f / fe__length(u), u);
+    fe_vec3 v = fe__cross(n, u);
+    fe__clip_vertex vertex[FE__RAW_POINTS];
+    fe__manifold_point kept[FE_MAX_POINTS];
+    for (int32_t i = 0; i < p->count; ++i)
+        vertex[i] = (fe__clip_vertex){fe__dot(u, p->points[i].point), fe__dot(v, p->points[i].point), p->points[i].separation, (uint32_t)i};
+    int32_t count = fe__reduce_to_four(vertex, p->count, tie);
+    for (int32_t i = 0; i < count; ++i) kept[i] = p->points[vertex[i].id];
+    for (int32_t i = 0; i < count; ++i) p->points[i] = kept[i];
+    p->count = count;
+}
+
+static void add_point(fe__raw_patch *p, const fe__manifold_point *point, int32_t cell, int32_t single)
+{
+    const float tie = 5e-5f; // m, a hundredth of the slop
+    if (single && p->count) {
+        if (point->separation >= p->points[0].separation) return;
+        p->count = 0;
+    }
+    // a feature of the body over a seam lies on both triangles
+    for (int32_t i = 0; i < p->count; ++i) {
+        if (p->points[i].id != point->id) continue;
+        if (point->separation < p->points[i].separation) p->points[i] = *point;
+        if (point->separation < p->deepest) p->deepest = point->separation, p->cell = cell;
+        return;
+    }
+    if (p->count == FE__RAW_POINTS) reduce(p, tie);
+    p->points[p->count++] = *point;
+    if (point->separation < p->deepest) p->deepest = point->separation, p->cell = cell;
+}
+
+// Too many directions: the most similar two of one material become one, with the normal of the deeper.
+static void merge_most_similar(fe__gathering *g)
+{
+    int32_t a = 0, b = 1;
+    float most = -FLT_MAX;
+    for (int32_t i = 0; i < g->count; ++i) {
+        for (int32_t j = i + 1; j < g->count; ++j) {
+            float alike =
+                fe__dot(g->patches[i].normal, g->patches[j].normal) - (g->patches[i].material != g->patches[j].material ? 2.0f : 0.0f);
+            if (alike > most) most = alike, a = i, b = j;
+        }
+    }
+    fe__raw_patch *into = g->patches + a, *from = g->patches + b;
+    if (from->deepest < into->deepest) into->normal = from->normal, into->material = from->material;
+    for (int32_t i = 0; i < from->count; ++i) add_point(into, from->points + i, from->cell, g->single);
+    *from = g->patches[--g->count];
+}
+
+void fe__gather(fe__gathering *g, const fe__tile *tile, fe_vec3 normal, fe_vec3 point, float separation, uint32_t id)
+{
+    const fe__heightfield *f = g->terrain->field;
+    int32_t cell = tile->index >> 1, material = f->cells ? f->cells[cell] : 0;
+    fe__manifold_point p = {point, separation, id};
+    for (int32_t i = 0; i < g->count; ++i) {
+        fe__raw_patch *patch = g->patches + i;
+        if (patch->material != material || fe__dot(patch->normal, normal) < SAME_NORMAL) continue;
+        if (separation < patch->deepest) patch->normal = normal;
+        add_point(patch, &p, cell, g->single);
+        return;
+    }
+    g->patches[g->count++] = (fe__raw_patch){.normal = normal, .cell = cell, .material = material, .deepest = FLT_MAX};
+    add_point(g->patches + g->count - 1, &p, cell, g->single);
+    if (g->count > FE__PATCHES) merge_most_similar(g);
+}
+
+// ---- the walk
+// -------------------------------------------------------------------------------------------------------------------------------
+static fe__bounds bounds_around(const fe__terrain *t, const fe__form *b, const fe__mat3 *r, float margin)
+{
+    fe_vec3 half = b->half;
+    half.y += b->half_height;
+    float grow = b->radius + margin;
+    fe_vec3 w = {fe__absf(r->x.x) * half.x + fe__absf(r->y.x) * half.y + fe__absf(r->z.x) * half.z + grow,
+                 fe__absf(r->x.y) * half.x + fe__absf(r->y.y) * half.y + fe__absf(r->z.y) * half.z + grow,
+                 fe__absf(r->x.z) * half.x + fe__absf(r->y.z) * half.y + fe__absf(r->z.z) * half.z + grow};
+    return (fe__bounds){fe__dsub(t->origin, fe__widen(w)), fe__dadd(t->origin, fe__widen(w))};
+}
+
+static void gather_all(fe__gathering *g, const fe__form *b, const fe__mat3 *rotation)
+{
+    const fe__terrain *t = g->terrain;
+    fe_vec3 axis = fe__scale(b->half_height, rotation->y), ends[2] = {fe__neg(axis), axis};
+    fe__bounds box = bounds_around(t, b, rotation, g->margin);
+    fe__triangle_walk walk = fe__heightfield_walk(t->field, &box, t->origin);
+    fe__form triangle;
+    for (int32_t i; (i = fe__next_triangle(&walk, &triangle)) >= 0;) {
+        fe__tile tile = fe__tile_of(t, &triangle, i);
+        if (b->type == FE_GEOMETRY_BOX)
+            fe__tile_touch_box(g, &tile, b, rotation);
+        else
+            fe__tile_touch_round(g, &tile, ends, b->radius);
+    }
+}
+
+static float gap_around(const fe__terrain *t, const fe__form *b, const fe__mat3 *rotation, float margin)
+{
+    float wide = margin + fe__form_reach(b, fe__vec3(0.0f, 0.0f, 0.0f));
+    fe__bounds box = bounds_around(t, b, rotation, wide);
+    fe__triangle_walk walk = fe__heightfield_walk(t->field, &box, t->origin);
+    fe__form triangle;
+    return fe__next_triangle(&walk, &triangle) < 0 ? wide : margin;
+}
+
+int32_t fe__collide_terrain(const fe__terrain *t, const fe__form *b, const fe__mat3 *rotation, float margin, fe__patch patches[FE__PATCHES],
+                            float *gap)
+{
+    fe__gathering g;
+    g.terrain = t, g.margin = margin, g.felt = FELT * fe__form_thickness(b), g.single = b->type == FE_GEOMETRY_SPHERE, g.count = 0;
+    gather_all(&g, b, rotation);
+    if (!g.count) *gap = gap_around(t, b, rotation, margin);
+    float tie = 0.1f * fe__tie(fe__form_thickness(b));
+    for (int32_t i = 0; i < g.count; ++i) {
+        fe__raw_patch *raw = g.patches + i;
+        reduce(raw, tie);
+        patches[i] = (fe__patch){.normal = raw->normal, .count = raw->count, .cell = raw->cell};
+        for (int32_t k = 0; k < raw->count; ++k) patches[i].points[k] = raw->points[k];
+    }
+    return g.count;
+}
