@@ -193,7 +193,7 @@ static int32_t clip(const fe__heightfield *f, fe_dvec3 o, fe_dvec3 d, double lim
 int32_t fe__heightfield_ray(const fe__heightfield *f, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__ray_hit *hit)
 {
     traverse r = {.field = f};
-    if (!clip(f, origin, translation, limit, &r.t, &r.end)) return 0;
+    if (!clip(f, origin, translation, 1.0, &r.t, &r.end)) return 0; // not by the limit: t would know of it in its last bit
     r.origin = (fe_dvec3){origin.x / f->cell_x, origin.y, origin.z / f->cell_z};
     r.way = (fe_dvec3){translation.x / f->cell_x, translation.y, translation.z / f->cell_z};
     r.column = cell_of(r.origin.x + r.t * r.way.x, f->columns - 1);
@@ -210,8 +210,8 @@ int32_t fe__heightfield_ray(const fe__heightfield *f, fe_dvec3 origin, fe_dvec3 
         if (flies_over(&r, to))
             r.t = to, r.known = 0;
         else if (cross_cell(&r, to, hit))
-            return 1;
-        if (to >= r.end) return 0;
+            return hit->t <= limit;
+        if (to >= r.end || to > limit) return 0;
         if (t_x <= t_z)
             r.column += step_x;
         else

@@ -6,6 +6,7 @@
 
 // A normal that leans below a triangle by more than a rounding comes from under it.
 #define FROM_BELOW (-1e-9)
+#define ON_SIDE 1e-6 // m, a point that near to a side of a triangle is on it
 
 typedef struct search {
     const fe__heightfield *field;
@@ -68,13 +69,45 @@ int32_t fe__heightfield_overlap(const fe__heightfield *field, const fe__mover *m
 }
 
 // ---- one triangle ---------------------------------------------------------------------------------------------------------------------
-// How far the mover must rise along the triangle's normal to be over its plane.
-static double depth_below(const search *s)
+// The mover's half width along the triangle's normal, m, and its height at t over the triangle's plane.
+static double thickness_across(const fe__approach *p)
 {
-    const fe__approach *p = &s->pair;
     fe_dvec3 m = fe__turn_back(&p->axes, p->normal);
-    double e = p->other_half[0] * fe__absd(m.x) + p->other_half[1] * fe__absd(m.y) + p->other_half[2] * fe__absd(m.z);
-    return e + p->radius - fe__ddot(p->normal, fe__dsub(p->position, p->vertex[0]));
+    return p->other_half[0] * fe__absd(m.x) + p->other_half[1] * fe__absd(m.y) + p->other_half[2] * fe__absd(m.z) + p->radius;
+}
+
+static double height_at(const fe__approach *p, double t)
+{
+    fe_dvec3 at = fe__dadd(p->position, fe__dscale(t, p->translation));
+    return fe__ddot(p->normal, fe__dsub(at, p->vertex[0]));
+}
+
+static int32_t is_open(const fe__heightfield *f, int32_t row, int32_t column)
+{
+    if (row < 0 || row >= f->rows - 1 || column < 0 || column >= f->columns - 1) return 1;
+    return fe__heightfield_is_hole(f, row * (f->columns - 1) + column);
+}
+
+// Is the point on a side behind which there is nothing, a hole or the field's end? Sides as fe__heightfield_corners gives them; the
+// diagonal never is one.
+static int32_t is_on_rim(const search *s, int32_t triangle, fe_dvec3 point)
+{
+    static const int32_t step_row[2][3] = {{0, 1, 0}, {0, 0, -1}}, step_column[2][3] = {{-1, 0, 0}, {0, 1, 0}};
+    int32_t cell = triangle >> 1, half = triangle & 1, columns = s->field->columns - 1, diagonal = half ? 0 : 2;
+    const fe_dvec3 *v = s->pair.vertex;
+    for (int32_t i = 0; i < 3; ++i) {
+        if (i == diagonal || !is_open(s->field, cell / columns + step_row[half][i], cell % columns + step_column[half][i])) continue;
+        fe_dvec3 side = fe__dsub(v[(i + 1) % 3], v[i]), across = fe__dcross(side, fe__dsub(point, v[i]));
+        if (fe__ddot(across, across) <= ON_SIDE * ON_SIDE * fe__ddot(side, side)) return 1;
+    }
+    return 0;
+}
+
+// From below nothing is met, but for a rim, which stops from aside whatever has a part above the triangle's plane.
+static int32_t is_met(const search *s, int32_t triangle, const fe__approach_hit *hit)
+{
+    if (fe__ddot(hit->normal, s->pair.normal) >= FROM_BELOW) return 1;
+    return height_at(&s->pair, hit->t) + thickness_across(&s->pair) > 0.0 && is_on_rim(s, triangle, hit->point);
 }
 
 // Of a start inside the deepest triangle tells; of hits the first. Equal ones: the triangle with the lowest number, which comes first.
@@ -82,7 +115,7 @@ static void meet_triangle(search *s, int32_t triangle, fe__sweep_hit *best)
 {
     take_triangle(s, triangle);
     if (fe__approach_overlap(&s->pair).depth >= 0.0) {
-        double depth = fe__maxd(depth_below(s), 0.0);
+        double depth = fe__maxd(thickness_across(&s->pair) - height_at(&s->pair, 0.0), 0.0); // until it is over the plane
         if (best->inside && !(depth > best->depth)) return;
         *best = (fe__sweep_hit){.normal = s->pair.normal, .point = s->mover->position, .depth = depth, .inside = 1, .triangle = triangle};
         return;
@@ -90,7 +123,7 @@ static void meet_triangle(search *s, int32_t triangle, fe__sweep_hit *best)
     fe__approach_hit hit;
     if (best->inside || !fe__approach_sweep(&s->pair, best->t, &hit)) return;
     if (best->triangle >= 0 && hit.t == best->t) return;
-    if (fe__ddot(hit.normal, s->pair.normal) < FROM_BELOW) return;
+    if (!is_met(s, triangle, &hit)) return;
     *best = (fe__sweep_hit){.t = hit.t, .normal = hit.normal, .point = hit.point, .triangle = triangle};
 }
 

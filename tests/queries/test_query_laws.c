@@ -77,11 +77,30 @@ static fe_geometry geometry(source *s, int32_t types)
     return g;
 }
 
+// Steps, slopes and holes.
+static void add_field(source *s, fe_world *world, double middle)
+{
+    enum { SAMPLES = 8 };
+    float heights[SAMPLES * SAMPLES];
+    uint8_t holes[(SAMPLES - 1) * (SAMPLES - 1)];
+    for (int32_t i = 0; i < SAMPLES * SAMPLES; ++i) heights[i] = (float)number(s, 2);
+    for (size_t i = 0; i < sizeof holes; ++i) holes[i] = one_of(s, 8) == 0;
+    fe_heightfield_def def;
+    fe_heightfield_def_init(&def, sizeof def);
+    def.rows = def.columns = SAMPLES, def.cell_x = 2, def.cell_z = 3, def.heights = heights, def.holes = holes;
+    fe_asset asset;
+    fe_geometry g;
+    OK(fe_heightfield_create(world, &def, &asset));
+    fe_geometry_heightfield(&g, asset);
+    add_shape(world, new_body(world, FE_BODY_STATIC, middle - 7, 0, -10), &g);
+}
+
 static fe_world *random_world(source *s)
 {
     fe_world *world = new_world();
     double middle = one_of(s, 3) == 0 ? 1e6 : 0;
-    for (int32_t i = 0; i < BODIES; ++i) {
+    add_field(s, world, middle);
+    for (int32_t i = 1; i < BODIES; ++i) {
         fe_body_def def;
         fe_body_def_init(&def, sizeof def);
         def.type = one_of(s, 3);
@@ -178,7 +197,7 @@ static const char *broken_by_ray(const fe_world *world, const input *in)
     return NULL;
 }
 
-// From where a sweep stopped, nothing overlaps, and the same way leads no further.
+// From where a sweep stopped, nothing overlaps. A heightfield may, whose triangles let pass what comes from below; it is the first body.
 static const char *broken_by_stop(const fe_world *world, const input *in)
 {
     fe_hit hit;
@@ -186,7 +205,10 @@ static const char *broken_by_stop(const fe_world *world, const input *in)
     if (fe_world_sweep(world, &in->geometry, &in->start, &in->way, NULL, &hit) != FE_OK || hit.flags) return NULL;
     fe_transform stop = in->start;
     stop.position.x += hit.fraction * in->way.x, stop.position.y += hit.fraction * in->way.y, stop.position.z += hit.fraction * in->way.z;
-    if (fe_world_overlap_any(world, &in->geometry, &stop, NULL) != FE_MISS) return "a sweep stops outside";
+    fe_body bodies[2], field;
+    fe_world_get_bodies(world, &field, 1);
+    int32_t count = fe_world_overlap(world, &in->geometry, &stop, NULL, bodies, 2);
+    if (count > 1 || (count == 1 && bodies[0] != field)) return "a sweep stops outside";
     return NULL;
 }
 

@@ -102,7 +102,69 @@ static void one_case(bench *b, int32_t moving, int32_t standing, tally *t)
     t->least = fmin(t->least, gap), t->most = fmax(t->most, gap), t->normal = fmax(t->normal, error);
 }
 
-static const char *const names[] = {"sphere", "capsule", "box", "plane"};
+// ---- heightfields -----------------------------------------------------------------------------------------------------------------------
+
+enum { SAMPLES = 6, TRIANGLES = 2 * (SAMPLES - 1) * (SAMPLES - 1) };
+
+// Of the hulls of all triangles; away points from the nearest.
+static nearness nearest_triangle(const solid *mover, vec shift, const solid *triangles)
+{
+    nearness best = {INFINITY, {0, 0, 0}, {0, 0, 0}};
+    for (int32_t i = 0; i < TRIANGLES; ++i) {
+        vec d = v_sub(v_add(mover->centre, shift), triangles[i].centre);
+        if (v_length(d) - mover->reach - triangles[i].reach > 0.01L) continue;
+        nearness n = nearest(mover, shift, &triangles[i]);
+        if (n.distance < best.distance) best = n;
+    }
+    return best;
+}
+
+// From above, steeply: what comes from below or the rim from aside is judged elsewhere.
+static void one_field_case(bench *b, int32_t moving, tally *t)
+{
+    float heights[SAMPLES * SAMPLES], cell = (float)spread(b, 0.05, 200);
+    for (int32_t i = 0; i < SAMPLES * SAMPLES; ++i) heights[i] = (float)uniform(b, -0.2, 0.2) * cell;
+    fe_heightfield_def def;
+    fe_heightfield_def_init(&def, sizeof def);
+    def.rows = def.columns = SAMPLES, def.cell_x = def.cell_z = cell, def.heights = heights;
+    double middle = uniform(b, 0, 1) < 0.5 ? 0 : 1e6;
+    fe_transform pose = {fe_make_dvec3(middle, -middle, 1), {(float)uniform(b, -0.1, 0.1), 0, (float)uniform(b, -0.1, 0.1), 1}};
+    fe_asset asset;
+    fe_geometry g, mover = geometry_of(b, moving);
+    OK(fe_heightfield_create(b->world, &def, &asset));
+    fe_geometry_heightfield(&g, asset);
+    OK(fe_shape_set_geometry(b->world, b->shape, &g));
+    OK(fe_asset_destroy(b->world, asset));
+    OK(fe_body_set_transform(b->world, b->body, &pose));
+    OK(fe_body_get_transform(b->world, b->body, &pose));
+    solid triangles[TRIANGLES];
+    for (int32_t i = 0; i < TRIANGLES; ++i)
+        triangles[i] = make_field_solid(&def, i / 2 / (SAMPLES - 1), i / 2 % (SAMPLES - 1), i % 2, v_of(pose.position), pose.rotation);
+    fe_transform start = {pose.position, rotation(b)};
+    solid of_mover = make_solid(&mover, v_of(start.position), start.rotation);
+    double reach = (double)of_mover.reach + 4 * (double)cell;
+    fe_dvec3 way = direction(b), goal = pose.position;
+    way.y = -2 - fabs(way.y); // at most 27 degrees off the vertical, the ground at most 45: never from below
+    double size = sqrt(way.x * way.x + way.y * way.y + way.z * way.z);
+    way = fe_make_dvec3(way.x / size, way.y / size, way.z / size);
+    goal.x += uniform(b, 1, SAMPLES - 2) * (double)cell, goal.z += uniform(b, 1, SAMPLES - 2) * (double)cell;
+    start.position = along(goal, -3 * reach, way);
+    fe_dvec3 far = along(fe_make_dvec3(0, 0, 0), 6 * reach, way);
+    fe_hit hit;
+    if (fe_world_sweep(b->world, &mover, &start, &far, NULL, &hit) != FE_OK || hit.flags) return;
+    double length = spread(b, 1e-3, 1e4);
+    start.position = along(along(start.position, hit.fraction * 6 * reach, way), -length * uniform(b, 0, 1), way);
+    fe_dvec3 translation = along(fe_make_dvec3(0, 0, 0), length, way);
+    if (fe_world_sweep(b->world, &mover, &start, &translation, NULL, &hit) != FE_OK || hit.flags) return;
+    of_mover = make_solid(&mover, v_of(start.position), start.rotation);
+    nearness n = nearest_triangle(&of_mover, v_scale(hit.fraction, v_of(translation)), triangles);
+    vec away = v_sub(n.on_mover, n.on_still);
+    double gap = (double)(n.distance - of_mover.radius), error = (double)(v_length(v_cross(away, v_off(hit.normal))) / v_length(away));
+    t->hits += 1;
+    t->least = fmin(t->least, gap), t->most = fmax(t->most, gap), t->normal = fmax(t->normal, error);
+}
+
+static const char *const names[] = {"sphere", "capsule", "box", "plane", "field"};
 
 static tally tally_of(int32_t moving, int32_t standing)
 {
@@ -110,7 +172,12 @@ static tally tally_of(int32_t moving, int32_t standing)
     b.body = new_body(b.world, FE_BODY_STATIC, 0, 0, 0);
     b.shape = add_box(b.world, b.body, 1);
     tally t = {0, INFINITY, -INFINITY, 0};
-    for (int32_t i = 0; i < cases; ++i) one_case(&b, moving, standing, &t);
+    for (int32_t i = 0; i < cases; ++i) {
+        if (standing == FE_GEOMETRY_HEIGHTFIELD)
+            one_field_case(&b, moving, &t);
+        else
+            one_case(&b, moving, standing, &t);
+    }
     OK(fe_world_destroy(b.world));
     printf("| %-7s | %-7s | %6d | %9.4f | %9.4f | %7.1e |\n", names[moving], names[standing], (int)t.hits, 1e6 * t.least, 1e6 * t.most,
            t.normal);
@@ -123,7 +190,7 @@ static void a_sweep_stops_before_the_body(void **state)
     (void)state;
     printf("| moving  | stands  | hits   | least, um | most, um  | normal  |\n|---|---|---|---|---|---|\n");
     for (int32_t moving = FE_GEOMETRY_SPHERE; moving <= FE_GEOMETRY_BOX; ++moving) {
-        for (int32_t standing = FE_GEOMETRY_SPHERE; standing <= FE_GEOMETRY_PLANE; ++standing) {
+        for (int32_t standing = FE_GEOMETRY_SPHERE; standing <= FE_GEOMETRY_HEIGHTFIELD; ++standing) {
             double bound = moving == FE_GEOMETRY_BOX && standing == FE_GEOMETRY_BOX ? 1e-4 : 1e-6;
             tally t = tally_of(moving, standing);
             FE_WITHIN(t.hits, cases / 4, cases);

@@ -25,6 +25,7 @@ static int32_t queries = QUERIES;
 typedef struct known_shape {
     fe_shape shape;
     int32_t triangle; // else -1
+    int32_t rim;      // a side of it is a hole's or the field's: met from aside too
     solid solid;
     int32_t body; // index
     uint32_t layer;
@@ -84,6 +85,13 @@ static void add_known_shape(known_world *k, int32_t body, const fe_geometry *g)
     OK(fe_shape_create(k->world, k->bodies[body], &def, g, &s->shape));
 }
 
+static int32_t has_rim(const uint8_t *holes, int32_t triangle)
+{
+    int32_t cells = SAMPLES - 1, row = triangle / 2 / cells, column = triangle / 2 % cells, out = triangle % 2 ? 1 : -1;
+    int32_t r = row - out, c = column + out;
+    return r < 0 || r >= cells || c < 0 || c >= cells || holes[r * cells + column] || holes[row * cells + c];
+}
+
 // Hills with holes, tilted: an entry for each triangle.
 static void add_field(known_world *k, int32_t body)
 {
@@ -109,7 +117,8 @@ static void add_field(known_world *k, int32_t body)
         int32_t cell = i / 2;
         if (holes[cell]) continue;
         solid s = make_field_solid(&def, cell / (SAMPLES - 1), cell % (SAMPLES - 1), i % 2, v_of(t.position), t.rotation);
-        k->shapes[k->count++] = (known_shape){.shape = shape, .triangle = i, .solid = s, .body = body, .layer = 1};
+        k->shapes[k->count++] =
+            (known_shape){.shape = shape, .triangle = i, .rim = has_rim(holes, i), .solid = s, .body = body, .layer = 1};
     }
 }
 
@@ -226,7 +235,8 @@ static int meets_from_above(const query *q, const known_shape *s, real end)
     }
     nearness n = nearest(&q->mover, v_scale(low - 1e-5L / (1e-5L + v_length(v_of(q->way))), v_of(q->way)), &s->solid);
     real up = v_dot(v_sub(n.on_mover, n.on_still), s->solid.normal) / n.distance;
-    return n.distance > 0 && fabsl(up) > 0.01L ? (up > 0 ? 1 : -1) : 0;
+    if (!(n.distance > 0) || fabsl(up) < 0.01L) return 0;
+    return up > 0 ? 1 : s->rim ? 0 : -1;
 }
 
 // 1: it is met before `end`, -1: not, 0: it is so close that both will do
