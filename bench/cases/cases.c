@@ -10,7 +10,7 @@ static const struct group {
     {bench_solver2d_stack, &bench_solver2d_stack_count}, {bench_solver2d_contact, &bench_solver2d_contact_count},
     {bench_solver2d_far, &bench_solver2d_far_count},     {bench_solver2d_joint, &bench_solver2d_joint_count},
     {bench_box3d_stack, &bench_box3d_stack_count},       {bench_box3d_slide, &bench_box3d_slide_count},
-    {bench_box3d_motion, &bench_box3d_motion_count},
+    {bench_box3d_motion, &bench_box3d_motion_count},     {bench_box3d_joint, &bench_box3d_joint_count},
 };
 static const size_t group_count = sizeof groups / sizeof groups[0];
 
@@ -61,10 +61,15 @@ void bench_turn(bench_body *body, double x, double y, double z, double angle)
     body->start.rotation[3] = cos(0.5 * angle);
 }
 
+bench_joint *bench_add_ball(bench_scene *s, int32_t body_a, int32_t body_b, double x, double y, double z)
+{
+    const int32_t joint = bench_add_joint(s, body_a, body_b, x, y, z); // may move the array
+    return &s->joints[joint];
+}
+
 bench_joint *bench_add_hinge_z(bench_scene *s, int32_t body_a, int32_t body_b, double x, double y)
 {
-    int32_t index = bench_add_joint(s, body_a, body_b, x, y, 0.0); // first: it may move the array
-    bench_joint *joint = &s->joints[index];
+    bench_joint *joint = bench_add_ball(s, body_a, body_b, x, y, 0.0);
     joint->kind = BENCH_HINGE;
     joint->axis[2] = 1.0;
     return joint;

@@ -13,6 +13,8 @@ int32_t bench_sphere(bench_scene *scene, double radius, double density, double f
 int32_t bench_capsule(bench_scene *scene, double half_height, double radius, double density, double friction);
 /// Turns a body about an axis, rad.
 void bench_turn(bench_body *body, double x, double y, double z, double angle);
+/// A ball joint, to be changed before the next one is added.
+bench_joint *bench_add_ball(bench_scene *scene, int32_t body_a, int32_t body_b, double x, double y, double z);
 /// A hinge about z; in the plane every engine's revolute joint.
 bench_joint *bench_add_hinge_z(bench_scene *scene, int32_t body_a, int32_t body_b, double x, double y);
 
@@ -25,7 +27,7 @@ bench_joint *bench_add_hinge_z(bench_scene *scene, int32_t body_a, int32_t body_
 
 extern const bench_case bench_solver2d_stack[], bench_solver2d_contact[], bench_solver2d_far[], bench_solver2d_joint[];
 extern const int32_t bench_solver2d_stack_count, bench_solver2d_contact_count, bench_solver2d_far_count, bench_solver2d_joint_count;
-extern const bench_case bench_box3d_stack[], bench_box3d_slide[], bench_box3d_motion[];
-extern const int32_t bench_box3d_stack_count, bench_box3d_slide_count, bench_box3d_motion_count;
+extern const bench_case bench_box3d_stack[], bench_box3d_slide[], bench_box3d_motion[], bench_box3d_joint[];
+extern const int32_t bench_box3d_stack_count, bench_box3d_slide_count, bench_box3d_motion_count, bench_box3d_joint_count;
 
 #endif
