@@ -71,7 +71,9 @@ static void search_block(void *argument, int32_t first, int32_t end, int32_t wor
     search s = {step->world, step->scratch->buffers + worker, step->scratch->candidate_room, 0};
     for (int32_t i = first; i < end; ++i) {
         s.shape = step->world->moved[i];
-        uint32_t flags = step->world->shapes[s.shape].flags;
+        const fe__shape *shape = step->world->shapes + s.shape;
+        uint32_t flags = shape->flags;
+        if (!shape->layer || !shape->mask) continue; // touches nothing
         if (flags & FE__SHAPE_IN_PLANES) search_plane(&s);
         if (flags & FE__SHAPE_IN_TREE) search_tree(&s);
     }
