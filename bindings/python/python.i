@@ -1,1 +1,321 @@
-// python
+// What feather.h's types become in Python: small vectors are tuples with names, definitions and results objects with the header's fields, arrays
+// anything with the buffer protocol (their strides and counts are found from it), errors exceptions, worlds and pools capsules.
+%{
+#include "python/convert.h"
+%}
+%init %{
+    if (add_types(m)) return NULL;
+%}
+
+%native(set_error_classes) PyObject *flat_set_error_classes(PyObject *self, PyObject *classes);
+%native(world_keep) PyObject *flat_world_keep(PyObject *self, PyObject *arguments);
+%{
+static PyObject *flat_set_error_classes(PyObject *self, PyObject *arguments)
+{
+    PyObject *classes;
+    (void)self;
+    return PyArg_ParseTuple(arguments, "O", &classes) ? set_error_classes(classes) : NULL;
+}
+static PyObject *flat_world_keep(PyObject *self, PyObject *arguments)
+{
+    PyObject *world, *object;
+    (void)self;
+    return PyArg_ParseTuple(arguments, "OO", &world, &object) ? world_keep(world, object) : NULL;
+}
+%}
+
+// ---- worlds and pools: `call` keeps what the arguments borrow, so that it is released whatever fails ------------------------------------------
+
+%typemap(arginit) fe_world *, const fe_world * "begin_call(&call$argnum);"
+%typemap(in) const fe_world * (world_box *box = 0, call_state call) {
+    box = world_of($input);
+    if (!box) SWIG_fail;
+    $1 = box->world;
+}
+%typemap(in) fe_world * (world_box *box = 0, call_state call) {
+    box = world_of($input);
+    if (!box) SWIG_fail;
+    if (box->readers) {
+        (void)fails(FE_ERROR_STEPPING, "$symname: another thread reads the world");
+        SWIG_fail;
+    }
+    $1 = box->world;
+}
+%typemap(freearg) fe_world *, const fe_world * "end_call(&call$argnum);"
+%typemap(argout) fe_world *, const fe_world * ""
+%typemap(argout) fe_world *world %{
+    if (result == FE_OK && strcmp("$symname", "world_destroy") == 0) box$argnum->world = NULL;
+%}
+
+%typemap(in, numinputs=0) fe_world **out_world (fe_world *made = 0) "$1 = &made;"
+%typemap(argout) fe_world **out_world %{ $result = new_world(*$1); %}
+%typemap(in, numinputs=0) fe_pool **out_pool (fe_pool *made = 0) "$1 = &made;"
+%typemap(argout) fe_pool **out_pool %{ $result = new_pool(*$1); %}
+%typemap(in) fe_pool *pool (pool_box *given = 0) {
+    if ($input != Py_None) {
+        given = pool_of($input);
+        if (!given) SWIG_fail;
+        $1 = given->pool;
+    }
+}
+%typemap(argout) fe_pool *pool %{
+    if (strcmp("$symname", "pool_destroy") == 0 && given$argnum) given$argnum->pool = NULL;
+%}
+%typemap(out) fe_pool * "$result = SWIG_Py_Void();"
+
+// The GIL is given back where a call may take long and only reads what other threads may read, and in the step, which refuses all others itself.
+%define FE_WITHOUT_GIL(NAME)
+%exception NAME {
+    ++box1->readers;
+    Py_BEGIN_ALLOW_THREADS
+    $action
+    Py_END_ALLOW_THREADS
+    --box1->readers;
+}
+%enddef
+FE_WITHOUT_GIL(fe_world_step)
+FE_WITHOUT_GIL(fe_world_raycast_many)
+FE_WITHOUT_GIL(fe_world_sweep_many)
+FE_WITHOUT_GIL(fe_world_get_moved)
+FE_WITHOUT_GIL(fe_world_get_transforms)
+FE_WITHOUT_GIL(fe_world_get_transforms_f32)
+FE_WITHOUT_GIL(fe_world_get_velocities)
+
+// ---- results --------------------------------------------------------------------------------------------------------------------
+
+%typemap(out) fe_result {
+    if ($1 < 0) {
+        raise_result($1);
+        SWIG_fail;
+    }
+    $result = SWIG_Py_Void();
+}
+%typemap(out) fe_result fe_world_raycast_any, fe_result fe_world_sweep_any, fe_result fe_world_overlap_any {
+    if ($1 < 0) {
+        raise_result($1);
+        SWIG_fail;
+    }
+    $result = PyBool_FromLong($1 == FE_OK);
+}
+// counts; a field that is read may be negative
+%typemap(out) int32_t {
+    if ($1 < 0 && !ends_with("$symname", "_get")) {
+        raise_result($1);
+        SWIG_fail;
+    }
+    $result = PyLong_FromLong($1);
+}
+
+// ---- values that come out -------------------------------------------------------------------------------------------------------
+
+%define FE_OUT(TYPE, MAKE)
+%typemap(in, numinputs=0) TYPE ($*1_ltype value) "$1 = &value;"
+%typemap(argout) TYPE { $result = SWIG_Python_AppendOutput($result, MAKE); }
+%enddef
+FE_OUT(fe_handle *, PyLong_FromUnsignedLongLong(*$1))
+FE_OUT(int32_t *, PyLong_FromLong(*$1))
+FE_OUT(uint32_t *, PyLong_FromUnsignedLong(*$1))
+FE_OUT(float *, PyFloat_FromDouble((double)*$1))
+%typemap(in, numinputs=0) uint32_t *out_words (uint32_t words[2]) "$1 = words;"
+%typemap(argout) uint32_t *out_words %{
+    $result = PyLong_FromUnsignedLongLong((unsigned long long)$1[1] << 32 | $1[0]);
+%}
+
+// `fe_vec3 *` without a name is a value that goes in, as a member's setter has it.
+%define FE_SMALL(TYPE, NAME)
+%typemap(in) TYPE * (TYPE value) {
+    if (to_##NAME($input, &value, "$1_name")) SWIG_fail;
+    $1 = &value;
+}
+%typemap(in) const TYPE * = TYPE *;
+%typemap(out) TYPE * { $result = from_##NAME($1); }
+%ignore TYPE;
+%enddef
+%define FE_OUT_SMALL(TYPE, NAME, PARAMETER)
+FE_OUT(TYPE *PARAMETER, from_##NAME($1))
+%enddef
+FE_SMALL(fe_vec3, vec3)
+FE_SMALL(fe_dvec3, dvec3)
+FE_SMALL(fe_quat, quat)
+FE_SMALL(fe_transform, transform)
+FE_SMALL(fe_frame, frame)
+FE_SMALL(fe_material, material)
+FE_OUT_SMALL(fe_vec3, vec3, out_gravity)
+FE_OUT_SMALL(fe_vec3, vec3, out_velocity)
+FE_OUT_SMALL(fe_vec3, vec3, out_force)
+FE_OUT_SMALL(fe_vec3, vec3, out_torque)
+FE_OUT_SMALL(fe_vec3, vec3, out_position)
+FE_OUT_SMALL(fe_dvec3, dvec3, out_position)
+FE_OUT_SMALL(fe_dvec3, dvec3, out_centre)
+FE_OUT_SMALL(fe_quat, quat, out_rotation)
+FE_OUT_SMALL(fe_transform, transform, out_transform)
+FE_OUT_SMALL(fe_transform, transform, out_frame_a)
+FE_OUT_SMALL(fe_transform, transform, out_frame_b)
+FE_OUT_SMALL(fe_material, material, out_material)
+
+// ---- records: objects with the fields of the struct -----------------------------------------------------------------------------------
+
+%define FE_RECORD(TYPE, FILL)
+%extend TYPE {
+    TYPE()
+    {
+        TYPE *made = calloc(1, sizeof *made);
+        if (made) FILL;
+        return made;
+    }
+}
+%enddef
+%define FE_SIZED(TYPE) FE_RECORD(TYPE, made->struct_size = (uint32_t)sizeof *made) %enddef
+%define FE_DEF(TYPE) FE_RECORD(TYPE, TYPE##_init(made, (uint32_t)sizeof *made)) %enddef
+FE_DEF(fe_world_def)
+FE_DEF(fe_world_tuning)
+FE_DEF(fe_body_def)
+FE_DEF(fe_shape_def)
+FE_DEF(fe_distance_def)
+FE_DEF(fe_ball_def)
+FE_DEF(fe_hinge_def)
+FE_DEF(fe_fixed_def)
+FE_DEF(fe_configurable_def)
+FE_SIZED(fe_joint_def)
+FE_SIZED(fe_mass_data)
+FE_SIZED(fe_geometry)
+// A def's own init writes as much as the object holds.
+%typemap(in, numinputs=0) uint32_t struct_size "$1 = 0;"
+%typemap(check) uint32_t struct_size "$1 = arg1 ? (uint32_t)sizeof *arg1 : 0;"
+%immutable struct_size;
+
+// The first word is struct_size where there is one, and is written over where there is none.
+%typemap(in, numinputs=0) SWIGTYPE *OUT_RECORD {
+    $1 = ($1_ltype)calloc(1, sizeof *$1);
+    if (!$1) {
+        PyErr_NoMemory();
+        SWIG_fail;
+    }
+    *(uint32_t *)(void *)$1 = (uint32_t)sizeof *$1;
+}
+%typemap(argout) SWIGTYPE *OUT_RECORD %{
+    if (result == FE_OK) {
+        $result = SWIG_Python_AppendOutput($result, SWIG_NewPointerObj($1, $1_descriptor, SWIG_POINTER_OWN));
+        $1 = NULL;
+    }
+%}
+%typemap(freearg, match="in") SWIGTYPE *OUT_RECORD "free($1);"
+%define FE_OUT_RECORD(TYPE, PARAMETER) %apply SWIGTYPE *OUT_RECORD { TYPE *PARAMETER }; %enddef
+FE_OUT_RECORD(fe_world_tuning, out_tuning)
+FE_OUT_RECORD(fe_profile, out_profile)
+FE_OUT_RECORD(fe_counters, out_counters)
+FE_OUT_RECORD(fe_mass_data, out_data)
+FE_OUT_RECORD(fe_geometry, out_geometry)
+FE_OUT_RECORD(fe_joint_def, out_desc)
+FE_OUT_RECORD(fe_distance_def, out_desc)
+FE_OUT_RECORD(fe_ball_def, out_desc)
+FE_OUT_RECORD(fe_hinge_def, out_desc)
+FE_OUT_RECORD(fe_fixed_def, out_desc)
+FE_OUT_RECORD(fe_configurable_def, out_desc)
+FE_OUT_RECORD(fe_joint_state, out_state)
+FE_OUT_RECORD(fe_hit, out_hit)
+FE_OUT_RECORD(fe_closest, out_closest)
+// fe_geometry_box and its like return nothing that could fail
+%typemap(argout) fe_geometry *out_geometry %{
+    $result = SWIG_Python_AppendOutput($result, SWIG_NewPointerObj($1, $1_descriptor, SWIG_POINTER_OWN));
+    $1 = NULL;
+%}
+
+%typemap(in) fe_joint_axis axes[6] "PyErr_SetString(PyExc_AttributeError, \"set the fields of axis(i)\"); SWIG_fail;"
+%immutable fe_configurable_def::axes;
+%ignore fe_configurable_def::axes;
+%extend fe_configurable_def {
+    /// The axis of a coordinate: lives as long as this object.
+    fe_joint_axis *axis(int32_t coordinate) { return coordinate < 0 || coordinate > 5 ? NULL : &$self->axes[coordinate]; }
+}
+
+// ---- arrays ---------------------------------------------------------------------------------------------------------------------
+
+%define FE_INPUT(TYPE, RECORD, CODES)
+%typemap(in) TYPE {
+    const void *array;
+    if (to_input(&call1, $input, RECORD, CODES, "$1_name", &array)) SWIG_fail;
+    $1 = ($1_ltype)array;
+}
+%enddef
+%define FE_OUTPUT(TYPE, RECORD, CODES)
+%typemap(in) TYPE {
+    void *array;
+    if (to_output(&call1, $input, RECORD, CODES, "$1_name", &array)) SWIG_fail;
+    $1 = ($1_ltype)array;
+}
+%typemap(argout) TYPE ""
+%enddef
+FE_INPUT(const fe_handle *, sizeof *$1, "QqLl")
+FE_INPUT(const fe_transform *transforms, sizeof *$1, "")
+FE_INPUT(const fe_ray *rays, sizeof *$1, "")
+FE_INPUT(const fe_path *paths, sizeof *$1, "")
+FE_INPUT(const float *floats, 6 * sizeof *$1, "f")
+FE_INPUT(const float *heights, sizeof *$1, "f")
+FE_OUTPUT(fe_handle *out_bodies, sizeof *$1, "QqLl")
+FE_OUTPUT(fe_handle *out_shapes, sizeof *$1, "QqLl")
+FE_OUTPUT(fe_handle *out_joints, sizeof *$1, "QqLl")
+FE_OUTPUT(fe_transform *out_transforms, sizeof *$1, "")
+FE_OUTPUT(fe_hit *out_hits, sizeof *$1, "")
+FE_OUTPUT(fe_pair_event *out_events, sizeof *$1, "")
+FE_OUTPUT(fe_body_event *out_events, sizeof *$1, "")
+FE_OUTPUT(fe_hit_event *out_events, sizeof *$1, "")
+FE_OUTPUT(fe_joint_event *out_events, sizeof *$1, "")
+FE_OUTPUT(fe_contact *out_contacts, sizeof *$1, "")
+FE_OUTPUT(float *out_floats, (ends_with("$symname", "transforms_f32") ? 7 : 6) * sizeof *$1, "f")
+FE_OUTPUT(float *out_heights, sizeof *$1, "f")
+%typemap(check) const float *heights "if (heights_fit(call1.count, arg5, arg6)) SWIG_fail;"
+%typemap(check) float *out_heights "if (heights_fit(call1.capacity, arg5, arg6)) SWIG_fail;"
+
+%typemap(in, numinputs=0) int32_t count, int32_t capacity, uint32_t stride, uint32_t ray_stride, uint32_t path_stride "$1 = 0;"
+%typemap(check) int32_t count "if (array_count(&call1, &$1)) SWIG_fail;"
+%typemap(check) int32_t capacity "$1 = array_capacity(&call1);"
+
+// a sequence of definitions
+%typemap(in) const fe_body_def *descs {
+    Py_ssize_t length = PySequence_Size($input);
+    if (length < 0) SWIG_fail;
+    fe_body_def *copies = calloc((size_t)length + 1, sizeof *copies);
+    if (!copies) {
+        PyErr_NoMemory();
+        SWIG_fail;
+    }
+    call1.memory = copies;
+    for (Py_ssize_t i = 0; i < length; ++i) {
+        PyObject *item = PySequence_GetItem($input, i);
+        void *desc = NULL;
+        int converted = item ? SWIG_ConvertPtr(item, &desc, $1_descriptor, 0) : SWIG_ERROR;
+        if (SWIG_IsOK(converted) && desc) copies[i] = *(const fe_body_def *)desc;
+        Py_XDECREF(item);
+        if (!SWIG_IsOK(converted) || !desc) {
+            if (!PyErr_Occurred()) PyErr_SetString(PyExc_TypeError, "descs: definitions of bodies are needed");
+            SWIG_fail;
+        }
+    }
+    call1.count = length;
+    $1 = copies;
+}
+
+%typemap(in) const fe_query_filter *filter (fe_query_filter value) {
+    const fe_query_filter *found;
+    if (to_filter(&call1, $input, &value, &found)) SWIG_fail;
+    $1 = ($1_ltype)found;
+}
+%ignore fe_query_filter;
+%ignore fe_query_filter_init;
+%typemap(in) const fe_heightfield_def *desc (fe_heightfield_def value) {
+    if (to_heightfield(&call1, $input, &value)) SWIG_fail;
+    $1 = &value;
+}
+%ignore fe_heightfield_def;
+%ignore fe_heightfield_def_init;
+
+// read from packed buffers, see records.py
+%ignore fe_ray;
+%ignore fe_path;
+%ignore fe_pair_event;
+%ignore fe_body_event;
+%ignore fe_hit_event;
+%ignore fe_joint_event;
+%ignore fe_contact;
+%ignore fe_contact_point;

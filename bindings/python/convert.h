@@ -1,0 +1,516 @@
+// What Python objects become on their way into the library and back. Worlds and pools are capsules that own them: a body's object keeps its world
+// alive, and a world that is closed is an error. Arrays are anything with the buffer protocol (array, bytes, memoryview, NumPy).
+#ifndef FE_BINDINGS_PYTHON_CONVERT_H
+#define FE_BINDINGS_PYTHON_CONVERT_H
+
+#include "feather.h"
+
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+// ---- errors ---------------------------------------------------------------------------------------------------------------------
+
+enum { ERROR_CLASSES = 9 }; // by -fe_result; 0: FeatherError itself
+static PyObject *error_classes[ERROR_CLASSES];
+
+static PyObject *error_class(int result)
+{
+    PyObject *found = result <= 0 && result > -ERROR_CLASSES ? error_classes[-result] : NULL;
+    return found ? found : error_classes[0] ? error_classes[0] : PyExc_RuntimeError;
+}
+
+/// Takes the classes that failures raise from a sequence, ordered by -fe_result.
+static PyObject *set_error_classes(PyObject *classes)
+{
+    for (Py_ssize_t i = 0; i < ERROR_CLASSES; ++i) {
+        PyObject *item = PySequence_GetItem(classes, i);
+        if (!item) return NULL;
+        if (!PyExceptionClass_Check(item)) {
+            Py_DECREF(item);
+            PyErr_SetString(PyExc_TypeError, "exception classes are needed");
+            return NULL;
+        }
+        Py_XSETREF(error_classes[i], item);
+    }
+    Py_RETURN_NONE;
+}
+
+static void raise_result(int result)
+{
+    PyErr_SetString(error_class(result), fe_last_error());
+}
+
+static int fails(int result, const char *text)
+{
+    PyErr_SetString(error_class(result), text);
+    return -1;
+}
+
+// ---- worlds and pools -----------------------------------------------------------------------------------------------------------
+
+static const char world_name[] = "feather_physics.world";
+static const char pool_name[] = "feather_physics.pool";
+
+typedef struct world_box {
+    fe_world *world; ///< NULL: closed
+    PyObject *kept;  ///< what must outlive the world: its pool. Or NULL
+    int readers;     ///< threads that read it without the GIL
+} world_box;
+
+typedef struct pool_box {
+    fe_pool *pool; ///< NULL: closed
+} pool_box;
+
+static void release_world(PyObject *capsule)
+{
+    world_box *box = PyCapsule_GetPointer(capsule, world_name);
+    if (!box) return;
+    if (box->world) (void)fe_world_destroy(box->world);
+    Py_XDECREF(box->kept);
+    free(box);
+}
+
+static void release_pool(PyObject *capsule)
+{
+    pool_box *box = PyCapsule_GetPointer(capsule, pool_name);
+    if (!box) return;
+    if (box->pool) (void)fe_pool_destroy(box->pool);
+    free(box);
+}
+
+static PyObject *new_world(fe_world *world)
+{
+    world_box *box = calloc(1, sizeof *box);
+    PyObject *capsule = box ? PyCapsule_New(box, world_name, release_world) : PyErr_NoMemory();
+    if (capsule) {
+        box->world = world;
+    } else {
+        (void)fe_world_destroy(world);
+        free(box);
+    }
+    return capsule;
+}
+
+static PyObject *new_pool(fe_pool *pool)
+{
+    pool_box *box = calloc(1, sizeof *box);
+    PyObject *capsule = box ? PyCapsule_New(box, pool_name, release_pool) : PyErr_NoMemory();
+    if (capsule) {
+        box->pool = pool;
+    } else {
+        (void)fe_pool_destroy(pool);
+        free(box);
+    }
+    return capsule;
+}
+
+static world_box *world_of(PyObject *object)
+{
+    if (!PyCapsule_CheckExact(object)) {
+        PyErr_Format(PyExc_TypeError, "a world is needed, not '%s'", Py_TYPE(object)->tp_name);
+        return NULL;
+    }
+    world_box *box = PyCapsule_GetPointer(object, world_name);
+    if (!box) return NULL;
+    if (!box->world) {
+        (void)fails(FE_ERROR_STALE, "the world is closed");
+        return NULL;
+    }
+    return box;
+}
+
+static pool_box *pool_of(PyObject *object)
+{
+    if (!PyCapsule_CheckExact(object)) {
+        PyErr_Format(PyExc_TypeError, "a pool is needed, not '%s'", Py_TYPE(object)->tp_name);
+        return NULL;
+    }
+    pool_box *box = PyCapsule_GetPointer(object, pool_name);
+    if (box && !box->pool) {
+        (void)fails(FE_ERROR_STALE, "the pool is closed");
+        return NULL;
+    }
+    return box;
+}
+
+/// Makes a world hold a reference to what must not go before it.
+static PyObject *world_keep(PyObject *world, PyObject *object)
+{
+    world_box *box = world_of(world);
+    if (!box) return NULL;
+    Py_INCREF(object);
+    Py_XSETREF(box->kept, object);
+    Py_RETURN_NONE;
+}
+
+// ---- small values ---------------------------------------------------------------------------------------------------------------
+
+static PyTypeObject *vec3_type, *quat_type, *transform_type;
+
+static PyStructSequence_Field vec3_fields[] = {{"x", NULL}, {"y", NULL}, {"z", NULL}, {NULL, NULL}};
+static PyStructSequence_Field quat_fields[] = {{"x", NULL}, {"y", NULL}, {"z", NULL}, {"w", NULL}, {NULL, NULL}};
+static PyStructSequence_Field transform_fields[] = {{"position", "m"}, {"rotation", "x, y, z, w"}, {NULL, NULL}};
+static PyStructSequence_Desc vec3_desc = {"feather_physics.Vec3", "A vector: a tuple with the names x, y, z.", vec3_fields, 3};
+static PyStructSequence_Desc quat_desc = {"feather_physics.Quat", "A rotation: a tuple with the names x, y, z, w.", quat_fields, 4};
+static PyStructSequence_Desc transform_desc = {"feather_physics.Transform", "Position (Vec3, m) and rotation (Quat).", transform_fields, 2};
+
+static int add_types(PyObject *module)
+{
+    vec3_type = PyStructSequence_NewType(&vec3_desc);
+    quat_type = PyStructSequence_NewType(&quat_desc);
+    transform_type = PyStructSequence_NewType(&transform_desc);
+    return !vec3_type || !quat_type || !transform_type || PyModule_AddType(module, vec3_type) || PyModule_AddType(module, quat_type) ||
+           PyModule_AddType(module, transform_type);
+}
+
+static PyObject *numbers(PyTypeObject *type, const double *values, Py_ssize_t count)
+{
+    PyObject *made = PyStructSequence_New(type);
+    if (!made) return NULL;
+    for (Py_ssize_t i = 0; i < count; ++i) {
+        PyObject *value = PyFloat_FromDouble(values[i]);
+        if (!value) {
+            Py_DECREF(made);
+            return NULL;
+        }
+        PyStructSequence_SET_ITEM(made, i, value);
+    }
+    return made;
+}
+
+static PyObject *from_vec3(const fe_vec3 *v)
+{
+    return numbers(vec3_type, (double[]){(double)v->x, (double)v->y, (double)v->z}, 3);
+}
+
+static PyObject *from_dvec3(const fe_dvec3 *v)
+{
+    return numbers(vec3_type, (double[]){v->x, v->y, v->z}, 3);
+}
+
+static PyObject *from_quat(const fe_quat *q)
+{
+    return numbers(quat_type, (double[]){(double)q->x, (double)q->y, (double)q->z, (double)q->w}, 4);
+}
+
+static PyObject *pose(PyObject *position, PyObject *rotation)
+{
+    PyObject *made = position && rotation ? PyStructSequence_New(transform_type) : NULL;
+    if (!made) {
+        Py_XDECREF(position);
+        Py_XDECREF(rotation);
+        return NULL;
+    }
+    PyStructSequence_SET_ITEM(made, 0, position);
+    PyStructSequence_SET_ITEM(made, 1, rotation);
+    return made;
+}
+
+static PyObject *from_transform(const fe_transform *t)
+{
+    return pose(from_dvec3(&t->position), from_quat(&t->rotation));
+}
+
+static PyObject *from_frame(const fe_frame *f)
+{
+    return pose(from_vec3(&f->position), from_quat(&f->rotation));
+}
+
+/// Reads `count` numbers from any sequence. `what` names the argument in the error.
+static int to_numbers(PyObject *object, double *values, Py_ssize_t count, const char *what)
+{
+    PyObject *fast = PyTuple_Check(object) || PyList_Check(object) ? Py_NewRef(object) : PySequence_Tuple(object);
+    if (!fast) {
+        if (PyErr_ExceptionMatches(PyExc_TypeError)) PyErr_Format(PyExc_TypeError, "%s: %zd numbers are needed, not '%s'", what, count, Py_TYPE(object)->tp_name);
+        return -1;
+    }
+    Py_ssize_t length = PySequence_Fast_GET_SIZE(fast);
+    if (length != count) PyErr_Format(PyExc_ValueError, "%s: %zd numbers are needed, not %zd", what, count, length);
+    // a list may change under a number's __float__
+    for (Py_ssize_t i = 0; length == count && i < count && i < PySequence_Fast_GET_SIZE(fast); ++i) {
+        PyObject *item = PySequence_Fast_GET_ITEM(fast, i);
+        Py_INCREF(item);
+        values[i] = PyFloat_AsDouble(item);
+        Py_DECREF(item);
+        if (values[i] == -1.0 && PyErr_Occurred()) break;
+    }
+    Py_DECREF(fast);
+    return PyErr_Occurred() ? -1 : 0;
+}
+
+static int to_vec3(PyObject *object, fe_vec3 *v, const char *what)
+{
+    double n[3] = {0};
+    if (to_numbers(object, n, 3, what)) return -1;
+    v->x = (float)n[0], v->y = (float)n[1], v->z = (float)n[2];
+    return 0;
+}
+
+static int to_dvec3(PyObject *object, fe_dvec3 *v, const char *what)
+{
+    double n[3] = {0};
+    if (to_numbers(object, n, 3, what)) return -1;
+    v->x = n[0], v->y = n[1], v->z = n[2];
+    return 0;
+}
+
+static int to_quat(PyObject *object, fe_quat *q, const char *what)
+{
+    double n[4] = {0};
+    if (to_numbers(object, n, 4, what)) return -1;
+    q->x = (float)n[0], q->y = (float)n[1], q->z = (float)n[2], q->w = (float)n[3];
+    return 0;
+}
+
+static int to_pair(PyObject *object, PyObject **position, PyObject **rotation, const char *what)
+{
+    PyObject *tuple = PySequence_Tuple(object);
+    if (tuple && PyTuple_GET_SIZE(tuple) == 2) {
+        *position = Py_NewRef(PyTuple_GET_ITEM(tuple, 0));
+        *rotation = Py_NewRef(PyTuple_GET_ITEM(tuple, 1));
+        Py_DECREF(tuple);
+        return 0;
+    }
+    Py_XDECREF(tuple);
+    PyErr_Format(PyExc_TypeError, "%s: a position and a rotation are needed", what);
+    return -1;
+}
+
+static int to_transform(PyObject *object, fe_transform *t, const char *what)
+{
+    PyObject *position, *rotation;
+    if (to_pair(object, &position, &rotation, what)) return -1;
+    int failed = to_dvec3(position, &t->position, what) || to_quat(rotation, &t->rotation, what);
+    Py_DECREF(position);
+    Py_DECREF(rotation);
+    return failed ? -1 : 0;
+}
+
+static int to_frame(PyObject *object, fe_frame *f, const char *what)
+{
+    PyObject *position, *rotation;
+    if (to_pair(object, &position, &rotation, what)) return -1;
+    int failed = to_vec3(position, &f->position, what) || to_quat(rotation, &f->rotation, what);
+    Py_DECREF(position);
+    Py_DECREF(rotation);
+    return failed ? -1 : 0;
+}
+
+/// In the order of fe_material's fields.
+static int to_material(PyObject *object, fe_material *material, const char *what)
+{
+    double n[5] = {0};
+    if (to_numbers(object, n, 5, what)) return -1;
+    material->static_friction = (float)n[0], material->dynamic_friction = (float)n[1], material->restitution = (float)n[2];
+    material->rolling_resistance = (float)n[3], material->spinning_resistance = (float)n[4];
+    return 0;
+}
+
+static PyObject *from_material(const fe_material *m)
+{
+    return Py_BuildValue("(ddddd)", (double)m->static_friction, (double)m->dynamic_friction, (double)m->restitution, (double)m->rolling_resistance,
+                         (double)m->spinning_resistance);
+}
+
+// ---- arrays ---------------------------------------------------------------------------------------------------------------------
+
+enum { MAX_VIEWS = 6 };
+
+/// The buffers that a call borrows, and how many records each has room for.
+typedef struct call_state {
+    int views;
+    Py_buffer view[MAX_VIEWS];
+    void *memory;         ///< copies of records, or NULL
+    int64_t count;        ///< of the input arrays; -1: none yet
+    int64_t capacity;     ///< of the output arrays; -1: none yet
+} call_state;
+
+static void begin_call(call_state *call)
+{
+    call->views = 0;
+    call->memory = NULL;
+    call->count = call->capacity = -1;
+}
+
+static void end_call(call_state *call)
+{
+    while (call->views > 0) PyBuffer_Release(&call->view[--call->views]);
+    free(call->memory);
+    call->memory = NULL;
+}
+
+/// Borrows a buffer of whole records. None is NULL where `optional`.
+static int borrow(call_state *call, PyObject *object, size_t record, int flags, const char *what, Py_buffer **out_view)
+{
+    *out_view = NULL;
+    Py_buffer *view = &call->view[call->views];
+    if (call->views == MAX_VIEWS) return fails(0, "too many arrays");
+    if (PyObject_GetBuffer(object, view, flags)) return -1;
+    ++call->views;
+    if ((size_t)view->len % record) {
+        PyErr_Format(PyExc_ValueError, "%s: %zd bytes are not whole records of %zd", what, view->len, (Py_ssize_t)record);
+        return -1;
+    }
+    // one byte items may be packed records; others must be items of these
+    if (view->itemsize > 1 && record % (size_t)view->itemsize) {
+        PyErr_Format(PyExc_TypeError, "%s: items of %zd bytes are not what is asked for", what, view->itemsize);
+        return -1;
+    }
+    *out_view = view;
+    return 0;
+}
+
+static int format_is(const Py_buffer *view, const char *codes)
+{
+    const char *format = view->format ? view->format : "B";
+    while (*format == '<' || *format == '=' || *format == '@') ++format;
+    return view->itemsize == 1 || strchr(codes, *format) != NULL;
+}
+
+/// An array to read. `codes`: the item formats allowed ("" for records).
+static int to_input(call_state *call, PyObject *object, size_t record, const char *codes, const char *what, const void **out_array)
+{
+    Py_buffer *view;
+    if (borrow(call, object, record, PyBUF_C_CONTIGUOUS | PyBUF_FORMAT, what, &view)) return -1;
+    if (*codes && !format_is(view, codes)) {
+        PyErr_Format(PyExc_TypeError, "%s: items of format '%s' are not what is asked for", what, view->format);
+        return -1;
+    }
+    int64_t count = (int64_t)((size_t)view->len / record);
+    if (call->count >= 0 && call->count != count) {
+        PyErr_Format(PyExc_ValueError, "%s: %lld records where the other array has %lld", what, (long long)count, (long long)call->count);
+        return -1;
+    }
+    call->count = count;
+    *out_array = view->buf;
+    return 0;
+}
+
+/// An array to fill; None is NULL.
+static int to_output(call_state *call, PyObject *object, size_t record, const char *codes, const char *what, void **out_array)
+{
+    *out_array = NULL;
+    if (object == Py_None) return 0;
+    Py_buffer *view;
+    if (borrow(call, object, record, PyBUF_C_CONTIGUOUS | PyBUF_WRITABLE | PyBUF_FORMAT, what, &view)) return -1;
+    if (*codes && !format_is(view, codes)) {
+        PyErr_Format(PyExc_TypeError, "%s: items of format '%s' are not what is asked for", what, view->format);
+        return -1;
+    }
+    int64_t capacity = (int64_t)((size_t)view->len / record);
+    if (call->capacity < 0 || capacity < call->capacity) call->capacity = capacity;
+    *out_array = view->buf;
+    return 0;
+}
+
+/// The `count` of a call: that of its input arrays, for which its outputs must have room.
+static int array_count(const call_state *call, int32_t *out_count)
+{
+    int64_t count = call->count < 0 ? 0 : call->count;
+    if (count > INT32_MAX) return fails(FE_ERROR_LIMIT, "an array has more than 2^31 - 1 records");
+    if (call->capacity >= 0 && call->capacity < count) {
+        PyErr_Format(PyExc_ValueError, "room for %lld records where %lld are needed", (long long)call->capacity, (long long)count);
+        return -1;
+    }
+    *out_count = (int32_t)count;
+    return 0;
+}
+
+static int32_t array_capacity(const call_state *call)
+{
+    return call->capacity < 0 ? 0 : call->capacity > INT32_MAX ? INT32_MAX : (int32_t)call->capacity;
+}
+
+/// (mask, flags, bodies not to count or None); None is no filter.
+static int to_filter(call_state *call, PyObject *object, fe_query_filter *filter, const fe_query_filter **out_filter)
+{
+    *out_filter = NULL;
+    if (object == Py_None) return 0;
+    unsigned int mask, flags;
+    PyObject *excluded;
+    if (!PyTuple_Check(object)) return PyErr_SetString(PyExc_TypeError, "filter: a tuple of mask, flags, excluded bodies is needed"), -1;
+    if (!PyArg_ParseTuple(object, "IIO;filter: mask, flags, excluded", &mask, &flags, &excluded)) return -1;
+    fe_query_filter_init(filter, (uint32_t)sizeof *filter);
+    filter->mask = mask;
+    filter->flags = flags;
+    if (excluded != Py_None) {
+        Py_buffer *view;
+        if (borrow(call, excluded, sizeof(fe_body), PyBUF_C_CONTIGUOUS, "excluded", &view)) return -1;
+        if ((size_t)view->len / sizeof(fe_body) > INT32_MAX) return fails(FE_ERROR_LIMIT, "too many excluded bodies");
+        filter->excluded = view->buf;
+        filter->excluded_count = (int32_t)((size_t)view->len / sizeof(fe_body));
+    }
+    *out_filter = filter;
+    return 0;
+}
+
+static int to_bytes(call_state *call, PyObject *object, size_t count, const char *what, const uint8_t **out_bytes)
+{
+    *out_bytes = NULL;
+    if (object == Py_None) return 0;
+    Py_buffer *view;
+    if (borrow(call, object, 1, PyBUF_C_CONTIGUOUS, what, &view)) return -1;
+    if ((size_t)view->len != count) return PyErr_Format(PyExc_ValueError, "%s: %zu bytes are needed, not %zd", what, count, view->len), -1;
+    *out_bytes = view->buf;
+    return 0;
+}
+
+static int to_materials(call_state *call, PyObject *object, fe_heightfield_def *def)
+{
+    if (object == Py_None) return 0;
+    Py_ssize_t count = PySequence_Size(object);
+    if (count < 0) return -1;
+    if (count > 255) return PyErr_SetString(PyExc_ValueError, "materials: at most 255"), -1;
+    fe_material *materials = calloc((size_t)count + 1, sizeof *materials);
+    if (!materials) return PyErr_NoMemory(), -1;
+    call->memory = materials;
+    for (Py_ssize_t i = 0; i < count; ++i) {
+        PyObject *item = PySequence_GetItem(object, i);
+        int failed = !item || to_material(item, &materials[i], "materials");
+        Py_XDECREF(item);
+        if (failed) return -1;
+    }
+    def->materials = materials;
+    def->material_count = (int32_t)count;
+    return 0;
+}
+
+/// (rows, columns, cell_x, cell_z, heights, holes, cell_materials, materials); the last three may be None.
+static int to_heightfield(call_state *call, PyObject *object, fe_heightfield_def *def)
+{
+    PyObject *heights, *holes, *cells, *materials;
+    fe_heightfield_def_init(def, (uint32_t)sizeof *def);
+    if (!PyTuple_Check(object)) return PyErr_SetString(PyExc_TypeError, "heightfield: a tuple is needed"), -1;
+    if (!PyArg_ParseTuple(object, "iiffOOOO;heightfield", &def->rows, &def->columns, &def->cell_x, &def->cell_z, &heights, &holes, &cells, &materials))
+        return -1;
+    if (def->rows < 2 || def->columns < 2) return PyErr_SetString(error_class(FE_ERROR_ARGUMENT), "heightfield: 2 rows and 2 columns at least"), -1;
+    const void *samples;
+    size_t count = (size_t)def->rows * (size_t)def->columns, cell_count = (size_t)(def->rows - 1) * (size_t)(def->columns - 1);
+    if (to_input(call, heights, sizeof(float), "f", "heights", &samples)) return -1;
+    if ((size_t)call->count != count) {
+        PyErr_Format(PyExc_ValueError, "heights: %zu floats are needed, not %lld", count, (long long)call->count);
+        return -1;
+    }
+    def->heights = samples;
+    return to_bytes(call, holes, cell_count, "holes", &def->holes) || to_bytes(call, cells, cell_count, "cell_materials", &def->cell_materials) ||
+                   to_materials(call, materials, def)
+               ? -1
+               : 0;
+}
+
+/// Are there rows x columns floats? What is negative is left to the library.
+static int heights_fit(int64_t have, int32_t rows, int32_t columns)
+{
+    if (rows <= 0 || columns <= 0 || (int64_t)rows * columns <= have) return 0;
+    PyErr_Format(PyExc_ValueError, "heights: %lld floats where %lld are needed", (long long)have, (long long)rows * columns);
+    return -1;
+}
+
+static int ends_with(const char *text, const char *end)
+{
+    size_t a = strlen(text), b = strlen(end);
+    return a >= b && strcmp(text + a - b, end) == 0;
+}
+
+#endif
