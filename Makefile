@@ -3,6 +3,7 @@
 #   make            build/libfeather.a and build/libfeather.so
 #   make demo       builds the library and runs examples/demo.c; needs a C compiler and make, nothing else
 #   make test       everything that is checked before a change is accepted (TESTS=pattern: the matching programs only)
+#   make python     the Python package in build/python; make test-python: its tests; likewise for the other languages of bindings/
 #   make fuzz       FUZZ_SECONDS=600 of random calls of the API, with clang's libFuzzer and sanitizers
 #   make bench      speed, beside Bullet and ODE where they are installed
 #   make install    PREFIX, LIBDIR, INCLUDEDIR, DESTDIR;  make uninstall takes it away again
@@ -213,6 +214,10 @@ bench-build: $(BUILD)/feather-bench
 	    echo "*** BENCH WITHOUT $$peer: it is not installed (make deps), so there is nothing to compare with ***" ;; esac; done
 bench: bench-build
 	$(BUILD)/feather-bench speed
+
+# ---- bindings: `make python`, `make test-python` and so on --------------------------------------------------------------------------------
+
+include $(wildcard bindings/*/rules.mk)
 
 # ---- install --------------------------------------------------------------------------------------------------------------------
 # LIBDIR and INCLUDEDIR lie under PREFIX, so that the installed tree can be moved: the files written here name both relative to it.

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What the tests (tools/deps.sh test), the fuzzer (fuzz) and the bench (all) need beyond the C compiler: installs what is missing with apt where it
-# may, and otherwise says what to install and fails. Needs are tried out, not looked up by package name.
+# What the tests (tools/deps.sh test), the fuzzer (fuzz), the tests of one language (python, lua...) and the bench (all) need beyond the C compiler:
+# installs what is missing with apt where it may, and otherwise says what to install and fails. Needs are tried out, not looked up by package name.
 set -uo pipefail
 wanted=${1:-all}
 CC=${CC:-cc} CXX=${CXX:-c++}
@@ -14,8 +14,27 @@ printf '#include <stdarg.h>\n#include <stddef.h>\n#include <setjmp.h>\n#include 
 has() { command -v "$1" > /dev/null; }
 links() { "$@" -o "$work/program" > /dev/null 2>&1; }
 
+PYTHON=${PYTHON:-/usr/bin/python3}
+python_has() { "$PYTHON" -c "import $1" 2> /dev/null; }
+missing_for_python() {
+    has swig || echo swig
+    has "$PYTHON" && "$PYTHON" -c 'import os, sysconfig; assert os.path.exists(sysconfig.get_paths()["include"] + "/Python.h")' 2> /dev/null || echo python3-dev
+    python_has setuptools || echo python3-setuptools
+    python_has wheel || echo python3-wheel
+    python_has pip || echo python3-pip
+    python_has ensurepip || echo python3-venv
+    python_has pytest || echo python3-pytest
+    python_has numpy || echo python3-numpy
+    python_has matplotlib || echo python3-matplotlib
+    has mypy || echo mypy
+}
+
 # Prints the missing packages, by their Debian names.
 missing() {
+    if test "$wanted" = python; then
+        missing_for_python
+        return
+    fi
     has gcc && links gcc "$work/empty.c" || echo gcc libc6-dev
     has clang && links clang "$work/empty.c" || echo clang
     links "$CXX" "$work/empty.cpp" || echo g++
@@ -26,6 +45,7 @@ missing() {
     has cmake || echo cmake
     has pkg-config || echo pkg-config
     has valgrind || echo valgrind
+    if test "$wanted" != fuzz; then missing_for_python; fi
     if test "$wanted" != test; then
         clang -fsanitize=fuzzer,address,undefined "$work/fuzz.c" -o "$work/program" > /dev/null 2>&1 ||
             clang --version | awk 'match($0, /version [0-9]+/) { print "libclang-rt-" substr($0, RSTART + 8, RLENGTH - 8) "-dev" }'

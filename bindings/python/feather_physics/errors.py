@@ -1,0 +1,57 @@
+"""What a failed call raises. The text is the library's sentence: function, argument, value, legal range."""
+
+from __future__ import annotations
+
+from . import _flat
+
+
+class FeatherError(RuntimeError):
+    """A call failed; nothing has changed."""
+
+
+class InvalidArgumentError(FeatherError, ValueError):
+    """NaN, infinity, or a value out of its range (FE_ERROR_ARGUMENT)."""
+
+
+class StaleHandleError(FeatherError, ReferenceError):
+    """The body, shape, joint or heightfield was destroyed, or its world is closed (FE_ERROR_STALE)."""
+
+
+class WrongKindError(FeatherError, TypeError):
+    """The handle of a shape where that of a body is asked (FE_ERROR_KIND)."""
+
+
+class SteppingError(FeatherError):
+    """Another thread steps or reads the world (FE_ERROR_STEPPING)."""
+
+
+class OutOfMemoryError(FeatherError, MemoryError):
+    """There was no memory; the world is as it was (FE_ERROR_MEMORY)."""
+
+
+class LimitError(FeatherError):
+    """More than a world or an array can hold (FE_ERROR_LIMIT)."""
+
+
+class UnsupportedError(FeatherError):
+    """This processor, form or kind of body cannot (FE_ERROR_UNSUPPORTED)."""
+
+
+class StateError(FeatherError):
+    """Not now: the pool still has worlds, the body is not kinematic... (FE_ERROR_STATE)."""
+
+
+# ordered by the negative of fe_result
+_flat.set_error_classes(
+    (
+        FeatherError,
+        InvalidArgumentError,
+        StaleHandleError,
+        WrongKindError,
+        SteppingError,
+        OutOfMemoryError,
+        LimitError,
+        UnsupportedError,
+        StateError,
+    )
+)

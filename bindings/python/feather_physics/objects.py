@@ -1,0 +1,584 @@
+"""Bodies, shapes, joints and heightfields: a world and a handle. They are made by the world; two that name the same thing are equal."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Callable, Dict, Generic, Iterable, List, Optional, Sequence, Tuple, TypeVar, Union, overload
+
+from . import _flat, records
+from ._flat import Quat, Transform, Vec3
+from .errors import InvalidArgumentError
+from .records import BODY_TYPES, JOINT_TYPES, NO_ROTATION, Box, Capsule, Geometry, Material, Plane, Sphere, Vector
+
+if TYPE_CHECKING:
+    from .world import World
+
+Value = TypeVar("Value")
+
+
+class Attribute(Generic[Value]):
+    """A property that a pair of flat functions reads and writes."""
+
+    def __init__(self, get: Callable[..., Any], set: Optional[Callable[..., Any]], doc: str):
+        self._get, self._set, self.__doc__ = get, set, doc
+
+    @overload
+    def __get__(self, owner: None, kind: Any) -> "Attribute[Value]": ...
+
+    @overload
+    def __get__(self, owner: "Entity", kind: Any) -> Value: ...
+
+    def __get__(self, owner: Optional["Entity"], kind: Any = None) -> Union[Value, "Attribute[Value]"]:
+        if owner is None:
+            return self
+        value: Value = self._get(owner._capsule, owner._id)
+        return value
+
+    def __set__(self, owner: "Entity", value: Value) -> None:
+        if self._set is None:
+            raise AttributeError("this cannot be set")
+        self._set(owner._capsule, owner._id, value)
+
+
+class Switch(Attribute[bool]):
+    """A property that is 0 or 1 in C."""
+
+    @overload
+    def __get__(self, owner: None, kind: Any) -> "Attribute[bool]": ...
+
+    @overload
+    def __get__(self, owner: "Entity", kind: Any) -> bool: ...
+
+    def __get__(self, owner: Optional["Entity"], kind: Any = None) -> Union[bool, "Attribute[bool]"]:
+        return self if owner is None else self._get(owner._capsule, owner._id) != 0
+
+    def __set__(self, owner: "Entity", value: bool) -> None:
+        if self._set is None:
+            raise AttributeError("this cannot be set")
+        self._set(owner._capsule, owner._id, 1 if value else 0)
+
+
+class Entity:
+    """A world and a handle in it."""
+
+    __slots__ = ("_world", "_capsule", "_id")
+    _world: "World"
+    _capsule: Any
+    _id: int
+
+    def __init__(self, world: "World", id: int):
+        self._world = world
+        self._capsule = world._capsule
+        self._id = id
+
+    @property
+    def id(self) -> int:
+        """The handle: an integer below 2^53, equal in equal runs."""
+        return self._id
+
+    @property
+    def world(self) -> "World":
+        """The world it belongs to."""
+        return self._world
+
+    @property
+    def user_data(self) -> Any:
+        """Whatever you keep with it; None at first. (`tag` is the integer that the library keeps and hashes.)"""
+        return self._world._user_data.get(self._id)
+
+    @user_data.setter
+    def user_data(self, value: Any) -> None:
+        self._world._user_data[self._id] = value
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Entity) and other._id == self._id and other._world is self._world
+
+    def __hash__(self) -> int:
+        return hash((id(self._world), self._id))
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self._id:#x}>"
+
+
+def handle_of(world: "World", entity: Any, kind: type) -> int:
+    """The handle of an object, if it is one of this world."""
+    if not isinstance(entity, kind):
+        raise TypeError(f"a {kind.__name__} is needed, not {type(entity).__name__!r}")
+    if entity._world is not world:  # type: ignore[attr-defined]
+        raise InvalidArgumentError(f"{entity!r} belongs to another world")
+    handle: int = entity._id  # type: ignore[attr-defined]
+    return handle
+
+
+class Body(Entity):
+    """A rigid body. Positions are m in world space, velocities m/s and rad/s."""
+
+    __slots__ = ()
+
+    @property
+    def position(self) -> Vec3:
+        """Of the body's origin, m. Setting it moves the body at once, through whatever is between."""
+        position: Vec3 = _get_position(self._capsule, self._id)
+        return position
+
+    @position.setter
+    def position(self, value: Vector) -> None:
+        _flat.body_set_position(self._capsule, self._id, value)
+
+    rotation: Attribute[Union[Quat, Vector]] = Attribute(_flat.body_get_rotation, _flat.body_set_rotation, "x, y, z, w; any length but zero.")
+    transform: Attribute[Union[Transform, Tuple[Vector, Vector]]] = Attribute(
+        _flat.body_get_transform, _flat.body_set_transform, "Position and rotation."
+    )
+    linear_velocity: Attribute[Union[Vec3, Vector]] = Attribute(
+        _flat.body_get_linear_velocity, _flat.body_set_linear_velocity, "Of the centre of mass, m/s."
+    )
+    angular_velocity: Attribute[Union[Vec3, Vector]] = Attribute(
+        _flat.body_get_angular_velocity, _flat.body_set_angular_velocity, "rad/s, world axes."
+    )
+    centre: Attribute[Vec3] = Attribute(_flat.body_get_centre, None, "Centre of mass, m, world space.")
+    mass: Attribute[float] = Attribute(_flat.body_get_mass, _flat.body_set_mass, "kg; 0 when it is not dynamic.")
+    gravity_scale: Attribute[float] = Attribute(_flat.body_get_gravity_scale, _flat.body_set_gravity_scale, "Times the world's gravity.")
+    sleep_threshold: Attribute[float] = Attribute(
+        _flat.body_get_sleep_threshold, _flat.body_set_sleep_threshold, "It may sleep when its fastest point is slower, m/s."
+    )
+    tag: Attribute[int] = Attribute(_flat.body_get_user_data, _flat.body_set_user_data, "An integer of yours below 2^53, kept by the library.")
+    awake = Switch(_flat.body_get_awake, _flat.body_set_awake, "False: asleep. Static bodies are never awake.")
+    sleep_allowed = Switch(_flat.body_get_sleep_allowed, _flat.body_set_sleep_allowed, "May it sleep?")
+    enabled = Switch(_flat.body_get_enabled, _flat.body_set_enabled, "False: neither moves, nor collides, nor is seen by queries.")
+    bullet = Switch(_flat.body_get_bullet, _flat.body_set_bullet, "Stopped by moving bodies too when it is fast.")
+
+    @property
+    def type(self) -> str:
+        """ "static", "kinematic" or "dynamic"."""
+        return BODY_TYPES[_flat.body_get_type(self._capsule, self._id)]
+
+    @type.setter
+    def type(self, value: str) -> None:
+        _flat.body_set_type(self._capsule, self._id, body_type(value))
+
+    @property
+    def is_valid(self) -> bool:
+        """False once it is destroyed, or its world closed."""
+        return not self._world.closed and _flat.body_is_valid(self._capsule, self._id) == 1
+
+    @property
+    def damping(self) -> Tuple[float, float]:
+        """Linear and angular, 1/s."""
+        linear, angular = _flat.body_get_damping(self._capsule, self._id)
+        return linear, angular
+
+    @damping.setter
+    def damping(self, value: Sequence[float]) -> None:
+        linear, angular = value
+        _flat.body_set_damping(self._capsule, self._id, linear, angular)
+
+    @property
+    def locks(self) -> Tuple[str, str]:
+        """World axes along and around which it cannot move: ("y", "xz") keeps its height and lets it turn about y only."""
+        linear, angular = _flat.body_get_locks(self._capsule, self._id)
+        return axes_text(linear), axes_text(angular)
+
+    @locks.setter
+    def locks(self, value: Sequence[str]) -> None:
+        linear, angular = value
+        _flat.body_set_locks(self._capsule, self._id, axes_bits(linear), axes_bits(angular))
+
+    @property
+    def mass_data(self) -> records.MassData:
+        """Mass, centre and inertia that the solver uses. Setting it overrides what the shapes give, until reset_mass()."""
+        return records.copy_record(records.MassData, _flat.body_get_mass_data(self._capsule, self._id))
+
+    @mass_data.setter
+    def mass_data(self, value: records.MassData) -> None:
+        flat = _flat.mass_data()
+        flat.mass, flat.centre, flat.inertia, flat.inertia_rotation = value
+        _flat.body_set_mass_data(self._capsule, self._id, flat)
+
+    def reset_mass(self) -> None:
+        """Mass and inertia from the shapes and their densities again."""
+        _flat.body_reset_mass(self._capsule, self._id)
+
+    @property
+    def shapes(self) -> List["Shape"]:
+        """In the order of creation."""
+        return [Shape(self._world, id) for id in records.read_handles(_flat.body_get_shapes, self._capsule, self._id)]
+
+    @property
+    def joints(self) -> List["Joint"]:
+        """In the order of creation."""
+        return [Joint(self._world, id) for id in records.read_handles(_flat.body_get_joints, self._capsule, self._id)]
+
+    @property
+    def contacts(self) -> List[records.Contact]:
+        """What it touches or nearly touches, triggers not counted."""
+        return self._world._contacts(_flat.body_get_contacts, self._id)
+
+    # ---- forces ----
+
+    def add_force(self, force: Vector, point: Optional[Vector] = None) -> None:
+        """N, world axes, during all of the next step; at the centre of mass, or at a point of the world, m."""
+        if point is None:
+            _flat.body_add_force(self._capsule, self._id, force)
+        else:
+            _flat.body_add_force_at(self._capsule, self._id, force, point)
+
+    def add_torque(self, torque: Vector) -> None:
+        """N m, world axes, during all of the next step."""
+        _flat.body_add_torque(self._capsule, self._id, torque)
+
+    def add_impulse(self, impulse: Vector, point: Optional[Vector] = None) -> None:
+        """N s: changes the velocity at once; at the centre of mass, or at a point of the world, m."""
+        if point is None:
+            _flat.body_add_impulse(self._capsule, self._id, impulse)
+        else:
+            _flat.body_add_impulse_at(self._capsule, self._id, impulse, point)
+
+    def add_angular_impulse(self, impulse: Vector) -> None:
+        """N m s."""
+        _flat.body_add_angular_impulse(self._capsule, self._id, impulse)
+
+    def velocity_at(self, point: Vector) -> Vec3:
+        """Of the material point that is now at `point`, m/s."""
+        velocity: Vec3 = _flat.body_get_point_velocity(self._capsule, self._id, point)
+        return velocity
+
+    def move_to(self, position: Vector, rotation: Vector = NO_ROTATION, seconds: float = 1 / 60) -> None:
+        """Gives a kinematic body the velocities that bring it there in `seconds`."""
+        _flat.body_set_target(self._capsule, self._id, (position, rotation), seconds)
+
+    # ---- shapes ----
+
+    def add(
+        self,
+        geometry: Geometry,
+        *,
+        density: Optional[float] = None,
+        position: Vector = (0.0, 0.0, 0.0),
+        rotation: Vector = NO_ROTATION,
+        material: Optional[Material] = None,
+        friction: Optional[float] = None,
+        restitution: Optional[float] = None,
+        layer: int = 1,
+        mask: int = 0xFFFFFFFF,
+        trigger: bool = False,
+        events: Iterable[str] = ("touch",),
+        surface_velocity: Vector = (0.0, 0.0, 0.0),
+        tag: int = 0,
+    ) -> "Shape":
+        """Gives the body a shape; position and rotation are in its frame. `friction` sets both static and dynamic friction."""
+        desc = _flat.shape_def()
+        if density is not None:
+            desc.density = density
+        desc.local_position = position
+        desc.local_rotation = rotation
+        surface = Material() if material is None else material
+        if friction is not None:
+            surface = Material(friction, friction, *surface[2:])
+        if restitution is not None:
+            surface = Material(*surface[:2], restitution, *surface[3:])
+        desc.material = surface
+        desc.layer = layer
+        desc.mask = mask
+        desc.trigger = 1 if trigger else 0
+        desc.events = events_bits(events)
+        desc.surface_velocity = surface_velocity
+        desc.user_data = tag
+        shape = _flat.shape_create(self._capsule, self._id, desc, flat_geometry(self._world, geometry))
+        return Shape(self._world, shape)
+
+    def add_sphere(self, radius: float, **options: Any) -> "Shape":
+        """A ball; for the options see add()."""
+        return self.add(Sphere(radius), **options)
+
+    def add_capsule(self, half_height: float, radius: float, **options: Any) -> "Shape":
+        """A rod with round ends along local Y; for the options see add()."""
+        return self.add(Capsule(half_height, radius), **options)
+
+    def add_box(self, half_x: float, half_y: float, half_z: float, **options: Any) -> "Shape":
+        """A box by half its edges; for the options see add()."""
+        return self.add(Box(half_x, half_y, half_z), **options)
+
+    def add_plane(self, normal: Vector = (0.0, 1.0, 0.0), distance: float = 0.0, **options: Any) -> "Shape":
+        """The half space normal . p <= distance, for static bodies; for the options see add()."""
+        return self.add(Plane(normal, distance), **options)
+
+    def set_filter(self, layer: int, mask: int) -> None:
+        """Layer and mask of all its shapes."""
+        _flat.body_set_filter(self._capsule, self._id, layer, mask)
+
+    # ---- queries ----
+
+    def raycast(self, origin: Vector, translation: Vector) -> Optional[records.Hit]:
+        """Where a segment meets this body, whatever its layers."""
+        return self._world._hit(_flat.body_raycast(self._capsule, self._id, origin, translation))
+
+    def closest_point(self, point: Vector) -> Optional[records.Closest]:
+        """Of its surface; None for a body without shapes."""
+        return self._world._closest(_flat.body_closest_point(self._capsule, self._id, point))
+
+    def destroy(self) -> None:
+        """Destroys its shapes and joints too; what it touched gets its exit with the next step."""
+        self._world._forget(self)
+        _flat.body_destroy(self._capsule, self._id)
+
+
+class Shape(Entity):
+    """A form on a body, with material and filters."""
+
+    __slots__ = ()
+
+    density: Attribute[float] = Attribute(_flat.shape_get_density, _flat.shape_set_density, "kg/m3.")
+    surface_velocity: Attribute[Union[Vec3, Vector]] = Attribute(
+        _flat.shape_get_surface_velocity, _flat.shape_set_surface_velocity, "Of a conveyor belt, m/s, shape frame."
+    )
+    tag: Attribute[int] = Attribute(_flat.shape_get_user_data, _flat.shape_set_user_data, "An integer of yours below 2^53, kept by the library.")
+    trigger = Switch(_flat.shape_get_trigger, _flat.shape_set_trigger, "True: reports what it touches and pushes nothing.")
+
+    @property
+    def is_valid(self) -> bool:
+        """False once it is destroyed, or its world closed."""
+        return not self._world.closed and _flat.shape_is_valid(self._capsule, self._id) == 1
+
+    @property
+    def body(self) -> Body:
+        """The body it belongs to."""
+        return Body(self._world, _flat.shape_get_body(self._capsule, self._id))
+
+    @property
+    def geometry(self) -> Geometry:
+        """Its form: a Sphere, Capsule, Box, Plane or Heightfield."""
+        flat = _flat.shape_get_geometry(self._capsule, self._id)
+        if flat.type == _flat.FE_GEOMETRY_SPHERE:
+            return Sphere(flat.radius)
+        if flat.type == _flat.FE_GEOMETRY_CAPSULE:
+            return Capsule(flat.half_height, flat.radius)
+        if flat.type == _flat.FE_GEOMETRY_BOX:
+            return Box(*flat.half_extents)
+        if flat.type == _flat.FE_GEOMETRY_PLANE:
+            return Plane(flat.normal, flat.distance)
+        return Heightfield(self._world, flat.asset)
+
+    @geometry.setter
+    def geometry(self, value: Geometry) -> None:
+        _flat.shape_set_geometry(self._capsule, self._id, flat_geometry(self._world, value))
+
+    @property
+    def local_pose(self) -> Tuple[Vec3, Quat]:
+        """Position, m, and rotation in the body's frame."""
+        position, rotation = _flat.shape_get_local_pose(self._capsule, self._id)
+        return position, rotation
+
+    @local_pose.setter
+    def local_pose(self, value: Tuple[Vector, Vector]) -> None:
+        _flat.shape_set_local_pose(self._capsule, self._id, *value)
+
+    @property
+    def material(self) -> Material:
+        """Friction, bounce, resistance to rolling and spinning."""
+        return Material(*_flat.shape_get_material(self._capsule, self._id))
+
+    @material.setter
+    def material(self, value: Sequence[float]) -> None:
+        _flat.shape_set_material(self._capsule, self._id, value)
+
+    @property
+    def filter(self) -> Tuple[int, int]:
+        """Its layer (one bit) and the mask of layers it collides with."""
+        layer, mask = _flat.shape_get_filter(self._capsule, self._id)
+        return layer, mask
+
+    @filter.setter
+    def filter(self, value: Sequence[int]) -> None:
+        layer, mask = value
+        _flat.shape_set_filter(self._capsule, self._id, layer, mask)
+
+    @property
+    def events(self) -> Tuple[str, ...]:
+        """What it reports: any of "touch", "stay", "hit"."""
+        bits = _flat.shape_get_events(self._capsule, self._id)
+        return tuple(name for name, bit in EVENT_BITS.items() if bits & bit)
+
+    @events.setter
+    def events(self, value: Iterable[str]) -> None:
+        _flat.shape_set_events(self._capsule, self._id, events_bits(value))
+
+    @property
+    def contacts(self) -> List[records.Contact]:
+        """What it touches or nearly touches."""
+        return self._world._contacts(_flat.shape_get_contacts, self._id)
+
+    def raycast(self, origin: Vector, translation: Vector) -> Optional[records.Hit]:
+        """Where a segment meets this shape, whatever its layer."""
+        return self._world._hit(_flat.shape_raycast(self._capsule, self._id, origin, translation))
+
+    def closest_point(self, point: Vector) -> Optional[records.Closest]:
+        """Of its surface."""
+        return self._world._closest(_flat.shape_closest_point(self._capsule, self._id, point))
+
+    def destroy(self) -> None:
+        """Its body's mass follows."""
+        _flat.shape_destroy(self._capsule, self._id)
+        self._world._user_data.pop(self._id, None)
+
+
+class Joint(Entity):
+    """Ties body B to body A. The world's create_... methods make joints; their fields are those of the definitions in feather.h."""
+
+    __slots__ = ()
+
+    enabled = Switch(_flat.joint_get_enabled, _flat.joint_set_enabled, "False: as if it were not there.")
+    tag: Attribute[int] = Attribute(_flat.joint_get_user_data, _flat.joint_set_user_data, "An integer of yours below 2^53, kept by the library.")
+
+    @property
+    def is_valid(self) -> bool:
+        """False once it is destroyed or broken, or its world closed."""
+        return not self._world.closed and _flat.joint_is_valid(self._capsule, self._id) == 1
+
+    @property
+    def type(self) -> str:
+        """ "distance", "ball", "hinge", "fixed" or "configurable"."""
+        return JOINT_TYPES[_flat.joint_get_type(self._capsule, self._id)]
+
+    @property
+    def bodies(self) -> Tuple[Body, Body]:
+        """A and B."""
+        a, b = _flat.joint_get_bodies(self._capsule, self._id)
+        return Body(self._world, a), Body(self._world, b)
+
+    @property
+    def frames(self) -> Tuple[Transform, Transform]:
+        """Where the frames of A and B are, world space."""
+        a, b = _flat.joint_get_frames(self._capsule, self._id)
+        return a, b
+
+    @property
+    def state(self) -> records.JointState:
+        """Angles, lengths, speeds, errors now."""
+        return records.copy_record(records.JointState, _flat.joint_get_state(self._capsule, self._id))
+
+    @property
+    def angle(self) -> float:
+        """The twist; of a hinge the angle, rad."""
+        angle: float = _flat.joint_get_state(self._capsule, self._id).angle
+        return angle
+
+    @property
+    def reaction(self) -> Tuple[Vec3, Vec3]:
+        """Force, N, and torque, N m, on B in the last step."""
+        force, torque = _flat.joint_get_reaction(self._capsule, self._id)
+        return force, torque
+
+    @property
+    def definition(self) -> Any:
+        """A copy of its definition, with the fields of fe_<type>_def in feather.h."""
+        return getattr(_flat, self.type + "_get")(self._capsule, self._id)
+
+    def set(self, **fields: Any) -> None:
+        """Changes fields of its definition: hinge.set(motor_speed=2, motor_torque=10). Axes as in create_configurable."""
+        kind = self.type
+        desc = getattr(_flat, kind + "_get")(self._capsule, self._id)
+        fill(desc, fields)
+        getattr(_flat, kind + "_set")(self._capsule, self._id, desc)
+
+    def destroy(self) -> None:
+        """Its bodies wake, and may collide again from the next step on."""
+        _flat.joint_destroy(self._capsule, self._id)
+        self._world._user_data.pop(self._id, None)
+
+
+class Heightfield(Entity):
+    """A grid of heights that any number of shapes may share: body.add(heightfield)."""
+
+    __slots__ = ()
+
+    @property
+    def is_valid(self) -> bool:
+        """False once it is destroyed, or its world closed."""
+        return not self._world.closed and _flat.asset_is_valid(self._capsule, self._id) == 1
+
+    def get_heights(self, row: int, column: int, rows: int, columns: int, out: Any) -> Any:
+        """Fills a buffer of float32 with a rectangle of samples, m, row by row."""
+        _flat.heightfield_get_heights(self._capsule, self._id, row, column, rows, columns, out)
+        return out
+
+    def set_heights(self, row: int, column: int, rows: int, columns: int, heights: Any) -> None:
+        """Changes a rectangle of samples from a buffer of float32; bodies near it wake."""
+        _flat.heightfield_set_heights(self._capsule, self._id, row, column, rows, columns, heights)
+
+    def destroy(self) -> None:
+        """The handle dies at once, its heights with their last shape."""
+        _flat.asset_destroy(self._capsule, self._id)
+        self._world._user_data.pop(self._id, None)
+
+
+# ---- words for numbers ----------------------------------------------------------------------------------------------------------
+
+EVENT_BITS = {"touch": 1, "stay": 2, "hit": 4}
+MOTIONS = {"locked": 0, "limited": 1, "free": 2}
+DRIVES = {"none": 0, "hertz": 1, "stiffness": 2}
+COORDINATES = {"along_x": 0, "along_y": 1, "along_z": 2, "about_x": 3, "about_y": 4, "about_z": 5}
+
+
+def word(words: Dict[str, int], text: Any, what: str) -> int:
+    """The number of a word, or an error that tells the words there are."""
+    try:
+        return words[text]
+    except (KeyError, TypeError):
+        raise InvalidArgumentError(f"{what}: one of {', '.join(words)} is needed, not {text!r}") from None
+
+
+def body_type(text: Any) -> int:
+    """fe_body_type of a word."""
+    return word({name: i for i, name in enumerate(BODY_TYPES)}, text, "type")
+
+
+def events_bits(events: Iterable[str]) -> int:
+    """fe_shape_events of words."""
+    return sum({word(EVENT_BITS, event, "events") for event in ((events,) if isinstance(events, str) else events)})
+
+
+def axes_bits(text: str) -> int:
+    """FE_AXIS_X | ... of "xyz"."""
+    return sum({word({"x": 1, "y": 2, "z": 4}, letter, "axes") for letter in text})
+
+
+def axes_text(bits: int) -> str:
+    """The reverse of axes_bits."""
+    return "".join(letter for i, letter in enumerate("xyz") if bits >> i & 1)
+
+
+def flat_geometry(world: "World", geometry: Geometry) -> Any:
+    """A geometry as the flat functions take it."""
+    if isinstance(geometry, Sphere):
+        return _flat.geometry_sphere(geometry.radius)
+    if isinstance(geometry, Capsule):
+        return _flat.geometry_capsule(geometry.half_height, geometry.radius)
+    if isinstance(geometry, Box):
+        return _flat.geometry_box(*geometry)
+    if isinstance(geometry, Plane):
+        x, y, z = geometry.normal
+        return _flat.geometry_plane(x, y, z, geometry.distance)
+    return _flat.geometry_heightfield(handle_of(world, geometry, Heightfield))
+
+
+def fill(desc: Any, fields: Dict[str, Any]) -> None:
+    """Sets fields of a definition by name; those of an axis from a dictionary."""
+    for name, value in fields.items():
+        if name in COORDINATES and hasattr(desc, "axis"):
+            axis = desc.axis(COORDINATES[name])
+            for part, number in value.items():
+                words = MOTIONS if part == "mode" else DRIVES if part == "drive" else None
+                set_field(axis, part, word(words, number, part) if words else number)
+        elif isinstance(value, bool):
+            set_field(desc, name, int(value))
+        else:
+            set_field(desc, "user_data" if name == "tag" else name, value)
+
+
+def set_field(desc: Any, name: str, value: Any) -> None:
+    """Sets a field that must exist."""
+    if name.startswith("_") or not hasattr(desc, name):
+        raise TypeError(f"{type(desc).__name__} has no field {name!r}")
+    setattr(desc, name, value)
+
+
+_get_position = _flat.body_get_position

@@ -1,0 +1,27 @@
+# make python: the package in build/python, to be used with PYTHONPATH=build/python. make test-python: its tests. `pip install .` goes by setup.py.
+
+PYTHON ?= $(if $(wildcard /usr/bin/python3),/usr/bin/python3,python3)
+SWIG ?= swig
+PYTHON_PACKAGE := $(BUILD)/python/feather_physics
+PYTHON_SOURCES := $(wildcard bindings/python/feather_physics/*)
+PYTHON_FLAGS = $(shell $(PYTHON) -c 'import sysconfig; print("-I" + sysconfig.get_paths()["include"])')
+# SWIG's own code, not ours
+WRAPPER_FLAGS = -std=gnu11 -O2 -fPIC -pthread -ffp-contract=off -Wno-unused-but-set-variable -Iinclude -Ibindings
+
+.PHONY: python test-python
+python: $(PYTHON_PACKAGE)/_flat.so $(PYTHON_SOURCES:bindings/python/%=$(BUILD)/python/%)
+
+$(BUILD)/python/flat.c: bindings/feather.i bindings/twins.h bindings/python/python.i include/feather.h
+	@mkdir -p $(@D)
+	$(RUN)$(SWIG) -python -builtin -Iinclude -Ibindings -outdir $(@D) -o $@ bindings/feather.i
+$(PYTHON_PACKAGE)/_flat.so: $(BUILD)/python/flat.c bindings/python/convert.h $(STATIC)
+	@mkdir -p $(@D)
+	$(RUN)$(CC) -shared $(WRAPPER_FLAGS) $(PYTHON_FLAGS) $< $(STATIC) $(LINK_FLAGS) -Wl,--exclude-libs,ALL -lm -o $@
+$(PYTHON_PACKAGE)/%: bindings/python/feather_physics/%
+	@mkdir -p $(@D)
+	@cp $< $@
+
+test-python: export PYTHON := $(PYTHON)
+test-python:
+	@tools/deps.sh python
+	@+bindings/python/test $(BUILD)
