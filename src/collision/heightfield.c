@@ -144,7 +144,9 @@ static int32_t cross_triangle(traverse *r, double to, double g, int32_t half, fe
     if (fe__heightfield_is_hole(r->field, cell)) return 0;
     *hit = (fe__ray_hit){.t = from + (to - from) * (before / (before - g)), .triangle = 2 * cell + half};
     hit->normal = fe__heightfield_normal(r->field, hit->triangle);
-    return 1;
+    // at a corner, or along the surface, the signs of g are those of roundings
+    fe_dvec3 n = hit->normal, way = {r->way.x * r->field->cell_x, r->way.y, r->way.z * r->field->cell_z};
+    return fe__ddot(n, way) < 0.0;
 }
 
 // From r->t to `to` within a cell: the side of the diagonal is the sign of u - v

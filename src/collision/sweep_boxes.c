@@ -223,6 +223,6 @@ int32_t fe__boxes_sweep(const fe__approach *s, double limit, fe__approach_hit *h
     hit->t = fe__maxd(p.stop, 0.0);
     if (!(hit->t <= limit)) return 0;
     hit->normal = p.normal;
-    hit->point = touching_point(s, fe__dadd(s->position, fe__dscale(p.enter, s->translation)), p.normal);
+    hit->point = touching_point(s, fe__dadd(s->position, fe__dscale(hit->t, s->translation)), p.normal);
     return 1;
 }

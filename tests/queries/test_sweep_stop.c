@@ -157,8 +157,9 @@ static void one_field_case(bench *b, int32_t moving, tally *t)
     fe_dvec3 translation = along(fe_make_dvec3(0, 0, 0), length, way);
     if (fe_world_sweep(b->world, &mover, &start, &translation, NULL, &hit) != FE_OK || hit.flags) return;
     of_mover = make_solid(&mover, v_of(start.position), start.rotation);
-    nearness n = nearest_triangle(&of_mover, v_scale(hit.fraction, v_of(translation)), triangles);
-    vec away = v_sub(n.on_mover, n.on_still);
+    vec shift = v_scale(hit.fraction, v_of(translation));
+    nearness n = nearest_triangle(&of_mover, shift, triangles), of_hit = nearest(&of_mover, shift, &triangles[hit.triangle]);
+    vec away = v_sub(of_hit.on_mover, of_hit.on_still); // two triangles may be as near
     double gap = (double)(n.distance - of_mover.radius), error = (double)(v_length(v_cross(away, v_off(hit.normal))) / v_length(away));
     t->hits += 1;
     t->least = fmin(t->least, gap), t->most = fmax(t->most, gap), t->normal = fmax(t->normal, error);

@@ -228,7 +228,7 @@ static int meets_from_above(const query *q, const known_shape *s, real end)
     if (overlap_at(&q->mover, &s->solid, (vec){0, 0, 0}, GRAZE) >= 0) return 1;
     for (int32_t i = 0; i < 60; ++i) {
         real middle = (low + high) / 2;
-        if (meets_on_the_way(&q->mover, &s->solid, v_of(q->way), middle, GRAZE) > 0)
+        if (meets_on_the_way(&q->mover, &s->solid, v_of(q->way), middle, GRAZE) >= 0)
             high = middle;
         else
             low = middle;
