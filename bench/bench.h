@@ -7,6 +7,8 @@ int bench_command_speed(int argc, char **argv);
 int bench_command_scenes(int argc, char **argv);
 int bench_command_run(int argc, char **argv);
 int bench_command_compare(int argc, char **argv);
+int bench_command_check(int argc, char **argv);
+int bench_command_update(int argc, char **argv);
 int bench_command_list(int argc, char **argv);
 int bench_command_help(int argc, char **argv);
 

@@ -19,6 +19,8 @@ static const command commands[] = {
     {"scenes", bench_command_scenes, "every case in Feather, judged"},
     {"run", bench_command_run, "one case: run NAME, with every measure"},
     {"compare", bench_command_compare, "cases in all engines, side by side"},
+    {"check", bench_command_check, "the regression set against bench/reference.json: exit 1 on a regression"},
+    {"update", bench_command_update, "accepts the present results as the reference"},
     {"list", bench_command_list, "the scenes, the cases and the engines"},
     {"help", bench_command_help, "this text"},
 };

@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 // ---- geometry of poses --------------------------------------------------------------------------------------------------------------
 
@@ -198,7 +197,7 @@ static void prepare(bench_trial *t)
     bench_trial_forget(t);
 }
 
-static void build_scene(bench_scene *scene, const bench_case *rule, int32_t planar)
+void bench_trial_build(bench_scene *scene, const bench_case *rule, int32_t planar)
 {
     memset(scene, 0, sizeof *scene);
     snprintf(scene->name, sizeof scene->name, "%s%s", rule->name, planar ? "-2d" : "");
@@ -208,21 +207,14 @@ static void build_scene(bench_scene *scene, const bench_case *rule, int32_t plan
     if (planar) bench_make_planar(scene);
 }
 
-static double now_ms(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
-}
-
 static int make_steps(bench_trial *t)
 {
     record(t);
     while (t->step < t->step_count && t->finite) {
         if (t->rule->act != NULL) t->rule->act(t);
-        const double start = now_ms();
+        const double start = bench_wall_ms();
         if (t->engine->step(t->world, t->scene.dt) != 0) return -1;
-        t->ms += now_ms() - start;
+        t->ms += bench_wall_ms() - start;
         t->step++;
         t->time = t->step * (double)t->scene.dt;
         record(t);
@@ -238,7 +230,7 @@ int bench_trial_run(bench_trial *t, const bench_case *rule, int32_t planar, cons
     t->engine = engine;
     t->workers = workers;
     t->substeps = substeps;
-    build_scene(&t->scene, rule, planar);
+    bench_trial_build(&t->scene, rule, planar);
     t->step_count = (int32_t)lround(rule->seconds / (double)t->scene.dt);
     prepare(t);
     t->world = engine->create(&t->scene, workers, substeps);

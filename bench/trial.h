@@ -74,6 +74,8 @@ struct bench_trial {
 /// The case called `name`, or "name-2d" for its planar twin. NULL: none.
 const bench_case *bench_case_find(const char *name, int32_t *out_planar);
 
+/// The scene of a case, or of its planar twin.
+void bench_trial_build(bench_scene *scene, const bench_case *rule, int32_t planar);
 /// Runs a case. 0: done (the checks tell how); -1: the engine cannot, and has said why on stderr.
 int bench_trial_run(bench_trial *trial, const bench_case *rule, int32_t planar, const bench_engine *engine, int32_t workers,
                     int32_t substeps);
