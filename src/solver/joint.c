@@ -6,7 +6,7 @@
 #include <assert.h>
 #include <string.h>
 
-// ---- the graph --------------------------------------------------------------------------------------------------------------------------
+// ---- the graph -------------------------------------------------------------------------------------------------------------------------
 static const uint32_t all_colours = (1u << FE__JOINT_COLOURS) - 1u, all_parts = (1u << FE__PARTS) - 1u;
 
 static uint32_t sides_of(const fe__joint *j) { return j->rows >> FE__SIDES_SHIFT; }
@@ -96,7 +96,7 @@ void fe__joint_forget_impulses(fe__joints *joints, int32_t joint)
     memset(axes->turn.torque, 0, sizeof axes->turn.torque);
 }
 
-// ---- readings ---------------------------------------------------------------------------------------------------------------------------
+// ---- readings --------------------------------------------------------------------------------------------------------------------------
 static fe_quat quat_of(const float *q) { return (fe_quat){q[0], q[1], q[2], q[3]}; }
 static fe_vec3 vec_of(const float *a) { return fe__vec3(a[0], a[1], a[2]); }
 
@@ -132,6 +132,8 @@ static swing swing_of(fe_quat q)
 
 // half a turn of swing, where y cot y is infinite, is kept away from by this cosine of half the angle
 #define LEAST_COSINE 0.02f
+// below this cosine of half the swing (168 degrees) no twist can be told
+#define TOLD 0.1f
 
 static fe_quat positive(fe_quat q) { return q.w < 0.0f ? (fe_quat){-q.x, -q.y, -q.z, -q.w} : q; }
 
@@ -164,7 +166,8 @@ static fe_vec3 angular_gradient(fe_quat q, fe__joint_part part, const fe__joint_
 {
     swing s = swing_of(q);
     fe_vec3 e = {0.0f, s.y, s.z}, u = {0.0f, s.z, -s.y};
-    float g_e = s.y, g_u = s.z, n2 = fe__maxf(q.w * q.w + q.x * q.x, LEAST_COSINE * LEAST_COSINE);
+    float g_e = s.y, g_u = s.z, n2 = q.w * q.w + q.x * q.x;
+    if (part == FE__PART_TWIST && n2 <= TOLD * TOLD) return fe__vec3(0.0f, 0.0f, 0.0f);
     if (part == FE__PART_TWIST) return fe__vec3(1.0f, (q.x * q.y + q.z * q.w) / n2, (q.x * q.z - q.y * q.w) / n2);
     if (part == FE__PART_SWING_Z) g_e = s.z, g_u = -s.y;
     if (part == FE__PART_CONE) {

@@ -16,7 +16,7 @@
 typedef struct {
     wide mass, response; // 1 / K, K = g.M^-1.g
     wide x;
-    wide low, high, rate, fade;
+    wide low, high, rate, fade, rigid;
     wide drive_mass, drive_push, drive_fade, drive_cap; // found once a substep; the cap is an impulse
     wide speed, motor_cap;
     wide drive, motor, under, over; // impulses: `over` acts downwards
@@ -39,6 +39,7 @@ FE_INLINE void read_freedom(freedom *f, const fe__joints *joints, const row_join
                    .high = cone ? none : limit.y,
                    .rate = soft.rate,
                    .fade = soft.fade,
+                   .rigid = soft.rigid,
                    .drive_cap = w_choose(w_greater(drive.y + motor.z * drive.z, zero), c->h * drive.w, zero), // off: no impulse
                    .speed = motor.x,
                    .motor_cap = c->h * motor.y,
@@ -85,16 +86,22 @@ FE_INLINE void aim(freedom *f, wide response, wide least, int part, const fe__st
     aim_drive(f, error, c);
 }
 
+// what is beyond a limit comes back no faster, m/s or rad/s: a joint made beyond it, or a twist that half a turn of swing changed
+#define MOST_PUSH 10.0f
+
 // one limit: gap >= 0 inside, v its velocity. `lock`: both limits in one, in both directions
 FE_INLINE wide limit_impulse(const freedom *f, wide impulse, wide gap, wide v, wide_mask lock, const fe__step_constants *c, int soft)
 {
-    wide zero = w_set(0.0f), one = w_set(1.0f), wish;
+    wide zero = w_set(0.0f), one = w_set(1.0f),
+         least = w_choose(w_or(lock, w_greater(one, f->rigid)), w_set(-FE__UNLIMITED), w_set(-MOST_PUSH)), wish;
     if (soft) {
         wide_mask apart = w_and(w_greater(gap, zero), w_not(lock));
-        wide fade = w_choose(apart, zero, f->fade), push = w_choose(apart, gap * c->inverse_h, f->rate * gap);
+        wide fade = w_choose(apart, zero, f->fade), push = w_choose(apart, gap * c->inverse_h, w_max(f->rate * gap, least));
         wish = (impulse - fade * impulse) - f->mass * ((one - fade) * v + push);
-    } else
-        wish = impulse - f->mass * (v + w_choose(lock, zero, w_max(gap, zero) * c->inverse_h));
+    } else {
+        wide_mask spring = w_and(w_greater(one, f->rigid), w_or(lock, w_not(w_greater(gap, zero))));
+        wish = w_choose(spring, impulse, impulse - f->mass * (v + w_choose(lock, zero, w_max(gap, zero) * c->inverse_h)));
+    }
     return w_choose(lock, wish, w_max(wish, zero));
 }
 
@@ -118,8 +125,19 @@ FE_INLINE wide solve_freedom(freedom *f, wide v, const fe__step_constants *c, in
     return impulse_of(f) - before;
 }
 
-// ---- linear
-// -------------------------------------------------------------------------------------------------------------------------------
+// A gradient that jumps (a twist half a turn of swing away, a distance through zero) has no use for its old impulse
+#define JUMP 0.25f // of the square of its length
+FE_INLINE wide_mask forget_jump(freedom *f, wide3 before, wide3 after)
+{
+    wide3 change = w_sub(after, before);
+    wide_mask jumps = w_greater(w_dot(change, change), JUMP * w_dot(before, before));
+    wide zero = w_set(0.0f);
+    f->drive = w_choose(jumps, zero, f->drive), f->motor = w_choose(jumps, zero, f->motor);
+    f->under = w_choose(jumps, zero, f->under), f->over = w_choose(jumps, zero, f->over);
+    return jumps;
+}
+
+// ---- linear ----------------------------------------------------------------------------------------------------------------------------
 typedef struct {
     line_pair line;
     wide u[3];
@@ -163,14 +181,14 @@ FE_INLINE void push_linear(const linear_row *row, ends *e, wide impulse)
 }
 
 // start takes what the impulse owes to the turn of the row
-FE_INLINE void owe_linear(const linear_row *row, const fe__solver *s, wide3 u, wide3 spin_a, wide3 spin_b, int sides)
+FE_INLINE void owe_linear(const linear_row *row, const fe__solver *s, wide l, wide_mask jumps, wide3 u, wide3 spin_a, wide3 spin_b,
+                          int sides)
 {
     ends start = {start_side(s, row->line.a), start_side(s, row->line.b)};
-    wide l = impulse_of(&row->f);
-    wide3 turn = w_scale(l, w_sub(load3(row->u), u));
+    wide3 turn = w_scale(l, w_sub(w_choose3(jumps, w_zero3(), load3(row->u)), u));
     start.a.v = w_add(start.a.v, w_times(load3(row->mass_a), turn)), start.b.v = w_sub(start.b.v, w_times(load3(row->mass_b), turn));
-    start.a.w = w_add_scaled(start.a.w, l, w_sub(load3(row->spin_a), spin_a));
-    start.b.w = w_sub_scaled(start.b.w, l, w_sub(load3(row->spin_b), spin_b));
+    start.a.w = w_add_scaled(start.a.w, l, w_sub(w_choose3(jumps, w_zero3(), load3(row->spin_a)), spin_a));
+    start.b.w = w_sub_scaled(start.b.w, l, w_sub(w_choose3(jumps, w_zero3(), load3(row->spin_b)), spin_b));
     scatter_ends(s->start, &row->line, &start, sides);
 }
 
@@ -214,9 +232,10 @@ FE_INLINE void relax_linear(fe__solver *s, void *rows, int32_t count, int32_t si
 {
     for (linear_row *row = rows, *end = row + count; row < end; ++row) {
         wide3 u = load3(row->u), spin_a = load3(row->spin_a), spin_b = load3(row->spin_b);
+        wide l = impulse_of(&row->f);
         TURN_INERTIA(row, w_zero3(), w_zero3()); // owe_linear sees the change of the spins
         place_linear(row, s, part, c);
-        owe_linear(row, s, u, spin_a, spin_b, sides);
+        owe_linear(row, s, l, forget_jump(&row->f, u, load3(row->u)), u, spin_a, spin_b, sides);
         ends e = gather_ends(s, &row->line);
         push_linear(row, &e, solve_freedom(&row->f, linear_speed(row, &e), c, 0));
         row->f.total = row->f.total + impulse_of(&row->f);
@@ -236,8 +255,7 @@ FE_INLINE void store_linear(const fe__joints *joints, const fe__lane *lanes, con
     }
 }
 
-// ---- angular
-// ------------------------------------------------------------------------------------------------------------------------------
+// ---- angular ---------------------------------------------------------------------------------------------------------------------------
 typedef struct {
     line_pair line;
     wide g[3];                 // gradient, world
@@ -256,6 +274,8 @@ typedef struct {
 
 // half a turn of swing, where y cot y is infinite, is kept away from by this cosine of half the angle
 #define LEAST_COSINE 0.02f
+// below this cosine of half the swing (168 degrees) no twist can be told: it is left alone
+#define TOLD 0.1f
 
 FE_INLINE swing swing_of(wide4 q)
 {
@@ -286,10 +306,12 @@ FE_INLINE wide3 cone_gradient(angular_row *row, const swing *s)
 
 FE_INLINE wide3 twist_gradient(freedom *f, wide4 q)
 {
-    wide n2 = w_max(q.x * q.x + q.w * q.w, w_set(LEAST_COSINE * LEAST_COSINE)), twist = 2.0f * w_atan2(q.x, q.w);
+    wide n2 = q.x * q.x + q.w * q.w, twist = 2.0f * w_atan2(q.x, q.w);
+    wide_mask told = w_greater(n2, w_set(TOLD * TOLD));
+    wide k = w_choose(told, 1.0f / n2, w_set(0.0f));
     wide wound = twist + 2.0f * FE_PI * w_round((f->x - twist) * (0.5f / FE_PI));
-    f->x = w_choose(w_greater(f->limited, w_set(0.0f)), wound, twist);
-    return (wide3){w_set(1.0f), (q.x * q.y + q.z * q.w) / n2, (q.x * q.z - q.y * q.w) / n2};
+    f->x = w_choose(w_and(told, w_greater(f->limited, w_set(0.0f))), wound, twist);
+    return (wide3){k * n2, k * (q.x * q.y + q.z * q.w), k * (q.x * q.z - q.y * q.w)};
 }
 
 FE_INLINE void place_angular(angular_row *row, const fe__solver *s, int part, const fe__step_constants *c)
@@ -356,10 +378,13 @@ FE_INLINE void relax_angular(fe__solver *s, void *rows, int32_t count, int32_t s
         TURN_INERTIA(row, w_zero3(), w_zero3());
         spins start = gather_spins(s->start, &row->line), e = gather_spins(s->velocity, &row->line);
         wide3 spin_a = load3(row->spin_a), spin_b = load3(row->spin_b);
+        wide3 g = load3(row->g);
         wide l = impulse_of(&row->f);
         place_angular(row, s, part, c);
-        start.a = w_add_scaled(start.a, l, w_sub(load3(row->spin_a), spin_a)); // what l owes to the turn of the row
-        start.b = w_sub_scaled(start.b, l, w_sub(load3(row->spin_b), spin_b));
+        wide_mask jumps = forget_jump(&row->f, g, load3(row->g));
+        // what l owes to the turn of the row
+        start.a = w_add_scaled(start.a, l, w_sub(w_choose3(jumps, w_zero3(), load3(row->spin_a)), spin_a));
+        start.b = w_sub_scaled(start.b, l, w_sub(w_choose3(jumps, w_zero3(), load3(row->spin_b)), spin_b));
         scatter_spins(s->start, &row->line, &start, sides);
         push_angular(row, &e, solve_freedom(&row->f, w_dot(load3(row->g), w_sub(e.b, e.a)), c, 0));
         row->f.total = row->f.total + impulse_of(&row->f);
@@ -379,8 +404,7 @@ FE_INLINE void store_angular(const fe__joints *joints, const fe__lane *lanes, co
     }
 }
 
-// ---- the kernels of each part
-// ---------------------------------------------------------------------------------------------------------------
+// ---- the kernels of each part ----------------------------------------------------------------------------------------------------------
 #define AXIS_INSTANCE(name, form, part, slot)                                                                                      \
     static void prepare_##name(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes, void *rows, \
                                int32_t count, int32_t sides, const fe__step_constants *c)                                          \

@@ -12,7 +12,7 @@ typedef struct {
     wide impulse[3];           // frame A
     wide mass_a[3], mass_b[3]; // inverse, along the world's axes: 0 where locked
     wide_sym inertia_a, inertia_b;
-    wide rate, fade, shaped;
+    wide rate, fade, rigid, shaped;
     wide total[3]; // world, of the impulses of the substeps so far
     wide keep[3];  // 1 for a locked axis, 0 for a free one
     wide locked;   // > 0: a body has locks
@@ -107,7 +107,7 @@ static void prepare_slide(fe__solver *s, const fe__body *bodies, const fe__joint
         row_joints of = joints_of(joints, lanes, &row->line, i + 1 < count), *r = &of;
         anchors first = first_anchors(joints, bodies, r, sides);
         lane_softness soft = lock_softness(joints, r, c);
-        row->rate = soft.rate, row->fade = soft.fade;
+        row->rate = soft.rate, row->fade = soft.fade, row->rigid = soft.rigid;
         store3(row->first_arm_a, first.ra), store3(row->first_arm_b, first.rb), store3(row->first_gap, first.gap);
         store4(row->first_frame, first_frame(bodies, r->body_a, FRAME_QUAD(frame_a)));
         row->inertia_a = gather_inertia(s, row->line.a), row->inertia_b = gather_inertia(s, row->line.b);
@@ -152,7 +152,7 @@ static void relax_slide(fe__solver *s, void *rows, int32_t count, int32_t sides,
         owe_slide(row, s, impulse, arm_a, arm_b, sides);
         ends e = gather_ends(s, &row->line);
         wide3 speed = w_times(load3(row->keep), in_frame(row, speed_between(&e, load3(row->arm_a), load3(row->arm_b))));
-        change_slide(row, &e, minus(w_mul(&row->mass, speed)));
+        change_slide(row, &e, w_scale(-row->rigid, w_mul(&row->mass, speed)));
         store3(row->total, w_add(load3(row->total), to_world(row, load3(row->impulse))));
         scatter_ends(s->velocity, &row->line, &e, sides);
     }

@@ -6,8 +6,7 @@
 // Order of a hinge: these first, its point last, in blocks of their own. One soft block of five would share its compliance: a bending
 // moment would open the anchors three times as far.
 
-// ---- hinge
-// --------------------------------------------------------------------------------------------------------------------------------
+// ---- hinge -----------------------------------------------------------------------------------------------------------------------------
 typedef struct {
     line_pair line;
     wide t1[3], t2[3]; // now
@@ -15,7 +14,7 @@ typedef struct {
     wide mass[3];      // inverse of K: 11 12 22
     wide impulse[2];
     wide_sym inertia_a, inertia_b;
-    wide rate, fade, shaped;
+    wide rate, fade, rigid, shaped;
     wide total[3];                                  // world, of the impulses of the substeps so far
     wide first_t1[3], first_t2[3], first_axis_b[3]; // when the step began
     wide locked;                                    // > 0: a body has locks
@@ -56,7 +55,7 @@ static void prepare_hinge(fe__solver *s, const fe__body *bodies, const fe__joint
         wide4 qa = first_frame(bodies, r->body_a, FRAME_QUAD(frame_a)), qb = first_frame(bodies, r->body_b, FRAME_QUAD(frame_b));
         wide4 impulse = FRAME_QUAD(impulse);
         lane_softness soft = lock_softness(joints, r, c);
-        row->rate = soft.rate, row->fade = soft.fade;
+        row->rate = soft.rate, row->fade = soft.fade, row->rigid = soft.rigid;
         store3(row->first_t1, frame_axis(qa, 1)), store3(row->first_t2, frame_axis(qa, 2)), store3(row->first_axis_b, frame_axis(qb, 0));
         row->inertia_a = gather_inertia(s, row->line.a), row->inertia_b = gather_inertia(s, row->line.b);
         row->shaped = shape_of(s, &row->line);
@@ -103,7 +102,7 @@ static void relax_hinge(fe__solver *s, void *rows, int32_t count, int32_t sides,
         twist_ends(&start, &row->inertia_a, &row->inertia_b, minus(owed));
         scatter_spins(s->start, &row->line, &start, sides);
         wide3 spin = w_sub(e.b, e.a);
-        change_hinge(row, &e, w_dot(load3(row->t1), spin), w_dot(load3(row->t2), spin), w_set(0.0f));
+        change_hinge(row, &e, row->rigid * w_dot(load3(row->t1), spin), row->rigid * w_dot(load3(row->t2), spin), w_set(0.0f));
         store3(row->total, w_add(load3(row->total), hinge_torque(row, row->impulse[0], row->impulse[1])));
         scatter_spins(s->velocity, &row->line, &e, sides);
     }
@@ -121,15 +120,14 @@ static void store_hinge(const fe__joints *joints, const fe__lane *lanes, const v
     }
 }
 
-// ---- fixed
-// --------------------------------------------------------------------------------------------------------------------------------
+// ---- fixed -----------------------------------------------------------------------------------------------------------------------------
 typedef struct {
     line_pair line;
     wide error[3];
     wide_sym mass;   // (IA^-1 + IB^-1)^-1
     wide impulse[3]; // world
     wide_sym inertia_a, inertia_b;
-    wide rate, fade, shaped;
+    wide rate, fade, rigid, shaped;
     wide total[3];
     wide first[4]; // QB QA^-1 when the step began
     wide locked;   // > 0: a body has locks
@@ -158,7 +156,7 @@ static void prepare_fixed(fe__solver *s, const fe__body *bodies, const fe__joint
         row_joints of = joints_of(joints, lanes, &row->line, i + 1 < count), *r = &of;
         wide4 qa = first_frame(bodies, r->body_a, FRAME_QUAD(frame_a)), qb = first_frame(bodies, r->body_b, FRAME_QUAD(frame_b));
         lane_softness soft = lock_softness(joints, r, c);
-        row->rate = soft.rate, row->fade = soft.fade;
+        row->rate = soft.rate, row->fade = soft.fade, row->rigid = soft.rigid;
         store4(row->first, w_product(qb, w_conjugate(qa)));
         row->inertia_a = gather_inertia(s, row->line.a), row->inertia_b = gather_inertia(s, row->line.b);
         row->shaped = shape_of(s, &row->line);
@@ -191,7 +189,7 @@ static void relax_fixed(fe__solver *s, void *rows, int32_t count, int32_t sides,
         TURN_INERTIA(row, load3(row->impulse), load3(row->impulse));
         place_fixed(row, s);
         spins e = gather_spins(s->velocity, &row->line);
-        wide3 change = minus(w_mul(&row->mass, w_sub(e.b, e.a))), impulse = w_add(load3(row->impulse), change);
+        wide3 change = w_scale(-row->rigid, w_mul(&row->mass, w_sub(e.b, e.a))), impulse = w_add(load3(row->impulse), change);
         store3(row->impulse, impulse);
         store3(row->total, w_add(load3(row->total), impulse));
         twist_ends(&e, &row->inertia_a, &row->inertia_b, change);
@@ -211,9 +209,10 @@ static void store_fixed(const fe__joints *joints, const fe__lane *lanes, const v
     }
 }
 
-// ---- turn
-// --------------------------------------------------------------------------------------------------------------------------------- With K
-// isotropic and given, or M w^2 with M = (IA^-1 + IB^-1)^-1, the drive is
+// ---- turn ------------------------------------------------------------------------------------------------------------------------------
+
+// With K isotropic and given, or M w^2
+// with M = (IA^-1 + IB^-1)^-1, the drive is
 //     change = -(S (v + push error + inner l) + outer l),   |l| <= cap h
 // given: c = 1 / (h (C + h K)), S = (M^-1 + c)^-1, push = h K c, inner = c;   hertz: S = (1 - fade) M, push = rate / (1 - fade), outer =
 // fade
@@ -222,9 +221,9 @@ typedef struct {
     wide error[3]; // world
     wide_sym drive_mass, mass;
     wide push, inner, outer, drive_cap;
-    wide impulse[3], motor_impulse[3]; // world
-    wide velocity[3];                  // wanted of B against A, world
-    wide motor_cap, shaped;
+    wide impulse[3], motor_impulse[3];  // world
+    wide velocity[3];                   // wanted of B against A, world
+    wide motor_cap, least_mass, shaped; // least_mass: at most what answers about any axis
     wide_sym inertia_a, inertia_b;
     wide total[3];
     wide first_a[4], first_b[4];
@@ -255,6 +254,7 @@ FE_INLINE void aim_turn(turn_row *row, const fe__step_constants *c)
     wide zero = w_set(0.0f), one = w_set(1.0f), omega = 2.0f * FE_PI * drive.x;
     wide_mask newtons = w_greater(drive.w, zero), on;
     wide_sym k = sum_sym(&row->inertia_a, &row->inertia_b);
+    row->least_mass = inverse_or_zero(trace(&k));
     k = give(k, trace(&k), w_greater(row->locked, zero));
     row->mass = inverse_scaled(&k);
     wide fade = 1.0f / (1.0f + c->h * omega * (2.0f * drive.y + c->h * omega));
@@ -316,7 +316,10 @@ FE_INLINE void drive_turn(turn_row *row, spins *e)
 FE_INLINE void run_motor(turn_row *row, spins *e)
 {
     wide3 impulse = load3(row->motor_impulse), over = w_sub(w_sub(e->b, e->a), load3(row->velocity));
-    wide3 after = shortened(w_sub(impulse, w_mul(&row->mass, over)), row->motor_cap);
+    wide3 after = w_sub(impulse, w_mul(&row->mass, over));
+    // what is too weak pushes along the speed that is missing, not where a skew inertia would need the torque
+    wide_mask weak = w_greater(w_dot(after, after), row->motor_cap * row->motor_cap);
+    after = w_choose3(weak, shortened(w_sub_scaled(impulse, row->least_mass, over), row->motor_cap), after);
     twist_ends(e, &row->inertia_a, &row->inertia_b, w_sub(after, impulse));
     store3(row->motor_impulse, after);
 }

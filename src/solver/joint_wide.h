@@ -24,8 +24,7 @@ enum {
     BOTH_SIDES = FE__MOVES_A | FE__MOVES_B
 };
 
-// ---- bodies
-// ------------------------------------------------------------------------------------------------------------------------------
+// ---- bodies ----------------------------------------------------------------------------------------------------------------------------
 FE_INLINE ends gather_ends(const fe__solver *s, const line_pair *line) { return (ends){gather_side(s, line->a), gather_side(s, line->b)}; }
 
 // what does not move is never written: all workers read it
@@ -74,8 +73,7 @@ FE_INLINE wide3 speed_between(const ends *e, wide3 ra, wide3 rb)
     return w_sub(w_add(e->b.v, w_cross(e->b.w, rb)), w_add(e->a.v, w_cross(e->a.w, ra)));
 }
 
-// ---- a vector that turns with a body
-// -----------------------------------------------------------------------------------------------------
+// ---- a vector that turns with a body ---------------------------------------------------------------------------------------------------
 FE_INLINE wide3 turn_of(const fe__solver *s, const int32_t *line, wide3 first) { return w_turn(gather_high(s->motion, line), first); }
 
 // anchors, by their arms from the centres, in world axes
@@ -90,9 +88,10 @@ FE_INLINE anchors anchors_now(const fe__solver *s, const line_pair *line, const 
     return (anchors){w_add(first->ra, ta), w_add(first->rb, tb), w_add(first->gap, w_add(w_sub(pb, pa), w_sub(tb, ta)))};
 }
 
-// ---- records
-// ------------------------------------------------------------------------------------------------------------------------------ The joints
-// of a row. Padding lanes stand for the first lane's joint, on lines of their own that nothing moves; they are never stored.
+// ---- records ---------------------------------------------------------------------------------------------------------------------------
+
+// The joints of a row.
+// Padding lanes stand for the first lane's joint, on lines of their own that nothing moves; they are never stored.
 typedef struct {
     int32_t joint[FE_W], body_a[FE_W], body_b[FE_W], axes[FE_W];
     int32_t real; // lanes before the padding
@@ -164,11 +163,14 @@ FE_INLINE anchors first_anchors(const fe__joints *joints, const fe__body *bodies
 // from the sum of a step's impulses to the mean force
 FE_INLINE float mean_of(const fe__step_constants *c) { return c->inverse_h / (float)c->substeps; }
 
-// ---- softness
-// ----------------------------------------------------------------------------------------------------------------------------- change = -m
-// ((1 - fade) v + rate C) - fade l. With w = 2 pi hertz:  fade = 1 / (1 + h w (2 zeta + h w)),  rate = h w^2 fade
+// ---- softness --------------------------------------------------------------------------------------------------------------------------
+
+// change = -m ((1 - fade) v + rate C) - fade l.
+// With w = 2 pi hertz:  fade = 1 / (1 + h w (2 zeta + h w)),  rate = h w^2 fade
+// A stiffness of its own is a spring, which swings: the rigid pass leaves it alone. The world's is a lock that gives.
 typedef struct {
     wide rate, fade;
+    wide rigid; // 1: relaxed rigidly, 0: a spring
 } lane_softness;
 
 // hertz 0: as `otherwise`
@@ -177,13 +179,14 @@ FE_INLINE lane_softness softness_of(wide hertz, wide ratio, const lane_softness 
     wide omega = 2.0f * FE_PI * w_min(hertz, w_set(c->joint_hertz));
     wide fade = 1.0f / (1.0f + c->h * omega * (2.0f * ratio + c->h * omega));
     wide_mask own = w_greater(hertz, w_set(0.0f));
-    return (lane_softness){w_choose(own, c->h * omega * omega * fade, otherwise->rate), w_choose(own, fade, otherwise->fade)};
+    return (lane_softness){w_choose(own, c->h * omega * omega * fade, otherwise->rate), w_choose(own, fade, otherwise->fade),
+                           w_choose(own, w_set(0.0f), otherwise->rigid)};
 }
 
 // of a joint's locks
 FE_INLINE lane_softness lock_softness(const fe__joints *joints, const row_joints *r, const fe__step_constants *c)
 {
-    lane_softness world = {w_set(c->joint.mass_scale * c->joint.bias_rate), w_set(c->joint.impulse_scale)};
+    lane_softness world = {w_set(c->joint.mass_scale * c->joint.bias_rate), w_set(c->joint.impulse_scale), w_set(1.0f)};
     return softness_of(JOINT_QUAD(arm_a).w, JOINT_QUAD(arm_b).w, &world, c);
 }
 
@@ -214,8 +217,7 @@ FE_INLINE wide_sym sum_sym(const wide_sym *a, const wide_sym *b)
     return (wide_sym){a->xx + b->xx, a->xy + b->xy, a->xz + b->xz, a->yy + b->yy, a->yz + b->yz, a->zz + b->zz};
 }
 
-// ---- rotations
-// ----------------------------------------------------------------------------------------------------------------------------
+// ---- rotations -------------------------------------------------------------------------------------------------------------------------
 FE_INLINE wide4 load4(const wide *p) { return (wide4){p[0], p[1], p[2], p[3]}; }
 FE_INLINE void store4(wide *p, wide4 a) { p[0] = a.x, p[1] = a.y, p[2] = a.z, p[3] = a.w; }
 FE_INLINE wide4 first_frame(const fe__body *bodies, const int32_t *body, wide4 frame)
@@ -279,8 +281,7 @@ FE_INLINE wide3 frame_axis(wide4 q, int k)
     return turned(q, e);
 }
 
-// ---- bodies that only turn
-// ------------------------------------------------------------------------------------------------------------------
+// ---- bodies that only turn -------------------------------------------------------------------------------------------------------------
 typedef struct {
     wide3 a, b;
     wide locks_a, locks_b;
@@ -298,7 +299,7 @@ FE_INLINE void scatter_spins(float (*lines)[FE__LINE], const line_pair *line, co
     if (sides & FE__MOVES_B) w_scatter(lines[0] + 4, FE__LINE, line->b, w_with(e->b, e->locks_b));
 }
 
-// ---- inertia that turns ---------------------------------------------------------------------------------------------------------------
+// ---- inertia that turns ----------------------------------------------------------------------------------------------------------------
 // sin^2 of half the angle from which on a body's turn within the step counts for its inertia: 0.02 rad
 #define TURNED 1e-4f
 

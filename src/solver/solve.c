@@ -129,8 +129,7 @@ static const pass *pass_at(const program *p, int32_t i)
     return p->passes + p->prologue + p->substep + (i - p->prologue - looped);
 }
 
-// ---- one block of one pass
-// ----------------------------------------------------------------------------------------------------------------
+// ---- one block of one pass -------------------------------------------------------------------------------------------------------------
 static void run_lines(const job *j, const fe__batch *b, verb verb, int32_t block)
 {
     int32_t first = b->first_line + block * LINES_IN_BLOCK, count = fe__mini(LINES_IN_BLOCK, b->first_line + b->line_count - first);
@@ -220,8 +219,7 @@ static void run_block(const job *j, const fe__batch *b, const pass *p, unsigned 
     run_rows(j, g, p->verb, rows, first, fe__mini(rows_in_block, g->rows - first));
 }
 
-// ---- a small batch, whole
-// --------------------------------------------------------------------------------------------------------------------
+// ---- a small batch, whole --------------------------------------------------------------------------------------------------------------
 static void run_batch(const job *j, const fe__batch *b, unsigned char *rows)
 {
     const fe__group *groups = j->s->groups + b->first_group;
@@ -251,8 +249,7 @@ static void run_small_batches(void *argument, int32_t worker)
     }
 }
 
-// ---- a large batch, together
-// --------------------------------------------------------------------------------------------------------------------
+// ---- a large batch, together -----------------------------------------------------------------------------------------------------------
 static int32_t claim_block(job *j, uint64_t pass_index, int32_t blocks)
 {
     uint64_t claim = atomic_load_explicit(&j->claim, memory_order_acquire);
