@@ -8,25 +8,55 @@
 
 // cos 1.8 degrees: normals of one patch
 #define SAME_NORMAL 0.9995f
-// Deeper below a triangle than this share of half its smallest width a form does not feel it: three quarters of that width
+// of half the smallest width: a form's centre below, but less than a quarter of that width deep. Half would lose what is pressed hard, all
+// would let a thin ridge push out what leans on its other side
 #define FELT 1.5f
 
-// ---- patches
-// ------------------------------------------------------------------------------------------------------------------------------ Leaves at
-// most `most` (4) of the points; a point's index goes through the clipper's id.
-static void reduce(fe__raw_patch *p, float tie)
+// By separation; equal ones stay in their order.
+static void sort(fe__manifold_point *points, int32_t count)
+{
+    for (int32_t i = 1; i < count; ++i) {
+        fe__manifold_point p = points[i];
+        int32_t k = i;
+        for (; k > 0 && points[k - 1].separation > p.separation; --k) points[k] = points[k - 1];
+        points[k] = p;
+    }
+}
+
+// Leaves at most four of the first `count` points; a point's index goes through the clipper's id.
+static int32_t widest_four(fe__raw_patch *p, int32_t count, float tie)
 {
     fe_vec3 n = p->normal, a = fe__absf(n.x) < 0.7f ? fe__vec3(1.0f, 0.0f, 0.0f) : fe__vec3(0.0f, 1.0f, 0.0f), u = fe__cross(n, a);
     u = fe__scale(1.0f / fe__length(u), u);
     fe_vec3 v = fe__cross(n, u);
     fe__clip_vertex vertex[FE__RAW_POINTS];
     fe__manifold_point kept[FE_MAX_POINTS];
-    for (int32_t i = 0; i < p->count; ++i)
+    for (int32_t i = 0; i < count; ++i)
         vertex[i] = (fe__clip_vertex){fe__dot(u, p->points[i].point), fe__dot(v, p->points[i].point), p->points[i].separation, (uint32_t)i};
-    int32_t count = fe__reduce_to_four(vertex, p->count, tie);
+    count = fe__reduce_to_four(vertex, count, tie);
     for (int32_t i = 0; i < count; ++i) kept[i] = p->points[vertex[i].id];
     for (int32_t i = 0; i < count; ++i) p->points[i] = kept[i];
-    p->count = count;
+    return count;
+}
+
+// At most four points. Those that touch, or soon will, span the patch; what stands off comes after them, nearest first: on uneven ground
+// the widest four of all would leave out what carries.
+static void reduce(fe__raw_patch *p, float tie)
+{
+    const float soon = 0.005f; // m, the slop
+    if (p->count <= FE_MAX_POINTS) return;
+    int32_t near = 0;
+    for (int32_t i = 0; i < p->count; ++i) {
+        if (p->points[i].separation > fe__maxf(p->deepest, 0.0f) + soon) continue;
+        fe__manifold_point here = p->points[i];
+        p->points[i] = p->points[near];
+        p->points[near++] = here;
+    }
+    if (near < FE_MAX_POINTS) {
+        sort(p->points + near, p->count - near);
+        p->count = FE_MAX_POINTS;
+    } else
+        p->count = widest_four(p, near, tie);
 }
 
 static void add_point(fe__raw_patch *p, const fe__manifold_point *point, int32_t cell, int32_t single)
@@ -36,9 +66,10 @@ static void add_point(fe__raw_patch *p, const fe__manifold_point *point, int32_t
         if (point->separation >= p->points[0].separation) return;
         p->count = 0;
     }
-    // a feature of the body over a seam lies on both triangles
+    // what lies over a seam lies on both triangles
     for (int32_t i = 0; i < p->count; ++i) {
-        if (p->points[i].id != point->id) continue;
+        fe_vec3 away = fe__sub(p->points[i].point, point->point);
+        if (p->points[i].id != point->id && fe__dot(away, away) > tie * tie) continue;
         if (point->separation < p->points[i].separation) p->points[i] = *point;
         if (point->separation < p->deepest) p->deepest = point->separation, p->cell = cell;
         return;
@@ -85,6 +116,16 @@ void fe__gather(fe__gathering *g, const fe__tile *tile, fe_vec3 normal, fe_vec3 
 
 // ---- the walk
 // -------------------------------------------------------------------------------------------------------------------------------
+// How deep the centre of B is under the ground, but no deeper than B reaches: a body that was pressed or spun into the ground comes up
+// again, one far below is left alone. Else 0.
+static double sunk(const fe__terrain *t, const fe__form *b)
+{
+    double height;
+    if (!fe__heightfield_height(t->field, t->origin, &height)) return 0.0;
+    double depth = height - t->origin.y;
+    return depth > 0.0 && depth <= (double)fe__form_reach(b, fe__vec3(0.0f, 0.0f, 0.0f)) ? depth : 0.0;
+}
+
 static fe__bounds bounds_around(const fe__terrain *t, const fe__form *b, const fe__mat3 *r, float margin)
 {
     fe_vec3 half = b->half;
@@ -101,6 +142,9 @@ static void gather_all(fe__gathering *g, const fe__form *b, const fe__mat3 *rota
     const fe__terrain *t = g->terrain;
     fe_vec3 axis = fe__scale(b->half_height, rotation->y), ends[2] = {fe__neg(axis), axis};
     fe__bounds box = bounds_around(t, b, rotation, g->margin);
+    double depth = sunk(t, b);
+    box.high.y += depth;
+    if (depth > 0.0) g->felt = FLT_MAX;
     fe__triangle_walk walk = fe__heightfield_walk(t->field, &box, t->origin);
     fe__form triangle;
     for (int32_t i; (i = fe__next_triangle(&walk, &triangle)) >= 0;) {

@@ -70,6 +70,23 @@ static int32_t find_axis(contest *c)
     return 1;
 }
 
+// A direction that is nearly a face's: the face, so that a box lying on a ridge has all its points. The triangle's first: its normal does not turn with
+// the box, and is the same in the next step.
+static void prefer_face(contest *c)
+{
+    fe_vec3 m = c->best.m;
+    if (fe__dot(m, c->tile->normal) > FE_FACE_COS) {
+        c->best = (axis){.kind = ON_FACE, .m = c->tile->normal};
+        return;
+    }
+    if (c->best.kind != ON_EDGES) return;
+    for (int32_t j = 0; j < 3; ++j) {
+        float along = fe__dot(m, c->axes[j]);
+        if (fe__absf(along) > FE_FACE_COS)
+            c->best = (axis){.kind = ON_BOX_FACE, .box_axis = j, .m = along > 0.0f ? c->axes[j] : fe__neg(c->axes[j])};
+    }
+}
+
 // ---- faces ------------------------------------------------------------------------------------------------------------------------------
 static void project(const fe_vec3 *points, int32_t count, fe_vec3 origin, const fe__mat3 *frame, fe__clip_vertex *out)
 {
@@ -100,7 +117,7 @@ static void cut_faces(contest *c, const fe_vec3 *reference, int32_t reference_co
     int32_t count = fe__clip_polygon(side, reference_count, vertex, incident_count, slack);
     for (int32_t i = 0; i < count; ++i) {
         float height = vertex[i].height;
-        if (height > c->g->margin || height < -c->g->felt) continue;
+        if (height > c->g->margin || !fe__tile_feels(c->g, c->tile, height)) continue;
         fe_vec3 p = fe__add_scaled(reference[0], vertex[i].u, frame.x);
         p = fe__add_scaled(fe__add_scaled(p, vertex[i].v, frame.y), 0.5f * height, frame.z);
         uint32_t feature = body_id << 16 | vertex[i].id;
@@ -124,20 +141,22 @@ static void touch_box_face(contest *c)
 }
 
 // ---- edges ------------------------------------------------------------------------------------------------------------------------------
-// The box's edge along x_j that is deepest against m, and the triangle's side: the point between the nearest points of their lines.
-static void touch_edges(contest *c)
+// The box's edge along x_j that is deepest against m, and the triangle's side: the point between the nearest points of their lines. 0: the
+// two do not cross, because what they would say better is not allowed here.
+static int32_t touch_edges(contest *c)
 {
     int32_t j = c->best.box_axis, k = c->best.side;
     fe_vec3 m = c->best.m, p = {0.0f, 0.0f, 0.0f}, d = c->axes[j];
     for (int32_t i = 0; i < 3; ++i)
         if (i != j) p = fe__add_scaled(p, fe__dot(m, c->axes[i]) > 0.0f ? -c->half[i] : c->half[i], c->axes[i]);
     fe_vec3 q = c->tile->form.vertex[k], e = fe__sub(c->tile->form.vertex[(k + 1) % 3], q), r = fe__sub(p, q);
-    float ee = fe__dot(e, e), de = fe__dot(d, e), det = ee - de * de;
-    if (!(det > 0.0f)) return;
-    float u = fe__clampf((fe__dot(e, r) - de * fe__dot(d, r)) / det, 0.0f, 1.0f);
+    float ee = fe__dot(e, e), de = fe__dot(d, e), dr = fe__dot(d, r), er = fe__dot(e, r), det = ee - de * de;
+    float u = (er - de * dr) / det, s = (de * er - ee * dr) / det;
+    if (!(fe__absf(s) <= c->half[j] + c->tie && u * u * ee <= ee && u >= 0.0f)) return 0;
     fe_vec3 on_side = fe__add_scaled(q, u, e);
     fe__gather(c->g, c->tile, m, fe__add_scaled(on_side, 0.5f * c->best.separation, m), c->best.separation,
                fe__tile_id(c->tile, (uint32_t)(1 + 4 * j + k)));
+    return 1;
 }
 
 void fe__tile_touch_box(fe__gathering *g, const fe__tile *tile, const fe__form *box, const fe__mat3 *rotation)
@@ -148,12 +167,11 @@ void fe__tile_touch_box(fe__gathering *g, const fe__tile *tile, const fe__form *
     fe_vec3 n = tile->normal;
     float centre = -fe__dot(n, tile->form.vertex[0]), r = reach(&c, n);
     c.best = (axis){.kind = ON_FACE, .m = n, .separation = centre - r};
-    if (c.best.separation > g->margin || centre + r < 0.0f) return; // too far above, or wholly below
+    if (c.best.separation > g->margin || !fe__tile_feels(g, tile, centre + r)) return;
     if (tile->convex && !find_axis(&c)) return;
-    if (c.best.kind == ON_FACE)
-        touch_face(&c);
-    else if (c.best.kind == ON_BOX_FACE)
+    prefer_face(&c);
+    if (c.best.kind == ON_BOX_FACE)
         touch_box_face(&c);
-    else
-        touch_edges(&c);
+    else if (c.best.kind == ON_FACE || !touch_edges(&c))
+        touch_face(&c);
 }

@@ -30,7 +30,7 @@ static void cut(stretch *part, float a, float b, float most)
 static void gather(fe__gathering *g, const fe__tile *tile, fe_vec3 normal, fe_vec3 core, float height, float radius, uint32_t id)
 {
     float separation = height - radius;
-    if (separation > g->margin || separation < -g->felt) return;
+    if (separation > g->margin || !fe__tile_feels(g, tile, separation)) return;
     fe__gather(g, tile, normal, fe__add_scaled(core, -0.5f * (height + radius), normal), separation, id);
 }
 
@@ -98,7 +98,7 @@ void fe__tile_touch_round(fe__gathering *g, const fe__tile *tile, const fe_vec3 
     const float slack = 1e-5f; // of the triangle's size: what lies over a seam lies over both its sides
     const fe_vec3 v = tile->form.vertex[0], n = tile->normal;
     float a = fe__dot(n, fe__sub(ends[0], v)), b = fe__dot(n, fe__sub(ends[1], v));
-    if (fe__minf(a, b) - radius > g->margin || fe__maxf(a, b) - radius < -g->felt) return;
+    if (fe__minf(a, b) - radius > g->margin || !fe__tile_feels(g, tile, fe__maxf(a, b) - radius)) return;
     touch_face(g, tile, ends, radius, slack * tile->size);
     for (int32_t k = 0; k < 3; ++k) {
         if (!(tile->convex >> k & 1)) continue;

@@ -70,8 +70,7 @@ fe__tile fe__tile_of(const fe__terrain *t, const fe__form *triangle, int32_t ind
 // ---- beyond the border ------------------------------------------------------------------------------------------------------------------
 static fe_dvec3 into(const fe__neighbour *n, fe_vec3 p) { return fe__dadd(n->position, fe__widen(fe__mul_transposed(&n->axes, p))); }
 
-// 1 and the height of the surface at x, z of p (its frame)
-static int32_t height_at(const fe__heightfield *f, fe_dvec3 p, double *height)
+int32_t fe__heightfield_height(const fe__heightfield *f, fe_dvec3 p, double *height)
 {
     double x = p.x / f->cell_x, z = p.z / f->cell_z, columns = (double)(f->columns - 1), rows = (double)(f->rows - 1);
     if (!(x >= -BESIDE && x <= columns + BESIDE && z >= -BESIDE && z <= rows + BESIDE)) return 0;
@@ -90,7 +89,9 @@ static int32_t neighbour_rises(const fe__terrain *t, fe_vec3 p, fe_vec3 way, fe_
         const fe__neighbour *n = t->neighbours + i;
         fe_dvec3 here = into(n, p), there = into(n, fe__add(p, way));
         double height, further, apart = 0.1 * (double)fe__length(way);
-        if (!height_at(n->field, here, &height) || fe__absd(height - here.y) > apart || !height_at(n->field, there, &further)) continue;
+        if (!fe__heightfield_height(n->field, here, &height) || fe__absd(height - here.y) > apart ||
+            !fe__heightfield_height(n->field, there, &further))
+            continue;
         fe_dvec3 rise = {there.x - here.x, further - height, there.z - here.z};
         if (rises(m, fe__mul(&n->axes, fe__narrow(rise)))) return 1;
     }

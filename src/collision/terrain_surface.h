@@ -34,11 +34,20 @@ typedef struct fe__raw_patch {
 typedef struct fe__gathering {
     const fe__terrain *terrain;
     float margin;
-    float felt;     // deeper than this below a triangle is not felt by it, m
+    float felt;     // m, see fe__tile_feels
     int32_t single; // one point a patch
     int32_t count;
     fe__raw_patch patches[FE__PATCHES + 1];
 } fe__gathering;
+
+// A surface has no inside: what is far below a triangle is not felt by it, unless the body's centre is above it, or under the ground.
+static inline int32_t fe__tile_feels(const fe__gathering *g, const fe__tile *tile, float separation)
+{
+    return separation >= -g->felt || fe__dot(tile->normal, tile->form.vertex[0]) <= 0.0f;
+}
+
+// 1 and the height of the surface at x and z of p, all in the field's frame; 0 beside it and in holes.
+int32_t fe__heightfield_height(const fe__heightfield *field, fe_dvec3 p, double *height);
 
 void fe__gather(fe__gathering *g, const fe__tile *tile, fe_vec3 normal, fe_vec3 point, float separation, uint32_t id);
 
