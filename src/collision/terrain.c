@@ -12,17 +12,6 @@
 // would let a thin ridge push out what leans on its other side
 #define FELT 1.5f
 
-// By separation; equal ones stay in their order.
-static void sort(fe__manifold_point *points, int32_t count)
-{
-    for (int32_t i = 1; i < count; ++i) {
-        fe__manifold_point p = points[i];
-        int32_t k = i;
-        for (; k > 0 && points[k - 1].separation > p.separation; --k) points[k] = points[k - 1];
-        points[k] = p;
-    }
-}
-
 // Leaves at most four of the first `count` points; a point's index goes through the clipper's id.
 static int32_t widest_four(fe__raw_patch *p, int32_t count, float tie)
 {
@@ -39,42 +28,61 @@ static int32_t widest_four(fe__raw_patch *p, int32_t count, float tie)
     return count;
 }
 
-// At most four points. Those that touch, or soon will, span the patch; what stands off comes after them, nearest first: on uneven ground
-// the widest four of all would leave out what carries.
-static void reduce(fe__raw_patch *p, float tie)
+static void swap(fe__raw_patch *p, int32_t i, int32_t j)
 {
-    const float soon = 0.005f; // m, the slop
-    if (p->count <= FE_MAX_POINTS) return;
-    int32_t near = 0;
-    for (int32_t i = 0; i < p->count; ++i) {
-        if (p->points[i].separation > fe__maxf(p->deepest, 0.0f) + soon) continue;
-        fe__manifold_point here = p->points[i];
-        p->points[i] = p->points[near];
-        p->points[near++] = here;
-    }
-    if (near < FE_MAX_POINTS) {
-        sort(p->points + near, p->count - near);
-        p->count = FE_MAX_POINTS;
-    } else
-        p->count = widest_four(p, near, tie);
+    fe__manifold_point here = p->points[i];
+    p->points[i] = p->points[j];
+    p->points[j] = here;
 }
 
-static void add_point(fe__raw_patch *p, const fe__manifold_point *point, int32_t cell, int32_t single)
+// The point beyond the first `chosen` that is farthest from all of them comes next.
+static void choose_farthest(fe__raw_patch *p, int32_t chosen)
 {
-    const float tie = 5e-5f; // m, a hundredth of the slop
-    if (single && p->count) {
+    int32_t best = chosen;
+    float most = -1.0f;
+    for (int32_t i = chosen; i < p->count; ++i) {
+        float least = FLT_MAX;
+        for (int32_t k = 0; k < chosen; ++k) {
+            fe_vec3 away = fe__sub(p->points[i].point, p->points[k].point);
+            least = fe__minf(least, fe__dot(away, away));
+        }
+        if (least > most) most = least, best = i;
+    }
+    swap(p, chosen, best);
+}
+
+// At most four points. Those that touch span the patch; what stands off comes after them: on uneven ground the widest four of all would
+// leave out what carries.
+static void reduce(fe__raw_patch *p, float tie)
+{
+    const float touching = 0.001f; // m, a few overlaps of a body at rest
+    if (p->count <= FE_MAX_POINTS) return;
+    int32_t near = 0;
+    for (int32_t i = 0; i < p->count; ++i)
+        if (p->points[i].separation <= fe__maxf(p->deepest, 0.0f) + touching) swap(p, i, near++);
+    if (near >= FE_MAX_POINTS) {
+        p->count = widest_four(p, near, tie);
+        return;
+    }
+    for (; near < FE_MAX_POINTS; ++near) choose_farthest(p, near);
+    p->count = FE_MAX_POINTS;
+}
+
+static void add_point(const fe__gathering *g, fe__raw_patch *p, const fe__manifold_point *point, int32_t cell)
+{
+    if (g->single && p->count) {
         if (point->separation >= p->points[0].separation) return;
         p->count = 0;
     }
     // what lies over a seam lies on both triangles
     for (int32_t i = 0; i < p->count; ++i) {
         fe_vec3 away = fe__sub(p->points[i].point, point->point);
-        if (p->points[i].id != point->id && fe__dot(away, away) > tie * tie) continue;
+        if (p->points[i].id != point->id && fe__dot(away, away) > g->same_place * g->same_place) continue;
         if (point->separation < p->points[i].separation) p->points[i] = *point;
         if (point->separation < p->deepest) p->deepest = point->separation, p->cell = cell;
         return;
     }
-    if (p->count == FE__RAW_POINTS) reduce(p, tie);
+    if (p->count == FE__RAW_POINTS) reduce(p, g->tie);
     p->points[p->count++] = *point;
     if (point->separation < p->deepest) p->deepest = point->separation, p->cell = cell;
 }
@@ -93,7 +101,7 @@ static void merge_most_similar(fe__gathering *g)
     }
     fe__raw_patch *into = g->patches + a, *from = g->patches + b;
     if (from->deepest < into->deepest) into->normal = from->normal, into->material = from->material;
-    for (int32_t i = 0; i < from->count; ++i) add_point(into, from->points + i, from->cell, g->single);
+    for (int32_t i = 0; i < from->count; ++i) add_point(g, into, from->points + i, from->cell);
     *from = g->patches[--g->count];
 }
 
@@ -106,11 +114,11 @@ void fe__gather(fe__gathering *g, const fe__tile *tile, fe_vec3 normal, fe_vec3 
         fe__raw_patch *patch = g->patches + i;
         if (patch->material != material || fe__dot(patch->normal, normal) < SAME_NORMAL) continue;
         if (separation < patch->deepest) patch->normal = normal;
-        add_point(patch, &p, cell, g->single);
+        add_point(g, patch, &p, cell);
         return;
     }
     g->patches[g->count++] = (fe__raw_patch){.normal = normal, .cell = cell, .material = material, .deepest = FLT_MAX};
-    add_point(g->patches + g->count - 1, &p, cell, g->single);
+    add_point(g, g->patches + g->count - 1, &p, cell);
     if (g->count > FE__PATCHES) merge_most_similar(g);
 }
 
@@ -170,12 +178,12 @@ int32_t fe__collide_terrain(const fe__terrain *t, const fe__form *b, const fe__m
 {
     fe__gathering g;
     g.terrain = t, g.margin = margin, g.felt = FELT * fe__form_thickness(b), g.single = b->type == FE_GEOMETRY_SPHERE, g.count = 0;
+    g.tie = 0.1f * fe__tie(fe__form_thickness(b)), g.same_place = fe__minf(0.002f, 0.02f * fe__form_thickness(b));
     gather_all(&g, b, rotation);
     if (!g.count) *gap = gap_around(t, b, rotation, margin);
-    float tie = 0.1f * fe__tie(fe__form_thickness(b));
     for (int32_t i = 0; i < g.count; ++i) {
         fe__raw_patch *raw = g.patches + i;
-        reduce(raw, tie);
+        reduce(raw, g.tie);
         patches[i] = (fe__patch){.normal = raw->normal, .count = raw->count, .cell = raw->cell};
         for (int32_t k = 0; k < raw->count; ++k) patches[i].points[k] = raw->points[k];
     }

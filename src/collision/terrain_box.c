@@ -70,8 +70,8 @@ static int32_t find_axis(contest *c)
     return 1;
 }
 
-// A direction that is nearly a face's: the face, so that a box lying on a ridge has all its points. The triangle's first: its normal does not turn with
-// the box, and is the same in the next step.
+// A direction that is nearly a face's: the face, so that a box lying on a ridge has all its points. The triangle's first: its normal does
+// not turn with the box, and is the same in the next step.
 static void prefer_face(contest *c)
 {
     fe_vec3 m = c->best.m;

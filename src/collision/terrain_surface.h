@@ -34,8 +34,10 @@ typedef struct fe__raw_patch {
 typedef struct fe__gathering {
     const fe__terrain *terrain;
     float margin;
-    float felt;     // m, see fe__tile_feels
-    int32_t single; // one point a patch
+    float felt;       // m, see fe__tile_feels
+    float tie;        // m, points as deep as each other
+    float same_place; // m, points of two triangles at their seam
+    int32_t single;   // one point a patch
     int32_t count;
     fe__raw_patch patches[FE__PATCHES + 1];
 } fe__gathering;
