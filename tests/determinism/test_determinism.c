@@ -227,6 +227,13 @@ static void bodies_far_away_change_no_trajectory_in_a_crowd(void **state)
     compare_with_strangers(&script_crowd, STRANGER_STEPS, add_strangers, NULL);
 }
 
+static void bodies_far_away_change_no_trajectory_on_terrain(void **state)
+{
+    (void)state;
+    compare_with_strangers(&script_terrain, STRANGER_STEPS, add_strangers, NULL);
+    compare_with_strangers(&script_terrain, STRANGER_STEPS, NULL, add_strangers);
+}
+
 static void bodies_that_came_and_went_change_no_trajectory(void **state)
 {
     (void)state;
@@ -241,8 +248,8 @@ static int update(void)
 {
     FILE *file = fopen(GOLDEN, "w");
     if (!file) return 1;
-    const script *const scripts[] = {&script_crowd, &script_mixed};
-    for (int32_t i = 0; i < 2; ++i) {
+    const script *const scripts[] = {&script_crowd, &script_mixed, &script_terrain};
+    for (int32_t i = 0; i < 3; ++i) {
         fe_world *world = new_world(FE_SIMD_PLAIN, 1);
         play_print(file, scripts[i], world, scripts[i]->steps);
         fe_world_destroy(world);
@@ -262,20 +269,26 @@ int main(int count, char **arguments)
     const struct CMUnitTest tests[] = {
         GOLDEN_TEST(crowd, "plain", FE_SIMD_PLAIN),
         GOLDEN_TEST(mixed, "plain", FE_SIMD_PLAIN),
+        GOLDEN_TEST(terrain, "plain", FE_SIMD_PLAIN),
 #if defined(__x86_64__)
         GOLDEN_TEST(crowd, "sse2", FE_SIMD_SSE2),
         GOLDEN_TEST(crowd, "avx2", FE_SIMD_AVX2),
         GOLDEN_TEST(crowd, "avx512", FE_SIMD_AVX512),
+        GOLDEN_TEST(terrain, "sse2", FE_SIMD_SSE2),
+        GOLDEN_TEST(terrain, "avx2", FE_SIMD_AVX2),
+        GOLDEN_TEST(terrain, "avx512", FE_SIMD_AVX512),
         GOLDEN_TEST(mixed, "sse2", FE_SIMD_SSE2),
         GOLDEN_TEST(mixed, "avx2", FE_SIMD_AVX2),
         GOLDEN_TEST(mixed, "avx512", FE_SIMD_AVX512),
 #elif defined(__aarch64__)
         GOLDEN_TEST(crowd, "neon", FE_SIMD_NEON),
         GOLDEN_TEST(mixed, "neon", FE_SIMD_NEON),
+        GOLDEN_TEST(terrain, "neon", FE_SIMD_NEON),
 #endif
         cmocka_unit_test(crowd_has_more_than_1000_contacts),
         cmocka_unit_test(bodies_far_away_change_no_trajectory),
         cmocka_unit_test(bodies_far_away_change_no_trajectory_in_a_crowd),
+        cmocka_unit_test(bodies_far_away_change_no_trajectory_on_terrain),
         cmocka_unit_test(bodies_that_came_and_went_change_no_trajectory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
