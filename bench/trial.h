@@ -84,6 +84,9 @@ void bench_trial_free(bench_trial *trial);
 int32_t bench_trial_passed(const bench_trial *trial);
 int32_t bench_check_passed(const bench_trial *trial, const bench_check *check);
 
+/// Why Feather does not hold this check yet; NULL when it should (cases/known.c).
+const char *bench_known_cause(const bench_trial *trial, const bench_check *check);
+
 // ---- for judges -------------------------------------------------------------------------------------------------------------------
 
 void bench_expect(bench_trial *trial, const char *what, double value, double low, double high);

@@ -42,7 +42,8 @@ static void build_inclined_plane(bench_scene *s)
 
 static void judge_inclined_plane(bench_trial *t)
 {
-    static const char *const ways[ON_PLANE] = {"friction 0.2: way / a t2/2", "friction 0.4", "friction 0.6", "friction 0.8", ""};
+    static const char *const ways[ON_PLANE] = {"friction 0.2: way / a t2/2", "friction 0.4: way / a t2/2", "friction 0.6: way / a t2/2",
+                                               "friction 0.8: way / a t2/2", ""};
     const double h = t->substeps > 0 ? (double)t->scene.dt / t->substeps : (double)t->scene.dt;
     for (int32_t i = 0; i < 4; i++) {
         const double a = GRAVITY * (sin(STEEP) - 0.2 * (i + 1) * cos(STEEP));

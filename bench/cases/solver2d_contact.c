@@ -30,20 +30,22 @@ static void build_friction_ramp(bench_scene *s)
         bench_add_dynamic(s, bench_box(s, 0.5, 0.5, 0.5, 25.0, friction[i]), -15.0 + 4.0 * i, 28.0, 0.0);
 }
 
+// The third box's friction exceeds the slope's by 3.6 % only: whether it stops in time after its fall is not certain. The clean law is the
+// next case.
 static void judge_friction_ramp(bench_trial *t)
 {
     double fastest = 0.0, lowest_held = HUGE_VAL, highest_gone = -HUGE_VAL;
     for (int32_t i = 0; i < RAMP_BOXES; i++) {
         const bench_pose *p = &t->poses[RAMP_PARTS + i];
         const double above_ramp = p->position[1] - 22.0 + tan(RAMP) * (p->position[0] + 4.0); // of the first ramp's middle line
-        if (i < 3) {
+        if (i < 2) {
             fastest = fmax(fastest, bench_speed(t, RAMP_PARTS + i));
             lowest_held = fmin(lowest_held, above_ramp);
-        } else {
+        } else if (i > 2) {
             highest_gone = fmax(highest_gone, p->position[1]);
         }
     }
-    bench_expect(t, "the three rough boxes: largest speed, m/s", fastest, 0.0, 0.01);
+    bench_expect(t, "the two rough boxes: largest speed, m/s", fastest, 0.0, 0.01);
     bench_expect(t, "and height above the first ramp, m", lowest_held, 0.25, 2.0);
     bench_expect(t, "the two smooth ones: largest height, m", highest_gone, 0.0, 17.0);
 }
@@ -154,7 +156,10 @@ static void judge_rush(bench_trial *t)
     // m. The squared distances of an even disc have the mean R2 / 2.
     bench_expect(t, "radius of the crowd, m", sqrt(2.0 * squares / RUSHING), 10.0, 11.5);
     bench_expect(t, "speed of the balls (rms), m/s", sqrt(sum / RUSHING), 0.0, 0.2);
-    bench_expect(t, BENCH_DEEPEST, bench_deepest(t), 0.0, 4.0 * BENCH_LINEAR_SLOP);
+    // At the centre discs press each other with F = pressure x diameter / sqrt 3, 6.8 kN, on average. Forces in a jammed crowd are spread
+    // like exp(-1.5 F / mean) (Mueth, Jaeger, Nagel 1998): of 1200 contacts the largest bears some ln(1200) / 1.5 = 4.7 times that.
+    const double mass = t->masses[1], mean = 6800.0 / (0.5 * mass * bench_contact_stiffness(t, 0));
+    bench_expect(t, BENCH_DEEPEST, bench_deepest(t), 0.0, 4.7 * mean + BENCH_LINEAR_SLOP);
 }
 
 // ---- double domino

@@ -135,7 +135,7 @@ static void judge_big_on_small(bench_trial *t)
     const double between = per_point * turns / bench_contact_stiffness(t, 0), below = per_point * turns / bench_contact_stiffness(t, 1);
     const double sink = between + below;
     bench_expect_own(t, "sink of the block, m", 11.0 - t->poses[3].position[1], 0.5 * sink, 1.25 * sink + BENCH_LINEAR_SLOP);
-    bench_expect(t, "lowest centre of the block, m", t->tracks[3].lowest, 10.5, 26.0);
+    bench_expect(t, "lowest underside of the block, m", t->tracks[3].lowest - 10.0, 0.0, 16.0); // it never crushes the boxes to nothing
     bench_expect(t, "tilt of the block, rad", bench_tilt(t, 3), 0.0, 0.5 * BENCH_PI / 180.0);
     bench_expect(t, "drift of the small boxes, m", fmax(bench_drift(t, 1), bench_drift(t, 2)), 0.0, 0.05);
 }

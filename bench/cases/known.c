@@ -1,0 +1,39 @@
+// What Feather does not hold yet, each with its cause (bench_known_cause). A miss that is not listed here is a regression; one that holds
+// again is to be taken off the list.
+#include "../trial.h"
+
+#include <string.h>
+
+#define IMPACT "an impact of a body hundreds of times as heavy passes on through light ones by one sweep a substep; more substeps narrow it"
+#define FEW_SUBSTEPS "four substeps are too few for it; it holds with eight"
+
+static const struct known {
+    const char *scene;
+    int32_t substeps; // 0: any
+    const char *what;
+    const char *cause;
+} known[] = {
+    {"warm-start-energy", 4, "highest middle ball afterwards, m", "the impulses stored under the load outlive it by a step; " FEW_SUBSTEPS},
+    {"warm-start-energy-2d", 4, "highest middle ball afterwards, m",
+     "the impulses stored under the load outlive it by a step; " FEW_SUBSTEPS},
+    {"high-mass-ratio-1", 0, "largest drift, m", IMPACT},
+    {"high-mass-ratio-1", 0, "largest tilt, rad", IMPACT},
+    {"high-mass-ratio-1-2d", 0, "largest drift, m", IMPACT},
+    {"high-mass-ratio-1-2d", 0, "largest tilt, rad", IMPACT},
+    {"high-mass-ratio-2-2d", 4, "sink of the block, m", IMPACT},
+    {"high-mass-ratio-3-2d", 4, "sink of the block, m", IMPACT},
+    {"card-house", 4, "largest way of a card, m", "cards of 2 mm; " FEW_SUBSTEPS},
+    {"card-house", 4, "largest tilt, rad", "cards of 2 mm; " FEW_SUBSTEPS},
+    {"inclined-plane", 4, "friction 0.8: way / a t2/2", FEW_SUBSTEPS},
+    {"door", 4, "largest joint gap, m", "its hinges ask for 120 Hz, of which four substeps allow 60"},
+};
+
+const char *bench_known_cause(const bench_trial *t, const bench_check *c)
+{
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        const struct known *k = &known[i];
+        if (strcmp(k->scene, t->scene.name) == 0 && strcmp(k->what, c->what) == 0 && (k->substeps == 0 || k->substeps == t->substeps))
+            return k->cause;
+    }
+    return NULL;
+}
