@@ -89,7 +89,16 @@ static fe_result part_groups(const bench_world *w, const bench_scene *scene)
 }
 
 // ---- joints -----------------------------------------------------------------------------------------------------------------------------
-#define OWN_DAMPING_RATIO 2.0f // of joints with a stiffness of their own: as those of the world's
+// Stiffness of joints that other engines set one by one: here it is the world's, as one joint's own would make it a spring that swings.
+static fe_result set_stiffness(fe_world *world, const bench_scene *scene)
+{
+    fe_world_tuning tuning = {.struct_size = sizeof tuning};
+    fe_result result = fe_world_get_tuning(world, &tuning);
+    for (int32_t i = 0; i < scene->joint_count; i++) {
+        if (scene->joints[i].stiffness_hertz > (double)tuning.joint_hertz) tuning.joint_hertz = (float)scene->joints[i].stiffness_hertz;
+    }
+    return result == FE_OK ? fe_world_set_tuning(world, &tuning) : result;
+}
 
 static fe_result add_ball(bench_world *w, const bench_joint *joint, const fe_dvec3 *anchor, const fe_vec3 *axis)
 {
@@ -103,7 +112,6 @@ static fe_result add_ball(bench_world *w, const bench_joint *joint, const fe_dve
         result = fe_ball_def_at(w->world, &open, a, b, &other, axis);
         def.frame_b = open.frame_b;
     }
-    def.hertz = (float)joint->stiffness_hertz, def.damping_ratio = OWN_DAMPING_RATIO;
     def.swing_limited = joint->cone > 0.0;
     if (joint->cone > 0.0) def.cone_y = def.cone_z = (float)joint->cone;
     def.twist_limited = joint->has_limits;
@@ -126,7 +134,6 @@ static fe_result add_hinge(bench_world *w, const bench_joint *joint, const fe_dv
         result = fe_hinge_def_at(w->world, &open, a, b, &other, axis);
         def.frame_b = open.frame_b;
     }
-    def.hertz = (float)joint->stiffness_hertz, def.damping_ratio = OWN_DAMPING_RATIO;
     def.limited = joint->has_limits;
     if (joint->has_limits) def.min_angle = (float)joint->limits[0], def.max_angle = (float)joint->limits[1];
     def.spring_hertz = (float)joint->hertz, def.spring_damping_ratio = (float)joint->damping;
@@ -141,7 +148,6 @@ static fe_result add_slider(bench_world *w, const bench_joint *joint, const fe_d
     fe_configurable_def_init(&def, sizeof def);
     fe_result result = fe_slider_def_at(w->world, &def, w->bodies[joint->body_a], w->bodies[joint->body_b], anchor, axis);
     fe_joint_axis *along = &def.axes[FE_ALONG_X];
-    def.hertz = (float)joint->stiffness_hertz, def.damping_ratio = OWN_DAMPING_RATIO;
     if (joint->has_limits) along->mode = FE_MOTION_LIMITED, along->low = (float)joint->limits[0], along->high = (float)joint->limits[1];
     if (joint->hertz > 0.0) along->drive = FE_DRIVE_HERTZ, along->stiffness = (float)joint->hertz, along->damping = (float)joint->damping;
     along->motor_speed = (float)joint->motor_speed, along->motor_force = (float)joint->motor_force;
@@ -154,8 +160,6 @@ static fe_result add_fixed(bench_world *w, const bench_joint *joint, const fe_dv
     fe_fixed_def def;
     fe_fixed_def_init(&def, sizeof def);
     fe_result result = fe_fixed_def_at(w->world, &def, w->bodies[joint->body_a], w->bodies[joint->body_b], anchor);
-    def.hertz = def.angular_hertz = (float)joint->stiffness_hertz;
-    def.damping_ratio = def.angular_damping_ratio = OWN_DAMPING_RATIO;
     fe_joint created;
     return result == FE_OK ? fe_fixed_create(w->world, &def, &created) : result;
 }
@@ -166,7 +170,6 @@ static fe_result add_distance(bench_world *w, const bench_joint *joint, const fe
     fe_distance_def_init(&def, sizeof def);
     const fe_dvec3 other = {joint->anchor_b[0], joint->anchor_b[1], joint->anchor_b[2]};
     fe_result result = fe_distance_def_at(w->world, &def, w->bodies[joint->body_a], w->bodies[joint->body_b], anchor, &other);
-    def.hertz = (float)joint->stiffness_hertz, def.damping_ratio = OWN_DAMPING_RATIO;
     if (joint->hertz > 0.0) {
         def.min_length = 0.0f, def.max_length = 1e6f; // only the spring
         def.spring_hertz = (float)joint->hertz, def.spring_damping_ratio = (float)joint->damping;
@@ -212,6 +215,7 @@ static bench_world *create(const bench_scene *scene, int32_t workers, int32_t su
     fe_result result = fe_world_create(&def, &w->world);
     for (int32_t i = 0; i < w->count && result == FE_OK; i++) result = add_body(w->world, scene, &scene->bodies[i], &w->bodies[i]);
     if (result == FE_OK) result = part_groups(w, scene);
+    if (result == FE_OK) result = set_stiffness(w->world, scene);
     for (int32_t i = 0; i < scene->joint_count && result == FE_OK; i++) result = add_joint(w, &scene->joints[i]);
     if (result != FE_OK) {
         complain(scene->name);
