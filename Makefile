@@ -219,6 +219,10 @@ bench: bench-build
 
 include $(wildcard bindings/*/rules.mk)
 
+# the scene that every language plays
+$(BUILD)/feather-scenario: $(BUILD)/tests/bindings/scenario.o $(STATIC)
+	$(RUN)$(CC) $< $(STATIC) $(LINK_FLAGS) -lm -o $@
+
 # ---- install --------------------------------------------------------------------------------------------------------------------
 # LIBDIR and INCLUDEDIR lie under PREFIX, so that the installed tree can be moved: the files written here name both relative to it.
 

@@ -1,5 +1,5 @@
-// Parts of what a function of feather.h reads or writes, for languages where the whole would cost a second tuple or table: compiled into the bindings'
-// flat modules, no part of the ABI. Errors are those of the function they call.
+// Parts of what a function of feather.h reads or writes, for languages where the whole would cost a second tuple or table: compiled into
+// the bindings' flat modules, no part of the ABI. Errors are those of the function they call.
 #ifndef FE_BINDINGS_TWINS_H
 #define FE_BINDINGS_TWINS_H
 

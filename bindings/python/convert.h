@@ -1,5 +1,5 @@
-// What Python objects become on their way into the library and back. Worlds and pools are capsules that own them: a body's object keeps its world
-// alive, and a world that is closed is an error. Arrays are anything with the buffer protocol (array, bytes, memoryview, NumPy).
+// What Python objects become on their way into the library and back. Worlds and pools are capsules that own them: a body's object keeps its
+// world alive, and a world that is closed is an error. Arrays are anything with the buffer protocol (array, bytes, memoryview, NumPy).
 #ifndef FE_BINDINGS_PYTHON_CONVERT_H
 #define FE_BINDINGS_PYTHON_CONVERT_H
 
@@ -36,10 +36,7 @@ static PyObject *set_error_classes(PyObject *classes)
     Py_RETURN_NONE;
 }
 
-static void raise_result(int result)
-{
-    PyErr_SetString(error_class(result), fe_last_error());
-}
+static void raise_result(int result) { PyErr_SetString(error_class(result), fe_last_error()); }
 
 static int fails(int result, const char *text)
 {
@@ -179,15 +176,9 @@ static PyObject *numbers(PyTypeObject *type, const double *values, Py_ssize_t co
     return made;
 }
 
-static PyObject *from_vec3(const fe_vec3 *v)
-{
-    return numbers(vec3_type, (double[]){(double)v->x, (double)v->y, (double)v->z}, 3);
-}
+static PyObject *from_vec3(const fe_vec3 *v) { return numbers(vec3_type, (double[]){(double)v->x, (double)v->y, (double)v->z}, 3); }
 
-static PyObject *from_dvec3(const fe_dvec3 *v)
-{
-    return numbers(vec3_type, (double[]){v->x, v->y, v->z}, 3);
-}
+static PyObject *from_dvec3(const fe_dvec3 *v) { return numbers(vec3_type, (double[]){v->x, v->y, v->z}, 3); }
 
 static PyObject *from_quat(const fe_quat *q)
 {
@@ -207,22 +198,17 @@ static PyObject *pose(PyObject *position, PyObject *rotation)
     return made;
 }
 
-static PyObject *from_transform(const fe_transform *t)
-{
-    return pose(from_dvec3(&t->position), from_quat(&t->rotation));
-}
+static PyObject *from_transform(const fe_transform *t) { return pose(from_dvec3(&t->position), from_quat(&t->rotation)); }
 
-static PyObject *from_frame(const fe_frame *f)
-{
-    return pose(from_vec3(&f->position), from_quat(&f->rotation));
-}
+static PyObject *from_frame(const fe_frame *f) { return pose(from_vec3(&f->position), from_quat(&f->rotation)); }
 
 /// Reads `count` numbers from any sequence. `what` names the argument in the error.
 static int to_numbers(PyObject *object, double *values, Py_ssize_t count, const char *what)
 {
     PyObject *fast = PyTuple_Check(object) || PyList_Check(object) ? Py_NewRef(object) : PySequence_Tuple(object);
     if (!fast) {
-        if (PyErr_ExceptionMatches(PyExc_TypeError)) PyErr_Format(PyExc_TypeError, "%s: %zd numbers are needed, not '%s'", what, count, Py_TYPE(object)->tp_name);
+        if (PyErr_ExceptionMatches(PyExc_TypeError))
+            PyErr_Format(PyExc_TypeError, "%s: %zd numbers are needed, not '%s'", what, count, Py_TYPE(object)->tp_name);
         return -1;
     }
     Py_ssize_t length = PySequence_Fast_GET_SIZE(fast);
@@ -309,8 +295,8 @@ static int to_material(PyObject *object, fe_material *material, const char *what
 
 static PyObject *from_material(const fe_material *m)
 {
-    return Py_BuildValue("(ddddd)", (double)m->static_friction, (double)m->dynamic_friction, (double)m->restitution, (double)m->rolling_resistance,
-                         (double)m->spinning_resistance);
+    return Py_BuildValue("(ddddd)", (double)m->static_friction, (double)m->dynamic_friction, (double)m->restitution,
+                         (double)m->rolling_resistance, (double)m->spinning_resistance);
 }
 
 // ---- arrays ---------------------------------------------------------------------------------------------------------------------
@@ -321,9 +307,9 @@ enum { MAX_VIEWS = 6 };
 typedef struct call_state {
     int views;
     Py_buffer view[MAX_VIEWS];
-    void *memory;         ///< copies of records, or NULL
-    int64_t count;        ///< of the input arrays; -1: none yet
-    int64_t capacity;     ///< of the output arrays; -1: none yet
+    void *memory;     ///< copies of records, or NULL
+    int64_t count;    ///< of the input arrays; -1: none yet
+    int64_t capacity; ///< of the output arrays; -1: none yet
 } call_state;
 
 static void begin_call(call_state *call)
@@ -482,9 +468,11 @@ static int to_heightfield(call_state *call, PyObject *object, fe_heightfield_def
     PyObject *heights, *holes, *cells, *materials;
     fe_heightfield_def_init(def, (uint32_t)sizeof *def);
     if (!PyTuple_Check(object)) return PyErr_SetString(PyExc_TypeError, "heightfield: a tuple is needed"), -1;
-    if (!PyArg_ParseTuple(object, "iiffOOOO;heightfield", &def->rows, &def->columns, &def->cell_x, &def->cell_z, &heights, &holes, &cells, &materials))
+    if (!PyArg_ParseTuple(object, "iiffOOOO;heightfield", &def->rows, &def->columns, &def->cell_x, &def->cell_z, &heights, &holes, &cells,
+                          &materials))
         return -1;
-    if (def->rows < 2 || def->columns < 2) return PyErr_SetString(error_class(FE_ERROR_ARGUMENT), "heightfield: 2 rows and 2 columns at least"), -1;
+    if (def->rows < 2 || def->columns < 2)
+        return PyErr_SetString(error_class(FE_ERROR_ARGUMENT), "heightfield: 2 rows and 2 columns at least"), -1;
     const void *samples;
     size_t count = (size_t)def->rows * (size_t)def->columns, cell_count = (size_t)(def->rows - 1) * (size_t)(def->columns - 1);
     if (to_input(call, heights, sizeof(float), "f", "heights", &samples)) return -1;
@@ -493,8 +481,8 @@ static int to_heightfield(call_state *call, PyObject *object, fe_heightfield_def
         return -1;
     }
     def->heights = samples;
-    return to_bytes(call, holes, cell_count, "holes", &def->holes) || to_bytes(call, cells, cell_count, "cell_materials", &def->cell_materials) ||
-                   to_materials(call, materials, def)
+    return to_bytes(call, holes, cell_count, "holes", &def->holes) ||
+                   to_bytes(call, cells, cell_count, "cell_materials", &def->cell_materials) || to_materials(call, materials, def)
                ? -1
                : 0;
 }
