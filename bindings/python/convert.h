@@ -299,6 +299,35 @@ static PyObject *from_material(const fe_material *m)
                          (double)m->rolling_resistance, (double)m->spinning_resistance);
 }
 
+/// A float of anything that has one; what is beyond its range becomes infinite, which the library refuses.
+static int to_double(PyObject *object, double *value, const char *what)
+{
+    *value = PyFloat_AsDouble(object);
+    if (*value != -1.0 || !PyErr_Occurred()) return 0;
+    if (PyErr_ExceptionMatches(PyExc_TypeError))
+        PyErr_Format(PyExc_TypeError, "%s: a number is needed, not '%s'", what, Py_TYPE(object)->tp_name);
+    return -1;
+}
+
+/// An integer within [low, high].
+static int to_integer(PyObject *object, long long low, unsigned long long high, unsigned long long *value, const char *what)
+{
+    int negative = 0;
+    PyObject *number = PyLong_Check(object) ? Py_NewRef(object) : PyNumber_Index(object);
+    if (!number) {
+        if (PyErr_ExceptionMatches(PyExc_TypeError))
+            PyErr_Format(PyExc_TypeError, "%s: an integer is needed, not '%s'", what, Py_TYPE(object)->tp_name);
+        return -1;
+    }
+    long long small = PyLong_AsLongLongAndOverflow(number, &negative);
+    *value = negative > 0 ? PyLong_AsUnsignedLongLong(number) : (unsigned long long)small;
+    Py_DECREF(number);
+    if (!PyErr_Occurred() && negative >= 0 && (negative > 0 || small >= low) && (small < 0 || *value <= high)) return 0;
+    PyErr_Clear();
+    PyErr_Format(PyExc_OverflowError, "%s: the integer lies beyond %lld..%llu", what, low, high);
+    return -1;
+}
+
 // ---- arrays ---------------------------------------------------------------------------------------------------------------------
 
 enum { MAX_VIEWS = 6 };

@@ -106,6 +106,24 @@ FE_WITHOUT_GIL(fe_world_get_velocities)
     $result = PyLong_FromLong($1);
 }
 
+// ---- numbers that go in ---------------------------------------------------------------------------------------------------------
+
+%typemap(in) float, double {
+    double value;
+    if (to_double($input, &value, "$1_name")) SWIG_fail;
+    $1 = ($1_ltype)value;
+}
+%define FE_INTEGER(TYPE, LOW, HIGH)
+%typemap(in) TYPE {
+    unsigned long long value;
+    if (to_integer($input, LOW, HIGH, &value, "$1_name")) SWIG_fail;
+    $1 = ($1_ltype)value;
+}
+%enddef
+FE_INTEGER(int32_t, INT32_MIN, INT32_MAX)
+FE_INTEGER(uint32_t, 0, UINT32_MAX)
+FE_INTEGER(fe_handle, 0, UINT64_MAX)
+
 // ---- values that come out -------------------------------------------------------------------------------------------------------
 
 %define FE_OUT(TYPE, MAKE)

@@ -1,0 +1,269 @@
+"""Whatever is done with the objects: an exception with the library's sentence, never a crash, and nothing has changed."""
+
+import gc
+import math
+import sys
+import threading
+from array import array
+from typing import Any, Callable, List
+
+import numpy as np
+import pytest
+
+from feather_physics import (
+    Body,
+    Box,
+    FeatherError,
+    InvalidArgumentError,
+    Pool,
+    Sphere,
+    StaleHandleError,
+    SteppingError,
+    WrongKindError,
+    World,
+    _flat,
+)
+
+
+def test_everything_of_a_closed_world_is_stale() -> None:
+    world = World()
+    body = world.create_body()
+    shape = body.add_sphere(1)
+    joint = world.create_ball(body, world.create_body(), (0, 0, 0))
+    field = world.create_heightfield([[0, 0], [0, 0]])
+    world.close()
+    world.close()
+    uses: List[Callable[[], Any]] = [
+        lambda: body.position,
+        lambda: setattr(body, "position", (0, 0, 0)),
+        lambda: body.add_sphere(1),
+        lambda: body.destroy(),
+        lambda: shape.material,
+        lambda: joint.state,
+        lambda: field.destroy(),
+        lambda: world.step(),
+        lambda: world.bodies,
+        lambda: world.pair_events,
+        lambda: world.hash,
+        lambda: world.transforms(),
+        lambda: world.raycast((0, 0, 0), (1, 0, 0)),
+    ]
+    for use in uses:
+        with pytest.raises(StaleHandleError, match="the world is closed"):
+            use()
+    assert not body.is_valid and not shape.is_valid and not joint.is_valid and not field.is_valid
+
+
+def test_a_body_keeps_its_world_alive() -> None:
+    body = World().create_body(position=(1, 2, 3))
+    gc.collect()
+    assert body.position == (1, 2, 3)
+    body.world.step()
+
+
+def test_a_destroyed_body_is_stale(world: World) -> None:
+    body = world.create_body()
+    shape = body.add_sphere(1)
+    body.destroy()
+    with pytest.raises(StaleHandleError, match="fe_body_get_transform: body .* was destroyed"):
+        body.position
+    with pytest.raises(ReferenceError):
+        shape.density
+    with pytest.raises(StaleHandleError):
+        body.destroy()
+    assert not body.is_valid and not shape.is_valid
+
+
+def test_a_shape_is_no_body(world: World, ball: Body) -> None:
+    with pytest.raises(WrongKindError):
+        Body(world, ball.shapes[0].id).position
+    with pytest.raises(TypeError):
+        world.create_fixed(ball, ball.shapes[0], (0, 0, 0))  # type: ignore[arg-type]
+
+
+def test_objects_of_another_world_are_refused(world: World, ball: Body) -> None:
+    with World() as other:
+        foreign = other.create_body()
+        field = other.create_heightfield([[0, 0], [0, 0]])
+        for use in (
+            lambda: world.create_fixed(ball, foreign, (0, 0, 0)),
+            lambda: world.ignore_collision(ball, foreign),
+            lambda: world.raycast((0, 0, 0), (1, 0, 0), exclude=[foreign]),
+            lambda: world.transforms(bodies=[foreign]),
+            lambda: world.destroy_bodies([foreign]),
+            lambda: ball.add(field),
+        ):
+            with pytest.raises(InvalidArgumentError, match="another world"):
+                use()
+        assert foreign != ball and foreign.id == ball.id
+
+
+@pytest.mark.parametrize("number", [math.nan, math.inf, -math.inf, 1e300])
+def test_numbers_that_are_none(world: World, ball: Body, number: float) -> None:
+    before = world.hash
+    for use in (
+        lambda: setattr(ball, "position", (number, 0, 0)),
+        lambda: setattr(ball, "mass", number),
+        lambda: world.step(number),
+        lambda: world.create_body(position=(0, number, 0)),
+        lambda: ball.add_sphere(number),
+        lambda: ball.add_force((0, 0, number)),
+        lambda: world.raycast((0, number, 0), (1, 0, 0)),
+        lambda: world.closest_point((0, 0, 0), number),
+        lambda: setattr(world, "gravity", (number, 0, 0)),
+    ):
+        with pytest.raises((InvalidArgumentError, OverflowError)):
+            use()
+    assert world.hash == before and len(world.bodies) == 1
+
+
+@pytest.mark.parametrize("value", [None, "abc", b"abcd", object(), [], [1, 2], (1, 2, "x"), {}, 5, [None] * 3, np.zeros(2)])
+def test_values_of_other_types(world: World, ball: Body, value: Any) -> None:
+    for use in (
+        lambda: setattr(ball, "position", value),
+        lambda: setattr(ball, "transform", value),
+        lambda: setattr(ball, "linear_velocity", value),
+        lambda: world.raycast(value, (0, 1, 0)),
+        lambda: world.create_body(position=value),
+        lambda: ball.add(value),
+        lambda: world.create_fixed(ball, value, (0, 0, 0)),
+        lambda: world.step(value),  # 5 s are too many
+        lambda: setattr(ball, "type", value),
+    ):
+        with pytest.raises((TypeError, ValueError)):
+            use()
+
+
+def test_numbers_as_numpy_has_them(world: World, ball: Body) -> None:
+    ball.position = np.array([1, 2, 3])  # type: ignore[assignment]
+    ball.linear_velocity = np.float32([4, 5, 6])  # type: ignore[assignment]
+    ball.mass = np.float32(2)  # type: ignore[assignment]
+    assert ball.position == (1, 2, 3) and ball.linear_velocity == (4, 5, 6) and ball.mass == 2
+
+
+def test_unknown_words_tell_the_known_ones(world: World, ball: Body) -> None:
+    with pytest.raises(ValueError, match="static, kinematic, dynamic"):
+        world.create_body("fluid")
+    with pytest.raises(TypeError, match="colour"):
+        world.create_body(colour=1)
+    with pytest.raises(ValueError, match="touch, stay, hit"):
+        ball.add_sphere(1, events="smell")
+    with pytest.raises(ValueError):
+        ball.locks = ("w", "")
+    with pytest.raises(AttributeError):
+        ball.centre = (0, 0, 0)  # type: ignore[assignment]
+
+
+def test_flat_functions_refuse_what_is_no_world() -> None:
+    for wrong in (None, 5, "world", Pool(1)._capsule, object()):
+        with pytest.raises((TypeError, ValueError)):
+            _flat.world_step(wrong, 0.1)
+    for handle in (-1, 2**64, 1.5, None, "1"):
+        with World() as world, pytest.raises((TypeError, OverflowError)):
+            _flat.body_get_position(world._capsule, handle)
+
+
+def test_arrays_that_do_not_fit(world: World, ball: Body) -> None:
+    ids = world.body_ids()
+    good = array("f", bytes(28))
+    assert world.transforms(good, bodies=ids) is good
+    frozen = np.zeros((1, 7), np.float32)
+    frozen.flags.writeable = False
+    for wrong in (array("f", bytes(24)), array("d", bytes(56)), np.zeros((1, 14), np.float32)[:, ::2], frozen, bytes(28), "x", 5, array("i", bytes(28))):
+        with pytest.raises((TypeError, ValueError, BufferError)):
+            world.transforms(wrong, bodies=ids)
+    for wrong in (array("i", bytes(8)), array("d", bytes(8)), b"1234567", 5):
+        with pytest.raises((TypeError, ValueError, BufferError)):
+            world.transforms(bodies=wrong)
+    with pytest.raises(ValueError):
+        world.set_velocities(ids, array("f", bytes(48)))
+    with pytest.raises(StaleHandleError):
+        world.transforms(bodies=array("Q", [5]))
+    with pytest.raises(ValueError):
+        world.raycast_many(bytes(47))
+
+
+def test_many_are_all_or_none(world: World, ball: Body) -> None:
+    with pytest.raises(FeatherError):
+        world.create_bodies([(0, 0, 0), (math.nan, 0, 0)])
+    with pytest.raises(FeatherError):
+        world.destroy_bodies([ball, ball])
+    assert len(world.bodies) == 1
+    world.destroy_bodies([ball])
+    assert world.bodies == [] and world.create_bodies([]) == []
+
+
+def test_other_threads_run_while_it_steps() -> None:
+    with World() as world:
+        world.create_body("static").add_plane()
+        for body in world.create_bodies([(i % 10, 1 + i // 100, i // 10 % 10) for i in range(600)]):
+            body.add_sphere(0.6)
+        steps, turns, refused = 60, 0, 0
+        done = threading.Event()
+
+        def step() -> None:
+            for _ in range(steps):
+                world.step()
+            done.set()
+
+        thread = threading.Thread(target=step)
+        thread.start()
+        while not done.is_set():
+            turns += 1
+            try:
+                world.create_body()
+            except SteppingError:
+                refused += 1
+        thread.join()
+        assert turns > steps and refused > 0
+
+
+def test_a_world_cannot_go_while_another_thread_reads_it() -> None:
+    with World() as world:
+        world.create_body("static").add_plane()
+        rays = np.zeros((200000, 6))
+        rays[:, 1], rays[:, 4] = 5, -10
+        hits = bytearray(len(rays) * 72)
+        counted: List[Any] = []
+        thread = threading.Thread(target=lambda: counted.append(world.raycast_many(rays, hits, spread=False)))
+        thread.start()
+        refused = 0
+        while thread.is_alive():
+            try:
+                world.create_body()
+                world.close() if refused else None
+            except (SteppingError, StaleHandleError):
+                refused += 1
+        thread.join()
+        assert counted == [hits]
+
+
+def test_nothing_leaks() -> None:
+    def use() -> None:
+        world = World()
+        body = world.create_body(position=(0, 1, 0), user_data=object())
+        body.add(Box(1, 1, 1))
+        world.create_hinge(body, world.create_body("static"), (0, 0, 0), (0, 0, 1))
+        field = world.create_heightfield([[0, 0], [0, 0]], materials=[(1, 1, 0, 0, 0)], cell_materials=bytes(1))
+        body.world.create_body("static").add(field)
+        world.step()
+        for wrong in (None, (1, 2), (math.nan, 0, 0), "abc"):
+            for call in (lambda: setattr(body, "transform", (wrong, wrong)), lambda: world.raycast(wrong, wrong)):
+                with pytest.raises((TypeError, ValueError)):
+                    call()
+        assert world.pair_events and body.contacts and world.transforms() and world.raycast((0, 5, 0), (0, -9, 0))
+        assert world.overlap(Sphere(2), (0, 0, 0)) and world.counters and body.mass_data and body.joints[0].definition
+        world.raycast((0, 5, 0), (0, -9, 0), exclude=[body])
+        world.create_bodies([(0, 0, 0)] * 3)
+        if len(world.bodies) % 2:
+            world.close()
+
+    for _ in range(20):
+        use()
+    gc.collect()
+    before = sys.getallocatedblocks()
+    for _ in range(100):
+        use()
+    gc.collect()
+    # less than a block each time
+    assert sys.getallocatedblocks() - before < 100

@@ -1,0 +1,328 @@
+"""The package's objects do what the library does: one small scene for each feature."""
+
+import math
+from array import array
+from typing import Any, List
+
+import pytest
+
+import feather_physics
+from feather_physics import (
+    Body,
+    Box,
+    Capsule,
+    FeatherError,
+    Heightfield,
+    InvalidArgumentError,
+    MassData,
+    Material,
+    Plane,
+    Pool,
+    Quat,
+    Sphere,
+    StateError,
+    UnsupportedError,
+    Vec3,
+    World,
+)
+
+STEP = 1 / 60
+
+
+def run(world: World, seconds: float) -> List[Any]:
+    """Steps, and returns all events."""
+    events: List[Any] = []
+    for _ in range(round(seconds / STEP)):
+        world.step(STEP)
+        events += [*world.pair_events, *world.body_events, *world.hit_events, *world.joint_events]
+    return events
+
+
+def test_free_fall(world: World, ball: Body) -> None:
+    # semi-implicit Euler in 8 substeps: y = y0 - g t (t + h) / 2
+    run(world, 1)
+    assert ball.position.y == pytest.approx(5 - 9.81 * (1 + STEP / 8) / 2, abs=1e-4)
+    assert ball.linear_velocity == pytest.approx((0, -9.81, 0), abs=1e-4)
+
+
+def test_ball_comes_to_rest_on_the_ground(world: World, ground: Body, ball: Body) -> None:
+    ball.shapes[0].events = ("touch", "hit")
+    events = run(world, 3)
+    assert abs(ball.position.y - 0.5) < 0.005
+    kinds = [type(e).__name__ + getattr(e, "kind", "") for e in events]
+    assert kinds == ["PairEvententer", "HitEvent", "BodyEventsleep"]
+    assert (events[0].body_a, events[0].body_b) == (ground, ball)
+    assert events[1].speed == pytest.approx(math.sqrt(2 * 9.81 * 4.5), rel=0.02)
+    assert not ball.awake
+    (contact,) = ball.contacts
+    assert contact.normal == pytest.approx((0, 1, 0)) and len(contact.points) == 1
+    assert contact == ground.contacts[0] == ball.shapes[0].contacts[0]
+    assert sum(p.total_impulse for p in contact.points) == pytest.approx(ball.mass * 9.81 * STEP, rel=0.05)
+
+
+def test_properties_are_read_as_they_were_written(world: World, ball: Body) -> None:
+    values = {
+        "position": (1, 2, 3),
+        "rotation": (0, 1, 0, 0),
+        "transform": ((4, 5, 6), (0, 0, 1, 0)),
+        "linear_velocity": (1, 2, 3),
+        "angular_velocity": (4, 5, 6),
+        "mass": 2.0,
+        "gravity_scale": 0.5,
+        "sleep_threshold": 0.25,
+        "tag": 2**53 - 1,
+        "sleep_allowed": False,
+        "bullet": True,
+        "damping": (0.5, 0.25),
+        "locks": ("y", "xz"),
+        "enabled": False,
+        "type": "kinematic",
+    }
+    for name, value in values.items():
+        setattr(ball, name, value)
+        assert getattr(ball, name) == value, name
+    ball.enabled = ball.sleep_allowed = True
+    ball.type = "dynamic"
+    ball.awake = False
+    assert not ball.awake
+    assert isinstance(ball.position, Vec3) and isinstance(ball.rotation, Quat)
+
+
+def test_properties_of_shapes(world: World, ball: Body) -> None:
+    (shape,) = ball.shapes
+    values = {
+        "density": 500.0,
+        "surface_velocity": (1, 0, 0),
+        "tag": 7,
+        "trigger": True,
+        "geometry": Capsule(0.5, 0.25),
+        "local_pose": ((1, 2, 3), (0, 0, 0, 1)),
+        "material": Material(0.5, 0.25, 0.125, 0.5, 0.25),
+        "filter": (2, 6),
+        "events": ("touch", "hit"),
+    }
+    for name, value in values.items():
+        setattr(shape, name, value)
+        assert getattr(shape, name) == value, name
+    assert shape.body == ball
+    for geometry in (Sphere(0.5), Box(0.5, 0.25, 0.125)):
+        shape.geometry = geometry
+        assert shape.geometry == geometry
+    shape.destroy()
+    assert not shape.is_valid and ball.shapes == []
+
+
+def test_mass_data(world: World) -> None:
+    body = world.create_body()
+    body.add_box(0.5, 0.5, 0.5, density=1000)
+    assert body.mass == pytest.approx(1000)
+    assert body.mass_data.inertia == pytest.approx((1000 / 6,) * 3)
+    body.mass_data = MassData(2, Vec3((0, 1, 0)), Vec3((1, 1, 1)), Quat((0, 0, 0, 1)))
+    assert body.mass_data.mass == 2 and body.centre == (0, 1, 0)
+    body.reset_mass()
+    assert body.mass == pytest.approx(1000)
+
+
+def test_forces_and_impulses(world: World) -> None:
+    world.gravity = (0, 0, 0)
+    body = world.create_body()
+    body.add_box(0.5, 0.5, 0.5, density=8)
+    body.add_force((480, 0, 0))
+    world.step(STEP)
+    assert body.linear_velocity.x == pytest.approx(480 / 8 / 60, rel=1e-5)
+    body.linear_velocity = (0, 0, 0)
+    body.add_impulse((8, 0, 0))
+    assert body.linear_velocity.x == pytest.approx(1)
+    body.add_impulse((0, 8, 0), body.position)
+    body.add_force((0, 0, 1), body.position)
+    body.add_torque((0, 0, 1))
+    body.add_angular_impulse((0, 0, 8 / 6))
+    assert body.angular_velocity.z == pytest.approx(1, rel=1e-5)
+    x, y, z = body.position
+    assert body.velocity_at((x + 1, y, z)) == pytest.approx((1, 2, 0), abs=1e-4)
+
+
+def test_kinematic_body_reaches_its_target(world: World) -> None:
+    body = world.create_body("kinematic")
+    body.add_box(1, 1, 1)
+    body.move_to((1, 0, 0), seconds=STEP)
+    world.step(STEP)
+    assert body.position == pytest.approx((1, 0, 0), abs=1e-6)
+
+
+def test_world_settings() -> None:
+    with World(gravity=(0, 0, -1), substeps=4, workers=2, tag=9, simd="plain") as world:
+        assert (world.gravity, world.substeps, world.tag) == ((0, 0, -1), 4, 9)
+        world.substeps = 6
+        assert world.substeps == 6
+        world.tuning = world.tuning._replace(contact_hertz=20)
+        assert world.tuning.contact_hertz == 20
+        assert world.counters.simd == 1 and world.counters.workers == 2
+        world.step()
+        assert world.profile.step > 0
+        world.sync_queries()
+        assert repr(world) == "<World of 0 bodies>"
+    assert repr(world) == "<World, closed>"
+
+
+def test_pool_is_shared_and_kept() -> None:
+    pool = Pool(2)
+    a, b = World(pool=pool), World(pool=pool)
+    with pytest.raises(StateError):
+        pool.close()
+    capsule = pool._capsule
+    del pool, capsule
+    a.step()
+    a.close(), b.close()
+
+
+def test_queries(world: World, ground: Body, ball: Body) -> None:
+    hit = world.raycast((0, 10, 0), (0, -20, 0))
+    assert hit and hit.body == ball and hit.shape == ball.shapes[0] and hit.triangle == -1 and not hit.started_inside
+    assert hit.point == pytest.approx((0, 5.5, 0)) and hit.fraction == pytest.approx(0.225) and hit.normal == pytest.approx((0, 1, 0))
+    assert [h.body for h in world.raycast_all((0, 10, 0), (0, -20, 0))] == [ball, ground]
+    assert world.raycast((5, 10, 0), (0, -1, 0)) is None
+    assert world.raycast_any((0, 10, 0), (0, -20, 0)) is True and world.raycast_any((5, 10, 0), (0, -1, 0)) is False
+    for exclude in (ball, [ball], array("Q", [ball.id])):
+        other = world.raycast((0, 10, 0), (0, -20, 0), exclude=exclude)
+        assert other and other.body == ground
+    assert world.raycast((0, 10, 0), (0, -20, 0), mask=2) is None
+    swept = world.sweep(Sphere(0.5), (0, 10, 0), (0, -20, 0))
+    assert swept and swept.body == ball and swept.fraction == pytest.approx(0.2, abs=1e-4)
+    assert world.sweep_any(Box(1, 1, 1), (0, 10, 0), (0, -20, 0), rotation=(0, 0, 0, 1))
+    assert [h.body for h in world.sweep_all(Capsule(1, 0.5), (0, 10, 0), (0, -20, 0))] == [ball, ground]
+    assert world.overlap(Sphere(1), (0, 4, 0)) == [ball] and world.overlap(Sphere(1), (9, 9, 9)) == []
+    assert world.overlap_any(Sphere(1), (0, 4, 0))
+    near = world.closest_point((0, 7, 0), 10)
+    assert near and near.body == ball and near.distance == pytest.approx(1.5)
+    assert world.closest_point((0, 7, 0), 1) is None
+    assert ball.raycast((0, 10, 0), (0, -20, 0)) == hit == ball.shapes[0].raycast((0, 10, 0), (0, -20, 0))
+    assert ball.closest_point((0, 7, 0)) == near == ball.shapes[0].closest_point((0, 7, 0))
+    assert world.create_body().closest_point((0, 0, 0)) is None
+    with pytest.raises(UnsupportedError):
+        world.sweep(Plane(), (0, 0, 0), (0, 1, 0))
+
+
+def test_joints(world: World) -> None:
+    a, b = world.create_body("static"), world.create_body(position=(1, 0, 0))
+    b.add_sphere(0.25)
+    x, z = (1, 0, 0), (0, 0, 1)
+    made = [
+        world.create_distance(a, b, (0, 0, 0), x),
+        world.create_ball(a, b, (0, 0, 0), x, swing_limited=True, cone_y=0.5, cone_z=0.5),
+        world.create_hinge(a, b, (0, 0, 0), z, limited=True, min_angle=-1, max_angle=1),
+        world.create_fixed(a, b, x),
+        world.create_configurable(a, b, x, along_x={"mode": "limited", "low": -1, "high": 1}, about_y={"mode": "free"}),
+        world.create_rope(a, b, (0, 0, 0), x, 3),
+        world.create_slider(a, b, x, x, tag=5),
+        world.create_wheel(a, b, x, z, (0, 1, 0), 4, 0.7, 0.2),
+        world.create_motor(a, b, 5, 1, 100, 100),
+    ]
+    kinds = ["distance", "ball", "hinge", "fixed", "configurable", "distance", "configurable", "configurable", "configurable"]
+    assert [joint.type for joint in made] == kinds
+    assert world.joints == made == a.joints == b.joints
+    assert all(joint.bodies == (a, b) and joint.is_valid and joint.enabled for joint in made)
+    assert made[4].definition.axis(4).mode == 2 and made[5].definition.max_length == 3 and made[6].tag == 5
+    assert made[0].definition.min_length == pytest.approx(1)
+    hinge = made[2]
+    hinge.set(motor_speed=2, motor_torque=10, tag=3)
+    assert hinge.definition.motor_speed == 2 and hinge.tag == 3
+    made[4].set(along_x={"low": -2})
+    assert made[4].definition.axis(0).low == -2 and made[4].definition.axis(0).mode == 1
+    with pytest.raises(TypeError):
+        hinge.set(colour=1)
+    with pytest.raises(InvalidArgumentError):
+        world.create_fixed(a, a, x)
+    for joint in made[:2] + made[3:]:
+        joint.destroy()
+        assert not joint.is_valid
+    # the pendulum swings down to its limit of 1 rad below the horizontal
+    run(world, 5)
+    assert hinge.angle == pytest.approx(hinge.state.angle) and -1.05 < hinge.angle <= 1.05
+    assert hinge.frames[0].position == pytest.approx((0, 0, 0), abs=1e-6)
+    assert hinge.reaction[0].y > 0
+    hinge.enabled = False
+    assert not hinge.enabled
+
+
+def test_a_joint_that_breaks_sends_its_event(world: World) -> None:
+    a, b = world.create_body("static"), world.create_body(position=(1, 0, 0))
+    b.add_sphere(0.25)
+    joint = world.create_fixed(a, b, (0, 0, 0), break_force=1, tag=4)
+    (event,) = [e for e in run(world, 0.1) if type(e).__name__ == "JointEvent"]
+    assert event.joint == joint and (event.body_a, event.body_b) == (a, b) and event.tag == 4 and event.type == "fixed"
+    assert not joint.is_valid and math.hypot(*event.force) > 1
+
+
+def test_heightfield(world: World, ball: Body) -> None:
+    field = world.create_heightfield([[0, 0, 0], [0, 1, 0], [0, 0, 0]], cell_x=4, cell_z=4)
+    ground = world.create_body("static")
+    shape = ground.add(field, position=(-4, 0, -4))
+    assert shape.geometry == field and isinstance(shape.geometry, Heightfield)
+    hit = world.raycast((0, 3, 0), (0, -10, 0))
+    assert hit and hit.point.y == pytest.approx(1) and hit.triangle >= 0
+    field.set_heights(1, 1, 1, 1, array("f", [2]))
+    assert field.get_heights(0, 0, 3, 3, array("f", bytes(36))).tolist() == [0, 0, 0, 0, 2, 0, 0, 0, 0]
+    flat = world.create_heightfield(array("f", bytes(24)), rows=2, columns=3, holes=bytes([0, 1]), cell_materials=bytes(2), materials=[Material()])
+    flat.destroy()
+    assert not flat.is_valid and field.is_valid
+    for wrong in ({"heights": array("f", bytes(20)), "rows": 2, "columns": 3}, {"heights": [[1, 2], [3]]}, {"heights": array("f", bytes(24))}):
+        with pytest.raises(ValueError):
+            world.create_heightfield(**wrong)
+    with pytest.raises(ValueError):
+        field.set_heights(0, 0, 3, 3, array("f", [2]))
+
+
+def test_user_data_and_equality(world: World, ball: Body) -> None:
+    ball.user_data = {"name": "ball"}
+    assert world.bodies[0].user_data == {"name": "ball"} and world.bodies[0] == ball and world.bodies[0] is not ball
+    assert len({ball, world.bodies[0]}) == 1 and ball != ball.shapes[0] and ball != 5
+    assert world.create_body(user_data=3).user_data == 3
+    assert ball.world is world and ball.id == world.body_ids()[0]
+    ball.destroy()
+    assert ball.user_data is None and not ball.is_valid
+
+
+def test_events_of_triggers_and_stay(world: World, ground: Body, ball: Body) -> None:
+    zone = world.create_body("static", position=(0, 3, 0))
+    zone.add_box(1, 1, 1, trigger=True, events=("touch", "stay"))
+    events = [e for e in run(world, 2) if type(e).__name__ == "PairEvent" and e.is_trigger]
+    kinds = [e.kind for e in events]
+    assert kinds[0] == "enter" and kinds[-1] == "exit" and set(kinds[1:-1]) == {"stay"}
+    assert {*events[0][1:3]} == {zone, ball}
+
+
+def test_collisions_can_be_ignored(world: World, ground: Body, ball: Body) -> None:
+    world.ignore_collision(ground, ball)
+    run(world, 2)
+    assert ball.position.y < -1
+    ball.set_filter(2, 4)
+    assert ball.shapes[0].filter == (2, 4)
+
+
+def test_equal_runs_have_equal_hashes() -> None:
+    def play(workers: int) -> int:
+        with World(workers=workers) as world:
+            world.create_body("static").add_plane()
+            for i, body in enumerate(world.create_bodies([(i % 3 * 0.3, 1 + i, 0) for i in range(40)])):
+                body.add(Sphere(0.5) if i % 2 else Box(0.5, 0.5, 0.5))
+            run(world, 1)
+            return world.hash
+
+    assert play(1) == play(3)
+
+
+def test_version() -> None:
+    assert feather_physics.__version__.count(".") == 2
+    assert issubclass(InvalidArgumentError, FeatherError) and issubclass(InvalidArgumentError, ValueError)
+
+
+def test_everything_public_is_documented() -> None:
+    for name in feather_physics.__all__:
+        thing = getattr(feather_physics, name)
+        if not isinstance(thing, type):
+            continue
+        assert thing.__doc__, name
+        for member, value in vars(thing).items():
+            if not member.startswith("_") and (callable(value) or isinstance(value, property)):
+                assert getattr(value, "__doc__", None), f"{name}.{member}"
