@@ -54,23 +54,18 @@ static void plan_hinge(const fe_hinge_def *d, fe__joint_plan *plan)
     set_motor(axis, d->motor_speed, d->motor_torque);
 }
 
-// A rotation with a softness of its own is a drive towards none
+// Where it is soft it is a spring: drives along the axes, a drive towards no turn
 static void plan_fixed(const fe_fixed_def *d, fe__joint_plan *plan)
 {
-    plan_point(plan);
-    if (d->angular_hertz == d->hertz && (d->hertz == 0.0f || d->angular_damping_ratio == d->damping_ratio)) {
-        plan->parts |= bit(FE__PART_FIXED);
-        return;
+    plan->hertz = plan->damping_ratio = 0.0f;
+    if (d->hertz == 0.0f) plan_point(plan);
+    for (int k = 0; k < 3 && d->hertz > 0.0f; ++k) {
+        plan->parts |= bit((fe__joint_part)(FE__PART_X + k));
+        set_unlimited(plan->axes.axis + k);
+        set_drive(plan->axes.axis + k, 0.0f, d->hertz, d->damping_ratio, FE__UNLIMITED, FE__DRIVE_HERTZ);
     }
-    fe__joint_axis *axes = plan->axes.axis;
-    if (d->angular_hertz == 0.0f) { // rigid in rotation, soft at the points
-        plan->parts = bit(FE__PART_FIXED) | bit(FE__PART_X) | bit(FE__PART_Y) | bit(FE__PART_Z);
-        plan->locked = 0;
-        plan->hertz = plan->damping_ratio = 0.0f;
-        for (int k = 0; k < 3; ++k) {
-            set_unlimited(axes + k);
-            set_drive(axes + k, 0.0f, d->hertz, d->damping_ratio, FE__UNLIMITED, FE__DRIVE_HERTZ);
-        }
+    if (d->angular_hertz == 0.0f) {
+        plan->parts |= bit(FE__PART_FIXED);
         return;
     }
     fe__joint_turn *turn = &plan->axes.turn;

@@ -46,13 +46,12 @@ static float cone_error(const fe__joint_axis *axis, float y, float z)
     return out > 1.0f ? sqrtf(y * y + z * z) * (1.0f - 1.0f / out) : 0.0f;
 }
 
+static float whole_angle(fe_quat q) { return 2.0f * fe__atan2f(sqrtf(q.x * q.x + q.y * q.y + q.z * q.z), fe__absf(q.w)); }
+
 static float angular_error(const fe__joint_frame *f, const fe__joint_axes *axes, const fe__joint_pose *pose, float twist)
 {
     float swing = sqrtf(pose->swing_y * pose->swing_y + pose->swing_z * pose->swing_z), error = 0.0f;
-    if (f->parts >> FE__PART_FIXED & 1) {
-        fe_quat q = pose->q;
-        return 2.0f * fe__atan2f(sqrtf(q.x * q.x + q.y * q.y + q.z * q.z), fe__absf(q.w));
-    }
+    if (f->parts >> FE__PART_FIXED & 1) return whole_angle(pose->q);
     if (f->parts >> FE__PART_HINGE & 1) error = swing;
     if (!axes) return error;
     if (f->parts >> FE__PART_TWIST & 1) error = fe__maxf(error, beyond(axes->axis + FE__AXIS_TWIST, twist));
@@ -84,6 +83,9 @@ void fe__joint_state_of(const fe_world *world, int32_t joint, fe_joint_state *s)
     s->speed = pose.length > 0.0f ? fe__dot(pose.d, s->linear_velocity) / pose.length : fe__length(s->linear_velocity);
     s->linear_error = linear_error(f, axes, &pose);
     s->angular_error = angular_error(f, axes, &pose, s->angle);
+    if (r->type != FE_JOINT_FIXED) return; // whose springs hold too
+    s->linear_error = pose.length;
+    s->angular_error = whole_angle(pose.q);
 }
 
 // ---- breaking ---------------------------------------------------------------------------------------------------------------------------
