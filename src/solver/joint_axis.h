@@ -86,17 +86,13 @@ FE_INLINE void aim(freedom *f, wide response, wide least, int part, const fe__st
     aim_drive(f, error, c);
 }
 
-// what is beyond a limit comes back no faster, m/s or rad/s: a joint made beyond it, or a twist that half a turn of swing changed
-#define MOST_PUSH 10.0f
-
 // one limit: gap >= 0 inside, v its velocity. `lock`: both limits in one, in both directions
 FE_INLINE wide limit_impulse(const freedom *f, wide impulse, wide gap, wide v, wide_mask lock, const fe__step_constants *c, int soft)
 {
-    wide zero = w_set(0.0f), one = w_set(1.0f),
-         least = w_choose(w_or(lock, w_greater(one, f->rigid)), w_set(-FE__UNLIMITED), w_set(-MOST_PUSH)), wish;
+    wide zero = w_set(0.0f), one = w_set(1.0f), wish;
     if (soft) {
         wide_mask apart = w_and(w_greater(gap, zero), w_not(lock));
-        wide fade = w_choose(apart, zero, f->fade), push = w_choose(apart, gap * c->inverse_h, w_max(f->rate * gap, least));
+        wide fade = w_choose(apart, zero, f->fade), push = w_choose(apart, gap * c->inverse_h, f->rate * gap);
         wish = (impulse - fade * impulse) - f->mass * ((one - fade) * v + push);
     } else {
         wide_mask spring = w_and(w_greater(one, f->rigid), w_or(lock, w_not(w_greater(gap, zero))));
