@@ -84,6 +84,7 @@ static void predict(const fe_world *world, const fe__contact *m, const fe__view 
     out->v = view_of(v->a, v->b, &pose_a, &pose_b);
     out->found = (fe__manifold){.axis = -1};
     fe__collide(&out->v.form_a, &v->b->form, &out->v.relative, world->tuning.speculative_distance, &out->found);
+    fe__mend_seam(world, &out->v, world->tuning.speculative_distance, &out->found);
 }
 
 static float deepest_of(const fe__manifold *found)
@@ -226,6 +227,7 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
     fe__view v = p->flags & FE__PAIR_SWAPPED ? view_of(y, x, &y->pose, &x->pose) : view_of(x, y, &x->pose, &y->pose);
     fe__manifold found = {.axis = p->axis, .axis_separation = p->axis_separation, .count = (int32_t)m->normal[3]};
     fe__collide(&v.form_a, &v.b->form, &v.relative, fe__maxf(margin, reach), &found);
+    fe__mend_seam(world, &v, fe__maxf(margin, reach), &found);
     p->axis = found.axis, p->axis_separation = found.axis_separation;
 
     // some way off now, but closing: the normal may turn on that way

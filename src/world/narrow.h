@@ -36,6 +36,8 @@ void fe__advance(const fe_world *world, const fe__body *body, float dt, fe_dvec3
 fe__pose fe__shape_pose_at(const fe__body *body, const fe__shape *shape, fe_dvec3 centre, fe_quat rotation);
 // how far a manifold with points may slide or turn before it is looked for anew, m
 float fe__recycle_tolerance(const fe__view *v);
+// Where static boxes lie flush, an inner edge or face gives way to the face that is open (narrow_seam.c).
+void fe__mend_seam(const fe_world *world, const fe__view *v, float margin, fe__manifold *found);
 // Everything of a contact but its tolerance and impulses. `ahead`: `at` is not where the bodies are now.
 void fe__write_manifold(const fe_world *world, fe__contact *m, const fe__view *v, const fe__places *at, const fe__manifold *found,
                         int32_t ahead);
