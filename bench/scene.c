@@ -15,6 +15,8 @@ const bench_family bench_families[] = {
     {"wide", "square pyramid of n levels of boxes", 1, 100, 15, 1, bench_build_wide},
     {"joints", "cloth of n x n spheres on ball joints", 2, 1000, 100, 0, bench_build_joints},
     {"bowl", "n boxes, spheres and capsules poured into a pit", 1, 1000000, 1500, 1, bench_build_bowl},
+    {"level", "n static boxes, for queries", 1, 1000000, 100000, 0, bench_build_level},
+    {"terrain", "a heightfield of n x n samples, for queries", 2, 4096, 1024, 0, bench_build_terrain},
 };
 const int32_t bench_family_count = (int32_t)(sizeof bench_families / sizeof bench_families[0]);
 
@@ -85,6 +87,13 @@ bench_shape bench_make_capsule(float half_height, float radius)
     return shape;
 }
 
+bench_shape bench_make_terrain(int32_t side, float cell)
+{
+    bench_shape shape = make_shape(BENCH_TERRAIN);
+    shape.side = side, shape.cell = cell;
+    return shape;
+}
+
 double bench_shape_volume(const bench_shape *shape)
 {
     double r = shape->radius;
@@ -95,6 +104,8 @@ double bench_shape_volume(const bench_shape *shape)
         return 4.0 / 3.0 * BENCH_PI * r * r * r;
     case BENCH_CAPSULE:
         return BENCH_PI * r * r * (2.0 * (double)shape->half_height + 4.0 / 3.0 * r);
+    case BENCH_TERRAIN:
+        break;
     }
     return 0.0;
 }
@@ -109,6 +120,8 @@ double bench_shape_area(const bench_shape *shape)
         return BENCH_PI * r * r;
     case BENCH_CAPSULE:
         return BENCH_PI * r * r + 4.0 * r * (double)shape->half_height;
+    case BENCH_TERRAIN:
+        break;
     }
     return 0.0;
 }

@@ -16,7 +16,8 @@ extern "C" {
 typedef enum bench_form {
     BENCH_BOX,    ///< half
     BENCH_SPHERE, ///< radius
-    BENCH_CAPSULE ///< half_height of the axis, along local y, and radius
+    BENCH_CAPSULE, ///< half_height of the axis, along local y, and radius
+    BENCH_TERRAIN  ///< side x side samples, `cell` m apart, of bench_terrain_height, about the body's position; static, for queries
 } bench_form;
 
 /// A form with its material. Bodies share shapes by their index.
@@ -25,6 +26,8 @@ typedef struct bench_shape {
     float half[3];     ///< of a box, m
     float radius;      ///< of a sphere or a capsule, m
     float half_height; ///< of a capsule, without its caps, m
+    int32_t side;      ///< of a terrain
+    float cell;        ///< of a terrain, m
     float density;     ///< kg/m3
     float friction;    ///< static = dynamic; engines mix two by sqrt(a b)
     float restitution; ///< 0..1
@@ -81,6 +84,7 @@ typedef struct bench_scene {
     float dt;          ///< s
     int32_t warm_up_steps;
     int32_t timed_steps;
+    double query_half; ///< queries start within so many m of the middle, in x and z; 0: where the bodies of the speed scenes are
     int32_t planar; ///< 1: all happens in the plane z = 0, see bench_make_planar
     bench_shape *shapes;
     bench_body *bodies;
@@ -111,6 +115,9 @@ void bench_scene_destroy(bench_scene *scene);
 bench_shape bench_make_box(float half_x, float half_y, float half_z);
 bench_shape bench_make_sphere(float radius);
 bench_shape bench_make_capsule(float half_height, float radius);
+bench_shape bench_make_terrain(int32_t side, float cell);
+/// m, of the sample in a row (along z) and a column (along x): hills
+float bench_terrain_height(int32_t row, int32_t column);
 /// A scene laid out in the plane z = 0 becomes the twin of a two-dimensional one: bodies are locked to the plane; boxes get the depth 1 m;
 /// spheres and capsules get the mass of a disc or a stadium of depth 1 m and the same density (a sphere's inertia stays 2/5 m r2 where a
 /// disc has 1/2).
@@ -136,6 +143,8 @@ void bench_build_many(bench_scene *scene, int32_t n);
 void bench_build_wide(bench_scene *scene, int32_t n);
 void bench_build_joints(bench_scene *scene, int32_t n);
 void bench_build_bowl(bench_scene *scene, int32_t n);
+void bench_build_level(bench_scene *scene, int32_t n);
+void bench_build_terrain(bench_scene *scene, int32_t n);
 
 #ifdef __cplusplus
 }

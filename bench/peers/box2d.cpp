@@ -271,6 +271,8 @@ const bench_engine bench_box2d = {
     nullptr,
     nullptr,
     nullptr,
+    nullptr,
+    nullptr,
 };
 
 #endif

@@ -8,6 +8,7 @@
 #pragma GCC diagnostic ignored "-Wfloat-conversion"
 #pragma GCC diagnostic ignored "-Wpedantic"
 #pragma GCC diagnostic ignored "-Wunused-parameter"
+#include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
 #include <btBulletDynamicsCommon.h>
 #pragma GCC diagnostic pop
 
@@ -18,6 +19,7 @@
 
 // Members are destroyed from the last to the first: bodies and joints after the world let go of them in its own destructor.
 struct bench_world {
+    std::vector<std::vector<float>> heights;               // of terrains, which do not copy them
     std::vector<std::unique_ptr<btCollisionShape>> shapes; // in the scene's order
     std::vector<std::unique_ptr<btDefaultMotionState>> motions;
     std::vector<std::unique_ptr<btRigidBody>> bodies; // in the scene's order
@@ -40,7 +42,22 @@ btVector3 vector(const float *v) { return btVector3(v[0], v[1], v[2]); }
 // 1 where a body may move or turn, 0 where it is locked
 btVector3 free_axes(int32_t locks) { return btVector3(locks & 1 ? 0.0f : 1.0f, locks & 2 ? 0.0f : 1.0f, locks & 4 ? 0.0f : 1.0f); }
 
-std::unique_ptr<btCollisionShape> make_shape(const bench_shape &shape)
+// It lies about the middle of its height: the body is moved by as much.
+std::unique_ptr<btCollisionShape> make_terrain(bench_world &w, const bench_shape &shape)
+{
+    const size_t side = size_t(shape.side);
+    std::vector<float> heights(side * side);
+    for (size_t i = 0; i < side * side; i++) heights[i] = bench_terrain_height(int32_t(i / side), int32_t(i % side));
+    w.heights.push_back(std::move(heights));
+    const float most = 8.0f; // m, above all heights
+    auto terrain = std::make_unique<btHeightfieldTerrainShape>(shape.side, shape.side, w.heights.back().data(), 1.0f, -most, most, 1,
+                                                               PHY_FLOAT, false);
+    terrain->setLocalScaling(btVector3(shape.cell, 1.0f, shape.cell));
+    terrain->buildAccelerator();
+    return terrain;
+}
+
+std::unique_ptr<btConvexShape> make_convex(const bench_shape &shape)
 {
     switch (shape.form) {
     case BENCH_SPHERE:
@@ -48,9 +65,16 @@ std::unique_ptr<btCollisionShape> make_shape(const bench_shape &shape)
     case BENCH_CAPSULE:
         return std::make_unique<btCapsuleShape>(shape.radius, 2.0f * shape.half_height);
     case BENCH_BOX:
+    case BENCH_TERRAIN:
         break;
     }
     return std::make_unique<btBoxShape>(vector(shape.half));
+}
+
+std::unique_ptr<btCollisionShape> make_shape(bench_world &w, const bench_shape &shape)
+{
+    if (shape.form == BENCH_TERRAIN) return make_terrain(w, shape);
+    return make_convex(shape);
 }
 
 void add_body(bench_world *w, const bench_scene &scene, const bench_body &body)
@@ -192,7 +216,7 @@ bench_world *create(const bench_scene *scene, int32_t, int32_t)
     w->scene = scene;
     static group_filter groups;
     w->world.getPairCache()->setOverlapFilterCallback(&groups);
-    for (int32_t i = 0; i < scene->shape_count; i++) w->shapes.push_back(make_shape(scene->shapes[i]));
+    for (int32_t i = 0; i < scene->shape_count; i++) w->shapes.push_back(make_shape(*w, scene->shapes[i]));
     for (int32_t i = 0; i < scene->body_count; i++) add_body(w.get(), *scene, scene->bodies[i]);
     for (int32_t i = 0; i < scene->joint_count; i++) {
         if (add_joint(w.get(), scene->joints[i])) continue;
@@ -280,6 +304,49 @@ int32_t raycast(bench_world *w, const bench_ray *ray, double *out_fraction)
     return 1;
 }
 
+btTransform start_of(const bench_probe *probe)
+{
+    const double *q = probe->rotation;
+    return btTransform(btQuaternion(float(q[0]), float(q[1]), float(q[2]), float(q[3])), vector(probe->way.origin));
+}
+
+int32_t sweep(bench_world *w, const bench_probe *probe, double *out_fraction)
+{
+    const std::unique_ptr<btConvexShape> form = make_convex(probe->shape);
+    btTransform from = start_of(probe), to = from;
+    to.setOrigin(from.getOrigin() + vector(probe->way.translation));
+    btCollisionWorld::ClosestConvexResultCallback closest(from.getOrigin(), to.getOrigin());
+    w->world.convexSweepTest(form.get(), from, to, closest);
+    if (!closest.hasHit()) return 0;
+    *out_fraction = double(closest.m_closestHitFraction);
+    return 1;
+}
+
+// A body of one shape reports its points in a row.
+struct body_counter final : btCollisionWorld::ContactResultCallback {
+    const btCollisionObject *asks = nullptr, *last = nullptr;
+    int32_t count = 0;
+    btScalar addSingleResult(btManifoldPoint &point, const btCollisionObjectWrapper *a, int, int, const btCollisionObjectWrapper *b, int,
+                             int) override
+    {
+        const btCollisionObject *other = a->getCollisionObject() == asks ? b->getCollisionObject() : a->getCollisionObject();
+        if (point.getDistance() <= 0.0f && other != last) count++, last = other;
+        return 0.0f;
+    }
+};
+
+int32_t overlap(bench_world *w, const bench_probe *probe)
+{
+    const std::unique_ptr<btConvexShape> form = make_convex(probe->shape);
+    btCollisionObject object;
+    object.setCollisionShape(form.get());
+    object.setWorldTransform(start_of(probe));
+    body_counter counter;
+    counter.asks = &object;
+    w->world.contactTest(&object, counter);
+    return counter.count;
+}
+
 } // namespace
 
 const bench_engine bench_bullet = {
@@ -303,6 +370,8 @@ const bench_engine bench_bullet = {
     nullptr,
     nullptr,
     nullptr,
+    sweep,
+    overlap,
 };
 
 #endif

@@ -35,6 +35,28 @@ static fe_geometry geometry_of(const bench_shape *shape)
     return geometry;
 }
 
+// Its middle is the body's position.
+static fe_result add_terrain(fe_world *world, fe_body body, const bench_shape *shape)
+{
+    const size_t side = (size_t)shape->side;
+    float *heights = bench_allocate(side * side, sizeof *heights);
+    for (size_t i = 0; i < side * side; i++) heights[i] = bench_terrain_height((int32_t)(i / side), (int32_t)(i % side));
+    fe_heightfield_def field;
+    fe_heightfield_def_init(&field, sizeof field);
+    field.rows = field.columns = shape->side, field.cell_x = field.cell_z = shape->cell, field.heights = heights;
+    fe_asset asset;
+    fe_result result = fe_heightfield_create(world, &field, &asset);
+    free(heights);
+    if (result != FE_OK) return result;
+    fe_shape_def def;
+    fe_shape_def_init(&def, sizeof def);
+    def.local_position.x = def.local_position.z = -0.5f * shape->cell * (float)(shape->side - 1);
+    fe_geometry geometry;
+    fe_geometry_heightfield(&geometry, asset);
+    fe_shape created;
+    return fe_shape_create(world, body, &def, &geometry, &created);
+}
+
 static fe_result add_body(fe_world *world, const bench_scene *scene, const bench_body *body, fe_body *out_body)
 {
     const bench_shape *shape = &scene->shapes[body->shape];
@@ -52,6 +74,7 @@ static fe_result add_body(fe_world *world, const bench_scene *scene, const bench
     def.sleep_allowed = 0;
     fe_result result = fe_body_create(world, &def, out_body);
     if (result != FE_OK) return result;
+    if (shape->form == BENCH_TERRAIN) return add_terrain(world, *out_body, shape);
 
     fe_shape_def form;
     fe_shape_def_init(&form, sizeof form);
@@ -332,6 +355,39 @@ static int32_t raycast(bench_world *w, const bench_ray *ray, double *out_fractio
     return 1;
 }
 
+static fe_transform start_of(const bench_probe *probe)
+{
+    const double *p = probe->way.origin, *q = probe->rotation;
+    fe_transform t = fe_make_transform(p[0], p[1], p[2]);
+    t.rotation = (fe_quat){(float)q[0], (float)q[1], (float)q[2], (float)q[3]};
+    return t;
+}
+
+static int32_t sweep(bench_world *w, const bench_probe *probe, double *out_fraction)
+{
+    fe_geometry geometry = geometry_of(&probe->shape);
+    fe_transform start = start_of(probe);
+    const double *d = probe->way.translation;
+    fe_dvec3 translation = fe_make_dvec3(d[0], d[1], d[2]);
+    fe_hit hit;
+    fe_result result = fe_world_sweep(w->world, &geometry, &start, &translation, NULL, &hit);
+    if (result < 0) complain("sweep");
+    if (result != FE_OK) return 0;
+    *out_fraction = hit.fraction;
+    return 1;
+}
+
+static int32_t overlap(bench_world *w, const bench_probe *probe)
+{
+    enum { MOST = 256 };
+    fe_body bodies[MOST];
+    fe_geometry geometry = geometry_of(&probe->shape);
+    fe_transform at = start_of(probe);
+    int32_t count = fe_world_overlap(w->world, &geometry, &at, NULL, bodies, MOST);
+    if (count < 0) complain("overlap");
+    return count;
+}
+
 static const char *const phase_names[] = {"step",       "pairs",    "collide", "islands", "solve",
                                           "continuous", "finalize", "events",  "sleep",   NULL};
 
@@ -388,4 +444,6 @@ const bench_engine bench_feather = {
     .read_phases = read_phases,
     .read_counters = read_counters,
     .read_hash = read_hash,
+    .sweep = sweep,
+    .overlap = overlap,
 };

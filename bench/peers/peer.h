@@ -17,6 +17,13 @@ typedef struct bench_ray {
     double translation[3]; ///< m
 } bench_ray;
 
+/// A form that moves along a segment or, for overlaps, stands at its start.
+typedef struct bench_probe {
+    bench_shape shape;
+    double rotation[4]; ///< quaternion x y z w
+    bench_ray way;      ///< of its centre
+} bench_probe;
+
 typedef struct bench_motion {
     double linear[3];  ///< of the centre, m/s
     double angular[3]; ///< rad/s
@@ -68,6 +75,8 @@ typedef struct bench_engine {
     void (*read_phases)(bench_world *world, double *out_ms);
     void (*read_counters)(bench_world *world, bench_counters *out_counters); ///< optional
     uint64_t (*read_hash)(bench_world *world);                               ///< optional
+    int32_t (*sweep)(bench_world *world, const bench_probe *probe, double *out_fraction); ///< optional; 1 on a hit
+    int32_t (*overlap)(bench_world *world, const bench_probe *probe);        ///< optional: how many bodies it overlaps
 } bench_engine;
 
 extern const bench_engine bench_feather;
