@@ -62,7 +62,8 @@ enum { FE_MAX_SUBSTEPS = 64 };
 #define FE_CHECK_BOOL(value) FE_TRY(fe__check_int(function, #value, value, 0, 1))
 #define FE_CHECK_BITS(value, allowed) FE_TRY(fe__check_bits(function, #value, value, allowed))
 #define FE_CHECK_VEC3(pointer, most) FE_TRY(fe__check_vec3(function, #pointer, pointer, most))
-#define FE_CHECK_DVEC3(pointer, most) FE_TRY(fe__check_dvec3(function, #pointer, pointer, most))
+#define FE_CHECK_DVEC3(pointer, most) \
+    if (!fe__is_dvec3_within(pointer, most)) FE_TRY(fe__check_dvec3(function, #pointer, pointer, most))
 #define FE_CHECK_QUAT(pointer) FE_TRY(fe__check_quat(function, #pointer, pointer))
 #define FE_CHECK_TRANSFORM(pointer) FE_TRY(fe__check_transform(function, #pointer, pointer))
 // Any length but zero
@@ -96,6 +97,21 @@ fe_result fe__check_stride(const char *function, uint32_t *stride, uint32_t pack
 fe_result fe__check_material(const char *function, const fe_material *material);
 fe_result fe__check_struct_size(const char *function, const char *name, const void *given);
 fe_result fe__read_struct(const char *function, const char *name, const void *given, void *copy, uint32_t size);
+
+// |x| <= most, for finite most > 0. As integers, so that nothing is raised: the bits of doubles are in their order, and those of infinity and
+// NaN above all others.
+static inline int32_t fe__is_within(double x, double most)
+{
+    union {
+        double value;
+        uint64_t bits;
+    } a = {x}, b = {most};
+    return (a.bits & INT64_MAX) <= b.bits;
+}
+static inline int32_t fe__is_dvec3_within(const fe_dvec3 *v, double most)
+{
+    return v && fe__is_within(v->x, most) && fe__is_within(v->y, most) && fe__is_within(v->z, most);
+}
 
 // Fills a caller's struct: as much as both sides know, but for struct_size, which stays the caller's.
 void fe__write_struct(void *out, const void *full, uint32_t size);

@@ -84,7 +84,8 @@ fe_result fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const 
     FE_TRY(fe__read_filter(function, filter, &whole));
     fe__fp_state fp = fe__fp_enter();
     fe__scene scene = fe__scene_of(world, &whole);
-    fe__probe probe = fe__probe_ray(*origin, *translation);
+    fe__probe probe;
+    fe__probe_ray(&probe, *origin, *translation);
     int32_t hit = fe__cast_closest(&scene, &probe, out_hit);
     fe__fp_leave(fp);
     return hit ? FE_OK : FE_MISS;
@@ -99,7 +100,8 @@ fe_result fe_world_raycast_any(const fe_world *world, const fe_dvec3 *origin, co
     FE_TRY(fe__read_filter(function, filter, &whole));
     fe__fp_state fp = fe__fp_enter();
     fe__scene scene = fe__scene_of(world, &whole);
-    fe__probe probe = fe__probe_ray(*origin, *translation);
+    fe__probe probe;
+    fe__probe_ray(&probe, *origin, *translation);
     int32_t hit = fe__cast_any(&scene, &probe);
     fe__fp_leave(fp);
     return hit ? FE_OK : FE_MISS;
@@ -117,7 +119,8 @@ int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, cons
     FE_TRY(fe__read_filter(function, filter, &whole));
     fe__fp_state fp = fe__fp_enter();
     fe__scene scene = fe__scene_of(world, &whole);
-    fe__probe probe = fe__probe_ray(*origin, *translation);
+    fe__probe probe;
+    fe__probe_ray(&probe, *origin, *translation);
     int32_t count = fe__cast_all(&scene, &probe, out_hits, stride, capacity);
     fe__fp_leave(fp);
     return count;
@@ -244,7 +247,8 @@ static fe_result raycast_shapes(const fe_world *world, int32_t first, int32_t en
     everything.flags = FE_QUERY_TRIGGERS;
     fe__fp_state fp = fe__fp_enter();
     fe__scene scene = fe__scene_of(world, &everything);
-    fe__probe probe = fe__probe_ray(*origin, *translation);
+    fe__probe probe;
+    fe__probe_ray(&probe, *origin, *translation);
     int32_t hit = fe__cast_shapes(&scene, &probe, first, end, out_hit);
     fe__fp_leave(fp);
     return hit ? FE_OK : FE_MISS;

@@ -31,14 +31,15 @@ static fe_path path_at(const void *paths, uint32_t stride, int32_t i)
     return path;
 }
 
-static fe__probe probe_of(const batch *b, int32_t i)
+static void set_probe(const batch *b, int32_t i, fe__probe *probe)
 {
     if (!b->form) {
         fe_ray ray = ray_at(b->ways, b->way_stride, i);
-        return fe__probe_ray(ray.origin, ray.translation);
+        fe__probe_ray(probe, ray.origin, ray.translation);
+        return;
     }
     fe_path path = path_at(b->ways, b->way_stride, i);
-    return fe__probe_form(b->form, &path.start, path.translation);
+    *probe = fe__probe_form(b->form, &path.start, path.translation);
 }
 
 static void answer(void *argument, int32_t first, int32_t end, int32_t worker)
@@ -47,12 +48,13 @@ static void answer(void *argument, int32_t first, int32_t end, int32_t worker)
     batch *b = argument;
     int32_t hits = 0;
     for (int32_t i = first; i < end; ++i) {
-        fe__probe probe = probe_of(b, i);
+        fe__probe probe;
+        set_probe(b, i, &probe);
         fe_hit hit;
         if (fe__cast_closest(&b->scene, &probe, &hit))
             hits += 1;
         else
-            hit = (fe_hit){.point = fe__dadd(probe.origin, probe.translation), .fraction = 1.0, .triangle = -1};
+            hit = (fe_hit){.point = fe__dadd(probe.way.origin, probe.way.translation), .fraction = 1.0, .triangle = -1};
         memcpy(fe__at(b->out_hits, b->stride, i), &hit, b->stride < sizeof hit ? b->stride : sizeof hit);
     }
     atomic_fetch_add_explicit(&b->hits, hits, memory_order_relaxed);

@@ -57,20 +57,24 @@ void fe__tree_query(const fe__tree *tree, const fe__bounds *box, fe__tree_visit 
 // the same against the box the proxy has in `of` (margins included), which may be the same tree: then the proxy itself is visited too
 void fe__tree_query_proxy(const fe__tree *tree, const fe__tree *of, int32_t proxy, fe__tree_visit visit, void *context);
 
-// Proxies whose boxes meet a box of half widths `half` at origin + t * translation, 0 <= t <= limit <= 1, each once, of a node's children the nearest first. `visit` gets
-// the limit and returns the new one (never greater; below 0 stops). Boxes at exactly the limit are still visited, so that ties can be
-// decided by the caller. Returns the last limit. Reads only, any thread.
+// Proxies of some trees, one after the other, whose boxes meet a box of half widths `half` at origin + t * translation, 0 <= t <= limit <=
+// 1, each once, of a node's children the nearest first. `visit` gets the limit and returns the new one (never greater; below 0 stops).
+// Boxes at exactly the limit are still visited, so that ties can be decided by the caller. Returns the last limit. Reads only, any thread.
 typedef double (*fe__tree_ray_visit)(void *context, int32_t proxy, double limit);
-double fe__tree_sweep(const fe__tree *tree, fe_dvec3 origin, fe_dvec3 half, fe_dvec3 translation, double limit, fe__tree_ray_visit visit,
+typedef struct fe__tree_way {
+    fe_dvec3 origin, translation, half;
+} fe__tree_way;
+double fe__tree_sweep(const fe__tree *const *trees, int32_t tree_count, const fe__tree_way *way, double limit, fe__tree_ray_visit visit,
                       void *context);
 static inline double fe__tree_ray(const fe__tree *tree, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__tree_ray_visit visit,
                                   void *context)
 {
-    return fe__tree_sweep(tree, origin, (fe_dvec3){0.0, 0.0, 0.0}, translation, limit, visit, context);
+    const fe__tree_way way = {origin, translation, {0.0, 0.0, 0.0}};
+    return fe__tree_sweep(&tree, 1, &way, limit, visit, context);
 }
 
-// Proxies whose boxes are no farther from a point than `limit` m, each once, of a node's children the nearest first. `visit` returns the new
-// limit as above. Reads only, any thread.
+// Proxies whose boxes are no farther from a point than `limit` m, each once, of a node's children the nearest first. `visit` returns the
+// new limit as above. Reads only, any thread.
 double fe__tree_nearest(const fe__tree *tree, fe_dvec3 point, double limit, fe__tree_ray_visit visit, void *context);
 
 #endif

@@ -5,6 +5,7 @@
 // per ray, so mispredicted branches and the set-up are the cost: the signs of the direction, which are random, do not branch.
 #include "broadphase/tree_node.h"
 
+enum { ROW = FE_TREE_WIDTH * sizeof(float) };
 enum { STACK = 256 }; // 7 entries a level: enough for a depth of 36
 
 // four roundings of 2^-24 on each side of near <= far
@@ -15,10 +16,19 @@ static const float largest_inverse = (float)(1.0 / FE_TREE_PAD);
 // m: the rounding of a denormal quotient (7e-46) stays below FE_TREE_PAD
 static const double longest_translation = 1e24;
 
+// The same for all lanes.
 typedef struct slabs {
-    fe__lanes near_origin[3], far_origin[3], inverse[3];
-    int32_t near_row[3], far_row[3]; // of a node's box
+    fe__quad near_origin[3], far_origin[3], inverse[3];
+    int64_t near_row[3]; // of a node's box, in bytes: row k or k + 3; the far one is the other
 } slabs;
+
+// Of a way, whatever the tree
+typedef struct direction {
+    fe__quad inverse;
+    fe__quad_int backwards, blind; // blind: too fast for floats, excludes nothing
+    uint32_t is_blind;             // any
+    int64_t near_row[3];
+} direction;
 
 typedef struct entry {
     float t;
@@ -40,40 +50,83 @@ typedef enum question { RAY, NEAREST } question;
 
 static float narrow(double x) { return (float)fe__maxd(fe__mind(x, longest_translation), -longest_translation); }
 
-// A box that moves meets another when its centre meets that one swelled by its half widths: the origin is an interval to begin with.
-static void prepare_slabs(slabs *s, fe_dvec3 o, fe_dvec3 half, fe_dvec3 translation)
+typedef double pair __attribute__((vector_size(16)));
+typedef int64_t pair_mask __attribute__((vector_size(16)));
+typedef float pair_float __attribute__((vector_size(8)));
+
+static inline fe__quad quad_of(pair xy, pair z)
+{
+    return __builtin_shufflevector(__builtin_convertvector(xy, pair_float), __builtin_convertvector(z, pair_float), 0, 1, 2, 3);
+}
+
+// From o - half to o + half, rounded outwards: as fe__tree_round_down and fe__tree_round_up do it, but two coordinates at once, and with
+// one allowance for both sides.
+static inline void round_outwards(fe_dvec3 o, fe_dvec3 half, fe__quad *low, fe__quad *high)
+{
+    const pair_mask magnitude = {INT64_MAX, INT64_MAX};
+    const pair o_xy = {o.x, o.y}, o_z = {o.z, o.z}, half_xy = {half.x, half.y}, half_z = {half.z, half.z};
+    pair size_xy = (pair)((pair_mask)o_xy & magnitude) + half_xy, size_z = (pair)((pair_mask)o_z & magnitude) + half_z;
+    pair away_xy = size_xy * FE_TREE_ULP + FE_TREE_PAD, away_z = size_z * FE_TREE_ULP + FE_TREE_PAD;
+    *low = quad_of((o_xy - half_xy) - away_xy, (o_z - half_z) - away_z);
+    *high = quad_of((o_xy + half_xy) + away_xy, (o_z + half_z) + away_z);
+    if (fe__maxd(fe__maxd(size_xy[0], size_xy[1]), size_z[0]) < FE_TREE_FAR) return;
+    *low = (fe__quad){fe__tree_round_down(o.x - half.x), fe__tree_round_down(o.y - half.y), fe__tree_round_down(o.z - half.z), 0.0f};
+    *high = (fe__quad){fe__tree_round_up(o.x + half.x), fe__tree_round_up(o.y + half.y), fe__tree_round_up(o.z + half.z), 0.0f};
+}
+
+static inline direction direction_of(fe_dvec3 translation)
 {
     const fe__quad d = {narrow(translation.x), narrow(translation.y), narrow(translation.z), 1.0f};
-    fe__quad low = {fe__tree_round_down(o.x - half.x), fe__tree_round_down(o.y - half.y), fe__tree_round_down(o.z - half.z), 0.0f};
-    fe__quad high = {fe__tree_round_up(o.x + half.x), fe__tree_round_up(o.y + half.y), fe__tree_round_up(o.z + half.z), 0.0f};
-    // an axis too fast for floats excludes nothing
-    const fe__quad fast = fe__quad_set((float)longest_translation);
+    const fe__quad fast = fe__quad_set((float)longest_translation), slow = fe__quad_set((float)FE_TREE_PAD);
+    fe__quad_int backwards = d < fe__quad_set(0.0f), moves = (d > slow) | (d < -slow);
+    fe__quad still = (fe__quad)((fe__quad_int)fe__quad_set(largest_inverse) | (backwards & INT32_MIN));
     fe__quad_int blind = (d >= fast) | (d <= -fast);
-    low = fe__quad_choose(blind, fe__quad_set(-FLT_MAX), low);
-    high = fe__quad_choose(blind, fe__quad_set(FLT_MAX), high);
-    fe__quad_int backwards = d < fe__quad_set(0.0f);
-    fe__quad_int moves = (d > fe__quad_set((float)FE_TREE_PAD)) | (d < fe__quad_set(-(float)FE_TREE_PAD));
-    fe__quad still = fe__quad_choose(backwards, fe__quad_set(-largest_inverse), fe__quad_set(largest_inverse));
-    fe__quad inverse = fe__quad_choose(moves, 1.0f / d, still);
-    fe__quad near_origin = fe__quad_choose(backwards, low, high), far_origin = fe__quad_choose(backwards, high, low);
-    for (int32_t k = 0; k < 3; ++k) {
-        s->near_origin[k] = fe__lanes_set(near_origin[k]);
-        s->far_origin[k] = fe__lanes_set(far_origin[k]);
-        s->inverse[k] = fe__lanes_set(inverse[k]);
-        s->near_row[k] = k - 3 * backwards[k]; // a true lane is -1
-        s->far_row[k] = k + 3 + 3 * backwards[k];
+    int64_t bits = fe__quad_signs(backwards);
+    return (direction){.inverse = fe__quad_choose(moves, 1.0f / d, still),
+                       .backwards = backwards,
+                       .blind = blind,
+                       .is_blind = fe__quad_signs(blind),
+                       .near_row = {ROW * 3 * (bits & 1), ROW * (1 + 3 * (bits >> 1 & 1)), ROW * (2 + 3 * (bits >> 2 & 1))}};
+}
+
+// A box that moves meets another when its centre meets that one swelled by its half widths: the origin is an interval to begin with.
+static inline void prepare_slabs(slabs *s, const direction *way, fe_dvec3 o, fe_dvec3 half)
+{
+    fe__quad low, high;
+    round_outwards(o, half, &low, &high);
+    if (way->is_blind) {
+        low = fe__quad_choose(way->blind, fe__quad_set(-FLT_MAX), low);
+        high = fe__quad_choose(way->blind, fe__quad_set(FLT_MAX), high);
     }
+    fe__quad_int exchange = ((fe__quad_int)low ^ (fe__quad_int)high) & way->backwards;
+    fe__quad near_origin = (fe__quad)((fe__quad_int)high ^ exchange), far_origin = (fe__quad)((fe__quad_int)low ^ exchange);
+    fe__quad inverse = way->inverse; // spread one by one: gcc does not unroll the loop
+    s->near_origin[0] = fe__quad_set(near_origin[0]), s->far_origin[0] = fe__quad_set(far_origin[0]),
+    s->inverse[0] = fe__quad_set(inverse[0]);
+    s->near_origin[1] = fe__quad_set(near_origin[1]), s->far_origin[1] = fe__quad_set(far_origin[1]),
+    s->inverse[1] = fe__quad_set(inverse[1]);
+    s->near_origin[2] = fe__quad_set(near_origin[2]), s->far_origin[2] = fe__quad_set(far_origin[2]),
+    s->inverse[2] = fe__quad_set(inverse[2]);
+    s->near_row[0] = way->near_row[0], s->near_row[1] = way->near_row[1], s->near_row[2] = way->near_row[2];
+}
+
+FE_COMPILED_FOR void clip(const fe__tree_node *node, const slabs *s, int32_t k, fe__lanes *enter, fe__lanes *leave)
+{
+    const fe__lanes near_origin = {s->near_origin[k], s->near_origin[k]}, far_origin = {s->far_origin[k], s->far_origin[k]};
+    const fe__lanes inverse = {s->inverse[k], s->inverse[k]};
+    const char *rows = (const char *)node->box, *near_row = rows + s->near_row[k], *far_row = rows + (2 * k + 3) * ROW - s->near_row[k];
+    fe__lanes near_side = fe__lanes_load((const float *)near_row), far_side = fe__lanes_load((const float *)far_row);
+    *enter = fe__lanes_max(*enter, fe__lanes_mul(fe__lanes_sub(near_side, near_origin), inverse));
+    *leave = fe__lanes_min(*leave, fe__lanes_mul(fe__lanes_sub(far_side, far_origin), inverse));
 }
 
 // bit i: the segment meets lane i, at t[i] or later
-static inline uint32_t hit_lanes(const fe__tree_node *node, const slabs *s, float limit, float t[FE_TREE_WIDTH])
+FE_COMPILED_FOR uint32_t hit_lanes(const fe__tree_node *node, const slabs *s, float limit, float t[FE_TREE_WIDTH])
 {
     fe__lanes enter = fe__lanes_set(0.0f), leave = fe__lanes_set(limit);
-    for (int32_t k = 0; k < 3; ++k) {
-        fe__lanes near_side = fe__lanes_load(node->box[s->near_row[k]]), far_side = fe__lanes_load(node->box[s->far_row[k]]);
-        enter = fe__lanes_max(enter, fe__lanes_mul(fe__lanes_sub(near_side, s->near_origin[k]), s->inverse[k]));
-        leave = fe__lanes_min(leave, fe__lanes_mul(fe__lanes_sub(far_side, s->far_origin[k]), s->inverse[k]));
-    }
+    clip(node, s, 0, &enter, &leave);
+    clip(node, s, 1, &enter, &leave);
+    clip(node, s, 2, &enter, &leave);
     fe__lanes_store(t, enter);
     return fe__lanes_at_most(enter, fe__lanes_mul(leave, fe__lanes_set(slack)));
 }
@@ -83,8 +136,9 @@ static inline uint32_t near_lanes(const fe__tree_node *node, const slabs *s, flo
 {
     fe__lanes square = fe__lanes_set(0.0f), zero = square;
     for (int32_t k = 0; k < 3; ++k) {
-        fe__lanes below = fe__lanes_sub(fe__lanes_load(node->box[k]), s->near_origin[k]);
-        fe__lanes above = fe__lanes_sub(s->far_origin[k], fe__lanes_load(node->box[3 + k]));
+        const fe__lanes near_origin = {s->near_origin[k], s->near_origin[k]}, far_origin = {s->far_origin[k], s->far_origin[k]};
+        fe__lanes below = fe__lanes_sub(fe__lanes_load(node->box[k]), near_origin);
+        fe__lanes above = fe__lanes_sub(far_origin, fe__lanes_load(node->box[3 + k]));
         fe__lanes away = fe__lanes_max(fe__lanes_max(below, above), zero);
         square = fe__lanes_add(square, fe__lanes_mul(away, away));
     }
@@ -184,13 +238,18 @@ FE_COMPILED_FOR void walk(question q, cast *c)
     }
 }
 
-double fe__tree_sweep(const fe__tree *tree, fe_dvec3 origin, fe_dvec3 half, fe_dvec3 translation, double limit, fe__tree_ray_visit visit,
+double fe__tree_sweep(const fe__tree *const *trees, int32_t tree_count, const fe__tree_way *way, double limit, fe__tree_ray_visit visit,
                       void *context)
 {
-    if (tree->proxy_count == 0 || limit < 0.0) return limit;
-    cast c = {.tree = tree, .limit = limit, .limit_up = fe__tree_round_up(limit), .visit = visit, .context = context};
-    prepare_slabs(&c.slabs, fe__dsub(origin, tree->origin), half, translation);
-    walk(RAY, &c);
+    direction d = direction_of(way->translation);
+    cast c; // every field is set: zeroing it first would cost a tenth of a ray
+    c.limit = limit, c.limit_up = fe__tree_round_up(limit), c.visit = visit, c.context = context;
+    for (int32_t i = 0; i < tree_count && c.limit >= 0.0; ++i) {
+        c.tree = trees[i];
+        if (c.tree->proxy_count == 0) continue;
+        prepare_slabs(&c.slabs, &d, fe__dsub(way->origin, c.tree->origin), way->half);
+        walk(RAY, &c);
+    }
     return c.limit;
 }
 
@@ -198,11 +257,12 @@ double fe__tree_nearest(const fe__tree *tree, fe_dvec3 point, double limit, fe__
 {
     if (tree->proxy_count == 0 || limit < 0.0) return limit;
     fe_dvec3 o = fe__dsub(point, tree->origin);
-    cast c = {.tree = tree, .limit = limit, .limit_up = square_up(limit), .visit = visit, .context = context};
+    cast c;
+    c.tree = tree, c.limit = limit, c.limit_up = square_up(limit), c.visit = visit, c.context = context;
     const double at[3] = {o.x, o.y, o.z};
     for (int32_t k = 0; k < 3; ++k) {
-        c.slabs.near_origin[k] = fe__lanes_set(fe__tree_round_up(at[k]));
-        c.slabs.far_origin[k] = fe__lanes_set(fe__tree_round_down(at[k]));
+        c.slabs.near_origin[k] = fe__quad_set(fe__tree_round_up(at[k]));
+        c.slabs.far_origin[k] = fe__quad_set(fe__tree_round_down(at[k]));
     }
     walk(NEAREST, &c);
     return c.limit;

@@ -10,25 +10,25 @@
 #include <string.h>
 
 // ---- the probe ------------------------------------------------------------------------------------------------------------------
-fe__probe fe__probe_ray(fe_dvec3 origin, fe_dvec3 translation)
+// Zeroing it whole would cost a twentieth of a ray.
+void fe__probe_ray(fe__probe *probe, fe_dvec3 origin, fe_dvec3 translation)
 {
-    return (fe__probe){.form = {.type = FE_GEOMETRY_SPHERE}, .origin = origin, .translation = translation};
+    probe->form = (fe__form){.type = FE_GEOMETRY_SPHERE};
+    probe->way = (fe__tree_way){origin, translation, {0.0, 0.0, 0.0}};
 }
 
 fe__probe fe__probe_form(const fe__form *form, const fe_transform *from, fe_dvec3 translation)
 {
     fe__pose turned = {{0.0, 0.0, 0.0}, from->rotation};
     return (fe__probe){.form = *form,
-                       .origin = from->position,
-                       .translation = translation,
-                       .axes = fe__axes_of(from->rotation),
-                       .half = fe__form_bounds(form, &turned).high};
+                       .way = {from->position, translation, fe__form_bounds(form, &turned).high},
+                       .axes = fe__axes_of(from->rotation)};
 }
 
 static int32_t is_ray(const fe__probe *probe) { return probe->form.type == FE_GEOMETRY_SPHERE && probe->form.radius == 0.0f; }
 
 // ---- one shape ------------------------------------------------------------------------------------------------------------------
-// A hit in the world, its normal and point relative to the origin of the shape.
+// A hit in the frame of the shape. What is first in the end is turned into the world, not what is only tested.
 typedef struct found {
     double t, depth;
     fe_dvec3 normal, point;
@@ -36,16 +36,24 @@ typedef struct found {
     int32_t triangle; // of a heightfield, else -1
 } found;
 
+// A ball, or what stands as it was made, needs no turning for a ray: its frame has the world's axes.
+static int32_t is_turned(const fe__shape *shape)
+{
+    fe_quat q = shape->pose.rotation;
+    return shape->form.type != FE_GEOMETRY_SPHERE && !(q.x == 0.0f && q.y == 0.0f && q.z == 0.0f);
+}
+
 static int32_t meet_ray(const fe__scene *scene, const fe__probe *probe, const fe__shape *shape, double limit, found *f)
 {
     fe_quat q = shape->pose.rotation;
-    fe_dvec3 origin = fe__drotate_back(q, fe__dsub(probe->origin, shape->pose.position)), way = fe__drotate_back(q, probe->translation);
+    fe_dvec3 origin = fe__dsub(probe->way.origin, shape->pose.position), way = probe->way.translation;
+    if (is_turned(shape)) origin = fe__drotate_back(q, origin), way = fe__drotate_back(q, way);
     fe__ray_hit hit;
     int32_t is_field = shape->form.type == FE_GEOMETRY_HEIGHTFIELD;
     int32_t met = is_field ? fe__heightfield_ray(scene->fields + shape->form.field, origin, way, limit, &hit)
                            : fe__form_ray(&shape->form, origin, way, limit, &hit);
     if (!met) return 0;
-    *f = (found){.t = hit.t, .depth = hit.depth, .normal = fe__drotate(q, hit.normal), .inside = hit.inside, .triangle = hit.triangle};
+    f->t = hit.t, f->depth = hit.depth, f->normal = hit.normal, f->inside = hit.inside, f->triangle = hit.triangle;
     return 1;
 }
 
@@ -54,8 +62,8 @@ static fe__mover mover_of(const fe__probe *probe, const fe__shape *shape, const 
     const fe__axes *a = &probe->axes;
     return (fe__mover){.form = &probe->form,
                        .axes = {fe__turn_back(m, a->x), fe__turn_back(m, a->y), fe__turn_back(m, a->z)},
-                       .position = fe__turn_back(m, fe__dsub(probe->origin, shape->pose.position)),
-                       .translation = fe__turn_back(m, probe->translation)};
+                       .position = fe__turn_back(m, fe__dsub(probe->way.origin, shape->pose.position)),
+                       .translation = fe__turn_back(m, probe->way.translation)};
 }
 
 static int32_t meet_form(const fe__scene *scene, const fe__probe *probe, const fe__shape *shape, double limit, found *f)
@@ -67,14 +75,15 @@ static int32_t meet_form(const fe__scene *scene, const fe__probe *probe, const f
     int32_t met = is_field ? fe__heightfield_sweep(scene->fields + shape->form.field, &mover, limit, &hit)
                            : fe__form_sweep(&shape->form, &mover, limit, &hit);
     if (!met) return 0;
-    *f = (found){hit.t, hit.depth, fe__turn(&m, hit.normal), fe__turn(&m, hit.point), hit.inside, hit.triangle};
+    *f = (found){hit.t, hit.depth, hit.normal, hit.point, hit.inside, hit.triangle};
     return 1;
 }
 
 int32_t fe__probe_overlaps(const fe__scene *scene, const fe__probe *probe, const fe__shape *shape)
 {
     if (is_ray(probe)) {
-        fe__probe still = fe__probe_ray(probe->origin, (fe_dvec3){0.0, 0.0, 0.0});
+        fe__probe still;
+        fe__probe_ray(&still, probe->way.origin, (fe_dvec3){0.0, 0.0, 0.0});
         found f;
         return meet_ray(scene, &still, shape, 0.0, &f);
     }
@@ -108,10 +117,14 @@ static fe_vec3 against_way(fe_dvec3 normal, fe_dvec3 way)
 static fe_hit hit_of(const fe__scene *scene, const fe__probe *probe, int32_t index, const found *f)
 {
     const fe__shape *shape = &scene->shapes[index];
-    fe_dvec3 way = probe->translation, normal = f->normal, point = fe__dadd(shape->pose.position, f->point);
+    fe_dvec3 way = probe->way.translation, normal = f->normal, point;
     double square = fe__ddot(way, way);
+    if (!is_ray(probe) || is_turned(shape)) normal = fe__drotate(shape->pose.rotation, normal);
     if (f->inside && square > 0.0) normal = fe__dscale(-1.0 / sqrt(square), way);
-    if (f->inside || is_ray(probe)) point = fe__dadd(probe->origin, fe__dscale(f->t, way));
+    if (f->inside || is_ray(probe))
+        point = fe__dadd(probe->way.origin, fe__dscale(f->t, way));
+    else
+        point = fe__dadd(shape->pose.position, fe__drotate(shape->pose.rotation, f->point));
     return (fe_hit){.body = fe__id_pool_handle(scene->body_ids, shape->body),
                     .shape = fe__id_pool_handle(scene->shape_ids, index),
                     .point = point,
@@ -155,8 +168,8 @@ static double visit_nearest(void *context, int32_t index, double limit)
 static void walk(const fe__scene *scene, const fe__probe *probe, double limit, fe__tree_ray_visit visit, void *context)
 {
     for (int32_t i = 0; i < scene->plane_count && limit >= 0.0; ++i) limit = visit(context, scene->planes[i], limit);
-    limit = fe__tree_sweep(scene->static_tree, probe->origin, probe->half, probe->translation, limit, visit, context);
-    (void)fe__tree_sweep(scene->moving_tree, probe->origin, probe->half, probe->translation, limit, visit, context);
+    const fe__tree *trees[] = {scene->static_tree, scene->moving_tree};
+    (void)fe__tree_sweep(trees, 2, &probe->way, limit, visit, context);
 }
 
 static int32_t tell_nearest(const cast *c, fe_hit *out_hit)
@@ -168,7 +181,8 @@ static int32_t tell_nearest(const cast *c, fe_hit *out_hit)
 
 int32_t fe__cast_closest(const fe__scene *scene, const fe__probe *probe, fe_hit *out_hit)
 {
-    cast c = {.scene = scene, .probe = probe, .body = FE_ANY_BODY, .shape = -1};
+    cast c; // `found` means something once `shape` does
+    c.scene = scene, c.probe = probe, c.body = FE_ANY_BODY, c.shape = -1;
     walk(scene, probe, 1.0, visit_nearest, &c);
     return tell_nearest(&c, out_hit);
 }
@@ -192,7 +206,8 @@ static double visit_any(void *context, int32_t index, double limit)
 
 int32_t fe__cast_any(const fe__scene *scene, const fe__probe *probe)
 {
-    cast c = {.scene = scene, .probe = probe, .body = FE_ANY_BODY, .shape = -1};
+    cast c; // `found` means something once `shape` does
+    c.scene = scene, c.probe = probe, c.body = FE_ANY_BODY, c.shape = -1;
     walk(scene, probe, 1.0, visit_any, &c);
     return c.shape >= 0;
 }

@@ -8,13 +8,12 @@
 #include "collision/sweep.h"
 
 typedef struct fe__probe {
-    fe__form form; // sphere, capsule or box; a sphere of radius 0: a ray
-    fe_dvec3 origin, translation;
+    fe__form form;    // sphere, capsule or box; a sphere of radius 0: a ray
+    fe__tree_way way; // of its centre, with the half widths of its bounds
     fe__axes axes;
-    fe_dvec3 half; // of its bounds, m
 } fe__probe;
 
-fe__probe fe__probe_ray(fe_dvec3 origin, fe_dvec3 translation);
+void fe__probe_ray(fe__probe *probe, fe_dvec3 origin, fe_dvec3 translation); // its axes mean nothing
 fe__probe fe__probe_form(const fe__form *form, const fe_transform *from, fe_dvec3 translation);
 
 // Does it overlap the shape where it starts? Exactly when a cast would start inside.

@@ -17,7 +17,8 @@ typedef struct search {
 
 static int32_t touches(const search *s, const fe__shape *shape)
 {
-    return (s->body == FE_ANY_BODY || shape->body == s->body) && fe__scene_counts(s->scene, shape) && fe__probe_overlaps(s->scene, s->probe, shape);
+    return (s->body == FE_ANY_BODY || shape->body == s->body) && fe__scene_counts(s->scene, shape) &&
+           fe__probe_overlaps(s->scene, s->probe, shape);
 }
 
 static void walk(search *s, fe__tree_visit visit)
@@ -26,7 +27,7 @@ static void walk(search *s, fe__tree_visit visit)
     for (int32_t i = 0; i < scene->plane_count; ++i) {
         if (!visit(s, scene->planes[i])) return;
     }
-    fe__bounds bounds = {fe__dsub(s->probe->origin, s->probe->half), fe__dadd(s->probe->origin, s->probe->half)};
+    fe__bounds bounds = {fe__dsub(s->probe->way.origin, s->probe->way.half), fe__dadd(s->probe->way.origin, s->probe->way.half)};
     fe__tree_query(scene->static_tree, &bounds, visit, s);
     fe__tree_query(scene->moving_tree, &bounds, visit, s);
 }

@@ -135,6 +135,7 @@ static answer reference(const known_world *k, fe_dvec3 origin, fe_dvec3 translat
         fe__pose body = {t.position, t.rotation}, pose = body;
         int32_t centred = s->local_position.x == 0.0f && s->local_rotation.w == 1.0f;
         if (!centred) pose = fe__compose(&body, s->local_position, s->local_rotation);
+        if (s->form.type == FE_GEOMETRY_SPHERE) pose.rotation = fe__identity(); // a ball is asked without turning
         fe_dvec3 o = fe__drotate_back(pose.rotation, fe__dsub(origin, pose.position)), d = fe__drotate_back(pose.rotation, translation);
         fe__ray_hit hit;
         if (!fe__form_ray(&s->form, o, d, 1.0, &hit) || hit.t >= best.fraction) continue;
