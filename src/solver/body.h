@@ -16,7 +16,8 @@ enum {
     FE__BODY_STARTED = 64,     // scratch of a walk: over an island, over a list of handles
     FE__BODY_IGNORES = 128,    // named in fe_world.ignored
     FE__BODY_STIRRED = 256,    // in the list of bodies that woke or fell asleep
-    FE__BODY_SEEN_AWAKE = 512  // when the events of the last step were written
+    FE__BODY_SEEN_AWAKE = 512, // when the events of the last step were written
+    FE__BODY_CHASED = 1024     // in the list of bodies that continuous collision looks at
 };
 
 typedef struct fe__body {
@@ -34,6 +35,7 @@ typedef struct fe__body {
     float inertia[4];       // principal moments, kg m2 (of a dynamic body > 0); lane 3: mass, kg
     float inertia_axes[4];  // their axes in the body's frame
     float gravity_scale;
+    float thickness;        // smallest half width of its shapes, m; FLT_MAX without any
     float sleep_threshold;  // m/s
     float sleep_timer;      // s below the threshold
     int32_t line;           // in the solver while awake, set when the graph is built

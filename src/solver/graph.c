@@ -129,6 +129,7 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
         !FE_RESERVE(memory, s->start, s->line_capacity[2], lines) || !FE_RESERVE(memory, s->inertia, s->line_capacity[3], lines) ||
         !FE_RESERVE(memory, s->drive, s->line_capacity[4], lines) || !FE_RESERVE(memory, s->spin, s->line_capacity[5], lines) ||
         !FE_RESERVE(memory, s->body_of_line, s->body_of_line_capacity, lines) ||
+        !FE_RESERVE(memory, s->trail_count, s->trail_capacity[0], lines) || !FE_RESERVE(memory, s->trail, s->trail_capacity[1], lines) ||
         !FE_RESERVE(memory, s->batches, s->batch_capacity, batches) || !FE_RESERVE(memory, s->groups, s->group_capacity, groups + 1) ||
         !FE_RESERVE(memory, s->lanes, s->lane_capacity, lanes + width) ||
         !FE_RESERVE(memory, s->sort_items, s->sort_capacity, 2 * sorted) ||
@@ -148,6 +149,8 @@ void fe__solver_destroy(fe__solver *s, fe__memory *memory)
     FE_FREE(memory, s->drive, s->line_capacity[4]);
     FE_FREE(memory, s->spin, s->line_capacity[5]);
     FE_FREE(memory, s->body_of_line, s->body_of_line_capacity);
+    FE_FREE(memory, s->trail_count, s->trail_capacity[0]);
+    FE_FREE(memory, s->trail, s->trail_capacity[1]);
     FE_FREE(memory, s->batches, s->batch_capacity);
     FE_FREE(memory, s->groups, s->group_capacity);
     FE_FREE(memory, s->lanes, s->lane_capacity);

@@ -130,13 +130,37 @@ static const pass *pass_at(const program *p, int32_t i)
 }
 
 // ---- one block of one pass -------------------------------------------------------------------------------------------------------------
+// Continuous collision follows the way that fast bodies really went, round a bounce too: the straight line to where they ended may cut what
+// they never met.
+static void begin_trails(const job *j, int32_t first, int32_t count)
+{
+    float dt = (float)j->c->substeps * j->c->h;
+    for (int32_t i = first; i < first + count; ++i) {
+        const fe__body *body = j->bodies + fe__maxi(j->s->body_of_line[i], 0);
+        int32_t fast = j->s->body_of_line[i] >= 0 && body->centre_low[3] * dt > body->thickness;
+        j->s->trail_count[i] = fast ? 0 : FE__NO_TRAIL;
+    }
+}
+
+static void leave_trails(const job *j, int32_t first, int32_t count)
+{
+    int32_t stride = fe__trail_stride(j->c->substeps);
+    for (int32_t i = first; i < first + count; ++i) {
+        if (j->s->trail_count[i] == FE__NO_TRAIL) continue;
+        int32_t substeps = ++j->s->trail_count[i];
+        if (substeps % stride == 0) memcpy(j->s->trail[i][substeps / stride - 1], j->s->motion[i], sizeof *j->s->motion);
+    }
+}
+
 static void run_lines(const job *j, const fe__batch *b, verb verb, int32_t block)
 {
     int32_t first = b->first_line + block * LINES_IN_BLOCK, count = fe__mini(LINES_IN_BLOCK, b->first_line + b->line_count - first);
     const fe__body_kernels *k = j->k->body;
     if (verb == LOAD) k->load(j->s, j->bodies, first, count, j->c);
     if (verb == LOAD) k->begin_velocities(j->s, first, count, j->c);
+    if (verb == LOAD) begin_trails(j, first, count);
     if (verb == INTEGRATE) k->integrate_positions(j->s, first, count, j->c);
+    if (verb == INTEGRATE) leave_trails(j, first, count);
     if (verb == CARRY) k->carry_velocities(j->s, first, count, j->c);
 }
 

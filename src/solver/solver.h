@@ -20,6 +20,8 @@ enum {
     FE__LINE = 8,        // floats in a line: two quads, 32 bytes
     FE__MAX_WIDTH = 16,  // lanes of the widest kernel: blocks of lines are padded to it
     FE__STATIC_LINE = 0, // all zeros: what static bodies read
+    FE__TRAIL = 8,       // most places on the way of a fast body
+    FE__NO_TRAIL = -1,
 
     // kinds of rows, bits
     FE__ROW_PAIR = 1,    // both bodies are dynamic; otherwise A is static or kinematic and only B is written
@@ -103,6 +105,11 @@ typedef struct fe__solver {
     int32_t *body_of_line; // -1: padding
     int32_t body_of_line_capacity;
 
+    // Where bodies that are fast when the step begins went: `motion` after each fe__trail_stride substeps
+    int16_t *trail_count;                // substeps so far; FE__NO_TRAIL: a slow one
+    float (*trail)[FE__TRAIL][FE__LINE];
+    int32_t trail_capacity[2];
+
     // the graph (graph.c), kept while nothing links, unlinks, wakes or sleeps
     int32_t graph_changed;
     fe__batch *batches; // large islands first, kinematic bodies last
@@ -121,6 +128,8 @@ typedef struct fe__solver {
     int32_t row_capacity; // blocks
     int64_t worker_row_bytes;
 } fe__solver;
+
+static inline int32_t fe__trail_stride(int32_t substeps) { return (substeps + FE__TRAIL - 1) / FE__TRAIL; }
 
 // Passes over the rows of a group: `rows` is its first row, `lanes` its first lane, `count` rows. One entry for each kind of row.
 typedef struct fe__contact_kernels {

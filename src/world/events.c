@@ -89,7 +89,8 @@ static void look_block(void *argument, int32_t first, int32_t end, int32_t worke
         int32_t pair = w->awake_pairs[i];
         fe__pair *p = w->pairs + pair;
         if (p->flags & FE__PAIR_PATCH) continue;
-        int32_t now = touches(w, pair);
+        int32_t now = touches(w, pair) || p->flags & FE__PAIR_CROSSED;
+        p->flags &= ~(uint32_t)FE__PAIR_CROSSED;
         int32_t before = (p->flags & FE__PAIR_TOUCHING) != 0, tells = now != before;
         if (now && before) tells = (p->events & (FE_EVENTS_STAY | FE_EVENTS_HIT)) != 0;
         tells |= (p->flags & FE__PAIR_ONCE) != 0;

@@ -64,9 +64,9 @@ static void follow_body(fe__step *step, int32_t index)
 // and rad/s:
 #define MOST_SPEED 1e7f
 
-static int32_t makes_sense(const float *velocity, const float *motion)
+int32_t fe__motion_makes_sense(const fe__solver *s, int32_t line)
 {
-    const float *v = velocity, *w = velocity + 4, *dp = motion, *dq = motion + 4, most = MOST_SPEED * MOST_SPEED;
+    const float *v = s->velocity[line], *w = v + 4, *dp = s->motion[line], *dq = dp + 4, most = MOST_SPEED * MOST_SPEED;
     float turned = dq[0] * dq[0] + dq[1] * dq[1] + dq[2] * dq[2] + dq[3] * dq[3];
     return v[0] * v[0] + v[1] * v[1] + v[2] * v[2] < most && w[0] * w[0] + w[1] * w[1] + w[2] * w[2] < most &&
            dp[0] * dp[0] + dp[1] * dp[1] + dp[2] * dp[2] < most && turned > 0.0f && turned < most; // a NaN is less than nothing
@@ -100,7 +100,7 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
     for (int32_t i = first; i < end; ++i) {
         fe__body *body = w->bodies + w->awake_bodies[i];
         const float *velocity = w->solver.velocity[body->line], *motion = w->solver.motion[body->line];
-        if (!makes_sense(velocity, motion)) {
+        if (!fe__motion_makes_sense(&w->solver, body->line)) {
             stop_lost(step, body);
             continue;
         }

@@ -5,6 +5,8 @@
 // Computed in double: the parts of a large body far from its centre would cancel in float.
 #include "world/world.h"
 
+#include <float.h>
+
 // A body lighter than this, kg, would have an inverse mass or inertia that floats cannot hold: it counts as weightless. (A sphere of the
 // smallest radius, 1 mm, of water weighs 4e-6 kg.)
 #define LEAST_MASS 1e-9
@@ -39,12 +41,14 @@ static void set_local_centre(fe__body *body, fe_vec3 centre)
     fe__body_place_centre(body);
 }
 
-static void set_reach(const fe_world *world, fe__body *body)
+static void set_sizes(const fe_world *world, fe__body *body)
 {
     fe_vec3 centre = {body->local_centre[0], body->local_centre[1], body->local_centre[2]};
     float reach = 0.0f;
+    body->thickness = FLT_MAX;
     for (int32_t i = body->first_shape; i >= 0; i = world->shapes[i].next) {
         const fe__shape *shape = &world->shapes[i];
+        body->thickness = fe__minf(body->thickness, fe__form_thickness(&shape->form));
         fe_vec3 in_form = fe__rotate_back(shape->local_rotation, fe__sub(centre, shape->local_position));
         reach = fe__maxf(reach, fe__form_reach(&shape->form, in_form));
     }
@@ -62,7 +66,7 @@ static void apply(const fe_world *world, fe__body *body, const mass_properties *
     if (p->centre.x != body->local_centre[0] || p->centre.y != body->local_centre[1] || p->centre.z != body->local_centre[2]) {
         set_local_centre(body, p->centre);
     }
-    set_reach(world, body);
+    set_sizes(world, body);
 
     float largest = fe__maxf(fe__maxf(inertia.x, inertia.y), inertia.z), least = fe__minf(fe__minf(inertia.x, inertia.y), inertia.z);
     int32_t turns_locked = (uint32_t)body->spin[3] >> 3 != 0;

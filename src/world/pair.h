@@ -12,7 +12,8 @@ enum {
     FE__PAIR_RECYCLED = 32, // kept its manifold in this step
     FE__PAIR_ROUND = 64,    // a sphere or capsule is in it: a new manifold each step
     FE__PAIR_ONCE = 128,    // looked at in the next step although both sides sleep
-    FE__PAIR_PATCH = 256    // a further patch of a pair with a heightfield
+    FE__PAIR_PATCH = 256,   // a further patch of a pair with a heightfield
+    FE__PAIR_CROSSED = 512  // a trigger that was passed between two steps
 };
 
 // What the narrow phase says of a pair in this step, applied afterwards in a fixed order

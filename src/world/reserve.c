@@ -99,6 +99,8 @@ static int32_t reserve_scratch(fe__step *step, const fe__graph_bound *b)
     return FE_RESERVE(memory, s->results, s->result_capacity, (int64_t)b->contacts + 1) &&
            FE_RESERVE(memory, s->moved, s->moved_capacity, b->contacts) && FE_RESERVE(memory, s->left, s->left_capacity, w->shape_count) &&
            FE_RESERVE(memory, s->boxes, s->box_capacity, w->shape_count) &&
+           FE_RESERVE(memory, s->chased, s->chased_capacity, (int64_t)2 * b->bodies) &&
+           FE_RESERVE(memory, s->chases, s->chase_capacity, b->bodies) &&
            FE_RESERVE(memory, s->island_timers, s->island_capacity, b->bodies) &&
            FE_RESERVE(memory, s->sort_items, s->sort_capacity, 2 * sorted) &&
            FE_RESERVE(memory, w->pair_events, w->pair_event_capacity, (int64_t)b->contacts + w->owed_event_count) &&

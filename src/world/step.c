@@ -14,6 +14,7 @@ static const stage stages[] = {
     {fe__update_contacts, offsetof(fe_profile, collide), 0},    // narrow phase or recycling -> manifolds, begin and end, wakes
     {fe__build_islands, offsetof(fe_profile, islands), 0},      // small ones into batches, large ones into colours
     {fe__solve_islands, offsetof(fe_profile, solve), 1},        // all substeps -> velocities, motion, impulses
+    {fe__stop_fast_bodies, offsetof(fe_profile, finalize), 1},  // continuous collision of what outran its thickness
     {fe__move_bodies, offsetof(fe_profile, finalize), 1},       // poses, bounds, trees
     {fe__break_joints, offsetof(fe_profile, events), 0},        // joints that bore too much
     {fe__collect_events, offsetof(fe_profile, events), 0},      // touching begun, kept, ended; impacts
@@ -133,6 +134,8 @@ void fe__step_scratch_destroy(fe_world *w)
     FE_FREE(memory, s->results, s->result_capacity);
     FE_FREE(memory, s->left, s->left_capacity);
     FE_FREE(memory, s->boxes, s->box_capacity);
+    FE_FREE(memory, s->chased, s->chased_capacity);
+    FE_FREE(memory, s->chases, s->chase_capacity);
     FE_FREE(memory, s->moved, s->moved_capacity);
     FE_FREE(memory, s->island_timers, s->island_capacity);
     FE_FREE(memory, s->sort_items, s->sort_capacity);

@@ -16,6 +16,12 @@ typedef struct fe__candidate_buffer {
     int32_t count;                                // found; those beyond the capacity were not written
 } fe__candidate_buffer;
 
+// Where a body ends that something stood in the way of
+typedef struct fe__chase {
+    float motion[FE__LINE], velocity[3];
+    int32_t stopped;
+} fe__chase;
+
 typedef struct fe__step_scratch {
     fe__candidate *candidates; // a stretch for each worker; merged and sorted in the first
     int32_t candidate_capacity, candidate_room, candidate_count;
@@ -32,6 +38,12 @@ typedef struct fe__step_scratch {
     int32_t left_capacity, box_capacity;
     _Atomic int32_t left_count;
     _Atomic int32_t lost_count; // bodies that overflowed in this step
+
+    int32_t *chased; // bodies that continuous collision looks at: dynamic ones, and kinematic ones from kinematic_room on
+    fe__chase *chases; // what became of bullets, by place in that list
+    int32_t chased_capacity, chase_capacity;
+    int32_t kinematic_room;
+    _Atomic int32_t chased_count, kinematic_count;
 
     uint8_t *moved; // answers of the recycling, by place in the list of awake pairs
     int32_t moved_capacity;
@@ -55,6 +67,7 @@ void fe__find_new_pairs(fe__step *step);       // pairs_stage.c: queries of move
 void fe__update_contacts(fe__step *step);      // collide_stage.c: narrow phase or recycling -> manifolds, begin and end, wakes
 void fe__build_islands(fe__step *step);        // collide_stage.c: the graph, when it changed
 void fe__solve_islands(fe__step *step);        // step.c: all substeps -> velocities, motion, impulses
+void fe__stop_fast_bodies(fe__step *step);     // continuous.c: motions end where something stood in the way
 void fe__move_bodies(fe__step *step);          // finalize.c: poses, bounds, trees
 void fe__break_joints(fe__step *step);         // joint_state.c
 void fe__collect_events(fe__step *step);       // events.c
@@ -62,6 +75,7 @@ void fe__put_islands_to_sleep(fe__step *step); // finalize.c
 void fe__collect_body_events(fe__step *step);  // events.c
 
 int32_t fe__reserve_step(fe__step *step);                                   // reserve.c; 0: no memory
+int32_t fe__motion_makes_sense(const fe__solver *s, int32_t line);          // finalize.c; 0: it overflowed
 int32_t fe__box_meets_plane(const fe__shape *plane, const fe__bounds *box); // does the box reach into the half space?
 // sorts pairs by the creation of their shapes
 void fe__sort_pairs(fe__step *step, int32_t *pairs, int32_t count);
