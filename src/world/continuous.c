@@ -7,6 +7,8 @@
 //
 // Against static and kinematic bodies each body is its own. Bullets come after, against where the dynamic bodies now go; all see the same.
 #include "world/way.h"
+#include <stdlib.h>
+#include <stdio.h>
 
 enum { BODIES_IN_BLOCK = 256, CHASES_IN_BLOCK = 4, MOST_STOPS = 4, SLIDE_SWEEPS = 8 };
 
@@ -160,6 +162,7 @@ static void follow(const fe__step *step, int32_t body, int32_t against, fe__chas
 static void apply_chase(fe_world *w, int32_t body, const fe__chase *chase)
 {
     if (!chase->stopped) return;
+    if (getenv("SAYCCD")) printf("  body %d stopped in step %d: motion %g %g %g -> %g %g %g\n", body, (int)w->step_number, w->solver.motion[w->bodies[body].line][0], w->solver.motion[w->bodies[body].line][1], w->solver.motion[w->bodies[body].line][2], chase->motion[0], chase->motion[1], chase->motion[2]);
     int32_t line = w->bodies[body].line;
     for (int32_t k = 0; k < FE__LINE; ++k) w->solver.motion[line][k] = chase->motion[k];
     for (int32_t k = 0; k < 3; ++k) w->solver.velocity[line][k] = chase->velocity[k];
@@ -209,6 +212,7 @@ static void cross_triggers(const fe__step *step, int32_t body)
 void fe__stop_fast_bodies(fe__step *step)
 {
     fe_world *w = step->world;
+    if (getenv("NOCCD")) return;
     fe__step_scratch *s = step->scratch;
     atomic_store(&s->chased_count, 0);
     atomic_store(&s->kinematic_count, 0);

@@ -3,7 +3,7 @@
 // Called by the collide stage on any thread, for pairs that cannot be recycled. Double positions are subtracted here, so that everything
 // below is float and small. Only the pair's own records are written.
 #include "collision/collide.h"
-#include "world/narrow.h"
+#include "world/ahead.h"
 
 #include <string.h>
 
@@ -70,12 +70,11 @@ typedef struct prediction {
     fe__manifold found;
 } prediction;
 
-static void predict(const fe_world *world, const fe__contact *m, const fe__view *v, float time, prediction *out)
+// the manifold at out->at
+static void predict_there(const fe_world *world, const fe__contact *m, const fe__view *v, prediction *out)
 {
     const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
-    fe__places *at = &out->at;
-    fe__advance(world, a, time, &at->centre_a, &at->rotation_a);
-    fe__advance(world, b, time, &at->centre_b, &at->rotation_b);
+    const fe__places *at = &out->at;
     int32_t a_is_b = m->body_a != v->a->body;
     fe__pose pose_a =
         a_is_b ? fe__shape_pose_at(b, v->a, at->centre_b, at->rotation_b) : fe__shape_pose_at(a, v->a, at->centre_a, at->rotation_a);
@@ -85,6 +84,13 @@ static void predict(const fe_world *world, const fe__contact *m, const fe__view 
     out->found = (fe__manifold){.axis = -1};
     fe__collide(&out->v.form_a, &v->b->form, &out->v.relative, world->tuning.speculative_distance, &out->found);
     fe__mend_seam(world, &out->v, world->tuning.speculative_distance, &out->found);
+}
+
+static void predict(const fe_world *world, const fe__contact *m, const fe__view *v, float time, prediction *out)
+{
+    fe__advance(world, world->bodies + m->body_a, time, &out->at.centre_a, &out->at.rotation_a);
+    fe__advance(world, world->bodies + m->body_b, time, &out->at.centre_b, &out->at.rotation_b);
+    predict_there(world, m, v, out);
 }
 
 static float deepest_of(const fe__manifold *found)
@@ -111,6 +117,17 @@ static int32_t look_ahead(const fe_world *world, const fe__contact *m, float dt,
         v->a->form.type != FE_GEOMETRY_PLANE)
         return found->count > 0;
     *v = end.v, *at = end.at, *found = end.found;
+    return 1;
+}
+
+// What may outrun its thickness has its contact where it touches first.
+static int32_t look_far_ahead(const fe_world *world, const fe__contact *m, float dt, fe__view *v, fe__places *at, fe__manifold *found)
+{
+    prediction touch;
+    if (!fe__pair_touches_ahead(world, (int32_t)(m - world->contacts), dt, &touch.at)) return 0;
+    predict_there(world, m, v, &touch);
+    if (!touch.found.count) return 0;
+    *v = touch.v, *at = touch.at, *found = touch.found;
     return 1;
 }
 
@@ -232,7 +249,8 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
 
     // some way off now, but closing: the normal may turn on that way
     int32_t near = is_near(&found, margin), ahead = found.count && !(p->flags & FE__PAIR_SENSOR) && !is_near(&found, FE__TURNS_LITTLE);
-    if (ahead) ahead = look_ahead(world, m, dt, &v, &at, &found);
+    int32_t fast = reach > fe__minf(fe__form_thickness(&x->form), fe__form_thickness(&y->form));
+    if (ahead) ahead = (fast ? look_far_ahead : look_ahead)(world, m, dt, &v, &at, &found);
     if (!ahead && !near) found.count = 0;
     match_impulses(p, m, &found);
     if (!found.count) {
