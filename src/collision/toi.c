@@ -44,6 +44,20 @@ static double turning_along(const fe__mobile *mobile, double reach, fe_dvec3 n)
     return 4.0 / (1.0 + (double)turn.w) * sqrt(fe__ddot(across, across)) * reach;
 }
 
+// Speed along n, m per unit of s, of a point at p on the body as it is at s
+static double speed_there(const fe__motion *m, double s, fe_dvec3 p, fe_dvec3 n)
+{
+    fe_dvec3 spin = {2.0 * (double)m->turn.x, 2.0 * (double)m->turn.y, 2.0 * (double)m->turn.z};
+    fe_dvec3 arm = fe__dsub(p, fe__dadd(m->centre, fe__dscale(s, m->translation)));
+    return fe__ddot(n, fe__dadd(m->translation, fe__dcross(spin, arm)));
+}
+
+// What all but touches, as the leg before may have ended, touches if it comes nearer.
+static int32_t comes_nearer(const fe__mobile *a, const fe__mobile *b, double s, const fe__gap *gap)
+{
+    return speed_there(&a->motion, s, gap->on_b, gap->normal) > speed_there(&b->motion, s, gap->on_b, gap->normal);
+}
+
 // The plane that separates A and B across n is closed no faster than that, m per unit of s.
 fe__meeting fe__time_of_impact(const fe__mobile *a, const fe__mobile *b, double limit, fe__impact *impact)
 {
@@ -55,10 +69,11 @@ fe__meeting fe__time_of_impact(const fe__mobile *a, const fe__mobile *b, double 
         fe__gap gap;
         fe__form_gap(a->form, &pose_a, b->form, &pose_b, &gap);
         impact->normal = gap.normal, impact->on_b = gap.on_b, impact->overlap = gap.overlap;
-        if (gap.overlap || gap.distance <= FE_TOUCH) return impact->s > 0.0 ? FE_MEET_LATER : FE_MEET_NOW;
+        if (gap.overlap || gap.distance <= 0.0) return i > 0 ? FE_MEET_LATER : FE_MEET_NOW;
+        if (gap.distance <= FE_TOUCH && comes_nearer(a, b, impact->s, &gap)) return FE_MEET_LATER;
         double speed = fe__ddot(gap.normal, closing) + turning_along(a, reach_a, gap.normal) + turning_along(b, reach_b, gap.normal);
         // half of the touching distance is left, so that the next look finds a normal
-        double way = gap.distance - 0.5 * FE_TOUCH;
+        double way = fe__maxd(gap.distance - 0.5 * FE_TOUCH, 0.25 * FE_TOUCH);
         if (!(speed * (limit - impact->s) > way)) return FE_MEET_NEVER;
         impact->s += way / speed;
     }

@@ -30,7 +30,7 @@ fe__pose fe__mobile_at(const fe__mobile *mobile, double s); // of the form
 typedef enum fe__meeting {
     FE_MEET_NEVER, // up to s = limit
     FE_MEET_LATER, // at s: no nearer than touching there and before
-    FE_MEET_NOW    // they touch or overlap at s = 0
+    FE_MEET_NOW    // they overlap at s = 0
 } fe__meeting;
 
 typedef struct fe__impact {

@@ -16,7 +16,8 @@ static fe__mobile mobile_of(const fe_world *world, int32_t shape, float dt, fe_d
     fe__motion m = {fe__dsub(fe__centre_of(body), base), fe__rotation_of(body), fe__dsub(centre, fe__centre_of(body)), fe__identity()};
     if (body->awake_index >= 0) m.turn = fe__normalized(fe__product(rotation, fe__conjugate(m.rotation)));
     if (m.turn.w < 0.0f) m.turn = (fe_quat){-m.turn.x, -m.turn.y, -m.turn.z, -m.turn.w};
-    return (fe__mobile){&s->form, fe__dsub(fe__widen(s->local_position), fe__widen(fe__quad_vector(body->local_centre))), s->local_rotation, m};
+    return (fe__mobile){&s->form, fe__dsub(fe__widen(s->local_position), fe__widen(fe__quad_vector(body->local_centre))), s->local_rotation,
+                        m};
 }
 
 static fe__meeting meeting_of(const fe_world *world, int32_t pair, float dt, double limit, fe__mobile *a, fe__mobile *b, fe__impact *impact)
@@ -30,6 +31,15 @@ static fe__meeting meeting_of(const fe_world *world, int32_t pair, float dt, dou
 static int32_t has_field(const fe_world *world, const fe__pair *p)
 {
     return world->shapes[p->shape_a].form.type == FE_GEOMETRY_HEIGHTFIELD || world->shapes[p->shape_b].form.type == FE_GEOMETRY_HEIGHTFIELD;
+}
+
+// sine of half the turn until the touch above which a contact says nothing of the bodies as they are now
+#define TURNED 0.25f
+
+static int32_t turns_far(const fe__motion *m, double time)
+{
+    fe_quat q = m->turn;
+    return (float)time * sqrtf(q.x * q.x + q.y * q.y + q.z * q.z) > TURNED;
 }
 
 // Does a body meet something that does not give way before that time?
@@ -57,12 +67,13 @@ int32_t fe__pair_touches_ahead(const fe_world *world, int32_t pair, float dt, fe
     fe__impact impact;
     if (meeting_of(world, pair, dt, 1.0, &a, &b, &impact) == FE_MEET_NEVER) return 0;
     double time = impact.s;
+    if (turns_far(&a.motion, time) || turns_far(&b.motion, time)) return 0;
     if (is_turned_away(world, p->body_a, pair, dt, time) || is_turned_away(world, p->body_b, pair, dt, time)) return 0;
     int32_t swapped = m->body_a != p->body_a;
     const fe__motion *first = swapped ? &b.motion : &a.motion, *second = swapped ? &a.motion : &b.motion;
     const fe__body *body_a = world->bodies + m->body_a, *body_b = world->bodies + m->body_b;
     *out_touch = (fe__places){fe__dadd(fe__centre_of(body_a), fe__dscale(time, first->translation)),
-                              fe__dadd(fe__centre_of(body_b), fe__dscale(time, second->translation)),
-                              fe__motion_at(first, time).rotation, fe__motion_at(second, time).rotation};
+                              fe__dadd(fe__centre_of(body_b), fe__dscale(time, second->translation)), fe__motion_at(first, time).rotation,
+                              fe__motion_at(second, time).rotation};
     return 1;
 }

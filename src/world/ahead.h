@@ -5,8 +5,8 @@
 #define FE_WORLD_AHEAD_H
 #include "world/narrow.h"
 
-// 1: they touch within the step, first there; 0: they pass each other by, or one of them meets something fixed before, which turns it away.
-// Not for heightfields.
+// 1: they touch within the step, first there; 0: they pass each other by, or one of them meets something fixed before, which turns it away,
+// or has turned so far by then that its contact must wait for the next step (continuous.c stops it). Not for heightfields.
 int32_t fe__pair_touches_ahead(const fe_world *world, int32_t pair, float dt, fe__places *out_touch);
 
 #endif

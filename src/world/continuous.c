@@ -1,14 +1,13 @@
 // continuous.c - the stage between solver and finalize: bodies that outran their thickness end where something stood in the way.
 //
-// Most impacts are the solver's: contacts are found ahead of time (narrow.c). What it misses - a body that turned or was deflected within the
-// step, that has no contact where it came to - is found here, on the way that the body really took, and changes its motion in the solver's
-// lines: up to the touch, then along the surface. Velocities stay, so that the next step has a contact with the speed of the impact: it
-// bounces, slides and tells its events as any other. Only the work of gravity on the way not gone is given back.
+// Most impacts are the solver's: contacts are found ahead of time (narrow.c). What it misses - a body that turned or was deflected within
+// the step, that has no contact where it came to - is found here, on the way that the body really took, and changes its motion in the
+// solver's lines: up to the touch, then along the surface. Velocities stay, so that the next step has a contact with the speed of the
+// impact: it bounces, slides and tells its events as any other. Only the work of gravity on the way not gone is given back.
 //
 // Against static and kinematic bodies each body is its own. Bullets come after, against where the dynamic bodies now go; all see the same.
+#include "world/energy.h"
 #include "world/way.h"
-#include <stdlib.h>
-#include <stdio.h>
 
 enum { BODIES_IN_BLOCK = 256, CHASES_IN_BLOCK = 4, MOST_STOPS = 4, SLIDE_SWEEPS = 8 };
 
@@ -86,7 +85,7 @@ static fe_dvec3 allowed(const slide *s, fe_dvec3 way)
     return way;
 }
 
-// At an obstacle: the body goes on along it, and on turning unless that presses the touched point in.
+// At an obstacle: the body goes on along it, and at the first one on turning too, unless that presses the touched point in.
 static void deflect(const fe__step *step, int32_t body, slide *s, const fe__obstacle *o, const fe__shift *at, fe__shift *end)
 {
     const fe__body *b = step->world->bodies + body;
@@ -98,7 +97,7 @@ static void deflect(const fe__step *step, int32_t body, slide *s, const fe__obst
     fe__motion rest = fe__way_from(b, at, end, base);
     fe_dvec3 axis = {(double)rest.turn.x, (double)rest.turn.y, (double)rest.turn.z};
     fe_dvec3 arm = fe__dsub(o->point, fe__dadd(base, at->centre));
-    if (fe__ddot(o->normal, fe__dcross(axis, arm)) > 0.0) end->turn = at->turn;
+    if (s->count > 1 || fe__ddot(o->normal, fe__dcross(axis, arm)) > 0.0) end->turn = at->turn;
 }
 
 // From `at` (time `now`) towards `end`; returns where it came to.
@@ -127,11 +126,20 @@ static void give_back(const fe_world *w, const fe__body *body, const float *moti
     for (int32_t i = 0; i < 3; ++i) velocity[i] *= k;
 }
 
+// A turn not made leaves the spin as the body has it in its own frame: turned with the world's, it would be another energy
+static void turn_spin(const float *motion, const fe__shift *end, float *spin)
+{
+    fe_quat missing = fe__product((fe_quat){motion[4], motion[5], motion[6], motion[7]}, fe__conjugate(end->turn));
+    fe_vec3 w = fe__rotate_back(fe__normalized(missing), fe__vec3(spin[0], spin[1], spin[2]));
+    spin[0] = w.x, spin[1] = w.y, spin[2] = w.z;
+}
+
 static void write_chase(const fe__step *step, const fe__body *body, const fe__shift *end, int32_t carried, fe__chase *chase)
 {
     const fe__solver *s = &step->world->solver;
     for (int32_t k = 0; k < FE__LINE; ++k) chase->motion[k] = s->motion[body->line][k];
-    for (int32_t k = 0; k < 3; ++k) chase->velocity[k] = s->velocity[body->line][k];
+    for (int32_t k = 0; k < FE__LINE; ++k) chase->velocity[k] = s->velocity[body->line][k];
+    turn_spin(chase->motion, end, chase->velocity + 4);
     if (!carried) give_back(step->world, body, chase->motion, end, chase->velocity);
     fe_vec3 p = fe__narrow(end->centre);
     const float motion[FE__LINE] = {p.x, p.y, p.z, chase->motion[3], end->turn.x, end->turn.y, end->turn.z, end->turn.w};
@@ -162,10 +170,9 @@ static void follow(const fe__step *step, int32_t body, int32_t against, fe__chas
 static void apply_chase(fe_world *w, int32_t body, const fe__chase *chase)
 {
     if (!chase->stopped) return;
-    if (getenv("SAYCCD")) printf("  body %d stopped in step %d: motion %g %g %g -> %g %g %g\n", body, (int)w->step_number, w->solver.motion[w->bodies[body].line][0], w->solver.motion[w->bodies[body].line][1], w->solver.motion[w->bodies[body].line][2], chase->motion[0], chase->motion[1], chase->motion[2]);
     int32_t line = w->bodies[body].line;
     for (int32_t k = 0; k < FE__LINE; ++k) w->solver.motion[line][k] = chase->motion[k];
-    for (int32_t k = 0; k < 3; ++k) w->solver.velocity[line][k] = chase->velocity[k];
+    for (int32_t k = 0; k < FE__LINE; ++k) w->solver.velocity[line][k] = chase->velocity[k];
     w->solver.trail_count[line] = FE__NO_TRAIL;
 }
 
@@ -175,6 +182,7 @@ static void stop_block(void *argument, int32_t first, int32_t end, int32_t worke
     (void)worker;
     for (int32_t i = first; i < end; ++i) {
         fe__chase chase;
+        fe__limit_energy(step, step->scratch->chased[i]);
         follow(step, step->scratch->chased[i], FE__AGAINST_FIXED, &chase);
         apply_chase(step->world, step->scratch->chased[i], &chase);
     }
@@ -201,7 +209,7 @@ static void cross_triggers(const fe__step *step, int32_t body)
     for (int32_t pair = w->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(w, pair, body)) {
         fe__pair *p = w->pairs + pair;
         const fe__body *a = w->bodies + p->body_a, *b = w->bodies + p->body_b;
-        if (!(p->flags & FE__PAIR_SENSOR) || p->flags & FE__PAIR_CROSSED || w->contacts[pair].normal[3] > 0.0f) continue;
+        if (!(p->flags & FE__PAIR_SENSOR) || p->flags & (FE__PAIR_CROSSED | FE__PAIR_PATCH)) continue;
         if (length + fe__way_length(step, p->body_a == body ? p->body_b : p->body_a) <= thinner(a, b)) continue;
         int32_t field = FE_GEOMETRY_HEIGHTFIELD;
         if (w->shapes[p->shape_a].form.type == field || w->shapes[p->shape_b].form.type == field) continue;
@@ -212,7 +220,6 @@ static void cross_triggers(const fe__step *step, int32_t body)
 void fe__stop_fast_bodies(fe__step *step)
 {
     fe_world *w = step->world;
-    if (getenv("NOCCD")) return;
     fe__step_scratch *s = step->scratch;
     atomic_store(&s->chased_count, 0);
     atomic_store(&s->kinematic_count, 0);

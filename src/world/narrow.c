@@ -120,7 +120,7 @@ static int32_t look_ahead(const fe_world *world, const fe__contact *m, float dt,
     return 1;
 }
 
-// What may outrun its thickness has its contact where it touches first.
+// What may outrun its thickness has its contact with a static or kinematic body where it touches first.
 static int32_t look_far_ahead(const fe_world *world, const fe__contact *m, float dt, fe__view *v, fe__places *at, fe__manifold *found)
 {
     prediction touch;
@@ -152,7 +152,9 @@ static void note_poses(fe__contact *m, const fe__places *at, const fe__body *a, 
     fe_dvec3 span = fe__dsub(at->centre_a, at->centre_b), now = fe__dsub(fe__centre_of(a), fe__centre_of(b));
     fe__copy3(m->found_span, fe__narrow(span));
     fe__copy3(m->found_low, fe__narrow(fe__dsub(span, fe__widen(fe__quad_vector(m->found_span)))));
-    fe__copy3(m->span, a->type == FE_BODY_STATIC ? fe__vec3(0.0f, 0.0f, 0.0f) : fe__narrow(now));
+    // torques need no sum over both bodies where only B is moved: the arms of the touch
+    fe_vec3 arms = a->type == FE_BODY_KINEMATIC ? fe__quad_vector(m->found_span) : fe__narrow(now);
+    fe__copy3(m->span, a->type == FE_BODY_STATIC ? fe__vec3(0.0f, 0.0f, 0.0f) : arms);
 }
 
 // points from A's frame to arms: from the centre of the solver's A, or of B when A is static (its centre may be far)
@@ -249,7 +251,7 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
 
     // some way off now, but closing: the normal may turn on that way
     int32_t near = is_near(&found, margin), ahead = found.count && !(p->flags & FE__PAIR_SENSOR) && !is_near(&found, FE__TURNS_LITTLE);
-    int32_t fast = reach > fe__minf(fe__form_thickness(&x->form), fe__form_thickness(&y->form));
+    int32_t fast = reach > fe__minf(fe__form_thickness(&x->form), fe__form_thickness(&y->form)) && a->type != FE_BODY_DYNAMIC;
     if (ahead) ahead = (fast ? look_far_ahead : look_ahead)(world, m, dt, &v, &at, &found);
     if (!ahead && !near) found.count = 0;
     match_impulses(p, m, &found);

@@ -18,7 +18,7 @@ typedef struct fe__candidate_buffer {
 
 // Where a body ends that something stood in the way of
 typedef struct fe__chase {
-    float motion[FE__LINE], velocity[3];
+    float motion[FE__LINE], velocity[FE__LINE];
     int32_t stopped;
 } fe__chase;
 

@@ -16,7 +16,8 @@ static fe_quat forwards(fe_quat q) { return q.w < 0.0f ? (fe_quat){-q.x, -q.y, -
 
 static fe__shift shift_of(const float *motion)
 {
-    return (fe__shift){{(double)motion[0], (double)motion[1], (double)motion[2]}, forwards((fe_quat){motion[4], motion[5], motion[6], motion[7]})};
+    return (fe__shift){{(double)motion[0], (double)motion[1], (double)motion[2]},
+                       forwards((fe_quat){motion[4], motion[5], motion[6], motion[7]})};
 }
 
 static int32_t moves(const fe__body *body) { return body->awake_index >= 0 && body->line >= 0; }
@@ -24,7 +25,8 @@ static int32_t moves(const fe__body *body) { return body->awake_index >= 0 && bo
 int32_t fe__way_legs(const fe__step *step, int32_t body)
 {
     const fe__body *b = step->world->bodies + body;
-    int32_t stride = fe__trail_stride(step->constants.substeps), trail = moves(b) && step->world->solver.trail_count[b->line] != FE__NO_TRAIL;
+    int32_t stride = fe__trail_stride(step->constants.substeps),
+            trail = moves(b) && step->world->solver.trail_count[b->line] != FE__NO_TRAIL;
     return trail ? (step->constants.substeps + stride - 1) / stride : 1;
 }
 
@@ -76,8 +78,7 @@ fe__motion fe__way_from(const fe__body *body, const fe__shift *from, const fe__s
     fe__motion m = {fe__dadd(fe__dsub(centre_of(body), base), from->centre), rotation_of(body), fe__dsub(to->centre, from->centre),
                     fe__identity()};
     if (!is_still(from->turn)) m.rotation = fe__normalized(fe__product(from->turn, m.rotation));
-    if (!is_still(from->turn) || !is_still(to->turn))
-        m.turn = forwards(fe__normalized(fe__product(to->turn, fe__conjugate(from->turn))));
+    if (!is_still(from->turn) || !is_still(to->turn)) m.turn = forwards(fe__normalized(fe__product(to->turn, fe__conjugate(from->turn))));
     return m;
 }
 
@@ -313,7 +314,8 @@ int32_t fe__ways_cross(const fe__step *step, int32_t shape_a, int32_t shape_b)
     fe_dvec3 base = centre_of(w->bodies + body);
     for (int32_t leg = 0; leg < legs; ++leg) {
         double begins = fe__way_time(step, body, leg), ends = fe__way_time(step, body, leg + 1);
-        fe__motion motion_a = fe__way_between(step, a->body, begins, ends, base), motion_b = fe__way_between(step, b->body, begins, ends, base);
+        fe__motion motion_a = fe__way_between(step, a->body, begins, ends, base),
+                   motion_b = fe__way_between(step, b->body, begins, ends, base);
         fe__mobile mobile_a = fe__way_of_shape(step, a, &motion_a), mobile_b = fe__way_of_shape(step, b, &motion_b);
         fe__impact impact;
         if (fe__time_of_impact(&mobile_a, &mobile_b, 1.0, &impact) != FE_MEET_NEVER) return 1;

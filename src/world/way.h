@@ -4,6 +4,7 @@
 #ifndef FE_WORLD_WAY_H
 #define FE_WORLD_WAY_H
 #include "collision/toi.h"
+#include "world/narrow.h"
 #include "world/step.h"
 
 // A body's motion since the step began: the centre's shift, and the turn, w >= 0.
@@ -12,8 +13,8 @@ typedef struct fe__shift {
     fe_quat turn;
 } fe__shift;
 
-int32_t fe__way_legs(const fe__step *step, int32_t body);               // straight pieces of its way
-double fe__way_time(const fe__step *step, int32_t body, int32_t leg);   // when a piece begins: 0..1 of the step
+int32_t fe__way_legs(const fe__step *step, int32_t body);             // straight pieces of its way
+double fe__way_time(const fe__step *step, int32_t body, int32_t leg); // when a piece begins: 0..1 of the step
 fe__shift fe__shift_between(const fe__shift *a, const fe__shift *b, double t);
 fe__shift fe__way_at(const fe__step *step, int32_t body, double time);
 // from one time to another, in a frame at `base`, m
