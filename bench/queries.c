@@ -1,8 +1,9 @@
 // `feather-bench queries [SCENE]...`: rays, sweeps and overlaps in Feather and Bullet, by turns, on the same scenes, after their timed
 // steps.
 //
-// What holds are the ratios of one run; the hits of both stand beside them, for a fast answer must be the same answer. Bullet counts in
-// floats, sweeps stop some millimetres early (its margins), so that some hits differ. Writes build/queries.csv.
+// Times are of the processor, one thread. What holds are the ratios of one run; the hits of both stand beside them, for a fast answer must
+// be the same answer. Bullet counts in floats, sweeps stop some millimetres early (its margins), so that some hits differ. Writes
+// build/queries.csv.
 #include "bench.h"
 
 #include "memory.h"
@@ -68,7 +69,7 @@ static bench_probe *make_probes(const bench_scene *scene, kind of)
 
 static void ask_block(side *s, kind of, const bench_probe *probes)
 {
-    double start = bench_wall_ms();
+    double start = bench_cpu_ms();
     for (int32_t i = 0; i < BLOCK; i++) {
         double fraction = 0.0;
         if (of == RAY)
@@ -79,7 +80,7 @@ static void ask_block(side *s, kind of, const bench_probe *probes)
             s->hits[of] += s->engine->sweep(s->world, &probes[i], &fraction);
         s->fractions[of] += fraction;
     }
-    s->ms[of] += bench_wall_ms() - start;
+    s->ms[of] += bench_cpu_ms() - start;
 }
 
 static void ask_all(side sides[SIDES], const bench_scene *scene)
@@ -99,9 +100,9 @@ static void ask_all(side sides[SIDES], const bench_scene *scene)
 
 static int play(side *s, const bench_scene *scene)
 {
-    double start = bench_wall_ms();
+    double start = bench_cpu_ms();
     s->world = s->engine->create(scene, 1, s->engine->has_workers ? 4 : 0);
-    s->create_us = 1e3 * (bench_wall_ms() - start) / scene->body_count;
+    s->create_us = 1e3 * (bench_cpu_ms() - start) / scene->body_count;
     if (s->world == NULL) return -1;
     for (int32_t i = 0; i < scene->warm_up_steps + scene->timed_steps; i++) {
         if (s->engine->step(s->world, scene->dt) != 0) return -1;
@@ -111,9 +112,9 @@ static int play(side *s, const bench_scene *scene)
 
 static void take_all_away(side *s, const bench_scene *scene)
 {
-    double start = bench_wall_ms();
+    double start = bench_cpu_ms();
     for (int32_t i = 0; i < scene->body_count; i++) s->engine->take_away(s->world, i);
-    s->remove_us = 1e3 * (bench_wall_ms() - start) / scene->body_count;
+    s->remove_us = 1e3 * (bench_cpu_ms() - start) / scene->body_count;
 }
 
 static void print_line(const char *what, double ours, double theirs)

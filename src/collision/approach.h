@@ -31,7 +31,8 @@ fe_dvec3 fe__nearest_on_triangle(const fe_dvec3 vertex[3], fe_dvec3 normal, fe_d
 // Nearest points p + u a, |u| <= half, and q + w b, 0 <= w <= length, of two segments; a and b are unit.
 void fe__nearest_on_segments(fe_dvec3 p, fe_dvec3 a, double half, fe_dvec3 q, fe_dvec3 b, double length, double *u, double *w);
 
-// The overlap of two cores as boxes: how far, and along which unit axis, the other must move out. Below 0: they are apart.
+// The overlap of two cores as boxes: how far, and along which unit axis, the other must move out. Below 0: they are apart, by what does not
+// matter.
 double fe__core_depth(const fe__approach *a, fe_dvec3 *way_out);
 
 typedef struct fe__approach_hit {

@@ -83,6 +83,7 @@ double fe__core_depth(const fe__approach *s, fe_dvec3 *way_out)
         double middle;
         if (!separating_axis(s, i, &n)) continue;
         double e = extent(s, n, &middle), centre = fe__ddot(n, s->position) - middle, below = e - fe__absd(centre);
+        if (below < 0.0) return below;
         if (!(below < depth)) continue;
         depth = below;
         *way_out = centre < 0.0 ? fe__dscale(-1.0, n) : n;
