@@ -219,8 +219,8 @@ bench: bench-build
 
 include $(wildcard bindings/*/rules.mk)
 
-# the scene that every language plays
-$(BUILD)/feather-scenario: $(BUILD)/tests/bindings/scenario.o $(STATIC)
+# the scene that every language plays; what calls cost in C
+$(BUILD)/feather-scenario $(BUILD)/feather-cost: $(BUILD)/feather-%: $(BUILD)/tests/bindings/%.o $(STATIC)
 	$(RUN)$(CC) $< $(STATIC) $(LINK_FLAGS) -lm -o $@
 
 # ---- install --------------------------------------------------------------------------------------------------------------------
