@@ -1,1 +1,185 @@
-// lua
+// What feather.h's types become in Lua: vectors go in as tables {x, y, z} and come out as values, definitions and results are objects with the header's
+// fields, arrays flat tables of numbers, handles integers below 2^53, errors Lua errors with the library's sentence. lua/feather/ffi.lua does the same
+// for LuaJIT. One C module for each Lua, from this one source.
+%{
+#include "lua/convert.h"
+%}
+%init %{
+    add_types(L);
+%}
+%include "records.i"
+
+// ---- worlds and pools -----------------------------------------------------------------------------------------------------------
+
+%typemap(in) fe_world * (call_state call) "$1 = world_of(L, $input); call.count = 0;"
+%typemap(in) const fe_world * = fe_world *;
+%typemap(argout) fe_world *world %{
+    if (result == FE_OK && strcmp("$symname", "world_destroy") == 0) ((world_box *)lua_touserdata(L, 1))->world = NULL;
+%}
+%typemap(argout) const fe_world * ""
+%typemap(in, numinputs=0) fe_world **out_world (fe_world *made = 0) "$1 = &made;"
+%typemap(argout) fe_world **out_world %{ push_world(L, *$1); SWIG_arg++; %}
+%typemap(in, numinputs=0) fe_pool **out_pool (fe_pool *made = 0) "$1 = &made;"
+%typemap(argout) fe_pool **out_pool %{ push_pool(L, *$1); SWIG_arg++; %}
+%typemap(in) fe_pool *pool "$1 = pool_of(L, $input);"
+%typemap(argout) fe_pool *pool %{
+    if (strcmp("$symname", "pool_destroy") == 0) ((pool_box *)lua_touserdata(L, 1))->pool = NULL;
+%}
+%typemap(out) fe_pool * "lua_pushnil(L); SWIG_arg++;"
+
+// ---- results and numbers --------------------------------------------------------------------------------------------------------
+
+%typemap(out) fe_result %{
+    if ($1 < 0) raise_last(L);
+%}
+%typemap(out) fe_result fe_world_raycast_any, fe_result fe_world_sweep_any, fe_result fe_world_overlap_any %{
+    if ($1 < 0) raise_last(L);
+    lua_pushboolean(L, $1 == FE_OK);
+    SWIG_arg++;
+%}
+// counts; a field that is read may be negative
+%typemap(out) int32_t %{
+    if ($1 < 0 && !ends_with("$symname", "_get")) raise_last(L);
+    push_integer(L, (long long)$1);
+    SWIG_arg++;
+%}
+%typemap(out) uint32_t, fe_handle %{ push_integer(L, (long long)$1); SWIG_arg++; %}
+%typemap(in) int32_t "$1 = (int32_t)to_integer(L, $input, INT32_MIN, INT32_MAX, \"$1_name\");"
+%typemap(in) uint32_t "$1 = (uint32_t)to_integer(L, $input, 0, UINT32_MAX, \"$1_name\");"
+%typemap(in) fe_handle "$1 = (fe_handle)to_integer(L, $input, 0, 1LL << 53, \"$1_name\");"
+%typemap(in) float "$1 = (float)to_number(L, $input, \"$1_name\");"
+%typemap(in) double "$1 = to_number(L, $input, \"$1_name\");"
+
+%define FE_OUT(TYPE, PUSH)
+%typemap(in, numinputs=0) TYPE ($*1_ltype value) "$1 = &value;"
+%typemap(argout) TYPE { PUSH; }
+%enddef
+FE_OUT(fe_handle *, push_integer(L, (long long)*$1); SWIG_arg++)
+FE_OUT(int32_t *, push_integer(L, (long long)*$1); SWIG_arg++)
+FE_OUT(uint32_t *, push_integer(L, (long long)*$1); SWIG_arg++)
+FE_OUT(float *, lua_pushnumber(L, (lua_Number)*$1); SWIG_arg++)
+%typemap(in, numinputs=0) uint32_t *out_words (uint32_t words[2]) "$1 = words;"
+%typemap(argout) uint32_t *out_words %{ push_words(L, $1); SWIG_arg++; %}
+
+%typemap(in) const fe_vec3 * (fe_vec3 value) "to_vec3(L, $input, &value, \"$1_name\"); $1 = &value;"
+%typemap(in) const fe_dvec3 * (fe_dvec3 value) "to_dvec3(L, $input, &value, \"$1_name\"); $1 = &value;"
+%typemap(in) const fe_quat * (fe_quat value) "to_quat(L, $input, &value, \"$1_name\"); $1 = &value;"
+%typemap(in) const fe_transform * (fe_transform value) "to_transform(L, $input, &value, \"$1_name\"); $1 = &value;"
+%typemap(in) const fe_material * (fe_material value) "to_material(L, $input, &value, \"$1_name\"); $1 = &value;"
+FE_OUT(fe_vec3 *out_gravity, SWIG_arg += push_vec3(L, $1))
+FE_OUT(fe_vec3 *out_velocity, SWIG_arg += push_vec3(L, $1))
+FE_OUT(fe_vec3 *out_force, SWIG_arg += push_vec3(L, $1))
+FE_OUT(fe_vec3 *out_torque, SWIG_arg += push_vec3(L, $1))
+FE_OUT(fe_vec3 *out_position, SWIG_arg += push_vec3(L, $1))
+FE_OUT(fe_dvec3 *out_position, SWIG_arg += push_dvec3(L, $1))
+FE_OUT(fe_dvec3 *out_centre, SWIG_arg += push_dvec3(L, $1))
+FE_OUT(fe_quat *out_rotation, SWIG_arg += push_quat(L, $1))
+FE_OUT(fe_transform *out_transform, SWIG_arg += push_transform(L, $1))
+FE_OUT(fe_transform *out_frame_a, SWIG_arg += push_transform(L, $1))
+FE_OUT(fe_transform *out_frame_b, SWIG_arg += push_transform(L, $1))
+FE_OUT(fe_material *out_material, SWIG_arg += push_material(L, $1))
+
+// ---- records --------------------------------------------------------------------------------------------------------------------
+
+%typemap(in, numinputs=0) SWIGTYPE *OUT_RECORD {
+    $1 = ($1_ltype)calloc(1, sizeof *$1);
+    if (!$1) luaL_error(L, "feather: out of memory");
+    *(uint32_t *)(void *)$1 = (uint32_t)sizeof *$1;
+    SWIG_NewPointerObj(L, $1, $1_descriptor, 1);
+    call_record = lua_gettop(L);
+}
+%typemap(argout) SWIGTYPE *OUT_RECORD %{
+    if (result == FE_OK) lua_pushvalue(L, call_record); else lua_pushnil(L);
+    SWIG_arg++;
+%}
+%typemap(arginit) SWIGTYPE *OUT_RECORD "int call_record = 0;"
+FE_OUT_RECORDS
+// fe_geometry_box and its like return nothing that could fail
+%typemap(argout) fe_geometry *out_geometry %{ lua_pushvalue(L, call_record); SWIG_arg++; %}
+
+// ---- arrays ---------------------------------------------------------------------------------------------------------------------
+
+%typemap(in) const fe_handle * "$1 = to_handles(L, $input, &call1, \"$1_name\");"
+%typemap(in) const float *floats "$1 = to_floats(L, $input, 6, &call1, \"$1_name\");"
+%typemap(in) const float *heights "$1 = to_floats(L, $input, 1, &call1, \"$1_name\");"
+%typemap(check) const float *heights "heights_fit(L, call1.count, arg5, arg6);"
+%typemap(in) const fe_transform *transforms "$1 = to_transforms(L, $input, &call1, \"$1_name\");"
+%typemap(in) const fe_ray *rays "$1 = to_rays(L, $input, &call1, \"$1_name\");"
+%typemap(in) const fe_path *paths "$1 = to_paths(L, $input, &call1, \"$1_name\");"
+%typemap(in, numinputs=0) int32_t count, int32_t capacity, uint32_t stride, uint32_t ray_stride, uint32_t path_stride "$1 = 0;"
+%typemap(check) int32_t count "$1 = call1.count;"
+
+// one record for each that goes in
+%typemap(in, numinputs=0) float *out_floats, fe_transform *out_transforms, fe_hit *out_hits, float *out_heights "$1 = NULL;"
+%typemap(check) float *out_floats "$1 = ($1_ltype)new_array(L, call1.count, 7 * sizeof *$1);"
+%typemap(check) fe_transform *out_transforms "$1 = ($1_ltype)new_array(L, call1.count, sizeof *$1);"
+%typemap(check) fe_hit *out_hits "$1 = ($1_ltype)new_array(L, call1.count, sizeof *$1);"
+%typemap(check) float *out_heights "$1 = ($1_ltype)new_heights(L, arg5, arg6);"
+%typemap(argout) float *out_floats { push_floats(L, $1, call1.count * (ends_with("$symname", "transforms_f32") ? 7 : 6)); SWIG_arg++; }
+%typemap(argout) float *out_heights { push_floats(L, $1, arg5 * arg6); SWIG_arg++; }
+
+// all there are: asked for their number first
+%typemap(in, numinputs=0) fe_handle *out_bodies, fe_handle *out_shapes, fe_handle *out_joints, fe_pair_event *out_events, fe_body_event *out_events,
+    fe_hit_event *out_events, fe_joint_event *out_events, fe_contact *out_contacts "$1 = NULL;"
+%define FE_ALL(FUNCTION, OUT, CAPACITY)
+%exception FUNCTION {
+    $action
+    if (result > 0) {
+        OUT = new_array(L, result, sizeof *OUT);
+        CAPACITY = result;
+        $action
+    }
+}
+%enddef
+FE_ALL(fe_world_get_bodies, arg2, arg3)
+FE_ALL(fe_world_get_joints, arg2, arg3)
+FE_ALL(fe_body_get_shapes, arg3, arg4)
+FE_ALL(fe_body_get_joints, arg3, arg4)
+FE_ALL(fe_world_overlap, arg5, arg6)
+FE_ALL(fe_world_raycast_all, arg5, arg7)
+FE_ALL(fe_world_sweep_all, arg6, arg8)
+FE_ALL(fe_world_get_pair_events, arg2, arg4)
+FE_ALL(fe_world_get_body_events, arg2, arg4)
+FE_ALL(fe_world_get_hit_events, arg2, arg4)
+FE_ALL(fe_world_get_joint_events, arg2, arg4)
+FE_ALL(fe_body_get_contacts, arg3, arg5)
+FE_ALL(fe_shape_get_contacts, arg3, arg5)
+%exception fe_world_get_moved {
+    $action
+    if (result > 0) {
+        arg2 = new_array(L, result, sizeof *arg2);
+        arg3 = new_array(L, result, sizeof *arg3);
+        arg5 = result;
+        $action
+    }
+}
+%define FE_PUSH_ALL(TYPE, PUSH)
+%typemap(argout) TYPE { PUSH(L, $1, array_length(result, call1.count)); SWIG_arg++; }
+%enddef
+FE_PUSH_ALL(fe_handle *out_bodies, push_handles)
+FE_PUSH_ALL(fe_handle *out_shapes, push_handles)
+FE_PUSH_ALL(fe_handle *out_joints, push_handles)
+FE_PUSH_ALL(fe_transform *out_transforms, push_transforms)
+FE_PUSH_ALL(fe_hit *out_hits, push_hits)
+FE_PUSH_ALL(fe_pair_event *out_events, push_pair_events)
+FE_PUSH_ALL(fe_body_event *out_events, push_body_events)
+FE_PUSH_ALL(fe_hit_event *out_events, push_hit_events)
+FE_PUSH_ALL(fe_joint_event *out_events, push_joint_events)
+FE_PUSH_ALL(fe_contact *out_contacts, push_contacts)
+
+%typemap(in) const fe_query_filter *filter (fe_query_filter value) "$1 = to_filter(L, $input, &value);"
+%typemap(in) const fe_heightfield_def *desc (fe_heightfield_def value) "to_heightfield(L, $input, &value); $1 = &value;"
+%ignore fe_query_filter;
+%ignore fe_query_filter_init;
+%ignore fe_heightfield_def;
+%ignore fe_heightfield_def_init;
+// a loop over body_create costs the same
+%ignore fe_body_create_many;
+%ignore fe_ray;
+%ignore fe_path;
+%ignore fe_pair_event;
+%ignore fe_body_event;
+%ignore fe_hit_event;
+%ignore fe_joint_event;
+%ignore fe_contact;
+%ignore fe_contact_point;
