@@ -248,8 +248,8 @@ static int update(void)
 {
     FILE *file = fopen(GOLDEN, "w");
     if (!file) return 1;
-    const script *const scripts[] = {&script_crowd, &script_mixed, &script_terrain};
-    for (int32_t i = 0; i < 3; ++i) {
+    const script *const scripts[] = {&script_crowd, &script_mixed, &script_terrain, &script_fast};
+    for (int32_t i = 0; i < 4; ++i) {
         fe_world *world = new_world(FE_SIMD_PLAIN, 1);
         play_print(file, scripts[i], world, scripts[i]->steps);
         fe_world_destroy(world);
@@ -270,6 +270,7 @@ int main(int count, char **arguments)
         GOLDEN_TEST(crowd, "plain", FE_SIMD_PLAIN),
         GOLDEN_TEST(mixed, "plain", FE_SIMD_PLAIN),
         GOLDEN_TEST(terrain, "plain", FE_SIMD_PLAIN),
+        GOLDEN_TEST(fast, "plain", FE_SIMD_PLAIN),
 #if defined(__x86_64__)
         GOLDEN_TEST(crowd, "sse2", FE_SIMD_SSE2),
         GOLDEN_TEST(crowd, "avx2", FE_SIMD_AVX2),
@@ -277,6 +278,9 @@ int main(int count, char **arguments)
         GOLDEN_TEST(terrain, "sse2", FE_SIMD_SSE2),
         GOLDEN_TEST(terrain, "avx2", FE_SIMD_AVX2),
         GOLDEN_TEST(terrain, "avx512", FE_SIMD_AVX512),
+        GOLDEN_TEST(fast, "sse2", FE_SIMD_SSE2),
+        GOLDEN_TEST(fast, "avx2", FE_SIMD_AVX2),
+        GOLDEN_TEST(fast, "avx512", FE_SIMD_AVX512),
         GOLDEN_TEST(mixed, "sse2", FE_SIMD_SSE2),
         GOLDEN_TEST(mixed, "avx2", FE_SIMD_AVX2),
         GOLDEN_TEST(mixed, "avx512", FE_SIMD_AVX512),
@@ -284,6 +288,7 @@ int main(int count, char **arguments)
         GOLDEN_TEST(crowd, "neon", FE_SIMD_NEON),
         GOLDEN_TEST(mixed, "neon", FE_SIMD_NEON),
         GOLDEN_TEST(terrain, "neon", FE_SIMD_NEON),
+        GOLDEN_TEST(fast, "neon", FE_SIMD_NEON),
 #endif
         cmocka_unit_test(crowd_has_more_than_1000_contacts),
         cmocka_unit_test(bodies_far_away_change_no_trajectory),

@@ -2,6 +2,7 @@
 //
 // With an argument the full number of random cases is run.
 #include "scenes/mechanics.h"
+#include "scenes/terrain.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -147,6 +148,48 @@ static void a_bullet_hits_a_stack_and_all_stay_before_the_wall(void **state)
             FE_TRUE(p.x > -1 || p.y > 20 || fabs(p.z) > 20);
         }
     }
+    scene_end(&s);
+}
+
+static double hills(double x, double z) { return 0.5 * sin(0.9 * x) * sin(0.7 * z); }
+
+// Height of the surface: each cell's diagonal joins (row, column) and (row + 1, column + 1)
+static double hills_below(double x, double z, double cell)
+{
+    double c = floor(x / cell), r = floor(z / cell), u = x / cell - c, v = z / cell - r;
+    double h00 = hills(c * cell, r * cell), h11 = hills((c + 1) * cell, (r + 1) * cell);
+    double other = v >= u ? hills(c * cell, (r + 1) * cell) : hills((c + 1) * cell, r * cell);
+    return v >= u ? h00 + v * (other - h00) + u * (h11 - other) : h00 + u * (other - h00) + v * (h11 - other);
+}
+
+// Down on hills of 1 m cells, which have no thickness at all, at 10 to 1000 m/s and up to 60 degrees off the vertical
+static void fast_bodies_stay_above_hills(void **state)
+{
+    int count = cases(150, 1000);
+    dice d = {10};
+    scene s = scene_begin(state);
+    fe_body *bodies = calloc((size_t)count, sizeof *bodies);
+    set_gravity(&s, v3(0, 0, 0));
+    fe_asset asset = make_field(&s, 100, 1, -50, -50, hills);
+    for (int k = 0; k < count; ++k) {
+        vec place = v3(200.0 * k, 0, 0);
+        place_field(&s, asset, plus(place, v3(-50, 0, -50)), UNTURNED, friction(0.5));
+        double speed = pow(10, uniform(&d, 1, 3)), angle = uniform(&d, 0, 60) * DEGREES, around = uniform(&d, 0, 2 * PI);
+        vec way = v3(sin(angle) * cos(around), -cos(angle), sin(angle) * sin(around));
+        double back = (1.2 + uniform(&d, 0, 1) * speed * STEP) / cos(angle);
+        bodies[k] = add_dynamic(&s, fast_form(&d, k % 3), minus(place, times(back, way)), any_rotation(&d), friction(0.5), WATER);
+        set_velocity(&s, bodies[k], times(speed, way), somewhere(&d, 20));
+    }
+    for (int step = 0; step < 20; ++step) {
+        run(&s, 1);
+        for (int k = 0; k < count; ++k) {
+            vec p = minus(position(&s, bodies[k]), v3(200.0 * k, 0, 0));
+            if (fabs(p.x) > 49 || fabs(p.z) > 49) continue;
+            if (!(p.y > hills_below(p.x, p.z, 1))) print_error("body %d, step %d\n", k, step);
+            FE_TRUE(p.y > hills_below(p.x, p.z, 1));
+        }
+    }
+    free(bodies);
     scene_end(&s);
 }
 
@@ -487,6 +530,8 @@ int main(int argc, char **argv)
         TEST(a_bullet_hits_a_stack_and_all_stay_before_the_wall),
         WITH_4_SUBSTEPS(a_bullet_hits_a_stack_and_all_stay_before_the_wall),
         TEST(bullets_stay_before_moving_bodies),
+        TEST(fast_bodies_stay_above_hills),
+        WITH_4_SUBSTEPS(fast_bodies_stay_above_hills),
         TEST(balls_in_a_room_keep_their_energy),
         TEST(a_crowd_at_high_speed_stays_in_its_room),
         TEST(an_elastic_impact_loses_no_time),

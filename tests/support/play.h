@@ -41,6 +41,7 @@ typedef struct script {
 extern const script script_crowd; // 1000 contacts, every feature, bodies come and go (play_crowd.c)
 extern const script script_mixed; // 300 bodies fall and come to rest
 extern const script script_terrain; // heightfields (play_terrain.c)
+extern const script script_fast;    // bodies that outrun their thickness (play_fast.c)
 extern const script script_brief; // two dozen bodies, 200 steps, every kind of call
 
 void play_begin(play *p, fe_world *world);               // an empty play; `world` has been made
