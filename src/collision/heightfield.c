@@ -65,9 +65,10 @@ fe_dvec3 fe__heightfield_normal(const fe__heightfield *f, int32_t triangle)
     int32_t cell = triangle >> 1, row = cell / (f->columns - 1), column = cell % (f->columns - 1), half = triangle & 1;
     double h00 = (double)height_of(f, row, column), h11 = (double)height_of(f, row + 1, column + 1);
     double side = (double)(half ? height_of(f, row, column + 1) : height_of(f, row + 1, column));
-    double along_x = (half ? side - h00 : h11 - side) / f->cell_x, along_z = (half ? h11 - side : side - h00) / f->cell_z;
-    double k = 1.0 / sqrt(1.0 + along_x * along_x + along_z * along_z);
-    return (fe_dvec3){-k * along_x, k, -k * along_z};
+    double rise_x = (half ? side - h00 : h11 - side) * f->cell_z, rise_z = (half ? h11 - side : side - h00) * f->cell_x,
+           area = f->cell_x * f->cell_z;
+    double k = 1.0 / sqrt(area * area + rise_x * rise_x + rise_z * rise_z);
+    return (fe_dvec3){-k * rise_x, k * area, -k * rise_z};
 }
 
 // ---- the walk -------------------------------------------------------------------------------------------------------------------------
@@ -172,19 +173,22 @@ static int32_t flies_over(const traverse *r, double to)
     return fe__mind(r->origin.y + r->t * r->way.y, r->origin.y + to * r->way.y) > (double)top;
 }
 
-// Where the ray is over the field, no farther above or below the heights than a cell.
-static int32_t clip(const fe__heightfield *f, fe_dvec3 o, fe_dvec3 d, double limit, double *from, double *to)
+// What moves less than this moves by nothing, m
+#define STILL 1e-200
+
+// Where the ray is over the field, no farther above or below the heights than a cell. `per` is 1 / way, 0 where it stands still.
+static int32_t clip(const fe__heightfield *f, fe_dvec3 o, fe_dvec3 per, double limit, double *from, double *to)
 {
     double spare = f->cell_x + f->cell_z + 1e-6 * (fe__absd((double)f->low) + fe__absd((double)f->high)); // far above rounding
-    const double low[3] = {0.0, (double)f->low - spare, 0.0}, origin[3] = {o.x, o.y, o.z}, way[3] = {d.x, d.y, d.z};
+    const double low[3] = {0.0, (double)f->low - spare, 0.0}, origin[3] = {o.x, o.y, o.z}, slope[3] = {per.x, per.y, per.z};
     const double high[3] = {(double)(f->columns - 1) * f->cell_x, (double)f->high + spare, (double)(f->rows - 1) * f->cell_z};
     double enter = 0.0, leave = limit;
     for (int32_t k = 0; k < 3; ++k) {
-        if (way[k] == 0.0) {
+        if (slope[k] == 0.0) {
             if (origin[k] < low[k] || origin[k] > high[k]) return 0;
             continue;
         }
-        double a = (low[k] - origin[k]) / way[k], b = (high[k] - origin[k]) / way[k];
+        double a = (low[k] - origin[k]) * slope[k], b = (high[k] - origin[k]) * slope[k];
         enter = fe__maxd(enter, fe__mind(a, b));
         leave = fe__mind(leave, fe__maxd(a, b));
     }
@@ -192,10 +196,13 @@ static int32_t clip(const fe__heightfield *f, fe_dvec3 o, fe_dvec3 d, double lim
     return enter <= leave;
 }
 
+static double inverse(double way) { return fe__absd(way) < STILL ? 0.0 : 1.0 / way; }
+
 int32_t fe__heightfield_ray(const fe__heightfield *f, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__ray_hit *hit)
 {
     traverse r = {.field = f};
-    if (!clip(f, origin, translation, 1.0, &r.t, &r.end)) return 0; // not by the limit: t would know of it in its last bit
+    fe_dvec3 per = {inverse(translation.x), inverse(translation.y), inverse(translation.z)};
+    if (!clip(f, origin, per, 1.0, &r.t, &r.end)) return 0; // not by the limit: t would know of it in its last bit
     r.origin = (fe_dvec3){origin.x / f->cell_x, origin.y, origin.z / f->cell_z};
     r.way = (fe_dvec3){translation.x / f->cell_x, translation.y, translation.z / f->cell_z};
     r.column = cell_of(r.origin.x + r.t * r.way.x, f->columns - 1);
@@ -204,20 +211,25 @@ int32_t fe__heightfield_ray(const fe__heightfield *f, fe_dvec3 origin, fe_dvec3 
     r.g = height_over(&r, r.t, side > 0.0), r.known = 1;
 
     int32_t step_x = r.way.x < 0.0 ? -1 : 1, step_z = r.way.z < 0.0 ? -1 : 1;
-    double never = (double)INFINITY, per_x = r.way.x == 0.0 ? never : 1.0 / r.way.x, per_z = r.way.z == 0.0 ? never : 1.0 / r.way.z;
+    const double never = (double)INFINITY;
+    double per_x = per.x * f->cell_x, per_z = per.z * f->cell_z;
+    double t_x = per_x == 0.0 ? never : ((double)(r.column + (step_x > 0)) - r.origin.x) * per_x;
+    double t_z = per_z == 0.0 ? never : ((double)(r.row + (step_z > 0)) - r.origin.z) * per_z;
     for (;;) {
-        double t_x = per_x == never ? never : ((double)(r.column + (step_x > 0)) - r.origin.x) * per_x;
-        double t_z = per_z == never ? never : ((double)(r.row + (step_z > 0)) - r.origin.z) * per_z;
         double to = fe__maxd(fe__mind(fe__mind(t_x, t_z), r.end), r.t);
         if (flies_over(&r, to))
             r.t = to, r.known = 0;
         else if (cross_cell(&r, to, hit))
             return hit->t <= limit;
         if (to >= r.end || to > limit) return 0;
-        if (t_x <= t_z)
+        if (t_x <= t_z) {
             r.column += step_x;
-        else
+            if (r.column < 0 || r.column >= f->columns - 1) return 0;
+            t_x = ((double)(r.column + (step_x > 0)) - r.origin.x) * per_x;
+        } else {
             r.row += step_z;
-        if (r.column < 0 || r.column >= f->columns - 1 || r.row < 0 || r.row >= f->rows - 1) return 0;
+            if (r.row < 0 || r.row >= f->rows - 1) return 0;
+            t_z = ((double)(r.row + (step_z > 0)) - r.origin.z) * per_z;
+        }
     }
 }
