@@ -93,12 +93,13 @@ static void touch_side(fe__gathering *g, const fe__tile *tile, int32_t k, const 
     }
 }
 
-void fe__tile_touch_round(fe__gathering *g, const fe__tile *tile, const fe_vec3 ends[2], float radius)
+void fe__tile_touch_round(fe__gathering *g, fe__tile *tile, const fe_vec3 ends[2], float radius)
 {
     const float slack = 1e-5f; // of the triangle's size: what lies over a seam lies over both its sides
     const fe_vec3 v = tile->form.vertex[0], n = tile->normal;
     float a = fe__dot(n, fe__sub(ends[0], v)), b = fe__dot(n, fe__sub(ends[1], v));
     if (fe__minf(a, b) - radius > g->margin || !fe__tile_feels(g, tile, fe__maxf(a, b) - radius)) return;
+    fe__tile_look_around(g->terrain, tile);
     touch_face(g, tile, ends, radius, slack * tile->size);
     for (int32_t k = 0; k < 3; ++k) {
         if (!(tile->convex >> k & 1)) continue;

@@ -59,12 +59,22 @@ fe__tile fe__tile_of(const fe__terrain *t, const fe__form *triangle, int32_t ind
     const fe_vec3 *v = triangle->vertex;
     fe_vec3 n = fe__cross(fe__sub(v[1], v[0]), fe__sub(v[2], v[0]));
     tile.normal = fe__scale(1.0f / fe__length(n), n);
-    for (int32_t k = 0; k < 3; ++k) {
-        tile.size = fe__maxf(tile.size, fe__length(fe__sub(v[(k + 1) % 3], v[k])));
-        if (fe__tile_beyond(t, &tile, k) < 0 || fe__dot(tile.normal, fe__sub(third_of(t, &tile, k), v[k])) < -FLAT * tile.size)
-            tile.convex |= 1u << k;
-    }
     return tile;
+}
+
+void fe__tile_look_around(const fe__terrain *t, fe__tile *tile)
+{
+    const fe_vec3 *v = tile->form.vertex;
+    float square = 0.0f;
+    for (int32_t k = 0; k < 3; ++k) {
+        fe_vec3 side = fe__sub(v[(k + 1) % 3], v[k]);
+        square = fe__maxf(square, fe__dot(side, side));
+    }
+    tile->size = sqrtf(square);
+    for (int32_t k = 0; k < 3; ++k) {
+        if (fe__tile_beyond(t, tile, k) < 0 || fe__dot(tile->normal, fe__sub(third_of(t, tile, k), v[k])) < -FLAT * tile->size)
+            tile->convex |= 1u << k;
+    }
 }
 
 // ---- beyond the border ------------------------------------------------------------------------------------------------------------------

@@ -227,11 +227,11 @@ void fe__collide_field_pair(fe_world *world, int32_t head, float dt)
     int32_t count = 0, ahead = 0;
     for (int32_t i = 0; i < now.count; ++i)
         if (has_near(now.patches + i, margin)) plans[count++] = (plan){.from = &now, .patch = now.patches + i};
-    if (now.count && !sensor && reach > FE__TURNS_LITTLE) {
+    if (now.count && !sensor) {
         if (deepest_of(&now) > FE__TURNS_LITTLE) {
             ahead = look_ahead(&view, &now, &then);
             if (ahead) count = add_new_directions(plans, 0, &then);
-        } else { // it rolls or slides: into what rises before it
+        } else if (reach > margin) { // it rolls or slides: into what rises before it
             look_after(&view, dt, margin, &then);
             ahead = then.count > 0;
             if (ahead) count = add_new_directions(plans, count, &then);
