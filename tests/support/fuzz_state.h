@@ -14,6 +14,8 @@ typedef struct fuzz {
     fe_body bodies[FUZZ_HANDLES]; // last given ones, in a ring: dead ones stay until they are overwritten
     fe_shape shapes[FUZZ_HANDLES];
     fe_joint joints[FUZZ_HANDLES];
+    fe_asset assets[8];
+    int32_t asset_count;
     int32_t body_count, shape_count, joint_count; // given
     int32_t steps;
     int32_t call_count;
@@ -56,6 +58,11 @@ fe_shape fuzz_shape(fuzz *f);
 uint32_t fuzz_struct_size(fuzz *f, uint32_t right);
 void fuzz_array(fuzz *f, uint32_t packed, fuzz_span *out); // in f->room, stride and count as a client might give them
 
+// fuzz_terrain.c
+int32_t fuzz_create_field(fuzz *f);
+int32_t fuzz_place_field(fuzz *f);
+int32_t fuzz_edit_field(fuzz *f);
+int32_t fuzz_destroy_asset(fuzz *f);
 // fuzz_joints.c
 int32_t fuzz_create_joint(fuzz *f);
 int32_t fuzz_join(fuzz *f);

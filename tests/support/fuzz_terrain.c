@@ -1,0 +1,76 @@
+// fuzz_terrain.c - the fuzzer's calls on heightfields. See fuzz.c.
+#include "support/fuzz_state.h"
+
+enum { MOST_SAMPLES = 8, ASSETS = 8 };
+
+static fe_asset fuzz_asset(fuzz *f)
+{
+    uint8_t kind = fuzz_byte(f);
+    return kind < 6 ? fuzz_shape(f) : f->assets[kind % ASSETS];
+}
+
+static fe_asset *next_asset(fuzz *f) { return f->assets + f->asset_count % ASSETS; }
+
+// mostly one that a game could have, under the bodies of fuzz_calls.c's create_whole
+int32_t fuzz_create_field(fuzz *f)
+{
+    float heights[MOST_SAMPLES * MOST_SAMPLES];
+    uint8_t holes[MOST_SAMPLES * MOST_SAMPLES], kinds[MOST_SAMPLES * MOST_SAMPLES], which = fuzz_byte(f);
+    const fe_material materials[2] = {{0.6f, 0.5f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.5f, 0.1f, 0.0f}};
+    for (int32_t i = 0; i < MOST_SAMPLES * MOST_SAMPLES; ++i) {
+        heights[i] = which == 7 ? fuzz_float(f) : 0.01f * (float)(fuzz_byte(f) % 64);
+        holes[i] = which == 9 ? fuzz_byte(f) % 3 : i % 13 == which;
+        kinds[i] = which == 8 ? fuzz_byte(f) % 3 : i % 2 == 0;
+    }
+    fe_heightfield_def d;
+    fe_heightfield_def_init(&d, which == 3 ? fuzz_struct_size(f, sizeof d) : (uint32_t)sizeof d);
+    d.rows = 2 + which % (MOST_SAMPLES - 1), d.columns = which == 5 ? (int32_t)fuzz_byte(f) - 2 : 8;
+    if (d.columns > MOST_SAMPLES) d.columns = MOST_SAMPLES;
+    d.cell_x = which == 4 ? fuzz_size(f) : 0.7f, d.cell_z = 0.7f;
+    d.heights = which == 1 ? NULL : heights;
+    if (which & 16) d.holes = holes;
+    if (which & 32) d.cell_materials = kinds, d.materials = materials, d.material_count = which == 33 ? 0 : 2;
+    if (fe_asset_is_valid(f->world, *next_asset(f))) return fe_asset_destroy(f->world, *next_asset(f));
+    fe_result result = fe_heightfield_create(f->world, &d, next_asset(f));
+    if (result == FE_OK) ++f->asset_count;
+    return result;
+}
+
+// a shape of one, on a static body
+int32_t fuzz_place_field(fuzz *f)
+{
+    fe_body_def d;
+    fe_body_def_init(&d, sizeof d);
+    uint8_t which = fuzz_byte(f);
+    d.type = which > 4 ? FE_BODY_STATIC : FE_BODY_DYNAMIC;
+    d.transform = fe_make_transform((double)(which % 5) * 0.7 - 3.0, 0.0, (double)(which % 3) * 0.7 - 2.0);
+    fe_geometry g;
+    fe_geometry_heightfield(&g, fuzz_asset(f));
+    fe_body body;
+    fe_shape shape;
+    fe_result result = fe_body_create(f->world, &d, &body);
+    if (result != FE_OK) return result;
+    result = fe_shape_create(f->world, body, NULL, &g, &shape);
+    if (result != FE_OK) (void)fe_body_destroy(f->world, body);
+    if (result != FE_OK) return result;
+    fe__hash_u64(&f->told, shape);
+    // in the ring as any other: what it displaces goes
+    fe_body oldest = f->bodies[f->body_count % FUZZ_HANDLES];
+    if (fe_body_is_valid(f->world, oldest)) (void)fe_body_destroy(f->world, oldest);
+    f->bodies[f->body_count++ % FUZZ_HANDLES] = body;
+    f->shapes[f->shape_count++ % FUZZ_HANDLES] = shape;
+    return FE_OK;
+}
+
+int32_t fuzz_edit_field(fuzz *f)
+{
+    float heights[MOST_SAMPLES * MOST_SAMPLES];
+    uint8_t which = fuzz_byte(f);
+    for (int32_t i = 0; i < MOST_SAMPLES * MOST_SAMPLES; ++i) heights[i] = which == 7 ? fuzz_float(f) : 0.02f * (float)(fuzz_byte(f) % 64);
+    int32_t row = fuzz_byte(f) % 9 - 1, column = fuzz_byte(f) % 9 - 1, rows = fuzz_byte(f) % 9, columns = fuzz_byte(f) % 9;
+    fe_asset asset = fuzz_asset(f);
+    if (which % 5 == 0) return fe_heightfield_get_heights(f->world, asset, row, column, rows, columns, heights);
+    return fe_heightfield_set_heights(f->world, asset, row, column, rows, columns, which == 6 ? NULL : heights);
+}
+
+int32_t fuzz_destroy_asset(fuzz *f) { return fe_asset_destroy(f->world, fuzz_asset(f)); }
