@@ -54,6 +54,25 @@ static void build_brief(play *p)
     }
 }
 
+// a hill under where the crowd comes, while bodies stand there
+static void bring_hill(play *p)
+{
+    enum { SAMPLES = 6 };
+    float heights[SAMPLES * SAMPLES];
+    uint8_t holes[(SAMPLES - 1) * (SAMPLES - 1)] = {0};
+    for (int32_t i = 0; i < SAMPLES * SAMPLES; ++i) heights[i] = 0.05f * (float)(i % 5);
+    holes[7] = 1;
+    fe_heightfield_def def;
+    fe_heightfield_def_init(&def, sizeof def);
+    def.rows = def.columns = SAMPLES, def.cell_x = 2.0f, def.heights = heights, def.holes = holes;
+    fe_asset hill = 0;
+    PLAY(p, fe_heightfield_create(p->world, &def, &hill));
+    part ground = part_static_box(1.0f, 1.0f, 1.0f, 2.0, 0.0, -2.0);
+    fe_geometry_heightfield(&ground.geometry, hill);
+    play_put(p, 200, &ground);
+    PLAY(p, fe_asset_destroy(p->world, hill)); // lives with its shape
+}
+
 // sixteen at once, then gone at once
 static void bring_crowd(play *p)
 {
@@ -71,6 +90,7 @@ static void bring_crowd(play *p)
         for (int32_t i = 0; i < CROWD; ++i) PLAY(p, fe_shape_create(p->world, crowd[i], NULL, &ball, p->shapes + 100 + i));
         for (int32_t i = 0; i < CROWD; ++i) PLAY(p, fe_shape_create(p->world, crowd[0], NULL, &ball, &extra));
     }
+    if (p->step == 52) bring_hill(p);
     if (p->step == 70) PLAY(p, fe_body_destroy_many(p->world, crowd, CROWD));
     if (p->step == 80) PLAY(p, fe_body_create_many(p->world, defs, 0, CROWD, crowd));
 }
@@ -99,6 +119,7 @@ static void act_brief(play *p)
     if (p->step == 64) PLAY(p, fe_shape_set_trigger(w, p->shapes[FIRST + 15], 1));
     if (p->step == 66) PLAY(p, fe_shape_destroy(w, p->shapes[FIRST + 16]));
     if (p->step == 75) PLAY(p, fe_world_sync_queries(w));
+    if (p->step == 150) play_remove(p, 200);
     if (p->step == 185) PLAY(p, fe_body_set_awake(w, actor[17], 1)); // after all have fallen asleep
 }
 
