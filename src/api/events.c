@@ -84,7 +84,8 @@ static fe_contact describe(const fe_world *world, int32_t pair)
                           .normal = {side * c->normal[0], side * c->normal[1], side * c->normal[2]},
                           .point_count = point_count(world, pair),
                           .friction_impulse = {side * c->friction_impulse[0], side * c->friction_impulse[1], side * c->friction_impulse[2]},
-                          .twist_impulse = c->friction_impulse[3]};
+                          .twist_impulse = c->friction_impulse[3],
+                          .triangle = p->triangle};
     for (int32_t i = 0; i < contact.point_count; ++i) contact.points[i] = describe_point(world, pair, i);
     return contact;
 }

@@ -68,7 +68,7 @@ static void reduce(fe__raw_patch *p, float tie)
     p->count = FE_MAX_POINTS;
 }
 
-static void add_point(const fe__gathering *g, fe__raw_patch *p, const fe__manifold_point *point, int32_t cell)
+static void add_point(const fe__gathering *g, fe__raw_patch *p, const fe__manifold_point *point, int32_t triangle)
 {
     if (g->single && p->count) {
         if (point->separation >= p->points[0].separation) return;
@@ -79,12 +79,12 @@ static void add_point(const fe__gathering *g, fe__raw_patch *p, const fe__manifo
         fe_vec3 away = fe__sub(p->points[i].point, point->point);
         if (p->points[i].id != point->id && fe__dot(away, away) > g->same_place * g->same_place) continue;
         if (point->separation < p->points[i].separation) p->points[i] = *point;
-        if (point->separation < p->deepest) p->deepest = point->separation, p->cell = cell;
+        if (point->separation < p->deepest) p->deepest = point->separation, p->triangle = triangle;
         return;
     }
     if (p->count == FE__RAW_POINTS) reduce(p, g->tie);
     p->points[p->count++] = *point;
-    if (point->separation < p->deepest) p->deepest = point->separation, p->cell = cell;
+    if (point->separation < p->deepest) p->deepest = point->separation, p->triangle = triangle;
 }
 
 // Too many directions: the most similar two of one material become one, with the normal of the deeper.
@@ -101,7 +101,7 @@ static void merge_most_similar(fe__gathering *g)
     }
     fe__raw_patch *into = g->patches + a, *from = g->patches + b;
     if (from->deepest < into->deepest) into->normal = from->normal, into->material = from->material;
-    for (int32_t i = 0; i < from->count; ++i) add_point(g, into, from->points + i, from->cell);
+    for (int32_t i = 0; i < from->count; ++i) add_point(g, into, from->points + i, from->triangle);
     *from = g->patches[--g->count];
 }
 
@@ -114,11 +114,11 @@ void fe__gather(fe__gathering *g, const fe__tile *tile, fe_vec3 normal, fe_vec3 
         fe__raw_patch *patch = g->patches + i;
         if (patch->material != material || fe__dot(patch->normal, normal) < SAME_NORMAL) continue;
         if (separation < patch->deepest) patch->normal = normal;
-        add_point(g, patch, &p, cell);
+        add_point(g, patch, &p, tile->index);
         return;
     }
-    g->patches[g->count++] = (fe__raw_patch){.normal = normal, .cell = cell, .material = material, .deepest = FLT_MAX};
-    add_point(g, g->patches + g->count - 1, &p, cell);
+    g->patches[g->count++] = (fe__raw_patch){.normal = normal, .triangle = tile->index, .material = material, .deepest = FLT_MAX};
+    add_point(g, g->patches + g->count - 1, &p, tile->index);
     if (g->count > FE__PATCHES) merge_most_similar(g);
 }
 
@@ -184,7 +184,7 @@ int32_t fe__collide_terrain(const fe__terrain *t, const fe__form *b, const fe__m
     for (int32_t i = 0; i < g.count; ++i) {
         fe__raw_patch *raw = g.patches + i;
         reduce(raw, g.tie);
-        patches[i] = (fe__patch){.normal = raw->normal, .count = raw->count, .cell = raw->cell};
+        patches[i] = (fe__patch){.normal = raw->normal, .count = raw->count, .triangle = raw->triangle};
         for (int32_t k = 0; k < raw->count; ++k) patches[i].points[k] = raw->points[k];
     }
     return g.count;

@@ -15,9 +15,9 @@ enum {
 
 // Points with one normal and one material.
 typedef struct fe__patch {
-    fe_vec3 normal; // unit, from the surface to B
-    int32_t count;  // 1..4
-    int32_t cell;   // under the deepest point
+    fe_vec3 normal;   // unit, from the surface to B
+    int32_t count;    // 1..4
+    int32_t triangle; // under the deepest point
     fe__manifold_point points[FE_MAX_POINTS];
 } fe__patch;
 

@@ -27,7 +27,7 @@ enum { FE__RAW_POINTS = 16 };
 
 typedef struct fe__raw_patch {
     fe_vec3 normal;
-    int32_t count, cell, material;
+    int32_t count, triangle, material;
     float deepest;
     fe__manifold_point points[FE__RAW_POINTS];
 } fe__raw_patch;

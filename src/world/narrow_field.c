@@ -165,8 +165,8 @@ static void write_record(fe_world *world, int32_t record, const plan *x, const l
     copy_impulses(x, old, p, m, world->extras + record);
     fe__write_manifold(world, m, &l->v, &l->at, &found, l != now);
     m->surface[3] = p->flags & FE__PAIR_PATCH ? FE__FOLLOWS : tolerance;
-    if (x->patch && p->cell != x->patch->cell) {
-        p->cell = x->patch->cell;
+    if (x->patch && p->triangle != x->patch->triangle) {
+        p->triangle = x->patch->triangle;
         fe__pair_mix_surface(world, record);
     }
 }

@@ -40,7 +40,7 @@ typedef struct fe__pair {
     float approach;           // speed of the impact in this step, m/s
     int32_t next_patch;       // of the same pair, -1: none
     int32_t head;             // of a patch
-    int32_t cell;             // of the heightfield under a patch, -1: none
+    int32_t triangle;         // of the heightfield under a patch, -1: none
 } fe__pair;
 
 #endif

@@ -133,7 +133,8 @@ void fe__pair_mix_surface(fe_world *world, int32_t pair)
     fe__contact *m = world->contacts + pair;
     fe__extra *e = world->extras + pair;
     const fe__shape *a = world->shapes + p->shape_a, *b = world->shapes + p->shape_b;
-    const fe_material *x = fe__shape_material(world, a, p->cell), *y = fe__shape_material(world, b, p->cell);
+    int32_t cell = p->triangle >= 0 ? p->triangle / 2 : -1;
+    const fe_material *x = fe__shape_material(world, a, cell), *y = fe__shape_material(world, b, cell);
     fe_vec3 surface = fe__sub(surface_of(b), surface_of(a));
     if (p->flags & FE__PAIR_FLIPPED) surface = fe__neg(surface);
     m->span[3] = sqrtf(x->static_friction * y->static_friction);
@@ -274,7 +275,7 @@ static int32_t create_record(fe_world *world, int32_t shape_a, int32_t shape_b, 
     p->flags = sides(world, a, b);
     if ((a->flags | b->flags) & FE__SHAPE_TRIGGER) p->flags |= FE__PAIR_SENSOR;
     if (number) p->flags |= FE__PAIR_PATCH;
-    p->awake_index = p->axis = p->next_patch = p->head = p->cell = -1;
+    p->awake_index = p->axis = p->next_patch = p->head = p->triangle = -1;
     m->colour = m->kind = -1;
     m->body_a = p->flags & FE__PAIR_FLIPPED ? p->body_b : p->body_a;
     m->body_b = p->flags & FE__PAIR_FLIPPED ? p->body_a : p->body_b;

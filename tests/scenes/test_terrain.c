@@ -376,6 +376,7 @@ static void contacts_tell_the_patches(void **state)
     vec push = v3(0, 0, 0);
     for (int32_t i = 0; i < count; ++i) {
         assert_int_equal(contacts[i].point_count, 1);
+        assert_in_range(contacts[i].triangle, 0, 7);
         FE_TRUE(contacts[i].body_a == ground || contacts[i].body_b == ground);
         double sign = contacts[i].body_b == ball ? 1 : -1;
         vec n = times(sign, from_world(&s, widen(contacts[i].normal)));
