@@ -780,9 +780,9 @@ FE_API int32_t fe_body_get_joints(const fe_world *world, fe_body body, fe_joint 
 /// cell between samples (row, column) and (row + 1, column + 1), cell row * (columns - 1) + column of the arrays below, is cut by the diagonal
 /// between these two into triangle 2 * cell (its z side) and 2 * cell + 1 (its x side): the numbers that hits and contacts tell.
 ///
-/// Only the upper side counts: rays from below pass, and a body whose every point is below a triangle's plane does not feel that triangle. Edges
-/// between triangles are felt only where the surface is convex, also across the border of two heightfields that meet; the rims of holes and of the
-/// whole carry like any edge.
+/// Only the upper side counts: rays from below pass. Edges between triangles are felt only where the surface is convex, also across the border of two
+/// heightfields that meet; the rims of holes and of the whole carry like any edge. What is pressed into the ground comes up again unless its centre is
+/// deeper than its farthest point is from it.
 typedef struct fe_heightfield_def {
     uint32_t struct_size;
     int32_t rows;                ///< of samples, along z, 2..32768; rows * columns <= 2^28
@@ -1007,6 +1007,7 @@ typedef struct fe_contact_point {
     uint32_t id;          ///< of the features that meet; stays while they do
 } fe_contact_point;
 
+/// A pair of shapes has one; with a heightfield one for each direction in which it is touched.
 typedef struct fe_contact {
     fe_body body_a, body_b;
     fe_shape shape_a, shape_b;
@@ -1015,6 +1016,8 @@ typedef struct fe_contact {
     fe_contact_point points[4];
     fe_vec3 friction_impulse; ///< on B, of the last substep, N s
     float twist_impulse;      ///< on B, about the normal, N m s
+    int32_t triangle;         ///< of a heightfield, under the deepest point, else -1
+    int32_t reserved;         ///< 0
 } fe_contact;
 
 /// The contacts of a body: pairs with at least one point within the speculative distance. Triggers have none.
