@@ -53,10 +53,10 @@ static int32_t joint_rows(const fe__graph_bound *b)
     return b->joint_set ? (int32_t)fe__minl(b->joint_set->rows, (int64_t)b->joints * __builtin_popcount(b->joint_set->row_kinds)) : 0;
 }
 
-static int32_t crowded_joint_rows(const fe__graph_bound *b)
+static int32_t overflowing_rows(const fe__graph_bound *b)
 {
     if (!b->joint_set) return 0;
-    return (int32_t)fe__minl(joint_rows(b), (int64_t)b->joint_set->crowded * __builtin_popcount(b->joint_set->row_kinds));
+    return (int32_t)fe__minl(joint_rows(b), (int64_t)b->joint_set->overflowing * __builtin_popcount(b->joint_set->row_kinds));
 }
 
 static int32_t batch_bound(const fe__graph_bound *b)
@@ -81,7 +81,7 @@ static int32_t joint_group_bound(const fe__graph_bound *b)
 
 static int64_t joint_row_bound(const fe__graph_bound *b, int32_t lanes, int32_t width)
 {
-    int64_t rows = lanes / width + fe__mini(joint_group_bound(b), lanes) + fe__mini(crowded_joint_rows(b), lanes);
+    int64_t rows = lanes / width + fe__mini(joint_group_bound(b), lanes) + fe__mini(overflowing_rows(b), lanes);
     return rows < lanes ? rows : lanes;
 }
 
@@ -116,7 +116,7 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
     int32_t batches = batch_bound(b), width = kernels->width, parts = joint_rows(b), some = FE__BATCH_CONTACTS + FE__ISLAND_LARGE;
     int64_t all_lanes = (int64_t)b->contacts + parts;
     int64_t groups = fe__minl((int64_t)group_bound(b) * batches, b->contacts) + fe__mini(b->crowded, b->contacts) +
-                     fe__minl((int64_t)joint_group_bound(b) * batches, parts) + crowded_joint_rows(b);
+                     fe__minl((int64_t)joint_group_bound(b) * batches, parts) + overflowing_rows(b);
     int64_t lanes = fe__minl(all_lanes + (int64_t)(width - 1) * groups, all_lanes * width);
     // each contact or joint of a kinematic body may bring a copy of it
     int64_t copies = (b->special ? b->contacts : 0) + (b->joint_set ? b->joint_set->kinematic : 0);
@@ -124,7 +124,7 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
     int64_t small = row_bytes(b, kernels, fe__mini(b->contacts, some), fe__mini(parts, some));
     int64_t large = all_lanes > FE__ISLAND_LARGE ? row_bytes(b, kernels, b->contacts, parts) : 0;
     int64_t rows = small * workers > large ? small * workers : large;
-    int64_t sorted = fe__maxi(fe__mini(b->crowded, b->contacts), b->joint_set ? fe__mini(b->joint_set->crowded, b->joints) : 0);
+    int64_t sorted = fe__maxi(fe__mini(b->crowded, b->contacts), b->joint_set ? fe__mini(b->joint_set->overflowing, b->joints) : 0);
     if (!FE_RESERVE(memory, s->velocity, s->line_capacity[0], lines) || !FE_RESERVE(memory, s->motion, s->line_capacity[1], lines) ||
         !FE_RESERVE(memory, s->start, s->line_capacity[2], lines) || !FE_RESERVE(memory, s->inertia, s->line_capacity[3], lines) ||
         !FE_RESERVE(memory, s->drive, s->line_capacity[4], lines) || !FE_RESERVE(memory, s->spin, s->line_capacity[5], lines) ||
@@ -555,6 +555,14 @@ static void make_groups(builder *b, int32_t k, const fe__kernels *kernels)
     add_overflow(b, k, kernels);
 }
 
+// the rows of each batch have room: all of it for a large one, a worker's stretch for the others
+static int32_t rows_fit(const fe__solver *s)
+{
+    for (int32_t k = 0; k < s->batch_count; ++k)
+        if (s->batches[k].row_bytes > (k < s->large_count ? (int64_t)sizeof(fe__row_block) * s->row_capacity : s->worker_row_bytes)) return 0;
+    return 1;
+}
+
 void fe__graph_build(fe__solver *s, const fe__kernels *kernels, const fe__graph_input *input)
 {
     builder b = make_builder(s, kernels, input);
@@ -568,5 +576,7 @@ void fe__graph_build(fe__solver *s, const fe__kernels *kernels, const fe__graph_
         make_groups(&b, k, kernels);
     }
     assert(s->line_count <= s->body_of_line_capacity && s->lane_count <= s->lane_capacity && s->group_count <= s->group_capacity);
+    assert(rows_fit(s));
+    (void)rows_fit; // without assertions nobody asks
     s->graph_changed = 0;
 }

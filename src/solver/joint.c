@@ -31,14 +31,12 @@ static int32_t dynamic_ends(const fe__joint *j, fe__body *bodies, fe__body **end
     return count;
 }
 
-// what a body with so many joints adds to fe__joints.crowded
-static int32_t crowd_of(int32_t count) { return count > FE__JOINT_CROWD ? count : 0; }
-
 static void count_joint(fe__joints *joints, const fe__joint *j, int32_t sign)
 {
     joints->linked += sign;
     joints->rows += sign * __builtin_popcount(j->rows & all_parts);
     joints->kinematic += sides_of(j) & FE__KINEMATIC_END ? sign : 0;
+    joints->overflowing += j->colour == FE__JOINT_OVERFLOW ? sign : 0;
 }
 
 void fe__joint_link(fe__joints *joints, fe__body *bodies, int32_t joint)
@@ -56,7 +54,6 @@ void fe__joint_link(fe__joints *joints, fe__body *bodies, int32_t joint)
     j->colour = ~taken & all_colours ? __builtin_ctz(~taken & all_colours) : FE__JOINT_OVERFLOW;
     for (int32_t k = 0; k < count; ++k) {
         joints->most = fe__maxi(joints->most, ++ends[k]->joint_count);
-        joints->crowded += crowd_of(ends[k]->joint_count) - crowd_of(ends[k]->joint_count - 1);
         if (j->colour != FE__JOINT_OVERFLOW) ends[k]->joint_colours |= 1u << j->colour;
     }
     count_joint(joints, j, 1);
@@ -71,11 +68,10 @@ void fe__joint_unlink(fe__joints *joints, fe__body *bodies, int32_t joint)
     int32_t count = dynamic_ends(j, bodies, ends);
     for (int32_t k = 0; k < count; ++k) {
         --ends[k]->joint_count;
-        joints->crowded -= crowd_of(ends[k]->joint_count + 1) - crowd_of(ends[k]->joint_count);
         if (j->colour != FE__JOINT_OVERFLOW) ends[k]->joint_colours &= ~(1u << j->colour);
     }
-    j->colour = -1;
     count_joint(joints, j, -1);
+    j->colour = -1;
 }
 
 void fe__joint_forget_impulses(fe__joints *joints, int32_t joint)

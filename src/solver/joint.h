@@ -47,7 +47,6 @@ enum {
 
     FE__JOINT_COLOURS = 31,  // joints of a colour share no dynamic body
     FE__JOINT_OVERFLOW = 31, // one joint a row, in order of creation
-    FE__JOINT_CROWD = 15,    // with no more joints each, two bodies have a colour left for the next
 
     // places in fe__joint_axes.axis
     FE__AXIS_LINEAR = 0, // X, Y, Z; DISTANCE in the first
@@ -119,12 +118,12 @@ typedef struct fe__joints {
     fe__joint_frame *frames;
     fe__joint_reaction *reactions;
     fe__joint_axes *axes;
-    int32_t linked;     // joints in the graph, awake or asleep
-    int32_t rows;       // parts of all of them
-    int32_t kinematic;  // joints with a kinematic end
-    int32_t crowded;    // joints of bodies that have more than fit the colours, each end counts
-    uint32_t row_kinds; // bits of the parts there ever were
-    int32_t most;       // joints that one dynamic body ever had
+    int32_t linked;      // joints in the graph, awake or asleep
+    int32_t rows;        // parts of all of them
+    int32_t kinematic;   // joints with a kinematic end
+    int32_t overflowing; // joints without a colour, each a row of its own for each of its parts
+    uint32_t row_kinds;  // bits of the parts there ever were
+    int32_t most;        // joints that one dynamic body ever had
 } fe__joints;
 
 // Into the graph: a colour, and which rows stand for its parts (locks and types of the bodies decide: unlink before they change, link

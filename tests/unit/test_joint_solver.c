@@ -334,6 +334,29 @@ static void locks_hold_exactly_against_every_kind(void **state)
         }
 }
 
+// Hubs that lost the joints that have colours keep those that overflowed: room for a row for each of them
+static void hubs_keep_their_overflow_when_joints_go(void **state)
+{
+    enum { HUBS = 20, SPOKES = 50, LEFT = 12 };
+    (void)state;
+    rig r = rig_make(FE_SIMD_AUTO, NULL, 1, 2);
+    for (int32_t h = 0; h < HUBS; ++h) {
+        int32_t hub = rig_body(&r, 10.0 * h, 0.0, 0.0, 50.0f, 5.0f, 5.0f, 5.0f);
+        for (int32_t i = 0; i < SPOKES; ++i) {
+            int32_t b = rig_capsule(&r, 10.0 * h, 1.0, 10.0 * h, 2.0, 0.02, 1000.0);
+            int32_t j = rig_ball(&r, hub, b, 10.0 * h, 1.0, 0.0);
+            FE_TRUE((r.joints.joints[j].colour == FE__JOINT_OVERFLOW) == (i >= FE__JOINT_COLOURS));
+        }
+    }
+    for (int32_t j = 1; j <= r.joint_count; ++j)
+        if ((j - 1) % SPOKES < SPOKES - LEFT) fe__joint_unlink(&r.joints, r.bodies, j);
+    for (int32_t i = 0; i < 3; ++i) rig_step(&r);
+    for (int32_t j = 1; j <= r.joint_count; ++j)
+        if (r.joints.joints[j].colour >= 0) FE_WITHIN(rig_gap(&r, j), 0.0, 0.005);
+    FE_TRUE(r.joints.overflowing == HUBS * LEFT && r.joints.linked == HUBS * LEFT && r.joints.rows == HUBS * LEFT);
+    rig_free(&r);
+}
+
 static uint64_t play(int32_t simd, fe_pool *pool, int32_t workers)
 {
     rig r = rig_make(simd, pool, workers, 4);
@@ -372,6 +395,7 @@ int main(void)
         cmocka_unit_test(crane_carries_a_thousand_times_its_boom),
         cmocka_unit_test(cloth_hangs_as_predicted),
         cmocka_unit_test(no_kind_of_joint_adds_energy),
+        cmocka_unit_test(hubs_keep_their_overflow_when_joints_go),
         cmocka_unit_test(locks_hold_exactly_against_every_kind),
         cmocka_unit_test(results_do_not_depend_on_width_or_workers),
     };
