@@ -254,9 +254,59 @@ static void the_laws_of_queries_hold(void **state)
     }
 }
 
+// ---- sliding --------------------------------------------------------------------------------------------------------------------------
+
+// Flat ground at 0: flush boxes from -6 to 6, a heightfield behind them, a plane under the rest.
+static fe_world *flat_world(void)
+{
+    enum { SAMPLES = 9 };
+    static const float heights[SAMPLES * SAMPLES];
+    fe_world *world = new_world();
+    for (int i = -3; i < 3; ++i) add_box(world, new_body(world, FE_BODY_STATIC, 2 * i + 1, -1, 0), 1);
+    fe_heightfield_def def;
+    fe_heightfield_def_init(&def, sizeof def);
+    def.rows = def.columns = SAMPLES, def.cell_x = def.cell_z = 0.75f, def.heights = heights;
+    fe_asset asset;
+    fe_geometry g;
+    OK(fe_heightfield_create(world, &def, &asset));
+    fe_geometry_heightfield(&g, asset);
+    add_shape(world, new_body(world, FE_BODY_STATIC, -3, 0, 5), &g);
+    fe_geometry_plane(&g, 0, 1, 0, 0);
+    add_shape(world, new_body(world, FE_BODY_STATIC, 0, 0, 0), &g);
+    return world;
+}
+
+// What came down on a surface and stopped slides along it, over the seams, and up from it, and is hit by nothing.
+static void what_has_stopped_slides(void **state)
+{
+    (void)state;
+    fe_world *world = flat_world();
+    const double places[] = {0, 8, 20}; // over boxes, field, plane
+    const fe_quat turns[] = {{0, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}};
+    for (int i = 0; i < 27; ++i) {
+        fe_geometry g;
+        fe_geometry_box(&g, 0.5f, 0.25f, 0.375f);
+        if (i % 3 == 1) fe_geometry_sphere(&g, 0.5f);
+        if (i % 3 == 2) fe_geometry_capsule(&g, 0.5f, 0.25f);
+        fe_transform t = fe_make_transform(-1.3, 3, places[i / 3 % 3]);
+        t.rotation = turns[i / 9];
+        const fe_dvec3 down = {0.1, -5, 0.05}, slides[] = {{2.6, 0, 0}, {-2.3, 0, 0.3}, {0, 0, 0.7}, {1, 0.5, 0.2}};
+        fe_hit hit;
+        OK(fe_world_sweep(world, &g, &t, &down, NULL, &hit));
+        FE_WITHIN(hit.fraction, 0.4, 0.6);
+        t.position.x += hit.fraction * down.x, t.position.y += hit.fraction * down.y, t.position.z += hit.fraction * down.z;
+        for (int s = 0; s < 4; ++s) assert_int_equal(fe_world_sweep(world, &g, &t, &slides[s], NULL, &hit), FE_MISS);
+        fe_dvec3 on = {0, -1e-3, 0}; // but what goes on into the ground stops where it is
+        OK(fe_world_sweep(world, &g, &t, &on, NULL, &hit));
+        FE_WITHIN(hit.fraction, 0, 1e-4);
+        FE_TRUE(hit.flags == 0);
+    }
+    OK(fe_world_destroy(world));
+}
+
 int main(int argc, char **argv)
 {
     if (argc > 1) inputs = atoi(argv[1]);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_laws_of_queries_hold)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_laws_of_queries_hold), cmocka_unit_test(what_has_stopped_slides)};
     return cmocka_run_group_tests_name("query_laws", tests, NULL, NULL);
 }
