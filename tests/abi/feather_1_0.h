@@ -861,7 +861,7 @@ typedef struct fe_path {
 
 /// The first body on a segment.
 ///
-/// Exact on every shape. At equal fractions the body created first wins, whatever the number of workers.
+/// Exact on every shape. At equal fractions what the ray starts in comes first, then the body created first, whatever the number of workers.
 /// @param origin       start, m, world space
 /// @param translation  from the start to the end, m; zero asks whether the start is inside a shape
 /// @param filter       who counts; NULL: every layer, no triggers
@@ -887,9 +887,9 @@ FE_API int32_t fe_world_raycast_many(const fe_world *world, const fe_ray *rays, 
 
 /// What a sphere, capsule or box that moves without turning touches first.
 ///
-/// It stops at most 1 micrometre before the body (0.1 mm: a box before a box), never in it. What overlaps at the start is a hit at fraction 0, flagged
-/// FE_HIT_STARTED_INSIDE; so is, without the flag, what it starts to touch, but what it leaves or slides along is no hit. At equal fractions
-/// what overlaps comes first, then the body created first.
+/// It stops at most 1 micrometre before the body (0.1 mm: a box before a box), never in it. What overlaps at the start is a hit at fraction
+/// 0, flagged FE_HIT_STARTED_INSIDE; so is, without the flag, what it starts to touch, but what it leaves or slides along is no hit. From
+/// below, heightfields are passed. At equal fractions what overlaps comes first, then the body created first.
 /// @param geometry     sphere, capsule or box; a sphere of radius 0 sweeps as a ray
 /// @param start        pose of the geometry at the start
 /// @param translation  m; zero asks what overlaps
@@ -926,8 +926,8 @@ typedef struct fe_closest {
     int32_t triangle; ///< of a heightfield, else -1
 } fe_closest;
 
-/// The point of all surfaces that is closest to a point. Inside of a body its distance is below 0; the smallest wins, then the body created first.
-/// A heightfield has no inside; from below it is not seen.
+/// The point of all surfaces that is closest to a point. Inside of a body its distance is below 0; the smallest wins, then the body created
+/// first. A heightfield has no inside; from below it is not seen.
 /// @param max_distance  farther ones are not looked for, m, >= 0
 /// @param out_closest   written only when FE_OK is returned
 /// @return FE_OK, FE_MISS when there is none
