@@ -159,7 +159,7 @@ static int32_t touch_edges(contest *c)
     return 1;
 }
 
-void fe__tile_touch_box(fe__gathering *g, fe__tile *tile, const fe__form *box, const fe__mat3 *rotation)
+void fe__tile_touch_box(fe__gathering *g, const fe__tile *tile, const fe__form *box, const fe__mat3 *rotation)
 {
     contest c = {.g = g, .tile = tile, .box = box, .rotation = rotation, .half = {box->half.x, box->half.y, box->half.z}};
     c.axes[0] = rotation->x, c.axes[1] = rotation->y, c.axes[2] = rotation->z;
@@ -168,8 +168,9 @@ void fe__tile_touch_box(fe__gathering *g, fe__tile *tile, const fe__form *box, c
     float centre = -fe__dot(n, tile->form.vertex[0]), r = reach(&c, n);
     c.best = (axis){.kind = ON_FACE, .m = n, .separation = centre - r};
     if (c.best.separation > g->margin || !fe__tile_feels(g, tile, centre + r)) return;
-    fe__tile_look_around(g->terrain, tile);
-    if (tile->convex && !find_axis(&c)) return;
+    int32_t convex = 0;
+    for (int32_t k = 0; k < 3; ++k) convex |= fe__tile_is_convex(g->terrain, tile, k);
+    if (convex && !find_axis(&c)) return;
     prefer_face(&c);
     if (c.best.kind == ON_BOX_FACE)
         touch_box_face(&c);

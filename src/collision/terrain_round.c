@@ -34,22 +34,27 @@ static void gather(fe__gathering *g, const fe__tile *tile, fe_vec3 normal, fe_ve
     fe__gather(g, tile, normal, fe__add_scaled(core, -0.5f * (height + radius), normal), separation, id);
 }
 
-static void touch_face(fe__gathering *g, const fe__tile *tile, const fe_vec3 ends[2], float radius, float slack)
+// Returns the sides that the core reaches beyond, a bit each.
+static uint32_t touch_face(fe__gathering *g, const fe__tile *tile, const fe_vec3 ends[2], float radius, float slack)
 {
+    uint32_t beyond = 0;
     const fe_vec3 *v = tile->form.vertex, n = tile->normal;
     stretch part = {0.0f, 1.0f};
     for (int32_t k = 0; k < 3; ++k) {
         fe_vec3 side = fe__sub(v[(k + 1) % 3], v[k]), out = fe__cross(side, n);
-        cut(&part, fe__dot(out, fe__sub(ends[0], v[k])), fe__dot(out, fe__sub(ends[1], v[k])), slack * fe__length(side));
+        float a = fe__dot(out, fe__sub(ends[0], v[k])), b = fe__dot(out, fe__sub(ends[1], v[k])), most = slack * fe__length(side);
+        cut(&part, a, b, most);
+        if (fe__maxf(a, b) > -most) beyond |= 1u << k;
     }
-    if (part.from > part.to) return;
+    if (part.from > part.to) return beyond;
     const float at[2] = {part.from, part.to};
     for (int32_t i = 0; i < 2; ++i) {
         fe_vec3 p = core_point(ends, at[i]);
         int32_t is_end = at[i] == (float)i;
         gather(g, tile, n, p, fe__dot(n, fe__sub(p, v[0])), radius, is_end ? (uint32_t)(END_ID + i) : fe__tile_id(tile, (uint32_t)i));
-        if (g->single) return;
+        if (g->single) break;
     }
+    return beyond;
 }
 
 // Nearest points of the core and a side: s of the core, u of the side (Eberly; Ericson, Real-Time Collision Detection, 5.1.9)
@@ -93,16 +98,15 @@ static void touch_side(fe__gathering *g, const fe__tile *tile, int32_t k, const 
     }
 }
 
-void fe__tile_touch_round(fe__gathering *g, fe__tile *tile, const fe_vec3 ends[2], float radius)
+void fe__tile_touch_round(fe__gathering *g, const fe__tile *tile, const fe_vec3 ends[2], float radius)
 {
     const float slack = 1e-5f; // of the triangle's size: what lies over a seam lies over both its sides
     const fe_vec3 v = tile->form.vertex[0], n = tile->normal;
     float a = fe__dot(n, fe__sub(ends[0], v)), b = fe__dot(n, fe__sub(ends[1], v));
     if (fe__minf(a, b) - radius > g->margin || !fe__tile_feels(g, tile, fe__maxf(a, b) - radius)) return;
-    fe__tile_look_around(g->terrain, tile);
-    touch_face(g, tile, ends, radius, slack * tile->size);
+    uint32_t beyond = touch_face(g, tile, ends, radius, slack * tile->size);
     for (int32_t k = 0; k < 3; ++k) {
-        if (!(tile->convex >> k & 1)) continue;
+        if (!(beyond >> k & 1)) continue; // what is nearest to the core is not there
         int32_t other = fe__tile_beyond(g->terrain, tile, k);
         if (other < 0 || other > tile->index) touch_side(g, tile, k, ends, radius); // of the two at a side the first has it
     }

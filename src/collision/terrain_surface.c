@@ -52,6 +52,16 @@ static fe_vec3 third_of(const fe__terrain *t, const fe__tile *tile, int32_t side
     return sample(t, tile->row + b->third_row, tile->column + b->third_column);
 }
 
+static float longest_side(const fe_vec3 v[3])
+{
+    float square = 0.0f;
+    for (int32_t k = 0; k < 3; ++k) {
+        fe_vec3 side = fe__sub(v[(k + 1) % 3], v[k]);
+        square = fe__maxf(square, fe__dot(side, side));
+    }
+    return sqrtf(square);
+}
+
 fe__tile fe__tile_of(const fe__terrain *t, const fe__form *triangle, int32_t index)
 {
     int32_t cell = index >> 1, columns = t->field->columns - 1;
@@ -59,22 +69,14 @@ fe__tile fe__tile_of(const fe__terrain *t, const fe__form *triangle, int32_t ind
     const fe_vec3 *v = triangle->vertex;
     fe_vec3 n = fe__cross(fe__sub(v[1], v[0]), fe__sub(v[2], v[0]));
     tile.normal = fe__scale(1.0f / fe__length(n), n);
+    tile.size = longest_side(v);
     return tile;
 }
 
-void fe__tile_look_around(const fe__terrain *t, fe__tile *tile)
+int32_t fe__tile_is_convex(const fe__terrain *t, const fe__tile *tile, int32_t side)
 {
-    const fe_vec3 *v = tile->form.vertex;
-    float square = 0.0f;
-    for (int32_t k = 0; k < 3; ++k) {
-        fe_vec3 side = fe__sub(v[(k + 1) % 3], v[k]);
-        square = fe__maxf(square, fe__dot(side, side));
-    }
-    tile->size = sqrtf(square);
-    for (int32_t k = 0; k < 3; ++k) {
-        if (fe__tile_beyond(t, tile, k) < 0 || fe__dot(tile->normal, fe__sub(third_of(t, tile, k), v[k])) < -FLAT * tile->size)
-            tile->convex |= 1u << k;
-    }
+    if (fe__tile_beyond(t, tile, side) < 0) return 1;
+    return fe__dot(tile->normal, fe__sub(third_of(t, tile, side), tile->form.vertex[side])) < -FLAT * tile->size;
 }
 
 // ---- beyond the border ------------------------------------------------------------------------------------------------------------------
@@ -122,7 +124,7 @@ static int32_t on_border(const fe__heightfield *f, int32_t row, int32_t column)
 static int32_t side_allows(const fe__terrain *t, const fe__tile *tile, int32_t side, fe_vec3 m)
 {
     const fe_vec3 *v = tile->form.vertex;
-    if (!(tile->convex >> side & 1)) return 0;
+    if (!fe__tile_is_convex(t, tile, side)) return 0;
     if (fe__tile_beyond(t, tile, side) >= 0) return !rises(m, fe__sub(third_of(t, tile, side), v[side]));
     if (!t->neighbour_count) return 1;
     // at the point of the side nearest the body, which is at the origin

@@ -9,12 +9,12 @@ typedef struct fe__tile {
     fe__form form;
     int32_t index, row, column, half;
     fe_vec3 normal;
-    float size;      // longest side, m
-    uint32_t convex; // bit k: the surface bends down, or ends, beyond side k
+    float size; // longest side, m
 } fe__tile;
 
 fe__tile fe__tile_of(const fe__terrain *terrain, const fe__form *triangle, int32_t index);
-void fe__tile_look_around(const fe__terrain *terrain, fe__tile *tile); // size and convex sides; the kernels do, when the tile is near
+// Does the surface bend down, or end, beyond side k?
+int32_t fe__tile_is_convex(const fe__terrain *terrain, const fe__tile *tile, int32_t side);
 // The triangle beyond side k, -1: a hole or the border.
 int32_t fe__tile_beyond(const fe__terrain *terrain, const fe__tile *tile, int32_t side);
 
@@ -56,8 +56,8 @@ void fe__gather(fe__gathering *g, const fe__tile *tile, fe_vec3 normal, fe_vec3 
 
 // ---- kernels (terrain_round.c, terrain_box.c) -------------------------------------------------------------------------------------------
 // `ends`: of the core, a sphere's twice the same
-void fe__tile_touch_round(fe__gathering *g, fe__tile *tile, const fe_vec3 ends[2], float radius);
-void fe__tile_touch_box(fe__gathering *g, fe__tile *tile, const fe__form *box, const fe__mat3 *rotation);
+void fe__tile_touch_round(fe__gathering *g, const fe__tile *tile, const fe_vec3 ends[2], float radius);
+void fe__tile_touch_box(fe__gathering *g, const fe__tile *tile, const fe__form *box, const fe__mat3 *rotation);
 
 // Ids. A feature of the body keeps its name on whatever triangle it lies; one of a triangle is named after it.
 static inline uint32_t fe__tile_id(const fe__tile *tile, uint32_t feature)
