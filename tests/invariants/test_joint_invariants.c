@@ -1,0 +1,231 @@
+// Laws of joints on random scenes: no joint adds energy; momentum and angular momentum are kept in free flight; ragdolls come together
+// again.
+#include "../../examples/machines.h"
+#include "scenes/joint_scene.h"
+
+enum { MOST_BODIES = 12 };
+
+typedef struct crowd {
+    scene s;
+    fe_body bodies[MOST_BODIES];
+    fe_joint joints[MOST_BODIES];
+    int count, joint_count;
+} crowd;
+
+static fe_joint join_somehow(scene *s, dice *d, fe_body a, fe_body b, vec point, int limited)
+{
+    vec axis = somewhere(d, 1);
+    fe_ball_def ball = ball_def();
+    fe_hinge_def hinge = hinge_def();
+    fe_configurable_def six = configurable_def();
+    fe_distance_def rope = distance_def();
+    int kind = pick(d, 6);
+    axis.x += 2;
+    if (limited) {
+        ball.swing_limited = pick(d, 2), ball.twist_limited = pick(d, 2);
+        ball.cone_y = (float)uniform(d, 0.2, 2), ball.cone_z = (float)uniform(d, 0.2, 2), ball.min_twist = -(float)uniform(d, 0, 2),
+        ball.max_twist = (float)uniform(d, 0, 2);
+        hinge.limited = 1, hinge.min_angle = -(float)uniform(d, 0, 2), hinge.max_angle = (float)uniform(d, 0, 3.14);
+    }
+    for (int k = 0; k < 6; ++k) {
+        six.axes[k].mode = limited ? pick(d, 3) : 2 * pick(d, 2);
+        six.axes[k].low = -(float)uniform(d, 0, 0.5), six.axes[k].high = (float)uniform(d, 0, 0.5);
+    }
+    rope.min_length = 0, rope.max_length = 1e-3f + (float)length(minus(position(s, a), position(s, b)));
+    if (kind == 0) return add_ball(s, ball, a, b, point, axis);
+    if (kind == 1) return add_hinge(s, hinge, a, b, point, axis);
+    if (kind == 2) return add_fixed(s, fixed_def(), a, b, point);
+    if (kind == 3) return add_configurable(s, six, a, b, point, axis);
+    if (kind == 4) return add_distance(s, rope, a, b, position(s, a), position(s, b));
+    return add_rod(s, a, b, point, position(s, b));
+}
+
+// A tree of bodies, now and then a loop; nothing touches
+static crowd make_crowd(dice *d, int limited, int anchored)
+{
+    crowd c = {.s = scene_begin(NULL), .count = 3 + pick(d, MOST_BODIES - 4)};
+    if (!anchored) set_gravity(&c.s, v3(0, 0, 0));
+    for (int i = 0; i < c.count; ++i) {
+        vec at = v3(uniform(d, -1, 1), -0.7 * i, uniform(d, -1, 1));
+        c.bodies[i] = add_dynamic(&c.s, any_form(d, uniform(d, 0.4, 1)), at, any_rotation(d), friction(0), WATER);
+        MUST(fe_body_set_filter(c.s.world, c.bodies[i], 2, 0));
+        set_velocity(&c.s, c.bodies[i], somewhere(d, 2), somewhere(d, 3));
+        fe_body parent = i ? c.bodies[pick(d, i)] : add_anchor(&c.s, at);
+        if (!i && !anchored) continue;
+        c.joints[c.joint_count++] = join_somehow(&c.s, d, parent, c.bodies[i], plus(at, somewhere(d, 0.5)), limited);
+    }
+    return c;
+}
+
+// What gaps and angles hold as springs is energy that comes back: on the masses of both ends, w = 2 pi 60 Hz. Bounded from above by the
+// heavier body's mass and inertia, because a joint on the bodies' whole is never stiffer than on one of them
+static double stored_in(const crowd *c)
+{
+    double w = 2 * PI * 60, sum = 0;
+    for (int i = 0; i < c->joint_count; ++i) {
+        fe_joint_state at = state_of(&c->s, c->joints[i]);
+        fe_body a, b;
+        MUST(fe_joint_get_bodies(c->s.world, c->joints[i], &a, &b));
+        fe_mass_data x = mass_data_of(&c->s, b);
+        double moment = fmax((double)x.inertia.x, fmax((double)x.inertia.y, (double)x.inertia.z));
+        sum += 0.5 * w * w *
+               ((double)x.mass * (double)(at.linear_error * at.linear_error) + moment * (double)(at.angular_error * at.angular_error));
+    }
+    return sum;
+}
+
+// ---- energy
+// -------------------------------------------------------------------------------------------------------------------------------
+
+#if SLOW_BUILD
+enum { SCENES = 6, STEPS = 120, THROWS = 2 };
+#else
+enum { SCENES = 60, STEPS = 300, THROWS = 40 };
+#endif
+
+static void no_joint_adds_energy(void **state)
+{
+    (void)state;
+    for (int limited = 0; limited < 2; ++limited)
+        for (uint64_t seed = 1; seed <= SCENES / 2; ++seed) {
+            dice d = {seed * 77 + (uint64_t)limited};
+            crowd c = make_crowd(&d, limited, 1);
+            double mass = 0;
+            for (int i = 0; i < c.count; ++i) mass += mass_of(&c.s, c.bodies[i]);
+            // the first substeps give the bodies velocities that fit their joints
+            totals start = totals_of(&c.s, c.bodies, c.count);
+            for (int i = 0; i < STEPS; ++i) {
+                run(&c.s, 1);
+                totals now = totals_of(&c.s, c.bodies, c.count);
+                double share = 0.5 * c.s.h * G * sqrt(2 * now.kinetic * mass); // of the scheme, exact in free flight only
+                FE_WITHIN(now.energy, -1e12, start.energy + share + 1e-5 * start.kinetic);
+                FE_WITHIN(stored_in(&c), 0, 1e12);
+            }
+            scene_end(&c.s);
+        }
+}
+
+// ---- momentum
+// -----------------------------------------------------------------------------------------------------------------------------
+
+static void joints_keep_momentum_and_angular_momentum(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= SCENES / 2; ++seed) {
+        dice d = {seed * 1001};
+        crowd c = make_crowd(&d, seed % 2, 0);
+        totals start = totals_of(&c.s, c.bodies, c.count), now = start;
+        for (int i = 0; i < STEPS; ++i) run(&c.s, 1);
+        now = totals_of(&c.s, c.bodies, c.count);
+        FE_WITHIN(length(minus(now.momentum, start.momentum)), 0, MOMENTUM_DRIFT * start.momenta);
+        FE_WITHIN(length(minus(now.angular, start.angular)), 0, ANGULAR_DRIFT * start.angular_all * (1 + STEPS * STEP));
+        FE_WITHIN(now.kinetic, 0, start.kinetic * (1 + ENERGY_GAIN));
+        scene_end(&c.s);
+    }
+}
+
+// ---- ragdolls
+// -----------------------------------------------------------------------------------------------------------------------------
+
+static double bones_energy(const scene *s, const ragdoll *r) { return totals_of(s, r->bones, RAGDOLL_BONES).energy; }
+
+// Thrown at 30 m/s into the corner of three walls
+static void ragdolls_thrown_into_a_corner_come_together_again(void **state)
+{
+    (void)state;
+    double worst_gap_after = 0, worst_angle_after = 0;
+    for (uint64_t k = 0; k < THROWS; ++k) {
+        dice d = {k + 3};
+        scene s = scene_begin(NULL);
+        ragdoll r;
+        add_plane(&s, v3(0, 1, 0), 0, friction(0.6));
+        add_plane(&s, v3(1, 0, 0), 0, friction(0.6));
+        add_plane(&s, v3(0, 0, 1), 0, friction(0.6));
+        fe_transform at = {v3(4, 2, 4), any_rotation(&d)};
+        double norm = sqrt((double)(at.rotation.x * at.rotation.x + at.rotation.y * at.rotation.y + at.rotation.z * at.rotation.z +
+                                    at.rotation.w * at.rotation.w));
+        at.rotation = (fe_quat){(float)(at.rotation.x / norm), (float)(at.rotation.y / norm), (float)(at.rotation.z / norm),
+                                (float)(at.rotation.w / norm)};
+        MUST(ragdoll_build(s.world, at, 5, &r));
+        vec way = v3(-uniform(&d, 0.5, 1), -uniform(&d, 0, 0.6), -uniform(&d, 0.5, 1));
+        for (int i = 0; i < RAGDOLL_BONES; ++i) set_velocity(&s, r.bones[i], times(30 / length(way), way), v3(0, 0, 0));
+        double start = bones_energy(&s, &r), most = start;
+        for (int i = 0; i < 90; ++i) { // hits after some 10 steps; then 1 s
+            run(&s, 1);
+            most = fmax(most, bones_energy(&s, &r));
+            for (int b = 0; b < RAGDOLL_BONES; ++b) FE_WITHIN(length(velocity(&s, r.bones[b])), 0, 120); // no NaN
+        }
+        FE_WITHIN(most, -1e9, start * (1 + ENERGY_GAIN));
+        for (int i = 1; i < RAGDOLL_BONES; ++i) {
+            fe_joint_state at_rest = state_of(&s, r.joints[i]);
+            worst_gap_after = fmax(worst_gap_after, (double)at_rest.linear_error);
+            worst_angle_after = fmax(worst_angle_after, (double)at_rest.angular_error);
+        }
+        scene_end(&s);
+    }
+    FE_WITHIN(worst_gap_after, 0, LINEAR_SLOP);
+    FE_WITHIN(worst_angle_after, 0, 3 * DEGREES);
+}
+
+// S23: dropped from a metre and a half; at rest and asleep within 5 s
+static void a_ragdoll_comes_to_rest(void **state)
+{
+    (void)state;
+    scene s = scene_begin(NULL);
+    ragdoll r;
+    int asleep_at = -1;
+    add_ground(&s, friction(0.6));
+    MUST(ragdoll_build(s.world, fe_make_transform(0, 1.5, 0), 5, &r));
+    for (int i = 0; i < 300; ++i) {
+        run(&s, 1);
+        int32_t awake;
+        MUST(fe_body_get_awake(s.world, r.bones[RAGDOLL_PELVIS], &awake));
+        if (!awake && asleep_at < 0) asleep_at = i;
+        if (i < 150) continue;
+        for (int k = 1; k < RAGDOLL_BONES; ++k) {
+            FE_WITHIN(gap_of(&s, r.joints[k]), 0, LINEAR_SLOP);
+            FE_WITHIN(state_of(&s, r.joints[k]).angular_error, 0, 3 * DEGREES);
+        }
+    }
+    FE_WITHIN(asleep_at, 0, 299);
+    scene_end(&s);
+}
+
+// S24 in small: ragdolls fall through turning paddles
+static void ragdolls_under_paddles_stay_in_one_piece(void **state)
+{
+    (void)state;
+    enum { PEOPLE = SLOW_BUILD ? 2 : 8 };
+    scene s = scene_begin(NULL);
+    ragdoll people[PEOPLE];
+    add_ground(&s, friction(0.6));
+    fe_body post = add_anchor(&s, v3(0, 3, 0));
+    for (int i = 0; i < 2; ++i) {
+        fe_body paddle = add_dynamic(&s, box(2, 0.2, 1), v3(0, 2.5 + 3 * i, 0), UNTURNED, friction(0.1), 50);
+        fe_hinge_def d = hinge_def();
+        d.motor_speed = i ? -5 : 5, d.motor_torque = 500;
+        add_hinge(&s, d, post, paddle, v3(0, 2.5 + 3 * i, 0), v3(0, 0, 1));
+    }
+    for (int i = 0; i < 4; ++i) add_plane(&s, v3(i == 0 ? 1 : i == 1 ? -1 : 0, 0, i == 2 ? 1 : i == 3 ? -1 : 0), -3, friction(0.2));
+    int born = 0;
+    for (int i = 0; i < (SLOW_BUILD ? 120 : 480); ++i) {
+        if (i % 40 == 0 && born < PEOPLE)
+            MUST(ragdoll_build(s.world, fe_make_transform(born % 2 ? 1.5 : -1.5, 8, 0.3 * (born % 3 - 1)), 5, &people[born])), ++born;
+        run(&s, 1);
+        for (int p = 0; p < born; ++p)
+            for (int k = 1; k < RAGDOLL_BONES; ++k) FE_WITHIN(gap_of(&s, people[p].joints[k]), 0, 4 * LINEAR_SLOP);
+    }
+    scene_end(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(no_joint_adds_energy),
+        cmocka_unit_test(joints_keep_momentum_and_angular_momentum),
+        cmocka_unit_test(ragdolls_thrown_into_a_corner_come_together_again),
+        cmocka_unit_test(a_ragdoll_comes_to_rest),
+        cmocka_unit_test(ragdolls_under_paddles_stay_in_one_piece),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
