@@ -115,14 +115,14 @@ typedef struct ragdoll {
     fe_joint joints[RAGDOLL_BONES]; // to the parent; [0] is none
 } ragdoll;
 
-// A long thin bone turns about its axis a hundred times more easily than across it; a soft solver then has to hold a light end by a heavy
-// one. No moment of a bone is below a quarter of its largest.
+// A long thin bone turns about its axis a hundred times more easily than across it, a small one like the neck in any way; a soft solver
+// then has to hold heavy ends by a light one. No moment of a bone is below a quarter of its largest, or below its mass times (10 cm)^2.
 static inline fe_result ragdoll_thicken(fe_world *world, fe_body bone)
 {
     fe_mass_data mass;
     mass.struct_size = sizeof mass;
     MACHINE_TRY(fe_body_get_mass_data(world, bone, &mass));
-    float largest = fmaxf(fmaxf(mass.inertia.x, mass.inertia.y), mass.inertia.z), least = 0.25f * largest;
+    float largest = fmaxf(fmaxf(mass.inertia.x, mass.inertia.y), mass.inertia.z), least = fmaxf(0.25f * largest, 0.01f * mass.mass);
     mass.inertia = fe_make_vec3(fmaxf(mass.inertia.x, least), fmaxf(mass.inertia.y, least), fmaxf(mass.inertia.z, least));
     return fe_body_set_mass_data(world, bone, &mass);
 }

@@ -90,13 +90,19 @@ static fe_quat rotation_of(angles a)
     return fe__product((fe_quat){0.0f, k * a.swing_y, k * a.swing_z, c}, (fe_quat){sine, 0.0f, 0.0f, cosine});
 }
 
-static angles angles_of(fe_quat q)
+void fe__joint_angles(fe_quat q, float *out_twist, float *out_swing_y, float *out_swing_z)
 {
     if (q.w < 0.0f) q = (fe_quat){-q.x, -q.y, -q.z, -q.w};
     float n = sqrtf(q.w * q.w + q.x * q.x), sine = sqrtf(q.y * q.y + q.z * q.z), angle = 2.0f * fe__atan2f(sine, n);
     float y = n > 0.0f ? q.w * q.y - q.x * q.z : q.y, z = n > 0.0f ? q.w * q.z + q.x * q.y : q.z, length = sqrtf(y * y + z * z);
     float k = length > 0.0f ? angle / length : 0.0f;
-    return (angles){2.0f * fe__atan2f(q.x, q.w), k * y, k * z};
+    *out_twist = 2.0f * fe__atan2f(q.x, q.w), *out_swing_y = k * y, *out_swing_z = k * z;
+}
+
+fe_quat fe__joint_shift(int32_t shift)
+{
+    static const fe_quat turns[3] = {{0.0f, 0.0f, 0.0f, 1.0f}, {0.5f, 0.5f, 0.5f, 0.5f}, {-0.5f, -0.5f, -0.5f, 0.5f}};
+    return turns[shift];
 }
 
 static void set_target(fe__joint_turn *turn, fe_quat q)
@@ -108,7 +114,8 @@ static void set_target(fe__joint_turn *turn, fe_quat q)
 static fe_quat clamped_target(const fe_ball_def *d)
 {
     fe_quat q = fe__normalized(d->target);
-    angles a = angles_of(q);
+    angles a;
+    fe__joint_angles(q, &a.twist, &a.swing_y, &a.swing_z);
     float y = a.swing_y / d->cone_y, z = a.swing_z / d->cone_z, out = y * y + z * z;
     int32_t twists = d->twist_limited && (a.twist < d->min_twist || a.twist > d->max_twist), swings = d->swing_limited && out > 1.0f;
     if (!twists && !swings) return q;
@@ -175,42 +182,79 @@ static int32_t plan_turn(const fe_joint_axis *a, fe__joint_plan *plan)
     return 1;
 }
 
-static void plan_rotations(const fe_configurable_def *d, fe__joint_plan *plan)
+static int32_t is_locked(const fe_joint_axis *a) { return a->mode == FE_MOTION_LOCKED; }
+
+// Where a rotation is locked, q loses its meaning at half a turn of swing: a cardan joint cannot pass it. Free swings end before, at 170
+// degrees
+#define MOST_SWING 2.967f
+#define MOST_CARDAN 2.4f         // where the twist is locked: its gradient grows as 1 / cos(swing / 2)
+#define MOST_SWING_OF_TWO 1.697f // each, when their ranges are apart: sqrt(2) times it is the former
+
+static void bound_swings(const fe_joint_axis *about, fe__joint_plan *plan)
+{
+    fe__joint_axis *y = plan->axes.axis + FE__AXIS_SWING, *z = y + 1;
+    int32_t has_y = plan->parts >> FE__PART_SWING_Y & 1, has_z = plan->parts >> FE__PART_SWING_Z & 1;
+    if (is_locked(about) && !has_y && !has_z) {
+        set_limit(y, MOST_CARDAN, MOST_CARDAN, 0.0f, 0.0f);
+        plan->parts |= bit(FE__PART_CONE);
+        return;
+    }
+    float most = is_locked(about) ? MOST_SWING_OF_TWO : MOST_SWING;
+    for (int k = 1; k < 3; ++k) {
+        fe__joint_axis *axis = k == 1 ? y : z;
+        if (is_locked(about + k)) continue;
+        if (!(k == 1 ? has_y : has_z)) set_unlimited(axis);
+        axis->limit[0] = fe__maxf(axis->limit[0], -most), axis->limit[1] = fe__minf(axis->limit[1], most);
+        plan->parts |= bit(k == 1 ? FE__PART_SWING_Y : FE__PART_SWING_Z);
+    }
+}
+
+static void plan_rotations(const fe_configurable_def *d, const fe_joint_axis *about, fe__joint_plan *plan)
 {
     static const fe__joint_part parts[3] = {FE__PART_TWIST, FE__PART_SWING_Y, FE__PART_SWING_Z};
-    const fe_joint_axis *about = d->axes + FE_ABOUT_X;
-    int32_t locked[3], all = 1;
-    for (int k = 0; k < 3; ++k) all &= locked[k] = about[k].mode == FE_MOTION_LOCKED;
-    if (all) {
+    int32_t locked = is_locked(about) + is_locked(about + 1) + is_locked(about + 2), hinge = is_locked(about + 1) && is_locked(about + 2);
+    if (locked == 3) {
         plan->parts |= bit(FE__PART_FIXED);
         return;
     }
     if (plan_turn(about, plan)) return;
-    int32_t hinge = locked[1] && locked[2];
     if (hinge) plan->parts |= bit(FE__PART_HINGE);
     for (int k = 0; k < 3; ++k) {
         fe__joint_axis *axis = plan->axes.axis + FE__AXIS_TWIST + k;
-        if (locked[k] && hinge) continue;
-        if (locked[k]) set_limit(axis, 0.0f, 0.0f, d->hertz, d->damping_ratio);
-        if (locked[k] || plan_axis(about + k, axis)) plan->parts |= bit(parts[k]);
+        if (is_locked(about + k) && hinge) continue;
+        if (is_locked(about + k)) set_limit(axis, 0.0f, 0.0f, d->hertz, d->damping_ratio);
+        if (is_locked(about + k) || plan_axis(about + k, axis)) plan->parts |= bit(parts[k]);
     }
+    if (locked && !hinge) bound_swings(about, plan);
+}
+
+// The one rotation that is not locked becomes the twist, which any number of turns leaves well defined: the joint's axes move up by `shift`
+static int32_t shift_of(const fe_configurable_def *d)
+{
+    const fe_joint_axis *about = d->axes + FE_ABOUT_X;
+    for (int k = 1; k < 3; ++k)
+        if (!is_locked(about + k) && is_locked(about) && is_locked(about + 3 - k)) return k;
+    return 0;
 }
 
 static void plan_configurable(const fe_configurable_def *d, fe__joint_plan *plan)
 {
     static const fe__joint_part parts[3] = {FE__PART_X, FE__PART_Y, FE__PART_Z};
     static const uint32_t locks[3] = {FE__LOCK_X, FE__LOCK_Y, FE__LOCK_Z};
+    fe_joint_axis along[3], about[3];
+    plan->shift = shift_of(d);
+    for (int k = 0; k < 3; ++k) along[k] = d->axes[(k + plan->shift) % 3], about[k] = d->axes[FE_ABOUT_X + (k + plan->shift) % 3];
     for (int k = 0; k < 3; ++k) {
-        if (d->axes[k].mode == FE_MOTION_LOCKED)
+        if (is_locked(along + k))
             plan->locked |= locks[k];
-        else if (plan_axis(d->axes + k, plan->axes.axis + FE__AXIS_LINEAR + k))
+        else if (plan_axis(along + k, plan->axes.axis + FE__AXIS_LINEAR + k))
             plan->parts |= bit(parts[k]);
     }
     if (plan->locked == (FE__LOCK_X | FE__LOCK_Y | FE__LOCK_Z))
         plan->parts |= bit(FE__PART_POINT);
     else if (plan->locked)
         plan->parts |= bit(FE__PART_SLIDE);
-    plan_rotations(d, plan);
+    plan_rotations(d, about, plan);
 }
 
 // ---- all --------------------------------------------------------------------------------------------------------------------------------

@@ -7,6 +7,7 @@
 typedef struct fe__joint_plan {
     uint32_t parts;             // 1 << fe__joint_part
     uint32_t locked;            // FE__LOCK_*
+    int32_t shift;              // the solver's X is axis X + shift of the definition's
     float hertz, damping_ratio; // of the locks, 0: the world's
     fe__joint_axes axes;        // limits, drives, motors; no impulses, no states
 } fe__joint_plan;
@@ -19,5 +20,10 @@ static inline int32_t fe__joint_needs_axes(const fe__joint_plan *plan)
 }
 // The part that uses a place in fe__joint_axes.axis, FE__PARTS: none
 fe__joint_part fe__joint_part_at(uint32_t parts, int32_t place);
+
+// Twist and swing of q, see solver/joint.h
+void fe__joint_angles(fe_quat q, float *out_twist, float *out_swing_y, float *out_swing_z);
+// From the solver's axes to the definition's: X to axis X + shift
+fe_quat fe__joint_shift(int32_t shift);
 
 #endif

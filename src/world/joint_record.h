@@ -40,6 +40,7 @@ typedef struct fe__joint_record {
     int32_t order_next, order_previous; // all joints in the order of creation, 0: none
     int32_t awake_index;                // place in the list of awake joints, -1: no dynamic end is awake
     int32_t settings;                   // record in the pool of its type
+    int32_t shift;                      // the solver's X is axis X + shift of its frames
     fe_frame frame[2];                  // in A's and B's space, unit rotations
     float hertz, damping_ratio;
     float break_force, break_torque; // N, N m, 0: never

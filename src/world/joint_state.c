@@ -2,6 +2,7 @@
 //
 // Read from the bodies' poses and velocities as they are, by the API and after the solver.
 #include "core/trig.h"
+#include "world/joint_parts.h"
 #include "world/step.h"
 
 static fe_quat rotation_of(const fe__body *b) { return (fe_quat){b->rotation[0], b->rotation[1], b->rotation[2], b->rotation[3]}; }
@@ -62,6 +63,18 @@ static float angular_error(const fe__joint_frame *f, const fe__joint_axes *axes,
 }
 
 // ---- state ------------------------------------------------------------------------------------------------------------------------------
+// From the solver's axes back to those of the definition
+static void tell_coordinates(int32_t shift, const fe__joint_pose *pose, float twist, fe_joint_state *s)
+{
+    fe_quat to = fe__joint_shift(shift), q = fe__product(fe__product(to, pose->q), fe__conjugate(to));
+    const float d[3] = {pose->d.x, pose->d.y, pose->d.z};
+    s->translation = fe__vec3(d[(3 - shift) % 3], d[(4 - shift) % 3], d[(5 - shift) % 3]);
+    s->angle = twist, s->swing_y = pose->swing_y, s->swing_z = pose->swing_z;
+    if (!shift) return;
+    fe__joint_angles(q, &s->angle, &s->swing_y, &s->swing_z);
+    *(shift == 1 ? &s->swing_y : &s->swing_z) = twist;
+}
+
 void fe__joint_state_of(const fe_world *world, int32_t joint, fe_joint_state *s)
 {
     const fe__joint_record *r = world->joint_records + joint;
@@ -71,18 +84,17 @@ void fe__joint_state_of(const fe_world *world, int32_t joint, fe_joint_state *s)
     fe_transform frame_a = fe__joint_frame_now(world, joint, 0), frame_b = fe__joint_frame_now(world, joint, 1);
     fe__joint_pose pose;
     fe__joint_pose_of(&world->joints, world->bodies, joint, &pose);
-    s->angle = pose.twist;
-    if (f->parts >> FE__PART_TWIST & 1) s->angle = fe__joint_wind(pose.twist, axes->axis[FE__AXIS_TWIST].state[0]);
-    s->swing_y = pose.swing_y, s->swing_z = pose.swing_z;
+    float twist = pose.twist;
+    if (f->parts >> FE__PART_TWIST & 1) twist = fe__joint_wind(pose.twist, axes->axis[FE__AXIS_TWIST].state[0]);
+    tell_coordinates(r->shift, &pose, twist, s);
     s->angular_velocity = fe__rotate_back(frame_a.rotation, fe__sub(spin_of(b), spin_of(a)));
-    s->translation = pose.d;
     // frame A turns under the moving point: d/dt (R^T x) = R^T (x' - wA x x), x from A's point, is the velocity against A's matter at B's
     // point
     s->linear_velocity = fe__rotate_back(frame_a.rotation, fe__sub(velocity_at(b, frame_b.position), velocity_at(a, frame_b.position)));
     s->length = pose.length;
-    s->speed = pose.length > 0.0f ? fe__dot(pose.d, s->linear_velocity) / pose.length : fe__length(s->linear_velocity);
+    s->speed = pose.length > 0.0f ? fe__dot(s->translation, s->linear_velocity) / pose.length : fe__length(s->linear_velocity);
     s->linear_error = linear_error(f, axes, &pose);
-    s->angular_error = angular_error(f, axes, &pose, s->angle);
+    s->angular_error = angular_error(f, axes, &pose, twist);
     if (r->type != FE_JOINT_FIXED) return; // whose springs hold too
     s->linear_error = pose.length;
     s->angular_error = whole_angle(pose.q);

@@ -269,14 +269,15 @@ static void fill_axes(fe_world *world, int32_t joint, const fe__joint_plan *plan
 
 static void fill(fe_world *world, int32_t joint, const fe__joint_plan *plan)
 {
-    const fe__joint_record *r = world->joint_records + joint;
+    fe__joint_record *r = world->joint_records + joint;
     fe__joint *j = world->joints.joints + joint;
     fe__joint_frame *f = world->joints.frames + joint;
     fill_axes(world, joint, plan);
     f->parts = (uint16_t)plan->parts;
     f->locked = (uint16_t)plan->locked;
-    set_quat(f->frame_a, r->frame[0].rotation);
-    set_quat(f->frame_b, r->frame[1].rotation);
+    r->shift = plan->shift;
+    set_quat(f->frame_a, fe__product(r->frame[0].rotation, fe__joint_shift(r->shift)));
+    set_quat(f->frame_b, fe__product(r->frame[1].rotation, fe__joint_shift(r->shift)));
     j->arm_a[3] = plan->hertz, j->arm_b[3] = plan->damping_ratio;
     place_anchors(world, joint);
     wind(world, joint);

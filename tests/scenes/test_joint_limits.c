@@ -179,8 +179,7 @@ static void a_target_beyond_a_limit_counts_as_the_limit(void **state)
 // ---- softness of what is held, and of limits
 // -----------------------------------------------------------------------------------------------
 
-// What hangs by a joint of `hertz` sinks by g / w^2. It does not swing, because the relaxation takes what speed is left after each substep:
-// it creeps there as C x' = -K x, by w / (2 zeta) a second
+// What hangs by a joint of `hertz` sinks by g / w^2. Highly damped it creeps there as C x' = -K x, by w / (2 zeta) a second
 static void locks_give_by_their_hertz_and_come_back_by_their_damping(void **state)
 {
     for (int type = 0; type < 4; ++type)
@@ -209,15 +208,19 @@ static void locks_give_by_their_hertz_and_come_back_by_their_damping(void **stat
         }
 }
 
-// hertz of a fixed joint are a spring's, with its swing
-static void a_soft_fixed_joint_swings(void **state)
+// little damped they swing
+static void soft_joints_swing(void **state)
 {
-    for (int bouncy = 0; bouncy < 2; ++bouncy) {
+    for (int k = 0; k < 4; ++k) {
+        int bouncy = k % 2, is_ball = k / 2;
         scene s = scene_begin(state);
         fe_body anchor = add_anchor(&s, v3(0, 1, 0)), weight = add_plain(&s, box(0.2, 0.2, 0.2), v3(0, 0, 0));
         fe_fixed_def d = fixed_def();
         d.hertz = 5, d.damping_ratio = bouncy ? 0.1f : 1.5f;
-        fe_joint joint = add_fixed(&s, d, anchor, weight, v3(0, 0, 0));
+        fe_ball_def ball = ball_def();
+        ball.hertz = d.hertz, ball.damping_ratio = d.damping_ratio;
+        fe_joint joint =
+            is_ball ? add_ball(&s, ball, anchor, weight, v3(0, 0, 0), v3(0, 1, 0)) : add_fixed(&s, d, anchor, weight, v3(0, 0, 0));
         double give = G / stiffness_of(5), most = 0;
         for (int i = 0; i < 600; ++i) {
             run(&s, 1);
@@ -252,7 +255,7 @@ static void hertz_of_a_fixed_joints_rotation_are_its_own(void **state)
     }
 }
 
-// pressed onto a soft end: gives by load / (I w^2), and creeps there as locks do
+// pressed onto a soft end: gives by load / (I w^2), and creeps there
 static void limits_give_by_their_hertz_and_come_back_by_their_damping(void **state)
 {
     for (int where = 0; where < 4; ++where)
@@ -452,6 +455,56 @@ static void limits_hold_bodies_with_locked_axes(void **state)
     }
 }
 
+// the one rotation that is left turns round and round, whichever it is
+static void a_single_free_rotation_is_a_hinge_about_its_axis(void **state)
+{
+    for (int k = 0; k < 3; ++k)
+        for (int limited = 0; limited < 2; ++limited) {
+            gyre g = begin_gyre(state);
+            fe_configurable_def d = configurable_def();
+            fe_joint_axis *axis = &d.axes[FE_ABOUT_X + k];
+            axis->mode = limited ? FE_MOTION_LIMITED : FE_MOTION_FREE, axis->low = -1, axis->high = (float)PI;
+            d.axes[FE_ALONG_X + k].mode = FE_MOTION_LIMITED, d.axes[FE_ALONG_X + k].low = -0.5f, d.axes[FE_ALONG_X + k].high = 0.5f;
+            fe_joint joint = configurable_of(&g, d);
+            vec along = v3(k == 0, k == 1, k == 2);
+            set_velocity(&g.s, g.block, times(0.25, along), times(5, along));
+            double before = totals_of(&g.s, &g.block, 1).energy;
+            for (int i = 0; i < 60; ++i) {
+                run(&g.s, 1);
+                FE_WITHIN(totals_of(&g.s, &g.block, 1).energy, 0, before * (1 + ENERGY_GAIN));
+                FE_WITHIN(state_of(&g.s, joint).angular_error, 0, 1 * DEGREES);
+            }
+            fe_joint_state at = state_of(&g.s, joint);
+            const double moved[3] = {(double)at.translation.x, (double)at.translation.y, (double)at.translation.z},
+                         turned_by[3] = {(double)at.angle, (double)at.swing_y, (double)at.swing_z};
+            for (int i = 0; i < 3; ++i) FE_NEAR(moved[i], i == k ? 0.25 : 0, 1e-4);
+            for (int i = 0; i < 3; ++i) FE_NEAR(turned_by[i], i != k ? 0 : limited ? PI : 5 - 2 * PI, 0.005);
+            scene_end(&g.s);
+        }
+}
+
+// two left over: they bump against the ends of what their angles can tell, and gain nothing by it
+static void a_cardan_joint_gains_no_energy(void **state)
+{
+    for (uint32_t locked = 0; locked < 3; ++locked)
+        for (uint64_t seed = 1; seed <= 8; ++seed) {
+            gyre g = begin_gyre(state);
+            dice d = {seed};
+            fe_configurable_def six = configurable_def();
+            for (uint32_t k = 0; k < 3; ++k)
+                if (k != locked) six.axes[FE_ABOUT_X + k].mode = FE_MOTION_FREE;
+            configurable_of(&g, six);
+            set_velocity(&g.s, g.block, v3(0, 0, 0), somewhere(&d, 8));
+            run(&g.s, 1); // the spin about the locked axis is gone
+            double before = totals_of(&g.s, &g.block, 1).energy;
+            for (int i = 0; i < 300; ++i) {
+                run(&g.s, 1);
+                FE_WITHIN(totals_of(&g.s, &g.block, 1).energy, 0, before * 1.01);
+            }
+            scene_end(&g.s);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -460,7 +513,7 @@ int main(void)
         TEST(a_swing_over_half_a_turn_stays_sane),
         TEST(a_target_beyond_a_limit_counts_as_the_limit),
         EVERY_WAY_UP(locks_give_by_their_hertz_and_come_back_by_their_damping),
-        EVERY_WAY_UP(a_soft_fixed_joint_swings),
+        EVERY_WAY_UP(soft_joints_swing),
         TEST(hertz_of_a_fixed_joints_rotation_are_its_own),
         TEST(limits_give_by_their_hertz_and_come_back_by_their_damping),
         TEST(a_spring_pushes_up_to_its_cap),
@@ -468,6 +521,8 @@ int main(void)
         TEST(each_axis_of_a_configurable_joint_has_its_own_drive_and_motor),
         EVERY_WAY_UP(a_motor_moves_to_a_pose_and_holds_it_within_its_caps),
         TEST(limits_hold_bodies_with_locked_axes),
+        TEST(a_single_free_rotation_is_a_hinge_about_its_axis),
+        TEST(a_cardan_joint_gains_no_energy),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
