@@ -490,10 +490,9 @@ FE_API fe_result fe_shape_get_user_data(const fe_world *world, fe_shape shape, f
 // **Frames.** `fe_hinge_def_at` and its like make them from a point (and an axis) of the world, so that the present pose is the zero; or set both
 // frames by hand.
 //
-// **Stiffness.** Springs, limits and what a joint holds are springs and dampers given by hertz, 1/s, and damping ratio, on the masses that move, so that
-// they do not depend on them. Springs, drives and all of a fixed joint swing as such. Limits and other locks give as such, but do not swing: they creep
-// back, the slower the higher the ratio. Hertz of 0 mean no spring where one is optional, and as stiff as the world allows
-// (fe_world_tuning.joint_hertz, joint_damping_ratio) for a limit and for what is held. All are limited to a quarter of the substep rate.
+// **Stiffness.** Springs, limits and what a joint holds are springs and dampers given by hertz, 1/s, and damping ratio (1: critical), on the masses that
+// move, so that they do not depend on them. Hertz of 0 mean no spring where one is optional, and as stiff as the world allows
+// (fe_world_tuning.joint_hertz, joint_damping_ratio; without swing) for a limit and for what is held. All are limited to a quarter of the substep rate.
 //
 // **Springs and motors** push no harder than their cap, N or N m. A motor reaches for its speed; with speed 0 it is friction. A cap of 0 switches
 // it off.
@@ -659,7 +658,8 @@ typedef enum fe_joint_coordinate {
     FE_JOINT_COORDINATE_FORCE32 = 0x7fffffff
 } fe_joint_coordinate;
 
-/// Six axes, each locked, limited or free, with drives: sliders, wheels, motors and whatever else.
+/// Six axes, each locked, limited or free, with drives: sliders, wheels, motors and whatever else. Rotations of which one or two are locked: the one left
+/// over turns without end; of the two left over those about Y and Z end at 170 degrees, at 137 where the twist is locked, as a cardan joint does.
 typedef struct fe_configurable_def {
     uint32_t struct_size;
     int32_t enabled;
