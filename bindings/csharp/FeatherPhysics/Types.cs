@@ -1,0 +1,194 @@
+// Values that go in and out: positions in double, handles, switches. Vectors and quaternions are System.Numerics', in Unity UnityEngine's; all
+// have the layout of feather.h's records.
+using System;
+using System.Runtime.InteropServices;
+#if UNITY_5_3_OR_NEWER
+using UnityEngine;
+#else
+using System.Numerics;
+#endif
+
+namespace FeatherPhysics
+{
+    /// <summary>A world position, m, or a translation of a query, in double.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct DVec3 : IEquatable<DVec3>
+    {
+        public double X, Y, Z;
+
+        public DVec3(double x, double y, double z) { X = x; Y = y; Z = z; }
+
+        /// <summary>Rounds to float: near the origin only. <see cref="RelativeTo"/> keeps small numbers far away.</summary>
+        public static explicit operator Vector3(DVec3 a) { return new Vector3((float)a.X, (float)a.Y, (float)a.Z); }
+
+        public static explicit operator DVec3(Vector3 a)
+        {
+#if UNITY_5_3_OR_NEWER
+            return new DVec3(a.x, a.y, a.z);
+#else
+            return new DVec3(a.X, a.Y, a.Z);
+#endif
+        }
+
+        /// <summary>The position seen from an origin, as of a floating-origin game or a camera.</summary>
+        public Vector3 RelativeTo(DVec3 origin) { return (Vector3)(this - origin); }
+
+        public static DVec3 operator +(DVec3 a, DVec3 b) { return new DVec3(a.X + b.X, a.Y + b.Y, a.Z + b.Z); }
+        public static DVec3 operator -(DVec3 a, DVec3 b) { return new DVec3(a.X - b.X, a.Y - b.Y, a.Z - b.Z); }
+        public static DVec3 operator +(DVec3 a, Vector3 b) { return a + (DVec3)b; }
+        public static DVec3 operator -(DVec3 a, Vector3 b) { return a - (DVec3)b; }
+        public static DVec3 operator *(DVec3 a, double factor) { return new DVec3(a.X * factor, a.Y * factor, a.Z * factor); }
+        public static bool operator ==(DVec3 a, DVec3 b) { return a.X == b.X && a.Y == b.Y && a.Z == b.Z; }
+        public static bool operator !=(DVec3 a, DVec3 b) { return !(a == b); }
+        public double Length { get { return Math.Sqrt(X * X + Y * Y + Z * Z); } }
+        public bool Equals(DVec3 other) { return X.Equals(other.X) && Y.Equals(other.Y) && Z.Equals(other.Z); }
+        public override bool Equals(object other) { return other is DVec3 && Equals((DVec3)other); }
+        public override int GetHashCode() { return (X.GetHashCode() * 397 ^ Y.GetHashCode()) * 397 ^ Z.GetHashCode(); }
+        public override string ToString() { return "(" + X + ", " + Y + ", " + Z + ")"; }
+    }
+
+    /// <summary>A pose in the world.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct WorldTransform
+    {
+        public DVec3 Position;
+        public Quaternion Rotation;
+
+        public WorldTransform(DVec3 position) { Position = position; Rotation = new Quaternion(0, 0, 0, 1); }
+        public WorldTransform(DVec3 position, Quaternion rotation) { Position = position; Rotation = rotation; }
+    }
+
+    /// <summary>A pose relative to an origin, for drawing.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct RelativeTransform
+    {
+        public Vector3 Position;
+        public Quaternion Rotation;
+    }
+
+    /// <summary>Velocities of a body (m/s, rad/s), or a force and a torque on it (N, N m).</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct LinearAngular
+    {
+        public Vector3 Linear, Angular;
+
+        public LinearAngular(Vector3 linear, Vector3 angular) { Linear = linear; Angular = angular; }
+    }
+
+    /// <summary>A bool of four bytes, as the library has it.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public readonly struct Switch
+    {
+        readonly int on;
+
+        Switch(bool value) { on = value ? 1 : 0; }
+        public static implicit operator bool(Switch value) { return value.on != 0; }
+        public static implicit operator Switch(bool value) { return new Switch(value); }
+        public override string ToString() { return (on != 0).ToString(); }
+    }
+
+    /// <summary>Names a body in arrays, events and hits; <c>world[handle]</c> makes a <see cref="Body"/> of it.</summary>
+    public readonly struct BodyHandle : IEquatable<BodyHandle>
+    {
+        public readonly ulong Value;
+        public BodyHandle(ulong value) { Value = value; }
+        public static implicit operator BodyHandle(Body body) { return body.Handle; }
+        public bool Equals(BodyHandle other) { return Value == other.Value; }
+        public override bool Equals(object other) { return other is BodyHandle && Equals((BodyHandle)other); }
+        public override int GetHashCode() { return Value.GetHashCode(); }
+        public static bool operator ==(BodyHandle a, BodyHandle b) { return a.Value == b.Value; }
+        public static bool operator !=(BodyHandle a, BodyHandle b) { return a.Value != b.Value; }
+    }
+
+    /// <summary>Names a shape; see <see cref="BodyHandle"/>.</summary>
+    public readonly struct ShapeHandle : IEquatable<ShapeHandle>
+    {
+        public readonly ulong Value;
+        public ShapeHandle(ulong value) { Value = value; }
+        public static implicit operator ShapeHandle(Shape shape) { return shape.Handle; }
+        public bool Equals(ShapeHandle other) { return Value == other.Value; }
+        public override bool Equals(object other) { return other is ShapeHandle && Equals((ShapeHandle)other); }
+        public override int GetHashCode() { return Value.GetHashCode(); }
+        public static bool operator ==(ShapeHandle a, ShapeHandle b) { return a.Value == b.Value; }
+        public static bool operator !=(ShapeHandle a, ShapeHandle b) { return a.Value != b.Value; }
+    }
+
+    /// <summary>Names a joint; see <see cref="BodyHandle"/>.</summary>
+    public readonly struct JointHandle : IEquatable<JointHandle>
+    {
+        public readonly ulong Value;
+        public JointHandle(ulong value) { Value = value; }
+        public static implicit operator JointHandle(Joint joint) { return joint.Handle; }
+        public bool Equals(JointHandle other) { return Value == other.Value; }
+        public override bool Equals(object other) { return other is JointHandle && Equals((JointHandle)other); }
+        public override int GetHashCode() { return Value.GetHashCode(); }
+        public static bool operator ==(JointHandle a, JointHandle b) { return a.Value == b.Value; }
+        public static bool operator !=(JointHandle a, JointHandle b) { return a.Value != b.Value; }
+    }
+
+    /// <summary>Names what shapes share; see <see cref="Heightfield"/>.</summary>
+    public readonly struct AssetHandle
+    {
+        public readonly ulong Value;
+        public AssetHandle(ulong value) { Value = value; }
+    }
+
+    public partial class BodyDef
+    {
+        /// <summary>Of the body's origin, m.</summary>
+        public DVec3 Position { get { return Transform.Position; } set { Transform.Position = value; } }
+        public Quaternion Rotation { get { return Transform.Rotation; } set { Transform.Rotation = value; } }
+    }
+
+    public unsafe partial struct Geometry
+    {
+        internal static readonly uint Size = (uint)sizeof(Geometry);
+
+        /// <param name="radius">m</param>
+        public static Geometry Sphere(float radius) { Geometry made; Native.geometry_sphere(&made, radius); return made; }
+        /// <summary>Along local Y.</summary>
+        /// <param name="halfHeight">of the axis, without the caps, m</param>
+        /// <param name="radius">m</param>
+        public static Geometry Capsule(float halfHeight, float radius) { Geometry made; Native.geometry_capsule(&made, halfHeight, radius); return made; }
+        /// <summary>Half its edges, m.</summary>
+        public static Geometry Box(float halfX, float halfY, float halfZ) { Geometry made; Native.geometry_box(&made, halfX, halfY, halfZ); return made; }
+        /// <summary>The half space normal . p &lt;= distance, of static bodies only.</summary>
+        public static Geometry Plane(float normalX, float normalY, float normalZ, float distance)
+        {
+            Geometry made;
+            Native.geometry_plane(&made, normalX, normalY, normalZ, distance);
+            return made;
+        }
+        /// <summary>Terrain, of static bodies only.</summary>
+        public static Geometry Terrain(Heightfield field)
+        {
+            Geometry made;
+            Native.geometry_heightfield(&made, field.Handle.Value);
+            return made;
+        }
+    }
+
+    public partial struct Contact
+    {
+        /// <summary>Its points: 0..PointCount - 1.</summary>
+        public ContactPoint this[int index]
+        {
+            get
+            {
+                if ((uint)index >= (uint)PointCount) throw new ArgumentOutOfRangeException(nameof(index));
+                return index == 0 ? Point0 : index == 1 ? Point1 : index == 2 ? Point2 : Point3;
+            }
+        }
+    }
+
+    /// <summary>Who counts in a query. Make it once and keep it: queries with it allocate nothing.</summary>
+    public sealed class QueryFilter
+    {
+        /// <summary>Layers that count.</summary>
+        public uint Mask = uint.MaxValue;
+        /// <summary>Triggers count too.</summary>
+        public bool Triggers;
+        /// <summary>Bodies that do not count; null: none.</summary>
+        public BodyHandle[] Excluded;
+    }
+}

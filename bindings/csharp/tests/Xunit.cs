@@ -1,0 +1,23 @@
+// The laws, and what only .NET can measure, as tests of xunit.
+using System;
+using System.Collections.Generic;
+using System.Reflection;
+using Xunit;
+
+namespace FeatherPhysics.Tests
+{
+    public class Suite
+    {
+        public static IEnumerable<object[]> Names()
+        {
+            foreach (MethodInfo law in typeof(Laws).GetMethods(BindingFlags.Public | BindingFlags.Static | BindingFlags.DeclaredOnly)) yield return new object[] { law.Name };
+        }
+
+        [Theory]
+        [MemberData(nameof(Names))]
+        public void Law(string name) { ((Action)Delegate.CreateDelegate(typeof(Action), typeof(Laws).GetMethod(name)))(); }
+
+        [Fact]
+        public void Steps_queries_and_events_allocate_nothing() { Assert.Equal(0, Cost.BytesOfSteps(2000)); }
+    }
+}
