@@ -29,8 +29,21 @@ missing_for_python() {
     has mypy || echo mypy
 }
 
+# The SDK of .NET is no package of Debian's: bindings/csharp/test says where it is missing.
+missing_for_csharp() {
+    has swig || echo swig
+    has mono || echo mono-runtime
+    has mcs || echo mono-mcs
+    test -e /usr/lib/mono/4.5/System.Numerics.dll || echo libmono-system-numerics4.0-cil
+    test -e /usr/lib/mono/4.5/System.Numerics.Vectors.dll || echo libmono-system-numerics-vectors4.0-cil
+}
+
 # Prints the missing packages, by their Debian names.
 missing() {
+    if test "$wanted" = csharp; then
+        missing_for_csharp
+        return
+    fi
     if test "$wanted" = python; then
         missing_for_python
         return
@@ -46,6 +59,7 @@ missing() {
     has pkg-config || echo pkg-config
     has valgrind || echo valgrind
     if test "$wanted" != fuzz; then missing_for_python; fi
+    if test "$wanted" != fuzz; then missing_for_csharp; fi
     if test "$wanted" != test; then
         clang -fsanitize=fuzzer,address,undefined "$work/fuzz.c" -o "$work/program" > /dev/null 2>&1 ||
             clang --version | awk 'match($0, /version [0-9]+/) { print "libclang-rt-" substr($0, RSTART + 8, RLENGTH - 8) "-dev" }'

@@ -412,10 +412,10 @@ namespace FeatherPhysics.Tests
                 Check.Throws<StaleHandleException>(() => world.CreateFixed(body, default(Body), new DVec3()), "no world");
                 Check.Throws<BadArgumentException>(() => world.Step(float.NaN), "dt");
                 Check.Throws<BadArgumentException>(() => world.Step(2), "dt");
-                Check.Throws<BadArgumentException>(() => body.Position = new DVec3(double.NaN, 0, 0), "position");
+                Check.Throws<BadArgumentException>(() => body.Position = new DVec3(double.NaN, 0, 0), "transform");
                 Check.Throws<BadArgumentException>(() => body.AddSphere(-1), "radius");
                 Check.Throws<BadArgumentException>(() => body.LinearVelocity = new Vector3(0, float.PositiveInfinity, 0), "velocity");
-                Check.Throws<BadArgumentException>(() => world.CreateBody(new BodyDef { Position = new DVec3(0, double.NaN, 0) }), "position");
+                Check.Throws<BadArgumentException>(() => world.CreateBody(new BodyDef { Position = new DVec3(0, double.NaN, 0) }), "transform");
                 Check.Throws<BadArgumentException>(() => world.Tuning = null, "null");
                 Check.Throws<BadArgumentException>(() => world.CreateJoint(body, gone, (HingeDef)null), "null");
                 Check.Throws<UnsupportedException>(() => body.AddPlane(0, 1, 0, 0), "plane");
