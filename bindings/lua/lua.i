@@ -81,7 +81,8 @@ FE_OUT(fe_material *out_material, SWIG_arg += push_material(L, $1))
 
 // ---- records --------------------------------------------------------------------------------------------------------------------
 
-%typemap(in, numinputs=0) SWIGTYPE *OUT_RECORD {
+%typemap(in, numinputs=0) SWIGTYPE *OUT_RECORD "$1 = NULL;"
+%typemap(check) SWIGTYPE *OUT_RECORD {
     $1 = ($1_ltype)calloc(1, sizeof *$1);
     if (!$1) luaL_error(L, "feather: out of memory");
     *(uint32_t *)(void *)$1 = (uint32_t)sizeof *$1;
