@@ -38,6 +38,19 @@ missing_for_csharp() {
     test -e /usr/lib/mono/4.5/System.Numerics.Vectors.dll || echo libmono-system-numerics-vectors4.0-cil
 }
 
+missing_for_lua() {
+    local version
+    has swig || echo swig
+    for version in 5.1 5.3 5.4; do
+        has "lua$version" || echo "lua$version"
+        pkg-config --exists "lua$version" 2> /dev/null || echo "liblua$version-$(test "$version" = 5.1 && echo 0-)dev"
+    done
+    has luajit || echo luajit
+    has luarocks || echo luarocks
+    has love || echo love
+    has lua5.4 && lua5.4 -e 'require("luaunit")' 2> /dev/null || echo lua-unit
+}
+
 # Prints the missing packages, by their Debian names.
 missing() {
     if test "$wanted" = csharp; then
@@ -46,6 +59,10 @@ missing() {
     fi
     if test "$wanted" = python; then
         missing_for_python
+        return
+    fi
+    if test "$wanted" = lua; then
+        missing_for_lua
         return
     fi
     has gcc && links gcc "$work/empty.c" || echo gcc libc6-dev
@@ -58,7 +75,7 @@ missing() {
     has cmake || echo cmake
     has pkg-config || echo pkg-config
     has valgrind || echo valgrind
-    if test "$wanted" != fuzz; then missing_for_python; fi
+    if test "$wanted" != fuzz; then missing_for_python; missing_for_lua; fi
     if test "$wanted" != fuzz; then missing_for_csharp; fi
     if test "$wanted" != test; then
         clang -fsanitize=fuzzer,address,undefined "$work/fuzz.c" -o "$work/program" > /dev/null 2>&1 ||

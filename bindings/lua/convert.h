@@ -12,11 +12,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+// Both begin like SWIG's own userdata (type, own, pointer), so that SWIG sees by the type that they are no definition.
 typedef struct world_box {
+    const void *type;
+    int own;
     fe_world *world; ///< NULL: closed
 } world_box;
 
 typedef struct pool_box {
+    const void *type;
+    int own;
     fe_pool *pool; ///< NULL: closed
 } pool_box;
 
@@ -71,7 +76,7 @@ static void add_types(lua_State *L)
 static void push_world(lua_State *L, fe_world *world)
 {
     world_box *box = lua_newuserdata(L, sizeof *box);
-    box->world = world;
+    *box = (world_box){SWIGTYPE_p_fe_world, 0, world};
     luaL_getmetatable(L, world_type);
     lua_setmetatable(L, -2);
 }
@@ -79,7 +84,7 @@ static void push_world(lua_State *L, fe_world *world)
 static void push_pool(lua_State *L, fe_pool *pool)
 {
     pool_box *box = lua_newuserdata(L, sizeof *box);
-    box->pool = pool;
+    *box = (pool_box){SWIGTYPE_p_fe_pool, 0, pool};
     luaL_getmetatable(L, pool_type);
     lua_setmetatable(L, -2);
 }

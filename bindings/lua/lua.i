@@ -110,6 +110,8 @@ FE_OUT_RECORDS
 %typemap(in, numinputs=0) int32_t count, int32_t capacity, uint32_t stride, uint32_t ray_stride, uint32_t path_stride "$1 = 0;"
 %typemap(check) int32_t count "$1 = call1.count;"
 
+%typemap(argout) const fe_handle *, const float * ""
+
 // one record for each that goes in
 %typemap(in, numinputs=0) float *out_floats, fe_transform *out_transforms, fe_hit *out_hits, float *out_heights "$1 = NULL;"
 %typemap(check) float *out_floats "$1 = ($1_ltype)new_array(L, call1.count, 7 * sizeof *$1);"

@@ -24,6 +24,14 @@ $(BUILD)/lua/feather/header.lua: bindings/lua/header.awk include/feather.h
 	@mkdir -p $(@D)
 	$(RUN)awk -f bindings/lua/header.awk include/feather.h > $@
 
+# what feather-scm-1.rockspec installs, for the Lua whose headers are in LUA_INCDIR
+.PHONY: lua-rock
+lua-rock: $(BUILD)/lua/core.c $(BUILD)/lua/feather/header.lua $(BUILD)/lua/libfeather.so $(STATIC)
+	@mkdir -p $(BUILD)/rock
+	@cp $(BUILD)/lua/feather/header.lua $(BUILD)/lua/libfeather.so $(BUILD)/rock
+	$(RUN)$(CC) -shared $(WRAPPER_FLAGS) -Dluaopen_core=luaopen_feather_core -I$(LUA_INCDIR) $(BUILD)/lua/core.c $(STATIC) $(LINK_FLAGS) \
+	    -Wl,--exclude-libs,ALL -lm -o $(BUILD)/rock/core.so
+
 test-lua:
 	@tools/deps.sh lua
 	@+bindings/lua/test $(BUILD)

@@ -221,6 +221,7 @@ FE_INPUT(const fe_ray *rays, sizeof *$1, "")
 FE_INPUT(const fe_path *paths, sizeof *$1, "")
 FE_INPUT(const float *floats, 6 * sizeof *$1, "f")
 FE_INPUT(const float *heights, sizeof *$1, "f")
+%typemap(argout) const fe_handle *, const float * ""
 FE_OUTPUT(fe_handle *out_bodies, sizeof *$1, "QqLl")
 FE_OUTPUT(fe_handle *out_shapes, sizeof *$1, "QqLl")
 FE_OUTPUT(fe_handle *out_joints, sizeof *$1, "QqLl")

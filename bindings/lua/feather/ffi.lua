@@ -91,8 +91,14 @@ function env.records(kind, width, put, value, count, name)
     for i = 0, length - 1 do put(made[i], value, i * width) end
     return made, length
 end
-function env.put_vec3(v, t, n) v.x, v.y, v.z = t[n + 1], t[n + 2], t[n + 3] end
-function env.put_quat(v, t, n) v.x, v.y, v.z, v.w = t[n + 1], t[n + 2], t[n + 3], t[n + 4] end
+-- ffi itself would take true for 1
+local function item(t, i)
+    local value = t[i]
+    if type(value) ~= "number" then fail("item %d is no number but a %s", i, type(value)) end
+    return value
+end
+function env.put_vec3(v, t, n) v.x, v.y, v.z = item(t, n + 1), item(t, n + 2), item(t, n + 3) end
+function env.put_quat(v, t, n) v.x, v.y, v.z, v.w = item(t, n + 1), item(t, n + 2), item(t, n + 3), item(t, n + 4) end
 function env.put_transform(v, t, n)
     env.put_vec3(v.position, t, n)
     env.put_quat(v.rotation, t, n + 3)
@@ -106,8 +112,8 @@ function env.put_path(v, t, n)
     env.put_vec3(v.translation, t, n + 7)
 end
 function env.put_material(v, t, n)
-    v.static_friction, v.dynamic_friction, v.restitution = t[n + 1], t[n + 2], t[n + 3]
-    v.rolling_resistance, v.spinning_resistance = t[n + 4], t[n + 5]
+    v.static_friction, v.dynamic_friction, v.restitution = item(t, n + 1), item(t, n + 2), item(t, n + 3)
+    v.rolling_resistance, v.spinning_resistance = item(t, n + 4), item(t, n + 5)
 end
 
 local Filter, Field = ffi.typeof("fe_query_filter"), ffi.typeof("fe_heightfield_def")

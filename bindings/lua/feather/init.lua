@@ -77,6 +77,9 @@ end
 
 local function put_vector(target, value, what)
     if type(value) ~= "table" then fail("%s: a table of numbers is needed", what) end
+    for i = 1, 3 do
+        if type(value[i]) ~= "number" then fail("%s: a number is needed, not a %s", what, type(value[i])) end
+    end
     target.x, target.y, target.z = value[1], value[2], value[3]
     if value[4] ~= nil then target.w = value[4] end
 end

@@ -1,0 +1,328 @@
+-- The same tests on every Lua: lua5.1, lua5.3, lua5.4, LuaJIT with the C module and with its ffi.
+local lu = require("luaunit")
+local feather = require("feather")
+local core = feather._core
+local STEP = 1 / 60
+
+local function scene()
+    local world = feather.newWorld()
+    local ground = world:newBody({ type = "static" })
+    ground:newPlane(0, 1, 0, 0)
+    local ball = world:newBody({ position = { 0, 5, 0 } })
+    ball:newSphere(0.5, { events = { "touch", "hit" } })
+    return world, ground, ball
+end
+
+local function fails(text, call, ...)
+    local ok, told = pcall(call, ...)
+    lu.assertFalse(ok)
+    lu.assertStrContains(tostring(told), text)
+end
+
+TestPhysics = {}
+
+function TestPhysics.testFreeFall()
+    local world, _, ball = scene()
+    for _ = 1, 30 do world:update(STEP) end
+    local x, y, z = ball:getPosition()
+    lu.assertAlmostEquals(y, 5 - 9.81 * 0.5 * (0.5 + STEP / 8) / 2, 1e-4)
+    lu.assertEquals({ x, z }, { 0, 0 })
+end
+
+function TestPhysics.testCallbacks()
+    local world, ground, ball = scene()
+    local told = {}
+    world:setCallbacks({
+        beginContact = function(a, b, shapeA, shapeB, trigger)
+            told[#told + 1] = "begin"
+            lu.assertIs(a, ground)
+            lu.assertIs(b, ball)
+            lu.assertIs(shapeB, ball:getShapes()[1])
+            lu.assertFalse(trigger)
+        end,
+        hit = function(a, b, x, y, z, nx, ny, nz, speed)
+            told[#told + 1] = "hit"
+            lu.assertAlmostEquals(ny, 1, 1e-6)
+            lu.assertAlmostEquals(speed, math.sqrt(2 * 9.81 * 4.5), 0.2)
+        end,
+        sleep = function(body)
+            told[#told + 1] = "sleep"
+            body:destroy() -- allowed: the step is over
+        end,
+    })
+    for _ = 1, 180 do world:update(STEP) end
+    lu.assertEquals(told, { "begin", "hit", "sleep" })
+    lu.assertTrue(ball:isDestroyed())
+end
+
+function TestPhysics.testPropertiesAreReadAsTheyWereWritten()
+    local world, _, ball = scene()
+    local values = {
+        Position = { 1, 2, 3 }, Rotation = { 0, 1, 0, 0 }, Transform = { 1, 2, 3, 0, 0, 1, 0 }, LinearVelocity = { 1, 2, 3 },
+        AngularVelocity = { 4, 5, 6 }, Mass = { 2 }, GravityScale = { 0.5 }, SleepThreshold = { 0.25 }, Damping = { 0.5, 0.25 },
+        Tag = { 2 ^ 53 - 1 }, Locks = { "", "xz" }, Type = { "dynamic" },
+    }
+    local unpack = unpack or table.unpack
+    for name, value in pairs(values) do
+        ball["set" .. name](ball, unpack(value))
+        if name ~= "AngularVelocity" then lu.assertEquals({ ball["get" .. name](ball) }, value) end
+    end
+    for _, name in ipairs({ "SleepAllowed", "Bullet", "Enabled" }) do
+        ball["set" .. name](ball, false)
+        lu.assertFalse(ball["is" .. name](ball))
+        ball["set" .. name](ball, true)
+        lu.assertTrue(ball["is" .. name](ball))
+    end
+    local shape = ball:getShapes()[1]
+    for _, form in ipairs({ { "sphere", 0.5 }, { "box", 0.5, 0.25, 0.125 }, { "capsule", 0.5, 0.25 } }) do
+        shape:setForm(form)
+        lu.assertEquals(shape:getForm(), form)
+    end
+    shape:setMaterial(0.5, 0.25, 0.125, 0, 0)
+    lu.assertEquals({ shape:getMaterial() }, { 0.5, 0.25, 0.125, 0, 0 })
+    lu.assertEquals(shape:getEvents(), { "touch", "hit" })
+    shape:setFilter(2, 6)
+    lu.assertEquals({ shape:getFilter() }, { 2, 6 })
+    lu.assertIs(shape:getBody(), ball)
+    shape:setTrigger(true)
+    lu.assertTrue(shape:isTrigger())
+end
+
+function TestPhysics.testQueries()
+    local world, ground, ball = scene()
+    local hit = world:rayCast(0, 10, 0, 0, -20, 0)
+    lu.assertIs(hit.body, ball)
+    lu.assertAlmostEquals(hit.y, 5.5, 1e-6)
+    lu.assertAlmostEquals(hit.ny, 1, 1e-6)
+    lu.assertEquals(hit.triangle, -1)
+    lu.assertIs(world:rayCast(0, 10, 0, 0, -20, 0, { exclude = { ball } }).body, ground)
+    lu.assertNil(world:rayCast(0, 10, 0, 0, -1, 0))
+    lu.assertTrue(world:rayCastAny(0, 10, 0, 0, -20, 0))
+    lu.assertFalse(world:rayCastAny(0, 10, 0, 0, -1, 0))
+    lu.assertEquals(#world:rayCastAll(0, 10, 0, 0, -20, 0), 2)
+    lu.assertIs(world:sweep({ "sphere", 0.5 }, { 0, 10, 0 }, { 0, -20, 0 }).body, ball)
+    lu.assertTrue(world:sweepAny({ "box", 1, 1, 1 }, { 0, 10, 0 }, { 0, -20, 0 }))
+    lu.assertEquals(#world:sweepAll({ "capsule", 1, 0.5 }, { 0, 10, 0 }, { 0, -20, 0 }), 2)
+    lu.assertIs(world:overlap({ "sphere", 1 }, { 0, 4, 0 })[1], ball)
+    lu.assertTrue(world:overlapAny({ "sphere", 1 }, { 0, 4, 0 }))
+    local near = world:closestPoint(0, 7, 0, 10)
+    lu.assertAlmostEquals(near.distance, 1.5, 1e-6)
+    lu.assertIs(near.body, ball)
+    lu.assertEquals(ball:rayCast(0, 10, 0, 0, -20, 0).fraction, hit.fraction)
+    lu.assertAlmostEquals(ball:getShapes()[1]:closestPoint(0, 7, 0).distance, 1.5, 1e-6)
+    local count, numbers = world:rayCastMany({ 0, 10, 0, 0, -20, 0, 9, 10, 0, 0, -1, 0 })
+    lu.assertEquals(count, 1)
+    lu.assertEquals({ #numbers, numbers[1], numbers[13] }, { 24, ball.id, 0 })
+    lu.assertEquals((world:sweepMany({ "sphere", 0.5 }, { 0, 10, 0, 0, 0, 0, 1, 0, -20, 0 })), 1)
+end
+
+function TestPhysics.testJoints()
+    local world = feather.newWorld()
+    local a, b = world:newBody({ type = "static" }), world:newBody({ position = { 1, 0, 0 } })
+    b:newSphere(0.25)
+    local o, x, z = { 0, 0, 0 }, { 1, 0, 0 }, { 0, 0, 1 }
+    local made = {
+        world:newDistanceJoint({ bodyA = a, bodyB = b, pointA = o, pointB = x }),
+        world:newBallJoint({ bodyA = a, bodyB = b, point = o, swingLimited = true, coneY = 0.5, coneZ = 0.5 }),
+        world:newHingeJoint({ bodyA = a, bodyB = b, point = o, axis = z, limited = true, minAngle = -1, maxAngle = 1, tag = 4 }),
+        world:newFixedJoint({ bodyA = a, bodyB = b, point = x }),
+        world:newConfigurableJoint({ bodyA = a, bodyB = b, point = x, alongX = { mode = "limited", low = -1, high = 1 } }),
+        world:newRopeJoint({ bodyA = a, bodyB = b, pointA = o, pointB = x, maxLength = 3 }),
+        world:newSliderJoint({ bodyA = a, bodyB = b, point = x, axis = x }),
+        world:newWheelJoint({ bodyA = a, bodyB = b, point = x, axis = z, up = { 0, 1, 0 }, hertz = 4, dampingRatio = 0.7, travel = 0.2 }),
+        world:newMotorJoint({ bodyA = a, bodyB = b, hertz = 5, dampingRatio = 1, maxForce = 100, maxTorque = 100 }),
+    }
+    lu.assertEquals(#world:getJoints(), 9)
+    lu.assertEquals(#b:getJoints(), 9)
+    local hinge = made[3]
+    lu.assertEquals({ hinge:getType(), hinge:getTag() }, { "hinge", 4 })
+    hinge:set({ motorSpeed = 2, motorTorque = 10 })
+    lu.assertEquals(hinge:getDefinition().motor_speed, 2)
+    lu.assertIs(hinge:getBodies(), a)
+    for i, joint in ipairs(made) do
+        if i ~= 3 then joint:destroy() end
+    end
+    for _ = 1, 300 do world:update(STEP) end
+    lu.assertTrue(hinge:getAngle() > -1.05)
+    lu.assertEquals(hinge:getState().angle, hinge:getAngle())
+    fails("no field colour", hinge.set, hinge, { colour = 1 })
+    local weak = world:newFixedJoint({ bodyA = a, bodyB = b, point = o, breakForce = 0.001 })
+    local broken
+    world:setCallbacks({ jointBreak = function(joint) broken = joint end })
+    for _ = 1, 10 do world:update(STEP) end
+    lu.assertIs(broken, weak)
+end
+
+function TestPhysics.testHeightfield()
+    local world = feather.newWorld()
+    local field = world:newHeightfield({ rows = 2, columns = 3, heights = { 0, 0, 0, 0, 0, 0 }, holes = { 1, 0 }, materials = { { 1, 1, 0, 0, 0 } },
+        cellMaterials = { 0, 0 } })
+    local shape = world:newBody({ type = "static" }):newHeightfield(field)
+    lu.assertIs(shape:getForm()[2], field)
+    field:setHeights(1, 1, 1, 1, { 2 })
+    lu.assertEquals(field:getHeights(0, 0, 2, 3), { 0, 0, 0, 0, 2, 0 })
+    fails("heights", world.newHeightfield, world, { rows = 4, columns = 4, heights = { 0 } })
+    fails("heights", field.setHeights, field, 0, 0, 2, 3, { 0 })
+    field:destroy()
+    lu.assertTrue(field:isDestroyed())
+end
+
+function TestPhysics.testBulk()
+    local world, _, ball = scene()
+    local ids = world:getBodyIds()
+    lu.assertEquals(#ids, 2)
+    lu.assertEquals(world:getTransforms({ ball }, { 1, 0, 0 }), { -1, 5, 0, 0, 0, 0, 1 })
+    world:setTransforms({ ball }, { 1, 2, 3, 0, 0, 0, 1 })
+    lu.assertEquals(world:getExactTransforms({ ball }), { 1, 2, 3, 0, 0, 0, 1 })
+    world:setVelocities({ ball.id }, { 1, 2, 3, 0, 0, 0 })
+    lu.assertEquals(world:getVelocities({ ball }), { 1, 2, 3, 0, 0, 0 })
+    world:addForces({ ball }, { 0, 0, 0, 0, 0, 0 })
+    world:update(STEP)
+    local moved, numbers = world:getMoved()
+    lu.assertIs(moved[1], ball)
+    lu.assertEquals(#numbers, 7)
+    world:destroyBodies({ ball })
+    lu.assertEquals(#world:getBodies(), 1)
+end
+
+function TestPhysics.testSettings()
+    local world = feather.newWorld({ gravity = { 0, 0, -1 }, substeps = 4, workers = 2, simd = "plain", tag = 7, pool = feather.newPool(2) })
+    lu.assertEquals({ world:getGravity() }, { 0, 0, -1 })
+    lu.assertEquals({ world:getSubsteps(), world:getTag() }, { 4, 7 })
+    world:setTuning({ contactHertz = 20 })
+    lu.assertEquals(world:getTuning().contactHertz, 20)
+    world:update(STEP)
+    lu.assertEquals(world:getCounters().bodies, 0)
+    lu.assertTrue(world:getProfile().step > 0)
+    lu.assertStrMatches(world:getHash(), "%x%x%x%x%x%x%x%x%x%x%x%x%x%x%x%x")
+    lu.assertStrMatches(feather.VERSION, "%d+%.%d+%.%d+")
+end
+
+TestErrors = {}
+
+function TestErrors.testDestroyedThings()
+    local world, _, ball = scene()
+    local shape = ball:getShapes()[1]
+    ball:destroy()
+    fails("was destroyed", ball.getPosition, ball)
+    fails("fe_shape_get_density", shape.getDensity, shape)
+    fails("fe_body_destroy", ball.destroy, ball)
+    world:destroy()
+    world:destroy()
+    fails("the world is destroyed", world.update, world, STEP)
+    fails("the world is destroyed", ball.getPosition, ball)
+    lu.assertTrue(ball:isDestroyed())
+end
+
+function TestErrors.testABodyKeepsItsWorldAlive()
+    local body = feather.newWorld():newBody({ position = { 1, 2, 3 } })
+    collectgarbage()
+    collectgarbage()
+    lu.assertEquals({ body:getPosition() }, { 1, 2, 3 })
+end
+
+function TestErrors.testForeignObjects()
+    local world, _, ball = scene()
+    local _, _, other = scene()
+    fails("another world", world.newFixedJoint, world, { bodyA = ball, bodyB = other, point = { 0, 0, 0 } })
+    fails("another world", world.ignoreCollision, world, ball, other)
+    fails("another world", world.getTransforms, world, { other })
+    lu.assertNotIs(ball, other)
+end
+
+function TestErrors.testWrongValues()
+    local world, _, ball = scene()
+    local hash = world:getHash()
+    for _, wrong in ipairs({ 0 / 0, 1 / 0, -1 / 0, 1e300, "x", {}, true, print }) do
+        lu.assertFalse(pcall(ball.setPosition, ball, wrong, 0, 0))
+        lu.assertFalse(pcall(ball.setMass, ball, wrong))
+        lu.assertFalse(pcall(ball.setTag, ball, wrong))
+        lu.assertFalse(pcall(world.update, world, wrong))
+        lu.assertFalse(pcall(world.newBody, world, { position = { 0, wrong, 0 } }))
+        lu.assertFalse(pcall(ball.newSphere, ball, wrong))
+        lu.assertFalse(pcall(world.rayCast, world, 0, wrong, 0, 1, 0, 0))
+        lu.assertFalse(pcall(core.body_get_position, world.native, wrong))
+        lu.assertFalse(pcall(core.world_step, wrong, 0.1))
+    end
+    lu.assertFalse(pcall(core.world_step, nil, 0.1))
+    lu.assertFalse(pcall(ball.setPosition, ball))
+    fails("static", world.newBody, world, { type = "fluid" })
+    fails("no field colour", world.newBody, world, { colour = 1 })
+    lu.assertEquals(world:getHash(), hash)
+end
+
+TestCore = {}
+
+-- every function of the header, or why not
+local ELSEWHERE = {
+    fe_query_filter_init = "filters are tables", fe_heightfield_def_init = "heightfields are tables", fe_body_create_many = "a loop costs the same",
+    fe_last_error = "the text of the error", fe_result_name = "the text of the error",
+}
+
+function TestCore.testEveryFunctionOfTheHeader()
+    local header, count = assert(io.open("include/feather.h")):read("*a"), 0
+    for name in header:gmatch("FE_API [%w_ ]-%*?(fe_[%w_]+)%(") do
+        count = count + 1
+        local record = name:match("^fe_([%w_]+)_init$")
+        if not ELSEWHERE[name] then lu.assertNotNil(core[record or name:sub(4)], name) end
+    end
+    lu.assertTrue(count > 170)
+end
+
+function TestCore.testNoNativeCallGoesPastTheCore()
+    local text = assert(io.open("bindings/lua/feather/init.lua")):read("*a")
+    lu.assertNil(text:find("ffi%.C") or text:find("ffi%.load") or text:find("ffi%.cdef") or text:find("loadlib"))
+end
+
+-- Random calls with random values of every type: no crash, no hang. FUZZ_SECONDS=60 for a full run.
+function TestCore.testRandomCalls()
+    local names, seconds = {}, tonumber(os.getenv("FUZZ_SECONDS") or "1")
+    for name in assert(io.open("include/feather.h")):read("*a"):gmatch("FE_API [%w_ ]-%*?fe_([%w_]+)%(") do
+        name = name:match("^([%w_]+)_init$") or name
+        if type(core[name]) == "function" and not name:find("pool") then names[#names + 1] = name end
+    end
+    lu.assertTrue(#names > 150)
+    local seed = 1
+    local function random(n)
+        seed = (seed * 16807) % 2147483647
+        return seed % n + 1
+    end
+    local kept = {}
+    local function value()
+        local kind = random(16)
+        if kind <= 6 and #kept > 0 then return kept[random(#kept)] end
+        if kind <= 8 then return (random(2000) - 1000) / 300 end
+        if kind <= 11 then
+            local t = {}
+            for i = 1, ({ 3, 3, 4, 7, 1, 0, 6, 9 })[random(8)] do t[i] = (random(2000) - 1000) / 300 end
+            return t
+        end
+        local others = { 0, 1, 2, -1, 0 / 0, 1 / 0, 1e300, "x", true, {}, { "x" }, 2 ^ 31, 2 ^ 53, print }
+        return others[random(#others + 1)]
+    end
+    local unpack = unpack or table.unpack
+    local done, calls, good = os.clock() + seconds, 0, 0
+    while os.clock() < done do
+        local world = core.world_create(nil)
+        local body = core.body_create(world, nil)
+        kept = { body, core.shape_create(world, body, nil, core.geometry_sphere(0.5)), core.body_create(world, nil), { body } }
+        for _ = 1, 300 do
+            local arguments = { random(10) == 1 and value() or world }
+            local count = random(6)
+            for i = 2, count do arguments[i] = value() end
+            local name = names[random(#names)]
+            if name ~= "world_destroy" or random(20) == 1 then
+                calls = calls + 1
+                local ok, result = pcall(core[name], unpack(arguments, 1, count))
+                if ok then
+                    good = good + 1
+                    if result ~= nil and #kept < 50 then kept[#kept + 1] = result end
+                end
+            end
+        end
+        pcall(core.world_step, world, STEP)
+    end
+    lu.assertTrue(good > calls / 100)
+end
+
+os.exit(lu.LuaUnit.run())
