@@ -460,9 +460,9 @@ static void put_contact(lua_State *L, int *n, const fe_contact *e)
         put(L, n, (double)p->total_impulse), put_integer(L, n, p->id);
     }
     put_vec3(L, n, &e->friction_impulse);
-    put(L, n, (double)e->twist_impulse);
+    put(L, n, (double)e->twist_impulse), put_integer(L, n, e->triangle), put_integer(L, n, 0);
 }
-PUSH_ALL(push_contacts, fe_contact, 40, put_contact(L, &n, e))
+PUSH_ALL(push_contacts, fe_contact, 42, put_contact(L, &n, e))
 #undef PUSH_ALL
 
 #endif

@@ -32,6 +32,7 @@ lua-rock: $(BUILD)/lua/core.c $(BUILD)/lua/feather/header.lua $(BUILD)/lua/libfe
 	$(RUN)$(CC) -shared $(WRAPPER_FLAGS) -Dluaopen_core=luaopen_feather_core -I$(LUA_INCDIR) $(BUILD)/lua/core.c $(STATIC) $(LINK_FLAGS) \
 	    -Wl,--exclude-libs,ALL -lm -o $(BUILD)/rock/core.so
 
+test-lua: export CC := $(CC)
 test-lua:
 	@tools/deps.sh lua
 	@+bindings/lua/test $(BUILD)

@@ -22,6 +22,7 @@ $(PYTHON_PACKAGE)/%: bindings/python/feather_physics/%
 	@cp $< $@
 
 test-python: export PYTHON := $(PYTHON)
+test-python: export CC := $(CC)
 test-python:
 	@tools/deps.sh python
 	@+bindings/python/test $(BUILD)

@@ -547,11 +547,11 @@ for name, class in pairs({ body = Body, shape = Shape }) do
     function class:getContacts()
         local _, n = contacts(self.native, self.id)
         local found, world = {}, self.world
-        for i = 1, #n, 40 do
+        for i = 1, #n, 42 do
             local contact = {
                 bodyA = object(world, Body, n[i]), bodyB = object(world, Body, n[i + 1]), shapeA = object(world, Shape, n[i + 2]),
                 shapeB = object(world, Shape, n[i + 3]), nx = n[i + 4], ny = n[i + 5], nz = n[i + 6], points = {},
-                friction = { n[i + 36], n[i + 37], n[i + 38] }, twist = n[i + 39],
+                friction = { n[i + 36], n[i + 37], n[i + 38] }, twist = n[i + 39], triangle = n[i + 40],
             }
             for k = 1, n[i + 7] do
                 local j = i + 1 + 7 * k

@@ -156,6 +156,7 @@ class Contact(NamedTuple):
     points: Tuple[ContactPoint, ...]
     friction_impulse: Vec3
     twist_impulse: float
+    triangle: int
 
 
 class JointState(NamedTuple):
@@ -243,7 +244,7 @@ BODY_EVENT = struct.Struct("=Qii")
 HIT_EVENT = struct.Struct("=QQQQ3d3fffi")
 JOINT_EVENT = struct.Struct("=QQQQii3f3f")
 CONTACT_POINT = struct.Struct("=3dfffI")
-CONTACT = struct.Struct("=QQQQ3fi" + "3dfffI" * 4 + "3ff")
+CONTACT = struct.Struct("=QQQQ3fi" + "3dfffI" * 4 + "3ffii")
 
 EVENT_KINDS = {1: "enter", 2: "stay", 3: "exit", 4: "sleep", 5: "wake", 6: "break"}
 BODY_TYPES = ("static", "kinematic", "dynamic")

@@ -538,6 +538,7 @@ def _contact(world: World, c: Tuple[Any, ...]) -> records.Contact:
         tuple(records.ContactPoint(Vec3(p[:3]), *p[3:]) for p in points),
         Vec3(c[36:39]),
         c[39],
+        c[40],
     )
 
 

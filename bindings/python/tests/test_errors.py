@@ -258,12 +258,13 @@ def test_nothing_leaks() -> None:
         if len(world.bodies) % 2:
             world.close()
 
-    for _ in range(20):
-        use()
-    gc.collect()
-    before = sys.getallocatedblocks()
-    for _ in range(100):
-        use()
-    gc.collect()
-    # less than a block each time
-    assert sys.getallocatedblocks() - before < 100
+    growth = []
+    for _ in range(4):
+        gc.collect()
+        before = sys.getallocatedblocks()
+        for _ in range(50):
+            use()
+        gc.collect()
+        growth.append(sys.getallocatedblocks() - before)
+    # less than a block each time; the first rounds fill caches
+    assert min(growth) < 50, growth
