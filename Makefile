@@ -6,6 +6,7 @@
 #   make python     the Python package in build/python; make test-python: its tests; likewise for the other languages of bindings/
 #   make fuzz       FUZZ_SECONDS=600 of random calls of the API, with clang's libFuzzer and sanitizers
 #   make bench      speed, beside Bullet and ODE where they are installed
+#   make proof      docs/PROOF.md: every case and speed scene in every engine; some minutes
 #   make install    PREFIX, LIBDIR, INCLUDEDIR, DESTDIR;  make uninstall takes it away again
 #   make examples, deps, format, clean
 #
@@ -88,7 +89,7 @@ STATIC := $(BUILD)/libfeather.a
 SHARED := $(BUILD)/libfeather.so
 VERSION = $(shell awk '/define FE_VERSION_(MAJOR|MINOR|PATCH)/ { v = v dot $$3; dot = "." } END { print v }' include/feather.h)
 
-.PHONY: all static shared demo examples tests test fuzz bench bench-build install uninstall deps format clean FORCE
+.PHONY: all static shared demo examples tests test fuzz bench bench-build proof install uninstall deps format clean FORCE
 all: static shared
 static: $(STATIC)
 shared: $(SHARED)
@@ -214,6 +215,11 @@ bench-build: $(BUILD)/feather-bench
 	    echo "*** BENCH WITHOUT $$peer: it is not installed (make deps), so there is nothing to compare with ***" ;; esac; done
 bench: bench-build
 	$(BUILD)/feather-bench speed
+# docs/PROOF.md anew, from every case and speed scene in every engine
+proof:
+	@tools/deps.sh all
+	@+$(MAKE) --no-print-directory $(PARALLEL) bench-build
+	tools/proof $(BUILD)
 
 # ---- bindings: `make python`, `make test-python` and so on --------------------------------------------------------------------------------
 
