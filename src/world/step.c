@@ -10,16 +10,16 @@ typedef struct stage {
 } stage;
 
 static const stage stages[] = {
-    {fe__find_new_pairs, offsetof(fe_profile, pairs), 0},       // queries of moved proxies -> new pairs; all memory reserved
-    {fe__update_contacts, offsetof(fe_profile, collide), 0},    // narrow phase or recycling -> manifolds, begin and end, wakes
-    {fe__build_islands, offsetof(fe_profile, islands), 0},      // small ones into batches, large ones into colours
-    {fe__solve_islands, offsetof(fe_profile, solve), 1},        // all substeps -> velocities, motion, impulses
-    {fe__stop_fast_bodies, offsetof(fe_profile, finalize), 1},  // continuous collision of what outran its thickness
-    {fe__move_bodies, offsetof(fe_profile, finalize), 1},       // poses, bounds, trees
-    {fe__break_joints, offsetof(fe_profile, events), 0},        // joints that bore too much
-    {fe__collect_events, offsetof(fe_profile, events), 0},      // touching begun, kept, ended; impacts
-    {fe__put_islands_to_sleep, offsetof(fe_profile, sleep), 1}, // islands slow for long enough
-    {fe__collect_body_events, offsetof(fe_profile, sleep), 0},  // who woke, who fell asleep
+    {fe__find_new_pairs, offsetof(fe_profile, pairs), 0},        // queries of moved proxies -> new pairs; all memory reserved
+    {fe__update_contacts, offsetof(fe_profile, collide), 0},     // narrow phase or recycling -> manifolds, begin and end, wakes
+    {fe__build_islands, offsetof(fe_profile, islands), 0},       // small ones into batches, large ones into colours
+    {fe__solve_islands, offsetof(fe_profile, solve), 1},         // all substeps -> velocities, motion, impulses
+    {fe__stop_fast_bodies, offsetof(fe_profile, continuous), 1}, // continuous collision of what outran its thickness
+    {fe__move_bodies, offsetof(fe_profile, finalize), 1},        // poses, bounds, trees
+    {fe__break_joints, offsetof(fe_profile, events), 0},         // joints that bore too much
+    {fe__collect_events, offsetof(fe_profile, events), 0},       // touching begun, kept, ended; impacts
+    {fe__put_islands_to_sleep, offsetof(fe_profile, sleep), 1},  // islands slow for long enough
+    {fe__collect_body_events, offsetof(fe_profile, sleep), 0},   // who woke, who fell asleep
 };
 
 // Impulses of rest grow with the substep, those of an impact do not: after a much shorter substep they are too large a guess
