@@ -14,8 +14,8 @@ extern "C" {
 #define BENCH_PI 3.14159265358979323846
 
 typedef enum bench_form {
-    BENCH_BOX,    ///< half
-    BENCH_SPHERE, ///< radius
+    BENCH_BOX,     ///< half
+    BENCH_SPHERE,  ///< radius
     BENCH_CAPSULE, ///< half_height of the axis, along local y, and radius
     BENCH_TERRAIN  ///< side x side samples, `cell` m apart, of bench_terrain_height, about the body's position; static, for queries
 } bench_form;
@@ -85,7 +85,7 @@ typedef struct bench_scene {
     int32_t warm_up_steps;
     int32_t timed_steps;
     double query_half; ///< queries start within so many m of the middle, in x and z; 0: where the bodies of the speed scenes are
-    int32_t planar; ///< 1: all happens in the plane z = 0, see bench_make_planar
+    int32_t planar;    ///< 1: all happens in the plane z = 0, see bench_make_planar
     bench_shape *shapes;
     bench_body *bodies;
     bench_joint *joints;

@@ -164,7 +164,7 @@ static void try_all(session *s, int32_t with_peers)
 {
     for (int32_t i = 0; i < bench_case_count(); i++) {
         const bench_case *rule = bench_case_at(i);
-        for (int32_t planar = 0; planar <= rule->planar; planar++) {
+        for (int32_t planar = rule->planar == BENCH_PLANAR_ONLY; planar <= (rule->planar != BENCH_NOT_PLANAR); planar++) {
             try_feather(s, rule, planar);
             if (with_peers) try_peers(s, rule, planar);
         }

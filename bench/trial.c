@@ -166,7 +166,7 @@ const bench_case *bench_case_find(const char *name, int32_t *out_planar)
         const size_t size = strlen(rule->name);
         if (strncmp(rule->name, name, size) != 0) continue;
         *out_planar = rule->planar && strcmp(name + size, "-2d") == 0;
-        if (name[size] == '\0' || *out_planar) return rule;
+        if ((name[size] == '\0' && rule->planar != BENCH_PLANAR_ONLY) || *out_planar) return rule;
     }
     return NULL;
 }

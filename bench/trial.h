@@ -11,12 +11,18 @@
 
 typedef struct bench_trial bench_trial;
 
+enum bench_planar {
+    BENCH_NOT_PLANAR,
+    BENCH_PLANAR_TOO, ///< has a twin in the plane, "name-2d", beside which Box2D can stand
+    BENCH_PLANAR_ONLY ///< is in the plane alone, as "name-2d": a ball of a disc's size would be another scene
+};
+
 typedef struct bench_case {
     const char *name;
     const char *source; ///< where the scene comes from
     const char *about;
     double seconds; ///< simulated
-    int32_t planar; ///< 1: has a twin in the plane, "name-2d", beside which Box2D can stand
+    int32_t planar; ///< bench_planar
     void (*build)(bench_scene *scene);
     void (*act)(bench_trial *trial);   ///< before each step, may be NULL
     void (*watch)(bench_trial *trial); ///< after each step, may be NULL
