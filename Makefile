@@ -157,7 +157,7 @@ $(TEST_PROGRAMS): %: %.o $(TEST_SUPPORT) $(STATIC)
 	$(RUN)$(CC) $< $(TEST_SUPPORT) $(STATIC) $(LINK_FLAGS) -lcmocka -lm -o $@
 
 # tests/determinism/aarch64 builds it for another machine
-GOLDEN_OBJECTS := $(addprefix $(BUILD)/tests/,determinism/print_golden.o $(addprefix support/,play.o play_crowd.o play_mixed.o play_terrain.o))
+GOLDEN_OBJECTS := $(BUILD)/tests/determinism/print_golden.o $(patsubst tests/%.c,$(BUILD)/tests/%.o,$(sort $(wildcard tests/support/play*.c)))
 $(BUILD)/feather-golden: $(GOLDEN_OBJECTS) $(STATIC)
 	$(RUN)$(CC) $(GOLDEN_OBJECTS) $(STATIC) $(LINK_FLAGS) -lm -o $@
 

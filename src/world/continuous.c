@@ -85,12 +85,21 @@ static fe_dvec3 allowed(const slide *s, fe_dvec3 way)
     return way;
 }
 
+// The part of a normal along which the body can move at all
+static fe_dvec3 free_part(const fe__body *b, fe_dvec3 normal)
+{
+    const uint32_t locks = (uint32_t)b->spin[3];
+    return (fe_dvec3){locks & FE_AXIS_X ? 0.0 : normal.x, locks & FE_AXIS_Y ? 0.0 : normal.y, locks & FE_AXIS_Z ? 0.0 : normal.z};
+}
+
 // At an obstacle: the body goes on along it, and at the first one on turning too, unless that presses the touched point in.
 static void deflect(const fe__step *step, int32_t body, slide *s, const fe__obstacle *o, const fe__shift *at, fe__shift *end)
 {
     const fe__body *b = step->world->bodies + body;
-    s->normal[s->count] = o->normal;
-    s->room[s->count++] = room_of(step, o);
+    fe_dvec3 normal = free_part(b, o->normal);
+    double length = sqrt(fe__ddot(normal, normal)); // 0: it cannot move off, nor against it
+    s->normal[s->count] = length > 0.0 ? fe__dscale(1.0 / length, normal) : normal;
+    s->room[s->count++] = length > 0.0 ? room_of(step, o) / length : 0.0;
     s->carried |= step->world->bodies[o->body].type != FE_BODY_STATIC;
     end->centre = fe__dadd(at->centre, allowed(s, fe__dsub(end->centre, at->centre)));
     fe_dvec3 base = {b->centre[0], b->centre[1], b->centre[2]};
@@ -139,7 +148,7 @@ static void write_chase(const fe__step *step, const fe__body *body, const fe__sh
     const fe__solver *s = &step->world->solver;
     for (int32_t k = 0; k < FE__LINE; ++k) chase->motion[k] = s->motion[body->line][k];
     for (int32_t k = 0; k < FE__LINE; ++k) chase->velocity[k] = s->velocity[body->line][k];
-    turn_spin(chase->motion, end, chase->velocity + 4);
+    if (!body->locked) turn_spin(chase->motion, end, chase->velocity + 4);
     if (!carried) give_back(step->world, body, chase->motion, end, chase->velocity);
     fe_vec3 p = fe__narrow(end->centre);
     const float motion[FE__LINE] = {p.x, p.y, p.z, chase->motion[3], end->turn.x, end->turn.y, end->turn.z, end->turn.w};
