@@ -16,6 +16,8 @@ FE_INLINE void store_line(float (*lines)[FE__LINE], int32_t i, wide4 low, wide4 
     w_scatter(lines[i] + 4, FE__LINE, in_order, high);
 }
 
+FE_INLINE void store_high(float (*lines)[FE__LINE], int32_t i, wide4 high) { w_scatter(lines[i] + 4, FE__LINE, in_order, high); }
+
 // ---- records to lines, once per step ------------------------------------------------------------------------------------------------
 enum { BODY_STRIDE = sizeof(fe__body) / sizeof(float) };
 #define BODY_QUAD(field) w_gather(bodies->field, BODY_STRIDE, index)
@@ -120,7 +122,8 @@ FE_INLINE wide3 newton(wide3 m, wide3 w, wide3 in, wide3 d)
 
 FE_INLINE wide twice_energy(wide3 w, wide3 in) { return in.x * w.x * w.x + in.y * w.y * w.y + in.z * w.z * w.z; }
 
-FE_INLINE wide3 turn_freely(wide3 world, wide4 axes, wide3 in, wide half_h)
+// what the spin changes by in h, world axes of before
+FE_INLINE wide3 free_change(wide3 world, wide4 axes, wide3 in, wide half_h)
 {
     wide3 w = w_add(world, w_turn_back(axes, world));
     wide3 d = {half_h * (in.z - in.y), half_h * (in.x - in.z), half_h * (in.y - in.x)};
@@ -129,19 +132,15 @@ FE_INLINE wide3 turn_freely(wide3 world, wide4 axes, wide3 in, wide half_h)
     wide before = twice_energy(w, in), after = twice_energy(w2, in);
     wide k = w_choose(w_greater(after, before), w_sqrt(before / after), w_set(1.0f));
     wide3 change = w_sub(w_scale(k, w2), w);
-    return w_add(world, w_add(change, w_turn(axes, change))); // only the change is turned: w keeps its digits
+    return w_add(change, w_turn(axes, change)); // only the change is turned: w keeps its digits
 }
 
 // ---- velocities --------------------------------------------------------------------------------------------------------------------------
-// f(v): all that changes a velocity and is no constraint. Gyroscopic torque, gravity and forces, damping 1 / (1 + h c), the speed limit.
+// f(v): gravity and forces, damping 1 / (1 + h c), the speed limit. With the gyroscopic torque, which acts while the body turns, all that changes a
+// velocity and is no constraint.
 FE_INLINE void advance(const fe__solver *s, int32_t i, const fe__step_constants *c, wide3 *v, wide3 *w)
 {
-    wide4 push = load_low(s->drive, i), turn = load_high(s->drive, i), principal = load_high(s->spin, i);
-    wide_mask gyroscopic = w_greater(principal.w, w_set(0.0f));
-    if (w_any(gyroscopic)) {
-        wide4 axes = w_product(load_high(s->motion, i), load_low(s->spin, i));
-        *w = w_choose3(gyroscopic, turn_freely(*w, axes, w_xyz(principal), w_set(0.5f * c->h)), *w);
-    }
+    wide4 push = load_low(s->drive, i), turn = load_high(s->drive, i);
     *v = w_scale(push.w, w_add_scaled(*v, w_set(c->h), w_xyz(push)));
     *w = w_scale(turn.w, w_add_scaled(*w, w_set(c->h), w_xyz(turn)));
     wide square = w_dot(*v, *v), most = w_set(c->max_speed);
@@ -175,12 +174,31 @@ static void carry_velocities(fe__solver *s, int32_t first, int32_t count, const 
     }
 }
 
+// The spin is the body's own while it turns: w + c at the end of the substep, in axes that turned by Q. Returns the mean spin w + c/2, which is what
+// the body turns by: Q = Cayley(h (w + c/2)) then takes the angular momentum of the midpoint rule back to where it was, exactly, and leaves w + c/2
+// alone. So  w' = Q (w + c) = w + c + (Q - 1) c/2,  and what changed leaves the warm start alone: start changes as much.
+FE_INLINE wide3 turn_freely(fe__solver *s, int32_t i, wide4 turned, const fe__step_constants *c)
+{
+    wide4 principal = load_high(s->spin, i), stored = load_high(s->velocity, i), start = load_high(s->start, i);
+    wide3 w = w_xyz(stored);
+    wide_mask gyroscopic = w_greater(principal.w, w_set(0.0f));
+    if (!w_any(gyroscopic)) return w;
+    wide half_h = w_set(0.5f * c->h);
+    wide3 change = free_change(w, w_product(turned, load_low(s->spin, i)), w_xyz(principal), half_h);
+    wide3 half = w_scale(w_set(0.5f), change), mean = w_choose3(gyroscopic, w_add(w, half), w), u = w_scale(half_h, mean);
+    wide k = 1.0f / w_sqrt(1.0f + w_dot(u, u));
+    change = w_add(change, w_turn(w_with(w_scale(k, u), k), half));
+    store_high(s->velocity, i, w_with(w_choose3(gyroscopic, w_add(w, change), w), stored.w));
+    store_high(s->start, i, w_with(w_choose3(gyroscopic, w_add(w_xyz(start), change), w_xyz(start)), start.w));
+    return mean;
+}
+
 // dp += h v, dq = normalize(dq + h/2 (w, 0) dq)
 static void integrate_positions(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c)
 {
     for (int32_t i = first; i < first + count; i += FE_W) {
         wide4 p = load_low(s->motion, i), q = load_high(s->motion, i);
-        wide3 v = w_xyz(load_low(s->velocity, i)), half = w_scale(w_set(0.5f * c->h), w_xyz(load_high(s->velocity, i)));
+        wide3 v = w_xyz(load_low(s->velocity, i)), half = w_scale(w_set(0.5f * c->h), turn_freely(s, i, q, c));
         wide3 u = w_add(w_xyz(q), w_add(w_scale(q.w, half), w_cross(half, w_xyz(q))));
         wide a = q.w - w_dot(half, w_xyz(q));
         wide k = 1.0f / w_sqrt(w_dot(u, u) + a * a);

@@ -10,13 +10,15 @@
 
 enum { FE__POINTS = 4 };
 #define FE__FOLLOWS (-1e15f)
+// found ahead of time, at the poses of the touch: good for one step. Its square is 0
+#define FE__AHEAD (-1e-30f)
 
 typedef struct fe__contact {
     // now: read by prepare
     _Alignas(64) float separation[FE__POINTS]; // m, when the step begins
     float normal[4];                           // unit, from A to B, world; lane 3: number of points
     float span[4];                             // centre of A - centre of B, m, for torques on B; 0 when A is static; lane 3: static friction
-    float surface[4];                          // dynamic friction | radius of A's round side, of B's, m | how far the pair may move, m; FE__FOLLOWS: as far as its head
+    float surface[4];                          // dynamic friction | radius of A's round side, of B's, m | how far the pair may move, m; FE__FOLLOWS: as far as its head; FE__AHEAD
     // impulses
     float normal_impulse[FE__POINTS];          // N s
     float friction_impulse[4];                 // on B, world (a tangent basis may flip between steps); lane 3: twist, N m s
@@ -24,7 +26,7 @@ typedef struct fe__contact {
     float found_span[4];                       // centre of A - centre of B when found, m; lane 3: longest arm, m
     // as found
     float point[FE__POINTS][4];                // arm, world, m: from A's centre, from B's when A is static; lane 3: separation then
-    float found_a[4], found_b[4];              // the bodies' rotations then
+    float found_a[4], found_b[4];              // the bodies' rotations then; found ahead of time (it may not move): the turns from there
     float found_low[4];                        // what found_span left of the double difference, m
     int32_t body_a, body_b;                    // records, a static body's too
     int32_t kind;                              // FE__ROW_* of the row it goes to

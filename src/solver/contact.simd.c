@@ -10,27 +10,38 @@
 
 #define UNROLL _Pragma("GCC unroll 8")
 
-// a shift of one body against the other up to which a contact's arms stay as found, m: what recycling leaves alone at rest, and little
-// beside the arms of anything that tumbles
-#define FROZEN_SHIFT 0.0005f
 // a gap up to which a loaded point is soft as if it touched, m. Of a face that just touches, rounding would otherwise make some points soft
 // and others rigid, and a box that landed flat would turn
 #define TOUCHING 1e-4f
 // in which the points of a contact reach the speeds of their bounce: each leaves a third of the last one's error
 #define BOUNCE_SWEEPS 8
+// What the bodies may shift against each other, m, and turn, rad, within a step while a contact's arms and inertia stay those of its start
+#define FROZEN_SHIFT 5e-4f
+#define FROZEN_TURN 5e-3f
+// a turn within the step, rad, up to which effective masses stay: they only decide how fast the sweeps converge
+#define FROZEN_MASS 0.02f
+// differences of an inertia's moments, over their sum, that no turn shows of
+#define ROUND_INERTIA 1e-4f
+// of a load within a substep: an impact
+#define IMPACT_RISE 1.5f
 
 typedef struct {
-    wide r[3];       // from A's centre (from B's when A is static: then span is 0)
-    wide separation; // when the step began
-    wide mass;       // m_i = 1 / K_ii, 0 for a point that is not there
+    wide r[3];     // from A's centre (from B's when A is static: then span is 0)
+    wide distance; // separation where the bodies are now: they move only before relax
+    wide mass;     // m_i = 1 / K_ii, 0 for a point that is not there
     wide impulse;
-    wide total; // of the impulses of the substeps so far
 } point_row;
 
 typedef struct {
     side a, b;
     wide3 normal, span;
 } pair; // what a pass over a row holds in registers
+
+// of the bodies since the step began
+typedef struct {
+    wide3 shift; // of B's centre against A's
+    wide4 turn_a, turn_b;
+} motion;
 
 // a quantity of a point: constant + slope . rA
 typedef struct {
@@ -39,6 +50,26 @@ typedef struct {
 } affine;
 
 FE_INLINE wide at(const affine *f, wide3 r) { return f->constant + w_dot(f->slope, r); }
+
+FE_INLINE wide_mask no_lane(void) { return w_greater(w_set(0.0f), w_set(0.0f)); }
+FE_INLINE wide_mask every_lane(void) { return w_not(no_lane()); }
+
+FE_INLINE wide sine_square(wide4 q) { return w_dot(w_xyz(q), w_xyz(q)); } // of half the turn
+
+FE_INLINE wide_sym choose_sym(wide_mask lanes, const wide_sym *yes, const wide_sym *no)
+{
+    return (wide_sym){w_choose(lanes, yes->xx, no->xx), w_choose(lanes, yes->xy, no->xy), w_choose(lanes, yes->xz, no->xz),
+                      w_choose(lanes, yes->yy, no->yy), w_choose(lanes, yes->yz, no->yz), w_choose(lanes, yes->zz, no->zz)};
+}
+
+// a part of the way from one to the other
+FE_INLINE side blend(wide part, const side *from, const side *to)
+{
+    side b = *to;
+    b.v = w_add_scaled(from->v, part, w_sub(to->v, from->v));
+    b.w = w_add_scaled(from->w, part, w_sub(to->w, from->w));
+    return b;
+}
 
 static const int coupling_of[FE__POINTS][FE__POINTS] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
 

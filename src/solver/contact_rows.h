@@ -19,18 +19,24 @@
 #define NAMED(name) FE_PASTE(name, POINTS)
 #define ROW NAMED(contact_row)
 #define SPECIAL_ROW NAMED(special_row)
+#define MASSES NAMED(masses)
 
 typedef struct ROW {
     int32_t line_a[FE_W], line_b[FE_W];
     wide normal[3];
-    wide span[3];       // for torques: follows the bodies once they shifted by more than FROZEN_SHIFT, see follow_span
-    wide first_span[3]; // when the step began: for separations
-    wide round_a, round_b;
+    wide span[3]; // centre of A - centre of B
     point_row point[POINTS];
     wide coupling[POINTS == 1 ? 1 : 6]; // m_j K_ij for i < j: 01 02 03 12 13 23
     wide_sym inertia_b, inertia_a;      // inverse, world. A copy streams faster than a gather
     // relax only
-    wide shift[3]; // of B against A, when span was set
+    wide separation[POINTS + 1]; // when the step began; the last: at the centre of friction
+    wide total[POINTS];          // of the impulses of the substeps so far
+    wide load;                   // sum of the normal impulses when the substep began
+    wide start_span[3]; // when the step began
+    wide found_span[3]; // when the contact was found: for separations
+    wide round_a, round_b;
+    wide still_a, still_b; // square of |sin(turn / 2)| up to which arms and inertia of a side stay as they are
+    wide follows;          // 1: they no longer do, see follow
     wide static_friction, dynamic_friction;
     wide centre[3];       // of friction, from A's centre
     wide tangent_mass[3]; // inverse of the 2 x 2 matrix: 11 12 22
@@ -38,13 +44,21 @@ typedef struct ROW {
     wide twist_mass, twist_impulse;
     wide twist_tangent[2]; // tangent velocity that a unit of twist adds
     wide lever[POINTS];    // |r_i - centre|
+    // of lanes that follow, when the step began: points on A from A's centre, on B from B's. The last is the centre of friction
+    wide first_a[POINTS + 1][3], first_b[POINTS + 1][3];
 } ROW;
+
+// What makes impulses of velocities: depends on arms and inertia alone
+typedef struct MASSES {
+    wide point[POINTS], coupling[POINTS == 1 ? 1 : 6], tangent[3], twist, twist_tangent[2], lever[POINTS];
+} MASSES;
 
 typedef struct SPECIAL_ROW {
     ROW row;
     wide mass_a[3], mass_b[3];             // inverse, along the world's axes: 0 where locked
     wide restitution, closing;             // acceleration of the bodies towards each other along n, m/s2
     wide approach[POINTS], flight[POINTS]; // of a touch in this substep: its speed (0: none) and Q, see record_touch
+    wide gain;                             // energy that the normal impulses of this substep gave to the bodies, J, see count_gain
     wide rolling, spinning;                // torque caps over the normal force, m
     wide_sym rolling_mass;                 // inverse of IA^-1 + IB^-1
     wide spinning_mass;
@@ -86,21 +100,27 @@ FE_INLINE void NAMED(apply_torque)(const ROW *row, pair *p, wide3 torque, int ki
 }
 
 // ---- normals --------------------------------------------------------------------------------------------------------------------
-FE_INLINE wide3 NAMED(shift_in_step)(const ROW *row, const fe__solver *s, int kind)
+FE_INLINE motion NAMED(motion_of)(const ROW *row, const fe__solver *s, int kind)
 {
-    wide3 b = w_xyz(gather_low(s->motion, row->line_b));
-    return kind & (FE__ROW_PAIR | FE__ROW_SPECIAL) ? w_sub(b, w_xyz(gather_low(s->motion, row->line_a))) : b;
+    wide zero = w_set(0.0f);
+    motion m = {w_xyz(gather_low(s->motion, row->line_b)), {zero, zero, zero, w_set(1.0f)}, gather_high(s->motion, row->line_b)};
+    if (!(kind & (FE__ROW_PAIR | FE__ROW_SPECIAL))) return m;
+    m.shift = w_sub(m.shift, w_xyz(gather_low(s->motion, row->line_a)));
+    m.turn_a = gather_high(s->motion, row->line_a);
+    return m;
 }
 
-FE_INLINE affine NAMED(separation_change)(const ROW *row, const fe__solver *s, const pair *p, wide3 shift, int kind)
+// after the bodies moved, of lanes whose arms are those of the step's start
+FE_INLINE void NAMED(find_distances)(ROW *row, const pair *p, const motion *m, int kind)
 {
-    wide3 nb = w_turn_back(gather_high(s->motion, row->line_b), p->normal), na = w_zero3();
-    wide constant = w_dot(p->normal, shift) + w_dot(nb, load3(row->first_span)) + row->round_b * w_dot(nb, p->normal);
+    wide3 nb = w_turn_back(m->turn_b, p->normal), na = w_zero3();
+    wide constant = w_dot(p->normal, m->shift) + w_dot(nb, load3(row->found_span)) + row->round_b * w_dot(nb, p->normal);
     if (kind & (FE__ROW_PAIR | FE__ROW_SPECIAL)) {
-        na = w_turn_back(gather_high(s->motion, row->line_a), p->normal);
+        na = w_turn_back(m->turn_a, p->normal);
         constant = constant + row->round_a * w_dot(na, p->normal);
     }
-    return (affine){constant, w_sub(nb, na)};
+    affine change = {constant, w_sub(nb, na)};
+    UNROLL for (int i = 0; i < POINTS; ++i) row->point[i].distance = row->separation[i] + at(&change, load3(row->point[i].r));
 }
 
 FE_INLINE affine NAMED(normal_velocity)(const pair *p)
@@ -193,8 +213,7 @@ FE_INLINE wide NAMED(load_of)(const ROW *row)
 // The impulses that the points ask for while the others keep theirs, before max(., 0). out_scale: what their velocities count.
 // Soft (pushing):   l' = max((1 - is) l - m (ms vn + bias), 0);  bias = ms s / h where the gap s > 0, the spring's otherwise
 // Rigid (relaxing, and where there is a gap: for a loaded point, one of more than TOUCHING): l' = max(l - m (vn + max(s / h, 0)), 0)
-FE_INLINE void NAMED(wishes)(ROW *row, const affine *gap, const fe__step_constants *c, const pair *p, int kind, int soft, wide *wish,
-                             wide *scale)
+FE_INLINE void NAMED(wishes)(ROW *row, const fe__step_constants *c, const pair *p, int kind, int soft, wide *wish, wide *scale)
 {
     const fe__softness *k = kind & FE__ROW_PAIR ? &c->between_dynamic : &c->against_static;
     wide zero = w_set(0.0f), one = w_set(1.0f), slowest = w_set(-c->push_speed), rate = w_set(k->mass_scale * k->bias_rate);
@@ -203,7 +222,7 @@ FE_INLINE void NAMED(wishes)(ROW *row, const affine *gap, const fe__step_constan
     {
         const point_row *q = row->point + i;
         wide3 r = load3(q->r);
-        wide vn = at(&velocity, r), distance = q->separation + at(gap, r), ahead = distance * c->inverse_h;
+        wide vn = at(&velocity, r), distance = q->distance, ahead = distance * c->inverse_h;
         if (kind & FE__ROW_SPECIAL) NAMED(record_touch)((SPECIAL_ROW *)row, i, q->impulse, vn, distance, c, !soft);
         if (!soft) {
             wish[i] = q->impulse - q->mass * (vn + w_max(ahead, zero));
@@ -216,13 +235,40 @@ FE_INLINE void NAMED(wishes)(ROW *row, const affine *gap, const fe__step_constan
     }
 }
 
-FE_INLINE void NAMED(solve_normals)(ROW *row, const fe__solver *s, const fe__step_constants *c, pair *p, wide3 shift, int kind, int soft)
+FE_INLINE void NAMED(push_normals)(ROW *row, const fe__step_constants *c, pair *p, int kind, int soft)
 {
     wide wish[POINTS], scale[POINTS], sum;
-    affine gap = NAMED(separation_change)(row, s, p, shift, kind);
-    NAMED(wishes)(row, &gap, c, p, kind, soft, wish, scale);
+    if (soft) row->load = NAMED(load_of)(row);
+    NAMED(wishes)(row, c, p, kind, soft, wish, scale);
     wide3 moment = NAMED(sweep_points)(row, wish, soft ? scale : 0, &sum);
     NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
+}
+
+// The energy that changes of the normal impulses give: the work at the mean of the speeds before and after, and what they change in the
+// discrete flight, whose energy is v^2/2 - g x + h g v / 2 of the closing acceleration g: a push before the bodies move shifts them too.
+FE_INLINE wide NAMED(gain_of)(const SPECIAL_ROW *x, const wide *before, const affine *was, const affine *is, wide flight)
+{
+    wide gain = w_set(0.0f);
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        const point_row *q = x->row.point + i;
+        wide3 r = load3(q->r);
+        gain = gain + (q->impulse - before[i]) * (0.5f * (at(was, r) + at(is, r)) + flight);
+    }
+    return gain;
+}
+
+FE_INLINE void NAMED(solve_normals)(ROW *row, const fe__step_constants *c, pair *p, int kind, int soft)
+{
+    SPECIAL_ROW *x = (SPECIAL_ROW *)row;
+    wide before[POINTS];
+    affine was = NAMED(normal_velocity)(p);
+    UNROLL for (int i = 0; i < POINTS; ++i) before[i] = row->point[i].impulse;
+    NAMED(push_normals)(row, c, p, kind, soft);
+    if (!(kind & FE__ROW_SPECIAL)) return;
+    affine is = NAMED(normal_velocity)(p);
+    wide gain = NAMED(gain_of)(x, before, &was, &is, (soft ? 0.5f : -0.5f) * c->h * x->closing);
+    x->gain = soft ? gain : x->gain + gain;
 }
 
 // ---- friction --------------------------------------------------------------------------------------------------------------------
@@ -277,56 +323,7 @@ FE_INLINE void NAMED(solve_rolling)(SPECIAL_ROW *x, pair *p, int kind)
     NAMED(apply_torque)(&x->row, p, w_sub(after, before), kind);
 }
 
-// ---- arms that follow -------------------------------------------------------------------------------------------------------------
-FE_INLINE wide3 NAMED(friction_impulse)(const ROW *row, wide3 normal)
-{
-    wide3 t1, t2;
-    tangents(normal, &t1, &t2);
-    return w_add_scaled(w_scale(row->tangent_impulse[0], t1), row->tangent_impulse[1], t2);
-}
-
-// Angular momentum is kept only while rB - rA is the distance of the centres, so span follows the bodies' shift. It does so in jumps:
-// within FROZEN_SHIFT it stays as found, as the arms do (see contact.h). The points stay on A, and B's arms change; but a round side of B
-// rolls over a flat A, and takes its points along: kept behind, they would be carried up by its spin, and the ball would sink. The carried
-// warm start then holds an impulse P applied at the old arm; the rule for a changed arm is  start.wB -= IB^-1 ((rB' - rB) x P)  and
-// start.wA += IA^-1 ((rA' - rA) x P). Lanes that stay are not touched, so a neighbour never shows.
-FE_INLINE void NAMED(turn_start)(const fe__solver *s, const int32_t *line, const wide_sym *inertia, wide3 moment, wide_mask lanes)
-{
-    wide4 w = gather_high(s->start, line);
-    wide3 corrected = w_add(w_xyz(w), w_mul(inertia, moment));
-    w_scatter(s->start[0] + 4, FE__LINE, line, w_with(w_choose3(lanes, corrected, w_xyz(w)), w.w));
-}
-
-// the arms of A change; those of B, for separations too, stay
-FE_INLINE void NAMED(move_points)(ROW *row, wide3 moved, wide_mask lanes)
-{
-    UNROLL for (int i = 0; i < POINTS; ++i)
-    {
-        wide3 r = load3(row->point[i].r);
-        store3(row->point[i].r, w_choose3(lanes, w_add(r, moved), r));
-    }
-    wide3 centre = load3(row->centre), span = load3(row->first_span);
-    store3(row->centre, w_choose3(lanes, w_add(centre, moved), centre));
-    store3(row->first_span, w_choose3(lanes, w_sub(span, moved), span));
-}
-
-FE_INLINE void NAMED(follow_span)(ROW *row, const fe__solver *s, pair *p, wide3 shift)
-{
-    wide zero = w_set(0.0f);
-    wide3 moved = w_sub(shift, load3(row->shift));
-    wide_mask jumps = w_greater(w_dot(moved, moved), w_set(FROZEN_SHIFT * FROZEN_SHIFT));
-    if (!w_any(jumps)) return;
-    wide_mask rolls = w_and(jumps, w_and(w_greater(row->round_b, zero), w_not(w_greater(row->round_a, zero))));
-    wide3 impulse = w_add_scaled(NAMED(friction_impulse)(row, p->normal), NAMED(load_of)(row), p->normal), moment = w_cross(moved, impulse);
-    NAMED(turn_start)(s, row->line_b, &row->inertia_b, moment, w_and(jumps, w_not(rolls)));
-    if (w_any(rolls)) {
-        NAMED(turn_start)(s, row->line_a, &row->inertia_a, moment, rolls);
-        NAMED(move_points)(row, moved, rolls);
-    }
-    p->span = w_choose3(jumps, w_sub(p->span, moved), p->span);
-    store3(row->span, p->span);
-    store3(row->shift, w_choose3(jumps, shift, load3(row->shift)));
-}
+#include "solver/contact_follow.h"
 
 // ---- restitution ----------------------------------------------------------------------------------------------------------------------
 // The speed that a touched point must leave with, at the gap s where it is now:
@@ -345,12 +342,7 @@ FE_INLINE void NAMED(leave_warm_start)(const SPECIAL_ROW *x, fe__solver *s, cons
 {
     const ROW *row = &x->row;
     pair start = {start_side(s, row->line_a), start_side(s, row->line_b), p->normal, p->span}, was = start;
-    wide3 moment = w_zero3(), friction = NAMED(friction_impulse)(row, p->normal);
-    UNROLL for (int i = 0; i < POINTS; ++i) moment = w_add_scaled(moment, row->point[i].impulse, load3(row->point[i].r));
-    moment = w_add(w_cross(moment, p->normal), w_cross(load3(row->centre), friction));
-    moment = w_add_scaled(moment, row->twist_impulse, p->normal);
-    NAMED(apply)(row, &start, w_add_scaled(friction, NAMED(load_of)(row), p->normal), moment, kind);
-    NAMED(apply_torque)(row, &start, load3(x->rolling_impulse), kind);
+    NAMED(apply_all)(row, &start, kind);
     start.a.v = w_choose3(touched, start.a.v, was.a.v), start.a.w = w_choose3(touched, start.a.w, was.a.w);
     start.b.v = w_choose3(touched, start.b.v, was.b.v), start.b.w = w_choose3(touched, start.b.w, was.b.w);
     if (kind & FE__ROW_PAIR) scatter_side(s->start, row->line_a, &start.a);
@@ -358,15 +350,15 @@ FE_INLINE void NAMED(leave_warm_start)(const SPECIAL_ROW *x, fe__solver *s, cons
 }
 
 // Of the touched lanes: nothing is left to warm-start. The others, which the sweeps ran over too, get their impulses back. `old`: impulses
-// that `total` already has.
-FE_INLINE void NAMED(forget_touched)(SPECIAL_ROW *x, const wide *old, wide_mask touched)
+// that `total` already has, and `part` of the change came to pass.
+FE_INLINE void NAMED(forget_touched)(SPECIAL_ROW *x, const wide *old, wide part, wide_mask touched)
 {
     ROW *row = &x->row;
     wide zero = w_set(0.0f);
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
         point_row *q = row->point + i;
-        q->total = q->total + w_choose(touched, q->impulse - old[i], zero);
+        row->total[i] = row->total[i] + w_choose(touched, part * (q->impulse - old[i]), zero);
         q->impulse = w_choose(touched, zero, old[i]);
         x->approach[i] = zero;
     }
@@ -391,17 +383,17 @@ FE_INLINE void NAMED(sweep_bounce)(ROW *row, pair *p, const wide *target, int ki
     }
 }
 
-// the points' impulses once more, or, with sign -1, off the bodies again
-FE_INLINE void NAMED(apply_normals)(const ROW *row, pair *p, float sign, int kind)
+// The part of a bounce, 1 and less, with which the row's impulses of this substep gain no energy: gain + part b + part^2 a <= 0, of the works
+//     b = sum of change . speed before,   a = half the sum of change . (speed after - before)
+FE_INLINE wide NAMED(part_without_gain)(const SPECIAL_ROW *x, const wide *old, const affine *was, const affine *is, wide flight)
 {
-    wide3 moment = w_zero3();
-    wide load = sign * NAMED(load_of)(row);
-    UNROLL for (int i = 0; i < POINTS; ++i) moment = w_add_scaled(moment, sign * row->point[i].impulse, load3(row->point[i].r));
-    NAMED(apply)(row, p, w_scale(load, p->normal), w_cross(moment, p->normal), kind);
+    wide zero = w_set(0.0f), one = w_set(1.0f), b = NAMED(gain_of)(x, old, was, was, flight), all = NAMED(gain_of)(x, old, was, is, flight);
+    wide a = all - b, root = w_sqrt(w_max(b * b - 4.0f * a * x->gain, zero));
+    wide part = w_clamp((root - b) * inverse_or_zero(2.0f * a), zero, one);
+    return w_choose(w_greater(x->gain + all, zero), part, one);
 }
 
-// After relax, for contacts that touched in this substep. A bounce adds no energy only with the inertia that the bodies have now, after
-// what they turned since the step began: what stopped them is given anew with it.
+// After relax, for contacts that touched in this substep.
 FE_INLINE void NAMED(bounce_row)(SPECIAL_ROW *x, fe__solver *s, const fe__step_constants *c, int kind)
 {
     ROW *row = &x->row;
@@ -410,22 +402,19 @@ FE_INLINE void NAMED(bounce_row)(SPECIAL_ROW *x, fe__solver *s, const fe__step_c
     wide_mask touched = w_greater(approach, w_set(0.0f));
     if (!w_any(touched)) return;
     pair p = NAMED(gather_pair)(row, s, kind), before = p;
-    affine gap = NAMED(separation_change)(row, s, &p, NAMED(shift_in_step)(row, s, kind), kind);
     wide target[POINTS], old[POINTS];
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
         old[i] = row->point[i].impulse;
-        target[i] = NAMED(bounce_speed)(x, i, row->point[i].separation + at(&gap, load3(row->point[i].r)), c);
+        target[i] = NAMED(bounce_speed)(x, i, row->point[i].distance, c);
     }
     NAMED(leave_warm_start)(x, s, &p, touched, kind);
-    NAMED(apply_normals)(row, &p, -1.0f, kind);
-    wide_sym first_a = row->inertia_a, first_b = row->inertia_b;
-    row->inertia_b = turned_inertia(s, row->line_b, p.b.locks);
-    if (kind & FE__ROW_PAIR) row->inertia_a = turned_inertia(s, row->line_a, p.a.locks);
-    NAMED(apply_normals)(row, &p, 1.0f, kind);
+    affine was = NAMED(normal_velocity)(&p);
     NAMED(sweep_bounce)(row, &p, target, kind);
-    row->inertia_a = first_a, row->inertia_b = first_b;
-    NAMED(forget_touched)(x, old, touched);
+    affine is = NAMED(normal_velocity)(&p);
+    wide part = NAMED(part_without_gain)(x, old, &was, &is, -0.5f * c->h * x->closing);
+    p.a = blend(part, &before.a, &p.a), p.b = blend(part, &before.b, &p.b);
+    NAMED(forget_touched)(x, old, part, touched);
     if (kind & FE__ROW_PAIR) add_change(s, row->line_a, &before.a, &p.a, touched);
     add_change(s, row->line_b, &before.b, &p.b, touched);
 }
@@ -441,7 +430,7 @@ FE_INLINE void NAMED(solve)(fe__solver *s, void *rows, int32_t count, const fe__
     for (int32_t i = 0; i < count; ++i) {
         ROW *row = NAMED(row_at)(rows, i, kind);
         pair p = NAMED(gather_pair)(row, s, kind);
-        NAMED(solve_normals)(row, s, c, &p, NAMED(shift_in_step)(row, s, kind), kind, 1);
+        NAMED(solve_normals)(row, c, &p, kind, 1);
         NAMED(scatter_pair)(row, s, &p, kind);
     }
 }
@@ -451,12 +440,18 @@ FE_INLINE void NAMED(relax)(fe__solver *s, void *rows, int32_t count, const fe__
     for (int32_t i = 0; i < count; ++i) {
         ROW *row = NAMED(row_at)(rows, i, kind);
         pair p = NAMED(gather_pair)(row, s, kind);
-        wide3 shift = NAMED(shift_in_step)(row, s, kind);
-        if (kind & FE__ROW_PAIR) NAMED(follow_span)(row, s, &p, shift);
-        NAMED(solve_normals)(row, s, c, &p, shift, kind, 0);
+        motion m = NAMED(motion_of)(row, s, kind);
+        NAMED(find_distances)(row, &p, &m, kind);
+        wide_mask moving = NAMED(moving)(row, &m, kind);
+        if (w_any(moving)) {
+            motion moved = m;
+            NAMED(follow)(row, s, &moved, moving, kind);
+            p.span = load3(row->span);
+        }
+        NAMED(solve_normals)(row, c, &p, kind, 0);
         if (kind & FE__ROW_SPECIAL) NAMED(solve_rolling)((SPECIAL_ROW *)row, &p, kind);
         NAMED(solve_friction)(row, &p, kind);
-        UNROLL for (int j = 0; j < POINTS; ++j) row->point[j].total = row->point[j].total + row->point[j].impulse;
+        UNROLL for (int j = 0; j < POINTS; ++j) row->total[j] = row->total[j] + row->point[j].impulse;
         NAMED(scatter_pair)(row, s, &p, kind);
     }
 }
@@ -500,6 +495,7 @@ INSTANCE(pair_special, FE__ROW_PAIR | FE__ROW_SPECIAL)
 
 #undef INSTANCE
 #undef SPECIAL_ROW
+#undef MASSES
 #undef ROW
 #undef NAMED
 #undef POINTS

@@ -313,11 +313,11 @@ FE_INLINE wide shape_of(const fe__solver *s, const line_pair *line)
 
 FE_INLINE wide_sym change_inertia(const fe__solver *s, const int32_t *line, wide_mask shaped, wide_sym *inertia)
 {
-    wide3 u = w_xyz(gather_high(s->motion, line));
-    wide_mask turns = w_and(shaped, w_greater(w_dot(u, u), w_set(TURNED)));
+    wide4 turn = gather_high(s->motion, line);
+    wide_mask turns = w_and(shaped, w_greater(w_dot(w_xyz(turn), w_xyz(turn)), w_set(TURNED)));
     wide_sym was = *inertia, zero = {w_set(0), w_set(0), w_set(0), w_set(0), w_set(0), w_set(0)};
     if (!w_any(turns)) return zero;
-    wide_sym now = turned_inertia(s, line, gather_high(s->velocity, line).w);
+    wide_sym now = turned_inertia(s, line, turn, gather_high(s->velocity, line).w);
     *inertia = (wide_sym){w_choose(turns, now.xx, was.xx), w_choose(turns, now.xy, was.xy), w_choose(turns, now.xz, was.xz),
                           w_choose(turns, now.yy, was.yy), w_choose(turns, now.yz, was.yz), w_choose(turns, now.zz, was.zz)};
     now = *inertia;

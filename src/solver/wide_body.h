@@ -33,12 +33,11 @@ FE_INLINE wide_sym gather_inertia(const fe__solver *s, const int32_t *index)
     return (wide_sym){low.x, low.y, low.z, low.w, high.x, high.y};
 }
 
-// The inverse inertia of bodies that turned by dq since the step began: R I^-1 R^T, row i of R being R^T e_i = e_i + (R^T e_i - e_i). What a
+// The inverse inertia of bodies that turned by q since the step began: R I^-1 R^T, row i of R being R^T e_i = e_i + (R^T e_i - e_i). What a
 // lock leaves of it is kept as it was.
-FE_INLINE wide_sym turned_inertia(const fe__solver *s, const int32_t *index, wide locks)
+FE_INLINE wide_sym turned_inertia(const fe__solver *s, const int32_t *index, wide4 q, wide locks)
 {
     wide_sym i = gather_inertia(s, index);
-    wide4 q = gather_high(s->motion, index);
     wide zero = w_set(0.0f), one = w_set(1.0f);
     wide3 x = {one, zero, zero}, y = {zero, one, zero}, z = {zero, zero, one};
     x = w_add(x, w_turn_back(q, x)), y = w_add(y, w_turn_back(q, y)), z = w_add(z, w_turn_back(q, z));

@@ -130,6 +130,7 @@ static int32_t look_far_ahead(const fe_world *world, const fe__contact *m, float
     *v = touch.v, *at = touch.at, *found = touch.found;
     return 1;
 }
+static void copy4(float *out, fe_quat q) { out[0] = q.x, out[1] = q.y, out[2] = q.z, out[3] = q.w; }
 
 // impulses stay with the features that meet
 static void match_impulses(fe__pair *p, fe__contact *m, const fe__manifold *found)
@@ -145,10 +146,8 @@ static void match_impulses(fe__pair *p, fe__contact *m, const fe__manifold *foun
 
 static void note_poses(fe__contact *m, const fe__places *at, const fe__body *a, const fe__body *b)
 {
-    const float found_a[4] = {at->rotation_a.x, at->rotation_a.y, at->rotation_a.z, at->rotation_a.w};
-    const float found_b[4] = {at->rotation_b.x, at->rotation_b.y, at->rotation_b.z, at->rotation_b.w};
-    memcpy(m->found_a, found_a, sizeof found_a);
-    memcpy(m->found_b, found_b, sizeof found_b);
+    copy4(m->found_a, at->rotation_a);
+    copy4(m->found_b, at->rotation_b);
     fe_dvec3 span = fe__dsub(at->centre_a, at->centre_b), now = fe__dsub(fe__centre_of(a), fe__centre_of(b));
     fe__copy3(m->found_span, fe__narrow(span));
     fe__copy3(m->found_low, fe__narrow(fe__dsub(span, fe__widen(fe__quad_vector(m->found_span)))));
@@ -177,11 +176,14 @@ static void set_points(fe__contact *m, const fe__view *v, const fe__places *at, 
     m->found_span[3] = sqrtf(reach);
 }
 
-// Separations now of a manifold found ahead of time, along its normal: as in recycle.simd.c
+// Separations now of a manifold found ahead of time, along its normal: as in recycle.simd.c. Its arms stay those of the touch, and the turns
+// from there to now take the place of the rotations.
 static void step_back(fe__contact *m, const fe__places *at, const fe__body *a, const fe__body *b)
 {
     fe_quat turn_a = fe__product(fe__rotation_of(a), fe__conjugate(at->rotation_a)),
             turn_b = fe__product(fe__rotation_of(b), fe__conjugate(at->rotation_b));
+    copy4(m->found_a, turn_a);
+    copy4(m->found_b, turn_b);
     fe_vec3 n = fe__quad_vector(m->normal), zero = {0.0f, 0.0f, 0.0f};
     fe_vec3 na = fe__sub(fe__rotate_back(turn_a, n), n), nb = fe__sub(fe__rotate_back(turn_b, n), n), slope = fe__sub(nb, na);
     fe_dvec3 then = fe__dsub(at->centre_b, at->centre_a), now = fe__dsub(fe__centre_of(b), fe__centre_of(a));
@@ -259,6 +261,6 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
         forget_impulses(m);
         p->axis = -1; // a kernel's memory begins with the first points, whenever the pair was made: unrelated bodies must not matter
     }
-    m->surface[3] = ahead ? 0.0f : tolerance(&v, &found, margin);
+    m->surface[3] = ahead ? FE__AHEAD : tolerance(&v, &found, margin);
     fe__write_manifold(world, m, &v, &at, &found, ahead);
 }

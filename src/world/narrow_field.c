@@ -165,6 +165,7 @@ static void write_record(fe_world *world, int32_t record, const plan *x, const l
     copy_impulses(x, old, p, m, world->extras + record);
     fe__write_manifold(world, m, &l->v, &l->at, &found, l != now);
     m->surface[3] = p->flags & FE__PAIR_PATCH ? FE__FOLLOWS : tolerance;
+    if (l != now) m->surface[3] = FE__AHEAD; // the head's tolerance is 0 then
     if (x->patch && p->triangle != x->patch->triangle) {
         p->triangle = x->patch->triangle;
         fe__pair_mix_surface(world, record);
