@@ -1,7 +1,8 @@
 // bodies.simd.c - velocities and positions of bodies, W consecutive lines at a time. Compiled once per SIMD set.
 //
-// Within a step J, M and l at the end of a substep are those that warm-start the next, so the warm start's effect on a body is v_end - start: one
-// pass over bodies replaces a pass over rows. It holds as long as everything that is no constraint acts on `start` too; see carry_velocities.
+// Within a step J, M and l at the end of a substep are those that warm-start the next, so the warm start's effect on a body is v_end -
+// start: one pass over bodies replaces a pass over rows. It holds as long as everything that is no constraint acts on `start` too; see
+// carry_velocities.
 #include "core/simd.h"
 #include "solver/solver.h"
 #include "solver/wide_body.h"
@@ -32,7 +33,8 @@ FE_INLINE wide_sym world_inverse_inertia(wide4 axes, wide3 inverse)
                       ix.y * x.y + iy.y * y.y + iz.y * z.y, ix.y * x.z + iy.y * y.z + iz.y * z.z, ix.z * x.z + iy.z * y.z + iz.z * z.z};
 }
 
-// A locked body's inverse inertia is the inverse of the sub-block of R I R^T over its free axes, zero elsewhere: what a body on an axle has.
+// A locked body's inverse inertia is the inverse of the sub-block of R I R^T over its free axes, zero elsewhere: what a body on an axle
+// has.
 static void lock_line(fe__solver *s, const fe__body *body, int32_t line, fe_quat axes)
 {
     int locks = (int)body->spin[3], n = 0, free_axis[3];
@@ -80,12 +82,14 @@ FE_INLINE void load_block(fe__solver *s, const fe__body *bodies, int32_t line, c
     wide4 v = BODY_QUAD(velocity), w = BODY_QUAD(spin), force = BODY_QUAD(force), torque = BODY_QUAD(torque);
     wide4 inertia = BODY_QUAD(inertia), axes = w_product(BODY_QUAD(rotation), BODY_QUAD(inertia_axes));
     wide_mask moves = w_greater(v.w * there, zero);
-    wide3 inverse = {w_choose(moves, one / inertia.x, zero), w_choose(moves, one / inertia.y, zero), w_choose(moves, one / inertia.z, zero)};
+    wide3 inverse = {w_choose(moves, one / inertia.x, zero), w_choose(moves, one / inertia.y, zero),
+                     w_choose(moves, one / inertia.z, zero)};
     wide_sym i = world_inverse_inertia(axes, inverse);
     wide mass = w_choose(moves, v.w, zero), g = w_choose(moves, *(wide *)scale, zero);
     wide3 push = {g * c->gravity.x + mass * force.x, g * c->gravity.y + mass * force.y, g * c->gravity.z + mass * force.z};
     wide damping = w_choose(moves, one / (1.0f + c->h * force.w), one), spin_damping = w_choose(moves, one / (1.0f + c->h * torque.w), one);
-    store_line(s->velocity, line, (wide4){v.x * there, v.y * there, v.z * there, mass}, (wide4){w.x * there, w.y * there, w.z * there, w.w * there});
+    store_line(s->velocity, line, (wide4){v.x * there, v.y * there, v.z * there, mass},
+               (wide4){w.x * there, w.y * there, w.z * there, w.w * there});
     store_line(s->motion, line, (wide4){zero, zero, zero, zero}, (wide4){zero, zero, zero, one});
     store_line(s->inertia, line, (wide4){i.xx, i.xy, i.xz, i.yy}, (wide4){i.yz, i.zz, zero, zero});
     store_line(s->drive, line, w_with(push, damping), w_with(w_mul(&i, w_xyz(torque)), spin_damping));
@@ -93,7 +97,8 @@ FE_INLINE void load_block(fe__solver *s, const fe__body *bodies, int32_t line, c
     for (int k = 0; k < FE_W && locked; ++k) {
         const fe__body *body = bodies + index[k];
         const float *a = s->spin[line + k];
-        if (is_there[k] != 0.0f && body->locked && body->type == FE_BODY_DYNAMIC) lock_line(s, body, line + k, (fe_quat){a[0], a[1], a[2], a[3]});
+        if (is_there[k] != 0.0f && body->locked && body->type == FE_BODY_DYNAMIC)
+            lock_line(s, body, line + k, (fe_quat){a[0], a[1], a[2], a[3]});
     }
 }
 
@@ -103,8 +108,8 @@ static void load(fe__solver *s, const fe__body *bodies, int32_t first, int32_t c
 }
 
 // ---- gyroscopic torque -----------------------------------------------------------------------------------------------------------------
-// In principal axes  I w' + w x I w = 0.  Implicit midpoint, I (m - w) + h/2 m x I m = 0, w2 = 2 m - w, keeps the energy and |I w|; two Newton steps
-// from m = w solve it. What two steps leave open may add energy: the result is then shortened to the energy before.
+// In principal axes  I w' + w x I w = 0.  Implicit midpoint, I (m - w) + h/2 m x I m = 0, w2 = 2 m - w, keeps the energy and |I w|; two
+// Newton steps from m = w solve it. What two steps leave open may add energy: the result is then shortened to the energy before.
 
 // m - J^-1 f, J = I + h/2 ([m] I - [I m]), by cofactors; m itself where J is not safe to invert
 FE_INLINE wide3 newton(wide3 m, wide3 w, wide3 in, wide3 d)
@@ -135,8 +140,9 @@ FE_INLINE wide3 free_change(wide3 world, wide4 axes, wide3 in, wide half_h)
     return w_add(change, w_turn(axes, change)); // only the change is turned: w keeps its digits
 }
 
-// ---- velocities --------------------------------------------------------------------------------------------------------------------------
-// f(v): gravity and forces, damping 1 / (1 + h c), the speed limit. With the gyroscopic torque, which acts while the body turns, all that changes a
+// ---- velocities
+// -------------------------------------------------------------------------------------------------------------------------- f(v): gravity
+// and forces, damping 1 / (1 + h c), the speed limit. With the gyroscopic torque, which acts while the body turns, all that changes a
 // velocity and is no constraint.
 FE_INLINE void advance(const fe__solver *s, int32_t i, const fe__step_constants *c, wide3 *v, wide3 *w)
 {
@@ -160,8 +166,8 @@ static void begin_velocities(fe__solver *s, int32_t first, int32_t count, const 
     }
 }
 
-// The next substeps. Warm starting adds M^-1 J^T l, summed over a body's constraints; J, M and l are those that the last substep ended with, and it
-// began from `start` with no constraint impulse: the sum is d = v - start.
+// The next substeps. Warm starting adds M^-1 J^T l, summed over a body's constraints; J, M and l are those that the last substep ended
+// with, and it began from `start` with no constraint impulse: the sum is d = v - start.
 static void carry_velocities(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c)
 {
     for (int32_t i = first; i < first + count; i += FE_W) {
@@ -174,9 +180,10 @@ static void carry_velocities(fe__solver *s, int32_t first, int32_t count, const 
     }
 }
 
-// The spin is the body's own while it turns: w + c at the end of the substep, in axes that turned by Q. Returns the mean spin w + c/2, which is what
-// the body turns by: Q = Cayley(h (w + c/2)) then takes the angular momentum of the midpoint rule back to where it was, exactly, and leaves w + c/2
-// alone. So  w' = Q (w + c) = w + c + (Q - 1) c/2,  and what changed leaves the warm start alone: start changes as much.
+// The spin is the body's own while it turns: w + c at the end of the substep, in axes that turned by Q. Returns the mean spin w + c/2,
+// which is what the body turns by: Q = Cayley(h (w + c/2)) then takes the angular momentum of the midpoint rule back to where it was,
+// exactly, and leaves w + c/2 alone. So  w' = Q (w + c) = w + c + (Q - 1) c/2,  and what changed leaves the warm start alone: start changes
+// as much.
 FE_INLINE wide3 turn_freely(fe__solver *s, int32_t i, wide4 turned, const fe__step_constants *c)
 {
     wide4 principal = load_high(s->spin, i), stored = load_high(s->velocity, i), start = load_high(s->start, i);
@@ -206,5 +213,7 @@ static void integrate_positions(fe__solver *s, int32_t first, int32_t count, con
     }
 }
 
-const fe__body_kernels FE_NAME(fe__body_kernels) = {
-    .load = load, .begin_velocities = begin_velocities, .carry_velocities = carry_velocities, .integrate_positions = integrate_positions};
+const fe__body_kernels FE_NAME(fe__body_kernels) = {.load = load,
+                                                    .begin_velocities = begin_velocities,
+                                                    .carry_velocities = carry_velocities,
+                                                    .integrate_positions = integrate_positions};

@@ -2,7 +2,7 @@
 //
 // Four cache lines of quads, gathered one by one by the wide kernels. The narrow phase fills a contact; recycling (recycle.simd.c) updates its
 // separations while the pair moves little; prepare turns it into a lane of a row; store brings the impulses back. Side A is the static or
-// kinematic body where there is one. Arms and normal stay as the narrow phase found them: arms that turn with A let a pyramid of 100 rows
+// kinematic body where there is one. Arms and normal stay as the narrow phase found them, from step to step: arms that turn since let a pyramid of 100 rows
 // buckle out of its plane after 300 steps.
 #ifndef FE_SOLVER_CONTACT_H
 #define FE_SOLVER_CONTACT_H

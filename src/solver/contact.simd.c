@@ -62,6 +62,12 @@ FE_INLINE wide_sym choose_sym(wide_mask lanes, const wide_sym *yes, const wide_s
                       w_choose(lanes, yes->yy, no->yy), w_choose(lanes, yes->yz, no->yz), w_choose(lanes, yes->zz, no->zz)};
 }
 
+FE_INLINE side choose_side(wide_mask lanes, side yes, side no)
+{
+    no.v = w_choose3(lanes, yes.v, no.v), no.w = w_choose3(lanes, yes.w, no.w);
+    return no;
+}
+
 // a part of the way from one to the other
 FE_INLINE side blend(wide part, const side *from, const side *to)
 {

@@ -139,8 +139,8 @@ FE_INLINE void NAMED(apply_all)(const ROW *row, pair *p, int kind)
 }
 
 // ---- points ---------------------------------------------------------------------------------------------------------------------------
-// The one point of space at which two surfaces touch. A round side takes it along when it rolls over a flat one; of two alike, each has it on
-// its own side, and it is between. Weight of B's: all of it where A is static, whose arms count from B's centre.
+// The one point of space at which two surfaces touch. A round side takes it along when it rolls over a flat one; of two alike, each has it
+// on its own side, and it is between. Weight of B's: all of it where A is static, whose arms count from B's centre.
 FE_INLINE wide NAMED(weight_of_b)(const ROW *row, wide_mask is_static, int kind)
 {
     wide zero = w_set(0.0f), one = w_set(1.0f);
@@ -157,8 +157,8 @@ FE_INLINE wide_mask NAMED(static_lanes)(const ROW *row)
     return w_greater(*(const wide *)is_static, w_set(0.0f));
 }
 
-// Lanes that begin to follow keep where their points were: found midway between the surfaces, on both of them. What A's and B's slid since then
-// stays between them.
+// Lanes that begin to follow keep where their points were: found midway between the surfaces, on both of them. What A's and B's slid since
+// then stays between them.
 FE_INLINE void NAMED(begin_to_follow)(ROW *row, const wide *apart, wide_mask lanes, int kind)
 {
     wide zero = w_set(0.0f);

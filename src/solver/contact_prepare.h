@@ -42,7 +42,8 @@ FE_INLINE void NAMED(prepare_friction)(ROW *row, wide4 impulse, wide3 t1, wide3 
 FE_INLINE wide NAMED(still_turn)(const wide_sym *i, wide reach, int kind)
 {
     wide spread = w_abs(i->xx - i->yy) + w_abs(i->yy - i->zz) + w_abs(i->xy) + w_abs(i->xz) + w_abs(i->yz);
-    wide_mask shows = w_or(w_greater(spread, ROUND_INERTIA * (i->xx + i->yy + i->zz)), w_greater(reach, w_set(FROZEN_SHIFT * FROZEN_SHIFT)));
+    wide_mask shows =
+        w_or(w_greater(spread, ROUND_INERTIA * (i->xx + i->yy + i->zz)), w_greater(reach, w_set(FROZEN_SHIFT * FROZEN_SHIFT)));
     // a bounce is to gain no energy: no turn is too little
     return w_choose(shows, w_set(kind & FE__ROW_SPECIAL ? 0.0f : 0.25f * FROZEN_TURN * FROZEN_TURN), w_set(FLT_MAX));
 }
@@ -135,6 +136,7 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
     NAMED(find_masses)(row, &p, kind, &masses);
     NAMED(store_masses)(row, &masses, every_lane());
     if (kind & FE__ROW_SPECIAL) NAMED(prepare_rolling)((SPECIAL_ROW *)row, s, &p, kind);
+    row->load = NAMED(load_of)(row);
     NAMED(apply_all)(row, &p, kind);
     NAMED(scatter_pair)(row, s, &p, kind);
 }
@@ -157,14 +159,11 @@ FE_INLINE void NAMED(store)(fe__contact *contacts, fe__extra *extras, const fe__
         _Alignas(64) int32_t index[FE_W];
         for (int j = 0; j < FE_W; ++j) index[j] = lanes[j].contact;
         for (int j = 0; j < FE_W && i + 4 < count; ++j) __builtin_prefetch(contacts[lanes[4 * FE_W + j].contact].normal_impulse, 1);
-        // an impact of the last substep is over: what it gave is no guess for the next
-        wide load = NAMED(load_of)(row), most = IMPACT_RISE * row->load;
-        wide part = w_choose(w_greater(load, most), most / load, w_set(1.0f));
-        UNROLL for (int j = 0; j < POINTS; ++j) impulse[j] = part * row->point[j].impulse, total[j] = row->total[j];
-        wide3 friction = w_scale(part, NAMED(friction_impulse)(row, load3(row->normal)));
-        store_lanes(contacts, index, (wide4){impulse[0], impulse[1], impulse[2], impulse[3]}, w_with(friction, part * row->twist_impulse),
+        UNROLL for (int j = 0; j < POINTS; ++j) impulse[j] = row->point[j].impulse, total[j] = row->total[j];
+        wide3 friction = NAMED(friction_impulse)(row, load3(row->normal));
+        store_lanes(contacts, index, (wide4){impulse[0], impulse[1], impulse[2], impulse[3]}, w_with(friction, row->twist_impulse),
                     (wide4){total[0], total[1], total[2], total[3]});
         for (int j = 0; j < FE_W && kind & FE__ROW_SPECIAL; ++j)
-            for (int k = 0; k < 3 && index[j]; ++k) extras[index[j]].rolling_impulse[k] = part[j] * x->rolling_impulse[k][j];
+            for (int k = 0; k < 3 && index[j]; ++k) extras[index[j]].rolling_impulse[k] = x->rolling_impulse[k][j];
     }
 }

@@ -31,9 +31,9 @@ typedef struct ROW {
     // relax only
     wide separation[POINTS + 1]; // when the step began; the last: at the centre of friction
     wide total[POINTS];          // of the impulses of the substeps so far
-    wide load;                   // sum of the normal impulses when the substep began
-    wide start_span[3]; // when the step began
-    wide found_span[3]; // when the contact was found: for separations
+    wide load;                   // sum of the normal impulses at the end of the last substep
+    wide start_span[3];          // when the step began
+    wide found_span[3];          // when the contact was found: for separations
     wide round_a, round_b;
     wide still_a, still_b; // square of |sin(turn / 2)| up to which arms and inertia of a side stay as they are
     wide follows;          // 1: they no longer do, see follow
@@ -238,7 +238,6 @@ FE_INLINE void NAMED(wishes)(ROW *row, const fe__step_constants *c, const pair *
 FE_INLINE void NAMED(push_normals)(ROW *row, const fe__step_constants *c, pair *p, int kind, int soft)
 {
     wide wish[POINTS], scale[POINTS], sum;
-    if (soft) row->load = NAMED(load_of)(row);
     NAMED(wishes)(row, c, p, kind, soft, wish, scale);
     wide3 moment = NAMED(sweep_points)(row, wish, soft ? scale : 0, &sum);
     NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
@@ -365,6 +364,7 @@ FE_INLINE void NAMED(forget_touched)(SPECIAL_ROW *x, const wide *old, wide part,
     for (int i = 0; i < 2; ++i) row->tangent_impulse[i] = w_choose(touched, zero, row->tangent_impulse[i]);
     for (int i = 0; i < 3; ++i) x->rolling_impulse[i] = w_choose(touched, zero, x->rolling_impulse[i]);
     row->twist_impulse = w_choose(touched, zero, row->twist_impulse);
+    row->load = w_choose(touched, zero, row->load);
 }
 
 // The points together reach their speeds: each sweep looks at the bodies anew.
@@ -383,7 +383,8 @@ FE_INLINE void NAMED(sweep_bounce)(ROW *row, pair *p, const wide *target, int ki
     }
 }
 
-// The part of a bounce, 1 and less, with which the row's impulses of this substep gain no energy: gain + part b + part^2 a <= 0, of the works
+// The part of a bounce, 1 and less, with which the row's impulses of this substep gain no energy: gain + part b + part^2 a <= 0, of the
+// works
 //     b = sum of change . speed before,   a = half the sum of change . (speed after - before)
 FE_INLINE wide NAMED(part_without_gain)(const SPECIAL_ROW *x, const wide *old, const affine *was, const affine *is, wide flight)
 {
@@ -417,6 +418,29 @@ FE_INLINE void NAMED(bounce_row)(SPECIAL_ROW *x, fe__solver *s, const fe__step_c
     NAMED(forget_touched)(x, old, part, touched);
     if (kind & FE__ROW_PAIR) add_change(s, row->line_a, &before.a, &p.a, touched);
     add_change(s, row->line_b, &before.b, &p.b, touched);
+}
+
+// ---- impacts
+// ----------------------------------------------------------------------------------------------------------------------------- What a
+// substep carries to the next is a guess of its impulses. Those of an impact, of a load that rose by half at once, are over: the next push
+// takes back its normal part, but friction, which only relax solves, would act twice, on bodies that turned on, and give them energy. So it
+// is carried only as it was before, until the load has lasted for a substep.
+static __attribute__((noinline)) void NAMED(leave_friction)(ROW *row, const fe__solver *s, wide load, wide_mask rose, int kind)
+{
+    SPECIAL_ROW *x = (SPECIAL_ROW *)row;
+    wide3 n = load3(row->normal), centre = load3(row->centre);
+    wide keep = w_choose(rose, row->load / load, w_set(1.0f)), part = 1.0f - keep;
+    wide3 friction = w_scale(part, NAMED(friction_impulse)(row, n));
+    wide3 moment = w_add_scaled(w_cross(centre, friction), part * row->twist_impulse, n);
+    if (kind & FE__ROW_SPECIAL) moment = w_add_scaled(moment, part, load3(x->rolling_impulse));
+    pair start = {start_side(s, row->line_a), start_side(s, row->line_b), n, load3(row->span)}, was = start;
+    NAMED(apply)(row, &start, friction, moment, kind);
+    start.a = choose_side(rose, start.a, was.a), start.b = choose_side(rose, start.b, was.b);
+    if (kind & FE__ROW_PAIR) scatter_side(s->start, row->line_a, &start.a);
+    scatter_side(s->start, row->line_b, &start.b);
+    for (int i = 0; i < 2; ++i) row->tangent_impulse[i] = keep * row->tangent_impulse[i];
+    for (int i = 0; i < 3 && kind & FE__ROW_SPECIAL; ++i) x->rolling_impulse[i] = keep * x->rolling_impulse[i];
+    row->twist_impulse = keep * row->twist_impulse;
 }
 
 // ---- passes over the rows -----------------------------------------------------------------------------------------------------------
@@ -453,6 +477,10 @@ FE_INLINE void NAMED(relax)(fe__solver *s, void *rows, int32_t count, const fe__
         NAMED(solve_friction)(row, &p, kind);
         UNROLL for (int j = 0; j < POINTS; ++j) row->total[j] = row->total[j] + row->point[j].impulse;
         NAMED(scatter_pair)(row, s, &p, kind);
+        wide load = NAMED(load_of)(row);
+        wide_mask rose = w_greater(load, IMPACT_RISE * row->load);
+        if (w_any(rose)) NAMED(leave_friction)(row, s, load, rose, kind);
+        row->load = load;
     }
 }
 

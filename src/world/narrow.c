@@ -130,6 +130,7 @@ static int32_t look_far_ahead(const fe_world *world, const fe__contact *m, float
     *v = touch.v, *at = touch.at, *found = touch.found;
     return 1;
 }
+
 static void copy4(float *out, fe_quat q) { out[0] = q.x, out[1] = q.y, out[2] = q.z, out[3] = q.w; }
 
 // impulses stay with the features that meet

@@ -152,8 +152,8 @@ static void random_scenes_hold_the_laws_at_every_step(void **state)
 }
 
 // Gravity, contacts, friction and damping only ever take energy. A soft contact stores what it gives under its load: m g times the sink of
-// P1, a millimetre for what lies here, and may give it back. Arms are those of a step's start: what turns by w dt in it (0.05 rad here) may
-// be given some of an impulse's work, a few parts in a thousand of the kinetic energy.
+// P1, a millimetre for what lies here, and may give it back; a body that a heavy one pins to the ground in its fall stores more, some parts in
+// a thousand of the kinetic energy.
 static void closed_scenes_gain_no_energy(void **state)
 {
     (void)state;

@@ -6,8 +6,8 @@
 
 #include "scenes/scene.h"
 
-// Velocities are floats: momentum keeps 1e-5 of what the bodies carry through many collisions, angular momentum 1e-4 (arms are frozen while
-// the bodies shift by less than half a millimetre)
+// Velocities are floats: momentum keeps 1e-5 of what the bodies carry through many collisions, angular momentum 1e-4 (arms stay while the
+// bodies shift by less than half a millimetre in a step)
 #define MOMENTUM_DRIFT 1e-5
 #define ANGULAR_DRIFT 1e-4
 // of the energy: what no step may gain

@@ -116,14 +116,14 @@ static void restitution_1_keeps_20_bounces(void **state)
     scene_end(&s);
 }
 
-// A body that turns by 0.6 rad in a step, with the arms of its start, cannot be off by more than a tenth and still be an impact
+// what no law may be missed by, whatever its shortfall
 #define GROSS 0.1
 
 // Boxes in any pose land on a corner or an edge. With restitution 1 and without friction nothing is lost but what the cap takes; with any
-// other nothing is gained.
+// other nothing is gained. What lies, and rocks, gets back what its soft contact stores: m g times the sink of P1, of a corner of a flat
+// box, whose effective mass is m / (1 + 3 + 3).
 static void tilted_boxes_keep_their_energy(void **state)
 {
-    shortfall gain = {"energy gained by tumbling boxes", 0};
     dice d = {7};
     for (int i = 0; i < 60; ++i) {
         int elastic = i % 2 == 0;
@@ -132,17 +132,17 @@ static void tilted_boxes_keep_their_energy(void **state)
         add_ground(&s, material);
         vec half = v3(uniform(&d, 0.15, 0.4), uniform(&d, 0.15, 0.4), uniform(&d, 0.15, 0.4));
         fe_body body = add_dynamic(&s, box(half.x, half.y, half.z), v3(0, uniform(&d, 1.2, 4), 0), any_rotation(&d), material, WATER);
-        double before = totals_of(&s, &body, 1).energy, lowest = before;
+        double before = totals_of(&s, &body, 1).energy, lowest = before, mass = mass_of(&s, body);
+        double stored = elastic ? 0 : mass * G * sink(mass * G, mass / 7, 1);
         for (int k = 0; k < 240; ++k) {
             run(&s, 1);
             double energy = totals_of(&s, &body, 1).energy;
-            measure(&gain, energy - lowest, ENERGY_GAIN * before, GROSS * before);
+            FE_WITHIN(energy, -1e30, lowest + ENERGY_GAIN * before + stored);
             lowest = fmin(lowest, energy);
             if (elastic && k < 120) FE_WITHIN(energy, 0.9 * before, 2 * before);
         }
         scene_end(&s);
     }
-    report_shortfall(&gain);
 }
 
 // A box that lands on one end turns: the point of impact leaves at e of its speed (Newton). For a rod of mass m, half length a, moment I
@@ -280,7 +280,8 @@ typedef struct shortfalls {
 
 static shortfalls no_shortfalls(void)
 {
-    return (shortfalls){{"momentum lost by free bodies", 0}, {"angular momentum lost by free bodies", 0}, {"energy gained by free bodies", 0}};
+    return (
+        shortfalls){{"momentum lost by free bodies", 0}, {"angular momentum lost by free bodies", 0}, {"energy gained by free bodies", 0}};
 }
 
 static void keeps_what_it_has(scene *s, const fe_body *bodies, int count, int steps, shortfalls *f)
@@ -324,12 +325,13 @@ static void free_cluster_keeps_momentum_and_gains_no_energy(void **state)
         keeps_what_it_has(&s, bodies, COUNT, 180, &f);
         scene_end(&s);
     }
-    const shortfall *all[] = {&f.momentum, &f.angular, &f.energy};
-    for (int k = 0; k < 3; ++k) print_message("%s: %.3g times the bound\n", all[k]->what, all[k]->worst);
-    for (int k = 0; k < 3; ++k) report_shortfall(all[k]);
+    FE_WITHIN(f.momentum.worst, 0, 1);
+    FE_WITHIN(f.angular.worst, 0, 1);
+    FE_WITHIN(f.energy.worst, -1e30, 1);
 }
 
-// A free drum of six walls spins; what is in it is flung to the walls and slides along them, and on one another, for seconds.
+// A free drum of six walls spins; what is in it is flung to the walls and slides along them, and on one another, for seconds. The drum
+// carries a hundred times the angular momentum of each of them in one float, whose rounding is what is measured.
 static void cargo_in_a_free_drum_keeps_momentum_and_gains_no_energy(void **state)
 {
     enum { CARGO = 18 };
