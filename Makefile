@@ -102,7 +102,7 @@ endef
 $(BUILD)/flags: FORCE
 	$(call stamp,$(subst ','"'"',$(CC) $(filter-out -Werror,$(C_FLAGS)) $(SIMD_OPT) $(STRICT) $(LINK_FLAGS)))
 $(BUILD)/objects: FORCE
-	$(call stamp,$(OBJECTS))
+	$(call stamp,$(OBJECTS:$(BUILD)/%=%))
 
 $(BUILD)/obj/%.o: src/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
