@@ -473,6 +473,7 @@ fe_result fe_body_set_bullet(fe_world *world, fe_body body, int32_t bullet)
     FE_FIND_BODY(index, body);
     FE_CHECK_BOOL(bullet);
     set_flag(world, index, FE__BODY_BULLET, bullet);
+    world->has_bullets |= bullet;
     return FE_OK;
 }
 

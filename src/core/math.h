@@ -28,6 +28,7 @@ static inline double fe__maxd(double a, double b) { return a > b ? a : b; }
 static inline double fe__absd(double a) { return __builtin_fabs(a); }
 static inline int32_t fe__mini(int32_t a, int32_t b) { return a < b ? a : b; }
 static inline int64_t fe__minl(int64_t a, int64_t b) { return a < b ? a : b; }
+static inline int64_t fe__maxl(int64_t a, int64_t b) { return a > b ? a : b; }
 static inline int32_t fe__maxi(int32_t a, int32_t b) { return a > b ? a : b; }
 
 // ---- fe_vec3 ------------------------------------------------------------------------------------------------------------------

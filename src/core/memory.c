@@ -7,7 +7,9 @@
 enum {
     BLOCK_ALIGNMENT = 64, // a cache line, and the widest SIMD load
     FIRST_CAPACITY = 16,  // records: below that, doubling would allocate at every other call
-    DOUBLE_BELOW = 16384, // records: a larger array grows by a quarter
+    DOUBLE_BELOW = 1024,  // records: a larger array grows by a quarter
+    GROWTH = 4,
+    ROOM = 16, // a part of what is asked for at once is left over, so that a little more does not move the array again
 };
 
 // aligned_alloc wants a multiple of the alignment
@@ -64,7 +66,8 @@ int32_t fe__reserve(fe__memory *memory, void *array, int32_t *capacity, int64_t 
     if (need <= *capacity) return 1;
     if (need > INT32_MAX) return 0;
     int64_t grown = *capacity < FIRST_CAPACITY ? FIRST_CAPACITY : *capacity;
-    while (grown < need) grown += grown < DOUBLE_BELOW ? grown : grown / 4;
+    while (grown < need && grown < DOUBLE_BELOW) grown *= 2;
+    if (grown < need) grown = grown + grown / GROWTH > need + need / ROOM ? grown + grown / GROWTH : need + need / ROOM;
     if (grown > INT32_MAX) grown = INT32_MAX;
     if ((uint64_t)grown > PTRDIFF_MAX / size) return 0;
 

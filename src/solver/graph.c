@@ -111,9 +111,25 @@ static int64_t scratch_bound(const fe__graph_bound *b)
     return 9 * (int64_t)b->bodies + 3 * (int64_t)b->contacts + b->joints + 3 * (batch_bound(b) + 1) + GROUP_KEYS + JOINT_KEYS;
 }
 
+// bytes of rows of the largest island, and of a worker's stretch
+static int64_t all_rows(const fe__graph_bound *b, const fe__kernels *kernels, int32_t workers, int64_t *out_small)
+{
+    int32_t some = FE__BATCH_CONTACTS + FE__ISLAND_LARGE, parts = joint_rows(b);
+    int64_t small = row_bytes(b, kernels, fe__mini(b->contacts, some), fe__mini(parts, some)), large = 0;
+    if (b->largest > FE__ISLAND_LARGE) large = row_bytes(b, kernels, fe__mini(b->contacts, b->largest), fe__mini(parts, b->largest));
+    *out_small = small;
+    return small * workers > large ? small * workers : large;
+}
+
+int32_t fe__graph_has_rows(const fe__solver *s, const fe__kernels *kernels, const fe__graph_bound *bound, int32_t workers)
+{
+    int64_t small;
+    return all_rows(bound, kernels, workers, &small) < (int64_t)sizeof(fe__row_block) * s->row_capacity;
+}
+
 int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *kernels, const fe__graph_bound *b, int32_t workers)
 {
-    int32_t batches = batch_bound(b), width = kernels->width, parts = joint_rows(b), some = FE__BATCH_CONTACTS + FE__ISLAND_LARGE;
+    int32_t batches = batch_bound(b), width = kernels->width, parts = joint_rows(b);
     int64_t all_lanes = (int64_t)b->contacts + parts;
     int64_t groups = fe__minl((int64_t)group_bound(b) * batches, b->contacts) + fe__mini(b->crowded, b->contacts) +
                      fe__minl((int64_t)joint_group_bound(b) * batches, parts) + overflowing_rows(b);
@@ -121,20 +137,19 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
     // each contact or joint of a kinematic body may bring a copy of it
     int64_t copies = (b->special ? b->contacts : 0) + (b->joint_set ? b->joint_set->kinematic : 0);
     int64_t lines = FE__MAX_WIDTH + (int64_t)b->bodies + (int64_t)batches * (DUMMY_LINES + FE__MAX_WIDTH) + copies;
-    int64_t small = row_bytes(b, kernels, fe__mini(b->contacts, some), fe__mini(parts, some));
-    int64_t large = all_lanes > FE__ISLAND_LARGE ? row_bytes(b, kernels, b->contacts, parts) : 0;
-    int64_t rows = small * workers > large ? small * workers : large;
+    int64_t small, rows = all_rows(b, kernels, workers, &small);
+    int64_t building = (int64_t)sizeof(int32_t) * scratch_bound(b);
     int64_t sorted = fe__maxi(fe__mini(b->crowded, b->contacts), b->joint_set ? fe__mini(b->joint_set->overflowing, b->joints) : 0);
     if (!FE_RESERVE(memory, s->velocity, s->line_capacity[0], lines) || !FE_RESERVE(memory, s->motion, s->line_capacity[1], lines) ||
         !FE_RESERVE(memory, s->start, s->line_capacity[2], lines) || !FE_RESERVE(memory, s->inertia, s->line_capacity[3], lines) ||
         !FE_RESERVE(memory, s->drive, s->line_capacity[4], lines) || !FE_RESERVE(memory, s->spin, s->line_capacity[5], lines) ||
         !FE_RESERVE(memory, s->body_of_line, s->body_of_line_capacity, lines) ||
-        !FE_RESERVE(memory, s->trail_count, s->trail_capacity[0], lines) || !FE_RESERVE(memory, s->trail, s->trail_capacity[1], lines) ||
+        !FE_RESERVE(memory, s->trail_count, s->trail_capacity[0], lines) || !FE_RESERVE(memory, s->trail_of, s->trail_capacity[2], lines) ||
+        !FE_RESERVE(memory, s->trail, s->trail_capacity[1], b->fast + (b->fast_kinematic ? copies : 0)) ||
         !FE_RESERVE(memory, s->batches, s->batch_capacity, batches) || !FE_RESERVE(memory, s->groups, s->group_capacity, groups + 1) ||
         !FE_RESERVE(memory, s->lanes, s->lane_capacity, lanes + width) ||
         !FE_RESERVE(memory, s->sort_items, s->sort_capacity, 2 * sorted) ||
-        !FE_RESERVE(memory, s->scratch, s->scratch_capacity, scratch_bound(b)) ||
-        !FE_RESERVE(memory, s->rows, s->row_capacity, rows / 64 + 1))
+        !FE_RESERVE(memory, s->rows, s->row_capacity, fe__maxl(rows, building) / (int64_t)sizeof(fe__row_block) + 1))
         return 0;
     s->worker_row_bytes = (small + 63) / 64 * 64;
     return 1;
@@ -151,11 +166,11 @@ void fe__solver_destroy(fe__solver *s, fe__memory *memory)
     FE_FREE(memory, s->body_of_line, s->body_of_line_capacity);
     FE_FREE(memory, s->trail_count, s->trail_capacity[0]);
     FE_FREE(memory, s->trail, s->trail_capacity[1]);
+    FE_FREE(memory, s->trail_of, s->trail_capacity[2]);
     FE_FREE(memory, s->batches, s->batch_capacity);
     FE_FREE(memory, s->groups, s->group_capacity);
     FE_FREE(memory, s->lanes, s->lane_capacity);
     FE_FREE(memory, s->sort_items, s->sort_capacity);
-    FE_FREE(memory, s->scratch, s->scratch_capacity);
     FE_FREE(memory, s->rows, s->row_capacity);
     s->batch_count = s->large_count = s->group_count = s->lane_count = s->line_count = s->island_count = 0;
     s->graph_changed = 1;
@@ -170,7 +185,7 @@ static int32_t *carve(int32_t **from, int64_t count)
 
 static builder make_builder(fe__solver *s, const fe__kernels *kernels, const fe__graph_input *in)
 {
-    int32_t *at = s->scratch;
+    int32_t *at = (int32_t *)(void *)s->rows; // no rows are in use while the graph is built
     int64_t n = in->body_count;
     builder b = {.s = s, .in = in, .width = kernels->width};
     b.parent = carve(&at, n);
@@ -187,7 +202,8 @@ static builder make_builder(fe__solver *s, const fe__kernels *kernels, const fe_
     b.joint_order = carve(&at, in->joint_count);
     b.key_count = carve(&at, GROUP_KEYS);
     b.joint_key_count = carve(&at, JOINT_KEYS);
-    int64_t starts = (s->scratch + s->scratch_capacity - at) / 3;
+    const int32_t *end = (const int32_t *)(const void *)(s->rows + s->row_capacity);
+    int64_t starts = (end - at) / 3;
     b.body_start = carve(&at, starts);
     b.contact_start = carve(&at, starts);
     b.joint_start = at;
@@ -269,7 +285,7 @@ static void find_islands(builder *b)
     for (int32_t i = 0; i < in->body_count; ++i) {
         int32_t is_root = b->parent[i] == i; // else its parent came before it
         if (is_kinematic(awake_body(b, i))) {
-            b->island_of[i] = NONE;
+            b->island_of[i] = b->kinematic_line[i] = NONE; // no copy in any batch yet
             continue;
         }
         if (is_root) {
@@ -390,7 +406,6 @@ static void assign_lines(builder *b, int32_t k)
         fe__body *body = b->in->bodies + b->in->awake_bodies[b->body_order[i]];
         body->line = s->line_count;
         body->island = b->island_of[b->body_order[i]];
-        b->kinematic_line[b->body_order[i]] = NONE;
         add_line(s, b->in->awake_bodies[b->body_order[i]]);
     }
     for (int32_t i = b->contact_start[k]; i < b->contact_start[k + 1]; ++i)

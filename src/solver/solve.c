@@ -139,6 +139,7 @@ static void begin_trails(const job *j, int32_t first, int32_t count)
         const fe__body *body = j->bodies + fe__maxi(j->s->body_of_line[i], 0);
         int32_t fast = j->s->body_of_line[i] >= 0 && body->centre_low[3] * dt > body->thickness;
         j->s->trail_count[i] = fast ? 0 : FE__NO_TRAIL;
+        if (fast) j->s->trail_of[i] = atomic_fetch_add_explicit(&j->s->trails, 1, memory_order_relaxed);
     }
 }
 
@@ -148,7 +149,7 @@ static void leave_trails(const job *j, int32_t first, int32_t count)
     for (int32_t i = first; i < first + count; ++i) {
         if (j->s->trail_count[i] == FE__NO_TRAIL) continue;
         int32_t substeps = ++j->s->trail_count[i];
-        if (substeps % stride == 0) memcpy(j->s->trail[i][substeps / stride - 1], j->s->motion[i], sizeof *j->s->motion);
+        if (substeps % stride == 0) memcpy(j->s->trail[j->s->trail_of[i]][substeps / stride - 1], j->s->motion[i], sizeof *j->s->motion);
     }
 }
 
@@ -343,6 +344,7 @@ void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *wor
     job j = {.s = s, .k = kernels, .bodies = bodies, .contacts = contacts, .extras = extras, .joints = joints, .c = c};
     if (!s->batch_count) return; // all sleep; there may be no lines at all
     clear_static_line(s);
+    atomic_store(&s->trails, 0);
     for (int32_t i = 0; i < s->large_count; ++i) {
         j.batch = s->batches + i;
         make_program(&j.program, s, j.batch, c->substeps, kernels->width);

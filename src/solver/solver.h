@@ -106,9 +106,11 @@ typedef struct fe__solver {
     int32_t body_of_line_capacity;
 
     // Where bodies that are fast when the step begins went: `motion` after each fe__trail_stride substeps
-    int16_t *trail_count;                // substeps so far; FE__NO_TRAIL: a slow one
-    float (*trail)[FE__TRAIL][FE__LINE];
-    int32_t trail_capacity[2];
+    int16_t *trail_count;                // by line: substeps so far; FE__NO_TRAIL: a slow one
+    int32_t *trail_of;                   // by line of a fast one: its trail
+    float (*trail)[FE__TRAIL][FE__LINE]; // in no order that matters
+    _Atomic int32_t trails;              // taken in this step
+    int32_t trail_capacity[3];
 
     // the graph (graph.c), kept while nothing links, unlinks, wakes or sleeps
     int32_t graph_changed;
@@ -119,12 +121,10 @@ typedef struct fe__solver {
     fe__lane *lanes;
     int32_t lane_count, lane_capacity;
     int32_t island_count;
-    int32_t *scratch;
-    int32_t scratch_capacity;
     fe__sort_item *sort_items;
     int32_t sort_capacity;
 
-    fe__row_block *rows;  // of the large batch at hand, or one stretch of worker_row_bytes for each worker
+    fe__row_block *rows;  // of the large batch at hand, or one stretch of worker_row_bytes for each worker; scratch of the graph's build
     int32_t row_capacity; // blocks
     int64_t worker_row_bytes;
 } fe__solver;

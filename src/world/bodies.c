@@ -78,11 +78,11 @@ static void set_pose(fe__body *body, const fe_transform *transform)
     fe__body_place_centre(body);
 }
 
-static void set_lock_bits(fe__body *body, uint32_t linear, uint32_t angular)
+static void set_lock_bits(fe_world *world, fe__body *body, uint32_t linear, uint32_t angular)
 {
     body->spin[3] = (float)(linear | angular << 3);
     body->locked = (linear | angular) != 0;
-    fe__body_stop_locked(body);
+    fe__body_stop_locked(world, body);
 }
 
 static uint32_t initial_flags(const fe_body_def *desc)
@@ -121,8 +121,9 @@ int32_t fe__body_create(fe_world *world, const fe_body_def *desc)
     body->torque[3] = desc->angular_damping;
     set_pose(body, &desc->transform);
     set_initial_velocities(body, desc);
-    set_lock_bits(body, desc->linear_locks, desc->angular_locks);
+    set_lock_bits(world, body, desc->linear_locks, desc->angular_locks);
     append_to_order(world, index);
+    world->has_bullets |= desc->bullet;
     fe__body_update_mass(world, index);
     if (desc->enabled && desc->awake && desc->type != FE_BODY_STATIC) {
         fe__body_awaken_alone(world, index);
@@ -194,7 +195,7 @@ fe_result fe__body_set_type(fe_world *world, int32_t index, int32_t type)
     forget_forces(body);
     if (type == FE_BODY_STATIC) {
         for (int k = 0; k < 3; ++k) body->velocity[k] = body->spin[k] = 0.0f;
-        fe__body_note_speed(body);
+        fe__body_note_speed(world, body);
     }
     if (type != FE_BODY_DYNAMIC) body->flags &= ~(uint32_t)FE__BODY_MASS_GIVEN;
     fe__body_update_mass(world, index);
@@ -263,7 +264,7 @@ void fe__body_set_locks(fe_world *world, int32_t index, uint32_t linear, uint32_
 {
     fe__body_disturb(world, index);
     fe__body_unlink_joints(world, index);
-    set_lock_bits(&world->bodies[index], linear, angular);
+    set_lock_bits(world, &world->bodies[index], linear, angular);
     fe__body_update_mass(world, index);
     fe__body_link_joints(world, index);
     // locked bodies' contacts go to rows of another kind

@@ -40,9 +40,9 @@ static void place_origin(fe__body *body)
     body->origin[0] = body->centre[0] - arm.x, body->origin[1] = body->centre[1] - arm.y, body->origin[2] = body->centre[2] - arm.z;
 }
 
-static void tick_sleep_timer(fe__body *body, float dt)
+static void tick_sleep_timer(fe_world *w, fe__body *body, float dt)
 {
-    fe__body_note_speed(body);
+    fe__body_note_speed(w, body);
     int32_t slow = body->flags & FE__BODY_SLEEP_ALLOWED && body->centre_low[3] < body->sleep_threshold;
     body->sleep_timer = slow ? body->sleep_timer + dt : 0.0f;
 }
@@ -76,6 +76,7 @@ static void stop_lost(fe__step *step, fe__body *body)
 {
     for (int k = 0; k < 3; ++k) body->velocity[k] = body->spin[k] = body->force[k] = body->torque[k] = 0.0f;
     body->flags |= FE__BODY_LOST;
+    fe__body_note_speed(step->world, body);
     body->sleep_timer = 0.0f;
     atomic_fetch_add_explicit(&step->scratch->lost_count, 1, memory_order_relaxed);
 }
@@ -109,7 +110,7 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
             body->force[k] = body->torque[k] = 0.0f;
         }
         int32_t moved = shift(body, motion) | turn(body, motion + 4);
-        tick_sleep_timer(body, step->dt);
+        tick_sleep_timer(w, body, step->dt);
         if (!moved) continue;
         body->moved_step = w->step_number + 1;
         place_origin(body);
@@ -130,6 +131,7 @@ void fe__move_bodies(fe__step *step)
     fe__step_scratch *s = step->scratch;
     atomic_store(&s->left_count, 0);
     atomic_store(&s->lost_count, 0);
+    atomic_store(&w->swiftest, 0);
     fe__parallel_for(&w->workers, w->awake_body_count, BODIES_IN_BLOCK, move_block, step);
     if (atomic_load(&s->lost_count)) forget_lost(w);
     int32_t left = atomic_load(&s->left_count);

@@ -147,6 +147,7 @@ static void link(fe_world *world, int32_t joint)
         return;
     }
     fe__joint_link(&world->joints, world->bodies, joint);
+    world->clusters.is_stale = 1;
     world->solver.graph_changed = 1;
 }
 

@@ -28,20 +28,20 @@ typedef struct mass_properties {
 
 // The velocity is that of the centre of mass. When the centre becomes another material point, its velocity there is v + w x (R delta): no
 // point of the body changes its motion.
-static void set_local_centre(fe__body *body, fe_vec3 centre)
+static void set_local_centre(fe_world *world, fe__body *body, fe_vec3 centre)
 {
     fe_quat q = {body->rotation[0], body->rotation[1], body->rotation[2], body->rotation[3]};
     fe_vec3 old = {body->local_centre[0], body->local_centre[1], body->local_centre[2]}, w = {body->spin[0], body->spin[1], body->spin[2]};
     fe_dvec3 delta = fe__drotate(q, fe__dsub(fe__widen(centre), fe__widen(old)));
     fe_vec3 change = fe__narrow(fe__dcross(fe__widen(w), delta));
     body->velocity[0] += change.x, body->velocity[1] += change.y, body->velocity[2] += change.z;
-    fe__body_stop_locked(body);
+    fe__body_stop_locked(world, body);
 
     body->local_centre[0] = centre.x, body->local_centre[1] = centre.y, body->local_centre[2] = centre.z;
     fe__body_place_centre(body);
 }
 
-static void set_sizes(const fe_world *world, fe__body *body)
+static void set_sizes(fe_world *world, fe__body *body)
 {
     fe_vec3 centre = {body->local_centre[0], body->local_centre[1], body->local_centre[2]};
     float reach = 0.0f;
@@ -53,9 +53,10 @@ static void set_sizes(const fe_world *world, fe__body *body)
         reach = fe__maxf(reach, fe__form_reach(&shape->form, in_form));
     }
     body->local_centre[3] = reach;
+    fe__body_note_swiftness(world, body);
 }
 
-static void apply(const fe_world *world, fe__body *body, const mass_properties *p)
+static void apply(fe_world *world, fe__body *body, const mass_properties *p)
 {
     int32_t dynamic = body->type == FE_BODY_DYNAMIC;
     fe_vec3 inertia = p->inertia;
@@ -64,7 +65,7 @@ static void apply(const fe_world *world, fe__body *body, const mass_properties *
     body->inertia_axes[0] = p->axes.x, body->inertia_axes[1] = p->axes.y, body->inertia_axes[2] = p->axes.z,
     body->inertia_axes[3] = p->axes.w;
     if (p->centre.x != body->local_centre[0] || p->centre.y != body->local_centre[1] || p->centre.z != body->local_centre[2]) {
-        set_local_centre(body, p->centre);
+        set_local_centre(world, body, p->centre);
     }
     set_sizes(world, body);
 

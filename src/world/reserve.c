@@ -5,6 +5,8 @@
 #include "solver/graph.h"
 #include "world/step.h"
 
+#include <string.h>
+
 // with no more contacts each, two bodies have colours enough for a contact between them
 enum { CROWD = FE__STATIC_COLOURS < FE__PAIR_COLOURS / 2 ? FE__STATIC_COLOURS : FE__PAIR_COLOURS / 2 };
 
@@ -69,6 +71,23 @@ static void forget_candidates(const fe__step *step)
     }
 }
 
+// Bodies that leave a trail, see solve.c. What wakes stands still
+static void count_fast(const fe__step *step, fe__graph_bound *b)
+{
+    const fe_world *w = step->world;
+    const float nearly = 0.999f; // 1 but for rounding: too many do no harm
+    float swiftest;
+    int32_t bits = atomic_load(&w->swiftest);
+    memcpy(&swiftest, &bits, sizeof swiftest);
+    if (swiftest * step->dt < nearly) return;
+    for (int32_t i = 0; i < w->awake_body_count; ++i) {
+        const fe__body *body = w->bodies + w->awake_bodies[i];
+        if (body->centre_low[3] * step->dt < nearly * body->thickness) continue;
+        ++b->fast;
+        if (body->type == FE_BODY_KINEMATIC) b->fast_kinematic = 1;
+    }
+}
+
 static fe__graph_bound bound_of(const fe__step *step)
 {
     const fe_world *w = step->world;
@@ -84,6 +103,8 @@ static fe__graph_bound bound_of(const fe__step *step)
     b.special = kinds >> FE__ROW_SPECIAL != 0;
     b.joint_set = &w->joints;
     b.joints = all ? w->joint_count : w->awake_joint_count;
+    b.largest = INT32_MAX;
+    count_fast(step, &b);
     forget_candidates(step);
     return b;
 }
@@ -100,7 +121,7 @@ static int32_t reserve_scratch(fe__step *step, const fe__graph_bound *b)
            FE_RESERVE(memory, s->moved, s->moved_capacity, b->contacts) && FE_RESERVE(memory, s->left, s->left_capacity, w->shape_count) &&
            FE_RESERVE(memory, s->boxes, s->box_capacity, w->shape_count) &&
            FE_RESERVE(memory, s->chased, s->chased_capacity, (int64_t)2 * b->bodies) &&
-           FE_RESERVE(memory, s->chases, s->chase_capacity, b->bodies) &&
+           FE_RESERVE(memory, s->chases, s->chase_capacity, w->has_bullets ? b->bodies : 0) &&
            FE_RESERVE(memory, s->island_timers, s->island_capacity, b->bodies) &&
            FE_RESERVE(memory, s->sort_items, s->sort_capacity, 2 * sorted) &&
            FE_RESERVE(memory, w->pair_events, w->pair_event_capacity, (int64_t)b->contacts + w->owed_event_count) &&
@@ -113,6 +134,8 @@ int32_t fe__reserve_step(fe__step *step)
 {
     fe_world *w = step->world;
     fe__graph_bound bound = bound_of(step);
-    if (!fe__reserve_pairs(w, step->scratch->candidate_count + step->scratch->candidate_patches) || !reserve_scratch(step, &bound)) return 0;
-    return bound.bodies == 0 || fe__graph_reserve(&w->solver, &w->memory, w->kernels, &bound, w->workers.count);
+    if (!fe__reserve_pairs(w, step->scratch->candidate_count + step->scratch->candidate_patches) || !reserve_scratch(step, &bound))
+        return 0;
+    return bound.bodies == 0 ||
+           (fe__find_clusters(step, &bound) && fe__graph_reserve(&w->solver, &w->memory, w->kernels, &bound, w->workers.count));
 }

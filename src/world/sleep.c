@@ -116,7 +116,7 @@ void fe__body_fall_asleep(fe_world *world, int32_t index)
 {
     fe__body *body = world->bodies + index;
     for (int k = 0; k < 3; ++k) body->velocity[k] = body->spin[k] = body->force[k] = body->torque[k] = 0.0f;
-    fe__body_note_speed(body);
+    fe__body_note_speed(world, body);
     fe__body_retire(world, index);
 }
 

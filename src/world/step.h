@@ -4,6 +4,7 @@
 // (reserve.c); from there on nothing allocates.
 #ifndef FE_WORLD_STEP_H
 #define FE_WORLD_STEP_H
+#include "solver/graph.h"
 #include "world/world.h"
 
 // A pair of shapes that the trees found and that has no record yet; A was created first
@@ -74,6 +75,7 @@ void fe__collect_events(fe__step *step);       // events.c
 void fe__put_islands_to_sleep(fe__step *step); // finalize.c
 void fe__collect_body_events(fe__step *step);  // events.c
 
+int32_t fe__find_clusters(fe__step *step, fe__graph_bound *bound); // clusters.c: bound->largest; 0: no memory
 int32_t fe__reserve_step(fe__step *step);                                   // reserve.c; 0: no memory
 int32_t fe__motion_makes_sense(const fe__solver *s, int32_t line);          // finalize.c; 0: it overflowed
 int32_t fe__box_meets_plane(const fe__shape *plane, const fe__bounds *box); // does the box reach into the half space?

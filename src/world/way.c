@@ -42,7 +42,7 @@ static fe__shift place(const fe__step *step, int32_t body, int32_t leg)
     const fe__solver *s = &step->world->solver;
     int32_t line = step->world->bodies[body].line;
     if (leg == 0) return no_shift;
-    return shift_of(leg == fe__way_legs(step, body) ? s->motion[line] : s->trail[line][leg - 1]);
+    return shift_of(leg == fe__way_legs(step, body) ? s->motion[line] : s->trail[s->trail_of[line]][leg - 1]);
 }
 
 static fe_quat between(fe_quat a, fe_quat b, float t)

@@ -94,6 +94,7 @@ static void free_records(fe_world *world)
     FE_FREE(memory, world->pair_serials, world->serial_capacity);
     fe__pair_set_destroy(&world->pair_set, memory);
     fe__pair_set_destroy(&world->ignored, memory);
+    fe__clusters_free(&world->clusters, memory);
     FE_FREE(memory, world->awake_bodies, world->awake_body_capacity);
     FE_FREE(memory, world->awake_pairs, world->awake_pair_capacity);
     fe__joints_free(world);

@@ -12,6 +12,7 @@
 #include "core/threads.h"
 #include "solver/solver.h"
 #include "solver/body.h"
+#include "world/clusters.h"
 #include "world/joint_record.h"
 #include "world/pair.h"
 #include "collision/heightfield.h"
@@ -84,6 +85,9 @@ struct fe_world {
     int32_t most_contacts;   // of one dynamic body
     uint32_t row_kinds;      // 1 << FE__ROW_* of every pair
     int32_t wants_hits;      // a shape asked for hit events
+    int32_t has_bullets;     // a body was one
+    _Atomic int32_t swiftest; // speed over thickness, 1/s, of the body that has most of it: the bits of a float, which rise with it
+    fe__clusters clusters;
     fe__pair_set pair_set;   // by shape indices
     fe__pair_set ignored;    // by body indices: fe_world_ignore_collision
 
@@ -155,7 +159,8 @@ void fe__body_set_transform(fe_world *world, int32_t body, const fe_transform *t
 void fe__body_set_locks(fe_world *world, int32_t body, uint32_t linear, uint32_t angular);
 void fe__body_place_centre(fe__body *body);           // centre from origin, rotation and local centre
 void fe__body_place(fe_world *world, int32_t body);   // shapes' poses from the body's
-void fe__body_note_speed(fe__body *body);             // after each change of velocity
+void fe__body_note_speed(fe_world *world, fe__body *body);             // after each change of velocity; on any thread
+void fe__body_note_swiftness(fe_world *world, const fe__body *body); // after each change of size
 void fe__body_stretch_boxes(fe_world *world, int32_t body); // boxes that no longer hold what the next step may reach
 void fe__body_disturb(fe_world *world, int32_t body); // wakes it and what touches it; of a static body what touches it
 fe_quat fe__unit_rotation(fe_quat q);                 // unchanged when its length is 1 already, q/|q| else
@@ -163,7 +168,7 @@ fe_quat fe__unit_rotation(fe_quat q);                 // unchanged when its leng
 // ---- motion between steps (motion.c) ----------------------------------------------------------------------------------------------
 // NULL: as it is. Locked components stay 0; wakes the body unless both are 0. Not for static bodies.
 void fe__body_set_velocity(fe_world *world, int32_t body, const fe_vec3 *linear, const fe_vec3 *angular);
-void fe__body_stop_locked(fe__body *body); // zeros the locked components of its velocities
+void fe__body_stop_locked(fe_world *world, fe__body *body); // zeros the locked components of its velocities
 // Only an enabled dynamic body does; on others forces and impulses do nothing, which is no error.
 static inline int32_t fe__body_feels_forces(const fe__body *body) { return body->type == FE_BODY_DYNAMIC && body->flags & FE__BODY_ENABLED; }
 // Sums are clamped (far above anything physical), so that no number of calls makes an infinity.
