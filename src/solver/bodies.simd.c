@@ -65,6 +65,16 @@ static void lock_line(fe__solver *s, const fe__body *body, int32_t line, fe_quat
         if (locks >> k & 1) drive[k] = 0.0f;
 }
 
+// How the gyroscopic torque acts on a body, in the last lane of its spin line: 0 not at all
+#define TURNS_FREELY 1.0f // while it turns, see turn_freely
+#define TURNS_JOINED 2.0f // before the constraints are solved, see advance
+
+static float gyroscopic_kind(const fe__body *body)
+{
+    if (body->flags & FE__BODY_ISOTROPIC || body->type != FE_BODY_DYNAMIC) return 0.0f;
+    return body->joint_count ? TURNS_JOINED : TURNS_FREELY;
+}
+
 FE_INLINE void load_block(fe__solver *s, const fe__body *bodies, int32_t line, const fe__step_constants *c)
 {
     _Alignas(64) int32_t index[FE_W];
@@ -75,7 +85,7 @@ FE_INLINE void load_block(fe__solver *s, const fe__body *bodies, int32_t line, c
         index[i] = body < 0 ? 0 : body;
         is_there[i] = body < 0 ? 0.0f : 1.0f;
         scale[i] = bodies[index[i]].type == FE_BODY_DYNAMIC ? bodies[index[i]].gravity_scale : 0.0f;
-        gyroscopic[i] = bodies[index[i]].flags & FE__BODY_ISOTROPIC || bodies[index[i]].type != FE_BODY_DYNAMIC ? 0.0f : 1.0f;
+        gyroscopic[i] = gyroscopic_kind(bodies + index[i]);
         locked |= body >= 0 && bodies[body].locked && bodies[body].type == FE_BODY_DYNAMIC;
     }
     wide zero = w_set(0.0f), one = w_set(1.0f), there = *(wide *)is_there;
@@ -141,12 +151,17 @@ FE_INLINE wide3 free_change(wide3 world, wide4 axes, wide3 in, wide half_h)
 }
 
 // ---- velocities
-// -------------------------------------------------------------------------------------------------------------------------- f(v): gravity
-// and forces, damping 1 / (1 + h c), the speed limit. With the gyroscopic torque, which acts while the body turns, all that changes a
-// velocity and is no constraint.
+// -------------------------------------------------------------------------------------------------------------------------- f(v): all that
+// changes a velocity and is no constraint: gravity and forces, damping 1 / (1 + h c), the speed limit, and the gyroscopic torque of joined
+// bodies. Of free ones it acts while they turn; a joint must have answered it before its bodies move, or they move apart.
 FE_INLINE void advance(const fe__solver *s, int32_t i, const fe__step_constants *c, wide3 *v, wide3 *w)
 {
-    wide4 push = load_low(s->drive, i), turn = load_high(s->drive, i);
+    wide4 push = load_low(s->drive, i), turn = load_high(s->drive, i), principal = load_high(s->spin, i);
+    wide_mask joined = w_greater(principal.w, w_set(TURNS_FREELY));
+    if (w_any(joined)) {
+        wide4 axes = w_product(load_high(s->motion, i), load_low(s->spin, i));
+        *w = w_choose3(joined, w_add(*w, free_change(*w, axes, w_xyz(principal), w_set(0.5f * c->h))), *w);
+    }
     *v = w_scale(push.w, w_add_scaled(*v, w_set(c->h), w_xyz(push)));
     *w = w_scale(turn.w, w_add_scaled(*w, w_set(c->h), w_xyz(turn)));
     wide square = w_dot(*v, *v), most = w_set(c->max_speed);
@@ -188,7 +203,7 @@ FE_INLINE wide3 turn_freely(fe__solver *s, int32_t i, wide4 turned, const fe__st
 {
     wide4 principal = load_high(s->spin, i), stored = load_high(s->velocity, i), start = load_high(s->start, i);
     wide3 w = w_xyz(stored);
-    wide_mask gyroscopic = w_greater(principal.w, w_set(0.0f));
+    wide_mask gyroscopic = w_and(w_greater(principal.w, w_set(0.0f)), w_not(w_greater(principal.w, w_set(TURNS_FREELY))));
     if (!w_any(gyroscopic)) return w;
     wide half_h = w_set(0.5f * c->h);
     wide3 change = free_change(w, w_product(turned, load_low(s->spin, i)), w_xyz(principal), half_h);
