@@ -55,6 +55,8 @@ SIMD_SETS := plain
 endif
 # The 387 computes in 80 bits and would give results of its own.
 MACHINE_FLAGS := $(if $(filter __i386__,$(MACROS)),-msse2 -mfpmath=sse)
+# WebAssembly has neither shared objects nor, as wasm32-wasi, threads: all runs on the caller.
+SHARING := $(if $(filter __wasm__,$(MACROS)),,-fPIC -pthread)
 
 SIMD_plain := -DFE_W=4 -DFE_PLAIN_C
 SIMD_sse2 := -DFE_W=4 -msse2
@@ -71,9 +73,9 @@ HAVE_neon := -DFE_HAVE_NEON=1
 # rounded to float and back for the double itself.
 STRICT := -fno-fast-math -fno-math-errno -ffp-contract=off -fno-tree-slp-vectorize
 DEFINES := -DFE_BUILD $(if $(SANITIZE),,-DNDEBUG) $(foreach set,$(SIMD_SETS),$(HAVE_$(set)))
-C_FLAGS = -std=gnu11 $(OPT) -fvisibility=hidden -fPIC -pthread $(WARNINGS) -Iinclude -Isrc $(DEFINES) $(SANITIZE_FLAGS) $(CFLAGS) $(MACHINE_FLAGS)
+C_FLAGS = -std=gnu11 $(OPT) -fvisibility=hidden $(SHARING) $(WARNINGS) -Iinclude -Isrc $(DEFINES) $(SANITIZE_FLAGS) $(CFLAGS) $(MACHINE_FLAGS)
 CXX_FLAGS = -std=c++17 $(OPT) -pthread $(CXX_WARNINGS) -Iinclude $(CXXFLAGS)
-LINK_FLAGS = $(SANITIZE_FLAGS) $(LDFLAGS) -pthread
+LINK_FLAGS = $(SANITIZE_FLAGS) $(LDFLAGS) $(filter -pthread,$(SHARING))
 DEPENDENCIES = -MMD -MP -MF $(@:.o=).d
 
 # ---- the library ----------------------------------------------------------------------------------------------------------------

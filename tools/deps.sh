@@ -51,6 +51,16 @@ missing_for_lua() {
     has lua5.4 && lua5.4 -e 'require("luaunit")' 2> /dev/null || echo lua-unit
 }
 
+# The runtime is that of the clang that is there.
+missing_for_wasm() {
+    has llvm-ar || echo llvm
+    has wasm-ld || echo lld
+    has node || echo nodejs
+    test -e /usr/include/wasm32-wasi/stdio.h || echo wasi-libc
+    test -e "$(clang --target=wasm32-wasi --print-libgcc-file-name 2> /dev/null)" ||
+        clang --version | awk 'match($0, /version [0-9]+/) { print "libclang-rt-" substr($0, RSTART + 8, RLENGTH - 8) "-dev-wasm32" }'
+}
+
 # Prints the missing packages, by their Debian names.
 missing() {
     if test "$wanted" = csharp; then
@@ -72,6 +82,7 @@ missing() {
     links "$CC" "$work/cmocka.c" -lcmocka || echo libcmocka-dev
     links "$CC" -fsanitize=address,undefined "$work/empty.c" && links "$CC" -fsanitize=thread "$work/empty.c" ||
         echo "$("$CC" --version | awk '/clang/ && match($0, /version [0-9]+/) { print "libclang-rt-" substr($0, RSTART + 8, RLENGTH - 8) "-dev" }')"
+    if test "$wanted" != fuzz; then missing_for_wasm; fi
     has cmake || echo cmake
     has pkg-config || echo pkg-config
     has valgrind || echo valgrind

@@ -90,7 +90,8 @@ static void build_isotropic_friction(bench_scene *s)
     const int32_t box = bench_box(s, 1.0, 1.0, 1.0, 1000.0, 0.6);
     bench_add_ground(s, 100.0, 0.6);
     for (int32_t i = 0; i < DIRECTIONS; i++) {
-        const double angle = i * BENCH_PI / 16.0, c = cos(angle), d = sin(angle);
+        const double angle = i * BENCH_PI / 16.0;
+        const double c = (double)(float)cos(angle), d = (double)(float)sin(angle); // in floats, in which every libm agrees
         const int32_t body = bench_add_dynamic(s, box, 15.0 * c, 1.0, 15.0 * d);
         bench_turn(&s->bodies[body], 0.0, 1.0, 0.0, -angle);
         s->bodies[body].linear_velocity[0] = (float)(DEPARTURE * c), s->bodies[body].linear_velocity[2] = (float)(DEPARTURE * d);
