@@ -190,7 +190,7 @@ FE_OUT_SMALL(fe_material, material, out_material)
         $1 = NULL;
     }
 %}
-%typemap(freearg, match="in") SWIGTYPE *OUT_RECORD "free($1);"
+%typemap(freearg) SWIGTYPE *OUT_RECORD "free($1);"
 FE_OUT_RECORDS
 // fe_geometry_box and its like return nothing that could fail
 %typemap(argout) fe_geometry *out_geometry %{

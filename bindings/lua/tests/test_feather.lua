@@ -325,4 +325,4 @@ function TestCore.testRandomCalls()
     lu.assertTrue(good > calls / 100)
 end
 
-os.exit(lu.LuaUnit.run())
+os.exit(lu.LuaUnit.run(), true) -- true: with all objects collected, so that a leak shows
