@@ -20,7 +20,8 @@ void fe_query_filter_init(fe_query_filter *filter, uint32_t struct_size)
 
 fe_result fe__read_filter(const char *function, const fe_query_filter *filter, fe_query_filter *copy)
 {
-    *copy = default_filter();
+    // field by field: a copy would read what was just written in other pieces, and wait for it
+    copy->struct_size = sizeof *copy, copy->mask = UINT32_MAX, copy->flags = 0, copy->excluded_count = 0, copy->excluded = NULL;
     if (!filter) return FE_OK;
     FE_READ_STRUCT(filter, copy);
     FE_CHECK_BITS(copy->flags, FE_QUERY_TRIGGERS);
@@ -85,7 +86,7 @@ fe_result fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const 
     fe__fp_state fp = fe__fp_enter();
     fe__scene scene = fe__scene_of(world, &whole);
     fe__probe probe;
-    fe__probe_ray(&probe, *origin, *translation);
+    fe__probe_ray(&probe, origin, translation);
     int32_t hit = fe__cast_closest(&scene, &probe, out_hit);
     fe__fp_leave(fp);
     return hit ? FE_OK : FE_MISS;
@@ -101,7 +102,7 @@ fe_result fe_world_raycast_any(const fe_world *world, const fe_dvec3 *origin, co
     fe__fp_state fp = fe__fp_enter();
     fe__scene scene = fe__scene_of(world, &whole);
     fe__probe probe;
-    fe__probe_ray(&probe, *origin, *translation);
+    fe__probe_ray(&probe, origin, translation);
     int32_t hit = fe__cast_any(&scene, &probe);
     fe__fp_leave(fp);
     return hit ? FE_OK : FE_MISS;
@@ -120,7 +121,7 @@ int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, cons
     fe__fp_state fp = fe__fp_enter();
     fe__scene scene = fe__scene_of(world, &whole);
     fe__probe probe;
-    fe__probe_ray(&probe, *origin, *translation);
+    fe__probe_ray(&probe, origin, translation);
     int32_t count = fe__cast_all(&scene, &probe, out_hits, stride, capacity);
     fe__fp_leave(fp);
     return count;
@@ -248,7 +249,7 @@ static fe_result raycast_shapes(const fe_world *world, int32_t first, int32_t en
     fe__fp_state fp = fe__fp_enter();
     fe__scene scene = fe__scene_of(world, &everything);
     fe__probe probe;
-    fe__probe_ray(&probe, *origin, *translation);
+    fe__probe_ray(&probe, origin, translation);
     int32_t hit = fe__cast_shapes(&scene, &probe, first, end, out_hit);
     fe__fp_leave(fp);
     return hit ? FE_OK : FE_MISS;

@@ -35,7 +35,7 @@ static void set_probe(const batch *b, int32_t i, fe__probe *probe)
 {
     if (!b->form) {
         fe_ray ray = ray_at(b->ways, b->way_stride, i);
-        fe__probe_ray(probe, ray.origin, ray.translation);
+        fe__probe_ray(probe, &ray.origin, &ray.translation);
         return;
     }
     fe_path path = path_at(b->ways, b->way_stride, i);

@@ -26,13 +26,20 @@ typedef struct ray {
 } ray;
 
 // ---- hits ---------------------------------------------------------------------------------------------------------------------
+// Field by field: hits are read at once, and what was written in pieces is not copied whole without a wait.
+static int32_t report(fe__ray_hit *hit, double t, fe_dvec3 normal, double depth, int32_t inside)
+{
+    hit->t = t, hit->depth = depth, hit->inside = inside, hit->triangle = -1;
+    hit->normal.x = normal.x, hit->normal.y = normal.y, hit->normal.z = normal.z;
+    return 1;
+}
+
 // A start inside: the normal is against the direction, or the shortest way out when there is none.
 static int32_t start_inside(const ray *r, double depth, fe_dvec3 way_out, fe__ray_hit *hit)
 {
     double speed = length(r->direction);
     fe_dvec3 normal = speed > 0.0 ? fe__dscale(-1.0 / speed, r->direction) : way_out;
-    *hit = (fe__ray_hit){.t = 0.0, .normal = normal, .depth = fe__maxd(depth, 0.0), .inside = 1, .triangle = -1};
-    return 1;
+    return report(hit, 0.0, normal, fe__maxd(depth, 0.0), 1);
 }
 
 // A hit from outside at s. That s is positive is known; a rounding below 0 is none.
@@ -40,8 +47,7 @@ static int32_t meet(const ray *r, double s, fe_dvec3 normal, fe__ray_hit *hit)
 {
     double t = fe__maxd(s, 0.0) * r->per_s;
     if (!(t <= r->limit)) return 0;
-    *hit = (fe__ray_hit){.t = t, .normal = normal, .depth = 0.0, .inside = 0, .triangle = -1};
-    return 1;
+    return report(hit, t, normal, 0.0, 0);
 }
 
 // ---- round surfaces -----------------------------------------------------------------------------------------------------------

@@ -13,7 +13,7 @@ typedef struct fe__probe {
     fe__axes axes;
 } fe__probe;
 
-void fe__probe_ray(fe__probe *probe, fe_dvec3 origin, fe_dvec3 translation); // its axes mean nothing
+void fe__probe_ray(fe__probe *probe, const fe_dvec3 *origin, const fe_dvec3 *translation); // its axes mean nothing
 fe__probe fe__probe_form(const fe__form *form, const fe_transform *from, fe_dvec3 translation);
 
 // Does it overlap the shape where it starts? Exactly when a cast would start inside.
