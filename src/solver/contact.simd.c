@@ -22,6 +22,10 @@
 #define FROZEN_MASS 0.02f
 // differences of an inertia's moments, over their sum, that no turn shows of
 #define ROUND_INERTIA 1e-4f
+// What sticks may ask for, of its static friction, and not slide. A force above the contact that comes at once turns the body until the
+// normals have answered its moment, a substep later; what was lost by then is asked for again: at most 1.25 times the force. What slides
+// asks for more from a hundredth of a m/s on
+#define BREAKAWAY 1.3f
 // of a load within a substep: an impact
 #define IMPACT_RISE 1.5f
 

@@ -274,7 +274,7 @@ FE_INLINE void NAMED(solve_normals)(ROW *row, const fe__step_constants *c, pair 
 
 // Twist about n, |l| <= mu sum lever_i l_i; then the two tangents at the friction centre as one block, |l| <= mu sum l_i. Twist reaches the
 // tangents through twist_tangent, so that both are applied to the bodies at once. A contact sticks up to the static friction; one that
-// would need more slides, with the dynamic one.
+// would need much more slides, with the dynamic one.
 FE_INLINE void NAMED(solve_friction)(ROW *row, pair *p, int kind)
 {
     wide3 t1, t2, ra = load3(row->centre), rb = w_add(ra, p->span);
@@ -295,7 +295,8 @@ FE_INLINE void NAMED(solve_friction)(ROW *row, pair *p, int kind)
     const wide *m = row->tangent_mass;
     wide l1 = row->tangent_impulse[0] - (m[0] * v1 + m[1] * v2), l2 = row->tangent_impulse[1] - (m[1] * v1 + m[2] * v2);
     wide stick = row->static_friction * load, slide = row->dynamic_friction * load, square = l1 * l1 + l2 * l2;
-    wide shrink = w_choose(w_greater(square, stick * stick), slide / w_sqrt(square), w_set(1.0f));
+    wide most = w_choose(w_greater(square, BREAKAWAY * BREAKAWAY * stick * stick), slide, stick);
+    wide shrink = w_choose(w_greater(square, stick * stick), most / w_sqrt(square), w_set(1.0f));
     l1 = l1 * shrink;
     l2 = l2 * shrink;
     wide3 impulse = w_add_scaled(w_scale(l1 - row->tangent_impulse[0], t1), l2 - row->tangent_impulse[1], t2);

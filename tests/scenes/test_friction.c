@@ -112,6 +112,29 @@ static void static_friction_holds_and_dynamic_friction_brakes(void **state)
     scene_end(&s);
 }
 
+// A force that comes at once, above the contact: static friction holds all of it, whatever the dynamic one is; what topples the box first
+// is left out
+static void a_sudden_force_below_static_friction_moves_nothing(void **state)
+{
+    static const double half_heights[] = {0.1, 0.3, 0.5, 0.7}, shares[] = {0.4, 0.45, 0.5, 0.55, 0.58};
+    for (int h = 0; h < 4; ++h) {
+        for (int f = 0; f < 5; ++f) {
+            scene s = scene_begin(state);
+            fe_material material = {0.6f, 0.4f, 0, 0, 0};
+            add_ground(&s, material);
+            fe_body block = add_dynamic(&s, box(0.5, half_heights[h], 0.5), v3(0, half_heights[h], 0), UNTURNED, material, WATER);
+            run(&s, 60);
+            for (int i = 0; i < 60; ++i) {
+                add_force(&s, block, v3(shares[f] * mass_of(&s, block) * G, 0, 0));
+                run(&s, 1);
+            }
+            FE_WITHIN(position(&s, block).x, -LINEAR_SLOP, LINEAR_SLOP);
+            FE_WITHIN(length(velocity(&s, block)), 0, 0.01);
+            scene_end(&s);
+        }
+    }
+}
+
 enum { DIRECTIONS = 32 };
 
 // d = v0^2 / (2 mu g), within the way of one substep; the same to 0.5 % in every direction: a disc, not a pyramid
@@ -281,6 +304,7 @@ int main(void)
         TEST(a_sliding_box_follows_coulomb_on_a_plank),
         EVERY_WAY_UP(a_block_drags_a_free_slab_to_their_common_velocity),
         EVERY_WAY_UP(static_friction_holds_and_dynamic_friction_brakes),
+        cmocka_unit_test(a_sudden_force_below_static_friction_moves_nothing),
         EVERY_WAY_UP(a_sliding_box_stops_after_the_same_way_in_every_direction),
         EVERY_WAY_UP(a_box_stands_below_its_tipping_angle),
         TEST(a_box_topples_above_its_tipping_angle),
