@@ -32,7 +32,7 @@ static shot add_shot(scene *s, dice *d, vec place, int kind, double speed, doubl
 {
     fe_quat attitude = any_rotation(d);
     shot a = {.centre = place, .normal = rotate(attitude, v3(0, 0, 1)), .speed = speed + wall_speed};
-    double half = uniform(d, 0.005, 0.1), restitution = wall_speed > 0 ? 0 : uniform(d, 0, 1), mu = uniform(d, 0, 1);
+    double half = uniform(d, 0.005, 0.1), restitution = uniform(d, 0, 1), mu = uniform(d, 0, 1);
     a.wall = add_body(s, wall_speed > 0 ? FE_BODY_KINEMATIC : FE_BODY_STATIC, box(30, 30, half), place, attitude, bouncy(mu, restitution),
                       WATER);
     double angle = uniform(d, 0, 70 * DEGREES), around = uniform(d, 0, 2 * PI), gone = uniform(d, 0, 1) * (speed + wall_speed) * STEP;
@@ -292,10 +292,10 @@ static void a_crowd_at_high_speed_stays_in_its_room(void **state)
     dice d = {45};
     scene s = scene_begin(state);
     fe_body bodies[CROWD];
-    add_room(&s, 6, 0.02, bouncy(0.3, 0.0));
+    add_room(&s, 6, 0.02, bouncy(0.3, 0.3));
     for (int k = 0; k < CROWD; ++k) {
         vec place = v3(-5 + 2.5 * (k % 5), -5 + 2.5 * (k / 5 % 5), -4 + 3 * (k / 25));
-        bodies[k] = add_dynamic(&s, fast_form(&d, k % 3), place, any_rotation(&d), bouncy(0.3, 0.0), WATER);
+        bodies[k] = add_dynamic(&s, fast_form(&d, k % 3), place, any_rotation(&d), bouncy(0.3, 0.3), WATER);
         vec v = somewhere(&d, 1);
         set_velocity(&s, bodies[k], times(100 / length(v), v), somewhere(&d, 30));
     }
