@@ -1,0 +1,577 @@
+// Every field of every joint's definition: worlds that differ in it alone come to outcomes that differ as mechanics foretells.
+//
+// The rig: an anchor at the origin holds a block there without gravity, which is pushed along or about one axis. A row of a table says
+// which field takes two values, what else the definition needs, how long it is pushed, what is read, and what the reading should be. The
+// rows of a type must cover every byte of its definition but the few of `elsewhere`: a new field without a row fails.
+#include "scenes/joint_scene.h"
+
+#include <string.h>
+
+enum { DISTANCE, BALL, HINGE, FIXED, SIX, KINDS };
+
+typedef union any_def {
+    fe_joint_def common;
+    fe_distance_def distance;
+    fe_ball_def ball;
+    fe_hinge_def hinge;
+    fe_fixed_def fixed;
+    fe_configurable_def six;
+} any_def;
+
+static const size_t sizes[KINDS] = {sizeof(fe_distance_def), sizeof(fe_ball_def), sizeof(fe_hinge_def), sizeof(fe_fixed_def),
+                                    sizeof(fe_configurable_def)};
+static const char *const kind_names[KINDS] = {"distance", "ball", "hinge", "fixed", "configurable"};
+
+typedef struct row row;
+typedef struct rig {
+    scene s;
+    fe_body anchor, elsewhere, block, other; // `elsewhere`: a second anchor; `other`: a second block
+    fe_joint joint;
+    double mass, moment[3];
+    int kind;
+    const row *row;
+} rig;
+
+struct row {
+    const char *name;
+    size_t offset, size;
+    double values[2];
+    double (*outcome)(const rig *r, double value); // foretold
+    double (*read)(const rig *r);
+    int axis;       // fe_joint_coordinate: of the push and of the reading
+    double push;    // N or N m
+    double seconds; // of it
+    void (*prepare)(any_def *d);
+    void (*put)(rig *r, any_def *d, const row *row, double value); // NULL: a float
+};
+
+#define FIELD(member) #member, offsetof(any_def, member), sizeof(((any_def *)NULL)->member)
+
+// Of the difference of the two outcomes. Springs that creep are told by their slow root alone, which is off by a few per cent
+#define TOLERANCE 0.1
+
+// ---- laws ---------------------------------------------------------------------------------------------------------------------------
+
+static double inertia_of(const rig *r) { return r->row->axis < FE_ABOUT_X ? r->mass : r->moment[r->row->axis - FE_ABOUT_X]; }
+static double spring_of(double hertz, double inertia) { return inertia * 4 * PI * PI * hertz * hertz; } // N/m or N m/rad
+
+static double as_set(const rig *r, double value)
+{
+    (void)r;
+    return value;
+}
+static double reversed(const rig *r, double value)
+{
+    (void)r;
+    return -value;
+}
+static double beyond_rest(const rig *r, double length) // the block rests 2 m from the anchor's point
+{
+    (void)r;
+    return length - 2;
+}
+static double with_the_anchor(const rig *r, double x)
+{
+    (void)r;
+    return x + 2;
+}
+// a rod of 2 m that started askew pulls along its line: from (-2, y) to (0, 0)
+static double askew_of(double y) { return y * (1 - 2 / sqrt(4 + y * y)); }
+static double along_the_rod(const rig *r, double y)
+{
+    (void)r;
+    return askew_of(y);
+}
+static double against_the_rod(const rig *r, double y)
+{
+    (void)r;
+    return -askew_of(y);
+}
+
+static double flight(const rig *r) { return discrete_way(r->row->push / inertia_of(r), r->row->seconds, r->s.h); }
+static double held_if(const rig *r, double value) { return value > 0.5 ? 0 : flight(r); }
+static double flies_if(const rig *r, double value) { return value > 0.5 ? flight(r) : 0; }
+static double stopped_if(const rig *r, double value) { return value > 0.5 ? 0.25 : flight(r); } // at limits of 0.25
+static double mode_decides(const rig *r, double mode) { return mode < 0.5 ? 0 : mode < 1.5 ? 0.25 : flight(r); }
+
+static double gives(const rig *r, double hertz) { return r->row->push / spring_of(hertz, inertia_of(r)); }
+static double gives_by_stiffness(const rig *r, double stiffness) { return r->row->push / stiffness; }
+// far above critical damping: C x' = push - K x
+static double creeps(const rig *r, double ratio)
+{
+    double hertz = 2, rate = 2 * PI * hertz / (2 * ratio);
+    return gives(r, hertz) * (1 - exp(-rate * r->row->seconds));
+}
+static double kind_of_drive(const rig *r, double drive)
+{
+    return drive < 0.5 ? flight(r) : drive < 1.5 ? gives(r, 200) : gives_by_stiffness(r, 200);
+}
+static double no_more_than_cap(const rig *r, double cap) { return fmin(r->row->push, cap); }
+static double spun_up(const rig *r, double force) { return force * r->row->seconds / inertia_of(r); }
+static double whole_if_stronger(const rig *r, double strength) { return strength > r->row->push; }
+
+// ---- readings -----------------------------------------------------------------------------------------------------------------------
+
+static double component(vec a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
+
+// How far the block is moved along, or turned about, the axis
+static double way(const rig *r)
+{
+    int axis = r->row->axis;
+    if (axis < FE_ABOUT_X) return component(position(&r->s, r->block), axis);
+    fe_quat q = compose(inverse(r->s.turn), fe_body_transform(r->s.world, r->block).rotation);
+    return 2 * atan2(component(v3(q.x, q.y, q.z), axis - FE_ABOUT_X), q.w);
+}
+
+static double pace(const rig *r)
+{
+    int axis = r->row->axis;
+    return axis < FE_ABOUT_X ? component(velocity(&r->s, r->block), axis) : component(spin(&r->s, r->block), axis - FE_ABOUT_X);
+}
+
+static double resistance(const rig *r)
+{
+    int axis = r->row->axis;
+    return axis < FE_ABOUT_X ? -component(force_of(&r->s, r->joint), axis) : -component(torque_of(&r->s, r->joint), axis - FE_ABOUT_X);
+}
+
+static double told_angle(const rig *r)
+{
+    fe_joint_state at = state_of(&r->s, r->joint);
+    return component(v3(at.angle, at.swing_y, at.swing_z), r->row->axis - FE_ABOUT_X);
+}
+
+static double is_whole(const rig *r) { return fe_joint_is_valid(r->s.world, r->joint); }
+static double touches(const rig *r) { return fe_body_get_contacts(r->s.world, r->block, NULL, 0, 0); }
+static double told_data(const rig *r)
+{
+    fe_handle data = 0;
+    MUST(fe_joint_get_user_data(r->s.world, r->joint, &data));
+    return (double)data;
+}
+
+// ---- values -------------------------------------------------------------------------------------------------------------------------
+
+static void put_int(rig *r, any_def *d, const row *row, double value)
+{
+    int32_t number = (int32_t)value;
+    (void)r;
+    memcpy((char *)d + row->offset, &number, sizeof number);
+}
+
+static void put_float(rig *r, any_def *d, const row *row, double value)
+{
+    float number = (float)value;
+    (void)r;
+    memcpy((char *)d + row->offset, &number, sizeof number);
+}
+
+// a rotation about the row's axis
+static void put_turn(rig *r, any_def *d, const row *row, double value)
+{
+    int k = row->axis - FE_ABOUT_X;
+    fe_quat q = turned(v3(k == 0, k == 1, k == 2), value);
+    (void)r;
+    memcpy((char *)d + row->offset, &q, sizeof q);
+}
+
+static void put_data(rig *r, any_def *d, const row *row, double value)
+{
+    (void)r, (void)row;
+    d->common.user_data = (fe_handle)value;
+}
+
+static void put_end_a(rig *r, any_def *d, const row *row, double value)
+{
+    (void)row;
+    if (value > 0) d->common.body_a = r->elsewhere;
+}
+
+static void put_end_b(rig *r, any_def *d, const row *row, double value)
+{
+    (void)row;
+    if (value > 0) d->common.body_b = r->other;
+}
+
+// the anchor gets a shape, in which the block stands
+static void put_collide(rig *r, any_def *d, const row *row, double value)
+{
+    fe_geometry ball = sphere(0.1);
+    fe_shape shape;
+    MUST(fe_shape_create(r->s.world, r->anchor, NULL, &ball, &shape));
+    put_int(r, d, row, value);
+}
+
+// ---- what else a definition needs
+// ---------------------------------------------------------------------------------------------------------
+
+#define PREPARE(name, ...) \
+    static void name(any_def *d) { __VA_ARGS__; }
+
+PREPARE(damped, d->common.damping_ratio = 5)
+PREPARE(at_2_hertz, d->common.hertz = 2)
+PREPARE(any_length, d->distance.min_length = 0, d->distance.max_length = 100, d->distance.length = 2)
+PREPARE(no_least_length, d->distance.min_length = 0, d->distance.max_length = 2)
+PREPARE(no_longest_length, d->distance.min_length = 2, d->distance.max_length = 100)
+PREPARE(length_spring, any_length(d), d->distance.spring_hertz = 2)
+PREPARE(length_motor, any_length(d), d->distance.motor_force = 1e6f)
+PREPARE(length_racer, any_length(d), d->distance.motor_speed = 1000)
+PREPARE(cone_set, d->ball.cone_y = d->ball.cone_z = 0.25f)
+PREPARE(cone, d->ball.swing_limited = 1, cone_set(d))
+PREPARE(twist_set, d->ball.min_twist = -0.25f, d->ball.max_twist = 0.25f)
+PREPARE(twist, d->ball.twist_limited = 1, twist_set(d))
+PREPARE(soft_twist, d->ball.twist_limited = 1, d->ball.max_twist = 0, d->ball.limit_hertz = 2, d->ball.limit_damping_ratio = 5)
+PREPARE(ball_drive, d->ball.drive_hertz = 2)
+PREPARE(ball_motor, d->ball.motor_torque = 1e6f)
+PREPARE(ball_racer, d->ball.motor_velocity = fe_make_vec3(1000, 0, 0))
+PREPARE(range_set, d->hinge.min_angle = -0.25f, d->hinge.max_angle = 0.25f)
+PREPARE(range, d->hinge.limited = 1, range_set(d))
+PREPARE(soft_range, d->hinge.limited = 1, d->hinge.max_angle = 0, d->hinge.limit_hertz = 2, d->hinge.limit_damping_ratio = 5)
+PREPARE(hinge_spring, d->hinge.spring_hertz = 2)
+PREPARE(hinge_motor, d->hinge.motor_torque = 1e6f)
+PREPARE(hinge_racer, d->hinge.motor_speed = 1000)
+PREPARE(angular_spring, d->fixed.angular_hertz = 2, d->fixed.angular_damping_ratio = 5)
+
+// ---- rows of what all types have
+// ----------------------------------------------------------------------------------------------------------
+
+static const row common_rows[] = {
+    {FIELD(common.enabled), {1, 0}, held_if, way, 0, 100, 0.5, NULL, put_int},
+    {FIELD(common.body_b), {0, 1}, flies_if, way, 0, 100, 0.5, NULL, put_end_b},
+    {FIELD(common.user_data), {7, 8}, as_set, told_data, 0, 0, 0, NULL, put_data},
+    {FIELD(common.collide_connected), {0, 1}, as_set, touches, 0, 0, 0.02, NULL, put_collide},
+    {FIELD(common.hertz), {2, 4}, gives, way, 0, 100, 5, damped, NULL},
+    {FIELD(common.damping_ratio), {5, 20}, creeps, way, 0, 100, 1, at_2_hertz, NULL},
+    {FIELD(common.break_force), {50, 150}, whole_if_stronger, is_whole, 0, 100, 0.5, NULL, NULL},
+};
+
+// of all but the distance joint, which knows no rotations
+static const row solid_rows[] = {
+    {FIELD(common.body_a), {0, 1}, as_set, way, 1, 0, 2, NULL, put_end_a},
+    {FIELD(common.frame_a.position.x), {0, 0.5}, as_set, way, 0, 0, 2, NULL, NULL},
+    {FIELD(common.frame_a.position.y), {0, 0.5}, as_set, way, 1, 0, 2, NULL, NULL},
+    {FIELD(common.frame_a.position.z), {0, 0.5}, as_set, way, 2, 0, 2, NULL, NULL},
+    {FIELD(common.frame_b.position.x), {0, 0.5}, reversed, way, 0, 0, 2, NULL, NULL},
+    {FIELD(common.frame_b.position.y), {0, 0.5}, reversed, way, 1, 0, 2, NULL, NULL},
+    {FIELD(common.frame_b.position.z), {0, 0.5}, reversed, way, 2, 0, 2, NULL, NULL},
+};
+
+#define TURN_ROWS(prepare_x, prepare_yz)                                                                   \
+    {FIELD(common.frame_a.rotation), {0, 0.5}, as_set, way, FE_ABOUT_X, 0, 3, prepare_x, put_turn},        \
+        {FIELD(common.frame_a.rotation), {0, 0.5}, as_set, way, FE_ABOUT_Y, 0, 3, prepare_yz, put_turn},   \
+        {FIELD(common.frame_a.rotation), {0, 0.5}, as_set, way, FE_ABOUT_Z, 0, 3, prepare_yz, put_turn},   \
+        {FIELD(common.frame_b.rotation), {0, 0.5}, reversed, way, FE_ABOUT_X, 0, 3, prepare_x, put_turn},  \
+        {FIELD(common.frame_b.rotation), {0, 0.5}, reversed, way, FE_ABOUT_Y, 0, 3, prepare_yz, put_turn}, \
+    {                                                                                                      \
+        FIELD(common.frame_b.rotation), {0, 0.5}, reversed, way, FE_ABOUT_Z, 0, 3, prepare_yz, put_turn    \
+    }
+
+// ---- rows of each type
+// --------------------------------------------------------------------------------------------------------------------
+
+static const row distance_rows[] = {
+    {FIELD(common.body_a), {0, 1}, along_the_rod, way, 1, 0, 2, NULL, put_end_a},
+    {FIELD(common.frame_a.position.x), {-2, -1.5}, with_the_anchor, way, 0, 0, 2, NULL, NULL},
+    {FIELD(common.frame_a.position.y), {0, 1}, along_the_rod, way, 1, 0, 2, NULL, NULL},
+    {FIELD(common.frame_a.position.z), {0, 1}, along_the_rod, way, 2, 0, 2, NULL, NULL},
+    {FIELD(common.frame_b.position.x), {0, 0.5}, reversed, way, 0, 0, 2, NULL, NULL},
+    {FIELD(common.frame_b.position.y), {0, 1}, against_the_rod, way, 1, 0, 2, NULL, NULL},
+    {FIELD(common.frame_b.position.z), {0, 1}, against_the_rod, way, 2, 0, 2, NULL, NULL},
+    // only the positions of the frames count: rotations change what is told
+    {FIELD(common.frame_a.rotation), {0, 0.5}, reversed, told_angle, FE_ABOUT_X, 0, 0, NULL, put_turn},
+    {FIELD(common.frame_a.rotation), {0, 0.5}, reversed, told_angle, FE_ABOUT_Y, 0, 0, NULL, put_turn},
+    {FIELD(common.frame_b.rotation), {0, 0.5}, as_set, told_angle, FE_ABOUT_Z, 0, 0, NULL, put_turn},
+    {FIELD(distance.min_length), {1.5, 1.75}, beyond_rest, way, 0, -100, 3, no_least_length, NULL},
+    {FIELD(distance.max_length), {2.25, 2.5}, beyond_rest, way, 0, 100, 3, no_longest_length, NULL},
+    {FIELD(distance.length), {1.5, 2.5}, beyond_rest, way, 0, 0, 3, length_spring, NULL},
+    {FIELD(distance.spring_hertz), {1, 2}, gives, way, 0, 100, 3, any_length, NULL},
+    {FIELD(distance.spring_damping_ratio), {5, 20}, creeps, way, 0, 100, 1, length_spring, NULL},
+    {FIELD(distance.spring_force), {60, 150}, no_more_than_cap, resistance, 0, 100, 3, length_spring, NULL},
+    {FIELD(distance.motor_speed), {-0.5, 0.5}, as_set, pace, 0, 0, 1, length_motor, NULL},
+    {FIELD(distance.motor_force), {50, 100}, spun_up, pace, 0, 0, 0.5, length_racer, NULL},
+};
+
+static const row ball_rows[] = {
+    TURN_ROWS(ball_drive, ball_drive),
+    {FIELD(common.break_torque), {5, 15}, whole_if_stronger, is_whole, FE_ABOUT_X, 10, 0.5, ball_motor, NULL},
+    {FIELD(ball.swing_limited), {0, 1}, stopped_if, way, FE_ABOUT_Y, 10, 0.5, cone_set, put_int},
+    {FIELD(ball.swing_limited), {0, 1}, stopped_if, way, FE_ABOUT_Z, 10, 0.5, cone_set, put_int},
+    {FIELD(ball.cone_y), {0.5, 0.75}, as_set, way, FE_ABOUT_Y, 10, 2, cone, NULL},
+    {FIELD(ball.cone_z), {0.5, 0.75}, as_set, way, FE_ABOUT_Z, 10, 2, cone, NULL},
+    {FIELD(ball.twist_limited), {0, 1}, stopped_if, way, FE_ABOUT_X, 10, 0.5, twist_set, put_int},
+    {FIELD(ball.min_twist), {-0.5, -0.75}, as_set, way, FE_ABOUT_X, -10, 2, twist, NULL},
+    {FIELD(ball.max_twist), {0.5, 0.75}, as_set, way, FE_ABOUT_X, 10, 2, twist, NULL},
+    {FIELD(ball.limit_hertz), {2, 4}, gives, way, FE_ABOUT_X, 10, 5, soft_twist, NULL},
+    {FIELD(ball.limit_damping_ratio), {5, 20}, creeps, way, FE_ABOUT_X, 10, 1, soft_twist, NULL},
+    {FIELD(ball.drive_hertz), {2, 4}, gives, way, FE_ABOUT_X, 10, 3, ball_drive, NULL},
+    {FIELD(ball.drive_damping_ratio), {5, 20}, creeps, way, FE_ABOUT_X, 10, 1, ball_drive, NULL},
+    {FIELD(ball.drive_torque), {6, 15}, no_more_than_cap, resistance, FE_ABOUT_X, 10, 1, ball_drive, NULL},
+    {FIELD(ball.target), {0.25, -0.5}, as_set, way, FE_ABOUT_X, 0, 3, ball_drive, put_turn},
+    {FIELD(ball.target), {0.25, -0.5}, as_set, way, FE_ABOUT_Y, 0, 3, ball_drive, put_turn},
+    {FIELD(ball.target), {0.25, -0.5}, as_set, way, FE_ABOUT_Z, 0, 3, ball_drive, put_turn},
+    {FIELD(ball.motor_velocity.x), {0.5, -1}, as_set, pace, FE_ABOUT_X, 0, 1, ball_motor, NULL},
+    {FIELD(ball.motor_velocity.y), {0.5, -1}, as_set, pace, FE_ABOUT_Y, 0, 1, ball_motor, NULL},
+    {FIELD(ball.motor_velocity.z), {0.5, -1}, as_set, pace, FE_ABOUT_Z, 0, 1, ball_motor, NULL},
+    {FIELD(ball.motor_torque), {1, 3}, spun_up, pace, FE_ABOUT_X, 0, 0.5, ball_racer, NULL},
+};
+
+static const row hinge_rows[] = {
+    TURN_ROWS(hinge_spring, NULL),
+    {FIELD(common.break_torque), {5, 15}, whole_if_stronger, is_whole, FE_ABOUT_Y, 10, 0.5, NULL, NULL},
+    {FIELD(hinge.limited), {0, 1}, stopped_if, way, FE_ABOUT_X, 10, 0.5, range_set, put_int},
+    {FIELD(hinge.min_angle), {-0.5, -0.75}, as_set, way, FE_ABOUT_X, -10, 2, range, NULL},
+    {FIELD(hinge.max_angle), {0.5, 0.75}, as_set, way, FE_ABOUT_X, 10, 2, range, NULL},
+    {FIELD(hinge.limit_hertz), {2, 4}, gives, way, FE_ABOUT_X, 10, 5, soft_range, NULL},
+    {FIELD(hinge.limit_damping_ratio), {5, 20}, creeps, way, FE_ABOUT_X, 10, 1, soft_range, NULL},
+    {FIELD(hinge.spring_hertz), {2, 4}, gives, way, FE_ABOUT_X, 10, 3, hinge_spring, NULL},
+    {FIELD(hinge.spring_damping_ratio), {5, 20}, creeps, way, FE_ABOUT_X, 10, 1, hinge_spring, NULL},
+    {FIELD(hinge.spring_torque), {6, 15}, no_more_than_cap, resistance, FE_ABOUT_X, 10, 1, hinge_spring, NULL},
+    {FIELD(hinge.target), {0.25, -0.5}, as_set, way, FE_ABOUT_X, 0, 3, hinge_spring, NULL},
+    {FIELD(hinge.motor_speed), {0.5, -1}, as_set, pace, FE_ABOUT_X, 0, 1, hinge_motor, NULL},
+    {FIELD(hinge.motor_torque), {1, 3}, spun_up, pace, FE_ABOUT_X, 0, 0.5, hinge_racer, NULL},
+};
+
+static const row fixed_rows[] = {
+    TURN_ROWS(NULL, NULL),
+    {FIELD(common.break_torque), {5, 15}, whole_if_stronger, is_whole, FE_ABOUT_Y, 10, 0.5, NULL, NULL},
+    {FIELD(fixed.angular_hertz), {2, 4}, gives, way, FE_ABOUT_Y, 10, 5, angular_spring, NULL},
+    {FIELD(fixed.angular_damping_ratio), {5, 20}, creeps, way, FE_ABOUT_Z, 10, 1, angular_spring, NULL},
+};
+
+static const row six_rows[] = {
+    TURN_ROWS(NULL, NULL),
+    {FIELD(common.break_torque), {5, 15}, whole_if_stronger, is_whole, FE_ABOUT_Y, 10, 0.5, NULL, NULL},
+};
+
+// ---- rows of an axis, for each of the six
+// ----------------------------------------------------------------------------------------------------
+
+typedef struct axis_row {
+    const char *name;
+    size_t offset, size; // in fe_joint_axis
+    double values[2];
+    double (*outcome)(const rig *r, double value);
+    double (*read)(const rig *r);
+    double push, seconds;
+    fe_joint_axis axis; // what else it needs
+    int is_int;
+} axis_row;
+
+#define OF_AXIS(member) #member, offsetof(fe_joint_axis, member), sizeof(((fe_joint_axis *)NULL)->member)
+#define RANGE .mode = FE_MOTION_LIMITED, .low = -0.25f, .high = 0.25f, .limit_damping_ratio = 1
+#define SOFT_RANGE .mode = FE_MOTION_LIMITED, .low = -0.25f, .limit_hertz = 2, .limit_damping_ratio = 5
+#define SPRING .mode = FE_MOTION_FREE, .drive = FE_DRIVE_HERTZ, .stiffness = 2, .damping = 1, .drive_force = 1e15f
+#define STIFF .mode = FE_MOTION_FREE, .drive = FE_DRIVE_STIFFNESS, .stiffness = 200, .damping = 200, .drive_force = 1e15f
+
+static const axis_row axis_rows[] = {
+    {OF_AXIS(mode), {FE_MOTION_LOCKED, FE_MOTION_LIMITED}, mode_decides, way, 10, 2, {RANGE}, 1},
+    {OF_AXIS(mode),
+     {FE_MOTION_LIMITED, FE_MOTION_FREE},
+     mode_decides,
+     way,
+     40,
+     0.25,
+     {.low = 0.25f, .high = 0.25f, .limit_damping_ratio = 1},
+     1},
+    {OF_AXIS(low), {-0.5, -0.75}, as_set, way, -100, 2, {RANGE}, 0},
+    {OF_AXIS(high), {0.5, 0.75}, as_set, way, 100, 2, {RANGE}, 0},
+    {OF_AXIS(limit_hertz), {2, 4}, gives, way, 10, 5, {SOFT_RANGE}, 0},
+    {OF_AXIS(limit_damping_ratio), {5, 20}, creeps, way, 10, 1, {SOFT_RANGE}, 0},
+    {OF_AXIS(drive), {FE_DRIVE_NONE, FE_DRIVE_HERTZ}, kind_of_drive, way, 1, 1, {STIFF}, 1},
+    {OF_AXIS(drive), {FE_DRIVE_HERTZ, FE_DRIVE_STIFFNESS}, kind_of_drive, way, 10, 5, {STIFF}, 1},
+    {OF_AXIS(target), {0.25, -0.5}, as_set, way, 0, 3, {SPRING}, 0},
+    {OF_AXIS(stiffness), {2, 4}, gives, way, 10, 3, {SPRING}, 0},
+    {OF_AXIS(stiffness), {100, 200}, gives_by_stiffness, way, 10, 8, {STIFF}, 0},
+    {OF_AXIS(damping), {5, 20}, creeps, way, 10, 1, {SPRING}, 0},
+    {OF_AXIS(drive_force), {6, 15}, no_more_than_cap, resistance, 10, 1, {SPRING}, 0},
+    {OF_AXIS(motor_speed), {0.5, -1}, as_set, pace, 0, 1, {.mode = FE_MOTION_FREE, .motor_force = 1e6f}, 0},
+    {OF_AXIS(motor_force), {1, 3}, spun_up, pace, 0, 0.5, {.mode = FE_MOTION_FREE, .motor_speed = 1000}, 0},
+};
+
+// ---- the rig ----------------------------------------------------------------------------------------------------------------------------
+
+static void init(int kind, any_def *d)
+{
+    memset(d, 0, sizeof *d);
+    if (kind == DISTANCE) {
+        fe_distance_def_init(&d->distance, sizeof d->distance);
+        d->common.frame_a.position.x = -2;
+        d->distance.min_length = d->distance.max_length = 2;
+    }
+    if (kind == BALL) fe_ball_def_init(&d->ball, sizeof d->ball);
+    if (kind == HINGE) fe_hinge_def_init(&d->hinge, sizeof d->hinge);
+    if (kind == FIXED) fe_fixed_def_init(&d->fixed, sizeof d->fixed);
+    if (kind == SIX) fe_configurable_def_init(&d->six, sizeof d->six);
+}
+
+static fe_joint create(const rig *r, const any_def *d)
+{
+    fe_joint joint = 0;
+    if (r->kind == DISTANCE) MUST(fe_distance_create(r->s.world, &d->distance, &joint));
+    if (r->kind == BALL) MUST(fe_ball_create(r->s.world, &d->ball, &joint));
+    if (r->kind == HINGE) MUST(fe_hinge_create(r->s.world, &d->hinge, &joint));
+    if (r->kind == FIXED) MUST(fe_fixed_create(r->s.world, &d->fixed, &joint));
+    if (r->kind == SIX) MUST(fe_configurable_create(r->s.world, &d->six, &joint));
+    return joint;
+}
+
+static rig begin(void **state, int kind, const row *row)
+{
+    rig r = {.s = scene_begin(state), .kind = kind, .row = row};
+    set_gravity(&r.s, v3(0, 0, 0));
+    r.anchor = add_anchor(&r.s, v3(0, 0, 0));
+    r.elsewhere = add_anchor(&r.s, v3(0, 1, 0));
+    r.block = add_plain(&r.s, box(0.2, 0.25, 0.15), v3(0, 0, 0));
+    r.other = add_plain(&r.s, sphere(0.1), v3(0, 5, 0));
+    MUST(fe_body_set_filter(r.s.world, r.other, 2, 0)); // when it is drawn to the anchor, it passes the block
+    r.mass = mass_of(&r.s, r.block);
+    for (int k = 0; k < 3; ++k) r.moment[k] = moment_of(&r.s, r.block, k, 0);
+    // a rod that pulls at a point off the centre would turn the block
+    if (kind == DISTANCE) MUST(fe_body_set_locks(r.s.world, r.block, 0, FE_AXIS_ALL));
+    return r;
+}
+
+static void push_block(rig *r, double push)
+{
+    int k = r->row->axis % 3;
+    vec along = v3(push * (k == 0), push * (k == 1), push * (k == 2));
+    if (r->row->axis < FE_ABOUT_X)
+        add_force(&r->s, r->block, along);
+    else
+        add_torque(&r->s, r->block, along);
+}
+
+// The world in which the field has the value: what is read, and in `*out_expected` what was foretold
+static double play(void **state, int kind, const row *row, const fe_joint_axis *axis, double value, double *out_expected)
+{
+    rig r = begin(state, kind, row);
+    any_def d;
+    init(kind, &d);
+    d.common.body_a = r.anchor, d.common.body_b = r.block;
+    if (axis) d.six.axes[row->axis] = *axis;
+    if (row->prepare) row->prepare(&d);
+    (row->put ? row->put : put_float)(&r, &d, row, value);
+    r.joint = create(&r, &d);
+    int steps = (int)(row->seconds / STEP + 0.5);
+    for (int i = 0; i < steps; ++i) {
+        if (row->push != 0) push_block(&r, row->push);
+        run(&r.s, 1);
+    }
+    double reading = row->read(&r);
+    *out_expected = row->outcome(&r, value);
+    scene_end(&r.s);
+    return reading;
+}
+
+static int differs_as_foretold(void **state, int kind, const row *row, const fe_joint_axis *axis)
+{
+    double expected[2], reading[2];
+    for (int i = 0; i < 2; ++i) reading[i] = play(state, kind, row, axis, row->values[i], &expected[i]);
+    double room = TOLERANCE * fabs(expected[1] - expected[0]);
+    if (room > 0 && fabs(reading[0] - expected[0]) <= room && fabs(reading[1] - expected[1]) <= room) return 1;
+    print_error("%s, %s, axis %d: %g gives %.6g, expected %.6g; %g gives %.6g, expected %.6g\n", kind_names[kind], row->name, row->axis,
+                row->values[0], reading[0], expected[0], row->values[1], reading[1], expected[1]);
+    return 0;
+}
+
+// ---- all rows
+// -----------------------------------------------------------------------------------------------------------------------------
+
+typedef struct table {
+    const row *rows;
+    size_t count;
+} table;
+
+#define ROWS(array)                         \
+    {                                       \
+        array, sizeof array / sizeof *array \
+    }
+static const table common_table = ROWS(common_rows), solid_table = ROWS(solid_rows);
+static const table own_tables[KINDS] = {ROWS(distance_rows), ROWS(ball_rows), ROWS(hinge_rows), ROWS(fixed_rows), ROWS(six_rows)};
+enum { AXIS_ROWS = sizeof axis_rows / sizeof *axis_rows };
+
+static row row_of_axis(const axis_row *a, int axis)
+{
+    size_t start = offsetof(any_def, six.axes) + (size_t)axis * sizeof(fe_joint_axis);
+    return (row){a->name, start + a->offset, a->size, {a->values[0], a->values[1]}, a->outcome, a->read, axis,
+                 a->push, a->seconds,        NULL,    a->is_int ? put_int : NULL};
+}
+
+static int try_table(void **state, int kind, const table *t)
+{
+    int misses = 0;
+    for (size_t i = 0; i < t->count; ++i) misses += !differs_as_foretold(state, kind, &t->rows[i], NULL);
+    return misses;
+}
+
+static void each_field_alone_decides_what_mechanics_foretells(void **state)
+{
+    int misses = 0;
+    for (int kind = 0; kind < KINDS; ++kind) {
+        misses += try_table(state, kind, &common_table);
+        if (kind != DISTANCE) misses += try_table(state, kind, &solid_table);
+        misses += try_table(state, kind, &own_tables[kind]);
+    }
+    FE_TRUE(misses == 0);
+}
+
+static void each_field_of_each_axis_alone_decides_too(void **state)
+{
+    int misses = 0;
+    for (int axis = 0; axis < 6; ++axis)
+        for (int i = 0; i < AXIS_ROWS; ++i) {
+            row made = row_of_axis(&axis_rows[i], axis);
+            misses += !differs_as_foretold(state, SIX, &made, &axis_rows[i].axis);
+        }
+    FE_TRUE(misses == 0);
+}
+
+// ---- no field is left out
+// -------------------------------------------------------------------------------------------------------------------
+
+typedef struct exception {
+    int kind; // -1: all
+    size_t offset, size;
+} exception;
+
+#define AWAY(member) offsetof(any_def, member), sizeof(((any_def *)NULL)->member)
+// tests/api/test_joint.c has these: sizes, and what must be 0
+static const exception elsewhere[] = {
+    {-1, AWAY(common.struct_size)},    {-1, AWAY(common.reserved)},           {BALL, AWAY(ball.reserved_end)},
+    {HINGE, AWAY(hinge.reserved_end)}, {DISTANCE, AWAY(common.break_torque)}, // a force along a line through the points has no torque about
+                                                                              // them
+};
+
+static void mark(unsigned char *covered, size_t offset, size_t size) { memset(covered + offset, 1, size); }
+
+static void every_field_of_every_type_has_a_row(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < KINDS; ++kind) {
+        unsigned char covered[sizeof(any_def)] = {0};
+        const table tables[3] = {common_table, own_tables[kind], kind == DISTANCE ? common_table : solid_table};
+        for (int t = 0; t < 3; ++t)
+            for (size_t i = 0; i < tables[t].count; ++i) mark(covered, tables[t].rows[i].offset, tables[t].rows[i].size);
+        for (int axis = 0; axis < 6 && kind == SIX; ++axis)
+            for (int i = 0; i < AXIS_ROWS; ++i) {
+                row made = row_of_axis(&axis_rows[i], axis);
+                mark(covered, made.offset, made.size);
+            }
+        for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; ++i)
+            if (elsewhere[i].kind < 0 || elsewhere[i].kind == kind) mark(covered, elsewhere[i].offset, elsewhere[i].size);
+        for (size_t i = 0; i < sizes[kind]; ++i)
+            if (!covered[i]) fail_msg("byte %zu of a %s joint's definition belongs to a field without a row", i, kind_names[kind]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_field_of_every_type_has_a_row),
+        TEST(each_field_alone_decides_what_mechanics_foretells),
+        TEST_WITH(each_field_alone_decides_what_mechanics_foretells, ", askew", askew),
+        TEST(each_field_of_each_axis_alone_decides_too),
+        TEST_WITH(each_field_of_each_axis_alone_decides_too, ", askew", askew),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
