@@ -113,6 +113,44 @@ static void the_ellipse_does_not_turn_with_the_twist(void **state)
         }
 }
 
+// Ranges that end at half a turn, on one side or on both, hold from either side against a motor and a spring that press on
+static void ends_at_half_a_turn_hold_against_motors_and_springs(void **state)
+{
+    enum { BY_HINGE, BY_BALL, ABOUT_X, ABOUT_Y, ABOUT_Z, WAYS };
+    for (int by = BY_HINGE; by < WAYS; ++by)
+        for (int k = 0; k < 4; ++k) {
+            gyre g = begin_gyre(state);
+            double side = k % 2 ? 1 : -1, load = 20, most = 0;
+            float other = k / 2 ? (float)PI : 0.5f, low = side < 0 ? -(float)PI : -other, high = side > 0 ? (float)PI : other;
+            int about = by <= BY_BALL ? 0 : by - ABOUT_X;
+            fe_joint joint = 0;
+            fe_hinge_def hinge = hinge_def();
+            fe_ball_def ball = ball_def();
+            fe_configurable_def six = configurable_def();
+            fe_joint_axis *axis = &six.axes[FE_ABOUT_X + about];
+            hinge.limited = ball.twist_limited = 1, hinge.min_angle = ball.min_twist = low, hinge.max_angle = ball.max_twist = high;
+            hinge.motor_speed = (float)(4 * side), hinge.motor_torque = ball.motor_torque = (float)load,
+            ball.motor_velocity.x = (float)(4 * side);
+            hinge.spring_hertz = ball.drive_hertz = 1, hinge.target = (float)(side * PI), ball.target = rotation_of(side * PI, 0, 0);
+            *axis = (fe_joint_axis){FE_MOTION_LIMITED, low,        high, 0, 1, FE_DRIVE_HERTZ, (float)(side * PI), 1, 1, 1e15f,
+                                    (float)(4 * side), (float)load};
+            if (by == BY_HINGE) joint = hinge_of(&g, hinge);
+            if (by == BY_BALL) joint = ball_of(&g, ball);
+            if (by >= ABOUT_X) joint = configurable_of(&g, six);
+            for (int i = 0; i < 240; ++i) {
+                run(&g.s, 1);
+                fe_joint_state at = state_of(&g.s, joint);
+                const double x[3] = {(double)at.angle, (double)at.swing_y, (double)at.swing_z};
+                most = fmax(most, side * x[about]);
+            }
+            FE_WITHIN(most, PI - 1 * DEGREES, PI + 1 * DEGREES); // it got there, and never went through
+            FE_NEAR(length(spin(&g.s, g.block)), 0, 1e-3);
+            FE_NEAR(state_of(&g.s, joint).angular_error, joint_give(&g.s, load, g.moment[about]),
+                    0.1 * joint_give(&g.s, load, g.moment[about]));
+            scene_end(&g.s);
+        }
+}
+
 static void a_swing_over_half_a_turn_stays_sane(void **state)
 {
     dice d = {11};
@@ -510,6 +548,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(cone_and_twist_hold_together_from_every_side),
         TEST(the_ellipse_does_not_turn_with_the_twist),
+        TEST(ends_at_half_a_turn_hold_against_motors_and_springs),
         TEST(a_swing_over_half_a_turn_stays_sane),
         TEST(a_target_beyond_a_limit_counts_as_the_limit),
         EVERY_WAY_UP(locks_give_by_their_hertz_and_come_back_by_their_damping),
