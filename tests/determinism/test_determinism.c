@@ -112,6 +112,23 @@ static void gives_the_golden_hashes(void **state)
     for (int32_t i = 0; i < count; ++i) run(c->script, c->simd, workers[i], steps);
 }
 
+// The script is worth its name only while its net is spread over workers, and its weak strings break
+static void joints_have_an_island_that_is_spread_and_strings_that_break(void **state)
+{
+    (void)state;
+    play p;
+    fe_counters counters = {.struct_size = sizeof counters};
+    play_begin(&p, new_world(FE_SIMD_AUTO, 1));
+    play_until(&p, &script_joints, 10);
+    FE_TRUE(fe_world_get_counters(p.world, &counters) == FE_OK);
+    assert_in_range(counters.rows - counters.rows_whole, 1, 100000);
+    play_until(&p, &script_joints, 30);
+    int32_t broken = 0;
+    for (int32_t i = 0; i < p.joint_count; ++i) broken += !fe_joint_is_valid(p.world, p.joints[i]);
+    assert_int_equal(broken, 8 + 1); // of twelve strings, and one that was destroyed
+    fe_world_destroy(p.world);
+}
+
 // The scene is worth its name only while it has the contacts that spread an island over workers
 static void crowd_has_more_than_1000_contacts(void **state)
 {
@@ -248,8 +265,8 @@ static int update(void)
 {
     FILE *file = fopen(GOLDEN, "w");
     if (!file) return 1;
-    const script *const scripts[] = {&script_crowd, &script_mixed, &script_terrain, &script_fast};
-    for (int32_t i = 0; i < 4; ++i) {
+    const script *const scripts[] = {&script_crowd, &script_mixed, &script_terrain, &script_fast, &script_joints};
+    for (int32_t i = 0; i < 5; ++i) {
         fe_world *world = new_world(FE_SIMD_PLAIN, 1);
         play_print(file, scripts[i], world, scripts[i]->steps);
         fe_world_destroy(world);
@@ -271,6 +288,7 @@ int main(int count, char **arguments)
         GOLDEN_TEST(mixed, "plain", FE_SIMD_PLAIN),
         GOLDEN_TEST(terrain, "plain", FE_SIMD_PLAIN),
         GOLDEN_TEST(fast, "plain", FE_SIMD_PLAIN),
+        GOLDEN_TEST(joints, "plain", FE_SIMD_PLAIN),
 #if defined(__x86_64__)
         GOLDEN_TEST(crowd, "sse2", FE_SIMD_SSE2),
         GOLDEN_TEST(crowd, "avx2", FE_SIMD_AVX2),
@@ -279,8 +297,11 @@ int main(int count, char **arguments)
         GOLDEN_TEST(terrain, "avx2", FE_SIMD_AVX2),
         GOLDEN_TEST(terrain, "avx512", FE_SIMD_AVX512),
         GOLDEN_TEST(fast, "sse2", FE_SIMD_SSE2),
+        GOLDEN_TEST(joints, "sse2", FE_SIMD_SSE2),
         GOLDEN_TEST(fast, "avx2", FE_SIMD_AVX2),
+        GOLDEN_TEST(joints, "avx2", FE_SIMD_AVX2),
         GOLDEN_TEST(fast, "avx512", FE_SIMD_AVX512),
+        GOLDEN_TEST(joints, "avx512", FE_SIMD_AVX512),
         GOLDEN_TEST(mixed, "sse2", FE_SIMD_SSE2),
         GOLDEN_TEST(mixed, "avx2", FE_SIMD_AVX2),
         GOLDEN_TEST(mixed, "avx512", FE_SIMD_AVX512),
@@ -289,8 +310,10 @@ int main(int count, char **arguments)
         GOLDEN_TEST(mixed, "neon", FE_SIMD_NEON),
         GOLDEN_TEST(terrain, "neon", FE_SIMD_NEON),
         GOLDEN_TEST(fast, "neon", FE_SIMD_NEON),
+        GOLDEN_TEST(joints, "neon", FE_SIMD_NEON),
 #endif
         cmocka_unit_test(crowd_has_more_than_1000_contacts),
+        cmocka_unit_test(joints_have_an_island_that_is_spread_and_strings_that_break),
         cmocka_unit_test(bodies_far_away_change_no_trajectory),
         cmocka_unit_test(bodies_far_away_change_no_trajectory_in_a_crowd),
         cmocka_unit_test(bodies_far_away_change_no_trajectory_on_terrain),

@@ -10,7 +10,7 @@
 
 #include <stdio.h>
 
-enum { PLAY_MOST_ACTORS = 1024, PLAY_CHECK_STEPS = 50 }; // from one golden hash to the next
+enum { PLAY_MOST_ACTORS = 1024, PLAY_MOST_JOINTS = 1280, PLAY_CHECK_STEPS = 50 }; // from one golden hash to the next
 
 typedef struct play play;
 struct play {
@@ -18,7 +18,9 @@ struct play {
     fe_body actors[PLAY_MOST_ACTORS];  // 0: not there now
     fe_shape shapes[PLAY_MOST_ACTORS]; // the first shape of each
     int32_t actor_count;
-    int32_t groups[16]; // first actors, as the script needs them
+    fe_joint joints[PLAY_MOST_JOINTS]; // in the order of creation
+    int32_t joint_count;
+    int32_t groups[16]; // first actors or joints, as the script needs them
     uint32_t seed;
     int32_t step;   // steps made
     float dt;       // s, of the steps
@@ -38,11 +40,12 @@ typedef struct script {
     void (*act)(play *p); // calls before step p->step + 1
 } script;
 
-extern const script script_crowd; // 1000 contacts, every feature, bodies come and go (play_crowd.c)
-extern const script script_mixed; // 300 bodies fall and come to rest
+extern const script script_crowd;   // 1000 contacts, every feature, bodies come and go (play_crowd.c)
+extern const script script_mixed;   // 300 bodies fall and come to rest
 extern const script script_terrain; // heightfields (play_terrain.c)
 extern const script script_fast;    // bodies that outrun their thickness (play_fast.c)
-extern const script script_brief; // two dozen bodies, 200 steps, every kind of call
+extern const script script_joints;  // joints of all types (play_joints.c)
+extern const script script_brief;   // two dozen bodies, 200 steps, every kind of call
 
 void play_begin(play *p, fe_world *world);               // an empty play; `world` has been made
 void play_until(play *p, const script *s, int32_t step); // builds before the first step
