@@ -167,10 +167,13 @@ FE_INLINE float mean_of(const fe__step_constants *c) { return c->inverse_h / (fl
 
 // change = -m ((1 - fade) v + rate C) - fade l.
 // With w = 2 pi hertz:  fade = 1 / (1 + h w (2 zeta + h w)),  rate = h w^2 fade
-// A stiffness of its own is a spring, which swings: the rigid pass leaves it alone. The world's is a lock that gives.
+// A stiffness of its own is a spring, which swings: the rigid pass leaves it alone. The world's is a lock that gives. Between them, from half
+// of the stiffness that the substeps allow (w h = pi / 4: eight substeps to a period, of which the implicit step damps half of critical
+// anyway), a spring takes a growing share of the rigid pass, and all of it at the most stiff: rows that fight over long arms, and see each
+// other only once a substep, otherwise gain energy.
 typedef struct {
     wide rate, fade;
-    wide rigid; // 1: relaxed rigidly, 0: a spring
+    wide rigid; // the share of the rigid pass: 1 for a lock, 0 for a spring
 } lane_softness;
 
 // hertz 0: as `otherwise`
@@ -178,9 +181,10 @@ FE_INLINE lane_softness softness_of(wide hertz, wide ratio, const lane_softness 
 {
     wide omega = 2.0f * FE_PI * w_min(hertz, w_set(c->joint_hertz));
     wide fade = 1.0f / (1.0f + c->h * omega * (2.0f * ratio + c->h * omega));
+    wide rigid = w_clamp(hertz * (2.0f / c->joint_hertz) - 1.0f, w_set(0.0f), w_set(1.0f));
     wide_mask own = w_greater(hertz, w_set(0.0f));
     return (lane_softness){w_choose(own, c->h * omega * omega * fade, otherwise->rate), w_choose(own, fade, otherwise->fade),
-                           w_choose(own, w_set(0.0f), otherwise->rigid)};
+                           w_choose(own, rigid, otherwise->rigid)};
 }
 
 // of a joint's locks
