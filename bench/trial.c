@@ -131,7 +131,7 @@ static void record(bench_trial *t)
     t->engine->read_poses(t->world, t->poses);
     t->engine->read_motions(t->world, t->motions);
     t->finite = all_finite(t);
-    double kinetic = 0.0, potential = 0.0, fastest = 0.0, gap = 0.0;
+    double kinetic = 0.0, potential = 0.0, fastest = 0.0, gap = 0.0, gaps = 0.0;
     for (int32_t i = 0; i < t->scene.body_count; i++) {
         if (!t->scene.bodies[i].dynamic || t->away[i]) continue;
         note_track(t, i);
@@ -139,10 +139,15 @@ static void record(bench_trial *t)
         potential += potential_of(t, i);
         fastest = fmax(fastest, bench_speed(t, i));
     }
-    for (int32_t i = 0; i < t->scene.joint_count; i++) gap = fmax(gap, gap_of(t, i));
+    for (int32_t i = 0; i < t->scene.joint_count; i++) {
+        const double open = gap_of(t, i);
+        gap = fmax(gap, open);
+        gaps += open;
+    }
     t->kinetic[t->step] = kinetic;
     t->energy[t->step] = kinetic + potential;
     t->gap[t->step] = gap;
+    t->gaps[t->step] = gaps;
     t->fastest[t->step] = fastest;
 }
 
@@ -184,6 +189,7 @@ static void prepare(bench_trial *t)
     t->energy = bench_allocate(steps, sizeof *t->energy);
     t->kinetic = bench_allocate(steps, sizeof *t->kinetic);
     t->gap = bench_allocate(steps, sizeof *t->gap);
+    t->gaps = bench_allocate(steps, sizeof *t->gaps);
     t->fastest = bench_allocate(steps, sizeof *t->fastest);
     for (int32_t i = 0; i < s->body_count; i++) {
         const bench_shape *shape = &s->shapes[s->bodies[i].shape];
@@ -242,7 +248,7 @@ int bench_trial_run(bench_trial *t, const bench_case *rule, int32_t planar, cons
 
 void bench_trial_free(bench_trial *t)
 {
-    void *owned[] = {t->poses, t->motions, t->tracks, t->away, t->masses, t->arms, t->energy, t->kinetic, t->gap, t->fastest};
+    void *owned[] = {t->poses, t->motions, t->tracks, t->away, t->masses, t->arms, t->energy, t->kinetic, t->gap, t->gaps, t->fastest};
     if (t->world != NULL) t->engine->destroy(t->world);
     for (size_t i = 0; i < sizeof owned / sizeof owned[0]; i++) free(owned[i]);
     bench_scene_destroy(&t->scene);

@@ -67,6 +67,7 @@ struct bench_trial {
     double *energy;            ///< after each step, kinetic and potential, J; [0] is the start
     double *kinetic;           ///< likewise, J
     double *gap;               ///< likewise, largest distance of a joint's two anchors, m
+    double *gaps;              ///< likewise, sum of these distances, m
     double *fastest;           ///< likewise, speed of the fastest body, m/s
     double notes[BENCH_NOTES]; ///< the case's own, 0 at the start
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #define IMPACT "an impact of a body hundreds of times as heavy passes on through light ones by one sweep a substep; more substeps narrow it"
+#define WHIP "the end of the falling chain whips: its last turn takes a few substeps; it holds with twelve"
 #define FEW_SUBSTEPS "four substeps are too few for it; it holds with eight"
 
 static const struct known {
@@ -26,6 +27,14 @@ static const struct known {
     {"card-house", 4, "largest tilt, rad", "cards of 2 mm; " FEW_SUBSTEPS},
     {"inclined-plane", 4, "friction 0.8: way / a t2/2", FEW_SUBSTEPS},
     {"door", 4, "largest joint gap, m", "its hinges ask for 120 Hz, of which four substeps allow 60"},
+    {"heavy-chain", 0, "largest sum of joint gaps, m",
+     "its joints in a row are a spring of 0.3 Hz: the ball swings on it as an elastic pendulum, which stretches by 16 m; so with any "
+     "number of substeps"},
+    {"far-chain", 0, "largest joint gap, m", WHIP},
+    {"far-chain-2d", 0, "largest joint gap, m", WHIP},
+    {"joint-grid", 4, "largest joint gap, m", "a net passes a load on by a ball or two a substep; " FEW_SUBSTEPS},
+    {"joint-grid-2d", 4, "largest joint gap, m", "a net passes a load on by a ball or two a substep; " FEW_SUBSTEPS},
+    {"sliders", 0, "off the line 2 s after the pull, m", "drawn out by 30 m they are a soft beam, which swings for more than 2 s"},
 };
 
 const char *bench_known_cause(const bench_trial *t, const bench_check *c)
