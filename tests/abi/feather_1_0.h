@@ -492,7 +492,8 @@ FE_API fe_result fe_shape_get_user_data(const fe_world *world, fe_shape shape, f
 //
 // **Stiffness.** Springs, limits and what a joint holds are springs and dampers given by hertz, 1/s, and damping ratio (1: critical), on the masses that
 // move, so that they do not depend on them. Hertz of 0 mean no spring where one is optional, and as stiff as the world allows
-// (fe_world_tuning.joint_hertz, joint_damping_ratio; without swing) for a limit and for what is held. All are limited to a quarter of the substep rate.
+// (fe_world_tuning.joint_hertz, joint_damping_ratio; without swing) for a limit and for what is held. All are limited to a quarter of the substep rate;
+// limits and what is held swing less and less from half of that on.
 //
 // **Springs and motors** push no harder than their cap, N or N m. A motor reaches for its speed; with speed 0 it is friction. A cap of 0 switches
 // it off.
