@@ -11,13 +11,14 @@
 #include "peers/peer.h"
 #include "random.h"
 #include "report.h"
+#include "svg.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { COUNT = 20000, BLOCK = 500 };
+enum { COUNT = 20000, BLOCK = 500, PLOTTED = 16 };
 
 typedef enum kind { RAY, SPHERE, CAPSULE, BOX, OVERLAP, KINDS } kind;
 static const char *const kind_names[KINDS] = {"ray", "sweep of a sphere", "sweep of a capsule", "sweep of a box", "overlap"};
@@ -123,8 +124,24 @@ static void print_line(const char *what, double ours, double theirs)
     if (theirs > 0.0) printf(" %10.3f %8.2f", theirs, theirs / ours);
 }
 
+// For the plot: Bullet's time over Feather's, by kind
+static double plotted[KINDS][PLOTTED];
+static char plotted_names[PLOTTED][64];
+static int32_t plotted_count;
+
+static int draw(const char *path)
+{
+    const char *labels[PLOTTED];
+    bench_series series[KINDS];
+    for (int32_t i = 0; i < plotted_count; i++) labels[i] = plotted_names[i];
+    for (kind of = RAY; of < KINDS; of++) series[of] = (bench_series){kind_names[of], NULL, plotted[of], plotted_count};
+    return plotted_count > 0 ? bench_svg_bars(path, "Time of a query, Bullet / Feather", labels, plotted_count, series, KINDS) : 0;
+}
+
 static void print_scene(const bench_scene *scene, const side sides[SIDES], FILE *csv)
 {
+    const int32_t plot = plotted_count < PLOTTED && sides[1].engine != NULL ? plotted_count++ : -1;
+    if (plot >= 0) snprintf(plotted_names[plot], sizeof plotted_names[plot], "%s", scene->name);
     printf("\n%s, us each      %16s %10s %8s %9s %9s %10s %10s\n", scene->name, "feather", "bullet", "bullet/", "hits", "bullet",
            "fraction", "bullet");
     for (kind of = RAY; of < KINDS; of++) {
@@ -134,6 +151,7 @@ static void print_scene(const bench_scene *scene, const side sides[SIDES], FILE 
             mean[i] = sides[i].hits[of] > 0 ? sides[i].fractions[of] / sides[i].hits[of] : 0.0;
         }
         print_line(kind_names[of], us[0], us[1]);
+        if (plot >= 0) plotted[of][plot] = us[1] / us[0];
         printf(" %9d %9d %10.6f %10.6f\n", sides[0].hits[of], sides[1].hits[of], mean[0], mean[1]);
         fprintf(csv, "%s,%s,%.6f,%.6f,%d,%d\n", scene->name, kind_names[of], us[0], us[1], sides[0].hits[of], sides[1].hits[of]);
     }
@@ -187,5 +205,6 @@ int bench_command_queries(int argc, char **argv)
     for (int i = 0; i < argc; i++) status |= run_scene(argv[i], csv);
     for (size_t i = 0; i < sizeof usual / sizeof *usual && argc == 0; i++) status |= run_scene(usual[i], csv);
     fclose(csv);
+    status |= draw("build/queries.svg");
     return status == 0 ? 0 : 1;
 }

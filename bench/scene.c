@@ -15,6 +15,8 @@ const bench_family bench_families[] = {
     {"wide", "square pyramid of n levels of boxes", 1, 100, 15, 1, bench_build_wide},
     {"joints", "cloth of n x n spheres on ball joints", 2, 1000, 100, 0, bench_build_joints},
     {"bowl", "n boxes, spheres and capsules poured into a pit", 1, 1000000, 1500, 1, bench_build_bowl},
+    {"fall", "n boxes, spheres and capsules in the air", 1, 1000000, 500, 0, bench_build_fall},
+    {"awake", "n of them tumbling on open ground", 1, 1000000, 2000, 0, bench_build_awake},
     {"level", "n static boxes, for queries", 1, 1000000, 100000, 0, bench_build_level},
     {"terrain", "a heightfield of n x n samples, for queries", 2, 4096, 1024, 0, bench_build_terrain},
 };

@@ -20,6 +20,11 @@ typedef enum bench_form {
     BENCH_TERRAIN  ///< side x side samples, `cell` m apart, of bench_terrain_height, about the body's position; static, for queries
 } bench_form;
 
+typedef enum bench_relief {
+    BENCH_HILLS, ///< of some metres
+    BENCH_WAVES  ///< 0.5 sin sin, in z of 10 samples' length, in x of 5: Box3D's wave height field
+} bench_relief;
+
 /// A form with its material. Bodies share shapes by their index.
 typedef struct bench_shape {
     bench_form form;
@@ -27,6 +32,7 @@ typedef struct bench_shape {
     float radius;      ///< of a sphere or a capsule, m
     float half_height; ///< of a capsule, without its caps, m
     int32_t side;      ///< of a terrain
+    int32_t relief;    ///< of a terrain, bench_relief
     float cell;        ///< of a terrain, m
     float density;     ///< kg/m3
     float friction;    ///< static = dynamic; engines mix two by sqrt(a b)
@@ -116,8 +122,8 @@ bench_shape bench_make_box(float half_x, float half_y, float half_z);
 bench_shape bench_make_sphere(float radius);
 bench_shape bench_make_capsule(float half_height, float radius);
 bench_shape bench_make_terrain(int32_t side, float cell);
-/// m, of the sample in a row (along z) and a column (along x): hills
-float bench_terrain_height(int32_t row, int32_t column);
+/// m, of the sample in a row (along z) and a column (along x)
+float bench_terrain_height(const bench_shape *terrain, int32_t row, int32_t column);
 /// A scene laid out in the plane z = 0 becomes the twin of a two-dimensional one: bodies are locked to the plane; boxes get the depth 1 m;
 /// spheres and capsules get the mass of a disc or a stadium of depth 1 m and the same density (a sphere's inertia stays 2/5 m r2 where a
 /// disc has 1/2).
@@ -143,6 +149,8 @@ void bench_build_many(bench_scene *scene, int32_t n);
 void bench_build_wide(bench_scene *scene, int32_t n);
 void bench_build_joints(bench_scene *scene, int32_t n);
 void bench_build_bowl(bench_scene *scene, int32_t n);
+void bench_build_fall(bench_scene *scene, int32_t n);
+void bench_build_awake(bench_scene *scene, int32_t n);
 void bench_build_level(bench_scene *scene, int32_t n);
 void bench_build_terrain(bench_scene *scene, int32_t n);
 

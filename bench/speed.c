@@ -10,6 +10,7 @@
 #include "random.h"
 #include "report.h"
 #include "run.h"
+#include "svg.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -308,7 +309,40 @@ static int run_table(bench_table *table, const bench_options *options)
     return status;
 }
 
-static int run_scene(const char *name, const bench_options *options, FILE *csv)
+// For the plot: times of each peer over Feather's first run, by median.
+typedef struct ratios {
+    char names[BENCH_MAX_SCENES][64];
+    double over[2][BENCH_MAX_SCENES]; // Bullet, ODE
+    int32_t count;
+} ratios;
+static const char *const plotted[2] = {"bullet", "ode"};
+
+static void note_ratios(const bench_table *table, ratios *out)
+{
+    if (out->count == BENCH_MAX_SCENES || table->run_count == 0 || table->runs[0].engine != &bench_feather) return;
+    const int32_t i = out->count++;
+    snprintf(out->names[i], sizeof out->names[i], "%s", table->scene.name);
+    for (int k = 0; k < 2; k++) {
+        out->over[k][i] = 0.0;
+        for (int32_t r = 0; r < table->run_count; r++) {
+            if (strcmp(table->runs[r].engine->name, plotted[k]) == 0)
+                out->over[k][i] = table->runs[r].stats.median / table->runs[0].stats.median;
+        }
+    }
+}
+
+static int draw_ratios(const char *path, const ratios *all)
+{
+    const char *labels[BENCH_MAX_SCENES];
+    const bench_series series[2] = {{"Bullet / Feather", NULL, all->over[0], all->count},
+                                    {"ODE / Feather", NULL, all->over[1], all->count}};
+    for (int32_t i = 0; i < all->count; i++) labels[i] = all->names[i];
+    return all->count > 0
+               ? bench_svg_bars(path, "Time of a step, as a multiple of Feather's (4 substeps, 1 worker)", labels, all->count, series, 2)
+               : 0;
+}
+
+static int run_scene(const char *name, const bench_options *options, FILE *csv, ratios *all)
 {
     bench_table *table = bench_allocate(1, sizeof *table);
     if (bench_scene_build(name, &table->scene) != 0) {
@@ -321,7 +355,7 @@ static int run_scene(const char *name, const bench_options *options, FILE *csv)
     add_peer_runs(table, options);
     int status = run_table(table, options);
     end_progress();
-    if (status == 0) bench_csv_write(csv, table);
+    if (status == 0) bench_csv_write(csv, table), note_ratios(table, all);
     for (int32_t r = 0; r < table->run_count; r++) {
         if (table->runs[r].world != NULL) table->runs[r].engine->destroy(table->runs[r].world);
         free(table->runs[r].samples);
@@ -338,11 +372,13 @@ int bench_command_speed(int argc, char **argv)
     if (bench_options_parse(&options, argc, argv) != 0 || check_peers(&options) != 0) return 2;
     FILE *csv = bench_csv_open(options.out);
     if (csv == NULL) return 1;
+    static ratios all;
     int status = 0;
-    for (int32_t i = 0; i < options.scene_count; i++) status |= run_scene(options.scenes[i], &options, csv);
+    for (int32_t i = 0; i < options.scene_count; i++) status |= run_scene(options.scenes[i], &options, csv, &all);
     for (int32_t i = 0; i < bench_family_count && options.scene_count == 0; i++) {
-        if (bench_families[i].is_default) status |= run_scene(bench_families[i].name, &options, csv);
+        if (bench_families[i].is_default) status |= run_scene(bench_families[i].name, &options, csv, &all);
     }
     fclose(csv);
+    status |= draw_ratios(bench_svg_path(options.out), &all);
     return status == 0 ? 0 : 1;
 }

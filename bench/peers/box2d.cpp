@@ -185,6 +185,8 @@ int32_t step(bench_world *w, float dt)
     return 0;
 }
 
+void set_gravity(bench_world *w, const double *gravity) { w->world->SetGravity(vector(gravity)); }
+
 int32_t count_bodies(bench_world *w) { return w->world->GetBodyCount(); }
 
 double read_mass(bench_world *w)
@@ -264,6 +266,7 @@ const bench_engine bench_box2d = {
     read_motions,
     add_force,
     add_impulse,
+    set_gravity,
     take_away,
     measure_contacts,
     raycast,

@@ -47,7 +47,7 @@ std::unique_ptr<btCollisionShape> make_terrain(bench_world &w, const bench_shape
 {
     const size_t side = size_t(shape.side);
     std::vector<float> heights(side * side);
-    for (size_t i = 0; i < side * side; i++) heights[i] = bench_terrain_height(int32_t(i / side), int32_t(i % side));
+    for (size_t i = 0; i < side * side; i++) heights[i] = bench_terrain_height(&shape, int32_t(i / side), int32_t(i % side));
     w.heights.push_back(std::move(heights));
     const float most = 8.0f; // m, above all heights
     auto terrain = std::make_unique<btHeightfieldTerrainShape>(shape.side, shape.side, w.heights.back().data(), 1.0f, -most, most, 1,
@@ -270,6 +270,8 @@ void add_impulse(bench_world *w, int32_t body, const double *impulse, const doub
     rigid.applyImpulse(vector(impulse), vector(point) - rigid.getCenterOfMassPosition());
 }
 
+void set_gravity(bench_world *w, const double *gravity) { w->world.setGravity(vector(gravity)); }
+
 // It stays in the list of bodies, a ghost that nothing touches.
 void take_away(bench_world *w, int32_t body)
 {
@@ -363,6 +365,7 @@ const bench_engine bench_bullet = {
     read_motions,
     add_force,
     add_impulse,
+    set_gravity,
     take_away,
     measure_contacts,
     raycast,

@@ -40,7 +40,7 @@ static fe_result add_terrain(fe_world *world, fe_body body, const bench_shape *s
 {
     const size_t side = (size_t)shape->side;
     float *heights = bench_allocate(side * side, sizeof *heights);
-    for (size_t i = 0; i < side * side; i++) heights[i] = bench_terrain_height((int32_t)(i / side), (int32_t)(i % side));
+    for (size_t i = 0; i < side * side; i++) heights[i] = bench_terrain_height(shape, (int32_t)(i / side), (int32_t)(i % side));
     fe_heightfield_def field;
     fe_heightfield_def_init(&field, sizeof field);
     field.rows = field.columns = shape->side, field.cell_x = field.cell_z = shape->cell, field.heights = heights;
@@ -50,6 +50,8 @@ static fe_result add_terrain(fe_world *world, fe_body body, const bench_shape *s
     if (result != FE_OK) return result;
     fe_shape_def def;
     fe_shape_def_init(&def, sizeof def);
+    def.material.static_friction = def.material.dynamic_friction = shape->friction;
+    def.material.rolling_resistance = shape->rolling;
     def.local_position.x = def.local_position.z = -0.5f * shape->cell * (float)(shape->side - 1);
     fe_geometry geometry;
     fe_geometry_heightfield(&geometry, asset);
@@ -306,6 +308,12 @@ static void add_impulse(bench_world *w, int32_t body, const double *impulse, con
     if (fe_body_add_impulse_at(w->world, w->bodies[body], &j, &p) != FE_OK) complain("impulse");
 }
 
+static void set_gravity(bench_world *w, const double *gravity)
+{
+    const fe_vec3 g = narrow(gravity);
+    if (fe_world_set_gravity(w->world, &g) != FE_OK) complain("gravity");
+}
+
 // It stays in the list of bodies, disabled.
 static void take_away(bench_world *w, int32_t body)
 {
@@ -437,6 +445,7 @@ const bench_engine bench_feather = {
     .read_motions = read_motions,
     .add_force = add_force,
     .add_impulse = add_impulse,
+    .set_gravity = set_gravity,
     .take_away = take_away,
     .measure_contacts = measure_contacts,
     .raycast = raycast,

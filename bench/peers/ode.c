@@ -45,11 +45,26 @@ static void set_mass(dBodyID body, const bench_shape *shape)
     dBodySetMass(body, &mass);
 }
 
+// About its middle, like the scene's. The engine keeps a copy of the heights; its record of them lives as long as the program.
+static dGeomID make_terrain(dSpaceID space, const bench_shape *shape)
+{
+    const size_t side = (size_t)shape->side;
+    const double extent = (double)shape->cell * (shape->side - 1);
+    float *heights = bench_allocate(side * side, sizeof *heights);
+    for (size_t i = 0; i < side * side; i++) heights[i] = bench_terrain_height(shape, (int32_t)(i / side), (int32_t)(i % side));
+    dHeightfieldDataID data = dGeomHeightfieldDataCreate();
+    dGeomHeightfieldDataBuildSingle(data, heights, 1, extent, extent, shape->side, shape->side, 1.0, 0.0, 1.0, 0);
+    free(heights);
+    return dCreateHeightfield(space, data, 1);
+}
+
 static dGeomID make_geom(dSpaceID space, const bench_shape *shape)
 {
     switch (shape->form) {
     case BENCH_SPHERE:
         return dCreateSphere(space, (double)shape->radius);
+    case BENCH_TERRAIN:
+        return make_terrain(space, shape);
     case BENCH_CAPSULE:
         return dCreateCapsule(space, (double)shape->radius, 2.0 * (double)shape->half_height);
     case BENCH_BOX:
@@ -198,6 +213,8 @@ static bench_world *create(const bench_scene *scene, int32_t workers, int32_t su
     }
     return w;
 }
+
+static void set_gravity(bench_world *w, const double *gravity) { dWorldSetGravity(w->world, gravity[0], gravity[1], gravity[2]); }
 
 static int can_touch(dGeomID a, dGeomID b)
 {
@@ -359,6 +376,7 @@ const bench_engine bench_ode = {
     .read_motions = read_motions,
     .add_force = add_force,
     .add_impulse = add_impulse,
+    .set_gravity = set_gravity,
     .take_away = take_away,
     .measure_contacts = measure_contacts,
     .raycast = raycast,

@@ -65,6 +65,7 @@ typedef struct bench_engine {
     void (*read_motions)(bench_world *world, bench_motion *out_motions);      ///< likewise; zeros for static bodies
     void (*add_force)(bench_world *world, int32_t body, const double *force); ///< at the centre, N, in the next step
     void (*add_impulse)(bench_world *world, int32_t body, const double *impulse, const double *point); ///< N s, m, world space
+    void (*set_gravity)(bench_world *world, const double *gravity);                                    ///< m/s2, from the next step on
     void (*take_away)(bench_world *world, int32_t body); ///< out of play: no contacts, no joints; its pose is of no interest any more
     /// May touch the engine's contact caches: the last call on a world before its destruction.
     void (*measure_contacts)(bench_world *world, bench_contacts *out_contacts);
@@ -73,10 +74,10 @@ typedef struct bench_engine {
     /// Optional: names of the phases of a step, NULL after the last, and their ms in the last step.
     const char *const *phase_names;
     void (*read_phases)(bench_world *world, double *out_ms);
-    void (*read_counters)(bench_world *world, bench_counters *out_counters); ///< optional
-    uint64_t (*read_hash)(bench_world *world);                               ///< optional
+    void (*read_counters)(bench_world *world, bench_counters *out_counters);              ///< optional
+    uint64_t (*read_hash)(bench_world *world);                                            ///< optional
     int32_t (*sweep)(bench_world *world, const bench_probe *probe, double *out_fraction); ///< optional; 1 on a hit
-    int32_t (*overlap)(bench_world *world, const bench_probe *probe);        ///< optional: how many bodies it overlaps
+    int32_t (*overlap)(bench_world *world, const bench_probe *probe);                     ///< optional: how many bodies it overlaps
 } bench_engine;
 
 extern const bench_engine bench_feather;
