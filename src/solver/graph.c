@@ -18,7 +18,8 @@ enum {
     BATCH_BODIES = 1024,
     // lines of zeros before a batch's bodies, one for each kind of row: what its padding lanes name. A batch's own, so that no two workers
     // write one line
-    DUMMY_LINES = FE__MAX_WIDTH
+    DUMMY_LINES = FE__MAX_WIDTH,
+    AHEAD = 16 // contacts come from the whole of memory: each is asked for so many turns before it is read
 };
 _Static_assert((int)DUMMY_LINES >= (int)FE__ROW_KINDS + (int)SIDES, "one dummy line for each kind that may be in a colour");
 
@@ -237,6 +238,7 @@ static void join_contacts(builder *b)
     for (int32_t i = 0; i < in->contact_count; ++i) {
         int32_t contact = in->awake_contacts[i];
         const fe__contact *m = in->contacts + contact;
+        if (i + AHEAD < in->contact_count) __builtin_prefetch(&in->contacts[in->awake_contacts[i + AHEAD]].colour);
         if (m->colour < 0) continue;
         int32_t awake = in->bodies[m->body_b].awake_index;
         b->linked[2 * b->linked_count] = contact;
@@ -574,7 +576,8 @@ static void make_groups(builder *b, int32_t k, const fe__kernels *kernels)
 static int32_t rows_fit(const fe__solver *s)
 {
     for (int32_t k = 0; k < s->batch_count; ++k)
-        if (s->batches[k].row_bytes > (k < s->large_count ? (int64_t)sizeof(fe__row_block) * s->row_capacity : s->worker_row_bytes)) return 0;
+        if (s->batches[k].row_bytes > (k < s->large_count ? (int64_t)sizeof(fe__row_block) * s->row_capacity : s->worker_row_bytes))
+            return 0;
     return 1;
 }
 

@@ -1,14 +1,20 @@
 // events.c - what the step has to tell: touching begun, kept, ended; impacts; bodies that woke or fell asleep. In the order of creation.
 //
-// A pair touches when a point had an impulse, or a gap of 0 or less, during the step. Exits of pairs that ended otherwise (destroyed, re-filtered,
-// boxes apart) wait in fe_world.owed_events and come out here.
+// A pair touches when a point had an impulse, or a gap of 0 or less, during the step. Exits of pairs that ended otherwise (destroyed,
+// re-filtered, boxes apart) wait in their records (fe_world.first_owed) and come out here.
 #include "world/step.h"
+
+#include <string.h>
 
 static fe_pair_event event_of(const fe_world *w, int32_t pair, int32_t kind)
 {
     const fe__pair *p = w->pairs + pair;
-    return (fe_pair_event){fe__body_handle(w, p->body_a),   fe__body_handle(w, p->body_b),   fe__shape_handle(w, p->shape_a),
-                           fe__shape_handle(w, p->shape_b), kind, (p->flags & FE__PAIR_SENSOR) != 0};
+    return (fe_pair_event){fe__body_handle(w, p->body_a),
+                           fe__body_handle(w, p->body_b),
+                           fe__shape_handle(w, p->shape_a),
+                           fe__shape_handle(w, p->shape_b),
+                           kind,
+                           (p->flags & FE__PAIR_SENSOR) != 0};
 }
 
 static fe__pair_event_record record_of(const fe_world *w, int32_t pair, int32_t kind)
@@ -16,9 +22,30 @@ static fe__pair_event_record record_of(const fe_world *w, int32_t pair, int32_t 
     return (fe__pair_event_record){w->pair_serials[2 * pair], w->pair_serials[2 * pair + 1], event_of(w, pair, kind)};
 }
 
+// Handles may mean nothing any more when it is told: the event itself waits where the contact had its points.
+_Static_assert(sizeof(fe_pair_event) <= sizeof((fe__contact *)0)->point, "an exit fits into its record");
+
 void fe__owe_exit(fe_world *w, int32_t pair)
 {
-    if (w->pairs[pair].events & FE_EVENTS_TOUCH) w->owed_events[w->owed_event_count++] = record_of(w, pair, FE_EXIT);
+    fe_pair_event event = event_of(w, pair, FE_EXIT);
+    memcpy(w->contacts[pair].point, &event, sizeof event);
+    w->pairs[pair].flags = 0;
+    w->pairs[pair].links[0].next = w->first_owed;
+    w->first_owed = pair;
+    ++w->owed_count;
+}
+
+static void tell_owed(fe_world *w)
+{
+    while (w->first_owed) {
+        int32_t pair = w->first_owed;
+        fe__pair_event_record *r = w->pair_events + w->pair_event_count++;
+        *r = (fe__pair_event_record){.serial_a = w->pair_serials[2 * pair], .serial_b = w->pair_serials[2 * pair + 1]};
+        memcpy(&r->event, w->contacts[pair].point, sizeof r->event);
+        w->first_owed = w->pairs[pair].links[0].next;
+        fe__pair_release(w, pair);
+    }
+    w->owed_count = 0;
 }
 
 // arms count from the centre of the solver's A, or of B when A is static; between them lies what the pair moved since it was found
@@ -71,7 +98,8 @@ static void add_hit(fe_world *w, int32_t pair)
     float sign = p->flags & FE__PAIR_FLIPPED ? -1.0f : 1.0f;
     fe_pair_event e = event_of(w, pair, FE_ENTER);
     fe__hit_event_record *r = w->hit_events + w->hit_event_count++;
-    *r = (fe__hit_event_record){w->pair_serials[2 * pair], w->pair_serials[2 * pair + 1],
+    *r = (fe__hit_event_record){w->pair_serials[2 * pair],
+                                w->pair_serials[2 * pair + 1],
                                 {e.body_a, e.body_b, e.shape_a, e.shape_b, fe__contact_point(w, sum.pair, sum.point),
                                  fe__scale(sign, fe__vec3(m->normal[0], m->normal[1], m->normal[2])), sum.approach, sum.impulse, 0}};
 }
@@ -117,11 +145,13 @@ static void tell(fe_world *w, int32_t pair)
     else
         p->flags |= FE__PAIR_TOUCHING;
     if (kind != FE_EXIT && !(p->flags & FE__PAIR_SENSOR)) add_hit(w, pair);
-    if (p->events & (kind == FE_STAY ? (uint32_t)FE_EVENTS_STAY : (uint32_t)FE_EVENTS_TOUCH)) w->pair_events[w->pair_event_count++] = record_of(w, pair, kind);
+    if (p->events & (kind == FE_STAY ? (uint32_t)FE_EVENTS_STAY : (uint32_t)FE_EVENTS_TOUCH))
+        w->pair_events[w->pair_event_count++] = record_of(w, pair, kind);
 }
 
-// ---- order --------------------------------------------------------------------------------------------------------------------------------
-// Stable sorts by B, then by A. The records are moved once, along the cycles of the permutation.
+// ---- order
+// -------------------------------------------------------------------------------------------------------------------------------- Stable
+// sorts by B, then by A. The records are moved once, along the cycles of the permutation.
 static void sort_records(fe__step *step, unsigned char *records, int32_t count, size_t size)
 {
     fe__sort_item *items = step->scratch->sort_items;
@@ -156,8 +186,7 @@ void fe__collect_events(fe__step *step)
 {
     fe_world *w = step->world;
     w->pair_event_count = w->hit_event_count = 0;
-    for (int32_t i = 0; i < w->owed_event_count; ++i) w->pair_events[w->pair_event_count++] = w->owed_events[i];
-    w->owed_event_count = 0;
+    tell_owed(w);
     fe__step_scratch *s = step->scratch;
     atomic_store(&s->result_count, 0);
     fe__parallel_for(&w->workers, w->awake_pair_count, PAIRS_IN_BLOCK, look_block, step);
@@ -185,5 +214,6 @@ void fe__collect_body_events(fe__step *step)
     fe__sort_keys(items, count, items + count);
     w->body_event_count = count;
     for (int32_t i = 0; i < count; ++i)
-        w->body_events[i] = (fe__body_event_record){items[i].key, {fe__body_handle(w, items[i].value), items[i].spare ? FE_WAKE : FE_SLEEP, 0}};
+        w->body_events[i] =
+            (fe__body_event_record){items[i].key, {fe__body_handle(w, items[i].value), items[i].spare ? FE_WAKE : FE_SLEEP, 0}};
 }

@@ -7,13 +7,12 @@
 int32_t fe__reserve_pairs(fe_world *world, int32_t extra)
 {
     fe__memory *memory = &world->memory;
-    int64_t limit = (int64_t)world->pair_limit + extra, count = (int64_t)world->pair_count + world->owed_event_count + extra;
+    int64_t limit = (int64_t)world->pair_limit + extra;
     return FE_RESERVE(memory, world->contacts, world->contact_capacity, limit) &&
            FE_RESERVE(memory, world->pairs, world->pair_capacity, limit) &&
            FE_RESERVE(memory, world->extras, world->extra_capacity, limit) &&
            FE_RESERVE(memory, world->pair_serials, world->serial_capacity, 2 * limit) &&
            FE_RESERVE(memory, world->awake_pairs, world->awake_pair_capacity, limit) &&
-           FE_RESERVE(memory, world->owed_events, world->owed_event_capacity, count) &&
            fe__pair_set_reserve(&world->pair_set, memory, extra);
 }
 
@@ -310,7 +309,7 @@ int32_t fe__pair_create(fe_world *world, int32_t shape_a, int32_t shape_b)
     return pair;
 }
 
-static void release_slot(fe_world *world, int32_t pair)
+void fe__pair_release(fe_world *world, int32_t pair)
 {
     world->pairs[pair].flags = 0;
     world->pairs[pair].links[0].next = world->first_free_pair;
@@ -326,7 +325,7 @@ static void destroy_patches(fe_world *world, int32_t head)
             fe__pair_unlink(world, patch);
             fe__patch_leave(world, patch);
         }
-        release_slot(world, patch);
+        fe__pair_release(world, patch);
     }
     --world->field_pair_count;
 }
@@ -335,14 +334,16 @@ void fe__pair_destroy(fe_world *world, int32_t pair)
 {
     const fe__pair *p = world->pairs + pair;
     destroy_patches(world, pair);
-    if (p->flags & FE__PAIR_TOUCHING) fe__owe_exit(world, pair);
     fe__pair_unlink(world, pair);
     fe__pair_retire(world, pair);
     remove_from_body(world, pair, p->body_a);
     remove_from_body(world, pair, p->body_b);
     fe__pair_set_remove(&world->pair_set, p->shape_a, p->shape_b);
-    release_slot(world, pair);
     --world->pair_count;
+    if (p->flags & FE__PAIR_TOUCHING && p->events & FE_EVENTS_TOUCH)
+        fe__owe_exit(world, pair);
+    else
+        fe__pair_release(world, pair);
 }
 
 void fe__body_drop_pairs(fe_world *world, int32_t body)

@@ -113,7 +113,6 @@ static void free_events(fe_world *world)
 {
     fe__memory *memory = &world->memory;
     FE_FREE(memory, world->pair_events, world->pair_event_capacity);
-    FE_FREE(memory, world->owed_events, world->owed_event_capacity);
     FE_FREE(memory, world->body_events, world->body_event_capacity);
     FE_FREE(memory, world->stirred, world->stirred_capacity);
     FE_FREE(memory, world->hit_events, world->hit_event_capacity);

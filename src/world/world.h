@@ -118,11 +118,10 @@ struct fe_world {
     int32_t *moved;
     int32_t moved_count, moved_capacity;
 
-    // events of the last step, and exits owed to the next one by what the API ended in between
+    // events of the last step, and exits owed to the next one by what ended in between
     fe__pair_event_record *pair_events;
     int32_t pair_event_count, pair_event_capacity;
-    fe__pair_event_record *owed_events;
-    int32_t owed_event_count, owed_event_capacity;
+    int32_t first_owed, owed_count; // records of ended pairs that owe an exit, linked as free ones are; 0: none
     fe__body_event_record *body_events;
     int32_t body_event_count, body_event_capacity;
     int32_t *stirred;        // bodies that woke or fell asleep since the last step's events, each once
@@ -222,6 +221,7 @@ int32_t fe__reserve_pairs(fe_world *world, int32_t extra);
 int32_t fe__pair_create(fe_world *world, int32_t shape_a, int32_t shape_b); // room was reserved; A created first
 int32_t fe__pair_kind(const fe_world *world, int32_t shape_a, int32_t shape_b); // FE__ROW_* of their contact
 void fe__pair_destroy(fe_world *world, int32_t pair);                       // unlinks, sends the exit it owes
+void fe__pair_release(fe_world *world, int32_t pair);                       // a record without a pair is free
 void fe__pair_mix(fe_world *world, int32_t pair);                           // materials, events, row kind
 int32_t fe__next_pair(const fe_world *world, int32_t pair, int32_t body);   // in the list of `body`
 void fe__pair_awaken(fe_world *world, int32_t pair);
@@ -276,7 +276,7 @@ void fe__collide_field_pair(fe_world *world, int32_t head, float dt); // with a 
 fe_result fe__world_step(fe_world *world, float dt);
 void fe__step_scratch_destroy(fe_world *world);
 fe_dvec3 fe__contact_point(const fe_world *world, int32_t pair, int32_t point); // m, world
-void fe__owe_exit(fe_world *world, int32_t pair);   // a touching pair ends: its exit goes to the next step's events
+void fe__owe_exit(fe_world *world, int32_t pair);   // a touching pair ends: its exit goes to the next step's events, its record is kept for it
 uint64_t fe__world_hash(const fe_world *world);
 fe_handle fe__body_handle(const fe_world *world, int32_t body);
 fe_handle fe__shape_handle(const fe_world *world, int32_t shape);
