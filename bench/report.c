@@ -45,8 +45,8 @@ void bench_print_table(const bench_table *table)
 {
     const bench_scene *scene = &table->scene;
     printf("\n%s: %d bodies\n", scene->name, scene->body_count);
-    printf("%-16s %8s %8s %8s %8s | %15s %15s | %8s %8s %8s %8s %8s\n", "", "ms mean", "median", "p99", "cpu", "bullet/ mean,med",
-           "ode/ mean,med", "top m", "deep mm", "drift mm", "z mm", "contacts");
+    printf("%-16s %8s %8s %8s %8s | %15s %15s | %8s %8s %8s %8s %8s %8s\n", "", "ms mean", "median", "p99", "cpu", "bullet/ mean,med",
+           "ode/ mean,med", "top m", "deep mm", "drift mm", "z mm", "gap mm", "contacts");
     for (int32_t i = 0; i < table->run_count; i++) {
         const bench_run *run = &table->runs[i];
         print_label(run);
@@ -55,8 +55,8 @@ void bench_print_table(const bench_table *table)
         print_ratio(table, run, "bullet", run->stats.median, median_of);
         print_ratio(table, run, "ode", run->stats.mean, mean_of);
         print_ratio(table, run, "ode", run->stats.median, median_of);
-        printf(" | %8.3f %8.2f %8.1f %8.2f %8d%s\n", run->quality.top_height, 1e3 * run->contacts.deepest, 1e3 * run->quality.drift,
-               1e3 * run->quality.z_offset, run->contacts.pairs, run->quality.finite ? "" : "  NOT FINITE");
+        printf(" | %8.3f %8.2f %8.1f %8.2f %8.2f %8d%s\n", run->quality.top_height, 1e3 * run->contacts.deepest, 1e3 * run->quality.drift,
+               1e3 * run->quality.z_offset, 1e3 * run->quality.gap, run->contacts.pairs, run->quality.finite ? "" : "  NOT FINITE");
     }
     for (int32_t i = 0; i < table->run_count; i++) {
         const bench_run *run = &table->runs[i];
@@ -111,8 +111,10 @@ FILE *bench_csv_open(const char *path)
         fprintf(stderr, "feather-bench: %s: %s\n", path, strerror(errno));
         return NULL;
     }
-    fprintf(file, "scene,engine,workers,substeps,ms_per_step,ms_median,ms_p99,top_height,deepest_overlap,drift,contacts,points,z_offset,"
-                  "ms_cpu,ms_least,steps,bodies,ray_us,ray_hits,islands,rows,rows_whole,fill,recycled,bytes,hash\n");
+    fprintf(
+        file,
+        "scene,engine,workers,substeps,ms_per_step,ms_median,ms_p99,top_height,deepest_overlap,drift,contacts,points,z_offset,joint_gap,"
+        "ms_cpu,ms_least,steps,bodies,ray_us,ray_hits,islands,rows,rows_whole,fill,recycled,bytes,hash\n");
     return file;
 }
 
@@ -128,8 +130,9 @@ void bench_csv_write(FILE *file, const bench_table *table)
         } else {
             fprintf(file, "1,,");
         }
-        fprintf(file, "%.6f,%.6f,%.6f,%.6f,%.6f,%.6f,%d,%d,%.6f,", s->mean, s->median, s->p99, run->quality.top_height,
-                run->contacts.deepest, run->quality.drift, run->contacts.pairs, run->contacts.points, run->quality.z_offset);
+        fprintf(file, "%.6f,%.6f,%.6f,%.6f,%.6f,%.6f,%d,%d,%.6f,%.6f,", s->mean, s->median, s->p99, run->quality.top_height,
+                run->contacts.deepest, run->quality.drift, run->contacts.pairs, run->contacts.points, run->quality.z_offset,
+                run->quality.gap);
         fprintf(file, "%.6f,%.6f,%d,%d,", cpu_of(run), s->least, run->sample_count, table->scene.body_count);
         if (run->ray_count > 0) {
             fprintf(file, "%.6f,%d,", ray_us_of(run), run->ray_hits);

@@ -10,6 +10,7 @@ typedef struct bench_quality {
     double top_height; ///< of the highest moving body's centre, m
     double drift;      ///< largest horizontal distance of a body from its start, m
     double z_offset;   ///< largest |z - start z|, m: out of the plane of a flat pyramid
+    double gap;        ///< largest distance of a joint's two points, m
     int32_t finite;    ///< 0: some pose is NaN or infinite
 } bench_quality;
 

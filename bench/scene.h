@@ -153,6 +153,7 @@ void bench_build_fall(bench_scene *scene, int32_t n);
 void bench_build_awake(bench_scene *scene, int32_t n);
 void bench_build_level(bench_scene *scene, int32_t n);
 void bench_build_terrain(bench_scene *scene, int32_t n);
+void bench_build_ragdolls(bench_scene *scene, int32_t n);
 
 #ifdef __cplusplus
 }

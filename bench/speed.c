@@ -11,6 +11,7 @@
 #include "report.h"
 #include "run.h"
 #include "svg.h"
+#include "trial.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -247,7 +248,7 @@ static void time_rays(bench_table *table)
 
 static bench_quality measure_quality(const bench_scene *scene, const bench_pose *poses)
 {
-    bench_quality quality = {-HUGE_VAL, 0.0, 0.0, 1};
+    bench_quality quality = {-HUGE_VAL, 0.0, 0.0, 0.0, 1};
     for (int32_t i = 0; i < scene->body_count; i++) {
         if (!scene->bodies[i].dynamic) continue;
         const double *p = poses[i].position, *start = scene->bodies[i].start.position;
@@ -257,6 +258,7 @@ static bench_quality measure_quality(const bench_scene *scene, const bench_pose 
         if (drift > quality.drift) quality.drift = drift;
         if (fabs(z) > quality.z_offset) quality.z_offset = fabs(z);
     }
+    for (int32_t i = 0; i < scene->joint_count; i++) quality.gap = fmax(quality.gap, bench_joint_gap(scene, poses, i));
     return quality;
 }
 

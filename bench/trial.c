@@ -104,16 +104,35 @@ static void note_track(bench_trial *t, int32_t i)
     track->speed = fmax(track->speed, bench_speed(t, i));
 }
 
+static double distance(const bench_pose *pose_a, const double *arm_a, const bench_pose *pose_b, const double *arm_b)
+{
+    double a[3], b[3], d[3];
+    point_in_world(pose_a, arm_a, a);
+    point_in_world(pose_b, arm_b, b);
+    for (int k = 0; k < 3; k++) d[k] = a[k] - b[k];
+    return length(d);
+}
+
+static void find_arms(const bench_scene *s, const bench_joint *j, double arms[2][3])
+{
+    point_in_body(&s->bodies[j->body_a].start, j->anchor, arms[0]);
+    point_in_body(&s->bodies[j->body_b].start, j->is_open ? j->anchor_b : j->anchor, arms[1]);
+}
+
 static double gap_of(const bench_trial *t, int32_t joint)
 {
     const bench_joint *j = &t->scene.joints[joint];
-    double a[3], b[3], d[3];
     if (t->away[j->body_a] || t->away[j->body_b]) return 0.0;
     if (j->kind == BENCH_SLIDER || j->kind == BENCH_DISTANCE) return 0.0; // their anchors may part
-    point_in_world(&t->poses[j->body_a], t->arms[joint][0], a);
-    point_in_world(&t->poses[j->body_b], t->arms[joint][1], b);
-    for (int k = 0; k < 3; k++) d[k] = a[k] - b[k];
-    return length(d);
+    return distance(&t->poses[j->body_a], t->arms[joint][0], &t->poses[j->body_b], t->arms[joint][1]);
+}
+
+double bench_joint_gap(const bench_scene *scene, const bench_pose *poses, int32_t joint)
+{
+    const bench_joint *j = &scene->joints[joint];
+    double arms[2][3];
+    find_arms(scene, j, arms);
+    return distance(&poses[j->body_a], arms[0], &poses[j->body_b], arms[1]);
 }
 
 static int all_finite(const bench_trial *t)
@@ -195,11 +214,7 @@ static void prepare(bench_trial *t)
         const bench_shape *shape = &s->shapes[s->bodies[i].shape];
         if (s->bodies[i].dynamic) t->masses[i] = (double)shape->density * bench_shape_volume(shape);
     }
-    for (int32_t i = 0; i < s->joint_count; i++) {
-        const bench_joint *j = &s->joints[i];
-        point_in_body(&s->bodies[j->body_a].start, j->anchor, t->arms[i][0]);
-        point_in_body(&s->bodies[j->body_b].start, j->is_open ? j->anchor_b : j->anchor, t->arms[i][1]);
-    }
+    for (int32_t i = 0; i < s->joint_count; i++) find_arms(s, &s->joints[i], t->arms[i]);
     bench_trial_forget(t);
 }
 

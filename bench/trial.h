@@ -112,6 +112,7 @@ double bench_highest(const double *series, int32_t from, int32_t to); ///< of se
 double bench_rms(const double *series, int32_t from, int32_t to);
 double bench_rise(const double *series, int32_t from, int32_t to); ///< largest rise above an earlier value
 int32_t bench_step_at(const bench_trial *trial, double seconds);
+double bench_joint_gap(const bench_scene *scene, const bench_pose *poses, int32_t joint); ///< of its two points, m
 double bench_deepest(const bench_trial *trial); ///< overlap, by Feather's narrow phase whoever made the poses, m
 
 /// Bounds of the soft constraints. A loaded point rests at an overlap of force / (effective mass w2), w = 2 pi hertz; a cube on its face,
