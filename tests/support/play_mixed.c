@@ -95,6 +95,50 @@ static void bring_crowd(play *p)
     if (p->step == 80) PLAY(p, fe_body_create_many(p->world, defs, 0, CROWD, crowd));
 }
 
+// a joint of each type between neighbours, one of them too weak for its load; changed, switched, destroyed, and gone with their bodies
+static void bring_joints(play *p)
+{
+    const fe_body *actor = p->actors + FIRST;
+    fe_world *w = p->world;
+    fe_distance_def distance;
+    fe_ball_def ball;
+    fe_hinge_def hinge;
+    fe_fixed_def fixed;
+    fe_configurable_def six;
+    fe_distance_def_init(&distance, sizeof distance), fe_ball_def_init(&ball, sizeof ball), fe_hinge_def_init(&hinge, sizeof hinge);
+    fe_fixed_def_init(&fixed, sizeof fixed), fe_configurable_def_init(&six, sizeof six);
+    distance.body_a = p->actors[ROOF], distance.body_b = actor[0], distance.min_length = 0, distance.max_length = 3;
+    ball.body_a = p->actors[ROOF], ball.body_b = actor[1], ball.break_force = 10; // N
+    hinge.body_a = actor[6], hinge.body_b = actor[7], hinge.limited = 1;
+    fixed.body_a = actor[7], fixed.body_b = actor[8], fixed.hertz = 2;
+    six.body_a = actor[8], six.body_b = actor[17], six.axes[FE_ALONG_Y].mode = FE_MOTION_FREE,
+    six.axes[FE_ABOUT_X].mode = FE_MOTION_LIMITED;
+    PLAY(p, fe_distance_create(w, &distance, &p->joints[0]));
+    PLAY(p, fe_ball_create(w, &ball, &p->joints[1]));
+    PLAY(p, fe_hinge_create(w, &hinge, &p->joints[2]));
+    PLAY(p, fe_fixed_create(w, &fixed, &p->joints[3]));
+    PLAY(p, fe_configurable_create(w, &six, &p->joints[4]));
+}
+
+static void change_joints(play *p)
+{
+    fe_world *w = p->world;
+    fe_hinge_def hinge = {.struct_size = sizeof hinge};
+    fe_joint_def front = {.struct_size = sizeof front};
+    if (p->step == 25) bring_joints(p);
+    if (p->step == 33) {
+        PLAY(p, fe_hinge_get(w, p->joints[2], &hinge));
+        hinge.motor_torque = 1, hinge.motor_speed = 1;
+        PLAY(p, fe_hinge_set(w, p->joints[2], &hinge));
+        PLAY(p, fe_joint_get(w, p->joints[3], &front));
+        front.collide_connected = 1;
+        PLAY(p, fe_joint_set(w, p->joints[3], &front));
+        PLAY(p, fe_joint_set_enabled(w, p->joints[4], 0));
+    }
+    if (p->step == 43) PLAY(p, fe_joint_set_enabled(w, p->joints[4], 1));
+    if (p->step == 48) PLAY(p, fe_joint_destroy(w, p->joints[3]));
+}
+
 static void act_brief(play *p)
 {
     fe_world *w = p->world;
@@ -109,6 +153,7 @@ static void act_brief(play *p)
         play_put(p, i, &a);
     }
     bring_crowd(p);
+    change_joints(p);
     if (p->step == 20) PLAY(p, fe_body_set_type(w, actor[10], FE_BODY_STATIC));
     if (p->step == 30) PLAY(p, fe_body_set_type(w, actor[10], FE_BODY_DYNAMIC));
     if (p->step == 35) PLAY(p, fe_body_set_enabled(w, actor[11], 0));
