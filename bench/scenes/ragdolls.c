@@ -64,7 +64,8 @@ void bench_build_ragdolls(bench_scene *scene, int32_t n)
         const int32_t first = scene->body_count;
         for (int32_t i = 0; i < RAGDOLL_BONES; i++) {
             const ragdoll_bone *bone = &ragdoll_bones[i];
-            scene->bodies[add_bone(scene, bone, shapes[i], x, z)].group = person + 1;
+            const int32_t body = add_bone(scene, bone, shapes[i], x, z); // may move the array
+            scene->bodies[body].group = person + 1;
             if (bone->parent >= 0) add_joint(scene, bone, first + bone->parent, first + i, x, z);
         }
     }
