@@ -38,14 +38,35 @@ static fe_result show_ragdoll(fe_world *world)
     return FE_OK;
 }
 
+// Waves of half a metre across the way, from x = 0 to 48, 0.1 m above the ground at the least
+static fe_result add_hills(fe_world *world)
+{
+    enum { SAMPLES = 97 };
+    static float heights[SAMPLES * SAMPLES];
+    const float cell = 0.5f;
+    fe_heightfield_def field;
+    fe_asset asset;
+    fe_geometry form;
+    fe_body body;
+    for (int i = 0; i < SAMPLES * SAMPLES; ++i) heights[i] = 0.1f + 0.25f * (1 - cosf(0.5f * cell * (float)(i % SAMPLES)));
+    fe_heightfield_def_init(&field, sizeof field);
+    field.rows = field.columns = SAMPLES, field.cell_x = field.cell_z = cell, field.heights = heights;
+    MACHINE_TRY(fe_heightfield_create(world, &field, &asset));
+    fe_geometry_heightfield(&form, asset);
+    return machine_body(world, FE_BODY_STATIC, fe_make_transform(0, 0, -24), &form, 0, &body);
+}
+
 static fe_result show_car(fe_world *world)
 {
+    const double valley = 12.566;
     car c;
-    MACHINE_TRY(car_build(world, 20, 0.1, 0, &c));
-    MACHINE_TRY(car_drive(world, &c, 10, 400, 0));
+    MACHINE_TRY(add_hills(world));
+    MACHINE_TRY(car_build(world, valley, 0.2, 0, &c));
+    MACHINE_TRY(car_drive(world, &c, 6, 400, 0));
     MACHINE_TRY(run(world, 300));
     fe_vec3 v = fe_body_linear_velocity(world, c.chassis);
-    printf("car      drove %.1f m in 5 s, now at %.2f m/s\n", fe_body_transform(world, c.chassis).position.x - 20, (double)v.x);
+    printf("car      drove %.1f m over hills in 5 s, now at %.2f m/s\n", fe_body_transform(world, c.chassis).position.x - valley,
+           (double)v.x);
     return FE_OK;
 }
 
@@ -82,9 +103,9 @@ static fe_result show_crane(fe_world *world)
     MACHINE_TRY(fe_configurable_get(world, c.winch, &rail));
     rail.axes[FE_ALONG_X].target = 4;
     MACHINE_TRY(fe_configurable_set(world, c.winch, &rail));
-    MACHINE_TRY(run(world, 1200));
-    MACHINE_TRY(fe_joint_get_reaction(world, c.chain[CRANE_LINKS], &force, &torque));
-    printf("crane    carried %.0f kg on links of %.0f kg to x = %.2f m; the hook bears %.0f N\n", (double)c.load_mass, (double)c.link_mass,
+    MACHINE_TRY(run(world, 1800));
+    MACHINE_TRY(fe_joint_get_reaction(world, c.cable, &force, &torque));
+    printf("crane    carried %.0f kg on links of %.0f kg to x = %.2f m; the cable bears %.0f N\n", (double)c.load_mass, (double)c.link_mass,
            fe_body_transform(world, c.load).position.x, (double)force.y);
     return FE_OK;
 }

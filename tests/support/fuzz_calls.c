@@ -699,6 +699,8 @@ const fuzz_call fuzz_calls[] = {
     {"fe_hinge_set and such", fuzz_set_joint, 1},
     {"fe_joint_set, set_enabled", fuzz_set_joint_front, 1},
     {"fe_joint_destroy", fuzz_destroy_joint, 0},
+    {"sliders, wheels, motors, rods", fuzz_make_joint, 1},
+    {"fe_joint_set_user_data", fuzz_name_joint, 0},
     {"fe_joint_get_state and such", fuzz_read_joint, 0},
     {"lists and events of joints", fuzz_list_joints, 0},
 };

@@ -189,6 +189,45 @@ int32_t fuzz_set_joint_front(fuzz *f)
     return fe_joint_set(f->world, joint, &d.common);
 }
 
+// what makes whole definitions, and the joint of it
+int32_t fuzz_make_joint(fuzz *f)
+{
+    fe_body a = fuzz_body(f), b = fuzz_body(f);
+    fe_dvec3 point = {0.0, 0.0, 0.0}, other = fuzz_dvec3(f);
+    fe_vec3 axis = {0.0f, 0.0f, 1.0f}, up = {0.25f, 1.0f, 0.0f};
+    float hertz = fuzz_size(f), ratio = fuzz_size(f), size = fuzz_size(f);
+    fe_joint joint = 0;
+    fe_result result;
+    long_joint_def d;
+    init(4, &d);
+    uint8_t which = fuzz_byte(f);
+    if (which & 4) axis = fuzz_vec3(f), up = fuzz_vec3(f);
+    if (fe_body_is_valid(f->world, a)) point = fe_body_transform(f->world, a).position;
+    switch (which % 4) {
+    case 0:
+        result = fe_slider_def_at(f->world, &d.configurable, a, b, &point, &axis);
+        break;
+    case 1:
+        result = fe_wheel_def_at(f->world, &d.configurable, a, b, &point, &axis, &up, hertz, ratio, size);
+        break;
+    case 2:
+        result = fe_motor_def_at(f->world, &d.configurable, a, b, hertz, ratio, 100.0f * size, 10.0f * size);
+        break;
+    default:
+        init(0, &d);
+        result = fe_distance_def_at(f->world, &d.distance, a, b, &point, &other);
+        break;
+    }
+    if (result != FE_OK) return result;
+    fe_joint oldest = f->joints[f->joint_count % FUZZ_HANDLES];
+    if (fe_joint_is_valid(f->world, oldest)) return fe_joint_destroy(f->world, oldest);
+    result = create(f, which % 4 == 3 ? 0 : 4, &d, &joint);
+    if (result == FE_OK) f->joints[f->joint_count++ % FUZZ_HANDLES] = joint;
+    return result;
+}
+
+int32_t fuzz_name_joint(fuzz *f) { return fe_joint_set_user_data(f->world, some_joint(f), fuzz_word(f)); }
+
 int32_t fuzz_destroy_joint(fuzz *f) { return fe_joint_destroy(f->world, some_joint(f)); }
 
 static void check(const fuzz *f, const float *numbers, int32_t count, const char *what)
@@ -212,6 +251,12 @@ int32_t fuzz_read_joint(fuzz *f)
         fe_joint_get_frames(f->world, joint, &a, &b) || fe_joint_get_bodies(f->world, joint, &body_a, &body_b))
         fuzz_fail(f, "a living joint cannot be read");
     if (!fe_body_is_valid(f->world, body_a) || !fe_body_is_valid(f->world, body_b)) fuzz_fail(f, "a joint holds a dead body");
+    fe_joint_def front = {.struct_size = sizeof front};
+    fe_handle data = 0;
+    int32_t enabled = 0;
+    if (fe_joint_get(f->world, joint, &front) || fe_joint_get_enabled(f->world, joint, &enabled) ||
+        fe_joint_get_user_data(f->world, joint, &data) || enabled != front.enabled || data != front.user_data)
+        fuzz_fail(f, "a joint tells two things of itself");
     init(type - 1, &d);
     if (get(f, type - 1, joint, &d) != FE_OK) fuzz_fail(f, "a joint's definition cannot be read");
     check(f, &s.angle, (int32_t)((sizeof s - sizeof s.struct_size) / sizeof(float)), "state of a joint");

@@ -68,6 +68,8 @@ int32_t fuzz_create_joint(fuzz *f);
 int32_t fuzz_join(fuzz *f);
 int32_t fuzz_set_joint(fuzz *f);
 int32_t fuzz_set_joint_front(fuzz *f);
+int32_t fuzz_make_joint(fuzz *f);
+int32_t fuzz_name_joint(fuzz *f);
 int32_t fuzz_destroy_joint(fuzz *f);
 int32_t fuzz_read_joint(fuzz *f);
 int32_t fuzz_list_joints(fuzz *f);
