@@ -464,7 +464,7 @@ static void making_and_destroying_joints_takes_no_more_and_more_memory(void **st
     fe_body a = add_plain(&s, sphere(0.2), v3(0, 0, 0)), b = add_plain(&s, sphere(0.2), v3(1, 0, 0));
     fe_counters counters = {.struct_size = sizeof counters};
     int64_t bytes = 0;
-    const int rounds = SLOW_BUILD ? 500 : 5000;
+    const int rounds = SLOW_BUILD ? 500 : 50000;
     for (int i = 0; i < rounds; ++i) {
         fe_hinge_def hinge = hinge_def();
         fe_configurable_def six = configurable_def();
