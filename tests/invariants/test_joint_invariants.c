@@ -81,7 +81,7 @@ static double stored_in(const crowd *c)
 #if SLOW_BUILD
 enum { SCENES = 6, STEPS = 120, THROWS = 2, DROPS = 2 };
 #else
-enum { SCENES = 60, STEPS = 300, THROWS = 40, DROPS = 40 };
+enum { SCENES = 60, STEPS = 300, THROWS = 200, DROPS = 40 };
 #endif
 
 static void no_joint_adds_energy(void **state)
