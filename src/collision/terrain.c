@@ -145,6 +145,16 @@ static fe__bounds bounds_around(const fe__terrain *t, const fe__form *b, const f
     return (fe__bounds){fe__dsub(t->origin, fe__widen(w)), fe__dadd(t->origin, fe__widen(w))};
 }
 
+// Is a triangle farther than `reach` from a round form's core, whose box has the half widths `core`? Then it has no point of it.
+static int32_t is_beyond(const fe_vec3 v[3], fe_vec3 core, float reach)
+{
+    float x = fe__maxf(fe__minf(fe__minf(v[0].x, v[1].x), v[2].x), -fe__maxf(fe__maxf(v[0].x, v[1].x), v[2].x)) - core.x;
+    float y = fe__maxf(fe__minf(fe__minf(v[0].y, v[1].y), v[2].y), -fe__maxf(fe__maxf(v[0].y, v[1].y), v[2].y)) - core.y;
+    float z = fe__maxf(fe__minf(fe__minf(v[0].z, v[1].z), v[2].z), -fe__maxf(fe__maxf(v[0].z, v[1].z), v[2].z)) - core.z;
+    x = fe__maxf(x, 0.0f), y = fe__maxf(y, 0.0f), z = fe__maxf(z, 0.0f);
+    return x * x + y * y + z * z > reach * reach;
+}
+
 static void gather_all(fe__gathering *g, const fe__form *b, const fe__mat3 *rotation)
 {
     const fe__terrain *t = g->terrain;
@@ -153,11 +163,15 @@ static void gather_all(fe__gathering *g, const fe__form *b, const fe__mat3 *rota
     double depth = sunk(t, b);
     box.high.y += depth;
     if (depth > 0.0) g->felt = FLT_MAX;
+    const float rounding = 1.0001f;
+    fe_vec3 core = {fe__absf(axis.x), fe__absf(axis.y), fe__absf(axis.z)};
+    int32_t is_box = b->type == FE_GEOMETRY_BOX, culls = !is_box && !(depth > 0.0);
     fe__triangle_walk walk = fe__heightfield_walk(t->field, &box, t->origin);
     fe__form triangle;
     for (int32_t i; (i = fe__next_triangle(&walk, &triangle)) >= 0;) {
+        if (culls && is_beyond(triangle.vertex, core, rounding * (b->radius + g->margin))) continue;
         fe__tile tile = fe__tile_of(t, &triangle, i);
-        if (b->type == FE_GEOMETRY_BOX)
+        if (is_box)
             fe__tile_touch_box(g, &tile, b, rotation);
         else
             fe__tile_touch_round(g, &tile, ends, b->radius);

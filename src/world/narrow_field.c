@@ -46,7 +46,8 @@ static void look_at(const pair_view *p, const fe__pose *pose_field, const fe__po
     const fe_world *w = p->world;
     l->v = (fe__view){.a = p->field, .b = p->other, .origin = pose_other->position, .rotation = fe__matrix(pose_field->rotation)};
     l->v.form_a.type = FE_GEOMETRY_HEIGHTFIELD;
-    fe__terrain terrain = {.field = w->fields + p->field->form.field};
+    fe__terrain terrain; // its neighbours mean something up to their count
+    terrain.field = w->fields + p->field->form.field, terrain.neighbour_count = 0;
     terrain.origin = fe__drotate_back(pose_field->rotation, fe__dsub(pose_other->position, pose_field->position));
     if (w->field_pair_count > 1) find_neighbours(w, l, pose_field, &terrain);
     fe__mat3 rotation = fe__matrix(fe__product(fe__conjugate(pose_field->rotation), pose_other->rotation));
@@ -118,8 +119,9 @@ static void assign(plan *plans, int32_t count, const memory *old, int32_t flippe
         slots[s] = (plan){.source = -1};
         int32_t best = -1;
         float most = alike;
+        if (!(old->contacts[s].normal[3] > 0.0f)) continue;
         fe_vec3 n = fe__quad_vector(old->contacts[s].normal);
-        for (int32_t i = 0; i < count && old->contacts[s].normal[3] > 0.0f; ++i) {
+        for (int32_t i = 0; i < count; ++i) {
             float cosine = (flipped ? -1.0f : 1.0f) * fe__dot(n, world_normal(plans + i));
             if (plans[i].source < 0 && cosine > most) most = cosine, best = i;
         }
@@ -178,14 +180,19 @@ static void write_records(fe_world *world, int32_t head, plan *plans, int32_t co
     plan slots[FE__PATCHES];
     int32_t records[FE__PATCHES], n = 0;
     for (int32_t r = head; r >= 0; r = world->pairs[r].next_patch) {
-        old.contacts[n] = world->contacts[r];
-        old.extras[n] = world->extras[r];
-        memcpy(old.ids[n], world->pairs[r].ids, sizeof old.ids[n]);
         records[n++] = r;
+        old.contacts[n - 1].normal[3] = 0.0f;
+        if (!(world->contacts[r].normal[3] > 0.0f)) continue;
+        old.contacts[n - 1] = world->contacts[r];
+        old.extras[n - 1] = world->extras[r];
+        memcpy(old.ids[n - 1], world->pairs[r].ids, sizeof old.ids[n - 1]);
     }
     int32_t flipped = world->contacts[head].body_a != now->v.a->body;
     assign(plans, count, &old, flipped, slots);
-    for (int32_t i = 0; i < FE__PATCHES; ++i) write_record(world, records[i], slots + i, now, &old, tolerance);
+    for (int32_t i = 0; i < FE__PATCHES; ++i) {
+        int32_t was_empty = !(old.contacts[i].normal[3] > 0.0f);
+        if (i == 0 || slots[i].patch || !was_empty) write_record(world, records[i], slots + i, now, &old, tolerance);
+    }
 }
 
 // ---- the pair
