@@ -11,6 +11,7 @@ int bench_command_compare(int argc, char **argv);
 int bench_command_profile(int argc, char **argv);
 int bench_command_scaling(int argc, char **argv);
 int bench_command_table(int argc, char **argv);
+int bench_command_peers(int argc, char **argv);
 int bench_command_check(int argc, char **argv);
 int bench_command_update(int argc, char **argv);
 int bench_command_list(int argc, char **argv);

@@ -23,6 +23,7 @@ static const command commands[] = {
     {"profile", bench_command_profile, "where the time of a step goes: profile SCENE"},
     {"scaling", bench_command_scaling, "time and memory of 100 to 100 000 bodies, 1 and 2 workers"},
     {"table", bench_command_table, "a table as Markdown: table FILE.csv [COLUMN]..."},
+    {"peers", bench_command_peers, "are all engines built from the same data? Bodies, mass and places before the first step"},
     {"check", bench_command_check, "the regression set against bench/reference.json: exit 1 on a regression"},
     {"update", bench_command_update, "accepts the present results as the reference"},
     {"list", bench_command_list, "the scenes, the cases and the engines"},

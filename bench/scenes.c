@@ -71,10 +71,15 @@ static void print_trial(const bench_trial *t, int32_t all_checks)
 
 static void write_csv(FILE *csv, const bench_trial *t)
 {
+    char settings[64];
+    if (t->engine->has_workers)
+        snprintf(settings, sizeof settings, "%d", t->substeps);
+    else
+        snprintf(settings, sizeof settings, "%s", t->engine->settings);
     for (int32_t i = 0; i < t->check_count; i++) {
         const bench_check *c = &t->checks[i];
         const char *cause = cause_of(t, c);
-        fprintf(csv, "%s,%s,%d,\"%s\",%.9g,%.9g,%.9g,%d,%.6f,%016" PRIx64 ",\"%s\"\n", t->scene.name, t->engine->name, t->substeps, c->what,
+        fprintf(csv, "%s,%s,%s,\"%s\",%.9g,%.9g,%.9g,%d,%.6f,%016" PRIx64 ",\"%s\"\n", t->scene.name, t->engine->name, settings, c->what,
                 c->value, c->low, c->high, bench_check_passed(t, c), t->step > 0 ? t->ms / t->step : 0.0, t->hash,
                 cause != NULL ? cause : "");
     }
@@ -87,7 +92,7 @@ static FILE *open_csv(const char *path)
         fprintf(stderr, "feather-bench: %s: %s\n", path, strerror(errno));
         return NULL;
     }
-    fprintf(csv, "case,engine,substeps,measure,value,low,high,ok,ms_per_step,hash,cause\n");
+    fprintf(csv, "case,engine,settings,measure,value,low,high,ok,ms_per_step,hash,cause\n");
     return csv;
 }
 

@@ -10,6 +10,7 @@
 #include "random.h"
 #include "report.h"
 #include "run.h"
+#include "start.h"
 #include "svg.h"
 #include "trial.h"
 
@@ -105,37 +106,7 @@ static int check_peers(const bench_options *options)
     return 0;
 }
 
-// ---- the same start for all -------------------------------------------------------------------------------------------------------
-
-// Every engine must hold the scene's bodies, mass and poses, or the times compare different things.
-static int check_start(bench_table *table, bench_run *run)
-{
-    const double mass_tolerance = 1e-5;  // relative: float sums of float masses
-    const double place_tolerance = 1e-4; // m: a float at 500 m has steps of 3e-5
-    const bench_scene *scene = &table->scene;
-    const char *name = run->engine->name;
-    int32_t count = run->engine->count_bodies(run->world);
-    if (count != scene->body_count) {
-        fprintf(stderr, "feather-bench: %s has %d bodies on %s instead of %d\n", name, count, scene->name, scene->body_count);
-        return -1;
-    }
-    double mass = run->engine->read_mass(run->world), expected = bench_scene_mass(scene);
-    if (!(fabs(mass - expected) <= mass_tolerance * expected)) {
-        fprintf(stderr, "feather-bench: %s has %.9g kg on %s instead of %.9g\n", name, mass, scene->name, expected);
-        return -1;
-    }
-    run->engine->read_poses(run->world, table->poses);
-    for (int32_t i = 0; i < count; i++) {
-        const double *is = table->poses[i].position, *must = scene->bodies[i].start.position;
-        if (fabs(is[0] - must[0]) <= place_tolerance && fabs(is[1] - must[1]) <= place_tolerance &&
-            fabs(is[2] - must[2]) <= place_tolerance)
-            continue;
-        fprintf(stderr, "feather-bench: %s starts body %d of %s at (%g, %g, %g) instead of (%g, %g, %g)\n", name, i, scene->name, is[0],
-                is[1], is[2], must[0], must[1], must[2]);
-        return -1;
-    }
-    return 0;
-}
+// ---- worlds ---------------------------------------------------------------------------------------------------------------------------
 
 static int create_world(bench_table *table, bench_run *run, int32_t steps)
 {
@@ -145,7 +116,7 @@ static int create_world(bench_table *table, bench_run *run, int32_t steps)
         return -1;
     }
     run->samples = bench_allocate((size_t)steps, sizeof *run->samples);
-    return check_start(table, run);
+    return bench_check_start(run->engine, run->world, &table->scene);
 }
 
 // ---- time -------------------------------------------------------------------------------------------------------------------------
@@ -339,9 +310,8 @@ static int draw_ratios(const char *path, const ratios *all)
     const bench_series series[2] = {{"Bullet / Feather", NULL, all->over[0], all->count},
                                     {"ODE / Feather", NULL, all->over[1], all->count}};
     for (int32_t i = 0; i < all->count; i++) labels[i] = all->names[i];
-    return all->count > 0
-               ? bench_svg_bars(path, "Time of a step, as a multiple of Feather's (4 substeps, 1 worker)", labels, all->count, series, 2)
-               : 0;
+    return all->count > 0 ? bench_svg_bars(path, "Time of a step, as a multiple of Feather's first column", labels, all->count, series, 2)
+                          : 0;
 }
 
 static int run_scene(const char *name, const bench_options *options, FILE *csv, ratios *all)

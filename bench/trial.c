@@ -2,6 +2,7 @@
 #include "trial.h"
 
 #include "memory.h"
+#include "start.h"
 #include "stats.h"
 
 #include <math.h>
@@ -244,6 +245,15 @@ static int make_steps(bench_trial *t)
     return 0;
 }
 
+static void limit_steps(bench_trial *t)
+{
+    int32_t dynamic = 0;
+    for (int32_t i = 0; i < t->scene.body_count; i++) dynamic += t->scene.bodies[i].dynamic != 0;
+    if (t->engine->body_steps == 0.0 || dynamic == 0 || t->engine->body_steps >= (double)t->step_count * dynamic) return;
+    t->step_count = (int32_t)(t->engine->body_steps / dynamic);
+    t->stopped = 1;
+}
+
 int bench_trial_run(bench_trial *t, const bench_case *rule, int32_t planar, const bench_engine *engine, int32_t workers, int32_t substeps)
 {
     memset(t, 0, sizeof *t);
@@ -254,9 +264,13 @@ int bench_trial_run(bench_trial *t, const bench_case *rule, int32_t planar, cons
     bench_trial_build(&t->scene, rule, planar);
     t->step_count = (int32_t)lround(rule->seconds / (double)t->scene.dt);
     prepare(t);
+    limit_steps(t);
     t->world = engine->create(&t->scene, workers, substeps);
-    if (t->world == NULL || make_steps(t) != 0) return -1;
-    if (t->finite) rule->judge(t);
+    if (t->world == NULL || bench_check_start(engine, t->world, &t->scene) != 0 || make_steps(t) != 0) return -1;
+    if (t->stopped)
+        bench_expect(t, "simulated, s", t->time, rule->seconds, rule->seconds);
+    else if (t->finite)
+        rule->judge(t);
     if (engine->read_hash != NULL) t->hash = engine->read_hash(t->world);
     return 0;
 }

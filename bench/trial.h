@@ -73,9 +73,10 @@ struct bench_trial {
 
     bench_check checks[BENCH_MAX_CHECKS];
     int32_t check_count;
-    int32_t finite; ///< 0: some pose was NaN or infinite, and the run ended there
-    double ms;      ///< of all steps
-    uint64_t hash;  ///< at the end, where the engine tells
+    int32_t stopped; ///< 1: the engine's limit of steps was reached, and nothing was judged
+    int32_t finite;  ///< 0: some pose was NaN or infinite, and the run ended there
+    double ms;       ///< of all steps
+    uint64_t hash;   ///< at the end, where the engine tells
 };
 
 /// The case called `name`, or "name-2d" for its planar twin. NULL: none.

@@ -257,6 +257,7 @@ const bench_engine bench_box2d = {
     "8 velocity, 3 position iterations",
     1,
     0,
+    0.0,
     create,
     destroy,
     step,

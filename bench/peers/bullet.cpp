@@ -356,6 +356,7 @@ const bench_engine bench_bullet = {
     "sequential impulses, 10 iterations",
     0,
     0,
+    0.0,
     create,
     destroy,
     step,
