@@ -6,7 +6,7 @@
 #   make python     the Python package in build/python; make test-python: its tests; likewise for the other languages of bindings/
 #   make fuzz       FUZZ_SECONDS=600 of random calls of the API, with clang's libFuzzer and sanitizers
 #   make bench      speed, beside Bullet and ODE where they are installed
-#   make proof      docs/PROOF.md: every case and speed scene in every engine; some minutes
+#   make proof      docs/PROOF.md: every case and speed scene in every engine; some minutes (PROOF="lines page": only these parts, see tools/proof)
 #   make install    PREFIX, LIBDIR, INCLUDEDIR, DESTDIR;  make uninstall takes it away again
 #   make examples, deps, format, clean
 #
@@ -221,7 +221,7 @@ bench: bench-build
 proof:
 	@tools/deps.sh all
 	@+$(MAKE) --no-print-directory $(PARALLEL) bench-build
-	tools/proof $(BUILD)
+	tools/proof $(BUILD) $(PROOF)
 
 # ---- bindings: `make python`, `make test-python` and so on --------------------------------------------------------------------------------
 
