@@ -2,6 +2,7 @@
 // criteria, speed by phase, as a ratio to a calibration loop that runs between the steps, so that it means the same on every machine.
 #include "bench.h"
 
+#include "answers.h"
 #include "memory.h"
 #include "reference.h"
 #include "stats.h"
@@ -165,6 +166,25 @@ static int32_t check_speed(const bench_reference *was)
     return 1;
 }
 
+// The fastest of several rounds in each of up to ATTEMPTS runs.
+static int32_t check_answers(const bench_reference *was, int32_t set, int32_t no_speed)
+{
+    bench_reference now;
+    if (bench_answers(set, no_speed ? NULL : calibrate, &now) != 0) return 1;
+    int32_t bad = check_results(was, &now, 1), slow = -1;
+    for (int32_t attempt = 1; attempt <= ATTEMPTS && !no_speed; attempt++) {
+        slow = -1;
+        for (int32_t p = 0; p < now.phase_count; p++) {
+            if (now.phases[p] > SLOWER * was->phases[p]) slow = p;
+        }
+        if (slow < 0) break;
+        if (attempt < ATTEMPTS && bench_answers(set, calibrate, &now) != 0) return 1;
+    }
+    if (slow >= 0)
+        printf("%-22s SLOWER: %s takes %.2f times as long\n", was->scene, bench_answer_phases[slow], now.phases[slow] / was->phases[slow]);
+    return bad || slow >= 0;
+}
+
 static void show_progress(const char *name, int32_t i)
 {
     if (isatty(STDERR_FILENO)) fprintf(stderr, "\r\033[K%s %d/%d", name, i + 1, SET);
@@ -212,20 +232,29 @@ int bench_command_check(int argc, char **argv)
         bad += fingerprint(regression_set[i], r.quick, &now) != 0 || check_results(then, &now, r.quick);
         if (!r.no_speed) bad += check_speed(then);
     }
+    for (int32_t i = 0; i < BENCH_ANSWER_SETS && count >= 0; i++) {
+        const bench_reference *then = find(was, count, bench_answer_names[i]);
+        if (then == NULL) printf("%-22s has no reference; accept it with: feather-bench update\n", bench_answer_names[i]);
+        bad += then == NULL || check_answers(then, i, r.no_speed);
+    }
     if (isatty(STDERR_FILENO)) fprintf(stderr, "\r\033[K");
-    printf("%d scenes, %d regressions\n", SET, bad);
+    printf("%d scenes, %d regressions\n", SET + BENCH_ANSWER_SETS, bad);
     return bad != 0;
 }
 
 int bench_command_update(int argc, char **argv)
 {
-    static bench_reference now[SET];
+    static bench_reference now[SET + BENCH_ANSWER_SETS];
     request r;
     if (read_request(&r, argc, argv) != 0) return 2;
     for (int32_t i = 0; i < SET; i++) {
         show_progress(regression_set[i], i);
         if (fingerprint(regression_set[i], 0, &now[i]) != 0 || time_phases(regression_set[i], &now[i]) != 0) return 1;
     }
+    for (int32_t i = 0; i < BENCH_ANSWER_SETS; i++) {
+        if (bench_answers(i, calibrate, &now[SET + i]) != 0) return 1;
+    }
     if (isatty(STDERR_FILENO)) fprintf(stderr, "\r\033[K");
-    return bench_reference_write(r.path, now, SET, bench_feather.phase_names) != 0;
+    return bench_reference_write(r.path, now, SET + BENCH_ANSWER_SETS, bench_feather.phase_names, bench_answer_phases, BENCH_ANSWER_SETS) !=
+           0;
 }

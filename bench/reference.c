@@ -51,7 +51,8 @@ int32_t bench_reference_read(const char *path, bench_reference *scenes)
     return count;
 }
 
-int bench_reference_write(const char *path, const bench_reference *scenes, int32_t count, const char *const *phase_names)
+int bench_reference_write(const char *path, const bench_reference *scenes, int32_t count, const char *const *phase_names,
+                          const char *const *other_names, int32_t other_count)
 {
     FILE *file = fopen(path, "w");
     if (file == NULL) {
@@ -63,7 +64,8 @@ int bench_reference_write(const char *path, const bench_reference *scenes, int32
         const bench_reference *r = &scenes[i];
         fprintf(file, "  {\"scene\": \"%s\", \"quick\": \"%016" PRIx64 "\", \"full\": \"%016" PRIx64 "\", \"passed\": %d, \"phases\": {",
                 r->scene, r->quick, r->full, r->passed);
-        for (int32_t p = 0; p < r->phase_count; p++) fprintf(file, "%s\"%s\": %.4f", p > 0 ? ", " : "", phase_names[p], r->phases[p]);
+        const char *const *names = i < count - other_count ? phase_names : other_names;
+        for (int32_t p = 0; p < r->phase_count; p++) fprintf(file, "%s\"%s\": %.4f", p > 0 ? ", " : "", names[p], r->phases[p]);
         fprintf(file, "}}%s\n", i + 1 < count ? "," : "");
     }
     fprintf(file, "]\n");

@@ -18,6 +18,8 @@ typedef struct bench_reference {
 
 /// Number of scenes read, or -1 (it has said why on stderr).
 int32_t bench_reference_read(const char *path, bench_reference *out_scenes);
-int bench_reference_write(const char *path, const bench_reference *scenes, int32_t count, const char *const *phase_names);
+/// `other_names`: of the phases of the last `other_count` scenes.
+int bench_reference_write(const char *path, const bench_reference *scenes, int32_t count, const char *const *phase_names,
+                          const char *const *other_names, int32_t other_count);
 
 #endif

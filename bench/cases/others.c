@@ -155,12 +155,37 @@ static void judge_bouncing(bench_trial *t)
     bench_expect(t, "largest energy / start", bench_highest(t->energy, 0, t->step) / t->energy[0], 0.0, 1.004);
 }
 
+// ---- Painleve's rods: slide on a tip where rigid bodies with friction have no consistent force
+// ---------------------------------------------------
+
+static const double LEANING = 63.0 * BENCH_PI / 180.0, ROD = 0.5, TIP = 0.02; // rad off the floor; m: half the axis, radius
+
+static void build_painleve(bench_scene *s)
+{
+    const int32_t rod = bench_capsule(s, ROD, TIP, 1000.0, 2.0);
+    set_earth(s);
+    bench_add_ground(s, 100.0, 2.0);
+    for (int side = -1; side <= 1; side += 2) {
+        const int32_t body = bench_add_dynamic(s, rod, 0.0, ROD * sin(LEANING) + TIP, 2.0 * side);
+        bench_turn_z(&s->bodies[body], LEANING - 0.5 * BENCH_PI);
+        s->bodies[body].linear_velocity[0] = (float)(5.0 * side);
+    }
+}
+
+// It jams or hops: neither gives it more energy than it has
+static void judge_painleve(bench_trial *t)
+{
+    bench_expect(t, "largest energy / start", bench_highest(t->energy, 0, t->step) / t->energy[0], 0.0, 1.001);
+    bench_expect(t, BENCH_SPEED, bench_largest_speed(t), 0.0, 5.0);
+}
+
 const bench_case bench_others[] = {
     {"jolt-pyramid", "Jolt", "1240 boxes fall together into a pyramid", 10.0, 0, build_jolt_pyramid, NULL, NULL, judge_jolt_pyramid},
     {"high-speed", "Jolt", "48 bodies at 250 m/s in a room of thin walls", 3.0, 0, build_high_speed, NULL, watch_high_speed,
      judge_high_speed},
     {"rolling", "SimBenchmark", "25 balls on a plate that is pushed", 4.0, 0, build_rolling, act_rolling, watch_rolling, judge_rolling},
     {"rolling-60", "SimBenchmark", "pushed at 60 degrees", 4.0, 0, build_rolling, act_rolling_60, watch_rolling_60, judge_rolling_60},
+    {"painleve", "P. Painleve, 1895", "two rods slide on a tip with friction 2", 4.0, 0, build_painleve, NULL, NULL, judge_painleve},
     {"bouncing", "SimBenchmark", "49 balls bounce without loss", 20.0, 0, build_bouncing, NULL, NULL, judge_bouncing},
 };
 const int32_t bench_others_count = (int32_t)(sizeof bench_others / sizeof bench_others[0]);
