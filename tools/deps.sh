@@ -47,6 +47,7 @@ missing_for_lua() {
     done
     has luajit || echo luajit
     has luarocks || echo luarocks
+    has valgrind || echo valgrind
     has love || echo love
     has lua5.4 && lua5.4 -e 'require("luaunit")' 2> /dev/null || echo lua-unit
 }

@@ -73,6 +73,65 @@ static void add_types(lua_State *L)
     add_type(L, pool_type, collect_pool);
 }
 
+static size_t raw_length(lua_State *L, int index)
+{
+#if LUA_VERSION_NUM >= 502
+    return lua_rawlen(L, index);
+#else
+    return lua_objlen(L, index);
+#endif
+}
+
+/// The object of a type at an index, or NULL for nil. SWIG's own would take the first bytes of any userdata for its own, a file's too.
+static int object_of(lua_State *L, int index, void **out, const swig_type_info *type)
+{
+    *out = NULL;
+    if (lua_isnil(L, index)) return SWIG_OK;
+    if (lua_type(L, index) != LUA_TUSERDATA || raw_length(L, index) < sizeof(swig_lua_userdata)) return SWIG_ERROR;
+    const swig_lua_userdata *object = lua_touserdata(L, index);
+    if (object->type != type) return SWIG_ERROR;
+    *out = object->ptr;
+    return SWIG_OK;
+}
+#undef SWIG_ConvertPtr
+#undef SWIG_isptrtype
+#define SWIG_ConvertPtr(L, index, out, type, flags) object_of(L, index, out, type)
+#define SWIG_isptrtype(L, index) (lua_type(L, index) == LUA_TUSERDATA || lua_isnil(L, index))
+#define SWIG_Lua_typename(L, index) luaL_typename(L, index)
+
+/// A part that is read from an object, on top of the stack, keeps the object at an index alive.
+static void keep_alive(lua_State *L, int object)
+{
+    if (lua_type(L, object) != LUA_TUSERDATA || lua_type(L, -1) != LUA_TUSERDATA) return;
+#if LUA_VERSION_NUM >= 502
+    lua_pushvalue(L, object);
+    lua_setuservalue(L, -2);
+#else
+    lua_createtable(L, 1, 0);
+    lua_pushvalue(L, object);
+    lua_rawseti(L, -2, 1);
+    lua_setfenv(L, -2);
+#endif
+}
+
+/// Takes away what would reach into userdata unchecked: SWIG's helpers, the metatables of the objects, and their ==.
+static void hide_helpers(lua_State *L, const swig_module_info *module)
+{
+    lua_pushnil(L), lua_setfield(L, -2, "swig_type");
+    lua_pushnil(L), lua_setfield(L, -2, "swig_equals");
+    for (size_t i = 0; i < module->size; ++i) {
+        const swig_lua_class *class = module->types[i]->clientdata;
+        if (!class) continue;
+        SWIG_Lua_get_class_metatable(L, class->fqname);
+        if (lua_istable(L, -1)) {
+            lua_pushstring(L, "feather");
+            lua_setfield(L, -2, "__metatable");
+            lua_pushnil(L), lua_setfield(L, -2, "__eq");
+        }
+        lua_pop(L, 1);
+    }
+}
+
 static void push_world(lua_State *L, fe_world *world)
 {
     world_box *box = lua_newuserdata(L, sizeof *box);
@@ -243,11 +302,7 @@ static float *new_heights(lua_State *L, int32_t rows, int32_t columns)
 static int length_of(lua_State *L, int index, const char *what)
 {
     check_table(L, index, what);
-#if LUA_VERSION_NUM >= 502
-    size_t length = lua_rawlen(L, index);
-#else
-    size_t length = lua_objlen(L, index);
-#endif
+    size_t length = raw_length(L, index);
     if (length > 1 << 28) luaL_error(L, "feather: %s: too long", what);
     return (int)length;
 }
@@ -392,8 +447,7 @@ static void to_heightfield(lua_State *L, int index, fe_heightfield_def *def)
     to_materials(L, field(L, index, "materials"), def);
 }
 
-// ---- arrays that come out: flat tables, the fields of a record one after the other
-// ---------------------------------------------------------
+// ---- arrays that come out: flat tables, the fields of a record one after the other -------------------------------------------------
 
 static int32_t array_length(int32_t result, int32_t count) { return result > 0 && !count ? result : count; }
 

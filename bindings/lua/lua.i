@@ -6,6 +6,12 @@
 %}
 %init %{
     add_types(L);
+    hide_helpers(L, &swig_module);
+%}
+%typemap(out) SWIGTYPE * %{
+    SWIG_NewPointerObj(L, $1, $1_descriptor, $owner);
+    SWIG_arg++;
+    keep_alive(L, 1);
 %}
 %include "records.i"
 
@@ -23,7 +29,13 @@
 %typemap(argout) fe_pool **out_pool %{ push_pool(L, *$1); SWIG_arg++; %}
 %typemap(in) fe_pool *pool "$1 = pool_of(L, $input);"
 %typemap(argout) fe_pool *pool %{
-    if (strcmp("$symname", "pool_destroy") == 0) ((pool_box *)lua_touserdata(L, 1))->pool = NULL;
+    if (strcmp("$symname", "pool_destroy") == 0) {
+        ((pool_box *)lua_touserdata(L, 1))->pool = NULL;
+    } else { // of a world's definition
+        lua_pushvalue(L, 1);
+        keep_alive(L, 2);
+        lua_pop(L, 1);
+    }
 %}
 %typemap(out) fe_pool * "lua_pushnil(L); SWIG_arg++;"
 

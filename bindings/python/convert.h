@@ -524,6 +524,16 @@ static int heights_fit(int64_t have, int32_t rows, int32_t columns)
     return -1;
 }
 
+/// SWIG's own methods on every object, with which a script could free what it does not own.
+static int forget_ownership_methods(PyTypeObject *type)
+{
+    static const char *const names[] = {"acquire", "disown", "own", "append", "next"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
+        if (PyDict_DelItemString(type->tp_dict, names[i])) PyErr_Clear();
+    PyType_Modified(type);
+    return 0;
+}
+
 static int ends_with(const char *text, const char *end)
 {
     size_t a = strlen(text), b = strlen(end);

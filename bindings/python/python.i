@@ -4,7 +4,14 @@
 #include "python/convert.h"
 %}
 %init %{
-    if (add_types(m)) return NULL;
+    if (add_types(m) || forget_ownership_methods(SwigPyObject_type())) return NULL;
+%}
+// a part keeps the object that it is of
+%typemap(ret) fe_joint_axis *axis %{
+    if (resultobj && resultobj != Py_None) {
+        Py_INCREF(self);
+        ((SwigPyObject *)resultobj)->next = self;
+    }
 %}
 
 %native(set_error_classes) PyObject *flat_set_error_classes(PyObject *self, PyObject *classes);

@@ -321,7 +321,46 @@ function Joint:getState()
     return copy(core.joint_get_state(self.native, self.id), "angle swingY swingZ angularVelocity translation linearVelocity length speed linearError angularError")
 end
 function Joint:getAngle() return core.joint_get_state(self.native, self.id).angle end
-function Joint:getDefinition() return core[self:getType() .. "_get"](self.native, self.id) end
+
+-- The fields of a struct, as feather.h has them.
+local function fields_of(struct)
+    local body, fields = require("feather.header"):match("typedef struct fe_" .. struct .. " (%b{})"), {}
+    for names in body:gmatch("[%w_]+ ([%w_, ]+);") do
+        for name in names:gmatch("[%w_]+") do
+            if not name:find("reserved") and name ~= "struct_size" then fields[#fields + 1] = name end
+        end
+    end
+    return fields
+end
+
+-- A record as a table of numbers and flat tables, under the names that set() takes.
+local function plain(record, struct)
+    local made = {}
+    for _, field in ipairs(fields_of(struct)) do
+        local value, name = record[field], field:gsub("_(%l)", string.upper)
+        if field == "frame_a" or field == "frame_b" then
+            local at, turn = value.position, value.rotation
+            value = { at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w }
+        elseif number(value) == nil or type(number(value)) ~= "number" then
+            value = field == "target" and { value.x, value.y, value.z, value.w } or { value.x, value.y, value.z }
+        end
+        made[field == "user_data" and "tag" or name] = type(value) == "table" and value or number(value)
+    end
+    return made
+end
+
+function Joint:getDefinition()
+    local kind = self:getType()
+    local record = core[kind .. "_get"](self.native, self.id)
+    local made = plain(record, kind .. "_def")
+    made.bodyA, made.bodyB = self:getBodies()
+    for name, i in pairs(kind == "configurable" and COORDINATES or {}) do
+        local axis = plain(axis_of(record, i), "joint_axis")
+        axis.mode, axis.drive = name_of(MOTIONS, axis.mode), name_of(DRIVES, axis.drive)
+        made[name] = axis
+    end
+    return made
+end
 
 local PLACES = { bodyA = true, bodyB = true, pointA = true, pointB = true, point = true, axis = true, maxLength = true, up = true, travel = true }
 local function fill(desc, options, skipped)
@@ -339,9 +378,10 @@ local function fill(desc, options, skipped)
 end
 
 function Joint:set(options)
-    local desc = self:getDefinition()
+    local kind = self:getType()
+    local desc = core[kind .. "_get"](self.native, self.id)
     fill(desc, options, {})
-    core[self:getType() .. "_set"](self.native, self.id, desc)
+    core[kind .. "_set"](self.native, self.id, desc)
 end
 
 local function joint(kind, place, extra)
@@ -373,7 +413,10 @@ end, { "hertz", "dampingRatio", "maxForce", "maxTorque" })
 
 -- ---- worlds ---------------------------------------------------------------------------------------------------------------------
 
-function feather.newPool(workers) return { native = core.pool_create(workers), close = function(self) core.pool_destroy(self.native) end } end
+local Pool = {}
+Pool.__index, Pool.__name = Pool, "feather.Pool"
+function Pool:close() core.pool_destroy(self.native) end
+function feather.newPool(workers) return setmetatable({ native = core.pool_create(workers) }, Pool) end
 
 function feather.newWorld(options)
     local desc, pool = core.world_def(), nil
@@ -383,7 +426,10 @@ function feather.newWorld(options)
         elseif name == "pool" then pool = value
         else put_field(desc, name, value) end
     end
-    if pool then set_pool(desc, pool.native) end
+    if pool then
+        if getmetatable(pool) ~= Pool then fail("pool: what newPool returns is needed, not a %s", type(pool)) end
+        set_pool(desc, pool.native)
+    end
     local world = { native = core.world_create(desc), pool = pool, data = {}, callbacks = {}, objects = setmetatable({}, { __mode = "v" }) }
     return setmetatable(world, World)
 end

@@ -137,7 +137,12 @@ function TestPhysics.testJoints()
     local hinge = made[3]
     lu.assertEquals({ hinge:getType(), hinge:getTag() }, { "hinge", 4 })
     hinge:set({ motorSpeed = 2, motorTorque = 10 })
-    lu.assertEquals(hinge:getDefinition().motor_speed, 2)
+    local told = hinge:getDefinition()
+    lu.assertEquals({ told.motorSpeed, told.limited, told.minAngle, told.tag, #told.frameA, told.structSize }, { 2, 1, -1, 4, 7 })
+    lu.assertIs(told.bodyB, b)
+    lu.assertEquals(made[2]:getDefinition().target, { 0, 0, 0, 1 })
+    lu.assertEquals(made[5]:getDefinition().alongX.mode, "limited")
+    lu.assertEquals({ made[5]:getDefinition().alongX.low, made[5]:getDefinition().aboutZ.drive }, { -1, "none" })
     lu.assertIs(hinge:getBodies(), a)
     for i, joint in ipairs(made) do
         if i ~= 3 then joint:destroy() end
@@ -245,6 +250,30 @@ function TestErrors.testWrongValues()
         lu.assertFalse(pcall(core.world_step, wrong, 0.1))
     end
     lu.assertFalse(pcall(core.world_step, nil, 0.1))
+    -- userdata that are not the library's, or of another kind of its own
+    local desc, form = core.body_def(), core.geometry_sphere(0.5)
+    for _, foreign in ipairs({ io.stdout, world.native, form, coroutine.create(function() end) }) do
+        lu.assertFalse(pcall(core.body_create, world.native, foreign))
+        lu.assertFalse(pcall(core.shape_create, world.native, ball.id, nil, foreign ~= form and foreign or desc))
+        lu.assertFalse(pcall(core.world_create, foreign))
+        lu.assertFalse(pcall(function() desc.transform = foreign end))
+        if foreign ~= world.native then lu.assertFalse(pcall(core.world_step, foreign, 0.1)) end
+        lu.assertFalse(pcall(feather.newWorld, { pool = foreign }))
+        lu.assertFalse(pcall(ball.getPosition, foreign))
+    end
+    lu.assertFalse(pcall(ball.destroy, { native = world.native, id = 0 / 0, world = world }))
+    if not core.ffi then
+        lu.assertFalse(pcall(function() core.world_def().pool = io.stdout end))
+        lu.assertNil(core.swig_type)
+        lu.assertEquals(getmetatable(desc), "feather")
+        -- a part keeps the object that it is of
+        local position = core.body_def().transform.position
+        for _ = 1, 3 do
+            collectgarbage()
+            for _ = 1, 20 do core.body_def().transform.position.x = 7 end
+        end
+        lu.assertEquals({ position.x, position.y, position.z }, { 0, 0, 0 })
+    end
     lu.assertFalse(pcall(ball.setPosition, ball))
     fails("static", world.newBody, world, { type = "fluid" })
     fails("no field colour", world.newBody, world, { colour = 1 })
@@ -297,7 +326,7 @@ function TestCore.testRandomCalls()
             for i = 1, ({ 3, 3, 4, 7, 1, 0, 6, 9 })[random(8)] do t[i] = (random(2000) - 1000) / 300 end
             return t
         end
-        local others = { 0, 1, 2, -1, 0 / 0, 1 / 0, 1e300, "x", true, {}, { "x" }, 2 ^ 31, 2 ^ 53, print }
+        local others = { 0, 1, 2, -1, 0 / 0, 1 / 0, 1e300, "x", true, {}, { "x" }, 2 ^ 31, 2 ^ 53, print, io.stdout }
         return others[random(#others + 1)]
     end
     local unpack = unpack or table.unpack
@@ -325,4 +354,59 @@ function TestCore.testRandomCalls()
     lu.assertTrue(good > calls / 100)
 end
 
-os.exit(lu.LuaUnit.run(), true) -- true: with all objects collected, so that a leak shows
+-- The same with the methods of objects that live, lived or are another world's; what comes back is called again.
+function TestCore.testRandomMethods()
+    local seconds, seed = tonumber(os.getenv("FUZZ_SECONDS") or "1"), 7
+    local function random(n)
+        seed = (seed * 16807) % 2147483647
+        return seed % n + 1
+    end
+    local function number() return (random(2000) - 1000) / 300 end
+    local kept = {}
+    local function value()
+        local kind = random(12)
+        if kind <= 3 then return kept[random(#kept)] end
+        if kind <= 7 then return number() end
+        if kind == 8 then return { number(), number(), number() } end
+        local others = {
+            0, 1, 2, -1, 0 / 0, 1 / 0, 2 ^ 53, "x", "dynamic", "static", "xz", true, false, {}, { "sphere", 0.5 }, { "box", 1, 1, 1 }, { "capsule", 1, number() },
+            { "heightfield", kept[random(#kept)] }, { mask = 1, triggers = true, exclude = { kept[random(#kept)] } }, { kept[random(#kept)] },
+            { "touch", "hit" }, { density = number(), colour = 1 }, { type = "kinematic", position = { 0, number(), 0 } }, print, io.stdout,
+            { rows = 2, columns = 2, heights = { 0, 0, 0, number() } }, { alongX = { mode = "free", low = number() } }, { motorSpeed = number() },
+            { bodyA = kept[random(#kept)], bodyB = kept[random(#kept)], point = { 0, 0, 0 }, axis = { 0, 0, 1 }, pointA = { 0, 0, 0 },
+                pointB = { 1, 0, 0 }, up = { 0, 1, 0 }, hertz = 1, dampingRatio = 1, travel = 1, maxLength = 2, maxForce = 1, maxTorque = number() },
+        }
+        return others[random(#others + 1)]
+    end
+    local unpack = unpack or table.unpack
+    local done, calls, good = os.clock() + seconds, 0, 0
+    while os.clock() < done do
+        local world, _, ball = scene()
+        local other, _, theirs = scene()
+        kept = { world, ball, ball:getShapes()[1], other, theirs, world:newHeightfield({ rows = 2, columns = 2, heights = { 0, 0, 0, 0 } }) }
+        kept[#kept + 1] = world:newBallJoint({ bodyA = ball, bodyB = world:newBody(), point = { 0, 5, 0 } })
+        for _ = 1, 300 do
+            local target, names = kept[random(#kept)], {}
+            for name, method in pairs(getmetatable(target)) do
+                if type(method) == "function" and not name:find("^__") then names[#names + 1] = name end
+            end
+            table.sort(names)
+            local name = names[random(#names)]
+            if not (name == "destroy" and target.update and random(10) > 1) then
+                local count, arguments = random(7) - 1, { target }
+                for i = 1, count do arguments[i + 1] = value() end
+                local told = { pcall(target[name], unpack(arguments, 1, count + 1)) }
+                calls = calls + 1
+                if told[1] then good = good + 1 end
+                for i = 2, #told do
+                    local class = type(told[i]) == "table" and getmetatable(told[i])
+                    if told[1] and class and class.__name and #kept < 50 then kept[#kept + 1] = told[i] end
+                end
+            end
+        end
+        pcall(world.update, world, STEP)
+    end
+    lu.assertTrue(good > calls / 10)
+end
+
+os.exit(lu.LuaUnit.run(), true) -- closes the state, so that valgrind sees what is left

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Callable, Dict, Generic, Iterable, List, Optional, Sequence, Tuple, TypeVar, Union, overload
 
 from . import _flat, records
@@ -468,9 +469,16 @@ class Joint(Entity):
         return force, torque
 
     @property
-    def definition(self) -> Any:
-        """A copy of its definition, with the fields of fe_<type>_def in feather.h."""
-        return getattr(_flat, self.type + "_get")(self._capsule, self._id)
+    def definition(self) -> SimpleNamespace:
+        """A copy of its definition: the fields of fe_<type>_def in feather.h, `tag`, the axes of a configurable joint as along_x to about_z."""
+        desc = getattr(_flat, self.type + "_get")(self._capsule, self._id)
+        made = _fields_of(desc)
+        if hasattr(desc, "axis"):
+            for name, i in COORDINATES.items():
+                axis = _fields_of(desc.axis(i))
+                axis.mode, axis.drive = list(MOTIONS)[axis.mode], list(DRIVES)[axis.drive]
+                setattr(made, name, axis)
+        return made
 
     def set(self, **fields: Any) -> None:
         """Changes fields of its definition: hinge.set(motor_speed=2, motor_torque=10). Axes as in create_configurable."""
@@ -572,6 +580,13 @@ def fill(desc: Any, fields: Dict[str, Any]) -> None:
             set_field(desc, name, int(value))
         else:
             set_field(desc, "user_data" if name == "tag" else name, value)
+
+
+def _fields_of(record: Any) -> SimpleNamespace:
+    """A copy of the numbers and vectors of a flat record."""
+    hidden = ("this", "thisown", "struct_size", "reserved", "reserved_end")
+    values = {name: getattr(record, name) for name in dir(record) if not name.startswith("_") and name not in hidden}
+    return SimpleNamespace(**{"tag" if name == "user_data" else name: value for name, value in values.items() if not callable(value)})
 
 
 def set_field(desc: Any, name: str, value: Any) -> None:

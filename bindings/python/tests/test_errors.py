@@ -268,3 +268,15 @@ def test_nothing_leaks() -> None:
         growth.append(sys.getallocatedblocks() - before)
     # less than a block each time; the first rounds fill caches
     assert min(growth) < 50, growth
+
+
+def test_a_part_keeps_the_object_that_it_is_of() -> None:
+    axis = _flat.configurable_def().axis(2)
+    for i in range(200):  # the memory of what was freed is given out again
+        _flat.configurable_def().axis(2).low = 7.0
+    assert axis.low == 0
+
+
+def test_objects_have_no_methods_that_give_away_what_they_own() -> None:
+    for name in ("acquire", "disown", "own", "append", "next"):
+        assert not hasattr(_flat.configurable_def(), name)

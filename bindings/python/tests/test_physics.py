@@ -222,13 +222,13 @@ def test_joints(world: World) -> None:
     assert [joint.type for joint in made] == kinds
     assert world.joints == made == a.joints == b.joints
     assert all(joint.bodies == (a, b) and joint.is_valid and joint.enabled for joint in made)
-    assert made[4].definition.axis(4).mode == 2 and made[5].definition.max_length == 3 and made[6].tag == 5
+    assert made[4].definition.about_y.mode == "free" and made[5].definition.max_length == 3 and made[6].tag == 5
     assert made[0].definition.min_length == pytest.approx(1)
     hinge = made[2]
     hinge.set(motor_speed=2, motor_torque=10, tag=3)
     assert hinge.definition.motor_speed == 2 and hinge.tag == 3
     made[4].set(along_x={"low": -2})
-    assert made[4].definition.axis(0).low == -2 and made[4].definition.axis(0).mode == 1
+    assert made[4].definition.along_x.low == -2 and made[4].definition.along_x.mode == "limited"
     with pytest.raises(TypeError):
         hinge.set(colour=1)
     with pytest.raises(InvalidArgumentError):
