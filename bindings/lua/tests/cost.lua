@@ -17,6 +17,23 @@ local world = feather.newWorld()
 local body = world:newBody()
 body:newSphere(0.5)
 local w, b, get, valid = world.native, body.id, core.body_get_position, core.body_is_valid
+-- the cheapest foreign call there is: ffi by itself, or a C function that does next to nothing
+if core.ffi then
+    local ffi = require("ffi")
+    local C = ffi.load(package.searchpath("libfeather", package.cpath))
+    local pointer, transform = w.p, ffi.new("fe_transform")
+    cost("ffi_is_valid", CALLS, function(n) for _ = 1, n do C.fe_body_is_valid(pointer, b) end end)
+    cost("ffi_get_transform", CALLS, function(n)
+        local sum = 0
+        for _ = 1, n do
+            C.fe_body_get_transform(pointer, b, transform)
+            sum = sum + transform.position.y
+        end
+    end)
+else
+    local abs = math.abs
+    cost("math.abs", CALLS, function(n) for _ = 1, n do abs(1) end end)
+end
 cost("flat_is_valid", CALLS, function(n) for _ = 1, n do valid(w, b) end end)
 cost("flat_get_position", CALLS, function(n) for _ = 1, n do local x, y, z = get(w, b) end end)
 cost("body:getPosition", CALLS, function(n) for _ = 1, n do local x, y, z = body:getPosition() end end)
