@@ -479,7 +479,8 @@ FE_INLINE void NAMED(relax)(fe__solver *s, void *rows, int32_t count, const fe__
         UNROLL for (int j = 0; j < POINTS; ++j) row->total[j] = row->total[j] + row->point[j].impulse;
         NAMED(scatter_pair)(row, s, &p, kind);
         wide load = NAMED(load_of)(row);
-        wide_mask rose = w_greater(load, IMPACT_RISE * row->load);
+        wide speed = (load - row->load) * (p.a.inverse_mass + p.b.inverse_mass);
+        wide_mask rose = w_and(w_greater(load, IMPACT_RISE * row->load), w_greater(speed, w_set(IMPACT_SPEED)));
         if (w_any(rose)) NAMED(leave_friction)(row, s, load, rose, kind);
         row->load = load;
     }
