@@ -17,7 +17,8 @@ static int failures;
 static void report(const char *scene, const char *value_name, double value, double low, double high, const char *exact)
 {
     int ok = value >= low && value <= high; // false for NaN
-    printf("%-44s %-26s %14.8g   in [%.8g, %.8g]   exact %-18s %s\n", scene, value_name, value, low, high, exact, ok ? "ok" : "OUT OF RANGE");
+    printf("%-44s %-26s %14.8g   in [%.8g, %.8g]   exact %-18s %s\n", scene, value_name, value, low, high, exact,
+           ok ? "ok" : "OUT OF RANGE");
     if (csv) fprintf(csv, "\"%s, %s\",%.9g,%.9g,%.9g,%d\n", scene, value_name, value, low, high, ok);
     failures += !ok;
 }
@@ -40,7 +41,8 @@ static fe_world *make_world(int workers)
     return world;
 }
 
-static fe_body add_body(fe_world *world, int32_t type, const fe_transform *at, const fe_geometry *geometry, float density, fe_material material)
+static fe_body add_body(fe_world *world, int32_t type, const fe_transform *at, const fe_geometry *geometry, float density,
+                        fe_material material)
 {
     fe_body_def body_def;
     fe_shape_def shape_def;
@@ -188,7 +190,8 @@ static fe_dvec3 turn(fe_quat q, fe_dvec3 a)
 {
     double x = q.x, y = q.y, z = q.z, w = q.w, k = 2 / (x * x + y * y + z * z + w * w);
     fe_dvec3 t = {y * a.z - z * a.y, z * a.x - x * a.z, x * a.y - y * a.x};
-    return fe_make_dvec3(a.x + k * (w * t.x + y * t.z - z * t.y), a.y + k * (w * t.y + z * t.x - x * t.z), a.z + k * (w * t.z + x * t.y - y * t.x));
+    return fe_make_dvec3(a.x + k * (w * t.x + y * t.z - z * t.y), a.y + k * (w * t.y + z * t.x - x * t.z),
+                         a.z + k * (w * t.z + x * t.y - y * t.x));
 }
 
 // outward normal of a box of half extents h at the point of its surface nearest to c (box frame)
@@ -252,7 +255,7 @@ static void normals(void)
     report("sphere on box, 2000 random poses", "normal, 99th %, degrees", errors[PAIRS * 99 / 100], 0, 0.001, "0");
 }
 
-// ---- the pile --------------------------------------------------------------------------------------------------------------------------
+// ---- the pile -------------------------------------------------------------------------------------------------------------------------
 static double seconds(void)
 {
     struct timespec t;
@@ -278,7 +281,8 @@ static void build_pile(fe_world *world, int count)
     }
     for (int i = 0; i < count; ++i) {
         int place = i % (SIDE * SIDE);
-        at = fe_make_transform(1.3 * (place % SIDE - 4.5) + uniform(-0.1, 0.1), 1 + 1.5 * (i / (SIDE * SIDE)), 1.3 * (place / SIDE - 4.5) + uniform(-0.1, 0.1));
+        at = fe_make_transform(1.3 * (place % SIDE - 4.5) + uniform(-0.1, 0.1), 1 + 1.5 * (i / (SIDE * SIDE)),
+                               1.3 * (place / SIDE - 4.5) + uniform(-0.1, 0.1));
         add_body(world, FE_BODY_DYNAMIC, &at, &kinds[i % 3], 1000, make_material(0.5f, 0));
     }
 }

@@ -12,7 +12,7 @@ static int32_t add_anchor(bench_scene *s, double x, double y)
     return body;
 }
 
-// ---- ball and chain: 585:1 --------------------------------------------------------------------------------------------------------------
+// ---- ball and chain: 585:1 ------------------------------------------------------------------------------------------------------------
 
 enum { LINKS = 32 };
 
@@ -46,8 +46,7 @@ static void judge_heavy_chain(bench_trial *t)
     bench_expect(t, "kinetic energy late / early", bench_highest(t->kinetic, half, t->step) / bench_highest(t->kinetic, 0, half), 0.0, 1.0);
 }
 
-// ---- door: two hinges, a heavy blow at the free edge
-// ----------------------------------------------------------------------------------------
+// ---- door: two hinges, a heavy blow at the free edge ----------------------------------------------------------------------------------
 
 static void build_door(bench_scene *s)
 {
@@ -83,8 +82,7 @@ static void judge_door(bench_trial *t)
     bench_expect(t, "largest angle, rad", t->notes[0], 0.0, 0.5 * BENCH_PI + 10.0 * BENCH_PI / 180.0);
 }
 
-// ---- ball joint with a cone and a twist range
-// -----------------------------------------------------------------------------------------------
+// ---- ball joint with a cone and a twist range -----------------------------------------------------------------------------------------
 
 static void build_cone(bench_scene *s)
 {
@@ -117,8 +115,7 @@ static void judge_cone(bench_trial *t)
     bench_expect(t, "largest rise of the energy, share", bench_rise(t->energy, 1, t->step) / t->energy[0], 0.0, 0.01);
 }
 
-// ---- six sliders in a row, torn at
-// ------------------------------------------------------------------------------------------------------------
+// ---- six sliders in a row, torn at ----------------------------------------------------------------------------------------------------
 
 enum { SLIDERS = 6 };
 

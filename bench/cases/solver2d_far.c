@@ -51,7 +51,7 @@ static void judge_far_pyramid(bench_trial *t)
     bench_expect(t, BENCH_SPEED, bench_largest_speed(t), 0.0, 0.01);
 }
 
-// ---- a plank on two supports with two boxes on it ---------------------------------------------------------------------------------------
+// ---- a plank on two supports with two boxes on it -------------------------------------------------------------------------------------
 
 enum { PLANK = 3 };
 
@@ -78,8 +78,7 @@ static void judge_far_stack(bench_trial *t)
     bench_expect(t, BENCH_SPEED, bench_largest_speed(t), 0.0, 0.01);
 }
 
-// ---- overlap recovery
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- overlap recovery -----------------------------------------------------------------------------------------------------------------
 
 static void build_far_recovery(bench_scene *s)
 {
@@ -100,8 +99,7 @@ static void judge_far_recovery(bench_trial *t)
     bench_expect(t, BENCH_SPEED, bench_largest_speed(t), 0.0, 0.01);
 }
 
-// ---- chain
-// ----------------------------------------------------------------------------------------------------------------------------------
+// ---- chain ----------------------------------------------------------------------------------------------------------------------------
 
 enum { LINKS = 40 };
 

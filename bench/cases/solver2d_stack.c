@@ -190,7 +190,7 @@ static void judge_pyramid(bench_trial *t)
     bench_expect(t, "largest drop, m (a row is 1)", drop, -0.5, 0.5 + (rows > BASE ? sink : 0.0));
 }
 
-// ---- circle stack: kept upright by exact symmetry --------------------------------------------------------------------------------------
+// ---- circle stack: kept upright by exact symmetry -------------------------------------------------------------------------------------
 
 enum { CIRCLES = 10 };
 

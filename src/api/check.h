@@ -98,8 +98,8 @@ fe_result fe__check_material(const char *function, const fe_material *material);
 fe_result fe__check_struct_size(const char *function, const char *name, const void *given);
 fe_result fe__read_struct(const char *function, const char *name, const void *given, void *copy, uint32_t size);
 
-// |x| <= most, for finite most > 0. As integers, so that nothing is raised: the bits of doubles are in their order, and those of infinity and
-// NaN above all others.
+// |x| <= most, for finite most > 0. As integers, so that nothing is raised: the bits of doubles are in their order, and those of infinity
+// and NaN above all others.
 static inline int32_t fe__is_within(double x, double most)
 {
     union {

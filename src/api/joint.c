@@ -4,8 +4,7 @@
 static const char *const type_names[FE__JOINT_TYPES] = {"none",  "distance joint", "ball joint",
                                                         "hinge", "fixed joint",    "configurable joint"};
 
-// ---- birth
-// --------------------------------------------------------------------------------------------------------------------------------
+// ---- birth ----------------------------------------------------------------------------------------------------------------------------
 static fe_result create(const char *function, fe_world *world, int32_t type, const void *desc, fe_joint *out_joint)
 {
     if (out_joint) *out_joint = 0;
@@ -53,8 +52,7 @@ fe_result fe_configurable_create(fe_world *world, const fe_configurable_def *des
     return create(__func__, world, FE_JOINT_CONFIGURABLE, desc, out_joint);
 }
 
-// ---- change
-// -------------------------------------------------------------------------------------------------------------------------------
+// ---- change ---------------------------------------------------------------------------------------------------------------------------
 static fe_result check_type(const char *function, const fe_world *world, int32_t index, int32_t type)
 {
     int32_t actual = world->joint_records[index].type;
@@ -149,8 +147,7 @@ fe_result fe_configurable_get(const fe_world *world, fe_joint joint, fe_configur
     return get(__func__, world, FE_JOINT_CONFIGURABLE, joint, out_desc);
 }
 
-// ---- what all types have
-// ------------------------------------------------------------------------------------------------------------------
+// ---- what all types have --------------------------------------------------------------------------------------------------------------
 fe_result fe_joint_set(fe_world *world, fe_joint joint, const fe_joint_def *desc)
 {
     FE_BEGIN(world);
@@ -250,8 +247,7 @@ fe_result fe_joint_get_bodies(const fe_world *world, fe_joint joint, fe_body *ou
     return FE_OK;
 }
 
-// ---- readings
-// -----------------------------------------------------------------------------------------------------------------------------
+// ---- readings -------------------------------------------------------------------------------------------------------------------------
 fe_result fe_joint_get_frames(const fe_world *world, fe_joint joint, fe_transform *out_frame_a, fe_transform *out_frame_b)
 {
     FE_BEGIN(world);

@@ -2,8 +2,7 @@
 #include "api/joint_def.h"
 #include "core/trig.h"
 
-// ---- frames
-// -------------------------------------------------------------------------------------------------------------------------------
+// ---- frames ---------------------------------------------------------------------------------------------------------------------------
 typedef struct ends {
     int32_t body[2];
 } ends;
@@ -83,8 +82,7 @@ static fe_result at_point(const char *function, const fe_world *world, int32_t t
     return FE_OK;
 }
 
-// ---- the five types
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- the five types -------------------------------------------------------------------------------------------------------------------
 fe_result fe_ball_def_at(const fe_world *world, fe_ball_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
                          const fe_vec3 *axis)
 {
@@ -139,8 +137,7 @@ fe_result fe_distance_def_at(const fe_world *world, fe_distance_def *desc, fe_bo
     return result;
 }
 
-// ---- ready-made joints
-// --------------------------------------------------------------------------------------------------------------------
+// ---- ready-made joints ----------------------------------------------------------------------------------------------------------------
 // A definition with the defaults, whatever the caller's holds beyond its size
 static fe_result begin_ready(const char *function, const fe_world *world, int32_t type, const void *desc, fe_body body_a, fe_body body_b,
                              ends *out_ends, fe__joint_any *def)

@@ -5,8 +5,7 @@
 #define LEAST_CONE 0.01f
 #define NO_CAP FE_MAX_FORCE
 
-// ---- defaults
-// -----------------------------------------------------------------------------------------------------------------------------
+// ---- defaults -------------------------------------------------------------------------------------------------------------------------
 static void default_axes(fe_joint_axis *axes)
 {
     for (int k = 0; k < 6; ++k) axes[k] = (fe_joint_axis){.mode = FE_MOTION_LOCKED, .limit_damping_ratio = 1.0f, .drive_force = NO_CAP};
@@ -60,8 +59,7 @@ void fe_hinge_def_init(fe_hinge_def *desc, uint32_t struct_size) { init(FE_JOINT
 void fe_fixed_def_init(fe_fixed_def *desc, uint32_t struct_size) { init(FE_JOINT_FIXED, desc, struct_size); }
 void fe_configurable_def_init(fe_configurable_def *desc, uint32_t struct_size) { init(FE_JOINT_CONFIGURABLE, desc, struct_size); }
 
-// ---- checks
-// -------------------------------------------------------------------------------------------------------------------------------
+// ---- checks ---------------------------------------------------------------------------------------------------------------------------
 #define FE_CHECK_SOFTNESS(hertz, damping_ratio)            \
     do {                                                   \
         FE_CHECK_FLOAT(hertz, 0.0f, FE_MAX_VALUE);         \

@@ -1,10 +1,11 @@
 // collide.h - two forms, one manifold.
 //
-// Called by the world's narrow phase for every pair that cannot be recycled, on any thread; reads nothing but its arguments. All is float in
-// the frame of form A: the caller subtracts the double positions first, so that the distance from the world's origin never costs precision.
+// Called by the world's narrow phase for every pair that cannot be recycled, on any thread; reads nothing but its arguments. All is float
+// in the frame of form A: the caller subtracts the double positions first, so that the distance from the world's origin never costs
+// precision.
 //
-// Order: A's type is never below B's (plane > box > capsule > sphere); of two boxes A is the one with the larger half extents, so that a wide
-// ground keeps its small coordinates across the contact.
+// Order: A's type is never below B's (plane > box > capsule > sphere); of two boxes A is the one with the larger half extents, so that a
+// wide ground keeps its small coordinates across the contact.
 #ifndef FE_COLLISION_COLLIDE_H
 #define FE_COLLISION_COLLIDE_H
 #include "collision/form.h"
@@ -17,8 +18,9 @@ typedef struct fe__manifold_point {
     uint32_t id;      // of the two features; the same next step while the same features meet
 } fe__manifold_point;
 
-// Of one pair. The caller keeps `axis` and `axis_separation` from step to step and passes them in: a kernel may try them first. Without points,
-// axis_separation comes out as a distance that the forms are not closer than, so that the caller need not ask again before they moved as far.
+// Of one pair. The caller keeps `axis` and `axis_separation` from step to step and passes them in: a kernel may try them first. Without
+// points, axis_separation comes out as a distance that the forms are not closer than, so that the caller need not ask again before they
+// moved as far.
 typedef struct fe__manifold {
     fe_vec3 normal; // unit, from A to B, A's frame; (0, 0, 0) without points
     int32_t count;  // 0..4

@@ -122,8 +122,7 @@ void fe__gather(fe__gathering *g, const fe__tile *tile, fe_vec3 normal, fe_vec3 
     if (g->count > FE__PATCHES) merge_most_similar(g);
 }
 
-// ---- the walk
-// -------------------------------------------------------------------------------------------------------------------------------
+// ---- the walk -------------------------------------------------------------------------------------------------------------------------
 // How deep the centre of B is under the ground, but no deeper than B reaches: a body that was pressed or spun into the ground comes up
 // again, one far below is left alone. Else 0.
 static double sunk(const fe__terrain *t, const fe__form *b)

@@ -79,7 +79,7 @@ int32_t fe__tile_is_convex(const fe__terrain *t, const fe__tile *tile, int32_t s
     return fe__dot(tile->normal, fe__sub(third_of(t, tile, side), tile->form.vertex[side])) < -FLAT * tile->size;
 }
 
-// ---- beyond the border ------------------------------------------------------------------------------------------------------------------
+// ---- beyond the border ----------------------------------------------------------------------------------------------------------------
 static fe_dvec3 into(const fe__neighbour *n, fe_vec3 p) { return fe__dadd(n->position, fe__widen(fe__mul_transposed(&n->axes, p))); }
 
 int32_t fe__heightfield_height(const fe__heightfield *f, fe_dvec3 p, double *height)

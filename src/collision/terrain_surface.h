@@ -54,7 +54,7 @@ int32_t fe__heightfield_height(const fe__heightfield *field, fe_dvec3 p, double 
 
 void fe__gather(fe__gathering *g, const fe__tile *tile, fe_vec3 normal, fe_vec3 point, float separation, uint32_t id);
 
-// ---- kernels (terrain_round.c, terrain_box.c) -------------------------------------------------------------------------------------------
+// ---- kernels (terrain_round.c, terrain_box.c) -----------------------------------------------------------------------------------------
 // `ends`: of the core, a sphere's twice the same
 void fe__tile_touch_round(fe__gathering *g, const fe__tile *tile, const fe_vec3 ends[2], float radius);
 void fe__tile_touch_box(fe__gathering *g, const fe__tile *tile, const fe__form *box, const fe__mat3 *rotation);

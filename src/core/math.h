@@ -1,7 +1,7 @@
 // math.h - vectors, quaternions and matrices of the scalar code.
 //
-// The public structs are the working types. Every function is built from IEEE + - * / and sqrt, in a fixed order, so that each compiler gives
-// the same bits (-ffp-contract=off). Trigonometry is in trig.h; libm beyond sqrt is not used.
+// The public structs are the working types. Every function is built from IEEE + - * / and sqrt, in a fixed order, so that each compiler
+// gives the same bits (-ffp-contract=off). Trigonometry is in trig.h; libm beyond sqrt is not used.
 #ifndef FE_CORE_MATH_H
 #define FE_CORE_MATH_H
 #include "feather.h"
@@ -89,16 +89,24 @@ static inline fe_dvec3 fe__drotate(fe_quat q, fe_dvec3 a)
 static inline fe_dvec3 fe__drotate_back(fe_quat q, fe_dvec3 a) { return fe__drotate(fe__conjugate(q), a); }
 static inline fe__mat3 fe__matrix(fe_quat q)
 {
-    float xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z, wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
+    float xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z, wx = q.w * q.x, wy = q.w * q.y,
+          wz = q.w * q.z;
     return (fe__mat3){{1.0f - 2.0f * (yy + zz), 2.0f * (xy + wz), 2.0f * (xz - wy)},
                       {2.0f * (xy - wz), 1.0f - 2.0f * (xx + zz), 2.0f * (yz + wx)},
                       {2.0f * (xz + wy), 2.0f * (yz - wx), 1.0f - 2.0f * (xx + yy)}};
 }
-static inline fe_vec3 fe__mul(const fe__mat3 *m, fe_vec3 a) { return fe__add_scaled(fe__add_scaled(fe__scale(a.x, m->x), a.y, m->y), a.z, m->z); }
-static inline fe_vec3 fe__mul_transposed(const fe__mat3 *m, fe_vec3 a) { return (fe_vec3){fe__dot(m->x, a), fe__dot(m->y, a), fe__dot(m->z, a)}; }
+static inline fe_vec3 fe__mul(const fe__mat3 *m, fe_vec3 a)
+{
+    return fe__add_scaled(fe__add_scaled(fe__scale(a.x, m->x), a.y, m->y), a.z, m->z);
+}
+static inline fe_vec3 fe__mul_transposed(const fe__mat3 *m, fe_vec3 a)
+{
+    return (fe_vec3){fe__dot(m->x, a), fe__dot(m->y, a), fe__dot(m->z, a)};
+}
 static inline fe_vec3 fe__mul_sym(const fe__sym3 *m, fe_vec3 a)
 {
-    return (fe_vec3){m->xx * a.x + m->xy * a.y + m->xz * a.z, m->xy * a.x + m->yy * a.y + m->yz * a.z, m->xz * a.x + m->yz * a.y + m->zz * a.z};
+    return (fe_vec3){m->xx * a.x + m->xy * a.y + m->xz * a.z, m->xy * a.x + m->yy * a.y + m->yz * a.z,
+                     m->xz * a.x + m->yz * a.y + m->zz * a.z};
 }
 
 #endif

@@ -1,7 +1,7 @@
 // memory.h - one allocator per world, counted, and arrays that grow.
 //
-// Only the thread that uses the world allocates. Growing never loses: a failed fe__reserve leaves the array as it was. All blocks are aligned
-// to 64 bytes and new memory is zeroed, so that padding lanes and spare fields hold zeros.
+// Only the thread that uses the world allocates. Growing never loses: a failed fe__reserve leaves the array as it was. All blocks are
+// aligned to 64 bytes and new memory is zeroed, so that padding lanes and spare fields hold zeros.
 #ifndef FE_CORE_MEMORY_H
 #define FE_CORE_MEMORY_H
 #include "feather.h"
@@ -19,7 +19,8 @@ void fe__memory_init(fe__memory *memory, const fe_allocator *allocator); // NULL
 void *fe__allocate(fe__memory *memory, size_t size);                     // zeroed, 64-byte aligned, NULL on failure
 void fe__release(fe__memory *memory, void *block, size_t size);          // NULL is fine
 
-// Makes room for `need` records of `size` bytes in *array (of *capacity records), by growing geometrically. 0 on failure, with nothing changed.
+// Makes room for `need` records of `size` bytes in *array (of *capacity records), by growing geometrically. 0 on failure, with nothing
+// changed.
 int32_t fe__reserve(fe__memory *memory, void *array, int32_t *capacity, int64_t need, size_t size);
 // Gives the array back and sets pointer and capacity to 0.
 void fe__free_array(fe__memory *memory, void *array, int32_t *capacity, size_t size);

@@ -117,7 +117,7 @@ static void load(fe__solver *s, const fe__body *bodies, int32_t first, int32_t c
     for (int32_t i = first; i < first + count; i += FE_W) load_block(s, bodies, i, c);
 }
 
-// ---- gyroscopic torque -----------------------------------------------------------------------------------------------------------------
+// ---- gyroscopic torque ----------------------------------------------------------------------------------------------------------------
 // In principal axes  I w' + w x I w = 0.  Implicit midpoint, I (m - w) + h/2 m x I m = 0, w2 = 2 m - w, keeps the energy and |I w|; two
 // Newton steps from m = w solve it. What two steps leave open may add energy: the result is then shortened to the energy before.
 
@@ -150,10 +150,10 @@ FE_INLINE wide3 free_change(wide3 world, wide4 axes, wide3 in, wide half_h)
     return w_add(change, w_turn(axes, change)); // only the change is turned: w keeps its digits
 }
 
-// ---- velocities
-// -------------------------------------------------------------------------------------------------------------------------- f(v): all that
-// changes a velocity and is no constraint: gravity and forces, damping 1 / (1 + h c), the speed limit, and the gyroscopic torque of joined
-// bodies. Of free ones it acts while they turn; a joint must have answered it before its bodies move, or they move apart.
+// ---- velocities -----------------------------------------------------------------------------------------------------------------------
+// f(v): all that changes a velocity and is no constraint: gravity and forces, damping 1 / (1 + h c), the speed limit, and the gyroscopic
+// torque of joined bodies. Of free ones it acts while they turn; a joint must have answered it before its bodies move, or they move
+// apart.
 FE_INLINE void advance(const fe__solver *s, int32_t i, const fe__step_constants *c, wide3 *v, wide3 *w)
 {
     wide4 push = load_low(s->drive, i), turn = load_high(s->drive, i), principal = load_high(s->spin, i);

@@ -1,7 +1,7 @@
 // body.h - the record of a body.
 //
-// Stable: it stays at the index of its handle while the body lives. The first four lines are what a step reads and writes, in quads that a wide
-// kernel gathers one by one; the rest is for the API and for life and death. Lists are kept by index, never by pointer.
+// Stable: it stays at the index of its handle while the body lives. The first four lines are what a step reads and writes, in quads that a
+// wide kernel gathers one by one; the rest is for the API and for life and death. Lists are kept by index, never by pointer.
 #ifndef FE_SOLVER_BODY_H
 #define FE_SOLVER_BODY_H
 #include "core/math.h"
@@ -27,36 +27,36 @@ typedef struct fe__body {
     float rotation[4];                 // unit quaternion of the body's frame
     float local_centre[4];             // of mass, m, body's frame; lane 3: reach, the largest distance from it to a point of the body
     // velocities and what changes them
-    float velocity[4];      // of the centre of mass, m/s; lane 3: inverse mass, 1/kg, 0 unless dynamic
-    float spin[4];          // rad/s, world axes; lane 3: lock bits as a whole number (linear | angular << 3)
-    float force[4];         // N, during the next step; lane 3: linear damping, 1/s
-    float torque[4];        // N m, during the next step; lane 3: angular damping, 1/s
+    float velocity[4]; // of the centre of mass, m/s; lane 3: inverse mass, 1/kg, 0 unless dynamic
+    float spin[4];     // rad/s, world axes; lane 3: lock bits as a whole number (linear | angular << 3)
+    float force[4];    // N, during the next step; lane 3: linear damping, 1/s
+    float torque[4];   // N m, during the next step; lane 3: angular damping, 1/s
     // mass
-    float inertia[4];       // principal moments, kg m2 (of a dynamic body > 0); lane 3: mass, kg
-    float inertia_axes[4];  // their axes in the body's frame
+    float inertia[4];      // principal moments, kg m2 (of a dynamic body > 0); lane 3: mass, kg
+    float inertia_axes[4]; // their axes in the body's frame
     float gravity_scale;
-    float thickness;        // smallest half width of its shapes, m; FLT_MAX without any
-    float sleep_threshold;  // m/s
-    float sleep_timer;      // s below the threshold
-    int32_t line;           // in the solver while awake, set when the graph is built
-    int32_t awake_index;    // place in the list of awake bodies, -1: asleep, static or disabled
-    int32_t island;         // of the last graph, while awake
-    int32_t type;           // fe_body_type
-    uint32_t flags;         // FE__BODY_*
+    float thickness;       // smallest half width of its shapes, m; FLT_MAX without any
+    float sleep_threshold; // m/s
+    float sleep_timer;     // s below the threshold
+    int32_t line;          // in the solver while awake, set when the graph is built
+    int32_t awake_index;   // place in the list of awake bodies, -1: asleep, static or disabled
+    int32_t island;        // of the last graph, while awake
+    int32_t type;          // fe_body_type
+    uint32_t flags;        // FE__BODY_*
     // pose in full
-    double centre[3];       // of mass, m
-    double origin[3];       // of the body's frame, m
+    double centre[3]; // of mass, m
+    double origin[3]; // of the body's frame, m
     // colours taken by its contacts in the constraint graph, one bit each
     uint64_t colours[2];
-    uint32_t joint_colours; // the same of its joints
-    int32_t joint_count;    // linked ones, see joint.h
-    uint64_t serial;        // of creation, never reused
-    int32_t first_contact, contact_count; // list of pairs, threaded through fe__pair.links
-    int32_t coming_contacts; // while a step reserves: candidates with this body, else 0
+    uint32_t joint_colours;                       // the same of its joints
+    int32_t joint_count;                          // linked ones, see joint.h
+    uint64_t serial;                              // of creation, never reused
+    int32_t first_contact, contact_count;         // list of pairs, threaded through fe__pair.links
+    int32_t coming_contacts;                      // while a step reserves: candidates with this body, else 0
     int32_t first_shape, last_shape, shape_count; // list in the order of creation
     int32_t first_joint, last_joint, joint_total; // all joints, threaded through fe__joint_record.links in the order of creation; 0: none
-    int32_t locked;         // 1: any lock bit is set
-    int64_t moved_step;     // number of the last step that moved it, 0: none
+    int32_t locked;                               // 1: any lock bit is set
+    int64_t moved_step;                           // number of the last step that moved it, 0: none
     fe_handle user_data;
     int32_t order_next, order_previous; // list of all bodies in the order of creation
 } fe__body;

@@ -421,11 +421,10 @@ FE_INLINE void NAMED(bounce_row)(SPECIAL_ROW *x, fe__solver *s, const fe__step_c
     add_change(s, row->line_b, &before.b, &p.b, touched);
 }
 
-// ---- impacts
-// ----------------------------------------------------------------------------------------------------------------------------- What a
-// substep carries to the next is a guess of its impulses. Those of an impact, of a load that rose by half at once, are over: the next push
-// takes back its normal part, but friction, which only relax solves, would act twice, on bodies that turned on, and give them energy. So it
-// is carried only as it was before, until the load has lasted for a substep.
+// ---- impacts --------------------------------------------------------------------------------------------------------------------------
+// What a substep carries to the next is a guess of its impulses. Those of an impact, of a load that rose by half at once, are over: the
+// next push takes back its normal part, but friction, which only relax solves, would act twice, on bodies that turned on, and give them
+// energy. So it is carried only as it was before, until the load has lasted for a substep.
 static __attribute__((noinline)) void NAMED(leave_friction)(ROW *row, const fe__solver *s, wide load, wide_mask rose, int kind)
 {
     SPECIAL_ROW *x = (SPECIAL_ROW *)row;

@@ -48,7 +48,7 @@ typedef struct builder {
     int32_t *joint_key_count; // by part, colour and sides
 } builder;
 
-// ---- room ------------------------------------------------------------------------------------------------------------------------------
+// ---- room -----------------------------------------------------------------------------------------------------------------------------
 static int32_t joint_rows(const fe__graph_bound *b)
 {
     return b->joint_set ? (int32_t)fe__minl(b->joint_set->rows, (int64_t)b->joints * __builtin_popcount(b->joint_set->row_kinds)) : 0;
@@ -211,7 +211,7 @@ static builder make_builder(fe__solver *s, const fe__kernels *kernels, const fe_
     return b;
 }
 
-// ---- islands ---------------------------------------------------------------------------------------------------------------------------
+// ---- islands --------------------------------------------------------------------------------------------------------------------------
 static int32_t root_of(int32_t *parent, int32_t i)
 {
     while (parent[i] != i) i = parent[i] = parent[parent[i]]; // path halving
@@ -301,7 +301,7 @@ static void find_islands(builder *b)
     count_constraints(b);
 }
 
-// ---- batches ---------------------------------------------------------------------------------------------------------------------------
+// ---- batches --------------------------------------------------------------------------------------------------------------------------
 static fe__batch *open_batch(fe__solver *s)
 {
     fe__batch *batch = s->batches + s->batch_count++;
@@ -381,7 +381,7 @@ static void sort_by_batch(builder *b)
     unwind(b->joint_start, batches);
 }
 
-// ---- lines -----------------------------------------------------------------------------------------------------------------------------
+// ---- lines ----------------------------------------------------------------------------------------------------------------------------
 static void close_block(fe__solver *s)
 {
     while (s->line_count % FE__MAX_WIDTH) s->body_of_line[s->line_count++] = NONE;
@@ -422,7 +422,7 @@ static void assign_lines(builder *b, int32_t k)
     batch->line_count = s->line_count - batch->first_line;
 }
 
-// ---- lanes -----------------------------------------------------------------------------------------------------------------------------
+// ---- lanes ----------------------------------------------------------------------------------------------------------------------------
 static int32_t line_of(const builder *b, int32_t body)
 {
     const fe__body *a = b->in->bodies + body;
@@ -479,7 +479,7 @@ static void add_overflow(builder *b, int32_t k, const fe__kernels *kernels)
     }
 }
 
-// ---- joints' lanes: by part, then by colour, then by which ends move -------------------------------------------------------------------
+// ---- joints' lanes: by part, then by colour, then by which ends move ------------------------------------------------------------------
 static int32_t joint_key(int32_t part, const fe__joint *j)
 {
     return (part * (FE__JOINT_COLOURS + 1) + j->colour) * SIDES + (int32_t)sides_of(j) - 1;

@@ -22,14 +22,14 @@ typedef struct fe__graph_input {
 // What a graph of so many bodies and contacts may need at most
 typedef struct fe__graph_bound {
     int32_t bodies, contacts;
-    int32_t most_contacts;       // of one body, linked or not
-    int32_t crowded;             // contacts of bodies with more than fit the colours
-    int32_t largest;             // contacts and parts of joints of the largest island
+    int32_t most_contacts;        // of one body, linked or not
+    int32_t crowded;              // contacts of bodies with more than fit the colours
+    int32_t largest;              // contacts and parts of joints of the largest island
     int32_t fast, fast_kinematic; // bodies that leave a trail; 1: kinematic ones do
-    int32_t kinds;               // kinds of rows in use
-    int32_t special;             // 1: special rows are among them
-    const fe__joints *joint_set; // NULL: none
-    int32_t joints;              // of them, awake or about to wake, at most
+    int32_t kinds;                // kinds of rows in use
+    int32_t special;              // 1: special rows are among them
+    const fe__joints *joint_set;  // NULL: none
+    int32_t joints;               // of them, awake or about to wake, at most
 } fe__graph_bound;
 
 // 1: there are rows already for any such graph, whatever its islands

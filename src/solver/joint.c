@@ -6,7 +6,7 @@
 #include <assert.h>
 #include <string.h>
 
-// ---- the graph -------------------------------------------------------------------------------------------------------------------------
+// ---- the graph ------------------------------------------------------------------------------------------------------------------------
 static const uint32_t all_colours = (1u << FE__JOINT_COLOURS) - 1u, all_parts = (1u << FE__PARTS) - 1u;
 
 static uint32_t sides_of(const fe__joint *j) { return j->rows >> FE__SIDES_SHIFT; }
@@ -92,7 +92,7 @@ void fe__joint_forget_impulses(fe__joints *joints, int32_t joint)
     memset(axes->turn.torque, 0, sizeof axes->turn.torque);
 }
 
-// ---- readings --------------------------------------------------------------------------------------------------------------------------
+// ---- readings -------------------------------------------------------------------------------------------------------------------------
 static fe_quat quat_of(const float *q) { return (fe_quat){q[0], q[1], q[2], q[3]}; }
 static fe_vec3 vec_of(const float *a) { return fe__vec3(a[0], a[1], a[2]); }
 

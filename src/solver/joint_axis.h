@@ -133,7 +133,7 @@ FE_INLINE wide_mask forget_jump(freedom *f, wide3 before, wide3 after)
     return jumps;
 }
 
-// ---- linear ----------------------------------------------------------------------------------------------------------------------------
+// ---- linear ---------------------------------------------------------------------------------------------------------------------------
 typedef struct {
     line_pair line;
     wide u[3];
@@ -251,7 +251,7 @@ FE_INLINE void store_linear(const fe__joints *joints, const fe__lane *lanes, con
     }
 }
 
-// ---- angular ---------------------------------------------------------------------------------------------------------------------------
+// ---- angular --------------------------------------------------------------------------------------------------------------------------
 typedef struct {
     line_pair line;
     wide g[3];                 // gradient, world
@@ -400,7 +400,7 @@ FE_INLINE void store_angular(const fe__joints *joints, const fe__lane *lanes, co
     }
 }
 
-// ---- the kernels of each part ----------------------------------------------------------------------------------------------------------
+// ---- the kernels of each part ---------------------------------------------------------------------------------------------------------
 #define AXIS_INSTANCE(name, form, part, slot)                                                                                      \
     static void prepare_##name(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes, void *rows, \
                                int32_t count, int32_t sides, const fe__step_constants *c)                                          \

@@ -6,7 +6,7 @@
 // Order of a hinge: these first, its point last, in blocks of their own. One soft block of five would share its compliance: a bending
 // moment would open the anchors three times as far.
 
-// ---- hinge -----------------------------------------------------------------------------------------------------------------------------
+// ---- hinge ----------------------------------------------------------------------------------------------------------------------------
 typedef struct {
     line_pair line;
     wide t1[3], t2[3]; // now
@@ -120,7 +120,7 @@ static void store_hinge(const fe__joints *joints, const fe__lane *lanes, const v
     }
 }
 
-// ---- fixed -----------------------------------------------------------------------------------------------------------------------------
+// ---- fixed ----------------------------------------------------------------------------------------------------------------------------
 typedef struct {
     line_pair line;
     wide error[3];
@@ -209,7 +209,7 @@ static void store_fixed(const fe__joints *joints, const fe__lane *lanes, const v
     }
 }
 
-// ---- turn ------------------------------------------------------------------------------------------------------------------------------
+// ---- turn -----------------------------------------------------------------------------------------------------------------------------
 
 // With K isotropic and given, or M w^2
 // with M = (IA^-1 + IB^-1)^-1, the drive is

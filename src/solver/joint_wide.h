@@ -24,7 +24,7 @@ enum {
     BOTH_SIDES = FE__MOVES_A | FE__MOVES_B
 };
 
-// ---- bodies ----------------------------------------------------------------------------------------------------------------------------
+// ---- bodies ---------------------------------------------------------------------------------------------------------------------------
 FE_INLINE ends gather_ends(const fe__solver *s, const line_pair *line) { return (ends){gather_side(s, line->a), gather_side(s, line->b)}; }
 
 // what does not move is never written: all workers read it
@@ -73,7 +73,7 @@ FE_INLINE wide3 speed_between(const ends *e, wide3 ra, wide3 rb)
     return w_sub(w_add(e->b.v, w_cross(e->b.w, rb)), w_add(e->a.v, w_cross(e->a.w, ra)));
 }
 
-// ---- a vector that turns with a body ---------------------------------------------------------------------------------------------------
+// ---- a vector that turns with a body --------------------------------------------------------------------------------------------------
 FE_INLINE wide3 turn_of(const fe__solver *s, const int32_t *line, wide3 first) { return w_turn(gather_high(s->motion, line), first); }
 
 // anchors, by their arms from the centres, in world axes
@@ -88,7 +88,7 @@ FE_INLINE anchors anchors_now(const fe__solver *s, const line_pair *line, const 
     return (anchors){w_add(first->ra, ta), w_add(first->rb, tb), w_add(first->gap, w_add(w_sub(pb, pa), w_sub(tb, ta)))};
 }
 
-// ---- records ---------------------------------------------------------------------------------------------------------------------------
+// ---- records --------------------------------------------------------------------------------------------------------------------------
 
 // The joints of a row.
 // Padding lanes stand for the first lane's joint, on lines of their own that nothing moves; they are never stored.
@@ -163,14 +163,14 @@ FE_INLINE anchors first_anchors(const fe__joints *joints, const fe__body *bodies
 // from the sum of a step's impulses to the mean force
 FE_INLINE float mean_of(const fe__step_constants *c) { return c->inverse_h / (float)c->substeps; }
 
-// ---- softness --------------------------------------------------------------------------------------------------------------------------
+// ---- softness -------------------------------------------------------------------------------------------------------------------------
 
 // change = -m ((1 - fade) v + rate C) - fade l.
 // With w = 2 pi hertz:  fade = 1 / (1 + h w (2 zeta + h w)),  rate = h w^2 fade
-// A stiffness of its own is a spring, which swings: the rigid pass leaves it alone. The world's is a lock that gives. Between them, from half
-// of the stiffness that the substeps allow (w h = pi / 4: eight substeps to a period, of which the implicit step damps half of critical
-// anyway), a spring takes a growing share of the rigid pass, and all of it at the most stiff: rows that fight over long arms, and see each
-// other only once a substep, otherwise gain energy.
+// A stiffness of its own is a spring, which swings: the rigid pass leaves it alone. The world's is a lock that gives. Between them, from
+// half of the stiffness that the substeps allow (w h = pi / 4: eight substeps to a period, of which the implicit step damps half of
+// critical anyway), a spring takes a growing share of the rigid pass, and all of it at the most stiff: rows that fight over long arms, and
+// see each other only once a substep, otherwise gain energy.
 typedef struct {
     wide rate, fade;
     wide rigid; // the share of the rigid pass: 1 for a lock, 0 for a spring
@@ -221,7 +221,7 @@ FE_INLINE wide_sym sum_sym(const wide_sym *a, const wide_sym *b)
     return (wide_sym){a->xx + b->xx, a->xy + b->xy, a->xz + b->xz, a->yy + b->yy, a->yz + b->yz, a->zz + b->zz};
 }
 
-// ---- rotations -------------------------------------------------------------------------------------------------------------------------
+// ---- rotations ------------------------------------------------------------------------------------------------------------------------
 FE_INLINE wide4 load4(const wide *p) { return (wide4){p[0], p[1], p[2], p[3]}; }
 FE_INLINE void store4(wide *p, wide4 a) { p[0] = a.x, p[1] = a.y, p[2] = a.z, p[3] = a.w; }
 FE_INLINE wide4 first_frame(const fe__body *bodies, const int32_t *body, wide4 frame)
@@ -285,7 +285,7 @@ FE_INLINE wide3 frame_axis(wide4 q, int k)
     return turned(q, e);
 }
 
-// ---- bodies that only turn -------------------------------------------------------------------------------------------------------------
+// ---- bodies that only turn ------------------------------------------------------------------------------------------------------------
 typedef struct {
     wide3 a, b;
     wide locks_a, locks_b;
@@ -303,7 +303,7 @@ FE_INLINE void scatter_spins(float (*lines)[FE__LINE], const line_pair *line, co
     if (sides & FE__MOVES_B) w_scatter(lines[0] + 4, FE__LINE, line->b, w_with(e->b, e->locks_b));
 }
 
-// ---- inertia that turns ----------------------------------------------------------------------------------------------------------------
+// ---- inertia that turns ---------------------------------------------------------------------------------------------------------------
 // sin^2 of half the angle from which on a body's turn within the step counts for its inertia: 0.02 rad
 #define TURNED 1e-4f
 

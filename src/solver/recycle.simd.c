@@ -1,7 +1,9 @@
-// recycle.simd.c - contacts that keep their manifold: the separations at the beginning of a step from the bodies' poses, W contacts at a time.
+// recycle.simd.c - contacts that keep their manifold: the separations at the beginning of a step from the bodies' poses, W contacts at a
+// time.
 //
-// A pair that moved less than a tolerance since its last full narrow phase keeps normal, arms and ids; only the separations follow, exactly for the
-// material points it has. Compared with the last full test, not with the last step, so that drift is seen. Compiled once per SIMD set.
+// A pair that moved less than a tolerance since its last full narrow phase keeps normal, arms and ids; only the separations follow, exactly
+// for the material points it has. Compared with the last full test, not with the last step, so that drift is seen. Compiled once per SIMD
+// set.
 #include "core/simd.h"
 #include "solver/solver.h"
 #include "solver/wide_body.h"
@@ -23,9 +25,10 @@ FE_INLINE wide difference(wide a, wide b, wide *error)
     return d;
 }
 
-// By how much B's centre moved against A's since the contact was found: (cB - cA) + found span. The bodies' and the contact's high parts cancel
-// first, so that metres or a thousand kilometres between the centres cost no digit.
-FE_INLINE wide3 shift_since_found(const fe__contact *contacts, const fe__body *bodies, const int32_t *index, const int32_t *a, const int32_t *b)
+// By how much B's centre moved against A's since the contact was found: (cB - cA) + found span. The bodies' and the contact's high parts
+// cancel first, so that metres or a thousand kilometres between the centres cost no digit.
+FE_INLINE wide3 shift_since_found(const fe__contact *contacts, const fe__body *bodies, const int32_t *index, const int32_t *a,
+                                  const int32_t *b)
 {
     wide3 high_a = BODY_QUAD(centre_high, a), high_b = BODY_QUAD(centre_high, b), e;
     wide3 low = w_sub(BODY_QUAD(centre_low, b), BODY_QUAD(centre_low, a));
@@ -60,9 +63,9 @@ static void recycle_block(fe__contact *contacts, const fe__body *bodies, const i
     wide3 na = w_turn_back(turn_a, n), nb = w_turn_back(turn_b, n), slope = w_sub(nb, na);
     wide constant = w_dot(n, shift) + w_dot(nb, arms_span) + surface.y * w_dot(na, n) + surface.z * w_dot(nb, n);
 
-    // Along the normal the separations follow exactly (a pair that came so far apart, or so deep, has other features); what ages a manifold is
-    // sliding and turning. A point slides by at most |slide| +
-    // 2 |sin(turn / 2)| reach of either body, and (x + y + z)^2 <= 3 (x^2 + y^2 + z^2)
+    // Along the normal the separations follow exactly (a pair that came so far apart, or so deep, has other features); what ages a manifold
+    // is sliding and turning. A point slides by at most |slide| + 2 |sin(turn / 2)| reach of either body, and (x + y + z)^2 <= 3 (x^2 + y^2
+    // + z^2)
     wide along = w_dot(n, shift);
     wide3 slide = w_sub_scaled(shift, along, n);
     wide turned = w_dot(w_xyz(turn_a), w_xyz(turn_a)) + w_dot(w_xyz(turn_b), w_xyz(turn_b));

@@ -53,7 +53,7 @@ fe__softness fe__make_softness(float hertz, float damping_ratio, float h)
     return (fe__softness){omega / a1, a2 * a3, a3};
 }
 
-// ---- the program of a batch ------------------------------------------------------------------------------------------------------------
+// ---- the program of a batch -----------------------------------------------------------------------------------------------------------
 static int32_t blocks_of(int32_t items, int32_t block) { return (items + block - 1) / block; }
 
 static void add_pass(program *p, int32_t *part, verb verb, int32_t first_group, int32_t groups, int32_t blocks, int32_t serial)
@@ -129,7 +129,7 @@ static const pass *pass_at(const program *p, int32_t i)
     return p->passes + p->prologue + p->substep + (i - p->prologue - looped);
 }
 
-// ---- one block of one pass -------------------------------------------------------------------------------------------------------------
+// ---- one block of one pass ------------------------------------------------------------------------------------------------------------
 // Continuous collision follows the way that fast bodies really went, round a bounce too: the straight line to where they ended may cut what
 // they never met.
 static void begin_trails(const job *j, int32_t first, int32_t count)
@@ -244,7 +244,7 @@ static void run_block(const job *j, const fe__batch *b, const pass *p, unsigned 
     run_rows(j, g, p->verb, rows, first, fe__mini(rows_in_block, g->rows - first));
 }
 
-// ---- a small batch, whole --------------------------------------------------------------------------------------------------------------
+// ---- a small batch, whole -------------------------------------------------------------------------------------------------------------
 static void run_batch(const job *j, const fe__batch *b, unsigned char *rows)
 {
     const fe__group *groups = j->s->groups + b->first_group;
@@ -274,7 +274,7 @@ static void run_small_batches(void *argument, int32_t worker)
     }
 }
 
-// ---- a large batch, together -----------------------------------------------------------------------------------------------------------
+// ---- a large batch, together ----------------------------------------------------------------------------------------------------------
 static int32_t claim_block(job *j, uint64_t pass_index, int32_t blocks)
 {
     uint64_t claim = atomic_load_explicit(&j->claim, memory_order_acquire);

@@ -18,8 +18,14 @@ FE_INLINE wide4 gather_low(float (*lines)[FE__LINE], const int32_t *index) { ret
 FE_INLINE wide4 gather_high(float (*lines)[FE__LINE], const int32_t *index) { return w_gather(lines[0] + 4, FE__LINE, index); }
 
 FE_INLINE side side_of(wide4 v, wide4 w) { return (side){w_xyz(v), w_xyz(w), v.w, w.w}; }
-FE_INLINE side gather_side(const fe__solver *s, const int32_t *index) { return side_of(gather_low(s->velocity, index), gather_high(s->velocity, index)); }
-FE_INLINE side start_side(const fe__solver *s, const int32_t *index) { return side_of(gather_low(s->start, index), gather_high(s->start, index)); }
+FE_INLINE side gather_side(const fe__solver *s, const int32_t *index)
+{
+    return side_of(gather_low(s->velocity, index), gather_high(s->velocity, index));
+}
+FE_INLINE side start_side(const fe__solver *s, const int32_t *index)
+{
+    return side_of(gather_low(s->start, index), gather_high(s->start, index));
+}
 
 FE_INLINE void scatter_side(float (*lines)[FE__LINE], const int32_t *index, const side *b)
 {

@@ -104,7 +104,7 @@ static void add_hit(fe_world *w, int32_t pair)
                                  fe__scale(sign, fe__vec3(m->normal[0], m->normal[1], m->normal[2])), sum.approach, sum.impulse, 0}};
 }
 
-// ---- looking, on any thread: pairs that have something to tell go to the list of results -----------------------------------------------
+// ---- looking, on any thread: pairs that have something to tell go to the list of results ----------------------------------------------
 enum { PAIRS_IN_BLOCK = 256 };
 
 static void look_block(void *argument, int32_t first, int32_t end, int32_t worker)
@@ -149,9 +149,8 @@ static void tell(fe_world *w, int32_t pair)
         w->pair_events[w->pair_event_count++] = record_of(w, pair, kind);
 }
 
-// ---- order
-// -------------------------------------------------------------------------------------------------------------------------------- Stable
-// sorts by B, then by A. The records are moved once, along the cycles of the permutation.
+// ---- order ----------------------------------------------------------------------------------------------------------------------------
+// Stable sorts by B, then by A. The records are moved once, along the cycles of the permutation.
 static void sort_records(fe__step *step, unsigned char *records, int32_t count, size_t size)
 {
     fe__sort_item *items = step->scratch->sort_items;

@@ -8,7 +8,7 @@
 
 static uint32_t bit(fe__joint_part part) { return 1u << part; }
 
-// ---- one axis ---------------------------------------------------------------------------------------------------------------------------
+// ---- one axis -------------------------------------------------------------------------------------------------------------------------
 static void set_limit(fe__joint_axis *axis, float low, float high, float hertz, float damping_ratio)
 {
     axis->limit[0] = low, axis->limit[1] = high, axis->limit[2] = hertz, axis->limit[3] = damping_ratio;
@@ -25,7 +25,7 @@ static void set_drive(fe__joint_axis *axis, float target, float stiffness, float
 
 static void set_motor(fe__joint_axis *axis, float speed, float cap) { axis->motor[0] = speed, axis->motor[1] = cap; }
 
-// ---- distance, hinge, fixed -------------------------------------------------------------------------------------------------------------
+// ---- distance, hinge, fixed -----------------------------------------------------------------------------------------------------------
 static void plan_distance(const fe_distance_def *d, fe__joint_plan *plan)
 {
     fe__joint_axis *axis = plan->axes.axis + FE__AXIS_LINEAR;
@@ -75,7 +75,7 @@ static void plan_fixed(const fe_fixed_def *d, fe__joint_plan *plan)
     turn->drive[3] = FE__DRIVE_HERTZ;
 }
 
-// ---- rotations of three angles ----------------------------------------------------------------------------------------------------------
+// ---- rotations of three angles --------------------------------------------------------------------------------------------------------
 typedef struct angles {
     float twist, swing_y, swing_z; // rad
 } angles;
@@ -146,7 +146,7 @@ static void plan_ball(const fe_ball_def *d, fe__joint_plan *plan)
     turn->motor[3] = d->motor_torque;
 }
 
-// ---- configurable -----------------------------------------------------------------------------------------------------------------------
+// ---- configurable ---------------------------------------------------------------------------------------------------------------------
 static int32_t drives(const fe_joint_axis *a) { return a->drive != FE_DRIVE_NONE && (a->stiffness > 0.0f || a->damping > 0.0f); }
 
 // Limits, drive and motor of an axis that is not locked. 0: it has none
@@ -257,7 +257,7 @@ static void plan_configurable(const fe_configurable_def *d, fe__joint_plan *plan
     plan_rotations(d, about, plan);
 }
 
-// ---- all --------------------------------------------------------------------------------------------------------------------------------
+// ---- all ------------------------------------------------------------------------------------------------------------------------------
 void fe__joint_make_plan(int32_t type, const fe__joint_any *desc, fe__joint_plan *out_plan)
 {
     *out_plan = (fe__joint_plan){.hertz = desc->common.hertz, .damping_ratio = desc->common.damping_ratio};

@@ -25,7 +25,7 @@ static fe_vec3 velocity_at(const fe__body *b, fe_dvec3 point)
     return fe__add(velocity_of(b), fe__cross(spin_of(b), fe__narrow(arm)));
 }
 
-// ---- errors -----------------------------------------------------------------------------------------------------------------------------
+// ---- errors ---------------------------------------------------------------------------------------------------------------------------
 static float beyond(const fe__joint_axis *axis, float x) { return fe__maxf(fe__maxf(axis->limit[0] - x, x - axis->limit[1]), 0.0f); }
 
 static float linear_error(const fe__joint_frame *f, const fe__joint_axes *axes, const fe__joint_pose *pose)
@@ -62,7 +62,7 @@ static float angular_error(const fe__joint_frame *f, const fe__joint_axes *axes,
     return error;
 }
 
-// ---- state ------------------------------------------------------------------------------------------------------------------------------
+// ---- state ----------------------------------------------------------------------------------------------------------------------------
 // From the solver's axes back to those of the definition
 static void tell_coordinates(int32_t shift, const fe__joint_pose *pose, float twist, fe_joint_state *s)
 {
@@ -100,7 +100,7 @@ void fe__joint_state_of(const fe_world *world, int32_t joint, fe_joint_state *s)
     s->angular_error = whole_angle(pose.q);
 }
 
-// ---- breaking ---------------------------------------------------------------------------------------------------------------------------
+// ---- breaking -------------------------------------------------------------------------------------------------------------------------
 static int32_t exceeds(fe_vec3 a, float most) { return most > 0.0f && fe__dot(a, a) > most * most; }
 
 // Reads the step's reactions; writes events in the order of creation, then removes the joints in that order

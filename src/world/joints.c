@@ -30,7 +30,7 @@ void fe__joints_free(fe_world *world)
     FE_FREE(memory, world->joint_events, world->joint_event_capacity);
 }
 
-// ---- lists ------------------------------------------------------------------------------------------------------------------------------
+// ---- lists ----------------------------------------------------------------------------------------------------------------------------
 static int32_t side_of(const fe__joint_record *r, int32_t body) { return r->body[0] == body ? 0 : 1; }
 
 int32_t fe__next_joint(const fe_world *world, int32_t joint, int32_t body)
@@ -105,7 +105,7 @@ static void remove_from_order(fe_world *world, int32_t joint)
     --world->joint_count;
 }
 
-// ---- who is awake -----------------------------------------------------------------------------------------------------------------------
+// ---- who is awake ---------------------------------------------------------------------------------------------------------------------
 static int32_t is_awake_dynamic(const fe_world *world, int32_t body)
 {
     return world->bodies[body].type == FE_BODY_DYNAMIC && world->bodies[body].awake_index >= 0;
@@ -130,8 +130,7 @@ void fe__joint_retire(fe_world *world, int32_t joint)
     r->awake_index = -1;
 }
 
-// ---- the constraint graph
-// -----------------------------------------------------------------------------------------------------------------
+// ---- the constraint graph -------------------------------------------------------------------------------------------------------------
 static int32_t acts(const fe_world *world, const fe__joint_record *r)
 {
     const fe__body *a = world->bodies + r->body[0], *b = world->bodies + r->body[1];
@@ -168,7 +167,7 @@ void fe__body_link_joints(fe_world *world, int32_t body)
     for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body)) link(world, joint);
 }
 
-// ---- filter -----------------------------------------------------------------------------------------------------------------------------
+// ---- filter ---------------------------------------------------------------------------------------------------------------------------
 static int32_t parts_bodies(const fe__joint_record *r)
 {
     return (r->flags & (FE__JOINT_ENABLED | FE__JOINT_COLLIDES)) == FE__JOINT_ENABLED;
@@ -199,8 +198,7 @@ static void wake_bodies(fe_world *world, const int32_t *bodies)
         if (world->bodies[bodies[k]].flags & FE__BODY_ENABLED) fe__wake(world, bodies[k]);
 }
 
-// ---- what the solver reads
-// ----------------------------------------------------------------------------------------------------------------
+// ---- what the solver reads ------------------------------------------------------------------------------------------------------------
 static void set_vec(float *out, fe_vec3 a) { out[0] = a.x, out[1] = a.y, out[2] = a.z; }
 static void set_quat(float *out, fe_quat q) { out[0] = q.x, out[1] = q.y, out[2] = q.z, out[3] = q.w; }
 static fe_vec3 local_centre(const fe__body *b) { return fe__vec3(b->local_centre[0], b->local_centre[1], b->local_centre[2]); }
@@ -284,8 +282,7 @@ static void fill(fe_world *world, int32_t joint, const fe__joint_plan *plan)
     wind(world, joint);
 }
 
-// ---- birth, change, death
-// -----------------------------------------------------------------------------------------------------------------
+// ---- birth, change, death -------------------------------------------------------------------------------------------------------------
 static fe_result reserve_axes(fe_world *world, int32_t extra)
 {
     fe_result result = fe__record_pool_reserve(&world->joint_axes, &world->memory, extra);

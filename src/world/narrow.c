@@ -177,8 +177,8 @@ static void set_points(fe__contact *m, const fe__view *v, const fe__places *at, 
     m->found_span[3] = sqrtf(reach);
 }
 
-// Separations now of a manifold found ahead of time, along its normal: as in recycle.simd.c. Its arms stay those of the touch, and the turns
-// from there to now take the place of the rotations.
+// Separations now of a manifold found ahead of time, along its normal: as in recycle.simd.c. Its arms stay those of the touch, and the
+// turns from there to now take the place of the rotations.
 static void step_back(fe__contact *m, const fe__places *at, const fe__body *a, const fe__body *b)
 {
     fe_quat turn_a = fe__product(fe__rotation_of(a), fe__conjugate(at->rotation_a)),

@@ -23,24 +23,24 @@ typedef struct fe__link {
     int32_t next, previous; // pair index, -1: none
 } fe__link;
 
-// A pair with a heightfield has a patch of points for each direction: its own contact, and those of FE__PATCHES - 1 patch records that live as long
-// as it does. To the solver each is a contact; while linked it is in the lists of bodies and of awake pairs. Events, filters and recycling are the
-// head's alone. Of all patches the head has points first.
+// A pair with a heightfield has a patch of points for each direction: its own contact, and those of FE__PATCHES - 1 patch records that live
+// as long as it does. To the solver each is a contact; while linked it is in the lists of bodies and of awake pairs. Events, filters and
+// recycling are the head's alone. Of all patches the head has points first.
 typedef struct fe__pair {
     int32_t shape_a, shape_b; // A was created first
     int32_t body_a, body_b;
-    fe__link links[2];        // in the lists of body A and body B
-    uint32_t flags;           // FE__PAIR_*
-    int32_t awake_index;      // place in the list of awake pairs, -1: both sides sleep
-    int32_t result;           // FE__RESULT_*
-    int32_t axis;             // of the narrow phase: fe__manifold.axis, axis_separation
+    fe__link links[2];   // in the lists of body A and body B
+    uint32_t flags;      // FE__PAIR_*
+    int32_t awake_index; // place in the list of awake pairs, -1: both sides sleep
+    int32_t result;      // FE__RESULT_*
+    int32_t axis;        // of the narrow phase: fe__manifold.axis, axis_separation
     float axis_separation;
-    uint32_t ids[4];          // features of the points
-    uint32_t events;          // fe_shape_events of either shape
-    float approach;           // speed of the impact in this step, m/s
-    int32_t next_patch;       // of the same pair, -1: none
-    int32_t head;             // of a patch
-    int32_t triangle;         // of the heightfield under a patch, -1: none
+    uint32_t ids[4];    // features of the points
+    uint32_t events;    // fe_shape_events of either shape
+    float approach;     // speed of the impact in this step, m/s
+    int32_t next_patch; // of the same pair, -1: none
+    int32_t head;       // of a patch
+    int32_t triangle;   // of the heightfield under a patch, -1: none
 } fe__pair;
 
 #endif

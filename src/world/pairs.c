@@ -99,8 +99,7 @@ static int32_t concerns_sleepers(const fe_world *world, const fe__pair *p)
     return p->flags & FE__PAIR_SENSOR || (dynamic_a != dynamic_b && !(sleeper->flags & FE__SHAPE_MOVED));
 }
 
-// ---- materials
-// ---------------------------------------------------------------------------------------------------------------------------
+// ---- materials ------------------------------------------------------------------------------------------------------------------------
 static float form_radius(const fe__shape *a, const fe__shape *b) { return fe__maxf(a->form.radius, b->form.radius); }
 
 static int32_t has_extra(const fe_world *world, const fe__shape *shape)
@@ -159,8 +158,7 @@ void fe__pair_mix(fe_world *world, int32_t pair)
     if (m->colour >= 0) world->solver.graph_changed = 1;
 }
 
-// ---- the constraint graph
-// ------------------------------------------------------------------------------------------------------------------
+// ---- the constraint graph -------------------------------------------------------------------------------------------------------------
 static int32_t first_colour(uint64_t used_low, uint64_t used_high, int32_t first, int32_t end)
 {
     for (int32_t word = first / 64; word <= (end - 1) / 64; ++word) {
@@ -235,8 +233,7 @@ void fe__patch_leave(fe_world *world, int32_t patch)
     remove_from_list(world, patch, p->body_b);
 }
 
-// ---- birth and death
-// ------------------------------------------------------------------------------------------------------------------------
+// ---- birth and death ------------------------------------------------------------------------------------------------------------------
 static float half_size(const fe__form *form) { return fe__maxf(fe__maxf(form->half.x, form->half.y), form->half.z); }
 
 // Which shape is fe__collide's A (see collide.h), and which body is the solver's A: the one that is not dynamic, else that shape's.

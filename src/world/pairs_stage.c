@@ -1,8 +1,8 @@
 // pairs_stage.c - stage 1: which shapes came near each other.
 //
-// Shapes with a new box (fe_world.moved) ask the trees and the planes; what passes the filter and has no record is a candidate. Workers write to
-// buffers of their own, merged and sorted by creation, so that neither the workers nor the trees show. Nothing of the world is changed before all
-// memory that the step can need is reserved.
+// Shapes with a new box (fe_world.moved) ask the trees and the planes; what passes the filter and has no record is a candidate. Workers
+// write to buffers of their own, merged and sorted by creation, so that neither the workers nor the trees show. Nothing of the world is
+// changed before all memory that the step can need is reserved.
 #include "world/step.h"
 
 enum { SHAPES_IN_BLOCK = 32, FIRST_ROOM = 256 };
@@ -22,7 +22,8 @@ static int32_t found(void *context, int32_t other)
     if (w->shapes[other].flags & FE__SHAPE_MOVED && other < s->shape) return 1;
     if (!fe__may_collide(w, s->shape, other) || fe__pair_set_find(&w->pair_set, s->shape, other) >= 0) return 1;
     int32_t first = w->shapes[s->shape].serial < w->shapes[other].serial;
-    if (s->buffer->count < s->room) s->buffer->items[s->buffer->count] = first ? (fe__candidate){s->shape, other} : (fe__candidate){other, s->shape};
+    if (s->buffer->count < s->room)
+        s->buffer->items[s->buffer->count] = first ? (fe__candidate){s->shape, other} : (fe__candidate){other, s->shape};
     ++s->buffer->count;
     return 1;
 }

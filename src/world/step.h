@@ -40,7 +40,7 @@ typedef struct fe__step_scratch {
     _Atomic int32_t left_count;
     _Atomic int32_t lost_count; // bodies that overflowed in this step
 
-    int32_t *chased; // bodies that continuous collision looks at: dynamic ones, and kinematic ones from kinematic_room on
+    int32_t *chased;   // bodies that continuous collision looks at: dynamic ones, and kinematic ones from kinematic_room on
     fe__chase *chases; // what became of bullets, by place in that list
     int32_t chased_capacity, chase_capacity;
     int32_t kinematic_room;
@@ -75,7 +75,7 @@ void fe__collect_events(fe__step *step);       // events.c
 void fe__put_islands_to_sleep(fe__step *step); // finalize.c
 void fe__collect_body_events(fe__step *step);  // events.c
 
-int32_t fe__find_clusters(fe__step *step, fe__graph_bound *bound); // clusters.c: bound->largest; 0: no memory
+int32_t fe__find_clusters(fe__step *step, fe__graph_bound *bound);          // clusters.c: bound->largest; 0: no memory
 int32_t fe__reserve_step(fe__step *step);                                   // reserve.c; 0: no memory
 int32_t fe__motion_makes_sense(const fe__solver *s, int32_t line);          // finalize.c; 0: it overflowed
 int32_t fe__box_meets_plane(const fe__shape *plane, const fe__bounds *box); // does the box reach into the half space?

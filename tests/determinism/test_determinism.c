@@ -43,8 +43,7 @@ static const golden *find_golden(const char *script, int32_t step)
     return NULL;
 }
 
-// ---- worlds
-// -------------------------------------------------------------------------------------------------------------------------------
+// ---- worlds ---------------------------------------------------------------------------------------------------------------------------
 
 // NULL: this CPU has no such set
 static fe_world *new_world(int32_t simd, int32_t workers)
@@ -82,8 +81,7 @@ static void run(const script *s, int32_t simd, int32_t workers, int32_t steps)
     fe_world_destroy(p.world);
 }
 
-// ---- every number of workers, every SIMD set
-// ------------------------------------------------------------------------------------------------
+// ---- every number of workers, every SIMD set ------------------------------------------------------------------------------------------
 
 typedef struct condition {
     const script *script;
@@ -148,8 +146,7 @@ static void crowd_has_more_than_1000_contacts(void **state)
     fe_world_destroy(p.world);
 }
 
-// ---- other bodies
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- other bodies ---------------------------------------------------------------------------------------------------------------------
 
 typedef struct motion {
     fe_transform transform;
@@ -258,8 +255,7 @@ static void bodies_that_came_and_went_change_no_trajectory(void **state)
     compare_with_strangers(&script_crowd, STRANGER_STEPS, add_and_take_away, NULL);
 }
 
-// ---- main
-// ---------------------------------------------------------------------------------------------------------------------------------
+// ---- main -----------------------------------------------------------------------------------------------------------------------------
 
 static int update(void)
 {

@@ -152,8 +152,8 @@ static void random_scenes_hold_the_laws_at_every_step(void **state)
 }
 
 // Gravity, contacts, friction and damping only ever take energy. A soft contact stores what it gives under its load: m g times the sink of
-// P1, a millimetre for what lies here, and may give it back; a body that a heavy one pins to the ground in its fall stores more, some parts in
-// a thousand of the kinetic energy; in one heap of forty more.
+// P1, a millimetre for what lies here, and may give it back; a body that a heavy one pins to the ground in its fall stores more, some parts
+// in a thousand of the kinetic energy; in one heap of forty more.
 static void closed_scenes_gain_no_energy(void **state)
 {
     (void)state;

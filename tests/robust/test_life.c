@@ -64,8 +64,7 @@ static void all_is_finite(const fe_world *world, const fe_body *bodies, int32_t 
     }
 }
 
-// ---- coming and going
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- coming and going -----------------------------------------------------------------------------------------------------------------
 
 // 64 bodies at a time in a heap on the ground, the oldest replaced: slots, pairs, tree nodes and events go round
 static void memory_stays_flat_over_many_spawns(void **state)
@@ -239,8 +238,7 @@ static void thousands_can_be_created_one_by_one(void **state)
     close_world(&p, &memory);
 }
 
-// ---- changes
-// --------------------------------------------------------------------------------------------------------------------------------
+// ---- changes --------------------------------------------------------------------------------------------------------------------------
 
 // Pushed out no faster than contact_push_speed, and never stuck or thrown
 static void a_body_born_inside_another_gets_out(void **state)

@@ -13,8 +13,8 @@
 // of the energy: what no step may gain
 #define ENERGY_GAIN 1e-5
 
-// A law that the engine does not hold yet in this scene (CHANGELOG.md, "Known limits"): by how much it is missed is printed, and the case counts as
-// skipped, not as passed. A gross miss fails all the same.
+// A law that the engine does not hold yet in this scene (CHANGELOG.md, "Known limits"): by how much it is missed is printed, and the case
+// counts as skipped, not as passed. A gross miss fails all the same.
 typedef struct shortfall {
     const char *what;
     double worst; // value over its bound, 1 and less: held

@@ -14,7 +14,8 @@ static inline double level(double x, double z)
     return 0.0;
 }
 
-// A heightfield of `cells` x `cells`, each `cell` m wide, whose first sample stands at (x, z) and whose heights are those of `at` in the scene
+// A heightfield of `cells` x `cells`, each `cell` m wide, whose first sample stands at (x, z) and whose heights are those of `at` in the
+// scene
 static inline fe_asset make_field(scene *s, int cells, double cell, double x, double z, height_at *at)
 {
     int n = cells + 1;

@@ -481,7 +481,7 @@ static void a_bounce_below_a_roof_is_no_hit(void **state)
     scene_end(&bare);
 }
 
-// ---- triggers and events ----------------------------------------------------------------------------------------------------------------
+// ---- triggers and events --------------------------------------------------------------------------------------------------------------
 static int told(const scene *s, fe_body a, fe_body b, int kind)
 {
     fe_pair_event events[64];

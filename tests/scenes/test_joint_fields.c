@@ -202,8 +202,7 @@ static void put_collide(rig *r, any_def *d, const row *row, double value)
     put_int(r, d, row, value);
 }
 
-// ---- what else a definition needs
-// ---------------------------------------------------------------------------------------------------------
+// ---- what else a definition needs -----------------------------------------------------------------------------------------------------
 
 #define PREPARE(name, ...) \
     static void name(any_def *d) { __VA_ARGS__; }
@@ -232,8 +231,7 @@ PREPARE(hinge_motor, d->hinge.motor_torque = 1e6f)
 PREPARE(hinge_racer, d->hinge.motor_speed = 1000)
 PREPARE(angular_spring, d->fixed.angular_hertz = 2, d->fixed.angular_damping_ratio = 5)
 
-// ---- rows of what all types have
-// ----------------------------------------------------------------------------------------------------------
+// ---- rows of what all types have ------------------------------------------------------------------------------------------------------
 
 static const row common_rows[] = {
     {FIELD(common.enabled), {1, 0}, held_if, way, 0, 100, 0.5, NULL, put_int},
@@ -266,8 +264,7 @@ static const row solid_rows[] = {
         FIELD(common.frame_b.rotation), {0, 0.5}, reversed, way, FE_ABOUT_Z, 0, 3, prepare_yz, put_turn    \
     }
 
-// ---- rows of each type
-// --------------------------------------------------------------------------------------------------------------------
+// ---- rows of each type ----------------------------------------------------------------------------------------------------------------
 
 static const row distance_rows[] = {
     {FIELD(common.body_a), {0, 1}, along_the_rod, way, 1, 0, 2, NULL, put_end_a},
@@ -343,8 +340,7 @@ static const row six_rows[] = {
     {FIELD(common.break_torque), {5, 15}, whole_if_stronger, is_whole, FE_ABOUT_Y, 10, 0.5, NULL, NULL},
 };
 
-// ---- rows of an axis, for each of the six
-// ----------------------------------------------------------------------------------------------------
+// ---- rows of an axis, for each of the six ---------------------------------------------------------------------------------------------
 
 typedef struct axis_row {
     const char *name;
@@ -388,7 +384,7 @@ static const axis_row axis_rows[] = {
     {OF_AXIS(motor_force), {1, 3}, spun_up, pace, 0, 0.5, {.mode = FE_MOTION_FREE, .motor_speed = 1000}, 0},
 };
 
-// ---- the rig ----------------------------------------------------------------------------------------------------------------------------
+// ---- the rig --------------------------------------------------------------------------------------------------------------------------
 
 static void init(int kind, any_def *d)
 {
@@ -474,8 +470,7 @@ static int differs_as_foretold(void **state, int kind, const row *row, const fe_
     return 0;
 }
 
-// ---- all rows
-// -----------------------------------------------------------------------------------------------------------------------------
+// ---- all rows -------------------------------------------------------------------------------------------------------------------------
 
 typedef struct table {
     const row *rows;
@@ -526,8 +521,7 @@ static void each_field_of_each_axis_alone_decides_too(void **state)
     FE_TRUE(misses == 0);
 }
 
-// ---- no field is left out
-// -------------------------------------------------------------------------------------------------------------------
+// ---- no field is left out -------------------------------------------------------------------------------------------------------------
 
 typedef struct exception {
     int kind; // -1: all

@@ -251,8 +251,7 @@ static void joints_break_in_the_order_of_creation(void **state)
     scene_end(&s);
 }
 
-// ---- what a joint holds goes on through changes
-// ------------------------------------------------------------------------------------------
+// ---- what a joint holds goes on through changes ---------------------------------------------------------------------------------------
 
 typedef struct hung {
     fe_body anchor, upper, lower;
@@ -406,8 +405,7 @@ static void joints_without_a_dynamic_end_do_nothing(void **state)
     scene_end(&s);
 }
 
-// ---- locks (V7, B37)
-// ----------------------------------------------------------------------------------------------------------------------
+// ---- locks (V7, B37) ------------------------------------------------------------------------------------------------------------------
 
 static void check_locked(const fe_transform *was, const fe_transform *is, uint32_t linear, uint32_t angular)
 {
@@ -455,8 +453,7 @@ static void no_joint_moves_a_locked_coordinate(void **state)
     }
 }
 
-// ---- many
-// ---------------------------------------------------------------------------------------------------------------------------------
+// ---- many -----------------------------------------------------------------------------------------------------------------------------
 
 static void making_and_destroying_joints_takes_no_more_and_more_memory(void **state)
 {

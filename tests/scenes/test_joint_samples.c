@@ -143,8 +143,7 @@ static void a_windmill_of_soft_blades_turns_and_stays_whole(void **state)
     scene_end(&s);
 }
 
-// ---- a box on the springs of each joint (B30)
-// --------------------------------------------------------------------------------------------
+// ---- a box on the springs of each joint (B30) -----------------------------------------------------------------------------------------
 
 // Half a period after it was let go, 0.25 beyond where it rests, it is as far on the other side, less what the damping took
 static void a_box_on_a_slider_swings_in_its_range_and_stops_at_its_motor(void **state)

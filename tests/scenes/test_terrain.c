@@ -275,7 +275,7 @@ static void needles_fall_asleep(void **state)
     report_shortfall(&f);
 }
 
-// ---- edits, holes, materials ------------------------------------------------------------------------------------------------------------
+// ---- edits, holes, materials ----------------------------------------------------------------------------------------------------------
 
 static void set_flat(scene *s, fe_asset asset, int row, int column, int size, float height)
 {

@@ -30,8 +30,7 @@ uint64_t play_hash(const play *p)
 
 uint64_t play_told(const play *p) { return fe__hash_end(&p->told); }
 
-// ---- what the world tells after each step
-// ------------------------------------------------------------------------------------------------
+// ---- what the world tells after each step ---------------------------------------------------------------------------------------------
 
 static void hear_pairs(play *p)
 {
@@ -147,7 +146,7 @@ void play_print(FILE *out, const script *s, fe_world *world, int32_t steps)
     }
 }
 
-// ---- what scripts are written with ------------------------------------------------------------------------------------------------------
+// ---- what scripts are written with ----------------------------------------------------------------------------------------------------
 
 // Knuth's line of numbers modulo 2^32; its high bits are the random ones
 uint32_t play_draw(play *p)

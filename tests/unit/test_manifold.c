@@ -18,7 +18,7 @@ static fe__manifold collide(const fe__form *a, const fe__form *b, const fe__rela
     return m;
 }
 
-// ---- sphere against box -----------------------------------------------------------------------------------------------------------------
+// ---- sphere against box ---------------------------------------------------------------------------------------------------------------
 static int by_size(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
@@ -215,7 +215,7 @@ static void a_capsule_lies_on_faces_and_edges(void **state)
     }
 }
 
-// ---- in one place, tiny, huge -----------------------------------------------------------------------------------------------------------
+// ---- in one place, tiny, huge ---------------------------------------------------------------------------------------------------------
 static void assert_sound(const fe__form *a, const fe__form *b, const fe__relative *r, const fe__manifold *m)
 {
     fe_dvec3 n = fe__widen(m->normal);
@@ -302,8 +302,7 @@ static void a_wide_ground_carries_small_things(void **state)
     }
 }
 
-// ---- margin and kept axis
-// -------------------------------------------------------------------------------------------------------------------
+// ---- margin and kept axis -------------------------------------------------------------------------------------------------------------
 static void the_margin_is_the_callers(void **state)
 {
     (void)state;
