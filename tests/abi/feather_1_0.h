@@ -5,8 +5,8 @@
 /// handle of something destroyed, or a number made up, is an error and never a crash. A body has a pose, a mass and velocities; its shapes
 /// give it form, material and filters. `fe_world_step` moves the world on; then events and poses are read as arrays. Nothing calls back.
 ///
-/// **Units and frames.** Metres, kilograms, seconds, radians. Right-handed axes, no built-in up. Quaternions are x, y, z, w. World positions
-/// are double, everything else float. A contact's normal points from its body A to its body B.
+/// **Units and frames.** Metres, kilograms, seconds, radians. Right-handed axes, no built-in up. Quaternions are x, y, z, w. World
+/// positions are double, everything else float. A contact's normal points from its body A to its body B.
 ///
 /// **Results.** What can fail returns an `fe_result`: FE_OK is 0, positive values inform, negative values are errors and have changed
 /// nothing. Every function that takes them checks these, and the notes at each function name only what is special to it:
@@ -14,19 +14,19 @@
 ///   - a handle of something destroyed, or of nothing: FE_ERROR_STALE;  a shape's handle where a body's is asked: FE_ERROR_KIND
 ///   - any call but `_is_valid` while this world steps on another thread: FE_ERROR_STEPPING
 ///   - no memory: FE_ERROR_MEMORY
-/// `fe_last_error` tells the last failure of the calling thread in a sentence. Values come out through `out_` pointers, which are written on
-/// success only.
+/// `fe_last_error` tells the last failure of the calling thread in a sentence. Values come out through `out_` pointers, which are written
+/// on success only.
 ///
-/// **Ranges.** Beyond what a function says: positions within 1e9 m, translations of queries 1e10 m, local positions 1e6 m; speeds, spins and
-/// gravity 1e6; forces, torques and impulses 1e15 a call (what is summed for a step accelerates by at most 1e9 m/s2); densities 1e7 kg/m3; masses
-/// 1e-9..1e18 kg, moments of inertia 1e-18..1e30 kg m2; other values 1e6. Switches (int32_t enabled, trigger...) are 0 or 1.
+/// **Ranges.** Beyond what a function says: positions within 1e9 m, translations of queries 1e10 m, local positions 1e6 m; speeds, spins
+/// and gravity 1e6; forces, torques and impulses 1e15 a call (what is summed for a step accelerates by at most 1e9 m/s2); densities 1e7
+/// kg/m3; masses 1e-9..1e18 kg, moments of inertia 1e-18..1e30 kg m2; other values 1e6. Switches (int32_t enabled, trigger...) are 0 or 1.
 ///
-/// **Arrays.** `int32_t fe_x_get_many(world, out, stride, capacity)` returns how many there are, or a negative fe_result; it writes the first
-/// `capacity` of them, `stride` bytes apart (0: packed; a shorter stride than the record's size, at least 8, gives its front only). NULL, 0, 0 asks
-/// for the number only.
+/// **Arrays.** `int32_t fe_x_get_many(world, out, stride, capacity)` returns how many there are, or a negative fe_result; it writes the
+/// first `capacity` of them, `stride` bytes apart (0: packed; a shorter stride than the record's size, at least 8, gives its front only).
+/// NULL, 0, 0 asks for the number only.
 ///
-/// **Growth.** A definition begins with `struct_size` and is filled by its `_init`; a shorter one of an older client and a longer one with a
-/// zero tail are accepted. fe_vec3, fe_quat, fe_dvec3, fe_transform and fe_material never change.
+/// **Growth.** A definition begins with `struct_size` and is filled by its `_init`; a shorter one of an older client and a longer one with
+/// a zero tail are accepted. fe_vec3, fe_quat, fe_dvec3, fe_transform and fe_material never change.
 ///
 /// **Threads.** Different worlds are independent. Within one world: functions that take a `const fe_world *` only read, and any number of
 /// threads may call them at once while none writes; all others write and need the world to themselves.
@@ -93,15 +93,15 @@ typedef struct fe_transform {
 
 typedef enum fe_result {
     FE_OK = 0,
-    FE_MISS = 1,                ///< a query that found nothing
-    FE_ERROR_ARGUMENT = -1,     ///< NULL, NaN, infinity, out of range
-    FE_ERROR_STALE = -2,        ///< the handle of something destroyed, or of nothing
-    FE_ERROR_KIND = -3,         ///< a shape's handle where a body's is asked
-    FE_ERROR_STEPPING = -4,     ///< the world is in a step
-    FE_ERROR_MEMORY = -5,       ///< the allocator gave nothing
-    FE_ERROR_LIMIT = -6,        ///< more than a world or a handle can hold
-    FE_ERROR_UNSUPPORTED = -7,  ///< this CPU or this kind of body cannot
-    FE_ERROR_STATE = -8,        ///< not now: the pool still has worlds, the body is not kinematic...
+    FE_MISS = 1,               ///< a query that found nothing
+    FE_ERROR_ARGUMENT = -1,    ///< NULL, NaN, infinity, out of range
+    FE_ERROR_STALE = -2,       ///< the handle of something destroyed, or of nothing
+    FE_ERROR_KIND = -3,        ///< a shape's handle where a body's is asked
+    FE_ERROR_STEPPING = -4,    ///< the world is in a step
+    FE_ERROR_MEMORY = -5,      ///< the allocator gave nothing
+    FE_ERROR_LIMIT = -6,       ///< more than a world or a handle can hold
+    FE_ERROR_UNSUPPORTED = -7, ///< this CPU or this kind of body cannot
+    FE_ERROR_STATE = -8,       ///< not now: the pool still has worlds, the body is not kinematic...
     FE_RESULT_FORCE32 = 0x7fffffff
 } fe_result;
 
@@ -125,8 +125,8 @@ FE_API fe_result fe_pool_destroy(fe_pool *pool);
 // ---- worlds -------------------------------------------------------------------------------------------------------------------
 
 typedef enum fe_simd {
-    FE_SIMD_AUTO = 0,   ///< the widest that this CPU has (the environment variable FE_SIMD = plain, sse2, avx2, avx512, neon overrides)
-    FE_SIMD_PLAIN = 1,  ///< C without intrinsics
+    FE_SIMD_AUTO = 0,  ///< the widest that this CPU has (the environment variable FE_SIMD = plain, sse2, avx2, avx512, neon overrides)
+    FE_SIMD_PLAIN = 1, ///< C without intrinsics
     FE_SIMD_SSE2 = 2,
     FE_SIMD_AVX2 = 3,
     FE_SIMD_AVX512 = 4,
@@ -190,7 +190,7 @@ FE_API fe_result fe_world_get_user_data(const fe_world *world, fe_handle *out_us
 /// How the solver behaves. Each value may change between steps.
 typedef struct fe_world_tuning {
     uint32_t struct_size;
-    float contact_hertz;         ///< stiffness of contacts, 1/s, > 0; twice that against static bodies; at most an eighth of the substep rate. 30
+    float contact_hertz; ///< stiffness of contacts, 1/s, > 0; twice that against static bodies; at most an eighth of the substep rate. 30
     float contact_damping_ratio; ///< >= 0; 1 is critical, higher pushes out more gently. 10
     float contact_push_speed;    ///< overlap is pushed out no faster, m/s, >= 0. 3
     float joint_hertz;           ///< stiffness of joints, 1/s, > 0; at most a quarter of the substep rate. 60
@@ -232,23 +232,24 @@ typedef struct fe_counters {
     uint32_t struct_size;
     int32_t bodies, shapes, joints;
     int32_t awake_bodies;
-    int32_t pairs;            ///< pairs of shapes whose bounds meet
-    int32_t contacts;         ///< of these, touching, triggers not counted
-    int32_t recycled;         ///< contacts that kept their manifold in the last step
-    int32_t islands;          ///< awake
-    int32_t colours;          ///< of the largest island
-    int32_t rows;             ///< of W contacts each
-    int32_t rows_whole;       ///< of these, in islands that one worker solved whole
-    int32_t lanes;            ///< contacts in all rows: lanes / (rows simd_width) is the fill
-    int32_t simd;             ///< fe_simd in use
-    int32_t simd_width;       ///< W, floats side by side
+    int32_t pairs;      ///< pairs of shapes whose bounds meet
+    int32_t contacts;   ///< of these, touching, triggers not counted
+    int32_t recycled;   ///< contacts that kept their manifold in the last step
+    int32_t islands;    ///< awake
+    int32_t colours;    ///< of the largest island
+    int32_t rows;       ///< of W contacts each
+    int32_t rows_whole; ///< of these, in islands that one worker solved whole
+    int32_t lanes;      ///< contacts in all rows: lanes / (rows simd_width) is the fill
+    int32_t simd;       ///< fe_simd in use
+    int32_t simd_width; ///< W, floats side by side
     int32_t workers;
-    int64_t bytes;            ///< allocated now
-    int64_t allocations;      ///< since the world was created
+    int64_t bytes;       ///< allocated now
+    int64_t allocations; ///< since the world was created
 } fe_counters;
 
 FE_API fe_result fe_world_get_counters(const fe_world *world, fe_counters *out_counters);
-/// 64 bits over poses, velocities, contacts and events, low word first. Equal for equal runs, whatever the workers, the SIMD set, the compiler.
+/// 64 bits over poses, velocities, contacts and events, low word first. Equal for equal runs, whatever the workers, the SIMD set, the
+/// compiler.
 /// @param out_words  2 words
 FE_API fe_result fe_world_hash(const fe_world *world, uint32_t *out_words);
 /// All bodies, in the order of creation.
@@ -274,26 +275,26 @@ typedef enum fe_axis {
 
 typedef struct fe_body_def {
     uint32_t struct_size;
-    int32_t type;            ///< fe_body_type. Default FE_BODY_DYNAMIC
-    fe_transform transform;  ///< of the body's origin
-    fe_vec3 linear_velocity; ///< of the centre of mass, m/s
+    int32_t type;             ///< fe_body_type. Default FE_BODY_DYNAMIC
+    fe_transform transform;   ///< of the body's origin
+    fe_vec3 linear_velocity;  ///< of the centre of mass, m/s
     fe_vec3 angular_velocity; ///< rad/s, world axes
-    float linear_damping;    ///< 1/s, >= 0: v /= 1 + h c in each substep. Default 0
-    float angular_damping;   ///< 1/s, >= 0. Default 0
-    float gravity_scale;     ///< Default 1
-    float sleep_threshold;   ///< may sleep when its fastest point is slower, m/s, >= 0. Default 0.05
-    uint32_t linear_locks;   ///< FE_AXIS_X | ...: world axes along which it cannot move
-    uint32_t angular_locks;  ///< world axes around which it cannot turn
-    int32_t awake;           ///< 0: starts asleep, at rest. Default 1
-    int32_t sleep_allowed;   ///< Default 1
-    int32_t enabled;         ///< 0: neither moves, nor collides, nor is seen by queries. Default 1
-    int32_t bullet;          ///< 1: stopped by moving bodies too when it is fast. Default 0
+    float linear_damping;     ///< 1/s, >= 0: v /= 1 + h c in each substep. Default 0
+    float angular_damping;    ///< 1/s, >= 0. Default 0
+    float gravity_scale;      ///< Default 1
+    float sleep_threshold;    ///< may sleep when its fastest point is slower, m/s, >= 0. Default 0.05
+    uint32_t linear_locks;    ///< FE_AXIS_X | ...: world axes along which it cannot move
+    uint32_t angular_locks;   ///< world axes around which it cannot turn
+    int32_t awake;            ///< 0: starts asleep, at rest. Default 1
+    int32_t sleep_allowed;    ///< Default 1
+    int32_t enabled;          ///< 0: neither moves, nor collides, nor is seen by queries. Default 1
+    int32_t bullet;           ///< 1: stopped by moving bodies too when it is fast. Default 0
     fe_handle user_data;
 } fe_body_def;
 
 FE_API void fe_body_def_init(fe_body_def *desc, uint32_t struct_size);
-/// A dynamic body without shapes, or with shapes that weigh less than 1e-9 kg, has 1 kg and the inertia of a sphere of 1 m until it gets a shape or a
-/// mass.
+/// A dynamic body without shapes, or with shapes that weigh less than 1e-9 kg, has 1 kg and the inertia of a sphere of 1 m until it gets a
+/// shape or a mass.
 /// @param desc  NULL: the defaults
 FE_API fe_result fe_body_create(fe_world *world, const fe_body_def *desc, fe_body *out_body);
 /// All or none. @param stride  bytes from one def to the next, 0: packed
@@ -324,7 +325,8 @@ FE_API fe_result fe_body_get_point_velocity(const fe_world *world, fe_body body,
 /// @param seconds  > 0
 FE_API fe_result fe_body_set_target(fe_world *world, fe_body body, const fe_transform *target, float seconds);
 
-/// Force at the centre of mass, N, world axes, during all of the next step only. Wakes the body; on a body that is disabled or not dynamic, nothing.
+/// Force at the centre of mass, N, world axes, during all of the next step only. Wakes the body; on a body that is disabled or not dynamic,
+/// nothing.
 FE_API fe_result fe_body_add_force(fe_world *world, fe_body body, const fe_vec3 *force);
 /// Force at a point of the world, N; its torque is the one of that point now.
 FE_API fe_result fe_body_add_force_at(fe_world *world, fe_body body, const fe_vec3 *force, const fe_dvec3 *point);
@@ -338,9 +340,9 @@ FE_API fe_result fe_body_add_angular_impulse(fe_world *world, fe_body body, cons
 
 typedef struct fe_mass_data {
     uint32_t struct_size;
-    float mass;             ///< kg, > 0
-    fe_vec3 centre;         ///< of mass, m, body space
-    fe_vec3 inertia;        ///< principal moments about the centre of mass, kg m2, > 0, none above the sum of the other two
+    float mass;               ///< kg, > 0
+    fe_vec3 centre;           ///< of mass, m, body space
+    fe_vec3 inertia;          ///< principal moments about the centre of mass, kg m2, > 0, none above the sum of the other two
     fe_quat inertia_rotation; ///< principal axes in body space
 } fe_mass_data;
 
@@ -363,8 +365,8 @@ FE_API fe_result fe_body_set_damping(fe_world *world, fe_body body, float linear
 FE_API fe_result fe_body_get_damping(const fe_world *world, fe_body body, float *out_linear, float *out_angular);
 FE_API fe_result fe_body_set_gravity_scale(fe_world *world, fe_body body, float scale);
 FE_API fe_result fe_body_get_gravity_scale(const fe_world *world, fe_body body, float *out_scale);
-/// Waking a body wakes all it touches, through other dynamic bodies. Putting it to sleep stops it and all those (FE_ERROR_STATE when one of them may
-/// not sleep: then nothing changes).
+/// Waking a body wakes all it touches, through other dynamic bodies. Putting it to sleep stops it and all those (FE_ERROR_STATE when one of
+/// them may not sleep: then nothing changes).
 FE_API fe_result fe_body_set_awake(fe_world *world, fe_body body, int32_t awake);
 /// 1 awake, 0 asleep; static bodies are never awake.
 FE_API fe_result fe_body_get_awake(const fe_world *world, fe_body body, int32_t *out_awake);
@@ -388,10 +390,10 @@ FE_API int32_t fe_body_get_shapes(const fe_world *world, fe_body body, fe_shape 
 // ---- shapes -------------------------------------------------------------------------------------------------------------------
 
 typedef enum fe_geometry_type {
-    FE_GEOMETRY_SPHERE = 0,  ///< radius
-    FE_GEOMETRY_CAPSULE = 1, ///< half_height of the axis, along local Y, and radius
-    FE_GEOMETRY_BOX = 2,     ///< half_extents
-    FE_GEOMETRY_PLANE = 3,   ///< the half space normal . p <= distance; static bodies only
+    FE_GEOMETRY_SPHERE = 0,      ///< radius
+    FE_GEOMETRY_CAPSULE = 1,     ///< half_height of the axis, along local Y, and radius
+    FE_GEOMETRY_BOX = 2,         ///< half_extents
+    FE_GEOMETRY_PLANE = 3,       ///< the half space normal . p <= distance; static bodies only
     FE_GEOMETRY_HEIGHTFIELD = 4, ///< asset: a grid of heights; static bodies only
     FE_GEOMETRY_TYPE_FORCE32 = 0x7fffffff
 } fe_geometry_type;
@@ -434,14 +436,14 @@ typedef enum fe_shape_events {
 
 typedef struct fe_shape_def {
     uint32_t struct_size;
-    float density;           ///< kg/m3, >= 0; a trigger weighs too. Default 1000
-    fe_vec3 local_position;  ///< in the body's frame, m
+    float density;          ///< kg/m3, >= 0; a trigger weighs too. Default 1000
+    fe_vec3 local_position; ///< in the body's frame, m
     fe_quat local_rotation;
     fe_material material;
-    uint32_t layer;          ///< exactly one bit. Default 1
-    uint32_t mask;           ///< the layers it collides with; 0: seen by queries only. Default all
-    int32_t trigger;         ///< 1: reports what it touches (dynamic and kinematic bodies, asleep or awake) and pushes nothing. Default 0
-    uint32_t events;         ///< fe_shape_events; a pair has what either shape asks for. Default FE_EVENTS_TOUCH
+    uint32_t layer;           ///< exactly one bit. Default 1
+    uint32_t mask;            ///< the layers it collides with; 0: seen by queries only. Default all
+    int32_t trigger;          ///< 1: reports what it touches (dynamic and kinematic bodies, asleep or awake) and pushes nothing. Default 0
+    uint32_t events;          ///< fe_shape_events; a pair has what either shape asks for. Default FE_EVENTS_TOUCH
     fe_vec3 surface_velocity; ///< of a conveyor belt, m/s, shape frame; only its part along the contact acts
     fe_handle user_data;
 } fe_shape_def;
@@ -477,26 +479,27 @@ FE_API fe_result fe_shape_get_user_data(const fe_world *world, fe_shape shape, f
 
 // ---- joints -------------------------------------------------------------------------------------------------------------------
 //
-// A joint ties body B to body A: each has a frame on it, in body space, and the joint compares the two. With p, q the position and rotation of a
-// body, f and r those of its frame in it:
+// A joint ties body B to body A: each has a frame on it, in body space, and the joint compares the two. With p, q the position and rotation
+// of a body, f and r those of its frame in it:
 //
 //   d = (qA rA)^-1 (pB + qB fB - pA - qA fA)      translation, m, along the axes of frame A
 //   q = (qA rA)^-1 (qB rB) = swing twist          rotation; the twist is about X, and comes first
 //   twist = 2 atan2(q.x, q.w);   swing: rotation vector (0, swing_y, swing_z), rad, at most pi long
 //
-// All limits, targets, speeds and readings are these numbers, the angle of a hinge is the twist. q and -q are one rotation, the one with q.w >= 0
-// counts; a twist with a range is followed beyond pi, so that a range that ends at pi holds there. Targets beyond a limit count as the limit.
+// All limits, targets, speeds and readings are these numbers, the angle of a hinge is the twist. q and -q are one rotation, the one with
+// q.w >= 0 counts; a twist with a range is followed beyond pi, so that a range that ends at pi holds there. Targets beyond a limit count as
+// the limit.
 //
-// **Frames.** `fe_hinge_def_at` and its like make them from a point (and an axis) of the world, so that the present pose is the zero; or set both
-// frames by hand.
+// **Frames.** `fe_hinge_def_at` and its like make them from a point (and an axis) of the world, so that the present pose is the zero; or
+// set both frames by hand.
 //
-// **Stiffness.** Springs, limits and what a joint holds are springs and dampers given by hertz, 1/s, and damping ratio (1: critical), on the masses that
-// move, so that they do not depend on them. Hertz of 0 mean no spring where one is optional, and as stiff as the world allows
-// (fe_world_tuning.joint_hertz, joint_damping_ratio; without swing) for a limit and for what is held. All are limited to a quarter of the substep rate;
-// limits and what is held swing less and less from half of that on.
+// **Stiffness.** Springs, limits and what a joint holds are springs and dampers given by hertz, 1/s, and damping ratio (1: critical), on
+// the masses that move, so that they do not depend on them. Hertz of 0 mean no spring where one is optional, and as stiff as the world
+// allows (fe_world_tuning.joint_hertz, joint_damping_ratio; without swing) for a limit and for what is held. All are limited to a quarter
+// of the substep rate; limits and what is held swing less and less from half of that on.
 //
-// **Springs and motors** push no harder than their cap, N or N m. A motor reaches for its speed; with speed 0 it is friction. A cap of 0 switches
-// it off.
+// **Springs and motors** push no harder than their cap, N or N m. A motor reaches for its speed; with speed 0 it is friction. A cap of 0
+// switches it off.
 //
 // A joint acts while it and both bodies are enabled and at least one of them is dynamic. Changing one wakes its bodies.
 
@@ -515,11 +518,12 @@ typedef enum fe_joint_type {
     FE_JOINT_TYPE_FORCE32 = 0x7fffffff
 } fe_joint_type;
 
-/// All definitions of joints begin with the fields of this one, which is what fe_joint_get and fe_joint_set read and write on joints of any type.
+/// All definitions of joints begin with the fields of this one, which is what fe_joint_get and fe_joint_set read and write on joints of any
+/// type.
 typedef struct fe_joint_def {
     uint32_t struct_size;
-    int32_t enabled;           ///< 0: as if it were not there. Default 1
-    fe_body body_a, body_b;    ///< two different ones; 0 in a _set: as they are
+    int32_t enabled;        ///< 0: as if it were not there. Default 1
+    fe_body body_a, body_b; ///< two different ones; 0 in a _set: as they are
     fe_handle user_data;
     fe_frame frame_a, frame_b; ///< in body space. Default: the bodies' own
     int32_t collide_connected; ///< 1: its two bodies may touch. Default 0: they never do
@@ -530,8 +534,8 @@ typedef struct fe_joint_def {
     int32_t reserved;          ///< 0
 } fe_joint_def;
 
-/// Two points keep their distance: within [min_length, max_length] (equal: a rod; from 0: a rope), a spring pulls it to `length`, a motor changes it.
-/// Only the positions of the frames count. (The first fields are those of fe_joint_def, here and below.)
+/// Two points keep their distance: within [min_length, max_length] (equal: a rod; from 0: a rope), a spring pulls it to `length`, a motor
+/// changes it. Only the positions of the frames count. (The first fields are those of fe_joint_def, here and below.)
 typedef struct fe_distance_def {
     uint32_t struct_size;
     int32_t enabled;
@@ -553,7 +557,8 @@ typedef struct fe_distance_def {
     float motor_force;          ///< cap, N, >= 0; with speed 0 a friction; 0: no motor. Default 0
 } fe_distance_def;
 
-/// Two points stay together. The swing of axis X may be bound by an elliptic cone, the twist about it by a range; a drive turns B to a rotation.
+/// Two points stay together. The swing of axis X may be bound by an elliptic cone, the twist about it by a range; a drive turns B to a
+/// rotation.
 typedef struct fe_ball_def {
     uint32_t struct_size;
     int32_t enabled;
@@ -637,16 +642,16 @@ typedef enum fe_drive {
 
 /// One axis of a configurable joint. Never changes.
 typedef struct fe_joint_axis {
-    int32_t mode;                ///< fe_motion. Default FE_MOTION_LOCKED
-    float low, high;             ///< range, m or rad (-pi..pi), low <= high. Default 0
-    float limit_hertz;           ///< of the range, 1/s, >= 0; 0: rigid. Default 0
-    float limit_damping_ratio;   ///< >= 0. Default 1
-    int32_t drive;               ///< fe_drive: a spring towards `target`. Default FE_DRIVE_NONE. A locked axis has neither drive nor motor
-    float target;                ///< m or rad. Default 0
-    float stiffness, damping;    ///< see fe_drive, >= 0. Default 0, 0
-    float drive_force;           ///< cap of the drive, N or N m, >= 0. Default 1e15
-    float motor_speed;           ///< m/s or rad/s. Default 0
-    float motor_force;           ///< cap, N or N m, >= 0; with speed 0 a friction; 0: no motor. Default 0
+    int32_t mode;              ///< fe_motion. Default FE_MOTION_LOCKED
+    float low, high;           ///< range, m or rad (-pi..pi), low <= high. Default 0
+    float limit_hertz;         ///< of the range, 1/s, >= 0; 0: rigid. Default 0
+    float limit_damping_ratio; ///< >= 0. Default 1
+    int32_t drive;             ///< fe_drive: a spring towards `target`. Default FE_DRIVE_NONE. A locked axis has neither drive nor motor
+    float target;              ///< m or rad. Default 0
+    float stiffness, damping;  ///< see fe_drive, >= 0. Default 0, 0
+    float drive_force;         ///< cap of the drive, N or N m, >= 0. Default 1e15
+    float motor_speed;         ///< m/s or rad/s. Default 0
+    float motor_force;         ///< cap, N or N m, >= 0; with speed 0 a friction; 0: no motor. Default 0
 } fe_joint_axis;
 
 typedef enum fe_joint_coordinate {
@@ -659,8 +664,9 @@ typedef enum fe_joint_coordinate {
     FE_JOINT_COORDINATE_FORCE32 = 0x7fffffff
 } fe_joint_coordinate;
 
-/// Six axes, each locked, limited or free, with drives: sliders, wheels, motors and whatever else. Rotations of which one or two are locked: the one left
-/// over turns without end; of the two left over those about Y and Z end at 170 degrees, at 137 where the twist is locked, as a cardan joint does.
+/// Six axes, each locked, limited or free, with drives: sliders, wheels, motors and whatever else. Rotations of which one or two are
+/// locked: the one left over turns without end; of the two left over those about Y and Z end at 170 degrees, at 137 where the twist is
+/// locked, as a cardan joint does.
 typedef struct fe_configurable_def {
     uint32_t struct_size;
     int32_t enabled;
@@ -672,7 +678,7 @@ typedef struct fe_configurable_def {
     float break_force, break_torque;
     int32_t reserved;
 
-    fe_joint_axis axes[6];      ///< by fe_joint_coordinate. Default: all locked
+    fe_joint_axis axes[6]; ///< by fe_joint_coordinate. Default: all locked
 } fe_configurable_def;
 
 FE_API void fe_distance_def_init(fe_distance_def *desc, uint32_t struct_size);
@@ -681,37 +687,40 @@ FE_API void fe_hinge_def_init(fe_hinge_def *desc, uint32_t struct_size);
 FE_API void fe_fixed_def_init(fe_fixed_def *desc, uint32_t struct_size);
 FE_API void fe_configurable_def_init(fe_configurable_def *desc, uint32_t struct_size);
 
-/// These set bodies and frames of a definition that is initialised already, so that the present pose is the zero; nothing else of it changes.
-/// A rod between two points as far apart as they are now: sets the lengths too.
+/// These set bodies and frames of a definition that is initialised already, so that the present pose is the zero; nothing else of it
+/// changes. A rod between two points as far apart as they are now: sets the lengths too.
 /// @param point_a, point_b  m, world space
 FE_API fe_result fe_distance_def_at(const fe_world *world, fe_distance_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point_a,
                                     const fe_dvec3 *point_b);
 /// @param point  m, world space
 /// @param axis   X of both frames, world space, any length but zero: what swings and twists, along a limb for example
-FE_API fe_result fe_ball_def_at(const fe_world *world, fe_ball_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point, const fe_vec3 *axis);
+FE_API fe_result fe_ball_def_at(const fe_world *world, fe_ball_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
+                                const fe_vec3 *axis);
 /// @param axis  of the hinge, world space, any length but zero; B turns against A counterclockwise about it
-FE_API fe_result fe_hinge_def_at(const fe_world *world, fe_hinge_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point, const fe_vec3 *axis);
+FE_API fe_result fe_hinge_def_at(const fe_world *world, fe_hinge_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
+                                 const fe_vec3 *axis);
 FE_API fe_result fe_fixed_def_at(const fe_world *world, fe_fixed_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point);
 /// @param axis  X of both frames, world space, any length but zero
-FE_API fe_result fe_configurable_def_at(const fe_world *world, fe_configurable_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
-                                        const fe_vec3 *axis);
+FE_API fe_result fe_configurable_def_at(const fe_world *world, fe_configurable_def *desc, fe_body body_a, fe_body body_b,
+                                        const fe_dvec3 *point, const fe_vec3 *axis);
 
-/// These make a whole definition, defaults and all, ready for fe_distance_create or fe_configurable_create or for changes before. Only struct_size of
-/// the given one counts.
-/// A rope: the points come no farther from each other than `max_length`.
+/// These make a whole definition, defaults and all, ready for fe_distance_create or fe_configurable_create or for changes before. Only
+/// struct_size of the given one counts. A rope: the points come no farther from each other than `max_length`.
 FE_API fe_result fe_rope_def_at(const fe_world *world, fe_distance_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point_a,
                                 const fe_dvec3 *point_b, float max_length);
 /// B slides along an axis and does not turn. Its range, spring and motor: axes[FE_ALONG_X].
 FE_API fe_result fe_slider_def_at(const fe_world *world, fe_configurable_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
                                   const fe_vec3 *axis);
-/// A wheel B on a chassis A: rolls freely about the axle. axes[FE_ABOUT_X] is its motor and brake; axes[FE_ALONG_Z] the suspension along `up`: a
-/// spring of `hertz` and `damping_ratio` within +-travel; axes[FE_ABOUT_Z] steers about `up`: locked, set a range and a drive to steer by its target.
+/// A wheel B on a chassis A: rolls freely about the axle. axes[FE_ABOUT_X] is its motor and brake; axes[FE_ALONG_Z] the suspension along
+/// `up`: a spring of `hertz` and `damping_ratio` within +-travel; axes[FE_ABOUT_Z] steers about `up`: locked, set a range and a drive to
+/// steer by its target.
 /// @param axle  of the wheel, world space; with it and `up` horizontal and upwards, positive spin rolls towards axle x up
 FE_API fe_result fe_wheel_def_at(const fe_world *world, fe_configurable_def *desc, fe_body chassis, fe_body wheel, const fe_dvec3 *point,
                                  const fe_vec3 *axle, const fe_vec3 *up, float hertz, float damping_ratio, float travel);
-/// Pulls and turns B towards a pose relative to A (the targets of all six axes, at first where it is), with no more than a force, N, and a torque, N m.
-FE_API fe_result fe_motor_def_at(const fe_world *world, fe_configurable_def *desc, fe_body body_a, fe_body body_b, float hertz, float damping_ratio,
-                                 float max_force, float max_torque);
+/// Pulls and turns B towards a pose relative to A (the targets of all six axes, at first where it is), with no more than a force, N, and a
+/// torque, N m.
+FE_API fe_result fe_motor_def_at(const fe_world *world, fe_configurable_def *desc, fe_body body_a, fe_body body_b, float hertz,
+                                 float damping_ratio, float max_force, float max_torque);
 
 /// Each makes a joint from its definition. @return FE_ERROR_ARGUMENT also when both ends are one body
 FE_API fe_result fe_distance_create(fe_world *world, const fe_distance_def *desc, fe_joint *out_joint);
@@ -755,21 +764,21 @@ FE_API fe_result fe_joint_get_frames(const fe_world *world, fe_joint joint, fe_t
 /// How a joint stands now. What its limits and drives act on.
 typedef struct fe_joint_state {
     uint32_t struct_size;
-    float angle;             ///< the twist; of a hinge the angle, rad
-    float swing_y, swing_z;  ///< rad
+    float angle;              ///< the twist; of a hinge the angle, rad
+    float swing_y, swing_z;   ///< rad
     fe_vec3 angular_velocity; ///< of B against A, rad/s, axes of frame A
-    fe_vec3 translation;     ///< of frame B's point in frame A, m
-    fe_vec3 linear_velocity; ///< its rate of change, m/s
-    float length;            ///< between the two points, m
-    float speed;             ///< its rate of change, m/s
-    float linear_error;      ///< how far the points are from where they should be held, or beyond a range, m
-    float angular_error;     ///< likewise, rad
+    fe_vec3 translation;      ///< of frame B's point in frame A, m
+    fe_vec3 linear_velocity;  ///< its rate of change, m/s
+    float length;             ///< between the two points, m
+    float speed;              ///< its rate of change, m/s
+    float linear_error;       ///< how far the points are from where they should be held, or beyond a range, m
+    float angular_error;      ///< likewise, rad
 } fe_joint_state;
 
 /// @param out_state  its struct_size must be set
 FE_API fe_result fe_joint_get_state(const fe_world *world, fe_joint joint, fe_joint_state *out_state);
-/// What the joint did to B in the last step, on average: force at frame B's point, N, and torque about it, N m, world axes. A feels the opposite at the
-/// same point.
+/// What the joint did to B in the last step, on average: force at frame B's point, N, and torque about it, N m, world axes. A feels the
+/// opposite at the same point.
 FE_API fe_result fe_joint_get_reaction(const fe_world *world, fe_joint joint, fe_vec3 *out_force, fe_vec3 *out_torque);
 /// All joints, in the order of creation.
 FE_API int32_t fe_world_get_joints(const fe_world *world, fe_joint *out_joints, int32_t capacity);
@@ -777,25 +786,26 @@ FE_API int32_t fe_world_get_joints(const fe_world *world, fe_joint *out_joints, 
 FE_API int32_t fe_body_get_joints(const fe_world *world, fe_body body, fe_joint *out_joints, int32_t capacity);
 // ---- heightfields ---------------------------------------------------------------------------------------------------------------
 
-/// A grid of heights: terrain. In the shape's frame, sample (row, column) stands at x = column * cell_x, z = row * cell_z, its height along y. The
-/// cell between samples (row, column) and (row + 1, column + 1), cell row * (columns - 1) + column of the arrays below, is cut by the diagonal
-/// between these two into triangle 2 * cell (its z side) and 2 * cell + 1 (its x side): the numbers that hits and contacts tell.
+/// A grid of heights: terrain. In the shape's frame, sample (row, column) stands at x = column * cell_x, z = row * cell_z, its height along
+/// y. The cell between samples (row, column) and (row + 1, column + 1), cell row * (columns - 1) + column of the arrays below, is cut by
+/// the diagonal between these two into triangle 2 * cell (its z side) and 2 * cell + 1 (its x side): the numbers that hits and contacts
+/// tell.
 ///
-/// Only the upper side counts: rays from below pass. Edges between triangles are felt only where the surface is convex, also across the border of two
-/// heightfields that meet; the rims of holes and of the whole carry like any edge. What is pressed into the ground comes up again unless its centre is
-/// deeper than its farthest point is from it.
+/// Only the upper side counts: rays from below pass. Edges between triangles are felt only where the surface is convex, also across the
+/// border of two heightfields that meet; the rims of holes and of the whole carry like any edge. What is pressed into the ground comes up
+/// again unless its centre is deeper than its farthest point is from it.
 typedef struct fe_heightfield_def {
     uint32_t struct_size;
-    int32_t rows;                ///< of samples, along z, 2..32768; rows * columns <= 2^28
-    int32_t columns;             ///< of samples, along x, 2..32768
-    float cell_x;                ///< from column to column, m, 0.001..100000; all columns within 1e6 m
-    float cell_z;                ///< from row to row
-    const float *heights;        ///< rows x columns, row by row, m, within +-1e6. All arrays are copied
-    const uint8_t *holes;        ///< a cell each: 1 is a hole, 0 is none; NULL: no holes
+    int32_t rows;                  ///< of samples, along z, 2..32768; rows * columns <= 2^28
+    int32_t columns;               ///< of samples, along x, 2..32768
+    float cell_x;                  ///< from column to column, m, 0.001..100000; all columns within 1e6 m
+    float cell_z;                  ///< from row to row
+    const float *heights;          ///< rows x columns, row by row, m, within +-1e6. All arrays are copied
+    const uint8_t *holes;          ///< a cell each: 1 is a hole, 0 is none; NULL: no holes
     const uint8_t *cell_materials; ///< a cell each: index into `materials`; NULL: every cell has the shape's material
-    const fe_material *materials; ///< take the place of the shape's material
-    uint32_t material_stride;    ///< bytes from one to the next, 0: packed
-    int32_t material_count;      ///< 0..255
+    const fe_material *materials;  ///< take the place of the shape's material
+    uint32_t material_stride;      ///< bytes from one to the next, 0: packed
+    int32_t material_count;        ///< 0..255
 } fe_heightfield_def;
 
 FE_API void fe_heightfield_def_init(fe_heightfield_def *desc, uint32_t struct_size);
@@ -807,8 +817,8 @@ FE_API fe_result fe_heightfield_create(fe_world *world, const fe_heightfield_def
 /// @param heights        rows x columns, row by row, m
 FE_API fe_result fe_heightfield_set_heights(fe_world *world, fe_asset asset, int32_t row, int32_t column, int32_t rows, int32_t columns,
                                             const float *heights);
-FE_API fe_result fe_heightfield_get_heights(const fe_world *world, fe_asset asset, int32_t row, int32_t column, int32_t rows, int32_t columns,
-                                            float *out_heights);
+FE_API fe_result fe_heightfield_get_heights(const fe_world *world, fe_asset asset, int32_t row, int32_t column, int32_t rows,
+                                            int32_t columns, float *out_heights);
 /// The handle dies at once, its heights live until the last shape that has them is gone.
 FE_API fe_result fe_asset_destroy(fe_world *world, fe_asset asset);
 FE_API int32_t fe_asset_is_valid(const fe_world *world, fe_asset asset);
@@ -824,8 +834,8 @@ typedef enum fe_query_flags {
 /// Who counts. NULL for every layer, without triggers.
 typedef struct fe_query_filter {
     uint32_t struct_size;
-    uint32_t mask;           ///< layers that count
-    uint32_t flags;          ///< fe_query_flags
+    uint32_t mask;  ///< layers that count
+    uint32_t flags; ///< fe_query_flags
     int32_t excluded_count;
     const fe_body *excluded; ///< bodies that do not count; stale ones are ignored
 } fe_query_filter;
@@ -840,9 +850,10 @@ typedef enum fe_hit_flags {
 typedef struct fe_hit {
     fe_body body;
     fe_shape shape;
-    fe_dvec3 point;   ///< on the body's surface, m, world space; started inside: where the ray or the moving form's centre started
-    double fraction;  ///< 0..1 of the translation
-    fe_vec3 normal;   ///< unit, out of the body, never along the translation; started inside: against it, or the shortest way out when it is zero
+    fe_dvec3 point;  ///< on the body's surface, m, world space; started inside: where the ray or the moving form's centre started
+    double fraction; ///< 0..1 of the translation
+    fe_vec3
+        normal; ///< unit, out of the body, never along the translation; started inside: against it, or the shortest way out when it is zero
     int32_t triangle; ///< of a heightfield, else -1
     float depth;      ///< started inside: length of the shortest way out, m, else 0
     uint32_t flags;   ///< fe_hit_flags
@@ -862,7 +873,8 @@ typedef struct fe_path {
 
 /// The first body on a segment.
 ///
-/// Exact on every shape. At equal fractions what the ray starts in comes first, then the body created first, whatever the number of workers.
+/// Exact on every shape. At equal fractions what the ray starts in comes first, then the body created first, whatever the number of
+/// workers.
 /// @param origin       start, m, world space
 /// @param translation  from the start to the end, m; zero asks whether the start is inside a shape
 /// @param filter       who counts; NULL: every layer, no triggers
@@ -872,19 +884,20 @@ FE_API fe_result fe_world_raycast(const fe_world *world, const fe_dvec3 *origin,
                                   fe_hit *out_hit);
 /// Is anything on the segment? Faster than the first: it stops at whatever it finds.
 /// @return FE_OK on a hit, FE_MISS
-FE_API fe_result fe_world_raycast_any(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter);
+FE_API fe_result fe_world_raycast_any(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation,
+                                      const fe_query_filter *filter);
 /// Every body on a segment, each once, at its first hit, ordered by fraction, then by creation.
 /// @param stride  at least 72: the hits are ordered where they lie
 /// @return how many bodies are hit; when they are more than `capacity` the nearest are written
-FE_API int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
-                                    fe_hit *out_hits, uint32_t stride, int32_t capacity);
+FE_API int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation,
+                                    const fe_query_filter *filter, fe_hit *out_hits, uint32_t stride, int32_t capacity);
 /// fe_world_raycast for many segments with one filter. The answers do not depend on `spread`.
 /// @param ray_stride  bytes from one ray to the next, 0: packed
 /// @param spread      1: over the workers of the world, 0: on the calling thread
 /// @param out_hits    one a ray, `stride` bytes apart (0: packed); of a miss body and shape are 0, the fraction is 1, the point is the end
 /// @return how many hit
-FE_API int32_t fe_world_raycast_many(const fe_world *world, const fe_ray *rays, uint32_t ray_stride, int32_t count, const fe_query_filter *filter,
-                                     int32_t spread, fe_hit *out_hits, uint32_t stride);
+FE_API int32_t fe_world_raycast_many(const fe_world *world, const fe_ray *rays, uint32_t ray_stride, int32_t count,
+                                     const fe_query_filter *filter, int32_t spread, fe_hit *out_hits, uint32_t stride);
 
 /// What a sphere, capsule or box that moves without turning touches first.
 ///
@@ -900,23 +913,26 @@ FE_API int32_t fe_world_raycast_many(const fe_world *world, const fe_ray *rays, 
 FE_API fe_result fe_world_sweep(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
                                 const fe_query_filter *filter, fe_hit *out_hit);
 /// Does it touch anything? Faster than the first: it stops at whatever it finds.
-FE_API fe_result fe_world_sweep_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
-                                    const fe_query_filter *filter);
+FE_API fe_result fe_world_sweep_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *start,
+                                    const fe_dvec3 *translation, const fe_query_filter *filter);
 /// Every body that it touches on its way, as if the others were not there; see fe_world_raycast_all.
-FE_API int32_t fe_world_sweep_all(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
-                                  const fe_query_filter *filter, fe_hit *out_hits, uint32_t stride, int32_t capacity);
+FE_API int32_t fe_world_sweep_all(const fe_world *world, const fe_geometry *geometry, const fe_transform *start,
+                                  const fe_dvec3 *translation, const fe_query_filter *filter, fe_hit *out_hits, uint32_t stride,
+                                  int32_t capacity);
 /// fe_world_sweep of one geometry along many paths; see fe_world_raycast_many. Of a miss the point is the end of the centre's way.
-FE_API int32_t fe_world_sweep_many(const fe_world *world, const fe_geometry *geometry, const fe_path *paths, uint32_t path_stride, int32_t count,
-                                   const fe_query_filter *filter, int32_t spread, fe_hit *out_hits, uint32_t stride);
+FE_API int32_t fe_world_sweep_many(const fe_world *world, const fe_geometry *geometry, const fe_path *paths, uint32_t path_stride,
+                                   int32_t count, const fe_query_filter *filter, int32_t spread, fe_hit *out_hits, uint32_t stride);
 
-/// The bodies that a sphere, capsule or box overlaps, in the order of creation: exactly those that a sweep from there would start inside of.
+/// The bodies that a sphere, capsule or box overlaps, in the order of creation: exactly those that a sweep from there would start inside
+/// of.
 /// @param geometry  as for fe_world_sweep; a sphere of radius 0 is a point
 /// @param at        pose of the geometry
 /// @return how many there are; when they are more than `capacity` those created first are written
 FE_API int32_t fe_world_overlap(const fe_world *world, const fe_geometry *geometry, const fe_transform *at, const fe_query_filter *filter,
                                 fe_body *out_bodies, int32_t capacity);
 /// @return FE_OK when it overlaps anything, FE_MISS
-FE_API fe_result fe_world_overlap_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *at, const fe_query_filter *filter);
+FE_API fe_result fe_world_overlap_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *at,
+                                      const fe_query_filter *filter);
 
 typedef struct fe_closest {
     fe_body body;
@@ -936,7 +952,8 @@ FE_API fe_result fe_world_closest_point(const fe_world *world, const fe_dvec3 *p
                                         fe_closest *out_closest);
 
 /// fe_world_raycast against one shape or one body only, whatever its layers, a trigger or not, enabled or not.
-FE_API fe_result fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_dvec3 *origin, const fe_dvec3 *translation, fe_hit *out_hit);
+FE_API fe_result fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_dvec3 *origin, const fe_dvec3 *translation,
+                                  fe_hit *out_hit);
 FE_API fe_result fe_body_raycast(const fe_world *world, fe_body body, const fe_dvec3 *origin, const fe_dvec3 *translation, fe_hit *out_hit);
 /// The closest point of one shape or body, however far. FE_MISS for a body without shapes, and from below a heightfield.
 FE_API fe_result fe_shape_closest_point(const fe_world *world, fe_shape shape, const fe_dvec3 *point, fe_closest *out_closest);
@@ -977,10 +994,10 @@ FE_API int32_t fe_world_get_body_events(const fe_world *world, fe_body_event *ou
 typedef struct fe_hit_event {
     fe_body body_a, body_b;
     fe_shape shape_a, shape_b;
-    fe_dvec3 point;  ///< m, world space
-    fe_vec3 normal;  ///< from A to B
-    float speed;     ///< of approach, m/s
-    float impulse;   ///< of the step, along the normal, N s
+    fe_dvec3 point; ///< m, world space
+    fe_vec3 normal; ///< from A to B
+    float speed;    ///< of approach, m/s
+    float impulse;  ///< of the step, along the normal, N s
     int32_t reserved;
 } fe_hit_event;
 
@@ -1012,8 +1029,8 @@ typedef struct fe_contact_point {
 typedef struct fe_contact {
     fe_body body_a, body_b;
     fe_shape shape_a, shape_b;
-    fe_vec3 normal;           ///< unit, from A to B
-    int32_t point_count;      ///< 1..4
+    fe_vec3 normal;      ///< unit, from A to B
+    int32_t point_count; ///< 1..4
     fe_contact_point points[4];
     fe_vec3 friction_impulse; ///< on B, of the last substep, N s
     float twist_impulse;      ///< on B, about the normal, N m s
@@ -1027,13 +1044,16 @@ FE_API int32_t fe_shape_get_contacts(const fe_world *world, fe_shape shape, fe_c
 
 /// The bodies that the last step moved, in the order of creation, and where they are now.
 /// @param out_transforms  or NULL; `stride` bytes apart (0: packed)
-FE_API int32_t fe_world_get_moved(const fe_world *world, fe_body *out_bodies, fe_transform *out_transforms, uint32_t stride, int32_t capacity);
+FE_API int32_t fe_world_get_moved(const fe_world *world, fe_body *out_bodies, fe_transform *out_transforms, uint32_t stride,
+                                  int32_t capacity);
 /// All or none. @param stride  bytes from one transform to the next, 0: packed
-FE_API fe_result fe_world_get_transforms(const fe_world *world, const fe_body *bodies, fe_transform *out_transforms, uint32_t stride, int32_t count);
-FE_API fe_result fe_world_set_transforms(fe_world *world, const fe_body *bodies, const fe_transform *transforms, uint32_t stride, int32_t count);
+FE_API fe_result fe_world_get_transforms(const fe_world *world, const fe_body *bodies, fe_transform *out_transforms, uint32_t stride,
+                                         int32_t count);
+FE_API fe_result fe_world_set_transforms(fe_world *world, const fe_body *bodies, const fe_transform *transforms, uint32_t stride,
+                                         int32_t count);
 /// Position relative to `origin` and rotation, 7 floats a body: x y z, x y z w. @param stride  bytes, 0: packed
-FE_API fe_result fe_world_get_transforms_f32(const fe_world *world, const fe_body *bodies, const fe_dvec3 *origin, float *out_floats, uint32_t stride,
-                                             int32_t count);
+FE_API fe_result fe_world_get_transforms_f32(const fe_world *world, const fe_body *bodies, const fe_dvec3 *origin, float *out_floats,
+                                             uint32_t stride, int32_t count);
 /// Linear, then angular velocity, 6 floats a body. @param stride  bytes, 0: packed
 FE_API fe_result fe_world_get_velocities(const fe_world *world, const fe_body *bodies, float *out_floats, uint32_t stride, int32_t count);
 FE_API fe_result fe_world_set_velocities(fe_world *world, const fe_body *bodies, const float *floats, uint32_t stride, int32_t count);
