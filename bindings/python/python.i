@@ -9,8 +9,8 @@
 // a part keeps the object that it is of
 %typemap(ret) fe_joint_axis *axis %{
     if (resultobj && resultobj != Py_None) {
-        Py_INCREF(self);
-        ((SwigPyObject *)resultobj)->next = self;
+        ((SwigPyObject *)resultobj)->dict = Py_BuildValue("{sO}", "of", self);
+        if (!((SwigPyObject *)resultobj)->dict) SWIG_fail;
     }
 %}
 
