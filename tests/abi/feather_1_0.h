@@ -850,10 +850,9 @@ typedef enum fe_hit_flags {
 typedef struct fe_hit {
     fe_body body;
     fe_shape shape;
-    fe_dvec3 point;  ///< on the body's surface, m, world space; started inside: where the ray or the moving form's centre started
-    double fraction; ///< 0..1 of the translation
-    fe_vec3
-        normal; ///< unit, out of the body, never along the translation; started inside: against it, or the shortest way out when it is zero
+    fe_dvec3 point;   ///< on the body's surface, m, world space; started inside: where the ray or the moving form's centre started
+    double fraction;  ///< 0..1 of the translation
+    fe_vec3 normal;   ///< unit, out of the body; started inside: against the translation, or the shortest way out when that is zero
     int32_t triangle; ///< of a heightfield, else -1
     float depth;      ///< started inside: length of the shortest way out, m, else 0
     uint32_t flags;   ///< fe_hit_flags
