@@ -67,6 +67,7 @@ static void collide_chunk(fe__step *step, const int32_t *pairs, int32_t count)
     uint8_t moved[PAIRS_IN_BLOCK * (FE__PATCHES - 1)];
     for (int32_t i = 0; i < count; ++i)
         if (!(w->pairs[pairs[i]].flags & FE__PAIR_PATCH)) heads[head_count++] = pairs[i];
+    if (head_count == 0) return;
     w->kernels->recycle(w->contacts, w->bodies, heads, head_count, step->dt, moved);
     for (int32_t i = 0; i < head_count; ++i) {
         if (moved[i]) {
