@@ -63,7 +63,8 @@ int bench_command_help(int argc, char **argv)
     (void)argc, (void)argv;
     printf("usage: feather-bench COMMAND [OPTION]...\n");
     for (size_t i = 0; i < command_count; i++) printf("  %-8s %s\n", commands[i].name, commands[i].about);
-    printf("options of scenes, run and compare: --scene, --peers, --workers, --substeps (default: 4 and 8), --out\noptions of speed:\n"
+    printf("options of scenes, run and compare: --scene, --peers, --only-peers, --workers, --substeps (default: 4 and 8), --out\noptions "
+           "of speed:\n"
            "  --scene NAME[,NAME]   scenes to run (default: those of the list); may be given several times\n"
            "  --peers bullet,ode    engines beside Feather, or none (default: all that were built in)\n"
            "  --workers N[,N]       Feather's workers (default: 1, and 2 at 4 substeps)\n"

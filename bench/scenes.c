@@ -126,7 +126,7 @@ static void try_feather(session *s, const bench_case *rule, int32_t planar)
 {
     static const int32_t usual[] = {FEW, MANY};
     const bench_options *o = s->options;
-    const int32_t count = o->substep_count > 0 ? o->substep_count : 2;
+    const int32_t count = o->no_feather ? 0 : o->substep_count > 0 ? o->substep_count : 2;
     for (int32_t i = 0; i < count; i++) try_case(s, rule, planar, &bench_feather, o->substep_count > 0 ? o->substeps[i] : usual[i]);
 }
 
