@@ -5,13 +5,6 @@
 
 static const double GRAVITY = 10.0; // m/s2
 
-static int32_t add_anchor(bench_scene *s, double x, double y)
-{
-    const int32_t body = bench_add_static(s, bench_box(s, 0.1, 0.1, 0.1, 1.0, 0.6), x, y, 0.0);
-    s->bodies[body].collides = 0;
-    return body;
-}
-
 // ---- ball and chain: 585:1 ------------------------------------------------------------------------------------------------------------
 
 enum { LINKS = 32 };
@@ -19,7 +12,7 @@ enum { LINKS = 32 };
 static void build_heavy_chain(bench_scene *s)
 {
     const int32_t link = bench_capsule(s, 0.5, 0.125, 1000.0, 0.6);
-    int32_t last = add_anchor(s, 0.0, 0.0);
+    int32_t last = bench_add_anchor(s, 0.0, 0.0);
     for (int32_t i = 0; i < LINKS; i++) {
         const int32_t body = bench_add_dynamic(s, link, 0.5 + i, 0.0, 0.0);
         bench_turn_z(&s->bodies[body], 0.5 * BENCH_PI);
@@ -50,7 +43,7 @@ static void judge_heavy_chain(bench_trial *t)
 
 static void build_door(bench_scene *s)
 {
-    const int32_t frame = add_anchor(s, -0.75, 1.5);
+    const int32_t frame = bench_add_anchor(s, -0.75, 1.5);
     const int32_t door = bench_add_dynamic(s, bench_box(s, 0.75, 1.5, 0.1, 1000.0, 0.6), 0.0, 1.5, 0.0);
     s->bodies[door].gravity_scale = 2.0f;
     for (int32_t i = 0; i < 2; i++) {
@@ -86,7 +79,7 @@ static void judge_door(bench_trial *t)
 
 static void build_cone(bench_scene *s)
 {
-    const int32_t anchor = add_anchor(s, 0.0, 5.5);
+    const int32_t anchor = bench_add_anchor(s, 0.0, 5.5);
     const int32_t box = bench_add_dynamic(s, bench_box(s, 0.5, 1.5, 0.25, 100.0, 0.6), 0.0, 4.0, 0.0);
     bench_joint *joint = bench_add_ball(s, anchor, box, 0.0, 5.5, 0.0);
     joint->axis[1] = -1.0;
@@ -122,7 +115,7 @@ enum { SLIDERS = 6 };
 static void build_sliders(bench_scene *s)
 {
     const int32_t cube = bench_box(s, 0.5, 0.5, 0.5, 1000.0, 0.6);
-    int32_t last = add_anchor(s, 0.0, 0.0);
+    int32_t last = bench_add_anchor(s, 0.0, 0.0);
     for (int32_t i = 0; i < SLIDERS; i++) {
         const int32_t body = bench_add_dynamic(s, cube, 0.0, 0.6 + 1.2 * i, 0.0);
         s->bodies[body].collides = 0;

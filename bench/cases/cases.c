@@ -29,30 +29,37 @@ const bench_case *bench_case_at(int32_t index)
     return &groups[g].cases[index];
 }
 
-int32_t bench_box(bench_scene *s, double half_x, double half_y, double half_z, double density, double friction)
+static int32_t add_solid(bench_scene *s, bench_shape shape, double density, double friction)
 {
-    bench_shape shape = bench_make_box((float)half_x, (float)half_y, (float)half_z);
     shape.density = (float)density, shape.friction = (float)friction;
     return bench_add_shape(s, shape);
+}
+
+int32_t bench_box(bench_scene *s, double half_x, double half_y, double half_z, double density, double friction)
+{
+    return add_solid(s, bench_make_box((float)half_x, (float)half_y, (float)half_z), density, friction);
 }
 
 int32_t bench_sphere(bench_scene *s, double radius, double density, double friction)
 {
-    bench_shape shape = bench_make_sphere((float)radius);
-    shape.density = (float)density, shape.friction = (float)friction;
-    return bench_add_shape(s, shape);
+    return add_solid(s, bench_make_sphere((float)radius), density, friction);
 }
 
 int32_t bench_capsule(bench_scene *s, double half_height, double radius, double density, double friction)
 {
-    bench_shape shape = bench_make_capsule((float)half_height, (float)radius);
-    shape.density = (float)density, shape.friction = (float)friction;
-    return bench_add_shape(s, shape);
+    return add_solid(s, bench_make_capsule((float)half_height, (float)radius), density, friction);
 }
 
 int32_t bench_add_ground(bench_scene *s, double half_x, double friction)
 {
     return bench_add_static(s, bench_box(s, half_x, 1.0, half_x, 1.0, friction), 0.0, -1.0, 0.0);
+}
+
+int32_t bench_add_anchor(bench_scene *s, double x, double y)
+{
+    const int32_t body = bench_add_static(s, bench_box(s, 0.1, 0.1, 0.1, 1.0, 0.6), x, y, 0.0);
+    s->bodies[body].collides = 0;
+    return body;
 }
 
 void bench_turn(bench_body *body, double x, double y, double z, double angle)

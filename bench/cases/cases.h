@@ -7,6 +7,8 @@
 
 /// A static box half (half_x, 1, half_x) with its top at y = 0.
 int32_t bench_add_ground(bench_scene *scene, double half_x, double friction);
+/// A static body that touches nothing, for joints to hold on to.
+int32_t bench_add_anchor(bench_scene *scene, double x, double y);
 /// Shapes with density and friction; the index.
 int32_t bench_box(bench_scene *scene, double half_x, double half_y, double half_z, double density, double friction);
 int32_t bench_sphere(bench_scene *scene, double radius, double density, double friction);

@@ -6,14 +6,6 @@
 
 static const double GRAVITY = 10.0; // m/s2
 
-// A static body that touches nothing, for joints to hold on to
-static int32_t add_anchor(bench_scene *s, double x, double y)
-{
-    const int32_t body = bench_add_static(s, bench_box(s, 0.1, 0.1, 0.1, 1.0, 0.6), x, y, 0.0);
-    s->bodies[body].collides = 0;
-    return body;
-}
-
 static void damp(bench_scene *s, int32_t body)
 {
     s->bodies[body].linear_damping = s->bodies[body].angular_damping = 0.1f;
@@ -27,14 +19,14 @@ enum { PLANKS = 160 };
 static void build_bridge(bench_scene *s)
 {
     const int32_t plank = bench_box(s, 0.5, 0.125, 0.5, 20.0, 0.6);
-    int32_t last = add_anchor(s, -80.0, 20.0);
+    int32_t last = bench_add_anchor(s, -80.0, 20.0);
     for (int32_t i = 0; i < PLANKS; i++) {
         const int32_t body = bench_add_dynamic(s, plank, -79.5 + i, 20.0, 0.0);
         damp(s, body);
         bench_add_hinge_z(s, last, body, -80.0 + i, 20.0);
         last = body;
     }
-    bench_add_hinge_z(s, last, add_anchor(s, 80.0, 20.0), 80.0, 20.0);
+    bench_add_hinge_z(s, last, bench_add_anchor(s, 80.0, 20.0), 80.0, 20.0);
 }
 
 // Rigid joints would need an infinite tension: what sags is the sum of the gaps, sag = sqrt(3/8 length x gaps). A tension T = weight x
@@ -61,7 +53,7 @@ enum { LINKS = 40 };
 static void build_ball_and_chain(bench_scene *s)
 {
     const int32_t link = bench_capsule(s, 0.5, 0.125, 20.0, 0.6);
-    int32_t last = add_anchor(s, 0.0, 20.0);
+    int32_t last = bench_add_anchor(s, 0.0, 20.0);
     for (int32_t i = 0; i < LINKS; i++) {
         const int32_t body = bench_add_dynamic(s, link, 0.5 + i, 20.0, 0.0);
         bench_turn_z(&s->bodies[body], 0.5 * BENCH_PI);
@@ -121,7 +113,7 @@ static void judge_joint_grid(bench_trial *t)
 static void build_stretched_chain(bench_scene *s)
 {
     const int32_t ball = bench_sphere(s, 0.2, 1.0, 0.6);
-    int32_t last = add_anchor(s, 0.0, 40.0);
+    int32_t last = bench_add_anchor(s, 0.0, 40.0);
     for (int32_t i = 0; i < LINKS; i++) {
         const int32_t body = bench_add_dynamic(s, ball, 0.0, 38.0 - 2.0 * i, 0.0);
         s->bodies[body].collides = 0;
