@@ -4,23 +4,11 @@
 // which field takes two values, what else the definition needs, how long it is pushed, what is read, and what the reading should be. The
 // rows of a type must cover every byte of its definition but the few of `elsewhere`: a new field without a row fails.
 #include "scenes/joint_scene.h"
+#include "support/any_joint.h"
 
 #include <string.h>
 
-enum { DISTANCE, BALL, HINGE, FIXED, SIX, KINDS };
-
-typedef union any_def {
-    fe_joint_def common;
-    fe_distance_def distance;
-    fe_ball_def ball;
-    fe_hinge_def hinge;
-    fe_fixed_def fixed;
-    fe_configurable_def six;
-} any_def;
-
-static const size_t sizes[KINDS] = {sizeof(fe_distance_def), sizeof(fe_ball_def), sizeof(fe_hinge_def), sizeof(fe_fixed_def),
-                                    sizeof(fe_configurable_def)};
-static const char *const kind_names[KINDS] = {"distance", "ball", "hinge", "fixed", "configurable"};
+static const char *const kind_names[ANY_KINDS] = {"distance", "ball", "hinge", "fixed", "configurable"};
 
 typedef struct row row;
 typedef struct rig {
@@ -389,25 +377,17 @@ static const axis_row axis_rows[] = {
 static void init(int kind, any_def *d)
 {
     memset(d, 0, sizeof *d);
-    if (kind == DISTANCE) {
-        fe_distance_def_init(&d->distance, sizeof d->distance);
+    any_init(kind, d);
+    if (kind == ANY_DISTANCE) {
         d->common.frame_a.position.x = -2;
         d->distance.min_length = d->distance.max_length = 2;
     }
-    if (kind == BALL) fe_ball_def_init(&d->ball, sizeof d->ball);
-    if (kind == HINGE) fe_hinge_def_init(&d->hinge, sizeof d->hinge);
-    if (kind == FIXED) fe_fixed_def_init(&d->fixed, sizeof d->fixed);
-    if (kind == SIX) fe_configurable_def_init(&d->six, sizeof d->six);
 }
 
 static fe_joint create(const rig *r, const any_def *d)
 {
     fe_joint joint = 0;
-    if (r->kind == DISTANCE) MUST(fe_distance_create(r->s.world, &d->distance, &joint));
-    if (r->kind == BALL) MUST(fe_ball_create(r->s.world, &d->ball, &joint));
-    if (r->kind == HINGE) MUST(fe_hinge_create(r->s.world, &d->hinge, &joint));
-    if (r->kind == FIXED) MUST(fe_fixed_create(r->s.world, &d->fixed, &joint));
-    if (r->kind == SIX) MUST(fe_configurable_create(r->s.world, &d->six, &joint));
+    MUST(any_create(r->kind, r->s.world, d, &joint));
     return joint;
 }
 
@@ -423,7 +403,7 @@ static rig begin(void **state, int kind, const row *row)
     r.mass = mass_of(&r.s, r.block);
     for (int k = 0; k < 3; ++k) r.moment[k] = moment_of(&r.s, r.block, k, 0);
     // a rod that pulls at a point off the centre would turn the block
-    if (kind == DISTANCE) MUST(fe_body_set_locks(r.s.world, r.block, 0, FE_AXIS_ALL));
+    if (kind == ANY_DISTANCE) MUST(fe_body_set_locks(r.s.world, r.block, 0, FE_AXIS_ALL));
     return r;
 }
 
@@ -444,7 +424,7 @@ static double play(void **state, int kind, const row *row, const fe_joint_axis *
     any_def d;
     init(kind, &d);
     d.common.body_a = r.anchor, d.common.body_b = r.block;
-    if (axis) d.six.axes[row->axis] = *axis;
+    if (axis) d.configurable.axes[row->axis] = *axis;
     if (row->prepare) row->prepare(&d);
     (row->put ? row->put : put_float)(&r, &d, row, value);
     r.joint = create(&r, &d);
@@ -482,12 +462,12 @@ typedef struct table {
         array, sizeof array / sizeof *array \
     }
 static const table common_table = ROWS(common_rows), solid_table = ROWS(solid_rows);
-static const table own_tables[KINDS] = {ROWS(distance_rows), ROWS(ball_rows), ROWS(hinge_rows), ROWS(fixed_rows), ROWS(six_rows)};
+static const table own_tables[ANY_KINDS] = {ROWS(distance_rows), ROWS(ball_rows), ROWS(hinge_rows), ROWS(fixed_rows), ROWS(six_rows)};
 enum { AXIS_ROWS = sizeof axis_rows / sizeof *axis_rows };
 
 static row row_of_axis(const axis_row *a, int axis)
 {
-    size_t start = offsetof(any_def, six.axes) + (size_t)axis * sizeof(fe_joint_axis);
+    size_t start = offsetof(any_def, configurable.axes) + (size_t)axis * sizeof(fe_joint_axis);
     return (row){a->name, start + a->offset, a->size, {a->values[0], a->values[1]}, a->outcome, a->read, axis,
                  a->push, a->seconds,        NULL,    a->is_int ? put_int : NULL};
 }
@@ -502,9 +482,9 @@ static int try_table(void **state, int kind, const table *t)
 static void each_field_alone_decides_what_mechanics_foretells(void **state)
 {
     int misses = 0;
-    for (int kind = 0; kind < KINDS; ++kind) {
+    for (int kind = 0; kind < ANY_KINDS; ++kind) {
         misses += try_table(state, kind, &common_table);
-        if (kind != DISTANCE) misses += try_table(state, kind, &solid_table);
+        if (kind != ANY_DISTANCE) misses += try_table(state, kind, &solid_table);
         misses += try_table(state, kind, &own_tables[kind]);
     }
     FE_TRUE(misses == 0);
@@ -516,7 +496,7 @@ static void each_field_of_each_axis_alone_decides_too(void **state)
     for (int axis = 0; axis < 6; ++axis)
         for (int i = 0; i < AXIS_ROWS; ++i) {
             row made = row_of_axis(&axis_rows[i], axis);
-            misses += !differs_as_foretold(state, SIX, &made, &axis_rows[i].axis);
+            misses += !differs_as_foretold(state, ANY_CONFIGURABLE, &made, &axis_rows[i].axis);
         }
     FE_TRUE(misses == 0);
 }
@@ -531,9 +511,11 @@ typedef struct exception {
 #define AWAY(member) offsetof(any_def, member), sizeof(((any_def *)NULL)->member)
 // tests/api/test_joint.c has these: sizes, and what must be 0
 static const exception elsewhere[] = {
-    {-1, AWAY(common.struct_size)},    {-1, AWAY(common.reserved)},           {BALL, AWAY(ball.reserved_end)},
-    {HINGE, AWAY(hinge.reserved_end)}, {DISTANCE, AWAY(common.break_torque)}, // a force along a line through the points has no torque about
-                                                                              // them
+    {-1, AWAY(common.struct_size)},
+    {-1, AWAY(common.reserved)},
+    {ANY_BALL, AWAY(ball.reserved_end)},
+    {ANY_HINGE, AWAY(hinge.reserved_end)},
+    {ANY_DISTANCE, AWAY(common.break_torque)}, // a force along a line through the points has no torque about them
 };
 
 static void mark(unsigned char *covered, size_t offset, size_t size) { memset(covered + offset, 1, size); }
@@ -541,19 +523,19 @@ static void mark(unsigned char *covered, size_t offset, size_t size) { memset(co
 static void every_field_of_every_type_has_a_row(void **state)
 {
     (void)state;
-    for (int kind = 0; kind < KINDS; ++kind) {
+    for (int kind = 0; kind < ANY_KINDS; ++kind) {
         unsigned char covered[sizeof(any_def)] = {0};
-        const table tables[3] = {common_table, own_tables[kind], kind == DISTANCE ? common_table : solid_table};
+        const table tables[3] = {common_table, own_tables[kind], kind == ANY_DISTANCE ? common_table : solid_table};
         for (int t = 0; t < 3; ++t)
             for (size_t i = 0; i < tables[t].count; ++i) mark(covered, tables[t].rows[i].offset, tables[t].rows[i].size);
-        for (int axis = 0; axis < 6 && kind == SIX; ++axis)
+        for (int axis = 0; axis < 6 && kind == ANY_CONFIGURABLE; ++axis)
             for (int i = 0; i < AXIS_ROWS; ++i) {
                 row made = row_of_axis(&axis_rows[i], axis);
                 mark(covered, made.offset, made.size);
             }
         for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; ++i)
             if (elsewhere[i].kind < 0 || elsewhere[i].kind == kind) mark(covered, elsewhere[i].offset, elsewhere[i].size);
-        for (size_t i = 0; i < sizes[kind]; ++i)
+        for (size_t i = 0; i < any_sizes[kind]; ++i)
             if (!covered[i]) fail_msg("byte %zu of a %s joint's definition belongs to a field without a row", i, kind_names[kind]);
     }
 }

@@ -1,13 +1,14 @@
 // play_joints.c - the script of joints: ragdolls of examples/machines.h fall over each other, a net of ball joints in one island wide
 // enough to be spread over the workers, a row of each type with limits, springs and motors at work, strings that break in one step, joints
 // that are made, changed, switched and destroyed, bodies that take theirs along.
+#include "support/any_joint.h"
 #include "support/play.h"
 
 #include "../../examples/machines.h"
 
 #include <stdlib.h>
 
-enum { PEOPLE = 4, NET = 24, GUESTS = 6, TYPES = 5, ROW = 4 * TYPES, STRINGS = 12 };
+enum { PEOPLE = 4, NET = 24, GUESTS = 6, ROW = 4 * ANY_KINDS, STRINGS = 12 };
 enum { NET_GROUP, GUEST_GROUP, ROW_GROUP, STRING_GROUP };          // p->groups: first actors
 enum { ROW_JOINTS = STRING_GROUP + 1, STRING_JOINTS, LAST_GROUP }; // p->groups: first joints
 
@@ -56,48 +57,39 @@ static void hang(play *p, int32_t i, fe_body a, fe_body b)
 {
     const fe_dvec3 top = {2.0 * i, 3.0, 12.0}, low = {2.0 * i, 2.5, 12.0};
     const fe_vec3 axis = {1, (float)(i % 3), 0.5f};
-    fe_distance_def distance;
-    fe_ball_def ball;
-    fe_hinge_def hinge;
-    fe_fixed_def fixed;
-    fe_configurable_def six;
-    fe_distance_def_init(&distance, sizeof distance), fe_ball_def_init(&ball, sizeof ball), fe_hinge_def_init(&hinge, sizeof hinge);
-    fe_fixed_def_init(&fixed, sizeof fixed), fe_configurable_def_init(&six, sizeof six);
-    float strength = (float)(i / TYPES);
-    switch (i % TYPES) {
-    case 0:
-        PLAY(p, fe_rope_def_at(p->world, &distance, a, b, &top, &low, 0.6f));
-        distance.spring_hertz = strength, distance.motor_force = 10 * strength, distance.motor_speed = -0.2f;
-        PLAY(p, fe_distance_create(p->world, &distance, new_joint(p)));
+    float strength = (float)(i / ANY_KINDS);
+    any_def d;
+    any_init(i % ANY_KINDS, &d);
+    switch (i % ANY_KINDS) {
+    case ANY_DISTANCE:
+        PLAY(p, fe_rope_def_at(p->world, &d.distance, a, b, &top, &low, 0.6f));
+        d.distance.spring_hertz = strength, d.distance.motor_force = 10 * strength, d.distance.motor_speed = -0.2f;
         break;
-    case 1:
-        ball.swing_limited = ball.twist_limited = i % 2, ball.cone_y = 0.5f, ball.cone_z = 0.25f, ball.max_twist = 0.5f,
-        ball.min_twist = -1;
-        ball.drive_hertz = strength, ball.motor_torque = 5 * strength, ball.motor_velocity.y = 1, ball.limit_hertz = 10 * strength;
-        PLAY(p, fe_ball_def_at(p->world, &ball, a, b, &top, &axis));
-        PLAY(p, fe_ball_create(p->world, &ball, new_joint(p)));
+    case ANY_BALL:
+        d.ball.swing_limited = d.ball.twist_limited = i % 2, d.ball.cone_y = 0.5f, d.ball.cone_z = 0.25f;
+        d.ball.max_twist = 0.5f, d.ball.min_twist = -1, d.ball.limit_hertz = 10 * strength;
+        d.ball.drive_hertz = strength, d.ball.motor_torque = 5 * strength, d.ball.motor_velocity.y = 1;
+        PLAY(p, fe_ball_def_at(p->world, &d.ball, a, b, &top, &axis));
         break;
-    case 2:
-        hinge.limited = i % 2, hinge.min_angle = -0.5f, hinge.max_angle = 3.1415927f, hinge.spring_hertz = strength;
-        hinge.motor_speed = 3, hinge.motor_torque = 30 * strength, hinge.hertz = 10 * strength;
-        PLAY(p, fe_hinge_def_at(p->world, &hinge, a, b, &top, &axis));
-        PLAY(p, fe_hinge_create(p->world, &hinge, new_joint(p)));
+    case ANY_HINGE:
+        d.hinge.limited = i % 2, d.hinge.min_angle = -0.5f, d.hinge.max_angle = 3.1415927f, d.hinge.spring_hertz = strength;
+        d.hinge.motor_speed = 3, d.hinge.motor_torque = 30 * strength, d.hinge.hertz = 10 * strength;
+        PLAY(p, fe_hinge_def_at(p->world, &d.hinge, a, b, &top, &axis));
         break;
-    case 3:
-        fixed.angular_hertz = strength, fixed.hertz = 3 * strength, fixed.angular_damping_ratio = 0.1f;
-        PLAY(p, fe_fixed_def_at(p->world, &fixed, a, b, &top));
-        PLAY(p, fe_fixed_create(p->world, &fixed, new_joint(p)));
+    case ANY_FIXED:
+        d.fixed.angular_hertz = strength, d.fixed.hertz = 3 * strength, d.fixed.angular_damping_ratio = 0.1f;
+        PLAY(p, fe_fixed_def_at(p->world, &d.fixed, a, b, &top));
         break;
     default:
         for (int32_t k = 0; k < 6; ++k) {
-            fe_joint_axis *way = &six.axes[k];
-            way->mode = (k + i / TYPES) % 3, way->low = -0.2f, way->high = 0.3f;
+            fe_joint_axis *way = &d.configurable.axes[k];
+            way->mode = (k + i / ANY_KINDS) % 3, way->low = -0.2f, way->high = 0.3f;
             if (way->mode) way->drive = 1 + k % 2, way->stiffness = 2, way->damping = 0.5f, way->motor_force = 3, way->motor_speed = 1;
         }
-        PLAY(p, fe_configurable_def_at(p->world, &six, a, b, &top, &axis));
-        PLAY(p, fe_configurable_create(p->world, &six, new_joint(p)));
+        PLAY(p, fe_configurable_def_at(p->world, &d.configurable, a, b, &top, &axis));
         break;
     }
+    PLAY(p, any_create(i % ANY_KINDS, p->world, &d, new_joint(p)));
 }
 
 static void add_row(play *p)

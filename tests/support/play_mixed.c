@@ -1,5 +1,6 @@
 // play_mixed.c - 300 bodies of all forms fall on flat ground in heaps, come to rest and sleep: many small islands. And a brief script, in
 // which two dozen bodies meet with every kind of call: for tests that play it hundreds of times.
+#include "support/any_joint.h"
 #include "support/play.h"
 
 enum { HEAPS = 20, HEAP_BODIES = 15 };
@@ -98,25 +99,20 @@ static void bring_crowd(play *p)
 static void bring_joints(play *p)
 {
     const fe_body *actor = p->actors + FIRST;
-    fe_world *w = p->world;
-    fe_distance_def distance;
-    fe_ball_def ball;
-    fe_hinge_def hinge;
-    fe_fixed_def fixed;
-    fe_configurable_def six;
-    fe_distance_def_init(&distance, sizeof distance), fe_ball_def_init(&ball, sizeof ball), fe_hinge_def_init(&hinge, sizeof hinge);
-    fe_fixed_def_init(&fixed, sizeof fixed), fe_configurable_def_init(&six, sizeof six);
-    distance.body_a = p->actors[ROOF], distance.body_b = actor[0], distance.min_length = 0, distance.max_length = 3;
-    ball.body_a = p->actors[ROOF], ball.body_b = actor[1], ball.break_force = 10; // N
-    hinge.body_a = actor[6], hinge.body_b = actor[7], hinge.limited = 1;
-    fixed.body_a = actor[7], fixed.body_b = actor[8], fixed.hertz = 2;
-    six.body_a = actor[8], six.body_b = actor[17], six.axes[FE_ALONG_Y].mode = FE_MOTION_FREE,
-    six.axes[FE_ABOUT_X].mode = FE_MOTION_LIMITED;
-    PLAY(p, fe_distance_create(w, &distance, &p->joints[0]));
-    PLAY(p, fe_ball_create(w, &ball, &p->joints[1]));
-    PLAY(p, fe_hinge_create(w, &hinge, &p->joints[2]));
-    PLAY(p, fe_fixed_create(w, &fixed, &p->joints[3]));
-    PLAY(p, fe_configurable_create(w, &six, &p->joints[4]));
+    any_def d[ANY_KINDS];
+    for (int32_t kind = 0; kind < ANY_KINDS; ++kind) any_init(kind, &d[kind]);
+    fe_distance_def *distance = &d[ANY_DISTANCE].distance;
+    fe_ball_def *ball = &d[ANY_BALL].ball;
+    fe_hinge_def *hinge = &d[ANY_HINGE].hinge;
+    fe_fixed_def *fixed = &d[ANY_FIXED].fixed;
+    fe_configurable_def *six = &d[ANY_CONFIGURABLE].configurable;
+    distance->body_a = p->actors[ROOF], distance->body_b = actor[0], distance->min_length = 0, distance->max_length = 3;
+    ball->body_a = p->actors[ROOF], ball->body_b = actor[1], ball->break_force = 10; // N
+    hinge->body_a = actor[6], hinge->body_b = actor[7], hinge->limited = 1;
+    fixed->body_a = actor[7], fixed->body_b = actor[8], fixed->hertz = 2;
+    six->body_a = actor[8], six->body_b = actor[17], six->axes[FE_ALONG_Y].mode = FE_MOTION_FREE;
+    six->axes[FE_ABOUT_X].mode = FE_MOTION_LIMITED;
+    for (int32_t kind = 0; kind < ANY_KINDS; ++kind) PLAY(p, any_create(kind, p->world, &d[kind], &p->joints[kind]));
 }
 
 static void change_joints(play *p)
