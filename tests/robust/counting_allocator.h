@@ -1,6 +1,7 @@
 // counting_allocator.h - an allocator that counts, checks what it is given back, and fails when it is told to.
 #ifndef FE_TESTS_COUNTING_ALLOCATOR_H
 #define FE_TESTS_COUNTING_ALLOCATOR_H
+#include "fe_test.h"
 #include "feather.h"
 
 #include <stdlib.h>
@@ -51,6 +52,20 @@ static void counting_release(void *user, void *block, uint64_t size)
 static inline fe_allocator counting_allocator(counting *c)
 {
     return (fe_allocator){sizeof(fe_allocator), 0, counting_allocate, counting_release, c};
+}
+
+static inline fe_world *counting_world(counting *c)
+{
+    fe_world_def def;
+    fe_world *world = NULL;
+    fe_allocator allocator = counting_allocator(c);
+    fe_world_def_init(&def, sizeof def);
+    def.allocator = &allocator;
+    fe_result result;
+    do result = fe_world_create(&def, &world);
+    while (result == FE_ERROR_MEMORY && c->fail_count); // it was told to fail
+    FE_TRUE(result == FE_OK);
+    return world;
 }
 
 #endif

@@ -32,20 +32,6 @@ static int32_t look_after(play *p, fe_result result)
     return 1;
 }
 
-static fe_world *new_world(counting *memory)
-{
-    fe_world_def def;
-    fe_world *world = NULL;
-    fe_allocator allocator = counting_allocator(memory);
-    fe_world_def_init(&def, sizeof def);
-    def.allocator = &allocator;
-    fe_result result;
-    do result = fe_world_create(&def, &world);
-    while (result == FE_ERROR_MEMORY);
-    FE_TRUE(result == FE_OK);
-    return world;
-}
-
 typedef struct outcome {
     uint64_t hash, told;
     int64_t calls;
@@ -56,7 +42,7 @@ static outcome run(int64_t first, int64_t count)
 {
     witness w = {.memory = {.fail_from = first, .fail_count = count}};
     play p;
-    play_begin(&p, new_world(&w.memory));
+    play_begin(&p, counting_world(&w.memory));
     p.user = &w;
     p.before = look_before;
     p.after = look_after;
@@ -107,7 +93,7 @@ static void a_world_without_memory_can_be_read_and_destroyed(void **state)
     witness w = {0};
     play p;
     fe_body body = 0;
-    play_begin(&p, new_world(&w.memory));
+    play_begin(&p, counting_world(&w.memory));
     play_until(&p, &script_brief, 90);
     w.memory.fail_from = w.memory.calls + 1;
     w.memory.fail_count = INT32_MAX;

@@ -10,17 +10,6 @@ enum { POURED = 1500, QUIET_STEPS = 1000, MOST_BODIES = 20000 };
 #endif
 enum { COLUMNS = 9, LAYER = COLUMNS * COLUMNS, SETTLING_STEPS = 60, LONGEST_FALL = 600 };
 
-static fe_world *new_world(counting *memory)
-{
-    fe_world_def def;
-    fe_world *world = NULL;
-    fe_allocator allocator = counting_allocator(memory);
-    fe_world_def_init(&def, sizeof def);
-    def.allocator = &allocator;
-    FE_TRUE(fe_world_create(&def, &world) == FE_OK);
-    return world;
-}
-
 // The scene bowl-1500 of the bench: a walled pit, and boxes, spheres and capsules poured into it in layers
 static void build_bowl(play *p)
 {
@@ -57,7 +46,7 @@ static void a_settled_bowl_steps_without_allocating(void **state)
     static fe_body bodies[POURED];
     counting memory = {0};
     play p;
-    play_begin(&p, new_world(&memory));
+    play_begin(&p, counting_world(&memory));
     build_bowl(&p);
     pour(&p, bodies);
     int32_t step = 0, landed = 0;
@@ -85,7 +74,7 @@ static void a_growing_world_allocates_as_its_logarithm(void **state)
     enum { ARRAYS = 64 };
     counting memory = {0};
     play p;
-    play_begin(&p, new_world(&memory));
+    play_begin(&p, counting_world(&memory));
     part ground = part_plane(0.0f, 1.0f, 0.0f);
     play_add(&p, &ground);
     int64_t doublings = 1;
