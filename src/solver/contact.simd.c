@@ -97,9 +97,6 @@ FE_INLINE void tangents(wide3 n, wide3 *t1, wide3 *t2)
     *t2 = (wide3){b, sign + n.y * n.y * a, -n.y};
 }
 
-// of what is positive; of a denormal the quotient may be infinite
-FE_INLINE wide inverse_or_zero(wide a) { return w_choose(w_greater(a, w_set(FLT_MIN)), 1.0f / a, w_set(0.0f)); }
-
 // angular arms of a unit impulse at a point, and the spin they cause
 typedef struct {
     wide3 a, b, spin_a, spin_b;
@@ -109,19 +106,6 @@ FE_INLINE wide angular_response(const arm *m, const arm *n, int kind)
 {
     wide b = w_dot(m->b, n->spin_b);
     return kind & FE__ROW_PAIR ? w_dot(m->a, n->spin_a) + b : b;
-}
-
-// inverse of a symmetric positive matrix by cofactors; zero where it is singular
-FE_INLINE wide_sym inverse_sym(const wide_sym *m)
-{
-    wide cxx = m->yy * m->zz - m->yz * m->yz, cxy = m->xz * m->yz - m->xy * m->zz, cxz = m->xy * m->yz - m->xz * m->yy;
-    wide k = inverse_or_zero(m->xx * cxx + m->xy * cxy + m->xz * cxz);
-    return (wide_sym){k * cxx,
-                      k * cxy,
-                      k * cxz,
-                      k * (m->xx * m->zz - m->xz * m->xz),
-                      k * (m->xy * m->xz - m->xx * m->yz),
-                      k * (m->xx * m->yy - m->xy * m->xy)};
 }
 
 enum { CONTACT_STRIDE = sizeof(fe__contact) / sizeof(float) };

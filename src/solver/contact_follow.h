@@ -28,14 +28,14 @@ FE_INLINE wide NAMED(linear_response)(const ROW *row, const pair *p, wide3 u, wi
 FE_INLINE wide NAMED(mass_along)(const pair *p, wide k, int kind)
 {
     wide least = kind & FE__ROW_SPECIAL ? RIGID * (p->a.inverse_mass + p->b.inverse_mass) : w_set(0.0f);
-    return w_choose(w_greater(k, least), inverse_or_zero(k), w_set(0.0f));
+    return w_choose(w_greater(k, least), w_inverse_or_zero(k), w_set(0.0f));
 }
 
 // Inverse of the 2 x 2 matrix of the tangents. Where locks leave one direction u to slide in, it is k u u^T up to rounding, whose inverse
 // would fill the friction cone with noise across u: the pseudo-inverse, itself over the square of its trace, knows u only.
 FE_INLINE void NAMED(invert_tangents)(MASSES *out, const pair *p, wide k11, wide k12, wide k22, int kind)
 {
-    wide det = k11 * k22 - k12 * k12, inverse = inverse_or_zero(det), trace = k11 + k22;
+    wide det = k11 * k22 - k12 * k12, inverse = w_inverse_or_zero(det), trace = k11 + k22;
     out->tangent[0] = inverse * k22;
     out->tangent[1] = -(inverse * k12);
     out->tangent[2] = inverse * k11;
@@ -59,7 +59,7 @@ FE_INLINE void NAMED(find_friction_masses)(const ROW *row, const pair *p, int ki
     NAMED(invert_tangents)(out, p, k11, k12, k22, kind);
     arm spin = {p->normal, p->normal, w_zero3(), w_mul(&row->inertia_b, p->normal)};
     if (kind & FE__ROW_PAIR) spin.spin_a = w_mul(&row->inertia_a, p->normal);
-    out->twist = inverse_or_zero(angular_response(&spin, &spin, kind));
+    out->twist = w_inverse_or_zero(angular_response(&spin, &spin, kind));
     out->twist_tangent[0] = angular_response(&m1, &spin, kind);
     out->twist_tangent[1] = angular_response(&m2, &spin, kind);
     UNROLL for (int i = 0; i < POINTS; ++i)
@@ -107,10 +107,10 @@ FE_INLINE void NAMED(find_rolling_masses)(SPECIAL_ROW *x, const pair *p, wide_ma
         const wide_sym *a = &x->row.inertia_a;
         k = (wide_sym){k.xx + a->xx, k.xy + a->xy, k.xz + a->xz, k.yy + a->yy, k.yz + a->yz, k.zz + a->zz};
     }
-    x->spinning_mass = w_choose(lanes, inverse_or_zero(w_dot(p->normal, w_mul(&k, p->normal))), x->spinning_mass);
+    x->spinning_mass = w_choose(lanes, w_inverse_or_zero(w_dot(p->normal, w_mul(&k, p->normal))), x->spinning_mass);
     wide some = REGULAR * (k.xx + k.yy + k.zz);
     k.xx = k.xx + some, k.yy = k.yy + some, k.zz = k.zz + some;
-    wide_sym inverse = inverse_sym(&k);
+    wide_sym inverse = w_inverse_sym(&k);
     x->rolling_mass = choose_sym(lanes, &inverse, &x->rolling_mass);
 }
 

@@ -26,7 +26,7 @@ FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int3
         weighted = w_add_scaled(weighted, weight, r);
         apart = apart + weight * separations[i];
     }
-    wide inverse = inverse_or_zero(sum);
+    wide inverse = w_inverse_or_zero(sum);
     row->separation[POINTS] = inverse * apart;
     return w_scale(inverse, weighted);
 }

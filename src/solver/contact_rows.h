@@ -391,7 +391,7 @@ FE_INLINE wide NAMED(part_without_gain)(const SPECIAL_ROW *x, const wide *old, c
 {
     wide zero = w_set(0.0f), one = w_set(1.0f), b = NAMED(gain_of)(x, old, was, was, flight), all = NAMED(gain_of)(x, old, was, is, flight);
     wide a = all - b, root = w_sqrt(w_max(b * b - 4.0f * a * x->gain, zero));
-    wide part = w_clamp((root - b) * inverse_or_zero(2.0f * a), zero, one);
+    wide part = w_clamp((root - b) * w_inverse_or_zero(2.0f * a), zero, one);
     return w_choose(w_greater(x->gain + all, zero), part, one);
 }
 

@@ -69,7 +69,7 @@ FE_INLINE void aim_drive(freedom *f, wide error, const fe__step_constants *c)
     wide k = w_choose(newtons, f->stiffness, f->mass * omega * omega),
          damp = w_choose(newtons, f->damping, 2.0f * f->mass * f->damping * omega);
     wide soft = c->h * (damp + c->h * k);
-    f->drive_fade = inverse_or_zero(soft);
+    f->drive_fade = w_inverse_or_zero(soft);
     f->drive_mass = w_choose(w_greater(f->drive_fade, zero), 1.0f / (f->response + f->drive_fade), zero);
     f->drive_push = c->h * k * f->drive_fade * error;
 }
@@ -78,7 +78,7 @@ FE_INLINE void aim_drive(freedom *f, wide error, const fe__step_constants *c)
 FE_INLINE void aim(freedom *f, wide response, wide least, int part, const fe__step_constants *c)
 {
     f->response = w_choose(w_greater(response, least), response, w_set(0.0f));
-    f->mass = inverse_or_zero(f->response);
+    f->mass = w_inverse_or_zero(f->response);
     wide error = f->x - f->target;
     // a twist without limits goes the shorter way
     if (part == FE__PART_TWIST)

@@ -23,7 +23,7 @@ FE_INLINE wide_sym point_mass(const point_row *row, wide linear, wide3 ra, wide3
     wide_sym k = {linear, zero, zero, linear, zero, linear};
     k = add_arm(k, &row->inertia_a, ra);
     k = add_arm(k, &row->inertia_b, rb);
-    return inverse_sym(&k);
+    return w_inverse_sym(&k);
 }
 
 FE_INLINE void push_point(const point_row *row, ends *e, wide3 ra, wide3 rb, wide3 impulse)

@@ -27,7 +27,7 @@ FE_INLINE void hinge_mass(hinge_row *row, wide3 t1, wide3 t2)
     wide k11 = w_dot(t1, k1), k12 = w_dot(t1, k2), k22 = w_dot(t2, k2);
     wide more = w_choose(w_greater(row->locked, w_set(0.0f)), LOCKED_GIVE * trace(&k), w_set(0.0f));
     k11 = k11 + more, k22 = k22 + more;
-    wide d = inverse_or_zero(k11 * k22 - k12 * k12);
+    wide d = w_inverse_or_zero(k11 * k22 - k12 * k12);
     row->mass[0] = d * k22, row->mass[1] = -(d * k12), row->mass[2] = d * k11;
 }
 
@@ -254,17 +254,17 @@ FE_INLINE void aim_turn(turn_row *row, const fe__step_constants *c)
     wide zero = w_set(0.0f), one = w_set(1.0f), omega = 2.0f * FE_PI * drive.x;
     wide_mask newtons = w_greater(drive.w, zero), on;
     wide_sym k = sum_sym(&row->inertia_a, &row->inertia_b);
-    row->least_mass = inverse_or_zero(trace(&k));
+    row->least_mass = w_inverse_or_zero(trace(&k));
     k = give(k, trace(&k), w_greater(row->locked, zero));
     row->mass = inverse_scaled(&k);
     wide fade = 1.0f / (1.0f + c->h * omega * (2.0f * drive.y + c->h * omega));
-    wide given = inverse_or_zero(c->h * (drive.y + c->h * drive.x)), stiff = one - fade;
+    wide given = w_inverse_or_zero(c->h * (drive.y + c->h * drive.x)), stiff = one - fade;
     on = w_greater(w_choose(newtons, given, omega), zero);
     wide more = w_choose(newtons, given, zero), scale = w_choose(on, w_choose(newtons, one, stiff), zero);
     k.xx = k.xx + more, k.yy = k.yy + more, k.zz = k.zz + more;
     wide_sym m = inverse_scaled(&k);
     row->drive_mass = (wide_sym){scale * m.xx, scale * m.xy, scale * m.xz, scale * m.yy, scale * m.yz, scale * m.zz};
-    row->push = w_choose(newtons, c->h * drive.x * given, c->h * omega * omega * fade * inverse_or_zero(stiff));
+    row->push = w_choose(newtons, c->h * drive.x * given, c->h * omega * omega * fade * w_inverse_or_zero(stiff));
     row->inner = more;
     row->outer = w_choose(on, w_choose(newtons, zero, fade), one); // what is off forgets its impulse
     row->drive_cap = c->h * drive.z;

@@ -36,22 +36,6 @@ FE_INLINE void scatter_ends(float (*lines)[FE__LINE], const line_pair *line, con
 
 FE_INLINE wide3 minus(wide3 a) { return (wide3){-a.x, -a.y, -a.z}; }
 
-// of what is positive; of a denormal the quotient may be infinite
-FE_INLINE wide inverse_or_zero(wide a) { return w_choose(w_greater(a, w_set(FLT_MIN)), 1.0f / a, w_set(0.0f)); }
-
-// inverse of a symmetric positive matrix by cofactors; zero where it is singular, or so large or small that its determinant is
-FE_INLINE wide_sym inverse_sym(const wide_sym *m)
-{
-    wide cxx = m->yy * m->zz - m->yz * m->yz, cxy = m->xz * m->yz - m->xy * m->zz, cxz = m->xy * m->yz - m->xz * m->yy;
-    wide k = inverse_or_zero(m->xx * cxx + m->xy * cxy + m->xz * cxz);
-    return (wide_sym){k * cxx,
-                      k * cxy,
-                      k * cxz,
-                      k * (m->xx * m->zz - m->xz * m->xz),
-                      k * (m->xy * m->xz - m->xx * m->yz),
-                      k * (m->xx * m->yy - m->xy * m->xy)};
-}
-
 // K - [r] I [r]: what an impulse at the arm r turns adds to the response of its point
 FE_INLINE wide_sym add_arm(wide_sym k, const wide_sym *i, wide3 r)
 {
@@ -197,9 +181,9 @@ FE_INLINE lane_softness lock_softness(const fe__joints *joints, const row_joints
 // the same for any size
 FE_INLINE wide_sym inverse_scaled(const wide_sym *m)
 {
-    wide k = inverse_or_zero(m->xx + m->yy + m->zz);
+    wide k = w_inverse_or_zero(m->xx + m->yy + m->zz);
     wide_sym i = {k * m->xx, k * m->xy, k * m->xz, k * m->yy, k * m->yz, k * m->zz};
-    i = inverse_sym(&i);
+    i = w_inverse_sym(&i);
     return (wide_sym){k * i.xx, k * i.xy, k * i.xz, k * i.yy, k * i.yz, k * i.zz};
 }
 
