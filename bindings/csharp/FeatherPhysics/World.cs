@@ -295,7 +295,18 @@ namespace FeatherPhysics
         HitEvent[] hitEvents = new HitEvent[64];
         JointEvent[] jointEvents = new JointEvent[16];
 
-        static int Roomy(int count) { return count + count / 2; }
+        /// Makes room where so many did not fit; they are then read again.
+        static bool Grows<T>(ref T[] events, int count)
+        {
+            if (count <= events.Length) return false;
+            events = new T[count + count / 2];
+            return true;
+        }
+        ReadOnlySpan<T> Told<T>(T[] events, int count)
+        {
+            GC.KeepAlive(this);
+            return new ReadOnlySpan<T>(events, 0, count);
+        }
 
         /// <summary>Shapes that began or ceased to touch in the last step. Valid until the next call of this.</summary>
         public ReadOnlySpan<PairEvent> PairEvents
@@ -303,14 +314,9 @@ namespace FeatherPhysics
             get
             {
                 int count;
-                fixed (PairEvent* start = pairEvents) count = Native.world_get_pair_events(P, start, 0, pairEvents.Length);
-                if (count > pairEvents.Length)
-                {
-                    pairEvents = new PairEvent[Roomy(count)];
-                    fixed (PairEvent* start = pairEvents) count = Native.world_get_pair_events(P, start, 0, pairEvents.Length);
-                }
-                GC.KeepAlive(this);
-                return new ReadOnlySpan<PairEvent>(pairEvents, 0, count);
+                do fixed (PairEvent* start = pairEvents) count = Native.world_get_pair_events(P, start, 0, pairEvents.Length);
+                while (Grows(ref pairEvents, count));
+                return Told(pairEvents, count);
             }
         }
         /// <summary>Bodies that fell asleep or woke in the last step.</summary>
@@ -319,14 +325,9 @@ namespace FeatherPhysics
             get
             {
                 int count;
-                fixed (BodyEvent* start = bodyEvents) count = Native.world_get_body_events(P, start, 0, bodyEvents.Length);
-                if (count > bodyEvents.Length)
-                {
-                    bodyEvents = new BodyEvent[Roomy(count)];
-                    fixed (BodyEvent* start = bodyEvents) count = Native.world_get_body_events(P, start, 0, bodyEvents.Length);
-                }
-                GC.KeepAlive(this);
-                return new ReadOnlySpan<BodyEvent>(bodyEvents, 0, count);
+                do fixed (BodyEvent* start = bodyEvents) count = Native.world_get_body_events(P, start, 0, bodyEvents.Length);
+                while (Grows(ref bodyEvents, count));
+                return Told(bodyEvents, count);
             }
         }
         /// <summary>Impacts of the last step, of shapes that ask for them.</summary>
@@ -335,14 +336,9 @@ namespace FeatherPhysics
             get
             {
                 int count;
-                fixed (HitEvent* start = hitEvents) count = Native.world_get_hit_events(P, start, 0, hitEvents.Length);
-                if (count > hitEvents.Length)
-                {
-                    hitEvents = new HitEvent[Roomy(count)];
-                    fixed (HitEvent* start = hitEvents) count = Native.world_get_hit_events(P, start, 0, hitEvents.Length);
-                }
-                GC.KeepAlive(this);
-                return new ReadOnlySpan<HitEvent>(hitEvents, 0, count);
+                do fixed (HitEvent* start = hitEvents) count = Native.world_get_hit_events(P, start, 0, hitEvents.Length);
+                while (Grows(ref hitEvents, count));
+                return Told(hitEvents, count);
             }
         }
         /// <summary>Joints that broke in the last step.</summary>
@@ -351,14 +347,9 @@ namespace FeatherPhysics
             get
             {
                 int count;
-                fixed (JointEvent* start = jointEvents) count = Native.world_get_joint_events(P, start, 0, jointEvents.Length);
-                if (count > jointEvents.Length)
-                {
-                    jointEvents = new JointEvent[Roomy(count)];
-                    fixed (JointEvent* start = jointEvents) count = Native.world_get_joint_events(P, start, 0, jointEvents.Length);
-                }
-                GC.KeepAlive(this);
-                return new ReadOnlySpan<JointEvent>(jointEvents, 0, count);
+                do fixed (JointEvent* start = jointEvents) count = Native.world_get_joint_events(P, start, 0, jointEvents.Length);
+                while (Grows(ref jointEvents, count));
+                return Told(jointEvents, count);
             }
         }
 

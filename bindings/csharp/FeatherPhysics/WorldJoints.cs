@@ -23,31 +23,27 @@ namespace FeatherPhysics
             return new Joint(this, id);
         }
 
+        Joint Make(DistanceDef def) { ulong made; fixed (uint* start = &def.StructSize) Native.distance_create(P, start, &made); return Made(made); }
+        Joint Make(BallDef def) { ulong made; fixed (uint* start = &def.StructSize) Native.ball_create(P, start, &made); return Made(made); }
+        Joint Make(HingeDef def) { ulong made; fixed (uint* start = &def.StructSize) Native.hinge_create(P, start, &made); return Made(made); }
+        Joint Make(FixedDef def) { ulong made; fixed (uint* start = &def.StructSize) Native.fixed_create(P, start, &made); return Made(made); }
+        Joint Make(ConfigurableDef def) { ulong made; fixed (uint* start = &def.StructSize) Native.configurable_create(P, start, &made); return Made(made); }
+
         /// <summary>A rod between two points, as long as they are apart now. What else `def` says holds.</summary>
         public Joint CreateDistance(Body a, Body b, DVec3 pointA, DVec3 pointB, DistanceDef def = null)
         {
             Ends(a, b, "World.CreateDistance");
             if (def == null) def = new DistanceDef();
-            ulong made;
-            fixed (uint* start = &def.StructSize)
-            {
-                Native.distance_def_at(P, start, a.Handle.Value, b.Handle.Value, &pointA, &pointB);
-                Native.distance_create(P, start, &made);
-            }
-            return Made(made);
+            fixed (uint* start = &def.StructSize) Native.distance_def_at(P, start, a.Handle.Value, b.Handle.Value, &pointA, &pointB);
+            return Make(def);
         }
         /// <summary>The points come no farther from each other than that, m.</summary>
         public Joint CreateRope(Body a, Body b, DVec3 pointA, DVec3 pointB, float maxLength)
         {
             Ends(a, b, "World.CreateRope");
             DistanceDef def = new DistanceDef();
-            ulong made;
-            fixed (uint* start = &def.StructSize)
-            {
-                Native.rope_def_at(P, start, a.Handle.Value, b.Handle.Value, &pointA, &pointB, maxLength);
-                Native.distance_create(P, start, &made);
-            }
-            return Made(made);
+            fixed (uint* start = &def.StructSize) Native.rope_def_at(P, start, a.Handle.Value, b.Handle.Value, &pointA, &pointB, maxLength);
+            return Make(def);
         }
         /// <summary>Two points stay together.</summary>
         /// <param name="axis">X of both frames, world space: what swings and twists, along a limb for example</param>
@@ -55,52 +51,32 @@ namespace FeatherPhysics
         {
             Ends(a, b, "World.CreateBall");
             if (def == null) def = new BallDef();
-            ulong made;
-            fixed (uint* start = &def.StructSize)
-            {
-                Native.ball_def_at(P, start, a.Handle.Value, b.Handle.Value, &point, &axis);
-                Native.ball_create(P, start, &made);
-            }
-            return Made(made);
+            fixed (uint* start = &def.StructSize) Native.ball_def_at(P, start, a.Handle.Value, b.Handle.Value, &point, &axis);
+            return Make(def);
         }
         /// <summary>A door, an elbow, an axle: B turns against A counterclockwise about the axis.</summary>
         public Joint CreateHinge(Body a, Body b, DVec3 point, Vector3 axis, HingeDef def = null)
         {
             Ends(a, b, "World.CreateHinge");
             if (def == null) def = new HingeDef();
-            ulong made;
-            fixed (uint* start = &def.StructSize)
-            {
-                Native.hinge_def_at(P, start, a.Handle.Value, b.Handle.Value, &point, &axis);
-                Native.hinge_create(P, start, &made);
-            }
-            return Made(made);
+            fixed (uint* start = &def.StructSize) Native.hinge_def_at(P, start, a.Handle.Value, b.Handle.Value, &point, &axis);
+            return Make(def);
         }
         /// <summary>Nothing moves.</summary>
         public Joint CreateFixed(Body a, Body b, DVec3 point, FixedDef def = null)
         {
             Ends(a, b, "World.CreateFixed");
             if (def == null) def = new FixedDef();
-            ulong made;
-            fixed (uint* start = &def.StructSize)
-            {
-                Native.fixed_def_at(P, start, a.Handle.Value, b.Handle.Value, &point);
-                Native.fixed_create(P, start, &made);
-            }
-            return Made(made);
+            fixed (uint* start = &def.StructSize) Native.fixed_def_at(P, start, a.Handle.Value, b.Handle.Value, &point);
+            return Make(def);
         }
         /// <summary>Six axes, each locked, limited or free, with drives, as `def` says.</summary>
         public Joint CreateConfigurable(Body a, Body b, DVec3 point, Vector3 axis, ConfigurableDef def = null)
         {
             Ends(a, b, "World.CreateConfigurable");
             if (def == null) def = new ConfigurableDef();
-            ulong made;
-            fixed (uint* start = &def.StructSize)
-            {
-                Native.configurable_def_at(P, start, a.Handle.Value, b.Handle.Value, &point, &axis);
-                Native.configurable_create(P, start, &made);
-            }
-            return Made(made);
+            fixed (uint* start = &def.StructSize) Native.configurable_def_at(P, start, a.Handle.Value, b.Handle.Value, &point, &axis);
+            return Make(def);
         }
 
         // Definitions that the library fills whole; change them and give them to CreateJoint.
@@ -142,45 +118,35 @@ namespace FeatherPhysics
             Ready(a, b, def);
             def.BodyA = a;
             def.BodyB = b;
-            ulong made;
-            fixed (uint* start = &def.StructSize) Native.distance_create(P, start, &made);
-            return Made(made);
+            return Make(def);
         }
         public Joint CreateJoint(Body a, Body b, BallDef def)
         {
             Ready(a, b, def);
             def.BodyA = a;
             def.BodyB = b;
-            ulong made;
-            fixed (uint* start = &def.StructSize) Native.ball_create(P, start, &made);
-            return Made(made);
+            return Make(def);
         }
         public Joint CreateJoint(Body a, Body b, HingeDef def)
         {
             Ready(a, b, def);
             def.BodyA = a;
             def.BodyB = b;
-            ulong made;
-            fixed (uint* start = &def.StructSize) Native.hinge_create(P, start, &made);
-            return Made(made);
+            return Make(def);
         }
         public Joint CreateJoint(Body a, Body b, FixedDef def)
         {
             Ready(a, b, def);
             def.BodyA = a;
             def.BodyB = b;
-            ulong made;
-            fixed (uint* start = &def.StructSize) Native.fixed_create(P, start, &made);
-            return Made(made);
+            return Make(def);
         }
         public Joint CreateJoint(Body a, Body b, ConfigurableDef def)
         {
             Ready(a, b, def);
             def.BodyA = a;
             def.BodyB = b;
-            ulong made;
-            fixed (uint* start = &def.StructSize) Native.configurable_create(P, start, &made);
-            return Made(made);
+            return Make(def);
         }
 
         void Ready(Body a, Body b, object def)
