@@ -303,6 +303,14 @@ function TestCore.testNoNativeCallGoesPastTheCore()
     lu.assertNil(text:find("ffi%.C") or text:find("ffi%.load") or text:find("ffi%.cdef") or text:find("loadlib"))
 end
 
+-- Draws of 1..n: the same on every Lua.
+local function dice(seed)
+    return function(n)
+        seed = (seed * 16807) % 2147483647
+        return seed % n + 1
+    end
+end
+
 -- Random calls with random values of every type: no crash, no hang. FUZZ_SECONDS=60 for a full run.
 function TestCore.testRandomCalls()
     local names, seconds = {}, tonumber(os.getenv("FUZZ_SECONDS") or "1")
@@ -311,11 +319,7 @@ function TestCore.testRandomCalls()
         if type(core[name]) == "function" and not name:find("pool") then names[#names + 1] = name end
     end
     lu.assertTrue(#names > 150)
-    local seed = 1
-    local function random(n)
-        seed = (seed * 16807) % 2147483647
-        return seed % n + 1
-    end
+    local random = dice(1)
     local kept = {}
     local function value()
         local kind = random(16)
@@ -356,11 +360,7 @@ end
 
 -- The same with the methods of objects that live, lived or are another world's; what comes back is called again.
 function TestCore.testRandomMethods()
-    local seconds, seed = tonumber(os.getenv("FUZZ_SECONDS") or "1"), 7
-    local function random(n)
-        seed = (seed * 16807) % 2147483647
-        return seed % n + 1
-    end
+    local seconds, random = tonumber(os.getenv("FUZZ_SECONDS") or "1"), dice(7)
     local function number() return (random(2000) - 1000) / 300 end
     local kept = {}
     local function value()
