@@ -23,60 +23,36 @@ static inline fe_body add_plain(scene *s, fe_geometry form, vec at) { return add
 
 // ---- joints, points and axes in the scene's frame ------------------------------------------------------------------------------------
 
-static inline fe_ball_def ball_def(void)
-{
-    fe_ball_def d;
-    fe_ball_def_init(&d, sizeof d);
-    return d;
-}
+// ball_def(): the defaults, and so for each type
+#define DEFAULTS(type)                             \
+    static inline fe_##type##_def type##_def(void) \
+    {                                              \
+        fe_##type##_def d;                         \
+        fe_##type##_def_init(&d, sizeof d);        \
+        return d;                                  \
+    }
+DEFAULTS(distance)
+DEFAULTS(ball)
+DEFAULTS(hinge)
+DEFAULTS(fixed)
+DEFAULTS(configurable)
+#undef DEFAULTS
 
-static inline fe_hinge_def hinge_def(void)
-{
-    fe_hinge_def d;
-    fe_hinge_def_init(&d, sizeof d);
-    return d;
-}
-
-static inline fe_distance_def distance_def(void)
-{
-    fe_distance_def d;
-    fe_distance_def_init(&d, sizeof d);
-    return d;
-}
-
-static inline fe_fixed_def fixed_def(void)
-{
-    fe_fixed_def d;
-    fe_fixed_def_init(&d, sizeof d);
-    return d;
-}
-
-static inline fe_configurable_def configurable_def(void)
-{
-    fe_configurable_def d;
-    fe_configurable_def_init(&d, sizeof d);
-    return d;
-}
-
-static inline fe_joint add_ball(scene *s, fe_ball_def d, fe_body a, fe_body b, vec point, vec axis)
-{
-    fe_joint joint;
-    fe_vec3 x = narrow(to_world(s, axis));
-    vec p = to_world(s, point);
-    MUST(fe_ball_def_at(s->world, &d, a, b, &p, &x));
-    MUST(fe_ball_create(s->world, &d, &joint));
-    return joint;
-}
-
-static inline fe_joint add_hinge(scene *s, fe_hinge_def d, fe_body a, fe_body b, vec point, vec axis)
-{
-    fe_joint joint;
-    fe_vec3 x = narrow(to_world(s, axis));
-    vec p = to_world(s, point);
-    MUST(fe_hinge_def_at(s->world, &d, a, b, &p, &x));
-    MUST(fe_hinge_create(s->world, &d, &joint));
-    return joint;
-}
+// add_ball(s, d, a, b, point, axis), and so for each type with an axis
+#define ADDS(type)                                                                                            \
+    static inline fe_joint add_##type(scene *s, fe_##type##_def d, fe_body a, fe_body b, vec point, vec axis) \
+    {                                                                                                         \
+        fe_joint joint;                                                                                       \
+        fe_vec3 x = narrow(to_world(s, axis));                                                                \
+        vec p = to_world(s, point);                                                                           \
+        MUST(fe_##type##_def_at(s->world, &d, a, b, &p, &x));                                                 \
+        MUST(fe_##type##_create(s->world, &d, &joint));                                                       \
+        return joint;                                                                                         \
+    }
+ADDS(ball)
+ADDS(hinge)
+ADDS(configurable)
+#undef ADDS
 
 static inline fe_joint add_fixed(scene *s, fe_fixed_def d, fe_body a, fe_body b, vec point)
 {
@@ -87,17 +63,7 @@ static inline fe_joint add_fixed(scene *s, fe_fixed_def d, fe_body a, fe_body b,
     return joint;
 }
 
-static inline fe_joint add_configurable(scene *s, fe_configurable_def d, fe_body a, fe_body b, vec point, vec axis)
-{
-    fe_joint joint;
-    fe_vec3 x = narrow(to_world(s, axis));
-    vec p = to_world(s, point);
-    MUST(fe_configurable_def_at(s->world, &d, a, b, &p, &x));
-    MUST(fe_configurable_create(s->world, &d, &joint));
-    return joint;
-}
-
-// between two points as they are; the range and the rest length of `d` count when they were changed from the defaults
+// between two points, as long as they are apart
 static inline fe_joint add_rod(scene *s, fe_body a, fe_body b, vec from, vec to)
 {
     fe_distance_def d = distance_def();
@@ -108,6 +74,7 @@ static inline fe_joint add_rod(scene *s, fe_body a, fe_body b, vec from, vec to)
     return joint;
 }
 
+// between two points; the lengths are those of `d`
 static inline fe_joint add_distance(scene *s, fe_distance_def d, fe_body a, fe_body b, vec from, vec to)
 {
     fe_joint joint;
