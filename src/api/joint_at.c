@@ -189,6 +189,28 @@ static int32_t are_parallel(const fe_vec3 *a, const fe_vec3 *b)
     return fe__ddot(n, n) <= least * fe__ddot(x, x) * fe__ddot(y, y);
 }
 
+// The mass that a body shows at a frame of its own, along the frame's Z: 1 / (1/m + (r x z) . I^-1 (r x z)), kg; 0 unless it is dynamic
+static float mass_along_z(const fe__body *body, const fe_frame *frame)
+{
+    if (!(body->velocity[3] > 0.0f)) return 0.0f;
+    fe_vec3 centre = {body->local_centre[0], body->local_centre[1], body->local_centre[2]};
+    fe_vec3 arm = fe__sub(frame->position, centre), z = fe__rotate(frame->rotation, fe__vec3(0.0f, 0.0f, 1.0f));
+    fe_quat axes = {body->inertia_axes[0], body->inertia_axes[1], body->inertia_axes[2], body->inertia_axes[3]};
+    fe_vec3 m = fe__rotate_back(axes, fe__cross(arm, z));
+    return 1.0f / (body->velocity[3] + m.x * m.x / body->inertia[0] + m.y * m.y / body->inertia[1] + m.z * m.z / body->inertia[2]);
+}
+
+// In newtons: a spring in hertz would count the wheel's mass, a twentieth of what stands on it, and sag by metres
+static void set_suspension(const fe_world *world, const ends *e, const fe_joint_def *front, float hertz, float damping_ratio,
+                           fe_joint_axis *axis)
+{
+    float mass = mass_along_z(&world->bodies[e->body[0]], &front->frame_a), omega = 2.0f * FE_PI * hertz;
+    if (mass == 0.0f) mass = mass_along_z(&world->bodies[e->body[1]], &front->frame_b);
+    axis->drive = FE_DRIVE_STIFFNESS;
+    axis->stiffness = fe__minf(mass * omega * omega, FE_MAX_FORCE);
+    axis->damping = fe__minf(2.0f * damping_ratio * mass * omega, FE_MAX_FORCE);
+}
+
 fe_result fe_wheel_def_at(const fe_world *world, fe_configurable_def *desc, fe_body chassis, fe_body wheel, const fe_dvec3 *point,
                           const fe_vec3 *axle, const fe_vec3 *up, float hertz, float damping_ratio, float travel)
 {
@@ -204,14 +226,13 @@ fe_result fe_wheel_def_at(const fe_world *world, fe_configurable_def *desc, fe_b
     FE_CHECK_FLOAT(damping_ratio, 0.0f, FE_MAX_VALUE);
     FE_CHECK_FLOAT(travel, 0.0f, FE_MAX_LOCAL);
     fe__fp_state fp = fe__fp_enter();
-    set_ends(world, &def.common, &e, point, point, turn_upright(*axle, *up));
-    fe__fp_leave(fp);
     fe_joint_axis *axes = def.configurable.axes;
+    set_ends(world, &def.common, &e, point, point, turn_upright(*axle, *up));
+    set_suspension(world, &e, &def.common, hertz, damping_ratio, &axes[FE_ALONG_Z]);
+    fe__fp_leave(fp);
     axes[FE_ABOUT_X].mode = FE_MOTION_FREE;
     axes[FE_ALONG_Z].mode = FE_MOTION_LIMITED;
     axes[FE_ALONG_Z].low = -travel, axes[FE_ALONG_Z].high = travel;
-    axes[FE_ALONG_Z].drive = FE_DRIVE_HERTZ;
-    axes[FE_ALONG_Z].stiffness = hertz, axes[FE_ALONG_Z].damping = damping_ratio;
     fe__write_struct(desc, &def, def.common.struct_size);
     return FE_OK;
 }

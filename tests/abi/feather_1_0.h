@@ -711,9 +711,10 @@ FE_API fe_result fe_rope_def_at(const fe_world *world, fe_distance_def *desc, fe
 /// B slides along an axis and does not turn. Its range, spring and motor: axes[FE_ALONG_X].
 FE_API fe_result fe_slider_def_at(const fe_world *world, fe_configurable_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
                                   const fe_vec3 *axis);
-/// A wheel B on a chassis A: rolls freely about the axle. axes[FE_ABOUT_X] is its motor and brake; axes[FE_ALONG_Z] the suspension along
-/// `up`: a spring of `hertz` and `damping_ratio` within +-travel; axes[FE_ABOUT_Z] steers about `up`: locked, set a range and a drive to
-/// steer by its target.
+/// A wheel B on a chassis A: rolls freely about the axle. axes[FE_ABOUT_X] is its motor and brake; axes[FE_ABOUT_Z] steers about `up`:
+/// locked, set a range and a drive to steer by its target; axes[FE_ALONG_Z] is the suspension along `up`, within +-travel: a spring on
+/// which that corner of the chassis, as heavy as it is now, swings at `hertz` with `damping_ratio` while the wheel stands; the car rests
+/// some g / (2 pi hertz)^2 lower. On a chassis that is not dynamic the wheel swings so.
 /// @param axle  of the wheel, world space; with it and `up` horizontal and upwards, positive spin rolls towards axle x up
 FE_API fe_result fe_wheel_def_at(const fe_world *world, fe_configurable_def *desc, fe_body chassis, fe_body wheel, const fe_dvec3 *point,
                                  const fe_vec3 *axle, const fe_vec3 *up, float hertz, float damping_ratio, float travel);

@@ -707,6 +707,27 @@ static void ready_made_definitions_are_whole(void **state)
     end(&f);
 }
 
+// A kick on the chassis tells the mass it shows at the wheel: the spring swings that mass at the hertz given
+static void a_wheels_spring_is_for_its_corner_of_the_chassis(void **state)
+{
+    (void)state;
+    for (int fixed = 0; fixed < 2; ++fixed) {
+        fixture f = begin(-1);
+        fe_dvec3 p = {0.4, -0.3, 0.2};
+        fe_vec3 axle = {0, 0, 1}, up = {0, 1, 0}, kick = {0, 2, 0}, v;
+        fe_configurable_def c = {.struct_size = sizeof c};
+        if (fixed) OK(fe_body_set_type(f.world, f.a, FE_BODY_STATIC));
+        OK(fe_wheel_def_at(f.world, &c, f.a, f.b, &p, &axle, &up, 4, 0.7f, 0.2f));
+        OK(fe_body_add_impulse_at(f.world, fixed ? f.b : f.a, &kick, &p));
+        OK(fe_body_get_point_velocity(f.world, fixed ? f.b : f.a, &p, &v));
+        double mass = (double)(kick.y / v.y), w = 8 * 3.14159265358979;
+        assert_int_equal(c.axes[FE_ALONG_Z].drive, FE_DRIVE_STIFFNESS);
+        FE_NEAR(c.axes[FE_ALONG_Z].stiffness, mass * w * w, 1e-5 * mass * w * w);
+        FE_NEAR(c.axes[FE_ALONG_Z].damping, 2 * (double)0.7f * mass * w, 1e-5 * mass * w);
+        end(&f);
+    }
+}
+
 static void bad_arguments_of_the_makers_are_refused(void **state)
 {
     (void)state;
@@ -828,6 +849,7 @@ int main(void)
         cmocka_unit_test(joints_are_listed_in_the_order_of_creation),
         cmocka_unit_test(frames_made_from_the_world_are_zero_now),
         cmocka_unit_test(ready_made_definitions_are_whole),
+        cmocka_unit_test(a_wheels_spring_is_for_its_corner_of_the_chassis),
         cmocka_unit_test(bad_arguments_of_the_makers_are_refused),
         cmocka_unit_test(angles_are_twist_about_x_and_swing),
         cmocka_unit_test(speeds_are_those_of_b_in_frame_a),

@@ -7,12 +7,13 @@ enum { SIDE = 97 }; // samples of the hills, 0.5 m apart
 #define CELL 0.5
 
 static double hill(double x) { return 0.25 * (1 - cos(0.5 * x)); } // m; its steepest slope of 0.125 takes 1.6 kN of the motors' 2 kN
+static double hills(double x, double z) { return (void)z, hill(x); }
 
-// Hills across the way of a car that drives along x, from 0 to 48
-static void add_hills(scene *s)
+// Ground for a car that drives along x, from 0 to 48, in the middle of z
+static void add_field(scene *s, double height(double x, double z))
 {
     static float heights[SIDE * SIDE];
-    for (int i = 0; i < SIDE * SIDE; ++i) heights[i] = (float)hill(CELL * (i % SIDE));
+    for (int i = 0; i < SIDE * SIDE; ++i) heights[i] = (float)height(CELL * (i % SIDE), CELL * (i / SIDE - (SIDE - 1) / 2));
     fe_heightfield_def field;
     fe_heightfield_def_init(&field, sizeof field);
     field.rows = field.columns = SIDE, field.cell_x = field.cell_z = (float)CELL, field.heights = heights;
@@ -28,7 +29,7 @@ static void a_car_drives_over_hills_on_its_wheel_joints(void **state)
     scene s = scene_begin(state);
     car c;
     double highest = -1, lowest = 1e9;
-    add_hills(&s);
+    add_field(&s, hills);
     const double valley = 4 * PI;
     MUST(car_build(s.world, valley, 0.1, 0, &c));
     run(&s, 60);
@@ -49,6 +50,43 @@ static void a_car_drives_over_hills_on_its_wheel_joints(void **state)
     FE_WITHIN(velocity(&s, c.chassis).x, 3, 7.5);
     FE_NEAR(position(&s, c.chassis).z, 0, 0.5); // straight on
     FE_WITHIN(highest - lowest, 0.3, 0.8);      // up and down hills of 0.5 m
+    scene_end(&s);
+}
+
+// On its springs, not on their ends: each bears a quarter of the chassis
+static void a_car_rests_on_its_springs(void **state)
+{
+    scene s = scene_begin(state);
+    car c;
+    add_ground(&s, friction(0.8));
+    MUST(car_build(s.world, 0, 0.1, 0, &c));
+    run(&s, 240);
+    for (int k = 0; k < 4; ++k) {
+        fe_configurable_def d = {.struct_size = sizeof d};
+        MUST(fe_configurable_get(s.world, c.axles[k], &d));
+        FE_NEAR(state_of(&s, c.axles[k]).translation.z, mass_of(&s, c.chassis) * G / 4 / (double)d.axes[FE_ALONG_Z].stiffness, LINEAR_SLOP);
+    }
+    scene_end(&s);
+}
+
+// Waves along and across, 0.4 m from trough to crest, for 48 m along x
+static double wave(double x, double z) { return 0.1 * (sin(0.7 * x) + cos(0.9 * z)); }
+
+// Straight on for 20 s over ground that lifts each wheel in its own time (B38)
+static void a_car_on_waves_keeps_its_wheels_down(void **state)
+{
+    scene s = scene_begin(state);
+    car c;
+    add_field(&s, wave);
+    MUST(car_build(s.world, 2, 0.3, 0, &c));
+    run(&s, 60);
+    MUST(car_drive(s.world, &c, 2, 400, 0));
+    for (int i = 0; i < 1200; ++i) {
+        run(&s, 1);
+        FE_WITHIN(tilt(&s, c.chassis), 0, 30 * DEGREES);
+        for (int k = 0; k < 4; ++k) FE_WITHIN(state_of(&s, c.axles[k]).linear_error, 0, 2 * LINEAR_SLOP);
+    }
+    FE_WITHIN(position(&s, c.chassis).x, 25, 46);
     scene_end(&s);
 }
 
@@ -141,6 +179,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(a_car_drives_over_hills_on_its_wheel_joints),
         WITH_4_SUBSTEPS(a_car_drives_over_hills_on_its_wheel_joints),
+        TEST(a_car_rests_on_its_springs),
+        TEST(a_car_on_waves_keeps_its_wheels_down),
         TEST(a_steered_car_turns_to_the_left_and_a_braked_one_stops),
         TEST(a_rope_bridge_hangs_by_its_ropes_and_bears_a_load),
         TEST(a_door_is_flung_open_to_its_stop_and_closes),
