@@ -1,5 +1,5 @@
 // Samples of Box2D v3 with joints that are springs (E. Catto, 2024): a cantilever (B34), a ring (B35), light between heavy and a windmill
-// (B36), a box on each joint's spring (B30).
+// (B36), a box on each joint's spring (B30), a scissor lift (B33).
 #include "scenes/joint_scene.h"
 
 static fe_quat lying(void) { return turned(v3(0, 0, 1), -PI / 2); } // a capsule along x
@@ -172,12 +172,87 @@ static void a_box_on_a_slider_swings_in_its_range_and_stops_at_its_motor(void **
     scene_end(&s);
 }
 
+// ---- a scissor lift (B33) ---------------------------------------------------------------------------------------------------------
+
+enum { STAGES = 3, HINGES = 3 * STAGES };
+#define REACH 2.5    // m, half of a bar
+#define CROSSED 0.15 // rad, a bar's slope at first
+
+typedef struct lift {
+    fe_body platform;
+    fe_joint hinges[HINGES], foot, rail;
+    int hinge_count;
+} lift;
+
+static void join_bars(scene *s, lift *l, fe_body a, fe_body b, vec at)
+{
+    fe_hinge_def d = hinge_def();
+    d.hertz = 240, d.damping_ratio = 20;
+    l->hinges[l->hinge_count++] = add_hinge(s, d, a, b, at, v3(0, 0, 1));
+}
+
+// slides along x and turns about z
+static fe_joint join_foot(scene *s, fe_body on, fe_body bar, vec at, float speed, float force)
+{
+    fe_configurable_def d = slider_def();
+    d.hertz = 240, d.damping_ratio = 20;
+    d.axes[FE_ABOUT_Z].mode = FE_MOTION_FREE;
+    d.axes[FE_ALONG_X].motor_speed = speed, d.axes[FE_ALONG_X].motor_force = force;
+    return add_configurable(s, d, on, bar, at, v3(1, 0, 0));
+}
+
+// Crossed bars on crossed bars: left ends stand on one hinge, right ends on a foot that a motor draws inwards
+static void build_lift(scene *s, float speed, lift *l)
+{
+    const double x = REACH * cos(CROSSED), y = REACH * sin(CROSSED), bottom = 0.2;
+    fe_body ground = add_anchor(s, v3(0, 0, 0)), left = ground, right = ground;
+    for (int i = 0; i < STAGES; ++i) {
+        double middle = bottom + (2 * i + 1) * y;
+        fe_body rising = add_dynamic(s, capsule(REACH, 0.15), v3(0, middle, 0), turned(v3(0, 0, 1), CROSSED - PI / 2), friction(0.6), 1);
+        fe_body falling = add_dynamic(s, capsule(REACH, 0.15), v3(0, middle, 0), turned(v3(0, 0, 1), -CROSSED - PI / 2), friction(0.6), 1);
+        touch_nothing(s, rising), touch_nothing(s, falling);
+        join_bars(s, l, rising, falling, v3(0, middle, 0));
+        join_bars(s, l, left, rising, v3(-x, middle - y, 0));
+        if (i == 0)
+            l->foot = join_foot(s, ground, falling, v3(x, middle - y, 0), speed, 2000);
+        else
+            join_bars(s, l, right, falling, v3(x, middle - y, 0));
+        left = falling, right = rising; // whose upper ends are at the left and at the right
+    }
+    double top = bottom + 2 * STAGES * y;
+    l->platform = add_dynamic(s, box(3, 0.2, 0.5), v3(0, top + 0.2, 0), UNTURNED, friction(0.6), 1);
+    touch_nothing(s, l->platform);
+    join_bars(s, l, l->platform, left, v3(-x, top, 0));
+    l->rail = join_foot(s, l->platform, right, v3(x, top, 0), 0, 0);
+}
+
+// Each stage is 2 sqrt(REACH^2 - (w/2)^2) high, w the distance of the feet: drawn in at 0.25 m/s, it tells the platform's height, once its
+// leap at the start (the flat bars lift it 20 times as fast as the foot goes) has died away. A gap along a bar, two a level, lowers its
+// stage by the gap times the slope's cotangent.
+static void a_scissor_lift_rises_as_its_feet_close_and_stays_level(void **state)
+{
+    scene s = scene_begin(state);
+    lift l = {0};
+    build_lift(&s, -0.25f, &l);
+    for (int i = 0; i < 480; ++i) {
+        run(&s, 1);
+        double half = REACH * cos(CROSSED) + 0.5 * (double)state_of(&s, l.foot).translation.x, rise = sqrt(REACH * REACH - half * half);
+        double gap = fmax(worst_gap(&s, l.hinges, HINGES), fmax(gap_of(&s, l.foot), gap_of(&s, l.rail)));
+        FE_WITHIN(gap, 0, 0.05);
+        FE_WITHIN(tilt(&s, l.platform), 0, 2 * DEGREES);
+        if (i >= 300) FE_NEAR(position(&s, l.platform).y, 0.4 + 2 * STAGES * rise, LINEAR_SLOP + 4 * STAGES * gap * half / rise);
+        FE_NEAR(position(&s, l.platform).z, 0, 0.05);
+    }
+    FE_NEAR(state_of(&s, l.foot).translation.x, -0.25 * 480 / 60, 0.05);
+    scene_end(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(a_cantilever_bends_by_its_load_over_its_hertz_squared),        TEST(a_ring_of_springs_keeps_its_size_when_it_falls),
         TEST(a_light_ball_on_springs_between_heavy_ones_adds_no_energy),    TEST(a_windmill_of_soft_blades_turns_and_stays_whole),
-        TEST(a_box_on_a_slider_swings_in_its_range_and_stops_at_its_motor),
+        TEST(a_box_on_a_slider_swings_in_its_range_and_stops_at_its_motor), TEST(a_scissor_lift_rises_as_its_feet_close_and_stays_level),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
