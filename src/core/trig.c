@@ -87,20 +87,6 @@ void fe__sincos(double x, double *out_sine, double *out_cosine)
     *out_cosine = quarter == 1 || quarter == 2 ? -c : c;
 }
 
-double fe__sin(double x)
-{
-    double sine, cosine;
-    fe__sincos(x, &sine, &cosine);
-    return sine;
-}
-
-double fe__cos(double x)
-{
-    double sine, cosine;
-    fe__sincos(x, &sine, &cosine);
-    return cosine;
-}
-
 // atan(n / m) for 0 <= n <= m, around the nearest quarter c = k / 4:
 //
 //   atan(n / m) = atan(c) + atan(u),   u = (n - c m) / (m + c n),   |u| <= 1/8
@@ -132,24 +118,4 @@ double fe__atan2(double y, double x)
     double angle = height > width ? HALF_PI_HIGH - (first_octant(width, height) - HALF_PI_LOW) : first_octant(height, width);
     if (x < 0.0) angle = PI_HIGH - (angle - PI_LOW);
     return y < 0.0 ? -angle : angle;
-}
-
-// sqrt(1 - x^2), the cosine of asin(x) and the sine of acos(x), to 1 unit in the last place. Beyond 1/2, where x^2 would take digits from
-// the difference, 1 - x is exact and the product keeps them.
-static double other_leg(double x)
-{
-    if (fe__absd(x) <= 0.5) return sqrt(1.0 - x * x);
-    return sqrt((1.0 - x) * (1.0 + x));
-}
-
-double fe__asin(double x)
-{
-    double clamped = x > 1.0 ? 1.0 : x < -1.0 ? -1.0 : x; // keeps a NaN
-    return fe__atan2(clamped, other_leg(clamped));
-}
-
-double fe__acos(double x)
-{
-    double clamped = x > 1.0 ? 1.0 : x < -1.0 ? -1.0 : x;
-    return fe__atan2(other_leg(clamped), clamped);
 }
