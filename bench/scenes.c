@@ -98,14 +98,14 @@ static FILE *open_csv(const char *path)
 
 // ---- one case in one engine -----------------------------------------------------------------------------------------------------------
 
-typedef struct session {
+typedef struct series {
     const bench_options *options;
     FILE *csv;
     int32_t all_checks; // print those that hold too
     outcome sum;
-} session;
+} series;
 
-static void try_case(session *s, const bench_case *rule, int32_t planar, const bench_engine *engine, int32_t substeps)
+static void try_case(series *s, const bench_case *rule, int32_t planar, const bench_engine *engine, int32_t substeps)
 {
     bench_trial trial;
     const int32_t workers = s->options->worker_count > 0 ? s->options->workers[0] : 1;
@@ -122,7 +122,7 @@ static void try_case(session *s, const bench_case *rule, int32_t planar, const b
     bench_trial_free(&trial);
 }
 
-static void try_feather(session *s, const bench_case *rule, int32_t planar)
+static void try_feather(series *s, const bench_case *rule, int32_t planar)
 {
     static const int32_t usual[] = {FEW, MANY};
     const bench_options *o = s->options;
@@ -139,7 +139,7 @@ static int32_t is_asked(const bench_options *o, const char *peer)
     return o->peer_count == 0;
 }
 
-static void try_peers(session *s, const bench_case *rule, int32_t planar)
+static void try_peers(series *s, const bench_case *rule, int32_t planar)
 {
     for (int32_t i = 0; i < bench_engine_count; i++) {
         const bench_engine *engine = bench_engines[i].engine;
@@ -150,7 +150,7 @@ static void try_peers(session *s, const bench_case *rule, int32_t planar)
 
 // ---- the commands ---------------------------------------------------------------------------------------------------------------------
 
-static int try_named(session *s, const char *name, int32_t with_peers)
+static int try_named(series *s, const char *name, int32_t with_peers)
 {
     int32_t planar = 0;
     const bench_case *rule = bench_case_find(name, &planar);
@@ -163,7 +163,7 @@ static int try_named(session *s, const char *name, int32_t with_peers)
     return 0;
 }
 
-static void try_all(session *s, int32_t with_peers)
+static void try_all(series *s, int32_t with_peers)
 {
     for (int32_t i = 0; i < bench_case_count(); i++) {
         const bench_case *rule = bench_case_at(i);
@@ -178,7 +178,7 @@ static int run_cases(int argc, char **argv, const char *out, int32_t with_peers,
 {
     bench_options options;
     if (bench_options_parse(&options, argc, argv) != 0) return 2;
-    session s = {.options = &options, .all_checks = all_checks};
+    series s = {.options = &options, .all_checks = all_checks};
     s.csv = open_csv(options.out_given ? options.out : out);
     if (s.csv == NULL) return 1;
     int status = 0;

@@ -326,7 +326,6 @@ double bench_drift(const bench_trial *t, int32_t i) { return horizontal_distance
 
 double bench_speed(const bench_trial *t, int32_t i) { return length(t->motions[i].linear); }
 
-static double sink(const bench_trial *t, int32_t i) { return t->scene.bodies[i].start.position[1] - t->poses[i].position[1]; }
 
 static double largest(const bench_trial *t, double (*of)(const bench_trial *, int32_t))
 {
@@ -343,7 +342,6 @@ double bench_largest_drift(const bench_trial *t) { return largest(t, bench_drift
 
 double bench_largest_speed(const bench_trial *t) { return largest(t, bench_speed); }
 
-double bench_largest_sink(const bench_trial *t) { return largest(t, sink); }
 
 double bench_highest(const double *series, int32_t from, int32_t to)
 {

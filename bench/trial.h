@@ -108,7 +108,6 @@ double bench_speed(const bench_trial *trial, int32_t body); ///< now, of the cen
 double bench_largest_tilt(const bench_trial *trial);        ///< now, of all dynamic bodies
 double bench_largest_drift(const bench_trial *trial);
 double bench_largest_speed(const bench_trial *trial);
-double bench_largest_sink(const bench_trial *trial);                  ///< now, below its start, m
 double bench_highest(const double *series, int32_t from, int32_t to); ///< of series[from..to]
 double bench_rms(const double *series, int32_t from, int32_t to);
 double bench_rise(const double *series, int32_t from, int32_t to); ///< largest rise above an earlier value

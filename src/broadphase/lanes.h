@@ -66,6 +66,5 @@ FE_LANES_INLINE uint32_t fe__lanes_at_most(fe__lanes x, fe__lanes y)
 {
     return fe__quad_signs(x.a <= y.a) | fe__quad_signs(x.b <= y.b) << 4;
 }
-FE_LANES_INLINE uint32_t fe__lanes_equal(fe__lanes x, fe__lanes y) { return fe__quad_signs(x.a == y.a) | fe__quad_signs(x.b == y.b) << 4; }
 
 #endif

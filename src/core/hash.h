@@ -60,12 +60,6 @@ static inline void fe__hash_dvec3(fe__hash *hash, fe_dvec3 a)
     fe__hash_double(hash, a.y);
     fe__hash_double(hash, a.z);
 }
-static inline void fe__hash_quat(fe__hash *hash, fe_quat a)
-{
-    fe__hash_floats2(hash, a.x, a.y);
-    fe__hash_floats2(hash, a.z, a.w);
-}
-
 // Arrays of words: the same as feeding pairs (low word first) or single words; an odd last 32-bit word goes alone. The length goes in
 // first.
 void fe__hash_u32_array(fe__hash *hash, const uint32_t *words, size_t count);

@@ -62,9 +62,4 @@ typedef struct fe__body {
 } fe__body;
 _Static_assert(sizeof(fe__body) % 64 == 0, "bodies are made of cache lines");
 
-static inline fe__mat3 fe__body_matrix(const fe__body *b)
-{
-    return fe__matrix((fe_quat){b->rotation[0], b->rotation[1], b->rotation[2], b->rotation[3]});
-}
-
 #endif

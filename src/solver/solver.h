@@ -85,8 +85,7 @@ typedef struct fe__lane {
 } fe__lane;
 
 enum {
-    FE__JOINT_KEYS = FE__PARTS * (FE__JOINT_COLOURS + 1), // colours of joints' groups: part, then colour
-    FE__GROUP_COLOURS = FE__JOINT_KEYS + FE__COLOURS      // contacts' come after them
+    FE__JOINT_KEYS = FE__PARTS * (FE__JOINT_COLOURS + 1) // colours of joints' groups: part, then colour; contacts' come after them
 };
 
 typedef struct fe__row_block {

@@ -4,16 +4,14 @@
 #include "core/math.h"
 
 enum {
-    FE__PAIR_SENSOR = 1,    // a trigger is in it: no contact, only events
-    FE__PAIR_TOUCHING = 2,  // entered: an exit is owed
-    FE__PAIR_LINKED = 4,    // has points and is in the constraint graph
-    FE__PAIR_FLIPPED = 8,   // the solver's A is shape B
-    FE__PAIR_SWAPPED = 16,  // fe__collide's A is shape B
-    FE__PAIR_RECYCLED = 32, // kept its manifold in this step
-    FE__PAIR_ROUND = 64,    // a sphere or capsule is in it: a new manifold each step
-    FE__PAIR_ONCE = 128,    // looked at in the next step although both sides sleep
-    FE__PAIR_PATCH = 256,   // a further patch of a pair with a heightfield
-    FE__PAIR_CROSSED = 512  // a trigger that was passed between two steps
+    FE__PAIR_SENSOR = 1,   // a trigger is in it: no contact, only events
+    FE__PAIR_TOUCHING = 2, // entered: an exit is owed
+    FE__PAIR_LINKED = 4,   // has points and is in the constraint graph
+    FE__PAIR_FLIPPED = 8,  // the solver's A is shape B
+    FE__PAIR_SWAPPED = 16, // fe__collide's A is shape B
+    FE__PAIR_ONCE = 32,    // looked at in the next step although both sides sleep
+    FE__PAIR_PATCH = 64,   // a further patch of a pair with a heightfield
+    FE__PAIR_CROSSED = 128 // a trigger that was passed between two steps
 };
 
 // What the narrow phase says of a pair in this step, applied afterwards in a fixed order

@@ -77,13 +77,11 @@ static void arrays_of_32_bits_go_in_as_pairs(void **state)
 static void vectors_go_in_by_their_bits(void **state)
 {
     (void)state;
-    const uint64_t words[7] = {UINT64_C(0x400000003F800000), 0xBF800000, UINT64_C(0x3FF0000000000000), UINT64_C(0xC000000000000000), 0, 0,
-                               UINT64_C(0x3F80000000000000)};
+    const uint64_t words[5] = {UINT64_C(0x400000003F800000), 0xBF800000, UINT64_C(0x3FF0000000000000), UINT64_C(0xC000000000000000), 0};
     fe__hash hash = fe__hash_begin();
     fe__hash_vec3(&hash, (fe_vec3){1.0f, 2.0f, -1.0f});
     fe__hash_dvec3(&hash, (fe_dvec3){1.0, -2.0, 0.0});
-    fe__hash_quat(&hash, (fe_quat){0.0f, 0.0f, 0.0f, 1.0f});
-    assert_true(fe__hash_end(&hash) == hash_of(words, 7));
+    assert_true(fe__hash_end(&hash) == hash_of(words, 5));
 }
 
 // One bit turned in any of 8 words turns half of the 64 result bits: 32 +- 4 each (the standard deviation of one fair try), and 32 +- 1 on
