@@ -1,98 +1,22 @@
 // The API of joints: life, definitions of every type, what is read back; each documented error.
 #include "api/api_test.h"
+#include "support/any_joint.h"
 
 #define ANY_PI 3.14159274f // the float next to pi
 
-// ---- the five types as one --------------------------------------------------------------------------------------------------------
-
-typedef union any_def {
-    fe_joint_def common;
-    fe_distance_def distance;
-    fe_ball_def ball;
-    fe_hinge_def hinge;
-    fe_fixed_def fixed;
-    fe_configurable_def configurable;
-} any_def;
-
-#define KINDS 5
-static const uint32_t sizes[KINDS] = {sizeof(fe_distance_def), sizeof(fe_ball_def), sizeof(fe_hinge_def), sizeof(fe_fixed_def),
-                                      sizeof(fe_configurable_def)};
-
-static void init(int kind, any_def *def)
+static void init(int32_t kind, any_def *d)
 {
-    memset(def, 0xAB, sizeof *def);
-    switch (kind) {
-    case 0:
-        fe_distance_def_init(&def->distance, sizes[kind]);
-        break;
-    case 1:
-        fe_ball_def_init(&def->ball, sizes[kind]);
-        break;
-    case 2:
-        fe_hinge_def_init(&def->hinge, sizes[kind]);
-        break;
-    case 3:
-        fe_fixed_def_init(&def->fixed, sizes[kind]);
-        break;
-    default:
-        fe_configurable_def_init(&def->configurable, sizes[kind]);
-        break;
-    }
-}
-
-static fe_result create(int kind, fe_world *world, const any_def *def, fe_joint *out)
-{
-    switch (kind) {
-    case 0:
-        return fe_distance_create(world, def ? &def->distance : NULL, out);
-    case 1:
-        return fe_ball_create(world, def ? &def->ball : NULL, out);
-    case 2:
-        return fe_hinge_create(world, def ? &def->hinge : NULL, out);
-    case 3:
-        return fe_fixed_create(world, def ? &def->fixed : NULL, out);
-    default:
-        return fe_configurable_create(world, def ? &def->configurable : NULL, out);
-    }
-}
-
-static fe_result set(int kind, fe_world *world, fe_joint joint, const any_def *def)
-{
-    switch (kind) {
-    case 0:
-        return fe_distance_set(world, joint, def ? &def->distance : NULL);
-    case 1:
-        return fe_ball_set(world, joint, def ? &def->ball : NULL);
-    case 2:
-        return fe_hinge_set(world, joint, def ? &def->hinge : NULL);
-    case 3:
-        return fe_fixed_set(world, joint, def ? &def->fixed : NULL);
-    default:
-        return fe_configurable_set(world, joint, def ? &def->configurable : NULL);
-    }
-}
-
-static fe_result get(int kind, const fe_world *world, fe_joint joint, any_def *def)
-{
-    switch (kind) {
-    case 0:
-        return fe_distance_get(world, joint, def ? &def->distance : NULL);
-    case 1:
-        return fe_ball_get(world, joint, def ? &def->ball : NULL);
-    case 2:
-        return fe_hinge_get(world, joint, def ? &def->hinge : NULL);
-    case 3:
-        return fe_fixed_get(world, joint, def ? &def->fixed : NULL);
-    default:
-        return fe_configurable_get(world, joint, def ? &def->configurable : NULL);
-    }
+    memset(d, 0xAB, sizeof *d);
+    any_init(kind, d);
 }
 
 // the names of the calls, so that their sentences can be checked
-static const char *const create_names[KINDS] = {"fe_distance_create(", "fe_ball_create(", "fe_hinge_create(", "fe_fixed_create(",
-                                                "fe_configurable_create("};
-static const char *const set_names[KINDS] = {"fe_distance_set(", "fe_ball_set(", "fe_hinge_set(", "fe_fixed_set(", "fe_configurable_set("};
-static const char *const get_names[KINDS] = {"fe_distance_get(", "fe_ball_get(", "fe_hinge_get(", "fe_fixed_get(", "fe_configurable_get("};
+static const char *const create_names[ANY_KINDS] = {"fe_distance_create(", "fe_ball_create(", "fe_hinge_create(", "fe_fixed_create(",
+                                                    "fe_configurable_create("};
+static const char *const set_names[ANY_KINDS] = {"fe_distance_set(", "fe_ball_set(", "fe_hinge_set(", "fe_fixed_set(",
+                                                 "fe_configurable_set("};
+static const char *const get_names[ANY_KINDS] = {"fe_distance_get(", "fe_ball_get(", "fe_hinge_get(", "fe_fixed_get(",
+                                                 "fe_configurable_get("};
 
 #define REFUSES_AS(world, expected, call, name)                             \
     do {                                                                    \
@@ -119,7 +43,7 @@ static fixture begin(int kind)
     def.common.body_a = f.a, def.common.body_b = f.b;
     def.common.frame_a.position = fe_make_vec3(1, 0, 0), def.common.frame_b.position = fe_make_vec3(-1, 0, 0);
     if (kind == 0) def.distance.min_length = 0;
-    OK(create(kind, f.world, &def, &f.joint));
+    OK(any_create(kind, f.world, &def, &f.joint));
     assert_true(f.joint != 0 && f.joint < 1ull << 53);
     return f;
 }
@@ -132,9 +56,9 @@ static void defaults_are_those_of_the_header(void **state)
 {
     (void)state;
     any_def d;
-    for (int kind = 0; kind < KINDS; ++kind) {
+    for (int kind = 0; kind < ANY_KINDS; ++kind) {
         init(kind, &d);
-        assert_int_equal(d.common.struct_size, sizes[kind]);
+        assert_int_equal(d.common.struct_size, any_sizes[kind]);
         assert_true(d.common.enabled == 1 && d.common.collide_connected == 0 && d.common.body_a == 0 && d.common.body_b == 0);
         FE_NEAR(d.common.hertz, 0, 0), FE_NEAR(d.common.damping_ratio, 1, 0);
         FE_NEAR(d.common.break_force + d.common.break_torque, 0, 0);
@@ -206,22 +130,22 @@ static void make_unlike_defaults(int kind, any_def *d)
 static void what_a_definition_says_is_read_back_and_can_be_changed(void **state)
 {
     (void)state;
-    for (int kind = 0; kind < KINDS; ++kind) {
+    for (int kind = 0; kind < ANY_KINDS; ++kind) {
         fixture f = begin(kind);
         any_def d, read;
         init(kind, &d);
         make_unlike_defaults(kind, &d);
-        OK(set(kind, f.world, f.joint, &d)); // bodies 0: as they are
+        OK(any_set(kind, f.world, f.joint, &d)); // bodies 0: as they are
         d.common.body_a = f.a, d.common.body_b = f.b;
         memset(&read, 0, sizeof read);
-        read.common.struct_size = sizes[kind];
-        OK(get(kind, f.world, f.joint, &read));
-        assert_memory_equal(&read, &d, sizes[kind]);
+        read.common.struct_size = any_sizes[kind];
+        OK(any_get(kind, f.world, f.joint, &read));
+        assert_memory_equal(&read, &d, any_sizes[kind]);
         fe_joint other;
-        OK(create(kind, f.world, &d, &other)); // born with the same values
-        OK(get(kind, f.world, other, &read));
-        assert_memory_equal(&read, &d, sizes[kind]);
-        OK(set(kind, f.world, other, &read));
+        OK(any_create(kind, f.world, &d, &other)); // born with the same values
+        OK(any_get(kind, f.world, other, &read));
+        assert_memory_equal(&read, &d, any_sizes[kind]);
+        OK(any_set(kind, f.world, other, &read));
         end(&f);
     }
 }
@@ -229,32 +153,33 @@ static void what_a_definition_says_is_read_back_and_can_be_changed(void **state)
 static void an_older_clients_definition_keeps_what_it_does_not_know(void **state)
 {
     (void)state;
-    for (int kind = 0; kind < KINDS; ++kind) {
+    for (int kind = 0; kind < ANY_KINDS; ++kind) {
         fixture f = begin(kind);
         any_def full, part, read;
         init(kind, &full);
         make_unlike_defaults(kind, &full);
-        OK(set(kind, f.world, f.joint, &full));
+        OK(any_set(kind, f.world, f.joint, &full));
         part = full;
         part.common.struct_size = sizeof(fe_joint_def);
         part.common.break_force = 300;
-        OK(set(kind, f.world, f.joint, &part));
+        OK(any_set(kind, f.world, f.joint, &part));
         memset(&read, 0, sizeof read);
-        read.common.struct_size = sizes[kind];
-        OK(get(kind, f.world, f.joint, &read));
+        read.common.struct_size = any_sizes[kind];
+        OK(any_get(kind, f.world, f.joint, &read));
         FE_NEAR(read.common.break_force, 300, 0);
-        assert_memory_equal((char *)&read + sizeof(fe_joint_def), (char *)&full + sizeof(fe_joint_def), sizes[kind] - sizeof(fe_joint_def));
+        assert_memory_equal((char *)&read + sizeof(fe_joint_def), (char *)&full + sizeof(fe_joint_def),
+                            any_sizes[kind] - sizeof(fe_joint_def));
         memset(&read, 0x11, sizeof read);
         read.common.struct_size = 8;
-        OK(get(kind, f.world, f.joint, &read)); // its front only
+        OK(any_get(kind, f.world, f.joint, &read)); // its front only
         assert_int_equal(((unsigned char *)&read)[8], 0x11);
         unsigned char longer[sizeof(any_def) + 16] = {0};
-        memcpy(longer, &full, sizes[kind]);
-        uint32_t size = sizes[kind] + 8;
+        memcpy(longer, &full, any_sizes[kind]);
+        uint32_t size = any_sizes[kind] + 8;
         memcpy(longer, &size, sizeof size);
-        OK(set(kind, f.world, f.joint, (const any_def *)(const void *)longer));
-        longer[sizes[kind] + 3] = 1;
-        REFUSES_AS(f.world, FE_ERROR_ARGUMENT, set(kind, f.world, f.joint, (const any_def *)(const void *)longer), set_names[kind]);
+        OK(any_set(kind, f.world, f.joint, (const any_def *)(const void *)longer));
+        longer[any_sizes[kind] + 3] = 1;
+        REFUSES_AS(f.world, FE_ERROR_ARGUMENT, any_set(kind, f.world, f.joint, (const any_def *)(const void *)longer), set_names[kind]);
         end(&f);
     }
 }
@@ -262,7 +187,7 @@ static void an_older_clients_definition_keeps_what_it_does_not_know(void **state
 static void bad_ends_are_refused(void **state)
 {
     (void)state;
-    for (int kind = 0; kind < KINDS; ++kind) {
+    for (int kind = 0; kind < ANY_KINDS; ++kind) {
         fixture f = begin(-1);
         any_def d;
         fe_joint joint = 7;
@@ -278,15 +203,15 @@ static void bad_ends_are_refused(void **state)
         for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
             d.common.body_a = cases[i].a, d.common.body_b = cases[i].b;
             joint = 7;
-            REFUSES_AS(f.world, cases[i].result, create(kind, f.world, &d, &joint), create_names[kind]);
+            REFUSES_AS(f.world, cases[i].result, any_create(kind, f.world, &d, &joint), create_names[kind]);
             assert_true(joint == 0);
         }
         d.common.body_a = f.a, d.common.body_b = f.b;
-        REFUSES_AS(f.world, FE_ERROR_ARGUMENT, create(kind, f.world, &d, NULL), create_names[kind]);
-        REFUSES_AS(f.world, FE_ERROR_ARGUMENT, create(kind, f.world, NULL, &joint), create_names[kind]);
-        check_refusal(create(kind, NULL, &d, &joint), FE_ERROR_ARGUMENT, create_names[kind], __FILE__, __LINE__);
+        REFUSES_AS(f.world, FE_ERROR_ARGUMENT, any_create(kind, f.world, &d, NULL), create_names[kind]);
+        REFUSES_AS(f.world, FE_ERROR_ARGUMENT, any_create(kind, f.world, NULL, &joint), create_names[kind]);
+        check_refusal(any_create(kind, NULL, &d, &joint), FE_ERROR_ARGUMENT, create_names[kind], __FILE__, __LINE__);
         d.common.struct_size = 0;
-        REFUSES_AS(f.world, FE_ERROR_ARGUMENT, create(kind, f.world, &d, &joint), create_names[kind]);
+        REFUSES_AS(f.world, FE_ERROR_ARGUMENT, any_create(kind, f.world, &d, &joint), create_names[kind]);
         end(&f);
     }
 }
@@ -307,8 +232,8 @@ static void refuses_float(int kind, size_t offset, float value)
     init(kind, &d);
     d.common.body_a = f.a, d.common.body_b = f.b;
     memcpy((char *)&d + offset, &value, sizeof value);
-    REFUSES_AS(f.world, FE_ERROR_ARGUMENT, create(kind, f.world, &d, &joint), create_names[kind]);
-    REFUSES_AS(f.world, FE_ERROR_ARGUMENT, set(kind, f.world, f.joint, &d), set_names[kind]);
+    REFUSES_AS(f.world, FE_ERROR_ARGUMENT, any_create(kind, f.world, &d, &joint), create_names[kind]);
+    REFUSES_AS(f.world, FE_ERROR_ARGUMENT, any_set(kind, f.world, f.joint, &d), set_names[kind]);
     end(&f);
 }
 
@@ -336,7 +261,7 @@ static void bad_values_of_the_front_are_refused(void **state)
     static const size_t any[] = {F(common.frame_a.position.x), F(common.frame_a.position.z), F(common.frame_b.position.y),
                                  F(common.frame_a.rotation.w), F(common.frame_b.rotation.x)};
     static const size_t positive[] = {F(common.hertz), F(common.damping_ratio), F(common.break_force), F(common.break_torque)};
-    for (int kind = 0; kind < KINDS; ++kind) {
+    for (int kind = 0; kind < ANY_KINDS; ++kind) {
         refuses_floats(kind, any, COUNT(any), 0);
         refuses_floats(kind, positive, COUNT(positive), -1);
         refuses_float(kind, F(common.frame_a.position.x), 2e6f);
@@ -405,9 +330,9 @@ static void limits_of_exactly_half_a_turn_are_accepted(void **state)
     any_def d;
     init(2, &d);
     d.hinge.limited = 1, d.hinge.min_angle = -ANY_PI, d.hinge.max_angle = ANY_PI;
-    OK(set(2, f.world, f.joint, &d));
+    OK(any_set(2, f.world, f.joint, &d));
     d.hinge.min_angle = ANY_PI; // a lock at half a turn
-    OK(set(2, f.world, f.joint, &d));
+    OK(any_set(2, f.world, f.joint, &d));
     end(&f);
 }
 
@@ -422,10 +347,10 @@ static void calls_with_a_bad_handle(fe_world *world, fe_joint joint, fe_result e
     fe_transform x, y;
     fe_handle data;
     int32_t n;
-    for (int kind = 0; kind < KINDS; ++kind) {
+    for (int kind = 0; kind < ANY_KINDS; ++kind) {
         init(kind, &d);
-        REFUSES_AS(world, expected, set(kind, world, joint, &d), set_names[kind]);
-        REFUSES_AS(world, expected, get(kind, world, joint, &d), get_names[kind]);
+        REFUSES_AS(world, expected, any_set(kind, world, joint, &d), set_names[kind]);
+        REFUSES_AS(world, expected, any_get(kind, world, joint, &d), get_names[kind]);
     }
     init(3, &d);
     d.common.struct_size = sizeof d.common;
@@ -461,7 +386,7 @@ static void stale_foreign_and_made_up_handles_are_errors(void **state)
     any_def d;
     init(1, &d);
     d.common.body_a = f.a, d.common.body_b = f.b;
-    OK(create(1, f.world, &d, &f.joint)); // the slot lives again, the old handle does not
+    OK(any_create(1, f.world, &d, &f.joint)); // the slot lives again, the old handle does not
     assert_true(old != f.joint);
     calls_with_a_bad_handle(f.world, old, FE_ERROR_STALE);
     end(&f);
@@ -471,17 +396,17 @@ static void stale_foreign_and_made_up_handles_are_errors(void **state)
 static void a_joint_of_another_type_is_refused(void **state)
 {
     (void)state;
-    for (int kind = 0; kind < KINDS; ++kind) {
+    for (int kind = 0; kind < ANY_KINDS; ++kind) {
         fixture f = begin(kind);
         any_def d;
         int32_t type;
         OK(fe_joint_get_type(f.world, f.joint, &type));
         assert_int_equal(type, kind + 1);
-        for (int other = 0; other < KINDS; ++other) {
+        for (int other = 0; other < ANY_KINDS; ++other) {
             if (other == kind) continue;
             init(other, &d);
-            REFUSES_AS(f.world, FE_ERROR_STATE, set(other, f.world, f.joint, &d), set_names[other]);
-            REFUSES_AS(f.world, FE_ERROR_STATE, get(other, f.world, f.joint, &d), get_names[other]);
+            REFUSES_AS(f.world, FE_ERROR_STATE, any_set(other, f.world, f.joint, &d), set_names[other]);
+            REFUSES_AS(f.world, FE_ERROR_STATE, any_get(other, f.world, f.joint, &d), get_names[other]);
         }
         end(&f);
     }
@@ -495,10 +420,10 @@ static void null_pointers_are_errors(void **state)
     fe_body a, b;
     fe_vec3 v;
     fe_transform t;
-    for (int kind = 0; kind < KINDS; ++kind) {
+    for (int kind = 0; kind < ANY_KINDS; ++kind) {
         fixture g = begin(kind);
-        REFUSES_AS(g.world, FE_ERROR_ARGUMENT, set(kind, g.world, g.joint, NULL), set_names[kind]);
-        REFUSES_AS(g.world, FE_ERROR_ARGUMENT, get(kind, g.world, g.joint, NULL), get_names[kind]);
+        REFUSES_AS(g.world, FE_ERROR_ARGUMENT, any_set(kind, g.world, g.joint, NULL), set_names[kind]);
+        REFUSES_AS(g.world, FE_ERROR_ARGUMENT, any_get(kind, g.world, g.joint, NULL), get_names[kind]);
         end(&g);
     }
     REFUSES(w, FE_ERROR_ARGUMENT, fe_joint_get_type(w, f.joint, NULL));
@@ -528,12 +453,12 @@ static void null_pointers_are_errors(void **state)
 static void the_common_part_is_set_and_read_on_any_type(void **state)
 {
     (void)state;
-    for (int kind = 0; kind < KINDS; ++kind) {
+    for (int kind = 0; kind < ANY_KINDS; ++kind) {
         fixture f = begin(kind);
         any_def before, after;
         fe_joint_def common = {.struct_size = sizeof common}, read = common;
-        before.common.struct_size = after.common.struct_size = sizes[kind];
-        OK(get(kind, f.world, f.joint, &before));
+        before.common.struct_size = after.common.struct_size = any_sizes[kind];
+        OK(any_get(kind, f.world, f.joint, &before));
         OK(fe_joint_get(f.world, f.joint, &common));
         assert_true(common.body_a == f.a && common.body_b == f.b);
         common.break_force = 12, common.user_data = 34, common.collide_connected = 1, common.body_b = 0;
@@ -541,8 +466,8 @@ static void the_common_part_is_set_and_read_on_any_type(void **state)
         OK(fe_joint_get(f.world, f.joint, &read));
         FE_NEAR(read.break_force, 12, 0);
         assert_true(read.user_data == 34 && read.collide_connected == 1 && read.body_b == f.b);
-        OK(get(kind, f.world, f.joint, &after));
-        assert_memory_equal((char *)&before + sizeof common, (char *)&after + sizeof common, sizes[kind] - sizeof common);
+        OK(any_get(kind, f.world, f.joint, &after));
+        assert_memory_equal((char *)&before + sizeof common, (char *)&after + sizeof common, any_sizes[kind] - sizeof common);
         common.body_a = f.b;
         REFUSES(f.world, FE_ERROR_ARGUMENT, fe_joint_set(f.world, f.joint, &common)); // bodies stay
         common.body_a = 0, common.break_torque = NOT_A_NUMBER;
@@ -570,10 +495,10 @@ static void joints_are_listed_in_the_order_of_creation(void **state)
     fe_joint second, third, list[4] = {0, 0, 0, 0};
     init(3, &d);
     d.common.body_a = c, d.common.body_b = f.b;
-    OK(create(3, f.world, &d, &second));
+    OK(any_create(3, f.world, &d, &second));
     init(0, &d);
     d.common.body_a = c, d.common.body_b = f.a;
-    OK(create(0, f.world, &d, &third));
+    OK(any_create(0, f.world, &d, &third));
     assert_int_equal(fe_world_get_joints(f.world, NULL, 0), 3);
     assert_int_equal(fe_world_get_joints(f.world, list, 2), 3);
     assert_true(list[0] == f.joint && list[1] == second && list[2] == 0);
