@@ -41,7 +41,7 @@ enum { FE_MAX_SUBSTEPS = 64 };
 
 #define FE_BEGIN(world)              \
     const char *function = __func__; \
-    FE_TRY(fe__check_world(function, world))
+    if (!fe__is_at_rest(world)) FE_TRY(fe__check_world(function, world))
 #define FE_BEGIN_WITHOUT_WORLD() const char *function = __func__
 // Declares `index`, the record that a handle names.
 #define FE_FIND_BODY(index, handle) \
@@ -56,7 +56,8 @@ enum { FE_MAX_SUBSTEPS = 64 };
 #define FE_FIND_ASSET(index, handle) \
     int32_t index;                   \
     FE_TRY(fe__find_asset(function, #handle, world, handle, &index))
-#define FE_CHECK_POINTER(pointer) FE_TRY(fe__check_pointer(function, #pointer, (pointer) != NULL))
+#define FE_CHECK_POINTER(pointer) \
+    if (!(pointer)) FE_TRY(fe__check_pointer(function, #pointer, 0))
 #define FE_CHECK_FLOAT(value, low, high) FE_TRY(fe__check_number(function, #value, "", (double)(value), (double)(low), (double)(high)))
 #define FE_CHECK_INT(value, low, high) FE_TRY(fe__check_int(function, #value, value, low, high))
 #define FE_CHECK_BOOL(value) FE_TRY(fe__check_int(function, #value, value, 0, 1))
@@ -77,6 +78,8 @@ enum { FE_MAX_SUBSTEPS = 64 };
 #define FE_READ_STRUCT(given, copy) FE_TRY(fe__read_struct(function, #given, given, copy, (uint32_t)sizeof *(copy)))
 #define FE_CHECK_STRUCT_SIZE(given) FE_TRY(fe__check_struct_size(function, #given, given))
 
+// There, and in no step: what each call asks, without a call
+static inline int fe__is_at_rest(const fe_world *world) { return world && !atomic_load_explicit(&world->stepping, memory_order_acquire); }
 fe_result fe__check_world(const char *function, const fe_world *world);
 fe_result fe__find_body(const char *function, const char *name, const fe_world *world, fe_body handle, int32_t *out_index);
 fe_result fe__find_shape(const char *function, const char *name, const fe_world *world, fe_shape handle, int32_t *out_index);

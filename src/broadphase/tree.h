@@ -57,7 +57,7 @@ void fe__tree_query(const fe__tree *tree, const fe__bounds *box, fe__tree_visit 
 // the same against the box the proxy has in `of` (margins included), which may be the same tree: then the proxy itself is visited too
 void fe__tree_query_proxy(const fe__tree *tree, const fe__tree *of, int32_t proxy, fe__tree_visit visit, void *context);
 
-// Proxies of some trees, one after the other, whose boxes meet a box of half widths `half` at origin + t * translation, 0 <= t <= limit <=
+// Proxies of one or two trees together whose boxes meet a box of half widths `half` at origin + t * translation, 0 <= t <= limit <=
 // 1, each once, of a node's children the nearest first. `visit` gets the limit and returns the new one (never greater; below 0 stops).
 // Boxes at exactly the limit are still visited, so that ties can be decided by the caller. Returns the last limit. Reads only, any thread.
 typedef double (*fe__tree_ray_visit)(void *context, int32_t proxy, double limit);

@@ -247,7 +247,7 @@ static double origin_shift(fe__tree_box all, int32_t axis)
 {
     double low = (double)all.low[axis], high = (double)all.high[axis];
     int32_t tame = low > -FE_TREE_FAR && high < FE_TREE_FAR;
-    return tame && (low > 0.0 || high < 0.0) ? 0.5 * (low + high) : 0.0;
+    return tame && (low > 0.0 || high < 0.0) ? fe__tree_grid(0.5 * (low + high)) : 0.0;
 }
 
 static int32_t origin_is_far_off(fe__tree_box all)

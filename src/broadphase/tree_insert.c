@@ -203,12 +203,13 @@ static void pair_up(fe__tree *tree, int32_t index, int32_t lane, entry e)
     fe__tree_hang(tree, index, lane, join(old, e.box), fresh);
 }
 
-// A first proxy founds the tree, and its place is the origin.
+// A first proxy founds the tree, and says where the origin is.
 static void found(fe__tree *tree, const fe__bounds *fat)
 {
     tree->node_count = tree->dead = tree->depth = 0;
     tree->built_cost = 0.0f;
-    tree->origin = fe__dadd(fe__dscale(0.5, fat->low), fe__dscale(0.5, fat->high));
+    fe_dvec3 centre = fe__dadd(fe__dscale(0.5, fat->low), fe__dscale(0.5, fat->high));
+    tree->origin = (fe_dvec3){fe__tree_grid(centre.x), fe__tree_grid(centre.y), fe__tree_grid(centre.z)};
     append_node(tree, -1, 0);
 }
 

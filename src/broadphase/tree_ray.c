@@ -14,30 +14,33 @@ static const float slack = 1.000001f;
 // keeps 0 * inverse = 0, never NaN.
 static const float largest_inverse = (float)(1.0 / FE_TREE_PAD);
 // m: the rounding of a denormal quotient (7e-46) stays below FE_TREE_PAD
-static const double longest_translation = 1e24;
+static const float longest_translation = 1e24f;
 
-// The same for all lanes.
+// The same for all lanes. A walk reads them from memory, where instructions take them as operands.
 typedef struct slabs {
-    fe__quad near_origin[3], far_origin[3], inverse[3];
-    int64_t near_row[3]; // of a node's box, in bytes: row k or k + 3; the far one is the other
+    fe__quad near_origin[3], far_origin[3];
 } slabs;
 
 // Of a way, whatever the tree
 typedef struct direction {
-    fe__quad inverse;
-    fe__quad_int backwards, blind; // blind: too fast for floats, excludes nothing
-    uint32_t is_blind;             // any
-    int64_t near_row[3];
+    fe__quad inverse[3];             // the same for all lanes
+    int64_t near_row[3], far_row[3]; // of a node's box, in bytes: row k or k + 3, and the other
+    fe__quad_int backwards, blind;   // blind: too fast for floats, excludes nothing
+    uint32_t is_blind;               // any
 } direction;
 
-typedef struct entry {
-    float t;
-    int32_t child;
-} entry;
+// A child that waits: the bits of t, which order as t does, above those of the child. So entries compare, and change places, as integers,
+// without a branch on t, which nothing predicts.
+typedef uint64_t entry;
+enum { CHILD_BITS = 32 };
 
+// The trees of one walk. A node of the second one is told from one of the first by a bit of its index.
+enum { MOST_TREES = 2, SECOND_BIT = 30, SECOND = 1 << SECOND_BIT };
 typedef struct cast {
-    const fe__tree *tree;
-    slabs slabs;
+    const fe__tree_node *nodes[MOST_TREES];
+    direction way;
+    const slabs *slabs_of[MOST_TREES];
+    slabs slabs[MOST_TREES];
     double limit;
     float limit_up; // rounded up; of a nearest search squared, m2
     fe__tree_ray_visit visit;
@@ -47,8 +50,8 @@ typedef struct cast {
 // What a walk asks of the boxes: where a ray enters them, or how far they are from a point. Each walk is compiled for each question.
 typedef enum question { RAY, NEAREST } question;
 #define FE_COMPILED_FOR static inline __attribute__((always_inline))
-
-static float narrow(double x) { return (float)fe__maxd(fe__mind(x, longest_translation), -longest_translation); }
+// What hardly ever happens keeps its registers to itself.
+#define FE_RARE static __attribute__((noinline, cold))
 
 typedef double pair __attribute__((vector_size(16)));
 typedef int64_t pair_mask __attribute__((vector_size(16)));
@@ -57,6 +60,12 @@ typedef float pair_float __attribute__((vector_size(8)));
 static inline fe__quad quad_of(pair xy, pair z)
 {
     return __builtin_shufflevector(__builtin_convertvector(xy, pair_float), __builtin_convertvector(z, pair_float), 0, 1, 2, 3);
+}
+
+FE_RARE void round_far(fe_dvec3 o, fe_dvec3 half, fe__quad *low, fe__quad *high)
+{
+    *low = (fe__quad){fe__tree_round_down(o.x - half.x), fe__tree_round_down(o.y - half.y), fe__tree_round_down(o.z - half.z), 0.0f};
+    *high = (fe__quad){fe__tree_round_up(o.x + half.x), fe__tree_round_up(o.y + half.y), fe__tree_round_up(o.z + half.z), 0.0f};
 }
 
 // From o - half to o + half, rounded outwards: as fe__tree_round_down and fe__tree_round_up do it, but two coordinates at once, and with
@@ -69,24 +78,30 @@ static inline void round_outwards(fe_dvec3 o, fe_dvec3 half, fe__quad *low, fe__
     pair away_xy = size_xy * FE_TREE_ULP + FE_TREE_PAD, away_z = size_z * FE_TREE_ULP + FE_TREE_PAD;
     *low = quad_of((o_xy - half_xy) - away_xy, (o_z - half_z) - away_z);
     *high = quad_of((o_xy + half_xy) + away_xy, (o_z + half_z) + away_z);
-    if (fe__maxd(fe__maxd(size_xy[0], size_xy[1]), size_z[0]) < FE_TREE_FAR) return;
-    *low = (fe__quad){fe__tree_round_down(o.x - half.x), fe__tree_round_down(o.y - half.y), fe__tree_round_down(o.z - half.z), 0.0f};
-    *high = (fe__quad){fe__tree_round_up(o.x + half.x), fe__tree_round_up(o.y + half.y), fe__tree_round_up(o.z + half.z), 0.0f};
+    if (fe__maxd(fe__maxd(size_xy[0], size_xy[1]), size_z[0]) >= FE_TREE_FAR) round_far(o, half, low, high);
 }
 
-static inline direction direction_of(fe_dvec3 translation)
+static inline void prepare_direction(direction *way, fe_dvec3 translation)
 {
-    const fe__quad d = {narrow(translation.x), narrow(translation.y), narrow(translation.z), 1.0f};
-    const fe__quad fast = fe__quad_set((float)longest_translation), slow = fe__quad_set((float)FE_TREE_PAD);
+    const fe__quad fast = fe__quad_set(longest_translation), slow = fe__quad_set((float)FE_TREE_PAD);
+    // one by one: the caller has just written them so, and a load of two at once would wait until they are in the cache
+    const fe__quad given = {(float)translation.x, (float)translation.y, (float)translation.z, 1.0f};
+    const fe__quad d = fe__quad_max(fe__quad_min(given, fast), -fast);
     fe__quad_int backwards = d < fe__quad_set(0.0f), moves = (d > slow) | (d < -slow);
     fe__quad still = (fe__quad)((fe__quad_int)fe__quad_set(largest_inverse) | (backwards & INT32_MIN));
     fe__quad_int blind = (d >= fast) | (d <= -fast);
-    int64_t bits = fe__quad_signs(backwards);
-    return (direction){.inverse = fe__quad_choose(moves, 1.0f / d, still),
-                       .backwards = backwards,
-                       .blind = blind,
-                       .is_blind = fe__quad_signs(blind),
-                       .near_row = {ROW * 3 * (bits & 1), ROW * (1 + 3 * (bits >> 1 & 1)), ROW * (2 + 3 * (bits >> 2 & 1))}};
+    fe__quad inverse = fe__quad_choose(moves, 1.0f / d, still);
+    int64_t signs = fe__quad_signs(backwards);
+    // one by one: gcc does not unroll a loop
+    way->inverse[0] = fe__quad_set(inverse[0]);
+    way->inverse[1] = fe__quad_set(inverse[1]);
+    way->inverse[2] = fe__quad_set(inverse[2]);
+    way->near_row[0] = 3 * ROW * (signs & 1), way->far_row[0] = 3 * ROW - way->near_row[0];
+    way->near_row[1] = 3 * ROW * (signs >> 1 & 1) + ROW, way->far_row[1] = 5 * ROW - way->near_row[1];
+    way->near_row[2] = 3 * ROW * (signs >> 2 & 1) + 2 * ROW, way->far_row[2] = 7 * ROW - way->near_row[2];
+    way->backwards = backwards;
+    way->blind = blind;
+    way->is_blind = fe__quad_signs(blind);
 }
 
 // A box that moves meets another when its centre meets that one swelled by its half widths: the origin is an interval to begin with.
@@ -100,41 +115,35 @@ static inline void prepare_slabs(slabs *s, const direction *way, fe_dvec3 o, fe_
     }
     fe__quad_int exchange = ((fe__quad_int)low ^ (fe__quad_int)high) & way->backwards;
     fe__quad near_origin = (fe__quad)((fe__quad_int)high ^ exchange), far_origin = (fe__quad)((fe__quad_int)low ^ exchange);
-    fe__quad inverse = way->inverse; // spread one by one: gcc does not unroll the loop
-    s->near_origin[0] = fe__quad_set(near_origin[0]), s->far_origin[0] = fe__quad_set(far_origin[0]),
-    s->inverse[0] = fe__quad_set(inverse[0]);
-    s->near_origin[1] = fe__quad_set(near_origin[1]), s->far_origin[1] = fe__quad_set(far_origin[1]),
-    s->inverse[1] = fe__quad_set(inverse[1]);
-    s->near_origin[2] = fe__quad_set(near_origin[2]), s->far_origin[2] = fe__quad_set(far_origin[2]),
-    s->inverse[2] = fe__quad_set(inverse[2]);
-    s->near_row[0] = way->near_row[0], s->near_row[1] = way->near_row[1], s->near_row[2] = way->near_row[2];
+    s->near_origin[0] = fe__quad_set(near_origin[0]), s->far_origin[0] = fe__quad_set(far_origin[0]);
+    s->near_origin[1] = fe__quad_set(near_origin[1]), s->far_origin[1] = fe__quad_set(far_origin[1]);
+    s->near_origin[2] = fe__quad_set(near_origin[2]), s->far_origin[2] = fe__quad_set(far_origin[2]);
 }
 
-FE_COMPILED_FOR void clip(const char *rows, const slabs *s, int32_t k, fe__quad *enter, fe__quad *leave)
+FE_COMPILED_FOR void clip(const char *rows, const direction *way, const slabs *s, int32_t k, fe__quad *enter, fe__quad *leave)
 {
-    fe__quad near_side = *(const fe__quad *)(rows + s->near_row[k]),
-             far_side = *(const fe__quad *)(rows + (2 * k + 3) * ROW - s->near_row[k]);
-    *enter = fe__quad_max(*enter, (near_side - s->near_origin[k]) * s->inverse[k]);
-    *leave = fe__quad_min(*leave, (far_side - s->far_origin[k]) * s->inverse[k]);
+    fe__quad near_side = *(const fe__quad *)(rows + way->near_row[k]), far_side = *(const fe__quad *)(rows + way->far_row[k]);
+    *enter = fe__quad_max((near_side - s->near_origin[k]) * way->inverse[k], *enter); // in this order a -0 does not replace 0
+    *leave = fe__quad_min((far_side - s->far_origin[k]) * way->inverse[k], *leave);
 }
 
 // Four lanes at a time: eight, and what they are compared with, are more than the registers of SSE2, and the way through memory would be
 // the slowest part.
-FE_COMPILED_FOR uint32_t hit_four(const char *rows, const slabs *s, float limit, float t[4])
+FE_COMPILED_FOR uint32_t hit_four(const char *rows, const direction *way, const slabs *s, float limit, float t[4])
 {
     fe__quad enter = fe__quad_set(0.0f), leave = fe__quad_set(limit);
-    clip(rows, s, 0, &enter, &leave);
-    clip(rows, s, 1, &enter, &leave);
-    clip(rows, s, 2, &enter, &leave);
+    clip(rows, way, s, 0, &enter, &leave);
+    clip(rows, way, s, 1, &enter, &leave);
+    clip(rows, way, s, 2, &enter, &leave);
     *(fe__quad *)t = enter;
     return fe__quad_signs(enter <= leave * fe__quad_set(slack));
 }
 
 // bit i: the segment meets lane i, at t[i] or later
-FE_COMPILED_FOR uint32_t hit_lanes(const fe__tree_node *node, const slabs *s, float limit, float t[FE_TREE_WIDTH])
+FE_COMPILED_FOR uint32_t hit_lanes(const fe__tree_node *node, const direction *way, const slabs *s, float limit, float t[FE_TREE_WIDTH])
 {
     const char *rows = (const char *)node->box;
-    return hit_four(rows, s, limit, t) | hit_four(rows + sizeof(fe__quad), s, limit, t + 4) << 4;
+    return hit_four(rows, way, s, limit, t) | hit_four(rows + sizeof(fe__quad), way, s, limit, t + 4) << 4;
 }
 
 // The squared distance is  sum_k max(low_k - p_k, p_k - high_k, 0)^2. The origin's two roundings are in near_origin and far_origin.
@@ -152,9 +161,10 @@ static inline uint32_t near_lanes(const fe__tree_node *node, const slabs *s, flo
     return fe__lanes_at_most(square, fe__lanes_set(limit * slack));
 }
 
-FE_COMPILED_FOR uint32_t meet_lanes(question q, const cast *c, const fe__tree_node *node, float t[FE_TREE_WIDTH])
+FE_COMPILED_FOR uint32_t meet_lanes(question q, const cast *c, int32_t tree, const fe__tree_node *node, float t[FE_TREE_WIDTH])
 {
-    return q == RAY ? hit_lanes(node, &c->slabs, c->limit_up, t) : near_lanes(node, &c->slabs, c->limit_up, t);
+    const slabs *s = c->slabs_of[tree];
+    return q == RAY ? hit_lanes(node, &c->way, s, c->limit_up, t) : near_lanes(node, s, c->limit_up, t);
 }
 
 // Beyond the largest distance in a world, so that nothing is lost, and its square stays finite in a float.
@@ -172,14 +182,14 @@ FE_COMPILED_FOR void visit_proxy(question q, cast *c, int32_t proxy)
 }
 
 // The subtree at `top` when the stack is full: parents and lanes lead back up.
-FE_COMPILED_FOR void walk_without_stack(question q, cast *c, int32_t top)
+FE_RARE void walk_without_stack(question q, cast *c, int32_t tree, int32_t top)
 {
     _Alignas(16) float t[FE_TREE_WIDTH];
     int32_t index = top;
     uint32_t from = 0;
-    for (;;) {
-        const fe__tree_node *node = &c->tree->nodes[index];
-        uint32_t hits = meet_lanes(q, c, node, t) >> from << from;
+    while (c->limit >= 0.0) {
+        const fe__tree_node *node = &c->nodes[tree][index];
+        uint32_t hits = meet_lanes(q, c, tree, node, t) >> from << from;
         if (hits) {
             uint32_t lane = (uint32_t)__builtin_ctz(hits);
             int32_t child = node->child[lane];
@@ -198,64 +208,73 @@ FE_COMPILED_FOR void walk_without_stack(question q, cast *c, int32_t top)
     }
 }
 
-// Puts the children of the lanes in `hits` on the stack, nearest on top, and gives back the nearest of all instead of pushing it.
-static inline int32_t push_farther(const fe__tree_node *node, uint32_t hits, const float t[FE_TREE_WIDTH], entry *stack, int32_t *top)
+static inline entry entry_of(float t, int32_t child)
 {
-    uint32_t lane = (uint32_t)__builtin_ctz(hits);
-    entry nearest = {t[lane], node->child[lane]};
-    int32_t base = *top;
-    for (hits &= hits - 1; hits; hits &= hits - 1) {
-        lane = (uint32_t)__builtin_ctz(hits);
-        entry e = {t[lane], node->child[lane]};
-        if (e.t < nearest.t) {
-            entry swapped = e;
-            e = nearest;
-            nearest = swapped;
-        }
-        int32_t i = (*top)++;
-        for (; i > base && stack[i - 1].t < e.t; --i) stack[i] = stack[i - 1];
-        stack[i] = e;
-    }
-    return nearest.child;
+    union {
+        float t;
+        uint32_t bits;
+    } u = {t};
+    return (entry)u.bits << CHILD_BITS | (uint32_t)child;
 }
 
-FE_COMPILED_FOR void walk(question q, cast *c)
+// Puts the children that are met on the stack, between its entries from `base` on, the nearest on top. Returns the new top.
+FE_COMPILED_FOR int32_t push_children(question q, const cast *c, int32_t child, entry *stack, int32_t base, int32_t top)
 {
     _Alignas(16) float t[FE_TREE_WIDTH];
-    entry stack[STACK];
-    int32_t top = 0, child = 0;
-    for (;;) {
-        while (child >= 0) {
-            if (top > STACK - FE_TREE_WIDTH) {
-                walk_without_stack(q, c, child);
-                break;
-            }
-            const fe__tree_node *node = &c->tree->nodes[child];
-            uint32_t hits = meet_lanes(q, c, node, t);
-            if (!hits) break;
-            child = push_farther(node, hits, t, stack, &top);
+    const int32_t tree = child >> SECOND_BIT, tag = child & SECOND;
+    const fe__tree_node *node = &c->nodes[tree][child ^ tag];
+    for (uint32_t hits = meet_lanes(q, c, tree, node, t); hits; hits &= hits - 1) {
+        uint32_t lane = (uint32_t)__builtin_ctz(hits);
+        entry e = entry_of(t[lane], node->child[lane] | tag); // a proxy, inverted, has the bit already
+        for (int32_t i = base; i < top; ++i) {
+            entry there = stack[i];
+            stack[i] = there > e ? there : e;
+            e = there > e ? e : there;
         }
-        if (child < 0) visit_proxy(q, c, ~child);
-        do {
-            if (top == 0) return;
-            top -= 1;
-        } while (stack[top].t > c->limit_up * slack);
-        child = stack[top].child;
+        stack[top++] = e;
+    }
+    return top;
+}
+
+FE_COMPILED_FOR void walk(question q, cast *c, int32_t tree_count)
+{
+    entry stack[STACK];
+    int32_t top = 0;
+    for (int32_t i = 0; i < tree_count; ++i) top = push_children(q, c, i << SECOND_BIT, stack, 0, top);
+    while (top > 0) {
+        entry nearest = stack[--top];
+        int32_t child = (int32_t)(uint32_t)nearest;
+        if (nearest > entry_of(c->limit_up * slack, -1)) continue;
+        if (child < 0) {
+            visit_proxy(q, c, ~child);
+            if (c->limit < 0.0) return;
+        } else if (top > STACK - FE_TREE_WIDTH) {
+            walk_without_stack(q, c, child >> SECOND_BIT, child & ~SECOND);
+            if (c->limit < 0.0) return;
+        } else {
+            top = push_children(q, c, child, stack, top, top);
+        }
     }
 }
+
+static int32_t is_same(fe_dvec3 a, fe_dvec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
 double fe__tree_sweep(const fe__tree *const *trees, int32_t tree_count, const fe__tree_way *way, double limit, fe__tree_ray_visit visit,
                       void *context)
 {
-    direction d = direction_of(way->translation);
     cast c; // every field is set: zeroing it first would cost a tenth of a ray
     c.limit = limit, c.limit_up = fe__tree_round_up(limit), c.visit = visit, c.context = context;
-    for (int32_t i = 0; i < tree_count && c.limit >= 0.0; ++i) {
-        c.tree = trees[i];
-        if (c.tree->proxy_count == 0) continue;
-        prepare_slabs(&c.slabs, &d, fe__dsub(way->origin, c.tree->origin), way->half);
-        walk(RAY, &c);
+    prepare_direction(&c.way, way->translation);
+    int32_t count = 0;
+    for (int32_t i = 0; i < tree_count && limit >= 0.0; ++i) {
+        if (trees[i]->proxy_count == 0) continue;
+        c.nodes[count] = trees[i]->nodes;
+        int32_t shared = count > 0 && is_same(trees[0]->origin, trees[i]->origin);
+        if (!shared) prepare_slabs(&c.slabs[count], &c.way, fe__dsub(way->origin, trees[i]->origin), way->half);
+        c.slabs_of[count] = &c.slabs[shared ? 0 : count];
+        count += 1;
     }
+    walk(RAY, &c, count);
     return c.limit;
 }
 
@@ -264,12 +283,13 @@ double fe__tree_nearest(const fe__tree *tree, fe_dvec3 point, double limit, fe__
     if (tree->proxy_count == 0 || limit < 0.0) return limit;
     fe_dvec3 o = fe__dsub(point, tree->origin);
     cast c;
-    c.tree = tree, c.limit = limit, c.limit_up = square_up(limit), c.visit = visit, c.context = context;
+    c.nodes[0] = tree->nodes, c.limit = limit, c.limit_up = square_up(limit), c.visit = visit, c.context = context;
     const double at[3] = {o.x, o.y, o.z};
     for (int32_t k = 0; k < 3; ++k) {
-        c.slabs.near_origin[k] = fe__quad_set(fe__tree_round_up(at[k]));
-        c.slabs.far_origin[k] = fe__quad_set(fe__tree_round_down(at[k]));
+        c.slabs[0].near_origin[k] = fe__quad_set(fe__tree_round_up(at[k]));
+        c.slabs[0].far_origin[k] = fe__quad_set(fe__tree_round_down(at[k]));
     }
-    walk(NEAREST, &c);
+    c.slabs_of[0] = &c.slabs[0];
+    walk(NEAREST, &c, 1);
     return c.limit;
 }

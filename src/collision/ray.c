@@ -144,30 +144,34 @@ static int32_t inside_box(const ray *r, const double o[3], const double half[3],
     return start_inside(r, depth, axis_normal(axis, o[axis] < 0.0 ? -1.0 : 1.0), hit);
 }
 
+// One slab: the ray is in it from t[0] to t[1]. Along it, 0 / 0 is met on its sides only, and a NaN counts for no bound below.
+static inline void cross_slab(double o, double d, double half, double t[2])
+{
+    double near_side = -__builtin_copysign(half, d);
+    t[0] = (near_side - o) / d;
+    t[1] = (-near_side - o) / d;
+}
+
 // Three slabs (Kay and Kajiya 1986): the ray is in the box from the last entry to the first exit. On an edge the lowest axis gives the
-// normal.
+// normal. The signs of the direction and the order of the entries are random: nothing branches on them.
 static int32_t ray_box(const fe__form *form, const ray *r, fe__ray_hit *hit)
 {
-    const double o[3] = {r->origin.x, r->origin.y, r->origin.z}, d[3] = {r->direction.x, r->direction.y, r->direction.z};
     const double half[3] = {(double)form->half.x, (double)form->half.y, (double)form->half.z};
-    if (fe__absd(o[0]) <= half[0] && fe__absd(o[1]) <= half[1] && fe__absd(o[2]) <= half[2]) return inside_box(r, o, half, hit);
+    const fe_dvec3 o = r->origin, d = r->direction;
+    if ((fe__absd(o.x) <= half[0]) & (fe__absd(o.y) <= half[1]) & (fe__absd(o.z) <= half[2]))
+        return inside_box(r, (const double[3]){o.x, o.y, o.z}, half, hit);
 
-    double enter = -(double)INFINITY, leave = (double)INFINITY;
-    int32_t axis = 0;
-    for (int32_t k = 0; k < 3; ++k) {
-        if (d[k] == 0.0) {
-            if (fe__absd(o[k]) > half[k]) return 0;
-            continue;
-        }
-        double near_side = d[k] > 0.0 ? -half[k] : half[k], in = (near_side - o[k]) / d[k], out = (-near_side - o[k]) / d[k];
-        if (in > enter) {
-            enter = in;
-            axis = k;
-        }
-        leave = fe__mind(out, leave);
-    }
-    if (enter > leave || leave < 0.0) return 0;
-    return meet(r, enter, axis_normal(axis, d[axis] > 0.0 ? -1.0 : 1.0), hit);
+    double x[2], y[2], z[2];
+    cross_slab(o.x, d.x, half[0], x), cross_slab(o.y, d.y, half[1], y), cross_slab(o.z, d.z, half[2], z);
+    const double none = (double)INFINITY;
+    double enter = fe__maxd(z[0], fe__maxd(y[0], fe__maxd(x[0], -none))), leave = fe__mind(z[1], fe__mind(y[1], fe__mind(x[1], none)));
+    if ((enter > leave) | (leave < 0.0)) return 0;
+    const int32_t is_x = x[0] >= enter, is_y = !is_x & (y[0] >= enter);
+    const double along[3] = {is_x ? 1.0 : 0.0, is_y ? 1.0 : 0.0, is_x | is_y ? 0.0 : 1.0};
+    const double plus = 0.0; // makes 0 of -0
+    fe_dvec3 normal = {__builtin_copysign(along[0], -d.x) + plus, __builtin_copysign(along[1], -d.y) + plus,
+                       __builtin_copysign(along[2], -d.z) + plus};
+    return meet(r, enter, normal, hit);
 }
 
 // The distance n.o - distance falls at the rate n.d. A quarter of both: the sum of three products of finite numbers is finite.
