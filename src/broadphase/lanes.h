@@ -8,7 +8,11 @@
 #define FE_BROADPHASE_LANES_H
 #include <stdint.h>
 #if defined(__SSE2__) && !defined(FE_PLAIN_C)
+#ifdef __AVX__
+#include <immintrin.h>
+#else
 #include <emmintrin.h>
+#endif
 #define FE_LANES_X86 1
 #else
 #define FE_LANES_X86 0
@@ -29,12 +33,20 @@ FE_LANES_INLINE fe__quad fe__quad_choose(fe__quad_int mask, fe__quad yes, fe__qu
 {
     return (fe__quad)((mask & (fe__quad_int)yes) | (~mask & (fe__quad_int)no));
 }
+// one lane in all four
+#define FE_QUAD_SPREAD(x, lane) __builtin_shufflevector(x, x, lane, lane, lane, lane)
+typedef double fe__pair __attribute__((vector_size(16)));
 #if FE_LANES_X86
+FE_LANES_INLINE fe__quad fe__quad_narrow(fe__pair a, fe__pair b)
+{
+    return (fe__quad)_mm_movelh_ps(_mm_cvtpd_ps((__m128d)a), _mm_cvtpd_ps((__m128d)b));
+}
 FE_LANES_INLINE fe__quad fe__quad_min(fe__quad x, fe__quad y) { return (fe__quad)_mm_min_ps((__m128)x, (__m128)y); }
 FE_LANES_INLINE fe__quad fe__quad_max(fe__quad x, fe__quad y) { return (fe__quad)_mm_max_ps((__m128)x, (__m128)y); }
 // bit i: sign of lane i
 FE_LANES_INLINE uint32_t fe__quad_signs(fe__quad_int x) { return (uint32_t)_mm_movemask_ps((__m128)x); }
 #else
+FE_LANES_INLINE fe__quad fe__quad_narrow(fe__pair a, fe__pair b) { return (fe__quad){(float)a[0], (float)a[1], (float)b[0], (float)b[1]}; }
 FE_LANES_INLINE fe__quad fe__quad_min(fe__quad x, fe__quad y) { return fe__quad_choose(x < y, x, y); }
 FE_LANES_INLINE fe__quad fe__quad_max(fe__quad x, fe__quad y) { return fe__quad_choose(x > y, x, y); }
 FE_LANES_INLINE uint32_t fe__quad_signs(fe__quad_int x)
@@ -66,5 +78,37 @@ FE_LANES_INLINE uint32_t fe__lanes_at_most(fe__lanes x, fe__lanes y)
 {
     return fe__quad_signs(x.a <= y.a) | fe__quad_signs(x.b <= y.b) << 4;
 }
+FE_LANES_INLINE uint32_t fe__lanes_equal(fe__lanes x, fe__lanes y) { return fe__quad_signs(x.a == y.a) | fe__quad_signs(x.b == y.b) << 4; }
+
+// ---- eight in one register ----------------------------------------------------------------------------------------------------
+// For files that are compiled once per SIMD set: the widest ones have such registers. The same eight floats in any case.
+#if FE_LANES_X86 && defined(__AVX__)
+typedef __m256 fe__eight;
+FE_LANES_INLINE fe__eight fe__eight_load(const float *row) { return _mm256_load_ps(row); } // 32-byte aligned
+FE_LANES_INLINE void fe__eight_store(float *row, fe__eight x) { _mm256_store_ps(row, x); }
+FE_LANES_INLINE fe__eight fe__eight_set(float x) { return _mm256_set1_ps(x); }
+FE_LANES_INLINE fe__eight fe__eight_spread(const fe__quad *x) { return _mm256_broadcast_ss((const float *)x); } // its first lane
+FE_LANES_INLINE fe__eight fe__eight_sub(fe__eight x, fe__eight y) { return _mm256_sub_ps(x, y); }
+FE_LANES_INLINE fe__eight fe__eight_add(fe__eight x, fe__eight y) { return _mm256_add_ps(x, y); }
+FE_LANES_INLINE fe__eight fe__eight_mul(fe__eight x, fe__eight y) { return _mm256_mul_ps(x, y); }
+FE_LANES_INLINE fe__eight fe__eight_min(fe__eight x, fe__eight y) { return _mm256_min_ps(x, y); }
+FE_LANES_INLINE fe__eight fe__eight_max(fe__eight x, fe__eight y) { return _mm256_max_ps(x, y); }
+FE_LANES_INLINE uint32_t fe__eight_at_most(fe__eight x, fe__eight y)
+{
+    return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(x, y, _CMP_LE_OQ));
+}
+#else
+typedef fe__lanes fe__eight;
+FE_LANES_INLINE fe__eight fe__eight_load(const float *row) { return fe__lanes_load(row); }
+FE_LANES_INLINE void fe__eight_store(float *row, fe__eight x) { fe__lanes_store(row, x); }
+FE_LANES_INLINE fe__eight fe__eight_set(float x) { return fe__lanes_set(x); }
+FE_LANES_INLINE fe__eight fe__eight_spread(const fe__quad *x) { return (fe__eight){*x, *x}; } // all its lanes are the same
+FE_LANES_INLINE fe__eight fe__eight_sub(fe__eight x, fe__eight y) { return fe__lanes_sub(x, y); }
+FE_LANES_INLINE fe__eight fe__eight_add(fe__eight x, fe__eight y) { return fe__lanes_add(x, y); }
+FE_LANES_INLINE fe__eight fe__eight_mul(fe__eight x, fe__eight y) { return fe__lanes_mul(x, y); }
+FE_LANES_INLINE fe__eight fe__eight_min(fe__eight x, fe__eight y) { return fe__lanes_min(x, y); }
+FE_LANES_INLINE fe__eight fe__eight_max(fe__eight x, fe__eight y) { return fe__lanes_max(x, y); }
+FE_LANES_INLINE uint32_t fe__eight_at_most(fe__eight x, fe__eight y) { return fe__lanes_at_most(x, y); }
+#endif
 
 #endif

@@ -22,9 +22,12 @@ typedef struct fe__tree_node {
 } fe__tree_node;
 _Static_assert(sizeof(fe__tree_node) == 256, "four cache lines");
 
+typedef struct fe__tree_kernels fe__tree_kernels;
+
 // All zeros is an empty tree.
 typedef struct fe__tree {
-    fe__tree_node *nodes; // the root is the first
+    const fe__tree_kernels *kernels; // of a SIMD set, NULL: of plain C
+    fe__tree_node *nodes;            // the root is the first
     int32_t node_count, node_capacity, dead;
     int32_t *slot; // of a proxy: node * 8 + lane, -1: not in this tree
     int32_t slot_capacity;
@@ -64,8 +67,25 @@ typedef double (*fe__tree_ray_visit)(void *context, int32_t proxy, double limit)
 typedef struct fe__tree_way {
     fe_dvec3 origin, translation, half;
 } fe__tree_way;
-double fe__tree_sweep(const fe__tree *const *trees, int32_t tree_count, const fe__tree_way *way, double limit, fe__tree_ray_visit visit,
-                      void *context);
+
+// One for each SIMD set. What they visit does not depend on it.
+struct fe__tree_kernels {
+    double (*sweep)(const fe__tree *const *trees, int32_t tree_count, const fe__tree_way *way, double limit, fe__tree_ray_visit visit,
+                    void *context);
+    double (*nearest)(const fe__tree *tree, fe_dvec3 point, double limit, fe__tree_ray_visit visit, void *context);
+};
+extern const fe__tree_kernels fe__tree_kernels_plain;
+const fe__tree_kernels *fe__tree_kernels_of(int32_t simd); // of a set that was built, else of plain C
+static inline const fe__tree_kernels *fe__kernels_of_tree(const fe__tree *tree)
+{
+    return tree->kernels ? tree->kernels : &fe__tree_kernels_plain;
+}
+
+static inline double fe__tree_sweep(const fe__tree *const *trees, int32_t tree_count, const fe__tree_way *way, double limit,
+                                    fe__tree_ray_visit visit, void *context)
+{
+    return fe__kernels_of_tree(trees[0])->sweep(trees, tree_count, way, limit, visit, context);
+}
 static inline double fe__tree_ray(const fe__tree *tree, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__tree_ray_visit visit,
                                   void *context)
 {
@@ -75,6 +95,9 @@ static inline double fe__tree_ray(const fe__tree *tree, fe_dvec3 origin, fe_dvec
 
 // Proxies whose boxes are no farther from a point than `limit` m, each once, of a node's children the nearest first. `visit` returns the
 // new limit as above. Reads only, any thread.
-double fe__tree_nearest(const fe__tree *tree, fe_dvec3 point, double limit, fe__tree_ray_visit visit, void *context);
+static inline double fe__tree_nearest(const fe__tree *tree, fe_dvec3 point, double limit, fe__tree_ray_visit visit, void *context)
+{
+    return fe__kernels_of_tree(tree)->nearest(tree, point, limit, visit, context);
+}
 
 #endif

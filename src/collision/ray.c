@@ -158,14 +158,14 @@ static int32_t ray_box(const fe__form *form, const ray *r, fe__ray_hit *hit)
 {
     const double half[3] = {(double)form->half.x, (double)form->half.y, (double)form->half.z};
     const fe_dvec3 o = r->origin, d = r->direction;
-    if ((fe__absd(o.x) <= half[0]) & (fe__absd(o.y) <= half[1]) & (fe__absd(o.z) <= half[2]))
-        return inside_box(r, (const double[3]){o.x, o.y, o.z}, half, hit);
+    const int32_t in_x = fe__absd(o.x) <= half[0], in_y = fe__absd(o.y) <= half[1], in_z = fe__absd(o.z) <= half[2];
+    if (in_x & in_y & in_z) return inside_box(r, (const double[3]){o.x, o.y, o.z}, half, hit);
 
     double x[2], y[2], z[2];
     cross_slab(o.x, d.x, half[0], x), cross_slab(o.y, d.y, half[1], y), cross_slab(o.z, d.z, half[2], z);
     const double none = (double)INFINITY;
     double enter = fe__maxd(z[0], fe__maxd(y[0], fe__maxd(x[0], -none))), leave = fe__mind(z[1], fe__mind(y[1], fe__mind(x[1], none)));
-    if ((enter > leave) | (leave < 0.0)) return 0;
+    if (enter > leave || leave < 0.0) return 0;
     const int32_t is_x = x[0] >= enter, is_y = !is_x & (y[0] >= enter);
     const double along[3] = {is_x ? 1.0 : 0.0, is_y ? 1.0 : 0.0, is_x | is_y ? 0.0 : 1.0};
     const double plus = 0.0; // makes 0 of -0

@@ -47,7 +47,7 @@ static int32_t is_turned(const fe__shape *shape)
     return shape->form.type != FE_GEOMETRY_SPHERE && !(q.x == 0.0f && q.y == 0.0f && q.z == 0.0f);
 }
 
-static int32_t meet_ray(const fe__scene *scene, const fe__probe *probe, const fe__shape *shape, double limit, found *f)
+static inline int32_t meet_ray(const fe__scene *scene, const fe__probe *probe, const fe__shape *shape, double limit, found *f)
 {
     fe_quat q = shape->pose.rotation;
     fe_dvec3 origin = fe__dsub(probe->way.origin, shape->pose.position);

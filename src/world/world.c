@@ -60,6 +60,7 @@ fe_result fe__world_create(const fe_world_def *desc, fe_world **out_world)
     world->memory = memory;
     world->kernels = kernels;
     world->simd = kernels->simd;
+    world->static_tree.kernels = world->moving_tree.kernels = fe__tree_kernels_of(kernels->simd);
     world->gravity = desc->gravity;
     world->substeps = desc->substeps;
     world->user_data = desc->user_data;

@@ -2,6 +2,7 @@
 #include "fe_test.h"
 
 #include "broadphase/tree.h"
+#include "solver/solver.h"
 
 #include <float.h>
 #include <math.h>
@@ -167,8 +168,16 @@ static double visit_ray(void *context, int32_t proxy, double limit)
     return r->best;
 }
 
+// Of each SIMD set that this machine has, by turns
+static const fe__tree_kernels *any_kernels(void)
+{
+    int32_t simd = FE_SIMD_PLAIN + below(FE_SIMD_NEON);
+    return fe__kernels_of(simd) ? fe__tree_kernels_of(simd) : NULL;
+}
+
 static int32_t check_ray(model *m, fe_dvec3 origin, fe_dvec3 translation, double limit)
 {
+    m->tree.kernels = any_kernels();
     ray found = {m, origin, translation, limit, -1}, expected = found;
     double last = fe__tree_ray(&m->tree, origin, translation, limit, visit_ray, &found);
     int32_t limit_of_slots = fe__mini(PROXIES, m->tree.slot_capacity);
@@ -631,6 +640,53 @@ static void a_worn_tree_is_built_anew_and_a_good_one_is_left_alone(void **state)
     fe__tree_destroy(&tree, &memory);
 }
 
+enum { IN_ROW = 40 };
+
+static double count_each(void *context, int32_t proxy, double limit)
+{
+    ((int32_t *)context)[proxy] += 1;
+    return limit;
+}
+
+static double keep_nearest(void *context, int32_t proxy, double limit)
+{
+    double *enter = context; // where the ray enters each
+    return fe__mind(limit, enter[proxy]);
+}
+
+// The second tree begins at `start`: among the boxes of the first, or so far off that it has an origin of its own.
+static void check_two_trees(double start)
+{
+    fe__memory memory;
+    fe__memory_init(&memory, NULL);
+    fe__tree first = {.kernels = any_kernels()}, second = {0};
+    const fe__tree *const both[] = {&first, &second}, *const turned[] = {&second, &first};
+    const fe__tree_way way = {{-10.0, 0.5, 0.5}, {16384.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+    double enter[IN_ROW];
+    for (int32_t i = 0; i < IN_ROW; ++i) {
+        fe__tree *tree = i % 2 ? &second : &first;
+        double x = 10.0 * i + (i % 2 ? start : 0.0);
+        enter[i] = (x + 10.0) / way.translation.x;
+        assert_int_equal(fe__tree_reserve(tree, &memory, IN_ROW, 1), 1);
+        fe__tree_insert(tree, i, &(fe__bounds){{x, 0.0, 0.0}, {x + 1.0, 1.0, 1.0}});
+    }
+    int32_t visits[IN_ROW] = {0};
+    assert_true(fe__tree_sweep(both, 2, &way, 1.0, count_each, visits) == 1.0);
+    for (int32_t i = 0; i < IN_ROW; ++i) assert_int_equal(visits[i], 1);
+    assert_true(fe__tree_sweep(both, 2, &way, 1.0, keep_nearest, enter) == enter[0]);
+    assert_true(fe__tree_sweep(turned, 2, &way, 1.0, keep_nearest, enter) == enter[0]);
+    fe__tree_remove(&first, 0);
+    assert_true(fe__tree_sweep(both, 2, &way, 1.0, keep_nearest, enter) == fe__mind(enter[1], enter[2]));
+    fe__tree_destroy(&first, &memory);
+    fe__tree_destroy(&second, &memory);
+}
+
+static void two_trees_are_one_to_a_ray(void **state)
+{
+    (void)state;
+    for (int32_t i = 0; i < 20; ++i) check_two_trees(0.0), check_two_trees(5000.0);
+}
+
 // Boxes that went 10 000 km away are metres wide in floats, until the origin follows.
 static void the_origin_follows_at_a_rebuild(void **state)
 {
@@ -928,6 +984,7 @@ int main(void)
         cmocka_unit_test(a_visitor_can_stop),
         cmocka_unit_test(it_is_shallow_in_whatever_order_proxies_come),
         cmocka_unit_test(a_worn_tree_is_built_anew_and_a_good_one_is_left_alone),
+        cmocka_unit_test(two_trees_are_one_to_a_ray),
         cmocka_unit_test(the_origin_follows_at_a_rebuild),
         cmocka_unit_test(a_box_holds_what_lies_in_it_and_nothing_that_stands_out),
         cmocka_unit_test(a_refused_build_changes_nothing),

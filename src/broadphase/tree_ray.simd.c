@@ -1,9 +1,11 @@
-// tree_ray.c - which proxies' boxes a segment, or a box that moves along it, meets, nearest first.
+// tree_ray.simd.c - which proxies' boxes a segment, or a box that moves along it, meets, nearest first.
 //
 // Slabs: along axis k the segment is between two planes for t in [(low - o) / d, (high - o) / d]. Floats, on the safe side: o is rounded
 // both ways and each plane takes the side that widens the interval; the quotients' roundings are covered by `slack`. Little work is done
 // per ray, so mispredicted branches and the set-up are the cost: the signs of the direction, which are random, do not branch.
+// Compiled once per SIMD set: the widest test a node in one go. What is visited is the same with all of them.
 #include "broadphase/tree_node.h"
+#include "core/simd.h"
 
 enum { ROW = FE_TREE_WIDTH * sizeof(float) };
 enum { STACK = 256 }; // 7 entries a level: enough for a depth of 36
@@ -53,14 +55,7 @@ typedef enum question { RAY, NEAREST } question;
 // What hardly ever happens keeps its registers to itself.
 #define FE_RARE static __attribute__((noinline, cold))
 
-typedef double pair __attribute__((vector_size(16)));
 typedef int64_t pair_mask __attribute__((vector_size(16)));
-typedef float pair_float __attribute__((vector_size(8)));
-
-static inline fe__quad quad_of(pair xy, pair z)
-{
-    return __builtin_shufflevector(__builtin_convertvector(xy, pair_float), __builtin_convertvector(z, pair_float), 0, 1, 2, 3);
-}
 
 FE_RARE void round_far(fe_dvec3 o, fe_dvec3 half, fe__quad *low, fe__quad *high)
 {
@@ -73,11 +68,11 @@ FE_RARE void round_far(fe_dvec3 o, fe_dvec3 half, fe__quad *low, fe__quad *high)
 static inline void round_outwards(fe_dvec3 o, fe_dvec3 half, fe__quad *low, fe__quad *high)
 {
     const pair_mask magnitude = {INT64_MAX, INT64_MAX};
-    const pair o_xy = {o.x, o.y}, o_z = {o.z, o.z}, half_xy = {half.x, half.y}, half_z = {half.z, half.z};
-    pair size_xy = (pair)((pair_mask)o_xy & magnitude) + half_xy, size_z = (pair)((pair_mask)o_z & magnitude) + half_z;
-    pair away_xy = size_xy * FE_TREE_ULP + FE_TREE_PAD, away_z = size_z * FE_TREE_ULP + FE_TREE_PAD;
-    *low = quad_of((o_xy - half_xy) - away_xy, (o_z - half_z) - away_z);
-    *high = quad_of((o_xy + half_xy) + away_xy, (o_z + half_z) + away_z);
+    const fe__pair o_xy = {o.x, o.y}, o_z = {o.z, o.z}, half_xy = {half.x, half.y}, half_z = {half.z, half.z};
+    fe__pair size_xy = (fe__pair)((pair_mask)o_xy & magnitude) + half_xy, size_z = (fe__pair)((pair_mask)o_z & magnitude) + half_z;
+    fe__pair away_xy = size_xy * FE_TREE_ULP + FE_TREE_PAD, away_z = size_z * FE_TREE_ULP + FE_TREE_PAD;
+    *low = fe__quad_narrow((o_xy - half_xy) - away_xy, (o_z - half_z) - away_z);
+    *high = fe__quad_narrow((o_xy + half_xy) + away_xy, (o_z + half_z) + away_z);
     if (fe__maxd(fe__maxd(size_xy[0], size_xy[1]), size_z[0]) >= FE_TREE_FAR) round_far(o, half, low, high);
 }
 
@@ -93,9 +88,9 @@ static inline void prepare_direction(direction *way, fe_dvec3 translation)
     fe__quad inverse = fe__quad_choose(moves, 1.0f / d, still);
     int64_t signs = fe__quad_signs(backwards);
     // one by one: gcc does not unroll a loop
-    way->inverse[0] = fe__quad_set(inverse[0]);
-    way->inverse[1] = fe__quad_set(inverse[1]);
-    way->inverse[2] = fe__quad_set(inverse[2]);
+    way->inverse[0] = FE_QUAD_SPREAD(inverse, 0);
+    way->inverse[1] = FE_QUAD_SPREAD(inverse, 1);
+    way->inverse[2] = FE_QUAD_SPREAD(inverse, 2);
     way->near_row[0] = 3 * ROW * (signs & 1), way->far_row[0] = 3 * ROW - way->near_row[0];
     way->near_row[1] = 3 * ROW * (signs >> 1 & 1) + ROW, way->far_row[1] = 5 * ROW - way->near_row[1];
     way->near_row[2] = 3 * ROW * (signs >> 2 & 1) + 2 * ROW, way->far_row[2] = 7 * ROW - way->near_row[2];
@@ -115,50 +110,46 @@ static inline void prepare_slabs(slabs *s, const direction *way, fe_dvec3 o, fe_
     }
     fe__quad_int exchange = ((fe__quad_int)low ^ (fe__quad_int)high) & way->backwards;
     fe__quad near_origin = (fe__quad)((fe__quad_int)high ^ exchange), far_origin = (fe__quad)((fe__quad_int)low ^ exchange);
-    s->near_origin[0] = fe__quad_set(near_origin[0]), s->far_origin[0] = fe__quad_set(far_origin[0]);
-    s->near_origin[1] = fe__quad_set(near_origin[1]), s->far_origin[1] = fe__quad_set(far_origin[1]);
-    s->near_origin[2] = fe__quad_set(near_origin[2]), s->far_origin[2] = fe__quad_set(far_origin[2]);
+    s->near_origin[0] = FE_QUAD_SPREAD(near_origin, 0), s->far_origin[0] = FE_QUAD_SPREAD(far_origin, 0);
+    s->near_origin[1] = FE_QUAD_SPREAD(near_origin, 1), s->far_origin[1] = FE_QUAD_SPREAD(far_origin, 1);
+    s->near_origin[2] = FE_QUAD_SPREAD(near_origin, 2), s->far_origin[2] = FE_QUAD_SPREAD(far_origin, 2);
 }
 
-FE_COMPILED_FOR void clip(const char *rows, const direction *way, const slabs *s, int32_t k, fe__quad *enter, fe__quad *leave)
+FE_COMPILED_FOR void clip(const char *rows, const direction *way, const slabs *s, int32_t k, fe__eight *enter, fe__eight *leave)
 {
-    fe__quad near_side = *(const fe__quad *)(rows + way->near_row[k]), far_side = *(const fe__quad *)(rows + way->far_row[k]);
-    *enter = fe__quad_max((near_side - s->near_origin[k]) * way->inverse[k], *enter); // in this order a -0 does not replace 0
-    *leave = fe__quad_min((far_side - s->far_origin[k]) * way->inverse[k], *leave);
-}
-
-// Four lanes at a time: eight, and what they are compared with, are more than the registers of SSE2, and the way through memory would be
-// the slowest part.
-FE_COMPILED_FOR uint32_t hit_four(const char *rows, const direction *way, const slabs *s, float limit, float t[4])
-{
-    fe__quad enter = fe__quad_set(0.0f), leave = fe__quad_set(limit);
-    clip(rows, way, s, 0, &enter, &leave);
-    clip(rows, way, s, 1, &enter, &leave);
-    clip(rows, way, s, 2, &enter, &leave);
-    *(fe__quad *)t = enter;
-    return fe__quad_signs(enter <= leave * fe__quad_set(slack));
+    fe__eight near_side = fe__eight_load((const float *)(const void *)(rows + way->near_row[k]));
+    fe__eight far_side = fe__eight_load((const float *)(const void *)(rows + way->far_row[k]));
+    fe__eight inverse = fe__eight_spread(&way->inverse[k]);
+    // in this order a -0 does not replace 0
+    *enter = fe__eight_max(fe__eight_mul(fe__eight_sub(near_side, fe__eight_spread(&s->near_origin[k])), inverse), *enter);
+    *leave = fe__eight_min(fe__eight_mul(fe__eight_sub(far_side, fe__eight_spread(&s->far_origin[k])), inverse), *leave);
 }
 
 // bit i: the segment meets lane i, at t[i] or later
 FE_COMPILED_FOR uint32_t hit_lanes(const fe__tree_node *node, const direction *way, const slabs *s, float limit, float t[FE_TREE_WIDTH])
 {
     const char *rows = (const char *)node->box;
-    return hit_four(rows, way, s, limit, t) | hit_four(rows + sizeof(fe__quad), way, s, limit, t + 4) << 4;
+    fe__eight enter = fe__eight_set(0.0f), leave = fe__eight_set(limit);
+    clip(rows, way, s, 0, &enter, &leave);
+    clip(rows, way, s, 1, &enter, &leave);
+    clip(rows, way, s, 2, &enter, &leave);
+    fe__eight_store(t, enter);
+    return fe__eight_at_most(enter, fe__eight_mul(leave, fe__eight_set(slack)));
 }
 
 // The squared distance is  sum_k max(low_k - p_k, p_k - high_k, 0)^2. The origin's two roundings are in near_origin and far_origin.
 static inline uint32_t near_lanes(const fe__tree_node *node, const slabs *s, float limit, float t[FE_TREE_WIDTH])
 {
-    fe__lanes square = fe__lanes_set(0.0f), zero = square;
+    const fe__eight zero = fe__eight_set(0.0f);
+    fe__eight square = zero;
     for (int32_t k = 0; k < 3; ++k) {
-        const fe__lanes near_origin = {s->near_origin[k], s->near_origin[k]}, far_origin = {s->far_origin[k], s->far_origin[k]};
-        fe__lanes below = fe__lanes_sub(fe__lanes_load(node->box[k]), near_origin);
-        fe__lanes above = fe__lanes_sub(far_origin, fe__lanes_load(node->box[3 + k]));
-        fe__lanes away = fe__lanes_max(fe__lanes_max(below, above), zero);
-        square = fe__lanes_add(square, fe__lanes_mul(away, away));
+        fe__eight below = fe__eight_sub(fe__eight_load(node->box[k]), fe__eight_spread(&s->near_origin[k]));
+        fe__eight above = fe__eight_sub(fe__eight_spread(&s->far_origin[k]), fe__eight_load(node->box[3 + k]));
+        fe__eight away = fe__eight_max(fe__eight_max(below, above), zero);
+        square = fe__eight_add(square, fe__eight_mul(away, away));
     }
-    fe__lanes_store(t, square);
-    return fe__lanes_at_most(square, fe__lanes_set(limit * slack));
+    fe__eight_store(t, square);
+    return fe__eight_at_most(square, fe__eight_set(limit * slack));
 }
 
 FE_COMPILED_FOR uint32_t meet_lanes(question q, const cast *c, int32_t tree, const fe__tree_node *node, float t[FE_TREE_WIDTH])
@@ -184,7 +175,7 @@ FE_COMPILED_FOR void visit_proxy(question q, cast *c, int32_t proxy)
 // The subtree at `top` when the stack is full: parents and lanes lead back up.
 FE_RARE void walk_without_stack(question q, cast *c, int32_t tree, int32_t top)
 {
-    _Alignas(16) float t[FE_TREE_WIDTH];
+    _Alignas(32) float t[FE_TREE_WIDTH];
     int32_t index = top;
     uint32_t from = 0;
     while (c->limit >= 0.0) {
@@ -220,7 +211,7 @@ static inline entry entry_of(float t, int32_t child)
 // Puts the children that are met on the stack, between its entries from `base` on, the nearest on top. Returns the new top.
 FE_COMPILED_FOR int32_t push_children(question q, const cast *c, int32_t child, entry *stack, int32_t base, int32_t top)
 {
-    _Alignas(16) float t[FE_TREE_WIDTH];
+    _Alignas(32) float t[FE_TREE_WIDTH];
     const int32_t tree = child >> SECOND_BIT, tag = child & SECOND;
     const fe__tree_node *node = &c->nodes[tree][child ^ tag];
     for (uint32_t hits = meet_lanes(q, c, tree, node, t); hits; hits &= hits - 1) {
@@ -242,9 +233,9 @@ FE_COMPILED_FOR void walk(question q, cast *c, int32_t tree_count)
     int32_t top = 0;
     for (int32_t i = 0; i < tree_count; ++i) top = push_children(q, c, i << SECOND_BIT, stack, 0, top);
     while (top > 0) {
-        entry nearest = stack[--top];
-        int32_t child = (int32_t)(uint32_t)nearest;
-        if (nearest > entry_of(c->limit_up * slack, -1)) continue;
+        entry next = stack[--top];
+        int32_t child = (int32_t)(uint32_t)next;
+        if (next > entry_of(c->limit_up * slack, -1)) continue;
         if (child < 0) {
             visit_proxy(q, c, ~child);
             if (c->limit < 0.0) return;
@@ -259,8 +250,8 @@ FE_COMPILED_FOR void walk(question q, cast *c, int32_t tree_count)
 
 static int32_t is_same(fe_dvec3 a, fe_dvec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-double fe__tree_sweep(const fe__tree *const *trees, int32_t tree_count, const fe__tree_way *way, double limit, fe__tree_ray_visit visit,
-                      void *context)
+static double sweep(const fe__tree *const *trees, int32_t tree_count, const fe__tree_way *way, double limit, fe__tree_ray_visit visit,
+                    void *context)
 {
     cast c; // every field is set: zeroing it first would cost a tenth of a ray
     c.limit = limit, c.limit_up = fe__tree_round_up(limit), c.visit = visit, c.context = context;
@@ -278,7 +269,7 @@ double fe__tree_sweep(const fe__tree *const *trees, int32_t tree_count, const fe
     return c.limit;
 }
 
-double fe__tree_nearest(const fe__tree *tree, fe_dvec3 point, double limit, fe__tree_ray_visit visit, void *context)
+static double nearest(const fe__tree *tree, fe_dvec3 point, double limit, fe__tree_ray_visit visit, void *context)
 {
     if (tree->proxy_count == 0 || limit < 0.0) return limit;
     fe_dvec3 o = fe__dsub(point, tree->origin);
@@ -293,3 +284,5 @@ double fe__tree_nearest(const fe__tree *tree, fe_dvec3 point, double limit, fe__
     walk(NEAREST, &c, 1);
     return c.limit;
 }
+
+const fe__tree_kernels FE_NAME(fe__tree_kernels) = {sweep, nearest};
