@@ -105,7 +105,24 @@ static void add_hit(fe_world *w, int32_t pair)
 }
 
 // ---- looking, on any thread: pairs that have something to tell go to the list of results ----------------------------------------------
-enum { PAIRS_IN_BLOCK = 256 };
+enum { PAIRS_IN_BLOCK = 256, AHEAD = 16 }; // AHEAD: records come from memory while those before them are looked at
+
+// Only of these the contact must be seen: the others, most of a heap, have no points and owe no exit
+static int32_t may_tell(const fe__pair *p)
+{
+    return (p->flags & (FE__PAIR_LINKED | FE__PAIR_SENSOR | FE__PAIR_TOUCHING | FE__PAIR_CROSSED | FE__PAIR_ONCE)) != 0;
+}
+
+static void fetch_ahead(const fe_world *w, int32_t i, int32_t end)
+{
+    if (i + 2 * AHEAD < end) {
+        __builtin_prefetch(&w->pairs[w->awake_pairs[i + 2 * AHEAD]].flags);
+        __builtin_prefetch(&w->pairs[w->awake_pairs[i + 2 * AHEAD]].events);
+    }
+    if (i + AHEAD >= end || !may_tell(&w->pairs[w->awake_pairs[i + AHEAD]])) return;
+    __builtin_prefetch(w->contacts[w->awake_pairs[i + AHEAD]].separation);
+    __builtin_prefetch(w->contacts[w->awake_pairs[i + AHEAD]].total_impulse);
+}
 
 static void look_block(void *argument, int32_t first, int32_t end, int32_t worker)
 {
@@ -116,7 +133,8 @@ static void look_block(void *argument, int32_t first, int32_t end, int32_t worke
     for (int32_t i = first; i < end; ++i) {
         int32_t pair = w->awake_pairs[i];
         fe__pair *p = w->pairs + pair;
-        if (p->flags & FE__PAIR_PATCH) continue;
+        fetch_ahead(w, i, end);
+        if (p->flags & FE__PAIR_PATCH || !may_tell(p)) continue;
         int32_t now = touches(w, pair) || p->flags & FE__PAIR_CROSSED;
         p->flags &= ~(uint32_t)FE__PAIR_CROSSED;
         int32_t before = (p->flags & FE__PAIR_TOUCHING) != 0, tells = now != before;
