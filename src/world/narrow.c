@@ -17,21 +17,22 @@
 #define NEAR 16.0
 
 // B in A's frame. A plane has no centre that matters: its frame is put at B, so that a plane is as exact a thousand kilometres off.
-static fe__view view_of(const fe__shape *a, const fe__shape *b, const fe__pose *pose_a, const fe__pose *pose_b)
+static void set_view(fe__view *v, const fe__shape *a, const fe__shape *b, const fe__pose *pose_a, const fe__pose *pose_b)
 {
-    fe__view v = {.a = a, .b = b, .form_a = a->form, .origin = pose_a->position, .rotation = fe__matrix(pose_a->rotation)};
-    v.relative.rotation = fe__matrix(fe__product(fe__conjugate(pose_a->rotation), pose_b->rotation));
-    fe_dvec3 between = fe__dsub(pose_b->position, v.origin);
-    if (v.form_a.type == FE_GEOMETRY_PLANE) {
-        fe_dvec3 normal = fe__drotate(pose_a->rotation, fe__widen(v.form_a.normal));
-        v.form_a.distance = (float)((double)v.form_a.distance - fe__ddot(normal, between));
-        v.relative.position = fe__vec3(0.0f, 0.0f, 0.0f);
-        v.origin = pose_b->position;
+    v->a = a, v->b = b, v->form_a = a->form;
+    v->origin = pose_a->position;
+    v->rotation = fe__matrix(pose_a->rotation);
+    v->relative.rotation = fe__matrix(fe__product(fe__conjugate(pose_a->rotation), pose_b->rotation));
+    fe_dvec3 between = fe__dsub(pose_b->position, pose_a->position);
+    if (a->form.type == FE_GEOMETRY_PLANE) {
+        fe_dvec3 normal = fe__drotate(pose_a->rotation, fe__widen(a->form.normal));
+        v->form_a.distance = (float)((double)a->form.distance - fe__ddot(normal, between));
+        v->relative.position = fe__vec3(0.0f, 0.0f, 0.0f);
+        v->origin = pose_b->position;
     } else if (fe__ddot(between, between) < NEAR * NEAR)
-        v.relative.position = fe__mul_transposed(&v.rotation, fe__narrow(between));
+        v->relative.position = fe__mul_transposed(&v->rotation, fe__narrow(between));
     else
-        v.relative.position = fe__narrow(fe__drotate_back(pose_a->rotation, between));
-    return v;
+        v->relative.position = fe__narrow(fe__drotate_back(pose_a->rotation, between));
 }
 
 // ---- ahead of time --------------------------------------------------------------------------------------------------------------------
@@ -80,7 +81,7 @@ static void predict_there(const fe_world *world, const fe__contact *m, const fe_
         a_is_b ? fe__shape_pose_at(b, v->a, at->centre_b, at->rotation_b) : fe__shape_pose_at(a, v->a, at->centre_a, at->rotation_a);
     fe__pose pose_b =
         a_is_b ? fe__shape_pose_at(a, v->b, at->centre_a, at->rotation_a) : fe__shape_pose_at(b, v->b, at->centre_b, at->rotation_b);
-    out->v = view_of(v->a, v->b, &pose_a, &pose_b);
+    set_view(&out->v, v->a, v->b, &pose_a, &pose_b);
     out->found = (fe__manifold){.axis = -1};
     fe__collide(&out->v.form_a, &v->b->form, &out->v.relative, world->tuning.speculative_distance, &out->found);
     fe__mend_seam(world, &out->v, world->tuning.speculative_distance, &out->found);
@@ -158,8 +159,7 @@ static void note_poses(fe__contact *m, const fe__places *at, const fe__body *a, 
 }
 
 // points from A's frame to arms: from the centre of the solver's A, or of B when A is static (its centre may be far)
-static void set_points(fe__contact *m, const fe__view *v, const fe__places *at, const fe__manifold *found, const fe__body *a,
-                       const fe__body *b)
+static void set_points(fe__contact *m, const fe__view *v, const fe__places *at, const fe__manifold *found, const fe__body *a)
 {
     int32_t is_static = a->type == FE_BODY_STATIC;
     fe_vec3 base = fe__narrow(fe__dsub(v->origin, is_static ? at->centre_b : at->centre_a)), zero = {0.0f, 0.0f, 0.0f};
@@ -172,9 +172,16 @@ static void set_points(fe__contact *m, const fe__view *v, const fe__places *at, 
         m->point[i][3] = m->separation[i] = there ? found->points[i].separation : 0.0f;
         reach = fe__maxf(reach, fe__maxf(fe__dot(arm, arm), fe__dot(arm_b, arm_b)));
     }
-    // without points, whatever part of the bodies may come near
-    if (!found->count) reach = fe__maxf(a->local_centre[3] * a->local_centre[3], b->local_centre[3] * b->local_centre[3]);
     m->found_span[3] = sqrtf(reach);
+}
+
+static void set_no_points(fe__contact *m, const fe__body *a, const fe__body *b)
+{
+    for (int i = 0; i < FE__POINTS; ++i) {
+        m->normal[i] = m->separation[i] = 0.0f;
+        for (int k = 0; k < 4; ++k) m->point[i][k] = 0.0f;
+    }
+    m->found_span[3] = fe__maxf(a->local_centre[3], b->local_centre[3]); // whatever part of the bodies may come near
 }
 
 // Separations now of a manifold found ahead of time, along its normal: as in recycle.simd.c. Its arms stay those of the touch, and the
@@ -194,16 +201,10 @@ static void step_back(fe__contact *m, const fe__places *at, const fe__body *a, c
     for (int i = 0; i < (int)m->normal[3]; ++i) m->separation[i] = m->point[i][3] + constant + fe__dot(slope, fe__quad_vector(m->point[i]));
 }
 
-// A pair without points need not be looked at until it may have moved through its gap.
 float fe__recycle_tolerance(const fe__view *v)
 {
     if (v->a->form.radius > 0.0f || v->b->form.radius > 0.0f) return RECYCLE_ROUND;
     return fe__minf(RECYCLE_MOST, RECYCLE_SHARE * fe__minf(fe__form_thickness(&v->a->form), fe__form_thickness(&v->b->form)));
-}
-
-static float tolerance(const fe__view *v, const fe__manifold *found, float margin)
-{
-    return found->count ? fe__recycle_tolerance(v) : fe__maxf(found->axis_separation - margin, 0.0f);
 }
 
 static void forget_impulses(fe__contact *m)
@@ -225,10 +226,24 @@ void fe__write_manifold(const fe_world *world, fe__contact *m, const fe__view *v
                         int32_t ahead)
 {
     const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
-    write_contact(m, v, found, m->body_a != v->a->body);
     note_poses(m, at, a, b);
-    set_points(m, v, at, found, a, b);
+    if (!found->count) {
+        set_no_points(m, a, b);
+        return;
+    }
+    write_contact(m, v, found, m->body_a != v->a->body);
+    set_points(m, v, at, found, a);
     if (ahead) step_back(m, at, a, b);
+}
+
+// without points: not looked at again until the bodies may have moved by `gap`
+static void write_apart(fe__pair *p, fe__contact *m, const fe__places *at, const fe__body *a, const fe__body *b, float gap)
+{
+    forget_impulses(m);
+    p->axis = -1; // a kernel's memory begins with the first points, whenever the pair was made: unrelated bodies must not matter
+    m->surface[3] = fe__maxf(gap, 0.0f);
+    note_poses(m, at, a, b);
+    set_no_points(m, a, b);
 }
 
 static int32_t is_near(const fe__manifold *found, float distance)
@@ -246,7 +261,11 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
     const fe__shape *x = world->shapes + p->shape_a, *y = world->shapes + p->shape_b;
     float margin = world->tuning.speculative_distance, reach = fe__reach_in_step(world, a, b, dt);
     fe__places at = {fe__centre_of(a), fe__centre_of(b), fe__rotation_of(a), fe__rotation_of(b)};
-    fe__view v = p->flags & FE__PAIR_SWAPPED ? view_of(y, x, &y->pose, &x->pose) : view_of(x, y, &x->pose, &y->pose);
+    fe__view v;
+    if (p->flags & FE__PAIR_SWAPPED)
+        set_view(&v, y, x, &y->pose, &x->pose);
+    else
+        set_view(&v, x, y, &x->pose, &y->pose);
     fe__manifold found = {.axis = p->axis, .axis_separation = p->axis_separation, .count = (int32_t)m->normal[3]};
     fe__collide(&v.form_a, &v.b->form, &v.relative, fe__maxf(margin, reach), &found);
     fe__mend_seam(world, &v, fe__maxf(margin, reach), &found);
@@ -257,11 +276,11 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
     int32_t fast = reach > fe__minf(fe__form_thickness(&x->form), fe__form_thickness(&y->form)) && a->type != FE_BODY_DYNAMIC;
     if (ahead) ahead = (fast ? look_far_ahead : look_ahead)(world, m, dt, &v, &at, &found);
     if (!ahead && !near) found.count = 0;
-    match_impulses(p, m, &found);
     if (!found.count) {
-        forget_impulses(m);
-        p->axis = -1; // a kernel's memory begins with the first points, whenever the pair was made: unrelated bodies must not matter
+        write_apart(p, m, &at, a, b, found.axis_separation - margin);
+        return;
     }
-    m->surface[3] = ahead ? FE__AHEAD : tolerance(&v, &found, margin);
+    match_impulses(p, m, &found);
+    m->surface[3] = ahead ? FE__AHEAD : fe__recycle_tolerance(&v);
     fe__write_manifold(world, m, &v, &at, &found, ahead);
 }
