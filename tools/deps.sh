@@ -32,6 +32,7 @@ missing_for_python() {
 # The SDK of .NET is no package of Debian's: bindings/csharp/test says where it is missing.
 missing_for_csharp() {
     has swig || echo swig
+    has python3 || echo python3
     has mono || echo mono-runtime
     has mcs || echo mono-mcs
     test -e /usr/lib/mono/4.5/System.Numerics.dll || echo libmono-system-numerics4.0-cil
@@ -76,6 +77,7 @@ missing() {
         missing_for_lua
         return
     fi
+    has make || echo make
     has gcc && links gcc "$work/empty.c" || echo gcc libc6-dev
     has clang && links clang "$work/empty.c" || echo clang
     links "$CXX" "$work/empty.cpp" || echo g++
@@ -104,18 +106,26 @@ missing() {
 as_root() {
     if test "$(id -u)" = 0; then "$@"; else sudo -n "$@"; fi
 }
+# A mirror may fail once, and another apt may hold the lock.
+apt() { as_root env DEBIAN_FRONTEND=noninteractive apt-get -o Acquire::Retries=3 -o DPkg::Lock::Timeout=300 "$@" >> "$work/log" 2>&1; }
 install_packages() {
     has apt-get && { test "$(id -u)" = 0 || sudo -n true 2> /dev/null; } || return 1
-    as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@" > "$work/log" 2>&1 && return
-    as_root apt-get update >> "$work/log" 2>&1
-    as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@" >> "$work/log" 2>&1 || { tail -5 "$work/log"; return 1; }
+    apt install -y --no-install-recommends "$@" && return
+    apt update
+    apt install -y --no-install-recommends "$@" && return
+    tail -5 "$work/log"
+    local package # one by one: a name that this release does not have keeps no other away
+    for package; do apt install -y --no-install-recommends "$package" || true; done
 }
 
-packages=$(missing | sort -u | xargs)
-if test -z "$packages"; then exit 0; fi
-echo "installing: $packages"
-# shellcheck disable=SC2086
-install_packages $packages
+# In rounds: which runtime a compiler needs is known once it is there.
+for _ in 1 2 3; do
+    packages=$(missing | sort -u | xargs)
+    if test -z "$packages"; then exit 0; fi
+    echo "installing: $packages"
+    # shellcheck disable=SC2086
+    install_packages $packages || break
+done
 packages=$(missing | sort -u | xargs)
 if test -z "$packages"; then exit 0; fi
 echo "*** MISSING, please install (names of Debian packages): $packages"
