@@ -201,9 +201,42 @@ static void touch_faces(const box_pair *q, int32_t axis, float margin, fe__manif
 }
 
 // ---- an edge against an edge --------------------------------------------------------------------------------------------------------
+// The face of either box whose normal n is, but for 5 degrees; -1: none.
+static int32_t face_along(const box_pair *q, fe_vec3 n)
+{
+    float most = FE_FACE_COS, of_a[3] = {n.x, n.y, n.z};
+    int32_t face = -1;
+    for (int32_t k = 0; k < 3; ++k) {
+        if (fe__absf(of_a[k]) > most) most = fe__absf(of_a[k]), face = FACE_A + k;
+    }
+    for (int32_t k = 0; k < 3; ++k) {
+        float of_b = fe__absf(fe__dot(n, unpack(q->column[k])));
+        if (of_b > most) most = of_b, face = FACE_B + k;
+    }
+    return face;
+}
+
+// An edge that lies across a face crosses two of its rims. Which of the two is deeper changes with the least turn, and one point that jumps
+// from rim to rim swings the boxes for ever; so both rims get their points, if the face says as deep an overlap as the edges do.
+static int32_t lay_on_face(const box_pair *q, fe_vec3 n, float separation, float margin, fe__manifold *manifold)
+{
+    int32_t face = face_along(q, n);
+    if (face < 0) return 0;
+    touch_faces(q, face, margin, manifold);
+    float deepest = FLT_MAX;
+    for (int32_t i = 0; i < manifold->count; ++i) deepest = fe__minf(deepest, manifold->points[i].separation);
+    if (deepest <= separation + q->tie && fe__dot(manifold->normal, n) > 0.0f) {
+        manifold->axis = face;
+        manifold->axis_separation = separation_along(q, face);
+        return 1;
+    }
+    manifold->count = 0;
+    return 0;
+}
+
 // The support edges along n: pa + s A_i and pb + r B_j, and their nearest points. Lines that meet outside their edges while the boxes are
 // apart say nothing: something else of the boxes is nearest.
-static void touch_edges(const box_pair *q, int32_t axis, float separation, fe__manifold *manifold)
+static void touch_edges(const box_pair *q, int32_t axis, float separation, float margin, fe__manifold *manifold)
 {
     int32_t i = (axis - EDGE) / 3, j = (axis - EDGE) % 3, u = next[i + 1], v = next[i + 2], k = next[j + 1], l = next[j + 2];
     float nu = -q->row[v][j], nv = q->row[u][j], square = nu * nu + nv * nv, inverse = 1.0f / sqrtf(square);
@@ -226,6 +259,7 @@ static void touch_edges(const box_pair *q, int32_t axis, float separation, fe__m
     d = fe__sub(on_b, on_a);
     float most = separation + q->tie;
     if (separation > 0.0f && fe__dot(d, d) > most * most) return;
+    if (lay_on_face(q, normal, separation, margin, manifold)) return;
     manifold->normal = normal;
     uint32_t signs = (uint32_t)(nu > 0.0f) | (uint32_t)(nv > 0.0f) << 1 | (uint32_t)(nk > 0.0f) << 2 | (uint32_t)(nl > 0.0f) << 3;
     fe__add_point(manifold, fe__scale(0.5f, fe__add(on_a, on_b)), separation, (uint32_t)axis << 16 | signs);
@@ -260,7 +294,7 @@ void fe__collide_box_box(const fe__form *a, const fe__form *b, const fe__relativ
     if (axis < EDGE)
         touch_faces(&q, axis, margin, manifold);
     else
-        touch_edges(&q, axis, separation, manifold);
+        touch_edges(&q, axis, separation, margin, manifold);
     // no axis separates them by more than the margin, yet neither faces nor edges meet: a corner near a rim
     if (manifold->count == 0) fe__collide_convex(a, b, b_in_a, margin, manifold);
 }
