@@ -225,7 +225,7 @@ static int32_t lay_on_face(const box_pair *q, fe_vec3 n, float separation, float
     touch_faces(q, face, margin, manifold);
     float deepest = FLT_MAX;
     for (int32_t i = 0; i < manifold->count; ++i) deepest = fe__minf(deepest, manifold->points[i].separation);
-    if (deepest <= separation + q->tie && fe__dot(manifold->normal, n) > 0.0f) {
+    if (fe__absf(deepest - separation) <= q->tie && fe__dot(manifold->normal, n) > 0.0f) {
         manifold->axis = face;
         manifold->axis_separation = separation_along(q, face);
         return 1;

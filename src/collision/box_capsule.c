@@ -73,18 +73,19 @@ static int32_t lay_on_face(const core *q, int32_t k, float side, float separatio
 }
 
 // The nearest point lies on the edge along axis k, at the signs of d across it: on that edge or beyond it by no more than a rounding.
-static int32_t lay_on_edge(const core *q, int32_t k, const float d[3], fe_vec3 n, float separation, float margin, fe__manifold *manifold)
+static int32_t lay_on_edge(const core *q, int32_t k, const float d[3], fe_vec3 n, fe_vec3 nearest, float separation, float margin,
+                           fe__manifold *manifold)
 {
     float centre[3], half[3] = {0.0f, 0.0f, 0.0f};
     for (int32_t i = 0; i < 3; ++i) centre[i] = i == k ? 0.0f : d[i] > 0.0f ? q->half[i] : -q->half[i];
     half[k] = q->half[k];
     fe__segment edge = {{centre[0], centre[1], centre[2]}, {half[0], half[1], half[2]}, 0.0f};
     fe__segment core = {{q->centre[0], q->centre[1], q->centre[2]}, {q->reach[0], q->reach[1], q->reach[2]}, q->radius};
-    return fe__lay_segments(&edge, &core, n, separation, margin, manifold);
+    return fe__lay_segments(&edge, &core, n, nearest, separation, margin, manifold);
 }
 
-// The ids: 0..11 on faces (axis, side, end); 17, 18 along an edge, from fe__lay_segments; 32 a single point.
-enum { SINGLE_ID = 32, EDGE_ID = 16 };
+// The ids: 0..11 on faces (axis, side, end); 16 the nearest point, 17, 18 ends along an edge, from fe__lay_segments.
+enum { NEAREST_ID = 16 };
 
 static void touch_outside(const core *q, float t, const float d[3], float distance, float margin, fe__manifold *manifold)
 {
@@ -97,14 +98,15 @@ static void touch_outside(const core *q, float t, const float d[3], float distan
     if (fe__absf(d[most]) > FE_FACE_COS * distance && lay_on_face(q, most, d[most] > 0.0f ? 1.0f : -1.0f, separation, margin, manifold))
         return;
     fe_vec3 n = fe__direction(fe__vec3(d[0], d[1], d[2]), distance);
+    fe_vec3 p = {q->centre[0] + t * q->reach[0], q->centre[1] + t * q->reach[1], q->centre[2] + t * q->reach[2]};
+    p = fe__add_scaled(p, -(q->radius + 0.5f * separation), n);
     const float beyond_edge = 0.01f; // of the distance: where the core leaves the edge's end, rounding may call it beyond
-    if (fe__absf(d[least]) < beyond_edge * distance && lay_on_edge(q, least, d, n, separation, margin, manifold)) {
-        for (int32_t i = 0; i < manifold->count; ++i) manifold->points[i].id += EDGE_ID;
+    if (fe__absf(d[least]) < beyond_edge * distance && lay_on_edge(q, least, d, n, p, separation, margin, manifold)) {
+        for (int32_t i = 0; i < manifold->count; ++i) manifold->points[i].id += NEAREST_ID;
         return;
     }
-    fe_vec3 p = {q->centre[0] + t * q->reach[0], q->centre[1] + t * q->reach[1], q->centre[2] + t * q->reach[2]};
     manifold->normal = n;
-    fe__add_point(manifold, fe__add_scaled(p, -(q->radius + 0.5f * separation), n), separation, SINGLE_ID);
+    fe__add_point(manifold, p, separation, NEAREST_ID);
 }
 
 void fe__collide_box_capsule(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold)

@@ -61,10 +61,13 @@ void fe__collide_capsule_capsule(const fe__form *a, const fe__form *b, const fe_
     fe_vec3 n = distance > clear * radii ? fe__direction(d, distance) : crossing_normal(c, e);
     fe__segment core_a = {{0.0f, 0.0f, 0.0f}, {0.0f, a->half_height, 0.0f}, a->radius};
     fe__segment core_b = {c, fe__scale(b->half_height, e), b->radius};
-    if (fe__lay_segments(&core_a, &core_b, n, separation, margin, manifold) > 0) return;
+    fe_vec3 nearest = fe__add_scaled(on_a, a->radius + 0.5f * separation, n);
+    if (fe__lay_segments(&core_a, &core_b, n, nearest, separation, margin, manifold) > 0) return;
     manifold->normal = n;
-    fe__add_point(manifold, fe__add_scaled(on_a, a->radius + 0.5f * separation, n), separation, 0);
+    fe__add_point(manifold, nearest, separation, 0);
 }
+
+#define SHORT_STRETCH 0.01f // of the radii: two points nearer than that hold no better than one
 
 // The part t0..t1 of b = centre + t half, |t| <= 1, that lies between the two planes through the ends of a; 0 when there is none worth two
 // points.
@@ -77,31 +80,77 @@ static int32_t common_stretch(const fe__segment *a, const fe__segment *b, float 
     float p = (-aa - start) * inverse, q = (aa - start) * inverse;
     *t0 = fe__maxf(fe__minf(p, q), -1.0f);
     *t1 = fe__minf(fe__maxf(p, q), 1.0f);
-    const float short_stretch = 0.01f; // of the radii: two points nearer than that hold no better than one
     float radii = a->radius + b->radius, length = *t1 - *t0;
-    return length > 0.0f && length * length * bb > short_stretch * short_stretch * radii * radii;
+    return length > 0.0f && length * length * bb > SHORT_STRETCH * SHORT_STRETCH * radii * radii;
+}
+
+// manifold->axis: three points share a load otherwise than two, so what was askew stays so down to half a tie
+enum { ASKEW = 1 };
+
+// A place along the stretch: on_a + d on b's line, on_a on a's, |d| their distance there
+typedef struct place {
+    fe_vec3 on_a, d;
+    float distance;
+} place;
+
+static place place_at(const fe__segment *a, const fe__segment *b, float t)
+{
+    fe_vec3 on_b = fe__add_scaled(b->centre, t, b->half), offset = fe__sub(on_b, a->centre);
+    float along_a = fe__dot(a->half, offset) / fe__dot(a->half, a->half);
+    fe_vec3 on_a = fe__add_scaled(a->centre, along_a, a->half), d = fe__sub(on_b, on_a);
+    return (place){on_a, d, fe__length(d)};
+}
+
+// on_a and on_b, each a radius out along the normal: midway
+static fe_vec3 between_surfaces(const fe__segment *a, const fe__segment *b, const place *at, fe_vec3 normal)
+{
+    return fe__add_scaled(fe__add_scaled(at->on_a, 0.5f, at->d), 0.5f * (a->radius - b->radius), normal);
+}
+
+// Segments askew: their nearest points run along them with the least turn, and a contact there alone swings for ever. So the ends of the
+// stretch hold them, at their true clearance, |d| less the radii, or where d has turned from the normal by 10 degrees; the nearest points
+// are the third.
+static int32_t lay_askew(const fe__segment *a, const fe__segment *b, const float t[2], fe_vec3 nearest, fe_vec3 normal, float separation,
+                         float margin, fe__manifold *manifold)
+{
+    const float aside = 0.176f, another_way = 0.98f; // tan 10 degrees; cos 11.5: round an end of a core
+    float radii = a->radius + b->radius, slope = fe__dot(a->half, b->half) / fe__dot(a->half, a->half), bb = fe__dot(b->half, b->half);
+    fe_vec3 drift = fe__sub(b->half, fe__scale(slope, a->half));
+    // sin^2 > 1/4: more than 30 degrees apart the nearest points hardly run
+    if (4.0f * fe__dot(drift, drift) > bb) return 0;
+    float middle = fe__clampf(fe__dot(b->half, fe__sub(nearest, b->centre)) / bb, t[0], t[1]);
+    float reach = aside * (separation + radii) / fe__length(drift);
+    float part[2] = {fe__maxf(t[0], middle - reach), fe__minf(t[1], middle + reach)};
+    for (int32_t i = 0; i < 2; ++i) {
+        place end = place_at(a, b, part[i]);
+        float clearance = end.distance - radii;
+        if (fe__dot(normal, end.d) < another_way * end.distance || clearance > margin) continue;
+        fe__add_point(manifold, between_surfaces(a, b, &end, normal), clearance, 1u + (uint32_t)i);
+    }
+    if (manifold->count == 0) return 0;
+    manifold->normal = normal;
+    fe__add_point(manifold, nearest, separation, 0);
+    return manifold->count;
 }
 
 // At each end of the stretch b is d away from a's line. Its separation along the normal, n . d less the radii, is short of the true one,
-// |d| less the radii, where b has drifted aside: beyond a tie the segments do not run side by side, and one point says it better.
-int32_t fe__lay_segments(const fe__segment *a, const fe__segment *b, fe_vec3 normal, float separation, float margin, fe__manifold *manifold)
+// |d| less the radii, where b has drifted aside: beyond a tie the segments are askew.
+int32_t fe__lay_segments(const fe__segment *a, const fe__segment *b, fe_vec3 normal, fe_vec3 nearest, float separation, float margin,
+                         fe__manifold *manifold)
 {
-    float t[2], aa = fe__dot(a->half, a->half), radii = a->radius + b->radius, tie = fe__tie(0.5f * radii);
+    float t[2], radii = a->radius + b->radius, tie = fe__tie(0.5f * radii);
     if (!common_stretch(a, b, &t[0], &t[1])) return 0;
-    float end[2];
-    fe_vec3 point[2];
-    for (int32_t i = 0; i < 2; ++i) {
-        fe_vec3 on_b = fe__add_scaled(b->centre, t[i], b->half), offset = fe__sub(on_b, a->centre);
-        fe_vec3 on_a = fe__add_scaled(a->centre, fe__dot(a->half, offset) / aa, a->half), d = fe__sub(on_b, on_a);
-        float along = fe__dot(normal, d);
-        if (fe__length(d) - along > tie) return 0;
-        end[i] = along - radii;
-        point[i] = fe__scale(0.5f, fe__add(fe__add_scaled(on_a, a->radius, normal), fe__add_scaled(on_b, -b->radius, normal)));
-    }
-    if (fe__minf(end[0], end[1]) > fe__minf(separation + tie, margin)) return 0;
+    place end[2] = {place_at(a, b, t[0]), place_at(a, b, t[1])};
+    float along[2] = {fe__dot(normal, end[0].d), fe__dot(normal, end[1].d)};
+    float drift = fe__maxf(end[0].distance - along[0], end[1].distance - along[1]);
+    int32_t askew = drift > (manifold->axis == ASKEW ? 0.5f * tie : tie);
+    manifold->axis = askew ? ASKEW : -1;
+    if (askew) return lay_askew(a, b, t, nearest, normal, separation, margin, manifold);
+    if (fe__minf(along[0], along[1]) - radii > fe__minf(separation + tie, margin)) return 0;
     manifold->normal = normal;
     for (int32_t i = 0; i < 2; ++i) {
-        if (end[i] <= margin) fe__add_point(manifold, point[i], end[i], 1u + (uint32_t)i);
+        if (along[i] - radii <= margin)
+            fe__add_point(manifold, between_surfaces(a, b, &end[i], normal), along[i] - radii, 1u + (uint32_t)i);
     }
     return manifold->count;
 }

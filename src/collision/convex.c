@@ -119,6 +119,13 @@ static int32_t clip_faces(const fe__face *reference, const fe__face *incident, f
     return near;
 }
 
+// midway between the surfaces
+static fe_vec3 middle_of(const nearest *found, const fe__form *a, const fe__form *b)
+{
+    return fe__scale(0.5f, fe__add(fe__add_scaled(found->on_a, a->radius, found->normal),
+                                   fe__add_scaled(found->on_b, -b->radius, found->normal)));
+}
+
 static int32_t touch_along_features(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, const nearest *found, float margin,
                                     fe__manifold *manifold)
 {
@@ -141,7 +148,7 @@ static int32_t touch_along_features(const fe__form *a, const fe__form *b, const 
         segments[i].half = fe__scale(0.5f, fe__sub(faces[i]->vertex[1], faces[i]->vertex[0]));
         segments[i].radius = i == 0 ? a->radius : b->radius;
     }
-    return fe__lay_segments(&segments[0], &segments[1], found->normal, found->separation, margin, manifold);
+    return fe__lay_segments(&segments[0], &segments[1], found->normal, middle_of(found, a, b), found->separation, margin, manifold);
 }
 
 // A half space has no support point against itself, but the other's is all it takes: B's deepest point and the face around it.
@@ -182,9 +189,7 @@ void fe__collide_convex(const fe__form *a, const fe__form *b, const fe__relative
     nearest found;
     if (!find_nearest(&cores, margin, &found)) return;
     if (touch_along_features(a, b, b_in_a, &found, margin, manifold) > 0) return;
-    fe_vec3 surface_a = fe__add_scaled(found.on_a, a->radius, found.normal),
-            surface_b = fe__add_scaled(found.on_b, -b->radius, found.normal);
     enum { SINGLE_ID = 0xffff };
     manifold->normal = found.normal;
-    fe__add_point(manifold, fe__scale(0.5f, fe__add(surface_a, surface_b)), found.separation, SINGLE_ID);
+    fe__add_point(manifold, middle_of(&found, a, b), found.separation, SINGLE_ID);
 }

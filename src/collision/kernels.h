@@ -46,10 +46,10 @@ typedef struct fe__segment {
     float radius;
 } fe__segment;
 
-// Two segments whose nearest points are `separation` apart along `normal` (from a to b): gives the two ends of the stretch along which they
-// run side by side, if that says the same as the nearest points do, else nothing. Returns the number of points added; the normal is set
-// with them.
-int32_t fe__lay_segments(const fe__segment *a, const fe__segment *b, fe_vec3 normal, float separation, float margin,
+// Two segments whose nearest points are `separation` apart along `normal` (from a to b), `nearest` midway between the surfaces there: gives
+// the two ends of the stretch along which they run side by side, if that says the same as the nearest points do; a few degrees askew these
+// and the nearest point; else nothing. Returns the number of points added, with ids 1, 2 and 0; the normal is set with them.
+int32_t fe__lay_segments(const fe__segment *a, const fe__segment *b, fe_vec3 normal, fe_vec3 nearest, float separation, float margin,
                          fe__manifold *manifold);
 
 #endif
