@@ -208,6 +208,31 @@ static int32_t farthest(const fe__clip_vertex *p, int32_t count, int32_t from, f
     return k;
 }
 
+static int32_t is_among(const fe__clip_vertex *p, int32_t i, const int32_t *chosen, int32_t count, float tie)
+{
+    for (int32_t k = 0; k < count; ++k) {
+        if (apart(&p[i], &p[chosen[k]]) <= tie) return 1;
+    }
+    return 0;
+}
+
+// What spans most may lie clear of the face and carry nothing: it gives way to a vertex below. Else of two that carry, side by side, now
+// one is chosen and now the other, and the load swings between them.
+static void keep_what_carries(const fe__clip_vertex *p, int32_t count, float tie, int32_t *chosen, int32_t chosen_count)
+{
+    const float clear = 0.001f; // m, a few overlaps of a body at rest
+    float level = fe__maxf(p[chosen[0]].height + tie, 0.0f);
+    for (int32_t i = 0; i < count; ++i) {
+        if (p[i].height > level || is_among(p, i, chosen, chosen_count, tie)) continue;
+        int32_t highest = 0;
+        for (int32_t k = 1; k < chosen_count; ++k) {
+            if (p[chosen[k]].height > p[chosen[highest]].height) highest = k;
+        }
+        if (p[chosen[highest]].height <= level + clear) return;
+        chosen[highest] = i;
+    }
+}
+
 int32_t fe__reduce_to_four(fe__clip_vertex *p, int32_t count, float tie)
 {
     if (count <= 4) return count;
@@ -218,11 +243,13 @@ int32_t fe__reduce_to_four(fe__clip_vertex *p, int32_t count, float tie)
         if (area > most) most = area + step, left = i;
         if (area < least) least = area - step, right = i;
     }
-    fe__clip_vertex four[4] = {p[first]};
-    int32_t chosen = 1;
-    if (second != first) four[chosen++] = p[second];
-    if (left != first) four[chosen++] = p[left];
-    if (right != first) four[chosen++] = p[right];
-    memcpy(p, four, sizeof(fe__clip_vertex) * (size_t)chosen);
+    int32_t four[4] = {first}, chosen = 1;
+    if (second != first) four[chosen++] = second;
+    if (left != first) four[chosen++] = left;
+    if (right != first) four[chosen++] = right;
+    keep_what_carries(p, count, tie, four, chosen);
+    fe__clip_vertex kept[4];
+    for (int32_t i = 0; i < chosen; ++i) kept[i] = p[four[i]];
+    memcpy(p, kept, sizeof(fe__clip_vertex) * (size_t)chosen);
     return chosen;
 }

@@ -35,8 +35,8 @@ int32_t fe__clip_rectangle(const fe__parallelogram *incident, float half_u, floa
 // (Sutherland and Hodgman, 1974). `incident` must hold FE_CLIP_VERTICES and is overwritten. Returns the count left.
 int32_t fe__clip_polygon(const fe__clip_vertex *reference, int32_t reference_count, fe__clip_vertex *incident, int32_t count, float slack);
 
-// Leaves at most four: the deepest, the farthest from it, and those that span most area on either side. Of vertices that are equal within
-// `tie` (m) the first, so that rounding errors do not choose.
+// Leaves at most four: the deepest, the farthest from it, and those that span most area on either side; of these, what is clear of the
+// face gives way to what lies below. Of vertices that are equal within `tie` (m) the first, so that rounding errors do not choose.
 int32_t fe__reduce_to_four(fe__clip_vertex *vertices, int32_t count, float tie);
 
 #endif
