@@ -26,7 +26,6 @@ static const struct known {
     {"card-house", 4, "largest way of a card, m", "cards of 2 mm; " FEW_SUBSTEPS},
     {"card-house", 4, "largest tilt, rad", "cards of 2 mm; " FEW_SUBSTEPS},
     {"inclined-plane", 4, "friction 0.8: way / a t2/2", FEW_SUBSTEPS},
-    {"needle-drop", 0, "boxes faster than 5 cm/s after 5 s", "in one heap or two an edge between other edges goes on to tremble"},
     {"washer", 0, "deepest overlap, m",
      "cubes that fall through the drum onto others are pushed out by 3 m/s at most; not understood to the end"},
     {"door", 4, "largest joint gap, m", "its hinges ask for 120 Hz, of which four substeps allow 60"},

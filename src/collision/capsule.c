@@ -1,4 +1,4 @@
-// capsule.c - capsule against sphere and capsule: the nearest points of the cores, and two points where capsules run side by side.
+// capsule.c - capsule against sphere and capsule: the nearest points of the cores, and the ends of the stretch where capsules run side by side.
 //
 // Kernels of collide.c's table; A is a capsule, its core the segment |y| <= half height. Source of the nearest points: Ericson, Real-Time
 // Collision Detection, 5.1.9, simplified because one segment lies on an axis.

@@ -87,13 +87,15 @@ static void both_cuts_leave_the_same_area(void **state)
     FE_TRUE(meeting > CASES / 4);
 }
 
-// The deepest point stays, within the tie, and so does at least half of the area (of a regular octagon four corners keep 0.71).
+// Where all carry: the deepest point stays, within the tie, and so does at least half of the area (of a regular octagon four corners keep
+// 0.71).
 static void four_points_keep_the_deepest_and_most_of_the_area(void **state)
 {
     (void)state;
     const float tie = 1e-4f;
     for (int32_t i = 0; i < CASES; ++i) {
         faces f = random_faces();
+        f.incident.centre.z -= 2.0f;
         fe__clip_vertex all[12], four[12];
         int32_t n = fe__clip_rectangle(&f.incident, f.half_u, f.half_v, SLACK, 1e30f, all);
         if (n < 4) continue;
@@ -105,6 +107,21 @@ static void four_points_keep_the_deepest_and_most_of_the_area(void **state)
         for (int32_t k = 0; k < m; ++k) kept = fe__minf(kept, four[k].height);
         FE_WITHIN(kept, low, low + tie);
         FE_WITHIN(area_of(four, m), 0.5 * area_of(all, n) - 12.0 * (double)tie, INFINITY);
+    }
+}
+
+// Two vertices below the face side by side and four far off, clear of it: both are kept, whichever of them is deeper by a little.
+static void what_carries_is_kept(void **state)
+{
+    (void)state;
+    for (int32_t i = 0; i < 100; ++i) {
+        float first = (float)uniform(-0.002, -0.0005), second = (float)uniform(-0.002, -0.0005);
+        fe__clip_vertex p[6] = {{-0.2f, -0.1f, first, 1},  {-0.2f, 0.1f, 0.005f, 2}, {-0.17f, -0.12f, second, 3},
+                                {0.2f, -0.15f, 0.004f, 4}, {0.2f, 0.1f, 0.008f, 5},  {0.0f, 0.2f, 0.006f, 6}};
+        int32_t count = fe__reduce_to_four(p, 6, 5e-5f), carry = 0;
+        FE_TRUE(count == 4);
+        for (int32_t k = 0; k < count; ++k) carry += p[k].height < 0.0f;
+        FE_TRUE(carry == 2);
     }
 }
 
@@ -131,6 +148,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_cuts_leave_the_same_area),
         cmocka_unit_test(four_points_keep_the_deepest_and_most_of_the_area),
+        cmocka_unit_test(what_carries_is_kept),
         cmocka_unit_test(lines_and_points_are_cut_too),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -187,6 +187,44 @@ static void crossed_capsules_touch_at_one_point(void **state)
     }
 }
 
+// A few degrees apart: the nearest points, and the ends of the common stretch at their own clearance, |d| less the radii.
+static void capsules_askew_are_held_at_three_points(void **state)
+{
+    (void)state;
+    const fe__form a = capsule(0.3f, 0.3f);
+    for (int32_t i = 0; i < 100; ++i) {
+        double angle = uniform(0.09, 0.2), aside = 0.3 * sin(angle); // 5 to 11 degrees
+        fe__relative r = relative(fe__vec3(0.0f, 0.0f, 0.59f), turn_about((fe_dvec3){0.0, 0.0, 1.0}, angle));
+        fe__manifold m = collide(&a, &a, &r, MARGIN);
+        FE_TRUE(m.count == 3);
+        for (int32_t k = 0; k < 3; ++k) {
+            double at_end = sqrt(0.59 * 0.59 + aside * aside) - 0.6, middle = m.points[k].id == 0 ? 1.0 : 0.0;
+            FE_NEAR(m.points[k].separation, middle > 0.0 ? -0.01 : at_end, 1e-5);
+            FE_NEAR(fe__absf(m.points[k].point.y), middle > 0.0 ? 0.0 : 0.3 * cos(angle), 1e-4);
+        }
+    }
+}
+
+// A bar on its edge across a bar of 8 cm, 5 cm deep: its tip hangs lower beyond the rim, yet it is the two rims that carry it.
+static void an_edge_across_a_face_has_points_at_both_rims(void **state)
+{
+    (void)state;
+    const fe__form a = box(0.04f, 0.1f, 0.2f), b = box(0.2f, 0.04f, 0.04f);
+    for (int32_t i = 0; i < 100; ++i) {
+        double angle = uniform(-0.06, 0.06), deep = uniform(0.0, 0.05); // 3.5 degrees
+        fe_quat q = fe__normalized(
+            fe__product(turn_about((fe_dvec3){0.0, 0.0, 1.0}, angle), turn_about((fe_dvec3){1.0, 0.0, 0.0}, 0.78539816339744831)));
+        fe__relative r = relative(fe__vec3(0.0f, (float)(0.1 + 0.04 * sqrt(2.0) / cos(angle) - deep), 0.0f), q);
+        fe__manifold m = collide(&a, &b, &r, MARGIN);
+        double least = 1.0, most = -1.0;
+        for (int32_t k = 0; k < m.count; ++k) {
+            least = fe__mind(least, (double)m.points[k].point.x), most = fe__maxd(most, (double)m.points[k].point.x);
+        }
+        FE_NEAR(least, -0.04, 1e-3);
+        FE_NEAR(most, 0.04, 1e-3);
+    }
+}
+
 // On a face, over its rim, along an edge: two points where the box carries the capsule.
 static void a_capsule_lies_on_faces_and_edges(void **state)
 {
@@ -376,6 +414,8 @@ int main(void)
         cmocka_unit_test(forms_lying_on_a_plane_have_all_their_points),
         cmocka_unit_test(parallel_capsules_touch_along_their_common_stretch),
         cmocka_unit_test(crossed_capsules_touch_at_one_point),
+        cmocka_unit_test(capsules_askew_are_held_at_three_points),
+        cmocka_unit_test(an_edge_across_a_face_has_points_at_both_rims),
         cmocka_unit_test(a_capsule_lies_on_faces_and_edges),
         cmocka_unit_test(forms_in_one_place_have_a_way_out),
         cmocka_unit_test(boxes_of_a_millimetre_are_as_exact_for_their_size),
