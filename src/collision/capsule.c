@@ -1,4 +1,4 @@
-// capsule.c - capsule against sphere and capsule: the nearest points of the cores, and the ends of the stretch where capsules run side by side.
+// capsule.c - capsule against sphere and capsule: the nearest points of the cores, and the ends of the stretch where they run side by side.
 //
 // Kernels of collide.c's table; A is a capsule, its core the segment |y| <= half height. Source of the nearest points: Ericson, Real-Time
 // Collision Detection, 5.1.9, simplified because one segment lies on an axis.
@@ -124,8 +124,8 @@ static int32_t lay_askew(const fe__segment *a, const fe__segment *b, const float
     for (int32_t i = 0; i < 2; ++i) {
         place end = place_at(a, b, part[i]);
         float clearance = end.distance - radii;
-        if (fe__dot(normal, end.d) < another_way * end.distance || clearance > margin) continue;
-        fe__add_point(manifold, between_surfaces(a, b, &end, normal), clearance, 1u + (uint32_t)i);
+        if (fe__dot(normal, end.d) >= another_way * end.distance && clearance <= margin)
+            fe__add_point(manifold, between_surfaces(a, b, &end, normal), clearance, 1u + (uint32_t)i);
     }
     if (manifold->count == 0) return 0;
     manifold->normal = normal;
