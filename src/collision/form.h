@@ -73,6 +73,11 @@ typedef struct fe__ray_hit {
     int32_t inside;
     int32_t triangle; // of a heightfield, else -1
 } fe__ray_hit;
-int32_t fe__form_ray(const fe__form *form, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__ray_hit *hit); // 1: hit
+int32_t fe__form_ray_at(const fe__form *form, const fe_dvec3 *origin, const fe_dvec3 *translation, double limit,
+                        fe__ray_hit *hit); // 1: hit
+static inline int32_t fe__form_ray(const fe__form *form, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__ray_hit *hit)
+{
+    return fe__form_ray_at(form, &origin, &translation, limit, hit);
+}
 
 #endif

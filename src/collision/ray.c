@@ -204,10 +204,10 @@ static int32_t ray_triangle(const fe__form *form, const ray *r, fe__ray_hit *hit
     return meet(r, s, fe__dscale(1.0 / length(n), n), hit);
 }
 
-int32_t fe__form_ray(const fe__form *form, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__ray_hit *hit)
+int32_t fe__form_ray_at(const fe__form *form, const fe_dvec3 *origin, const fe_dvec3 *translation, double limit, fe__ray_hit *hit)
 {
-    double scale = scale_for(largest(translation));
-    ray r = {origin, fe__dscale(scale, translation), scale, limit};
+    double scale = scale_for(largest(*translation));
+    ray r = {{origin->x, origin->y, origin->z}, fe__dscale(scale, *translation), scale, limit}; // each number alone: see report
     switch (form->type) {
     case FE_GEOMETRY_SPHERE:
         return ray_sphere(form, &r, hit);

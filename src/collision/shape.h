@@ -11,18 +11,19 @@ enum {
     FE__SHAPE_MOVED = 16     // in the list of proxies whose box is new: looks for pairs in the next step
 };
 
+// First what a query reads: two cache lines.
 typedef struct fe__shape {
+    uint32_t layer, mask;
+    uint32_t flags; // FE__SHAPE_*
+    int32_t body;
     fe__pose pose; // in the world, follows the body
     fe__form form;
     fe_vec3 local_position; // m, body's frame
     fe_quat local_rotation;
     fe_material material;
-    uint32_t layer, mask;
     uint32_t events; // fe_shape_events
-    uint32_t flags;  // FE__SHAPE_*
     float density;
     fe_vec3 surface_velocity;
-    int32_t body;
     int32_t next, previous; // of the body's shapes, in the order of creation
     uint64_t serial;        // of creation, never reused
     uint64_t body_serial;   // of its body

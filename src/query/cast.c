@@ -60,7 +60,7 @@ static inline int32_t meet_ray(const fe__scene *scene, const fe__probe *probe, c
     }
     if (shape->form.type == FE_GEOMETRY_HEIGHTFIELD)
         return fe__heightfield_ray(scene->fields + shape->form.field, origin, way, limit, &f->hit);
-    return fe__form_ray(&shape->form, origin, way, limit, &f->hit);
+    return fe__form_ray_at(&shape->form, &origin, &way, limit, &f->hit);
 }
 
 static fe__mover mover_of(const fe__probe *probe, const fe__shape *shape, const fe__axes *m)
