@@ -275,9 +275,9 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
     int32_t near = is_near(&found, margin), ahead = found.count && !(p->flags & FE__PAIR_SENSOR) && !is_near(&found, FE__TURNS_LITTLE);
     int32_t fast = reach > fe__minf(fe__form_thickness(&x->form), fe__form_thickness(&y->form)) && a->type != FE_BODY_DYNAMIC;
     if (ahead) ahead = (fast ? look_far_ahead : look_ahead)(world, m, dt, &v, &at, &found);
-    if (!ahead && !near) found.count = 0;
-    if (!found.count) {
-        write_apart(p, m, &at, a, b, found.axis_separation - margin);
+    if (!ahead && !near) {
+        float gap = found.count ? deepest_of(&found) : found.axis_separation; // with points a kernel leaves the older one
+        write_apart(p, m, &at, a, b, gap - margin);
         return;
     }
     match_impulses(p, m, &found);

@@ -272,6 +272,48 @@ static void touching_cradle_keeps_momentum_and_gains_no_energy(void **state)
     }
 }
 
+// ---- nobody is forgotten ------------------------------------------------------------------------------------------------------------
+
+static int has_contact(const scene *s, fe_body a, fe_body b)
+{
+    fe_contact contacts[64];
+    int32_t count = fe_body_get_contacts(s->world, a, contacts, 0, 64);
+    for (int32_t i = 0; i < count && i < 64; ++i)
+        if (contacts[i].body_a == b || contacts[i].body_b == b) return 1;
+    return 0;
+}
+
+// A spiral of balls falls to one point, in a plane, and lies there: pairs that came near, flew past each other and came again lie in each
+// other with a contact or not at all.
+static void balls_that_overlap_have_a_contact(void **state)
+{
+    enum { COUNT = 400 };
+    const double pull = 20, radius = 0.5;
+    scene s = scene_begin(state);
+    fe_body balls[COUNT];
+    set_gravity(&s, v3(0, 0, 0));
+    add_body(&s, FE_BODY_STATIC, sphere(radius), v3(0, 0, 0), UNTURNED, friction(0.2), WATER);
+    for (int k = 0; k < COUNT; ++k) {
+        double out = 5 + 0.05 * k;
+        vec at = v3(out * cos(0.2 * k), out * sin(0.2 * k), 0);
+        balls[k] = add_dynamic(&s, sphere(radius), at, UNTURNED, friction(0.2), 100);
+        MUST(fe_body_set_locks(s.world, balls[k], FE_AXIS_Z, FE_AXIS_X | FE_AXIS_Y));
+    }
+    for (int i = 0; i < 300; ++i) {
+        for (int k = 0; k < COUNT; ++k) {
+            vec at = position(&s, balls[k]);
+            add_force(&s, balls[k], times(-pull * mass_of(&s, balls[k]) / fmax(length(at), 0.1), at));
+        }
+        run(&s, 1);
+    }
+    for (int k = 0; k < COUNT; ++k)
+        for (int j = 0; j < k; ++j) {
+            double overlap = 2 * radius - length(minus(position(&s, balls[k]), position(&s, balls[j])));
+            if (overlap > 2 * LINEAR_SLOP) assert_true(has_contact(&s, balls[k], balls[j]));
+        }
+    scene_end(&s);
+}
+
 // ---- many bodies, nothing outside ---------------------------------------------------------------------------------------------------
 
 typedef struct shortfalls {
@@ -399,6 +441,7 @@ int main(void)
         TEST(billiard_balls_part_at_right_angles),
         TEST(cradle_with_gaps_passes_the_speed_on),
         TEST(touching_cradle_keeps_momentum_and_gains_no_energy),
+        TEST(balls_that_overlap_have_a_contact),
         TEST(free_cluster_keeps_momentum_and_gains_no_energy),
         WITH_4_SUBSTEPS(free_cluster_keeps_momentum_and_gains_no_energy),
         TEST(cargo_in_a_free_drum_keeps_momentum_and_gains_no_energy),
