@@ -226,6 +226,31 @@ static void billiard_balls_part_at_right_angles(void **state)
     }
 }
 
+// Two balls fly one behind the other, 0.3 m apart: within the reach of a step at that speed, yet they do not meet. Then they slow down and
+// close the gap: at no time are they deeper than a slop.
+static void balls_that_flew_in_a_row_meet(void **state)
+{
+    const double radius = 0.5, gap = 0.3;
+    scene s = scene_begin(state);
+    fe_body balls[2];
+    set_gravity(&s, v3(0, 0, 0));
+    for (int i = 0; i < 2; ++i) {
+        balls[i] = add_dynamic(&s, sphere(radius), v3((2 * i - 1) * (radius + 0.45), 0, 0), UNTURNED, friction(0.5), WATER);
+        set_velocity(&s, balls[i], v3(20 + (1 - 2 * i) * 0.5, 0, 0), v3(0, 0, 0));
+    }
+    double apart = 1;
+    while (apart > gap) {
+        run(&s, 1);
+        apart = position(&s, balls[1]).x - position(&s, balls[0]).x - 2 * radius;
+    }
+    for (int i = 0; i < 2; ++i) set_velocity(&s, balls[i], v3((1 - 2 * i) * 0.5, 0, 0), v3(0, 0, 0));
+    for (int k = 0; k < 60; ++k) {
+        run(&s, 1);
+        FE_WITHIN(position(&s, balls[1]).x - position(&s, balls[0]).x, 2 * radius - LINEAR_SLOP, 10);
+    }
+    scene_end(&s);
+}
+
 // ---- cradles ----------------------------------------------------------------------------------------------------------------------
 
 enum { BALLS = 5 };
@@ -439,6 +464,7 @@ int main(void)
         TEST(collisions_in_a_line_follow_newton),
         WITH_4_SUBSTEPS(collisions_in_a_line_follow_newton),
         TEST(billiard_balls_part_at_right_angles),
+        TEST(balls_that_flew_in_a_row_meet),
         TEST(cradle_with_gaps_passes_the_speed_on),
         TEST(touching_cradle_keeps_momentum_and_gains_no_energy),
         TEST(balls_that_overlap_have_a_contact),
