@@ -63,6 +63,13 @@ missing_for_wasm() {
         clang --version | awk 'match($0, /version [0-9]+/) { print "libclang-rt-" substr($0, RSTART + 8, RLENGTH - 8) "-dev-wasm32" }'
 }
 
+# Another machine's bits, in an emulator
+missing_for_aarch64() {
+    test "$(uname -m)" = x86_64 || return
+    has aarch64-linux-gnu-gcc && links aarch64-linux-gnu-gcc "$work/empty.c" || echo gcc-aarch64-linux-gnu libc6-dev-arm64-cross
+    has qemu-aarch64 || echo qemu-user
+}
+
 # Prints the missing packages, by their Debian names.
 missing() {
     if test "$wanted" = csharp; then
@@ -77,7 +84,6 @@ missing() {
         missing_for_lua
         return
     fi
-    has make || echo make
     has gcc && links gcc "$work/empty.c" || echo gcc libc6-dev
     has clang && links clang "$work/empty.c" || echo clang
     links "$CXX" "$work/empty.cpp" || echo g++
@@ -85,7 +91,7 @@ missing() {
     links "$CC" "$work/cmocka.c" -lcmocka || echo libcmocka-dev
     links "$CC" -fsanitize=address,undefined "$work/empty.c" && links "$CC" -fsanitize=thread "$work/empty.c" ||
         echo "$("$CC" --version | awk '/clang/ && match($0, /version [0-9]+/) { print "libclang-rt-" substr($0, RSTART + 8, RLENGTH - 8) "-dev" }')"
-    if test "$wanted" != fuzz; then missing_for_wasm; fi
+    if test "$wanted" != fuzz; then missing_for_wasm; missing_for_aarch64; fi
     has cmake || echo cmake
     has pkg-config || echo pkg-config
     has valgrind || echo valgrind
