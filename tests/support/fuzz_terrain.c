@@ -22,16 +22,21 @@ int32_t fuzz_create_field(fuzz *f)
         holes[i] = which == 9 ? fuzz_byte(f) % 3 : i % 13 == which;
         kinds[i] = which == 8 ? fuzz_byte(f) % 3 : i % 2 == 0;
     }
-    fe_heightfield_def d;
-    fe_heightfield_def_init(&d, which == 3 ? fuzz_struct_size(f, sizeof d) : (uint32_t)sizeof d);
-    d.rows = 2 + which % (MOST_SAMPLES - 1), d.columns = which == 5 ? (int32_t)fuzz_byte(f) - 2 : 8;
-    if (d.columns > MOST_SAMPLES) d.columns = MOST_SAMPLES;
-    d.cell_x = which == 4 ? fuzz_size(f) : 0.7f, d.cell_z = 0.7f;
-    d.heights = which == 1 ? NULL : heights;
-    if (which & 16) d.holes = holes;
-    if (which & 32) d.cell_materials = kinds, d.materials = materials, d.material_count = which == 33 ? 0 : 2;
+    struct {
+        fe_heightfield_def def;
+        unsigned char tail[FUZZ_TAIL];
+    } field;
+    memset(&field, 0, sizeof field);
+    fe_heightfield_def_init(&field.def, which == 3 ? fuzz_struct_size(f, sizeof field.def) : (uint32_t)sizeof field.def);
+    fe_heightfield_def *d = &field.def;
+    d->rows = 2 + which % (MOST_SAMPLES - 1), d->columns = which == 5 ? (int32_t)fuzz_byte(f) - 2 : 8;
+    if (d->columns > MOST_SAMPLES) d->columns = MOST_SAMPLES;
+    d->cell_x = which == 4 ? fuzz_size(f) : 0.7f, d->cell_z = 0.7f;
+    d->heights = which == 1 ? NULL : heights;
+    if (which & 16) d->holes = holes;
+    if (which & 32) d->cell_materials = kinds, d->materials = materials, d->material_count = which == 33 ? 0 : 2;
     if (fe_asset_is_valid(f->world, *next_asset(f))) return fe_asset_destroy(f->world, *next_asset(f));
-    fe_result result = fe_heightfield_create(f->world, &d, next_asset(f));
+    fe_result result = fe_heightfield_create(f->world, d, next_asset(f));
     if (result == FE_OK) ++f->asset_count;
     return result;
 }
