@@ -5,7 +5,7 @@
 #   make test       everything that is checked before a change is accepted (TESTS=pattern: the matching programs only)
 #   make python     the Python package in build/python; make test-python: its tests; likewise for the other languages of bindings/
 #   make fuzz       FUZZ_SECONDS=600 of random calls of the API, with clang's libFuzzer and sanitizers
-#   make bench      speed, beside Bullet and ODE where they are installed
+#   make bench      every case, judged, with 32 variants where rounding decides; speed, beside Bullet and ODE where they are installed
 #   make proof      docs/PROOF.md: every case and speed scene in every engine; some minutes (PROOF="lines page": only these parts, see tools/proof)
 #   make install    PREFIX, LIBDIR, INCLUDEDIR, DESTDIR;  make uninstall takes it away again
 #   make examples, deps, format, clean
@@ -217,6 +217,7 @@ bench-build: $(BUILD)/feather-bench
 	@for peer in bullet ode box2d; do case ' $(BENCH_PEERS) ' in *" $$peer "*) ;; *) \
 	    echo "*** BENCH WITHOUT $$peer: it is not installed (make deps), so there is nothing to compare with ***" ;; esac; done
 bench: bench-build
+	$(BUILD)/feather-bench scenes --variants 32
 	$(BUILD)/feather-bench speed
 # docs/PROOF.md anew, from every case and speed scene in every engine
 proof:

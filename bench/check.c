@@ -82,11 +82,11 @@ static int fingerprint(const char *name, int32_t quick, bench_reference *out)
     if (rule == NULL) return -1;
     shorter = *rule;
     shorter.seconds = fmin(rule->seconds, QUICK_STEPS / 60.0);
-    int status = bench_trial_run(&trial, &shorter, planar, &bench_feather, 1, SUBSTEPS);
+    int status = bench_trial_run(&trial, &(bench_setup){&shorter, &bench_feather, planar, 1, SUBSTEPS, 0, 0});
     out->quick = trial.hash;
     bench_trial_free(&trial);
     if (quick || status != 0) return status;
-    status = bench_trial_run(&trial, rule, planar, &bench_feather, 1, SUBSTEPS);
+    status = bench_trial_run(&trial, &(bench_setup){rule, &bench_feather, planar, 1, SUBSTEPS, 0, 0});
     out->full = trial.hash;
     out->passed = bench_trial_passed(&trial);
     bench_trial_free(&trial);

@@ -58,6 +58,8 @@ static int read_substeps(bench_options *o, char *value) { return parse_numbers(v
 
 static int read_steps(bench_options *o, char *value) { return parse_number(value, 1, INT_MAX / 2, &o->steps); }
 
+static int read_variants(bench_options *o, char *value) { return parse_number(value, 1, 1000, &o->variants); }
+
 static int read_out(bench_options *o, char *value) { return o->out = value, o->out_given = 1, 0; }
 
 static int set_rays(bench_options *o, char *value) { return (void)value, o->rays = 1, 0; }
@@ -71,9 +73,9 @@ static const struct option {
     int has_value;
     int (*read)(bench_options *options, char *value);
 } option_table[] = {
-    {"--scene", 1, read_scenes}, {"--peers", 1, read_peers},    {"--workers", 1, read_workers},
-    {"--steps", 1, read_steps},  {"--out", 1, read_out},        {"--substeps", 1, read_substeps},
-    {"--rays", 0, set_rays},     {"--profile", 0, set_profile}, {"--only-peers", 0, set_only_peers},
+    {"--scene", 1, read_scenes},   {"--peers", 1, read_peers},          {"--workers", 1, read_workers},   {"--steps", 1, read_steps},
+    {"--out", 1, read_out},        {"--substeps", 1, read_substeps},    {"--variants", 1, read_variants}, {"--rays", 0, set_rays},
+    {"--profile", 0, set_profile}, {"--only-peers", 0, set_only_peers},
 };
 
 static const struct option *find_option(const char *name)

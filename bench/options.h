@@ -22,6 +22,7 @@ typedef struct bench_options {
     int32_t no_feather;
     int32_t rays;
     int32_t profile;
+    int32_t variants; ///< of chaotic cases; 0: the default
     const char *out;
     int32_t out_given; ///< 0: `out` is the default
 } bench_options;

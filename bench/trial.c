@@ -2,6 +2,7 @@
 #include "trial.h"
 
 #include "memory.h"
+#include "random.h"
 #include "start.h"
 #include "stats.h"
 
@@ -136,6 +137,15 @@ double bench_joint_gap(const bench_scene *scene, const bench_pose *poses, int32_
     return distance(&poses[j->body_a], arms[0], &poses[j->body_b], arms[1]);
 }
 
+// Twice the energy over the gap's square, at most: the mass that moves when the anchors do, times the square of the joints' frequency
+static double spring_of(const bench_trial *t, int32_t joint)
+{
+    const bench_joint *j = &t->scene.joints[joint];
+    const double a = t->masses[j->body_a], b = t->masses[j->body_b], w = 2.0 * BENCH_PI * fmax(60.0, j->stiffness_hertz);
+    const double mass = a > 0.0 && b > 0.0 ? a * b / (a + b) : a + b;
+    return mass * w * w;
+}
+
 static int all_finite(const bench_trial *t)
 {
     for (int32_t i = 0; i < t->scene.body_count; i++) {
@@ -151,7 +161,7 @@ static void record(bench_trial *t)
     t->engine->read_poses(t->world, t->poses);
     t->engine->read_motions(t->world, t->motions);
     t->finite = all_finite(t);
-    double kinetic = 0.0, potential = 0.0, fastest = 0.0, gap = 0.0, gaps = 0.0;
+    double kinetic = 0.0, potential = 0.0, fastest = 0.0, gap = 0.0, gaps = 0.0, held = 0.0;
     for (int32_t i = 0; i < t->scene.body_count; i++) {
         if (!t->scene.bodies[i].dynamic || t->away[i]) continue;
         note_track(t, i);
@@ -163,9 +173,17 @@ static void record(bench_trial *t)
         const double open = gap_of(t, i);
         gap = fmax(gap, open);
         gaps += open;
+        held += 0.5 * spring_of(t, i) * open * open;
     }
     t->kinetic[t->step] = kinetic;
     t->energy[t->step] = kinetic + potential;
+    t->held[t->step] = held;
+    if (t->ruler_every > 0 && t->step % t->ruler_every != 0) t->held[t->step] = HUGE_VAL;
+    if (t->ruler_every > 0 && t->step % t->ruler_every == 0 && t->finite) {
+        bench_contacts contacts;
+        bench_measure_contacts(t, &contacts);
+        t->held[t->step] += contacts.held;
+    }
     t->gap[t->step] = gap;
     t->gaps[t->step] = gaps;
     t->fastest[t->step] = fastest;
@@ -180,6 +198,25 @@ void bench_trial_take_away(bench_trial *t, int32_t body)
 {
     t->engine->take_away(t->world, body);
     t->away[body] = 1;
+    t->driven_until = t->step + 1; // what it had is gone
+}
+
+void bench_trial_push(bench_trial *t, int32_t body, const double *force)
+{
+    t->engine->add_force(t->world, body, force);
+    t->driven_until = t->step + 1;
+}
+
+void bench_trial_hit(bench_trial *t, int32_t body, const double *impulse, const double *point)
+{
+    t->engine->add_impulse(t->world, body, impulse, point);
+    t->driven_until = t->step + 1;
+}
+
+void bench_trial_set_gravity(bench_trial *t, const double *gravity)
+{
+    t->engine->set_gravity(t->world, gravity);
+    t->driven_until = t->step + 1;
 }
 
 // ---- a run ----------------------------------------------------------------------------------------------------------------------------
@@ -208,6 +245,7 @@ static void prepare(bench_trial *t)
     t->arms = bench_allocate((size_t)s->joint_count, sizeof *t->arms);
     t->energy = bench_allocate(steps, sizeof *t->energy);
     t->kinetic = bench_allocate(steps, sizeof *t->kinetic);
+    t->held = bench_allocate(steps, sizeof *t->held);
     t->gap = bench_allocate(steps, sizeof *t->gap);
     t->gaps = bench_allocate(steps, sizeof *t->gaps);
     t->fastest = bench_allocate(steps, sizeof *t->fastest);
@@ -215,7 +253,10 @@ static void prepare(bench_trial *t)
         const bench_shape *shape = &s->shapes[s->bodies[i].shape];
         if (s->bodies[i].dynamic) t->masses[i] = (double)shape->density * bench_shape_volume(shape);
     }
-    for (int32_t i = 0; i < s->joint_count; i++) find_arms(s, &s->joints[i], t->arms[i]);
+    for (int32_t i = 0; i < s->joint_count; i++) {
+        find_arms(s, &s->joints[i], t->arms[i]);
+        if (s->joints[i].motor_speed != 0.0) t->driven_until = t->step_count;
+    }
     bench_trial_forget(t);
 }
 
@@ -254,30 +295,55 @@ static void limit_steps(bench_trial *t)
     t->stopped = 1;
 }
 
-int bench_trial_run(bench_trial *t, const bench_case *rule, int32_t planar, const bench_engine *engine, int32_t workers, int32_t substeps)
+static const double RULED = 2e5; // bodies times steps whose contacts are measured
+
+// By a micrometre at most, along what is not locked
+static void nudge(bench_scene *s, int32_t variant)
 {
+    const double most = 1e-6; // m
+    uint64_t state = 0x9e3779b97f4a7c15u * (uint64_t)variant;
+    for (int32_t i = 0; i < s->body_count && variant > 0; i++) {
+        for (int k = 0; k < 3; k++) {
+            const double way = most * (2.0 * bench_random(&state) - 1.0);
+            if (s->bodies[i].dynamic && !(s->bodies[i].linear_locks >> k & 1)) s->bodies[i].start.position[k] += way;
+        }
+    }
+}
+
+int bench_trial_run(bench_trial *t, const bench_setup *setup)
+{
+    const bench_case *rule = setup->rule;
+    const bench_engine *engine = setup->engine;
     memset(t, 0, sizeof *t);
     t->rule = rule;
     t->engine = engine;
-    t->workers = workers;
-    t->substeps = substeps;
-    bench_trial_build(&t->scene, rule, planar);
+    t->workers = setup->workers;
+    t->substeps = setup->substeps;
+    t->variants = 1;
+    for (int32_t i = 0; i < BENCH_MEASURES; i++) t->measures[i] = (double)NAN;
+    bench_trial_build(&t->scene, rule, setup->planar);
+    nudge(&t->scene, setup->variant);
     t->step_count = (int32_t)lround(rule->seconds / (double)t->scene.dt);
     prepare(t);
     limit_steps(t);
-    t->world = engine->create(&t->scene, workers, substeps);
+    if (setup->measured) t->ruler_every = 1 + (int32_t)((double)t->step_count * t->scene.body_count / RULED);
+    t->world = engine->create(&t->scene, setup->workers, setup->substeps);
     if (t->world == NULL || bench_check_start(engine, t->world, &t->scene) != 0 || make_steps(t) != 0) return -1;
     if (t->stopped)
         bench_expect(t, "simulated, s", t->time, rule->seconds, rule->seconds);
     else if (t->finite)
         rule->judge(t);
+    else
+        bench_expect(t, "steps until a pose was NaN or infinite", t->step, t->step_count, t->step_count);
+    if (setup->measured) bench_measure(t);
     if (engine->read_hash != NULL) t->hash = engine->read_hash(t->world);
     return 0;
 }
 
 void bench_trial_free(bench_trial *t)
 {
-    void *owned[] = {t->poses, t->motions, t->tracks, t->away, t->masses, t->arms, t->energy, t->kinetic, t->gap, t->gaps, t->fastest};
+    void *owned[] = {t->poses,  t->motions, t->tracks, t->away, t->masses, t->arms,
+                     t->energy, t->kinetic, t->held,   t->gap,  t->gaps,   t->fastest};
     if (t->world != NULL) t->engine->destroy(t->world);
     for (size_t i = 0; i < sizeof owned / sizeof owned[0]; i++) free(owned[i]);
     bench_scene_destroy(&t->scene);
@@ -286,13 +352,12 @@ void bench_trial_free(bench_trial *t)
 
 int32_t bench_check_passed(const bench_trial *t, const bench_check *c)
 {
-    if (c->own && !t->engine->has_workers) return 1;
+    if ((c->kind == BENCH_OWN || c->kind == BENCH_OWN_OPEN) && !t->engine->has_workers) return 1;
     return c->value >= c->low && c->value <= c->high;
 }
 
 int32_t bench_trial_passed(const bench_trial *t)
 {
-    if (!t->finite) return 0;
     for (int32_t i = 0; i < t->check_count; i++) {
         if (!bench_check_passed(t, &t->checks[i])) return 0;
     }
@@ -301,23 +366,40 @@ int32_t bench_trial_passed(const bench_trial *t)
 
 // ---- for judges -----------------------------------------------------------------------------------------------------------------------
 
-static void add_check(bench_trial *t, const bench_check *check)
+const char *const bench_kind_names[] = {"law", "own", "stray", "open", "own open"};
+
+static void add_check(bench_trial *t, bench_check check)
 {
     if (t->check_count == BENCH_MAX_CHECKS) {
         fprintf(stderr, "feather-bench: %s has more than %d checks\n", t->scene.name, BENCH_MAX_CHECKS);
         exit(1);
     }
-    t->checks[t->check_count++] = *check;
+    t->checks[t->check_count++] = check;
 }
 
 void bench_expect(bench_trial *t, const char *what, double value, double low, double high)
 {
-    add_check(t, &(bench_check){what, value, low, high, 0});
+    add_check(t, (bench_check){what, value, low, high, BENCH_LAW, value, value});
 }
 
 void bench_expect_own(bench_trial *t, const char *what, double value, double low, double high)
 {
-    add_check(t, &(bench_check){what, value, low, high, 1});
+    add_check(t, (bench_check){what, value, low, high, BENCH_OWN, value, value});
+}
+
+void bench_expect_stray(bench_trial *t, const char *what, double value, double most)
+{
+    add_check(t, (bench_check){what, value, 0.0, most, BENCH_STRAY, value, value});
+}
+
+void bench_expect_open(bench_trial *t, const char *what, double value, double most)
+{
+    add_check(t, (bench_check){what, value, 0.0, most, BENCH_OPEN, value, value});
+}
+
+void bench_expect_own_open(bench_trial *t, const char *what, double value, double most)
+{
+    add_check(t, (bench_check){what, value, 0.0, most, BENCH_OWN_OPEN, value, value});
 }
 
 double bench_tilt(const bench_trial *t, int32_t i) { return angle_of_y_axes(&t->poses[i], &t->scene.bodies[i].start); }
@@ -325,7 +407,6 @@ double bench_tilt(const bench_trial *t, int32_t i) { return angle_of_y_axes(&t->
 double bench_drift(const bench_trial *t, int32_t i) { return horizontal_distance(&t->poses[i], &t->scene.bodies[i].start); }
 
 double bench_speed(const bench_trial *t, int32_t i) { return length(t->motions[i].linear); }
-
 
 static double largest(const bench_trial *t, double (*of)(const bench_trial *, int32_t))
 {
@@ -341,7 +422,6 @@ double bench_largest_tilt(const bench_trial *t) { return largest(t, bench_tilt);
 double bench_largest_drift(const bench_trial *t) { return largest(t, bench_drift); }
 
 double bench_largest_speed(const bench_trial *t) { return largest(t, bench_speed); }
-
 
 double bench_highest(const double *series, int32_t from, int32_t to)
 {
@@ -374,10 +454,10 @@ int32_t bench_step_at(const bench_trial *t, double seconds)
 }
 
 // The same ruler for all engines: Feather's narrow phase on the poses, which moves nothing in a step of no time.
-double bench_deepest(const bench_trial *t)
+void bench_measure_contacts(const bench_trial *t, bench_contacts *out_contacts)
 {
     bench_scene copy = t->scene;
-    bench_contacts contacts = {0, 0, 0.0};
+    *out_contacts = (bench_contacts){0, 0, 0.0, 0.0};
     copy.joint_count = 0;
     copy.bodies = bench_allocate((size_t)copy.body_count, sizeof *copy.bodies);
     for (int32_t i = 0; i < copy.body_count; i++) {
@@ -387,10 +467,16 @@ double bench_deepest(const bench_trial *t)
     }
     bench_world *ruler = bench_feather.create(&copy, 1, 1);
     if (ruler != NULL) {
-        bench_feather.measure_contacts(ruler, &contacts);
+        bench_feather.measure_contacts(ruler, out_contacts);
         bench_feather.destroy(ruler);
     }
     free(copy.bodies);
+}
+
+double bench_deepest(const bench_trial *t)
+{
+    bench_contacts contacts;
+    bench_measure_contacts(t, &contacts);
     return contacts.deepest;
 }
 

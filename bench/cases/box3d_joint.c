@@ -34,7 +34,7 @@ static void judge_heavy_chain(bench_trial *t)
     const double gap = (ball + LINKS * link) * GRAVITY / stiffness, most = bench_highest(t->gap, 0, t->step);
     const double held = 0.5 * stiffness * most * most * (LINKS + 1);
     const int32_t half = t->step / 2;
-    bench_expect_own(t, "largest sum of joint gaps, m", bench_highest(t->gaps, 0, t->step), 0.0, 3.3 * gap * LINKS);
+    bench_expect_own_open(t, "largest sum of joint gaps, m", bench_highest(t->gaps, 0, t->step), 3.3 * gap * LINKS);
     bench_expect_own(t, "rise of the energy / what the joints can hold", bench_rise(t->energy, 1, t->step) / held, 0.0, 1.0);
     bench_expect(t, "kinetic energy late / early", bench_highest(t->kinetic, half, t->step) / bench_highest(t->kinetic, 0, half), 0.0, 1.0);
 }
@@ -58,7 +58,7 @@ static void build_door(bench_scene *s)
 static void act_door(bench_trial *t)
 {
     const double impulse[3] = {0.0, 0.0, 50000.0}, point[3] = {0.75, 1.5, 0.0};
-    if (t->step == 60) t->engine->add_impulse(t->world, 1, impulse, point);
+    if (t->step == 60) bench_trial_hit(t, 1, impulse, point);
 }
 
 // note 0: largest angle
@@ -70,8 +70,8 @@ static void watch_door(bench_trial *t)
 
 static void judge_door(bench_trial *t)
 {
-    bench_expect(t, BENCH_GAP, bench_highest(t->gap, 0, t->step), 0.0, 0.05);
-    bench_expect(t, "joint gap a second after the blow, m", bench_highest(t->gap, 120, t->step), 0.0, BENCH_LINEAR_SLOP);
+    bench_expect_open(t, BENCH_GAP, bench_highest(t->gap, 0, t->step), 0.05);
+    bench_expect_open(t, "joint gap a second after the blow, m", bench_highest(t->gap, 120, t->step), BENCH_LINEAR_SLOP);
     bench_expect(t, "largest angle, rad", t->notes[0], 0.0, 0.5 * BENCH_PI + 10.0 * BENCH_PI / 180.0);
 }
 
@@ -104,7 +104,7 @@ static void judge_cone(bench_trial *t)
     const double degree = BENCH_PI / 180.0;
     bench_expect(t, "swing beyond 30 degrees, rad", t->notes[0], -1.0, 3.0 * degree);
     bench_expect(t, "twist beyond 35 degrees, rad", t->notes[1], -1.0, 3.0 * degree);
-    bench_expect(t, BENCH_GAP, bench_highest(t->gap, 0, t->step), 0.0, 4.0 * BENCH_LINEAR_SLOP);
+    bench_expect_open(t, BENCH_GAP, bench_highest(t->gap, 0, t->step), 4.0 * BENCH_LINEAR_SLOP);
     bench_expect(t, "largest rise of the energy, share", bench_rise(t->energy, 1, t->step) / t->energy[0], 0.0, 0.01);
 }
 
@@ -133,7 +133,7 @@ static void build_sliders(bench_scene *s)
 static void act_sliders(bench_trial *t)
 {
     const double force[3] = {1e5, 5e4, 5e4};
-    if (t->time < 2.0) t->engine->add_force(t->world, SLIDERS, force);
+    if (t->time < 2.0) bench_trial_push(t, SLIDERS, force);
 }
 
 static void judge_sliders(bench_trial *t)
@@ -148,9 +148,10 @@ static void judge_sliders(bench_trial *t)
 }
 
 const bench_case bench_box3d_joint[] = {
-    {"heavy-chain", "Box3D", "32 links and a ball of 585 times their mass", 30.0, 0, build_heavy_chain, NULL, NULL, judge_heavy_chain},
-    {"door", "Box3D", "a door on two hinges is struck", 5.0, 0, build_door, act_door, watch_door, judge_door},
-    {"cone", "Box3D", "a box swings and twists in its limits", 10.0, 0, build_cone, NULL, watch_cone, judge_cone},
-    {"sliders", "Box3D", "six sliders in a row, torn at", 4.0, 0, build_sliders, act_sliders, NULL, judge_sliders},
+    {"heavy-chain", "Box3D", "32 links and a ball of 585 times their mass", 30.0, 0, build_heavy_chain, NULL, NULL, judge_heavy_chain,
+     BENCH_CALM},
+    {"door", "Box3D", "a door on two hinges is struck", 5.0, 0, build_door, act_door, watch_door, judge_door, BENCH_CALM},
+    {"cone", "Box3D", "a box swings and twists in its limits", 10.0, 0, build_cone, NULL, watch_cone, judge_cone, BENCH_CALM},
+    {"sliders", "Box3D", "six sliders in a row, torn at", 4.0, 0, build_sliders, act_sliders, NULL, judge_sliders, BENCH_CALM},
 };
 const int32_t bench_box3d_joint_count = (int32_t)(sizeof bench_box3d_joint / sizeof bench_box3d_joint[0]);

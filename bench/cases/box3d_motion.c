@@ -119,10 +119,11 @@ static void watch_bullet(bench_trial *t)
 static void judge_bullet(bench_trial *t) { bench_expect(t, "bodies beyond the wall x steps", t->notes[0], 0.0, 0.0); }
 
 const bench_case bench_box3d_motion[] = {
-    {"spinning-books", "Box3D", "free turning about three axes", 60.0, 0, build_books, NULL, watch_books, judge_books},
-    {"thin-wall", "Box3D", "spinning bodies at 180 m/s against 0.2 m", 1.0, 0, build_thin_wall, NULL, watch_beyond_wall, judge_thin_wall},
+    {"spinning-books", "Box3D", "free turning about three axes", 60.0, 0, build_books, NULL, watch_books, judge_books, BENCH_CALM},
+    {"thin-wall", "Box3D", "spinning bodies at 180 m/s against 0.2 m", 1.0, 0, build_thin_wall, NULL, watch_beyond_wall, judge_thin_wall,
+     BENCH_CALM},
     {"spinning-sticks", "Box3D", "100 sticks at 100 m/s on a beam", 1.0, 0, build_spinning_sticks, NULL, watch_spinning_sticks,
-     judge_spinning_sticks},
-    {"bullet", "Box3D", "500 m/s against a stack before a wall", 2.0, 0, build_bullet, NULL, watch_bullet, judge_bullet},
+     judge_spinning_sticks, BENCH_CALM},
+    {"bullet", "Box3D", "500 m/s against a stack before a wall", 2.0, 0, build_bullet, NULL, watch_bullet, judge_bullet, BENCH_CALM},
 };
 const int32_t bench_box3d_motion_count = (int32_t)(sizeof bench_box3d_motion / sizeof bench_box3d_motion[0]);

@@ -270,8 +270,8 @@ static void build_rain(bench_scene *s)
 static void judge_rain(bench_trial *t)
 {
     bench_expect(t, "bones below the ground", count_below(t, -1.5), 0.0, 0.0);
-    bench_expect(t, "largest joint gap in the last second, m", bench_highest(t->gap, bench_step_at(t, t->time - 1.0), t->step), 0.0,
-                 2.0 * BENCH_LINEAR_SLOP);
+    bench_expect_open(t, "largest joint gap in the last second, m", bench_highest(t->gap, bench_step_at(t, t->time - 1.0), t->step),
+                      2.0 * BENCH_LINEAR_SLOP);
     bench_expect(t, "bones faster than 5 cm/s at the end", count_faster(t, 0.05), 0.0, 0.0);
 }
 
@@ -306,7 +306,7 @@ static void build_washer(bench_scene *s)
 static void act_washer(bench_trial *t)
 {
     const double angle = -TURNING * t->time, gravity[3] = {GRAVITY * sin(angle), -GRAVITY * cos(angle), 0.0};
-    t->engine->set_gravity(t->world, gravity);
+    bench_trial_set_gravity(t, gravity);
 }
 
 // notes[0]: out of the drum, bodies times steps
@@ -345,14 +345,15 @@ static void judge_large_world(bench_trial *t)
         low = fmin(low, t->poses[i].position[1]), high = fmax(high, t->poses[i].position[1]);
     bench_expect(t, "lowest ball, m", low, 0.75 - BENCH_LINEAR_SLOP, 0.75 + BENCH_LINEAR_SLOP);
     bench_expect(t, "highest ball, m", high, 0.75 - BENCH_LINEAR_SLOP, 0.75 + BENCH_LINEAR_SLOP);
-    bench_expect(t, BENCH_DRIFT, bench_largest_drift(t), 0.0, BENCH_LINEAR_SLOP);
+    bench_expect_stray(t, BENCH_DRIFT, bench_largest_drift(t), BENCH_LINEAR_SLOP);
     bench_expect(t, BENCH_SPEED, bench_largest_speed(t), 0.0, 0.05);
 }
 
 const bench_case bench_box3d_world[] = {
-    {"needle-drop", "Box3D", "1024 thin boxes fall on waves", 5.0, 0, build_needles, NULL, NULL, judge_needles},
-    {"rain", "Box3D", "96 humans of 14 bones fall on waves", 10.0, 0, build_rain, NULL, NULL, judge_rain},
-    {"washer", "Box3D", "1000 cubes in a drum, gravity turns", 10.0, 0, build_washer, act_washer, watch_washer, judge_washer},
-    {"large-world", "Box3D", "100 balls on 10 000 tiles", 8.0, 0, build_large_world, NULL, NULL, judge_large_world},
+    {"needle-drop", "Box3D", "1024 thin boxes fall on waves", 5.0, 0, build_needles, NULL, NULL, judge_needles, BENCH_CHAOTIC_LONG},
+    {"rain", "Box3D", "96 humans of 14 bones fall on waves", 10.0, 0, build_rain, NULL, NULL, judge_rain, BENCH_CHAOTIC_LONG},
+    {"washer", "Box3D", "1000 cubes in a drum, gravity turns", 10.0, 0, build_washer, act_washer, watch_washer, judge_washer,
+     BENCH_CHAOTIC_LONG},
+    {"large-world", "Box3D", "100 balls on 10 000 tiles", 8.0, 0, build_large_world, NULL, NULL, judge_large_world, BENCH_CALM},
 };
 const int32_t bench_box3d_world_count = (int32_t)(sizeof bench_box3d_world / sizeof bench_box3d_world[0]);

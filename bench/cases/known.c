@@ -23,8 +23,6 @@ static const struct known {
     {"high-mass-ratio-1-2d", 0, "largest tilt, rad", IMPACT},
     {"high-mass-ratio-2-2d", 4, "sink of the block, m", IMPACT},
     {"high-mass-ratio-3-2d", 4, "sink of the block, m", IMPACT},
-    {"card-house", 4, "largest way of a card, m", "cards of 2 mm; " FEW_SUBSTEPS},
-    {"card-house", 4, "largest tilt, rad", "cards of 2 mm; " FEW_SUBSTEPS},
     {"inclined-plane", 4, "friction 0.8: way / a t2/2", FEW_SUBSTEPS},
     {"washer", 0, "deepest overlap, m",
      "cubes flung down at 18 rad/s turn a corner by 17 cm in a step: the edge that comes round is not among the features that the step "

@@ -124,17 +124,17 @@ static void judge_far_chain(bench_trial *t)
 {
     const double gap = 2.0 * LINKS * 10.0 / bench_joint_stiffness(t);
     const double *first = t->poses[0].position, *last = t->poses[LINKS].position;
-    bench_expect_own(t, BENCH_GAP, bench_highest(t->gap, 0, t->step), 0.0, 3.3 * gap);
+    bench_expect_own_open(t, BENCH_GAP, bench_highest(t->gap, 0, t->step), 3.3 * gap);
     bench_expect(t, "anchor to last link, m", hypot(first[0] - last[0], first[1] - last[1]), 0.95 * 7.9, 1.05 * 7.9);
     bench_expect(t, "last link below the anchor, m", first[1] - last[1], 0.8 * 7.9, 1.05 * 7.9);
 }
 
 const bench_case bench_solver2d_far[] = {
     {"far-pyramid", "Solver2D", "a pyramid of loose boxes 128 km from the origin", 10.0, 1, build_far_pyramid, NULL, NULL,
-     judge_far_pyramid},
-    {"very-far-pyramid", "Solver2D", "the same at 1200 km", 10.0, 1, build_very_far_pyramid, NULL, NULL, judge_far_pyramid},
-    {"far-stack", "Solver2D", "a plank on two supports, 47 km out", 10.0, 1, build_far_stack, NULL, NULL, judge_far_stack},
-    {"far-recovery", "Solver2D", "overlapping boxes, 106 km out", 5.0, 1, build_far_recovery, NULL, NULL, judge_far_recovery},
-    {"far-chain", "Solver2D", "a chain of 40 links, 53 km out", 30.0, 1, build_far_chain, NULL, NULL, judge_far_chain},
+     judge_far_pyramid, BENCH_CALM},
+    {"very-far-pyramid", "Solver2D", "the same at 1200 km", 10.0, 1, build_very_far_pyramid, NULL, NULL, judge_far_pyramid, BENCH_CALM},
+    {"far-stack", "Solver2D", "a plank on two supports, 47 km out", 10.0, 1, build_far_stack, NULL, NULL, judge_far_stack, BENCH_CALM},
+    {"far-recovery", "Solver2D", "overlapping boxes, 106 km out", 5.0, 1, build_far_recovery, NULL, NULL, judge_far_recovery, BENCH_CALM},
+    {"far-chain", "Solver2D", "a chain of 40 links, 53 km out", 30.0, 1, build_far_chain, NULL, NULL, judge_far_chain, BENCH_CALM},
 };
 const int32_t bench_solver2d_far_count = (int32_t)(sizeof bench_solver2d_far / sizeof bench_solver2d_far[0]);

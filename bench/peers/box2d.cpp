@@ -224,7 +224,7 @@ void take_away(bench_world *w, int32_t body) { w->bodies[size_t(body)]->SetEnabl
 
 void measure_contacts(bench_world *w, bench_contacts *out_contacts)
 {
-    *out_contacts = bench_contacts{0, 0, 0.0};
+    *out_contacts = bench_contacts{0, 0, 0.0, 0.0};
     for (const b2Contact *contact = w->world->GetContactList(); contact != nullptr; contact = contact->GetNext()) {
         const int32 points = contact->GetManifold()->pointCount;
         if (points == 0) continue;

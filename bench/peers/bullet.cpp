@@ -282,7 +282,7 @@ void take_away(bench_world *w, int32_t body)
 
 void measure_contacts(bench_world *w, bench_contacts *out_contacts)
 {
-    *out_contacts = bench_contacts{0, 0, 0.0};
+    *out_contacts = bench_contacts{0, 0, 0.0, 0.0};
     w->world.performDiscreteCollisionDetection(); // manifolds are those of the step's beginning otherwise
     for (int i = 0; i < w->dispatcher.getNumManifolds(); i++) {
         const btPersistentManifold *manifold = w->dispatcher.getManifoldByIndexInternal(i);

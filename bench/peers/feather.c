@@ -320,19 +320,37 @@ static void take_away(bench_world *w, int32_t body)
     if (fe_body_set_enabled(w->world, w->bodies[body], 0) != FE_OK) complain("take away");
 }
 
-static void add_contact(bench_contacts *sum, const fe_contact *contact)
+static double mass_of(const bench_world *w, fe_body body)
 {
+    float mass;
+    if (fe_body_get_mass(w->world, body, &mass) != FE_OK) complain("mass");
+    return (double)mass;
+}
+
+// The four corners of a cube on a cube weigh together what the pair does: a pair is one spring on the mass of both, of 30 Hz, against what
+// is static of 60.
+static double held_by(const bench_world *w, const fe_contact *contact, double overlap)
+{
+    const double a = mass_of(w, contact->body_a), b = mass_of(w, contact->body_b), rate = 2.0 * BENCH_PI * 30.0 * overlap;
+    return a > 0.0 && b > 0.0 ? 0.5 * a * b / (a + b) * rate * rate : 2.0 * (a + b) * rate * rate;
+}
+
+static void add_contact(const bench_world *w, bench_contacts *sum, const fe_contact *contact)
+{
+    double deepest = 0.0;
     sum->pairs++;
     sum->points += contact->point_count;
     for (int32_t p = 0; p < contact->point_count; p++) {
         double overlap = -(double)contact->points[p].separation;
-        if (overlap > sum->deepest) sum->deepest = overlap;
+        if (overlap > deepest) deepest = overlap;
     }
+    sum->held += held_by(w, contact, deepest);
+    if (deepest > sum->deepest) sum->deepest = deepest;
 }
 
 static void measure_contacts(bench_world *w, bench_contacts *out_contacts)
 {
-    *out_contacts = (bench_contacts){0, 0, 0.0};
+    *out_contacts = (bench_contacts){0, 0, 0.0, 0.0};
     if (fe_world_step(w->world, 0.0f) != FE_OK) complain("contacts"); // brings separations up to the final poses, moves nothing
     fe_contact *contacts = NULL;
     int32_t capacity = 0;
@@ -345,7 +363,7 @@ static void measure_contacts(bench_world *w, bench_contacts *out_contacts)
         if (count > 0) count = fe_body_get_contacts(w->world, w->bodies[i], contacts, 0, capacity);
         if (count < 0) complain("contacts");
         for (int32_t k = 0; k < count; k++) {
-            if (contacts[k].body_a == w->bodies[i]) add_contact(out_contacts, &contacts[k]); // each pair once
+            if (contacts[k].body_a == w->bodies[i]) add_contact(w, out_contacts, &contacts[k]); // each pair once
         }
     }
     free(contacts);

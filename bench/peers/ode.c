@@ -339,7 +339,7 @@ static void measure_pair(void *user, dGeomID a, dGeomID b)
 
 static void measure_contacts(bench_world *w, bench_contacts *out_contacts)
 {
-    *out_contacts = (bench_contacts){0, 0, 0.0};
+    *out_contacts = (bench_contacts){0, 0, 0.0, 0.0};
     dSpaceCollide(w->space, out_contacts, measure_pair);
 }
 

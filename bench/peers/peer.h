@@ -34,6 +34,7 @@ typedef struct bench_contacts {
     int32_t pairs;  ///< with at least one point; engines differ in how early they make one
     int32_t points; ///< of all pairs
     double deepest; ///< largest overlap, m, 0: none
+    double held;    ///< that the overlaps hold as Feather's contact springs, J; only Feather tells
 } bench_contacts;
 
 /// How a step was organised. Only Feather tells.

@@ -3,11 +3,15 @@
 // Audio and game threads switch flush-to-zero on, some hosts round otherwise or trap. One register of each CPU says so, for scalar and
 // vector instructions of any width. It is written only when it is not as it should be: arithmetic waits for the write, some 5 ns a call.
 // Flags that were raised are left to the host. The functions have a file of their own, so that no arithmetic of the caller moves across the
-// switch. x86-64: Intel 64 Manual 1, 10.2.3 (MXCSR governs SSE, AVX and AVX-512). AArch64: Arm ARM C5.2.8 (FPCR). WebAssembly has only the
-// one state.
+// switch. x86: Intel 64 Manual 1, 10.2.3 (MXCSR governs SSE, AVX and AVX-512). AArch64: Arm ARM C5.2.8 (FPCR). z/Architecture: Principles of
+// Operation, SA22-7832, chapter 19 (FPC register). WebAssembly has only the one state.
 #include "core/threads.h"
 
-#if defined(__x86_64__)
+#if defined(__i386__) && !defined(__SSE2_MATH__)
+#error "the 387 computes in 80 bits: build with -msse2 -mfpmath=sse"
+#endif
+
+#if defined(__x86_64__) || defined(__i386__)
 #include <xmmintrin.h>
 
 // all six exceptions masked (bits 7-12), round to nearest (13-14), flush to zero (15) and denormals are zero (6) off, no flag raised (0-5)
@@ -41,6 +45,25 @@ fe__fp_state fe__fp_enter(void)
 void fe__fp_leave(fe__fp_state state)
 {
     if (state.saved != 0) __asm__ volatile("msr fpcr, %0" : : "r"(state.saved) : "memory");
+}
+
+#elif defined(__s390x__)
+
+// traps of the five exceptions (bits 0-4, counted from the top) off, round to nearest (29-31)
+#define FPC_STATE_BITS 0xF8000007u
+
+fe__fp_state fe__fp_enter(void)
+{
+    uint32_t fpc;
+    __asm__ volatile("efpc %0" : "=d"(fpc) : : "memory");
+    fe__fp_state state = {fpc};
+    if (fpc & FPC_STATE_BITS) __asm__ volatile("sfpc %0" : : "d"(0) : "memory");
+    return state;
+}
+
+void fe__fp_leave(fe__fp_state state)
+{
+    if (state.saved & FPC_STATE_BITS) __asm__ volatile("sfpc %0" : : "d"((uint32_t)state.saved) : "memory");
 }
 
 #elif defined(__wasm__)
