@@ -86,8 +86,9 @@ typedef struct bench_joint {
 
 typedef struct bench_scene {
     char name[64];
-    double gravity[3]; ///< m/s2
-    float dt;          ///< s
+    double gravity[3];     ///< m/s2
+    int32_t always_bounce; ///< 1: the slowest impact bounces; 0: below 1 m/s none does
+    float dt;              ///< s
     int32_t warm_up_steps;
     int32_t timed_steps;
     double query_half; ///< queries start within so many m of the middle, in x and z; 0: where the bodies of the speed scenes are

@@ -213,6 +213,7 @@ bench_world *create(const bench_scene *scene, int32_t, int32_t)
     gCalculateCombinedFrictionCallback = mix_friction;
     w->world.setGravity(vector(scene->gravity));
     w->world.getSolverInfo().m_numIterations = 10;
+    if (scene->always_bounce) w->world.getSolverInfo().m_restitutionVelocityThreshold = 0.0f;
     w->scene = scene;
     static group_filter groups;
     w->world.getPairCache()->setOverlapFilterCallback(&groups);

@@ -115,13 +115,14 @@ static fe_result part_groups(const bench_world *w, const bench_scene *scene)
 
 // ---- joints ---------------------------------------------------------------------------------------------------------------------------
 // Stiffness of joints that other engines set one by one: here it is the world's, as one joint's own would make it a spring that swings.
-static fe_result set_stiffness(fe_world *world, const bench_scene *scene)
+static fe_result set_tuning(fe_world *world, const bench_scene *scene)
 {
     fe_world_tuning tuning = {.struct_size = sizeof tuning};
     fe_result result = fe_world_get_tuning(world, &tuning);
     for (int32_t i = 0; i < scene->joint_count; i++) {
         if (scene->joints[i].stiffness_hertz > (double)tuning.joint_hertz) tuning.joint_hertz = (float)scene->joints[i].stiffness_hertz;
     }
+    if (scene->always_bounce) tuning.restitution_threshold = 0.0f;
     return result == FE_OK ? fe_world_set_tuning(world, &tuning) : result;
 }
 
@@ -240,7 +241,7 @@ static bench_world *create(const bench_scene *scene, int32_t workers, int32_t su
     fe_result result = fe_world_create(&def, &w->world);
     for (int32_t i = 0; i < w->count && result == FE_OK; i++) result = add_body(w->world, scene, &scene->bodies[i], &w->bodies[i]);
     if (result == FE_OK) result = part_groups(w, scene);
-    if (result == FE_OK) result = set_stiffness(w->world, scene);
+    if (result == FE_OK) result = set_tuning(w->world, scene);
     for (int32_t i = 0; i < scene->joint_count && result == FE_OK; i++) result = add_joint(w, &scene->joints[i]);
     if (result != FE_OK) {
         complain(scene->name);

@@ -238,7 +238,7 @@ static void make_contacts(void *user, dGeomID a, dGeomID b)
         surface->mode = dContactApprox1; // friction in proportion to the normal force, not a fixed force
         surface->mu = sqrt((double)shape_a->friction * (double)shape_b->friction);
         surface->bounce = (double)(shape_a->restitution > shape_b->restitution ? shape_a->restitution : shape_b->restitution);
-        surface->bounce_vel = 1.0; // m/s, Feather's default threshold
+        surface->bounce_vel = w->scene->always_bounce ? 0.0 : 1.0; // m/s, Feather's default threshold
         if (surface->bounce > 0.0) surface->mode |= dContactBounce;
         dJointAttach(dJointCreateContact(w->world, w->contact_joints, &contacts[i]), dGeomGetBody(a), dGeomGetBody(b));
     }
