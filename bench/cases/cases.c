@@ -11,7 +11,8 @@ static const struct group {
     {bench_solver2d_far, &bench_solver2d_far_count},     {bench_solver2d_joint, &bench_solver2d_joint_count},
     {bench_box3d_stack, &bench_box3d_stack_count},       {bench_box3d_slide, &bench_box3d_slide_count},
     {bench_box3d_world, &bench_box3d_world_count},       {bench_others, &bench_others_count},
-    {bench_box3d_motion, &bench_box3d_motion_count},     {bench_box3d_joint, &bench_box3d_joint_count},
+    {bench_box3d_more, &bench_box3d_more_count},         {bench_box3d_motion, &bench_box3d_motion_count},
+    {bench_box3d_joint, &bench_box3d_joint_count},
 };
 static const size_t group_count = sizeof groups / sizeof groups[0];
 
