@@ -201,6 +201,13 @@ void bench_trial_take_away(bench_trial *t, int32_t body)
     t->driven_until = t->step + 1; // what it had is gone
 }
 
+void bench_trial_bring_back(bench_trial *t, int32_t body)
+{
+    t->engine->bring_back(t->world, body, &t->scene.bodies[body].start);
+    t->away[body] = 0;
+    t->driven_until = t->step + 1;
+}
+
 void bench_trial_push(bench_trial *t, int32_t body, const double *force)
 {
     t->engine->add_force(t->world, body, force);

@@ -153,6 +153,7 @@ void bench_expect_open(bench_trial *trial, const char *what, double value, doubl
 void bench_expect_own_open(bench_trial *trial, const char *what, double value, double most);
 void bench_trial_forget(bench_trial *trial); ///< tracks start anew
 void bench_trial_take_away(bench_trial *trial, int32_t body);
+void bench_trial_bring_back(bench_trial *trial, int32_t body);                ///< to its start, at rest
 void bench_trial_push(bench_trial *trial, int32_t body, const double *force); ///< N, in the next step
 void bench_trial_hit(bench_trial *trial, int32_t body, const double *impulse, const double *point);
 void bench_trial_set_gravity(bench_trial *trial, const double *gravity);

@@ -222,6 +222,15 @@ void add_impulse(bench_world *w, int32_t body, const double *impulse, const doub
 
 void take_away(bench_world *w, int32_t body) { w->bodies[size_t(body)]->SetEnabled(false); }
 
+void bring_back(bench_world *w, int32_t body, const bench_pose *pose)
+{
+    b2Body *back = w->bodies[size_t(body)];
+    back->SetTransform(vector(pose->position), float(angle_of(pose->rotation)));
+    back->SetLinearVelocity(b2Vec2(0.0f, 0.0f));
+    back->SetAngularVelocity(0.0f);
+    back->SetEnabled(true);
+}
+
 void measure_contacts(bench_world *w, bench_contacts *out_contacts)
 {
     *out_contacts = bench_contacts{0, 0, 0.0, 0.0};
@@ -269,6 +278,7 @@ const bench_engine bench_box2d = {
     add_impulse,
     set_gravity,
     take_away,
+    bring_back,
     measure_contacts,
     raycast,
     nullptr,

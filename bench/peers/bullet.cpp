@@ -281,6 +281,21 @@ void take_away(bench_world *w, int32_t body)
     w->world.addRigidBody(rigid, 0, 0);
 }
 
+void bring_back(bench_world *w, int32_t body, const bench_pose *pose)
+{
+    btRigidBody *rigid = w->bodies[size_t(body)].get();
+    const double *q = pose->rotation;
+    const btQuaternion rotation{float(q[0]), float(q[1]), float(q[2]), float(q[3])};
+    const btTransform at(rotation, vector(pose->position));
+    w->world.removeRigidBody(rigid);
+    rigid->setCenterOfMassTransform(at);
+    rigid->getMotionState()->setWorldTransform(at);
+    rigid->setLinearVelocity(btVector3(0, 0, 0));
+    rigid->setAngularVelocity(btVector3(0, 0, 0));
+    rigid->clearForces();
+    w->world.addRigidBody(rigid);
+}
+
 void measure_contacts(bench_world *w, bench_contacts *out_contacts)
 {
     *out_contacts = bench_contacts{0, 0, 0.0, 0.0};
@@ -369,6 +384,7 @@ const bench_engine bench_bullet = {
     add_impulse,
     set_gravity,
     take_away,
+    bring_back,
     measure_contacts,
     raycast,
     nullptr,

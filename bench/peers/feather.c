@@ -321,6 +321,17 @@ static void take_away(bench_world *w, int32_t body)
     if (fe_body_set_enabled(w->world, w->bodies[body], 0) != FE_OK) complain("take away");
 }
 
+static void bring_back(bench_world *w, int32_t body, const bench_pose *pose)
+{
+    const fe_body back = w->bodies[body];
+    const double *p = pose->position, *q = pose->rotation;
+    const fe_transform at = {fe_make_dvec3(p[0], p[1], p[2]), {(float)q[0], (float)q[1], (float)q[2], (float)q[3]}};
+    const fe_vec3 rest = {0.0f, 0.0f, 0.0f};
+    if (fe_body_set_transform(w->world, back, &at) != FE_OK || fe_body_set_linear_velocity(w->world, back, &rest) != FE_OK ||
+        fe_body_set_angular_velocity(w->world, back, &rest) != FE_OK || fe_body_set_enabled(w->world, back, 1) != FE_OK)
+        complain("bring back");
+}
+
 static double mass_of(const bench_world *w, fe_body body)
 {
     float mass;
@@ -466,6 +477,7 @@ const bench_engine bench_feather = {
     .add_impulse = add_impulse,
     .set_gravity = set_gravity,
     .take_away = take_away,
+    .bring_back = bring_back,
     .measure_contacts = measure_contacts,
     .raycast = raycast,
     .phase_names = phase_names,

@@ -324,6 +324,19 @@ static void take_away(bench_world *w, int32_t body)
     dBodyDisable(dGeomGetBody(w->geoms[body]));
 }
 
+static void bring_back(bench_world *w, int32_t body, const bench_pose *pose)
+{
+    const double *p = pose->position, *q = pose->rotation;
+    const dQuaternion rotation = {q[3], q[0], q[1], q[2]};
+    const dBodyID rigid = dGeomGetBody(w->geoms[body]);
+    dGeomEnable(w->geoms[body]);
+    dBodyEnable(rigid);
+    dBodySetPosition(rigid, p[0], p[1], p[2]);
+    dBodySetQuaternion(rigid, rotation);
+    dBodySetLinearVel(rigid, 0.0, 0.0, 0.0);
+    dBodySetAngularVel(rigid, 0.0, 0.0, 0.0);
+}
+
 static void measure_pair(void *user, dGeomID a, dGeomID b)
 {
     bench_contacts *sum = user;
@@ -379,6 +392,7 @@ const bench_engine bench_ode = {
     .add_impulse = add_impulse,
     .set_gravity = set_gravity,
     .take_away = take_away,
+    .bring_back = bring_back,
     .measure_contacts = measure_contacts,
     .raycast = raycast,
 };

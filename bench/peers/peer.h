@@ -69,6 +69,7 @@ typedef struct bench_engine {
     void (*add_impulse)(bench_world *world, int32_t body, const double *impulse, const double *point); ///< N s, m, world space
     void (*set_gravity)(bench_world *world, const double *gravity);                                    ///< m/s2, from the next step on
     void (*take_away)(bench_world *world, int32_t body); ///< out of play: no contacts, no joints; its pose is of no interest any more
+    void (*bring_back)(bench_world *world, int32_t body, const bench_pose *pose); ///< what was taken away is in play there again, at rest
     /// May touch the engine's contact caches: the last call on a world before its destruction.
     void (*measure_contacts)(bench_world *world, bench_contacts *out_contacts);
     /// 1 on a hit.
