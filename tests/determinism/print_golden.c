@@ -1,5 +1,5 @@
-// print_golden.c - prints what golden.txt holds, as this machine computes it; without cmocka, for machines that are only emulated
-// (tests/determinism/aarch64).
+// print_golden.c - prints what golden.txt holds, as this machine computes it, of all scripts but the two big ones; without cmocka, for
+// machines that are only emulated (tests/determinism/aarch64).
 //
 //   feather-golden [simd] [steps]    fe_simd, 0: the widest; of each script, at most
 #include "support/play.h"

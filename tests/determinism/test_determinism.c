@@ -3,90 +3,9 @@
 //
 //   test_determinism           all; a part of it where the code is slow, without optimization or with sanitizers
 //   test_determinism update    writes golden.txt: after a change that was meant to change results
-#include "fe_test.h"
-#include "support/play.h"
-
-#include <inttypes.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#define GOLDEN "tests/determinism/golden.txt"
-enum { MOST_LINES = 64 };
-
-typedef struct golden {
-    char script[16];
-    int step;
-    uint64_t hash; // of the world
-    uint64_t told; // of all events, moved bodies and rays up to here
-} golden;
-
-static golden lines[MOST_LINES];
-static int32_t line_count;
-
-static void read_golden(void)
-{
-    FILE *file = fopen(GOLDEN, "r");
-    if (!file) return;
-    while (line_count < MOST_LINES) {
-        golden *g = lines + line_count;
-        if (fscanf(file, "%15s %d %" SCNx64 " %" SCNx64, g->script, &g->step, &g->hash, &g->told) != 4) break;
-        ++line_count;
-    }
-    fclose(file);
-}
-
-static const golden *find_golden(const char *script, int32_t step)
-{
-    for (int32_t i = 0; i < line_count; ++i)
-        if (lines[i].step == step && strcmp(lines[i].script, script) == 0) return lines + i;
-    return NULL;
-}
-
-// ---- worlds ---------------------------------------------------------------------------------------------------------------------------
-
-// NULL: this CPU has no such set
-static fe_world *new_world(int32_t simd, int32_t workers)
-{
-    fe_world_def def;
-    fe_world *world = NULL;
-    fe_world_def_init(&def, sizeof def);
-    def.simd = simd;
-    def.worker_count = workers;
-    fe_result result = fe_world_create(&def, &world);
-    if (result == FE_ERROR_UNSUPPORTED) return NULL;
-    FE_TRUE(result == FE_OK);
-    return world;
-}
-
-static void compare(const play *p, const script *s, int32_t workers)
-{
-    const golden *g = find_golden(s->name, p->step);
-    if (!g) fail_msg("no golden hash of %s at step %d: write it with 'test_determinism update'", s->name, (int)p->step);
-    if (g->hash == play_hash(p) && g->told == play_told(p)) return;
-    fail_msg("%s, %d workers, step %d: hash %016" PRIx64 " and told %016" PRIx64 ", golden are %016" PRIx64 " and %016" PRIx64
-             "\n(if results were meant to change: run 'test_determinism update' and commit the file)",
-             s->name, (int)workers, (int)p->step, play_hash(p), play_told(p), g->hash, g->told);
-}
-
-static void run(const script *s, int32_t simd, int32_t workers, int32_t steps)
-{
-    play p;
-    play_begin(&p, new_world(simd, workers));
-    while (p.step < steps) {
-        play_until(&p, s, p.step + PLAY_CHECK_STEPS);
-        compare(&p, s, workers);
-    }
-    assert_int_equal(p.errors, 0);
-    fe_world_destroy(p.world);
-}
+#include "determinism/golden.h"
 
 // ---- every number of workers, every SIMD set ------------------------------------------------------------------------------------------
-
-typedef struct condition {
-    const script *script;
-    int32_t simd;
-} condition;
 
 static void gives_the_golden_hashes(void **state)
 {
@@ -101,12 +20,7 @@ static void gives_the_golden_hashes(void **state)
     static const int32_t workers[] = {1, 2, 3, 8, 16};
     const int32_t count = 5, steps = c->script->steps;
 #endif
-    fe_world *probe = new_world(c->simd, 1);
-    if (!probe) {
-        print_message("*** NOT TESTED: SIMD set %d is not on this CPU ***\n", (int)c->simd);
-        skip();
-    }
-    fe_world_destroy(probe);
+    need_simd(c->simd);
     for (int32_t i = 0; i < count; ++i) run(c->script, c->simd, workers[i], steps);
 }
 
@@ -261,19 +175,15 @@ static int update(void)
 {
     FILE *file = fopen(GOLDEN, "w");
     if (!file) return 1;
-    const script *const scripts[] = {&script_crowd, &script_mixed, &script_terrain, &script_fast, &script_joints};
-    for (int32_t i = 0; i < 5; ++i) {
+    const script *const scripts[] = {&script_crowd,  &script_mixed,  &script_terrain, &script_fast,
+                                     &script_joints, &script_people, &script_cloth};
+    for (int32_t i = 0; i < 7; ++i) {
         fe_world *world = new_world(FE_SIMD_PLAIN, 1);
         play_print(file, scripts[i], world, scripts[i]->steps);
         fe_world_destroy(world);
     }
     return fclose(file) != 0;
 }
-
-#define GOLDEN_TEST(script, name, set)                                                                                           \
-    {                                                                                                                            \
-#script "_has_the_golden_hashes_with_" name, gives_the_golden_hashes, NULL, NULL, &(condition) { &script_##script, set } \
-    }
 
 int main(int count, char **arguments)
 {
