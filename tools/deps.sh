@@ -70,6 +70,14 @@ missing_for_aarch64() {
     has qemu-aarch64 || echo qemu-user
 }
 
+# 32 bits, and big-endian; likewise
+missing_for_foreign() {
+    test "$(uname -m)" = x86_64 || return
+    has i686-linux-gnu-gcc && links i686-linux-gnu-gcc -static "$work/empty.c" || echo gcc-i686-linux-gnu libc6-dev-i386-cross
+    has s390x-linux-gnu-gcc && links s390x-linux-gnu-gcc -static "$work/empty.c" || echo gcc-s390x-linux-gnu libc6-dev-s390x-cross
+    has qemu-s390x || echo qemu-user
+}
+
 # Prints the missing packages, by their Debian names.
 missing() {
     if test "$wanted" = csharp; then
@@ -92,7 +100,7 @@ missing() {
     links "$CC" -fsanitize=address,undefined "$work/empty.c" && links "$CC" -fsanitize=thread "$work/empty.c" ||
         echo "$("$CC" --version | awk '/clang/ && match($0, /version [0-9]+/) { print "libclang-rt-" substr($0, RSTART + 8, RLENGTH - 8) "-dev" }')"
     if test "$wanted" != fuzz; then missing_for_wasm; fi
-    if test "$wanted" != fuzz && test -z "${essential:-}"; then missing_for_aarch64; fi
+    if test "$wanted" != fuzz && test -z "${essential:-}"; then missing_for_aarch64; missing_for_foreign; fi
     has cmake || echo cmake
     has pkg-config || echo pkg-config
     has valgrind || echo valgrind

@@ -3,8 +3,8 @@
 // Audio and game threads switch flush-to-zero on, some hosts round otherwise or trap. One register of each CPU says so, for scalar and
 // vector instructions of any width. It is written only when it is not as it should be: arithmetic waits for the write, some 5 ns a call.
 // Flags that were raised are left to the host. The functions have a file of their own, so that no arithmetic of the caller moves across the
-// switch. x86: Intel 64 Manual 1, 10.2.3 (MXCSR governs SSE, AVX and AVX-512). AArch64: Arm ARM C5.2.8 (FPCR). z/Architecture: Principles of
-// Operation, SA22-7832, chapter 19 (FPC register). WebAssembly has only the one state.
+// switch. x86: Intel 64 Manual 1, 10.2.3 (MXCSR governs SSE, AVX and AVX-512). AArch64: Arm ARM C5.2.8 (FPCR). z/Architecture: Principles
+// of Operation, SA22-7832, chapter 19 (FPC register). WebAssembly has only the one state.
 #include "core/threads.h"
 
 #if defined(__i386__) && !defined(__SSE2_MATH__)
@@ -17,18 +17,47 @@
 // all six exceptions masked (bits 7-12), round to nearest (13-14), flush to zero (15) and denormals are zero (6) off, no flag raised (0-5)
 enum { MXCSR_STATE = 0x1F80, MXCSR_FLAGS = 0x3F };
 
-static int is_right(uint64_t state) { return (state & ~(uint64_t)MXCSR_FLAGS) == MXCSR_STATE; }
+#if defined(__i386__)
+// 64-bit integers become doubles in the 387, which rounds by a control word of its own: all masked, 64 bits, to nearest
+enum { X87_STATE = 0x037F };
+
+static uint64_t read_x87(void)
+{
+    uint16_t control;
+    __asm__ volatile("fnstcw %0" : "=m"(control));
+    return control;
+}
+
+static void write_x87(uint64_t state)
+{
+    uint16_t control = (uint16_t)state;
+    __asm__ volatile("fldcw %0" : : "m"(control));
+}
+#else
+enum { X87_STATE = 0 };
+static uint64_t read_x87(void) { return X87_STATE; }
+static void write_x87(uint64_t state) { (void)state; }
+#endif
+
+// MXCSR in the low half
+static int is_right(uint64_t state) { return (state & ~(uint64_t)MXCSR_FLAGS) == ((uint64_t)X87_STATE << 32 | MXCSR_STATE); }
+
+static void write_state(uint64_t state)
+{
+    _mm_setcsr((uint32_t)state);
+    write_x87(state >> 32);
+}
 
 fe__fp_state fe__fp_enter(void)
 {
-    fe__fp_state state = {_mm_getcsr()};
-    if (!is_right(state.saved)) _mm_setcsr(MXCSR_STATE);
+    fe__fp_state state = {read_x87() << 32 | _mm_getcsr()};
+    if (!is_right(state.saved)) write_state((uint64_t)X87_STATE << 32 | MXCSR_STATE);
     return state;
 }
 
 void fe__fp_leave(fe__fp_state state)
 {
-    if (!is_right(state.saved)) _mm_setcsr((uint32_t)state.saved);
+    if (!is_right(state.saved)) write_state(state.saved);
 }
 
 #elif defined(__aarch64__)

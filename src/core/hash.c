@@ -14,23 +14,19 @@ void fe__hash_u64_array(fe__hash *hash, const uint64_t *words, size_t count)
     for (size_t i = 0; i < count; ++i) fe__hash_u64(hash, words[i]);
 }
 
-// shifts instead of a copy: the same on a big-endian machine, and one load on a little-endian one
-static uint64_t little_endian_word(const unsigned char *bytes)
+void fe__hash_struct(fe__hash *hash, const void *words, size_t size)
 {
-    return (uint64_t)bytes[0] | (uint64_t)bytes[1] << 8 | (uint64_t)bytes[2] << 16 | (uint64_t)bytes[3] << 24 | (uint64_t)bytes[4] << 32 |
-           (uint64_t)bytes[5] << 40 | (uint64_t)bytes[6] << 48 | (uint64_t)bytes[7] << 56;
-}
-
-void fe__hash_bytes(fe__hash *hash, const void *bytes, size_t size)
-{
-    const unsigned char *next = bytes;
-    size_t whole = size / 8, rest = size % 8;
+    const unsigned char *next = words;
     fe__hash_u64(hash, size);
-    for (size_t i = 0; i < whole; ++i, next += 8) fe__hash_u64(hash, little_endian_word(next));
-    if (rest == 0) return;
-    unsigned char last[8] = {0};
-    memcpy(last, next, rest);
-    fe__hash_u64(hash, little_endian_word(last));
+    for (size_t i = 0; i < size / 8; ++i, next += 8) {
+        uint32_t pair[2];
+        memcpy(pair, next, sizeof pair);
+        fe__hash_u64(hash, pair[0] | (uint64_t)pair[1] << 32);
+    }
+    if (size % 8 == 0) return;
+    uint32_t last;
+    memcpy(&last, next, sizeof last);
+    fe__hash_u64(hash, last);
 }
 
 // The last word fed has been through one multiplication only. Two more of them, each followed by a shift that brings the high bits down,

@@ -64,8 +64,9 @@ static inline void fe__hash_dvec3(fe__hash *hash, fe_dvec3 a)
 // first.
 void fe__hash_u32_array(fe__hash *hash, const uint32_t *words, size_t count);
 void fe__hash_u64_array(fe__hash *hash, const uint64_t *words, size_t count);
-// Bytes, as little-endian words, the last one filled up with zeros. The length goes in first.
-void fe__hash_bytes(fe__hash *hash, const void *bytes, size_t size);
+// A struct of `size` bytes whose fields are 32-bit words, as pairs like an array: the same whatever the order of a word's bytes. `size`
+// goes in first.
+void fe__hash_struct(fe__hash *hash, const void *words, size_t size);
 // The fingerprint of all that was fed; more may be fed afterwards.
 uint64_t fe__hash_end(const fe__hash *hash);
 

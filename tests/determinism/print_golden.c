@@ -1,10 +1,18 @@
 // print_golden.c - prints what golden.txt holds, as this machine computes it, of all scripts but the two big ones; without cmocka, for
 // machines that are only emulated (tests/determinism/aarch64).
 //
-//   feather-golden [simd] [steps]    fe_simd, 0: the widest; of each script, at most
+//   feather-golden [simd] [steps] [script]...    fe_simd, 0: the widest; of each script, at most; those named only
 #include "support/play.h"
 
 #include <stdlib.h>
+#include <string.h>
+
+static int is_asked(const script *s, int count, char **arguments)
+{
+    for (int i = 3; i < count; ++i)
+        if (strcmp(arguments[i], s->name) == 0) return 1;
+    return count <= 3;
+}
 
 int main(int count, char **arguments)
 {
@@ -15,6 +23,7 @@ int main(int count, char **arguments)
     def.simd = count > 1 ? atoi(arguments[1]) : FE_SIMD_AUTO;
     for (int32_t i = 0; i < 5; ++i) {
         fe_world *world;
+        if (!is_asked(scripts[i], count, arguments)) continue;
         if (fe_world_create(&def, &world) != FE_OK) {
             fprintf(stderr, "%s\n", fe_last_error());
             return 1;

@@ -43,20 +43,23 @@ static void length_and_order_count(void **state)
     assert_true(hash_of(ab, 2) != hash_of(ba, 2));
 }
 
-static void bytes_are_read_as_little_endian_words(void **state)
+static void structs_go_in_as_pairs_of_words(void **state)
 {
     (void)state;
-    const unsigned char bytes[11] = {0xEF, 0xCD, 0xAB, 0x89, 0x67, 0x45, 0x23, 0x01, 0x10, 0x20, 0x30};
-    const uint64_t words[3] = {11, UINT64_C(0x0123456789ABCDEF), 0x302010};
+    const struct {
+        uint32_t low, high;
+        float last;
+    } fields = {0x89ABCDEF, 0x01234567, 1.0f};
+    const uint64_t words[3] = {12, UINT64_C(0x0123456789ABCDEF), 0x3F800000};
     fe__hash hash = fe__hash_begin();
-    fe__hash_bytes(&hash, bytes, sizeof bytes);
+    fe__hash_struct(&hash, &fields, sizeof fields);
     assert_true(fe__hash_end(&hash) == hash_of(words, 3));
 
-    fe__hash shorter = fe__hash_begin(); // a zero at the end is not the filling
-    const unsigned char with_zero[2] = {7, 0};
-    fe__hash_bytes(&shorter, with_zero, 1);
+    const uint32_t with_zero[2] = {7, 0};
+    fe__hash shorter = fe__hash_begin(); // a zero at the end counts
+    fe__hash_struct(&shorter, with_zero, 4);
     fe__hash longer = fe__hash_begin();
-    fe__hash_bytes(&longer, with_zero, 2);
+    fe__hash_struct(&longer, with_zero, 8);
     assert_true(fe__hash_end(&shorter) != fe__hash_end(&longer));
 }
 
@@ -106,7 +109,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_step_is_the_documented_one),   cmocka_unit_test(minus_zero_is_another_value),
-        cmocka_unit_test(length_and_order_count),           cmocka_unit_test(bytes_are_read_as_little_endian_words),
+        cmocka_unit_test(length_and_order_count),           cmocka_unit_test(structs_go_in_as_pairs_of_words),
         cmocka_unit_test(arrays_of_32_bits_go_in_as_pairs), cmocka_unit_test(vectors_go_in_by_their_bits),
         cmocka_unit_test(one_bit_turns_half_of_the_result),
     };
