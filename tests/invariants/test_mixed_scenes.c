@@ -4,8 +4,8 @@
 //
 //   test_mixed_scenes [count [first]]    so many scenes, 600 steps each; a part of them without arguments
 //
-// A scene is made from its number alone. By turns: with springs and motors; without, so that energy never rises; with a lift, whose work
-// nobody counts.
+// A scene is made from its number alone, with one draw at a time: C does not say which argument of a call comes first. By turns: with
+// springs and motors; without, so that energy never rises; with a lift, whose work nobody counts.
 #include "scenes/joint_scene.h"
 #include "scenes/terrain.h"
 
@@ -55,8 +55,12 @@ static void add_surroundings(arena *a, dice *d)
 {
     const double cell = 2 * RIM / CELLS;
     add_field(&a->s, CELLS, cell, -RIM, -RIM, basin, friction(uniform(d, 0.3, 1)));
-    for (int i = pick(d, 4); i > 0; --i)
-        add_static(&a->s, any_form(d, 2), v3(uniform(d, -4, 4), uniform(d, 0, 1), uniform(d, -4, 4)), any_rotation(d), any_material(d));
+    for (int i = pick(d, 4); i > 0; --i) {
+        fe_geometry form = any_form(d, 2);
+        double x = uniform(d, -4, 4), y = uniform(d, 0, 1), z = uniform(d, -4, 4);
+        fe_quat rotation = any_rotation(d);
+        add_static(&a->s, form, v3(x, y, z), rotation, any_material(d));
+    }
     fe_shape trigger;
     fe_body place = add_static(&a->s, box(2, 1, 2), v3(0, 1, 0), any_rotation(d), friction(0.5));
     MUST(fe_body_get_shapes(a->s.world, place, &trigger, 1));
@@ -65,18 +69,30 @@ static void add_surroundings(arena *a, dice *d)
     a->lift = add_body(&a->s, FE_BODY_KINEMATIC, box(1.5, 0.2, 1.5), v3(0, 1, 0), UNTURNED, friction(0.8), WATER);
 }
 
+static fe_body add_any(arena *a, dice *d, vec at)
+{
+    double size = uniform(d, 0.6, 1), density = uniform(d, 300, 3000);
+    fe_geometry form = any_form(d, size);
+    fe_quat rotation = any_rotation(d);
+    return add_dynamic(&a->s, form, at, rotation, any_material(d), (float)density);
+}
+
 static void add_bodies(arena *a, dice *d)
 {
     const int count = 20 + pick(d, MOST_BODIES - 20);
     for (int i = 0; i < count; ++i) {
         // apart from each other and above ground and statics: overlaps at birth would give energy
         vec at = v3(1.4 * (i % COLUMNS - 2), 4 + 1.4 * (i / (COLUMNS * COLUMNS)), 1.4 * (i / COLUMNS % COLUMNS - 2));
-        fe_body body =
-            add_dynamic(&a->s, any_form(d, uniform(d, 0.6, 1)), at, any_rotation(d), any_material(d), (float)uniform(d, 300, 3000));
-        set_velocity(&a->s, body, somewhere(d, 2), somewhere(d, 3));
-        if (pick(d, 8) == 0) MUST(fe_body_set_locks(a->s.world, body, (uint32_t)pick(d, 8) & 5u, (uint32_t)pick(d, 8)));
+        fe_body body = add_any(a, d, at);
+        vec velocity = somewhere(d, 2);
+        set_velocity(&a->s, body, velocity, somewhere(d, 3));
+        if (pick(d, 8) == 0) {
+            uint32_t linear = (uint32_t)pick(d, 8) & 5u, angular = (uint32_t)pick(d, 8);
+            MUST(fe_body_set_locks(a->s.world, body, linear, angular));
+        }
         if (pick(d, 2) == 0) MUST(fe_body_set_sleep_allowed(a->s.world, body, 1));
-        if (pick(d, 5) == 0) MUST(fe_body_set_damping(a->s.world, body, (float)uniform(d, 0, 1), (float)uniform(d, 0, 1)));
+        float damping = pick(d, 5) == 0 ? (float)uniform(d, 0, 1) : 0;
+        if (damping > 0) MUST(fe_body_set_damping(a->s.world, body, damping, (float)uniform(d, 0, 1)));
         if (pick(d, 10) == 0) MUST(fe_body_set_bullet(a->s.world, body, 1));
         a->weight += mass_of(&a->s, body) * G;
         a->bodies[a->count++] = body;
