@@ -33,9 +33,11 @@ static void judge_heavy_chain(bench_trial *t)
     const double link = t->masses[1], ball = t->masses[LINKS + 1], stiffness = 0.5 * link * bench_joint_stiffness(t);
     const double gap = (ball + LINKS * link) * GRAVITY / stiffness, most = bench_highest(t->gap, 0, t->step);
     const double held = 0.5 * stiffness * most * most * (LINKS + 1);
+    // speed and height are half a substep apart: m g v h / 2, rising and falling
+    const double apart = (ball + LINKS * link) * GRAVITY * sqrt(2.0 * GRAVITY * LINKS) * (double)t->scene.dt / t->substeps;
     const int32_t half = t->step / 2;
     bench_expect_own_open(t, "largest sum of joint gaps, m", bench_highest(t->gaps, 0, t->step), 3.3 * gap * LINKS);
-    bench_expect_own(t, "rise of the energy / what the joints can hold", bench_rise(t->energy, 1, t->step) / held, 0.0, 1.0);
+    bench_expect_own(t, "rise of the energy / what the joints can hold", bench_rise(t->energy, 1, t->step) / (held + apart), 0.0, 1.0);
     bench_expect(t, "kinetic energy late / early", bench_highest(t->kinetic, half, t->step) / bench_highest(t->kinetic, 0, half), 0.0, 1.0);
 }
 

@@ -46,6 +46,7 @@ typedef struct builder {
     int32_t *joint_start;
     int32_t *key_count;       // by colour and kind
     int32_t *joint_key_count; // by part, colour and sides
+    int32_t *joint_key_group;
 } builder;
 
 // ---- room -----------------------------------------------------------------------------------------------------------------------------
@@ -100,16 +101,20 @@ static int64_t row_bound(const fe__graph_bound *b, int32_t contacts, int32_t wid
     return rows < contacts ? rows : contacts;
 }
 
-// bytes of rows of so many contacts and parts of joints
+static int32_t tree_links(const fe__graph_bound *b) { return b->joint_set ? b->joint_set->forest.link_count : 0; }
+
+// bytes of rows of so many contacts and parts of joints; a tree has a link for each of its joints, and perhaps one for its root
 static int64_t row_bytes(const fe__graph_bound *b, const fe__kernels *kernels, int32_t contacts, int32_t joint_lanes)
 {
     int64_t widest = kernels->contact->row_size[b->special ? FE__ROW_PAIR | FE__ROW_SPECIAL : FE__ROW_PAIR];
-    return row_bound(b, contacts, kernels->width) * widest + joint_row_bound(b, joint_lanes, kernels->width) * widest_joint(b, kernels);
+    int64_t links = fe__minl(tree_links(b), 2 * (int64_t)joint_lanes);
+    return row_bound(b, contacts, kernels->width) * widest + joint_row_bound(b, joint_lanes, kernels->width) * widest_joint(b, kernels) +
+           links * kernels->joint->tree.node_size;
 }
 
 static int64_t scratch_bound(const fe__graph_bound *b)
 {
-    return 9 * (int64_t)b->bodies + 3 * (int64_t)b->contacts + b->joints + 3 * (batch_bound(b) + 1) + GROUP_KEYS + JOINT_KEYS;
+    return 9 * (int64_t)b->bodies + 3 * (int64_t)b->contacts + b->joints + 3 * (batch_bound(b) + 1) + GROUP_KEYS + 2 * JOINT_KEYS;
 }
 
 // bytes of rows of the largest island, and of a worker's stretch
@@ -133,7 +138,7 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
     int32_t batches = batch_bound(b), width = kernels->width, parts = joint_rows(b);
     int64_t all_lanes = (int64_t)b->contacts + parts;
     int64_t groups = fe__minl((int64_t)group_bound(b) * batches, b->contacts) + fe__mini(b->crowded, b->contacts) +
-                     fe__minl((int64_t)joint_group_bound(b) * batches, parts) + overflowing_rows(b);
+                     fe__minl((int64_t)joint_group_bound(b) * batches, parts) + overflowing_rows(b) + tree_links(b);
     int64_t lanes = fe__minl(all_lanes + (int64_t)(width - 1) * groups, all_lanes * width);
     // each contact or joint of a kinematic body may bring a copy of it
     int64_t copies = (b->special ? b->contacts : 0) + (b->joint_set ? b->joint_set->kinematic : 0);
@@ -149,6 +154,7 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
         !FE_RESERVE(memory, s->trail, s->trail_capacity[1], b->fast + (b->fast_kinematic ? copies : 0)) ||
         !FE_RESERVE(memory, s->batches, s->batch_capacity, batches) || !FE_RESERVE(memory, s->groups, s->group_capacity, groups + 1) ||
         !FE_RESERVE(memory, s->lanes, s->lane_capacity, lanes + width) ||
+        !FE_RESERVE(memory, s->places, s->place_capacity, tree_links(b)) ||
         !FE_RESERVE(memory, s->sort_items, s->sort_capacity, 2 * sorted) ||
         !FE_RESERVE(memory, s->rows, s->row_capacity, fe__maxl(rows, building) / (int64_t)sizeof(fe__row_block) + 1))
         return 0;
@@ -171,6 +177,7 @@ void fe__solver_destroy(fe__solver *s, fe__memory *memory)
     FE_FREE(memory, s->batches, s->batch_capacity);
     FE_FREE(memory, s->groups, s->group_capacity);
     FE_FREE(memory, s->lanes, s->lane_capacity);
+    FE_FREE(memory, s->places, s->place_capacity);
     FE_FREE(memory, s->sort_items, s->sort_capacity);
     FE_FREE(memory, s->rows, s->row_capacity);
     s->batch_count = s->large_count = s->group_count = s->lane_count = s->line_count = s->island_count = 0;
@@ -203,6 +210,7 @@ static builder make_builder(fe__solver *s, const fe__kernels *kernels, const fe_
     b.joint_order = carve(&at, in->joint_count);
     b.key_count = carve(&at, GROUP_KEYS);
     b.joint_key_count = carve(&at, JOINT_KEYS);
+    b.joint_key_group = carve(&at, JOINT_KEYS);
     const int32_t *end = (const int32_t *)(const void *)(s->rows + s->row_capacity);
     int64_t starts = (end - at) / 3;
     b.body_start = carve(&at, starts);
@@ -455,7 +463,7 @@ static fe__group *open_group(builder *b, fe__batch *batch, fe__group like, int32
 
 static fe__group *open_contacts(builder *b, fe__batch *batch, int32_t colour, int32_t kind, int32_t contacts, const fe__kernels *kernels)
 {
-    fe__group like = {.kind = kind, .colour = FE__JOINT_KEYS + colour, .alone = colour == FE__OVERFLOW_COLOUR};
+    fe__group like = {.kind = kind, .colour = FE__CONTACT_COLOURS + colour, .alone = colour == FE__OVERFLOW_COLOUR};
     return open_group(b, batch, like, contacts, kernels->contact->row_size[kind]);
 }
 
@@ -518,12 +526,66 @@ static void open_part(builder *b, fe__batch *batch, int32_t part, int32_t overfl
     enum { KEYS = FE__JOINT_COLOURS * SIDES };
     fe__solver *s = b->s;
     int32_t first = part * (FE__JOINT_COLOURS + 1) * SIDES;
-    for (int32_t key = first; key < first + KEYS; ++key)
-        if (b->joint_key_count[key]) b->joint_key_count[key] = open_joints(b, batch, key, b->joint_key_count[key], kernels)->lane;
+    for (int32_t key = first; key < first + KEYS; ++key) {
+        if (!b->joint_key_count[key]) continue;
+        b->joint_key_group[key] = s->group_count;
+        b->joint_key_count[key] = open_joints(b, batch, key, b->joint_key_count[key], kernels)->lane;
+    }
     for (int32_t i = 0; i < overflowing; ++i) {
         int32_t joint = s->sort_items[i].value;
         const fe__joint *j = b->in->joints->joints + joint;
         if (j->rows >> part & 1) s->lanes[open_joints(b, batch, joint_key(part, j), 1, kernels)->lane] = joint_lane(b, joint);
+    }
+}
+
+// ---- trees ----------------------------------------------------------------------------------------------------------------------------
+static int32_t link_of(const builder *b, int32_t joint)
+{
+    const fe__forest *f = &b->in->joints->forest;
+    return f->link_count ? f->link_of[joint] : NONE;
+}
+
+// A link's bodies, and a tree's group, when the first of its links comes by
+static void open_link(builder *b, fe__batch *batch, int32_t link, fe__lane lane, const fe__kernels *kernels)
+{
+    fe__solver *s = b->s;
+    const fe__forest *f = &b->in->joints->forest;
+    const fe__tree_link *l = f->links + link;
+    int32_t first = f->trees[l->tree].first, count = f->trees[l->tree].count, rootless = !f->links[first].joint;
+    s->places[link] =
+        (fe__tree_place){.line = l->holds_b ? lane.line_b : lane.line_a, .parent_line = l->holds_b ? lane.line_a : lane.line_b};
+    if (link != first + rootless) return;
+    if (rootless) s->places[first] = (fe__tree_place){.line = line_of(b, f->links[first].body), .parent_line = FE__STATIC_LINE};
+    s->groups[s->group_count++] =
+        (fe__group){.kind = FE__TREE_KIND, .colour = FE__TREE_COLOUR, .lane = l->tree, .rows = 1, .offset = batch->row_bytes};
+    batch->row_bytes += (int64_t)count * kernels->joint->tree.node_size;
+    ++batch->group_count;
+}
+
+// the rows of a link's locks
+static void add_lock(const builder *b, int32_t link, int32_t part, int32_t group, int32_t lane, const fe__kernels *kernels)
+{
+    const uint32_t locks =
+        1u << FE__PART_DISTANCE | 1u << FE__PART_HINGE | 1u << FE__PART_FIXED | 1u << FE__PART_SLIDE | 1u << FE__PART_POINT;
+    const fe__group *g = b->s->groups + group;
+    fe__tree_place *p = b->s->places + link;
+    if (!(locks >> part & 1)) return;
+    p->lock[p->locks].part = part;
+    p->lock[p->locks].lane = (lane - g->lane) % b->width;
+    p->lock[p->locks++].row = g->offset + (int64_t)((lane - g->lane) / b->width) * kernels->joint->of[part].row_size;
+}
+
+static void fill_joint_lanes(builder *b, fe__batch *batch, int32_t joint, const fe__kernels *kernels)
+{
+    const fe__joint *j = b->in->joints->joints + joint;
+    fe__lane lane = joint_lane(b, joint);
+    int32_t link = link_of(b, joint);
+    if (link >= 0) open_link(b, batch, link, lane, kernels);
+    for (int32_t part = 0; part < FE__PARTS; ++part) {
+        if (!(j->rows >> part & 1)) continue;
+        int32_t key = joint_key(part, j), at = b->joint_key_count[key]++;
+        b->s->lanes[at] = lane;
+        if (link >= 0) add_lock(b, link, part, b->joint_key_group[key], at, kernels);
     }
 }
 
@@ -540,10 +602,7 @@ static void make_joint_groups(builder *b, int32_t k, const fe__kernels *kernels)
     for (int32_t part = 0; part < FE__PARTS; ++part) open_part(b, batch, part, overflowing, kernels);
     for (int32_t i = b->joint_start[k]; i < b->joint_start[k + 1]; ++i) {
         const fe__joint *j = b->in->joints->joints + b->joint_order[i];
-        if (j->colour == FE__JOINT_OVERFLOW) continue;
-        fe__lane lane = joint_lane(b, b->joint_order[i]);
-        for (int32_t part = 0; part < FE__PARTS; ++part)
-            if (j->rows >> part & 1) b->s->lanes[b->joint_key_count[joint_key(part, j)]++] = lane;
+        if (j->colour != FE__JOINT_OVERFLOW) fill_joint_lanes(b, batch, b->joint_order[i], kernels);
     }
     batch->joint_groups = batch->group_count;
 }

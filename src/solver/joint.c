@@ -33,6 +33,7 @@ static int32_t dynamic_ends(const fe__joint *j, fe__body *bodies, fe__body **end
 
 static void count_joint(fe__joints *joints, const fe__joint *j, int32_t sign)
 {
+    joints->forest.changed = 1;
     joints->linked += sign;
     joints->rows += sign * __builtin_popcount(j->rows & all_parts);
     joints->kinematic += sides_of(j) & FE__KINEMATIC_END ? sign : 0;

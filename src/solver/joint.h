@@ -13,6 +13,7 @@
 #ifndef FE_SOLVER_JOINT_H
 #define FE_SOLVER_JOINT_H
 #include "solver/body.h"
+#include "solver/joint_forest.h"
 
 // Parts of a joint: each is a lane in a row of a kind of its own. A pass goes through them in this order over all joints, so that what
 // holds the anchors together has the last word.
@@ -124,6 +125,7 @@ typedef struct fe__joints {
     int32_t overflowing; // joints without a colour, each a row of its own for each of its parts
     uint32_t row_kinds;  // bits of the parts there ever were
     int32_t most;        // joints that one dynamic body ever had
+    fe__forest forest;   // of all of them
 } fe__joints;
 
 // Into the graph: a colour, and which rows stand for its parts (locks and types of the bodies decide: unlink before they change, link

@@ -9,30 +9,37 @@
 #include "solver/wide_body.h"
 
 #include <float.h>
+#include <string.h>
 
 #include "solver/joint_wide.h"
 #include "solver/joint_axis.h"
 #include "solver/joint_point.h"
 #include "solver/joint_slide.h"
 #include "solver/joint_turn.h"
+#include "solver/joint_tree_rows.h"
+#include "solver/joint_tree.h"
+#include "solver/joint_tree_calm.h"
+#include "solver/joint_tree_passes.h"
 
 #define KERNELS(name, form)                                                          \
     {                                                                                \
         sizeof(form##_row), prepare_##name, solve_##form, relax_##name, store_##name \
     }
 
-const fe__joint_kernels FE_NAME(fe__joint_kernels) = {{
-    [FE__PART_X] = KERNELS(x, linear),
-    [FE__PART_Y] = KERNELS(y, linear),
-    [FE__PART_Z] = KERNELS(z, linear),
-    [FE__PART_DISTANCE] = KERNELS(distance, linear),
-    [FE__PART_TWIST] = KERNELS(twist, angular),
-    [FE__PART_SWING_Y] = KERNELS(swing_y, angular),
-    [FE__PART_SWING_Z] = KERNELS(swing_z, angular),
-    [FE__PART_CONE] = KERNELS(cone, angular),
-    [FE__PART_TURN] = KERNELS(turn, turn),
-    [FE__PART_HINGE] = KERNELS(hinge, hinge),
-    [FE__PART_FIXED] = KERNELS(fixed, fixed),
-    [FE__PART_SLIDE] = KERNELS(slide, slide),
-    [FE__PART_POINT] = KERNELS(point, point),
-}};
+const fe__joint_kernels FE_NAME(fe__joint_kernels) = {.of =
+                                                          {
+                                                              [FE__PART_X] = KERNELS(x, linear),
+                                                              [FE__PART_Y] = KERNELS(y, linear),
+                                                              [FE__PART_Z] = KERNELS(z, linear),
+                                                              [FE__PART_DISTANCE] = KERNELS(distance, linear),
+                                                              [FE__PART_TWIST] = KERNELS(twist, angular),
+                                                              [FE__PART_SWING_Y] = KERNELS(swing_y, angular),
+                                                              [FE__PART_SWING_Z] = KERNELS(swing_z, angular),
+                                                              [FE__PART_CONE] = KERNELS(cone, angular),
+                                                              [FE__PART_TURN] = KERNELS(turn, turn),
+                                                              [FE__PART_HINGE] = KERNELS(hinge, hinge),
+                                                              [FE__PART_FIXED] = KERNELS(fixed, fixed),
+                                                              [FE__PART_SLIDE] = KERNELS(slide, slide),
+                                                              [FE__PART_POINT] = KERNELS(point, point),
+                                                          },
+                                                      .tree = {sizeof(tree_node), prepare_tree, solve_tree, relax_tree}};

@@ -8,7 +8,7 @@
 #include <string.h>
 
 enum {
-    MOST_PASSES = 4 * FE__COLOURS + 3 * FE__JOINT_KEYS + 8,
+    MOST_PASSES = 4 * FE__COLOURS + 3 * (FE__JOINT_KEYS + 1) + 8,
     LANES_IN_BLOCK = 64,   // rows of a block, in contacts: a microsecond of work
     LINES_IN_BLOCK = 256,  // a multiple of FE__MAX_WIDTH
     SERIAL_LANES = 128,    // colours are merged into one block while they have no more contacts: a barrier would cost more than they do
@@ -191,8 +191,20 @@ static void run_joints(const job *j, const fe__group *g, verb verb, unsigned cha
     }
 }
 
+static void run_tree(const job *j, const fe__group *g, verb verb, unsigned char *rows)
+{
+    const fe__tree_kernel *k = &j->k->joint->tree;
+    if (verb == PREPARE) k->prepare(j->s, j->joints, g->lane, rows, g->offset, j->c);
+    if (verb == SOLVE) k->solve(j->s, j->joints, g->lane, rows, g->offset, j->c);
+    if (verb == RELAX) k->relax(j->s, j->joints, g->lane, rows, g->offset, j->c);
+}
+
 static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char *rows, int32_t first, int32_t count)
 {
+    if (g->kind == FE__TREE_KIND) {
+        run_tree(j, g, verb, rows);
+        return;
+    }
     if (g->kind >= FE__ROW_KINDS) {
         run_joints(j, g, verb, rows, first, count);
         return;

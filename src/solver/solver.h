@@ -62,7 +62,7 @@ typedef struct fe__step_constants {
 typedef struct fe__group {
     int32_t lane; // first, a multiple of W
     int32_t rows;
-    int32_t kind;   // FE__ROW_*, or FE__ROW_KINDS + part of joints
+    int32_t kind;   // FE__ROW_*, or FE__ROW_KINDS + part of joints, or FE__TREE_KIND: one tree, `lane` is its index
     int32_t colour; // rises; groups of one share no dynamic body
     int32_t sides;  // FE__MOVES_*, of joints
     int32_t alone;  // 1: overflow, one row after another
@@ -85,8 +85,22 @@ typedef struct fe__lane {
 } fe__lane;
 
 enum {
-    FE__JOINT_KEYS = FE__PARTS * (FE__JOINT_COLOURS + 1) // colours of joints' groups: part, then colour; contacts' come after them
+    FE__JOINT_KEYS = FE__PARTS * (FE__JOINT_COLOURS + 1), // colours of joints' groups: part, then colour
+    FE__TREE_KIND = FE__ROW_KINDS + FE__PARTS,
+    FE__TREE_COLOUR = FE__JOINT_KEYS, // trees share no dynamic body
+    FE__CONTACT_COLOURS,              // contacts' come after them
+    FE__MOST_LOCKS = 3                // parts of a joint that are locks
 };
+
+// Where a link of a tree finds its bodies and the rows of its joint, see joint_forest.h
+typedef struct fe__tree_place {
+    int32_t line, parent_line; // of the body, of the joint's other end
+    int32_t locks;
+    struct {
+        int32_t part, lane; // FE__PART_*; its lane in the row
+        int64_t row;        // bytes into the batch's row memory
+    } lock[FE__MOST_LOCKS];
+} fe__tree_place;
 
 typedef struct fe__row_block {
     _Alignas(64) unsigned char bytes[64];
@@ -119,6 +133,8 @@ typedef struct fe__solver {
     int32_t group_count, group_capacity;
     fe__lane *lanes;
     int32_t lane_count, lane_capacity;
+    fe__tree_place *places; // by link of the forest; of trees that are awake
+    int32_t place_capacity;
     int32_t island_count;
     fe__sort_item *sort_items;
     int32_t sort_capacity;
@@ -152,8 +168,17 @@ typedef struct fe__joint_kernel {
     void (*store)(const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count, const fe__step_constants *c);
 } fe__joint_kernel;
 
+// All locks of a tree at once. `rows` is the batch's row memory, `nodes` (bytes into it) where the tree keeps its matrices
+typedef struct fe__tree_kernel {
+    int32_t node_size; // bytes a link
+    void (*prepare)(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes, const fe__step_constants *c);
+    void (*solve)(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes, const fe__step_constants *c);
+    void (*relax)(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes, const fe__step_constants *c);
+} fe__tree_kernel;
+
 typedef struct fe__joint_kernels {
     fe__joint_kernel of[FE__PARTS];
+    fe__tree_kernel tree;
 } fe__joint_kernels;
 
 // Passes over lines first..first + count - 1, both multiples of FE__MAX_WIDTH

@@ -23,6 +23,7 @@ void fe__joints_free(fe_world *world)
     FE_FREE(memory, world->joints.joints, world->joint_capacity[0]);
     FE_FREE(memory, world->joints.frames, world->joint_capacity[1]);
     FE_FREE(memory, world->joints.reactions, world->joint_capacity[2]);
+    fe__forest_free(&world->joints.forest, memory);
     FE_FREE(memory, world->joint_records, world->joint_capacity[3]);
     fe__record_pool_free(&world->joint_axes, memory);
     for (int32_t type = 1; type < FE__JOINT_TYPES; ++type) fe__record_pool_free(&world->joint_settings[type], memory);

@@ -68,6 +68,7 @@ static void apply(fe_world *world, fe__body *body, const mass_properties *p)
         set_local_centre(world, body, p->centre);
     }
     set_sizes(world, body);
+    if (body->joint_count) world->joints.forest.changed = world->solver.graph_changed = 1; // which trees bear much
 
     float largest = fe__maxf(fe__maxf(inertia.x, inertia.y), inertia.z), least = fe__minf(fe__minf(inertia.x, inertia.y), inertia.z);
     int32_t turns_locked = (uint32_t)body->spin[3] >> 3 != 0;

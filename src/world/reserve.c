@@ -133,6 +133,7 @@ static int32_t reserve_scratch(fe__step *step, const fe__graph_bound *b)
 int32_t fe__reserve_step(fe__step *step)
 {
     fe_world *w = step->world;
+    if (!fe__find_joint_trees(w)) return 0;
     fe__graph_bound bound = bound_of(step);
     if (!fe__reserve_pairs(w, step->scratch->candidate_count + step->scratch->candidate_patches) || !reserve_scratch(step, &bound))
         return 0;

@@ -73,36 +73,29 @@ static double sum_of_gaps(const scene *s, const chain *c)
     return sum;
 }
 
-// what the joints hold as springs, each gap on half a link's mass, J
-static double stored_in(const scene *s, const chain *c)
-{
-    double w = 2 * PI * fmin(60, 0.25 / s->h), half = mass_of(s, c->links[0]) / 2, sum = 0;
-    for (int i = 0; i <= c->count; ++i) sum += 0.5 * half * w * w * gap_of(s, c->joints[i]) * gap_of(s, c->joints[i]);
-    return sum;
-}
-
-// S22, B25: a ball of 585 times a link's mass swings down on 32 links. Tension reaches 3 M g on the first swing, 3.3 times the static gap
-// with the links' own; later the ball falls slack into its chain, as on rubber, and only energy binds it
-static void a_ball_on_a_chain_stretches_it_no_more_than_predicted(void **state)
+// S22, B25: a ball of 585 times a link's mass swings down on 32 links. Tension reaches 3 M g on the first swing, by which joints that give
+// would stretch 3.3 times as far as predictor P2 says of the load at rest, 8.6 m; later the ball falls slack into its chain and jerks it
+// taut. The chain is a tree: all of it together stays within the slop of one joint.
+static void a_ball_on_a_chain_does_not_stretch_it(void **state)
 {
     scene s = begin_source(state);
     chain c = add_chain(&s, v3(0, 0, 0), 32, 0.5, 0.125, 1000, 10);
     add_end(&s, &c, v3(0, 0, 0), 0.5, 2, 1000);
-    double link = mass_of(&s, c.links[0]), ball = mass_of(&s, c.links[32]), static_sum = 33 * joint_give(&s, ball * SOURCE_G, link / 2);
+    double link = mass_of(&s, c.links[0]), ball = mass_of(&s, c.links[32]);
     FE_NEAR(ball / link, 585, 6);
     double start = totals_of(&s, c.links, 33).energy;
-    const int steps = SLOW_BUILD ? 150 : 900, first_swing = 400;
+    const int steps = SLOW_BUILD ? 150 : 1800;
     for (int i = 0; i < steps; ++i) {
         run(&s, 1);
-        if (i < first_swing) FE_WITHIN(sum_of_gaps(&s, &c), 0, 3.3 * static_sum);
-        FE_WITHIN(totals_of(&s, c.links, 33).energy + stored_in(&s, &c), -1e12, start + 1e-5 * ball * SOURCE_G * 32);
+        FE_WITHIN(sum_of_gaps(&s, &c), 0, LINEAR_SLOP);
+        FE_WITHIN(totals_of(&s, c.links, 33).energy, -1e12, start + 1e-5 * ball * SOURCE_G * 32);
         FE_TRUE(dot(position(&s, c.links[32]), position(&s, c.links[32])) < 1e4); // no NaN
     }
     scene_end(&s);
 }
 
-// hung, not swung: the load falls onto its chain of eleven joints, each of which gives by P2
-static void a_load_of_a_thousand_links_settles_on_its_chain(void **state)
+// hung, not swung: it stays where it was put
+static void a_load_of_a_thousand_links_hangs_still_on_its_chain(void **state)
 {
     enum { LINKS = 10 };
     scene s = scene_begin(state);
@@ -115,18 +108,14 @@ static void a_load_of_a_thousand_links_settles_on_its_chain(void **state)
         joints[i] = add_ball(&s, ball_def(), above, below, v3(0, -0.3 * i, 0), v3(0, -1, 0));
         above = load = below;
     }
-    double give = joint_give(&s, 1000 * G, 0.5), early = 0, late = 0;
     const int steps = SLOW_BUILD ? 300 : 1200;
     for (int i = 0; i < steps; ++i) {
         run(&s, 1);
-        FE_WITHIN(worst_gap(&s, joints, LINKS + 1), 0, 3.3 * give);
-        double v = velocity(&s, load).y;
-        if (i < steps / 4) early += v * v;
-        if (i >= 3 * steps / 4) late += v * v;
         vec p = position(&s, load);
-        FE_NEAR(p.x, 0, 1e-6), FE_NEAR(p.z, 0, 1e-6);
+        FE_WITHIN(worst_gap(&s, joints, LINKS + 1), 0, 1e-6);
+        FE_NEAR(p.x, 0, 1e-6), FE_NEAR(p.y, -0.3 * LINKS - 0.5, 1e-5), FE_NEAR(p.z, 0, 1e-6);
+        FE_WITHIN(length(velocity(&s, load)), 0, 1e-4);
     }
-    FE_WITHIN(sqrt(late / early), 0, SLOW_BUILD ? 0.8 : 0.5);
     scene_end(&s);
 }
 
@@ -136,14 +125,13 @@ static void a_chain_hangs_far_from_the_origin_as_near_it(void **state)
     scene s = begin_source(state);
     vec from = v3(40000, -35000, 0);
     chain c = add_chain(&s, from, 40, 0.1, 0.025, 20, 0);
-    double give = joint_give(&s, 40 * SOURCE_G, 0.5);
     for (int i = 0; i < 40; ++i) set_damping(&s, c.links[i], 1); // ten times the source's: it hangs sooner
     for (int i = 0; i < 900; ++i) {
         run(&s, 1);
-        FE_WITHIN(worst_gap(&s, c.joints, 40), 0, 3.3 * give);
+        FE_WITHIN(worst_gap(&s, c.joints, 40), 0, LINEAR_SLOP);
     }
     vec last = minus(position(&s, c.links[39]), from);
-    FE_NEAR(last.y, -8 + 0.1 - 40 * give / 2, 0.08);
+    FE_NEAR(last.y, -8 + 0.1, 1e-3);
     FE_WITHIN(sqrt(speed_square(&s, c.links, 40)), 0, 2);
     scene_end(&s);
 }
@@ -451,9 +439,9 @@ static void bricards_linkage_moves_as_one(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(a_ball_on_a_chain_stretches_it_no_more_than_predicted),
-        WITH_4_SUBSTEPS(a_ball_on_a_chain_stretches_it_no_more_than_predicted),
-        TEST(a_load_of_a_thousand_links_settles_on_its_chain),
+        TEST(a_ball_on_a_chain_does_not_stretch_it),
+        WITH_4_SUBSTEPS(a_ball_on_a_chain_does_not_stretch_it),
+        TEST(a_load_of_a_thousand_links_hangs_still_on_its_chain),
         TEST(a_chain_hangs_far_from_the_origin_as_near_it),
         TEST(a_chain_made_open_closes_without_a_bang),
         TEST(a_cloth_hangs_by_the_predicted_gaps),

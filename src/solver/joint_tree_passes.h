@@ -1,0 +1,204 @@
+// joint_tree_passes.h - what a tree does in each pass over the joints: wishes, and what comes of them. Part of joint.simd.c.
+
+// ---- wishes ---------------------------------------------------------------------------------------------------------------------------
+// J v = 0
+static void wish_still(const tree_job *t)
+{
+    for (int32_t i = 0; i < t->count; ++i) {
+        tree_node *n = t->nodes + i;
+        const float *below = below_of(t, i), *above = above_of(t, i);
+        for (int r = 0; r < n->rows.count; ++r) {
+            const double *b = n->rows.below[r], *a = n->rows.above[r];
+            n->wish[r] = 0.0;
+            for (int k = 0; k < 3; ++k) {
+                n->wish[r] -= b[k] * (double)below[k] + b[3 + k] * (double)below[4 + k];
+                n->wish[r] -= a[k] * (double)above[k] + a[3 + k] * (double)above[4 + k];
+            }
+        }
+    }
+}
+
+typedef struct {
+    vec v, w;
+} motion_of_body;
+
+// with the change at hand
+static motion_of_body moving(const float *velocity, const double *change)
+{
+    static const double none[6] = {0};
+    const double *u = change ? change : none;
+    return (motion_of_body){{(double)velocity[0] + u[0], (double)velocity[1] + u[1], (double)velocity[2] + u[2]},
+                            {(double)velocity[4] + u[3], (double)velocity[5] + u[4], (double)velocity[6] + u[5]}};
+}
+
+// A point on an arm r leaves its tangent while the body turns: by integrate_positions' Q = Cayley(h w) it goes on by
+//     (Q - 1) r - h w x r = 2/(1 + u^2) (u x r + u x (u x r)) - 2 u x r,   u = h w / 2
+// The turn about the arm itself leaves the point alone. Beyond SLOW_TURN in a substep that is no small correction any more, and what
+// comes next is left to the positions: that loses energy instead of gaining it.
+#define SLOW_TURN 0.2 // rad
+
+static vec leave_tangent(vec r, vec w, double h)
+{
+    double square = vec_dot(r, r), along = square > 0.0 ? vec_dot(w, r) / square : 0.0;
+    vec u = vec_scale(0.5 * h, vec_add(w, vec_scale(-along, r))), a = vec_cross(u, r);
+    double k = 2.0 / (1.0 + vec_dot(u, u));
+    double fade = fe__mind(fe__maxd(2.0 - 4.0 * vec_dot(u, u) / (SLOW_TURN * SLOW_TURN), 0.0), 1.0);
+    return vec_scale(fade, vec_add(vec_scale(k - 2.0, a), vec_scale(k, vec_cross(u, a))));
+}
+
+// A rod grows by the square of what its ends move across it
+static double leave_rod(const tree_rows *rows, const motion_of_body *below, const motion_of_body *above, double h)
+{
+    vec u = vec_of(rows->below[0]);
+    vec v = vec_add(vec_add(below->v, vec_cross(below->w, rows->arm[0])),
+                    vec_scale(-1.0, vec_add(above->v, vec_cross(above->w, rows->arm[1]))));
+    double along = vec_dot(v, u), across = vec_dot(v, v) - along * along;
+    return fe__mind(0.5 * h * h * across / rows->rod, SLOW_TURN * rows->rod);
+}
+
+// Velocities with which the points meet after the substep, on the arcs of the velocities at hand
+static void wish_on_arcs(const tree_job *t)
+{
+    wish_still(t);
+    for (int32_t i = 0; i < t->count; ++i) {
+        tree_node *n = t->nodes + i;
+        motion_of_body below = moving(below_of(t, i), n->change),
+                       above = moving(above_of(t, i), parent_of(t, i) ? parent_of(t, i)->change : NULL);
+        vec off_below = leave_tangent(n->rows.arm[0], below.w, t->h), off_above = leave_tangent(n->rows.arm[1], above.w, t->h);
+        for (int r = 0; r < n->locks; ++r)
+            n->wish[r] -= (vec_dot(vec_of(n->rows.below[r]), off_below) + vec_dot(vec_of(n->rows.above[r]), off_above)) / t->h;
+        if (n->rows.rod > 0.0) n->wish[0] -= leave_rod(&n->rows, &below, &above, t->h) / t->h;
+    }
+}
+
+// Positions are put right at once, as far as a quarter of a turn of the arms takes them; what is farther apart follows as fast as the
+// softness of a lock says, by `share` of it.
+#define FULL_TURN 0.25 // rad
+
+static void wish_closed(const tree_job *t, double share)
+{
+    for (int32_t i = 0; i < t->count; ++i) {
+        tree_node *n = t->nodes + i;
+        double arm = sqrt(fe__maxd(vec_dot(n->rows.arm[0], n->rows.arm[0]), vec_dot(n->rows.arm[1], n->rows.arm[1])));
+        arm = fe__maxd(arm, n->rows.rod);
+        for (int r = 0; r < n->rows.count; ++r) {
+            double error = n->rows.error[r], most = fe__maxd(FULL_TURN * (n->rows.points >> r & 1 ? arm : 1.0), share * fe__absd(error));
+            n->wish[r] = fe__mind(fe__maxd(-error, -most), most);
+        }
+    }
+}
+
+// ---- what comes of them ---------------------------------------------------------------------------------------------------------------
+static void add_spin(float *line, const double i[6], vec l)
+{
+    line[4] = (float)((double)line[4] + (i[0] * l.x + i[1] * l.y + i[2] * l.z));
+    line[5] = (float)((double)line[5] + (i[1] * l.x + i[3] * l.y + i[4] * l.z));
+    line[6] = (float)((double)line[6] + (i[2] * l.x + i[4] * l.y + i[5] * l.z));
+}
+
+// no warm start shall repeat what calms
+static void forget_calm(const tree_job *t, int32_t i)
+{
+    const tree_node *n = t->nodes + i, *parent = parent_of(t, i);
+    const double *l = n->impulse + n->locks;
+    if (n->rows.count == n->locks) return;
+    vec below = vec_scale(t->links[i].holds_b ? 1.0 : -1.0, vec_of(l));
+    add_spin(t->s->start[t->places[i].line], n->turn, below);
+    if (parent) add_spin(t->s->start[t->places[i].parent_line], parent->turn, vec_scale(-1.0, below));
+}
+
+static void apply(const tree_job *t, int total)
+{
+    for (int32_t i = 0; i < t->count; ++i) {
+        const tree_node *n = t->nodes + i;
+        const fe__tree_place *p = t->places + i;
+        float *line = t->s->velocity[p->line];
+        for (int k = 0; k < 3; ++k) {
+            line[k] = (float)((double)line[k] + n->change[k]);
+            line[4 + k] = (float)((double)line[4 + k] + n->change[3 + k]);
+        }
+        forget_calm(t, i);
+        for (int32_t k = 0, first = 0; k < p->locks; ++k)
+            first += write_lock(p->lock[k].part, t->rows + p->lock[k].row, p->lock[k].lane, n->impulse + first, total);
+    }
+}
+
+// dp += u, dq = normalize(dq + (w, 0) dq / 2). As a whole no farther than FULL_TURN: rows know no more of where a turn leads
+static void move(const tree_job *t)
+{
+    double farthest = FULL_TURN * FULL_TURN;
+    for (int32_t i = 0; i < t->count; ++i)
+        farthest = fe__maxd(farthest, vec_dot(vec_of(t->nodes[i].change + 3), vec_of(t->nodes[i].change + 3)));
+    double scale = FULL_TURN / sqrt(farthest);
+    for (int32_t i = 0; i < t->count; ++i) {
+        float *line = t->s->motion[t->places[i].line], *q = line + 4;
+        const double *u = t->nodes[i].change, w = (double)q[3];
+        vec half = vec_scale(0.5 * scale, vec_of(u + 3)), v = {(double)q[0], (double)q[1], (double)q[2]};
+        vec b = vec_add(vec_add(v, vec_scale(w, half)), vec_cross(half, v));
+        double a = w - vec_dot(half, v), k = 1.0 / sqrt(a * a + vec_dot(b, b));
+        for (int c = 0; c < 3; ++c) line[c] = (float)((double)line[c] + scale * u[c]);
+        q[0] = (float)(k * b.x), q[1] = (float)(k * b.y), q[2] = (float)(k * b.z), q[3] = (float)(k * a);
+    }
+}
+
+// ---- the passes -----------------------------------------------------------------------------------------------------------------------
+static void prepare_tree(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes,
+                         const fe__step_constants *c)
+{
+    tree_job t = tree_of(s, joints, tree, rows, nodes, c);
+    read_tree(&t);
+    calm_tree(&t);
+    eliminate(&t);
+}
+
+// The first solution tells the arcs, the second follows them
+static void follow_arcs(const tree_job *t)
+{
+    for (int32_t i = 0; i < t->count; ++i) memset(t->nodes[i].change, 0, sizeof t->nodes[i].change);
+    for (int k = 0; k < 2; ++k) {
+        wish_on_arcs(t);
+        meet(t);
+    }
+}
+
+static void follow_locks(const tree_job *t)
+{
+    wish_still(t);
+    meet(t);
+}
+
+static void calm_jerk(const tree_job *t)
+{
+    read_tree(t);
+    add_pulls(t);
+    calm_tree(t);
+    eliminate(t);
+}
+
+static void solve_tree(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes,
+                       const fe__step_constants *c)
+{
+    tree_job t = tree_of(s, joints, tree, rows, nodes, c);
+    follow_arcs(&t);
+    if (is_jerked(&t)) {
+        calm_jerk(&t);
+        follow_locks(&t);
+    }
+    apply(&t, 0);
+}
+
+static void relax_tree(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes,
+                       const fe__step_constants *c)
+{
+    tree_job t = tree_of(s, joints, tree, rows, nodes, c);
+    prepare_tree(s, joints, tree, rows, nodes, c);
+    follow_locks(&t);
+    if (is_jerked(&t)) {
+        calm_jerk(&t);
+        follow_locks(&t);
+    }
+    apply(&t, 1);
+    wish_closed(&t, (double)(c->h * c->joint.bias_rate));
+    meet(&t);
+    move(&t);
+}

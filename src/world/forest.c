@@ -1,0 +1,144 @@
+// forest.c - finds the trees among the joints, see solver/joint_forest.h. Input: linked joints and masses; output: fe__joints.forest.
+//
+// Only what a sweep is bad at is worth the cost: a tree in which some joint bears far more than its own bodies weigh.
+#include "world/world.h"
+
+// The load on a joint against the effective mass that its stiffness counts with (m w^2), from which on a tree is solved at once. Under its
+// own weight such a joint of 60 Hz gives by 32 g / (2 pi 60 Hz)^2 = 2.2 mm: about half the linear slop.
+#define HEAVY_LOAD 32.0f
+
+// 1: rigid, so that it may be met exactly. Springs are not, nor limits, nor what has no colour of its own
+static int32_t is_edge(const fe_world *w, int32_t joint)
+{
+    const fe__joint *j = w->joints.joints + joint;
+    const fe__joint_frame *f = w->joints.frames + joint;
+    uint32_t locks = 1u << FE__PART_POINT | 1u << FE__PART_SLIDE | 1u << FE__PART_HINGE | 1u << FE__PART_FIXED;
+    if (j->colour < 0 || j->colour == FE__JOINT_OVERFLOW || j->arm_a[3] > 0.0f) return 0;
+    if (j->rows & locks) return 1;
+    if (!(j->rows >> FE__PART_DISTANCE & 1)) return 0;
+    const float *limit = w->joints.axes[f->axes].axis[FE__AXIS_LINEAR].limit;
+    return limit[0] == limit[1] && limit[2] == 0.0f;
+}
+
+static int32_t is_dynamic(const fe_world *w, int32_t body) { return w->bodies[body].type == FE_BODY_DYNAMIC; }
+
+static fe__tree_link link_to(const fe_world *w, int32_t body, int32_t joint, int32_t parent)
+{
+    return (fe__tree_link){.body = body, .joint = joint, .parent = parent, .holds_b = joint && w->joint_records[joint].body[1] == body};
+}
+
+typedef struct component {
+    int32_t bodies, edges; // dynamic bodies, joints between them
+    int32_t anchors;       // joints to the rest of the world
+    int32_t root, anchor;  // of a tree: the anchored body, or the one created first; its anchor, 0: none
+} component;
+
+// all bodies that hang together with `body`, marked and written to `links`
+static component explore(fe_world *w, int32_t body, fe__tree_link *links)
+{
+    component c = {.bodies = 1, .root = body};
+    links[0].body = body;
+    w->bodies[body].flags |= FE__BODY_STARTED;
+    for (int32_t i = 0; i < c.bodies; ++i) {
+        int32_t at = links[i].body;
+        if (!c.anchors && w->bodies[at].serial < w->bodies[c.root].serial) c.root = at;
+        for (int32_t joint = w->bodies[at].first_joint; joint; joint = fe__next_joint(w, joint, at)) {
+            if (!is_edge(w, joint)) continue;
+            int32_t other = fe__joint_other(w, joint, at);
+            if (!is_dynamic(w, other)) {
+                ++c.anchors, c.root = at, c.anchor = joint;
+                continue;
+            }
+            c.edges += w->joint_records[joint].body[0] == at; // once, from A
+            if (w->bodies[other].flags & FE__BODY_STARTED) continue;
+            w->bodies[other].flags |= FE__BODY_STARTED;
+            links[c.bodies++].body = other;
+        }
+    }
+    return c;
+}
+
+// parents before children, joints of a body in the order of creation
+static void arrange(const fe_world *w, const component *c, fe__tree_link *links)
+{
+    int32_t count = 1;
+    links[0] = link_to(w, c->root, c->anchor, -1);
+    for (int32_t i = 0; i < count; ++i) {
+        int32_t body = links[i].body;
+        for (int32_t joint = w->bodies[body].first_joint; joint; joint = fe__next_joint(w, joint, body))
+            if (joint != links[i].joint && is_edge(w, joint)) links[count++] = link_to(w, fe__joint_other(w, joint, body), joint, i);
+    }
+}
+
+// the largest load on a joint, in effective masses of its own
+static float heaviest_load(const fe_world *w, fe__tree_link *links, int32_t count)
+{
+    float most = 0.0f;
+    for (int32_t i = 0; i < count; ++i) links[i].carried = w->bodies[links[i].body].inertia[3];
+    for (int32_t i = count - 1; i > 0; --i) links[links[i].parent].carried += links[i].carried;
+    float total = links[0].carried;
+    for (int32_t i = 0; i < count; ++i) {
+        const fe__tree_link *l = links + i;
+        if (!l->joint) continue;
+        // masses m and n that pull on each other: 1 / (1/m + 1/n); the world's is infinite
+        float inverse = w->bodies[l->body].velocity[3], load = l->carried;
+        if (l->parent >= 0) inverse += w->bodies[links[l->parent].body].velocity[3];
+        if (!links[0].joint) load = l->carried * ((total - l->carried) / total);
+        most = fe__maxf(most, load * inverse);
+    }
+    return most;
+}
+
+static void keep_tree(fe__forest *f, int32_t count)
+{
+    for (int32_t i = f->link_count; i < f->link_count + count; ++i) {
+        f->links[i].tree = f->tree_count;
+        if (f->links[i].joint) f->link_of[f->links[i].joint] = i;
+    }
+    f->trees[f->tree_count++] = (fe__joint_tree){f->link_count, count};
+    f->link_count += count;
+}
+
+static void plant(fe_world *w, int32_t body)
+{
+    fe__forest *f = &w->joints.forest;
+    fe__tree_link *links = f->links + f->link_count;
+    component c = explore(w, body, links);
+    if (c.edges != c.bodies - 1 || c.anchors > 1) return;
+    arrange(w, &c, links);
+    if (heaviest_load(w, links, c.bodies) >= HEAVY_LOAD) keep_tree(f, c.bodies);
+}
+
+static void clear_marks(fe_world *w, int32_t joint)
+{
+    for (int k = 0; k < 2; ++k) w->bodies[w->joint_records[joint].body[k]].flags &= ~(uint32_t)FE__BODY_STARTED;
+}
+
+int32_t fe__find_joint_trees(fe_world *w)
+{
+    fe__forest *f = &w->joints.forest;
+    if (!f->changed) return 1;
+    int64_t records = 1 + (int64_t)w->joint_ids.slot_count, bodies = 2 * (int64_t)w->joints.linked;
+    if (!FE_RESERVE(&w->memory, f->trees, f->capacity[0], w->joints.linked) ||
+        !FE_RESERVE(&w->memory, f->links, f->capacity[1], bodies + (bodies > 0)) ||
+        !FE_RESERVE(&w->memory, f->link_of, f->capacity[2], records))
+        return 0;
+    f->tree_count = f->link_count = 0;
+    for (int32_t i = 0; i < (int32_t)records; ++i) f->link_of[i] = -1;
+    for (int32_t joint = w->first_joint; joint; joint = w->joint_records[joint].order_next) {
+        if (!is_edge(w, joint)) continue;
+        const int32_t *ends = w->joint_records[joint].body;
+        int32_t body = ends[!is_dynamic(w, ends[0])];
+        if (!(w->bodies[body].flags & FE__BODY_STARTED)) plant(w, body);
+    }
+    for (int32_t joint = w->first_joint; joint; joint = w->joint_records[joint].order_next) clear_marks(w, joint);
+    f->changed = 0;
+    return 1;
+}
+
+void fe__forest_free(fe__forest *forest, fe__memory *memory)
+{
+    FE_FREE(memory, forest->trees, forest->capacity[0]);
+    FE_FREE(memory, forest->links, forest->capacity[1]);
+    FE_FREE(memory, forest->link_of, forest->capacity[2]);
+}
