@@ -42,7 +42,6 @@ static const struct known {
     {"elastic-666", 0, "mean squared error of the energy, J2", GAS},
     {"ragdoll-stress-2d", 0, "largest joint gap, m", PINCHED},
     {"ragdoll-funnel", 0, "largest joint gap, m", PINCHED},
-    {"sliders", 0, "off the line 2 s after the pull, m", "drawn out by 30 m they are a soft beam, which swings for more than 2 s"},
 };
 
 const char *bench_known_cause(const bench_trial *t, const bench_check *c)

@@ -35,7 +35,7 @@ static motion_of_body moving(const float *velocity, const double *change)
 //     (Q - 1) r - h w x r = 2/(1 + u^2) (u x r + u x (u x r)) - 2 u x r,   u = h w / 2
 // The turn about the arm itself leaves the point alone. Beyond SLOW_TURN in a substep that is no small correction any more, and what
 // comes next is left to the positions: that loses energy instead of gaining it.
-#define SLOW_TURN 0.2 // rad
+#define SLOW_TURN 0.05 // rad
 
 static vec leave_tangent(vec r, vec w, double h)
 {

@@ -6,6 +6,8 @@
 // The load on a joint against the effective mass that its stiffness counts with (m w^2), from which on a tree is solved at once. Under its
 // own weight such a joint of 60 Hz gives by 32 g / (2 pi 60 Hz)^2 = 2.2 mm: about half the linear slop.
 #define HEAVY_LOAD 32.0f
+// The same for joints that lock rotations: such a row is a beam, which bends with the cube of its length
+#define HEAVY_BEAM 4.0f
 
 // 1: rigid, so that it may be met exactly. Springs are not, nor limits, nor what has no colour of its own
 static int32_t is_edge(const fe_world *w, int32_t joint)
@@ -18,6 +20,11 @@ static int32_t is_edge(const fe_world *w, int32_t joint)
     if (!(j->rows >> FE__PART_DISTANCE & 1)) return 0;
     const float *limit = w->joints.axes[f->axes].axis[FE__AXIS_LINEAR].limit;
     return limit[0] == limit[1] && limit[2] == 0.0f;
+}
+
+static int32_t is_beam(const fe_world *w, int32_t joint)
+{
+    return (w->joints.joints[joint].rows & (1u << FE__PART_HINGE | 1u << FE__PART_FIXED)) != 0;
 }
 
 static int32_t is_dynamic(const fe_world *w, int32_t body) { return w->bodies[body].type == FE_BODY_DYNAMIC; }
@@ -70,7 +77,7 @@ static void arrange(const fe_world *w, const component *c, fe__tree_link *links)
     }
 }
 
-// the largest load on a joint, in effective masses of its own
+// the largest load on a joint, in effective masses of its own, against what is heavy for it
 static float heaviest_load(const fe_world *w, fe__tree_link *links, int32_t count)
 {
     float most = 0.0f;
@@ -84,7 +91,7 @@ static float heaviest_load(const fe_world *w, fe__tree_link *links, int32_t coun
         float inverse = w->bodies[l->body].velocity[3], load = l->carried;
         if (l->parent >= 0) inverse += w->bodies[links[l->parent].body].velocity[3];
         if (!links[0].joint) load = l->carried * ((total - l->carried) / total);
-        most = fe__maxf(most, load * inverse);
+        most = fe__maxf(most, load * inverse / (is_beam(w, l->joint) ? HEAVY_BEAM : HEAVY_LOAD));
     }
     return most;
 }
@@ -106,7 +113,7 @@ static void plant(fe_world *w, int32_t body)
     component c = explore(w, body, links);
     if (c.edges != c.bodies - 1 || c.anchors > 1) return;
     arrange(w, &c, links);
-    if (heaviest_load(w, links, c.bodies) >= HEAVY_LOAD) keep_tree(f, c.bodies);
+    if (heaviest_load(w, links, c.bodies) >= 1.0f) keep_tree(f, c.bodies);
 }
 
 static void clear_marks(fe_world *w, int32_t joint)
