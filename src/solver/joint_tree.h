@@ -22,7 +22,7 @@ typedef struct {
     int32_t weighed;                      // 1: masses are there
     double mass[6][6];                    // P, then L below the diagonal and 1 / L_kk on it
     double turn[6];                       // inverse inertia: xx xy xz yy yz zz
-    double inertia;                       // half the trace of the inertia, kg m2: that of a rod across it
+    double inertia;                       // about the heaviest of the world's axes that are not locked, kg m2
     double tension, expected, calm;       // see joint_tree_calm.h
     double least[TREE_ROWS];              // of a row's response that counts
     double reach[TREE_ROWS][6];           // columns of Y
@@ -121,7 +121,9 @@ static void weigh(tree_node *n, const float *velocity, const wide_sym *inertia, 
         n->mass[i][i] = mass;
         memcpy(n->mass[3 + i] + 3, turn[i], sizeof turn[i]);
     }
-    n->inertia = 0.5 * (turn[0][0] + turn[1][1] + turn[2][2]);
+    n->inertia = 0.0;
+    for (int k = 0; k < 3; ++k)
+        if (!(locks_of(velocity) >> (3 + k) & 1)) n->inertia = fe__maxd(n->inertia, turn[k][k]);
     n->weighed = 1;
 }
 

@@ -37,8 +37,17 @@ static fe__tree_link link_to(const fe_world *w, int32_t body, int32_t joint, int
 typedef struct component {
     int32_t bodies, edges; // dynamic bodies, joints between them
     int32_t anchors;       // joints to the rest of the world
-    int32_t root, anchor;  // of a tree: the anchored body, or the one created first; its anchor, 0: none
+    int32_t root, anchor;  // of a tree: the anchored body, or else the first that a spring holds, or the first of all; its anchor, 0: none
+    int32_t sprung;        // 1: a spring holds the root
 } component;
+
+// of the bodies that may be the root, the one created first
+static void offer_root(const fe_world *w, component *c, int32_t body, int32_t sprung)
+{
+    if (c->anchors || sprung < c->sprung) return;
+    if (sprung > c->sprung || w->bodies[body].serial < w->bodies[c->root].serial) c->root = body;
+    c->sprung = sprung;
+}
 
 // all bodies that hang together with `body`, marked and written to `links`
 static component explore(fe_world *w, int32_t body, fe__tree_link *links)
@@ -48,9 +57,12 @@ static component explore(fe_world *w, int32_t body, fe__tree_link *links)
     w->bodies[body].flags |= FE__BODY_STARTED;
     for (int32_t i = 0; i < c.bodies; ++i) {
         int32_t at = links[i].body;
-        if (!c.anchors && w->bodies[at].serial < w->bodies[c.root].serial) c.root = at;
+        offer_root(w, &c, at, 0);
         for (int32_t joint = w->bodies[at].first_joint; joint; joint = fe__next_joint(w, joint, at)) {
-            if (!is_edge(w, joint)) continue;
+            if (!is_edge(w, joint)) {
+                if (w->joints.joints[joint].colour >= 0) offer_root(w, &c, at, 1);
+                continue;
+            }
             int32_t other = fe__joint_other(w, joint, at);
             if (!is_dynamic(w, other)) {
                 ++c.anchors, c.root = at, c.anchor = joint;
@@ -78,8 +90,9 @@ static void arrange(const fe_world *w, const component *c, fe__tree_link *links)
 }
 
 // the largest load on a joint, in effective masses of its own, against what is heavy for it
-static float heaviest_load(const fe_world *w, fe__tree_link *links, int32_t count)
+static float heaviest_load(const fe_world *w, const component *c, fe__tree_link *links)
 {
+    const int32_t count = c->bodies, held = c->anchors || c->sprung;
     float most = 0.0f;
     for (int32_t i = 0; i < count; ++i) links[i].carried = w->bodies[links[i].body].inertia[3];
     for (int32_t i = count - 1; i > 0; --i) links[links[i].parent].carried += links[i].carried;
@@ -90,7 +103,7 @@ static float heaviest_load(const fe_world *w, fe__tree_link *links, int32_t coun
         // masses m and n that pull on each other: 1 / (1/m + 1/n); the world's is infinite
         float inverse = w->bodies[l->body].velocity[3], load = l->carried;
         if (l->parent >= 0) inverse += w->bodies[links[l->parent].body].velocity[3];
-        if (!links[0].joint) load = l->carried * ((total - l->carried) / total);
+        if (!held) load = l->carried * ((total - l->carried) / total);
         most = fe__maxf(most, load * inverse / (is_beam(w, l->joint) ? HEAVY_BEAM : HEAVY_LOAD));
     }
     return most;
@@ -113,7 +126,7 @@ static void plant(fe_world *w, int32_t body)
     component c = explore(w, body, links);
     if (c.edges != c.bodies - 1 || c.anchors > 1) return;
     arrange(w, &c, links);
-    if (heaviest_load(w, links, c.bodies) >= 1.0f) keep_tree(f, c.bodies);
+    if (heaviest_load(w, &c, links) >= 1.0f) keep_tree(f, c.bodies);
 }
 
 static void clear_marks(fe_world *w, int32_t joint)

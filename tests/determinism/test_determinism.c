@@ -24,8 +24,8 @@ static void gives_the_golden_hashes(void **state)
     for (int32_t i = 0; i < count; ++i) run(c->script, c->simd, workers[i], steps);
 }
 
-// The script is worth its name only while its net is spread over workers, and its weak strings break
-static void joints_have_an_island_that_is_spread_and_strings_that_break(void **state)
+// The script is worth its name only while its net is spread over workers, its chains are trees, and its weak strings break
+static void joints_have_an_island_that_is_spread_trees_and_strings_that_break(void **state)
 {
     (void)state;
     play p;
@@ -34,6 +34,7 @@ static void joints_have_an_island_that_is_spread_and_strings_that_break(void **s
     play_until(&p, &script_joints, 10);
     FE_TRUE(fe_world_get_counters(p.world, &counters) == FE_OK);
     assert_in_range(counters.rows - counters.rows_whole, 1, 100000);
+    assert_in_range(counters.trees, 6, 100);
     play_until(&p, &script_joints, 30);
     int32_t broken = 0;
     for (int32_t i = 0; i < p.joint_count; ++i) broken += !fe_joint_is_valid(p.world, p.joints[i]);
@@ -219,7 +220,7 @@ int main(int count, char **arguments)
         GOLDEN_TEST(joints, "neon", FE_SIMD_NEON),
 #endif
         cmocka_unit_test(crowd_has_more_than_1000_contacts),
-        cmocka_unit_test(joints_have_an_island_that_is_spread_and_strings_that_break),
+        cmocka_unit_test(joints_have_an_island_that_is_spread_trees_and_strings_that_break),
         cmocka_unit_test(bodies_far_away_change_no_trajectory),
         cmocka_unit_test(bodies_far_away_change_no_trajectory_in_a_crowd),
         cmocka_unit_test(bodies_far_away_change_no_trajectory_on_terrain),

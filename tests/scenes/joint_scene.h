@@ -21,6 +21,8 @@ static inline fe_body add_anchor(scene *s, vec at)
 
 static inline fe_body add_plain(scene *s, fe_geometry form, vec at) { return add_dynamic(s, form, at, UNTURNED, friction(0.6), WATER); }
 
+static inline void touch_nothing(scene *s, fe_body body) { MUST(fe_body_set_filter(s->world, body, 2, 0)); }
+
 // ---- joints, points and axes in the scene's frame ------------------------------------------------------------------------------------
 
 // ball_def(): the defaults, and so for each type

@@ -23,8 +23,6 @@ static void set_damping(scene *s, fe_body body, double damping)
 {
     MUST(fe_body_set_damping(s->world, body, (float)damping, (float)damping));
 }
-static void touch_nothing(scene *s, fe_body body) { MUST(fe_body_set_filter(s->world, body, 2, 0)); }
-
 static fe_quat lying(void) { return turned(v3(0, 0, 1), -PI / 2); } // a capsule along x
 
 static double speed_square(const scene *s, const fe_body *bodies, int count)

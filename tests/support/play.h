@@ -10,7 +10,7 @@
 
 #include <stdio.h>
 
-enum { PLAY_MOST_ACTORS = 1024, PLAY_MOST_JOINTS = 1280, PLAY_CHECK_STEPS = 50 }; // from one golden hash to the next
+enum { PLAY_MOST_ACTORS = 1024, PLAY_MOST_JOINTS = 1400, PLAY_CHECK_STEPS = 50 }; // from one golden hash to the next
 
 typedef struct play play;
 struct play {

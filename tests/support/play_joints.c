@@ -1,6 +1,6 @@
 // play_joints.c - the script of joints: ragdolls of examples/machines.h fall over each other, a net of ball joints in one island wide
-// enough to be spread over the workers, a row of each type with limits, springs and motors at work, strings that break in one step, joints
-// that are made, changed, switched and destroyed, bodies that take theirs along.
+// enough to be spread over the workers, heavy weights on chains that reach into it, a row of each type with limits, springs and motors at
+// work, strings that break in one step, joints that are made, changed, switched and destroyed, bodies that take theirs along.
 #include "support/any_joint.h"
 #include "support/play.h"
 
@@ -8,7 +8,7 @@
 
 #include <stdlib.h>
 
-enum { PEOPLE = 4, NET = 24, GUESTS = 6, ROW = 4 * ANY_KINDS, STRINGS = 12 };
+enum { PEOPLE = 4, NET = 24, GUESTS = 6, CHAINS = 6, LINKS = 8, ROW = 4 * ANY_KINDS, STRINGS = 12 };
 enum { NET_GROUP, GUEST_GROUP, ROW_GROUP, STRING_GROUP };          // p->groups: first actors
 enum { ROW_JOINTS = STRING_GROUP + 1, STRING_JOINTS, LAST_GROUP }; // p->groups: first joints
 
@@ -48,6 +48,29 @@ static void add_net(play *p)
         part guest = part_box(0.3f, 0.2f, 0.25f, -18.5 + 0.6 * i, 6.6 + 0.3 * i, 1.5 + 0.5 * i);
         guest.shape.layer = 4;
         play_add(p, &guest);
+    }
+}
+
+// Weights of 130 links each, on chains of which every other is branched: trees of the net's island, as soon as they touch it
+static void add_chains(play *p)
+{
+    for (int32_t i = 0; i < CHAINS; ++i) {
+        double x = -19.0 + 0.7 * i, z = 4.5, y = 6.6;
+        part post = part_static_box(0.05f, 0.05f, 0.05f, x, y + 0.2 * LINKS + 0.1, z);
+        int32_t above = play_add(p, &post);
+        for (int32_t k = 0; k <= LINKS; ++k) {
+            part link = part_capsule(0.05f, 0.02f, x, y + 0.2 * (LINKS - k), z), weight = part_box(0.2f, 0.1f, 0.2f, x, y, z);
+            link.shape.mask = 0, weight.shape.layer = 4;
+            weight.body.linear_velocity.x = 2.0f;
+            int32_t actor = play_add(p, k < LINKS ? &link : &weight);
+            tie(p, above, actor, (fe_dvec3){x, y + 0.2 * (LINKS - k) + 0.1, z}, 0);
+            if (k == 3 && i % 2) {
+                part side = part_box(0.1f, 0.1f, 0.1f, x + 0.15, y + 0.2 * (LINKS - k), z);
+                side.shape.mask = 0;
+                tie(p, actor, play_add(p, &side), (fe_dvec3){x + 0.02, y + 0.2 * (LINKS - k), z}, 0);
+            }
+            above = actor;
+        }
     }
 }
 
@@ -128,6 +151,7 @@ static void build(play *p)
     part ground = part_plane(0.0f, 1.0f, 0.0f);
     play_add(p, &ground);
     add_net(p);
+    add_chains(p);
     add_row(p);
     add_strings(p);
     for (int32_t i = 0; i < PEOPLE; ++i) {
