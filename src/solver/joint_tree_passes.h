@@ -31,19 +31,21 @@ static motion_of_body moving(const float *velocity, const double *change)
                             {(double)velocity[4] + u[3], (double)velocity[5] + u[4], (double)velocity[6] + u[5]}};
 }
 
-// A point on an arm r leaves its tangent while the body turns: by integrate_positions' Q = Cayley(h w) it goes on by
-//     (Q - 1) r - h w x r = 2/(1 + u^2) (u x r + u x (u x r)) - 2 u x r,   u = h w / 2
-// The turn about the arm itself leaves the point alone. Beyond SLOW_TURN in a substep that is no small correction any more, and what
-// comes next is left to the positions: that loses energy instead of gaining it.
+// Of what a turn does to arcs, by its square: beyond SLOW_TURN in a substep it is no small correction any more, and is left to the
+// positions, which lose energy by it instead of gaining it
 #define SLOW_TURN 0.05 // rad
 
+static double slow_share(double square) { return fe__mind(fe__maxd(2.0 - square / (SLOW_TURN * SLOW_TURN), 0.0), 1.0); }
+
+// A point on an arm r leaves its tangent while the body turns: by integrate_positions' Q = Cayley(h w) it goes on by
+//     (Q - 1) r - h w x r = 2/(1 + u^2) (u x r + u x (u x r)) - 2 u x r,   u = h w / 2
+// The turn about the arm itself leaves the point alone.
 static vec leave_tangent(vec r, vec w, double h)
 {
     double square = vec_dot(r, r), along = square > 0.0 ? vec_dot(w, r) / square : 0.0;
     vec u = vec_scale(0.5 * h, vec_add(w, vec_scale(-along, r))), a = vec_cross(u, r);
     double k = 2.0 / (1.0 + vec_dot(u, u));
-    double fade = fe__mind(fe__maxd(2.0 - 4.0 * vec_dot(u, u) / (SLOW_TURN * SLOW_TURN), 0.0), 1.0);
-    return vec_scale(fade, vec_add(vec_scale(k - 2.0, a), vec_scale(k, vec_cross(u, a))));
+    return vec_scale(slow_share(4.0 * vec_dot(u, u)), vec_add(vec_scale(k - 2.0, a), vec_scale(k, vec_cross(u, a))));
 }
 
 // A rod grows by the square of what its ends move across it
@@ -52,8 +54,8 @@ static double leave_rod(const tree_rows *rows, const motion_of_body *below, cons
     vec u = vec_of(rows->below[0]);
     vec v = vec_add(vec_add(below->v, vec_cross(below->w, rows->arm[0])),
                     vec_scale(-1.0, vec_add(above->v, vec_cross(above->w, rows->arm[1]))));
-    double along = vec_dot(v, u), across = vec_dot(v, v) - along * along;
-    return fe__mind(0.5 * h * h * across / rows->rod, SLOW_TURN * rows->rod);
+    double along = vec_dot(v, u), turn = h * h * (vec_dot(v, v) - along * along) / (rows->rod * rows->rod); // angle squared
+    return slow_share(turn) * 0.5 * turn * rows->rod;
 }
 
 // Velocities with which the points meet after the substep, on the arcs of the velocities at hand

@@ -3,7 +3,6 @@
 #include "scenes/joint_scene.h"
 
 static fe_quat lying(void) { return turned(v3(0, 0, 1), -PI / 2); } // a capsule along x
-static void touch_nothing(scene *s, fe_body body) { MUST(fe_body_set_filter(s->world, body, 2, 0)); }
 
 // ---- cantilever -------------------------------------------------------------------------------------------------------------------
 

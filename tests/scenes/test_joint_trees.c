@@ -56,26 +56,27 @@ static double widest_gap(const scene *s, const chain *c) { return worst_gap(s, c
 
 // ---- exact ----------------------------------------------------------------------------------------------------------------------------
 
-// Swung sideways with 3 m/s. Rods and hinges swing, sliders slide, fixed ones stay
-static void a_load_of_a_thousand_links_swings(void **state, kind k)
+// A thousand links swung sideways with 3 m/s, a hundred on rods: what calms light links sees turns, not the way across a rod. Rods and
+// hinges swing, sliders slide, fixed ones stay
+static void a_load_swings(void **state, kind k, double load)
 {
     scene s = scene_begin(state);
-    chain c = hang(&s, k, add_anchor(&s, v3(0, 0, 0)), 1000);
+    chain c = hang(&s, k, add_anchor(&s, v3(0, 0, 0)), load);
     set_velocity(&s, c.bodies[LINKS - 1], v3(k == FIXTURES || k == SLIDERS ? 0 : 3, 0, 0), v3(0, 0, 0));
-    const double start = totals_of(&s, c.bodies, c.count).energy, turned_over = 1000 * G * LINKS * STEP_LENGTH;
+    const double start = totals_of(&s, c.bodies, c.count).energy, turned_over = load * G * LINKS * STEP_LENGTH;
     for (int i = 0; i < (SLOW_BUILD ? 60 : 300); ++i) {
         run(&s, 1);
         FE_TRUE(trees_of(&s) == 1);
-        FE_WITHIN(widest_gap(&s, &c), 0, k == RODS ? LINEAR_SLOP : EXACT); // a rod has no mass: it turns freely fast
+        FE_WITHIN(widest_gap(&s, &c), 0, EXACT);
         FE_WITHIN(totals_of(&s, c.bodies, c.count).energy, -1e9, start + 1e-4 * turned_over);
     }
     scene_end(&s);
 }
-static void on_ball_joints(void **state) { a_load_of_a_thousand_links_swings(state, BALLS); }
-static void on_hinges(void **state) { a_load_of_a_thousand_links_swings(state, HINGES); }
-static void on_fixed_joints(void **state) { a_load_of_a_thousand_links_swings(state, FIXTURES); }
-static void on_rods(void **state) { a_load_of_a_thousand_links_swings(state, RODS); }
-static void on_sliders(void **state) { a_load_of_a_thousand_links_swings(state, SLIDERS); }
+static void on_ball_joints(void **state) { a_load_swings(state, BALLS, 1000); }
+static void on_hinges(void **state) { a_load_swings(state, HINGES, 1000); }
+static void on_fixed_joints(void **state) { a_load_swings(state, FIXTURES, 1000); }
+static void on_rods(void **state) { a_load_swings(state, RODS, 100); }
+static void on_sliders(void **state) { a_load_swings(state, SLIDERS, 1000); }
 
 // A beam of twelve fixed joints, held at one end, a load of fifty links at the other: P2 of its first joint alone is a sag of 40 degrees
 static void a_beam_does_not_bend(void **state)
