@@ -491,7 +491,7 @@ function World:setTuning(options)
 end
 function World:getProfile() return copy(core.world_get_profile(self.native), "step pairs collide islands solve continuous finalize events sleep") end
 function World:getCounters()
-    return copy(core.world_get_counters(self.native), "bodies shapes joints awakeBodies pairs contacts recycled islands colours rows rowsWhole lanes simd simdWidth workers")
+    return copy(core.world_get_counters(self.native), "bodies shapes joints awakeBodies pairs contacts recycled islands colours rows rowsWhole lanes simd simdWidth workers trees")
 end
 
 function World:newBody(options)
