@@ -223,6 +223,7 @@ class Counters(NamedTuple):
     workers: int
     bytes: int
     allocations: int
+    trees: int
 
 
 Record = TypeVar("Record", bound=Tuple[Any, ...])
