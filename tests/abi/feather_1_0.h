@@ -245,6 +245,7 @@ typedef struct fe_counters {
     int32_t workers;
     int64_t bytes;       ///< allocated now
     int64_t allocations; ///< since the world was created
+    int32_t trees;       ///< awake sets of joints without a loop and under a heavy load, each solved exactly, at once
 } fe_counters;
 
 FE_API fe_result fe_world_get_counters(const fe_world *world, fe_counters *out_counters);
@@ -497,6 +498,11 @@ FE_API fe_result fe_shape_get_user_data(const fe_world *world, fe_shape shape, f
 // the masses that move, so that they do not depend on them. Hertz of 0 mean no spring where one is optional, and as stiff as the world
 // allows (fe_world_tuning.joint_hertz, joint_damping_ratio; without swing) for a limit and for what is held. All are limited to a quarter
 // of the substep rate; limits and what is held swing less and less from half of that on.
+//
+// **Heavy loads.** What is held as stiff as the world allows gives under a load of many times the bodies' own masses. Where such joints
+// close no loop (chains, cranes, arms, telescopes, with one hold on the rest of the world at most), they are solved exactly instead, all at
+// once: nothing gives, whatever hangs on them. This begins at a load of 32 effective masses on a joint (a chain of 16 equal links), of 4 on
+// one that holds rotations; fe_counters.trees tells how many there are. Limits, springs and contacts of such bodies stay what they are.
 //
 // **Springs and motors** push no harder than their cap, N or N m. A motor reaches for its speed; with speed 0 it is friction. A cap of 0
 // switches it off.
