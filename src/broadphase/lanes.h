@@ -87,7 +87,7 @@ typedef __m256 fe__eight;
 FE_LANES_INLINE fe__eight fe__eight_load(const float *row) { return _mm256_load_ps(row); } // 32-byte aligned
 FE_LANES_INLINE void fe__eight_store(float *row, fe__eight x) { _mm256_store_ps(row, x); }
 FE_LANES_INLINE fe__eight fe__eight_set(float x) { return _mm256_set1_ps(x); }
-FE_LANES_INLINE fe__eight fe__eight_spread(const fe__quad *x) { return _mm256_broadcast_ss((const float *)x); } // its first lane
+FE_LANES_INLINE fe__eight fe__eight_spread(const float *x) { return _mm256_broadcast_ss(x); }
 FE_LANES_INLINE fe__eight fe__eight_sub(fe__eight x, fe__eight y) { return _mm256_sub_ps(x, y); }
 FE_LANES_INLINE fe__eight fe__eight_add(fe__eight x, fe__eight y) { return _mm256_add_ps(x, y); }
 FE_LANES_INLINE fe__eight fe__eight_mul(fe__eight x, fe__eight y) { return _mm256_mul_ps(x, y); }
@@ -102,7 +102,7 @@ typedef fe__lanes fe__eight;
 FE_LANES_INLINE fe__eight fe__eight_load(const float *row) { return fe__lanes_load(row); }
 FE_LANES_INLINE void fe__eight_store(float *row, fe__eight x) { fe__lanes_store(row, x); }
 FE_LANES_INLINE fe__eight fe__eight_set(float x) { return fe__lanes_set(x); }
-FE_LANES_INLINE fe__eight fe__eight_spread(const fe__quad *x) { return (fe__eight){*x, *x}; } // all its lanes are the same
+FE_LANES_INLINE fe__eight fe__eight_spread(const float *x) { return fe__lanes_set(*x); }
 FE_LANES_INLINE fe__eight fe__eight_sub(fe__eight x, fe__eight y) { return fe__lanes_sub(x, y); }
 FE_LANES_INLINE fe__eight fe__eight_add(fe__eight x, fe__eight y) { return fe__lanes_add(x, y); }
 FE_LANES_INLINE fe__eight fe__eight_mul(fe__eight x, fe__eight y) { return fe__lanes_mul(x, y); }

@@ -144,34 +144,45 @@ static int32_t inside_box(const ray *r, const double o[3], const double half[3],
     return start_inside(r, depth, axis_normal(axis, o[axis] < 0.0 ? -1.0 : 1.0), hit);
 }
 
-// One slab: the ray is in it from t[0] to t[1]. Along it, 0 / 0 is met on its sides only, and a NaN counts for no bound below.
-static inline void cross_slab(double o, double d, double half, double t[2])
+// One slab: the ray is in it from the first to the second. Along it, 0 / 0 is met on its sides only, and a NaN counts for no bound below.
+// Two quotients take no longer than one.
+typedef double two __attribute__((vector_size(16)));
+static inline two cross_slab(double o, double d, double half)
 {
-    double near_side = -__builtin_copysign(half, d);
-    t[0] = (near_side - o) / d;
-    t[1] = (-near_side - o) / d;
+    double far_side = __builtin_copysign(half, d);
+    return ((two){-far_side, far_side} - (two){o, o}) / (two){d, d};
+}
+
+// -1 or 1, against d, or 0 when it is not this side
+static inline double against(double d, int32_t is_side)
+{
+    union {
+        double value;
+        uint64_t bits;
+    } one = {__builtin_copysign(1.0, -d)};
+    one.bits &= -(uint64_t)is_side;
+    return one.value;
+}
+
+static int32_t is_in_box(fe_dvec3 o, const double half[3])
+{
+    return fe__absd(o.x) <= half[0] && fe__absd(o.y) <= half[1] && fe__absd(o.z) <= half[2];
 }
 
 // Three slabs (Kay and Kajiya 1986): the ray is in the box from the last entry to the first exit. On an edge the lowest axis gives the
-// normal. The signs of the direction and the order of the entries are random: nothing branches on them.
+// normal. The signs of the direction, the order of the entries and which side is missed are random: nothing branches on them. From inside,
+// no slab is entered later than at 0 or left before.
 static int32_t ray_box(const fe__form *form, const ray *r, fe__ray_hit *hit)
 {
     const double half[3] = {(double)form->half.x, (double)form->half.y, (double)form->half.z};
     const fe_dvec3 o = r->origin, d = r->direction;
-    const int32_t in_x = fe__absd(o.x) <= half[0], in_y = fe__absd(o.y) <= half[1], in_z = fe__absd(o.z) <= half[2];
-    if (in_x & in_y & in_z) return inside_box(r, (const double[3]){o.x, o.y, o.z}, half, hit);
-
-    double x[2], y[2], z[2];
-    cross_slab(o.x, d.x, half[0], x), cross_slab(o.y, d.y, half[1], y), cross_slab(o.z, d.z, half[2], z);
+    const two x = cross_slab(o.x, d.x, half[0]), y = cross_slab(o.y, d.y, half[1]), z = cross_slab(o.z, d.z, half[2]);
     const double none = (double)INFINITY;
     double enter = fe__maxd(z[0], fe__maxd(y[0], fe__maxd(x[0], -none))), leave = fe__mind(z[1], fe__mind(y[1], fe__mind(x[1], none)));
-    if (enter > leave || leave < 0.0) return 0;
-    const int32_t is_x = x[0] >= enter, is_y = !is_x & (y[0] >= enter);
-    const double along[3] = {is_x ? 1.0 : 0.0, is_y ? 1.0 : 0.0, is_x | is_y ? 0.0 : 1.0};
-    const double plus = 0.0; // makes 0 of -0
-    fe_dvec3 normal = {__builtin_copysign(along[0], -d.x) + plus, __builtin_copysign(along[1], -d.y) + plus,
-                       __builtin_copysign(along[2], -d.z) + plus};
-    return meet(r, enter, normal, hit);
+    if ((enter > leave) | (leave < 0.0) | !(fe__maxd(enter, 0.0) * r->per_s <= r->limit)) return 0;
+    if (enter <= 0.0 && is_in_box(o, half)) return inside_box(r, (const double[3]){o.x, o.y, o.z}, half, hit);
+    const int32_t is_x = x[0] >= enter, is_y = (y[0] >= enter) & ~is_x, is_z = 1 & ~(is_x | is_y);
+    return meet(r, enter, (fe_dvec3){against(d.x, is_x), against(d.y, is_y), against(d.z, is_z)}, hit);
 }
 
 // The distance n.o - distance falls at the rate n.d. A quarter of both: the sum of three products of finite numbers is finite.

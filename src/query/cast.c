@@ -44,7 +44,7 @@ typedef struct found {
 static int32_t is_turned(const fe__shape *shape)
 {
     fe_quat q = shape->pose.rotation;
-    return shape->form.type != FE_GEOMETRY_SPHERE && !(q.x == 0.0f && q.y == 0.0f && q.z == 0.0f);
+    return shape->form.type != FE_GEOMETRY_SPHERE && fe__absf(q.x) + fe__absf(q.y) + fe__absf(q.z) > 0.0f; // one branch, not three
 }
 
 static inline int32_t meet_ray(const fe__scene *scene, const fe__probe *probe, const fe__shape *shape, double limit, found *f)
