@@ -17,7 +17,8 @@ enum {
     FE__BODY_IGNORES = 128,    // named in fe_world.ignored
     FE__BODY_STIRRED = 256,    // in the list of bodies that woke or fell asleep
     FE__BODY_SEEN_AWAKE = 512, // when the events of the last step were written
-    FE__BODY_CHASED = 1024     // in the list of bodies that continuous collision looks at
+    FE__BODY_CHASED = 1024,    // in the list of bodies that continuous collision looks at
+    FE__BODY_STRAINED = 2048   // bears many times its weight, or a body many times as heavy just came upon it
 };
 
 typedef struct fe__body {

@@ -26,6 +26,10 @@
 // normals have answered its moment, a substep later; what was lost by then is asked for again: at most 1.25 times the force. What slides
 // asks for more from a hundredth of a m/s on
 #define BREAKAWAY 1.3f
+// a change of friction in a pass, of the load and as a speed, m/s, from which on the row runs again, and how often at most
+#define UNSETTLED 0.1f
+#define UNSETTLED_SPEED 0.005f
+#define SETTLING 4
 // of a load within a substep: an impact
 #define IMPACT_RISE 1.5f
 // and what it stops, m/s. What is set down takes up its weight at once too, g h, 0.04 m/s at four substeps of 1/30 s; its friction is no
@@ -122,6 +126,16 @@ enum { CONTACT_STRIDE = sizeof(fe__contact) / sizeof(float) };
 FE_INLINE void prefetch_contact(const fe__contact *m)
 {
     for (unsigned k = 0; k < offsetof(fe__contact, found_a); k += 64) __builtin_prefetch((const char *)m + k);
+}
+
+// Of B, which is always dynamic and in no other row of the colour
+static __attribute__((noinline)) void mark_strained(fe__solver *s, const int32_t *line, wide_mask lanes)
+{
+    _Alignas(64) float is[FE_W];
+    *(wide *)is = w_choose(lanes, w_set(1.0f), w_set(0.0f));
+    for (int i = 0; i < FE_W; ++i)
+        if (is[i] != 0.0f) s->inertia[line[i]][FE__LINE - 1] = 1.0f;
+    atomic_store_explicit(&s->strained, 1, memory_order_relaxed);
 }
 
 // Lanes of contact 0 are padding: record 0 stays zero and is written by nobody

@@ -20,6 +20,7 @@
 #define ROW NAMED(contact_row)
 #define SPECIAL_ROW NAMED(special_row)
 #define MASSES NAMED(masses)
+#define PASSING NAMED(passing)
 
 typedef struct ROW {
     int32_t line_a[FE_W], line_b[FE_W];
@@ -65,6 +66,14 @@ typedef struct SPECIAL_ROW {
     wide rolling_impulse[3];
     wide surface[3]; // velocity of B's surface against A's
 } SPECIAL_ROW;
+
+// What a rigid pass changes
+typedef struct PASSING {
+    wide point[POINTS], tangent[2], twist;
+    side a, b;
+    wide3 rolling; // these of special rows
+    wide gain, approach[POINTS], flight[POINTS];
+} PASSING;
 
 // ---- bodies in and out ----------------------------------------------------------------------------------------------------------
 FE_INLINE pair NAMED(gather_pair)(const ROW *row, const fe__solver *s, int kind)
@@ -275,7 +284,8 @@ FE_INLINE void NAMED(solve_normals)(ROW *row, const fe__step_constants *c, pair 
 // Twist about n, |l| <= mu sum lever_i l_i; then the two tangents at the friction centre as one block, |l| <= mu sum l_i. Twist reaches the
 // tangents through twist_tangent, so that both are applied to the bodies at once. A contact sticks up to the static friction; one that
 // would need much more slides, with the dynamic one.
-FE_INLINE void NAMED(solve_friction)(ROW *row, pair *p, int kind)
+// Returns the lanes whose friction is not settled, see settle.
+FE_INLINE wide_mask NAMED(solve_friction)(ROW *row, pair *p, int kind)
 {
     wide3 t1, t2, ra = load3(row->centre), rb = w_add(ra, p->span);
     tangents(p->normal, &t1, &t2);
@@ -303,6 +313,9 @@ FE_INLINE void NAMED(solve_friction)(ROW *row, pair *p, int kind)
     row->tangent_impulse[0] = l1;
     row->tangent_impulse[1] = l2;
     NAMED(apply)(row, p, impulse, w_add_scaled(w_cross(ra, impulse), twisted, p->normal), kind);
+    wide answer = p->a.inverse_mass + p->b.inverse_mass, least = UNSETTLED * load * answer;
+    wide_mask changes = w_greater(answer * answer * w_dot(impulse, impulse), least * least + UNSETTLED_SPEED * UNSETTLED_SPEED);
+    return w_and(changes, w_greater(w_set(IMPACT_SPEED), (load - row->load) * answer));
 }
 
 // Rolling resistance: a torque in the tangent plane against the relative spin, at most rolling * load. Spinning resistance: the same about
@@ -321,6 +334,51 @@ FE_INLINE void NAMED(solve_rolling)(SPECIAL_ROW *x, pair *p, int kind)
     wide3 after = w_add_scaled(roll, spin, n);
     store3(x->rolling_impulse, after);
     NAMED(apply_torque)(&x->row, p, w_sub(after, before), kind);
+}
+
+FE_INLINE PASSING NAMED(passing_of)(const ROW *row, const pair *p, int kind)
+{
+    const SPECIAL_ROW *x = (const SPECIAL_ROW *)row;
+    PASSING was = {.tangent = {row->tangent_impulse[0], row->tangent_impulse[1]}, .twist = row->twist_impulse, .a = p->a, .b = p->b};
+    UNROLL for (int i = 0; i < POINTS; ++i) was.point[i] = row->point[i].impulse;
+    if (!(kind & FE__ROW_SPECIAL)) return was;
+    was.rolling = load3(x->rolling_impulse), was.gain = x->gain;
+    UNROLL for (int i = 0; i < POINTS; ++i) was.approach[i] = x->approach[i], was.flight[i] = x->flight[i];
+    return was;
+}
+
+// the lanes beside `lanes` are as before a pass
+FE_INLINE void NAMED(keep_others)(ROW *row, pair *p, const PASSING *was, wide_mask lanes, int kind)
+{
+    SPECIAL_ROW *x = (SPECIAL_ROW *)row;
+    p->a = choose_side(lanes, p->a, was->a), p->b = choose_side(lanes, p->b, was->b);
+    UNROLL for (int i = 0; i < POINTS; ++i) row->point[i].impulse = w_choose(lanes, row->point[i].impulse, was->point[i]);
+    for (int i = 0; i < 2; ++i) row->tangent_impulse[i] = w_choose(lanes, row->tangent_impulse[i], was->tangent[i]);
+    row->twist_impulse = w_choose(lanes, row->twist_impulse, was->twist);
+    if (!(kind & FE__ROW_SPECIAL)) return;
+    store3(x->rolling_impulse, w_choose3(lanes, load3(x->rolling_impulse), was->rolling));
+    x->gain = w_choose(lanes, x->gain, was->gain);
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        x->approach[i] = w_choose(lanes, x->approach[i], was->approach[i]);
+        x->flight[i] = w_choose(lanes, x->flight[i], was->flight[i]);
+    }
+}
+
+// A friction that comes at once, of what is set down on a slope or pushed, turns the body, and the less it is held the lower the friction
+// grips: a cube's friction is two fifths of what it should be. The points answer that turn and friction has its next part, until little is
+// left; what is at rest, or slides on, has its friction from before. Not in an impact, whose friction is over after the substep.
+static __attribute__((noinline)) pair NAMED(settle)(ROW *row, const fe__step_constants *c, pair p, wide_mask unsettled, int kind)
+{
+    for (int i = 0; i < SETTLING && w_any(unsettled); ++i) {
+        PASSING before = NAMED(passing_of)(row, &p, kind);
+        NAMED(solve_normals)(row, c, &p, kind, 0);
+        if (kind & FE__ROW_SPECIAL) NAMED(solve_rolling)((SPECIAL_ROW *)row, &p, kind);
+        wide_mask more = NAMED(solve_friction)(row, &p, kind);
+        NAMED(keep_others)(row, &p, &before, unsettled, kind);
+        unsettled = w_and(unsettled, more);
+    }
+    return p;
 }
 
 #include "solver/contact_follow.h"
@@ -443,6 +501,18 @@ static __attribute__((noinline)) void NAMED(leave_friction)(ROW *row, const fe__
     row->twist_impulse = keep * row->twist_impulse;
 }
 
+// ---- strain ----------------------------------------------------------------------------------------------------------------------------
+// Does the row bear so much that its island is strained? An impact does not count: the load is to last, so that the last substep's, times
+// their number, and that of the whole step are both large. In an island that is strained already, the last substep's alone.
+FE_INLINE void NAMED(find_strain)(const ROW *row, fe__solver *s, wide speed, wide answer, const fe__step_constants *c)
+{
+    wide total = row->total[0];
+    UNROLL for (int i = 1; i < POINTS; ++i) total = total + row->total[i];
+    wide lasting = w_min((float)c->substeps * speed, w_max(total * answer, w_set(c->forgets)));
+    wide_mask strained = w_greater(lasting, w_set(c->strain));
+    if (w_any(strained)) mark_strained(s, row->line_b, strained);
+}
+
 // ---- passes over the rows -----------------------------------------------------------------------------------------------------------
 FE_INLINE ROW *NAMED(row_at)(void *rows, int32_t i, int kind)
 {
@@ -474,14 +544,16 @@ FE_INLINE void NAMED(relax)(fe__solver *s, void *rows, int32_t count, const fe__
         }
         NAMED(solve_normals)(row, c, &p, kind, 0);
         if (kind & FE__ROW_SPECIAL) NAMED(solve_rolling)((SPECIAL_ROW *)row, &p, kind);
-        NAMED(solve_friction)(row, &p, kind);
-        UNROLL for (int j = 0; j < POINTS; ++j) row->total[j] = row->total[j] + row->point[j].impulse;
+        wide_mask unsettled = NAMED(solve_friction)(row, &p, kind);
+        if (w_any(unsettled)) p = NAMED(settle)(row, c, p, unsettled, kind);
         NAMED(scatter_pair)(row, s, &p, kind);
-        wide load = NAMED(load_of)(row);
-        wide speed = (load - row->load) * (p.a.inverse_mass + p.b.inverse_mass);
-        wide_mask rose = w_and(w_greater(load, IMPACT_RISE * row->load), w_greater(speed, w_set(IMPACT_SPEED)));
+        if (c->more) continue;
+        UNROLL for (int j = 0; j < POINTS; ++j) row->total[j] = row->total[j] + row->point[j].impulse;
+        wide load = NAMED(load_of)(row), answer = p.a.inverse_mass + p.b.inverse_mass;
+        wide_mask rose = w_and(w_greater(load, IMPACT_RISE * row->load), w_greater((load - row->load) * answer, w_set(IMPACT_SPEED)));
         if (w_any(rose)) NAMED(leave_friction)(row, s, load, rose, kind);
         row->load = load;
+        if (c->asks_strain) NAMED(find_strain)(row, s, load * answer, answer, c);
     }
 }
 
@@ -525,6 +597,7 @@ INSTANCE(pair_special, FE__ROW_PAIR | FE__ROW_SPECIAL)
 #undef INSTANCE
 #undef SPECIAL_ROW
 #undef MASSES
+#undef PASSING
 #undef ROW
 #undef NAMED
 #undef POINTS

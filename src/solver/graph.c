@@ -34,6 +34,7 @@ typedef struct builder {
     int32_t *island_joints;
     int32_t *island_lanes; // contacts and parts of joints
     int32_t *island_bodies;
+    int32_t *island_strained;
     int32_t *batch_of;       // of an island
     int32_t *kinematic_line; // by awake index: line of the copy in the batch at hand
     int32_t *body_order;     // awake indices by batch
@@ -63,9 +64,9 @@ static int32_t overflowing_rows(const fe__graph_bound *b)
 
 static int32_t batch_bound(const fe__graph_bound *b)
 {
-    // two neighbouring small batches together exceed a limit; large islands exceed theirs; one for kinematic bodies, one that stayed open
+    // two neighbouring small batches together exceed a limit; large islands exceed theirs; one for kinematic bodies, two that stayed open
     int32_t lanes = b->contacts + joint_rows(b);
-    return 2 * (lanes / FE__BATCH_CONTACTS + b->bodies / BATCH_BODIES) + lanes / FE__ISLAND_LARGE + 3;
+    return 2 * (lanes / FE__BATCH_CONTACTS + b->bodies / BATCH_BODIES) + lanes / FE__ISLAND_LARGE + 4;
 }
 
 // distinct groups of one batch: a greedy colour is below the contacts of both bodies
@@ -114,7 +115,7 @@ static int64_t row_bytes(const fe__graph_bound *b, const fe__kernels *kernels, i
 
 static int64_t scratch_bound(const fe__graph_bound *b)
 {
-    return 9 * (int64_t)b->bodies + 3 * (int64_t)b->contacts + b->joints + 3 * (batch_bound(b) + 1) + GROUP_KEYS + 2 * JOINT_KEYS;
+    return 10 * (int64_t)b->bodies + 3 * (int64_t)b->contacts + b->joints + 3 * (batch_bound(b) + 1) + GROUP_KEYS + 2 * JOINT_KEYS;
 }
 
 // bytes of rows of the largest island, and of a worker's stretch
@@ -202,6 +203,7 @@ static builder make_builder(fe__solver *s, const fe__kernels *kernels, const fe_
     b.island_joints = carve(&at, n);
     b.island_lanes = carve(&at, n);
     b.island_bodies = carve(&at, n);
+    b.island_strained = carve(&at, n);
     b.batch_of = carve(&at, n);
     b.kinematic_line = carve(&at, n);
     b.body_order = carve(&at, n);
@@ -299,11 +301,12 @@ static void find_islands(builder *b)
             continue;
         }
         if (is_root) {
-            b->island_contacts[count] = b->island_joints[count] = b->island_bodies[count] = 0;
+            b->island_contacts[count] = b->island_joints[count] = b->island_bodies[count] = b->island_strained[count] = 0;
             b->island_of[i] = count++;
         } else
             b->island_of[i] = b->island_of[b->parent[i]];
         ++b->island_bodies[b->island_of[i]];
+        b->island_strained[b->island_of[i]] |= (awake_body(b, i)->flags & FE__BODY_STRAINED) != 0;
     }
     b->s->island_count = count;
     count_constraints(b);
@@ -328,7 +331,24 @@ static void add_island(builder *b, int32_t island)
     b->batch_of[island] = b->s->batch_count - 1;
 }
 
-// large islands first, each a batch of its own; then the small ones, in order
+// Joined bodies press each other with the forces of their joints, and the joints' stages know no substeps but the world's
+static int32_t is_strained(const builder *b, int32_t island) { return b->island_strained[island] && !b->island_joints[island]; }
+
+// small islands, in order
+static void batch_small(builder *b, int32_t strained)
+{
+    fe__batch *open = NULL;
+    for (int32_t i = 0; i < b->s->island_count; ++i) {
+        if (b->island_lanes[i] > FE__ISLAND_LARGE || is_strained(b, i) != strained) continue;
+        if (!open || open->lane_count + b->island_lanes[i] > FE__BATCH_CONTACTS || open->body_count + b->island_bodies[i] > BATCH_BODIES) {
+            open = open_batch(b->s);
+            open->strained = strained;
+        }
+        add_island(b, i);
+    }
+}
+
+// large islands first, each a batch of its own; then those that take longest
 static void make_batches(builder *b)
 {
     fe__solver *s = b->s;
@@ -339,13 +359,8 @@ static void make_batches(builder *b)
         add_island(b, i);
     }
     s->large_count = s->batch_count;
-    const fe__batch *open = NULL;
-    for (int32_t i = 0; i < s->island_count; ++i) {
-        if (b->island_lanes[i] > FE__ISLAND_LARGE) continue;
-        if (!open || open->lane_count + b->island_lanes[i] > FE__BATCH_CONTACTS || open->body_count + b->island_bodies[i] > BATCH_BODIES)
-            open = open_batch(s);
-        add_island(b, i);
-    }
+    batch_small(b, 1);
+    batch_small(b, 0);
     open_batch(s); // of the kinematic bodies
 }
 

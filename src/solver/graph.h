@@ -40,8 +40,9 @@ void fe__graph_build(fe__solver *s, const fe__kernels *kernels, const fe__graph_
 void fe__solver_destroy(fe__solver *s, fe__memory *memory);
 
 // All substeps of all batches. The lines then hold what the step did; contacts and joints their impulses.
-void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *workers, const fe__body *bodies, fe__contact *contacts,
-               fe__extra *extras, const fe__joints *joints, const fe__step_constants *c);
+// `fine`: the constants of strained islands.
+void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *workers, fe__body *bodies, fe__contact *contacts,
+               fe__extra *extras, const fe__joints *joints, const fe__step_constants *c, const fe__step_constants *fine);
 fe__softness fe__make_softness(float hertz, float damping_ratio, float h);
 
 #endif

@@ -15,6 +15,9 @@ enum {
     LANES_PER_WORKER = 128 // a large batch calls a worker for so many contacts of its largest colour
 };
 
+// Constants of a batch, by what it is; of the last substep of a small one; of a strained one, of all rigid passes of a substep but the last
+typedef enum pace { USUAL, LAST, STRAINED, STRAINED_LAST, STRAINED_MORE, PACES } pace;
+
 typedef enum verb { LOAD, PREPARE, SOLVE, INTEGRATE, RELAX, BOUNCE, CARRY, STORE } verb;
 
 typedef struct pass {
@@ -38,7 +41,7 @@ typedef struct job {
     fe__contact *contacts;
     fe__extra *extras;
     const fe__joints *joints;
-    const fe__step_constants *c;
+    fe__step_constants constants[PACES];
     const fe__batch *batch; // large
     program program;
     _Alignas(FE_CACHE_LINE) _Atomic uint64_t claim; // pass << 32 | next block
@@ -132,9 +135,9 @@ static const pass *pass_at(const program *p, int32_t i)
 // ---- one block of one pass ------------------------------------------------------------------------------------------------------------
 // Continuous collision follows the way that fast bodies really went, round a bounce too: the straight line to where they ended may cut what
 // they never met.
-static void begin_trails(const job *j, int32_t first, int32_t count)
+static void begin_trails(const job *j, int32_t first, int32_t count, const fe__step_constants *c)
 {
-    float dt = (float)j->c->substeps * j->c->h;
+    float dt = (float)c->substeps * c->h;
     for (int32_t i = first; i < first + count; ++i) {
         const fe__body *body = j->bodies + fe__maxi(j->s->body_of_line[i], 0);
         int32_t fast = j->s->body_of_line[i] >= 0 && body->centre_low[3] * dt > body->thickness;
@@ -143,9 +146,9 @@ static void begin_trails(const job *j, int32_t first, int32_t count)
     }
 }
 
-static void leave_trails(const job *j, int32_t first, int32_t count)
+static void leave_trails(const job *j, int32_t first, int32_t count, const fe__step_constants *c)
 {
-    int32_t stride = fe__trail_stride(j->c->substeps);
+    int32_t stride = c->division * fe__trail_stride(c->substeps / c->division); // the world's substeps, whatever the batch's
     for (int32_t i = first; i < first + count; ++i) {
         if (j->s->trail_count[i] == FE__NO_TRAIL) continue;
         int32_t substeps = ++j->s->trail_count[i];
@@ -153,35 +156,36 @@ static void leave_trails(const job *j, int32_t first, int32_t count)
     }
 }
 
-static void run_lines(const job *j, const fe__batch *b, verb verb, int32_t block)
+static void run_lines(const job *j, const fe__batch *b, verb verb, int32_t block, const fe__step_constants *c)
 {
     int32_t first = b->first_line + block * LINES_IN_BLOCK, count = fe__mini(LINES_IN_BLOCK, b->first_line + b->line_count - first);
     const fe__body_kernels *k = j->k->body;
-    if (verb == LOAD) k->load(j->s, j->bodies, first, count, j->c);
-    if (verb == LOAD) k->begin_velocities(j->s, first, count, j->c);
-    if (verb == LOAD) begin_trails(j, first, count);
-    if (verb == INTEGRATE) k->integrate_positions(j->s, first, count, j->c);
-    if (verb == INTEGRATE) leave_trails(j, first, count);
-    if (verb == CARRY) k->carry_velocities(j->s, first, count, j->c);
+    if (verb == LOAD) k->load(j->s, j->bodies, first, count, c);
+    if (verb == LOAD) k->begin_velocities(j->s, first, count, c);
+    if (verb == LOAD) begin_trails(j, first, count, c);
+    if (verb == INTEGRATE) k->integrate_positions(j->s, first, count, c);
+    if (verb == INTEGRATE) leave_trails(j, first, count, c);
+    if (verb == CARRY) k->carry_velocities(j->s, first, count, c);
 }
 
-static void run_joints(const job *j, const fe__group *g, verb verb, unsigned char *rows, int32_t first, int32_t count)
+static void run_joints(const job *j, const fe__group *g, verb verb, unsigned char *rows, int32_t first, int32_t count,
+                       const fe__step_constants *c)
 {
     const fe__joint_kernel *k = j->k->joint->of + (g->kind - FE__ROW_KINDS);
     unsigned char *row = rows + g->offset + (int64_t)first * k->row_size;
     const fe__lane *lanes = j->s->lanes + g->lane + first * j->k->width;
     switch (verb) {
     case PREPARE:
-        k->prepare(j->s, j->bodies, j->joints, lanes, row, count, g->sides, j->c);
+        k->prepare(j->s, j->bodies, j->joints, lanes, row, count, g->sides, c);
         break;
     case SOLVE:
-        k->solve(j->s, row, count, g->sides, j->c);
+        k->solve(j->s, row, count, g->sides, c);
         break;
     case RELAX:
-        k->relax(j->s, row, count, g->sides, j->c);
+        k->relax(j->s, row, count, g->sides, c);
         break;
     case STORE:
-        k->store(j->joints, lanes, row, count, j->c);
+        k->store(j->joints, lanes, row, count, c);
         break;
     case LOAD:
     case INTEGRATE:
@@ -191,22 +195,23 @@ static void run_joints(const job *j, const fe__group *g, verb verb, unsigned cha
     }
 }
 
-static void run_tree(const job *j, const fe__group *g, verb verb, unsigned char *rows)
+static void run_tree(const job *j, const fe__group *g, verb verb, unsigned char *rows, const fe__step_constants *c)
 {
     const fe__tree_kernel *k = &j->k->joint->tree;
-    if (verb == PREPARE) k->prepare(j->s, j->joints, g->lane, rows, g->offset, j->c);
-    if (verb == SOLVE) k->solve(j->s, j->joints, g->lane, rows, g->offset, j->c);
-    if (verb == RELAX) k->relax(j->s, j->joints, g->lane, rows, g->offset, j->c);
+    if (verb == PREPARE) k->prepare(j->s, j->joints, g->lane, rows, g->offset, c);
+    if (verb == SOLVE) k->solve(j->s, j->joints, g->lane, rows, g->offset, c);
+    if (verb == RELAX) k->relax(j->s, j->joints, g->lane, rows, g->offset, c);
 }
 
-static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char *rows, int32_t first, int32_t count)
+static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char *rows, int32_t first, int32_t count,
+                     const fe__step_constants *c)
 {
     if (g->kind == FE__TREE_KIND) {
-        run_tree(j, g, verb, rows);
+        run_tree(j, g, verb, rows, c);
         return;
     }
     if (g->kind >= FE__ROW_KINDS) {
-        run_joints(j, g, verb, rows, first, count);
+        run_joints(j, g, verb, rows, first, count, c);
         return;
     }
     const fe__contact_kernels *k = j->k->contact;
@@ -214,16 +219,16 @@ static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char 
     const fe__lane *lanes = j->s->lanes + g->lane + first * j->k->width;
     switch (verb) {
     case PREPARE:
-        k->prepare[g->kind](j->s, j->contacts, j->extras, lanes, row, count, j->c);
+        k->prepare[g->kind](j->s, j->contacts, j->extras, lanes, row, count, c);
         break;
     case SOLVE:
-        k->solve[g->kind](j->s, row, count, j->c);
+        k->solve[g->kind](j->s, row, count, c);
         break;
     case RELAX:
-        k->relax[g->kind](j->s, row, count, j->c);
+        k->relax[g->kind](j->s, row, count, c);
         break;
     case BOUNCE:
-        k->bounce[g->kind](j->s, row, count, j->c);
+        k->bounce[g->kind](j->s, row, count, c);
         break;
     case STORE:
         k->store[g->kind](j->contacts, j->extras, lanes, row, count);
@@ -239,12 +244,12 @@ static void run_block(const job *j, const fe__batch *b, const pass *p, unsigned 
 {
     int32_t rows_in_block = j->program.rows_in_block;
     if (!p->group_count) {
-        run_lines(j, b, p->verb, block);
+        run_lines(j, b, p->verb, block, j->constants + USUAL);
         return;
     }
     const fe__group *g = j->s->groups + p->first_group;
     if (p->serial) {
-        for (int32_t i = 0; i < p->group_count; ++i) run_rows(j, g + i, p->verb, rows, 0, g[i].rows);
+        for (int32_t i = 0; i < p->group_count; ++i) run_rows(j, g + i, p->verb, rows, 0, g[i].rows, j->constants + USUAL);
         return;
     }
     for (;; ++g) {
@@ -253,26 +258,46 @@ static void run_block(const job *j, const fe__batch *b, const pass *p, unsigned 
         block -= blocks;
     }
     int32_t first = block * rows_in_block;
-    run_rows(j, g, p->verb, rows, first, fe__mini(rows_in_block, g->rows - first));
+    run_rows(j, g, p->verb, rows, first, fe__mini(rows_in_block, g->rows - first), j->constants + USUAL);
 }
 
 // ---- a small batch, whole -------------------------------------------------------------------------------------------------------------
-static void run_batch(const job *j, const fe__batch *b, unsigned char *rows)
+// Stored impulses are those of the world's substeps
+static void scale_impulses(const job *j, const fe__batch *b, float scale)
+{
+    for (const fe__group *g = j->s->groups + b->first_group, *end = g + b->group_count; g < end; ++g)
+        for (int32_t i = g->lane; i < g->lane + g->rows * j->k->width; ++i) {
+            int32_t index = j->s->lanes[i].contact;
+            if (!index) continue;
+            fe__contact *m = j->contacts + index;
+            for (int k = 0; k < FE__POINTS; ++k) m->normal_impulse[k] *= scale, m->friction_impulse[k] *= scale;
+            for (int k = 0; k < 3 && g->kind & FE__ROW_SPECIAL; ++k) j->extras[index].rolling_impulse[k] *= scale;
+        }
+}
+
+static void run_all(const job *j, const fe__batch *b, verb verb, unsigned char *rows, const fe__step_constants *c)
 {
     const fe__group *groups = j->s->groups + b->first_group;
-    static const verb substep[] = {SOLVE, INTEGRATE, RELAX, BOUNCE, CARRY};
-    int32_t line_blocks = blocks_of(b->line_count, LINES_IN_BLOCK), verbs = (int32_t)(sizeof substep / sizeof *substep);
-    for (int32_t i = 0; i < line_blocks; ++i) run_lines(j, b, LOAD, i);
-    for (int32_t i = 0; i < b->group_count; ++i) run_rows(j, groups + i, PREPARE, rows, 0, groups[i].rows);
-    for (int32_t n = 0; n < j->c->substeps; ++n)
-        for (int32_t v = 0; v < verbs; ++v) {
-            verb verb = substep[v];
-            if ((verb == BOUNCE && !b->bounces) || (verb == CARRY && n + 1 == j->c->substeps)) continue;
-            for (int32_t i = 0; i < line_blocks && (verb == INTEGRATE || verb == CARRY); ++i) run_lines(j, b, verb, i);
-            for (int32_t i = 0; i < b->group_count && verb != INTEGRATE && verb != CARRY; ++i)
-                run_rows(j, groups + i, verb, rows, 0, groups[i].rows);
-        }
-    for (int32_t i = 0; i < b->group_count; ++i) run_rows(j, groups + i, STORE, rows, 0, groups[i].rows);
+    int32_t of_lines = verb == LOAD || verb == INTEGRATE || verb == CARRY, line_blocks = blocks_of(b->line_count, LINES_IN_BLOCK);
+    for (int32_t i = 0; i < line_blocks && of_lines; ++i) run_lines(j, b, verb, i, c);
+    for (int32_t i = 0; i < b->group_count && !of_lines; ++i) run_rows(j, groups + i, verb, rows, 0, groups[i].rows, c);
+}
+
+static void run_batch(const job *j, const fe__batch *b, unsigned char *rows)
+{
+    const fe__step_constants *c = j->constants + (b->strained ? STRAINED : USUAL), *last = c + 1;
+    run_all(j, b, LOAD, rows, c);
+    run_all(j, b, PREPARE, rows, c);
+    for (int32_t n = 0; n < c->substeps; ++n) {
+        run_all(j, b, SOLVE, rows, c);
+        run_all(j, b, INTEGRATE, rows, c);
+        for (int32_t i = 1; i < c->sweeps; ++i) run_all(j, b, RELAX, rows, j->constants + STRAINED_MORE);
+        run_all(j, b, RELAX, rows, n + 1 < c->substeps ? c : last);
+        if (b->bounces) run_all(j, b, BOUNCE, rows, c);
+        if (n + 1 < c->substeps) run_all(j, b, CARRY, rows, c);
+    }
+    run_all(j, b, STORE, rows, c);
+    if (c->division > 1) scale_impulses(j, b, (float)c->division);
 }
 
 static void run_small_batches(void *argument, int32_t worker)
@@ -350,13 +375,52 @@ static void clear_static_line(fe__solver *s)
     }
 }
 
-void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *workers, const fe__body *bodies, fe__contact *contacts,
-               fe__extra *extras, const fe__joints *joints, const fe__step_constants *c)
+// A pass hands an impulse on by a body or so. Where that is too slow, in islands of bodies that bear many times their weight, substeps are
+// finer and have more rigid passes: they are strained. Those of the next step are those with a body that was in this one, and no joints;
+// another set of them is another graph.
+static void note_strain(fe__solver *s, fe__body *bodies)
 {
-    job j = {.s = s, .k = kernels, .bodies = bodies, .contacts = contacts, .extras = extras, .joints = joints, .c = c};
+    enum { IS_STRAINED = 1, IS_JOINED = 2 };
+    int32_t any = atomic_load_explicit(&s->strained, memory_order_relaxed), *strained = (int32_t *)(void *)s->rows; // no longer in use
+    for (int32_t i = s->large_count; i < s->batch_count; ++i) any |= s->batches[i].strained;
+    if (!any) return;
+    memset(strained, 0, sizeof(int32_t) * (size_t)s->island_count);
+    for (int32_t pass = 0; pass < 2; ++pass)
+        for (int32_t i = s->large_count; i < s->batch_count - 1; ++i) {
+            const fe__batch *b = s->batches + i;
+            for (int32_t line = b->first_line; line < b->first_line + b->line_count; ++line) {
+                fe__body *body = bodies + fe__maxi(s->body_of_line[line], 0);
+                if (s->body_of_line[line] < 0 || body->type != FE_BODY_DYNAMIC) continue;
+                if (pass) {
+                    s->graph_changed |= (strained[body->island] == IS_STRAINED) != b->strained;
+                    continue;
+                }
+                body->flags &= ~(uint32_t)FE__BODY_STRAINED;
+                if (body->joint_count) strained[body->island] |= IS_JOINED;
+                if (s->inertia[line][FE__LINE - 1] == 0.0f) continue;
+                body->flags |= FE__BODY_STRAINED;
+                strained[body->island] |= IS_STRAINED;
+            }
+        }
+}
+
+static void set_constants(job *j, const fe__step_constants *c, const fe__step_constants *fine)
+{
+    j->constants[USUAL] = j->constants[LAST] = *c;
+    j->constants[STRAINED] = j->constants[STRAINED_LAST] = j->constants[STRAINED_MORE] = *fine;
+    j->constants[STRAINED_MORE].more = 1;
+    j->constants[LAST].asks_strain = j->constants[STRAINED_LAST].asks_strain = 1;
+}
+
+void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *workers, fe__body *bodies, fe__contact *contacts,
+               fe__extra *extras, const fe__joints *joints, const fe__step_constants *c, const fe__step_constants *fine)
+{
+    job j = {.s = s, .k = kernels, .bodies = bodies, .contacts = contacts, .extras = extras, .joints = joints};
     if (!s->batch_count) return; // all sleep; there may be no lines at all
+    set_constants(&j, c, fine);
     clear_static_line(s);
     atomic_store(&s->trails, 0);
+    atomic_store(&s->strained, 0);
     for (int32_t i = 0; i < s->large_count; ++i) {
         j.batch = s->batches + i;
         make_program(&j.program, s, j.batch, c->substeps, kernels->width);
@@ -366,4 +430,5 @@ void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *wor
     }
     atomic_store(&j.next_batch, s->large_count);
     fe__run(workers, run_small_batches, &j, fe__mini(workers->count, s->batch_count - s->large_count));
+    note_strain(s, bodies);
 }

@@ -2,8 +2,8 @@
 //
 // The graph (graph.c) sorts awake bodies and linked contacts into batches: small islands, several to a batch, each solved whole by one
 // worker; an island above FE__ISLAND_LARGE contacts is a batch of its own, spread over the workers colour by colour. Which of the two an
-// island gets never changes its result. In a batch, contacts lie in groups by (colour, kind of row); a group's contacts share no dynamic
-// body, W of them make a row.
+// island gets changes its result only where small ones are strained, see solve.c. In a batch, contacts lie in groups by (colour, kind of
+// row); a group's contacts share no dynamic body, W of them make a row.
 //
 // The kernels (*.simd.c) are compiled once per SIMD set into a table; the world picks one at its creation.
 #ifndef FE_SOLVER_SOLVER_H
@@ -52,7 +52,13 @@ typedef struct fe__step_constants {
     float warm_scale;   // h now / h of the stored impulses
     float max_speed;    // m/s
     float speculative;  // m
+    float strain;       // m/s; what a load of one step could do to its two bodies, from which on their island is strained
+    float forgets;      // 0: strain is what lasted for the step, FLT_MAX: what the last substep bore, m/s
     int32_t substeps;
+    int32_t division;    // substeps to one of the world's: 1, more in strained islands
+    int32_t sweeps;      // rigid passes over the contacts in a substep
+    int32_t more;        // 1: this is not the last of them
+    int32_t asks_strain; // 1: this is the last pass of a step
     fe_vec3 gravity;
     fe__softness between_dynamic, against_static, joint;
     float joint_hertz; // at most, 1/s
@@ -76,6 +82,7 @@ typedef struct fe__batch {
     int32_t contact_count, joint_count, body_count, island_count;
     int32_t lane_count; // contacts and parts of joints
     int32_t bounces;    // special rows are in it
+    int32_t strained;   // its islands are
     int64_t row_bytes;
 } fe__batch;
 
@@ -111,7 +118,7 @@ typedef struct fe__solver {
     float (*velocity)[FE__LINE]; // v, inverse mass | w, lock bits
     float (*motion)[FE__LINE];   // since the step began: centre, 0 | rotation x y z w
     float (*start)[FE__LINE];    // v, _ | w, _ before this substep's constraint impulses
-    float (*inertia)[FE__LINE];  // inverse, world: xx xy xz yy | yz zz 0 0
+    float (*inertia)[FE__LINE];  // inverse, world: xx xy xz yy | yz zz 0, 1 when the body turned out to be strained
     float (*drive)[FE__LINE];    // acceleration by gravity and forces, 1/(1 + h c) | by torques, 1/(1 + h c)
     float (*spin)[FE__LINE];     // principal axes x y z w, world, when the step began | principal moments, 1: gyroscopic torque
     int32_t line_count, line_capacity[6];
@@ -124,6 +131,8 @@ typedef struct fe__solver {
     float (*trail)[FE__TRAIL][FE__LINE]; // in no order that matters
     _Atomic int32_t trails;              // taken in this step
     int32_t trail_capacity[3];
+
+    _Atomic int32_t strained; // 1: a line is, in this step
 
     // the graph (graph.c), kept while nothing links, unlinks, wakes or sleeps
     int32_t graph_changed;

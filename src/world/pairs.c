@@ -183,6 +183,16 @@ static void enter_lists(fe_world *world, int32_t patch)
     if (world->pairs[p->head].awake_index >= 0) fe__pair_awaken(world, patch);
 }
 
+// A body that comes upon one so many times lighter strains it: its impact is not to find the island unprepared, see solve.c
+#define UNEVEN 10.0f
+
+static void note_uneven(fe__body *a, fe__body *b)
+{
+    float of_a = a->velocity[3], of_b = b->velocity[3]; // 1/kg
+    if (of_a > UNEVEN * of_b) a->flags |= FE__BODY_STRAINED;
+    if (of_b > UNEVEN * of_a) b->flags |= FE__BODY_STRAINED;
+}
+
 // First colour that neither dynamic body uses yet. A body's contacts have different colours, so contacts of one colour share no dynamic
 // body.
 void fe__pair_link(fe_world *world, int32_t pair)
@@ -197,6 +207,7 @@ void fe__pair_link(fe_world *world, int32_t pair)
         take_colour(b, m->colour);
         if (both) take_colour(a, m->colour);
     }
+    if (both) note_uneven(a, b);
     world->pairs[pair].flags |= FE__PAIR_LINKED;
     world->solver.graph_changed = 1;
     ++world->linked_count;

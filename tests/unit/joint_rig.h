@@ -164,12 +164,14 @@ static inline void rig_step(rig *r)
                             .warm_scale = r->last_h > 0.0f ? h / r->last_h : 0.0f,
                             .max_speed = 1e6f,
                             .substeps = r->substeps,
+                            .division = 1,
+                            .sweeps = 1,
                             .gravity = {0.0f, r->gravity, 0.0f},
                             .joint_hertz = 0.25f / h};
     c.joint = fe__make_softness(fe__minf(60.0f, c.joint_hertz), 2.0f, h);
     r->last_h = h;
     if (!r->built) rig_build(r);
-    fe__solve(&r->solver, r->kernels, &r->workers, r->bodies, NULL, NULL, &r->joints, &c);
+    fe__solve(&r->solver, r->kernels, &r->workers, r->bodies, NULL, NULL, &r->joints, &c, &c);
     for (int32_t i = 1; i < r->body_count; ++i) {
         fe__body *b = r->bodies + i;
         rig_follow(b, r->solver.velocity[b->line], r->solver.motion[b->line]);
