@@ -230,6 +230,17 @@ FE_COMPILED_FOR int32_t child_in(const cast *c, const fe__tree_node *node, int32
 static inline entry least(entry a, entry b) { return a > b ? b : a; }
 static inline entry greatest(entry a, entry b) { return a > b ? a : b; }
 
+// A node that waits on the stack is mostly visited, some time later: then it is there. Of a proxy, the root is asked for again.
+FE_COMPILED_FOR void ask_for(const cast *c, entry waiting)
+{
+    const int32_t child = (int32_t)(uint32_t)waiting;
+    const fe__tree_node *node = c->nodes[child >> SECOND_BIT & 1] + (child < 0 ? 0 : child & ~SECOND);
+    __builtin_prefetch(node->box[0]);
+    __builtin_prefetch(node->box[2]);
+    __builtin_prefetch(node->box[4]);
+    __builtin_prefetch(node->child);
+}
+
 // The nearest of the children that are met, at least one; the others go on the stack, the nearer the higher. Whether there is a second is
 // as random as the ray: nothing branches on it. The nearest is not read back from the stack: the next node waits for it.
 FE_COMPILED_FOR entry choose(const cast *c, const fe__tree_node *node, int32_t tag, uint32_t hits, const float *t, entry *stack,
@@ -244,6 +255,7 @@ FE_COMPILED_FOR entry choose(const cast *c, const fe__tree_node *node, int32_t t
     entry nearest = least(a, b);
     stack[base] = greatest(a, b);
     int32_t end = base + 1 - (int32_t)alone;
+    if (node) ask_for(c, alone ? nearest : stack[base]);
     for (uint32_t more = others & (others - 1); more; more &= more - 1) {
         uint32_t lane = (uint32_t)__builtin_ctz(more);
         entry e = entry_of(t[lane], child_in(c, node, tag, lane)), farther = greatest(nearest, e);
