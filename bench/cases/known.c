@@ -7,13 +7,15 @@
 #define FEW_SUBSTEPS "four substeps are too few for it; it holds with eight"
 
 #define GAS                                                                                                                               \
-    "all is lost in one step: the layers come down 1 cm apart and meet at 9.2 m/s, 1.1 ms after each other; what falls into one substep " \
+    "nearly all that is lost is lost in one step: the layers come down 1 cm apart and meet at 9.2 m/s, 1.1 ms after each other; what "    \
+    "falls into one substep "                                                                                                             \
     "(2.1 ms with eight) is one inelastic blow. Sixteen keep 99.9 % of it, as each impact has a substep of its own; thirty-two hold the " \
     "bound"
 
-#define PINCHED                                                                                                                        \
-    "limbs of 20 to 300 g that a paddle of 12 kg strikes at up to 30 m/s, or catches against a spur of the funnel, are held apart by " \
-    "more "                                                                                                                            \
+#define PINCHED                                                                                                                            \
+    "limbs of 7 to 300 g that a paddle of 12 kg (in space 46) strikes at up to 30 m/s, or catches against a spur of the funnel, are held " \
+    "apart by "                                                                                                                            \
+    "more "                                                                                                                                \
     "than their joints' springs give, for some steps at a time; more substeps do not help"
 
 static const struct known {

@@ -61,6 +61,17 @@ static void crowd_has_more_than_1000_contacts(void **state)
     fe_world_destroy(p.world);
 }
 
+// The script is worth its name only while most queries find a place
+static void every_kind_of_query_spawns(void **state)
+{
+    (void)state;
+    play p;
+    play_begin(&p, new_world(FE_SIMD_AUTO, 1));
+    play_until(&p, &script_spawn, 100);
+    assert_in_range(p.actor_count, 9 + 35, 9 + 50);
+    fe_world_destroy(p.world);
+}
+
 // ---- other bodies ---------------------------------------------------------------------------------------------------------------------
 
 typedef struct motion {
@@ -176,9 +187,9 @@ static int update(void)
 {
     FILE *file = fopen(GOLDEN, "w");
     if (!file) return 1;
-    const script *const scripts[] = {&script_crowd,  &script_mixed,  &script_terrain, &script_fast,
-                                     &script_joints, &script_people, &script_cloth};
-    for (int32_t i = 0; i < 7; ++i) {
+    const script *const scripts[] = {&script_crowd,  &script_mixed, &script_terrain, &script_fast,
+                                     &script_joints, &script_spawn, &script_people,  &script_cloth};
+    for (int32_t i = 0; i < 8; ++i) {
         fe_world *world = new_world(FE_SIMD_PLAIN, 1);
         play_print(file, scripts[i], world, scripts[i]->steps);
         fe_world_destroy(world);
@@ -196,6 +207,7 @@ int main(int count, char **arguments)
         GOLDEN_TEST(terrain, "plain", FE_SIMD_PLAIN),
         GOLDEN_TEST(fast, "plain", FE_SIMD_PLAIN),
         GOLDEN_TEST(joints, "plain", FE_SIMD_PLAIN),
+        GOLDEN_TEST(spawn, "plain", FE_SIMD_PLAIN),
 #if defined(__x86_64__)
         GOLDEN_TEST(crowd, "sse2", FE_SIMD_SSE2),
         GOLDEN_TEST(crowd, "avx2", FE_SIMD_AVX2),
@@ -209,6 +221,9 @@ int main(int count, char **arguments)
         GOLDEN_TEST(joints, "avx2", FE_SIMD_AVX2),
         GOLDEN_TEST(fast, "avx512", FE_SIMD_AVX512),
         GOLDEN_TEST(joints, "avx512", FE_SIMD_AVX512),
+        GOLDEN_TEST(spawn, "sse2", FE_SIMD_SSE2),
+        GOLDEN_TEST(spawn, "avx2", FE_SIMD_AVX2),
+        GOLDEN_TEST(spawn, "avx512", FE_SIMD_AVX512),
         GOLDEN_TEST(mixed, "sse2", FE_SIMD_SSE2),
         GOLDEN_TEST(mixed, "avx2", FE_SIMD_AVX2),
         GOLDEN_TEST(mixed, "avx512", FE_SIMD_AVX512),
@@ -218,8 +233,10 @@ int main(int count, char **arguments)
         GOLDEN_TEST(terrain, "neon", FE_SIMD_NEON),
         GOLDEN_TEST(fast, "neon", FE_SIMD_NEON),
         GOLDEN_TEST(joints, "neon", FE_SIMD_NEON),
+        GOLDEN_TEST(spawn, "neon", FE_SIMD_NEON),
 #endif
         cmocka_unit_test(crowd_has_more_than_1000_contacts),
+        cmocka_unit_test(every_kind_of_query_spawns),
         cmocka_unit_test(joints_have_an_island_that_is_spread_trees_and_strings_that_break),
         cmocka_unit_test(bodies_far_away_change_no_trajectory),
         cmocka_unit_test(bodies_far_away_change_no_trajectory_in_a_crowd),

@@ -45,6 +45,7 @@ extern const script script_mixed;   // 300 bodies fall and come to rest
 extern const script script_terrain; // heightfields (play_terrain.c)
 extern const script script_fast;    // bodies that outrun their thickness (play_fast.c)
 extern const script script_joints;  // joints of all types (play_joints.c)
+extern const script script_spawn;   // bodies that queries place (play_spawn.c)
 extern const script script_people;  // 300 ragdolls (play_jointed.c)
 extern const script script_cloth;   // 10 000 balls in one island of joints (play_jointed.c)
 extern const script script_brief;   // two dozen bodies, 200 steps, every kind of call
