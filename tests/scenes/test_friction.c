@@ -135,6 +135,20 @@ static void a_sudden_force_below_static_friction_moves_nothing(void **state)
     }
 }
 
+// What is set down on a slope has all of its friction from the first substep on: it gains no tenth of what gravity alone gives it in a step
+// beyond (sin - mu cos) g t
+static void a_box_set_down_on_a_slope_has_its_friction_at_once(void **state)
+{
+    for (int half = 0; half < 3; ++half) {
+        scene s = scene_begin(state);
+        double angle = 40 * DEGREES, due = G * (sin(angle) - 0.8 * cos(angle));
+        fe_body block = add_box_on_slope(&s, angle, 0.5, 0.1 + 0.2 * half, 0.8);
+        run(&s, 10);
+        FE_WITHIN(length(velocity(&s, block)) - due * 10 * STEP, -0.002, 0.1 * G * sin(angle) * STEP);
+        scene_end(&s);
+    }
+}
+
 enum { DIRECTIONS = 32 };
 
 // d = v0^2 / (2 mu g), within the way of one substep; the same to 0.5 % in every direction: a disc, not a pyramid
@@ -305,6 +319,9 @@ int main(void)
         EVERY_WAY_UP(a_block_drags_a_free_slab_to_their_common_velocity),
         EVERY_WAY_UP(static_friction_holds_and_dynamic_friction_brakes),
         cmocka_unit_test(a_sudden_force_below_static_friction_moves_nothing),
+        WITH_4_SUBSTEPS(a_sudden_force_below_static_friction_moves_nothing),
+        TEST(a_box_set_down_on_a_slope_has_its_friction_at_once),
+        WITH_4_SUBSTEPS(a_box_set_down_on_a_slope_has_its_friction_at_once),
         EVERY_WAY_UP(a_sliding_box_stops_after_the_same_way_in_every_direction),
         EVERY_WAY_UP(a_box_stands_below_its_tipping_angle),
         TEST(a_box_topples_above_its_tipping_angle),
