@@ -194,36 +194,42 @@ void bench_trial_forget(bench_trial *t)
     for (int32_t i = 0; i < t->scene.body_count; i++) t->tracks[i] = (bench_track){HUGE_VAL, -HUGE_VAL, 0.0, 0.0, 0.0};
 }
 
+// Motors drive to the end
+static void note_drive(bench_trial *t)
+{
+    if (t->driven_until <= t->step) t->driven_until = t->step + 1;
+}
+
 void bench_trial_take_away(bench_trial *t, int32_t body)
 {
     t->engine->take_away(t->world, body);
     t->away[body] = 1;
-    t->driven_until = t->step + 1; // what it had is gone
+    note_drive(t); // what it had is gone
 }
 
 void bench_trial_bring_back(bench_trial *t, int32_t body)
 {
     t->engine->bring_back(t->world, body, &t->scene.bodies[body].start);
     t->away[body] = 0;
-    t->driven_until = t->step + 1;
+    note_drive(t);
 }
 
 void bench_trial_push(bench_trial *t, int32_t body, const double *force)
 {
     t->engine->add_force(t->world, body, force);
-    t->driven_until = t->step + 1;
+    note_drive(t);
 }
 
 void bench_trial_hit(bench_trial *t, int32_t body, const double *impulse, const double *point)
 {
     t->engine->add_impulse(t->world, body, impulse, point);
-    t->driven_until = t->step + 1;
+    note_drive(t);
 }
 
 void bench_trial_set_gravity(bench_trial *t, const double *gravity)
 {
     t->engine->set_gravity(t->world, gravity);
-    t->driven_until = t->step + 1;
+    note_drive(t);
 }
 
 // ---- a run ----------------------------------------------------------------------------------------------------------------------------
