@@ -102,6 +102,13 @@ static int64_t row_bound(const fe__graph_bound *b, int32_t contacts, int32_t wid
     return rows < contacts ? rows : contacts;
 }
 
+// Rows of narrow kernels are not whole blocks, but nodes of trees begin with one
+static int64_t whole_blocks(int64_t bytes)
+{
+    const int64_t block = sizeof(fe__row_block);
+    return (bytes + block - 1) / block * block;
+}
+
 static int32_t tree_links(const fe__graph_bound *b) { return b->joint_set ? b->joint_set->forest.link_count : 0; }
 
 // bytes of rows of so many contacts and parts of joints; a tree has a link for each of its joints, and perhaps one for its root
@@ -110,7 +117,7 @@ static int64_t row_bytes(const fe__graph_bound *b, const fe__kernels *kernels, i
     int64_t widest = kernels->contact->row_size[b->special ? FE__ROW_PAIR | FE__ROW_SPECIAL : FE__ROW_PAIR];
     int64_t links = fe__minl(tree_links(b), 2 * (int64_t)joint_lanes);
     return row_bound(b, contacts, kernels->width) * widest + joint_row_bound(b, joint_lanes, kernels->width) * widest_joint(b, kernels) +
-           links * kernels->joint->tree.node_size;
+           links * (kernels->joint->tree.node_size + (int64_t)sizeof(fe__row_block));
 }
 
 static int64_t scratch_bound(const fe__graph_bound *b)
@@ -159,7 +166,7 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
         !FE_RESERVE(memory, s->sort_items, s->sort_capacity, 2 * sorted) ||
         !FE_RESERVE(memory, s->rows, s->row_capacity, fe__maxl(rows, building) / (int64_t)sizeof(fe__row_block) + 1))
         return 0;
-    s->worker_row_bytes = (small + 63) / 64 * 64;
+    s->worker_row_bytes = whole_blocks(small);
     return 1;
 }
 
@@ -570,6 +577,7 @@ static void open_link(builder *b, fe__batch *batch, int32_t link, fe__lane lane,
     s->places[link] =
         (fe__tree_place){.line = l->holds_b ? lane.line_b : lane.line_a, .parent_line = l->holds_b ? lane.line_a : lane.line_b};
     if (link != first + rootless) return;
+    batch->row_bytes = whole_blocks(batch->row_bytes);
     if (rootless) s->places[first] = (fe__tree_place){.line = line_of(b, f->links[first].body), .parent_line = FE__STATIC_LINE};
     s->groups[s->group_count++] =
         (fe__group){.kind = FE__TREE_KIND, .colour = FE__TREE_COLOUR, .lane = l->tree, .rows = 1, .offset = batch->row_bytes};
