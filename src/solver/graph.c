@@ -588,11 +588,9 @@ static void open_link(builder *b, fe__batch *batch, int32_t link, fe__lane lane,
 // the rows of a link's locks
 static void add_lock(const builder *b, int32_t link, int32_t part, int32_t group, int32_t lane, const fe__kernels *kernels)
 {
-    const uint32_t locks =
-        1u << FE__PART_DISTANCE | 1u << FE__PART_HINGE | 1u << FE__PART_FIXED | 1u << FE__PART_SLIDE | 1u << FE__PART_POINT;
     const fe__group *g = b->s->groups + group;
     fe__tree_place *p = b->s->places + link;
-    if (!(locks >> part & 1)) return;
+    if (!((FE__LOCKS | 1 << FE__PART_DISTANCE) >> part & 1)) return;
     p->lock[p->locks].part = part;
     p->lock[p->locks].lane = (lane - g->lane) % b->width;
     p->lock[p->locks++].row = g->offset + (int64_t)((lane - g->lane) / b->width) * kernels->joint->of[part].row_size;

@@ -35,6 +35,8 @@ typedef enum fe__joint_part {
 } fe__joint_part;
 
 enum {
+    // parts that lock whatever their settings; a distance locks where its limits are one
+    FE__LOCKS = 1 << FE__PART_HINGE | 1 << FE__PART_FIXED | 1 << FE__PART_SLIDE | 1 << FE__PART_POINT,
     // which ends are dynamic, so are written
     FE__MOVES_A = 1,
     FE__MOVES_B = 2,

@@ -135,8 +135,8 @@ static void find_least(tree_node *n, double inverse_mass)
 {
     double turn = n->turn[0] + n->turn[3] + n->turn[5];
     for (int r = 0; r < n->locks; ++r) {
-        vec u = vec_of(n->rows.below[r]), m = vec_of(n->rows.below[r] + 3);
-        n->least[r] = TREE_REDUNDANT * (inverse_mass * vec_dot(u, u) + turn * vec_dot(m, m));
+        fe_dvec3 u = vec_of(n->rows.below[r]), m = vec_of(n->rows.below[r] + 3);
+        n->least[r] = TREE_REDUNDANT * (inverse_mass * fe__ddot(u, u) + turn * fe__ddot(m, m));
     }
 }
 

@@ -10,7 +10,7 @@
 // h^2 k of the joint at one of its ends, 0: below, kg m2
 static double tension_of(const tree_node *n, int end, double h)
 {
-    double along = vec_dot(n->rows.arm[end], n->rows.pull);
+    double along = fe__ddot(n->rows.arm[end], n->rows.pull);
     along = end == 0 ? along : -along;
     return along > 0.0 ? h * along : 0.0;
 }
@@ -29,7 +29,7 @@ static double excess_of(const tree_node *n) { return n->tension > n->inertia ? 1
 
 static void calm_tree(const tree_job *t)
 {
-    const vec still = {0.0, 0.0, 0.0};
+    const fe_dvec3 still = {0.0, 0.0, 0.0};
     find_tensions(t);
     for (int32_t i = 0; i < t->count; ++i) {
         tree_node *n = t->nodes + i;
@@ -49,7 +49,7 @@ static void add_pulls(const tree_job *t)
 {
     for (int32_t i = 0; i < t->count; ++i) {
         tree_node *n = t->nodes + i;
-        for (int r = 0; r < n->locks; ++r) n->rows.pull = vec_add(n->rows.pull, vec_scale(n->impulse[r], vec_of(n->rows.below[r])));
+        for (int r = 0; r < n->locks; ++r) n->rows.pull = fe__dadd(n->rows.pull, fe__dscale(n->impulse[r], vec_of(n->rows.below[r])));
     }
 }
 

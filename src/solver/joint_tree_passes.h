@@ -19,7 +19,7 @@ static void wish_still(const tree_job *t)
 }
 
 typedef struct {
-    vec v, w;
+    fe_dvec3 v, w;
 } motion_of_body;
 
 // with the change at hand
@@ -40,21 +40,20 @@ static double slow_share(double square) { return fe__mind(fe__maxd(2.0 - square 
 // A point on an arm r leaves its tangent while the body turns: by integrate_positions' Q = Cayley(h w) it goes on by
 //     (Q - 1) r - h w x r = 2/(1 + u^2) (u x r + u x (u x r)) - 2 u x r,   u = h w / 2
 // The turn about the arm itself leaves the point alone.
-static vec leave_tangent(vec r, vec w, double h)
+static fe_dvec3 leave_tangent(fe_dvec3 r, fe_dvec3 w, double h)
 {
-    double square = vec_dot(r, r), along = square > 0.0 ? vec_dot(w, r) / square : 0.0;
-    vec u = vec_scale(0.5 * h, vec_add(w, vec_scale(-along, r))), a = vec_cross(u, r);
-    double k = 2.0 / (1.0 + vec_dot(u, u));
-    return vec_scale(slow_share(4.0 * vec_dot(u, u)), vec_add(vec_scale(k - 2.0, a), vec_scale(k, vec_cross(u, a))));
+    double square = fe__ddot(r, r), along = square > 0.0 ? fe__ddot(w, r) / square : 0.0;
+    fe_dvec3 u = fe__dscale(0.5 * h, fe__dadd(w, fe__dscale(-along, r))), a = fe__dcross(u, r);
+    double k = 2.0 / (1.0 + fe__ddot(u, u));
+    return fe__dscale(slow_share(4.0 * fe__ddot(u, u)), fe__dadd(fe__dscale(k - 2.0, a), fe__dscale(k, fe__dcross(u, a))));
 }
 
 // A rod grows by the square of what its ends move across it
 static double leave_rod(const tree_rows *rows, const motion_of_body *below, const motion_of_body *above, double h)
 {
-    vec u = vec_of(rows->below[0]);
-    vec v = vec_add(vec_add(below->v, vec_cross(below->w, rows->arm[0])),
-                    vec_scale(-1.0, vec_add(above->v, vec_cross(above->w, rows->arm[1]))));
-    double along = vec_dot(v, u), turn = h * h * (vec_dot(v, v) - along * along) / (rows->rod * rows->rod); // angle squared
+    fe_dvec3 u = vec_of(rows->below[0]);
+    fe_dvec3 v = fe__dsub(fe__dadd(below->v, fe__dcross(below->w, rows->arm[0])), fe__dadd(above->v, fe__dcross(above->w, rows->arm[1])));
+    double along = fe__ddot(v, u), turn = h * h * (fe__ddot(v, v) - along * along) / (rows->rod * rows->rod); // angle squared
     return slow_share(turn) * 0.5 * turn * rows->rod;
 }
 
@@ -66,9 +65,9 @@ static void wish_on_arcs(const tree_job *t)
         tree_node *n = t->nodes + i;
         motion_of_body below = moving(below_of(t, i), n->change),
                        above = moving(above_of(t, i), parent_of(t, i) ? parent_of(t, i)->change : NULL);
-        vec off_below = leave_tangent(n->rows.arm[0], below.w, t->h), off_above = leave_tangent(n->rows.arm[1], above.w, t->h);
+        fe_dvec3 off_below = leave_tangent(n->rows.arm[0], below.w, t->h), off_above = leave_tangent(n->rows.arm[1], above.w, t->h);
         for (int r = 0; r < n->locks; ++r)
-            n->wish[r] -= (vec_dot(vec_of(n->rows.below[r]), off_below) + vec_dot(vec_of(n->rows.above[r]), off_above)) / t->h;
+            n->wish[r] -= (fe__ddot(vec_of(n->rows.below[r]), off_below) + fe__ddot(vec_of(n->rows.above[r]), off_above)) / t->h;
         if (n->rows.rod > 0.0) n->wish[0] -= leave_rod(&n->rows, &below, &above, t->h) / t->h;
     }
 }
@@ -81,7 +80,7 @@ static void wish_closed(const tree_job *t, double share)
 {
     for (int32_t i = 0; i < t->count; ++i) {
         tree_node *n = t->nodes + i;
-        double arm = sqrt(fe__maxd(vec_dot(n->rows.arm[0], n->rows.arm[0]), vec_dot(n->rows.arm[1], n->rows.arm[1])));
+        double arm = sqrt(fe__maxd(fe__ddot(n->rows.arm[0], n->rows.arm[0]), fe__ddot(n->rows.arm[1], n->rows.arm[1])));
         arm = fe__maxd(arm, n->rows.rod);
         for (int r = 0; r < n->rows.count; ++r) {
             double error = n->rows.error[r], most = fe__maxd(FULL_TURN * (n->rows.points >> r & 1 ? arm : 1.0), share * fe__absd(error));
@@ -91,7 +90,7 @@ static void wish_closed(const tree_job *t, double share)
 }
 
 // ---- what comes of them ---------------------------------------------------------------------------------------------------------------
-static void add_spin(float *line, const double i[6], vec l)
+static void add_spin(float *line, const double i[6], fe_dvec3 l)
 {
     line[4] = (float)((double)line[4] + (i[0] * l.x + i[1] * l.y + i[2] * l.z));
     line[5] = (float)((double)line[5] + (i[1] * l.x + i[3] * l.y + i[4] * l.z));
@@ -104,9 +103,9 @@ static void forget_calm(const tree_job *t, int32_t i)
     const tree_node *n = t->nodes + i, *parent = parent_of(t, i);
     const double *l = n->impulse + n->locks;
     if (n->rows.count == n->locks) return;
-    vec below = vec_scale(t->links[i].holds_b ? 1.0 : -1.0, vec_of(l));
+    fe_dvec3 below = fe__dscale(t->links[i].holds_b ? 1.0 : -1.0, vec_of(l));
     add_spin(t->s->start[t->places[i].line], n->turn, below);
-    if (parent) add_spin(t->s->start[t->places[i].parent_line], parent->turn, vec_scale(-1.0, below));
+    if (parent) add_spin(t->s->start[t->places[i].parent_line], parent->turn, fe__dscale(-1.0, below));
 }
 
 static void apply(const tree_job *t, int total)
@@ -130,14 +129,14 @@ static void move(const tree_job *t)
 {
     double farthest = FULL_TURN * FULL_TURN;
     for (int32_t i = 0; i < t->count; ++i)
-        farthest = fe__maxd(farthest, vec_dot(vec_of(t->nodes[i].change + 3), vec_of(t->nodes[i].change + 3)));
+        farthest = fe__maxd(farthest, fe__ddot(vec_of(t->nodes[i].change + 3), vec_of(t->nodes[i].change + 3)));
     double scale = FULL_TURN / sqrt(farthest);
     for (int32_t i = 0; i < t->count; ++i) {
         float *line = t->s->motion[t->places[i].line], *q = line + 4;
         const double *u = t->nodes[i].change, w = (double)q[3];
-        vec half = vec_scale(0.5 * scale, vec_of(u + 3)), v = {(double)q[0], (double)q[1], (double)q[2]};
-        vec b = vec_add(vec_add(v, vec_scale(w, half)), vec_cross(half, v));
-        double a = w - vec_dot(half, v), k = 1.0 / sqrt(a * a + vec_dot(b, b));
+        fe_dvec3 half = fe__dscale(0.5 * scale, vec_of(u + 3)), v = {(double)q[0], (double)q[1], (double)q[2]};
+        fe_dvec3 b = fe__dadd(fe__dadd(v, fe__dscale(w, half)), fe__dcross(half, v));
+        double a = w - fe__ddot(half, v), k = 1.0 / sqrt(a * a + fe__ddot(b, b));
         for (int c = 0; c < 3; ++c) line[c] = (float)((double)line[c] + scale * u[c]);
         q[0] = (float)(k * b.x), q[1] = (float)(k * b.y), q[2] = (float)(k * b.z), q[3] = (float)(k * a);
     }

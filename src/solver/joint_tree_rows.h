@@ -4,88 +4,79 @@
 
 enum { TREE_LOCKS = 6, TREE_ROWS = TREE_LOCKS + 3 }; // three more calm a joint, see joint_tree_calm.h
 
-typedef struct {
-    double x, y, z;
-} vec;
-
-FE_INLINE vec lane3(const wide *a, int32_t i) { return (vec){(double)a[0][i], (double)a[1][i], (double)a[2][i]}; }
-FE_INLINE vec vec_of(const double *a) { return (vec){a[0], a[1], a[2]}; }
-FE_INLINE vec vec_scale(double k, vec a) { return (vec){k * a.x, k * a.y, k * a.z}; }
-FE_INLINE vec vec_add(vec a, vec b) { return (vec){a.x + b.x, a.y + b.y, a.z + b.z}; }
-FE_INLINE vec vec_cross(vec a, vec b) { return (vec){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-FE_INLINE double vec_dot(vec a, vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-FE_INLINE vec unit(int k) { return (vec){k == 0, k == 1, k == 2}; }
+FE_INLINE fe_dvec3 lane3(const wide *a, int32_t i) { return (fe_dvec3){(double)a[0][i], (double)a[1][i], (double)a[2][i]}; }
+FE_INLINE fe_dvec3 vec_of(const double *a) { return (fe_dvec3){a[0], a[1], a[2]}; }
+FE_INLINE fe_dvec3 unit(int k) { return (fe_dvec3){k == 0, k == 1, k == 2}; }
 
 typedef struct {
     double below[TREE_ROWS][6], above[TREE_ROWS][6]; // J of the body below the joint, of the other one: along v, w
     double error[TREE_ROWS];                         // m, rad
-    vec arm[2];                                      // of the joint's point from the centres of the body below, above, m
-    vec pull;                                        // impulse on the body below at that point, N s
+    fe_dvec3 arm[2];                                 // of the joint's point from the centres of the body below, above, m
+    fe_dvec3 pull;                                   // impulse on the body below at that point, N s
     int32_t count;
     int32_t points; // bits of the rows that hold points
     double rod;     // length of a distance joint, m; else 0
 } tree_rows;
 
 // B's velocity along u and its spin along mb, less A's
-static void add_row(tree_rows *t, int holds_b, vec u, vec ma, vec mb, double error)
+static void add_row(tree_rows *t, int holds_b, fe_dvec3 u, fe_dvec3 ma, fe_dvec3 mb, double error)
 {
     const double a[6] = {-u.x, -u.y, -u.z, -ma.x, -ma.y, -ma.z}, b[6] = {u.x, u.y, u.z, mb.x, mb.y, mb.z};
     memcpy(t->below[t->count], holds_b ? b : a, sizeof a);
     memcpy(t->above[t->count], holds_b ? a : b, sizeof a);
-    if (vec_dot(u, u) > 0.0) t->points |= 1 << t->count;
+    if (fe__ddot(u, u) > 0.0) t->points |= 1 << t->count;
     t->error[t->count++] = error;
 }
 
-static void set_arms(tree_rows *t, int holds_b, vec ra, vec rb) { t->arm[0] = holds_b ? rb : ra, t->arm[1] = holds_b ? ra : rb; }
-static void add_pull(tree_rows *t, int holds_b, vec on_b) { t->pull = vec_add(t->pull, vec_scale(holds_b ? 1.0 : -1.0, on_b)); }
+static void set_arms(tree_rows *t, int holds_b, fe_dvec3 ra, fe_dvec3 rb) { t->arm[0] = holds_b ? rb : ra, t->arm[1] = holds_b ? ra : rb; }
+static void add_pull(tree_rows *t, int holds_b, fe_dvec3 on_b) { t->pull = fe__dadd(t->pull, fe__dscale(holds_b ? 1.0 : -1.0, on_b)); }
 
 static void read_point(tree_rows *t, int holds_b, const point_row *row, int32_t i)
 {
-    vec ra = lane3(row->arm_a, i), rb = lane3(row->arm_b, i);
+    fe_dvec3 ra = lane3(row->arm_a, i), rb = lane3(row->arm_b, i);
     set_arms(t, holds_b, ra, rb);
     add_pull(t, holds_b, lane3(row->impulse, i));
-    for (int k = 0; k < 3; ++k) add_row(t, holds_b, unit(k), vec_cross(ra, unit(k)), vec_cross(rb, unit(k)), (double)row->gap[k][i]);
+    for (int k = 0; k < 3; ++k) add_row(t, holds_b, unit(k), fe__dcross(ra, unit(k)), fe__dcross(rb, unit(k)), (double)row->gap[k][i]);
 }
 
 static void read_slide(tree_rows *t, int holds_b, const slide_row *row, int32_t i)
 {
-    vec ra = lane3(row->arm_a, i), rb = lane3(row->arm_b, i);
+    fe_dvec3 ra = lane3(row->arm_a, i), rb = lane3(row->arm_b, i);
     set_arms(t, holds_b, ra, rb);
     for (int k = 0; k < 3; ++k) {
-        vec u = lane3(row->u[k], i);
-        add_pull(t, holds_b, vec_scale((double)row->impulse[k][i], u));
-        if (row->keep[k][i] > 0.0f) add_row(t, holds_b, u, vec_cross(ra, u), vec_cross(rb, u), (double)row->error[k][i]);
+        fe_dvec3 u = lane3(row->u[k], i);
+        add_pull(t, holds_b, fe__dscale((double)row->impulse[k][i], u));
+        if (row->keep[k][i] > 0.0f) add_row(t, holds_b, u, fe__dcross(ra, u), fe__dcross(rb, u), (double)row->error[k][i]);
     }
 }
 
 static void read_hinge(tree_rows *t, int holds_b, const hinge_row *row, int32_t i)
 {
-    const vec still = {0.0, 0.0, 0.0}, t1 = lane3(row->t1, i), t2 = lane3(row->t2, i);
+    const fe_dvec3 still = {0.0, 0.0, 0.0}, t1 = lane3(row->t1, i), t2 = lane3(row->t2, i);
     add_row(t, holds_b, still, t1, t1, (double)row->error[0][i]);
     add_row(t, holds_b, still, t2, t2, (double)row->error[1][i]);
 }
 
 static void read_fixed(tree_rows *t, int holds_b, const fixed_row *row, int32_t i)
 {
-    const vec still = {0.0, 0.0, 0.0};
+    const fe_dvec3 still = {0.0, 0.0, 0.0};
     for (int k = 0; k < 3; ++k) add_row(t, holds_b, still, unit(k), unit(k), (double)row->error[k][i]);
 }
 
-// a vector of the body's, turned as far as the body has in this step (w_turn)
-static vec turned_lane(const float *motion, vec a)
+// a vector of the body's, turned as far as the body has in this step
+static fe_dvec3 turned_lane(const float *motion, fe_dvec3 a)
 {
-    vec q = {(double)motion[4], (double)motion[5], (double)motion[6]}, t = vec_scale(2.0, vec_cross(q, a));
-    return vec_add(a, vec_add(vec_scale((double)motion[7], t), vec_cross(q, t)));
+    return fe__drotate((fe_quat){motion[4], motion[5], motion[6], motion[7]}, a);
 }
 
 static void read_distance(tree_rows *t, int holds_b, const linear_row *row, int32_t i, const fe__solver *s)
 {
-    vec u = lane3(row->u, i), ra = turned_lane(s->motion[row->line.a[i]], lane3(row->first_arm_a, i));
-    vec rb = turned_lane(s->motion[row->line.b[i]], lane3(row->first_arm_b, i));
+    fe_dvec3 u = lane3(row->u, i), ra = turned_lane(s->motion[row->line.a[i]], lane3(row->first_arm_a, i));
+    fe_dvec3 rb = turned_lane(s->motion[row->line.b[i]], lane3(row->first_arm_b, i));
     set_arms(t, holds_b, ra, rb);
     t->rod = (double)row->f.x[i];
-    add_pull(t, holds_b, vec_scale((double)row->f.under[i], u));
-    add_row(t, holds_b, u, vec_cross(ra, u), vec_cross(rb, u), t->rod - (double)row->f.low[i]);
+    add_pull(t, holds_b, fe__dscale((double)row->f.under[i], u));
+    add_row(t, holds_b, u, fe__dcross(ra, u), fe__dcross(rb, u), t->rod - (double)row->f.low[i]);
 }
 
 typedef struct {
@@ -115,7 +106,7 @@ static end_inertias read_lock(tree_rows *t, int holds_b, int32_t part, const voi
 
 // ---- impulses back to the lanes; `total`: to the sums over the step too ----------------------------------------------------------------
 FE_INLINE void add_lane(wide *to, int32_t i, double a) { (*to)[i] += (float)a; }
-FE_INLINE void add_lane3(wide *to, int32_t i, vec a) { add_lane(to, i, a.x), add_lane(to + 1, i, a.y), add_lane(to + 2, i, a.z); }
+FE_INLINE void add_lane3(wide *to, int32_t i, fe_dvec3 a) { add_lane(to, i, a.x), add_lane(to + 1, i, a.y), add_lane(to + 2, i, a.z); }
 
 static int write_slide(slide_row *row, int32_t i, const double *l, int total)
 {
@@ -123,7 +114,7 @@ static int write_slide(slide_row *row, int32_t i, const double *l, int total)
     for (int k = 0; k < 3; ++k) {
         if (!(row->keep[k][i] > 0.0f)) continue;
         add_lane(row->impulse + k, i, l[taken]);
-        if (total) add_lane3(row->total, i, vec_scale(l[taken], lane3(row->u[k], i)));
+        if (total) add_lane3(row->total, i, fe__dscale(l[taken], lane3(row->u[k], i)));
         ++taken;
     }
     return taken;
@@ -132,7 +123,7 @@ static int write_slide(slide_row *row, int32_t i, const double *l, int total)
 static int write_hinge(hinge_row *row, int32_t i, const double *l, int total)
 {
     add_lane(row->impulse, i, l[0]), add_lane(row->impulse + 1, i, l[1]);
-    if (total) add_lane3(row->total, i, vec_add(vec_scale(l[0], lane3(row->t1, i)), vec_scale(l[1], lane3(row->t2, i))));
+    if (total) add_lane3(row->total, i, fe__dadd(fe__dscale(l[0], lane3(row->t1, i)), fe__dscale(l[1], lane3(row->t2, i))));
     return 2;
 }
 

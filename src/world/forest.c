@@ -14,9 +14,8 @@ static int32_t is_edge(const fe_world *w, int32_t joint)
 {
     const fe__joint *j = w->joints.joints + joint;
     const fe__joint_frame *f = w->joints.frames + joint;
-    uint32_t locks = 1u << FE__PART_POINT | 1u << FE__PART_SLIDE | 1u << FE__PART_HINGE | 1u << FE__PART_FIXED;
     if (j->colour < 0 || j->colour == FE__JOINT_OVERFLOW || j->arm_a[3] > 0.0f) return 0;
-    if (j->rows & locks) return 1;
+    if (j->rows & FE__LOCKS) return 1;
     if (!(j->rows >> FE__PART_DISTANCE & 1)) return 0;
     const float *limit = w->joints.axes[f->axes].axis[FE__AXIS_LINEAR].limit;
     return limit[0] == limit[1] && limit[2] == 0.0f;
