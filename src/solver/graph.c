@@ -135,14 +135,6 @@ static int64_t all_rows(const fe__graph_bound *b, const fe__kernels *kernels, in
     return small * workers > large ? small * workers : large;
 }
 
-// of a large batch with so many groups at most: each colour is prepared, solved, relaxed and perhaps bounced; all are loaded, moved,
-// carried on, stored
-static int64_t most_passes(int64_t groups)
-{
-    enum { ALL_COLOURS = 4 * FE__COLOURS + 3 * (FE__JOINT_KEYS + 1), OTHERS = 4 };
-    return fe__minl(4 * groups, ALL_COLOURS) + OTHERS;
-}
-
 int32_t fe__graph_has_rows(const fe__solver *s, const fe__kernels *kernels, const fe__graph_bound *bound, int32_t workers)
 {
     int64_t small;
@@ -171,7 +163,6 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
         !FE_RESERVE(memory, s->batches, s->batch_capacity, batches) || !FE_RESERVE(memory, s->groups, s->group_capacity, groups + 1) ||
         !FE_RESERVE(memory, s->lanes, s->lane_capacity, lanes + width) ||
         !FE_RESERVE(memory, s->places, s->place_capacity, tree_links(b)) ||
-        !FE_RESERVE(memory, s->passes, s->pass_capacity, most_passes(groups)) ||
         !FE_RESERVE(memory, s->sort_items, s->sort_capacity, 2 * sorted) ||
         !FE_RESERVE(memory, s->rows, s->row_capacity, fe__maxl(rows, building) / (int64_t)sizeof(fe__row_block) + 1))
         return 0;
@@ -195,7 +186,6 @@ void fe__solver_destroy(fe__solver *s, fe__memory *memory)
     FE_FREE(memory, s->groups, s->group_capacity);
     FE_FREE(memory, s->lanes, s->lane_capacity);
     FE_FREE(memory, s->places, s->place_capacity);
-    FE_FREE(memory, s->passes, s->pass_capacity);
     FE_FREE(memory, s->sort_items, s->sort_capacity);
     FE_FREE(memory, s->rows, s->row_capacity);
     s->batch_count = s->large_count = s->group_count = s->lane_count = s->line_count = s->island_count = 0;
