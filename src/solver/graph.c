@@ -135,6 +135,14 @@ static int64_t all_rows(const fe__graph_bound *b, const fe__kernels *kernels, in
     return small * workers > large ? small * workers : large;
 }
 
+// Passes of a large batch, see make_program in solve.c. Its groups come colour by colour, a group or more each, and each of the four verbs
+// of rows (prepare, solve, relax, bounce; joints do not bounce) has a pass a colour at most. Three more are over lines, and one stores.
+static int64_t pass_bound(int64_t groups)
+{
+    enum { EVERY_COLOUR = 4 * FE__COLOURS + 3 * FE__CONTACT_COLOURS, OTHERS = 4 };
+    return fe__minl(4 * groups, EVERY_COLOUR) + OTHERS;
+}
+
 int32_t fe__graph_has_rows(const fe__solver *s, const fe__kernels *kernels, const fe__graph_bound *bound, int32_t workers)
 {
     int64_t small;
@@ -163,6 +171,7 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
         !FE_RESERVE(memory, s->batches, s->batch_capacity, batches) || !FE_RESERVE(memory, s->groups, s->group_capacity, groups + 1) ||
         !FE_RESERVE(memory, s->lanes, s->lane_capacity, lanes + width) ||
         !FE_RESERVE(memory, s->places, s->place_capacity, tree_links(b)) ||
+        !FE_RESERVE(memory, s->passes, s->pass_capacity, pass_bound(groups)) ||
         !FE_RESERVE(memory, s->sort_items, s->sort_capacity, 2 * sorted) ||
         !FE_RESERVE(memory, s->rows, s->row_capacity, fe__maxl(rows, building) / (int64_t)sizeof(fe__row_block) + 1))
         return 0;
@@ -186,6 +195,7 @@ void fe__solver_destroy(fe__solver *s, fe__memory *memory)
     FE_FREE(memory, s->groups, s->group_capacity);
     FE_FREE(memory, s->lanes, s->lane_capacity);
     FE_FREE(memory, s->places, s->place_capacity);
+    FE_FREE(memory, s->passes, s->pass_capacity);
     FE_FREE(memory, s->sort_items, s->sort_capacity);
     FE_FREE(memory, s->rows, s->row_capacity);
     s->batch_count = s->large_count = s->group_count = s->lane_count = s->line_count = s->island_count = 0;

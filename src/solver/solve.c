@@ -5,10 +5,10 @@
 // the same groups in the same order of colours, so that who executes a batch never shows.
 #include "solver/graph.h"
 
+#include <assert.h>
 #include <string.h>
 
 enum {
-    MOST_PASSES = 4 * FE__COLOURS + 3 * (FE__JOINT_KEYS + 1) + 8,
     LANES_IN_BLOCK = 64,   // rows of a block, in contacts: a microsecond of work
     LINES_IN_BLOCK = 256,  // a multiple of FE__MAX_WIDTH
     SERIAL_LANES = 128,    // colours are merged into one block while they have no more contacts: a barrier would cost more than they do
@@ -20,16 +20,10 @@ typedef enum pace { USUAL, LAST, STRAINED, STRAINED_LAST, STRAINED_MORE, PACES }
 
 typedef enum verb { LOAD, PREPARE, SOLVE, INTEGRATE, RELAX, BOUNCE, CARRY, STORE } verb;
 
-typedef struct pass {
-    verb verb;
-    int32_t first_group, group_count; // of consecutive colours
-    int32_t blocks;
-    int32_t serial; // one block, groups in order
-} pass;
-
 typedef struct program {
     int32_t width, rows_in_block;
-    pass passes[MOST_PASSES];
+    fe__pass *passes;
+    int32_t room;                        // for so many of them
     int32_t prologue, substep, epilogue; // passes each; the last substep leaves out its last pass
     int32_t substeps;
 } program;
@@ -62,7 +56,8 @@ static int32_t blocks_of(int32_t items, int32_t block) { return (items + block -
 static void add_pass(program *p, int32_t *part, verb verb, int32_t first_group, int32_t groups, int32_t blocks, int32_t serial)
 {
     int32_t i = p->prologue + p->substep + p->epilogue;
-    p->passes[i] = (pass){verb, first_group, groups, blocks, serial};
+    assert(i < p->room);
+    p->passes[i] = (fe__pass){(int32_t)verb, first_group, groups, blocks, serial};
     ++*part;
 }
 
@@ -107,6 +102,8 @@ static void add_colours(program *p, int32_t *part, const fe__solver *s, const fe
 static void make_program(program *p, const fe__solver *s, const fe__batch *b, int32_t substeps, int32_t width)
 {
     int32_t line_blocks = blocks_of(b->line_count, LINES_IN_BLOCK), end = b->first_group + b->group_count;
+    p->passes = s->passes;
+    p->room = s->pass_capacity;
     p->prologue = p->substep = p->epilogue = 0;
     p->substeps = substeps;
     p->width = width;
@@ -124,7 +121,7 @@ static void make_program(program *p, const fe__solver *s, const fe__batch *b, in
 static int32_t pass_count(const program *p) { return p->prologue + p->substeps * p->substep - 1 + p->epilogue; }
 
 // the i-th pass to run
-static const pass *pass_at(const program *p, int32_t i)
+static const fe__pass *pass_at(const program *p, int32_t i)
 {
     int32_t looped = p->substeps * p->substep - 1;
     if (i < p->prologue) return p->passes + i;
@@ -240,7 +237,7 @@ static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char 
     }
 }
 
-static void run_block(const job *j, const fe__batch *b, const pass *p, unsigned char *rows, int32_t block)
+static void run_block(const job *j, const fe__batch *b, const fe__pass *p, unsigned char *rows, int32_t block)
 {
     int32_t rows_in_block = j->program.rows_in_block;
     if (!p->group_count) {
@@ -346,7 +343,7 @@ static void run_large_batch(void *argument, int32_t worker)
     (void)worker;
     int32_t count = pass_count(&j->program);
     for (int32_t i = 0; i < count; ++i) {
-        const pass *p = pass_at(&j->program, i);
+        const fe__pass *p = pass_at(&j->program, i);
         for (int32_t block; (block = claim_block(j, (uint64_t)i, p->blocks)) >= 0;) {
             run_block(j, j->batch, p, (unsigned char *)j->s->rows, block);
             finish_block(j, (uint64_t)i, p->blocks);

@@ -113,6 +113,14 @@ typedef struct fe__row_block {
     _Alignas(64) unsigned char bytes[64];
 } fe__row_block;
 
+// One turn of all workers over part of a large batch, see solve.c
+typedef struct fe__pass {
+    int32_t verb;
+    int32_t first_group, group_count; // of consecutive colours
+    int32_t blocks;
+    int32_t serial; // one block, groups in order
+} fe__pass;
+
 typedef struct fe__solver {
     // lines of bodies, W at a time. The block of FE__STATIC_LINE is zeros and read only
     float (*velocity)[FE__LINE]; // v, inverse mass | w, lock bits
@@ -144,6 +152,8 @@ typedef struct fe__solver {
     int32_t lane_count, lane_capacity;
     fe__tree_place *places; // by link of the forest; of trees that are awake
     int32_t place_capacity;
+    fe__pass *passes; // of the large batch at hand
+    int32_t pass_capacity;
     int32_t island_count;
     fe__sort_item *sort_items;
     int32_t sort_capacity;
