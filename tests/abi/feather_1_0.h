@@ -175,7 +175,7 @@ FE_API fe_result fe_world_create(const fe_world_def *desc, fe_world **out_world)
 FE_API fe_result fe_world_destroy(fe_world *world);
 /// Moves the world on by dt seconds.
 ///
-/// FE_ERROR_MEMORY leaves the world as it was before the call, and it can be stepped again.
+/// FE_ERROR_MEMORY leaves the world as it was before the call, and it can be stepped again. It takes less than 32 KB of the caller's stack.
 /// @param dt  0..1 s; 0 updates contacts and events and moves nothing
 FE_API fe_result fe_world_step(fe_world *world, float dt);
 
