@@ -6,7 +6,8 @@
 #   make python     the Python package in build/python; make test-python: its tests; likewise for the other languages of bindings/
 #   make fuzz       FUZZ_SECONDS=600 of random calls of the API, with clang's libFuzzer and sanitizers
 #   make bench      every case, judged, with 32 variants where rounding decides; speed, beside Bullet and ODE where they are installed
-#   make proof      docs/PROOF.md: every case and speed scene in every engine; some minutes (PROOF="lines page": only these parts, see tools/proof)
+#   make proof      docs/PROOF.md: every case and speed scene in every engine; 40 minutes (PROOF="lines page": only these parts, see tools/proof)
+#   make proof-check  does that page say what the committed one says, times apart?
 #   make install    PREFIX, LIBDIR, INCLUDEDIR, DESTDIR;  make uninstall takes it away again
 #   make examples, deps, format, clean
 #
@@ -92,7 +93,7 @@ STATIC := $(BUILD)/libfeather.a
 SHARED := $(BUILD)/libfeather.so
 VERSION = $(shell awk '/define FE_VERSION_(MAJOR|MINOR|PATCH)/ { v = v dot $$3; dot = "." } END { print v }' include/feather.h)
 
-.PHONY: all static shared demo examples tests test fuzz bench bench-build proof install uninstall deps format clean FORCE
+.PHONY: all static shared demo examples tests test fuzz bench bench-build proof proof-check install uninstall deps format clean FORCE
 all: static shared
 static: $(STATIC)
 shared: $(SHARED)
@@ -224,6 +225,8 @@ proof:
 	@tools/deps.sh all
 	@+$(MAKE) --no-print-directory $(PARALLEL) bench-build
 	tools/proof $(BUILD) $(PROOF)
+proof-check:
+	@tools/proof --check
 
 # ---- bindings: `make python`, `make test-python` and so on --------------------------------------------------------------------------------
 

@@ -8,6 +8,7 @@ int bench_command_queries(int argc, char **argv);
 int bench_command_scenes(int argc, char **argv);
 int bench_command_run(int argc, char **argv);
 int bench_command_compare(int argc, char **argv);
+int bench_command_tasks(int argc, char **argv);
 int bench_command_worse(int argc, char **argv);
 int bench_command_profile(int argc, char **argv);
 int bench_command_scaling(int argc, char **argv);

@@ -20,6 +20,7 @@ static const command commands[] = {
     {"scenes", bench_command_scenes, "every case in Feather, judged"},
     {"run", bench_command_run, "one case: run NAME, with every measure"},
     {"compare", bench_command_compare, "cases in all engines, side by side: exit 1 where Feather does worse than Box2D or ODE"},
+    {"tasks", bench_command_tasks, "the runs that compare makes, one a line: about how long, case, engine, substeps"},
     {"worse", bench_command_worse, "that judgement alone, of tables that compare wrote: worse FILE.csv..."},
     {"profile", bench_command_profile, "where the time of a step goes: profile SCENE"},
     {"scaling", bench_command_scaling, "time and memory of 100 to 100 000 bodies, 1 and 2 workers"},
@@ -65,7 +66,7 @@ int bench_command_help(int argc, char **argv)
     printf("usage: feather-bench COMMAND [OPTION]...\n");
     for (size_t i = 0; i < command_count; i++) printf("  %-8s %s\n", commands[i].name, commands[i].about);
     printf(
-        "options of scenes, run and compare: --scene, --peers, --only-peers, --workers, --substeps (default: 4 and 8), --out,\n"
+        "options of scenes, run, compare and tasks: --scene, --peers, --only-peers, --workers, --substeps (default: 4 and 8), --out,\n"
         "  --variants N          of cases whose measures rounding decides, judged by their medians (default: 32, and 1 with many bodies)\n"
         "options of speed:\n"
         "  --scene NAME[,NAME]   scenes to run (default: those of the list); may be given several times\n"

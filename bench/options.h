@@ -1,5 +1,5 @@
 /// @file options.h
-/// What the user asked of `feather-bench speed`, `scenes`, `run`, `compare`.
+/// What the user asked of `feather-bench speed`, `scaling`, `scenes`, `run`, `compare`, `tasks`.
 #ifndef BENCH_OPTIONS_H
 #define BENCH_OPTIONS_H
 

@@ -1,4 +1,5 @@
-// `feather-bench scenes`, `run` and `compare`: the cases, judged by their criteria, in Feather and in the engines beside it.
+// `feather-bench scenes`, `run` and `compare`: the cases, judged by their criteria, in Feather and in the engines beside it. `tasks` names
+// the runs that `compare` would make, for who makes them side by side (tools/proof).
 #include "bench.h"
 
 #include "memory.h"
@@ -115,6 +116,7 @@ typedef struct series {
     const bench_options *options;
     FILE *csv;
     int32_t all_checks; // print those that hold too
+    int32_t only_named; // nothing runs
     outcome sum;
 } series;
 
@@ -125,8 +127,23 @@ static int32_t variants_of(const bench_options *o, const bench_case *rule, const
     return o->variants > 0 ? o->variants : rule->is_chaotic == BENCH_CHAOTIC_LONG ? 1 : BENCH_VARIANTS;
 }
 
+// About how long a run takes, so that the longest may begin first
+static void print_task(const series *s, const bench_case *rule, int32_t planar, const bench_engine *engine, int32_t substeps)
+{
+    const double slower = engine == &bench_feather ? 1.0 : 20.0; // other engines
+    bench_scene scene;
+    bench_trial_build(&scene, rule, planar);
+    const double steps = rule->seconds / (double)scene.dt * scene.body_count * variants_of(s->options, rule, engine);
+    printf("%.0f %s %s %d\n", slower * steps, scene.name, engine->name, engine->has_workers ? substeps : 0);
+    bench_scene_destroy(&scene);
+}
+
 static void try_case(series *s, const bench_case *rule, int32_t planar, const bench_engine *engine, int32_t substeps)
 {
+    if (s->only_named) {
+        print_task(s, rule, planar, engine, substeps);
+        return;
+    }
     bench_trial trial;
     const int32_t workers = s->options->worker_count > 0 ? s->options->workers[0] : 1;
     const bench_setup setup = {rule, engine, planar, workers, engine->has_workers ? substeps : 0, 0, s->all_checks};
@@ -208,6 +225,18 @@ static int run_cases(int argc, char **argv, const char *out, int32_t with_peers,
     fclose(s.csv);
     printf("%d passed, %d miss what is known, %d failed, %d refused\n", s.sum.passed, s.sum.known, s.sum.failed, s.sum.refused);
     return status == 0 && (with_peers || s.sum.failed + s.sum.refused == 0) ? 0 : 1;
+}
+
+// A line for each run: its cost, case, engine and substeps (0: the engine has none).
+int bench_command_tasks(int argc, char **argv)
+{
+    bench_options options;
+    if (bench_options_parse(&options, argc, argv) != 0) return 2;
+    series s = {.options = &options, .only_named = 1};
+    int status = 0;
+    for (int32_t i = 0; i < options.scene_count; i++) status |= try_named(&s, options.scenes[i], 1);
+    if (options.scene_count == 0) try_all(&s, 1);
+    return status != 0;
 }
 
 int bench_command_scenes(int argc, char **argv) { return run_cases(argc, argv, "build/scenes.csv", 0, 0); }

@@ -77,6 +77,8 @@ enum bench_measure {
 };
 extern const char *const bench_measure_names[BENCH_MEASURES];
 
+#define BENCH_TOO_LONG "steps of a body that the case takes"
+
 enum { BENCH_MAX_CHECKS = 24, BENCH_NOTES = 64 };
 
 struct bench_trial {
@@ -108,10 +110,10 @@ struct bench_trial {
     int32_t driven_until; ///< step after which nothing from outside gave energy
     bench_check checks[BENCH_MAX_CHECKS];
     int32_t check_count;
-    int32_t stopped; ///< 1: the engine's limit of steps was reached, and nothing was judged
-    int32_t finite;  ///< 0: some pose was NaN or infinite, and the run ended there; a check that fails tells so
-    double ms;       ///< of all steps, and of all variants, on average
-    uint64_t hash;   ///< at the end, where the engine tells
+    int32_t is_too_long; ///< 1: more than the engine's `body_steps`: not run, with one check that tells so
+    int32_t finite;      ///< 0: some pose was NaN or infinite, and the run ended there; a check that fails tells so
+    double ms;           ///< of all steps, and of all variants, on average
+    uint64_t hash;       ///< at the end, where the engine tells
 };
 
 /// The case called `name`, or "name-2d" for its planar twin. NULL: none.

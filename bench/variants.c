@@ -47,7 +47,7 @@ static void judge_all(bench_trial *t, const row *values, int32_t count)
 int bench_trial_run_variants(bench_trial *t, const bench_setup *setup, int32_t count)
 {
     int status = bench_trial_run(t, setup);
-    if (status != 0 || count == 1 || t->stopped) return status;
+    if (status != 0 || count == 1 || t->is_too_long) return status;
     row *values = bench_allocate((size_t)count, sizeof *values);
     note(values, 0, t);
     for (int32_t run = 1; run < count && status == 0 && t->finite; run++) {

@@ -6,8 +6,8 @@
 //   opens          a joint's gap is beyond its bound (the predictor of soft joints, or the linear slop) and beyond the other's
 //   gains energy   more than the other by a thousandth of what is turned over, motors and forces apart
 //
-// Heights of soft stacks are Feather's own: other engines' contacts have skins and slops of their own, which add up over a stack. Runs that
-// were stopped for their length are not compared. Box2D and ODE at the default substeps count for the exit code; the rest is told.
+// Heights of soft stacks are Feather's own: other engines' contacts have skins and slops of their own, which add up over a stack. Cases
+// too long for an engine are not compared. Box2D and ODE at the default substeps count for the exit code; the rest is told.
 #include "worse.h"
 
 #include "bench.h"

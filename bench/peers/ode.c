@@ -380,7 +380,7 @@ static int32_t raycast(bench_world *w, const bench_ray *ray, double *out_fractio
 const bench_engine bench_ode = {
     .name = "ode",
     .settings = "QuickStep, 20 iterations",
-    .body_steps = 3e6, // a minute or two
+    .body_steps = 3.1e6, // some minutes
     .create = create,
     .destroy = destroy,
     .step = step,

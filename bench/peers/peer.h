@@ -54,7 +54,7 @@ typedef struct bench_engine {
     const char *settings; ///< iterations and the like, as tables print them
     int32_t planar_only;  ///< 1: knows scenes in the plane alone
     int32_t has_workers;  ///< 1: takes workers and substeps; 0: always one thread, its own iterations
-    double body_steps;    ///< dynamic bodies times steps that a case may take, 0: any number; a longer one is stopped there
+    double body_steps;    ///< dynamic bodies times steps that a case may take, 0: any number; a longer one is not run
     /// The scene outlives the world. NULL when the engine cannot; it has said why on stderr.
     bench_world *(*create)(const bench_scene *scene, int32_t workers, int32_t substeps);
     void (*destroy)(bench_world *world);
