@@ -104,8 +104,8 @@ static fe_result show_crane(fe_world *world)
     rail.axes[FE_ALONG_X].target = 4;
     MACHINE_TRY(fe_configurable_set(world, c.winch, &rail));
     MACHINE_TRY(run(world, 1800));
-    MACHINE_TRY(fe_joint_get_reaction(world, c.cable, &force, &torque));
-    printf("crane    carried %.0f kg on links of %.0f kg to x = %.2f m; the cable bears %.0f N\n", (double)c.load_mass, (double)c.link_mass,
+    MACHINE_TRY(fe_joint_get_reaction(world, c.chain[0], &force, &torque));
+    printf("crane    carried %.0f kg on links of %.0f kg to x = %.2f m; the first bears %.0f N\n", (double)c.load_mass, (double)c.link_mass,
            fe_body_transform(world, c.load).position.x, (double)force.y);
     return FE_OK;
 }

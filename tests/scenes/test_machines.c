@@ -162,8 +162,7 @@ static void a_crane_carries_a_thousand_times_the_weight_of_a_link(void **state)
     const int steps = SLOW_BUILD ? 600 : 1800;
     for (int i = 0; i < steps; ++i) {
         run(&s, 1);
-        FE_WITHIN(worst_gap(&s, c.chain, CRANE_LINKS + 1), 0, 0.1); // a link's length is 0.3
-        FE_WITHIN(state_of(&s, c.cable).length, 0, 3 + 4 * LINEAR_SLOP);
+        FE_WITHIN(worst_gap(&s, c.chain, CRANE_LINKS + 1), 0, LINEAR_SLOP);
         double v = length(velocity(&s, c.load));
         if (i < steps / 3) early = fmax(early, v);
         if (i >= steps - steps / 3) late = fmax(late, v);
