@@ -25,8 +25,9 @@
 /// first `capacity` of them, `stride` bytes apart (0: packed; a shorter stride than the record's size, at least 8, gives its front only).
 /// NULL, 0, 0 asks for the number only.
 ///
-/// **Growth.** A definition begins with `struct_size` and is filled by its `_init`; a shorter one of an older client and a longer one with
-/// a zero tail are accepted. fe_vec3, fe_quat, fe_dvec3, fe_transform and fe_material never change.
+/// **Growth.** A definition begins with `struct_size` and is filled with its defaults by its `_init(&def, sizeof def)` (NULL does nothing);
+/// a shorter one of an older client and a longer one with a zero tail are accepted. What is read into such a struct needs its
+/// `struct_size` set before. fe_vec3, fe_quat, fe_dvec3, fe_transform and fe_material never change.
 ///
 /// **Threads.** Different worlds are independent. Within one world: functions that take a `const fe_world *` only read, and any number of
 /// threads may call them at once while none writes; all others write and need the world to themselves.
@@ -203,6 +204,7 @@ typedef struct fe_world_tuning {
 } fe_world_tuning;
 
 FE_API void fe_world_tuning_init(fe_world_tuning *tuning, uint32_t struct_size);
+/// Takes effect with the next step; wakes nobody.
 FE_API fe_result fe_world_set_tuning(fe_world *world, const fe_world_tuning *tuning);
 /// @param out_tuning  its struct_size must be set
 FE_API fe_result fe_world_get_tuning(const fe_world *world, fe_world_tuning *out_tuning);
@@ -226,6 +228,7 @@ typedef struct fe_profile {
     float sleep;
 } fe_profile;
 
+/// @param out_profile  its struct_size must be set
 FE_API fe_result fe_world_get_profile(const fe_world *world, fe_profile *out_profile);
 
 typedef struct fe_counters {
@@ -248,6 +251,7 @@ typedef struct fe_counters {
     int32_t trees;       ///< awake sets of joints without a loop and under a heavy load, each solved exactly, at once
 } fe_counters;
 
+/// @param out_counters  its struct_size must be set
 FE_API fe_result fe_world_get_counters(const fe_world *world, fe_counters *out_counters);
 /// 64 bits over poses, velocities, contacts and events, low word first. Equal for equal runs, whatever the workers, the SIMD set, the
 /// compiler.
@@ -307,6 +311,10 @@ FE_API fe_result fe_body_destroy_many(fe_world *world, const fe_body *bodies, in
 /// 1 for a living body of this world, 0 for anything else.
 FE_API int32_t fe_body_is_valid(const fe_world *world, fe_body body);
 
+/// Its touching pairs send their exit and are found anew; it and what it touched wake. Forces not yet applied are dropped, so are the
+/// velocities of what becomes static, and a mass that was set once the body is not dynamic.
+/// @param type  fe_body_type
+/// @return FE_ERROR_UNSUPPORTED when a body with a plane or a heightfield is to be other than static
 FE_API fe_result fe_body_set_type(fe_world *world, fe_body body, int32_t type);
 FE_API fe_result fe_body_get_type(const fe_world *world, fe_body body, int32_t *out_type);
 /// Puts the body there at once, through whatever is between, and wakes it and what it touched.
@@ -317,7 +325,7 @@ FE_API fe_result fe_body_get_centre(const fe_world *world, fe_body body, fe_dvec
 /// Of the centre of mass, m/s. Setting a velocity wakes the body; what is locked stays 0. FE_ERROR_STATE on a static body.
 FE_API fe_result fe_body_set_linear_velocity(fe_world *world, fe_body body, const fe_vec3 *velocity);
 FE_API fe_result fe_body_get_linear_velocity(const fe_world *world, fe_body body, fe_vec3 *out_velocity);
-/// rad/s, world axes.
+/// rad/s, world axes; else as the linear one.
 FE_API fe_result fe_body_set_angular_velocity(fe_world *world, fe_body body, const fe_vec3 *velocity);
 FE_API fe_result fe_body_get_angular_velocity(const fe_world *world, fe_body body, fe_vec3 *out_velocity);
 /// Of the material point now at `point`, m/s.
@@ -335,6 +343,7 @@ FE_API fe_result fe_body_add_force_at(fe_world *world, fe_body body, const fe_ve
 FE_API fe_result fe_body_add_torque(fe_world *world, fe_body body, const fe_vec3 *torque);
 /// Changes the velocity at once by impulse / mass. N s.
 FE_API fe_result fe_body_add_impulse(fe_world *world, fe_body body, const fe_vec3 *impulse);
+/// At a point of the world, m: changes the spin too.
 FE_API fe_result fe_body_add_impulse_at(fe_world *world, fe_body body, const fe_vec3 *impulse, const fe_dvec3 *point);
 /// N m s.
 FE_API fe_result fe_body_add_angular_impulse(fe_world *world, fe_body body, const fe_vec3 *impulse);
@@ -364,6 +373,7 @@ FE_API fe_result fe_body_get_locks(const fe_world *world, fe_body body, uint32_t
 /// 1/s, >= 0.
 FE_API fe_result fe_body_set_damping(fe_world *world, fe_body body, float linear, float angular);
 FE_API fe_result fe_body_get_damping(const fe_world *world, fe_body body, float *out_linear, float *out_angular);
+/// How many times the world's gravity acts on it; below 0 it rises. A change wakes it.
 FE_API fe_result fe_body_set_gravity_scale(fe_world *world, fe_body body, float scale);
 FE_API fe_result fe_body_get_gravity_scale(const fe_world *world, fe_body body, float *out_scale);
 /// Waking a body wakes all it touches, through other dynamic bodies. Putting it to sleep stops it and all those (FE_ERROR_STATE when one of
@@ -371,6 +381,7 @@ FE_API fe_result fe_body_get_gravity_scale(const fe_world *world, fe_body body, 
 FE_API fe_result fe_body_set_awake(fe_world *world, fe_body body, int32_t awake);
 /// 1 awake, 0 asleep; static bodies are never awake.
 FE_API fe_result fe_body_get_awake(const fe_world *world, fe_body body, int32_t *out_awake);
+/// 0 wakes the body and keeps awake all it touches.
 FE_API fe_result fe_body_set_sleep_allowed(fe_world *world, fe_body body, int32_t allowed);
 FE_API fe_result fe_body_get_sleep_allowed(const fe_world *world, fe_body body, int32_t *out_allowed);
 /// m/s, >= 0.
@@ -379,6 +390,7 @@ FE_API fe_result fe_body_get_sleep_threshold(const fe_world *world, fe_body body
 /// A disabled body keeps its place but neither moves, nor collides, nor is seen by queries. Its touching pairs send their exit.
 FE_API fe_result fe_body_set_enabled(fe_world *world, fe_body body, int32_t enabled);
 FE_API fe_result fe_body_get_enabled(const fe_world *world, fe_body body, int32_t *out_enabled);
+/// See fe_body_def.
 FE_API fe_result fe_body_set_bullet(fe_world *world, fe_body body, int32_t bullet);
 FE_API fe_result fe_body_get_bullet(const fe_world *world, fe_body body, int32_t *out_bullet);
 FE_API fe_result fe_body_set_user_data(fe_world *world, fe_body body, fe_handle user_data);
@@ -454,25 +466,36 @@ FE_API void fe_shape_def_init(fe_shape_def *desc, uint32_t struct_size);
 /// @param desc  NULL: the defaults
 /// @return FE_ERROR_UNSUPPORTED for a plane or a heightfield on a body that is not static
 FE_API fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *desc, const fe_geometry *geometry, fe_shape *out_shape);
+/// Its touching pairs send their exit. Mass and inertia of the body follow, unless they were set; the body and what it touched wake.
 FE_API fe_result fe_shape_destroy(fe_world *world, fe_shape shape);
+/// 1 for a living shape of this world, 0 for anything else.
 FE_API int32_t fe_shape_is_valid(const fe_world *world, fe_shape shape);
 FE_API fe_result fe_shape_get_body(const fe_world *world, fe_shape shape, fe_body *out_body);
+/// Another form in the same place; what fe_shape_destroy says of pairs, mass and waking holds here and for the local pose.
+/// @return FE_ERROR_UNSUPPORTED for a plane or a heightfield on a body that is not static
 FE_API fe_result fe_shape_set_geometry(fe_world *world, fe_shape shape, const fe_geometry *geometry);
 /// @param out_geometry  its struct_size must be set
 FE_API fe_result fe_shape_get_geometry(const fe_world *world, fe_shape shape, fe_geometry *out_geometry);
+/// m, in the body's frame.
 FE_API fe_result fe_shape_set_local_pose(fe_world *world, fe_shape shape, const fe_vec3 *position, const fe_quat *rotation);
 FE_API fe_result fe_shape_get_local_pose(const fe_world *world, fe_shape shape, fe_vec3 *out_position, fe_quat *out_rotation);
+/// kg/m3, >= 0. Mass and inertia of the body follow, unless they were set. A change wakes it.
 FE_API fe_result fe_shape_set_density(fe_world *world, fe_shape shape, float density);
 FE_API fe_result fe_shape_get_density(const fe_world *world, fe_shape shape, float *out_density);
+/// Takes effect at the next step, also where it touches already; wakes it and what it touches. A heightfield's cells with materials of
+/// their own keep them.
 FE_API fe_result fe_shape_set_material(fe_world *world, fe_shape shape, const fe_material *material);
 FE_API fe_result fe_shape_get_material(const fe_world *world, fe_shape shape, fe_material *out_material);
 /// Takes effect at the next step. @param layer  exactly one bit
 FE_API fe_result fe_shape_set_filter(fe_world *world, fe_shape shape, uint32_t layer, uint32_t mask);
 FE_API fe_result fe_shape_get_filter(const fe_world *world, fe_shape shape, uint32_t *out_layer, uint32_t *out_mask);
+/// A change ends its touching pairs, with their exit, and wakes the body.
 FE_API fe_result fe_shape_set_trigger(fe_world *world, fe_shape shape, int32_t trigger);
 FE_API fe_result fe_shape_get_trigger(const fe_world *world, fe_shape shape, int32_t *out_trigger);
+/// fe_shape_events, from the next step on.
 FE_API fe_result fe_shape_set_events(fe_world *world, fe_shape shape, uint32_t events);
 FE_API fe_result fe_shape_get_events(const fe_world *world, fe_shape shape, uint32_t *out_events);
+/// m/s, shape frame, see fe_shape_def; wakes what lies on it.
 FE_API fe_result fe_shape_set_surface_velocity(fe_world *world, fe_shape shape, const fe_vec3 *velocity);
 FE_API fe_result fe_shape_get_surface_velocity(const fe_world *world, fe_shape shape, fe_vec3 *out_velocity);
 FE_API fe_result fe_shape_set_user_data(fe_world *world, fe_shape shape, fe_handle user_data);
@@ -705,6 +728,7 @@ FE_API fe_result fe_ball_def_at(const fe_world *world, fe_ball_def *desc, fe_bod
 /// @param axis  of the hinge, world space, any length but zero; B turns against A counterclockwise about it
 FE_API fe_result fe_hinge_def_at(const fe_world *world, fe_hinge_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
                                  const fe_vec3 *axis);
+/// @param point  of both frames, m, world space; their rotations are such that the present pose is the zero
 FE_API fe_result fe_fixed_def_at(const fe_world *world, fe_fixed_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point);
 /// @param axis  X of both frames, world space, any length but zero
 FE_API fe_result fe_configurable_def_at(const fe_world *world, fe_configurable_def *desc, fe_body body_a, fe_body body_b,
@@ -761,6 +785,7 @@ FE_API fe_result fe_joint_get_bodies(const fe_world *world, fe_joint joint, fe_b
 FE_API fe_result fe_joint_set(fe_world *world, fe_joint joint, const fe_joint_def *desc);
 /// @param out_desc  its struct_size must be set
 FE_API fe_result fe_joint_get(const fe_world *world, fe_joint joint, fe_joint_def *out_desc);
+/// A disabled joint holds nothing, and its bodies may collide. A change wakes them.
 FE_API fe_result fe_joint_set_enabled(fe_world *world, fe_joint joint, int32_t enabled);
 FE_API fe_result fe_joint_get_enabled(const fe_world *world, fe_joint joint, int32_t *out_enabled);
 FE_API fe_result fe_joint_set_user_data(fe_world *world, fe_joint joint, fe_handle user_data);
@@ -791,7 +816,8 @@ FE_API fe_result fe_joint_get_reaction(const fe_world *world, fe_joint joint, fe
 FE_API int32_t fe_world_get_joints(const fe_world *world, fe_joint *out_joints, int32_t capacity);
 /// Those of a body, in the order of creation.
 FE_API int32_t fe_body_get_joints(const fe_world *world, fe_body body, fe_joint *out_joints, int32_t capacity);
-// ---- heightfields ---------------------------------------------------------------------------------------------------------------
+
+// ---- heightfields -------------------------------------------------------------------------------------------------------------
 
 /// A grid of heights: terrain. In the shape's frame, sample (row, column) stands at x = column * cell_x, z = row * cell_z, its height along
 /// y. The cell between samples (row, column) and (row + 1, column + 1), cell row * (columns - 1) + column of the arrays below, is cut by
@@ -824,10 +850,12 @@ FE_API fe_result fe_heightfield_create(fe_world *world, const fe_heightfield_def
 /// @param heights        rows x columns, row by row, m
 FE_API fe_result fe_heightfield_set_heights(fe_world *world, fe_asset asset, int32_t row, int32_t column, int32_t rows, int32_t columns,
                                             const float *heights);
+/// @param out_heights  rows x columns, row by row, m
 FE_API fe_result fe_heightfield_get_heights(const fe_world *world, fe_asset asset, int32_t row, int32_t column, int32_t rows,
                                             int32_t columns, float *out_heights);
 /// The handle dies at once, its heights live until the last shape that has them is gone.
 FE_API fe_result fe_asset_destroy(fe_world *world, fe_asset asset);
+/// 1 for a living asset of this world, 0 for anything else.
 FE_API int32_t fe_asset_is_valid(const fe_world *world, fe_asset asset);
 
 // ---- queries ------------------------------------------------------------------------------------------------------------------
@@ -995,6 +1023,7 @@ typedef struct fe_body_event {
     int32_t reserved;
 } fe_body_event;
 
+/// Who fell asleep and who woke, in the last step and by calls before it, in the order of creation.
 FE_API int32_t fe_world_get_body_events(const fe_world *world, fe_body_event *out_events, uint32_t stride, int32_t capacity);
 
 typedef struct fe_hit_event {
@@ -1007,6 +1036,7 @@ typedef struct fe_hit_event {
     int32_t reserved;
 } fe_hit_event;
 
+/// Impacts of the last step on shapes that ask for FE_EVENTS_HIT, faster than fe_world_tuning.hit_event_threshold.
 FE_API int32_t fe_world_get_hit_events(const fe_world *world, fe_hit_event *out_events, uint32_t stride, int32_t capacity);
 
 /// A joint's reaction exceeded its break_force or break_torque in the last step: it is gone, its handle stale.
@@ -1055,12 +1085,13 @@ FE_API int32_t fe_world_get_moved(const fe_world *world, fe_body *out_bodies, fe
 /// All or none. @param stride  bytes from one transform to the next, 0: packed
 FE_API fe_result fe_world_get_transforms(const fe_world *world, const fe_body *bodies, fe_transform *out_transforms, uint32_t stride,
                                          int32_t count);
+/// fe_body_set_transform for many, all or none.
 FE_API fe_result fe_world_set_transforms(fe_world *world, const fe_body *bodies, const fe_transform *transforms, uint32_t stride,
                                          int32_t count);
-/// Position relative to `origin` and rotation, 7 floats a body: x y z, x y z w. @param stride  bytes, 0: packed
+/// Position relative to `origin`, m, and rotation, 7 floats a body: x y z, x y z w. @param stride  bytes, 0: packed
 FE_API fe_result fe_world_get_transforms_f32(const fe_world *world, const fe_body *bodies, const fe_dvec3 *origin, float *out_floats,
                                              uint32_t stride, int32_t count);
-/// Linear, then angular velocity, 6 floats a body. @param stride  bytes, 0: packed
+/// Linear, then angular velocity, m/s, rad/s, 6 floats a body; setting: FE_ERROR_STATE on a static body. @param stride  bytes, 0: packed
 FE_API fe_result fe_world_get_velocities(const fe_world *world, const fe_body *bodies, float *out_floats, uint32_t stride, int32_t count);
 FE_API fe_result fe_world_set_velocities(fe_world *world, const fe_body *bodies, const float *floats, uint32_t stride, int32_t count);
 /// Force at the centre, N, then torque, N m, 6 floats a body, during the next step. @param stride  bytes, 0: packed
