@@ -9,12 +9,12 @@
 
 static const int32_t in_order[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
+FE_INLINE void load_line(float (*lines)[FE__LINE], int32_t i, wide4 *low, wide4 *high) { gather_line(lines + i, in_order, low, high); }
 FE_INLINE wide4 load_low(float (*lines)[FE__LINE], int32_t i) { return w_gather(lines[i], FE__LINE, in_order); }
 FE_INLINE wide4 load_high(float (*lines)[FE__LINE], int32_t i) { return w_gather(lines[i] + 4, FE__LINE, in_order); }
 FE_INLINE void store_line(float (*lines)[FE__LINE], int32_t i, wide4 low, wide4 high)
 {
-    w_scatter(lines[i], FE__LINE, in_order, low);
-    w_scatter(lines[i] + 4, FE__LINE, in_order, high);
+    w_scatter_both(lines[i], FE__LINE, in_order, low, high);
 }
 
 FE_INLINE void store_high(float (*lines)[FE__LINE], int32_t i, wide4 high) { w_scatter(lines[i] + 4, FE__LINE, in_order, high); }
@@ -65,7 +65,7 @@ static void lock_line(fe__solver *s, const fe__body *body, int32_t line, fe_quat
         if (locks >> k & 1) drive[k] = 0.0f;
 }
 
-// How the gyroscopic torque acts on a body, in the last lane of its spin line: 0 not at all
+// How the gyroscopic torque acts on a body, in a spare lane of each line that asks: 0 not at all. Most bodies' moments are then never read.
 #define TURNS_FREELY 1.0f // while it turns, see turn_freely
 #define TURNS_JOINED 2.0f // before the constraints are solved, see advance
 
@@ -86,7 +86,7 @@ FE_INLINE void load_block(fe__solver *s, const fe__body *bodies, int32_t line, c
         is_there[i] = body < 0 ? 0.0f : 1.0f;
         scale[i] = bodies[index[i]].type == FE_BODY_DYNAMIC ? bodies[index[i]].gravity_scale : 0.0f;
         gyroscopic[i] = gyroscopic_kind(bodies + index[i]);
-        locked |= body >= 0 && bodies[body].locked && bodies[body].type == FE_BODY_DYNAMIC;
+        locked |= body >= 0 && bodies[body].spin[3] != 0.0f && bodies[body].type == FE_BODY_DYNAMIC;
     }
     wide zero = w_set(0.0f), one = w_set(1.0f), there = *(wide *)is_there;
     wide4 v = BODY_QUAD(velocity), w = BODY_QUAD(spin), force = BODY_QUAD(force), torque = BODY_QUAD(torque);
@@ -100,10 +100,10 @@ FE_INLINE void load_block(fe__solver *s, const fe__body *bodies, int32_t line, c
     wide damping = w_choose(moves, one / (1.0f + c->h * force.w), one), spin_damping = w_choose(moves, one / (1.0f + c->h * torque.w), one);
     store_line(s->velocity, line, (wide4){v.x * there, v.y * there, v.z * there, mass},
                (wide4){w.x * there, w.y * there, w.z * there, w.w * there});
-    store_line(s->motion, line, (wide4){zero, zero, zero, zero}, (wide4){zero, zero, zero, one});
+    store_line(s->motion, line, (wide4){zero, zero, zero, *(wide *)gyroscopic * there}, (wide4){zero, zero, zero, one});
     store_line(s->inertia, line, (wide4){i.xx, i.xy, i.xz, i.yy}, (wide4){i.yz, i.zz, zero, zero});
     store_line(s->drive, line, w_with(push, damping), w_with(w_mul(&i, w_xyz(torque)), spin_damping));
-    store_line(s->spin, line, axes, (wide4){inertia.x, inertia.y, inertia.z, *(wide *)gyroscopic * there});
+    store_line(s->spin, line, axes, (wide4){inertia.x, inertia.y, inertia.z, zero});
     for (int k = 0; k < FE_W && locked; ++k) {
         const fe__body *body = bodies + index[k];
         const float *a = s->spin[line + k];
@@ -154,12 +154,13 @@ FE_INLINE wide3 free_change(wide3 world, wide4 axes, wide3 in, wide half_h)
 // f(v): all that changes a velocity and is no constraint: gravity and forces, damping 1 / (1 + h c), the speed limit, and the gyroscopic
 // torque of joined bodies. Of free ones it acts while they turn; a joint must have answered it before its bodies move, or they move
 // apart.
-FE_INLINE void advance(const fe__solver *s, int32_t i, const fe__step_constants *c, wide3 *v, wide3 *w)
+FE_INLINE void advance(const fe__solver *s, int32_t i, wide kind, const fe__step_constants *c, wide3 *v, wide3 *w)
 {
-    wide4 push = load_low(s->drive, i), turn = load_high(s->drive, i), principal = load_high(s->spin, i);
-    wide_mask joined = w_greater(principal.w, w_set(TURNS_FREELY));
+    wide4 push, turn;
+    load_line(s->drive, i, &push, &turn);
+    wide_mask joined = w_greater(kind, w_set(TURNS_FREELY));
     if (w_any(joined)) {
-        wide4 axes = w_product(load_high(s->motion, i), load_low(s->spin, i));
+        wide4 axes = w_product(load_high(s->motion, i), load_low(s->spin, i)), principal = load_high(s->spin, i);
         *w = w_choose3(joined, w_add(*w, free_change(*w, axes, w_xyz(principal), w_set(0.5f * c->h))), *w);
     }
     *v = w_scale(push.w, w_add_scaled(*v, w_set(c->h), w_xyz(push)));
@@ -173,11 +174,13 @@ FE_INLINE void advance(const fe__solver *s, int32_t i, const fe__step_constants 
 static void begin_velocities(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c)
 {
     for (int32_t i = first; i < first + count; i += FE_W) {
-        wide4 v = load_low(s->velocity, i), w = load_high(s->velocity, i);
+        wide4 v, w;
+        load_line(s->velocity, i, &v, &w);
         wide3 v0 = w_xyz(v), w0 = w_xyz(w);
-        advance(s, i, c, &v0, &w0);
+        wide kind = load_low(s->motion, i).w;
+        advance(s, i, kind, c, &v0, &w0);
         store_line(s->velocity, i, w_with(v0, v.w), w_with(w0, w.w));
-        store_line(s->start, i, w_with(v0, v.w), w_with(w0, w.w));
+        store_line(s->start, i, w_with(v0, v.w), w_with(w0, kind));
     }
 }
 
@@ -186,11 +189,11 @@ static void begin_velocities(fe__solver *s, int32_t first, int32_t count, const 
 static void carry_velocities(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c)
 {
     for (int32_t i = first; i < first + count; i += FE_W) {
-        wide4 v = load_low(s->velocity, i), w = load_high(s->velocity, i);
-        wide3 dv = w_sub(w_xyz(v), w_xyz(load_low(s->start, i))), dw = w_sub(w_xyz(w), w_xyz(load_high(s->start, i)));
-        wide3 v0 = w_xyz(v), w0 = w_xyz(w);
-        advance(s, i, c, &v0, &w0);
-        store_line(s->start, i, w_with(v0, v.w), w_with(w0, w.w));
+        wide4 v, w, start, spin;
+        load_line(s->velocity, i, &v, &w), load_line(s->start, i, &start, &spin);
+        wide3 dv = w_sub(w_xyz(v), w_xyz(start)), dw = w_sub(w_xyz(w), w_xyz(spin)), v0 = w_xyz(v), w0 = w_xyz(w);
+        advance(s, i, spin.w, c, &v0, &w0);
+        store_line(s->start, i, w_with(v0, v.w), w_with(w0, spin.w));
         store_line(s->velocity, i, w_with(w_add(v0, dv), v.w), w_with(w_add(w0, dw), w.w));
     }
 }
@@ -199,12 +202,13 @@ static void carry_velocities(fe__solver *s, int32_t first, int32_t count, const 
 // which is what the body turns by: Q = Cayley(h (w + c/2)) then takes the angular momentum of the midpoint rule back to where it was,
 // exactly, and leaves w + c/2 alone. So  w' = Q (w + c) = w + c + (Q - 1) c/2,  and what changed leaves the warm start alone: start changes
 // as much.
-FE_INLINE wide3 turn_freely(fe__solver *s, int32_t i, wide4 turned, const fe__step_constants *c)
+FE_INLINE wide3 turn_freely(fe__solver *s, int32_t i, wide kind, wide4 turned, const fe__step_constants *c)
 {
-    wide4 principal = load_high(s->spin, i), stored = load_high(s->velocity, i), start = load_high(s->start, i);
+    wide4 stored = load_high(s->velocity, i);
     wide3 w = w_xyz(stored);
-    wide_mask gyroscopic = w_and(w_greater(principal.w, w_set(0.0f)), w_not(w_greater(principal.w, w_set(TURNS_FREELY))));
+    wide_mask gyroscopic = w_and(w_greater(kind, w_set(0.0f)), w_not(w_greater(kind, w_set(TURNS_FREELY))));
     if (!w_any(gyroscopic)) return w;
+    wide4 principal = load_high(s->spin, i), start = load_high(s->start, i);
     wide half_h = w_set(0.5f * c->h);
     wide3 change = free_change(w, w_product(turned, load_low(s->spin, i)), w_xyz(principal), half_h);
     wide3 half = w_scale(w_set(0.5f), change), mean = w_choose3(gyroscopic, w_add(w, half), w), u = w_scale(half_h, mean);
@@ -219,8 +223,9 @@ FE_INLINE wide3 turn_freely(fe__solver *s, int32_t i, wide4 turned, const fe__st
 static void integrate_positions(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c)
 {
     for (int32_t i = first; i < first + count; i += FE_W) {
-        wide4 p = load_low(s->motion, i), q = load_high(s->motion, i);
-        wide3 v = w_xyz(load_low(s->velocity, i)), half = w_scale(w_set(0.5f * c->h), turn_freely(s, i, q, c));
+        wide4 p, q;
+        load_line(s->motion, i, &p, &q);
+        wide3 v = w_xyz(load_low(s->velocity, i)), half = w_scale(w_set(0.5f * c->h), turn_freely(s, i, p.w, q, c));
         wide3 u = w_add(w_xyz(q), w_add(w_scale(q.w, half), w_cross(half, w_xyz(q))));
         wide a = q.w - w_dot(half, w_xyz(q));
         wide k = 1.0f / w_sqrt(w_dot(u, u) + a * a);

@@ -112,10 +112,13 @@ FE_INLINE void NAMED(apply_torque)(const ROW *row, pair *p, wide3 torque, int ki
 FE_INLINE motion NAMED(motion_of)(const ROW *row, const fe__solver *s, int kind)
 {
     wide zero = w_set(0.0f);
-    motion m = {w_xyz(gather_low(s->motion, row->line_b)), {zero, zero, zero, w_set(1.0f)}, gather_high(s->motion, row->line_b)};
+    motion m = {.turn_a = {zero, zero, zero, w_set(1.0f)}};
+    wide4 a, b;
+    gather_line(s->motion, row->line_b, &b, &m.turn_b);
+    m.shift = w_xyz(b);
     if (!(kind & (FE__ROW_PAIR | FE__ROW_SPECIAL))) return m;
-    m.shift = w_sub(m.shift, w_xyz(gather_low(s->motion, row->line_a)));
-    m.turn_a = gather_high(s->motion, row->line_a);
+    gather_line(s->motion, row->line_a, &a, &m.turn_a);
+    m.shift = w_sub(m.shift, w_xyz(a));
     return m;
 }
 

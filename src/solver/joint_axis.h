@@ -244,8 +244,7 @@ FE_INLINE void store_linear(const fe__joints *joints, const fe__lane *lanes, con
 {
     const linear_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
-        line_pair line;
-        row_joints r = joints_of(joints, lanes, &line, i + 1 < count);
+        row_joints r = name_joints(lanes);
         find_axes(joints, &r);
         write_freedom(joints, &r, &row->f, slot, c);
     }
@@ -393,8 +392,7 @@ FE_INLINE void store_angular(const fe__joints *joints, const fe__lane *lanes, co
 {
     const angular_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
-        line_pair line;
-        row_joints r = joints_of(joints, lanes, &line, i + 1 < count);
+        row_joints r = name_joints(lanes);
         find_axes(joints, &r);
         write_freedom(joints, &r, &row->f, slot, c);
     }

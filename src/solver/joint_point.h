@@ -111,8 +111,7 @@ static void store_point(const fe__joints *joints, const fe__lane *lanes, const v
     const point_row *row = rows;
     wide zero = w_set(0.0f), mean = w_set(mean_of(c));
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
-        line_pair line;
-        row_joints r = joints_of(joints, lanes, &line, i + 1 < count);
+        row_joints r = name_joints(lanes);
         put_lanes(joints->joints->impulse, JOINT_STRIDE, r.joint, r.real, w_with(load3(row->impulse), zero));
         put_lanes(joints->reactions->force, REACTION_STRIDE, r.joint, r.real, w_with(w_scale(mean, load3(row->total)), zero));
     }

@@ -113,8 +113,7 @@ static void store_hinge(const fe__joints *joints, const fe__lane *lanes, const v
     const hinge_row *row = rows;
     wide zero = w_set(0.0f), mean = w_set(mean_of(c));
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
-        line_pair line;
-        row_joints r = joints_of(joints, lanes, &line, i + 1 < count);
+        row_joints r = name_joints(lanes);
         put_lanes(joints->frames->impulse, FRAME_STRIDE, r.joint, r.real, (wide4){row->impulse[0], row->impulse[1], zero, zero});
         put_lanes(joints->reactions->torque, REACTION_STRIDE, r.joint, r.real, w_with(w_scale(mean, load3(row->total)), zero));
     }
@@ -202,8 +201,7 @@ static void store_fixed(const fe__joints *joints, const fe__lane *lanes, const v
     const fixed_row *row = rows;
     wide zero = w_set(0.0f), mean = w_set(mean_of(c));
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
-        line_pair line;
-        row_joints r = joints_of(joints, lanes, &line, i + 1 < count);
+        row_joints r = name_joints(lanes);
         put_lanes(joints->frames->impulse, FRAME_STRIDE, r.joint, r.real, w_with(load3(row->impulse), zero));
         put_lanes(joints->reactions->torque, REACTION_STRIDE, r.joint, r.real, w_with(w_scale(mean, load3(row->total)), zero));
     }
@@ -354,8 +352,7 @@ static void store_turn(const fe__joints *joints, const fe__lane *lanes, const vo
     const turn_row *row = rows;
     wide zero = w_set(0.0f), mean = w_set(mean_of(c));
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
-        line_pair line;
-        row_joints r = joints_of(joints, lanes, &line, i + 1 < count);
+        row_joints r = name_joints(lanes);
         find_axes(joints, &r);
         put_lanes(joints->axes->turn.impulse, AXES_STRIDE, r.axes, r.real, w_with(load3(row->impulse), zero));
         put_lanes(joints->axes->turn.motor_impulse, AXES_STRIDE, r.axes, r.real, w_with(load3(row->motor_impulse), zero));

@@ -67,9 +67,10 @@ typedef struct {
 
 FE_INLINE anchors anchors_now(const fe__solver *s, const line_pair *line, const anchors *first)
 {
-    wide3 pa = w_xyz(gather_low(s->motion, line->a)), pb = w_xyz(gather_low(s->motion, line->b));
-    wide3 ta = turn_of(s, line->a, first->ra), tb = turn_of(s, line->b, first->rb);
-    return (anchors){w_add(first->ra, ta), w_add(first->rb, tb), w_add(first->gap, w_add(w_sub(pb, pa), w_sub(tb, ta)))};
+    wide4 pa, pb, qa, qb;
+    gather_line(s->motion, line->a, &pa, &qa), gather_line(s->motion, line->b, &pb, &qb);
+    wide3 ta = w_turn(qa, first->ra), tb = w_turn(qb, first->rb);
+    return (anchors){w_add(first->ra, ta), w_add(first->rb, tb), w_add(first->gap, w_add(w_sub(w_xyz(pb), w_xyz(pa)), w_sub(tb, ta)))};
 }
 
 // ---- records --------------------------------------------------------------------------------------------------------------------------
@@ -81,16 +82,23 @@ typedef struct {
     int32_t real; // lanes before the padding
 } row_joints;
 
-FE_INLINE row_joints joints_of(const fe__joints *joints, const fe__lane *lanes, line_pair *line, int32_t prefetch)
+FE_INLINE row_joints name_joints(const fe__lane *lanes)
 {
     row_joints r = {.real = 0};
     for (int i = 0; i < FE_W; ++i) {
-        if (prefetch) __builtin_prefetch(joints->joints + lanes[FE_W + i].contact);
         r.joint[i] = lanes[i].contact ? lanes[i].contact : lanes[0].contact;
         r.real += lanes[i].contact != 0;
+    }
+    return r;
+}
+
+FE_INLINE row_joints joints_of(const fe__joints *joints, const fe__lane *lanes, line_pair *line, int32_t prefetch)
+{
+    row_joints r = name_joints(lanes);
+    for (int i = 0; i < FE_W; ++i) {
+        if (prefetch) __builtin_prefetch(joints->joints + lanes[FE_W + i].contact);
         line->a[i] = lanes[i].line_a, line->b[i] = lanes[i].line_b;
         r.body_a[i] = joints->joints[r.joint[i]].body_a, r.body_b[i] = joints->joints[r.joint[i]].body_b;
-        r.axes[i] = 0;
     }
     return r;
 }
@@ -294,9 +302,7 @@ FE_INLINE void scatter_spins(float (*lines)[FE__LINE], const line_pair *line, co
 // > 0 where a body's inertia is not that of a ball
 FE_INLINE wide shape_of(const fe__solver *s, const line_pair *line)
 {
-    _Alignas(64) float shaped[FE_W];
-    for (int i = 0; i < FE_W; ++i) shaped[i] = s->spin[line->a[i]][FE__LINE - 1] + s->spin[line->b[i]][FE__LINE - 1];
-    return *(wide *)shaped;
+    return gather_high(s->start, line->a).w + gather_high(s->start, line->b).w;
 }
 
 FE_INLINE wide_sym change_inertia(const fe__solver *s, const int32_t *line, wide_mask shaped, wide_sym *inertia)

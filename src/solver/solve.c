@@ -146,6 +146,7 @@ static void begin_trails(const job *j, int32_t first, int32_t count, const fe__s
 static void leave_trails(const job *j, int32_t first, int32_t count, const fe__step_constants *c)
 {
     int32_t stride = c->division * fe__trail_stride(c->substeps / c->division); // the world's substeps, whatever the batch's
+    if (!atomic_load_explicit(&j->s->trails, memory_order_relaxed)) return;
     for (int32_t i = first; i < first + count; ++i) {
         if (j->s->trail_count[i] == FE__NO_TRAIL) continue;
         int32_t substeps = ++j->s->trail_count[i];

@@ -124,11 +124,11 @@ typedef struct fe__pass {
 typedef struct fe__solver {
     // lines of bodies, W at a time. The block of FE__STATIC_LINE is zeros and read only
     float (*velocity)[FE__LINE]; // v, inverse mass | w, lock bits
-    float (*motion)[FE__LINE];   // since the step began: centre, 0 | rotation x y z w
-    float (*start)[FE__LINE];    // v, _ | w, _ before this substep's constraint impulses
+    float (*motion)[FE__LINE];   // since the step began: centre, gyroscopic kind | rotation x y z w
+    float (*start)[FE__LINE];    // v, inverse mass | w, gyroscopic kind; before this substep's constraint impulses
     float (*inertia)[FE__LINE];  // inverse, world: xx xy xz yy | yz zz 0, 1 when the body turned out to be strained
     float (*drive)[FE__LINE];    // acceleration by gravity and forces, 1/(1 + h c) | by torques, 1/(1 + h c)
-    float (*spin)[FE__LINE];     // principal axes x y z w, world, when the step began | principal moments, 1: gyroscopic torque
+    float (*spin)[FE__LINE];     // principal axes x y z w, world, when the step began | principal moments, 0
     int32_t line_count, line_capacity[6];
     int32_t *body_of_line; // -1: padding
     int32_t body_of_line_capacity;

@@ -17,25 +17,30 @@ FE_INLINE wide3 w_times(wide3 a, wide3 b) { return (wide3){a.x * b.x, a.y * b.y,
 FE_INLINE wide4 gather_low(float (*lines)[FE__LINE], const int32_t *index) { return w_gather(lines[0], FE__LINE, index); }
 FE_INLINE wide4 gather_high(float (*lines)[FE__LINE], const int32_t *index) { return w_gather(lines[0] + 4, FE__LINE, index); }
 
+FE_INLINE void gather_line(float (*lines)[FE__LINE], const int32_t *index, wide4 *low, wide4 *high)
+{
+    w_gather_both(lines[0], FE__LINE, index, low, high);
+}
+
 FE_INLINE side side_of(wide4 v, wide4 w) { return (side){w_xyz(v), w_xyz(w), v.w, w.w}; }
-FE_INLINE side gather_side(const fe__solver *s, const int32_t *index)
+FE_INLINE side gather_lines(float (*lines)[FE__LINE], const int32_t *index)
 {
-    return side_of(gather_low(s->velocity, index), gather_high(s->velocity, index));
+    wide4 low, high;
+    gather_line(lines, index, &low, &high);
+    return side_of(low, high);
 }
-FE_INLINE side start_side(const fe__solver *s, const int32_t *index)
-{
-    return side_of(gather_low(s->start, index), gather_high(s->start, index));
-}
+FE_INLINE side gather_side(const fe__solver *s, const int32_t *index) { return gather_lines(s->velocity, index); }
+FE_INLINE side start_side(const fe__solver *s, const int32_t *index) { return gather_lines(s->start, index); }
 
 FE_INLINE void scatter_side(float (*lines)[FE__LINE], const int32_t *index, const side *b)
 {
-    w_scatter(lines[0], FE__LINE, index, w_with(b->v, b->inverse_mass));
-    w_scatter(lines[0] + 4, FE__LINE, index, w_with(b->w, b->locks));
+    w_scatter_both(lines[0], FE__LINE, index, w_with(b->v, b->inverse_mass), w_with(b->w, b->locks));
 }
 
 FE_INLINE wide_sym gather_inertia(const fe__solver *s, const int32_t *index)
 {
-    wide4 low = gather_low(s->inertia, index), high = gather_high(s->inertia, index);
+    wide4 low, high;
+    gather_line(s->inertia, index, &low, &high);
     return (wide_sym){low.x, low.y, low.z, low.w, high.x, high.y};
 }
 
