@@ -46,6 +46,12 @@ void fe__tree_insert(fe__tree *tree, int32_t proxy, const fe__bounds *fat);
 void fe__tree_remove(fe__tree *tree, int32_t proxy);
 // 1 while `tight` lies in the proxy's box: reads only, any thread
 int32_t fe__tree_holds(const fe__tree *tree, int32_t proxy, const fe__bounds *tight);
+// asks memory for that box
+static inline void fe__tree_fetch(const fe__tree *tree, int32_t proxy)
+{
+    int32_t slot = proxy < tree->slot_capacity ? tree->slot[proxy] : -1;
+    for (int32_t k = 0; k < 6 && slot >= 0; k += 2) __builtin_prefetch(tree->nodes[slot / FE_TREE_WIDTH].box[k]);
+}
 void fe__tree_get(const fe__tree *tree, int32_t proxy, fe__bounds *out_box);
 // New boxes for `count` proxies; refits what is above them (all nodes at once when many moved).
 void fe__tree_move(fe__tree *tree, const int32_t *proxies, const fe__bounds *fat, int32_t count);

@@ -40,6 +40,7 @@ static void append_to_order(fe_world *world, int32_t index)
         world->first_body = index;
     world->last_body = index;
     world->body_count += 1;
+    world->static_count += body->type == FE_BODY_STATIC;
 }
 
 static void remove_from_order(fe_world *world, int32_t index)
@@ -54,6 +55,7 @@ static void remove_from_order(fe_world *world, int32_t index)
     else
         world->last_body = body->order_previous;
     world->body_count -= 1;
+    world->static_count -= body->type == FE_BODY_STATIC;
 }
 
 // centre = origin + R(q) local centre; high + low carry it to 48 bits for the float kernels
@@ -190,6 +192,7 @@ fe_result fe__body_set_type(fe_world *world, int32_t index, int32_t type)
     part_from_neighbours(world, index);
     if (body->awake_index >= 0) fe__body_retire(world, index);
     leave_shapes(world, index);
+    world->static_count += (type == FE_BODY_STATIC) - (body->type == FE_BODY_STATIC);
     body->type = type;
     body->sleep_timer = 0.0f;
     forget_forces(body);

@@ -6,7 +6,7 @@
 #include "solver/graph.h"
 #include "world/step.h"
 
-enum { PAIRS_IN_BLOCK = 64 };
+enum { PAIRS_IN_BLOCK = 64, PAIRS_IN_CACHE = 256 };
 
 typedef struct collide_job {
     fe__step *step;
@@ -91,23 +91,50 @@ static void collide_chunks(void *argument, int32_t first, int32_t end, int32_t w
 }
 
 // ---- without --------------------------------------------------------------------------------------------------------------------------
+// Records of pairs that the narrow phase will look at lie anywhere: they are asked for while it looks at others
+static void fetch_shape(const fe_world *w, int32_t shape)
+{
+    const char *record = (const char *)(w->shapes + shape);
+    for (unsigned k = 0; k < sizeof(fe__shape); k += FE_CACHE_LINE) __builtin_prefetch(record + k);
+}
+
+static void fetch_pair(const fe_world *w, int32_t pair)
+{
+    const fe__pair *p = w->pairs + pair;
+    fetch_shape(w, p->shape_a);
+    fetch_shape(w, p->shape_b);
+    fe__tree_fetch(&w->moving_tree, p->shape_a);
+    fe__tree_fetch(&w->moving_tree, p->shape_b);
+}
+
+// Recycles pairs, and looks at those that moved while their records are still in the cache
+static void collide_some(const collide_job *job, int32_t first, int32_t count)
+{
+    enum { AHEAD = 2 };
+    fe_world *w = job->step->world;
+    const int32_t *pairs = w->awake_pairs + first;
+    uint8_t *moved = job->step->scratch->moved + first;
+    int32_t again[PAIRS_IN_CACHE], left = 0;
+    w->kernels->recycle(w->contacts, w->bodies, pairs, count, job->step->dt, moved);
+    for (int32_t i = 0; i < count; ++i) {
+        if (!moved[i]) continue;
+        again[left++] = pairs[i];
+        __builtin_prefetch(w->pairs + pairs[i], 1);
+    }
+    for (int32_t i = -AHEAD; i < left; ++i) {
+        if (i + AHEAD < left) fetch_pair(w, again[i + AHEAD]);
+        if (i < 0) continue;
+        fe__collide_pair(w, again[i], job->step->dt);
+        note_result(job->step, again[i]);
+    }
+    atomic_fetch_add_explicit(&job->step->scratch->recycled, count - left, memory_order_relaxed);
+}
+
 static void collide_block(void *argument, int32_t first, int32_t end, int32_t worker)
 {
     const collide_job *job = argument;
-    fe_world *w = job->step->world;
-    fe__step_scratch *s = job->step->scratch;
     (void)worker;
-    first += job->first, end += job->first;
-    w->kernels->recycle(w->contacts, w->bodies, w->awake_pairs + first, end - first, job->step->dt, s->moved + first);
-    int32_t recycled = end - first;
-    for (int32_t i = first; i < end; ++i) {
-        if (!s->moved[i]) continue;
-        int32_t pair = w->awake_pairs[i];
-        --recycled;
-        fe__collide_pair(w, pair, job->step->dt);
-        note_result(job->step, pair);
-    }
-    atomic_fetch_add_explicit(&s->recycled, recycled, memory_order_relaxed);
+    for (int32_t i = first; i < end; i += PAIRS_IN_CACHE) collide_some(job, job->first + i, fe__mini(end - i, PAIRS_IN_CACHE));
 }
 
 // ---- results -------------------------------------------------------------------------------------------------------------------

@@ -15,7 +15,7 @@ static int32_t may_wake(const fe__step *step)
 {
     const fe_world *w = step->world;
     const fe__step_scratch *s = step->scratch;
-    if (w->awake_body_count == w->body_count) return 0;
+    if (w->awake_body_count == w->body_count - w->static_count) return 0;
     for (int32_t i = 0; i < s->candidate_count; ++i) {
         const fe__body *a = w->bodies + w->shapes[s->candidates[i].shape_a].body, *b = w->bodies + w->shapes[s->candidates[i].shape_b].body;
         if ((a->awake_index < 0 && a->type == FE_BODY_DYNAMIC) || (b->awake_index < 0 && b->type == FE_BODY_DYNAMIC)) return 1;

@@ -69,6 +69,7 @@ struct fe_world {
     int32_t field_capacity, asset_capacity;
     uint64_t next_serial;                      // of bodies, shapes and joints alike
     int32_t first_body, last_body, body_count; // in the order of creation
+    int32_t static_count;                      // of them
     int32_t shape_count;
 
     // contacts: hot and cold halves by the same index; free ones are linked through links[0].next
@@ -260,7 +261,7 @@ void fe__body_link_joints(fe_world *world, int32_t body);   // after
 void fe__body_place_anchors(fe_world *world, int32_t body); // its centre of mass is another point
 void fe__body_wind_joints(fe_world *world, int32_t body);   // its pose was set
 void fe__body_forget_joints(fe_world *world, int32_t body); // impulses and states of its joints
-int32_t fe__find_joint_trees(fe_world *world);                    // forest.c, where they are stale. 0: no memory, nothing changed
+int32_t fe__find_joint_trees(fe_world *world);              // forest.c, where they are stale. 0: no memory, nothing changed
 void fe__forest_free(fe__forest *forest, fe__memory *memory);
 fe_handle fe__joint_handle(const fe_world *world, int32_t joint);
 fe_transform fe__joint_frame_now(const fe_world *world, int32_t joint, int32_t side); // 0: A's, 1: B's; world space
