@@ -5,7 +5,7 @@
 #   make test       everything that is checked before a change is accepted (TESTS=pattern: the matching programs only)
 #   make python     the Python package in build/python; make test-python: its tests; likewise for the other languages of bindings/
 #   make fuzz       FUZZ_SECONDS=600 of random calls of the API, with clang's libFuzzer and sanitizers
-#   make bench      every case, judged, with 32 variants where rounding decides; speed, beside Bullet and ODE where they are installed
+#   make bench      every case, judged, with 8 or 32 variants where rounding decides; speed, beside Bullet and ODE where they are installed
 #   make proof      docs/PROOF.md: every case and speed scene in every engine; 40 minutes (PROOF="lines page": only these parts, see tools/proof)
 #   make proof-check  does that page say what the committed one says, times apart?
 #   make install    PREFIX, LIBDIR, INCLUDEDIR, DESTDIR;  make uninstall takes it away again

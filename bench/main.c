@@ -65,19 +65,19 @@ int bench_command_help(int argc, char **argv)
     (void)argc, (void)argv;
     printf("usage: feather-bench COMMAND [OPTION]...\n");
     for (size_t i = 0; i < command_count; i++) printf("  %-8s %s\n", commands[i].name, commands[i].about);
-    printf(
-        "options of scenes, run, compare and tasks: --scene, --peers, --only-peers, --workers, --substeps (default: 4 and 8), --out,\n"
-        "  --variants N          of cases whose measures rounding decides, judged by their medians (default: 32, and 1 with many bodies)\n"
-        "options of speed:\n"
-        "  --scene NAME[,NAME]   scenes to run (default: those of the list); may be given several times\n"
-        "  --peers bullet,ode    engines beside Feather, or none (default: all that were built in)\n"
-        "  --workers N[,N]       Feather's workers (default: 1, and 2 at 4 substeps)\n"
-        "  --substeps N[,N]      Feather's substeps (default: 4 and 8); every number of workers runs with every one of substeps\n"
-        "  --steps N             timed steps, instead of the scene's own\n"
-        "  --rays                times 20 000 raycasts after the steps\n"
-        "  --profile             Feather's phases and counters\n"
-        "  --only-peers          leaves Feather out\n"
-        "  --out FILE            where the figures go as CSV (default: build/bench.csv)\n");
+    printf("options of scenes, run, compare and tasks: --scene, --peers, --only-peers, --workers, --substeps (default: 4 and 8), --out,\n"
+           "  --variants N          of cases whose measures rounding decides, judged by their medians; a quarter with many bodies "
+           "(default: 32, 1)\n"
+           "options of speed:\n"
+           "  --scene NAME[,NAME]   scenes to run (default: those of the list); may be given several times\n"
+           "  --peers bullet,ode    engines beside Feather, or none (default: all that were built in)\n"
+           "  --workers N[,N]       Feather's workers (default: 1, and 2 at 4 substeps)\n"
+           "  --substeps N[,N]      Feather's substeps (default: 4 and 8); every number of workers runs with every one of substeps\n"
+           "  --steps N             timed steps, instead of the scene's own\n"
+           "  --rays                times 20 000 raycasts after the steps\n"
+           "  --profile             Feather's phases and counters\n"
+           "  --only-peers          leaves Feather out\n"
+           "  --out FILE            where the figures go as CSV (default: build/bench.csv)\n");
     return 0;
 }
 
