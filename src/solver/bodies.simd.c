@@ -7,17 +7,15 @@
 #include "solver/solver.h"
 #include "solver/wide_body.h"
 
-static const int32_t in_order[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-
-FE_INLINE void load_line(float (*lines)[FE__LINE], int32_t i, wide4 *low, wide4 *high) { gather_line(lines + i, in_order, low, high); }
-FE_INLINE wide4 load_low(float (*lines)[FE__LINE], int32_t i) { return w_gather(lines[i], FE__LINE, in_order); }
-FE_INLINE wide4 load_high(float (*lines)[FE__LINE], int32_t i) { return w_gather(lines[i] + 4, FE__LINE, in_order); }
+FE_INLINE void load_line(float (*lines)[FE__LINE], int32_t i, wide4 *low, wide4 *high) { gather_line(lines + i, w_in_order, low, high); }
+FE_INLINE wide4 load_low(float (*lines)[FE__LINE], int32_t i) { return w_gather(lines[i], FE__LINE, w_in_order); }
+FE_INLINE wide4 load_high(float (*lines)[FE__LINE], int32_t i) { return w_gather(lines[i] + 4, FE__LINE, w_in_order); }
 FE_INLINE void store_line(float (*lines)[FE__LINE], int32_t i, wide4 low, wide4 high)
 {
-    w_scatter_both(lines[i], FE__LINE, in_order, low, high);
+    w_scatter_both(lines[i], FE__LINE, w_in_order, low, high);
 }
 
-FE_INLINE void store_high(float (*lines)[FE__LINE], int32_t i, wide4 high) { w_scatter(lines[i] + 4, FE__LINE, in_order, high); }
+FE_INLINE void store_high(float (*lines)[FE__LINE], int32_t i, wide4 high) { w_scatter(lines[i] + 4, FE__LINE, w_in_order, high); }
 
 // ---- records to lines, once per step ------------------------------------------------------------------------------------------------
 enum { BODY_STRIDE = sizeof(fe__body) / sizeof(float) };

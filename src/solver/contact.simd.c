@@ -141,11 +141,10 @@ static __attribute__((noinline)) void mark_strained(fe__solver *s, const int32_t
 // Lanes of contact 0 are padding: record 0 stays zero and is written by nobody
 FE_INLINE void store_lanes(fe__contact *contacts, const int32_t *index, wide4 normal, wide4 friction, wide4 total)
 {
-    static const int32_t in_order[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     _Alignas(64) float n[FE_W][4], f[FE_W][4], t[FE_W][4];
-    w_scatter(n[0], 4, in_order, normal);
-    w_scatter(f[0], 4, in_order, friction);
-    w_scatter(t[0], 4, in_order, total);
+    w_scatter(n[0], 4, w_in_order, normal);
+    w_scatter(f[0], 4, w_in_order, friction);
+    w_scatter(t[0], 4, w_in_order, total);
     for (int i = 0; i < FE_W; ++i) {
         if (!index[i]) continue;
         fe__contact *m = contacts + index[i];

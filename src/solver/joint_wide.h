@@ -115,13 +115,12 @@ FE_INLINE void find_axes(const fe__joints *joints, row_joints *r)
 
 static void put_lanes(float *base, int stride, const int32_t *index, int32_t real, wide4 a)
 {
-    static const int32_t in_order[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     if (real == FE_W) {
         w_scatter(base, stride, index, a);
         return;
     }
     _Alignas(64) float lane[FE_W][4];
-    w_scatter(lane[0], 4, in_order, a);
+    w_scatter(lane[0], 4, w_in_order, a);
     for (int i = 0; i < real; ++i) *(quad *)(base + (intptr_t)index[i] * stride) = *(const quad *)lane[i];
 }
 

@@ -14,7 +14,6 @@
 #define MOST_ALONG 0.02f
 
 enum { CONTACT_STRIDE = sizeof(fe__contact) / sizeof(float), BODY_STRIDE = sizeof(fe__body) / sizeof(float) };
-#define BODY_QUAD(field, index) w_xyz(w_gather(bodies->field, BODY_STRIDE, index))
 #define CONTACT_QUAD(field) w_gather(contacts->field, CONTACT_STRIDE, index)
 
 // a - b and what its rounding lost (Knuth's TwoSum): exact together
@@ -25,15 +24,24 @@ FE_INLINE wide difference(wide a, wide b, wide *error)
     return d;
 }
 
+// centres of mass; the fourth lane of low is the speed
+typedef struct {
+    wide4 high, low;
+} centres;
+
+FE_INLINE centres centres_of(const fe__body *bodies, const int32_t *body)
+{
+    centres c;
+    w_gather_both(bodies->centre_high, BODY_STRIDE, body, &c.high, &c.low);
+    return c;
+}
+
 // By how much B's centre moved against A's since the contact was found: (cB - cA) + found span. The bodies' and the contact's high parts
 // cancel first, so that metres or a thousand kilometres between the centres cost no digit.
-FE_INLINE wide3 shift_since_found(const fe__contact *contacts, const fe__body *bodies, const int32_t *index, const int32_t *a,
-                                  const int32_t *b)
+FE_INLINE wide3 shift_since_found(const centres *a, const centres *b, wide3 span, wide3 span_low)
 {
-    wide3 high_a = BODY_QUAD(centre_high, a), high_b = BODY_QUAD(centre_high, b), e;
-    wide3 low = w_sub(BODY_QUAD(centre_low, b), BODY_QUAD(centre_low, a));
-    wide3 span = w_xyz(CONTACT_QUAD(found_span)), span_low = w_xyz(CONTACT_QUAD(found_low));
-    wide3 d = {difference(high_b.x, high_a.x, &e.x), difference(high_b.y, high_a.y, &e.y), difference(high_b.z, high_a.z, &e.z)};
+    wide3 low = w_sub(w_xyz(b->low), w_xyz(a->low)), e;
+    wide3 d = {difference(b->high.x, a->high.x, &e.x), difference(b->high.y, a->high.y, &e.y), difference(b->high.z, a->high.z, &e.z)};
     return w_add(w_add(d, span), w_add(w_add(e, low), span_low));
 }
 
@@ -50,14 +58,22 @@ FE_INLINE wide spans_of(const fe__body *bodies, const int32_t *a)
     return *(const wide *)spans;
 }
 
+FE_INLINE wide separation_now(const wide4 *point, wide constant, wide3 slope)
+{
+    return point->w + (constant + w_dot(slope, w_xyz(*point)));
+}
+
 // As in contact_rows.h: s = s0 + n.shift + (nB - nA).r + nB.span + rhoA nA.n + rhoB nB.n with nX = R(dqX)^T n - n
 static void recycle_block(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, float dt, uint8_t *out_moved)
 {
     _Alignas(64) int32_t a[FE_W], b[FE_W];
     for (int i = 0; i < FE_W; ++i) a[i] = contacts[index[i]].body_a, b[i] = contacts[index[i]].body_b;
     wide4 normal = CONTACT_QUAD(normal), surface = CONTACT_QUAD(surface), found = CONTACT_QUAD(found_span);
-    wide3 n = w_xyz(normal), shift = shift_since_found(contacts, bodies, index, a, b);
-    wide4 turn_a = turn_since_found(bodies, a, CONTACT_QUAD(found_a)), turn_b = turn_since_found(bodies, b, CONTACT_QUAD(found_b));
+    wide4 found_a, found_b, point[FE__POINTS];
+    w_gather_both(contacts->found_a, CONTACT_STRIDE, index, &found_a, &found_b);
+    centres at_a = centres_of(bodies, a), at_b = centres_of(bodies, b);
+    wide3 n = w_xyz(normal), shift = shift_since_found(&at_a, &at_b, w_xyz(found), w_xyz(CONTACT_QUAD(found_low)));
+    wide4 turn_a = turn_since_found(bodies, a, found_a), turn_b = turn_since_found(bodies, b, found_b);
     // a static A has its arms from B's centre: no span between them, and it does not turn
     wide3 arms_span = w_choose3(w_greater(w_set(0.5f), spans_of(bodies, a)), w_zero3(), w_xyz(found));
     wide3 na = w_turn_back(turn_a, n), nb = w_turn_back(turn_b, n), slope = w_sub(nb, na);
@@ -71,21 +87,20 @@ static void recycle_block(fe__contact *contacts, const fe__body *bodies, const i
     wide turned = w_dot(w_xyz(turn_a), w_xyz(turn_a)) + w_dot(w_xyz(turn_b), w_xyz(turn_b));
     wide moved = 3.0f * (w_dot(slide, slide) + 4.0f * found.w * found.w * turned), zero = w_set(0.0f);
     // without points the bodies must not be able to meet in this step either
-    wide travel = dt * (w_gather(bodies->centre_low, BODY_STRIDE, a).w + w_gather(bodies->centre_low, BODY_STRIDE, b).w);
+    wide travel = dt * (at_a.low.w + at_b.low.w);
     wide limit = w_choose(w_greater(normal.w, zero), surface.w, w_max(surface.w - travel, zero));
     // a patch of a heightfield goes with its head: its tolerance is below 0
     wide most_along = w_choose(w_greater(zero, surface.w), w_set(FLT_MAX), w_set(MOST_ALONG));
     unsigned far = w_bits(w_or(w_not(w_greater(limit * limit, moved)), w_greater(w_abs(along), most_along)));
 
-    _Alignas(64) float now[FE__POINTS][FE_W];
-    for (int i = 0; i < FE__POINTS; ++i) {
-        wide4 point = CONTACT_QUAD(point[i]);
-        *(wide *)now[i] = point.w + (constant + w_dot(slope, w_xyz(point)));
-    }
+    _Alignas(64) float now[FE_W][FE__POINTS];
+    for (int i = 0; i < FE__POINTS; i += 2) w_gather_both(contacts->point[i], CONTACT_STRIDE, index, point + i, point + i + 1);
+    wide4 separation = {separation_now(point, constant, slope), separation_now(point + 1, constant, slope),
+                        separation_now(point + 2, constant, slope), separation_now(point + 3, constant, slope)};
+    w_scatter(now[0], FE__POINTS, w_in_order, separation);
     for (int i = 0; i < count; ++i) {
         out_moved[i] = far >> i & 1;
-        if (out_moved[i]) continue;
-        for (int k = 0; k < FE__POINTS; ++k) contacts[index[i]].separation[k] = now[k][i];
+        if (!out_moved[i]) *(quad *)contacts[index[i]].separation = *(const quad *)now[i];
     }
 }
 

@@ -115,10 +115,7 @@ static int32_t may_tell(const fe__pair *p)
 
 static void fetch_ahead(const fe_world *w, int32_t i, int32_t end)
 {
-    if (i + 2 * AHEAD < end) {
-        __builtin_prefetch(&w->pairs[w->awake_pairs[i + 2 * AHEAD]].flags);
-        __builtin_prefetch(&w->pairs[w->awake_pairs[i + 2 * AHEAD]].events);
-    }
+    if (i + 2 * AHEAD < end) __builtin_prefetch(&w->pairs[w->awake_pairs[i + 2 * AHEAD]].flags);
     if (i + AHEAD >= end || !may_tell(&w->pairs[w->awake_pairs[i + AHEAD]])) return;
     __builtin_prefetch(w->contacts[w->awake_pairs[i + AHEAD]].separation);
     __builtin_prefetch(w->contacts[w->awake_pairs[i + AHEAD]].total_impulse);

@@ -27,18 +27,19 @@ typedef struct fe__link {
 typedef struct fe__pair {
     int32_t shape_a, shape_b; // A was created first
     int32_t body_a, body_b;
-    fe__link links[2];   // in the lists of body A and body B
+    fe__link links[2]; // in the lists of body A and body B
+    // what the search for events reads of every pair, together
     uint32_t flags;      // FE__PAIR_*
-    int32_t awake_index; // place in the list of awake pairs, -1: both sides sleep
+    uint32_t events;     // fe_shape_events of either shape
+    int32_t next_patch;  // of the same pair, -1: none
     int32_t result;      // FE__RESULT_*
+    int32_t awake_index; // place in the list of awake pairs, -1: both sides sleep
     int32_t axis;        // of the narrow phase: fe__manifold.axis, axis_separation
     float axis_separation;
-    uint32_t ids[4];    // features of the points
-    uint32_t events;    // fe_shape_events of either shape
-    float approach;     // speed of the impact in this step, m/s
-    int32_t next_patch; // of the same pair, -1: none
-    int32_t head;       // of a patch
-    int32_t triangle;   // of the heightfield under a patch, -1: none
+    uint32_t ids[4];  // features of the points
+    float approach;   // speed of the impact in this step, m/s
+    int32_t head;     // of a patch
+    int32_t triangle; // of the heightfield under a patch, -1: none
 } fe__pair;
 
 #endif
