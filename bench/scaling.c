@@ -97,12 +97,15 @@ static int32_t barriers_of(const bench_counters *c)
     return c->whole_share < 1.0 ? SUBSTEPS * (PER_COLOUR * c->colours + PER_SUBSTEP) : 0;
 }
 
+// Bytes of one worker: several have lists of their own, as long as what each happened to take.
 static void write_sample(FILE *csv, const bench_scene *scene, int32_t workers, const sample *s)
 {
-    const double us = 1e3 * s->ms / scene->body_count, bytes = (double)s->counters.bytes / scene->body_count;
-    printf("%-16s %8d %3d %10.4f %10.3f %10.0f %8.3f %6d\n", scene->name, scene->body_count, workers, s->ms, us, bytes, s->serial,
+    const double us = 1e3 * s->ms / scene->body_count, each = (double)s->counters.bytes / scene->body_count;
+    char bytes[32] = "";
+    if (workers == 1) snprintf(bytes, sizeof bytes, "%.1f", each);
+    printf("%-16s %8d %3d %10.4f %10.3f %10s %8.3f %6d\n", scene->name, scene->body_count, workers, s->ms, us, bytes, s->serial,
            barriers_of(&s->counters));
-    fprintf(csv, "%s,%d,%d,%d,%.6f,%.6f,%.1f,%.4f,%d\n", scene->name, scene->body_count, s->counters.contacts, workers, s->ms, us, bytes,
+    fprintf(csv, "%s,%d,%d,%d,%.6f,%.6f,%s,%.4f,%d\n", scene->name, scene->body_count, s->counters.contacts, workers, s->ms, us, bytes,
             s->serial, barriers_of(&s->counters));
     fflush(stdout);
 }

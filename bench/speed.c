@@ -287,6 +287,7 @@ typedef struct ratios {
     char names[BENCH_MAX_SCENES][64];
     double over[2][BENCH_MAX_SCENES]; // Bullet, ODE
     int32_t count;
+    int32_t workers, substeps; // of Feather's first run
 } ratios;
 static const char *const plotted[2] = {"bullet", "ode"};
 
@@ -294,6 +295,7 @@ static void note_ratios(const bench_table *table, ratios *out)
 {
     if (out->count == BENCH_MAX_SCENES || table->run_count == 0 || table->runs[0].engine != &bench_feather) return;
     const int32_t i = out->count++;
+    out->workers = table->runs[0].workers, out->substeps = table->runs[0].substeps;
     snprintf(out->names[i], sizeof out->names[i], "%s", table->scene.name);
     for (int k = 0; k < 2; k++) {
         out->over[k][i] = 0.0;
@@ -309,9 +311,11 @@ static int draw_ratios(const char *path, const ratios *all)
     const char *labels[BENCH_MAX_SCENES];
     const bench_series series[2] = {{"Bullet / Feather", NULL, all->over[0], all->count},
                                     {"ODE / Feather", NULL, all->over[1], all->count}};
+    char title[96];
     for (int32_t i = 0; i < all->count; i++) labels[i] = all->names[i];
-    return all->count > 0 ? bench_svg_bars(path, "Time of a step, as a multiple of Feather's first column", labels, all->count, series, 2)
-                          : 0;
+    snprintf(title, sizeof title, "Time of a step, as a multiple of Feather's with %d worker%s and %d substeps", all->workers,
+             all->workers > 1 ? "s" : "", all->substeps);
+    return all->count > 0 ? bench_svg_bars(path, title, labels, all->count, series, 2) : 0;
 }
 
 static int run_scene(const char *name, const bench_options *options, FILE *csv, ratios *all)
