@@ -504,6 +504,6 @@ double bench_contact_stiffness(const bench_trial *t, int32_t against_static)
     return stiffness(30.0, 0.125, t) * (against_static ? 4.0 : 1.0);
 }
 
-double bench_joint_stiffness(const bench_trial *t) { return stiffness(60.0, 0.25, t); }
+double bench_joint_stiffness(const bench_trial *t) { return stiffness(60.0, 0.225, t); }
 
 double bench_face_factor(const bench_trial *t) { return t->scene.planar ? 0.625 : 1.0; }

@@ -128,10 +128,10 @@ static inline double worst_gap(const scene *s, const fe_joint *joints, int count
     return worst;
 }
 
-// P2: a soft joint gives by load / (effective mass w^2), w = 2 pi min(60 Hz, a quarter of the substep rate); m or rad
+// P2: a soft joint gives by load / (effective mass w^2), w = 2 pi min(60 Hz, 0.225 of the substep rate); m or rad
 static inline double joint_give(const scene *s, double load, double effective_mass)
 {
-    double w = 2 * PI * fmin(60, 0.25 / s->h);
+    double w = 2 * PI * fmin(60, 0.225 / s->h);
     return load / (effective_mass * w * w);
 }
 

@@ -167,7 +167,7 @@ static inline void rig_step(rig *r)
                             .division = 1,
                             .sweeps = 1,
                             .gravity = {0.0f, r->gravity, 0.0f},
-                            .joint_hertz = 0.25f / h};
+                            .joint_hertz = 0.225f / h};
     c.joint = fe__make_softness(fe__minf(60.0f, c.joint_hertz), 2.0f, h);
     r->last_h = h;
     if (!r->built) rig_build(r);
