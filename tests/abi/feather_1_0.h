@@ -194,7 +194,7 @@ typedef struct fe_world_tuning {
     float contact_hertz; ///< stiffness of contacts, 1/s, > 0; twice that against static bodies; at most an eighth of the substep rate. 30
     float contact_damping_ratio; ///< >= 0; 1 is critical, higher pushes out more gently. 10
     float contact_push_speed;    ///< overlap is pushed out no faster, m/s, >= 0. 3
-    float joint_hertz;           ///< stiffness of joints, 1/s, > 0; at most a quarter of the substep rate. 60
+    float joint_hertz;           ///< stiffness of joints, 1/s, > 0; at most 0.225 of the substep rate. 60
     float joint_damping_ratio;   ///< >= 0. 2
     float restitution_threshold; ///< slower impacts do not bounce, m/s, >= 0. 1
     float hit_event_threshold;   ///< slower impacts make no hit event, m/s, >= 0. 1
