@@ -47,10 +47,10 @@ void fe__tree_remove(fe__tree *tree, int32_t proxy);
 // 1 while `tight` lies in the proxy's box: reads only, any thread
 int32_t fe__tree_holds(const fe__tree *tree, int32_t proxy, const fe__bounds *tight);
 // asks memory for that box
-static inline void fe__tree_fetch(const fe__tree *tree, int32_t proxy)
+FE_FETCHES fe__tree_fetch(const fe__tree *tree, int32_t proxy)
 {
     int32_t slot = proxy < tree->slot_capacity ? tree->slot[proxy] : -1;
-    for (int32_t k = 0; k < 6 && slot >= 0; k += 2) __builtin_prefetch(tree->nodes[slot / FE_TREE_WIDTH].box[k]);
+    if (slot >= 0) fe__fetch(tree->nodes + slot / FE_TREE_WIDTH, sizeof tree->nodes->box);
 }
 void fe__tree_get(const fe__tree *tree, int32_t proxy, fe__bounds *out_box);
 // New boxes for `count` proxies; refits what is above them (all nodes at once when many moved).

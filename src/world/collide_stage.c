@@ -92,17 +92,11 @@ static void collide_chunks(void *argument, int32_t first, int32_t end, int32_t w
 
 // ---- without --------------------------------------------------------------------------------------------------------------------------
 // Records of pairs that the narrow phase will look at lie anywhere: they are asked for while it looks at others
-static void fetch_shape(const fe_world *w, int32_t shape)
-{
-    const char *record = (const char *)(w->shapes + shape);
-    for (unsigned k = 0; k < sizeof(fe__shape); k += FE_CACHE_LINE) __builtin_prefetch(record + k);
-}
-
-static void fetch_pair(const fe_world *w, int32_t pair)
+FE_FETCHES fetch_pair(const fe_world *w, int32_t pair)
 {
     const fe__pair *p = w->pairs + pair;
-    fetch_shape(w, p->shape_a);
-    fetch_shape(w, p->shape_b);
+    fe__fetch(w->shapes + p->shape_a, sizeof *w->shapes);
+    fe__fetch(w->shapes + p->shape_b, sizeof *w->shapes);
     fe__tree_fetch(&w->moving_tree, p->shape_a);
     fe__tree_fetch(&w->moving_tree, p->shape_b);
 }
@@ -119,7 +113,7 @@ static void collide_some(const collide_job *job, int32_t first, int32_t count)
     for (int32_t i = 0; i < count; ++i) {
         if (!moved[i]) continue;
         again[left++] = pairs[i];
-        __builtin_prefetch(w->pairs + pairs[i], 1);
+        fe__fetch(w->pairs + pairs[i], sizeof *w->pairs);
     }
     for (int32_t i = -AHEAD; i < left; ++i) {
         if (i + AHEAD < left) fetch_pair(w, again[i + AHEAD]);

@@ -113,7 +113,7 @@ static int32_t may_tell(const fe__pair *p)
     return (p->flags & (FE__PAIR_LINKED | FE__PAIR_SENSOR | FE__PAIR_TOUCHING | FE__PAIR_CROSSED | FE__PAIR_ONCE)) != 0;
 }
 
-static void fetch_ahead(const fe_world *w, int32_t i, int32_t end)
+FE_FETCHES fetch_ahead(const fe_world *w, int32_t i, int32_t end)
 {
     if (i + 2 * AHEAD < end) __builtin_prefetch(&w->pairs[w->awake_pairs[i + 2 * AHEAD]].flags);
     if (i + AHEAD >= end || !may_tell(&w->pairs[w->awake_pairs[i + AHEAD]])) return;

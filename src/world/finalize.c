@@ -93,12 +93,22 @@ static void forget_lost(fe_world *w)
     }
 }
 
+// Bodies and shapes stream from memory; where in the tree a shape is, only its slot tells
+FE_FETCHES fetch_box(const fe_world *w, int32_t i)
+{
+    if (i >= w->awake_body_count) return;
+    int32_t shape = w->bodies[w->awake_bodies[i]].first_shape;
+    if (shape >= 0) fe__tree_fetch(&w->moving_tree, shape);
+}
+
 static void move_block(void *argument, int32_t first, int32_t end, int32_t worker)
 {
     fe__step *step = argument;
     fe_world *w = step->world;
     (void)worker;
     for (int32_t i = first; i < end; ++i) {
+        enum { AHEAD = 4 };
+        fetch_box(w, i + AHEAD);
         fe__body *body = w->bodies + w->awake_bodies[i];
         const float *velocity = w->solver.velocity[body->line], *motion = w->solver.motion[body->line];
         if (!fe__motion_makes_sense(&w->solver, body->line)) {
