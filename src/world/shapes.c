@@ -10,7 +10,7 @@
 // A box in a tree is larger than its shape by the speculative distance (what touches must have a pair) and a share of its size, so that a
 // body may move a while before its tree changes: larger ones move further before it matters.
 #define FAT_SHARE 0.12 // of the largest half extent
-#define FAT_MOST 0.015  // m
+#define FAT_MOST 0.05  // m
 // It also reaches where the body will be after so many steps at its velocity: what it meets in the next step must have a pair before.
 #define STEPS_AHEAD 2.0f
 #define FIRST_DT (1.0f / 60.0f) // s, before the first step has told
