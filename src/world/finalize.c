@@ -175,23 +175,30 @@ static void keep_awake(fe_world *w, int32_t kinematic, float *timers)
     }
 }
 
+// A timer of 0 is one of a body that is not slow, also when none need be slow for long
+static int32_t may_sleep(const fe_world *w, float timer) { return timer > 0.0f && timer >= w->tuning.sleep_time; }
+
 // An island sleeps when all its bodies have been slow for long enough; a kinematic body when it stands still
 void fe__put_islands_to_sleep(fe__step *step)
 {
     fe_world *w = step->world;
     float *timers = step->scratch->island_timers;
+    int32_t some = 0;
     for (int32_t i = 0; i < w->solver.island_count; ++i) timers[i] = FLT_MAX;
     for (int32_t i = 0; i < w->awake_body_count; ++i) {
         const fe__body *body = w->bodies + w->awake_bodies[i];
         if (body->island >= 0) timers[body->island] = fe__minf(timers[body->island], body->sleep_timer);
-        if (body->type == FE_BODY_KINEMATIC && !stands_still(body)) keep_awake(w, w->awake_bodies[i], timers);
+        if (body->type != FE_BODY_KINEMATIC) continue;
+        if (stands_still(body))
+            some = 1;
+        else
+            keep_awake(w, w->awake_bodies[i], timers);
     }
-    for (int32_t i = w->awake_body_count - 1; i >= 0; --i) {
+    for (int32_t i = 0; i < w->solver.island_count; ++i) some |= may_sleep(w, timers[i]);
+    for (int32_t i = w->awake_body_count - 1; i >= 0 && some; --i) {
         int32_t index = w->awake_bodies[i];
         const fe__body *body = w->bodies + index;
-        int32_t sleeps = stands_still(body); // a timer of 0 is one of a body that is not slow, also when none need be slow for long
-        if (body->type == FE_BODY_DYNAMIC) sleeps = timers[body->island] > 0.0f && timers[body->island] >= w->tuning.sleep_time;
-        if (sleeps) fe__body_fall_asleep(w, index);
+        if (body->type == FE_BODY_DYNAMIC ? may_sleep(w, timers[body->island]) : stands_still(body)) fe__body_fall_asleep(w, index);
     }
     // a sleeping world keeps no rows
     if (!w->awake_body_count && w->solver.line_capacity[0] > KEPT_LINES) fe__solver_destroy(&w->solver, &w->memory);
