@@ -242,12 +242,12 @@ static void run_block(const job *j, const fe__batch *b, const fe__pass *p, unsig
 {
     int32_t rows_in_block = j->program.rows_in_block;
     if (!p->group_count) {
-        run_lines(j, b, p->verb, block, j->constants + USUAL);
+        run_lines(j, b, (verb)p->verb, block, j->constants + USUAL);
         return;
     }
     const fe__group *g = j->s->groups + p->first_group;
     if (p->serial) {
-        for (int32_t i = 0; i < p->group_count; ++i) run_rows(j, g + i, p->verb, rows, 0, g[i].rows, j->constants + USUAL);
+        for (int32_t i = 0; i < p->group_count; ++i) run_rows(j, g + i, (verb)p->verb, rows, 0, g[i].rows, j->constants + USUAL);
         return;
     }
     for (;; ++g) {
@@ -256,7 +256,7 @@ static void run_block(const job *j, const fe__batch *b, const fe__pass *p, unsig
         block -= blocks;
     }
     int32_t first = block * rows_in_block;
-    run_rows(j, g, p->verb, rows, first, fe__mini(rows_in_block, g->rows - first), j->constants + USUAL);
+    run_rows(j, g, (verb)p->verb, rows, first, fe__mini(rows_in_block, g->rows - first), j->constants + USUAL);
 }
 
 // ---- a small batch, whole -------------------------------------------------------------------------------------------------------------
