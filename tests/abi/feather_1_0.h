@@ -519,8 +519,8 @@ FE_API fe_result fe_shape_get_user_data(const fe_world *world, fe_shape shape, f
 //
 // **Stiffness.** Springs, limits and what a joint holds are springs and dampers given by hertz, 1/s, and damping ratio (1: critical), on
 // the masses that move, so that they do not depend on them. Hertz of 0 mean no spring where one is optional, and as stiff as the world
-// allows (fe_world_tuning.joint_hertz, joint_damping_ratio; without swing) for a limit and for what is held. All are limited to a quarter
-// of the substep rate; limits and what is held swing less and less from half of that on.
+// allows (fe_world_tuning.joint_hertz, joint_damping_ratio; without swing) for a limit and for what is held. All are limited to 0.225 of
+// the substep rate; limits and what is held swing less and less from half of that on.
 //
 // **Heavy loads.** What is held as stiff as the world allows gives under a load of many times the bodies' own masses. Where such joints
 // close no loop (chains, cranes, arms, telescopes, with one hold on the rest of the world at most), they are solved exactly instead, all at
