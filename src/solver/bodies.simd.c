@@ -99,7 +99,7 @@ FE_INLINE void load_block(fe__solver *s, const fe__body *bodies, int32_t line, c
     store_line(s->velocity, line, (wide4){v.x * there, v.y * there, v.z * there, mass},
                (wide4){w.x * there, w.y * there, w.z * there, w.w * there});
     store_line(s->motion, line, (wide4){zero, zero, zero, *(wide *)gyroscopic * there}, (wide4){zero, zero, zero, one});
-    store_line(s->inertia, line, (wide4){i.xx, i.xy, i.xz, i.yy}, (wide4){i.yz, i.zz, zero, zero});
+    store_line(s->inertia, line, (wide4){i.xx, i.xy, i.xz, i.yy}, (wide4){i.yz, i.zz, *(wide *)gyroscopic * there, zero});
     store_line(s->drive, line, w_with(push, damping), w_with(w_mul(&i, w_xyz(torque)), spin_damping));
     store_line(s->spin, line, axes, (wide4){inertia.x, inertia.y, inertia.z, zero});
     for (int k = 0; k < FE_W && locked; ++k) {

@@ -301,7 +301,7 @@ FE_INLINE void scatter_spins(float (*lines)[FE__LINE], const line_pair *line, co
 // > 0 where a body's inertia is not that of a ball
 FE_INLINE wide shape_of(const fe__solver *s, const line_pair *line)
 {
-    return gather_high(s->start, line->a).w + gather_high(s->start, line->b).w;
+    return gather_high(s->inertia, line->a).z + gather_high(s->inertia, line->b).z;
 }
 
 FE_INLINE wide_sym change_inertia(const fe__solver *s, const int32_t *line, wide_mask shaped, wide_sym *inertia)

@@ -126,7 +126,7 @@ typedef struct fe__solver {
     float (*velocity)[FE__LINE]; // v, inverse mass | w, lock bits
     float (*motion)[FE__LINE];   // since the step began: centre, gyroscopic kind | rotation x y z w
     float (*start)[FE__LINE];    // v, inverse mass | w, gyroscopic kind; before this substep's constraint impulses
-    float (*inertia)[FE__LINE];  // inverse, world: xx xy xz yy | yz zz 0, 1 when the body turned out to be strained
+    float (*inertia)[FE__LINE];  // inverse, world: xx xy xz yy | yz zz gyroscopic kind, 1 when the body turned out to be strained
     float (*drive)[FE__LINE];    // acceleration by gravity and forces, 1/(1 + h c) | by torques, 1/(1 + h c)
     float (*spin)[FE__LINE];     // principal axes x y z w, world, when the step began | principal moments, 0
     int32_t line_count, line_capacity[6];
