@@ -12,12 +12,6 @@
     "(2.1 ms with eight) is one inelastic blow. Sixteen keep 99.9 % of it, as each impact has a substep of its own; thirty-two hold the " \
     "bound"
 
-#define PINCHED                                                                                                                            \
-    "limbs of 7 to 300 g that a paddle of 12 kg (in space 46) strikes at up to 30 m/s, or catches against a spur of the funnel, are held " \
-    "apart by "                                                                                                                            \
-    "more "                                                                                                                                \
-    "than their joints' springs give, for some steps at a time; more substeps do not help"
-
 static const struct known {
     const char *scene;
     int32_t substeps; // 0: any
@@ -31,8 +25,6 @@ static const struct known {
     {"joint-grid", 4, "largest joint gap, m", "a net passes a load on by a ball or two a substep; " FEW_SUBSTEPS},
     {"joint-grid-2d", 4, "largest joint gap, m", "a net passes a load on by a ball or two a substep; " FEW_SUBSTEPS},
     {"elastic-666", 0, "mean squared error of the energy, J2", GAS},
-    {"ragdoll-stress-2d", 0, "largest joint gap, m", PINCHED},
-    {"ragdoll-funnel", 0, "largest joint gap, m", PINCHED},
 };
 
 const char *bench_known_cause(const bench_trial *t, const bench_check *c)

@@ -187,6 +187,7 @@ fe_result fe_world_set_tuning(fe_world *world, const fe_world_tuning *tuning)
     fe_world_tuning copy = world->tuning;
     FE_TRY(read_tuning(function, tuning, &copy));
     int32_t same_reach = copy.speculative_distance == world->tuning.speculative_distance;
+    if (copy.joint_hertz != world->tuning.joint_hertz) world->joints.forest.changed = world->solver.graph_changed = 1; // what is a spring
     world->tuning = copy;
     if (same_reach) return FE_OK;
     fe__fp_state fp = fe__fp_enter();

@@ -33,6 +33,7 @@ static inline int32_t fe__maxi(int32_t a, int32_t b) { return a > b ? a : b; }
 
 // ---- fe_vec3 ------------------------------------------------------------------------------------------------------------------
 static inline fe_vec3 fe__vec3(float x, float y, float z) { return (fe_vec3){x, y, z}; }
+static inline fe_vec3 fe__quad_vector(const float *a) { return (fe_vec3){a[0], a[1], a[2]}; }
 static inline fe_vec3 fe__add(fe_vec3 a, fe_vec3 b) { return (fe_vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }
 static inline fe_vec3 fe__sub(fe_vec3 a, fe_vec3 b) { return (fe_vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
 static inline fe_vec3 fe__neg(fe_vec3 a) { return (fe_vec3){-a.x, -a.y, -a.z}; }

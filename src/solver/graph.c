@@ -111,11 +111,11 @@ static int64_t whole_blocks(int64_t bytes)
 
 static int32_t tree_links(const fe__graph_bound *b) { return b->joint_set ? b->joint_set->forest.link_count : 0; }
 
-// bytes of rows of so many contacts and parts of joints; a tree has a link for each of its joints, and perhaps one for its root
-static int64_t row_bytes(const fe__graph_bound *b, const fe__kernels *kernels, int32_t contacts, int32_t joint_lanes)
+// bytes of rows of so many contacts and parts of joints; each body is in one tree at most
+static int64_t row_bytes(const fe__graph_bound *b, const fe__kernels *kernels, int32_t contacts, int32_t joint_lanes, int64_t bodies)
 {
     int64_t widest = kernels->contact->row_size[b->special ? FE__ROW_PAIR | FE__ROW_SPECIAL : FE__ROW_PAIR];
-    int64_t links = fe__minl(tree_links(b), 2 * (int64_t)joint_lanes);
+    int64_t links = fe__minl(tree_links(b), bodies);
     return row_bound(b, contacts, kernels->width) * widest + joint_row_bound(b, joint_lanes, kernels->width) * widest_joint(b, kernels) +
            links * (kernels->joint->tree.node_size + (int64_t)sizeof(fe__row_block));
 }
@@ -129,17 +129,21 @@ static int64_t scratch_bound(const fe__graph_bound *b)
 static int64_t all_rows(const fe__graph_bound *b, const fe__kernels *kernels, int32_t workers, int64_t *out_small)
 {
     int32_t some = FE__BATCH_CONTACTS + FE__ISLAND_LARGE, parts = joint_rows(b);
-    int64_t small = row_bytes(b, kernels, fe__mini(b->contacts, some), fe__mini(parts, some)), large = 0;
-    if (b->largest > FE__ISLAND_LARGE) large = row_bytes(b, kernels, fe__mini(b->contacts, b->largest), fe__mini(parts, b->largest));
+    // an island has a body more than constraints, at most
+    int64_t small = row_bytes(b, kernels, fe__mini(b->contacts, some), fe__mini(parts, some), fe__maxi(BATCH_BODIES, FE__ISLAND_LARGE + 1));
+    int64_t large = b->largest > FE__ISLAND_LARGE
+                        ? row_bytes(b, kernels, fe__mini(b->contacts, b->largest), fe__mini(parts, b->largest), (int64_t)b->largest + 1)
+                        : 0;
     *out_small = small;
     return small * workers > large ? small * workers : large;
 }
 
 // Passes of a large batch, see make_program in solve.c. Its groups come colour by colour, a group or more each, and each of the four verbs
-// of rows (prepare, solve, relax, bounce; joints do not bounce) has a pass a colour at most. Three more are over lines, and one stores.
+// of rows (prepare, solve, relax, bounce; joints do not bounce) has a pass a colour at most. Three more are over lines, one stores, and one
+// is the trees'.
 static int64_t pass_bound(int64_t groups)
 {
-    enum { EVERY_COLOUR = 4 * FE__COLOURS + 3 * FE__CONTACT_COLOURS, OTHERS = 4 };
+    enum { EVERY_COLOUR = 4 * FE__COLOURS + 3 * FE__CONTACT_COLOURS, OTHERS = 5 };
     return fe__minl(4 * groups, EVERY_COLOUR) + OTHERS;
 }
 
@@ -592,7 +596,7 @@ static void open_link(builder *b, fe__batch *batch, int32_t link, fe__lane lane,
     s->groups[s->group_count++] =
         (fe__group){.kind = FE__TREE_KIND, .colour = FE__TREE_COLOUR, .lane = l->tree, .rows = 1, .offset = batch->row_bytes};
     batch->row_bytes += (int64_t)count * kernels->joint->tree.node_size;
-    ++batch->group_count;
+    ++batch->group_count, ++batch->trees;
 }
 
 // the rows of a link's locks

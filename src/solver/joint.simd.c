@@ -19,6 +19,7 @@
 #include "solver/joint_tree_rows.h"
 #include "solver/joint_tree.h"
 #include "solver/joint_tree_calm.h"
+#include "solver/joint_tree_light.h"
 #include "solver/joint_tree_passes.h"
 
 #define KERNELS(name, form)                                                          \
@@ -42,4 +43,4 @@ const fe__joint_kernels FE_NAME(fe__joint_kernels) = {.of =
                                                               [FE__PART_SLIDE] = KERNELS(slide, slide),
                                                               [FE__PART_POINT] = KERNELS(point, point),
                                                           },
-                                                      .tree = {sizeof(tree_node), prepare_tree, solve_tree, relax_tree}};
+                                                      .tree = {sizeof(tree_node), prepare_tree, solve_tree, relax_tree, follow_tree}};

@@ -22,6 +22,7 @@ typedef struct fe__tree_link {
 
 typedef struct fe__joint_tree {
     int32_t first, count; // links
+    int32_t heavy;        // 1: solved in every substep; 0: after a sweep that left one of its joints open, to the end of the step
 } fe__joint_tree;
 
 typedef struct fe__forest {

@@ -16,10 +16,14 @@
 // it and none is needed: a chain under a load of a thousand links is as long as its links, and the energy that this kind of integrator
 // keeps is kept.
 
+// Of a tree, in this step: a light one is solved from the substep on in which it opens, but left to the sweep where it was open before
+typedef enum { READY, SOLVED, SWEPT } tree_state;
+
 typedef struct {
     _Alignas(64) tree_rows rows;          // locks, then what calms the joint
     int32_t locks;                        // rows of locks
     int32_t weighed;                      // 1: masses are there
+    tree_state state;                     // of the first node
     double mass[6][6];                    // P, then L below the diagonal and 1 / L_kk on it
     double turn[6];                       // inverse inertia: xx xy xz yy yz zz
     double inertia;                       // about the heaviest of the world's axes that are not locked, kg m2

@@ -73,20 +73,26 @@ static void wish_on_arcs(const tree_job *t)
 }
 
 // Positions are put right at once, as far as a quarter of a turn of the arms takes them; what is farther apart follows as fast as the
-// softness of a lock says, by `share` of it.
+// softness of a lock says, by `share` of it. Returns the largest gap, m.
 #define FULL_TURN 0.25 // rad
 
-static void wish_closed(const tree_job *t, double share)
+static double wish_closed(const tree_job *t, double share)
 {
+    double widest = 0.0;
     for (int32_t i = 0; i < t->count; ++i) {
         tree_node *n = t->nodes + i;
         double arm = sqrt(fe__maxd(fe__ddot(n->rows.arm[0], n->rows.arm[0]), fe__ddot(n->rows.arm[1], n->rows.arm[1])));
+        double gap = 0.0;
         arm = fe__maxd(arm, n->rows.rod);
         for (int r = 0; r < n->rows.count; ++r) {
-            double error = n->rows.error[r], most = fe__maxd(FULL_TURN * (n->rows.points >> r & 1 ? arm : 1.0), share * fe__absd(error));
+            int point = n->rows.points >> r & 1;
+            double error = n->rows.error[r], most = fe__maxd(FULL_TURN * (point ? arm : 1.0), share * fe__absd(error));
             n->wish[r] = fe__mind(fe__maxd(-error, -most), most);
+            gap += point ? error * error : 0.0;
         }
+        widest = fe__maxd(widest, gap);
     }
+    return sqrt(widest);
 }
 
 // ---- what comes of them ---------------------------------------------------------------------------------------------------------------
@@ -143,13 +149,27 @@ static void move(const tree_job *t)
 }
 
 // ---- the passes -----------------------------------------------------------------------------------------------------------------------
+static void reduce_tree(const tree_job *t)
+{
+    read_tree(t);
+    calm_tree(t);
+    eliminate(t);
+}
+
+// From here to the end of the step a light tree is solved
+static void engage(const tree_job *t)
+{
+    if (t->nodes->state == SOLVED) return;
+    t->nodes->state = SOLVED;
+    atomic_fetch_add_explicit(&t->s->engaged, 1, memory_order_relaxed);
+}
+
 static void prepare_tree(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes,
                          const fe__step_constants *c)
 {
     tree_job t = tree_of(s, joints, tree, rows, nodes, c);
-    read_tree(&t);
-    calm_tree(&t);
-    eliminate(&t);
+    t.nodes->state = joints->forest.trees[tree].heavy ? SOLVED : is_open(&t, PUT_APART) ? SWEPT : READY;
+    if (t.nodes->state == SOLVED) reduce_tree(&t);
 }
 
 // The first solution tells the arcs, the second follows them
@@ -180,6 +200,7 @@ static void solve_tree(fe__solver *s, const fe__joints *joints, int32_t tree, un
                        const fe__step_constants *c)
 {
     tree_job t = tree_of(s, joints, tree, rows, nodes, c);
+    if (t.nodes->state != SOLVED) return;
     follow_arcs(&t);
     if (is_jerked(&t)) {
         calm_jerk(&t);
@@ -188,18 +209,43 @@ static void solve_tree(fe__solver *s, const fe__joints *joints, int32_t tree, un
     apply(&t, 0);
 }
 
+// Contacts come after the joints in a pass and know nothing of them: what was struck or pinched flies off, unless its tree has the last
+// word
+static void follow_tree(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes,
+                        const fe__step_constants *c)
+{
+    tree_job t = tree_of(s, joints, tree, rows, nodes, c);
+    if (t.nodes->state == SWEPT || !will_open(&t)) return;
+    if (t.nodes->state == READY) reduce_tree(&t);
+    engage(&t);
+    solve_tree(s, joints, tree, rows, nodes, c);
+}
+
+// The way is closed as the rows see it, and again where that was a wide one, which turns them
+static void close_points(const tree_job *t, const fe__step_constants *c)
+{
+    enum { MOST_CLOSINGS = 8 };
+    for (int32_t k = 0; k < MOST_CLOSINGS; ++k) {
+        double widest = wish_closed(t, (double)(c->h * c->joint.bias_rate));
+        meet(t);
+        move(t);
+        if (widest <= (double)OPEN) return;
+        reduce_tree(t);
+    }
+}
+
 static void relax_tree(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes,
                        const fe__step_constants *c)
 {
     tree_job t = tree_of(s, joints, tree, rows, nodes, c);
-    prepare_tree(s, joints, tree, rows, nodes, c);
+    if (t.nodes->state == SWEPT || (t.nodes->state == READY && !is_open(&t, OPEN))) return;
+    engage(&t);
+    reduce_tree(&t);
     follow_locks(&t);
     if (is_jerked(&t)) {
         calm_jerk(&t);
         follow_locks(&t);
     }
     apply(&t, 1);
-    wish_closed(&t, (double)(c->h * c->joint.bias_rate));
-    meet(&t);
-    move(&t);
+    close_points(&t, c);
 }

@@ -31,52 +31,81 @@ static void add_row(tree_rows *t, int holds_b, fe_dvec3 u, fe_dvec3 ma, fe_dvec3
 static void set_arms(tree_rows *t, int holds_b, fe_dvec3 ra, fe_dvec3 rb) { t->arm[0] = holds_b ? rb : ra, t->arm[1] = holds_b ? ra : rb; }
 static void add_pull(tree_rows *t, int holds_b, fe_dvec3 on_b) { t->pull = fe__dadd(t->pull, fe__dscale(holds_b ? 1.0 : -1.0, on_b)); }
 
-static void read_point(tree_rows *t, int holds_b, const point_row *row, int32_t i)
+static fe_quat motion_quat(const float *motion) { return (fe_quat){motion[4], motion[5], motion[6], motion[7]}; }
+// a vector of the body's, turned as far as the body has in this step
+static fe_dvec3 turned_lane(const float *motion, fe_dvec3 a) { return fe__drotate(motion_quat(motion), a); }
+
+// anchors, by their arms from the centres, now; gap: anchor of B - anchor of A
+typedef struct {
+    fe_dvec3 ra, rb, gap;
+} lane_anchors;
+
+static lane_anchors place_anchors(const wide *first_a, const wide *first_b, const wide *first_gap, const line_pair *line, int32_t i,
+                                  const fe__solver *s)
 {
-    fe_dvec3 ra = lane3(row->arm_a, i), rb = lane3(row->arm_b, i);
-    set_arms(t, holds_b, ra, rb);
-    add_pull(t, holds_b, lane3(row->impulse, i));
-    for (int k = 0; k < 3; ++k) add_row(t, holds_b, unit(k), fe__dcross(ra, unit(k)), fe__dcross(rb, unit(k)), (double)row->gap[k][i]);
+    const float *ma = s->motion[line->a[i]], *mb = s->motion[line->b[i]];
+    fe_dvec3 fa = lane3(first_a, i), fb = lane3(first_b, i), ra = turned_lane(ma, fa), rb = turned_lane(mb, fb);
+    fe_dvec3 way = {(double)mb[0] - (double)ma[0], (double)mb[1] - (double)ma[1], (double)mb[2] - (double)ma[2]};
+    fe_dvec3 turn = fe__dsub(fe__dsub(rb, fb), fe__dsub(ra, fa));
+    return (lane_anchors){ra, rb, fe__dadd(lane3(first_gap, i), fe__dadd(way, turn))};
 }
 
-static void read_slide(tree_rows *t, int holds_b, const slide_row *row, int32_t i)
+static void read_point(tree_rows *t, int holds_b, const point_row *row, int32_t i, const fe__solver *s)
 {
-    fe_dvec3 ra = lane3(row->arm_a, i), rb = lane3(row->arm_b, i);
-    set_arms(t, holds_b, ra, rb);
+    const lane_anchors p = place_anchors(row->first_arm_a, row->first_arm_b, row->first_gap, &row->line, i, s);
+    const double error[3] = {p.gap.x, p.gap.y, p.gap.z};
+    set_arms(t, holds_b, p.ra, p.rb);
+    add_pull(t, holds_b, lane3(row->impulse, i));
+    for (int k = 0; k < 3; ++k) add_row(t, holds_b, unit(k), fe__dcross(p.ra, unit(k)), fe__dcross(p.rb, unit(k)), error[k]);
+}
+
+static void read_slide(tree_rows *t, int holds_b, const slide_row *row, int32_t i, const fe__solver *s)
+{
+    const lane_anchors p = place_anchors(row->first_arm_a, row->first_arm_b, row->first_gap, &row->line, i, s);
+    const fe_quat first = {row->first_frame[0][i], row->first_frame[1][i], row->first_frame[2][i], row->first_frame[3][i]};
+    fe_dvec3 u[3], arm = p.ra;
     for (int k = 0; k < 3; ++k) {
-        fe_dvec3 u = lane3(row->u[k], i);
-        add_pull(t, holds_b, fe__dscale((double)row->impulse[k][i], u));
-        if (row->keep[k][i] > 0.0f) add_row(t, holds_b, u, fe__dcross(ra, u), fe__dcross(rb, u), (double)row->error[k][i]);
+        u[k] = turned_lane(s->motion[row->line.a[i]], fe__drotate(first, unit(k)));
+        if (!(row->keep[k][i] > 0.0f)) arm = fe__dadd(arm, fe__dscale(fe__ddot(u[k], p.gap), u[k]));
+    }
+    set_arms(t, holds_b, arm, p.rb);
+    for (int k = 0; k < 3; ++k) {
+        add_pull(t, holds_b, fe__dscale((double)row->impulse[k][i], u[k]));
+        if (row->keep[k][i] > 0.0f) add_row(t, holds_b, u[k], fe__dcross(arm, u[k]), fe__dcross(p.rb, u[k]), fe__ddot(u[k], p.gap));
     }
 }
 
-static void read_hinge(tree_rows *t, int holds_b, const hinge_row *row, int32_t i)
+static void read_hinge(tree_rows *t, int holds_b, const hinge_row *row, int32_t i, const fe__solver *s)
 {
-    const fe_dvec3 still = {0.0, 0.0, 0.0}, t1 = lane3(row->t1, i), t2 = lane3(row->t2, i);
-    add_row(t, holds_b, still, t1, t1, (double)row->error[0][i]);
-    add_row(t, holds_b, still, t2, t2, (double)row->error[1][i]);
+    const float *ma = s->motion[row->line.a[i]], *mb = s->motion[row->line.b[i]];
+    const fe_dvec3 still = {0.0, 0.0, 0.0}, t1 = turned_lane(ma, lane3(row->first_t1, i)), t2 = turned_lane(ma, lane3(row->first_t2, i));
+    const fe_dvec3 axis_b = turned_lane(mb, lane3(row->first_axis_b, i));
+    add_row(t, holds_b, still, t1, t1, -fe__ddot(t2, axis_b));
+    add_row(t, holds_b, still, t2, t2, fe__ddot(t1, axis_b));
 }
 
-static void read_fixed(tree_rows *t, int holds_b, const fixed_row *row, int32_t i)
+static void read_fixed(tree_rows *t, int holds_b, const fixed_row *row, int32_t i, const fe__solver *s)
 {
+    const fe_quat first = {row->first[0][i], row->first[1][i], row->first[2][i], row->first[3][i]};
+    const fe_quat b = motion_quat(s->motion[row->line.b[i]]), a = motion_quat(s->motion[row->line.a[i]]);
+    const fe_quat q = fe__product(fe__product(b, first), fe__conjugate(a));
+    const double two = q.w < 0.0f ? -2.0 : 2.0, error[3] = {two * (double)q.x, two * (double)q.y, two * (double)q.z};
     const fe_dvec3 still = {0.0, 0.0, 0.0};
-    for (int k = 0; k < 3; ++k) add_row(t, holds_b, still, unit(k), unit(k), (double)row->error[k][i]);
+    for (int k = 0; k < 3; ++k) add_row(t, holds_b, still, unit(k), unit(k), error[k]);
 }
 
-// a vector of the body's, turned as far as the body has in this step
-static fe_dvec3 turned_lane(const float *motion, fe_dvec3 a)
-{
-    return fe__drotate((fe_quat){motion[4], motion[5], motion[6], motion[7]}, a);
-}
-
+// The rod's length is what it is to be; two points in one place are apart along X of A
 static void read_distance(tree_rows *t, int holds_b, const linear_row *row, int32_t i, const fe__solver *s)
 {
-    fe_dvec3 u = lane3(row->u, i), ra = turned_lane(s->motion[row->line.a[i]], lane3(row->first_arm_a, i));
-    fe_dvec3 rb = turned_lane(s->motion[row->line.b[i]], lane3(row->first_arm_b, i));
-    set_arms(t, holds_b, ra, rb);
-    t->rod = (double)row->f.x[i];
+    const lane_anchors p = place_anchors(row->first_arm_a, row->first_arm_b, row->first_gap, &row->line, i, s);
+    const fe_quat first = {row->first_frame[0][i], row->first_frame[1][i], row->first_frame[2][i], row->first_frame[3][i]};
+    const double length = sqrt(fe__ddot(p.gap, p.gap));
+    const fe_dvec3 x = turned_lane(s->motion[row->line.a[i]], fe__drotate(first, unit(0)));
+    const fe_dvec3 u = length > 0.0 ? fe__dscale(1.0 / length, p.gap) : x;
+    set_arms(t, holds_b, p.ra, p.rb);
+    t->rod = length;
     add_pull(t, holds_b, fe__dscale((double)row->f.under[i], u));
-    add_row(t, holds_b, u, fe__dcross(ra, u), fe__dcross(rb, u), t->rod - (double)row->f.low[i]);
+    add_row(t, holds_b, u, fe__dcross(p.ra, u), fe__dcross(p.rb, u), length - (double)row->f.low[i]);
 }
 
 typedef struct {
@@ -87,16 +116,16 @@ static end_inertias read_lock(tree_rows *t, int holds_b, int32_t part, const voi
 {
     switch (part) {
     case FE__PART_POINT:
-        read_point(t, holds_b, row, lane);
+        read_point(t, holds_b, row, lane, s);
         return (end_inertias){&((const point_row *)row)->inertia_a, &((const point_row *)row)->inertia_b};
     case FE__PART_SLIDE:
-        read_slide(t, holds_b, row, lane);
+        read_slide(t, holds_b, row, lane, s);
         return (end_inertias){&((const slide_row *)row)->inertia_a, &((const slide_row *)row)->inertia_b};
     case FE__PART_HINGE:
-        read_hinge(t, holds_b, row, lane);
+        read_hinge(t, holds_b, row, lane, s);
         return (end_inertias){&((const hinge_row *)row)->inertia_a, &((const hinge_row *)row)->inertia_b};
     case FE__PART_FIXED:
-        read_fixed(t, holds_b, row, lane);
+        read_fixed(t, holds_b, row, lane, s);
         return (end_inertias){&((const fixed_row *)row)->inertia_a, &((const fixed_row *)row)->inertia_b};
     default:
         read_distance(t, holds_b, row, lane, s);

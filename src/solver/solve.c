@@ -18,7 +18,7 @@ enum {
 // Constants of a batch, by what it is; of the last substep of a small one; of a strained one, of all rigid passes of a substep but the last
 typedef enum pace { USUAL, LAST, STRAINED, STRAINED_LAST, STRAINED_MORE, PACES } pace;
 
-typedef enum verb { LOAD, PREPARE, SOLVE, INTEGRATE, RELAX, BOUNCE, CARRY, STORE } verb;
+typedef enum verb { LOAD, PREPARE, SOLVE, FOLLOW, INTEGRATE, RELAX, BOUNCE, CARRY, STORE } verb;
 
 typedef struct program {
     int32_t width, rows_in_block;
@@ -99,6 +99,8 @@ static void add_colours(program *p, int32_t *part, const fe__solver *s, const fe
     }
 }
 
+static int32_t first_tree(const fe__batch *b) { return b->first_group + b->joint_groups - b->trees; }
+
 static void make_program(program *p, const fe__solver *s, const fe__batch *b, int32_t substeps, int32_t width)
 {
     int32_t line_blocks = blocks_of(b->line_count, LINES_IN_BLOCK), end = b->first_group + b->group_count;
@@ -111,6 +113,7 @@ static void make_program(program *p, const fe__solver *s, const fe__batch *b, in
     add_pass(p, &p->prologue, LOAD, 0, 0, line_blocks, 0);
     add_colours(p, &p->prologue, s, b, PREPARE);
     add_colours(p, &p->substep, s, b, SOLVE);
+    if (b->trees) add_pass(p, &p->substep, FOLLOW, first_tree(b), b->trees, b->trees, 0);
     add_pass(p, &p->substep, INTEGRATE, 0, 0, line_blocks, 0);
     add_colours(p, &p->substep, s, b, RELAX);
     if (b->bounces) add_colours(p, &p->substep, s, b, BOUNCE);
@@ -186,6 +189,7 @@ static void run_joints(const job *j, const fe__group *g, verb verb, unsigned cha
         k->store(j->joints, lanes, row, count, c);
         break;
     case LOAD:
+    case FOLLOW:
     case INTEGRATE:
     case BOUNCE:
     case CARRY:
@@ -198,6 +202,7 @@ static void run_tree(const job *j, const fe__group *g, verb verb, unsigned char 
     const fe__tree_kernel *k = &j->k->joint->tree;
     if (verb == PREPARE) k->prepare(j->s, j->joints, g->lane, rows, g->offset, c);
     if (verb == SOLVE) k->solve(j->s, j->joints, g->lane, rows, g->offset, c);
+    if (verb == FOLLOW) k->follow(j->s, j->joints, g->lane, rows, g->offset, c);
     if (verb == RELAX) k->relax(j->s, j->joints, g->lane, rows, g->offset, c);
 }
 
@@ -232,6 +237,7 @@ static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char 
         k->store[g->kind](j->contacts, j->extras, lanes, row, count);
         break;
     case LOAD:
+    case FOLLOW:
     case INTEGRATE:
     case CARRY:
         break;
@@ -288,6 +294,7 @@ static void run_batch(const job *j, const fe__batch *b, unsigned char *rows)
     run_all(j, b, PREPARE, rows, c);
     for (int32_t n = 0; n < c->substeps; ++n) {
         run_all(j, b, SOLVE, rows, c);
+        for (int32_t i = 0; i < b->trees; ++i) run_tree(j, j->s->groups + first_tree(b) + i, FOLLOW, rows, c);
         run_all(j, b, INTEGRATE, rows, c);
         for (int32_t i = 1; i < c->sweeps; ++i) run_all(j, b, RELAX, rows, j->constants + STRAINED_MORE);
         run_all(j, b, RELAX, rows, n + 1 < c->substeps ? c : last);
@@ -414,6 +421,7 @@ void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *wor
                fe__extra *extras, const fe__joints *joints, const fe__step_constants *c, const fe__step_constants *fine)
 {
     job j = {.s = s, .k = kernels, .bodies = bodies, .contacts = contacts, .extras = extras, .joints = joints};
+    atomic_store(&s->engaged, 0);
     if (!s->batch_count) return; // all sleep; there may be no lines at all
     set_constants(&j, c, fine);
     clear_static_line(s);

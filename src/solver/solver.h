@@ -78,7 +78,7 @@ typedef struct fe__group {
 typedef struct fe__batch {
     int32_t first_line, line_count;   // a multiple of FE__MAX_WIDTH
     int32_t first_group, group_count; // joints' first
-    int32_t joint_groups;
+    int32_t joint_groups, trees;      // the trees are the last of the joints' groups
     int32_t contact_count, joint_count, body_count, island_count;
     int32_t lane_count; // contacts and parts of joints
     int32_t bounces;    // special rows are in it
@@ -141,6 +141,7 @@ typedef struct fe__solver {
     int32_t trail_capacity[3];
 
     _Atomic int32_t strained; // 1: a line is, in this step
+    _Atomic int32_t engaged;  // light trees that were solved in this step
 
     // the graph (graph.c), kept while nothing links, unlinks, wakes or sleeps
     int32_t graph_changed;
@@ -193,6 +194,7 @@ typedef struct fe__tree_kernel {
     void (*prepare)(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes, const fe__step_constants *c);
     void (*solve)(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes, const fe__step_constants *c);
     void (*relax)(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes, const fe__step_constants *c);
+    void (*follow)(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes, const fe__step_constants *c);
 } fe__tree_kernel;
 
 typedef struct fe__joint_kernels {

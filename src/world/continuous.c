@@ -6,7 +6,9 @@
 // impact: it bounces, slides and tells its events as any other. Only the work of gravity on the way not gone is given back.
 //
 // Against static and kinematic bodies each body is its own. Bullets come after, against where the dynamic bodies now go; all see the same.
+#include "world/continuous.h"
 #include "world/energy.h"
+#include "world/rejoin.h"
 #include "world/way.h"
 
 enum { BODIES_IN_BLOCK = 256, CHASES_IN_BLOCK = 4, MOST_STOPS = 4, SLIDE_SWEEPS = 8 };
@@ -125,16 +127,6 @@ static fe__shift go_on(const fe__step *step, int32_t body, int32_t against, fe__
     }
 }
 
-// v' so that v'^2 / 2 - g . x stays: gravity worked along the whole way, of which a part was not gone
-static void give_back(const fe_world *w, const fe__body *body, const float *motion, const fe__shift *end, float *velocity)
-{
-    fe_vec3 change = fe__sub(fe__narrow(end->centre), fe__vec3(motion[0], motion[1], motion[2]));
-    float square = velocity[0] * velocity[0] + velocity[1] * velocity[1] + velocity[2] * velocity[2];
-    float left = square + 2.0f * body->gravity_scale * fe__dot(w->gravity, change);
-    float k = square > 0.0f ? sqrtf(fe__maxf(left, 0.0f) / square) : 1.0f;
-    for (int32_t i = 0; i < 3; ++i) velocity[i] *= k;
-}
-
 // A turn not made leaves the spin as the body has it in its own frame: turned with the world's, it would be another energy
 static void turn_spin(const float *motion, const fe__shift *end, float *spin)
 {
@@ -149,8 +141,8 @@ static void write_chase(const fe__step *step, const fe__body *body, const fe__sh
     for (int32_t k = 0; k < FE__LINE; ++k) chase->motion[k] = s->motion[body->line][k];
     for (int32_t k = 0; k < FE__LINE; ++k) chase->velocity[k] = s->velocity[body->line][k];
     if (!body->locked) turn_spin(chase->motion, end, chase->velocity + 4);
-    if (!carried) give_back(step->world, body, chase->motion, end, chase->velocity);
     fe_vec3 p = fe__narrow(end->centre);
+    if (!carried) fe__give_back(step->world, body, fe__sub(p, fe__quad_vector(chase->motion)), chase->velocity);
     const float motion[FE__LINE] = {p.x, p.y, p.z, chase->motion[3], end->turn.x, end->turn.y, end->turn.z, end->turn.w};
     for (int32_t k = 0; k < FE__LINE; ++k) chase->motion[k] = motion[k];
     chase->stopped = 1;
@@ -183,6 +175,15 @@ static void apply_chase(fe_world *w, int32_t body, const fe__chase *chase)
     for (int32_t k = 0; k < FE__LINE; ++k) w->solver.motion[line][k] = chase->motion[k];
     for (int32_t k = 0; k < FE__LINE; ++k) w->solver.velocity[line][k] = chase->velocity[k];
     w->solver.trail_count[line] = FE__NO_TRAIL;
+    if (w->bodies[body].first_joint) w->bodies[body].flags |= FE__BODY_HELD;
+}
+
+int32_t fe__stop_body(const fe__step *step, int32_t body)
+{
+    fe__chase chase;
+    follow(step, body, FE__AGAINST_FIXED, &chase);
+    apply_chase(step->world, body, &chase);
+    return chase.stopped;
 }
 
 static void stop_block(void *argument, int32_t first, int32_t end, int32_t worker)
@@ -190,10 +191,8 @@ static void stop_block(void *argument, int32_t first, int32_t end, int32_t worke
     const fe__step *step = argument;
     (void)worker;
     for (int32_t i = first; i < end; ++i) {
-        fe__chase chase;
         fe__limit_energy(step, step->scratch->chased[i]);
-        follow(step, step->scratch->chased[i], FE__AGAINST_FIXED, &chase);
-        apply_chase(step->world, step->scratch->chased[i], &chase);
+        fe__stop_body(step, step->scratch->chased[i]);
     }
 }
 
@@ -239,6 +238,7 @@ void fe__stop_fast_bodies(fe__step *step)
     int32_t count = atomic_load(&s->chased_count), bullets = 0;
     if (count + kinematic == 0) return;
     fe__parallel_for(&w->workers, count, CHASES_IN_BLOCK, stop_block, step);
+    fe__rejoin_trees(step);
     for (int32_t i = 0; i < count; ++i) bullets += is_bullet(w, s->chased[i]);
     if (bullets) fe__parallel_for(&w->workers, count, CHASES_IN_BLOCK, bullet_block, step);
     for (int32_t i = 0; i < count; ++i) {

@@ -36,6 +36,14 @@ static int32_t is_pushed_by_static_only(const fe_world *w, int32_t body)
     return pushed;
 }
 
+void fe__give_back(const fe_world *w, const fe__body *body, fe_vec3 change, float *velocity)
+{
+    float square = velocity[0] * velocity[0] + velocity[1] * velocity[1] + velocity[2] * velocity[2];
+    float left = square + 2.0f * body->gravity_scale * fe__dot(w->gravity, change);
+    float k = square > 0.0f ? sqrtf(fe__maxf(left, 0.0f) / square) : 1.0f;
+    for (int32_t i = 0; i < 3; ++i) velocity[i] *= k;
+}
+
 void fe__limit_energy(const fe__step *step, int32_t body)
 {
     const fe_world *w = step->world;

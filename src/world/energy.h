@@ -9,4 +9,7 @@
 
 void fe__limit_energy(const fe__step *step, int32_t body);
 
+// v' so that v'^2 / 2 - g . x stays where a body is put `change` (m) away from where gravity took it
+void fe__give_back(const fe_world *world, const fe__body *body, fe_vec3 change, float *velocity);
+
 #endif

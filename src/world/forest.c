@@ -9,12 +9,15 @@
 // The same for joints that lock rotations: such a row is a beam, which bends with the cube of its length
 #define HEAVY_BEAM 4.0f
 
+// A joint with hertz of its own is a spring, unless they are at least those of all that is rigid
+static int32_t is_spring(const fe_world *w, const fe__joint *j) { return j->arm_a[3] > 0.0f && j->arm_a[3] < w->tuning.joint_hertz; }
+
 // 1: rigid, so that it may be met exactly. Springs are not, nor limits, nor what has no colour of its own
 static int32_t is_edge(const fe_world *w, int32_t joint)
 {
     const fe__joint *j = w->joints.joints + joint;
     const fe__joint_frame *f = w->joints.frames + joint;
-    if (j->colour < 0 || j->colour == FE__JOINT_OVERFLOW || j->arm_a[3] > 0.0f) return 0;
+    if (j->colour < 0 || j->colour == FE__JOINT_OVERFLOW || is_spring(w, j)) return 0;
     if (j->rows & FE__LOCKS) return 1;
     if (!(j->rows >> FE__PART_DISTANCE & 1)) return 0;
     const float *limit = w->joints.axes[f->axes].axis[FE__AXIS_LINEAR].limit;
@@ -108,13 +111,13 @@ static float heaviest_load(const fe_world *w, const component *c, fe__tree_link 
     return most;
 }
 
-static void keep_tree(fe__forest *f, int32_t count)
+static void keep_tree(fe__forest *f, int32_t count, int32_t heavy)
 {
     for (int32_t i = f->link_count; i < f->link_count + count; ++i) {
         f->links[i].tree = f->tree_count;
         if (f->links[i].joint) f->link_of[f->links[i].joint] = i;
     }
-    f->trees[f->tree_count++] = (fe__joint_tree){f->link_count, count};
+    f->trees[f->tree_count++] = (fe__joint_tree){f->link_count, count, heavy};
     f->link_count += count;
 }
 
@@ -125,7 +128,7 @@ static void plant(fe_world *w, int32_t body)
     component c = explore(w, body, links);
     if (c.edges != c.bodies - 1 || c.anchors > 1) return;
     arrange(w, &c, links);
-    if (heaviest_load(w, &c, links) >= 1.0f) keep_tree(f, c.bodies);
+    keep_tree(f, c.bodies, heaviest_load(w, &c, links) >= 1.0f);
 }
 
 static void clear_marks(fe_world *w, int32_t joint)

@@ -26,7 +26,6 @@ static inline fe_quat fe__rotation_of(const fe__body *b)
     return (fe_quat){b->rotation[0], b->rotation[1], b->rotation[2], b->rotation[3]};
 }
 static inline fe_dvec3 fe__centre_of(const fe__body *b) { return (fe_dvec3){b->centre[0], b->centre[1], b->centre[2]}; }
-static inline fe_vec3 fe__quad_vector(const float *a) { return (fe_vec3){a[0], a[1], a[2]}; }
 static inline void fe__copy3(float *out, fe_vec3 a) { out[0] = a.x, out[1] = a.y, out[2] = a.z; }
 
 // how far the pair can close in the step, m

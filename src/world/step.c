@@ -122,13 +122,14 @@ static void count(const fe__step *step)
     fe_counters *c = &w->counters;
     c->recycled = atomic_load(&step->scratch->recycled);
     c->islands = s->island_count;
-    c->rows = c->rows_whole = c->lanes = c->colours = c->trees = 0;
+    c->rows = c->rows_whole = c->lanes = c->colours = 0;
+    c->trees = step->dt > 0.0f ? atomic_load(&s->engaged) : 0;
     for (int32_t i = 0; i < s->batch_count; ++i) {
         const fe__batch *b = s->batches + i;
         int32_t rows = 0, colours = 0;
         for (int32_t g = b->first_group; g < b->first_group + b->group_count; ++g) {
             if (s->groups[g].kind == FE__TREE_KIND)
-                ++c->trees;
+                c->trees += w->joints.forest.trees[s->groups[g].lane].heavy;
             else
                 rows += s->groups[g].rows;
             colours += g == b->first_group || s->groups[g].colour != s->groups[g - 1].colour;
