@@ -175,7 +175,6 @@ static void apply_chase(fe_world *w, int32_t body, const fe__chase *chase)
     for (int32_t k = 0; k < FE__LINE; ++k) w->solver.motion[line][k] = chase->motion[k];
     for (int32_t k = 0; k < FE__LINE; ++k) w->solver.velocity[line][k] = chase->velocity[k];
     w->solver.trail_count[line] = FE__NO_TRAIL;
-    if (w->bodies[body].first_joint) w->bodies[body].flags |= FE__BODY_HELD;
 }
 
 int32_t fe__stop_body(const fe__step *step, int32_t body)
@@ -183,6 +182,7 @@ int32_t fe__stop_body(const fe__step *step, int32_t body)
     fe__chase chase;
     follow(step, body, FE__AGAINST_FIXED, &chase);
     apply_chase(step->world, body, &chase);
+    if (chase.stopped && step->world->bodies[body].first_joint) step->world->bodies[body].flags |= FE__BODY_HELD;
     return chase.stopped;
 }
 

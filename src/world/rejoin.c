@@ -137,6 +137,15 @@ static int32_t stop_others(const fe__step *step, const fe__joint_tree *tree)
     return stopped;
 }
 
+// a body that overflowed would take the others along
+static int32_t is_sound(const fe_world *w, const fe__joint_tree *tree)
+{
+    const fe__tree_link *links = w->joints.forest.links + tree->first;
+    for (int32_t i = 0; i < tree->count; ++i)
+        if (!fe__motion_makes_sense(&w->solver, w->bodies[links[i].body].line)) return 0;
+    return 1;
+}
+
 static void rejoin(const fe__step *step, const fe__joint_tree *tree)
 {
     const fe_world *w = step->world;
@@ -155,7 +164,7 @@ static const fe__joint_tree *tree_of_body(const fe_world *w, int32_t body)
 {
     const fe__forest *f = &w->joints.forest;
     for (int32_t joint = w->bodies[body].first_joint; joint; joint = fe__next_joint(w, joint, body))
-        if (f->link_of[joint] >= 0) return f->trees + f->links[f->link_of[joint]].tree;
+        if (w->joints.joints[joint].colour >= 0 && f->link_of[joint] >= 0) return f->trees + f->links[f->link_of[joint]].tree;
     return NULL;
 }
 
@@ -167,7 +176,7 @@ void fe__rejoin_trees(fe__step *step)
         fe__body *body = w->bodies + s->chased[i];
         if (!(body->flags & FE__BODY_HELD)) continue;
         const fe__joint_tree *tree = tree_of_body(w, s->chased[i]);
-        if (tree) rejoin(step, tree);
+        if (tree && is_sound(w, tree)) rejoin(step, tree);
         body->flags &= ~(uint32_t)FE__BODY_HELD;
     }
 }
