@@ -210,12 +210,13 @@ static void solve_tree(fe__solver *s, const fe__joints *joints, int32_t tree, un
 }
 
 // Contacts come after the joints in a pass and know nothing of them: what was struck or pinched flies off, unless its tree has the last
-// word
+// word. Not so of heavy ones: what a contact gave a light link, a thousand times its mass would have to take from it again, and some of
+// that stays as energy; they meet in the rigid pass.
 static void follow_tree(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes,
                         const fe__step_constants *c)
 {
     tree_job t = tree_of(s, joints, tree, rows, nodes, c);
-    if (t.nodes->state == SWEPT || !will_open(&t)) return;
+    if (joints->forest.trees[tree].heavy || t.nodes->state == SWEPT || !will_open(&t)) return;
     if (t.nodes->state == READY) reduce_tree(&t);
     engage(&t);
     solve_tree(s, joints, tree, rows, nodes, c);

@@ -121,6 +121,15 @@ static void keep_tree(fe__forest *f, int32_t count, int32_t heavy)
     f->link_count += count;
 }
 
+// Bodies that are locked in different ways make poses from which no way leads on, and near them forces without bound: a spring gives there,
+// an exact solution does not
+static int32_t are_locked_alike(const fe_world *w, const component *c, const fe__tree_link *links)
+{
+    for (int32_t i = 1; i < c->bodies; ++i)
+        if (w->bodies[links[i].body].spin[3] != w->bodies[links[0].body].spin[3]) return 0;
+    return 1;
+}
+
 static void plant(fe_world *w, int32_t body)
 {
     fe__forest *f = &w->joints.forest;
@@ -128,7 +137,7 @@ static void plant(fe_world *w, int32_t body)
     component c = explore(w, body, links);
     if (c.edges != c.bodies - 1 || c.anchors > 1) return;
     arrange(w, &c, links);
-    keep_tree(f, c.bodies, heaviest_load(w, &c, links) >= 1.0f);
+    if (are_locked_alike(w, &c, links)) keep_tree(f, c.bodies, heaviest_load(w, &c, links) >= 1.0f);
 }
 
 static void clear_marks(fe_world *w, int32_t joint)
