@@ -7,6 +7,7 @@
 
 #include "world/continuous.h"
 #include "world/energy.h"
+#include "world/narrow.h"
 
 #include <math.h>
 
@@ -34,9 +35,7 @@ static end end_of(const fe_world *w, int32_t body, const float *local_arm, int32
     const int locks = (int)b->spin[3], moves = b->awake_index >= 0 && b->line >= 0,
               held = (holds && b->flags & FE__BODY_HELD) || b->type != FE_BODY_DYNAMIC;
     end e = {.body = b, .motion = moves ? w->solver.motion[b->line] : NULL};
-    fe_quat rotation = {b->rotation[0], b->rotation[1], b->rotation[2], b->rotation[3]};
-    fe_dvec3 arm = {(double)local_arm[0], (double)local_arm[1], (double)local_arm[2]};
-    e.arm = fe__drotate(turn_of(&e), fe__drotate(rotation, arm));
+    e.arm = fe__drotate(turn_of(&e), fe__drotate(fe__rotation_of(b), fe__widen(fe__quad_vector(local_arm))));
     for (int k = 0; k < 3 && !held; ++k) {
         e.mass[k] = locks >> k & 1 ? 0.0 : (double)b->velocity[3];
         e.turn[k] = locks >> (3 + k) & 1 ? 0.0 : 1.0;
@@ -47,9 +46,8 @@ static end end_of(const fe_world *w, int32_t body, const float *local_arm, int32
 // of its anchor, m, world
 static fe_dvec3 point_of(const end *e)
 {
-    fe_dvec3 centre = {e->body->centre[0], e->body->centre[1], e->body->centre[2]}, point = fe__dadd(centre, e->arm);
-    if (!e->motion) return point;
-    return fe__dadd(point, (fe_dvec3){(double)e->motion[0], (double)e->motion[1], (double)e->motion[2]});
+    fe_dvec3 point = fe__dadd(fe__centre_of(e->body), e->arm);
+    return e->motion ? fe__dadd(point, fe__widen(fe__quad_vector(e->motion))) : point;
 }
 
 static fe_dvec3 along(const double *share, fe_dvec3 a) { return (fe_dvec3){share[0] * a.x, share[1] * a.y, share[2] * a.z}; }
@@ -58,7 +56,7 @@ static fe_dvec3 along(const double *share, fe_dvec3 a) { return (fe_dvec3){share
 static fe_dvec3 turned_by(const end *e, fe_dvec3 moment)
 {
     const fe__body *b = e->body;
-    fe_quat axes = fe__product(fe__product(turn_of(e), (fe_quat){b->rotation[0], b->rotation[1], b->rotation[2], b->rotation[3]}),
+    fe_quat axes = fe__product(fe__product(turn_of(e), fe__rotation_of(b)),
                                (fe_quat){b->inertia_axes[0], b->inertia_axes[1], b->inertia_axes[2], b->inertia_axes[3]});
     fe_dvec3 m = fe__drotate_back(axes, along(e->turn, moment));
     m = (fe_dvec3){m.x / (double)b->inertia[0], m.y / (double)b->inertia[1], m.z / (double)b->inertia[2]};
