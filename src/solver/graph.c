@@ -34,7 +34,7 @@ typedef struct builder {
     int32_t *island_joints;
     int32_t *island_lanes; // contacts and parts of joints
     int32_t *island_bodies;
-    int32_t *island_strained;
+    int32_t *island_pace;    // bits of FE__BODY_STRAINED, FE__BODY_STRETCHED until asked by pace_of
     int32_t *batch_of;       // of an island
     int32_t *kinematic_line; // by awake index: line of the copy in the batch at hand
     int32_t *body_order;     // awake indices by batch
@@ -224,7 +224,7 @@ static builder make_builder(fe__solver *s, const fe__kernels *kernels, const fe_
     b.island_joints = carve(&at, n);
     b.island_lanes = carve(&at, n);
     b.island_bodies = carve(&at, n);
-    b.island_strained = carve(&at, n);
+    b.island_pace = carve(&at, n);
     b.batch_of = carve(&at, n);
     b.kinematic_line = carve(&at, n);
     b.body_order = carve(&at, n);
@@ -322,12 +322,12 @@ static void find_islands(builder *b)
             continue;
         }
         if (is_root) {
-            b->island_contacts[count] = b->island_joints[count] = b->island_bodies[count] = b->island_strained[count] = 0;
+            b->island_contacts[count] = b->island_joints[count] = b->island_bodies[count] = b->island_pace[count] = 0;
             b->island_of[i] = count++;
         } else
             b->island_of[i] = b->island_of[b->parent[i]];
         ++b->island_bodies[b->island_of[i]];
-        b->island_strained[b->island_of[i]] |= (awake_body(b, i)->flags & FE__BODY_STRAINED) != 0;
+        b->island_pace[b->island_of[i]] |= (int32_t)(awake_body(b, i)->flags & (FE__BODY_STRAINED | FE__BODY_STRETCHED));
     }
     b->s->island_count = count;
     count_constraints(b);
@@ -352,18 +352,20 @@ static void add_island(builder *b, int32_t island)
     b->batch_of[island] = b->s->batch_count - 1;
 }
 
-// Joined bodies press each other with the forces of their joints, and the joints' stages know no substeps but the world's
-static int32_t is_strained(const builder *b, int32_t island) { return b->island_strained[island] && !b->island_joints[island]; }
+static int32_t pace_of(const builder *b, int32_t island)
+{
+    return fe__pace_of((uint32_t)b->island_pace[island], b->island_joints[island] > 0);
+}
 
 // small islands, in order
-static void batch_small(builder *b, int32_t strained)
+static void batch_small(builder *b, int32_t pace)
 {
     fe__batch *open = NULL;
     for (int32_t i = 0; i < b->s->island_count; ++i) {
-        if (b->island_lanes[i] > FE__ISLAND_LARGE || is_strained(b, i) != strained) continue;
+        if (b->island_lanes[i] > FE__ISLAND_LARGE || pace_of(b, i) != pace) continue;
         if (!open || open->lane_count + b->island_lanes[i] > FE__BATCH_CONTACTS || open->body_count + b->island_bodies[i] > BATCH_BODIES) {
             open = open_batch(b->s);
-            open->strained = strained;
+            open->pace = pace;
         }
         add_island(b, i);
     }
@@ -376,12 +378,12 @@ static void make_batches(builder *b)
     s->batch_count = 0;
     for (int32_t i = 0; i < s->island_count; ++i) {
         if (b->island_lanes[i] <= FE__ISLAND_LARGE) continue;
-        open_batch(s);
+        fe__batch *large = open_batch(s);
+        large->pace = b->island_joints[i] ? pace_of(b, i) : FE__USUAL;
         add_island(b, i);
     }
     s->large_count = s->batch_count;
-    batch_small(b, 1);
-    batch_small(b, 0);
+    for (int32_t pace = FE__PACES - 1; pace >= FE__USUAL; --pace) batch_small(b, pace);
     open_batch(s); // of the kinematic bodies
 }
 

@@ -40,9 +40,11 @@ void fe__graph_build(fe__solver *s, const fe__kernels *kernels, const fe__graph_
 void fe__solver_destroy(fe__solver *s, fe__memory *memory);
 
 // All substeps of all batches. The lines then hold what the step did; contacts and joints their impulses.
-// `fine`: the constants of strained islands.
+// `constants`: of each pace.
 void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *workers, fe__body *bodies, fe__contact *contacts,
-               fe__extra *extras, const fe__joints *joints, const fe__step_constants *c, const fe__step_constants *fine);
+               fe__extra *extras, const fe__joints *joints, const fe__step_constants constants[FE__PACES]);
+// Of an island, by the flags of all its bodies
+int32_t fe__pace_of(uint32_t flags, int32_t has_joints);
 fe__softness fe__make_softness(float hertz, float damping_ratio, float h);
 
 #endif

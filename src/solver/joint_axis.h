@@ -57,8 +57,9 @@ FE_INLINE void read_freedom(freedom *f, const fe__joints *joints, const row_join
 
 static void write_freedom(const fe__joints *joints, const row_joints *r, const freedom *f, int slot, const fe__step_constants *c)
 {
-    wide zero = w_set(0.0f);
-    put_lanes(joints->axes->axis[slot].impulse, AXES_STRIDE, r->axes, r->real, (wide4){f->drive, f->motor, f->under, f->over});
+    wide zero = w_set(0.0f), stored = stored_of(c);
+    wide4 impulses = {stored * f->drive, stored * f->motor, stored * f->under, stored * f->over};
+    put_lanes(joints->axes->axis[slot].impulse, AXES_STRIDE, r->axes, r->real, impulses);
     put_lanes(joints->axes->axis[slot].state, AXES_STRIDE, r->axes, r->real, (wide4){f->x, w_set(mean_of(c)) * f->total, zero, zero});
 }
 
@@ -239,9 +240,10 @@ FE_INLINE void relax_linear(fe__solver *s, void *rows, int32_t count, int32_t si
     }
 }
 
-FE_INLINE void store_linear(const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count, const fe__step_constants *c,
-                            int slot)
+FE_INLINE void store_linear(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count,
+                            const fe__step_constants *c, int slot)
 {
+    (void)s;
     const linear_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
         row_joints r = name_joints(lanes);
@@ -387,9 +389,10 @@ FE_INLINE void relax_angular(fe__solver *s, void *rows, int32_t count, int32_t s
     }
 }
 
-FE_INLINE void store_angular(const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count, const fe__step_constants *c,
-                             int slot)
+FE_INLINE void store_angular(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count,
+                             const fe__step_constants *c, int slot)
 {
+    (void)s;
     const angular_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
         row_joints r = name_joints(lanes);
@@ -409,10 +412,10 @@ FE_INLINE void store_angular(const fe__joints *joints, const fe__lane *lanes, co
     {                                                                                                                              \
         relax_##form(s, rows, count, sides, c, part);                                                                              \
     }                                                                                                                              \
-    static void store_##name(const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count,                     \
+    static void store_##name(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count,      \
                              const fe__step_constants *c)                                                                          \
     {                                                                                                                              \
-        store_##form(joints, lanes, rows, count, c, slot);                                                                         \
+        store_##form(s, joints, lanes, rows, count, c, slot);                                                                      \
     }
 
 AXIS_INSTANCE(x, linear, FE__PART_X, FE__AXIS_LINEAR)

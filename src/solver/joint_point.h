@@ -106,13 +106,15 @@ static void relax_point(fe__solver *s, void *rows, int32_t count, int32_t sides,
     }
 }
 
-static void store_point(const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count, const fe__step_constants *c)
+static void store_point(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count,
+                        const fe__step_constants *c)
 {
     const point_row *row = rows;
-    wide zero = w_set(0.0f), mean = w_set(mean_of(c));
+    wide zero = w_set(0.0f), mean = w_set(mean_of(c)), stored = stored_of(c);
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
         row_joints r = name_joints(lanes);
-        put_lanes(joints->joints->impulse, JOINT_STRIDE, r.joint, r.real, w_with(load3(row->impulse), zero));
+        put_lanes(joints->joints->impulse, JOINT_STRIDE, r.joint, r.real, w_with(w_scale(stored, load3(row->impulse)), zero));
+        find_stretch(s, lanes, load3(row->gap), c);
         put_lanes(joints->reactions->force, REACTION_STRIDE, r.joint, r.real, w_with(w_scale(mean, load3(row->total)), zero));
     }
 }

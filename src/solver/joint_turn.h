@@ -108,13 +108,16 @@ static void relax_hinge(fe__solver *s, void *rows, int32_t count, int32_t sides,
     }
 }
 
-static void store_hinge(const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count, const fe__step_constants *c)
+static void store_hinge(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count,
+                        const fe__step_constants *c)
 {
+    (void)s;
     const hinge_row *row = rows;
-    wide zero = w_set(0.0f), mean = w_set(mean_of(c));
+    wide zero = w_set(0.0f), mean = w_set(mean_of(c)), stored = stored_of(c);
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
         row_joints r = name_joints(lanes);
-        put_lanes(joints->frames->impulse, FRAME_STRIDE, r.joint, r.real, (wide4){row->impulse[0], row->impulse[1], zero, zero});
+        put_lanes(joints->frames->impulse, FRAME_STRIDE, r.joint, r.real,
+                  (wide4){stored * row->impulse[0], stored * row->impulse[1], zero, zero});
         put_lanes(joints->reactions->torque, REACTION_STRIDE, r.joint, r.real, w_with(w_scale(mean, load3(row->total)), zero));
     }
 }
@@ -196,13 +199,15 @@ static void relax_fixed(fe__solver *s, void *rows, int32_t count, int32_t sides,
     }
 }
 
-static void store_fixed(const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count, const fe__step_constants *c)
+static void store_fixed(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count,
+                        const fe__step_constants *c)
 {
+    (void)s;
     const fixed_row *row = rows;
-    wide zero = w_set(0.0f), mean = w_set(mean_of(c));
+    wide zero = w_set(0.0f), mean = w_set(mean_of(c)), stored = stored_of(c);
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
         row_joints r = name_joints(lanes);
-        put_lanes(joints->frames->impulse, FRAME_STRIDE, r.joint, r.real, w_with(load3(row->impulse), zero));
+        put_lanes(joints->frames->impulse, FRAME_STRIDE, r.joint, r.real, w_with(w_scale(stored, load3(row->impulse)), zero));
         put_lanes(joints->reactions->torque, REACTION_STRIDE, r.joint, r.real, w_with(w_scale(mean, load3(row->total)), zero));
     }
 }
@@ -347,15 +352,17 @@ static void relax_turn(fe__solver *s, void *rows, int32_t count, int32_t sides, 
     }
 }
 
-static void store_turn(const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count, const fe__step_constants *c)
+static void store_turn(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count,
+                       const fe__step_constants *c)
 {
+    (void)s;
     const turn_row *row = rows;
-    wide zero = w_set(0.0f), mean = w_set(mean_of(c));
+    wide zero = w_set(0.0f), mean = w_set(mean_of(c)), stored = stored_of(c);
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
         row_joints r = name_joints(lanes);
         find_axes(joints, &r);
-        put_lanes(joints->axes->turn.impulse, AXES_STRIDE, r.axes, r.real, w_with(load3(row->impulse), zero));
-        put_lanes(joints->axes->turn.motor_impulse, AXES_STRIDE, r.axes, r.real, w_with(load3(row->motor_impulse), zero));
+        put_lanes(joints->axes->turn.impulse, AXES_STRIDE, r.axes, r.real, w_with(w_scale(stored, load3(row->impulse)), zero));
+        put_lanes(joints->axes->turn.motor_impulse, AXES_STRIDE, r.axes, r.real, w_with(w_scale(stored, load3(row->motor_impulse)), zero));
         put_lanes(joints->axes->turn.torque, AXES_STRIDE, r.axes, r.real, w_with(w_scale(mean, load3(row->total)), zero));
     }
 }

@@ -154,6 +154,29 @@ FE_INLINE anchors first_anchors(const fe__joints *joints, const fe__body *bodies
 // from the sum of a step's impulses to the mean force
 FE_INLINE float mean_of(const fe__step_constants *c) { return c->inverse_h / (float)c->substeps; }
 
+// Stored impulses are those of the world's substeps
+FE_INLINE wide stored_of(const fe__step_constants *c) { return w_set((float)c->division); }
+
+// Joints of a row that are open too wide mark their bodies. Other workers may be at the same bodies, with the same mark.
+static __attribute__((noinline)) void mark_stretched(fe__solver *s, const fe__lane *lanes, wide_mask open)
+{
+    const float mark = (float)FE__STRETCHED;
+    _Alignas(64) float is[FE_W];
+    *(wide *)is = w_choose(open, w_set(1.0f), w_set(0.0f));
+    for (int i = 0; i < FE_W; ++i) {
+        if (is[i] == 0.0f || !lanes[i].contact) continue;
+        if (lanes[i].line_a != FE__STATIC_LINE) __atomic_store(&s->inertia[lanes[i].line_a][FE__LINE - 1], &mark, __ATOMIC_RELAXED);
+        if (lanes[i].line_b != FE__STATIC_LINE) __atomic_store(&s->inertia[lanes[i].line_b][FE__LINE - 1], &mark, __ATOMIC_RELAXED);
+    }
+    atomic_store_explicit(&s->strained, 1, memory_order_relaxed);
+}
+
+FE_INLINE void find_stretch(fe__solver *s, const fe__lane *lanes, wide3 gap, const fe__step_constants *c)
+{
+    wide_mask open = w_greater(w_dot(gap, gap), w_set(c->open));
+    if (w_any(open)) mark_stretched(s, lanes, open);
+}
+
 // ---- softness -------------------------------------------------------------------------------------------------------------------------
 
 // change = -m ((1 - fade) v + rate C) - fade l.

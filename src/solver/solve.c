@@ -15,8 +15,10 @@ enum {
     LANES_PER_WORKER = 128 // a large batch calls a worker for so many contacts of its largest colour
 };
 
-// Constants of a batch, by what it is; of the last substep of a small one; of a strained one, of all rigid passes of a substep but the last
-typedef enum pace { USUAL, LAST, STRAINED, STRAINED_LAST, STRAINED_MORE, PACES } pace;
+// Constants of a substep of a batch; of the last one of a small batch; of all its rigid passes but the last
+typedef struct paced {
+    fe__step_constants usual, last, more;
+} paced;
 
 typedef enum verb { LOAD, PREPARE, SOLVE, FOLLOW, INTEGRATE, RELAX, BOUNCE, CARRY, STORE } verb;
 
@@ -35,7 +37,7 @@ typedef struct job {
     fe__contact *contacts;
     fe__extra *extras;
     const fe__joints *joints;
-    fe__step_constants constants[PACES];
+    paced paces[FE__PACES];
     const fe__batch *batch; // large
     program program;
     _Alignas(FE_CACHE_LINE) _Atomic uint64_t claim; // pass << 32 | next block
@@ -186,7 +188,7 @@ static void run_joints(const job *j, const fe__group *g, verb verb, unsigned cha
         k->relax(j->s, row, count, g->sides, c);
         break;
     case STORE:
-        k->store(j->joints, lanes, row, count, c);
+        k->store(j->s, j->joints, lanes, row, count, c);
         break;
     case LOAD:
     case FOLLOW:
@@ -204,6 +206,17 @@ static void run_tree(const job *j, const fe__group *g, verb verb, unsigned char 
     if (verb == SOLVE) k->solve(j->s, j->joints, g->lane, rows, g->offset, c);
     if (verb == FOLLOW) k->follow(j->s, j->joints, g->lane, rows, g->offset, c);
     if (verb == RELAX) k->relax(j->s, j->joints, g->lane, rows, g->offset, c);
+}
+
+// Stored impulses are those of the world's substeps
+static void scale_impulses(const job *j, const fe__group *g, const fe__lane *lanes, int32_t rows, float scale)
+{
+    for (const fe__lane *lane = lanes, *end = lanes + rows * j->k->width; lane < end; ++lane) {
+        if (!lane->contact) continue;
+        fe__contact *m = j->contacts + lane->contact;
+        for (int k = 0; k < FE__POINTS; ++k) m->normal_impulse[k] *= scale, m->friction_impulse[k] *= scale;
+        for (int k = 0; k < 3 && g->kind & FE__ROW_SPECIAL; ++k) j->extras[lane->contact].rolling_impulse[k] *= scale;
+    }
 }
 
 static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char *rows, int32_t first, int32_t count,
@@ -235,6 +248,7 @@ static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char 
         break;
     case STORE:
         k->store[g->kind](j->contacts, j->extras, lanes, row, count);
+        if (c->division > 1) scale_impulses(j, g, lanes, count, (float)c->division);
         break;
     case LOAD:
     case FOLLOW:
@@ -247,13 +261,14 @@ static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char 
 static void run_block(const job *j, const fe__batch *b, const fe__pass *p, unsigned char *rows, int32_t block)
 {
     int32_t rows_in_block = j->program.rows_in_block;
+    const fe__step_constants *c = &j->paces[b->pace].usual;
     if (!p->group_count) {
-        run_lines(j, b, (verb)p->verb, block, j->constants + USUAL);
+        run_lines(j, b, (verb)p->verb, block, c);
         return;
     }
     const fe__group *g = j->s->groups + p->first_group;
     if (p->serial) {
-        for (int32_t i = 0; i < p->group_count; ++i) run_rows(j, g + i, (verb)p->verb, rows, 0, g[i].rows, j->constants + USUAL);
+        for (int32_t i = 0; i < p->group_count; ++i) run_rows(j, g + i, (verb)p->verb, rows, 0, g[i].rows, c);
         return;
     }
     for (;; ++g) {
@@ -262,23 +277,10 @@ static void run_block(const job *j, const fe__batch *b, const fe__pass *p, unsig
         block -= blocks;
     }
     int32_t first = block * rows_in_block;
-    run_rows(j, g, (verb)p->verb, rows, first, fe__mini(rows_in_block, g->rows - first), j->constants + USUAL);
+    run_rows(j, g, (verb)p->verb, rows, first, fe__mini(rows_in_block, g->rows - first), c);
 }
 
 // ---- a small batch, whole -------------------------------------------------------------------------------------------------------------
-// Stored impulses are those of the world's substeps
-static void scale_impulses(const job *j, const fe__batch *b, float scale)
-{
-    for (const fe__group *g = j->s->groups + b->first_group, *end = g + b->group_count; g < end; ++g)
-        for (int32_t i = g->lane; i < g->lane + g->rows * j->k->width; ++i) {
-            int32_t index = j->s->lanes[i].contact;
-            if (!index) continue;
-            fe__contact *m = j->contacts + index;
-            for (int k = 0; k < FE__POINTS; ++k) m->normal_impulse[k] *= scale, m->friction_impulse[k] *= scale;
-            for (int k = 0; k < 3 && g->kind & FE__ROW_SPECIAL; ++k) j->extras[index].rolling_impulse[k] *= scale;
-        }
-}
-
 static void run_all(const job *j, const fe__batch *b, verb verb, unsigned char *rows, const fe__step_constants *c)
 {
     const fe__group *groups = j->s->groups + b->first_group;
@@ -289,20 +291,20 @@ static void run_all(const job *j, const fe__batch *b, verb verb, unsigned char *
 
 static void run_batch(const job *j, const fe__batch *b, unsigned char *rows)
 {
-    const fe__step_constants *c = j->constants + (b->strained ? STRAINED : USUAL), *last = c + 1;
+    const paced *pace = j->paces + b->pace;
+    const fe__step_constants *c = &pace->usual;
     run_all(j, b, LOAD, rows, c);
     run_all(j, b, PREPARE, rows, c);
     for (int32_t n = 0; n < c->substeps; ++n) {
         run_all(j, b, SOLVE, rows, c);
         for (int32_t i = 0; i < b->trees; ++i) run_tree(j, j->s->groups + first_tree(b) + i, FOLLOW, rows, c);
         run_all(j, b, INTEGRATE, rows, c);
-        for (int32_t i = 1; i < c->sweeps; ++i) run_all(j, b, RELAX, rows, j->constants + STRAINED_MORE);
-        run_all(j, b, RELAX, rows, n + 1 < c->substeps ? c : last);
+        for (int32_t i = 1; i < c->sweeps; ++i) run_all(j, b, RELAX, rows, &pace->more);
+        run_all(j, b, RELAX, rows, n + 1 < c->substeps ? c : &pace->last);
         if (b->bounces) run_all(j, b, BOUNCE, rows, c);
         if (n + 1 < c->substeps) run_all(j, b, CARRY, rows, c);
     }
     run_all(j, b, STORE, rows, c);
-    if (c->division > 1) scale_impulses(j, b, (float)c->division);
 }
 
 static void run_small_batches(void *argument, int32_t worker)
@@ -380,56 +382,78 @@ static void clear_static_line(fe__solver *s)
     }
 }
 
-// A pass hands an impulse on by a body or so. Where that is too slow, in islands of bodies that bear many times their weight, substeps are
-// finer and have more rigid passes: they are strained. Those of the next step are those with a body that was in this one, and no joints;
-// another set of them is another graph.
-static void note_strain(fe__solver *s, fe__body *bodies)
+// A pass hands an impulse on by a body or so. Where that is too slow substeps are finer: in islands of bodies that bear many times their
+// weight, which have more rigid passes too, and are strained; in islands whose joints open wide, which are stretched. Joined bodies press
+// each other with the forces of their joints, which is no strain.
+int32_t fe__pace_of(uint32_t flags, int32_t has_joints)
 {
-    enum { IS_STRAINED = 1, IS_JOINED = 2 };
-    int32_t any = atomic_load_explicit(&s->strained, memory_order_relaxed), *strained = (int32_t *)(void *)s->rows; // no longer in use
-    for (int32_t i = s->large_count; i < s->batch_count; ++i) any |= s->batches[i].strained;
-    if (!any) return;
-    memset(strained, 0, sizeof(int32_t) * (size_t)s->island_count);
-    for (int32_t pass = 0; pass < 2; ++pass)
-        for (int32_t i = s->large_count; i < s->batch_count - 1; ++i) {
-            const fe__batch *b = s->batches + i;
-            for (int32_t line = b->first_line; line < b->first_line + b->line_count; ++line) {
-                fe__body *body = bodies + fe__maxi(s->body_of_line[line], 0);
-                if (s->body_of_line[line] < 0 || body->type != FE_BODY_DYNAMIC) continue;
-                if (pass) {
-                    s->graph_changed |= (strained[body->island] == IS_STRAINED) != b->strained;
-                    continue;
-                }
-                body->flags &= ~(uint32_t)FE__BODY_STRAINED;
-                if (body->joint_count) strained[body->island] |= IS_JOINED;
-                if (s->inertia[line][FE__LINE - 1] == 0.0f) continue;
-                body->flags |= FE__BODY_STRAINED;
-                strained[body->island] |= IS_STRAINED;
-            }
-        }
+    if (has_joints) return flags & FE__BODY_STRETCHED ? FE__STRETCHED : FE__USUAL;
+    return flags & FE__BODY_STRAINED ? FE__STRAINED : FE__USUAL;
 }
 
-static void set_constants(job *j, const fe__step_constants *c, const fe__step_constants *fine)
+// the marks of the lines to the bodies, and all that is true of an island's bodies to `found`
+static void note_marks(const fe__solver *s, const fe__batch *b, fe__body *bodies, uint32_t *found, uint32_t joined)
 {
-    j->constants[USUAL] = j->constants[LAST] = *c;
-    j->constants[STRAINED] = j->constants[STRAINED_LAST] = j->constants[STRAINED_MORE] = *fine;
-    j->constants[STRAINED_MORE].more = 1;
-    j->constants[LAST].asks_strain = j->constants[STRAINED_LAST].asks_strain = 1;
+    for (int32_t line = b->first_line; line < b->first_line + b->line_count; ++line) {
+        fe__body *body = bodies + fe__maxi(s->body_of_line[line], 0);
+        if (s->body_of_line[line] < 0 || body->type != FE_BODY_DYNAMIC) continue;
+        float mark = s->inertia[line][FE__LINE - 1];
+        body->flags &= ~(uint32_t)(FE__BODY_STRAINED | FE__BODY_STRETCHED);
+        if (mark == (float)FE__STRAINED) body->flags |= FE__BODY_STRAINED;
+        if (mark == (float)FE__STRETCHED) body->flags |= FE__BODY_STRETCHED;
+        found[body->island] |= body->flags & (FE__BODY_STRAINED | FE__BODY_STRETCHED);
+        if (body->joint_count) found[body->island] |= joined;
+    }
+}
+
+static int32_t has_pace(const fe__solver *s, const fe__batch *b, const fe__body *bodies, const uint32_t *found, uint32_t joined)
+{
+    for (int32_t line = b->first_line; line < b->first_line + b->line_count; ++line) {
+        const fe__body *body = bodies + fe__maxi(s->body_of_line[line], 0);
+        if (s->body_of_line[line] < 0 || body->type != FE_BODY_DYNAMIC) continue;
+        if (fe__pace_of(found[body->island], (found[body->island] & joined) != 0) != b->pace) return 0;
+    }
+    return 1;
+}
+
+// Strained and stretched islands of the next step are those with a body that was in this one; another set of them is another graph.
+static void note_strain(fe__solver *s, fe__body *bodies)
+{
+    const uint32_t joined = 1; // a bit that is none of the two flags
+    int32_t any = atomic_load_explicit(&s->strained, memory_order_relaxed);
+    uint32_t *found = (uint32_t *)(void *)s->rows; // no longer in use
+    for (int32_t i = 0; i < s->batch_count; ++i) any |= s->batches[i].pace;
+    if (!any) return;
+    memset(found, 0, sizeof *found * (size_t)s->island_count);
+    for (int32_t i = 0; i < s->batch_count - 1; ++i)
+        if (i >= s->large_count || s->batches[i].joint_count) note_marks(s, s->batches + i, bodies, found, joined);
+    for (int32_t i = 0; i < s->batch_count - 1; ++i)
+        if (i >= s->large_count || s->batches[i].joint_count) s->graph_changed |= !has_pace(s, s->batches + i, bodies, found, joined);
+}
+
+static void set_constants(job *j, const fe__step_constants *constants)
+{
+    for (int32_t i = 0; i < FE__PACES; ++i) {
+        paced *pace = j->paces + i;
+        pace->usual = pace->last = pace->more = constants[i];
+        pace->last.asks_strain = i != FE__STRETCHED;
+        pace->more.more = 1;
+    }
 }
 
 void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *workers, fe__body *bodies, fe__contact *contacts,
-               fe__extra *extras, const fe__joints *joints, const fe__step_constants *c, const fe__step_constants *fine)
+               fe__extra *extras, const fe__joints *joints, const fe__step_constants constants[FE__PACES])
 {
     job j = {.s = s, .k = kernels, .bodies = bodies, .contacts = contacts, .extras = extras, .joints = joints};
     atomic_store(&s->engaged, 0);
     if (!s->batch_count) return; // all sleep; there may be no lines at all
-    set_constants(&j, c, fine);
+    set_constants(&j, constants);
     clear_static_line(s);
     atomic_store(&s->trails, 0);
     atomic_store(&s->strained, 0);
     for (int32_t i = 0; i < s->large_count; ++i) {
         j.batch = s->batches + i;
-        make_program(&j.program, s, j.batch, c->substeps, kernels->width);
+        make_program(&j.program, s, j.batch, constants[j.batch->pace].substeps, kernels->width);
         atomic_store(&j.claim, 0);
         atomic_store(&j.done, 0);
         fe__run(workers, run_large_batch, &j, useful_workers(s, j.batch, workers->count, kernels->width));

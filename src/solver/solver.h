@@ -45,6 +45,9 @@ typedef struct fe__softness {
     float bias_rate, mass_scale, impulse_scale;
 } fe__softness;
 
+// The substeps of an island, see solve.c
+enum { FE__USUAL, FE__STRAINED, FE__STRETCHED, FE__PACES };
+
 typedef struct fe__step_constants {
     float h, inverse_h; // of a substep, s
     float push_speed;   // overlap is pushed out no faster, m/s
@@ -53,9 +56,10 @@ typedef struct fe__step_constants {
     float max_speed;    // m/s
     float speculative;  // m
     float strain;       // m/s; what a load of one step could do to its two bodies, from which on their island is strained
+    float open;         // m2; square of a joint's gap from which on its island is stretched
     float forgets;      // 0: strain is what lasted for the step, FLT_MAX: what the last substep bore, m/s
     int32_t substeps;
-    int32_t division;    // substeps to one of the world's: 1, more in strained islands
+    int32_t division;    // substeps to one of the world's: 1, more in strained and stretched islands
     int32_t sweeps;      // rigid passes over the contacts in a substep
     int32_t more;        // 1: this is not the last of them
     int32_t asks_strain; // 1: this is the last pass of a step
@@ -82,7 +86,7 @@ typedef struct fe__batch {
     int32_t contact_count, joint_count, body_count, island_count;
     int32_t lane_count; // contacts and parts of joints
     int32_t bounces;    // special rows are in it
-    int32_t strained;   // its islands are
+    int32_t pace;       // of its islands, FE__USUAL...
     int64_t row_bytes;
 } fe__batch;
 
@@ -126,9 +130,10 @@ typedef struct fe__solver {
     float (*velocity)[FE__LINE]; // v, inverse mass | w, lock bits
     float (*motion)[FE__LINE];   // since the step began: centre, gyroscopic kind | rotation x y z w
     float (*start)[FE__LINE];    // v, inverse mass | w, gyroscopic kind; before this substep's constraint impulses
-    float (*inertia)[FE__LINE];  // inverse, world: xx xy xz yy | yz zz gyroscopic kind, 1 when the body turned out to be strained
-    float (*drive)[FE__LINE];    // acceleration by gravity and forces, 1/(1 + h c) | by torques, 1/(1 + h c)
-    float (*spin)[FE__LINE];     // principal axes x y z w, world, when the step began | principal moments, 0
+    float (*inertia)[FE__LINE]; // inverse, world: xx xy xz yy | yz zz gyroscopic kind, FE__STRAINED, FE__STRETCHED when the body turned out
+                                // to be
+    float (*drive)[FE__LINE];   // acceleration by gravity and forces, 1/(1 + h c) | by torques, 1/(1 + h c)
+    float (*spin)[FE__LINE];    // principal axes x y z w, world, when the step began | principal moments, 0
     int32_t line_count, line_capacity[6];
     int32_t *body_of_line; // -1: padding
     int32_t body_of_line_capacity;
@@ -140,7 +145,7 @@ typedef struct fe__solver {
     _Atomic int32_t trails;              // taken in this step
     int32_t trail_capacity[3];
 
-    _Atomic int32_t strained; // 1: a line is, in this step
+    _Atomic int32_t strained; // 1: a line is strained or stretched, in this step
     _Atomic int32_t engaged;  // light trees that were solved in this step
 
     // the graph (graph.c), kept while nothing links, unlinks, wakes or sleeps
@@ -185,7 +190,8 @@ typedef struct fe__joint_kernel {
                     int32_t sides, const fe__step_constants *c);
     void (*solve)(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c);
     void (*relax)(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c);
-    void (*store)(const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count, const fe__step_constants *c);
+    void (*store)(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count,
+                  const fe__step_constants *c);
 } fe__joint_kernel;
 
 // All locks of a tree at once. `rows` is the batch's row memory, `nodes` (bytes into it) where the tree keeps its matrices

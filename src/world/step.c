@@ -34,11 +34,15 @@ static const stage stages[] = {
 // with the bodies between deep in each other. In a strained island substeps are about a thousandth of a second, of three passes.
 #define FINE_RATE 960.0f
 enum { MOST_DIVISION = 16, FINE_SWEEPS = 3 };
+// A net of joints that bears more than its substeps can pass on opens. From ten times the linear slop on it is stretched, and has substeps
+// as short as by default, until no joint is open by half as much.
+#define STRETCHED_RATE 480.0f
+#define OPEN 0.05f // m
 
-static int32_t division_of(float h)
+static int32_t division_of(float h, float rate)
 {
     int32_t division = 1;
-    while (division < MOST_DIVISION && (float)division < 0.99f * FINE_RATE * h) ++division;
+    while (division < MOST_DIVISION && (float)division < 0.99f * rate * h) ++division;
     return division;
 }
 
@@ -79,13 +83,19 @@ static fe__step_constants constants_of(const fe_world *w, float dt, int32_t divi
     return c;
 }
 
-static fe__step_constants fine_constants_of(const fe_world *w, float dt)
+static void constants_of_paces(const fe_world *w, float dt, fe__step_constants paces[FE__PACES])
 {
-    fe__step_constants c = constants_of(w, dt, division_of(dt / (float)w->substeps));
-    c.strain *= 0.25f;
-    c.forgets = FLT_MAX;
-    c.sweeps = FINE_SWEEPS;
-    return c;
+    float whole = dt / (float)w->substeps;
+    int32_t division = division_of(whole, STRETCHED_RATE);
+    fe__step_constants *usual = paces + FE__USUAL, *strained = paces + FE__STRAINED, *stretched = paces + FE__STRETCHED;
+    *usual = constants_of(w, dt, 1);
+    usual->open = division > 1 ? OPEN * OPEN : FLT_MAX;
+    *strained = constants_of(w, dt, division_of(whole, FINE_RATE));
+    strained->strain *= 0.25f;
+    strained->forgets = FLT_MAX;
+    strained->sweeps = FINE_SWEEPS;
+    *stretched = constants_of(w, dt, division);
+    stretched->open = 0.25f * usual->open;
 }
 
 // speed at which the points of a contact close, before the solver; for hit events
@@ -110,7 +120,9 @@ void fe__solve_islands(fe__step *step)
     fe_world *w = step->world;
     for (int32_t i = 0; i < w->awake_pair_count && w->wants_hits; ++i)
         if (w->pairs[w->awake_pairs[i]].events & FE_EVENTS_HIT) w->pairs[w->awake_pairs[i]].approach = approach_of(w, w->awake_pairs[i]);
-    fe__solve(&w->solver, w->kernels, &w->workers, w->bodies, w->contacts, w->extras, &w->joints, &step->constants, &step->fine);
+    fe__step_constants paces[FE__PACES];
+    constants_of_paces(w, step->dt, paces);
+    fe__solve(&w->solver, w->kernels, &w->workers, w->bodies, w->contacts, w->extras, &w->joints, paces);
     w->last_h = step->constants.h;
     w->last_dt = step->dt;
 }
@@ -151,7 +163,7 @@ fe_result fe__world_step(fe_world *w, float dt)
 {
     enum { MILLISECONDS = 1000 };
     if (open_scratch(w) != FE_OK) return FE_ERROR_MEMORY;
-    fe__step step = {.world = w, .scratch = w->scratch, .dt = dt, .constants = constants_of(w, dt, 1), .fine = fine_constants_of(w, dt)};
+    fe__step step = {.world = w, .scratch = w->scratch, .dt = dt, .constants = constants_of(w, dt, 1)};
     fe_profile profile = {.struct_size = sizeof profile};
     double start = fe__clock(), mark = start;
     fe__pool_begin(w->workers.pool);

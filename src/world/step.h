@@ -58,9 +58,9 @@ typedef struct fe__step_scratch {
 typedef struct fe__step {
     fe_world *world;
     fe__step_scratch *scratch;
-    float dt; // s
-    fe__step_constants constants, fine; // fine: of strained islands
-    int32_t failed; // no memory; nothing was changed
+    float dt;                     // s
+    fe__step_constants constants; // of most islands
+    int32_t failed;               // no memory; nothing was changed
 } fe__step;
 
 // The stages, in order

@@ -5,6 +5,7 @@
 #include "core/hash.h"
 #include "solver/graph.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -163,6 +164,7 @@ static inline void rig_step(rig *r)
                             .inverse_h = 1.0f / h,
                             .warm_scale = r->last_h > 0.0f ? h / r->last_h : 0.0f,
                             .max_speed = 1e6f,
+                            .open = FLT_MAX,
                             .substeps = r->substeps,
                             .division = 1,
                             .sweeps = 1,
@@ -171,7 +173,8 @@ static inline void rig_step(rig *r)
     c.joint = fe__make_softness(fe__minf(60.0f, c.joint_hertz), 2.0f, h);
     r->last_h = h;
     if (!r->built) rig_build(r);
-    fe__solve(&r->solver, r->kernels, &r->workers, r->bodies, NULL, NULL, &r->joints, &c, &c);
+    const fe__step_constants paces[FE__PACES] = {c, c, c};
+    fe__solve(&r->solver, r->kernels, &r->workers, r->bodies, NULL, NULL, &r->joints, paces);
     for (int32_t i = 1; i < r->body_count; ++i) {
         fe__body *b = r->bodies + i;
         rig_follow(b, r->solver.velocity[b->line], r->solver.motion[b->line]);
