@@ -16,6 +16,7 @@ typedef struct {
     wide total[3]; // world, of the impulses of the substeps so far
     wide keep[3];  // 1 for a locked axis, 0 for a free one
     wide locked;   // > 0: a body has locks
+    wide unlocked; // inverse mass, if no body were locked
     wide first_frame[4];
     wide first_arm_a[3], first_arm_b[3], first_gap[3];
 } slide_row;
@@ -29,6 +30,17 @@ FE_INLINE wide3 to_world(const slide_row *row, wide3 a)
     return w_add_scaled(w_add_scaled(w_scale(a.x, load3(row->u[0])), a.y, load3(row->u[1])), a.z, load3(row->u[2]));
 }
 
+// Where bodies are locked, only turns answer along some axes: little in one pose, nothing in the next. Stiffness goes by K^-1, so that a
+// gap opened where the point gives would be a hundred times the energy where it does not: linkages of locked bodies flew apart. So a locked
+// axis answers with a share of what all others do, by how much of the inverse mass is locked.
+#define LOCKED_SHARE 0.1f
+FE_INLINE wide_sym give_locked(wide_sym k, wide3 mass, wide unlocked)
+{
+    wide more = LOCKED_SHARE * trace(&k) * w_inverse_or_zero(unlocked);
+    k.xx = k.xx + more * (unlocked - mass.x), k.yy = k.yy + more * (unlocked - mass.y), k.zz = k.zz + more * (unlocked - mass.z);
+    return k;
+}
+
 FE_INLINE wide_sym slide_mass(const slide_row *row, wide3 ra, wide3 rb)
 {
     wide zero = w_set(0.0f), one = w_set(1.0f);
@@ -36,6 +48,7 @@ FE_INLINE wide_sym slide_mass(const slide_row *row, wide3 ra, wide3 rb)
     wide_sym k = {m.x, zero, zero, m.y, zero, m.z};
     k = add_arm(k, &row->inertia_a, ra);
     k = add_arm(k, &row->inertia_b, rb);
+    k = give_locked(k, m, row->unlocked);
     wide3 x = in_frame(row, w_mul(&k, load3(row->u[0]))), y = in_frame(row, w_mul(&k, load3(row->u[1]))),
           z = in_frame(row, w_mul(&k, load3(row->u[2])));
     wide_sym f = {keep.x * x.x, keep.x * keep.y * x.y, keep.x * keep.z * x.z, keep.y * y.y, keep.y * keep.z * y.z, keep.z * z.z};
@@ -114,7 +127,7 @@ static void prepare_slide(fe__solver *s, const fe__body *bodies, const fe__joint
         row->shaped = shape_of(s, &row->line);
         ends e = gather_ends(s, &row->line);
         store3(row->mass_a, free_mass(&e.a)), store3(row->mass_b, free_mass(&e.b)), store3(row->keep, locked_axes(joints, r));
-        row->locked = e.a.locks + e.b.locks;
+        row->locked = e.a.locks + e.b.locks, row->unlocked = e.a.inverse_mass + e.b.inverse_mass;
         store3(row->impulse, w_scale(w_set(c->warm_scale), w_times(load3(row->keep), w_xyz(JOINT_QUAD(impulse)))));
         store3(row->total, w_zero3());
         place_slide(row, s);
