@@ -160,7 +160,7 @@ FE_INLINE wide stored_of(const fe__step_constants *c) { return w_set((float)c->d
 // Joints of a row that are open too wide mark their bodies. Other workers may be at the same bodies, with the same mark.
 static __attribute__((noinline)) void mark_stretched(fe__solver *s, const fe__lane *lanes, wide_mask open)
 {
-    const float mark = (float)FE__STRETCHED;
+    float mark = (float)FE__STRETCHED;
     _Alignas(64) float is[FE_W];
     *(wide *)is = w_choose(open, w_set(1.0f), w_set(0.0f));
     for (int i = 0; i < FE_W; ++i) {
