@@ -64,7 +64,8 @@ FE_INLINE wide separation_now(const wide4 *point, wide constant, wide3 slope)
 }
 
 // As in contact_rows.h: s = s0 + n.shift + (nB - nA).r + nB.span + rhoA nA.n + rhoB nB.n with nX = R(dqX)^T n - n
-static void recycle_block(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, float dt, uint8_t *out_moved)
+static void recycle_block(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, float dt, uint8_t *out,
+                          float *out_slack)
 {
     _Alignas(64) int32_t a[FE_W], b[FE_W];
     for (int i = 0; i < FE_W; ++i) a[i] = contacts[index[i]].body_a, b[i] = contacts[index[i]].body_b;
@@ -93,14 +94,21 @@ static void recycle_block(fe__contact *contacts, const fe__body *bodies, const i
     wide most_along = w_choose(w_greater(zero, surface.w), w_set(FLT_MAX), w_set(MOST_ALONG));
     unsigned far = w_bits(w_or(w_not(w_greater(limit * limit, moved)), w_greater(w_abs(along), most_along)));
 
+    unsigned apart = w_bits(w_not(w_greater(normal.w, zero)));
+
     _Alignas(64) float now[FE_W][FE__POINTS];
+    if (apart & ~far) {
+        _Alignas(64) float slack[FE_W];
+        *(wide *)slack = surface.w - w_sqrt(moved);
+        for (int i = 0; i < count; ++i) out_slack[i] = slack[i];
+    }
     for (int i = 0; i < FE__POINTS; i += 2) w_gather_both(contacts->point[i], CONTACT_STRIDE, index, point + i, point + i + 1);
     wide4 separation = {separation_now(point, constant, slope), separation_now(point + 1, constant, slope),
                         separation_now(point + 2, constant, slope), separation_now(point + 3, constant, slope)};
     w_scatter(now[0], FE__POINTS, w_in_order, separation);
     for (int i = 0; i < count; ++i) {
-        out_moved[i] = far >> i & 1;
-        if (!out_moved[i]) *(quad *)contacts[index[i]].separation = *(const quad *)now[i];
+        out[i] = (uint8_t)(far >> i & 1 ? FE__MOVED : apart >> i & 1 ? FE__STAYS_APART : FE__STAYS);
+        if (out[i] == FE__STAYS) *(quad *)contacts[index[i]].separation = *(const quad *)now[i];
     }
 }
 
@@ -112,15 +120,16 @@ FE_INLINE void fetch_ahead(const fe__contact *m)
 
 fe__recycle_kernel FE_NAME(fe__recycle);
 
-void FE_NAME(fe__recycle)(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, float dt, uint8_t *out_moved)
+void FE_NAME(fe__recycle)(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, float dt, uint8_t *out,
+                          float *out_slack)
 {
     int32_t i = 0;
     for (; i + FE_W <= count; i += FE_W) {
         for (int32_t k = i + FE_W; k < count && k < i + 2 * FE_W; ++k) fetch_ahead(contacts + index[k]);
-        recycle_block(contacts, bodies, index + i, FE_W, dt, out_moved + i);
+        recycle_block(contacts, bodies, index + i, FE_W, dt, out + i, out_slack + i);
     }
     if (i == count) return;
     int32_t rest[FE_W] = {0};
     for (int32_t k = i; k < count; ++k) rest[k - i] = index[k];
-    recycle_block(contacts, bodies, rest, count - i, dt, out_moved + i);
+    recycle_block(contacts, bodies, rest, count - i, dt, out + i, out_slack + i);
 }

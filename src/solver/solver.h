@@ -216,10 +216,13 @@ typedef struct fe__body_kernels {
     void (*integrate_positions)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);
 } fe__body_kernels;
 
-// Separations at the start of the step, of length dt, of contacts that moved little. Byte i of out_moved is 1 when contact index[i] moved
-// too far and needs a new manifold, else 0.
-typedef void fe__recycle_kernel(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, float dt,
-                                uint8_t *out_moved);
+// What recycling says of a contact
+enum { FE__STAYS, FE__MOVED, FE__STAYS_APART };
+
+// Separations at the start of the step, of length dt, of contacts that moved little. Of contact index[i], out[i] is FE__MOVED when it needs
+// a new manifold; FE__STAYS_APART when it needs none and has no points: it may move on by out_slack[i], m.
+typedef void fe__recycle_kernel(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, float dt, uint8_t *out,
+                                float *out_slack);
 
 typedef struct fe__kernels {
     int32_t simd, width; // fe_simd, W

@@ -40,11 +40,23 @@ static int32_t judge(const fe_world *w, int32_t pair)
     return linked ? FE__RESULT_END : FE__RESULT_NONE;
 }
 
+// A pair without points may move by `slack` before it is looked at again. One with a heightfield is asked for more than its gap
+static void note_wait(const fe__step *step, int32_t pair, float slack)
+{
+    const fe_world *w = step->world;
+    const fe__pair *p = w->pairs + pair;
+    if (p->flags & (FE__PAIR_PATCH | FE__PAIR_MAY_TELL) || p->next_patch >= 0) return;
+    fe__begin_to_wait(w->waits + p->awake_index, w->odometers, p->body_a, p->body_b, slack, w->contacts[pair].found_span[3]);
+    w->awake_pairs[p->awake_index] = ~pair;
+    atomic_store_explicit(&step->scratch->some_wait, 1, memory_order_relaxed);
+}
+
 static void note_result(fe__step *step, int32_t pair)
 {
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     w->pairs[pair].result = judge(w, pair);
+    if (!(w->contacts[pair].normal[3] > 0.0f)) note_wait(step, pair, w->contacts[pair].surface[3]);
     if (w->pairs[pair].result != FE__RESULT_NONE) s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
 }
 
@@ -60,24 +72,27 @@ static void collide_with_patches(fe__step *step, int32_t head)
 }
 
 // up to PAIRS_IN_BLOCK of the awake pairs
-static void collide_chunk(fe__step *step, const int32_t *pairs, int32_t count)
+static void collide_chunk(fe__step *step, int32_t *entries, int32_t count)
 {
     fe_world *w = step->world;
     int32_t heads[PAIRS_IN_BLOCK], patches[PAIRS_IN_BLOCK * (FE__PATCHES - 1)], head_count = 0, patch_count = 0, again = 0;
-    uint8_t moved[PAIRS_IN_BLOCK * (FE__PATCHES - 1)];
-    for (int32_t i = 0; i < count; ++i)
-        if (!(w->pairs[pairs[i]].flags & FE__PAIR_PATCH)) heads[head_count++] = pairs[i];
+    uint8_t said[PAIRS_IN_BLOCK * (FE__PATCHES - 1)];
+    float slack[PAIRS_IN_BLOCK * (FE__PATCHES - 1)];
+    for (int32_t i = 0; i < count; ++i) {
+        entries[i] = fe__pair_of(entries[i]); // here none waits
+        if (!(w->pairs[entries[i]].flags & FE__PAIR_PATCH)) heads[head_count++] = entries[i];
+    }
     if (head_count == 0) return;
-    w->kernels->recycle(w->contacts, w->bodies, heads, head_count, step->dt, moved);
+    w->kernels->recycle(w->contacts, w->bodies, heads, head_count, step->dt, said, slack);
     for (int32_t i = 0; i < head_count; ++i) {
-        if (moved[i]) {
+        if (said[i] == FE__MOVED) {
             heads[again++] = heads[i];
             continue;
         }
         for (int32_t patch = w->pairs[heads[i]].next_patch; patch >= 0; patch = w->pairs[patch].next_patch)
             if (w->contacts[patch].normal[3] > 0.0f) patches[patch_count++] = patch;
     }
-    if (patch_count) w->kernels->recycle(w->contacts, w->bodies, patches, patch_count, step->dt, moved);
+    if (patch_count) w->kernels->recycle(w->contacts, w->bodies, patches, patch_count, step->dt, said, slack);
     for (int32_t i = 0; i < again; ++i) collide_with_patches(step, heads[i]);
     atomic_fetch_add_explicit(&step->scratch->recycled, head_count - again, memory_order_relaxed);
 }
@@ -101,34 +116,68 @@ FE_FETCHES fetch_pair(const fe_world *w, int32_t pair)
     fe__tree_fetch(&w->moving_tree, p->shape_b);
 }
 
-// Recycles pairs, and looks at those that moved while their records are still in the cache
-static void collide_some(const collide_job *job, int32_t first, int32_t count)
+// The next awake pairs that do not wait, PAIRS_IN_CACHE at most. Moves *at behind them
+static int32_t list_asked(fe__step *step, int32_t *at, int32_t end, int32_t *out_pairs)
+{
+    const fe_world *w = step->world;
+    int32_t i = *at, count = 0;
+    for (; i < end && count < PAIRS_IN_CACHE; ++i) {
+        int32_t entry = w->awake_pairs[i];
+        out_pairs[count] = entry;
+        if (entry < 0) {
+            if (fe__still_waits(w->waits + i, w->odometers, step->dt)) continue;
+            out_pairs[count] = w->awake_pairs[i] = ~entry;
+        }
+        ++count;
+    }
+    *at = i;
+    return count;
+}
+
+// Recycles pairs, and looks at those that moved while their records are still in the cache. Returns how many those are
+static int32_t collide_some(fe__step *step, const int32_t *pairs, int32_t count)
 {
     enum { AHEAD = 2 };
-    fe_world *w = job->step->world;
-    const int32_t *pairs = w->awake_pairs + first;
-    uint8_t *moved = job->step->scratch->moved + first;
+    fe_world *w = step->world;
     int32_t again[PAIRS_IN_CACHE], left = 0;
-    w->kernels->recycle(w->contacts, w->bodies, pairs, count, job->step->dt, moved);
+    uint8_t said[PAIRS_IN_CACHE];
+    float slack[PAIRS_IN_CACHE];
+    w->kernels->recycle(w->contacts, w->bodies, pairs, count, step->dt, said, slack);
     for (int32_t i = 0; i < count; ++i) {
-        if (!moved[i]) continue;
-        again[left++] = pairs[i];
-        fe__fetch(w->pairs + pairs[i], sizeof *w->pairs);
+        int32_t pair = pairs[i];
+        if (said[i] == FE__STAYS) continue;
+        if (said[i] == FE__STAYS_APART) {
+            note_wait(step, pair, slack[i]);
+            continue;
+        }
+        again[left++] = pair;
+        fe__fetch(w->pairs + pair, sizeof *w->pairs);
     }
     for (int32_t i = -AHEAD; i < left; ++i) {
         if (i + AHEAD < left) fetch_pair(w, again[i + AHEAD]);
         if (i < 0) continue;
-        fe__collide_pair(w, again[i], job->step->dt);
-        note_result(job->step, again[i]);
+        fe__collide_pair(w, again[i], step->dt);
+        note_result(step, again[i]);
     }
-    atomic_fetch_add_explicit(&job->step->scratch->recycled, count - left, memory_order_relaxed);
+    return left;
 }
 
 static void collide_block(void *argument, int32_t first, int32_t end, int32_t worker)
 {
     const collide_job *job = argument;
+    const fe__step_scratch *s = job->step->scratch;
+    int32_t list[PAIRS_IN_CACHE], again = 0, some_wait = atomic_load_explicit(&s->some_wait, memory_order_relaxed);
     (void)worker;
-    for (int32_t i = first; i < end; i += PAIRS_IN_CACHE) collide_some(job, job->first + i, fe__mini(end - i, PAIRS_IN_CACHE));
+    for (int32_t i = job->first + first, stop = job->first + end; i < stop;) {
+        const int32_t *pairs = job->step->world->awake_pairs + i;
+        int32_t count = fe__mini(PAIRS_IN_CACHE, stop - i);
+        if (some_wait)
+            count = list_asked(job->step, &i, stop, list), pairs = list;
+        else
+            i += count;
+        again += collide_some(job->step, pairs, count);
+    }
+    atomic_fetch_add_explicit(&job->step->scratch->recycled, end - first - again, memory_order_relaxed);
 }
 
 // ---- results -------------------------------------------------------------------------------------------------------------------
@@ -189,6 +238,22 @@ void fe__update_contacts(fe__step *step)
         if (w->pairs[s->results[i]].result == FE__RESULT_APART) fe__pair_destroy(w, s->results[i]);
 }
 
+const int32_t *fe__busy_pairs(fe__step *step, int32_t *out_count)
+{
+    const fe_world *w = step->world;
+    fe__step_scratch *s = step->scratch;
+    *out_count = w->awake_pair_count;
+    if (!atomic_load(&s->some_wait)) return w->awake_pairs;
+    int32_t count = 0;
+    for (int32_t i = 0; i < w->awake_pair_count; ++i) {
+        s->busy[count] = w->awake_pairs[i];
+        count += w->awake_pairs[i] >= 0;
+    }
+    atomic_store(&s->some_wait, count < w->awake_pair_count);
+    *out_count = count;
+    return s->busy;
+}
+
 void fe__build_islands(fe__step *step)
 {
     fe_world *w = step->world;
@@ -198,13 +263,15 @@ void fe__build_islands(fe__step *step)
         s->batch_count = s->large_count = s->group_count = s->lane_count = s->line_count = s->island_count = 0;
         return;
     }
+    int32_t contact_count;
+    const int32_t *contacts = fe__busy_pairs(step, &contact_count);
     const fe__graph_input in = {.bodies = w->bodies,
                                 .contacts = w->contacts,
                                 .serials = w->pair_serials,
                                 .awake_bodies = w->awake_bodies,
                                 .body_count = w->awake_body_count,
-                                .awake_contacts = w->awake_pairs,
-                                .contact_count = w->awake_pair_count,
+                                .awake_contacts = contacts,
+                                .contact_count = contact_count,
                                 .joints = &w->joints,
                                 .awake_joints = w->awake_joints,
                                 .joint_count = w->awake_joint_count};

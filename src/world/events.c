@@ -107,31 +107,31 @@ static void add_hit(fe_world *w, int32_t pair)
 // ---- looking, on any thread: pairs that have something to tell go to the list of results ----------------------------------------------
 enum { PAIRS_IN_BLOCK = 256, AHEAD = 16 }; // AHEAD: records come from memory while those before them are looked at
 
-// Only of these the contact must be seen: the others, most of a heap, have no points and owe no exit
-static int32_t may_tell(const fe__pair *p)
+FE_FETCHES fetch_ahead(const fe_world *w, const int32_t *pairs, int32_t i, int32_t end)
 {
-    return (p->flags & (FE__PAIR_LINKED | FE__PAIR_SENSOR | FE__PAIR_TOUCHING | FE__PAIR_CROSSED | FE__PAIR_ONCE)) != 0;
+    if (i + 2 * AHEAD < end) __builtin_prefetch(&w->pairs[pairs[i + 2 * AHEAD]].flags);
+    if (i + AHEAD >= end || !(w->pairs[pairs[i + AHEAD]].flags & FE__PAIR_MAY_TELL)) return;
+    __builtin_prefetch(w->contacts[pairs[i + AHEAD]].separation);
+    __builtin_prefetch(w->contacts[pairs[i + AHEAD]].total_impulse);
 }
 
-FE_FETCHES fetch_ahead(const fe_world *w, int32_t i, int32_t end)
-{
-    if (i + 2 * AHEAD < end) __builtin_prefetch(&w->pairs[w->awake_pairs[i + 2 * AHEAD]].flags);
-    if (i + AHEAD >= end || !may_tell(&w->pairs[w->awake_pairs[i + AHEAD]])) return;
-    __builtin_prefetch(w->contacts[w->awake_pairs[i + AHEAD]].separation);
-    __builtin_prefetch(w->contacts[w->awake_pairs[i + AHEAD]].total_impulse);
-}
+typedef struct look_job {
+    const fe__step *step;
+    const int32_t *pairs;
+} look_job;
 
 static void look_block(void *argument, int32_t first, int32_t end, int32_t worker)
 {
-    const fe__step *step = argument;
+    const look_job *job = argument;
+    const fe__step *step = job->step;
     const fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     (void)worker;
     for (int32_t i = first; i < end; ++i) {
-        int32_t pair = w->awake_pairs[i];
+        int32_t pair = job->pairs[i];
         fe__pair *p = w->pairs + pair;
-        fetch_ahead(w, i, end);
-        if (p->flags & FE__PAIR_PATCH || !may_tell(p)) continue;
+        fetch_ahead(w, job->pairs, i, end);
+        if (p->flags & FE__PAIR_PATCH || !(p->flags & FE__PAIR_MAY_TELL)) continue;
         int32_t now = touches(w, pair) || p->flags & FE__PAIR_CROSSED;
         p->flags &= ~(uint32_t)FE__PAIR_CROSSED;
         int32_t before = (p->flags & FE__PAIR_TOUCHING) != 0, tells = now != before;
@@ -203,8 +203,10 @@ void fe__collect_events(fe__step *step)
     tell_owed(w);
     fe__step_scratch *s = step->scratch;
     atomic_store(&s->result_count, 0);
-    fe__parallel_for(&w->workers, w->awake_pair_count, PAIRS_IN_BLOCK, look_block, step);
-    int32_t count = atomic_load(&s->result_count);
+    int32_t count;
+    look_job job = {step, fe__busy_pairs(step, &count)};
+    fe__parallel_for(&w->workers, count, PAIRS_IN_BLOCK, look_block, &job);
+    count = atomic_load(&s->result_count);
     for (int32_t i = 0; i < count; ++i) tell(w, s->results[i]);
     sort_records(step, (unsigned char *)w->pair_events, w->pair_event_count, sizeof *w->pair_events);
     sort_records(step, (unsigned char *)w->hit_events, w->hit_event_count, sizeof *w->hit_events);

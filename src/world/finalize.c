@@ -101,6 +101,8 @@ FE_FETCHES fetch_box(const fe_world *w, int32_t i)
     if (shape >= 0) fe__tree_fetch(&w->moving_tree, shape);
 }
 
+static float length_of(const float *v) { return sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
 static void move_block(void *argument, int32_t first, int32_t end, int32_t worker)
 {
     fe__step *step = argument;
@@ -122,6 +124,7 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
         int32_t moved = shift(body, motion) | turn(body, motion + 4);
         tick_sleep_timer(w, body, step->dt);
         if (!moved) continue;
+        if (body->contact_count) fe__odometer_advance(w->odometers + w->awake_bodies[i], length_of(motion), length_of(motion + 4));
         body->moved_step = w->step_number + 1;
         place_origin(body);
         follow_body(step, w->awake_bodies[i]);

@@ -21,6 +21,7 @@ void fe__body_note_speed(fe_world *world, fe__body *body)
     const float *v = body->velocity, *w = body->spin;
     float turning = sqrtf(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) * body->local_centre[3];
     body->centre_low[3] = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + turning;
+    world->odometers[body - world->bodies].speed = body->centre_low[3];
     fe__body_note_swiftness(world, body);
 }
 

@@ -13,7 +13,7 @@ int32_t fe__reserve_pairs(fe_world *world, int32_t extra)
            FE_RESERVE(memory, world->extras, world->extra_capacity, limit) &&
            FE_RESERVE(memory, world->pair_serials, world->serial_capacity, 2 * limit) &&
            FE_RESERVE(memory, world->awake_pairs, world->awake_pair_capacity, limit) &&
-           fe__pair_set_reserve(&world->pair_set, memory, extra);
+           FE_RESERVE(memory, world->waits, world->wait_capacity, limit) && fe__pair_set_reserve(&world->pair_set, memory, extra);
 }
 
 // ---- lists ---------------------------------------------------------------------------------------------------------------------------
@@ -77,10 +77,16 @@ void fe__pair_retire(fe_world *world, int32_t pair)
 {
     int32_t place = world->pairs[pair].awake_index;
     if (place < 0) return;
-    int32_t last = world->awake_pairs[--world->awake_pair_count];
-    world->awake_pairs[place] = last;
-    world->pairs[last].awake_index = place;
+    int32_t last = --world->awake_pair_count;
+    world->awake_pairs[place] = world->awake_pairs[last];
+    world->waits[place] = world->waits[last];
+    world->pairs[fe__pair_of(world->awake_pairs[place])].awake_index = place;
     world->pairs[pair].awake_index = -1;
+}
+
+static void end_wait(fe_world *world, int32_t pair)
+{
+    if (world->pairs[pair].awake_index >= 0) world->awake_pairs[world->pairs[pair].awake_index] = pair;
 }
 
 void fe__pair_look_once(fe_world *world, int32_t pair)
@@ -88,6 +94,12 @@ void fe__pair_look_once(fe_world *world, int32_t pair)
     if (world->pairs[pair].flags & FE__PAIR_PATCH) return; // looked at with its head
     world->pairs[pair].flags |= FE__PAIR_ONCE;
     fe__pair_awaken(world, pair);
+    end_wait(world, pair);
+}
+
+void fe__body_end_waits(fe_world *world, int32_t body)
+{
+    for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, body)) end_wait(world, pair);
 }
 
 // Triggers see sleepers, and a static body that comes to a sleeper wakes it. Bodies that are created asleep stay so, whatever they touch.

@@ -21,7 +21,7 @@ static int32_t may_wake(const fe__step *step)
         if ((a->awake_index < 0 && a->type == FE_BODY_DYNAMIC) || (b->awake_index < 0 && b->type == FE_BODY_DYNAMIC)) return 1;
     }
     for (int32_t i = 0; i < w->awake_pair_count; ++i) {
-        const fe__contact *m = w->contacts + w->awake_pairs[i];
+        const fe__contact *m = w->contacts + fe__pair_of(w->awake_pairs[i]);
         const fe__body *a = w->bodies + m->body_a, *b = w->bodies + m->body_b;
         if (m->colour < 0 && ((a->awake_index < 0 && a->type == FE_BODY_DYNAMIC) || (b->awake_index < 0 && b->type == FE_BODY_DYNAMIC)))
             return 1;
@@ -118,8 +118,8 @@ static int32_t reserve_scratch(fe__step *step, const fe__graph_bound *b)
     int64_t sorted = 1 + fe__maxi(fe__maxi(b->contacts, step->scratch->candidate_count), w->body_count);
     sorted += w->owed_count + w->joint_count;
     return FE_RESERVE(memory, s->results, s->result_capacity, (int64_t)b->contacts + 1) &&
-           FE_RESERVE(memory, s->moved, s->moved_capacity, b->contacts) && FE_RESERVE(memory, s->left, s->left_capacity, w->shape_count) &&
-           FE_RESERVE(memory, s->boxes, s->box_capacity, w->shape_count) &&
+           FE_RESERVE(memory, s->busy, s->busy_capacity, (int64_t)b->contacts + 1) &&
+           FE_RESERVE(memory, s->left, s->left_capacity, w->shape_count) && FE_RESERVE(memory, s->boxes, s->box_capacity, w->shape_count) &&
            FE_RESERVE(memory, s->chased, s->chased_capacity, (int64_t)2 * b->bodies) &&
            FE_RESERVE(memory, s->chases, s->chase_capacity, w->has_bullets ? b->bodies : 0) &&
            FE_RESERVE(memory, s->island_timers, s->island_capacity, b->bodies) &&

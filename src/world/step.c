@@ -118,8 +118,10 @@ static float approach_of(const fe_world *w, int32_t pair)
 void fe__solve_islands(fe__step *step)
 {
     fe_world *w = step->world;
-    for (int32_t i = 0; i < w->awake_pair_count && w->wants_hits; ++i)
-        if (w->pairs[w->awake_pairs[i]].events & FE_EVENTS_HIT) w->pairs[w->awake_pairs[i]].approach = approach_of(w, w->awake_pairs[i]);
+    for (int32_t i = 0; i < w->awake_pair_count && w->wants_hits; ++i) {
+        int32_t pair = fe__pair_of(w->awake_pairs[i]);
+        if (w->pairs[pair].events & FE_EVENTS_HIT) w->pairs[pair].approach = approach_of(w, pair);
+    }
     fe__step_constants paces[FE__PACES];
     constants_of_paces(w, step->dt, paces);
     fe__solve(&w->solver, w->kernels, &w->workers, w->bodies, w->contacts, w->extras, &w->joints, paces);
@@ -190,11 +192,11 @@ void fe__step_scratch_destroy(fe_world *w)
     if (!s) return;
     FE_FREE(memory, s->candidates, s->candidate_capacity);
     FE_FREE(memory, s->results, s->result_capacity);
+    FE_FREE(memory, s->busy, s->busy_capacity);
     FE_FREE(memory, s->left, s->left_capacity);
     FE_FREE(memory, s->boxes, s->box_capacity);
     FE_FREE(memory, s->chased, s->chased_capacity);
     FE_FREE(memory, s->chases, s->chase_capacity);
-    FE_FREE(memory, s->moved, s->moved_capacity);
     FE_FREE(memory, s->island_timers, s->island_capacity);
     FE_FREE(memory, s->sort_items, s->sort_capacity);
     fe__release(memory, s, sizeof *s);

@@ -29,6 +29,9 @@ typedef struct fe__step_scratch {
     int32_t candidate_patches; // further records that the candidates with heightfields need
     fe__candidate_buffer buffers[FE_MAX_WORKERS];
 
+    int32_t *busy;             // awake pairs that do not wait
+    _Atomic int32_t some_wait; // 0: no awake pair does
+    int32_t busy_capacity;
     int32_t *results; // pairs that begin, end or part in this step
     int32_t result_capacity;
     _Atomic int32_t result_count;
@@ -46,8 +49,6 @@ typedef struct fe__step_scratch {
     int32_t kinematic_room;
     _Atomic int32_t chased_count, kinematic_count;
 
-    uint8_t *moved; // answers of the recycling, by place in the list of awake pairs
-    int32_t moved_capacity;
     float *island_timers;
     int32_t island_capacity;
     fe__sort_item *sort_items; // two stretches
@@ -64,7 +65,9 @@ typedef struct fe__step {
 } fe__step;
 
 // The stages, in order
-void fe__find_new_pairs(fe__step *step);       // pairs_stage.c: queries of moved proxies -> candidates; reserves all; new pairs
+void fe__find_new_pairs(fe__step *step); // pairs_stage.c: queries of moved proxies -> candidates; reserves all; new pairs
+// Awake pairs that do not wait, good until one of them does (collide_stage.c)
+const int32_t *fe__busy_pairs(fe__step *step, int32_t *out_count);
 void fe__update_contacts(fe__step *step);      // collide_stage.c: narrow phase or recycling -> manifolds, begin and end, wakes
 void fe__build_islands(fe__step *step);        // collide_stage.c: the graph, when it changed
 void fe__solve_islands(fe__step *step);        // step.c: all substeps -> velocities, motion, impulses

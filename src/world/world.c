@@ -88,6 +88,7 @@ static void free_records(fe_world *world)
     fe__id_pool_free(&world->shape_ids, memory);
     fe__assets_free(world);
     FE_FREE(memory, world->bodies, world->body_capacity);
+    FE_FREE(memory, world->odometers, world->odometer_capacity);
     FE_FREE(memory, world->shapes, world->shape_capacity);
     FE_FREE(memory, world->contacts, world->contact_capacity);
     FE_FREE(memory, world->pairs, world->pair_capacity);
@@ -98,6 +99,7 @@ static void free_records(fe_world *world)
     fe__clusters_free(&world->clusters, memory);
     FE_FREE(memory, world->awake_bodies, world->awake_body_capacity);
     FE_FREE(memory, world->awake_pairs, world->awake_pair_capacity);
+    FE_FREE(memory, world->waits, world->wait_capacity);
     fe__joints_free(world);
 }
 

@@ -15,6 +15,7 @@
 #include "world/clusters.h"
 #include "world/joint_record.h"
 #include "world/pair.h"
+#include "world/wait.h"
 #include "collision/heightfield.h"
 #include "collision/shape.h"
 #include "collision/terrain.h"
@@ -61,7 +62,8 @@ struct fe_world {
     // records
     fe__id_pool body_ids, shape_ids, asset_ids;
     fe__body *bodies;
-    int32_t body_capacity;
+    fe__odometer *odometers; // by body
+    int32_t body_capacity, odometer_capacity;
     fe__shape *shapes;
     int32_t shape_capacity;
     fe__heightfield *fields; // heightfields, and the rest of the same assets
@@ -105,8 +107,9 @@ struct fe_world {
     // who is awake: dense lists of indices, in no order that matters
     int32_t *awake_bodies;
     int32_t awake_body_count, awake_body_capacity;
-    int32_t *awake_pairs;
-    int32_t awake_pair_count, awake_pair_capacity;
+    int32_t *awake_pairs; // or ~pair, see wait.h
+    fe__wait *waits;      // beside it
+    int32_t awake_pair_count, awake_pair_capacity, wait_capacity;
     int32_t *awake_joints;
     int32_t awake_joint_count, awake_joint_capacity;
 
@@ -232,6 +235,7 @@ int32_t fe__next_pair(const fe_world *world, int32_t pair, int32_t body);       
 void fe__pair_awaken(fe_world *world, int32_t pair);
 void fe__pair_retire(fe_world *world, int32_t pair);
 void fe__pair_look_once(fe_world *world, int32_t pair);  // in the next step, whoever sleeps
+void fe__body_end_waits(fe_world *world, int32_t body);  // its pose or centre changed, and not by a step
 void fe__body_drop_pairs(fe_world *world, int32_t body); // all of them
 void fe__body_refilter(fe_world *world, int32_t body);   // those that may no longer collide
 void fe__pair_link(fe_world *world, int32_t pair);       // into the constraint graph, with a colour
