@@ -23,6 +23,14 @@ enum {
 };
 _Static_assert((int)DUMMY_LINES >= (int)FE__ROW_KINDS + (int)SIDES, "one dummy line for each kind that may be in a colour");
 
+// What a build asks of a contact in the graph, which lies anywhere in memory: read once
+typedef struct linked {
+    int32_t contact;
+    int32_t key;              // colour * FE__ROW_KINDS + kind of row
+    int32_t awake_a, awake_b; // awake indices of its bodies, NONE of a static one
+} linked;
+enum { LINKED_INTS = sizeof(linked) / sizeof(int32_t) };
+
 // scratch of a build, carved from one block of ints
 typedef struct builder {
     fe__solver *s;
@@ -38,9 +46,10 @@ typedef struct builder {
     int32_t *batch_of;       // of an island
     int32_t *kinematic_line; // by awake index: line of the copy in the batch at hand
     int32_t *body_order;     // awake indices by batch
-    int32_t *linked;         // contacts in the graph, each with the awake index of its body B
+    int32_t *line;           // by awake index, of bodies that are not kinematic
+    linked *linked;          // contacts in the graph
     int32_t linked_count;
-    int32_t *contact_order; // contacts by batch
+    int32_t *contact_order; // places in `linked` by batch
     int32_t *body_start;    // by batch, one more than there are
     int32_t *contact_start;
     int32_t *joint_order; // joints by batch
@@ -122,7 +131,8 @@ static int64_t row_bytes(const fe__graph_bound *b, const fe__kernels *kernels, i
 
 static int64_t scratch_bound(const fe__graph_bound *b)
 {
-    return 10 * (int64_t)b->bodies + 3 * (int64_t)b->contacts + b->joints + 3 * (batch_bound(b) + 1) + GROUP_KEYS + 2 * JOINT_KEYS;
+    return 11 * (int64_t)b->bodies + (LINKED_INTS + 1) * (int64_t)b->contacts + b->joints + 3 * (batch_bound(b) + 1) + GROUP_KEYS +
+           2 * JOINT_KEYS;
 }
 
 // bytes of rows of the largest island, and of a worker's stretch
@@ -228,7 +238,8 @@ static builder make_builder(fe__solver *s, const fe__kernels *kernels, const fe_
     b.batch_of = carve(&at, n);
     b.kinematic_line = carve(&at, n);
     b.body_order = carve(&at, n);
-    b.linked = carve(&at, 2 * (int64_t)in->contact_count);
+    b.line = carve(&at, n);
+    b.linked = (linked *)(void *)carve(&at, LINKED_INTS * (int64_t)in->contact_count);
     b.contact_order = carve(&at, in->contact_count);
     b.joint_order = carve(&at, in->joint_count);
     b.key_count = carve(&at, GROUP_KEYS);
@@ -271,10 +282,9 @@ static void join_contacts(builder *b)
         const fe__contact *m = in->contacts + contact;
         if (i + AHEAD < in->contact_count) __builtin_prefetch(&in->contacts[in->awake_contacts[i + AHEAD]].colour);
         if (m->colour < 0) continue;
-        int32_t awake = in->bodies[m->body_b].awake_index;
-        b->linked[2 * b->linked_count] = contact;
-        b->linked[2 * b->linked_count++ + 1] = awake;
-        if (m->kind & FE__ROW_PAIR) join(b->parent, in->bodies[m->body_a].awake_index, awake);
+        int32_t awake_a = in->bodies[m->body_a].awake_index, awake_b = in->bodies[m->body_b].awake_index;
+        b->linked[b->linked_count++] = (linked){contact, m->colour * FE__ROW_KINDS + m->kind, awake_a, awake_b};
+        if (m->kind & FE__ROW_PAIR) join(b->parent, awake_a, awake_b);
     }
 }
 
@@ -298,7 +308,7 @@ static int32_t island_of_joint(const builder *b, const fe__joint *j)
 
 static void count_constraints(builder *b)
 {
-    for (int32_t i = 0; i < b->linked_count; ++i) ++b->island_contacts[b->island_of[b->linked[2 * i + 1]]];
+    for (int32_t i = 0; i < b->linked_count; ++i) ++b->island_contacts[b->island_of[b->linked[i].awake_b]];
     for (int32_t i = 0; i < b->s->island_count; ++i) b->island_lanes[i] = b->island_contacts[i];
     for (int32_t i = 0; i < b->in->joint_count; ++i) {
         const fe__joint *j = joint_at(b, i);
@@ -415,8 +425,7 @@ static void sort_by_batch(builder *b)
     for (int32_t i = 0; i < in->body_count; ++i) b->body_order[b->body_start[batch_of_body(b, i)]++] = i;
     unwind(b->body_start, batches);
     for (int32_t k = 0; k < batches; ++k) b->contact_start[k + 1] = b->contact_start[k] + b->s->batches[k].contact_count;
-    for (int32_t i = 0; i < b->linked_count; ++i)
-        b->contact_order[b->contact_start[batch_of_body(b, b->linked[2 * i + 1])]++] = b->linked[2 * i];
+    for (int32_t i = 0; i < b->linked_count; ++i) b->contact_order[b->contact_start[batch_of_body(b, b->linked[i].awake_b)]++] = i;
     unwind(b->contact_start, batches);
     b->joint_start[0] = 0;
     for (int32_t k = 0; k < batches; ++k) b->joint_start[k + 1] = b->joint_start[k] + b->s->batches[k].joint_count;
@@ -435,12 +444,11 @@ static void close_block(fe__solver *s)
 
 static void add_line(fe__solver *s, int32_t body) { s->body_of_line[s->line_count++] = body; }
 
-static void add_kinematic(builder *b, const fe__batch *batch, int32_t body)
+static void add_kinematic(builder *b, const fe__batch *batch, int32_t awake)
 {
-    int32_t awake = b->in->bodies[body].awake_index;
-    if (!is_kinematic(b->in->bodies + body) || awake < 0 || b->kinematic_line[awake] >= batch->first_line) return;
+    if (awake < 0 || !is_kinematic(awake_body(b, awake)) || b->kinematic_line[awake] >= batch->first_line) return;
     b->kinematic_line[awake] = b->s->line_count;
-    add_line(b->s, body);
+    add_line(b->s, b->in->awake_bodies[awake]);
 }
 
 // its dummies, its bodies, and copies of the kinematic bodies that its contacts and joints read: those a worker moves along by itself
@@ -452,17 +460,19 @@ static void assign_lines(builder *b, int32_t k)
     for (int32_t i = 0; i < DUMMY_LINES; ++i) add_line(s, NONE);
     for (int32_t i = b->body_start[k]; i < b->body_start[k + 1]; ++i) {
         fe__body *body = b->in->bodies + b->in->awake_bodies[b->body_order[i]];
-        body->line = s->line_count;
+        body->line = b->line[b->body_order[i]] = s->line_count;
         body->island = b->island_of[b->body_order[i]];
         add_line(s, b->in->awake_bodies[b->body_order[i]]);
     }
-    for (int32_t i = b->contact_start[k]; i < b->contact_start[k + 1]; ++i)
-        add_kinematic(b, batch, b->in->contacts[b->contact_order[i]].body_a);
+    for (int32_t i = b->contact_start[k]; i < b->contact_start[k + 1]; ++i) {
+        const linked *c = b->linked + b->contact_order[i];
+        if (!(c->key & FE__ROW_PAIR)) add_kinematic(b, batch, c->awake_a);
+    }
     for (int32_t i = b->joint_start[k]; i < b->joint_start[k + 1]; ++i) {
         const fe__joint *j = b->in->joints->joints + b->joint_order[i];
         if (!(j->rows >> FE__SIDES_SHIFT & FE__KINEMATIC_END)) continue;
-        add_kinematic(b, batch, j->body_a);
-        add_kinematic(b, batch, j->body_b);
+        add_kinematic(b, batch, b->in->bodies[j->body_a].awake_index);
+        add_kinematic(b, batch, b->in->bodies[j->body_b].awake_index);
     }
     close_block(s);
     batch->line_count = s->line_count - batch->first_line;
@@ -476,12 +486,10 @@ static int32_t line_of(const builder *b, int32_t body)
     return is_kinematic(a) && a->awake_index >= 0 ? b->kinematic_line[a->awake_index] : FE__STATIC_LINE;
 }
 
-static fe__lane lane_of(const builder *b, const fe__batch *batch, int32_t contact)
+static fe__lane lane_of(const builder *b, const linked *c)
 {
-    const fe__contact *m = b->in->contacts + contact;
-    assert(b->in->bodies[m->body_b].line >= batch->first_line);
-    (void)batch;
-    return (fe__lane){contact, line_of(b, m->body_a), b->in->bodies[m->body_b].line};
+    int32_t line_a = c->awake_a < 0 ? FE__STATIC_LINE : c->key & FE__ROW_PAIR ? b->line[c->awake_a] : b->kinematic_line[c->awake_a];
+    return (fe__lane){c->contact, line_a, b->line[c->awake_b]};
 }
 
 // `like` tells all but the place
@@ -511,17 +519,17 @@ static void add_overflow(builder *b, int32_t k, const fe__kernels *kernels)
     fe__solver *s = b->s;
     int32_t n = 0;
     for (int32_t i = b->contact_start[k]; i < b->contact_start[k + 1]; ++i) {
-        int32_t c = b->contact_order[i];
-        if (b->in->contacts[c].colour == FE__OVERFLOW_COLOUR) s->sort_items[n++] = (fe__sort_item){b->in->serials[2 * c + 1], c, 0};
+        const linked *c = b->linked + b->contact_order[i];
+        if (c->key / FE__ROW_KINDS == FE__OVERFLOW_COLOUR)
+            s->sort_items[n++] = (fe__sort_item){b->in->serials[2 * c->contact + 1], b->contact_order[i], 0};
     }
     if (n == 0) return; // then there may be no items at all
     fe__sort_keys(s->sort_items, n, s->sort_items + n);
-    for (int32_t i = 0; i < n; ++i) s->sort_items[i].key = b->in->serials[2 * s->sort_items[i].value];
+    for (int32_t i = 0; i < n; ++i) s->sort_items[i].key = b->in->serials[2 * b->linked[s->sort_items[i].value].contact];
     fe__sort_keys(s->sort_items, n, s->sort_items + n);
     for (int32_t i = 0; i < n; ++i) {
-        int32_t c = s->sort_items[i].value;
-        fe__group *g = open_contacts(b, s->batches + k, FE__OVERFLOW_COLOUR, b->in->contacts[c].kind, 1, kernels);
-        s->lanes[g->lane] = lane_of(b, s->batches + k, c);
+        const linked *c = b->linked + s->sort_items[i].value;
+        s->lanes[open_contacts(b, s->batches + k, FE__OVERFLOW_COLOUR, c->key % FE__ROW_KINDS, 1, kernels)->lane] = lane_of(b, c);
     }
 }
 
@@ -652,18 +660,17 @@ static void make_groups(builder *b, int32_t k, const fe__kernels *kernels)
     make_joint_groups(b, k, kernels);
     memset(b->key_count, 0, sizeof(int32_t) * GROUP_KEYS);
     for (int32_t i = b->contact_start[k]; i < b->contact_start[k + 1]; ++i) {
-        const fe__contact *m = b->in->contacts + b->contact_order[i];
-        ++b->key_count[m->colour * FE__ROW_KINDS + m->kind];
-        batch->bounces |= m->kind & FE__ROW_SPECIAL;
+        int32_t key = b->linked[b->contact_order[i]].key;
+        ++b->key_count[key];
+        batch->bounces |= key & FE__ROW_SPECIAL;
     }
     for (int32_t key = 0; key < FE__OVERFLOW_COLOUR * FE__ROW_KINDS; ++key) {
         int32_t contacts = b->key_count[key];
         if (contacts) b->key_count[key] = open_contacts(b, batch, key / FE__ROW_KINDS, key % FE__ROW_KINDS, contacts, kernels)->lane;
     }
     for (int32_t i = b->contact_start[k]; i < b->contact_start[k + 1]; ++i) {
-        const fe__contact *m = b->in->contacts + b->contact_order[i];
-        if (m->colour != FE__OVERFLOW_COLOUR)
-            s->lanes[b->key_count[m->colour * FE__ROW_KINDS + m->kind]++] = lane_of(b, batch, b->contact_order[i]);
+        const linked *c = b->linked + b->contact_order[i];
+        if (c->key / FE__ROW_KINDS != FE__OVERFLOW_COLOUR) s->lanes[b->key_count[c->key]++] = lane_of(b, c);
     }
     add_overflow(b, k, kernels);
 }
