@@ -171,7 +171,7 @@ void fe__mend_seam(const fe_world *world, const fe__view *v, float margin, fe__m
 {
     int32_t box_is_a = is_static_box(world, v->a);
     const fe__shape *box = box_is_a ? v->a : v->b, *other = box_is_a ? v->b : v->a;
-    if (!found->count || !is_static_box(world, box) || world->bodies[other->body].contact_count < 2) return;
+    if (!found->count || !is_static_box(world, box) || world->bodies[other->body].static_pairs < 2) return;
     seam s = {.margin = margin};
     find_near(world, v, box, other, &s);
     if (!s.near_count) return;

@@ -51,12 +51,19 @@ int32_t fe__is_field_pair(const fe_world *world, int32_t shape_a, int32_t shape_
     return world->shapes[shape_a].form.type == FE_GEOMETRY_HEIGHTFIELD || world->shapes[shape_b].form.type == FE_GEOMETRY_HEIGHTFIELD;
 }
 
+static int32_t is_with_static(const fe_world *world, int32_t pair)
+{
+    const fe__pair *p = world->pairs + pair;
+    return world->bodies[p->body_a].type == FE_BODY_STATIC || world->bodies[p->body_b].type == FE_BODY_STATIC;
+}
+
 // Contacts count as many as the pair may have
 static void add_to_body(fe_world *world, int32_t pair, int32_t index)
 {
     fe__body *body = world->bodies + index;
     add_to_list(world, pair, index);
     body->contact_count += world->pairs[pair].next_patch >= 0 ? FE__PATCHES : 1;
+    body->static_pairs += is_with_static(world, pair);
     if (body->type == FE_BODY_DYNAMIC) world->most_contacts = fe__maxi(world->most_contacts, body->contact_count);
 }
 
@@ -64,6 +71,7 @@ static void remove_from_body(fe_world *world, int32_t pair, int32_t index)
 {
     remove_from_list(world, pair, index);
     world->bodies[index].contact_count -= world->pairs[pair].next_patch >= 0 ? FE__PATCHES : 1;
+    world->bodies[index].static_pairs -= is_with_static(world, pair);
 }
 
 void fe__pair_awaken(fe_world *world, int32_t pair)
