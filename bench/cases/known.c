@@ -19,7 +19,6 @@ static const struct known {
     {"washer", 0, "deepest overlap, m",
      "cubes flung down at 18 rad/s turn a corner by 17 cm in a step: the edge that comes round is not among the features that the step "
      "began with, and is found up to that deep in the next; so four of five overlaps beyond 4 cm, the others are not understood"},
-    {"door", 4, "largest joint gap, m", "its hinges ask for 120 Hz, of which four substeps allow 54"},
     {"elastic-666", 0, "mean squared error of the energy, J2", GAS},
 };
 

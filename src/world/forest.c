@@ -31,6 +31,57 @@ static int32_t is_beam(const fe_world *w, int32_t joint)
 
 static int32_t is_dynamic(const fe_world *w, int32_t body) { return w->bodies[body].type == FE_BODY_DYNAMIC; }
 
+// A door hangs on two hinges. The second of one axis locks what the first does, so that it closes no loop: it is left to the sweep.
+#define SAME_WAY 0.001f  // m, a fifth of the linear slop
+#define SAME_TURN 0.001f // rad
+
+typedef struct axle {
+    fe_vec3 axis, at; // in the frame of one of its bodies
+} axle;
+
+static axle axle_of(const float *frame, const float *arm)
+{
+    const fe_quat q = {frame[0], frame[1], frame[2], frame[3]};
+    return (axle){fe__rotate(q, fe__vec3(1.0f, 0.0f, 0.0f)), fe__vec3(arm[0], arm[1], arm[2])};
+}
+
+static int32_t is_hinge(const fe_world *w, int32_t joint)
+{
+    const uint32_t parts = w->joints.frames[joint].parts, both = 1u << FE__PART_HINGE | 1u << FE__PART_POINT;
+    return (parts & both) == both;
+}
+
+static int32_t have_one_axle(const fe_world *w, int32_t joint, int32_t other)
+{
+    const fe__joint *i = w->joints.joints + joint, *j = w->joints.joints + other;
+    const fe__joint_frame *f = w->joints.frames + joint, *g = w->joints.frames + other;
+    const axle first[2] = {axle_of(f->frame_a, i->arm_a), axle_of(f->frame_b, i->arm_b)};
+    const axle second[2] = {axle_of(g->frame_a, j->arm_a), axle_of(g->frame_b, j->arm_b)};
+    float along[2], same[2];
+    for (int k = 0; k < 2; ++k) {
+        fe_vec3 way = fe__sub(second[k].at, first[k].at), across = fe__cross(first[k].axis, way);
+        fe_vec3 turn = fe__cross(first[k].axis, second[k].axis);
+        if (fe__dot(across, across) > SAME_WAY * SAME_WAY || fe__dot(turn, turn) > SAME_TURN * SAME_TURN) return 0;
+        along[k] = fe__dot(first[k].axis, way), same[k] = fe__dot(first[k].axis, second[k].axis);
+    }
+    return same[0] * same[1] > 0.0f && fe__absf(along[1] - along[0]) < SAME_WAY;
+}
+
+// 1: an older one is
+static int32_t is_second_hinge(const fe_world *w, int32_t joint)
+{
+    const int32_t *ends = w->joint_records[joint].body;
+    int32_t at = ends[!is_dynamic(w, ends[0])];
+    if (is_dynamic(w, ends[1]) && w->bodies[ends[1]].joint_count < w->bodies[at].joint_count) at = ends[1]; // the shorter list
+    if (!is_hinge(w, joint)) return 0;
+    for (int32_t i = w->bodies[at].first_joint; i != joint; i = fe__next_joint(w, i, at)) {
+        const int32_t *others = w->joint_records[i].body;
+        if (others[0] != ends[0] || others[1] != ends[1] || !is_hinge(w, i) || !is_edge(w, i)) continue;
+        if (have_one_axle(w, i, joint)) return 1;
+    }
+    return 0;
+}
+
 static fe__tree_link link_to(const fe_world *w, int32_t body, int32_t joint, int32_t parent)
 {
     return (fe__tree_link){.body = body, .joint = joint, .parent = parent, .holds_b = joint && w->joint_records[joint].body[1] == body};
@@ -66,6 +117,7 @@ static component explore(fe_world *w, int32_t body, fe__tree_link *links)
                 continue;
             }
             int32_t other = fe__joint_other(w, joint, at);
+            if (is_second_hinge(w, joint)) continue;
             if (!is_dynamic(w, other)) {
                 ++c.anchors, c.root = at, c.anchor = joint;
                 continue;
@@ -87,7 +139,8 @@ static void arrange(const fe_world *w, const component *c, fe__tree_link *links)
     for (int32_t i = 0; i < count; ++i) {
         int32_t body = links[i].body;
         for (int32_t joint = w->bodies[body].first_joint; joint; joint = fe__next_joint(w, joint, body))
-            if (joint != links[i].joint && is_edge(w, joint)) links[count++] = link_to(w, fe__joint_other(w, joint, body), joint, i);
+            if (joint != links[i].joint && is_edge(w, joint) && !is_second_hinge(w, joint))
+                links[count++] = link_to(w, fe__joint_other(w, joint, body), joint, i);
     }
 }
 

@@ -178,11 +178,101 @@ static void as_stiff_as_the_world_is_rigid(void **state)
     }
 }
 
+// ---- doors -----------------------------------------------------------------------------------------------------------------------------
+
+// Two leaves of 1 m, the second on the first, each on two hinges 1.5 m apart; the upper ones `askew`, rad
+typedef struct door {
+    fe_body leaves[2];
+    fe_joint hinges[4];
+} door;
+
+static door add_door(scene *s, fe_body frame, double askew)
+{
+    door d;
+    for (int i = 0; i < 2; ++i) {
+        d.leaves[i] = add_plain(s, box(0.5, 1, 0.05), v3(0.5 + i, 0, 0));
+        touch_nothing(s, d.leaves[i]);
+        for (int k = 0; k < 2; ++k)
+            d.hinges[2 * i + k] = add_hinge(s, hinge_def(), i ? d.leaves[0] : frame, d.leaves[i], v3(i, k ? 0.75 : -0.75, 0),
+                                            v3(0, k ? cos(askew) : 1, k ? sin(askew) : 0));
+    }
+    return d;
+}
+
+// at its outer edge, by m/s of all its mass
+static void strike(scene *s, const door *d, double speed)
+{
+    const fe_vec3 impulse = narrow(to_world(s, v3(0, 0, speed * mass_of(s, d->leaves[1]))));
+    const vec edge = to_world(s, v3(2, 0.3, 0));
+    MUST(fe_body_add_impulse_at(s->world, d->leaves[1], &impulse, &edge));
+}
+
+// The hinges of a pair are one: a door is no loop. On a wall, and on a frame that flies
+static void a_blow_takes_no_door_off_its_hinges(void **state)
+{
+    for (int flies = 0; flies < 2; ++flies) {
+        scene s = scene_begin(state);
+        fe_body frame = flies ? add_plain(&s, box(0.5, 1.2, 0.1), v3(-0.5, 0, 0)) : add_anchor(&s, v3(0, 0, 0));
+        door d = add_door(&s, frame, 0);
+        set_gravity(&s, v3(0, 0, 0));
+        run(&s, 10);
+        FE_TRUE(trees_of(&s) == 0);
+        strike(&s, &d, 10);
+        for (int i = 0; i < 60; ++i) {
+            run(&s, 1);
+            FE_TRUE(i > 0 || trees_of(&s) == 1);
+            FE_WITHIN(worst_gap(&s, d.hinges, 4), 0, CLOSED);
+        }
+        scene_end(&s);
+    }
+}
+
+// Hinges about two axes lock what each leaves free: they close a loop, and stay with the sweep
+static void hinges_askew_are_two(void **state)
+{
+    scene s = scene_begin(state);
+    door d = add_door(&s, add_anchor(&s, v3(0, 0, 0)), 0.1);
+    set_gravity(&s, v3(0, 0, 0));
+    run(&s, 10);
+    strike(&s, &d, 10);
+    for (int i = 0; i < 10; ++i) {
+        run(&s, 1);
+        FE_TRUE(trees_of(&s) == 0);
+    }
+    scene_end(&s);
+}
+
+// The older hinge taken off, the other one holds the door, and when it is put on again both do
+static void a_door_hangs_on_what_is_left(void **state)
+{
+    scene s = scene_begin(state);
+    door d = add_door(&s, add_anchor(&s, v3(0, 0, 0)), 0);
+    set_gravity(&s, v3(0, 0, 0));
+    for (int round = 0; round < 2; ++round) {
+        MUST(fe_joint_set_enabled(s.world, d.hinges[0], round));
+        strike(&s, &d, 10);
+        for (int i = 0; i < 30; ++i) {
+            run(&s, 1);
+            FE_TRUE(i > 0 || trees_of(&s) == 1);
+            FE_WITHIN(worst_gap(&s, d.hinges + 1, 3), 0, CLOSED);
+        }
+    }
+    scene_end(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        EVERY_WAY_UP(a_blow_opens_no_joint),        WITH_4_SUBSTEPS(a_blow_opens_no_joint),   TEST(walls_hold_back_the_whole),
-        WITH_4_SUBSTEPS(walls_hold_back_the_whole), TEST(a_heap_is_the_same_for_all_workers), TEST(as_stiff_as_the_world_is_rigid),
+        EVERY_WAY_UP(a_blow_opens_no_joint),
+        WITH_4_SUBSTEPS(a_blow_opens_no_joint),
+        TEST(walls_hold_back_the_whole),
+        WITH_4_SUBSTEPS(walls_hold_back_the_whole),
+        TEST(a_heap_is_the_same_for_all_workers),
+        TEST(as_stiff_as_the_world_is_rigid),
+        EVERY_WAY_UP(a_blow_takes_no_door_off_its_hinges),
+        WITH_4_SUBSTEPS(a_blow_takes_no_door_off_its_hinges),
+        TEST(hinges_askew_are_two),
+        TEST(a_door_hangs_on_what_is_left),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
