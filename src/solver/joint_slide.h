@@ -30,17 +30,6 @@ FE_INLINE wide3 to_world(const slide_row *row, wide3 a)
     return w_add_scaled(w_add_scaled(w_scale(a.x, load3(row->u[0])), a.y, load3(row->u[1])), a.z, load3(row->u[2]));
 }
 
-// Where bodies are locked, only turns answer along some axes: little in one pose, nothing in the next. Stiffness goes by K^-1, so that a
-// gap opened where the point gives would be a hundred times the energy where it does not: linkages of locked bodies flew apart. So a locked
-// axis answers with a share of what all others do, by how much of the inverse mass is locked.
-#define LOCKED_SHARE 0.1f
-FE_INLINE wide_sym give_locked(wide_sym k, wide3 mass, wide unlocked)
-{
-    wide more = LOCKED_SHARE * trace(&k) * w_inverse_or_zero(unlocked);
-    k.xx = k.xx + more * (unlocked - mass.x), k.yy = k.yy + more * (unlocked - mass.y), k.zz = k.zz + more * (unlocked - mass.z);
-    return k;
-}
-
 FE_INLINE wide_sym slide_mass(const slide_row *row, wide3 ra, wide3 rb)
 {
     wide zero = w_set(0.0f), one = w_set(1.0f);

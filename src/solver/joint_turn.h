@@ -23,6 +23,7 @@ typedef struct {
 FE_INLINE void hinge_mass(hinge_row *row, wide3 t1, wide3 t2)
 {
     wide_sym k = sum_sym(&row->inertia_a, &row->inertia_b);
+    k = give_locked_turns(k, row->locked);
     wide3 k1 = w_mul(&k, t1), k2 = w_mul(&k, t2);
     wide k11 = w_dot(t1, k1), k12 = w_dot(t1, k2), k22 = w_dot(t2, k2);
     wide more = w_choose(w_greater(row->locked, w_set(0.0f)), LOCKED_GIVE * trace(&k), w_set(0.0f));
@@ -138,6 +139,7 @@ typedef struct {
 FE_INLINE wide_sym turn_mass(const wide_sym *a, const wide_sym *b, wide locked)
 {
     wide_sym k = sum_sym(a, b);
+    k = give_locked_turns(k, locked);
     k = give(k, trace(&k), w_greater(locked, w_set(0.0f)));
     return inverse_scaled(&k);
 }

@@ -230,6 +230,28 @@ FE_INLINE wide_sym give(wide_sym k, wide all, wide_mask locked)
 // of all that moves: what answers by less is what rounding left of a locked direction
 #define RIGID 1e-6f
 
+// Where bodies are locked, only turns answer along some axes: little in one pose, nothing in the next. Stiffness goes by K^-1, so that a
+// gap opened where the point gives would be a hundred times the energy where it does not: linkages of locked bodies flew apart. So a locked
+// axis answers with a share of what all others do, by how much of the inverse mass is locked.
+#define LOCKED_SHARE 0.1f
+FE_INLINE wide_sym give_locked(wide_sym k, wide3 mass, wide unlocked)
+{
+    wide more = LOCKED_SHARE * trace(&k) * w_inverse_or_zero(unlocked);
+    k.xx = k.xx + more * (unlocked - mass.x), k.yy = k.yy + more * (unlocked - mass.y), k.zz = k.zz + more * (unlocked - mass.z);
+    return k;
+}
+
+// likewise of turns, about an axis that is locked at both ends
+FE_INLINE wide_sym give_locked_turns(wide_sym k, wide locked)
+{
+    const wide zero = w_set(0.0f), all = trace(&k), share = w_choose(w_greater(locked, zero), LOCKED_SHARE * all, zero),
+               least = RIGID * all;
+    k.xx = k.xx + w_choose(w_greater(k.xx, least), zero, share);
+    k.yy = k.yy + w_choose(w_greater(k.yy, least), zero, share);
+    k.zz = k.zz + w_choose(w_greater(k.zz, least), zero, share);
+    return k;
+}
+
 FE_INLINE wide_sym sum_sym(const wide_sym *a, const wide_sym *b)
 {
     return (wide_sym){a->xx + b->xx, a->xy + b->xy, a->xz + b->xz, a->yy + b->yy, a->yz + b->yz, a->zz + b->zz};

@@ -174,13 +174,23 @@ static void keep_tree(fe__forest *f, int32_t count, int32_t heavy)
     f->link_count += count;
 }
 
-// Bodies that are locked in different ways make poses from which no way leads on, and near them forces without bound: a spring gives there,
-// an exact solution does not
-static int32_t are_locked_alike(const fe_world *w, const component *c, const fe__tree_link *links)
+// Where a turn would have to answer along a locked axis there are poses from which no way leads on, and near them forces without bound: a
+// spring gives there, an exact solution does not. It never has to where turns about the other two axes are locked as well (a plane, its
+// bodies turn about its normal), or all. Of turns locked about one axis alone no pose tells what they were.
+static int32_t has_way_on(uint32_t locks)
 {
+    const uint32_t linear = locks & FE_AXIS_ALL, angular = locks >> 3;
+    const int32_t turns = __builtin_popcount(~angular & FE_AXIS_ALL); // axes to turn about
+    return turns == 0 || (turns == 1 && !(linear & angular)) || (turns == 3 && !linear);
+}
+
+// nor may bodies be locked in different ways
+static int32_t may_be_exact(const fe_world *w, const component *c, const fe__tree_link *links)
+{
+    const float locks = w->bodies[links[0].body].spin[3];
     for (int32_t i = 1; i < c->bodies; ++i)
-        if (w->bodies[links[i].body].spin[3] != w->bodies[links[0].body].spin[3]) return 0;
-    return 1;
+        if (w->bodies[links[i].body].spin[3] != locks) return 0;
+    return has_way_on((uint32_t)locks);
 }
 
 static void plant(fe_world *w, int32_t body)
@@ -190,7 +200,7 @@ static void plant(fe_world *w, int32_t body)
     component c = explore(w, body, links);
     if (c.edges != c.bodies - 1 || c.anchors > 1) return;
     arrange(w, &c, links);
-    if (are_locked_alike(w, &c, links)) keep_tree(f, c.bodies, heaviest_load(w, &c, links) >= 1.0f);
+    if (may_be_exact(w, &c, links)) keep_tree(f, c.bodies, heaviest_load(w, &c, links) >= 1.0f);
 }
 
 static void clear_marks(fe_world *w, int32_t joint)
