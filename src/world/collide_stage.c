@@ -6,7 +6,7 @@
 #include "solver/graph.h"
 #include "world/step.h"
 
-enum { PAIRS_IN_BLOCK = 64, PAIRS_IN_CACHE = 256 };
+enum { PAIRS_IN_BLOCK = 64, PAIRS_IN_CACHE = 256, FETCHED_AHEAD = 24 };
 
 typedef struct collide_job {
     fe__step *step;
@@ -112,6 +112,10 @@ FE_FETCHES fetch_pair(const fe_world *w, int32_t pair)
     const fe__pair *p = w->pairs + pair;
     fe__fetch(w->shapes + p->shape_a, sizeof *w->shapes);
     fe__fetch(w->shapes + p->shape_b, sizeof *w->shapes);
+    fe__fetch(w->bodies[p->body_a].centre, sizeof w->bodies->centre);
+    fe__fetch(w->bodies[p->body_b].centre, sizeof w->bodies->centre);
+    fe__fetch(w->bodies[p->body_a].velocity, sizeof w->bodies->velocity);
+    fe__fetch(w->bodies[p->body_b].velocity, sizeof w->bodies->velocity);
     fe__tree_fetch(&w->moving_tree, p->shape_a);
     fe__tree_fetch(&w->moving_tree, p->shape_b);
 }
@@ -123,6 +127,7 @@ static int32_t list_asked(fe__step *step, int32_t *at, int32_t end, int32_t *out
     int32_t i = *at, count = 0;
     for (; i < end && count < PAIRS_IN_CACHE; ++i) {
         int32_t entry = w->awake_pairs[i];
+        __builtin_prefetch(w->waits + fe__mini(i + FETCHED_AHEAD, end - 1));
         out_pairs[count] = entry;
         if (entry < 0) {
             if (fe__still_waits(w->waits + i, w->odometers, step->dt)) continue;
