@@ -107,6 +107,7 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
 {
     fe__step *step = argument;
     fe_world *w = step->world;
+    int32_t some_wait = atomic_load_explicit(&step->scratch->some_wait, memory_order_relaxed);
     (void)worker;
     for (int32_t i = first; i < end; ++i) {
         enum { AHEAD = 4 };
@@ -124,7 +125,7 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
         int32_t moved = shift(body, motion) | turn(body, motion + 4);
         tick_sleep_timer(w, body, step->dt);
         if (!moved) continue;
-        if (body->contact_count) fe__odometer_advance(w->odometers + w->awake_bodies[i], length_of(motion), length_of(motion + 4));
+        if (some_wait) fe__odometer_advance(w->odometers + w->awake_bodies[i], length_of(motion), length_of(motion + 4));
         body->moved_step = w->step_number + 1;
         place_origin(body);
         follow_body(step, w->awake_bodies[i]);
