@@ -51,6 +51,7 @@ typedef struct fe__body {
     double origin[3]; // of the body's frame, m
     // colours taken by its contacts in the constraint graph, one bit each
     uint64_t colours[2];
+    uint32_t drawn;                               // what its last contact's colour was drawn with, 0 at first
     uint32_t joint_colours;                       // the same of its joints
     int32_t joint_count;                          // linked ones, see joint.h
     uint64_t serial;                              // of creation, never reused

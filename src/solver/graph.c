@@ -78,11 +78,11 @@ static int32_t batch_bound(const fe__graph_bound *b)
     return 2 * (lanes / FE__BATCH_CONTACTS + b->bodies / BATCH_BODIES) + lanes / FE__ISLAND_LARGE + 4;
 }
 
-// distinct groups of one batch: a greedy colour is below the contacts of both bodies
+// distinct groups of one batch: a colour is below the contacts of both bodies and the free ones passed over
 static int32_t group_bound(const fe__graph_bound *b)
 {
-    int32_t colours = fe__mini(2 * b->most_contacts, FE__COLOURS);
-    return colours * b->kinds;
+    int32_t of_pairs = 2 * b->most_contacts + FE__COLOUR_CHOICES - 1, of_statics = b->most_contacts;
+    return fe__mini(of_pairs + of_statics, FE__COLOURS) * b->kinds;
 }
 
 static int32_t joint_group_bound(const fe__graph_bound *b)

@@ -1,6 +1,8 @@
 // pairs.c - the life of pairs: birth, mixed materials, places in lists and in the constraint graph, death with the exit it owes.
 #include "world/world.h"
 
+#include "core/hash.h"
+
 #include <assert.h>
 #include <string.h>
 
@@ -213,16 +215,31 @@ static void note_uneven(fe__body *a, fe__body *b)
     if (of_b > UNEVEN * of_a) b->flags |= FE__BODY_STRAINED;
 }
 
-// First colour that neither dynamic body uses yet. A body's contacts have different colours, so contacts of one colour share no dynamic
-// body.
+// Contacts of a pile come in an order, left before right. The first free colour would be another name for it: the solver would take left
+// before right everywhere, and what a sweep gets wrong would add up (the top of 100 rows went 0.15 m aside). So one of the first few free
+// colours is drawn. The draw hangs on the meetings of the two bodies and of those they met, not on serials, which strangers shift.
+static int32_t draw_colour(fe__body *a, fe__body *b)
+{
+    uint64_t low = a->colours[0] | b->colours[0], high = a->colours[1] | b->colours[1];
+    uint64_t mixed = (((uint64_t)a->drawn << 32 | b->drawn) + 1) * FE_HASH_FACTOR;
+    a->drawn = b->drawn = (uint32_t)(mixed >> 32);
+    int32_t colour = first_colour(low, high, 0, FE__PAIR_COLOURS), next = colour;
+    for (uint64_t skips = (uint64_t)a->drawn * FE__COLOUR_CHOICES >> 32; skips && next != FE__OVERFLOW_COLOUR; --skips) {
+        colour = next;
+        next = first_colour(low, high, next + 1, FE__PAIR_COLOURS);
+    }
+    return next != FE__OVERFLOW_COLOUR ? next : colour;
+}
+
+// A body's contacts have different colours, so contacts of one colour share no dynamic body
 void fe__pair_link(fe_world *world, int32_t pair)
 {
     fe__contact *m = world->contacts + pair;
     assert(m->colour < 0);
     fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
     int32_t both = m->kind & FE__ROW_PAIR;
-    m->colour = both ? first_colour(a->colours[0] | b->colours[0], a->colours[1] | b->colours[1], 0, FE__PAIR_COLOURS)
-                     : first_colour(b->colours[0], b->colours[1], FE__PAIR_COLOURS, FE__PAIR_COLOURS + FE__STATIC_COLOURS);
+    m->colour =
+        both ? draw_colour(a, b) : first_colour(b->colours[0], b->colours[1], FE__PAIR_COLOURS, FE__PAIR_COLOURS + FE__STATIC_COLOURS);
     if (m->colour != FE__OVERFLOW_COLOUR) {
         take_colour(b, m->colour);
         if (both) take_colour(a, m->colour);
