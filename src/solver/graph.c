@@ -78,11 +78,13 @@ static int32_t batch_bound(const fe__graph_bound *b)
     return 2 * (lanes / FE__BATCH_CONTACTS + b->bodies / BATCH_BODIES) + lanes / FE__ISLAND_LARGE + 4;
 }
 
-// distinct groups of one batch: a colour is below the contacts of both bodies and the free ones passed over
+// distinct groups of one batch: a colour between dynamic bodies, or its mate, is below the contacts of both; one with others below the
+// body's
 static int32_t group_bound(const fe__graph_bound *b)
 {
-    int32_t of_pairs = 2 * b->most_contacts + FE__COLOUR_CHOICES - 1, of_statics = b->most_contacts;
-    return fe__mini(of_pairs + of_statics, FE__COLOURS) * b->kinds;
+    const uint32_t pairs = 0xAA; // kinds with FE__ROW_PAIR
+    return fe__mini(2 * b->most_contacts, FE__PAIR_COLOURS) * __builtin_popcount(b->kinds & pairs) +
+           fe__mini(b->most_contacts, FE__STATIC_COLOURS) * __builtin_popcount(b->kinds & ~pairs);
 }
 
 static int32_t joint_group_bound(const fe__graph_bound *b)

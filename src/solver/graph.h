@@ -26,7 +26,7 @@ typedef struct fe__graph_bound {
     int32_t crowded;              // contacts of bodies with more than fit the colours
     int32_t largest;              // contacts and parts of joints of the largest island
     int32_t fast, fast_kinematic; // bodies that leave a trail; 1: kinematic ones do
-    int32_t kinds;                // kinds of rows in use
+    uint32_t kinds;               // of rows in use: 1 << FE__ROW_*
     int32_t special;              // 1: special rows are among them
     const fe__joints *joint_set;  // NULL: none
     int32_t joints;               // of them, awake or about to wake, at most

@@ -29,11 +29,10 @@ enum {
     FE__ROW_SPECIAL = 4, // locks, restitution, rolling or spinning resistance, surface velocity, a kinematic body
     FE__ROW_KINDS = 8,
 
-    FE__PAIR_COLOURS = 96,     // of contacts between dynamic bodies: 0..95
+    FE__PAIR_COLOURS = 96,     // of contacts between dynamic bodies: 0..95, in mates: an even number
     FE__STATIC_COLOURS = 31,   // of contacts with static and kinematic ones: 96..126, solved last
     FE__OVERFLOW_COLOUR = 127, // one contact a row, in order of creation
     FE__COLOURS = 128,
-    FE__COLOUR_CHOICES = 2, // free ones that a contact between dynamic bodies draws from, see pairs.c. More: rows are less full
 
     // contacts above which an island is spread over the workers, and up to which smaller ones are batched, so that the rows of a batch stay
     // in a second-level cache and fill their lanes. Constants, not the machine's: they decide who executes an island, never what comes out

@@ -216,19 +216,17 @@ static void note_uneven(fe__body *a, fe__body *b)
 }
 
 // Contacts of a pile come in an order, left before right. The first free colour would be another name for it: the solver would take left
-// before right everywhere, and what a sweep gets wrong would add up (the top of 100 rows went 0.15 m aside). So one of the first few free
-// colours is drawn. The draw hangs on the meetings of the two bodies and of those they met, not on serials, which strangers shift.
+// before right everywhere, and what a sweep gets wrong would add up (the top of 100 rows went 0.15 m aside). So it is drawn which of a
+// colour and its mate (0 and 1, 2 and 3, ...) is taken; layers still follow each other as their colours come. The draw hangs on the
+// meetings of the two bodies and of those that they met, not on serials, which strangers shift.
 static int32_t draw_colour(fe__body *a, fe__body *b)
 {
-    uint64_t low = a->colours[0] | b->colours[0], high = a->colours[1] | b->colours[1];
+    uint64_t used[2] = {a->colours[0] | b->colours[0], a->colours[1] | b->colours[1]};
     uint64_t mixed = (((uint64_t)a->drawn << 32 | b->drawn) + 1) * FE_HASH_FACTOR;
     a->drawn = b->drawn = (uint32_t)(mixed >> 32);
-    int32_t colour = first_colour(low, high, 0, FE__PAIR_COLOURS), next = colour;
-    for (uint64_t skips = (uint64_t)a->drawn * FE__COLOUR_CHOICES >> 32; skips && next != FE__OVERFLOW_COLOUR; --skips) {
-        colour = next;
-        next = first_colour(low, high, next + 1, FE__PAIR_COLOURS);
-    }
-    return next != FE__OVERFLOW_COLOUR ? next : colour;
+    int32_t colour = first_colour(used[0], used[1], 0, FE__PAIR_COLOURS), mate = colour ^ 1;
+    if (colour == FE__OVERFLOW_COLOUR || used[mate / 64] >> mate % 64 & 1) return colour;
+    return a->drawn >> 31 ? mate : colour;
 }
 
 // A body's contacts have different colours, so contacts of one colour share no dynamic body

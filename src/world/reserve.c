@@ -42,7 +42,7 @@ static int32_t crowded_contacts(const fe_world *w, int32_t most)
 }
 
 // what the candidates add: contacts of one body, kinds of rows
-static void add_candidates(const fe__step *step, fe__graph_bound *b, uint32_t *kinds)
+static void add_candidates(const fe__step *step, fe__graph_bound *b)
 {
     step->scratch->candidate_patches = 0;
     const fe_world *w = step->world;
@@ -50,7 +50,7 @@ static void add_candidates(const fe__step *step, fe__graph_bound *b, uint32_t *k
     for (int32_t i = 0; i < s->candidate_count; ++i) {
         const fe__candidate *c = s->candidates + i;
         const int32_t shapes[2] = {c->shape_a, c->shape_b};
-        *kinds |= 1u << fe__pair_kind(w, c->shape_a, c->shape_b);
+        b->kinds |= 1u << fe__pair_kind(w, c->shape_a, c->shape_b);
         int32_t patches = fe__is_field_pair(w, c->shape_a, c->shape_b) ? FE__PATCHES : 1;
         b->contacts += patches - 1;
         step->scratch->candidate_patches += patches - 1;
@@ -92,15 +92,14 @@ static fe__graph_bound bound_of(const fe__step *step)
 {
     const fe_world *w = step->world;
     int32_t all = may_wake(step);
-    uint32_t kinds = w->row_kinds;
     fe__graph_bound b = {0};
     b.bodies = all ? w->body_count : w->awake_body_count;
     b.contacts = (all ? w->pair_count : w->awake_pair_count) + step->scratch->candidate_count + w->field_pair_count * (FE__PATCHES - 1);
     b.most_contacts = w->most_contacts;
-    add_candidates(step, &b, &kinds);
+    b.kinds = w->row_kinds;
+    add_candidates(step, &b);
     b.crowded = crowded_contacts(w, b.most_contacts);
-    b.kinds = __builtin_popcount(kinds);
-    b.special = kinds >> FE__ROW_SPECIAL != 0;
+    b.special = b.kinds >> FE__ROW_SPECIAL != 0;
     b.joint_set = &w->joints;
     b.joints = all ? w->joint_count : w->awake_joint_count;
     b.largest = INT32_MAX;
