@@ -19,8 +19,8 @@ enum {
     FE__BODY_SEEN_AWAKE = 512, // when the events of the last step were written
     FE__BODY_CHASED = 1024,    // in the list of bodies that continuous collision looks at
     FE__BODY_STRAINED = 2048,  // bears many times its weight, or a body many times as heavy just came upon it
-    FE__BODY_STRETCHED = 8192, // a joint of it is wide open
-    FE__BODY_HELD = 4096       // joined to others, and stopped by continuous collision in this step, see rejoin.h
+    FE__BODY_HELD = 4096,      // joined to others, and stopped by continuous collision in this step, see rejoin.h
+    FE__BODY_STRETCHED = 8192  // a joint of it is wide open
 };
 
 typedef struct fe__body {

@@ -525,10 +525,9 @@ FE_API fe_result fe_shape_get_user_data(const fe_world *world, fe_shape shape, f
 // **Heavy loads.** What is held as stiff as the world allows gives under a load of many times the bodies' own masses. Where such joints
 // close no loop (chains, cranes, arms, telescopes, with one hold on the rest of the world at most) and no body has locks, or all those of a
 // plane (its normal, turns about the others) or of all turns, they are solved exactly instead, all at once: nothing gives, whatever hangs on
-// them. This begins at a load of 32 effective masses
-// on a joint (a chain of 16 equal links), of 4 on one that holds rotations; lighter ones are solved so in steps in which a blow or a pinch
-// would open a joint by more than 4 mm. What is found farther apart than that was put there: it comes together softly. fe_counters.trees
-// tells how many there were. Limits, springs and contacts of such bodies stay what they are.
+// them. This begins at a load of 32 effective masses on a joint (a chain of 16 equal links), of 4 on one that holds rotations; lighter ones
+// are solved so in steps in which a blow or a pinch would open a joint by more than 4 mm. What is found farther apart than that was put
+// there: it comes together softly. fe_counters.trees tells how many there were. Limits, springs and contacts of such bodies stay what they are.
 //
 // **Springs and motors** push no harder than their cap, N or N m. A motor reaches for its speed; with speed 0 it is friction. A cap of 0
 // switches it off.
