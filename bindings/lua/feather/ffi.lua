@@ -30,12 +30,19 @@ function env.pool(box)
     if box.p == nil then fail("the pool is destroyed") end
     return box.p
 end
-function env.new_world(pointer)
-    return ffi.gc(Box(pointer), function(box) if box.p ~= nil and C.fe_world_destroy(box.p) == 0 then box.p = nil end end)
+-- Finalizers run in any order: a pool refuses its end while a world of it lives, and then ends with that world.
+local refused = {}
+local function end_world(box)
+    if box.p ~= nil and C.fe_world_destroy(box.p) == 0 then box.p = nil end
+    for pool in pairs(refused) do
+        if C.fe_pool_destroy(pool.p) == 0 then refused[pool] = nil end
+    end
 end
-function env.new_pool(pointer)
-    return ffi.gc(PoolBox(pointer), function(box) if box.p ~= nil and C.fe_pool_destroy(box.p) == 0 then box.p = nil end end)
+local function end_pool(box)
+    if box.p ~= nil and C.fe_pool_destroy(box.p) ~= 0 then refused[box] = true end
 end
+function env.new_world(pointer) return ffi.gc(Box(pointer), end_world) end
+function env.new_pool(pointer) return ffi.gc(PoolBox(pointer), end_pool) end
 function env.check(result)
     if result < 0 then error(ffi.string(C.fe_last_error()), 0) end
     return result

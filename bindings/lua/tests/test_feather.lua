@@ -226,6 +226,30 @@ function TestErrors.testABodyKeepsItsWorldAlive()
     lu.assertEquals({ body:getPosition() }, { 1, 2, 3 })
 end
 
+local function threads()
+    local file = io.open("/proc/self/status")
+    return file and tonumber(file:read("*a"):match("Threads:%s*(%d+)"))
+end
+
+function TestErrors.testNoThreadOutlivesItsPool()
+    local before = threads()
+    for _ = 1, 20 do feather.newWorld({ pool = feather.newPool(3) }) end
+    for _ = 1, 3 do collectgarbage() end
+    lu.assertEquals(threads(), before)
+end
+
+-- There finalizers run in no order, and after them the library is unloaded: a thread that is left would run into nothing. What is made first is
+-- finalized last.
+function TestErrors.testNoThreadOutlivesTheState()
+    local text = [[
+        local function last() io.write(io.open('/proc/self/status'):read('*a'):match('Threads:%s*(%d+)')) end
+        local told = newproxy and newproxy(true) or setmetatable({}, { __gc = last })
+        if newproxy then getmetatable(told).__gc = last end
+        local feather, kept = require('feather'), {}
+        for i = 1, 20 do kept[i] = feather.newWorld({ pool = feather.newPool(3) }) end]]
+    if threads() then lu.assertEquals(io.popen(arg[-1] .. ' -e "' .. text:gsub("\n", " ") .. '"'):read("*a"), "1") end
+end
+
 function TestErrors.testForeignObjects()
     local world, _, ball = scene()
     local _, _, other = scene()
