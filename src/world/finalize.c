@@ -40,10 +40,16 @@ static void place_origin(fe__body *body)
     body->origin[0] = body->centre[0] - arm.x, body->origin[1] = body->centre[1] - arm.y, body->origin[2] = body->centre[2] - arm.z;
 }
 
-static void tick_sleep_timer(fe_world *w, fe__body *body, float dt)
+static float length_of(const float *v) { return sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+// Slow is who was slow on the way, too: what is pushed out of another body moves, but has no velocity when the step ends.
+static void tick_sleep_timer(fe_world *w, fe__body *body, const float *motion, float dt)
 {
     fe__body_note_speed(w, body);
-    int32_t slow = body->flags & FE__BODY_SLEEP_ALLOWED && body->centre_low[3] < body->sleep_threshold;
+    float threshold = body->sleep_threshold;
+    int32_t slow = body->flags & FE__BODY_SLEEP_ALLOWED && body->centre_low[3] < threshold;
+    // dq = (n sin(a/2), cos(a/2)): a small turn a is twice the length of its vector
+    if (slow) slow = length_of(motion) + 2.0f * length_of(motion + 4) * body->local_centre[3] < threshold * dt;
     body->sleep_timer = slow ? body->sleep_timer + dt : 0.0f;
 }
 
@@ -101,8 +107,6 @@ FE_FETCHES fetch_box(const fe_world *w, int32_t i)
     if (shape >= 0) fe__tree_fetch(&w->moving_tree, shape);
 }
 
-static float length_of(const float *v) { return sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
-
 static void move_block(void *argument, int32_t first, int32_t end, int32_t worker)
 {
     fe__step *step = argument;
@@ -123,7 +127,7 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
             body->force[k] = body->torque[k] = 0.0f;
         }
         int32_t moved = shift(body, motion) | turn(body, motion + 4);
-        tick_sleep_timer(w, body, step->dt);
+        tick_sleep_timer(w, body, motion, step->dt);
         if (!moved) continue;
         if (some_wait) fe__odometer_advance(w->odometers + w->awake_bodies[i], length_of(motion), length_of(motion + 4));
         body->moved_step = w->step_number + 1;
