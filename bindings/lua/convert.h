@@ -103,13 +103,31 @@ static int object_of(lua_State *L, int index, void **out, const swig_type_info *
 static void keep_alive(lua_State *L, int object)
 {
     if (lua_type(L, object) != LUA_TUSERDATA || lua_type(L, -1) != LUA_TUSERDATA) return;
-#if LUA_VERSION_NUM >= 502
+#if LUA_VERSION_NUM >= 503
     lua_pushvalue(L, object);
     lua_setuservalue(L, -2);
-#else
+#else // a table only
     lua_createtable(L, 1, 0);
     lua_pushvalue(L, object);
     lua_rawseti(L, -2, 1);
+#if LUA_VERSION_NUM == 502
+    lua_setuservalue(L, -2);
+#else
+    lua_setfenv(L, -2);
+#endif
+#endif
+}
+
+/// A new world, on top of the stack, keeps the pool that its definition, at 1, keeps: a pool whose finalizer comes first is refused its
+/// end, its threads outlive the state, and the library is unloaded under them.
+static void keep_pool(lua_State *L)
+{
+    if (lua_type(L, 1) != LUA_TUSERDATA) return;
+#if LUA_VERSION_NUM >= 502
+    lua_getuservalue(L, 1);
+    lua_setuservalue(L, -2);
+#else
+    lua_getfenv(L, 1);
     lua_setfenv(L, -2);
 #endif
 }
@@ -148,12 +166,13 @@ static void push_pool(lua_State *L, fe_pool *pool)
     lua_setmetatable(L, -2);
 }
 
-static fe_world *world_of(lua_State *L, int index)
+static fe_world *world_in(lua_State *L, const world_box *box)
 {
-    world_box *box = luaL_checkudata(L, index, world_type);
     if (!box->world) luaL_error(L, "feather: the world is destroyed");
     return box->world;
 }
+
+static fe_world *world_of(lua_State *L, int index) { return world_in(L, luaL_checkudata(L, index, world_type)); }
 
 static fe_pool *pool_of(lua_State *L, int index)
 {

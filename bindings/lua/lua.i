@@ -19,12 +19,14 @@
 
 %typemap(in) fe_world * (call_state call) "$1 = world_of(L, $input); call.count = 0;"
 %typemap(in) const fe_world * = fe_world *;
+// when all arguments are converted: a filter's __index may destroy the world
+%typemap(check) fe_world *, const fe_world * "$1 = world_in(L, lua_touserdata(L, 1));"
 %typemap(argout) fe_world *world %{
     if (result == FE_OK && strcmp("$symname", "world_destroy") == 0) ((world_box *)lua_touserdata(L, 1))->world = NULL;
 %}
 %typemap(argout) const fe_world * ""
 %typemap(in, numinputs=0) fe_world **out_world (fe_world *made = 0) "$1 = &made;"
-%typemap(argout) fe_world **out_world %{ push_world(L, *$1); SWIG_arg++; %}
+%typemap(argout) fe_world **out_world %{ push_world(L, *$1); SWIG_arg++; keep_pool(L); %}
 %typemap(in, numinputs=0) fe_pool **out_pool (fe_pool *made = 0) "$1 = &made;"
 %typemap(argout) fe_pool **out_pool %{ push_pool(L, *$1); SWIG_arg++; %}
 %typemap(in) fe_pool *pool "$1 = pool_of(L, $input);"

@@ -53,6 +53,7 @@ typedef struct world_box {
     fe_world *world; ///< NULL: closed
     PyObject *kept;  ///< what must outlive the world: its pool. Or NULL
     int readers;     ///< threads that read it without the GIL
+    int steppers;    ///< 1 while a thread steps it without the GIL
 } world_box;
 
 typedef struct pool_box {
@@ -115,6 +116,15 @@ static world_box *world_of(PyObject *object)
         return NULL;
     }
     return box;
+}
+
+/// -1 where a world may not be read, or written, now: it is closed, or used without the GIL.
+static int may_use(const world_box *box, int writes, const char *function)
+{
+    if (!box->world) return fails(FE_ERROR_STALE, "the world is closed");
+    if (!box->steppers && !(writes && box->readers)) return 0;
+    PyErr_Format(error_class(FE_ERROR_STEPPING), "%s: another thread %s the world", function, box->steppers ? "steps" : "reads");
+    return -1;
 }
 
 static pool_box *pool_of(PyObject *object)

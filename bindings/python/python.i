@@ -34,20 +34,15 @@ static PyObject *flat_world_keep(PyObject *self, PyObject *arguments)
 // ---- worlds and pools: `call` keeps what the arguments borrow, so that it is released whatever fails ------------------------------------------
 
 %typemap(arginit) fe_world *, const fe_world * "begin_call(&call$argnum);"
-%typemap(in) const fe_world * (world_box *box = 0, call_state call) {
-    box = world_of($input);
-    if (!box) SWIG_fail;
-    $1 = box->world;
-}
 %typemap(in) fe_world * (world_box *box = 0, call_state call) {
     box = world_of($input);
     if (!box) SWIG_fail;
-    if (box->readers) {
-        (void)fails(FE_ERROR_STEPPING, "$symname: another thread reads the world");
-        SWIG_fail;
-    }
     $1 = box->world;
 }
+%typemap(in) const fe_world * = fe_world *;
+// when all arguments are converted: a number's __float__ may close the world, or let another thread step it
+%typemap(check) fe_world * "if (may_use(box$argnum, 1, \"$symname\")) SWIG_fail;"
+%typemap(check) const fe_world * "if (may_use(box$argnum, 0, \"$symname\")) SWIG_fail;"
 %typemap(freearg) fe_world *, const fe_world * "end_call(&call$argnum);"
 %typemap(argout) fe_world *, const fe_world * ""
 %typemap(argout) fe_world *world %{
@@ -70,23 +65,24 @@ static PyObject *flat_world_keep(PyObject *self, PyObject *arguments)
 %}
 %typemap(out) fe_pool * "$result = SWIG_Py_Void();"
 
-// The GIL is given back where a call may take long and only reads what other threads may read, and in the step, which refuses all others itself.
-%define FE_WITHOUT_GIL(NAME)
+// The GIL is given back where a call may take long and only reads what other threads may read, and in the step. What the others must not do meanwhile
+// is said while the GIL is held: the library's own check comes too late for who looked just before the step began.
+%define FE_WITHOUT_GIL(NAME, USERS)
 %exception NAME {
-    ++box1->readers;
+    ++box1->USERS;
     Py_BEGIN_ALLOW_THREADS
     $action
     Py_END_ALLOW_THREADS
-    --box1->readers;
+    --box1->USERS;
 }
 %enddef
-FE_WITHOUT_GIL(fe_world_step)
-FE_WITHOUT_GIL(fe_world_raycast_many)
-FE_WITHOUT_GIL(fe_world_sweep_many)
-FE_WITHOUT_GIL(fe_world_get_moved)
-FE_WITHOUT_GIL(fe_world_get_transforms)
-FE_WITHOUT_GIL(fe_world_get_transforms_f32)
-FE_WITHOUT_GIL(fe_world_get_velocities)
+FE_WITHOUT_GIL(fe_world_step, steppers)
+FE_WITHOUT_GIL(fe_world_raycast_many, readers)
+FE_WITHOUT_GIL(fe_world_sweep_many, readers)
+FE_WITHOUT_GIL(fe_world_get_moved, readers)
+FE_WITHOUT_GIL(fe_world_get_transforms, readers)
+FE_WITHOUT_GIL(fe_world_get_transforms_f32, readers)
+FE_WITHOUT_GIL(fe_world_get_velocities, readers)
 
 // ---- results --------------------------------------------------------------------------------------------------------------------
 

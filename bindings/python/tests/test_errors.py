@@ -2,10 +2,11 @@
 
 import gc
 import math
+import os
 import sys
 import threading
 from array import array
-from typing import Any, Callable, List
+from typing import Any, Callable, List, Set
 
 import numpy as np
 import pytest
@@ -218,6 +219,40 @@ def test_other_threads_run_while_it_steps() -> None:
         assert turns > steps and refused > 0
 
 
+@pytest.mark.skipif(not hasattr(os, "sched_setaffinity"), reason="needs both threads on one processor, where they interrupt each other anywhere")
+def test_other_threads_run_but_read_no_half_of_a_step() -> None:
+    def scene() -> World:
+        world = World()
+        world.create_body("static").add_plane()
+        for body in world.create_bodies([(i % 10, 1 + i // 100, i // 10 % 10) for i in range(300)]):
+            body.add_sphere(0.6)
+        return world
+
+    def run(world: World, hashes: Set[int]) -> None:
+        hashes.add(world.hash)
+        for _ in range(40):
+            world.step()
+            hashes.add(world.hash)
+
+    whole: Set[int] = set()
+    run(scene(), whole)
+    processors = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {min(processors)})
+    try:
+        for _ in range(10):
+            world = scene()
+            thread = threading.Thread(target=run, args=(world, set()))
+            thread.start()
+            while thread.is_alive():
+                try:
+                    assert world.hash in whole
+                except SteppingError:
+                    pass
+            thread.join()
+    finally:
+        os.sched_setaffinity(0, processors)
+
+
 def test_a_world_cannot_go_while_another_thread_reads_it() -> None:
     with World() as world:
         world.create_body("static").add_plane()
@@ -236,6 +271,27 @@ def test_a_world_cannot_go_while_another_thread_reads_it() -> None:
                 refused += 1
         thread.join()
         assert counted == [hits]
+
+
+def test_an_argument_that_closes_the_world() -> None:
+    class Closing:
+        def __init__(self, world: World):
+            self.world = world
+
+        def __float__(self) -> float:
+            self.world.close()
+            return 1.0
+
+    calls: List[Callable[[World, Any], Any]] = [
+        lambda world, number: world.step(number),
+        lambda world, number: setattr(world, "gravity", (number, 0, 0)),
+        lambda world, number: world.raycast((number, 0, 0), (0, 1, 0)),
+        lambda world, number: setattr(world.create_body(), "linear_velocity", (0, number, 0)),
+    ]
+    for call in calls:
+        world = World()
+        with pytest.raises(StaleHandleError):
+            call(world, Closing(world))
 
 
 def test_nothing_leaks() -> None:
