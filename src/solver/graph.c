@@ -109,19 +109,23 @@ fe__group *fe__open_group(fe__builder *b, fe__batch *batch, fe__group like, int3
     fe__group *g = s->groups + s->group_count++;
     int32_t dummy = batch->first_line + (like.kind < FE__ROW_KINDS ? like.kind : FE__ROW_KINDS - 1 + like.sides);
     *g = like;
-    g->lane = s->lane_count, g->offset = batch->row_bytes, g->rows = (lanes + b->width - 1) / b->width;
-    for (int32_t i = 0; i < g->rows * b->width; ++i) s->lanes[s->lane_count + i] = (fe__lane){0, dummy, dummy};
-    s->lane_count += g->rows * b->width;
+    g->lane = s->lane_count, g->offset = batch->row_bytes, g->rows = (lanes + like.width - 1) / like.width;
+    for (int32_t i = 0; i < g->rows * g->width; ++i) s->lanes[s->lane_count + i] = (fe__lane){0, dummy, dummy};
+    s->lane_count += g->rows * g->width;
     batch->row_bytes += (int64_t)g->rows * row_size;
     ++batch->group_count;
     return g;
 }
 
+// Of a hub each contact has a colour to itself, or none: its group has a row, which would be empty but for a lane
 static fe__group *open_contacts(fe__builder *b, fe__batch *batch, int32_t colour, int32_t kind, int32_t contacts,
                                 const fe__kernels *kernels)
 {
+    int32_t thin = contacts <= FE__THIN_WIDTH && b->width > FE__THIN_WIDTH;
     fe__group like = {.kind = kind, .colour = FE__CONTACT_COLOURS + colour, .alone = colour == FE__OVERFLOW_COLOUR};
-    return fe__open_group(b, batch, like, contacts, kernels->contact->row_size[kind]);
+    like.width = thin ? FE__THIN_WIDTH : b->width;
+    if (!thin) return fe__open_group(b, batch, like, contacts, kernels->contact->row_size[kind]);
+    return fe__open_group(b, batch, like, contacts, (int32_t)fe__whole_blocks(kernels->thin->row_size[kind])); // a wide row may come next
 }
 
 // contacts beyond the colours of a crowded body: one a row, in the order of the pairs' creation

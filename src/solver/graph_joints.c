@@ -14,7 +14,7 @@ static int32_t joint_key(int32_t part, const fe__joint *j)
 static fe__group *open_joints(fe__builder *b, fe__batch *batch, int32_t key, int32_t lanes, const fe__kernels *kernels)
 {
     int32_t colour = key / FE__SIDES, part = colour / (FE__JOINT_COLOURS + 1);
-    fe__group like = {.kind = FE__ROW_KINDS + part, .colour = colour, .sides = 1 + key % FE__SIDES};
+    fe__group like = {.width = b->width, .kind = FE__ROW_KINDS + part, .colour = colour, .sides = 1 + key % FE__SIDES};
     like.alone = colour % (FE__JOINT_COLOURS + 1) == FE__JOINT_OVERFLOW;
     return fe__open_group(b, batch, like, lanes, kernels->joint->of[part].row_size);
 }

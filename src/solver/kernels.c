@@ -9,9 +9,10 @@
     extern const fe__joint_kernels fe__joint_kernels_##name;     \
     extern const fe__body_kernels fe__body_kernels_##name;       \
     extern fe__recycle_kernel fe__recycle_##name;
-#define TABLE(simd, lanes, name)                                                                                          \
-    {                                                                                                                     \
-        simd, lanes, &fe__contact_kernels_##name, &fe__joint_kernels_##name, &fe__body_kernels_##name, fe__recycle_##name \
+#define TABLE(simd, lanes, name)                                                                                           \
+    {                                                                                                                      \
+        simd, lanes, &fe__contact_kernels_##name, &fe__joint_kernels_##name, &fe__body_kernels_##name, fe__recycle_##name, \
+            THIN_CONTACT_KERNELS                                                                                           \
     }
 
 DECLARE_SET(plain)
@@ -26,6 +27,15 @@ DECLARE_SET(avx512)
 #endif
 #ifdef FE_HAVE_NEON
 DECLARE_SET(neon)
+#endif
+
+// What an x86 has that has any of them; other sets are no wider
+#ifdef FE_HAVE_SSE2
+#define THIN_CONTACT_KERNELS &fe__contact_kernels_sse2
+#elif defined(FE_HAVE_NEON)
+#define THIN_CONTACT_KERNELS &fe__contact_kernels_neon
+#else
+#define THIN_CONTACT_KERNELS &fe__contact_kernels_plain
 #endif
 
 // widest last

@@ -23,7 +23,7 @@ typedef struct paced {
 typedef enum verb { LOAD, PREPARE, SOLVE, FOLLOW, INTEGRATE, RELAX, BOUNCE, CARRY, STORE } verb;
 
 typedef struct program {
-    int32_t width, rows_in_block;
+    int32_t rows_in_block;
     fe__pass *passes;
     int32_t room;                        // for so many of them
     int32_t prologue, substep, epilogue; // passes each; the last substep leaves out its last pass
@@ -70,18 +70,39 @@ static int32_t colour_end(const fe__solver *s, int32_t group, int32_t end)
     return group;
 }
 
-static int32_t block_count(const program *p, const fe__solver *s, int32_t group, int32_t end)
+static void number_blocks(const program *p, fe__solver *s, const fe__batch *b)
 {
     int32_t blocks = 0;
-    for (; group < end; ++group) blocks += blocks_of(s->groups[group].rows, p->rows_in_block);
-    return blocks;
+    for (fe__group *g = s->groups + b->first_group, *end = g + b->group_count; g < end; ++g) {
+        g->block = blocks;
+        blocks += blocks_of(g->rows, p->rows_in_block);
+    }
 }
 
-static int32_t row_count(const fe__solver *s, int32_t group, int32_t end)
+static int32_t block_count(const program *p, const fe__solver *s, int32_t group, int32_t end)
 {
-    int32_t rows = 0;
-    for (; group < end; ++group) rows += s->groups[group].rows;
-    return rows;
+    const fe__group *last = s->groups + end - 1;
+    return last->block + blocks_of(last->rows, p->rows_in_block) - s->groups[group].block;
+}
+
+// By bisection: the overflow is a group a contact
+static const fe__group *group_of_block(const fe__group *g, int32_t count, int32_t block)
+{
+    while (count > 1) {
+        int32_t half = count / 2;
+        if (g[half].block <= block)
+            g += half, count -= half;
+        else
+            count = half;
+    }
+    return g;
+}
+
+static int32_t lane_count(const fe__solver *s, int32_t group, int32_t end)
+{
+    int32_t lanes = 0;
+    for (; group < end; ++group) lanes += s->groups[group].rows * s->groups[group].width;
+    return lanes;
 }
 
 // one pass a colour; neighbouring colours with few rows are one serial pass, as is the overflow
@@ -89,11 +110,10 @@ static void add_colours(program *p, int32_t *part, const fe__solver *s, const fe
 {
     int32_t end = b->first_group + b->group_count;
     for (int32_t g = b->first_group + (verb == BOUNCE ? b->joint_groups : 0); g < end;) {
-        int32_t last = colour_end(s, g, end), rows = row_count(s, g, last);
-        int32_t serial = rows * p->width <= SERIAL_LANES || s->groups[g].alone;
+        int32_t last = colour_end(s, g, end), serial = lane_count(s, g, last) <= SERIAL_LANES || s->groups[g].alone;
         while (serial && last < end) {
             int32_t next = colour_end(s, last, end);
-            if (!s->groups[last].alone && row_count(s, last, next) * p->width > SERIAL_LANES) break;
+            if (!s->groups[last].alone && lane_count(s, last, next) > SERIAL_LANES) break;
             last = next;
         }
         add_pass(p, part, verb, g, last - g, serial ? 1 : block_count(p, s, g, last), serial);
@@ -103,15 +123,15 @@ static void add_colours(program *p, int32_t *part, const fe__solver *s, const fe
 
 static int32_t first_tree(const fe__batch *b) { return b->first_group + b->joint_groups - b->trees; }
 
-static void make_program(program *p, const fe__solver *s, const fe__batch *b, int32_t substeps, int32_t width)
+static void make_program(program *p, fe__solver *s, const fe__batch *b, int32_t substeps, int32_t width)
 {
     int32_t line_blocks = blocks_of(b->line_count, LINES_IN_BLOCK), end = b->first_group + b->group_count;
     p->passes = s->passes;
     p->room = s->pass_capacity;
     p->prologue = p->substep = p->epilogue = 0;
     p->substeps = substeps;
-    p->width = width;
     p->rows_in_block = LANES_IN_BLOCK / width;
+    number_blocks(p, s, b);
     add_pass(p, &p->prologue, LOAD, 0, 0, line_blocks, 0);
     add_colours(p, &p->prologue, s, b, PREPARE);
     add_colours(p, &p->substep, s, b, SOLVE);
@@ -176,7 +196,7 @@ static void run_joints(const job *j, const fe__group *g, verb verb, unsigned cha
 {
     const fe__joint_kernel *k = j->k->joint->of + (g->kind - FE__ROW_KINDS);
     unsigned char *row = rows + g->offset + (int64_t)first * k->row_size;
-    const fe__lane *lanes = j->s->lanes + g->lane + first * j->k->width;
+    const fe__lane *lanes = j->s->lanes + g->lane + first * g->width;
     switch (verb) {
     case PREPARE:
         k->prepare(j->s, j->bodies, j->joints, lanes, row, count, g->sides, c);
@@ -211,7 +231,7 @@ static void run_tree(const job *j, const fe__group *g, verb verb, unsigned char 
 // Stored impulses are those of the world's substeps
 static void scale_impulses(const job *j, const fe__group *g, const fe__lane *lanes, int32_t rows, float scale)
 {
-    for (const fe__lane *lane = lanes, *end = lanes + rows * j->k->width; lane < end; ++lane) {
+    for (const fe__lane *lane = lanes, *end = lanes + rows * g->width; lane < end; ++lane) {
         if (!lane->contact) continue;
         fe__contact *m = j->contacts + lane->contact;
         for (int k = 0; k < FE__POINTS; ++k) m->normal_impulse[k] *= scale, m->friction_impulse[k] *= scale;
@@ -230,9 +250,9 @@ static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char 
         run_joints(j, g, verb, rows, first, count, c);
         return;
     }
-    const fe__contact_kernels *k = j->k->contact;
+    const fe__contact_kernels *k = g->width == j->k->width ? j->k->contact : j->k->thin;
     unsigned char *row = rows + g->offset + (int64_t)first * k->row_size[g->kind];
-    const fe__lane *lanes = j->s->lanes + g->lane + first * j->k->width;
+    const fe__lane *lanes = j->s->lanes + g->lane + first * g->width;
     switch (verb) {
     case PREPARE:
         k->prepare[g->kind](j->s, j->contacts, j->extras, lanes, row, count, c);
@@ -271,12 +291,9 @@ static void run_block(const job *j, const fe__batch *b, const fe__pass *p, unsig
         for (int32_t i = 0; i < p->group_count; ++i) run_rows(j, g + i, (verb)p->verb, rows, 0, g[i].rows, c);
         return;
     }
-    for (;; ++g) {
-        int32_t blocks = blocks_of(g->rows, rows_in_block);
-        if (block < blocks) break;
-        block -= blocks;
-    }
-    int32_t first = block * rows_in_block;
+    block += g->block;
+    g = group_of_block(g, p->group_count, block);
+    int32_t first = (block - g->block) * rows_in_block;
     run_rows(j, g, (verb)p->verb, rows, first, fe__mini(rows_in_block, g->rows - first), c);
 }
 
@@ -362,15 +379,15 @@ static void run_large_batch(void *argument, int32_t worker)
     }
 }
 
-static int32_t useful_workers(const fe__solver *s, const fe__batch *b, int32_t workers, int32_t width)
+static int32_t useful_workers(const fe__solver *s, const fe__batch *b, int32_t workers)
 {
     int32_t most = 0, end = b->first_group + b->group_count;
     for (int32_t g = b->first_group; g < end;) {
         int32_t last = colour_end(s, g, end);
-        most = fe__maxi(most, row_count(s, g, last));
+        most = fe__maxi(most, lane_count(s, g, last));
         g = last;
     }
-    return fe__mini(workers, fe__maxi(1, most * width / LANES_PER_WORKER));
+    return fe__mini(workers, fe__maxi(1, most / LANES_PER_WORKER));
 }
 
 static void clear_static_line(fe__solver *s)
@@ -456,7 +473,7 @@ void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *wor
         make_program(&j.program, s, j.batch, constants[j.batch->pace].substeps, kernels->width);
         atomic_store(&j.claim, 0);
         atomic_store(&j.done, 0);
-        fe__run(workers, run_large_batch, &j, useful_workers(s, j.batch, workers->count, kernels->width));
+        fe__run(workers, run_large_batch, &j, useful_workers(s, j.batch, workers->count));
     }
     atomic_store(&j.next_batch, s->large_count);
     fe__run(workers, run_small_batches, &j, fe__mini(workers->count, s->batch_count - s->large_count));

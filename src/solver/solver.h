@@ -19,6 +19,7 @@
 enum {
     FE__LINE = 8,        // floats in a line: two quads, 32 bytes
     FE__MAX_WIDTH = 16,  // lanes of the widest kernel: blocks of lines are padded to it
+    FE__THIN_WIDTH = 4,  // lanes of the narrowest
     FE__STATIC_LINE = 0, // all zeros: what static bodies read
     FE__TRAIL = 8,       // most places on the way of a fast body
     FE__NO_TRAIL = -1,
@@ -70,12 +71,14 @@ typedef struct fe__step_constants {
 
 // Lanes of one group: `count` rows of one kind at `row` (bytes into the batch's row memory), lanes from `lane`
 typedef struct fe__group {
-    int32_t lane; // first, a multiple of W
+    int32_t lane; // first
     int32_t rows;
+    int32_t width;  // lanes of a row: W, or FE__THIN_WIDTH
     int32_t kind;   // FE__ROW_*, or FE__ROW_KINDS + part of joints, or FE__TREE_KIND: one tree, `lane` is its index
     int32_t colour; // rises; groups of one share no dynamic body
     int32_t sides;  // FE__MOVES_*, of joints
     int32_t alone;  // 1: overflow, one row after another
+    int32_t block;  // of a large batch: first one, of all blocks of its groups, see solve.c
     int64_t offset; // of the first row, bytes
 } fe__group;
 
@@ -230,6 +233,7 @@ typedef struct fe__kernels {
     const fe__joint_kernels *joint;
     const fe__body_kernels *body;
     fe__recycle_kernel *recycle;
+    const fe__contact_kernels *thin; // of FE__THIN_WIDTH lanes, for groups of no more contacts: the same bits from less memory
 } fe__kernels;
 
 // The table of a set, NULL when it was not built or this CPU lacks it. FE_SIMD_AUTO: the environment's FE_SIMD, else the widest.
