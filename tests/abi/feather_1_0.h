@@ -240,9 +240,9 @@ typedef struct fe_counters {
     int32_t recycled;   ///< contacts that kept their manifold in the last step
     int32_t islands;    ///< awake
     int32_t colours;    ///< of the largest island
-    int32_t rows;       ///< of W contacts each
+    int32_t rows;       ///< of W contacts each, or of 4 where a colour has no more
     int32_t rows_whole; ///< of these, in islands that one worker solved whole
-    int32_t lanes;      ///< contacts in all rows: lanes / (rows simd_width) is the fill
+    int32_t lanes;      ///< contacts in all rows
     int32_t simd;       ///< fe_simd in use
     int32_t simd_width; ///< W, floats side by side
     int32_t workers;
