@@ -13,6 +13,7 @@ const bench_family bench_families[] = {
     {"pyramid", "flat pyramid of n rows of boxes", 1, 1000, 100, 1, bench_build_pyramid},
     {"many", "n x n flat pyramids of 55 boxes", 2, 100, 14, 1, bench_build_many},
     {"wide", "square pyramid of n levels of boxes", 1, 100, 15, 1, bench_build_wide},
+    {"raft", "n boxes on one body", 1, 100000, 2000, 1, bench_build_raft},
     {"joints", "cloth of n x n spheres on ball joints", 2, 1000, 100, 0, bench_build_joints},
     {"ragdolls", "n people of fourteen capsules fall on a heightfield", 1, 10000, 300, 0, bench_build_ragdolls},
     {"bowl", "n boxes, spheres and capsules poured into a pit", 1, 1000000, 1500, 1, bench_build_bowl},

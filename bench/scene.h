@@ -148,6 +148,7 @@ void bench_build_rest(bench_scene *scene, int32_t n);
 void bench_build_pyramid(bench_scene *scene, int32_t n);
 void bench_build_many(bench_scene *scene, int32_t n);
 void bench_build_wide(bench_scene *scene, int32_t n);
+void bench_build_raft(bench_scene *scene, int32_t n);
 void bench_build_joints(bench_scene *scene, int32_t n);
 void bench_build_bowl(bench_scene *scene, int32_t n);
 void bench_build_fall(bench_scene *scene, int32_t n);
