@@ -20,6 +20,7 @@
 #include "solver/joint_tree.h"
 #include "solver/joint_tree_calm.h"
 #include "solver/joint_tree_light.h"
+#include "solver/joint_tree_warm.h"
 #include "solver/joint_tree_passes.h"
 
 #define KERNELS(name, form)                                                          \

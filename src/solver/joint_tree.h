@@ -64,6 +64,16 @@ static const float *below_of(const tree_job *t, int32_t i) { return t->s->veloci
 static const float *above_of(const tree_job *t, int32_t i) { return t->s->velocity[t->places[i].parent_line]; }
 static int locks_of(const float *velocity) { return (int)velocity[FE__LINE - 1]; }
 
+// A turn within a substep that is no small correction any more
+#define SLOW_TURN 0.05 // rad
+
+static void add_spin(float *line, const double i[6], fe_dvec3 l)
+{
+    line[4] = (float)((double)line[4] + (i[0] * l.x + i[1] * l.y + i[2] * l.z));
+    line[5] = (float)((double)line[5] + (i[1] * l.x + i[3] * l.y + i[4] * l.z));
+    line[6] = (float)((double)line[6] + (i[2] * l.x + i[4] * l.y + i[5] * l.z));
+}
+
 // ---- matrices, lower triangles --------------------------------------------------------------------------------------------------------
 // a = L L^T in place. Where no more than `least` would be left in the diagonal, the row is left out: its column is zeros.
 static void factorise(double *a, int n, int stride, const double *least)

@@ -31,10 +31,7 @@ static motion_of_body moving(const float *velocity, const double *change)
                             {(double)velocity[4] + u[3], (double)velocity[5] + u[4], (double)velocity[6] + u[5]}};
 }
 
-// Of what a turn does to arcs, by its square: beyond SLOW_TURN in a substep it is no small correction any more, and is left to the
-// positions, which lose energy by it instead of gaining it
-#define SLOW_TURN 0.05 // rad
-
+// Of what a turn does to arcs, by its square: beyond SLOW_TURN it is left to the positions, which lose energy by it instead of gaining it
 static double slow_share(double square) { return fe__mind(fe__maxd(2.0 - square / (SLOW_TURN * SLOW_TURN), 0.0), 1.0); }
 
 // A point on an arm r leaves its tangent while the body turns: by integrate_positions' Q = Cayley(h w) it goes on by
@@ -96,13 +93,6 @@ static double wish_closed(const tree_job *t, double share)
 }
 
 // ---- what comes of them ---------------------------------------------------------------------------------------------------------------
-static void add_spin(float *line, const double i[6], fe_dvec3 l)
-{
-    line[4] = (float)((double)line[4] + (i[0] * l.x + i[1] * l.y + i[2] * l.z));
-    line[5] = (float)((double)line[5] + (i[1] * l.x + i[3] * l.y + i[4] * l.z));
-    line[6] = (float)((double)line[6] + (i[2] * l.x + i[4] * l.y + i[5] * l.z));
-}
-
 // no warm start shall repeat what calms
 static void forget_calm(const tree_job *t, int32_t i)
 {
@@ -210,13 +200,12 @@ static void solve_tree(fe__solver *s, const fe__joints *joints, int32_t tree, un
 }
 
 // Contacts come after the joints in a pass and know nothing of them: what was struck or pinched flies off, unless its tree has the last
-// word. Not so of heavy ones: what a contact gave a light link, a thousand times its mass would have to take from it again, and some of
-// that stays as energy; they meet in the rigid pass.
+// word.
 static void follow_tree(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes,
                         const fe__step_constants *c)
 {
     tree_job t = tree_of(s, joints, tree, rows, nodes, c);
-    if (joints->forest.trees[tree].heavy || t.nodes->state == SWEPT || !will_open(&t)) return;
+    if (t.nodes->state == SWEPT || !will_open(&t)) return;
     if (t.nodes->state == READY) reduce_tree(&t);
     engage(&t);
     solve_tree(s, joints, tree, rows, nodes, c);
@@ -248,5 +237,6 @@ static void relax_tree(fe__solver *s, const fe__joints *joints, int32_t tree, un
         follow_locks(&t);
     }
     apply(&t, 1);
+    if (joints->forest.trees[tree].heavy) forget_locks(&t);
     close_points(&t, c);
 }
