@@ -199,8 +199,7 @@ static void solve_tree(fe__solver *s, const fe__joints *joints, int32_t tree, un
     apply(&t, 0);
 }
 
-// Contacts come after the joints in a pass and know nothing of them: what was struck or pinched flies off, unless its tree has the last
-// word.
+// Contacts come after the joints in a pass and know nothing of them: what was struck or pinched flies off, unless its tree ends the pass.
 static void follow_tree(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes,
                         const fe__step_constants *c)
 {
