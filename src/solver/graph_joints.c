@@ -75,8 +75,8 @@ static void open_link(fe__builder *b, fe__batch *batch, int32_t link, fe__lane l
     if (link != first + rootless) return;
     batch->row_bytes = fe__whole_blocks(batch->row_bytes);
     if (rootless) s->places[first] = (fe__tree_place){.line = fe__line_of(b, f->links[first].body), .parent_line = FE__STATIC_LINE};
-    s->groups[s->group_count++] =
-        (fe__group){.kind = FE__TREE_KIND, .colour = FE__TREE_COLOUR, .lane = l->tree, .rows = 1, .offset = batch->row_bytes};
+    s->groups[s->group_count++] = (fe__group){
+        .width = b->width, .kind = FE__TREE_KIND, .colour = FE__TREE_COLOUR, .lane = l->tree, .rows = 1, .offset = batch->row_bytes};
     batch->row_bytes += (int64_t)count * kernels->joint->tree.node_size;
     ++batch->group_count, ++batch->trees;
 }

@@ -29,7 +29,7 @@ DECLARE_SET(avx512)
 DECLARE_SET(neon)
 #endif
 
-// What an x86 has that has any of them; other sets are no wider
+// Whatever CPU has a set of more than FE__THIN_WIDTH lanes has this one
 #ifdef FE_HAVE_SSE2
 #define THIN_CONTACT_KERNELS &fe__contact_kernels_sse2
 #elif defined(FE_HAVE_NEON)

@@ -73,7 +73,7 @@ typedef struct fe__step_constants {
 typedef struct fe__group {
     int32_t lane; // first
     int32_t rows;
-    int32_t width;  // lanes of a row: W, or FE__THIN_WIDTH
+    int32_t width;  // lanes of a row: W, or FE__THIN_WIDTH; W of a tree, which is work for several
     int32_t kind;   // FE__ROW_*, or FE__ROW_KINDS + part of joints, or FE__TREE_KIND: one tree, `lane` is its index
     int32_t colour; // rises; groups of one share no dynamic body
     int32_t sides;  // FE__MOVES_*, of joints

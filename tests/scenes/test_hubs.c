@@ -17,16 +17,16 @@ static void add(play *p, const part *a)
     PLAY(p, fe_shape_create(p->world, body, &a->shape, &a->geometry, &shape));
 }
 
-static void add_raft(play *p, int32_t riders, double x)
+static void add_raft(play *p, int32_t riders)
 {
     const float pitch = 0.6f;
     int32_t side = 1;
     while (side * side < riders) ++side;
-    part raft = part_box(0.5f * pitch * (float)side, 0.2f, 0.5f * pitch * (float)side, x, 0.4, 0.0);
+    part raft = part_box(0.5f * pitch * (float)side, 0.2f, 0.5f * pitch * (float)side, 0.0, 0.4, 0.0);
     raft.body.transform.rotation.z = 0.01f; // comes down on an edge
     add(p, &raft);
     for (int32_t i = 0; i < riders; ++i) {
-        double px = x + (double)pitch * (i % side - 0.5 * (side - 1)), pz = (double)pitch * (i / side - 0.5 * (side - 1));
+        double px = (double)pitch * (i % side - 0.5 * (side - 1)), pz = (double)pitch * (i / side - 0.5 * (side - 1));
         part rider = i % 3 == 0   ? part_sphere(0.25f, px, 0.86, pz)
                      : i % 3 == 1 ? part_box(0.2f, 0.25f, 0.2f, px, 0.86, pz)
                                   : part_capsule(0.1f, 0.2f, px, 0.86, pz);
@@ -45,7 +45,7 @@ static uint64_t run_crowd(int32_t riders, int32_t simd, int32_t workers)
     play_begin(&p, world);
     part ground = part_plane(0.0f, 1.0f, 0.0f);
     add(&p, &ground);
-    add_raft(&p, riders, 0.0);
+    add_raft(&p, riders);
     for (int32_t i = 0; i < STEPS; ++i) FE_TRUE(fe_world_step(world, p.dt) == FE_OK);
     fe_counters counters = {.struct_size = sizeof counters};
     FE_TRUE(fe_world_get_counters(world, &counters) == FE_OK);

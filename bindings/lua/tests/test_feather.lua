@@ -238,9 +238,9 @@ local THREADS = [[
         return count
     end ]]
 local threads = (loadstring or load)(THREADS .. "return threads")()
+local function collect() for _ = 1, 3 do collectgarbage() end end
 
 function TestErrors.testNoThreadOutlivesItsPool()
-    local function collect() for _ = 1, 3 do collectgarbage() end end
     collect() -- what other tests left
     local before = threads(1)
     for _ = 1, 20 do feather.newWorld({ pool = feather.newPool(3) }) end
@@ -249,7 +249,6 @@ function TestErrors.testNoThreadOutlivesItsPool()
 end
 
 function TestErrors.testAWorldKeepsThePoolOfItsDefinition()
-    local function collect() for _ = 1, 3 do collectgarbage() end end
     local function made()
         local desc, pool = core.world_def(), core.pool_create(3)
         if core.set_pool then core.set_pool(desc, pool) else desc.pool = pool end
