@@ -1,6 +1,6 @@
 // graph_islands.c - islands by union-find, batches of islands, what is in a batch.
 //
-// All is free to follow the awake lists: whatever order they have, islands and batches come in the order of the bodies' awake indices.
+// In whatever order the awake lists are: islands share no dynamic body, so that who is solved first does not show.
 #include "solver/graph_build.h"
 
 #include <string.h>
