@@ -8,7 +8,7 @@
 // Invariant: every node but the root has at least two children, so there are fewer nodes than proxies.
 #ifndef FE_BROADPHASE_TREE_H
 #define FE_BROADPHASE_TREE_H
-#include "collision/form.h"
+#include "collision/form/form.h"
 #include "core/memory.h"
 
 enum { FE_TREE_WIDTH = 8 };

@@ -4,7 +4,7 @@
 // the nearest, and every box that holds the point is looked into.
 #include "query/closest.h"
 
-#include "collision/nearest.h"
+#include "collision/cast/nearest.h"
 
 typedef struct search {
     const fe__scene *scene;

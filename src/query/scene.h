@@ -5,8 +5,8 @@
 #ifndef FE_QUERY_SCENE_H
 #define FE_QUERY_SCENE_H
 #include "broadphase/tree.h"
-#include "collision/heightfield.h"
-#include "collision/shape.h"
+#include "collision/form/heightfield.h"
+#include "collision/form/shape.h"
 #include "core/id_pool.h"
 
 typedef struct fe__scene {

@@ -12,9 +12,9 @@
 #include "core/math.h"
 #include "core/memory.h"
 #include "core/threads.h"
-#include "solver/contact.h"
+#include "solver/contact/contact.h"
 #include "solver/body.h"
-#include "solver/joint.h"
+#include "solver/joint/joint.h"
 
 enum {
     FE__LINE = 8,        // floats in a line: two quads, 32 bytes

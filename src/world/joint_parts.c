@@ -1,4 +1,4 @@
-// joint_parts.c - what each type of joint is made of: locks, limits, drives and motors, as the solver knows them (solver/joint.h).
+// joint_parts.c - what each type of joint is made of: locks, limits, drives and motors, as the solver knows them (solver/joint/joint.h).
 //
 // Called when a joint is made or changed, with a checked definition. Targets are clamped to the limits here, so that no drive presses on a
 // stop for good.
@@ -80,7 +80,7 @@ typedef struct angles {
     float twist, swing_y, swing_z; // rad
 } angles;
 
-// q = swing twist, see solver/joint.h
+// q = swing twist, see solver/joint/joint.h
 static fe_quat rotation_of(angles a)
 {
     float length = sqrtf(a.swing_y * a.swing_y + a.swing_z * a.swing_z), sine, cosine, k, c;

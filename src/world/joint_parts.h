@@ -1,7 +1,7 @@
 // joint_parts.h - from a joint's definition to the parts that the solver knows.
 #ifndef FE_WORLD_JOINT_PARTS_H
 #define FE_WORLD_JOINT_PARTS_H
-#include "solver/joint.h"
+#include "solver/joint/joint.h"
 #include "world/joint_record.h"
 
 typedef struct fe__joint_plan {
@@ -21,7 +21,7 @@ static inline int32_t fe__joint_needs_axes(const fe__joint_plan *plan)
 // The part that uses a place in fe__joint_axes.axis, FE__PARTS: none
 fe__joint_part fe__joint_part_at(uint32_t parts, int32_t place);
 
-// Twist and swing of q, see solver/joint.h
+// Twist and swing of q, see solver/joint/joint.h
 void fe__joint_angles(fe_quat q, float *out_twist, float *out_swing_y, float *out_swing_z);
 // From the solver's axes to the definition's: X to axis X + shift
 fe_quat fe__joint_shift(int32_t shift);

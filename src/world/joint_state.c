@@ -3,7 +3,7 @@
 // Read from the bodies' poses and velocities as they are, by the API and after the solver.
 #include "core/trig.h"
 #include "world/joint_parts.h"
-#include "world/step.h"
+#include "step/step.h"
 
 static fe_quat rotation_of(const fe__body *b) { return (fe_quat){b->rotation[0], b->rotation[1], b->rotation[2], b->rotation[3]}; }
 static fe_vec3 velocity_of(const fe__body *b) { return fe__vec3(b->velocity[0], b->velocity[1], b->velocity[2]); }

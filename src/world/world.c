@@ -3,7 +3,7 @@
 // Called by the API layer. A new world holds nothing but itself: its arrays grow with what it is given.
 #include "world/world.h"
 
-#include "solver/graph.h"
+#include "solver/graph/graph.h"
 
 fe_world_tuning fe__default_tuning(void)
 {

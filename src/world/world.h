@@ -16,9 +16,9 @@
 #include "world/joint_record.h"
 #include "world/pair.h"
 #include "world/wait.h"
-#include "collision/heightfield.h"
-#include "collision/shape.h"
-#include "collision/terrain.h"
+#include "collision/form/heightfield.h"
+#include "collision/form/shape.h"
+#include "collision/manifold/terrain.h"
 
 // An event as the step writes it. Serials order it; handles name it also after a destruction.
 typedef struct fe__pair_event_record {

@@ -6,7 +6,7 @@
 #include "api/api_test.h"
 #include "queries/exact.h"
 
-#include "collision/form.h"
+#include "collision/form/form.h"
 
 #include <stdlib.h>
 

@@ -1,7 +1,7 @@
 // collision_cases.h - random forms and poses, and plain double geometry, for the tests of src/collision.
 #ifndef COLLISION_CASES_H
 #define COLLISION_CASES_H
-#include "collision/collide.h"
+#include "collision/manifold/collide.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
 #define FE_TESTS_JOINT_RIG_H
 #include "../fe_test.h"
 #include "core/hash.h"
-#include "solver/graph.h"
+#include "solver/graph/graph.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 // Cutting a face by another and keeping four points: two independent ways give one area, and four points keep most of it.
 #include "fe_test.h"
 
-#include "collision/clip.h"
+#include "collision/form/clip.h"
 
 #include "collision_cases.h"
 

@@ -1,9 +1,9 @@
 // The narrow phase: every pair of forms against the distance and depth of their cores in double, and the laws of manifolds.
 #include "fe_test.h"
 
-#include "collision/collide.h"
-#include "collision/epa.h"
-#include "collision/gjk.h"
+#include "collision/manifold/collide.h"
+#include "collision/form/epa.h"
+#include "collision/form/gjk.h"
 
 #include "collision_cases.h"
 

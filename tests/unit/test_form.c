@@ -1,8 +1,8 @@
 // Masses, bounds and sizes of the forms, against sums over slices and over points.
 #include "fe_test.h"
 
-#include "collision/form.h"
-#include "collision/support.h"
+#include "collision/form/form.h"
+#include "collision/form/support.h"
 
 #include "collision_cases.h"
 

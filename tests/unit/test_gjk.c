@@ -1,8 +1,8 @@
 // Distance (GJK) and depth (EPA) of cores, against brute force in double: corners and edges one by one, all separating axes.
 #include "fe_test.h"
 
-#include "collision/epa.h"
-#include "collision/gjk.h"
+#include "collision/form/epa.h"
+#include "collision/form/gjk.h"
 
 #include "collision_cases.h"
 

@@ -1,7 +1,7 @@
 // Manifolds that decide whether things stand: resting forms, forms in one place, forms of 1 mm and of 500 m, the axis kept between steps.
 #include "fe_test.h"
 
-#include "collision/collide.h"
+#include "collision/manifold/collide.h"
 
 #include "collision_cases.h"
 

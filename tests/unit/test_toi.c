@@ -1,9 +1,9 @@
 // Distances of placed forms against closed forms, and the time of impact against a walk along the whole motion.
 #include "fe_test.h"
 
-#include "collision/distance.h"
-#include "collision/nearest.h"
-#include "collision/toi.h"
+#include "collision/cast/distance.h"
+#include "collision/cast/nearest.h"
+#include "collision/cast/toi.h"
 
 #if defined(FE_SANITIZED)
 enum { CASES = 300, SAMPLES = 100 };

@@ -1,0 +1,58 @@
+// approach.h - what the sweep's files share: two cores, one moving in the frame of the other.
+//
+// Every form but the plane is a core - a point, a segment along y, a box - swelled by its radius. Of two forms the one whose core has more
+// dimensions gives the frame, whichever of them moves: so there are six kinds of pairs. A point is a box of no size, a segment one of only
+// a height: what separates boxes serves all.
+#ifndef FE_COLLISION_APPROACH_H
+#define FE_COLLISION_APPROACH_H
+#include "collision/cast/sweep.h"
+
+typedef enum fe__core_kind { FE_CORE_POINT, FE_CORE_SEGMENT, FE_CORE_BOX, FE_CORE_TRIANGLE } fe__core_kind;
+
+typedef struct fe__approach {
+    int32_t frame_kind, other_kind;      // fe__core_kind, frame_kind >= other_kind
+    double frame_half[3], other_half[3]; // of the cores, along their own axes, m
+    fe__axes axes;                       // the other's, in the frame
+    fe_dvec3 position, translation;      // of the other relative to the frame, m
+    fe_dvec3 vertex[3], normal;          // of a triangle as the frame's core; normal of length 1
+    double radius;                       // both radii: the cores touch at this distance, m
+    double gap;                          // where a sweep stops, m
+} fe__approach;
+
+// Nearest points of the cores, with the other one's centre at `position`.
+typedef struct fe__core_gap {
+    double distance; // 0: they overlap
+    fe_dvec3 on_frame;
+    fe_dvec3 away; // from there to the other core's nearest point
+} fe__core_gap;
+void fe__core_gap_of(const fe__approach *a, fe_dvec3 position, fe__core_gap *gap);     // of point and segment only, not of two boxes
+void fe__triangle_gap_of(const fe__approach *a, fe_dvec3 position, fe__core_gap *gap); // the frame is a triangle
+fe_dvec3 fe__nearest_on_triangle(const fe_dvec3 vertex[3], fe_dvec3 normal, fe_dvec3 point);
+// Nearest points p + u a, |u| <= half, and q + w b, 0 <= w <= length, of two segments; a and b are unit.
+void fe__nearest_on_segments(fe_dvec3 p, fe_dvec3 a, double half, fe_dvec3 q, fe_dvec3 b, double length, double *u, double *w);
+
+// The overlap of two cores as boxes: how far, and along which unit axis, the other must move out. Below 0: they are apart, by what does not
+// matter.
+double fe__core_depth(const fe__approach *a, fe_dvec3 *way_out);
+
+typedef struct fe__approach_hit {
+    double t;
+    fe_dvec3 normal; // unit, from the frame's core to the other
+    fe_dvec3 point;  // on the frame's core
+} fe__approach_hit;
+// Two boxes, or a box and a triangle, apart at the start. 1: they meet, and the stop is at t <= limit.
+int32_t fe__boxes_sweep(const fe__approach *a, double limit, fe__approach_hit *hit);
+
+// ---- any pair (sweep.c) -----------------------------------------------------------------------------------------------------------
+typedef struct fe__overlap {
+    double depth; // below 0: apart
+    fe_dvec3 way_out;
+} fe__overlap;
+
+double fe__stop_gap(const fe__mover *mover);
+fe__overlap fe__approach_overlap(const fe__approach *a);
+int32_t fe__approach_sweep(const fe__approach *a, double limit, fe__approach_hit *hit); // apart at the start
+int32_t fe__core_kind_of(const fe__form *form);
+void fe__core_half(const fe__form *form, double half[3]);
+
+#endif

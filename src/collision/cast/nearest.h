@@ -1,0 +1,21 @@
+// nearest.h - the point of a form's surface nearest to a point.
+//
+// Closed forms in double, in the form's frame. Read by queries. Distances are signed: below 0 inside.
+#ifndef FE_COLLISION_NEAREST_H
+#define FE_COLLISION_NEAREST_H
+#include "collision/form/heightfield.h"
+
+typedef struct fe__nearest {
+    double distance;  // m, below 0 inside
+    fe_dvec3 normal;  // unit, out of the form; where several are as near, always the same
+    fe_dvec3 point;   // on the surface
+    int32_t triangle; // of a heightfield, else -1
+} fe__nearest;
+
+fe__nearest fe__form_nearest(const fe__form *form, fe_dvec3 point);
+
+// The nearest point of a heightfield's upper side, no farther than `limit`: 1. From below a triangle it is not seen: a point under the
+// surface has none.
+int32_t fe__heightfield_nearest(const fe__heightfield *field, fe_dvec3 point, double limit, fe__nearest *nearest);
+
+#endif

@@ -1,0 +1,192 @@
+// sweep.c - when a moving form meets a standing one; see sweep.h.
+//
+// The distance f(t) of two convex cores, one of them moving straight, is a convex function of t. So its tangent stays below it, and the
+// step to where the tangent reaches the sum of the radii never goes too far: Newton's method from outside is conservative advancement with
+// the best possible bound. It converges quadratically, and by halves where the forms graze. Two boxes have a closed form (sweep_boxes.c),
+// so has a plane.
+#include "collision/cast/approach.h"
+
+// Halving 10 km comes down to 1e-11 m; bodies that are met squarely need 3 to 6.
+enum { MAX_STEPS = 64 };
+#define ROUNDING 2e-15     // of the lengths involved: how well f is known
+#define GAP_TOLERANCE 0.1f // of the gap: a stop within that of it is one
+
+fe__axes fe__axes_of(fe_quat q)
+{
+    double x = (double)q.x, y = (double)q.y, z = (double)q.z, w = (double)q.w, k = 2.0 / (x * x + y * y + z * z + w * w);
+    double xx = k * x * x, yy = k * y * y, zz = k * z * z, xy = k * x * y, xz = k * x * z, yz = k * y * z;
+    double wx = k * w * x, wy = k * w * y, wz = k * w * z;
+    return (fe__axes){
+        {1.0 - yy - zz, xy + wz, xz - wy},
+        {xy - wz, 1.0 - xx - zz, yz + wx},
+        {xz + wy, yz - wx, 1.0 - xx - yy},
+    };
+}
+
+// ---- which frame ----------------------------------------------------------------------------------------------------------------
+int32_t fe__core_kind_of(const fe__form *form)
+{
+    return form->type == FE_GEOMETRY_BOX ? FE_CORE_BOX : form->type == FE_GEOMETRY_CAPSULE ? FE_CORE_SEGMENT : FE_CORE_POINT;
+}
+
+void fe__core_half(const fe__form *form, double half[3])
+{
+    half[0] = (double)form->half.x, half[1] = (double)form->half.y + (double)form->half_height, half[2] = (double)form->half.z;
+}
+
+// What keeps the bodies apart is never below what rounding may take.
+static double size(fe_dvec3 a) { return fe__absd(a.x) + fe__absd(a.y) + fe__absd(a.z); }
+double fe__stop_gap(const fe__mover *mover) { return FE_SWEEP_GAP + ROUNDING * (size(mover->position) + size(mover->translation)); }
+
+// 1: the mover gives the frame
+static int32_t set_up(const fe__form *still, const fe__mover *mover, fe__approach *s)
+{
+    int32_t still_kind = fe__core_kind_of(still), mover_kind = fe__core_kind_of(mover->form), swapped = mover_kind > still_kind;
+    const fe__axes *m = &mover->axes;
+    s->radius = (double)still->radius + (double)mover->form->radius;
+    if (swapped) {
+        s->frame_kind = mover_kind, s->other_kind = still_kind;
+        fe__core_half(mover->form, s->frame_half), fe__core_half(still, s->other_half);
+        s->axes = (fe__axes){{m->x.x, m->y.x, m->z.x}, {m->x.y, m->y.y, m->z.y}, {m->x.z, m->y.z, m->z.z}};
+        s->position = fe__dscale(-1.0, fe__turn_back(m, mover->position));
+        s->translation = fe__dscale(-1.0, fe__turn_back(m, mover->translation));
+    } else {
+        s->frame_kind = still_kind, s->other_kind = mover_kind;
+        fe__core_half(still, s->frame_half), fe__core_half(mover->form, s->other_half);
+        s->axes = *m, s->position = mover->position, s->translation = mover->translation;
+    }
+    s->gap = fe__stop_gap(mover);
+    return swapped;
+}
+
+// ---- overlap --------------------------------------------------------------------------------------------------------------------
+static double plane_height(const fe__form *plane, const fe__mover *mover)
+{
+    fe_dvec3 n = fe__widen(plane->normal);
+    double half[3], length = sqrt(fe__ddot(n, n)); // 1 up to the rounding of floats
+    fe__core_half(mover->form, half);
+    double e = half[0] * fe__absd(fe__ddot(n, mover->axes.x)) + half[1] * fe__absd(fe__ddot(n, mover->axes.y)) +
+               half[2] * fe__absd(fe__ddot(n, mover->axes.z));
+    return (fe__ddot(n, mover->position) - (double)plane->distance - e) / length - (double)mover->form->radius;
+}
+
+// In the approach's frame.
+fe__overlap fe__approach_overlap(const fe__approach *s)
+{
+    fe__overlap o;
+    fe__core_gap gap = {0};
+    if (s->other_kind != FE_CORE_BOX) fe__core_gap_of(s, s->position, &gap);
+    if (gap.distance > 0.0) {
+        o.depth = s->radius - gap.distance;
+        o.way_out = fe__dscale(1.0 / gap.distance, gap.away);
+    } else {
+        o.depth = fe__core_depth(s, &o.way_out) + s->radius;
+        if (s->other_kind != FE_CORE_BOX) o.depth = fe__maxd(o.depth, s->radius); // cores that touch
+    }
+    return o;
+}
+
+int32_t fe__form_overlap(const fe__form *still, const fe__mover *mover)
+{
+    if (still->type == FE_GEOMETRY_PLANE) return plane_height(still, mover) <= 0.0;
+    fe__approach s;
+    (void)set_up(still, mover, &s);
+    return fe__approach_overlap(&s).depth >= 0.0;
+}
+
+// ---- sweeps ---------------------------------------------------------------------------------------------------------------------
+// Newton's method from `t` to where the distance is `goal`, to the left of it by at most `tolerance`. 0: it never comes so near.
+static int32_t advance(const fe__approach *s, double goal, double tolerance, double *t, fe__core_gap *gap)
+{
+    for (int32_t i = 0;; ++i) {
+        fe__core_gap_of(s, fe__dadd(s->position, fe__dscale(*t, s->translation)), gap);
+        double rate = fe__ddot(gap->away, s->translation) / gap->distance; // of the distance, m per t
+        if (!(rate < 0.0)) return 0;
+        if (gap->distance <= goal + tolerance || i == MAX_STEPS) return 1;
+        *t += (gap->distance - goal) / -rate;
+        if (!(*t <= 1.0)) return 0;
+    }
+}
+
+// It stops where the gap begins, or at once within it; and only when it would come through half of that, for what slides along a surface
+// must not stick to it by a rounding.
+static int32_t sweep_round(const fe__approach *s, double limit, fe__approach_hit *hit)
+{
+    double tolerance = (double)GAP_TOLERANCE * s->gap, t = 0.0, clearance;
+    fe__core_gap gap, nearer;
+    if (!advance(s, s->radius + s->gap, tolerance, &t, &gap) || !(t <= limit)) return 0;
+    *hit = (fe__approach_hit){t, fe__dscale(1.0 / gap.distance, gap.away), gap.on_frame};
+    clearance = fe__mind(gap.distance - s->radius, s->gap);
+    return advance(s, s->radius + 0.5 * clearance, (double)GAP_TOLERANCE * clearance, &t, &nearer);
+}
+
+int32_t fe__approach_sweep(const fe__approach *s, double limit, fe__approach_hit *hit)
+{
+    return s->other_kind == FE_CORE_BOX ? fe__boxes_sweep(s, limit, hit) : sweep_round(s, limit, hit);
+}
+
+static int32_t sweep_plane(const fe__form *plane, const fe__mover *mover, double limit, fe__sweep_hit *hit)
+{
+    fe_dvec3 n = fe__widen(plane->normal), unit = fe__dscale(1.0 / sqrt(fe__ddot(n, n)), n);
+    double height = plane_height(plane, mover), rate = fe__ddot(unit, mover->translation);
+    *hit = (fe__sweep_hit){.normal = unit, .point = mover->position, .triangle = -1};
+    if (height <= 0.0) {
+        hit->inside = 1, hit->depth = -height;
+        return 1;
+    }
+    if (!(rate < 0.0) || height > -rate) return 0;
+    hit->t = fe__maxd((height - fe__stop_gap(mover)) / -rate, 0.0);
+    if (!(hit->t <= limit)) return 0;
+    // the lowest point of the mover: of several the middle
+    const fe__axes *m = &mover->axes;
+    double half[3];
+    fe__core_half(mover->form, half);
+    fe_dvec3 low = fe__turn_back(m, unit), along = {low.x > 0.0   ? -half[0]
+                                                    : low.x < 0.0 ? half[0]
+                                                                  : 0.0,
+                                                    low.y > 0.0   ? -half[1]
+                                                    : low.y < 0.0 ? half[1]
+                                                                  : 0.0,
+                                                    low.z > 0.0   ? -half[2]
+                                                    : low.z < 0.0 ? half[2]
+                                                                  : 0.0};
+    fe_dvec3 p = fe__dadd(fe__dadd(mover->position, fe__dscale(hit->t, mover->translation)), fe__turn(m, along));
+    double above = fe__ddot(unit, p) - (double)plane->distance / sqrt(fe__ddot(n, n));
+    hit->point = fe__dsub(p, fe__dscale(above, unit));
+    return 1;
+}
+
+// From the approach's frame to the standing form's.
+static void tell(const fe__form *still, const fe__mover *mover, int32_t swapped, const fe__approach_hit *h, fe__sweep_hit *hit)
+{
+    fe_dvec3 normal = h->normal, point = h->point;
+    hit->t = h->t;
+    if (swapped) {
+        // the nearest point of the still core is beyond the gap from the mover's; both lie on one line along the normal
+        normal = fe__turn(&mover->axes, fe__dscale(-1.0, normal));
+        point = fe__dadd(fe__dadd(mover->position, fe__dscale(h->t, mover->translation)), fe__turn(&mover->axes, point));
+        point = fe__dsub(point, fe__dscale((double)mover->form->radius, normal));
+    } else {
+        point = fe__dadd(point, fe__dscale((double)still->radius, normal));
+    }
+    hit->normal = normal;
+    hit->point = point;
+}
+
+int32_t fe__form_sweep(const fe__form *still, const fe__mover *mover, double limit, fe__sweep_hit *hit)
+{
+    if (still->type == FE_GEOMETRY_PLANE) return sweep_plane(still, mover, limit, hit);
+    fe__approach s;
+    int32_t swapped = set_up(still, mover, &s);
+    fe__overlap o = fe__approach_overlap(&s);
+    *hit = (fe__sweep_hit){.triangle = -1};
+    if (o.depth >= 0.0) {
+        fe_dvec3 out = swapped ? fe__turn(&mover->axes, fe__dscale(-1.0, o.way_out)) : o.way_out;
+        *hit = (fe__sweep_hit){.normal = out, .point = mover->position, .depth = o.depth, .inside = 1, .triangle = -1};
+        return 1;
+    }
+    fe__approach_hit h;
+    if (!fe__approach_sweep(&s, limit, &h)) return 0;
+    tell(still, mover, swapped, &h, hit);
+    return 1;
+}

@@ -1,0 +1,177 @@
+// gjk.c - distance of two cores; see gjk.h.
+//
+// Sources: Gilbert, Johnson, Keerthi, A fast procedure for computing the distance between complex objects (1988); the nearest points of
+// triangle and tetrahedron by regions, Ericson, Real-Time Collision Detection, 5.1.5 and 5.1.6.
+#include "collision/form/gjk.h"
+
+enum { MAX_ITERATIONS = 64 }; // boxes and segments need at most 12
+#define OVERLAP_SIZE 1e-10    // of the cores' size: nearer than this they overlap; a million roundings
+#define FLAT 1e-12            // of the size: a tetrahedron no higher than that has no inside
+#define CONVERGED 1e-13       // of the squared distance
+
+fe__vertex fe__cores_support(const fe__cores *cores, fe_dvec3 direction)
+{
+    fe_dvec3 on_a = fe__form_support(cores->a, direction);
+    fe_dvec3 local = {-fe__ddot(cores->axis_x, direction), -fe__ddot(cores->axis_y, direction), -fe__ddot(cores->axis_z, direction)};
+    fe_dvec3 q = fe__form_support(cores->b, local);
+    fe_dvec3 turned = fe__dadd(fe__dadd(fe__dscale(q.x, cores->axis_x), fe__dscale(q.y, cores->axis_y)), fe__dscale(q.z, cores->axis_z));
+    return (fe__vertex){fe__dsub(on_a, fe__dadd(cores->position, turned)), on_a};
+}
+
+// ---- nearest points of simplices ------------------------------------------------------------------------------------------------
+// Each gives the weights of the corners in the point nearest the origin; a corner outside the nearest feature has 0.
+static void weigh_line(fe_dvec3 a, fe_dvec3 b, double *weight)
+{
+    fe_dvec3 ab = fe__dsub(b, a);
+    double along = -fe__ddot(a, ab), square = fe__ddot(ab, ab);
+    double t = !(along > 0.0) ? 0.0 : along >= square ? 1.0 : along / square;
+    weight[0] = 1.0 - t, weight[1] = t;
+}
+
+static void set_weights(double *weight, double a, double b, double c) { weight[0] = a, weight[1] = b, weight[2] = c; }
+
+static void weigh_triangle(fe_dvec3 a, fe_dvec3 b, fe_dvec3 c, double *weight)
+{
+    fe_dvec3 ab = fe__dsub(b, a), ac = fe__dsub(c, a);
+    double a_ab = -fe__ddot(a, ab), a_ac = -fe__ddot(a, ac), b_ab = -fe__ddot(b, ab), b_ac = -fe__ddot(b, ac);
+    double c_ab = -fe__ddot(c, ab), c_ac = -fe__ddot(c, ac);
+    double in_a = b_ab * c_ac - c_ab * b_ac, in_b = c_ab * a_ac - a_ab * c_ac, in_c = a_ab * b_ac - b_ab * a_ac;
+    double bc = b_ac - b_ab, cb = c_ab - c_ac;
+    if (a_ab <= 0.0 && a_ac <= 0.0) {
+        set_weights(weight, 1.0, 0.0, 0.0);
+    } else if (b_ab >= 0.0 && b_ac <= b_ab) {
+        set_weights(weight, 0.0, 1.0, 0.0);
+    } else if (c_ac >= 0.0 && c_ab <= c_ac) {
+        set_weights(weight, 0.0, 0.0, 1.0);
+    } else if (in_c <= 0.0 && a_ab >= 0.0 && b_ab <= 0.0) {
+        double t = a_ab / (a_ab - b_ab);
+        set_weights(weight, 1.0 - t, t, 0.0);
+    } else if (in_b <= 0.0 && a_ac >= 0.0 && c_ac <= 0.0) {
+        double t = a_ac / (a_ac - c_ac);
+        set_weights(weight, 1.0 - t, 0.0, t);
+    } else if (in_a <= 0.0 && bc >= 0.0 && cb >= 0.0) {
+        double t = bc / (bc + cb);
+        set_weights(weight, 0.0, 1.0 - t, t);
+    } else {
+        double inverse = 1.0 / (in_a + in_b + in_c), u = in_b * inverse, v = in_c * inverse;
+        set_weights(weight, 1.0 - u - v, u, v);
+    }
+}
+
+static fe_dvec3 weighted(const fe__vertex *vertex, const double *weight, int32_t count)
+{
+    fe_dvec3 sum = fe__dscale(weight[0], vertex[0].difference);
+    for (int32_t i = 1; i < count; ++i) sum = fe__dadd(sum, fe__dscale(weight[i], vertex[i].difference));
+    return sum;
+}
+
+// 1 when the origin and d lie on different sides of the triangle's plane. In a tetrahedron as flat as rounding no side is sure: 1.
+static int32_t is_outside(fe_dvec3 a, fe_dvec3 b, fe_dvec3 c, fe_dvec3 d, double size)
+{
+    fe_dvec3 normal = fe__dcross(fe__dsub(b, a), fe__dsub(c, a));
+    double origin = -fe__ddot(normal, a), other = fe__ddot(normal, fe__dsub(d, a)), flat = FLAT * size;
+    return !(origin * other > 0.0) || other * other <= flat * flat * fe__ddot(normal, normal);
+}
+
+// The nearest of the faces that the origin is outside of; 0 when it is inside all of them.
+static int32_t weigh_tetrahedron(const fe__vertex *vertex, double *weight, double size)
+{
+    static const int8_t faces[4][4] = {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}};
+    double best = (double)INFINITY;
+    for (int32_t f = 0; f < 4; ++f) {
+        const int8_t *k = faces[f];
+        fe_dvec3 a = vertex[k[0]].difference, b = vertex[k[1]].difference, c = vertex[k[2]].difference, d = vertex[k[3]].difference;
+        if (!is_outside(a, b, c, d, size)) continue;
+        double w[3];
+        weigh_triangle(a, b, c, w);
+        fe_dvec3 v = fe__dadd(fe__dadd(fe__dscale(w[0], a), fe__dscale(w[1], b)), fe__dscale(w[2], c));
+        double square = fe__ddot(v, v);
+        if (!(square < best)) continue;
+        best = square;
+        weight[k[0]] = w[0], weight[k[1]] = w[1], weight[k[2]] = w[2], weight[k[3]] = 0.0;
+    }
+    return best < (double)INFINITY;
+}
+
+static int32_t drop_weightless(fe__vertex *vertex, double *weight, int32_t count)
+{
+    int32_t left = 0;
+    for (int32_t i = 0; i < count; ++i) {
+        if (weight[i] == 0.0) continue;
+        vertex[left] = vertex[i];
+        weight[left++] = weight[i];
+    }
+    return left;
+}
+
+int32_t fe__nearest_in_simplex(fe__vertex *vertex, double *weight, int32_t count)
+{
+    if (count == 1)
+        weight[0] = 1.0;
+    else if (count == 2)
+        weigh_line(vertex[0].difference, vertex[1].difference, weight);
+    else
+        weigh_triangle(vertex[0].difference, vertex[1].difference, vertex[2].difference, weight);
+    return drop_weightless(vertex, weight, count);
+}
+
+// ---- the walk towards the origin ------------------------------------------------------------------------------------------------------
+static int32_t is_known(const fe__gjk *g, const fe__vertex *w)
+{
+    for (int32_t i = 0; i < g->count; ++i) {
+        fe_dvec3 d = fe__dsub(g->vertex[i].difference, w->difference);
+        if (fe__ddot(d, d) == 0.0) return 1;
+    }
+    return 0;
+}
+
+static void set_points(fe__gjk *g, const double *weight, fe_dvec3 v)
+{
+    g->on_a = (fe_dvec3){0.0, 0.0, 0.0};
+    for (int32_t i = 0; i < g->count; ++i) g->on_a = fe__dadd(g->on_a, fe__dscale(weight[i], g->vertex[i].on_a));
+    g->on_b = fe__dsub(g->on_a, v);
+    g->distance = sqrt(fe__ddot(v, v));
+}
+
+void fe__gjk_distance(const fe__cores *cores, double limit, fe__gjk *g)
+{
+    double weight[4] = {1.0};
+    fe_dvec3 v = fe__dscale(-1.0, cores->position);
+    g->vertex[0] = fe__cores_support(cores, cores->position);
+    g->count = 1, g->overlap = 0;
+    v = g->vertex[0].difference;
+    g->size = sqrt(fe__ddot(v, v));
+    for (int32_t iteration = 0; iteration < MAX_ITERATIONS; ++iteration) {
+        double square = fe__ddot(v, v), near = OVERLAP_SIZE * g->size;
+        if (square <= near * near) {
+            g->overlap = 1;
+            break;
+        }
+        fe__vertex w = fe__cores_support(cores, fe__dscale(-1.0, v));
+        g->size = fe__maxd(g->size, sqrt(fe__ddot(w.difference, w.difference)));
+        // the plane through w across v separates: distance >= v . w / |v|
+        double along = fe__ddot(v, w.difference);
+        int32_t apart = along > 0.0 && along * along > limit * limit * square;
+        if (apart || square - along <= CONVERGED * square || is_known(g, &w)) break;
+        fe__gjk last = *g;
+        double last_weight[4] = {weight[0], weight[1], weight[2], weight[3]};
+        g->vertex[g->count++] = w;
+        if (g->count < 4) {
+            g->count = fe__nearest_in_simplex(g->vertex, weight, g->count);
+        } else if (weigh_tetrahedron(g->vertex, weight, g->size)) {
+            g->count = drop_weightless(g->vertex, weight, 4);
+        } else {
+            g->overlap = 1;
+            break;
+        }
+        fe_dvec3 nearer = weighted(g->vertex, weight, g->count);
+        if (fe__ddot(nearer, nearer) >= square) { // rounding: no nearer point is found
+            *g = last;
+            for (int32_t i = 0; i < 4; ++i) weight[i] = last_weight[i];
+            break;
+        }
+        v = nearer;
+    }
+    set_points(g, weight, v);
+    if (g->overlap) g->distance = 0.0;
+}

@@ -1,0 +1,41 @@
+// gjk.h - distance of two cores (Gilbert, Johnson, Keerthi, 1988), in double.
+//
+// Used by the general convex path. The two cores' difference { p - q : p in A, q in B } contains the origin exactly when they overlap, and
+// its point nearest the origin is the shortest vector from B to A. Double, because this path is not hot and serves shapes from 1 mm to 100
+// km.
+#ifndef FE_COLLISION_GJK_H
+#define FE_COLLISION_GJK_H
+#include "collision/form/support.h"
+
+// Two forms and B's pose in A's frame, in which all below is given.
+typedef struct fe__cores {
+    const fe__form *a, *b;
+    fe_dvec3 position;
+    fe_dvec3 axis_x, axis_y, axis_z;
+} fe__cores;
+
+// A vertex of the difference, and A's part in it: B's is on_a - difference.
+typedef struct fe__vertex {
+    fe_dvec3 difference, on_a;
+} fe__vertex;
+
+// The vertex farthest along `direction`.
+fe__vertex fe__cores_support(const fe__cores *cores, fe_dvec3 direction);
+
+// Weights of the vertices of a point, line or triangle (count 1..3) whose sum is nearest the origin. Vertices without weight are removed;
+// returns the count left.
+int32_t fe__nearest_in_simplex(fe__vertex *vertex, double *weight, int32_t count);
+
+typedef struct fe__gjk {
+    double distance;     // of the cores; 0 when they overlap
+    fe_dvec3 on_a, on_b; // nearest points; when they overlap, of no meaning
+    int32_t overlap;
+    int32_t count; // 1..4 vertices: around the nearest point, or around the origin
+    fe__vertex vertex[4];
+    double size; // of the largest difference met, m: what distances are precise against
+} fe__gjk;
+
+// Stops early, with a distance above `limit`, as soon as they are known to be farther apart.
+void fe__gjk_distance(const fe__cores *cores, double limit, fe__gjk *result);
+
+#endif

@@ -1,0 +1,23 @@
+// support.h - what the general convex path knows of a form: the core's farthest point in a direction, and the face that looks that way.
+//
+// A new form (hull, triangle, cylinder) adds a case to each of the two functions and is complete for GJK, EPA and the manifold. The
+// swelling radius stays outside: it is added to the distance of the cores.
+#ifndef FE_COLLISION_SUPPORT_H
+#define FE_COLLISION_SUPPORT_H
+#include "collision/form/clip.h"
+#include "collision/form/form.h"
+
+// The point of the core farthest along `direction` (any length), form's frame. Of equally far points always the same.
+fe_dvec3 fe__form_support(const fe__form *form, fe_dvec3 direction);
+
+// A face of the core: polygon (turning left around the normal), segment or point, form's frame.
+typedef struct fe__face {
+    int32_t count;  // > 2 polygon, 2 segment, 1 point
+    fe_vec3 normal; // unit; of a polygon only
+    fe_vec3 vertex[FE_FACE_VERTICES];
+    uint32_t id; // of the face within the form
+} fe__face;
+
+void fe__form_face(const fe__form *form, fe_vec3 direction, fe__face *face);
+
+#endif

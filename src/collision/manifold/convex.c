@@ -1,0 +1,195 @@
+// convex.c - any two convex forms: the general path.
+//
+// Called by collide.c for pairs without a kernel, and by kernels for the cases they leave (a capsule whose core cuts a box, boxes corner to
+// rim). Knows forms by support points and faces only (support.h). The nearest points of the cores (gjk.c), or the deepest (epa.c), give
+// normal and separation; where a face lies along that normal it is cut with what faces it (clip.c), else the one point is the contact.
+#include "collision/form/epa.h"
+#include "collision/form/gjk.h"
+#include "collision/manifold/kernels.h"
+#include "collision/form/support.h"
+
+#include <assert.h>
+#include <float.h>
+
+// What GJK or EPA found, in A's frame.
+typedef struct nearest {
+    fe_vec3 normal;     // from A to B
+    float separation;   // of the surfaces
+    fe_vec3 on_a, on_b; // of the cores
+    int32_t overlap;    // of the cores
+} nearest;
+
+static fe__cores make_cores(const fe__form *a, const fe__form *b, const fe__relative *b_in_a)
+{
+    return (fe__cores){
+        a, b, fe__widen(b_in_a->position), fe__widen(b_in_a->rotation.x), fe__widen(b_in_a->rotation.y), fe__widen(b_in_a->rotation.z)};
+}
+
+static int32_t find_nearest(const fe__cores *cores, float margin, nearest *found)
+{
+    double radii = (double)cores->a->radius + (double)cores->b->radius, limit = radii + (double)margin;
+    fe__gjk gjk;
+    fe__gjk_distance(cores, limit, &gjk);
+    if (gjk.distance > limit) return 0;
+    if (gjk.overlap) {
+        fe__penetration p = fe__epa_depth(cores, &gjk);
+        *found = (nearest){fe__narrow(p.normal), (float)(-p.depth - radii), fe__narrow(p.on_a), fe__narrow(p.on_b), 1};
+    } else {
+        fe_dvec3 normal = fe__dscale(1.0 / gjk.distance, fe__dsub(gjk.on_b, gjk.on_a));
+        *found = (nearest){fe__narrow(normal), (float)(gjk.distance - radii), fe__narrow(gjk.on_a), fe__narrow(gjk.on_b), 0};
+    }
+    return 1;
+}
+
+// Moves a face of B into A's frame.
+static void move_face(fe__face *face, const fe__relative *b_in_a)
+{
+    face->normal = fe__mul(&b_in_a->rotation, face->normal);
+    for (int32_t i = 0; i < face->count; ++i) face->vertex[i] = fe__add(b_in_a->position, fe__mul(&b_in_a->rotation, face->vertex[i]));
+}
+
+// A frame in a polygon: origin at its first vertex, u along its first edge, n its normal.
+typedef struct plane_frame {
+    fe_vec3 origin, u, v, n;
+} plane_frame;
+
+static plane_frame frame_of(const fe__face *face)
+{
+    fe_vec3 edge = fe__sub(face->vertex[1], face->vertex[0]), u = fe__scale(1.0f / fe__length(edge), edge);
+    return (plane_frame){face->vertex[0], u, fe__cross(face->normal, u), face->normal};
+}
+
+static void project(const plane_frame *frame, const fe__face *face, fe__clip_vertex *out)
+{
+    for (int32_t i = 0; i < face->count; ++i) {
+        fe_vec3 d = fe__sub(face->vertex[i], frame->origin);
+        uint32_t id = fe__clip_id(i > 0 ? i - 1 : face->count - 1, i);
+        out[i] = (fe__clip_vertex){fe__dot(d, frame->u), fe__dot(d, frame->v), fe__dot(d, frame->n), id};
+    }
+}
+
+static float lowest(const fe__clip_vertex *vertex, int32_t count)
+{
+    float low = FLT_MAX;
+    for (int32_t i = 0; i < count; ++i) low = fe__minf(low, vertex[i].height);
+    return low;
+}
+
+static float extent(const fe__face *face)
+{
+    float most = 0.0f;
+    for (int32_t i = 0; i < face->count; ++i) {
+        fe_vec3 p = face->vertex[i];
+        most = fe__maxf(most, fe__maxf(fe__absf(p.x), fe__maxf(fe__absf(p.y), fe__absf(p.z))));
+    }
+    return most;
+}
+
+// Cuts `incident` by `reference` (a polygon whose normal is near the contact's) and gives the vertices below the margin, when the deepest
+// of them says the same as the nearest points do; else nothing. Where the cores overlap, what hangs over the rim has to come out too.
+// `flip` is 1 when the reference is B's.
+static int32_t clip_faces(const fe__face *reference, const fe__face *incident, float reference_radius, float incident_radius, int32_t flip,
+                          const nearest *found, float margin, fe__manifold *manifold)
+{
+    float radii = reference_radius + incident_radius, rounding = 1e-6f * fe__maxf(extent(reference), extent(incident));
+    fe__clip_vertex side[FE_FACE_VERTICES], vertex[FE_CLIP_VERTICES];
+    plane_frame frame = frame_of(reference);
+    project(&frame, reference, side);
+    project(&frame, incident, vertex);
+    fe_vec3 diagonal = fe__sub(reference->vertex[2], reference->vertex[0]);
+    float tie = fe__tie(0.25f * fe__length(diagonal));
+    float least = found->separation - tie - rounding, most = found->separation + tie + rounding;
+    if (found->overlap && lowest(vertex, incident->count) - radii < least) return 0;
+    int32_t count = fe__clip_polygon(side, reference->count, vertex, incident->count, 0.1f * tie + rounding), near = 0;
+    float deepest = lowest(vertex, count) - radii;
+    if (deepest < least || deepest > fe__minf(most, margin)) return 0;
+    for (int32_t i = 0; i < count; ++i) {
+        vertex[i].height -= radii;
+        if (vertex[i].height <= margin) vertex[near++] = vertex[i];
+    }
+    near = fe__reduce_to_four(vertex, near, 0.1f * tie);
+    manifold->normal = flip ? fe__neg(frame.n) : frame.n;
+    uint32_t faces = (uint32_t)flip << 31 | (reference->id & 0x7f) << 24 | (incident->id & 0xff) << 16;
+    for (int32_t i = 0; i < near; ++i) {
+        fe_vec3 p = fe__add_scaled(fe__add_scaled(frame.origin, vertex[i].u, frame.u), vertex[i].v, frame.v);
+        // from the reference core out to its surface, and half the way on
+        fe__add_point(manifold, fe__add_scaled(p, reference_radius + 0.5f * vertex[i].height, frame.n), vertex[i].height,
+                      faces | vertex[i].id);
+    }
+    return near;
+}
+
+// midway between the surfaces
+static fe_vec3 middle_of(const nearest *found, const fe__form *a, const fe__form *b)
+{
+    return fe__scale(0.5f, fe__add(fe__add_scaled(found->on_a, a->radius, found->normal),
+                                   fe__add_scaled(found->on_b, -b->radius, found->normal)));
+}
+
+static int32_t touch_along_features(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, const nearest *found, float margin,
+                                    fe__manifold *manifold)
+{
+    fe__face face_a, face_b;
+    fe__form_face(a, found->normal, &face_a);
+    fe__form_face(b, fe__neg(fe__mul_transposed(&b_in_a->rotation, found->normal)), &face_b);
+    if (face_a.count == 1 || face_b.count == 1) return 0; // nothing but the nearest points
+    move_face(&face_b, b_in_a);
+    float cos_a = face_a.count > 2 ? fe__dot(face_a.normal, found->normal) : 0.0f;
+    float cos_b = face_b.count > 2 ? -fe__dot(face_b.normal, found->normal) : 0.0f;
+    const float prefer_a = 1e-3f; // equal faces: A's
+    if (cos_a > FE_FACE_COS && cos_a + prefer_a >= cos_b)
+        return clip_faces(&face_a, &face_b, a->radius, b->radius, 0, found, margin, manifold);
+    if (cos_b > FE_FACE_COS) return clip_faces(&face_b, &face_a, b->radius, a->radius, 1, found, margin, manifold);
+    if (face_a.count != 2 || face_b.count != 2) return 0;
+    fe__segment segments[2];
+    const fe__face *faces[2] = {&face_a, &face_b};
+    for (int32_t i = 0; i < 2; ++i) {
+        segments[i].centre = fe__scale(0.5f, fe__add(faces[i]->vertex[0], faces[i]->vertex[1]));
+        segments[i].half = fe__scale(0.5f, fe__sub(faces[i]->vertex[1], faces[i]->vertex[0]));
+        segments[i].radius = i == 0 ? a->radius : b->radius;
+    }
+    return fe__lay_segments(&segments[0], &segments[1], found->normal, middle_of(found, a, b), found->separation, margin, manifold);
+}
+
+// A half space has no support point against itself, but the other's is all it takes: B's deepest point and the face around it.
+static void touch_plane(const fe__form *plane, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold)
+{
+    fe__face face;
+    fe__form_face(b, fe__neg(fe__mul_transposed(&b_in_a->rotation, plane->normal)), &face);
+    move_face(&face, b_in_a);
+    fe__clip_vertex vertex[FE_FACE_VERTICES];
+    fe_vec3 u = fe__absf(plane->normal.x) < 0.7f ? fe__vec3(1.0f, 0.0f, 0.0f) : fe__vec3(0.0f, 1.0f, 0.0f);
+    u = fe__cross(plane->normal, u);
+    u = fe__scale(1.0f / fe__length(u), u);
+    plane_frame frame = {fe__scale(plane->distance, plane->normal), u, fe__cross(plane->normal, u), plane->normal};
+    project(&frame, &face, vertex);
+    int32_t near = 0;
+    for (int32_t i = 0; i < face.count; ++i) {
+        vertex[i].height -= b->radius;
+        if (vertex[i].height <= margin) vertex[near++] = vertex[i];
+    }
+    near = fe__reduce_to_four(vertex, near, 0.0f);
+    if (near > 0) manifold->normal = plane->normal;
+    for (int32_t i = 0; i < near; ++i) {
+        fe_vec3 p = fe__add_scaled(fe__add_scaled(frame.origin, vertex[i].u, frame.u), vertex[i].v, frame.v);
+        fe__add_point(manifold, fe__add_scaled(p, 0.5f * vertex[i].height, frame.n), vertex[i].height, face.id << 16 | vertex[i].id);
+    }
+}
+
+void fe__collide_convex(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold)
+{
+    assert(b->type != FE_GEOMETRY_PLANE);
+    manifold->normal = fe__vec3(0.0f, 0.0f, 0.0f);
+    manifold->count = 0;
+    if (a->type == FE_GEOMETRY_PLANE) {
+        touch_plane(a, b, b_in_a, margin, manifold);
+        return;
+    }
+    fe__cores cores = make_cores(a, b, b_in_a);
+    nearest found;
+    if (!find_nearest(&cores, margin, &found)) return;
+    if (touch_along_features(a, b, b_in_a, &found, margin, manifold) > 0) return;
+    enum { SINGLE_ID = 0xffff };
+    manifold->normal = found.normal;
+    fe__add_point(manifold, middle_of(&found, a, b), found.separation, SINGLE_ID);
+}

@@ -1,0 +1,55 @@
+// kernels.h - what the kernels of the pairs share: their signature, their tolerances, and points on segments side by side.
+//
+// Every kernel receives a manifold without points and adds those closer than `margin`. Its source is named in each kernel's file.
+#ifndef FE_COLLISION_KERNELS_H
+#define FE_COLLISION_KERNELS_H
+#include "collision/manifold/collide.h"
+
+typedef void fe__kernel(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold);
+
+fe__kernel fe__collide_sphere_sphere;
+fe__kernel fe__collide_capsule_sphere;
+fe__kernel fe__collide_capsule_capsule;
+fe__kernel fe__collide_box_sphere;
+fe__kernel fe__collide_box_capsule;
+fe__kernel fe__collide_box_box;
+fe__kernel fe__collide_plane_sphere;
+fe__kernel fe__collide_plane_capsule;
+fe__kernel fe__collide_plane_box;
+
+// Two answers whose depths differ by less than this are equally right, and the steadier one (more points, the same face as before) is
+// given: a tenth of the solver's slop of 5 mm, or 2 % of the smallest width of a small shape, m.
+static inline float fe__tie(float width) { return fe__minf(0.0005f, 0.02f * width); }
+
+// cos 5 degrees: a normal this near to a face's is taken for the face's, so that a form lying on it has all its points
+#define FE_FACE_COS 0.9962f
+
+// d / length, by division: along an axis the result is exactly 1. Where there is no length there is no direction, and symmetry leaves the
+// normal open: x.
+static inline fe_vec3 fe__direction(fe_vec3 d, float length)
+{
+    const float no_length = 1e-15f; // m: its square is still a normal float
+    return length > no_length ? fe__vec3(d.x / length, d.y / length, d.z / length) : fe__vec3(1.0f, 0.0f, 0.0f);
+}
+
+// should no point be added, the forms are `separation` apart, or more
+static inline void fe__stay_apart(fe__manifold *manifold, float separation) { manifold->axis_separation = separation; }
+
+static inline void fe__add_point(fe__manifold *manifold, fe_vec3 point, float separation, uint32_t id)
+{
+    manifold->points[manifold->count++] = (fe__manifold_point){point, separation, id};
+}
+
+// A core from centre - half to centre + half, swelled by a radius; A's frame.
+typedef struct fe__segment {
+    fe_vec3 centre, half;
+    float radius;
+} fe__segment;
+
+// Two segments whose nearest points are `separation` apart along `normal` (from a to b), `nearest` midway between the surfaces there: gives
+// the two ends of the stretch along which they run side by side, if that says the same as the nearest points do; a few degrees askew these
+// and the nearest point; else nothing. Returns the number of points added, with ids 1, 2 and 0; the normal is set with them.
+int32_t fe__lay_segments(const fe__segment *a, const fe__segment *b, fe_vec3 normal, fe_vec3 nearest, float separation, float margin,
+                         fe__manifold *manifold);
+
+#endif

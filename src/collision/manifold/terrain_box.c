@@ -1,0 +1,179 @@
+// terrain_box.c - a box on a triangle of a heightfield: separating axes (Gottschalk, Lin, Manocha, 1996), of those that the surface allows
+// the one with the least overlap; then faces cut by faces, or two crossing edges.
+//
+// The box is centred at the origin. A direction m points out of the surface: separation(m) = -R(m) - max_i m.v_i, with R(m) = sum_j half_j
+// |m.x_j|. The face's normal is always allowed, and taken unless another is better by more than a tie.
+#include "collision/form/clip.h"
+#include "collision/manifold/kernels.h"
+#include "collision/form/support.h"
+#include "collision/manifold/terrain_surface.h"
+
+enum { ON_FACE, ON_BOX_FACE, ON_EDGES };
+
+typedef struct axis {
+    int32_t kind;
+    int32_t box_axis, side; // of the edges that cross; box_axis also of a box's face
+    fe_vec3 m;
+    float separation;
+} axis;
+
+typedef struct contest {
+    fe__gathering *g;
+    const fe__tile *tile;
+    const fe__form *box;
+    const fe__mat3 *rotation;
+    float half[3];
+    fe_vec3 axes[3];
+    float tie;
+    axis best;
+} contest;
+
+static float reach(const contest *c, fe_vec3 m)
+{
+    return c->half[0] * fe__absf(fe__dot(m, c->axes[0])) + c->half[1] * fe__absf(fe__dot(m, c->axes[1])) +
+           c->half[2] * fe__absf(fe__dot(m, c->axes[2]));
+}
+
+// Both ways along an axis. 0: they are farther apart along it than the margin.
+static int32_t try_axis(contest *c, fe_vec3 m, int32_t kind, int32_t box_axis, int32_t side)
+{
+    const fe_vec3 *v = c->tile->form.vertex;
+    float a = fe__dot(m, v[0]), b = fe__dot(m, v[1]), d = fe__dot(m, v[2]), r = reach(c, m), upward = fe__dot(m, c->tile->normal);
+    float forth = -r - fe__maxf(a, fe__maxf(b, d)), back = fe__minf(a, fe__minf(b, d)) - r;
+    if (fe__maxf(forth, back) > c->g->margin) return 0;
+    const float level = 1e-3f; // sine: along the face both ways are out of the surface
+    for (int32_t i = 0; i < 2; ++i) {
+        float separation = i ? back : forth, up = i ? -upward : upward;
+        fe_vec3 way = i ? fe__neg(m) : m;
+        if (up < -level || separation <= c->best.separation + c->tie || !fe__tile_allows(c->g->terrain, c->tile, way)) continue;
+        c->best = (axis){kind, box_axis, side, way, separation};
+    }
+    return 1;
+}
+
+// 0: apart
+static int32_t find_axis(contest *c)
+{
+    const float parallel = 1e-3f; // sin^2 of edges whose cross product says nothing
+    const fe_vec3 *v = c->tile->form.vertex;
+    for (int32_t j = 0; j < 3; ++j)
+        if (!try_axis(c, c->axes[j], ON_BOX_FACE, j, 0)) return 0;
+    for (int32_t k = 0; k < 3; ++k) {
+        fe_vec3 side = fe__sub(v[(k + 1) % 3], v[k]);
+        float square = fe__dot(side, side);
+        for (int32_t j = 0; j < 3; ++j) {
+            fe_vec3 m = fe__cross(side, c->axes[j]);
+            float sine = fe__dot(m, m);
+            if (sine > parallel * square && !try_axis(c, fe__scale(1.0f / sqrtf(sine), m), ON_EDGES, j, k)) return 0;
+        }
+    }
+    return 1;
+}
+
+// A direction that is nearly a face's: the face, so that a box lying on a ridge has all its points. The triangle's first: its normal does
+// not turn with the box, and is the same in the next step.
+static void prefer_face(contest *c)
+{
+    fe_vec3 m = c->best.m;
+    if (fe__dot(m, c->tile->normal) > FE_FACE_COS) {
+        c->best = (axis){.kind = ON_FACE, .m = c->tile->normal};
+        return;
+    }
+    if (c->best.kind != ON_EDGES) return;
+    for (int32_t j = 0; j < 3; ++j) {
+        float along = fe__dot(m, c->axes[j]);
+        if (fe__absf(along) > FE_FACE_COS)
+            c->best = (axis){.kind = ON_BOX_FACE, .box_axis = j, .m = along > 0.0f ? c->axes[j] : fe__neg(c->axes[j])};
+    }
+}
+
+// ---- faces ----------------------------------------------------------------------------------------------------------------------------
+static void project(const fe_vec3 *points, int32_t count, fe_vec3 origin, const fe__mat3 *frame, fe__clip_vertex *out)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        fe_vec3 p = fe__mul_transposed(frame, fe__sub(points[i], origin));
+        out[i] = (fe__clip_vertex){p.x, p.y, p.z, fe__clip_id(i > 0 ? i - 1 : count - 1, i)};
+    }
+}
+
+static void box_face(const contest *c, fe_vec3 direction, fe__face *face)
+{
+    fe__form_face(c->box, fe__mul_transposed(c->rotation, direction), face);
+    for (int32_t i = 0; i < face->count; ++i) face->vertex[i] = fe__mul(c->rotation, face->vertex[i]);
+}
+
+static int32_t is_vertex(uint32_t id) { return (id & 0xff) < FE_CLIP_SIDE && id >> 8 < FE_CLIP_SIDE; }
+
+// Cuts the incident polygon by the reference's; `out` is the reference's normal. What is near goes along `normal`, out of the surface.
+static void cut_faces(contest *c, const fe_vec3 *reference, int32_t reference_count, const fe_vec3 *incident, int32_t incident_count,
+                      fe_vec3 out, fe_vec3 normal, uint32_t body_id)
+{
+    fe_vec3 edge = fe__sub(reference[1], reference[0]), u = fe__scale(1.0f / fe__length(edge), edge);
+    fe__mat3 frame = {u, fe__cross(out, u), out};
+    fe__clip_vertex side[FE_FACE_VERTICES], vertex[FE_CLIP_VERTICES];
+    project(reference, reference_count, reference[0], &frame, side);
+    project(incident, incident_count, reference[0], &frame, vertex);
+    float slack = 0.1f * c->tie + 1e-6f * c->tile->size;
+    int32_t count = fe__clip_polygon(side, reference_count, vertex, incident_count, slack);
+    for (int32_t i = 0; i < count; ++i) {
+        float height = vertex[i].height;
+        if (height > c->g->margin || !fe__tile_feels(c->g, c->tile, height)) continue;
+        fe_vec3 p = fe__add_scaled(reference[0], vertex[i].u, frame.x);
+        p = fe__add_scaled(fe__add_scaled(p, vertex[i].v, frame.y), 0.5f * height, frame.z);
+        uint32_t feature = body_id << 16 | vertex[i].id;
+        int32_t is_corner = body_id && is_vertex(vertex[i].id);
+        fe__gather(c->g, c->tile, normal, p, height, is_corner ? feature : fe__tile_id(c->tile, feature));
+    }
+}
+
+static void touch_face(contest *c)
+{
+    fe__face face;
+    box_face(c, fe__neg(c->tile->normal), &face);
+    cut_faces(c, c->tile->form.vertex, 3, face.vertex, face.count, c->tile->normal, c->tile->normal, face.id + 1);
+}
+
+static void touch_box_face(contest *c)
+{
+    fe__face face;
+    box_face(c, fe__neg(c->best.m), &face);
+    cut_faces(c, face.vertex, face.count, c->tile->form.vertex, 3, fe__neg(c->best.m), c->best.m, 0);
+}
+
+// ---- edges ----------------------------------------------------------------------------------------------------------------------------
+// The box's edge along x_j that is deepest against m, and the triangle's side: the point between the nearest points of their lines. 0: the
+// two do not cross, because what they would say better is not allowed here.
+static int32_t touch_edges(contest *c)
+{
+    int32_t j = c->best.box_axis, k = c->best.side;
+    fe_vec3 m = c->best.m, p = {0.0f, 0.0f, 0.0f}, d = c->axes[j];
+    for (int32_t i = 0; i < 3; ++i)
+        if (i != j) p = fe__add_scaled(p, fe__dot(m, c->axes[i]) > 0.0f ? -c->half[i] : c->half[i], c->axes[i]);
+    fe_vec3 q = c->tile->form.vertex[k], e = fe__sub(c->tile->form.vertex[(k + 1) % 3], q), r = fe__sub(p, q);
+    float ee = fe__dot(e, e), de = fe__dot(d, e), dr = fe__dot(d, r), er = fe__dot(e, r), det = ee - de * de;
+    float u = (er - de * dr) / det, s = (de * er - ee * dr) / det;
+    if (!(fe__absf(s) <= c->half[j] + c->tie && u * u * ee <= ee && u >= 0.0f)) return 0;
+    fe_vec3 on_side = fe__add_scaled(q, u, e);
+    fe__gather(c->g, c->tile, m, fe__add_scaled(on_side, 0.5f * c->best.separation, m), c->best.separation,
+               fe__tile_id(c->tile, (uint32_t)(1 + 4 * j + k)));
+    return 1;
+}
+
+void fe__tile_touch_box(fe__gathering *g, const fe__tile *tile, const fe__form *box, const fe__mat3 *rotation)
+{
+    contest c = {.g = g, .tile = tile, .box = box, .rotation = rotation, .half = {box->half.x, box->half.y, box->half.z}};
+    c.axes[0] = rotation->x, c.axes[1] = rotation->y, c.axes[2] = rotation->z;
+    c.tie = fe__tie(fe__form_thickness(box));
+    fe_vec3 n = tile->normal;
+    float centre = -fe__dot(n, tile->form.vertex[0]), r = reach(&c, n);
+    c.best = (axis){.kind = ON_FACE, .m = n, .separation = centre - r};
+    if (c.best.separation > g->margin || !fe__tile_feels(g, tile, centre + r)) return;
+    int32_t convex = 0;
+    for (int32_t k = 0; k < 3; ++k) convex |= fe__tile_is_convex(g->terrain, tile, k);
+    if (convex && !find_axis(&c)) return;
+    prefer_face(&c);
+    if (c.best.kind == ON_BOX_FACE)
+        touch_box_face(&c);
+    else if (c.best.kind == ON_FACE || !touch_edges(&c))
+        touch_face(&c);
+}

@@ -1,0 +1,176 @@
+// terrain_surface.c - normal cones of a heightfield's faces, edges and vertices; see terrain_surface.h.
+//
+// A direction m is in the normal cone of a point of a surface when nothing near the point rises along m. For a piecewise flat surface it is
+// enough to look at the samples next to it (Connolly; van den Bergen: Voronoi regions of a mesh's features). Beyond the border of the grid
+// the neighbouring heightfields are asked for their height a little further on.
+#include "collision/manifold/terrain_surface.h"
+
+// Slopes below this count as flat: 0.06 degrees
+#define FLAT 1e-3f
+// How far over the border a neighbour is asked, and how far beside it may lie, in cells
+#define BEYOND 0.01
+#define BESIDE 1e-3
+
+static int32_t cell_present(const fe__heightfield *f, int32_t row, int32_t column)
+{
+    return row >= 0 && row < f->rows - 1 && column >= 0 && column < f->columns - 1 &&
+           !fe__heightfield_is_hole(f, row * (f->columns - 1) + column);
+}
+
+static fe_vec3 sample(const fe__terrain *t, int32_t row, int32_t column)
+{
+    const fe__heightfield *f = t->field;
+    fe_dvec3 p = {(double)column * f->cell_x, (double)f->heights[(int64_t)row * f->columns + column], (double)row * f->cell_z};
+    return fe__narrow(fe__dsub(p, t->origin));
+}
+
+// Grid offsets of a triangle's vertices, and beyond each side: the other triangle's cell and half, its third vertex, the way out in the
+// grid
+typedef struct beyond {
+    int8_t row, column, half, third_row, third_column, out_row, out_column;
+} beyond;
+static const int8_t vertices[2][3][2] = {{{0, 0}, {1, 0}, {1, 1}}, {{0, 0}, {1, 1}, {0, 1}}};
+static const beyond sides[2][3] = {{{0, -1, 1, 0, -1, 0, -1}, {1, 0, 1, 2, 1, 1, 0}, {0, 0, 1, 0, 1, -1, 1}},
+                                   {{0, 0, 0, 1, 0, 1, -1}, {0, 1, 0, 1, 2, 0, 1}, {-1, 0, 0, -1, 0, -1, 0}}};
+
+// The edges from a sample: to which one, and the two cells beside it
+static const int8_t spokes[6][6] = {{0, 1, 0, 0, -1, 0},    {1, 1, 0, 0, 0, 0},       {1, 0, 0, 0, 0, -1},
+                                    {0, -1, 0, -1, -1, -1}, {-1, -1, -1, -1, -1, -1}, {-1, 0, -1, 0, -1, -1}};
+
+static int32_t rises(fe_vec3 m, fe_vec3 way) { return fe__dot(m, way) > FLAT * fe__length(way); }
+
+int32_t fe__tile_beyond(const fe__terrain *t, const fe__tile *tile, int32_t side)
+{
+    const beyond *b = &sides[tile->half][side];
+    int32_t row = tile->row + b->row, column = tile->column + b->column;
+    return cell_present(t->field, row, column) ? 2 * (row * (t->field->columns - 1) + column) + b->half : -1;
+}
+
+static fe_vec3 third_of(const fe__terrain *t, const fe__tile *tile, int32_t side)
+{
+    const beyond *b = &sides[tile->half][side];
+    return sample(t, tile->row + b->third_row, tile->column + b->third_column);
+}
+
+static float longest_side(const fe_vec3 v[3])
+{
+    float square = 0.0f;
+    for (int32_t k = 0; k < 3; ++k) {
+        fe_vec3 side = fe__sub(v[(k + 1) % 3], v[k]);
+        square = fe__maxf(square, fe__dot(side, side));
+    }
+    return sqrtf(square);
+}
+
+fe__tile fe__tile_of(const fe__terrain *t, const fe__form *triangle, int32_t index)
+{
+    int32_t cell = index >> 1, columns = t->field->columns - 1;
+    fe__tile tile = {.form = *triangle, .index = index, .row = cell / columns, .column = cell % columns, .half = index & 1};
+    const fe_vec3 *v = triangle->vertex;
+    fe_vec3 n = fe__cross(fe__sub(v[1], v[0]), fe__sub(v[2], v[0]));
+    tile.normal = fe__scale(1.0f / fe__length(n), n);
+    tile.size = longest_side(v);
+    return tile;
+}
+
+int32_t fe__tile_is_convex(const fe__terrain *t, const fe__tile *tile, int32_t side)
+{
+    if (fe__tile_beyond(t, tile, side) < 0) return 1;
+    return fe__dot(tile->normal, fe__sub(third_of(t, tile, side), tile->form.vertex[side])) < -FLAT * tile->size;
+}
+
+// ---- beyond the border ----------------------------------------------------------------------------------------------------------------
+static fe_dvec3 into(const fe__neighbour *n, fe_vec3 p) { return fe__dadd(n->position, fe__widen(fe__mul_transposed(&n->axes, p))); }
+
+int32_t fe__heightfield_height(const fe__heightfield *f, fe_dvec3 p, double *height)
+{
+    double x = p.x / f->cell_x, z = p.z / f->cell_z, columns = (double)(f->columns - 1), rows = (double)(f->rows - 1);
+    if (!(x >= -BESIDE && x <= columns + BESIDE && z >= -BESIDE && z <= rows + BESIDE)) return 0;
+    int32_t column = (int32_t)fe__maxd(fe__mind(x, columns - 1.0), 0.0), row = (int32_t)fe__maxd(fe__mind(z, rows - 1.0), 0.0);
+    if (!cell_present(f, row, column)) return 0;
+    const float *h = f->heights + (int64_t)row * f->columns + column, *next = h + f->columns;
+    double u = x - (double)column, v = z - (double)row, h00 = (double)h[0], h11 = (double)next[1], side = (double)(u > v ? h[1] : next[0]);
+    *height = u > v ? h00 + u * (side - h00) + v * (h11 - side) : h00 + v * (side - h00) + u * (h11 - side);
+    return 1;
+}
+
+// Does a neighbour's surface go on from the point p of the border, and rise along m? `way`: out of this field, x and z.
+static int32_t neighbour_rises(const fe__terrain *t, fe_vec3 p, fe_vec3 way, fe_vec3 m)
+{
+    for (int32_t i = 0; i < t->neighbour_count; ++i) {
+        const fe__neighbour *n = t->neighbours + i;
+        fe_dvec3 here = into(n, p), there = into(n, fe__add(p, way));
+        double height, further, apart = 0.1 * (double)fe__length(way);
+        if (!fe__heightfield_height(n->field, here, &height) || fe__absd(height - here.y) > apart ||
+            !fe__heightfield_height(n->field, there, &further))
+            continue;
+        fe_dvec3 rise = {there.x - here.x, further - height, there.z - here.z};
+        if (rises(m, fe__mul(&n->axes, fe__narrow(rise)))) return 1;
+    }
+    return 0;
+}
+
+static fe_vec3 way_out(const fe__terrain *t, int32_t out_row, int32_t out_column)
+{
+    return fe__vec3((float)(BEYOND * (double)out_column * t->field->cell_x), 0.0f, (float)(BEYOND * (double)out_row * t->field->cell_z));
+}
+
+static int32_t on_border(const fe__heightfield *f, int32_t row, int32_t column)
+{
+    return row == 0 || row == f->rows - 1 || column == 0 || column == f->columns - 1;
+}
+
+// ---- cones ----------------------------------------------------------------------------------------------------------------------------
+static int32_t side_allows(const fe__terrain *t, const fe__tile *tile, int32_t side, fe_vec3 m)
+{
+    const fe_vec3 *v = tile->form.vertex;
+    if (!fe__tile_is_convex(t, tile, side)) return 0;
+    if (fe__tile_beyond(t, tile, side) >= 0) return !rises(m, fe__sub(third_of(t, tile, side), v[side]));
+    if (!t->neighbour_count) return 1;
+    // at the point of the side nearest the body, which is at the origin
+    fe_vec3 along = fe__sub(v[(side + 1) % 3], v[side]);
+    float s = fe__clampf(-fe__dot(along, v[side]) / fe__dot(along, along), 0.0f, 1.0f);
+    const beyond *b = &sides[tile->half][side];
+    return !neighbour_rises(t, fe__add_scaled(v[side], s, along), way_out(t, b->out_row, b->out_column), m);
+}
+
+static int32_t vertex_allows(const fe__terrain *t, const fe__tile *tile, int32_t vertex, fe_vec3 m)
+{
+    const fe__heightfield *f = t->field;
+    int32_t row = tile->row + vertices[tile->half][vertex][0], column = tile->column + vertices[tile->half][vertex][1];
+    fe_vec3 p = tile->form.vertex[vertex];
+    for (int32_t i = 0; i < 6; ++i) {
+        const int8_t *s = spokes[i];
+        if (!cell_present(f, row + s[2], column + s[3]) && !cell_present(f, row + s[4], column + s[5])) continue;
+        if (rises(m, fe__sub(sample(t, row + s[0], column + s[1]), p))) return 0;
+    }
+    if (!t->neighbour_count || !on_border(f, row, column)) return 1;
+    for (int32_t i = 0; i < 9; ++i) {
+        if (i != 4 && neighbour_rises(t, p, way_out(t, i / 3 - 1, i % 3 - 1), m)) return 0;
+    }
+    return 1;
+}
+
+int32_t fe__tile_allows(const fe__terrain *t, const fe__tile *tile, fe_vec3 m)
+{
+    float along[3], most;
+    for (int32_t i = 0; i < 3; ++i) along[i] = fe__dot(m, tile->form.vertex[i]);
+    most = fe__maxf(along[0], fe__maxf(along[1], along[2])) - FLAT * tile->size;
+    uint32_t touched = (along[0] >= most ? 1u : 0u) | (along[1] >= most ? 2u : 0u) | (along[2] >= most ? 4u : 0u);
+    switch (touched) {
+    case 1:
+        return vertex_allows(t, tile, 0, m);
+    case 2:
+        return vertex_allows(t, tile, 1, m);
+    case 4:
+        return vertex_allows(t, tile, 2, m);
+    case 3:
+        return side_allows(t, tile, 0, m);
+    case 6:
+        return side_allows(t, tile, 1, m);
+    case 5:
+        return side_allows(t, tile, 2, m);
+    default:
+        return fe__dot(m, tile->normal) > 0.0f; // the face
+    }
+}

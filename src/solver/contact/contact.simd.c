@@ -1,0 +1,184 @@
+// contact.simd.c - the contact solver: rows of W contacts, of 4 points or of one. Compiled once per SIMD set; see core/simd.h.
+//
+// TGS Soft after E. Catto, "Soft Constraints" (GDC 2011) and Solver2D (2024): in each substep a soft push, then positions, then a rigid
+// pass with friction. The first warm start is part of prepare; the later ones are carried by the bodies (bodies.simd.c).
+#include "core/simd.h"
+#include "solver/solver.h"
+#include "solver/wide_body.h"
+
+#include <float.h>
+
+#define UNROLL _Pragma("GCC unroll 8")
+
+// a gap up to which a loaded point is soft as if it touched, m. Of a face that just touches, rounding would otherwise make some points soft
+// and others rigid, and a box that landed flat would turn
+#define TOUCHING 1e-4f
+// in which the points of a contact reach the speeds of their bounce: each leaves a third of the last one's error
+#define BOUNCE_SWEEPS 8
+// What the bodies may shift against each other, m, and turn, rad, within a step while a contact's arms and inertia stay those of its start
+#define FROZEN_SHIFT 5e-4f
+#define FROZEN_TURN 5e-3f
+// a turn within the step, rad, up to which effective masses stay: they only decide how fast the sweeps converge
+#define FROZEN_MASS 0.02f
+// differences of an inertia's moments, over their sum, that no turn shows of
+#define ROUND_INERTIA 1e-4f
+// What sticks may ask for, of its static friction, and not slide. A force above the contact that comes at once turns the body until the
+// normals have answered its moment, a substep later; what was lost by then is asked for again: at most 1.25 times the force. What slides
+// asks for more from a hundredth of a m/s on
+#define BREAKAWAY 1.3f
+// a change of friction in a pass, of the load and as a speed, m/s, from which on the row runs again, and how often at most
+#define UNSETTLED 0.1f
+#define UNSETTLED_SPEED 0.005f
+#define SETTLING 4
+// of a load within a substep: an impact
+#define IMPACT_RISE 1.5f
+// and what it stops, m/s. What is set down takes up its weight at once too, g h, 0.04 m/s at four substeps of 1/30 s; its friction is no
+// impact's, and without it the body would begin to slide
+#define IMPACT_SPEED 0.05f
+
+typedef struct {
+    wide r[3];     // from A's centre (from B's when A is static: then span is 0)
+    wide distance; // separation where the bodies are now: they move only before relax
+    wide mass;     // m_i = 1 / K_ii, 0 for a point that is not there
+    wide impulse;
+} point_row;
+
+typedef struct {
+    side a, b;
+    wide3 normal, span;
+} pair; // what a pass over a row holds in registers
+
+// of the bodies since the step began
+typedef struct {
+    wide3 shift; // of B's centre against A's
+    wide4 turn_a, turn_b;
+} motion;
+
+// a quantity of a point: constant + slope . rA
+typedef struct {
+    wide constant;
+    wide3 slope;
+} affine;
+
+FE_INLINE wide at(const affine *f, wide3 r) { return f->constant + w_dot(f->slope, r); }
+
+FE_INLINE wide_mask no_lane(void) { return w_greater(w_set(0.0f), w_set(0.0f)); }
+FE_INLINE wide_mask every_lane(void) { return w_not(no_lane()); }
+
+FE_INLINE wide sine_square(wide4 q) { return w_dot(w_xyz(q), w_xyz(q)); } // of half the turn
+
+FE_INLINE wide_sym choose_sym(wide_mask lanes, const wide_sym *yes, const wide_sym *no)
+{
+    return (wide_sym){w_choose(lanes, yes->xx, no->xx), w_choose(lanes, yes->xy, no->xy), w_choose(lanes, yes->xz, no->xz),
+                      w_choose(lanes, yes->yy, no->yy), w_choose(lanes, yes->yz, no->yz), w_choose(lanes, yes->zz, no->zz)};
+}
+
+FE_INLINE side choose_side(wide_mask lanes, side yes, side no)
+{
+    no.v = w_choose3(lanes, yes.v, no.v), no.w = w_choose3(lanes, yes.w, no.w);
+    return no;
+}
+
+// a part of the way from one to the other
+FE_INLINE side blend(wide part, const side *from, const side *to)
+{
+    side b = *to;
+    b.v = w_add_scaled(from->v, part, w_sub(to->v, from->v));
+    b.w = w_add_scaled(from->w, part, w_sub(to->w, from->w));
+    return b;
+}
+
+static const int coupling_of[FE__POINTS][FE__POINTS] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
+
+// Two unit vectors that make a basis with n (Duff et al., "Building an Orthonormal Basis, Revisited", 2017). They flip where n.z changes
+// sign, so they live no longer than a step.
+FE_INLINE void tangents(wide3 n, wide3 *t1, wide3 *t2)
+{
+    wide one = w_set(1.0f);
+    wide sign = w_choose(w_greater(w_set(0.0f), n.z), -one, one);
+    wide a = -one / (sign + n.z), b = n.x * n.y * a;
+    *t1 = (wide3){one + sign * n.x * n.x * a, sign * b, -(sign * n.x)};
+    *t2 = (wide3){b, sign + n.y * n.y * a, -n.y};
+}
+
+// angular arms of a unit impulse at a point, and the spin they cause
+typedef struct {
+    wide3 a, b, spin_a, spin_b;
+} arm;
+
+FE_INLINE wide angular_response(const arm *m, const arm *n, int kind)
+{
+    wide b = w_dot(m->b, n->spin_b);
+    return kind & FE__ROW_PAIR ? w_dot(m->a, n->spin_a) + b : b;
+}
+
+enum { CONTACT_STRIDE = sizeof(fe__contact) / sizeof(float) };
+
+// a point that opened to twice the speculative distance still counts a little for the friction centre: the weights never all vanish
+#define LEAST_WEIGHT 1e-10f
+// ratio of the lesser to the greater eigenvalue below which a tangent matrix has one: far above rounding, far below what a shape can have
+#define ONE_WAY 1e-5f
+// of the bodies' inverse masses: what answers a push by less stands for a direction within 1e-5 of a locked one
+#define RIGID 1e-10f
+// of the trace of a rolling mass, added to its diagonal
+#define REGULAR 1e-6f
+
+FE_INLINE void prefetch_contact(const fe__contact *m)
+{
+    for (unsigned k = 0; k < offsetof(fe__contact, found_a); k += 64) __builtin_prefetch((const char *)m + k);
+}
+
+// Of B, which is always dynamic and in no other row of the colour
+static __attribute__((noinline)) void mark_strained(fe__solver *s, const int32_t *line, wide_mask lanes)
+{
+    _Alignas(64) float is[FE_W];
+    *(wide *)is = w_choose(lanes, w_set(1.0f), w_set(0.0f));
+    for (int i = 0; i < FE_W; ++i)
+        if (is[i] != 0.0f) s->inertia[line[i]][FE__LINE - 1] = 1.0f;
+    atomic_store_explicit(&s->strained, 1, memory_order_relaxed);
+}
+
+// Lanes of contact 0 are padding: record 0 stays zero and is written by nobody
+FE_INLINE void store_lanes(fe__contact *contacts, const int32_t *index, wide4 normal, wide4 friction, wide4 total)
+{
+    _Alignas(64) float n[FE_W][4], f[FE_W][4], t[FE_W][4];
+    w_scatter(n[0], 4, w_in_order, normal);
+    w_scatter(f[0], 4, w_in_order, friction);
+    w_scatter(t[0], 4, w_in_order, total);
+    for (int i = 0; i < FE_W; ++i) {
+        if (!index[i]) continue;
+        fe__contact *m = contacts + index[i];
+        *(quad *)m->normal_impulse = *(const quad *)n[i];
+        *(quad *)m->friction_impulse = *(const quad *)f[i];
+        *(quad *)m->total_impulse = *(const quad *)t[i];
+    }
+}
+
+#define POINTS 4
+#include "solver/contact/contact_rows.h"
+#define POINTS 1
+#include "solver/contact/contact_rows.h"
+
+#define OF_KINDS(verb)                                                                                                \
+    {                                                                                                                 \
+        [0] = verb##_fixed_4, [FE__ROW_PAIR] = verb##_pair_4, [FE__ROW_SPECIAL] = verb##_fixed_special_4,             \
+        [FE__ROW_PAIR | FE__ROW_SPECIAL] = verb##_pair_special_4, [FE__ROW_SINGLE] = verb##_fixed_1,                  \
+        [FE__ROW_SINGLE | FE__ROW_PAIR] = verb##_pair_1, [FE__ROW_SINGLE | FE__ROW_SPECIAL] = verb##_fixed_special_1, \
+        [FE__ROW_SINGLE | FE__ROW_PAIR | FE__ROW_SPECIAL] = verb##_pair_special_1                                     \
+    }
+
+const fe__contact_kernels FE_NAME(fe__contact_kernels) = {
+    .row_size = {[0] = sizeof(contact_row_4),
+                 [FE__ROW_PAIR] = sizeof(contact_row_4),
+                 [FE__ROW_SPECIAL] = sizeof(special_row_4),
+                 [FE__ROW_PAIR | FE__ROW_SPECIAL] = sizeof(special_row_4),
+                 [FE__ROW_SINGLE] = sizeof(contact_row_1),
+                 [FE__ROW_SINGLE | FE__ROW_PAIR] = sizeof(contact_row_1),
+                 [FE__ROW_SINGLE | FE__ROW_SPECIAL] = sizeof(special_row_1),
+                 [FE__ROW_SINGLE | FE__ROW_PAIR | FE__ROW_SPECIAL] = sizeof(special_row_1)},
+    .prepare = OF_KINDS(prepare),
+    .solve = OF_KINDS(solve),
+    .relax = OF_KINDS(relax),
+    .bounce = OF_KINDS(bounce),
+    .store = OF_KINDS(store),
+};

@@ -1,0 +1,198 @@
+// graph.c - the build: batches of islands (graph_islands.c), then of each its lines for bodies and its groups of lanes by colour and kind
+// of row; those of joints are in graph_joints.c, the room for all in graph_room.c.
+//
+// All orders that could matter follow the creation of the pairs; everything else is free to follow the awake lists, because lanes are
+// independent and a group's contacts share no dynamic body.
+#include "solver/graph/graph_build.h"
+
+#include "core/array_sort.h"
+
+#include <assert.h>
+#include <string.h>
+
+static int32_t *carve(int32_t **from, int64_t count)
+{
+    int32_t *block = *from;
+    *from += count;
+    return block;
+}
+
+static fe__builder make_builder(fe__solver *s, const fe__kernels *kernels, const fe__graph_input *in)
+{
+    int32_t *at = (int32_t *)(void *)s->rows; // no rows are in use while the graph is built
+    int64_t n = in->body_count;
+    fe__builder b = {.s = s, .in = in, .width = kernels->width};
+    b.parent = carve(&at, n);
+    b.island_of = carve(&at, n);
+    b.island_contacts = carve(&at, n);
+    b.island_joints = carve(&at, n);
+    b.island_lanes = carve(&at, n);
+    b.island_bodies = carve(&at, n);
+    b.island_pace = carve(&at, n);
+    b.batch_of = carve(&at, n);
+    b.kinematic_line = carve(&at, n);
+    b.body_order = carve(&at, n);
+    b.line = carve(&at, n);
+    b.linked = (fe__linked *)(void *)carve(&at, FE__LINKED_INTS * (int64_t)in->contact_count);
+    b.contact_order = carve(&at, in->contact_count);
+    b.joint_order = carve(&at, in->joint_count);
+    b.key_count = carve(&at, FE__GROUP_KEYS);
+    b.joint_key_count = carve(&at, FE__JOINT_GROUP_KEYS);
+    b.joint_key_group = carve(&at, FE__JOINT_GROUP_KEYS);
+    const int32_t *end = (const int32_t *)(const void *)(s->rows + s->row_capacity);
+    int64_t starts = (end - at) / 3;
+    b.body_start = carve(&at, starts);
+    b.contact_start = carve(&at, starts);
+    b.joint_start = at;
+    return b;
+}
+
+// ---- lines ----------------------------------------------------------------------------------------------------------------------------
+static void close_block(fe__solver *s)
+{
+    while (s->line_count % FE__MAX_WIDTH) s->body_of_line[s->line_count++] = FE__NONE;
+}
+
+static void add_line(fe__solver *s, int32_t body) { s->body_of_line[s->line_count++] = body; }
+
+static void add_kinematic(fe__builder *b, const fe__batch *batch, int32_t awake)
+{
+    if (awake < 0 || !fe__is_kinematic(fe__awake_body(b, awake)) || b->kinematic_line[awake] >= batch->first_line) return;
+    b->kinematic_line[awake] = b->s->line_count;
+    add_line(b->s, b->in->awake_bodies[awake]);
+}
+
+// its dummies, its bodies, and copies of the kinematic bodies that its contacts and joints read: those a worker moves along by itself
+static void assign_lines(fe__builder *b, int32_t k)
+{
+    fe__solver *s = b->s;
+    fe__batch *batch = s->batches + k;
+    batch->first_line = s->line_count;
+    for (int32_t i = 0; i < FE__DUMMY_LINES; ++i) add_line(s, FE__NONE);
+    for (int32_t i = b->body_start[k]; i < b->body_start[k + 1]; ++i) {
+        fe__body *body = b->in->bodies + b->in->awake_bodies[b->body_order[i]];
+        body->line = b->line[b->body_order[i]] = s->line_count;
+        body->island = b->island_of[b->body_order[i]];
+        add_line(s, b->in->awake_bodies[b->body_order[i]]);
+    }
+    for (int32_t i = b->contact_start[k]; i < b->contact_start[k + 1]; ++i) {
+        const fe__linked *c = b->linked + b->contact_order[i];
+        if (!(c->key & FE__ROW_PAIR)) add_kinematic(b, batch, c->awake_a);
+    }
+    for (int32_t i = b->joint_start[k]; i < b->joint_start[k + 1]; ++i) {
+        const fe__joint *j = b->in->joints->joints + b->joint_order[i];
+        if (!(j->rows >> FE__SIDES_SHIFT & FE__KINEMATIC_END)) continue;
+        add_kinematic(b, batch, b->in->bodies[j->body_a].awake_index);
+        add_kinematic(b, batch, b->in->bodies[j->body_b].awake_index);
+    }
+    close_block(s);
+    batch->line_count = s->line_count - batch->first_line;
+}
+
+// ---- lanes ----------------------------------------------------------------------------------------------------------------------------
+int32_t fe__line_of(const fe__builder *b, int32_t body)
+{
+    const fe__body *a = b->in->bodies + body;
+    if (a->type == FE_BODY_DYNAMIC) return a->line;
+    return fe__is_kinematic(a) && a->awake_index >= 0 ? b->kinematic_line[a->awake_index] : FE__STATIC_LINE;
+}
+
+static fe__lane lane_of(const fe__builder *b, const fe__linked *c)
+{
+    int32_t line_a = c->awake_a < 0 ? FE__STATIC_LINE : c->key & FE__ROW_PAIR ? b->line[c->awake_a] : b->kinematic_line[c->awake_a];
+    return (fe__lane){c->contact, line_a, b->line[c->awake_b]};
+}
+
+fe__group *fe__open_group(fe__builder *b, fe__batch *batch, fe__group like, int32_t lanes, int32_t row_size)
+{
+    fe__solver *s = b->s;
+    fe__group *g = s->groups + s->group_count++;
+    int32_t dummy = batch->first_line + (like.kind < FE__ROW_KINDS ? like.kind : FE__ROW_KINDS - 1 + like.sides);
+    *g = like;
+    g->lane = s->lane_count, g->offset = batch->row_bytes, g->rows = (lanes + like.width - 1) / like.width;
+    for (int32_t i = 0; i < g->rows * g->width; ++i) s->lanes[s->lane_count + i] = (fe__lane){0, dummy, dummy};
+    s->lane_count += g->rows * g->width;
+    batch->row_bytes += (int64_t)g->rows * row_size;
+    ++batch->group_count;
+    return g;
+}
+
+// Of a hub each contact has a colour to itself, or none: its group has a row, which would be empty but for a lane
+static fe__group *open_contacts(fe__builder *b, fe__batch *batch, int32_t colour, int32_t kind, int32_t contacts,
+                                const fe__kernels *kernels)
+{
+    int32_t thin = contacts <= FE__THIN_WIDTH && b->width > FE__THIN_WIDTH;
+    fe__group like = {.kind = kind, .colour = FE__CONTACT_COLOURS + colour, .alone = colour == FE__OVERFLOW_COLOUR};
+    like.width = thin ? FE__THIN_WIDTH : b->width;
+    if (!thin) return fe__open_group(b, batch, like, contacts, kernels->contact->row_size[kind]);
+    return fe__open_group(b, batch, like, contacts, (int32_t)fe__whole_blocks(kernels->thin->row_size[kind])); // a wide row may come next
+}
+
+// contacts beyond the colours of a crowded body: one a row, in the order of the pairs' creation
+static void add_overflow(fe__builder *b, int32_t k, const fe__kernels *kernels)
+{
+    fe__solver *s = b->s;
+    int32_t n = 0;
+    for (int32_t i = b->contact_start[k]; i < b->contact_start[k + 1]; ++i) {
+        const fe__linked *c = b->linked + b->contact_order[i];
+        if (c->key / FE__ROW_KINDS == FE__OVERFLOW_COLOUR)
+            s->sort_items[n++] = (fe__sort_item){b->in->serials[2 * c->contact + 1], b->contact_order[i], 0};
+    }
+    if (n == 0) return; // then there may be no items at all
+    fe__sort_keys(s->sort_items, n, s->sort_items + n);
+    for (int32_t i = 0; i < n; ++i) s->sort_items[i].key = b->in->serials[2 * b->linked[s->sort_items[i].value].contact];
+    fe__sort_keys(s->sort_items, n, s->sort_items + n);
+    for (int32_t i = 0; i < n; ++i) {
+        const fe__linked *c = b->linked + s->sort_items[i].value;
+        s->lanes[open_contacts(b, s->batches + k, FE__OVERFLOW_COLOUR, c->key % FE__ROW_KINDS, 1, kernels)->lane] = lane_of(b, c);
+    }
+}
+
+// ---- groups ---------------------------------------------------------------------------------------------------------------------------
+static void make_groups(fe__builder *b, int32_t k, const fe__kernels *kernels)
+{
+    fe__solver *s = b->s;
+    fe__batch *batch = s->batches + k;
+    batch->first_group = s->group_count;
+    fe__graph_joint_groups(b, k, kernels);
+    memset(b->key_count, 0, sizeof(int32_t) * FE__GROUP_KEYS);
+    for (int32_t i = b->contact_start[k]; i < b->contact_start[k + 1]; ++i) {
+        int32_t key = b->linked[b->contact_order[i]].key;
+        ++b->key_count[key];
+        batch->bounces |= key & FE__ROW_SPECIAL;
+    }
+    for (int32_t key = 0; key < FE__OVERFLOW_COLOUR * FE__ROW_KINDS; ++key) {
+        int32_t contacts = b->key_count[key];
+        if (contacts) b->key_count[key] = open_contacts(b, batch, key / FE__ROW_KINDS, key % FE__ROW_KINDS, contacts, kernels)->lane;
+    }
+    for (int32_t i = b->contact_start[k]; i < b->contact_start[k + 1]; ++i) {
+        const fe__linked *c = b->linked + b->contact_order[i];
+        if (c->key / FE__ROW_KINDS != FE__OVERFLOW_COLOUR) s->lanes[b->key_count[c->key]++] = lane_of(b, c);
+    }
+    add_overflow(b, k, kernels);
+}
+
+// the rows of each batch have room: all of it for a large one, a worker's stretch for the others
+static int32_t rows_fit(const fe__solver *s)
+{
+    for (int32_t k = 0; k < s->batch_count; ++k)
+        if (s->batches[k].row_bytes > (k < s->large_count ? (int64_t)sizeof(fe__row_block) * s->row_capacity : s->worker_row_bytes))
+            return 0;
+    return 1;
+}
+
+void fe__graph_build(fe__solver *s, const fe__kernels *kernels, const fe__graph_input *input)
+{
+    fe__builder b = make_builder(s, kernels, input);
+    fe__graph_find_batches(&b);
+    s->group_count = s->lane_count = s->line_count = 0;
+    for (int32_t i = 0; i < FE__MAX_WIDTH; ++i) add_line(s, FE__NONE); // FE__STATIC_LINE and its block
+    for (int32_t k = 0; k < s->batch_count; ++k) {
+        assign_lines(&b, k);
+        make_groups(&b, k, kernels);
+    }
+    assert(s->line_count <= s->body_of_line_capacity && s->lane_count <= s->lane_capacity && s->group_count <= s->group_capacity);
+    assert(rows_fit(s));
+    (void)rows_fit; // without assertions nobody asks
+    s->graph_changed = 0;
+}

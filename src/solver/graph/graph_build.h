@@ -1,0 +1,75 @@
+// graph_build.h - what the parts of a build of the graph share: first graph_islands.c, then graph.c and graph_joints.c for each batch.
+#ifndef FE_SOLVER_GRAPH_BUILD_H
+#define FE_SOLVER_GRAPH_BUILD_H
+#include "solver/graph/graph.h"
+
+enum {
+    FE__NONE = -1,
+    FE__GROUP_KEYS = FE__COLOURS * FE__ROW_KINDS,
+    FE__SIDES = 3, // A, B, both: FE__MOVES_* - 1
+    FE__JOINT_GROUP_KEYS = FE__JOINT_KEYS * FE__SIDES,
+    // a batch of islands without contacts ends here: about as many lines as a second-level cache holds
+    FE__BATCH_BODIES = 1024,
+    // lines of zeros before a batch's bodies, one for each kind of row: what its padding lanes name. A batch's own, so that no two workers
+    // write one line
+    FE__DUMMY_LINES = FE__MAX_WIDTH
+};
+_Static_assert((int)FE__DUMMY_LINES >= (int)FE__ROW_KINDS + (int)FE__SIDES, "one dummy line for each kind that may be in a colour");
+
+// What a build asks of a contact in the graph, which lies anywhere in memory: read once
+typedef struct fe__linked {
+    int32_t contact;
+    int32_t key;              // colour * FE__ROW_KINDS + kind of row
+    int32_t awake_a, awake_b; // awake indices of its bodies, FE__NONE of a static one
+} fe__linked;
+enum { FE__LINKED_INTS = sizeof(fe__linked) / sizeof(int32_t) };
+
+// scratch of a build, carved from one block of ints
+typedef struct fe__builder {
+    fe__solver *s;
+    const fe__graph_input *in;
+    int32_t width;
+    int32_t *parent;          // by awake index of a body; a parent's index is never above its child's
+    int32_t *island_of;       // by awake index, FE__NONE: kinematic
+    int32_t *island_contacts; // by island
+    int32_t *island_joints;
+    int32_t *island_lanes; // contacts and parts of joints
+    int32_t *island_bodies;
+    int32_t *island_pace;    // bits of FE__BODY_STRAINED, FE__BODY_STRETCHED until asked by pace_of
+    int32_t *batch_of;       // of an island
+    int32_t *kinematic_line; // by awake index: line of the copy in the batch at hand
+    int32_t *body_order;     // awake indices by batch
+    int32_t *line;           // by awake index, of bodies that are not kinematic
+    fe__linked *linked;      // contacts in the graph
+    int32_t linked_count;
+    int32_t *contact_order; // places in `linked` by batch
+    int32_t *body_start;    // by batch, one more than there are
+    int32_t *contact_start;
+    int32_t *joint_order; // joints by batch
+    int32_t *joint_start;
+    int32_t *key_count;       // by colour and kind
+    int32_t *joint_key_count; // by part, colour and sides
+    int32_t *joint_key_group;
+} fe__builder;
+
+static inline const fe__body *fe__awake_body(const fe__builder *b, int32_t i) { return b->in->bodies + b->in->awake_bodies[i]; }
+static inline int32_t fe__is_kinematic(const fe__body *body) { return body->type == FE_BODY_KINEMATIC; }
+static inline uint32_t fe__sides_of(const fe__joint *j) { return j->rows >> FE__SIDES_SHIFT & (FE__MOVES_A | FE__MOVES_B); }
+
+// Rows of narrow kernels are not whole blocks, but nodes of trees begin with one
+static inline int64_t fe__whole_blocks(int64_t bytes)
+{
+    const int64_t block = sizeof(fe__row_block);
+    return (bytes + block - 1) / block * block;
+}
+
+// Islands of bodies, batches of islands; bodies, contacts and joints in the order of their batches
+void fe__graph_find_batches(fe__builder *b);
+// Groups of the joints of batch k, and its trees
+void fe__graph_joint_groups(fe__builder *b, int32_t k, const fe__kernels *kernels);
+// A group of a batch, with a dummy in each lane. `like` tells all but the place
+fe__group *fe__open_group(fe__builder *b, fe__batch *batch, fe__group like, int32_t lanes, int32_t row_size);
+// Of a body in the batch at hand
+int32_t fe__line_of(const fe__builder *b, int32_t body);
+
+#endif

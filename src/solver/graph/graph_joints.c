@@ -1,0 +1,125 @@
+// graph_joints.c - groups of lanes for the parts of a batch's joints, and for its trees.
+#include "solver/graph/graph_build.h"
+
+#include "core/array_sort.h"
+
+#include <string.h>
+
+// ---- lanes: by part, then by colour, then by which ends move --------------------------------------------------------------------------
+static int32_t joint_key(int32_t part, const fe__joint *j)
+{
+    return (part * (FE__JOINT_COLOURS + 1) + j->colour) * FE__SIDES + (int32_t)fe__sides_of(j) - 1;
+}
+
+static fe__group *open_joints(fe__builder *b, fe__batch *batch, int32_t key, int32_t lanes, const fe__kernels *kernels)
+{
+    int32_t colour = key / FE__SIDES, part = colour / (FE__JOINT_COLOURS + 1);
+    fe__group like = {.width = b->width, .kind = FE__ROW_KINDS + part, .colour = colour, .sides = 1 + key % FE__SIDES};
+    like.alone = colour % (FE__JOINT_COLOURS + 1) == FE__JOINT_OVERFLOW;
+    return fe__open_group(b, batch, like, lanes, kernels->joint->of[part].row_size);
+}
+
+static fe__lane joint_lane(const fe__builder *b, int32_t joint)
+{
+    const fe__joint *j = b->in->joints->joints + joint;
+    return (fe__lane){joint, fe__line_of(b, j->body_a), fe__line_of(b, j->body_b)};
+}
+
+// joints beyond the colours of a crowded body, sorted by creation: their number
+static int32_t sort_overflow(fe__builder *b, int32_t k)
+{
+    fe__sort_item *items = b->s->sort_items;
+    int32_t n = 0;
+    for (int32_t i = b->joint_start[k]; i < b->joint_start[k + 1]; ++i) {
+        int32_t joint = b->joint_order[i];
+        if (b->in->joints->joints[joint].colour == FE__JOINT_OVERFLOW)
+            items[n++] = (fe__sort_item){b->in->joints->frames[joint].serial, joint, 0};
+    }
+    if (n) fe__sort_keys(items, n, items + n);
+    return n;
+}
+
+static void open_part(fe__builder *b, fe__batch *batch, int32_t part, int32_t overflowing, const fe__kernels *kernels)
+{
+    enum { KEYS = FE__JOINT_COLOURS * FE__SIDES };
+    fe__solver *s = b->s;
+    int32_t first = part * (FE__JOINT_COLOURS + 1) * FE__SIDES;
+    for (int32_t key = first; key < first + KEYS; ++key) {
+        if (!b->joint_key_count[key]) continue;
+        b->joint_key_group[key] = s->group_count;
+        b->joint_key_count[key] = open_joints(b, batch, key, b->joint_key_count[key], kernels)->lane;
+    }
+    for (int32_t i = 0; i < overflowing; ++i) {
+        int32_t joint = s->sort_items[i].value;
+        const fe__joint *j = b->in->joints->joints + joint;
+        if (j->rows >> part & 1) s->lanes[open_joints(b, batch, joint_key(part, j), 1, kernels)->lane] = joint_lane(b, joint);
+    }
+}
+
+// ---- trees ----------------------------------------------------------------------------------------------------------------------------
+static int32_t link_of(const fe__builder *b, int32_t joint)
+{
+    const fe__forest *f = &b->in->joints->forest;
+    return f->link_count ? f->link_of[joint] : FE__NONE;
+}
+
+// A link's bodies, and a tree's group, when the first of its links comes by
+static void open_link(fe__builder *b, fe__batch *batch, int32_t link, fe__lane lane, const fe__kernels *kernels)
+{
+    fe__solver *s = b->s;
+    const fe__forest *f = &b->in->joints->forest;
+    const fe__tree_link *l = f->links + link;
+    int32_t first = f->trees[l->tree].first, count = f->trees[l->tree].count, rootless = !f->links[first].joint;
+    s->places[link] =
+        (fe__tree_place){.line = l->holds_b ? lane.line_b : lane.line_a, .parent_line = l->holds_b ? lane.line_a : lane.line_b};
+    if (link != first + rootless) return;
+    batch->row_bytes = fe__whole_blocks(batch->row_bytes);
+    if (rootless) s->places[first] = (fe__tree_place){.line = fe__line_of(b, f->links[first].body), .parent_line = FE__STATIC_LINE};
+    s->groups[s->group_count++] = (fe__group){
+        .width = b->width, .kind = FE__TREE_KIND, .colour = FE__TREE_COLOUR, .lane = l->tree, .rows = 1, .offset = batch->row_bytes};
+    batch->row_bytes += (int64_t)count * kernels->joint->tree.node_size;
+    ++batch->group_count, ++batch->trees;
+}
+
+// the rows of a link's locks
+static void add_lock(const fe__builder *b, int32_t link, int32_t part, int32_t group, int32_t lane, const fe__kernels *kernels)
+{
+    const fe__group *g = b->s->groups + group;
+    fe__tree_place *p = b->s->places + link;
+    if (!((FE__LOCKS | 1 << FE__PART_DISTANCE) >> part & 1)) return;
+    p->lock[p->locks].part = part;
+    p->lock[p->locks].lane = (lane - g->lane) % b->width;
+    p->lock[p->locks++].row = g->offset + (int64_t)((lane - g->lane) / b->width) * kernels->joint->of[part].row_size;
+}
+
+static void fill_joint_lanes(fe__builder *b, fe__batch *batch, int32_t joint, const fe__kernels *kernels)
+{
+    const fe__joint *j = b->in->joints->joints + joint;
+    fe__lane lane = joint_lane(b, joint);
+    int32_t link = link_of(b, joint);
+    if (link >= 0) open_link(b, batch, link, lane, kernels);
+    for (int32_t part = 0; part < FE__PARTS; ++part) {
+        if (!(j->rows >> part & 1)) continue;
+        int32_t key = joint_key(part, j), at = b->joint_key_count[key]++;
+        b->s->lanes[at] = lane;
+        if (link >= 0) add_lock(b, link, part, b->joint_key_group[key], at, kernels);
+    }
+}
+
+void fe__graph_joint_groups(fe__builder *b, int32_t k, const fe__kernels *kernels)
+{
+    fe__batch *batch = b->s->batches + k;
+    if (!batch->joint_count) return;
+    memset(b->joint_key_count, 0, sizeof(int32_t) * FE__JOINT_GROUP_KEYS);
+    for (int32_t i = b->joint_start[k]; i < b->joint_start[k + 1]; ++i) {
+        const fe__joint *j = b->in->joints->joints + b->joint_order[i];
+        for (int32_t part = 0; part < FE__PARTS; ++part) b->joint_key_count[joint_key(part, j)] += (int32_t)(j->rows >> part & 1);
+    }
+    int32_t overflowing = sort_overflow(b, k);
+    for (int32_t part = 0; part < FE__PARTS; ++part) open_part(b, batch, part, overflowing, kernels);
+    for (int32_t i = b->joint_start[k]; i < b->joint_start[k + 1]; ++i) {
+        const fe__joint *j = b->in->joints->joints + b->joint_order[i];
+        if (j->colour != FE__JOINT_OVERFLOW) fill_joint_lanes(b, batch, b->joint_order[i], kernels);
+    }
+    batch->joint_groups = batch->group_count;
+}

@@ -1,0 +1,154 @@
+// graph_room.c - what a graph may need at most, reserved before it is built: lines, groups, lanes, rows, the scratch of the build.
+#include "solver/graph/graph_build.h"
+
+static int32_t joint_rows(const fe__graph_bound *b)
+{
+    return b->joint_set ? (int32_t)fe__minl(b->joint_set->rows, (int64_t)b->joints * __builtin_popcount(b->joint_set->row_kinds)) : 0;
+}
+
+static int32_t overflowing_rows(const fe__graph_bound *b)
+{
+    if (!b->joint_set) return 0;
+    return (int32_t)fe__minl(joint_rows(b), (int64_t)b->joint_set->overflowing * __builtin_popcount(b->joint_set->row_kinds));
+}
+
+static int32_t batch_bound(const fe__graph_bound *b)
+{
+    // two neighbouring small batches together exceed a limit; large islands exceed theirs; one for kinematic bodies, two that stayed open
+    int32_t lanes = b->contacts + joint_rows(b);
+    return 2 * (lanes / FE__BATCH_CONTACTS + b->bodies / FE__BATCH_BODIES) + lanes / FE__ISLAND_LARGE + 4;
+}
+
+// distinct groups of one batch: a colour between dynamic bodies, or its mate, is below the contacts of both; one with others below the
+// body's
+static int32_t group_bound(const fe__graph_bound *b)
+{
+    const uint32_t pairs = 0xAA; // kinds with FE__ROW_PAIR
+    return fe__mini(2 * b->most_contacts, FE__PAIR_COLOURS) * __builtin_popcount(b->kinds & pairs) +
+           fe__mini(b->most_contacts, FE__STATIC_COLOURS) * __builtin_popcount(b->kinds & ~pairs);
+}
+
+static int32_t joint_group_bound(const fe__graph_bound *b)
+{
+    if (!b->joint_set) return 0;
+    return fe__mini(2 * b->joint_set->most, FE__JOINT_COLOURS) * __builtin_popcount(b->joint_set->row_kinds) * FE__SIDES;
+}
+
+static int64_t joint_row_bound(const fe__graph_bound *b, int32_t lanes, int32_t width)
+{
+    int64_t rows = lanes / width + fe__mini(joint_group_bound(b), lanes) + fe__mini(overflowing_rows(b), lanes);
+    return rows < lanes ? rows : lanes;
+}
+
+static int64_t widest_joint(const fe__graph_bound *b, const fe__kernels *kernels)
+{
+    int32_t widest = 0;
+    for (int32_t part = 0; b->joint_set && part < FE__PARTS; ++part)
+        if (b->joint_set->row_kinds >> part & 1) widest = fe__maxi(widest, kernels->joint->of[part].row_size);
+    return widest;
+}
+
+static int64_t row_bound(const fe__graph_bound *b, int32_t contacts, int32_t width)
+{
+    int64_t rows = contacts / width + fe__mini(group_bound(b), contacts) + fe__mini(b->crowded, contacts);
+    return rows < contacts ? rows : contacts;
+}
+
+static int32_t tree_links(const fe__graph_bound *b) { return b->joint_set ? b->joint_set->forest.link_count : 0; }
+
+// bytes of rows of so many contacts and parts of joints; each body is in one tree at most
+static int64_t row_bytes(const fe__graph_bound *b, const fe__kernels *kernels, int32_t contacts, int32_t joint_lanes, int64_t bodies)
+{
+    int64_t widest = kernels->contact->row_size[b->special ? FE__ROW_PAIR | FE__ROW_SPECIAL : FE__ROW_PAIR];
+    int64_t links = fe__minl(tree_links(b), bodies);
+    return row_bound(b, contacts, kernels->width) * widest + joint_row_bound(b, joint_lanes, kernels->width) * widest_joint(b, kernels) +
+           links * (kernels->joint->tree.node_size + (int64_t)sizeof(fe__row_block));
+}
+
+static int64_t scratch_bound(const fe__graph_bound *b)
+{
+    return 11 * (int64_t)b->bodies + (FE__LINKED_INTS + 1) * (int64_t)b->contacts + b->joints + 3 * (batch_bound(b) + 1) + FE__GROUP_KEYS +
+           2 * FE__JOINT_GROUP_KEYS;
+}
+
+// bytes of rows of the largest island, and of a worker's stretch
+static int64_t all_rows(const fe__graph_bound *b, const fe__kernels *kernels, int32_t workers, int64_t *out_small)
+{
+    int32_t some = FE__BATCH_CONTACTS + FE__ISLAND_LARGE, parts = joint_rows(b);
+    // an island has a body more than constraints, at most
+    int64_t small =
+        row_bytes(b, kernels, fe__mini(b->contacts, some), fe__mini(parts, some), fe__maxi(FE__BATCH_BODIES, FE__ISLAND_LARGE + 1));
+    int64_t large = b->largest > FE__ISLAND_LARGE
+                        ? row_bytes(b, kernels, fe__mini(b->contacts, b->largest), fe__mini(parts, b->largest), (int64_t)b->largest + 1)
+                        : 0;
+    *out_small = small;
+    return small * workers > large ? small * workers : large;
+}
+
+// Passes of a large batch, see make_program in solve.c. Its groups come colour by colour, a group or more each, and each of the four verbs
+// of rows (prepare, solve, relax, bounce; joints do not bounce) has a pass a colour at most. Three more are over lines, one stores, and one
+// is the trees'.
+static int64_t pass_bound(int64_t groups)
+{
+    enum { EVERY_COLOUR = 4 * FE__COLOURS + 3 * FE__CONTACT_COLOURS, OTHERS = 5 };
+    return fe__minl(4 * groups, EVERY_COLOUR) + OTHERS;
+}
+
+int32_t fe__graph_has_rows(const fe__solver *s, const fe__kernels *kernels, const fe__graph_bound *bound, int32_t workers)
+{
+    int64_t small;
+    return all_rows(bound, kernels, workers, &small) < (int64_t)sizeof(fe__row_block) * s->row_capacity;
+}
+
+int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *kernels, const fe__graph_bound *b, int32_t workers)
+{
+    int32_t batches = batch_bound(b), width = kernels->width, parts = joint_rows(b);
+    int64_t all_lanes = (int64_t)b->contacts + parts;
+    int64_t groups = fe__minl((int64_t)group_bound(b) * batches, b->contacts) + fe__mini(b->crowded, b->contacts) +
+                     fe__minl((int64_t)joint_group_bound(b) * batches, parts) + overflowing_rows(b) + tree_links(b);
+    int64_t lanes = fe__minl(all_lanes + (int64_t)(width - 1) * groups, all_lanes * width);
+    // each contact or joint of a kinematic body may bring a copy of it
+    int64_t copies = (b->special ? b->contacts : 0) + (b->joint_set ? b->joint_set->kinematic : 0);
+    int64_t lines = FE__MAX_WIDTH + (int64_t)b->bodies + (int64_t)batches * (FE__DUMMY_LINES + FE__MAX_WIDTH) + copies;
+    int64_t small, rows = all_rows(b, kernels, workers, &small);
+    int64_t building = (int64_t)sizeof(int32_t) * scratch_bound(b);
+    int64_t sorted = fe__maxi(fe__mini(b->crowded, b->contacts), b->joint_set ? fe__mini(b->joint_set->overflowing, b->joints) : 0);
+    if (!FE_RESERVE(memory, s->velocity, s->line_capacity[0], lines) || !FE_RESERVE(memory, s->motion, s->line_capacity[1], lines) ||
+        !FE_RESERVE(memory, s->start, s->line_capacity[2], lines) || !FE_RESERVE(memory, s->inertia, s->line_capacity[3], lines) ||
+        !FE_RESERVE(memory, s->drive, s->line_capacity[4], lines) || !FE_RESERVE(memory, s->spin, s->line_capacity[5], lines) ||
+        !FE_RESERVE(memory, s->body_of_line, s->body_of_line_capacity, lines) ||
+        !FE_RESERVE(memory, s->trail_count, s->trail_capacity[0], lines) || !FE_RESERVE(memory, s->trail_of, s->trail_capacity[2], lines) ||
+        !FE_RESERVE(memory, s->trail, s->trail_capacity[1], b->fast + (b->fast_kinematic ? copies : 0)) ||
+        !FE_RESERVE(memory, s->batches, s->batch_capacity, batches) || !FE_RESERVE(memory, s->groups, s->group_capacity, groups + 1) ||
+        !FE_RESERVE(memory, s->lanes, s->lane_capacity, lanes + width) ||
+        !FE_RESERVE(memory, s->places, s->place_capacity, tree_links(b)) ||
+        !FE_RESERVE(memory, s->passes, s->pass_capacity, pass_bound(groups)) ||
+        !FE_RESERVE(memory, s->sort_items, s->sort_capacity, 2 * sorted) ||
+        !FE_RESERVE(memory, s->rows, s->row_capacity, fe__maxl(rows, building) / (int64_t)sizeof(fe__row_block) + 1))
+        return 0;
+    s->worker_row_bytes = fe__whole_blocks(small);
+    return 1;
+}
+
+void fe__solver_destroy(fe__solver *s, fe__memory *memory)
+{
+    FE_FREE(memory, s->velocity, s->line_capacity[0]);
+    FE_FREE(memory, s->motion, s->line_capacity[1]);
+    FE_FREE(memory, s->start, s->line_capacity[2]);
+    FE_FREE(memory, s->inertia, s->line_capacity[3]);
+    FE_FREE(memory, s->drive, s->line_capacity[4]);
+    FE_FREE(memory, s->spin, s->line_capacity[5]);
+    FE_FREE(memory, s->body_of_line, s->body_of_line_capacity);
+    FE_FREE(memory, s->trail_count, s->trail_capacity[0]);
+    FE_FREE(memory, s->trail, s->trail_capacity[1]);
+    FE_FREE(memory, s->trail_of, s->trail_capacity[2]);
+    FE_FREE(memory, s->batches, s->batch_capacity);
+    FE_FREE(memory, s->groups, s->group_capacity);
+    FE_FREE(memory, s->lanes, s->lane_capacity);
+    FE_FREE(memory, s->places, s->place_capacity);
+    FE_FREE(memory, s->passes, s->pass_capacity);
+    FE_FREE(memory, s->sort_items, s->sort_capacity);
+    FE_FREE(memory, s->rows, s->row_capacity);
+    s->batch_count = s->large_count = s->group_count = s->lane_count = s->line_count = s->island_count = 0;
+    s->graph_changed = 1;
+}

@@ -1,0 +1,47 @@
+// joint.simd.c - the joint solver: rows of W joints' parts, a kind of row for each kind of part. Compiled once per SIMD set; see
+// core/simd.h.
+//
+// After E. Catto, "Soft Constraints" (GDC 2011), as the contacts: in each substep a soft pass, then positions, then a rigid one. The first
+// warm start is part of prepare; the later ones are carried by the bodies.
+#include "core/simd.h"
+#include "solver/joint/joint.h"
+#include "solver/solver.h"
+#include "solver/wide_body.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "solver/joint/joint_wide.h"
+#include "solver/joint/joint_axis.h"
+#include "solver/joint/joint_point.h"
+#include "solver/joint/joint_slide.h"
+#include "solver/joint/joint_turn.h"
+#include "solver/tree/joint_tree_rows.h"
+#include "solver/tree/joint_tree.h"
+#include "solver/tree/joint_tree_calm.h"
+#include "solver/tree/joint_tree_light.h"
+#include "solver/tree/joint_tree_warm.h"
+#include "solver/tree/joint_tree_passes.h"
+
+#define KERNELS(name, form)                                                          \
+    {                                                                                \
+        sizeof(form##_row), prepare_##name, solve_##form, relax_##name, store_##name \
+    }
+
+const fe__joint_kernels FE_NAME(fe__joint_kernels) = {.of =
+                                                          {
+                                                              [FE__PART_X] = KERNELS(x, linear),
+                                                              [FE__PART_Y] = KERNELS(y, linear),
+                                                              [FE__PART_Z] = KERNELS(z, linear),
+                                                              [FE__PART_DISTANCE] = KERNELS(distance, linear),
+                                                              [FE__PART_TWIST] = KERNELS(twist, angular),
+                                                              [FE__PART_SWING_Y] = KERNELS(swing_y, angular),
+                                                              [FE__PART_SWING_Z] = KERNELS(swing_z, angular),
+                                                              [FE__PART_CONE] = KERNELS(cone, angular),
+                                                              [FE__PART_TURN] = KERNELS(turn, turn),
+                                                              [FE__PART_HINGE] = KERNELS(hinge, hinge),
+                                                              [FE__PART_FIXED] = KERNELS(fixed, fixed),
+                                                              [FE__PART_SLIDE] = KERNELS(slide, slide),
+                                                              [FE__PART_POINT] = KERNELS(point, point),
+                                                          },
+                                                      .tree = {sizeof(tree_node), prepare_tree, solve_tree, relax_tree, follow_tree}};

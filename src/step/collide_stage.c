@@ -1,0 +1,284 @@
+// collide_stage.c - stages 2 and 3: manifolds of the awake pairs, what begins and ends to touch, who wakes; then the constraint graph.
+//
+// A pair that moved little keeps its manifold (recycling, wide); the others go through the narrow phase one by one. Workers only write
+// their pairs' own records and a list of results; the results are applied afterwards, sorted by creation, so that colours and wake-ups
+// follow no thread.
+#include "solver/graph/graph.h"
+#include "step/step.h"
+
+enum { PAIRS_IN_BLOCK = 64, PAIRS_IN_CACHE = 256, FETCHED_AHEAD = 24 };
+
+typedef struct collide_job {
+    fe__step *step;
+    int32_t first; // of this round, in the list of awake pairs
+} collide_job;
+
+// ---- one pair -------------------------------------------------------------------------------------------------------------------------
+static void box_of(const fe_world *w, int32_t shape, fe__bounds *out)
+{
+    int32_t is_static = w->bodies[w->shapes[shape].body].type == FE_BODY_STATIC;
+    fe__tree_get(is_static ? &w->static_tree : &w->moving_tree, shape, out);
+}
+
+static int32_t boxes_part(const fe_world *w, const fe__pair *p)
+{
+    fe__bounds a, b;
+    const fe__shape *x = w->shapes + p->shape_a, *y = w->shapes + p->shape_b;
+    if (x->flags & FE__SHAPE_IN_TREE) box_of(w, p->shape_a, &a);
+    if (y->flags & FE__SHAPE_IN_TREE) box_of(w, p->shape_b, &b);
+    if (x->flags & FE__SHAPE_IN_PLANES) return !fe__box_meets_plane(x, &b);
+    if (y->flags & FE__SHAPE_IN_PLANES) return !fe__box_meets_plane(y, &a);
+    return a.high.x < b.low.x || b.high.x < a.low.x || a.high.y < b.low.y || b.high.y < a.low.y || a.high.z < b.low.z || b.high.z < a.low.z;
+}
+
+static int32_t judge(const fe_world *w, int32_t pair)
+{
+    const fe__pair *p = w->pairs + pair;
+    int32_t has_points = w->contacts[pair].normal[3] > 0.0f, linked = (p->flags & FE__PAIR_LINKED) != 0;
+    if (has_points) return linked || p->flags & FE__PAIR_SENSOR ? FE__RESULT_NONE : FE__RESULT_BEGIN;
+    if (!(p->flags & FE__PAIR_PATCH) && boxes_part(w, p)) return FE__RESULT_APART;
+    return linked ? FE__RESULT_END : FE__RESULT_NONE;
+}
+
+// A pair without points may move by `slack` before it is looked at again. One with a heightfield is asked for more than its gap
+static void note_wait(const fe__step *step, int32_t pair, float slack)
+{
+    const fe_world *w = step->world;
+    const fe__pair *p = w->pairs + pair;
+    if (p->flags & (FE__PAIR_PATCH | FE__PAIR_MAY_TELL) || p->next_patch >= 0) return;
+    fe__begin_to_wait(w->waits + p->awake_index, w->odometers, p->body_a, p->body_b, slack, w->contacts[pair].found_span[3]);
+    w->awake_pairs[p->awake_index] = ~pair;
+    atomic_store_explicit(&step->scratch->some_wait, 1, memory_order_relaxed);
+}
+
+static void note_result(fe__step *step, int32_t pair)
+{
+    fe_world *w = step->world;
+    fe__step_scratch *s = step->scratch;
+    w->pairs[pair].result = judge(w, pair);
+    if (!(w->contacts[pair].normal[3] > 0.0f)) note_wait(step, pair, w->contacts[pair].surface[3]);
+    if (w->pairs[pair].result != FE__RESULT_NONE) s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
+}
+
+// ---- with heightfields: patches follow their heads, on the head's thread --------------------------------------------------------------
+static void collide_with_patches(fe__step *step, int32_t head)
+{
+    fe_world *w = step->world;
+    if (w->pairs[head].next_patch < 0)
+        fe__collide_pair(w, head, step->dt);
+    else
+        fe__collide_field_pair(w, head, step->dt);
+    for (int32_t pair = head; pair >= 0; pair = w->pairs[pair].next_patch) note_result(step, pair);
+}
+
+// up to PAIRS_IN_BLOCK of the awake pairs
+static void collide_chunk(fe__step *step, int32_t *entries, int32_t count)
+{
+    fe_world *w = step->world;
+    int32_t heads[PAIRS_IN_BLOCK], patches[PAIRS_IN_BLOCK * (FE__PATCHES - 1)], head_count = 0, patch_count = 0, again = 0;
+    uint8_t said[PAIRS_IN_BLOCK * (FE__PATCHES - 1)];
+    float slack[PAIRS_IN_BLOCK * (FE__PATCHES - 1)];
+    for (int32_t i = 0; i < count; ++i) {
+        entries[i] = fe__pair_of(entries[i]); // here none waits
+        if (!(w->pairs[entries[i]].flags & FE__PAIR_PATCH)) heads[head_count++] = entries[i];
+    }
+    if (head_count == 0) return;
+    w->kernels->recycle(w->contacts, w->bodies, heads, head_count, step->dt, said, slack);
+    for (int32_t i = 0; i < head_count; ++i) {
+        if (said[i] == FE__MOVED) {
+            heads[again++] = heads[i];
+            continue;
+        }
+        for (int32_t patch = w->pairs[heads[i]].next_patch; patch >= 0; patch = w->pairs[patch].next_patch)
+            if (w->contacts[patch].normal[3] > 0.0f) patches[patch_count++] = patch;
+    }
+    if (patch_count) w->kernels->recycle(w->contacts, w->bodies, patches, patch_count, step->dt, said, slack);
+    for (int32_t i = 0; i < again; ++i) collide_with_patches(step, heads[i]);
+    atomic_fetch_add_explicit(&step->scratch->recycled, head_count - again, memory_order_relaxed);
+}
+
+static void collide_chunks(void *argument, int32_t first, int32_t end, int32_t worker)
+{
+    const collide_job *job = argument;
+    (void)worker;
+    for (int32_t i = first; i < end; i += PAIRS_IN_BLOCK)
+        collide_chunk(job->step, job->step->world->awake_pairs + job->first + i, fe__mini(end - i, PAIRS_IN_BLOCK));
+}
+
+// ---- without --------------------------------------------------------------------------------------------------------------------------
+// Records of pairs that the narrow phase will look at lie anywhere: they are asked for while it looks at others
+FE_FETCHES fetch_pair(const fe_world *w, int32_t pair)
+{
+    const fe__pair *p = w->pairs + pair;
+    fe__fetch(w->shapes + p->shape_a, sizeof *w->shapes);
+    fe__fetch(w->shapes + p->shape_b, sizeof *w->shapes);
+    fe__fetch(w->bodies[p->body_a].centre, sizeof w->bodies->centre);
+    fe__fetch(w->bodies[p->body_b].centre, sizeof w->bodies->centre);
+    fe__fetch(w->bodies[p->body_a].velocity, sizeof w->bodies->velocity);
+    fe__fetch(w->bodies[p->body_b].velocity, sizeof w->bodies->velocity);
+    fe__tree_fetch(&w->moving_tree, p->shape_a);
+    fe__tree_fetch(&w->moving_tree, p->shape_b);
+}
+
+// The next awake pairs that do not wait, PAIRS_IN_CACHE at most. Moves *at behind them
+static int32_t list_asked(fe__step *step, int32_t *at, int32_t end, int32_t *out_pairs)
+{
+    const fe_world *w = step->world;
+    int32_t i = *at, count = 0;
+    for (; i < end && count < PAIRS_IN_CACHE; ++i) {
+        int32_t entry = w->awake_pairs[i];
+        __builtin_prefetch(w->waits + fe__mini(i + FETCHED_AHEAD, end - 1));
+        out_pairs[count] = entry;
+        if (entry < 0) {
+            if (fe__still_waits(w->waits + i, w->odometers, step->dt)) continue;
+            out_pairs[count] = w->awake_pairs[i] = ~entry;
+        }
+        ++count;
+    }
+    *at = i;
+    return count;
+}
+
+// Recycles pairs, and looks at those that moved while their records are still in the cache. Returns how many those are
+static int32_t collide_some(fe__step *step, const int32_t *pairs, int32_t count)
+{
+    enum { AHEAD = 2 };
+    fe_world *w = step->world;
+    int32_t again[PAIRS_IN_CACHE], left = 0;
+    uint8_t said[PAIRS_IN_CACHE];
+    float slack[PAIRS_IN_CACHE];
+    w->kernels->recycle(w->contacts, w->bodies, pairs, count, step->dt, said, slack);
+    for (int32_t i = 0; i < count; ++i) {
+        int32_t pair = pairs[i];
+        if (said[i] == FE__STAYS) continue;
+        if (said[i] == FE__STAYS_APART) {
+            note_wait(step, pair, slack[i]);
+            continue;
+        }
+        again[left++] = pair;
+        fe__fetch(w->pairs + pair, sizeof *w->pairs);
+    }
+    for (int32_t i = -AHEAD; i < left; ++i) {
+        if (i + AHEAD < left) fetch_pair(w, again[i + AHEAD]);
+        if (i < 0) continue;
+        fe__collide_pair(w, again[i], step->dt);
+        note_result(step, again[i]);
+    }
+    return left;
+}
+
+static void collide_block(void *argument, int32_t first, int32_t end, int32_t worker)
+{
+    const collide_job *job = argument;
+    const fe__step_scratch *s = job->step->scratch;
+    int32_t list[PAIRS_IN_CACHE], again = 0, some_wait = atomic_load_explicit(&s->some_wait, memory_order_relaxed);
+    (void)worker;
+    for (int32_t i = job->first + first, stop = job->first + end; i < stop;) {
+        const int32_t *pairs = job->step->world->awake_pairs + i;
+        int32_t count = fe__mini(PAIRS_IN_CACHE, stop - i);
+        if (some_wait)
+            count = list_asked(job->step, &i, stop, list), pairs = list;
+        else
+            i += count;
+        again += collide_some(job->step, pairs, count);
+    }
+    atomic_fetch_add_explicit(&job->step->scratch->recycled, end - first - again, memory_order_relaxed);
+}
+
+// ---- results -------------------------------------------------------------------------------------------------------------------
+void fe__sort_pairs(fe__step *step, int32_t *pairs, int32_t count)
+{
+    const fe_world *w = step->world;
+    fe__sort_item *items = step->scratch->sort_items;
+    for (int32_t i = 0; i < count; ++i) items[i] = (fe__sort_item){w->pair_serials[2 * pairs[i] + 1], pairs[i], 0};
+    fe__sort_keys(items, count, items + count);
+    for (int32_t i = 0; i < count; ++i) items[i].key = w->pair_serials[2 * items[i].value];
+    fe__sort_keys(items, count, items + count);
+    for (int32_t i = 0; i < count; ++i) pairs[i] = items[i].value;
+}
+
+static void wake_sleeping(fe_world *w, int32_t body)
+{
+    if (w->bodies[body].type == FE_BODY_DYNAMIC && w->bodies[body].awake_index < 0) fe__wake(w, body);
+}
+
+// ends before beginnings, so that a colour given back can be taken in the same step
+static void apply_results(fe__step *step, int32_t first)
+{
+    fe_world *w = step->world;
+    fe__step_scratch *s = step->scratch;
+    int32_t *results = s->results + first, count = atomic_load(&s->result_count) - first;
+    fe__sort_pairs(step, results, count);
+    for (int32_t i = 0; i < count; ++i)
+        if (w->pairs[results[i]].result == FE__RESULT_END || w->pairs[results[i]].result == FE__RESULT_APART)
+            fe__pair_unlink(w, results[i]);
+    for (int32_t i = 0; i < count; ++i) {
+        const fe__pair *p = w->pairs + results[i];
+        if (p->result != FE__RESULT_BEGIN) continue;
+        fe__pair_link(w, results[i]);
+        wake_sleeping(w, p->body_a);
+        wake_sleeping(w, p->body_b);
+    }
+}
+
+void fe__update_contacts(fe__step *step)
+{
+    fe_world *w = step->world;
+    fe__step_scratch *s = step->scratch;
+    atomic_store(&s->result_count, 0);
+    atomic_store(&s->recycled, 0);
+    // what wakes brings its pairs: they are looked at in another round
+    for (int32_t first = 0; first < w->awake_pair_count;) {
+        int32_t end = w->awake_pair_count, results = atomic_load(&s->result_count);
+        collide_job job = {step, first};
+        fe__parallel_for(&w->workers, end - first, PAIRS_IN_BLOCK, w->field_pair_count ? collide_chunks : collide_block, &job);
+        apply_results(step, results);
+        first = end;
+    }
+    int32_t count = atomic_load(&s->result_count);
+    for (int32_t i = 0; i < count; ++i)
+        if (w->pairs[s->results[i]].result == FE__RESULT_END && w->pairs[s->results[i]].flags & FE__PAIR_PATCH)
+            fe__patch_leave(w, s->results[i]);
+    for (int32_t i = 0; i < count; ++i)
+        if (w->pairs[s->results[i]].result == FE__RESULT_APART) fe__pair_destroy(w, s->results[i]);
+}
+
+const int32_t *fe__busy_pairs(fe__step *step, int32_t *out_count)
+{
+    const fe_world *w = step->world;
+    fe__step_scratch *s = step->scratch;
+    *out_count = w->awake_pair_count;
+    if (!atomic_load(&s->some_wait)) return w->awake_pairs;
+    int32_t count = 0;
+    for (int32_t i = 0; i < w->awake_pair_count; ++i) {
+        s->busy[count] = w->awake_pairs[i];
+        count += w->awake_pairs[i] >= 0;
+    }
+    atomic_store(&s->some_wait, count < w->awake_pair_count);
+    *out_count = count;
+    return s->busy;
+}
+
+void fe__build_islands(fe__step *step)
+{
+    fe_world *w = step->world;
+    fe__solver *s = &w->solver;
+    if (!s->graph_changed) return;
+    if (!w->awake_body_count) { // built when somebody wakes
+        s->batch_count = s->large_count = s->group_count = s->lane_count = s->line_count = s->island_count = 0;
+        return;
+    }
+    int32_t contact_count;
+    const int32_t *contacts = fe__busy_pairs(step, &contact_count);
+    const fe__graph_input in = {.bodies = w->bodies,
+                                .contacts = w->contacts,
+                                .serials = w->pair_serials,
+                                .awake_bodies = w->awake_bodies,
+                                .body_count = w->awake_body_count,
+                                .awake_contacts = contacts,
+                                .contact_count = contact_count,
+                                .joints = &w->joints,
+                                .awake_joints = w->awake_joints,
+                                .joint_count = w->awake_joint_count};
+    fe__graph_build(&w->solver, w->kernels, &in);
+}

@@ -1,0 +1,235 @@
+// events.c - what the step has to tell: touching begun, kept, ended; impacts; bodies that woke or fell asleep. In the order of creation.
+//
+// A pair touches when a point had an impulse, or a gap of 0 or less, during the step. Exits of pairs that ended otherwise (destroyed,
+// re-filtered, boxes apart) wait in their records (fe_world.first_owed) and come out here.
+#include "step/step.h"
+
+#include <string.h>
+
+static fe_pair_event event_of(const fe_world *w, int32_t pair, int32_t kind)
+{
+    const fe__pair *p = w->pairs + pair;
+    return (fe_pair_event){fe__body_handle(w, p->body_a),
+                           fe__body_handle(w, p->body_b),
+                           fe__shape_handle(w, p->shape_a),
+                           fe__shape_handle(w, p->shape_b),
+                           kind,
+                           (p->flags & FE__PAIR_SENSOR) != 0};
+}
+
+static fe__pair_event_record record_of(const fe_world *w, int32_t pair, int32_t kind)
+{
+    return (fe__pair_event_record){w->pair_serials[2 * pair], w->pair_serials[2 * pair + 1], event_of(w, pair, kind)};
+}
+
+// Handles may mean nothing any more when it is told: the event itself waits where the contact had its points.
+_Static_assert(sizeof(fe_pair_event) <= sizeof((fe__contact *)0)->point, "an exit fits into its record");
+
+void fe__owe_exit(fe_world *w, int32_t pair)
+{
+    fe_pair_event event = event_of(w, pair, FE_EXIT);
+    memcpy(w->contacts[pair].point, &event, sizeof event);
+    w->pairs[pair].flags = 0;
+    w->pairs[pair].links[0].next = w->first_owed;
+    w->first_owed = pair;
+    ++w->owed_count;
+}
+
+static void tell_owed(fe_world *w)
+{
+    while (w->first_owed) {
+        int32_t pair = w->first_owed;
+        fe__pair_event_record *r = w->pair_events + w->pair_event_count++;
+        *r = (fe__pair_event_record){.serial_a = w->pair_serials[2 * pair], .serial_b = w->pair_serials[2 * pair + 1]};
+        memcpy(&r->event, w->contacts[pair].point, sizeof r->event);
+        w->first_owed = w->pairs[pair].links[0].next;
+        fe__pair_release(w, pair);
+    }
+    w->owed_count = 0;
+}
+
+// arms count from the centre of the solver's A, or of B when A is static; between them lies what the pair moved since it was found
+fe_dvec3 fe__contact_point(const fe_world *w, int32_t pair, int32_t point)
+{
+    const fe__contact *m = w->contacts + pair;
+    const fe__body *a = w->bodies + m->body_a, *from = a->type == FE_BODY_STATIC ? w->bodies + m->body_b : a;
+    const float *r = m->point[point];
+    return (fe_dvec3){from->centre[0] + (double)r[0], from->centre[1] + (double)r[1], from->centre[2] + (double)r[2]};
+}
+
+static int32_t touches(const fe_world *w, int32_t head)
+{
+    int32_t sensor = (w->pairs[head].flags & FE__PAIR_SENSOR) != 0;
+    for (int32_t pair = head; pair >= 0; pair = w->pairs[pair].next_patch) {
+        const fe__contact *m = w->contacts + pair;
+        for (int32_t i = 0; i < (int32_t)m->normal[3]; ++i)
+            if (m->separation[i] <= 0.0f || (!sensor && m->total_impulse[i] > 0.0f)) return 1;
+    }
+    return 0;
+}
+
+// Of a pair: sum of the impulses, fastest approach; point and normal where the impulse is largest.
+typedef struct impact {
+    float impulse, largest, approach;
+    int32_t pair, point;
+} impact;
+
+static impact impact_of(const fe_world *w, int32_t head)
+{
+    impact sum = {.pair = head};
+    for (int32_t pair = head; pair >= 0; pair = w->pairs[pair].next_patch) {
+        const fe__contact *m = w->contacts + pair;
+        if (m->normal[3] > 0.0f) sum.approach = fe__maxf(sum.approach, w->pairs[pair].approach);
+        for (int32_t i = 0; i < (int32_t)m->normal[3]; ++i) {
+            sum.impulse += m->total_impulse[i];
+            if (m->total_impulse[i] > sum.largest) sum.largest = m->total_impulse[i], sum.pair = pair, sum.point = i;
+        }
+    }
+    return sum;
+}
+
+static void add_hit(fe_world *w, int32_t pair)
+{
+    const fe__pair *p = w->pairs + pair;
+    if (!(p->events & FE_EVENTS_HIT)) return;
+    impact sum = impact_of(w, pair);
+    if (sum.approach < w->tuning.hit_event_threshold || sum.impulse <= 0.0f) return;
+    const fe__contact *m = w->contacts + sum.pair;
+    float sign = p->flags & FE__PAIR_FLIPPED ? -1.0f : 1.0f;
+    fe_pair_event e = event_of(w, pair, FE_ENTER);
+    fe__hit_event_record *r = w->hit_events + w->hit_event_count++;
+    *r = (fe__hit_event_record){w->pair_serials[2 * pair],
+                                w->pair_serials[2 * pair + 1],
+                                {e.body_a, e.body_b, e.shape_a, e.shape_b, fe__contact_point(w, sum.pair, sum.point),
+                                 fe__scale(sign, fe__vec3(m->normal[0], m->normal[1], m->normal[2])), sum.approach, sum.impulse, 0}};
+}
+
+// ---- looking, on any thread: pairs that have something to tell go to the list of results ----------------------------------------------
+enum { PAIRS_IN_BLOCK = 256, AHEAD = 16 }; // AHEAD: records come from memory while those before them are looked at
+
+FE_FETCHES fetch_ahead(const fe_world *w, const int32_t *pairs, int32_t i, int32_t end)
+{
+    if (i + 2 * AHEAD < end) __builtin_prefetch(&w->pairs[pairs[i + 2 * AHEAD]].flags);
+    if (i + AHEAD >= end || !(w->pairs[pairs[i + AHEAD]].flags & FE__PAIR_MAY_TELL)) return;
+    __builtin_prefetch(w->contacts[pairs[i + AHEAD]].separation);
+    __builtin_prefetch(w->contacts[pairs[i + AHEAD]].total_impulse);
+}
+
+typedef struct look_job {
+    const fe__step *step;
+    const int32_t *pairs;
+} look_job;
+
+static void look_block(void *argument, int32_t first, int32_t end, int32_t worker)
+{
+    const look_job *job = argument;
+    const fe__step *step = job->step;
+    const fe_world *w = step->world;
+    fe__step_scratch *s = step->scratch;
+    (void)worker;
+    for (int32_t i = first; i < end; ++i) {
+        int32_t pair = job->pairs[i];
+        fe__pair *p = w->pairs + pair;
+        fetch_ahead(w, job->pairs, i, end);
+        if (p->flags & FE__PAIR_PATCH || !(p->flags & FE__PAIR_MAY_TELL)) continue;
+        int32_t now = touches(w, pair) || p->flags & FE__PAIR_CROSSED;
+        p->flags &= ~(uint32_t)FE__PAIR_CROSSED;
+        int32_t before = (p->flags & FE__PAIR_TOUCHING) != 0, tells = now != before;
+        if (now && before) tells = (p->events & (FE_EVENTS_STAY | FE_EVENTS_HIT)) != 0;
+        tells |= (p->flags & FE__PAIR_ONCE) != 0;
+        p->result = now ? (before ? FE_STAY : FE_ENTER) : FE_EXIT;
+        if (tells) s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
+    }
+}
+
+static void forget_if_asleep(fe_world *w, int32_t pair)
+{
+    fe__pair *p = w->pairs + pair;
+    p->flags &= ~(uint32_t)FE__PAIR_ONCE;
+    if (w->bodies[p->body_a].awake_index < 0 && w->bodies[p->body_b].awake_index < 0) fe__pair_retire(w, pair);
+}
+
+static void tell(fe_world *w, int32_t pair)
+{
+    fe__pair *p = w->pairs + pair;
+    int32_t kind = p->result;
+    if (p->flags & FE__PAIR_ONCE) forget_if_asleep(w, pair);
+    if (kind == FE_EXIT && !(p->flags & FE__PAIR_TOUCHING)) return;
+    if (kind == FE_EXIT)
+        p->flags &= ~(uint32_t)FE__PAIR_TOUCHING;
+    else
+        p->flags |= FE__PAIR_TOUCHING;
+    if (kind != FE_EXIT && !(p->flags & FE__PAIR_SENSOR)) add_hit(w, pair);
+    if (p->events & (kind == FE_STAY ? (uint32_t)FE_EVENTS_STAY : (uint32_t)FE_EVENTS_TOUCH))
+        w->pair_events[w->pair_event_count++] = record_of(w, pair, kind);
+}
+
+// ---- order ----------------------------------------------------------------------------------------------------------------------------
+// Stable sorts by B, then by A. The records are moved once, along the cycles of the permutation.
+static void sort_records(fe__step *step, unsigned char *records, int32_t count, size_t size)
+{
+    fe__sort_item *items = step->scratch->sort_items;
+    for (int32_t key = 1; key >= 0; --key) {
+        for (int32_t i = 0; i < count; ++i) {
+            if (key) items[i].value = i;
+            items[i].key = ((const uint64_t *)(const void *)(records + (size_t)items[i].value * size))[key];
+        }
+        fe__sort_keys(items, count, items + count);
+    }
+    union {
+        fe__pair_event_record pair;
+        fe__hit_event_record hit;
+        unsigned char bytes[sizeof(fe__hit_event_record)];
+    } held;
+    for (int32_t i = 0; i < count; ++i) {
+        if (items[i].value == i || items[i].value < 0) continue;
+        __builtin_memcpy(held.bytes, records + (size_t)i * size, size);
+        for (int32_t at = i, from; at >= 0; at = from) {
+            from = items[at].value;
+            items[at].value = -1;
+            if (from == i) {
+                __builtin_memcpy(records + (size_t)at * size, held.bytes, size);
+                break;
+            }
+            __builtin_memcpy(records + (size_t)at * size, records + (size_t)from * size, size);
+        }
+    }
+}
+
+void fe__collect_events(fe__step *step)
+{
+    fe_world *w = step->world;
+    w->pair_event_count = w->hit_event_count = 0;
+    tell_owed(w);
+    fe__step_scratch *s = step->scratch;
+    atomic_store(&s->result_count, 0);
+    int32_t count;
+    look_job job = {step, fe__busy_pairs(step, &count)};
+    fe__parallel_for(&w->workers, count, PAIRS_IN_BLOCK, look_block, &job);
+    count = atomic_load(&s->result_count);
+    for (int32_t i = 0; i < count; ++i) tell(w, s->results[i]);
+    sort_records(step, (unsigned char *)w->pair_events, w->pair_event_count, sizeof *w->pair_events);
+    sort_records(step, (unsigned char *)w->hit_events, w->hit_event_count, sizeof *w->hit_events);
+}
+
+void fe__collect_body_events(fe__step *step)
+{
+    fe_world *w = step->world;
+    fe__sort_item *items = step->scratch->sort_items;
+    int32_t count = 0;
+    for (int32_t i = 0; i < w->stirred_count; ++i) {
+        int32_t index = w->stirred[i];
+        fe__body *body = w->bodies + index;
+        int32_t awake = body->awake_index >= 0, before = (body->flags & FE__BODY_SEEN_AWAKE) != 0;
+        body->flags &= ~(uint32_t)(FE__BODY_STIRRED | FE__BODY_SEEN_AWAKE);
+        if (awake) body->flags |= FE__BODY_SEEN_AWAKE;
+        int32_t tells = fe__id_pool_is_alive(&w->body_ids, index) && body->flags & FE__BODY_ENABLED && body->type != FE_BODY_STATIC;
+        if (tells && awake != before) items[count++] = (fe__sort_item){body->serial, index, awake};
+    }
+    w->stirred_count = 0;
+    fe__sort_keys(items, count, items + count);
+    w->body_event_count = count;
+    for (int32_t i = 0; i < count; ++i)
+        w->body_events[i] =
+            (fe__body_event_record){items[i].key, {fe__body_handle(w, items[i].value), items[i].spare ? FE_WAKE : FE_SLEEP, 0}};
+}

@@ -1,0 +1,213 @@
+// finalize.c - stages after the solver: poses and boxes from what the bodies did, then islands fall asleep.
+//
+// Each body is its own; the trees are written by the stepping thread, from a list of the shapes that left their boxes.
+#include "solver/graph/graph.h"
+#include "step/step.h"
+
+#include <float.h>
+
+enum { BODIES_IN_BLOCK = 64, BOXES_IN_BLOCK = 64, STEPS_BETWEEN_REBUILDS = 8, KEPT_LINES = 256 };
+
+// ---- poses ---------------------------------------------------------------------------------------------------------------------------
+// q = dq q. A body that did not turn keeps its quaternion: no rounding of what stood still.
+static int32_t turn(fe__body *body, const float *dq)
+{
+    if (dq[0] == 0.0f && dq[1] == 0.0f && dq[2] == 0.0f) return 0;
+    fe_quat q = {body->rotation[0], body->rotation[1], body->rotation[2], body->rotation[3]};
+    q = fe__normalized(fe__product((fe_quat){dq[0], dq[1], dq[2], dq[3]}, q));
+    body->rotation[0] = q.x, body->rotation[1] = q.y, body->rotation[2] = q.z, body->rotation[3] = q.w;
+    return 1;
+}
+
+static int32_t shift(fe__body *body, const float *dp)
+{
+    if (dp[0] == 0.0f && dp[1] == 0.0f && dp[2] == 0.0f) return 0;
+    for (int k = 0; k < 3; ++k) {
+        body->centre[k] += (double)dp[k];
+        body->centre_high[k] = (float)body->centre[k];
+        body->centre_low[k] = (float)(body->centre[k] - (double)body->centre_high[k]);
+    }
+    return 1;
+}
+
+static void place_origin(fe__body *body)
+{
+    const float *c = body->local_centre;
+    fe_dvec3 arm = {0.0, 0.0, 0.0};
+    if (c[0] != 0.0f || c[1] != 0.0f || c[2] != 0.0f)
+        arm = fe__drotate((fe_quat){body->rotation[0], body->rotation[1], body->rotation[2], body->rotation[3]},
+                          fe__widen(fe__vec3(c[0], c[1], c[2])));
+    body->origin[0] = body->centre[0] - arm.x, body->origin[1] = body->centre[1] - arm.y, body->origin[2] = body->centre[2] - arm.z;
+}
+
+static float length_of(const float *v) { return sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+// Slow is who was slow on the way, too: what is pushed out of another body moves, but has no velocity when the step ends.
+static void tick_sleep_timer(fe_world *w, fe__body *body, const float *motion, float dt)
+{
+    fe__body_note_speed(w, body);
+    float threshold = body->sleep_threshold;
+    int32_t slow = body->flags & FE__BODY_SLEEP_ALLOWED && body->centre_low[3] < threshold;
+    // dq = (n sin(a/2), cos(a/2)): a small turn a is twice the length of its vector
+    if (slow) slow = length_of(motion) + 2.0f * length_of(motion + 4) * body->local_centre[3] < threshold * dt;
+    body->sleep_timer = slow ? body->sleep_timer + dt : 0.0f;
+}
+
+static void follow_body(fe__step *step, int32_t index)
+{
+    fe_world *w = step->world;
+    fe__step_scratch *s = step->scratch;
+    fe__body_place(w, index);
+    for (int32_t i = w->bodies[index].first_shape; i >= 0; i = w->shapes[i].next) {
+        if (!(w->shapes[i].flags & FE__SHAPE_IN_TREE)) continue;
+        fe__bounds reach = fe__shape_reach_bounds(w, i);
+        if (!fe__tree_holds(&w->moving_tree, i, &reach)) s->left[atomic_fetch_add_explicit(&s->left_count, 1, memory_order_relaxed)] = i;
+    }
+}
+
+// Forces, masses and time steps at the limits of the API may overflow a float. Such a body stops where it stood, and its contacts forget
+// their impulses: no NaN outlives the step that made it, and none reaches a pose or a box. Ten times the fastest that the API takes, m/s
+// and rad/s:
+#define MOST_SPEED 1e7f
+
+int32_t fe__motion_makes_sense(const fe__solver *s, int32_t line)
+{
+    const float *v = s->velocity[line], *w = v + 4, *dp = s->motion[line], *dq = dp + 4, most = MOST_SPEED * MOST_SPEED;
+    float turned = dq[0] * dq[0] + dq[1] * dq[1] + dq[2] * dq[2] + dq[3] * dq[3];
+    return v[0] * v[0] + v[1] * v[1] + v[2] * v[2] < most && w[0] * w[0] + w[1] * w[1] + w[2] * w[2] < most &&
+           dp[0] * dp[0] + dp[1] * dp[1] + dp[2] * dp[2] < most && turned > 0.0f && turned < most; // a NaN is less than nothing
+}
+
+static void stop_lost(fe__step *step, fe__body *body)
+{
+    for (int k = 0; k < 3; ++k) body->velocity[k] = body->spin[k] = body->force[k] = body->torque[k] = 0.0f;
+    body->flags |= FE__BODY_LOST;
+    fe__body_note_speed(step->world, body);
+    body->sleep_timer = 0.0f;
+    atomic_fetch_add_explicit(&step->scratch->lost_count, 1, memory_order_relaxed);
+}
+
+static void forget_lost(fe_world *w)
+{
+    for (int32_t i = 0; i < w->awake_body_count; ++i) {
+        fe__body *body = w->bodies + w->awake_bodies[i];
+        if (!(body->flags & FE__BODY_LOST)) continue;
+        body->flags &= ~(uint32_t)FE__BODY_LOST;
+        for (int32_t pair = body->first_contact; pair >= 0; pair = fe__next_pair(w, pair, w->awake_bodies[i]))
+            fe__pair_forget_impulses(w, pair);
+        fe__body_forget_joints(w, w->awake_bodies[i]);
+    }
+}
+
+// Bodies and shapes stream from memory; where in the tree a shape is, only its slot tells
+FE_FETCHES fetch_box(const fe_world *w, int32_t i)
+{
+    if (i >= w->awake_body_count) return;
+    int32_t shape = w->bodies[w->awake_bodies[i]].first_shape;
+    if (shape >= 0) fe__tree_fetch(&w->moving_tree, shape);
+}
+
+static void move_block(void *argument, int32_t first, int32_t end, int32_t worker)
+{
+    fe__step *step = argument;
+    fe_world *w = step->world;
+    int32_t some_wait = atomic_load_explicit(&step->scratch->some_wait, memory_order_relaxed);
+    (void)worker;
+    for (int32_t i = first; i < end; ++i) {
+        enum { AHEAD = 4 };
+        fetch_box(w, i + AHEAD);
+        fe__body *body = w->bodies + w->awake_bodies[i];
+        const float *velocity = w->solver.velocity[body->line], *motion = w->solver.motion[body->line];
+        if (!fe__motion_makes_sense(&w->solver, body->line)) {
+            stop_lost(step, body);
+            continue;
+        }
+        for (int k = 0; k < 3; ++k) {
+            body->velocity[k] = velocity[k], body->spin[k] = velocity[4 + k];
+            body->force[k] = body->torque[k] = 0.0f;
+        }
+        int32_t moved = shift(body, motion) | turn(body, motion + 4);
+        tick_sleep_timer(w, body, motion, step->dt);
+        if (!moved) continue;
+        if (some_wait) fe__odometer_advance(w->odometers + w->awake_bodies[i], length_of(motion), length_of(motion + 4));
+        body->moved_step = w->step_number + 1;
+        place_origin(body);
+        follow_body(step, w->awake_bodies[i]);
+    }
+}
+
+static void box_block(void *argument, int32_t first, int32_t end, int32_t worker)
+{
+    const fe__step *step = argument;
+    (void)worker;
+    for (int32_t i = first; i < end; ++i) step->scratch->boxes[i] = fe__shape_fat_bounds(step->world, step->scratch->left[i]);
+}
+
+void fe__move_bodies(fe__step *step)
+{
+    fe_world *w = step->world;
+    fe__step_scratch *s = step->scratch;
+    atomic_store(&s->left_count, 0);
+    atomic_store(&s->lost_count, 0);
+    atomic_store(&w->swiftest, 0);
+    fe__parallel_for(&w->workers, w->awake_body_count, BODIES_IN_BLOCK, move_block, step);
+    if (atomic_load(&s->lost_count)) forget_lost(w);
+    int32_t left = atomic_load(&s->left_count);
+    fe__parallel_for(&w->workers, left, BOXES_IN_BLOCK, box_block, step);
+    if (left) fe__tree_move(&w->moving_tree, s->left, s->boxes, left);
+    for (int32_t i = 0; i < left; ++i) fe__shape_mark_moved(w, s->left[i]);
+    if (++s->step_count % STEPS_BETWEEN_REBUILDS == 0) {
+        fe__tree_rebuild(&w->moving_tree, &w->memory, 0);
+        fe__tree_rebuild(&w->static_tree, &w->memory, 0);
+    }
+}
+
+// ---- sleep ----------------------------------------------------------------------------------------------------------------------------
+static int32_t stands_still(const fe__body *body)
+{
+    const float *v = body->velocity, *w = body->spin;
+    return v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f && w[0] == 0.0f && w[1] == 0.0f && w[2] == 0.0f;
+}
+
+// What a moving kinematic body touches or holds stays awake, however slow.
+static void keep_awake(fe_world *w, int32_t kinematic, float *timers)
+{
+    for (int32_t pair = w->bodies[kinematic].first_contact; pair >= 0; pair = fe__next_pair(w, pair, kinematic)) {
+        const fe__pair *p = w->pairs + pair;
+        const fe__body *other = w->bodies + (p->body_a == kinematic ? p->body_b : p->body_a);
+        if (p->flags & FE__PAIR_LINKED && other->island >= 0) timers[other->island] = 0.0f;
+    }
+    for (int32_t joint = w->bodies[kinematic].first_joint; joint; joint = fe__next_joint(w, joint, kinematic)) {
+        const fe__body *other = w->bodies + fe__joint_other(w, joint, kinematic);
+        if (w->joints.joints[joint].colour >= 0 && other->island >= 0) timers[other->island] = 0.0f;
+    }
+}
+
+// A timer of 0 is one of a body that is not slow, also when none need be slow for long
+static int32_t may_sleep(const fe_world *w, float timer) { return timer > 0.0f && timer >= w->tuning.sleep_time; }
+
+// An island sleeps when all its bodies have been slow for long enough; a kinematic body when it stands still
+void fe__put_islands_to_sleep(fe__step *step)
+{
+    fe_world *w = step->world;
+    float *timers = step->scratch->island_timers;
+    int32_t some = 0;
+    for (int32_t i = 0; i < w->solver.island_count; ++i) timers[i] = FLT_MAX;
+    for (int32_t i = 0; i < w->awake_body_count; ++i) {
+        const fe__body *body = w->bodies + w->awake_bodies[i];
+        if (body->island >= 0) timers[body->island] = fe__minf(timers[body->island], body->sleep_timer);
+        if (body->type != FE_BODY_KINEMATIC) continue;
+        if (stands_still(body))
+            some = 1;
+        else
+            keep_awake(w, w->awake_bodies[i], timers);
+    }
+    for (int32_t i = 0; i < w->solver.island_count; ++i) some |= may_sleep(w, timers[i]);
+    for (int32_t i = w->awake_body_count - 1; i >= 0 && some; --i) {
+        int32_t index = w->awake_bodies[i];
+        const fe__body *body = w->bodies + index;
+        if (body->type == FE_BODY_DYNAMIC ? may_sleep(w, timers[body->island]) : stands_still(body)) fe__body_fall_asleep(w, index);
+    }
+    // a sleeping world keeps no rows
+    if (!w->awake_body_count && w->solver.line_capacity[0] > KEPT_LINES) fe__solver_destroy(&w->solver, &w->memory);
+}

@@ -1,0 +1,286 @@
+// narrow.c - the narrow phase of one pair: two shapes, one manifold, one contact.
+//
+// Called by the collide stage on any thread, for pairs that cannot be recycled. Double positions are subtracted here, so that everything
+// below is float and small. Only the pair's own records are written.
+#include "collision/manifold/collide.h"
+#include "step/ahead.h"
+
+#include <string.h>
+
+// How far a pair may slide or turn before it needs a new manifold: at most this, m, and a share of the thinner form. Less for round forms,
+// whose normal turns with them.
+#define RECYCLE_MOST 0.03f
+#define RECYCLE_SHARE 0.1f
+#define RECYCLE_ROUND 0.0005f
+
+// Closer than this to each other, m, shapes are placed in floats: a float of it is a micrometre fine. Beyond (a wide ground) in double.
+#define NEAR 16.0
+
+// B in A's frame. A plane has no centre that matters: its frame is put at B, so that a plane is as exact a thousand kilometres off.
+static void set_view(fe__view *v, const fe__shape *a, const fe__shape *b, const fe__pose *pose_a, const fe__pose *pose_b)
+{
+    v->a = a, v->b = b, v->form_a = a->form;
+    v->origin = pose_a->position;
+    v->rotation = fe__matrix(pose_a->rotation);
+    v->relative.rotation = fe__matrix(fe__product(fe__conjugate(pose_a->rotation), pose_b->rotation));
+    fe_dvec3 between = fe__dsub(pose_b->position, pose_a->position);
+    if (a->form.type == FE_GEOMETRY_PLANE) {
+        fe_dvec3 normal = fe__drotate(pose_a->rotation, fe__widen(a->form.normal));
+        v->form_a.distance = (float)((double)a->form.distance - fe__ddot(normal, between));
+        v->relative.position = fe__vec3(0.0f, 0.0f, 0.0f);
+        v->origin = pose_b->position;
+    } else if (fe__ddot(between, between) < NEAR * NEAR)
+        v->relative.position = fe__mul_transposed(&v->rotation, fe__narrow(between));
+    else
+        v->relative.position = fe__narrow(fe__drotate_back(pose_a->rotation, between));
+}
+
+// ---- ahead of time --------------------------------------------------------------------------------------------------------------------
+// Contacts are made once per step. What will touch only later in the step needs its contact now, or it would be found a step late, up to v
+// dt deep.
+
+// how far the pair can close in the step, m
+float fe__reach_in_step(const fe_world *world, const fe__body *a, const fe__body *b, float dt)
+{
+    float fall = fe__length(world->gravity) * dt * dt;
+    return (a->centre_low[3] + b->centre_low[3]) * dt + fall;
+}
+
+// where a body would be at the end of a step without contacts
+void fe__advance(const fe_world *world, const fe__body *body, float dt, fe_dvec3 *centre, fe_quat *rotation)
+{
+    *centre = fe__centre_of(body), *rotation = fe__rotation_of(body);
+    if (body->awake_index < 0) return;
+    fe_vec3 v = fe__quad_vector(body->velocity), w = fe__scale(0.5f * dt, fe__quad_vector(body->spin));
+    if (body->type == FE_BODY_DYNAMIC && !body->locked) v = fe__add_scaled(v, dt * body->gravity_scale, world->gravity);
+    *centre = fe__dadd(*centre, fe__dscale((double)dt, fe__widen(v)));
+    fe_quat q = *rotation, turn = fe__product((fe_quat){w.x, w.y, w.z, 0.0f}, q);
+    *rotation = fe__normalized((fe_quat){q.x + turn.x, q.y + turn.y, q.z + turn.z, q.w + turn.w});
+}
+
+fe__pose fe__shape_pose_at(const fe__body *body, const fe__shape *shape, fe_dvec3 centre, fe_quat rotation)
+{
+    fe_dvec3 arm = fe__drotate(rotation, fe__widen(fe__quad_vector(body->local_centre)));
+    fe__pose pose = {fe__dsub(centre, arm), rotation};
+    return fe__compose(&pose, shape->local_position, shape->local_rotation);
+}
+
+typedef struct prediction {
+    fe__view v;
+    fe__places at;
+    fe__manifold found;
+} prediction;
+
+// the manifold at out->at
+static void predict_there(const fe_world *world, const fe__contact *m, const fe__view *v, prediction *out)
+{
+    const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
+    const fe__places *at = &out->at;
+    int32_t a_is_b = m->body_a != v->a->body;
+    fe__pose pose_a =
+        a_is_b ? fe__shape_pose_at(b, v->a, at->centre_b, at->rotation_b) : fe__shape_pose_at(a, v->a, at->centre_a, at->rotation_a);
+    fe__pose pose_b =
+        a_is_b ? fe__shape_pose_at(a, v->b, at->centre_a, at->rotation_a) : fe__shape_pose_at(b, v->b, at->centre_b, at->rotation_b);
+    set_view(&out->v, v->a, v->b, &pose_a, &pose_b);
+    out->found = (fe__manifold){.axis = -1};
+    fe__collide(&out->v.form_a, &v->b->form, &out->v.relative, world->tuning.speculative_distance, &out->found);
+    fe__mend_seam(world, &out->v, world->tuning.speculative_distance, &out->found);
+}
+
+static void predict(const fe_world *world, const fe__contact *m, const fe__view *v, float time, prediction *out)
+{
+    fe__advance(world, world->bodies + m->body_a, time, &out->at.centre_a, &out->at.rotation_a);
+    fe__advance(world, world->bodies + m->body_b, time, &out->at.centre_b, &out->at.rotation_b);
+    predict_there(world, m, v, out);
+}
+
+static float deepest_of(const fe__manifold *found)
+{
+    float deepest = found->points[0].separation;
+    for (int32_t i = 1; i < found->count; ++i) deepest = fe__minf(deepest, found->points[i].separation);
+    return deepest;
+}
+
+// The manifold of the poses at the end of the step, or, when they overlap there, of the poses on the way where they touch at the mean
+// speed: the right features and normal for an impact, none for bodies that pass each other by. Deep in, features say nothing any more, and
+// the nearest ones of now must do.
+static int32_t look_ahead(const fe_world *world, const fe__contact *m, float dt, fe__view *v, fe__places *at, fe__manifold *found)
+{
+    prediction end, touch;
+    predict(world, m, v, dt, &end);
+    if (!end.found.count) return 0;
+    float now = deepest_of(found), then = deepest_of(&end.found);
+    if (now > 0.0f && then < 0.0f) {
+        predict(world, m, v, dt * (now / (now - then)), &touch);
+        if (touch.found.count) end = touch;
+    }
+    if (-deepest_of(&end.found) > fe__minf(fe__form_thickness(&v->a->form), fe__form_thickness(&v->b->form)) &&
+        v->a->form.type != FE_GEOMETRY_PLANE)
+        return found->count > 0;
+    *v = end.v, *at = end.at, *found = end.found;
+    return 1;
+}
+
+// What may outrun its thickness has its contact with a static or kinematic body where it touches first.
+static int32_t look_far_ahead(const fe_world *world, const fe__contact *m, float dt, fe__view *v, fe__places *at, fe__manifold *found)
+{
+    prediction touch;
+    if (!fe__pair_touches_ahead(world, (int32_t)(m - world->contacts), dt, &touch.at)) return 0;
+    predict_there(world, m, v, &touch);
+    if (!touch.found.count) return 0;
+    *v = touch.v, *at = touch.at, *found = touch.found;
+    return 1;
+}
+
+static void copy4(float *out, fe_quat q) { out[0] = q.x, out[1] = q.y, out[2] = q.z, out[3] = q.w; }
+
+// impulses stay with the features that meet
+static void match_impulses(fe__pair *p, fe__contact *m, const fe__manifold *found)
+{
+    float old[FE__POINTS];
+    memcpy(old, m->normal_impulse, sizeof old);
+    for (int i = 0; i < FE__POINTS; ++i) m->normal_impulse[i] = 0.0f;
+    for (int i = 0; i < found->count; ++i)
+        for (int j = 0; j < (int)m->normal[3]; ++j)
+            if (p->ids[j] == found->points[i].id) m->normal_impulse[i] = old[j];
+    for (int i = 0; i < found->count; ++i) p->ids[i] = found->points[i].id;
+}
+
+static void note_poses(fe__contact *m, const fe__places *at, const fe__body *a, const fe__body *b)
+{
+    copy4(m->found_a, at->rotation_a);
+    copy4(m->found_b, at->rotation_b);
+    fe_dvec3 span = fe__dsub(at->centre_a, at->centre_b), now = fe__dsub(fe__centre_of(a), fe__centre_of(b));
+    fe__copy3(m->found_span, fe__narrow(span));
+    fe__copy3(m->found_low, fe__narrow(fe__dsub(span, fe__widen(fe__quad_vector(m->found_span)))));
+    // torques need no sum over both bodies where only B is moved: the arms of the touch
+    fe_vec3 arms = a->type == FE_BODY_KINEMATIC ? fe__quad_vector(m->found_span) : fe__narrow(now);
+    fe__copy3(m->span, a->type == FE_BODY_STATIC ? fe__vec3(0.0f, 0.0f, 0.0f) : arms);
+}
+
+// points from A's frame to arms: from the centre of the solver's A, or of B when A is static (its centre may be far)
+static void set_points(fe__contact *m, const fe__view *v, const fe__places *at, const fe__manifold *found, const fe__body *a)
+{
+    int32_t is_static = a->type == FE_BODY_STATIC;
+    fe_vec3 base = fe__narrow(fe__dsub(v->origin, is_static ? at->centre_b : at->centre_a)), zero = {0.0f, 0.0f, 0.0f};
+    fe_vec3 span = is_static ? zero : fe__quad_vector(m->found_span);
+    float reach = 0.0f;
+    for (int i = 0; i < FE__POINTS; ++i) {
+        int there = i < found->count;
+        fe_vec3 arm = there ? fe__add(base, fe__mul(&v->rotation, found->points[i].point)) : zero, arm_b = fe__add(arm, span);
+        fe__copy3(m->point[i], arm);
+        m->point[i][3] = m->separation[i] = there ? found->points[i].separation : 0.0f;
+        reach = fe__maxf(reach, fe__maxf(fe__dot(arm, arm), fe__dot(arm_b, arm_b)));
+    }
+    m->found_span[3] = sqrtf(reach);
+}
+
+static void set_no_points(fe__contact *m, const fe__body *a, const fe__body *b)
+{
+    for (int i = 0; i < FE__POINTS; ++i) {
+        m->normal[i] = m->separation[i] = 0.0f;
+        for (int k = 0; k < 4; ++k) m->point[i][k] = 0.0f;
+    }
+    m->found_span[3] = fe__maxf(a->local_centre[3], b->local_centre[3]); // whatever part of the bodies may come near
+}
+
+// Separations now of a manifold found ahead of time, along its normal: as in recycle.simd.c. Its arms stay those of the touch, and the
+// turns from there to now take the place of the rotations.
+static void step_back(fe__contact *m, const fe__places *at, const fe__body *a, const fe__body *b)
+{
+    fe_quat turn_a = fe__product(fe__rotation_of(a), fe__conjugate(at->rotation_a)),
+            turn_b = fe__product(fe__rotation_of(b), fe__conjugate(at->rotation_b));
+    copy4(m->found_a, turn_a);
+    copy4(m->found_b, turn_b);
+    fe_vec3 n = fe__quad_vector(m->normal), zero = {0.0f, 0.0f, 0.0f};
+    fe_vec3 na = fe__sub(fe__rotate_back(turn_a, n), n), nb = fe__sub(fe__rotate_back(turn_b, n), n), slope = fe__sub(nb, na);
+    fe_dvec3 then = fe__dsub(at->centre_b, at->centre_a), now = fe__dsub(fe__centre_of(b), fe__centre_of(a));
+    fe_vec3 span = a->type == FE_BODY_STATIC ? zero : fe__quad_vector(m->found_span);
+    float constant =
+        fe__dot(n, fe__narrow(fe__dsub(now, then))) + fe__dot(nb, span) + m->surface[1] * fe__dot(na, n) + m->surface[2] * fe__dot(nb, n);
+    for (int i = 0; i < (int)m->normal[3]; ++i) m->separation[i] = m->point[i][3] + constant + fe__dot(slope, fe__quad_vector(m->point[i]));
+}
+
+float fe__recycle_tolerance(const fe__view *v)
+{
+    if (v->a->form.radius > 0.0f || v->b->form.radius > 0.0f) return RECYCLE_ROUND;
+    return fe__minf(RECYCLE_MOST, RECYCLE_SHARE * fe__minf(fe__form_thickness(&v->a->form), fe__form_thickness(&v->b->form)));
+}
+
+static void forget_impulses(fe__contact *m)
+{
+    for (int k = 0; k < FE__POINTS; ++k) m->normal_impulse[k] = m->friction_impulse[k] = m->total_impulse[k] = 0.0f;
+}
+
+static void write_contact(fe__contact *m, const fe__view *v, const fe__manifold *found, int32_t a_is_b)
+{
+    // the manifold's normal points away from fe__collide's A; the solver's A may be the other one
+    fe_vec3 normal = fe__mul(&v->rotation, found->normal);
+    fe__copy3(m->normal, a_is_b ? fe__neg(normal) : normal);
+    m->normal[3] = (float)found->count;
+    m->surface[1] = a_is_b ? v->b->form.radius : v->form_a.radius;
+    m->surface[2] = a_is_b ? v->form_a.radius : v->b->form.radius;
+}
+
+void fe__write_manifold(const fe_world *world, fe__contact *m, const fe__view *v, const fe__places *at, const fe__manifold *found,
+                        int32_t ahead)
+{
+    const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
+    note_poses(m, at, a, b);
+    if (!found->count) {
+        set_no_points(m, a, b);
+        return;
+    }
+    write_contact(m, v, found, m->body_a != v->a->body);
+    set_points(m, v, at, found, a);
+    if (ahead) step_back(m, at, a, b);
+}
+
+// without points: not looked at again until the bodies may have moved by `gap`
+static void write_apart(fe__pair *p, fe__contact *m, const fe__places *at, const fe__body *a, const fe__body *b, float gap)
+{
+    forget_impulses(m);
+    p->axis = -1; // a kernel's memory begins with the first points, whenever the pair was made: unrelated bodies must not matter
+    m->surface[3] = fe__maxf(gap, 0.0f);
+    note_poses(m, at, a, b);
+    set_no_points(m, a, b);
+}
+
+static int32_t is_near(const fe__manifold *found, float distance)
+{
+    for (int32_t i = 0; i < found->count; ++i)
+        if (found->points[i].separation <= distance) return 1;
+    return 0;
+}
+
+void fe__collide_pair(fe_world *world, int32_t pair, float dt)
+{
+    fe__pair *p = world->pairs + pair;
+    fe__contact *m = world->contacts + pair;
+    const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
+    const fe__shape *x = world->shapes + p->shape_a, *y = world->shapes + p->shape_b;
+    float margin = world->tuning.speculative_distance, reach = fe__reach_in_step(world, a, b, dt);
+    fe__places at = {fe__centre_of(a), fe__centre_of(b), fe__rotation_of(a), fe__rotation_of(b)};
+    fe__view v;
+    if (p->flags & FE__PAIR_SWAPPED)
+        set_view(&v, y, x, &y->pose, &x->pose);
+    else
+        set_view(&v, x, y, &x->pose, &y->pose);
+    fe__manifold found = {.axis = p->axis, .axis_separation = p->axis_separation, .count = (int32_t)m->normal[3]};
+    fe__collide(&v.form_a, &v.b->form, &v.relative, fe__maxf(margin, reach), &found);
+    fe__mend_seam(world, &v, fe__maxf(margin, reach), &found);
+    p->axis = found.axis, p->axis_separation = found.axis_separation;
+
+    // some way off now, but closing: the normal may turn on that way
+    int32_t near = is_near(&found, margin), ahead = found.count && !(p->flags & FE__PAIR_SENSOR) && !is_near(&found, FE__TURNS_LITTLE);
+    int32_t fast = reach > fe__minf(fe__form_thickness(&x->form), fe__form_thickness(&y->form)) && a->type != FE_BODY_DYNAMIC;
+    if (ahead) ahead = (fast ? look_far_ahead : look_ahead)(world, m, dt, &v, &at, &found);
+    if (!ahead && !near) {
+        float gap = found.count ? deepest_of(&found) : found.axis_separation; // with points a kernel leaves the older one
+        write_apart(p, m, &at, a, b, gap - margin);
+        return;
+    }
+    match_impulses(p, m, &found);
+    m->surface[3] = ahead ? FE__AHEAD : fe__recycle_tolerance(&v);
+    fe__write_manifold(world, m, &v, &at, &found, ahead);
+}

@@ -1,0 +1,247 @@
+// narrow_field.c - the narrow phase of a pair with a heightfield: patches by direction, each a contact of its own.
+//
+// Called by the collide stage on any thread, for heads that cannot be recycled. Only the pair's own records are written. The frame has the
+// heightfield's axes and its origin at the other shape; double positions are subtracted here.
+#include "collision/manifold/terrain.h"
+#include "step/narrow.h"
+
+#include <string.h>
+
+// A look at the pair at some poses.
+typedef struct look {
+    fe__view v;
+    fe__places at;
+    fe__patch patches[FE__PATCHES];
+    int32_t count;
+    float gap; // without patches
+} look;
+
+typedef struct pair_view {
+    const fe_world *world;
+    const fe__body *a, *b; // the solver's
+    const fe__shape *field, *other;
+    float dt, speed_limit; // s; m/s that no point of either body exceeds
+} pair_view;
+
+// ---- one look -------------------------------------------------------------------------------------------------------------------------
+// Other heightfields that the same body is near: their surfaces may go on where this one ends.
+static void find_neighbours(const fe_world *w, const look *l, const fe__pose *pose, fe__terrain *terrain)
+{
+    int32_t body = l->v.b->body;
+    for (int32_t pair = w->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(w, pair, body)) {
+        const fe__pair *p = w->pairs + pair;
+        const fe__shape *x = w->shapes + p->shape_a, *y = w->shapes + p->shape_b, *field = x->form.type == FE_GEOMETRY_HEIGHTFIELD ? x : y;
+        if (p->flags & FE__PAIR_PATCH || p->next_patch < 0 || field == l->v.a || (x != l->v.b && y != l->v.b)) continue;
+        if (terrain->neighbour_count == FE__NEIGHBOURS) return;
+        fe_quat turn = fe__product(fe__conjugate(pose->rotation), field->pose.rotation);
+        terrain->neighbours[terrain->neighbour_count++] =
+            (fe__neighbour){w->fields + field->form.field,
+                            fe__drotate_back(field->pose.rotation, fe__dsub(l->v.origin, field->pose.position)), fe__matrix(turn)};
+    }
+}
+
+static void look_at(const pair_view *p, const fe__pose *pose_field, const fe__pose *pose_other, float margin, look *l)
+{
+    const fe_world *w = p->world;
+    l->v = (fe__view){.a = p->field, .b = p->other, .origin = pose_other->position, .rotation = fe__matrix(pose_field->rotation)};
+    l->v.form_a.type = FE_GEOMETRY_HEIGHTFIELD;
+    fe__terrain terrain; // its neighbours mean something up to their count
+    terrain.field = w->fields + p->field->form.field, terrain.neighbour_count = 0;
+    terrain.origin = fe__drotate_back(pose_field->rotation, fe__dsub(pose_other->position, pose_field->position));
+    if (w->field_pair_count > 1) find_neighbours(w, l, pose_field, &terrain);
+    fe__mat3 rotation = fe__matrix(fe__product(fe__conjugate(pose_field->rotation), pose_other->rotation));
+    l->count = fe__collide_terrain(&terrain, &p->other->form, &rotation, margin, l->patches, &l->gap);
+}
+
+static void look_after(const pair_view *p, float time, float margin, look *l)
+{
+    fe__places *at = &l->at;
+    fe__advance(p->world, p->a, time, &at->centre_a, &at->rotation_a);
+    fe__advance(p->world, p->b, time, &at->centre_b, &at->rotation_b);
+    int32_t field_is_a = p->world->bodies + p->field->body == p->a;
+    fe__pose pose_a = fe__shape_pose_at(p->a, field_is_a ? p->field : p->other, at->centre_a, at->rotation_a);
+    fe__pose pose_b = fe__shape_pose_at(p->b, field_is_a ? p->other : p->field, at->centre_b, at->rotation_b);
+    look_at(p, field_is_a ? &pose_a : &pose_b, field_is_a ? &pose_b : &pose_a, margin, l);
+}
+
+static float deepest_of(const look *l)
+{
+    float deepest = l->patches[0].points[0].separation;
+    for (int32_t i = 0; i < l->count; ++i)
+        for (int32_t k = 0; k < l->patches[i].count; ++k) deepest = fe__minf(deepest, l->patches[i].points[k].separation);
+    return deepest;
+}
+
+// ---- ahead of time --------------------------------------------------------------------------------------------------------------------
+// As narrow.c, but a surface has no inside that would tell of a crossing: from far off the pair is followed by steps in which it cannot
+// close its gap (conservative advancement; Mirtich, 1996). 1: it touches within the step, at the poses looked at.
+static int32_t look_ahead(const pair_view *p, const look *now, look *then)
+{
+    enum { MOST_LOOKS = 16 };
+    float speculative = p->world->tuning.speculative_distance, gap = deepest_of(now), time = 0.0f;
+    for (int32_t i = 0; i < MOST_LOOKS; ++i) {
+        time += fe__maxf(gap, 0.5f * FE__TURNS_LITTLE) / p->speed_limit;
+        if (time >= p->dt) break;
+        look_after(p, time, fe__maxf(p->speed_limit * (p->dt - time), speculative), then);
+        if (!then->count) return 0;
+        gap = deepest_of(then);
+        if (gap <= FE__TURNS_LITTLE) return 1;
+    }
+    look_after(p, fe__minf(time, p->dt), speculative, then);
+    return then->count > 0;
+}
+
+// ---- records --------------------------------------------------------------------------------------------------------------------------
+// What a record will hold: a patch of a look, and from which record its impulses come.
+typedef struct plan {
+    const look *from;
+    const fe__patch *patch;
+    int32_t source; // record's number, -1: none
+} plan;
+
+typedef struct memory {
+    fe__contact contacts[FE__PATCHES];
+    fe__extra extras[FE__PATCHES];
+    uint32_t ids[FE__PATCHES][4];
+} memory;
+
+static fe_vec3 world_normal(const plan *x) { return fe__mul(&x->from->v.rotation, x->patch->normal); }
+
+// A patch goes to the record whose normal is nearest to its own, so that impulses and colours stay. The head always has one.
+static void assign(plan *plans, int32_t count, const memory *old, int32_t flipped, plan *slots)
+{
+    const float alike = 0.9f; // cosine: 26 degrees
+    for (int32_t i = 0; i < count; ++i) plans[i].source = -1;
+    for (int32_t s = 0; s < FE__PATCHES; ++s) {
+        slots[s] = (plan){.source = -1};
+        int32_t best = -1;
+        float most = alike;
+        if (!(old->contacts[s].normal[3] > 0.0f)) continue;
+        fe_vec3 n = fe__quad_vector(old->contacts[s].normal);
+        for (int32_t i = 0; i < count; ++i) {
+            float cosine = (flipped ? -1.0f : 1.0f) * fe__dot(n, world_normal(plans + i));
+            if (plans[i].source < 0 && cosine > most) most = cosine, best = i;
+        }
+        if (best >= 0) plans[best].source = s, slots[s] = plans[best];
+    }
+    int32_t free = 0;
+    for (int32_t i = 0; i < count; ++i) {
+        if (plans[i].source >= 0) continue;
+        while (slots[free].patch) ++free;
+        slots[free] = plans[i];
+    }
+    for (int32_t s = FE__PATCHES - 1; s > 0 && count && !slots[0].patch; --s)
+        if (slots[s].patch) slots[0] = slots[s], slots[s] = (plan){.source = -1};
+}
+
+static void copy_impulses(const plan *x, const memory *old, fe__pair *p, fe__contact *m, fe__extra *e)
+{
+    for (int32_t i = 0; i < FE__POINTS; ++i) m->normal_impulse[i] = m->friction_impulse[i] = m->total_impulse[i] = 0.0f;
+    for (int32_t k = 0; k < 3; ++k) e->rolling_impulse[k] = 0.0f;
+    for (int32_t i = 0; x->patch && i < x->patch->count; ++i) p->ids[i] = x->patch->points[i].id;
+    if (x->source < 0) return;
+    const fe__contact *from = old->contacts + x->source;
+    memcpy(m->friction_impulse, from->friction_impulse, sizeof m->friction_impulse);
+    memcpy(e->rolling_impulse, old->extras[x->source].rolling_impulse, sizeof e->rolling_impulse);
+    for (int32_t i = 0; i < x->patch->count; ++i)
+        for (int32_t j = 0; j < (int32_t)from->normal[3]; ++j)
+            if (old->ids[x->source][j] == x->patch->points[i].id) m->normal_impulse[i] = from->normal_impulse[j];
+}
+
+static fe__manifold manifold_of(const fe__patch *patch)
+{
+    fe__manifold found = {.normal = patch->normal, .count = patch->count};
+    for (int32_t i = 0; i < patch->count; ++i) found.points[i] = patch->points[i];
+    return found;
+}
+
+static void write_record(fe_world *world, int32_t record, const plan *x, const look *now, const memory *old, float tolerance)
+{
+    fe__pair *p = world->pairs + record;
+    fe__contact *m = world->contacts + record;
+    const look *l = x->patch ? x->from : now;
+    fe__manifold found = x->patch ? manifold_of(x->patch) : (fe__manifold){.count = 0};
+    copy_impulses(x, old, p, m, world->extras + record);
+    fe__write_manifold(world, m, &l->v, &l->at, &found, l != now);
+    m->surface[3] = p->flags & FE__PAIR_PATCH ? FE__FOLLOWS : tolerance;
+    if (l != now) m->surface[3] = FE__AHEAD; // the head's tolerance is 0 then
+    if (x->patch && p->triangle != x->patch->triangle) {
+        p->triangle = x->patch->triangle;
+        fe__pair_mix_surface(world, record);
+    }
+}
+
+static void write_records(fe_world *world, int32_t head, plan *plans, int32_t count, const look *now, float tolerance)
+{
+    memory old;
+    plan slots[FE__PATCHES];
+    int32_t records[FE__PATCHES], n = 0;
+    for (int32_t r = head; r >= 0; r = world->pairs[r].next_patch) {
+        records[n++] = r;
+        old.contacts[n - 1].normal[3] = 0.0f;
+        if (!(world->contacts[r].normal[3] > 0.0f)) continue;
+        old.contacts[n - 1] = world->contacts[r];
+        old.extras[n - 1] = world->extras[r];
+        memcpy(old.ids[n - 1], world->pairs[r].ids, sizeof old.ids[n - 1]);
+    }
+    int32_t flipped = world->contacts[head].body_a != now->v.a->body;
+    assign(plans, count, &old, flipped, slots);
+    for (int32_t i = 0; i < FE__PATCHES; ++i) {
+        int32_t was_empty = !(old.contacts[i].normal[3] > 0.0f);
+        if (i == 0 || slots[i].patch || !was_empty) write_record(world, records[i], slots + i, now, &old, tolerance);
+    }
+}
+
+// ---- the pair -------------------------------------------------------------------------------------------------------------------------
+// Patches with a normal that `now` does not have
+static int32_t add_new_directions(plan *plans, int32_t count, const look *then)
+{
+    const float same = 0.9995f; // cosine: 1.8 degrees
+    int32_t old = count;
+    for (int32_t i = 0; i < then->count && count < FE__PATCHES; ++i) {
+        plan x = {.from = then, .patch = then->patches + i};
+        int32_t known = 0;
+        for (int32_t k = 0; k < old; ++k) known |= fe__dot(world_normal(plans + k), world_normal(&x)) > same;
+        if (!known) plans[count++] = x;
+    }
+    return count;
+}
+
+static int32_t has_near(const fe__patch *patch, float distance)
+{
+    for (int32_t i = 0; i < patch->count; ++i)
+        if (patch->points[i].separation <= distance) return 1;
+    return 0;
+}
+
+void fe__collide_field_pair(fe_world *world, int32_t head, float dt)
+{
+    const fe__pair *p = world->pairs + head;
+    const fe__contact *m = world->contacts + head;
+    const fe__shape *x = world->shapes + p->shape_a, *y = world->shapes + p->shape_b;
+    int32_t swapped = x->form.type != FE_GEOMETRY_HEIGHTFIELD, sensor = (p->flags & FE__PAIR_SENSOR) != 0;
+    pair_view view = {world, world->bodies + m->body_a, world->bodies + m->body_b, swapped ? y : x, swapped ? x : y, dt, 0.0f};
+    float margin = world->tuning.speculative_distance, reach = fe__reach_in_step(world, view.a, view.b, dt);
+    view.speed_limit = dt > 0.0f ? reach / dt : 0.0f;
+    look now, then;
+    now.at = (fe__places){fe__centre_of(view.a), fe__centre_of(view.b), fe__rotation_of(view.a), fe__rotation_of(view.b)};
+    look_at(&view, &view.field->pose, &view.other->pose, fe__maxf(margin, reach), &now);
+
+    plan plans[FE__PATCHES];
+    int32_t count = 0, ahead = 0;
+    for (int32_t i = 0; i < now.count; ++i)
+        if (has_near(now.patches + i, margin)) plans[count++] = (plan){.from = &now, .patch = now.patches + i};
+    if (now.count && !sensor) {
+        if (deepest_of(&now) > FE__TURNS_LITTLE) {
+            ahead = look_ahead(&view, &now, &then);
+            if (ahead) count = add_new_directions(plans, 0, &then);
+        } else if (reach > margin) { // it rolls or slides: into what rises before it
+            look_after(&view, dt, margin, &then);
+            ahead = then.count > 0;
+            if (ahead) count = add_new_directions(plans, count, &then);
+        }
+    }
+    float tolerance = ahead ? 0.0f : now.count ? fe__recycle_tolerance(&now.v) : fe__maxf(now.gap - margin, 0.0f);
+    if (!count && now.count) tolerance = 0.0f;
+    write_records(world, head, plans, count, &now, tolerance);
+}

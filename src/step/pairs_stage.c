@@ -1,0 +1,139 @@
+// pairs_stage.c - stage 1: which shapes came near each other.
+//
+// Shapes with a new box (fe_world.moved) ask the trees and the planes; what passes the filter and has no record is a candidate. Workers
+// write to buffers of their own, merged and sorted by creation, so that neither the workers nor the trees show. Nothing of the world is
+// changed before all memory that the step can need is reserved.
+#include "step/step.h"
+
+enum { SHAPES_IN_BLOCK = 32, FIRST_ROOM = 256 };
+
+typedef struct search {
+    const fe_world *world;
+    fe__candidate_buffer *buffer;
+    int32_t room;
+    int32_t shape;
+} search;
+
+// of two moved shapes the one with the lower index reports
+static int32_t found(void *context, int32_t other)
+{
+    search *s = context;
+    const fe_world *w = s->world;
+    if (w->shapes[other].flags & FE__SHAPE_MOVED && other < s->shape) return 1;
+    if (!fe__may_collide(w, s->shape, other) || fe__pair_set_find(&w->pair_set, s->shape, other) >= 0) return 1;
+    int32_t first = w->shapes[s->shape].serial < w->shapes[other].serial;
+    if (s->buffer->count < s->room)
+        s->buffer->items[s->buffer->count] = first ? (fe__candidate){s->shape, other} : (fe__candidate){other, s->shape};
+    ++s->buffer->count;
+    return 1;
+}
+
+// Does the box reach into the half space n . p <= d?
+int32_t fe__box_meets_plane(const fe__shape *plane, const fe__bounds *box)
+{
+    fe_dvec3 n = fe__drotate(plane->pose.rotation, fe__widen(plane->form.normal));
+    double d = fe__ddot(n, plane->pose.position) + (double)plane->form.distance;
+    fe_dvec3 low = {n.x > 0.0 ? box->low.x : box->high.x, n.y > 0.0 ? box->low.y : box->high.y, n.z > 0.0 ? box->low.z : box->high.z};
+    return fe__ddot(n, low) <= d;
+}
+
+static int32_t found_by_plane(void *context, int32_t other)
+{
+    const search *s = context;
+    fe__bounds box;
+    fe__tree_get(&s->world->moving_tree, other, &box);
+    return fe__box_meets_plane(s->world->shapes + s->shape, &box) ? found(context, other) : 1;
+}
+
+static void search_plane(search *s)
+{
+    const double far = 1e30; // beyond every box
+    fe__bounds all = {{-far, -far, -far}, {far, far, far}};
+    fe__tree_query(&s->world->moving_tree, &all, found_by_plane, s);
+}
+
+static void search_tree(search *s)
+{
+    const fe_world *w = s->world;
+    int32_t is_static = w->bodies[w->shapes[s->shape].body].type == FE_BODY_STATIC;
+    const fe__tree *own = is_static ? &w->static_tree : &w->moving_tree;
+    fe__tree_query_proxy(&w->moving_tree, own, s->shape, found, s);
+    if (is_static) return;
+    fe__tree_query_proxy(&w->static_tree, own, s->shape, found, s);
+    fe__bounds box;
+    if (w->plane_count) fe__tree_get(own, s->shape, &box);
+    for (int32_t i = 0; i < w->plane_count; ++i)
+        if (fe__box_meets_plane(w->shapes + w->planes[i], &box)) found(s, w->planes[i]);
+}
+
+static void search_block(void *argument, int32_t first, int32_t end, int32_t worker)
+{
+    const fe__step *step = argument;
+    search s = {step->world, step->scratch->buffers + worker, step->scratch->candidate_room, 0};
+    for (int32_t i = first; i < end; ++i) {
+        s.shape = step->world->moved[i];
+        const fe__shape *shape = step->world->shapes + s.shape;
+        uint32_t flags = shape->flags;
+        if (!shape->layer || !shape->mask) continue; // touches nothing
+        if (flags & FE__SHAPE_IN_PLANES) search_plane(&s);
+        if (flags & FE__SHAPE_IN_TREE) search_tree(&s);
+    }
+}
+
+static int32_t reserve_candidates(fe__step *step, int32_t room)
+{
+    fe__step_scratch *s = step->scratch;
+    int32_t workers = step->world->workers.count;
+    if (!FE_RESERVE(&step->world->memory, s->candidates, s->candidate_capacity, (int64_t)room * workers)) return 0;
+    s->candidate_room = s->candidate_capacity / workers;
+    for (int32_t i = 0; i < workers; ++i) s->buffers[i].items = s->candidates + i * s->candidate_room, s->buffers[i].count = 0;
+    return 1;
+}
+
+// A full buffer only counts: with more room the search is done again
+static int32_t search_all(fe__step *step)
+{
+    fe__step_scratch *s = step->scratch;
+    const fe_world *w = step->world;
+    for (int32_t room = FIRST_ROOM;;) {
+        if (!reserve_candidates(step, room)) return 0;
+        fe__parallel_for(&w->workers, w->moved_count, SHAPES_IN_BLOCK, search_block, step);
+        int32_t most = 0;
+        for (int32_t i = 0; i < w->workers.count; ++i) most = fe__maxi(most, s->buffers[i].count);
+        if (most <= s->candidate_room) break;
+        room = most + most / 2;
+    }
+    s->candidate_count = s->buffers[0].count;
+    for (int32_t i = 1; i < w->workers.count; ++i)
+        for (int32_t k = 0; k < s->buffers[i].count; ++k) s->candidates[s->candidate_count++] = s->buffers[i].items[k];
+    return 1;
+}
+
+// by the creation of A, then B
+static void sort_candidates(fe__step *step)
+{
+    fe__step_scratch *s = step->scratch;
+    const fe__shape *shapes = step->world->shapes;
+    int32_t n = s->candidate_count;
+    fe__sort_item *items = s->sort_items;
+    for (int32_t pass = 0; pass < 2; ++pass) {
+        for (int32_t i = 0; i < n; ++i) {
+            if (!pass) items[i].value = s->candidates[i].shape_a, items[i].spare = s->candidates[i].shape_b;
+            items[i].key = shapes[pass ? items[i].value : items[i].spare].serial;
+        }
+        fe__sort_keys(items, n, items + n);
+    }
+    for (int32_t i = 0; i < n; ++i) s->candidates[i] = (fe__candidate){items[i].value, items[i].spare};
+}
+
+void fe__find_new_pairs(fe__step *step)
+{
+    fe_world *w = step->world;
+    fe__step_scratch *s = step->scratch;
+    step->failed = !search_all(step) || !fe__reserve_step(step);
+    if (step->failed) return;
+    sort_candidates(step);
+    for (int32_t i = 0; i < s->candidate_count; ++i) fe__pair_create(w, s->candidates[i].shape_a, s->candidates[i].shape_b);
+    for (int32_t i = 0; i < w->moved_count; ++i) w->shapes[w->moved[i]].flags &= ~(uint32_t)FE__SHAPE_MOVED;
+    w->moved_count = 0;
+}
