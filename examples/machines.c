@@ -96,13 +96,13 @@ static fe_result show_door(fe_world *world)
 static fe_result show_crane(fe_world *world)
 {
     crane c;
-    fe_configurable_def rail;
+    fe_configurable_joint_def rail;
     fe_vec3 force, torque;
     rail.struct_size = sizeof rail;
     MACHINE_TRY(crane_build(world, 0, 12, -10, 1000, &c));
-    MACHINE_TRY(fe_configurable_get(world, c.winch, &rail));
-    rail.axes[FE_ALONG_X].target = 4;
-    MACHINE_TRY(fe_configurable_set(world, c.winch, &rail));
+    MACHINE_TRY(fe_configurable_joint_get(world, c.winch, &rail));
+    rail.axes[FE_DOF_LINEAR_X].target = 4;
+    MACHINE_TRY(fe_configurable_joint_set(world, c.winch, &rail));
     MACHINE_TRY(run(world, 1800));
     MACHINE_TRY(fe_joint_get_reaction(world, c.chain[0], &force, &torque));
     printf("crane    carried %.0f kg on links of %.0f kg to x = %.2f m; the first bears %.0f N\n", (double)c.load_mass, (double)c.link_mass,

@@ -17,72 +17,72 @@ static fe_body_def default_body(void)
                          .enabled = 1};
 }
 
-void fe_body_def_init(fe_body_def *desc, uint32_t struct_size)
+void fe_body_def_init(fe_body_def *def, uint32_t struct_size)
 {
     fe_body_def defaults = default_body();
-    fe__init_struct(desc, &defaults, sizeof defaults, struct_size);
+    fe__init_struct(def, &defaults, sizeof defaults, struct_size);
 }
 
-static fe_result read_body_def(const char *function, const fe_body_def *desc, fe_body_def *def)
+static fe_result read_body_def(const char *function, const fe_body_def *def, fe_body_def *full)
 {
-    *def = default_body();
-    if (!desc) return FE_OK;
-    FE_READ_STRUCT(desc, def);
-    FE_CHECK_INT(def->type, FE_BODY_STATIC, FE_BODY_DYNAMIC);
-    FE_CHECK_TRANSFORM(&def->transform);
-    FE_CHECK_VEC3(&def->linear_velocity, FE_MAX_SPEED);
-    FE_CHECK_VEC3(&def->angular_velocity, FE_MAX_SPEED);
-    FE_CHECK_FLOAT(def->linear_damping, 0.0f, FE_MAX_VALUE);
-    FE_CHECK_FLOAT(def->angular_damping, 0.0f, FE_MAX_VALUE);
-    FE_CHECK_FLOAT(def->gravity_scale, -FE_MAX_VALUE, FE_MAX_VALUE);
-    FE_CHECK_FLOAT(def->sleep_threshold, 0.0f, FE_MAX_SPEED);
-    FE_CHECK_BITS(def->linear_locks, FE_AXIS_ALL);
-    FE_CHECK_BITS(def->angular_locks, FE_AXIS_ALL);
-    FE_CHECK_BOOL(def->awake);
-    FE_CHECK_BOOL(def->sleep_allowed);
-    FE_CHECK_BOOL(def->enabled);
-    FE_CHECK_BOOL(def->bullet);
+    *full = default_body();
+    if (!def) return FE_OK;
+    FE_READ_STRUCT(def, full);
+    FE_CHECK_INT(full->type, FE_BODY_STATIC, FE_BODY_DYNAMIC);
+    FE_CHECK_TRANSFORM(&full->transform);
+    FE_CHECK_VEC3(&full->linear_velocity, FE_MAX_SPEED);
+    FE_CHECK_VEC3(&full->angular_velocity, FE_MAX_SPEED);
+    FE_CHECK_FLOAT(full->linear_damping, 0.0f, FE_MAX_VALUE);
+    FE_CHECK_FLOAT(full->angular_damping, 0.0f, FE_MAX_VALUE);
+    FE_CHECK_FLOAT(full->gravity_scale, -FE_MAX_VALUE, FE_MAX_VALUE);
+    FE_CHECK_FLOAT(full->sleep_threshold, 0.0f, FE_MAX_SPEED);
+    FE_CHECK_BITS(full->linear_locks, FE_AXIS_ALL);
+    FE_CHECK_BITS(full->angular_locks, FE_AXIS_ALL);
+    FE_CHECK_BOOL(full->awake);
+    FE_CHECK_BOOL(full->sleep_allowed);
+    FE_CHECK_BOOL(full->enabled);
+    FE_CHECK_BOOL(full->bullet);
     return FE_OK;
 }
 
-static fe_body create(fe_world *world, const fe_body_def *def)
+static fe_body create(fe_world *world, const fe_body_def *full)
 {
     fe__fp_state fp = fe__fp_enter();
-    int32_t index = fe__body_create(world, def);
+    int32_t index = fe__body_create(world, full);
     fe__fp_leave(fp);
     return fe__body_handle(world, index);
 }
 
-fe_result fe_body_create(fe_world *world, const fe_body_def *desc, fe_body *out_body)
+fe_result fe_body_create(fe_world *world, const fe_body_def *def, fe_body *out_body)
 {
     if (out_body) *out_body = 0;
     FE_BEGIN(world);
     FE_CHECK_POINTER(out_body);
-    fe_body_def def;
-    FE_TRY(read_body_def(function, desc, &def));
+    fe_body_def full;
+    FE_TRY(read_body_def(function, def, &full));
     FE_TRY(fe__report(function, fe__reserve_bodies(world, 1)));
-    *out_body = create(world, &def);
+    *out_body = create(world, &full);
     return FE_OK;
 }
 
-fe_result fe_body_create_many(fe_world *world, const fe_body_def *descs, uint32_t stride, int32_t count, fe_body *out_bodies)
+fe_result fe_body_create_many(fe_world *world, const fe_body_def *defs, uint32_t stride, int32_t count, fe_body *out_bodies)
 {
     if (out_bodies && count > 0) memset(out_bodies, 0, sizeof *out_bodies * (size_t)count);
     FE_BEGIN(world);
-    FE_CHECK_ARRAY(descs, count);
+    FE_CHECK_ARRAY(defs, count);
     FE_CHECK_ARRAY(out_bodies, count);
     if (count == 0) return FE_OK;
-    FE_CHECK_STRUCT_SIZE(descs);
-    FE_CHECK_STRIDE(stride, descs->struct_size, descs->struct_size);
-    fe_body_def def;
+    FE_CHECK_STRUCT_SIZE(defs);
+    FE_CHECK_STRIDE(stride, defs->struct_size, defs->struct_size);
+    fe_body_def full;
     for (int32_t i = 0; i < count; ++i) {
-        const fe_body_def *desc = fe__at_const(descs, stride, i);
-        FE_TRY(read_body_def(function, desc, &def));
+        const fe_body_def *def = fe__at_const(defs, stride, i);
+        FE_TRY(read_body_def(function, def, &full));
     }
     FE_TRY(fe__report(function, fe__reserve_bodies(world, count)));
     for (int32_t i = 0; i < count; ++i) {
-        (void)read_body_def(function, fe__at_const(descs, stride, i), &def);
-        out_bodies[i] = create(world, &def);
+        (void)read_body_def(function, fe__at_const(defs, stride, i), &full);
+        out_bodies[i] = create(world, &full);
     }
     return FE_OK;
 }
@@ -486,7 +486,7 @@ fe_result fe_body_get_bullet(const fe_world *world, fe_body body, int32_t *out_b
     return FE_OK;
 }
 
-fe_result fe_body_set_user_data(fe_world *world, fe_body body, fe_handle user_data)
+fe_result fe_body_set_user_data(fe_world *world, fe_body body, uint64_t user_data)
 {
     FE_BEGIN(world);
     FE_FIND_BODY(index, body);
@@ -494,7 +494,7 @@ fe_result fe_body_set_user_data(fe_world *world, fe_body body, fe_handle user_da
     return FE_OK;
 }
 
-fe_result fe_body_get_user_data(const fe_world *world, fe_body body, fe_handle *out_user_data)
+fe_result fe_body_get_user_data(const fe_world *world, fe_body body, uint64_t *out_user_data)
 {
     FE_BEGIN(world);
     FE_FIND_BODY(index, body);

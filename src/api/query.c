@@ -74,7 +74,7 @@ fe__scene fe__scene_of(const fe_world *world, const fe_query_filter *whole_filte
 }
 
 // ---- what a ray meets -----------------------------------------------------------------------------------------------------------
-fe_result fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
+int32_t fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
                            fe_hit *out_hit)
 {
     FE_BEGIN(world);
@@ -89,10 +89,10 @@ fe_result fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const 
     fe__probe_ray(&probe, origin, translation);
     int32_t hit = fe__cast_closest(&scene, &probe, out_hit);
     fe__fp_leave(fp);
-    return hit ? FE_OK : FE_MISS;
+    return hit;
 }
 
-fe_result fe_world_raycast_any(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter)
+int32_t fe_world_raycast_any(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter)
 {
     FE_BEGIN(world);
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
@@ -105,7 +105,7 @@ fe_result fe_world_raycast_any(const fe_world *world, const fe_dvec3 *origin, co
     fe__probe_ray(&probe, origin, translation);
     int32_t hit = fe__cast_any(&scene, &probe);
     fe__fp_leave(fp);
-    return hit ? FE_OK : FE_MISS;
+    return hit;
 }
 
 int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
@@ -128,7 +128,7 @@ int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, cons
 }
 
 // ---- what a moving form meets ---------------------------------------------------------------------------------------------------
-fe_result fe_world_sweep(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
+int32_t fe_world_sweep(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
                          const fe_query_filter *filter, fe_hit *out_hit)
 {
     FE_BEGIN(world);
@@ -144,10 +144,10 @@ fe_result fe_world_sweep(const fe_world *world, const fe_geometry *geometry, con
     fe__probe probe = fe__probe_form(&form, start, *translation);
     int32_t hit = fe__cast_closest(&scene, &probe, out_hit);
     fe__fp_leave(fp);
-    return hit ? FE_OK : FE_MISS;
+    return hit;
 }
 
-fe_result fe_world_sweep_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
+int32_t fe_world_sweep_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
                              const fe_query_filter *filter)
 {
     FE_BEGIN(world);
@@ -162,7 +162,7 @@ fe_result fe_world_sweep_any(const fe_world *world, const fe_geometry *geometry,
     fe__probe probe = fe__probe_form(&form, start, *translation);
     int32_t hit = fe__cast_any(&scene, &probe);
     fe__fp_leave(fp);
-    return hit ? FE_OK : FE_MISS;
+    return hit;
 }
 
 int32_t fe_world_sweep_all(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
@@ -206,7 +206,7 @@ int32_t fe_world_overlap(const fe_world *world, const fe_geometry *geometry, con
     return count;
 }
 
-fe_result fe_world_overlap_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *at, const fe_query_filter *filter)
+int32_t fe_world_overlap_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *at, const fe_query_filter *filter)
 {
     FE_BEGIN(world);
     fe__form form;
@@ -219,11 +219,11 @@ fe_result fe_world_overlap_any(const fe_world *world, const fe_geometry *geometr
     fe__probe probe = fe__probe_form(&form, at, nowhere);
     int32_t overlaps = fe__overlap_any(&scene, &probe);
     fe__fp_leave(fp);
-    return overlaps ? FE_OK : FE_MISS;
+    return overlaps;
 }
 
 // ---- what is near ---------------------------------------------------------------------------------------------------------------
-fe_result fe_world_closest_point(const fe_world *world, const fe_dvec3 *point, double max_distance, const fe_query_filter *filter,
+int32_t fe_world_closest_point(const fe_world *world, const fe_dvec3 *point, double max_distance, const fe_query_filter *filter,
                                  fe_closest *out_closest)
 {
     FE_BEGIN(world);
@@ -236,12 +236,12 @@ fe_result fe_world_closest_point(const fe_world *world, const fe_dvec3 *point, d
     fe__scene scene = fe__scene_of(world, &whole);
     int32_t found = fe__closest(&scene, *point, max_distance, out_closest);
     fe__fp_leave(fp);
-    return found ? FE_OK : FE_MISS;
+    return found;
 }
 
 // ---- one body, one shape --------------------------------------------------------------------------------------------------------
 // From shape `first` to before `end` in a body's list.
-static fe_result raycast_shapes(const fe_world *world, int32_t first, int32_t end, const fe_dvec3 *origin, const fe_dvec3 *translation,
+static int32_t raycast_shapes(const fe_world *world, int32_t first, int32_t end, const fe_dvec3 *origin, const fe_dvec3 *translation,
                                 fe_hit *out_hit)
 {
     fe_query_filter everything = default_filter();
@@ -252,10 +252,10 @@ static fe_result raycast_shapes(const fe_world *world, int32_t first, int32_t en
     fe__probe_ray(&probe, origin, translation);
     int32_t hit = fe__cast_shapes(&scene, &probe, first, end, out_hit);
     fe__fp_leave(fp);
-    return hit ? FE_OK : FE_MISS;
+    return hit;
 }
 
-static fe_result closest_of_shapes(const fe_world *world, int32_t first, int32_t end, const fe_dvec3 *point, fe_closest *out_closest)
+static int32_t closest_of_shapes(const fe_world *world, int32_t first, int32_t end, const fe_dvec3 *point, fe_closest *out_closest)
 {
     fe_query_filter everything = default_filter();
     everything.flags = FE_QUERY_TRIGGERS;
@@ -263,10 +263,10 @@ static fe_result closest_of_shapes(const fe_world *world, int32_t first, int32_t
     fe__scene scene = fe__scene_of(world, &everything);
     int32_t found = fe__closest_on_shapes(&scene, *point, first, end, out_closest);
     fe__fp_leave(fp);
-    return found ? FE_OK : FE_MISS;
+    return found;
 }
 
-fe_result fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_dvec3 *origin, const fe_dvec3 *translation, fe_hit *out_hit)
+int32_t fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_dvec3 *origin, const fe_dvec3 *translation, fe_hit *out_hit)
 {
     FE_BEGIN(world);
     FE_FIND_SHAPE(index, shape);
@@ -276,7 +276,7 @@ fe_result fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_dvec3
     return raycast_shapes(world, index, world->shapes[index].next, origin, translation, out_hit);
 }
 
-fe_result fe_body_raycast(const fe_world *world, fe_body body, const fe_dvec3 *origin, const fe_dvec3 *translation, fe_hit *out_hit)
+int32_t fe_body_raycast(const fe_world *world, fe_body body, const fe_dvec3 *origin, const fe_dvec3 *translation, fe_hit *out_hit)
 {
     FE_BEGIN(world);
     FE_FIND_BODY(index, body);
@@ -286,7 +286,7 @@ fe_result fe_body_raycast(const fe_world *world, fe_body body, const fe_dvec3 *o
     return raycast_shapes(world, world->bodies[index].first_shape, -1, origin, translation, out_hit);
 }
 
-fe_result fe_shape_closest_point(const fe_world *world, fe_shape shape, const fe_dvec3 *point, fe_closest *out_closest)
+int32_t fe_shape_closest_point(const fe_world *world, fe_shape shape, const fe_dvec3 *point, fe_closest *out_closest)
 {
     FE_BEGIN(world);
     FE_FIND_SHAPE(index, shape);
@@ -295,7 +295,7 @@ fe_result fe_shape_closest_point(const fe_world *world, fe_shape shape, const fe
     return closest_of_shapes(world, index, world->shapes[index].next, point, out_closest);
 }
 
-fe_result fe_body_closest_point(const fe_world *world, fe_body body, const fe_dvec3 *point, fe_closest *out_closest)
+int32_t fe_body_closest_point(const fe_world *world, fe_body body, const fe_dvec3 *point, fe_closest *out_closest)
 {
     FE_BEGIN(world);
     FE_FIND_BODY(index, body);

@@ -114,7 +114,7 @@ static fe_result check_owner(const char *function, const fe_world *world, int32_
 
 // ---- life -----------------------------------------------------------------------------------------------------------------------
 
-enum { ALL_EVENTS = FE_EVENTS_TOUCH | FE_EVENTS_STAY | FE_EVENTS_HIT };
+enum { ALL_EVENTS = FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT };
 
 static fe_shape_def default_shape(void)
 {
@@ -124,44 +124,44 @@ static fe_shape_def default_shape(void)
                           .material = {.static_friction = 0.6f, .dynamic_friction = 0.5f},
                           .layer = 1,
                           .mask = UINT32_MAX,
-                          .events = FE_EVENTS_TOUCH};
+                          .events = FE_SHAPE_EVENTS_TOUCH};
 }
 
-void fe_shape_def_init(fe_shape_def *desc, uint32_t struct_size)
+void fe_shape_def_init(fe_shape_def *def, uint32_t struct_size)
 {
     fe_shape_def defaults = default_shape();
-    fe__init_struct(desc, &defaults, sizeof defaults, struct_size);
+    fe__init_struct(def, &defaults, sizeof defaults, struct_size);
 }
 
-static fe_result read_shape_def(const char *function, const fe_shape_def *desc, fe_shape_def *def)
+static fe_result read_shape_def(const char *function, const fe_shape_def *def, fe_shape_def *full)
 {
-    *def = default_shape();
-    if (!desc) return FE_OK;
-    FE_READ_STRUCT(desc, def);
-    FE_CHECK_FLOAT(def->density, 0.0f, FE_MAX_DENSITY);
-    FE_CHECK_VEC3(&def->local_position, FE_MAX_LOCAL);
-    FE_CHECK_QUAT(&def->local_rotation);
-    FE_TRY(fe__check_material(function, &def->material));
-    FE_CHECK_FILTER(def->layer);
-    FE_CHECK_BOOL(def->trigger);
-    FE_CHECK_BITS(def->events, ALL_EVENTS);
-    FE_CHECK_VEC3(&def->surface_velocity, FE_MAX_SPEED);
+    *full = default_shape();
+    if (!def) return FE_OK;
+    FE_READ_STRUCT(def, full);
+    FE_CHECK_FLOAT(full->density, 0.0f, FE_MAX_DENSITY);
+    FE_CHECK_VEC3(&full->local_position, FE_MAX_LOCAL);
+    FE_CHECK_QUAT(&full->local_rotation);
+    FE_TRY(fe__check_material(function, &full->material));
+    FE_CHECK_FILTER(full->layer);
+    FE_CHECK_BOOL(full->trigger);
+    FE_CHECK_BITS(full->events, ALL_EVENTS);
+    FE_CHECK_VEC3(&full->surface_velocity, FE_MAX_SPEED);
     return FE_OK;
 }
 
-fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *desc, const fe_geometry *geometry, fe_shape *out_shape)
+fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *def, const fe_geometry *geometry, fe_shape *out_shape)
 {
     if (out_shape) *out_shape = 0;
     FE_BEGIN(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_shape);
-    fe_shape_def def;
-    FE_TRY(read_shape_def(function, desc, &def));
+    fe_shape_def full;
+    FE_TRY(read_shape_def(function, def, &full));
     fe__form form;
     FE_TRY(read_geometry(function, world, geometry, &form));
     FE_TRY(check_owner(function, world, index, &form));
     fe__fp_state fp = fe__fp_enter();
-    int32_t shape = fe__shape_create(world, index, &def, &form);
+    int32_t shape = fe__shape_create(world, index, &full, &form);
     fe__fp_leave(fp);
     if (shape < 0) return fe__report(function, (fe_result)shape);
     *out_shape = fe__shape_handle(world, shape);
@@ -384,7 +384,7 @@ fe_result fe_shape_get_events(const fe_world *world, fe_shape shape, uint32_t *o
     return FE_OK;
 }
 
-fe_result fe_shape_set_user_data(fe_world *world, fe_shape shape, fe_handle user_data)
+fe_result fe_shape_set_user_data(fe_world *world, fe_shape shape, uint64_t user_data)
 {
     FE_BEGIN(world);
     FE_FIND_SHAPE(index, shape);
@@ -392,7 +392,7 @@ fe_result fe_shape_set_user_data(fe_world *world, fe_shape shape, fe_handle user
     return FE_OK;
 }
 
-fe_result fe_shape_get_user_data(const fe_world *world, fe_shape shape, fe_handle *out_user_data)
+fe_result fe_shape_get_user_data(const fe_world *world, fe_shape shape, uint64_t *out_user_data)
 {
     FE_BEGIN(world);
     FE_FIND_SHAPE(index, shape);

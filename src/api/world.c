@@ -8,10 +8,10 @@ static fe_world_def default_world(void)
     return (fe_world_def){.struct_size = sizeof(fe_world_def), .worker_count = 1, .gravity = {0.0f, -9.81f, 0.0f}, .substeps = 8};
 }
 
-void fe_world_def_init(fe_world_def *desc, uint32_t struct_size)
+void fe_world_def_init(fe_world_def *def, uint32_t struct_size)
 {
     fe_world_def defaults = default_world();
-    fe__init_struct(desc, &defaults, sizeof defaults, struct_size);
+    fe__init_struct(def, &defaults, sizeof defaults, struct_size);
 }
 
 static fe_result read_allocator(const char *function, const fe_allocator *allocator, fe_allocator *copy)
@@ -33,42 +33,42 @@ static fe_result read_tasks(const char *function, const fe_task_system *tasks, f
 
 // The definition with everything it points to
 typedef struct whole_def {
-    fe_world_def desc;
+    fe_world_def def;
     fe_allocator allocator;
     fe_task_system tasks;
 } whole_def;
 
-static fe_result read_world_def(const char *function, const fe_world_def *desc, whole_def *whole)
+static fe_result read_world_def(const char *function, const fe_world_def *def, whole_def *whole)
 {
-    fe_world_def *def = &whole->desc;
-    *whole = (whole_def){.desc = default_world()};
-    if (!desc) return FE_OK;
-    FE_READ_STRUCT(desc, def);
-    FE_CHECK_INT(def->worker_count, 1, FE_MAX_WORKERS);
-    FE_CHECK_VEC3(&def->gravity, FE_MAX_SPEED);
-    FE_CHECK_INT(def->substeps, 1, FE_MAX_SUBSTEPS);
-    FE_CHECK_INT(def->simd, FE_SIMD_AUTO, FE_SIMD_NEON);
-    if (def->allocator) {
-        FE_TRY(read_allocator(function, def->allocator, &whole->allocator));
-        def->allocator = &whole->allocator;
+    fe_world_def *full = &whole->def;
+    *whole = (whole_def){.def = default_world()};
+    if (!def) return FE_OK;
+    FE_READ_STRUCT(def, full);
+    FE_CHECK_INT(full->worker_count, 1, FE_MAX_WORKERS);
+    FE_CHECK_VEC3(&full->gravity, FE_MAX_SPEED);
+    FE_CHECK_INT(full->substeps, 1, FE_MAX_SUBSTEPS);
+    FE_CHECK_INT(full->simd, FE_SIMD_AUTO, FE_SIMD_NEON);
+    if (full->allocator) {
+        FE_TRY(read_allocator(function, full->allocator, &whole->allocator));
+        full->allocator = &whole->allocator;
     }
-    if (def->tasks) {
-        FE_TRY(read_tasks(function, def->tasks, &whole->tasks));
-        def->tasks = &whole->tasks;
+    if (full->tasks) {
+        FE_TRY(read_tasks(function, full->tasks, &whole->tasks));
+        full->tasks = &whole->tasks;
     }
     return FE_OK;
 }
 
-fe_result fe_world_create(const fe_world_def *desc, fe_world **out_world)
+fe_result fe_world_create(const fe_world_def *def, fe_world **out_world)
 {
     FE_BEGIN_WITHOUT_WORLD();
     FE_CHECK_POINTER(out_world);
     whole_def whole;
-    FE_TRY(read_world_def(function, desc, &whole));
+    FE_TRY(read_world_def(function, def, &whole));
     fe_world *world;
-    fe_result result = fe__world_create(&whole.desc, &world);
+    fe_result result = fe__world_create(&whole.def, &world);
     if (result == FE_ERROR_UNSUPPORTED) {
-        return fe__fail(function, result, "desc->simd is %d, a set that this CPU or this build does not have", (int)whole.desc.simd);
+        return fe__fail(function, result, "def->simd is %d, a set that this CPU or this build does not have", (int)whole.def.simd);
     }
     FE_TRY(fe__report(function, result));
     *out_world = world;
@@ -143,7 +143,7 @@ fe_result fe_world_get_substeps(const fe_world *world, int32_t *out_substeps)
     return FE_OK;
 }
 
-fe_result fe_world_get_user_data(const fe_world *world, fe_handle *out_user_data)
+fe_result fe_world_get_user_data(const fe_world *world, uint64_t *out_user_data)
 {
     FE_BEGIN(world);
     FE_CHECK_POINTER(out_user_data);
@@ -214,7 +214,7 @@ fe_result fe_world_ignore_collision(fe_world *world, fe_body a, fe_body b, int32
     return fe__report(function, fe__ignore_collision(world, index_a, index_b, ignore));
 }
 
-fe_result fe_world_sync_queries(fe_world *world)
+fe_result fe_world_optimize(fe_world *world)
 {
     FE_BEGIN(world);
     fe__fp_state fp = fe__fp_enter();

@@ -120,7 +120,7 @@ void fe__solve_islands(fe__step *step)
     fe_world *w = step->world;
     for (int32_t i = 0; i < w->awake_pair_count && w->wants_hits; ++i) {
         int32_t pair = fe__pair_of(w->awake_pairs[i]);
-        if (w->pairs[pair].events & FE_EVENTS_HIT) w->pairs[pair].approach = approach_of(w, pair);
+        if (w->pairs[pair].events & FE_SHAPE_EVENTS_HIT) w->pairs[pair].approach = approach_of(w, pair);
     }
     fe__step_constants paces[FE__PACES];
     constants_of_paces(w, step->dt, paces);

@@ -172,7 +172,7 @@ void fe__pair_mix(fe_world *world, int32_t pair)
     if (p->next_patch >= 0) fe__pair_mix(world, p->next_patch);
     fe__pair_mix_surface(world, pair);
     p->events = world->shapes[p->shape_a].events | world->shapes[p->shape_b].events;
-    world->wants_hits |= (p->events & FE_EVENTS_HIT) != 0;
+    world->wants_hits |= (p->events & FE_SHAPE_EVENTS_HIT) != 0;
     int32_t kind = fe__pair_kind(world, p->shape_a, p->shape_b);
     world->row_kinds |= 1u << kind;
     if (kind == m->kind) return;
@@ -383,7 +383,7 @@ void fe__pair_destroy(fe_world *world, int32_t pair)
     remove_from_body(world, pair, p->body_b);
     fe__pair_set_remove(&world->pair_set, p->shape_a, p->shape_b);
     --world->pair_count;
-    if (p->flags & FE__PAIR_TOUCHING && p->events & FE_EVENTS_TOUCH)
+    if (p->flags & FE__PAIR_TOUCHING && p->events & FE_SHAPE_EVENTS_TOUCH)
         fe__owe_exit(world, pair);
     else
         fe__pair_release(world, pair);

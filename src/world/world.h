@@ -50,7 +50,7 @@ struct fe_world {
     fe__workers workers;
     fe_pool *own_pool; // or NULL
     _Atomic int32_t stepping;
-    fe_handle user_data;
+    uint64_t user_data;
 
     // settings
     fe_vec3 gravity;
@@ -147,14 +147,14 @@ struct fe_world {
 
 // ---- the world (world.c) --------------------------------------------------------------------------------------------------------
 // An empty world, all its memory from the definition's allocator. FE_ERROR_MEMORY; FE_ERROR_UNSUPPORTED: no such SIMD set here.
-fe_result fe__world_create(const fe_world_def *desc, fe_world **out_world);
+fe_result fe__world_create(const fe_world_def *def, fe_world **out_world);
 void fe__world_destroy(fe_world *world);
 fe_world_tuning fe__default_tuning(void);
 
 // ---- life of bodies (bodies.c) ----------------------------------------------------------------------------------------------------
 // What cannot fail returns void; otherwise FE_OK or the reason, with nothing changed.
 fe_result fe__reserve_bodies(fe_world *world, int32_t extra);      // the `extra` creations that follow cannot fail
-int32_t fe__body_create(fe_world *world, const fe_body_def *desc); // index; room was reserved
+int32_t fe__body_create(fe_world *world, const fe_body_def *def); // index; room was reserved
 void fe__body_destroy(fe_world *world, int32_t body);
 fe_result fe__body_set_type(fe_world *world, int32_t body, int32_t type);
 fe_result fe__body_set_enabled(fe_world *world, int32_t body, int32_t enabled);
@@ -190,7 +190,7 @@ void fe__body_set_mass(fe_world *world, int32_t body, const fe_mass_data *data);
 void fe__body_mass_data(const fe_world *world, int32_t body, fe_mass_data *out_data);
 
 // ---- life of shapes (shapes.c) ----------------------------------------------------------------------------------------------------
-int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *desc, const fe__form *form); // index, or negative: fe_result
+int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *def, const fe__form *form); // index, or negative: fe_result
 void fe__shape_destroy(fe_world *world, int32_t shape);
 fe_result fe__shape_set_form(fe_world *world, int32_t shape, const fe__form *form);
 void fe__shape_set_local_pose(fe_world *world, int32_t shape, fe_vec3 position, fe_quat rotation);
@@ -208,7 +208,7 @@ void fe__shape_touch(fe_world *world, int32_t shape);      // its pose or form i
 void fe__shape_mark_moved(fe_world *world, int32_t shape); // looks for pairs in the next step
 
 // ---- heightfields (assets.c) -----------------------------------------------------------------------------------------------------
-int32_t fe__heightfield_create(fe_world *world, const fe_heightfield_def *desc); // index, or negative: fe_result
+int32_t fe__heightfield_create(fe_world *world, const fe_heightfield_def *def); // index, or negative: fe_result
 void fe__heightfield_set_heights(fe_world *world, int32_t index, int32_t row, int32_t column, int32_t rows, int32_t columns,
                                  const float *heights);
 void fe__asset_destroy(fe_world *world, int32_t index);       // now, or with its last shape
@@ -250,10 +250,10 @@ void fe__pair_mix_surface(fe_world *world, int32_t pair); // frictions and the l
 void fe__joints_init(fe_world *world);
 void fe__joints_free(fe_world *world);
 // From a checked definition of that type. FE_ERROR_MEMORY, FE_ERROR_LIMIT: nothing changed. Both wake the bodies.
-fe_result fe__joint_create(fe_world *world, int32_t type, const fe__joint_any *desc, const int32_t *bodies, int32_t *out_joint);
-fe_result fe__joint_change(fe_world *world, int32_t joint, const fe__joint_any *desc); // all but its bodies
+fe_result fe__joint_create(fe_world *world, int32_t type, const fe__joint_any *def, const int32_t *bodies, int32_t *out_joint);
+fe_result fe__joint_change(fe_world *world, int32_t joint, const fe__joint_any *def); // all but its bodies
 void fe__joint_destroy(fe_world *world, int32_t joint);
-void fe__joint_describe(const fe_world *world, int32_t joint, fe__joint_any *out_desc); // as it was set; struct_size is that of its type
+void fe__joint_describe(const fe_world *world, int32_t joint, fe__joint_any *out_def); // as it was set; struct_size is that of its type
 int32_t fe__next_joint(const fe_world *world, int32_t joint, int32_t body);             // in the list of `body`
 int32_t fe__joint_other(const fe_world *world, int32_t joint, int32_t body);
 int32_t fe__bodies_joined(const fe_world *world, int32_t body_a, int32_t body_b); // by a joint that keeps them from touching

@@ -26,7 +26,7 @@ static touch touching_box(void)
     fe_pair_event event;
     step(t.world, 1);
     assert_int_equal(fe_world_get_pair_events(t.world, &event, 0, 1), 1);
-    assert_int_equal(event.kind, FE_ENTER);
+    assert_int_equal(event.kind, FE_EVENT_ENTER);
     assert_true(event.body_a == t.ground && event.body_b == t.box && event.shape_a == t.ground_shape && event.shape_b == t.box_shape);
     assert_int_equal(event.is_trigger, 0);
     return t;
@@ -80,11 +80,11 @@ static void whatever_ends_a_touch_sends_one_exit(void **state)
             fe_pair_event event;
             OK(fe_world_step(t.world, 0.001f));
             assert_int_equal(fe_world_get_pair_events(t.world, &event, 0, 1), 1);
-            assert_int_equal(event.kind, FE_EXIT);
+            assert_int_equal(event.kind, FE_EVENT_EXIT);
             assert_true(event.body_a == t.ground && event.body_b == t.box && event.shape_a == t.ground_shape &&
                         event.shape_b == t.box_shape);
             step(t.world, 1);
-            assert_int_equal(count_kind(t.world, FE_EXIT) + count_kind(t.world, FE_ENTER), 0);
+            assert_int_equal(count_kind(t.world, FE_EVENT_EXIT) + count_kind(t.world, FE_EVENT_ENTER), 0);
             OK(fe_world_destroy(t.world));
         }
     }
@@ -116,8 +116,8 @@ static void what_ends_a_touch_and_leaves_it_there_enters_again(void **state)
         touch t = touching_box();
         changes[i](&t);
         OK(fe_world_step(t.world, 0.001f));
-        assert_int_equal(count_kind(t.world, FE_EXIT), 1);
-        assert_int_equal(count_kind(t.world, FE_ENTER), 1);
+        assert_int_equal(count_kind(t.world, FE_EVENT_EXIT), 1);
+        assert_int_equal(count_kind(t.world, FE_EVENT_ENTER), 1);
         OK(fe_world_destroy(t.world));
     }
 }
@@ -138,7 +138,7 @@ static void enter_and_exit_balance_in_a_crowd(void **state)
         step(world, 1);
         int32_t count = fe_world_get_pair_events(world, events, 0, 512);
         FE_WITHIN(count, 0, 512);
-        for (int32_t i = 0; i < count; ++i) balance += events[i].kind == FE_ENTER ? 1 : events[i].kind == FE_EXIT ? -1 : 0;
+        for (int32_t i = 0; i < count; ++i) balance += events[i].kind == FE_EVENT_ENTER ? 1 : events[i].kind == FE_EVENT_EXIT ? -1 : 0;
         FE_TRUE(balance >= 0);
         random = random * 1664525u + 1013904223u;
         int k = (int)(random >> 20) % BODIES;
@@ -161,7 +161,7 @@ static void enter_and_exit_balance_in_a_crowd(void **state)
     }
     for (int i = 0; i < BODIES; ++i) OK(fe_body_destroy(world, bodies[i]));
     step(world, 1);
-    balance += count_kind(world, FE_ENTER) - count_kind(world, FE_EXIT);
+    balance += count_kind(world, FE_EVENT_ENTER) - count_kind(world, FE_EVENT_EXIT);
     assert_int_equal(balance, 0);
     OK(fe_world_destroy(world));
 }
@@ -230,8 +230,8 @@ static void stay_and_hit_are_sent_where_asked_for(void **state)
     (void)state;
     fe_world *world = new_world();
     fe_body ground = new_ground(world), quiet = new_box(world, 0, 0.5, 0), chatty = new_box(world, 5, 2, 0);
-    OK(fe_shape_set_events(world, shape_of(world, chatty), FE_EVENTS_STAY | FE_EVENTS_HIT));
-    OK(fe_shape_set_events(world, shape_of(world, ground), FE_EVENTS_NONE));
+    OK(fe_shape_set_events(world, shape_of(world, chatty), FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT));
+    OK(fe_shape_set_events(world, shape_of(world, ground), FE_SHAPE_EVENTS_NONE));
     int32_t stays = 0, hits = 0;
     fe_hit_event hit = {0};
     for (int i = 0; i < 60; ++i) {
@@ -239,8 +239,8 @@ static void stay_and_hit_are_sent_where_asked_for(void **state)
         step(world, 1);
         int32_t count = fe_world_get_pair_events(world, events, 0, MOST);
         for (int32_t k = 0; k < count; ++k) {
-            stays += events[k].kind == FE_STAY;
-            FE_TRUE(events[k].kind != FE_STAY || events[k].body_b == chatty);
+            stays += events[k].kind == FE_EVENT_STAY;
+            FE_TRUE(events[k].kind != FE_EVENT_STAY || events[k].body_b == chatty);
         }
         if (fe_world_get_hit_events(world, &hit, 0, 1) == 1) hits += 1;
     }
@@ -266,13 +266,13 @@ static void sleep_and_wake_are_told(void **state)
         step(t.world, 1);
         if (fe_world_get_body_events(t.world, &event, 0, 1) == 0) continue;
         told += 1;
-        assert_true(event.body == t.box && event.kind == FE_SLEEP);
+        assert_true(event.body == t.box && event.kind == FE_EVENT_SLEEP);
     }
     assert_int_equal(told, 1);
     OK(fe_body_set_awake(t.world, t.box, 1));
     step(t.world, 1);
     assert_int_equal(fe_world_get_body_events(t.world, &event, 0, 1), 1);
-    assert_true(event.body == t.box && event.kind == FE_WAKE);
+    assert_true(event.body == t.box && event.kind == FE_EVENT_WAKE);
     OK(fe_world_destroy(t.world));
 }
 
@@ -304,9 +304,9 @@ static void a_trigger_reports_and_pushes_nothing(void **state)
         for (int32_t k = 0; k < count; ++k) {
             if (events[k].body_a != gate) continue;
             assert_int_equal(events[k].is_trigger, 1);
-            ball_enters += events[k].body_b == ball && events[k].kind == FE_ENTER;
-            ball_exits += events[k].body_b == ball && events[k].kind == FE_EXIT;
-            lift_enters += events[k].body_b == lift && events[k].kind == FE_ENTER;
+            ball_enters += events[k].body_b == ball && events[k].kind == FE_EVENT_ENTER;
+            ball_exits += events[k].body_b == ball && events[k].kind == FE_EVENT_EXIT;
+            lift_enters += events[k].body_b == lift && events[k].kind == FE_EVENT_ENTER;
         }
     }
     assert_true(ball_enters == 1 && ball_exits == 1);

@@ -18,7 +18,7 @@ static void defaults_are_those_of_the_header(void **state)
     FE_NEAR(def.density, 1000, 0), FE_NEAR(def.local_rotation.w, 1, 0);
     FE_NEAR(def.material.static_friction, 0.6f, 0), FE_NEAR(def.material.dynamic_friction, 0.5f, 0),
         FE_NEAR(def.material.restitution, 0, 0);
-    assert_true(def.layer == 1 && def.mask == 0xFFFFFFFF && def.trigger == 0 && def.events == FE_EVENTS_TOUCH);
+    assert_true(def.layer == 1 && def.mask == 0xFFFFFFFF && def.trigger == 0 && def.events == FE_SHAPE_EVENTS_TOUCH);
     fe_shape_def_init(NULL, sizeof def);
     fe_geometry_sphere(NULL, 1), fe_geometry_capsule(NULL, 1, 1), fe_geometry_box(NULL, 1, 1, 1), fe_geometry_plane(NULL, 0, 1, 0, 0);
 }
@@ -32,7 +32,7 @@ static void what_a_definition_says_is_read_back(void **state)
     fe_shape_def_init(&def, sizeof def);
     def.density = 7, def.local_position = fe_make_vec3(1, 2, 3), def.local_rotation = (fe_quat){0, 0, 3, 4};
     def.material = (fe_material){0.1f, 0.2f, 0.3f, 0.4f, 0.5f};
-    def.layer = 4, def.mask = 8, def.trigger = 1, def.events = FE_EVENTS_STAY | FE_EVENTS_HIT;
+    def.layer = 4, def.mask = 8, def.trigger = 1, def.events = FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT;
     def.surface_velocity = fe_make_vec3(0, 0, 2), def.user_data = 99;
     fe_geometry capsule, got = {.struct_size = sizeof got};
     fe_geometry_capsule(&capsule, 0.5f, 0.25f);
@@ -61,7 +61,7 @@ static void what_a_definition_says_is_read_back(void **state)
     FE_NEAR(got.half_height, 0.5, 0), FE_NEAR(got.radius, 0.25, 0), FE_NEAR(density, 7, 0), FE_NEAR(position.y, 2, 0);
     FE_NEAR(rotation.z, 0.6, 1e-7), FE_NEAR(rotation.w, 0.8, 1e-7);
     assert_memory_equal(&material, &def.material, sizeof material);
-    assert_true(layer == 4 && mask == 8 && events == (FE_EVENTS_STAY | FE_EVENTS_HIT) && trigger == 1 && data == 99);
+    assert_true(layer == 4 && mask == 8 && events == (FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT) && trigger == 1 && data == 99);
     FE_NEAR(velocity.z, 2, 0);
     OK(fe_world_destroy(world));
 }

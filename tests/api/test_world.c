@@ -131,7 +131,7 @@ static void settings_are_read_back_and_refuse_nonsense(void **state)
     REFUSES(world, FE_ERROR_ARGUMENT, fe_world_get_profile(world, NULL));
     fe_profile profile = {.struct_size = 5};
     REFUSES(world, FE_ERROR_ARGUMENT, fe_world_get_profile(world, &profile));
-    OK(fe_world_sync_queries(world));
+    OK(fe_world_optimize(world));
     OK(fe_world_destroy(world));
 }
 
@@ -515,7 +515,7 @@ static fe_result build(fe_world *world, miser *m, int32_t left, int32_t *out_fai
     RETRIED(fe_body_set_enabled(world, bodies[3], 1));
     RETRIED(fe_shape_set_geometry(world, shape, &box));
     for (int i = 0; i < 3; ++i) RETRIED(fe_world_step(world, 1.0f / 60));
-    RETRIED(fe_world_sync_queries(world));
+    RETRIED(fe_world_optimize(world));
 #undef RETRIED
     return FE_OK;
 }

@@ -33,7 +33,7 @@ static void add_body(scene *s, int i)
     fe_body_def_init(&body, sizeof body);
     fe_shape_def_init(&shape, sizeof shape);
     body.transform.position = place(i);
-    shape.events = i % 5 == 0 ? FE_EVENTS_TOUCH | FE_EVENTS_HIT : FE_EVENTS_TOUCH;
+    shape.events = i % 5 == 0 ? FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_HIT : FE_SHAPE_EVENTS_TOUCH;
     if (i % 3 == 0) fe_geometry_sphere(&form, 0.5f);
     if (i % 3 == 1) fe_geometry_box(&form, 0.5f, 0.375f, 0.5f);
     if (i % 3 == 2) fe_geometry_capsule(&form, 0.25f, 0.375f);
@@ -91,27 +91,27 @@ static void add_joint(scene *s, int i)
     fe_vec3 x = fe_make_vec3(1, 0, 0), z = fe_make_vec3(0, 0, 1);
     fe_joint made;
     if (i % 10 == 0) {
-        fe_ball_def ball;
-        fe_ball_def_init(&ball, sizeof ball);
-        check(fe_ball_def_at(s->world, &ball, a, b, &middle, &x));
-        check(fe_ball_create(s->world, &ball, &made));
+        fe_ball_joint_def ball;
+        fe_ball_joint_def_init(&ball, sizeof ball);
+        check(fe_ball_joint_def_at(s->world, &ball, a, b, &middle, &x));
+        check(fe_ball_joint_create(s->world, &ball, &made));
     } else if (i % 10 == 4) {
-        fe_hinge_def hinge;
-        fe_hinge_def_init(&hinge, sizeof hinge);
-        check(fe_hinge_def_at(s->world, &hinge, a, b, &middle, &z));
-        hinge.limited = 1, hinge.min_angle = -0.5f, hinge.max_angle = 0.5f;
-        check(fe_hinge_create(s->world, &hinge, &made));
+        fe_hinge_joint_def hinge;
+        fe_hinge_joint_def_init(&hinge, sizeof hinge);
+        check(fe_hinge_joint_def_at(s->world, &hinge, a, b, &middle, &z));
+        hinge.limit_enabled = 1, hinge.lower = -0.5f, hinge.upper = 0.5f;
+        check(fe_hinge_joint_create(s->world, &hinge, &made));
     } else if (i % 10 == 7) {
-        fe_distance_def rod;
-        fe_distance_def_init(&rod, sizeof rod);
-        check(fe_distance_def_at(s->world, &rod, a, b, &from, &to));
-        check(fe_distance_create(s->world, &rod, &made));
+        fe_distance_joint_def rod;
+        fe_distance_joint_def_init(&rod, sizeof rod);
+        check(fe_distance_joint_def_at(s->world, &rod, a, b, &from, &to));
+        check(fe_distance_joint_create(s->world, &rod, &made));
     } else if (i % 10 == 2) {
-        fe_fixed_def fixed;
-        fe_fixed_def_init(&fixed, sizeof fixed);
-        check(fe_fixed_def_at(s->world, &fixed, a, b, &middle));
+        fe_fixed_joint_def fixed;
+        fe_fixed_joint_def_init(&fixed, sizeof fixed);
+        check(fe_fixed_joint_def_at(s->world, &fixed, a, b, &middle));
         fixed.break_force = 8192;
-        check(fe_fixed_create(s->world, &fixed, &made));
+        check(fe_fixed_joint_create(s->world, &fixed, &made));
     }
 }
 
@@ -151,9 +151,9 @@ static void listen(scene *s)
     static fe_body_event bodies[4096];
     int32_t count;
     check(count = fe_world_get_pair_events(s->world, pairs, 0, 4096));
-    for (int32_t i = 0; i < count && i < 4096; ++i) ++*(pairs[i].kind == FE_ENTER ? &s->enter : &s->leave);
+    for (int32_t i = 0; i < count && i < 4096; ++i) ++*(pairs[i].kind == FE_EVENT_ENTER ? &s->enter : &s->leave);
     check(count = fe_world_get_body_events(s->world, bodies, 0, 4096));
-    for (int32_t i = 0; i < count && i < 4096; ++i) ++*(bodies[i].kind == FE_SLEEP ? &s->sleep : &s->wake);
+    for (int32_t i = 0; i < count && i < 4096; ++i) ++*(bodies[i].kind == FE_EVENT_SLEEP ? &s->sleep : &s->wake);
     check(count = fe_world_get_hit_events(s->world, NULL, 0, 0));
     s->hit += count;
     check(count = fe_world_get_joint_events(s->world, NULL, 0, 0));

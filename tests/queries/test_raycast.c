@@ -219,7 +219,7 @@ static void a_ray_finds_it_while_the_world_moves(void **state)
     for (int i = 0; i < 5; ++i) {
         step(k.world, 7);
         FE_WITHIN(compare_many(&k, 200), 20, 230);
-        if (i == 2) OK(fe_world_sync_queries(k.world));
+        if (i == 2) OK(fe_world_optimize(k.world));
     }
     OK(fe_world_destroy(k.world));
 }

@@ -192,7 +192,7 @@ static void all_bodies_can_be_removed_and_come_back(void **state)
         fe_pair_event events[4];
         exits = fe_world_get_pair_events(p->world, events, 0, 4);
         assert_in_range(exits, 10, 10000); // the exits of what touched
-        assert_int_equal(events[0].kind, FE_EXIT);
+        assert_int_equal(events[0].kind, FE_EVENT_EXIT);
         assert_int_equal(fe_body_is_valid(p->world, events[0].body_b), 0);
         step(p, 1);
         assert_int_equal(fe_world_get_pair_events(p->world, NULL, 0, 0), 0);
@@ -284,7 +284,7 @@ static void types_and_shapes_change_between_steps(void **state)
     play_add(p, &ground);
     for (int32_t i = 0; i < 12; ++i) {
         part a = part_box(0.4f, 0.3f, 0.35f, 0.2 * (i % 2), 0.3 + 0.6 * i, 0.0);
-        a.shape.events = FE_EVENTS_TOUCH | FE_EVENTS_STAY | FE_EVENTS_HIT;
+        a.shape.events = FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT;
         play_add(p, &a);
     }
     for (int32_t i = 0; i < 200; ++i) {
@@ -379,8 +379,8 @@ static void events_balance_when_bodies_go_in_the_event_loop(void **state)
         int32_t count = fe_world_get_pair_events(p->world, events, 0, MOST);
         assert_in_range(count, 0, MOST);
         for (int32_t k = 0; k < count; ++k) {
-            enters += events[k].kind == FE_ENTER;
-            exits += events[k].kind == FE_EXIT;
+            enters += events[k].kind == FE_EVENT_ENTER;
+            exits += events[k].kind == FE_EVENT_EXIT;
             if ((i + k) % 11 == 3 && fe_body_is_valid(p->world, events[k].body_b)) PLAY(p, fe_body_destroy(p->world, events[k].body_b));
             if ((i + k) % 13 == 5 && fe_body_is_valid(p->world, events[k].body_b))
                 PLAY(p, fe_body_set_enabled(p->world, events[k].body_b, 0));
@@ -391,11 +391,11 @@ static void events_balance_when_bodies_go_in_the_event_loop(void **state)
     int32_t count = fe_world_get_bodies(p->world, bodies, 400), last;
     assert_in_range(count, 1, 300);
     last = fe_world_get_pair_events(p->world, events, 0, MOST);
-    for (int32_t k = 0; k < last; ++k) enters += events[k].kind == FE_ENTER, exits += events[k].kind == FE_EXIT;
+    for (int32_t k = 0; k < last; ++k) enters += events[k].kind == FE_EVENT_ENTER, exits += events[k].kind == FE_EVENT_EXIT;
     PLAY(p, fe_body_destroy_many(p->world, bodies, count));
     step(p, 1);
     last = fe_world_get_pair_events(p->world, events, 0, MOST);
-    for (int32_t k = 0; k < last; ++k) enters += events[k].kind == FE_ENTER, exits += events[k].kind == FE_EXIT;
+    for (int32_t k = 0; k < last; ++k) enters += events[k].kind == FE_EVENT_ENTER, exits += events[k].kind == FE_EVENT_EXIT;
     assert_in_range(enters, 100, 1000000);
     assert_int_equal(enters, exits);
 }

@@ -56,43 +56,43 @@ ADDS(hinge)
 ADDS(configurable)
 #undef ADDS
 
-static inline fe_joint add_fixed(scene *s, fe_fixed_def d, fe_body a, fe_body b, vec point)
+static inline fe_joint add_fixed(scene *s, fe_fixed_joint_def d, fe_body a, fe_body b, vec point)
 {
     fe_joint joint;
     vec p = to_world(s, point);
-    MUST(fe_fixed_def_at(s->world, &d, a, b, &p));
-    MUST(fe_fixed_create(s->world, &d, &joint));
+    MUST(fe_fixed_joint_def_at(s->world, &d, a, b, &p));
+    MUST(fe_fixed_joint_create(s->world, &d, &joint));
     return joint;
 }
 
 // between two points, as long as they are apart
 static inline fe_joint add_rod(scene *s, fe_body a, fe_body b, vec from, vec to)
 {
-    fe_distance_def d = distance_def();
+    fe_distance_joint_def d = distance_def();
     fe_joint joint;
     vec p = to_world(s, from), q = to_world(s, to);
-    MUST(fe_distance_def_at(s->world, &d, a, b, &p, &q));
-    MUST(fe_distance_create(s->world, &d, &joint));
+    MUST(fe_distance_joint_def_at(s->world, &d, a, b, &p, &q));
+    MUST(fe_distance_joint_create(s->world, &d, &joint));
     return joint;
 }
 
 // between two points; the lengths are those of `d`
-static inline fe_joint add_distance(scene *s, fe_distance_def d, fe_body a, fe_body b, vec from, vec to)
+static inline fe_joint add_distance(scene *s, fe_distance_joint_def d, fe_body a, fe_body b, vec from, vec to)
 {
     fe_joint joint;
-    fe_distance_def at = distance_def();
+    fe_distance_joint_def at = distance_def();
     vec p = to_world(s, from), q = to_world(s, to);
-    MUST(fe_distance_def_at(s->world, &at, a, b, &p, &q));
+    MUST(fe_distance_joint_def_at(s->world, &at, a, b, &p, &q));
     d.body_a = at.body_a, d.body_b = at.body_b, d.frame_a = at.frame_a, d.frame_b = at.frame_b;
-    MUST(fe_distance_create(s->world, &d, &joint));
+    MUST(fe_distance_joint_create(s->world, &d, &joint));
     return joint;
 }
 
 // a slider's definition: free along X
-static inline fe_configurable_def slider_def(void)
+static inline fe_configurable_joint_def slider_def(void)
 {
-    fe_configurable_def d = configurable_def();
-    d.axes[FE_ALONG_X].mode = FE_MOTION_FREE;
+    fe_configurable_joint_def d = configurable_def();
+    d.axes[FE_DOF_LINEAR_X].mode = FE_MOTION_FREE;
     return d;
 }
 

@@ -94,7 +94,7 @@ static fe_body add_arm(scene *s, int side)
 static fe_joint add_coupler(const governor *g, int side)
 {
     scene s = g->s;
-    fe_distance_def d = distance_def();
+    fe_distance_joint_def d = distance_def();
     vec from = v3(side * ASIDE, SHAFT - cos(START), 0), to = plus(from, times(0.5, v3(side * sin(START), cos(START), 0)));
     double inverse = 0;
     for (int k = 0; k < 2; ++k) {
@@ -103,7 +103,7 @@ static fe_joint add_coupler(const governor *g, int side)
                moment = fmax((double)m.inertia.x, (double)m.inertia.y);
         inverse += 1 / (double)m.mass + arm * arm / moment;
     }
-    d.min_length = 0, d.max_length = 10, d.length = 0.5f;
+    d.lower = 0, d.upper = 10, d.length = 0.5f;
     d.spring_hertz = (float)(sqrt(8e5 * inverse) / (2 * PI));
     d.spring_damping_ratio = (float)(4e4 * inverse / (2 * sqrt(8e5 * inverse)));
     return add_distance(&s, d, g->bodies[1], g->bodies[side > 0 ? 2 : 3], from, to);

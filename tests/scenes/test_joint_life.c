@@ -29,8 +29,8 @@ static tied add_tied(scene *s)
 {
     add_ground(s, friction(0.6));
     tied t = {add_sleeper(s, v3(0, 0.5, 0)), add_sleeper(s, v3(4, 0.5, 0)), 0};
-    fe_distance_def d = distance_def();
-    d.min_length = 0, d.max_length = 4;
+    fe_distance_joint_def d = distance_def();
+    d.lower = 0, d.upper = 4;
     t.rope = add_distance(s, d, t.a, t.b, v3(0.5, 0.5, 0), v3(3.5, 0.5, 0));
     return t;
 }
@@ -80,15 +80,15 @@ static void each_change_of_a_joint_wakes_its_bodies(void **state)
         run(&s, 60);
         FE_TRUE(!is_awake(&s, t.a) && !is_awake(&s, t.b));
         fe_joint other;
-        fe_distance_def d = distance_def();
+        fe_distance_joint_def d = distance_def();
         fe_joint_def front = {.struct_size = sizeof front};
         d.body_a = t.a, d.body_b = t.b;
         MUST(fe_joint_get(s.world, t.rope, &front));
-        if (change == 0) MUST(fe_distance_set(s.world, t.rope, &d));
+        if (change == 0) MUST(fe_distance_joint_set(s.world, t.rope, &d));
         if (change == 1) MUST(fe_joint_set(s.world, t.rope, &front));
         if (change == 2) MUST(fe_joint_set_enabled(s.world, t.rope, 0));
         if (change == 3) MUST(fe_joint_destroy(s.world, t.rope));
-        if (change == 4) MUST(fe_distance_create(s.world, &d, &other));
+        if (change == 4) MUST(fe_distance_joint_create(s.world, &d, &other));
         FE_TRUE(is_awake(&s, t.a) && is_awake(&s, t.b));
         scene_end(&s);
     }
@@ -146,11 +146,11 @@ static void joined_bodies_touch_only_if_asked(void **state)
     set_gravity(&s, v3(0, 0, 0));
     fe_body a = add_plain(&s, box(0.5, 0.5, 0.5), v3(0, 0, 0)), b = add_plain(&s, box(0.5, 0.5, 0.5), v3(0.98, 0, 0));
     run(&s, 1);
-    FE_TRUE(contacts_of(&s, a) == 1 && pair_events(&s, FE_ENTER) == 1);
+    FE_TRUE(contacts_of(&s, a) == 1 && pair_events(&s, FE_EVENT_ENTER) == 1);
     fe_joint joint = add_fixed(&s, fixed_def(), a, b, v3(0.5, 0, 0));
     FE_TRUE(contacts_of(&s, a) == 0);
     run(&s, 1);
-    FE_TRUE(contacts_of(&s, a) == 0 && pair_events(&s, FE_EXIT) == 1);
+    FE_TRUE(contacts_of(&s, a) == 0 && pair_events(&s, FE_EVENT_EXIT) == 1);
     run(&s, 30);
     FE_TRUE(contacts_of(&s, a) == 0);
     fe_joint_def front = {.struct_size = sizeof front};
@@ -158,11 +158,11 @@ static void joined_bodies_touch_only_if_asked(void **state)
     front.collide_connected = 1;
     MUST(fe_joint_set(s.world, joint, &front));
     run(&s, 1);
-    FE_TRUE(contacts_of(&s, a) == 1 && pair_events(&s, FE_ENTER) == 1);
+    FE_TRUE(contacts_of(&s, a) == 1 && pair_events(&s, FE_EVENT_ENTER) == 1);
     front.collide_connected = 0;
     MUST(fe_joint_set(s.world, joint, &front));
     run(&s, 1);
-    FE_TRUE(contacts_of(&s, a) == 0 && pair_events(&s, FE_EXIT) == 1);
+    FE_TRUE(contacts_of(&s, a) == 0 && pair_events(&s, FE_EVENT_EXIT) == 1);
     MUST(fe_joint_set_enabled(s.world, joint, 0)); // as if it were not there
     run(&s, 1);
     FE_TRUE(contacts_of(&s, a) == 1);
@@ -188,7 +188,7 @@ static void a_joint_breaks_above_its_force_and_says_so(void **state)
             scene s = scene_begin(state);
             fe_body anchor = add_anchor(&s, v3(0, 0, 0)), bar = add_plain(&s, box(0.5, 0.1, 0.1), v3(0.5, 0, 0));
             double load = mass_of(&s, bar) * G * (by_torque ? 0.5 : 1);
-            fe_fixed_def d = fixed_def();
+            fe_fixed_joint_def d = fixed_def();
             d.user_data = 77;
             // the load comes at once: a spring without damping would take twice the load, this one, overdamped, no more than a fifth above
             // it
@@ -205,7 +205,7 @@ static void a_joint_breaks_above_its_force_and_says_so(void **state)
                 int32_t count = fe_world_get_joint_events(s.world, &e, 0, 1);
                 if (!count) continue;
                 FE_TRUE(++broke == 1 && count == 1);
-                FE_TRUE(e.joint == joint && e.body_a == anchor && e.body_b == bar && e.user_data == 77 && e.kind == FE_BREAK &&
+                FE_TRUE(e.joint == joint && e.body_a == anchor && e.body_b == bar && e.user_data == 77 && e.kind == FE_EVENT_BREAK &&
                         e.type == FE_JOINT_FIXED);
                 FE_WITHIN(length(widen(by_torque ? e.torque : e.force)), (double)most, 1.3 * load);
                 FE_TRUE(!fe_joint_is_valid(s.world, joint));
@@ -231,7 +231,7 @@ static void joints_break_in_the_order_of_creation(void **state)
     for (int i = 0; i < WEIGHTS; ++i) weights[i] = add_plain(&s, sphere(0.2), v3(i, -1, 0));
     double load = mass_of(&s, weights[0]) * G;
     for (int i = 0; i < WEIGHTS; ++i) {
-        fe_ball_def d = ball_def();
+        fe_ball_joint_def d = ball_def();
         d.break_force = (float)(i % 3 == 1 ? 2 * load : 0.5 * load);
         strings[i] = add_ball(&s, d, anchor, weights[order[i]], v3(order[i], 0, 0), v3(0, 1, 0));
     }
@@ -370,8 +370,8 @@ static void a_teleported_pair_goes_on_as_it_was(void **state)
     scene s = scene_begin(state);
     set_gravity(&s, v3(0, 0, 0));
     fe_body a = add_plain(&s, box(0.3, 0.2, 0.2), v3(0, 0, 0)), b = add_plain(&s, box(0.3, 0.2, 0.2), v3(1, 0, 0));
-    fe_hinge_def d = hinge_def();
-    d.limited = 1, d.min_angle = -0.2f, d.max_angle = (float)PI;
+    fe_hinge_joint_def d = hinge_def();
+    d.limit_enabled = 1, d.lower = -0.2f, d.upper = (float)PI;
     fe_joint joint = add_hinge(&s, d, a, b, v3(0.5, 0, 0), v3(0, 0, 1));
     fe_transform t = {to_world(&s, v3(1000, 5, 0)), compose(s.turn, turned(v3(0, 1, 1), 2))};
     fe_transform u = {plus(t.position, rotate(t.rotation, v3(0.5, 0, 0))), compose(t.rotation, turned(v3(0, 0, 1), 3.1))};
@@ -430,7 +430,7 @@ static void no_joint_moves_a_locked_coordinate(void **state)
             fe_body upper = add_dynamic(&s, box(0.2, 0.2, 0.2), at, UNTURNED, friction(0.5), WATER),
                     lower = add_dynamic(&s, box(0.3, 0.2, 0.1), plus(at, v3(0.3, -1, 0.2)), turned(v3(1, 2, 3), 1), friction(0.5), WATER);
             vec point = plus(at, v3(0, -0.5, 0));
-            fe_configurable_def six = configurable_def();
+            fe_configurable_joint_def six = configurable_def();
             for (int k = 0; k < 6; ++k) six.axes[k].mode = FE_MOTION_LIMITED, six.axes[k].low = -0.1f, six.axes[k].high = 0.1f;
             MUST(fe_body_set_locks(s.world, lower, linear, angular));
             add_rod(&s, anchor, upper, v3(3 * type, 2, 0), at);
@@ -463,9 +463,9 @@ static void making_and_destroying_joints_takes_no_more_and_more_memory(void **st
     int64_t bytes = 0;
     const int rounds = SLOW_BUILD ? 500 : 50000;
     for (int i = 0; i < rounds; ++i) {
-        fe_hinge_def hinge = hinge_def();
-        fe_configurable_def six = configurable_def();
-        hinge.limited = 1;
+        fe_hinge_joint_def hinge = hinge_def();
+        fe_configurable_joint_def six = configurable_def();
+        hinge.limit_enabled = 1;
         six.axes[i % 6].mode = FE_MOTION_LIMITED;
         fe_joint one = add_hinge(&s, hinge, a, b, v3(0.5, 0, 0), v3(0, 1, 0)),
                  two = add_configurable(&s, six, a, b, v3(0.5, 0, 0), v3(0, 1, 0));

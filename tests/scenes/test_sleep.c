@@ -85,10 +85,10 @@ static void a_body_at_rest_sleeps_after_half_a_second(void **state)
     set_gravity(&s, v3(0, 0, 0));
     fe_body body = add_sleeper(&s, cube(), v3(0, 0, 0));
     FE_WITHIN(settle(&s, 100), 30, 31);
-    FE_TRUE(body_event(&s, body, FE_SLEEP) == 1);
+    FE_TRUE(body_event(&s, body, FE_EVENT_SLEEP) == 1);
     FE_NEAR(length(velocity(&s, body)), 0, 0);
     run(&s, 1);
-    FE_TRUE(body_event(&s, body, FE_SLEEP) == 0);
+    FE_TRUE(body_event(&s, body, FE_EVENT_SLEEP) == 0);
     scene_end(&s);
 }
 
@@ -154,7 +154,7 @@ static void an_island_falls_asleep_as_one(void **state)
         if (!all_awake(&s, bodies, TOWER)) break;
     }
     FE_TRUE(!all_awake(&s, bodies, TOWER));
-    for (int i = 0; i < TOWER; ++i) FE_TRUE(body_event(&s, bodies[i], FE_SLEEP) == 1);
+    for (int i = 0; i < TOWER; ++i) FE_TRUE(body_event(&s, bodies[i], FE_EVENT_SLEEP) == 1);
     scene_end(&s);
 }
 
@@ -295,10 +295,10 @@ static void every_change_wakes_the_island(void **state)
                 FE_TRUE(awake(&s, bodies[k]));
             }
         run(&s, 1);
-        FE_TRUE(body_event(&s, bodies[0], FE_WAKE) == 1);
-        FE_TRUE(body_event(&s, bodies[3], FE_WAKE) == 1);
+        FE_TRUE(body_event(&s, bodies[0], FE_EVENT_WAKE) == 1);
+        FE_TRUE(body_event(&s, bodies[3], FE_EVENT_WAKE) == 1);
         FE_TRUE(!all_awake(&s, others, TOWER));
-        FE_TRUE(body_event(&s, others[0], FE_WAKE) == 0);
+        FE_TRUE(body_event(&s, others[0], FE_EVENT_WAKE) == 0);
         scene_end(&s);
     }
 }
@@ -343,7 +343,7 @@ static void a_touch_wakes_the_island_and_is_reported(void **state)
         run(&s, 1);
         fe_pair_event events[16];
         int32_t count = fe_world_get_pair_events(s.world, events, 0, 16);
-        for (int k = 0; k < count; ++k) entered |= events[k].kind == FE_ENTER && events[k].body_a == bodies[0] && events[k].body_b == ball;
+        for (int k = 0; k < count; ++k) entered |= events[k].kind == FE_EVENT_ENTER && events[k].body_a == bodies[0] && events[k].body_b == ball;
     }
     FE_TRUE(entered);
     FE_TRUE(all_awake(&s, bodies, TOWER));
@@ -479,8 +479,8 @@ static void contacts_survive_sleep_without_events(void **state)
             by_velocity(&s, bodies[3]);
         }
         run(&s, 1);
-        balance += count_pair_events(&s, FE_ENTER) - count_pair_events(&s, FE_EXIT);
-        FE_TRUE(count_pair_events(&s, FE_STAY) == 0); // nobody asked
+        balance += count_pair_events(&s, FE_EVENT_ENTER) - count_pair_events(&s, FE_EVENT_EXIT);
+        FE_TRUE(count_pair_events(&s, FE_EVENT_STAY) == 0); // nobody asked
     }
     FE_TRUE(awake_count(&s) == 0);
     FE_TRUE(balance == TOWER);

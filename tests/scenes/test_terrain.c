@@ -403,7 +403,7 @@ static void contacts_tell_the_patches(void **state)
     for (int step = 0; step < 90; ++step) {
         run(&s, 1);
         int32_t n = fe_world_get_pair_events(s.world, events, 0, 8);
-        for (int32_t i = 0; i < n; ++i) begins += events[i].kind == FE_ENTER, ends += events[i].kind == FE_EXIT;
+        for (int32_t i = 0; i < n; ++i) begins += events[i].kind == FE_EVENT_ENTER, ends += events[i].kind == FE_EVENT_EXIT;
     }
     FE_TRUE(begins == 1 && ends == 1);
     scene_end(&s);

@@ -136,7 +136,7 @@ static int32_t ignore(fuzz *f)
     return fe_world_ignore_collision(f->world, a, b, fuzz_byte(f) % 3);
 }
 
-static int32_t sync_queries(fuzz *f) { return fe_world_sync_queries(f->world); }
+static int32_t sync_queries(fuzz *f) { return fe_world_optimize(f->world); }
 
 static int32_t raycast(fuzz *f)
 {
@@ -652,7 +652,7 @@ const fuzz_call fuzz_calls[] = {
     {"fe_world_set_substeps", set_substeps, 0},
     {"fe_world_set_tuning", set_tuning, 0},
     {"fe_world_ignore_collision", ignore, 0},
-    {"fe_world_sync_queries", sync_queries, 0},
+    {"fe_world_optimize", sync_queries, 0},
     {"fe_world_raycast", raycast, 0},
     {"fe_world_raycast_all, _any, fe_body_raycast, fe_shape_raycast", query_rays, 0},
     {"fe_world_sweep, _all, _any, fe_world_overlap", query_forms, 0},
@@ -688,10 +688,10 @@ const fuzz_call fuzz_calls[] = {
     {"bulk reads", read_bulk, 0},
     {"bulk writes", write_bulk, 1},
     {"fe_world_get_counters", read_measures, 0},
-    {"fe_hinge_create and such", fuzz_create_joint, 1},
+    {"fe_hinge_joint_create and such", fuzz_create_joint, 1},
     {"a whole joint", fuzz_join, 1},
     {"a whole joint", fuzz_join, 1},
-    {"fe_hinge_set and such", fuzz_set_joint, 1},
+    {"fe_hinge_joint_set and such", fuzz_set_joint, 1},
     {"fe_joint_set, set_enabled", fuzz_set_joint_front, 1},
     {"fe_joint_destroy", fuzz_destroy_joint, 0},
     {"sliders, wheels, motors, rods", fuzz_make_joint, 1},

@@ -48,11 +48,11 @@ static void tie(play *p, fe_body a, fe_body b, double x, double z, float break_f
     const fe_dvec3 point = {x, 0, z};
     const fe_vec3 axis = {1, 0, 0};
     fe_joint joint;
-    fe_ball_def d;
-    fe_ball_def_init(&d, sizeof d);
+    fe_ball_joint_def d;
+    fe_ball_joint_def_init(&d, sizeof d);
     d.break_force = break_force;
-    PLAY(p, fe_ball_def_at(p->world, &d, a, b, &point, &axis));
-    PLAY(p, fe_ball_create(p->world, &d, &joint));
+    PLAY(p, fe_ball_joint_def_at(p->world, &d, a, b, &point, &axis));
+    PLAY(p, fe_ball_joint_create(p->world, &d, &joint));
     if (break_force > 0.0f) p->joints[p->joint_count++] = joint;
 }
 

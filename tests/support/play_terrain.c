@@ -46,7 +46,7 @@ static part any_part(play *p, int32_t i)
     a.body.transform.rotation.z = play_between(p, -1.0f, 1.0f);
     a.shape.material.rolling_resistance = 0.2f;
     a.shape.material.spinning_resistance = 0.02f;
-    if (i % 5 == 0) a.shape.events = FE_EVENTS_TOUCH | FE_EVENTS_STAY | FE_EVENTS_HIT;
+    if (i % 5 == 0) a.shape.events = FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT;
     if (i % 17 == 3) a.shape.trigger = 1, a.body.gravity_scale = 0.2f;
     if (i % 9 == 4) a.body.linear_velocity.x = 30.0f, a.body.linear_velocity.y = -20.0f;
     return a;

@@ -27,7 +27,7 @@ typedef struct fe__shape {
     int32_t next, previous; // of the body's shapes, in the order of creation
     uint64_t serial;        // of creation, never reused
     uint64_t body_serial;   // of its body
-    fe_handle user_data;
+    uint64_t user_data;
     int32_t next_user; // of the same heightfield, -1: none
 } fe__shape;
 
