@@ -1,5 +1,8 @@
 // asset.c - the API of what shapes share: heightfields.
 #include "api/check.h"
+#include "core/fp_state.h"
+#include "world/assets.h"
+#include "world/handles.h"
 
 enum { MOST_LINES = 32768, MOST_SAMPLES = 1 << 28, MOST_MATERIALS = FE__CELL_HOLE };
 

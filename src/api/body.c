@@ -1,5 +1,11 @@
 // body.c - the API of bodies: life, pose, mass, locks, switches. Velocities and forces are in body_motion.c.
 #include "api/check.h"
+#include "core/fp_state.h"
+#include "world/bodies.h"
+#include "world/handles.h"
+#include "world/mass.h"
+#include "world/shapes.h"
+#include "world/sleep.h"
 
 #include <string.h>
 

@@ -1,5 +1,8 @@
 // body_motion.c - the API of velocities, forces and impulses.
 #include "api/check.h"
+#include "core/fp_state.h"
+#include "world/motion.h"
+#include "world/pose.h"
 
 // ---- velocities -----------------------------------------------------------------------------------------------------------------
 

@@ -1,5 +1,9 @@
 // events.c - the API of what a step left behind: events and contacts.
 #include "api/check.h"
+#include "core/fp_state.h"
+#include "world/handles.h"
+#include "world/pair_list.h"
+#include "world/pairs.h"
 
 #include <string.h>
 

@@ -1,6 +1,8 @@
 // joint_at.c - definitions of joints from points and axes of the world: the present pose is the zero.
 #include "api/joint_def.h"
 #include "core/trig.h"
+#include "core/fp_state.h"
+#include "world/handles.h"
 
 // ---- frames ---------------------------------------------------------------------------------------------------------------------------
 typedef struct ends {

@@ -1,5 +1,10 @@
 // shape.c - the API of shapes: geometry, material, filter, life.
 #include "api/check.h"
+#include "core/fp_state.h"
+#include "world/handles.h"
+#include "world/mass.h"
+#include "world/shapes.h"
+#include "world/sleep.h"
 
 // ---- geometry -------------------------------------------------------------------------------------------------------------------
 

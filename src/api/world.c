@@ -1,5 +1,13 @@
 // world.c - the API of worlds: creation, step, settings, counters.
 #include "api/check.h"
+#include "core/fp_state.h"
+#include "step/step.h"
+#include "world/handles.h"
+#include "world/hash.h"
+#include "world/ignore.h"
+#include "world/lifetime.h"
+#include "world/proxies.h"
+#include "world/sleep.h"
 
 // ---- creation -------------------------------------------------------------------------------------------------------------------
 

@@ -3,8 +3,14 @@
 // A pair that moved little keeps its manifold (recycling, wide); the others go through the narrow phase one by one. Workers only write
 // their pairs' own records and a list of results; the results are applied afterwards, sorted by creation, so that colours and wake-ups
 // follow no thread.
+#include "step/collide_stage.h"
+
 #include "solver/graph/graph.h"
-#include "step/step.h"
+#include "step/narrow.h"
+#include "step/narrow_field.h"
+#include "world/pair_link.h"
+#include "world/pairs.h"
+#include "world/sleep.h"
 
 enum { PAIRS_IN_BLOCK = 64, PAIRS_IN_CACHE = 256, FETCHED_AHEAD = 24 };
 
@@ -26,8 +32,8 @@ static int32_t boxes_part(const fe_world *w, const fe__pair *p)
     const fe__shape *x = w->shapes + p->shape_a, *y = w->shapes + p->shape_b;
     if (x->flags & FE__SHAPE_IN_TREE) box_of(w, p->shape_a, &a);
     if (y->flags & FE__SHAPE_IN_TREE) box_of(w, p->shape_b, &b);
-    if (x->flags & FE__SHAPE_IN_PLANES) return !fe__box_meets_plane(x, &b);
-    if (y->flags & FE__SHAPE_IN_PLANES) return !fe__box_meets_plane(y, &a);
+    if (x->flags & FE__SHAPE_IN_PLANES) return !fe__plane_meets_box(&x->form, &x->pose, &b);
+    if (y->flags & FE__SHAPE_IN_PLANES) return !fe__plane_meets_box(&y->form, &y->pose, &a);
     return a.high.x < b.low.x || b.high.x < a.low.x || a.high.y < b.low.y || b.high.y < a.low.y || a.high.z < b.low.z || b.high.z < a.low.z;
 }
 
@@ -186,7 +192,8 @@ static void collide_block(void *argument, int32_t first, int32_t end, int32_t wo
 }
 
 // ---- results -------------------------------------------------------------------------------------------------------------------
-void fe__sort_pairs(fe__step *step, int32_t *pairs, int32_t count)
+// by the creation of their shapes
+static void sort_pairs(fe__step *step, int32_t *pairs, int32_t count)
 {
     const fe_world *w = step->world;
     fe__sort_item *items = step->scratch->sort_items;
@@ -208,7 +215,7 @@ static void apply_results(fe__step *step, int32_t first)
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     int32_t *results = s->results + first, count = atomic_load(&s->result_count) - first;
-    fe__sort_pairs(step, results, count);
+    sort_pairs(step, results, count);
     for (int32_t i = 0; i < count; ++i)
         if (w->pairs[results[i]].result == FE__RESULT_END || w->pairs[results[i]].result == FE__RESULT_APART)
             fe__pair_unlink(w, results[i]);

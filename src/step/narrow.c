@@ -2,8 +2,11 @@
 //
 // Called by the collide stage on any thread, for pairs that cannot be recycled. Double positions are subtracted here, so that everything
 // below is float and small. Only the pair's own records are written.
-#include "collision/manifold/collide.h"
+#include "step/narrow.h"
+
 #include "step/ahead.h"
+#include "step/narrow_seam.h"
+#include "world/pose.h"
 
 #include <string.h>
 
@@ -44,25 +47,6 @@ float fe__reach_in_step(const fe_world *world, const fe__body *a, const fe__body
 {
     float fall = fe__length(world->gravity) * dt * dt;
     return (a->centre_low[3] + b->centre_low[3]) * dt + fall;
-}
-
-// where a body would be at the end of a step without contacts
-void fe__advance(const fe_world *world, const fe__body *body, float dt, fe_dvec3 *centre, fe_quat *rotation)
-{
-    *centre = fe__centre_of(body), *rotation = fe__rotation_of(body);
-    if (body->awake_index < 0) return;
-    fe_vec3 v = fe__quad_vector(body->velocity), w = fe__scale(0.5f * dt, fe__quad_vector(body->spin));
-    if (body->type == FE_BODY_DYNAMIC && !body->locked) v = fe__add_scaled(v, dt * body->gravity_scale, world->gravity);
-    *centre = fe__dadd(*centre, fe__dscale((double)dt, fe__widen(v)));
-    fe_quat q = *rotation, turn = fe__product((fe_quat){w.x, w.y, w.z, 0.0f}, q);
-    *rotation = fe__normalized((fe_quat){q.x + turn.x, q.y + turn.y, q.z + turn.z, q.w + turn.w});
-}
-
-fe__pose fe__shape_pose_at(const fe__body *body, const fe__shape *shape, fe_dvec3 centre, fe_quat rotation)
-{
-    fe_dvec3 arm = fe__drotate(rotation, fe__widen(fe__quad_vector(body->local_centre)));
-    fe__pose pose = {fe__dsub(centre, arm), rotation};
-    return fe__compose(&pose, shape->local_position, shape->local_rotation);
 }
 
 typedef struct prediction {

@@ -2,8 +2,13 @@
 //
 // Called by the collide stage on any thread, for heads that cannot be recycled. Only the pair's own records are written. The frame has the
 // heightfield's axes and its origin at the other shape; double positions are subtracted here.
+#include "step/narrow_field.h"
+
 #include "collision/manifold/terrain.h"
 #include "step/narrow.h"
+#include "world/pair_list.h"
+#include "world/pair_mix.h"
+#include "world/pose.h"
 
 #include <string.h>
 

@@ -3,9 +3,11 @@
 // Called by narrow.c with a manifold of a static box. A direction m of contact at a point q of the box holds only while no other static box
 // near the same body goes on from q and rises along m: it must lie in the normal cone of both (as in terrain_surface.h). A manifold whose
 // points all fail is exchanged for that of the box's face that the surroundings allow, which may have no points.
+#include "step/narrow_seam.h"
+
 #include "collision/form/clip.h"
 #include "collision/form/support.h"
-#include "step/narrow.h"
+#include "world/pair_list.h"
 
 #include <float.h>
 

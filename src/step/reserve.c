@@ -2,8 +2,13 @@
 //
 // The bounds follow from what is awake, what may wake, and the candidates just found. When one allocation fails, the step fails with the
 // world as it was; later stages cannot fail, so that no contact and no event is ever dropped.
+#include "step/reserve.h"
+
 #include "solver/graph/graph.h"
-#include "step/step.h"
+#include "step/island_bound.h"
+#include "world/forest.h"
+#include "world/pair_mix.h"
+#include "world/pairs.h"
 
 #include <string.h>
 
@@ -137,5 +142,5 @@ int32_t fe__reserve_step(fe__step *step)
     if (!fe__reserve_pairs(w, step->scratch->candidate_count + step->scratch->candidate_patches) || !reserve_scratch(step, &bound))
         return 0;
     return bound.bodies == 0 ||
-           (fe__find_clusters(step, &bound) && fe__graph_reserve(&w->solver, &w->memory, w->kernels, &bound, w->workers.count));
+           (fe__bound_islands(step, &bound) && fe__graph_reserve(&w->solver, &w->memory, w->kernels, &bound, w->workers.count));
 }

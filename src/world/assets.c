@@ -2,7 +2,11 @@
 //
 // Called by the API layer with checked arguments, between steps. A shape with a heightfield is a user of its asset; the narrow phase and
 // the queries read the records. New heights reach the shapes' bounds and trees at once and the contacts in the next step.
-#include "world/world.h"
+#include "world/assets.h"
+
+#include "world/pair_list.h"
+#include "world/proxies.h"
+#include "world/sleep.h"
 
 #include <string.h>
 
@@ -115,15 +119,6 @@ void fe__assets_free(fe_world *world)
     fe__id_pool_free(&world->asset_ids, &world->memory);
     FE_FREE(&world->memory, world->fields, world->field_capacity);
     FE_FREE(&world->memory, world->assets, world->asset_capacity);
-}
-
-fe_handle fe__asset_handle(const fe_world *world, int32_t index) { return fe__id_pool_handle(&world->asset_ids, index); }
-
-const fe_material *fe__shape_material(const fe_world *world, const fe__shape *shape, int32_t cell)
-{
-    if (shape->form.type != FE_GEOMETRY_HEIGHTFIELD || cell < 0) return &shape->material;
-    const fe__asset *a = world->assets + shape->form.field;
-    return a->material_count ? a->materials + world->fields[shape->form.field].cells[cell] : &shape->material;
 }
 
 // ---- new heights --------------------------------------------------------------------------------------------------------------------

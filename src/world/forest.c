@@ -1,7 +1,9 @@
 // forest.c - finds the trees among the joints, see solver/tree/joint_forest.h. Input: linked joints and masses; output: fe__joints.forest.
 //
 // Only what a sweep is bad at is worth the cost: a tree in which some joint bears far more than its own bodies weigh.
-#include "world/world.h"
+#include "world/forest.h"
+
+#include "world/joint_list.h"
 
 // The load on a joint against the effective mass that its stiffness counts with (m w^2), from which on a tree is solved at once. Under its
 // own weight such a joint of 60 Hz gives by 32 g / (2 pi 60 Hz)^2 = 2.2 mm: about half the linear slop.
@@ -41,7 +43,7 @@ typedef struct axle {
 
 static axle axle_of(const float *frame, const float *arm)
 {
-    const fe_quat q = {frame[0], frame[1], frame[2], frame[3]};
+    const fe_quat q = fe__quat_of(frame);
     return (axle){fe__rotate(q, fe__vec3(1.0f, 0.0f, 0.0f)), fe__vec3(arm[0], arm[1], arm[2])};
 }
 

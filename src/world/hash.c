@@ -1,6 +1,9 @@
 // hash.c - the fingerprint of a world: poses, velocities, contacts, joints, events. It knows nothing of rows, lanes, slots or lists.
+#include "world/hash.h"
+
 #include "core/hash.h"
-#include "world/world.h"
+#include "world/joints.h"
+#include "world/pair_list.h"
 
 static void hash_floats(fe__hash *h, const float *a, int count)
 {

@@ -47,11 +47,6 @@ typedef struct fe__joint_record {
     fe_handle user_data;
 } fe__joint_record;
 
-typedef struct fe__joint_event_record {
-    uint64_t serial;
-    fe_joint_event event;
-} fe__joint_event_record;
-
 // bytes of a type's definition
 static inline int32_t fe__joint_def_size(int32_t type)
 {

@@ -2,8 +2,8 @@
 //
 // A form lives in the frame of its shape. Everything below this layer knows forms and poses only; bodies and shapes are the world's. No
 // other folder switches over the kinds of forms.
-#ifndef FE_COLLISION_FORM_H
-#define FE_COLLISION_FORM_H
+#ifndef FE_COLLISION_FORM_FORM_H
+#define FE_COLLISION_FORM_FORM_H
 #include "core/math.h"
 
 // A triangle is no public form: heightfields hand out theirs one by one.
@@ -57,6 +57,9 @@ typedef struct fe__bounds {
     fe_dvec3 low, high;
 } fe__bounds;
 fe__bounds fe__form_bounds(const fe__form *form, const fe__pose *pose);
+
+// Does the box reach into the half space of a plane?
+int32_t fe__plane_meets_box(const fe__form *plane, const fe__pose *pose, const fe__bounds *box);
 
 // largest distance from `centre` (form's frame) to a point of the form; 0 for what is static only
 float fe__form_reach(const fe__form *form, fe_vec3 centre);

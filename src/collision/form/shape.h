@@ -1,6 +1,6 @@
 // shape.h - the record of a shape: form, local pose, material, filter; where it is now and its box in the broad phase.
-#ifndef FE_COLLISION_SHAPE_H
-#define FE_COLLISION_SHAPE_H
+#ifndef FE_COLLISION_FORM_SHAPE_H
+#define FE_COLLISION_FORM_SHAPE_H
 #include "collision/form/form.h"
 
 enum {
