@@ -41,7 +41,7 @@ static fe_dvec3 allowed(const slide *s, fe_dvec3 way)
 // The part of a normal along which the body can move at all
 static fe_dvec3 free_part(const fe__body *b, fe_dvec3 normal)
 {
-    const uint32_t locks = (uint32_t)b->spin[3];
+    const uint32_t locks = (uint32_t)b->lock_bits;
     return (fe_dvec3){locks & FE_AXIS_X ? 0.0 : normal.x, locks & FE_AXIS_Y ? 0.0 : normal.y, locks & FE_AXIS_Z ? 0.0 : normal.z};
 }
 

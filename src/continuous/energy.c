@@ -11,8 +11,8 @@ static float energy_of(const fe__body *b, fe_quat rotation, const float *v, cons
 {
     fe_quat axes = fe__product(rotation, fe__quat_of(b->inertia_axes));
     fe_vec3 spin = fe__rotate_back(fe__normalized(axes), fe__quad_vector(w));
-    return 0.5f * (b->inertia[3] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + b->inertia[0] * spin.x * spin.x +
-                   b->inertia[1] * spin.y * spin.y + b->inertia[2] * spin.z * spin.z);
+    return 0.5f * (b->mass * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + b->inertia[0] * spin.x * spin.x + b->inertia[1] * spin.y * spin.y +
+                   b->inertia[2] * spin.z * spin.z);
 }
 
 static int32_t is_driven(const fe__body *b)
@@ -53,7 +53,7 @@ void fe__limit_energy(const fe__step *step, int32_t body)
     float *velocity = w->solver.velocity[b->line];
     const float *motion = w->solver.motion[b->line];
     fe_quat before = fe__rotation_of(b), after = fe__product(fe__quat_of(motion + 4), before);
-    float weight = b->inertia[3] * b->gravity_scale, h = step->constants.h;
+    float weight = b->mass * b->gravity_scale, h = step->constants.h;
     // of the discrete fall: v . h g / 2 belongs to the height
     float work = weight * fe__dot(w->gravity, fe__quad_vector(motion));
     work -= 0.5f * weight * h * fe__dot(w->gravity, fe__sub(fe__quad_vector(velocity), fe__quad_vector(b->velocity)));

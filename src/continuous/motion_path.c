@@ -94,5 +94,5 @@ float fe__path_length(const fe__step *step, int32_t body)
     const fe__body *b = step->world->bodies + body;
     if (!moves(b)) return 0.0f;
     fe__shift end = shift_of(step->world->solver.motion[b->line]);
-    return length_of(&end, b->local_centre[3]);
+    return length_of(&end, b->reach);
 }

@@ -81,7 +81,7 @@ static int32_t may_close(const search *s, const fe__shape *own, const fe__mobile
     for (int32_t leg = 1; leg <= legs; ++leg) {
         fe__shift at = fe__path_place(step, s->body, leg);
         fe_dvec3 axis = {(double)at.turn.x, (double)at.turn.y, (double)at.turn.z}, across = fe__dcross(gap.normal, axis);
-        double turning = (double)FE_PI * sqrt(fe__ddot(across, across)) * (double)body->local_centre[3];
+        double turning = (double)FE_PI * sqrt(fe__ddot(across, across)) * (double)body->reach;
         if (fe__ddot(gap.normal, at.centre) + turning + 2.0 * FE_TOUCH > gap.distance) return 1;
     }
     return 0;
@@ -106,7 +106,7 @@ static void try_field(search *s, const fe__shape *own, const fe__shape *obstacle
     fe_dvec3 way = fe__dsub(s->motion.translation, other->motion.translation);
     fe_dvec3 from = fe__drotate_back(pose.rotation, fe__dsub(s->motion.centre, pose.position));
     fe_dvec3 to = fe__dadd(from, fe__drotate_back(pose.rotation, way));
-    double reach = (double)w->bodies[s->body].local_centre[3];
+    double reach = (double)w->bodies[s->body].reach;
     fe_dvec3 low = {fe__mind(from.x, to.x) - reach, fe__mind(from.y, to.y) - reach, fe__mind(from.z, to.z) - reach};
     fe_dvec3 high = {fe__maxd(from.x, to.x) + reach, fe__maxd(from.y, to.y) + reach, fe__maxd(from.z, to.z) + reach};
     fe__bounds box = {low, high};
@@ -181,7 +181,7 @@ int32_t fe__path_is_blocked(const fe__step *step, int32_t body, int32_t against)
     const fe__body *b = step->world->bodies + body;
     search s = begin(step, body, against);
     int32_t legs = fe__path_legs(step, body);
-    double reach = (double)b->local_centre[3];
+    double reach = (double)b->reach;
     fe__bounds box = {fe__centre_of(b), fe__centre_of(b)};
     for (int32_t leg = 0; leg <= legs; ++leg) add_place(&box, fe__dadd(s.base, fe__path_place(step, body, leg).centre), reach);
     s.motion = fe__path_motion(step, body, 0.0, 1.0, s.base);
@@ -195,7 +195,7 @@ fe__obstacle fe__first_obstacle(const fe__step *step, int32_t body, int32_t agai
 {
     const fe__body *b = step->world->bodies + body;
     search s = begin(step, body, against);
-    double reach = (double)b->local_centre[3];
+    double reach = (double)b->reach;
     s.motion = fe__motion_of_shifts(b, from, to, s.base);
     s.begin = begins, s.end = ends;
     fe_dvec3 at = fe__dadd(s.base, from->centre);

@@ -31,12 +31,12 @@ static fe_quat turn_of(const end *e) { return e->motion ? fe__quat_of(e->motion 
 static end end_of(const fe_world *w, int32_t body, const float *local_arm, int32_t holds)
 {
     const fe__body *b = w->bodies + body;
-    const int locks = (int)b->spin[3], moves = b->awake_index >= 0 && b->line >= 0,
+    const int locks = (int)b->lock_bits, moves = b->awake_index >= 0 && b->line >= 0,
               held = (holds && b->flags & FE__BODY_HELD) || b->type != FE_BODY_DYNAMIC;
     end e = {.body = b, .motion = moves ? w->solver.motion[b->line] : NULL};
     e.arm = fe__drotate(turn_of(&e), fe__drotate(fe__rotation_of(b), fe__widen(fe__quad_vector(local_arm))));
     for (int k = 0; k < 3 && !held; ++k) {
-        e.mass[k] = locks >> k & 1 ? 0.0 : (double)b->velocity[3];
+        e.mass[k] = locks >> k & 1 ? 0.0 : (double)b->inverse_mass;
         e.turn[k] = locks >> (3 + k) & 1 ? 0.0 : 1.0;
     }
     return e;

@@ -7,9 +7,14 @@
 #include "feather.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #define FE_PI 3.14159265358979323846f
+
+// Kernels load a vector and the number behind it as one quad
+#define FE__IS_QUAD(type, vector, fourth) \
+    _Static_assert(offsetof(type, vector) % 16 == 0 && offsetof(type, fourth) == offsetof(type, vector) + 12, #vector " and " #fourth)
 
 typedef struct fe__mat3 {
     fe_vec3 x, y, z; // columns: the images of the axes

@@ -54,9 +54,9 @@ static void tick_sleep_timer(fe_world *w, fe__body *body, const float *motion, f
 {
     fe__body_note_speed(w, body);
     float threshold = body->sleep_threshold;
-    int32_t slow = body->flags & FE__BODY_SLEEP_ALLOWED && body->centre_low[3] < threshold;
+    int32_t slow = body->flags & FE__BODY_SLEEP_ALLOWED && body->speed < threshold;
     // dq = (n sin(a/2), cos(a/2)): a small turn a is twice the length of its vector
-    if (slow) slow = length_of(motion) + 2.0f * length_of(motion + 4) * body->local_centre[3] < threshold * dt;
+    if (slow) slow = length_of(motion) + 2.0f * length_of(motion + 4) * body->reach < threshold * dt;
     body->sleep_timer = slow ? body->sleep_timer + dt : 0.0f;
 }
 

@@ -36,7 +36,7 @@ void fe__body_add_force(fe_world *world, int32_t index, fe_vec3 force, fe_vec3 t
     for (int k = 0; k < 3; ++k) any |= f[k] != 0.0f || t[k] != 0.0f;
     if (!any) return;
     fe__body_disturb(world, index);
-    float most_force = MOST_ACCELERATION * body->inertia[3];
+    float most_force = MOST_ACCELERATION * body->mass;
     float most_torque = MOST_ACCELERATION * fe__minf(fe__minf(body->inertia[0], body->inertia[1]), body->inertia[2]);
     for (int k = 0; k < 3; ++k) {
         body->force[k] = fe__clampf(body->force[k] + f[k], -most_force, most_force);
@@ -68,7 +68,7 @@ fe_vec3 fe__body_spin_change(const fe__body *body, fe_vec3 angular_impulse)
     double m[3][3], l[3] = {(double)angular_impulse.x, (double)angular_impulse.y, (double)angular_impulse.z};
     world_inertia(body, m);
     double size = fe__maxd(fe__maxd(m[0][0], m[1][1]), m[2][2]);
-    uint32_t locks = (uint32_t)body->spin[3] >> 3;
+    uint32_t locks = (uint32_t)body->lock_bits >> 3;
     for (int k = 0; k < 3; ++k) {
         if (!(locks >> k & 1)) continue;
         for (int j = 0; j < 3; ++j) m[k][j] = m[j][k] = 0.0;

@@ -18,7 +18,7 @@ static void enter_lists(fe_world *world, int32_t patch)
 
 static void note_uneven(fe__body *a, fe__body *b)
 {
-    float of_a = a->velocity[3], of_b = b->velocity[3]; // 1/kg
+    float of_a = a->inverse_mass, of_b = b->inverse_mass; // 1/kg
     if (of_a > UNEVEN * of_b) a->flags |= FE__BODY_STRAINED;
     if (of_b > UNEVEN * of_a) b->flags |= FE__BODY_STRAINED;
 }
@@ -36,8 +36,7 @@ void fe__pair_link(fe_world *world, int32_t pair)
 
 void fe__pair_forget_impulses(fe_world *world, int32_t pair)
 {
-    fe__contact *m = world->contacts + pair;
-    for (int k = 0; k < FE__POINTS; ++k) m->normal_impulse[k] = m->friction_impulse[k] = m->total_impulse[k] = 0.0f;
+    fe__contact_forget_impulses(world->contacts + pair);
     for (int k = 0; k < 3; ++k) world->extras[pair].rolling_impulse[k] = 0.0f;
 }
 

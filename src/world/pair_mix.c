@@ -39,8 +39,8 @@ void fe__pair_mix_surface(fe_world *world, int32_t pair)
     const fe_material *x = fe__shape_material(world, a, cell), *y = fe__shape_material(world, b, cell);
     fe_vec3 surface = fe__sub(surface_of(b), surface_of(a));
     if (p->flags & FE__PAIR_FLIPPED) surface = fe__neg(surface);
-    m->span[3] = sqrtf(x->static_friction * y->static_friction);
-    m->surface[0] = sqrtf(x->dynamic_friction * y->dynamic_friction);
+    m->static_friction = sqrtf(x->static_friction * y->static_friction);
+    m->surface.dynamic_friction = sqrtf(x->dynamic_friction * y->dynamic_friction);
     e->restitution = fe__maxf(x->restitution, y->restitution);
     e->rolling = fe__maxf(x->rolling_resistance, y->rolling_resistance) * form_radius(a, b);
     e->spinning = fe__maxf(x->spinning_resistance, y->spinning_resistance);

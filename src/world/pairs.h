@@ -24,7 +24,7 @@ static inline fe_dvec3 fe__contact_point(const fe_world *world, int32_t pair, in
 {
     const fe__contact *m = world->contacts + pair;
     const fe__body *a = world->bodies + m->body_a, *from = a->type == FE_BODY_STATIC ? world->bodies + m->body_b : a;
-    const float *r = m->point[point];
+    const float *r = m->point[point].arm;
     return (fe_dvec3){from->centre[0] + (double)r[0], from->centre[1] + (double)r[1], from->centre[2] + (double)r[2]};
 }
 
