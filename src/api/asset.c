@@ -1,7 +1,16 @@
 // asset.c - the API of what shapes share: heightfields.
 #include "api/check.h"
+#include "core/fp_state.h"
+#include "world/assets.h"
+#include "world/handles.h"
 
 enum { MOST_LINES = 32768, MOST_SAMPLES = 1 << 28, MOST_MATERIALS = FE__CELL_HOLE };
+
+#define FE_BEGIN_STORE(store)        \
+    const char *function = __func__; \
+    FE_CHECK_POINTER(store);         \
+    fe_world *world = store->world;  \
+    FE_TRY(fe__check_world(function, world))
 
 // ---- birth and death ------------------------------------------------------------------------------------------------------------
 
@@ -66,10 +75,10 @@ static fe_result read_heightfield(const char *function, const fe_heightfield_def
     return FE_OK;
 }
 
-fe_result fe_heightfield_create(fe_world *world, const fe_heightfield_def *def, fe_asset *out_asset)
+fe_result fe_heightfield_create(fe_store *store, const fe_heightfield_def *def, fe_asset *out_asset)
 {
     if (out_asset) *out_asset = 0;
-    FE_BEGIN(world);
+    FE_BEGIN_STORE(store);
     FE_CHECK_POINTER(out_asset);
     fe_heightfield_def full;
     FE_TRY(read_heightfield(function, def, &full));
@@ -79,17 +88,18 @@ fe_result fe_heightfield_create(fe_world *world, const fe_heightfield_def *def, 
     return FE_OK;
 }
 
-fe_result fe_asset_destroy(fe_world *world, fe_asset asset)
+fe_result fe_asset_destroy(fe_store *store, fe_asset asset)
 {
-    FE_BEGIN(world);
+    FE_BEGIN_STORE(store);
     FE_FIND_ASSET(index, asset);
     fe__asset_destroy(world, index);
     return FE_OK;
 }
 
-int32_t fe_asset_is_valid(const fe_world *world, fe_asset asset)
+int32_t fe_asset_is_valid(const fe_store *store, fe_asset asset)
 {
     int32_t index;
+    const fe_world *world = store ? store->world : NULL;
     return world && fe__id_pool_find(&world->asset_ids, asset, &index) == FE_OK && !world->assets[index].destroyed;
 }
 
@@ -104,10 +114,10 @@ static fe_result check_part(const char *function, const fe__heightfield *field, 
     return FE_OK;
 }
 
-fe_result fe_heightfield_set_heights(fe_world *world, fe_asset asset, int32_t row, int32_t column, int32_t rows, int32_t columns,
+fe_result fe_heightfield_set_heights(fe_store *store, fe_asset asset, int32_t row, int32_t column, int32_t rows, int32_t columns,
                                      const float *heights)
 {
-    FE_BEGIN(world);
+    FE_BEGIN_STORE(store);
     FE_FIND_ASSET(index, asset);
     FE_TRY(check_part(function, world->fields + index, row, column, rows, columns));
     FE_CHECK_POINTER(heights);
@@ -118,10 +128,10 @@ fe_result fe_heightfield_set_heights(fe_world *world, fe_asset asset, int32_t ro
     return FE_OK;
 }
 
-fe_result fe_heightfield_get_heights(const fe_world *world, fe_asset asset, int32_t row, int32_t column, int32_t rows, int32_t columns,
+fe_result fe_heightfield_get_heights(const fe_store *store, fe_asset asset, int32_t row, int32_t column, int32_t rows, int32_t columns,
                                      float *out_heights)
 {
-    FE_BEGIN(world);
+    FE_BEGIN_STORE(store);
     FE_FIND_ASSET(index, asset);
     const fe__heightfield *field = world->fields + index;
     FE_TRY(check_part(function, field, row, column, rows, columns));

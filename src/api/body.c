@@ -1,5 +1,11 @@
 // body.c - the API of bodies: life, pose, mass, locks, switches. Velocities and forces are in body_motion.c.
 #include "api/check.h"
+#include "core/fp_state.h"
+#include "world/bodies.h"
+#include "world/handles.h"
+#include "world/mass.h"
+#include "world/shapes.h"
+#include "world/sleep.h"
 
 #include <string.h>
 
@@ -291,7 +297,7 @@ fe_result fe_body_get_mass(const fe_world *world, fe_body body, float *out_mass)
     FE_BEGIN(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_mass);
-    *out_mass = world->bodies[index].inertia[3];
+    *out_mass = world->bodies[index].mass;
     return FE_OK;
 }
 
@@ -328,7 +334,7 @@ fe_result fe_body_get_locks(const fe_world *world, fe_body body, uint32_t *out_l
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_linear_axes);
     FE_CHECK_POINTER(out_angular_axes);
-    uint32_t bits = (uint32_t)world->bodies[index].spin[3];
+    uint32_t bits = (uint32_t)world->bodies[index].lock_bits;
     *out_linear_axes = bits & FE_AXIS_ALL;
     *out_angular_axes = bits >> 3;
     return FE_OK;
@@ -340,8 +346,8 @@ fe_result fe_body_set_damping(fe_world *world, fe_body body, float linear, float
     FE_FIND_BODY(index, body);
     FE_CHECK_FLOAT(linear, 0.0f, FE_MAX_VALUE);
     FE_CHECK_FLOAT(angular, 0.0f, FE_MAX_VALUE);
-    world->bodies[index].force[3] = linear;
-    world->bodies[index].torque[3] = angular;
+    world->bodies[index].linear_damping = linear;
+    world->bodies[index].angular_damping = angular;
     return FE_OK;
 }
 
@@ -351,8 +357,8 @@ fe_result fe_body_get_damping(const fe_world *world, fe_body body, float *out_li
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_linear);
     FE_CHECK_POINTER(out_angular);
-    *out_linear = world->bodies[index].force[3];
-    *out_angular = world->bodies[index].torque[3];
+    *out_linear = world->bodies[index].linear_damping;
+    *out_angular = world->bodies[index].angular_damping;
     return FE_OK;
 }
 
@@ -505,14 +511,14 @@ fe_result fe_body_get_user_data(const fe_world *world, fe_body body, uint64_t *o
 
 // ---- its shapes -----------------------------------------------------------------------------------------------------------------
 
-fe_result fe_body_set_filter(fe_world *world, fe_body body, uint32_t layer, uint32_t mask)
+fe_result fe_body_set_filter(fe_world *world, fe_body body, uint32_t layer, uint32_t mask, int32_t group)
 {
     FE_BEGIN(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_FILTER(layer);
     if (world->bodies[index].shape_count == 0) return fe__fail(function, FE_ERROR_STATE, "body 0x%llx has no shapes to filter", body);
     for (int32_t shape = world->bodies[index].first_shape; shape >= 0; shape = world->shapes[shape].next) {
-        fe__shape_set_filter(world, shape, layer, mask);
+        fe__shape_set_filter(world, shape, layer, mask, group);
     }
     return FE_OK;
 }

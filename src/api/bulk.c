@@ -3,6 +3,10 @@
 // Writing is all or none: everything is checked before the first body changes. A body may be named twice: its last value stands, forces add
 // up.
 #include "api/check.h"
+#include "core/fp_state.h"
+#include "world/bodies.h"
+#include "world/handles.h"
+#include "world/motion.h"
 
 #include <string.h>
 

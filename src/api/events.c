@@ -1,5 +1,9 @@
 // events.c - the API of what a step left behind: events and contacts.
 #include "api/check.h"
+#include "core/fp_state.h"
+#include "world/handles.h"
+#include "world/pair_list.h"
+#include "world/pairs.h"
 
 #include <string.h>
 
@@ -57,7 +61,7 @@ int32_t fe_world_get_joint_events(const fe_world *world, fe_joint_event *out_eve
 
 static int32_t point_count(const fe_world *world, int32_t pair)
 {
-    return world->pairs[pair].flags & FE__PAIR_SENSOR ? 0 : (int32_t)world->contacts[pair].normal[3];
+    return world->pairs[pair].flags & FE__PAIR_SENSOR ? 0 : (int32_t)world->contacts[pair].point_count;
 }
 
 static fe_contact_point describe_point(const fe_world *world, int32_t pair, int32_t i)
@@ -77,6 +81,7 @@ static fe_contact describe(const fe_world *world, int32_t pair)
     const fe__pair *p = &world->pairs[pair];
     const fe__contact *c = &world->contacts[pair];
     float side = p->flags & FE__PAIR_FLIPPED ? -1.0f : 1.0f;
+    int32_t field_a = world->shapes[p->shape_a].form.type == FE__FORM_HEIGHTFIELD;
     fe_contact contact = {.body_a = fe__body_handle(world, p->body_a),
                           .body_b = fe__body_handle(world, p->body_b),
                           .shape_a = fe__shape_handle(world, p->shape_a),
@@ -84,8 +89,11 @@ static fe_contact describe(const fe_world *world, int32_t pair)
                           .normal = {side * c->normal[0], side * c->normal[1], side * c->normal[2]},
                           .point_count = point_count(world, pair),
                           .friction_impulse = {side * c->friction_impulse[0], side * c->friction_impulse[1], side * c->friction_impulse[2]},
-                          .twist_impulse = c->friction_impulse[3],
-                          .triangle = p->triangle};
+                          .twist_impulse = c->twist_impulse,
+                          .part_a = -1,
+                          .part_b = -1,
+                          .triangle_a = field_a ? p->triangle : -1,
+                          .triangle_b = field_a ? -1 : p->triangle};
     for (int32_t i = 0; i < contact.point_count; ++i) contact.points[i] = describe_point(world, pair, i);
     return contact;
 }

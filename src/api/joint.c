@@ -1,5 +1,10 @@
 // joint.c - the API of joints: life, change, readings. Definitions are checked in joint_def.c, made from the world in joint_at.c.
 #include "api/joint_def.h"
+#include "core/fp_state.h"
+#include "world/handles.h"
+#include "world/joint_list.h"
+#include "world/joint_state.h"
+#include "world/joints.h"
 
 static const char *const type_names[FE__JOINT_TYPES] = {"none",  "distance joint", "ball joint",
                                                         "hinge", "fixed joint",    "configurable joint"};

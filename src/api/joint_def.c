@@ -1,5 +1,6 @@
 // joint_def.c - see joint_def.h.
 #include "api/joint_def.h"
+#include "world/joint_record.h"
 
 // The least half angle of a cone, rad: a narrower one is a hinge, whose cone's slope a float cannot hold
 #define LEAST_CONE 0.01f

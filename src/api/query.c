@@ -3,6 +3,7 @@
 
 #include "query/closest.h"
 #include "query/overlap.h"
+#include "core/fp_state.h"
 
 #include <stddef.h>
 

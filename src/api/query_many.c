@@ -1,5 +1,6 @@
 // query_many.c - the API of queries by the thousand: one check of world and filter, and the world's workers when asked for.
 #include "api/query.h"
+#include "core/fp_state.h"
 
 #include <string.h>
 

@@ -1,40 +1,19 @@
 // shape.c - the API of shapes: geometry, material, filter, life.
 #include "api/check.h"
 
+#include <inttypes.h>
+#include "core/fp_state.h"
+#include "world/handles.h"
+#include "world/mass.h"
+#include "world/shapes.h"
+#include "world/sleep.h"
+
 // ---- geometry -------------------------------------------------------------------------------------------------------------------
 
-void fe_geometry_sphere(fe_geometry *out_geometry, float radius)
+void fe_geometry_init(fe_geometry *geometry, uint32_t struct_size)
 {
-    if (!out_geometry) return;
-    *out_geometry = (fe_geometry){.struct_size = sizeof *out_geometry, .type = FE_GEOMETRY_SPHERE, .radius = radius};
-}
-
-void fe_geometry_capsule(fe_geometry *out_geometry, float half_height, float radius)
-{
-    if (!out_geometry) return;
-    *out_geometry =
-        (fe_geometry){.struct_size = sizeof *out_geometry, .type = FE_GEOMETRY_CAPSULE, .half_height = half_height, .radius = radius};
-}
-
-void fe_geometry_box(fe_geometry *out_geometry, float half_x, float half_y, float half_z)
-{
-    if (!out_geometry) return;
-    *out_geometry = (fe_geometry){.struct_size = sizeof *out_geometry, .type = FE_GEOMETRY_BOX, .half_extents = {half_x, half_y, half_z}};
-}
-
-void fe_geometry_plane(fe_geometry *out_geometry, float normal_x, float normal_y, float normal_z, float distance)
-{
-    if (!out_geometry) return;
-    *out_geometry = (fe_geometry){.struct_size = sizeof *out_geometry,
-                                  .type = FE_GEOMETRY_PLANE,
-                                  .normal = {normal_x, normal_y, normal_z},
-                                  .distance = distance};
-}
-
-void fe_geometry_heightfield(fe_geometry *out_geometry, fe_asset heightfield)
-{
-    if (!out_geometry) return;
-    *out_geometry = (fe_geometry){.struct_size = sizeof *out_geometry, .type = FE_GEOMETRY_HEIGHTFIELD, .asset = heightfield};
+    fe_geometry defaults = {.struct_size = sizeof defaults};
+    fe__init_struct(geometry, &defaults, sizeof defaults, struct_size);
 }
 
 #define FE_CHECK_LENGTH(value) FE_CHECK_FLOAT(value, FE_LEAST_LENGTH, FE_MAX_LENGTH)
@@ -72,14 +51,35 @@ static fe_result read_heightfield(const char *function, const fe_world *world, c
     return FE_OK;
 }
 
+// fe_geometry_type of each kind of form
+static const int32_t public_types[FE__FORM_HEIGHTFIELD + 1] = {FE_GEOMETRY_SPHERE, FE_GEOMETRY_CAPSULE, FE_GEOMETRY_BOX, FE_GEOMETRY_PLANE,
+                                                               FE_GEOMETRY_HEIGHTFIELD};
+
+// -1: no kind of geometry
+static int32_t form_type_of(int32_t type)
+{
+    for (int32_t i = 0; i <= FE__FORM_HEIGHTFIELD; ++i)
+        if (public_types[i] == type) return i;
+    return -1;
+}
+
+static fe_result check_reserved(const char *function, const fe_geometry *geometry)
+{
+    for (size_t i = 0; i < sizeof geometry->reserved / sizeof *geometry->reserved; ++i) FE_CHECK_INT(geometry->reserved[i], 0, 0);
+    FE_CHECK_INT((int64_t)geometry->reserved_end[0], 0, 0);
+    FE_CHECK_INT((int64_t)geometry->reserved_end[1], 0, 0);
+    return FE_OK;
+}
+
 // What a form does not use stays 0 (see form.h).
 static fe_result read_geometry(const char *function, const fe_world *world, const fe_geometry *geometry, fe__form *out_form)
 {
     fe_geometry whole = {.struct_size = sizeof whole};
     FE_READ_STRUCT(geometry, &whole);
     geometry = &whole;
-    FE_CHECK_INT(geometry->type, FE_GEOMETRY_SPHERE, FE_GEOMETRY_HEIGHTFIELD);
-    *out_form = (fe__form){.type = geometry->type};
+    FE_TRY(check_reserved(function, geometry));
+    *out_form = (fe__form){.type = form_type_of(geometry->type)};
+    if (out_form->type < 0) return fe__fail(function, FE_ERROR_ARGUMENT, "geometry.type is %" PRId32 ", no kind of geometry", geometry->type);
     switch (geometry->type) {
     case FE_GEOMETRY_SPHERE:
         FE_CHECK_LENGTH(geometry->radius);
@@ -107,9 +107,9 @@ static fe_result read_geometry(const char *function, const fe_world *world, cons
 // planes and heightfields are static only
 static fe_result check_owner(const char *function, const fe_world *world, int32_t body, const fe__form *form)
 {
-    if (form->type < FE_GEOMETRY_PLANE || world->bodies[body].type == FE_BODY_STATIC) return FE_OK;
+    if (form->type < FE__FORM_PLANE || world->bodies[body].type == FE_BODY_STATIC) return FE_OK;
     return fe__fail(function, FE_ERROR_UNSUPPORTED, "body 0x%llx is not static, a %s needs a static one", fe__body_handle(world, body),
-                    form->type == FE_GEOMETRY_PLANE ? "plane" : "heightfield");
+                    form->type == FE__FORM_PLANE ? "plane" : "heightfield");
 }
 
 // ---- life -----------------------------------------------------------------------------------------------------------------------
@@ -120,11 +120,12 @@ static fe_shape_def default_shape(void)
 {
     return (fe_shape_def){.struct_size = sizeof(fe_shape_def),
                           .density = 1000.0f,
-                          .local_rotation.w = 1.0f,
+                          .frame.rotation.w = 1.0f,
                           .material = {.static_friction = 0.6f, .dynamic_friction = 0.5f},
                           .layer = 1,
                           .mask = UINT32_MAX,
-                          .events = FE_SHAPE_EVENTS_TOUCH};
+                          .events = FE_SHAPE_EVENTS_TOUCH,
+                          .one_way_direction = {0.0f, 1.0f, 0.0f}};
 }
 
 void fe_shape_def_init(fe_shape_def *def, uint32_t struct_size)
@@ -139,8 +140,8 @@ static fe_result read_shape_def(const char *function, const fe_shape_def *def, f
     if (!def) return FE_OK;
     FE_READ_STRUCT(def, full);
     FE_CHECK_FLOAT(full->density, 0.0f, FE_MAX_DENSITY);
-    FE_CHECK_VEC3(&full->local_position, FE_MAX_LOCAL);
-    FE_CHECK_QUAT(&full->local_rotation);
+    FE_CHECK_VEC3(&full->frame.position, FE_MAX_LOCAL);
+    FE_CHECK_QUAT(&full->frame.rotation);
     FE_TRY(fe__check_material(function, &full->material));
     FE_CHECK_FILTER(full->layer);
     FE_CHECK_BOOL(full->trigger);
@@ -215,8 +216,8 @@ fe_result fe_shape_get_geometry(const fe_world *world, fe_shape shape, fe_geomet
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_STRUCT_SIZE(out_geometry);
     const fe__form *form = &world->shapes[index].form;
-    fe_geometry geometry = {.struct_size = sizeof geometry, .type = form->type, .radius = form->radius};
-    if (form->type == FE_GEOMETRY_HEIGHTFIELD) {
+    fe_geometry geometry = {.struct_size = sizeof geometry, .type = public_types[form->type], .radius = form->radius};
+    if (form->type == FE__FORM_HEIGHTFIELD) {
         geometry.asset = fe__asset_handle(world, form->field);
     } else {
         geometry.half_height = form->half_height;
@@ -228,26 +229,25 @@ fe_result fe_shape_get_geometry(const fe_world *world, fe_shape shape, fe_geomet
     return FE_OK;
 }
 
-fe_result fe_shape_set_local_pose(fe_world *world, fe_shape shape, const fe_vec3 *position, const fe_quat *rotation)
+fe_result fe_shape_set_frame(fe_world *world, fe_shape shape, const fe_frame *frame)
 {
     FE_BEGIN(world);
     FE_FIND_SHAPE(index, shape);
-    FE_CHECK_VEC3(position, FE_MAX_LOCAL);
-    FE_CHECK_QUAT(rotation);
+    FE_CHECK_POINTER(frame);
+    FE_CHECK_VEC3(&frame->position, FE_MAX_LOCAL);
+    FE_CHECK_QUAT(&frame->rotation);
     fe__fp_state fp = fe__fp_enter();
-    fe__shape_set_local_pose(world, index, *position, *rotation);
+    fe__shape_set_local_pose(world, index, frame->position, frame->rotation);
     fe__fp_leave(fp);
     return FE_OK;
 }
 
-fe_result fe_shape_get_local_pose(const fe_world *world, fe_shape shape, fe_vec3 *out_position, fe_quat *out_rotation)
+fe_result fe_shape_get_frame(const fe_world *world, fe_shape shape, fe_frame *out_frame)
 {
     FE_BEGIN(world);
     FE_FIND_SHAPE(index, shape);
-    FE_CHECK_POINTER(out_position);
-    FE_CHECK_POINTER(out_rotation);
-    *out_position = world->shapes[index].local_position;
-    *out_rotation = world->shapes[index].local_rotation;
+    FE_CHECK_POINTER(out_frame);
+    *out_frame = (fe_frame){world->shapes[index].local_position, world->shapes[index].local_rotation};
     return FE_OK;
 }
 
@@ -325,23 +325,25 @@ fe_result fe_shape_get_surface_velocity(const fe_world *world, fe_shape shape, f
 
 // ---- filter, trigger, events ----------------------------------------------------------------------------------------------------
 
-fe_result fe_shape_set_filter(fe_world *world, fe_shape shape, uint32_t layer, uint32_t mask)
+fe_result fe_shape_set_filter(fe_world *world, fe_shape shape, uint32_t layer, uint32_t mask, int32_t group)
 {
     FE_BEGIN(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_FILTER(layer);
-    fe__shape_set_filter(world, index, layer, mask);
+    fe__shape_set_filter(world, index, layer, mask, group);
     return FE_OK;
 }
 
-fe_result fe_shape_get_filter(const fe_world *world, fe_shape shape, uint32_t *out_layer, uint32_t *out_mask)
+fe_result fe_shape_get_filter(const fe_world *world, fe_shape shape, uint32_t *out_layer, uint32_t *out_mask, int32_t *out_group)
 {
     FE_BEGIN(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_POINTER(out_layer);
     FE_CHECK_POINTER(out_mask);
+    FE_CHECK_POINTER(out_group);
     *out_layer = world->shapes[index].layer;
     *out_mask = world->shapes[index].mask;
+    *out_group = world->shapes[index].group;
     return FE_OK;
 }
 

@@ -1,5 +1,13 @@
 // world.c - the API of worlds: creation, step, settings, counters.
 #include "api/check.h"
+#include "core/fp_state.h"
+#include "step/step.h"
+#include "world/handles.h"
+#include "world/hash.h"
+#include "world/ignore.h"
+#include "world/lifetime.h"
+#include "world/proxies.h"
+#include "world/sleep.h"
 
 // ---- creation -------------------------------------------------------------------------------------------------------------------
 
@@ -273,4 +281,12 @@ int32_t fe_world_get_bodies(const fe_world *world, fe_body *out_bodies, int32_t 
         out_bodies[count++] = fe__body_handle(world, body);
     }
     return world->body_count;
+}
+
+fe_result fe_world_get_store(const fe_world *world, fe_store **out_store)
+{
+    FE_BEGIN(world);
+    FE_CHECK_POINTER(out_store);
+    *out_store = (fe_store *)(uintptr_t)&world->store;
+    return FE_OK;
 }

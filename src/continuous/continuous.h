@@ -1,9 +1,8 @@
-// continuous.h - one body of the continuous stage, for rejoin.c.
-#ifndef FE_WORLD_CONTINUOUS_H
-#define FE_WORLD_CONTINUOUS_H
-#include "step/step.h"
+// continuous.h - the stage between solver and finalize: motions end where something stood in the way.
+#ifndef FE_CONTINUOUS_CONTINUOUS_H
+#define FE_CONTINUOUS_CONTINUOUS_H
+#include "world/step_scratch.h"
 
-// Follows a body on its way to where something static or kinematic stands in it, and ends its motion there. 1: it was stopped
-int32_t fe__stop_body(const fe__step *step, int32_t body);
+void fe__stop_fast_bodies(fe__step *step);
 
 #endif

@@ -5,9 +5,11 @@
 // Poses are motions since the step began, in the solver's lines (float[8]: centre, 0 | rotation).
 #include "continuous/rejoin.h"
 
-#include "continuous/continuous.h"
+#include "continuous/chase.h"
 #include "continuous/energy.h"
-#include "step/narrow.h"
+#include "solver/motion_check.h"
+#include "world/joint_list.h"
+#include "world/pose.h"
 
 #include <math.h>
 
@@ -24,20 +26,17 @@ typedef struct end {
     double turn[3]; // 1: may turn about that axis of the world
 } end;
 
-static fe_quat turn_of(const end *e)
-{
-    return e->motion ? (fe_quat){e->motion[4], e->motion[5], e->motion[6], e->motion[7]} : fe__identity();
-}
+static fe_quat turn_of(const end *e) { return e->motion ? fe__quat_of(e->motion + 4) : fe__identity(); }
 
 static end end_of(const fe_world *w, int32_t body, const float *local_arm, int32_t holds)
 {
     const fe__body *b = w->bodies + body;
-    const int locks = (int)b->spin[3], moves = b->awake_index >= 0 && b->line >= 0,
+    const int locks = (int)b->lock_bits, moves = b->awake_index >= 0 && b->line >= 0,
               held = (holds && b->flags & FE__BODY_HELD) || b->type != FE_BODY_DYNAMIC;
     end e = {.body = b, .motion = moves ? w->solver.motion[b->line] : NULL};
     e.arm = fe__drotate(turn_of(&e), fe__drotate(fe__rotation_of(b), fe__widen(fe__quad_vector(local_arm))));
     for (int k = 0; k < 3 && !held; ++k) {
-        e.mass[k] = locks >> k & 1 ? 0.0 : (double)b->velocity[3];
+        e.mass[k] = locks >> k & 1 ? 0.0 : (double)b->inverse_mass;
         e.turn[k] = locks >> (3 + k) & 1 ? 0.0 : 1.0;
     }
     return e;
@@ -56,8 +55,7 @@ static fe_dvec3 along(const double *share, fe_dvec3 a) { return (fe_dvec3){share
 static fe_dvec3 turned_by(const end *e, fe_dvec3 moment)
 {
     const fe__body *b = e->body;
-    fe_quat axes = fe__product(fe__product(turn_of(e), fe__rotation_of(b)),
-                               (fe_quat){b->inertia_axes[0], b->inertia_axes[1], b->inertia_axes[2], b->inertia_axes[3]});
+    fe_quat axes = fe__product(fe__product(turn_of(e), fe__rotation_of(b)), fe__quat_of(b->inertia_axes));
     fe_dvec3 m = fe__drotate_back(axes, along(e->turn, moment));
     m = (fe_dvec3){m.x / (double)b->inertia[0], m.y / (double)b->inertia[1], m.z / (double)b->inertia[2]};
     return along(e->turn, fe__drotate(axes, m));

@@ -1,7 +1,7 @@
 // rejoin.h - what continuous collision holds back holds back what is joined to it.
-#ifndef FE_WORLD_REJOIN_H
-#define FE_WORLD_REJOIN_H
-#include "step/step.h"
+#ifndef FE_CONTINUOUS_REJOIN_H
+#define FE_CONTINUOUS_REJOIN_H
+#include "world/step_scratch.h"
 
 // Of each tree of joints with bodies that were stopped (FE__BODY_HELD, which it clears): moves the others until their joints meet again,
 // the stopped ones stay. One thread.

@@ -1,5 +1,5 @@
-// clock.c - the time that profiles are measured in and spinning threads look at. No result depends on it.
-#include "core/threads.h"
+// clock.c - see clock.h.
+#include "core/clock.h"
 
 #include <time.h>
 

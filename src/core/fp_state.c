@@ -1,11 +1,11 @@
-// fp_state.c - the floating-point state of a thread, see fe__fp_enter in threads.h.
+// fp_state.c - the floating-point state of a thread, see fp_state.h.
 //
 // Audio and game threads switch flush-to-zero on, some hosts round otherwise or trap. One register of each CPU says so, for scalar and
 // vector instructions of any width. It is written only when it is not as it should be: arithmetic waits for the write, some 5 ns a call.
 // Flags that were raised are left to the host. The functions have a file of their own, so that no arithmetic of the caller moves across the
 // switch. x86: Intel 64 Manual 1, 10.2.3 (MXCSR governs SSE, AVX and AVX-512). AArch64: Arm ARM C5.2.8 (FPCR). z/Architecture: Principles
 // of Operation, SA22-7832, chapter 19 (FPC register). WebAssembly has only the one state.
-#include "core/threads.h"
+#include "core/fp_state.h"
 
 #if defined(__i386__) && !defined(__SSE2_MATH__)
 #error "the 387 computes in 80 bits: build with -msse2 -mfpmath=sse"

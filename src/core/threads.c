@@ -10,6 +10,8 @@
 #endif
 #include "core/threads.h"
 
+#include "core/clock.h"
+#include "core/fp_state.h"
 #include "core/memory.h"
 
 #include <sched.h>

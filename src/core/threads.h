@@ -43,14 +43,4 @@ void fe__parallel_for(const fe__workers *workers, int32_t count, int32_t block, 
 void fe__pause(void); // inside a spin
 void fe__yield(void); // after a long spin
 
-// The floating-point state that every result rests on: round to nearest, denormals kept, no traps. Saved and set on entry, restored on exit
-// of each call that computes, and on every worker.
-typedef struct fe__fp_state {
-    uint64_t saved;
-} fe__fp_state;
-fe__fp_state fe__fp_enter(void);
-void fe__fp_leave(fe__fp_state state);
-
-double fe__clock(void); // s, monotonic
-
 #endif

@@ -35,7 +35,7 @@ FE_INLINE wide_sym world_inverse_inertia(wide4 axes, wide3 inverse)
 // has.
 static void lock_line(fe__solver *s, const fe__body *body, int32_t line, fe_quat axes)
 {
-    int locks = (int)body->spin[3], n = 0, free_axis[3];
+    int locks = (int)body->lock_bits, n = 0, free_axis[3];
     const fe__mat3 r = fe__matrix(axes);
     const float *m = body->inertia;
     float i[3][3] = {{0}}, inverse[3][3] = {{0}};
@@ -84,7 +84,7 @@ FE_INLINE void load_block(fe__solver *s, const fe__body *bodies, int32_t line, c
         is_there[i] = body < 0 ? 0.0f : 1.0f;
         scale[i] = bodies[index[i]].type == FE_BODY_DYNAMIC ? bodies[index[i]].gravity_scale : 0.0f;
         gyroscopic[i] = gyroscopic_kind(bodies + index[i]);
-        locked |= body >= 0 && bodies[body].spin[3] != 0.0f && bodies[body].type == FE_BODY_DYNAMIC;
+        locked |= body >= 0 && bodies[body].lock_bits != 0.0f && bodies[body].type == FE_BODY_DYNAMIC;
     }
     wide zero = w_set(0.0f), one = w_set(1.0f), there = *(wide *)is_there;
     wide4 v = BODY_QUAD(velocity), w = BODY_QUAD(spin), force = BODY_QUAD(force), torque = BODY_QUAD(torque);

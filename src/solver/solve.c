@@ -162,7 +162,7 @@ static void begin_trails(const job *j, int32_t first, int32_t count, const fe__s
     float dt = (float)c->substeps * c->h;
     for (int32_t i = first; i < first + count; ++i) {
         const fe__body *body = j->bodies + fe__maxi(j->s->body_of_line[i], 0);
-        int32_t fast = j->s->body_of_line[i] >= 0 && body->centre_low[3] * dt > body->thickness;
+        int32_t fast = j->s->body_of_line[i] >= 0 && body->speed * dt > body->thickness;
         j->s->trail_count[i] = fast ? 0 : FE__NO_TRAIL;
         if (fast) j->s->trail_of[i] = atomic_fetch_add_explicit(&j->s->trails, 1, memory_order_relaxed);
     }
@@ -234,7 +234,9 @@ static void scale_impulses(const job *j, const fe__group *g, const fe__lane *lan
     for (const fe__lane *lane = lanes, *end = lanes + rows * g->width; lane < end; ++lane) {
         if (!lane->contact) continue;
         fe__contact *m = j->contacts + lane->contact;
-        for (int k = 0; k < FE__POINTS; ++k) m->normal_impulse[k] *= scale, m->friction_impulse[k] *= scale;
+        for (int k = 0; k < FE__POINTS; ++k) m->normal_impulse[k] *= scale;
+        for (int k = 0; k < 3; ++k) m->friction_impulse[k] *= scale;
+        m->twist_impulse *= scale;
         for (int k = 0; k < 3 && g->kind & FE__ROW_SPECIAL; ++k) j->extras[lane->contact].rolling_impulse[k] *= scale;
     }
 }

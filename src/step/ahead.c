@@ -2,6 +2,9 @@
 #include "step/ahead.h"
 
 #include "collision/cast/toi.h"
+#include "world/pair_list.h"
+#include "world/pairs.h"
+#include "world/pose.h"
 
 // What a body would go into something fixed before it touches the other, as a share of its thickness, up to which its way stays the same
 #define SHALLOW 0.25
@@ -28,11 +31,6 @@ static fe__meeting meeting_of(const fe_world *world, int32_t pair, float dt, dou
     return fe__time_of_impact(a, b, limit, impact);
 }
 
-static int32_t has_field(const fe_world *world, const fe__pair *p)
-{
-    return world->shapes[p->shape_a].form.type == FE_GEOMETRY_HEIGHTFIELD || world->shapes[p->shape_b].form.type == FE_GEOMETRY_HEIGHTFIELD;
-}
-
 // sine of half the turn until the touch above which a contact says nothing of the bodies as they are now
 #define TURNED 0.25f
 
@@ -49,7 +47,9 @@ static int32_t is_turned_away(const fe_world *world, int32_t body, int32_t pair,
     for (int32_t i = world->bodies[body].first_contact; i >= 0; i = fe__next_pair(world, i, body)) {
         const fe__pair *p = world->pairs + i;
         int32_t other = p->body_a == body ? p->body_b : p->body_a;
-        if (i == pair || p->flags & FE__PAIR_SENSOR || world->bodies[other].type == FE_BODY_DYNAMIC || has_field(world, p)) continue;
+        if (i == pair || p->flags & FE__PAIR_SENSOR || world->bodies[other].type == FE_BODY_DYNAMIC ||
+            fe__is_field_pair(world, p->shape_a, p->shape_b))
+            continue;
         fe__mobile a, b;
         fe__impact before;
         if (meeting_of(world, i, dt, time, &a, &b, &before) == FE_MEET_NEVER || before.overlap) continue;

@@ -3,8 +3,14 @@
 // A pair that moved little keeps its manifold (recycling, wide); the others go through the narrow phase one by one. Workers only write
 // their pairs' own records and a list of results; the results are applied afterwards, sorted by creation, so that colours and wake-ups
 // follow no thread.
+#include "step/collide_stage.h"
+
 #include "solver/graph/graph.h"
-#include "step/step.h"
+#include "step/narrow.h"
+#include "step/narrow_field.h"
+#include "world/pair_link.h"
+#include "world/pairs.h"
+#include "world/sleep.h"
 
 enum { PAIRS_IN_BLOCK = 64, PAIRS_IN_CACHE = 256, FETCHED_AHEAD = 24 };
 
@@ -26,15 +32,15 @@ static int32_t boxes_part(const fe_world *w, const fe__pair *p)
     const fe__shape *x = w->shapes + p->shape_a, *y = w->shapes + p->shape_b;
     if (x->flags & FE__SHAPE_IN_TREE) box_of(w, p->shape_a, &a);
     if (y->flags & FE__SHAPE_IN_TREE) box_of(w, p->shape_b, &b);
-    if (x->flags & FE__SHAPE_IN_PLANES) return !fe__box_meets_plane(x, &b);
-    if (y->flags & FE__SHAPE_IN_PLANES) return !fe__box_meets_plane(y, &a);
+    if (x->flags & FE__SHAPE_IN_PLANES) return !fe__plane_meets_box(&x->form, &x->pose, &b);
+    if (y->flags & FE__SHAPE_IN_PLANES) return !fe__plane_meets_box(&y->form, &y->pose, &a);
     return a.high.x < b.low.x || b.high.x < a.low.x || a.high.y < b.low.y || b.high.y < a.low.y || a.high.z < b.low.z || b.high.z < a.low.z;
 }
 
 static int32_t judge(const fe_world *w, int32_t pair)
 {
     const fe__pair *p = w->pairs + pair;
-    int32_t has_points = w->contacts[pair].normal[3] > 0.0f, linked = (p->flags & FE__PAIR_LINKED) != 0;
+    int32_t has_points = w->contacts[pair].point_count > 0.0f, linked = (p->flags & FE__PAIR_LINKED) != 0;
     if (has_points) return linked || p->flags & FE__PAIR_SENSOR ? FE__RESULT_NONE : FE__RESULT_BEGIN;
     if (!(p->flags & FE__PAIR_PATCH) && boxes_part(w, p)) return FE__RESULT_APART;
     return linked ? FE__RESULT_END : FE__RESULT_NONE;
@@ -46,7 +52,7 @@ static void note_wait(const fe__step *step, int32_t pair, float slack)
     const fe_world *w = step->world;
     const fe__pair *p = w->pairs + pair;
     if (p->flags & (FE__PAIR_PATCH | FE__PAIR_MAY_TELL) || p->next_patch >= 0) return;
-    fe__begin_to_wait(w->waits + p->awake_index, w->odometers, p->body_a, p->body_b, slack, w->contacts[pair].found_span[3]);
+    fe__begin_to_wait(w->waits + p->awake_index, w->odometers, p->body_a, p->body_b, slack, w->contacts[pair].longest_arm);
     w->awake_pairs[p->awake_index] = ~pair;
     atomic_store_explicit(&step->scratch->some_wait, 1, memory_order_relaxed);
 }
@@ -56,7 +62,7 @@ static void note_result(fe__step *step, int32_t pair)
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     w->pairs[pair].result = judge(w, pair);
-    if (!(w->contacts[pair].normal[3] > 0.0f)) note_wait(step, pair, w->contacts[pair].surface[3]);
+    if (!(w->contacts[pair].point_count > 0.0f)) note_wait(step, pair, w->contacts[pair].surface.tolerance);
     if (w->pairs[pair].result != FE__RESULT_NONE) s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
 }
 
@@ -90,7 +96,7 @@ static void collide_chunk(fe__step *step, int32_t *entries, int32_t count)
             continue;
         }
         for (int32_t patch = w->pairs[heads[i]].next_patch; patch >= 0; patch = w->pairs[patch].next_patch)
-            if (w->contacts[patch].normal[3] > 0.0f) patches[patch_count++] = patch;
+            if (w->contacts[patch].point_count > 0.0f) patches[patch_count++] = patch;
     }
     if (patch_count) w->kernels->recycle(w->contacts, w->bodies, patches, patch_count, step->dt, said, slack);
     for (int32_t i = 0; i < again; ++i) collide_with_patches(step, heads[i]);
@@ -186,7 +192,8 @@ static void collide_block(void *argument, int32_t first, int32_t end, int32_t wo
 }
 
 // ---- results -------------------------------------------------------------------------------------------------------------------
-void fe__sort_pairs(fe__step *step, int32_t *pairs, int32_t count)
+// by the creation of their shapes
+static void sort_pairs(fe__step *step, int32_t *pairs, int32_t count)
 {
     const fe_world *w = step->world;
     fe__sort_item *items = step->scratch->sort_items;
@@ -208,7 +215,7 @@ static void apply_results(fe__step *step, int32_t first)
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     int32_t *results = s->results + first, count = atomic_load(&s->result_count) - first;
-    fe__sort_pairs(step, results, count);
+    sort_pairs(step, results, count);
     for (int32_t i = 0; i < count; ++i)
         if (w->pairs[results[i]].result == FE__RESULT_END || w->pairs[results[i]].result == FE__RESULT_APART)
             fe__pair_unlink(w, results[i]);

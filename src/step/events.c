@@ -2,59 +2,16 @@
 //
 // A pair touches when a point had an impulse, or a gap of 0 or less, during the step. Exits of pairs that ended otherwise (destroyed,
 // re-filtered, boxes apart) wait in their records (fe_world.first_owed) and come out here.
-#include "step/step.h"
+#include "step/events.h"
 
-#include <string.h>
-
-static fe_pair_event event_of(const fe_world *w, int32_t pair, int32_t kind)
-{
-    const fe__pair *p = w->pairs + pair;
-    return (fe_pair_event){fe__body_handle(w, p->body_a),
-                           fe__body_handle(w, p->body_b),
-                           fe__shape_handle(w, p->shape_a),
-                           fe__shape_handle(w, p->shape_b),
-                           kind,
-                           (p->flags & FE__PAIR_SENSOR) != 0};
-}
+#include "step/collide_stage.h"
+#include "world/handles.h"
+#include "world/pair_list.h"
+#include "world/pairs.h"
 
 static fe__pair_event_record record_of(const fe_world *w, int32_t pair, int32_t kind)
 {
-    return (fe__pair_event_record){w->pair_serials[2 * pair], w->pair_serials[2 * pair + 1], event_of(w, pair, kind)};
-}
-
-// Handles may mean nothing any more when it is told: the event itself waits where the contact had its points.
-_Static_assert(sizeof(fe_pair_event) <= sizeof((fe__contact *)0)->point, "an exit fits into its record");
-
-void fe__owe_exit(fe_world *w, int32_t pair)
-{
-    fe_pair_event event = event_of(w, pair, FE_EVENT_EXIT);
-    memcpy(w->contacts[pair].point, &event, sizeof event);
-    w->pairs[pair].flags = 0;
-    w->pairs[pair].links[0].next = w->first_owed;
-    w->first_owed = pair;
-    ++w->owed_count;
-}
-
-static void tell_owed(fe_world *w)
-{
-    while (w->first_owed) {
-        int32_t pair = w->first_owed;
-        fe__pair_event_record *r = w->pair_events + w->pair_event_count++;
-        *r = (fe__pair_event_record){.serial_a = w->pair_serials[2 * pair], .serial_b = w->pair_serials[2 * pair + 1]};
-        memcpy(&r->event, w->contacts[pair].point, sizeof r->event);
-        w->first_owed = w->pairs[pair].links[0].next;
-        fe__pair_release(w, pair);
-    }
-    w->owed_count = 0;
-}
-
-// arms count from the centre of the solver's A, or of B when A is static; between them lies what the pair moved since it was found
-fe_dvec3 fe__contact_point(const fe_world *w, int32_t pair, int32_t point)
-{
-    const fe__contact *m = w->contacts + pair;
-    const fe__body *a = w->bodies + m->body_a, *from = a->type == FE_BODY_STATIC ? w->bodies + m->body_b : a;
-    const float *r = m->point[point];
-    return (fe_dvec3){from->centre[0] + (double)r[0], from->centre[1] + (double)r[1], from->centre[2] + (double)r[2]};
+    return (fe__pair_event_record){w->pair_serials[2 * pair], w->pair_serials[2 * pair + 1], fe__pair_event_of(w, pair, kind)};
 }
 
 static int32_t touches(const fe_world *w, int32_t head)
@@ -62,7 +19,7 @@ static int32_t touches(const fe_world *w, int32_t head)
     int32_t sensor = (w->pairs[head].flags & FE__PAIR_SENSOR) != 0;
     for (int32_t pair = head; pair >= 0; pair = w->pairs[pair].next_patch) {
         const fe__contact *m = w->contacts + pair;
-        for (int32_t i = 0; i < (int32_t)m->normal[3]; ++i)
+        for (int32_t i = 0; i < (int32_t)m->point_count; ++i)
             if (m->separation[i] <= 0.0f || (!sensor && m->total_impulse[i] > 0.0f)) return 1;
     }
     return 0;
@@ -79,8 +36,8 @@ static impact impact_of(const fe_world *w, int32_t head)
     impact sum = {.pair = head};
     for (int32_t pair = head; pair >= 0; pair = w->pairs[pair].next_patch) {
         const fe__contact *m = w->contacts + pair;
-        if (m->normal[3] > 0.0f) sum.approach = fe__maxf(sum.approach, w->pairs[pair].approach);
-        for (int32_t i = 0; i < (int32_t)m->normal[3]; ++i) {
+        if (m->point_count > 0.0f) sum.approach = fe__maxf(sum.approach, w->pairs[pair].approach);
+        for (int32_t i = 0; i < (int32_t)m->point_count; ++i) {
             sum.impulse += m->total_impulse[i];
             if (m->total_impulse[i] > sum.largest) sum.largest = m->total_impulse[i], sum.pair = pair, sum.point = i;
         }
@@ -96,12 +53,22 @@ static void add_hit(fe_world *w, int32_t pair)
     if (sum.approach < w->tuning.hit_event_threshold || sum.impulse <= 0.0f) return;
     const fe__contact *m = w->contacts + sum.pair;
     float sign = p->flags & FE__PAIR_FLIPPED ? -1.0f : 1.0f;
-    fe_pair_event e = event_of(w, pair, FE_EVENT_ENTER);
+    fe_pair_event e = fe__pair_event_of(w, pair, FE_EVENT_ENTER);
     fe__hit_event_record *r = w->hit_events + w->hit_event_count++;
     *r = (fe__hit_event_record){w->pair_serials[2 * pair],
                                 w->pair_serials[2 * pair + 1],
-                                {e.body_a, e.body_b, e.shape_a, e.shape_b, fe__contact_point(w, sum.pair, sum.point),
-                                 fe__scale(sign, fe__vec3(m->normal[0], m->normal[1], m->normal[2])), sum.approach, sum.impulse, 0}};
+                                {.body_a = e.body_a,
+                                 .body_b = e.body_b,
+                                 .shape_a = e.shape_a,
+                                 .shape_b = e.shape_b,
+                                 .point = fe__contact_point(w, sum.pair, sum.point),
+                                 .normal = fe__scale(sign, fe__vec3(m->normal[0], m->normal[1], m->normal[2])),
+                                 .speed = sum.approach,
+                                 .impulse = sum.impulse,
+                                 .part_a = -1,
+                                 .part_b = -1,
+                                 .triangle_a = e.triangle_a,
+                                 .triangle_b = e.triangle_b}};
 }
 
 // ---- looking, on any thread: pairs that have something to tell go to the list of results ----------------------------------------------
@@ -200,7 +167,7 @@ void fe__collect_events(fe__step *step)
 {
     fe_world *w = step->world;
     w->pair_event_count = w->hit_event_count = 0;
-    tell_owed(w);
+    fe__report_owed_exits(w);
     fe__step_scratch *s = step->scratch;
     atomic_store(&s->result_count, 0);
     int32_t count;

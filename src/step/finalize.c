@@ -1,8 +1,18 @@
 // finalize.c - stages after the solver: poses and boxes from what the bodies did, then islands fall asleep.
 //
 // Each body is its own; the trees are written by the stepping thread, from a list of the shapes that left their boxes.
+#include "step/finalize.h"
+
 #include "solver/graph/graph.h"
-#include "step/step.h"
+#include "solver/motion_check.h"
+#include "world/joint_list.h"
+#include "world/joints.h"
+#include "world/pair_link.h"
+#include "world/pair_list.h"
+#include "world/pose.h"
+#include "world/proxies.h"
+#include "world/sleep.h"
+#include "world/speed.h"
 
 #include <float.h>
 
@@ -13,8 +23,7 @@ enum { BODIES_IN_BLOCK = 64, BOXES_IN_BLOCK = 64, STEPS_BETWEEN_REBUILDS = 8, KE
 static int32_t turn(fe__body *body, const float *dq)
 {
     if (dq[0] == 0.0f && dq[1] == 0.0f && dq[2] == 0.0f) return 0;
-    fe_quat q = {body->rotation[0], body->rotation[1], body->rotation[2], body->rotation[3]};
-    q = fe__normalized(fe__product((fe_quat){dq[0], dq[1], dq[2], dq[3]}, q));
+    fe_quat q = fe__normalized(fe__product(fe__quat_of(dq), fe__rotation_of(body)));
     body->rotation[0] = q.x, body->rotation[1] = q.y, body->rotation[2] = q.z, body->rotation[3] = q.w;
     return 1;
 }
@@ -34,9 +43,7 @@ static void place_origin(fe__body *body)
 {
     const float *c = body->local_centre;
     fe_dvec3 arm = {0.0, 0.0, 0.0};
-    if (c[0] != 0.0f || c[1] != 0.0f || c[2] != 0.0f)
-        arm = fe__drotate((fe_quat){body->rotation[0], body->rotation[1], body->rotation[2], body->rotation[3]},
-                          fe__widen(fe__vec3(c[0], c[1], c[2])));
+    if (c[0] != 0.0f || c[1] != 0.0f || c[2] != 0.0f) arm = fe__drotate(fe__rotation_of(body), fe__widen(fe__quad_vector(c)));
     body->origin[0] = body->centre[0] - arm.x, body->origin[1] = body->centre[1] - arm.y, body->origin[2] = body->centre[2] - arm.z;
 }
 
@@ -47,9 +54,9 @@ static void tick_sleep_timer(fe_world *w, fe__body *body, const float *motion, f
 {
     fe__body_note_speed(w, body);
     float threshold = body->sleep_threshold;
-    int32_t slow = body->flags & FE__BODY_SLEEP_ALLOWED && body->centre_low[3] < threshold;
+    int32_t slow = body->flags & FE__BODY_SLEEP_ALLOWED && body->speed < threshold;
     // dq = (n sin(a/2), cos(a/2)): a small turn a is twice the length of its vector
-    if (slow) slow = length_of(motion) + 2.0f * length_of(motion + 4) * body->local_centre[3] < threshold * dt;
+    if (slow) slow = length_of(motion) + 2.0f * length_of(motion + 4) * body->reach < threshold * dt;
     body->sleep_timer = slow ? body->sleep_timer + dt : 0.0f;
 }
 
@@ -65,19 +72,7 @@ static void follow_body(fe__step *step, int32_t index)
     }
 }
 
-// Forces, masses and time steps at the limits of the API may overflow a float. Such a body stops where it stood, and its contacts forget
-// their impulses: no NaN outlives the step that made it, and none reaches a pose or a box. Ten times the fastest that the API takes, m/s
-// and rad/s:
-#define MOST_SPEED 1e7f
-
-int32_t fe__motion_makes_sense(const fe__solver *s, int32_t line)
-{
-    const float *v = s->velocity[line], *w = v + 4, *dp = s->motion[line], *dq = dp + 4, most = MOST_SPEED * MOST_SPEED;
-    float turned = dq[0] * dq[0] + dq[1] * dq[1] + dq[2] * dq[2] + dq[3] * dq[3];
-    return v[0] * v[0] + v[1] * v[1] + v[2] * v[2] < most && w[0] * w[0] + w[1] * w[1] + w[2] * w[2] < most &&
-           dp[0] * dp[0] + dp[1] * dp[1] + dp[2] * dp[2] < most && turned > 0.0f && turned < most; // a NaN is less than nothing
-}
-
+// A body that overflowed stops where it stood, and its contacts forget their impulses.
 static void stop_lost(fe__step *step, fe__body *body)
 {
     for (int k = 0; k < 3; ++k) body->velocity[k] = body->spin[k] = body->force[k] = body->torque[k] = 0.0f;

@@ -2,8 +2,11 @@
 //
 // Called by the collide stage on any thread, for pairs that cannot be recycled. Double positions are subtracted here, so that everything
 // below is float and small. Only the pair's own records are written.
-#include "collision/manifold/collide.h"
+#include "step/narrow.h"
+
 #include "step/ahead.h"
+#include "step/narrow_seam.h"
+#include "world/pose.h"
 
 #include <string.h>
 
@@ -24,7 +27,7 @@ static void set_view(fe__view *v, const fe__shape *a, const fe__shape *b, const 
     v->rotation = fe__matrix(pose_a->rotation);
     v->relative.rotation = fe__matrix(fe__product(fe__conjugate(pose_a->rotation), pose_b->rotation));
     fe_dvec3 between = fe__dsub(pose_b->position, pose_a->position);
-    if (a->form.type == FE_GEOMETRY_PLANE) {
+    if (a->form.type == FE__FORM_PLANE) {
         fe_dvec3 normal = fe__drotate(pose_a->rotation, fe__widen(a->form.normal));
         v->form_a.distance = (float)((double)a->form.distance - fe__ddot(normal, between));
         v->relative.position = fe__vec3(0.0f, 0.0f, 0.0f);
@@ -43,26 +46,7 @@ static void set_view(fe__view *v, const fe__shape *a, const fe__shape *b, const 
 float fe__reach_in_step(const fe_world *world, const fe__body *a, const fe__body *b, float dt)
 {
     float fall = fe__length(world->gravity) * dt * dt;
-    return (a->centre_low[3] + b->centre_low[3]) * dt + fall;
-}
-
-// where a body would be at the end of a step without contacts
-void fe__advance(const fe_world *world, const fe__body *body, float dt, fe_dvec3 *centre, fe_quat *rotation)
-{
-    *centre = fe__centre_of(body), *rotation = fe__rotation_of(body);
-    if (body->awake_index < 0) return;
-    fe_vec3 v = fe__quad_vector(body->velocity), w = fe__scale(0.5f * dt, fe__quad_vector(body->spin));
-    if (body->type == FE_BODY_DYNAMIC && !body->locked) v = fe__add_scaled(v, dt * body->gravity_scale, world->gravity);
-    *centre = fe__dadd(*centre, fe__dscale((double)dt, fe__widen(v)));
-    fe_quat q = *rotation, turn = fe__product((fe_quat){w.x, w.y, w.z, 0.0f}, q);
-    *rotation = fe__normalized((fe_quat){q.x + turn.x, q.y + turn.y, q.z + turn.z, q.w + turn.w});
-}
-
-fe__pose fe__shape_pose_at(const fe__body *body, const fe__shape *shape, fe_dvec3 centre, fe_quat rotation)
-{
-    fe_dvec3 arm = fe__drotate(rotation, fe__widen(fe__quad_vector(body->local_centre)));
-    fe__pose pose = {fe__dsub(centre, arm), rotation};
-    return fe__compose(&pose, shape->local_position, shape->local_rotation);
+    return (a->speed + b->speed) * dt + fall;
 }
 
 typedef struct prediction {
@@ -115,7 +99,7 @@ static int32_t look_ahead(const fe_world *world, const fe__contact *m, float dt,
         if (touch.found.count) end = touch;
     }
     if (-deepest_of(&end.found) > fe__minf(fe__form_thickness(&v->a->form), fe__form_thickness(&v->b->form)) &&
-        v->a->form.type != FE_GEOMETRY_PLANE)
+        v->a->form.type != FE__FORM_PLANE)
         return found->count > 0;
     *v = end.v, *at = end.at, *found = end.found;
     return 1;
@@ -141,7 +125,7 @@ static void match_impulses(fe__pair *p, fe__contact *m, const fe__manifold *foun
     memcpy(old, m->normal_impulse, sizeof old);
     for (int i = 0; i < FE__POINTS; ++i) m->normal_impulse[i] = 0.0f;
     for (int i = 0; i < found->count; ++i)
-        for (int j = 0; j < (int)m->normal[3]; ++j)
+        for (int j = 0; j < (int)m->point_count; ++j)
             if (p->ids[j] == found->points[i].id) m->normal_impulse[i] = old[j];
     for (int i = 0; i < found->count; ++i) p->ids[i] = found->points[i].id;
 }
@@ -168,20 +152,22 @@ static void set_points(fe__contact *m, const fe__view *v, const fe__places *at, 
     for (int i = 0; i < FE__POINTS; ++i) {
         int there = i < found->count;
         fe_vec3 arm = there ? fe__add(base, fe__mul(&v->rotation, found->points[i].point)) : zero, arm_b = fe__add(arm, span);
-        fe__copy3(m->point[i], arm);
-        m->point[i][3] = m->separation[i] = there ? found->points[i].separation : 0.0f;
+        fe__copy3(m->point[i].arm, arm);
+        m->point[i].separation = m->separation[i] = there ? found->points[i].separation : 0.0f;
         reach = fe__maxf(reach, fe__maxf(fe__dot(arm, arm), fe__dot(arm_b, arm_b)));
     }
-    m->found_span[3] = sqrtf(reach);
+    m->longest_arm = sqrtf(reach);
 }
 
 static void set_no_points(fe__contact *m, const fe__body *a, const fe__body *b)
 {
     for (int i = 0; i < FE__POINTS; ++i) {
-        m->normal[i] = m->separation[i] = 0.0f;
-        for (int k = 0; k < 4; ++k) m->point[i][k] = 0.0f;
+        m->separation[i] = 0.0f;
+        m->point[i] = (fe__contact_arm){{0.0f, 0.0f, 0.0f}, 0.0f};
     }
-    m->found_span[3] = fe__maxf(a->local_centre[3], b->local_centre[3]); // whatever part of the bodies may come near
+    for (int k = 0; k < 3; ++k) m->normal[k] = 0.0f;
+    m->point_count = 0.0f;
+    m->longest_arm = fe__maxf(a->reach, b->reach); // whatever part of the bodies may come near
 }
 
 // Separations now of a manifold found ahead of time, along its normal: as in recycle.simd.c. Its arms stay those of the touch, and the
@@ -196,9 +182,10 @@ static void step_back(fe__contact *m, const fe__places *at, const fe__body *a, c
     fe_vec3 na = fe__sub(fe__rotate_back(turn_a, n), n), nb = fe__sub(fe__rotate_back(turn_b, n), n), slope = fe__sub(nb, na);
     fe_dvec3 then = fe__dsub(at->centre_b, at->centre_a), now = fe__dsub(fe__centre_of(b), fe__centre_of(a));
     fe_vec3 span = a->type == FE_BODY_STATIC ? zero : fe__quad_vector(m->found_span);
-    float constant =
-        fe__dot(n, fe__narrow(fe__dsub(now, then))) + fe__dot(nb, span) + m->surface[1] * fe__dot(na, n) + m->surface[2] * fe__dot(nb, n);
-    for (int i = 0; i < (int)m->normal[3]; ++i) m->separation[i] = m->point[i][3] + constant + fe__dot(slope, fe__quad_vector(m->point[i]));
+    float constant = fe__dot(n, fe__narrow(fe__dsub(now, then))) + fe__dot(nb, span) + m->surface.radius_a * fe__dot(na, n) +
+                     m->surface.radius_b * fe__dot(nb, n);
+    for (int i = 0; i < (int)m->point_count; ++i)
+        m->separation[i] = m->point[i].separation + constant + fe__dot(slope, fe__quad_vector(m->point[i].arm));
 }
 
 float fe__recycle_tolerance(const fe__view *v)
@@ -207,19 +194,14 @@ float fe__recycle_tolerance(const fe__view *v)
     return fe__minf(RECYCLE_MOST, RECYCLE_SHARE * fe__minf(fe__form_thickness(&v->a->form), fe__form_thickness(&v->b->form)));
 }
 
-static void forget_impulses(fe__contact *m)
-{
-    for (int k = 0; k < FE__POINTS; ++k) m->normal_impulse[k] = m->friction_impulse[k] = m->total_impulse[k] = 0.0f;
-}
-
 static void write_contact(fe__contact *m, const fe__view *v, const fe__manifold *found, int32_t a_is_b)
 {
     // the manifold's normal points away from fe__collide's A; the solver's A may be the other one
     fe_vec3 normal = fe__mul(&v->rotation, found->normal);
     fe__copy3(m->normal, a_is_b ? fe__neg(normal) : normal);
-    m->normal[3] = (float)found->count;
-    m->surface[1] = a_is_b ? v->b->form.radius : v->form_a.radius;
-    m->surface[2] = a_is_b ? v->form_a.radius : v->b->form.radius;
+    m->point_count = (float)found->count;
+    m->surface.radius_a = a_is_b ? v->b->form.radius : v->form_a.radius;
+    m->surface.radius_b = a_is_b ? v->form_a.radius : v->b->form.radius;
 }
 
 void fe__write_manifold(const fe_world *world, fe__contact *m, const fe__view *v, const fe__places *at, const fe__manifold *found,
@@ -239,9 +221,9 @@ void fe__write_manifold(const fe_world *world, fe__contact *m, const fe__view *v
 // without points: not looked at again until the bodies may have moved by `gap`
 static void write_apart(fe__pair *p, fe__contact *m, const fe__places *at, const fe__body *a, const fe__body *b, float gap)
 {
-    forget_impulses(m);
+    fe__contact_forget_impulses(m);
     p->axis = -1; // a kernel's memory begins with the first points, whenever the pair was made: unrelated bodies must not matter
-    m->surface[3] = fe__maxf(gap, 0.0f);
+    m->surface.tolerance = fe__maxf(gap, 0.0f);
     note_poses(m, at, a, b);
     set_no_points(m, a, b);
 }
@@ -266,7 +248,7 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
         set_view(&v, y, x, &y->pose, &x->pose);
     else
         set_view(&v, x, y, &x->pose, &y->pose);
-    fe__manifold found = {.axis = p->axis, .axis_separation = p->axis_separation, .count = (int32_t)m->normal[3]};
+    fe__manifold found = {.axis = p->axis, .axis_separation = p->axis_separation, .count = (int32_t)m->point_count};
     fe__collide(&v.form_a, &v.b->form, &v.relative, fe__maxf(margin, reach), &found);
     fe__mend_seam(world, &v, fe__maxf(margin, reach), &found);
     p->axis = found.axis, p->axis_separation = found.axis_separation;
@@ -281,6 +263,6 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
         return;
     }
     match_impulses(p, m, &found);
-    m->surface[3] = ahead ? FE__AHEAD : fe__recycle_tolerance(&v);
+    m->surface.tolerance = ahead ? FE__AHEAD : fe__recycle_tolerance(&v);
     fe__write_manifold(world, m, &v, &at, &found, ahead);
 }

@@ -2,8 +2,13 @@
 //
 // Called by the collide stage on any thread, for heads that cannot be recycled. Only the pair's own records are written. The frame has the
 // heightfield's axes and its origin at the other shape; double positions are subtracted here.
+#include "step/narrow_field.h"
+
 #include "collision/manifold/terrain.h"
 #include "step/narrow.h"
+#include "world/pair_list.h"
+#include "world/pair_mix.h"
+#include "world/pose.h"
 
 #include <string.h>
 
@@ -30,7 +35,7 @@ static void find_neighbours(const fe_world *w, const look *l, const fe__pose *po
     int32_t body = l->v.b->body;
     for (int32_t pair = w->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(w, pair, body)) {
         const fe__pair *p = w->pairs + pair;
-        const fe__shape *x = w->shapes + p->shape_a, *y = w->shapes + p->shape_b, *field = x->form.type == FE_GEOMETRY_HEIGHTFIELD ? x : y;
+        const fe__shape *x = w->shapes + p->shape_a, *y = w->shapes + p->shape_b, *field = x->form.type == FE__FORM_HEIGHTFIELD ? x : y;
         if (p->flags & FE__PAIR_PATCH || p->next_patch < 0 || field == l->v.a || (x != l->v.b && y != l->v.b)) continue;
         if (terrain->neighbour_count == FE__NEIGHBOURS) return;
         fe_quat turn = fe__product(fe__conjugate(pose->rotation), field->pose.rotation);
@@ -44,7 +49,7 @@ static void look_at(const pair_view *p, const fe__pose *pose_field, const fe__po
 {
     const fe_world *w = p->world;
     l->v = (fe__view){.a = p->field, .b = p->other, .origin = pose_other->position, .rotation = fe__matrix(pose_field->rotation)};
-    l->v.form_a.type = FE_GEOMETRY_HEIGHTFIELD;
+    l->v.form_a.type = FE__FORM_HEIGHTFIELD;
     fe__terrain terrain; // its neighbours mean something up to their count
     terrain.field = w->fields + p->field->form.field, terrain.neighbour_count = 0;
     terrain.origin = fe__drotate_back(pose_field->rotation, fe__dsub(pose_other->position, pose_field->position));
@@ -116,7 +121,7 @@ static void assign(plan *plans, int32_t count, const memory *old, int32_t flippe
         slots[s] = (plan){.source = -1};
         int32_t best = -1;
         float most = alike;
-        if (!(old->contacts[s].normal[3] > 0.0f)) continue;
+        if (!(old->contacts[s].point_count > 0.0f)) continue;
         fe_vec3 n = fe__quad_vector(old->contacts[s].normal);
         for (int32_t i = 0; i < count; ++i) {
             float cosine = (flipped ? -1.0f : 1.0f) * fe__dot(n, world_normal(plans + i));
@@ -136,15 +141,16 @@ static void assign(plan *plans, int32_t count, const memory *old, int32_t flippe
 
 static void copy_impulses(const plan *x, const memory *old, fe__pair *p, fe__contact *m, fe__extra *e)
 {
-    for (int32_t i = 0; i < FE__POINTS; ++i) m->normal_impulse[i] = m->friction_impulse[i] = m->total_impulse[i] = 0.0f;
+    fe__contact_forget_impulses(m);
     for (int32_t k = 0; k < 3; ++k) e->rolling_impulse[k] = 0.0f;
     for (int32_t i = 0; x->patch && i < x->patch->count; ++i) p->ids[i] = x->patch->points[i].id;
     if (x->source < 0) return;
     const fe__contact *from = old->contacts + x->source;
     memcpy(m->friction_impulse, from->friction_impulse, sizeof m->friction_impulse);
+    m->twist_impulse = from->twist_impulse;
     memcpy(e->rolling_impulse, old->extras[x->source].rolling_impulse, sizeof e->rolling_impulse);
     for (int32_t i = 0; i < x->patch->count; ++i)
-        for (int32_t j = 0; j < (int32_t)from->normal[3]; ++j)
+        for (int32_t j = 0; j < (int32_t)from->point_count; ++j)
             if (old->ids[x->source][j] == x->patch->points[i].id) m->normal_impulse[i] = from->normal_impulse[j];
 }
 
@@ -163,8 +169,8 @@ static void write_record(fe_world *world, int32_t record, const plan *x, const l
     fe__manifold found = x->patch ? manifold_of(x->patch) : (fe__manifold){.count = 0};
     copy_impulses(x, old, p, m, world->extras + record);
     fe__write_manifold(world, m, &l->v, &l->at, &found, l != now);
-    m->surface[3] = p->flags & FE__PAIR_PATCH ? FE__FOLLOWS : tolerance;
-    if (l != now) m->surface[3] = FE__AHEAD; // the head's tolerance is 0 then
+    m->surface.tolerance = p->flags & FE__PAIR_PATCH ? FE__FOLLOWS : tolerance;
+    if (l != now) m->surface.tolerance = FE__AHEAD; // the head's tolerance is 0 then
     if (x->patch && p->triangle != x->patch->triangle) {
         p->triangle = x->patch->triangle;
         fe__pair_mix_surface(world, record);
@@ -178,8 +184,8 @@ static void write_records(fe_world *world, int32_t head, plan *plans, int32_t co
     int32_t records[FE__PATCHES], n = 0;
     for (int32_t r = head; r >= 0; r = world->pairs[r].next_patch) {
         records[n++] = r;
-        old.contacts[n - 1].normal[3] = 0.0f;
-        if (!(world->contacts[r].normal[3] > 0.0f)) continue;
+        old.contacts[n - 1].point_count = 0.0f;
+        if (!(world->contacts[r].point_count > 0.0f)) continue;
         old.contacts[n - 1] = world->contacts[r];
         old.extras[n - 1] = world->extras[r];
         memcpy(old.ids[n - 1], world->pairs[r].ids, sizeof old.ids[n - 1]);
@@ -187,7 +193,7 @@ static void write_records(fe_world *world, int32_t head, plan *plans, int32_t co
     int32_t flipped = world->contacts[head].body_a != now->v.a->body;
     assign(plans, count, &old, flipped, slots);
     for (int32_t i = 0; i < FE__PATCHES; ++i) {
-        int32_t was_empty = !(old.contacts[i].normal[3] > 0.0f);
+        int32_t was_empty = !(old.contacts[i].point_count > 0.0f);
         if (i == 0 || slots[i].patch || !was_empty) write_record(world, records[i], slots + i, now, &old, tolerance);
     }
 }
@@ -219,7 +225,7 @@ void fe__collide_field_pair(fe_world *world, int32_t head, float dt)
     const fe__pair *p = world->pairs + head;
     const fe__contact *m = world->contacts + head;
     const fe__shape *x = world->shapes + p->shape_a, *y = world->shapes + p->shape_b;
-    int32_t swapped = x->form.type != FE_GEOMETRY_HEIGHTFIELD, sensor = (p->flags & FE__PAIR_SENSOR) != 0;
+    int32_t swapped = x->form.type != FE__FORM_HEIGHTFIELD, sensor = (p->flags & FE__PAIR_SENSOR) != 0;
     pair_view view = {world, world->bodies + m->body_a, world->bodies + m->body_b, swapped ? y : x, swapped ? x : y, dt, 0.0f};
     float margin = world->tuning.speculative_distance, reach = fe__reach_in_step(world, view.a, view.b, dt);
     view.speed_limit = dt > 0.0f ? reach / dt : 0.0f;

@@ -3,9 +3,11 @@
 // Called by narrow.c with a manifold of a static box. A direction m of contact at a point q of the box holds only while no other static box
 // near the same body goes on from q and rises along m: it must lie in the normal cone of both (as in terrain_surface.h). A manifold whose
 // points all fail is exchanged for that of the box's face that the surroundings allow, which may have no points.
+#include "step/narrow_seam.h"
+
 #include "collision/form/clip.h"
 #include "collision/form/support.h"
-#include "step/narrow.h"
+#include "world/pair_list.h"
 
 #include <float.h>
 
@@ -42,7 +44,7 @@ static placed place(const fe__view *v, const fe__shape *shape)
 
 static int32_t is_static_box(const fe_world *w, const fe__shape *shape)
 {
-    return shape->form.type == FE_GEOMETRY_BOX && w->bodies[shape->body].type == FE_BODY_STATIC && !(shape->flags & FE__SHAPE_TRIGGER);
+    return shape->form.type == FE__FORM_BOX && w->bodies[shape->body].type == FE_BODY_STATIC && !(shape->flags & FE__SHAPE_TRIGGER);
 }
 
 // Other static boxes that the same shape is near

@@ -3,7 +3,11 @@
 // Shapes with a new box (fe_world.moved) ask the trees and the planes; what passes the filter and has no record is a candidate. Workers
 // write to buffers of their own, merged and sorted by creation, so that neither the workers nor the trees show. Nothing of the world is
 // changed before all memory that the step can need is reserved.
-#include "step/step.h"
+#include "step/pairs_stage.h"
+
+#include "step/reserve.h"
+#include "world/filter.h"
+#include "world/pairs.h"
 
 enum { SHAPES_IN_BLOCK = 32, FIRST_ROOM = 256 };
 
@@ -28,21 +32,13 @@ static int32_t found(void *context, int32_t other)
     return 1;
 }
 
-// Does the box reach into the half space n . p <= d?
-int32_t fe__box_meets_plane(const fe__shape *plane, const fe__bounds *box)
-{
-    fe_dvec3 n = fe__drotate(plane->pose.rotation, fe__widen(plane->form.normal));
-    double d = fe__ddot(n, plane->pose.position) + (double)plane->form.distance;
-    fe_dvec3 low = {n.x > 0.0 ? box->low.x : box->high.x, n.y > 0.0 ? box->low.y : box->high.y, n.z > 0.0 ? box->low.z : box->high.z};
-    return fe__ddot(n, low) <= d;
-}
-
 static int32_t found_by_plane(void *context, int32_t other)
 {
     const search *s = context;
     fe__bounds box;
     fe__tree_get(&s->world->moving_tree, other, &box);
-    return fe__box_meets_plane(s->world->shapes + s->shape, &box) ? found(context, other) : 1;
+    const fe__shape *plane = s->world->shapes + s->shape;
+    return fe__plane_meets_box(&plane->form, &plane->pose, &box) ? found(context, other) : 1;
 }
 
 static void search_plane(search *s)
@@ -62,8 +58,10 @@ static void search_tree(search *s)
     fe__tree_query_proxy(&w->static_tree, own, s->shape, found, s);
     fe__bounds box;
     if (w->plane_count) fe__tree_get(own, s->shape, &box);
-    for (int32_t i = 0; i < w->plane_count; ++i)
-        if (fe__box_meets_plane(w->shapes + w->planes[i], &box)) found(s, w->planes[i]);
+    for (int32_t i = 0; i < w->plane_count; ++i) {
+        const fe__shape *plane = w->shapes + w->planes[i];
+        if (fe__plane_meets_box(&plane->form, &plane->pose, &box)) found(s, w->planes[i]);
+    }
 }
 
 static void search_block(void *argument, int32_t first, int32_t end, int32_t worker)
@@ -74,7 +72,7 @@ static void search_block(void *argument, int32_t first, int32_t end, int32_t wor
         s.shape = step->world->moved[i];
         const fe__shape *shape = step->world->shapes + s.shape;
         uint32_t flags = shape->flags;
-        if (!shape->layer || !shape->mask) continue; // touches nothing
+        if ((!shape->layer || !shape->mask) && shape->group <= 0) continue; // touches nothing
         if (flags & FE__SHAPE_IN_PLANES) search_plane(&s);
         if (flags & FE__SHAPE_IN_TREE) search_tree(&s);
     }

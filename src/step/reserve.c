@@ -2,8 +2,13 @@
 //
 // The bounds follow from what is awake, what may wake, and the candidates just found. When one allocation fails, the step fails with the
 // world as it was; later stages cannot fail, so that no contact and no event is ever dropped.
+#include "step/reserve.h"
+
 #include "solver/graph/graph.h"
-#include "step/step.h"
+#include "step/island_bound.h"
+#include "world/forest.h"
+#include "world/pair_mix.h"
+#include "world/pairs.h"
 
 #include <string.h>
 
@@ -82,7 +87,7 @@ static void count_fast(const fe__step *step, fe__graph_bound *b)
     if (swiftest * step->dt < nearly) return;
     for (int32_t i = 0; i < w->awake_body_count; ++i) {
         const fe__body *body = w->bodies + w->awake_bodies[i];
-        if (body->centre_low[3] * step->dt < nearly * body->thickness) continue;
+        if (body->speed * step->dt < nearly * body->thickness) continue;
         ++b->fast;
         if (body->type == FE_BODY_KINEMATIC) b->fast_kinematic = 1;
     }
@@ -137,5 +142,5 @@ int32_t fe__reserve_step(fe__step *step)
     if (!fe__reserve_pairs(w, step->scratch->candidate_count + step->scratch->candidate_patches) || !reserve_scratch(step, &bound))
         return 0;
     return bound.bodies == 0 ||
-           (fe__find_clusters(step, &bound) && fe__graph_reserve(&w->solver, &w->memory, w->kernels, &bound, w->workers.count));
+           (fe__bound_islands(step, &bound) && fe__graph_reserve(&w->solver, &w->memory, w->kernels, &bound, w->workers.count));
 }

@@ -1,88 +1,9 @@
-// step.h - what the stages of a step share.
-//
-// The scratch lives from step to step, so that a settled scene's step allocates nothing. Everything is reserved before the world changes
-// (reserve.c); from there on nothing allocates.
-#ifndef FE_WORLD_STEP_H
-#define FE_WORLD_STEP_H
-#include "solver/graph/graph.h"
+// step.h - the step: all its stages, in order.
+#ifndef FE_STEP_STEP_H
+#define FE_STEP_STEP_H
 #include "world/world.h"
 
-// A pair of shapes that the trees found and that has no record yet; A was created first
-typedef struct fe__candidate {
-    int32_t shape_a, shape_b;
-} fe__candidate;
-
-typedef struct fe__candidate_buffer {
-    _Alignas(FE_CACHE_LINE) fe__candidate *items; // a stretch of fe__step_scratch.candidates
-    int32_t count;                                // found; those beyond the capacity were not written
-} fe__candidate_buffer;
-
-// Where a body ends that something stood in the way of
-typedef struct fe__chase {
-    float motion[FE__LINE], velocity[FE__LINE];
-    int32_t stopped;
-} fe__chase;
-
-typedef struct fe__step_scratch {
-    fe__candidate *candidates; // a stretch for each worker; merged and sorted in the first
-    int32_t candidate_capacity, candidate_room, candidate_count;
-    int32_t candidate_patches; // further records that the candidates with heightfields need
-    fe__candidate_buffer buffers[FE_MAX_WORKERS];
-
-    int32_t *busy;             // awake pairs that do not wait
-    _Atomic int32_t some_wait; // 0: no awake pair does
-    int32_t busy_capacity;
-    int32_t *results; // pairs that begin, end or part in this step
-    int32_t result_capacity;
-    _Atomic int32_t result_count;
-    _Atomic int32_t recycled;
-
-    int32_t *left; // shapes that left their box in this step, and their new ones
-    fe__bounds *boxes;
-    int32_t left_capacity, box_capacity;
-    _Atomic int32_t left_count;
-    _Atomic int32_t lost_count; // bodies that overflowed in this step
-
-    int32_t *chased;   // bodies that continuous collision looks at: dynamic ones, and kinematic ones from kinematic_room on
-    fe__chase *chases; // what became of bullets, by place in that list
-    int32_t chased_capacity, chase_capacity;
-    int32_t kinematic_room;
-    _Atomic int32_t chased_count, kinematic_count;
-
-    float *island_timers;
-    int32_t island_capacity;
-    fe__sort_item *sort_items; // two stretches
-    int32_t sort_capacity;
-    int32_t step_count;
-} fe__step_scratch;
-
-typedef struct fe__step {
-    fe_world *world;
-    fe__step_scratch *scratch;
-    float dt;                     // s
-    fe__step_constants constants; // of most islands
-    int32_t failed;               // no memory; nothing was changed
-} fe__step;
-
-// The stages, in order
-void fe__find_new_pairs(fe__step *step); // pairs_stage.c: queries of moved proxies -> candidates; reserves all; new pairs
-// Awake pairs that do not wait, good until one of them does (collide_stage.c)
-const int32_t *fe__busy_pairs(fe__step *step, int32_t *out_count);
-void fe__update_contacts(fe__step *step);      // collide_stage.c: narrow phase or recycling -> manifolds, begin and end, wakes
-void fe__build_islands(fe__step *step);        // collide_stage.c: the graph, when it changed
-void fe__solve_islands(fe__step *step);        // step.c: all substeps -> velocities, motion, impulses
-void fe__stop_fast_bodies(fe__step *step);     // continuous.c: motions end where something stood in the way
-void fe__move_bodies(fe__step *step);          // finalize.c: poses, bounds, trees
-void fe__break_joints(fe__step *step);         // joint_state.c
-void fe__collect_events(fe__step *step);       // events.c
-void fe__put_islands_to_sleep(fe__step *step); // finalize.c
-void fe__collect_body_events(fe__step *step);  // events.c
-
-int32_t fe__find_clusters(fe__step *step, fe__graph_bound *bound);          // clusters.c: bound->largest; 0: no memory
-int32_t fe__reserve_step(fe__step *step);                                   // reserve.c; 0: no memory
-int32_t fe__motion_makes_sense(const fe__solver *s, int32_t line);          // finalize.c; 0: it overflowed
-int32_t fe__box_meets_plane(const fe__shape *plane, const fe__bounds *box); // does the box reach into the half space?
-// sorts pairs by the creation of their shapes
-void fe__sort_pairs(fe__step *step, int32_t *pairs, int32_t count);
+// FE_ERROR_MEMORY: nothing happened.
+fe_result fe__world_step(fe_world *world, float dt);
 
 #endif

@@ -2,7 +2,11 @@
 //
 // Called by the API layer with checked arguments, between steps. A shape with a heightfield is a user of its asset; the narrow phase and
 // the queries read the records. New heights reach the shapes' bounds and trees at once and the contacts in the next step.
-#include "world/world.h"
+#include "world/assets.h"
+
+#include "world/pair_list.h"
+#include "world/proxies.h"
+#include "world/sleep.h"
 
 #include <string.h>
 
@@ -91,7 +95,7 @@ void fe__shape_take_asset(fe_world *world, int32_t index)
 {
     fe__shape *shape = world->shapes + index;
     shape->next_user = -1;
-    if (shape->form.type != FE_GEOMETRY_HEIGHTFIELD) return;
+    if (shape->form.type != FE__FORM_HEIGHTFIELD) return;
     fe__asset *a = world->assets + shape->form.field;
     shape->next_user = a->first_user;
     a->first_user = index;
@@ -100,7 +104,7 @@ void fe__shape_take_asset(fe_world *world, int32_t index)
 void fe__shape_release_asset(fe_world *world, int32_t index)
 {
     const fe__shape *shape = world->shapes + index;
-    if (shape->form.type != FE_GEOMETRY_HEIGHTFIELD) return;
+    if (shape->form.type != FE__FORM_HEIGHTFIELD) return;
     fe__asset *a = world->assets + shape->form.field;
     int32_t *at = &a->first_user;
     while (*at != index) at = &world->shapes[*at].next_user;
@@ -115,15 +119,6 @@ void fe__assets_free(fe_world *world)
     fe__id_pool_free(&world->asset_ids, &world->memory);
     FE_FREE(&world->memory, world->fields, world->field_capacity);
     FE_FREE(&world->memory, world->assets, world->asset_capacity);
-}
-
-fe_handle fe__asset_handle(const fe_world *world, int32_t index) { return fe__id_pool_handle(&world->asset_ids, index); }
-
-const fe_material *fe__shape_material(const fe_world *world, const fe__shape *shape, int32_t cell)
-{
-    if (shape->form.type != FE_GEOMETRY_HEIGHTFIELD || cell < 0) return &shape->material;
-    const fe__asset *a = world->assets + shape->form.field;
-    return a->material_count ? a->materials + world->fields[shape->form.field].cells[cell] : &shape->material;
 }
 
 // ---- new heights --------------------------------------------------------------------------------------------------------------------
@@ -156,7 +151,7 @@ static void renew_pairs(fe_world *world, int32_t index, const fe__bounds *part)
         if (p->flags & FE__PAIR_PATCH || (p->shape_a != index && p->shape_b != index)) continue;
         int32_t other = p->shape_a == index ? p->shape_b : p->shape_a;
         if (!is_over(world, field, other, part)) continue;
-        world->contacts[pair].surface[3] = 0.0f; // what moved by nothing has moved too far
+        world->contacts[pair].surface.tolerance = 0.0f; // what moved by nothing has moved too far
         if (p->flags & FE__PAIR_LINKED) fe__wake(world, world->shapes[other].body);
         fe__pair_look_once(world, pair);
     }

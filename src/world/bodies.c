@@ -2,20 +2,20 @@
 //
 // Called by the API layer with checked arguments, between steps. A body's pose is its origin and rotation as they were set; the step moves
 // the centre of mass and derives the origin from it. Mass is in mass.c, velocities and forces in motion.c, shapes in shapes.c.
-#include "world/world.h"
+#include "world/bodies.h"
+
+#include "world/assets.h"
+#include "world/joints.h"
+#include "world/mass.h"
+#include "world/pair_list.h"
+#include "world/pairs.h"
+#include "world/pose.h"
+#include "world/proxies.h"
+#include "world/shapes.h"
+#include "world/sleep.h"
+#include "world/speed.h"
 
 #include <string.h>
-
-// A rotation is kept bit for bit when its length is 1 to this accuracy. Rounding q/|q| to floats leaves less (half a unit in the last
-// place, 6e-8), so that normalising twice changes nothing.
-#define UNIT_TOLERANCE 1e-7
-
-fe_quat fe__unit_rotation(fe_quat q)
-{
-    double x = (double)q.x, y = (double)q.y, z = (double)q.z, w = (double)q.w;
-    double length = sqrt(x * x + y * y + z * z + w * w);
-    return fe__absd(length - 1.0) < UNIT_TOLERANCE ? q : fe__normalized(q);
-}
 
 fe_result fe__reserve_bodies(fe_world *world, int32_t extra)
 {
@@ -60,20 +60,6 @@ static void remove_from_order(fe_world *world, int32_t index)
     world->static_count -= body->type == FE_BODY_STATIC;
 }
 
-// centre = origin + R(q) local centre; high + low carry it to 48 bits for the float kernels
-void fe__body_place_centre(fe__body *body)
-{
-    fe_quat q = {body->rotation[0], body->rotation[1], body->rotation[2], body->rotation[3]};
-    fe_vec3 local = {body->local_centre[0], body->local_centre[1], body->local_centre[2]};
-    fe_dvec3 arm = fe__drotate(q, fe__widen(local));
-    double c[3] = {body->origin[0] + arm.x, body->origin[1] + arm.y, body->origin[2] + arm.z};
-    for (int k = 0; k < 3; ++k) {
-        body->centre[k] = c[k];
-        body->centre_high[k] = (float)c[k];
-        body->centre_low[k] = (float)(c[k] - (double)body->centre_high[k]);
-    }
-}
-
 static void set_pose(fe__body *body, const fe_transform *transform)
 {
     fe_quat q = fe__unit_rotation(transform->rotation);
@@ -84,7 +70,7 @@ static void set_pose(fe__body *body, const fe_transform *transform)
 
 static void set_lock_bits(fe_world *world, fe__body *body, uint32_t linear, uint32_t angular)
 {
-    body->spin[3] = (float)(linear | angular << 3);
+    body->lock_bits = (float)(linear | angular << 3);
     body->locked = (linear | angular) != 0;
     fe__body_stop_locked(world, body);
 }
@@ -121,8 +107,8 @@ int32_t fe__body_create(fe_world *world, const fe_body_def *def)
     body->first_contact = body->first_shape = body->last_shape = -1;
     body->gravity_scale = def->gravity_scale;
     body->sleep_threshold = def->sleep_threshold;
-    body->force[3] = def->linear_damping;
-    body->torque[3] = def->angular_damping;
+    body->linear_damping = def->linear_damping;
+    body->angular_damping = def->angular_damping;
     set_pose(body, &def->transform);
     set_initial_velocities(body, def);
     set_lock_bits(world, body, def->linear_locks, def->angular_locks);
@@ -231,27 +217,6 @@ fe_result fe__body_set_enabled(fe_world *world, int32_t index, int32_t enabled)
     return FE_OK;
 }
 
-void fe__body_place(fe_world *world, int32_t index)
-{
-    const fe__body *body = &world->bodies[index];
-    fe__pose pose = {{body->origin[0], body->origin[1], body->origin[2]},
-                     {body->rotation[0], body->rotation[1], body->rotation[2], body->rotation[3]}};
-    for (int32_t i = body->first_shape; i >= 0; i = world->shapes[i].next) {
-        fe__shape *shape = &world->shapes[i];
-        shape->pose = shape->flags & FE__SHAPE_CENTRED ? pose : fe__compose(&pose, shape->local_position, shape->local_rotation);
-    }
-}
-
-void fe__body_disturb(fe_world *world, int32_t index)
-{
-    const fe__body *body = &world->bodies[index];
-    if (!(body->flags & FE__BODY_ENABLED)) return;
-    if (body->type == FE_BODY_STATIC)
-        fe__wake_neighbours(world, index);
-    else
-        fe__wake(world, index);
-}
-
 // Pairs stay: the narrow phase sees how far the body went, and those that came apart end in the next step with their exits.
 void fe__body_set_transform(fe_world *world, int32_t index, const fe_transform *transform)
 {
@@ -278,5 +243,3 @@ void fe__body_set_locks(fe_world *world, int32_t index, uint32_t linear, uint32_
         fe__shape_material_changed(world, shape);
     }
 }
-
-fe_handle fe__body_handle(const fe_world *world, int32_t body) { return fe__id_pool_handle(&world->body_ids, body); }

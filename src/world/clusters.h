@@ -15,6 +15,9 @@ typedef struct fe__clusters {
     int32_t has_grown; // 1: candidates came since they were made
 } fe__clusters;
 
+int32_t fe__clusters_reserve(fe__clusters *clusters, fe__memory *memory, int32_t bodies);      // 0: no memory
+void fe__clusters_part(fe__clusters *clusters);                                                // each body is one, without lanes
+void fe__clusters_join(fe__clusters *clusters, int32_t body_a, int32_t body_b, int32_t lanes); // which come with what joins them
 void fe__clusters_free(fe__clusters *clusters, fe__memory *memory);
 
 #endif

@@ -1,7 +1,9 @@
 // filter.c - who may touch whom.
 //
 // Asked by the broad phase before a pair exists, so that what may not touch costs no narrow phase, wakes nobody and makes no event.
-#include "world/world.h"
+#include "world/filter.h"
+
+#include "world/joint_list.h"
 
 // Contacts need a dynamic body; a trigger also reports a kinematic one. Nothing changes between two static bodies.
 static int32_t types_meet(const fe_world *world, const fe__shape *a, const fe__shape *b)
@@ -11,33 +13,21 @@ static int32_t types_meet(const fe_world *world, const fe__shape *a, const fe__s
     return (a->flags | b->flags) & FE__SHAPE_TRIGGER && (type_a == FE_BODY_KINEMATIC || type_b == FE_BODY_KINEMATIC);
 }
 
+// One group of both decides: above 0 they collide, below 0 they do not; layers decide otherwise.
+static int32_t groups_and_layers_meet(const fe__shape *a, const fe__shape *b)
+{
+    if (a->group == b->group && a->group != 0) return a->group > 0;
+    return a->layer & b->mask && b->layer & a->mask;
+}
+
 int32_t fe__may_collide(const fe_world *world, int32_t shape_a, int32_t shape_b)
 {
     const fe__shape *a = &world->shapes[shape_a], *b = &world->shapes[shape_b];
     if (a->body == b->body) return 0;
-    if (!(a->layer & b->mask) || !(b->layer & a->mask)) return 0;
+    if (!groups_and_layers_meet(a, b)) return 0;
     const fe__body *body_a = &world->bodies[a->body], *body_b = &world->bodies[b->body];
     uint32_t both = body_a->flags & body_b->flags;
     if (!(both & FE__BODY_ENABLED) || !types_meet(world, a, b)) return 0;
     if (both & FE__BODY_IGNORES && fe__pair_set_find(&world->ignored, a->body, b->body) >= 0) return 0;
     return !body_a->first_joint || !body_b->first_joint || !fe__bodies_joined(world, a->body, b->body);
-}
-
-fe_result fe__ignore_collision(fe_world *world, int32_t a, int32_t b, int32_t ignore)
-{
-    int32_t ignored = fe__pair_set_find(&world->ignored, a, b) >= 0;
-    if (ignored == ignore) return FE_OK;
-    if (!ignore) {
-        fe__pair_set_remove(&world->ignored, a, b);
-        for (int32_t i = world->bodies[a].first_shape; i >= 0; i = world->shapes[i].next) fe__shape_mark_moved(world, i);
-        return FE_OK;
-    }
-    if (!fe__pair_set_reserve(&world->ignored, &world->memory, 1)) return FE_ERROR_MEMORY;
-    fe__body_disturb(world, a);
-    fe__body_disturb(world, b);
-    fe__pair_set_insert(&world->ignored, a, b, 0);
-    world->bodies[a].flags |= FE__BODY_IGNORES;
-    world->bodies[b].flags |= FE__BODY_IGNORES;
-    fe__body_refilter(world, a);
-    return FE_OK;
 }

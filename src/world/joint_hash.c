@@ -2,8 +2,7 @@
 //
 // The order of these words is that of the first definitions of joints. It is kept apart from the structs of the API, so that a field more
 // there changes no fingerprint of a world that does not use it.
-#include "core/hash.h"
-#include "world/world.h"
+#include "world/hash.h"
 
 #include <string.h>
 

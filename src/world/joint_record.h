@@ -48,11 +48,6 @@ typedef struct fe__joint_record {
     fe_dvec3 world_origin; // m, where the frame of an end that is the world is measured from
 } fe__joint_record;
 
-typedef struct fe__joint_event_record {
-    uint64_t serial;
-    fe_joint_event event;
-} fe__joint_event_record;
-
 // bytes of a type's definition
 static inline int32_t fe__joint_def_size(int32_t type)
 {

@@ -1,32 +1,28 @@
-// joint_state.c - how joints stand: frames, coordinates, speeds, errors; and which of them break.
-//
-// Read from the bodies' poses and velocities as they are, by the API and after the solver.
+// joint_state.c - see joint_state.h.
+#include "world/joint_state.h"
+
 #include "core/trig.h"
 #include "world/joint_parts.h"
-#include "step/step.h"
+#include "world/pose.h"
 
-static fe_quat rotation_of(const fe__body *b) { return (fe_quat){b->rotation[0], b->rotation[1], b->rotation[2], b->rotation[3]}; }
-static fe_vec3 velocity_of(const fe__body *b) { return fe__vec3(b->velocity[0], b->velocity[1], b->velocity[2]); }
-static fe_vec3 spin_of(const fe__body *b) { return fe__vec3(b->spin[0], b->spin[1], b->spin[2]); }
+static fe_vec3 spin_of(const fe__body *b) { return fe__quad_vector(b->spin); }
 
 fe_transform fe__joint_frame_now(const fe_world *world, int32_t joint, int32_t side)
 {
     const fe__joint_record *r = world->joint_records + joint;
     const fe__body *b = world->bodies + r->body[side];
-    fe_dvec3 origin = {b->origin[0], b->origin[1], b->origin[2]};
-    return (fe_transform){fe__dadd(origin, fe__drotate(rotation_of(b), fe__widen(r->frame[side].position))),
-                          fe__normalized(fe__product(rotation_of(b), r->frame[side].rotation))};
+    return (fe_transform){fe__dadd(fe__origin_of(b), fe__drotate(fe__rotation_of(b), fe__widen(r->frame[side].position))),
+                          fe__normalized(fe__product(fe__rotation_of(b), r->frame[side].rotation))};
 }
 
 // of a body's point, m/s
 static fe_vec3 velocity_at(const fe__body *b, fe_dvec3 point)
 {
-    fe_dvec3 arm = {point.x - b->centre[0], point.y - b->centre[1], point.z - b->centre[2]};
-    return fe__add(velocity_of(b), fe__cross(spin_of(b), fe__narrow(arm)));
+    return fe__add(fe__quad_vector(b->velocity), fe__cross(spin_of(b), fe__narrow(fe__dsub(point, fe__centre_of(b)))));
 }
 
 // ---- errors ---------------------------------------------------------------------------------------------------------------------------
-static float beyond(const fe__joint_axis *axis, float x) { return fe__maxf(fe__maxf(axis->limit[0] - x, x - axis->limit[1]), 0.0f); }
+static float beyond(const fe__joint_axis *axis, float x) { return fe__maxf(fe__maxf(axis->limit.low - x, x - axis->limit.high), 0.0f); }
 
 static float linear_error(const fe__joint_frame *f, const fe__joint_axes *axes, const fe__joint_pose *pose)
 {
@@ -43,7 +39,7 @@ static float linear_error(const fe__joint_frame *f, const fe__joint_axes *axes, 
 
 static float cone_error(const fe__joint_axis *axis, float y, float z)
 {
-    float a = y / axis->limit[0], b = z / axis->limit[1], out = sqrtf(a * a + b * b);
+    float a = y / axis->limit.low, b = z / axis->limit.high, out = sqrtf(a * a + b * b);
     return out > 1.0f ? sqrtf(y * y + z * z) * (1.0f - 1.0f / out) : 0.0f;
 }
 
@@ -64,7 +60,7 @@ static float angular_error(const fe__joint_frame *f, const fe__joint_axes *axes,
 
 // ---- state ----------------------------------------------------------------------------------------------------------------------------
 // From the solver's axes back to those of the definition
-static void tell_coordinates(int32_t shift, const fe__joint_pose *pose, float twist, fe_joint_state *s)
+static void write_coordinates(int32_t shift, const fe__joint_pose *pose, float twist, fe_joint_state *s)
 {
     fe_quat to = fe__joint_shift(shift), q = fe__product(fe__product(to, pose->q), fe__conjugate(to));
     const float d[3] = {pose->d.x, pose->d.y, pose->d.z};
@@ -85,8 +81,8 @@ void fe__joint_state_of(const fe_world *world, int32_t joint, fe_joint_state *s)
     fe__joint_pose pose;
     fe__joint_pose_of(&world->joints, world->bodies, joint, &pose);
     float twist = pose.twist;
-    if (f->parts >> FE__PART_TWIST & 1) twist = fe__joint_wind(pose.twist, axes->axis[FE__AXIS_TWIST].state[0]);
-    tell_coordinates(r->shift, &pose, twist, s);
+    if (f->parts >> FE__PART_TWIST & 1) twist = fe__joint_wind(pose.twist, axes->axis[FE__AXIS_TWIST].state.x);
+    write_coordinates(r->shift, &pose, twist, s);
     s->angular_velocity = fe__rotate_back(frame_a.rotation, fe__sub(spin_of(b), spin_of(a)));
     // frame A turns under the moving point: d/dt (R^T x) = R^T (x' - wA x x), x from A's point, is the velocity against A's matter at B's
     // point
@@ -98,43 +94,4 @@ void fe__joint_state_of(const fe_world *world, int32_t joint, fe_joint_state *s)
     if (r->type != FE_JOINT_FIXED) return; // whose springs hold too
     s->linear_error = pose.length;
     s->angular_error = whole_angle(pose.q);
-}
-
-// ---- breaking -------------------------------------------------------------------------------------------------------------------------
-static int32_t exceeds(fe_vec3 a, float most) { return most > 0.0f && fe__dot(a, a) > most * most; }
-
-// Reads the step's reactions; writes events in the order of creation, then removes the joints in that order
-void fe__break_joints(fe__step *step)
-{
-    fe_world *w = step->world;
-    fe__sort_item *items = step->scratch->sort_items;
-    int32_t count = 0;
-    w->joint_event_count = 0;
-    if (!w->breakable_count || step->dt == 0.0f) return;
-    for (int32_t i = 0; i < w->awake_joint_count; ++i) {
-        int32_t joint = w->awake_joints[i];
-        const fe__joint_record *r = w->joint_records + joint;
-        if (w->joints.joints[joint].colour < 0 || (r->break_force == 0.0f && r->break_torque == 0.0f)) continue;
-        fe_vec3 force, torque;
-        fe__joint_reaction_of(&w->joints, w->bodies, joint, &force, &torque);
-        if (exceeds(force, r->break_force) || exceeds(torque, r->break_torque))
-            items[count++] = (fe__sort_item){w->joints.frames[joint].serial, joint, 0};
-    }
-    fe__sort_keys(items, count, items + count);
-    w->joint_event_count = count;
-    for (int32_t i = 0; i < count; ++i) {
-        int32_t joint = items[i].value;
-        const fe__joint_record *r = w->joint_records + joint;
-        fe_joint_event e = {fe__joint_handle(w, joint),
-                            fe__body_handle(w, r->body[0]),
-                            fe__body_handle(w, r->body[1]),
-                            r->user_data,
-                            FE_EVENT_BREAK,
-                            r->type,
-                            {0, 0, 0},
-                            {0, 0, 0}};
-        fe__joint_reaction_of(&w->joints, w->bodies, joint, &e.force, &e.torque);
-        w->joint_events[i] = (fe__joint_event_record){items[i].key, e};
-    }
-    for (int32_t i = 0; i < count; ++i) fe__joint_destroy(w, items[i].value);
 }

@@ -2,8 +2,16 @@
 //
 // Called by the API layer with checked definitions, between steps, and by the life of bodies. A joint is linked while it is enabled, its
 // bodies are, and one of them is dynamic.
+#include "world/joints.h"
+
+#include "world/forest.h"
+#include "world/handles.h"
+#include "world/joint_list.h"
 #include "world/joint_parts.h"
-#include "world/world.h"
+#include "world/pairs.h"
+#include "world/pose.h"
+#include "world/proxies.h"
+#include "world/sleep.h"
 
 #include <assert.h>
 #include <string.h>
@@ -29,106 +37,6 @@ void fe__joints_free(fe_world *world)
     for (int32_t type = 1; type < FE__JOINT_TYPES; ++type) fe__record_pool_free(&world->joint_settings[type], memory);
     FE_FREE(memory, world->awake_joints, world->awake_joint_capacity);
     FE_FREE(memory, world->joint_events, world->joint_event_capacity);
-}
-
-// ---- lists ----------------------------------------------------------------------------------------------------------------------------
-static int32_t side_of(const fe__joint_record *r, int32_t body) { return r->body[0] == body ? 0 : 1; }
-
-int32_t fe__next_joint(const fe_world *world, int32_t joint, int32_t body)
-{
-    const fe__joint_record *r = world->joint_records + joint;
-    return r->links[side_of(r, body)].next;
-}
-
-int32_t fe__joint_other(const fe_world *world, int32_t joint, int32_t body)
-{
-    const fe__joint_record *r = world->joint_records + joint;
-    return r->body[!side_of(r, body)];
-}
-
-static fe__link *link_of(fe_world *world, int32_t joint, int32_t body)
-{
-    fe__joint_record *r = world->joint_records + joint;
-    return &r->links[side_of(r, body)];
-}
-
-static void add_to_body(fe_world *world, int32_t joint, int32_t index)
-{
-    fe__body *body = world->bodies + index;
-    *link_of(world, joint, index) = (fe__link){0, body->last_joint};
-    if (body->last_joint)
-        link_of(world, body->last_joint, index)->next = joint;
-    else
-        body->first_joint = joint;
-    body->last_joint = joint;
-    ++body->joint_total;
-}
-
-static void remove_from_body(fe_world *world, int32_t joint, int32_t index)
-{
-    fe__body *body = world->bodies + index;
-    fe__link link = *link_of(world, joint, index);
-    if (link.previous)
-        link_of(world, link.previous, index)->next = link.next;
-    else
-        body->first_joint = link.next;
-    if (link.next)
-        link_of(world, link.next, index)->previous = link.previous;
-    else
-        body->last_joint = link.previous;
-    --body->joint_total;
-}
-
-static void append_to_order(fe_world *world, int32_t joint)
-{
-    fe__joint_record *r = world->joint_records + joint;
-    r->order_next = 0;
-    r->order_previous = world->last_joint;
-    if (world->last_joint)
-        world->joint_records[world->last_joint].order_next = joint;
-    else
-        world->first_joint = joint;
-    world->last_joint = joint;
-    ++world->joint_count;
-}
-
-static void remove_from_order(fe_world *world, int32_t joint)
-{
-    const fe__joint_record *r = world->joint_records + joint;
-    if (r->order_previous)
-        world->joint_records[r->order_previous].order_next = r->order_next;
-    else
-        world->first_joint = r->order_next;
-    if (r->order_next)
-        world->joint_records[r->order_next].order_previous = r->order_previous;
-    else
-        world->last_joint = r->order_previous;
-    --world->joint_count;
-}
-
-// ---- who is awake ---------------------------------------------------------------------------------------------------------------------
-static int32_t is_awake_dynamic(const fe_world *world, int32_t body)
-{
-    return world->bodies[body].type == FE_BODY_DYNAMIC && world->bodies[body].awake_index >= 0;
-}
-
-void fe__joint_awaken(fe_world *world, int32_t joint)
-{
-    fe__joint_record *r = world->joint_records + joint;
-    if (r->awake_index >= 0 || (!is_awake_dynamic(world, r->body[0]) && !is_awake_dynamic(world, r->body[1]))) return;
-    r->awake_index = world->awake_joint_count;
-    world->awake_joints[world->awake_joint_count++] = joint;
-}
-
-void fe__joint_retire(fe_world *world, int32_t joint)
-{
-    fe__joint_record *r = world->joint_records + joint;
-    int32_t place = r->awake_index;
-    if (place < 0 || is_awake_dynamic(world, r->body[0]) || is_awake_dynamic(world, r->body[1])) return;
-    int32_t last = world->awake_joints[--world->awake_joint_count];
-    world->awake_joints[place] = last;
-    world->joint_records[last].awake_index = place;
-    r->awake_index = -1;
 }
 
 // ---- the constraint graph -------------------------------------------------------------------------------------------------------------
@@ -168,20 +76,6 @@ void fe__body_link_joints(fe_world *world, int32_t body)
     for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body)) link(world, joint);
 }
 
-// ---- filter ---------------------------------------------------------------------------------------------------------------------------
-static int32_t parts_bodies(const fe__joint_record *r)
-{
-    return (r->flags & (FE__JOINT_ENABLED | FE__JOINT_COLLIDES)) == FE__JOINT_ENABLED;
-}
-
-int32_t fe__bodies_joined(const fe_world *world, int32_t a, int32_t b)
-{
-    int32_t from = world->bodies[a].joint_total <= world->bodies[b].joint_total ? a : b, to = from == a ? b : a;
-    for (int32_t joint = world->bodies[from].first_joint; joint; joint = fe__next_joint(world, joint, from))
-        if (fe__joint_other(world, joint, from) == to && parts_bodies(world->joint_records + joint)) return 1;
-    return 0;
-}
-
 // Pairs that may no longer be end now; those that may be again are found by the next step
 static void refilter(fe_world *world, const fe__joint_record *r, int32_t parted)
 {
@@ -212,7 +106,7 @@ static void wind(fe_world *world, int32_t joint)
     fe__joint_axis *axis = world->joints.axes[f->axes].axis + FE__AXIS_TWIST;
     fe__joint_pose pose;
     fe__joint_pose_of(&world->joints, world->bodies, joint, &pose);
-    axis->state[0] = axis->limit[1] < FE__UNLIMITED ? fe__joint_wind(pose.twist, 0.5f * (axis->limit[0] + axis->limit[1])) : pose.twist;
+    axis->state.x = axis->limit.high < FE__UNLIMITED ? fe__joint_wind(pose.twist, 0.5f * (axis->limit.low + axis->limit.high)) : pose.twist;
 }
 
 static void place_anchors(fe_world *world, int32_t joint)
@@ -239,7 +133,7 @@ void fe__body_forget_joints(fe_world *world, int32_t body)
     for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body)) {
         const fe__joint_frame *f = world->joints.frames + joint;
         fe__joint_forget_impulses(&world->joints, joint);
-        for (int32_t k = 0; f->axes && k < FE__AXES; ++k) world->joints.axes[f->axes].axis[k].state[0] = 0.0f;
+        for (int32_t k = 0; f->axes && k < FE__AXES; ++k) world->joints.axes[f->axes].axis[k].state.x = 0.0f;
         wind(world, joint);
     }
 }
@@ -258,8 +152,8 @@ static void fill_axes(fe_world *world, int32_t joint, const fe__joint_plan *plan
     *axes = plan->axes;
     for (int32_t k = 0; k < FE__AXES; ++k) {
         if (fe__joint_part_at(f->parts, k) != fe__joint_part_at(plan->parts, k)) continue;
-        memcpy(axes->axis[k].impulse, old.axis[k].impulse, sizeof old.axis[k].impulse);
-        memcpy(axes->axis[k].state, old.axis[k].state, sizeof old.axis[k].state);
+        axes->axis[k].impulse = old.axis[k].impulse;
+        axes->axis[k].state = old.axis[k].state;
     }
     if (!(f->parts & plan->parts & 1u << FE__PART_TURN)) return;
     memcpy(axes->turn.impulse, old.turn.impulse, sizeof old.turn.impulse);
@@ -278,7 +172,7 @@ static void fill(fe_world *world, int32_t joint, const fe__joint_plan *plan)
     r->shift = plan->shift;
     set_quat(f->frame_a, fe__product(r->frame[0].rotation, fe__joint_shift(r->shift)));
     set_quat(f->frame_b, fe__product(r->frame[1].rotation, fe__joint_shift(r->shift)));
-    j->arm_a[3] = plan->hertz, j->arm_b[3] = plan->damping_ratio;
+    j->hertz = plan->hertz, j->damping_ratio = plan->damping_ratio;
     place_anchors(world, joint);
     wind(world, joint);
 }
@@ -348,14 +242,14 @@ fe_result fe__joint_create(fe_world *world, int32_t type, const fe__joint_any *d
     world->joints.joints[joint].colour = -1;
     world->joints.frames[joint].serial = world->next_serial++;
     set_record(world, joint, def);
-    add_to_body(world, joint, bodies[0]);
-    add_to_body(world, joint, bodies[1]);
-    append_to_order(world, joint);
+    fe__joint_add_to_body(world, joint, bodies[0]);
+    fe__joint_add_to_body(world, joint, bodies[1]);
+    fe__joint_append_to_order(world, joint);
     fill(world, joint, &plan);
     link(world, joint);
     wake_bodies(world, bodies);
     fe__joint_awaken(world, joint);
-    if (parts_bodies(r)) refilter(world, r, 1);
+    if (fe__joint_parts_bodies(r)) refilter(world, r, 1);
     *out_joint = joint;
     return FE_OK;
 }
@@ -369,14 +263,14 @@ fe_result fe__joint_change(fe_world *world, int32_t joint, const fe__joint_any *
         fe_result reserved = reserve_axes(world, 1);
         if (reserved != FE_OK) return reserved;
     }
-    int32_t parted = parts_bodies(r);
+    int32_t parted = fe__joint_parts_bodies(r);
     wake_bodies(world, r->body); // those it held, and those it will hold
     unlink(world, joint);
     set_record(world, joint, def);
     fill(world, joint, &plan);
     link(world, joint);
     wake_bodies(world, r->body);
-    if (parted != parts_bodies(r)) refilter(world, r, !parted);
+    if (parted != fe__joint_parts_bodies(r)) refilter(world, r, !parted);
     return FE_OK;
 }
 
@@ -385,16 +279,12 @@ void fe__joint_destroy(fe_world *world, int32_t joint)
     fe__joint_record *r = world->joint_records + joint;
     wake_bodies(world, r->body);
     unlink(world, joint);
-    if (r->awake_index >= 0) {
-        int32_t last = world->awake_joints[--world->awake_joint_count];
-        world->awake_joints[r->awake_index] = last;
-        world->joint_records[last].awake_index = r->awake_index;
-    }
-    remove_from_body(world, joint, r->body[0]);
-    remove_from_body(world, joint, r->body[1]);
-    remove_from_order(world, joint);
+    if (r->awake_index >= 0) fe__joint_leave_awake(world, joint);
+    fe__joint_remove_from_body(world, joint, r->body[0]);
+    fe__joint_remove_from_body(world, joint, r->body[1]);
+    fe__joint_remove_from_order(world, joint);
     world->breakable_count -= is_breakable(r);
-    if (parts_bodies(r)) refilter(world, r, 0);
+    if (fe__joint_parts_bodies(r)) refilter(world, r, 0);
     fe__record_pool_return(&world->joint_settings[r->type], r->settings);
     if (world->joints.frames[joint].axes) fe__record_pool_return(&world->joint_axes, world->joints.frames[joint].axes);
     world->joints.frames[joint].axes = 0;
@@ -426,5 +316,3 @@ void fe__joint_describe(const fe_world *world, int32_t joint, fe__joint_any *out
     const fe__record_pool *pool = &world->joint_settings[r->type];
     memcpy((unsigned char *)out_def + FE__JOINT_FRONT, fe__record(pool, r->settings), (size_t)pool->size);
 }
-
-fe_handle fe__joint_handle(const fe_world *world, int32_t joint) { return fe__id_pool_handle(&world->joint_ids, joint - 1); }

@@ -2,7 +2,11 @@
 //
 // A pair is in its list while one of its bodies is. The order of the lists is of no consequence: everything that could show is sorted by
 // creation.
-#include "world/world.h"
+#include "world/sleep.h"
+
+#include "world/joint_list.h"
+#include "world/pair_list.h"
+#include "world/speed.h"
 
 // Bodies whose state changed since the last step's events: each once, whatever happens in between
 static void stir(fe_world *world, int32_t index)
@@ -85,6 +89,16 @@ void fe__wake_neighbours(fe_world *world, int32_t body)
         int32_t other = joined_dynamic(world, joint, body);
         if (other >= 0) fe__wake(world, other);
     }
+}
+
+void fe__body_disturb(fe_world *world, int32_t index)
+{
+    const fe__body *body = &world->bodies[index];
+    if (!(body->flags & FE__BODY_ENABLED)) return;
+    if (body->type == FE_BODY_STATIC)
+        fe__wake_neighbours(world, index);
+    else
+        fe__wake(world, index);
 }
 
 static int32_t is_driving(const fe_world *world, int32_t body, int32_t low)

@@ -1,7 +1,7 @@
 // Whatever the host has done to the floating-point state, Feather computes in its own, on every thread, and hands the host's back.
 #include "fe_test.h"
 
-#include "core/threads.h"
+#include "core/fp_state.h"
 
 #include <fenv.h>
 #include <float.h>

@@ -1,6 +1,8 @@
 // Runs: every task once, all back before the run is, from several threads at once, and no core burnt in between.
 #include "fe_test.h"
 
+#include "core/clock.h"
+#include "core/fp_state.h"
 #include "core/threads.h"
 
 #include <pthread.h>

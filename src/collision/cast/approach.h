@@ -3,8 +3,8 @@
 // Every form but the plane is a core - a point, a segment along y, a box - swelled by its radius. Of two forms the one whose core has more
 // dimensions gives the frame, whichever of them moves: so there are six kinds of pairs. A point is a box of no size, a segment one of only
 // a height: what separates boxes serves all.
-#ifndef FE_COLLISION_APPROACH_H
-#define FE_COLLISION_APPROACH_H
+#ifndef FE_COLLISION_CAST_APPROACH_H
+#define FE_COLLISION_CAST_APPROACH_H
 #include "collision/cast/sweep.h"
 
 typedef enum fe__core_kind { FE_CORE_POINT, FE_CORE_SEGMENT, FE_CORE_BOX, FE_CORE_TRIANGLE } fe__core_kind;

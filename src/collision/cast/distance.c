@@ -20,16 +20,16 @@ static void plane_gap(const fe__form *plane, const fe__pose *pose_a, const fe__f
 
 static double radius_of(const fe__form *form)
 {
-    return form->type == FE_GEOMETRY_SPHERE || form->type == FE_GEOMETRY_CAPSULE ? (double)form->radius : 0.0;
+    return form->type == FE__FORM_SPHERE || form->type == FE__FORM_CAPSULE ? (double)form->radius : 0.0;
 }
 
 void fe__form_gap(const fe__form *a, const fe__pose *pose_a, const fe__form *b, const fe__pose *pose_b, fe__gap *gap)
 {
-    if (a->type == FE_GEOMETRY_PLANE) {
+    if (a->type == FE__FORM_PLANE) {
         plane_gap(a, pose_a, b, pose_b, gap);
         return;
     }
-    if (b->type == FE_GEOMETRY_PLANE) {
+    if (b->type == FE__FORM_PLANE) {
         plane_gap(b, pose_b, a, pose_a, gap);
         gap->on_b = fe__dsub(gap->on_b, fe__dscale(gap->distance + (double)a->radius, gap->normal));
         gap->normal = fe__dscale(-1.0, gap->normal);

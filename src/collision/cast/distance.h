@@ -2,8 +2,8 @@
 //
 // In double, by GJK on the cores, in a frame that the caller puts near them. Read by the time of impact. Planes are half spaces; a
 // heightfield hands in its triangles.
-#ifndef FE_COLLISION_DISTANCE_H
-#define FE_COLLISION_DISTANCE_H
+#ifndef FE_COLLISION_CAST_DISTANCE_H
+#define FE_COLLISION_CAST_DISTANCE_H
 #include "collision/form/form.h"
 
 typedef struct fe__gap {

@@ -45,11 +45,11 @@ fe__nearest fe__form_nearest(const fe__form *form, fe_dvec3 point)
 {
     double radius = (double)form->radius;
     switch (form->type) {
-    case FE_GEOMETRY_SPHERE:
+    case FE__FORM_SPHERE:
         return on_round(point, (fe_dvec3){0.0, 0.0, 0.0}, radius, (fe_dvec3){0.0, 1.0, 0.0});
-    case FE_GEOMETRY_CAPSULE:
+    case FE__FORM_CAPSULE:
         return on_round(point, (fe_dvec3){0.0, clamp(point.y, (double)form->half_height), 0.0}, radius, (fe_dvec3){1.0, 0.0, 0.0});
-    case FE_GEOMETRY_BOX:
+    case FE__FORM_BOX:
         return on_box(form, point);
     default:
         return on_plane(form, point);

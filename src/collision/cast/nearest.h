@@ -1,8 +1,8 @@
 // nearest.h - the point of a form's surface nearest to a point.
 //
 // Closed forms in double, in the form's frame. Read by queries. Distances are signed: below 0 inside.
-#ifndef FE_COLLISION_NEAREST_H
-#define FE_COLLISION_NEAREST_H
+#ifndef FE_COLLISION_CAST_NEAREST_H
+#define FE_COLLISION_CAST_NEAREST_H
 #include "collision/form/heightfield.h"
 
 typedef struct fe__nearest {

@@ -220,11 +220,11 @@ int32_t fe__form_ray_at(const fe__form *form, const fe_dvec3 *origin, const fe_d
     double scale = scale_for(largest(*translation));
     ray r = {{origin->x, origin->y, origin->z}, fe__dscale(scale, *translation), scale, limit}; // each number alone: see report
     switch (form->type) {
-    case FE_GEOMETRY_SPHERE:
+    case FE__FORM_SPHERE:
         return ray_sphere(form, &r, hit);
-    case FE_GEOMETRY_CAPSULE:
+    case FE__FORM_CAPSULE:
         return ray_capsule(form, &r, hit);
-    case FE_GEOMETRY_BOX:
+    case FE__FORM_BOX:
         return ray_box(form, &r, hit);
     case FE__FORM_TRIANGLE:
         return ray_triangle(form, &r, hit);

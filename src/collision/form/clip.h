@@ -2,8 +2,8 @@
 //
 // Used by box against box (four edges side by side) and by the general convex path (any polygon). Both work in the plane of the reference
 // face: u, v along it, height over it, below 0 inside. The incident face is what is cut.
-#ifndef FE_COLLISION_CLIP_H
-#define FE_COLLISION_CLIP_H
+#ifndef FE_COLLISION_FORM_CLIP_H
+#define FE_COLLISION_FORM_CLIP_H
 #include "core/math.h"
 
 // id: the edges before and after the vertex. Edges of the incident face count from 0, sides of the reference face from FE_CLIP_SIDE: the

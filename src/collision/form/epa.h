@@ -1,8 +1,8 @@
 // epa.h - depth of two cores that overlap (van den Bergen, Proximity queries and penetration depth computation, 2001), in double.
 //
 // Goes on from the simplex around the origin with which GJK ended.
-#ifndef FE_COLLISION_EPA_H
-#define FE_COLLISION_EPA_H
+#ifndef FE_COLLISION_FORM_EPA_H
+#define FE_COLLISION_FORM_EPA_H
 #include "collision/form/gjk.h"
 
 typedef struct fe__penetration {

@@ -36,11 +36,11 @@ static fe__mass box_mass(const fe__form *form, double density)
 fe__mass fe__form_mass(const fe__form *form, float density)
 {
     switch (form->type) {
-    case FE_GEOMETRY_SPHERE:
+    case FE__FORM_SPHERE:
         return sphere_mass(form, (double)density);
-    case FE_GEOMETRY_CAPSULE:
+    case FE__FORM_CAPSULE:
         return capsule_mass(form, (double)density);
-    case FE_GEOMETRY_BOX:
+    case FE__FORM_BOX:
         return box_mass(form, (double)density);
     default:
         return (fe__mass){0.0f, {0.0f, 0.0f, 0.0f}};
@@ -97,13 +97,13 @@ static fe__bounds heightfield_bounds(const fe__form *form, const fe__pose *pose)
 
 fe__bounds fe__form_bounds(const fe__form *form, const fe__pose *pose)
 {
-    if (form->type == FE_GEOMETRY_PLANE) return plane_bounds(form, pose);
-    if (form->type == FE_GEOMETRY_HEIGHTFIELD) return heightfield_bounds(form, pose);
+    if (form->type == FE__FORM_PLANE) return plane_bounds(form, pose);
+    if (form->type == FE__FORM_HEIGHTFIELD) return heightfield_bounds(form, pose);
     if (form->type == FE__FORM_TRIANGLE) return triangle_bounds(form, pose);
     // half is 0 but for a box, half_height is 0 but for a capsule: the core is the box of both
     fe_dvec3 half = fe__widen(form->half), p = pose->position;
     half.y += (double)form->half_height;
-    if (form->type != FE_GEOMETRY_SPHERE) half = turned_widths(pose->rotation, half);
+    if (form->type != FE__FORM_SPHERE) half = turned_widths(pose->rotation, half);
     double r = (double)form->radius;
     half = (fe_dvec3){half.x + r, half.y + r, half.z + r};
     return (fe__bounds){fe__dsub(p, half), fe__dadd(p, half)};
@@ -111,7 +111,7 @@ fe__bounds fe__form_bounds(const fe__form *form, const fe__pose *pose)
 
 float fe__form_reach(const fe__form *form, fe_vec3 centre)
 {
-    if (form->type >= FE_GEOMETRY_PLANE) return 0.0f;
+    if (form->type >= FE__FORM_PLANE) return 0.0f;
     fe_vec3 far = {fe__absf(centre.x) + form->half.x, fe__absf(centre.y) + form->half.y + form->half_height,
                    fe__absf(centre.z) + form->half.z};
     return fe__length(far) + form->radius;
@@ -120,12 +120,21 @@ float fe__form_reach(const fe__form *form, fe_vec3 centre)
 float fe__form_thickness(const fe__form *form)
 {
     switch (form->type) {
-    case FE_GEOMETRY_BOX:
+    case FE__FORM_BOX:
         return fe__minf(form->half.x, fe__minf(form->half.y, form->half.z));
-    case FE_GEOMETRY_PLANE:
-    case FE_GEOMETRY_HEIGHTFIELD:
+    case FE__FORM_PLANE:
+    case FE__FORM_HEIGHTFIELD:
         return FLT_MAX;
     default:
         return form->radius;
     }
+}
+
+// n . p <= d somewhere in the box
+int32_t fe__plane_meets_box(const fe__form *plane, const fe__pose *pose, const fe__bounds *box)
+{
+    fe_dvec3 n = fe__drotate(pose->rotation, fe__widen(plane->normal));
+    double d = fe__ddot(n, pose->position) + (double)plane->distance;
+    fe_dvec3 low = {n.x > 0.0 ? box->low.x : box->high.x, n.y > 0.0 ? box->low.y : box->high.y, n.z > 0.0 ? box->low.z : box->high.z};
+    return fe__ddot(n, low) <= d;
 }

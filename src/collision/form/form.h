@@ -2,18 +2,26 @@
 //
 // A form lives in the frame of its shape. Everything below this layer knows forms and poses only; bodies and shapes are the world's. No
 // other folder switches over the kinds of forms.
-#ifndef FE_COLLISION_FORM_H
-#define FE_COLLISION_FORM_H
+#ifndef FE_COLLISION_FORM_FORM_H
+#define FE_COLLISION_FORM_FORM_H
 #include "core/math.h"
 
-// A triangle is no public form: heightfields hand out theirs one by one.
-enum { FE__FORM_TRIANGLE = FE_GEOMETRY_HEIGHTFIELD + 1, FE__FORM_TYPES };
+// The kinds of forms, in the order of the kernels. A triangle is no public form: heightfields hand out theirs one by one.
+typedef enum fe__form_type {
+    FE__FORM_SPHERE,
+    FE__FORM_CAPSULE,
+    FE__FORM_BOX,
+    FE__FORM_PLANE,
+    FE__FORM_HEIGHTFIELD,
+    FE__FORM_TRIANGLE,
+    FE__FORM_TYPES
+} fe__form_type;
 
 // sphere: radius.  capsule: half_height along y, radius.  box: half.  plane: the half space normal . p <= distance, normal of length 1.
 // Unused fields are 0, so that each of these is a core (point, segment, box) swelled by its radius. triangle: vertices, turning left around
 // the side that counts.  heightfield: its record's index, its bounds (heightfield.h).
 typedef struct fe__form {
-    int32_t type; // fe_geometry_type
+    int32_t type; // fe__form_type
     float radius;
     union {
         struct {
@@ -57,6 +65,9 @@ typedef struct fe__bounds {
     fe_dvec3 low, high;
 } fe__bounds;
 fe__bounds fe__form_bounds(const fe__form *form, const fe__pose *pose);
+
+// Does the box reach into the half space of a plane?
+int32_t fe__plane_meets_box(const fe__form *plane, const fe__pose *pose, const fe__bounds *box);
 
 // largest distance from `centre` (form's frame) to a point of the form; 0 for what is static only
 float fe__form_reach(const fe__form *form, fe_vec3 centre);

@@ -3,8 +3,8 @@
 // Used by the general convex path. The two cores' difference { p - q : p in A, q in B } contains the origin exactly when they overlap, and
 // its point nearest the origin is the shortest vector from B to A. Double, because this path is not hot and serves shapes from 1 mm to 100
 // km.
-#ifndef FE_COLLISION_GJK_H
-#define FE_COLLISION_GJK_H
+#ifndef FE_COLLISION_FORM_GJK_H
+#define FE_COLLISION_FORM_GJK_H
 #include "collision/form/support.h"
 
 // Two forms and B's pose in A's frame, in which all below is given.

@@ -23,7 +23,7 @@ fe__form fe__heightfield_form(const fe__heightfield *f, int32_t index)
 {
     const double up = 1.0 + 1e-7;
     float x = (float)(up * (double)(f->columns - 1) * f->cell_x), z = (float)(up * (double)(f->rows - 1) * f->cell_z);
-    return (fe__form){.type = FE_GEOMETRY_HEIGHTFIELD, .field = index, .low = {0.0f, f->low, 0.0f}, .high = {x, f->high, z}};
+    return (fe__form){.type = FE__FORM_HEIGHTFIELD, .field = index, .low = {0.0f, f->low, 0.0f}, .high = {x, f->high, z}};
 }
 
 static fe_vec3 vertex_of(const fe__heightfield *f, int32_t row, int32_t column, fe_dvec3 origin)

@@ -1,6 +1,6 @@
 // shape.h - the record of a shape: form, local pose, material, filter; where it is now and its box in the broad phase.
-#ifndef FE_COLLISION_SHAPE_H
-#define FE_COLLISION_SHAPE_H
+#ifndef FE_COLLISION_FORM_SHAPE_H
+#define FE_COLLISION_FORM_SHAPE_H
 #include "collision/form/form.h"
 
 enum {
@@ -21,6 +21,7 @@ typedef struct fe__shape {
     fe_vec3 local_position; // m, body's frame
     fe_quat local_rotation;
     fe_material material;
+    int32_t group;   // 0: none
     uint32_t events; // fe_shape_events
     float density;
     fe_vec3 surface_velocity;

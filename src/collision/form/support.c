@@ -16,9 +16,9 @@ fe_dvec3 fe__form_support(const fe__form *form, fe_dvec3 direction)
 {
     fe_dvec3 half = fe__widen(form->half);
     switch (form->type) {
-    case FE_GEOMETRY_BOX:
+    case FE__FORM_BOX:
         return (fe_dvec3){direction.x < 0.0 ? -half.x : half.x, direction.y < 0.0 ? -half.y : half.y, direction.z < 0.0 ? -half.z : half.z};
-    case FE_GEOMETRY_CAPSULE:
+    case FE__FORM_CAPSULE:
         return (fe_dvec3){0.0, (double)(direction.y < 0.0 ? -form->half_height : form->half_height), 0.0};
     case FE__FORM_TRIANGLE:
         return triangle_support(form->vertex, direction);
@@ -65,10 +65,10 @@ void fe__form_face(const fe__form *form, fe_vec3 direction, fe__face *face)
     face->normal = fe__vec3(0.0f, 0.0f, 0.0f);
     face->id = 0;
     switch (form->type) {
-    case FE_GEOMETRY_BOX:
+    case FE__FORM_BOX:
         box_face(form, direction, face);
         return;
-    case FE_GEOMETRY_CAPSULE:
+    case FE__FORM_CAPSULE:
         face->count = 2;
         face->vertex[0] = fe__vec3(0.0f, -form->half_height, 0.0f);
         face->vertex[1] = fe__vec3(0.0f, form->half_height, 0.0f);

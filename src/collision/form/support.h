@@ -2,8 +2,8 @@
 //
 // A new form (hull, triangle, cylinder) adds a case to each of the two functions and is complete for GJK, EPA and the manifold. The
 // swelling radius stays outside: it is added to the distance of the cores.
-#ifndef FE_COLLISION_SUPPORT_H
-#define FE_COLLISION_SUPPORT_H
+#ifndef FE_COLLISION_FORM_SUPPORT_H
+#define FE_COLLISION_FORM_SUPPORT_H
 #include "collision/form/clip.h"
 #include "collision/form/form.h"
 

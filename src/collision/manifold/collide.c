@@ -10,19 +10,19 @@
 
 // [type of A][type of B]
 static fe__kernel *const kernels[FE__FORM_TYPES][FE__FORM_TYPES] = {
-    [FE_GEOMETRY_SPHERE] = {[FE_GEOMETRY_SPHERE] = fe__collide_sphere_sphere},
-    [FE_GEOMETRY_CAPSULE] = {[FE_GEOMETRY_SPHERE] = fe__collide_capsule_sphere, [FE_GEOMETRY_CAPSULE] = fe__collide_capsule_capsule},
-    [FE_GEOMETRY_BOX] = {[FE_GEOMETRY_SPHERE] = fe__collide_box_sphere,
-                         [FE_GEOMETRY_CAPSULE] = fe__collide_box_capsule,
-                         [FE_GEOMETRY_BOX] = fe__collide_box_box},
-    [FE_GEOMETRY_PLANE] = {[FE_GEOMETRY_SPHERE] = fe__collide_plane_sphere,
-                           [FE_GEOMETRY_CAPSULE] = fe__collide_plane_capsule,
-                           [FE_GEOMETRY_BOX] = fe__collide_plane_box},
+    [FE__FORM_SPHERE] = {[FE__FORM_SPHERE] = fe__collide_sphere_sphere},
+    [FE__FORM_CAPSULE] = {[FE__FORM_SPHERE] = fe__collide_capsule_sphere, [FE__FORM_CAPSULE] = fe__collide_capsule_capsule},
+    [FE__FORM_BOX] = {[FE__FORM_SPHERE] = fe__collide_box_sphere,
+                         [FE__FORM_CAPSULE] = fe__collide_box_capsule,
+                         [FE__FORM_BOX] = fe__collide_box_box},
+    [FE__FORM_PLANE] = {[FE__FORM_SPHERE] = fe__collide_plane_sphere,
+                           [FE__FORM_CAPSULE] = fe__collide_plane_capsule,
+                           [FE__FORM_BOX] = fe__collide_plane_box},
 };
 
 void fe__collide(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold)
 {
-    assert(a->type >= b->type && b->type != FE_GEOMETRY_PLANE);
+    assert(a->type >= b->type && b->type != FE__FORM_PLANE);
     manifold->normal = fe__vec3(0.0f, 0.0f, 0.0f);
     manifold->count = 0;
     fe__kernel *kernel = kernels[a->type][b->type];

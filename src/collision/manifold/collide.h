@@ -6,8 +6,8 @@
 //
 // Order: A's type is never below B's (plane > box > capsule > sphere); of two boxes A is the one with the larger half extents, so that a
 // wide ground keeps its small coordinates across the contact.
-#ifndef FE_COLLISION_COLLIDE_H
-#define FE_COLLISION_COLLIDE_H
+#ifndef FE_COLLISION_MANIFOLD_COLLIDE_H
+#define FE_COLLISION_MANIFOLD_COLLIDE_H
 #include "collision/form/form.h"
 
 enum { FE_MAX_POINTS = 4 };

@@ -1,8 +1,8 @@
 // kernels.h - what the kernels of the pairs share: their signature, their tolerances, and points on segments side by side.
 //
 // Every kernel receives a manifold without points and adds those closer than `margin`. Its source is named in each kernel's file.
-#ifndef FE_COLLISION_KERNELS_H
-#define FE_COLLISION_KERNELS_H
+#ifndef FE_COLLISION_MANIFOLD_KERNELS_H
+#define FE_COLLISION_MANIFOLD_KERNELS_H
 #include "collision/manifold/collide.h"
 
 typedef void fe__kernel(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold);

@@ -1,7 +1,7 @@
 // terrain_surface.h - what the kernels of terrain.c share: a triangle with its place in the grid, the directions its surroundings allow,
 // and where points of contact go.
-#ifndef FE_COLLISION_TERRAIN_SURFACE_H
-#define FE_COLLISION_TERRAIN_SURFACE_H
+#ifndef FE_COLLISION_MANIFOLD_TERRAIN_SURFACE_H
+#define FE_COLLISION_MANIFOLD_TERRAIN_SURFACE_H
 #include "collision/manifold/terrain.h"
 
 // A triangle of the walk in the common frame. Side k runs from vertex k to the next.

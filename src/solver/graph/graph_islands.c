@@ -3,20 +3,15 @@
 // In whatever order the awake lists are: islands share no dynamic body, so that who is solved first does not show.
 #include "solver/graph/graph_build.h"
 
+#include "core/disjoint.h"
+
 #include <string.h>
 
 enum { AHEAD = 16 }; // contacts come from the whole of memory: each is asked for so many turns before it is read
 
-// ---- islands --------------------------------------------------------------------------------------------------------------------------
-static int32_t root_of(int32_t *parent, int32_t i)
-{
-    while (parent[i] != i) i = parent[i] = parent[parent[i]]; // path halving
-    return i;
-}
-
 static void join(int32_t *parent, int32_t a, int32_t b)
 {
-    int32_t x = root_of(parent, a), y = root_of(parent, b);
+    int32_t x = fe__root_of(parent, a), y = fe__root_of(parent, b);
     if (x < y)
         parent[y] = x;
     else

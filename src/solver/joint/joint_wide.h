@@ -110,7 +110,7 @@ FE_INLINE void find_axes(const fe__joints *joints, row_joints *r)
 
 #define JOINT_QUAD(field) w_gather(joints->joints->field, JOINT_STRIDE, r->joint)
 #define FRAME_QUAD(field) w_gather(joints->frames->field, FRAME_STRIDE, r->joint)
-#define AXES_QUAD(field) w_gather(joints->axes->field, AXES_STRIDE, r->axes)
+#define AXES_QUAD(field) w_gather((const float *)&joints->axes->field, AXES_STRIDE, r->axes)
 #define BODY_QUAD(field, body) w_gather(bodies->field, BODY_STRIDE, body)
 
 static void put_lanes(float *base, int stride, const int32_t *index, int32_t real, wide4 a)

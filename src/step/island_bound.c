@@ -1,32 +1,13 @@
-// clusters.c - see clusters.h. Input: pairs, joints and candidates of the step; output: a bound for the largest island (reserve.c).
-#include "solver/graph/graph.h"
-#include "step/step.h"
+// island_bound.c - see island_bound.h. Input: pairs, joints and candidates of the step; output: the clusters that they join (clusters.h).
+#include "step/island_bound.h"
 
-void fe__clusters_free(fe__clusters *clusters, fe__memory *memory)
-{
-    FE_FREE(memory, clusters->parent, clusters->capacity[0]);
-    FE_FREE(memory, clusters->lanes, clusters->capacity[1]);
-}
-
-static int32_t root_of(int32_t *parent, int32_t i)
-{
-    while (parent[i] != i) i = parent[i] = parent[parent[i]]; // path halving
-    return i;
-}
+#include "world/pairs.h"
 
 // Two bodies, of which at least one is dynamic, get so many lanes in common
 static void join(fe_world *w, int32_t a, int32_t b, int32_t lanes)
 {
-    fe__clusters *c = &w->clusters;
     int32_t dynamic_a = w->bodies[a].type == FE_BODY_DYNAMIC, dynamic_b = w->bodies[b].type == FE_BODY_DYNAMIC;
-    int32_t x = root_of(c->parent, dynamic_a ? a : b), y = root_of(c->parent, dynamic_b ? b : a);
-    if (c->lanes[x] < c->lanes[y]) {
-        int32_t larger = y;
-        y = x, x = larger;
-    }
-    c->parent[y] = x;
-    c->lanes[x] += (x == y ? 0 : c->lanes[y]) + lanes;
-    c->most = fe__maxi(c->most, c->lanes[x]);
+    fe__clusters_join(&w->clusters, dynamic_a ? a : b, dynamic_b ? b : a, lanes);
 }
 
 static void join_shapes(fe_world *w, int32_t shape_a, int32_t shape_b)
@@ -53,8 +34,7 @@ static void make_anew(fe__step *step)
 {
     fe_world *w = step->world;
     fe__clusters *c = &w->clusters;
-    for (int32_t i = 0; i < c->capacity[0]; ++i) c->parent[i] = i, c->lanes[i] = 0;
-    c->most = c->is_stale = c->has_grown = 0;
+    fe__clusters_part(c);
     for (int32_t i = 0; i < w->pair_set.capacity; ++i) {
         if (w->pair_set.entries[i].key == 0) continue;
         const fe__pair *p = w->pairs + w->pair_set.entries[i].value;
@@ -65,7 +45,7 @@ static void make_anew(fe__step *step)
     c->has_grown = 0;
 }
 
-int32_t fe__find_clusters(fe__step *step, fe__graph_bound *bound)
+int32_t fe__bound_islands(fe__step *step, fe__graph_bound *bound)
 {
     fe_world *w = step->world;
     fe__clusters *c = &w->clusters;
@@ -74,9 +54,7 @@ int32_t fe__find_clusters(fe__step *step, fe__graph_bound *bound)
         return 1;
     }
     if (c->capacity[0] < w->body_capacity) c->is_stale = 1;
-    if (!FE_RESERVE(&w->memory, c->parent, c->capacity[0], w->body_capacity) ||
-        !FE_RESERVE(&w->memory, c->lanes, c->capacity[1], w->body_capacity))
-        return 0;
+    if (!fe__clusters_reserve(c, &w->memory, w->body_capacity)) return 0;
     if (!c->is_stale) join_candidates(step);
     bound->largest = c->most;
     if (c->is_stale || (c->has_grown && !fe__graph_has_rows(&w->solver, w->kernels, bound, w->workers.count))) make_anew(step);

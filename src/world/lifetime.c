@@ -1,9 +1,12 @@
-// world.c - the world's memory: all of it is made and given back here.
+// lifetime.c - the world's memory: all of it is made and given back here.
 //
 // Called by the API layer. A new world holds nothing but itself: its arrays grow with what it is given.
-#include "world/world.h"
+#include "world/lifetime.h"
 
 #include "solver/graph/graph.h"
+#include "world/assets.h"
+#include "world/joints.h"
+#include "world/step_scratch.h"
 
 fe_world_tuning fe__default_tuning(void)
 {
@@ -77,6 +80,7 @@ fe_result fe__world_create(const fe_world_def *def, fe_world **out_world)
         fe__world_destroy(world);
         return result;
     }
+    world->store.world = world;
     *out_world = world;
     return FE_OK;
 }

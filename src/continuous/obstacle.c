@@ -1,0 +1,224 @@
+// obstacle.c - see obstacle.h.
+#include "continuous/obstacle.h"
+
+#include "collision/cast/distance.h"
+#include "world/filter.h"
+#include "world/pose.h"
+
+// Share of its thickness by which a shape may dip into another on its way. What stays out of the other by more than three quarters of its
+// half width is pushed out on the side it came from.
+#define DIP 0.25f
+// A search for impacts goes on so much beyond the first one found, as a share of it: of two at once the one created first counts.
+#define BEYOND 1e-9
+
+// A leg of a body, on the way through the trees
+typedef struct search {
+    const fe__step *step;
+    int32_t body, against;
+    fe_dvec3 base;
+    double begin, end;
+    fe__motion motion;
+    // the first so far
+    double s; // of the leg, 1 and more: none
+    uint64_t serial;
+    fe__obstacle first;
+    int32_t blocked; // fe__path_is_blocked
+} search;
+
+static fe__form dipped(const fe__form *form)
+{
+    fe__form thin = *form;
+    float dip = DIP * fe__form_thickness(form);
+    if (form->type == FE__FORM_BOX)
+        thin.half = fe__sub(form->half, fe__vec3(dip, dip, dip));
+    else
+        thin.radius -= dip;
+    return thin;
+}
+
+static void note(search *s, const fe__impact *deep, const fe__impact *touch, const fe__shape *obstacle, fe_dvec3 normal)
+{
+    s->s = deep->s;
+    s->serial = obstacle->serial;
+    s->first = (fe__obstacle){s->begin + touch->s * (s->end - s->begin), normal, fe__dadd(s->base, touch->on_b), obstacle->body};
+}
+
+// The dipped form decides whether there is an impact, the whole one when.
+static void try_form(search *s, const fe__shape *own, const fe__shape *obstacle, const fe__mobile *other)
+{
+    fe__form thin = dipped(&own->form);
+    fe__mobile mover = fe__mobile_of_shape(s->step, own, &s->motion);
+    fe__impact deep, touch;
+    mover.form = &thin;
+    double limit = fe__mind(1.0, s->s * (1.0 + BEYOND));
+    if (fe__time_of_impact(&mover, other, limit, &deep) != FE_MEET_LATER) return;
+    if (deep.s > s->s || (deep.s == s->s && s->serial < obstacle->serial)) return;
+    mover.form = &own->form;
+    fe__meeting meeting = fe__time_of_impact(&mover, other, deep.s, &touch);
+    if (meeting == FE_MEET_NEVER) touch = deep;
+    if (touch.overlap) { // boxes that overlapped a little when the leg began
+        fe__gap gap;
+        fe__pose a = fe__mobile_at(&mover, 0.0), b = fe__mobile_at(other, 0.0);
+        fe__form_gap(&thin, &a, other->form, &b, &gap);
+        touch.normal = gap.normal, touch.on_b = gap.on_b;
+    }
+    note(s, &deep, &touch, obstacle, touch.normal);
+}
+
+// Does any leg of the way close the gap at its start? The plane across the shortest distance then separates them all the way.
+static int32_t may_close(const search *s, const fe__shape *own, const fe__mobile *other)
+{
+    const fe__step *step = s->step;
+    const fe__body *body = step->world->bodies + s->body;
+    fe__form thin = dipped(&own->form);
+    fe__mobile mover = fe__mobile_of_shape(step, own, &s->motion);
+    mover.form = &thin;
+    fe__gap gap;
+    fe__pose a = fe__mobile_at(&mover, 0.0), b = fe__mobile_at(other, 0.0);
+    fe__form_gap(&thin, &a, other->form, &b, &gap);
+    if (gap.overlap || gap.distance <= FE_TOUCH) return 0;
+    int32_t legs = fe__path_legs(step, s->body);
+    for (int32_t leg = 1; leg <= legs; ++leg) {
+        fe__shift at = fe__path_place(step, s->body, leg);
+        fe_dvec3 axis = {(double)at.turn.x, (double)at.turn.y, (double)at.turn.z}, across = fe__dcross(gap.normal, axis);
+        double turning = (double)FE_PI * sqrt(fe__ddot(across, across)) * (double)body->reach;
+        if (fe__ddot(gap.normal, at.centre) + turning + 2.0 * FE_TOUCH > gap.distance) return 1;
+    }
+    return 0;
+}
+
+static void try_obstacle(search *s, const fe__shape *own, const fe__shape *obstacle, const fe__mobile *other)
+{
+    if (s->blocked < 0) {
+        try_form(s, own, obstacle, other);
+        return;
+    }
+    int32_t stands = s->step->world->bodies[obstacle->body].type == FE_BODY_STATIC;
+    s->blocked |= !stands || may_close(s, own, other);
+}
+
+// The triangles under the leg that look at the body's centre: the other side does not count.
+static void try_field(search *s, const fe__shape *own, const fe__shape *obstacle, const fe__mobile *other)
+{
+    const fe_world *w = s->step->world;
+    const fe__heightfield *field = w->fields + obstacle->form.field;
+    fe__pose pose = fe__mobile_at(other, 0.0);
+    fe_dvec3 way = fe__dsub(s->motion.translation, other->motion.translation);
+    fe_dvec3 from = fe__drotate_back(pose.rotation, fe__dsub(s->motion.centre, pose.position));
+    fe_dvec3 to = fe__dadd(from, fe__drotate_back(pose.rotation, way));
+    double reach = (double)w->bodies[s->body].reach;
+    fe_dvec3 low = {fe__mind(from.x, to.x) - reach, fe__mind(from.y, to.y) - reach, fe__mind(from.z, to.z) - reach};
+    fe_dvec3 high = {fe__maxd(from.x, to.x) + reach, fe__maxd(from.y, to.y) + reach, fe__maxd(from.z, to.z) + reach};
+    fe__bounds box = {low, high};
+    fe__form triangle;
+    fe__mobile part = *other;
+    part.form = &triangle;
+    part.arm = fe__dadd(other->arm, fe__drotate(other->rotation, from));
+    fe__triangle_walk walk = fe__heightfield_walk(field, &box, from);
+    while (fe__next_triangle(&walk, &triangle) >= 0 && s->blocked <= 0) {
+        const fe_vec3 *v = triangle.vertex;
+        fe_vec3 up = fe__cross(fe__sub(v[1], v[0]), fe__sub(v[2], v[0]));
+        if (fe__dot(up, v[0]) < 0.0f) try_obstacle(s, own, obstacle, &part); // the centre is at the walk's origin
+    }
+}
+
+static void try_shape(search *s, int32_t shape)
+{
+    const fe_world *w = s->step->world;
+    const fe__shape *obstacle = w->shapes + shape;
+    fe__motion motion = fe__path_motion(s->step, obstacle->body, s->begin, s->end, s->base);
+    fe__mobile other = fe__mobile_of_shape(s->step, obstacle, &motion);
+    for (int32_t i = w->bodies[s->body].first_shape; i >= 0; i = w->shapes[i].next) {
+        const fe__shape *own = w->shapes + i;
+        if (own->flags & FE__SHAPE_TRIGGER || own->form.type >= FE__FORM_PLANE || !fe__may_collide(w, i, shape)) continue;
+        if (obstacle->form.type == FE__FORM_HEIGHTFIELD)
+            try_field(s, own, obstacle, &other);
+        else
+            try_obstacle(s, own, obstacle, &other);
+    }
+}
+
+static int32_t visit(void *context, int32_t shape)
+{
+    search *s = context;
+    const fe_world *w = s->step->world;
+    const fe__shape *obstacle = w->shapes + shape;
+    int32_t dynamic = w->bodies[obstacle->body].type == FE_BODY_DYNAMIC, wanted = s->against == FE__AGAINST_DYNAMIC;
+    if (dynamic != wanted || obstacle->body == s->body || obstacle->flags & FE__SHAPE_TRIGGER) return 1;
+    try_shape(s, shape);
+    return s->blocked <= 0;
+}
+
+static void add_place(fe__bounds *box, fe_dvec3 p, double reach)
+{
+    box->low = (fe_dvec3){fe__mind(box->low.x, p.x - reach), fe__mind(box->low.y, p.y - reach), fe__mind(box->low.z, p.z - reach)};
+    box->high = (fe_dvec3){fe__maxd(box->high.x, p.x + reach), fe__maxd(box->high.y, p.y + reach), fe__maxd(box->high.z, p.z + reach)};
+}
+
+static void ask(search *s, const fe__bounds *box)
+{
+    const fe_world *w = s->step->world;
+    fe__tree_query(&w->moving_tree, box, visit, s);
+    if (s->against == FE__AGAINST_DYNAMIC || s->blocked > 0) return;
+    fe__tree_query(&w->static_tree, box, visit, s);
+    for (int32_t i = 0; i < w->plane_count && s->blocked <= 0; ++i) visit(s, w->planes[i]);
+}
+
+static search begin(const fe__step *step, int32_t body, int32_t against)
+{
+    return (search){.step = step,
+                    .body = body,
+                    .against = against,
+                    .base = fe__centre_of(step->world->bodies + body),
+                    .end = 1.0,
+                    .s = 2.0,
+                    .first = {.body = -1},
+                    .blocked = -1};
+}
+
+int32_t fe__path_is_blocked(const fe__step *step, int32_t body, int32_t against)
+{
+    const fe__body *b = step->world->bodies + body;
+    search s = begin(step, body, against);
+    int32_t legs = fe__path_legs(step, body);
+    double reach = (double)b->reach;
+    fe__bounds box = {fe__centre_of(b), fe__centre_of(b)};
+    for (int32_t leg = 0; leg <= legs; ++leg) add_place(&box, fe__dadd(s.base, fe__path_place(step, body, leg).centre), reach);
+    s.motion = fe__path_motion(step, body, 0.0, 1.0, s.base);
+    s.blocked = 0;
+    ask(&s, &box);
+    return s.blocked;
+}
+
+fe__obstacle fe__first_obstacle(const fe__step *step, int32_t body, int32_t against, const fe__shift *from, const fe__shift *to,
+                                double begins, double ends)
+{
+    const fe__body *b = step->world->bodies + body;
+    search s = begin(step, body, against);
+    double reach = (double)b->reach;
+    s.motion = fe__motion_of_shifts(b, from, to, s.base);
+    s.begin = begins, s.end = ends;
+    fe_dvec3 at = fe__dadd(s.base, from->centre);
+    fe__bounds box = {at, at};
+    add_place(&box, at, reach);
+    add_place(&box, fe__dadd(s.base, to->centre), reach);
+    ask(&s, &box);
+    return s.first;
+}
+
+int32_t fe__paths_cross(const fe__step *step, int32_t shape_a, int32_t shape_b)
+{
+    const fe_world *w = step->world;
+    const fe__shape *a = w->shapes + shape_a, *b = w->shapes + shape_b;
+    int32_t body = fe__path_legs(step, a->body) > fe__path_legs(step, b->body) ? a->body : b->body, legs = fe__path_legs(step, body);
+    fe_dvec3 base = fe__centre_of(w->bodies + body);
+    for (int32_t leg = 0; leg < legs; ++leg) {
+        double begins = fe__path_time(step, body, leg), ends = fe__path_time(step, body, leg + 1);
+        fe__motion motion_a = fe__path_motion(step, a->body, begins, ends, base),
+                   motion_b = fe__path_motion(step, b->body, begins, ends, base);
+        fe__mobile mobile_a = fe__mobile_of_shape(step, a, &motion_a), mobile_b = fe__mobile_of_shape(step, b, &motion_b);
+        fe__impact impact;
+        if (fe__time_of_impact(&mobile_a, &mobile_b, 1.0, &impact) != FE_MEET_NEVER) return 1;
+    }
+    return 0;
+}

@@ -1,0 +1,9 @@
+// narrow_seam.h - inner edges of a floor made of boxes.
+#ifndef FE_STEP_NARROW_SEAM_H
+#define FE_STEP_NARROW_SEAM_H
+#include "step/view.h"
+
+// Where static boxes lie flush, an inner edge or face gives way to the face that is open.
+void fe__mend_seam(const fe_world *world, const fe__view *v, float margin, fe__manifold *found);
+
+#endif

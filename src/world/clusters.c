@@ -1,0 +1,34 @@
+// clusters.c - see clusters.h.
+#include "world/clusters.h"
+
+#include "core/disjoint.h"
+#include "core/math.h"
+
+int32_t fe__clusters_reserve(fe__clusters *c, fe__memory *memory, int32_t bodies)
+{
+    return FE_RESERVE(memory, c->parent, c->capacity[0], bodies) && FE_RESERVE(memory, c->lanes, c->capacity[1], bodies);
+}
+
+void fe__clusters_part(fe__clusters *c)
+{
+    for (int32_t i = 0; i < c->capacity[0]; ++i) c->parent[i] = i, c->lanes[i] = 0;
+    c->most = c->is_stale = c->has_grown = 0;
+}
+
+void fe__clusters_join(fe__clusters *c, int32_t a, int32_t b, int32_t lanes)
+{
+    int32_t x = fe__root_of(c->parent, a), y = fe__root_of(c->parent, b);
+    if (c->lanes[x] < c->lanes[y]) {
+        int32_t larger = y;
+        y = x, x = larger;
+    }
+    c->parent[y] = x;
+    c->lanes[x] += (x == y ? 0 : c->lanes[y]) + lanes;
+    c->most = fe__maxi(c->most, c->lanes[x]);
+}
+
+void fe__clusters_free(fe__clusters *clusters, fe__memory *memory)
+{
+    FE_FREE(memory, clusters->parent, clusters->capacity[0]);
+    FE_FREE(memory, clusters->lanes, clusters->capacity[1]);
+}

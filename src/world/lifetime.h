@@ -1,0 +1,11 @@
+// lifetime.h - birth and death of a world.
+#ifndef FE_WORLD_LIFETIME_H
+#define FE_WORLD_LIFETIME_H
+#include "world/world.h"
+
+// An empty world, all its memory from the definition's allocator. FE_ERROR_MEMORY; FE_ERROR_UNSUPPORTED: no such SIMD set here.
+fe_result fe__world_create(const fe_world_def *def, fe_world **out_world);
+void fe__world_destroy(fe_world *world);
+fe_world_tuning fe__default_tuning(void);
+
+#endif

@@ -1,0 +1,11 @@
+// pair_link.h - pairs with points enter the constraint graph, and leave it.
+#ifndef FE_WORLD_PAIR_LINK_H
+#define FE_WORLD_PAIR_LINK_H
+#include "world/world.h"
+
+void fe__pair_link(fe_world *world, int32_t pair); // with a colour of its own for each dynamic body
+void fe__pair_unlink(fe_world *world, int32_t pair);
+void fe__pair_forget_impulses(fe_world *world, int32_t pair);
+void fe__patch_leave(fe_world *world, int32_t patch); // an unlinked patch leaves the lists
+
+#endif

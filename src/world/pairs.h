@@ -1,0 +1,31 @@
+// pairs.h - the life of pairs, and what they report.
+#ifndef FE_WORLD_PAIRS_H
+#define FE_WORLD_PAIRS_H
+#include "world/world.h"
+
+int32_t fe__reserve_pairs(fe_world *world, int32_t extra);
+int32_t fe__pair_create(fe_world *world, int32_t shape_a, int32_t shape_b); // room was reserved; A created first
+void fe__pair_destroy(fe_world *world, int32_t pair);                       // unlinks, owes the exit of a pair that touched
+void fe__body_drop_pairs(fe_world *world, int32_t body);                    // all of them
+void fe__body_refilter(fe_world *world, int32_t body);                      // those that may no longer collide
+
+// Has one of them a heightfield? Such a pair has patches.
+static inline int32_t fe__is_field_pair(const fe_world *world, int32_t shape_a, int32_t shape_b)
+{
+    return world->shapes[shape_a].form.type == FE__FORM_HEIGHTFIELD || world->shapes[shape_b].form.type == FE__FORM_HEIGHTFIELD;
+}
+
+fe_pair_event fe__pair_event_of(const fe_world *world, int32_t pair, int32_t kind);
+// Exits of pairs that touched and ended since the last step: into the events of this one
+void fe__report_owed_exits(fe_world *world);
+// m, world: arms count from the centre of the solver's A, or of B when A is static; between them lies what the pair moved since it was
+// found
+static inline fe_dvec3 fe__contact_point(const fe_world *world, int32_t pair, int32_t point)
+{
+    const fe__contact *m = world->contacts + pair;
+    const fe__body *a = world->bodies + m->body_a, *from = a->type == FE_BODY_STATIC ? world->bodies + m->body_b : a;
+    const float *r = m->point[point].arm;
+    return (fe_dvec3){from->centre[0] + (double)r[0], from->centre[1] + (double)r[1], from->centre[2] + (double)r[2]};
+}
+
+#endif

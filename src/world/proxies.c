@@ -1,0 +1,117 @@
+// proxies.c - see proxies.h.
+#include "world/proxies.h"
+
+// A box in a tree is larger than its shape by the speculative distance (what touches must have a pair) and a share of its size, so that a
+// body may move a while before its tree changes: larger ones move further before it matters.
+#define FAT_SHARE 0.12 // of the largest half extent
+#define FAT_MOST 0.05  // m
+// It also reaches where the body will be after so many steps at its velocity: what it meets in the next step must have a pair before.
+#define STEPS_AHEAD 2.0f
+#define FIRST_DT (1.0f / 60.0f) // s, before the first step has told
+
+// ---- bounds ---------------------------------------------------------------------------------------------------------------------
+
+static fe__bounds grown(fe__bounds b, double margin)
+{
+    return (fe__bounds){{b.low.x - margin, b.low.y - margin, b.low.z - margin}, {b.high.x + margin, b.high.y + margin, b.high.z + margin}};
+}
+
+fe__bounds fe__shape_bounds(const fe_world *world, int32_t index, float margin)
+{
+    const fe__shape *shape = &world->shapes[index];
+    return grown(fe__form_bounds(&shape->form, &shape->pose), (double)margin);
+}
+
+static fe__bounds swept(const fe_world *world, int32_t index, fe__bounds b, float steps)
+{
+    const fe__body *body = &world->bodies[world->shapes[index].body];
+    double dt = (double)(steps * (world->last_dt > 0.0f ? world->last_dt : FIRST_DT));
+    fe_dvec3 way = fe__dscale(dt, fe__widen(fe__vec3(body->velocity[0], body->velocity[1], body->velocity[2])));
+    b.low = fe__dadd(b.low, (fe_dvec3){fe__mind(way.x, 0.0), fe__mind(way.y, 0.0), fe__mind(way.z, 0.0)});
+    b.high = fe__dadd(b.high, (fe_dvec3){fe__maxd(way.x, 0.0), fe__maxd(way.y, 0.0), fe__maxd(way.z, 0.0)});
+    return b;
+}
+
+fe__bounds fe__shape_reach_bounds(const fe_world *world, int32_t index)
+{
+    return swept(world, index, fe__shape_bounds(world, index, world->tuning.speculative_distance), 1.0f);
+}
+
+fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t index)
+{
+    fe__bounds b = fe__shape_bounds(world, index, 0.0f);
+    fe_dvec3 size = fe__dsub(b.high, b.low);
+    double half = 0.5 * fe__maxd(fe__maxd(size.x, size.y), size.z);
+    b = swept(world, index, b, STEPS_AHEAD);
+    return grown(b, (double)world->tuning.speculative_distance + fe__mind(FAT_MOST, FAT_SHARE * half));
+}
+
+// ---- broad phase ----------------------------------------------------------------------------------------------------------------
+
+int32_t fe__reserve_proxies(fe_world *world, int32_t extra)
+{
+    fe__memory *memory = &world->memory;
+    int32_t limit = world->shape_capacity;
+    return FE_RESERVE(memory, world->moved, world->moved_capacity, limit) &&
+           FE_RESERVE(memory, world->planes, world->plane_capacity, (int64_t)world->plane_count + extra) &&
+           fe__tree_reserve(&world->static_tree, memory, limit, extra) && fe__tree_reserve(&world->moving_tree, memory, limit, extra);
+}
+
+static fe__tree *tree_of(fe_world *world, const fe__shape *shape)
+{
+    return world->bodies[shape->body].type == FE_BODY_STATIC ? &world->static_tree : &world->moving_tree;
+}
+
+void fe__shape_mark_moved(fe_world *world, int32_t index)
+{
+    fe__shape *shape = &world->shapes[index];
+    if (shape->flags & FE__SHAPE_MOVED || !(shape->flags & (FE__SHAPE_IN_TREE | FE__SHAPE_IN_PLANES))) return;
+    shape->flags |= FE__SHAPE_MOVED;
+    world->moved[world->moved_count++] = index;
+}
+
+void fe__shape_enter(fe_world *world, int32_t index)
+{
+    fe__shape *shape = &world->shapes[index];
+    if (shape->form.type == FE__FORM_PLANE) {
+        shape->flags |= FE__SHAPE_IN_PLANES;
+        world->planes[world->plane_count++] = index;
+    } else {
+        fe__bounds fat = fe__shape_fat_bounds(world, index);
+        shape->flags |= FE__SHAPE_IN_TREE;
+        fe__tree_insert(tree_of(world, shape), index, &fat);
+    }
+    fe__shape_mark_moved(world, index);
+}
+
+// FE__SHAPE_MOVED stays: the list still names the slot, and whoever gets it next is in the list already.
+void fe__shape_leave(fe_world *world, int32_t index)
+{
+    fe__shape *shape = &world->shapes[index];
+    if (shape->flags & FE__SHAPE_IN_TREE) fe__tree_remove(tree_of(world, shape), index);
+    if (shape->flags & FE__SHAPE_IN_PLANES) {
+        int32_t place = 0;
+        while (world->planes[place] != index) ++place;
+        world->planes[place] = world->planes[--world->plane_count];
+    }
+    shape->flags &= ~(uint32_t)(FE__SHAPE_IN_TREE | FE__SHAPE_IN_PLANES);
+}
+
+void fe__shape_touch(fe_world *world, int32_t index)
+{
+    const fe__shape *shape = &world->shapes[index];
+    if (shape->flags & FE__SHAPE_IN_TREE) {
+        fe__bounds fat = fe__shape_fat_bounds(world, index);
+        fe__tree_move(tree_of(world, shape), &index, &fat, 1);
+    }
+    fe__shape_mark_moved(world, index);
+}
+
+void fe__body_stretch_boxes(fe_world *world, int32_t index)
+{
+    for (int32_t i = world->bodies[index].first_shape; i >= 0; i = world->shapes[i].next) {
+        fe__bounds reach = fe__shape_reach_bounds(world, i);
+        int32_t in_tree = world->shapes[i].flags & FE__SHAPE_IN_TREE;
+        if (in_tree && !fe__tree_holds(tree_of(world, &world->shapes[i]), i, &reach)) fe__shape_touch(world, i);
+    }
+}

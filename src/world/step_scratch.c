@@ -1,0 +1,20 @@
+// step_scratch.c - see step_scratch.h.
+#include "world/step_scratch.h"
+
+void fe__step_scratch_destroy(fe_world *w)
+{
+    fe__step_scratch *s = w->scratch;
+    fe__memory *memory = &w->memory;
+    if (!s) return;
+    FE_FREE(memory, s->candidates, s->candidate_capacity);
+    FE_FREE(memory, s->results, s->result_capacity);
+    FE_FREE(memory, s->busy, s->busy_capacity);
+    FE_FREE(memory, s->left, s->left_capacity);
+    FE_FREE(memory, s->boxes, s->box_capacity);
+    FE_FREE(memory, s->chased, s->chased_capacity);
+    FE_FREE(memory, s->chases, s->chase_capacity);
+    FE_FREE(memory, s->island_timers, s->island_capacity);
+    FE_FREE(memory, s->sort_items, s->sort_capacity);
+    fe__release(memory, s, sizeof *s);
+    w->scratch = NULL;
+}
