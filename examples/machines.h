@@ -140,8 +140,8 @@ static inline fe_result ragdoll_add_bone(fe_world *world, const ragdoll_bone *bo
     body.transform.position =
         fe_make_dvec3(at.position.x + (double)place.x, at.position.y + (double)place.y, at.position.z + (double)place.z);
     body.transform.rotation = machine_multiply(at.rotation, bone->rotation);
-    surface.local_position = fe_make_vec3(0.5f * (a.x + b.x), 0.5f * (a.y + b.y), 0.5f * (a.z + b.z));
-    surface.local_rotation = machine_turn_y_to(along);
+    surface.frame.position = fe_make_vec3(0.5f * (a.x + b.x), 0.5f * (a.y + b.y), 0.5f * (a.z + b.z));
+    surface.frame.rotation = machine_turn_y_to(along);
     surface.material.rolling_resistance = 0.2f;
     fe_geometry_capsule(&form, 0.5f * sqrtf(along.x * along.x + along.y * along.y + along.z * along.z), bone->radius);
     MACHINE_TRY(fe_body_create(world, &body, out_body));
@@ -338,8 +338,8 @@ static inline fe_result crane_build(fe_world *world, double x, double y, double 
     fe_dvec3 at = {x, y, z};
     rail.struct_size = sizeof rail;
     MACHINE_TRY(fe_slider_joint_def_at(world, &rail, out->mast, out->trolley, &at, &along));
-    rail.axes[FE_DOF_LINEAR_X].mode = FE_MOTION_LIMITED, rail.axes[FE_DOF_LINEAR_X].low = -6, rail.axes[FE_DOF_LINEAR_X].high = 6;
-    rail.axes[FE_DOF_LINEAR_X].drive = FE_SPRING_HERTZ, rail.axes[FE_DOF_LINEAR_X].stiffness = 0.5f, rail.axes[FE_DOF_LINEAR_X].damping = 1;
+    rail.axes[FE_DOF_LINEAR_X].motion = FE_MOTION_LIMITED, rail.axes[FE_DOF_LINEAR_X].lower = -6, rail.axes[FE_DOF_LINEAR_X].upper = 6;
+    rail.axes[FE_DOF_LINEAR_X].spring = FE_SPRING_HERTZ, rail.axes[FE_DOF_LINEAR_X].stiffness = 0.5f, rail.axes[FE_DOF_LINEAR_X].damping = 1;
     MACHINE_TRY(fe_configurable_joint_create(world, &rail, &out->winch));
     fe_geometry_capsule(&form, 0.1f, 0.05f);
     fe_body above = out->trolley;

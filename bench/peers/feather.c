@@ -52,7 +52,7 @@ static fe_result add_terrain(fe_world *world, fe_body body, const bench_shape *s
     fe_shape_def_init(&def, sizeof def);
     def.material.static_friction = def.material.dynamic_friction = shape->friction;
     def.material.rolling_resistance = shape->rolling;
-    def.local_position.x = def.local_position.z = -0.5f * shape->cell * (float)(shape->side - 1);
+    def.frame.position.x = def.frame.position.z = -0.5f * shape->cell * (float)(shape->side - 1);
     fe_geometry geometry;
     fe_geometry_heightfield(&geometry, asset);
     fe_shape created;

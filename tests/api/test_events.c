@@ -385,7 +385,7 @@ static void contacts_of_a_shape_are_a_part_of_the_body_s(void **state)
     fe_geometry sphere;
     fe_geometry_sphere(&sphere, 0.5f);
     for (int i = 0; i < 4; ++i) {
-        def.local_position = fe_make_vec3(i & 1 ? 1.0f : -1.0f, 0, i & 2 ? 1.0f : -1.0f);
+        def.frame.position = fe_make_vec3(i & 1 ? 1.0f : -1.0f, 0, i & 2 ? 1.0f : -1.0f);
         OK(fe_shape_create(world, body, &def, &sphere, &feet[i]));
     }
     step(world, 10);

@@ -84,7 +84,7 @@ static void defaults_are_those_of_the_header(void **state)
     FE_NEAR(d.fixed.angular_hertz, 0, 0), FE_NEAR(d.fixed.angular_damping_ratio, 1, 0);
     init(4, &d);
     for (int k = 0; k < 6; ++k) {
-        assert_true(d.configurable.axes[k].mode == FE_MOTION_LOCKED && d.configurable.axes[k].drive == FE_SPRING_NONE);
+        assert_true(d.configurable.axes[k].motion == FE_MOTION_LOCKED && d.configurable.axes[k].spring == FE_SPRING_NONE);
         FE_NEAR(d.configurable.axes[k].limit_damping_ratio, 1, 0), FE_NEAR(d.configurable.axes[k].spring_max, 1e15f, 0);
     }
     fe_hinge_joint_def_init(NULL, sizeof(fe_hinge_joint_def)); // does nothing
@@ -614,8 +614,8 @@ static void ready_made_definitions_are_whole(void **state)
     OK(fe_wheel_joint_def_at(f.world, &c, f.a, f.b, &p, &axle, &up, 4, 0.7f, 0.2f));
     OK(fe_configurable_joint_create(f.world, &c, &joint));
     check_state_is_zero(f.world, joint);
-    assert_true(c.axes[FE_DOF_ANGULAR_X].mode == FE_MOTION_FREE && c.axes[FE_DOF_LINEAR_Z].mode == FE_MOTION_LIMITED);
-    assert_true(c.axes[FE_DOF_ANGULAR_Z].mode == FE_MOTION_LOCKED && c.axes[FE_DOF_LINEAR_X].mode == FE_MOTION_LOCKED);
+    assert_true(c.axes[FE_DOF_ANGULAR_X].motion == FE_MOTION_FREE && c.axes[FE_DOF_LINEAR_Z].motion == FE_MOTION_LIMITED);
+    assert_true(c.axes[FE_DOF_ANGULAR_Z].motion == FE_MOTION_LOCKED && c.axes[FE_DOF_LINEAR_X].motion == FE_MOTION_LOCKED);
     fe_transform a, b;
     OK(fe_joint_get_frames(f.world, joint, &a, &b));
     fe_quat r = a.rotation;
@@ -646,7 +646,7 @@ static void a_wheels_spring_is_for_its_corner_of_the_chassis(void **state)
         OK(fe_body_add_impulse_at(f.world, fixed ? f.b : f.a, &kick, &p));
         OK(fe_body_get_point_velocity(f.world, fixed ? f.b : f.a, &p, &v));
         double mass = (double)(kick.y / v.y), w = 8 * 3.14159265358979;
-        assert_int_equal(c.axes[FE_DOF_LINEAR_Z].drive, FE_SPRING_STIFFNESS);
+        assert_int_equal(c.axes[FE_DOF_LINEAR_Z].spring, FE_SPRING_STIFFNESS);
         FE_NEAR(c.axes[FE_DOF_LINEAR_Z].stiffness, mass * w * w, 1e-5 * mass * w * w);
         FE_NEAR(c.axes[FE_DOF_LINEAR_Z].damping, 2 * (double)0.7f * mass * w, 1e-5 * mass * w);
         end(&f);

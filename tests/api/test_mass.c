@@ -13,7 +13,7 @@ static fe_shape add_at(fe_world *world, fe_body body, const fe_geometry *geometr
     fe_shape_def def;
     fe_shape_def_init(&def, sizeof def);
     def.density = density;
-    def.local_position = fe_make_vec3(x, y, z);
+    def.frame.position = fe_make_vec3(x, y, z);
     fe_shape shape;
     OK(fe_shape_create(world, body, &def, geometry, &shape));
     return shape;

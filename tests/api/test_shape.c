@@ -15,7 +15,7 @@ static void defaults_are_those_of_the_header(void **state)
     (void)state;
     fe_shape_def def;
     fe_shape_def_init(&def, sizeof def);
-    FE_NEAR(def.density, 1000, 0), FE_NEAR(def.local_rotation.w, 1, 0);
+    FE_NEAR(def.density, 1000, 0), FE_NEAR(def.frame.rotation.w, 1, 0);
     FE_NEAR(def.material.static_friction, 0.6f, 0), FE_NEAR(def.material.dynamic_friction, 0.5f, 0),
         FE_NEAR(def.material.restitution, 0, 0);
     assert_true(def.layer == 1 && def.mask == 0xFFFFFFFF && def.trigger == 0 && def.events == FE_SHAPE_EVENTS_TOUCH);
@@ -30,7 +30,7 @@ static void what_a_definition_says_is_read_back(void **state)
     fe_body body = new_body(world, FE_BODY_DYNAMIC, 1, 2, 3), owner;
     fe_shape_def def;
     fe_shape_def_init(&def, sizeof def);
-    def.density = 7, def.local_position = fe_make_vec3(1, 2, 3), def.local_rotation = (fe_quat){0, 0, 3, 4};
+    def.density = 7, def.frame.position = fe_make_vec3(1, 2, 3), def.frame.rotation = (fe_quat){0, 0, 3, 4};
     def.material = (fe_material){0.1f, 0.2f, 0.3f, 0.4f, 0.5f};
     def.layer = 4, def.mask = 8, def.trigger = 1, def.events = FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT;
     def.surface_velocity = fe_make_vec3(0, 0, 2), def.user_data = 99;
@@ -87,9 +87,9 @@ static void a_bad_definition_is_refused(void **state)
     } while (0)
     REFUSED_WITH(bad.density = -1);
     REFUSED_WITH(bad.density = NOT_A_NUMBER);
-    REFUSED_WITH(bad.local_position.x = INFINITE);
-    REFUSED_WITH(bad.local_rotation.w = 0);
-    REFUSED_WITH(bad.local_rotation.y = NOT_A_NUMBER);
+    REFUSED_WITH(bad.frame.position.x = INFINITE);
+    REFUSED_WITH(bad.frame.rotation.w = 0);
+    REFUSED_WITH(bad.frame.rotation.y = NOT_A_NUMBER);
     REFUSED_WITH(bad.material.static_friction = -1);
     REFUSED_WITH(bad.material.dynamic_friction = NOT_A_NUMBER);
     REFUSED_WITH(bad.material.restitution = 1.01f);

@@ -61,7 +61,7 @@ static void add_terrain(scene *s)
     fe_body_def_init(&still, sizeof still);
     fe_shape_def_init(&shape, sizeof shape);
     still.type = FE_BODY_STATIC;
-    shape.local_position = fe_make_vec3(-16, 0, -16);
+    shape.frame.position = fe_make_vec3(-16, 0, -16);
     fe_geometry_heightfield(&form, s->terrain);
     check(fe_body_create(s->world, &still, &ground));
     check(fe_shape_create(s->world, ground, &shape, &form, &made));

@@ -28,8 +28,8 @@ static fe_joint join_somehow(scene *s, dice *d, fe_body a, fe_body b, vec point,
         hinge.limit_enabled = 1, hinge.lower = -(float)uniform(d, 0, 2), hinge.upper = (float)uniform(d, 0, 3.14);
     }
     for (int k = 0; k < 6; ++k) {
-        six.axes[k].mode = k < FE_DOF_ANGULAR_X ? pick(d, 2) : limited ? pick(d, 3) : 2 * pick(d, 2); // what slides away for ever is no machine
-        six.axes[k].low = -(float)uniform(d, 0, 0.5), six.axes[k].high = (float)uniform(d, 0, 0.5);
+        six.axes[k].motion = k < FE_DOF_ANGULAR_X ? pick(d, 2) : limited ? pick(d, 3) : 2 * pick(d, 2); // what slides away for ever is no machine
+        six.axes[k].lower = -(float)uniform(d, 0, 0.5), six.axes[k].upper = (float)uniform(d, 0, 0.5);
     }
     rope.lower = 0, rope.upper = 1e-3f + (float)length(minus(position(s, a), position(s, b)));
     if (kind == 0) return add_ball(s, ball, a, b, point, axis);
@@ -206,7 +206,7 @@ static void sliders_on_long_arms_gain_no_energy(void **state)
                 c.bodies[i] = add_dynamic(&c.s, box(0.5, 0.5, 0.5), v3(0, 0.6 + 1.2 * i, 0), UNTURNED, friction(0), mass);
                 MUST(fe_body_set_filter(c.s.world, c.bodies[i], 2, 0));
                 fe_configurable_joint_def d = slider_def();
-                d.axes[FE_DOF_LINEAR_X].mode = FE_MOTION_LIMITED, d.axes[FE_DOF_LINEAR_X].low = -6, d.axes[FE_DOF_LINEAR_X].high = 6;
+                d.axes[FE_DOF_LINEAR_X].motion = FE_MOTION_LIMITED, d.axes[FE_DOF_LINEAR_X].lower = -6, d.axes[FE_DOF_LINEAR_X].upper = 6;
                 d.hertz = hertz[k];
                 c.joints[i] = add_configurable(&c.s, d, last, c.bodies[i], v3(0, 1.2 * i, 0), v3(1, 0, 0));
                 last = c.bodies[i];

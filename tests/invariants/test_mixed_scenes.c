@@ -113,10 +113,10 @@ static void join_by_six_axes(arena *a, dice *d, fe_body one, fe_body two, vec po
     fe_configurable_joint_def six = configurable_def();
     for (int k = 0; k < 6; ++k) {
         fe_joint_axis *axis = &six.axes[k];
-        axis->mode = pick(d, 2) ? FE_MOTION_LOCKED : FE_MOTION_LIMITED;
-        axis->low = -(float)uniform(d, 0, 0.5), axis->high = (float)uniform(d, 0, 0.5);
-        if (axis->mode == FE_MOTION_LOCKED || !a->has_drives || pick(d, 2)) continue;
-        axis->drive = FE_SPRING_HERTZ, axis->stiffness = (float)uniform(d, 1, 10), axis->damping = (float)uniform(d, 0.1, 1);
+        axis->motion = pick(d, 2) ? FE_MOTION_LOCKED : FE_MOTION_LIMITED;
+        axis->lower = -(float)uniform(d, 0, 0.5), axis->upper = (float)uniform(d, 0, 0.5);
+        if (axis->motion == FE_MOTION_LOCKED || !a->has_drives || pick(d, 2)) continue;
+        axis->spring = FE_SPRING_HERTZ, axis->stiffness = (float)uniform(d, 1, 10), axis->damping = (float)uniform(d, 0.1, 1);
     }
     a->joints[a->joint_count++] = add_configurable(&a->s, six, one, two, point, somewhere(d, 1));
 }

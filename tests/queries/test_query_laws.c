@@ -112,7 +112,7 @@ static fe_world *random_world(source *s)
         for (int32_t shapes = one_of(s, 3) == 0 ? 3 : 1; shapes > 0; --shapes) {
             fe_shape_def shape;
             fe_shape_def_init(&shape, sizeof shape);
-            if (shapes > 1) shape.local_position = fe_make_vec3((float)number(s, 3), (float)number(s, 3), (float)number(s, 3));
+            if (shapes > 1) shape.frame.position = fe_make_vec3((float)number(s, 3), (float)number(s, 3), (float)number(s, 3));
             shape.trigger = one_of(s, 5) == 0;
             fe_geometry g = geometry(s, def.type == FE_BODY_STATIC && i < 3 ? 4 : 3);
             fe_shape handle;

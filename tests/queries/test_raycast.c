@@ -81,14 +81,14 @@ static void add_random_shape(known_world *k, fe_body body, int32_t type)
     fe_shape_def_init(&def, sizeof def);
     random_geometry(k, &geometry, &s->form, type == FE_BODY_STATIC);
     if (uniform(k, 0, 1) < 0.7) {
-        def.local_position = fe__narrow(random_vector(k, 2));
-        def.local_rotation = random_rotation(k);
+        def.frame.position = fe__narrow(random_vector(k, 2));
+        def.frame.rotation = random_rotation(k);
     }
     def.layer = 1u << (int)uniform(k, 0, 3);
     def.trigger = uniform(k, 0, 1) < 0.2;
     s->body = body, s->layer = def.layer, s->trigger = def.trigger;
     OK(fe_shape_create(k->world, body, &def, &geometry, &s->shape));
-    OK(fe_shape_get_local_pose(k->world, s->shape, &s->local_position, &s->local_rotation));
+    OK(fe_shape_get_local_pose(k->world, s->shape, &s->frame.position, &s->frame.rotation));
 }
 
 static void make_world(known_world *k, double middle, uint32_t seed)
@@ -133,8 +133,8 @@ static answer reference(const known_world *k, fe_dvec3 origin, fe_dvec3 translat
         if (!is_in(filter, s)) continue;
         fe_transform t = fe_body_transform(k->world, s->body);
         fe__pose body = {t.position, t.rotation}, pose = body;
-        int32_t centred = s->local_position.x == 0.0f && s->local_rotation.w == 1.0f;
-        if (!centred) pose = fe__compose(&body, s->local_position, s->local_rotation);
+        int32_t centred = s->frame.position.x == 0.0f && s->frame.rotation.w == 1.0f;
+        if (!centred) pose = fe__compose(&body, s->frame.position, s->frame.rotation);
         if (s->form.type == FE_GEOMETRY_SPHERE) pose.rotation = fe__identity(); // a ball is asked without turning
         fe_dvec3 o = fe__drotate_back(pose.rotation, fe__dsub(origin, pose.position)), d = fe__drotate_back(pose.rotation, translation);
         fe__ray_hit hit;

@@ -78,7 +78,7 @@ static void add_known_shape(known_world *k, int32_t body, const fe_geometry *g)
     known_shape *s = &k->shapes[k->count++];
     fe_shape_def def;
     fe_shape_def_init(&def, sizeof def);
-    if (chance(k, 0.6)) def.local_position = fe__narrow(random_vector(k, 2)), def.local_rotation = random_rotation(k);
+    if (chance(k, 0.6)) def.frame.position = fe__narrow(random_vector(k, 2)), def.frame.rotation = random_rotation(k);
     def.layer = s->layer = 1u << one_of(k, 3);
     def.trigger = s->trigger = chance(k, 0.2);
     s->body = body, s->triangle = -1;

@@ -92,7 +92,7 @@ static inline fe_joint add_distance(scene *s, fe_distance_joint_def d, fe_body a
 static inline fe_configurable_joint_def slider_def(void)
 {
     fe_configurable_joint_def d = configurable_def();
-    d.axes[FE_DOF_LINEAR_X].mode = FE_MOTION_FREE;
+    d.axes[FE_DOF_LINEAR_X].motion = FE_MOTION_FREE;
     return d;
 }
 

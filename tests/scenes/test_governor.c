@@ -79,7 +79,7 @@ static fe_body add_arm(scene *s, int side)
     fe_shape shape;
     fe_geometry ball = sphere(RADIUS);
     fe_shape_def_init(&def, sizeof def);
-    def.local_position = fe_make_vec3(0, 0.5f, 0);
+    def.frame.position = fe_make_vec3(0, 0.5f, 0);
     def.density = (float)(BALL / (4.0 / 3 * PI * RADIUS * RADIUS * RADIUS));
     MUST(fe_shape_create(s->world, arm, &def, &ball, &shape));
     MUST(fe_body_set_filter(s->world, arm, 2, 0));

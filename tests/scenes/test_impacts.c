@@ -424,7 +424,7 @@ static void cargo_in_a_free_drum_keeps_momentum_and_gains_no_energy(void **state
             def.material = friction(0.5);
             double side = k % 2 ? half + wall : -half - wall;
             vec at = k < 2 ? v3(0, side, 0) : k < 4 ? v3(side, 0, 0) : v3(0, 0, side);
-            def.local_position = narrow(at);
+            def.frame.position = narrow(at);
             fe_geometry form = k < 2   ? box(half + 2 * wall, wall, half + 2 * wall)
                                : k < 4 ? box(wall, half, half + 2 * wall)
                                        : box(half, half, wall);

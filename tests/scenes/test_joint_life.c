@@ -332,7 +332,7 @@ static void another_centre_of_mass_moves_no_anchor(void **state)
     fe_shape shape;
     fe_geometry form = sphere(0.2);
     fe_shape_def_init(&weight, sizeof weight);
-    weight.local_position = fe_make_vec3(0, -1, 0);
+    weight.frame.position = fe_make_vec3(0, -1, 0);
     double before = gap_of(&s, h.middle);
     MUST(fe_shape_create(s.world, h.lower, &weight, &form, &shape));
     FE_NEAR(gap_of(&s, h.middle), before, 1e-6);
@@ -431,7 +431,7 @@ static void no_joint_moves_a_locked_coordinate(void **state)
                     lower = add_dynamic(&s, box(0.3, 0.2, 0.1), plus(at, v3(0.3, -1, 0.2)), turned(v3(1, 2, 3), 1), friction(0.5), WATER);
             vec point = plus(at, v3(0, -0.5, 0));
             fe_configurable_joint_def six = configurable_def();
-            for (int k = 0; k < 6; ++k) six.axes[k].mode = FE_MOTION_LIMITED, six.axes[k].low = -0.1f, six.axes[k].high = 0.1f;
+            for (int k = 0; k < 6; ++k) six.axes[k].motion = FE_MOTION_LIMITED, six.axes[k].lower = -0.1f, six.axes[k].upper = 0.1f;
             MUST(fe_body_set_locks(s.world, lower, linear, angular));
             add_rod(&s, anchor, upper, v3(3 * type, 2, 0), at);
             if (type == 0) add_rod(&s, upper, lower, at, position(&s, lower));
@@ -466,7 +466,7 @@ static void making_and_destroying_joints_takes_no_more_and_more_memory(void **st
         fe_hinge_joint_def hinge = hinge_def();
         fe_configurable_joint_def six = configurable_def();
         hinge.limit_enabled = 1;
-        six.axes[i % 6].mode = FE_MOTION_LIMITED;
+        six.axes[i % 6].motion = FE_MOTION_LIMITED;
         fe_joint one = add_hinge(&s, hinge, a, b, v3(0.5, 0, 0), v3(0, 1, 0)),
                  two = add_configurable(&s, six, a, b, v3(0.5, 0, 0), v3(0, 1, 0));
         if (i % 50 == 0) run(&s, 1);

@@ -204,8 +204,8 @@ static void a_target_beyond_a_limit_counts_as_the_limit(void **state)
 
     g = begin_gyre(state);
     fe_configurable_joint_def slide = slider_def();
-    slide.axes[FE_DOF_LINEAR_X].mode = FE_MOTION_LIMITED, slide.axes[FE_DOF_LINEAR_X].low = -0.1f, slide.axes[FE_DOF_LINEAR_X].high = 0.3f;
-    slide.axes[FE_DOF_LINEAR_X].drive = FE_SPRING_HERTZ, slide.axes[FE_DOF_LINEAR_X].stiffness = 3, slide.axes[FE_DOF_LINEAR_X].damping = 1;
+    slide.axes[FE_DOF_LINEAR_X].motion = FE_MOTION_LIMITED, slide.axes[FE_DOF_LINEAR_X].lower = -0.1f, slide.axes[FE_DOF_LINEAR_X].upper = 0.3f;
+    slide.axes[FE_DOF_LINEAR_X].spring = FE_SPRING_HERTZ, slide.axes[FE_DOF_LINEAR_X].stiffness = 3, slide.axes[FE_DOF_LINEAR_X].damping = 1;
     slide.axes[FE_DOF_LINEAR_X].target = 5;
     joint = configurable_of(&g, slide);
     run(&g.s, 240);
@@ -306,7 +306,7 @@ static void limits_give_by_their_hertz_and_come_back_by_their_damping(void **sta
             hinge.limit_enabled = 1, hinge.lower = -0.01f, hinge.upper = 0, hinge.limit_hertz = hertz, hinge.limit_damping_ratio = ratio;
             ball.limit_enabled = 1, ball.lower = -0.01f, ball.upper = 0;
             ball.limit_hertz = hertz, ball.limit_damping_ratio = ratio;
-            slide.axes[0].mode = FE_MOTION_LIMITED, slide.axes[0].low = -0.01f, slide.axes[0].high = 0;
+            slide.axes[0].motion = FE_MOTION_LIMITED, slide.axes[0].lower = -0.01f, slide.axes[0].upper = 0;
             slide.axes[0].limit_hertz = hertz, slide.axes[0].limit_damping_ratio = ratio;
             if (where == 0) joint = hinge_of(&g, hinge);
             if (where == 1) joint = ball_of(&g, ball);
@@ -352,7 +352,7 @@ static void a_spring_pushes_up_to_its_cap(void **state)
             fe_joint joint = 0;
             hinge.spring_hertz = 2, hinge.spring_max = cap;
             ball.spring_hertz = 2, ball.spring_max = cap;
-            slide.axes[0].drive = FE_SPRING_HERTZ, slide.axes[0].stiffness = 2, slide.axes[0].damping = 1, slide.axes[0].spring_max = cap;
+            slide.axes[0].spring = FE_SPRING_HERTZ, slide.axes[0].stiffness = 2, slide.axes[0].damping = 1, slide.axes[0].spring_max = cap;
             rope.lower = 0, rope.upper = 100, rope.length = 2, rope.spring_hertz = 2, rope.spring_max = cap;
             for (int k = 3; k < 6; ++k) six.axes[k] = slide.axes[0];
             if (where == 0) joint = hinge_of(&g, hinge);
@@ -430,12 +430,12 @@ static void each_axis_of_a_configurable_joint_has_its_own_drive_and_motor(void *
         for (int by_motor = 0; by_motor < 2; ++by_motor) {
             gyre g = begin_gyre(state);
             fe_configurable_joint_def six = configurable_def();
-            for (int i = 0; i < 6; ++i) six.axes[i].mode = FE_MOTION_FREE;
+            for (int i = 0; i < 6; ++i) six.axes[i].motion = FE_MOTION_FREE;
             fe_joint_axis *axis = &six.axes[k];
             if (by_motor)
                 axis->motor_speed = 0.25f, axis->motor_max = 1e4f;
             else
-                axis->drive = FE_SPRING_HERTZ, axis->stiffness = 3, axis->damping = 1, axis->target = 0.5f;
+                axis->spring = FE_SPRING_HERTZ, axis->stiffness = 3, axis->damping = 1, axis->target = 0.5f;
             fe_joint joint = configurable_of(&g, six);
             run(&g.s, 240);
             fe_joint_state at = state_of(&g.s, joint);
@@ -498,8 +498,8 @@ static void a_single_free_rotation_is_a_hinge_about_its_axis(void **state)
             gyre g = begin_gyre(state);
             fe_configurable_joint_def d = configurable_def();
             fe_joint_axis *axis = &d.axes[FE_DOF_ANGULAR_X + k];
-            axis->mode = limited ? FE_MOTION_LIMITED : FE_MOTION_FREE, axis->low = -1, axis->high = (float)PI;
-            d.axes[FE_DOF_LINEAR_X + k].mode = FE_MOTION_LIMITED, d.axes[FE_DOF_LINEAR_X + k].low = -0.5f, d.axes[FE_DOF_LINEAR_X + k].high = 0.5f;
+            axis->motion = limited ? FE_MOTION_LIMITED : FE_MOTION_FREE, axis->lower = -1, axis->upper = (float)PI;
+            d.axes[FE_DOF_LINEAR_X + k].motion = FE_MOTION_LIMITED, d.axes[FE_DOF_LINEAR_X + k].lower = -0.5f, d.axes[FE_DOF_LINEAR_X + k].upper = 0.5f;
             fe_joint joint = configurable_of(&g, d);
             vec along = v3(k == 0, k == 1, k == 2);
             set_velocity(&g.s, g.block, times(0.25, along), times(5, along));
@@ -527,7 +527,7 @@ static void a_cardan_joint_gains_no_energy(void **state)
             dice d = {seed};
             fe_configurable_joint_def six = configurable_def();
             for (uint32_t k = 0; k < 3; ++k)
-                if (k != locked) six.axes[FE_DOF_ANGULAR_X + k].mode = FE_MOTION_FREE;
+                if (k != locked) six.axes[FE_DOF_ANGULAR_X + k].motion = FE_MOTION_FREE;
             configurable_of(&g, six);
             set_velocity(&g.s, g.block, v3(0, 0, 0), somewhere(&d, 8));
             run(&g.s, 1); // the spin about the locked axis is gone

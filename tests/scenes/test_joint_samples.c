@@ -99,7 +99,7 @@ static void a_light_ball_on_springs_between_heavy_ones_adds_no_energy(void **sta
                 middle = add_plain(&s, sphere(radius), v3(0, 2, 0)), all[3] = {left, right, middle};
         add_ground(&s, friction(0.6));
         fe_configurable_joint_def d = slider_def();
-        d.axes[FE_DOF_LINEAR_X].drive = FE_SPRING_HERTZ, d.axes[FE_DOF_LINEAR_X].stiffness = 10, d.axes[FE_DOF_LINEAR_X].damping = 2;
+        d.axes[FE_DOF_LINEAR_X].spring = FE_SPRING_HERTZ, d.axes[FE_DOF_LINEAR_X].stiffness = 10, d.axes[FE_DOF_LINEAR_X].damping = 2;
         fe_joint joints[2] = {add_configurable(&s, d, left, middle, v3(0, 2, 0), v3(1, 0, 0)),
                               add_configurable(&s, d, middle, right, v3(0, 2, 0), v3(1, 0, 0))};
         set_velocity(&s, left, v3(1, 0, 0), v3(0, 0, 0));
@@ -195,7 +195,7 @@ static fe_joint join_foot(scene *s, fe_body on, fe_body bar, vec at, float speed
 {
     fe_configurable_joint_def d = slider_def();
     d.hertz = 240, d.damping_ratio = 20;
-    d.axes[FE_DOF_ANGULAR_Z].mode = FE_MOTION_FREE;
+    d.axes[FE_DOF_ANGULAR_Z].motion = FE_MOTION_FREE;
     d.axes[FE_DOF_LINEAR_X].motor_speed = speed, d.axes[FE_DOF_LINEAR_X].motor_max = force;
     return add_configurable(s, d, on, bar, at, v3(1, 0, 0));
 }

@@ -334,7 +334,7 @@ static void telescopes_pulled_hard_come_back(void **state)
         fe_joint joints[CUBES];
         for (int i = 0; i < CUBES; ++i) {
             fe_configurable_joint_def d = slider_def();
-            d.axes[0].mode = FE_MOTION_LIMITED, d.axes[0].low = -6, d.axes[0].high = 6;
+            d.axes[0].motion = FE_MOTION_LIMITED, d.axes[0].lower = -6, d.axes[0].upper = 6;
             cubes[i] = add_plain(&s, box(0.5, 0.5, 0.5), v3(0, 0.6 + 1.2 * i, 0));
             touch_nothing(&s, cubes[i]);
             joints[i] = add_configurable(&s, d, below, cubes[i], v3(0, 1.2 * i, 0), v3(1, 0, 0));

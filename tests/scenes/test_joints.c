@@ -202,9 +202,9 @@ static void a_drive_along_an_axis_swings_by_hertz_or_by_stiffness(void **state)
             fe_configurable_joint_def d = slider_def();
             double x[SAMPLES], w = 2 * PI * (double)springs[k].hertz, m = mass_of(&s, cart);
             fe_joint_axis *axis = &d.axes[FE_DOF_LINEAR_X];
-            axis->target = 0.1f, axis->drive = FE_SPRING_HERTZ, axis->stiffness = springs[k].hertz, axis->damping = springs[k].ratio;
+            axis->target = 0.1f, axis->spring = FE_SPRING_HERTZ, axis->stiffness = springs[k].hertz, axis->damping = springs[k].ratio;
             if (by_stiffness)
-                axis->drive = FE_SPRING_STIFFNESS, axis->stiffness = (float)(m * w * w),
+                axis->spring = FE_SPRING_STIFFNESS, axis->stiffness = (float)(m * w * w),
                 axis->damping = (float)(2 * m * w * (double)springs[k].ratio);
             fe_joint joint = add_configurable(&s, d, anchor, cart, v3(0, 0, 0), v3(0, 1, 1));
             for (int i = 0; i < SAMPLES; ++i, run(&s, 1)) x[i] = (double)state_of(&s, joint).translation.x - 0.1;
@@ -465,7 +465,7 @@ static void a_universal_joint_turns_round_a_corner(void **state)
     fe_joint first = add_hinge(&s, motor, wall, in, v3(-0.5, 0, 0), v3(1, 0, 0)),
              last = add_hinge(&s, hinge_def(), wall, out, times(0.5, along), along);
     fe_configurable_joint_def cross_def = configurable_def();
-    cross_def.axes[FE_DOF_ANGULAR_Y].mode = cross_def.axes[FE_DOF_ANGULAR_Z].mode = FE_MOTION_FREE;
+    cross_def.axes[FE_DOF_ANGULAR_Y].motion = cross_def.axes[FE_DOF_ANGULAR_Z].motion = FE_MOTION_FREE;
     // at the bend both shafts end, so the cross's zero has to be made with the out shaft straight: frames by hand
     fe_joint middle;
     cross_def.body_a = in, cross_def.body_b = out;
@@ -534,7 +534,7 @@ static void all_six_limits_of_a_configurable_joint_hold(void **state)
             set_gravity(&s, v3(0, 0, 0));
             fe_body anchor = add_anchor(&s, v3(0, 0, 0)), block = add_plain(&s, box(0.2, 0.25, 0.3), v3(0, 0, 0));
             fe_configurable_joint_def d = configurable_def();
-            for (int i = 0; i < 6; ++i) d.axes[i].mode = FE_MOTION_LIMITED, d.axes[i].low = -0.2f, d.axes[i].high = 0.4f;
+            for (int i = 0; i < 6; ++i) d.axes[i].motion = FE_MOTION_LIMITED, d.axes[i].lower = -0.2f, d.axes[i].upper = 0.4f;
             d.axes[k].motor_speed = (float)side, d.axes[k].motor_max = 500;
             fe_joint joint;
             d.body_a = anchor, d.body_b = block;

@@ -273,7 +273,7 @@ static void add_shape(scene *s, fe_body body, fe_geometry form, vec at, float de
     fe_shape shape;
     fe_shape_def_init(&def, sizeof def);
     def.density = density;
-    def.local_position = narrow(at);
+    def.frame.position = narrow(at);
     MUST(fe_shape_create(s->world, body, &def, &form, &shape));
 }
 

@@ -75,7 +75,7 @@ static fe_shape_def some_shape(fuzz *f)
     fe_shape_def_init(&d, sizeof d);
     uint8_t which = fuzz_byte(f);
     if (which & 1) d.material = some_material(f);
-    if ((which & 6) == 6) d.local_position = fuzz_vec3(f), d.local_rotation = fuzz_quat(f);
+    if ((which & 6) == 6) d.frame.position = fuzz_vec3(f), d.frame.rotation = fuzz_quat(f);
     if ((which & 24) == 24) d.layer = fuzz_byte(f) % 5u, d.mask = fuzz_byte(f);
     if (which & 32) d.events = fuzz_byte(f) % 9u;
     if ((which & 192) == 192) d.trigger = fuzz_byte(f) % 3, d.density = fuzz_float(f), d.surface_velocity = fuzz_vec3(f);

@@ -39,8 +39,8 @@ static void set_sensible(fuzz *f, int32_t kind, any_def *d)
     for (int32_t k = 0; kind == ANY_CONFIGURABLE && k < AXES; ++k) {
         fe_joint_axis *axis = d->configurable.axes + k;
         uint8_t way = fuzz_byte(f);
-        axis->mode = way % 3, axis->low = -size, axis->high = 0.5f * size;
-        axis->drive = way / 3 % 3, axis->stiffness = 5.0f, axis->damping = 1.0f, axis->target = size - 0.5f;
+        axis->motion = way % 3, axis->lower = -size, axis->upper = 0.5f * size;
+        axis->spring = way / 3 % 3, axis->stiffness = 5.0f, axis->damping = 1.0f, axis->target = size - 0.5f;
         if (way & 64) axis->motor_max = 10.0f, axis->motor_speed = 1.0f;
     }
 }

@@ -110,8 +110,8 @@ static void bring_joints(play *p)
     ball->body_a = p->actors[ROOF], ball->body_b = actor[1], ball->break_force = 10; // N
     hinge->body_a = actor[6], hinge->body_b = actor[7], hinge->limit_enabled = 1;
     fixed->body_a = actor[7], fixed->body_b = actor[8], fixed->hertz = 2;
-    six->body_a = actor[8], six->body_b = actor[17], six->axes[FE_DOF_LINEAR_Y].mode = FE_MOTION_FREE;
-    six->axes[FE_DOF_ANGULAR_X].mode = FE_MOTION_LIMITED;
+    six->body_a = actor[8], six->body_b = actor[17], six->axes[FE_DOF_LINEAR_Y].motion = FE_MOTION_FREE;
+    six->axes[FE_DOF_ANGULAR_X].motion = FE_MOTION_LIMITED;
     for (int32_t kind = 0; kind < ANY_KINDS; ++kind) PLAY(p, any_create(kind, p->world, &d[kind], &p->joints[kind]));
 }
 
