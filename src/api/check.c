@@ -11,13 +11,17 @@ enum {
 
 static const char *const kind_names[] = {"nothing", "body", "shape", "joint", "asset"};
 
-fe_result fe__check_world(const char *function, const fe_world *world)
+fe_result fe__refuse(const char *function, const fe_world *world)
 {
     if (!world) return fe__fail(function, FE_ERROR_ARGUMENT, "world is NULL");
-    if (atomic_load_explicit(&world->stepping, memory_order_acquire)) {
+    switch (atomic_load_explicit(&world->owner.occupation, memory_order_acquire)) {
+    case FE__STEP:
         return fe__fail(function, FE_ERROR_STEPPING, "the world is in a step; call it when fe_world_step has returned");
+    case FE__CLOSING:
+        return fe__fail(function, FE_ERROR_BUSY, "the world is being destroyed");
+    default:
+        return fe__fail(function, FE_ERROR_BUSY, "another call is changing this world now; one world needs one writer at a time");
     }
-    return FE_OK;
 }
 
 // ---- handles --------------------------------------------------------------------------------------------------------------------

@@ -1,11 +1,12 @@
 // check.h - the door of the library: what every API function asks of its arguments.
 //
-// An API function opens with FE_BEGIN(world), then one line for each argument; each line leaves the function with an error and its sentence
-// when the argument is wrong. Past these lines nothing is checked again. The names in the sentences are the expressions as written:
+// An API function opens with FE_READ(world) or FE_WRITE(world), which enter the world until the function returns (core/owner.h). Then comes
+// one line for each argument; each line leaves the function with an error and its sentence when the argument is wrong. Past these lines
+// nothing is checked again. The names in the sentences are those of the caller's argument or field:
 //
 //     fe_result fe_body_set_gravity_scale(fe_world *world, fe_body body, float scale)
 //     {
-//         FE_BEGIN(world);
+//         FE_WRITE(world);
 //         FE_FIND_BODY(index, body);
 //         FE_CHECK_FLOAT(scale, -FE_MAX_VALUE, FE_MAX_VALUE);
 //         ...
@@ -39,9 +40,21 @@ enum { FE_MAX_SUBSTEPS = 64 };
         if (tried != FE_OK) return tried; \
     } while (0)
 
-#define FE_BEGIN(world)              \
+#define FE_CLEANUP(function) __attribute__((cleanup(function)))
+// Inside the world until the end of the block. `function`: the name of the API function
+#define FE_READ_AS(function, world)                                                                        \
+    FE_CLEANUP(fe__end_read) fe__reader *inside = (world) ? fe__reader_enter(&(world)->owner) : NULL;      \
+    if (!inside) return fe__refuse(function, world)
+#define FE_WRITE_AS(function, world)                                                                       \
+    FE_CLEANUP(fe__end_write) fe__owner *inside =                                                          \
+        (world) && fe__owner_enter(&(world)->owner) ? &(world)->owner : NULL;                              \
+    if (!inside) return fe__refuse(function, world)
+#define FE_READ(world)               \
     const char *function = __func__; \
-    if (!fe__is_at_rest(world)) FE_TRY(fe__check_world(function, world))
+    FE_READ_AS(function, world)
+#define FE_WRITE(world)              \
+    const char *function = __func__; \
+    FE_WRITE_AS(function, world)
 #define FE_BEGIN_WITHOUT_WORLD() const char *function = __func__
 // Declares `index`, the record that a handle names.
 #define FE_FIND_BODY(index, handle) \
@@ -78,9 +91,16 @@ enum { FE_MAX_SUBSTEPS = 64 };
 #define FE_READ_STRUCT(given, copy) FE_TRY(fe__read_struct(function, #given, given, copy, (uint32_t)sizeof *(copy)))
 #define FE_CHECK_STRUCT_SIZE(given) FE_TRY(fe__check_struct_size(function, #given, given))
 
-// There, and in no step: what each call asks, without a call
-static inline int fe__is_at_rest(const fe_world *world) { return world && !atomic_load_explicit(&world->stepping, memory_order_acquire); }
-fe_result fe__check_world(const char *function, const fe_world *world);
+static inline void fe__end_read(fe__reader **reader)
+{
+    if (*reader) fe__reader_leave(*reader);
+}
+static inline void fe__end_write(fe__owner **owner)
+{
+    if (*owner) fe__owner_leave(*owner);
+}
+// Why the world could not be entered
+fe_result fe__refuse(const char *function, const fe_world *world);
 fe_result fe__find_body(const char *function, const char *name, const fe_world *world, fe_body handle, int32_t *out_index);
 fe_result fe__find_shape(const char *function, const char *name, const fe_world *world, fe_shape handle, int32_t *out_index);
 fe_result fe__find_joint(const char *function, const char *name, const fe_world *world, fe_joint handle, int32_t *out_index);

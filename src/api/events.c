@@ -19,7 +19,7 @@ static void put(void *out, uint32_t stride, int32_t i, const void *record, size_
 
 int32_t fe_world_get_pair_events(const fe_world *world, fe_pair_event *out_events, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_ARRAY(out_events, capacity);
     FE_CHECK_STRIDE(stride, sizeof *out_events, LEAST_RECORD);
     int32_t count = fe__mini(world->pair_event_count, capacity);
@@ -29,7 +29,7 @@ int32_t fe_world_get_pair_events(const fe_world *world, fe_pair_event *out_event
 
 int32_t fe_world_get_body_events(const fe_world *world, fe_body_event *out_events, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_ARRAY(out_events, capacity);
     FE_CHECK_STRIDE(stride, sizeof *out_events, LEAST_RECORD);
     int32_t count = fe__mini(world->body_event_count, capacity);
@@ -39,7 +39,7 @@ int32_t fe_world_get_body_events(const fe_world *world, fe_body_event *out_event
 
 int32_t fe_world_get_hit_events(const fe_world *world, fe_hit_event *out_events, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_ARRAY(out_events, capacity);
     FE_CHECK_STRIDE(stride, sizeof *out_events, LEAST_RECORD);
     int32_t count = fe__mini(world->hit_event_count, capacity);
@@ -49,7 +49,7 @@ int32_t fe_world_get_hit_events(const fe_world *world, fe_hit_event *out_events,
 
 int32_t fe_world_get_joint_events(const fe_world *world, fe_joint_event *out_events, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_ARRAY(out_events, capacity);
     FE_CHECK_STRIDE(stride, sizeof *out_events, LEAST_RECORD);
     int32_t count = fe__mini(world->joint_event_count, capacity);
@@ -118,7 +118,7 @@ static int32_t write_contacts(const fe_world *world, int32_t body, int32_t shape
 
 int32_t fe_body_get_contacts(const fe_world *world, fe_body body, fe_contact *out_contacts, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_ARRAY(out_contacts, capacity);
     FE_CHECK_STRIDE(stride, sizeof *out_contacts, LEAST_RECORD);
@@ -130,7 +130,7 @@ int32_t fe_body_get_contacts(const fe_world *world, fe_body body, fe_contact *ou
 
 int32_t fe_shape_get_contacts(const fe_world *world, fe_shape shape, fe_contact *out_contacts, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_ARRAY(out_contacts, capacity);
     FE_CHECK_STRIDE(stride, sizeof *out_contacts, LEAST_RECORD);

@@ -62,7 +62,6 @@ static void set_ends(const fe_world *world, fe_joint_def *front, const ends *e, 
 static fe_result open(const char *function, const fe_world *world, int32_t type, const void *def, fe_body body_a, fe_body body_b,
                       ends *out_ends, fe__joint_any *full)
 {
-    FE_TRY(fe__check_world(function, world));
     fe__joint_defaults(type, full);
     FE_TRY(fe__read_struct(function, "def", def, full, full->common.struct_size));
     return find_ends(function, world, body_a, body_b, out_ends);
@@ -88,7 +87,7 @@ static fe_result at_point(const char *function, const fe_world *world, int32_t t
 fe_result fe_ball_joint_def_at(const fe_world *world, fe_ball_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
                          const fe_vec3 *axis)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_POINTER(axis);
     return at_point(function, world, FE_JOINT_BALL, def, body_a, body_b, point, axis);
 }
@@ -96,20 +95,21 @@ fe_result fe_ball_joint_def_at(const fe_world *world, fe_ball_joint_def *def, fe
 fe_result fe_hinge_joint_def_at(const fe_world *world, fe_hinge_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
                           const fe_vec3 *axis)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_POINTER(axis);
     return at_point(function, world, FE_JOINT_HINGE, def, body_a, body_b, point, axis);
 }
 
 fe_result fe_fixed_joint_def_at(const fe_world *world, fe_fixed_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point)
 {
-    return at_point(__func__, world, FE_JOINT_FIXED, def, body_a, body_b, point, NULL);
+    FE_READ(world);
+    return at_point(function, world, FE_JOINT_FIXED, def, body_a, body_b, point, NULL);
 }
 
 fe_result fe_configurable_joint_def_at(const fe_world *world, fe_configurable_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
                                  const fe_vec3 *axis)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_POINTER(axis);
     return at_point(function, world, FE_JOINT_CONFIGURABLE, def, body_a, body_b, point, axis);
 }
@@ -128,7 +128,7 @@ static fe_result between_points(const char *function, const fe_world *world, fe_
 fe_result fe_distance_joint_def_at(const fe_world *world, fe_distance_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point_a,
                              const fe_dvec3 *point_b)
 {
-    const char *function = __func__;
+    FE_READ(world);
     ends e;
     fe__joint_any full;
     FE_TRY(open(function, world, FE_JOINT_DISTANCE, def, body_a, body_b, &e, &full));
@@ -152,7 +152,7 @@ static fe_result begin_ready(const char *function, const fe_world *world, int32_
 fe_result fe_rope_joint_def_at(const fe_world *world, fe_distance_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point_a,
                          const fe_dvec3 *point_b, float max_length)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     ends e;
     fe__joint_any full;
     FE_TRY(begin_ready(function, world, FE_JOINT_DISTANCE, def, body_a, body_b, &e, &full));
@@ -170,7 +170,7 @@ fe_result fe_rope_joint_def_at(const fe_world *world, fe_distance_joint_def *def
 fe_result fe_slider_joint_def_at(const fe_world *world, fe_configurable_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
                            const fe_vec3 *axis)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     ends e;
     fe__joint_any full;
     FE_TRY(begin_ready(function, world, FE_JOINT_CONFIGURABLE, def, body_a, body_b, &e, &full));
@@ -216,7 +216,7 @@ static void set_suspension(const fe_world *world, const ends *e, const fe_joint_
 fe_result fe_wheel_joint_def_at(const fe_world *world, fe_configurable_joint_def *def, fe_body chassis, fe_body wheel, const fe_dvec3 *point,
                           const fe_vec3 *axle, const fe_vec3 *up, float hertz, float damping_ratio, float travel)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     ends e;
     fe__joint_any full;
     FE_TRY(begin_ready(function, world, FE_JOINT_CONFIGURABLE, def, chassis, wheel, &e, &full));
@@ -242,7 +242,7 @@ fe_result fe_wheel_joint_def_at(const fe_world *world, fe_configurable_joint_def
 fe_result fe_motor_joint_def_at(const fe_world *world, fe_configurable_joint_def *def, fe_body body_a, fe_body body_b, float hertz,
                           float damping_ratio, float max_force, float max_torque)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     ends e;
     fe__joint_any full;
     FE_TRY(begin_ready(function, world, FE_JOINT_CONFIGURABLE, def, body_a, body_b, &e, &full));

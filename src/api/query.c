@@ -78,7 +78,7 @@ fe__scene fe__scene_of(const fe_world *world, const fe_query_filter *whole_filte
 int32_t fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
                            fe_hit *out_hit)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     FE_CHECK_POINTER(out_hit);
@@ -95,7 +95,7 @@ int32_t fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const fe
 
 int32_t fe_world_raycast_any(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     fe_query_filter whole;
@@ -112,7 +112,7 @@ int32_t fe_world_raycast_any(const fe_world *world, const fe_dvec3 *origin, cons
 int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
                              fe_hit *out_hits, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     FE_CHECK_ARRAY(out_hits, capacity);
@@ -132,7 +132,7 @@ int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, cons
 int32_t fe_world_sweep(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
                          const fe_query_filter *filter, fe_hit *out_hit)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     fe__form form;
     FE_TRY(fe__read_moving_form(function, geometry, &form));
     FE_CHECK_TRANSFORM(start);
@@ -151,7 +151,7 @@ int32_t fe_world_sweep(const fe_world *world, const fe_geometry *geometry, const
 int32_t fe_world_sweep_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
                              const fe_query_filter *filter)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     fe__form form;
     FE_TRY(fe__read_moving_form(function, geometry, &form));
     FE_CHECK_TRANSFORM(start);
@@ -169,7 +169,7 @@ int32_t fe_world_sweep_any(const fe_world *world, const fe_geometry *geometry, c
 int32_t fe_world_sweep_all(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
                            const fe_query_filter *filter, fe_hit *out_hits, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     fe__form form;
     FE_TRY(fe__read_moving_form(function, geometry, &form));
     FE_CHECK_TRANSFORM(start);
@@ -192,7 +192,7 @@ static const fe_dvec3 nowhere = {0.0, 0.0, 0.0};
 int32_t fe_world_overlap(const fe_world *world, const fe_geometry *geometry, const fe_transform *at, const fe_query_filter *filter,
                          fe_body *out_bodies, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     fe__form form;
     FE_TRY(fe__read_moving_form(function, geometry, &form));
     FE_CHECK_TRANSFORM(at);
@@ -209,7 +209,7 @@ int32_t fe_world_overlap(const fe_world *world, const fe_geometry *geometry, con
 
 int32_t fe_world_overlap_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *at, const fe_query_filter *filter)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     fe__form form;
     FE_TRY(fe__read_moving_form(function, geometry, &form));
     FE_CHECK_TRANSFORM(at);
@@ -227,7 +227,7 @@ int32_t fe_world_overlap_any(const fe_world *world, const fe_geometry *geometry,
 int32_t fe_world_closest_point(const fe_world *world, const fe_dvec3 *point, double max_distance, const fe_query_filter *filter,
                                  fe_closest *out_closest)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_DVEC3(point, FE_MAX_POSITION);
     FE_CHECK_FLOAT(max_distance, 0.0, FE_MAX_TRANSLATION);
     FE_CHECK_POINTER(out_closest);
@@ -269,7 +269,7 @@ static int32_t closest_of_shapes(const fe_world *world, int32_t first, int32_t e
 
 int32_t fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_dvec3 *origin, const fe_dvec3 *translation, fe_hit *out_hit)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
@@ -279,7 +279,7 @@ int32_t fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_dvec3 *
 
 int32_t fe_body_raycast(const fe_world *world, fe_body body, const fe_dvec3 *origin, const fe_dvec3 *translation, fe_hit *out_hit)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
@@ -289,7 +289,7 @@ int32_t fe_body_raycast(const fe_world *world, fe_body body, const fe_dvec3 *ori
 
 int32_t fe_shape_closest_point(const fe_world *world, fe_shape shape, const fe_dvec3 *point, fe_closest *out_closest)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_DVEC3(point, FE_MAX_POSITION);
     FE_CHECK_POINTER(out_closest);
@@ -298,7 +298,7 @@ int32_t fe_shape_closest_point(const fe_world *world, fe_shape shape, const fe_d
 
 int32_t fe_body_closest_point(const fe_world *world, fe_body body, const fe_dvec3 *point, fe_closest *out_closest)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_DVEC3(point, FE_MAX_POSITION);
     FE_CHECK_POINTER(out_closest);

@@ -75,7 +75,7 @@ static int32_t answer_all(const fe_world *world, batch *b, int32_t count, int32_
 int32_t fe_world_raycast_many(const fe_world *world, const fe_ray *rays, uint32_t ray_stride, int32_t count, const fe_query_filter *filter,
                               int32_t spread, fe_hit *out_hits, uint32_t stride)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_ARRAY(rays, count);
     FE_CHECK_STRIDE(ray_stride, sizeof *rays, sizeof *rays);
     FE_CHECK_BOOL(spread);
@@ -95,7 +95,7 @@ int32_t fe_world_raycast_many(const fe_world *world, const fe_ray *rays, uint32_
 int32_t fe_world_sweep_many(const fe_world *world, const fe_geometry *geometry, const fe_path *paths, uint32_t path_stride, int32_t count,
                             const fe_query_filter *filter, int32_t spread, fe_hit *out_hits, uint32_t stride)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     fe__form form;
     FE_TRY(fe__read_moving_form(function, geometry, &form));
     FE_CHECK_ARRAY(paths, count);
