@@ -36,7 +36,7 @@ static void hear_pairs(play *p)
 {
     int32_t count = fe_world_get_pair_events(p->world, NULL, 0, 0);
     fe_pair_event *events = calloc((size_t)count + 1, sizeof *events);
-    fe_world_get_pair_events(p->world, events, 0, count);
+    fe_world_get_pair_events(p->world, events, sizeof *events, count);
     fe__hash_i32(&p->told, count);
     for (int32_t i = 0; i < count; ++i) {
         const fe_pair_event *e = events + i;
@@ -51,7 +51,7 @@ static void hear_bodies(play *p)
 {
     int32_t count = fe_world_get_body_events(p->world, NULL, 0, 0);
     fe_body_event *events = calloc((size_t)count + 1, sizeof *events);
-    fe_world_get_body_events(p->world, events, 0, count);
+    fe_world_get_body_events(p->world, events, sizeof *events, count);
     fe__hash_i32(&p->told, count);
     for (int32_t i = 0; i < count; ++i) {
         fe__hash_u64(&p->told, events[i].body);
@@ -64,7 +64,7 @@ static void hear_hits(play *p)
 {
     int32_t count = fe_world_get_hit_events(p->world, NULL, 0, 0);
     fe_hit_event *events = calloc((size_t)count + 1, sizeof *events);
-    fe_world_get_hit_events(p->world, events, 0, count);
+    fe_world_get_hit_events(p->world, events, sizeof *events, count);
     fe__hash_i32(&p->told, count);
     for (int32_t i = 0; i < count; ++i) {
         const fe_hit_event *e = events + i;
@@ -82,7 +82,7 @@ static void hear_joints(play *p)
 {
     int32_t count = fe_world_get_joint_events(p->world, NULL, 0, 0);
     fe_joint_event *events = calloc((size_t)count + 1, sizeof *events);
-    fe_world_get_joint_events(p->world, events, 0, count);
+    fe_world_get_joint_events(p->world, events, sizeof *events, count);
     for (int32_t i = 0; i < count; ++i) {
         const fe_joint_event *e = events + i;
         const uint64_t words[3] = {e->joint, e->body_a, e->body_b};
@@ -111,7 +111,7 @@ static void hear_ray(play *p)
     double at = (double)(p->step % 16) / 8.0 - 1.0;
     fe_dvec3 origin = {reach * at, 0.5 * reach, -reach}, translation = {-reach * at, -0.5 * reach, 2.0 * reach};
     fe_hit hit = {0};
-    fe_result result = fe_world_raycast(p->world, &origin, &translation, NULL, &hit);
+    int32_t result = fe_world_raycast(p->world, &origin, &translation, NULL, &hit);
     fe__hash_i32(&p->told, result);
     if (result != FE_OK) return;
     fe__hash_u64(&p->told, hit.shape);

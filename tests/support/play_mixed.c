@@ -86,13 +86,13 @@ static void bring_crowd(play *p)
         defs[i].transform = fe_make_transform(3.0 + 0.5 * i, 0.4, 0.0);
     }
     if (p->step == 50) {
-        PLAY(p, fe_body_create_many(p->world, defs, 0, CROWD, crowd));
+        PLAY(p, fe_body_create_many(p->world, defs, sizeof *defs, CROWD, crowd));
         for (int32_t i = 0; i < CROWD; ++i) PLAY(p, fe_shape_create(p->world, crowd[i], NULL, &ball, p->shapes + 100 + i));
         for (int32_t i = 0; i < CROWD; ++i) PLAY(p, fe_shape_create(p->world, crowd[0], NULL, &ball, &extra));
     }
     if (p->step == 52) bring_hill(p);
     if (p->step == 70) PLAY(p, fe_body_destroy_many(p->world, crowd, CROWD));
-    if (p->step == 80) PLAY(p, fe_body_create_many(p->world, defs, 0, CROWD, crowd));
+    if (p->step == 80) PLAY(p, fe_body_create_many(p->world, defs, sizeof *defs, CROWD, crowd));
 }
 
 // a joint of each type between neighbours, one of them too weak for its load; changed, switched, destroyed, and gone with their bodies
