@@ -31,6 +31,10 @@ static fe_result find(const char *function, const char *name, const fe__id_pool 
     if (result == FE_ERROR_KIND) {
         return fe__fail(function, result, "%s 0x%llx is a %s, not a %s", name, handle, kind_names[fe__id_kind_of(handle)], kind);
     }
+    if (fe__id_kind_of(handle) != 0 && fe__id_number_of(handle) != pool->number) {
+        return fe__fail(function, result, "%s 0x%llx is a %s of world %" PRId32 ", this is world %" PRId32, name, handle, kind,
+                        fe__id_number_of(handle), pool->number);
+    }
     int32_t slot = fe__id_slot_of(handle), now = fe__id_pool_generation(pool, slot), then = fe__id_generation_of(handle);
     if (fe__id_kind_of(handle) != 0 && then > 0 && then < now) {
         return fe__fail(function, result,

@@ -56,6 +56,7 @@ static fe_result read_world_def(const char *function, const fe_world_def *def, w
     FE_CHECK_VEC3(&full->gravity, FE_MAX_SPEED);
     FE_CHECK_INT(full->substeps, 1, FE_MAX_SUBSTEPS);
     FE_CHECK_INT(full->simd, FE_SIMD_AUTO, FE_SIMD_NEON);
+    FE_CHECK_INT(full->number, 0, FE_ID_LAST_NUMBER);
     if (full->allocator) {
         FE_TRY(read_allocator(function, full->allocator, &whole->allocator));
         full->allocator = &whole->allocator;
@@ -76,7 +77,7 @@ fe_result fe_world_create(const fe_world_def *def, fe_world **out_world)
     fe_world *world;
     fe_result result = fe__world_create(&whole.def, &world);
     if (result == FE_ERROR_UNSUPPORTED) {
-        return fe__fail(function, result, "def->simd is %d, a set that this CPU or this build does not have", (int)whole.def.simd);
+        return fe__fail(function, result, "simd is %d, a set that this CPU or this build does not have", (int)whole.def.simd);
     }
     FE_TRY(fe__report(function, result));
     *out_world = world;

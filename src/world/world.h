@@ -41,6 +41,7 @@ struct fe_world {
     fe_pool *own_pool; // or NULL
     _Atomic int32_t stepping;
     uint64_t user_data;
+    int32_t number; // in its handles
 
     // settings
     fe_vec3 gravity;
