@@ -11,6 +11,7 @@
 
 #include "fe_test.h"
 #include "feather.h"
+#include "support/values.h"
 
 #include <math.h>
 

@@ -66,11 +66,11 @@ static void bring_hill(play *p)
     fe_heightfield_def_init(&def, sizeof def);
     def.rows = def.columns = SAMPLES, def.cell_x = 2.0f, def.heights = heights, def.holes = holes;
     fe_asset hill = 0;
-    PLAY(p, fe_heightfield_create(p->world, &def, &hill));
+    PLAY(p, fe_heightfield_create(world_store(p->world), &def, &hill));
     part ground = part_static_box(1.0f, 1.0f, 1.0f, 2.0, 0.0, -2.0);
     fe_geometry_heightfield(&ground.geometry, hill);
     play_put(p, 200, &ground);
-    PLAY(p, fe_asset_destroy(p->world, hill)); // lives with its shape
+    PLAY(p, fe_asset_destroy(world_store(p->world), hill)); // lives with its shape
 }
 
 // sixteen at once, then gone at once
