@@ -18,7 +18,7 @@
 
 void fe__joints_init(fe_world *world)
 {
-    fe__id_pool_init(&world->joint_ids, FE_KIND_JOINT);
+    fe__id_pool_init(&world->joint_ids, FE_KIND_JOINT, world->number);
     fe__record_pool_init(&world->joint_axes, sizeof(fe__joint_axes));
     for (int32_t type = 1; type < FE__JOINT_TYPES; ++type)
         fe__record_pool_init(&world->joint_settings[type], fe__joint_def_size(type) - FE__JOINT_FRONT);

@@ -66,12 +66,13 @@ fe_result fe__world_create(const fe_world_def *def, fe_world **out_world)
     world->static_tree.kernels = world->moving_tree.kernels = fe__tree_kernels_of(kernels->simd);
     world->gravity = def->gravity;
     world->substeps = def->substeps;
+    world->number = def->number ? (int32_t)def->number : fe__id_draw_number();
     world->user_data = def->user_data;
     world->tuning = fe__default_tuning();
-    fe__id_pool_init(&world->body_ids, FE_KIND_BODY);
-    fe__id_pool_init(&world->shape_ids, FE_KIND_SHAPE);
+    fe__id_pool_init(&world->body_ids, FE_KIND_BODY, world->number);
+    fe__id_pool_init(&world->shape_ids, FE_KIND_SHAPE, world->number);
     fe__joints_init(world);
-    fe__id_pool_init(&world->asset_ids, FE_KIND_ASSET);
+    fe__id_pool_init(&world->asset_ids, FE_KIND_ASSET, world->number);
     world->next_serial = 1;
     world->first_body = world->last_body = world->first_free_pair = -1;
     world->pair_limit = 1; // contact 0 is no contact

@@ -10,7 +10,7 @@ static int begin(void **state)
 {
     (void)state;
     fe__memory_init(&memory, NULL);
-    fe__id_pool_init(&pool, FE_KIND_BODY);
+    fe__id_pool_init(&pool, FE_KIND_BODY, 7);
     return fe__id_pool_reserve(&pool, &memory, 100) == FE_OK ? 0 : -1;
 }
 
