@@ -186,6 +186,8 @@ FE_OUT(float *, PyFloat_FromDouble((double)*$1))
     $result = PyLong_FromUnsignedLongLong((unsigned long long)$1[1] << 32 | $1[0]);
 %}
 
+%typemap(out) float barycentric[2] %{ $result = Py_BuildValue("(dd)", (double)$1[0], (double)$1[1]); %}
+
 // `fe_vec3 *` without a name is a value that goes in, as a member's setter has it.
 %define FE_SMALL(TYPE, NAME)
 %typemap(in) TYPE * (TYPE value) {
