@@ -490,7 +490,7 @@ typedef struct call_state {
     void *memory;     ///< copies of records, or NULL
     int64_t count;    ///< of the input arrays; -1: none yet
     int64_t capacity; ///< of the output arrays; -1: none yet
-    uint32_t stride;  ///< size of the last output array's records
+    uint32_t stride;  ///< size of a record of the array, where the array is one of records; else 0: packed
 } call_state;
 
 static void begin_call(call_state *call)
@@ -568,7 +568,7 @@ static int to_output(call_state *call, PyObject *object, size_t record, const ch
     }
     int64_t capacity = (int64_t)((size_t)view->len / record);
     if (call->capacity < 0 || capacity < call->capacity) call->capacity = capacity;
-    call->stride = (uint32_t)record;
+    if (!*codes) call->stride = (uint32_t)record;
     *out_array = view->buf;
     return 0;
 }

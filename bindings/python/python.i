@@ -179,6 +179,7 @@ FE_INTEGER(fe_handle, 0, UINT64_MAX)
 FE_OUT(fe_handle *, PyLong_FromUnsignedLongLong(*$1))
 FE_OUT(uint64_t *, PyLong_FromUnsignedLongLong(*$1))
 FE_OUT(int32_t *, PyLong_FromLong(*$1))
+FE_OUT(int64_t *, PyLong_FromLongLong(*$1))
 FE_OUT(uint32_t *, PyLong_FromUnsignedLong(*$1))
 FE_OUT(float *, PyFloat_FromDouble((double)*$1))
 %typemap(in, numinputs=0) uint32_t *out_words (uint32_t words[2]) "$1 = words;"

@@ -19,17 +19,17 @@ with World() as world:
     height = 3.0
     pelvis, chest, head = (limb(world, 0, height + y, h, r) for y, h, r in ((0, 0.05, 0.15), (0.4, 0.12, 0.17), (0.8, 0.04, 0.11)))
     joints = [
-        world.create_ball(pelvis, chest, (0, height + 0.2, 0), (0, 1, 0), swing_limited=True, cone_y=0.4, cone_z=0.4),
-        world.create_ball(chest, head, (0, height + 0.65, 0), (0, 1, 0), swing_limited=True, cone_y=0.7, cone_z=0.7),
+        world.create_ball_joint(pelvis, chest, (0, height + 0.2, 0), (0, 1, 0), cone_enabled=True, cone_y=0.4, cone_z=0.4),
+        world.create_ball_joint(chest, head, (0, height + 0.65, 0), (0, 1, 0), cone_enabled=True, cone_y=0.7, cone_z=0.7),
     ]
     for side in (-1, 1):
         upper_arm, fore_arm = limb(world, side * 0.26, height + 0.35, 0.12, 0.05), limb(world, side * 0.26, height - 0.02, 0.12, 0.045)
         thigh, shin = limb(world, side * 0.1, height - 0.35, 0.16, 0.07), limb(world, side * 0.1, height - 0.8, 0.16, 0.06)
         joints += [
-            world.create_ball(chest, upper_arm, (side * 0.26, height + 0.52, 0), DOWN, swing_limited=True, cone_y=1.5, cone_z=1.5),
-            world.create_hinge(upper_arm, fore_arm, (side * 0.26, height + 0.17, 0), (1, 0, 0), limited=True, min_angle=-2.4, max_angle=0),
-            world.create_ball(pelvis, thigh, (side * 0.1, height - 0.12, 0), DOWN, swing_limited=True, cone_y=pi / 3, cone_z=pi / 4),
-            world.create_hinge(thigh, shin, (side * 0.1, height - 0.58, 0), (1, 0, 0), limited=True, min_angle=0, max_angle=2.4),
+            world.create_ball_joint(chest, upper_arm, (side * 0.26, height + 0.52, 0), DOWN, cone_enabled=True, cone_y=1.5, cone_z=1.5),
+            world.create_hinge_joint(upper_arm, fore_arm, (side * 0.26, height + 0.17, 0), (1, 0, 0), limit_enabled=True, lower=-2.4, upper=0),
+            world.create_ball_joint(pelvis, thigh, (side * 0.1, height - 0.12, 0), DOWN, cone_enabled=True, cone_y=pi / 3, cone_z=pi / 4),
+            world.create_hinge_joint(thigh, shin, (side * 0.1, height - 0.58, 0), (1, 0, 0), limit_enabled=True, lower=0, upper=2.4),
         ]
 
     for step in range(241):

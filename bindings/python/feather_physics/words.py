@@ -13,7 +13,7 @@ COMBINES = ("default", "average", "minimum", "multiply", "maximum")
 MOTIONS = ("locked", "limited", "free")
 SPRINGS = ("none", "hertz", "stiffness")
 DOFS = ("linear_x", "linear_y", "linear_z", "angular_x", "angular_y", "angular_z")
-HIDDEN = ("this", "thisown", "struct_size")
+HIDDEN = ("this", "thisown", "struct_size", "of")
 
 
 def word(words: Sequence[str], text: Any, what: str) -> int:
