@@ -10,7 +10,7 @@ enum { MOST_LINES = 32768, MOST_SAMPLES = 1 << 28, MOST_MATERIALS = FE__CELL_HOL
     const char *function = __func__; \
     FE_CHECK_POINTER(store);         \
     fe_world *world = store->world;  \
-    FE_TRY(fe__check_world(function, world))
+    FE_WRITE_AS(function, world)
 
 // ---- birth and death ------------------------------------------------------------------------------------------------------------
 
