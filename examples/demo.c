@@ -63,8 +63,9 @@ static fe_body add_body(fe_world *world, int32_t type, const fe_transform *at, c
 
 static fe_material make_material(float friction, float restitution)
 {
-    fe_material m;
-    fe_material_init(&m);
+    fe_shape_def defaults;
+    fe_shape_def_init(&defaults, sizeof defaults);
+    fe_material m = defaults.material;
     m.static_friction = m.dynamic_friction = friction;
     m.restitution = restitution;
     return m;

@@ -28,7 +28,7 @@ static double y_of(const fe_world *world, fe_body body)
 static double degrees_of(const fe_world *world, fe_joint hinge)
 {
     fe_joint_state s;
-    fe_joint_state_init(&s, sizeof s);
+    s.struct_size = sizeof s;
     return fe_joint_get_state(world, hinge, &s) == FE_OK ? (double)(s.angle / MACHINE_DEGREE) : NAN;
 }
 
@@ -48,7 +48,7 @@ static fe_result show_ragdoll(fe_world *world)
     MACHINE_TRY(run(world, 240));
     for (int i = 1; i < RAGDOLL_BONES; ++i) {
         fe_joint_state s;
-        fe_joint_state_init(&s, sizeof s);
+        s.struct_size = sizeof s;
         MACHINE_TRY(fe_joint_get_state(world, r.joints[i], &s));
         worst = fmaxf(worst, s.linear_error);
     }
