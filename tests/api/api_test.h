@@ -44,6 +44,8 @@ static inline void check_refusal(int32_t result, int32_t expected, const char *c
     } while (0)
 
 #define OK(call) assert_int_equal(call, FE_OK)
+// A query finds one
+#define HIT(call) assert_int_equal(call, 1)
 // The sentence of the last failure contains the words
 #define SAYS(words)                                                              \
     do {                                                                         \

@@ -37,7 +37,7 @@ static void what_a_definition_says_is_read_back(void **state)
 
     int32_t type, allowed, bullet, enabled;
     float linear, angular, scale, threshold;
-    fe_handle data;
+    uint64_t data;
     OK(fe_body_get_type(world, body, &type));
     OK(fe_body_get_damping(world, body, &linear, &angular));
     OK(fe_body_get_gravity_scale(world, body, &scale));
@@ -538,7 +538,7 @@ static void settings_refuse_what_is_out_of_range(void **state)
     fe_body body = new_box(world, 0, 10, 0);
     float f;
     int32_t i;
-    fe_handle h;
+    uint64_t h;
     uint32_t u;
     REFUSES(world, FE_ERROR_ARGUMENT, fe_body_set_damping(world, body, -1, 0));
     SAYS("linear is -1, must lie in [0, 1000000]");
@@ -601,11 +601,12 @@ static void a_filter_on_a_body_is_one_on_its_shapes(void **state)
     fe_body body = new_body(world, FE_BODY_DYNAMIC, 0, 0, 0);
     REFUSES(world, FE_ERROR_STATE, fe_body_set_filter(world, body, 1, 1, 0));
     fe_shape shapes[2] = {add_box(world, body, 1), add_sphere(world, body, 1)};
-    OK(fe_body_set_filter(world, body, 1u << 31, 6, 0));
+    OK(fe_body_set_filter(world, body, 1u << 31, 6, -7));
     for (int i = 0; i < 2; ++i) {
         uint32_t layer = 0, mask = 0;
-        OK(fe_shape_get_filter(world, shapes[i], &layer, &mask));
-        assert_true(layer == 1u << 31 && mask == 6);
+        int32_t group = 0;
+        OK(fe_shape_get_filter(world, shapes[i], &layer, &mask, &group));
+        assert_true(layer == 1u << 31 && mask == 6 && group == -7);
     }
     REFUSES(world, FE_ERROR_ARGUMENT, fe_body_set_filter(world, body, 0, 1, 0));
     REFUSES(world, FE_ERROR_ARGUMENT, fe_body_set_filter(world, body, 3, 1, 0));

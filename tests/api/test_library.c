@@ -13,7 +13,8 @@ static void results_have_names(void **state)
 {
     (void)state;
     assert_string_equal(fe_result_name(FE_OK), "FE_OK");
-    assert_string_equal(fe_result_name(FE_MISS), "FE_MISS");
+    assert_string_equal(fe_result_name(FE_FOREIGN), "FE_FOREIGN");
+    assert_string_equal(fe_result_name(FE_END), "FE_END");
     assert_string_equal(fe_result_name(FE_ERROR_ARGUMENT), "FE_ERROR_ARGUMENT");
     assert_string_equal(fe_result_name(FE_ERROR_STALE), "FE_ERROR_STALE");
     assert_string_equal(fe_result_name(FE_ERROR_KIND), "FE_ERROR_KIND");
@@ -22,8 +23,13 @@ static void results_have_names(void **state)
     assert_string_equal(fe_result_name(FE_ERROR_LIMIT), "FE_ERROR_LIMIT");
     assert_string_equal(fe_result_name(FE_ERROR_UNSUPPORTED), "FE_ERROR_UNSUPPORTED");
     assert_string_equal(fe_result_name(FE_ERROR_STATE), "FE_ERROR_STATE");
+    assert_string_equal(fe_result_name(FE_ERROR_BUSY), "FE_ERROR_BUSY");
+    assert_string_equal(fe_result_name(FE_ERROR_DEGENERATE), "FE_ERROR_DEGENERATE");
+    assert_string_equal(fe_result_name(FE_ERROR_DATA), "FE_ERROR_DATA");
+    assert_string_equal(fe_result_name(FE_ERROR_VERSION), "FE_ERROR_VERSION");
+    assert_string_equal(fe_result_name(FE_ERROR_DIVERGED), "FE_ERROR_DIVERGED");
     assert_string_equal(fe_result_name(-99), "unknown");
-    assert_string_equal(fe_result_name(2), "unknown");
+    assert_string_equal(fe_result_name(1), "unknown");
 }
 
 static void *first_sentence(void *argument)

@@ -234,9 +234,8 @@ static void a_kinematic_body_reaches_its_target(void **state)
     fe_geometry geometry;
     fe_geometry_box(&geometry, 1, 0.1f, 1);
     fe_shape shape = add_shape(world, lift, &geometry);
-    fe_vec3 aside = {0.7f, 0, 0}; // it turns about its origin, wherever its shapes are
-    fe_quat same = {0, 0, 0, 1};
-    OK(fe_shape_set_local_pose(world, shape, &aside, &same));
+    fe_frame aside = {{0.7f, 0, 0}, {0, 0, 0, 1}}; // it rotates about its origin, wherever its shapes are
+    OK(fe_shape_set_frame(world, shape, &aside));
     fe_transform target = fe_make_transform(1.5, 2.25, 2);
     target.rotation = (fe_quat){0, 0.38268343f, 0, 0.92387953f}; // 45 degrees about y
     OK(fe_body_set_target(world, lift, &target, 0.5f));

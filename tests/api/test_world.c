@@ -17,7 +17,7 @@ static void defaults_are_those_of_the_header(void **state)
     fe_world *world = new_world();
     int32_t substeps;
     fe_vec3 gravity;
-    fe_handle data = 9;
+    uint64_t data = 9;
     OK(fe_world_get_substeps(world, &substeps));
     OK(fe_world_get_gravity(world, &gravity));
     OK(fe_world_get_user_data(world, &data));
