@@ -63,6 +63,18 @@ static inline fe_world *new_world(void)
     return world;
 }
 
+// Worlds with the same number give the same handles for the same calls
+static inline fe_world *new_world_of(uint32_t number)
+{
+    fe_world_def def;
+    fe_world *world = NULL;
+    fe_world_def_init(&def, sizeof def);
+    def.number = number;
+    OK(fe_world_create(&def, &world));
+    assert_non_null(world);
+    return world;
+}
+
 static inline fe_body new_body(fe_world *world, int32_t type, double x, double y, double z)
 {
     fe_body_def def;

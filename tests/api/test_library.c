@@ -45,7 +45,7 @@ static void sentences_belong_to_their_thread_and_outlive_success(void **state)
     (void)state;
     fe_world *world = new_world();
     REFUSES(world, FE_ERROR_ARGUMENT, fe_world_step(world, -1));
-    SAYS("fe_world_step: dt is -1, must lie in [0, 1]");
+    SAYS("fe_world_step: dt is -1, must be 0..1");
     pthread_t thread;
     void *seen;
     assert_int_equal(pthread_create(&thread, NULL, first_sentence, NULL), 0);

@@ -107,7 +107,7 @@ static void bad_motion_is_refused(void **state)
 {
     (void)state;
     fe_world *world = new_world();
-    fe_body box = new_box(world, 0, 10, 0), stale = box + (1u << 24);
+    fe_body box = new_box(world, 0, 10, 0), stale = box + NEXT_GENERATION;
     fe_shape shape;
     assert_int_equal(fe_body_get_shapes(world, box, &shape, 1), 1);
     fe_vec3 good = {1, 2, 3}, nan = {0, NOT_A_NUMBER, 0}, endless = {0, 0, -INFINITE}, huge = {1e30f, 0, 0};
