@@ -30,42 +30,45 @@ if TYPE_CHECKING:
     from .world import World
 
 Value = TypeVar("Value")
+Given = TypeVar("Given")
+Pose = Tuple[Vector, Vector]
+"""A position and a rotation: a Transform, or any two sequences of numbers."""
 
 
-class Attribute(Generic[Value]):
-    """A property that a pair of flat functions reads and writes."""
+class Attribute(Generic[Value, Given]):
+    """A property that a pair of flat functions reads and writes. It reads as Value; what is Given may be set."""
 
     def __init__(self, get: Callable[..., Any], set: Optional[Callable[..., Any]], doc: str):
         self._get, self._set, self.__doc__ = get, set, doc
 
     @overload
-    def __get__(self, owner: None, kind: Any) -> "Attribute[Value]": ...
+    def __get__(self, owner: None, kind: Any) -> "Attribute[Value, Given]": ...
 
     @overload
     def __get__(self, owner: "Entity", kind: Any) -> Value: ...
 
-    def __get__(self, owner: Optional["Entity"], kind: Any = None) -> Union[Value, "Attribute[Value]"]:
+    def __get__(self, owner: Optional["Entity"], kind: Any = None) -> Union[Value, "Attribute[Value, Given]"]:
         if owner is None:
             return self
         value: Value = self._get(owner._capsule, owner._id)
         return value
 
-    def __set__(self, owner: "Entity", value: Value) -> None:
+    def __set__(self, owner: "Entity", value: Given) -> None:
         if self._set is None:
             raise AttributeError("this cannot be set")
         self._set(owner._capsule, owner._id, value)
 
 
-class Switch(Attribute[bool]):
+class Switch(Attribute[bool, bool]):
     """A property that is 0 or 1 in C."""
 
     @overload
-    def __get__(self, owner: None, kind: Any) -> "Attribute[bool]": ...
+    def __get__(self, owner: None, kind: Any) -> "Attribute[bool, bool]": ...
 
     @overload
     def __get__(self, owner: "Entity", kind: Any) -> bool: ...
 
-    def __get__(self, owner: Optional["Entity"], kind: Any = None) -> Union[bool, "Attribute[bool]"]:
+    def __get__(self, owner: Optional["Entity"], kind: Any = None) -> Union[bool, "Attribute[bool, bool]"]:
         return self if owner is None else self._get(owner._capsule, owner._id) != 0
 
     def __set__(self, owner: "Entity", value: bool) -> None:
@@ -131,40 +134,37 @@ class Body(Entity):
 
     __slots__ = ()
 
-    @property
-    def position(self) -> Vec3:
-        """Of the body's origin, m. Setting it moves the body at once, through whatever is between."""
-        position: Vec3 = _get_position(self._capsule, self._id)
-        return position
-
-    @position.setter
-    def position(self, value: Vector) -> None:
-        _flat.body_set_position(self._capsule, self._id, value)
-
-    rotation: Attribute[Union[Quat, Vector]] = Attribute(
+    position: Attribute[Vec3, Vector] = Attribute(
+        _flat.body_get_position,
+        _flat.body_set_position,
+        "Of the body's origin, m. Setting it moves the body at once, through whatever is between.",
+    )
+    rotation: Attribute[Quat, Vector] = Attribute(
         _flat.body_get_rotation, _flat.body_set_rotation, "x, y, z, w; any length but zero."
     )
-    transform: Attribute[Union[Transform, Tuple[Vector, Vector]]] = Attribute(
+    transform: Attribute[Transform, Pose] = Attribute(
         _flat.body_get_transform, _flat.body_set_transform, "Position and rotation."
     )
-    linear_velocity: Attribute[Union[Vec3, Vector]] = Attribute(
+    linear_velocity: Attribute[Vec3, Vector] = Attribute(
         _flat.body_get_linear_velocity, _flat.body_set_linear_velocity, "Of the centre of mass, m/s."
     )
-    angular_velocity: Attribute[Union[Vec3, Vector]] = Attribute(
+    angular_velocity: Attribute[Vec3, Vector] = Attribute(
         _flat.body_get_angular_velocity, _flat.body_set_angular_velocity, "rad/s, world axes."
     )
-    centre: Attribute[Vec3] = Attribute(_flat.body_get_centre, None, "Centre of mass, m, world space.")
-    bounds: Attribute[Bounds] = Attribute(_flat.body_get_bounds, None, "The box around its shapes, m, world space.")
-    mass: Attribute[float] = Attribute(_flat.body_get_mass, _flat.body_set_mass, "kg; 0 when it is not dynamic.")
-    gravity_scale: Attribute[float] = Attribute(
+    centre: Attribute[Vec3, Vec3] = Attribute(_flat.body_get_centre, None, "Centre of mass, m, world space.")
+    bounds: Attribute[Bounds, Bounds] = Attribute(
+        _flat.body_get_bounds, None, "The box around its shapes, m, world space."
+    )
+    mass: Attribute[float, float] = Attribute(_flat.body_get_mass, _flat.body_set_mass, "kg; 0 when it is not dynamic.")
+    gravity_scale: Attribute[float, float] = Attribute(
         _flat.body_get_gravity_scale, _flat.body_set_gravity_scale, "Factor of the world's gravity."
     )
-    sleep_threshold: Attribute[float] = Attribute(
+    sleep_threshold: Attribute[float, float] = Attribute(
         _flat.body_get_sleep_threshold,
         _flat.body_set_sleep_threshold,
         "It may sleep when its fastest point is slower, m/s.",
     )
-    tag: Attribute[int] = Attribute(
+    tag: Attribute[int, int] = Attribute(
         _flat.body_get_user_data, _flat.body_set_user_data, "An integer of yours below 2^64, kept by the library."
     )
     awake = Switch(_flat.body_get_awake, _flat.body_set_awake, "False: asleep. Static bodies are never awake.")
@@ -368,17 +368,17 @@ class Shape(Entity):
 
     __slots__ = ()
 
-    density: Attribute[float] = Attribute(_flat.shape_get_density, _flat.shape_set_density, "kg/m3.")
-    surface_velocity: Attribute[Union[Vec3, Vector]] = Attribute(
+    density: Attribute[float, float] = Attribute(_flat.shape_get_density, _flat.shape_set_density, "kg/m3.")
+    surface_velocity: Attribute[Vec3, Vector] = Attribute(
         _flat.shape_get_surface_velocity, _flat.shape_set_surface_velocity, "Of a conveyor belt, m/s, shape frame."
     )
-    tag: Attribute[int] = Attribute(
+    tag: Attribute[int, int] = Attribute(
         _flat.shape_get_user_data, _flat.shape_set_user_data, "An integer of yours below 2^64, kept by the library."
     )
-    frame: Attribute[Union[Transform, Tuple[Vector, Vector]]] = Attribute(
+    frame: Attribute[Transform, Pose] = Attribute(
         _flat.shape_get_frame, _flat.shape_set_frame, "Position, m, and rotation in the body's space."
     )
-    bounds: Attribute[Bounds] = Attribute(
+    bounds: Attribute[Bounds, Bounds] = Attribute(
         _flat.shape_get_bounds, None, "The box around it, m, world space. An UnsupportedError for a plane."
     )
     trigger = Switch(
@@ -488,7 +488,7 @@ class Joint(Entity):
     __slots__ = ()
 
     enabled = Switch(_flat.joint_get_enabled, _flat.joint_set_enabled, "False: as if it were not there.")
-    tag: Attribute[int] = Attribute(
+    tag: Attribute[int, int] = Attribute(
         _flat.joint_get_user_data, _flat.joint_set_user_data, "An integer of yours below 2^64, kept by the library."
     )
 
@@ -585,6 +585,3 @@ def flat_geometry(world: "World", geometry: Geometry) -> Any:
     if geometry._store is not world.store:
         raise InvalidArgumentError(f"{geometry!r} belongs to another store than the world's")
     return _flat.geometry_heightfield(geometry._id)
-
-
-_get_position = _flat.body_get_position

@@ -5,7 +5,7 @@ from __future__ import annotations
 import weakref
 from array import array
 from types import TracebackType
-from typing import Any, Callable, Dict, Iterable, List, Optional, Sequence, Tuple, Type, Union
+from typing import Any, Callable, Dict, Iterable, List, Optional, Sequence, Tuple, Type, Union, overload
 
 from . import _flat, records
 from ._flat import Bounds, Vec3
@@ -33,6 +33,33 @@ class Pool:
     def close(self) -> None:
         """Ends the threads. A StateError while a world uses them."""
         _flat.pool_destroy(self._capsule)
+
+    def __enter__(self) -> "Pool":
+        return self
+
+    def __exit__(
+        self, kind: Optional[Type[BaseException]], error: Optional[BaseException], trace: Optional[TracebackType]
+    ) -> None:
+        self.close()
+
+
+class _Gravity:
+    """m/s2. A change wakes all dynamic bodies."""
+
+    @overload
+    def __get__(self, world: None, kind: Any) -> "_Gravity": ...
+
+    @overload
+    def __get__(self, world: "World", kind: Any) -> Vec3: ...
+
+    def __get__(self, world: Optional["World"], kind: Any = None) -> Union[Vec3, "_Gravity"]:
+        if world is None:
+            return self
+        gravity: Vec3 = _flat.world_get_gravity(world._capsule)
+        return gravity
+
+    def __set__(self, world: "World", value: Vector) -> None:
+        _flat.world_set_gravity(world._capsule, value)
 
 
 class World:
@@ -105,15 +132,7 @@ class World:
         is raised at the end."""
         _flat.world_step(self._capsule, dt)
 
-    @property
-    def gravity(self) -> Union[Vec3, Vector]:
-        """m/s2. A change wakes all dynamic bodies."""
-        gravity: Vec3 = _flat.world_get_gravity(self._capsule)
-        return gravity
-
-    @gravity.setter
-    def gravity(self, value: Vector) -> None:
-        _flat.world_set_gravity(self._capsule, value)
+    gravity = _Gravity()
 
     @property
     def substeps(self) -> int:
@@ -688,7 +707,7 @@ class World:
         return [_contact(self, c) for c in records.read_all(read, records.CONTACT, self._capsule, id)]
 
     def _forget(self, body: Body) -> None:
-        if self._user_data:
+        if self._user_data and body.is_valid:
             for entity in (body, *body.shapes, *body.joints):
                 self._user_data.pop(entity._id, None)
 

@@ -71,7 +71,8 @@ def test_a_destroyed_body_is_stale(world: World) -> None:
         body.position
     with pytest.raises(ReferenceError):
         shape.density
-    with pytest.raises(StaleHandleError):
+    body.world.create_body(user_data="kept")
+    with pytest.raises(StaleHandleError, match="fe_body_destroy"):
         body.destroy()
     assert not body.is_valid and not shape.is_valid
 

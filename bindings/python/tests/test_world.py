@@ -427,4 +427,4 @@ def test_options_that_there_are_none_of(world: World, ball: Body) -> None:
     ):
         with pytest.raises(TypeError):
             use()
-    assert isinstance(ball.shapes[0].frame.position, Vec3) and Plane() == ((0, 1, 0), 0)  # type: ignore[union-attr]
+    assert isinstance(ball.shapes[0].frame.position, Vec3) and Plane() == ((0, 1, 0), 0)
