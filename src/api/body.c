@@ -291,7 +291,7 @@ fe_result fe_body_get_mass(const fe_world *world, fe_body body, float *out_mass)
     FE_BEGIN(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_mass);
-    *out_mass = world->bodies[index].inertia[3];
+    *out_mass = world->bodies[index].mass;
     return FE_OK;
 }
 
@@ -328,7 +328,7 @@ fe_result fe_body_get_locks(const fe_world *world, fe_body body, uint32_t *out_l
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_linear_axes);
     FE_CHECK_POINTER(out_angular_axes);
-    uint32_t bits = (uint32_t)world->bodies[index].spin[3];
+    uint32_t bits = (uint32_t)world->bodies[index].lock_bits;
     *out_linear_axes = bits & FE_AXIS_ALL;
     *out_angular_axes = bits >> 3;
     return FE_OK;
@@ -340,8 +340,8 @@ fe_result fe_body_set_damping(fe_world *world, fe_body body, float linear, float
     FE_FIND_BODY(index, body);
     FE_CHECK_FLOAT(linear, 0.0f, FE_MAX_VALUE);
     FE_CHECK_FLOAT(angular, 0.0f, FE_MAX_VALUE);
-    world->bodies[index].force[3] = linear;
-    world->bodies[index].torque[3] = angular;
+    world->bodies[index].linear_damping = linear;
+    world->bodies[index].angular_damping = angular;
     return FE_OK;
 }
 
@@ -351,8 +351,8 @@ fe_result fe_body_get_damping(const fe_world *world, fe_body body, float *out_li
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_linear);
     FE_CHECK_POINTER(out_angular);
-    *out_linear = world->bodies[index].force[3];
-    *out_angular = world->bodies[index].torque[3];
+    *out_linear = world->bodies[index].linear_damping;
+    *out_angular = world->bodies[index].angular_damping;
     return FE_OK;
 }
 

@@ -154,7 +154,7 @@ static fe_result strike(const char *function, fe_world *world, int32_t index, fe
     const fe__body *body = &world->bodies[index];
     if (!fe__body_feels_forces(body)) return FE_OK;
     fe__fp_state fp = fe__fp_enter();
-    fe_vec3 new_velocity = fe__add_scaled(fe__body_velocity(body), body->velocity[3], impulse);
+    fe_vec3 new_velocity = fe__add_scaled(fe__body_velocity(body), body->inverse_mass, impulse);
     fe_vec3 new_spin = fe__add(fe__body_spin(body), fe__body_spin_change(body, angular_impulse));
     fe__fp_leave(fp);
     FE_CHECK_VEC3(&new_velocity, FE_MAX_SPEED);

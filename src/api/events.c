@@ -57,7 +57,7 @@ int32_t fe_world_get_joint_events(const fe_world *world, fe_joint_event *out_eve
 
 static int32_t point_count(const fe_world *world, int32_t pair)
 {
-    return world->pairs[pair].flags & FE__PAIR_SENSOR ? 0 : (int32_t)world->contacts[pair].normal[3];
+    return world->pairs[pair].flags & FE__PAIR_SENSOR ? 0 : (int32_t)world->contacts[pair].point_count;
 }
 
 static fe_contact_point describe_point(const fe_world *world, int32_t pair, int32_t i)
@@ -84,7 +84,7 @@ static fe_contact describe(const fe_world *world, int32_t pair)
                           .normal = {side * c->normal[0], side * c->normal[1], side * c->normal[2]},
                           .point_count = point_count(world, pair),
                           .friction_impulse = {side * c->friction_impulse[0], side * c->friction_impulse[1], side * c->friction_impulse[2]},
-                          .twist_impulse = c->friction_impulse[3],
+                          .twist_impulse = c->twist_impulse,
                           .triangle = p->triangle};
     for (int32_t i = 0; i < contact.point_count; ++i) contact.points[i] = describe_point(world, pair, i);
     return contact;

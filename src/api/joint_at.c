@@ -192,12 +192,12 @@ static int32_t are_parallel(const fe_vec3 *a, const fe_vec3 *b)
 // The mass that a body shows at a frame of its own, along the frame's Z: 1 / (1/m + (r x z) . I^-1 (r x z)), kg; 0 unless it is dynamic
 static float mass_along_z(const fe__body *body, const fe_frame *frame)
 {
-    if (!(body->velocity[3] > 0.0f)) return 0.0f;
+    if (!(body->inverse_mass > 0.0f)) return 0.0f;
     fe_vec3 centre = {body->local_centre[0], body->local_centre[1], body->local_centre[2]};
     fe_vec3 arm = fe__sub(frame->position, centre), z = fe__rotate(frame->rotation, fe__vec3(0.0f, 0.0f, 1.0f));
     fe_quat axes = {body->inertia_axes[0], body->inertia_axes[1], body->inertia_axes[2], body->inertia_axes[3]};
     fe_vec3 m = fe__rotate_back(axes, fe__cross(arm, z));
-    return 1.0f / (body->velocity[3] + m.x * m.x / body->inertia[0] + m.y * m.y / body->inertia[1] + m.z * m.z / body->inertia[2]);
+    return 1.0f / (body->inverse_mass + m.x * m.x / body->inertia[0] + m.y * m.y / body->inertia[1] + m.z * m.z / body->inertia[2]);
 }
 
 // In newtons: a spring in hertz would count the wheel's mass, a twentieth of what stands on it, and sag by metres

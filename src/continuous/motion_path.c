@@ -14,10 +14,9 @@ static const fe__shift no_shift = {.turn = {0.0f, 0.0f, 0.0f, 1.0f}};
 
 static fe_quat forwards(fe_quat q) { return q.w < 0.0f ? (fe_quat){-q.x, -q.y, -q.z, -q.w} : q; }
 
-static fe__shift shift_of(const float *motion)
+static fe__shift shift_of(const fe__motion_line *motion)
 {
-    return (fe__shift){{(double)motion[0], (double)motion[1], (double)motion[2]},
-                       forwards((fe_quat){motion[4], motion[5], motion[6], motion[7]})};
+    return (fe__shift){fe__widen(fe__quad_vector(motion->shift)), forwards(fe__quat_of(motion->rotation))};
 }
 
 static int32_t moves(const fe__body *body) { return body->awake_index >= 0 && body->line >= 0; }
@@ -42,7 +41,7 @@ static fe__shift place(const fe__step *step, int32_t body, int32_t leg)
     const fe__solver *s = &step->world->solver;
     int32_t line = step->world->bodies[body].line;
     if (leg == 0) return no_shift;
-    return shift_of(leg == fe__way_legs(step, body) ? s->motion[line] : s->trail[s->trail_of[line]][leg - 1]);
+    return shift_of(leg == fe__way_legs(step, body) ? s->motion + line : s->trail[s->trail_of[line]] + leg - 1);
 }
 
 static fe_quat between(fe_quat a, fe_quat b, float t)
@@ -106,8 +105,8 @@ float fe__way_length(const fe__step *step, int32_t body)
 {
     const fe__body *b = step->world->bodies + body;
     if (!moves(b)) return 0.0f;
-    fe__shift end = shift_of(step->world->solver.motion[b->line]);
-    return length_of(&end, b->local_centre[3]);
+    fe__shift end = shift_of(step->world->solver.motion + b->line);
+    return length_of(&end, b->reach);
 }
 
 // ---- what stands there ------------------------------------------------------------------------------------------------------------
@@ -181,7 +180,7 @@ static int32_t may_close(const search *s, const fe__shape *own, const fe__mobile
     for (int32_t leg = 1; leg <= legs; ++leg) {
         fe__shift at = place(step, s->body, leg);
         fe_dvec3 axis = {(double)at.turn.x, (double)at.turn.y, (double)at.turn.z}, across = fe__dcross(gap.normal, axis);
-        double turning = (double)FE_PI * sqrt(fe__ddot(across, across)) * (double)body->local_centre[3];
+        double turning = (double)FE_PI * sqrt(fe__ddot(across, across)) * (double)body->reach;
         if (fe__ddot(gap.normal, at.centre) + turning + 2.0 * FE_TOUCH > gap.distance) return 1;
     }
     return 0;
@@ -206,7 +205,7 @@ static void try_field(search *s, const fe__shape *own, const fe__shape *obstacle
     fe_dvec3 way = fe__dsub(s->motion.translation, other->motion.translation);
     fe_dvec3 from = fe__drotate_back(pose.rotation, fe__dsub(s->motion.centre, pose.position));
     fe_dvec3 to = fe__dadd(from, fe__drotate_back(pose.rotation, way));
-    double reach = (double)w->bodies[s->body].local_centre[3];
+    double reach = (double)w->bodies[s->body].reach;
     fe_dvec3 low = {fe__mind(from.x, to.x) - reach, fe__mind(from.y, to.y) - reach, fe__mind(from.z, to.z) - reach};
     fe_dvec3 high = {fe__maxd(from.x, to.x) + reach, fe__maxd(from.y, to.y) + reach, fe__maxd(from.z, to.z) + reach};
     fe__bounds box = {low, high};
@@ -281,7 +280,7 @@ int32_t fe__way_is_barred(const fe__step *step, int32_t body, int32_t against)
     const fe__body *b = step->world->bodies + body;
     search s = begin(step, body, against);
     int32_t legs = fe__way_legs(step, body);
-    double reach = (double)b->local_centre[3];
+    double reach = (double)b->reach;
     fe__bounds box = {centre_of(b), centre_of(b)};
     for (int32_t leg = 0; leg <= legs; ++leg) add_place(&box, fe__dadd(s.base, place(step, body, leg).centre), reach);
     s.motion = fe__way_between(step, body, 0.0, 1.0, s.base);
@@ -295,7 +294,7 @@ fe__obstacle fe__way_meets(const fe__step *step, int32_t body, int32_t against, 
 {
     const fe__body *b = step->world->bodies + body;
     search s = begin(step, body, against);
-    double reach = (double)b->local_centre[3];
+    double reach = (double)b->reach;
     s.motion = fe__way_from(b, from, to, s.base);
     s.begin = begins, s.end = ends;
     fe_dvec3 at = fe__dadd(s.base, from->centre);

@@ -7,9 +7,14 @@
 #include "feather.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #define FE_PI 3.14159265358979323846f
+
+// Kernels load a vector and the number behind it as one quad
+#define FE__IS_QUAD(type, vector, fourth) \
+    _Static_assert(offsetof(type, vector) % 16 == 0 && offsetof(type, fourth) == offsetof(type, vector) + 12, #vector " and " #fourth)
 
 typedef struct fe__mat3 {
     fe_vec3 x, y, z; // columns: the images of the axes
@@ -59,6 +64,7 @@ static inline fe_dvec3 fe__widen(fe_vec3 a) { return (fe_dvec3){(double)a.x, (do
 static inline fe_vec3 fe__narrow(fe_dvec3 a) { return (fe_vec3){(float)a.x, (float)a.y, (float)a.z}; }
 
 // ---- rotations ----------------------------------------------------------------------------------------------------------------
+static inline fe_quat fe__quat_of(const float *a) { return (fe_quat){a[0], a[1], a[2], a[3]}; }
 static inline fe_quat fe__identity(void) { return (fe_quat){0.0f, 0.0f, 0.0f, 1.0f}; }
 static inline fe_quat fe__conjugate(fe_quat q) { return (fe_quat){-q.x, -q.y, -q.z, q.w}; }
 static inline fe_quat fe__product(fe_quat a, fe_quat b) // b's rotation first

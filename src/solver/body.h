@@ -25,17 +25,24 @@ enum {
 
 typedef struct fe__body {
     // pose. centre = high + low to 48 bits: the difference of two bodies' centres, taken in floats, is exact to the last digit of a float
-    _Alignas(64) float centre_high[4]; // centre of mass, m, rounded to float; lane 3: 0
-    float centre_low[4];               // what the rounding left; lane 3: speed of the fastest point, m/s, at least
+    _Alignas(64) float centre_high[4]; // centre of mass, m, rounded to float, 0
+    float centre_low[3];               // what the rounding left
+    float speed;                       // of the fastest point, m/s, at least
     float rotation[4];                 // unit quaternion of the body's frame
-    float local_centre[4];             // of mass, m, body's frame; lane 3: reach, the largest distance from it to a point of the body
+    float local_centre[3];             // of mass, m, body's frame
+    float reach;                       // the largest distance from it to a point of the body, m
     // velocities and what changes them
-    float velocity[4]; // of the centre of mass, m/s; lane 3: inverse mass, 1/kg, 0 unless dynamic
-    float spin[4];     // rad/s, world axes; lane 3: lock bits as a whole number (linear | angular << 3)
-    float force[4];    // N, during the next step; lane 3: linear damping, 1/s
-    float torque[4];   // N m, during the next step; lane 3: angular damping, 1/s
+    float velocity[3];     // of the centre of mass, m/s
+    float inverse_mass;    // 1/kg, 0 unless dynamic
+    float spin[3];         // rad/s, world axes
+    float lock_bits;       // a whole number: linear | angular << 3
+    float force[3];        // N, during the next step
+    float linear_damping;  // 1/s
+    float torque[3];       // N m, during the next step
+    float angular_damping; // 1/s
     // mass
-    float inertia[4];      // principal moments, kg m2 (of a dynamic body > 0); lane 3: mass, kg
+    float inertia[3];      // principal moments, kg m2; of a dynamic body > 0
+    float mass;            // kg
     float inertia_axes[4]; // their axes in the body's frame
     float gravity_scale;
     float thickness;       // smallest half width of its shapes, m; FLT_MAX without any
@@ -66,5 +73,13 @@ typedef struct fe__body {
     int32_t order_next, order_previous; // list of all bodies in the order of creation
 } fe__body;
 _Static_assert(sizeof(fe__body) % 64 == 0, "bodies are made of cache lines");
+
+FE__IS_QUAD(fe__body, centre_low, speed);
+FE__IS_QUAD(fe__body, local_centre, reach);
+FE__IS_QUAD(fe__body, velocity, inverse_mass);
+FE__IS_QUAD(fe__body, spin, lock_bits);
+FE__IS_QUAD(fe__body, force, linear_damping);
+FE__IS_QUAD(fe__body, torque, angular_damping);
+FE__IS_QUAD(fe__body, inertia, mass);
 
 #endif

@@ -162,7 +162,7 @@ static void begin_trails(const job *j, int32_t first, int32_t count, const fe__s
     float dt = (float)c->substeps * c->h;
     for (int32_t i = first; i < first + count; ++i) {
         const fe__body *body = j->bodies + fe__maxi(j->s->body_of_line[i], 0);
-        int32_t fast = j->s->body_of_line[i] >= 0 && body->centre_low[3] * dt > body->thickness;
+        int32_t fast = j->s->body_of_line[i] >= 0 && body->speed * dt > body->thickness;
         j->s->trail_count[i] = fast ? 0 : FE__NO_TRAIL;
         if (fast) j->s->trail_of[i] = atomic_fetch_add_explicit(&j->s->trails, 1, memory_order_relaxed);
     }
@@ -175,7 +175,7 @@ static void leave_trails(const job *j, int32_t first, int32_t count, const fe__s
     for (int32_t i = first; i < first + count; ++i) {
         if (j->s->trail_count[i] == FE__NO_TRAIL) continue;
         int32_t substeps = ++j->s->trail_count[i];
-        if (substeps % stride == 0) memcpy(j->s->trail[j->s->trail_of[i]][substeps / stride - 1], j->s->motion[i], sizeof *j->s->motion);
+        if (substeps % stride == 0) j->s->trail[j->s->trail_of[i]][substeps / stride - 1] = j->s->motion[i];
     }
 }
 
@@ -234,7 +234,9 @@ static void scale_impulses(const job *j, const fe__group *g, const fe__lane *lan
     for (const fe__lane *lane = lanes, *end = lanes + rows * g->width; lane < end; ++lane) {
         if (!lane->contact) continue;
         fe__contact *m = j->contacts + lane->contact;
-        for (int k = 0; k < FE__POINTS; ++k) m->normal_impulse[k] *= scale, m->friction_impulse[k] *= scale;
+        for (int k = 0; k < FE__POINTS; ++k) m->normal_impulse[k] *= scale;
+        for (int k = 0; k < 3; ++k) m->friction_impulse[k] *= scale;
+        m->twist_impulse *= scale;
         for (int k = 0; k < 3 && g->kind & FE__ROW_SPECIAL; ++k) j->extras[lane->contact].rolling_impulse[k] *= scale;
     }
 }
@@ -393,9 +395,12 @@ static int32_t useful_workers(const fe__solver *s, const fe__batch *b, int32_t w
 static void clear_static_line(fe__solver *s)
 {
     for (int32_t i = 0; i < FE__MAX_WIDTH; ++i) {
-        for (int32_t k = 0; k < FE__LINE; ++k)
-            s->velocity[i][k] = s->motion[i][k] = s->start[i][k] = s->inertia[i][k] = s->drive[i][k] = s->spin[i][k] = 0.0f;
-        s->motion[i][FE__LINE - 1] = 1.0f;
+        s->velocity[i] = (fe__velocity_line){0};
+        s->motion[i] = (fe__motion_line){.rotation = {0.0f, 0.0f, 0.0f, 1.0f}};
+        s->start[i] = (fe__start_line){0};
+        s->inertia[i] = (fe__inertia_line){0};
+        s->drive[i] = (fe__drive_line){0};
+        s->axes[i] = (fe__axes_line){0};
     }
 }
 
@@ -414,7 +419,7 @@ static void note_marks(const fe__solver *s, const fe__batch *b, fe__body *bodies
     for (int32_t line = b->first_line; line < b->first_line + b->line_count; ++line) {
         fe__body *body = bodies + fe__maxi(s->body_of_line[line], 0);
         if (s->body_of_line[line] < 0 || body->type != FE_BODY_DYNAMIC) continue;
-        float mark = s->inertia[line][FE__LINE - 1];
+        float mark = s->inertia[line].mark;
         body->flags &= ~(uint32_t)(FE__BODY_STRAINED | FE__BODY_STRETCHED);
         if (mark == (float)FE__STRAINED) body->flags |= FE__BODY_STRAINED;
         if (mark == (float)FE__STRETCHED) body->flags |= FE__BODY_STRETCHED;

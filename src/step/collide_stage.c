@@ -34,7 +34,7 @@ static int32_t boxes_part(const fe_world *w, const fe__pair *p)
 static int32_t judge(const fe_world *w, int32_t pair)
 {
     const fe__pair *p = w->pairs + pair;
-    int32_t has_points = w->contacts[pair].normal[3] > 0.0f, linked = (p->flags & FE__PAIR_LINKED) != 0;
+    int32_t has_points = w->contacts[pair].point_count > 0.0f, linked = (p->flags & FE__PAIR_LINKED) != 0;
     if (has_points) return linked || p->flags & FE__PAIR_SENSOR ? FE__RESULT_NONE : FE__RESULT_BEGIN;
     if (!(p->flags & FE__PAIR_PATCH) && boxes_part(w, p)) return FE__RESULT_APART;
     return linked ? FE__RESULT_END : FE__RESULT_NONE;
@@ -46,7 +46,7 @@ static void note_wait(const fe__step *step, int32_t pair, float slack)
     const fe_world *w = step->world;
     const fe__pair *p = w->pairs + pair;
     if (p->flags & (FE__PAIR_PATCH | FE__PAIR_MAY_TELL) || p->next_patch >= 0) return;
-    fe__begin_to_wait(w->waits + p->awake_index, w->odometers, p->body_a, p->body_b, slack, w->contacts[pair].found_span[3]);
+    fe__begin_to_wait(w->waits + p->awake_index, w->odometers, p->body_a, p->body_b, slack, w->contacts[pair].longest_arm);
     w->awake_pairs[p->awake_index] = ~pair;
     atomic_store_explicit(&step->scratch->some_wait, 1, memory_order_relaxed);
 }
@@ -56,7 +56,7 @@ static void note_result(fe__step *step, int32_t pair)
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     w->pairs[pair].result = judge(w, pair);
-    if (!(w->contacts[pair].normal[3] > 0.0f)) note_wait(step, pair, w->contacts[pair].surface[3]);
+    if (!(w->contacts[pair].point_count > 0.0f)) note_wait(step, pair, w->contacts[pair].surface.tolerance);
     if (w->pairs[pair].result != FE__RESULT_NONE) s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
 }
 
@@ -90,7 +90,7 @@ static void collide_chunk(fe__step *step, int32_t *entries, int32_t count)
             continue;
         }
         for (int32_t patch = w->pairs[heads[i]].next_patch; patch >= 0; patch = w->pairs[patch].next_patch)
-            if (w->contacts[patch].normal[3] > 0.0f) patches[patch_count++] = patch;
+            if (w->contacts[patch].point_count > 0.0f) patches[patch_count++] = patch;
     }
     if (patch_count) w->kernels->recycle(w->contacts, w->bodies, patches, patch_count, step->dt, said, slack);
     for (int32_t i = 0; i < again; ++i) collide_with_patches(step, heads[i]);

@@ -53,7 +53,7 @@ fe_dvec3 fe__contact_point(const fe_world *w, int32_t pair, int32_t point)
 {
     const fe__contact *m = w->contacts + pair;
     const fe__body *a = w->bodies + m->body_a, *from = a->type == FE_BODY_STATIC ? w->bodies + m->body_b : a;
-    const float *r = m->point[point];
+    const float *r = m->point[point].arm;
     return (fe_dvec3){from->centre[0] + (double)r[0], from->centre[1] + (double)r[1], from->centre[2] + (double)r[2]};
 }
 
@@ -62,7 +62,7 @@ static int32_t touches(const fe_world *w, int32_t head)
     int32_t sensor = (w->pairs[head].flags & FE__PAIR_SENSOR) != 0;
     for (int32_t pair = head; pair >= 0; pair = w->pairs[pair].next_patch) {
         const fe__contact *m = w->contacts + pair;
-        for (int32_t i = 0; i < (int32_t)m->normal[3]; ++i)
+        for (int32_t i = 0; i < (int32_t)m->point_count; ++i)
             if (m->separation[i] <= 0.0f || (!sensor && m->total_impulse[i] > 0.0f)) return 1;
     }
     return 0;
@@ -79,8 +79,8 @@ static impact impact_of(const fe_world *w, int32_t head)
     impact sum = {.pair = head};
     for (int32_t pair = head; pair >= 0; pair = w->pairs[pair].next_patch) {
         const fe__contact *m = w->contacts + pair;
-        if (m->normal[3] > 0.0f) sum.approach = fe__maxf(sum.approach, w->pairs[pair].approach);
-        for (int32_t i = 0; i < (int32_t)m->normal[3]; ++i) {
+        if (m->point_count > 0.0f) sum.approach = fe__maxf(sum.approach, w->pairs[pair].approach);
+        for (int32_t i = 0; i < (int32_t)m->point_count; ++i) {
             sum.impulse += m->total_impulse[i];
             if (m->total_impulse[i] > sum.largest) sum.largest = m->total_impulse[i], sum.pair = pair, sum.point = i;
         }

@@ -43,7 +43,7 @@ static void set_view(fe__view *v, const fe__shape *a, const fe__shape *b, const 
 float fe__reach_in_step(const fe_world *world, const fe__body *a, const fe__body *b, float dt)
 {
     float fall = fe__length(world->gravity) * dt * dt;
-    return (a->centre_low[3] + b->centre_low[3]) * dt + fall;
+    return (a->speed + b->speed) * dt + fall;
 }
 
 // where a body would be at the end of a step without contacts
@@ -141,7 +141,7 @@ static void match_impulses(fe__pair *p, fe__contact *m, const fe__manifold *foun
     memcpy(old, m->normal_impulse, sizeof old);
     for (int i = 0; i < FE__POINTS; ++i) m->normal_impulse[i] = 0.0f;
     for (int i = 0; i < found->count; ++i)
-        for (int j = 0; j < (int)m->normal[3]; ++j)
+        for (int j = 0; j < (int)m->point_count; ++j)
             if (p->ids[j] == found->points[i].id) m->normal_impulse[i] = old[j];
     for (int i = 0; i < found->count; ++i) p->ids[i] = found->points[i].id;
 }
@@ -168,20 +168,22 @@ static void set_points(fe__contact *m, const fe__view *v, const fe__places *at, 
     for (int i = 0; i < FE__POINTS; ++i) {
         int there = i < found->count;
         fe_vec3 arm = there ? fe__add(base, fe__mul(&v->rotation, found->points[i].point)) : zero, arm_b = fe__add(arm, span);
-        fe__copy3(m->point[i], arm);
-        m->point[i][3] = m->separation[i] = there ? found->points[i].separation : 0.0f;
+        fe__copy3(m->point[i].arm, arm);
+        m->point[i].separation = m->separation[i] = there ? found->points[i].separation : 0.0f;
         reach = fe__maxf(reach, fe__maxf(fe__dot(arm, arm), fe__dot(arm_b, arm_b)));
     }
-    m->found_span[3] = sqrtf(reach);
+    m->longest_arm = sqrtf(reach);
 }
 
 static void set_no_points(fe__contact *m, const fe__body *a, const fe__body *b)
 {
     for (int i = 0; i < FE__POINTS; ++i) {
-        m->normal[i] = m->separation[i] = 0.0f;
-        for (int k = 0; k < 4; ++k) m->point[i][k] = 0.0f;
+        m->separation[i] = 0.0f;
+        m->point[i] = (fe__contact_arm){{0.0f, 0.0f, 0.0f}, 0.0f};
     }
-    m->found_span[3] = fe__maxf(a->local_centre[3], b->local_centre[3]); // whatever part of the bodies may come near
+    for (int k = 0; k < 3; ++k) m->normal[k] = 0.0f;
+    m->point_count = 0.0f;
+    m->longest_arm = fe__maxf(a->reach, b->reach); // whatever part of the bodies may come near
 }
 
 // Separations now of a manifold found ahead of time, along its normal: as in recycle.simd.c. Its arms stay those of the touch, and the
@@ -196,9 +198,10 @@ static void step_back(fe__contact *m, const fe__places *at, const fe__body *a, c
     fe_vec3 na = fe__sub(fe__rotate_back(turn_a, n), n), nb = fe__sub(fe__rotate_back(turn_b, n), n), slope = fe__sub(nb, na);
     fe_dvec3 then = fe__dsub(at->centre_b, at->centre_a), now = fe__dsub(fe__centre_of(b), fe__centre_of(a));
     fe_vec3 span = a->type == FE_BODY_STATIC ? zero : fe__quad_vector(m->found_span);
-    float constant =
-        fe__dot(n, fe__narrow(fe__dsub(now, then))) + fe__dot(nb, span) + m->surface[1] * fe__dot(na, n) + m->surface[2] * fe__dot(nb, n);
-    for (int i = 0; i < (int)m->normal[3]; ++i) m->separation[i] = m->point[i][3] + constant + fe__dot(slope, fe__quad_vector(m->point[i]));
+    float constant = fe__dot(n, fe__narrow(fe__dsub(now, then))) + fe__dot(nb, span) + m->surface.radius_a * fe__dot(na, n) +
+                     m->surface.radius_b * fe__dot(nb, n);
+    for (int i = 0; i < (int)m->point_count; ++i)
+        m->separation[i] = m->point[i].separation + constant + fe__dot(slope, fe__quad_vector(m->point[i].arm));
 }
 
 float fe__recycle_tolerance(const fe__view *v)
@@ -207,19 +210,14 @@ float fe__recycle_tolerance(const fe__view *v)
     return fe__minf(RECYCLE_MOST, RECYCLE_SHARE * fe__minf(fe__form_thickness(&v->a->form), fe__form_thickness(&v->b->form)));
 }
 
-static void forget_impulses(fe__contact *m)
-{
-    for (int k = 0; k < FE__POINTS; ++k) m->normal_impulse[k] = m->friction_impulse[k] = m->total_impulse[k] = 0.0f;
-}
-
 static void write_contact(fe__contact *m, const fe__view *v, const fe__manifold *found, int32_t a_is_b)
 {
     // the manifold's normal points away from fe__collide's A; the solver's A may be the other one
     fe_vec3 normal = fe__mul(&v->rotation, found->normal);
     fe__copy3(m->normal, a_is_b ? fe__neg(normal) : normal);
-    m->normal[3] = (float)found->count;
-    m->surface[1] = a_is_b ? v->b->form.radius : v->form_a.radius;
-    m->surface[2] = a_is_b ? v->form_a.radius : v->b->form.radius;
+    m->point_count = (float)found->count;
+    m->surface.radius_a = a_is_b ? v->b->form.radius : v->form_a.radius;
+    m->surface.radius_b = a_is_b ? v->form_a.radius : v->b->form.radius;
 }
 
 void fe__write_manifold(const fe_world *world, fe__contact *m, const fe__view *v, const fe__places *at, const fe__manifold *found,
@@ -239,9 +237,9 @@ void fe__write_manifold(const fe_world *world, fe__contact *m, const fe__view *v
 // without points: not looked at again until the bodies may have moved by `gap`
 static void write_apart(fe__pair *p, fe__contact *m, const fe__places *at, const fe__body *a, const fe__body *b, float gap)
 {
-    forget_impulses(m);
+    fe__contact_forget_impulses(m);
     p->axis = -1; // a kernel's memory begins with the first points, whenever the pair was made: unrelated bodies must not matter
-    m->surface[3] = fe__maxf(gap, 0.0f);
+    m->surface.tolerance = fe__maxf(gap, 0.0f);
     note_poses(m, at, a, b);
     set_no_points(m, a, b);
 }
@@ -266,7 +264,7 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
         set_view(&v, y, x, &y->pose, &x->pose);
     else
         set_view(&v, x, y, &x->pose, &y->pose);
-    fe__manifold found = {.axis = p->axis, .axis_separation = p->axis_separation, .count = (int32_t)m->normal[3]};
+    fe__manifold found = {.axis = p->axis, .axis_separation = p->axis_separation, .count = (int32_t)m->point_count};
     fe__collide(&v.form_a, &v.b->form, &v.relative, fe__maxf(margin, reach), &found);
     fe__mend_seam(world, &v, fe__maxf(margin, reach), &found);
     p->axis = found.axis, p->axis_separation = found.axis_separation;
@@ -281,6 +279,6 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
         return;
     }
     match_impulses(p, m, &found);
-    m->surface[3] = ahead ? FE__AHEAD : fe__recycle_tolerance(&v);
+    m->surface.tolerance = ahead ? FE__AHEAD : fe__recycle_tolerance(&v);
     fe__write_manifold(world, m, &v, &at, &found, ahead);
 }

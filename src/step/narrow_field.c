@@ -116,7 +116,7 @@ static void assign(plan *plans, int32_t count, const memory *old, int32_t flippe
         slots[s] = (plan){.source = -1};
         int32_t best = -1;
         float most = alike;
-        if (!(old->contacts[s].normal[3] > 0.0f)) continue;
+        if (!(old->contacts[s].point_count > 0.0f)) continue;
         fe_vec3 n = fe__quad_vector(old->contacts[s].normal);
         for (int32_t i = 0; i < count; ++i) {
             float cosine = (flipped ? -1.0f : 1.0f) * fe__dot(n, world_normal(plans + i));
@@ -136,15 +136,16 @@ static void assign(plan *plans, int32_t count, const memory *old, int32_t flippe
 
 static void copy_impulses(const plan *x, const memory *old, fe__pair *p, fe__contact *m, fe__extra *e)
 {
-    for (int32_t i = 0; i < FE__POINTS; ++i) m->normal_impulse[i] = m->friction_impulse[i] = m->total_impulse[i] = 0.0f;
+    fe__contact_forget_impulses(m);
     for (int32_t k = 0; k < 3; ++k) e->rolling_impulse[k] = 0.0f;
     for (int32_t i = 0; x->patch && i < x->patch->count; ++i) p->ids[i] = x->patch->points[i].id;
     if (x->source < 0) return;
     const fe__contact *from = old->contacts + x->source;
     memcpy(m->friction_impulse, from->friction_impulse, sizeof m->friction_impulse);
+    m->twist_impulse = from->twist_impulse;
     memcpy(e->rolling_impulse, old->extras[x->source].rolling_impulse, sizeof e->rolling_impulse);
     for (int32_t i = 0; i < x->patch->count; ++i)
-        for (int32_t j = 0; j < (int32_t)from->normal[3]; ++j)
+        for (int32_t j = 0; j < (int32_t)from->point_count; ++j)
             if (old->ids[x->source][j] == x->patch->points[i].id) m->normal_impulse[i] = from->normal_impulse[j];
 }
 
@@ -163,8 +164,8 @@ static void write_record(fe_world *world, int32_t record, const plan *x, const l
     fe__manifold found = x->patch ? manifold_of(x->patch) : (fe__manifold){.count = 0};
     copy_impulses(x, old, p, m, world->extras + record);
     fe__write_manifold(world, m, &l->v, &l->at, &found, l != now);
-    m->surface[3] = p->flags & FE__PAIR_PATCH ? FE__FOLLOWS : tolerance;
-    if (l != now) m->surface[3] = FE__AHEAD; // the head's tolerance is 0 then
+    m->surface.tolerance = p->flags & FE__PAIR_PATCH ? FE__FOLLOWS : tolerance;
+    if (l != now) m->surface.tolerance = FE__AHEAD; // the head's tolerance is 0 then
     if (x->patch && p->triangle != x->patch->triangle) {
         p->triangle = x->patch->triangle;
         fe__pair_mix_surface(world, record);
@@ -178,8 +179,8 @@ static void write_records(fe_world *world, int32_t head, plan *plans, int32_t co
     int32_t records[FE__PATCHES], n = 0;
     for (int32_t r = head; r >= 0; r = world->pairs[r].next_patch) {
         records[n++] = r;
-        old.contacts[n - 1].normal[3] = 0.0f;
-        if (!(world->contacts[r].normal[3] > 0.0f)) continue;
+        old.contacts[n - 1].point_count = 0.0f;
+        if (!(world->contacts[r].point_count > 0.0f)) continue;
         old.contacts[n - 1] = world->contacts[r];
         old.extras[n - 1] = world->extras[r];
         memcpy(old.ids[n - 1], world->pairs[r].ids, sizeof old.ids[n - 1]);
@@ -187,7 +188,7 @@ static void write_records(fe_world *world, int32_t head, plan *plans, int32_t co
     int32_t flipped = world->contacts[head].body_a != now->v.a->body;
     assign(plans, count, &old, flipped, slots);
     for (int32_t i = 0; i < FE__PATCHES; ++i) {
-        int32_t was_empty = !(old.contacts[i].normal[3] > 0.0f);
+        int32_t was_empty = !(old.contacts[i].point_count > 0.0f);
         if (i == 0 || slots[i].patch || !was_empty) write_record(world, records[i], slots + i, now, &old, tolerance);
     }
 }

@@ -82,7 +82,7 @@ static void count_fast(const fe__step *step, fe__graph_bound *b)
     if (swiftest * step->dt < nearly) return;
     for (int32_t i = 0; i < w->awake_body_count; ++i) {
         const fe__body *body = w->bodies + w->awake_bodies[i];
-        if (body->centre_low[3] * step->dt < nearly * body->thickness) continue;
+        if (body->speed * step->dt < nearly * body->thickness) continue;
         ++b->fast;
         if (body->type == FE_BODY_KINEMATIC) b->fast_kinematic = 1;
     }

@@ -107,8 +107,8 @@ static float approach_of(const fe_world *w, int32_t pair)
     fe_vec3 va = {a->velocity[0], a->velocity[1], a->velocity[2]}, wa = {a->spin[0], a->spin[1], a->spin[2]};
     fe_vec3 vb = {b->velocity[0], b->velocity[1], b->velocity[2]}, wb = {b->spin[0], b->spin[1], b->spin[2]};
     float most = 0.0f;
-    for (int32_t i = 0; i < (int32_t)m->normal[3]; ++i) {
-        fe_vec3 r = {m->point[i][0], m->point[i][1], m->point[i][2]};
+    for (int32_t i = 0; i < (int32_t)m->point_count; ++i) {
+        fe_vec3 r = fe__quad_vector(m->point[i].arm);
         fe_vec3 slip = fe__sub(fe__add(vb, fe__cross(wb, fe__add(r, span))), fe__add(va, fe__cross(wa, r)));
         most = fe__maxf(most, -fe__dot(n, slip));
     }

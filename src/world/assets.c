@@ -156,7 +156,7 @@ static void renew_pairs(fe_world *world, int32_t index, const fe__bounds *part)
         if (p->flags & FE__PAIR_PATCH || (p->shape_a != index && p->shape_b != index)) continue;
         int32_t other = p->shape_a == index ? p->shape_b : p->shape_a;
         if (!is_over(world, field, other, part)) continue;
-        world->contacts[pair].surface[3] = 0.0f; // what moved by nothing has moved too far
+        world->contacts[pair].surface.tolerance = 0.0f; // what moved by nothing has moved too far
         if (p->flags & FE__PAIR_LINKED) fe__wake(world, world->shapes[other].body);
         fe__pair_look_once(world, pair);
     }

@@ -84,7 +84,7 @@ static void set_pose(fe__body *body, const fe_transform *transform)
 
 static void set_lock_bits(fe_world *world, fe__body *body, uint32_t linear, uint32_t angular)
 {
-    body->spin[3] = (float)(linear | angular << 3);
+    body->lock_bits = (float)(linear | angular << 3);
     body->locked = (linear | angular) != 0;
     fe__body_stop_locked(world, body);
 }
@@ -121,8 +121,8 @@ int32_t fe__body_create(fe_world *world, const fe_body_def *desc)
     body->first_contact = body->first_shape = body->last_shape = -1;
     body->gravity_scale = desc->gravity_scale;
     body->sleep_threshold = desc->sleep_threshold;
-    body->force[3] = desc->linear_damping;
-    body->torque[3] = desc->angular_damping;
+    body->linear_damping = desc->linear_damping;
+    body->angular_damping = desc->angular_damping;
     set_pose(body, &desc->transform);
     set_initial_velocities(body, desc);
     set_lock_bits(world, body, desc->linear_locks, desc->angular_locks);

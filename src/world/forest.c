@@ -10,7 +10,7 @@
 #define HEAVY_BEAM 4.0f
 
 // A joint with hertz of its own is a spring, unless they are at least those of all that is rigid
-static int32_t is_spring(const fe_world *w, const fe__joint *j) { return j->arm_a[3] > 0.0f && j->arm_a[3] < w->tuning.joint_hertz; }
+static int32_t is_spring(const fe_world *w, const fe__joint *j) { return j->hertz > 0.0f && j->hertz < w->tuning.joint_hertz; }
 
 // 1: rigid, so that it may be met exactly. Springs are not, nor limits, nor what has no colour of its own
 static int32_t is_edge(const fe_world *w, int32_t joint)
@@ -20,8 +20,8 @@ static int32_t is_edge(const fe_world *w, int32_t joint)
     if (j->colour < 0 || j->colour == FE__JOINT_OVERFLOW || is_spring(w, j)) return 0;
     if (j->rows & FE__LOCKS) return 1;
     if (!(j->rows >> FE__PART_DISTANCE & 1)) return 0;
-    const float *limit = w->joints.axes[f->axes].axis[FE__AXIS_LINEAR].limit;
-    return limit[0] == limit[1] && limit[2] == 0.0f;
+    const fe__joint_axis *axis = w->joints.axes[f->axes].axis + FE__AXIS_LINEAR;
+    return axis->limit.low == axis->limit.high && axis->limit.hertz == 0.0f;
 }
 
 static int32_t is_beam(const fe_world *w, int32_t joint)
@@ -149,15 +149,15 @@ static float heaviest_load(const fe_world *w, const component *c, fe__tree_link 
 {
     const int32_t count = c->bodies, held = c->anchors || c->sprung;
     float most = 0.0f;
-    for (int32_t i = 0; i < count; ++i) links[i].carried = w->bodies[links[i].body].inertia[3];
+    for (int32_t i = 0; i < count; ++i) links[i].carried = w->bodies[links[i].body].mass;
     for (int32_t i = count - 1; i > 0; --i) links[links[i].parent].carried += links[i].carried;
     float total = links[0].carried;
     for (int32_t i = 0; i < count; ++i) {
         const fe__tree_link *l = links + i;
         if (!l->joint) continue;
         // masses m and n that pull on each other: 1 / (1/m + 1/n); the world's is infinite
-        float inverse = w->bodies[l->body].velocity[3], load = l->carried;
-        if (l->parent >= 0) inverse += w->bodies[links[l->parent].body].velocity[3];
+        float inverse = w->bodies[l->body].inverse_mass, load = l->carried;
+        if (l->parent >= 0) inverse += w->bodies[links[l->parent].body].inverse_mass;
         if (!held) load = l->carried * ((total - l->carried) / total);
         most = fe__maxf(most, load * inverse / (is_beam(w, l->joint) ? HEAVY_BEAM : HEAVY_LOAD));
     }
@@ -187,9 +187,9 @@ static int32_t has_way_on(uint32_t locks)
 // nor may bodies be locked in different ways
 static int32_t may_be_exact(const fe_world *w, const component *c, const fe__tree_link *links)
 {
-    const float locks = w->bodies[links[0].body].spin[3];
+    const float locks = w->bodies[links[0].body].lock_bits;
     for (int32_t i = 1; i < c->bodies; ++i)
-        if (w->bodies[links[i].body].spin[3] != locks) return 0;
+        if (w->bodies[links[i].body].lock_bits != locks) return 0;
     return has_way_on((uint32_t)locks);
 }
 

@@ -27,10 +27,12 @@ static uint64_t hash_contact(const fe_world *w, int32_t pair)
     fe__hash h = fe__hash_begin();
     fe__hash_u64(&h, w->pair_serials[2 * pair]);
     fe__hash_u64(&h, w->pair_serials[2 * pair + 1]);
-    hash_floats(&h, m->normal, 4);
-    hash_floats(&h, m->separation, (int)m->normal[3]);
+    hash_floats(&h, m->normal, 3);
+    fe__hash_float(&h, m->point_count);
+    hash_floats(&h, m->separation, (int)m->point_count);
     hash_floats(&h, m->normal_impulse, FE__POINTS);
-    hash_floats(&h, m->friction_impulse, 4);
+    hash_floats(&h, m->friction_impulse, 3);
+    fe__hash_float(&h, m->twist_impulse);
     hash_floats(&h, m->total_impulse, FE__POINTS);
     hash_floats(&h, w->extras[pair].rolling_impulse, 3);
     return fe__hash_end(&h);
@@ -67,8 +69,10 @@ static void hash_other_events(fe__hash *h, const fe_world *w)
 static void hash_axes(fe__hash *h, const fe__joint_axes *axes)
 {
     for (int k = 0; k < FE__AXES; ++k) {
-        hash_floats(h, axes->axis[k].impulse, 4);
-        hash_floats(h, axes->axis[k].state, 2);
+        const fe__joint_axis *axis = axes->axis + k;
+        fe__hash_float(h, axis->impulse.drive), fe__hash_float(h, axis->impulse.motor);
+        fe__hash_float(h, axis->impulse.low), fe__hash_float(h, axis->impulse.high);
+        fe__hash_float(h, axis->state.x), fe__hash_float(h, axis->state.force);
     }
     hash_floats(h, axes->turn.impulse, 3);
     hash_floats(h, axes->turn.motor_impulse, 3);

@@ -11,19 +11,19 @@ static uint32_t bit(fe__joint_part part) { return 1u << part; }
 // ---- one axis -------------------------------------------------------------------------------------------------------------------------
 static void set_limit(fe__joint_axis *axis, float low, float high, float hertz, float damping_ratio)
 {
-    axis->limit[0] = low, axis->limit[1] = high, axis->limit[2] = hertz, axis->limit[3] = damping_ratio;
+    axis->limit.low = low, axis->limit.high = high, axis->limit.hertz = hertz, axis->limit.damping_ratio = damping_ratio;
 }
 
 static void set_unlimited(fe__joint_axis *axis) { set_limit(axis, -FE__UNLIMITED, FE__UNLIMITED, 0.0f, 0.0f); }
 
 static void set_drive(fe__joint_axis *axis, float target, float stiffness, float damping, float cap, int32_t unit)
 {
-    axis->drive[0] = fe__clampf(target, axis->limit[0], axis->limit[1]);
-    axis->drive[1] = stiffness, axis->drive[2] = damping, axis->drive[3] = cap;
-    axis->motor[2] = (float)unit;
+    axis->drive.target = fe__clampf(target, axis->limit.low, axis->limit.high);
+    axis->drive.stiffness = stiffness, axis->drive.damping = damping, axis->drive.cap = cap;
+    axis->motor.drive_unit = (float)unit;
 }
 
-static void set_motor(fe__joint_axis *axis, float speed, float cap) { axis->motor[0] = speed, axis->motor[1] = cap; }
+static void set_motor(fe__joint_axis *axis, float speed, float cap) { axis->motor.speed = speed, axis->motor.cap = cap; }
 
 // ---- distance, hinge, fixed -----------------------------------------------------------------------------------------------------------
 static void plan_distance(const fe_distance_def *d, fe__joint_plan *plan)
@@ -71,8 +71,8 @@ static void plan_fixed(const fe_fixed_def *d, fe__joint_plan *plan)
     fe__joint_turn *turn = &plan->axes.turn;
     plan->parts |= bit(FE__PART_TURN);
     turn->target[3] = 1.0f;
-    turn->drive[0] = d->angular_hertz, turn->drive[1] = d->angular_damping_ratio, turn->drive[2] = FE__UNLIMITED,
-    turn->drive[3] = FE__DRIVE_HERTZ;
+    turn->drive.stiffness = d->angular_hertz, turn->drive.damping = d->angular_damping_ratio, turn->drive.cap = FE__UNLIMITED,
+    turn->drive.unit = FE__DRIVE_HERTZ;
 }
 
 // ---- rotations of three angles --------------------------------------------------------------------------------------------------------
@@ -140,10 +140,11 @@ static void plan_ball(const fe_ball_def *d, fe__joint_plan *plan)
     plan->parts |= bit(FE__PART_TURN);
     set_target(turn, clamped_target(d));
     if (d->drive_hertz > 0.0f)
-        turn->drive[0] = d->drive_hertz, turn->drive[1] = d->drive_damping_ratio, turn->drive[2] = d->drive_torque,
-        turn->drive[3] = FE__DRIVE_HERTZ;
-    turn->motor[0] = d->motor_velocity.x, turn->motor[1] = d->motor_velocity.y, turn->motor[2] = d->motor_velocity.z;
-    turn->motor[3] = d->motor_torque;
+        turn->drive.stiffness = d->drive_hertz, turn->drive.damping = d->drive_damping_ratio, turn->drive.cap = d->drive_torque,
+        turn->drive.unit = FE__DRIVE_HERTZ;
+    turn->motor.velocity[0] = d->motor_velocity.x, turn->motor.velocity[1] = d->motor_velocity.y,
+    turn->motor.velocity[2] = d->motor_velocity.z;
+    turn->motor.cap = d->motor_torque;
 }
 
 // ---- configurable ---------------------------------------------------------------------------------------------------------------------
@@ -174,11 +175,11 @@ static int32_t plan_turn(const fe_joint_axis *a, fe__joint_plan *plan)
     plan->parts |= bit(FE__PART_TURN);
     set_target(turn, rotation_of((angles){a[0].target, a[1].target, a[2].target}));
     if (drives(a)) {
-        turn->drive[0] = a->stiffness, turn->drive[1] = a->damping, turn->drive[2] = a->drive_force;
-        turn->drive[3] = a->drive == FE_DRIVE_STIFFNESS ? FE__DRIVE_STIFFNESS : FE__DRIVE_HERTZ;
+        turn->drive.stiffness = a->stiffness, turn->drive.damping = a->damping, turn->drive.cap = a->drive_force;
+        turn->drive.unit = a->drive == FE_DRIVE_STIFFNESS ? FE__DRIVE_STIFFNESS : FE__DRIVE_HERTZ;
     }
-    for (int k = 0; k < 3; ++k) turn->motor[k] = a[k].motor_speed;
-    turn->motor[3] = a->motor_force;
+    for (int k = 0; k < 3; ++k) turn->motor.velocity[k] = a[k].motor_speed;
+    turn->motor.cap = a->motor_force;
     return 1;
 }
 
@@ -204,7 +205,7 @@ static void bound_swings(const fe_joint_axis *about, fe__joint_plan *plan)
         fe__joint_axis *axis = k == 1 ? y : z;
         if (is_locked(about + k)) continue;
         if (!(k == 1 ? has_y : has_z)) set_unlimited(axis);
-        axis->limit[0] = fe__maxf(axis->limit[0], -most), axis->limit[1] = fe__minf(axis->limit[1], most);
+        axis->limit.low = fe__maxf(axis->limit.low, -most), axis->limit.high = fe__minf(axis->limit.high, most);
         plan->parts |= bit(k == 1 ? FE__PART_SWING_Y : FE__PART_SWING_Z);
     }
 }

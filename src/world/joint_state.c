@@ -26,7 +26,7 @@ static fe_vec3 velocity_at(const fe__body *b, fe_dvec3 point)
 }
 
 // ---- errors ---------------------------------------------------------------------------------------------------------------------------
-static float beyond(const fe__joint_axis *axis, float x) { return fe__maxf(fe__maxf(axis->limit[0] - x, x - axis->limit[1]), 0.0f); }
+static float beyond(const fe__joint_axis *axis, float x) { return fe__maxf(fe__maxf(axis->limit.low - x, x - axis->limit.high), 0.0f); }
 
 static float linear_error(const fe__joint_frame *f, const fe__joint_axes *axes, const fe__joint_pose *pose)
 {
@@ -43,7 +43,7 @@ static float linear_error(const fe__joint_frame *f, const fe__joint_axes *axes, 
 
 static float cone_error(const fe__joint_axis *axis, float y, float z)
 {
-    float a = y / axis->limit[0], b = z / axis->limit[1], out = sqrtf(a * a + b * b);
+    float a = y / axis->limit.low, b = z / axis->limit.high, out = sqrtf(a * a + b * b);
     return out > 1.0f ? sqrtf(y * y + z * z) * (1.0f - 1.0f / out) : 0.0f;
 }
 
@@ -85,7 +85,7 @@ void fe__joint_state_of(const fe_world *world, int32_t joint, fe_joint_state *s)
     fe__joint_pose pose;
     fe__joint_pose_of(&world->joints, world->bodies, joint, &pose);
     float twist = pose.twist;
-    if (f->parts >> FE__PART_TWIST & 1) twist = fe__joint_wind(pose.twist, axes->axis[FE__AXIS_TWIST].state[0]);
+    if (f->parts >> FE__PART_TWIST & 1) twist = fe__joint_wind(pose.twist, axes->axis[FE__AXIS_TWIST].state.x);
     tell_coordinates(r->shift, &pose, twist, s);
     s->angular_velocity = fe__rotate_back(frame_a.rotation, fe__sub(spin_of(b), spin_of(a)));
     // frame A turns under the moving point: d/dt (R^T x) = R^T (x' - wA x x), x from A's point, is the velocity against A's matter at B's

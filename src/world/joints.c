@@ -212,7 +212,7 @@ static void wind(fe_world *world, int32_t joint)
     fe__joint_axis *axis = world->joints.axes[f->axes].axis + FE__AXIS_TWIST;
     fe__joint_pose pose;
     fe__joint_pose_of(&world->joints, world->bodies, joint, &pose);
-    axis->state[0] = axis->limit[1] < FE__UNLIMITED ? fe__joint_wind(pose.twist, 0.5f * (axis->limit[0] + axis->limit[1])) : pose.twist;
+    axis->state.x = axis->limit.high < FE__UNLIMITED ? fe__joint_wind(pose.twist, 0.5f * (axis->limit.low + axis->limit.high)) : pose.twist;
 }
 
 static void place_anchors(fe_world *world, int32_t joint)
@@ -239,7 +239,7 @@ void fe__body_forget_joints(fe_world *world, int32_t body)
     for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body)) {
         const fe__joint_frame *f = world->joints.frames + joint;
         fe__joint_forget_impulses(&world->joints, joint);
-        for (int32_t k = 0; f->axes && k < FE__AXES; ++k) world->joints.axes[f->axes].axis[k].state[0] = 0.0f;
+        for (int32_t k = 0; f->axes && k < FE__AXES; ++k) world->joints.axes[f->axes].axis[k].state.x = 0.0f;
         wind(world, joint);
     }
 }
@@ -258,8 +258,8 @@ static void fill_axes(fe_world *world, int32_t joint, const fe__joint_plan *plan
     *axes = plan->axes;
     for (int32_t k = 0; k < FE__AXES; ++k) {
         if (fe__joint_part_at(f->parts, k) != fe__joint_part_at(plan->parts, k)) continue;
-        memcpy(axes->axis[k].impulse, old.axis[k].impulse, sizeof old.axis[k].impulse);
-        memcpy(axes->axis[k].state, old.axis[k].state, sizeof old.axis[k].state);
+        axes->axis[k].impulse = old.axis[k].impulse;
+        axes->axis[k].state = old.axis[k].state;
     }
     if (!(f->parts & plan->parts & 1u << FE__PART_TURN)) return;
     memcpy(axes->turn.impulse, old.turn.impulse, sizeof old.turn.impulse);
@@ -278,7 +278,7 @@ static void fill(fe_world *world, int32_t joint, const fe__joint_plan *plan)
     r->shift = plan->shift;
     set_quat(f->frame_a, fe__product(r->frame[0].rotation, fe__joint_shift(r->shift)));
     set_quat(f->frame_b, fe__product(r->frame[1].rotation, fe__joint_shift(r->shift)));
-    j->arm_a[3] = plan->hertz, j->arm_b[3] = plan->damping_ratio;
+    j->hertz = plan->hertz, j->damping_ratio = plan->damping_ratio;
     place_anchors(world, joint);
     wind(world, joint);
 }

@@ -1,6 +1,6 @@
 // mass.c - what a body weighs: from its shapes and their densities, or as given.
 //
-// Called when shapes, type or locks change; the solver reads velocity[3] (inverse mass), inertia, inertia_axes and local_centre. Only
+// Called when shapes, type or locks change; the solver reads inverse_mass, inertia, inertia_axes and local_centre. Only
 // dynamic bodies have mass; the centre of the others is their origin, so that a kinematic body turns about the point its owner placed.
 // Computed in double: the parts of a large body far from its centre would cancel in float.
 #include "world/world.h"
@@ -53,7 +53,7 @@ static void set_sizes(fe_world *world, fe__body *body)
         fe_vec3 in_form = fe__rotate_back(shape->local_rotation, fe__sub(centre, shape->local_position));
         reach = fe__maxf(reach, fe__form_reach(&shape->form, in_form));
     }
-    body->local_centre[3] = reach;
+    body->reach = reach;
     fe__body_note_swiftness(world, body);
 }
 
@@ -61,8 +61,8 @@ static void apply(fe_world *world, fe__body *body, const mass_properties *p)
 {
     int32_t dynamic = body->type == FE_BODY_DYNAMIC;
     fe_vec3 inertia = p->inertia;
-    body->velocity[3] = dynamic ? 1.0f / p->mass : 0.0f;
-    body->inertia[0] = inertia.x, body->inertia[1] = inertia.y, body->inertia[2] = inertia.z, body->inertia[3] = p->mass;
+    body->inverse_mass = dynamic ? 1.0f / p->mass : 0.0f;
+    body->inertia[0] = inertia.x, body->inertia[1] = inertia.y, body->inertia[2] = inertia.z, body->mass = p->mass;
     body->inertia_axes[0] = p->axes.x, body->inertia_axes[1] = p->axes.y, body->inertia_axes[2] = p->axes.z,
     body->inertia_axes[3] = p->axes.w;
     if (p->centre.x != body->local_centre[0] || p->centre.y != body->local_centre[1] || p->centre.z != body->local_centre[2]) {
@@ -72,7 +72,7 @@ static void apply(fe_world *world, fe__body *body, const mass_properties *p)
     if (body->joint_count) world->joints.forest.changed = world->solver.graph_changed = 1; // which trees bear much
 
     float largest = fe__maxf(fe__maxf(inertia.x, inertia.y), inertia.z), least = fe__minf(fe__minf(inertia.x, inertia.y), inertia.z);
-    int32_t turns_locked = (uint32_t)body->spin[3] >> 3 != 0;
+    int32_t turns_locked = (uint32_t)body->lock_bits >> 3 != 0;
     body->flags &= ~(uint32_t)FE__BODY_ISOTROPIC;
     if (turns_locked || largest - least <= ISOTROPY * largest) body->flags |= FE__BODY_ISOTROPIC;
 }
@@ -206,7 +206,7 @@ void fe__body_update_mass(fe_world *world, int32_t index)
     fe__body *body = &world->bodies[index];
     mass_properties p = {.axes = fe__identity()};
     if (body->flags & FE__BODY_MASS_GIVEN) {
-        p.mass = body->inertia[3];
+        p.mass = body->mass;
         p.centre = (fe_vec3){body->local_centre[0], body->local_centre[1], body->local_centre[2]};
         p.inertia = (fe_vec3){body->inertia[0], body->inertia[1], body->inertia[2]};
         p.axes = (fe_quat){body->inertia_axes[0], body->inertia_axes[1], body->inertia_axes[2], body->inertia_axes[3]};
@@ -230,7 +230,7 @@ void fe__body_set_mass(fe_world *world, int32_t index, const fe_mass_data *data)
 void fe__body_mass_data(const fe_world *world, int32_t index, fe_mass_data *out_data)
 {
     const fe__body *body = &world->bodies[index];
-    out_data->mass = body->inertia[3];
+    out_data->mass = body->mass;
     out_data->centre = (fe_vec3){body->local_centre[0], body->local_centre[1], body->local_centre[2]};
     out_data->inertia = (fe_vec3){body->inertia[0], body->inertia[1], body->inertia[2]};
     out_data->inertia_rotation = (fe_quat){body->inertia_axes[0], body->inertia_axes[1], body->inertia_axes[2], body->inertia_axes[3]};

@@ -8,7 +8,7 @@
 
 void fe__body_note_swiftness(fe_world *world, const fe__body *body)
 {
-    float swiftness = body->thickness > 0.0f ? body->centre_low[3] / body->thickness : 0.0f;
+    float swiftness = body->thickness > 0.0f ? body->speed / body->thickness : 0.0f;
     int32_t bits, most = atomic_load_explicit(&world->swiftest, memory_order_relaxed);
     memcpy(&bits, &swiftness, sizeof bits);
     while (bits > most &&
@@ -19,16 +19,16 @@ void fe__body_note_swiftness(fe_world *world, const fe__body *body)
 void fe__body_note_speed(fe_world *world, fe__body *body)
 {
     const float *v = body->velocity, *w = body->spin;
-    float turning = sqrtf(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) * body->local_centre[3];
-    body->centre_low[3] = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + turning;
-    world->odometers[body - world->bodies].speed = body->centre_low[3];
+    float turning = sqrtf(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) * body->reach;
+    body->speed = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + turning;
+    world->odometers[body - world->bodies].speed = body->speed;
     fe__body_note_swiftness(world, body);
 }
 
 // Locked components are exactly +0, so that the solver's masks never meet a velocity they would have to keep.
 void fe__body_stop_locked(fe_world *world, fe__body *body)
 {
-    uint32_t bits = (uint32_t)body->spin[3];
+    uint32_t bits = (uint32_t)body->lock_bits;
     for (uint32_t k = 0; k < 3; ++k) {
         if (bits >> k & 1) body->velocity[k] = 0.0f;
         if (bits >> (k + 3) & 1) body->spin[k] = 0.0f;
@@ -63,7 +63,7 @@ void fe__body_add_force(fe_world *world, int32_t index, fe_vec3 force, fe_vec3 t
     for (int k = 0; k < 3; ++k) any |= f[k] != 0.0f || t[k] != 0.0f;
     if (!any) return;
     fe__body_disturb(world, index);
-    float most_force = MOST_ACCELERATION * body->inertia[3];
+    float most_force = MOST_ACCELERATION * body->mass;
     float most_torque = MOST_ACCELERATION * fe__minf(fe__minf(body->inertia[0], body->inertia[1]), body->inertia[2]);
     for (int k = 0; k < 3; ++k) {
         body->force[k] = fe__clampf(body->force[k] + f[k], -most_force, most_force);
@@ -96,7 +96,7 @@ fe_vec3 fe__body_spin_change(const fe__body *body, fe_vec3 angular_impulse)
     double m[3][3], l[3] = {(double)angular_impulse.x, (double)angular_impulse.y, (double)angular_impulse.z};
     world_inertia(body, m);
     double size = fe__maxd(fe__maxd(m[0][0], m[1][1]), m[2][2]);
-    uint32_t locks = (uint32_t)body->spin[3] >> 3;
+    uint32_t locks = (uint32_t)body->lock_bits >> 3;
     for (int k = 0; k < 3; ++k) {
         if (!(locks >> k & 1)) continue;
         for (int j = 0; j < 3; ++j) m[k][j] = m[j][k] = 0.0;

@@ -157,8 +157,8 @@ void fe__pair_mix_surface(fe_world *world, int32_t pair)
     const fe_material *x = fe__shape_material(world, a, cell), *y = fe__shape_material(world, b, cell);
     fe_vec3 surface = fe__sub(surface_of(b), surface_of(a));
     if (p->flags & FE__PAIR_FLIPPED) surface = fe__neg(surface);
-    m->span[3] = sqrtf(x->static_friction * y->static_friction);
-    m->surface[0] = sqrtf(x->dynamic_friction * y->dynamic_friction);
+    m->static_friction = sqrtf(x->static_friction * y->static_friction);
+    m->surface.dynamic_friction = sqrtf(x->dynamic_friction * y->dynamic_friction);
     e->restitution = fe__maxf(x->restitution, y->restitution);
     e->rolling = fe__maxf(x->rolling_resistance, y->rolling_resistance) * form_radius(a, b);
     e->spinning = fe__maxf(x->spinning_resistance, y->spinning_resistance);
@@ -210,7 +210,7 @@ static void enter_lists(fe_world *world, int32_t patch)
 
 static void note_uneven(fe__body *a, fe__body *b)
 {
-    float of_a = a->velocity[3], of_b = b->velocity[3]; // 1/kg
+    float of_a = a->inverse_mass, of_b = b->inverse_mass; // 1/kg
     if (of_a > UNEVEN * of_b) a->flags |= FE__BODY_STRAINED;
     if (of_b > UNEVEN * of_a) b->flags |= FE__BODY_STRAINED;
 }
@@ -251,8 +251,7 @@ void fe__pair_link(fe_world *world, int32_t pair)
 
 void fe__pair_forget_impulses(fe_world *world, int32_t pair)
 {
-    fe__contact *m = world->contacts + pair;
-    for (int k = 0; k < FE__POINTS; ++k) m->normal_impulse[k] = m->friction_impulse[k] = m->total_impulse[k] = 0.0f;
+    fe__contact_forget_impulses(world->contacts + pair);
     for (int k = 0; k < 3; ++k) world->extras[pair].rolling_impulse[k] = 0.0f;
 }
 

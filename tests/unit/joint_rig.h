@@ -59,11 +59,12 @@ static inline int32_t rig_body(rig *r, double x, double y, double z, float mass,
     fe__body *b = r->bodies + i;
     *b = (fe__body){.centre = {x, y, z},
                     .rotation = {0, 0, 0, 1},
-                    .inertia = {ix, iy, iz, mass},
+                    .inertia = {ix, iy, iz},
+                    .mass = mass,
                     .inertia_axes = {0, 0, 0, 1},
                     .gravity_scale = 1.0f,
                     .type = FE_BODY_DYNAMIC};
-    b->velocity[3] = 1.0f / mass;
+    b->inverse_mass = 1.0f / mass;
     if (ix == iy && iy == iz) b->flags |= FE__BODY_ISOTROPIC;
     for (int k = 0; k < 3; ++k) {
         b->centre_high[k] = (float)b->centre[k];
@@ -112,8 +113,9 @@ static inline void rig_kinematic(rig *r, int32_t body, fe_vec3 velocity, fe_vec3
 {
     fe__body *b = r->bodies + body;
     b->type = FE_BODY_KINEMATIC;
-    const float v[4] = {velocity.x, velocity.y, velocity.z, 0.0f}, w[3] = {spin.x, spin.y, spin.z};
+    const float v[3] = {velocity.x, velocity.y, velocity.z}, w[3] = {spin.x, spin.y, spin.z};
     memcpy(b->velocity, v, sizeof v), memcpy(b->spin, w, sizeof w);
+    b->inverse_mass = 0.0f;
 }
 
 // a dynamic body's axes, linear | angular << 3; its joints are linked anew
@@ -124,7 +126,7 @@ static inline void rig_lock(rig *r, int32_t body, int32_t locks)
         if (j->body_a == body || j->body_b == body) fe__joint_unlink(&r->joints, r->bodies, i);
     }
     r->bodies[body].locked = locks != 0;
-    r->bodies[body].spin[3] = (float)locks;
+    r->bodies[body].lock_bits = (float)locks;
     if (locks >> 3) r->bodies[body].flags |= FE__BODY_ISOTROPIC;
     for (int32_t i = 1; i <= r->joint_count; ++i)
         if (r->joints.joints[i].colour < 0) fe__joint_link(&r->joints, r->bodies, i);
@@ -144,14 +146,14 @@ static inline void rig_build(rig *r)
     r->built = 1;
 }
 
-static inline void rig_follow(fe__body *b, const float *velocity, const float *motion)
+static inline void rig_follow(fe__body *b, const fe__velocity_line *velocity, const fe__motion_line *motion)
 {
     fe_quat q = {b->rotation[0], b->rotation[1], b->rotation[2], b->rotation[3]};
-    q = fe__normalized(fe__product((fe_quat){motion[4], motion[5], motion[6], motion[7]}, q));
+    q = fe__normalized(fe__product(fe__quat_of(motion->rotation), q));
     b->rotation[0] = q.x, b->rotation[1] = q.y, b->rotation[2] = q.z, b->rotation[3] = q.w;
     for (int k = 0; k < 3; ++k) {
-        b->velocity[k] = velocity[k], b->spin[k] = velocity[4 + k];
-        b->centre[k] += (double)motion[k];
+        b->velocity[k] = velocity->v[k], b->spin[k] = velocity->w[k];
+        b->centre[k] += (double)motion->shift[k];
         b->centre_high[k] = (float)b->centre[k];
         b->centre_low[k] = (float)(b->centre[k] - (double)b->centre_high[k]);
     }
@@ -177,7 +179,7 @@ static inline void rig_step(rig *r)
     fe__solve(&r->solver, r->kernels, &r->workers, r->bodies, NULL, NULL, &r->joints, paces);
     for (int32_t i = 1; i < r->body_count; ++i) {
         fe__body *b = r->bodies + i;
-        rig_follow(b, r->solver.velocity[b->line], r->solver.motion[b->line]);
+        rig_follow(b, r->solver.velocity + b->line, r->solver.motion + b->line);
     }
 }
 
@@ -190,7 +192,7 @@ static inline double rig_energy(const rig *r)
         const fe_quat q = {b->rotation[0], b->rotation[1], b->rotation[2], b->rotation[3]};
         fe_dvec3 v = {b->velocity[0], b->velocity[1], b->velocity[2]},
                  w = fe__drotate_back(q, (fe_dvec3){b->spin[0], b->spin[1], b->spin[2]});
-        double m = b->inertia[3];
+        double m = b->mass;
         sum += 0.5 * m * fe__ddot(v, v) + 0.5 * (b->inertia[0] * w.x * w.x + b->inertia[1] * w.y * w.y + b->inertia[2] * w.z * w.z);
         sum -= m * r->gravity * b->centre[1];
     }
@@ -225,7 +227,7 @@ static inline uint64_t rig_hash(const rig *r)
             fe__hash_float(&h, r->joints.joints[i].impulse[k]), fe__hash_float(&h, r->joints.frames[i].impulse[k]);
             fe__hash_float(&h, r->joints.reactions[i].force[k]), fe__hash_float(&h, r->joints.reactions[i].torque[k]);
         }
-    const float *axes = r->joints.axes[0].axis[0].limit;
+    const float *axes = &r->joints.axes[0].axis[0].limit.low;
     for (size_t i = 0; i < RIG_AXES * sizeof(fe__joint_axes) / sizeof(float); ++i) fe__hash_float(&h, axes[i]);
     return fe__hash_end(&h);
 }

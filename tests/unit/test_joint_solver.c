@@ -18,7 +18,7 @@ static void add_chain(rig *r, int32_t links, double angle, double ball_ratio)
         before = b;
     }
     if (ball_ratio == 0.0) return;
-    float m = (float)(ball_ratio * r->bodies[before].inertia[3]), inertia = 0.4f * m * 4.0f;
+    float m = (float)(ball_ratio * r->bodies[before].mass), inertia = 0.4f * m * 4.0f;
     int32_t b = rig_body(r, (links + 2) * c, (links + 2) * s, 0.0, m, inertia, inertia, inertia);
     rig_ball(r, before, b, links * c, links * s, 0.0);
 }
@@ -68,7 +68,7 @@ static void pendulum_keeps_its_energy(void **state)
     (void)state;
     rig r = rig_make(FE_SIMD_AUTO, NULL, 1, 4);
     add_chain(&r, 1, 0.0, 0.0);
-    double scale = (double)r.bodies[1].inertia[3] * 10.0 * 0.5;
+    double scale = (double)r.bodies[1].mass * 10.0 * 0.5;
     for (int32_t i = 0; i < 600; ++i) rig_step(&r);
     FE_WITHIN(rig_energy(&r) / scale, -0.003, 1e-5);
     rig_free(&r);
@@ -96,7 +96,7 @@ static const double omega_squared = 4.0 * 3.14159265 * 3.14159265 * 54.0 * 54.0;
 
 static void damp(rig *r, float damping)
 {
-    for (int32_t i = 1; i < r->body_count; ++i) r->bodies[i].force[3] = r->bodies[i].torque[3] = damping;
+    for (int32_t i = 1; i < r->body_count; ++i) r->bodies[i].linear_damping = r->bodies[i].angular_damping = damping;
 }
 
 // 30 capsules carry a ball of 585 times their mass, and of 1000. P2: a link of mass m between two joints stretches its joints by (M/m) 2 g
@@ -109,7 +109,7 @@ static void chains_carry_a_ball_of_585_and_of_1000_links(void **state)
         rig r = rig_make(FE_SIMD_AUTO, NULL, 1, 4);
         add_chain(&r, 30, k ? 0.0 : -1.5, ratios[k]);
         if (k) damp(&r, 0.1f);
-        double p2 = ratios[k] * 2.0 * 10.0 / omega_squared, start = rig_energy(&r), scale = r.bodies[31].inertia[3] * 10.0 * 30.0;
+        double p2 = ratios[k] * 2.0 * 10.0 / omega_squared, start = rig_energy(&r), scale = r.bodies[31].mass * 10.0 * 30.0;
         for (int32_t i = 0; i < SHORTER(1800, 300); ++i) {
             rig_step(&r);
             FE_WITHIN(rig_largest_gap(&r), 0.0, 3.3 * p2);
@@ -125,7 +125,7 @@ static int32_t add_rod(rig *r, int32_t a, int32_t b, fe_dvec3 point_a, fe_dvec3 
     int32_t j = rig_joint(r, a, b, point_a, fe__identity(), 1u << FE__PART_DISTANCE);
     rig_to_local(r->bodies + b, point_b, r->joints.joints[j].arm_b);
     r->joints.frames[j].axes = j;
-    r->joints.axes[j].axis[FE__AXIS_LINEAR].limit[0] = low, r->joints.axes[j].axis[FE__AXIS_LINEAR].limit[1] = high;
+    r->joints.axes[j].axis[FE__AXIS_LINEAR].limit.low = low, r->joints.axes[j].axis[FE__AXIS_LINEAR].limit.high = high;
     fe__joint_link(&r->joints, r->bodies, j);
     return j;
 }
@@ -145,7 +145,7 @@ static void crane_carries_a_thousand_times_its_boom(void **state)
     rig r = rig_make(FE_SIMD_AUTO, NULL, 1, 4);
     const float half = sqrtf(0.5f);
     int32_t boom = rig_capsule(&r, 0.0, 0.0, 4.0, 0.0, 0.1, 1000.0);
-    double m = r.bodies[boom].inertia[3], inertia = r.bodies[boom].inertia[2], give = 1000.0 * 10.0 / omega_squared;
+    double m = r.bodies[boom].mass, inertia = r.bodies[boom].inertia[2], give = 1000.0 * 10.0 / omega_squared;
     float load_mass = (float)(1000.0 * m), moment = 0.1f * load_mass;
     int32_t hinge =
         rig_joint(&r, 0, boom, (fe_dvec3){0, 0, 0}, (fe_quat){0.0f, -half, 0.0f, half}, 1u << FE__PART_HINGE | 1u << FE__PART_POINT);
@@ -224,12 +224,12 @@ static void set_limits(fe__joint_axes *axes, uint32_t parts)
 {
     for (int k = 0; k < FE__AXES; ++k) {
         float most = k < FE__AXIS_TWIST ? 0.2f : 0.3f;
-        axes->axis[k].limit[0] = -most, axes->axis[k].limit[1] = most;
+        axes->axis[k].limit.low = -most, axes->axis[k].limit.high = most;
     }
-    if (parts & PART(CONE)) axes->axis[FE__AXIS_SWING].limit[0] = 0.2f, axes->axis[FE__AXIS_SWING].limit[1] = 0.4f;
-    if (parts & PART(DISTANCE)) axes->axis[FE__AXIS_LINEAR].limit[0] = axes->axis[FE__AXIS_LINEAR].limit[1] = 0.25f;
+    if (parts & PART(CONE)) axes->axis[FE__AXIS_SWING].limit.low = 0.2f, axes->axis[FE__AXIS_SWING].limit.high = 0.4f;
+    if (parts & PART(DISTANCE)) axes->axis[FE__AXIS_LINEAR].limit.low = axes->axis[FE__AXIS_LINEAR].limit.high = 0.25f;
     if (!(parts & (PART(CONE) | PART(HINGE))) && parts & PART(TWIST))
-        axes->axis[FE__AXIS_TWIST].limit[0] = axes->axis[FE__AXIS_TWIST].limit[1] = 0.0f;
+        axes->axis[FE__AXIS_TWIST].limit.low = axes->axis[FE__AXIS_TWIST].limit.high = 0.0f;
     axes->turn.target[3] = 1.0f;
 }
 
@@ -301,11 +301,12 @@ static void add_everything(rig *r)
     for (int32_t j = 1; j <= r->joint_count; ++j) {
         fe__joint_axis *axis = r->joints.axes[j].axis;
         for (int k = 0; k < FE__AXES && j % 2; ++k)
-            axis[k].drive[0] = 0.1f, axis[k].drive[1] = 2.0f, axis[k].drive[2] = 0.5f, axis[k].drive[3] = 50.0f;
-        for (int k = 0; k < FE__AXES && j % 3; ++k) axis[k].motor[0] = 0.5f, axis[k].motor[1] = 5.0f;
+            axis[k].drive.target = 0.1f, axis[k].drive.stiffness = 2.0f, axis[k].drive.damping = 0.5f, axis[k].drive.cap = 50.0f;
+        for (int k = 0; k < FE__AXES && j % 3; ++k) axis[k].motor.speed = 0.5f, axis[k].motor.cap = 5.0f;
     }
-    const fe__joint_turn turn = {
-        {0.1f, 0.2f, 0.0f, 0.97f}, {20.0f, 2.0f, 30.0f, FE__DRIVE_STIFFNESS}, {0.0f, 0.1f, 0.0f, 1.0f}, {0}, {0}, {0}};
+    const fe__joint_turn turn = {.target = {0.1f, 0.2f, 0.0f, 0.97f},
+                                 .drive = {20.0f, 2.0f, 30.0f, FE__DRIVE_STIFFNESS},
+                                 .motor = {{0.0f, 0.1f, 0.0f}, 1.0f}};
     int32_t b = rig_capsule(r, 0.0, -2.0, 1.0, -2.0, 0.1, 1000.0);
     int32_t j = rig_joint(r, 0, b, (fe_dvec3){0.0, -2.0, 0.0}, fe__identity(), PART(POINT) | PART(TURN));
     r->joints.frames[j].axes = j;

@@ -6,34 +6,61 @@
 // pyramid of 100 rows buckle out of its plane after 300 steps.
 #ifndef FE_SOLVER_CONTACT_H
 #define FE_SOLVER_CONTACT_H
-#include <stdint.h>
+#include "core/math.h"
 
 enum { FE__POINTS = 4 };
 #define FE__FOLLOWS (-1e15f)
 // found ahead of time, at the poses of the touch: good for one step. Its square is 0
 #define FE__AHEAD (-1e-30f)
 
+typedef struct fe__surface {
+    float dynamic_friction;
+    float radius_a, radius_b; // of the round sides, m
+    float tolerance;          // how far the pair may move, m; FE__FOLLOWS: as far as its head; FE__AHEAD
+} fe__surface;
+
+typedef struct fe__contact_arm {
+    float arm[3];     // world, m: from A's centre, from B's when A is static
+    float separation; // m
+} fe__contact_arm;
+
 typedef struct fe__contact {
     // now: read by prepare
     _Alignas(64) float separation[FE__POINTS]; // m, when the step begins
-    float normal[4];                           // unit, from A to B, world; lane 3: number of points
-    float span[4];    // centre of A - centre of B, m, for torques on B; 0 when A is static; lane 3: static friction
-    float surface[4]; // dynamic friction | radius of A's round side, of B's, m | how far the pair may move, m; FE__FOLLOWS: as far as its
-                      // head; FE__AHEAD
+    float normal[3];                           // unit, from A to B, world
+    float point_count;                         // a whole number
+    float span[3];                             // centre of A - centre of B, m, for torques on B; 0 when A is static
+    float static_friction;
+    fe__surface surface;
     // impulses
     float normal_impulse[FE__POINTS]; // N s
-    float friction_impulse[4];        // on B, world (a tangent basis may flip between steps); lane 3: twist, N m s
+    float friction_impulse[3];        // on B, world (a tangent basis may flip between steps)
+    float twist_impulse;              // about the normal, N m s
     float total_impulse[FE__POINTS];  // along the normal over the whole step, N s
-    float found_span[4];              // centre of A - centre of B when found, m; lane 3: longest arm, m
+    float found_span[3];              // centre of A - centre of B when found, m
+    float longest_arm;                // m
     // as found
-    float point[FE__POINTS][4];   // arm, world, m: from A's centre, from B's when A is static; lane 3: separation then
+    fe__contact_arm point[FE__POINTS];
     float found_a[4], found_b[4]; // the bodies' rotations then; found ahead of time (it may not move): the turns from there
-    float found_low[4];           // what found_span left of the double difference, m
+    float found_low[4];           // what found_span left of the double difference, m, 0
     int32_t body_a, body_b;       // records, a static body's too
     int32_t kind;                 // FE__ROW_* of the row it goes to
     int32_t colour;               // -1: not in the graph
 } fe__contact;
 _Static_assert(sizeof(fe__contact) == 256, "a contact is four cache lines");
+FE__IS_QUAD(fe__contact, normal, point_count);
+FE__IS_QUAD(fe__contact, span, static_friction);
+FE__IS_QUAD(fe__contact, friction_impulse, twist_impulse);
+FE__IS_QUAD(fe__contact, found_span, longest_arm);
+_Static_assert(offsetof(fe__contact, surface) % 16 == 0 && sizeof(fe__surface) == 16, "a surface is a quad");
+_Static_assert(offsetof(fe__contact, point) % 16 == 0 && sizeof(fe__contact_arm) == 16, "points are quads");
+
+static inline void fe__contact_forget_impulses(fe__contact *m)
+{
+    for (int k = 0; k < FE__POINTS; ++k) m->normal_impulse[k] = m->total_impulse[k] = 0.0f;
+    for (int k = 0; k < 3; ++k) m->friction_impulse[k] = 0.0f;
+    m->twist_impulse = 0.0f;
+}
 
 // What a special row needs beyond it, by contact index
 typedef struct fe__extra {

@@ -220,7 +220,7 @@ static __attribute__((noinline)) void NAMED(place_ahead)(ROW *row, const fe__con
     wide3 n = load3(row->normal), span = load3(row->found_span);
     motion back = {w_zero3(), w_gather(m->found_a, CONTACT_STRIDE, index), w_gather(m->found_b, CONTACT_STRIDE, index)};
     wide apart[POINTS + 1];
-    UNROLL for (int i = 0; i < POINTS; ++i) apart[i] = w_gather(m->point[i], CONTACT_STRIDE, index).w;
+    UNROLL for (int i = 0; i < POINTS; ++i) apart[i] = w_gather(m->point[i].arm, CONTACT_STRIDE, index).w;
     apart[POINTS] = apart[0];
     NAMED(begin_to_follow)(row, apart, lanes, kind);
     UNROLL for (int i = 0; i <= POINTS; ++i)
@@ -251,7 +251,7 @@ FE_INLINE void NAMED(correct_start)(const fe__solver *s, const int32_t *line, wi
 {
     wide4 w = gather_high(s->start, line);
     wide3 corrected = w_sub(w_xyz(w), change);
-    w_scatter(s->start[0] + 4, FE__LINE, line, w_with(w_choose3(lanes, corrected, w_xyz(w)), w.w));
+    scatter_high(s->start, line, w_with(w_choose3(lanes, corrected, w_xyz(w)), w.w));
 }
 
 // Points, span, inertia and masses of the given lanes to where the bodies are. The warm start holds M^-1 J^T l of the old ones.

@@ -14,7 +14,7 @@ FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int3
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
         point_row *q = row->point + i;
-        wide3 r = w_xyz(w_gather(m->point[i], CONTACT_STRIDE, index));
+        wide3 r = w_xyz(w_gather(m->point[i].arm, CONTACT_STRIDE, index));
         wide_mask there = w_greater(points, w_set((float)i));
         store3(q->r, r);
         q->distance = row->separation[i] = separations[i];
@@ -70,11 +70,11 @@ FE_INLINE void NAMED(prepare_special)(SPECIAL_ROW *x, const fe__solver *s, const
 {
     for (int i = 0; i < FE_W; ++i) {
         const fe__extra *e = extras + index[i];
-        const float *a = s->velocity[x->row.line_a[i]], *b = s->velocity[x->row.line_b[i]];
-        int locks_a = (int)a[7], locks_b = (int)b[7];
+        const fe__velocity_line *a = s->velocity + x->row.line_a[i], *b = s->velocity + x->row.line_b[i];
+        int locks_a = (int)a->lock_bits, locks_b = (int)b->lock_bits;
         for (int k = 0; k < 3; ++k) {
-            x->mass_a[k][i] = locks_a >> k & 1 ? 0.0f : a[3];
-            x->mass_b[k][i] = locks_b >> k & 1 ? 0.0f : b[3];
+            x->mass_a[k][i] = locks_a >> k & 1 ? 0.0f : a->inverse_mass;
+            x->mass_b[k][i] = locks_b >> k & 1 ? 0.0f : b->inverse_mass;
             x->rolling_impulse[k][i] = e->rolling_impulse[k] * c->warm_scale;
             x->surface[k][i] = e->surface_velocity[k];
         }
@@ -113,7 +113,7 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
     row->inertia_b = gather_inertia(s, row->line_b);
     if (kind & FE__ROW_PAIR) row->inertia_a = gather_inertia(s, row->line_a);
     wide4 normal = w_gather(m->normal, CONTACT_STRIDE, index), span = w_gather(m->span, CONTACT_STRIDE, index);
-    wide4 surface = w_gather(m->surface, CONTACT_STRIDE, index);
+    wide4 surface = w_gather(&m->surface.dynamic_friction, CONTACT_STRIDE, index);
     row->static_friction = span.w;
     row->dynamic_friction = surface.x;
     row->round_a = surface.y;

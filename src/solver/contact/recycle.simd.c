@@ -14,7 +14,7 @@
 #define MOST_ALONG 0.02f
 
 enum { CONTACT_STRIDE = sizeof(fe__contact) / sizeof(float), BODY_STRIDE = sizeof(fe__body) / sizeof(float) };
-#define CONTACT_QUAD(field) w_gather(contacts->field, CONTACT_STRIDE, index)
+#define CONTACT_QUAD(field) w_gather((const float *)&contacts->field, CONTACT_STRIDE, index)
 
 // a - b and what its rounding lost (Knuth's TwoSum): exact together
 FE_INLINE wide difference(wide a, wide b, wide *error)
@@ -69,7 +69,7 @@ static void recycle_block(fe__contact *contacts, const fe__body *bodies, const i
 {
     _Alignas(64) int32_t a[FE_W], b[FE_W];
     for (int i = 0; i < FE_W; ++i) a[i] = contacts[index[i]].body_a, b[i] = contacts[index[i]].body_b;
-    wide4 normal = CONTACT_QUAD(normal), surface = CONTACT_QUAD(surface), found = CONTACT_QUAD(found_span);
+    wide4 normal = CONTACT_QUAD(normal), surface = CONTACT_QUAD(surface.dynamic_friction), found = CONTACT_QUAD(found_span);
     wide4 found_a, found_b, point[FE__POINTS];
     w_gather_both(contacts->found_a, CONTACT_STRIDE, index, &found_a, &found_b);
     centres at_a = centres_of(bodies, a), at_b = centres_of(bodies, b);
@@ -102,7 +102,7 @@ static void recycle_block(fe__contact *contacts, const fe__body *bodies, const i
         *(wide *)slack = surface.w - w_sqrt(moved);
         for (int i = 0; i < count; ++i) out_slack[i] = slack[i];
     }
-    for (int i = 0; i < FE__POINTS; i += 2) w_gather_both(contacts->point[i], CONTACT_STRIDE, index, point + i, point + i + 1);
+    for (int i = 0; i < FE__POINTS; i += 2) w_gather_both(contacts->point[i].arm, CONTACT_STRIDE, index, point + i, point + i + 1);
     wide4 separation = {separation_now(point, constant, slope), separation_now(point + 1, constant, slope),
                         separation_now(point + 2, constant, slope), separation_now(point + 3, constant, slope)};
     w_scatter(now[0], FE__POINTS, w_in_order, separation);

@@ -15,7 +15,7 @@ static uint32_t sides_of(const fe__joint *j) { return j->rows >> FE__SIDES_SHIFT
 static uint32_t rows_of(const fe__joint *j, const fe__joint_frame *f, const fe__body *a, const fe__body *b)
 {
     uint32_t rows = f->parts, point = 1u << FE__PART_POINT, sides = 0;
-    if (rows & point && (a->locked || b->locked || j->arm_a[3] > 0.0f)) rows = (rows & ~point) | 1u << FE__PART_SLIDE;
+    if (rows & point && (a->locked || b->locked || j->hertz > 0.0f)) rows = (rows & ~point) | 1u << FE__PART_SLIDE;
     if (a->type == FE_BODY_DYNAMIC) sides |= FE__MOVES_A;
     if (b->type == FE_BODY_DYNAMIC) sides |= FE__MOVES_B;
     if (a->type == FE_BODY_KINEMATIC || b->type == FE_BODY_KINEMATIC) sides |= FE__KINEMATIC_END;
@@ -85,8 +85,8 @@ void fe__joint_forget_impulses(fe__joints *joints, int32_t joint)
     if (!f->axes) return;
     fe__joint_axes *axes = joints->axes + f->axes;
     for (int k = 0; k < FE__AXES; ++k) {
-        memset(axes->axis[k].impulse, 0, sizeof axes->axis[k].impulse);
-        axes->axis[k].state[1] = 0.0f;
+        memset(&axes->axis[k].impulse, 0, sizeof axes->axis[k].impulse);
+        axes->axis[k].state.force = 0.0f;
     }
     memset(axes->turn.impulse, 0, sizeof axes->turn.impulse);
     memset(axes->turn.motor_impulse, 0, sizeof axes->turn.motor_impulse);
@@ -168,7 +168,8 @@ static fe_vec3 angular_gradient(fe_quat q, fe__joint_part part, const fe__joint_
     if (part == FE__PART_TWIST) return fe__vec3(1.0f, (q.x * q.y + q.z * q.w) / n2, (q.x * q.z - q.y * q.w) / n2);
     if (part == FE__PART_SWING_Z) g_e = s.z, g_u = -s.y;
     if (part == FE__PART_CONE) {
-        float y = s.y / (axis->limit[0] * axis->limit[0]), z = s.z / (axis->limit[1] * axis->limit[1]), k = -1.0f / sqrtf(y * y + z * z);
+        float y = s.y / (axis->limit.low * axis->limit.low), z = s.z / (axis->limit.high * axis->limit.high),
+              k = -1.0f / sqrtf(y * y + z * z);
         g_e = k * (y * s.y + z * s.z), g_u = k * (y * s.z - z * s.y);
     }
     float over_sine = s.sine > 1e-4f ? s.angle / (2.0f * s.sine * fe__maxf(s.cosine, LEAST_COSINE)) : 1.0f;
@@ -196,9 +197,9 @@ void fe__joint_reaction_of(const fe__joints *joints, const fe__body *bodies, int
         if (!(f->parts >> part & 1)) continue;
         const fe__joint_axis *axis = joints->axes[f->axes].axis + place[part];
         if (part <= FE__PART_DISTANCE)
-            force = fe__add_scaled(force, axis->state[1], linear_direction(&pose, (fe__joint_part)part));
+            force = fe__add_scaled(force, axis->state.force, linear_direction(&pose, (fe__joint_part)part));
         else
-            torque = fe__add_scaled(torque, axis->state[1], angular_gradient(pose.q, (fe__joint_part)part, axis));
+            torque = fe__add_scaled(torque, axis->state.force, angular_gradient(pose.q, (fe__joint_part)part, axis));
     }
     fe_quat frame_a = fe__product(quat_of(bodies[j->body_a].rotation), quat_of(f->frame_a));
     const fe__joint_reaction *r = joints->reactions + joint;

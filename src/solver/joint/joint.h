@@ -62,14 +62,18 @@ enum {
 
 // Hot: all that a plain ball joint needs
 typedef struct fe__joint {
-    _Alignas(64) float arm_a[4]; // anchor from A's centre of mass, A's frame, m; lane 3: hertz of the locks, 0: the world's
-    float arm_b[4];              // of B; lane 3: damping ratio of the locks
+    _Alignas(64) float arm_a[3]; // anchor from A's centre of mass, A's frame, m
+    float hertz;                 // of the locks, 0: the world's
+    float arm_b[3];              // of B
+    float damping_ratio;         // of the locks
     float impulse[4];            // of POINT in world axes, of SLIDE in frame A, N s in the last substep
     int32_t body_a, body_b;      // records; at least one is dynamic, the other may be of any kind
     int32_t colour;              // -1: not in the graph
     uint32_t rows;               // set by fe__joint_link: 1 << part of each row, FE__MOVES_* << FE__SIDES_SHIFT
 } fe__joint;
 _Static_assert(sizeof(fe__joint) == 64, "a joint is a cache line");
+FE__IS_QUAD(fe__joint, arm_a, hertz);
+FE__IS_QUAD(fe__joint, arm_b, damping_ratio);
 
 typedef struct fe__joint_frame {
     _Alignas(64) float frame_a[4]; // unit quaternion x y z w, from the joint's axes to A's frame
@@ -88,26 +92,52 @@ typedef struct fe__joint_reaction {
     float torque[4]; // N m, world axes; of HINGE and FIXED
 } fe__joint_reaction;
 
-enum { FE__DRIVE_HERTZ, FE__DRIVE_STIFFNESS }; // fe__joint_axis.motor[2]
+enum { FE__DRIVE_HERTZ, FE__DRIVE_STIFFNESS }; // units of a drive: 1/s and a ratio; N/m and N s/m, N m/rad and N m s/rad
 
 // One degree of freedom: x in m or rad
 typedef struct fe__joint_axis {
-    float limit[4];   // low, high (equal: a lock), FE__UNLIMITED for none; hertz, 0: the world's; damping ratio. Of CONE: half angles a, b
-    float drive[4];   // target x | stiffness: 1/s or N/m, N m/rad | damping: ratio or N s/m, N m s/rad | cap, N or N m
-    float motor[4];   // speed, m/s or rad/s | cap, N or N m, 0: off. Speed 0: friction | FE__DRIVE_* | 0
-    float impulse[4]; // drive, motor, low, high, in the last substep
-    float state[4];   // x at the end of the last step, twist unwound: see fe__joint_wind | mean force or torque in that step | 0 | 0
+    _Alignas(16) struct {
+        float low, high;            // equal: a lock; FE__UNLIMITED for none. Of CONE: half angles a, b
+        float hertz, damping_ratio; // hertz 0: the world's
+    } limit;
+    struct {
+        float target; // x
+        float stiffness, damping;
+        float cap; // N or N m
+    } drive;
+    struct {
+        float speed;      // m/s or rad/s; 0: friction
+        float cap;        // N or N m, 0: off
+        float drive_unit; // FE__DRIVE_*, of the drive
+        float zero;
+    } motor;
+    struct {
+        float drive, motor, low, high; // in the last substep
+    } impulse;
+    struct {
+        float x;     // at the end of the last step; a twist unwound, see fe__joint_wind
+        float force; // or torque, mean over that step
+        float zero[2];
+    } state;
 } fe__joint_axis;
+_Static_assert(sizeof(fe__joint_axis) == 80, "an axis is five quads");
 
 // Three angles at once, for TURN
 typedef struct fe__joint_turn {
-    float target[4];  // rotation q
-    float drive[4];   // stiffness, damping, cap on the torque, FE__DRIVE_*, as above
-    float motor[4];   // angular velocity of B against A, axes of frame A, rad/s | cap, N m, 0: off. Velocity 0: friction
+    _Alignas(16) float target[4]; // rotation q
+    struct {
+        float stiffness, damping, cap; // cap on the torque, N m
+        float unit;                    // FE__DRIVE_*
+    } drive;
+    struct {
+        float velocity[3]; // of B against A, axes of frame A, rad/s; 0: friction
+        float cap;         // N m, 0: off
+    } motor;
     float impulse[4]; // of the drive, world axes
     float motor_impulse[4];
     float torque[4]; // mean over the last step, world axes
 } fe__joint_turn;
+_Static_assert(sizeof(fe__joint_turn) == 96, "a turn is six quads");
 
 typedef struct fe__joint_axes {
     _Alignas(64) fe__joint_axis axis[FE__AXES];
@@ -146,7 +176,7 @@ typedef struct fe__joint_pose {
 void fe__joint_pose_of(const fe__joints *joints, const fe__body *bodies, int32_t joint, fe__joint_pose *out_pose);
 fe_dvec3 fe__joint_gap(const fe__joint *joint, const fe__body *bodies); // anchor of B - anchor of A, m, world axes
 // The angle next to `before` that is `twist` plus whole turns. A twist with a range is unwound: it goes on beyond pi, so that a limit there
-// holds; FE__PART_TWIST's state[0] remembers where it was. Whoever makes or moves a joint writes it: fe__joint_wind(twist, middle of the
+// holds; FE__PART_TWIST's state.x remembers where it was. Whoever makes or moves a joint writes it: fe__joint_wind(twist, middle of the
 // range).
 float fe__joint_wind(float twist, float before);
 // Mean force and torque of all parts on B over the last step, N and N m, world axes; the torque about B's anchor.

@@ -59,8 +59,8 @@ static void write_freedom(const fe__joints *joints, const row_joints *r, const f
 {
     wide zero = w_set(0.0f), stored = stored_of(c);
     wide4 impulses = {stored * f->drive, stored * f->motor, stored * f->under, stored * f->over};
-    put_lanes(joints->axes->axis[slot].impulse, AXES_STRIDE, r->axes, r->real, impulses);
-    put_lanes(joints->axes->axis[slot].state, AXES_STRIDE, r->axes, r->real, (wide4){f->x, w_set(mean_of(c)) * f->total, zero, zero});
+    put_lanes(&joints->axes->axis[slot].impulse.drive, AXES_STRIDE, r->axes, r->real, impulses);
+    put_lanes(&joints->axes->axis[slot].state.x, AXES_STRIDE, r->axes, r->real, (wide4){f->x, w_set(mean_of(c)) * f->total, zero, zero});
 }
 
 FE_INLINE void aim_drive(freedom *f, wide error, const fe__step_constants *c)
