@@ -2,7 +2,9 @@
 #
 #   make            build/libfeather.a and build/libfeather.so
 #   make demo       builds the library and runs examples/demo.c; needs a C compiler and make, nothing else
+#   make check      what a change is tried with first: builds, and asks the fast tests, in under two minutes on 2 cores
 #   make test       everything that is checked before a change is accepted (TESTS=pattern: the matching programs only)
+#   make test-long  in 40 minutes: 30 minutes of fuzz, the random tests with their full numbers, every mutation (LONG=pattern)
 #   make python     the Python package in build/python; make test-python: its tests; likewise for the other languages of bindings/
 #   make fuzz       FUZZ_SECONDS=600 of random calls of the API, with clang's libFuzzer and sanitizers
 #   make bench      every case, judged, with 8 or 32 variants where rounding decides; speed, beside Bullet and ODE where they are installed
@@ -93,7 +95,7 @@ STATIC := $(BUILD)/libfeather.a
 SHARED := $(BUILD)/libfeather.so
 VERSION = $(shell awk '/define FE_VERSION_(MAJOR|MINOR|PATCH)/ { v = v dot $$3; dot = "." } END { print v }' include/feather.h)
 
-.PHONY: all static shared demo examples tests test fuzz bench bench-build proof proof-check install uninstall deps format clean FORCE
+.PHONY: all static shared demo examples tests check test test-long fuzz bench bench-build proof proof-check install uninstall deps format clean FORCE
 all: static shared
 static: $(STATIC)
 shared: $(SHARED)
@@ -166,14 +168,20 @@ $(BUILD)/feather-golden: $(GOLDEN_OBJECTS) $(STATIC)
 	$(RUN)$(CC) $(GOLDEN_OBJECTS) $(STATIC) $(LINK_FLAGS) -lm -o $@
 
 tests: $(TEST_PROGRAMS)
-test: export MAKE := $(MAKE)
-test: export CC := $(CC)
-test: export CXX := $(CXX)
-test: export CFLAGS := $(CFLAGS)
-test: export LDFLAGS := $(LDFLAGS)
+check test test-long: export MAKE := $(MAKE)
+check test test-long: export CC := $(CC)
+check test test-long: export CXX := $(CXX)
+check test test-long: export CFLAGS := $(CFLAGS)
+check test test-long: export LDFLAGS := $(LDFLAGS)
+check:
+	@tools/deps.sh check
+	@+tests/check $(BUILD)
 test:
 	@tools/deps.sh test
 	@+tests/run $(TESTS)
+test-long:
+	@tools/deps.sh all
+	@+tests/long $(LONG)
 
 # ---- fuzz -----------------------------------------------------------------------------------------------------------------------
 # What breaks it is left as build/fuzz/crash-*, to be given to build/fuzz/feather-fuzz again.

@@ -251,7 +251,7 @@ FE_INLINE void NAMED(correct_start)(const fe__solver *s, const int32_t *line, wi
 {
     wide4 w = gather_high(s->start, line);
     wide3 corrected = w_sub(w_xyz(w), change);
-    w_scatter(s->start[0] + 4, FE__LINE, line, w_with(w_choose3(lanes, corrected, w_xyz(w)), w.w));
+    scatter_high(s->start, line, w_with(w_choose3(lanes, corrected, w_xyz(w)), w.w));
 }
 
 // Points, span, inertia and masses of the given lanes to where the bodies are. The warm start holds M^-1 J^T l of the old ones.

@@ -70,11 +70,11 @@ FE_INLINE void NAMED(prepare_special)(SPECIAL_ROW *x, const fe__solver *s, const
 {
     for (int i = 0; i < FE_W; ++i) {
         const fe__extra *e = extras + index[i];
-        const float *a = s->velocity[x->row.line_a[i]], *b = s->velocity[x->row.line_b[i]];
-        int locks_a = (int)a[7], locks_b = (int)b[7];
+        const fe__velocity_line *a = s->velocity + x->row.line_a[i], *b = s->velocity + x->row.line_b[i];
+        int locks_a = (int)a->lock_bits, locks_b = (int)b->lock_bits;
         for (int k = 0; k < 3; ++k) {
-            x->mass_a[k][i] = locks_a >> k & 1 ? 0.0f : a[3];
-            x->mass_b[k][i] = locks_b >> k & 1 ? 0.0f : b[3];
+            x->mass_a[k][i] = locks_a >> k & 1 ? 0.0f : a->inverse_mass;
+            x->mass_b[k][i] = locks_b >> k & 1 ? 0.0f : b->inverse_mass;
             x->rolling_impulse[k][i] = e->rolling_impulse[k] * c->warm_scale;
             x->surface[k][i] = e->surface_velocity[k];
         }

@@ -115,7 +115,7 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
     int64_t sorted = fe__maxi(fe__mini(b->crowded, b->contacts), b->joint_set ? fe__mini(b->joint_set->overflowing, b->joints) : 0);
     if (!FE_RESERVE(memory, s->velocity, s->line_capacity[0], lines) || !FE_RESERVE(memory, s->motion, s->line_capacity[1], lines) ||
         !FE_RESERVE(memory, s->start, s->line_capacity[2], lines) || !FE_RESERVE(memory, s->inertia, s->line_capacity[3], lines) ||
-        !FE_RESERVE(memory, s->drive, s->line_capacity[4], lines) || !FE_RESERVE(memory, s->spin, s->line_capacity[5], lines) ||
+        !FE_RESERVE(memory, s->drive, s->line_capacity[4], lines) || !FE_RESERVE(memory, s->axes, s->line_capacity[5], lines) ||
         !FE_RESERVE(memory, s->body_of_line, s->body_of_line_capacity, lines) ||
         !FE_RESERVE(memory, s->trail_count, s->trail_capacity[0], lines) || !FE_RESERVE(memory, s->trail_of, s->trail_capacity[2], lines) ||
         !FE_RESERVE(memory, s->trail, s->trail_capacity[1], b->fast + (b->fast_kinematic ? copies : 0)) ||
@@ -137,7 +137,7 @@ void fe__solver_destroy(fe__solver *s, fe__memory *memory)
     FE_FREE(memory, s->start, s->line_capacity[2]);
     FE_FREE(memory, s->inertia, s->line_capacity[3]);
     FE_FREE(memory, s->drive, s->line_capacity[4]);
-    FE_FREE(memory, s->spin, s->line_capacity[5]);
+    FE_FREE(memory, s->axes, s->line_capacity[5]);
     FE_FREE(memory, s->body_of_line, s->body_of_line_capacity);
     FE_FREE(memory, s->trail_count, s->trail_capacity[0]);
     FE_FREE(memory, s->trail, s->trail_capacity[1]);

@@ -41,12 +41,12 @@ FE_INLINE void owe_point(const point_row *row, const fe__solver *s, wide3 ra, wi
     if (sides & FE__MOVES_A) {
         wide4 w = gather_high(s->start, row->line.a);
         wide3 owed = w_mul(&row->inertia_a, w_cross(w_sub(ra, load3(row->arm_a)), impulse));
-        w_scatter(s->start[0] + 4, FE__LINE, row->line.a, w_with(w_add(w_xyz(w), owed), w.w));
+        scatter_high(s->start, row->line.a, w_with(w_add(w_xyz(w), owed), w.w));
     }
     if (sides & FE__MOVES_B) {
         wide4 w = gather_high(s->start, row->line.b);
         wide3 owed = w_mul(&row->inertia_b, w_cross(w_sub(rb, load3(row->arm_b)), impulse));
-        w_scatter(s->start[0] + 4, FE__LINE, row->line.b, w_with(w_sub(w_xyz(w), owed), w.w));
+        scatter_high(s->start, row->line.b, w_with(w_sub(w_xyz(w), owed), w.w));
     }
 }
 

@@ -28,7 +28,7 @@ enum {
 FE_INLINE ends gather_ends(const fe__solver *s, const line_pair *line) { return (ends){gather_side(s, line->a), gather_side(s, line->b)}; }
 
 // what does not move is never written: all workers read it
-FE_INLINE void scatter_ends(float (*lines)[FE__LINE], const line_pair *line, const ends *e, int sides)
+FE_INLINE void scatter_ends(void *lines, const line_pair *line, const ends *e, int sides)
 {
     if (sides & FE__MOVES_A) scatter_side(lines, line->a, &e->a);
     if (sides & FE__MOVES_B) scatter_side(lines, line->b, &e->b);
@@ -165,8 +165,8 @@ static __attribute__((noinline)) void mark_stretched(fe__solver *s, const fe__la
     *(wide *)is = w_choose(open, w_set(1.0f), w_set(0.0f));
     for (int i = 0; i < FE_W; ++i) {
         if (is[i] == 0.0f || !lanes[i].contact) continue;
-        if (lanes[i].line_a != FE__STATIC_LINE) __atomic_store(&s->inertia[lanes[i].line_a][FE__LINE - 1], &mark, __ATOMIC_RELAXED);
-        if (lanes[i].line_b != FE__STATIC_LINE) __atomic_store(&s->inertia[lanes[i].line_b][FE__LINE - 1], &mark, __ATOMIC_RELAXED);
+        if (lanes[i].line_a != FE__STATIC_LINE) __atomic_store(&s->inertia[lanes[i].line_a].mark, &mark, __ATOMIC_RELAXED);
+        if (lanes[i].line_b != FE__STATIC_LINE) __atomic_store(&s->inertia[lanes[i].line_b].mark, &mark, __ATOMIC_RELAXED);
     }
     atomic_store_explicit(&s->strained, 1, memory_order_relaxed);
 }
@@ -327,16 +327,16 @@ typedef struct {
     wide locks_a, locks_b;
 } spins;
 
-FE_INLINE spins gather_spins(float (*lines)[FE__LINE], const line_pair *line)
+FE_INLINE spins gather_spins(const void *lines, const line_pair *line)
 {
     wide4 a = gather_high(lines, line->a), b = gather_high(lines, line->b);
     return (spins){w_xyz(a), w_xyz(b), a.w, b.w};
 }
 
-FE_INLINE void scatter_spins(float (*lines)[FE__LINE], const line_pair *line, const spins *e, int sides)
+FE_INLINE void scatter_spins(void *lines, const line_pair *line, const spins *e, int sides)
 {
-    if (sides & FE__MOVES_A) w_scatter(lines[0] + 4, FE__LINE, line->a, w_with(e->a, e->locks_a));
-    if (sides & FE__MOVES_B) w_scatter(lines[0] + 4, FE__LINE, line->b, w_with(e->b, e->locks_b));
+    if (sides & FE__MOVES_A) scatter_high(lines, line->a, w_with(e->a, e->locks_a));
+    if (sides & FE__MOVES_B) scatter_high(lines, line->b, w_with(e->b, e->locks_b));
 }
 
 // ---- inertia that turns ---------------------------------------------------------------------------------------------------------------

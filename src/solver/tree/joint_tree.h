@@ -60,18 +60,18 @@ static tree_job tree_of(fe__solver *s, const fe__joints *joints, int32_t tree, u
 }
 
 static tree_node *parent_of(const tree_job *t, int32_t i) { return t->links[i].parent < 0 ? NULL : t->nodes + t->links[i].parent; }
-static const float *below_of(const tree_job *t, int32_t i) { return t->s->velocity[t->places[i].line]; }
-static const float *above_of(const tree_job *t, int32_t i) { return t->s->velocity[t->places[i].parent_line]; }
-static int locks_of(const float *velocity) { return (int)velocity[FE__LINE - 1]; }
+static const fe__velocity_line *below_of(const tree_job *t, int32_t i) { return t->s->velocity + t->places[i].line; }
+static const fe__velocity_line *above_of(const tree_job *t, int32_t i) { return t->s->velocity + t->places[i].parent_line; }
+static int locks_of(const fe__velocity_line *line) { return (int)line->lock_bits; }
 
 // A turn within a substep that is no small correction any more
 #define SLOW_TURN 0.05 // rad
 
-static void add_spin(float *line, const double i[6], fe_dvec3 l)
+static void add_spin(float w[3], const double i[6], fe_dvec3 l)
 {
-    line[4] = (float)((double)line[4] + (i[0] * l.x + i[1] * l.y + i[2] * l.z));
-    line[5] = (float)((double)line[5] + (i[1] * l.x + i[3] * l.y + i[4] * l.z));
-    line[6] = (float)((double)line[6] + (i[2] * l.x + i[4] * l.y + i[5] * l.z));
+    w[0] = (float)((double)w[0] + (i[0] * l.x + i[1] * l.y + i[2] * l.z));
+    w[1] = (float)((double)w[1] + (i[1] * l.x + i[3] * l.y + i[4] * l.z));
+    w[2] = (float)((double)w[2] + (i[2] * l.x + i[4] * l.y + i[5] * l.z));
 }
 
 // ---- matrices, lower triangles --------------------------------------------------------------------------------------------------------
@@ -121,11 +121,11 @@ static void invert(const double i[6], double out[3][3])
 
 // ---- rows and masses from the sweep ---------------------------------------------------------------------------------------------------
 // A locked way of moving gets some mass, but no row sees it (hide_locked)
-static void weigh(tree_node *n, const float *velocity, const wide_sym *inertia, int32_t lane)
+static void weigh(tree_node *n, const fe__velocity_line *velocity, const wide_sym *inertia, int32_t lane)
 {
     const wide *in[6] = {&inertia->xx, &inertia->xy, &inertia->xz, &inertia->yy, &inertia->yz, &inertia->zz};
     static const int diagonal[3] = {0, 3, 5};
-    double inverse[6], turn[3][3], mass = 1.0 / (double)velocity[3];
+    double inverse[6], turn[3][3], mass = 1.0 / (double)velocity->inverse_mass;
     for (int k = 0; k < 6; ++k) inverse[k] = n->turn[k] = (double)(*in[k])[lane];
     for (int k = 0; k < 3; ++k)
         if (locks_of(velocity) >> (3 + k) & 1) inverse[diagonal[k]] = 1.0;
@@ -176,7 +176,7 @@ static void read_link(const tree_job *t, int32_t i)
         if (parent && !parent->weighed) weigh(parent, above_of(t, i), holds_b ? e.a : e.b, lane);
     }
     n->locks = n->rows.count;
-    find_least(n, (double)below_of(t, i)[3]);
+    find_least(n, (double)below_of(t, i)->inverse_mass);
     hide_locked(&n->rows, 0, locks_of(below_of(t, i)), locks_of(above_of(t, i)));
 }
 

@@ -8,9 +8,9 @@
 #define PUT_APART (2.0f * OPEN)
 
 FE_INLINE fe_vec3 lane_of(const wide *a, int32_t i) { return fe__vec3(a[0][i], a[1][i], a[2][i]); }
-FE_INLINE fe_vec3 speed_at(const float *line, fe_vec3 arm)
+FE_INLINE fe_vec3 speed_at(const fe__velocity_line *line, fe_vec3 arm)
 {
-    return fe__add(fe__quad_vector(line), fe__cross(fe__quad_vector(line + 4), arm));
+    return fe__add(fe__quad_vector(line->v), fe__cross(fe__quad_vector(line->w), arm));
 }
 
 // the part of d along the locked axes
@@ -20,15 +20,15 @@ static fe_vec3 locked_part(const slide_row *row, int32_t i, fe_vec3 d)
                     row->keep[2][i] * fe__dot(lane_of(row->u[2], i), d));
 }
 
-static float rod_speed(const linear_row *row, int32_t i, const float *a, const float *b)
+static float rod_speed(const linear_row *row, int32_t i, const fe__velocity_line *a, const fe__velocity_line *b)
 {
-    float speed = fe__dot(lane_of(row->u, i), fe__sub(fe__quad_vector(b), fe__quad_vector(a)));
-    speed += fe__dot(lane_of(row->moment_b, i), fe__quad_vector(b + 4));
-    return speed - fe__dot(lane_of(row->moment_a, i), fe__quad_vector(a + 4));
+    float speed = fe__dot(lane_of(row->u, i), fe__sub(fe__quad_vector(b->v), fe__quad_vector(a->v)));
+    speed += fe__dot(lane_of(row->moment_b, i), fe__quad_vector(b->w));
+    return speed - fe__dot(lane_of(row->moment_a, i), fe__quad_vector(a->w));
 }
 
 // Of B's point against A's along what the lock forbids, squared; a, b: their lines of velocities
-FE_INLINE float forbidden_speed(int32_t part, const void *row, int32_t i, const float *a, const float *b)
+FE_INLINE float forbidden_speed(int32_t part, const void *row, int32_t i, const fe__velocity_line *a, const fe__velocity_line *b)
 {
     const point_row *point = row;
     const slide_row *slide = row;
@@ -68,7 +68,7 @@ static int will_open(const tree_job *t)
     for (int32_t i = 0; i < t->count; ++i) {
         const fe__tree_place *p = t->places + i;
         const int holds_b = t->links[i].holds_b;
-        const float *a = holds_b ? above_of(t, i) : below_of(t, i), *b = holds_b ? below_of(t, i) : above_of(t, i);
+        const fe__velocity_line *a = holds_b ? above_of(t, i) : below_of(t, i), *b = holds_b ? below_of(t, i) : above_of(t, i);
         for (int32_t k = 0; k < p->locks; ++k)
             if (forbidden_speed(p->lock[k].part, t->rows + p->lock[k].row, p->lock[k].lane, a, b) > most * most) return 1;
     }

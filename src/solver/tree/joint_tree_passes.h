@@ -6,13 +6,13 @@ static void wish_still(const tree_job *t)
 {
     for (int32_t i = 0; i < t->count; ++i) {
         tree_node *n = t->nodes + i;
-        const float *below = below_of(t, i), *above = above_of(t, i);
+        const fe__velocity_line *below = below_of(t, i), *above = above_of(t, i);
         for (int r = 0; r < n->rows.count; ++r) {
             const double *b = n->rows.below[r], *a = n->rows.above[r];
             n->wish[r] = 0.0;
             for (int k = 0; k < 3; ++k) {
-                n->wish[r] -= b[k] * (double)below[k] + b[3 + k] * (double)below[4 + k];
-                n->wish[r] -= a[k] * (double)above[k] + a[3 + k] * (double)above[4 + k];
+                n->wish[r] -= b[k] * (double)below->v[k] + b[3 + k] * (double)below->w[k];
+                n->wish[r] -= a[k] * (double)above->v[k] + a[3 + k] * (double)above->w[k];
             }
         }
     }
@@ -23,12 +23,12 @@ typedef struct {
 } motion_of_body;
 
 // with the change at hand
-static motion_of_body moving(const float *velocity, const double *change)
+static motion_of_body moving(const fe__velocity_line *line, const double *change)
 {
     static const double none[6] = {0};
     const double *u = change ? change : none;
-    return (motion_of_body){{(double)velocity[0] + u[0], (double)velocity[1] + u[1], (double)velocity[2] + u[2]},
-                            {(double)velocity[4] + u[3], (double)velocity[5] + u[4], (double)velocity[6] + u[5]}};
+    return (motion_of_body){{(double)line->v[0] + u[0], (double)line->v[1] + u[1], (double)line->v[2] + u[2]},
+                            {(double)line->w[0] + u[3], (double)line->w[1] + u[4], (double)line->w[2] + u[5]}};
 }
 
 // Of what a turn does to arcs, by its square: beyond SLOW_TURN it is left to the positions, which lose energy by it instead of gaining it
@@ -100,8 +100,8 @@ static void forget_calm(const tree_job *t, int32_t i)
     const double *l = n->impulse + n->locks;
     if (n->rows.count == n->locks) return;
     fe_dvec3 below = fe__dscale(t->links[i].holds_b ? 1.0 : -1.0, vec_of(l));
-    add_spin(t->s->start[t->places[i].line], n->turn, below);
-    if (parent) add_spin(t->s->start[t->places[i].parent_line], parent->turn, fe__dscale(-1.0, below));
+    add_spin(t->s->start[t->places[i].line].w, n->turn, below);
+    if (parent) add_spin(t->s->start[t->places[i].parent_line].w, parent->turn, fe__dscale(-1.0, below));
 }
 
 static void apply(const tree_job *t, int total)
@@ -109,10 +109,10 @@ static void apply(const tree_job *t, int total)
     for (int32_t i = 0; i < t->count; ++i) {
         const tree_node *n = t->nodes + i;
         const fe__tree_place *p = t->places + i;
-        float *line = t->s->velocity[p->line];
+        fe__velocity_line *line = t->s->velocity + p->line;
         for (int k = 0; k < 3; ++k) {
-            line[k] = (float)((double)line[k] + n->change[k]);
-            line[4 + k] = (float)((double)line[4 + k] + n->change[3 + k]);
+            line->v[k] = (float)((double)line->v[k] + n->change[k]);
+            line->w[k] = (float)((double)line->w[k] + n->change[3 + k]);
         }
         forget_calm(t, i);
         for (int32_t k = 0, first = 0; k < p->locks; ++k)
@@ -128,12 +128,13 @@ static void move(const tree_job *t)
         farthest = fe__maxd(farthest, fe__ddot(vec_of(t->nodes[i].change + 3), vec_of(t->nodes[i].change + 3)));
     double scale = FULL_TURN / sqrt(farthest);
     for (int32_t i = 0; i < t->count; ++i) {
-        float *line = t->s->motion[t->places[i].line], *q = line + 4;
+        fe__motion_line *line = t->s->motion + t->places[i].line;
+        float *q = line->rotation;
         const double *u = t->nodes[i].change, w = (double)q[3];
         fe_dvec3 half = fe__dscale(0.5 * scale, vec_of(u + 3)), v = {(double)q[0], (double)q[1], (double)q[2]};
         fe_dvec3 b = fe__dadd(fe__dadd(v, fe__dscale(w, half)), fe__dcross(half, v));
         double a = w - fe__ddot(half, v), k = 1.0 / sqrt(a * a + fe__ddot(b, b));
-        for (int c = 0; c < 3; ++c) line[c] = (float)((double)line[c] + scale * u[c]);
+        for (int c = 0; c < 3; ++c) line->shift[c] = (float)((double)line->shift[c] + scale * u[c]);
         q[0] = (float)(k * b.x), q[1] = (float)(k * b.y), q[2] = (float)(k * b.z), q[3] = (float)(k * a);
     }
 }

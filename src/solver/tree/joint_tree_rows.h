@@ -31,9 +31,9 @@ static void add_row(tree_rows *t, int holds_b, fe_dvec3 u, fe_dvec3 ma, fe_dvec3
 static void set_arms(tree_rows *t, int holds_b, fe_dvec3 ra, fe_dvec3 rb) { t->arm[0] = holds_b ? rb : ra, t->arm[1] = holds_b ? ra : rb; }
 static void add_pull(tree_rows *t, int holds_b, fe_dvec3 on_b) { t->pull = fe__dadd(t->pull, fe__dscale(holds_b ? 1.0 : -1.0, on_b)); }
 
-static fe_quat motion_quat(const float *motion) { return (fe_quat){motion[4], motion[5], motion[6], motion[7]}; }
+static fe_quat motion_quat(const fe__motion_line *m) { return (fe_quat){m->rotation[0], m->rotation[1], m->rotation[2], m->rotation[3]}; }
 // a vector of the body's, turned as far as the body has in this step
-static fe_dvec3 turned_lane(const float *motion, fe_dvec3 a) { return fe__drotate(motion_quat(motion), a); }
+static fe_dvec3 turned_lane(const fe__motion_line *motion, fe_dvec3 a) { return fe__drotate(motion_quat(motion), a); }
 
 // anchors, by their arms from the centres, now; gap: anchor of B - anchor of A
 typedef struct {
@@ -43,9 +43,9 @@ typedef struct {
 static lane_anchors place_anchors(const wide *first_a, const wide *first_b, const wide *first_gap, const line_pair *line, int32_t i,
                                   const fe__solver *s)
 {
-    const float *ma = s->motion[line->a[i]], *mb = s->motion[line->b[i]];
+    const fe__motion_line *ma = s->motion + line->a[i], *mb = s->motion + line->b[i];
     fe_dvec3 fa = lane3(first_a, i), fb = lane3(first_b, i), ra = turned_lane(ma, fa), rb = turned_lane(mb, fb);
-    fe_dvec3 way = {(double)mb[0] - (double)ma[0], (double)mb[1] - (double)ma[1], (double)mb[2] - (double)ma[2]};
+    fe_dvec3 way = fe__dsub(fe__widen(fe__quad_vector(mb->shift)), fe__widen(fe__quad_vector(ma->shift)));
     fe_dvec3 turn = fe__dsub(fe__dsub(rb, fb), fe__dsub(ra, fa));
     return (lane_anchors){ra, rb, fe__dadd(lane3(first_gap, i), fe__dadd(way, turn))};
 }
@@ -65,7 +65,7 @@ static void read_slide(tree_rows *t, int holds_b, const slide_row *row, int32_t 
     const fe_quat first = {row->first_frame[0][i], row->first_frame[1][i], row->first_frame[2][i], row->first_frame[3][i]};
     fe_dvec3 u[3], arm = p.ra;
     for (int k = 0; k < 3; ++k) {
-        u[k] = turned_lane(s->motion[row->line.a[i]], fe__drotate(first, unit(k)));
+        u[k] = turned_lane(s->motion + row->line.a[i], fe__drotate(first, unit(k)));
         if (!(row->keep[k][i] > 0.0f)) arm = fe__dadd(arm, fe__dscale(fe__ddot(u[k], p.gap), u[k]));
     }
     set_arms(t, holds_b, arm, p.rb);
@@ -77,7 +77,7 @@ static void read_slide(tree_rows *t, int holds_b, const slide_row *row, int32_t 
 
 static void read_hinge(tree_rows *t, int holds_b, const hinge_row *row, int32_t i, const fe__solver *s)
 {
-    const float *ma = s->motion[row->line.a[i]], *mb = s->motion[row->line.b[i]];
+    const fe__motion_line *ma = s->motion + row->line.a[i], *mb = s->motion + row->line.b[i];
     const fe_dvec3 still = {0.0, 0.0, 0.0}, t1 = turned_lane(ma, lane3(row->first_t1, i)), t2 = turned_lane(ma, lane3(row->first_t2, i));
     const fe_dvec3 axis_b = turned_lane(mb, lane3(row->first_axis_b, i));
     add_row(t, holds_b, still, t1, t1, -fe__ddot(t2, axis_b));
@@ -87,7 +87,7 @@ static void read_hinge(tree_rows *t, int holds_b, const hinge_row *row, int32_t 
 static void read_fixed(tree_rows *t, int holds_b, const fixed_row *row, int32_t i, const fe__solver *s)
 {
     const fe_quat first = {row->first[0][i], row->first[1][i], row->first[2][i], row->first[3][i]};
-    const fe_quat b = motion_quat(s->motion[row->line.b[i]]), a = motion_quat(s->motion[row->line.a[i]]);
+    const fe_quat b = motion_quat(s->motion + row->line.b[i]), a = motion_quat(s->motion + row->line.a[i]);
     const fe_quat q = fe__product(fe__product(b, first), fe__conjugate(a));
     const double two = q.w < 0.0f ? -2.0 : 2.0, error[3] = {two * (double)q.x, two * (double)q.y, two * (double)q.z};
     const fe_dvec3 still = {0.0, 0.0, 0.0};
@@ -100,7 +100,7 @@ static void read_distance(tree_rows *t, int holds_b, const linear_row *row, int3
     const lane_anchors p = place_anchors(row->first_arm_a, row->first_arm_b, row->first_gap, &row->line, i, s);
     const fe_quat first = {row->first_frame[0][i], row->first_frame[1][i], row->first_frame[2][i], row->first_frame[3][i]};
     const double length = sqrt(fe__ddot(p.gap, p.gap));
-    const fe_dvec3 x = turned_lane(s->motion[row->line.a[i]], fe__drotate(first, unit(0)));
+    const fe_dvec3 x = turned_lane(s->motion + row->line.a[i], fe__drotate(first, unit(0)));
     const fe_dvec3 u = length > 0.0 ? fe__dscale(1.0 / length, p.gap) : x;
     set_arms(t, holds_b, p.ra, p.rb);
     t->rod = length;

@@ -45,21 +45,21 @@ static int take_lock(int32_t part, void *row, int32_t lane, double *l)
 static int turns_fast(const tree_job *t)
 {
     for (int32_t i = 0; i < t->count; ++i) {
-        const float *v = below_of(t, i);
-        fe_dvec3 turn = fe__dscale(t->h, (fe_dvec3){(double)v[4], (double)v[5], (double)v[6]});
+        fe_dvec3 turn = fe__dscale(t->h, fe__widen(fe__quad_vector(below_of(t, i)->w)));
         if (fe__ddot(turn, turn) > SLOW_TURN * SLOW_TURN) return 1;
     }
     return 0;
 }
 
 // J^T l of one side to where its body started from
-static void owe_side(const tree_node *n, const double turn[6], float *start, double inverse_mass, double (*rows)[6], const double *l)
+static void owe_side(const tree_node *n, const double turn[6], fe__start_line *start, double inverse_mass, double (*rows)[6],
+                     const double *l)
 {
     double sum[6] = {0};
     for (int r = 0; r < n->locks; ++r)
         for (int k = 0; k < 6; ++k) sum[k] += l[r] * rows[r][k];
-    for (int k = 0; k < 3; ++k) start[k] = (float)((double)start[k] + inverse_mass * sum[k]);
-    add_spin(start, turn, vec_of(sum + 3));
+    for (int k = 0; k < 3; ++k) start->v[k] = (float)((double)start->v[k] + inverse_mass * sum[k]);
+    add_spin(start->w, turn, vec_of(sum + 3));
 }
 
 // The rows are those of the pose that relax turned the sweep's to. No pulls are left that a jerk would be measured against (is_jerked)
@@ -72,8 +72,9 @@ static void forget_locks(const tree_job *t)
         double l[TREE_ROWS] = {0};
         for (int32_t k = 0, first = 0; k < p->locks; ++k)
             first += take_lock(p->lock[k].part, t->rows + p->lock[k].row, p->lock[k].lane, l + first);
-        owe_side(n, n->turn, t->s->start[p->line], (double)below_of(t, i)[3], n->rows.below, l);
-        if (parent_of(t, i)) owe_side(n, parent_of(t, i)->turn, t->s->start[p->parent_line], (double)above_of(t, i)[3], n->rows.above, l);
+        owe_side(n, n->turn, t->s->start + p->line, (double)below_of(t, i)->inverse_mass, n->rows.below, l);
+        if (parent_of(t, i))
+            owe_side(n, parent_of(t, i)->turn, t->s->start + p->parent_line, (double)above_of(t, i)->inverse_mass, n->rows.above, l);
         n->rows.pull = (fe_dvec3){0.0, 0.0, 0.0};
     }
 }
