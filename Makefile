@@ -178,10 +178,10 @@ check:
 	@+tests/check $(BUILD)
 test:
 	@tools/deps.sh test
-	@+tests/run $(TESTS)
+	@+tests/run '$(TESTS)'
 test-long:
 	@tools/deps.sh all
-	@+tests/long $(LONG)
+	@+tests/long '$(LONG)'
 
 # ---- fuzz -----------------------------------------------------------------------------------------------------------------------
 # What breaks it is left as build/fuzz/crash-*, to be given to build/fuzz/feather-fuzz again.
