@@ -10,6 +10,7 @@
 #   make bench      every case, judged, with 8 or 32 variants where rounding decides; speed, beside Bullet and ODE where they are installed
 #   make proof      docs/PROOF.md: every case and speed scene in every engine; 40 minutes (PROOF="lines page": only these parts, see tools/proof)
 #   make proof-check  does that page say what the committed one says, times apart?
+#   make docs       the site of the API and of the documents in build/docs/html, by doxygen; what is undocumented is an error
 #   make install    PREFIX, LIBDIR, INCLUDEDIR, DESTDIR;  make uninstall takes it away again
 #   make examples, deps, format, clean
 #
@@ -95,7 +96,7 @@ STATIC := $(BUILD)/libfeather.a
 SHARED := $(BUILD)/libfeather.so
 VERSION = $(shell awk '/define FE_VERSION_(MAJOR|MINOR|PATCH)/ { v = v dot $$3; dot = "." } END { print v }' include/feather.h)
 
-.PHONY: all static shared demo examples tests check test test-long fuzz bench bench-build proof proof-check install uninstall deps format clean FORCE
+.PHONY: all static shared demo examples tests check test test-long fuzz bench bench-build proof proof-check docs install uninstall deps format clean FORCE
 all: static shared
 static: $(STATIC)
 shared: $(SHARED)
@@ -237,6 +238,14 @@ proof:
 	tools/proof $(BUILD) $(PROOF)
 proof-check:
 	@tools/proof --check
+
+# ---- docs -----------------------------------------------------------------------------------------------------------------------
+
+docs:
+	@tools/deps.sh docs
+	@mkdir -p $(BUILD)/docs
+	@(cat docs/Doxyfile; echo 'OUTPUT_DIRECTORY = $(BUILD)/docs'; echo 'PROJECT_NUMBER = $(VERSION)') | doxygen -
+	@echo '  $(BUILD)/docs/html/index.html'
 
 # ---- bindings: `make python`, `make test-python` and so on --------------------------------------------------------------------------------
 

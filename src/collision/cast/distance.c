@@ -1,8 +1,8 @@
 // distance.c - see distance.h.
 #include "collision/cast/distance.h"
 
+#include "collision/cast/mover.h"
 #include "collision/form/gjk.h"
-#include "collision/cast/sweep.h"
 
 // B's deepest point below the surface of a half space A
 static void plane_gap(const fe__form *plane, const fe__pose *pose_a, const fe__form *b, const fe__pose *pose_b, fe__gap *gap)

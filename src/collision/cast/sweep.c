@@ -4,6 +4,8 @@
 // step to where the tangent reaches the sum of the radii never goes too far: Newton's method from outside is conservative advancement with
 // the best possible bound. It converges quadratically, and by halves where the forms graze. Two boxes have a closed form (sweep_boxes.c),
 // so has a plane.
+#include "collision/cast/sweep.h"
+
 #include "collision/cast/approach.h"
 
 // Halving 10 km comes down to 1e-11 m; bodies that are met squarely need 3 to 6.
@@ -71,9 +73,9 @@ static double plane_height(const fe__form *plane, const fe__mover *mover)
 }
 
 // In the approach's frame.
-fe__overlap fe__approach_overlap(const fe__approach *s)
+fe__core_overlap fe__approach_overlap(const fe__approach *s)
 {
-    fe__overlap o;
+    fe__core_overlap o;
     fe__core_gap gap = {0};
     if (s->other_kind != FE_CORE_BOX) fe__core_gap_of(s, s->position, &gap);
     if (gap.distance > 0.0) {
@@ -178,7 +180,7 @@ int32_t fe__form_sweep(const fe__form *still, const fe__mover *mover, double lim
     if (still->type == FE_GEOMETRY_PLANE) return sweep_plane(still, mover, limit, hit);
     fe__approach s;
     int32_t swapped = set_up(still, mover, &s);
-    fe__overlap o = fe__approach_overlap(&s);
+    fe__core_overlap o = fe__approach_overlap(&s);
     *hit = (fe__sweep_hit){.triangle = -1};
     if (o.depth >= 0.0) {
         fe_dvec3 out = swapped ? fe__turn(&mover->axes, fe__dscale(-1.0, o.way_out)) : o.way_out;
