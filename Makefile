@@ -113,7 +113,9 @@ $(BUILD)/objects: FORCE
 
 $(BUILD)/obj/%.o: src/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
-	$(RUN)$(CC) $(C_FLAGS) $(STRICT) $(DEPENDENCIES) -c $< -o $@
+	$(RUN)$(CC) $(C_FLAGS) $(HOT) $(STRICT) $(DEPENDENCIES) -c $< -o $@
+# small matrices, whose loops are to be unrolled
+$(BUILD)/obj/solver/tree/%.o: HOT := $(SIMD_OPT)
 
 # Once per SIMD set. SIMD_OPT follows CFLAGS: a distribution's -O2 must not slow the kernels down.
 define simd_rule

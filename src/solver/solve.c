@@ -4,6 +4,7 @@
 // they walk the same program, claim blocks of each pass, and go on when the last block of a pass is done. Both walk the same passes over
 // the same groups in the same order of colours, so that who executes a batch never shows.
 #include "solver/graph/graph.h"
+#include "solver/tree/tree.h"
 
 #include <assert.h>
 #include <string.h>
@@ -221,11 +222,11 @@ static void run_joints(const job *j, const fe__group *g, verb verb, unsigned cha
 
 static void run_tree(const job *j, const fe__group *g, verb verb, unsigned char *rows, const fe__step_constants *c)
 {
-    const fe__tree_kernel *k = &j->k->joint->tree;
-    if (verb == PREPARE) k->prepare(j->s, j->joints, g->lane, rows, g->offset, c);
-    if (verb == SOLVE) k->solve(j->s, j->joints, g->lane, rows, g->offset, c);
-    if (verb == FOLLOW) k->follow(j->s, j->joints, g->lane, rows, g->offset, c);
-    if (verb == RELAX) k->relax(j->s, j->joints, g->lane, rows, g->offset, c);
+    const fe__tree_job tree = fe__tree_job_of(j->s, &j->k->joint->locks, j->joints, g->lane, rows, g->offset, c);
+    if (verb == PREPARE) fe__tree_prepare(&tree);
+    if (verb == SOLVE) fe__tree_solve(&tree);
+    if (verb == FOLLOW) fe__tree_follow(&tree);
+    if (verb == RELAX) fe__tree_relax(&tree);
 }
 
 // Stored impulses are those of the world's substeps

@@ -15,6 +15,7 @@
 #include "solver/contact/contact.h"
 #include "solver/body.h"
 #include "solver/joint/joint.h"
+#include "solver/tree/lock.h"
 
 enum {
     FE__LINE = 8,        // floats in a line: two quads, 32 bytes
@@ -161,19 +162,8 @@ enum {
     FE__JOINT_KEYS = FE__PARTS * (FE__JOINT_COLOURS + 1), // colours of joints' groups: part, then colour
     FE__TREE_KIND = FE__ROW_KINDS + FE__PARTS,
     FE__TREE_COLOUR = FE__JOINT_KEYS, // trees share no dynamic body
-    FE__CONTACT_COLOURS,              // contacts' come after them
-    FE__MOST_LOCKS = 3                // parts of a joint that are locks
+    FE__CONTACT_COLOURS               // contacts' come after them
 };
-
-// Where a link of a tree finds its bodies and the rows of its joint, see joint_forest.h
-typedef struct fe__tree_place {
-    int32_t line, parent_line; // of the body, of the joint's other end
-    int32_t locks;
-    struct {
-        int32_t part, lane; // FE__PART_*; its lane in the row
-        int64_t row;        // bytes into the batch's row memory
-    } lock[FE__MOST_LOCKS];
-} fe__tree_place;
 
 typedef struct fe__row_block {
     _Alignas(64) unsigned char bytes[64];
@@ -255,18 +245,9 @@ typedef struct fe__joint_kernel {
                   const fe__step_constants *c);
 } fe__joint_kernel;
 
-// All locks of a tree at once. `rows` is the batch's row memory, `nodes` (bytes into it) where the tree keeps its matrices
-typedef struct fe__tree_kernel {
-    int32_t node_size; // bytes a link
-    void (*prepare)(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes, const fe__step_constants *c);
-    void (*solve)(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes, const fe__step_constants *c);
-    void (*relax)(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes, const fe__step_constants *c);
-    void (*follow)(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes, const fe__step_constants *c);
-} fe__tree_kernel;
-
 typedef struct fe__joint_kernels {
     fe__joint_kernel of[FE__PARTS];
-    fe__tree_kernel tree;
+    fe__lock_lanes locks; // for the trees
 } fe__joint_kernels;
 
 // Passes over lines first..first + count - 1, both multiples of FE__MAX_WIDTH

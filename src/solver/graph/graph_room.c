@@ -1,5 +1,6 @@
 // graph_room.c - what a graph may need at most, reserved before it is built: lines, groups, lanes, rows, the scratch of the build.
 #include "solver/graph/graph_build.h"
+#include "solver/tree/tree.h"
 
 static int32_t joint_rows(const fe__graph_bound *b)
 {
@@ -62,7 +63,7 @@ static int64_t row_bytes(const fe__graph_bound *b, const fe__kernels *kernels, i
     int64_t widest = kernels->contact->row_size[b->special ? FE__ROW_PAIR | FE__ROW_SPECIAL : FE__ROW_PAIR];
     int64_t links = fe__minl(tree_links(b), bodies);
     return row_bound(b, contacts, kernels->width) * widest + joint_row_bound(b, joint_lanes, kernels->width) * widest_joint(b, kernels) +
-           links * (kernels->joint->tree.node_size + (int64_t)sizeof(fe__row_block));
+           links * (fe__tree_bytes(1) + (int64_t)sizeof(fe__row_block));
 }
 
 static int64_t scratch_bound(const fe__graph_bound *b)
