@@ -289,7 +289,7 @@ deps:
 	@tools/deps.sh all
 
 # Without the records of the ABI, which stay as they were written.
-FORMATTED = $(foreach top,src tests bench examples,$(foreach ext,c h cpp,$(foreach depth,* */* */*/*,$(wildcard $(top)/$(depth).$(ext)))))
+FORMATTED = $(foreach top,src tests bench examples,$(foreach ext,c h inl cpp,$(foreach depth,* */* */*/*,$(wildcard $(top)/$(depth).$(ext)))))
 format:
 	$(CLANG_FORMAT) -i include/feather.h $(filter-out tests/abi/feather_% tests/abi/layout.h,$(FORMATTED))
 

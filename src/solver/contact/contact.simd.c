@@ -155,9 +155,9 @@ FE_INLINE void store_lanes(fe__contact *contacts, const int32_t *index, wide4 no
 }
 
 #define POINTS 4
-#include "solver/contact/contact_rows.h"
+#include "solver/contact/rows.inl"
 #define POINTS 1
-#include "solver/contact/contact_rows.h"
+#include "solver/contact/rows.inl"
 
 #define OF_KINDS(verb)                                                                                                \
     {                                                                                                                 \

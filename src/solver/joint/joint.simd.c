@@ -10,11 +10,11 @@
 
 #include <float.h>
 
-#include "solver/joint/joint_wide.h"
-#include "solver/joint/joint_axis.h"
-#include "solver/joint/joint_point.h"
-#include "solver/joint/joint_slide.h"
-#include "solver/joint/joint_turn.h"
+#include "solver/joint/wide.inl"
+#include "solver/joint/axis.inl"
+#include "solver/joint/point.inl"
+#include "solver/joint/slide.inl"
+#include "solver/joint/rotation.inl"
 #include "solver/joint/lock_lanes.inl"
 
 #define KERNELS(name, form)                                                          \

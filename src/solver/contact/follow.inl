@@ -1,4 +1,4 @@
-// contact_follow.h - effective masses of a row, and arms and inertia that follow the bodies within a step. Part of contact_rows.h, once per
+// follow.inl - effective masses of a row, and arms and inertia that follow the bodies within a step. Part of rows.inl, once per
 // number of points.
 //
 // Impulses keep the angular momentum of two bodies only while they act at one point of space, and their energy only with the inertia of

@@ -1,4 +1,4 @@
-// joint_axis.h - one degree of freedom x of a joint: limits, a drive to a position, a motor. Part of joint.simd.c.
+// axis.inl - one degree of freedom x of a joint: limits, a drive to a position, a motor. Part of joint.simd.c.
 //
 // The parts differ in what x and its gradient are; u is a unit vector, d = anchor of B - anchor of A:
 //     X, Y, Z    x = u.d, u an axis of frame A        v = u.(vB + wB x rB - vA - wA x (rA + d))

@@ -1,4 +1,4 @@
-// contact_rows.h - TGS Soft on rows of W contacts, POINTS points each. Included by contact.simd.c once per number of points.
+// rows.inl - TGS Soft on rows of W contacts, POINTS points each. Included by contact.simd.c once per number of points.
 //
 // A contact of several points shares one normal n, and rB = rA + span with span = cA - cB. Whatever is asked of a point is then affine in
 // rA, and the work per point is one dot product:
@@ -384,7 +384,7 @@ static __attribute__((noinline)) pair NAMED(settle)(ROW *row, const fe__step_con
     return p;
 }
 
-#include "solver/contact/contact_follow.h"
+#include "solver/contact/follow.inl"
 
 // ---- restitution ----------------------------------------------------------------------------------------------------------------------
 // The speed that a touched point must leave with, at the gap s where it is now:
@@ -565,7 +565,7 @@ FE_INLINE void NAMED(bounce)(fe__solver *s, void *rows, int32_t count, const fe_
     for (int32_t i = 0; i < count; ++i) NAMED(bounce_row)((SPECIAL_ROW *)rows + i, s, c, kind);
 }
 
-#include "solver/contact/contact_prepare.h"
+#include "solver/contact/prepare.inl"
 
 // ---- the kernels of each kind --------------------------------------------------------------------------------------------------------
 #define INSTANCE(kind_name, kind)                                                                                                  \

@@ -1,4 +1,4 @@
-// contact_prepare.h - contacts to rows at the beginning of a step, impulses back at its end. Part of contact_rows.h, once per number of
+// prepare.inl - contacts to rows at the beginning of a step, impulses back at its end. Part of rows.inl, once per number of
 // points.
 //
 // Contacts come from the whole of memory, in the order of the colours: those of the next row are asked for while this one is computed.

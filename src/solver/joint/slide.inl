@@ -1,4 +1,4 @@
-// joint_slide.h - SLIDE: the anchors stay together along some axes u of frame A; and every point that is not plain. Part of joint.simd.c.
+// slide.inl - SLIDE: the anchors stay together along some axes u of frame A; and every point that is not plain. Part of joint.simd.c.
 //
 //     C_i = u_i.d,   v_i = u_i.(vB + wB x rB - vA - wA x (rA + f)),   K_ij = u_i.K u_j    for locked i, j; f: d along the free axes
 // A free axis has 1 in the diagonal of K and wishes nothing. The impulse turns with frame A: its warm start owes in v and w.
