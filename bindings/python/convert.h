@@ -232,7 +232,7 @@ static int leave_step(world_box *box)
 
 static PyObject *pair_record(const fe_filter_pair *pair);
 
-/// What the library calls for a new pair, on the thread that steps. After a failure the rest of the step goes on with 1.
+/// Called by the library for a new pair, on the thread that steps. After a failure the rest of the step goes on with 1.
 static int32_t judge_pair(void *user, const fe_filter_pair *pair)
 {
     world_box *box = user;

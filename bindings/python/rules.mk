@@ -1,4 +1,5 @@
-# make python: the package in build/python, to be used with PYTHONPATH=build/python. make test-python: its tests. `pip install .` goes by setup.py.
+# make python builds the package in build/python: use it with PYTHONPATH=build/python. make test-python runs its tests.
+# `pip install .` builds by setup.py.
 
 PYTHON ?= $(if $(wildcard /usr/bin/python3),/usr/bin/python3,python3)
 SWIG ?= swig

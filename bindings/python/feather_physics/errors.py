@@ -22,7 +22,7 @@ class WrongKindError(FeatherError, TypeError):
 
 
 class SteppingError(FeatherError):
-    """The world is in a step: its pair filter may not use it (FE_ERROR_STEPPING)."""
+    """The world is in a step: a pair filter may not use it, and its heights may not change (FE_ERROR_STEPPING)."""
 
 
 class OutOfMemoryError(FeatherError, MemoryError):
