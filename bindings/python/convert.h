@@ -1,4 +1,4 @@
-// What Python objects become on their way into the library and back. Worlds, pools and stores are capsules that own
+// Conversions of Python objects for the library, and back. Worlds, pools and stores are capsules that own
 // them: a body's object keeps its world alive, and a world that is closed is an error. Arrays are anything with the
 // buffer protocol (array, bytes, memoryview, NumPy).
 #ifndef FE_BINDINGS_PYTHON_CONVERT_H

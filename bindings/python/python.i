@@ -1,6 +1,6 @@
-// What feather.h's types become in Python: small vectors are tuples with names, definitions and results objects with
-// the header's fields, arrays anything with the buffer protocol (their strides and counts are found from it), errors
-// exceptions; worlds, pools and stores are capsules.
+// Types of feather.h in Python: small vectors are tuples with names, definitions and results objects with the header's
+// fields, arrays anything with the buffer protocol (their strides and counts are found from it), errors exceptions;
+// worlds, pools and stores are capsules.
 %{
 #include "python/convert.h"
 %}
