@@ -37,7 +37,7 @@ fe_result fe__read_moving_form(const char *function, const fe_geometry *geometry
     fe_geometry whole = {.struct_size = sizeof whole};
     FE_READ_STRUCT(geometry, &whole);
     geometry = &whole;
-    *out_form = (fe__form){.type = geometry->type};
+    *out_form = (fe__form){.type = fe__form_of_geometry(geometry->type)};
     switch (geometry->type) {
     case FE_GEOMETRY_SPHERE:
         if (geometry->radius != 0.0f) FE_CHECK_LENGTH(geometry->radius);

@@ -84,7 +84,7 @@ static fe_result read_geometry(const char *function, const fe_world *world, cons
     FE_READ_STRUCT(geometry, &whole);
     geometry = &whole;
     FE_CHECK_INT(geometry->type, FE_GEOMETRY_SPHERE, FE_GEOMETRY_HEIGHTFIELD);
-    *out_form = (fe__form){.type = geometry->type};
+    *out_form = (fe__form){.type = fe__form_of_geometry(geometry->type)};
     switch (geometry->type) {
     case FE_GEOMETRY_SPHERE:
         FE_CHECK_LENGTH(geometry->radius);
@@ -112,9 +112,9 @@ static fe_result read_geometry(const char *function, const fe_world *world, cons
 // planes and heightfields are static only
 static fe_result check_owner(const char *function, const fe_world *world, int32_t body, const fe__form *form)
 {
-    if (form->type < FE_GEOMETRY_PLANE || world->bodies[body].type == FE_BODY_STATIC) return FE_OK;
+    if (!fe__form_is_static_only(form) || world->bodies[body].type == FE_BODY_STATIC) return FE_OK;
     return fe__fail(function, FE_ERROR_UNSUPPORTED, "body 0x%llx is not static, a %s needs a static one", fe__body_handle(world, body),
-                    form->type == FE_GEOMETRY_PLANE ? "plane" : "heightfield");
+                    fe__traits_of(form)->name);
 }
 
 // ---- life -----------------------------------------------------------------------------------------------------------------------
@@ -220,8 +220,8 @@ fe_result fe_shape_get_geometry(const fe_world *world, fe_shape shape, fe_geomet
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_STRUCT_SIZE(out_geometry);
     const fe__form *form = &world->shapes[index].form;
-    fe_geometry geometry = {.struct_size = sizeof geometry, .type = form->type, .radius = form->radius};
-    if (form->type == FE_GEOMETRY_HEIGHTFIELD) {
+    fe_geometry geometry = {.struct_size = sizeof geometry, .type = fe__traits_of(form)->geometry, .radius = form->radius};
+    if (fe__form_has_asset(form)) {
         geometry.asset = fe__asset_handle(world, form->field);
     } else {
         geometry.half_height = form->half_height;

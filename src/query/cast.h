@@ -5,7 +5,7 @@
 #define FE_QUERY_CAST_H
 #include "query/scene.h"
 
-#include "collision/cast/sweep.h"
+#include "collision/cast/mover.h"
 
 typedef struct fe__probe {
     fe__form form;    // sphere, capsule or box; a sphere of radius 0: a ray

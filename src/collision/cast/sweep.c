@@ -7,6 +7,7 @@
 #include "collision/cast/sweep.h"
 
 #include "collision/cast/approach.h"
+#include "collision/cast/kinds.h"
 
 // Halving 10 km comes down to 1e-11 m; bodies that are met squarely need 3 to 6.
 enum { MAX_STEPS = 64 };
@@ -25,11 +26,7 @@ fe__axes fe__axes_of(fe_quat q)
     };
 }
 
-// ---- which frame ----------------------------------------------------------------------------------------------------------------
-int32_t fe__core_kind_of(const fe__form *form)
-{
-    return form->type == FE_GEOMETRY_BOX ? FE_CORE_BOX : form->type == FE_GEOMETRY_CAPSULE ? FE_CORE_SEGMENT : FE_CORE_POINT;
-}
+int32_t fe__core_kind_of(const fe__form *form) { return fe__casts[form->type].core; }
 
 void fe__core_half(const fe__form *form, double half[3])
 {
@@ -90,7 +87,7 @@ fe__core_overlap fe__approach_overlap(const fe__approach *s)
 
 int32_t fe__form_overlap(const fe__form *still, const fe__mover *mover)
 {
-    if (still->type == FE_GEOMETRY_PLANE) return plane_height(still, mover) <= 0.0;
+    if (fe__form_is_unbounded(still)) return plane_height(still, mover) <= 0.0;
     fe__approach s;
     (void)set_up(still, mover, &s);
     return fe__approach_overlap(&s).depth >= 0.0;
@@ -177,7 +174,7 @@ static void tell(const fe__form *still, const fe__mover *mover, int32_t swapped,
 
 int32_t fe__form_sweep(const fe__form *still, const fe__mover *mover, double limit, fe__sweep_hit *hit)
 {
-    if (still->type == FE_GEOMETRY_PLANE) return sweep_plane(still, mover, limit, hit);
+    if (fe__form_is_unbounded(still)) return sweep_plane(still, mover, limit, hit);
     fe__approach s;
     int32_t swapped = set_up(still, mover, &s);
     fe__core_overlap o = fe__approach_overlap(&s);

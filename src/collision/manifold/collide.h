@@ -13,4 +13,7 @@
 // Fills the manifold with the points closer than `margin` (m, > 0). Special kernels where there is one, the general convex path otherwise.
 void fe__collide(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold);
 
+// 1: of these two B is to be given as A
+int32_t fe__collide_swaps(const fe__form *a, const fe__form *b);
+
 #endif

@@ -178,10 +178,10 @@ static void touch_plane(const fe__form *plane, const fe__form *b, const fe__rela
 
 void fe__collide_convex(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold)
 {
-    assert(b->type != FE_GEOMETRY_PLANE);
+    assert(b->type != FE__FORM_PLANE);
     manifold->normal = fe__vec3(0.0f, 0.0f, 0.0f);
     manifold->count = 0;
-    if (a->type == FE_GEOMETRY_PLANE) {
+    if (a->type == FE__FORM_PLANE) {
         touch_plane(a, b, b_in_a, margin, manifold);
         return;
     }

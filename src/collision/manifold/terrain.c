@@ -51,7 +51,7 @@ static void gather_all(fe__gathering *g, const fe__form *b, const fe__mat3 *rota
     if (depth > 0.0) g->felt = FLT_MAX;
     const float rounding = 1.0001f;
     fe_vec3 core = {fe__absf(axis.x), fe__absf(axis.y), fe__absf(axis.z)};
-    int32_t is_box = b->type == FE_GEOMETRY_BOX, culls = !is_box && !(depth > 0.0);
+    int32_t is_box = fe__form_has_flat_faces(b), culls = !is_box && !(depth > 0.0);
     fe__triangle_walk walk = fe__heightfield_walk(t->field, &box, t->origin);
     fe__form triangle;
     for (int32_t i; (i = fe__next_triangle(&walk, &triangle)) >= 0;) {
@@ -77,7 +77,7 @@ int32_t fe__collide_terrain(const fe__terrain *t, const fe__form *b, const fe__m
                             float *gap)
 {
     fe__gathering g;
-    g.terrain = t, g.margin = margin, g.felt = FELT * fe__form_thickness(b), g.single = b->type == FE_GEOMETRY_SPHERE, g.count = 0;
+    g.terrain = t, g.margin = margin, g.felt = FELT * fe__form_thickness(b), g.single = fe__form_is_ball(b), g.count = 0;
     g.tie = 0.1f * fe__tie(fe__form_thickness(b)), g.same_place = fe__minf(0.002f, 0.02f * fe__form_thickness(b));
     gather_all(&g, b, rotation);
     if (!g.count) *gap = gap_around(t, b, rotation, margin);
