@@ -1,9 +1,10 @@
-// graph_islands.c - islands by union-find, batches of islands, what is in a batch.
+// islands.c - islands by union-find, batches of islands, what is in a batch.
 //
 // In whatever order the awake lists are: islands share no dynamic body, so that who is solved first does not show.
-#include "solver/graph/graph_build.h"
+#include "solver/graph/islands.h"
 
 #include "core/disjoint.h"
+#include "solver/solve.h"
 
 #include <string.h>
 

@@ -1,7 +1,8 @@
-// graph_joints.c - groups of lanes for the parts of a batch's joints, and for its trees.
-#include "solver/graph/graph_build.h"
+// joint_groups.c - groups of lanes for the parts of a batch's joints, and for its trees.
+#include "solver/graph/joint_groups.h"
 
 #include "core/array_sort.h"
+#include "solver/graph/group.h"
 #include "solver/tree/tree.h"
 
 #include <string.h>
