@@ -3,7 +3,7 @@
 // A small batch is run whole by one worker, its rows in that worker's stretch of row memory. A large one is run by all workers together:
 // they walk the same program, claim blocks of each pass, and go on when the last block of a pass is done. Both walk the same passes over
 // the same groups in the same order of colours, so that who executes a batch never shows.
-#include "solver/solve.h"
+#include "solver/graph/graph.h"
 #include "solver/tree/tree.h"
 
 #include <assert.h>

@@ -169,13 +169,6 @@ typedef struct fe__row_block {
     _Alignas(64) unsigned char bytes[64];
 } fe__row_block;
 
-// Rows of narrow kernels are not whole blocks, but nodes of trees begin with one
-static inline int64_t fe__whole_blocks(int64_t bytes)
-{
-    const int64_t block = sizeof(fe__row_block);
-    return (bytes + block - 1) / block * block;
-}
-
 // One turn of all workers over part of a large batch, see solve.c
 typedef struct fe__pass {
     int32_t verb;

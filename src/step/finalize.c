@@ -3,7 +3,7 @@
 // Each body is its own; the trees are written by the stepping thread, from a list of the shapes that left their boxes.
 #include "step/finalize.h"
 
-#include "solver/graph/room.h"
+#include "solver/graph/graph.h"
 #include "solver/motion_check.h"
 #include "world/joint_list.h"
 #include "world/joints.h"

@@ -4,7 +4,7 @@
 // world as it was; later stages cannot fail, so that no contact and no event is ever dropped.
 #include "step/reserve.h"
 
-#include "solver/graph/room.h"
+#include "solver/graph/graph.h"
 #include "step/island_bound.h"
 #include "world/forest.h"
 #include "world/pair_mix.h"

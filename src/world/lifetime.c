@@ -3,7 +3,7 @@
 // Called by the API layer. A new world holds nothing but itself: its arrays grow with what it is given.
 #include "world/lifetime.h"
 
-#include "solver/graph/room.h"
+#include "solver/graph/graph.h"
 #include "world/assets.h"
 #include "world/joints.h"
 #include "world/step_scratch.h"

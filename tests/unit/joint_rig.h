@@ -4,8 +4,6 @@
 #include "../fe_test.h"
 #include "core/hash.h"
 #include "solver/graph/graph.h"
-#include "solver/graph/room.h"
-#include "solver/solve.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,7 +1,7 @@
-// builder.h - what the parts of a build of the graph share: first islands.c, then graph.c and joint_groups.c for each batch.
-#ifndef FE_SOLVER_GRAPH_BUILDER_H
-#define FE_SOLVER_GRAPH_BUILDER_H
-#include "solver/graph/input.h"
+// graph_build.h - what the parts of a build of the graph share: first graph_islands.c, then graph.c and graph_joints.c for each batch.
+#ifndef FE_SOLVER_GRAPH_BUILD_H
+#define FE_SOLVER_GRAPH_BUILD_H
+#include "solver/graph/graph.h"
 
 enum {
     FE__NONE = -1,
@@ -55,5 +55,21 @@ typedef struct fe__builder {
 static inline const fe__body *fe__awake_body(const fe__builder *b, int32_t i) { return b->in->bodies + b->in->awake_bodies[i]; }
 static inline int32_t fe__is_kinematic(const fe__body *body) { return body->type == FE_BODY_KINEMATIC; }
 static inline uint32_t fe__sides_of(const fe__joint *j) { return j->rows >> FE__SIDES_SHIFT & (FE__MOVES_A | FE__MOVES_B); }
+
+// Rows of narrow kernels are not whole blocks, but nodes of trees begin with one
+static inline int64_t fe__whole_blocks(int64_t bytes)
+{
+    const int64_t block = sizeof(fe__row_block);
+    return (bytes + block - 1) / block * block;
+}
+
+// Islands of bodies, batches of islands; bodies, contacts and joints in the order of their batches
+void fe__graph_find_batches(fe__builder *b);
+// Groups of the joints of batch k, and its trees
+void fe__graph_joint_groups(fe__builder *b, int32_t k, const fe__kernels *kernels);
+// A group of a batch, with a dummy in each lane. `like` tells all but the place
+fe__group *fe__open_group(fe__builder *b, fe__batch *batch, fe__group like, int32_t lanes, int32_t row_size);
+// Of a body in the batch at hand
+int32_t fe__line_of(const fe__builder *b, int32_t body);
 
 #endif

@@ -1,7 +1,5 @@
-// room.c - what a graph may need at most, reserved before it is built: lines, groups, lanes, rows, the scratch of the build.
-#include "solver/graph/room.h"
-
-#include "solver/graph/builder.h"
+// graph_room.c - what a graph may need at most, reserved before it is built: lines, groups, lanes, rows, the scratch of the build.
+#include "solver/graph/graph_build.h"
 #include "solver/tree/tree.h"
 
 static int32_t joint_rows(const fe__graph_bound *b)

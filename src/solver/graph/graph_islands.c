@@ -1,10 +1,9 @@
-// islands.c - islands by union-find, batches of islands, what is in a batch.
+// graph_islands.c - islands by union-find, batches of islands, what is in a batch.
 //
 // In whatever order the awake lists are: islands share no dynamic body, so that who is solved first does not show.
-#include "solver/graph/islands.h"
+#include "solver/graph/graph_build.h"
 
 #include "core/disjoint.h"
-#include "solver/solve.h"
 
 #include <string.h>
 

@@ -1,8 +1,7 @@
-// joint_groups.c - groups of lanes for the parts of a batch's joints, and for its trees.
-#include "solver/graph/joint_groups.h"
+// graph_joints.c - groups of lanes for the parts of a batch's joints, and for its trees.
+#include "solver/graph/graph_build.h"
 
 #include "core/array_sort.h"
-#include "solver/graph/group.h"
 #include "solver/tree/tree.h"
 
 #include <string.h>
