@@ -79,7 +79,7 @@ fe_result fe_body_create_many(fe_world *world, const fe_body_def *defs, uint32_t
     FE_CHECK_ARRAY(out_bodies, count);
     if (count == 0) return FE_OK;
     FE_CHECK_STRUCT_SIZE(defs);
-    FE_CHECK_STRIDE(stride, defs->struct_size, defs->struct_size);
+    FE_CHECK_RECORD_STRIDE(stride, (uint32_t)sizeof defs->struct_size, count);
     fe_body_def full;
     for (int32_t i = 0; i < count; ++i) {
         const fe_body_def *def = fe__at_const(defs, stride, i);

@@ -17,7 +17,7 @@ static fe_result create(const char *function, fe_world *world, int32_t type, con
     FE_CHECK_POINTER(out_joint);
     fe__joint_any full;
     fe__joint_defaults(type, &full);
-    FE_TRY(fe__read_struct(function, "def", def, &full, full.common.struct_size));
+    FE_TRY(fe__read_struct(function, "def", def, &full, fe__joint_fields(type)));
     int32_t bodies[2];
     FE_TRY(fe__find_body(function, "body_a", world, full.common.body_a, &bodies[0]));
     FE_TRY(fe__find_body(function, "body_b", world, full.common.body_b, &bodies[1]));
@@ -72,9 +72,8 @@ static fe_result check_bodies(const char *function, const fe_world *world, int32
     const int32_t *bodies = world->joint_records[index].body;
     fe_body a = fe__body_handle(world, bodies[0]), b = fe__body_handle(world, bodies[1]);
     if ((full->body_a == 0 || full->body_a == a) && (full->body_b == 0 || full->body_b == b)) return FE_OK;
-    return fe__fail(function, FE_ERROR_ARGUMENT,
-                    "body_a, body_b are 0x%llx, 0x%llx, the joint has 0x%llx, 0x%llx, which no call changes", full->body_a,
-                    full->body_b, a, b);
+    return fe__fail(function, FE_ERROR_ARGUMENT, "body_a, body_b are 0x%llx, 0x%llx, the joint has 0x%llx, 0x%llx, which no call changes",
+                    full->body_a, full->body_b, a, b);
 }
 
 static fe_result change(const char *function, fe_world *world, int32_t index, const fe__joint_any *full)
@@ -92,7 +91,7 @@ static fe_result set(const char *function, fe_world *world, int32_t type, fe_joi
     FE_TRY(check_type(function, world, index, type));
     fe__joint_any full;
     fe__joint_describe(world, index, &full);
-    FE_TRY(fe__read_struct(function, "def", def, &full, full.common.struct_size));
+    FE_TRY(fe__read_struct(function, "def", def, &full, fe__joint_fields(type)));
     FE_TRY(check_bodies(function, world, index, &full.common));
     FE_TRY(fe__check_joint_def(function, type, &full));
     return change(function, world, index, &full);
@@ -102,7 +101,7 @@ static fe_result get(const char *function, const fe_world *world, int32_t type, 
 {
     FE_READ_AS(function, world);
     FE_FIND_JOINT(index, joint);
-    FE_CHECK_STRUCT_SIZE(out_def);
+    FE_TRY(fe__check_struct_size(function, "out_def", out_def, fe__joint_fields(type)));
     FE_TRY(check_type(function, world, index, type));
     fe__joint_any full;
     fe__joint_describe(world, index, &full);
@@ -114,7 +113,10 @@ fe_result fe_distance_joint_set(fe_world *world, fe_joint joint, const fe_distan
 {
     return set(__func__, world, FE_JOINT_DISTANCE, joint, def);
 }
-fe_result fe_ball_joint_set(fe_world *world, fe_joint joint, const fe_ball_joint_def *def) { return set(__func__, world, FE_JOINT_BALL, joint, def); }
+fe_result fe_ball_joint_set(fe_world *world, fe_joint joint, const fe_ball_joint_def *def)
+{
+    return set(__func__, world, FE_JOINT_BALL, joint, def);
+}
 fe_result fe_hinge_joint_set(fe_world *world, fe_joint joint, const fe_hinge_joint_def *def)
 {
     return set(__func__, world, FE_JOINT_HINGE, joint, def);
@@ -160,7 +162,7 @@ fe_result fe_joint_set(fe_world *world, fe_joint joint, const fe_joint_def *def)
     fe__joint_any full;
     fe__joint_describe(world, index, &full);
     uint32_t size = full.common.struct_size;
-    FE_TRY(fe__read_struct(function, "def", def, &full, FE__JOINT_FRONT));
+    FE_TRY(fe__read_struct(function, "def", def, &full, &fe__fields_of_fe_joint_def));
     full.common.struct_size = size;
     FE_TRY(check_bodies(function, world, index, &full.common));
     FE_TRY(fe__check_joint_common(function, &full.common));

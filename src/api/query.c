@@ -37,19 +37,22 @@ fe_result fe__read_moving_form(const char *function, const fe_geometry *geometry
     fe_geometry whole = {.struct_size = sizeof whole};
     FE_READ_STRUCT(geometry, &whole);
     geometry = &whole;
-    *out_form = (fe__form){.type = geometry->type};
+    *out_form = (fe__form){.radius = 0.0f};
     switch (geometry->type) {
     case FE_GEOMETRY_SPHERE:
+        out_form->type = FE__FORM_SPHERE;
         if (geometry->radius != 0.0f) FE_CHECK_LENGTH(geometry->radius);
         out_form->radius = geometry->radius;
         return FE_OK;
     case FE_GEOMETRY_CAPSULE:
+        out_form->type = FE__FORM_CAPSULE;
         FE_CHECK_LENGTH(geometry->half_height);
         FE_CHECK_LENGTH(geometry->radius);
         out_form->half_height = geometry->half_height;
         out_form->radius = geometry->radius;
         return FE_OK;
     case FE_GEOMETRY_BOX:
+        out_form->type = FE__FORM_BOX;
         FE_CHECK_LENGTH(geometry->half_extents.x);
         FE_CHECK_LENGTH(geometry->half_extents.y);
         FE_CHECK_LENGTH(geometry->half_extents.z);
@@ -76,7 +79,7 @@ fe__scene fe__scene_of(const fe_world *world, const fe_query_filter *whole_filte
 
 // ---- what a ray meets -----------------------------------------------------------------------------------------------------------
 int32_t fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
-                           fe_hit *out_hit)
+                         fe_hit *out_hit)
 {
     FE_READ(world);
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
@@ -116,7 +119,7 @@ int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, cons
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     FE_CHECK_ARRAY(out_hits, capacity);
-    FE_CHECK_STRIDE(stride, sizeof *out_hits, LEAST_SORTED_HIT);
+    FE_CHECK_RECORD_STRIDE(stride, LEAST_SORTED_HIT, capacity);
     fe_query_filter whole;
     FE_TRY(fe__read_filter(function, filter, &whole));
     fe__fp_state fp = fe__fp_enter();
@@ -130,7 +133,7 @@ int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, cons
 
 // ---- what a moving form meets ---------------------------------------------------------------------------------------------------
 int32_t fe_world_sweep(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
-                         const fe_query_filter *filter, fe_hit *out_hit)
+                       const fe_query_filter *filter, fe_hit *out_hit)
 {
     FE_READ(world);
     fe__form form;
@@ -149,7 +152,7 @@ int32_t fe_world_sweep(const fe_world *world, const fe_geometry *geometry, const
 }
 
 int32_t fe_world_sweep_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
-                             const fe_query_filter *filter)
+                           const fe_query_filter *filter)
 {
     FE_READ(world);
     fe__form form;
@@ -175,7 +178,7 @@ int32_t fe_world_sweep_all(const fe_world *world, const fe_geometry *geometry, c
     FE_CHECK_TRANSFORM(start);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     FE_CHECK_ARRAY(out_hits, capacity);
-    FE_CHECK_STRIDE(stride, sizeof *out_hits, LEAST_SORTED_HIT);
+    FE_CHECK_RECORD_STRIDE(stride, LEAST_SORTED_HIT, capacity);
     fe_query_filter whole;
     FE_TRY(fe__read_filter(function, filter, &whole));
     fe__fp_state fp = fe__fp_enter();
@@ -225,7 +228,7 @@ int32_t fe_world_overlap_any(const fe_world *world, const fe_geometry *geometry,
 
 // ---- what is near ---------------------------------------------------------------------------------------------------------------
 int32_t fe_world_closest_point(const fe_world *world, const fe_dvec3 *point, double max_distance, const fe_query_filter *filter,
-                                 fe_closest *out_closest)
+                               fe_closest *out_closest)
 {
     FE_READ(world);
     FE_CHECK_DVEC3(point, FE_MAX_POSITION);
@@ -243,7 +246,7 @@ int32_t fe_world_closest_point(const fe_world *world, const fe_dvec3 *point, dou
 // ---- one body, one shape --------------------------------------------------------------------------------------------------------
 // From shape `first` to before `end` in a body's list.
 static int32_t raycast_shapes(const fe_world *world, int32_t first, int32_t end, const fe_dvec3 *origin, const fe_dvec3 *translation,
-                                fe_hit *out_hit)
+                              fe_hit *out_hit)
 {
     fe_query_filter everything = default_filter();
     everything.flags = FE_QUERY_TRIGGERS;

@@ -79,7 +79,8 @@ static fe_result read_geometry(const char *function, const fe_world *world, cons
     geometry = &whole;
     FE_TRY(check_reserved(function, geometry));
     *out_form = (fe__form){.type = form_type_of(geometry->type)};
-    if (out_form->type < 0) return fe__fail(function, FE_ERROR_ARGUMENT, "geometry.type is %" PRId32 ", no kind of geometry", geometry->type);
+    if (out_form->type < 0)
+        return fe__fail(function, FE_ERROR_ARGUMENT, "geometry.type is %" PRId32 ", no kind of geometry", geometry->type);
     switch (geometry->type) {
     case FE_GEOMETRY_SPHERE:
         FE_CHECK_LENGTH(geometry->radius);

@@ -8,8 +8,8 @@
 #define FE_HAS_THREADS 1
 #endif
 
-// Slots are made once and never freed while the library is loaded: who looks at all of them needs no lock. A thread that ends gives its slot
-// to the next one.
+// Slots are made once and never freed while the library is loaded: who looks at all of them needs no lock. A thread that ends gives its
+// slot to the next one.
 static _Atomic(fe__reader *) readers;
 static _Thread_local fe__reader *own;
 

@@ -1,9 +1,10 @@
 // owner.h - who is inside a world now: one writer, or any number of readers.
 //
-// A writer takes one word of the world by a compare-exchange and gives it back by a store. A reader never touches that word, so that readers
-// on many cores share no cache line that is written: each thread has a slot of its own, in which it names what it reads, and then looks at
-// the word. Who must be alone (a step, a destruction) takes the word and then looks at the slots of all threads. Both sides write first and
-// look afterwards, in one total order (Dekker's algorithm, with sequentially consistent operations): at least one notices the other.
+// A writer takes one word of the world by a compare-exchange and gives it back by a store. A reader never touches that word, so that
+// readers on many cores share no cache line that is written: each thread has a slot of its own, in which it names what it reads, and then
+// looks at the word. Who must be alone (a step, a destruction) takes the word and then looks at the slots of all threads. Both sides write
+// first and look afterwards, in one total order (Dekker's algorithm, with sequentially consistent operations): at least one notices the
+// other.
 //
 // A plain writer does not look at the slots: a reader that was inside before it is the caller's race.
 #ifndef FE_CORE_OWNER_H
