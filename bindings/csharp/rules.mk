@@ -13,7 +13,7 @@ CSHARP_SWIG = -csharp -namespace FeatherPhysics -dllimport feather_csharp $(fore
 csharp: $(CSHARP_NATIVE) $(CSHARP)/source/Records.cs $(CSHARP_SOURCES:bindings/csharp/FeatherPhysics/%=$(CSHARP)/source/%)
 
 # On iOS the library is linked into the program.
-$(CSHARP)/feather_csharp.c: bindings/feather.i bindings/twins.h bindings/csharp/csharp.i include/feather.h bindings/csharp/rules.mk
+$(CSHARP)/feather_csharp.c: bindings/feather.i bindings/twins.h bindings/csharp/csharp.i bindings/csharp/shell.h include/feather.h bindings/csharp/rules.mk
 	@mkdir -p $(CSHARP)/source
 	$(RUN)$(SWIG) $(CSHARP_SWIG) -Iinclude -Ibindings -outdir $(CSHARP)/source -o $@ bindings/feather.i
 	@sed -i.bak 's/DllImport("feather_csharp"/DllImport(NativeLibraryName.Value/' $(CSHARP)/source/NativePINVOKE.cs
