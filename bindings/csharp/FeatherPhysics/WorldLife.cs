@@ -195,8 +195,8 @@ namespace FeatherPhysics
         internal static void CheckLength(long needed, int length, string where, string what)
         {
             if (needed <= length) return;
-            throw new BadArgumentException(where + ": " + what + " has " + length + " elements,
-                " + needed + " are needed");
+            throw new BadArgumentException(
+                where + ": " + what + " has " + length + " elements, " + needed + " are needed");
         }
 
         internal static void NotNull(object value, string where)

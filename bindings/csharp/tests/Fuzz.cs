@@ -162,7 +162,11 @@ namespace FeatherPhysics.Tests
                     case 1: world.RaycastMany(Some<Ray>(), Some<Hit>(), filter, n > 2); break;
                     case 2: world.SweepAll(form, at, b, Some<Hit>(), filter); break;
                     case 3: world.SweepMany(form, Some<SweepPath>(), Some<Hit>(), filter, n > 2); break;
-                    case 4: world.Overlap(form, at, Some<BodyHandle>(), filter); break;
+                    case 4:
+                        world.Overlap(form, at, Some<BodyHandle>(), filter);
+                        world.OverlapShapes(form, at, Some<ShapeOverlap>(), filter);
+                        world.OverlapBounds((WorldBounds)Value(typeof(WorldBounds)), Some<ShapeHandle>(), filter);
+                        break;
                     case 5: world.GetMoved(Some<BodyHandle>(), Some<WorldTransform>()); break;
                     case 6: world.GetTransforms(Some<BodyHandle>(), Some<WorldTransform>()); break;
                     case 7: world.GetTransforms(Some<BodyHandle>(), a, Some<RelativeTransform>()); break;

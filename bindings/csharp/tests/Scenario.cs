@@ -16,7 +16,7 @@ namespace FeatherPhysics.Tests
             for (int row = 0; row < Samples; ++row)
                 for (int column = 0; column < Samples; ++column) heights[row * Samples + column] = (row * 7 + column * 3) % 5 * 0.125f;
             Heightfield terrain = world.CreateHeightfield(new HeightfieldDef { Rows = Samples, Columns = Samples, CellX = 2, CellZ = 2, Heights = heights });
-            world.CreateStatic(new DVec3()).AddTerrain(terrain, new ShapeDef { LocalPosition = new Vector3(-16, 0, -16) });
+            world.CreateStatic(new DVec3()).AddTerrain(terrain, new ShapeDef { Frame = new Frame(new Vector3(-16, 0, -16)) });
             return terrain;
         }
 
@@ -34,10 +34,10 @@ namespace FeatherPhysics.Tests
         {
             Body a = body[i], b = body[i + 1];
             DVec3 from = Place(i), middle = new DVec3(from.X + 0.75, from.Y, from.Z);
-            if (i % 10 == 0) world.CreateBall(a, b, middle, new Vector3(1, 0, 0));
-            if (i % 10 == 4) world.CreateHinge(a, b, middle, new Vector3(0, 0, 1), new HingeDef { Limited = true, MinAngle = -0.5f, MaxAngle = 0.5f });
-            if (i % 10 == 7) world.CreateDistance(a, b, from, Place(i + 1));
-            if (i % 10 == 2) world.CreateFixed(a, b, middle, new FixedDef { BreakForce = 8192 });
+            if (i % 10 == 0) world.CreateBallJoint(a, b, middle, new Vector3(1, 0, 0));
+            if (i % 10 == 4) world.CreateHingeJoint(a, b, middle, new Vector3(0, 0, 1), new HingeJointDef { LimitEnabled = true, Lower = -0.5f, Upper = 0.5f });
+            if (i % 10 == 7) world.CreateDistanceJoint(a, b, from, Place(i + 1));
+            if (i % 10 == 2) world.CreateFixedJoint(a, b, middle, new FixedJointDef { BreakForce = 8192 });
         }
 
         public static void Run(int workers)
