@@ -1,7 +1,7 @@
-// What feather.h's types become in C#. Every pointer is void*: the layer above pins its own records (FeatherPhysics/*.cs,
-// and Records.cs, made from the header by records.py). Handles are ulong, results and counts int. A negative one is
-// thrown, so that no error passes unseen. Built with -DSWIG_CSHARP_NO_EXCEPTION_HELPER and its like (rules.mk): no
-// callbacks, no static constructor.
+// What feather.h's types become in C#. Every pointer is void*: the layer above pins its own records
+// (FeatherPhysics/*.cs, and Records.cs, made from the header by records.py). Handles are ulong, results and counts int.
+// A negative one is thrown, so that no error passes unseen. Built with -DSWIG_CSHARP_NO_EXCEPTION_HELPER and its like
+// (rules.mk): no callbacks, no static constructor.
 %pragma(csharp) moduleclassmodifiers="internal static unsafe class"
 %pragma(csharp) imclassclassmodifiers="internal static unsafe class"
 %csmethodmodifiers "[global::System.Runtime.CompilerServices.MethodImpl(global::System.Runtime.CompilerServices.MethodImplOptions.AggressiveInlining)] public";

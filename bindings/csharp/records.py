@@ -14,7 +14,8 @@ BY_HAND = {"fe_vec3": "Vector3", "fe_quat": "Quaternion", "fe_dvec3": "DVec3", "
 # Some words belong to every program of Unity already: Transform, Bounds, Material, Motion.
 NAMES = {"fe_material": "SurfaceMaterial", "fe_bounds": "WorldBounds", "fe_energy": "WorldEnergy",
          "fe_profile": "StepProfile", "fe_counters": "WorldCounters", "fe_path": "SweepPath", "fe_axis": "Axes",
-         "fe_closest": "ClosestPoint", "fe_motion": "AxisMotion", "fe_spring": "AxisSpring", "fe_overlap": "ShapeOverlap"}
+         "fe_closest": "ClosestPoint", "fe_motion": "AxisMotion", "fe_spring": "AxisSpring",
+         "fe_overlap": "ShapeOverlap"}
 PRIVATE = {"fe_query_filter": "NativeFilter",  # classes around these are written by hand
            "fe_heightfield_def": "NativeHeightfield"}
 FOR_C = {"fe_allocator", "fe_task_system"}
