@@ -186,7 +186,7 @@ namespace FeatherPhysics
             {
                 if (store != null)
                 {
-                    if (pointer == null) ThrowDisposed();
+                    if (IsDisposed) ThrowDisposed();
                     return store;
                 }
                 IntPtr own;

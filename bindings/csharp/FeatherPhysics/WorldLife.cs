@@ -62,7 +62,7 @@ namespace FeatherPhysics
 
         readonly WorldHandle safe = new WorldHandle();
         readonly Shell shell = new Shell();
-        volatile void* pointer; // null when disposed
+        volatile IntPtr pointer; // 0 when disposed
 
         /// <param name="def">null: the defaults</param>
         /// <param name="pool">null: workers of its own</param>
@@ -91,7 +91,7 @@ namespace FeatherPhysics
             }
             shell.Pointer = (void*)memory;
             safe.Set(made);
-            pointer = (void*)made;
+            pointer = made;
             this.store = store;
         }
 
@@ -118,17 +118,17 @@ namespace FeatherPhysics
         public void Dispose()
         {
             if (IsJudging) throw new WorldSteppingException("World.Dispose: called by the world's own pair filter");
-            pointer = null;
+            pointer = IntPtr.Zero;
             safe.Dispose();
         }
 
-        public bool IsDisposed { get { return pointer == null; } }
+        public bool IsDisposed { get { return pointer == IntPtr.Zero; } }
 
         void* P
         {
             get
             {
-                void* world = pointer;
+                void* world = (void*)pointer;
                 if (world == null) ThrowDisposed();
                 return world;
             }
@@ -156,7 +156,7 @@ namespace FeatherPhysics
         internal static bool IsThere(World world, Kind kind, ulong id)
         {
             if (world == null) return false;
-            void* at = world.pointer;
+            void* at = (void*)world.pointer;
             if (at == null) return false;
             ulong data;
             int result = kind == Kind.Body ? NativePINVOKE.body_get_user_data(at, id, &data)
@@ -175,7 +175,7 @@ namespace FeatherPhysics
             try
             {
                 Hold(ref held);
-                void* at = pointer;
+                void* at = (void*)pointer;
                 if (at == null) return false;
                 return (kind == Kind.Body ? Native.body_is_valid(at, id)
                     : kind == Kind.Shape ? Native.shape_is_valid(at, id)

@@ -11,7 +11,7 @@ namespace FeatherPhysics.Tests
     sealed class Fuzz
     {
         static readonly double[] Odd = { 0, -0.0, 1, -1, 0.5, 1e-3, 1e-30, 1e5, 1e9, 1e15, 1e300, double.NaN, double.PositiveInfinity, double.NegativeInfinity };
-        static readonly Type[] Kinds = { typeof(World), typeof(Body), typeof(Shape), typeof(Joint), typeof(Heightfield) };
+        static readonly Type[] Kinds = { typeof(World), typeof(Body), typeof(Shape), typeof(Joint), typeof(Heightfield), typeof(Store) };
 
         readonly Random random;
         readonly World[] worlds = new World[3];
@@ -70,6 +70,7 @@ namespace FeatherPhysics.Tests
             if (type == typeof(DVec3)) return new DVec3(Number(), Number(), Number());
             if (type.IsEnum) return Enum.ToObject(type, random.Next(-1, 8));
             if (type == typeof(World)) return worlds[random.Next(worlds.Length)];
+            if (type == typeof(PairFilter)) return Filter();
             if (type == typeof(BodyHandle)) return new BodyHandle(Handle(typeof(Body)));
             if (type == typeof(ShapeHandle)) return new ShapeHandle(Handle(typeof(Shape)));
             if (type == typeof(JointHandle)) return new JointHandle(Handle(typeof(Joint)));
@@ -86,6 +87,17 @@ namespace FeatherPhysics.Tests
             if (!type.IsValueType && random.Next(5) == 0) return null;
             if (type.Namespace == "FeatherPhysics") return Record(type);
             return type.IsValueType ? Activator.CreateInstance(type) : null;
+        }
+
+        PairFilter Filter()
+        {
+            World asked = worlds[random.Next(worlds.Length)];
+            if (random.Next(3) == 0) return null;
+            return pair =>
+            {
+                if (random.Next(4) == 0) asked.Gravity = new Vector3(0, -1, 0); // may be the world that steps
+                return random.Next(2) == 0;
+            };
         }
 
         Geometry Form()
@@ -105,6 +117,7 @@ namespace FeatherPhysics.Tests
         object Object(Type type)
         {
             if (type == typeof(World)) return worlds[random.Next(worlds.Length)];
+            if (type == typeof(Store)) return worlds[random.Next(worlds.Length)].Store;
             return made[type][random.Next(24)] ?? Activator.CreateInstance(type);
         }
 
@@ -117,7 +130,7 @@ namespace FeatherPhysics.Tests
 
         void Keep(object value)
         {
-            if (value != null && made.ContainsKey(value.GetType()) && !(value is World)) made[value.GetType()][random.Next(24)] = value;
+            if (value != null && made.ContainsKey(value.GetType()) && !(value is World) && !(value is Store)) made[value.GetType()][random.Next(24)] = value;
         }
 
         void CallAny()

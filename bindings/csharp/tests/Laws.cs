@@ -680,6 +680,26 @@ namespace FeatherPhysics.Tests
             Check.Throws<ObjectDisposedException>(() => { int n = world.PairEvents.Length; }, "disposed");
         }
 
+        // A thread may read the world's pointer and be halted there, another disposes, the first goes on. Here the pointer
+        // is put back by reflection, and new worlds take whatever memory was freed.
+        public static void A_call_that_begins_as_its_world_goes_is_refused()
+        {
+            FieldInfo field = typeof(World).GetField("pointer", BindingFlags.Instance | BindingFlags.NonPublic);
+            World world = new World();
+            Body body = world.CreateDynamic(new DVec3());
+            object pointer = field.GetValue(world);
+            world.Dispose();
+            World[] others = new World[50];
+            for (int i = 0; i < others.Length; ++i) others[i] = new World();
+            field.SetValue(world, pointer);
+            Check.Throws<WorldBusyException>(() => { Vector3 g = world.Gravity; }, "fe_world_get_gravity");
+            Check.Throws<WorldBusyException>(() => world.Substeps = 4, "fe_world_set_substeps");
+            Check.Throws<WorldBusyException>(() => { DVec3 p = body.Position; }, "fe_body_get_transform");
+            Check.Throws<WorldBusyException>(() => world.Step(Dt), "fe_world_step");
+            world.Dispose();
+            foreach (World other in others) other.Dispose();
+        }
+
         public static void Bad_arguments_are_named()
         {
             using (World world = new World())
