@@ -3,7 +3,9 @@
 // A small batch is run whole by one worker, its rows in that worker's stretch of row memory. A large one is run by all workers together:
 // they walk the same program, claim blocks of each pass, and go on when the last block of a pass is done. Both walk the same passes over
 // the same groups in the same order of colours, so that who executes a batch never shows.
-#include "solver/graph/graph.h"
+#include "solver/solve.h"
+
+#include "solver/pace.h"
 #include "solver/tree/tree.h"
 
 #include <assert.h>
@@ -403,15 +405,6 @@ static void clear_static_line(fe__solver *s)
         s->drive[i] = (fe__drive_line){0};
         s->axes[i] = (fe__axes_line){0};
     }
-}
-
-// A pass hands an impulse on by a body or so. Where that is too slow substeps are finer: in islands of bodies that bear many times their
-// weight, which have more rigid passes too, and are strained; in islands whose joints open wide, which are stretched. Joined bodies press
-// each other with the forces of their joints, which is no strain.
-int32_t fe__pace_of(uint32_t flags, int32_t has_joints)
-{
-    if (has_joints) return flags & FE__BODY_STRETCHED ? FE__STRETCHED : FE__USUAL;
-    return flags & FE__BODY_STRAINED ? FE__STRAINED : FE__USUAL;
 }
 
 // the marks of the lines to the bodies, and all that is true of an island's bodies to `found`

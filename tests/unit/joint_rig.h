@@ -4,6 +4,7 @@
 #include "../fe_test.h"
 #include "core/hash.h"
 #include "solver/graph/graph.h"
+#include "solver/solve.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,4 +1,6 @@
 // graph_room.c - what a graph may need at most, reserved before it is built: lines, groups, lanes, rows, the scratch of the build.
+#include "solver/graph/graph.h"
+
 #include "solver/graph/graph_build.h"
 #include "solver/tree/tree.h"
 

@@ -7,7 +7,9 @@
 // neighbours against each other by as much, with three more rows of compliance G = 1 / (h c). Their impulses come in
 // pairs, so that momentum stays; as one body, the links swing on undamped. Only the part of k counts by which a link
 // swings faster than the substep, h^2 k > I: slower links stay as they are.
-#include "solver/tree/node.h"
+#include "solver/tree/damping.h"
+
+#include "solver/tree/rows.h"
 
 // h^2 k of the joint at one of its ends, 0: below, kg m2
 static double tension_of(const fe__tree_node *n, int end, double h)
@@ -73,6 +75,6 @@ void fe__tree_forget_damping(const fe__tree_job *t, int32_t i)
     const double *l = n->impulse + n->locks;
     if (n->rows.count == n->locks) return;
     fe_dvec3 below = fe__dscale(t->links[i].holds_b ? 1.0 : -1.0, fe__tree_vector(l));
-    fe__tree_add_spin(t->solver->start[t->places[i].line].w, n->turn, below);
-    if (parent) fe__tree_add_spin(t->solver->start[t->places[i].parent_line].w, parent->turn, fe__dscale(-1.0, below));
+    fe__tree_add_spin(t->solver->start[t->places[i].line].w, n->inverse_inertia, below);
+    if (parent) fe__tree_add_spin(t->solver->start[t->places[i].parent_line].w, parent->inverse_inertia, fe__dscale(-1.0, below));
 }

@@ -1,5 +1,5 @@
 // eliminate.c - the constraints of a tree eliminated from its leaves upwards and met from its root downwards, see node.h.
-#include "solver/tree/node.h"
+#include "solver/tree/eliminate.h"
 
 #include <string.h>
 

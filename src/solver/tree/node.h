@@ -14,8 +14,10 @@
 // mass.
 #ifndef FE_SOLVER_TREE_NODE_H
 #define FE_SOLVER_TREE_NODE_H
-#include "core/math.h"
-#include "solver/tree/tree.h"
+#include "solver/solver.h"
+
+// A rotation within a substep that is no small correction any more, rad
+#define FE__SLOW_TURN 0.05
 
 enum { FE__TREE_LOCKS = 6, FE__TREE_ROWS = FE__TREE_LOCKS + 3 }; // three more damp a joint, see damping.c
 
@@ -33,13 +35,13 @@ typedef struct fe__tree_rows {
 // A light tree is solved from the substep on in which it opens, but left to the sweep where it was open before
 typedef enum fe__tree_state { FE__TREE_READY, FE__TREE_SOLVED, FE__TREE_SWEPT } fe__tree_state;
 
-struct fe__tree_node {
+typedef struct fe__tree_node {
     _Alignas(64) fe__tree_rows rows;          // locks, then damping
     int32_t locks;                            // rows of locks
     int32_t weighed;                          // 1: masses are there
     fe__tree_state state;                     // of the first node
     double mass[6][6];                        // P, then L below the diagonal and 1 / L_kk on it
-    double turn[6];                           // inverse inertia: xx xy xz yy yz zz
+    double inverse_inertia[6];                // xx xy xz yy yz zz
     double inertia;                           // about the heaviest of the world's axes that are not locked, kg m2
     double tension, expected, damping;        // see damping.c
     double least[FE__TREE_ROWS];              // of a row's response that counts
@@ -48,7 +50,20 @@ struct fe__tree_node {
     double hold[FE__TREE_ROWS][6];            // H
     double request[FE__TREE_ROWS], load[6];   // what a row lacks, then e; f, then L^-1 f
     double impulse[FE__TREE_ROWS], change[6]; // l, u
-};
+} fe__tree_node;
+
+typedef struct fe__tree_job {
+    fe__solver *solver;
+    const fe__lock_lanes *lanes;
+    const fe__tree_link *links;
+    const fe__tree_place *places;
+    int32_t count; // links
+    int32_t heavy;
+    unsigned char *rows; // of the batch
+    fe__tree_node *nodes;
+    double h;    // of the substep, s
+    double rate; // share of a gap that a soft lock closes in a substep
+} fe__tree_job;
 
 static inline fe__tree_node *fe__tree_parent(const fe__tree_job *t, int32_t i)
 {
@@ -63,31 +78,12 @@ static inline const fe__velocity_line *fe__tree_above(const fe__tree_job *t, int
 static inline fe_dvec3 fe__tree_vector(const double *a) { return (fe_dvec3){a[0], a[1], a[2]}; }
 static inline fe_dvec3 fe__tree_unit(int k) { return (fe_dvec3){k == 0, k == 1, k == 2}; }
 
-// ---- rows.c -----------------------------------------------------------------------------------------------------------------
-// B's velocity along u and its spin along mb, less A's along u and ma
-void fe__tree_add_row(fe__tree_rows *rows, int32_t holds_b, fe_dvec3 u, fe_dvec3 ma, fe_dvec3 mb, double error);
-// Rows from `from` on say nothing of what is locked: bits of the bodies below and above, linear | angular << 3
-void fe__tree_hide_locked(fe__tree_rows *rows, int32_t from, int32_t below, int32_t above);
-// Rows and masses of all links where the bodies are now
-void fe__tree_read(const fe__tree_job *t);
-
-// ---- eliminate.c ------------------------------------------------------------------------------------------------------------
-void fe__tree_eliminate(const fe__tree_job *t);  // from rows and masses to Y, C, H
-void fe__tree_substitute(const fe__tree_job *t); // from requests to impulses and changes
-
-// ---- damping.c --------------------------------------------------------------------------------------------------------------
-void fe__tree_add_damping(const fe__tree_job *t); // rows of it, for the pulls that the locks bear
-void fe__tree_add_pulls(const fe__tree_job *t);   // those of the solution at hand, on top of what the rows hold
-// 1: some link bears much more than what its joints were damped for, as when a slack chain goes taut. Spoils the pulls.
-int32_t fe__tree_is_jerked(const fe__tree_job *t);
-// Damping leaves the warm start: `start` takes what the damping of link i gave
-void fe__tree_forget_damping(const fe__tree_job *t, int32_t i);
-
-// ---- warm_start.c -----------------------------------------------------------------------------------------------------------
-// A rotation within a substep that is no small correction any more
-#define FE__SLOW_TURN 0.05 // rad
 // w += I^-1 l
-void fe__tree_add_spin(float w[3], const double inverse_inertia[6], fe_dvec3 l);
-void fe__tree_forget_locks(const fe__tree_job *t);
+static inline void fe__tree_add_spin(float w[3], const double i[6], fe_dvec3 l)
+{
+    w[0] = (float)((double)w[0] + (i[0] * l.x + i[1] * l.y + i[2] * l.z));
+    w[1] = (float)((double)w[1] + (i[1] * l.x + i[3] * l.y + i[4] * l.z));
+    w[2] = (float)((double)w[2] + (i[2] * l.x + i[4] * l.y + i[5] * l.z));
+}
 
 #endif

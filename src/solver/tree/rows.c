@@ -1,5 +1,5 @@
 // rows.c - rows and masses of a tree from the locks that the sweep holds, with the bodies where they are now.
-#include "solver/tree/node.h"
+#include "solver/tree/rows.h"
 
 #include <string.h>
 
@@ -152,7 +152,7 @@ static void weigh(fe__tree_node *n, const fe__velocity_line *line, const fe__sym
     const float in[6] = {inertia->xx, inertia->xy, inertia->xz, inertia->yy, inertia->yz, inertia->zz};
     static const int diagonal[3] = {0, 3, 5};
     double inverse[6], turn[3][3], mass = 1.0 / (double)line->inverse_mass;
-    for (int k = 0; k < 6; ++k) inverse[k] = n->turn[k] = (double)in[k];
+    for (int k = 0; k < 6; ++k) inverse[k] = n->inverse_inertia[k] = (double)in[k];
     for (int k = 0; k < 3; ++k)
         if (locks_of(line) >> (3 + k) & 1) inverse[diagonal[k]] = 1.0;
     invert(inverse, turn);
@@ -174,7 +174,7 @@ static void weigh(fe__tree_node *n, const fe__velocity_line *line, const fe__sym
 
 static void find_least(fe__tree_node *n, double inverse_mass)
 {
-    double turn = n->turn[0] + n->turn[3] + n->turn[5];
+    double turn = n->inverse_inertia[0] + n->inverse_inertia[3] + n->inverse_inertia[5];
     for (int32_t r = 0; r < n->locks; ++r) {
         fe_dvec3 u = fe__tree_vector(n->rows.below[r]), m = fe__tree_vector(n->rows.below[r] + 3);
         n->least[r] = REDUNDANT * (inverse_mass * fe__ddot(u, u) + turn * fe__ddot(m, m));

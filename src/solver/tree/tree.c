@@ -1,7 +1,10 @@
 // tree.c - what a tree does in each pass over the joints: requests, and their results.
 #include "solver/tree/tree.h"
 
-#include "solver/tree/node.h"
+#include "solver/tree/damping.h"
+#include "solver/tree/eliminate.h"
+#include "solver/tree/rows.h"
+#include "solver/tree/warm_start.h"
 
 #include <string.h>
 

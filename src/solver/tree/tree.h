@@ -8,22 +8,7 @@
 // is kept.
 #ifndef FE_SOLVER_TREE_TREE_H
 #define FE_SOLVER_TREE_TREE_H
-#include "solver/solver.h"
-
-typedef struct fe__tree_node fe__tree_node;
-
-typedef struct fe__tree_job {
-    fe__solver *solver;
-    const fe__lock_lanes *lanes;
-    const fe__tree_link *links;
-    const fe__tree_place *places;
-    int32_t count; // links
-    int32_t heavy;
-    unsigned char *rows; // of the batch
-    fe__tree_node *nodes;
-    double h;    // of the substep, s
-    double rate; // share of a gap that a soft lock closes in a substep
-} fe__tree_job;
+#include "solver/tree/node.h"
 
 // Bytes of the nodes of so many links; they begin with a whole block
 int64_t fe__tree_bytes(int32_t links);

@@ -8,14 +8,7 @@
 // is v less of (bodies.simd.c), takes all that the locks gave:
 //     start += M^-1 J^T l,   l = 0
 // All locks of the tree or none: one that is kept pulls at links whose others no longer balance it.
-#include "solver/tree/node.h"
-
-void fe__tree_add_spin(float w[3], const double i[6], fe_dvec3 l)
-{
-    w[0] = (float)((double)w[0] + (i[0] * l.x + i[1] * l.y + i[2] * l.z));
-    w[1] = (float)((double)w[1] + (i[1] * l.x + i[3] * l.y + i[4] * l.z));
-    w[2] = (float)((double)w[2] + (i[2] * l.x + i[4] * l.y + i[5] * l.z));
-}
+#include "solver/tree/warm_start.h"
 
 static int32_t turns_fast(const fe__tree_job *t)
 {
@@ -49,8 +42,9 @@ void fe__tree_forget_locks(const fe__tree_job *t)
         double l[FE__TREE_ROWS] = {0};
         for (int32_t k = 0, first = 0; k < p->locks; ++k)
             first += t->lanes->take(p->lock[k].part, t->rows + p->lock[k].row, p->lock[k].lane, l + first);
-        give_start(n, n->turn, start + p->line, (double)fe__tree_below(t, i)->inverse_mass, n->rows.below, l);
-        if (parent) give_start(n, parent->turn, start + p->parent_line, (double)fe__tree_above(t, i)->inverse_mass, n->rows.above, l);
+        give_start(n, n->inverse_inertia, start + p->line, (double)fe__tree_below(t, i)->inverse_mass, n->rows.below, l);
+        if (parent)
+            give_start(n, parent->inverse_inertia, start + p->parent_line, (double)fe__tree_above(t, i)->inverse_mass, n->rows.above, l);
         n->rows.pull = (fe_dvec3){0.0, 0.0, 0.0};
     }
 }
