@@ -11,7 +11,8 @@ namespace FeatherPhysics.Tests
         static int RunLaws()
         {
             int passed = 0, failed = 0;
-            foreach (MethodInfo law in typeof(Laws).GetMethods(BindingFlags.Public | BindingFlags.Static | BindingFlags.DeclaredOnly))
+            const BindingFlags all = BindingFlags.Public | BindingFlags.Static | BindingFlags.DeclaredOnly;
+            foreach (MethodInfo law in typeof(Laws).GetMethods(all))
                 try
                 {
                     law.Invoke(null, null);

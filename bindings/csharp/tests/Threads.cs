@@ -98,7 +98,8 @@ namespace FeatherPhysics.Tests
             public Scene()
             {
                 World = new World();
-                Field = World.CreateHeightfield(new HeightfieldDef { Rows = 40, Columns = 40, Heights = new float[1600] });
+                Field = World.CreateHeightfield(new HeightfieldDef { Rows = 40, Columns = 40,
+                    Heights = new float[1600] });
                 World.CreateStatic(new DVec3()).AddTerrain(Field);
                 for (int i = 0; i < Bodies.Length; ++i)
                 {
