@@ -68,11 +68,11 @@ static void plan_fixed(const fe_fixed_def *d, fe__joint_plan *plan)
         plan->parts |= bit(FE__PART_FIXED);
         return;
     }
-    fe__joint_turn *turn = &plan->axes.turn;
-    plan->parts |= bit(FE__PART_TURN);
-    turn->target[3] = 1.0f;
-    turn->drive.stiffness = d->angular_hertz, turn->drive.damping = d->angular_damping_ratio, turn->drive.cap = FE__UNLIMITED,
-    turn->drive.unit = FE__DRIVE_HERTZ;
+    fe__joint_rotation *rotation = &plan->axes.rotation;
+    plan->parts |= bit(FE__PART_ROTATION);
+    rotation->target[3] = 1.0f;
+    rotation->drive.stiffness = d->angular_hertz, rotation->drive.damping = d->angular_damping_ratio, rotation->drive.cap = FE__UNLIMITED,
+    rotation->drive.unit = FE__DRIVE_HERTZ;
 }
 
 // ---- rotations of three angles --------------------------------------------------------------------------------------------------------
@@ -105,9 +105,9 @@ fe_quat fe__joint_shift(int32_t shift)
     return turns[shift];
 }
 
-static void set_target(fe__joint_turn *turn, fe_quat q)
+static void set_target(fe__joint_rotation *rotation, fe_quat q)
 {
-    turn->target[0] = q.x, turn->target[1] = q.y, turn->target[2] = q.z, turn->target[3] = q.w;
+    rotation->target[0] = q.x, rotation->target[1] = q.y, rotation->target[2] = q.z, rotation->target[3] = q.w;
 }
 
 // the target within cone and range: a swing too wide comes back along its own direction
@@ -136,15 +136,15 @@ static void plan_ball(const fe_ball_def *d, fe__joint_plan *plan)
         set_limit(plan->axes.axis + FE__AXIS_TWIST, d->min_twist, d->max_twist, d->limit_hertz, d->limit_damping_ratio);
     }
     if (d->drive_hertz == 0.0f && d->motor_torque == 0.0f) return;
-    fe__joint_turn *turn = &plan->axes.turn;
-    plan->parts |= bit(FE__PART_TURN);
-    set_target(turn, clamped_target(d));
+    fe__joint_rotation *rotation = &plan->axes.rotation;
+    plan->parts |= bit(FE__PART_ROTATION);
+    set_target(rotation, clamped_target(d));
     if (d->drive_hertz > 0.0f)
-        turn->drive.stiffness = d->drive_hertz, turn->drive.damping = d->drive_damping_ratio, turn->drive.cap = d->drive_torque,
-        turn->drive.unit = FE__DRIVE_HERTZ;
-    turn->motor.velocity[0] = d->motor_velocity.x, turn->motor.velocity[1] = d->motor_velocity.y,
-    turn->motor.velocity[2] = d->motor_velocity.z;
-    turn->motor.cap = d->motor_torque;
+        rotation->drive.stiffness = d->drive_hertz, rotation->drive.damping = d->drive_damping_ratio, rotation->drive.cap = d->drive_torque,
+        rotation->drive.unit = FE__DRIVE_HERTZ;
+    rotation->motor.velocity[0] = d->motor_velocity.x, rotation->motor.velocity[1] = d->motor_velocity.y,
+    rotation->motor.velocity[2] = d->motor_velocity.z;
+    rotation->motor.cap = d->motor_torque;
 }
 
 // ---- configurable ---------------------------------------------------------------------------------------------------------------------
@@ -171,15 +171,15 @@ static int32_t plan_turn(const fe_joint_axis *a, fe__joint_plan *plan)
         if (a[k].mode != FE_MOTION_FREE || !alike) return 0;
     }
     if (!drives(a) && a->motor_force == 0.0f) return 0;
-    fe__joint_turn *turn = &plan->axes.turn;
-    plan->parts |= bit(FE__PART_TURN);
-    set_target(turn, rotation_of((angles){a[0].target, a[1].target, a[2].target}));
+    fe__joint_rotation *rotation = &plan->axes.rotation;
+    plan->parts |= bit(FE__PART_ROTATION);
+    set_target(rotation, rotation_of((angles){a[0].target, a[1].target, a[2].target}));
     if (drives(a)) {
-        turn->drive.stiffness = a->stiffness, turn->drive.damping = a->damping, turn->drive.cap = a->drive_force;
-        turn->drive.unit = a->drive == FE_DRIVE_STIFFNESS ? FE__DRIVE_STIFFNESS : FE__DRIVE_HERTZ;
+        rotation->drive.stiffness = a->stiffness, rotation->drive.damping = a->damping, rotation->drive.cap = a->drive_force;
+        rotation->drive.unit = a->drive == FE_DRIVE_STIFFNESS ? FE__DRIVE_STIFFNESS : FE__DRIVE_HERTZ;
     }
-    for (int k = 0; k < 3; ++k) turn->motor.velocity[k] = a[k].motor_speed;
-    turn->motor.cap = a->motor_force;
+    for (int k = 0; k < 3; ++k) rotation->motor.velocity[k] = a[k].motor_speed;
+    rotation->motor.cap = a->motor_force;
     return 1;
 }
 
