@@ -95,7 +95,7 @@ void fe__shape_take_asset(fe_world *world, int32_t index)
 {
     fe__shape *shape = world->shapes + index;
     shape->next_user = -1;
-    if (shape->form.type != FE__FORM_HEIGHTFIELD) return;
+    if (!fe__form_has_asset(&shape->form)) return;
     fe__asset *a = world->assets + shape->form.field;
     shape->next_user = a->first_user;
     a->first_user = index;
@@ -104,7 +104,7 @@ void fe__shape_take_asset(fe_world *world, int32_t index)
 void fe__shape_release_asset(fe_world *world, int32_t index)
 {
     const fe__shape *shape = world->shapes + index;
-    if (shape->form.type != FE__FORM_HEIGHTFIELD) return;
+    if (!fe__form_has_asset(&shape->form)) return;
     fe__asset *a = world->assets + shape->form.field;
     int32_t *at = &a->first_user;
     while (*at != index) at = &world->shapes[*at].next_user;

@@ -20,7 +20,7 @@
 #include "world/wait.h"
 #include "collision/form/heightfield.h"
 #include "collision/form/shape.h"
-#include "collision/manifold/terrain.h"
+#include "collision/manifold/patch.h"
 
 // What shapes share. Record i of the assets and record i of the heightfields are one thing.
 typedef struct fe__asset {
