@@ -7,9 +7,9 @@
 #else
 #define FE_ASSERT(condition, text) _Static_assert(condition, text)
 #endif
-#define FE_SIZE(type, bytes) FE_ASSERT(sizeof(type) == bytes, "size of " #type)
-#define FE_OFFSET(type, field, bytes) FE_ASSERT(offsetof(type, field) == bytes, "offset of " #type "." #field)
-#define FE_VALUE(name, value) FE_ASSERT((name) == value, "value of " #name)
+#define FE_SIZE(type, bytes) FE_ASSERT(sizeof(type) == bytes, "size of " #type);
+#define FE_OFFSET(type, field, bytes) FE_ASSERT(offsetof(type, field) == bytes, "offset of " #type "." #field);
+#define FE_VALUE(name, value) FE_ASSERT((name) == value, "value of " #name);
 
 #if UINTPTR_MAX == UINT64_MAX
 #include "layout.h"
