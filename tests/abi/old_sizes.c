@@ -392,7 +392,7 @@ typedef struct record {
 static const record records[] = {
     {"fe_hit", sizeof(fe_hit), offsetof(fe_hit, reserved), read_hits},
     {"fe_hit", sizeof(fe_hit), 8, read_many_hits},
-    {"fe_overlap", sizeof(fe_overlap), 8, read_overlaps},
+    {"fe_overlap", sizeof(fe_overlap), offsetof(fe_overlap, material), read_overlaps},
     {"fe_pair_event", sizeof(fe_pair_event), 8, read_pair_events},
     {"fe_body_event", sizeof(fe_body_event), 8, read_body_events},
     {"fe_hit_event", sizeof(fe_hit_event), 8, read_hit_events},
