@@ -1261,7 +1261,7 @@ typedef struct fe_overlap {
 } fe_overlap;
 
 /// The shapes that a geometry overlaps, in the order of creation, with direction and depth: to move a character out.
-/// @param stride  sizeof(fe_overlap)
+/// @param stride  sizeof(fe_overlap), at least 16
 /// @return how many there are; when they are more than `capacity` those created first are written
 FE_API int32_t fe_world_overlap_shapes(const fe_world *world, const fe_geometry *geometry, const fe_transform *at,
                                        const fe_query_filter *filter, fe_overlap *out_overlaps, uint32_t stride,

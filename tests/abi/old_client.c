@@ -70,7 +70,7 @@ static int read_back(const fe_world *world, fe_body ball)
     CHECK(fe_body_get_mass_data(world, ball, &mass.value) == FE_OK && intact(mass.canary));
     GUARDED(fe_hit, hit);
     fe_dvec3 origin = {0.0, 5.0, 0.0}, translation = {0.0, -10.0, 0.0};
-    CHECK(fe_world_raycast(world, &origin, &translation, NULL, &hit.value) == FE_OK);
+    CHECK(fe_world_raycast(world, &origin, &translation, NULL, &hit.value) == 1);
     CHECK(intact(hit.canary) && hit.value.body == ball);
     return 0;
 }

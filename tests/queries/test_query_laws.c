@@ -176,11 +176,11 @@ static const char *broken_by_sweep(const fe_world *world, const input *in)
             return "what starts inside is what overlaps, in order of creation";
     }
     if (flagged != overlap) return "overlap and a start inside are one";
-    if ((fe_world_overlap_any(world, &in->geometry, &in->start, NULL) == FE_OK) != (overlap > 0)) return "any overlap";
+    if ((fe_world_overlap_any(world, &in->geometry, &in->start, NULL) == 1) != (overlap > 0)) return "any overlap";
     int32_t result = fe_world_sweep(world, &in->geometry, &in->start, &in->way, NULL, &first);
     if (result != (all > 0 ? 1 : 0) || fe_world_sweep_any(world, &in->geometry, &in->start, &in->way, NULL) != result)
         return "first, any and all agree";
-    if ((result == FE_OK && first.flags != 0) != (overlap > 0)) return "overlap and a start inside are one for the first hit";
+    if ((result == 1 && first.flags != 0) != (overlap > 0)) return "overlap and a start inside are one for the first hit";
     if (all > 0 && memcmp(&first, hits, sizeof first) != 0) return "the first of all is the first";
     if (in->way.x == 0 && in->way.y == 0 && in->way.z == 0 && all != overlap) return "a zero translation is an overlap test";
     return NULL;

@@ -287,7 +287,7 @@ static const row distance_rows[] = {
     {FIELD(common.frame_a.rotation), {0, 0.5}, reversed, told_angle, FE_DOF_ANGULAR_X, 0, 0, NULL, put_turn},
     {FIELD(common.frame_a.rotation), {0, 0.5}, reversed, told_angle, FE_DOF_ANGULAR_Y, 0, 0, NULL, put_turn},
     {FIELD(common.frame_b.rotation), {0, 0.5}, as_set, told_angle, FE_DOF_ANGULAR_Z, 0, 0, NULL, put_turn},
-    {FIELD(distance.limit_enabled), {0, 1}, stopped_if, way, 0, 100, 0.5, length_range, put_int},
+    {FIELD(distance.limit_enabled), {0, 1}, stopped_if, way, 0, 200, 0.5, length_range, put_int},
     {FIELD(distance.lower), {1.5, 1.75}, beyond_rest, way, 0, -100, 3, no_least_length, NULL},
     {FIELD(distance.upper), {2.25, 2.5}, beyond_rest, way, 0, 100, 3, no_longest_length, NULL},
     {FIELD(distance.target), {1.5, 2.5}, beyond_rest, way, 0, 0, 3, length_spring, NULL},
@@ -391,7 +391,7 @@ static const axis_row axis_rows[] = {
     {OF_AXIS(spring_hertz), {2, 4}, gives, way, 10, 3, {SPRING}, 0},
     {OF_AXIS(spring_stiffness), {100, 200}, gives_by_stiffness, way, 10, 8, {STIFF}, 0},
     {OF_AXIS(spring_damping_ratio), {5, 20}, creeps, way, 10, 1, {SPRING}, 0},
-    {OF_AXIS(spring_damping), {200, 400}, creeps_by_damping, way, 10, 1, {STIFF}, 0},
+    {OF_AXIS(spring_damping), {2000, 8000}, creeps_by_damping, way, 10, 1, {STIFF}, 0},
     {OF_AXIS(spring_max), {6, 15}, no_more_than_cap, resistance, 10, 1, {SPRING}, 0},
     {OF_AXIS(motor_speed), {0.5, -1}, as_set, pace, 0, 1, {.motion = FE_MOTION_FREE, .motor_max = 1e6f}, 0},
     {OF_AXIS(motor_max), {1, 3}, spun_up, pace, 0, 0.5, {.motion = FE_MOTION_FREE, .motor_speed = 1000}, 0},
@@ -558,6 +558,7 @@ static void every_field_of_every_type_has_a_row(void **state)
             for (int i = 0; i < AXIS_ROWS; ++i) {
                 row made = row_of_axis(&axis_rows[i], axis);
                 mark(covered, made.offset, made.size);
+                mark(covered, made.offset - axis_rows[i].offset + offsetof(fe_joint_axis, reserved), sizeof axis_rows[i].axis.reserved);
             }
         for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; ++i)
             if (elsewhere[i].kind < 0 || elsewhere[i].kind == kind) mark(covered, elsewhere[i].offset, elsewhere[i].size);
