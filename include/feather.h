@@ -1077,12 +1077,12 @@ FE_API fe_result fe_joint_get_enabled(const fe_world *world, fe_joint joint, int
 /// @param dof    fe_dof: FE_DOF_LINEAR_X for a distance joint, FE_DOF_ANGULAR_X for a hinge, an angular one for a ball
 ///               joint, any for a configurable joint
 /// @param speed  m/s or rad/s
-/// @return FE_ERROR_STATE for a joint without that motor
+/// @return FE_ERROR_STATE for a type of joint that has no such motor
 FE_API fe_result fe_joint_set_motor_speed(fe_world *world, fe_joint joint, int32_t dof, float speed);
 /// Target of the spring alone. A change wakes its bodies.
 /// @param dof     as above
 /// @param target  m or rad
-/// @return FE_ERROR_STATE for a joint without that spring, and for a ball joint
+/// @return FE_ERROR_STATE for a type of joint that has no such spring, and for a ball joint
 FE_API fe_result fe_joint_set_target(fe_world *world, fe_joint joint, int32_t dof, float target);
 /// Target rotation of a ball joint's spring alone. A change wakes its bodies.
 FE_API fe_result fe_ball_joint_set_target(fe_world *world, fe_joint joint, const fe_quat *target);

@@ -2,6 +2,7 @@
 #include "api/check.h"
 #include "core/fp_state.h"
 #include "world/handles.h"
+#include "world/material.h"
 #include "world/pair_list.h"
 #include "world/pairs.h"
 
@@ -94,6 +95,8 @@ static fe_contact describe(const fe_world *world, int32_t pair)
                           .body_b = fe__body_handle(world, p->body_b),
                           .shape_a = fe__shape_handle(world, p->shape_a),
                           .shape_b = fe__shape_handle(world, p->shape_b),
+                          .material_a = fe__pair_material(world, pair, 0)->user_id,
+                          .material_b = fe__pair_material(world, pair, 1)->user_id,
                           .normal = {side * c->normal[0], side * c->normal[1], side * c->normal[2]},
                           .point_count = point_count(world, pair),
                           .friction_impulse = {side * c->friction_impulse[0], side * c->friction_impulse[1], side * c->friction_impulse[2]},

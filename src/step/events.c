@@ -7,6 +7,7 @@
 #include "step/collide_stage.h"
 #include "world/handles.h"
 #include "world/pair_list.h"
+#include "world/material.h"
 #include "world/pairs.h"
 
 static fe__pair_event_record record_of(const fe_world *w, int32_t pair, int32_t kind)
@@ -61,6 +62,8 @@ static void add_hit(fe_world *w, int32_t pair)
                                  .body_b = e.body_b,
                                  .shape_a = e.shape_a,
                                  .shape_b = e.shape_b,
+                                 .material_a = fe__pair_material(w, sum.pair, 0)->user_id,
+                                 .material_b = fe__pair_material(w, sum.pair, 1)->user_id,
                                  .point = fe__contact_point(w, sum.pair, sum.point),
                                  .normal = fe__scale(sign, fe__vec3(m->normal[0], m->normal[1], m->normal[2])),
                                  .speed = sum.approach,
