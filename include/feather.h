@@ -53,7 +53,8 @@
 ///
 /// **Threads.** Different worlds are independent. Functions with a `const` world only read: any number of threads may
 /// call them at once, while none writes. All others write and need the world to themselves. A second writer gets
-/// FE_ERROR_BUSY; so does a reader while another thread writes, and a step or a destruction while another thread reads.
+/// FE_ERROR_BUSY, and so does a reader while another thread writes. While another thread reads, steps, destructions and
+/// calls that make or remove something get it; other writes do not notice readers and must not meet them.
 /// A call that begins after fe_world_destroy has returned is undefined, as after free.
 ///
 /// **Determinism.** The same calls in the same order give the same bits, handles and events: on every machine, with

@@ -64,7 +64,7 @@ static fe_body create(fe_world *world, fe_body_def full)
 fe_result fe_body_create(fe_world *world, const fe_body_def *def, fe_body *out_body)
 {
     if (out_body) *out_body = 0;
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     FE_CHECK_POINTER(out_body);
     fe_body_def full;
     FE_TRY(read_body_def(function, def, &full));
@@ -104,7 +104,7 @@ static void destroy(fe_world *world, int32_t index)
 
 fe_result fe_body_destroy(fe_world *world, fe_body body)
 {
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     FE_FIND_BODY(index, body);
     destroy(world, index);
     return FE_OK;
@@ -126,7 +126,7 @@ static fe_result mark_bodies(const char *function, fe_world *world, const fe_bod
 
 fe_result fe_body_destroy_many(fe_world *world, const fe_body *bodies, int32_t count)
 {
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     FE_CHECK_ARRAY(bodies, count);
     int32_t marked = 0;
     fe_result result = mark_bodies(function, world, bodies, count, &marked);
@@ -155,7 +155,7 @@ static int32_t must_be_static(const fe_world *world, int32_t body)
 
 fe_result fe_body_set_type(fe_world *world, fe_body body, int32_t type)
 {
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_INT(type, FE_BODY_STATIC, FE_BODY_DYNAMIC);
     if (type != FE_BODY_STATIC && must_be_static(world, index)) {
@@ -464,7 +464,7 @@ fe_result fe_body_get_sleep_threshold(const fe_world *world, fe_body body, float
 
 fe_result fe_body_set_enabled(fe_world *world, fe_body body, int32_t enabled)
 {
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_BOOL(enabled);
     fe__fp_state fp = fe__fp_enter();

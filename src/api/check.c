@@ -26,6 +26,11 @@ fe_result fe__refuse(const char *function, const fe_world *world)
     }
 }
 
+fe_result fe__refuse_writer(const char *function)
+{
+    return fe__fail(function, FE_ERROR_BUSY, "another thread is reading this world; call it when its calls have returned");
+}
+
 // ---- handles --------------------------------------------------------------------------------------------------------------------
 
 static fe_result find(const char *function, const char *name, const fe__id_pool *pool, fe_handle handle, int32_t *out_slot)

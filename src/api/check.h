@@ -55,6 +55,13 @@ enum { FE_MAX_SUBSTEPS = 64 };
 #define FE_WRITE(world)              \
     const char *function = __func__; \
     FE_WRITE_AS(function, world)
+// Of what makes or removes records: these may move, and no reader may hold on to them
+#define FE_WRITE_ALONE_AS(function, world) \
+    FE_WRITE_AS(function, world);          \
+    if (!fe__owner_be_alone(inside, FE__WRITER)) return fe__refuse_writer(function)
+#define FE_WRITE_ALONE(world)        \
+    const char *function = __func__; \
+    FE_WRITE_ALONE_AS(function, world)
 #define FE_BEGIN_WITHOUT_WORLD() const char *function = __func__
 // Declares `index`, the record that a handle names.
 #define FE_FIND_BODY(index, handle) \
@@ -105,6 +112,8 @@ static inline void fe__end_write(fe__owner **owner)
 }
 // Why the world could not be entered
 fe_result fe__refuse(const char *function, const fe_world *world);
+// A reader is inside
+fe_result fe__refuse_writer(const char *function);
 fe_result fe__find_body(const char *function, const char *name, const fe_world *world, fe_body handle, int32_t *out_index);
 fe_result fe__find_shape(const char *function, const char *name, const fe_world *world, fe_shape handle, int32_t *out_index);
 fe_result fe__find_joint(const char *function, const char *name, const fe_world *world, fe_joint handle, int32_t *out_index);

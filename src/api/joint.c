@@ -13,7 +13,7 @@ static const char *const type_names[FE__JOINT_TYPES] = {"none",  "distance joint
 static fe_result create(const char *function, fe_world *world, int32_t type, const void *def, fe_joint *out_joint)
 {
     if (out_joint) *out_joint = 0;
-    FE_WRITE_AS(function, world);
+    FE_WRITE_ALONE_AS(function, world);
     FE_CHECK_POINTER(out_joint);
     fe__joint_any full;
     fe__joint_defaults(type, &full);
@@ -217,7 +217,7 @@ fe_result fe_joint_get_user_data(const fe_world *world, fe_joint joint, uint64_t
 
 fe_result fe_joint_destroy(fe_world *world, fe_joint joint)
 {
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     FE_FIND_JOINT(index, joint);
     fe__fp_state fp = fe__fp_enter();
     fe__joint_destroy(world, index);

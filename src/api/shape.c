@@ -144,7 +144,7 @@ static fe_result read_shape_def(const char *function, const fe_shape_def *def, f
 fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *def, const fe_geometry *geometry, fe_shape *out_shape)
 {
     if (out_shape) *out_shape = 0;
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_shape);
     fe_shape_def full;
@@ -163,7 +163,7 @@ fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *def
 
 fe_result fe_shape_destroy(fe_world *world, fe_shape shape)
 {
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     FE_FIND_SHAPE(index, shape);
     fe__fp_state fp = fe__fp_enter();
     fe__shape_destroy(world, index);
@@ -191,7 +191,7 @@ fe_result fe_shape_get_body(const fe_world *world, fe_shape shape, fe_body *out_
 
 fe_result fe_shape_set_geometry(fe_world *world, fe_shape shape, const fe_geometry *geometry)
 {
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     FE_FIND_SHAPE(index, shape);
     fe__form form;
     FE_TRY(read_geometry(function, world, geometry, &form));

@@ -88,7 +88,7 @@ fe_result fe_world_destroy(fe_world *world)
 {
     FE_WRITE(world);
     if (!fe__owner_be_alone(inside, FE__CLOSING)) {
-        return fe__fail(function, FE_ERROR_BUSY, "another thread is reading this world; destroy it when its calls have returned");
+        return fe__refuse_writer(function);
     }
     inside = NULL; // its word goes with it
     fe__world_destroy(world);
@@ -102,7 +102,7 @@ fe_result fe_world_step(fe_world *world, float dt)
     FE_WRITE(world);
     FE_CHECK_FLOAT(dt, 0.0f, FE_MAX_DT);
     if (!fe__owner_be_alone(inside, FE__STEP)) {
-        return fe__fail(function, FE_ERROR_BUSY, "another thread is reading this world; step it when its calls have returned");
+        return fe__refuse_writer(function);
     }
     fe__fp_state fp = fe__fp_enter();
     fe_result result = fe__world_step(world, dt);
@@ -212,7 +212,7 @@ static void renew_boxes(fe_world *world)
 
 fe_result fe_world_set_tuning(fe_world *world, const fe_world_tuning *tuning)
 {
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     fe_world_tuning copy = world->tuning;
     FE_TRY(read_tuning(function, tuning, &copy));
     int32_t same_reach = copy.speculative_distance == world->tuning.speculative_distance;
@@ -237,7 +237,7 @@ fe_result fe_world_get_tuning(const fe_world *world, fe_world_tuning *out_tuning
 
 fe_result fe_world_ignore_collision(fe_world *world, fe_body a, fe_body b, int32_t ignore)
 {
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     FE_FIND_BODY(index_a, a);
     FE_FIND_BODY(index_b, b);
     FE_CHECK_BOOL(ignore);
@@ -266,7 +266,7 @@ fe_result fe_world_get_ignored(const fe_world *world, fe_body a, fe_body b, int3
 
 fe_result fe_world_optimize(fe_world *world)
 {
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     fe__fp_state fp = fe__fp_enter();
     int32_t built = fe__tree_rebuild(&world->static_tree, &world->memory, 1) && fe__tree_rebuild(&world->moving_tree, &world->memory, 1);
     fe__fp_leave(fp);

@@ -6,7 +6,7 @@
 // first and look afterwards, in one total order (Dekker's algorithm, with sequentially consistent operations): at least one notices the
 // other.
 //
-// A plain writer does not look at the slots: a reader that was inside before it is the caller's race.
+// A writer that moves no record does not look at the slots: a reader that was inside before it may see old and new values.
 #ifndef FE_CORE_OWNER_H
 #define FE_CORE_OWNER_H
 #include "feather.h"
