@@ -210,7 +210,7 @@ static void bad_ends_are_refused(void **state)
         const struct {
             fe_body a, b;
             int32_t result;
-        } cases[] = {{0, f.b, FE_ERROR_STALE},    {f.a, 0, FE_ERROR_STALE},    {f.a, f.a, FE_ERROR_ARGUMENT}, {gone, f.b, FE_ERROR_STALE},
+        } cases[] = {{1, f.b, FE_ERROR_STALE},    {0, 0, FE_ERROR_ARGUMENT},   {f.a, f.a, FE_ERROR_ARGUMENT}, {gone, f.b, FE_ERROR_STALE},
                      {f.a, gone, FE_ERROR_STALE}, {shape, f.b, FE_ERROR_KIND}, {f.a, shape, FE_ERROR_KIND}};
         for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
             d.common.body_a = cases[i].a, d.common.body_b = cases[i].b;
@@ -684,12 +684,12 @@ static void bad_arguments_of_the_makers_are_refused(void **state)
     REFUSES(w, FE_ERROR_ARGUMENT, fe_ball_joint_def_at(w, &ball, f.a, f.a, &p, &x));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_ball_joint_def_at(w, &ball, f.a, f.b, NULL, &x));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_ball_joint_def_at(w, &ball, f.a, f.b, &p, NULL));
-    REFUSES(w, FE_ERROR_STALE, fe_ball_joint_def_at(w, &ball, 0, f.b, &p, &x));
+    REFUSES(w, FE_ERROR_STALE, fe_ball_joint_def_at(w, &ball, 1, f.b, &p, &x));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_hinge_joint_def_at(w, &hinge, f.a, f.b, &p, &none));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_hinge_joint_def_at(w, &hinge, f.a, f.b, &p, &nan));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_hinge_joint_def_at(w, &hinge, f.a, f.b, &far, &x));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_hinge_joint_def_at(w, NULL, f.a, f.b, &p, &x));
-    REFUSES(w, FE_ERROR_STALE, fe_fixed_joint_def_at(w, &fixed, f.a, 0, &p));
+    REFUSES(w, FE_ERROR_STALE, fe_fixed_joint_def_at(w, &fixed, f.a, 1, &p));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_fixed_joint_def_at(w, &fixed, f.a, f.b, NULL));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_distance_joint_def_at(w, &rod, f.a, f.b, &p, NULL));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_distance_joint_def_at(w, NULL, f.a, f.b, &p, &p));
@@ -708,7 +708,7 @@ static void bad_arguments_of_the_makers_are_refused(void **state)
     REFUSES(w, FE_ERROR_ARGUMENT, fe_wheel_joint_def_at(w, &c, f.a, f.b, &p, &x, &up, 1, 1, -1));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_motor_joint_def_at(w, &c, f.a, f.b, 1, 1, -1, 1));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_motor_joint_def_at(w, &c, f.a, f.b, 1, 1, 1, NOT_A_NUMBER));
-    REFUSES(w, FE_ERROR_STALE, fe_motor_joint_def_at(w, &c, f.a, 0, 1, 1, 1, 1));
+    REFUSES(w, FE_ERROR_STALE, fe_motor_joint_def_at(w, &c, f.a, 1, 1, 1, 1, 1));
     check_refusal(fe_motor_joint_def_at(NULL, &c, f.a, f.b, 1, 1, 1, 1), FE_ERROR_ARGUMENT, "fe_motor_joint_def_at(", __FILE__, __LINE__);
     end(&f);
 }

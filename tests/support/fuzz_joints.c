@@ -33,14 +33,14 @@ static void set_sensible(fuzz *f, int32_t kind, any_def *d)
     if (kind == ANY_HINGE)
         d->hinge.limit_enabled = which & 1, d->hinge.lower = -size, d->hinge.upper = which & 16 ? 3.1415927f : 0.5f * size;
     if (kind == ANY_HINGE)
-        d->hinge.spring_hertz = which & 2 ? 2.0f : 0.0f, d->hinge.motor_max = which & 4 ? 20.0f : 0.0f,
-        d->hinge.motor_speed = 4.0f * size;
+        d->hinge.spring_hertz = which & 2 ? 2.0f : 0.0f, d->hinge.motor_max = which & 4 ? 20.0f : 0.0f, d->hinge.motor_speed = 4.0f * size;
     if (kind == ANY_FIXED) d->fixed.angular_hertz = which & 1 ? 4.0f : 0.0f;
     for (int32_t k = 0; kind == ANY_CONFIGURABLE && k < AXES; ++k) {
         fe_joint_axis *axis = d->configurable.axes + k;
         uint8_t way = fuzz_byte(f);
         axis->motion = way % 3, axis->lower = -size, axis->upper = 0.5f * size;
-        axis->spring = way / 3 % 3, axis->spring_hertz = axis->spring_stiffness = 5.0f, axis->spring_damping_ratio = axis->spring_damping = 1.0f, axis->target = size - 0.5f;
+        axis->spring = way / 3 % 3, axis->spring_hertz = axis->spring_stiffness = 5.0f,
+        axis->spring_damping_ratio = axis->spring_damping = 1.0f, axis->target = size - 0.5f;
         if (way & 64) axis->motor_max = 10.0f, axis->motor_speed = 1.0f;
     }
 }
@@ -194,7 +194,8 @@ int32_t fuzz_read_joint(fuzz *f)
     if (fe_joint_get_type(f->world, joint, &type) || fe_joint_get_reaction(f->world, joint, &force, &torque) ||
         fe_joint_get_frames(f->world, joint, &a, &b) || fe_joint_get_bodies(f->world, joint, &body_a, &body_b))
         fuzz_fail(f, "a living joint cannot be read");
-    if (!fe_body_is_valid(f->world, body_a) || !fe_body_is_valid(f->world, body_b)) fuzz_fail(f, "a joint holds a dead body");
+    if ((body_a && !fe_body_is_valid(f->world, body_a)) || (body_b && !fe_body_is_valid(f->world, body_b)) || body_a == body_b)
+        fuzz_fail(f, "a joint holds a dead body");
     fe_joint_def front = {.struct_size = sizeof front};
     uint64_t data = 0;
     int32_t enabled = 0;
