@@ -15,7 +15,7 @@ enum {
     FE__BODY_ISOTROPIC = 32,   // equal principal moments, or a rotation lock: no gyroscopic torque
     FE__BODY_STARTED = 64,     // scratch of a walk: over an island, over a list of handles
     FE__BODY_IGNORES = 128,    // named in fe_world.ignored
-    FE__BODY_STIRRED = 256,    // in the list of bodies that woke or fell asleep
+    FE__BODY_DISTURBED = 256,  // in the list of bodies that woke or fell asleep
     FE__BODY_SEEN_AWAKE = 512, // when the events of the last step were written
     FE__BODY_CHASED = 1024,    // in the list of bodies that continuous collision looks at
     FE__BODY_STRAINED = 2048,  // bears many times its weight, or a body many times as heavy just came upon it
