@@ -16,11 +16,11 @@ FE_DEF(fe_world_def)
 FE_DEF(fe_world_tuning)
 FE_DEF(fe_body_def)
 FE_DEF(fe_shape_def)
-FE_DEF(fe_distance_def)
-FE_DEF(fe_ball_def)
-FE_DEF(fe_hinge_def)
-FE_DEF(fe_fixed_def)
-FE_DEF(fe_configurable_def)
+FE_DEF(fe_distance_joint_def)
+FE_DEF(fe_ball_joint_def)
+FE_DEF(fe_hinge_joint_def)
+FE_DEF(fe_fixed_joint_def)
+FE_DEF(fe_configurable_joint_def)
 FE_SIZED(fe_joint_def)
 FE_SIZED(fe_mass_data)
 FE_SIZED(fe_geometry)
@@ -29,8 +29,8 @@ FE_SIZED(fe_geometry)
 %typemap(check) uint32_t struct_size "$1 = arg1 ? (uint32_t)sizeof *arg1 : 0;"
 %immutable struct_size;
 
-%ignore fe_configurable_def::axes;
-%extend fe_configurable_def {
+%ignore fe_configurable_joint_def::axes;
+%extend fe_configurable_joint_def {
     /// The axis of a coordinate: lives as long as this object.
     fe_joint_axis *axis(int32_t coordinate) { return coordinate < 0 || coordinate > 5 ? NULL : &$self->axes[coordinate]; }
 }
@@ -43,11 +43,11 @@ FE_OUT_RECORD(fe_profile, out_profile)
 FE_OUT_RECORD(fe_counters, out_counters)
 FE_OUT_RECORD(fe_mass_data, out_data)
 FE_OUT_RECORD(fe_joint_def, out_desc)
-FE_OUT_RECORD(fe_distance_def, out_desc)
-FE_OUT_RECORD(fe_ball_def, out_desc)
-FE_OUT_RECORD(fe_hinge_def, out_desc)
-FE_OUT_RECORD(fe_fixed_def, out_desc)
-FE_OUT_RECORD(fe_configurable_def, out_desc)
+FE_OUT_RECORD(fe_distance_joint_def, out_desc)
+FE_OUT_RECORD(fe_ball_joint_def, out_desc)
+FE_OUT_RECORD(fe_hinge_joint_def, out_desc)
+FE_OUT_RECORD(fe_fixed_joint_def, out_desc)
+FE_OUT_RECORD(fe_configurable_joint_def, out_desc)
 FE_OUT_RECORD(fe_joint_state, out_state)
 FE_OUT_RECORD(fe_hit, out_hit)
 FE_OUT_RECORD(fe_closest, out_closest)

@@ -140,8 +140,8 @@ static inline fe_result ragdoll_add_bone(fe_world *world, const ragdoll_bone *bo
     body.transform.position =
         fe_make_dvec3(at.position.x + (double)place.x, at.position.y + (double)place.y, at.position.z + (double)place.z);
     body.transform.rotation = machine_multiply(at.rotation, bone->rotation);
-    surface.local_position = fe_make_vec3(0.5f * (a.x + b.x), 0.5f * (a.y + b.y), 0.5f * (a.z + b.z));
-    surface.local_rotation = machine_turn_y_to(along);
+    surface.frame.position = fe_make_vec3(0.5f * (a.x + b.x), 0.5f * (a.y + b.y), 0.5f * (a.z + b.z));
+    surface.frame.rotation = machine_turn_y_to(along);
     surface.material.rolling_resistance = 0.2f;
     fe_geometry_capsule(&form, 0.5f * sqrtf(along.x * along.x + along.y * along.y + along.z * along.z), bone->radius);
     MACHINE_TRY(fe_body_create(world, &body, out_body));
@@ -172,22 +172,22 @@ static inline fe_result ragdoll_add_joint(fe_world *world, const ragdoll_bone *b
     fe_frame a = {ragdoll_point_in_parent(bone, ragdoll_bones + bone->parent), ragdoll_frame(bone->frame_a)};
     fe_frame b = {bone->point, ragdoll_frame(bone->frame_b)};
     if (bone->joint == RAGDOLL_HINGE) {
-        fe_hinge_def hinge;
-        fe_hinge_def_init(&hinge, sizeof hinge);
+        fe_hinge_joint_def hinge;
+        fe_hinge_joint_def_init(&hinge, sizeof hinge);
         hinge.body_a = parent, hinge.body_b = child, hinge.frame_a = a, hinge.frame_b = b;
-        hinge.limited = 1;
-        hinge.min_angle = bone->low * MACHINE_DEGREE, hinge.max_angle = bone->high * MACHINE_DEGREE;
-        hinge.motor_torque = bone->friction * friction_torque;
-        return fe_hinge_create(world, &hinge, out_joint);
+        hinge.limit_enabled = 1;
+        hinge.lower = bone->low * MACHINE_DEGREE, hinge.upper = bone->high * MACHINE_DEGREE;
+        hinge.motor_max = bone->friction * friction_torque;
+        return fe_hinge_joint_create(world, &hinge, out_joint);
     }
-    fe_ball_def ball;
-    fe_ball_def_init(&ball, sizeof ball);
+    fe_ball_joint_def ball;
+    fe_ball_joint_def_init(&ball, sizeof ball);
     ball.body_a = parent, ball.body_b = child, ball.frame_a = a, ball.frame_b = b;
-    ball.swing_limited = ball.twist_limited = 1;
+    ball.cone_enabled = ball.limit_enabled = 1;
     ball.cone_y = ball.cone_z = bone->swing * MACHINE_DEGREE;
-    ball.min_twist = bone->low * MACHINE_DEGREE, ball.max_twist = bone->high * MACHINE_DEGREE;
-    ball.motor_torque = bone->friction * friction_torque;
-    return fe_ball_create(world, &ball, out_joint);
+    ball.lower = bone->low * MACHINE_DEGREE, ball.upper = bone->high * MACHINE_DEGREE;
+    ball.motor_max = bone->friction * friction_torque;
+    return fe_ball_joint_create(world, &ball, out_joint);
 }
 
 // A person standing at a place. Neighbours in the table do not touch because they are joined; thighs and belly overlap without being it.
@@ -218,7 +218,7 @@ static inline fe_result car_add_wheel(fe_world *world, car *c, int i, fe_dvec3 a
     fe_body_def body;
     fe_shape_def surface;
     fe_shape shape;
-    fe_configurable_def d;
+    fe_configurable_joint_def d;
     fe_geometry_sphere(&tyre, 0.4f);
     fe_body_def_init(&body, sizeof body);
     body.transform = fe_make_transform(at.x, at.y, at.z);
@@ -228,13 +228,13 @@ static inline fe_result car_add_wheel(fe_world *world, car *c, int i, fe_dvec3 a
     MACHINE_TRY(fe_body_create(world, &body, &c->wheels[i]));
     MACHINE_TRY(fe_shape_create(world, c->wheels[i], &surface, &tyre, &shape));
     d.struct_size = sizeof d;
-    MACHINE_TRY(fe_wheel_def_at(world, &d, c->chassis, c->wheels[i], &at, &axle, &up, 2, 0.7f, 0.25f));
+    MACHINE_TRY(fe_wheel_joint_def_at(world, &d, c->chassis, c->wheels[i], &at, &axle, &up, 2, 0.7f, 0.25f));
     if (i < 2) { // steers by a stiff drive
-        fe_joint_axis *steer = &d.axes[FE_ABOUT_Z];
-        steer->mode = FE_MOTION_LIMITED, steer->low = -0.6f, steer->high = 0.6f;
-        steer->drive = FE_DRIVE_HERTZ, steer->stiffness = 10, steer->damping = 1;
+        fe_joint_axis *steer = &d.axes[FE_DOF_ANGULAR_Z];
+        steer->motion = FE_MOTION_LIMITED, steer->lower = -0.6f, steer->upper = 0.6f;
+        steer->spring = FE_SPRING_HERTZ, steer->spring_hertz = 10, steer->spring_damping_ratio = 1;
     }
-    return fe_configurable_create(world, &d, &c->axles[i]);
+    return fe_configurable_joint_create(world, &d, &c->axles[i]);
 }
 
 static inline fe_result car_build(fe_world *world, double x, double y, double z, car *out)
@@ -251,13 +251,13 @@ static inline fe_result car_build(fe_world *world, double x, double y, double z,
 static inline fe_result car_drive(fe_world *world, const car *c, float speed, float torque, float steer)
 {
     for (int i = 0; i < 4; ++i) {
-        fe_configurable_def d;
+        fe_configurable_joint_def d;
         d.struct_size = sizeof d;
-        MACHINE_TRY(fe_configurable_get(world, c->axles[i], &d));
-        d.axes[FE_ABOUT_X].motor_speed = speed / 0.4f;
-        d.axes[FE_ABOUT_X].motor_force = i < 2 ? 0 : torque;
-        d.axes[FE_ABOUT_Z].target = steer;
-        MACHINE_TRY(fe_configurable_set(world, c->axles[i], &d));
+        MACHINE_TRY(fe_configurable_joint_get(world, c->axles[i], &d));
+        d.axes[FE_DOF_ANGULAR_X].motor_speed = speed / 0.4f;
+        d.axes[FE_DOF_ANGULAR_X].motor_max = i < 2 ? 0 : torque;
+        d.axes[FE_DOF_ANGULAR_Z].target = steer;
+        MACHINE_TRY(fe_configurable_joint_set(world, c->axles[i], &d));
     }
     return FE_OK;
 }
@@ -282,11 +282,11 @@ static inline fe_result bridge_build(fe_world *world, double x, double y, double
         fe_body a = i ? out->planks[i - 1] : out->posts[0], b = i < BRIDGE_PLANKS ? out->planks[i] : out->posts[1];
         for (int side = 0; side < 2; ++side) {
             fe_dvec3 from = {x + i * pitch - (pitch / 2 - half), y, z + (side ? 0.7 : -0.7)}, to = from;
-            fe_distance_def rope;
+            fe_distance_joint_def rope;
             to.x += pitch - 2 * half;
             rope.struct_size = sizeof rope;
-            MACHINE_TRY(fe_rope_def_at(world, &rope, a, b, &from, &to, 0.06f));
-            MACHINE_TRY(fe_distance_create(world, &rope, &out->ropes[2 * i + side]));
+            MACHINE_TRY(fe_rope_joint_def_at(world, &rope, a, b, &from, &to, 0.06f));
+            MACHINE_TRY(fe_distance_joint_create(world, &rope, &out->ropes[2 * i + side]));
         }
     }
     return FE_OK;
@@ -305,13 +305,13 @@ static inline fe_result door_build(fe_world *world, double x, double y, double z
     MACHINE_TRY(machine_box(world, FE_BODY_STATIC, x - 0.06, y + 1, z, 0.05f, 1, 0.05f, 0, &out->frame));
     MACHINE_TRY(machine_box(world, FE_BODY_DYNAMIC, x + 0.45, y + 1.02, z, 0.45f, 1, 0.02f, 500, &out->leaf));
     for (int i = 0; i < 2; ++i) {
-        fe_hinge_def hinge;
+        fe_hinge_joint_def hinge;
         fe_dvec3 at = {x, y + (i ? 1.8 : 0.2), z};
-        fe_hinge_def_init(&hinge, sizeof hinge);
-        hinge.limited = 1, hinge.min_angle = -100 * MACHINE_DEGREE, hinge.max_angle = 100 * MACHINE_DEGREE;
+        fe_hinge_joint_def_init(&hinge, sizeof hinge);
+        hinge.limit_enabled = 1, hinge.lower = -100 * MACHINE_DEGREE, hinge.upper = 100 * MACHINE_DEGREE;
         if (i == 0) hinge.spring_hertz = 0.5f, hinge.spring_damping_ratio = 0.7f;
-        MACHINE_TRY(fe_hinge_def_at(world, &hinge, out->frame, out->leaf, &at, &up));
-        MACHINE_TRY(fe_hinge_create(world, &hinge, &out->hinges[i]));
+        MACHINE_TRY(fe_hinge_joint_def_at(world, &hinge, out->frame, out->leaf, &at, &up));
+        MACHINE_TRY(fe_hinge_joint_create(world, &hinge, &out->hinges[i]));
     }
     return FE_OK;
 }
@@ -330,17 +330,17 @@ typedef struct crane {
 static inline fe_result crane_build(fe_world *world, double x, double y, double z, float ratio, crane *out)
 {
     const fe_vec3 along = {1, 0, 0}, down = {0, -1, 0};
-    fe_configurable_def rail;
+    fe_configurable_joint_def rail;
     fe_geometry form;
     out->link_mass = 1, out->load_mass = ratio;
     MACHINE_TRY(machine_box(world, FE_BODY_STATIC, x, y + 1, z, 8, 0.2f, 0.2f, 0, &out->mast));
     MACHINE_TRY(machine_box(world, FE_BODY_DYNAMIC, x, y, z, 0.5f, 0.25f, 0.5f, 4000, &out->trolley));
     fe_dvec3 at = {x, y, z};
     rail.struct_size = sizeof rail;
-    MACHINE_TRY(fe_slider_def_at(world, &rail, out->mast, out->trolley, &at, &along));
-    rail.axes[FE_ALONG_X].mode = FE_MOTION_LIMITED, rail.axes[FE_ALONG_X].low = -6, rail.axes[FE_ALONG_X].high = 6;
-    rail.axes[FE_ALONG_X].drive = FE_DRIVE_HERTZ, rail.axes[FE_ALONG_X].stiffness = 0.5f, rail.axes[FE_ALONG_X].damping = 1;
-    MACHINE_TRY(fe_configurable_create(world, &rail, &out->winch));
+    MACHINE_TRY(fe_slider_joint_def_at(world, &rail, out->mast, out->trolley, &at, &along));
+    rail.axes[FE_DOF_LINEAR_X].motion = FE_MOTION_LIMITED, rail.axes[FE_DOF_LINEAR_X].lower = -6, rail.axes[FE_DOF_LINEAR_X].upper = 6;
+    rail.axes[FE_DOF_LINEAR_X].spring = FE_SPRING_HERTZ, rail.axes[FE_DOF_LINEAR_X].spring_hertz = 0.5f, rail.axes[FE_DOF_LINEAR_X].spring_damping_ratio = 1;
+    MACHINE_TRY(fe_configurable_joint_create(world, &rail, &out->winch));
     fe_geometry_capsule(&form, 0.1f, 0.05f);
     fe_body above = out->trolley;
     for (int i = 0; i <= CRANE_LINKS; ++i) {
@@ -356,12 +356,12 @@ static inline fe_result crane_build(fe_world *world, double x, double y, double 
             MACHINE_TRY(fe_body_set_mass(world, out->load, out->load_mass));
             below = out->load;
         }
-        fe_ball_def ball;
+        fe_ball_joint_def ball;
         at = fe_make_dvec3(x, top, z);
-        fe_ball_def_init(&ball, sizeof ball);
-        ball.motor_torque = 0.01f * ratio; // friction, so that a swing dies down
-        MACHINE_TRY(fe_ball_def_at(world, &ball, above, below, &at, &down));
-        MACHINE_TRY(fe_ball_create(world, &ball, &out->chain[i]));
+        fe_ball_joint_def_init(&ball, sizeof ball);
+        ball.motor_max = 0.01f * ratio; // friction, so that a swing dies down
+        MACHINE_TRY(fe_ball_joint_def_at(world, &ball, above, below, &at, &down));
+        MACHINE_TRY(fe_ball_joint_create(world, &ball, &out->chain[i]));
         above = below;
     }
     return FE_OK;

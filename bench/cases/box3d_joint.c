@@ -18,7 +18,7 @@ static void build_heavy_chain(bench_scene *s)
         bench_turn_z(&s->bodies[body], 0.5 * BENCH_PI);
         s->bodies[body].collides = 0;
         bench_joint *joint = bench_add_ball(s, last, body, i, 0.0, 0.0);
-        joint->motor_force = 10.0;
+        joint->motor_max = 10.0;
         last = body;
     }
     const int32_t ball = bench_add_dynamic(s, bench_sphere(s, 2.0, 1000.0, 0.6), LINKS + 2.0, 0.0, 0.0);

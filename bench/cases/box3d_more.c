@@ -108,7 +108,7 @@ static void build_falling_hinges(bench_scene *s)
             hinge->has_limits = 1;
             hinge->limits[0] = -0.1 * BENCH_PI, hinge->limits[1] = 0.2 * BENCH_PI;
             hinge->hertz = 1.0, hinge->damping = 1.0;
-            hinge->motor_force = 0.25;
+            hinge->motor_max = 0.25;
         }
     }
 }

@@ -236,7 +236,7 @@ static void add_bone_joint(bench_scene *s, const struct bone *b, int32_t hip, in
     joint->has_limits = 1;
     for (int k = 0; k < 2; k++) joint->limits[k] = b->twist[k] * DEGREE;
     joint->cone = b->cone * DEGREE;
-    joint->motor_force = 5.0 * b->friction;
+    joint->motor_max = 5.0 * b->friction;
 }
 
 static void add_human(bench_scene *s, const int32_t *shapes, const double *at, int32_t group)

@@ -167,7 +167,7 @@ static int32_t add_human(bench_scene *s, double x, double y, double scale, int32
         bench_joint *joint = bench_add_hinge_z(s, first + b->parent, first + i, x, y + scale * b->joint);
         joint->has_limits = 1;
         for (int k = 0; k < 2; k++) joint->limits[k] = b->range[k] * BENCH_PI;
-        joint->motor_force = 0.025 * scale * b->friction;
+        joint->motor_max = 0.025 * scale * b->friction;
     }
     return first;
 }
@@ -257,7 +257,7 @@ static void add_paddles(bench_scene *s, double half_depth)
         const int32_t body = bench_add_dynamic(s, paddle, 0.0, y, 0.0);
         bench_joint *motor = bench_add_hinge_z(s, 0, body, 0.0, y);
         motor->motor_speed = i == 1 ? -5.0 : 5.0;
-        motor->motor_force = 200.0;
+        motor->motor_max = 200.0;
     }
 }
 

@@ -111,9 +111,9 @@ void add_revolute(bench_world *w, const bench_joint &joint, b2Body *a, b2Body *b
         def.lowerAngle = float(flipped ? -joint.limits[1] : joint.limits[0]);
         def.upperAngle = float(flipped ? -joint.limits[0] : joint.limits[1]);
     }
-    def.enableMotor = joint.motor_force > 0.0;
+    def.enableMotor = joint.motor_max > 0.0;
     def.motorSpeed = float(flipped ? -joint.motor_speed : joint.motor_speed);
-    def.maxMotorTorque = float(joint.motor_force);
+    def.maxMotorTorque = float(joint.motor_max);
     w->world->CreateJoint(&def);
 }
 
@@ -124,9 +124,9 @@ void add_prismatic(bench_world *w, const bench_joint &joint, b2Body *a, b2Body *
     def.enableLimit = joint.has_limits != 0;
     def.lowerTranslation = float(joint.limits[0]);
     def.upperTranslation = float(joint.limits[1]);
-    def.enableMotor = joint.motor_force > 0.0;
+    def.enableMotor = joint.motor_max > 0.0;
     def.motorSpeed = float(joint.motor_speed);
-    def.maxMotorForce = float(joint.motor_force);
+    def.maxMotorForce = float(joint.motor_max);
     w->world->CreateJoint(&def);
 }
 

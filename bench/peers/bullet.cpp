@@ -122,8 +122,8 @@ std::unique_ptr<btTypedConstraint> make_hinge(btRigidBody &a, btRigidBody &b, co
     // the engine's angle grows with its first body turning about the axis, the scene's with B
     auto hinge = std::make_unique<btHingeConstraint>(b, a, frame_in(b, joint, turn), frame_in(a, joint, turn));
     if (joint.has_limits) hinge->setLimit(btScalar(joint.limits[0]), btScalar(joint.limits[1]));
-    if (joint.motor_force > 0.0)
-        hinge->enableAngularMotor(true, btScalar(joint.motor_speed), btScalar(joint.motor_force / 60.0)); // N m s a step
+    if (joint.motor_max > 0.0)
+        hinge->enableAngularMotor(true, btScalar(joint.motor_speed), btScalar(joint.motor_max / 60.0)); // N m s a step
     return hinge;
 }
 
@@ -135,10 +135,10 @@ std::unique_ptr<btTypedConstraint> make_slider(btRigidBody &a, btRigidBody &b, c
     slider->setUpperLinLimit(joint.has_limits ? btScalar(joint.limits[1]) : -1.0f);
     slider->setLowerAngLimit(0.0f);
     slider->setUpperAngLimit(0.0f);
-    if (joint.motor_force > 0.0) {
+    if (joint.motor_max > 0.0) {
         slider->setPoweredLinMotor(true);
         slider->setTargetLinMotorVelocity(btScalar(joint.motor_speed));
-        slider->setMaxLinMotorForce(btScalar(joint.motor_force));
+        slider->setMaxLinMotorForce(btScalar(joint.motor_max));
     }
     return slider;
 }

@@ -44,15 +44,17 @@ static fe_result add_terrain(fe_world *world, fe_body body, const bench_shape *s
     fe_heightfield_def field;
     fe_heightfield_def_init(&field, sizeof field);
     field.rows = field.columns = shape->side, field.cell_x = field.cell_z = shape->cell, field.heights = heights;
+    fe_store *store;
     fe_asset asset;
-    fe_result result = fe_heightfield_create(world, &field, &asset);
+    fe_result result = fe_world_get_store(world, &store);
+    if (result == FE_OK) result = fe_heightfield_create(store, &field, &asset);
     free(heights);
     if (result != FE_OK) return result;
     fe_shape_def def;
     fe_shape_def_init(&def, sizeof def);
     def.material.static_friction = def.material.dynamic_friction = shape->friction;
     def.material.rolling_resistance = shape->rolling;
-    def.local_position.x = def.local_position.z = -0.5f * shape->cell * (float)(shape->side - 1);
+    def.frame.position.x = def.frame.position.z = -0.5f * shape->cell * (float)(shape->side - 1);
     fe_geometry geometry;
     fe_geometry_heightfield(&geometry, asset);
     fe_shape created;
@@ -128,81 +130,81 @@ static fe_result set_tuning(fe_world *world, const bench_scene *scene)
 
 static fe_result add_ball(bench_world *w, const bench_joint *joint, const fe_dvec3 *anchor, const fe_vec3 *axis)
 {
-    fe_ball_def def, open;
-    fe_ball_def_init(&def, sizeof def);
+    fe_ball_joint_def def, open;
+    fe_ball_joint_def_init(&def, sizeof def);
     fe_body a = w->bodies[joint->body_a], b = w->bodies[joint->body_b];
-    fe_result result = fe_ball_def_at(w->world, &def, a, b, anchor, axis);
+    fe_result result = fe_ball_joint_def_at(w->world, &def, a, b, anchor, axis);
     if (result == FE_OK && joint->is_open) {
         const fe_dvec3 other = {joint->anchor_b[0], joint->anchor_b[1], joint->anchor_b[2]};
-        fe_ball_def_init(&open, sizeof open);
-        result = fe_ball_def_at(w->world, &open, a, b, &other, axis);
+        fe_ball_joint_def_init(&open, sizeof open);
+        result = fe_ball_joint_def_at(w->world, &open, a, b, &other, axis);
         def.frame_b = open.frame_b;
     }
-    def.swing_limited = joint->cone > 0.0;
+    def.cone_enabled = joint->cone > 0.0;
     if (joint->cone > 0.0) def.cone_y = def.cone_z = (float)joint->cone;
-    def.twist_limited = joint->has_limits;
-    if (joint->has_limits) def.min_twist = (float)joint->limits[0], def.max_twist = (float)joint->limits[1];
-    def.drive_hertz = (float)joint->hertz, def.drive_damping_ratio = (float)joint->damping;
-    def.motor_torque = (float)joint->motor_force;
+    def.limit_enabled = joint->has_limits;
+    if (joint->has_limits) def.lower = (float)joint->limits[0], def.upper = (float)joint->limits[1];
+    def.spring_hertz = (float)joint->hertz, def.spring_damping_ratio = (float)joint->damping;
+    def.motor_max = (float)joint->motor_max;
     fe_joint created;
-    return result == FE_OK ? fe_ball_create(w->world, &def, &created) : result;
+    return result == FE_OK ? fe_ball_joint_create(w->world, &def, &created) : result;
 }
 
 static fe_result add_hinge(bench_world *w, const bench_joint *joint, const fe_dvec3 *anchor, const fe_vec3 *axis)
 {
-    fe_hinge_def def, open;
-    fe_hinge_def_init(&def, sizeof def);
+    fe_hinge_joint_def def, open;
+    fe_hinge_joint_def_init(&def, sizeof def);
     fe_body a = w->bodies[joint->body_a], b = w->bodies[joint->body_b];
-    fe_result result = fe_hinge_def_at(w->world, &def, a, b, anchor, axis);
+    fe_result result = fe_hinge_joint_def_at(w->world, &def, a, b, anchor, axis);
     if (result == FE_OK && joint->is_open) {
         const fe_dvec3 other = {joint->anchor_b[0], joint->anchor_b[1], joint->anchor_b[2]};
-        fe_hinge_def_init(&open, sizeof open);
-        result = fe_hinge_def_at(w->world, &open, a, b, &other, axis);
+        fe_hinge_joint_def_init(&open, sizeof open);
+        result = fe_hinge_joint_def_at(w->world, &open, a, b, &other, axis);
         def.frame_b = open.frame_b;
     }
-    def.limited = joint->has_limits;
-    if (joint->has_limits) def.min_angle = (float)joint->limits[0], def.max_angle = (float)joint->limits[1];
+    def.limit_enabled = joint->has_limits;
+    if (joint->has_limits) def.lower = (float)joint->limits[0], def.upper = (float)joint->limits[1];
     def.spring_hertz = (float)joint->hertz, def.spring_damping_ratio = (float)joint->damping;
-    def.motor_speed = (float)joint->motor_speed, def.motor_torque = (float)joint->motor_force;
+    def.motor_speed = (float)joint->motor_speed, def.motor_max = (float)joint->motor_max;
     fe_joint created;
-    return result == FE_OK ? fe_hinge_create(w->world, &def, &created) : result;
+    return result == FE_OK ? fe_hinge_joint_create(w->world, &def, &created) : result;
 }
 
 static fe_result add_slider(bench_world *w, const bench_joint *joint, const fe_dvec3 *anchor, const fe_vec3 *axis)
 {
-    fe_configurable_def def;
-    fe_configurable_def_init(&def, sizeof def);
-    fe_result result = fe_slider_def_at(w->world, &def, w->bodies[joint->body_a], w->bodies[joint->body_b], anchor, axis);
-    fe_joint_axis *along = &def.axes[FE_ALONG_X];
-    if (joint->has_limits) along->mode = FE_MOTION_LIMITED, along->low = (float)joint->limits[0], along->high = (float)joint->limits[1];
-    if (joint->hertz > 0.0) along->drive = FE_DRIVE_HERTZ, along->stiffness = (float)joint->hertz, along->damping = (float)joint->damping;
-    along->motor_speed = (float)joint->motor_speed, along->motor_force = (float)joint->motor_force;
+    fe_configurable_joint_def def;
+    fe_configurable_joint_def_init(&def, sizeof def);
+    fe_result result = fe_slider_joint_def_at(w->world, &def, w->bodies[joint->body_a], w->bodies[joint->body_b], anchor, axis);
+    fe_joint_axis *along = &def.axes[FE_DOF_LINEAR_X];
+    if (joint->has_limits) along->motion = FE_MOTION_LIMITED, along->lower = (float)joint->limits[0], along->upper = (float)joint->limits[1];
+    if (joint->hertz > 0.0) along->spring = FE_SPRING_HERTZ, along->spring_hertz = (float)joint->hertz, along->spring_damping_ratio = (float)joint->damping;
+    along->motor_speed = (float)joint->motor_speed, along->motor_max = (float)joint->motor_max;
     fe_joint created;
-    return result == FE_OK ? fe_configurable_create(w->world, &def, &created) : result;
+    return result == FE_OK ? fe_configurable_joint_create(w->world, &def, &created) : result;
 }
 
 static fe_result add_fixed(bench_world *w, const bench_joint *joint, const fe_dvec3 *anchor)
 {
-    fe_fixed_def def;
-    fe_fixed_def_init(&def, sizeof def);
-    fe_result result = fe_fixed_def_at(w->world, &def, w->bodies[joint->body_a], w->bodies[joint->body_b], anchor);
+    fe_fixed_joint_def def;
+    fe_fixed_joint_def_init(&def, sizeof def);
+    fe_result result = fe_fixed_joint_def_at(w->world, &def, w->bodies[joint->body_a], w->bodies[joint->body_b], anchor);
     fe_joint created;
-    return result == FE_OK ? fe_fixed_create(w->world, &def, &created) : result;
+    return result == FE_OK ? fe_fixed_joint_create(w->world, &def, &created) : result;
 }
 
 static fe_result add_distance(bench_world *w, const bench_joint *joint, const fe_dvec3 *anchor)
 {
-    fe_distance_def def;
-    fe_distance_def_init(&def, sizeof def);
+    fe_distance_joint_def def;
+    fe_distance_joint_def_init(&def, sizeof def);
     const fe_dvec3 other = {joint->anchor_b[0], joint->anchor_b[1], joint->anchor_b[2]};
-    fe_result result = fe_distance_def_at(w->world, &def, w->bodies[joint->body_a], w->bodies[joint->body_b], anchor, &other);
+    fe_result result = fe_distance_joint_def_at(w->world, &def, w->bodies[joint->body_a], w->bodies[joint->body_b], anchor, &other);
     if (joint->hertz > 0.0) {
-        def.min_length = 0.0f, def.max_length = 1e6f; // only the spring
+        def.lower = 0.0f, def.upper = 1e6f; // only the spring
         def.spring_hertz = (float)joint->hertz, def.spring_damping_ratio = (float)joint->damping;
     }
-    if (joint->has_limits) def.min_length = (float)joint->limits[0], def.max_length = (float)joint->limits[1];
+    if (joint->has_limits) def.lower = (float)joint->limits[0], def.upper = (float)joint->limits[1];
     fe_joint created;
-    return result == FE_OK ? fe_distance_create(w->world, &def, &created) : result;
+    return result == FE_OK ? fe_distance_joint_create(w->world, &def, &created) : result;
 }
 
 static fe_result add_joint(bench_world *w, const bench_joint *joint)
@@ -372,7 +374,7 @@ static void measure_contacts(bench_world *w, bench_contacts *out_contacts)
             capacity = 2 * count;
             contacts = bench_resize(contacts, (size_t)capacity, sizeof *contacts);
         }
-        if (count > 0) count = fe_body_get_contacts(w->world, w->bodies[i], contacts, 0, capacity);
+        if (count > 0) count = fe_body_get_contacts(w->world, w->bodies[i], contacts, sizeof *contacts, capacity);
         if (count < 0) complain("contacts");
         for (int32_t k = 0; k < count; k++) {
             if (contacts[k].body_a == w->bodies[i]) add_contact(w, out_contacts, &contacts[k]); // each pair once
@@ -386,9 +388,9 @@ static int32_t raycast(bench_world *w, const bench_ray *ray, double *out_fractio
     fe_dvec3 origin = fe_make_dvec3(ray->origin[0], ray->origin[1], ray->origin[2]);
     fe_dvec3 translation = fe_make_dvec3(ray->translation[0], ray->translation[1], ray->translation[2]);
     fe_hit hit;
-    fe_result result = fe_world_raycast(w->world, &origin, &translation, NULL, &hit);
-    if (result < 0) complain("raycast");
-    if (result != FE_OK) return 0;
+    const int32_t hits = fe_world_raycast(w->world, &origin, &translation, NULL, &hit);
+    if (hits < 0) complain("raycast");
+    if (hits < 1) return 0;
     *out_fraction = hit.fraction;
     return 1;
 }
@@ -408,9 +410,9 @@ static int32_t sweep(bench_world *w, const bench_probe *probe, double *out_fract
     const double *d = probe->way.translation;
     fe_dvec3 translation = fe_make_dvec3(d[0], d[1], d[2]);
     fe_hit hit;
-    fe_result result = fe_world_sweep(w->world, &geometry, &start, &translation, NULL, &hit);
-    if (result < 0) complain("sweep");
-    if (result != FE_OK) return 0;
+    const int32_t hits = fe_world_sweep(w->world, &geometry, &start, &translation, NULL, &hit);
+    if (hits < 0) complain("sweep");
+    if (hits < 1) return 0;
     *out_fraction = hit.fraction;
     return 1;
 }

@@ -128,7 +128,7 @@ static dJointID make_hinge(bench_world *w, const bench_joint *joint, dBodyID a, 
         dJointSetHingeParam(hinge, dParamHiStop, joint->limits[1]);
     }
     dJointSetHingeParam(hinge, dParamVel, joint->motor_speed);
-    dJointSetHingeParam(hinge, dParamFMax, joint->motor_force);
+    dJointSetHingeParam(hinge, dParamFMax, joint->motor_max);
     return hinge;
 }
 
@@ -142,7 +142,7 @@ static dJointID make_slider(bench_world *w, const bench_joint *joint, dBodyID a,
         dJointSetSliderParam(slider, dParamHiStop, joint->limits[1]);
     }
     dJointSetSliderParam(slider, dParamVel, joint->motor_speed);
-    dJointSetSliderParam(slider, dParamFMax, joint->motor_force);
+    dJointSetSliderParam(slider, dParamFMax, joint->motor_max);
     return slider;
 }
 

@@ -49,7 +49,7 @@ static void add_joint(bench_scene *scene, const ragdoll_bone *bone, int32_t pare
     joint->has_limits = 1;
     joint->limits[0] = (double)bone->low * degree, joint->limits[1] = (double)bone->high * degree;
     joint->cone = (double)bone->swing * degree;
-    joint->motor_force = FRICTION * (double)bone->friction;
+    joint->motor_max = FRICTION * (double)bone->friction;
 }
 
 void bench_build_ragdolls(bench_scene *scene, int32_t n)

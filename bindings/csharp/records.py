@@ -11,7 +11,7 @@ from xml.sax.saxutils import escape
 
 BY_HAND = {"fe_vec3": "Vector3", "fe_quat": "Quaternion", "fe_dvec3": "DVec3", "fe_transform": "WorldTransform"}
 NAMES = {"fe_frame": "JointFrame", "fe_material": "SurfaceMaterial", "fe_profile": "StepProfile", "fe_counters": "WorldCounters",
-         "fe_path": "SweepPath", "fe_axis": "Axes", "fe_closest": "ClosestPoint", "fe_motion": "AxisMotion", "fe_drive": "AxisDrive"}
+         "fe_path": "SweepPath", "fe_axis": "Axes", "fe_closest": "ClosestPoint", "fe_motion": "AxisMotion", "fe_spring": "AxisDrive"}
 PRIVATE = {"fe_query_filter": "NativeFilter", "fe_heightfield_def": "NativeHeightfield"}  # classes around these are written by hand
 FOR_C = {"fe_allocator", "fe_task_system"}
 HANDLES = {"fe_body": "BodyHandle", "fe_shape": "ShapeHandle", "fe_joint": "JointHandle", "fe_asset": "AssetHandle"}
@@ -19,7 +19,7 @@ PLAIN = {"int32_t": "int", "uint32_t": "uint", "int64_t": "long", "float": "floa
 SWITCHES = {"awake", "sleep_allowed", "enabled", "bullet", "trigger", "is_trigger", "collide_connected", "limited", "swing_limited", "twist_limited"}
 ENUM_FIELDS = {"linear_locks": "fe_axis", "angular_locks": "fe_axis", "kind": "fe_event_kind", "mode": "fe_motion"}
 FLAGS = {"fe_axis", "fe_shape_events", "fe_query_flags", "fe_hit_flags"}
-AXES = ["AlongX", "AlongY", "AlongZ", "AboutX", "AboutY", "AboutZ"]  # of a configurable joint, by fe_joint_coordinate
+AXES = ["AlongX", "AlongY", "AlongZ", "AboutX", "AboutY", "AboutZ"]  # of a configurable joint, by fe_dof
 
 
 def pascal(name):

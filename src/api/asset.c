@@ -6,6 +6,12 @@
 
 enum { MOST_LINES = 32768, MOST_SAMPLES = 1 << 28, MOST_MATERIALS = FE__CELL_HOLE };
 
+#define FE_BEGIN_STORE(store)        \
+    const char *function = __func__; \
+    FE_CHECK_POINTER(store);         \
+    fe_world *world = store->world;  \
+    FE_WRITE_AS(function, world)
+
 // ---- birth and death ------------------------------------------------------------------------------------------------------------
 
 static fe_heightfield_def default_heightfield(void)
@@ -13,21 +19,21 @@ static fe_heightfield_def default_heightfield(void)
     return (fe_heightfield_def){.struct_size = sizeof(fe_heightfield_def), .cell_x = 1.0f, .cell_z = 1.0f};
 }
 
-void fe_heightfield_def_init(fe_heightfield_def *desc, uint32_t struct_size)
+void fe_heightfield_def_init(fe_heightfield_def *def, uint32_t struct_size)
 {
     fe_heightfield_def defaults = default_heightfield();
-    fe__init_struct(desc, &defaults, sizeof defaults, struct_size);
+    fe__init_struct(def, &defaults, sizeof defaults, struct_size);
 }
 
-static fe_result check_size(const char *function, const fe_heightfield_def *desc)
+static fe_result check_size(const char *function, const fe_heightfield_def *def)
 {
-    FE_CHECK_INT(desc->rows, 2, MOST_LINES);
-    FE_CHECK_INT(desc->columns, 2, MOST_LINES);
-    FE_CHECK_INT((int64_t)desc->rows * desc->columns, 4, MOST_SAMPLES);
-    FE_CHECK_FLOAT(desc->cell_x, FE_LEAST_LENGTH, FE_MAX_LENGTH);
-    FE_CHECK_FLOAT(desc->cell_z, FE_LEAST_LENGTH, FE_MAX_LENGTH);
-    FE_CHECK_FLOAT((float)(desc->columns - 1) * desc->cell_x, 0.0f, FE_MAX_LOCAL);
-    FE_CHECK_FLOAT((float)(desc->rows - 1) * desc->cell_z, 0.0f, FE_MAX_LOCAL);
+    FE_CHECK_INT(def->rows, 2, MOST_LINES);
+    FE_CHECK_INT(def->columns, 2, MOST_LINES);
+    FE_CHECK_INT((int64_t)def->rows * def->columns, 4, MOST_SAMPLES);
+    FE_CHECK_FLOAT(def->cell_x, FE_LEAST_LENGTH, FE_MAX_LENGTH);
+    FE_CHECK_FLOAT(def->cell_z, FE_LEAST_LENGTH, FE_MAX_LENGTH);
+    FE_CHECK_FLOAT((float)(def->columns - 1) * def->cell_x, 0.0f, FE_MAX_LOCAL);
+    FE_CHECK_FLOAT((float)(def->rows - 1) * def->cell_z, 0.0f, FE_MAX_LOCAL);
     return FE_OK;
 }
 
@@ -50,49 +56,50 @@ static fe_result check_cells(const char *function, const char *name, const uint8
     return FE_OK;
 }
 
-static fe_result read_heightfield(const char *function, const fe_heightfield_def *desc, fe_heightfield_def *def)
+static fe_result read_heightfield(const char *function, const fe_heightfield_def *def, fe_heightfield_def *full)
 {
-    *def = default_heightfield();
-    FE_READ_STRUCT(desc, def);
-    FE_TRY(check_size(function, def));
-    FE_CHECK_POINTER(def->heights);
-    FE_TRY(check_heights(function, def->heights, (int64_t)def->rows * def->columns));
-    int64_t cells = (int64_t)(def->rows - 1) * (def->columns - 1);
-    FE_TRY(check_cells(function, "holes", def->holes, cells, 1));
-    if (!def->cell_materials) return FE_OK;
-    FE_CHECK_INT(def->material_count, 1, MOST_MATERIALS);
-    FE_CHECK_ARRAY(def->materials, def->material_count);
-    FE_CHECK_STRIDE(def->material_stride, sizeof *def->materials, sizeof *def->materials);
-    FE_TRY(check_cells(function, "cell_materials", def->cell_materials, cells, def->material_count - 1));
-    for (int32_t i = 0; i < def->material_count; ++i)
-        FE_TRY(fe__check_material(function, fe__at_const(def->materials, def->material_stride, i)));
+    *full = default_heightfield();
+    FE_READ_STRUCT(def, full);
+    FE_TRY(check_size(function, full));
+    FE_CHECK_POINTER(full->heights);
+    FE_TRY(check_heights(function, full->heights, (int64_t)full->rows * full->columns));
+    int64_t cells = (int64_t)(full->rows - 1) * (full->columns - 1);
+    FE_TRY(check_cells(function, "holes", full->holes, cells, 1));
+    if (!full->cell_materials) return FE_OK;
+    FE_CHECK_INT(full->material_count, 1, MOST_MATERIALS);
+    FE_CHECK_ARRAY(full->materials, full->material_count);
+    FE_CHECK_STRIDE(full->material_stride, sizeof *full->materials, sizeof *full->materials);
+    FE_TRY(check_cells(function, "cell_materials", full->cell_materials, cells, full->material_count - 1));
+    for (int32_t i = 0; i < full->material_count; ++i)
+        FE_TRY(fe__check_material(function, fe__at_const(full->materials, full->material_stride, i)));
     return FE_OK;
 }
 
-fe_result fe_heightfield_create(fe_world *world, const fe_heightfield_def *desc, fe_asset *out_asset)
+fe_result fe_heightfield_create(fe_store *store, const fe_heightfield_def *def, fe_asset *out_asset)
 {
     if (out_asset) *out_asset = 0;
-    FE_BEGIN(world);
+    FE_BEGIN_STORE(store);
     FE_CHECK_POINTER(out_asset);
-    fe_heightfield_def def;
-    FE_TRY(read_heightfield(function, desc, &def));
-    int32_t index = fe__heightfield_create(world, &def);
+    fe_heightfield_def full;
+    FE_TRY(read_heightfield(function, def, &full));
+    int32_t index = fe__heightfield_create(world, &full);
     if (index < 0) return fe__report(function, (fe_result)index);
     *out_asset = fe__asset_handle(world, index);
     return FE_OK;
 }
 
-fe_result fe_asset_destroy(fe_world *world, fe_asset asset)
+fe_result fe_asset_destroy(fe_store *store, fe_asset asset)
 {
-    FE_BEGIN(world);
+    FE_BEGIN_STORE(store);
     FE_FIND_ASSET(index, asset);
     fe__asset_destroy(world, index);
     return FE_OK;
 }
 
-int32_t fe_asset_is_valid(const fe_world *world, fe_asset asset)
+int32_t fe_asset_is_valid(const fe_store *store, fe_asset asset)
 {
     int32_t index;
+    const fe_world *world = store ? store->world : NULL;
     return world && fe__id_pool_find(&world->asset_ids, asset, &index) == FE_OK && !world->assets[index].destroyed;
 }
 
@@ -107,10 +114,10 @@ static fe_result check_part(const char *function, const fe__heightfield *field, 
     return FE_OK;
 }
 
-fe_result fe_heightfield_set_heights(fe_world *world, fe_asset asset, int32_t row, int32_t column, int32_t rows, int32_t columns,
+fe_result fe_heightfield_set_heights(fe_store *store, fe_asset asset, int32_t row, int32_t column, int32_t rows, int32_t columns,
                                      const float *heights)
 {
-    FE_BEGIN(world);
+    FE_BEGIN_STORE(store);
     FE_FIND_ASSET(index, asset);
     FE_TRY(check_part(function, world->fields + index, row, column, rows, columns));
     FE_CHECK_POINTER(heights);
@@ -121,10 +128,10 @@ fe_result fe_heightfield_set_heights(fe_world *world, fe_asset asset, int32_t ro
     return FE_OK;
 }
 
-fe_result fe_heightfield_get_heights(const fe_world *world, fe_asset asset, int32_t row, int32_t column, int32_t rows, int32_t columns,
+fe_result fe_heightfield_get_heights(const fe_store *store, fe_asset asset, int32_t row, int32_t column, int32_t rows, int32_t columns,
                                      float *out_heights)
 {
-    FE_BEGIN(world);
+    FE_BEGIN_STORE(store);
     FE_FIND_ASSET(index, asset);
     const fe__heightfield *field = world->fields + index;
     FE_TRY(check_part(function, field, row, column, rows, columns));

@@ -40,8 +40,10 @@ const char *fe_result_name(int32_t result)
     switch (result) {
     case FE_OK:
         return "FE_OK";
-    case FE_MISS:
-        return "FE_MISS";
+    case FE_FOREIGN:
+        return "FE_FOREIGN";
+    case FE_END:
+        return "FE_END";
     case FE_ERROR_ARGUMENT:
         return "FE_ERROR_ARGUMENT";
     case FE_ERROR_STALE:
@@ -58,6 +60,16 @@ const char *fe_result_name(int32_t result)
         return "FE_ERROR_UNSUPPORTED";
     case FE_ERROR_STATE:
         return "FE_ERROR_STATE";
+    case FE_ERROR_BUSY:
+        return "FE_ERROR_BUSY";
+    case FE_ERROR_DEGENERATE:
+        return "FE_ERROR_DEGENERATE";
+    case FE_ERROR_DATA:
+        return "FE_ERROR_DATA";
+    case FE_ERROR_VERSION:
+        return "FE_ERROR_VERSION";
+    case FE_ERROR_DIVERGED:
+        return "FE_ERROR_DIVERGED";
     default:
         return "unknown";
     }

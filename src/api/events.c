@@ -5,6 +5,7 @@
 #include "world/pair_list.h"
 #include "world/pairs.h"
 
+#include <stddef.h>
 #include <string.h>
 
 // Records grow at their tail: an older client's stride may be shorter than a record, it gets the front.
@@ -17,44 +18,51 @@ static void put(void *out, uint32_t stride, int32_t i, const void *record, size_
 
 // ---- events ---------------------------------------------------------------------------------------------------------------------
 
+// Where the events of one kind lie: records with the event at an offset
+typedef struct event_list {
+    const void *records; // NULL: none yet
+    size_t record_size, offset, event_size;
+    int32_t count;
+} event_list;
+#define LIST_OF(kind)                                                                                                                   \
+    (event_list)                                                                                                                        \
+    {                                                                                                                                   \
+        world->kind##_events, sizeof(fe__##kind##_event_record), offsetof(fe__##kind##_event_record, event), sizeof(fe_##kind##_event), \
+            world->kind##_event_count                                                                                                   \
+    }
+
+static int32_t write_events(const char *function, event_list list, void *out_events, uint32_t stride, int32_t capacity)
+{
+    FE_CHECK_ARRAY(out_events, capacity);
+    FE_CHECK_RECORD_STRIDE(stride, LEAST_RECORD, capacity);
+    int32_t written = fe__mini(list.count, capacity);
+    for (int32_t i = 0; i < written; ++i)
+        put(out_events, stride, i, (const unsigned char *)list.records + list.record_size * (size_t)i + list.offset, list.event_size);
+    return list.count;
+}
+
 int32_t fe_world_get_pair_events(const fe_world *world, fe_pair_event *out_events, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
-    FE_CHECK_ARRAY(out_events, capacity);
-    FE_CHECK_STRIDE(stride, sizeof *out_events, LEAST_RECORD);
-    int32_t count = fe__mini(world->pair_event_count, capacity);
-    for (int32_t i = 0; i < count; ++i) put(out_events, stride, i, &world->pair_events[i].event, sizeof *out_events);
-    return world->pair_event_count;
+    FE_READ(world);
+    return write_events(function, LIST_OF(pair), out_events, stride, capacity);
 }
 
 int32_t fe_world_get_body_events(const fe_world *world, fe_body_event *out_events, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
-    FE_CHECK_ARRAY(out_events, capacity);
-    FE_CHECK_STRIDE(stride, sizeof *out_events, LEAST_RECORD);
-    int32_t count = fe__mini(world->body_event_count, capacity);
-    for (int32_t i = 0; i < count; ++i) put(out_events, stride, i, &world->body_events[i].event, sizeof *out_events);
-    return world->body_event_count;
+    FE_READ(world);
+    return write_events(function, LIST_OF(body), out_events, stride, capacity);
 }
 
 int32_t fe_world_get_hit_events(const fe_world *world, fe_hit_event *out_events, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
-    FE_CHECK_ARRAY(out_events, capacity);
-    FE_CHECK_STRIDE(stride, sizeof *out_events, LEAST_RECORD);
-    int32_t count = fe__mini(world->hit_event_count, capacity);
-    for (int32_t i = 0; i < count; ++i) put(out_events, stride, i, &world->hit_events[i].event, sizeof *out_events);
-    return world->hit_event_count;
+    FE_READ(world);
+    return write_events(function, LIST_OF(hit), out_events, stride, capacity);
 }
 
 int32_t fe_world_get_joint_events(const fe_world *world, fe_joint_event *out_events, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
-    FE_CHECK_ARRAY(out_events, capacity);
-    FE_CHECK_STRIDE(stride, sizeof *out_events, LEAST_RECORD);
-    int32_t count = fe__mini(world->joint_event_count, capacity);
-    for (int32_t i = 0; i < count; ++i) put(out_events, stride, i, &world->joint_events[i].event, sizeof *out_events);
-    return world->joint_event_count;
+    FE_READ(world);
+    return write_events(function, LIST_OF(joint), out_events, stride, capacity);
 }
 
 // ---- contacts -------------------------------------------------------------------------------------------------------------------
@@ -81,6 +89,7 @@ static fe_contact describe(const fe_world *world, int32_t pair)
     const fe__pair *p = &world->pairs[pair];
     const fe__contact *c = &world->contacts[pair];
     float side = p->flags & FE__PAIR_FLIPPED ? -1.0f : 1.0f;
+    int32_t field_a = fe__form_is_field(&world->shapes[p->shape_a].form);
     fe_contact contact = {.body_a = fe__body_handle(world, p->body_a),
                           .body_b = fe__body_handle(world, p->body_b),
                           .shape_a = fe__shape_handle(world, p->shape_a),
@@ -89,7 +98,10 @@ static fe_contact describe(const fe_world *world, int32_t pair)
                           .point_count = point_count(world, pair),
                           .friction_impulse = {side * c->friction_impulse[0], side * c->friction_impulse[1], side * c->friction_impulse[2]},
                           .twist_impulse = c->twist_impulse,
-                          .triangle = p->triangle};
+                          .part_a = -1,
+                          .part_b = -1,
+                          .triangle_a = field_a ? p->triangle : -1,
+                          .triangle_b = field_a ? -1 : p->triangle};
     for (int32_t i = 0; i < contact.point_count; ++i) contact.points[i] = describe_point(world, pair, i);
     return contact;
 }
@@ -114,10 +126,10 @@ static int32_t write_contacts(const fe_world *world, int32_t body, int32_t shape
 
 int32_t fe_body_get_contacts(const fe_world *world, fe_body body, fe_contact *out_contacts, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_ARRAY(out_contacts, capacity);
-    FE_CHECK_STRIDE(stride, sizeof *out_contacts, LEAST_RECORD);
+    FE_CHECK_RECORD_STRIDE(stride, LEAST_RECORD, capacity);
     fe__fp_state fp = fe__fp_enter();
     int32_t count = write_contacts(world, index, -1, out_contacts, stride, capacity);
     fe__fp_leave(fp);
@@ -126,12 +138,41 @@ int32_t fe_body_get_contacts(const fe_world *world, fe_body body, fe_contact *ou
 
 int32_t fe_shape_get_contacts(const fe_world *world, fe_shape shape, fe_contact *out_contacts, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_ARRAY(out_contacts, capacity);
-    FE_CHECK_STRIDE(stride, sizeof *out_contacts, LEAST_RECORD);
+    FE_CHECK_RECORD_STRIDE(stride, LEAST_RECORD, capacity);
     fe__fp_state fp = fe__fp_enter();
     int32_t count = write_contacts(world, world->shapes[index].body, index, out_contacts, stride, capacity);
     fe__fp_leave(fp);
+    return count;
+}
+
+// ---- who is inside --------------------------------------------------------------------------------------------------------------
+
+// The list of a body's pairs is in no order that shows: each is put where its creation says
+static int32_t add_overlap(const fe_world *world, int32_t shape, fe_shape *out_shapes, int32_t count, int32_t capacity)
+{
+    int32_t place = fe__mini(count, capacity);
+    uint64_t serial = world->shapes[shape].serial;
+    while (place > 0 && world->shapes[fe__id_slot_of(out_shapes[place - 1])].serial > serial) {
+        if (place < capacity) out_shapes[place] = out_shapes[place - 1];
+        --place;
+    }
+    if (place < capacity) out_shapes[place] = fe__shape_handle(world, shape);
+    return count + 1;
+}
+
+int32_t fe_shape_get_overlaps(const fe_world *world, fe_shape shape, fe_shape *out_shapes, int32_t capacity)
+{
+    FE_READ(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_ARRAY(out_shapes, capacity);
+    int32_t body = world->shapes[index].body, count = 0;
+    for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, body)) {
+        const fe__pair *p = &world->pairs[pair];
+        if (p->flags & FE__PAIR_PATCH || !(p->flags & FE__PAIR_TOUCHING) || (p->shape_a != index && p->shape_b != index)) continue;
+        count = add_overlap(world, p->shape_a == index ? p->shape_b : p->shape_a, out_shapes, count, capacity);
+    }
     return count;
 }

@@ -59,128 +59,128 @@ static void set_ends(const fe_world *world, fe_joint_def *front, const ends *e, 
 }
 
 // The caller's definition, as far as both sides know it, into a whole one and back
-static fe_result open(const char *function, const fe_world *world, int32_t type, const void *desc, fe_body body_a, fe_body body_b,
-                      ends *out_ends, fe__joint_any *def)
+static fe_result open(const char *function, const fe_world *world, int32_t type, const void *def, fe_body body_a, fe_body body_b,
+                      ends *out_ends, fe__joint_any *full)
 {
-    FE_TRY(fe__check_world(function, world));
-    fe__joint_defaults(type, def);
-    FE_TRY(fe__read_struct(function, "desc", desc, def, def->common.struct_size));
+    fe__joint_defaults(type, full);
+    FE_TRY(fe__read_struct(function, "def", def, full, fe__joint_fields(type)));
     return find_ends(function, world, body_a, body_b, out_ends);
 }
 
-static fe_result at_point(const char *function, const fe_world *world, int32_t type, void *desc, fe_body body_a, fe_body body_b,
+static fe_result at_point(const char *function, const fe_world *world, int32_t type, void *def, fe_body body_a, fe_body body_b,
                           const fe_dvec3 *point, const fe_vec3 *axis)
 {
     ends e;
-    fe__joint_any def;
-    FE_TRY(open(function, world, type, desc, body_a, body_b, &e, &def));
+    fe__joint_any full;
+    FE_TRY(open(function, world, type, def, body_a, body_b, &e, &full));
     FE_CHECK_DVEC3(point, FE_MAX_POSITION);
     if (axis) FE_CHECK_DIRECTION(axis);
     fe__fp_state fp = fe__fp_enter();
     fe_quat rotation = axis ? turn_to(*axis) : fe__body_transform(&world->bodies[e.body[0]]).rotation;
-    set_ends(world, &def.common, &e, point, point, rotation);
+    set_ends(world, &full.common, &e, point, point, rotation);
     fe__fp_leave(fp);
-    fe__write_struct(desc, &def, def.common.struct_size);
+    fe__write_struct(def, &full, full.common.struct_size);
     return FE_OK;
 }
 
 // ---- the five types -------------------------------------------------------------------------------------------------------------------
-fe_result fe_ball_def_at(const fe_world *world, fe_ball_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
-                         const fe_vec3 *axis)
+fe_result fe_ball_joint_def_at(const fe_world *world, fe_ball_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
+                               const fe_vec3 *axis)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_POINTER(axis);
-    return at_point(function, world, FE_JOINT_BALL, desc, body_a, body_b, point, axis);
+    return at_point(function, world, FE_JOINT_BALL, def, body_a, body_b, point, axis);
 }
 
-fe_result fe_hinge_def_at(const fe_world *world, fe_hinge_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
-                          const fe_vec3 *axis)
+fe_result fe_hinge_joint_def_at(const fe_world *world, fe_hinge_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
+                                const fe_vec3 *axis)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_POINTER(axis);
-    return at_point(function, world, FE_JOINT_HINGE, desc, body_a, body_b, point, axis);
+    return at_point(function, world, FE_JOINT_HINGE, def, body_a, body_b, point, axis);
 }
 
-fe_result fe_fixed_def_at(const fe_world *world, fe_fixed_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point)
+fe_result fe_fixed_joint_def_at(const fe_world *world, fe_fixed_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point)
 {
-    return at_point(__func__, world, FE_JOINT_FIXED, desc, body_a, body_b, point, NULL);
+    FE_READ(world);
+    return at_point(function, world, FE_JOINT_FIXED, def, body_a, body_b, point, NULL);
 }
 
-fe_result fe_configurable_def_at(const fe_world *world, fe_configurable_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
-                                 const fe_vec3 *axis)
+fe_result fe_configurable_joint_def_at(const fe_world *world, fe_configurable_joint_def *def, fe_body body_a, fe_body body_b,
+                                       const fe_dvec3 *point, const fe_vec3 *axis)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_POINTER(axis);
-    return at_point(function, world, FE_JOINT_CONFIGURABLE, desc, body_a, body_b, point, axis);
+    return at_point(function, world, FE_JOINT_CONFIGURABLE, def, body_a, body_b, point, axis);
 }
 
-static fe_result between_points(const char *function, const fe_world *world, fe__joint_any *def, const ends *e, const fe_dvec3 *point_a,
+static fe_result between_points(const char *function, const fe_world *world, fe__joint_any *full, const ends *e, const fe_dvec3 *point_a,
                                 const fe_dvec3 *point_b)
 {
     FE_CHECK_DVEC3(point_a, FE_MAX_POSITION);
     FE_CHECK_DVEC3(point_b, FE_MAX_POSITION);
     fe_dvec3 d = fe__dsub(*point_b, *point_a);
-    set_ends(world, &def->common, e, point_a, point_b, fe__body_transform(&world->bodies[e->body[0]]).rotation);
-    def->distance.length = def->distance.min_length = def->distance.max_length = (float)sqrt(fe__ddot(d, d));
+    set_ends(world, &full->common, e, point_a, point_b, fe__body_transform(&world->bodies[e->body[0]]).rotation);
+    full->distance.target = full->distance.lower = full->distance.upper = (float)sqrt(fe__ddot(d, d));
     return FE_OK;
 }
 
-fe_result fe_distance_def_at(const fe_world *world, fe_distance_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point_a,
-                             const fe_dvec3 *point_b)
+fe_result fe_distance_joint_def_at(const fe_world *world, fe_distance_joint_def *def, fe_body body_a, fe_body body_b,
+                                   const fe_dvec3 *point_a, const fe_dvec3 *point_b)
 {
-    const char *function = __func__;
+    FE_READ(world);
     ends e;
-    fe__joint_any def;
-    FE_TRY(open(function, world, FE_JOINT_DISTANCE, desc, body_a, body_b, &e, &def));
+    fe__joint_any full;
+    FE_TRY(open(function, world, FE_JOINT_DISTANCE, def, body_a, body_b, &e, &full));
     fe__fp_state fp = fe__fp_enter();
-    fe_result result = between_points(function, world, &def, &e, point_a, point_b);
+    fe_result result = between_points(function, world, &full, &e, point_a, point_b);
     fe__fp_leave(fp);
-    if (result == FE_OK) fe__write_struct(desc, &def, def.common.struct_size);
+    if (result == FE_OK) fe__write_struct(def, &full, full.common.struct_size);
     return result;
 }
 
 // ---- ready-made joints ----------------------------------------------------------------------------------------------------------------
 // A definition with the defaults, whatever the caller's holds beyond its size
-static fe_result begin_ready(const char *function, const fe_world *world, int32_t type, const void *desc, fe_body body_a, fe_body body_b,
-                             ends *out_ends, fe__joint_any *def)
+static fe_result begin_ready(const char *function, const fe_world *world, int32_t type, const void *def, fe_body body_a, fe_body body_b,
+                             ends *out_ends, fe__joint_any *full)
 {
-    FE_CHECK_STRUCT_SIZE(desc);
-    fe__joint_defaults(type, def);
+    FE_TRY(fe__check_struct_size(function, "def", def, fe__joint_fields(type)));
+    fe__joint_defaults(type, full);
     return find_ends(function, world, body_a, body_b, out_ends);
 }
 
-fe_result fe_rope_def_at(const fe_world *world, fe_distance_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point_a,
-                         const fe_dvec3 *point_b, float max_length)
+fe_result fe_rope_joint_def_at(const fe_world *world, fe_distance_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point_a,
+                               const fe_dvec3 *point_b, float max_length)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     ends e;
-    fe__joint_any def;
-    FE_TRY(begin_ready(function, world, FE_JOINT_DISTANCE, desc, body_a, body_b, &e, &def));
+    fe__joint_any full;
+    FE_TRY(begin_ready(function, world, FE_JOINT_DISTANCE, def, body_a, body_b, &e, &full));
     FE_CHECK_FLOAT(max_length, FE_LEAST_LENGTH, FE_MAX_LOCAL);
     fe__fp_state fp = fe__fp_enter();
-    fe_result result = between_points(function, world, &def, &e, point_a, point_b);
+    fe_result result = between_points(function, world, &full, &e, point_a, point_b);
     fe__fp_leave(fp);
     FE_TRY(result);
-    def.distance.min_length = 0.0f;
-    def.distance.max_length = max_length;
-    fe__write_struct(desc, &def, def.common.struct_size);
+    full.distance.lower = 0.0f;
+    full.distance.upper = max_length;
+    fe__write_struct(def, &full, full.common.struct_size);
     return FE_OK;
 }
 
-fe_result fe_slider_def_at(const fe_world *world, fe_configurable_def *desc, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
-                           const fe_vec3 *axis)
+fe_result fe_slider_joint_def_at(const fe_world *world, fe_configurable_joint_def *def, fe_body body_a, fe_body body_b,
+                                 const fe_dvec3 *point, const fe_vec3 *axis)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     ends e;
-    fe__joint_any def;
-    FE_TRY(begin_ready(function, world, FE_JOINT_CONFIGURABLE, desc, body_a, body_b, &e, &def));
+    fe__joint_any full;
+    FE_TRY(begin_ready(function, world, FE_JOINT_CONFIGURABLE, def, body_a, body_b, &e, &full));
     FE_CHECK_DVEC3(point, FE_MAX_POSITION);
     FE_CHECK_DIRECTION(axis);
     fe__fp_state fp = fe__fp_enter();
-    set_ends(world, &def.common, &e, point, point, turn_to(*axis));
+    set_ends(world, &full.common, &e, point, point, turn_to(*axis));
     fe__fp_leave(fp);
-    def.configurable.axes[FE_ALONG_X].mode = FE_MOTION_FREE;
-    fe__write_struct(desc, &def, def.common.struct_size);
+    full.configurable.axes[FE_DOF_LINEAR_X].motion = FE_MOTION_FREE;
+    fe__write_struct(def, &full, full.common.struct_size);
     return FE_OK;
 }
 
@@ -208,18 +208,19 @@ static void set_suspension(const fe_world *world, const ends *e, const fe_joint_
 {
     float mass = mass_along_z(&world->bodies[e->body[0]], &front->frame_a), omega = 2.0f * FE_PI * hertz;
     if (mass == 0.0f) mass = mass_along_z(&world->bodies[e->body[1]], &front->frame_b);
-    axis->drive = FE_DRIVE_STIFFNESS;
-    axis->stiffness = fe__minf(mass * omega * omega, FE_MAX_FORCE);
-    axis->damping = fe__minf(2.0f * damping_ratio * mass * omega, FE_MAX_FORCE);
+    axis->spring = FE_SPRING_STIFFNESS;
+    axis->spring_stiffness = fe__minf(mass * omega * omega, FE_MAX_FORCE);
+    axis->spring_damping = fe__minf(2.0f * damping_ratio * mass * omega, FE_MAX_FORCE);
 }
 
-fe_result fe_wheel_def_at(const fe_world *world, fe_configurable_def *desc, fe_body chassis, fe_body wheel, const fe_dvec3 *point,
-                          const fe_vec3 *axle, const fe_vec3 *up, float hertz, float damping_ratio, float travel)
+fe_result fe_wheel_joint_def_at(const fe_world *world, fe_configurable_joint_def *def, fe_body chassis, fe_body wheel,
+                                const fe_dvec3 *point, const fe_vec3 *axle, const fe_vec3 *up, float hertz, float damping_ratio,
+                                float travel)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     ends e;
-    fe__joint_any def;
-    FE_TRY(begin_ready(function, world, FE_JOINT_CONFIGURABLE, desc, chassis, wheel, &e, &def));
+    fe__joint_any full;
+    FE_TRY(begin_ready(function, world, FE_JOINT_CONFIGURABLE, def, chassis, wheel, &e, &full));
     FE_CHECK_DVEC3(point, FE_MAX_POSITION);
     FE_CHECK_DIRECTION(axle);
     FE_CHECK_DIRECTION(up);
@@ -228,24 +229,24 @@ fe_result fe_wheel_def_at(const fe_world *world, fe_configurable_def *desc, fe_b
     FE_CHECK_FLOAT(damping_ratio, 0.0f, FE_MAX_VALUE);
     FE_CHECK_FLOAT(travel, 0.0f, FE_MAX_LOCAL);
     fe__fp_state fp = fe__fp_enter();
-    fe_joint_axis *axes = def.configurable.axes;
-    set_ends(world, &def.common, &e, point, point, turn_upright(*axle, *up));
-    set_suspension(world, &e, &def.common, hertz, damping_ratio, &axes[FE_ALONG_Z]);
+    fe_joint_axis *axes = full.configurable.axes;
+    set_ends(world, &full.common, &e, point, point, turn_upright(*axle, *up));
+    set_suspension(world, &e, &full.common, hertz, damping_ratio, &axes[FE_DOF_LINEAR_Z]);
     fe__fp_leave(fp);
-    axes[FE_ABOUT_X].mode = FE_MOTION_FREE;
-    axes[FE_ALONG_Z].mode = FE_MOTION_LIMITED;
-    axes[FE_ALONG_Z].low = -travel, axes[FE_ALONG_Z].high = travel;
-    fe__write_struct(desc, &def, def.common.struct_size);
+    axes[FE_DOF_ANGULAR_X].motion = FE_MOTION_FREE;
+    axes[FE_DOF_LINEAR_Z].motion = FE_MOTION_LIMITED;
+    axes[FE_DOF_LINEAR_Z].lower = -travel, axes[FE_DOF_LINEAR_Z].upper = travel;
+    fe__write_struct(def, &full, full.common.struct_size);
     return FE_OK;
 }
 
-fe_result fe_motor_def_at(const fe_world *world, fe_configurable_def *desc, fe_body body_a, fe_body body_b, float hertz,
-                          float damping_ratio, float max_force, float max_torque)
+fe_result fe_motor_joint_def_at(const fe_world *world, fe_configurable_joint_def *def, fe_body body_a, fe_body body_b, float hertz,
+                                float damping_ratio, float max_force, float max_torque)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     ends e;
-    fe__joint_any def;
-    FE_TRY(begin_ready(function, world, FE_JOINT_CONFIGURABLE, desc, body_a, body_b, &e, &def));
+    fe__joint_any full;
+    FE_TRY(begin_ready(function, world, FE_JOINT_CONFIGURABLE, def, body_a, body_b, &e, &full));
     FE_CHECK_FLOAT(hertz, 0.0f, FE_MAX_VALUE);
     FE_CHECK_FLOAT(damping_ratio, 0.0f, FE_MAX_VALUE);
     FE_CHECK_FLOAT(max_force, 0.0f, FE_MAX_FORCE);
@@ -253,15 +254,15 @@ fe_result fe_motor_def_at(const fe_world *world, fe_configurable_def *desc, fe_b
     const fe__body *b = &world->bodies[e.body[1]];
     fe_dvec3 centre = {b->centre[0], b->centre[1], b->centre[2]};
     fe__fp_state fp = fe__fp_enter();
-    set_ends(world, &def.common, &e, &centre, &centre, fe__body_transform(&world->bodies[e.body[0]]).rotation);
+    set_ends(world, &full.common, &e, &centre, &centre, fe__body_transform(&world->bodies[e.body[0]]).rotation);
     fe__fp_leave(fp);
     for (int k = 0; k < 6; ++k) {
-        fe_joint_axis *axis = def.configurable.axes + k;
-        axis->mode = FE_MOTION_FREE;
-        axis->drive = FE_DRIVE_HERTZ;
-        axis->stiffness = hertz, axis->damping = damping_ratio;
-        axis->drive_force = k < FE_ABOUT_X ? max_force : max_torque;
+        fe_joint_axis *axis = full.configurable.axes + k;
+        axis->motion = FE_MOTION_FREE;
+        axis->spring = FE_SPRING_HERTZ;
+        axis->spring_hertz = hertz, axis->spring_damping_ratio = damping_ratio;
+        axis->spring_max = k < FE_DOF_ANGULAR_X ? max_force : max_torque;
     }
-    fe__write_struct(desc, &def, def.common.struct_size);
+    fe__write_struct(def, &full, full.common.struct_size);
     return FE_OK;
 }

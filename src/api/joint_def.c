@@ -9,56 +9,74 @@
 // ---- defaults -------------------------------------------------------------------------------------------------------------------------
 static void default_axes(fe_joint_axis *axes)
 {
-    for (int k = 0; k < 6; ++k) axes[k] = (fe_joint_axis){.mode = FE_MOTION_LOCKED, .limit_damping_ratio = 1.0f, .drive_force = NO_CAP};
+    for (int k = 0; k < 6; ++k) axes[k] = (fe_joint_axis){.motion = FE_MOTION_LOCKED, .limit_damping_ratio = 1.0f, .spring_max = NO_CAP};
 }
 
-void fe__joint_defaults(int32_t type, fe__joint_any *out_desc)
+static const fe__fields *const fields[FE__JOINT_TYPES] = {NULL,
+                                                          &fe__fields_of_fe_distance_joint_def,
+                                                          &fe__fields_of_fe_ball_joint_def,
+                                                          &fe__fields_of_fe_hinge_joint_def,
+                                                          &fe__fields_of_fe_fixed_joint_def,
+                                                          &fe__fields_of_fe_configurable_joint_def};
+
+const fe__fields *fe__joint_fields(int32_t type) { return fields[type]; }
+
+void fe_joint_def_init(fe_joint_def *def, uint32_t struct_size)
 {
-    *out_desc = (fe__joint_any){0};
-    out_desc->common = (fe_joint_def){.struct_size = (uint32_t)fe__joint_def_size(type),
-                                      .enabled = 1,
-                                      .frame_a.rotation.w = 1.0f,
-                                      .frame_b.rotation.w = 1.0f,
-                                      .damping_ratio = 1.0f};
+    fe__joint_any defaults;
+    fe__joint_defaults(FE_JOINT_FIXED, &defaults);
+    defaults.common.struct_size = FE__JOINT_FRONT;
+    fe__init_struct(def, &defaults, FE__JOINT_FRONT, struct_size);
+}
+
+void fe__joint_defaults(int32_t type, fe__joint_any *out_def)
+{
+    *out_def = (fe__joint_any){0};
+    out_def->common = (fe_joint_def){.struct_size = (uint32_t)fe__joint_def_size(type),
+                                     .enabled = 1,
+                                     .frame_a.rotation.w = 1.0f,
+                                     .frame_b.rotation.w = 1.0f,
+                                     .damping_ratio = 1.0f};
     switch (type) {
     case FE_JOINT_DISTANCE:
-        out_desc->distance.min_length = out_desc->distance.max_length = out_desc->distance.length = 1.0f;
-        out_desc->distance.spring_damping_ratio = 1.0f;
-        out_desc->distance.spring_force = NO_CAP;
+        out_def->distance.limit_enabled = 1;
+        out_def->distance.lower = out_def->distance.upper = out_def->distance.target = 1.0f;
+        out_def->distance.spring_damping_ratio = 1.0f;
+        out_def->distance.spring_max = NO_CAP;
         break;
     case FE_JOINT_BALL:
-        out_desc->ball.cone_y = out_desc->ball.cone_z = out_desc->ball.max_twist = FE_PI;
-        out_desc->ball.min_twist = -FE_PI;
-        out_desc->ball.limit_damping_ratio = out_desc->ball.drive_damping_ratio = out_desc->ball.target.w = 1.0f;
-        out_desc->ball.drive_torque = NO_CAP;
+        out_def->ball.cone_y = out_def->ball.cone_z = out_def->ball.upper = FE_PI;
+        out_def->ball.lower = -FE_PI;
+        out_def->ball.limit_damping_ratio = out_def->ball.spring_damping_ratio = out_def->ball.target.w = 1.0f;
+        out_def->ball.spring_max = NO_CAP;
         break;
     case FE_JOINT_HINGE:
-        out_desc->hinge.min_angle = -FE_PI;
-        out_desc->hinge.max_angle = FE_PI;
-        out_desc->hinge.limit_damping_ratio = out_desc->hinge.spring_damping_ratio = 1.0f;
-        out_desc->hinge.spring_torque = NO_CAP;
+        out_def->hinge.lower = -FE_PI;
+        out_def->hinge.upper = FE_PI;
+        out_def->hinge.limit_damping_ratio = out_def->hinge.spring_damping_ratio = 1.0f;
+        out_def->hinge.spring_max = NO_CAP;
         break;
     case FE_JOINT_FIXED:
-        out_desc->fixed.angular_damping_ratio = 1.0f;
+        out_def->fixed.angular_damping_ratio = 1.0f;
         break;
     default:
-        default_axes(out_desc->configurable.axes);
+        default_axes(out_def->configurable.axes);
         break;
     }
 }
 
-static void init(int32_t type, void *desc, uint32_t struct_size)
+static void init(int32_t type, void *def, uint32_t struct_size)
 {
     fe__joint_any defaults;
     fe__joint_defaults(type, &defaults);
-    fe__init_struct(desc, &defaults, defaults.common.struct_size, struct_size);
+    fe__init_struct(def, &defaults, defaults.common.struct_size, struct_size);
 }
 
-void fe_distance_def_init(fe_distance_def *desc, uint32_t struct_size) { init(FE_JOINT_DISTANCE, desc, struct_size); }
-void fe_ball_def_init(fe_ball_def *desc, uint32_t struct_size) { init(FE_JOINT_BALL, desc, struct_size); }
-void fe_hinge_def_init(fe_hinge_def *desc, uint32_t struct_size) { init(FE_JOINT_HINGE, desc, struct_size); }
-void fe_fixed_def_init(fe_fixed_def *desc, uint32_t struct_size) { init(FE_JOINT_FIXED, desc, struct_size); }
-void fe_configurable_def_init(fe_configurable_def *desc, uint32_t struct_size) { init(FE_JOINT_CONFIGURABLE, desc, struct_size); }
+void fe_distance_joint_def_init(fe_distance_joint_def *def, uint32_t struct_size) { init(FE_JOINT_DISTANCE, def, struct_size); }
+void fe_ball_joint_def_init(fe_ball_joint_def *def, uint32_t struct_size) { init(FE_JOINT_BALL, def, struct_size); }
+void fe_hinge_joint_def_init(fe_hinge_joint_def *def, uint32_t struct_size) { init(FE_JOINT_HINGE, def, struct_size); }
+void fe_fixed_joint_def_init(fe_fixed_joint_def *def, uint32_t struct_size) { init(FE_JOINT_FIXED, def, struct_size); }
+void fe_configurable_joint_def_init(fe_configurable_joint_def *def, uint32_t struct_size) { init(FE_JOINT_CONFIGURABLE, def, struct_size); }
 
 // ---- checks ---------------------------------------------------------------------------------------------------------------------------
 #define FE_CHECK_SOFTNESS(hertz, damping_ratio)            \
@@ -69,110 +87,117 @@ void fe_configurable_def_init(fe_configurable_def *desc, uint32_t struct_size) {
 #define FE_CHECK_CAP(value) FE_CHECK_FLOAT(value, 0.0f, FE_MAX_FORCE)
 #define FE_CHECK_ANGLE(value) FE_CHECK_FLOAT(value, -FE_PI, FE_PI)
 
-fe_result fe__check_joint_common(const char *function, const fe_joint_def *def)
+fe_result fe__check_joint_common(const char *function, const fe_joint_def *full)
 {
-    FE_CHECK_BOOL(def->enabled);
-    FE_CHECK_VEC3(&def->frame_a.position, FE_MAX_LOCAL);
-    FE_CHECK_QUAT(&def->frame_a.rotation);
-    FE_CHECK_VEC3(&def->frame_b.position, FE_MAX_LOCAL);
-    FE_CHECK_QUAT(&def->frame_b.rotation);
-    FE_CHECK_BOOL(def->collide_connected);
-    FE_CHECK_SOFTNESS(def->hertz, def->damping_ratio);
-    FE_CHECK_CAP(def->break_force);
-    FE_CHECK_CAP(def->break_torque);
-    FE_CHECK_INT(def->reserved, 0, 0);
+    FE_CHECK_BOOL(full->enabled);
+    FE_CHECK_VEC3(&full->frame_a.position, FE_MAX_LOCAL);
+    FE_CHECK_QUAT(&full->frame_a.rotation);
+    FE_CHECK_VEC3(&full->frame_b.position, FE_MAX_LOCAL);
+    FE_CHECK_QUAT(&full->frame_b.rotation);
+    FE_CHECK_BOOL(full->collide_connected);
+    FE_CHECK_SOFTNESS(full->hertz, full->damping_ratio);
+    FE_CHECK_CAP(full->break_force);
+    FE_CHECK_CAP(full->break_torque);
+    FE_CHECK_DVEC3(&full->world_origin, FE_MAX_POSITION);
+    FE_CHECK_INT(full->reserved, 0, 0);
     return FE_OK;
 }
 
-static fe_result check_distance(const char *function, const fe_distance_def *def)
+static fe_result check_distance(const char *function, const fe_distance_joint_def *full)
 {
-    FE_CHECK_FLOAT(def->max_length, FE_LEAST_LENGTH, FE_MAX_LOCAL);
-    FE_CHECK_FLOAT(def->min_length, 0.0f, def->max_length);
-    FE_CHECK_FLOAT(def->length, 0.0f, FE_MAX_LOCAL);
-    FE_CHECK_SOFTNESS(def->spring_hertz, def->spring_damping_ratio);
-    FE_CHECK_CAP(def->spring_force);
-    FE_CHECK_FLOAT(def->motor_speed, -FE_MAX_SPEED, FE_MAX_SPEED);
-    FE_CHECK_CAP(def->motor_force);
+    FE_CHECK_BOOL(full->limit_enabled);
+    FE_CHECK_FLOAT(full->upper, FE_LEAST_LENGTH, FE_MAX_LOCAL);
+    FE_CHECK_FLOAT(full->lower, 0.0f, full->upper);
+    FE_CHECK_FLOAT(full->target, 0.0f, FE_MAX_LOCAL);
+    FE_CHECK_SOFTNESS(full->spring_hertz, full->spring_damping_ratio);
+    FE_CHECK_CAP(full->spring_max);
+    FE_CHECK_FLOAT(full->motor_speed, -FE_MAX_SPEED, FE_MAX_SPEED);
+    FE_CHECK_CAP(full->motor_max);
+    FE_CHECK_INT(full->reserved_end, 0, 0);
     return FE_OK;
 }
 
-static fe_result check_ball(const char *function, const fe_ball_def *def)
+static fe_result check_ball(const char *function, const fe_ball_joint_def *full)
 {
-    FE_CHECK_BOOL(def->swing_limited);
-    FE_CHECK_FLOAT(def->cone_y, LEAST_CONE, FE_PI);
-    FE_CHECK_FLOAT(def->cone_z, LEAST_CONE, FE_PI);
-    FE_CHECK_BOOL(def->twist_limited);
-    FE_CHECK_ANGLE(def->max_twist);
-    FE_CHECK_FLOAT(def->min_twist, -FE_PI, def->max_twist);
-    FE_CHECK_SOFTNESS(def->limit_hertz, def->limit_damping_ratio);
-    FE_CHECK_SOFTNESS(def->drive_hertz, def->drive_damping_ratio);
-    FE_CHECK_CAP(def->drive_torque);
-    FE_CHECK_QUAT(&def->target);
-    FE_CHECK_VEC3(&def->motor_velocity, FE_MAX_SPEED);
-    FE_CHECK_CAP(def->motor_torque);
-    FE_CHECK_INT(def->reserved_end, 0, 0);
+    FE_CHECK_BOOL(full->cone_enabled);
+    FE_CHECK_FLOAT(full->cone_y, LEAST_CONE, FE_PI);
+    FE_CHECK_FLOAT(full->cone_z, LEAST_CONE, FE_PI);
+    FE_CHECK_BOOL(full->limit_enabled);
+    FE_CHECK_ANGLE(full->upper);
+    FE_CHECK_FLOAT(full->lower, -FE_PI, full->upper);
+    FE_CHECK_SOFTNESS(full->limit_hertz, full->limit_damping_ratio);
+    FE_CHECK_SOFTNESS(full->spring_hertz, full->spring_damping_ratio);
+    FE_CHECK_CAP(full->spring_max);
+    FE_CHECK_QUAT(&full->target);
+    FE_CHECK_VEC3(&full->motor_velocity, FE_MAX_SPEED);
+    FE_CHECK_CAP(full->motor_max);
+    FE_CHECK_INT(full->reserved_end, 0, 0);
     return FE_OK;
 }
 
-static fe_result check_hinge(const char *function, const fe_hinge_def *def)
+static fe_result check_hinge(const char *function, const fe_hinge_joint_def *full)
 {
-    FE_CHECK_BOOL(def->limited);
-    FE_CHECK_ANGLE(def->max_angle);
-    FE_CHECK_FLOAT(def->min_angle, -FE_PI, def->max_angle);
-    FE_CHECK_SOFTNESS(def->limit_hertz, def->limit_damping_ratio);
-    FE_CHECK_SOFTNESS(def->spring_hertz, def->spring_damping_ratio);
-    FE_CHECK_CAP(def->spring_torque);
-    FE_CHECK_ANGLE(def->target);
-    FE_CHECK_FLOAT(def->motor_speed, -FE_MAX_SPEED, FE_MAX_SPEED);
-    FE_CHECK_CAP(def->motor_torque);
-    FE_CHECK_INT(def->reserved_end, 0, 0);
+    FE_CHECK_BOOL(full->limit_enabled);
+    FE_CHECK_ANGLE(full->upper);
+    FE_CHECK_FLOAT(full->lower, -FE_PI, full->upper);
+    FE_CHECK_SOFTNESS(full->limit_hertz, full->limit_damping_ratio);
+    FE_CHECK_SOFTNESS(full->spring_hertz, full->spring_damping_ratio);
+    FE_CHECK_CAP(full->spring_max);
+    FE_CHECK_ANGLE(full->target);
+    FE_CHECK_FLOAT(full->motor_speed, -FE_MAX_SPEED, FE_MAX_SPEED);
+    FE_CHECK_CAP(full->motor_max);
+    FE_CHECK_INT(full->reserved_end, 0, 0);
     return FE_OK;
 }
 
-static fe_result check_fixed(const char *function, const fe_fixed_def *def)
+static fe_result check_fixed(const char *function, const fe_fixed_joint_def *full)
 {
-    FE_CHECK_SOFTNESS(def->angular_hertz, def->angular_damping_ratio);
+    FE_CHECK_SOFTNESS(full->angular_hertz, full->angular_damping_ratio);
     return FE_OK;
 }
 
-static fe_result check_configurable(const char *function, const fe_configurable_def *def)
+static fe_result check_configurable(const char *function, const fe_configurable_joint_def *full)
 {
-    static const char *const names[6] = {"axes[FE_ALONG_X]", "axes[FE_ALONG_Y]", "axes[FE_ALONG_Z]",
-                                         "axes[FE_ABOUT_X]", "axes[FE_ABOUT_Y]", "axes[FE_ABOUT_Z]"};
+    static const char *const names[6] = {"axes[FE_DOF_LINEAR_X]",  "axes[FE_DOF_LINEAR_Y]",  "axes[FE_DOF_LINEAR_Z]",
+                                         "axes[FE_DOF_ANGULAR_X]", "axes[FE_DOF_ANGULAR_Y]", "axes[FE_DOF_ANGULAR_Z]"};
 #define CHECK(field, low, high) FE_TRY(fe__check_number(function, names[k], "." #field, (double)axis->field, (double)(low), (double)(high)))
     for (int k = 0; k < 6; ++k) {
-        const fe_joint_axis *axis = &def->axes[k];
-        float reach = k < FE_ABOUT_X ? FE_MAX_LOCAL : FE_PI;
-        CHECK(mode, FE_MOTION_LOCKED, FE_MOTION_FREE);
-        CHECK(high, -reach, reach);
-        CHECK(low, -reach, axis->high);
+        const fe_joint_axis *axis = &full->axes[k];
+        float reach = k < FE_DOF_ANGULAR_X ? FE_MAX_LOCAL : FE_PI;
+        CHECK(motion, FE_MOTION_LOCKED, FE_MOTION_FREE);
+        CHECK(upper, -reach, reach);
+        CHECK(lower, -reach, axis->upper);
         CHECK(limit_hertz, 0.0f, FE_MAX_VALUE);
         CHECK(limit_damping_ratio, 0.0f, FE_MAX_VALUE);
-        CHECK(drive, FE_DRIVE_NONE, FE_DRIVE_STIFFNESS);
+        CHECK(spring, FE_SPRING_NONE, FE_SPRING_STIFFNESS);
         CHECK(target, -reach, reach);
-        CHECK(stiffness, 0.0f, axis->drive == FE_DRIVE_HERTZ ? FE_MAX_VALUE : FE_MAX_FORCE);
-        CHECK(damping, 0.0f, axis->drive == FE_DRIVE_HERTZ ? FE_MAX_VALUE : FE_MAX_FORCE);
-        CHECK(drive_force, 0.0f, FE_MAX_FORCE);
+        CHECK(spring_hertz, 0.0f, FE_MAX_VALUE);
+        CHECK(spring_damping_ratio, 0.0f, FE_MAX_VALUE);
+        CHECK(spring_stiffness, 0.0f, FE_MAX_FORCE);
+        CHECK(spring_damping, 0.0f, FE_MAX_FORCE);
+        CHECK(spring_max, 0.0f, FE_MAX_FORCE);
         CHECK(motor_speed, -FE_MAX_SPEED, FE_MAX_SPEED);
-        CHECK(motor_force, 0.0f, FE_MAX_FORCE);
+        CHECK(motor_max, 0.0f, FE_MAX_FORCE);
+        CHECK(reserved[0], 0, 0);
+        CHECK(reserved[1], 0, 0);
     }
 #undef CHECK
     return FE_OK;
 }
 
-fe_result fe__check_joint_def(const char *function, int32_t type, const fe__joint_any *def)
+fe_result fe__check_joint_def(const char *function, int32_t type, const fe__joint_any *full)
 {
-    FE_TRY(fe__check_joint_common(function, &def->common));
+    FE_TRY(fe__check_joint_common(function, &full->common));
     switch (type) {
     case FE_JOINT_DISTANCE:
-        return check_distance(function, &def->distance);
+        return check_distance(function, &full->distance);
     case FE_JOINT_BALL:
-        return check_ball(function, &def->ball);
+        return check_ball(function, &full->ball);
     case FE_JOINT_HINGE:
-        return check_hinge(function, &def->hinge);
+        return check_hinge(function, &full->hinge);
     case FE_JOINT_FIXED:
-        return check_fixed(function, &def->fixed);
+        return check_fixed(function, &full->fixed);
     default:
-        return check_configurable(function, &def->configurable);
+        return check_configurable(function, &full->configurable);
     }
 }

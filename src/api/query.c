@@ -8,7 +8,6 @@
 #include <stddef.h>
 
 // Hits are ordered in the caller's array, which needs them whole, as version 1.0 knew them.
-enum { LEAST_SORTED_HIT = offsetof(fe_hit, flags) + sizeof(uint32_t) };
 
 // ---- arguments ------------------------------------------------------------------------------------------------------------------
 static fe_query_filter default_filter(void) { return (fe_query_filter){.struct_size = sizeof(fe_query_filter), .mask = UINT32_MAX}; }
@@ -37,6 +36,8 @@ fe_result fe__read_moving_form(const char *function, const fe_geometry *geometry
     fe_geometry whole = {.struct_size = sizeof whole};
     FE_READ_STRUCT(geometry, &whole);
     geometry = &whole;
+    FE_CHECK_RESERVED(geometry->reserved);
+    FE_CHECK_RESERVED(geometry->reserved_end);
     *out_form = (fe__form){.type = fe__form_of_geometry(geometry->type)};
     switch (geometry->type) {
     case FE_GEOMETRY_SPHERE:
@@ -56,7 +57,7 @@ fe_result fe__read_moving_form(const char *function, const fe_geometry *geometry
         out_form->half = geometry->half_extents;
         return FE_OK;
     default:
-        return fe__fail(function, FE_ERROR_UNSUPPORTED, "geometry->type is %d; a sphere, a capsule or a box can be asked with",
+        return fe__fail(function, FE_ERROR_UNSUPPORTED, "type is %d, must be that of a sphere, a capsule or a box",
                         geometry->type);
     }
 }
@@ -75,10 +76,10 @@ fe__scene fe__scene_of(const fe_world *world, const fe_query_filter *whole_filte
 }
 
 // ---- what a ray meets -----------------------------------------------------------------------------------------------------------
-fe_result fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
-                           fe_hit *out_hit)
+int32_t fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
+                         fe_hit *out_hit)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     FE_CHECK_POINTER(out_hit);
@@ -90,12 +91,12 @@ fe_result fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const 
     fe__probe_ray(&probe, origin, translation);
     int32_t hit = fe__cast_closest(&scene, &probe, out_hit);
     fe__fp_leave(fp);
-    return hit ? FE_OK : FE_MISS;
+    return hit;
 }
 
-fe_result fe_world_raycast_any(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter)
+int32_t fe_world_raycast_any(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     fe_query_filter whole;
@@ -106,17 +107,17 @@ fe_result fe_world_raycast_any(const fe_world *world, const fe_dvec3 *origin, co
     fe__probe_ray(&probe, origin, translation);
     int32_t hit = fe__cast_any(&scene, &probe);
     fe__fp_leave(fp);
-    return hit ? FE_OK : FE_MISS;
+    return hit;
 }
 
 int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
                              fe_hit *out_hits, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     FE_CHECK_ARRAY(out_hits, capacity);
-    FE_CHECK_STRIDE(stride, sizeof *out_hits, LEAST_SORTED_HIT);
+    FE_CHECK_RECORD_STRIDE(stride, FE_SORTED_HIT, capacity);
     fe_query_filter whole;
     FE_TRY(fe__read_filter(function, filter, &whole));
     fe__fp_state fp = fe__fp_enter();
@@ -129,10 +130,10 @@ int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, cons
 }
 
 // ---- what a moving form meets ---------------------------------------------------------------------------------------------------
-fe_result fe_world_sweep(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
-                         const fe_query_filter *filter, fe_hit *out_hit)
+int32_t fe_world_sweep(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
+                       const fe_query_filter *filter, fe_hit *out_hit)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     fe__form form;
     FE_TRY(fe__read_moving_form(function, geometry, &form));
     FE_CHECK_TRANSFORM(start);
@@ -145,13 +146,13 @@ fe_result fe_world_sweep(const fe_world *world, const fe_geometry *geometry, con
     fe__probe probe = fe__probe_form(&form, start, *translation);
     int32_t hit = fe__cast_closest(&scene, &probe, out_hit);
     fe__fp_leave(fp);
-    return hit ? FE_OK : FE_MISS;
+    return hit;
 }
 
-fe_result fe_world_sweep_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
-                             const fe_query_filter *filter)
+int32_t fe_world_sweep_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
+                           const fe_query_filter *filter)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     fe__form form;
     FE_TRY(fe__read_moving_form(function, geometry, &form));
     FE_CHECK_TRANSFORM(start);
@@ -163,19 +164,19 @@ fe_result fe_world_sweep_any(const fe_world *world, const fe_geometry *geometry,
     fe__probe probe = fe__probe_form(&form, start, *translation);
     int32_t hit = fe__cast_any(&scene, &probe);
     fe__fp_leave(fp);
-    return hit ? FE_OK : FE_MISS;
+    return hit;
 }
 
 int32_t fe_world_sweep_all(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
                            const fe_query_filter *filter, fe_hit *out_hits, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     fe__form form;
     FE_TRY(fe__read_moving_form(function, geometry, &form));
     FE_CHECK_TRANSFORM(start);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     FE_CHECK_ARRAY(out_hits, capacity);
-    FE_CHECK_STRIDE(stride, sizeof *out_hits, LEAST_SORTED_HIT);
+    FE_CHECK_RECORD_STRIDE(stride, FE_SORTED_HIT, capacity);
     fe_query_filter whole;
     FE_TRY(fe__read_filter(function, filter, &whole));
     fe__fp_state fp = fe__fp_enter();
@@ -192,7 +193,7 @@ static const fe_dvec3 nowhere = {0.0, 0.0, 0.0};
 int32_t fe_world_overlap(const fe_world *world, const fe_geometry *geometry, const fe_transform *at, const fe_query_filter *filter,
                          fe_body *out_bodies, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     fe__form form;
     FE_TRY(fe__read_moving_form(function, geometry, &form));
     FE_CHECK_TRANSFORM(at);
@@ -207,9 +208,9 @@ int32_t fe_world_overlap(const fe_world *world, const fe_geometry *geometry, con
     return count;
 }
 
-fe_result fe_world_overlap_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *at, const fe_query_filter *filter)
+int32_t fe_world_overlap_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *at, const fe_query_filter *filter)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     fe__form form;
     FE_TRY(fe__read_moving_form(function, geometry, &form));
     FE_CHECK_TRANSFORM(at);
@@ -220,14 +221,56 @@ fe_result fe_world_overlap_any(const fe_world *world, const fe_geometry *geometr
     fe__probe probe = fe__probe_form(&form, at, nowhere);
     int32_t overlaps = fe__overlap_any(&scene, &probe);
     fe__fp_leave(fp);
-    return overlaps ? FE_OK : FE_MISS;
+    return overlaps;
+}
+
+enum { LEAST_SORTED_OVERLAP = 16 }; // bytes: body and shape
+
+int32_t fe_world_overlap_shapes(const fe_world *world, const fe_geometry *geometry, const fe_transform *at, const fe_query_filter *filter,
+                                fe_overlap *out_overlaps, uint32_t stride, int32_t capacity)
+{
+    FE_READ(world);
+    fe__form form;
+    FE_TRY(fe__read_moving_form(function, geometry, &form));
+    FE_CHECK_TRANSFORM(at);
+    FE_CHECK_ARRAY(out_overlaps, capacity);
+    FE_CHECK_RECORD_STRIDE(stride, LEAST_SORTED_OVERLAP, capacity);
+    fe_query_filter whole;
+    FE_TRY(fe__read_filter(function, filter, &whole));
+    fe__fp_state fp = fe__fp_enter();
+    fe__scene scene = fe__scene_of(world, &whole);
+    fe__probe probe = fe__probe_form(&form, at, nowhere);
+    int32_t count = fe__overlap_shapes(&scene, &probe, out_overlaps, stride, capacity);
+    fe__fp_leave(fp);
+    return count;
+}
+
+int32_t fe_world_overlap_bounds(const fe_world *world, const fe_bounds *bounds, const fe_query_filter *filter, fe_shape *out_shapes,
+                                int32_t capacity)
+{
+    FE_READ(world);
+    FE_CHECK_POINTER(bounds);
+    FE_CHECK_DVEC3(&bounds->lower, FE_MAX_TRANSLATION);
+    FE_CHECK_DVEC3(&bounds->upper, FE_MAX_TRANSLATION);
+    if (bounds->lower.x > bounds->upper.x || bounds->lower.y > bounds->upper.y || bounds->lower.z > bounds->upper.z) {
+        return fe__fail(function, FE_ERROR_ARGUMENT, "lower of bounds is above upper along an axis");
+    }
+    FE_CHECK_ARRAY(out_shapes, capacity);
+    fe_query_filter whole;
+    FE_TRY(fe__read_filter(function, filter, &whole));
+    fe__fp_state fp = fe__fp_enter();
+    fe__scene scene = fe__scene_of(world, &whole);
+    fe__bounds box = {bounds->lower, bounds->upper};
+    int32_t count = fe__overlap_bounds(&scene, &box, out_shapes, capacity);
+    fe__fp_leave(fp);
+    return count;
 }
 
 // ---- what is near ---------------------------------------------------------------------------------------------------------------
-fe_result fe_world_closest_point(const fe_world *world, const fe_dvec3 *point, double max_distance, const fe_query_filter *filter,
-                                 fe_closest *out_closest)
+int32_t fe_world_closest_point(const fe_world *world, const fe_dvec3 *point, double max_distance, const fe_query_filter *filter,
+                               fe_closest *out_closest)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_DVEC3(point, FE_MAX_POSITION);
     FE_CHECK_FLOAT(max_distance, 0.0, FE_MAX_TRANSLATION);
     FE_CHECK_POINTER(out_closest);
@@ -237,13 +280,13 @@ fe_result fe_world_closest_point(const fe_world *world, const fe_dvec3 *point, d
     fe__scene scene = fe__scene_of(world, &whole);
     int32_t found = fe__closest(&scene, *point, max_distance, out_closest);
     fe__fp_leave(fp);
-    return found ? FE_OK : FE_MISS;
+    return found;
 }
 
 // ---- one body, one shape --------------------------------------------------------------------------------------------------------
 // From shape `first` to before `end` in a body's list.
-static fe_result raycast_shapes(const fe_world *world, int32_t first, int32_t end, const fe_dvec3 *origin, const fe_dvec3 *translation,
-                                fe_hit *out_hit)
+static int32_t raycast_shapes(const fe_world *world, int32_t first, int32_t end, const fe_dvec3 *origin, const fe_dvec3 *translation,
+                              fe_hit *out_hit)
 {
     fe_query_filter everything = default_filter();
     everything.flags = FE_QUERY_TRIGGERS;
@@ -253,10 +296,10 @@ static fe_result raycast_shapes(const fe_world *world, int32_t first, int32_t en
     fe__probe_ray(&probe, origin, translation);
     int32_t hit = fe__cast_shapes(&scene, &probe, first, end, out_hit);
     fe__fp_leave(fp);
-    return hit ? FE_OK : FE_MISS;
+    return hit;
 }
 
-static fe_result closest_of_shapes(const fe_world *world, int32_t first, int32_t end, const fe_dvec3 *point, fe_closest *out_closest)
+static int32_t closest_of_shapes(const fe_world *world, int32_t first, int32_t end, const fe_dvec3 *point, fe_closest *out_closest)
 {
     fe_query_filter everything = default_filter();
     everything.flags = FE_QUERY_TRIGGERS;
@@ -264,12 +307,12 @@ static fe_result closest_of_shapes(const fe_world *world, int32_t first, int32_t
     fe__scene scene = fe__scene_of(world, &everything);
     int32_t found = fe__closest_on_shapes(&scene, *point, first, end, out_closest);
     fe__fp_leave(fp);
-    return found ? FE_OK : FE_MISS;
+    return found;
 }
 
-fe_result fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_dvec3 *origin, const fe_dvec3 *translation, fe_hit *out_hit)
+int32_t fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_dvec3 *origin, const fe_dvec3 *translation, fe_hit *out_hit)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
@@ -277,9 +320,9 @@ fe_result fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_dvec3
     return raycast_shapes(world, index, world->shapes[index].next, origin, translation, out_hit);
 }
 
-fe_result fe_body_raycast(const fe_world *world, fe_body body, const fe_dvec3 *origin, const fe_dvec3 *translation, fe_hit *out_hit)
+int32_t fe_body_raycast(const fe_world *world, fe_body body, const fe_dvec3 *origin, const fe_dvec3 *translation, fe_hit *out_hit)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
@@ -287,18 +330,18 @@ fe_result fe_body_raycast(const fe_world *world, fe_body body, const fe_dvec3 *o
     return raycast_shapes(world, world->bodies[index].first_shape, -1, origin, translation, out_hit);
 }
 
-fe_result fe_shape_closest_point(const fe_world *world, fe_shape shape, const fe_dvec3 *point, fe_closest *out_closest)
+int32_t fe_shape_closest_point(const fe_world *world, fe_shape shape, const fe_dvec3 *point, fe_closest *out_closest)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_DVEC3(point, FE_MAX_POSITION);
     FE_CHECK_POINTER(out_closest);
     return closest_of_shapes(world, index, world->shapes[index].next, point, out_closest);
 }
 
-fe_result fe_body_closest_point(const fe_world *world, fe_body body, const fe_dvec3 *point, fe_closest *out_closest)
+int32_t fe_body_closest_point(const fe_world *world, fe_body body, const fe_dvec3 *point, fe_closest *out_closest)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_DVEC3(point, FE_MAX_POSITION);
     FE_CHECK_POINTER(out_closest);

@@ -1,5 +1,7 @@
 // shape.c - the API of shapes: geometry, material, filter, life.
 #include "api/check.h"
+
+#include <inttypes.h>
 #include "core/fp_state.h"
 #include "world/handles.h"
 #include "world/mass.h"
@@ -8,38 +10,10 @@
 
 // ---- geometry -------------------------------------------------------------------------------------------------------------------
 
-void fe_geometry_sphere(fe_geometry *out_geometry, float radius)
+void fe_geometry_init(fe_geometry *geometry, uint32_t struct_size)
 {
-    if (!out_geometry) return;
-    *out_geometry = (fe_geometry){.struct_size = sizeof *out_geometry, .type = FE_GEOMETRY_SPHERE, .radius = radius};
-}
-
-void fe_geometry_capsule(fe_geometry *out_geometry, float half_height, float radius)
-{
-    if (!out_geometry) return;
-    *out_geometry =
-        (fe_geometry){.struct_size = sizeof *out_geometry, .type = FE_GEOMETRY_CAPSULE, .half_height = half_height, .radius = radius};
-}
-
-void fe_geometry_box(fe_geometry *out_geometry, float half_x, float half_y, float half_z)
-{
-    if (!out_geometry) return;
-    *out_geometry = (fe_geometry){.struct_size = sizeof *out_geometry, .type = FE_GEOMETRY_BOX, .half_extents = {half_x, half_y, half_z}};
-}
-
-void fe_geometry_plane(fe_geometry *out_geometry, float normal_x, float normal_y, float normal_z, float distance)
-{
-    if (!out_geometry) return;
-    *out_geometry = (fe_geometry){.struct_size = sizeof *out_geometry,
-                                  .type = FE_GEOMETRY_PLANE,
-                                  .normal = {normal_x, normal_y, normal_z},
-                                  .distance = distance};
-}
-
-void fe_geometry_heightfield(fe_geometry *out_geometry, fe_asset heightfield)
-{
-    if (!out_geometry) return;
-    *out_geometry = (fe_geometry){.struct_size = sizeof *out_geometry, .type = FE_GEOMETRY_HEIGHTFIELD, .asset = heightfield};
+    fe_geometry defaults = {.struct_size = sizeof defaults};
+    fe__init_struct(geometry, &defaults, sizeof defaults, struct_size);
 }
 
 #define FE_CHECK_LENGTH(value) FE_CHECK_FLOAT(value, FE_LEAST_LENGTH, FE_MAX_LENGTH)
@@ -83,8 +57,10 @@ static fe_result read_geometry(const char *function, const fe_world *world, cons
     fe_geometry whole = {.struct_size = sizeof whole};
     FE_READ_STRUCT(geometry, &whole);
     geometry = &whole;
-    FE_CHECK_INT(geometry->type, FE_GEOMETRY_SPHERE, FE_GEOMETRY_HEIGHTFIELD);
+    FE_CHECK_RESERVED(geometry->reserved);
+    FE_CHECK_RESERVED(geometry->reserved_end);
     *out_form = (fe__form){.type = fe__form_of_geometry(geometry->type)};
+    if (out_form->type < 0) return fe__fail(function, FE_ERROR_ARGUMENT, "type is %" PRId32 ", no fe_geometry_type", geometry->type);
     switch (geometry->type) {
     case FE_GEOMETRY_SPHERE:
         FE_CHECK_LENGTH(geometry->radius);
@@ -119,54 +95,55 @@ static fe_result check_owner(const char *function, const fe_world *world, int32_
 
 // ---- life -----------------------------------------------------------------------------------------------------------------------
 
-enum { ALL_EVENTS = FE_EVENTS_TOUCH | FE_EVENTS_STAY | FE_EVENTS_HIT };
+enum { ALL_EVENTS = FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT };
 
 static fe_shape_def default_shape(void)
 {
     return (fe_shape_def){.struct_size = sizeof(fe_shape_def),
                           .density = 1000.0f,
-                          .local_rotation.w = 1.0f,
-                          .material = {.static_friction = 0.6f, .dynamic_friction = 0.5f},
+                          .frame.rotation.w = 1.0f,
+                          .material = fe__default_material(),
                           .layer = 1,
                           .mask = UINT32_MAX,
-                          .events = FE_EVENTS_TOUCH};
+                          .events = FE_SHAPE_EVENTS_TOUCH,
+                          .one_way_direction = {0.0f, 1.0f, 0.0f}};
 }
 
-void fe_shape_def_init(fe_shape_def *desc, uint32_t struct_size)
+void fe_shape_def_init(fe_shape_def *def, uint32_t struct_size)
 {
     fe_shape_def defaults = default_shape();
-    fe__init_struct(desc, &defaults, sizeof defaults, struct_size);
+    fe__init_struct(def, &defaults, sizeof defaults, struct_size);
 }
 
-static fe_result read_shape_def(const char *function, const fe_shape_def *desc, fe_shape_def *def)
+static fe_result read_shape_def(const char *function, const fe_shape_def *def, fe_shape_def *full)
 {
-    *def = default_shape();
-    if (!desc) return FE_OK;
-    FE_READ_STRUCT(desc, def);
-    FE_CHECK_FLOAT(def->density, 0.0f, FE_MAX_DENSITY);
-    FE_CHECK_VEC3(&def->local_position, FE_MAX_LOCAL);
-    FE_CHECK_QUAT(&def->local_rotation);
-    FE_TRY(fe__check_material(function, &def->material));
-    FE_CHECK_FILTER(def->layer);
-    FE_CHECK_BOOL(def->trigger);
-    FE_CHECK_BITS(def->events, ALL_EVENTS);
-    FE_CHECK_VEC3(&def->surface_velocity, FE_MAX_SPEED);
+    *full = default_shape();
+    if (!def) return FE_OK;
+    FE_READ_STRUCT(def, full);
+    FE_CHECK_FLOAT(full->density, 0.0f, FE_MAX_DENSITY);
+    FE_CHECK_VEC3(&full->frame.position, FE_MAX_LOCAL);
+    FE_CHECK_QUAT(&full->frame.rotation);
+    FE_TRY(fe__check_material(function, &full->material));
+    FE_CHECK_FILTER(full->layer);
+    FE_CHECK_BOOL(full->trigger);
+    FE_CHECK_BITS(full->events, ALL_EVENTS);
+    FE_CHECK_VEC3(&full->surface_velocity, FE_MAX_SPEED);
     return FE_OK;
 }
 
-fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *desc, const fe_geometry *geometry, fe_shape *out_shape)
+fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *def, const fe_geometry *geometry, fe_shape *out_shape)
 {
     if (out_shape) *out_shape = 0;
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_shape);
-    fe_shape_def def;
-    FE_TRY(read_shape_def(function, desc, &def));
+    fe_shape_def full;
+    FE_TRY(read_shape_def(function, def, &full));
     fe__form form;
     FE_TRY(read_geometry(function, world, geometry, &form));
     FE_TRY(check_owner(function, world, index, &form));
     fe__fp_state fp = fe__fp_enter();
-    int32_t shape = fe__shape_create(world, index, &def, &form);
+    int32_t shape = fe__shape_create(world, index, &full, &form);
     fe__fp_leave(fp);
     if (shape < 0) return fe__report(function, (fe_result)shape);
     *out_shape = fe__shape_handle(world, shape);
@@ -175,7 +152,7 @@ fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *des
 
 fe_result fe_shape_destroy(fe_world *world, fe_shape shape)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     fe__fp_state fp = fe__fp_enter();
     fe__shape_destroy(world, index);
@@ -192,7 +169,7 @@ int32_t fe_shape_is_valid(const fe_world *world, fe_shape shape)
 fe_result fe_shape_get_body(const fe_world *world, fe_shape shape, fe_body *out_body)
 {
     if (out_body) *out_body = 0;
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_POINTER(out_body);
     *out_body = fe__body_handle(world, world->shapes[index].body);
@@ -203,7 +180,7 @@ fe_result fe_shape_get_body(const fe_world *world, fe_shape shape, fe_body *out_
 
 fe_result fe_shape_set_geometry(fe_world *world, fe_shape shape, const fe_geometry *geometry)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     fe__form form;
     FE_TRY(read_geometry(function, world, geometry, &form));
@@ -216,7 +193,7 @@ fe_result fe_shape_set_geometry(fe_world *world, fe_shape shape, const fe_geomet
 
 fe_result fe_shape_get_geometry(const fe_world *world, fe_shape shape, fe_geometry *out_geometry)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_STRUCT_SIZE(out_geometry);
     const fe__form *form = &world->shapes[index].form;
@@ -233,32 +210,31 @@ fe_result fe_shape_get_geometry(const fe_world *world, fe_shape shape, fe_geomet
     return FE_OK;
 }
 
-fe_result fe_shape_set_local_pose(fe_world *world, fe_shape shape, const fe_vec3 *position, const fe_quat *rotation)
+fe_result fe_shape_set_frame(fe_world *world, fe_shape shape, const fe_frame *frame)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
-    FE_CHECK_VEC3(position, FE_MAX_LOCAL);
-    FE_CHECK_QUAT(rotation);
+    FE_CHECK_POINTER(frame);
+    FE_CHECK_VEC3(&frame->position, FE_MAX_LOCAL);
+    FE_CHECK_QUAT(&frame->rotation);
     fe__fp_state fp = fe__fp_enter();
-    fe__shape_set_local_pose(world, index, *position, *rotation);
+    fe__shape_set_local_pose(world, index, frame->position, frame->rotation);
     fe__fp_leave(fp);
     return FE_OK;
 }
 
-fe_result fe_shape_get_local_pose(const fe_world *world, fe_shape shape, fe_vec3 *out_position, fe_quat *out_rotation)
+fe_result fe_shape_get_frame(const fe_world *world, fe_shape shape, fe_frame *out_frame)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
-    FE_CHECK_POINTER(out_position);
-    FE_CHECK_POINTER(out_rotation);
-    *out_position = world->shapes[index].local_position;
-    *out_rotation = world->shapes[index].local_rotation;
+    FE_CHECK_POINTER(out_frame);
+    *out_frame = (fe_frame){world->shapes[index].local_position, world->shapes[index].local_rotation};
     return FE_OK;
 }
 
 fe_result fe_shape_set_density(fe_world *world, fe_shape shape, float density)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_FLOAT(density, 0.0f, FE_MAX_DENSITY);
     if (world->shapes[index].density == density) return FE_OK;
@@ -272,7 +248,7 @@ fe_result fe_shape_set_density(fe_world *world, fe_shape shape, float density)
 
 fe_result fe_shape_get_density(const fe_world *world, fe_shape shape, float *out_density)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_POINTER(out_density);
     *out_density = world->shapes[index].density;
@@ -292,7 +268,7 @@ static void renew_surface(fe_world *world, int32_t index)
 
 fe_result fe_shape_set_material(fe_world *world, fe_shape shape, const fe_material *material)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     FE_TRY(fe__check_material(function, material));
     world->shapes[index].material = *material;
@@ -302,7 +278,7 @@ fe_result fe_shape_set_material(fe_world *world, fe_shape shape, const fe_materi
 
 fe_result fe_shape_get_material(const fe_world *world, fe_shape shape, fe_material *out_material)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_POINTER(out_material);
     *out_material = world->shapes[index].material;
@@ -311,7 +287,7 @@ fe_result fe_shape_get_material(const fe_world *world, fe_shape shape, fe_materi
 
 fe_result fe_shape_set_surface_velocity(fe_world *world, fe_shape shape, const fe_vec3 *velocity)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_VEC3(velocity, FE_MAX_SPEED);
     world->shapes[index].surface_velocity = *velocity;
@@ -321,7 +297,7 @@ fe_result fe_shape_set_surface_velocity(fe_world *world, fe_shape shape, const f
 
 fe_result fe_shape_get_surface_velocity(const fe_world *world, fe_shape shape, fe_vec3 *out_velocity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_POINTER(out_velocity);
     *out_velocity = world->shapes[index].surface_velocity;
@@ -330,29 +306,31 @@ fe_result fe_shape_get_surface_velocity(const fe_world *world, fe_shape shape, f
 
 // ---- filter, trigger, events ----------------------------------------------------------------------------------------------------
 
-fe_result fe_shape_set_filter(fe_world *world, fe_shape shape, uint32_t layer, uint32_t mask)
+fe_result fe_shape_set_filter(fe_world *world, fe_shape shape, uint32_t layer, uint32_t mask, int32_t group)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_FILTER(layer);
-    fe__shape_set_filter(world, index, layer, mask);
+    fe__shape_set_filter(world, index, layer, mask, group);
     return FE_OK;
 }
 
-fe_result fe_shape_get_filter(const fe_world *world, fe_shape shape, uint32_t *out_layer, uint32_t *out_mask)
+fe_result fe_shape_get_filter(const fe_world *world, fe_shape shape, uint32_t *out_layer, uint32_t *out_mask, int32_t *out_group)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_POINTER(out_layer);
     FE_CHECK_POINTER(out_mask);
+    FE_CHECK_POINTER(out_group);
     *out_layer = world->shapes[index].layer;
     *out_mask = world->shapes[index].mask;
+    *out_group = world->shapes[index].group;
     return FE_OK;
 }
 
 fe_result fe_shape_set_trigger(fe_world *world, fe_shape shape, int32_t trigger)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_BOOL(trigger);
     fe__shape_set_trigger(world, index, trigger);
@@ -361,7 +339,7 @@ fe_result fe_shape_set_trigger(fe_world *world, fe_shape shape, int32_t trigger)
 
 fe_result fe_shape_get_trigger(const fe_world *world, fe_shape shape, int32_t *out_trigger)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_POINTER(out_trigger);
     *out_trigger = (world->shapes[index].flags & FE__SHAPE_TRIGGER) != 0;
@@ -370,7 +348,7 @@ fe_result fe_shape_get_trigger(const fe_world *world, fe_shape shape, int32_t *o
 
 fe_result fe_shape_set_events(fe_world *world, fe_shape shape, uint32_t events)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_BITS(events, ALL_EVENTS);
     world->shapes[index].events = events;
@@ -382,24 +360,24 @@ fe_result fe_shape_set_events(fe_world *world, fe_shape shape, uint32_t events)
 
 fe_result fe_shape_get_events(const fe_world *world, fe_shape shape, uint32_t *out_events)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_POINTER(out_events);
     *out_events = world->shapes[index].events;
     return FE_OK;
 }
 
-fe_result fe_shape_set_user_data(fe_world *world, fe_shape shape, fe_handle user_data)
+fe_result fe_shape_set_user_data(fe_world *world, fe_shape shape, uint64_t user_data)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     world->shapes[index].user_data = user_data;
     return FE_OK;
 }
 
-fe_result fe_shape_get_user_data(const fe_world *world, fe_shape shape, fe_handle *out_user_data)
+fe_result fe_shape_get_user_data(const fe_world *world, fe_shape shape, uint64_t *out_user_data)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_POINTER(out_user_data);
     *out_user_data = world->shapes[index].user_data;

@@ -16,10 +16,10 @@ static fe_world_def default_world(void)
     return (fe_world_def){.struct_size = sizeof(fe_world_def), .worker_count = 1, .gravity = {0.0f, -9.81f, 0.0f}, .substeps = 8};
 }
 
-void fe_world_def_init(fe_world_def *desc, uint32_t struct_size)
+void fe_world_def_init(fe_world_def *def, uint32_t struct_size)
 {
     fe_world_def defaults = default_world();
-    fe__init_struct(desc, &defaults, sizeof defaults, struct_size);
+    fe__init_struct(def, &defaults, sizeof defaults, struct_size);
 }
 
 static fe_result read_allocator(const char *function, const fe_allocator *allocator, fe_allocator *copy)
@@ -41,42 +41,43 @@ static fe_result read_tasks(const char *function, const fe_task_system *tasks, f
 
 // The definition with everything it points to
 typedef struct whole_def {
-    fe_world_def desc;
+    fe_world_def def;
     fe_allocator allocator;
     fe_task_system tasks;
 } whole_def;
 
-static fe_result read_world_def(const char *function, const fe_world_def *desc, whole_def *whole)
+static fe_result read_world_def(const char *function, const fe_world_def *def, whole_def *whole)
 {
-    fe_world_def *def = &whole->desc;
-    *whole = (whole_def){.desc = default_world()};
-    if (!desc) return FE_OK;
-    FE_READ_STRUCT(desc, def);
-    FE_CHECK_INT(def->worker_count, 1, FE_MAX_WORKERS);
-    FE_CHECK_VEC3(&def->gravity, FE_MAX_SPEED);
-    FE_CHECK_INT(def->substeps, 1, FE_MAX_SUBSTEPS);
-    FE_CHECK_INT(def->simd, FE_SIMD_AUTO, FE_SIMD_NEON);
-    if (def->allocator) {
-        FE_TRY(read_allocator(function, def->allocator, &whole->allocator));
-        def->allocator = &whole->allocator;
+    fe_world_def *full = &whole->def;
+    *whole = (whole_def){.def = default_world()};
+    if (!def) return FE_OK;
+    FE_READ_STRUCT(def, full);
+    FE_CHECK_INT(full->worker_count, 1, FE_MAX_WORKERS);
+    FE_CHECK_VEC3(&full->gravity, FE_MAX_SPEED);
+    FE_CHECK_INT(full->substeps, 1, FE_MAX_SUBSTEPS);
+    FE_CHECK_INT(full->simd, FE_SIMD_AUTO, FE_SIMD_NEON);
+    FE_CHECK_INT(full->number, 0, FE_ID_LAST_NUMBER);
+    if (full->allocator) {
+        FE_TRY(read_allocator(function, full->allocator, &whole->allocator));
+        full->allocator = &whole->allocator;
     }
-    if (def->tasks) {
-        FE_TRY(read_tasks(function, def->tasks, &whole->tasks));
-        def->tasks = &whole->tasks;
+    if (full->tasks) {
+        FE_TRY(read_tasks(function, full->tasks, &whole->tasks));
+        full->tasks = &whole->tasks;
     }
     return FE_OK;
 }
 
-fe_result fe_world_create(const fe_world_def *desc, fe_world **out_world)
+fe_result fe_world_create(const fe_world_def *def, fe_world **out_world)
 {
     FE_BEGIN_WITHOUT_WORLD();
     FE_CHECK_POINTER(out_world);
     whole_def whole;
-    FE_TRY(read_world_def(function, desc, &whole));
+    FE_TRY(read_world_def(function, def, &whole));
     fe_world *world;
-    fe_result result = fe__world_create(&whole.desc, &world);
+    fe_result result = fe__world_create(&whole.def, &world);
     if (result == FE_ERROR_UNSUPPORTED) {
-        return fe__fail(function, result, "desc->simd is %d, a set that this CPU or this build does not have", (int)whole.desc.simd);
+        return fe__fail(function, result, "simd is %d, a set that this CPU or this build does not have", (int)whole.def.simd);
     }
     FE_TRY(fe__report(function, result));
     *out_world = world;
@@ -85,7 +86,11 @@ fe_result fe_world_create(const fe_world_def *desc, fe_world **out_world)
 
 fe_result fe_world_destroy(fe_world *world)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
+    if (!fe__owner_be_alone(inside, FE__CLOSING)) {
+        return fe__fail(function, FE_ERROR_BUSY, "another thread is reading this world; destroy it when its calls have returned");
+    }
+    inside = NULL; // its word goes with it
     fe__world_destroy(world);
     return FE_OK;
 }
@@ -94,16 +99,14 @@ fe_result fe_world_destroy(fe_world *world)
 
 fe_result fe_world_step(fe_world *world, float dt)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_CHECK_FLOAT(dt, 0.0f, FE_MAX_DT);
-    int32_t idle = 0;
-    if (!atomic_compare_exchange_strong(&world->stepping, &idle, 1)) {
-        return fe__fail(function, FE_ERROR_STEPPING, "the world is already in a step, on another thread");
+    if (!fe__owner_be_alone(inside, FE__STEP)) {
+        return fe__fail(function, FE_ERROR_BUSY, "another thread is reading this world; step it when its calls have returned");
     }
     fe__fp_state fp = fe__fp_enter();
     fe_result result = fe__world_step(world, dt);
     fe__fp_leave(fp);
-    atomic_store_explicit(&world->stepping, 0, memory_order_release);
     return fe__report(function, result);
 }
 
@@ -119,7 +122,7 @@ static void wake_all(fe_world *world)
 // Another gravity sets everything in motion.
 fe_result fe_world_set_gravity(fe_world *world, const fe_vec3 *gravity)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_CHECK_VEC3(gravity, FE_MAX_SPEED);
     int32_t same = gravity->x == world->gravity.x && gravity->y == world->gravity.y && gravity->z == world->gravity.z;
     world->gravity = *gravity;
@@ -129,7 +132,7 @@ fe_result fe_world_set_gravity(fe_world *world, const fe_vec3 *gravity)
 
 fe_result fe_world_get_gravity(const fe_world *world, fe_vec3 *out_gravity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_POINTER(out_gravity);
     *out_gravity = world->gravity;
     return FE_OK;
@@ -137,7 +140,7 @@ fe_result fe_world_get_gravity(const fe_world *world, fe_vec3 *out_gravity)
 
 fe_result fe_world_set_substeps(fe_world *world, int32_t substeps)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_CHECK_INT(substeps, 1, FE_MAX_SUBSTEPS);
     world->substeps = substeps;
     return FE_OK;
@@ -145,15 +148,30 @@ fe_result fe_world_set_substeps(fe_world *world, int32_t substeps)
 
 fe_result fe_world_get_substeps(const fe_world *world, int32_t *out_substeps)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_POINTER(out_substeps);
     *out_substeps = world->substeps;
     return FE_OK;
 }
 
-fe_result fe_world_get_user_data(const fe_world *world, fe_handle *out_user_data)
+fe_result fe_world_set_user_data(fe_world *world, uint64_t user_data)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
+    world->user_data = user_data;
+    return FE_OK;
+}
+
+fe_result fe_world_get_number(const fe_world *world, uint32_t *out_number)
+{
+    FE_READ(world);
+    FE_CHECK_POINTER(out_number);
+    *out_number = (uint32_t)world->number;
+    return FE_OK;
+}
+
+fe_result fe_world_get_user_data(const fe_world *world, uint64_t *out_user_data)
+{
+    FE_READ(world);
     FE_CHECK_POINTER(out_user_data);
     *out_user_data = world->user_data;
     return FE_OK;
@@ -178,6 +196,9 @@ static fe_result read_tuning(const char *function, const fe_world_tuning *tuning
     FE_CHECK_FLOAT(copy->sleep_time, 0.0f, FE_MAX_VALUE);
     FE_CHECK_FLOAT(copy->speculative_distance, 0.001f, 0.1f);
     FE_CHECK_FLOAT(copy->max_linear_speed, FE_LEAST_VALUE, FE_MAX_SPEED);
+    FE_CHECK_BOOL(copy->sleep_enabled);
+    FE_CHECK_BOOL(copy->continuous_enabled);
+    FE_CHECK_BOOL(copy->warm_start_enabled);
     return FE_OK;
 }
 
@@ -191,12 +212,14 @@ static void renew_boxes(fe_world *world)
 
 fe_result fe_world_set_tuning(fe_world *world, const fe_world_tuning *tuning)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     fe_world_tuning copy = world->tuning;
     FE_TRY(read_tuning(function, tuning, &copy));
     int32_t same_reach = copy.speculative_distance == world->tuning.speculative_distance;
     if (copy.joint_hertz != world->tuning.joint_hertz) world->joints.forest.changed = world->solver.graph_changed = 1; // what is a spring
+    int32_t wakes = world->tuning.sleep_enabled && !copy.sleep_enabled;
     world->tuning = copy;
+    if (wakes) wake_all(world);
     if (same_reach) return FE_OK;
     fe__fp_state fp = fe__fp_enter();
     renew_boxes(world);
@@ -206,7 +229,7 @@ fe_result fe_world_set_tuning(fe_world *world, const fe_world_tuning *tuning)
 
 fe_result fe_world_get_tuning(const fe_world *world, fe_world_tuning *out_tuning)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_STRUCT_SIZE(out_tuning);
     fe__write_struct(out_tuning, &world->tuning, sizeof world->tuning);
     return FE_OK;
@@ -214,7 +237,7 @@ fe_result fe_world_get_tuning(const fe_world *world, fe_world_tuning *out_tuning
 
 fe_result fe_world_ignore_collision(fe_world *world, fe_body a, fe_body b, int32_t ignore)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index_a, a);
     FE_FIND_BODY(index_b, b);
     FE_CHECK_BOOL(ignore);
@@ -222,20 +245,50 @@ fe_result fe_world_ignore_collision(fe_world *world, fe_body a, fe_body b, int32
     return fe__report(function, fe__ignore_collision(world, index_a, index_b, ignore));
 }
 
-fe_result fe_world_sync_queries(fe_world *world)
+fe_result fe_world_get_ignored(const fe_world *world, fe_body a, fe_body b, int32_t *out_ignored)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
+    FE_FIND_BODY(index_a, a);
+    FE_FIND_BODY(index_b, b);
+    FE_CHECK_POINTER(out_ignored);
+    if (a == b) return fe__fail(function, FE_ERROR_ARGUMENT, "a and b are the same body 0x%llx", a);
+    *out_ignored = fe__pair_set_find(&world->ignored, index_a, index_b) >= 0;
+    return FE_OK;
+}
+
+fe_result fe_world_optimize(fe_world *world)
+{
+    FE_WRITE(world);
     fe__fp_state fp = fe__fp_enter();
     int32_t built = fe__tree_rebuild(&world->static_tree, &world->memory, 1) && fe__tree_rebuild(&world->moving_tree, &world->memory, 1);
     fe__fp_leave(fp);
     return built ? FE_OK : fe__report(function, FE_ERROR_MEMORY);
 }
 
+// ---- the defaults of what is read into, and of what the host gives ---------------------------------------------------------------
+
+#define FE_DEFINE_EMPTY_INIT(name, type, argument)                          \
+    void name(type *argument, uint32_t struct_size)                         \
+    {                                                                       \
+        type defaults = {.struct_size = sizeof defaults};                   \
+        fe__init_struct(argument, &defaults, sizeof defaults, struct_size); \
+    }
+
+FE_DEFINE_EMPTY_INIT(fe_allocator_init, fe_allocator, allocator)
+FE_DEFINE_EMPTY_INIT(fe_profile_init, fe_profile, profile)
+FE_DEFINE_EMPTY_INIT(fe_counters_init, fe_counters, counters)
+
+void fe_task_system_init(fe_task_system *tasks, uint32_t struct_size)
+{
+    fe_task_system defaults = {.struct_size = sizeof defaults, .worker_count = 1};
+    fe__init_struct(tasks, &defaults, sizeof defaults, struct_size);
+}
+
 // ---- measures -------------------------------------------------------------------------------------------------------------------
 
 fe_result fe_world_get_profile(const fe_world *world, fe_profile *out_profile)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_STRUCT_SIZE(out_profile);
     fe__write_struct(out_profile, &world->profile, sizeof world->profile);
     return FE_OK;
@@ -244,7 +297,7 @@ fe_result fe_world_get_profile(const fe_world *world, fe_profile *out_profile)
 // The step's own counts are its last ones; what calls between steps change is counted now.
 fe_result fe_world_get_counters(const fe_world *world, fe_counters *out_counters)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_STRUCT_SIZE(out_counters);
     fe_counters c = world->counters;
     c.bodies = world->body_count;
@@ -264,7 +317,7 @@ fe_result fe_world_get_counters(const fe_world *world, fe_counters *out_counters
 
 fe_result fe_world_hash(const fe_world *world, uint32_t *out_words)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_POINTER(out_words);
     uint64_t hash = fe__world_hash(world);
     out_words[0] = (uint32_t)hash;
@@ -274,11 +327,19 @@ fe_result fe_world_hash(const fe_world *world, uint32_t *out_words)
 
 int32_t fe_world_get_bodies(const fe_world *world, fe_body *out_bodies, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_ARRAY(out_bodies, capacity);
     int32_t count = 0;
     for (int32_t body = world->first_body; body >= 0 && count < capacity; body = world->bodies[body].order_next) {
         out_bodies[count++] = fe__body_handle(world, body);
     }
     return world->body_count;
+}
+
+fe_result fe_world_get_store(const fe_world *world, fe_store **out_store)
+{
+    FE_READ(world);
+    FE_CHECK_POINTER(out_store);
+    *out_store = (fe_store *)(uintptr_t)&world->store;
+    return FE_OK;
 }

@@ -1,14 +1,26 @@
 // id_pool.c - see id_pool.h.
 #include "core/id_pool.h"
 
-_Static_assert(FE_ID_SLOT_BITS + FE_ID_GENERATION_BITS + FE_ID_KIND_BITS <= 53, "a handle must survive a double");
+#include <stdatomic.h>
 
-void fe__id_pool_init(fe__id_pool *pool, fe__kind kind) { *pool = (fe__id_pool){.free_head = FE_ID_NONE, .kind = (int32_t)kind}; }
+_Static_assert(FE_ID_KIND_SHIFT + FE_ID_KIND_BITS <= 53, "a handle must survive a double");
+
+void fe__id_pool_init(fe__id_pool *pool, fe__kind kind, int32_t number)
+{
+    *pool = (fe__id_pool){.free_head = FE_ID_NONE, .kind = (int32_t)kind, .number = number};
+}
+
+int32_t fe__id_draw_number(void)
+{
+    static _Atomic uint32_t drawn;
+    uint32_t before = atomic_fetch_add_explicit(&drawn, 1, memory_order_relaxed);
+    return 1 + (int32_t)(before % FE_ID_LAST_NUMBER);
+}
 
 void fe__id_pool_free(fe__id_pool *pool, fe__memory *memory)
 {
     FE_FREE(memory, pool->slots, pool->capacity);
-    fe__id_pool_init(pool, (fe__kind)pool->kind);
+    fe__id_pool_init(pool, (fe__kind)pool->kind, pool->number);
 }
 
 fe_result fe__id_pool_reserve(fe__id_pool *pool, fe__memory *memory, int32_t extra)

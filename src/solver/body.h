@@ -69,7 +69,7 @@ typedef struct fe__body {
     int32_t first_joint, last_joint, joint_total; // all joints, threaded through fe__joint_record.links in the order of creation; 0: none
     int32_t locked;                               // 1: any lock bit is set
     int64_t moved_step;                           // number of the last step that moved it, 0: none
-    fe_handle user_data;
+    uint64_t user_data;
     int32_t order_next, order_previous; // list of all bodies in the order of creation
 } fe__body;
 _Static_assert(sizeof(fe__body) % 64 == 0, "bodies are made of cache lines");

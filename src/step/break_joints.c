@@ -33,7 +33,7 @@ void fe__break_joints(fe__step *step)
                             fe__body_handle(w, r->body[0]),
                             fe__body_handle(w, r->body[1]),
                             r->user_data,
-                            FE_BREAK,
+                            FE_EVENT_BREAK,
                             r->type,
                             {0, 0, 0},
                             {0, 0, 0}};

@@ -48,17 +48,27 @@ static impact impact_of(const fe_world *w, int32_t head)
 static void add_hit(fe_world *w, int32_t pair)
 {
     const fe__pair *p = w->pairs + pair;
-    if (!(p->events & FE_EVENTS_HIT)) return;
+    if (!(p->events & FE_SHAPE_EVENTS_HIT)) return;
     impact sum = impact_of(w, pair);
     if (sum.approach < w->tuning.hit_event_threshold || sum.impulse <= 0.0f) return;
     const fe__contact *m = w->contacts + sum.pair;
     float sign = p->flags & FE__PAIR_FLIPPED ? -1.0f : 1.0f;
-    fe_pair_event e = fe__pair_event_of(w, pair, FE_ENTER);
+    fe_pair_event e = fe__pair_event_of(w, pair, FE_EVENT_ENTER);
     fe__hit_event_record *r = w->hit_events + w->hit_event_count++;
     *r = (fe__hit_event_record){w->pair_serials[2 * pair],
                                 w->pair_serials[2 * pair + 1],
-                                {e.body_a, e.body_b, e.shape_a, e.shape_b, fe__contact_point(w, sum.pair, sum.point),
-                                 fe__scale(sign, fe__vec3(m->normal[0], m->normal[1], m->normal[2])), sum.approach, sum.impulse, 0}};
+                                {.body_a = e.body_a,
+                                 .body_b = e.body_b,
+                                 .shape_a = e.shape_a,
+                                 .shape_b = e.shape_b,
+                                 .point = fe__contact_point(w, sum.pair, sum.point),
+                                 .normal = fe__scale(sign, fe__vec3(m->normal[0], m->normal[1], m->normal[2])),
+                                 .speed = sum.approach,
+                                 .impulse = sum.impulse,
+                                 .part_a = -1,
+                                 .part_b = -1,
+                                 .triangle_a = e.triangle_a,
+                                 .triangle_b = e.triangle_b}};
 }
 
 // ---- looking, on any thread: pairs that have something to report go to the list of results ----------------------------------------------
@@ -92,9 +102,9 @@ static void look_block(void *argument, int32_t first, int32_t end, int32_t worke
         int32_t now = touches(w, pair) || p->flags & FE__PAIR_CROSSED;
         p->flags &= ~(uint32_t)FE__PAIR_CROSSED;
         int32_t before = (p->flags & FE__PAIR_TOUCHING) != 0, reports = now != before;
-        if (now && before) reports = (p->events & (FE_EVENTS_STAY | FE_EVENTS_HIT)) != 0;
+        if (now && before) reports = (p->events & (FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT)) != 0;
         reports |= (p->flags & FE__PAIR_ONCE) != 0;
-        p->result = now ? (before ? FE_STAY : FE_ENTER) : FE_EXIT;
+        p->result = now ? (before ? FE_EVENT_STAY : FE_EVENT_ENTER) : FE_EVENT_EXIT;
         if (reports) s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
     }
 }
@@ -111,13 +121,13 @@ static void report(fe_world *w, int32_t pair)
     fe__pair *p = w->pairs + pair;
     int32_t kind = p->result;
     if (p->flags & FE__PAIR_ONCE) forget_if_asleep(w, pair);
-    if (kind == FE_EXIT && !(p->flags & FE__PAIR_TOUCHING)) return;
-    if (kind == FE_EXIT)
+    if (kind == FE_EVENT_EXIT && !(p->flags & FE__PAIR_TOUCHING)) return;
+    if (kind == FE_EVENT_EXIT)
         p->flags &= ~(uint32_t)FE__PAIR_TOUCHING;
     else
         p->flags |= FE__PAIR_TOUCHING;
-    if (kind != FE_EXIT && !(p->flags & FE__PAIR_SENSOR)) add_hit(w, pair);
-    if (p->events & (kind == FE_STAY ? (uint32_t)FE_EVENTS_STAY : (uint32_t)FE_EVENTS_TOUCH))
+    if (kind != FE_EVENT_EXIT && !(p->flags & FE__PAIR_SENSOR)) add_hit(w, pair);
+    if (p->events & (kind == FE_EVENT_STAY ? (uint32_t)FE_SHAPE_EVENTS_STAY : (uint32_t)FE_SHAPE_EVENTS_TOUCH))
         w->pair_events[w->pair_event_count++] = record_of(w, pair, kind);
 }
 
@@ -188,5 +198,5 @@ void fe__collect_body_events(fe__step *step)
     w->body_event_count = count;
     for (int32_t i = 0; i < count; ++i)
         w->body_events[i] =
-            (fe__body_event_record){items[i].key, {fe__body_handle(w, items[i].value), items[i].spare ? FE_WAKE : FE_SLEEP, 0}};
+            (fe__body_event_record){items[i].key, {fe__body_handle(w, items[i].value), items[i].spare ? FE_EVENT_WAKE : FE_EVENT_SLEEP, 0}};
 }

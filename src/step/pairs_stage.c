@@ -72,7 +72,7 @@ static void search_block(void *argument, int32_t first, int32_t end, int32_t wor
         s.shape = step->world->moved[i];
         const fe__shape *shape = step->world->shapes + s.shape;
         uint32_t flags = shape->flags;
-        if (!shape->layer || !shape->mask) continue; // touches nothing
+        if ((!shape->layer || !shape->mask) && shape->group <= 0) continue; // touches nothing
         if (flags & FE__SHAPE_IN_PLANES) search_plane(&s);
         if (flags & FE__SHAPE_IN_TREE) search_tree(&s);
     }

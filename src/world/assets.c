@@ -34,24 +34,24 @@ static int32_t needs_special_rows(const fe_material *m)
     return m->restitution > 0.0f || m->rolling_resistance > 0.0f || m->spinning_resistance > 0.0f;
 }
 
-static void fill_cells(fe__heightfield *f, const fe_heightfield_def *desc)
+static void fill_cells(fe__heightfield *f, const fe_heightfield_def *def)
 {
     for (int64_t i = 0; f->cells && i < cell_count(f); ++i) {
-        int32_t hole = desc->holes && desc->holes[i];
-        f->cells[i] = hole ? (uint8_t)FE__CELL_HOLE : desc->cell_materials ? desc->cell_materials[i] : (uint8_t)0;
+        int32_t hole = def->holes && def->holes[i];
+        f->cells[i] = hole ? (uint8_t)FE__CELL_HOLE : def->cell_materials ? def->cell_materials[i] : (uint8_t)0;
     }
 }
 
-static void fill_materials(fe__asset *a, const fe_heightfield_def *desc)
+static void fill_materials(fe__asset *a, const fe_heightfield_def *def)
 {
-    uint32_t stride = desc->material_stride ? desc->material_stride : (uint32_t)sizeof(fe_material);
+    uint32_t stride = def->material_stride ? def->material_stride : (uint32_t)sizeof(fe_material);
     for (int32_t i = 0; i < a->material_count; ++i) {
-        memcpy(a->materials + i, (const unsigned char *)desc->materials + (size_t)stride * (size_t)i, sizeof *a->materials);
+        memcpy(a->materials + i, (const unsigned char *)def->materials + (size_t)stride * (size_t)i, sizeof *a->materials);
         a->special |= needs_special_rows(a->materials + i);
     }
 }
 
-int32_t fe__heightfield_create(fe_world *world, const fe_heightfield_def *desc)
+int32_t fe__heightfield_create(fe_world *world, const fe_heightfield_def *def)
 {
     fe__memory *memory = &world->memory;
     fe_result ids = fe__id_pool_reserve(&world->asset_ids, memory, 1);
@@ -63,22 +63,22 @@ int32_t fe__heightfield_create(fe_world *world, const fe_heightfield_def *desc)
     int32_t index = fe__id_slot_of(fe__id_pool_allocate(&world->asset_ids));
     fe__heightfield *f = world->fields + index;
     fe__asset *a = world->assets + index;
-    *f = (fe__heightfield){.rows = desc->rows, .columns = desc->columns, .cell_x = (double)desc->cell_x, .cell_z = (double)desc->cell_z};
-    *a = (fe__asset){.first_user = -1, .material_count = desc->cell_materials ? desc->material_count : 0};
+    *f = (fe__heightfield){.rows = def->rows, .columns = def->columns, .cell_x = (double)def->cell_x, .cell_z = (double)def->cell_z};
+    *a = (fe__asset){.first_user = -1, .material_count = def->cell_materials ? def->material_count : 0};
     f->heights = fe__allocate(memory, heights_size(f));
     f->ranges = fe__allocate(memory, ranges_size(f));
-    if (desc->holes || desc->cell_materials) f->cells = fe__allocate(memory, (size_t)cell_count(f));
+    if (def->holes || def->cell_materials) f->cells = fe__allocate(memory, (size_t)cell_count(f));
     if (a->material_count) a->materials = fe__allocate(memory, materials_size(a));
-    int32_t no_cells = !f->cells && (desc->holes || desc->cell_materials);
+    int32_t no_cells = !f->cells && (def->holes || def->cell_materials);
     if (!f->heights || !f->ranges || no_cells || (a->material_count && !a->materials)) {
         free_record(world, index);
         fe__id_pool_release(&world->asset_ids, index);
         return FE_ERROR_MEMORY;
     }
-    memcpy(f->heights, desc->heights, heights_size(f));
+    memcpy(f->heights, def->heights, heights_size(f));
     fe__heightfield_measure(f, 0, f->rows);
-    fill_cells(f, desc);
-    fill_materials(a, desc);
+    fill_cells(f, def);
+    fill_materials(a, def);
     return index;
 }
 

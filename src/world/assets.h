@@ -3,7 +3,7 @@
 #define FE_WORLD_ASSETS_H
 #include "world/world.h"
 
-int32_t fe__heightfield_create(fe_world *world, const fe_heightfield_def *desc); // index, or negative: fe_result
+int32_t fe__heightfield_create(fe_world *world, const fe_heightfield_def *def); // index, or negative: fe_result
 void fe__heightfield_set_heights(fe_world *world, int32_t index, int32_t row, int32_t column, int32_t rows, int32_t columns,
                                  const float *heights);
 void fe__asset_destroy(fe_world *world, int32_t index);       // now, or with its last shape

@@ -75,47 +75,47 @@ static void set_lock_bits(fe_world *world, fe__body *body, uint32_t linear, uint
     fe__body_stop_locked(world, body);
 }
 
-static uint32_t initial_flags(const fe_body_def *desc)
+static uint32_t initial_flags(const fe_body_def *def)
 {
     uint32_t flags = 0;
-    if (desc->enabled) flags |= FE__BODY_ENABLED;
-    if (desc->bullet) flags |= FE__BODY_BULLET;
-    if (desc->sleep_allowed) flags |= FE__BODY_SLEEP_ALLOWED;
+    if (def->enabled) flags |= FE__BODY_ENABLED;
+    if (def->bullet) flags |= FE__BODY_BULLET;
+    if (def->sleep_allowed) flags |= FE__BODY_SLEEP_ALLOWED;
     return flags;
 }
 
 // A body that starts asleep starts at rest: sleeping and moving exclude each other.
-static void set_initial_velocities(fe__body *body, const fe_body_def *desc)
+static void set_initial_velocities(fe__body *body, const fe_body_def *def)
 {
-    if (body->type == FE_BODY_STATIC || !desc->awake) return;
-    fe_vec3 v = desc->linear_velocity, w = desc->angular_velocity;
+    if (body->type == FE_BODY_STATIC || !def->awake) return;
+    fe_vec3 v = def->linear_velocity, w = def->angular_velocity;
     body->velocity[0] = v.x, body->velocity[1] = v.y, body->velocity[2] = v.z;
     body->spin[0] = w.x, body->spin[1] = w.y, body->spin[2] = w.z;
 }
 
-int32_t fe__body_create(fe_world *world, const fe_body_def *desc)
+int32_t fe__body_create(fe_world *world, const fe_body_def *def)
 {
     int32_t index = fe__id_slot_of(fe__id_pool_allocate(&world->body_ids));
     fe__body *body = &world->bodies[index];
     uint32_t listed = body->flags & FE__BODY_DISTURBED; // the list names the slot, whoever has it
     memset(body, 0, sizeof *body);
-    body->type = desc->type;
-    body->flags = initial_flags(desc) | listed;
+    body->type = def->type;
+    body->flags = initial_flags(def) | listed;
     body->serial = world->next_serial++;
-    body->user_data = desc->user_data;
+    body->user_data = def->user_data;
     body->line = body->awake_index = body->island = -1;
     body->first_contact = body->first_shape = body->last_shape = -1;
-    body->gravity_scale = desc->gravity_scale;
-    body->sleep_threshold = desc->sleep_threshold;
-    body->linear_damping = desc->linear_damping;
-    body->angular_damping = desc->angular_damping;
-    set_pose(body, &desc->transform);
-    set_initial_velocities(body, desc);
-    set_lock_bits(world, body, desc->linear_locks, desc->angular_locks);
+    body->gravity_scale = def->gravity_scale;
+    body->sleep_threshold = def->sleep_threshold;
+    body->linear_damping = def->linear_damping;
+    body->angular_damping = def->angular_damping;
+    set_pose(body, &def->transform);
+    set_initial_velocities(body, def);
+    set_lock_bits(world, body, def->linear_locks, def->angular_locks);
     append_to_order(world, index);
-    world->has_bullets |= desc->bullet;
+    world->has_bullets |= def->bullet;
     fe__body_update_mass(world, index);
-    if (desc->enabled && desc->awake && desc->type != FE_BODY_STATIC) {
+    if (def->enabled && def->awake && def->type != FE_BODY_STATIC) {
         fe__body_awaken_alone(world, index);
         body->flags |= FE__BODY_SEEN_AWAKE; // born awake: no event
     }

@@ -88,14 +88,13 @@ static void hash_joint(fe__hash *h, const fe_world *w, int32_t joint)
     const fe__joint_record *r = w->joint_records + joint;
     const fe__joint *j = w->joints.joints + joint;
     const fe__joint_frame *f = w->joints.frames + joint;
-    fe__joint_any desc;
-    fe__joint_describe(w, joint, &desc);
-    desc.common.body_a = desc.common.body_b = desc.common.user_data = 0; // slots, and what is the host's: the rest are words
+    fe__joint_any def;
+    fe__joint_describe(w, joint, &def);
     fe__hash_u64(h, f->serial);
     fe__hash_u64(h, w->bodies[r->body[0]].serial);
     fe__hash_u64(h, w->bodies[r->body[1]].serial);
     fe__hash_i32(h, r->type);
-    fe__hash_struct(h, &desc, desc.common.struct_size);
+    fe__hash_joint_settings(h, r->type, &def);
     hash_floats(h, j->impulse, 3);
     hash_floats(h, f->impulse, 3);
     hash_floats(h, w->joints.reactions[joint].force, 3);

@@ -6,6 +6,9 @@
 
 #include "core/trig.h"
 
+// m: the longest range that a definition can ask for, hence none
+#define MOST_DISTANCE 1e6f
+
 static uint32_t bit(fe__joint_part part) { return 1u << part; }
 
 // ---- one axis -------------------------------------------------------------------------------------------------------------------------
@@ -26,13 +29,13 @@ static void set_drive(fe__joint_axis *axis, float target, float stiffness, float
 static void set_motor(fe__joint_axis *axis, float speed, float cap) { axis->motor.speed = speed, axis->motor.cap = cap; }
 
 // ---- distance, hinge, fixed -----------------------------------------------------------------------------------------------------------
-static void plan_distance(const fe_distance_def *d, fe__joint_plan *plan)
+static void plan_distance(const fe_distance_joint_def *d, fe__joint_plan *plan)
 {
     fe__joint_axis *axis = plan->axes.axis + FE__AXIS_LINEAR;
     plan->parts = bit(FE__PART_DISTANCE);
-    set_limit(axis, d->min_length, d->max_length, d->hertz, d->damping_ratio);
-    if (d->spring_hertz > 0.0f) set_drive(axis, d->length, d->spring_hertz, d->spring_damping_ratio, d->spring_force, FE__DRIVE_HERTZ);
-    set_motor(axis, d->motor_speed, d->motor_force);
+    set_limit(axis, d->limit_enabled ? d->lower : 0.0f, d->limit_enabled ? d->upper : MOST_DISTANCE, d->hertz, d->damping_ratio);
+    if (d->spring_hertz > 0.0f) set_drive(axis, d->target, d->spring_hertz, d->spring_damping_ratio, d->spring_max, FE__DRIVE_HERTZ);
+    set_motor(axis, d->motor_speed, d->motor_max);
 }
 
 static void plan_point(fe__joint_plan *plan)
@@ -41,21 +44,21 @@ static void plan_point(fe__joint_plan *plan)
     plan->locked = FE__LOCK_X | FE__LOCK_Y | FE__LOCK_Z;
 }
 
-static void plan_hinge(const fe_hinge_def *d, fe__joint_plan *plan)
+static void plan_hinge(const fe_hinge_joint_def *d, fe__joint_plan *plan)
 {
     fe__joint_axis *axis = plan->axes.axis + FE__AXIS_TWIST;
     plan_point(plan);
     plan->parts |= bit(FE__PART_HINGE);
-    if (!d->limited && d->spring_hertz == 0.0f && d->motor_torque == 0.0f) return;
+    if (!d->limit_enabled && d->spring_hertz == 0.0f && d->motor_max == 0.0f) return;
     plan->parts |= bit(FE__PART_TWIST);
     set_unlimited(axis);
-    if (d->limited) set_limit(axis, d->min_angle, d->max_angle, d->limit_hertz, d->limit_damping_ratio);
-    if (d->spring_hertz > 0.0f) set_drive(axis, d->target, d->spring_hertz, d->spring_damping_ratio, d->spring_torque, FE__DRIVE_HERTZ);
-    set_motor(axis, d->motor_speed, d->motor_torque);
+    if (d->limit_enabled) set_limit(axis, d->lower, d->upper, d->limit_hertz, d->limit_damping_ratio);
+    if (d->spring_hertz > 0.0f) set_drive(axis, d->target, d->spring_hertz, d->spring_damping_ratio, d->spring_max, FE__DRIVE_HERTZ);
+    set_motor(axis, d->motor_speed, d->motor_max);
 }
 
 // Where it is soft it is a spring: drives along the axes, a drive towards no turn
-static void plan_fixed(const fe_fixed_def *d, fe__joint_plan *plan)
+static void plan_fixed(const fe_fixed_joint_def *d, fe__joint_plan *plan)
 {
     plan->hertz = plan->damping_ratio = 0.0f;
     if (d->hertz == 0.0f) plan_point(plan);
@@ -111,54 +114,57 @@ static void set_target(fe__joint_turn *turn, fe_quat q)
 }
 
 // the target within cone and range: a swing too wide comes back along its own direction
-static fe_quat clamped_target(const fe_ball_def *d)
+static fe_quat clamped_target(const fe_ball_joint_def *d)
 {
     fe_quat q = fe__normalized(d->target);
     angles a;
     fe__joint_angles(q, &a.twist, &a.swing_y, &a.swing_z);
     float y = a.swing_y / d->cone_y, z = a.swing_z / d->cone_z, out = y * y + z * z;
-    int32_t twists = d->twist_limited && (a.twist < d->min_twist || a.twist > d->max_twist), swings = d->swing_limited && out > 1.0f;
+    int32_t twists = d->limit_enabled && (a.twist < d->lower || a.twist > d->upper), swings = d->cone_enabled && out > 1.0f;
     if (!twists && !swings) return q;
-    if (twists) a.twist = fe__clampf(a.twist, d->min_twist, d->max_twist);
+    if (twists) a.twist = fe__clampf(a.twist, d->lower, d->upper);
     if (swings) a.swing_y /= sqrtf(out), a.swing_z /= sqrtf(out);
     return rotation_of(a);
 }
 
-static void plan_ball(const fe_ball_def *d, fe__joint_plan *plan)
+static void plan_ball(const fe_ball_joint_def *d, fe__joint_plan *plan)
 {
     plan_point(plan);
-    if (d->swing_limited) {
+    if (d->cone_enabled) {
         plan->parts |= bit(FE__PART_CONE);
         set_limit(plan->axes.axis + FE__AXIS_SWING, d->cone_y, d->cone_z, d->limit_hertz, d->limit_damping_ratio);
     }
-    if (d->twist_limited) {
+    if (d->limit_enabled) {
         plan->parts |= bit(FE__PART_TWIST);
-        set_limit(plan->axes.axis + FE__AXIS_TWIST, d->min_twist, d->max_twist, d->limit_hertz, d->limit_damping_ratio);
+        set_limit(plan->axes.axis + FE__AXIS_TWIST, d->lower, d->upper, d->limit_hertz, d->limit_damping_ratio);
     }
-    if (d->drive_hertz == 0.0f && d->motor_torque == 0.0f) return;
+    if (d->spring_hertz == 0.0f && d->motor_max == 0.0f) return;
     fe__joint_turn *turn = &plan->axes.turn;
     plan->parts |= bit(FE__PART_TURN);
     set_target(turn, clamped_target(d));
-    if (d->drive_hertz > 0.0f)
-        turn->drive.stiffness = d->drive_hertz, turn->drive.damping = d->drive_damping_ratio, turn->drive.cap = d->drive_torque,
+    if (d->spring_hertz > 0.0f)
+        turn->drive.stiffness = d->spring_hertz, turn->drive.damping = d->spring_damping_ratio, turn->drive.cap = d->spring_max,
         turn->drive.unit = FE__DRIVE_HERTZ;
     turn->motor.velocity[0] = d->motor_velocity.x, turn->motor.velocity[1] = d->motor_velocity.y,
     turn->motor.velocity[2] = d->motor_velocity.z;
-    turn->motor.cap = d->motor_torque;
+    turn->motor.cap = d->motor_max;
 }
 
 // ---- configurable ---------------------------------------------------------------------------------------------------------------------
-static int32_t drives(const fe_joint_axis *a) { return a->drive != FE_DRIVE_NONE && (a->stiffness > 0.0f || a->damping > 0.0f); }
+// In the unit of its spring
+static float stiffness_of(const fe_joint_axis *a) { return a->spring == FE_SPRING_STIFFNESS ? a->spring_stiffness : a->spring_hertz; }
+static float damping_of(const fe_joint_axis *a) { return a->spring == FE_SPRING_STIFFNESS ? a->spring_damping : a->spring_damping_ratio; }
+static int32_t drives(const fe_joint_axis *a) { return a->spring != FE_SPRING_NONE && (stiffness_of(a) > 0.0f || damping_of(a) > 0.0f); }
 
 // Limits, drive and motor of an axis that is not locked. 0: it has none
 static int32_t plan_axis(const fe_joint_axis *a, fe__joint_axis *axis)
 {
-    if (a->mode == FE_MOTION_FREE && !drives(a) && a->motor_force == 0.0f) return 0;
+    if (a->motion == FE_MOTION_FREE && !drives(a) && a->motor_max == 0.0f) return 0;
     set_unlimited(axis);
-    if (a->mode == FE_MOTION_LIMITED) set_limit(axis, a->low, a->high, a->limit_hertz, a->limit_damping_ratio);
-    int32_t unit = a->drive == FE_DRIVE_STIFFNESS ? FE__DRIVE_STIFFNESS : FE__DRIVE_HERTZ;
-    if (drives(a)) set_drive(axis, a->target, a->stiffness, a->damping, a->drive_force, unit);
-    set_motor(axis, a->motor_speed, a->motor_force);
+    if (a->motion == FE_MOTION_LIMITED) set_limit(axis, a->lower, a->upper, a->limit_hertz, a->limit_damping_ratio);
+    int32_t unit = a->spring == FE_SPRING_STIFFNESS ? FE__DRIVE_STIFFNESS : FE__DRIVE_HERTZ;
+    if (drives(a)) set_drive(axis, a->target, stiffness_of(a), damping_of(a), a->spring_max, unit);
+    set_motor(axis, a->motor_speed, a->motor_max);
     return 1;
 }
 
@@ -166,24 +172,24 @@ static int32_t plan_axis(const fe_joint_axis *a, fe__joint_axis *axis)
 static int32_t plan_turn(const fe_joint_axis *a, fe__joint_plan *plan)
 {
     for (int k = 0; k < 3; ++k) {
-        int32_t alike = a[k].drive == a[0].drive && a[k].stiffness == a[0].stiffness && a[k].damping == a[0].damping &&
-                        a[k].drive_force == a[0].drive_force && a[k].motor_force == a[0].motor_force;
-        if (a[k].mode != FE_MOTION_FREE || !alike) return 0;
+        int32_t alike = a[k].spring == a[0].spring && stiffness_of(a + k) == stiffness_of(a) && damping_of(a + k) == damping_of(a) &&
+                        a[k].spring_max == a[0].spring_max && a[k].motor_max == a[0].motor_max;
+        if (a[k].motion != FE_MOTION_FREE || !alike) return 0;
     }
-    if (!drives(a) && a->motor_force == 0.0f) return 0;
+    if (!drives(a) && a->motor_max == 0.0f) return 0;
     fe__joint_turn *turn = &plan->axes.turn;
     plan->parts |= bit(FE__PART_TURN);
     set_target(turn, rotation_of((angles){a[0].target, a[1].target, a[2].target}));
     if (drives(a)) {
-        turn->drive.stiffness = a->stiffness, turn->drive.damping = a->damping, turn->drive.cap = a->drive_force;
-        turn->drive.unit = a->drive == FE_DRIVE_STIFFNESS ? FE__DRIVE_STIFFNESS : FE__DRIVE_HERTZ;
+        turn->drive.stiffness = stiffness_of(a), turn->drive.damping = damping_of(a), turn->drive.cap = a->spring_max;
+        turn->drive.unit = a->spring == FE_SPRING_STIFFNESS ? FE__DRIVE_STIFFNESS : FE__DRIVE_HERTZ;
     }
     for (int k = 0; k < 3; ++k) turn->motor.velocity[k] = a[k].motor_speed;
-    turn->motor.cap = a->motor_force;
+    turn->motor.cap = a->motor_max;
     return 1;
 }
 
-static int32_t is_locked(const fe_joint_axis *a) { return a->mode == FE_MOTION_LOCKED; }
+static int32_t is_locked(const fe_joint_axis *a) { return a->motion == FE_MOTION_LOCKED; }
 
 // Where a rotation is locked, q loses its meaning at half a turn of swing: a cardan joint cannot pass it. Free swings end before, at 170
 // degrees
@@ -210,7 +216,7 @@ static void bound_swings(const fe_joint_axis *about, fe__joint_plan *plan)
     }
 }
 
-static void plan_rotations(const fe_configurable_def *d, const fe_joint_axis *about, fe__joint_plan *plan)
+static void plan_rotations(const fe_configurable_joint_def *d, const fe_joint_axis *about, fe__joint_plan *plan)
 {
     static const fe__joint_part parts[3] = {FE__PART_TWIST, FE__PART_SWING_Y, FE__PART_SWING_Z};
     int32_t locked = is_locked(about) + is_locked(about + 1) + is_locked(about + 2), hinge = is_locked(about + 1) && is_locked(about + 2);
@@ -230,21 +236,21 @@ static void plan_rotations(const fe_configurable_def *d, const fe_joint_axis *ab
 }
 
 // The one rotation that is not locked becomes the twist, which any number of turns leaves well defined: the joint's axes move up by `shift`
-static int32_t shift_of(const fe_configurable_def *d)
+static int32_t shift_of(const fe_configurable_joint_def *d)
 {
-    const fe_joint_axis *about = d->axes + FE_ABOUT_X;
+    const fe_joint_axis *about = d->axes + FE_DOF_ANGULAR_X;
     for (int k = 1; k < 3; ++k)
         if (!is_locked(about + k) && is_locked(about) && is_locked(about + 3 - k)) return k;
     return 0;
 }
 
-static void plan_configurable(const fe_configurable_def *d, fe__joint_plan *plan)
+static void plan_configurable(const fe_configurable_joint_def *d, fe__joint_plan *plan)
 {
     static const fe__joint_part parts[3] = {FE__PART_X, FE__PART_Y, FE__PART_Z};
     static const uint32_t locks[3] = {FE__LOCK_X, FE__LOCK_Y, FE__LOCK_Z};
     fe_joint_axis along[3], about[3];
     plan->shift = shift_of(d);
-    for (int k = 0; k < 3; ++k) along[k] = d->axes[(k + plan->shift) % 3], about[k] = d->axes[FE_ABOUT_X + (k + plan->shift) % 3];
+    for (int k = 0; k < 3; ++k) along[k] = d->axes[(k + plan->shift) % 3], about[k] = d->axes[FE_DOF_ANGULAR_X + (k + plan->shift) % 3];
     for (int k = 0; k < 3; ++k) {
         if (is_locked(along + k))
             plan->locked |= locks[k];
@@ -259,24 +265,24 @@ static void plan_configurable(const fe_configurable_def *d, fe__joint_plan *plan
 }
 
 // ---- all ------------------------------------------------------------------------------------------------------------------------------
-void fe__joint_make_plan(int32_t type, const fe__joint_any *desc, fe__joint_plan *out_plan)
+void fe__joint_make_plan(int32_t type, const fe__joint_any *def, fe__joint_plan *out_plan)
 {
-    *out_plan = (fe__joint_plan){.hertz = desc->common.hertz, .damping_ratio = desc->common.damping_ratio};
+    *out_plan = (fe__joint_plan){.hertz = def->common.hertz, .damping_ratio = def->common.damping_ratio};
     switch (type) {
     case FE_JOINT_DISTANCE:
-        plan_distance(&desc->distance, out_plan);
+        plan_distance(&def->distance, out_plan);
         break;
     case FE_JOINT_BALL:
-        plan_ball(&desc->ball, out_plan);
+        plan_ball(&def->ball, out_plan);
         break;
     case FE_JOINT_HINGE:
-        plan_hinge(&desc->hinge, out_plan);
+        plan_hinge(&def->hinge, out_plan);
         break;
     case FE_JOINT_FIXED:
-        plan_fixed(&desc->fixed, out_plan);
+        plan_fixed(&def->fixed, out_plan);
         break;
     default:
-        plan_configurable(&desc->configurable, out_plan);
+        plan_configurable(&def->configurable, out_plan);
         break;
     }
 }

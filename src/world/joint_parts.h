@@ -12,7 +12,7 @@ typedef struct fe__joint_plan {
     fe__joint_axes axes;        // limits, drives, motors; no impulses, no states
 } fe__joint_plan;
 
-void fe__joint_make_plan(int32_t type, const fe__joint_any *desc, fe__joint_plan *out_plan);
+void fe__joint_make_plan(int32_t type, const fe__joint_any *def, fe__joint_plan *out_plan);
 // Do its parts need a record of axes?
 static inline int32_t fe__joint_needs_axes(const fe__joint_plan *plan)
 {

@@ -14,17 +14,17 @@ enum { FE__JOINT_TYPES = FE_JOINT_CONFIGURABLE + 1 }; // 0 is none
 // A definition of any type; `common` is the front of all of them
 typedef union fe__joint_any {
     fe_joint_def common;
-    fe_distance_def distance;
-    fe_ball_def ball;
-    fe_hinge_def hinge;
-    fe_fixed_def fixed;
-    fe_configurable_def configurable;
+    fe_distance_joint_def distance;
+    fe_ball_joint_def ball;
+    fe_hinge_joint_def hinge;
+    fe_fixed_joint_def fixed;
+    fe_configurable_joint_def configurable;
 } fe__joint_any;
 
 enum { FE__JOINT_FRONT = sizeof(fe_joint_def) }; // bytes: what follows is the type's own
-_Static_assert(offsetof(fe_distance_def, min_length) == FE__JOINT_FRONT && offsetof(fe_ball_def, swing_limited) == FE__JOINT_FRONT &&
-                   offsetof(fe_hinge_def, limited) == FE__JOINT_FRONT && offsetof(fe_fixed_def, angular_hertz) == FE__JOINT_FRONT &&
-                   offsetof(fe_configurable_def, axes) == FE__JOINT_FRONT,
+_Static_assert(offsetof(fe_distance_joint_def, limit_enabled) == FE__JOINT_FRONT && offsetof(fe_ball_joint_def, cone_enabled) == FE__JOINT_FRONT &&
+                   offsetof(fe_hinge_joint_def, limit_enabled) == FE__JOINT_FRONT && offsetof(fe_fixed_joint_def, angular_hertz) == FE__JOINT_FRONT &&
+                   offsetof(fe_configurable_joint_def, axes) == FE__JOINT_FRONT,
                "all definitions have one front");
 
 enum {
@@ -44,14 +44,15 @@ typedef struct fe__joint_record {
     fe_frame frame[2];                  // in A's and B's space, unit rotations
     float hertz, damping_ratio;
     float break_force, break_torque; // N, N m, 0: never
-    fe_handle user_data;
+    uint64_t user_data;
+    fe_dvec3 world_origin; // m, where the frame of an end that is the world is measured from
 } fe__joint_record;
 
 // bytes of a type's definition
 static inline int32_t fe__joint_def_size(int32_t type)
 {
     static const int32_t sizes[FE__JOINT_TYPES] = {
-        0, sizeof(fe_distance_def), sizeof(fe_ball_def), sizeof(fe_hinge_def), sizeof(fe_fixed_def), sizeof(fe_configurable_def)};
+        0, sizeof(fe_distance_joint_def), sizeof(fe_ball_joint_def), sizeof(fe_hinge_joint_def), sizeof(fe_fixed_joint_def), sizeof(fe_configurable_joint_def)};
     return sizes[type];
 }
 

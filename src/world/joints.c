@@ -18,7 +18,7 @@
 
 void fe__joints_init(fe_world *world)
 {
-    fe__id_pool_init(&world->joint_ids, FE_KIND_JOINT);
+    fe__id_pool_init(&world->joint_ids, FE_KIND_JOINT, world->number);
     fe__record_pool_init(&world->joint_axes, sizeof(fe__joint_axes));
     for (int32_t type = 1; type < FE__JOINT_TYPES; ++type)
         fe__record_pool_init(&world->joint_settings[type], fe__joint_def_size(type) - FE__JOINT_FRONT);
@@ -204,10 +204,10 @@ static fe_result reserve(fe_world *world, int32_t type, int32_t with_axes)
 
 static int32_t is_breakable(const fe__joint_record *r) { return r->break_force > 0.0f || r->break_torque > 0.0f; }
 
-static void set_record(fe_world *world, int32_t joint, const fe__joint_any *desc)
+static void set_record(fe_world *world, int32_t joint, const fe__joint_any *def)
 {
     fe__joint_record *r = world->joint_records + joint;
-    const fe_joint_def *d = &desc->common;
+    const fe_joint_def *d = &def->common;
     world->breakable_count -= is_breakable(r);
     r->flags = (d->enabled ? FE__JOINT_ENABLED : 0u) | (d->collide_connected ? FE__JOINT_COLLIDES : 0u);
     r->frame[0] = (fe_frame){d->frame_a.position, fe__unit_rotation(d->frame_a.rotation)};
@@ -215,15 +215,16 @@ static void set_record(fe_world *world, int32_t joint, const fe__joint_any *desc
     r->hertz = d->hertz, r->damping_ratio = d->damping_ratio;
     r->break_force = d->break_force, r->break_torque = d->break_torque;
     r->user_data = d->user_data;
+    r->world_origin = d->world_origin;
     world->breakable_count += is_breakable(r);
     const fe__record_pool *pool = &world->joint_settings[r->type];
-    memcpy(fe__record(pool, r->settings), (const unsigned char *)desc + FE__JOINT_FRONT, (size_t)pool->size);
+    memcpy(fe__record(pool, r->settings), (const unsigned char *)def + FE__JOINT_FRONT, (size_t)pool->size);
 }
 
-fe_result fe__joint_create(fe_world *world, int32_t type, const fe__joint_any *desc, const int32_t *bodies, int32_t *out_joint)
+fe_result fe__joint_create(fe_world *world, int32_t type, const fe__joint_any *def, const int32_t *bodies, int32_t *out_joint)
 {
     fe__joint_plan plan;
-    fe__joint_make_plan(type, desc, &plan);
+    fe__joint_make_plan(type, def, &plan);
     fe_result reserved = reserve(world, type, fe__joint_needs_axes(&plan));
     if (reserved != FE_OK) return reserved;
 
@@ -240,7 +241,7 @@ fe_result fe__joint_create(fe_world *world, int32_t type, const fe__joint_any *d
     world->joints.joints[joint].body_a = bodies[0], world->joints.joints[joint].body_b = bodies[1];
     world->joints.joints[joint].colour = -1;
     world->joints.frames[joint].serial = world->next_serial++;
-    set_record(world, joint, desc);
+    set_record(world, joint, def);
     fe__joint_add_to_body(world, joint, bodies[0]);
     fe__joint_add_to_body(world, joint, bodies[1]);
     fe__joint_append_to_order(world, joint);
@@ -253,11 +254,11 @@ fe_result fe__joint_create(fe_world *world, int32_t type, const fe__joint_any *d
     return FE_OK;
 }
 
-fe_result fe__joint_change(fe_world *world, int32_t joint, const fe__joint_any *desc)
+fe_result fe__joint_change(fe_world *world, int32_t joint, const fe__joint_any *def)
 {
     fe__joint_record *r = world->joint_records + joint;
     fe__joint_plan plan;
-    fe__joint_make_plan(r->type, desc, &plan);
+    fe__joint_make_plan(r->type, def, &plan);
     if (fe__joint_needs_axes(&plan) && !world->joints.frames[joint].axes) {
         fe_result reserved = reserve_axes(world, 1);
         if (reserved != FE_OK) return reserved;
@@ -265,7 +266,7 @@ fe_result fe__joint_change(fe_world *world, int32_t joint, const fe__joint_any *
     int32_t parted = fe__joint_parts_bodies(r);
     wake_bodies(world, r->body); // those it held, and those it will hold
     unlink(world, joint);
-    set_record(world, joint, desc);
+    set_record(world, joint, def);
     fill(world, joint, &plan);
     link(world, joint);
     wake_bodies(world, r->body);
@@ -296,21 +297,22 @@ void fe__body_drop_joints(fe_world *world, int32_t body)
     while (world->bodies[body].first_joint) fe__joint_destroy(world, world->bodies[body].first_joint);
 }
 
-void fe__joint_describe(const fe_world *world, int32_t joint, fe__joint_any *out_desc)
+void fe__joint_describe(const fe_world *world, int32_t joint, fe__joint_any *out_def)
 {
     const fe__joint_record *r = world->joint_records + joint;
-    out_desc->common = (fe_joint_def){.struct_size = (uint32_t)fe__joint_def_size(r->type),
-                                      .enabled = (r->flags & FE__JOINT_ENABLED) != 0,
-                                      .body_a = fe__body_handle(world, r->body[0]),
-                                      .body_b = fe__body_handle(world, r->body[1]),
-                                      .user_data = r->user_data,
-                                      .frame_a = r->frame[0],
-                                      .frame_b = r->frame[1],
-                                      .collide_connected = (r->flags & FE__JOINT_COLLIDES) != 0,
-                                      .hertz = r->hertz,
-                                      .damping_ratio = r->damping_ratio,
-                                      .break_force = r->break_force,
-                                      .break_torque = r->break_torque};
+    out_def->common = (fe_joint_def){.struct_size = (uint32_t)fe__joint_def_size(r->type),
+                                     .enabled = (r->flags & FE__JOINT_ENABLED) != 0,
+                                     .body_a = fe__body_handle(world, r->body[0]),
+                                     .body_b = fe__body_handle(world, r->body[1]),
+                                     .user_data = r->user_data,
+                                     .world_origin = r->world_origin,
+                                     .frame_a = r->frame[0],
+                                     .frame_b = r->frame[1],
+                                     .collide_connected = (r->flags & FE__JOINT_COLLIDES) != 0,
+                                     .hertz = r->hertz,
+                                     .damping_ratio = r->damping_ratio,
+                                     .break_force = r->break_force,
+                                     .break_torque = r->break_torque};
     const fe__record_pool *pool = &world->joint_settings[r->type];
-    memcpy((unsigned char *)out_desc + FE__JOINT_FRONT, fe__record(pool, r->settings), (size_t)pool->size);
+    memcpy((unsigned char *)out_def + FE__JOINT_FRONT, fe__record(pool, r->settings), (size_t)pool->size);
 }

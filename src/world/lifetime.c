@@ -20,23 +20,26 @@ fe_world_tuning fe__default_tuning(void)
                              .hit_event_threshold = 1.0f,
                              .sleep_time = 0.5f,
                              .speculative_distance = 0.02f,
-                             .max_linear_speed = 4000.0f};
+                             .max_linear_speed = 4000.0f,
+                             .sleep_enabled = 1,
+                             .continuous_enabled = 1,
+                             .warm_start_enabled = 1};
 }
 
 // The host's task system, a shared pool, or workers of the world's own
-static fe_result hire_workers(fe_world *world, const fe_world_def *desc)
+static fe_result hire_workers(fe_world *world, const fe_world_def *def)
 {
     fe__workers *workers = &world->workers;
     workers->count = 1;
-    if (desc->tasks) {
-        workers->tasks = *desc->tasks;
-        workers->count = desc->tasks->worker_count;
+    if (def->tasks) {
+        workers->tasks = *def->tasks;
+        workers->count = def->tasks->worker_count;
         return FE_OK;
     }
-    if (desc->pool) {
-        workers->pool = desc->pool;
-    } else if (desc->worker_count > 1) {
-        world->own_pool = fe__pool_create(desc->worker_count);
+    if (def->pool) {
+        workers->pool = def->pool;
+    } else if (def->worker_count > 1) {
+        world->own_pool = fe__pool_create(def->worker_count);
         if (!world->own_pool) return FE_ERROR_MEMORY;
         workers->pool = world->own_pool;
     }
@@ -52,34 +55,36 @@ static void dismiss_workers(fe_world *world)
     if (world->own_pool) fe__pool_destroy(world->own_pool);
 }
 
-fe_result fe__world_create(const fe_world_def *desc, fe_world **out_world)
+fe_result fe__world_create(const fe_world_def *def, fe_world **out_world)
 {
-    const fe__kernels *kernels = fe__kernels_of(desc->simd);
+    const fe__kernels *kernels = fe__kernels_of(def->simd);
     if (!kernels) return FE_ERROR_UNSUPPORTED;
     fe__memory memory;
-    fe__memory_init(&memory, desc->allocator);
+    fe__memory_init(&memory, def->allocator);
     fe_world *world = fe__allocate(&memory, sizeof *world);
     if (!world) return FE_ERROR_MEMORY;
     world->memory = memory;
     world->kernels = kernels;
     world->simd = kernels->simd;
     world->static_tree.kernels = world->moving_tree.kernels = fe__tree_kernels_of(kernels->simd);
-    world->gravity = desc->gravity;
-    world->substeps = desc->substeps;
-    world->user_data = desc->user_data;
+    world->gravity = def->gravity;
+    world->substeps = def->substeps;
+    world->number = def->number ? (int32_t)def->number : fe__id_draw_number();
+    world->user_data = def->user_data;
     world->tuning = fe__default_tuning();
-    fe__id_pool_init(&world->body_ids, FE_KIND_BODY);
-    fe__id_pool_init(&world->shape_ids, FE_KIND_SHAPE);
+    fe__id_pool_init(&world->body_ids, FE_KIND_BODY, world->number);
+    fe__id_pool_init(&world->shape_ids, FE_KIND_SHAPE, world->number);
     fe__joints_init(world);
-    fe__id_pool_init(&world->asset_ids, FE_KIND_ASSET);
+    fe__id_pool_init(&world->asset_ids, FE_KIND_ASSET, world->number);
     world->next_serial = 1;
     world->first_body = world->last_body = world->first_free_pair = -1;
     world->pair_limit = 1; // contact 0 is no contact
-    fe_result result = hire_workers(world, desc);
+    fe_result result = hire_workers(world, def);
     if (result != FE_OK) {
         fe__world_destroy(world);
         return result;
     }
+    world->store.world = world;
     *out_world = world;
     return FE_OK;
 }

@@ -4,7 +4,7 @@
 #include "world/world.h"
 
 // An empty world, all its memory from the definition's allocator. FE_ERROR_MEMORY; FE_ERROR_UNSUPPORTED: no such SIMD set here.
-fe_result fe__world_create(const fe_world_def *desc, fe_world **out_world);
+fe_result fe__world_create(const fe_world_def *def, fe_world **out_world);
 void fe__world_destroy(fe_world *world);
 fe_world_tuning fe__default_tuning(void);
 

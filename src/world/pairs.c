@@ -136,21 +136,31 @@ void fe__pair_release(fe_world *world, int32_t pair)
 fe_pair_event fe__pair_event_of(const fe_world *world, int32_t pair, int32_t kind)
 {
     const fe__pair *p = world->pairs + pair;
-    return (fe_pair_event){fe__body_handle(world, p->body_a),
-                           fe__body_handle(world, p->body_b),
-                           fe__shape_handle(world, p->shape_a),
-                           fe__shape_handle(world, p->shape_b),
-                           kind,
-                           (p->flags & FE__PAIR_SENSOR) != 0};
+    int32_t field_a = fe__form_is_field(&world->shapes[p->shape_a].form);
+    return (fe_pair_event){.body_a = fe__body_handle(world, p->body_a),
+                           .body_b = fe__body_handle(world, p->body_b),
+                           .shape_a = fe__shape_handle(world, p->shape_a),
+                           .shape_b = fe__shape_handle(world, p->shape_b),
+                           .kind = kind,
+                           .is_trigger = (p->flags & FE__PAIR_SENSOR) != 0,
+                           .part_a = -1,
+                           .part_b = -1,
+                           .triangle_a = field_a ? p->triangle : -1,
+                           .triangle_b = field_a ? -1 : p->triangle};
 }
 
-// The handles may be stale when the exit is reported: the event itself waits where the contact had its points.
-_Static_assert(sizeof(fe_pair_event) <= sizeof((fe__contact *)0)->point, "an exit fits into its record");
+// An exit that is owed waits where the contact had its points: its handles may be stale when it is reported.
+typedef struct owed_exit {
+    fe_handle body_a, body_b, shape_a, shape_b;
+    int32_t is_trigger;
+} owed_exit;
+_Static_assert(sizeof(owed_exit) <= sizeof((fe__contact *)0)->point, "an exit fits into its record");
 
 static void owe_exit(fe_world *world, int32_t pair)
 {
-    fe_pair_event event = fe__pair_event_of(world, pair, FE_EXIT);
-    memcpy(world->contacts[pair].point, &event, sizeof event);
+    fe_pair_event event = fe__pair_event_of(world, pair, FE_EVENT_EXIT);
+    owed_exit owed = {event.body_a, event.body_b, event.shape_a, event.shape_b, event.is_trigger};
+    memcpy(world->contacts[pair].point, &owed, sizeof owed);
     world->pairs[pair].flags = 0;
     world->pairs[pair].links[0].next = world->first_owed;
     world->first_owed = pair;
@@ -162,8 +172,20 @@ void fe__report_owed_exits(fe_world *world)
     while (world->first_owed) {
         int32_t pair = world->first_owed;
         fe__pair_event_record *r = world->pair_events + world->pair_event_count++;
-        *r = (fe__pair_event_record){.serial_a = world->pair_serials[2 * pair], .serial_b = world->pair_serials[2 * pair + 1]};
-        memcpy(&r->event, world->contacts[pair].point, sizeof r->event);
+        owed_exit owed;
+        memcpy(&owed, world->contacts[pair].point, sizeof owed);
+        *r = (fe__pair_event_record){world->pair_serials[2 * pair],
+                                     world->pair_serials[2 * pair + 1],
+                                     {.body_a = owed.body_a,
+                                      .body_b = owed.body_b,
+                                      .shape_a = owed.shape_a,
+                                      .shape_b = owed.shape_b,
+                                      .kind = FE_EVENT_EXIT,
+                                      .is_trigger = owed.is_trigger,
+                                      .part_a = -1,
+                                      .part_b = -1,
+                                      .triangle_a = -1,
+                                      .triangle_b = -1}};
         world->first_owed = world->pairs[pair].links[0].next;
         fe__pair_release(world, pair);
     }
@@ -195,7 +217,7 @@ void fe__pair_destroy(fe_world *world, int32_t pair)
     remove_from_body(world, pair, p->body_b);
     fe__pair_set_remove(&world->pair_set, p->shape_a, p->shape_b);
     --world->pair_count;
-    if (p->flags & FE__PAIR_TOUCHING && p->events & FE_EVENTS_TOUCH)
+    if (p->flags & FE__PAIR_TOUCHING && p->events & FE_SHAPE_EVENTS_TOUCH)
         owe_exit(world, pair);
     else
         fe__pair_release(world, pair);

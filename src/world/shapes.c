@@ -70,11 +70,11 @@ static void set_local_pose(fe__shape *shape, fe_vec3 position, fe_quat rotation)
 // A pair may be found and hit within one step: the step must know before that hits are asked for.
 static void note_events(fe_world *world, uint32_t events)
 {
-    if (events & FE_EVENTS_HIT) world->wants_hits = 1;
+    if (events & FE_SHAPE_EVENTS_HIT) world->wants_hits = 1;
 }
 
 // A sleeping body goes on sleeping: a level may be built asleep.
-int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *desc, const fe__form *form)
+int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *def, const fe__form *form)
 {
     fe_result reserved = reserve_shape(world);
     if (reserved != FE_OK) return reserved;
@@ -82,25 +82,26 @@ int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *desc
     fe__shape *shape = &world->shapes[index];
     uint32_t listed = shape->flags & FE__SHAPE_MOVED;
     memset(shape, 0, sizeof *shape);
-    shape->flags = listed | (desc->trigger ? FE__SHAPE_TRIGGER : 0u);
+    shape->flags = listed | (def->trigger ? FE__SHAPE_TRIGGER : 0u);
     shape->form = *form;
-    shape->density = desc->density;
-    shape->material = desc->material;
-    shape->layer = desc->layer;
-    shape->mask = desc->mask;
-    shape->events = desc->events;
-    shape->surface_velocity = desc->surface_velocity;
-    shape->user_data = desc->user_data;
+    shape->density = def->density;
+    shape->material = def->material;
+    shape->layer = def->layer;
+    shape->group = def->group;
+    shape->mask = def->mask;
+    shape->events = def->events;
+    shape->surface_velocity = def->surface_velocity;
+    shape->user_data = def->user_data;
     shape->body = body;
     shape->serial = world->next_serial++;
     shape->body_serial = world->bodies[body].serial;
-    set_local_pose(shape, desc->local_position, desc->local_rotation);
+    set_local_pose(shape, def->frame.position, def->frame.rotation);
     append_to_body(world, index);
     fe__shape_take_asset(world, index);
     fe__body_update_mass(world, body);
     fe__body_place(world, body);
     if (world->bodies[body].flags & FE__BODY_ENABLED) fe__shape_enter(world, index);
-    note_events(world, desc->events);
+    note_events(world, def->events);
     return index;
 }
 
@@ -172,13 +173,14 @@ void fe__shape_set_local_pose(fe_world *world, int32_t index, fe_vec3 position, 
 }
 
 // Pairs that the new filter forbids end now, their exits come with the next step; those that it allows are found by the next step.
-void fe__shape_set_filter(fe_world *world, int32_t index, uint32_t layer, uint32_t mask)
+void fe__shape_set_filter(fe_world *world, int32_t index, uint32_t layer, uint32_t mask, int32_t group)
 {
     fe__shape *shape = &world->shapes[index];
-    if (shape->layer == layer && shape->mask == mask) return;
+    if (shape->layer == layer && shape->mask == mask && shape->group == group) return;
     fe__body_disturb(world, shape->body);
     shape->layer = layer;
     shape->mask = mask;
+    shape->group = group;
     fe__body_refilter(world, shape->body);
     fe__shape_mark_moved(world, index);
 }

@@ -8,6 +8,7 @@
 #include "broadphase/tree.h"
 #include "core/id_pool.h"
 #include "core/memory.h"
+#include "core/owner.h"
 #include "core/record_pool.h"
 #include "core/threads.h"
 #include "solver/solver.h"
@@ -30,12 +31,18 @@ typedef struct fe__asset {
     int32_t destroyed;  // by its owner: it goes with its last user
 } fe__asset;
 
+struct fe_store {
+    fe_world *world;
+};
+
 struct fe_world {
+    fe_store store;
     fe__memory memory;
     fe__workers workers;
     fe_pool *own_pool; // or NULL
-    _Atomic int32_t stepping;
-    fe_handle user_data;
+    fe__owner owner;
+    uint64_t user_data;
+    int32_t number; // in its handles
 
     // settings
     fe_vec3 gravity;

@@ -25,8 +25,8 @@ static touch touching_box(void)
     t.ground_shape = shape_of(t.world, t.ground), t.box_shape = shape_of(t.world, t.box);
     fe_pair_event event;
     step(t.world, 1);
-    assert_int_equal(fe_world_get_pair_events(t.world, &event, 0, 1), 1);
-    assert_int_equal(event.kind, FE_ENTER);
+    assert_int_equal(fe_world_get_pair_events(t.world, &event, sizeof event, 1), 1);
+    assert_int_equal(event.kind, FE_EVENT_ENTER);
     assert_true(event.body_a == t.ground && event.body_b == t.box && event.shape_a == t.ground_shape && event.shape_b == t.box_shape);
     assert_int_equal(event.is_trigger, 0);
     return t;
@@ -35,7 +35,7 @@ static touch touching_box(void)
 static int32_t count_kind(const fe_world *world, int32_t kind)
 {
     fe_pair_event events[MOST];
-    int32_t count = fe_world_get_pair_events(world, events, 0, MOST), found = 0;
+    int32_t count = fe_world_get_pair_events(world, events, sizeof *events, MOST), found = 0;
     for (int32_t i = 0; i < count && i < MOST; ++i) found += events[i].kind == kind;
     return found;
 }
@@ -48,8 +48,8 @@ static void destroy_box(touch *t) { OK(fe_body_destroy(t->world, t->box)); }
 static void destroy_ground(touch *t) { OK(fe_body_destroy(t->world, t->ground)); }
 static void destroy_shape(touch *t) { OK(fe_shape_destroy(t->world, t->box_shape)); }
 static void disable(touch *t) { OK(fe_body_set_enabled(t->world, t->box, 0)); }
-static void refilter(touch *t) { OK(fe_shape_set_filter(t->world, t->box_shape, 2, 2)); }
-static void refilter_body(touch *t) { OK(fe_body_set_filter(t->world, t->ground, 1, 0)); }
+static void refilter(touch *t) { OK(fe_shape_set_filter(t->world, t->box_shape, 2, 2, 0)); }
+static void refilter_body(touch *t) { OK(fe_body_set_filter(t->world, t->ground, 1, 0, 0)); }
 static void ignore(touch *t) { OK(fe_world_ignore_collision(t->world, t->box, t->ground, 1)); }
 static void make_static(touch *t) { OK(fe_body_set_type(t->world, t->box, FE_BODY_STATIC)); }
 static void teleport(touch *t)
@@ -79,12 +79,12 @@ static void whatever_ends_a_touch_sends_one_exit(void **state)
             changes[i](&t);
             fe_pair_event event;
             OK(fe_world_step(t.world, 0.001f));
-            assert_int_equal(fe_world_get_pair_events(t.world, &event, 0, 1), 1);
-            assert_int_equal(event.kind, FE_EXIT);
+            assert_int_equal(fe_world_get_pair_events(t.world, &event, sizeof event, 1), 1);
+            assert_int_equal(event.kind, FE_EVENT_EXIT);
             assert_true(event.body_a == t.ground && event.body_b == t.box && event.shape_a == t.ground_shape &&
                         event.shape_b == t.box_shape);
             step(t.world, 1);
-            assert_int_equal(count_kind(t.world, FE_EXIT) + count_kind(t.world, FE_ENTER), 0);
+            assert_int_equal(count_kind(t.world, FE_EVENT_EXIT) + count_kind(t.world, FE_EVENT_ENTER), 0);
             OK(fe_world_destroy(t.world));
         }
     }
@@ -116,8 +116,8 @@ static void what_ends_a_touch_and_leaves_it_there_enters_again(void **state)
         touch t = touching_box();
         changes[i](&t);
         OK(fe_world_step(t.world, 0.001f));
-        assert_int_equal(count_kind(t.world, FE_EXIT), 1);
-        assert_int_equal(count_kind(t.world, FE_ENTER), 1);
+        assert_int_equal(count_kind(t.world, FE_EVENT_EXIT), 1);
+        assert_int_equal(count_kind(t.world, FE_EVENT_ENTER), 1);
         OK(fe_world_destroy(t.world));
     }
 }
@@ -136,9 +136,9 @@ static void enter_and_exit_balance_in_a_crowd(void **state)
     for (int s = 0; s < STEPS; ++s) {
         fe_pair_event events[512];
         step(world, 1);
-        int32_t count = fe_world_get_pair_events(world, events, 0, 512);
+        int32_t count = fe_world_get_pair_events(world, events, sizeof *events, 512);
         FE_WITHIN(count, 0, 512);
-        for (int32_t i = 0; i < count; ++i) balance += events[i].kind == FE_ENTER ? 1 : events[i].kind == FE_EXIT ? -1 : 0;
+        for (int32_t i = 0; i < count; ++i) balance += events[i].kind == FE_EVENT_ENTER ? 1 : events[i].kind == FE_EVENT_EXIT ? -1 : 0;
         FE_TRUE(balance >= 0);
         random = random * 1664525u + 1013904223u;
         int k = (int)(random >> 20) % BODIES;
@@ -150,7 +150,7 @@ static void enter_and_exit_balance_in_a_crowd(void **state)
             OK(fe_body_set_enabled(world, bodies[k], (int32_t)(random >> 8 & 1)));
             break;
         case 2:
-            OK(fe_body_set_filter(world, bodies[k], 1u << (random >> 9 & 1), 0xFFFFFFFF));
+            OK(fe_body_set_filter(world, bodies[k], 1u << (random >> 9 & 1), 0xFFFFFFFF, 0));
             break;
         case 3:
             OK(fe_body_set_type(world, bodies[k], (int32_t)(random >> 10 & 3) % 3));
@@ -161,7 +161,7 @@ static void enter_and_exit_balance_in_a_crowd(void **state)
     }
     for (int i = 0; i < BODIES; ++i) OK(fe_body_destroy(world, bodies[i]));
     step(world, 1);
-    balance += count_kind(world, FE_ENTER) - count_kind(world, FE_EXIT);
+    balance += count_kind(world, FE_EVENT_ENTER) - count_kind(world, FE_EVENT_EXIT);
     assert_int_equal(balance, 0);
     OK(fe_world_destroy(world));
 }
@@ -208,19 +208,19 @@ static void bad_arrays_are_refused(void **state)
     fe_contact contact[2];
     memset(contact, 0x66, sizeof contact);
     REFUSES(t.world, FE_ERROR_ARGUMENT, fe_world_get_pair_events(t.world, NULL, 0, 1));
-    REFUSES(t.world, FE_ERROR_ARGUMENT, fe_world_get_pair_events(t.world, pair, 0, -1));
+    REFUSES(t.world, FE_ERROR_ARGUMENT, fe_world_get_pair_events(t.world, pair, sizeof *pair, -1));
     REFUSES(t.world, FE_ERROR_ARGUMENT, fe_world_get_pair_events(t.world, pair, 7, 1));
     REFUSES(t.world, FE_ERROR_ARGUMENT, fe_world_get_pair_events(t.world, pair, 4, 1));
-    REFUSES(NULL, FE_ERROR_ARGUMENT, fe_world_get_pair_events(NULL, pair, 0, 1));
+    REFUSES(NULL, FE_ERROR_ARGUMENT, fe_world_get_pair_events(NULL, pair, sizeof *pair, 1));
     REFUSES(t.world, FE_ERROR_ARGUMENT, fe_world_get_body_events(t.world, NULL, 0, 1));
     REFUSES(t.world, FE_ERROR_ARGUMENT, fe_world_get_body_events(t.world, body, 3, 1));
     REFUSES(t.world, FE_ERROR_ARGUMENT, fe_world_get_hit_events(t.world, NULL, 0, 1));
-    REFUSES(t.world, FE_ERROR_ARGUMENT, fe_world_get_hit_events(t.world, hit, 0, -7));
+    REFUSES(t.world, FE_ERROR_ARGUMENT, fe_world_get_hit_events(t.world, hit, sizeof *hit, -7));
     REFUSES(t.world, FE_ERROR_ARGUMENT, fe_body_get_contacts(t.world, t.box, NULL, 0, 1));
     REFUSES(t.world, FE_ERROR_ARGUMENT, fe_body_get_contacts(t.world, t.box, contact, 6, 1));
-    REFUSES(t.world, FE_ERROR_KIND, fe_body_get_contacts(t.world, t.box_shape, contact, 0, 1));
-    REFUSES(t.world, FE_ERROR_STALE, fe_shape_get_contacts(t.world, t.box_shape + (1u << 24), contact, 0, 1));
-    REFUSES(t.world, FE_ERROR_ARGUMENT, fe_shape_get_contacts(t.world, t.box_shape, contact, 0, -1));
+    REFUSES(t.world, FE_ERROR_KIND, fe_body_get_contacts(t.world, t.box_shape, contact, sizeof *contact, 1));
+    REFUSES(t.world, FE_ERROR_STALE, fe_shape_get_contacts(t.world, t.box_shape + NEXT_GENERATION, contact, sizeof *contact, 1));
+    REFUSES(t.world, FE_ERROR_ARGUMENT, fe_shape_get_contacts(t.world, t.box_shape, contact, sizeof *contact, -1));
     FE_TRUE(contact[0].point_count == 0x66666666);
     OK(fe_world_destroy(t.world));
 }
@@ -230,19 +230,19 @@ static void stay_and_hit_are_sent_where_asked_for(void **state)
     (void)state;
     fe_world *world = new_world();
     fe_body ground = new_ground(world), quiet = new_box(world, 0, 0.5, 0), chatty = new_box(world, 5, 2, 0);
-    OK(fe_shape_set_events(world, shape_of(world, chatty), FE_EVENTS_STAY | FE_EVENTS_HIT));
-    OK(fe_shape_set_events(world, shape_of(world, ground), FE_EVENTS_NONE));
+    OK(fe_shape_set_events(world, shape_of(world, chatty), FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT));
+    OK(fe_shape_set_events(world, shape_of(world, ground), FE_SHAPE_EVENTS_NONE));
     int32_t stays = 0, hits = 0;
     fe_hit_event hit = {0};
     for (int i = 0; i < 60; ++i) {
         fe_pair_event events[MOST];
         step(world, 1);
-        int32_t count = fe_world_get_pair_events(world, events, 0, MOST);
+        int32_t count = fe_world_get_pair_events(world, events, sizeof *events, MOST);
         for (int32_t k = 0; k < count; ++k) {
-            stays += events[k].kind == FE_STAY;
-            FE_TRUE(events[k].kind != FE_STAY || events[k].body_b == chatty);
+            stays += events[k].kind == FE_EVENT_STAY;
+            FE_TRUE(events[k].kind != FE_EVENT_STAY || events[k].body_b == chatty);
         }
-        if (fe_world_get_hit_events(world, &hit, 0, 1) == 1) hits += 1;
+        if (fe_world_get_hit_events(world, &hit, sizeof hit, 1) == 1) hits += 1;
     }
     (void)quiet;
     FE_TRUE(stays > 10);
@@ -264,15 +264,15 @@ static void sleep_and_wake_are_told(void **state)
     int32_t told = 0;
     for (int i = 0; i < 120; ++i) {
         step(t.world, 1);
-        if (fe_world_get_body_events(t.world, &event, 0, 1) == 0) continue;
+        if (fe_world_get_body_events(t.world, &event, sizeof event, 1) == 0) continue;
         told += 1;
-        assert_true(event.body == t.box && event.kind == FE_SLEEP);
+        assert_true(event.body == t.box && event.kind == FE_EVENT_SLEEP);
     }
     assert_int_equal(told, 1);
     OK(fe_body_set_awake(t.world, t.box, 1));
     step(t.world, 1);
-    assert_int_equal(fe_world_get_body_events(t.world, &event, 0, 1), 1);
-    assert_true(event.body == t.box && event.kind == FE_WAKE);
+    assert_int_equal(fe_world_get_body_events(t.world, &event, sizeof event, 1), 1);
+    assert_true(event.body == t.box && event.kind == FE_EVENT_WAKE);
     OK(fe_world_destroy(t.world));
 }
 
@@ -300,13 +300,13 @@ static void a_trigger_reports_and_pushes_nothing(void **state)
         fe_pair_event events[MOST];
         step(world, 1);
         assert_int_equal(fe_body_get_contacts(world, gate, NULL, 0, 0), 0);
-        int32_t count = fe_world_get_pair_events(world, events, 0, MOST);
+        int32_t count = fe_world_get_pair_events(world, events, sizeof *events, MOST);
         for (int32_t k = 0; k < count; ++k) {
             if (events[k].body_a != gate) continue;
             assert_int_equal(events[k].is_trigger, 1);
-            ball_enters += events[k].body_b == ball && events[k].kind == FE_ENTER;
-            ball_exits += events[k].body_b == ball && events[k].kind == FE_EXIT;
-            lift_enters += events[k].body_b == lift && events[k].kind == FE_ENTER;
+            ball_enters += events[k].body_b == ball && events[k].kind == FE_EVENT_ENTER;
+            ball_exits += events[k].body_b == ball && events[k].kind == FE_EVENT_EXIT;
+            lift_enters += events[k].body_b == lift && events[k].kind == FE_EVENT_ENTER;
         }
     }
     assert_true(ball_enters == 1 && ball_exits == 1);
@@ -327,8 +327,8 @@ static void contacts_carry_the_weight(void **state)
         if (!ground_first) ground = new_ground(world);
         step(world, 40);
         fe_contact contact, same;
-        assert_int_equal(fe_body_get_contacts(world, box, &contact, 0, 1), 1);
-        assert_int_equal(fe_body_get_contacts(world, ground, &same, 0, 1), 1);
+        assert_int_equal(fe_body_get_contacts(world, box, &contact, sizeof contact, 1), 1);
+        assert_int_equal(fe_body_get_contacts(world, ground, &same, sizeof same, 1), 1);
         assert_memory_equal(&contact, &same, sizeof contact);
         assert_true(contact.body_a == (ground_first ? ground : box) && contact.body_b == (ground_first ? box : ground));
         assert_true(contact.shape_a == shape_of(world, contact.body_a) && contact.shape_b == shape_of(world, contact.body_b));
@@ -346,7 +346,7 @@ static void contacts_carry_the_weight(void **state)
         }
         FE_NEAR(per_substep, 1000 * 9.81 / 480, 0.5);
         FE_NEAR(total, 1000 * 9.81 / 60, 4);
-        assert_int_equal(fe_shape_get_contacts(world, contact.shape_b, &same, 0, 1), 1);
+        assert_int_equal(fe_shape_get_contacts(world, contact.shape_b, &same, sizeof same, 1), 1);
         assert_memory_equal(&contact, &same, sizeof contact);
         OK(fe_world_destroy(world));
     }
@@ -365,7 +365,7 @@ static void friction_is_told_as_it_acts_on_b(void **state)
         if (!ground_first) new_ground(world);
         step(world, 25);
         fe_contact contact;
-        assert_int_equal(fe_body_get_contacts(world, box, &contact, 0, 1), 1);
+        assert_int_equal(fe_body_get_contacts(world, box, &contact, sizeof contact, 1), 1);
         double on_box = ground_first ? (double)contact.friction_impulse.x : -(double)contact.friction_impulse.x;
         FE_NEAR(on_box, -1000 * 9.81 * 0.34202014 / 480, 0.2);
         OK(fe_world_destroy(world));
@@ -385,15 +385,15 @@ static void contacts_of_a_shape_are_a_part_of_the_body_s(void **state)
     fe_geometry sphere;
     fe_geometry_sphere(&sphere, 0.5f);
     for (int i = 0; i < 4; ++i) {
-        def.local_position = fe_make_vec3(i & 1 ? 1.0f : -1.0f, 0, i & 2 ? 1.0f : -1.0f);
+        def.frame.position = fe_make_vec3(i & 1 ? 1.0f : -1.0f, 0, i & 2 ? 1.0f : -1.0f);
         OK(fe_shape_create(world, body, &def, &sphere, &feet[i]));
     }
     step(world, 10);
     fe_contact contacts[4];
-    assert_int_equal(fe_body_get_contacts(world, body, contacts, 0, 4), 4);
+    assert_int_equal(fe_body_get_contacts(world, body, contacts, sizeof *contacts, 4), 4);
     for (int i = 0; i < 4; ++i) {
         fe_contact one;
-        assert_int_equal(fe_shape_get_contacts(world, feet[i], &one, 0, 1), 1);
+        assert_int_equal(fe_shape_get_contacts(world, feet[i], &one, sizeof one, 1), 1);
         assert_true(one.shape_b == feet[i]);
         FE_NEAR(one.points[0].point.x, i & 1 ? 1 : -1, 0.01);
         FE_NEAR(one.points[0].point.z, i & 2 ? 1 : -1, 0.01);

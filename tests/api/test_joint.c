@@ -11,12 +11,12 @@ static void init(int32_t kind, any_def *d)
 }
 
 // the names of the calls, so that their sentences can be checked
-static const char *const create_names[ANY_KINDS] = {"fe_distance_create(", "fe_ball_create(", "fe_hinge_create(", "fe_fixed_create(",
-                                                    "fe_configurable_create("};
-static const char *const set_names[ANY_KINDS] = {"fe_distance_set(", "fe_ball_set(", "fe_hinge_set(", "fe_fixed_set(",
-                                                 "fe_configurable_set("};
-static const char *const get_names[ANY_KINDS] = {"fe_distance_get(", "fe_ball_get(", "fe_hinge_get(", "fe_fixed_get(",
-                                                 "fe_configurable_get("};
+static const char *const create_names[ANY_KINDS] = {"fe_distance_joint_create(", "fe_ball_joint_create(", "fe_hinge_joint_create(",
+                                                    "fe_fixed_joint_create(", "fe_configurable_joint_create("};
+static const char *const set_names[ANY_KINDS] = {"fe_distance_joint_set(", "fe_ball_joint_set(", "fe_hinge_joint_set(",
+                                                 "fe_fixed_joint_set(", "fe_configurable_joint_set("};
+static const char *const get_names[ANY_KINDS] = {"fe_distance_joint_get(", "fe_ball_joint_get(", "fe_hinge_joint_get(",
+                                                 "fe_fixed_joint_get(", "fe_configurable_joint_get("};
 
 #define REFUSES_AS(world, expected, call, name)                             \
     do {                                                                    \
@@ -42,7 +42,7 @@ static fixture begin(int kind)
     init(kind, &def);
     def.common.body_a = f.a, def.common.body_b = f.b;
     def.common.frame_a.position = fe_make_vec3(1, 0, 0), def.common.frame_b.position = fe_make_vec3(-1, 0, 0);
-    if (kind == 0) def.distance.min_length = 0;
+    if (kind == 0) def.distance.lower = 0;
     OK(any_create(kind, f.world, &def, &f.joint));
     assert_true(f.joint != 0 && f.joint < 1ull << 53);
     return f;
@@ -66,28 +66,28 @@ static void defaults_are_those_of_the_header(void **state)
         FE_NEAR(d.common.frame_a.position.x, 0, 0), FE_NEAR(d.common.frame_b.position.z, 0, 0);
     }
     init(0, &d);
-    FE_NEAR(d.distance.min_length, 1, 0), FE_NEAR(d.distance.max_length, 1, 0), FE_NEAR(d.distance.length, 1, 0);
-    FE_NEAR(d.distance.spring_hertz, 0, 0), FE_NEAR(d.distance.spring_damping_ratio, 1, 0), FE_NEAR(d.distance.spring_force, 1e15f, 0);
-    FE_NEAR(d.distance.motor_force, 0, 0);
+    FE_NEAR(d.distance.lower, 1, 0), FE_NEAR(d.distance.upper, 1, 0), FE_NEAR(d.distance.target, 1, 0);
+    FE_NEAR(d.distance.spring_hertz, 0, 0), FE_NEAR(d.distance.spring_damping_ratio, 1, 0), FE_NEAR(d.distance.spring_max, 1e15f, 0);
+    FE_NEAR(d.distance.motor_max, 0, 0);
     init(1, &d);
-    FE_NEAR(d.ball.cone_y, ANY_PI, 0), FE_NEAR(d.ball.cone_z, ANY_PI, 0), FE_NEAR(d.ball.min_twist, -ANY_PI, 0),
-        FE_NEAR(d.ball.max_twist, ANY_PI, 0);
-    assert_true(d.ball.swing_limited == 0 && d.ball.twist_limited == 0);
-    FE_NEAR(d.ball.target.w, 1, 0), FE_NEAR(d.ball.drive_torque, 1e15f, 0), FE_NEAR(d.ball.motor_torque, 0, 0),
-        FE_NEAR(d.ball.drive_hertz, 0, 0);
-    FE_NEAR(d.ball.limit_damping_ratio, 1, 0), FE_NEAR(d.ball.drive_damping_ratio, 1, 0);
+    FE_NEAR(d.ball.cone_y, ANY_PI, 0), FE_NEAR(d.ball.cone_z, ANY_PI, 0), FE_NEAR(d.ball.lower, -ANY_PI, 0),
+        FE_NEAR(d.ball.upper, ANY_PI, 0);
+    assert_true(d.ball.cone_enabled == 0 && d.ball.limit_enabled == 0);
+    FE_NEAR(d.ball.target.w, 1, 0), FE_NEAR(d.ball.spring_max, 1e15f, 0), FE_NEAR(d.ball.motor_max, 0, 0),
+        FE_NEAR(d.ball.spring_hertz, 0, 0);
+    FE_NEAR(d.ball.limit_damping_ratio, 1, 0), FE_NEAR(d.ball.spring_damping_ratio, 1, 0);
     init(2, &d);
-    FE_NEAR(d.hinge.min_angle, -ANY_PI, 0), FE_NEAR(d.hinge.max_angle, ANY_PI, 0), FE_NEAR(d.hinge.spring_torque, 1e15f, 0);
-    FE_NEAR(d.hinge.spring_damping_ratio, 1, 0), FE_NEAR(d.hinge.limit_damping_ratio, 1, 0), FE_NEAR(d.hinge.motor_torque, 0, 0);
-    assert_int_equal(d.hinge.limited, 0);
+    FE_NEAR(d.hinge.lower, -ANY_PI, 0), FE_NEAR(d.hinge.upper, ANY_PI, 0), FE_NEAR(d.hinge.spring_max, 1e15f, 0);
+    FE_NEAR(d.hinge.spring_damping_ratio, 1, 0), FE_NEAR(d.hinge.limit_damping_ratio, 1, 0), FE_NEAR(d.hinge.motor_max, 0, 0);
+    assert_int_equal(d.hinge.limit_enabled, 0);
     init(3, &d);
     FE_NEAR(d.fixed.angular_hertz, 0, 0), FE_NEAR(d.fixed.angular_damping_ratio, 1, 0);
     init(4, &d);
     for (int k = 0; k < 6; ++k) {
-        assert_true(d.configurable.axes[k].mode == FE_MOTION_LOCKED && d.configurable.axes[k].drive == FE_DRIVE_NONE);
-        FE_NEAR(d.configurable.axes[k].limit_damping_ratio, 1, 0), FE_NEAR(d.configurable.axes[k].drive_force, 1e15f, 0);
+        assert_true(d.configurable.axes[k].motion == FE_MOTION_LOCKED && d.configurable.axes[k].spring == FE_SPRING_NONE);
+        FE_NEAR(d.configurable.axes[k].limit_damping_ratio, 1, 0), FE_NEAR(d.configurable.axes[k].spring_max, 1e15f, 0);
     }
-    fe_hinge_def_init(NULL, sizeof(fe_hinge_def)); // does nothing
+    fe_hinge_joint_def_init(NULL, sizeof(fe_hinge_joint_def)); // does nothing
 }
 
 // Fills all but the front with different legal values
@@ -100,19 +100,19 @@ static void make_unlike_defaults(int kind, any_def *d)
     d->common.frame_b = (fe_frame){{-1, -2, -3}, {0.6f, 0, 0, 0.8f}};
     switch (kind) {
     case 0:
-        d->distance.min_length = 0.5f, d->distance.max_length = 2, d->distance.length = 1.5f, d->distance.spring_hertz = 3;
-        d->distance.spring_damping_ratio = 0.25f, d->distance.spring_force = 7, d->distance.motor_speed = -1, d->distance.motor_force = 9;
+        d->distance.lower = 0.5f, d->distance.upper = 2, d->distance.target = 1.5f, d->distance.spring_hertz = 3;
+        d->distance.spring_damping_ratio = 0.25f, d->distance.spring_max = 7, d->distance.motor_speed = -1, d->distance.motor_max = 9;
         break;
     case 1:
-        d->ball.swing_limited = 1, d->ball.cone_y = 0.5f, d->ball.cone_z = 0.25f, d->ball.twist_limited = 1, d->ball.min_twist = -1;
-        d->ball.max_twist = 2, d->ball.limit_hertz = 11, d->ball.limit_damping_ratio = 0.125f, d->ball.drive_hertz = 2;
-        d->ball.drive_damping_ratio = 0.7f, d->ball.drive_torque = 5, d->ball.target = (fe_quat){0, 0, 0.6f, 0.8f};
-        d->ball.motor_velocity = fe_make_vec3(1, 2, 3), d->ball.motor_torque = 4;
+        d->ball.cone_enabled = 1, d->ball.cone_y = 0.5f, d->ball.cone_z = 0.25f, d->ball.limit_enabled = 1, d->ball.lower = -1;
+        d->ball.upper = 2, d->ball.limit_hertz = 11, d->ball.limit_damping_ratio = 0.125f, d->ball.spring_hertz = 2;
+        d->ball.spring_damping_ratio = 0.7f, d->ball.spring_max = 5, d->ball.target = (fe_quat){0, 0, 0.6f, 0.8f};
+        d->ball.motor_velocity = fe_make_vec3(1, 2, 3), d->ball.motor_max = 4;
         break;
     case 2:
-        d->hinge.limited = 1, d->hinge.min_angle = -0.5f, d->hinge.max_angle = 0.75f, d->hinge.limit_hertz = 12;
-        d->hinge.limit_damping_ratio = 0.3f, d->hinge.spring_hertz = 4, d->hinge.spring_damping_ratio = 0.9f, d->hinge.spring_torque = 8;
-        d->hinge.target = 0.25f, d->hinge.motor_speed = -3, d->hinge.motor_torque = 6;
+        d->hinge.limit_enabled = 1, d->hinge.lower = -0.5f, d->hinge.upper = 0.75f, d->hinge.limit_hertz = 12;
+        d->hinge.limit_damping_ratio = 0.3f, d->hinge.spring_hertz = 4, d->hinge.spring_damping_ratio = 0.9f, d->hinge.spring_max = 8;
+        d->hinge.target = 0.25f, d->hinge.motor_speed = -3, d->hinge.motor_max = 6;
         break;
     case 3:
         d->fixed.angular_hertz = 5, d->fixed.angular_damping_ratio = 0.6f;
@@ -120,8 +120,20 @@ static void make_unlike_defaults(int kind, any_def *d)
     default:
         for (int k = 0; k < 6; ++k) {
             float v = (float)(k + 1);
-            d->configurable.axes[k] = (fe_joint_axis){FE_MOTION_LIMITED, -0.1f * v, 0.2f * v, v,     0.1f * v, FE_DRIVE_STIFFNESS,
-                                                      0.01f * v,         10 * v,    2 * v,    3 * v, -v,       4 * v};
+            d->configurable.axes[k] = (fe_joint_axis){.motion = FE_MOTION_LIMITED,
+                                                      .lower = -0.1f * v,
+                                                      .upper = 0.2f * v,
+                                                      .limit_hertz = v,
+                                                      .limit_damping_ratio = 0.1f * v,
+                                                      .spring = FE_SPRING_STIFFNESS,
+                                                      .spring_hertz = 5 * v,
+                                                      .spring_damping_ratio = 0.3f * v,
+                                                      .spring_stiffness = 10 * v,
+                                                      .spring_damping = 2 * v,
+                                                      .spring_max = 3 * v,
+                                                      .target = 0.01f * v,
+                                                      .motor_speed = -v,
+                                                      .motor_max = 4 * v};
         }
         break;
     }
@@ -275,51 +287,51 @@ static void bad_values_of_the_front_are_refused(void **state)
 static void bad_values_of_each_type_are_refused(void **state)
 {
     (void)state;
-    static const size_t distance[] = {F(distance.min_length),   F(distance.max_length),           F(distance.length),
-                                      F(distance.spring_hertz), F(distance.spring_damping_ratio), F(distance.spring_force),
-                                      F(distance.motor_force)};
-    static const size_t ball[] = {F(ball.cone_y),      F(ball.cone_z),       F(ball.limit_hertz),         F(ball.limit_damping_ratio),
-                                  F(ball.drive_hertz), F(ball.drive_torque), F(ball.drive_damping_ratio), F(ball.motor_torque)};
-    static const size_t ball_any[] = {F(ball.min_twist), F(ball.max_twist), F(ball.target.w), F(ball.motor_velocity.x),
-                                      F(ball.motor_velocity.z)};
+    static const size_t distance[] = {
+        F(distance.lower),      F(distance.upper),    F(distance.target), F(distance.spring_hertz), F(distance.spring_damping_ratio),
+        F(distance.spring_max), F(distance.motor_max)};
+    static const size_t ball[] = {F(ball.cone_y),       F(ball.cone_z),     F(ball.limit_hertz),          F(ball.limit_damping_ratio),
+                                  F(ball.spring_hertz), F(ball.spring_max), F(ball.spring_damping_ratio), F(ball.motor_max)};
+    static const size_t ball_any[] = {F(ball.lower), F(ball.upper), F(ball.target.w), F(ball.motor_velocity.x), F(ball.motor_velocity.z)};
     static const size_t hinge[] = {F(hinge.limit_hertz),          F(hinge.limit_damping_ratio), F(hinge.spring_hertz),
-                                   F(hinge.spring_damping_ratio), F(hinge.spring_torque),       F(hinge.motor_torque)};
-    static const size_t hinge_any[] = {F(hinge.min_angle), F(hinge.max_angle), F(hinge.target), F(hinge.motor_speed)};
+                                   F(hinge.spring_damping_ratio), F(hinge.spring_max),          F(hinge.motor_max)};
+    static const size_t hinge_any[] = {F(hinge.lower), F(hinge.upper), F(hinge.target), F(hinge.motor_speed)};
     static const size_t fixed[] = {F(fixed.angular_hertz), F(fixed.angular_damping_ratio)};
-    static const size_t axis[] = {offsetof(fe_joint_axis, limit_hertz), offsetof(fe_joint_axis, limit_damping_ratio),
-                                  offsetof(fe_joint_axis, stiffness),   offsetof(fe_joint_axis, damping),
-                                  offsetof(fe_joint_axis, drive_force), offsetof(fe_joint_axis, motor_force)};
-    static const size_t axis_any[] = {offsetof(fe_joint_axis, low), offsetof(fe_joint_axis, high), offsetof(fe_joint_axis, target),
-                                      offsetof(fe_joint_axis, motor_speed)};
+#define A(member) offsetof(fe_joint_axis, member)
+    static const size_t axis[] = {A(limit_hertz),      A(limit_damping_ratio), A(spring_hertz), A(spring_damping_ratio),
+                                  A(spring_stiffness), A(spring_damping),      A(spring_max),   A(motor_max)};
+    static const size_t axis_any[] = {A(lower), A(upper), A(target), A(motor_speed)};
     refuses_floats(0, distance, COUNT(distance), -1);
     refuses_float(0, F(distance.motor_speed), NOT_A_NUMBER);
-    refuses_float(0, F(distance.min_length), 1.5f); // above max_length
-    refuses_float(0, F(distance.max_length), 0);
+    refuses_float(0, F(distance.lower), 1.5f); // above upper
+    refuses_float(0, F(distance.upper), 0);
     refuses_floats(1, ball, COUNT(ball), -1);
     refuses_floats(1, ball_any, COUNT(ball_any), 0);
     refuses_float(1, F(ball.cone_y), 0.001f);
     refuses_float(1, F(ball.cone_z), 3.2f);
-    refuses_float(1, F(ball.max_twist), 3.2f);
-    refuses_float(1, F(ball.max_twist), -3.2f);
+    refuses_float(1, F(ball.upper), 3.2f);
+    refuses_float(1, F(ball.upper), -3.2f);
     refuses_float(1, F(ball.target.w), 0);
-    refuses_int(1, F(ball.swing_limited), 2);
-    refuses_int(1, F(ball.twist_limited), -1);
+    refuses_int(1, F(ball.cone_enabled), 2);
+    refuses_int(1, F(ball.limit_enabled), -1);
     refuses_floats(2, hinge, COUNT(hinge), -1);
     refuses_floats(2, hinge_any, COUNT(hinge_any), 0);
-    refuses_float(2, F(hinge.min_angle), -3.2f);
-    refuses_float(2, F(hinge.max_angle), 3.2f);
+    refuses_float(2, F(hinge.lower), -3.2f);
+    refuses_float(2, F(hinge.upper), 3.2f);
     refuses_float(2, F(hinge.target), 4);
-    refuses_int(2, F(hinge.limited), 7);
+    refuses_int(2, F(hinge.limit_enabled), 7);
     refuses_floats(3, fixed, COUNT(fixed), -1);
     for (size_t k = 0; k < 6; ++k) {
         size_t at = F(configurable.axes) + k * sizeof(fe_joint_axis);
         for (size_t i = 0; i < COUNT(axis); ++i) refuses_float(4, at + axis[i], -1);
         for (size_t i = 0; i < COUNT(axis); ++i) refuses_float(4, at + axis[i], NOT_A_NUMBER);
         for (size_t i = 0; i < COUNT(axis_any); ++i) refuses_float(4, at + axis_any[i], NOT_A_NUMBER);
-        refuses_int(4, at + offsetof(fe_joint_axis, mode), 3);
-        refuses_int(4, at + offsetof(fe_joint_axis, drive), -1);
-        refuses_float(4, at + offsetof(fe_joint_axis, low), 1); // above high
-        if (k >= FE_ABOUT_X) refuses_float(4, at + offsetof(fe_joint_axis, high), 3.2f);
+        refuses_int(4, at + A(motion), 3);
+        refuses_int(4, at + A(spring), -1);
+        refuses_int(4, at + A(reserved), 1);
+        refuses_int(4, at + A(reserved[1]), 1);
+        refuses_float(4, at + A(lower), 1); // above upper
+        if (k >= FE_DOF_ANGULAR_X) refuses_float(4, at + A(upper), 3.2f);
     }
 }
 
@@ -329,9 +341,9 @@ static void limits_of_exactly_half_a_turn_are_accepted(void **state)
     fixture f = begin(2);
     any_def d;
     init(2, &d);
-    d.hinge.limited = 1, d.hinge.min_angle = -ANY_PI, d.hinge.max_angle = ANY_PI;
+    d.hinge.limit_enabled = 1, d.hinge.lower = -ANY_PI, d.hinge.upper = ANY_PI;
     OK(any_set(2, f.world, f.joint, &d));
-    d.hinge.min_angle = ANY_PI; // a lock at half a turn
+    d.hinge.lower = ANY_PI; // a lock at half a turn
     OK(any_set(2, f.world, f.joint, &d));
     end(&f);
 }
@@ -345,7 +357,7 @@ static void calls_with_a_bad_handle(fe_world *world, fe_joint joint, fe_result e
     fe_body a, b;
     fe_vec3 force, torque;
     fe_transform x, y;
-    fe_handle data;
+    uint64_t data;
     int32_t n;
     for (int kind = 0; kind < ANY_KINDS; ++kind) {
         init(kind, &d);
@@ -474,7 +486,7 @@ static void the_common_part_is_set_and_read_on_any_type(void **state)
         REFUSES(f.world, FE_ERROR_ARGUMENT, fe_joint_set(f.world, f.joint, &common));
 
         int32_t enabled;
-        fe_handle data;
+        uint64_t data;
         OK(fe_joint_set_enabled(f.world, f.joint, 0));
         OK(fe_joint_set_enabled(f.world, f.joint, 0));
         OK(fe_joint_get_enabled(f.world, f.joint, &enabled));
@@ -549,21 +561,21 @@ static void frames_made_from_the_world_are_zero_now(void **state)
     for (size_t i = 0; i < COUNT(axes); ++i) {
         fixture f = turned_pair();
         fe_dvec3 point = {1e5 + 0.5, -2e4 + 1, 3e4};
-        fe_ball_def ball;
-        fe_hinge_def hinge;
-        fe_fixed_def fixed;
-        fe_configurable_def slide;
+        fe_ball_joint_def ball;
+        fe_hinge_joint_def hinge;
+        fe_fixed_joint_def fixed;
+        fe_configurable_joint_def slide;
         fe_joint joint;
         fe_transform frame_a, frame_b;
-        fe_ball_def_init(&ball, sizeof ball);
-        OK(fe_ball_def_at(f.world, &ball, f.a, f.b, &point, &axes[i]));
-        OK(fe_ball_create(f.world, &ball, &joint));
+        fe_ball_joint_def_init(&ball, sizeof ball);
+        OK(fe_ball_joint_def_at(f.world, &ball, f.a, f.b, &point, &axes[i]));
+        OK(fe_ball_joint_create(f.world, &ball, &joint));
         check_state_is_zero(f.world, joint);
-        fe_hinge_def_init(&hinge, sizeof hinge);
+        fe_hinge_joint_def_init(&hinge, sizeof hinge);
         hinge.motor_speed = 3;
-        OK(fe_hinge_def_at(f.world, &hinge, f.a, f.b, &point, &axes[i]));
+        OK(fe_hinge_joint_def_at(f.world, &hinge, f.a, f.b, &point, &axes[i]));
         FE_NEAR(hinge.motor_speed, 3, 0); // the rest stays
-        OK(fe_hinge_create(f.world, &hinge, &joint));
+        OK(fe_hinge_joint_create(f.world, &hinge, &joint));
         check_state_is_zero(f.world, joint);
         OK(fe_joint_get_frames(f.world, joint, &frame_a, &frame_b));
         // R(q) x, the first column
@@ -573,18 +585,18 @@ static void frames_made_from_the_world_are_zero_now(void **state)
         FE_NEAR(2 * (q.x * q.y + q.w * q.z), (double)axes[i].y / n, 1e-6);
         FE_NEAR(2 * (q.x * q.z - q.w * q.y), (double)axes[i].z / n, 1e-6);
         FE_NEAR(frame_b.position.x, point.x, 1e-6), FE_NEAR(frame_b.position.y, point.y, 1e-6), FE_NEAR(frame_b.position.z, point.z, 1e-6);
-        fe_fixed_def_init(&fixed, sizeof fixed);
-        OK(fe_fixed_def_at(f.world, &fixed, f.a, f.b, &point));
-        OK(fe_fixed_create(f.world, &fixed, &joint));
+        fe_fixed_joint_def_init(&fixed, sizeof fixed);
+        OK(fe_fixed_joint_def_at(f.world, &fixed, f.a, f.b, &point));
+        OK(fe_fixed_joint_create(f.world, &fixed, &joint));
         check_state_is_zero(f.world, joint);
-        fe_configurable_def_init(&slide, sizeof slide);
-        OK(fe_configurable_def_at(f.world, &slide, f.a, f.b, &point, &axes[i]));
-        OK(fe_configurable_create(f.world, &slide, &joint));
+        fe_configurable_joint_def_init(&slide, sizeof slide);
+        OK(fe_configurable_joint_def_at(f.world, &slide, f.a, f.b, &point, &axes[i]));
+        OK(fe_configurable_joint_create(f.world, &slide, &joint));
         check_state_is_zero(f.world, joint);
         memset(&slide, 0xCD, sizeof slide);
         slide.struct_size = sizeof slide;
-        OK(fe_slider_def_at(f.world, &slide, f.a, f.b, &point, &axes[i]));
-        OK(fe_configurable_create(f.world, &slide, &joint));
+        OK(fe_slider_joint_def_at(f.world, &slide, f.a, f.b, &point, &axes[i]));
+        OK(fe_configurable_joint_create(f.world, &slide, &joint));
         check_state_is_zero(f.world, joint);
         end(&f);
     }
@@ -596,26 +608,26 @@ static void ready_made_definitions_are_whole(void **state)
     fixture f = turned_pair();
     fe_dvec3 p = {1e5, -2e4, 3e4}, q = {1e5 + 3, -2e4 + 4, 3e4};
     fe_vec3 axle = {0, 0, 2}, up = {1, 5, 1};
-    fe_distance_def rope;
-    fe_configurable_def c;
+    fe_distance_joint_def rope;
+    fe_configurable_joint_def c;
     fe_joint joint;
     memset(&rope, 0xCD, sizeof rope);
     rope.struct_size = sizeof rope;
-    OK(fe_rope_def_at(f.world, &rope, f.a, f.b, &p, &q, 7));
-    FE_NEAR(rope.min_length, 0, 0), FE_NEAR(rope.max_length, 7, 0), FE_NEAR(rope.length, 5, 1e-6);
-    OK(fe_distance_create(f.world, &rope, &joint));
-    fe_distance_def_init(&rope, sizeof rope);
-    OK(fe_distance_def_at(f.world, &rope, f.a, f.b, &p, &q));
-    FE_NEAR(rope.min_length, 5, 1e-6), FE_NEAR(rope.max_length, 5, 1e-6);
-    OK(fe_distance_create(f.world, &rope, &joint));
+    OK(fe_rope_joint_def_at(f.world, &rope, f.a, f.b, &p, &q, 7));
+    FE_NEAR(rope.lower, 0, 0), FE_NEAR(rope.upper, 7, 0), FE_NEAR(rope.target, 5, 1e-6);
+    OK(fe_distance_joint_create(f.world, &rope, &joint));
+    fe_distance_joint_def_init(&rope, sizeof rope);
+    OK(fe_distance_joint_def_at(f.world, &rope, f.a, f.b, &p, &q));
+    FE_NEAR(rope.lower, 5, 1e-6), FE_NEAR(rope.upper, 5, 1e-6);
+    OK(fe_distance_joint_create(f.world, &rope, &joint));
 
     memset(&c, 0xCD, sizeof c);
     c.struct_size = sizeof c;
-    OK(fe_wheel_def_at(f.world, &c, f.a, f.b, &p, &axle, &up, 4, 0.7f, 0.2f));
-    OK(fe_configurable_create(f.world, &c, &joint));
+    OK(fe_wheel_joint_def_at(f.world, &c, f.a, f.b, &p, &axle, &up, 4, 0.7f, 0.2f));
+    OK(fe_configurable_joint_create(f.world, &c, &joint));
     check_state_is_zero(f.world, joint);
-    assert_true(c.axes[FE_ABOUT_X].mode == FE_MOTION_FREE && c.axes[FE_ALONG_Z].mode == FE_MOTION_LIMITED);
-    assert_true(c.axes[FE_ABOUT_Z].mode == FE_MOTION_LOCKED && c.axes[FE_ALONG_X].mode == FE_MOTION_LOCKED);
+    assert_true(c.axes[FE_DOF_ANGULAR_X].motion == FE_MOTION_FREE && c.axes[FE_DOF_LINEAR_Z].motion == FE_MOTION_LIMITED);
+    assert_true(c.axes[FE_DOF_ANGULAR_Z].motion == FE_MOTION_LOCKED && c.axes[FE_DOF_LINEAR_X].motion == FE_MOTION_LOCKED);
     fe_transform a, b;
     OK(fe_joint_get_frames(f.world, joint, &a, &b));
     fe_quat r = a.rotation;
@@ -625,10 +637,10 @@ static void ready_made_definitions_are_whole(void **state)
 
     memset(&c, 0xCD, sizeof c);
     c.struct_size = sizeof c;
-    OK(fe_motor_def_at(f.world, &c, f.a, f.b, 3, 1, 100, 50));
-    OK(fe_configurable_create(f.world, &c, &joint));
+    OK(fe_motor_joint_def_at(f.world, &c, f.a, f.b, 3, 1, 100, 50));
+    OK(fe_configurable_joint_create(f.world, &c, &joint));
     check_state_is_zero(f.world, joint);
-    FE_NEAR(c.axes[FE_ALONG_Y].drive_force, 100, 0), FE_NEAR(c.axes[FE_ABOUT_Y].drive_force, 50, 0);
+    FE_NEAR(c.axes[FE_DOF_LINEAR_Y].spring_max, 100, 0), FE_NEAR(c.axes[FE_DOF_ANGULAR_Y].spring_max, 50, 0);
     end(&f);
 }
 
@@ -640,15 +652,15 @@ static void a_wheels_spring_is_for_its_corner_of_the_chassis(void **state)
         fixture f = begin(-1);
         fe_dvec3 p = {0.4, -0.3, 0.2};
         fe_vec3 axle = {0, 0, 1}, up = {0, 1, 0}, kick = {0, 2, 0}, v;
-        fe_configurable_def c = {.struct_size = sizeof c};
+        fe_configurable_joint_def c = {.struct_size = sizeof c};
         if (fixed) OK(fe_body_set_type(f.world, f.a, FE_BODY_STATIC));
-        OK(fe_wheel_def_at(f.world, &c, f.a, f.b, &p, &axle, &up, 4, 0.7f, 0.2f));
+        OK(fe_wheel_joint_def_at(f.world, &c, f.a, f.b, &p, &axle, &up, 4, 0.7f, 0.2f));
         OK(fe_body_add_impulse_at(f.world, fixed ? f.b : f.a, &kick, &p));
         OK(fe_body_get_point_velocity(f.world, fixed ? f.b : f.a, &p, &v));
         double mass = (double)(kick.y / v.y), w = 8 * 3.14159265358979;
-        assert_int_equal(c.axes[FE_ALONG_Z].drive, FE_DRIVE_STIFFNESS);
-        FE_NEAR(c.axes[FE_ALONG_Z].stiffness, mass * w * w, 1e-5 * mass * w * w);
-        FE_NEAR(c.axes[FE_ALONG_Z].damping, 2 * (double)0.7f * mass * w, 1e-5 * mass * w);
+        assert_int_equal(c.axes[FE_DOF_LINEAR_Z].spring, FE_SPRING_STIFFNESS);
+        FE_NEAR(c.axes[FE_DOF_LINEAR_Z].spring_stiffness, mass * w * w, 1e-5 * mass * w * w);
+        FE_NEAR(c.axes[FE_DOF_LINEAR_Z].spring_damping, 2 * (double)0.7f * mass * w, 1e-5 * mass * w);
         end(&f);
     }
 }
@@ -660,43 +672,44 @@ static void bad_arguments_of_the_makers_are_refused(void **state)
     fe_world *w = f.world;
     fe_dvec3 p = {0, 0, 0}, far = {2e9, 0, 0};
     fe_vec3 x = {1, 0, 0}, none = {0, 0, 0}, nan = {NOT_A_NUMBER, 0, 0};
-    fe_ball_def ball;
-    fe_hinge_def hinge;
-    fe_fixed_def fixed;
-    fe_distance_def rod;
-    fe_configurable_def c;
-    fe_ball_def_init(&ball, sizeof ball), fe_hinge_def_init(&hinge, sizeof hinge), fe_fixed_def_init(&fixed, sizeof fixed);
-    fe_distance_def_init(&rod, sizeof rod), fe_configurable_def_init(&c, sizeof c);
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_ball_def_at(w, NULL, f.a, f.b, &p, &x));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_ball_def_at(w, &ball, f.a, f.a, &p, &x));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_ball_def_at(w, &ball, f.a, f.b, NULL, &x));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_ball_def_at(w, &ball, f.a, f.b, &p, NULL));
-    REFUSES(w, FE_ERROR_STALE, fe_ball_def_at(w, &ball, 0, f.b, &p, &x));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_hinge_def_at(w, &hinge, f.a, f.b, &p, &none));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_hinge_def_at(w, &hinge, f.a, f.b, &p, &nan));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_hinge_def_at(w, &hinge, f.a, f.b, &far, &x));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_hinge_def_at(w, NULL, f.a, f.b, &p, &x));
-    REFUSES(w, FE_ERROR_STALE, fe_fixed_def_at(w, &fixed, f.a, 0, &p));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_fixed_def_at(w, &fixed, f.a, f.b, NULL));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_distance_def_at(w, &rod, f.a, f.b, &p, NULL));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_distance_def_at(w, NULL, f.a, f.b, &p, &p));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_configurable_def_at(w, &c, f.a, f.b, &p, NULL));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_configurable_def_at(w, NULL, f.a, f.b, &p, &x));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_rope_def_at(w, &rod, f.a, f.b, &p, &p, 0));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_rope_def_at(w, &rod, f.a, f.b, &p, &far, 1));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_slider_def_at(w, &c, f.a, f.b, &p, &none));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_slider_def_at(w, NULL, f.a, f.b, &p, &x));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_wheel_def_at(w, &c, f.a, f.b, &p, &x, &x, 1, 1, 1));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_wheel_def_at(w, &c, f.a, f.b, &p, &x, &none, 1, 1, 1));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_wheel_def_at(w, &c, f.a, f.b, &p, &x, &x, 1, 1, NOT_A_NUMBER));
+    fe_ball_joint_def ball;
+    fe_hinge_joint_def hinge;
+    fe_fixed_joint_def fixed;
+    fe_distance_joint_def rod;
+    fe_configurable_joint_def c;
+    fe_ball_joint_def_init(&ball, sizeof ball), fe_hinge_joint_def_init(&hinge, sizeof hinge),
+        fe_fixed_joint_def_init(&fixed, sizeof fixed);
+    fe_distance_joint_def_init(&rod, sizeof rod), fe_configurable_joint_def_init(&c, sizeof c);
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_ball_joint_def_at(w, NULL, f.a, f.b, &p, &x));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_ball_joint_def_at(w, &ball, f.a, f.a, &p, &x));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_ball_joint_def_at(w, &ball, f.a, f.b, NULL, &x));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_ball_joint_def_at(w, &ball, f.a, f.b, &p, NULL));
+    REFUSES(w, FE_ERROR_STALE, fe_ball_joint_def_at(w, &ball, 0, f.b, &p, &x));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_hinge_joint_def_at(w, &hinge, f.a, f.b, &p, &none));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_hinge_joint_def_at(w, &hinge, f.a, f.b, &p, &nan));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_hinge_joint_def_at(w, &hinge, f.a, f.b, &far, &x));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_hinge_joint_def_at(w, NULL, f.a, f.b, &p, &x));
+    REFUSES(w, FE_ERROR_STALE, fe_fixed_joint_def_at(w, &fixed, f.a, 0, &p));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_fixed_joint_def_at(w, &fixed, f.a, f.b, NULL));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_distance_joint_def_at(w, &rod, f.a, f.b, &p, NULL));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_distance_joint_def_at(w, NULL, f.a, f.b, &p, &p));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_configurable_joint_def_at(w, &c, f.a, f.b, &p, NULL));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_configurable_joint_def_at(w, NULL, f.a, f.b, &p, &x));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_rope_joint_def_at(w, &rod, f.a, f.b, &p, &p, 0));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_rope_joint_def_at(w, &rod, f.a, f.b, &p, &far, 1));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_slider_joint_def_at(w, &c, f.a, f.b, &p, &none));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_slider_joint_def_at(w, NULL, f.a, f.b, &p, &x));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_wheel_joint_def_at(w, &c, f.a, f.b, &p, &x, &x, 1, 1, 1));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_wheel_joint_def_at(w, &c, f.a, f.b, &p, &x, &none, 1, 1, 1));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_wheel_joint_def_at(w, &c, f.a, f.b, &p, &x, &x, 1, 1, NOT_A_NUMBER));
     fe_vec3 up = {0, 1, 0};
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_wheel_def_at(w, &c, f.a, f.b, &p, &x, &up, -1, 1, 1));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_wheel_def_at(w, &c, f.a, f.b, &p, &x, &up, 1, -1, 1));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_wheel_def_at(w, &c, f.a, f.b, &p, &x, &up, 1, 1, -1));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_motor_def_at(w, &c, f.a, f.b, 1, 1, -1, 1));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_motor_def_at(w, &c, f.a, f.b, 1, 1, 1, NOT_A_NUMBER));
-    REFUSES(w, FE_ERROR_STALE, fe_motor_def_at(w, &c, f.a, 0, 1, 1, 1, 1));
-    check_refusal(fe_motor_def_at(NULL, &c, f.a, f.b, 1, 1, 1, 1), FE_ERROR_ARGUMENT, "fe_motor_def_at(", __FILE__, __LINE__);
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_wheel_joint_def_at(w, &c, f.a, f.b, &p, &x, &up, -1, 1, 1));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_wheel_joint_def_at(w, &c, f.a, f.b, &p, &x, &up, 1, -1, 1));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_wheel_joint_def_at(w, &c, f.a, f.b, &p, &x, &up, 1, 1, -1));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_motor_joint_def_at(w, &c, f.a, f.b, 1, 1, -1, 1));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_motor_joint_def_at(w, &c, f.a, f.b, 1, 1, 1, NOT_A_NUMBER));
+    REFUSES(w, FE_ERROR_STALE, fe_motor_joint_def_at(w, &c, f.a, 0, 1, 1, 1, 1));
+    check_refusal(fe_motor_joint_def_at(NULL, &c, f.a, f.b, 1, 1, 1, 1), FE_ERROR_ARGUMENT, "fe_motor_joint_def_at(", __FILE__, __LINE__);
     end(&f);
 }
 
@@ -706,14 +719,14 @@ static void bad_arguments_of_the_makers_are_refused(void **state)
 static fe_joint_state state_of_turn(fe_quat q)
 {
     fixture f = begin(-1);
-    fe_ball_def d;
+    fe_ball_joint_def d;
     fe_joint joint;
     fe_joint_state s = {.struct_size = sizeof s};
     fe_transform t = {{0, 0, 0}, q};
     OK(fe_body_set_transform(f.world, f.b, &t));
-    fe_ball_def_init(&d, sizeof d);
+    fe_ball_joint_def_init(&d, sizeof d);
     d.body_a = f.a, d.body_b = f.b;
-    OK(fe_ball_create(f.world, &d, &joint));
+    OK(fe_ball_joint_create(f.world, &d, &joint));
     OK(fe_joint_get_state(f.world, joint, &s));
     end(&f);
     return s;
@@ -738,13 +751,13 @@ static void speeds_are_those_of_b_in_frame_a(void **state)
 {
     (void)state;
     fixture f = begin(-1);
-    fe_distance_def d;
+    fe_distance_joint_def d;
     fe_joint joint;
     fe_joint_state s = {.struct_size = sizeof s};
-    fe_distance_def_init(&d, sizeof d);
+    fe_distance_joint_def_init(&d, sizeof d);
     d.body_a = f.a, d.body_b = f.b;                                 // at 0 and 2 on the x axis
     d.frame_a.rotation = (fe_quat){0, 0, 0.70710678f, 0.70710678f}; // its X is A's Y, its Y A's -X
-    OK(fe_distance_create(f.world, &d, &joint));
+    OK(fe_distance_joint_create(f.world, &d, &joint));
     fe_vec3 v = {3, 4, 0}, w = {0, 0, 1};
     OK(fe_body_set_linear_velocity(f.world, f.b, &v));
     OK(fe_body_set_angular_velocity(f.world, f.b, &w));

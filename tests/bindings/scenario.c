@@ -10,6 +10,7 @@ enum { BODIES = 300, STEPS = 600, SAMPLES = 17 };
 
 typedef struct scene {
     fe_world *world;
+    fe_store *store;
     fe_asset terrain;
     fe_body body[BODIES];
     int enter, leave, hit, sleep, wake, broken, rays, overlaps;
@@ -33,7 +34,7 @@ static void add_body(scene *s, int i)
     fe_body_def_init(&body, sizeof body);
     fe_shape_def_init(&shape, sizeof shape);
     body.transform.position = place(i);
-    shape.events = i % 5 == 0 ? FE_EVENTS_TOUCH | FE_EVENTS_HIT : FE_EVENTS_TOUCH;
+    shape.events = i % 5 == 0 ? FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_HIT : FE_SHAPE_EVENTS_TOUCH;
     if (i % 3 == 0) fe_geometry_sphere(&form, 0.5f);
     if (i % 3 == 1) fe_geometry_box(&form, 0.5f, 0.375f, 0.5f);
     if (i % 3 == 2) fe_geometry_capsule(&form, 0.25f, 0.375f);
@@ -51,7 +52,8 @@ static void add_terrain(scene *s)
     field.rows = field.columns = SAMPLES;
     field.cell_x = field.cell_z = 2.0f;
     field.heights = heights;
-    check(fe_heightfield_create(s->world, &field, &s->terrain));
+    check(fe_world_get_store(s->world, &s->store));
+    check(fe_heightfield_create(s->store, &field, &s->terrain));
 
     fe_body_def still;
     fe_shape_def shape;
@@ -61,7 +63,7 @@ static void add_terrain(scene *s)
     fe_body_def_init(&still, sizeof still);
     fe_shape_def_init(&shape, sizeof shape);
     still.type = FE_BODY_STATIC;
-    shape.local_position = fe_make_vec3(-16, 0, -16);
+    shape.frame.position = fe_make_vec3(-16, 0, -16);
     fe_geometry_heightfield(&form, s->terrain);
     check(fe_body_create(s->world, &still, &ground));
     check(fe_shape_create(s->world, ground, &shape, &form, &made));
@@ -91,27 +93,27 @@ static void add_joint(scene *s, int i)
     fe_vec3 x = fe_make_vec3(1, 0, 0), z = fe_make_vec3(0, 0, 1);
     fe_joint made;
     if (i % 10 == 0) {
-        fe_ball_def ball;
-        fe_ball_def_init(&ball, sizeof ball);
-        check(fe_ball_def_at(s->world, &ball, a, b, &middle, &x));
-        check(fe_ball_create(s->world, &ball, &made));
+        fe_ball_joint_def ball;
+        fe_ball_joint_def_init(&ball, sizeof ball);
+        check(fe_ball_joint_def_at(s->world, &ball, a, b, &middle, &x));
+        check(fe_ball_joint_create(s->world, &ball, &made));
     } else if (i % 10 == 4) {
-        fe_hinge_def hinge;
-        fe_hinge_def_init(&hinge, sizeof hinge);
-        check(fe_hinge_def_at(s->world, &hinge, a, b, &middle, &z));
-        hinge.limited = 1, hinge.min_angle = -0.5f, hinge.max_angle = 0.5f;
-        check(fe_hinge_create(s->world, &hinge, &made));
+        fe_hinge_joint_def hinge;
+        fe_hinge_joint_def_init(&hinge, sizeof hinge);
+        check(fe_hinge_joint_def_at(s->world, &hinge, a, b, &middle, &z));
+        hinge.limit_enabled = 1, hinge.lower = -0.5f, hinge.upper = 0.5f;
+        check(fe_hinge_joint_create(s->world, &hinge, &made));
     } else if (i % 10 == 7) {
-        fe_distance_def rod;
-        fe_distance_def_init(&rod, sizeof rod);
-        check(fe_distance_def_at(s->world, &rod, a, b, &from, &to));
-        check(fe_distance_create(s->world, &rod, &made));
+        fe_distance_joint_def rod;
+        fe_distance_joint_def_init(&rod, sizeof rod);
+        check(fe_distance_joint_def_at(s->world, &rod, a, b, &from, &to));
+        check(fe_distance_joint_create(s->world, &rod, &made));
     } else if (i % 10 == 2) {
-        fe_fixed_def fixed;
-        fe_fixed_def_init(&fixed, sizeof fixed);
-        check(fe_fixed_def_at(s->world, &fixed, a, b, &middle));
+        fe_fixed_joint_def fixed;
+        fe_fixed_joint_def_init(&fixed, sizeof fixed);
+        check(fe_fixed_joint_def_at(s->world, &fixed, a, b, &middle));
         fixed.break_force = 8192;
-        check(fe_fixed_create(s->world, &fixed, &made));
+        check(fe_fixed_joint_create(s->world, &fixed, &made));
     }
 }
 
@@ -126,9 +128,9 @@ static void act(scene *s, int step)
         fe_transform at = fe_make_transform(0, 1, 0);
         fe_geometry_sphere(&ball, 3);
         int32_t type = FE_BODY_STATIC, count;
-        fe_result result = fe_world_raycast(s->world, &origin, &down, NULL, &hit);
+        int32_t result = fe_world_raycast(s->world, &origin, &down, NULL, &hit);
         check(result);
-        if (result == FE_OK) check(fe_body_get_type(s->world, hit.body, &type));
+        if (result == 1) check(fe_body_get_type(s->world, hit.body, &type));
         if (type == FE_BODY_DYNAMIC) {
             ++s->rays;
             check(fe_body_add_impulse_at(s->world, hit.body, &kick, &hit.point));
@@ -138,7 +140,7 @@ static void act(scene *s, int step)
     }
     if (step == 200) {
         static const float hill[9] = {1, 1, 1, 1, 2, 1, 1, 1, 1};
-        check(fe_heightfield_set_heights(s->world, s->terrain, 7, 7, 3, 3, hill));
+        check(fe_heightfield_set_heights(s->store, s->terrain, 7, 7, 3, 3, hill));
     }
     if (step == 400)
         for (int i = 60; i < 70; ++i) check(fe_body_destroy(s->world, s->body[i]));
@@ -150,10 +152,10 @@ static void listen(scene *s)
     static fe_pair_event pairs[4096];
     static fe_body_event bodies[4096];
     int32_t count;
-    check(count = fe_world_get_pair_events(s->world, pairs, 0, 4096));
-    for (int32_t i = 0; i < count && i < 4096; ++i) ++*(pairs[i].kind == FE_ENTER ? &s->enter : &s->leave);
-    check(count = fe_world_get_body_events(s->world, bodies, 0, 4096));
-    for (int32_t i = 0; i < count && i < 4096; ++i) ++*(bodies[i].kind == FE_SLEEP ? &s->sleep : &s->wake);
+    check(count = fe_world_get_pair_events(s->world, pairs, sizeof *pairs, 4096));
+    for (int32_t i = 0; i < count && i < 4096; ++i) ++*(pairs[i].kind == FE_EVENT_ENTER ? &s->enter : &s->leave);
+    check(count = fe_world_get_body_events(s->world, bodies, sizeof *bodies, 4096));
+    for (int32_t i = 0; i < count && i < 4096; ++i) ++*(bodies[i].kind == FE_EVENT_SLEEP ? &s->sleep : &s->wake);
     check(count = fe_world_get_hit_events(s->world, NULL, 0, 0));
     s->hit += count;
     check(count = fe_world_get_joint_events(s->world, NULL, 0, 0));

@@ -15,23 +15,23 @@ typedef struct crowd {
 static fe_joint join_somehow(scene *s, dice *d, fe_body a, fe_body b, vec point, int limited)
 {
     vec axis = somewhere(d, 1);
-    fe_ball_def ball = ball_def();
-    fe_hinge_def hinge = hinge_def();
-    fe_configurable_def six = configurable_def();
-    fe_distance_def rope = distance_def();
+    fe_ball_joint_def ball = ball_def();
+    fe_hinge_joint_def hinge = hinge_def();
+    fe_configurable_joint_def six = configurable_def();
+    fe_distance_joint_def rope = distance_def();
     int kind = pick(d, 6);
     axis.x += 2;
     if (limited) {
-        ball.swing_limited = pick(d, 2), ball.twist_limited = pick(d, 2);
-        ball.cone_y = (float)uniform(d, 0.2, 2), ball.cone_z = (float)uniform(d, 0.2, 2), ball.min_twist = -(float)uniform(d, 0, 2),
-        ball.max_twist = (float)uniform(d, 0, 2);
-        hinge.limited = 1, hinge.min_angle = -(float)uniform(d, 0, 2), hinge.max_angle = (float)uniform(d, 0, 3.14);
+        ball.cone_enabled = pick(d, 2), ball.limit_enabled = pick(d, 2);
+        ball.cone_y = (float)uniform(d, 0.2, 2), ball.cone_z = (float)uniform(d, 0.2, 2), ball.lower = -(float)uniform(d, 0, 2),
+        ball.upper = (float)uniform(d, 0, 2);
+        hinge.limit_enabled = 1, hinge.lower = -(float)uniform(d, 0, 2), hinge.upper = (float)uniform(d, 0, 3.14);
     }
     for (int k = 0; k < 6; ++k) {
-        six.axes[k].mode = k < FE_ABOUT_X ? pick(d, 2) : limited ? pick(d, 3) : 2 * pick(d, 2); // what slides away for ever is no machine
-        six.axes[k].low = -(float)uniform(d, 0, 0.5), six.axes[k].high = (float)uniform(d, 0, 0.5);
+        six.axes[k].motion = k < FE_DOF_ANGULAR_X ? pick(d, 2) : limited ? pick(d, 3) : 2 * pick(d, 2); // what slides away for ever is no machine
+        six.axes[k].lower = -(float)uniform(d, 0, 0.5), six.axes[k].upper = (float)uniform(d, 0, 0.5);
     }
-    rope.min_length = 0, rope.max_length = 1e-3f + (float)length(minus(position(s, a), position(s, b)));
+    rope.lower = 0, rope.upper = 1e-3f + (float)length(minus(position(s, a), position(s, b)));
     if (kind == 0) return add_ball(s, ball, a, b, point, axis);
     if (kind == 1) return add_hinge(s, hinge, a, b, point, axis);
     if (kind == 2) return add_fixed(s, fixed_def(), a, b, point);
@@ -48,7 +48,7 @@ static crowd make_crowd(dice *d, int limited, int anchored)
     for (int i = 0; i < c.count; ++i) {
         vec at = v3(uniform(d, -0.3, 0.3), -0.5 * i, uniform(d, -0.3, 0.3));
         c.bodies[i] = add_dynamic(&c.s, any_form(d, uniform(d, 0.7, 1)), at, any_rotation(d), friction(0), WATER);
-        MUST(fe_body_set_filter(c.s.world, c.bodies[i], 2, 0));
+        MUST(fe_body_set_filter(c.s.world, c.bodies[i], 2, 0, 0));
         set_velocity(&c.s, c.bodies[i], somewhere(d, 2), somewhere(d, 3));
         fe_body parent = i ? c.bodies[i - 1 - pick(d, i < 2 ? 1 : 2)] : add_anchor(&c.s, at);
         vec middle = times(0.5, plus(at, position(&c.s, parent)));
@@ -136,11 +136,11 @@ static void bodies_locked_alike_gain_no_energy(void **state)
 static fe_joint join_with_limits(scene *s, dice *d, fe_body a, fe_body b, vec point)
 {
     const int kind = pick(d, 3);
-    fe_ball_def ball = ball_def();
-    fe_hinge_def hinge = hinge_def();
-    ball.swing_limited = ball.twist_limited = hinge.limited = 1;
-    ball.cone_y = ball.cone_z = (float)uniform(d, 0.1, 1.5), ball.min_twist = -0.3f, ball.max_twist = 0.3f;
-    hinge.min_angle = -(float)uniform(d, 0, 1), hinge.max_angle = (float)uniform(d, 0, 1);
+    fe_ball_joint_def ball = ball_def();
+    fe_hinge_joint_def hinge = hinge_def();
+    ball.cone_enabled = ball.limit_enabled = hinge.limit_enabled = 1;
+    ball.cone_y = ball.cone_z = (float)uniform(d, 0.1, 1.5), ball.lower = -0.3f, ball.upper = 0.3f;
+    hinge.lower = -(float)uniform(d, 0, 1), hinge.upper = (float)uniform(d, 0, 1);
     const vec axis = plus(v3(2, 0, 0), somewhere(d, 1));
     if (kind == 0) return add_ball(s, ball, a, b, point, axis);
     return kind == 1 ? add_hinge(s, hinge, a, b, point, axis) : add_fixed(s, fixed_def(), a, b, point);
@@ -204,9 +204,9 @@ static void sliders_on_long_arms_gain_no_energy(void **state)
             fe_body last = add_anchor(&c.s, v3(0, 0, 0));
             for (int i = 0; i < count; ++i) {
                 c.bodies[i] = add_dynamic(&c.s, box(0.5, 0.5, 0.5), v3(0, 0.6 + 1.2 * i, 0), UNTURNED, friction(0), mass);
-                MUST(fe_body_set_filter(c.s.world, c.bodies[i], 2, 0));
-                fe_configurable_def d = slider_def();
-                d.axes[FE_ALONG_X].mode = FE_MOTION_LIMITED, d.axes[FE_ALONG_X].low = -6, d.axes[FE_ALONG_X].high = 6;
+                MUST(fe_body_set_filter(c.s.world, c.bodies[i], 2, 0, 0));
+                fe_configurable_joint_def d = slider_def();
+                d.axes[FE_DOF_LINEAR_X].motion = FE_MOTION_LIMITED, d.axes[FE_DOF_LINEAR_X].lower = -6, d.axes[FE_DOF_LINEAR_X].upper = 6;
                 d.hertz = hertz[k];
                 c.joints[i] = add_configurable(&c.s, d, last, c.bodies[i], v3(0, 1.2 * i, 0), v3(1, 0, 0));
                 last = c.bodies[i];
@@ -343,8 +343,8 @@ static void ragdolls_under_paddles_stay_in_one_piece(void **state)
     fe_body post = add_anchor(&s, v3(0, 3, 0));
     for (int i = 0; i < 2; ++i) {
         fe_body paddle = add_dynamic(&s, box(2, 0.2, 1), v3(0, 2.5 + 3 * i, 0), UNTURNED, friction(0.1), 50);
-        fe_hinge_def d = hinge_def();
-        d.motor_speed = i ? -5 : 5, d.motor_torque = 200;
+        fe_hinge_joint_def d = hinge_def();
+        d.motor_speed = i ? -5 : 5, d.motor_max = 200;
         add_hinge(&s, d, post, paddle, v3(0, 2.5 + 3 * i, 0), v3(0, 0, 1));
     }
     for (int i = 0; i < 4; ++i) add_plane(&s, v3(i == 0 ? 1 : i == 1 ? -1 : 0, 0, i == 2 ? 1 : i == 3 ? -1 : 0), -3, friction(0.2));

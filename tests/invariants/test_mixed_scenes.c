@@ -101,22 +101,23 @@ static void add_bodies(arena *a, dice *d)
 
 static void join_by_hinge(arena *a, dice *d, fe_body one, fe_body two, vec point)
 {
-    fe_hinge_def h = hinge_def();
-    h.limited = pick(d, 2), h.min_angle = -(float)uniform(d, 0, 2), h.max_angle = (float)uniform(d, 0, 2);
-    if (a->has_drives && pick(d, 2)) h.motor_speed = (float)uniform(d, -5, 5), h.motor_torque = (float)uniform(d, 1, 100);
-    a->power += fabs((double)h.motor_speed) * (double)h.motor_torque;
+    fe_hinge_joint_def h = hinge_def();
+    h.limit_enabled = pick(d, 2), h.lower = -(float)uniform(d, 0, 2), h.upper = (float)uniform(d, 0, 2);
+    if (a->has_drives && pick(d, 2)) h.motor_speed = (float)uniform(d, -5, 5), h.motor_max = (float)uniform(d, 1, 100);
+    a->power += fabs((double)h.motor_speed) * (double)h.motor_max;
     a->joints[a->joint_count++] = add_hinge(&a->s, h, one, two, point, somewhere(d, 1));
 }
 
 static void join_by_six_axes(arena *a, dice *d, fe_body one, fe_body two, vec point)
 {
-    fe_configurable_def six = configurable_def();
+    fe_configurable_joint_def six = configurable_def();
     for (int k = 0; k < 6; ++k) {
         fe_joint_axis *axis = &six.axes[k];
-        axis->mode = pick(d, 2) ? FE_MOTION_LOCKED : FE_MOTION_LIMITED;
-        axis->low = -(float)uniform(d, 0, 0.5), axis->high = (float)uniform(d, 0, 0.5);
-        if (axis->mode == FE_MOTION_LOCKED || !a->has_drives || pick(d, 2)) continue;
-        axis->drive = FE_DRIVE_HERTZ, axis->stiffness = (float)uniform(d, 1, 10), axis->damping = (float)uniform(d, 0.1, 1);
+        axis->motion = pick(d, 2) ? FE_MOTION_LOCKED : FE_MOTION_LIMITED;
+        axis->lower = -(float)uniform(d, 0, 0.5), axis->upper = (float)uniform(d, 0, 0.5);
+        if (axis->motion == FE_MOTION_LOCKED || !a->has_drives || pick(d, 2)) continue;
+        axis->spring = FE_SPRING_HERTZ, axis->spring_hertz = (float)uniform(d, 1, 10),
+        axis->spring_damping_ratio = (float)uniform(d, 0.1, 1);
     }
     a->joints[a->joint_count++] = add_configurable(&a->s, six, one, two, point, somewhere(d, 1));
 }
@@ -124,13 +125,13 @@ static void join_by_six_axes(arena *a, dice *d, fe_body one, fe_body two, vec po
 static void join_somehow(arena *a, dice *d, fe_body one, fe_body two)
 {
     vec p = position(&a->s, one), q = position(&a->s, two), middle = times(0.5, plus(p, q));
-    fe_ball_def ball = ball_def();
-    fe_fixed_def fixed = fixed_def();
-    fe_distance_def spring = distance_def();
+    fe_ball_joint_def ball = ball_def();
+    fe_fixed_joint_def fixed = fixed_def();
+    fe_distance_joint_def spring = distance_def();
     switch (pick(d, 5)) {
     case 0:
-        ball.swing_limited = pick(d, 2), ball.cone_y = (float)uniform(d, 0.2, 1.5), ball.cone_z = (float)uniform(d, 0.2, 1.5);
-        ball.motor_torque = (float)uniform(d, 0, 5); // a friction
+        ball.cone_enabled = pick(d, 2), ball.cone_y = (float)uniform(d, 0.2, 1.5), ball.cone_z = (float)uniform(d, 0.2, 1.5);
+        ball.motor_max = (float)uniform(d, 0, 5); // a friction
         a->joints[a->joint_count++] = add_ball(&a->s, ball, one, two, middle, somewhere(d, 1));
         break;
     case 1:
@@ -141,7 +142,7 @@ static void join_somehow(arena *a, dice *d, fe_body one, fe_body two)
         a->joints[a->joint_count++] = add_fixed(&a->s, fixed, one, two, middle);
         break;
     case 3:
-        spring.min_length = 0.3f, spring.max_length = 3, spring.length = (float)length(minus(p, q));
+        spring.lower = 0.3f, spring.upper = 3, spring.target = (float)length(minus(p, q));
         spring.spring_hertz = a->has_drives ? (float)uniform(d, 1, 10) : 0.0f, spring.spring_damping_ratio = (float)uniform(d, 0.1, 1);
         a->joints[a->joint_count++] = add_distance(&a->s, spring, one, two, p, q);
         break;
@@ -185,13 +186,13 @@ static void move_lift(arena *a, int step)
 static void nobody_is_lost(const arena *a)
 {
     for (int i = 0; i < a->count; ++i) {
-        fe_transform t = fe_body_transform(a->s.world, a->bodies[i]);
+        fe_transform t = body_transform(a->s.world, a->bodies[i]);
         double x = t.rotation.x, y = t.rotation.y, z = t.rotation.z, w = t.rotation.w;
         FE_WITHIN(t.position.x, -RIM, RIM);
         FE_WITHIN(t.position.z, -RIM, RIM);
         FE_WITHIN(t.position.y, DEEP, 40);
         FE_NEAR(x * x + y * y + z * z + w * w, 1, 4e-7); // four rounded components
-        FE_WITHIN(length(widen(fe_body_angular_velocity(a->s.world, a->bodies[i]))), 0, 1e3);
+        FE_WITHIN(length(widen(body_angular_velocity(a->s.world, a->bodies[i]))), 0, 1e3);
     }
 }
 

@@ -21,17 +21,17 @@ static inline fe_body add_anchor(scene *s, vec at)
 
 static inline fe_body add_plain(scene *s, fe_geometry form, vec at) { return add_dynamic(s, form, at, UNTURNED, friction(0.6), WATER); }
 
-static inline void touch_nothing(scene *s, fe_body body) { MUST(fe_body_set_filter(s->world, body, 2, 0)); }
+static inline void touch_nothing(scene *s, fe_body body) { MUST(fe_body_set_filter(s->world, body, 2, 0, 0)); }
 
 // ---- joints, points and axes in the scene's frame ------------------------------------------------------------------------------------
 
 // ball_def(): the defaults, and so for each type
-#define DEFAULTS(type)                             \
-    static inline fe_##type##_def type##_def(void) \
-    {                                              \
-        fe_##type##_def d;                         \
-        fe_##type##_def_init(&d, sizeof d);        \
-        return d;                                  \
+#define DEFAULTS(type)                                   \
+    static inline fe_##type##_joint_def type##_def(void) \
+    {                                                    \
+        fe_##type##_joint_def d;                         \
+        fe_##type##_joint_def_init(&d, sizeof d);        \
+        return d;                                        \
     }
 DEFAULTS(distance)
 DEFAULTS(ball)
@@ -41,58 +41,58 @@ DEFAULTS(configurable)
 #undef DEFAULTS
 
 // add_ball(s, d, a, b, point, axis), and so for each type with an axis
-#define ADDS(type)                                                                                            \
-    static inline fe_joint add_##type(scene *s, fe_##type##_def d, fe_body a, fe_body b, vec point, vec axis) \
-    {                                                                                                         \
-        fe_joint joint;                                                                                       \
-        fe_vec3 x = narrow(to_world(s, axis));                                                                \
-        vec p = to_world(s, point);                                                                           \
-        MUST(fe_##type##_def_at(s->world, &d, a, b, &p, &x));                                                 \
-        MUST(fe_##type##_create(s->world, &d, &joint));                                                       \
-        return joint;                                                                                         \
+#define ADDS(type)                                                                                                  \
+    static inline fe_joint add_##type(scene *s, fe_##type##_joint_def d, fe_body a, fe_body b, vec point, vec axis) \
+    {                                                                                                               \
+        fe_joint joint;                                                                                             \
+        fe_vec3 x = narrow(to_world(s, axis));                                                                      \
+        vec p = to_world(s, point);                                                                                 \
+        MUST(fe_##type##_joint_def_at(s->world, &d, a, b, &p, &x));                                                 \
+        MUST(fe_##type##_joint_create(s->world, &d, &joint));                                                       \
+        return joint;                                                                                               \
     }
 ADDS(ball)
 ADDS(hinge)
 ADDS(configurable)
 #undef ADDS
 
-static inline fe_joint add_fixed(scene *s, fe_fixed_def d, fe_body a, fe_body b, vec point)
+static inline fe_joint add_fixed(scene *s, fe_fixed_joint_def d, fe_body a, fe_body b, vec point)
 {
     fe_joint joint;
     vec p = to_world(s, point);
-    MUST(fe_fixed_def_at(s->world, &d, a, b, &p));
-    MUST(fe_fixed_create(s->world, &d, &joint));
+    MUST(fe_fixed_joint_def_at(s->world, &d, a, b, &p));
+    MUST(fe_fixed_joint_create(s->world, &d, &joint));
     return joint;
 }
 
 // between two points, as long as they are apart
 static inline fe_joint add_rod(scene *s, fe_body a, fe_body b, vec from, vec to)
 {
-    fe_distance_def d = distance_def();
+    fe_distance_joint_def d = distance_def();
     fe_joint joint;
     vec p = to_world(s, from), q = to_world(s, to);
-    MUST(fe_distance_def_at(s->world, &d, a, b, &p, &q));
-    MUST(fe_distance_create(s->world, &d, &joint));
+    MUST(fe_distance_joint_def_at(s->world, &d, a, b, &p, &q));
+    MUST(fe_distance_joint_create(s->world, &d, &joint));
     return joint;
 }
 
 // between two points; the lengths are those of `d`
-static inline fe_joint add_distance(scene *s, fe_distance_def d, fe_body a, fe_body b, vec from, vec to)
+static inline fe_joint add_distance(scene *s, fe_distance_joint_def d, fe_body a, fe_body b, vec from, vec to)
 {
     fe_joint joint;
-    fe_distance_def at = distance_def();
+    fe_distance_joint_def at = distance_def();
     vec p = to_world(s, from), q = to_world(s, to);
-    MUST(fe_distance_def_at(s->world, &at, a, b, &p, &q));
+    MUST(fe_distance_joint_def_at(s->world, &at, a, b, &p, &q));
     d.body_a = at.body_a, d.body_b = at.body_b, d.frame_a = at.frame_a, d.frame_b = at.frame_b;
-    MUST(fe_distance_create(s->world, &d, &joint));
+    MUST(fe_distance_joint_create(s->world, &d, &joint));
     return joint;
 }
 
 // a slider's definition: free along X
-static inline fe_configurable_def slider_def(void)
+static inline fe_configurable_joint_def slider_def(void)
 {
-    fe_configurable_def d = configurable_def();
-    d.axes[FE_ALONG_X].mode = FE_MOTION_FREE;
+    fe_configurable_joint_def d = configurable_def();
+    d.axes[FE_DOF_LINEAR_X].motion = FE_MOTION_FREE;
     return d;
 }
 

@@ -423,8 +423,8 @@ static void wedges_hold(void **state)
 
 static void pass_by(const scene *s, const scene *bare, fe_body body, fe_body same)
 {
-    fe_transform a = fe_body_transform(s->world, body), b = fe_body_transform(bare->world, same);
-    fe_vec3 v = fe_body_linear_velocity(s->world, body), w = fe_body_linear_velocity(bare->world, same);
+    fe_transform a = body_transform(s->world, body), b = body_transform(bare->world, same);
+    fe_vec3 v = body_linear_velocity(s->world, body), w = body_linear_velocity(bare->world, same);
     FE_TRUE(memcmp(&a, &b, sizeof a) == 0 && memcmp(&v, &w, sizeof v) == 0);
 }
 
@@ -508,16 +508,16 @@ static void thin_triggers_tell_who_went_through(void **state)
         fe_shape shape;
         MUST(fe_body_get_shapes(s.world, zone, &shape, 1));
         MUST(fe_shape_set_trigger(s.world, shape, 1));
-        MUST(fe_shape_set_events(s.world, shape, FE_EVENTS_TOUCH));
+        MUST(fe_shape_set_events(s.world, shape, FE_SHAPE_EVENTS_TOUCH));
         fe_body ball = add_dynamic(&s, sphere(0.25), v3(2 + uniform(&d, 0, 1) * speed * STEP, 0, 0), UNTURNED, friction(0), WATER);
         set_velocity(&s, ball, v3(-(1 - part) * speed, 0, 0), v3(0, 0, 0));
         if (part > 0) set_velocity(&s, zone, v3(part * speed, 0, 0), v3(0, 0, 0));
         int enters = 0, exits = 0;
         for (int step = 0; step < 60; ++step) {
             run(&s, 1);
-            enters += told(&s, zone, ball, FE_ENTER);
+            enters += told(&s, zone, ball, FE_EVENT_ENTER);
             FE_TRUE(exits <= enters);
-            exits += told(&s, zone, ball, FE_EXIT);
+            exits += told(&s, zone, ball, FE_EVENT_EXIT);
         }
         if (enters != 1 || exits != 1) print_error("case %d at %g m/s: %d enters, %d exits\n", k, speed, enters, exits);
         FE_TRUE(enters == 1 && exits == 1);
@@ -539,14 +539,14 @@ static void a_stopped_body_tells_its_impact(void **state)
             add_dynamic(&s, fast_form(&d, k % 3), v3(0.8 + uniform(&d, 0, 1) * speed * STEP, 0, 0), any_rotation(&d), friction(0.3), WATER);
         fe_shape shape;
         MUST(fe_body_get_shapes(s.world, ball, &shape, 1));
-        MUST(fe_shape_set_events(s.world, shape, FE_EVENTS_TOUCH | FE_EVENTS_HIT));
+        MUST(fe_shape_set_events(s.world, shape, FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_HIT));
         set_velocity(&s, ball, v3(-speed, 0, 0), v3(0, 0, 0));
         int enters = 0;
         double first = 0;
         for (int step = 0; step < 10; ++step) {
             fe_hit_event hits[8];
             run(&s, 1);
-            enters += told(&s, wall, ball, FE_ENTER);
+            enters += told(&s, wall, ball, FE_EVENT_ENTER);
             int32_t count = fe_world_get_hit_events(s.world, hits, sizeof *hits, 8);
             if (count > 0 && first == 0) first = (double)hits[0].speed;
         }

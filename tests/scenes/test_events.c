@@ -13,7 +13,7 @@ typedef struct log_of_step {
 static log_of_step events_of(const scene *s)
 {
     log_of_step log;
-    log.count = fe_world_get_pair_events(s->world, log.pairs, 0, MOST);
+    log.count = fe_world_get_pair_events(s->world, log.pairs, sizeof *log.pairs, MOST);
     FE_WITHIN(log.count, 0, MOST);
     return log;
 }
@@ -51,7 +51,7 @@ static fe_body make_trigger(scene *s, fe_body body)
 
 static void place(scene *s, fe_body body, vec at)
 {
-    fe_transform t = fe_body_transform(s->world, body);
+    fe_transform t = body_transform(s->world, body);
     t.position = to_world(s, at);
     MUST(fe_body_set_transform(s->world, body, &t));
 }
@@ -66,21 +66,21 @@ static void a_landing_enters_stays_and_exits(void **state)
     for (int wants_stay = 0; wants_stay < 2; ++wants_stay) {
         scene s = scene_begin(state);
         fe_body ground = add_ground(&s, friction(0.6)), body = add_dynamic(&s, cube(), v3(0, 1, 0), UNTURNED, friction(0.6), WATER);
-        if (wants_stay) ask(&s, body, FE_EVENTS_TOUCH | FE_EVENTS_STAY);
+        if (wants_stay) ask(&s, body, FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_STAY);
         int enters = 0, stays = 0, exits = 0, steps_after = 0;
         for (int i = 0; i < 120; ++i) {
             run(&s, 1);
-            stays += told(&s, ground, body, FE_STAY);
+            stays += told(&s, ground, body, FE_EVENT_STAY);
             steps_after += enters;
-            enters += told(&s, ground, body, FE_ENTER);
-            exits += told(&s, ground, body, FE_EXIT);
+            enters += told(&s, ground, body, FE_EVENT_ENTER);
+            exits += told(&s, ground, body, FE_EVENT_EXIT);
         }
         FE_TRUE(enters == 1 && exits == 0);
         FE_TRUE(stays == (wants_stay ? steps_after : 0));
         set_velocity(&s, body, v3(0, 5, 0), v3(0, 0, 0));
         for (int i = 0; i < 10; ++i) {
             run(&s, 1);
-            exits += told(&s, ground, body, FE_EXIT);
+            exits += told(&s, ground, body, FE_EVENT_EXIT);
         }
         FE_TRUE(exits == 1);
         // far off there is no contact to read either
@@ -93,8 +93,8 @@ static void a_landing_enters_stays_and_exits(void **state)
 static void without_asking_nothing_is_told(void **state)
 {
     scene s = scene_begin(state);
-    ask(&s, add_ground(&s, friction(0.6)), FE_EVENTS_NONE);
-    fe_body body = ask(&s, add_dynamic(&s, cube(), v3(0, 0.6, 0), UNTURNED, friction(0.6), WATER), FE_EVENTS_NONE);
+    ask(&s, add_ground(&s, friction(0.6)), FE_SHAPE_EVENTS_NONE);
+    fe_body body = ask(&s, add_dynamic(&s, cube(), v3(0, 0.6, 0), UNTURNED, friction(0.6), WATER), FE_SHAPE_EVENTS_NONE);
     for (int i = 0; i < 60; ++i) {
         run(&s, 1);
         FE_TRUE(events_of(&s).count == 0);
@@ -120,7 +120,7 @@ static void end_touch(scene *s, ending how, fe_body body, fe_body other)
         MUST(fe_body_set_enabled(s->world, body, 0));
         break;
     case REFILTER:
-        MUST(fe_body_set_filter(s->world, body, 2, 2));
+        MUST(fe_body_set_filter(s->world, body, 2, 2, 0));
         break;
     case IGNORE:
         MUST(fe_world_ignore_collision(s->world, body, other, 1));
@@ -153,23 +153,23 @@ static void every_end_of_a_touch_sends_one_exit(void **state)
                 int balance = 0;
                 for (int i = 0; i < (asleep ? 120 : 10); ++i) {
                     run(&s, 1);
-                    balance += told(&s, other, body, FE_ENTER) - told(&s, other, body, FE_EXIT);
+                    balance += told(&s, other, body, FE_EVENT_ENTER) - told(&s, other, body, FE_EVENT_EXIT);
                 }
                 FE_TRUE(balance == 1);
                 if (trigger && how == MAKE_STATIC_BOTH) { // a trigger still sees a kinematic body
                     end_touch(&s, (ending)how, body, other);
                     run(&s, 2);
-                    FE_TRUE(told(&s, other, body, FE_EXIT) == 0);
+                    FE_TRUE(told(&s, other, body, FE_EVENT_EXIT) == 0);
                     scene_end(&s);
                     continue;
                 }
                 end_touch(&s, (ending)how, body, other);
                 run(&s, 1);
-                if (told(&s, other, body, FE_EXIT) != 1) print_error("ending %d, asleep %d, trigger %d\n", how, asleep, trigger);
-                FE_TRUE(told(&s, other, body, FE_EXIT) == 1);
+                if (told(&s, other, body, FE_EVENT_EXIT) != 1) print_error("ending %d, asleep %d, trigger %d\n", how, asleep, trigger);
+                FE_TRUE(told(&s, other, body, FE_EVENT_EXIT) == 1);
                 for (int i = 0; i < 5; ++i) {
                     run(&s, 1);
-                    FE_TRUE(told(&s, other, body, FE_EXIT) == 0);
+                    FE_TRUE(told(&s, other, body, FE_EVENT_EXIT) == 0);
                 }
                 scene_end(&s);
             }
@@ -186,10 +186,10 @@ static void what_ended_can_enter_again(void **state)
         end_touch(&s, (ending)how, body, ground);
         run(&s, 2);
         if (how == DISABLE) MUST(fe_body_set_enabled(s.world, body, 1));
-        if (how == REFILTER) MUST(fe_body_set_filter(s.world, body, 1, 0xffffffffu));
+        if (how == REFILTER) MUST(fe_body_set_filter(s.world, body, 1, 0xffffffffu, 0));
         if (how == IGNORE) MUST(fe_world_ignore_collision(s.world, ground, body, 0));
         run(&s, 1);
-        FE_TRUE(told(&s, ground, body, FE_ENTER) == 1);
+        FE_TRUE(told(&s, ground, body, FE_EVENT_ENTER) == 1);
         run(&s, 60);
         FE_NEAR(position(&s, body).y, 0.5, LINEAR_SLOP);
         scene_end(&s);
@@ -225,7 +225,7 @@ static void enters_and_exits_balance_through_a_random_life(void **state)
         } else if (!last && what == 1) {
             MUST(fe_body_set_enabled(s.world, bodies[i], 1));
         } else if (!last && what == 2) {
-            MUST(fe_body_set_filter(s.world, bodies[i], 1u << pick(&d, 2), pick(&d, 2) ? 0xffffffffu : 1u));
+            MUST(fe_body_set_filter(s.world, bodies[i], 1u << pick(&d, 2), pick(&d, 2) ? 0xffffffffu : 1u, 0));
         } else if (!last && what == 3) {
             place(&s, bodies[i], plus(v3(0, 3, 0), somewhere(&d, 2)));
         } else if (!last && what == 4) {
@@ -243,8 +243,8 @@ static void enters_and_exits_balance_through_a_random_life(void **state)
             }
             FE_TRUE(a >= 0 && b >= 0 && a != b);
             int low = a < b ? a : b, high = a < b ? b : a;
-            FE_TRUE(e->kind == FE_ENTER || e->kind == FE_EXIT);
-            touching[low][high] = (signed char)(touching[low][high] + (e->kind == FE_ENTER ? 1 : -1));
+            FE_TRUE(e->kind == FE_EVENT_ENTER || e->kind == FE_EVENT_EXIT);
+            touching[low][high] = (signed char)(touching[low][high] + (e->kind == FE_EVENT_ENTER ? 1 : -1));
             FE_WITHIN(touching[low][high], 0, 1);
         }
     }
@@ -266,8 +266,8 @@ static void a_bounce_within_one_step_enters_and_exits(void **state)
         int enters = 0, exits = 0, entered_at = -1, exited_at = -1;
         for (int k = 0; k < 12; ++k) {
             run(&s, 1);
-            if (told(&s, ground, ball, FE_ENTER)) ++enters, entered_at = k;
-            if (told(&s, ground, ball, FE_EXIT)) ++exits, exited_at = k;
+            if (told(&s, ground, ball, FE_EVENT_ENTER)) ++enters, entered_at = k;
+            if (told(&s, ground, ball, FE_EVENT_EXIT)) ++exits, exited_at = k;
         }
         FE_TRUE(enters == 1 && exits == 1);
         // it leaves at 12 m/s: 0.2 m in a step
@@ -294,12 +294,12 @@ static void a_trigger_sees_dynamic_and_kinematic_bodies_and_pushes_nothing(void 
                 run(&s, 1);
                 log_of_step log = events_of(&s);
                 for (int n = 0; n < log.count; ++n) FE_TRUE(log.pairs[n].is_trigger == 1);
-                if (told(&s, zone, body, FE_ENTER)) {
+                if (told(&s, zone, body, FE_EVENT_ENTER)) {
                     ++enters;
                     // its surface reaches the zone's within a step
                     FE_WITHIN(position(&s, body).x, -1.25 - 4 * STEP, -1.25 + 2 * 4 * STEP);
                 }
-                if (told(&s, zone, body, FE_EXIT)) {
+                if (told(&s, zone, body, FE_EVENT_EXIT)) {
                     ++exits;
                     FE_WITHIN(position(&s, body).x, 1.25 - 4 * STEP, 1.25 + 2 * 4 * STEP);
                 }
@@ -327,7 +327,7 @@ static void a_trigger_sees_sleepers_and_lets_them_sleep(void **state)
     int enters = 0;
     for (int i = 0; i < 3; ++i) {
         run(&s, 1);
-        enters += told(&s, zone, sleeper, FE_ENTER);
+        enters += told(&s, zone, sleeper, FE_EVENT_ENTER);
     }
     FE_TRUE(enters == 1);
     fe_body probe = make_trigger(&s, add_body(&s, FE_BODY_KINEMATIC, sphere(0.5), v3(-4, 0.5, 0), UNTURNED, friction(0.6), WATER));
@@ -335,8 +335,8 @@ static void a_trigger_sees_sleepers_and_lets_them_sleep(void **state)
     int probed = 0, left = 0;
     for (int i = 0; i < 120; ++i) {
         run(&s, 1);
-        probed += told(&s, probe, sleeper, FE_ENTER);
-        left += told(&s, probe, sleeper, FE_EXIT);
+        probed += told(&s, probe, sleeper, FE_EVENT_ENTER);
+        left += told(&s, probe, sleeper, FE_EVENT_EXIT);
     }
     FE_TRUE(probed == 1 && left == 1);
     MUST(fe_body_get_awake(s.world, sleeper, &awake));
@@ -345,7 +345,7 @@ static void a_trigger_sees_sleepers_and_lets_them_sleep(void **state)
     int exits = 0;
     for (int i = 0; i < 3; ++i) {
         run(&s, 1);
-        exits += told(&s, zone, sleeper, FE_EXIT);
+        exits += told(&s, zone, sleeper, FE_EVENT_EXIT);
     }
     FE_TRUE(exits == 1);
     scene_end(&s);
@@ -364,7 +364,7 @@ static void triggers_see_triggers_that_move(void **state)
     int enters = 0;
     for (int i = 0; i < 2; ++i) {
         run(&s, 1);
-        enters += told(&s, zone, probe, FE_ENTER);
+        enters += told(&s, zone, probe, FE_EVENT_ENTER);
     }
     FE_TRUE(enters == 1);
     scene_end(&s);
@@ -419,13 +419,13 @@ static void a_hit_is_told_with_its_speed_impulse_and_point(void **state)
         double e = restitutions[i], height = 2, speed = sqrt(2 * G * height);
         scene s = scene_begin(state);
         fe_body ground = add_ground(&s, bouncy(0.6, e));
-        fe_body ball = ask(&s, add_dynamic(&s, sphere(0.25), v3(3, 0.25 + height, -2), UNTURNED, bouncy(0.6, e), WATER), FE_EVENTS_HIT);
+        fe_body ball = ask(&s, add_dynamic(&s, sphere(0.25), v3(3, 0.25 + height, -2), UNTURNED, bouncy(0.6, e), WATER), FE_SHAPE_EVENTS_HIT);
         double mass = mass_of(&s, ball);
         int hits = 0;
         for (int k = 0; k < 50 && !hits; ++k) {
             run(&s, 1);
             fe_hit_event hit;
-            hits = fe_world_get_hit_events(s.world, &hit, 0, 1);
+            hits = fe_world_get_hit_events(s.world, &hit, sizeof hit, 1);
             if (!hits) continue;
             FE_TRUE(hit.body_a == ground && hit.body_b == ball);
             FE_NEAR(hit.speed, speed, G * STEP);
@@ -445,7 +445,7 @@ static void soft_touches_are_no_hits(void **state)
     scene s = scene_begin(state);
     add_ground(&s, friction(0.6));
     double speed = 0.9; // the threshold is 1 m/s
-    ask(&s, add_dynamic(&s, sphere(0.25), v3(0, 0.25 + speed * speed / (2 * G), 0), UNTURNED, friction(0.6), WATER), FE_EVENTS_HIT);
+    ask(&s, add_dynamic(&s, sphere(0.25), v3(0, 0.25 + speed * speed / (2 * G), 0), UNTURNED, friction(0.6), WATER), FE_SHAPE_EVENTS_HIT);
     add_dynamic(&s, sphere(0.25), v3(3, 2, 0), UNTURNED, friction(0.6), WATER);
     for (int k = 0; k < 120; ++k) {
         run(&s, 1);
@@ -460,11 +460,11 @@ static void passing_by_is_no_event(void **state)
     scene s = scene_begin(state);
     set_gravity(&s, v3(0, 0, 0));
     fe_body block = add_static(&s, box(1, 1, 1), v3(0, 0, 0), UNTURNED, friction(0.6));
-    fe_body ball = ask(&s, add_dynamic(&s, sphere(0.25), v3(-5, 1.26, 0), UNTURNED, friction(0.6), WATER), FE_EVENTS_TOUCH | FE_EVENTS_HIT);
+    fe_body ball = ask(&s, add_dynamic(&s, sphere(0.25), v3(-5, 1.26, 0), UNTURNED, friction(0.6), WATER), FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_HIT);
     set_velocity(&s, ball, v3(20, 0, 0), v3(0, 0, 0));
     for (int k = 0; k < 60; ++k) {
         run(&s, 1);
-        FE_TRUE(told(&s, block, ball, FE_ENTER) == 0);
+        FE_TRUE(told(&s, block, ball, FE_EVENT_ENTER) == 0);
         FE_TRUE(fe_world_get_hit_events(s.world, NULL, 0, 0) == 0);
     }
     FE_NEAR(position(&s, ball).y, 1.26, 1e-5);
@@ -478,13 +478,13 @@ static void a_step_of_zero_time_updates_events(void **state)
     scene s = scene_begin(state);
     fe_body ground = add_ground(&s, friction(0.6)), body = add_dynamic(&s, cube(), v3(0, 0.499, 0), UNTURNED, friction(0.6), WATER);
     MUST(fe_world_step(s.world, 0));
-    FE_TRUE(told(&s, ground, body, FE_ENTER) == 1);
+    FE_TRUE(told(&s, ground, body, FE_EVENT_ENTER) == 1);
     FE_NEAR(position(&s, body).y, 0.499, 0);
     MUST(fe_world_step(s.world, 0));
     FE_TRUE(events_of(&s).count == 0);
     place(&s, body, v3(0, 5, 0));
     MUST(fe_world_step(s.world, 0));
-    FE_TRUE(told(&s, ground, body, FE_EXIT) == 1);
+    FE_TRUE(told(&s, ground, body, FE_EVENT_EXIT) == 1);
     FE_NEAR(length(velocity(&s, body)), 0, 0);
     scene_end(&s);
 }

@@ -79,10 +79,10 @@ static fe_body add_arm(scene *s, int side)
     fe_shape shape;
     fe_geometry ball = sphere(RADIUS);
     fe_shape_def_init(&def, sizeof def);
-    def.local_position = fe_make_vec3(0, 0.5f, 0);
+    def.frame.position = fe_make_vec3(0, 0.5f, 0);
     def.density = (float)(BALL / (4.0 / 3 * PI * RADIUS * RADIUS * RADIUS));
     MUST(fe_shape_create(s->world, arm, &def, &ball, &shape));
-    MUST(fe_body_set_filter(s->world, arm, 2, 0));
+    MUST(fe_body_set_filter(s->world, arm, 2, 0, 0));
     vec turning = v3(0, SPIN, 0);
     fe_dvec3 centre;
     MUST(fe_body_get_centre(s->world, arm, &centre));
@@ -94,7 +94,7 @@ static fe_body add_arm(scene *s, int side)
 static fe_joint add_coupler(const governor *g, int side)
 {
     scene s = g->s;
-    fe_distance_def d = distance_def();
+    fe_distance_joint_def d = distance_def();
     vec from = v3(side * ASIDE, SHAFT - cos(START), 0), to = plus(from, times(0.5, v3(side * sin(START), cos(START), 0)));
     double inverse = 0;
     for (int k = 0; k < 2; ++k) {
@@ -103,7 +103,7 @@ static fe_joint add_coupler(const governor *g, int side)
                moment = fmax((double)m.inertia.x, (double)m.inertia.y);
         inverse += 1 / (double)m.mass + arm * arm / moment;
     }
-    d.min_length = 0, d.max_length = 10, d.length = 0.5f;
+    d.lower = 0, d.upper = 10, d.target = 0.5f;
     d.spring_hertz = (float)(sqrt(8e5 * inverse) / (2 * PI));
     d.spring_damping_ratio = (float)(4e4 * inverse / (2 * sqrt(8e5 * inverse)));
     return add_distance(&s, d, g->bodies[1], g->bodies[side > 0 ? 2 : 3], from, to);
@@ -123,7 +123,7 @@ static governor build_governor(void **state, double half, int substeps, float jo
     g.bodies[0] = add_dynamic(s, box(half, 0.5 * SHAFT, half), v3(0, 0.5 * SHAFT, 0), UNTURNED, friction(0), (float)DENSITY);
     g.bodies[1] = add_dynamic(s, box(0.05, 0.05, 0.05), v3(0, 0.5, 0), UNTURNED, friction(0), (float)DENSITY);
     for (int k = 0; k < 2; ++k) {
-        MUST(fe_body_set_filter(s->world, g.bodies[k], 2, 0));
+        MUST(fe_body_set_filter(s->world, g.bodies[k], 2, 0, 0));
         set_velocity(s, g.bodies[k], v3(0, 0, 0), v3(0, SPIN, 0));
         g.bodies[2 + k] = add_arm(s, k == 0 ? 1 : -1);
     }

@@ -302,7 +302,7 @@ static void touching_cradle_keeps_momentum_and_gains_no_energy(void **state)
 static int has_contact(const scene *s, fe_body a, fe_body b)
 {
     fe_contact contacts[64];
-    int32_t count = fe_body_get_contacts(s->world, a, contacts, 0, 64);
+    int32_t count = fe_body_get_contacts(s->world, a, contacts, sizeof *contacts, 64);
     for (int32_t i = 0; i < count && i < 64; ++i)
         if (contacts[i].body_a == b || contacts[i].body_b == b) return 1;
     return 0;
@@ -413,9 +413,8 @@ static void cargo_in_a_free_drum_keeps_momentum_and_gains_no_energy(void **state
         bodies[0] = add_dynamic(&s, box(half + 2 * wall, wall, half + 2 * wall), v3(0, 0, 0), UNTURNED, friction(0.5), 500);
         fe_shape floor_shape;
         FE_TRUE(fe_body_get_shapes(s.world, bodies[0], &floor_shape, 1) == 1);
-        fe_vec3 down = fe_make_vec3(0, (float)(-half - wall), 0);
-        fe_quat none = UNTURNED;
-        MUST(fe_shape_set_local_pose(s.world, floor_shape, &down, &none));
+        const fe_frame down = {fe_make_vec3(0, (float)(-half - wall), 0), UNTURNED};
+        MUST(fe_shape_set_frame(s.world, floor_shape, &down));
         for (int k = 1; k < 6; ++k) {
             fe_shape_def def;
             fe_shape shape;
@@ -424,7 +423,7 @@ static void cargo_in_a_free_drum_keeps_momentum_and_gains_no_energy(void **state
             def.material = friction(0.5);
             double side = k % 2 ? half + wall : -half - wall;
             vec at = k < 2 ? v3(0, side, 0) : k < 4 ? v3(side, 0, 0) : v3(0, 0, side);
-            def.local_position = narrow(at);
+            def.frame.position = narrow(at);
             fe_geometry form = k < 2   ? box(half + 2 * wall, wall, half + 2 * wall)
                                : k < 4 ? box(wall, half, half + 2 * wall)
                                        : box(half, half, wall);

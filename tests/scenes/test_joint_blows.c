@@ -18,7 +18,7 @@ typedef struct puppet {
     fe_joint joints[BONES - 1];
 } puppet;
 
-static puppet add_puppet(scene *s, vec at, fe_ball_def ball)
+static puppet add_puppet(scene *s, vec at, fe_ball_joint_def ball)
 {
     puppet p;
     p.bones[0] = add_plain(s, box(0.15, 0.25, 0.1), at);
@@ -100,12 +100,12 @@ typedef struct heap {
     puppet puppets[HEAP];
 } heap;
 
-static fe_ball_def muscle(void)
+static fe_ball_joint_def muscle(void)
 {
-    fe_ball_def d = ball_def();
-    d.swing_limited = d.twist_limited = 1;
-    d.cone_y = d.cone_z = 1.5f, d.max_twist = 1, d.min_twist = -1;
-    d.motor_torque = 0.05f;
+    fe_ball_joint_def d = ball_def();
+    d.cone_enabled = d.limit_enabled = 1;
+    d.cone_y = d.cone_z = 1.5f, d.upper = 1, d.lower = -1;
+    d.motor_max = 0.05f;
     return d;
 }
 
@@ -161,7 +161,7 @@ static void as_stiff_as_the_world_is_rigid(void **state)
 {
     for (int stiff = 0; stiff < 2; ++stiff) {
         scene s = scene_begin(state);
-        fe_ball_def ball = ball_def();
+        fe_ball_joint_def ball = ball_def();
         fe_world_tuning tuning;
         fe_world_tuning_init(&tuning, sizeof tuning);
         ball.hertz = stiff ? tuning.joint_hertz : 0.5f * tuning.joint_hertz;

@@ -26,7 +26,7 @@ struct row {
     double values[2];
     double (*outcome)(const rig *r, double value); // foretold
     double (*read)(const rig *r);
-    int axis;       // fe_joint_coordinate: of the push and of the reading
+    int axis;       // fe_dof: of the push and of the reading
     double push;    // N or N m
     double seconds; // of it
     void (*prepare)(any_def *d);
@@ -40,7 +40,7 @@ struct row {
 
 // ---- laws ---------------------------------------------------------------------------------------------------------------------------
 
-static double inertia_of(const rig *r) { return r->row->axis < FE_ABOUT_X ? r->mass : r->moment[r->row->axis - FE_ABOUT_X]; }
+static double inertia_of(const rig *r) { return r->row->axis < FE_DOF_ANGULAR_X ? r->mass : r->moment[r->row->axis - FE_DOF_ANGULAR_X]; }
 static double spring_of(double hertz, double inertia) { return inertia * 4 * PI * PI * hertz * hertz; } // N/m or N m/rad
 
 static double as_set(const rig *r, double value)
@@ -80,7 +80,7 @@ static double flight(const rig *r) { return discrete_way(r->row->push / inertia_
 static double held_if(const rig *r, double value) { return value > 0.5 ? 0 : flight(r); }
 static double flies_if(const rig *r, double value) { return value > 0.5 ? flight(r) : 0; }
 static double stopped_if(const rig *r, double value) { return value > 0.5 ? 0.25 : flight(r); } // at limits of 0.25
-static double mode_decides(const rig *r, double mode) { return mode < 0.5 ? 0 : mode < 1.5 ? 0.25 : flight(r); }
+static double motion_decides(const rig *r, double motion) { return motion < 0.5 ? 0 : motion < 1.5 ? 0.25 : flight(r); }
 
 static double gives(const rig *r, double hertz) { return r->row->push / spring_of(hertz, inertia_of(r)); }
 static double gives_by_stiffness(const rig *r, double stiffness) { return r->row->push / stiffness; }
@@ -90,9 +90,14 @@ static double creeps(const rig *r, double ratio)
     double hertz = 2, rate = 2 * PI * hertz / (2 * ratio);
     return gives(r, hertz) * (1 - exp(-rate * r->row->seconds));
 }
-static double kind_of_drive(const rig *r, double drive)
+// C x' = push - 200 x, for masses that the damper holds at once
+static double creeps_by_damping(const rig *r, double damping)
 {
-    return drive < 0.5 ? flight(r) : drive < 1.5 ? gives(r, 200) : gives_by_stiffness(r, 200);
+    return gives_by_stiffness(r, 200) * (1 - exp(-200 / damping * r->row->seconds));
+}
+static double kind_of_spring(const rig *r, double spring)
+{
+    return spring < 0.5 ? flight(r) : spring < 1.5 ? gives(r, 200) : gives_by_stiffness(r, 200);
 }
 static double no_more_than_cap(const rig *r, double cap) { return fmin(r->row->push, cap); }
 static double spun_up(const rig *r, double force) { return force * r->row->seconds / inertia_of(r); }
@@ -106,34 +111,35 @@ static double component(vec a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z
 static double way(const rig *r)
 {
     int axis = r->row->axis;
-    if (axis < FE_ABOUT_X) return component(position(&r->s, r->block), axis);
-    fe_quat q = compose(inverse(r->s.turn), fe_body_transform(r->s.world, r->block).rotation);
-    return 2 * atan2(component(v3(q.x, q.y, q.z), axis - FE_ABOUT_X), q.w);
+    if (axis < FE_DOF_ANGULAR_X) return component(position(&r->s, r->block), axis);
+    fe_quat q = compose(inverse(r->s.turn), body_transform(r->s.world, r->block).rotation);
+    return 2 * atan2(component(v3(q.x, q.y, q.z), axis - FE_DOF_ANGULAR_X), q.w);
 }
 
 static double pace(const rig *r)
 {
     int axis = r->row->axis;
-    return axis < FE_ABOUT_X ? component(velocity(&r->s, r->block), axis) : component(spin(&r->s, r->block), axis - FE_ABOUT_X);
+    return axis < FE_DOF_ANGULAR_X ? component(velocity(&r->s, r->block), axis) : component(spin(&r->s, r->block), axis - FE_DOF_ANGULAR_X);
 }
 
 static double resistance(const rig *r)
 {
     int axis = r->row->axis;
-    return axis < FE_ABOUT_X ? -component(force_of(&r->s, r->joint), axis) : -component(torque_of(&r->s, r->joint), axis - FE_ABOUT_X);
+    return axis < FE_DOF_ANGULAR_X ? -component(force_of(&r->s, r->joint), axis)
+                                   : -component(torque_of(&r->s, r->joint), axis - FE_DOF_ANGULAR_X);
 }
 
 static double told_angle(const rig *r)
 {
     fe_joint_state at = state_of(&r->s, r->joint);
-    return component(v3(at.angle, at.swing_y, at.swing_z), r->row->axis - FE_ABOUT_X);
+    return component(v3(at.angle, at.swing_y, at.swing_z), r->row->axis - FE_DOF_ANGULAR_X);
 }
 
 static double is_whole(const rig *r) { return fe_joint_is_valid(r->s.world, r->joint); }
 static double touches(const rig *r) { return fe_body_get_contacts(r->s.world, r->block, NULL, 0, 0); }
 static double told_data(const rig *r)
 {
-    fe_handle data = 0;
+    uint64_t data = 0;
     MUST(fe_joint_get_user_data(r->s.world, r->joint, &data));
     return (double)data;
 }
@@ -157,7 +163,7 @@ static void put_float(rig *r, any_def *d, const row *row, double value)
 // a rotation about the row's axis
 static void put_turn(rig *r, any_def *d, const row *row, double value)
 {
-    int k = row->axis - FE_ABOUT_X;
+    int k = row->axis - FE_DOF_ANGULAR_X;
     fe_quat q = turned(v3(k == 0, k == 1, k == 2), value);
     (void)r;
     memcpy((char *)d + row->offset, &q, sizeof q);
@@ -166,13 +172,23 @@ static void put_turn(rig *r, any_def *d, const row *row, double value)
 static void put_data(rig *r, any_def *d, const row *row, double value)
 {
     (void)r, (void)row;
-    d->common.user_data = (fe_handle)value;
+    d->common.user_data = (uint64_t)value;
 }
 
 static void put_end_a(rig *r, any_def *d, const row *row, double value)
 {
     (void)row;
     if (value > 0) d->common.body_a = r->elsewhere;
+}
+
+// The world in the anchor's place, with its frame so far along the axis
+static void put_world_origin(rig *r, any_def *d, const row *row, double value)
+{
+    vec at = v3(value * (row->axis == 0) - (r->kind == ANY_DISTANCE ? 2 : 0), value * (row->axis == 1), value * (row->axis == 2));
+    d->common.body_a = 0;
+    d->common.world_origin = to_world(&r->s, at);
+    d->common.frame_a.position = fe_make_vec3(0, 0, 0);
+    d->common.frame_a.rotation = r->s.turn;
 }
 
 static void put_end_b(rig *r, any_def *d, const row *row, double value)
@@ -197,25 +213,26 @@ static void put_collide(rig *r, any_def *d, const row *row, double value)
 
 PREPARE(damped, d->common.damping_ratio = 5)
 PREPARE(at_2_hertz, d->common.hertz = 2)
-PREPARE(any_length, d->distance.min_length = 0, d->distance.max_length = 100, d->distance.length = 2)
-PREPARE(no_least_length, d->distance.min_length = 0, d->distance.max_length = 2)
-PREPARE(no_longest_length, d->distance.min_length = 2, d->distance.max_length = 100)
+PREPARE(any_length, d->distance.lower = 0, d->distance.upper = 100, d->distance.target = 2)
+PREPARE(no_least_length, d->distance.lower = 0, d->distance.upper = 2)
+PREPARE(no_longest_length, d->distance.lower = 2, d->distance.upper = 100)
+PREPARE(length_range, d->distance.lower = 1.75f, d->distance.upper = 2.25f)
 PREPARE(length_spring, any_length(d), d->distance.spring_hertz = 2)
-PREPARE(length_motor, any_length(d), d->distance.motor_force = 1e6f)
+PREPARE(length_motor, any_length(d), d->distance.motor_max = 1e6f)
 PREPARE(length_racer, any_length(d), d->distance.motor_speed = 1000)
 PREPARE(cone_set, d->ball.cone_y = d->ball.cone_z = 0.25f)
-PREPARE(cone, d->ball.swing_limited = 1, cone_set(d))
-PREPARE(twist_set, d->ball.min_twist = -0.25f, d->ball.max_twist = 0.25f)
-PREPARE(twist, d->ball.twist_limited = 1, twist_set(d))
-PREPARE(soft_twist, d->ball.twist_limited = 1, d->ball.max_twist = 0, d->ball.limit_hertz = 2, d->ball.limit_damping_ratio = 5)
-PREPARE(ball_drive, d->ball.drive_hertz = 2)
-PREPARE(ball_motor, d->ball.motor_torque = 1e6f)
+PREPARE(cone, d->ball.cone_enabled = 1, cone_set(d))
+PREPARE(twist_set, d->ball.lower = -0.25f, d->ball.upper = 0.25f)
+PREPARE(twist, d->ball.limit_enabled = 1, twist_set(d))
+PREPARE(soft_twist, d->ball.limit_enabled = 1, d->ball.upper = 0, d->ball.limit_hertz = 2, d->ball.limit_damping_ratio = 5)
+PREPARE(ball_drive, d->ball.spring_hertz = 2)
+PREPARE(ball_motor, d->ball.motor_max = 1e6f)
 PREPARE(ball_racer, d->ball.motor_velocity = fe_make_vec3(1000, 0, 0))
-PREPARE(range_set, d->hinge.min_angle = -0.25f, d->hinge.max_angle = 0.25f)
-PREPARE(range, d->hinge.limited = 1, range_set(d))
-PREPARE(soft_range, d->hinge.limited = 1, d->hinge.max_angle = 0, d->hinge.limit_hertz = 2, d->hinge.limit_damping_ratio = 5)
+PREPARE(range_set, d->hinge.lower = -0.25f, d->hinge.upper = 0.25f)
+PREPARE(range, d->hinge.limit_enabled = 1, range_set(d))
+PREPARE(soft_range, d->hinge.limit_enabled = 1, d->hinge.upper = 0, d->hinge.limit_hertz = 2, d->hinge.limit_damping_ratio = 5)
 PREPARE(hinge_spring, d->hinge.spring_hertz = 2)
-PREPARE(hinge_motor, d->hinge.motor_torque = 1e6f)
+PREPARE(hinge_motor, d->hinge.motor_max = 1e6f)
 PREPARE(hinge_racer, d->hinge.motor_speed = 1000)
 PREPARE(angular_spring, d->fixed.angular_hertz = 2, d->fixed.angular_damping_ratio = 5)
 
@@ -240,16 +257,19 @@ static const row solid_rows[] = {
     {FIELD(common.frame_b.position.x), {0, 0.5}, reversed, way, 0, 0, 2, NULL, NULL},
     {FIELD(common.frame_b.position.y), {0, 0.5}, reversed, way, 1, 0, 2, NULL, NULL},
     {FIELD(common.frame_b.position.z), {0, 0.5}, reversed, way, 2, 0, 2, NULL, NULL},
+    {FIELD(common.world_origin), {0, 0.5}, as_set, way, 0, 0, 2, NULL, put_world_origin},
+    {FIELD(common.world_origin), {0, 0.5}, as_set, way, 1, 0, 2, NULL, put_world_origin},
+    {FIELD(common.world_origin), {0, 0.5}, as_set, way, 2, 0, 2, NULL, put_world_origin},
 };
 
-#define TURN_ROWS(prepare_x, prepare_yz)                                                                   \
-    {FIELD(common.frame_a.rotation), {0, 0.5}, as_set, way, FE_ABOUT_X, 0, 3, prepare_x, put_turn},        \
-        {FIELD(common.frame_a.rotation), {0, 0.5}, as_set, way, FE_ABOUT_Y, 0, 3, prepare_yz, put_turn},   \
-        {FIELD(common.frame_a.rotation), {0, 0.5}, as_set, way, FE_ABOUT_Z, 0, 3, prepare_yz, put_turn},   \
-        {FIELD(common.frame_b.rotation), {0, 0.5}, reversed, way, FE_ABOUT_X, 0, 3, prepare_x, put_turn},  \
-        {FIELD(common.frame_b.rotation), {0, 0.5}, reversed, way, FE_ABOUT_Y, 0, 3, prepare_yz, put_turn}, \
-    {                                                                                                      \
-        FIELD(common.frame_b.rotation), {0, 0.5}, reversed, way, FE_ABOUT_Z, 0, 3, prepare_yz, put_turn    \
+#define TURN_ROWS(prepare_x, prepare_yz)                                                                         \
+    {FIELD(common.frame_a.rotation), {0, 0.5}, as_set, way, FE_DOF_ANGULAR_X, 0, 3, prepare_x, put_turn},        \
+        {FIELD(common.frame_a.rotation), {0, 0.5}, as_set, way, FE_DOF_ANGULAR_Y, 0, 3, prepare_yz, put_turn},   \
+        {FIELD(common.frame_a.rotation), {0, 0.5}, as_set, way, FE_DOF_ANGULAR_Z, 0, 3, prepare_yz, put_turn},   \
+        {FIELD(common.frame_b.rotation), {0, 0.5}, reversed, way, FE_DOF_ANGULAR_X, 0, 3, prepare_x, put_turn},  \
+        {FIELD(common.frame_b.rotation), {0, 0.5}, reversed, way, FE_DOF_ANGULAR_Y, 0, 3, prepare_yz, put_turn}, \
+    {                                                                                                            \
+        FIELD(common.frame_b.rotation), {0, 0.5}, reversed, way, FE_DOF_ANGULAR_Z, 0, 3, prepare_yz, put_turn    \
     }
 
 // ---- rows of each type ----------------------------------------------------------------------------------------------------------------
@@ -257,75 +277,77 @@ static const row solid_rows[] = {
 static const row distance_rows[] = {
     {FIELD(common.body_a), {0, 1}, along_the_rod, way, 1, 0, 2, NULL, put_end_a},
     {FIELD(common.frame_a.position.x), {-2, -1.5}, with_the_anchor, way, 0, 0, 2, NULL, NULL},
+    {FIELD(common.world_origin), {0, 0.5}, as_set, way, 0, 0, 2, NULL, put_world_origin},
     {FIELD(common.frame_a.position.y), {0, 1}, along_the_rod, way, 1, 0, 2, NULL, NULL},
     {FIELD(common.frame_a.position.z), {0, 1}, along_the_rod, way, 2, 0, 2, NULL, NULL},
     {FIELD(common.frame_b.position.x), {0, 0.5}, reversed, way, 0, 0, 2, NULL, NULL},
     {FIELD(common.frame_b.position.y), {0, 1}, against_the_rod, way, 1, 0, 2, NULL, NULL},
     {FIELD(common.frame_b.position.z), {0, 1}, against_the_rod, way, 2, 0, 2, NULL, NULL},
     // only the positions of the frames count: rotations change what is told
-    {FIELD(common.frame_a.rotation), {0, 0.5}, reversed, told_angle, FE_ABOUT_X, 0, 0, NULL, put_turn},
-    {FIELD(common.frame_a.rotation), {0, 0.5}, reversed, told_angle, FE_ABOUT_Y, 0, 0, NULL, put_turn},
-    {FIELD(common.frame_b.rotation), {0, 0.5}, as_set, told_angle, FE_ABOUT_Z, 0, 0, NULL, put_turn},
-    {FIELD(distance.min_length), {1.5, 1.75}, beyond_rest, way, 0, -100, 3, no_least_length, NULL},
-    {FIELD(distance.max_length), {2.25, 2.5}, beyond_rest, way, 0, 100, 3, no_longest_length, NULL},
-    {FIELD(distance.length), {1.5, 2.5}, beyond_rest, way, 0, 0, 3, length_spring, NULL},
+    {FIELD(common.frame_a.rotation), {0, 0.5}, reversed, told_angle, FE_DOF_ANGULAR_X, 0, 0, NULL, put_turn},
+    {FIELD(common.frame_a.rotation), {0, 0.5}, reversed, told_angle, FE_DOF_ANGULAR_Y, 0, 0, NULL, put_turn},
+    {FIELD(common.frame_b.rotation), {0, 0.5}, as_set, told_angle, FE_DOF_ANGULAR_Z, 0, 0, NULL, put_turn},
+    {FIELD(distance.limit_enabled), {0, 1}, stopped_if, way, 0, 100, 0.5, length_range, put_int},
+    {FIELD(distance.lower), {1.5, 1.75}, beyond_rest, way, 0, -100, 3, no_least_length, NULL},
+    {FIELD(distance.upper), {2.25, 2.5}, beyond_rest, way, 0, 100, 3, no_longest_length, NULL},
+    {FIELD(distance.target), {1.5, 2.5}, beyond_rest, way, 0, 0, 3, length_spring, NULL},
     {FIELD(distance.spring_hertz), {1, 2}, gives, way, 0, 100, 3, any_length, NULL},
     {FIELD(distance.spring_damping_ratio), {5, 20}, creeps, way, 0, 100, 1, length_spring, NULL},
-    {FIELD(distance.spring_force), {60, 150}, no_more_than_cap, resistance, 0, 100, 3, length_spring, NULL},
+    {FIELD(distance.spring_max), {60, 150}, no_more_than_cap, resistance, 0, 100, 3, length_spring, NULL},
     {FIELD(distance.motor_speed), {-0.5, 0.5}, as_set, pace, 0, 0, 1, length_motor, NULL},
-    {FIELD(distance.motor_force), {50, 100}, spun_up, pace, 0, 0, 0.5, length_racer, NULL},
+    {FIELD(distance.motor_max), {50, 100}, spun_up, pace, 0, 0, 0.5, length_racer, NULL},
 };
 
 static const row ball_rows[] = {
     TURN_ROWS(ball_drive, ball_drive),
-    {FIELD(common.break_torque), {5, 15}, whole_if_stronger, is_whole, FE_ABOUT_X, 10, 0.5, ball_motor, NULL},
-    {FIELD(ball.swing_limited), {0, 1}, stopped_if, way, FE_ABOUT_Y, 10, 0.5, cone_set, put_int},
-    {FIELD(ball.swing_limited), {0, 1}, stopped_if, way, FE_ABOUT_Z, 10, 0.5, cone_set, put_int},
-    {FIELD(ball.cone_y), {0.5, 0.75}, as_set, way, FE_ABOUT_Y, 10, 2, cone, NULL},
-    {FIELD(ball.cone_z), {0.5, 0.75}, as_set, way, FE_ABOUT_Z, 10, 2, cone, NULL},
-    {FIELD(ball.twist_limited), {0, 1}, stopped_if, way, FE_ABOUT_X, 10, 0.5, twist_set, put_int},
-    {FIELD(ball.min_twist), {-0.5, -0.75}, as_set, way, FE_ABOUT_X, -10, 2, twist, NULL},
-    {FIELD(ball.max_twist), {0.5, 0.75}, as_set, way, FE_ABOUT_X, 10, 2, twist, NULL},
-    {FIELD(ball.limit_hertz), {2, 4}, gives, way, FE_ABOUT_X, 10, 5, soft_twist, NULL},
-    {FIELD(ball.limit_damping_ratio), {5, 20}, creeps, way, FE_ABOUT_X, 10, 1, soft_twist, NULL},
-    {FIELD(ball.drive_hertz), {2, 4}, gives, way, FE_ABOUT_X, 10, 3, ball_drive, NULL},
-    {FIELD(ball.drive_damping_ratio), {5, 20}, creeps, way, FE_ABOUT_X, 10, 1, ball_drive, NULL},
-    {FIELD(ball.drive_torque), {6, 15}, no_more_than_cap, resistance, FE_ABOUT_X, 10, 1, ball_drive, NULL},
-    {FIELD(ball.target), {0.25, -0.5}, as_set, way, FE_ABOUT_X, 0, 3, ball_drive, put_turn},
-    {FIELD(ball.target), {0.25, -0.5}, as_set, way, FE_ABOUT_Y, 0, 3, ball_drive, put_turn},
-    {FIELD(ball.target), {0.25, -0.5}, as_set, way, FE_ABOUT_Z, 0, 3, ball_drive, put_turn},
-    {FIELD(ball.motor_velocity.x), {0.5, -1}, as_set, pace, FE_ABOUT_X, 0, 1, ball_motor, NULL},
-    {FIELD(ball.motor_velocity.y), {0.5, -1}, as_set, pace, FE_ABOUT_Y, 0, 1, ball_motor, NULL},
-    {FIELD(ball.motor_velocity.z), {0.5, -1}, as_set, pace, FE_ABOUT_Z, 0, 1, ball_motor, NULL},
-    {FIELD(ball.motor_torque), {1, 3}, spun_up, pace, FE_ABOUT_X, 0, 0.5, ball_racer, NULL},
+    {FIELD(common.break_torque), {5, 15}, whole_if_stronger, is_whole, FE_DOF_ANGULAR_X, 10, 0.5, ball_motor, NULL},
+    {FIELD(ball.cone_enabled), {0, 1}, stopped_if, way, FE_DOF_ANGULAR_Y, 10, 0.5, cone_set, put_int},
+    {FIELD(ball.cone_enabled), {0, 1}, stopped_if, way, FE_DOF_ANGULAR_Z, 10, 0.5, cone_set, put_int},
+    {FIELD(ball.cone_y), {0.5, 0.75}, as_set, way, FE_DOF_ANGULAR_Y, 10, 2, cone, NULL},
+    {FIELD(ball.cone_z), {0.5, 0.75}, as_set, way, FE_DOF_ANGULAR_Z, 10, 2, cone, NULL},
+    {FIELD(ball.limit_enabled), {0, 1}, stopped_if, way, FE_DOF_ANGULAR_X, 10, 0.5, twist_set, put_int},
+    {FIELD(ball.lower), {-0.5, -0.75}, as_set, way, FE_DOF_ANGULAR_X, -10, 2, twist, NULL},
+    {FIELD(ball.upper), {0.5, 0.75}, as_set, way, FE_DOF_ANGULAR_X, 10, 2, twist, NULL},
+    {FIELD(ball.limit_hertz), {2, 4}, gives, way, FE_DOF_ANGULAR_X, 10, 5, soft_twist, NULL},
+    {FIELD(ball.limit_damping_ratio), {5, 20}, creeps, way, FE_DOF_ANGULAR_X, 10, 1, soft_twist, NULL},
+    {FIELD(ball.spring_hertz), {2, 4}, gives, way, FE_DOF_ANGULAR_X, 10, 3, ball_drive, NULL},
+    {FIELD(ball.spring_damping_ratio), {5, 20}, creeps, way, FE_DOF_ANGULAR_X, 10, 1, ball_drive, NULL},
+    {FIELD(ball.spring_max), {6, 15}, no_more_than_cap, resistance, FE_DOF_ANGULAR_X, 10, 1, ball_drive, NULL},
+    {FIELD(ball.target), {0.25, -0.5}, as_set, way, FE_DOF_ANGULAR_X, 0, 3, ball_drive, put_turn},
+    {FIELD(ball.target), {0.25, -0.5}, as_set, way, FE_DOF_ANGULAR_Y, 0, 3, ball_drive, put_turn},
+    {FIELD(ball.target), {0.25, -0.5}, as_set, way, FE_DOF_ANGULAR_Z, 0, 3, ball_drive, put_turn},
+    {FIELD(ball.motor_velocity.x), {0.5, -1}, as_set, pace, FE_DOF_ANGULAR_X, 0, 1, ball_motor, NULL},
+    {FIELD(ball.motor_velocity.y), {0.5, -1}, as_set, pace, FE_DOF_ANGULAR_Y, 0, 1, ball_motor, NULL},
+    {FIELD(ball.motor_velocity.z), {0.5, -1}, as_set, pace, FE_DOF_ANGULAR_Z, 0, 1, ball_motor, NULL},
+    {FIELD(ball.motor_max), {1, 3}, spun_up, pace, FE_DOF_ANGULAR_X, 0, 0.5, ball_racer, NULL},
 };
 
 static const row hinge_rows[] = {
     TURN_ROWS(hinge_spring, NULL),
-    {FIELD(common.break_torque), {5, 15}, whole_if_stronger, is_whole, FE_ABOUT_Y, 10, 0.5, NULL, NULL},
-    {FIELD(hinge.limited), {0, 1}, stopped_if, way, FE_ABOUT_X, 10, 0.5, range_set, put_int},
-    {FIELD(hinge.min_angle), {-0.5, -0.75}, as_set, way, FE_ABOUT_X, -10, 2, range, NULL},
-    {FIELD(hinge.max_angle), {0.5, 0.75}, as_set, way, FE_ABOUT_X, 10, 2, range, NULL},
-    {FIELD(hinge.limit_hertz), {2, 4}, gives, way, FE_ABOUT_X, 10, 5, soft_range, NULL},
-    {FIELD(hinge.limit_damping_ratio), {5, 20}, creeps, way, FE_ABOUT_X, 10, 1, soft_range, NULL},
-    {FIELD(hinge.spring_hertz), {2, 4}, gives, way, FE_ABOUT_X, 10, 3, hinge_spring, NULL},
-    {FIELD(hinge.spring_damping_ratio), {5, 20}, creeps, way, FE_ABOUT_X, 10, 1, hinge_spring, NULL},
-    {FIELD(hinge.spring_torque), {6, 15}, no_more_than_cap, resistance, FE_ABOUT_X, 10, 1, hinge_spring, NULL},
-    {FIELD(hinge.target), {0.25, -0.5}, as_set, way, FE_ABOUT_X, 0, 3, hinge_spring, NULL},
-    {FIELD(hinge.motor_speed), {0.5, -1}, as_set, pace, FE_ABOUT_X, 0, 1, hinge_motor, NULL},
-    {FIELD(hinge.motor_torque), {1, 3}, spun_up, pace, FE_ABOUT_X, 0, 0.5, hinge_racer, NULL},
+    {FIELD(common.break_torque), {5, 15}, whole_if_stronger, is_whole, FE_DOF_ANGULAR_Y, 10, 0.5, NULL, NULL},
+    {FIELD(hinge.limit_enabled), {0, 1}, stopped_if, way, FE_DOF_ANGULAR_X, 10, 0.5, range_set, put_int},
+    {FIELD(hinge.lower), {-0.5, -0.75}, as_set, way, FE_DOF_ANGULAR_X, -10, 2, range, NULL},
+    {FIELD(hinge.upper), {0.5, 0.75}, as_set, way, FE_DOF_ANGULAR_X, 10, 2, range, NULL},
+    {FIELD(hinge.limit_hertz), {2, 4}, gives, way, FE_DOF_ANGULAR_X, 10, 5, soft_range, NULL},
+    {FIELD(hinge.limit_damping_ratio), {5, 20}, creeps, way, FE_DOF_ANGULAR_X, 10, 1, soft_range, NULL},
+    {FIELD(hinge.spring_hertz), {2, 4}, gives, way, FE_DOF_ANGULAR_X, 10, 3, hinge_spring, NULL},
+    {FIELD(hinge.spring_damping_ratio), {5, 20}, creeps, way, FE_DOF_ANGULAR_X, 10, 1, hinge_spring, NULL},
+    {FIELD(hinge.spring_max), {6, 15}, no_more_than_cap, resistance, FE_DOF_ANGULAR_X, 10, 1, hinge_spring, NULL},
+    {FIELD(hinge.target), {0.25, -0.5}, as_set, way, FE_DOF_ANGULAR_X, 0, 3, hinge_spring, NULL},
+    {FIELD(hinge.motor_speed), {0.5, -1}, as_set, pace, FE_DOF_ANGULAR_X, 0, 1, hinge_motor, NULL},
+    {FIELD(hinge.motor_max), {1, 3}, spun_up, pace, FE_DOF_ANGULAR_X, 0, 0.5, hinge_racer, NULL},
 };
 
 static const row fixed_rows[] = {
     TURN_ROWS(NULL, NULL),
-    {FIELD(common.break_torque), {5, 15}, whole_if_stronger, is_whole, FE_ABOUT_Y, 10, 0.5, NULL, NULL},
-    {FIELD(fixed.angular_hertz), {2, 4}, gives, way, FE_ABOUT_Y, 10, 5, angular_spring, NULL},
-    {FIELD(fixed.angular_damping_ratio), {5, 20}, creeps, way, FE_ABOUT_Z, 10, 1, angular_spring, NULL},
+    {FIELD(common.break_torque), {5, 15}, whole_if_stronger, is_whole, FE_DOF_ANGULAR_Y, 10, 0.5, NULL, NULL},
+    {FIELD(fixed.angular_hertz), {2, 4}, gives, way, FE_DOF_ANGULAR_Y, 10, 5, angular_spring, NULL},
+    {FIELD(fixed.angular_damping_ratio), {5, 20}, creeps, way, FE_DOF_ANGULAR_Z, 10, 1, angular_spring, NULL},
 };
 
 static const row six_rows[] = {
     TURN_ROWS(NULL, NULL),
-    {FIELD(common.break_torque), {5, 15}, whole_if_stronger, is_whole, FE_ABOUT_Y, 10, 0.5, NULL, NULL},
+    {FIELD(common.break_torque), {5, 15}, whole_if_stronger, is_whole, FE_DOF_ANGULAR_Y, 10, 0.5, NULL, NULL},
 };
 
 // ---- rows of an axis, for each of the six ---------------------------------------------------------------------------------------------
@@ -342,34 +364,37 @@ typedef struct axis_row {
 } axis_row;
 
 #define OF_AXIS(member) #member, offsetof(fe_joint_axis, member), sizeof(((fe_joint_axis *)NULL)->member)
-#define RANGE .mode = FE_MOTION_LIMITED, .low = -0.25f, .high = 0.25f, .limit_damping_ratio = 1
-#define SOFT_RANGE .mode = FE_MOTION_LIMITED, .low = -0.25f, .limit_hertz = 2, .limit_damping_ratio = 5
-#define SPRING .mode = FE_MOTION_FREE, .drive = FE_DRIVE_HERTZ, .stiffness = 2, .damping = 1, .drive_force = 1e15f
-#define STIFF .mode = FE_MOTION_FREE, .drive = FE_DRIVE_STIFFNESS, .stiffness = 200, .damping = 200, .drive_force = 1e15f
+#define RANGE .motion = FE_MOTION_LIMITED, .lower = -0.25f, .upper = 0.25f, .limit_damping_ratio = 1
+#define SOFT_RANGE .motion = FE_MOTION_LIMITED, .lower = -0.25f, .limit_hertz = 2, .limit_damping_ratio = 5
+#define SPRING .motion = FE_MOTION_FREE, .spring = FE_SPRING_HERTZ, .spring_hertz = 2, .spring_damping_ratio = 1, .spring_max = 1e15f
+#define STIFF                                                                                                                           \
+    .motion = FE_MOTION_FREE, .spring = FE_SPRING_STIFFNESS, .spring_hertz = 200, .spring_damping_ratio = 200, .spring_stiffness = 200, \
+    .spring_damping = 200, .spring_max = 1e15f
 
 static const axis_row axis_rows[] = {
-    {OF_AXIS(mode), {FE_MOTION_LOCKED, FE_MOTION_LIMITED}, mode_decides, way, 10, 2, {RANGE}, 1},
-    {OF_AXIS(mode),
+    {OF_AXIS(motion), {FE_MOTION_LOCKED, FE_MOTION_LIMITED}, motion_decides, way, 10, 2, {RANGE}, 1},
+    {OF_AXIS(motion),
      {FE_MOTION_LIMITED, FE_MOTION_FREE},
-     mode_decides,
+     motion_decides,
      way,
      40,
      0.25,
-     {.low = 0.25f, .high = 0.25f, .limit_damping_ratio = 1},
+     {.lower = 0.25f, .upper = 0.25f, .limit_damping_ratio = 1},
      1},
-    {OF_AXIS(low), {-0.5, -0.75}, as_set, way, -100, 2, {RANGE}, 0},
-    {OF_AXIS(high), {0.5, 0.75}, as_set, way, 100, 2, {RANGE}, 0},
+    {OF_AXIS(lower), {-0.5, -0.75}, as_set, way, -100, 2, {RANGE}, 0},
+    {OF_AXIS(upper), {0.5, 0.75}, as_set, way, 100, 2, {RANGE}, 0},
     {OF_AXIS(limit_hertz), {2, 4}, gives, way, 10, 5, {SOFT_RANGE}, 0},
     {OF_AXIS(limit_damping_ratio), {5, 20}, creeps, way, 10, 1, {SOFT_RANGE}, 0},
-    {OF_AXIS(drive), {FE_DRIVE_NONE, FE_DRIVE_HERTZ}, kind_of_drive, way, 1, 1, {STIFF}, 1},
-    {OF_AXIS(drive), {FE_DRIVE_HERTZ, FE_DRIVE_STIFFNESS}, kind_of_drive, way, 10, 5, {STIFF}, 1},
+    {OF_AXIS(spring), {FE_SPRING_NONE, FE_SPRING_HERTZ}, kind_of_spring, way, 1, 1, {STIFF}, 1},
+    {OF_AXIS(spring), {FE_SPRING_HERTZ, FE_SPRING_STIFFNESS}, kind_of_spring, way, 10, 5, {STIFF}, 1},
     {OF_AXIS(target), {0.25, -0.5}, as_set, way, 0, 3, {SPRING}, 0},
-    {OF_AXIS(stiffness), {2, 4}, gives, way, 10, 3, {SPRING}, 0},
-    {OF_AXIS(stiffness), {100, 200}, gives_by_stiffness, way, 10, 8, {STIFF}, 0},
-    {OF_AXIS(damping), {5, 20}, creeps, way, 10, 1, {SPRING}, 0},
-    {OF_AXIS(drive_force), {6, 15}, no_more_than_cap, resistance, 10, 1, {SPRING}, 0},
-    {OF_AXIS(motor_speed), {0.5, -1}, as_set, pace, 0, 1, {.mode = FE_MOTION_FREE, .motor_force = 1e6f}, 0},
-    {OF_AXIS(motor_force), {1, 3}, spun_up, pace, 0, 0.5, {.mode = FE_MOTION_FREE, .motor_speed = 1000}, 0},
+    {OF_AXIS(spring_hertz), {2, 4}, gives, way, 10, 3, {SPRING}, 0},
+    {OF_AXIS(spring_stiffness), {100, 200}, gives_by_stiffness, way, 10, 8, {STIFF}, 0},
+    {OF_AXIS(spring_damping_ratio), {5, 20}, creeps, way, 10, 1, {SPRING}, 0},
+    {OF_AXIS(spring_damping), {200, 400}, creeps_by_damping, way, 10, 1, {STIFF}, 0},
+    {OF_AXIS(spring_max), {6, 15}, no_more_than_cap, resistance, 10, 1, {SPRING}, 0},
+    {OF_AXIS(motor_speed), {0.5, -1}, as_set, pace, 0, 1, {.motion = FE_MOTION_FREE, .motor_max = 1e6f}, 0},
+    {OF_AXIS(motor_max), {1, 3}, spun_up, pace, 0, 0.5, {.motion = FE_MOTION_FREE, .motor_speed = 1000}, 0},
 };
 
 // ---- the rig --------------------------------------------------------------------------------------------------------------------------
@@ -380,7 +405,7 @@ static void init(int kind, any_def *d)
     any_init(kind, d);
     if (kind == ANY_DISTANCE) {
         d->common.frame_a.position.x = -2;
-        d->distance.min_length = d->distance.max_length = 2;
+        d->distance.lower = d->distance.upper = 2;
     }
 }
 
@@ -399,7 +424,7 @@ static rig begin(void **state, int kind, const row *row)
     r.elsewhere = add_anchor(&r.s, v3(0, 1, 0));
     r.block = add_plain(&r.s, box(0.2, 0.25, 0.15), v3(0, 0, 0));
     r.other = add_plain(&r.s, sphere(0.1), v3(0, 5, 0));
-    MUST(fe_body_set_filter(r.s.world, r.other, 2, 0)); // when it is drawn to the anchor, it passes the block
+    MUST(fe_body_set_filter(r.s.world, r.other, 2, 0, 0)); // when it is drawn to the anchor, it passes the block
     r.mass = mass_of(&r.s, r.block);
     for (int k = 0; k < 3; ++k) r.moment[k] = moment_of(&r.s, r.block, k, 0);
     // a rod that pulls at a point off the centre would turn the block
@@ -411,7 +436,7 @@ static void push_block(rig *r, double push)
 {
     int k = r->row->axis % 3;
     vec along = v3(push * (k == 0), push * (k == 1), push * (k == 2));
-    if (r->row->axis < FE_ABOUT_X)
+    if (r->row->axis < FE_DOF_ANGULAR_X)
         add_force(&r->s, r->block, along);
     else
         add_torque(&r->s, r->block, along);
@@ -513,6 +538,7 @@ typedef struct exception {
 static const exception elsewhere[] = {
     {-1, AWAY(common.struct_size)},
     {-1, AWAY(common.reserved)},
+    {ANY_DISTANCE, AWAY(distance.reserved_end)},
     {ANY_BALL, AWAY(ball.reserved_end)},
     {ANY_HINGE, AWAY(hinge.reserved_end)},
     {ANY_DISTANCE, AWAY(common.break_torque)}, // a force along a line through the points has no torque about them

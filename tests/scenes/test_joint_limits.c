@@ -20,27 +20,27 @@ static gyre begin_gyre(void **state)
     return g;
 }
 
-static fe_joint hinge_of(gyre *g, fe_hinge_def d)
+static fe_joint hinge_of(gyre *g, fe_hinge_joint_def d)
 {
     fe_joint joint;
     d.body_a = g->anchor, d.body_b = g->block; // about x
-    MUST(fe_hinge_create(g->s.world, &d, &joint));
+    MUST(fe_hinge_joint_create(g->s.world, &d, &joint));
     return joint;
 }
 
-static fe_joint ball_of(gyre *g, fe_ball_def d)
+static fe_joint ball_of(gyre *g, fe_ball_joint_def d)
 {
     fe_joint joint;
     d.body_a = g->anchor, d.body_b = g->block;
-    MUST(fe_ball_create(g->s.world, &d, &joint));
+    MUST(fe_ball_joint_create(g->s.world, &d, &joint));
     return joint;
 }
 
-static fe_joint configurable_of(gyre *g, fe_configurable_def d)
+static fe_joint configurable_of(gyre *g, fe_configurable_joint_def d)
 {
     fe_joint joint;
     d.body_a = g->anchor, d.body_b = g->block;
-    MUST(fe_configurable_create(g->s.world, &d, &joint));
+    MUST(fe_configurable_joint_create(g->s.world, &d, &joint));
     return joint;
 }
 
@@ -65,13 +65,13 @@ static void cone_and_twist_hold_together_from_every_side(void **state)
         for (int k = 0; k < 16; ++k) {
             gyre g = begin_gyre(state);
             double azimuth = k * PI / 8;
-            fe_ball_def d = ball_def();
+            fe_ball_joint_def d = ball_def();
             fe_transform start = {{0, 0, 0}, compose(g.s.turn, rotation_of(side * 165 * DEGREES, 0, 0))};
             MUST(fe_body_set_transform(g.s.world, g.block, &start));
-            d.swing_limited = 1, d.cone_y = (float)a, d.cone_z = (float)b;
-            d.twist_limited = 1, d.min_twist = -(float)end, d.max_twist = (float)end;
+            d.cone_enabled = 1, d.cone_y = (float)a, d.cone_z = (float)b;
+            d.limit_enabled = 1, d.lower = -(float)end, d.upper = (float)end;
             d.motor_velocity = fe_make_vec3((float)side, 2 * (float)cos(azimuth), 2 * (float)sin(azimuth));
-            d.motor_torque = 5;
+            d.motor_max = 5;
             fe_joint joint = ball_of(&g, d);
             for (int i = 0; i < 180; ++i) {
                 run(&g.s, 1);
@@ -100,9 +100,9 @@ static void the_ellipse_does_not_turn_with_the_twist(void **state)
             fe_mass_data cube = mass_data_of(&g.s, g.block);
             cube.inertia = fe_make_vec3(1, 1, 1); // turned about Y it turns about nothing else
             MUST(fe_body_set_mass_data(g.s.world, g.block, &cube));
-            fe_ball_def d = ball_def();
-            d.swing_limited = 1, d.cone_y = 1.0f, d.cone_z = 0.3f;
-            d.motor_velocity = fe_make_vec3(0, along_z ? 0 : 1, along_z ? 1 : 0), d.motor_torque = 5;
+            fe_ball_joint_def d = ball_def();
+            d.cone_enabled = 1, d.cone_y = 1.0f, d.cone_z = 0.3f;
+            d.motor_velocity = fe_make_vec3(0, along_z ? 0 : 1, along_z ? 1 : 0), d.motor_max = 5;
             fe_joint joint = ball_of(&g, d);
             run(&g.s, 120);
             fe_joint_state at = state_of(&g.s, joint);
@@ -124,16 +124,17 @@ static void ends_at_half_a_turn_hold_against_motors_and_springs(void **state)
             float other = k / 2 ? (float)PI : 0.5f, low = side < 0 ? -(float)PI : -other, high = side > 0 ? (float)PI : other;
             int about = by <= BY_BALL ? 0 : by - ABOUT_X;
             fe_joint joint = 0;
-            fe_hinge_def hinge = hinge_def();
-            fe_ball_def ball = ball_def();
-            fe_configurable_def six = configurable_def();
-            fe_joint_axis *axis = &six.axes[FE_ABOUT_X + about];
-            hinge.limited = ball.twist_limited = 1, hinge.min_angle = ball.min_twist = low, hinge.max_angle = ball.max_twist = high;
-            hinge.motor_speed = (float)(4 * side), hinge.motor_torque = ball.motor_torque = (float)load,
+            fe_hinge_joint_def hinge = hinge_def();
+            fe_ball_joint_def ball = ball_def();
+            fe_configurable_joint_def six = configurable_def();
+            fe_joint_axis *axis = &six.axes[FE_DOF_ANGULAR_X + about];
+            hinge.limit_enabled = ball.limit_enabled = 1, hinge.lower = ball.lower = low, hinge.upper = ball.upper = high;
+            hinge.motor_speed = (float)(4 * side), hinge.motor_max = ball.motor_max = (float)load,
             ball.motor_velocity.x = (float)(4 * side);
-            hinge.spring_hertz = ball.drive_hertz = 1, hinge.target = (float)(side * PI), ball.target = rotation_of(side * PI, 0, 0);
-            *axis = (fe_joint_axis){FE_MOTION_LIMITED, low,        high, 0, 1, FE_DRIVE_HERTZ, (float)(side * PI), 1, 1, 1e15f,
-                                    (float)(4 * side), (float)load};
+            hinge.spring_hertz = ball.spring_hertz = 1, hinge.target = (float)(side * PI), ball.target = rotation_of(side * PI, 0, 0);
+            axis->motion = FE_MOTION_LIMITED, axis->lower = low, axis->upper = high;
+            axis->spring = FE_SPRING_HERTZ, axis->spring_hertz = axis->spring_damping_ratio = 1, axis->target = (float)(side * PI);
+            axis->motor_speed = (float)(4 * side), axis->motor_max = (float)load;
             if (by == BY_HINGE) joint = hinge_of(&g, hinge);
             if (by == BY_BALL) joint = ball_of(&g, ball);
             if (by >= ABOUT_X) joint = configurable_of(&g, six);
@@ -156,9 +157,9 @@ static void a_swing_over_half_a_turn_stays_sane(void **state)
     dice d = {11};
     for (int k = 0; k < 20; ++k) {
         gyre g = begin_gyre(state);
-        fe_ball_def ball = ball_def();
-        ball.twist_limited = k % 2, ball.min_twist = -1, ball.max_twist = 1;
-        ball.swing_limited = k / 2 % 2, ball.cone_y = 3.1f, ball.cone_z = 3.1f;
+        fe_ball_joint_def ball = ball_def();
+        ball.limit_enabled = k % 2, ball.lower = -1, ball.upper = 1;
+        ball.cone_enabled = k / 2 % 2, ball.cone_y = 3.1f, ball.cone_z = 3.1f;
         ball.frame_a.rotation = any_rotation(&d);
         ball.frame_b.rotation = ball.frame_a.rotation;
         ball_of(&g, ball);
@@ -178,22 +179,22 @@ static void a_swing_over_half_a_turn_stays_sane(void **state)
 static void a_target_beyond_a_limit_counts_as_the_limit(void **state)
 {
     gyre g = begin_gyre(state);
-    fe_hinge_def hinge = hinge_def();
-    hinge.limited = 1, hinge.min_angle = -0.5f, hinge.max_angle = 0.25f, hinge.spring_hertz = 3, hinge.target = 2;
+    fe_hinge_joint_def hinge = hinge_def();
+    hinge.limit_enabled = 1, hinge.lower = -0.5f, hinge.upper = 0.25f, hinge.spring_hertz = 3, hinge.target = 2;
     fe_joint joint = hinge_of(&g, hinge);
     run(&g.s, 240);
     FE_NEAR(state_of(&g.s, joint).angle, 0.25, 1e-4);
     FE_NEAR(length(torque_of(&g.s, joint)), 0, 0.01); // nobody presses: a spring to 2 rad would press with 600 N m
     hinge.target = -2;
-    MUST(fe_hinge_set(g.s.world, joint, &hinge));
+    MUST(fe_hinge_joint_set(g.s.world, joint, &hinge));
     run(&g.s, 240);
     FE_NEAR(state_of(&g.s, joint).angle, -0.5, 1e-4);
     scene_end(&g.s);
 
     g = begin_gyre(state);
-    fe_ball_def ball = ball_def();
-    ball.swing_limited = ball.twist_limited = 1, ball.cone_y = 0.5f, ball.cone_z = 0.25f, ball.min_twist = -0.1f, ball.max_twist = 0.2f;
-    ball.drive_hertz = 3, ball.target = rotation_of(1, 1, 1);
+    fe_ball_joint_def ball = ball_def();
+    ball.cone_enabled = ball.limit_enabled = 1, ball.cone_y = 0.5f, ball.cone_z = 0.25f, ball.lower = -0.1f, ball.upper = 0.2f;
+    ball.spring_hertz = 3, ball.target = rotation_of(1, 1, 1);
     joint = ball_of(&g, ball);
     run(&g.s, 300);
     fe_joint_state at = state_of(&g.s, joint);
@@ -203,10 +204,12 @@ static void a_target_beyond_a_limit_counts_as_the_limit(void **state)
     scene_end(&g.s);
 
     g = begin_gyre(state);
-    fe_configurable_def slide = slider_def();
-    slide.axes[FE_ALONG_X].mode = FE_MOTION_LIMITED, slide.axes[FE_ALONG_X].low = -0.1f, slide.axes[FE_ALONG_X].high = 0.3f;
-    slide.axes[FE_ALONG_X].drive = FE_DRIVE_HERTZ, slide.axes[FE_ALONG_X].stiffness = 3, slide.axes[FE_ALONG_X].damping = 1;
-    slide.axes[FE_ALONG_X].target = 5;
+    fe_configurable_joint_def slide = slider_def();
+    slide.axes[FE_DOF_LINEAR_X].motion = FE_MOTION_LIMITED, slide.axes[FE_DOF_LINEAR_X].lower = -0.1f,
+    slide.axes[FE_DOF_LINEAR_X].upper = 0.3f;
+    slide.axes[FE_DOF_LINEAR_X].spring = FE_SPRING_HERTZ, slide.axes[FE_DOF_LINEAR_X].spring_hertz = 3,
+    slide.axes[FE_DOF_LINEAR_X].spring_damping_ratio = 1;
+    slide.axes[FE_DOF_LINEAR_X].target = 5;
     joint = configurable_of(&g, slide);
     run(&g.s, 240);
     FE_NEAR(state_of(&g.s, joint).translation.x, 0.3, 1e-4);
@@ -224,10 +227,10 @@ static void locks_give_by_their_hertz_and_come_back_by_their_damping(void **stat
             fe_body anchor = add_anchor(&s, v3(0, 1, 0)), weight = add_plain(&s, box(0.2, 0.2, 0.2), v3(0, 0, 0));
             float hertz = 5, ratio = slow ? 20 : 5;
             fe_joint joint = 0;
-            fe_ball_def ball = ball_def();
-            fe_hinge_def hinge = hinge_def();
-            fe_configurable_def six = configurable_def();
-            fe_distance_def rod = distance_def();
+            fe_ball_joint_def ball = ball_def();
+            fe_hinge_joint_def hinge = hinge_def();
+            fe_configurable_joint_def six = configurable_def();
+            fe_distance_joint_def rod = distance_def();
             ball.hertz = hinge.hertz = six.hertz = rod.hertz = hertz;
             ball.damping_ratio = hinge.damping_ratio = six.damping_ratio = rod.damping_ratio = ratio;
             if (type == 0) joint = add_distance(&s, rod, anchor, weight, v3(0, 1, 0), v3(0, 0, 0));
@@ -251,9 +254,9 @@ static void soft_joints_swing(void **state)
         int bouncy = k % 2, is_ball = k / 2;
         scene s = scene_begin(state);
         fe_body anchor = add_anchor(&s, v3(0, 1, 0)), weight = add_plain(&s, box(0.2, 0.2, 0.2), v3(0, 0, 0));
-        fe_fixed_def d = fixed_def();
+        fe_fixed_joint_def d = fixed_def();
         d.hertz = 5, d.damping_ratio = bouncy ? 0.1f : 1.5f;
-        fe_ball_def ball = ball_def();
+        fe_ball_joint_def ball = ball_def();
         ball.hertz = d.hertz, ball.damping_ratio = d.damping_ratio;
         fe_joint joint =
             is_ball ? add_ball(&s, ball, anchor, weight, v3(0, 0, 0), v3(0, 1, 0)) : add_fixed(&s, d, anchor, weight, v3(0, 0, 0));
@@ -278,7 +281,7 @@ static void hertz_of_a_fixed_joints_rotation_are_its_own(void **state)
 {
     for (int k = 0; k < 2; ++k) {
         gyre g = begin_gyre(state);
-        fe_fixed_def d = fixed_def();
+        fe_fixed_joint_def d = fixed_def();
         d.angular_hertz = k ? 4.0f : 2.0f;
         fe_joint joint = add_fixed(&g.s, d, g.anchor, g.block, v3(0, 0, 0));
         double torque = 10, give = torque / (g.moment[0] * stiffness_of((double)d.angular_hertz));
@@ -299,14 +302,14 @@ static void limits_give_by_their_hertz_and_come_back_by_their_damping(void **sta
             gyre g = begin_gyre(state);
             float hertz = 4, ratio = slow ? 20 : 5;
             double load = 20, x = 0, inertia = g.moment[0];
-            fe_hinge_def hinge = hinge_def();
-            fe_ball_def ball = ball_def();
-            fe_configurable_def slide = slider_def();
+            fe_hinge_joint_def hinge = hinge_def();
+            fe_ball_joint_def ball = ball_def();
+            fe_configurable_joint_def slide = slider_def();
             fe_joint joint = 0;
-            hinge.limited = 1, hinge.min_angle = -0.01f, hinge.max_angle = 0, hinge.limit_hertz = hertz, hinge.limit_damping_ratio = ratio;
-            ball.twist_limited = 1, ball.min_twist = -0.01f, ball.max_twist = 0;
+            hinge.limit_enabled = 1, hinge.lower = -0.01f, hinge.upper = 0, hinge.limit_hertz = hertz, hinge.limit_damping_ratio = ratio;
+            ball.limit_enabled = 1, ball.lower = -0.01f, ball.upper = 0;
             ball.limit_hertz = hertz, ball.limit_damping_ratio = ratio;
-            slide.axes[0].mode = FE_MOTION_LIMITED, slide.axes[0].low = -0.01f, slide.axes[0].high = 0;
+            slide.axes[0].motion = FE_MOTION_LIMITED, slide.axes[0].lower = -0.01f, slide.axes[0].upper = 0;
             slide.axes[0].limit_hertz = hertz, slide.axes[0].limit_damping_ratio = ratio;
             if (where == 0) joint = hinge_of(&g, hinge);
             if (where == 1) joint = ball_of(&g, ball);
@@ -314,7 +317,7 @@ static void limits_give_by_their_hertz_and_come_back_by_their_damping(void **sta
             if (where == 3) { // the cone, from its border on
                 fe_transform start = {{0, 0, 0}, compose(g.s.turn, rotation_of(0, 0.5, 0))};
                 MUST(fe_body_set_transform(g.s.world, g.block, &start));
-                ball.twist_limited = 0, ball.swing_limited = 1, ball.cone_y = ball.cone_z = 0.5f;
+                ball.limit_enabled = 0, ball.cone_enabled = 1, ball.cone_y = ball.cone_z = 0.5f;
                 joint = ball_of(&g, ball), inertia = g.moment[1];
             }
             double give = load / (inertia * stiffness_of((double)hertz)), rate = 2 * PI * (double)hertz / (2 * (double)ratio);
@@ -345,15 +348,16 @@ static void a_spring_pushes_up_to_its_cap(void **state)
             gyre g = begin_gyre(state);
             double load = 10, inertia = g.moment[0], seconds = 1.0, x = 0;
             float cap = enough ? 15 : 6;
-            fe_hinge_def hinge = hinge_def();
-            fe_ball_def ball = ball_def();
-            fe_configurable_def slide = slider_def(), six = configurable_def();
-            fe_distance_def rope = distance_def();
+            fe_hinge_joint_def hinge = hinge_def();
+            fe_ball_joint_def ball = ball_def();
+            fe_configurable_joint_def slide = slider_def(), six = configurable_def();
+            fe_distance_joint_def rope = distance_def();
             fe_joint joint = 0;
-            hinge.spring_hertz = 2, hinge.spring_torque = cap;
-            ball.drive_hertz = 2, ball.drive_torque = cap;
-            slide.axes[0].drive = FE_DRIVE_HERTZ, slide.axes[0].stiffness = 2, slide.axes[0].damping = 1, slide.axes[0].drive_force = cap;
-            rope.min_length = 0, rope.max_length = 100, rope.length = 2, rope.spring_hertz = 2, rope.spring_force = cap;
+            hinge.spring_hertz = 2, hinge.spring_max = cap;
+            ball.spring_hertz = 2, ball.spring_max = cap;
+            slide.axes[0].spring = FE_SPRING_HERTZ, slide.axes[0].spring_hertz = 2, slide.axes[0].spring_damping_ratio = 1,
+            slide.axes[0].spring_max = cap;
+            rope.lower = 0, rope.upper = 100, rope.target = 2, rope.spring_hertz = 2, rope.spring_max = cap;
             for (int k = 3; k < 6; ++k) six.axes[k] = slide.axes[0];
             if (where == 0) joint = hinge_of(&g, hinge);
             if (where == 1) joint = ball_of(&g, ball);
@@ -391,15 +395,15 @@ static void a_motor_holds_up_to_its_cap_and_runs_at_its_speed(void **state)
             gyre g = begin_gyre(state);
             float cap = enough ? 60 : 6, speed = enough ? 1.5f : 0; // the heaviest, 60 kg, has its speed after 2 s
             double load = 10, inertia = g.moment[0];
-            fe_hinge_def hinge = hinge_def();
-            fe_ball_def ball = ball_def();
-            fe_configurable_def slide = slider_def();
-            fe_distance_def rope = distance_def();
+            fe_hinge_joint_def hinge = hinge_def();
+            fe_ball_joint_def ball = ball_def();
+            fe_configurable_joint_def slide = slider_def();
+            fe_distance_joint_def rope = distance_def();
             fe_joint joint = 0;
-            hinge.motor_speed = speed, hinge.motor_torque = cap;
-            ball.motor_velocity.x = speed, ball.motor_torque = cap;
-            slide.axes[0].motor_speed = speed, slide.axes[0].motor_force = cap;
-            rope.min_length = 0, rope.max_length = 100, rope.motor_speed = speed, rope.motor_force = cap;
+            hinge.motor_speed = speed, hinge.motor_max = cap;
+            ball.motor_velocity.x = speed, ball.motor_max = cap;
+            slide.axes[0].motor_speed = speed, slide.axes[0].motor_max = cap;
+            rope.lower = 0, rope.upper = 100, rope.motor_speed = speed, rope.motor_max = cap;
             if (where == 0) joint = hinge_of(&g, hinge);
             if (where == 1) joint = ball_of(&g, ball);
             if (where == 2) joint = configurable_of(&g, slide), inertia = g.mass;
@@ -429,13 +433,13 @@ static void each_axis_of_a_configurable_joint_has_its_own_drive_and_motor(void *
     for (int k = 0; k < 6; ++k)
         for (int by_motor = 0; by_motor < 2; ++by_motor) {
             gyre g = begin_gyre(state);
-            fe_configurable_def six = configurable_def();
-            for (int i = 0; i < 6; ++i) six.axes[i].mode = FE_MOTION_FREE;
+            fe_configurable_joint_def six = configurable_def();
+            for (int i = 0; i < 6; ++i) six.axes[i].motion = FE_MOTION_FREE;
             fe_joint_axis *axis = &six.axes[k];
             if (by_motor)
-                axis->motor_speed = 0.25f, axis->motor_force = 1e4f;
+                axis->motor_speed = 0.25f, axis->motor_max = 1e4f;
             else
-                axis->drive = FE_DRIVE_HERTZ, axis->stiffness = 3, axis->damping = 1, axis->target = 0.5f;
+                axis->spring = FE_SPRING_HERTZ, axis->spring_hertz = 3, axis->spring_damping_ratio = 1, axis->target = 0.5f;
             fe_joint joint = configurable_of(&g, six);
             run(&g.s, 240);
             fe_joint_state at = state_of(&g.s, joint);
@@ -450,13 +454,13 @@ static void a_motor_moves_to_a_pose_and_holds_it_within_its_caps(void **state)
 {
     scene s = scene_begin(state);
     fe_body base = add_anchor(&s, v3(0, 0, 0)), tool = add_plain(&s, box(0.2, 0.1, 0.1), v3(1, 0, 0));
-    fe_configurable_def d = configurable_def();
+    fe_configurable_joint_def d = configurable_def();
     fe_joint joint;
     double weight = mass_of(&s, tool) * G;
-    MUST(fe_motor_def_at(s.world, &d, base, tool, 4, 1, (float)(3 * weight), 100));
-    d.axes[FE_ALONG_X].target = 0.5f, d.axes[FE_ALONG_Z].target = -0.25f;
-    d.axes[FE_ABOUT_X].target = 1.5f, d.axes[FE_ABOUT_Y].target = 1.0f;
-    MUST(fe_configurable_create(s.world, &d, &joint));
+    MUST(fe_motor_joint_def_at(s.world, &d, base, tool, 4, 1, (float)(3 * weight), 100));
+    d.axes[FE_DOF_LINEAR_X].target = 0.5f, d.axes[FE_DOF_LINEAR_Z].target = -0.25f;
+    d.axes[FE_DOF_ANGULAR_X].target = 1.5f, d.axes[FE_DOF_ANGULAR_Y].target = 1.0f;
+    MUST(fe_configurable_joint_create(s.world, &d, &joint));
     run(&s, 300);
     fe_joint_state at = state_of(&s, joint);
     FE_NEAR(at.translation.x, 0.5, 1e-3), FE_NEAR(at.translation.z, -0.25, 1e-3);
@@ -474,8 +478,8 @@ static void limits_hold_bodies_with_locked_axes(void **state)
     for (uint32_t axis = 0; axis < 3; ++axis) {
         gyre g = begin_gyre(state);
         MUST(fe_body_set_locks(g.s.world, g.block, FE_AXIS_ALL, FE_AXIS_ALL & ~(1u << axis)));
-        fe_ball_def d = ball_def();
-        d.swing_limited = d.twist_limited = 1, d.cone_y = 0.5f, d.cone_z = 0.25f, d.min_twist = -0.125f, d.max_twist = 0.75f;
+        fe_ball_joint_def d = ball_def();
+        d.cone_enabled = d.limit_enabled = 1, d.cone_y = 0.5f, d.cone_z = 0.25f, d.lower = -0.125f, d.upper = 0.75f;
         fe_joint joint = ball_of(&g, d);
         double torque[3] = {0, 0, 0};
         torque[axis] = 10;
@@ -496,10 +500,11 @@ static void a_single_free_rotation_is_a_hinge_about_its_axis(void **state)
     for (int k = 0; k < 3; ++k)
         for (int limited = 0; limited < 2; ++limited) {
             gyre g = begin_gyre(state);
-            fe_configurable_def d = configurable_def();
-            fe_joint_axis *axis = &d.axes[FE_ABOUT_X + k];
-            axis->mode = limited ? FE_MOTION_LIMITED : FE_MOTION_FREE, axis->low = -1, axis->high = (float)PI;
-            d.axes[FE_ALONG_X + k].mode = FE_MOTION_LIMITED, d.axes[FE_ALONG_X + k].low = -0.5f, d.axes[FE_ALONG_X + k].high = 0.5f;
+            fe_configurable_joint_def d = configurable_def();
+            fe_joint_axis *axis = &d.axes[FE_DOF_ANGULAR_X + k];
+            axis->motion = limited ? FE_MOTION_LIMITED : FE_MOTION_FREE, axis->lower = -1, axis->upper = (float)PI;
+            d.axes[FE_DOF_LINEAR_X + k].motion = FE_MOTION_LIMITED, d.axes[FE_DOF_LINEAR_X + k].lower = -0.5f,
+                                     d.axes[FE_DOF_LINEAR_X + k].upper = 0.5f;
             fe_joint joint = configurable_of(&g, d);
             vec along = v3(k == 0, k == 1, k == 2);
             set_velocity(&g.s, g.block, times(0.25, along), times(5, along));
@@ -525,9 +530,9 @@ static void a_cardan_joint_gains_no_energy(void **state)
         for (uint64_t seed = 1; seed <= 8; ++seed) {
             gyre g = begin_gyre(state);
             dice d = {seed};
-            fe_configurable_def six = configurable_def();
+            fe_configurable_joint_def six = configurable_def();
             for (uint32_t k = 0; k < 3; ++k)
-                if (k != locked) six.axes[FE_ABOUT_X + k].mode = FE_MOTION_FREE;
+                if (k != locked) six.axes[FE_DOF_ANGULAR_X + k].motion = FE_MOTION_FREE;
             configurable_of(&g, six);
             set_velocity(&g.s, g.block, v3(0, 0, 0), somewhere(&d, 8));
             run(&g.s, 1); // the spin about the locked axis is gone

@@ -13,7 +13,7 @@ static double tip_of_cantilever(void **state, float hertz, double *out_expected)
 {
     scene s = scene_begin(state);
     fe_body last = add_anchor(&s, v3(0, 0, 0));
-    fe_fixed_def d = fixed_def();
+    fe_fixed_joint_def d = fixed_def();
     d.angular_hertz = hertz, d.angular_damping_ratio = 0.5f;
     for (int i = 0; i < BARS; ++i) {
         fe_body bar = add_dynamic(&s, capsule(0.5, 0.125), v3(i + 0.5, 0, 0), lying(), friction(0.6), 20);
@@ -69,9 +69,9 @@ static void a_ring_of_springs_keeps_its_size_when_it_falls(void **state)
         vec at = v3(radius * cos(angle), 10 + radius * sin(angle), 0);
         sides[i] = add_dynamic(&s, capsule(half, 0.5), at, turned(v3(0, 0, 1), angle), friction(0.6), WATER);
         MUST(fe_body_set_locks(s.world, sides[i], FE_AXIS_Z, FE_AXIS_X | FE_AXIS_Y));
-        MUST(fe_body_set_filter(s.world, sides[i], 2, 1)); // the ground only
+        MUST(fe_body_set_filter(s.world, sides[i], 2, 1, 0)); // the ground only
     }
-    fe_fixed_def d = fixed_def();
+    fe_fixed_joint_def d = fixed_def();
     d.angular_hertz = 5, d.angular_damping_ratio = 0;
     for (int i = 0; i < SIDES; ++i)
         add_fixed(&s, d, sides[i], sides[(i + 1) % SIDES], times(0.5, plus(position(&s, sides[i]), position(&s, sides[(i + 1) % SIDES]))));
@@ -98,8 +98,8 @@ static void a_light_ball_on_springs_between_heavy_ones_adds_no_energy(void **sta
         fe_body left = add_plain(&s, sphere(2), v3(-3, 2, 0)), right = add_plain(&s, sphere(2), v3(3, 2, 0)),
                 middle = add_plain(&s, sphere(radius), v3(0, 2, 0)), all[3] = {left, right, middle};
         add_ground(&s, friction(0.6));
-        fe_configurable_def d = slider_def();
-        d.axes[FE_ALONG_X].drive = FE_DRIVE_HERTZ, d.axes[FE_ALONG_X].stiffness = 10, d.axes[FE_ALONG_X].damping = 2;
+        fe_configurable_joint_def d = slider_def();
+        d.axes[FE_DOF_LINEAR_X].spring = FE_SPRING_HERTZ, d.axes[FE_DOF_LINEAR_X].spring_hertz = 10, d.axes[FE_DOF_LINEAR_X].spring_damping_ratio = 2;
         fe_joint joints[2] = {add_configurable(&s, d, left, middle, v3(0, 2, 0), v3(1, 0, 0)),
                               add_configurable(&s, d, middle, right, v3(0, 2, 0), v3(1, 0, 0))};
         set_velocity(&s, left, v3(1, 0, 0), v3(0, 0, 0));
@@ -120,12 +120,12 @@ static void a_windmill_of_soft_blades_turns_and_stays_whole(void **state)
 {
     scene s = scene_begin(state);
     fe_body tower = add_anchor(&s, v3(0, 5, 0)), hub = add_plain(&s, box(0.3, 0.3, 0.3), v3(0, 5, 0));
-    fe_hinge_def axle = hinge_def();
+    fe_hinge_joint_def axle = hinge_def();
     fe_joint blades[4];
-    axle.motor_speed = 2, axle.motor_torque = 1e5f;
+    axle.motor_speed = 2, axle.motor_max = 1e5f;
     fe_joint hinge = add_hinge(&s, axle, tower, hub, v3(0, 5, 0), v3(0, 0, 1));
     touch_nothing(&s, hub);
-    fe_fixed_def d = fixed_def();
+    fe_fixed_joint_def d = fixed_def();
     d.hertz = d.angular_hertz = 30, d.damping_ratio = d.angular_damping_ratio = 1;
     for (int i = 0; i < 4; ++i) {
         vec out = v3(i == 0 ? 1 : i == 2 ? -1 : 0, i == 1 ? 1 : i == 3 ? -1 : 0, 0);
@@ -149,10 +149,10 @@ static void a_box_on_a_slider_swings_in_its_range_and_stops_at_its_motor(void **
 {
     scene s = scene_begin(state);
     fe_body anchor = add_anchor(&s, v3(0, 5.5, 0)), heavy = add_dynamic(&s, box(0.5, 1.5, 0.25), v3(0, 4, 0), UNTURNED, friction(0), 100);
-    fe_configurable_def d = slider_def();
-    fe_joint_axis *along = &d.axes[FE_ALONG_X];
-    along->mode = FE_MOTION_LIMITED, along->low = -1, along->high = 1;
-    along->drive = FE_DRIVE_HERTZ, along->stiffness = 2, along->damping = 0.1f;
+    fe_configurable_joint_def d = slider_def();
+    fe_joint_axis *along = &d.axes[FE_DOF_LINEAR_X];
+    along->motion = FE_MOTION_LIMITED, along->lower = -1, along->upper = 1;
+    along->spring = FE_SPRING_HERTZ, along->spring_hertz = 2, along->spring_damping_ratio = 0.1f;
     fe_joint joint = add_configurable(&s, d, anchor, heavy, v3(0, 4, 0), v3(1, 0, 0)); // at its centre: no arm
     set_velocity(&s, heavy, v3(5, 0, 0), v3(0, 0, 0));                                 // 5 / (2 pi 2) = 0.4 m
     double most = 0, least = 0;
@@ -185,7 +185,7 @@ typedef struct lift {
 
 static void join_bars(scene *s, lift *l, fe_body a, fe_body b, vec at)
 {
-    fe_hinge_def d = hinge_def();
+    fe_hinge_joint_def d = hinge_def();
     d.hertz = 240, d.damping_ratio = 20;
     l->hinges[l->hinge_count++] = add_hinge(s, d, a, b, at, v3(0, 0, 1));
 }
@@ -193,10 +193,10 @@ static void join_bars(scene *s, lift *l, fe_body a, fe_body b, vec at)
 // slides along x and turns about z
 static fe_joint join_foot(scene *s, fe_body on, fe_body bar, vec at, float speed, float force)
 {
-    fe_configurable_def d = slider_def();
+    fe_configurable_joint_def d = slider_def();
     d.hertz = 240, d.damping_ratio = 20;
-    d.axes[FE_ABOUT_Z].mode = FE_MOTION_FREE;
-    d.axes[FE_ALONG_X].motor_speed = speed, d.axes[FE_ALONG_X].motor_force = force;
+    d.axes[FE_DOF_ANGULAR_Z].motion = FE_MOTION_FREE;
+    d.axes[FE_DOF_LINEAR_X].motor_speed = speed, d.axes[FE_DOF_LINEAR_X].motor_max = force;
     return add_configurable(s, d, on, bar, at, v3(1, 0, 0));
 }
 

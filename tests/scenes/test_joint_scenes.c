@@ -45,8 +45,8 @@ typedef struct chain {
 static chain add_chain(scene *s, vec from, int count, double half, double radius, double density, double friction_torque)
 {
     chain c = {.anchor = add_anchor(s, from), .count = count};
-    fe_ball_def d = ball_def();
-    d.motor_torque = (float)friction_torque;
+    fe_ball_joint_def d = ball_def();
+    d.motor_max = (float)friction_torque;
     for (int i = 0; i < count; ++i) {
         vec end = plus(from, v3(2 * half * i, 0, 0));
         c.links[i] = add_dynamic(s, capsule(half, radius), plus(end, v3(half, 0, 0)), lying(), friction(0.6), (float)density);
@@ -142,12 +142,12 @@ static void a_chain_made_open_closes_without_a_bang(void **state)
     fe_body anchor = add_anchor(&s, v3(0, 39.5, 0)), balls[BALLS];
     fe_joint joints[BALLS];
     for (int i = 0; i < BALLS; ++i) {
-        fe_ball_def d = ball_def();
+        fe_ball_joint_def d = ball_def();
         balls[i] = add_plain(&s, sphere(0.2), v3(0, 38 - 2 * i, 0));
         touch_nothing(&s, balls[i]);
         d.body_a = i ? balls[i - 1] : anchor, d.body_b = balls[i];
         d.frame_a.position = narrow(v3(0, i ? -0.5 : 0, 0)), d.frame_b.position = narrow(v3(0, 0.5, 0));
-        MUST(fe_ball_create(s.world, &d, &joints[i]));
+        MUST(fe_ball_joint_create(s.world, &d, &joints[i]));
         FE_NEAR(gap_of(&s, joints[i]), 1, 1e-5);
     }
     double m = mass_of(&s, balls[0]), give = joint_give(&s, BALLS * m * SOURCE_G, m / 2), lowest = 0;
@@ -245,8 +245,8 @@ static void a_slammed_door_stays_in_its_hinges(void **state)
     MUST(fe_body_set_gravity_scale(s.world, leaf, 2));
     fe_joint hinges[2];
     for (int i = 0; i < 2; ++i) {
-        fe_hinge_def d = hinge_def();
-        d.limited = 1, d.min_angle = -(float)(PI / 2), d.max_angle = (float)(PI / 2), d.spring_hertz = 1, d.spring_damping_ratio = 0.5f;
+        fe_hinge_joint_def d = hinge_def();
+        d.limit_enabled = 1, d.lower = -(float)(PI / 2), d.upper = (float)(PI / 2), d.spring_hertz = 1, d.spring_damping_ratio = 0.5f;
         hinges[i] = add_hinge(&s, d, frame, leaf, v3(-0.75, 3 * i, 0), v3(0, 1, 0));
     }
     fe_vec3 impulse = narrow(to_world(&s, v3(0, 0, 50000)));
@@ -294,10 +294,10 @@ static void limits_of_a_heavy_box_hold_against_strong_motors(void **state)
         scene s = begin_source(state);
         fe_body anchor = add_anchor(&s, v3(0, 5.5, 0)),
                 body = add_dynamic(&s, box(0.5, 1.5, 0.25), v3(0, 4, 0), UNTURNED, friction(0.6), 100);
-        fe_ball_def d = ball_def();
-        d.swing_limited = d.twist_limited = 1, d.cone_y = d.cone_z = (float)cone, d.min_twist = -(float)twist, d.max_twist = (float)twist;
-        d.drive_hertz = 2, d.drive_damping_ratio = 0.7f;
-        d.motor_velocity = narrow(v3(k % 2 ? 3 : -3, 5 * cos(k * PI / 4), 5 * sin(k * PI / 4))), d.motor_torque = 1e4f;
+        fe_ball_joint_def d = ball_def();
+        d.cone_enabled = d.limit_enabled = 1, d.cone_y = d.cone_z = (float)cone, d.lower = -(float)twist, d.upper = (float)twist;
+        d.spring_hertz = 2, d.spring_damping_ratio = 0.7f;
+        d.motor_velocity = narrow(v3(k % 2 ? 3 : -3, 5 * cos(k * PI / 4), 5 * sin(k * PI / 4))), d.motor_max = 1e4f;
         fe_joint joint = add_ball(&s, d, anchor, body, v3(0, 5.5, 0), v3(0, -1, 0));
         for (int i = 0; i < 240; ++i) {
             run(&s, 1);
@@ -309,9 +309,9 @@ static void limits_of_a_heavy_box_hold_against_strong_motors(void **state)
         scene s = begin_source(state);
         fe_body anchor = add_anchor(&s, v3(0, 5.5, 0)),
                 body = add_dynamic(&s, box(0.5, 1.5, 0.25), v3(0, 4, 0), UNTURNED, friction(0.6), 100);
-        fe_hinge_def d = hinge_def();
-        d.limited = 1, d.min_angle = -(float)twist, d.max_angle = (float)twist, d.spring_hertz = 0.5f, d.motor_speed = (float)(5 * k),
-        d.motor_torque = 5000;
+        fe_hinge_joint_def d = hinge_def();
+        d.limit_enabled = 1, d.lower = -(float)twist, d.upper = (float)twist, d.spring_hertz = 0.5f, d.motor_speed = (float)(5 * k),
+        d.motor_max = 5000;
         fe_joint joint = add_hinge(&s, d, anchor, body, v3(0, 5.5, 0), v3(0, 0, 1));
         for (int i = 0; i < 240; ++i) {
             run(&s, 1);
@@ -333,8 +333,8 @@ static void telescopes_pulled_hard_come_back(void **state)
         fe_body below = add_anchor(&s, v3(0, 0, 0)), cubes[CUBES];
         fe_joint joints[CUBES];
         for (int i = 0; i < CUBES; ++i) {
-            fe_configurable_def d = slider_def();
-            d.axes[0].mode = FE_MOTION_LIMITED, d.axes[0].low = -6, d.axes[0].high = 6;
+            fe_configurable_joint_def d = slider_def();
+            d.axes[0].motion = FE_MOTION_LIMITED, d.axes[0].lower = -6, d.axes[0].upper = 6;
             cubes[i] = add_plain(&s, box(0.5, 0.5, 0.5), v3(0, 0.6 + 1.2 * i, 0));
             touch_nothing(&s, cubes[i]);
             joints[i] = add_configurable(&s, d, below, cubes[i], v3(0, 1.2 * i, 0), v3(1, 0, 0));

@@ -231,10 +231,10 @@ static void only_a_heavy_load_makes_a_tree(void **state)
     run(&s, 120);
     FE_TRUE(trees_of(&s) == 1);
     FE_WITHIN(widest_gap(&s, &c), 0, EXACT);
-    fe_ball_def spring = {.struct_size = sizeof spring}; // a joint with a stiffness of its own is a spring
-    MUST(fe_ball_get(s.world, c.joints[0], &spring));
+    fe_ball_joint_def spring = {.struct_size = sizeof spring}; // a joint with a stiffness of its own is a spring
+    MUST(fe_ball_joint_get(s.world, c.joints[0], &spring));
     spring.hertz = 5;
-    MUST(fe_ball_set(s.world, c.joints[0], &spring));
+    MUST(fe_ball_joint_set(s.world, c.joints[0], &spring));
     run(&s, 120);
     FE_WITHIN(gap_of(&s, c.joints[0]), 1, 20); // at rest 1.01 t g / (1 kg (2 pi 5 Hz)^2) = 10 m, and falls as far again
     FE_WITHIN(worst_gap(&s, c.joints + 1, LINKS - 1), 0, EXACT);

@@ -84,8 +84,8 @@ static void a_range_of_distance_is_free_inside_and_stops_at_both_ends(void **sta
     scene s = scene_begin(state);
     set_gravity(&s, v3(0, 0, 0));
     fe_body anchor = add_anchor(&s, v3(0, 0, 0)), bob = add_plain(&s, sphere(0.1), v3(1, 0, 0));
-    fe_distance_def d = distance_def();
-    d.min_length = 0.5f, d.max_length = 2;
+    fe_distance_joint_def d = distance_def();
+    d.lower = 0.5f, d.upper = 2;
     fe_joint joint = add_distance(&s, d, anchor, bob, v3(0, 0, 0), v3(1, 0, 0));
     set_velocity(&s, bob, v3(1, 0, 0), v3(0, 0, 0));
     for (int i = 0; i < 54; ++i) { // 0.9 m: nothing happens
@@ -107,8 +107,8 @@ static void a_slack_rope_lets_fall_freely_until_it_is_taut(void **state)
 {
     scene s = scene_begin(state);
     fe_body anchor = add_anchor(&s, v3(0, 0, 0)), bob = add_plain(&s, sphere(0.1), v3(0, -0.5, 0));
-    fe_distance_def d = distance_def();
-    d.min_length = 0, d.max_length = 3;
+    fe_distance_joint_def d = distance_def();
+    d.lower = 0, d.upper = 3;
     fe_joint rope = add_distance(&s, d, anchor, bob, v3(0, 0, 0), v3(0, -0.5, 0));
     for (int i = 1; i <= 40; ++i) { // 2.18 m
         run(&s, 1);
@@ -164,9 +164,9 @@ static void a_distance_spring_swings_as_its_hertz_and_damping_say(void **state)
         scene s = scene_begin(state);
         set_gravity(&s, v3(0, 0, 0));
         fe_body anchor = add_anchor(&s, v3(0, 0, 0)), bob = add_plain(&s, sphere(0.1), v3(2.2, 0, 0));
-        fe_distance_def d = distance_def();
+        fe_distance_joint_def d = distance_def();
         double x[SAMPLES];
-        d.min_length = 0, d.max_length = 10, d.length = 2;
+        d.lower = 0, d.upper = 10, d.target = 2;
         d.spring_hertz = springs[k].hertz, d.spring_damping_ratio = springs[k].ratio;
         fe_joint joint = add_distance(&s, d, anchor, bob, v3(0, 0, 0), v3(2.2, 0, 0));
         for (int i = 0; i < SAMPLES; ++i, run(&s, 1)) x[i] = position(&s, bob).x - 2;
@@ -182,7 +182,7 @@ static void a_hinge_spring_swings_as_its_hertz_and_damping_say(void **state)
         scene s = scene_begin(state);
         set_gravity(&s, v3(0, 0, 0));
         fe_body anchor = add_anchor(&s, v3(0, 0, 0)), arm = add_plain(&s, box(0.2, 0.1, 0.3), v3(0, 0, 0));
-        fe_hinge_def d = hinge_def();
+        fe_hinge_joint_def d = hinge_def();
         double x[SAMPLES];
         d.target = 0.2f, d.spring_hertz = springs[k].hertz, d.spring_damping_ratio = springs[k].ratio;
         fe_joint joint = add_hinge(&s, d, anchor, arm, v3(0, 0, 0), v3(0.3, 1, -0.2));
@@ -199,13 +199,14 @@ static void a_drive_along_an_axis_swings_by_hertz_or_by_stiffness(void **state)
             scene s = scene_begin(state);
             set_gravity(&s, v3(0, 0, 0));
             fe_body anchor = add_anchor(&s, v3(0, 0, 0)), cart = add_plain(&s, box(0.1, 0.1, 0.1), v3(0, 0, 0));
-            fe_configurable_def d = slider_def();
+            fe_configurable_joint_def d = slider_def();
             double x[SAMPLES], w = 2 * PI * (double)springs[k].hertz, m = mass_of(&s, cart);
-            fe_joint_axis *axis = &d.axes[FE_ALONG_X];
-            axis->target = 0.1f, axis->drive = FE_DRIVE_HERTZ, axis->stiffness = springs[k].hertz, axis->damping = springs[k].ratio;
+            fe_joint_axis *axis = &d.axes[FE_DOF_LINEAR_X];
+            axis->target = 0.1f, axis->spring = FE_SPRING_HERTZ, axis->spring_hertz = springs[k].hertz,
+            axis->spring_damping_ratio = springs[k].ratio;
             if (by_stiffness)
-                axis->drive = FE_DRIVE_STIFFNESS, axis->stiffness = (float)(m * w * w),
-                axis->damping = (float)(2 * m * w * (double)springs[k].ratio);
+                axis->spring = FE_SPRING_STIFFNESS, axis->spring_stiffness = (float)(m * w * w),
+                axis->spring_damping = (float)(2 * m * w * (double)springs[k].ratio);
             fe_joint joint = add_configurable(&s, d, anchor, cart, v3(0, 0, 0), v3(0, 1, 1));
             for (int i = 0; i < SAMPLES; ++i, run(&s, 1)) x[i] = (double)state_of(&s, joint).translation.x - 0.1;
             check_oscillation(x, k);
@@ -219,7 +220,7 @@ static void a_fixed_joint_with_hertz_is_a_spring_of_them(void **state)
         scene s = scene_begin(state);
         set_gravity(&s, v3(0, 0, 0));
         fe_body anchor = add_anchor(&s, v3(0, 0, 0)), block = add_plain(&s, box(0.2, 0.2, 0.2), v3(0, 0, 0));
-        fe_fixed_def d = fixed_def();
+        fe_fixed_joint_def d = fixed_def();
         double x[SAMPLES];
         d.angular_hertz = springs[k].hertz, d.angular_damping_ratio = springs[k].ratio;
         fe_joint joint = add_fixed(&s, d, anchor, block, v3(0, 0, 0));
@@ -340,7 +341,7 @@ static void a_conical_pendulum_keeps_its_circle(void **state)
 // ---- V48: motors and stops of hinges -------------------------------------------------------------------------------------------------
 
 // arm of 2 kg and 1 m from the origin along x, turning about z
-static fe_joint add_arm(scene *s, fe_hinge_def d, fe_body *out_arm)
+static fe_joint add_arm(scene *s, fe_hinge_joint_def d, fe_body *out_arm)
 {
     fe_body anchor = add_anchor(s, v3(0, 0, 0));
     *out_arm = add_plain(s, box(0.5, 0.05, 0.02), v3(0.5, 0, 0));
@@ -356,9 +357,9 @@ static void a_motor_holds_up_to_its_torque(void **state)
     } cases[] = {{10.0f, 1}, {9.6f, 0}}; // m g L / 2 = 9.81
     for (int k = 0; k < 2; ++k) {
         scene s = scene_begin(state);
-        fe_hinge_def d = hinge_def();
+        fe_hinge_joint_def d = hinge_def();
         fe_body arm;
-        d.motor_torque = cases[k].torque;
+        d.motor_max = cases[k].torque;
         fe_joint joint = add_arm(&s, d, &arm);
         run(&s, 60);
         double angle = (double)state_of(&s, joint).angle;
@@ -381,9 +382,9 @@ static void a_motor_reaches_its_speed_in_the_time_its_torque_takes(void **state)
 {
     scene s = scene_begin(state);
     set_gravity(&s, v3(0, 0, 0));
-    fe_hinge_def d = hinge_def();
+    fe_hinge_joint_def d = hinge_def();
     fe_body arm;
-    d.motor_speed = 3, d.motor_torque = 1;
+    d.motor_speed = 3, d.motor_max = 1;
     fe_joint joint = add_arm(&s, d, &arm);
     double moment = moment_of(&s, arm, 2, 0.5), seconds = moment * 3 / 1;
     int steps = (int)(0.5 * seconds / STEP);
@@ -392,9 +393,9 @@ static void a_motor_reaches_its_speed_in_the_time_its_torque_takes(void **state)
     run(&s, 2 * (int)(seconds / STEP));
     FE_NEAR(state_of(&s, joint).angular_velocity.x, 3, 0.015);
     // a torque-limited motor of speed 0 is dry friction: it stops after I w^2 / (2 tau)
-    MUST(fe_hinge_get(s.world, joint, &d));
+    MUST(fe_hinge_joint_get(s.world, joint, &d));
     d.motor_speed = 0;
-    MUST(fe_hinge_set(s.world, joint, &d));
+    MUST(fe_hinge_joint_set(s.world, joint, &d));
     double from = (double)state_of(&s, joint).angle, way = 0, before = from;
     for (int i = 0; i < (int)(2 * seconds / STEP); ++i) {
         run(&s, 1);
@@ -414,11 +415,11 @@ static void a_stop_gives_as_predicted(void **state)
         for (int end = 1; end <= 2; ++end) { // a range of its own, and one that ends at half a turn
             scene s = scene_begin(state);
             set_gravity(&s, v3(0, 0, 0));
-            fe_hinge_def d = hinge_def();
+            fe_hinge_joint_def d = hinge_def();
             fe_body arm;
             float stop = end == 1 ? 1.0f : (float)PI;
-            d.limited = 1, d.min_angle = side < 0 ? -stop : -0.5f, d.max_angle = side > 0 ? stop : 0.5f;
-            d.motor_speed = (float)(4 * side), d.motor_torque = 20;
+            d.limit_enabled = 1, d.lower = side < 0 ? -stop : -0.5f, d.upper = side > 0 ? stop : 0.5f;
+            d.motor_speed = (float)(4 * side), d.motor_max = 20;
             fe_joint joint = add_arm(&s, d, &arm);
             double most = 0;
             for (int i = 0; i < 240; ++i) {
@@ -460,18 +461,18 @@ static void a_universal_joint_turns_round_a_corner(void **state)
     vec along = v3(cos(bend), 0, sin(bend));
     fe_body wall = add_anchor(&s, v3(0, 0, 0)), in = add_plain(&s, capsule(0.4, 0.1), v3(-0.5, 0, 0)),
             out = add_dynamic(&s, capsule(0.4, 0.1), times(0.5, along), UNTURNED, friction(0), WATER);
-    fe_hinge_def motor = hinge_def();
-    motor.motor_speed = 2, motor.motor_torque = 1e4f;
+    fe_hinge_joint_def motor = hinge_def();
+    motor.motor_speed = 2, motor.motor_max = 1e4f;
     fe_joint first = add_hinge(&s, motor, wall, in, v3(-0.5, 0, 0), v3(1, 0, 0)),
              last = add_hinge(&s, hinge_def(), wall, out, times(0.5, along), along);
-    fe_configurable_def cross_def = configurable_def();
-    cross_def.axes[FE_ABOUT_Y].mode = cross_def.axes[FE_ABOUT_Z].mode = FE_MOTION_FREE;
+    fe_configurable_joint_def cross_def = configurable_def();
+    cross_def.axes[FE_DOF_ANGULAR_Y].motion = cross_def.axes[FE_DOF_ANGULAR_Z].motion = FE_MOTION_FREE;
     // at the bend both shafts end, so the cross's zero has to be made with the out shaft straight: frames by hand
     fe_joint middle;
     cross_def.body_a = in, cross_def.body_b = out;
     cross_def.frame_a = (fe_frame){{0.5f, 0, 0}, UNTURNED};
     cross_def.frame_b = (fe_frame){narrow(times(-0.5, along)), turned(v3(0, 1, 0), -bend)};
-    MUST(fe_configurable_create(s.world, &cross_def, &middle));
+    MUST(fe_configurable_joint_create(s.world, &cross_def, &middle));
     double total_in = 0, total_out = 0;
     for (int i = 0; i < 600; ++i) {
         run(&s, 1);
@@ -490,8 +491,8 @@ static void a_drive_to_a_rotation_settles_at_torque_over_stiffness(void **state)
 {
     scene s = scene_begin(state);
     fe_body anchor = add_anchor(&s, v3(0, 0, 0)), arm = add_plain(&s, box(0.5, 0.1, 0.1), v3(0.5, 0, 0));
-    fe_ball_def d = ball_def();
-    d.drive_hertz = 4, d.drive_damping_ratio = 1;
+    fe_ball_joint_def d = ball_def();
+    d.spring_hertz = 4, d.spring_damping_ratio = 1;
     fe_joint joint = add_ball(&s, d, anchor, arm, v3(0, 0, 0), v3(1, 0, 0));
     run(&s, 600);
     fe_joint_state at = state_of(&s, joint);
@@ -511,14 +512,14 @@ static void a_drive_reaches_any_rotation(void **state)
         scene s = scene_begin(state);
         set_gravity(&s, v3(0, 0, 0));
         fe_body anchor = add_anchor(&s, v3(0, 0, 0)), block = add_plain(&s, box(0.3, 0.2, 0.1), v3(0, 0, 0));
-        fe_ball_def ball = ball_def();
+        fe_ball_joint_def ball = ball_def();
         fe_quat target = any_rotation(&d);
-        ball.drive_hertz = 3, ball.target = target;
+        ball.spring_hertz = 3, ball.target = target;
         ball.body_a = anchor, ball.body_b = block;
         fe_joint joint;
-        MUST(fe_ball_create(s.world, &ball, &joint));
+        MUST(fe_ball_joint_create(s.world, &ball, &joint));
         run(&s, 300);
-        fe_quat q = compose(inverse(fe_body_transform(s.world, anchor).rotation), fe_body_transform(s.world, block).rotation),
+        fe_quat q = compose(inverse(body_transform(s.world, anchor).rotation), body_transform(s.world, block).rotation),
                 off = compose(inverse(target), q);
         FE_WITHIN(2 * sqrt((double)(off.x * off.x + off.y * off.y + off.z * off.z)), 0, 0.5 * DEGREES);
         scene_end(&s);
@@ -533,12 +534,12 @@ static void all_six_limits_of_a_configurable_joint_hold(void **state)
             scene s = scene_begin(state);
             set_gravity(&s, v3(0, 0, 0));
             fe_body anchor = add_anchor(&s, v3(0, 0, 0)), block = add_plain(&s, box(0.2, 0.25, 0.3), v3(0, 0, 0));
-            fe_configurable_def d = configurable_def();
-            for (int i = 0; i < 6; ++i) d.axes[i].mode = FE_MOTION_LIMITED, d.axes[i].low = -0.2f, d.axes[i].high = 0.4f;
-            d.axes[k].motor_speed = (float)side, d.axes[k].motor_force = 500;
+            fe_configurable_joint_def d = configurable_def();
+            for (int i = 0; i < 6; ++i) d.axes[i].motion = FE_MOTION_LIMITED, d.axes[i].lower = -0.2f, d.axes[i].upper = 0.4f;
+            d.axes[k].motor_speed = (float)side, d.axes[k].motor_max = 500;
             fe_joint joint;
             d.body_a = anchor, d.body_b = block;
-            MUST(fe_configurable_create(s.world, &d, &joint));
+            MUST(fe_configurable_joint_create(s.world, &d, &joint));
             run(&s, 180);
             fe_joint_state at = state_of(&s, joint);
             const double x[6] = {(double)at.translation.x, (double)at.translation.y, (double)at.translation.z,

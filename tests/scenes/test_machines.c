@@ -18,7 +18,7 @@ static void add_field(scene *s, double height(double x, double z))
     fe_heightfield_def_init(&field, sizeof field);
     field.rows = field.columns = SIDE, field.cell_x = field.cell_z = (float)CELL, field.heights = heights;
     fe_asset asset;
-    MUST(fe_heightfield_create(s->world, &field, &asset));
+    MUST(fe_heightfield_create(world_store(s->world), &field, &asset));
     fe_geometry form;
     fe_geometry_heightfield(&form, asset);
     add_body(s, FE_BODY_STATIC, form, v3(0, 0, -CELL * (SIDE - 1) / 2), UNTURNED, friction(0.8), WATER);
@@ -62,9 +62,9 @@ static void a_car_rests_on_its_springs(void **state)
     MUST(car_build(s.world, 0, 0.1, 0, &c));
     run(&s, 240);
     for (int k = 0; k < 4; ++k) {
-        fe_configurable_def d = {.struct_size = sizeof d};
-        MUST(fe_configurable_get(s.world, c.axles[k], &d));
-        FE_NEAR(state_of(&s, c.axles[k]).translation.z, mass_of(&s, c.chassis) * G / 4 / (double)d.axes[FE_ALONG_Z].stiffness, LINEAR_SLOP);
+        fe_configurable_joint_def d = {.struct_size = sizeof d};
+        MUST(fe_configurable_joint_get(s.world, c.axles[k], &d));
+        FE_NEAR(state_of(&s, c.axles[k]).translation.z, mass_of(&s, c.chassis) * G / 4 / (double)d.axes[FE_DOF_LINEAR_Z].spring_stiffness, LINEAR_SLOP);
     }
     scene_end(&s);
 }
@@ -154,10 +154,10 @@ static void a_crane_carries_a_thousand_times_the_weight_of_a_link(void **state)
     crane c;
     MUST(crane_build(s.world, 0, 12, 0, 1000, &c));
     FE_NEAR(mass_of(&s, c.load) / mass_of(&s, c.links[0]), 1000, 1e-3);
-    fe_configurable_def rail = {.struct_size = sizeof rail};
-    MUST(fe_configurable_get(s.world, c.winch, &rail));
-    rail.axes[FE_ALONG_X].target = 4;
-    MUST(fe_configurable_set(s.world, c.winch, &rail));
+    fe_configurable_joint_def rail = {.struct_size = sizeof rail};
+    MUST(fe_configurable_joint_get(s.world, c.winch, &rail));
+    rail.axes[FE_DOF_LINEAR_X].target = 4;
+    MUST(fe_configurable_joint_set(s.world, c.winch, &rail));
     double early = 0, late = 0;
     const int steps = SLOW_BUILD ? 600 : 1800;
     for (int i = 0; i < steps; ++i) {

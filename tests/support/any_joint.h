@@ -2,6 +2,7 @@
 #ifndef FE_TESTS_ANY_JOINT_H
 #define FE_TESTS_ANY_JOINT_H
 #include "feather.h"
+#include "support/values.h"
 
 #include <stddef.h>
 
@@ -9,23 +10,23 @@ enum { ANY_DISTANCE, ANY_BALL, ANY_HINGE, ANY_FIXED, ANY_CONFIGURABLE, ANY_KINDS
 
 typedef union any_def {
     fe_joint_def common;
-    fe_distance_def distance;
-    fe_ball_def ball;
-    fe_hinge_def hinge;
-    fe_fixed_def fixed;
-    fe_configurable_def configurable;
+    fe_distance_joint_def distance;
+    fe_ball_joint_def ball;
+    fe_hinge_joint_def hinge;
+    fe_fixed_joint_def fixed;
+    fe_configurable_joint_def configurable;
 } any_def;
 
-static const uint32_t any_sizes[ANY_KINDS] = {sizeof(fe_distance_def), sizeof(fe_ball_def), sizeof(fe_hinge_def), sizeof(fe_fixed_def),
-                                              sizeof(fe_configurable_def)};
+static const uint32_t any_sizes[ANY_KINDS] = {sizeof(fe_distance_joint_def), sizeof(fe_ball_joint_def), sizeof(fe_hinge_joint_def), sizeof(fe_fixed_joint_def),
+                                              sizeof(fe_configurable_joint_def)};
 
 static inline void any_init(int32_t kind, any_def *d)
 {
-    if (kind == ANY_DISTANCE) fe_distance_def_init(&d->distance, any_sizes[kind]);
-    if (kind == ANY_BALL) fe_ball_def_init(&d->ball, any_sizes[kind]);
-    if (kind == ANY_HINGE) fe_hinge_def_init(&d->hinge, any_sizes[kind]);
-    if (kind == ANY_FIXED) fe_fixed_def_init(&d->fixed, any_sizes[kind]);
-    if (kind == ANY_CONFIGURABLE) fe_configurable_def_init(&d->configurable, any_sizes[kind]);
+    if (kind == ANY_DISTANCE) fe_distance_joint_def_init(&d->distance, any_sizes[kind]);
+    if (kind == ANY_BALL) fe_ball_joint_def_init(&d->ball, any_sizes[kind]);
+    if (kind == ANY_HINGE) fe_hinge_joint_def_init(&d->hinge, any_sizes[kind]);
+    if (kind == ANY_FIXED) fe_fixed_joint_def_init(&d->fixed, any_sizes[kind]);
+    if (kind == ANY_CONFIGURABLE) fe_configurable_joint_def_init(&d->configurable, any_sizes[kind]);
 }
 
 // d may be NULL: the library refuses it
@@ -33,15 +34,15 @@ static inline fe_result any_create(int32_t kind, fe_world *world, const any_def 
 {
     switch (kind) {
     case ANY_DISTANCE:
-        return fe_distance_create(world, d ? &d->distance : NULL, out);
+        return fe_distance_joint_create(world, d ? &d->distance : NULL, out);
     case ANY_BALL:
-        return fe_ball_create(world, d ? &d->ball : NULL, out);
+        return fe_ball_joint_create(world, d ? &d->ball : NULL, out);
     case ANY_HINGE:
-        return fe_hinge_create(world, d ? &d->hinge : NULL, out);
+        return fe_hinge_joint_create(world, d ? &d->hinge : NULL, out);
     case ANY_FIXED:
-        return fe_fixed_create(world, d ? &d->fixed : NULL, out);
+        return fe_fixed_joint_create(world, d ? &d->fixed : NULL, out);
     default:
-        return fe_configurable_create(world, d ? &d->configurable : NULL, out);
+        return fe_configurable_joint_create(world, d ? &d->configurable : NULL, out);
     }
 }
 
@@ -49,15 +50,15 @@ static inline fe_result any_set(int32_t kind, fe_world *world, fe_joint joint, c
 {
     switch (kind) {
     case ANY_DISTANCE:
-        return fe_distance_set(world, joint, d ? &d->distance : NULL);
+        return fe_distance_joint_set(world, joint, d ? &d->distance : NULL);
     case ANY_BALL:
-        return fe_ball_set(world, joint, d ? &d->ball : NULL);
+        return fe_ball_joint_set(world, joint, d ? &d->ball : NULL);
     case ANY_HINGE:
-        return fe_hinge_set(world, joint, d ? &d->hinge : NULL);
+        return fe_hinge_joint_set(world, joint, d ? &d->hinge : NULL);
     case ANY_FIXED:
-        return fe_fixed_set(world, joint, d ? &d->fixed : NULL);
+        return fe_fixed_joint_set(world, joint, d ? &d->fixed : NULL);
     default:
-        return fe_configurable_set(world, joint, d ? &d->configurable : NULL);
+        return fe_configurable_joint_set(world, joint, d ? &d->configurable : NULL);
     }
 }
 
@@ -65,15 +66,15 @@ static inline fe_result any_get(int32_t kind, const fe_world *world, fe_joint jo
 {
     switch (kind) {
     case ANY_DISTANCE:
-        return fe_distance_get(world, joint, d ? &d->distance : NULL);
+        return fe_distance_joint_get(world, joint, d ? &d->distance : NULL);
     case ANY_BALL:
-        return fe_ball_get(world, joint, d ? &d->ball : NULL);
+        return fe_ball_joint_get(world, joint, d ? &d->ball : NULL);
     case ANY_HINGE:
-        return fe_hinge_get(world, joint, d ? &d->hinge : NULL);
+        return fe_hinge_joint_get(world, joint, d ? &d->hinge : NULL);
     case ANY_FIXED:
-        return fe_fixed_get(world, joint, d ? &d->fixed : NULL);
+        return fe_fixed_joint_get(world, joint, d ? &d->fixed : NULL);
     default:
-        return fe_configurable_get(world, joint, d ? &d->configurable : NULL);
+        return fe_configurable_joint_get(world, joint, d ? &d->configurable : NULL);
     }
 }
 

@@ -24,24 +24,24 @@ static void set_sensible(fuzz *f, int32_t kind, any_def *d)
     uint8_t which = fuzz_byte(f);
     float size = (float)(fuzz_byte(f) % 32) / 32.0f;
     if (kind == ANY_DISTANCE)
-        d->distance.min_length = 0.5f * size, d->distance.max_length = 0.1f + size, d->distance.spring_hertz = which & 1 ? 2.0f : 0.0f;
-    if (kind == ANY_DISTANCE) d->distance.motor_force = which & 2 ? 50.0f : 0.0f, d->distance.motor_speed = size;
+        d->distance.lower = 0.5f * size, d->distance.upper = 0.1f + size, d->distance.spring_hertz = which & 1 ? 2.0f : 0.0f;
+    if (kind == ANY_DISTANCE) d->distance.motor_max = which & 2 ? 50.0f : 0.0f, d->distance.motor_speed = size;
     if (kind == ANY_BALL)
-        d->ball.swing_limited = which & 1, d->ball.twist_limited = which >> 1 & 1, d->ball.cone_y = 0.1f + size, d->ball.cone_z = 0.4f;
+        d->ball.cone_enabled = which & 1, d->ball.limit_enabled = which >> 1 & 1, d->ball.cone_y = 0.1f + size, d->ball.cone_z = 0.4f;
     if (kind == ANY_BALL)
-        d->ball.min_twist = -size, d->ball.drive_hertz = which & 4 ? 3.0f : 0.0f, d->ball.motor_torque = which & 8 ? 5.0f : 0.0f;
+        d->ball.lower = -size, d->ball.spring_hertz = which & 4 ? 3.0f : 0.0f, d->ball.motor_max = which & 8 ? 5.0f : 0.0f;
     if (kind == ANY_HINGE)
-        d->hinge.limited = which & 1, d->hinge.min_angle = -size, d->hinge.max_angle = which & 16 ? 3.1415927f : 0.5f * size;
+        d->hinge.limit_enabled = which & 1, d->hinge.lower = -size, d->hinge.upper = which & 16 ? 3.1415927f : 0.5f * size;
     if (kind == ANY_HINGE)
-        d->hinge.spring_hertz = which & 2 ? 2.0f : 0.0f, d->hinge.motor_torque = which & 4 ? 20.0f : 0.0f,
+        d->hinge.spring_hertz = which & 2 ? 2.0f : 0.0f, d->hinge.motor_max = which & 4 ? 20.0f : 0.0f,
         d->hinge.motor_speed = 4.0f * size;
     if (kind == ANY_FIXED) d->fixed.angular_hertz = which & 1 ? 4.0f : 0.0f;
     for (int32_t k = 0; kind == ANY_CONFIGURABLE && k < AXES; ++k) {
         fe_joint_axis *axis = d->configurable.axes + k;
         uint8_t way = fuzz_byte(f);
-        axis->mode = way % 3, axis->low = -size, axis->high = 0.5f * size;
-        axis->drive = way / 3 % 3, axis->stiffness = 5.0f, axis->damping = 1.0f, axis->target = size - 0.5f;
-        if (way & 64) axis->motor_force = 10.0f, axis->motor_speed = 1.0f;
+        axis->motion = way % 3, axis->lower = -size, axis->upper = 0.5f * size;
+        axis->spring = way / 3 % 3, axis->spring_hertz = axis->spring_stiffness = 5.0f, axis->spring_damping_ratio = axis->spring_damping = 1.0f, axis->target = size - 0.5f;
+        if (way & 64) axis->motor_max = 10.0f, axis->motor_speed = 1.0f;
     }
 }
 
@@ -96,13 +96,13 @@ int32_t fuzz_join(fuzz *f)
     init(kind, &d);
     set_sensible(f, kind, &d.def);
     if (fuzz_byte(f) % 8 == 1) axis = fuzz_vec3(f), point = fuzz_dvec3(f);
-    if (fe_body_is_valid(f->world, a)) point = fe_body_transform(f->world, a).position;
+    if (fe_body_is_valid(f->world, a)) point = body_transform(f->world, a).position;
     fe_result result;
-    if (kind == ANY_DISTANCE) result = fe_rope_def_at(f->world, &d.def.distance, a, b, &point, &point, fuzz_size(f));
-    if (kind == ANY_BALL) result = fe_ball_def_at(f->world, &d.def.ball, a, b, &point, &axis);
-    if (kind == ANY_HINGE) result = fe_hinge_def_at(f->world, &d.def.hinge, a, b, &point, &axis);
-    if (kind == ANY_FIXED) result = fe_fixed_def_at(f->world, &d.def.fixed, a, b, &point);
-    if (kind == ANY_CONFIGURABLE) result = fe_configurable_def_at(f->world, &d.def.configurable, a, b, &point, &axis);
+    if (kind == ANY_DISTANCE) result = fe_rope_joint_def_at(f->world, &d.def.distance, a, b, &point, &point, fuzz_size(f));
+    if (kind == ANY_BALL) result = fe_ball_joint_def_at(f->world, &d.def.ball, a, b, &point, &axis);
+    if (kind == ANY_HINGE) result = fe_hinge_joint_def_at(f->world, &d.def.hinge, a, b, &point, &axis);
+    if (kind == ANY_FIXED) result = fe_fixed_joint_def_at(f->world, &d.def.fixed, a, b, &point);
+    if (kind == ANY_CONFIGURABLE) result = fe_configurable_joint_def_at(f->world, &d.def.configurable, a, b, &point, &axis);
     if (result != FE_OK) return result;
     fe_joint oldest = f->joints[f->joint_count % FUZZ_HANDLES];
     if (fe_joint_is_valid(f->world, oldest)) return fe_joint_destroy(f->world, oldest);
@@ -146,20 +146,20 @@ int32_t fuzz_make_joint(fuzz *f)
     init(ANY_CONFIGURABLE, &d);
     uint8_t which = fuzz_byte(f);
     if (which & 4) axis = fuzz_vec3(f), up = fuzz_vec3(f);
-    if (fe_body_is_valid(f->world, a)) point = fe_body_transform(f->world, a).position;
+    if (fe_body_is_valid(f->world, a)) point = body_transform(f->world, a).position;
     switch (which % 4) {
     case 0:
-        result = fe_slider_def_at(f->world, &d.def.configurable, a, b, &point, &axis);
+        result = fe_slider_joint_def_at(f->world, &d.def.configurable, a, b, &point, &axis);
         break;
     case 1:
-        result = fe_wheel_def_at(f->world, &d.def.configurable, a, b, &point, &axis, &up, hertz, ratio, size);
+        result = fe_wheel_joint_def_at(f->world, &d.def.configurable, a, b, &point, &axis, &up, hertz, ratio, size);
         break;
     case 2:
-        result = fe_motor_def_at(f->world, &d.def.configurable, a, b, hertz, ratio, 100.0f * size, 10.0f * size);
+        result = fe_motor_joint_def_at(f->world, &d.def.configurable, a, b, hertz, ratio, 100.0f * size, 10.0f * size);
         break;
     default:
         init(ANY_DISTANCE, &d);
-        result = fe_distance_def_at(f->world, &d.def.distance, a, b, &point, &other);
+        result = fe_distance_joint_def_at(f->world, &d.def.distance, a, b, &point, &other);
         break;
     }
     if (result != FE_OK) return result;
@@ -196,7 +196,7 @@ int32_t fuzz_read_joint(fuzz *f)
         fuzz_fail(f, "a living joint cannot be read");
     if (!fe_body_is_valid(f->world, body_a) || !fe_body_is_valid(f->world, body_b)) fuzz_fail(f, "a joint holds a dead body");
     fe_joint_def front = {.struct_size = sizeof front};
-    fe_handle data = 0;
+    uint64_t data = 0;
     int32_t enabled = 0;
     if (fe_joint_get(f->world, joint, &front) || fe_joint_get_enabled(f->world, joint, &enabled) ||
         fe_joint_get_user_data(f->world, joint, &data) || enabled != front.enabled || data != front.user_data)

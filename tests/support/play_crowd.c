@@ -31,7 +31,7 @@ static part pit_part(play *p, int32_t i)
     a.body.transform.rotation.z = play_between(p, -1.0f, 1.0f);
     if (i % 5 == 0) a.shape.material.rolling_resistance = 0.02f;
     if (i % 7 == 0) a.shape.material.restitution = 0.4f;
-    if (i % 11 == 0) a.shape.events = FE_EVENTS_TOUCH | FE_EVENTS_STAY | FE_EVENTS_HIT;
+    if (i % 11 == 0) a.shape.events = FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT;
     return a;
 }
 
@@ -50,7 +50,7 @@ static void build_pit(play *p)
     }
     part trigger = part_static_box(1.0f, 0.5f, 1.0f, pit_x, 1.2, 0.0);
     trigger.shape.trigger = 1;
-    trigger.shape.events = FE_EVENTS_TOUCH | FE_EVENTS_STAY;
+    trigger.shape.events = FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_STAY;
     p->groups[TRIGGER] = play_add(p, &trigger);
     p->groups[PIT] = p->actor_count;
     for (int32_t i = 0; i < PIT_BODIES; ++i) {
@@ -81,7 +81,7 @@ static void build_rollers(play *p)
     for (int32_t i = 0; i < BOUNCERS; ++i) {
         part a = i % 3 ? part_sphere(0.25f, 4.0 + i, 2.0 + 0.3 * i, 6.0) : part_box(0.2f, 0.3f, 0.25f, 4.0 + i, 3.0, 6.0);
         a.shape.material.restitution = 0.9f;
-        a.shape.events = FE_EVENTS_TOUCH | FE_EVENTS_HIT;
+        a.shape.events = FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_HIT;
         a.body.transform.rotation.z = 0.2f * (float)(i % 2);
         play_add(p, &a);
     }
@@ -199,7 +199,7 @@ static void change_bodies(play *p)
     if (p->step == 110) PLAY(p, fe_body_set_enabled(w, lock[3], 0));
     if (p->step == 140) PLAY(p, fe_body_set_enabled(w, lock[3], 1));
     if (p->step == 120) PLAY(p, fe_body_set_locks(w, lock[5], FE_AXIS_NONE, FE_AXIS_ALL));
-    if (p->step == 130) PLAY(p, fe_shape_set_filter(w, p->shapes[p->groups[CARGO_BOX]], 2, 1));
+    if (p->step == 130) PLAY(p, fe_shape_set_filter(w, p->shapes[p->groups[CARGO_BOX]], 2, 1, 0));
     if (p->step == 145) PLAY(p, fe_world_ignore_collision(w, lock[8], lock[9], 1));
     if (p->step == 160) PLAY(p, fe_body_set_mass(w, lock[10], 500.0f));
     if (p->step == 175) PLAY(p, fe_shape_set_geometry(w, p->shapes[p->groups[LOCK] + 12], &ball.geometry));

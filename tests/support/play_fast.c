@@ -12,7 +12,7 @@ static void add_floor(play *p)
     fe_heightfield_def def;
     fe_heightfield_def_init(&def, sizeof def);
     def.rows = def.columns = SAMPLES, def.heights = heights;
-    PLAY(p, fe_heightfield_create(p->world, &def, &field));
+    PLAY(p, fe_heightfield_create(world_store(p->world), &def, &field));
     part ground = part_static_box(1.0f, 1.0f, 1.0f, -8.0, 0.0, -8.0);
     fe_geometry_heightfield(&ground.geometry, field);
     play_add(p, &ground);
@@ -23,7 +23,7 @@ static void add_walls(play *p)
     for (int32_t i = 0; i < WALLS; ++i) {
         double out = i % 2 ? 8.0 : -8.0;
         part wall = i < 2 ? part_static_box(0.02f, 6.0f, 8.0f, out, 5.0, 0.0) : part_static_box(8.0f, 6.0f, 0.02f, 0.0, 5.0, out);
-        wall.shape.events = FE_EVENTS_TOUCH | FE_EVENTS_HIT;
+        wall.shape.events = FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_HIT;
         play_add(p, &wall);
     }
 }
@@ -37,7 +37,7 @@ static void add_machines(play *p)
     blade.body.angular_velocity.z = 40.0f;
     flying.body.linear_velocity.z = 120.0f;
     zone.shape.trigger = flying.shape.trigger = 1;
-    zone.shape.events = flying.shape.events = FE_EVENTS_TOUCH;
+    zone.shape.events = flying.shape.events = FE_SHAPE_EVENTS_TOUCH;
     play_add(p, &sweeper);
     play_add(p, &blade);
     play_add(p, &zone);

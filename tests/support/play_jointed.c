@@ -17,7 +17,7 @@ static void add_rough_ground(play *p)
     fe_heightfield_def_init(&def, sizeof def);
     for (int32_t i = 0; i < SAMPLES * SAMPLES; ++i) heights[i] = 0.0625f * (float)((i % SAMPLES * 7 + i / SAMPLES * 3) % 5);
     def.rows = def.columns = SAMPLES, def.heights = heights;
-    PLAY(p, fe_heightfield_create(p->world, &def, &field));
+    PLAY(p, fe_heightfield_create(world_store(p->world), &def, &field));
     part ground = part_static_box(1.0f, 1.0f, 1.0f, -2.0, 0.0, -2.0);
     fe_geometry_heightfield(&ground.geometry, field);
     play_add(p, &ground);
@@ -48,11 +48,11 @@ static void tie(play *p, fe_body a, fe_body b, double x, double z, float break_f
     const fe_dvec3 point = {x, 0, z};
     const fe_vec3 axis = {1, 0, 0};
     fe_joint joint;
-    fe_ball_def d;
-    fe_ball_def_init(&d, sizeof d);
+    fe_ball_joint_def d;
+    fe_ball_joint_def_init(&d, sizeof d);
     d.break_force = break_force;
-    PLAY(p, fe_ball_def_at(p->world, &d, a, b, &point, &axis));
-    PLAY(p, fe_ball_create(p->world, &d, &joint));
+    PLAY(p, fe_ball_joint_def_at(p->world, &d, a, b, &point, &axis));
+    PLAY(p, fe_ball_joint_create(p->world, &d, &joint));
     if (break_force > 0.0f) p->joints[p->joint_count++] = joint;
 }
 

@@ -21,11 +21,11 @@ static fe_joint *new_joint(play *p)
 static void tie(play *p, int32_t a, int32_t b, fe_dvec3 point, float break_force)
 {
     const fe_vec3 down = {0, -1, 0};
-    fe_ball_def d;
-    fe_ball_def_init(&d, sizeof d);
+    fe_ball_joint_def d;
+    fe_ball_joint_def_init(&d, sizeof d);
     d.break_force = break_force;
-    PLAY(p, fe_ball_def_at(p->world, &d, p->actors[a], p->actors[b], &point, &down));
-    PLAY(p, fe_ball_create(p->world, &d, new_joint(p)));
+    PLAY(p, fe_ball_joint_def_at(p->world, &d, p->actors[a], p->actors[b], &point, &down));
+    PLAY(p, fe_ball_joint_create(p->world, &d, new_joint(p)));
 }
 
 // ---- a net of balls in the air, and what falls into it --------------------------------------------------------------------------------
@@ -85,31 +85,31 @@ static void hang(play *p, int32_t i, fe_body a, fe_body b)
     any_init(i % ANY_KINDS, &d);
     switch (i % ANY_KINDS) {
     case ANY_DISTANCE:
-        PLAY(p, fe_rope_def_at(p->world, &d.distance, a, b, &top, &low, 0.6f));
-        d.distance.spring_hertz = strength, d.distance.motor_force = 10 * strength, d.distance.motor_speed = -0.2f;
+        PLAY(p, fe_rope_joint_def_at(p->world, &d.distance, a, b, &top, &low, 0.6f));
+        d.distance.spring_hertz = strength, d.distance.motor_max = 10 * strength, d.distance.motor_speed = -0.2f;
         break;
     case ANY_BALL:
-        d.ball.swing_limited = d.ball.twist_limited = i % 2, d.ball.cone_y = 0.5f, d.ball.cone_z = 0.25f;
-        d.ball.max_twist = 0.5f, d.ball.min_twist = -1, d.ball.limit_hertz = 10 * strength;
-        d.ball.drive_hertz = strength, d.ball.motor_torque = 5 * strength, d.ball.motor_velocity.y = 1;
-        PLAY(p, fe_ball_def_at(p->world, &d.ball, a, b, &top, &axis));
+        d.ball.cone_enabled = d.ball.limit_enabled = i % 2, d.ball.cone_y = 0.5f, d.ball.cone_z = 0.25f;
+        d.ball.upper = 0.5f, d.ball.lower = -1, d.ball.limit_hertz = 10 * strength;
+        d.ball.spring_hertz = strength, d.ball.motor_max = 5 * strength, d.ball.motor_velocity.y = 1;
+        PLAY(p, fe_ball_joint_def_at(p->world, &d.ball, a, b, &top, &axis));
         break;
     case ANY_HINGE:
-        d.hinge.limited = i % 2, d.hinge.min_angle = -0.5f, d.hinge.max_angle = 3.1415927f, d.hinge.spring_hertz = strength;
-        d.hinge.motor_speed = 3, d.hinge.motor_torque = 30 * strength, d.hinge.hertz = 10 * strength;
-        PLAY(p, fe_hinge_def_at(p->world, &d.hinge, a, b, &top, &axis));
+        d.hinge.limit_enabled = i % 2, d.hinge.lower = -0.5f, d.hinge.upper = 3.1415927f, d.hinge.spring_hertz = strength;
+        d.hinge.motor_speed = 3, d.hinge.motor_max = 30 * strength, d.hinge.hertz = 10 * strength;
+        PLAY(p, fe_hinge_joint_def_at(p->world, &d.hinge, a, b, &top, &axis));
         break;
     case ANY_FIXED:
         d.fixed.angular_hertz = strength, d.fixed.hertz = 3 * strength, d.fixed.angular_damping_ratio = 0.1f;
-        PLAY(p, fe_fixed_def_at(p->world, &d.fixed, a, b, &top));
+        PLAY(p, fe_fixed_joint_def_at(p->world, &d.fixed, a, b, &top));
         break;
     default:
         for (int32_t k = 0; k < 6; ++k) {
             fe_joint_axis *way = &d.configurable.axes[k];
-            way->mode = (k + i / ANY_KINDS) % 3, way->low = -0.2f, way->high = 0.3f;
-            if (way->mode) way->drive = 1 + k % 2, way->stiffness = 2, way->damping = 0.5f, way->motor_force = 3, way->motor_speed = 1;
+            way->motion = (k + i / ANY_KINDS) % 3, way->lower = -0.2f, way->upper = 0.3f;
+            if (way->motion) way->spring = 1 + k % 2, way->spring_hertz = way->spring_stiffness = 2, way->spring_damping_ratio = way->spring_damping = 0.5f, way->motor_max = 3, way->motor_speed = 1;
         }
-        PLAY(p, fe_configurable_def_at(p->world, &d.configurable, a, b, &top, &axis));
+        PLAY(p, fe_configurable_joint_def_at(p->world, &d.configurable, a, b, &top, &axis));
         break;
     }
     PLAY(p, any_create(i % ANY_KINDS, p->world, &d, new_joint(p)));
@@ -162,12 +162,12 @@ static void build(play *p)
 
 static void change_row(play *p)
 {
-    fe_hinge_def hinge = {.struct_size = sizeof hinge};
+    fe_hinge_joint_def hinge = {.struct_size = sizeof hinge};
     fe_joint_def front = {.struct_size = sizeof front};
     fe_joint *row = p->joints + p->groups[ROW_JOINTS];
-    PLAY(p, fe_hinge_get(p->world, row[7], &hinge));
+    PLAY(p, fe_hinge_joint_get(p->world, row[7], &hinge));
     hinge.motor_speed = -3;
-    PLAY(p, fe_hinge_set(p->world, row[7], &hinge));
+    PLAY(p, fe_hinge_joint_set(p->world, row[7], &hinge));
     PLAY(p, fe_joint_get(p->world, row[11], &front));
     front.collide_connected = 1;
     PLAY(p, fe_joint_set(p->world, row[11], &front));

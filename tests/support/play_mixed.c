@@ -13,7 +13,7 @@ static part any_part(play *p, int32_t i, double x, double y, double z)
     made.body.transform.rotation.y = play_between(p, -1.0f, 1.0f);
     made.shape.material.rolling_resistance = 0.2f; // or spheres would never stop
     made.shape.material.spinning_resistance = 0.02f;
-    if (i % 13 == 0) made.shape.events = FE_EVENTS_TOUCH | FE_EVENTS_HIT;
+    if (i % 13 == 0) made.shape.events = FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_HIT;
     return made;
 }
 
@@ -49,7 +49,7 @@ static void build_brief(play *p)
     play_add(p, &trigger);
     for (int32_t i = 0; i < BRIEF_BODIES; ++i) {
         part a = any_part(p, i, 0.5 * (i % 3 - 1), 0.6 + 0.5 * (i / 3), 0.1 * (i % 4));
-        a.shape.events = FE_EVENTS_TOUCH | FE_EVENTS_STAY | FE_EVENTS_HIT;
+        a.shape.events = FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT;
         play_add(p, &a);
     }
 }
@@ -66,11 +66,11 @@ static void bring_hill(play *p)
     fe_heightfield_def_init(&def, sizeof def);
     def.rows = def.columns = SAMPLES, def.cell_x = 2.0f, def.heights = heights, def.holes = holes;
     fe_asset hill = 0;
-    PLAY(p, fe_heightfield_create(p->world, &def, &hill));
+    PLAY(p, fe_heightfield_create(world_store(p->world), &def, &hill));
     part ground = part_static_box(1.0f, 1.0f, 1.0f, 2.0, 0.0, -2.0);
     fe_geometry_heightfield(&ground.geometry, hill);
     play_put(p, 200, &ground);
-    PLAY(p, fe_asset_destroy(p->world, hill)); // lives with its shape
+    PLAY(p, fe_asset_destroy(world_store(p->world), hill)); // lives with its shape
 }
 
 // sixteen at once, then gone at once
@@ -86,13 +86,13 @@ static void bring_crowd(play *p)
         defs[i].transform = fe_make_transform(3.0 + 0.5 * i, 0.4, 0.0);
     }
     if (p->step == 50) {
-        PLAY(p, fe_body_create_many(p->world, defs, 0, CROWD, crowd));
+        PLAY(p, fe_body_create_many(p->world, defs, sizeof *defs, CROWD, crowd));
         for (int32_t i = 0; i < CROWD; ++i) PLAY(p, fe_shape_create(p->world, crowd[i], NULL, &ball, p->shapes + 100 + i));
         for (int32_t i = 0; i < CROWD; ++i) PLAY(p, fe_shape_create(p->world, crowd[0], NULL, &ball, &extra));
     }
     if (p->step == 52) bring_hill(p);
     if (p->step == 70) PLAY(p, fe_body_destroy_many(p->world, crowd, CROWD));
-    if (p->step == 80) PLAY(p, fe_body_create_many(p->world, defs, 0, CROWD, crowd));
+    if (p->step == 80) PLAY(p, fe_body_create_many(p->world, defs, sizeof *defs, CROWD, crowd));
 }
 
 // a joint of each type between neighbours, one of them too weak for its load; changed, switched, destroyed, and gone with their bodies
@@ -101,30 +101,30 @@ static void bring_joints(play *p)
     const fe_body *actor = p->actors + FIRST;
     any_def d[ANY_KINDS];
     for (int32_t kind = 0; kind < ANY_KINDS; ++kind) any_init(kind, &d[kind]);
-    fe_distance_def *distance = &d[ANY_DISTANCE].distance;
-    fe_ball_def *ball = &d[ANY_BALL].ball;
-    fe_hinge_def *hinge = &d[ANY_HINGE].hinge;
-    fe_fixed_def *fixed = &d[ANY_FIXED].fixed;
-    fe_configurable_def *six = &d[ANY_CONFIGURABLE].configurable;
-    distance->body_a = p->actors[ROOF], distance->body_b = actor[0], distance->min_length = 0, distance->max_length = 3;
+    fe_distance_joint_def *distance = &d[ANY_DISTANCE].distance;
+    fe_ball_joint_def *ball = &d[ANY_BALL].ball;
+    fe_hinge_joint_def *hinge = &d[ANY_HINGE].hinge;
+    fe_fixed_joint_def *fixed = &d[ANY_FIXED].fixed;
+    fe_configurable_joint_def *six = &d[ANY_CONFIGURABLE].configurable;
+    distance->body_a = p->actors[ROOF], distance->body_b = actor[0], distance->lower = 0, distance->upper = 3;
     ball->body_a = p->actors[ROOF], ball->body_b = actor[1], ball->break_force = 10; // N
-    hinge->body_a = actor[6], hinge->body_b = actor[7], hinge->limited = 1;
+    hinge->body_a = actor[6], hinge->body_b = actor[7], hinge->limit_enabled = 1;
     fixed->body_a = actor[7], fixed->body_b = actor[8], fixed->hertz = 2;
-    six->body_a = actor[8], six->body_b = actor[17], six->axes[FE_ALONG_Y].mode = FE_MOTION_FREE;
-    six->axes[FE_ABOUT_X].mode = FE_MOTION_LIMITED;
+    six->body_a = actor[8], six->body_b = actor[17], six->axes[FE_DOF_LINEAR_Y].motion = FE_MOTION_FREE;
+    six->axes[FE_DOF_ANGULAR_X].motion = FE_MOTION_LIMITED;
     for (int32_t kind = 0; kind < ANY_KINDS; ++kind) PLAY(p, any_create(kind, p->world, &d[kind], &p->joints[kind]));
 }
 
 static void change_joints(play *p)
 {
     fe_world *w = p->world;
-    fe_hinge_def hinge = {.struct_size = sizeof hinge};
+    fe_hinge_joint_def hinge = {.struct_size = sizeof hinge};
     fe_joint_def front = {.struct_size = sizeof front};
     if (p->step == 25) bring_joints(p);
     if (p->step == 33) {
-        PLAY(p, fe_hinge_get(w, p->joints[2], &hinge));
-        hinge.motor_torque = 1, hinge.motor_speed = 1;
-        PLAY(p, fe_hinge_set(w, p->joints[2], &hinge));
+        PLAY(p, fe_hinge_joint_get(w, p->joints[2], &hinge));
+        hinge.motor_max = 1, hinge.motor_speed = 1;
+        PLAY(p, fe_hinge_joint_set(w, p->joints[2], &hinge));
         PLAY(p, fe_joint_get(w, p->joints[3], &front));
         front.collide_connected = 1;
         PLAY(p, fe_joint_set(w, p->joints[3], &front));
@@ -158,7 +158,7 @@ static void act_brief(play *p)
     if (p->step == 62) PLAY(p, fe_shape_set_geometry(w, p->shapes[FIRST + 14], &ball.geometry));
     if (p->step == 64) PLAY(p, fe_shape_set_trigger(w, p->shapes[FIRST + 15], 1));
     if (p->step == 66) PLAY(p, fe_shape_destroy(w, p->shapes[FIRST + 16]));
-    if (p->step == 75) PLAY(p, fe_world_sync_queries(w));
+    if (p->step == 75) PLAY(p, fe_world_optimize(w));
     if (p->step == 150) play_remove(p, 200);
     if (p->step == 185) PLAY(p, fe_body_set_awake(w, actor[17], 1)); // after all have fallen asleep
 }

@@ -49,15 +49,15 @@ static inline fe_quat turn_about(fe_dvec3 axis, double angle)
     return fe__normalized((fe_quat){(float)(s * axis.x), (float)(s * axis.y), (float)(s * axis.z), (float)cos(0.5 * angle)});
 }
 
-static inline fe__form sphere(float radius) { return (fe__form){.type = FE_GEOMETRY_SPHERE, .radius = radius}; }
+static inline fe__form sphere(float radius) { return (fe__form){.type = FE__FORM_SPHERE, .radius = radius}; }
 static inline fe__form capsule(float half_height, float radius)
 {
-    return (fe__form){.type = FE_GEOMETRY_CAPSULE, .radius = radius, .half_height = half_height};
+    return (fe__form){.type = FE__FORM_CAPSULE, .radius = radius, .half_height = half_height};
 }
-static inline fe__form box(float x, float y, float z) { return (fe__form){.type = FE_GEOMETRY_BOX, .half = {x, y, z}}; }
+static inline fe__form box(float x, float y, float z) { return (fe__form){.type = FE__FORM_BOX, .half = {x, y, z}}; }
 static inline fe__form plane(fe_vec3 normal, float distance)
 {
-    return (fe__form){.type = FE_GEOMETRY_PLANE, .normal = fe__scale(1.0f / fe__length(normal), normal), .distance = distance};
+    return (fe__form){.type = FE__FORM_PLANE, .normal = fe__scale(1.0f / fe__length(normal), normal), .distance = distance};
 }
 
 // Sizes of 5 cm to 1 m.
@@ -68,11 +68,11 @@ static inline fe__form random_form(int32_t type)
     float r = (float)uniform(0.05, 1.0);
     fe_vec3 normal = fe__narrow(random_direction());
     switch (type) {
-    case FE_GEOMETRY_SPHERE:
+    case FE__FORM_SPHERE:
         return sphere(p);
-    case FE_GEOMETRY_CAPSULE:
+    case FE__FORM_CAPSULE:
         return capsule(p, 0.5f * q);
-    case FE_GEOMETRY_BOX:
+    case FE__FORM_BOX:
         return box(p, q, r);
     default:
         return plane(normal, 2.0f * p - 1.0f);
@@ -163,7 +163,7 @@ static inline double brute_gap(const fe__form *a, const fe__form *b, const frame
 // Signed distance from the surface of a form, below 0 inside; form's frame.
 static inline double surface_distance(const fe__form *form, fe_dvec3 p)
 {
-    if (form->type == FE_GEOMETRY_PLANE) return fe__ddot(fe__widen(form->normal), p) - (double)form->distance;
+    if (form->type == FE__FORM_PLANE) return fe__ddot(fe__widen(form->normal), p) - (double)form->distance;
     fe_dvec3 w = core_widths(form), d = {fe__absd(p.x) - w.x, fe__absd(p.y) - w.y, fe__absd(p.z) - w.z};
     fe_dvec3 out = {fe__maxd(d.x, 0.0), fe__maxd(d.y, 0.0), fe__maxd(d.z, 0.0)};
     return sqrt(fe__ddot(out, out)) + fe__mind(fe__maxd(d.x, fe__maxd(d.y, d.z)), 0.0) - (double)form->radius;

@@ -80,7 +80,7 @@ static void assert_laws(const fe__form *a, const fe__form *b, const fe__relative
 {
     if (failure == NULL) return;
     print_case(a, b, r);
-    if (a->type != FE_GEOMETRY_PLANE) {
+    if (a->type != FE__FORM_PLANE) {
         truth t = true_contact(a, b, r);
         printf("  truth: separation %.9g core distance %.9g normal %.9g %.9g %.9g\n", t.separation, t.distance, t.normal.x, t.normal.y,
                t.normal.z);
@@ -148,19 +148,19 @@ static void pair_with_one_point(int32_t type_a, int32_t type_b)
 static void sphere_and_sphere_are_exact(void **state)
 {
     (void)state;
-    pair_with_one_point(FE_GEOMETRY_SPHERE, FE_GEOMETRY_SPHERE);
+    pair_with_one_point(FE__FORM_SPHERE, FE__FORM_SPHERE);
 }
 
 static void capsule_and_sphere_are_exact(void **state)
 {
     (void)state;
-    pair_with_one_point(FE_GEOMETRY_CAPSULE, FE_GEOMETRY_SPHERE);
+    pair_with_one_point(FE__FORM_CAPSULE, FE__FORM_SPHERE);
 }
 
 static void box_and_sphere_are_exact(void **state)
 {
     (void)state;
-    pair_with_one_point(FE_GEOMETRY_BOX, FE_GEOMETRY_SPHERE);
+    pair_with_one_point(FE__FORM_BOX, FE__FORM_SPHERE);
 }
 
 // Two-point answers may trade a tie of separation and, on faces, a few degrees, for steadiness.
@@ -214,13 +214,13 @@ static void pair_with_many_points(int32_t type_a, int32_t type_b, double degrees
 static void capsule_and_capsule_are_exact_within_a_tie(void **state)
 {
     (void)state;
-    pair_with_many_points(FE_GEOMETRY_CAPSULE, FE_GEOMETRY_CAPSULE, 0.0, 1.0);
+    pair_with_many_points(FE__FORM_CAPSULE, FE__FORM_CAPSULE, 0.0, 1.0);
 }
 
 static void box_and_capsule_are_exact_within_a_tie(void **state)
 {
     (void)state;
-    pair_with_many_points(FE_GEOMETRY_BOX, FE_GEOMETRY_CAPSULE, FACE_DEGREES, 1.0);
+    pair_with_many_points(FE__FORM_BOX, FE__FORM_CAPSULE, FACE_DEGREES, 1.0);
 }
 
 // ---- box against box ------------------------------------------------------------------------------------------------------------
@@ -248,7 +248,7 @@ static void box_and_box_are_exact_within_two_ties(void **state)
 {
     (void)state;
     for (int32_t i = 0; i < 2 * POSES; ++i) {
-        fe__form a = random_form(FE_GEOMETRY_BOX), b = random_form(FE_GEOMETRY_BOX);
+        fe__form a = random_form(FE__FORM_BOX), b = random_form(FE__FORM_BOX);
         fe__relative r = near_pose(&a, &b, i & 1 ? 0.5 : 0.02);
         for (int32_t general = 0; general < 2; ++general) {
             fe__manifold m = collide(&a, &b, &r, general);
@@ -265,7 +265,7 @@ static void mirrored_and_swapped_boxes_are_as_deep(void **state)
 {
     (void)state;
     for (int32_t i = 0; i < POSES; ++i) {
-        fe__form a = random_form(FE_GEOMETRY_BOX), b = random_form(FE_GEOMETRY_BOX);
+        fe__form a = random_form(FE__FORM_BOX), b = random_form(FE__FORM_BOX);
         fe__relative r = near_pose(&a, &b, 0.1), mirrored = r, swapped;
         mirrored.position.x = -r.position.x; // x -> -x on both sides of R
         mirrored.rotation.x = fe__vec3(r.rotation.x.x, -r.rotation.x.y, -r.rotation.x.z);
@@ -339,10 +339,10 @@ static void names_last_while_the_same_features_meet(void **state)
 static void depth_is_continuous(void **state)
 {
     (void)state;
-    const int32_t pairs[4][2] = {{FE_GEOMETRY_BOX, FE_GEOMETRY_BOX},
-                                 {FE_GEOMETRY_BOX, FE_GEOMETRY_CAPSULE},
-                                 {FE_GEOMETRY_CAPSULE, FE_GEOMETRY_CAPSULE},
-                                 {FE_GEOMETRY_BOX, FE_GEOMETRY_SPHERE}};
+    const int32_t pairs[4][2] = {{FE__FORM_BOX, FE__FORM_BOX},
+                                 {FE__FORM_BOX, FE__FORM_CAPSULE},
+                                 {FE__FORM_CAPSULE, FE__FORM_CAPSULE},
+                                 {FE__FORM_BOX, FE__FORM_SPHERE}};
     for (int32_t path = 0; path < 800; ++path) {
         fe__form a = random_form(pairs[path & 3][0]), b = random_form(pairs[path & 3][1]);
         fe__relative r = near_pose(&a, &b, 0.05);

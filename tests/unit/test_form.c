@@ -37,7 +37,7 @@ static void masses_of_capsules_are_sums_of_discs(void **state)
 {
     (void)state;
     for (int32_t i = 0; i < 20; ++i) {
-        fe__form form = random_form(FE_GEOMETRY_CAPSULE);
+        fe__form form = random_form(FE__FORM_CAPSULE);
         double h = (double)form.half_height, r = (double)form.radius, sum[3] = {0.0, 0.0, 0.0};
         const double low[3] = {-h - r, -h, h}, high[3] = {-h, h, h + r};
         enum { SLICES = 200 };
@@ -149,7 +149,7 @@ static void faces_turn_left_around_their_normals(void **state)
         fe_vec3 direction = fe__narrow(random_direction());
         fe__face face;
         fe__form_face(&form, direction, &face);
-        FE_TRUE(face.count == (form.type == FE_GEOMETRY_BOX ? 4 : form.type == FE_GEOMETRY_CAPSULE ? 2 : 1));
+        FE_TRUE(face.count == (form.type == FE__FORM_BOX ? 4 : form.type == FE__FORM_CAPSULE ? 2 : 1));
         if (face.count < 3) continue;
         FE_WITHIN(fe__dot(face.normal, direction), 0.577, 1.0 + 1e-6); // some face of a box is within 54.8 degrees
         double out = fe__ddot(fe__form_support(&form, fe__widen(face.normal)), fe__widen(face.normal));

@@ -101,9 +101,9 @@ static void agree_with_brute_force(int32_t type_a, int32_t type_b)
 static void boxes_and_segments_agree_with_brute_force(void **state)
 {
     (void)state;
-    agree_with_brute_force(FE_GEOMETRY_BOX, FE_GEOMETRY_BOX);
-    agree_with_brute_force(FE_GEOMETRY_BOX, FE_GEOMETRY_CAPSULE);
-    agree_with_brute_force(FE_GEOMETRY_CAPSULE, FE_GEOMETRY_CAPSULE);
+    agree_with_brute_force(FE__FORM_BOX, FE__FORM_BOX);
+    agree_with_brute_force(FE__FORM_BOX, FE__FORM_CAPSULE);
+    agree_with_brute_force(FE__FORM_CAPSULE, FE__FORM_CAPSULE);
 }
 
 // All 24 rotations of a cube onto itself, and positions at which faces, edges and corners fall together.
@@ -120,7 +120,7 @@ static void aligned_boxes_and_segments_agree_with_brute_force(void **state)
             for (int32_t place = 0; place < 7 * 7 * 7; ++place) {
                 fe_vec3 p = {0.25f * (float)(place % 7 - 3), 0.25f * (float)(place / 7 % 7 - 3), 0.25f * (float)(place / 49 - 3)};
                 fe__relative r = {p, {x, y, fe__cross(x, y)}};
-                if (a->type == FE_GEOMETRY_CAPSULE && b->type == FE_GEOMETRY_CAPSULE) continue; // flat: below
+                if (a->type == FE__FORM_CAPSULE && b->type == FE__FORM_CAPSULE) continue; // flat: below
                 assert_distance(a, b, &r, 2.0);
             }
         }
@@ -134,7 +134,7 @@ static void precision_is_relative_to_the_size(void **state)
     const float scales[4] = {0.001f, 0.02f, 500.0f, 100000.0f};
     for (int32_t i = 0; i < POSES; ++i) {
         float s = scales[i & 3];
-        fe__form a = random_form(FE_GEOMETRY_BOX), b = random_form(i & 4 ? FE_GEOMETRY_BOX : FE_GEOMETRY_CAPSULE);
+        fe__form a = random_form(FE__FORM_BOX), b = random_form(i & 4 ? FE__FORM_BOX : FE__FORM_CAPSULE);
         a.half = fe__scale(s, a.half), b.half = fe__scale(s, b.half), b.half_height *= s;
         fe__relative r = relative(fe__scale(s, random_vector(1.6)), random_rotation());
         assert_distance(&a, &b, &r, 4.0 * (double)s);
@@ -191,7 +191,7 @@ static void a_limit_only_cuts_what_is_farther(void **state)
 {
     (void)state;
     for (int32_t i = 0; i < POSES; ++i) {
-        fe__form a = random_form(FE_GEOMETRY_BOX), b = random_form(FE_GEOMETRY_BOX);
+        fe__form a = random_form(FE__FORM_BOX), b = random_form(FE__FORM_BOX);
         fe__relative r = relative(random_vector(2.5), random_rotation());
         frame f = frame_of(&r);
         fe__cores cores = cores_of(&a, &b, &f);

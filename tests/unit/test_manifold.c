@@ -49,7 +49,7 @@ static void the_normal_of_a_sphere_on_a_box_is_exact(void **state)
     (void)state;
     static double error[POSES];
     for (int32_t i = 0; i < POSES; ++i) {
-        fe__form a = random_form(FE_GEOMETRY_BOX), b = sphere(1.0f);
+        fe__form a = random_form(FE__FORM_BOX), b = sphere(1.0f);
         fe_vec3 c = random_vector(1.0);
         const float h[3] = {a.half.x, a.half.y, a.half.z};
         float *x[3] = {&c.x, &c.y, &c.z};
@@ -100,7 +100,7 @@ static void a_plane_finds_the_deepest_corners(void **state)
     (void)state;
     const double rounding = 3e-6; // 4 m and ten roundings of 2.4e-7
     for (int32_t i = 0; i < 3 * POSES; ++i) {
-        fe__form a = random_form(FE_GEOMETRY_PLANE), b = random_form(i % 3);
+        fe__form a = random_form(FE__FORM_PLANE), b = random_form(i % 3);
         fe_vec3 position = random_vector(1.0);
         fe__relative r = relative(position, random_rotation());
         r.position = fe__add_scaled(r.position, a.distance - fe__dot(a.normal, r.position) + (float)uniform(0.0, 1.5), a.normal);
@@ -367,7 +367,7 @@ static void the_old_points_do_not_matter(void **state)
 {
     (void)state;
     for (int32_t i = 0; i < POSES; ++i) {
-        fe__form a = random_form(FE_GEOMETRY_BOX), b = random_form(i % 3);
+        fe__form a = random_form(FE__FORM_BOX), b = random_form(i % 3);
         fe_vec3 position = random_vector(1.2);
         fe__relative r = relative(position, random_rotation());
         fe__manifold clean, dirty;
@@ -389,7 +389,7 @@ static void a_kept_axis_is_nearly_the_best(void **state)
     (void)state;
     int32_t touching = 0;
     for (int32_t i = 0; i < POSES; ++i) {
-        fe__form a = random_form(FE_GEOMETRY_BOX), b = random_form(FE_GEOMETRY_BOX);
+        fe__form a = random_form(FE__FORM_BOX), b = random_form(FE__FORM_BOX);
         fe_vec3 position = random_vector(1.2), step = random_vector(0.004);
         fe_dvec3 axis = random_direction();
         fe_quat q = random_rotation(), turn = turn_about(axis, uniform(0.0, 0.004));

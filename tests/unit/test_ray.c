@@ -52,11 +52,11 @@ static fe__form any_form(int32_t type)
 {
     fe_dvec3 n = any_direction();
     switch (type) {
-    case FE_GEOMETRY_SPHERE:
+    case FE__FORM_SPHERE:
         return (fe__form){.type = type, .radius = any_length()};
-    case FE_GEOMETRY_CAPSULE:
+    case FE__FORM_CAPSULE:
         return (fe__form){.type = type, .radius = any_length(), .half_height = any_length()};
-    case FE_GEOMETRY_BOX:
+    case FE__FORM_BOX:
         return (fe__form){.type = type, .half = {any_length(), any_length(), any_length()}};
     default:
         return (fe__form){.type = type, .normal = fe__narrow(n), .distance = (one_in(2) ? 1.0f : -1.0f) * any_length()};
@@ -82,11 +82,11 @@ static real clamp(real a, real limit) { return a > limit ? limit : a < -limit ? 
 static real distance_to(const fe__form *f, real3 p)
 {
     real hx = f->half.x, hy = f->half.y, hz = f->half.z;
-    if (f->type == FE_GEOMETRY_PLANE) {
+    if (f->type == FE__FORM_PLANE) {
         real nx = f->normal.x, ny = f->normal.y, nz = f->normal.z;
         return (nx * p.x + ny * p.y + nz * p.z - (real)f->distance) / length_of((real3){nx, ny, nz});
     }
-    if (f->type == FE_GEOMETRY_BOX) {
+    if (f->type == FE__FORM_BOX) {
         real x = fabsl(p.x) - hx, y = fabsl(p.y) - hy, z = fabsl(p.z) - hz, most = x > y ? (x > z ? x : z) : (y > z ? y : z);
         return most <= 0 ? most : length_of((real3){x > 0 ? x : 0, y > 0 ? y : 0, z > 0 ? z : 0});
     }
@@ -145,7 +145,7 @@ typedef struct tally {
 static void check_normal(const fe__form *f, const fe__ray_hit *hit, real3 p, double tolerance)
 {
     fe_dvec3 n = hit->normal;
-    if (f->type == FE_GEOMETRY_BOX) {
+    if (f->type == FE__FORM_BOX) {
         double axes[3] = {n.x, n.y, n.z}, points[3] = {(double)p.x, (double)p.y, (double)p.z};
         double halves[3] = {(double)f->half.x, (double)f->half.y, (double)f->half.z};
         int32_t axis = axes[0] != 0.0 ? 0 : axes[1] != 0.0 ? 1 : 2;
@@ -156,8 +156,8 @@ static void check_normal(const fe__form *f, const fe__ray_hit *hit, real3 p, dou
     fe_dvec3 plane = fe__widen(f->normal);
     real3 plane_normal = {plane.x, plane.y, plane.z};
     real l = length_of(plane_normal);
-    real3 e = f->type == FE_GEOMETRY_PLANE ? (real3){plane.x / l, plane.y / l, plane.z / l} : round_normal(f, p);
-    double allowed = f->type == FE_GEOMETRY_PLANE ? roundings : roundings + tolerance / (double)f->radius;
+    real3 e = f->type == FE__FORM_PLANE ? (real3){plane.x / l, plane.y / l, plane.z / l} : round_normal(f, p);
+    double allowed = f->type == FE__FORM_PLANE ? roundings : roundings + tolerance / (double)f->radius;
     FE_NEAR(n.x - (double)e.x, 0.0, allowed);
     FE_NEAR(n.y - (double)e.y, 0.0, allowed);
     FE_NEAR(n.z - (double)e.z, 0.0, allowed);
@@ -171,7 +171,7 @@ static void check_hit(const fe__form *f, fe_dvec3 o, fe_dvec3 d, real inside, co
     FE_WITHIN(hit->t, 0.0, 1.0);
     FE_NEAR(fe__ddot(hit->normal, hit->normal), 1.0, roundings);
     FE_TRUE(cosine >= -1e-9 && hit->inside == 0 && hit->depth == 0.0);
-    double smallest = f->type == FE_GEOMETRY_SPHERE || f->type == FE_GEOMETRY_CAPSULE ? (double)f->radius : 1e30;
+    double smallest = f->type == FE__FORM_SPHERE || f->type == FE__FORM_CAPSULE ? (double)f->radius : 1e30;
     count->hits += 1;
     if (cosine <= 0.0 || error > 0.01 * smallest * cosine * cosine) {
         FE_NEAR(distance_to(f, at(o, d, hit->t)), 0.0, error + length * roundings);
@@ -218,7 +218,7 @@ static void rays_meet(int32_t type)
         double length = any_size(0.001, 10000.0), s = size_of(&f);
         fe_dvec3 d = fe__dscale(length, any_direction());
         fe_dvec3 target = fe__dscale(one_in(3) ? 0.1 * s : 1.2 * s, any_direction());
-        if (type == FE_GEOMETRY_PLANE) target = fe__dadd(target, fe__dscale((double)f.distance, fe__widen(f.normal)));
+        if (type == FE__FORM_PLANE) target = fe__dadd(target, fe__dscale((double)f.distance, fe__widen(f.normal)));
         if (one_in(3)) target = (fe_dvec3){(double)f.half.x, (double)f.half_height + (double)f.radius, (double)f.half.z}; // rims and poles
         fe_dvec3 o = fe__dsub(target, fe__dscale(uniform(-0.2, 1.2), d));
         check_ray(&f, o, d, &count);
@@ -228,10 +228,10 @@ static void rays_meet(int32_t type)
     FE_TRUE(count.grazing < CASES / 50);
 }
 
-static void rays_meet_spheres(void **state) { (void)state, rays_meet(FE_GEOMETRY_SPHERE); }
-static void rays_meet_capsules(void **state) { (void)state, rays_meet(FE_GEOMETRY_CAPSULE); }
-static void rays_meet_boxes(void **state) { (void)state, rays_meet(FE_GEOMETRY_BOX); }
-static void rays_meet_planes(void **state) { (void)state, rays_meet(FE_GEOMETRY_PLANE); }
+static void rays_meet_spheres(void **state) { (void)state, rays_meet(FE__FORM_SPHERE); }
+static void rays_meet_capsules(void **state) { (void)state, rays_meet(FE__FORM_CAPSULE); }
+static void rays_meet_boxes(void **state) { (void)state, rays_meet(FE__FORM_BOX); }
+static void rays_meet_planes(void **state) { (void)state, rays_meet(FE__FORM_PLANE); }
 
 // ---- starts inside --------------------------------------------------------------------------------------------------------------
 static void a_start_inside_faces_the_ray_and_without_one_the_nearest_way_out(void **state)
@@ -265,9 +265,9 @@ static void a_start_inside_faces_the_ray_and_without_one_the_nearest_way_out(voi
 static void the_centre_has_a_way_out(void **state)
 {
     (void)state;
-    fe__form forms[3] = {{.type = FE_GEOMETRY_SPHERE, .radius = 2.0f},
-                         {.type = FE_GEOMETRY_CAPSULE, .radius = 2.0f, .half_height = 3.0f},
-                         {.type = FE_GEOMETRY_BOX, .half = {4.0f, 2.0f, 3.0f}}};
+    fe__form forms[3] = {{.type = FE__FORM_SPHERE, .radius = 2.0f},
+                         {.type = FE__FORM_CAPSULE, .radius = 2.0f, .half_height = 3.0f},
+                         {.type = FE__FORM_BOX, .half = {4.0f, 2.0f, 3.0f}}};
     fe_dvec3 zero = {0.0, 0.0, 0.0};
     for (int32_t i = 0; i < 3; ++i) {
         fe__ray_hit hit;
@@ -281,9 +281,9 @@ static void the_centre_has_a_way_out(void **state)
 static void touching_is_meeting_and_one_ulp_aside_is_not(void **state)
 {
     (void)state;
-    fe__form forms[3] = {{.type = FE_GEOMETRY_SPHERE, .radius = 2.0f},
-                         {.type = FE_GEOMETRY_CAPSULE, .radius = 2.0f, .half_height = 3.0f},
-                         {.type = FE_GEOMETRY_BOX, .half = {2.0f, 2.0f, 2.0f}}};
+    fe__form forms[3] = {{.type = FE__FORM_SPHERE, .radius = 2.0f},
+                         {.type = FE__FORM_CAPSULE, .radius = 2.0f, .half_height = 3.0f},
+                         {.type = FE__FORM_BOX, .half = {2.0f, 2.0f, 2.0f}}};
     double t[3] = {0.5, 0.5, 0.4}; // sphere and capsule are met at x = 0, the box at its side
     for (int32_t i = 0; i < 3; ++i) {
         fe__ray_hit hit;
@@ -299,12 +299,12 @@ static void touching_is_meeting_and_one_ulp_aside_is_not(void **state)
 static void grazing_rays_meet_where_the_chord_begins(void **state)
 {
     (void)state;
-    for (int32_t type = FE_GEOMETRY_SPHERE; type <= FE_GEOMETRY_CAPSULE; ++type) {
+    for (int32_t type = FE__FORM_SPHERE; type <= FE__FORM_CAPSULE; ++type) {
         for (double below = 1e-1; below > 1e-15; below *= 0.1) {
-            fe__form f = {.type = type, .radius = 0.5f, .half_height = type == FE_GEOMETRY_CAPSULE ? 0.75f : 0.0f};
+            fe__form f = {.type = type, .radius = 0.5f, .half_height = type == FE__FORM_CAPSULE ? 0.75f : 0.0f};
             double z = 0.5 * (1.0 - below), length = 20000.0;
             real chord = sqrtl((real)0.25 - (real)z * z);
-            double y = type == FE_GEOMETRY_CAPSULE ? 0.25 : 0.0;
+            double y = type == FE__FORM_CAPSULE ? 0.25 : 0.0;
             fe__ray_hit hit;
             FE_TRUE(fe__form_ray(&f, (fe_dvec3){-10000.0, y, z}, (fe_dvec3){length, 0.0, 0.0}, 1.0, &hit));
             // z^2 rounds by eps / 4 in r^2 - z^2, and t by eps / 2
@@ -319,10 +319,10 @@ static void grazing_rays_meet_where_the_chord_begins(void **state)
 static void a_start_on_the_surface_is_a_start_inside(void **state)
 {
     (void)state;
-    fe__form forms[4] = {{.type = FE_GEOMETRY_SPHERE, .radius = 2.0f},
-                         {.type = FE_GEOMETRY_CAPSULE, .radius = 2.0f, .half_height = 3.0f},
-                         {.type = FE_GEOMETRY_BOX, .half = {2.0f, 2.0f, 2.0f}},
-                         {.type = FE_GEOMETRY_PLANE, .normal = {1.0f, 0.0f, 0.0f}, .distance = 2.0f}};
+    fe__form forms[4] = {{.type = FE__FORM_SPHERE, .radius = 2.0f},
+                         {.type = FE__FORM_CAPSULE, .radius = 2.0f, .half_height = 3.0f},
+                         {.type = FE__FORM_BOX, .half = {2.0f, 2.0f, 2.0f}},
+                         {.type = FE__FORM_PLANE, .normal = {1.0f, 0.0f, 0.0f}, .distance = 2.0f}};
     for (int32_t i = 0; i < 4; ++i) {
         for (double d = -1.0; d <= 1.0; d += 1.0) {
             fe__ray_hit hit;
@@ -335,7 +335,7 @@ static void a_start_on_the_surface_is_a_start_inside(void **state)
 static void on_an_edge_the_lowest_axis_gives_the_normal(void **state)
 {
     (void)state;
-    fe__form box = {.type = FE_GEOMETRY_BOX, .half = {1.0f, 1.0f, 1.0f}};
+    fe__form box = {.type = FE__FORM_BOX, .half = {1.0f, 1.0f, 1.0f}};
     fe__ray_hit hit;
     FE_TRUE(fe__form_ray(&box, (fe_dvec3){2.0, 2.0, 2.0}, (fe_dvec3){-2.0, -2.0, -2.0}, 1.0, &hit) && hit.t == 0.5 && hit.normal.x == 1.0);
     FE_TRUE(fe__form_ray(&box, (fe_dvec3){0.0, -2.0, 2.0}, (fe_dvec3){0.0, 2.0, -2.0}, 1.0, &hit) && hit.t == 0.5 && hit.normal.y == -1.0);
@@ -397,7 +397,7 @@ static void a_plane_is_met_from_the_end_of_the_range(void **state)
     (void)state;
     float third = 0.57735027f;
     double far = 1.5e308;
-    fe__form f = {.type = FE_GEOMETRY_PLANE, .normal = {third, third, third}, .distance = 1.0f};
+    fe__form f = {.type = FE__FORM_PLANE, .normal = {third, third, third}, .distance = 1.0f};
     fe__ray_hit hit;
     FE_TRUE(fe__form_ray(&f, (fe_dvec3){far, far, far}, (fe_dvec3){-1.1 * far, -1.1 * far, -1.1 * far}, 1.0, &hit));
     FE_NEAR(hit.t, 1.0 / 1.1, 1e-15);
@@ -407,10 +407,10 @@ static void a_plane_is_met_from_the_end_of_the_range(void **state)
 static void rays_along_an_axis_are_exact_at_any_length(void **state)
 {
     (void)state;
-    fe__form forms[4] = {{.type = FE_GEOMETRY_SPHERE, .radius = 1.0f},
-                         {.type = FE_GEOMETRY_CAPSULE, .radius = 1.0f, .half_height = 1.0f},
-                         {.type = FE_GEOMETRY_BOX, .half = {1.0f, 1.0f, 1.0f}},
-                         {.type = FE_GEOMETRY_PLANE, .normal = {1.0f, 0.0f, 0.0f}, .distance = 1.0f}};
+    fe__form forms[4] = {{.type = FE__FORM_SPHERE, .radius = 1.0f},
+                         {.type = FE__FORM_CAPSULE, .radius = 1.0f, .half_height = 1.0f},
+                         {.type = FE__FORM_BOX, .half = {1.0f, 1.0f, 1.0f}},
+                         {.type = FE__FORM_PLANE, .normal = {1.0f, 0.0f, 0.0f}, .distance = 1.0f}};
     for (double length = 8.0; length < 1e300; length *= 1024.0) {
         for (int32_t i = 0; i < 4; ++i) {
             fe__ray_hit hit;

@@ -40,12 +40,12 @@ static fe_quat any_turn(double most)
 // sphere, capsule, box, plane, triangle of about `size` m
 static fe__form any_form(int kind, double size)
 {
-    fe__form form = {.type = FE_GEOMETRY_SPHERE};
+    fe__form form = {.type = FE__FORM_SPHERE};
     float a = (float)(size * uniform(0.2, 1)), b = (float)(size * uniform(0.2, 1)), c = (float)(size * uniform(0.2, 1));
     if (kind < 2) form.radius = a;
-    if (kind == 1) form.type = FE_GEOMETRY_CAPSULE, form.half_height = b;
-    if (kind == 2) form.type = FE_GEOMETRY_BOX, form.half = fe__vec3(a, b, c);
-    if (kind == 3) form.type = FE_GEOMETRY_PLANE, form.normal = fe__vec3(0.6f, 0.8f, 0.0f), form.distance = a;
+    if (kind == 1) form.type = FE__FORM_CAPSULE, form.half_height = b;
+    if (kind == 2) form.type = FE__FORM_BOX, form.half = fe__vec3(a, b, c);
+    if (kind == 3) form.type = FE__FORM_PLANE, form.normal = fe__vec3(0.6f, 0.8f, 0.0f), form.distance = a;
     if (kind == 4) {
         form.type = FE__FORM_TRIANGLE;
         for (int i = 0; i < 3; ++i) form.vertex[i] = fe__narrow(somewhere(size));
@@ -67,7 +67,7 @@ static void a_balls_gap_is_that_of_its_centre(void **state)
         fe__gap gap, back;
         fe__form_gap(&ball, &a, &other, &b, &gap);
         fe__form_gap(&other, &b, &ball, &a, &back);
-        double bound = other.type == FE_GEOMETRY_PLANE ? 1e-6 * size : 1e-9 * size;
+        double bound = other.type == FE__FORM_PLANE ? 1e-6 * size : 1e-9 * size;
         FE_NEAR(gap.distance, near.distance - (double)ball.radius, bound);
         FE_NEAR(back.distance, gap.distance, bound);
         FE_NEAR(fe__ddot(gap.normal, gap.normal), 1, 1e-9);
@@ -88,7 +88,7 @@ static void a_gap_closes_along_its_normal(void **state)
         if (gap.overlap || gap.distance < 0.01) continue;
         at_a.position = fe__dadd(at_a.position, fe__dscale(gap.distance - 0.005, gap.normal));
         fe__form_gap(&a, &at_a, &b, &at_b, &less);
-        FE_NEAR(less.distance, 0.005, b.type == FE_GEOMETRY_PLANE ? 1e-6 : 1e-9);
+        FE_NEAR(less.distance, 0.005, b.type == FE__FORM_PLANE ? 1e-6 : 1e-9);
     }
 }
 
@@ -130,8 +130,8 @@ static void the_time_of_impact_is_the_first_touch(void **state)
     (void)state;
     for (int i = 0; i < CASES; ++i) {
         fe__form a = any_form(i % 3, 1), b = any_form(i / 3 % 5, 1);
-        fe__mobile first = any_mobile(&a, 4, 6, 0.8), second = any_mobile(&b, 4, 6, b.type >= FE_GEOMETRY_PLANE ? 0.0 : 0.8);
-        if (b.type == FE_GEOMETRY_PLANE) second.motion.translation = (fe_dvec3){0, 0, 0};
+        fe__mobile first = any_mobile(&a, 4, 6, 0.8), second = any_mobile(&b, 4, 6, b.type >= FE__FORM_PLANE ? 0.0 : 0.8);
+        if (b.type == FE__FORM_PLANE) second.motion.translation = (fe_dvec3){0, 0, 0};
         judge(&first, &second, met);
         judge(&second, &first, met);
     }
@@ -143,8 +143,8 @@ static void a_near_miss_is_none(void **state)
 {
     (void)state;
     for (int i = 0; i < CASES; ++i) {
-        fe__form stick = {.type = FE_GEOMETRY_CAPSULE, .half_height = 1.0f, .radius = 0.05f};
-        fe__form plate = {.type = FE_GEOMETRY_BOX, .half = {10.0f, 0.1f, 10.0f}};
+        fe__form stick = {.type = FE__FORM_CAPSULE, .half_height = 1.0f, .radius = 0.05f};
+        fe__form plate = {.type = FE__FORM_BOX, .half = {10.0f, 0.1f, 10.0f}};
         fe__motion turning = {{0, 1.051 + 0.1, 0}, any_rotation(), {uniform(-5, 5), 0, uniform(-5, 5)}, any_turn(2)};
         fe__motion still = {{0, 0, 0}, fe__identity(), {0, 0, 0}, fe__identity()};
         fe__mobile a = {&stick, {0, 0, 0}, fe__identity(), turning}, b = {&plate, {0, 0, 0}, fe__identity(), still};

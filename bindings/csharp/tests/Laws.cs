@@ -257,7 +257,7 @@ namespace FeatherPhysics.Tests
                 JointHandle[] joints = new JointHandle[16];
                 Check.Same(world.GetJoints(joints), 7, "joints");
                 Check.Same(arm[0].GetJoints(joints), 1, "joints of a body");
-                Check.Throws<WrongStateException>(() => ball.Get(def), "fe_hinge_get");
+                Check.Throws<WrongStateException>(() => ball.Get(def), "fe_hinge_joint_get");
                 motor.Destroy();
                 Check.Throws<StaleHandleException>(() => { JointType type = motor.Type; }, "fe_joint_get_type");
             }

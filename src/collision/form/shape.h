@@ -21,13 +21,14 @@ typedef struct fe__shape {
     fe_vec3 local_position; // m, body's frame
     fe_quat local_rotation;
     fe_material material;
+    int32_t group;   // 0: none
     uint32_t events; // fe_shape_events
     float density;
     fe_vec3 surface_velocity;
     int32_t next, previous; // of the body's shapes, in the order of creation
     uint64_t serial;        // of creation, never reused
     uint64_t body_serial;   // of its body
-    fe_handle user_data;
+    uint64_t user_data;
     int32_t next_user; // of the same heightfield, -1: none
 } fe__shape;
 
