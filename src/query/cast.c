@@ -151,7 +151,7 @@ int32_t fe__cast_inside(const fe__scene *scene, const fe__probe *probe, int32_t 
 {
     found f;
     if (!meet(scene, probe, &scene->shapes[shape], 0.0, &f) || !f.hit.inside) return 0;
-    tell(scene, probe, shape, &f, out_hit);
+    report(scene, probe, shape, &f, out_hit);
     return 1;
 }
 
