@@ -16,6 +16,7 @@ namespace FeatherPhysics
         }
 
         internal readonly PoolHandle Safe = new PoolHandle();
+        volatile bool disposed;
 
         /// <param name="workers">1..64, the thread that steps among them</param>
         public Pool(int workers)
@@ -26,6 +27,16 @@ namespace FeatherPhysics
         }
 
         /// <summary>The threads end with the last world that uses them.</summary>
-        public void Dispose() { Safe.Dispose(); }
+        public void Dispose()
+        {
+            disposed = true;
+            Safe.Dispose();
+        }
+
+        internal void Hold(ref bool held)
+        {
+            if (disposed) throw new ObjectDisposedException("Pool", "Pool: the pool is disposed");
+            Safe.DangerousAddRef(ref held);
+        }
     }
 }

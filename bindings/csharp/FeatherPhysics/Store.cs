@@ -22,6 +22,7 @@ namespace FeatherPhysics
         internal readonly StoreHandle Safe;
         readonly World owner;
         readonly IntPtr pointer;
+        volatile bool disposed;
 
         /// <param name="def">null: the defaults</param>
         public Store(StoreDef def = null)
@@ -41,14 +42,24 @@ namespace FeatherPhysics
         }
 
         /// <summary>The store goes with the last world that uses it, a world's own store with that world.</summary>
-        public void Dispose() { if (Safe != null) Safe.Dispose(); }
+        public void Dispose()
+        {
+            if (Safe == null) return;
+            disposed = true;
+            Safe.Dispose();
+        }
 
-        /// Keeps the store, or throws ObjectDisposedException. To be followed by Leave(held).
+        /// Keeps the store until Leave(held), or throws ObjectDisposedException.
         internal void* Enter(ref bool held)
         {
-            if (Safe != null) Safe.DangerousAddRef(ref held);
-            else owner.Hold(ref held);
+            if (Safe == null) owner.Hold(ref held);
+            else Hold(ref held);
             return (void*)pointer;
+        }
+        internal void Hold(ref bool held)
+        {
+            if (disposed) throw new ObjectDisposedException("Store", "Store: the store is disposed");
+            Safe.DangerousAddRef(ref held);
         }
         internal void Leave(bool held)
         {

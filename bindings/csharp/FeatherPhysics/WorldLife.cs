@@ -100,10 +100,10 @@ namespace FeatherPhysics
         void Hold(Pool pool, Store store)
         {
             bool held = false;
-            if (pool != null) pool.Safe.DangerousAddRef(ref held);
+            if (pool != null) pool.Hold(ref held);
             if (held) safe.Pool = pool.Safe;
             held = false;
-            try { if (store != null) store.Safe.DangerousAddRef(ref held); }
+            try { if (store != null) store.Hold(ref held); }
             finally
             {
                 if (held) safe.Store = store.Safe;
@@ -146,6 +146,7 @@ namespace FeatherPhysics
         /// filter delays it already.
         internal void Hold(ref bool held)
         {
+            if (IsDisposed) ThrowDisposed();
             if (!IsJudging) safe.DangerousAddRef(ref held);
         }
         internal void Release() { safe.DangerousRelease(); }

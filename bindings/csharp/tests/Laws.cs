@@ -817,13 +817,13 @@ namespace FeatherPhysics.Tests
             Pool pool = new Pool(3);
             World a = new World(null, pool), b = new World(null, pool);
             pool.Dispose();
+            Check.Throws<ObjectDisposedException>(() => new World(null, pool), "pool");
             a.CreateDynamic(new DVec3()).AddSphere(1);
             Run(a, 3);
             Check.Same(b.Counters.Workers, 3, "workers");
             a.Dispose();
             b.Step(Dt);
             b.Dispose();
-            Check.Throws<ObjectDisposedException>(() => new World(null, pool), "");
         }
 
         public static void Positions_convert_where_you_say_so()
