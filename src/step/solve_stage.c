@@ -19,7 +19,7 @@ enum { MOST_DIVISION = 16, FINE_SWEEPS = 3 };
 // A net of joints that bears more than its substeps can pass on opens. From ten times the linear slop on it is stretched, and has substeps
 // as short as by default, until no joint is open by half as much.
 #define STRETCHED_RATE 480.0f
-#define OPEN 0.05f // m
+#define STRETCHED_GAP 0.05f // m
 
 static int32_t division_of(float h, float rate)
 {
@@ -47,7 +47,7 @@ fe__step_constants fe__constants_of(const fe_world *w, float dt, int32_t divisio
     float h = whole / (float)division;
     fe__step_constants c = {.h = h,
                             .inverse_h = h > 0.0f ? 1.0f / h : 0.0f,
-                            .push_speed = t->contact_push_speed,
+                            .bias_speed = t->contact_push_speed,
                             .threshold = t->restitution_threshold,
                             .warm_scale = w->last_h > 0.0f ? fe__minf(whole / w->last_h, MOST_WARM_SCALE) / (float)division : 0.0f,
                             .max_speed = t->max_linear_speed,
@@ -71,7 +71,7 @@ static void constants_of_paces(const fe_world *w, float dt, fe__step_constants p
     int32_t division = division_of(whole, STRETCHED_RATE);
     fe__step_constants *usual = paces + FE__USUAL, *strained = paces + FE__STRAINED, *stretched = paces + FE__STRETCHED;
     *usual = fe__constants_of(w, dt, 1);
-    usual->open = division > 1 ? OPEN * OPEN : FLT_MAX;
+    usual->open = division > 1 ? STRETCHED_GAP * STRETCHED_GAP : FLT_MAX;
     *strained = fe__constants_of(w, dt, division_of(whole, FINE_RATE));
     strained->strain *= 0.25f;
     strained->forgets = FLT_MAX;

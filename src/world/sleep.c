@@ -11,9 +11,9 @@
 // Bodies whose state changed since the last step's events: each once, whatever happens in between
 static void stir(fe_world *world, int32_t index)
 {
-    if (world->bodies[index].flags & FE__BODY_STIRRED) return;
-    world->bodies[index].flags |= FE__BODY_STIRRED;
-    world->stirred[world->stirred_count++] = index;
+    if (world->bodies[index].flags & FE__BODY_DISTURBED) return;
+    world->bodies[index].flags |= FE__BODY_DISTURBED;
+    world->disturbed[world->disturbed_count++] = index;
 }
 
 void fe__body_awaken_alone(fe_world *world, int32_t index)
