@@ -8,10 +8,11 @@
 #include "collision/form/heightfield.h"
 #include "collision/form/shape.h"
 #include "core/id_pool.h"
+#include "store/store.h"
 
 typedef struct fe__scene {
     const fe__shape *shapes;
-    const fe__heightfield *fields; // of shapes that have one, by fe__form.field
+    const fe_store *store; // of the heightfields that shapes have
     const fe__tree *static_tree, *moving_tree;
     const int32_t *planes;
     int32_t plane_count;

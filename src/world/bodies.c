@@ -4,7 +4,7 @@
 // the centre of mass and derives the origin from it. Mass is in mass.c, velocities and forces in motion.c, shapes in shapes.c.
 #include "world/bodies.h"
 
-#include "world/assets.h"
+#include "world/asset_users.h"
 #include "world/joints.h"
 #include "world/mass.h"
 #include "world/pair_list.h"
