@@ -79,7 +79,7 @@ typedef struct bench_joint {
     double limits[2];       ///< rad or m
     double cone;            ///< largest swing, rad
     double motor_speed;     ///< rad/s or m/s
-    double motor_force;     ///< largest, N m or N; with speed 0 it is a friction
+    double motor_max;       ///< largest, N m or N; with speed 0 it is a friction
     double hertz, damping;  ///< of a spring towards the zero: frequency, damping ratio
     double stiffness_hertz; ///< of the joint itself, 0: the engine's own
 } bench_joint;

@@ -111,7 +111,7 @@ static void pyramid(void)
         fe_world *world = make_world(1 + i);
         fe_body top = build_pyramid(world);
         run(world, 180);
-        height = fe_body_transform(world, top).position.y;
+        height = body_transform(world, top).position.y;
         hashes[i] = hash_of(world);
         must(fe_world_destroy(world));
     }
@@ -131,9 +131,9 @@ static double slide(double degrees, float friction, int from_step, int to_step)
     add_plane(world, angle, make_material(friction, 0));
     fe_body box = add_body(world, FE_BODY_DYNAMIC, &at, &cube, 1000, make_material(friction, 0));
     run(world, from_step);
-    fe_dvec3 a = fe_body_transform(world, box).position;
+    fe_dvec3 a = body_transform(world, box).position;
     run(world, to_step - from_step);
-    fe_dvec3 b = fe_body_transform(world, box).position;
+    fe_dvec3 b = body_transform(world, box).position;
     must(fe_world_destroy(world));
     return hypot((b.x - a.x) * cos(angle) + (b.y - a.y) * sin(angle), b.z - a.z);
 }
@@ -148,8 +148,8 @@ static double rebound(const fe_geometry *geometry, double half, double clear, fl
     double highest = 0;
     for (int i = 0, up = 0; i < 120; ++i) {
         run(world, 1);
-        float vy = fe_body_linear_velocity(world, body).y;
-        double y = fe_body_transform(world, body).position.y - half;
+        float vy = body_linear_velocity(world, body).y;
+        double y = body_transform(world, body).position.y - half;
         up |= vy > 0;
         // between two steps the top lies vy^2 / 2g above
         if (up && vy > 0 && vy < GRAVITY * DT) highest = y + (double)vy * (double)vy / (2 * GRAVITY);
@@ -174,7 +174,7 @@ static void push(void)
         must(fe_body_add_force(world, body, &force));
         run(world, 1);
     }
-    double speed = fe_body_linear_velocity(world, body).x, exact = 10 / (double)mass;
+    double speed = body_linear_velocity(world, body).x, exact = 10 / (double)mass;
     report("10 N for 1 s on 32.7 kg", "speed, m/s", speed, exact * (1 - 2e-5), exact * (1 + 2e-5), "0.30558");
     must(fe_world_destroy(world));
 }
@@ -237,7 +237,7 @@ static double normal_error(int i)
     fe_body sphere = add_body(world, FE_BODY_DYNAMIC, &ball_at, &ball, 1000, make_material(0.6f, 0));
     must(fe_world_step(world, 0));
     fe_contact contact;
-    if (fe_body_get_contacts(world, sphere, &contact, 0, 1) != 1) {
+    if (fe_body_get_contacts(world, sphere, &contact, sizeof contact, 1) != 1) {
         printf("pair %d: no contact\n", i);
         exit(1);
     }
@@ -339,7 +339,7 @@ static overlap_sums sum_overlaps(const fe_world *world, const fe_body *bodies, i
     overlap_sums sums = {0};
     for (int i = 0; i < count; ++i) {
         fe_contact contacts[64];
-        int32_t n = fe_body_get_contacts(world, bodies[i], contacts, 0, 64);
+        int32_t n = fe_body_get_contacts(world, bodies[i], contacts, sizeof *contacts, 64);
         for (int32_t k = 0; k < n && k < 64; ++k) add_overlaps(world, &contacts[k], &sums);
     }
     return sums;

@@ -33,7 +33,7 @@ int main(void)
     fe_shape_create(world, box, NULL, &cube, &shape);
 
     for (int step = 0; step <= 90; ++step) {
-        if (step % 15 == 0) printf("%4.2f s  y = %6.4f m\n", step / 60.0, fe_body_transform(world, box).position.y);
+        if (step % 15 == 0) printf("%4.2f s  y = %6.4f m\n", step / 60.0, body_transform(world, box).position.y);
         if (fe_world_step(world, 1.0f / 60.0f) != FE_OK) {
             printf("%s\n", fe_last_error());
             return 1;

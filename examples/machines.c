@@ -33,7 +33,7 @@ static fe_result show_ragdoll(fe_world *world)
         MACHINE_TRY(fe_joint_get_state(world, r.joints[i], &s));
         worst = fmaxf(worst, s.linear_error);
     }
-    printf("ragdoll  lies at %.2f m, its worst joint is open by %.2f mm\n", fe_body_transform(world, r.bones[RAGDOLL_HEAD]).position.y,
+    printf("ragdoll  lies at %.2f m, its worst joint is open by %.2f mm\n", body_transform(world, r.bones[RAGDOLL_HEAD]).position.y,
            (double)worst * 1e3);
     return FE_OK;
 }
@@ -64,8 +64,8 @@ static fe_result show_car(fe_world *world)
     MACHINE_TRY(car_build(world, valley, 0.2, 0, &c));
     MACHINE_TRY(car_drive(world, &c, 6, 400, 0));
     MACHINE_TRY(run(world, 300));
-    fe_vec3 v = fe_body_linear_velocity(world, c.chassis);
-    printf("car      drove %.1f m over hills in 5 s, now at %.2f m/s\n", fe_body_transform(world, c.chassis).position.x - valley,
+    fe_vec3 v = body_linear_velocity(world, c.chassis);
+    printf("car      drove %.1f m over hills in 5 s, now at %.2f m/s\n", body_transform(world, c.chassis).position.x - valley,
            (double)v.x);
     return FE_OK;
 }
@@ -75,7 +75,7 @@ static fe_result show_bridge(fe_world *world)
     bridge b;
     MACHINE_TRY(bridge_build(world, -30, 5, 0, &b));
     MACHINE_TRY(run(world, 600));
-    printf("bridge   sags by %.2f m\n", 5 - fe_body_transform(world, b.planks[BRIDGE_PLANKS / 2]).position.y);
+    printf("bridge   sags by %.2f m\n", 5 - body_transform(world, b.planks[BRIDGE_PLANKS / 2]).position.y);
     return FE_OK;
 }
 
@@ -87,9 +87,9 @@ static fe_result show_door(fe_world *world)
     MACHINE_TRY(door_build(world, 10, 0, 10, &d));
     MACHINE_TRY(fe_body_add_impulse_at(world, d.leaf, &push, &handle));
     MACHINE_TRY(run(world, 20));
-    printf("door     flung open to %.0f degrees", (double)(fe_joint_angle(world, d.hinges[0]) / MACHINE_DEGREE));
+    printf("door     flung open to %.0f degrees", (double)(joint_angle(world, d.hinges[0]) / MACHINE_DEGREE));
     MACHINE_TRY(run(world, 300));
-    printf(", 5 s later at %.2f\n", (double)(fe_joint_angle(world, d.hinges[0]) / MACHINE_DEGREE));
+    printf(", 5 s later at %.2f\n", (double)(joint_angle(world, d.hinges[0]) / MACHINE_DEGREE));
     return FE_OK;
 }
 
@@ -106,7 +106,7 @@ static fe_result show_crane(fe_world *world)
     MACHINE_TRY(run(world, 1800));
     MACHINE_TRY(fe_joint_get_reaction(world, c.chain[0], &force, &torque));
     printf("crane    carried %.0f kg on links of %.0f kg to x = %.2f m; the first bears %.0f N\n", (double)c.load_mass, (double)c.link_mass,
-           fe_body_transform(world, c.load).position.x, (double)force.y);
+           body_transform(world, c.load).position.x, (double)force.y);
     return FE_OK;
 }
 

@@ -231,8 +231,8 @@ static inline fe_result car_add_wheel(fe_world *world, car *c, int i, fe_dvec3 a
     MACHINE_TRY(fe_wheel_joint_def_at(world, &d, c->chassis, c->wheels[i], &at, &axle, &up, 2, 0.7f, 0.25f));
     if (i < 2) { // steers by a stiff drive
         fe_joint_axis *steer = &d.axes[FE_DOF_ANGULAR_Z];
-        steer->mode = FE_MOTION_LIMITED, steer->low = -0.6f, steer->high = 0.6f;
-        steer->drive = FE_SPRING_HERTZ, steer->stiffness = 10, steer->damping = 1;
+        steer->motion = FE_MOTION_LIMITED, steer->lower = -0.6f, steer->upper = 0.6f;
+        steer->spring = FE_SPRING_HERTZ, steer->spring_hertz = 10, steer->spring_damping_ratio = 1;
     }
     return fe_configurable_joint_create(world, &d, &c->axles[i]);
 }
@@ -339,7 +339,7 @@ static inline fe_result crane_build(fe_world *world, double x, double y, double 
     rail.struct_size = sizeof rail;
     MACHINE_TRY(fe_slider_joint_def_at(world, &rail, out->mast, out->trolley, &at, &along));
     rail.axes[FE_DOF_LINEAR_X].motion = FE_MOTION_LIMITED, rail.axes[FE_DOF_LINEAR_X].lower = -6, rail.axes[FE_DOF_LINEAR_X].upper = 6;
-    rail.axes[FE_DOF_LINEAR_X].spring = FE_SPRING_HERTZ, rail.axes[FE_DOF_LINEAR_X].stiffness = 0.5f, rail.axes[FE_DOF_LINEAR_X].damping = 1;
+    rail.axes[FE_DOF_LINEAR_X].spring = FE_SPRING_HERTZ, rail.axes[FE_DOF_LINEAR_X].spring_hertz = 0.5f, rail.axes[FE_DOF_LINEAR_X].spring_damping_ratio = 1;
     MACHINE_TRY(fe_configurable_joint_create(world, &rail, &out->winch));
     fe_geometry_capsule(&form, 0.1f, 0.05f);
     fe_body above = out->trolley;

@@ -174,8 +174,8 @@ static fe_result add_slider(bench_world *w, const bench_joint *joint, const fe_d
     fe_configurable_joint_def_init(&def, sizeof def);
     fe_result result = fe_slider_joint_def_at(w->world, &def, w->bodies[joint->body_a], w->bodies[joint->body_b], anchor, axis);
     fe_joint_axis *along = &def.axes[FE_DOF_LINEAR_X];
-    if (joint->has_limits) along->mode = FE_MOTION_LIMITED, along->low = (float)joint->limits[0], along->high = (float)joint->limits[1];
-    if (joint->hertz > 0.0) along->drive = FE_SPRING_HERTZ, along->stiffness = (float)joint->hertz, along->damping = (float)joint->damping;
+    if (joint->has_limits) along->motion = FE_MOTION_LIMITED, along->lower = (float)joint->limits[0], along->upper = (float)joint->limits[1];
+    if (joint->hertz > 0.0) along->spring = FE_SPRING_HERTZ, along->spring_hertz = (float)joint->hertz, along->spring_damping_ratio = (float)joint->damping;
     along->motor_speed = (float)joint->motor_speed, along->motor_max = (float)joint->motor_max;
     fe_joint created;
     return result == FE_OK ? fe_configurable_joint_create(w->world, &def, &created) : result;
@@ -372,7 +372,7 @@ static void measure_contacts(bench_world *w, bench_contacts *out_contacts)
             capacity = 2 * count;
             contacts = bench_resize(contacts, (size_t)capacity, sizeof *contacts);
         }
-        if (count > 0) count = fe_body_get_contacts(w->world, w->bodies[i], contacts, 0, capacity);
+        if (count > 0) count = fe_body_get_contacts(w->world, w->bodies[i], contacts, sizeof *contacts, capacity);
         if (count < 0) complain("contacts");
         for (int32_t k = 0; k < count; k++) {
             if (contacts[k].body_a == w->bodies[i]) add_contact(w, out_contacts, &contacts[k]); // each pair once
@@ -386,7 +386,7 @@ static int32_t raycast(bench_world *w, const bench_ray *ray, double *out_fractio
     fe_dvec3 origin = fe_make_dvec3(ray->origin[0], ray->origin[1], ray->origin[2]);
     fe_dvec3 translation = fe_make_dvec3(ray->translation[0], ray->translation[1], ray->translation[2]);
     fe_hit hit;
-    fe_result result = fe_world_raycast(w->world, &origin, &translation, NULL, &hit);
+    int32_t result = fe_world_raycast(w->world, &origin, &translation, NULL, &hit);
     if (result < 0) complain("raycast");
     if (result != FE_OK) return 0;
     *out_fraction = hit.fraction;
@@ -408,7 +408,7 @@ static int32_t sweep(bench_world *w, const bench_probe *probe, double *out_fract
     const double *d = probe->way.translation;
     fe_dvec3 translation = fe_make_dvec3(d[0], d[1], d[2]);
     fe_hit hit;
-    fe_result result = fe_world_sweep(w->world, &geometry, &start, &translation, NULL, &hit);
+    int32_t result = fe_world_sweep(w->world, &geometry, &start, &translation, NULL, &hit);
     if (result < 0) complain("sweep");
     if (result != FE_OK) return 0;
     *out_fraction = hit.fraction;

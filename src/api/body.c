@@ -62,7 +62,7 @@ static fe_body create(fe_world *world, const fe_body_def *full)
 fe_result fe_body_create(fe_world *world, const fe_body_def *def, fe_body *out_body)
 {
     if (out_body) *out_body = 0;
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_CHECK_POINTER(out_body);
     fe_body_def full;
     FE_TRY(read_body_def(function, def, &full));
@@ -74,12 +74,12 @@ fe_result fe_body_create(fe_world *world, const fe_body_def *def, fe_body *out_b
 fe_result fe_body_create_many(fe_world *world, const fe_body_def *defs, uint32_t stride, int32_t count, fe_body *out_bodies)
 {
     if (out_bodies && count > 0) memset(out_bodies, 0, sizeof *out_bodies * (size_t)count);
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_CHECK_ARRAY(defs, count);
     FE_CHECK_ARRAY(out_bodies, count);
     if (count == 0) return FE_OK;
     FE_CHECK_STRUCT_SIZE(defs);
-    FE_CHECK_STRIDE(stride, defs->struct_size, defs->struct_size);
+    FE_CHECK_RECORD_STRIDE(stride, (uint32_t)sizeof defs->struct_size, count);
     fe_body_def full;
     for (int32_t i = 0; i < count; ++i) {
         const fe_body_def *def = fe__at_const(defs, stride, i);
@@ -102,7 +102,7 @@ static void destroy(fe_world *world, int32_t index)
 
 fe_result fe_body_destroy(fe_world *world, fe_body body)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     destroy(world, index);
     return FE_OK;
@@ -124,7 +124,7 @@ static fe_result mark_bodies(const char *function, fe_world *world, const fe_bod
 
 fe_result fe_body_destroy_many(fe_world *world, const fe_body *bodies, int32_t count)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_CHECK_ARRAY(bodies, count);
     int32_t marked = 0;
     fe_result result = mark_bodies(function, world, bodies, count, &marked);
@@ -153,7 +153,7 @@ static int32_t must_be_static(const fe_world *world, int32_t body)
 
 fe_result fe_body_set_type(fe_world *world, fe_body body, int32_t type)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_INT(type, FE_BODY_STATIC, FE_BODY_DYNAMIC);
     if (type != FE_BODY_STATIC && must_be_static(world, index)) {
@@ -167,7 +167,7 @@ fe_result fe_body_set_type(fe_world *world, fe_body body, int32_t type)
 
 fe_result fe_body_get_type(const fe_world *world, fe_body body, int32_t *out_type)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_type);
     *out_type = world->bodies[index].type;
@@ -176,7 +176,7 @@ fe_result fe_body_get_type(const fe_world *world, fe_body body, int32_t *out_typ
 
 fe_result fe_body_set_transform(fe_world *world, fe_body body, const fe_transform *transform)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_TRANSFORM(transform);
     fe_transform copy = *transform;
@@ -188,7 +188,7 @@ fe_result fe_body_set_transform(fe_world *world, fe_body body, const fe_transfor
 
 fe_result fe_body_get_transform(const fe_world *world, fe_body body, fe_transform *out_transform)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_transform);
     *out_transform = fe__body_transform(&world->bodies[index]);
@@ -197,7 +197,7 @@ fe_result fe_body_get_transform(const fe_world *world, fe_body body, fe_transfor
 
 fe_result fe_body_get_centre(const fe_world *world, fe_body body, fe_dvec3 *out_centre)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_centre);
     const double *centre = world->bodies[index].centre;
@@ -246,7 +246,7 @@ static void give_mass(fe_world *world, int32_t index, const fe_mass_data *data)
 
 fe_result fe_body_set_mass_data(fe_world *world, fe_body body, const fe_mass_data *data)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     fe_mass_data copy;
     FE_TRY(read_mass_data(function, data, &copy));
@@ -257,7 +257,7 @@ fe_result fe_body_set_mass_data(fe_world *world, fe_body body, const fe_mass_dat
 
 fe_result fe_body_get_mass_data(const fe_world *world, fe_body body, fe_mass_data *out_data)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_STRUCT_SIZE(out_data);
     fe_mass_data data = {.struct_size = sizeof data};
@@ -280,7 +280,7 @@ static fe_mass_data scaled_mass(const fe_world *world, int32_t index, float mass
 
 fe_result fe_body_set_mass(fe_world *world, fe_body body, float mass)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_FLOAT(mass, FE_LEAST_MASS, FE_MAX_MASS);
     FE_TRY(check_dynamic(function, world, index, body));
@@ -294,7 +294,7 @@ fe_result fe_body_set_mass(fe_world *world, fe_body body, float mass)
 
 fe_result fe_body_get_mass(const fe_world *world, fe_body body, float *out_mass)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_mass);
     *out_mass = world->bodies[index].mass;
@@ -303,7 +303,7 @@ fe_result fe_body_get_mass(const fe_world *world, fe_body body, float *out_mass)
 
 fe_result fe_body_reset_mass(fe_world *world, fe_body body)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     if (!(world->bodies[index].flags & FE__BODY_MASS_GIVEN)) return FE_OK;
     fe__fp_state fp = fe__fp_enter();
@@ -318,7 +318,7 @@ fe_result fe_body_reset_mass(fe_world *world, fe_body body)
 
 fe_result fe_body_set_locks(fe_world *world, fe_body body, uint32_t linear_axes, uint32_t angular_axes)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_BITS(linear_axes, FE_AXIS_ALL);
     FE_CHECK_BITS(angular_axes, FE_AXIS_ALL);
@@ -330,7 +330,7 @@ fe_result fe_body_set_locks(fe_world *world, fe_body body, uint32_t linear_axes,
 
 fe_result fe_body_get_locks(const fe_world *world, fe_body body, uint32_t *out_linear_axes, uint32_t *out_angular_axes)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_linear_axes);
     FE_CHECK_POINTER(out_angular_axes);
@@ -342,7 +342,7 @@ fe_result fe_body_get_locks(const fe_world *world, fe_body body, uint32_t *out_l
 
 fe_result fe_body_set_damping(fe_world *world, fe_body body, float linear, float angular)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_FLOAT(linear, 0.0f, FE_MAX_VALUE);
     FE_CHECK_FLOAT(angular, 0.0f, FE_MAX_VALUE);
@@ -353,7 +353,7 @@ fe_result fe_body_set_damping(fe_world *world, fe_body body, float linear, float
 
 fe_result fe_body_get_damping(const fe_world *world, fe_body body, float *out_linear, float *out_angular)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_linear);
     FE_CHECK_POINTER(out_angular);
@@ -364,7 +364,7 @@ fe_result fe_body_get_damping(const fe_world *world, fe_body body, float *out_li
 
 fe_result fe_body_set_gravity_scale(fe_world *world, fe_body body, float scale)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_FLOAT(scale, -FE_MAX_VALUE, FE_MAX_VALUE);
     if (world->bodies[index].gravity_scale == scale) return FE_OK;
@@ -375,7 +375,7 @@ fe_result fe_body_set_gravity_scale(fe_world *world, fe_body body, float scale)
 
 fe_result fe_body_get_gravity_scale(const fe_world *world, fe_body body, float *out_scale)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_scale);
     *out_scale = world->bodies[index].gravity_scale;
@@ -386,7 +386,7 @@ fe_result fe_body_get_gravity_scale(const fe_world *world, fe_body body, float *
 
 fe_result fe_body_set_awake(fe_world *world, fe_body body, int32_t awake)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_BOOL(awake);
     if (awake) {
@@ -401,7 +401,7 @@ fe_result fe_body_set_awake(fe_world *world, fe_body body, int32_t awake)
 
 fe_result fe_body_get_awake(const fe_world *world, fe_body body, int32_t *out_awake)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_awake);
     *out_awake = world->bodies[index].awake_index >= 0;
@@ -416,7 +416,7 @@ static void set_flag(fe_world *world, int32_t index, uint32_t flag, int32_t on)
 
 fe_result fe_body_set_sleep_allowed(fe_world *world, fe_body body, int32_t allowed)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_BOOL(allowed);
     set_flag(world, index, FE__BODY_SLEEP_ALLOWED, allowed);
@@ -426,7 +426,7 @@ fe_result fe_body_set_sleep_allowed(fe_world *world, fe_body body, int32_t allow
 
 fe_result fe_body_get_sleep_allowed(const fe_world *world, fe_body body, int32_t *out_allowed)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_allowed);
     *out_allowed = (world->bodies[index].flags & FE__BODY_SLEEP_ALLOWED) != 0;
@@ -435,7 +435,7 @@ fe_result fe_body_get_sleep_allowed(const fe_world *world, fe_body body, int32_t
 
 fe_result fe_body_set_sleep_threshold(fe_world *world, fe_body body, float speed)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_FLOAT(speed, 0.0f, FE_MAX_SPEED);
     world->bodies[index].sleep_threshold = speed;
@@ -444,7 +444,7 @@ fe_result fe_body_set_sleep_threshold(fe_world *world, fe_body body, float speed
 
 fe_result fe_body_get_sleep_threshold(const fe_world *world, fe_body body, float *out_speed)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_speed);
     *out_speed = world->bodies[index].sleep_threshold;
@@ -455,7 +455,7 @@ fe_result fe_body_get_sleep_threshold(const fe_world *world, fe_body body, float
 
 fe_result fe_body_set_enabled(fe_world *world, fe_body body, int32_t enabled)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_BOOL(enabled);
     fe__fp_state fp = fe__fp_enter();
@@ -466,7 +466,7 @@ fe_result fe_body_set_enabled(fe_world *world, fe_body body, int32_t enabled)
 
 fe_result fe_body_get_enabled(const fe_world *world, fe_body body, int32_t *out_enabled)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_enabled);
     *out_enabled = (world->bodies[index].flags & FE__BODY_ENABLED) != 0;
@@ -475,7 +475,7 @@ fe_result fe_body_get_enabled(const fe_world *world, fe_body body, int32_t *out_
 
 fe_result fe_body_set_bullet(fe_world *world, fe_body body, int32_t bullet)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_BOOL(bullet);
     set_flag(world, index, FE__BODY_BULLET, bullet);
@@ -485,7 +485,7 @@ fe_result fe_body_set_bullet(fe_world *world, fe_body body, int32_t bullet)
 
 fe_result fe_body_get_bullet(const fe_world *world, fe_body body, int32_t *out_bullet)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_bullet);
     *out_bullet = (world->bodies[index].flags & FE__BODY_BULLET) != 0;
@@ -494,7 +494,7 @@ fe_result fe_body_get_bullet(const fe_world *world, fe_body body, int32_t *out_b
 
 fe_result fe_body_set_user_data(fe_world *world, fe_body body, uint64_t user_data)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     world->bodies[index].user_data = user_data;
     return FE_OK;
@@ -502,7 +502,7 @@ fe_result fe_body_set_user_data(fe_world *world, fe_body body, uint64_t user_dat
 
 fe_result fe_body_get_user_data(const fe_world *world, fe_body body, uint64_t *out_user_data)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_user_data);
     *out_user_data = world->bodies[index].user_data;
@@ -513,7 +513,7 @@ fe_result fe_body_get_user_data(const fe_world *world, fe_body body, uint64_t *o
 
 fe_result fe_body_set_filter(fe_world *world, fe_body body, uint32_t layer, uint32_t mask, int32_t group)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_FILTER(layer);
     if (world->bodies[index].shape_count == 0) return fe__fail(function, FE_ERROR_STATE, "body 0x%llx has no shapes to filter", body);
@@ -525,7 +525,7 @@ fe_result fe_body_set_filter(fe_world *world, fe_body body, uint32_t layer, uint
 
 int32_t fe_body_get_shapes(const fe_world *world, fe_body body, fe_shape *out_shapes, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_ARRAY(out_shapes, capacity);
     int32_t count = 0;

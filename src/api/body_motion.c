@@ -14,7 +14,7 @@ static fe_result check_moves(const char *function, const fe_world *world, int32_
 
 fe_result fe_body_set_linear_velocity(fe_world *world, fe_body body, const fe_vec3 *velocity)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_VEC3(velocity, FE_MAX_SPEED);
     FE_TRY(check_moves(function, world, index, body));
@@ -26,7 +26,7 @@ fe_result fe_body_set_linear_velocity(fe_world *world, fe_body body, const fe_ve
 
 fe_result fe_body_get_linear_velocity(const fe_world *world, fe_body body, fe_vec3 *out_velocity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_velocity);
     *out_velocity = fe__body_velocity(&world->bodies[index]);
@@ -35,7 +35,7 @@ fe_result fe_body_get_linear_velocity(const fe_world *world, fe_body body, fe_ve
 
 fe_result fe_body_set_angular_velocity(fe_world *world, fe_body body, const fe_vec3 *velocity)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_VEC3(velocity, FE_MAX_SPEED);
     FE_TRY(check_moves(function, world, index, body));
@@ -47,7 +47,7 @@ fe_result fe_body_set_angular_velocity(fe_world *world, fe_body body, const fe_v
 
 fe_result fe_body_get_angular_velocity(const fe_world *world, fe_body body, fe_vec3 *out_velocity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_velocity);
     *out_velocity = fe__body_spin(&world->bodies[index]);
@@ -62,7 +62,7 @@ static fe_dvec3 arm_to(const fe__body *body, const fe_dvec3 *point)
 
 fe_result fe_body_get_point_velocity(const fe_world *world, fe_body body, const fe_dvec3 *point, fe_vec3 *out_velocity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_DVEC3(point, FE_MAX_POSITION);
     FE_CHECK_POINTER(out_velocity);
@@ -84,7 +84,7 @@ static void velocities_to(const fe__body *body, const fe_transform *target, doub
 
 fe_result fe_body_set_target(fe_world *world, fe_body body, const fe_transform *target, float seconds)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_TRANSFORM(target);
     FE_CHECK_FLOAT(seconds, FE_LEAST_VALUE, FE_MAX_VALUE);
@@ -122,7 +122,7 @@ static fe_vec3 moment_of(const fe__body *body, const fe_vec3 *force, const fe_dv
 
 fe_result fe_body_add_force(fe_world *world, fe_body body, const fe_vec3 *force)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_VEC3(force, FE_MAX_FORCE);
     push(world, index, *force, fe__vec3(0.0f, 0.0f, 0.0f));
@@ -131,7 +131,7 @@ fe_result fe_body_add_force(fe_world *world, fe_body body, const fe_vec3 *force)
 
 fe_result fe_body_add_force_at(fe_world *world, fe_body body, const fe_vec3 *force, const fe_dvec3 *point)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_VEC3(force, FE_MAX_FORCE);
     FE_CHECK_DVEC3(point, FE_MAX_POSITION);
@@ -143,7 +143,7 @@ fe_result fe_body_add_force_at(fe_world *world, fe_body body, const fe_vec3 *for
 
 fe_result fe_body_add_torque(fe_world *world, fe_body body, const fe_vec3 *torque)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_VEC3(torque, FE_MAX_FORCE);
     push(world, index, fe__vec3(0.0f, 0.0f, 0.0f), *torque);
@@ -168,7 +168,7 @@ static fe_result strike(const char *function, fe_world *world, int32_t index, fe
 
 fe_result fe_body_add_impulse(fe_world *world, fe_body body, const fe_vec3 *impulse)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_VEC3(impulse, FE_MAX_FORCE);
     return strike(function, world, index, *impulse, fe__vec3(0.0f, 0.0f, 0.0f));
@@ -176,7 +176,7 @@ fe_result fe_body_add_impulse(fe_world *world, fe_body body, const fe_vec3 *impu
 
 fe_result fe_body_add_impulse_at(fe_world *world, fe_body body, const fe_vec3 *impulse, const fe_dvec3 *point)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_VEC3(impulse, FE_MAX_FORCE);
     FE_CHECK_DVEC3(point, FE_MAX_POSITION);
@@ -185,7 +185,7 @@ fe_result fe_body_add_impulse_at(fe_world *world, fe_body body, const fe_vec3 *i
 
 fe_result fe_body_add_angular_impulse(fe_world *world, fe_body body, const fe_vec3 *impulse)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_VEC3(impulse, FE_MAX_FORCE);
     return strike(function, world, index, fe__vec3(0.0f, 0.0f, 0.0f), *impulse);

@@ -51,7 +51,7 @@ static fe_result find_all(const char *function, const fe_world *world, const fe_
 
 int32_t fe_world_get_moved(const fe_world *world, fe_body *out_bodies, fe_transform *out_transforms, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_ARRAY(out_bodies, capacity);
     FE_CHECK_STRIDE(stride, sizeof *out_transforms, sizeof *out_transforms);
     int32_t count = 0;
@@ -70,7 +70,7 @@ int32_t fe_world_get_moved(const fe_world *world, fe_body *out_bodies, fe_transf
 fe_result fe_world_get_transforms(const fe_world *world, const fe_body *bodies, fe_transform *out_transforms, uint32_t stride,
                                   int32_t count)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_ARRAY(bodies, count);
     FE_CHECK_ARRAY(out_transforms, count);
     FE_CHECK_STRIDE(stride, sizeof *out_transforms, sizeof *out_transforms);
@@ -84,7 +84,7 @@ fe_result fe_world_get_transforms(const fe_world *world, const fe_body *bodies, 
 
 fe_result fe_world_set_transforms(fe_world *world, const fe_body *bodies, const fe_transform *transforms, uint32_t stride, int32_t count)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_CHECK_ARRAY(bodies, count);
     FE_CHECK_ARRAY(transforms, count);
     FE_CHECK_STRIDE(stride, sizeof *transforms, sizeof *transforms);
@@ -105,7 +105,7 @@ fe_result fe_world_set_transforms(fe_world *world, const fe_body *bodies, const 
 fe_result fe_world_get_transforms_f32(const fe_world *world, const fe_body *bodies, const fe_dvec3 *origin, float *out_floats,
                                       uint32_t stride, int32_t count)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_ARRAY(bodies, count);
     FE_CHECK_ARRAY(out_floats, count);
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
@@ -125,7 +125,7 @@ fe_result fe_world_get_transforms_f32(const fe_world *world, const fe_body *bodi
 
 fe_result fe_world_get_velocities(const fe_world *world, const fe_body *bodies, float *out_floats, uint32_t stride, int32_t count)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_ARRAY(bodies, count);
     FE_CHECK_ARRAY(out_floats, count);
     FE_CHECK_STRIDE(stride, sizeof(twist), sizeof(twist));
@@ -140,7 +140,7 @@ fe_result fe_world_get_velocities(const fe_world *world, const fe_body *bodies, 
 
 fe_result fe_world_set_velocities(fe_world *world, const fe_body *bodies, const float *floats, uint32_t stride, int32_t count)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_CHECK_ARRAY(bodies, count);
     FE_CHECK_ARRAY(floats, count);
     FE_CHECK_STRIDE(stride, sizeof(twist), sizeof(twist));
@@ -164,7 +164,7 @@ fe_result fe_world_set_velocities(fe_world *world, const fe_body *bodies, const 
 
 fe_result fe_world_add_forces(fe_world *world, const fe_body *bodies, const float *floats, uint32_t stride, int32_t count)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_CHECK_ARRAY(bodies, count);
     FE_CHECK_ARRAY(floats, count);
     FE_CHECK_STRIDE(stride, sizeof(twist), sizeof(twist));

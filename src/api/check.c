@@ -2,6 +2,8 @@
 #include "api/check.h"
 
 #include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -11,13 +13,17 @@ enum {
 
 static const char *const kind_names[] = {"nothing", "body", "shape", "joint", "asset"};
 
-fe_result fe__check_world(const char *function, const fe_world *world)
+fe_result fe__refuse(const char *function, const fe_world *world)
 {
     if (!world) return fe__fail(function, FE_ERROR_ARGUMENT, "world is NULL");
-    if (atomic_load_explicit(&world->stepping, memory_order_acquire)) {
+    switch (atomic_load_explicit(&world->owner.occupation, memory_order_acquire)) {
+    case FE__STEP:
         return fe__fail(function, FE_ERROR_STEPPING, "the world is in a step; call it when fe_world_step has returned");
+    case FE__CLOSING:
+        return fe__fail(function, FE_ERROR_BUSY, "the world is being destroyed");
+    default:
+        return fe__fail(function, FE_ERROR_BUSY, "another call is changing this world now; one world needs one writer at a time");
     }
-    return FE_OK;
 }
 
 // ---- handles --------------------------------------------------------------------------------------------------------------------
@@ -71,37 +77,71 @@ fe_result fe__find_asset(const char *function, const char *name, const fe_store 
     return fe__fail(function, FE_ERROR_STALE, "asset 0x%llx was destroyed; it lives on for its shapes only", handle);
 }
 
+// ---- words of a sentence --------------------------------------------------------------------------------------------------------
+
+// The checks' arguments are expressions of the code, such as &full->frame.position. The caller knows what is behind the last arrow.
+static const char *callers_name(const char *expression)
+{
+    const char *name = expression;
+    for (const char *c = expression; *c; ++c)
+        if (c[0] == '-' && c[1] == '>') name = c + 2;
+    while (*name == '&' || *name == '*') ++name;
+    return name;
+}
+
+typedef struct number_text {
+    char text[32];
+} number_text;
+
+// As short as tells the float, or else the double, from its neighbours
+static number_text text_of(double value)
+{
+    static const int digits[] = {6, 9, 17};
+    number_text t;
+    if (value != value) {
+        memcpy(t.text, "NaN", sizeof "NaN");
+        return t;
+    }
+    for (size_t i = 0; i < sizeof digits / sizeof *digits; ++i) {
+        snprintf(t.text, sizeof t.text, "%.*g", digits[i], value);
+        double back = strtod(t.text, NULL);
+        if (back == value || (float)back == (float)value) break;
+    }
+    return t;
+}
+
 // ---- values ---------------------------------------------------------------------------------------------------------------------
 
 fe_result fe__check_pointer(const char *function, const char *name, int32_t there)
 {
-    return there ? FE_OK : fe__fail(function, FE_ERROR_ARGUMENT, "%s is NULL", name);
+    return there ? FE_OK : fe__fail(function, FE_ERROR_ARGUMENT, "%s is NULL", callers_name(name));
 }
 
 // Finite first, by a comparison that raises nothing: a host may have unmasked the exceptions of NaNs.
 fe_result fe__check_number(const char *function, const char *name, const char *part, double value, double low, double high)
 {
     if (__builtin_isfinite(value) && value >= low && value <= high) return FE_OK;
-    return fe__fail(function, FE_ERROR_ARGUMENT, "%s%s is %.9g, must lie in [%.9g, %.9g]", name, part, value, low, high);
+    return fe__fail(function, FE_ERROR_ARGUMENT, "%s%s is %s, must be %s..%s", callers_name(name), part, text_of(value).text,
+                    text_of(low).text, text_of(high).text);
 }
 
 fe_result fe__check_int(const char *function, const char *name, int64_t value, int64_t low, int64_t high)
 {
     if (value >= low && value <= high) return FE_OK;
-    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is %" PRId64 ", must lie in %" PRId64 "..%" PRId64, name, value, low, high);
+    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is %" PRId64 ", must be %" PRId64 "..%" PRId64, callers_name(name), value, low, high);
 }
 
 fe_result fe__check_bits(const char *function, const char *name, uint32_t value, uint32_t allowed)
 {
     if (!(value & ~allowed)) return FE_OK;
-    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is 0x%" PRIx32 ", only the bits of 0x%" PRIx32 " have a meaning", name, value,
-                    allowed);
+    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is 0x%" PRIx32 ", only the bits of 0x%" PRIx32 " have a meaning", callers_name(name),
+                    value, allowed);
 }
 
 fe_result fe__check_layer(const char *function, const char *name, uint32_t layer)
 {
     if (layer != 0 && !(layer & (layer - 1))) return FE_OK;
-    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is 0x%" PRIx32 ", must be exactly one bit", name, layer);
+    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is 0x%" PRIx32 ", must be exactly one bit", callers_name(name), layer);
 }
 
 fe_result fe__check_vec3(const char *function, const char *name, const fe_vec3 *v, float most)
@@ -118,8 +158,8 @@ fe_result fe__check_direction(const char *function, const char *name, const fe_v
     FE_TRY(fe__check_pointer(function, name, v != NULL));
     int32_t finite = __builtin_isfinite(v->x) && __builtin_isfinite(v->y) && __builtin_isfinite(v->z);
     if (finite && (v->x != 0.0f || v->y != 0.0f || v->z != 0.0f)) return FE_OK;
-    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is (%.9g, %.9g, %.9g), must be finite and not zero", name, (double)v->x, (double)v->y,
-                    (double)v->z);
+    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is (%s, %s, %s), must be finite and not zero", callers_name(name),
+                    text_of((double)v->x).text, text_of((double)v->y).text, text_of((double)v->z).text);
 }
 
 fe_result fe__check_dvec3(const char *function, const char *name, const fe_dvec3 *v, double most)
@@ -136,8 +176,8 @@ fe_result fe__check_quat(const char *function, const char *name, const fe_quat *
     FE_TRY(fe__check_pointer(function, name, q != NULL));
     int32_t finite = __builtin_isfinite(q->x) && __builtin_isfinite(q->y) && __builtin_isfinite(q->z) && __builtin_isfinite(q->w);
     if (finite && (q->x != 0.0f || q->y != 0.0f || q->z != 0.0f || q->w != 0.0f)) return FE_OK;
-    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is (%.9g, %.9g, %.9g, %.9g), a rotation must be finite and not zero", name,
-                    (double)q->x, (double)q->y, (double)q->z, (double)q->w);
+    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is (%s, %s, %s, %s), a rotation must be finite and not zero", callers_name(name),
+                    text_of((double)q->x).text, text_of((double)q->y).text, text_of((double)q->z).text, text_of((double)q->w).text);
 }
 
 fe_result fe__check_transform(const char *function, const char *name, const fe_transform *transform)
@@ -149,20 +189,31 @@ fe_result fe__check_transform(const char *function, const char *name, const fe_t
 
 // ---- arrays ---------------------------------------------------------------------------------------------------------------------
 
-fe_result fe__check_array(const char *function, const char *name, const void *array, int32_t count)
+fe_result fe__check_array(const char *function, const char *name, const char *count_name, const void *array, int32_t count)
 {
-    if (count < 0) return fe__fail(function, FE_ERROR_ARGUMENT, "room or number of %s is %" PRId32 ", must not be negative", name, count);
-    if (!array && count > 0) return fe__fail(function, FE_ERROR_ARGUMENT, "%s is NULL, for %" PRId32 " of them", name, count);
+    name = callers_name(name), count_name = callers_name(count_name);
+    if (count < 0) return fe__fail(function, FE_ERROR_ARGUMENT, "%s is %" PRId32 ", must not be negative", count_name, count);
+    if (!array && count > 0) return fe__fail(function, FE_ERROR_ARGUMENT, "%s is NULL, but %s is %" PRId32, name, count_name, count);
     return FE_OK;
 }
 
-fe_result fe__check_stride(const char *function, uint32_t *stride, uint32_t packed, uint32_t least)
+fe_result fe__check_stride(const char *function, const char *name, uint32_t *stride, uint32_t packed, uint32_t least)
 {
-    if (*stride == 0) {
+    if (*stride == 0 && packed != 0) {
         *stride = packed;
-    } else if (*stride < least || *stride % LEAST_STRIDE != 0) {
-        return fe__fail(function, FE_ERROR_ARGUMENT, "stride is %" PRIu32 ", must be 0 (packed) or a multiple of %d of at least %" PRIu32,
-                        *stride, LEAST_STRIDE, least);
+        return FE_OK;
+    }
+    if (*stride >= least && *stride % LEAST_STRIDE == 0) return FE_OK;
+    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is %" PRIu32 ", must be %sa multiple of %d of at least %" PRIu32, callers_name(name),
+                    *stride, packed ? "0 (packed) or " : "the size of the caller's record: ", LEAST_STRIDE, least);
+}
+
+fe_result fe__check_reserved(const char *function, const void *words, int32_t count)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        uint32_t word;
+        memcpy(&word, (const unsigned char *)words + sizeof word * (size_t)i, sizeof word);
+        if (word != 0) return fe__fail(function, FE_ERROR_ARGUMENT, "reserved holds 0x%" PRIx32 ", must be 0", word);
     }
     return FE_OK;
 }
@@ -176,26 +227,37 @@ static uint32_t size_of(const void *given)
     return size;
 }
 
-fe_result fe__check_struct_size(const char *function, const char *name, const void *given)
+// After a field of this version, or beyond all of them
+static int32_t ends_with_a_field(uint32_t size, const fe__fields *fields)
 {
+    if (size >= fields->size) return size <= LARGEST_STRUCT && size % sizeof size == 0;
+    for (uint32_t i = 0; i < fields->count; ++i)
+        if (fields->ends[i] == size) return 1;
+    return 0;
+}
+
+fe_result fe__check_struct_size(const char *function, const char *name, const void *given, const fe__fields *fields)
+{
+    name = callers_name(name);
     FE_TRY(fe__check_pointer(function, name, given != NULL));
     uint32_t size = size_of(given);
-    if (size >= sizeof size && size <= LARGEST_STRUCT && size % sizeof size == 0) return FE_OK;
-    return fe__fail(function, FE_ERROR_ARGUMENT, "%s->struct_size is %" PRIu32 ", must be sizeof *%s: is it filled by its init function?",
-                    name, size, name);
+    if (ends_with_a_field(size, fields)) return FE_OK;
+    const char *cause = size >= sizeof size && size < fields->size ? "which ends inside a field" : "which is no size of any version";
+    return fe__fail(function, FE_ERROR_ARGUMENT, "%s.struct_size is %" PRIu32 ", %s (%" PRIu32 " in this one): is it filled by its _init?",
+                    name, size, cause, fields->size);
 }
 
 // The front that both sides know is taken. What an older client does not have keeps its default; what a newer one has beyond must be zero,
 // because this version cannot honour it.
-fe_result fe__read_struct(const char *function, const char *name, const void *given, void *copy, uint32_t size)
+fe_result fe__read_struct(const char *function, const char *name, const void *given, void *copy, const fe__fields *fields)
 {
-    FE_TRY(fe__check_struct_size(function, name, given));
-    uint32_t given_size = size_of(given);
+    FE_TRY(fe__check_struct_size(function, name, given, fields));
+    uint32_t given_size = size_of(given), size = fields->size;
     const unsigned char *bytes = given;
     for (uint32_t i = size; i < given_size; ++i) {
         if (bytes[i] == 0) continue;
-        return fe__fail(function, FE_ERROR_ARGUMENT, "%s has a value at byte %" PRIu32 ", this version knows %" PRIu32 " bytes of it", name,
-                        i, size);
+        return fe__fail(function, FE_ERROR_ARGUMENT, "%s has a value at byte %" PRIu32 ", this version knows %" PRIu32 " bytes of it",
+                        callers_name(name), i, size);
     }
     memcpy(copy, given, given_size < size ? given_size : size);
     memcpy(copy, &size, sizeof size);
@@ -224,6 +286,9 @@ fe_result fe__check_material(const char *function, const fe_material *material)
     FE_CHECK_FLOAT(material->restitution, 0.0f, 1.0f);
     FE_CHECK_FLOAT(material->rolling_resistance, 0.0f, FE_MAX_VALUE);
     FE_CHECK_FLOAT(material->spinning_resistance, 0.0f, FE_MAX_VALUE);
+    FE_CHECK_INT(material->friction_combine, FE_COMBINE_DEFAULT, FE_COMBINE_MAXIMUM);
+    FE_CHECK_INT(material->restitution_combine, FE_COMBINE_DEFAULT, FE_COMBINE_MAXIMUM);
+    FE_CHECK_RESERVED(material->reserved);
     return FE_OK;
 }
 

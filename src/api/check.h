@@ -1,17 +1,19 @@
 // check.h - the door of the library: what every API function asks of its arguments.
 //
-// An API function opens with FE_BEGIN(world), then one line for each argument; each line leaves the function with an error and its sentence
-// when the argument is wrong. Past these lines nothing is checked again. The names in the sentences are the expressions as written:
+// An API function opens with FE_READ(world) or FE_WRITE(world), which enter the world until the function returns (core/owner.h). Then comes
+// one line for each argument; each line leaves the function with an error and its sentence when the argument is wrong. Past these lines
+// nothing is checked again. The names in the sentences are those of the caller's argument or field:
 //
 //     fe_result fe_body_set_gravity_scale(fe_world *world, fe_body body, float scale)
 //     {
-//         FE_BEGIN(world);
+//         FE_WRITE(world);
 //         FE_FIND_BODY(index, body);
 //         FE_CHECK_FLOAT(scale, -FE_MAX_VALUE, FE_MAX_VALUE);
 //         ...
 #ifndef FE_API_CHECK_H
 #define FE_API_CHECK_H
 #include "api/error.h"
+#include "api/fields.h"
 #include "world/world.h"
 
 // The largest numbers taken. Squares and products of them stay far inside a float, so that no argument can make an infinity.
@@ -39,9 +41,20 @@ enum { FE_MAX_SUBSTEPS = 64 };
         if (tried != FE_OK) return tried; \
     } while (0)
 
-#define FE_BEGIN(world)              \
+#define FE_CLEANUP(function) __attribute__((cleanup(function)))
+// Inside the world until the end of the block. `function`: the name of the API function
+#define FE_READ_AS(function, world)                                                                   \
+    FE_CLEANUP(fe__end_read) fe__reader *inside = (world) ? fe__reader_enter(&(world)->owner) : NULL; \
+    if (!inside) return fe__refuse(function, world)
+#define FE_WRITE_AS(function, world)                                                                                    \
+    FE_CLEANUP(fe__end_write) fe__owner *inside = (world) && fe__owner_enter(&(world)->owner) ? &(world)->owner : NULL; \
+    if (!inside) return fe__refuse(function, world)
+#define FE_READ(world)               \
     const char *function = __func__; \
-    if (!fe__is_at_rest(world)) FE_TRY(fe__check_world(function, world))
+    FE_READ_AS(function, world)
+#define FE_WRITE(world)              \
+    const char *function = __func__; \
+    FE_WRITE_AS(function, world)
 #define FE_BEGIN_WITHOUT_WORLD() const char *function = __func__
 // Declares `index`, the record that a handle names.
 #define FE_FIND_BODY(index, handle) \
@@ -68,16 +81,27 @@ enum { FE_MAX_SUBSTEPS = 64 };
 #define FE_CHECK_DIRECTION(pointer) FE_TRY(fe__check_direction(function, #pointer, pointer))
 #define FE_CHECK_FILTER(layer) FE_TRY(fe__check_layer(function, #layer, layer))
 // An array of `count` things; NULL only for none
-#define FE_CHECK_ARRAY(array, count) FE_TRY(fe__check_array(function, #array, array, count))
-// Makes the bytes from one thing to the next of 0 for packed ones; refuses what is smaller than `least`
-#define FE_CHECK_STRIDE(stride, packed, least) FE_TRY(fe__check_stride(function, &(stride), packed, least))
+#define FE_CHECK_ARRAY(array, count) FE_TRY(fe__check_array(function, #array, #count, array, count))
+// Bytes from one thing to the next. 0 becomes `packed`, where that is not 0; less than `least` is refused
+#define FE_CHECK_STRIDE(stride, packed, least) FE_TRY(fe__check_stride(function, #stride, &(stride), packed, least))
+// Of records that may grow: the caller states it, unless there are none of them
+#define FE_CHECK_RECORD_STRIDE(stride, least, count) \
+    if ((stride) != 0 || (count) != 0) FE_CHECK_STRIDE(stride, 0, least)
+#define FE_CHECK_RESERVED(words) FE_TRY(fe__check_reserved(function, words, (int32_t)(sizeof(words) / sizeof(uint32_t))))
 // `copy` holds the defaults; what the caller's struct has replaces them
-#define FE_READ_STRUCT(given, copy) FE_TRY(fe__read_struct(function, #given, given, copy, (uint32_t)sizeof *(copy)))
-#define FE_CHECK_STRUCT_SIZE(given) FE_TRY(fe__check_struct_size(function, #given, given))
+#define FE_READ_STRUCT(given, copy) FE_TRY(fe__read_struct(function, #given, given, copy, FE_FIELDS_OF(copy)))
+#define FE_CHECK_STRUCT_SIZE(given) FE_TRY(fe__check_struct_size(function, #given, given, FE_FIELDS_OF(given)))
 
-// There, and in no step: what each call asks, without a call
-static inline int fe__is_at_rest(const fe_world *world) { return world && !atomic_load_explicit(&world->stepping, memory_order_acquire); }
-fe_result fe__check_world(const char *function, const fe_world *world);
+static inline void fe__end_read(fe__reader **reader)
+{
+    if (*reader) fe__reader_leave(*reader);
+}
+static inline void fe__end_write(fe__owner **owner)
+{
+    if (*owner) fe__owner_leave(*owner);
+}
+// Why the world could not be entered
+fe_result fe__refuse(const char *function, const fe_world *world);
 fe_result fe__find_body(const char *function, const char *name, const fe_world *world, fe_body handle, int32_t *out_index);
 fe_result fe__find_shape(const char *function, const char *name, const fe_world *world, fe_shape handle, int32_t *out_index);
 fe_result fe__find_joint(const char *function, const char *name, const fe_world *world, fe_joint handle, int32_t *out_index);
@@ -92,12 +116,13 @@ fe_result fe__check_direction(const char *function, const char *name, const fe_v
 fe_result fe__check_dvec3(const char *function, const char *name, const fe_dvec3 *v, double most);
 fe_result fe__check_quat(const char *function, const char *name, const fe_quat *q);
 fe_result fe__check_transform(const char *function, const char *name, const fe_transform *transform);
-fe_result fe__check_array(const char *function, const char *name, const void *array, int32_t count);
-fe_result fe__check_stride(const char *function, uint32_t *stride, uint32_t packed, uint32_t least);
+fe_result fe__check_array(const char *function, const char *name, const char *count_name, const void *array, int32_t count);
+fe_result fe__check_stride(const char *function, const char *name, uint32_t *stride, uint32_t packed, uint32_t least);
+fe_result fe__check_reserved(const char *function, const void *words, int32_t count); // 32 bits each
 fe_result fe__check_material(const char *function, const fe_material *material);
 fe_result fe__read_allocator(const char *function, const fe_allocator *allocator, fe_allocator *copy);
-fe_result fe__check_struct_size(const char *function, const char *name, const void *given);
-fe_result fe__read_struct(const char *function, const char *name, const void *given, void *copy, uint32_t size);
+fe_result fe__check_struct_size(const char *function, const char *name, const void *given, const fe__fields *fields);
+fe_result fe__read_struct(const char *function, const char *name, const void *given, void *copy, const fe__fields *fields);
 
 // |x| <= most, for finite most > 0. As integers, so that nothing is raised: the bits of doubles are in their order, and those of infinity
 // and NaN above all others.

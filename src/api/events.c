@@ -5,6 +5,7 @@
 #include "world/pair_list.h"
 #include "world/pairs.h"
 
+#include <stddef.h>
 #include <string.h>
 
 // Records grow at their tail: an older client's stride may be shorter than a record, it gets the front.
@@ -17,44 +18,51 @@ static void put(void *out, uint32_t stride, int32_t i, const void *record, size_
 
 // ---- events ---------------------------------------------------------------------------------------------------------------------
 
+// Where the events of one kind lie: records with the event at an offset
+typedef struct event_list {
+    const void *records; // NULL: none yet
+    size_t record_size, offset, event_size;
+    int32_t count;
+} event_list;
+#define LIST_OF(kind)                                                                                                                   \
+    (event_list)                                                                                                                        \
+    {                                                                                                                                   \
+        world->kind##_events, sizeof(fe__##kind##_event_record), offsetof(fe__##kind##_event_record, event), sizeof(fe_##kind##_event), \
+            world->kind##_event_count                                                                                                   \
+    }
+
+static int32_t write_events(const char *function, event_list list, void *out_events, uint32_t stride, int32_t capacity)
+{
+    FE_CHECK_ARRAY(out_events, capacity);
+    FE_CHECK_RECORD_STRIDE(stride, LEAST_RECORD, capacity);
+    int32_t written = fe__mini(list.count, capacity);
+    for (int32_t i = 0; i < written; ++i)
+        put(out_events, stride, i, (const unsigned char *)list.records + list.record_size * (size_t)i + list.offset, list.event_size);
+    return list.count;
+}
+
 int32_t fe_world_get_pair_events(const fe_world *world, fe_pair_event *out_events, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
-    FE_CHECK_ARRAY(out_events, capacity);
-    FE_CHECK_STRIDE(stride, sizeof *out_events, LEAST_RECORD);
-    int32_t count = fe__mini(world->pair_event_count, capacity);
-    for (int32_t i = 0; i < count; ++i) put(out_events, stride, i, &world->pair_events[i].event, sizeof *out_events);
-    return world->pair_event_count;
+    FE_READ(world);
+    return write_events(function, LIST_OF(pair), out_events, stride, capacity);
 }
 
 int32_t fe_world_get_body_events(const fe_world *world, fe_body_event *out_events, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
-    FE_CHECK_ARRAY(out_events, capacity);
-    FE_CHECK_STRIDE(stride, sizeof *out_events, LEAST_RECORD);
-    int32_t count = fe__mini(world->body_event_count, capacity);
-    for (int32_t i = 0; i < count; ++i) put(out_events, stride, i, &world->body_events[i].event, sizeof *out_events);
-    return world->body_event_count;
+    FE_READ(world);
+    return write_events(function, LIST_OF(body), out_events, stride, capacity);
 }
 
 int32_t fe_world_get_hit_events(const fe_world *world, fe_hit_event *out_events, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
-    FE_CHECK_ARRAY(out_events, capacity);
-    FE_CHECK_STRIDE(stride, sizeof *out_events, LEAST_RECORD);
-    int32_t count = fe__mini(world->hit_event_count, capacity);
-    for (int32_t i = 0; i < count; ++i) put(out_events, stride, i, &world->hit_events[i].event, sizeof *out_events);
-    return world->hit_event_count;
+    FE_READ(world);
+    return write_events(function, LIST_OF(hit), out_events, stride, capacity);
 }
 
 int32_t fe_world_get_joint_events(const fe_world *world, fe_joint_event *out_events, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
-    FE_CHECK_ARRAY(out_events, capacity);
-    FE_CHECK_STRIDE(stride, sizeof *out_events, LEAST_RECORD);
-    int32_t count = fe__mini(world->joint_event_count, capacity);
-    for (int32_t i = 0; i < count; ++i) put(out_events, stride, i, &world->joint_events[i].event, sizeof *out_events);
-    return world->joint_event_count;
+    FE_READ(world);
+    return write_events(function, LIST_OF(joint), out_events, stride, capacity);
 }
 
 // ---- contacts -------------------------------------------------------------------------------------------------------------------
@@ -118,10 +126,10 @@ static int32_t write_contacts(const fe_world *world, int32_t body, int32_t shape
 
 int32_t fe_body_get_contacts(const fe_world *world, fe_body body, fe_contact *out_contacts, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_ARRAY(out_contacts, capacity);
-    FE_CHECK_STRIDE(stride, sizeof *out_contacts, LEAST_RECORD);
+    FE_CHECK_RECORD_STRIDE(stride, LEAST_RECORD, capacity);
     fe__fp_state fp = fe__fp_enter();
     int32_t count = write_contacts(world, index, -1, out_contacts, stride, capacity);
     fe__fp_leave(fp);
@@ -130,10 +138,10 @@ int32_t fe_body_get_contacts(const fe_world *world, fe_body body, fe_contact *ou
 
 int32_t fe_shape_get_contacts(const fe_world *world, fe_shape shape, fe_contact *out_contacts, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_ARRAY(out_contacts, capacity);
-    FE_CHECK_STRIDE(stride, sizeof *out_contacts, LEAST_RECORD);
+    FE_CHECK_RECORD_STRIDE(stride, LEAST_RECORD, capacity);
     fe__fp_state fp = fe__fp_enter();
     int32_t count = write_contacts(world, world->shapes[index].body, index, out_contacts, stride, capacity);
     fe__fp_leave(fp);

@@ -13,14 +13,14 @@ static const char *const type_names[FE__JOINT_TYPES] = {"none",  "distance joint
 static fe_result create(const char *function, fe_world *world, int32_t type, const void *def, fe_joint *out_joint)
 {
     if (out_joint) *out_joint = 0;
-    FE_TRY(fe__check_world(function, world));
+    FE_WRITE_AS(function, world);
     FE_CHECK_POINTER(out_joint);
     fe__joint_any full;
     fe__joint_defaults(type, &full);
-    FE_TRY(fe__read_struct(function, "def", def, &full, full.common.struct_size));
+    FE_TRY(fe__read_struct(function, "def", def, &full, fe__joint_fields(type)));
     int32_t bodies[2];
-    FE_TRY(fe__find_body(function, "def->body_a", world, full.common.body_a, &bodies[0]));
-    FE_TRY(fe__find_body(function, "def->body_b", world, full.common.body_b, &bodies[1]));
+    FE_TRY(fe__find_body(function, "body_a", world, full.common.body_a, &bodies[0]));
+    FE_TRY(fe__find_body(function, "body_b", world, full.common.body_b, &bodies[1]));
     if (bodies[0] == bodies[1]) return fe__fail(function, FE_ERROR_ARGUMENT, "both ends are body 0x%llx", full.common.body_a);
     FE_TRY(fe__check_joint_def(function, type, &full));
     int32_t joint = 0;
@@ -72,9 +72,8 @@ static fe_result check_bodies(const char *function, const fe_world *world, int32
     const int32_t *bodies = world->joint_records[index].body;
     fe_body a = fe__body_handle(world, bodies[0]), b = fe__body_handle(world, bodies[1]);
     if ((full->body_a == 0 || full->body_a == a) && (full->body_b == 0 || full->body_b == b)) return FE_OK;
-    return fe__fail(function, FE_ERROR_ARGUMENT,
-                    "def->body_a, body_b are 0x%llx, 0x%llx, the joint has 0x%llx, 0x%llx, which no call changes", full->body_a,
-                    full->body_b, a, b);
+    return fe__fail(function, FE_ERROR_ARGUMENT, "body_a, body_b are 0x%llx, 0x%llx, the joint has 0x%llx, 0x%llx, which no call changes",
+                    full->body_a, full->body_b, a, b);
 }
 
 static fe_result change(const char *function, fe_world *world, int32_t index, const fe__joint_any *full)
@@ -87,12 +86,12 @@ static fe_result change(const char *function, fe_world *world, int32_t index, co
 
 static fe_result set(const char *function, fe_world *world, int32_t type, fe_joint joint, const void *def)
 {
-    FE_TRY(fe__check_world(function, world));
+    FE_WRITE_AS(function, world);
     FE_FIND_JOINT(index, joint);
     FE_TRY(check_type(function, world, index, type));
     fe__joint_any full;
     fe__joint_describe(world, index, &full);
-    FE_TRY(fe__read_struct(function, "def", def, &full, full.common.struct_size));
+    FE_TRY(fe__read_struct(function, "def", def, &full, fe__joint_fields(type)));
     FE_TRY(check_bodies(function, world, index, &full.common));
     FE_TRY(fe__check_joint_def(function, type, &full));
     return change(function, world, index, &full);
@@ -100,9 +99,9 @@ static fe_result set(const char *function, fe_world *world, int32_t type, fe_joi
 
 static fe_result get(const char *function, const fe_world *world, int32_t type, fe_joint joint, void *out_def)
 {
-    FE_TRY(fe__check_world(function, world));
+    FE_READ_AS(function, world);
     FE_FIND_JOINT(index, joint);
-    FE_CHECK_STRUCT_SIZE(out_def);
+    FE_TRY(fe__check_struct_size(function, "out_def", out_def, fe__joint_fields(type)));
     FE_TRY(check_type(function, world, index, type));
     fe__joint_any full;
     fe__joint_describe(world, index, &full);
@@ -114,7 +113,10 @@ fe_result fe_distance_joint_set(fe_world *world, fe_joint joint, const fe_distan
 {
     return set(__func__, world, FE_JOINT_DISTANCE, joint, def);
 }
-fe_result fe_ball_joint_set(fe_world *world, fe_joint joint, const fe_ball_joint_def *def) { return set(__func__, world, FE_JOINT_BALL, joint, def); }
+fe_result fe_ball_joint_set(fe_world *world, fe_joint joint, const fe_ball_joint_def *def)
+{
+    return set(__func__, world, FE_JOINT_BALL, joint, def);
+}
 fe_result fe_hinge_joint_set(fe_world *world, fe_joint joint, const fe_hinge_joint_def *def)
 {
     return set(__func__, world, FE_JOINT_HINGE, joint, def);
@@ -155,12 +157,12 @@ fe_result fe_configurable_joint_get(const fe_world *world, fe_joint joint, fe_co
 // ---- what all types have --------------------------------------------------------------------------------------------------------------
 fe_result fe_joint_set(fe_world *world, fe_joint joint, const fe_joint_def *def)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_JOINT(index, joint);
     fe__joint_any full;
     fe__joint_describe(world, index, &full);
     uint32_t size = full.common.struct_size;
-    FE_TRY(fe__read_struct(function, "def", def, &full, FE__JOINT_FRONT));
+    FE_TRY(fe__read_struct(function, "def", def, &full, &fe__fields_of_fe_joint_def));
     full.common.struct_size = size;
     FE_TRY(check_bodies(function, world, index, &full.common));
     FE_TRY(fe__check_joint_common(function, &full.common));
@@ -169,7 +171,7 @@ fe_result fe_joint_set(fe_world *world, fe_joint joint, const fe_joint_def *def)
 
 fe_result fe_joint_get(const fe_world *world, fe_joint joint, fe_joint_def *out_def)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_JOINT(index, joint);
     FE_CHECK_STRUCT_SIZE(out_def);
     fe__joint_any full;
@@ -180,7 +182,7 @@ fe_result fe_joint_get(const fe_world *world, fe_joint joint, fe_joint_def *out_
 
 fe_result fe_joint_set_enabled(fe_world *world, fe_joint joint, int32_t enabled)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_JOINT(index, joint);
     FE_CHECK_BOOL(enabled);
     fe__joint_any full;
@@ -192,7 +194,7 @@ fe_result fe_joint_set_enabled(fe_world *world, fe_joint joint, int32_t enabled)
 
 fe_result fe_joint_get_enabled(const fe_world *world, fe_joint joint, int32_t *out_enabled)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_JOINT(index, joint);
     FE_CHECK_POINTER(out_enabled);
     *out_enabled = (world->joint_records[index].flags & FE__JOINT_ENABLED) != 0;
@@ -201,7 +203,7 @@ fe_result fe_joint_get_enabled(const fe_world *world, fe_joint joint, int32_t *o
 
 fe_result fe_joint_set_user_data(fe_world *world, fe_joint joint, uint64_t user_data)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_JOINT(index, joint);
     world->joint_records[index].user_data = user_data;
     return FE_OK;
@@ -209,7 +211,7 @@ fe_result fe_joint_set_user_data(fe_world *world, fe_joint joint, uint64_t user_
 
 fe_result fe_joint_get_user_data(const fe_world *world, fe_joint joint, uint64_t *out_user_data)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_JOINT(index, joint);
     FE_CHECK_POINTER(out_user_data);
     *out_user_data = world->joint_records[index].user_data;
@@ -218,7 +220,7 @@ fe_result fe_joint_get_user_data(const fe_world *world, fe_joint joint, uint64_t
 
 fe_result fe_joint_destroy(fe_world *world, fe_joint joint)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_JOINT(index, joint);
     fe__fp_state fp = fe__fp_enter();
     fe__joint_destroy(world, index);
@@ -234,7 +236,7 @@ int32_t fe_joint_is_valid(const fe_world *world, fe_joint joint)
 
 fe_result fe_joint_get_type(const fe_world *world, fe_joint joint, int32_t *out_type)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_JOINT(index, joint);
     FE_CHECK_POINTER(out_type);
     *out_type = world->joint_records[index].type;
@@ -243,7 +245,7 @@ fe_result fe_joint_get_type(const fe_world *world, fe_joint joint, int32_t *out_
 
 fe_result fe_joint_get_bodies(const fe_world *world, fe_joint joint, fe_body *out_body_a, fe_body *out_body_b)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_JOINT(index, joint);
     FE_CHECK_POINTER(out_body_a);
     FE_CHECK_POINTER(out_body_b);
@@ -255,7 +257,7 @@ fe_result fe_joint_get_bodies(const fe_world *world, fe_joint joint, fe_body *ou
 // ---- readings -------------------------------------------------------------------------------------------------------------------------
 fe_result fe_joint_get_frames(const fe_world *world, fe_joint joint, fe_transform *out_frame_a, fe_transform *out_frame_b)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_JOINT(index, joint);
     FE_CHECK_POINTER(out_frame_a);
     FE_CHECK_POINTER(out_frame_b);
@@ -268,7 +270,7 @@ fe_result fe_joint_get_frames(const fe_world *world, fe_joint joint, fe_transfor
 
 fe_result fe_joint_get_state(const fe_world *world, fe_joint joint, fe_joint_state *out_state)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_JOINT(index, joint);
     FE_CHECK_STRUCT_SIZE(out_state);
     fe_joint_state state = {.struct_size = sizeof state};
@@ -281,7 +283,7 @@ fe_result fe_joint_get_state(const fe_world *world, fe_joint joint, fe_joint_sta
 
 fe_result fe_joint_get_reaction(const fe_world *world, fe_joint joint, fe_vec3 *out_force, fe_vec3 *out_torque)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_JOINT(index, joint);
     FE_CHECK_POINTER(out_force);
     FE_CHECK_POINTER(out_torque);
@@ -293,7 +295,7 @@ fe_result fe_joint_get_reaction(const fe_world *world, fe_joint joint, fe_vec3 *
 
 int32_t fe_world_get_joints(const fe_world *world, fe_joint *out_joints, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_ARRAY(out_joints, capacity);
     int32_t count = 0;
     for (int32_t joint = world->first_joint; joint && count < capacity; joint = world->joint_records[joint].order_next)
@@ -303,7 +305,7 @@ int32_t fe_world_get_joints(const fe_world *world, fe_joint *out_joints, int32_t
 
 int32_t fe_body_get_joints(const fe_world *world, fe_body body, fe_joint *out_joints, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_ARRAY(out_joints, capacity);
     int32_t count = 0;

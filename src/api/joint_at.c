@@ -62,9 +62,8 @@ static void set_ends(const fe_world *world, fe_joint_def *front, const ends *e, 
 static fe_result open(const char *function, const fe_world *world, int32_t type, const void *def, fe_body body_a, fe_body body_b,
                       ends *out_ends, fe__joint_any *full)
 {
-    FE_TRY(fe__check_world(function, world));
     fe__joint_defaults(type, full);
-    FE_TRY(fe__read_struct(function, "def", def, full, full->common.struct_size));
+    FE_TRY(fe__read_struct(function, "def", def, full, fe__joint_fields(type)));
     return find_ends(function, world, body_a, body_b, out_ends);
 }
 
@@ -86,30 +85,31 @@ static fe_result at_point(const char *function, const fe_world *world, int32_t t
 
 // ---- the five types -------------------------------------------------------------------------------------------------------------------
 fe_result fe_ball_joint_def_at(const fe_world *world, fe_ball_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
-                         const fe_vec3 *axis)
+                               const fe_vec3 *axis)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_POINTER(axis);
     return at_point(function, world, FE_JOINT_BALL, def, body_a, body_b, point, axis);
 }
 
 fe_result fe_hinge_joint_def_at(const fe_world *world, fe_hinge_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
-                          const fe_vec3 *axis)
+                                const fe_vec3 *axis)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_POINTER(axis);
     return at_point(function, world, FE_JOINT_HINGE, def, body_a, body_b, point, axis);
 }
 
 fe_result fe_fixed_joint_def_at(const fe_world *world, fe_fixed_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point)
 {
-    return at_point(__func__, world, FE_JOINT_FIXED, def, body_a, body_b, point, NULL);
+    FE_READ(world);
+    return at_point(function, world, FE_JOINT_FIXED, def, body_a, body_b, point, NULL);
 }
 
-fe_result fe_configurable_joint_def_at(const fe_world *world, fe_configurable_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
-                                 const fe_vec3 *axis)
+fe_result fe_configurable_joint_def_at(const fe_world *world, fe_configurable_joint_def *def, fe_body body_a, fe_body body_b,
+                                       const fe_dvec3 *point, const fe_vec3 *axis)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_POINTER(axis);
     return at_point(function, world, FE_JOINT_CONFIGURABLE, def, body_a, body_b, point, axis);
 }
@@ -125,10 +125,10 @@ static fe_result between_points(const char *function, const fe_world *world, fe_
     return FE_OK;
 }
 
-fe_result fe_distance_joint_def_at(const fe_world *world, fe_distance_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point_a,
-                             const fe_dvec3 *point_b)
+fe_result fe_distance_joint_def_at(const fe_world *world, fe_distance_joint_def *def, fe_body body_a, fe_body body_b,
+                                   const fe_dvec3 *point_a, const fe_dvec3 *point_b)
 {
-    const char *function = __func__;
+    FE_READ(world);
     ends e;
     fe__joint_any full;
     FE_TRY(open(function, world, FE_JOINT_DISTANCE, def, body_a, body_b, &e, &full));
@@ -144,15 +144,15 @@ fe_result fe_distance_joint_def_at(const fe_world *world, fe_distance_joint_def 
 static fe_result begin_ready(const char *function, const fe_world *world, int32_t type, const void *def, fe_body body_a, fe_body body_b,
                              ends *out_ends, fe__joint_any *full)
 {
-    FE_CHECK_STRUCT_SIZE(def);
+    FE_TRY(fe__check_struct_size(function, "def", def, fe__joint_fields(type)));
     fe__joint_defaults(type, full);
     return find_ends(function, world, body_a, body_b, out_ends);
 }
 
 fe_result fe_rope_joint_def_at(const fe_world *world, fe_distance_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point_a,
-                         const fe_dvec3 *point_b, float max_length)
+                               const fe_dvec3 *point_b, float max_length)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     ends e;
     fe__joint_any full;
     FE_TRY(begin_ready(function, world, FE_JOINT_DISTANCE, def, body_a, body_b, &e, &full));
@@ -167,10 +167,10 @@ fe_result fe_rope_joint_def_at(const fe_world *world, fe_distance_joint_def *def
     return FE_OK;
 }
 
-fe_result fe_slider_joint_def_at(const fe_world *world, fe_configurable_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
-                           const fe_vec3 *axis)
+fe_result fe_slider_joint_def_at(const fe_world *world, fe_configurable_joint_def *def, fe_body body_a, fe_body body_b,
+                                 const fe_dvec3 *point, const fe_vec3 *axis)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     ends e;
     fe__joint_any full;
     FE_TRY(begin_ready(function, world, FE_JOINT_CONFIGURABLE, def, body_a, body_b, &e, &full));
@@ -213,10 +213,11 @@ static void set_suspension(const fe_world *world, const ends *e, const fe_joint_
     axis->spring_damping = fe__minf(2.0f * damping_ratio * mass * omega, FE_MAX_FORCE);
 }
 
-fe_result fe_wheel_joint_def_at(const fe_world *world, fe_configurable_joint_def *def, fe_body chassis, fe_body wheel, const fe_dvec3 *point,
-                          const fe_vec3 *axle, const fe_vec3 *up, float hertz, float damping_ratio, float travel)
+fe_result fe_wheel_joint_def_at(const fe_world *world, fe_configurable_joint_def *def, fe_body chassis, fe_body wheel,
+                                const fe_dvec3 *point, const fe_vec3 *axle, const fe_vec3 *up, float hertz, float damping_ratio,
+                                float travel)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     ends e;
     fe__joint_any full;
     FE_TRY(begin_ready(function, world, FE_JOINT_CONFIGURABLE, def, chassis, wheel, &e, &full));
@@ -240,9 +241,9 @@ fe_result fe_wheel_joint_def_at(const fe_world *world, fe_configurable_joint_def
 }
 
 fe_result fe_motor_joint_def_at(const fe_world *world, fe_configurable_joint_def *def, fe_body body_a, fe_body body_b, float hertz,
-                          float damping_ratio, float max_force, float max_torque)
+                                float damping_ratio, float max_force, float max_torque)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     ends e;
     fe__joint_any full;
     FE_TRY(begin_ready(function, world, FE_JOINT_CONFIGURABLE, def, body_a, body_b, &e, &full));

@@ -12,14 +12,23 @@ static void default_axes(fe_joint_axis *axes)
     for (int k = 0; k < 6; ++k) axes[k] = (fe_joint_axis){.motion = FE_MOTION_LOCKED, .limit_damping_ratio = 1.0f, .spring_max = NO_CAP};
 }
 
+static const fe__fields *const fields[FE__JOINT_TYPES] = {NULL,
+                                                          &fe__fields_of_fe_distance_joint_def,
+                                                          &fe__fields_of_fe_ball_joint_def,
+                                                          &fe__fields_of_fe_hinge_joint_def,
+                                                          &fe__fields_of_fe_fixed_joint_def,
+                                                          &fe__fields_of_fe_configurable_joint_def};
+
+const fe__fields *fe__joint_fields(int32_t type) { return fields[type]; }
+
 void fe__joint_defaults(int32_t type, fe__joint_any *out_def)
 {
     *out_def = (fe__joint_any){0};
     out_def->common = (fe_joint_def){.struct_size = (uint32_t)fe__joint_def_size(type),
-                                      .enabled = 1,
-                                      .frame_a.rotation.w = 1.0f,
-                                      .frame_b.rotation.w = 1.0f,
-                                      .damping_ratio = 1.0f};
+                                     .enabled = 1,
+                                     .frame_a.rotation.w = 1.0f,
+                                     .frame_b.rotation.w = 1.0f,
+                                     .damping_ratio = 1.0f};
     switch (type) {
     case FE_JOINT_DISTANCE:
         out_def->distance.limit_enabled = 1;
@@ -141,7 +150,7 @@ static fe_result check_fixed(const char *function, const fe_fixed_joint_def *ful
 
 static fe_result check_configurable(const char *function, const fe_configurable_joint_def *full)
 {
-    static const char *const names[6] = {"axes[FE_DOF_LINEAR_X]", "axes[FE_DOF_LINEAR_Y]", "axes[FE_DOF_LINEAR_Z]",
+    static const char *const names[6] = {"axes[FE_DOF_LINEAR_X]",  "axes[FE_DOF_LINEAR_Y]",  "axes[FE_DOF_LINEAR_Z]",
                                          "axes[FE_DOF_ANGULAR_X]", "axes[FE_DOF_ANGULAR_Y]", "axes[FE_DOF_ANGULAR_Z]"};
 #define CHECK(field, low, high) FE_TRY(fe__check_number(function, names[k], "." #field, (double)axis->field, (double)(low), (double)(high)))
     for (int k = 0; k < 6; ++k) {

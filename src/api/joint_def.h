@@ -9,4 +9,7 @@ void fe__joint_defaults(int32_t type, fe__joint_any *out_def);
 fe_result fe__check_joint_def(const char *function, int32_t type, const fe__joint_any *full);
 fe_result fe__check_joint_common(const char *function, const fe_joint_def *full);
 
+// Of the definition of a type
+const fe__fields *fe__joint_fields(int32_t type);
+
 #endif

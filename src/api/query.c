@@ -37,19 +37,22 @@ fe_result fe__read_moving_form(const char *function, const fe_geometry *geometry
     fe_geometry whole = {.struct_size = sizeof whole};
     FE_READ_STRUCT(geometry, &whole);
     geometry = &whole;
-    *out_form = (fe__form){.type = geometry->type};
+    *out_form = (fe__form){.radius = 0.0f};
     switch (geometry->type) {
     case FE_GEOMETRY_SPHERE:
+        out_form->type = FE__FORM_SPHERE;
         if (geometry->radius != 0.0f) FE_CHECK_LENGTH(geometry->radius);
         out_form->radius = geometry->radius;
         return FE_OK;
     case FE_GEOMETRY_CAPSULE:
+        out_form->type = FE__FORM_CAPSULE;
         FE_CHECK_LENGTH(geometry->half_height);
         FE_CHECK_LENGTH(geometry->radius);
         out_form->half_height = geometry->half_height;
         out_form->radius = geometry->radius;
         return FE_OK;
     case FE_GEOMETRY_BOX:
+        out_form->type = FE__FORM_BOX;
         FE_CHECK_LENGTH(geometry->half_extents.x);
         FE_CHECK_LENGTH(geometry->half_extents.y);
         FE_CHECK_LENGTH(geometry->half_extents.z);
@@ -76,9 +79,9 @@ fe__scene fe__scene_of(const fe_world *world, const fe_query_filter *whole_filte
 
 // ---- what a ray meets -----------------------------------------------------------------------------------------------------------
 int32_t fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
-                           fe_hit *out_hit)
+                         fe_hit *out_hit)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     FE_CHECK_POINTER(out_hit);
@@ -95,7 +98,7 @@ int32_t fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const fe
 
 int32_t fe_world_raycast_any(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     fe_query_filter whole;
@@ -112,11 +115,11 @@ int32_t fe_world_raycast_any(const fe_world *world, const fe_dvec3 *origin, cons
 int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
                              fe_hit *out_hits, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     FE_CHECK_ARRAY(out_hits, capacity);
-    FE_CHECK_STRIDE(stride, sizeof *out_hits, LEAST_SORTED_HIT);
+    FE_CHECK_RECORD_STRIDE(stride, LEAST_SORTED_HIT, capacity);
     fe_query_filter whole;
     FE_TRY(fe__read_filter(function, filter, &whole));
     fe__fp_state fp = fe__fp_enter();
@@ -130,9 +133,9 @@ int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, cons
 
 // ---- what a moving form meets ---------------------------------------------------------------------------------------------------
 int32_t fe_world_sweep(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
-                         const fe_query_filter *filter, fe_hit *out_hit)
+                       const fe_query_filter *filter, fe_hit *out_hit)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     fe__form form;
     FE_TRY(fe__read_moving_form(function, geometry, &form));
     FE_CHECK_TRANSFORM(start);
@@ -149,9 +152,9 @@ int32_t fe_world_sweep(const fe_world *world, const fe_geometry *geometry, const
 }
 
 int32_t fe_world_sweep_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
-                             const fe_query_filter *filter)
+                           const fe_query_filter *filter)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     fe__form form;
     FE_TRY(fe__read_moving_form(function, geometry, &form));
     FE_CHECK_TRANSFORM(start);
@@ -169,13 +172,13 @@ int32_t fe_world_sweep_any(const fe_world *world, const fe_geometry *geometry, c
 int32_t fe_world_sweep_all(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
                            const fe_query_filter *filter, fe_hit *out_hits, uint32_t stride, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     fe__form form;
     FE_TRY(fe__read_moving_form(function, geometry, &form));
     FE_CHECK_TRANSFORM(start);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     FE_CHECK_ARRAY(out_hits, capacity);
-    FE_CHECK_STRIDE(stride, sizeof *out_hits, LEAST_SORTED_HIT);
+    FE_CHECK_RECORD_STRIDE(stride, LEAST_SORTED_HIT, capacity);
     fe_query_filter whole;
     FE_TRY(fe__read_filter(function, filter, &whole));
     fe__fp_state fp = fe__fp_enter();
@@ -192,7 +195,7 @@ static const fe_dvec3 nowhere = {0.0, 0.0, 0.0};
 int32_t fe_world_overlap(const fe_world *world, const fe_geometry *geometry, const fe_transform *at, const fe_query_filter *filter,
                          fe_body *out_bodies, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     fe__form form;
     FE_TRY(fe__read_moving_form(function, geometry, &form));
     FE_CHECK_TRANSFORM(at);
@@ -209,7 +212,7 @@ int32_t fe_world_overlap(const fe_world *world, const fe_geometry *geometry, con
 
 int32_t fe_world_overlap_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *at, const fe_query_filter *filter)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     fe__form form;
     FE_TRY(fe__read_moving_form(function, geometry, &form));
     FE_CHECK_TRANSFORM(at);
@@ -225,9 +228,9 @@ int32_t fe_world_overlap_any(const fe_world *world, const fe_geometry *geometry,
 
 // ---- what is near ---------------------------------------------------------------------------------------------------------------
 int32_t fe_world_closest_point(const fe_world *world, const fe_dvec3 *point, double max_distance, const fe_query_filter *filter,
-                                 fe_closest *out_closest)
+                               fe_closest *out_closest)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_DVEC3(point, FE_MAX_POSITION);
     FE_CHECK_FLOAT(max_distance, 0.0, FE_MAX_TRANSLATION);
     FE_CHECK_POINTER(out_closest);
@@ -243,7 +246,7 @@ int32_t fe_world_closest_point(const fe_world *world, const fe_dvec3 *point, dou
 // ---- one body, one shape --------------------------------------------------------------------------------------------------------
 // From shape `first` to before `end` in a body's list.
 static int32_t raycast_shapes(const fe_world *world, int32_t first, int32_t end, const fe_dvec3 *origin, const fe_dvec3 *translation,
-                                fe_hit *out_hit)
+                              fe_hit *out_hit)
 {
     fe_query_filter everything = default_filter();
     everything.flags = FE_QUERY_TRIGGERS;
@@ -269,7 +272,7 @@ static int32_t closest_of_shapes(const fe_world *world, int32_t first, int32_t e
 
 int32_t fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_dvec3 *origin, const fe_dvec3 *translation, fe_hit *out_hit)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
@@ -279,7 +282,7 @@ int32_t fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_dvec3 *
 
 int32_t fe_body_raycast(const fe_world *world, fe_body body, const fe_dvec3 *origin, const fe_dvec3 *translation, fe_hit *out_hit)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
@@ -289,7 +292,7 @@ int32_t fe_body_raycast(const fe_world *world, fe_body body, const fe_dvec3 *ori
 
 int32_t fe_shape_closest_point(const fe_world *world, fe_shape shape, const fe_dvec3 *point, fe_closest *out_closest)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_DVEC3(point, FE_MAX_POSITION);
     FE_CHECK_POINTER(out_closest);
@@ -298,7 +301,7 @@ int32_t fe_shape_closest_point(const fe_world *world, fe_shape shape, const fe_d
 
 int32_t fe_body_closest_point(const fe_world *world, fe_body body, const fe_dvec3 *point, fe_closest *out_closest)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_DVEC3(point, FE_MAX_POSITION);
     FE_CHECK_POINTER(out_closest);

@@ -2,9 +2,15 @@
 #include "api/query.h"
 #include "core/fp_state.h"
 
+#include <inttypes.h>
+#include <stdio.h>
 #include <string.h>
 
-enum { BLOCK = 32 }; // queries that a worker claims at once: some 10 us
+enum {
+    BLOCK = 32,      // queries that a worker claims at once: some 10 us
+    LEAST_RAY = 48,  // bytes: origin and translation
+    LEAST_PATH = 64, // bytes: start and translation
+};
 
 // Every argument is checked before the first answer is written.
 typedef struct batch {
@@ -20,15 +26,15 @@ typedef struct batch {
 // A stride may put them where no double is aligned.
 static fe_ray ray_at(const void *rays, uint32_t stride, int32_t i)
 {
-    fe_ray ray;
-    memcpy(&ray, fe__at_const(rays, stride, i), sizeof ray);
+    fe_ray ray = {.reserved = {0}};
+    memcpy(&ray, fe__at_const(rays, stride, i), stride < sizeof ray ? stride : sizeof ray);
     return ray;
 }
 
 static fe_path path_at(const void *paths, uint32_t stride, int32_t i)
 {
-    fe_path path;
-    memcpy(&path, fe__at_const(paths, stride, i), sizeof path);
+    fe_path path = {.reserved = {0}};
+    memcpy(&path, fe__at_const(paths, stride, i), stride < sizeof path ? stride : sizeof path);
     return path;
 }
 
@@ -72,21 +78,45 @@ static int32_t answer_all(const fe_world *world, batch *b, int32_t count, int32_
     return atomic_load_explicit(&b->hits, memory_order_relaxed);
 }
 
+enum { NAME_SIZE = 48 }; // of "paths[2147483647].start.position"
+
+static fe_result check_part(const char *function, const char *format, int32_t i, const fe_dvec3 *v, double most)
+{
+    if (fe__is_dvec3_within(v, most)) return FE_OK;
+    char name[NAME_SIZE];
+    snprintf(name, sizeof name, format, i);
+    return fe__check_dvec3(function, name, v, most);
+}
+
+static fe_result check_ray(const char *function, const fe_ray *ray, int32_t i)
+{
+    FE_TRY(check_part(function, "rays[%" PRId32 "].origin", i, &ray->origin, FE_MAX_POSITION));
+    FE_CHECK_RESERVED(ray->reserved);
+    return check_part(function, "rays[%" PRId32 "].translation", i, &ray->translation, FE_MAX_TRANSLATION);
+}
+
+static fe_result check_path(const char *function, const fe_path *path, int32_t i)
+{
+    FE_TRY(check_part(function, "paths[%" PRId32 "].start.position", i, &path->start.position, FE_MAX_POSITION));
+    FE_TRY(fe__check_quat(function, "start.rotation", &path->start.rotation));
+    FE_CHECK_RESERVED(path->reserved);
+    return check_part(function, "paths[%" PRId32 "].translation", i, &path->translation, FE_MAX_TRANSLATION);
+}
+
 int32_t fe_world_raycast_many(const fe_world *world, const fe_ray *rays, uint32_t ray_stride, int32_t count, const fe_query_filter *filter,
                               int32_t spread, fe_hit *out_hits, uint32_t stride)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_ARRAY(rays, count);
-    FE_CHECK_STRIDE(ray_stride, sizeof *rays, sizeof *rays);
+    FE_CHECK_RECORD_STRIDE(ray_stride, LEAST_RAY, count);
     FE_CHECK_BOOL(spread);
     FE_CHECK_ARRAY(out_hits, count);
-    FE_CHECK_STRIDE(stride, sizeof *out_hits, FE_LEAST_RECORD);
+    FE_CHECK_RECORD_STRIDE(stride, FE_LEAST_RECORD, count);
     fe_query_filter whole;
     FE_TRY(fe__read_filter(function, filter, &whole));
     for (int32_t i = 0; i < count; ++i) {
         fe_ray ray = ray_at(rays, ray_stride, i);
-        FE_CHECK_DVEC3(&ray.origin, FE_MAX_POSITION);
-        FE_CHECK_DVEC3(&ray.translation, FE_MAX_TRANSLATION);
+        FE_TRY(check_ray(function, &ray, i));
     }
     batch b = {.scene = fe__scene_of(world, &whole), .ways = rays, .way_stride = ray_stride, .out_hits = out_hits, .stride = stride};
     return answer_all(world, &b, count, spread);
@@ -95,20 +125,19 @@ int32_t fe_world_raycast_many(const fe_world *world, const fe_ray *rays, uint32_
 int32_t fe_world_sweep_many(const fe_world *world, const fe_geometry *geometry, const fe_path *paths, uint32_t path_stride, int32_t count,
                             const fe_query_filter *filter, int32_t spread, fe_hit *out_hits, uint32_t stride)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     fe__form form;
     FE_TRY(fe__read_moving_form(function, geometry, &form));
     FE_CHECK_ARRAY(paths, count);
-    FE_CHECK_STRIDE(path_stride, sizeof *paths, sizeof *paths);
+    FE_CHECK_RECORD_STRIDE(path_stride, LEAST_PATH, count);
     FE_CHECK_BOOL(spread);
     FE_CHECK_ARRAY(out_hits, count);
-    FE_CHECK_STRIDE(stride, sizeof *out_hits, FE_LEAST_RECORD);
+    FE_CHECK_RECORD_STRIDE(stride, FE_LEAST_RECORD, count);
     fe_query_filter whole;
     FE_TRY(fe__read_filter(function, filter, &whole));
     for (int32_t i = 0; i < count; ++i) {
         fe_path path = path_at(paths, path_stride, i);
-        FE_CHECK_TRANSFORM(&path.start);
-        FE_CHECK_DVEC3(&path.translation, FE_MAX_TRANSLATION);
+        FE_TRY(check_path(function, &path, i));
     }
     batch b = {.scene = fe__scene_of(world, &whole),
                .form = &form,

@@ -93,7 +93,8 @@ static fe_result read_geometry(const char *function, const fe_world *world, cons
     geometry = &whole;
     FE_TRY(check_reserved(function, geometry));
     *out_form = (fe__form){.type = form_type_of(geometry->type)};
-    if (out_form->type < 0) return fe__fail(function, FE_ERROR_ARGUMENT, "geometry.type is %" PRId32 ", no kind of geometry", geometry->type);
+    if (out_form->type < 0)
+        return fe__fail(function, FE_ERROR_ARGUMENT, "geometry.type is %" PRId32 ", no kind of geometry", geometry->type);
     switch (geometry->type) {
     case FE_GEOMETRY_SPHERE:
         FE_CHECK_LENGTH(geometry->radius);
@@ -179,7 +180,7 @@ static fe_result create_shape(const char *function, fe_world *world, int32_t bod
 fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *def, const fe_geometry *geometry, fe_shape *out_shape)
 {
     if (out_shape) *out_shape = 0;
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_shape);
     fe_shape_def full;
@@ -193,7 +194,7 @@ fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *def
 
 fe_result fe_shape_destroy(fe_world *world, fe_shape shape)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     fe__fp_state fp = fe__fp_enter();
     fe__shape_destroy(world, index);
@@ -210,7 +211,7 @@ int32_t fe_shape_is_valid(const fe_world *world, fe_shape shape)
 fe_result fe_shape_get_body(const fe_world *world, fe_shape shape, fe_body *out_body)
 {
     if (out_body) *out_body = 0;
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_POINTER(out_body);
     *out_body = fe__body_handle(world, world->shapes[index].body);
@@ -230,7 +231,7 @@ static fe_result set_form(const char *function, fe_world *world, int32_t shape, 
 
 fe_result fe_shape_set_geometry(fe_world *world, fe_shape shape, const fe_geometry *geometry)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     fe__form form;
     FE_TRY(read_geometry(function, world, geometry, &form));
@@ -241,7 +242,7 @@ fe_result fe_shape_set_geometry(fe_world *world, fe_shape shape, const fe_geomet
 
 fe_result fe_shape_get_geometry(const fe_world *world, fe_shape shape, fe_geometry *out_geometry)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_STRUCT_SIZE(out_geometry);
     const fe__form *form = &world->shapes[index].form;
@@ -260,7 +261,7 @@ fe_result fe_shape_get_geometry(const fe_world *world, fe_shape shape, fe_geomet
 
 fe_result fe_shape_set_frame(fe_world *world, fe_shape shape, const fe_frame *frame)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_POINTER(frame);
     FE_CHECK_VEC3(&frame->position, FE_MAX_LOCAL);
@@ -273,7 +274,7 @@ fe_result fe_shape_set_frame(fe_world *world, fe_shape shape, const fe_frame *fr
 
 fe_result fe_shape_get_frame(const fe_world *world, fe_shape shape, fe_frame *out_frame)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_POINTER(out_frame);
     *out_frame = (fe_frame){world->shapes[index].local_position, world->shapes[index].local_rotation};
@@ -282,7 +283,7 @@ fe_result fe_shape_get_frame(const fe_world *world, fe_shape shape, fe_frame *ou
 
 fe_result fe_shape_set_density(fe_world *world, fe_shape shape, float density)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_FLOAT(density, 0.0f, FE_MAX_DENSITY);
     if (world->shapes[index].density == density) return FE_OK;
@@ -296,7 +297,7 @@ fe_result fe_shape_set_density(fe_world *world, fe_shape shape, float density)
 
 fe_result fe_shape_get_density(const fe_world *world, fe_shape shape, float *out_density)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_POINTER(out_density);
     *out_density = world->shapes[index].density;
@@ -316,7 +317,7 @@ static void renew_surface(fe_world *world, int32_t index)
 
 fe_result fe_shape_set_material(fe_world *world, fe_shape shape, const fe_material *material)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     FE_TRY(fe__check_material(function, material));
     world->shapes[index].material = *material;
@@ -326,7 +327,7 @@ fe_result fe_shape_set_material(fe_world *world, fe_shape shape, const fe_materi
 
 fe_result fe_shape_get_material(const fe_world *world, fe_shape shape, fe_material *out_material)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_POINTER(out_material);
     *out_material = world->shapes[index].material;
@@ -335,7 +336,7 @@ fe_result fe_shape_get_material(const fe_world *world, fe_shape shape, fe_materi
 
 fe_result fe_shape_set_surface_velocity(fe_world *world, fe_shape shape, const fe_vec3 *velocity)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_VEC3(velocity, FE_MAX_SPEED);
     world->shapes[index].surface_velocity = *velocity;
@@ -345,7 +346,7 @@ fe_result fe_shape_set_surface_velocity(fe_world *world, fe_shape shape, const f
 
 fe_result fe_shape_get_surface_velocity(const fe_world *world, fe_shape shape, fe_vec3 *out_velocity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_POINTER(out_velocity);
     *out_velocity = world->shapes[index].surface_velocity;
@@ -356,7 +357,7 @@ fe_result fe_shape_get_surface_velocity(const fe_world *world, fe_shape shape, f
 
 fe_result fe_shape_set_filter(fe_world *world, fe_shape shape, uint32_t layer, uint32_t mask, int32_t group)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_FILTER(layer);
     fe__shape_set_filter(world, index, layer, mask, group);
@@ -365,7 +366,7 @@ fe_result fe_shape_set_filter(fe_world *world, fe_shape shape, uint32_t layer, u
 
 fe_result fe_shape_get_filter(const fe_world *world, fe_shape shape, uint32_t *out_layer, uint32_t *out_mask, int32_t *out_group)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_POINTER(out_layer);
     FE_CHECK_POINTER(out_mask);
@@ -378,7 +379,7 @@ fe_result fe_shape_get_filter(const fe_world *world, fe_shape shape, uint32_t *o
 
 fe_result fe_shape_set_trigger(fe_world *world, fe_shape shape, int32_t trigger)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_BOOL(trigger);
     fe__shape_set_trigger(world, index, trigger);
@@ -387,7 +388,7 @@ fe_result fe_shape_set_trigger(fe_world *world, fe_shape shape, int32_t trigger)
 
 fe_result fe_shape_get_trigger(const fe_world *world, fe_shape shape, int32_t *out_trigger)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_POINTER(out_trigger);
     *out_trigger = (world->shapes[index].flags & FE__SHAPE_TRIGGER) != 0;
@@ -396,7 +397,7 @@ fe_result fe_shape_get_trigger(const fe_world *world, fe_shape shape, int32_t *o
 
 fe_result fe_shape_set_events(fe_world *world, fe_shape shape, uint32_t events)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_BITS(events, ALL_EVENTS);
     world->shapes[index].events = events;
@@ -408,7 +409,7 @@ fe_result fe_shape_set_events(fe_world *world, fe_shape shape, uint32_t events)
 
 fe_result fe_shape_get_events(const fe_world *world, fe_shape shape, uint32_t *out_events)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_POINTER(out_events);
     *out_events = world->shapes[index].events;
@@ -417,7 +418,7 @@ fe_result fe_shape_get_events(const fe_world *world, fe_shape shape, uint32_t *o
 
 fe_result fe_shape_set_user_data(fe_world *world, fe_shape shape, uint64_t user_data)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     world->shapes[index].user_data = user_data;
     return FE_OK;
@@ -425,7 +426,7 @@ fe_result fe_shape_set_user_data(fe_world *world, fe_shape shape, uint64_t user_
 
 fe_result fe_shape_get_user_data(const fe_world *world, fe_shape shape, uint64_t *out_user_data)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_POINTER(out_user_data);
     *out_user_data = world->shapes[index].user_data;

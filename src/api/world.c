@@ -82,7 +82,11 @@ fe_result fe_world_create(const fe_world_def *def, fe_world **out_world)
 
 fe_result fe_world_destroy(fe_world *world)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
+    if (!fe__owner_be_alone(inside, FE__CLOSING)) {
+        return fe__fail(function, FE_ERROR_BUSY, "another thread is reading this world; destroy it when its calls have returned");
+    }
+    inside = NULL; // its word goes with it
     fe__world_destroy(world);
     return FE_OK;
 }
@@ -91,16 +95,14 @@ fe_result fe_world_destroy(fe_world *world)
 
 fe_result fe_world_step(fe_world *world, float dt)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_CHECK_FLOAT(dt, 0.0f, FE_MAX_DT);
-    int32_t idle = 0;
-    if (!atomic_compare_exchange_strong(&world->stepping, &idle, 1)) {
-        return fe__fail(function, FE_ERROR_STEPPING, "the world is already in a step, on another thread");
+    if (!fe__owner_be_alone(inside, FE__STEP)) {
+        return fe__fail(function, FE_ERROR_BUSY, "another thread is reading this world; step it when its calls have returned");
     }
     fe__fp_state fp = fe__fp_enter();
     fe_result result = fe__world_step(world, dt);
     fe__fp_leave(fp);
-    atomic_store_explicit(&world->stepping, 0, memory_order_release);
     return fe__report(function, result);
 }
 
@@ -116,7 +118,7 @@ static void wake_all(fe_world *world)
 // Another gravity sets everything in motion.
 fe_result fe_world_set_gravity(fe_world *world, const fe_vec3 *gravity)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_CHECK_VEC3(gravity, FE_MAX_SPEED);
     int32_t same = gravity->x == world->gravity.x && gravity->y == world->gravity.y && gravity->z == world->gravity.z;
     world->gravity = *gravity;
@@ -126,7 +128,7 @@ fe_result fe_world_set_gravity(fe_world *world, const fe_vec3 *gravity)
 
 fe_result fe_world_get_gravity(const fe_world *world, fe_vec3 *out_gravity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_POINTER(out_gravity);
     *out_gravity = world->gravity;
     return FE_OK;
@@ -134,7 +136,7 @@ fe_result fe_world_get_gravity(const fe_world *world, fe_vec3 *out_gravity)
 
 fe_result fe_world_set_substeps(fe_world *world, int32_t substeps)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_CHECK_INT(substeps, 1, FE_MAX_SUBSTEPS);
     world->substeps = substeps;
     return FE_OK;
@@ -142,7 +144,7 @@ fe_result fe_world_set_substeps(fe_world *world, int32_t substeps)
 
 fe_result fe_world_get_substeps(const fe_world *world, int32_t *out_substeps)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_POINTER(out_substeps);
     *out_substeps = world->substeps;
     return FE_OK;
@@ -150,7 +152,7 @@ fe_result fe_world_get_substeps(const fe_world *world, int32_t *out_substeps)
 
 fe_result fe_world_get_user_data(const fe_world *world, uint64_t *out_user_data)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_POINTER(out_user_data);
     *out_user_data = world->user_data;
     return FE_OK;
@@ -188,7 +190,7 @@ static void renew_boxes(fe_world *world)
 
 fe_result fe_world_set_tuning(fe_world *world, const fe_world_tuning *tuning)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     fe_world_tuning copy = world->tuning;
     FE_TRY(read_tuning(function, tuning, &copy));
     int32_t same_reach = copy.speculative_distance == world->tuning.speculative_distance;
@@ -203,7 +205,7 @@ fe_result fe_world_set_tuning(fe_world *world, const fe_world_tuning *tuning)
 
 fe_result fe_world_get_tuning(const fe_world *world, fe_world_tuning *out_tuning)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_STRUCT_SIZE(out_tuning);
     fe__write_struct(out_tuning, &world->tuning, sizeof world->tuning);
     return FE_OK;
@@ -211,7 +213,7 @@ fe_result fe_world_get_tuning(const fe_world *world, fe_world_tuning *out_tuning
 
 fe_result fe_world_ignore_collision(fe_world *world, fe_body a, fe_body b, int32_t ignore)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     FE_FIND_BODY(index_a, a);
     FE_FIND_BODY(index_b, b);
     FE_CHECK_BOOL(ignore);
@@ -221,7 +223,7 @@ fe_result fe_world_ignore_collision(fe_world *world, fe_body a, fe_body b, int32
 
 fe_result fe_world_optimize(fe_world *world)
 {
-    FE_BEGIN(world);
+    FE_WRITE(world);
     fe__fp_state fp = fe__fp_enter();
     int32_t built = fe__tree_rebuild(&world->static_tree, &world->memory, 1) && fe__tree_rebuild(&world->moving_tree, &world->memory, 1);
     fe__fp_leave(fp);
@@ -232,7 +234,7 @@ fe_result fe_world_optimize(fe_world *world)
 
 fe_result fe_world_get_profile(const fe_world *world, fe_profile *out_profile)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_STRUCT_SIZE(out_profile);
     fe__write_struct(out_profile, &world->profile, sizeof world->profile);
     return FE_OK;
@@ -241,7 +243,7 @@ fe_result fe_world_get_profile(const fe_world *world, fe_profile *out_profile)
 // The step's own counts are its last ones; what calls between steps change is counted now.
 fe_result fe_world_get_counters(const fe_world *world, fe_counters *out_counters)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_STRUCT_SIZE(out_counters);
     fe_counters c = world->counters;
     c.bodies = world->body_count;
@@ -261,7 +263,7 @@ fe_result fe_world_get_counters(const fe_world *world, fe_counters *out_counters
 
 fe_result fe_world_hash(const fe_world *world, uint32_t *out_words)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_POINTER(out_words);
     uint64_t hash = fe__world_hash(world);
     out_words[0] = (uint32_t)hash;
@@ -271,7 +273,7 @@ fe_result fe_world_hash(const fe_world *world, uint32_t *out_words)
 
 int32_t fe_world_get_bodies(const fe_world *world, fe_body *out_bodies, int32_t capacity)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_ARRAY(out_bodies, capacity);
     int32_t count = 0;
     for (int32_t body = world->first_body; body >= 0 && count < capacity; body = world->bodies[body].order_next) {
@@ -282,7 +284,7 @@ int32_t fe_world_get_bodies(const fe_world *world, fe_body *out_bodies, int32_t 
 
 fe_result fe_world_get_store(const fe_world *world, fe_store **out_store)
 {
-    FE_BEGIN(world);
+    FE_READ(world);
     FE_CHECK_POINTER(out_store);
     *out_store = world->store;
     return FE_OK;

@@ -1,10 +1,10 @@
 // id_pool.h - handles: numbers that name a slot of a table and notice when the slot was given to somebody else.
 //
-// From the low bits: 21 of slot + 1, 17 of generation, 12 of the number of the world or store, 3 of kind. So a handle is never 0, stays below
-// 2^53, and is refused by worlds of another number. A slot's generation starts at 1 and grows at each release. A slot that has used its last
-// one retires for good: no handle ever means a second thing. Free slots form a stack: the slot released last is given next, and new slots are
-// opened in rising order when the stack is empty. Hence the handles depend on the number and the order of calls alone. The pool is plain
-// arrays: copying them copies its future. The API layer is the only one that checks handles; all below it uses slots.
+// From the low bits: 21 of slot + 1, 17 of generation, 12 of the number of the world or store, 3 of kind. So a handle is never 0, stays
+// below 2^53, and is refused by worlds of another number. A slot's generation starts at 1 and grows at each release. A slot that has used
+// its last one retires for good: no handle ever means a second thing. Free slots form a stack: the slot released last is given next, and
+// new slots are opened in rising order when the stack is empty. Hence the handles depend on the number and the order of calls alone. The
+// pool is plain arrays: copying them copies its future. The API layer is the only one that checks handles; all below it uses slots.
 #ifndef FE_CORE_ID_POOL_H
 #define FE_CORE_ID_POOL_H
 #include "core/memory.h"
@@ -24,7 +24,7 @@ enum {
     FE_ID_NUMBER_SHIFT = FE_ID_SLOT_BITS + FE_ID_GENERATION_BITS,
     FE_ID_KIND_SHIFT = FE_ID_NUMBER_SHIFT + FE_ID_NUMBER_BITS,
     FE_ID_LAST_NUMBER = (1 << FE_ID_NUMBER_BITS) - 1, // 0 is no number
-    FE_ID_MAX_SLOTS = (1 << FE_ID_SLOT_BITS) - 1, // slot + 1 must fit
+    FE_ID_MAX_SLOTS = (1 << FE_ID_SLOT_BITS) - 1,     // slot + 1 must fit
     FE_ID_LAST_GENERATION = (1 << FE_ID_GENERATION_BITS) - 1,
     FE_ID_ALIVE = -1,   // fe__id_slot.next of a slot in use
     FE_ID_NONE = -2,    // ... of the last free one

@@ -118,27 +118,32 @@ void fe__shape_release_asset(fe_world *world, int32_t index)
 }
 
 // ---- entering worlds --------------------------------------------------------------------------------------------------------------------
-// For writing from outside: while it is entered, its own calls are refused as during a step.
-static int32_t enter(fe_world *world)
+// As a writer, with no reader inside: queries read the samples.
+static fe_result enter(fe_world *world)
 {
-    int32_t idle = 0;
-    return atomic_compare_exchange_strong(&world->stepping, &idle, 1);
+    fe__owner *owner = &world->owner;
+    if (!fe__owner_enter(owner)) {
+        uint32_t occupation = atomic_load_explicit(&owner->occupation, memory_order_acquire);
+        return occupation == FE__STEP ? FE_ERROR_STEPPING : FE_ERROR_BUSY;
+    }
+    if (fe__owner_be_alone(owner, FE__WRITER)) return FE_OK;
+    fe__owner_leave(owner);
+    return FE_ERROR_BUSY;
 }
-
-static void leave(fe_world *world) { atomic_store_explicit(&world->stepping, 0, memory_order_release); }
 
 static void leave_until(fe_store *store, int32_t asset, const fe__store_member *end)
 {
     for (fe__store_member *m = store->first_member; m != end; m = m->next)
-        if (find_use(m->world, asset)) leave(m->world);
+        if (find_use(m->world, asset)) fe__owner_leave(&m->world->owner);
 }
 
 fe_result fe__asset_enter_worlds(fe_store *store, int32_t asset)
 {
     for (fe__store_member *m = store->first_member; m; m = m->next) {
-        if (!find_use(m->world, asset) || enter(m->world)) continue;
+        fe_result entered = find_use(m->world, asset) ? enter(m->world) : FE_OK;
+        if (entered == FE_OK) continue;
         leave_until(store, asset, m);
-        return FE_ERROR_STEPPING;
+        return entered;
     }
     return FE_OK;
 }

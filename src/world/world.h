@@ -8,6 +8,7 @@
 #include "broadphase/tree.h"
 #include "core/id_pool.h"
 #include "core/memory.h"
+#include "core/owner.h"
 #include "core/record_pool.h"
 #include "core/threads.h"
 #include "solver/solver.h"
@@ -32,7 +33,7 @@ struct fe_world {
     fe__memory memory;
     fe__workers workers;
     fe_pool *own_pool; // or NULL
-    _Atomic int32_t stepping;
+    fe__owner owner;
     uint64_t user_data;
     int32_t number; // in its handles
 

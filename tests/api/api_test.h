@@ -6,6 +6,7 @@
 #include "fe_test.h"
 
 #include "feather.h"
+#include "support/values.h"
 
 #include <float.h>
 #include <math.h>

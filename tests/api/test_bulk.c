@@ -36,7 +36,7 @@ static void transforms_are_read_and_written_with_strides(void **state)
         rows[i].transform.position.x = -i;
     }
     OK(fe_world_set_transforms(world, bodies, &rows[0].transform, sizeof *rows, COUNT));
-    for (int i = 0; i < COUNT; ++i) FE_NEAR(fe_body_transform(world, bodies[i]).position.x, -i, 0);
+    for (int i = 0; i < COUNT; ++i) FE_NEAR(body_transform(world, bodies[i]).position.x, -i, 0);
     OK(fe_world_set_transforms(world, NULL, NULL, 0, 0));
     OK(fe_world_destroy(world));
 }
@@ -127,7 +127,7 @@ static void velocities_and_forces_are_six_floats(void **state)
     OK(fe_world_set_velocities(world, bodies, rows[0].velocity, sizeof *rows, COUNT));
     OK(fe_world_get_velocities(world, bodies, &floats[0][0], 0, COUNT));
     for (int i = 0; i < COUNT; ++i) assert_memory_equal(floats[i], rows[i].velocity, sizeof floats[i]);
-    FE_NEAR(fe_body_angular_velocity(world, bodies[1]).z, 6, 0);
+    FE_NEAR(body_angular_velocity(world, bodies[1]).z, 6, 0);
 
     // the same as one call for each
     fe_world *single = new_world();
@@ -167,7 +167,7 @@ static void the_moved_are_those_of_the_last_step(void **state)
     memset(moved, 0, sizeof moved);
     assert_int_equal(fe_world_get_moved(world, moved, poses, 0, 4), 2);
     assert_true(moved[0] == falling && moved[1] == also && moved[2] == 0);
-    FE_NEAR(poses[1].position.y, fe_body_transform(world, also).position.y, 0);
+    FE_NEAR(poses[1].position.y, body_transform(world, also).position.y, 0);
     assert_int_equal(fe_world_get_moved(world, moved, NULL, 0, 1), 2);
     memset(spread, 0x33, sizeof spread);
     assert_int_equal(fe_world_get_moved(world, moved, &spread[0].transform, sizeof *spread, 4), 2);

@@ -25,7 +25,7 @@ static touch touching_box(void)
     t.ground_shape = shape_of(t.world, t.ground), t.box_shape = shape_of(t.world, t.box);
     fe_pair_event event;
     step(t.world, 1);
-    assert_int_equal(fe_world_get_pair_events(t.world, &event, 0, 1), 1);
+    assert_int_equal(fe_world_get_pair_events(t.world, &event, sizeof event, 1), 1);
     assert_int_equal(event.kind, FE_EVENT_ENTER);
     assert_true(event.body_a == t.ground && event.body_b == t.box && event.shape_a == t.ground_shape && event.shape_b == t.box_shape);
     assert_int_equal(event.is_trigger, 0);
@@ -35,7 +35,7 @@ static touch touching_box(void)
 static int32_t count_kind(const fe_world *world, int32_t kind)
 {
     fe_pair_event events[MOST];
-    int32_t count = fe_world_get_pair_events(world, events, 0, MOST), found = 0;
+    int32_t count = fe_world_get_pair_events(world, events, sizeof *events, MOST), found = 0;
     for (int32_t i = 0; i < count && i < MOST; ++i) found += events[i].kind == kind;
     return found;
 }
@@ -79,7 +79,7 @@ static void whatever_ends_a_touch_sends_one_exit(void **state)
             changes[i](&t);
             fe_pair_event event;
             OK(fe_world_step(t.world, 0.001f));
-            assert_int_equal(fe_world_get_pair_events(t.world, &event, 0, 1), 1);
+            assert_int_equal(fe_world_get_pair_events(t.world, &event, sizeof event, 1), 1);
             assert_int_equal(event.kind, FE_EVENT_EXIT);
             assert_true(event.body_a == t.ground && event.body_b == t.box && event.shape_a == t.ground_shape &&
                         event.shape_b == t.box_shape);
@@ -136,7 +136,7 @@ static void enter_and_exit_balance_in_a_crowd(void **state)
     for (int s = 0; s < STEPS; ++s) {
         fe_pair_event events[512];
         step(world, 1);
-        int32_t count = fe_world_get_pair_events(world, events, 0, 512);
+        int32_t count = fe_world_get_pair_events(world, events, sizeof *events, 512);
         FE_WITHIN(count, 0, 512);
         for (int32_t i = 0; i < count; ++i) balance += events[i].kind == FE_EVENT_ENTER ? 1 : events[i].kind == FE_EVENT_EXIT ? -1 : 0;
         FE_TRUE(balance >= 0);
@@ -208,19 +208,19 @@ static void bad_arrays_are_refused(void **state)
     fe_contact contact[2];
     memset(contact, 0x66, sizeof contact);
     REFUSES(t.world, FE_ERROR_ARGUMENT, fe_world_get_pair_events(t.world, NULL, 0, 1));
-    REFUSES(t.world, FE_ERROR_ARGUMENT, fe_world_get_pair_events(t.world, pair, 0, -1));
+    REFUSES(t.world, FE_ERROR_ARGUMENT, fe_world_get_pair_events(t.world, pair, sizeof *pair, -1));
     REFUSES(t.world, FE_ERROR_ARGUMENT, fe_world_get_pair_events(t.world, pair, 7, 1));
     REFUSES(t.world, FE_ERROR_ARGUMENT, fe_world_get_pair_events(t.world, pair, 4, 1));
-    REFUSES(NULL, FE_ERROR_ARGUMENT, fe_world_get_pair_events(NULL, pair, 0, 1));
+    REFUSES(NULL, FE_ERROR_ARGUMENT, fe_world_get_pair_events(NULL, pair, sizeof *pair, 1));
     REFUSES(t.world, FE_ERROR_ARGUMENT, fe_world_get_body_events(t.world, NULL, 0, 1));
     REFUSES(t.world, FE_ERROR_ARGUMENT, fe_world_get_body_events(t.world, body, 3, 1));
     REFUSES(t.world, FE_ERROR_ARGUMENT, fe_world_get_hit_events(t.world, NULL, 0, 1));
-    REFUSES(t.world, FE_ERROR_ARGUMENT, fe_world_get_hit_events(t.world, hit, 0, -7));
+    REFUSES(t.world, FE_ERROR_ARGUMENT, fe_world_get_hit_events(t.world, hit, sizeof *hit, -7));
     REFUSES(t.world, FE_ERROR_ARGUMENT, fe_body_get_contacts(t.world, t.box, NULL, 0, 1));
     REFUSES(t.world, FE_ERROR_ARGUMENT, fe_body_get_contacts(t.world, t.box, contact, 6, 1));
-    REFUSES(t.world, FE_ERROR_KIND, fe_body_get_contacts(t.world, t.box_shape, contact, 0, 1));
-    REFUSES(t.world, FE_ERROR_STALE, fe_shape_get_contacts(t.world, t.box_shape + (1u << 24), contact, 0, 1));
-    REFUSES(t.world, FE_ERROR_ARGUMENT, fe_shape_get_contacts(t.world, t.box_shape, contact, 0, -1));
+    REFUSES(t.world, FE_ERROR_KIND, fe_body_get_contacts(t.world, t.box_shape, contact, sizeof *contact, 1));
+    REFUSES(t.world, FE_ERROR_STALE, fe_shape_get_contacts(t.world, t.box_shape + (1u << 24), contact, sizeof *contact, 1));
+    REFUSES(t.world, FE_ERROR_ARGUMENT, fe_shape_get_contacts(t.world, t.box_shape, contact, sizeof *contact, -1));
     FE_TRUE(contact[0].point_count == 0x66666666);
     OK(fe_world_destroy(t.world));
 }
@@ -237,12 +237,12 @@ static void stay_and_hit_are_sent_where_asked_for(void **state)
     for (int i = 0; i < 60; ++i) {
         fe_pair_event events[MOST];
         step(world, 1);
-        int32_t count = fe_world_get_pair_events(world, events, 0, MOST);
+        int32_t count = fe_world_get_pair_events(world, events, sizeof *events, MOST);
         for (int32_t k = 0; k < count; ++k) {
             stays += events[k].kind == FE_EVENT_STAY;
             FE_TRUE(events[k].kind != FE_EVENT_STAY || events[k].body_b == chatty);
         }
-        if (fe_world_get_hit_events(world, &hit, 0, 1) == 1) hits += 1;
+        if (fe_world_get_hit_events(world, &hit, sizeof hit, 1) == 1) hits += 1;
     }
     (void)quiet;
     FE_TRUE(stays > 10);
@@ -264,14 +264,14 @@ static void sleep_and_wake_are_told(void **state)
     int32_t told = 0;
     for (int i = 0; i < 120; ++i) {
         step(t.world, 1);
-        if (fe_world_get_body_events(t.world, &event, 0, 1) == 0) continue;
+        if (fe_world_get_body_events(t.world, &event, sizeof event, 1) == 0) continue;
         told += 1;
         assert_true(event.body == t.box && event.kind == FE_EVENT_SLEEP);
     }
     assert_int_equal(told, 1);
     OK(fe_body_set_awake(t.world, t.box, 1));
     step(t.world, 1);
-    assert_int_equal(fe_world_get_body_events(t.world, &event, 0, 1), 1);
+    assert_int_equal(fe_world_get_body_events(t.world, &event, sizeof event, 1), 1);
     assert_true(event.body == t.box && event.kind == FE_EVENT_WAKE);
     OK(fe_world_destroy(t.world));
 }
@@ -300,7 +300,7 @@ static void a_trigger_reports_and_pushes_nothing(void **state)
         fe_pair_event events[MOST];
         step(world, 1);
         assert_int_equal(fe_body_get_contacts(world, gate, NULL, 0, 0), 0);
-        int32_t count = fe_world_get_pair_events(world, events, 0, MOST);
+        int32_t count = fe_world_get_pair_events(world, events, sizeof *events, MOST);
         for (int32_t k = 0; k < count; ++k) {
             if (events[k].body_a != gate) continue;
             assert_int_equal(events[k].is_trigger, 1);
@@ -327,8 +327,8 @@ static void contacts_carry_the_weight(void **state)
         if (!ground_first) ground = new_ground(world);
         step(world, 40);
         fe_contact contact, same;
-        assert_int_equal(fe_body_get_contacts(world, box, &contact, 0, 1), 1);
-        assert_int_equal(fe_body_get_contacts(world, ground, &same, 0, 1), 1);
+        assert_int_equal(fe_body_get_contacts(world, box, &contact, sizeof contact, 1), 1);
+        assert_int_equal(fe_body_get_contacts(world, ground, &same, sizeof same, 1), 1);
         assert_memory_equal(&contact, &same, sizeof contact);
         assert_true(contact.body_a == (ground_first ? ground : box) && contact.body_b == (ground_first ? box : ground));
         assert_true(contact.shape_a == shape_of(world, contact.body_a) && contact.shape_b == shape_of(world, contact.body_b));
@@ -346,7 +346,7 @@ static void contacts_carry_the_weight(void **state)
         }
         FE_NEAR(per_substep, 1000 * 9.81 / 480, 0.5);
         FE_NEAR(total, 1000 * 9.81 / 60, 4);
-        assert_int_equal(fe_shape_get_contacts(world, contact.shape_b, &same, 0, 1), 1);
+        assert_int_equal(fe_shape_get_contacts(world, contact.shape_b, &same, sizeof same, 1), 1);
         assert_memory_equal(&contact, &same, sizeof contact);
         OK(fe_world_destroy(world));
     }
@@ -365,7 +365,7 @@ static void friction_is_told_as_it_acts_on_b(void **state)
         if (!ground_first) new_ground(world);
         step(world, 25);
         fe_contact contact;
-        assert_int_equal(fe_body_get_contacts(world, box, &contact, 0, 1), 1);
+        assert_int_equal(fe_body_get_contacts(world, box, &contact, sizeof contact, 1), 1);
         double on_box = ground_first ? (double)contact.friction_impulse.x : -(double)contact.friction_impulse.x;
         FE_NEAR(on_box, -1000 * 9.81 * 0.34202014 / 480, 0.2);
         OK(fe_world_destroy(world));
@@ -390,10 +390,10 @@ static void contacts_of_a_shape_are_a_part_of_the_body_s(void **state)
     }
     step(world, 10);
     fe_contact contacts[4];
-    assert_int_equal(fe_body_get_contacts(world, body, contacts, 0, 4), 4);
+    assert_int_equal(fe_body_get_contacts(world, body, contacts, sizeof *contacts, 4), 4);
     for (int i = 0; i < 4; ++i) {
         fe_contact one;
-        assert_int_equal(fe_shape_get_contacts(world, feet[i], &one, 0, 1), 1);
+        assert_int_equal(fe_shape_get_contacts(world, feet[i], &one, sizeof one, 1), 1);
         assert_true(one.shape_b == feet[i]);
         FE_NEAR(one.points[0].point.x, i & 1 ? 1 : -1, 0.01);
         FE_NEAR(one.points[0].point.z, i & 2 ? 1 : -1, 0.01);

@@ -647,8 +647,8 @@ static void a_wheels_spring_is_for_its_corner_of_the_chassis(void **state)
         OK(fe_body_get_point_velocity(f.world, fixed ? f.b : f.a, &p, &v));
         double mass = (double)(kick.y / v.y), w = 8 * 3.14159265358979;
         assert_int_equal(c.axes[FE_DOF_LINEAR_Z].spring, FE_SPRING_STIFFNESS);
-        FE_NEAR(c.axes[FE_DOF_LINEAR_Z].stiffness, mass * w * w, 1e-5 * mass * w * w);
-        FE_NEAR(c.axes[FE_DOF_LINEAR_Z].damping, 2 * (double)0.7f * mass * w, 1e-5 * mass * w);
+        FE_NEAR(c.axes[FE_DOF_LINEAR_Z].spring_stiffness, mass * w * w, 1e-5 * mass * w * w);
+        FE_NEAR(c.axes[FE_DOF_LINEAR_Z].spring_damping, 2 * (double)0.7f * mass * w, 1e-5 * mass * w);
         end(&f);
     }
 }

@@ -1,8 +1,8 @@
 // Velocities, forces, impulses, targets and locks as set between steps.
 #include "api/api_test.h"
 
-static fe_vec3 velocity(const fe_world *world, fe_body body) { return fe_body_linear_velocity(world, body); }
-static fe_vec3 spin(const fe_world *world, fe_body body) { return fe_body_angular_velocity(world, body); }
+static fe_vec3 velocity(const fe_world *world, fe_body body) { return body_linear_velocity(world, body); }
+static fe_vec3 spin(const fe_world *world, fe_body body) { return body_angular_velocity(world, body); }
 
 static fe_world *weightless_world(void)
 {
@@ -158,7 +158,7 @@ static void no_number_of_forces_makes_an_infinity(void **state)
         OK(fe_body_add_torque(world, body, &push));
     }
     step(world, 3);
-    fe_transform t = fe_body_transform(world, body);
+    fe_transform t = body_transform(world, body);
     FE_WITHIN(t.position.x, -1e9, 1e9);
     FE_WITHIN(t.rotation.w, -1, 1);
     FE_WITHIN(velocity(world, body).x, -4001, 4001);
@@ -188,7 +188,7 @@ static void what_is_locked_stays_zero(void **state)
     OK(fe_body_add_force(world, box, &v));
     FE_NEAR(velocity(world, box).y, 0, 0);
     step(world, 5);
-    FE_NEAR(fe_body_transform(world, box).position.y, 0, 0);
+    FE_NEAR(body_transform(world, box).position.y, 0, 0);
     OK(fe_world_destroy(world));
 }
 
@@ -243,7 +243,7 @@ static void a_kinematic_body_reaches_its_target(void **state)
     FE_NEAR(velocity(world, lift).x, 1, 1e-6);
     FE_NEAR(spin(world, lift).y, 3.14159265 / 4 / 0.5, 1e-6);
     step(world, 30);
-    fe_transform now = fe_body_transform(world, lift);
+    fe_transform now = body_transform(world, lift);
     // each substep may round the velocity's path by half a unit of a float: 240 * 1e-7
     FE_NEAR(now.position.x, 1.5, 3e-5), FE_NEAR(now.position.y, 2.25, 3e-5), FE_NEAR(now.position.z, 2, 3e-5);
     // first order turns lag by (w h)^3 / 12 a substep, w h = 3.3e-3: 240 * 3e-9
@@ -290,8 +290,8 @@ static void a_moving_platform_wakes_what_stands_on_it(void **state)
     assert_int_equal(is_awake(world, lift), 1);
     assert_int_equal(is_awake(world, box), 1);
     step(world, 60);
-    FE_NEAR(fe_body_transform(world, lift).position.y, 1, 1e-4);
-    FE_NEAR(fe_body_transform(world, box).position.y, 2, 0.02);
+    FE_NEAR(body_transform(world, lift).position.y, 1, 1e-4);
+    FE_NEAR(body_transform(world, box).position.y, 2, 0.02);
     OK(fe_world_destroy(world));
 }
 

@@ -36,19 +36,19 @@ static void rays_answer(void **state)
     asked a = new_asked();
     fe_hit hits[3];
     fe_dvec3 up = {0, 20, 0};
-    OK(fe_world_raycast_any(a.world, &a.above, &a.down, NULL));
-    assert_int_equal(fe_world_raycast_any(a.world, &a.above, &up, NULL), FE_MISS);
-    assert_int_equal(fe_world_raycast_all(a.world, &a.above, &a.down, NULL, hits, 0, 3), 2);
+    HIT(fe_world_raycast_any(a.world, &a.above, &a.down, NULL));
+    assert_int_equal(fe_world_raycast_any(a.world, &a.above, &up, NULL), 0);
+    assert_int_equal(fe_world_raycast_all(a.world, &a.above, &a.down, NULL, hits, sizeof *hits, 3), 2);
     assert_true(hits[0].body == a.box && hits[1].body == a.ground && hits[0].shape == a.box_shape);
     FE_NEAR(hits[0].fraction, 0.45, 1e-15), FE_NEAR(hits[1].fraction, 0.5, 1e-15);
     assert_int_equal(fe_world_raycast_all(a.world, &a.above, &a.down, NULL, NULL, 0, 0), 2);
-    assert_int_equal(fe_world_raycast_all(a.world, &a.above, &up, NULL, hits, 0, 3), 0);
-    OK(fe_shape_raycast(a.world, a.ground_shape, &a.above, &a.down, hits));
+    assert_int_equal(fe_world_raycast_all(a.world, &a.above, &up, NULL, hits, sizeof *hits, 3), 0);
+    HIT(fe_shape_raycast(a.world, a.ground_shape, &a.above, &a.down, hits));
     assert_true(hits[0].body == a.ground && hits[0].shape == a.ground_shape);
-    assert_int_equal(fe_shape_raycast(a.world, a.box_shape, &a.above, &up, hits), FE_MISS);
-    OK(fe_body_raycast(a.world, a.box, &a.above, &a.down, hits));
+    assert_int_equal(fe_shape_raycast(a.world, a.box_shape, &a.above, &up, hits), 0);
+    HIT(fe_body_raycast(a.world, a.box, &a.above, &a.down, hits));
     assert_true(hits[0].shape == a.box_shape);
-    assert_int_equal(fe_body_raycast(a.world, a.box, &a.above, &up, hits), FE_MISS);
+    assert_int_equal(fe_body_raycast(a.world, a.box, &a.above, &up, hits), 0);
     OK(fe_world_destroy(a.world));
 }
 
@@ -77,19 +77,19 @@ static void sweeps_answer(void **state)
     fe_hit hits[3];
     fe_transform start = fe_make_transform(0, 10, 0);
     fe_dvec3 up = {0, 20, 0}, none = {0, 0, 0};
-    OK(fe_world_sweep(a.world, &a.ball, &start, &a.down, NULL, hits));
+    HIT(fe_world_sweep(a.world, &a.ball, &start, &a.down, NULL, hits));
     assert_true(hits[0].body == a.box && hits[0].flags == 0);
     FE_WITHIN(10 - 20 * hits[0].fraction, 1.25, 1.25 + 1e-6);
     FE_NEAR(hits[0].point.y, 1, 1e-6), FE_NEAR(hits[0].normal.y, 1, 1e-7);
-    OK(fe_world_sweep_any(a.world, &a.ball, &start, &a.down, NULL));
-    assert_int_equal(fe_world_sweep(a.world, &a.ball, &start, &up, NULL, hits), FE_MISS);
-    assert_int_equal(fe_world_sweep_any(a.world, &a.ball, &start, &up, NULL), FE_MISS);
-    assert_int_equal(fe_world_sweep_all(a.world, &a.ball, &start, &a.down, NULL, hits, 0, 3), 2);
+    HIT(fe_world_sweep_any(a.world, &a.ball, &start, &a.down, NULL));
+    assert_int_equal(fe_world_sweep(a.world, &a.ball, &start, &up, NULL, hits), 0);
+    assert_int_equal(fe_world_sweep_any(a.world, &a.ball, &start, &up, NULL), 0);
+    assert_int_equal(fe_world_sweep_all(a.world, &a.ball, &start, &a.down, NULL, hits, sizeof *hits, 3), 2);
     assert_true(hits[0].body == a.box && hits[1].body == a.ground);
-    OK(fe_world_sweep(a.world, &a.ball, &a.at, &up, NULL, hits));
+    HIT(fe_world_sweep(a.world, &a.ball, &a.at, &up, NULL, hits));
     assert_true(hits[0].flags == FE_HIT_STARTED_INSIDE && hits[0].fraction == 0.0 && hits[0].normal.y == -1.0f);
     FE_NEAR(hits[0].depth, 0.75, 1e-7);
-    OK(fe_world_sweep(a.world, &a.ball, &a.at, &none, NULL, hits));
+    HIT(fe_world_sweep(a.world, &a.ball, &a.at, &none, NULL, hits));
     OK(fe_world_destroy(a.world));
 }
 
@@ -108,7 +108,7 @@ static void overlaps_answer(void **state)
     assert_int_equal(fe_world_overlap(a.world, &a.point, &a.at, NULL, NULL, 0), 1);
     assert_int_equal(fe_world_overlap(a.world, &a.ball, &a.far, NULL, bodies, 3), 0);
     OK(fe_world_overlap_any(a.world, &a.ball, &a.at, NULL));
-    assert_int_equal(fe_world_overlap_any(a.world, &a.ball, &a.far, NULL), FE_MISS);
+    assert_int_equal(fe_world_overlap_any(a.world, &a.ball, &a.far, NULL), 0);
     OK(fe_world_destroy(a.world));
 }
 
@@ -118,20 +118,20 @@ static void closest_points_answer(void **state)
     asked a = new_asked();
     fe_closest c;
     fe_dvec3 beside = {2, 1.5, 0}, inside = {0.25, 0.5, 0};
-    OK(fe_world_closest_point(a.world, &beside, 10, NULL, &c));
+    HIT(fe_world_closest_point(a.world, &beside, 10, NULL, &c));
     assert_true(c.body == a.ground && c.shape == a.ground_shape && c.triangle == -1);
     FE_NEAR(c.distance, 1.5, 1e-15), FE_NEAR(c.normal.y, 1, 0), FE_NEAR(c.point.x, 2, 0), FE_NEAR(c.point.y, 0, 1e-15);
-    assert_int_equal(fe_world_closest_point(a.world, &beside, 1.25, NULL, &c), FE_MISS);
-    OK(fe_world_closest_point(a.world, &beside, 1.5, NULL, &c)); // just so far counts
-    OK(fe_world_closest_point(a.world, &inside, 0, NULL, &c));
+    assert_int_equal(fe_world_closest_point(a.world, &beside, 1.25, NULL, &c), 0);
+    HIT(fe_world_closest_point(a.world, &beside, 1.5, NULL, &c)); // just so far counts
+    HIT(fe_world_closest_point(a.world, &inside, 0, NULL, &c));
     assert_true(c.body == a.box);
     FE_NEAR(c.distance, -0.25, 1e-15), FE_NEAR(c.normal.x, 1, 0), FE_NEAR(c.point.x, 0.5, 1e-15);
-    OK(fe_shape_closest_point(a.world, a.box_shape, &beside, &c));
+    HIT(fe_shape_closest_point(a.world, a.box_shape, &beside, &c));
     FE_NEAR(c.distance, sqrt(1.5 * 1.5 + 0.5 * 0.5), 1e-15);
-    OK(fe_body_closest_point(a.world, a.box, &beside, &c));
+    HIT(fe_body_closest_point(a.world, a.box, &beside, &c));
     assert_true(c.shape == a.box_shape);
     fe_body empty = new_body(a.world, FE_BODY_STATIC, 0, 0, 0);
-    assert_int_equal(fe_body_closest_point(a.world, empty, &beside, &c), FE_MISS);
+    assert_int_equal(fe_body_closest_point(a.world, empty, &beside, &c), 0);
     OK(fe_world_destroy(a.world));
 }
 
@@ -144,10 +144,10 @@ static void what_is_named_answers_always(void **state)
     fe_closest c;
     OK(fe_shape_set_trigger(a.world, a.box_shape, 1));
     OK(fe_body_set_enabled(a.world, a.box, 0));
-    OK(fe_shape_raycast(a.world, a.box_shape, &a.above, &a.down, &hit));
-    OK(fe_body_raycast(a.world, a.box, &a.above, &a.down, &hit));
-    OK(fe_shape_closest_point(a.world, a.box_shape, &a.above, &c));
-    OK(fe_world_raycast(a.world, &a.above, &a.down, NULL, &hit));
+    HIT(fe_shape_raycast(a.world, a.box_shape, &a.above, &a.down, &hit));
+    HIT(fe_body_raycast(a.world, a.box, &a.above, &a.down, &hit));
+    HIT(fe_shape_closest_point(a.world, a.box_shape, &a.above, &c));
+    HIT(fe_world_raycast(a.world, &a.above, &a.down, NULL, &hit));
     assert_true(hit.body == a.ground);
     OK(fe_world_destroy(a.world));
 }
@@ -169,7 +169,7 @@ static void many_at_once_answer_as_one_by_one(void **state)
     for (int kind = 0; kind < 2; ++kind) {
         int32_t hits = 0;
         for (int i = 0; i < MANY; ++i) {
-            fe_result result = kind ? fe_world_sweep(a.world, &a.ball, &paths[i].start, &paths[i].translation, NULL, &one[i])
+            int32_t result = kind ? fe_world_sweep(a.world, &a.ball, &paths[i].start, &paths[i].translation, NULL, &one[i])
                                     : fe_world_raycast(a.world, &rays[i].origin, &rays[i].translation, NULL, &one[i]);
             hits += result == FE_OK;
             if (result == FE_OK) continue;
@@ -179,8 +179,8 @@ static void many_at_once_answer_as_one_by_one(void **state)
         FE_WITHIN(hits, 1, MANY - 1);
         for (int32_t s = 0; s < 2; ++s) {
             fe_hit *out = s ? spread : many;
-            int32_t found = kind ? fe_world_sweep_many(a.world, &a.ball, paths, 0, MANY, NULL, s, out, 0)
-                                 : fe_world_raycast_many(a.world, rays, 0, MANY, NULL, s, out, 0);
+            int32_t found = kind ? fe_world_sweep_many(a.world, &a.ball, paths, sizeof(fe_path), MANY, NULL, s, out, sizeof(fe_hit))
+                                 : fe_world_raycast_many(a.world, rays, sizeof(fe_ray), MANY, NULL, s, out, sizeof(fe_hit));
             assert_int_equal(found, hits);
             assert_memory_equal(out, one, sizeof one);
         }
@@ -211,19 +211,19 @@ static void bad_rays_are_refused(void **state)
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_any(w, NULL, &a.down, NULL));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_any(w, &a.above, NULL, NULL));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_any(w, &a.above, &a.down, &bad));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(NULL, &a.above, &a.down, NULL, h, 0, 2));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, NULL, &a.down, NULL, h, 0, 2));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, &a.above, NULL, NULL, h, 0, 2));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, &a.above, &a.down, &bad, h, 0, 2));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(NULL, &a.above, &a.down, NULL, h, sizeof *h, 2));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, NULL, &a.down, NULL, h, sizeof *h, 2));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, &a.above, NULL, NULL, h, sizeof *h, 2));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, &a.above, &a.down, &bad, h, sizeof *h, 2));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, &a.above, &a.down, NULL, NULL, 0, 2));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, &a.above, &a.down, NULL, h, 0, -1));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, &a.above, &a.down, NULL, h, sizeof *h, -1));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, &a.above, &a.down, NULL, h, 68, 2));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, &a.above, &a.down, NULL, h, 74, 2));
     for (int i = 0; i < BAD; ++i) {
         REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_any(w, &bad_vectors[i], &a.down, NULL));
         REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_any(w, &a.above, &bad_vectors[i], NULL));
-        REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, &bad_vectors[i], &a.down, NULL, h, 0, 2));
-        REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, &a.above, &bad_vectors[i], NULL, h, 0, 2));
+        REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, &bad_vectors[i], &a.down, NULL, h, sizeof *h, 2));
+        REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, &a.above, &bad_vectors[i], NULL, h, sizeof *h, 2));
     }
     OK(fe_world_destroy(w));
 }
@@ -244,7 +244,7 @@ static void bad_sweeps_and_overlaps_are_refused(void **state)
     for (int i = 0; i < 4; ++i) {
         REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep(w, refused[i], &a.at, &a.down, NULL, h));
         REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_any(w, refused[i], &a.at, &a.down, NULL));
-        REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_all(w, refused[i], &a.at, &a.down, NULL, h, 0, 2));
+        REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_all(w, refused[i], &a.at, &a.down, NULL, h, sizeof *h, 2));
         REFUSES(w, FE_ERROR_ARGUMENT, fe_world_overlap(w, refused[i], &a.at, NULL, b, 2));
         REFUSES(w, FE_ERROR_ARGUMENT, fe_world_overlap_any(w, refused[i], &a.at, NULL));
     }
@@ -254,20 +254,20 @@ static void bad_sweeps_and_overlaps_are_refused(void **state)
     for (int i = 0; i < 3; ++i) {
         REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep(w, &a.ball, poses[i], &a.down, NULL, h));
         REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_any(w, &a.ball, poses[i], &a.down, NULL));
-        REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_all(w, &a.ball, poses[i], &a.down, NULL, h, 0, 2));
+        REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_all(w, &a.ball, poses[i], &a.down, NULL, h, sizeof *h, 2));
         REFUSES(w, FE_ERROR_ARGUMENT, fe_world_overlap(w, &a.ball, poses[i], NULL, b, 2));
         REFUSES(w, FE_ERROR_ARGUMENT, fe_world_overlap_any(w, &a.ball, poses[i], NULL));
     }
     for (int i = 0; i < BAD; ++i) {
         REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep(w, &a.ball, &a.at, &bad_vectors[i], NULL, h));
         REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_any(w, &a.ball, &a.at, &bad_vectors[i], NULL));
-        REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_all(w, &a.ball, &a.at, &bad_vectors[i], NULL, h, 0, 2));
+        REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_all(w, &a.ball, &a.at, &bad_vectors[i], NULL, h, sizeof *h, 2));
     }
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep(NULL, &a.ball, &a.at, &a.down, NULL, h));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep(w, &a.ball, &a.at, NULL, NULL, h));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep(w, &a.ball, &a.at, &a.down, NULL, NULL));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_any(w, &a.ball, &a.at, NULL, NULL));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_all(w, &a.ball, &a.at, NULL, NULL, h, 0, 2));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_all(w, &a.ball, &a.at, NULL, NULL, h, sizeof *h, 2));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_all(w, &a.ball, &a.at, &a.down, NULL, NULL, 0, 2));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_all(w, &a.ball, &a.at, &a.down, NULL, h, 8, 2));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_overlap(w, &a.ball, &a.at, NULL, NULL, 2));
@@ -284,21 +284,21 @@ static void bad_batches_are_refused(void **state)
     memset(h, 0x55, sizeof h), memcpy(untouched, h, sizeof h);
     fe_ray rays[2] = {{a.above, a.down}, {a.above, {0, (double)NAN, 0}}};
     fe_path paths[2] = {{a.far, a.down}, {a.far, {0, 0, (double)INFINITY}}};
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, 0, 2, NULL, 0, h, 0)); // the second
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, sizeof(fe_ray), 2, NULL, 0, h, sizeof(fe_hit))); // the second
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, 44, 1, NULL, 0, h, 0));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, 0, 1, NULL, 2, h, 0));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, sizeof(fe_ray), 1, NULL, 2, h, sizeof(fe_hit)));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, 0, 1, NULL, 0, h, 4));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, 0, 1, NULL, 0, NULL, 0));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, NULL, 0, 1, NULL, 0, h, 0));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, 0, -1, NULL, 0, h, 0));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, paths, 0, 2, NULL, 1, h, 0)); // the second
-    REFUSES(w, FE_ERROR_UNSUPPORTED, fe_world_sweep_many(w, &a.plane, paths, 0, 1, NULL, 1, h, 0));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, sizeof(fe_ray), 1, NULL, 0, NULL, 0));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, NULL, 0, 1, NULL, 0, h, sizeof(fe_hit)));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, sizeof(fe_ray), -1, NULL, 0, h, sizeof(fe_hit)));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, paths, sizeof(fe_path), 2, NULL, 1, h, sizeof(fe_hit))); // the second
+    REFUSES(w, FE_ERROR_UNSUPPORTED, fe_world_sweep_many(w, &a.plane, paths, sizeof(fe_path), 1, NULL, 1, h, sizeof(fe_hit)));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, paths, 60, 1, NULL, 1, h, 0));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, paths, 0, 1, NULL, -1, h, 0));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, NULL, 0, 1, NULL, 1, h, 0));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, paths, 0, 1, NULL, 1, NULL, 0));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, paths, sizeof(fe_path), 1, NULL, -1, h, sizeof(fe_hit)));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, NULL, 0, 1, NULL, 1, h, sizeof(fe_hit)));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, paths, sizeof(fe_path), 1, NULL, 1, NULL, 0));
     paths[1] = paths[0], paths[1].start.rotation.w = 0;
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, paths, 0, 2, NULL, 1, h, 0));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, paths, sizeof(fe_path), 2, NULL, 1, h, sizeof(fe_hit)));
     assert_memory_equal(h, untouched, sizeof h);
     OK(fe_world_destroy(w));
 }
@@ -355,11 +355,11 @@ static void intrude(void *user, fe_task task, void *argument, int32_t count)
         fe_world_raycast(a->world, &a->above, &a->down, NULL, &h),
         fe_world_raycast_any(a->world, &a->above, &a->down, NULL),
         fe_world_raycast_all(a->world, &a->above, &a->down, NULL, &h, 0, 1),
-        fe_world_raycast_many(a->world, &ray, 0, 1, NULL, 1, &h, 0),
+        fe_world_raycast_many(a->world, &ray, sizeof(fe_ray), 1, NULL, 1, &h, sizeof(fe_hit)),
         fe_world_sweep(a->world, &a->ball, &a->at, &a->down, NULL, &h),
         fe_world_sweep_any(a->world, &a->ball, &a->at, &a->down, NULL),
         fe_world_sweep_all(a->world, &a->ball, &a->at, &a->down, NULL, &h, 0, 1),
-        fe_world_sweep_many(a->world, &a->ball, &path, 0, 1, NULL, 1, &h, 0),
+        fe_world_sweep_many(a->world, &a->ball, &path, sizeof(fe_path), 1, NULL, 1, &h, sizeof(fe_hit)),
         fe_world_overlap(a->world, &a->ball, &a->at, NULL, &b, 1),
         fe_world_overlap_any(a->world, &a->ball, &a->at, NULL),
         fe_world_closest_point(a->world, &a->above, 1, NULL, &c),

@@ -126,7 +126,7 @@ static void act(scene *s, int step)
         fe_transform at = fe_make_transform(0, 1, 0);
         fe_geometry_sphere(&ball, 3);
         int32_t type = FE_BODY_STATIC, count;
-        fe_result result = fe_world_raycast(s->world, &origin, &down, NULL, &hit);
+        int32_t result = fe_world_raycast(s->world, &origin, &down, NULL, &hit);
         check(result);
         if (result == FE_OK) check(fe_body_get_type(s->world, hit.body, &type));
         if (type == FE_BODY_DYNAMIC) {
@@ -150,9 +150,9 @@ static void listen(scene *s)
     static fe_pair_event pairs[4096];
     static fe_body_event bodies[4096];
     int32_t count;
-    check(count = fe_world_get_pair_events(s->world, pairs, 0, 4096));
+    check(count = fe_world_get_pair_events(s->world, pairs, sizeof *pairs, 4096));
     for (int32_t i = 0; i < count && i < 4096; ++i) ++*(pairs[i].kind == FE_EVENT_ENTER ? &s->enter : &s->leave);
-    check(count = fe_world_get_body_events(s->world, bodies, 0, 4096));
+    check(count = fe_world_get_body_events(s->world, bodies, sizeof *bodies, 4096));
     for (int32_t i = 0; i < count && i < 4096; ++i) ++*(bodies[i].kind == FE_EVENT_SLEEP ? &s->sleep : &s->wake);
     check(count = fe_world_get_hit_events(s->world, NULL, 0, 0));
     s->hit += count;

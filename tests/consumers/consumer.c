@@ -11,7 +11,7 @@ int main(void)
     if (fe_world_create(NULL, &world) != FE_OK || fe_body_create(world, NULL, &ball) != FE_OK) return 1;
     for (step = 0; step < 60; ++step)
         if (fe_world_step(world, 1.0f / 60.0f) != FE_OK) return 2;
-    fallen = -fe_body_transform(world, ball).position.y;
+    fallen = -body_transform(world, ball).position.y;
     if (fe_world_destroy(world) != FE_OK) return 3;
     return fallen > 4.8 && fallen < 5.0 ? 0 : 4;
 }

@@ -90,8 +90,8 @@ static arena build_arena(int number, int workers)
 static void everything_is_finite_and_unit(const arena *a)
 {
     for (int i = 0; i < a->count; ++i) {
-        fe_transform t = fe_body_transform(a->s.world, a->bodies[i]);
-        fe_vec3 v = fe_body_linear_velocity(a->s.world, a->bodies[i]), w = fe_body_angular_velocity(a->s.world, a->bodies[i]);
+        fe_transform t = body_transform(a->s.world, a->bodies[i]);
+        fe_vec3 v = body_linear_velocity(a->s.world, a->bodies[i]), w = body_angular_velocity(a->s.world, a->bodies[i]);
         FE_WITHIN(length(t.position), 0, 1e4);
         FE_WITHIN(length(widen(v)), 0, 1e3);
         FE_WITHIN(length(widen(w)), 0, 1e4);
@@ -113,7 +113,7 @@ static void nobody_is_in_a_plane(arena *a)
         a->speeds[i] = fmax(speed, a->speeds[i] * 0.95);
         double deepest = sink(weight, mass_of(&a->s, a->bodies[i]) / 7, 1) + LINEAR_SLOP + a->speeds[i] * STEP;
         fe_contact contacts[MOST_TOUCHING];
-        int32_t count = fe_body_get_contacts(a->s.world, a->bodies[i], contacts, 0, MOST_TOUCHING);
+        int32_t count = fe_body_get_contacts(a->s.world, a->bodies[i], contacts, sizeof *contacts, MOST_TOUCHING);
         FE_WITHIN(count, 0, MOST_TOUCHING);
         for (int32_t k = 0; k < count; ++k) {
             fe_geometry form = {.struct_size = sizeof form};

@@ -116,7 +116,7 @@ static void join_by_six_axes(arena *a, dice *d, fe_body one, fe_body two, vec po
         axis->motion = pick(d, 2) ? FE_MOTION_LOCKED : FE_MOTION_LIMITED;
         axis->lower = -(float)uniform(d, 0, 0.5), axis->upper = (float)uniform(d, 0, 0.5);
         if (axis->motion == FE_MOTION_LOCKED || !a->has_drives || pick(d, 2)) continue;
-        axis->spring = FE_SPRING_HERTZ, axis->stiffness = (float)uniform(d, 1, 10), axis->damping = (float)uniform(d, 0.1, 1);
+        axis->spring = FE_SPRING_HERTZ, axis->spring_hertz = (float)uniform(d, 1, 10), axis->spring_damping_ratio = (float)uniform(d, 0.1, 1);
     }
     a->joints[a->joint_count++] = add_configurable(&a->s, six, one, two, point, somewhere(d, 1));
 }
@@ -185,13 +185,13 @@ static void move_lift(arena *a, int step)
 static void nobody_is_lost(const arena *a)
 {
     for (int i = 0; i < a->count; ++i) {
-        fe_transform t = fe_body_transform(a->s.world, a->bodies[i]);
+        fe_transform t = body_transform(a->s.world, a->bodies[i]);
         double x = t.rotation.x, y = t.rotation.y, z = t.rotation.z, w = t.rotation.w;
         FE_WITHIN(t.position.x, -RIM, RIM);
         FE_WITHIN(t.position.z, -RIM, RIM);
         FE_WITHIN(t.position.y, DEEP, 40);
         FE_NEAR(x * x + y * y + z * z + w * w, 1, 4e-7); // four rounded components
-        FE_WITHIN(length(widen(fe_body_angular_velocity(a->s.world, a->bodies[i]))), 0, 1e3);
+        FE_WITHIN(length(widen(body_angular_velocity(a->s.world, a->bodies[i]))), 0, 1e3);
     }
 }
 

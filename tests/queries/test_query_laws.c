@@ -136,7 +136,7 @@ static input random_input(source *s, const fe_world *world)
     if (in.geometry.type == FE_GEOMETRY_PLANE) fe_geometry_sphere(&in.geometry, 0);
     fe_world_get_bodies(world, bodies, BODIES);
     in.start = fe_make_transform(0, 0, 0);
-    in.start.position = fe_body_transform(world, bodies[one_of(s, BODIES)]).position;
+    in.start.position = body_transform(world, bodies[one_of(s, BODIES)]).position;
     fe_dvec3 off = place(s, 12);
     in.start.position.x += off.x, in.start.position.y += off.y, in.start.position.z += off.z;
     in.start.rotation = rotation(s);
@@ -165,7 +165,7 @@ static const char *broken_by_sweep(const fe_world *world, const input *in)
     static fe_hit hits[BODIES];
     fe_body inside[BODIES];
     fe_hit first;
-    int32_t all = fe_world_sweep_all(world, &in->geometry, &in->start, &in->way, NULL, hits, 0, BODIES), flagged = 0;
+    int32_t all = fe_world_sweep_all(world, &in->geometry, &in->start, &in->way, NULL, hits, sizeof *hits, BODIES), flagged = 0;
     int32_t overlap = fe_world_overlap(world, &in->geometry, &in->start, NULL, inside, BODIES);
     if (all < 0 || overlap < 0) return "a good query is answered";
     for (int32_t i = 0; i < all; ++i) {
@@ -178,7 +178,7 @@ static const char *broken_by_sweep(const fe_world *world, const input *in)
     if (flagged != overlap) return "overlap and a start inside are one";
     if ((fe_world_overlap_any(world, &in->geometry, &in->start, NULL) == FE_OK) != (overlap > 0)) return "any overlap";
     int32_t result = fe_world_sweep(world, &in->geometry, &in->start, &in->way, NULL, &first);
-    if (result != (all > 0 ? FE_OK : FE_MISS) || fe_world_sweep_any(world, &in->geometry, &in->start, &in->way, NULL) != result)
+    if (result != (all > 0 ? 1 : 0) || fe_world_sweep_any(world, &in->geometry, &in->start, &in->way, NULL) != result)
         return "first, any and all agree";
     if ((result == FE_OK && first.flags != 0) != (overlap > 0)) return "overlap and a start inside are one for the first hit";
     if (all > 0 && memcmp(&first, hits, sizeof first) != 0) return "the first of all is the first";
@@ -202,7 +202,7 @@ static const char *broken_by_stop(const fe_world *world, const input *in)
 {
     fe_hit hit;
     if (in->geometry.type == FE_GEOMETRY_SPHERE && in->geometry.radius == 0) return NULL; // a ray ends on the surface
-    if (fe_world_sweep(world, &in->geometry, &in->start, &in->way, NULL, &hit) != FE_OK || hit.flags) return NULL;
+    if (fe_world_sweep(world, &in->geometry, &in->start, &in->way, NULL, &hit) != 1 || hit.flags) return NULL;
     fe_transform stop = in->start;
     stop.position.x += hit.fraction * in->way.x, stop.position.y += hit.fraction * in->way.y, stop.position.z += hit.fraction * in->way.z;
     fe_body bodies[2], field;
@@ -292,12 +292,12 @@ static void what_has_stopped_slides(void **state)
         t.rotation = turns[i / 9];
         const fe_dvec3 down = {0.1, -5, 0.05}, slides[] = {{2.6, 0, 0}, {-2.3, 0, 0.3}, {0, 0, 0.7}, {1, 0.5, 0.2}};
         fe_hit hit;
-        OK(fe_world_sweep(world, &g, &t, &down, NULL, &hit));
+        HIT(fe_world_sweep(world, &g, &t, &down, NULL, &hit));
         FE_WITHIN(hit.fraction, 0.4, 0.6);
         t.position.x += hit.fraction * down.x, t.position.y += hit.fraction * down.y, t.position.z += hit.fraction * down.z;
-        for (int s = 0; s < 4; ++s) assert_int_equal(fe_world_sweep(world, &g, &t, &slides[s], NULL, &hit), FE_MISS);
+        for (int s = 0; s < 4; ++s) assert_int_equal(fe_world_sweep(world, &g, &t, &slides[s], NULL, &hit), 0);
         fe_dvec3 on = {0, -1e-3, 0}; // but what goes on into the ground stops where it is
-        OK(fe_world_sweep(world, &g, &t, &on, NULL, &hit));
+        HIT(fe_world_sweep(world, &g, &t, &on, NULL, &hit));
         FE_WITHIN(hit.fraction, 0, 1e-4);
         FE_TRUE(hit.flags == 0);
     }

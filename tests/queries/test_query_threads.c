@@ -138,8 +138,8 @@ typedef struct batch {
 static void *ask_many(void *argument)
 {
     batch *b = argument;
-    b->hits = fe_world_raycast_many(b->world, b->rays, 0, QUERIES, NULL, b->spread, b->rays_out, 0);
-    b->hits += fe_world_sweep_many(b->world, b->geometry, b->paths, 0, QUERIES, NULL, b->spread, b->paths_out, 0);
+    b->hits = fe_world_raycast_many(b->world, b->rays, sizeof(fe_ray), QUERIES, NULL, b->spread, b->rays_out, sizeof(fe_hit));
+    b->hits += fe_world_sweep_many(b->world, b->geometry, b->paths, sizeof(fe_path), QUERIES, NULL, b->spread, b->paths_out, sizeof(fe_hit));
     return NULL;
 }
 

@@ -64,8 +64,8 @@ static void nothing_is_left(const fe_world *world)
 static void all_is_finite(const fe_world *world, const fe_body *bodies, int32_t count)
 {
     for (int32_t i = 0; i < count; ++i) {
-        fe_transform t = fe_body_transform(world, bodies[i]);
-        fe_vec3 v = fe_body_linear_velocity(world, bodies[i]), w = fe_body_angular_velocity(world, bodies[i]);
+        fe_transform t = body_transform(world, bodies[i]);
+        fe_vec3 v = body_linear_velocity(world, bodies[i]), w = body_angular_velocity(world, bodies[i]);
         const double all[10] = {t.position.x, t.position.y, t.position.z, (double)v.x, (double)v.y,
                                 (double)v.z,  (double)w.x,  (double)w.y,  (double)w.z, (double)t.rotation.w};
         for (int k = 0; k < 10; ++k) FE_WITHIN(all[k], -1e12, 1e12);
@@ -190,7 +190,7 @@ static void all_bodies_can_be_removed_and_come_back(void **state)
         nothing_is_left(p->world);
         step(p, 1);
         fe_pair_event events[4];
-        exits = fe_world_get_pair_events(p->world, events, 0, 4);
+        exits = fe_world_get_pair_events(p->world, events, sizeof *events, 4);
         assert_in_range(exits, 10, 10000); // the exits of what touched
         assert_int_equal(events[0].kind, FE_EVENT_EXIT);
         assert_int_equal(fe_body_is_valid(p->world, events[0].body_b), 0);
@@ -216,7 +216,7 @@ static void thousands_can_be_created_one_by_one(void **state)
     step(p, 3);
     fe_dvec3 origin = {ONE_BY_ONE - 1.0, 10.0, 0.0}, down = {0.0, -20.0, 0.0};
     fe_hit hit;
-    assert_int_equal(fe_world_raycast(p->world, &origin, &down, NULL, &hit), FE_OK);
+    assert_int_equal(fe_world_raycast(p->world, &origin, &down, NULL, &hit), 1);
     FE_TRUE(hit.body == bodies[ONE_BY_ONE - 1]);
     assert_int_equal(fe_world_get_body_events(p->world, NULL, 0, 0), 0); // all slept on
     PLAY(p, fe_body_destroy_many(p->world, bodies, ONE_BY_ONE));
@@ -229,7 +229,7 @@ enum { TWINS = 9 }; // pairs of bodies, actors 1 + 2 k and 2 + 2 k
 
 static double apart(const play *p, int32_t k)
 {
-    fe_dvec3 a = fe_body_transform(p->world, p->actors[1 + 2 * k]).position, b = fe_body_transform(p->world, p->actors[2 + 2 * k]).position;
+    fe_dvec3 a = body_transform(p->world, p->actors[1 + 2 * k]).position, b = body_transform(p->world, p->actors[2 + 2 * k]).position;
     return sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y) + (b.z - a.z) * (b.z - a.z));
 }
 
@@ -237,7 +237,7 @@ static double apart(const play *p, int32_t k)
 static double deepest(const play *p, int32_t actor)
 {
     fe_contact contacts[8];
-    int32_t count = fe_body_get_contacts(p->world, p->actors[actor], contacts, 0, 8);
+    int32_t count = fe_body_get_contacts(p->world, p->actors[actor], contacts, sizeof *contacts, 8);
     double most = 0.0;
     assert_in_range(count, 1, 8);
     for (int32_t i = 0; i < count; ++i)
@@ -268,7 +268,7 @@ static void a_body_born_inside_another_gets_out(void **state)
         for (int32_t k = 0; k < TWINS && i == 0; ++k)
             FE_WITHIN(apart(p, k) - before[k], 0.5 * 3.0 * (double)p->dt, 1.01 * 3.0 * (double)p->dt);
         for (int32_t k = 1; k < p->actor_count; ++k) {
-            fe_dvec3 at = fe_body_transform(p->world, p->actors[k]).position;
+            fe_dvec3 at = body_transform(p->world, p->actors[k]).position;
             FE_WITHIN(at.y, 0.1, 2.0); // one on the other, thrown up at 3 m/s: 1.5 m and 0.46 m
         }
     }
@@ -317,7 +317,7 @@ static void what_rests_on_a_moving_platform_stays_awake(void **state)
     step(p, 240);
     assert_int_equal(awake(p->world, p->actors[above]), 1);
     assert_int_equal(fe_body_set_awake(p->world, p->actors[above], 0), FE_ERROR_STATE);
-    double offset = fe_body_transform(p->world, p->actors[above]).position.x - fe_body_transform(p->world, p->actors[below]).position.x;
+    double offset = body_transform(p->world, p->actors[above]).position.x - body_transform(p->world, p->actors[below]).position.x;
     FE_NEAR(offset, 0.0, 0.002); // it slips until its speed is that of the platform: v^2 / (2 mu g), far below
     const fe_vec3 still = {0.0f, 0.0f, 0.0f};
     PLAY(p, fe_body_set_linear_velocity(p->world, p->actors[below], &still));
@@ -360,7 +360,7 @@ static void teleports_between_steps(void **state)
     for (int32_t i = 0; i < 120; ++i) {
         fe_transform there = fe_make_transform(places[i % 4].x, places[i % 4].y, places[i % 4].z);
         PLAY(p, fe_body_set_transform(p->world, p->actors[1 + i % 8], &there));
-        fe_dvec3 now = fe_body_transform(p->world, p->actors[1 + i % 8]).position;
+        fe_dvec3 now = body_transform(p->world, p->actors[1 + i % 8]).position;
         FE_TRUE(now.x == there.position.x && now.y == there.position.y && now.z == there.position.z);
         step(p, 1);
         all_is_finite(p->world, p->actors, p->actor_count);
@@ -376,7 +376,7 @@ static void events_balance_when_bodies_go_in_the_event_loop(void **state)
     int64_t enters = 0, exits = 0;
     play_until(p, &script_mixed, 1);
     for (int32_t i = 0; i < 200; ++i) {
-        int32_t count = fe_world_get_pair_events(p->world, events, 0, MOST);
+        int32_t count = fe_world_get_pair_events(p->world, events, sizeof *events, MOST);
         assert_in_range(count, 0, MOST);
         for (int32_t k = 0; k < count; ++k) {
             enters += events[k].kind == FE_EVENT_ENTER;
@@ -390,11 +390,11 @@ static void events_balance_when_bodies_go_in_the_event_loop(void **state)
     static fe_body bodies[400];
     int32_t count = fe_world_get_bodies(p->world, bodies, 400), last;
     assert_in_range(count, 1, 300);
-    last = fe_world_get_pair_events(p->world, events, 0, MOST);
+    last = fe_world_get_pair_events(p->world, events, sizeof *events, MOST);
     for (int32_t k = 0; k < last; ++k) enters += events[k].kind == FE_EVENT_ENTER, exits += events[k].kind == FE_EVENT_EXIT;
     PLAY(p, fe_body_destroy_many(p->world, bodies, count));
     step(p, 1);
-    last = fe_world_get_pair_events(p->world, events, 0, MOST);
+    last = fe_world_get_pair_events(p->world, events, sizeof *events, MOST);
     for (int32_t k = 0; k < last; ++k) enters += events[k].kind == FE_EVENT_ENTER, exits += events[k].kind == FE_EVENT_EXIT;
     assert_in_range(enters, 100, 1000000);
     assert_int_equal(enters, exits);

@@ -11,6 +11,7 @@
 
 #include "fe_test.h"
 #include "feather.h"
+#include "support/values.h"
 
 #include <math.h>
 
@@ -236,19 +237,19 @@ static inline void add_torque(scene *s, fe_body body, vec torque)
 
 // ---- reading ----------------------------------------------------------------------------------------------------------------------
 
-static inline vec position(const scene *s, fe_body body) { return from_world(s, fe_body_transform(s->world, body).position); }
+static inline vec position(const scene *s, fe_body body) { return from_world(s, body_transform(s->world, body).position); }
 
 // where the body's own axis `local` points to
 static inline vec axis_of(const scene *s, fe_body body, vec local)
 {
-    return from_world(s, rotate(fe_body_transform(s->world, body).rotation, local));
+    return from_world(s, rotate(body_transform(s->world, body).rotation, local));
 }
 
 // between the body's y axis and up, rad
 static inline double tilt(const scene *s, fe_body body) { return between(axis_of(s, body, v3(0, 1, 0)), v3(0, 1, 0)); }
 
-static inline vec velocity(const scene *s, fe_body body) { return from_world(s, widen(fe_body_linear_velocity(s->world, body))); }
-static inline vec spin(const scene *s, fe_body body) { return from_world(s, widen(fe_body_angular_velocity(s->world, body))); }
+static inline vec velocity(const scene *s, fe_body body) { return from_world(s, widen(body_linear_velocity(s->world, body))); }
+static inline vec spin(const scene *s, fe_body body) { return from_world(s, widen(body_angular_velocity(s->world, body))); }
 
 static inline double mass_of(const scene *s, fe_body body)
 {
@@ -270,7 +271,7 @@ enum { MOST_CONTACTS = 32 };
 static inline double normal_impulse(const scene *s, fe_body a, fe_body b)
 {
     fe_contact contacts[MOST_CONTACTS];
-    int32_t count = fe_body_get_contacts(s->world, a, contacts, 0, MOST_CONTACTS);
+    int32_t count = fe_body_get_contacts(s->world, a, contacts, sizeof *contacts, MOST_CONTACTS);
     double sum = 0;
     FE_WITHIN(count, 0, MOST_CONTACTS);
     for (int32_t i = 0; i < count; ++i)

@@ -423,8 +423,8 @@ static void wedges_hold(void **state)
 
 static void pass_by(const scene *s, const scene *bare, fe_body body, fe_body same)
 {
-    fe_transform a = fe_body_transform(s->world, body), b = fe_body_transform(bare->world, same);
-    fe_vec3 v = fe_body_linear_velocity(s->world, body), w = fe_body_linear_velocity(bare->world, same);
+    fe_transform a = body_transform(s->world, body), b = body_transform(bare->world, same);
+    fe_vec3 v = body_linear_velocity(s->world, body), w = body_linear_velocity(bare->world, same);
     FE_TRUE(memcmp(&a, &b, sizeof a) == 0 && memcmp(&v, &w, sizeof v) == 0);
 }
 

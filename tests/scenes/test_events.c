@@ -13,7 +13,7 @@ typedef struct log_of_step {
 static log_of_step events_of(const scene *s)
 {
     log_of_step log;
-    log.count = fe_world_get_pair_events(s->world, log.pairs, 0, MOST);
+    log.count = fe_world_get_pair_events(s->world, log.pairs, sizeof *log.pairs, MOST);
     FE_WITHIN(log.count, 0, MOST);
     return log;
 }
@@ -51,7 +51,7 @@ static fe_body make_trigger(scene *s, fe_body body)
 
 static void place(scene *s, fe_body body, vec at)
 {
-    fe_transform t = fe_body_transform(s->world, body);
+    fe_transform t = body_transform(s->world, body);
     t.position = to_world(s, at);
     MUST(fe_body_set_transform(s->world, body, &t));
 }
@@ -425,7 +425,7 @@ static void a_hit_is_told_with_its_speed_impulse_and_point(void **state)
         for (int k = 0; k < 50 && !hits; ++k) {
             run(&s, 1);
             fe_hit_event hit;
-            hits = fe_world_get_hit_events(s.world, &hit, 0, 1);
+            hits = fe_world_get_hit_events(s.world, &hit, sizeof hit, 1);
             if (!hits) continue;
             FE_TRUE(hit.body_a == ground && hit.body_b == ball);
             FE_NEAR(hit.speed, speed, G * STEP);

@@ -302,7 +302,7 @@ static void touching_cradle_keeps_momentum_and_gains_no_energy(void **state)
 static int has_contact(const scene *s, fe_body a, fe_body b)
 {
     fe_contact contacts[64];
-    int32_t count = fe_body_get_contacts(s->world, a, contacts, 0, 64);
+    int32_t count = fe_body_get_contacts(s->world, a, contacts, sizeof *contacts, 64);
     for (int32_t i = 0; i < count && i < 64; ++i)
         if (contacts[i].body_a == b || contacts[i].body_b == b) return 1;
     return 0;

@@ -134,7 +134,7 @@ static fe_body add_locked_box(scene *s, uint32_t linear, uint32_t angular)
 
 static void check_locks(const scene *s, fe_body block, uint32_t linear, uint32_t angular, fe_transform first)
 {
-    fe_transform now = fe_body_transform(s->world, block);
+    fe_transform now = body_transform(s->world, block);
     vec w = spin(s, block), v = velocity(s, block);
     uint32_t turns = ~angular & FE_AXIS_ALL;
     for (int k = 0; k < 3; ++k) {
@@ -158,7 +158,7 @@ static void run_locked(uint32_t linear, uint32_t angular)
     fe_body block = add_locked_box(&s, linear, angular);
     fe_body ball = add_dynamic(&s, sphere(0.3), v3(0.3, 4, 0.1), UNTURNED, friction(0.6), WATER);
     set_velocity(&s, ball, v3(0.5, -5, -0.5), v3(0, 0, 0));
-    fe_transform first = fe_body_transform(s.world, block);
+    fe_transform first = body_transform(s.world, block);
     vec farthest = v3(0, 0, 0), fastest = v3(0, 0, 0);
     for (int i = 0; i < 600; ++i) {
         add_force(&s, block, v3(9000, 50, 7000));
@@ -221,7 +221,7 @@ static void locks_taken_off_leave_no_trace(void **state)
             add_torque(&s, block, v3(2000, -1500, 1800));
             run(&s, 1);
         }
-        end[i] = fe_body_transform(s.world, block);
+        end[i] = body_transform(s.world, block);
         scene_end(&s);
     }
     const float *p = &end[0].rotation.x, *q = &end[1].rotation.x;

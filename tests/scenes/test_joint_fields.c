@@ -107,7 +107,7 @@ static double way(const rig *r)
 {
     int axis = r->row->axis;
     if (axis < FE_DOF_ANGULAR_X) return component(position(&r->s, r->block), axis);
-    fe_quat q = compose(inverse(r->s.turn), fe_body_transform(r->s.world, r->block).rotation);
+    fe_quat q = compose(inverse(r->s.turn), body_transform(r->s.world, r->block).rotation);
     return 2 * atan2(component(v3(q.x, q.y, q.z), axis - FE_DOF_ANGULAR_X), q.w);
 }
 
@@ -342,10 +342,10 @@ typedef struct axis_row {
 } axis_row;
 
 #define OF_AXIS(member) #member, offsetof(fe_joint_axis, member), sizeof(((fe_joint_axis *)NULL)->member)
-#define RANGE .mode = FE_MOTION_LIMITED, .low = -0.25f, .high = 0.25f, .limit_damping_ratio = 1
-#define SOFT_RANGE .mode = FE_MOTION_LIMITED, .low = -0.25f, .limit_hertz = 2, .limit_damping_ratio = 5
-#define SPRING .mode = FE_MOTION_FREE, .drive = FE_SPRING_HERTZ, .stiffness = 2, .damping = 1, .spring_max = 1e15f
-#define STIFF .mode = FE_MOTION_FREE, .drive = FE_SPRING_STIFFNESS, .stiffness = 200, .damping = 200, .spring_max = 1e15f
+#define RANGE .motion = FE_MOTION_LIMITED, .lower = -0.25f, .upper = 0.25f, .limit_damping_ratio = 1
+#define SOFT_RANGE .motion = FE_MOTION_LIMITED, .lower = -0.25f, .limit_hertz = 2, .limit_damping_ratio = 5
+#define SPRING .motion = FE_MOTION_FREE, .spring = FE_SPRING_HERTZ, .spring_hertz = 2, .spring_damping_ratio = 1, .spring_max = 1e15f
+#define STIFF .motion = FE_MOTION_FREE, .spring = FE_SPRING_STIFFNESS, .spring_stiffness = 200, .spring_damping = 200, .spring_max = 1e15f
 
 static const axis_row axis_rows[] = {
     {OF_AXIS(mode), {FE_MOTION_LOCKED, FE_MOTION_LIMITED}, mode_decides, way, 10, 2, {RANGE}, 1},
@@ -355,7 +355,7 @@ static const axis_row axis_rows[] = {
      way,
      40,
      0.25,
-     {.low = 0.25f, .high = 0.25f, .limit_damping_ratio = 1},
+     {.lower = 0.25f, .upper = 0.25f, .limit_damping_ratio = 1},
      1},
     {OF_AXIS(low), {-0.5, -0.75}, as_set, way, -100, 2, {RANGE}, 0},
     {OF_AXIS(high), {0.5, 0.75}, as_set, way, 100, 2, {RANGE}, 0},
@@ -368,8 +368,8 @@ static const axis_row axis_rows[] = {
     {OF_AXIS(stiffness), {100, 200}, gives_by_stiffness, way, 10, 8, {STIFF}, 0},
     {OF_AXIS(damping), {5, 20}, creeps, way, 10, 1, {SPRING}, 0},
     {OF_AXIS(drive_force), {6, 15}, no_more_than_cap, resistance, 10, 1, {SPRING}, 0},
-    {OF_AXIS(motor_speed), {0.5, -1}, as_set, pace, 0, 1, {.mode = FE_MOTION_FREE, .motor_max = 1e6f}, 0},
-    {OF_AXIS(motor_force), {1, 3}, spun_up, pace, 0, 0.5, {.mode = FE_MOTION_FREE, .motor_speed = 1000}, 0},
+    {OF_AXIS(motor_speed), {0.5, -1}, as_set, pace, 0, 1, {.motion = FE_MOTION_FREE, .motor_max = 1e6f}, 0},
+    {OF_AXIS(motor_max), {1, 3}, spun_up, pace, 0, 0.5, {.motion = FE_MOTION_FREE, .motor_speed = 1000}, 0},
 };
 
 // ---- the rig --------------------------------------------------------------------------------------------------------------------------

@@ -55,7 +55,7 @@ static void joined_bodies_sleep_and_wake_together(void **state)
     FE_TRUE(!is_awake(&s, t.b));
     fe_body_event events[4];
     run(&s, 1);
-    FE_TRUE(fe_world_get_body_events(s.world, events, 0, 4) == 2);
+    FE_TRUE(fe_world_get_body_events(s.world, events, sizeof *events, 4) == 2);
     scene_end(&s);
 }
 
@@ -135,7 +135,7 @@ static void a_moving_kinematic_body_keeps_awake_what_it_holds(void **state)
 static int32_t pair_events(const scene *s, int32_t kind)
 {
     fe_pair_event events[8];
-    int32_t count = fe_world_get_pair_events(s->world, events, 0, 8), found = 0;
+    int32_t count = fe_world_get_pair_events(s->world, events, sizeof *events, 8), found = 0;
     for (int32_t i = 0; i < count && i < 8; ++i) found += events[i].kind == kind;
     return found;
 }
@@ -202,7 +202,7 @@ static void a_joint_breaks_above_its_force_and_says_so(void **state)
             for (int i = 0; i < 60; ++i) {
                 run(&s, 1);
                 fe_joint_event e;
-                int32_t count = fe_world_get_joint_events(s.world, &e, 0, 1);
+                int32_t count = fe_world_get_joint_events(s.world, &e, sizeof e, 1);
                 if (!count) continue;
                 FE_TRUE(++broke == 1 && count == 1);
                 FE_TRUE(e.joint == joint && e.body_a == anchor && e.body_b == bar && e.user_data == 77 && e.kind == FE_EVENT_BREAK &&
@@ -239,7 +239,7 @@ static void joints_break_in_the_order_of_creation(void **state)
     int32_t count = 0;
     for (int i = 0; i < 10 && !count; ++i) {
         run(&s, 1);
-        count = fe_world_get_joint_events(s.world, events, 0, WEIGHTS);
+        count = fe_world_get_joint_events(s.world, events, sizeof *events, WEIGHTS);
     }
     FE_TRUE(count == 4);
     FE_TRUE(events[0].joint == strings[0] && events[1].joint == strings[2] && events[2].joint == strings[3] &&
@@ -439,11 +439,11 @@ static void no_joint_moves_a_locked_coordinate(void **state)
             if (type == 2) add_hinge(&s, hinge_def(), upper, lower, point, v3(1, 0, 1));
             if (type == 3) add_fixed(&s, fixed_def(), upper, lower, point);
             if (type == 4) add_configurable(&s, six, upper, lower, point, v3(0, 1, 0));
-            fe_transform was = fe_body_transform(s.world, lower);
+            fe_transform was = body_transform(s.world, lower);
             for (int i = 0; i < steps; ++i) {
                 add_force(&s, upper, v3(100 * sin(0.1 * i), 50, 80 * cos(0.13 * i)));
                 run(&s, 1);
-                fe_transform is = fe_body_transform(s.world, lower);
+                fe_transform is = body_transform(s.world, lower);
                 check_locked(&was, &is, linear, angular);
                 vec v = velocity(&s, lower), w = spin(&s, lower);
                 FE_WITHIN(length(v), 0, 100), FE_WITHIN(length(w), 0, 300); // nothing runs away

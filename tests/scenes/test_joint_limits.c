@@ -205,7 +205,7 @@ static void a_target_beyond_a_limit_counts_as_the_limit(void **state)
     g = begin_gyre(state);
     fe_configurable_joint_def slide = slider_def();
     slide.axes[FE_DOF_LINEAR_X].motion = FE_MOTION_LIMITED, slide.axes[FE_DOF_LINEAR_X].lower = -0.1f, slide.axes[FE_DOF_LINEAR_X].upper = 0.3f;
-    slide.axes[FE_DOF_LINEAR_X].spring = FE_SPRING_HERTZ, slide.axes[FE_DOF_LINEAR_X].stiffness = 3, slide.axes[FE_DOF_LINEAR_X].damping = 1;
+    slide.axes[FE_DOF_LINEAR_X].spring = FE_SPRING_HERTZ, slide.axes[FE_DOF_LINEAR_X].spring_hertz = 3, slide.axes[FE_DOF_LINEAR_X].spring_damping_ratio = 1;
     slide.axes[FE_DOF_LINEAR_X].target = 5;
     joint = configurable_of(&g, slide);
     run(&g.s, 240);
@@ -352,7 +352,7 @@ static void a_spring_pushes_up_to_its_cap(void **state)
             fe_joint joint = 0;
             hinge.spring_hertz = 2, hinge.spring_max = cap;
             ball.spring_hertz = 2, ball.spring_max = cap;
-            slide.axes[0].spring = FE_SPRING_HERTZ, slide.axes[0].stiffness = 2, slide.axes[0].damping = 1, slide.axes[0].spring_max = cap;
+            slide.axes[0].spring = FE_SPRING_HERTZ, slide.axes[0].spring_hertz = 2, slide.axes[0].spring_damping_ratio = 1, slide.axes[0].spring_max = cap;
             rope.lower = 0, rope.upper = 100, rope.length = 2, rope.spring_hertz = 2, rope.spring_max = cap;
             for (int k = 3; k < 6; ++k) six.axes[k] = slide.axes[0];
             if (where == 0) joint = hinge_of(&g, hinge);
@@ -435,7 +435,7 @@ static void each_axis_of_a_configurable_joint_has_its_own_drive_and_motor(void *
             if (by_motor)
                 axis->motor_speed = 0.25f, axis->motor_max = 1e4f;
             else
-                axis->spring = FE_SPRING_HERTZ, axis->stiffness = 3, axis->damping = 1, axis->target = 0.5f;
+                axis->spring = FE_SPRING_HERTZ, axis->spring_hertz = 3, axis->spring_damping_ratio = 1, axis->target = 0.5f;
             fe_joint joint = configurable_of(&g, six);
             run(&g.s, 240);
             fe_joint_state at = state_of(&g.s, joint);

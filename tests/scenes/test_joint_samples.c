@@ -99,7 +99,7 @@ static void a_light_ball_on_springs_between_heavy_ones_adds_no_energy(void **sta
                 middle = add_plain(&s, sphere(radius), v3(0, 2, 0)), all[3] = {left, right, middle};
         add_ground(&s, friction(0.6));
         fe_configurable_joint_def d = slider_def();
-        d.axes[FE_DOF_LINEAR_X].spring = FE_SPRING_HERTZ, d.axes[FE_DOF_LINEAR_X].stiffness = 10, d.axes[FE_DOF_LINEAR_X].damping = 2;
+        d.axes[FE_DOF_LINEAR_X].spring = FE_SPRING_HERTZ, d.axes[FE_DOF_LINEAR_X].spring_hertz = 10, d.axes[FE_DOF_LINEAR_X].spring_damping_ratio = 2;
         fe_joint joints[2] = {add_configurable(&s, d, left, middle, v3(0, 2, 0), v3(1, 0, 0)),
                               add_configurable(&s, d, middle, right, v3(0, 2, 0), v3(1, 0, 0))};
         set_velocity(&s, left, v3(1, 0, 0), v3(0, 0, 0));
@@ -151,8 +151,8 @@ static void a_box_on_a_slider_swings_in_its_range_and_stops_at_its_motor(void **
     fe_body anchor = add_anchor(&s, v3(0, 5.5, 0)), heavy = add_dynamic(&s, box(0.5, 1.5, 0.25), v3(0, 4, 0), UNTURNED, friction(0), 100);
     fe_configurable_joint_def d = slider_def();
     fe_joint_axis *along = &d.axes[FE_DOF_LINEAR_X];
-    along->mode = FE_MOTION_LIMITED, along->low = -1, along->high = 1;
-    along->drive = FE_SPRING_HERTZ, along->stiffness = 2, along->damping = 0.1f;
+    along->motion = FE_MOTION_LIMITED, along->lower = -1, along->upper = 1;
+    along->spring = FE_SPRING_HERTZ, along->spring_hertz = 2, along->spring_damping_ratio = 0.1f;
     fe_joint joint = add_configurable(&s, d, anchor, heavy, v3(0, 4, 0), v3(1, 0, 0)); // at its centre: no arm
     set_velocity(&s, heavy, v3(5, 0, 0), v3(0, 0, 0));                                 // 5 / (2 pi 2) = 0.4 m
     double most = 0, least = 0;

@@ -202,10 +202,10 @@ static void a_drive_along_an_axis_swings_by_hertz_or_by_stiffness(void **state)
             fe_configurable_joint_def d = slider_def();
             double x[SAMPLES], w = 2 * PI * (double)springs[k].hertz, m = mass_of(&s, cart);
             fe_joint_axis *axis = &d.axes[FE_DOF_LINEAR_X];
-            axis->target = 0.1f, axis->spring = FE_SPRING_HERTZ, axis->stiffness = springs[k].hertz, axis->damping = springs[k].ratio;
+            axis->target = 0.1f, axis->spring = FE_SPRING_HERTZ, axis->spring_hertz = springs[k].hertz, axis->spring_damping_ratio = springs[k].ratio;
             if (by_stiffness)
-                axis->spring = FE_SPRING_STIFFNESS, axis->stiffness = (float)(m * w * w),
-                axis->damping = (float)(2 * m * w * (double)springs[k].ratio);
+                axis->spring = FE_SPRING_STIFFNESS, axis->spring_stiffness = (float)(m * w * w),
+                axis->spring_damping = (float)(2 * m * w * (double)springs[k].ratio);
             fe_joint joint = add_configurable(&s, d, anchor, cart, v3(0, 0, 0), v3(0, 1, 1));
             for (int i = 0; i < SAMPLES; ++i, run(&s, 1)) x[i] = (double)state_of(&s, joint).translation.x - 0.1;
             check_oscillation(x, k);
@@ -518,7 +518,7 @@ static void a_drive_reaches_any_rotation(void **state)
         fe_joint joint;
         MUST(fe_ball_joint_create(s.world, &ball, &joint));
         run(&s, 300);
-        fe_quat q = compose(inverse(fe_body_transform(s.world, anchor).rotation), fe_body_transform(s.world, block).rotation),
+        fe_quat q = compose(inverse(body_transform(s.world, anchor).rotation), body_transform(s.world, block).rotation),
                 off = compose(inverse(target), q);
         FE_WITHIN(2 * sqrt((double)(off.x * off.x + off.y * off.y + off.z * off.z)), 0, 0.5 * DEGREES);
         scene_end(&s);

@@ -64,7 +64,7 @@ static void a_car_rests_on_its_springs(void **state)
     for (int k = 0; k < 4; ++k) {
         fe_configurable_joint_def d = {.struct_size = sizeof d};
         MUST(fe_configurable_joint_get(s.world, c.axles[k], &d));
-        FE_NEAR(state_of(&s, c.axles[k]).translation.z, mass_of(&s, c.chassis) * G / 4 / (double)d.axes[FE_DOF_LINEAR_Z].stiffness, LINEAR_SLOP);
+        FE_NEAR(state_of(&s, c.axles[k]).translation.z, mass_of(&s, c.chassis) * G / 4 / (double)d.axes[FE_DOF_LINEAR_Z].spring_stiffness, LINEAR_SLOP);
     }
     scene_end(&s);
 }

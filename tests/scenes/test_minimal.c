@@ -78,7 +78,7 @@ static void a_target_is_reached_in_time(void **state)
         run(&s, 1);
     }
     FE_NEAR(length(minus(position(&s, body), v3(2, 1, 5))), 0, 1e-5);
-    fe_quat q = compose(inverse(target.rotation), fe_body_transform(s.world, body).rotation);
+    fe_quat q = compose(inverse(target.rotation), body_transform(s.world, body).rotation);
     FE_NEAR(length(v3(q.x, q.y, q.z)), 0, 1e-5);
     scene_end(&s);
 }
@@ -240,11 +240,11 @@ static void a_step_of_zero_time_moves_nothing(void **state)
     fe_body bodies[2] = {add_dynamic(&s, cube(), v3(0, 0.45, 0), UNTURNED, friction(0.6), WATER),
                          add_dynamic(&s, cube(), v3(0, 1.4, 0), UNTURNED, friction(0.6), WATER)};
     set_velocity(&s, bodies[1], v3(1, -2, 3), v3(4, 5, 6));
-    fe_transform before[2] = {fe_body_transform(s.world, bodies[0]), fe_body_transform(s.world, bodies[1])};
-    fe_vec3 v = fe_body_linear_velocity(s.world, bodies[1]);
+    fe_transform before[2] = {body_transform(s.world, bodies[0]), body_transform(s.world, bodies[1])};
+    fe_vec3 v = body_linear_velocity(s.world, bodies[1]);
     for (int k = 0; k < 5; ++k) MUST(fe_world_step(s.world, 0));
-    fe_transform after[2] = {fe_body_transform(s.world, bodies[0]), fe_body_transform(s.world, bodies[1])};
-    fe_vec3 u = fe_body_linear_velocity(s.world, bodies[1]);
+    fe_transform after[2] = {body_transform(s.world, bodies[0]), body_transform(s.world, bodies[1])};
+    fe_vec3 u = body_linear_velocity(s.world, bodies[1]);
     assert_memory_equal(before, after, sizeof before);
     assert_memory_equal(&v, &u, sizeof v);
     scene_end(&s);
@@ -297,7 +297,7 @@ static void a_body_of_several_shapes_weighs_and_lies_as_its_parts(void **state)
     FE_NEAR(most, across, 1e-5 * across);
     run(&s, 300);
     fe_contact contacts[4];
-    FE_TRUE(fe_body_get_contacts(s.world, body, contacts, 0, 4) == 2);
+    FE_TRUE(fe_body_get_contacts(s.world, body, contacts, sizeof *contacts, 4) == 2);
     double light = 0, heavy = 0;
     for (int i = 0; i < 2; ++i) {
         double load = (double)contacts[i].points[0].total_impulse;
@@ -367,7 +367,7 @@ static void a_teleport_passes_through_walls(void **state)
     run(&s, 120);
     FE_NEAR(position(&s, body).x, 4, LINEAR_SLOP);
     fe_contact contact;
-    FE_TRUE(fe_body_get_contacts(s.world, body, &contact, 0, 1) == 1);
+    FE_TRUE(fe_body_get_contacts(s.world, body, &contact, sizeof contact, 1) == 1);
     FE_TRUE(contact.body_a == wall || contact.body_b == wall);
     scene_end(&s);
 }
@@ -447,7 +447,7 @@ static void locked_axes_stay_bit_for_bit(void **state)
         add_force(&s, body, v3(500, 0, 2000));
         add_torque(&s, body, v3(300, 300, 100));
         run(&s, 1);
-        fe_transform t = fe_body_transform(s.world, body);
+        fe_transform t = body_transform(s.world, body);
         FE_TRUE(t.position.z == 0.125);
         FE_TRUE(t.rotation.x == 0 && t.rotation.y == 0);
     }

@@ -13,7 +13,7 @@ static void hold(const scene *s, fe_body body, int rides)
 static double deepest(const scene *s, fe_body body)
 {
     fe_contact contacts[MOST_CONTACTS];
-    int32_t count = fe_body_get_contacts(s->world, body, contacts, 0, MOST_CONTACTS);
+    int32_t count = fe_body_get_contacts(s->world, body, contacts, sizeof *contacts, MOST_CONTACTS);
     double deep = -1;
     for (int32_t i = 0; i < count; ++i)
         for (int32_t k = 0; k < contacts[i].point_count; ++k) deep = fmax(deep, -(double)contacts[i].points[k].separation);

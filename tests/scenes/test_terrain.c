@@ -183,7 +183,7 @@ static double ground_below(const scene *s, vec p)
     filter.mask = 2;
     fe_hit hit;
     fe_dvec3 from = {p.x, 10, p.z}, way = {0, -20, 0};
-    return fe_world_raycast(s->world, &from, &way, &filter, &hit) == FE_OK ? hit.point.y : -1e9;
+    return fe_world_raycast(s->world, &from, &way, &filter, &hit) == 1 ? hit.point.y : -1e9;
 }
 
 static fe_material resisting(double rolling) { return (fe_material){0.5f, 0.5f, 0, (float)rolling, 0.02f}; }
@@ -382,7 +382,7 @@ static void contacts_tell_the_patches(void **state)
     fe_body ball = add_dynamic(&s, sphere(0.5), v3(0.3, 0.5 * sqrt(2), 0), UNTURNED, friction(0), WATER);
     run(&s, 60);
     fe_contact contacts[8];
-    int32_t count = fe_body_get_contacts(s.world, ball, contacts, 0, 8);
+    int32_t count = fe_body_get_contacts(s.world, ball, contacts, sizeof *contacts, 8);
     assert_int_equal(count, 2);
     vec push = v3(0, 0, 0);
     for (int32_t i = 0; i < count; ++i) {
@@ -402,7 +402,7 @@ static void contacts_tell_the_patches(void **state)
     set_velocity(&s, ball, v3(0, 5, 0), v3(0, 0, 0));
     for (int step = 0; step < 90; ++step) {
         run(&s, 1);
-        int32_t n = fe_world_get_pair_events(s.world, events, 0, 8);
+        int32_t n = fe_world_get_pair_events(s.world, events, sizeof *events, 8);
         for (int32_t i = 0; i < n; ++i) begins += events[i].kind == FE_EVENT_ENTER, ends += events[i].kind == FE_EVENT_EXIT;
     }
     FE_TRUE(begins == 1 && ends == 1);

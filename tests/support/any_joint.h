@@ -2,6 +2,7 @@
 #ifndef FE_TESTS_ANY_JOINT_H
 #define FE_TESTS_ANY_JOINT_H
 #include "feather.h"
+#include "support/values.h"
 
 #include <stddef.h>
 

@@ -154,7 +154,7 @@ static void check_position(const fuzz *f, fe_dvec3 p, const char *what)
 static void check_contacts(const fuzz *f, fe_body body)
 {
     fe_contact contacts[8];
-    int32_t count = fe_body_get_contacts(f->world, body, contacts, 0, 8);
+    int32_t count = fe_body_get_contacts(f->world, body, contacts, sizeof *contacts, 8);
     if (count < 0) fuzz_fail(f, "no contacts of a living body");
     for (int32_t i = 0; i < count && i < 8; ++i) {
         const fe_contact *c = contacts + i;

@@ -150,7 +150,7 @@ static int32_t raycast(fuzz *f)
     filter.struct_size = fuzz_struct_size(f, sizeof filter);
     if (filter.struct_size > sizeof filter) filter.struct_size = sizeof filter;
     fe_dvec3 origin = fuzz_dvec3(f), along = fuzz_dvec3(f);
-    fe_result result = fe_world_raycast(f->world, or_null(f, &origin), &along, or_null(f, &filter), &hit);
+    int32_t result = fe_world_raycast(f->world, or_null(f, &origin), &along, or_null(f, &filter), &hit);
     if (result != FE_OK) return result;
     if (!(hit.fraction >= 0.0 && hit.fraction <= 1.0) && !f->is_wild) fuzz_fail(f, "a fraction outside the segment");
     if (!fe_body_is_valid(f->world, hit.body) || !fe_shape_is_valid(f->world, hit.shape)) fuzz_fail(f, "a hit on nothing");
@@ -181,8 +181,8 @@ static int32_t query_many(fuzz *f)
         paths[i].start = fuzz_transform(f);
     }
     int32_t spread = fuzz_byte(f) % 3, count = fuzz_byte(f) % (MOST + 1);
-    int32_t found = fuzz_byte(f) & 1 ? fe_world_raycast_many(f->world, or_null(f, rays), 0, count, NULL, spread, hits, 0)
-                                     : fe_world_sweep_many(f->world, or_null(f, &g), paths, 0, count, NULL, spread, hits, 0);
+    int32_t found = fuzz_byte(f) & 1 ? fe_world_raycast_many(f->world, or_null(f, rays), sizeof *rays, count, NULL, spread, hits, sizeof *hits)
+                                     : fe_world_sweep_many(f->world, or_null(f, &g), paths, sizeof(fe_ray), count, NULL, spread, hits, sizeof(fe_hit));
     for (int32_t i = 0; i < count && found >= 0; ++i) {
         if (hits[i].body) check_fuzz_hit(f, &hits[i]);
     }
@@ -202,7 +202,7 @@ static int32_t query_forms(fuzz *f)
     fe_query_filter_init(&filter, sizeof filter);
     filter.flags = fuzz_byte(f) % 3u;
     int32_t room = fuzz_byte(f) % (MOST + 1), overlap = fe_world_overlap(f->world, &g, &t, &filter, bodies, room);
-    int32_t all = fe_world_sweep_all(f->world, or_null(f, &g), &t, &way, &filter, hits, 0, room);
+    int32_t all = fe_world_sweep_all(f->world, or_null(f, &g), &t, &way, &filter, hits, sizeof *hits, room);
     int32_t first = fe_world_sweep(f->world, &g, &t, &way, or_null(f, &filter), hits);
     if (first == FE_OK) check_fuzz_hit(f, hits);
     fe__hash_u64(&f->told, (uint64_t)(uint32_t)all);
@@ -219,8 +219,8 @@ static int32_t query_rays(fuzz *f)
     uint32_t stride = fuzz_byte(f) % (WIDEST + 1);
     int32_t all = fe_world_raycast_all(f->world, or_null(f, &origin), &way, NULL, hits, stride < WIDEST / 2 ? 0 : stride, room);
     fe__hash_u64(&f->told, (uint64_t)(uint32_t)all);
-    if (fe_body_raycast(f->world, fuzz_body(f), &origin, &way, hits) == FE_OK) check_fuzz_hit(f, hits);
-    if (fe_shape_raycast(f->world, fuzz_shape(f), &origin, &way, hits) == FE_OK) check_fuzz_hit(f, hits);
+    if (fe_body_raycast(f->world, fuzz_body(f), &origin, &way, hits) == 1) check_fuzz_hit(f, hits);
+    if (fe_shape_raycast(f->world, fuzz_shape(f), &origin, &way, hits) == 1) check_fuzz_hit(f, hits);
     return fe_world_raycast_any(f->world, &origin, or_null(f, &way), NULL);
 }
 
@@ -229,7 +229,7 @@ static int32_t query_points(fuzz *f)
     fe_closest c;
     fe_dvec3 point = fuzz_dvec3(f);
     double most = (double)fuzz_size(f);
-    fe_result result = fe_world_closest_point(f->world, or_null(f, &point), most, NULL, &c);
+    int32_t result = fe_world_closest_point(f->world, or_null(f, &point), most, NULL, &c);
     if (result == FE_OK && !f->is_wild && !(c.distance <= most)) fuzz_fail(f, "a closest point too far off");
     (void)fe_body_closest_point(f->world, fuzz_body(f), &point, &c);
     return fe_shape_closest_point(f->world, fuzz_shape(f), &point, or_null(f, &c) ? &c : NULL);

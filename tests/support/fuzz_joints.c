@@ -40,7 +40,7 @@ static void set_sensible(fuzz *f, int32_t kind, any_def *d)
         fe_joint_axis *axis = d->configurable.axes + k;
         uint8_t way = fuzz_byte(f);
         axis->motion = way % 3, axis->lower = -size, axis->upper = 0.5f * size;
-        axis->spring = way / 3 % 3, axis->stiffness = 5.0f, axis->damping = 1.0f, axis->target = size - 0.5f;
+        axis->spring = way / 3 % 3, axis->spring_hertz = axis->spring_stiffness = 5.0f, axis->spring_damping_ratio = axis->spring_damping = 1.0f, axis->target = size - 0.5f;
         if (way & 64) axis->motor_max = 10.0f, axis->motor_speed = 1.0f;
     }
 }
@@ -96,7 +96,7 @@ int32_t fuzz_join(fuzz *f)
     init(kind, &d);
     set_sensible(f, kind, &d.def);
     if (fuzz_byte(f) % 8 == 1) axis = fuzz_vec3(f), point = fuzz_dvec3(f);
-    if (fe_body_is_valid(f->world, a)) point = fe_body_transform(f->world, a).position;
+    if (fe_body_is_valid(f->world, a)) point = body_transform(f->world, a).position;
     fe_result result;
     if (kind == ANY_DISTANCE) result = fe_rope_joint_def_at(f->world, &d.def.distance, a, b, &point, &point, fuzz_size(f));
     if (kind == ANY_BALL) result = fe_ball_joint_def_at(f->world, &d.def.ball, a, b, &point, &axis);
@@ -146,7 +146,7 @@ int32_t fuzz_make_joint(fuzz *f)
     init(ANY_CONFIGURABLE, &d);
     uint8_t which = fuzz_byte(f);
     if (which & 4) axis = fuzz_vec3(f), up = fuzz_vec3(f);
-    if (fe_body_is_valid(f->world, a)) point = fe_body_transform(f->world, a).position;
+    if (fe_body_is_valid(f->world, a)) point = body_transform(f->world, a).position;
     switch (which % 4) {
     case 0:
         result = fe_slider_joint_def_at(f->world, &d.def.configurable, a, b, &point, &axis);

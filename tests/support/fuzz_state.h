@@ -4,6 +4,7 @@
 #include "core/hash.h"
 #include "feather.h"
 #include "support/fuzz.h"
+#include "support/values.h"
 
 enum { FUZZ_HANDLES = 48, FUZZ_MOST_STEPS = 300, FUZZ_TAIL = 64, FUZZ_ROOM = 1 << 14 };
 

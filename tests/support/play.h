@@ -7,6 +7,7 @@
 #define FE_TESTS_PLAY_H
 #include "core/hash.h"
 #include "feather.h"
+#include "support/values.h"
 
 #include <stdio.h>
 

@@ -199,7 +199,7 @@ static void change_bodies(play *p)
     if (p->step == 110) PLAY(p, fe_body_set_enabled(w, lock[3], 0));
     if (p->step == 140) PLAY(p, fe_body_set_enabled(w, lock[3], 1));
     if (p->step == 120) PLAY(p, fe_body_set_locks(w, lock[5], FE_AXIS_NONE, FE_AXIS_ALL));
-    if (p->step == 130) PLAY(p, fe_shape_set_filter(w, p->shapes[p->groups[CARGO_BOX]], 2, 1));
+    if (p->step == 130) PLAY(p, fe_shape_set_filter(w, p->shapes[p->groups[CARGO_BOX]], 2, 1, 0));
     if (p->step == 145) PLAY(p, fe_world_ignore_collision(w, lock[8], lock[9], 1));
     if (p->step == 160) PLAY(p, fe_body_set_mass(w, lock[10], 500.0f));
     if (p->step == 175) PLAY(p, fe_shape_set_geometry(w, p->shapes[p->groups[LOCK] + 12], &ball.geometry));

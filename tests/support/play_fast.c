@@ -12,7 +12,7 @@ static void add_floor(play *p)
     fe_heightfield_def def;
     fe_heightfield_def_init(&def, sizeof def);
     def.rows = def.columns = SAMPLES, def.heights = heights;
-    PLAY(p, fe_heightfield_create(p->world, &def, &field));
+    PLAY(p, fe_heightfield_create(world_store(p->world), &def, &field));
     part ground = part_static_box(1.0f, 1.0f, 1.0f, -8.0, 0.0, -8.0);
     fe_geometry_heightfield(&ground.geometry, field);
     play_add(p, &ground);

@@ -17,7 +17,7 @@ static void add_rough_ground(play *p)
     fe_heightfield_def_init(&def, sizeof def);
     for (int32_t i = 0; i < SAMPLES * SAMPLES; ++i) heights[i] = 0.0625f * (float)((i % SAMPLES * 7 + i / SAMPLES * 3) % 5);
     def.rows = def.columns = SAMPLES, def.heights = heights;
-    PLAY(p, fe_heightfield_create(p->world, &def, &field));
+    PLAY(p, fe_heightfield_create(world_store(p->world), &def, &field));
     part ground = part_static_box(1.0f, 1.0f, 1.0f, -2.0, 0.0, -2.0);
     fe_geometry_heightfield(&ground.geometry, field);
     play_add(p, &ground);

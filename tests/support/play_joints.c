@@ -106,8 +106,8 @@ static void hang(play *p, int32_t i, fe_body a, fe_body b)
     default:
         for (int32_t k = 0; k < 6; ++k) {
             fe_joint_axis *way = &d.configurable.axes[k];
-            way->mode = (k + i / ANY_KINDS) % 3, way->low = -0.2f, way->high = 0.3f;
-            if (way->mode) way->drive = 1 + k % 2, way->stiffness = 2, way->damping = 0.5f, way->motor_max = 3, way->motor_speed = 1;
+            way->motion = (k + i / ANY_KINDS) % 3, way->lower = -0.2f, way->upper = 0.3f;
+            if (way->motion) way->spring = 1 + k % 2, way->spring_hertz = way->spring_stiffness = 2, way->spring_damping_ratio = way->spring_damping = 0.5f, way->motor_max = 3, way->motor_speed = 1;
         }
         PLAY(p, fe_configurable_joint_def_at(p->world, &d.configurable, a, b, &top, &axis));
         break;

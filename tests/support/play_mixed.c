@@ -66,11 +66,11 @@ static void bring_hill(play *p)
     fe_heightfield_def_init(&def, sizeof def);
     def.rows = def.columns = SAMPLES, def.cell_x = 2.0f, def.heights = heights, def.holes = holes;
     fe_asset hill = 0;
-    PLAY(p, fe_heightfield_create(p->world, &def, &hill));
+    PLAY(p, fe_heightfield_create(world_store(p->world), &def, &hill));
     part ground = part_static_box(1.0f, 1.0f, 1.0f, 2.0, 0.0, -2.0);
     fe_geometry_heightfield(&ground.geometry, hill);
     play_put(p, 200, &ground);
-    PLAY(p, fe_asset_destroy(p->world, hill)); // lives with its shape
+    PLAY(p, fe_asset_destroy(world_store(p->world), hill)); // lives with its shape
 }
 
 // sixteen at once, then gone at once
@@ -86,13 +86,13 @@ static void bring_crowd(play *p)
         defs[i].transform = fe_make_transform(3.0 + 0.5 * i, 0.4, 0.0);
     }
     if (p->step == 50) {
-        PLAY(p, fe_body_create_many(p->world, defs, 0, CROWD, crowd));
+        PLAY(p, fe_body_create_many(p->world, defs, sizeof *defs, CROWD, crowd));
         for (int32_t i = 0; i < CROWD; ++i) PLAY(p, fe_shape_create(p->world, crowd[i], NULL, &ball, p->shapes + 100 + i));
         for (int32_t i = 0; i < CROWD; ++i) PLAY(p, fe_shape_create(p->world, crowd[0], NULL, &ball, &extra));
     }
     if (p->step == 52) bring_hill(p);
     if (p->step == 70) PLAY(p, fe_body_destroy_many(p->world, crowd, CROWD));
-    if (p->step == 80) PLAY(p, fe_body_create_many(p->world, defs, 0, CROWD, crowd));
+    if (p->step == 80) PLAY(p, fe_body_create_many(p->world, defs, sizeof *defs, CROWD, crowd));
 }
 
 // a joint of each type between neighbours, one of them too weak for its load; changed, switched, destroyed, and gone with their bodies

@@ -37,7 +37,7 @@ static fe_dvec3 somewhere(play *p)
 static void spawn_at_hit(play *p, fe_dvec3 from, fe_dvec3 way)
 {
     fe_hit hit;
-    if (fe_world_raycast(p->world, &from, &way, NULL, &hit) != FE_OK) return;
+    if (fe_world_raycast(p->world, &from, &way, NULL, &hit) != 1) return;
     const double off = (double)SIZE;
     spawn(p, (fe_dvec3){hit.point.x + off * (double)hit.normal.x, hit.point.y + off * (double)hit.normal.y,
                         hit.point.z + off * (double)hit.normal.z});
@@ -63,7 +63,7 @@ static void spawn_where_stopped(play *p, fe_dvec3 from, fe_dvec3 way)
     fe_hit hit;
     const fe_transform start = fe_make_transform(from.x, from.y, from.z);
     fe_geometry_sphere(&ball, SIZE);
-    if (fe_world_sweep(p->world, &ball, &start, &way, NULL, &hit) != FE_OK) return;
+    if (fe_world_sweep(p->world, &ball, &start, &way, NULL, &hit) != 1) return;
     spawn(p, (fe_dvec3){from.x + hit.fraction * way.x, from.y + hit.fraction * way.y, from.z + hit.fraction * way.z});
 }
 

@@ -16,7 +16,7 @@ static fe_asset make_field(play *p, int32_t which)
     fe_asset field = 0;
     float heights[SAMPLES * SAMPLES];
     uint8_t holes[CELLS * CELLS] = {0}, kinds[CELLS * CELLS];
-    const fe_material materials[3] = {{0.6f, 0.5f, 0.0f, 0.1f, 0.02f}, {0.1f, 0.1f, 0.0f, 0.1f, 0.02f}, {0.6f, 0.5f, 0.6f, 0.1f, 0.02f}};
+    const fe_material materials[3] = {SURFACE(0.6f, 0.5f, 0.0f, 0.1f, 0.02f), SURFACE(0.1f, 0.1f, 0.0f, 0.1f, 0.02f), SURFACE(0.6f, 0.5f, 0.6f, 0.1f, 0.02f)};
     for (int32_t i = 0; i < SAMPLES * SAMPLES; ++i) heights[i] = wave(i % SAMPLES + which * CELLS, i / SAMPLES);
     for (int32_t i = 0; i < CELLS * CELLS; ++i) kinds[i] = (uint8_t)(i % 11 == 0 ? 1 : i % 13 == 0 ? 2 : 0);
     holes[5 * CELLS + 5] = holes[5 * CELLS + 6] = (uint8_t)which;
@@ -24,7 +24,7 @@ static fe_asset make_field(play *p, int32_t which)
     fe_heightfield_def_init(&def, sizeof def);
     def.rows = def.columns = SAMPLES, def.heights = heights, def.holes = holes;
     if (which) def.cell_materials = kinds, def.materials = materials, def.material_count = 3;
-    PLAY(p, fe_heightfield_create(p->world, &def, &field));
+    PLAY(p, fe_heightfield_create(world_store(p->world), &def, &field));
     return field;
 }
 
@@ -67,11 +67,11 @@ static void build(play *p)
 
 static void act(play *p)
 {
-    if (p->step == 100) PLAY(p, fe_asset_destroy(p->world, field_of(p, 0)));
+    if (p->step == 100) PLAY(p, fe_asset_destroy(world_store(p->world), field_of(p, 0)));
     if (p->step == 120 || p->step == 260) {
         float heights[EDIT * EDIT];
         for (int32_t i = 0; i < EDIT * EDIT; ++i) heights[i] = p->step == 120 ? 1.5f : 0.25f;
-        PLAY(p, fe_heightfield_set_heights(p->world, field_of(p, 1), 3, 8, EDIT, EDIT, heights));
+        PLAY(p, fe_heightfield_set_heights(world_store(p->world), field_of(p, 1), 3, 8, EDIT, EDIT, heights));
     }
     if (p->step == 200) play_remove(p, FIELDS + 7);
     if (p->step == 230) {

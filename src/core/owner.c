@@ -1,0 +1,105 @@
+// owner.c - the slots of the threads that read. See owner.h.
+#include "core/owner.h"
+
+#include "core/lock.h"
+
+#include <stdlib.h>
+
+// Slots are made once and never freed while the library is loaded: who looks at all of them needs no lock. A thread that ends gives its
+// slot to the next one.
+static _Atomic(fe__reader *) readers;
+static _Thread_local fe__reader *own;
+
+int fe__owner_be_alone(fe__owner *owner, fe__occupation as)
+{
+    atomic_store_explicit(&owner->occupation, (uint32_t)as, memory_order_seq_cst);
+    for (fe__reader *r = atomic_load_explicit(&readers, memory_order_seq_cst); r; r = r->next) {
+        for (int32_t i = 0; i < FE__READER_DEPTH; ++i) {
+            if (atomic_load_explicit(&r->inside[i], memory_order_seq_cst) != owner) continue;
+            atomic_store_explicit(&owner->occupation, FE__WRITER, memory_order_release);
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static fe__reader *take_free(void)
+{
+    for (fe__reader *r = atomic_load_explicit(&readers, memory_order_acquire); r; r = r->next) {
+        int32_t taken = 0;
+        if (atomic_compare_exchange_strong_explicit(&r->taken, &taken, 1, memory_order_acquire, memory_order_relaxed)) return r;
+    }
+    return NULL;
+}
+
+enum { CACHE_LINE = 64, SLOT_SIZE = (sizeof(fe__reader) + CACHE_LINE - 1) / CACHE_LINE * CACHE_LINE };
+
+static fe__reader *make(void)
+{
+    fe__reader *r = aligned_alloc(CACHE_LINE, SLOT_SIZE);
+    if (!r) return NULL;
+    *r = (fe__reader){.taken = 1, .next = atomic_load_explicit(&readers, memory_order_relaxed)};
+    while (!atomic_compare_exchange_weak_explicit(&readers, &r->next, r, memory_order_seq_cst, memory_order_relaxed)) {}
+    return r;
+}
+
+#if FE_HAS_THREADS
+// A thread's end returns its slot. The key goes with the library: no thread that outlives it calls into memory that is gone.
+static pthread_key_t at_exit;
+static int has_key;
+static pthread_once_t once = PTHREAD_ONCE_INIT;
+
+static void give_back(void *slot)
+{
+    fe__reader *r = slot;
+    atomic_store_explicit(&r->taken, 0, memory_order_release);
+}
+
+// Of the threads that were inside, only the one that forked lives on in the child.
+static void forget_others(void)
+{
+    for (fe__reader *r = atomic_load_explicit(&readers, memory_order_relaxed); r; r = r->next) {
+        if (r == own) continue;
+        for (int32_t i = 0; i < FE__READER_DEPTH; ++i) atomic_store_explicit(&r->inside[i], NULL, memory_order_relaxed);
+        r->depth = 0;
+        atomic_store_explicit(&r->taken, 0, memory_order_relaxed);
+    }
+}
+
+static void prepare(void)
+{
+    has_key = pthread_key_create(&at_exit, give_back) == 0;
+    (void)pthread_atfork(NULL, NULL, forget_others);
+}
+
+__attribute__((destructor)) static void end(void)
+{
+    if (has_key) (void)pthread_key_delete(at_exit);
+    has_key = 0;
+    for (fe__reader *r = atomic_exchange_explicit(&readers, NULL, memory_order_acquire), *next; r; r = next) {
+        next = r->next;
+        free(r);
+    }
+    own = NULL;
+}
+
+static void begin_thread(fe__reader *r)
+{
+    (void)pthread_once(&once, prepare);
+    if (has_key) (void)pthread_setspecific(at_exit, r);
+}
+#else
+static void begin_thread(fe__reader *r) { (void)r; }
+#endif
+
+static fe__reader *first_of_thread(void)
+{
+    fe__reader *r = take_free();
+    if (!r) r = make();
+    if (!r) return NULL;
+    begin_thread(r);
+    own = r;
+    return r;
+}
+
+fe__reader *fe__reader_of_thread(void) { return own ? own : first_of_thread(); }
