@@ -63,8 +63,26 @@ static fe_body add_body(fe_world *world, int32_t type, const fe_transform *at, c
 
 static fe_material make_material(float friction, float restitution)
 {
-    fe_material m = {friction, friction, restitution, 0.0f, 0.0f};
+    fe_shape_def defaults;
+    fe_shape_def_init(&defaults, sizeof defaults);
+    fe_material m = defaults.material;
+    m.static_friction = m.dynamic_friction = friction;
+    m.restitution = restitution;
     return m;
+}
+
+static fe_dvec3 position_of(const fe_world *world, fe_body body)
+{
+    fe_transform t;
+    must(fe_body_get_transform(world, body, &t));
+    return t.position;
+}
+
+static fe_vec3 velocity_of(const fe_world *world, fe_body body)
+{
+    fe_vec3 v;
+    must(fe_body_get_linear_velocity(world, body, &v));
+    return v;
 }
 
 static void add_plane(fe_world *world, double angle, fe_material material)
@@ -111,7 +129,7 @@ static void pyramid(void)
         fe_world *world = make_world(1 + i);
         fe_body top = build_pyramid(world);
         run(world, 180);
-        height = body_transform(world, top).position.y;
+        height = position_of(world, top).y;
         hashes[i] = hash_of(world);
         must(fe_world_destroy(world));
     }
@@ -131,9 +149,9 @@ static double slide(double degrees, float friction, int from_step, int to_step)
     add_plane(world, angle, make_material(friction, 0));
     fe_body box = add_body(world, FE_BODY_DYNAMIC, &at, &cube, 1000, make_material(friction, 0));
     run(world, from_step);
-    fe_dvec3 a = body_transform(world, box).position;
+    fe_dvec3 a = position_of(world, box);
     run(world, to_step - from_step);
-    fe_dvec3 b = body_transform(world, box).position;
+    fe_dvec3 b = position_of(world, box);
     must(fe_world_destroy(world));
     return hypot((b.x - a.x) * cos(angle) + (b.y - a.y) * sin(angle), b.z - a.z);
 }
@@ -148,8 +166,8 @@ static double rebound(const fe_geometry *geometry, double half, double clear, fl
     double highest = 0;
     for (int i = 0, up = 0; i < 120; ++i) {
         run(world, 1);
-        float vy = body_linear_velocity(world, body).y;
-        double y = body_transform(world, body).position.y - half;
+        float vy = velocity_of(world, body).y;
+        double y = position_of(world, body).y - half;
         up |= vy > 0;
         // between two steps the top lies vy^2 / 2g above
         if (up && vy > 0 && vy < GRAVITY * DT) highest = y + (double)vy * (double)vy / (2 * GRAVITY);
@@ -174,7 +192,7 @@ static void push(void)
         must(fe_body_add_force(world, body, &force));
         run(world, 1);
     }
-    double speed = body_linear_velocity(world, body).x, exact = 10 / (double)mass;
+    double speed = velocity_of(world, body).x, exact = 10 / (double)mass;
     report("10 N for 1 s on 32.7 kg", "speed, m/s", speed, exact * (1 - 2e-5), exact * (1 + 2e-5), "0.30558");
     must(fe_world_destroy(world));
 }

@@ -33,7 +33,9 @@ int main(void)
     fe_shape_create(world, box, NULL, &cube, &shape);
 
     for (int step = 0; step <= 90; ++step) {
-        if (step % 15 == 0) printf("%4.2f s  y = %6.4f m\n", step / 60.0, body_transform(world, box).position.y);
+        fe_transform at;
+        if (fe_body_get_transform(world, box, &at) == FE_OK && step % 15 == 0)
+            printf("%4.2f s  y = %6.4f m\n", step / 60.0, at.position.y);
         if (fe_world_step(world, 1.0f / 60.0f) != FE_OK) {
             printf("%s\n", fe_last_error());
             return 1;

@@ -44,8 +44,10 @@ static fe_result add_terrain(fe_world *world, fe_body body, const bench_shape *s
     fe_heightfield_def field;
     fe_heightfield_def_init(&field, sizeof field);
     field.rows = field.columns = shape->side, field.cell_x = field.cell_z = shape->cell, field.heights = heights;
+    fe_store *store;
     fe_asset asset;
-    fe_result result = fe_heightfield_create(world, &field, &asset);
+    fe_result result = fe_world_get_store(world, &store);
+    if (result == FE_OK) result = fe_heightfield_create(store, &field, &asset);
     free(heights);
     if (result != FE_OK) return result;
     fe_shape_def def;
@@ -386,9 +388,9 @@ static int32_t raycast(bench_world *w, const bench_ray *ray, double *out_fractio
     fe_dvec3 origin = fe_make_dvec3(ray->origin[0], ray->origin[1], ray->origin[2]);
     fe_dvec3 translation = fe_make_dvec3(ray->translation[0], ray->translation[1], ray->translation[2]);
     fe_hit hit;
-    int32_t result = fe_world_raycast(w->world, &origin, &translation, NULL, &hit);
-    if (result < 0) complain("raycast");
-    if (result != FE_OK) return 0;
+    const int32_t hits = fe_world_raycast(w->world, &origin, &translation, NULL, &hit);
+    if (hits < 0) complain("raycast");
+    if (hits < 1) return 0;
     *out_fraction = hit.fraction;
     return 1;
 }
@@ -408,9 +410,9 @@ static int32_t sweep(bench_world *w, const bench_probe *probe, double *out_fract
     const double *d = probe->way.translation;
     fe_dvec3 translation = fe_make_dvec3(d[0], d[1], d[2]);
     fe_hit hit;
-    int32_t result = fe_world_sweep(w->world, &geometry, &start, &translation, NULL, &hit);
-    if (result < 0) complain("sweep");
-    if (result != FE_OK) return 0;
+    const int32_t hits = fe_world_sweep(w->world, &geometry, &start, &translation, NULL, &hit);
+    if (hits < 0) complain("sweep");
+    if (hits < 1) return 0;
     *out_fraction = hit.fraction;
     return 1;
 }

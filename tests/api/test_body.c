@@ -493,7 +493,7 @@ static void what_changes_a_sleeper_wakes_it(void **state)
     WAKES(fe_shape_set_geometry(world, shape, &sphere));
     WAKES(fe_shape_set_density(world, shape, 5));
     WAKES(fe_shape_set_material(world, shape, &slippery));
-    WAKES(fe_shape_set_filter(world, shape, 2, 2));
+    WAKES(fe_shape_set_filter(world, shape, 2, 2, 0));
     WAKES(fe_shape_set_trigger(world, shape, 1));
     WAKES(fe_body_set_sleep_allowed(world, body, 0));
     OK(fe_body_set_sleep_allowed(world, body, 1));
@@ -599,16 +599,16 @@ static void a_filter_on_a_body_is_one_on_its_shapes(void **state)
     (void)state;
     fe_world *world = new_world();
     fe_body body = new_body(world, FE_BODY_DYNAMIC, 0, 0, 0);
-    REFUSES(world, FE_ERROR_STATE, fe_body_set_filter(world, body, 1, 1));
+    REFUSES(world, FE_ERROR_STATE, fe_body_set_filter(world, body, 1, 1, 0));
     fe_shape shapes[2] = {add_box(world, body, 1), add_sphere(world, body, 1)};
-    OK(fe_body_set_filter(world, body, 1u << 31, 6));
+    OK(fe_body_set_filter(world, body, 1u << 31, 6, 0));
     for (int i = 0; i < 2; ++i) {
         uint32_t layer = 0, mask = 0;
         OK(fe_shape_get_filter(world, shapes[i], &layer, &mask));
         assert_true(layer == 1u << 31 && mask == 6);
     }
-    REFUSES(world, FE_ERROR_ARGUMENT, fe_body_set_filter(world, body, 0, 1));
-    REFUSES(world, FE_ERROR_ARGUMENT, fe_body_set_filter(world, body, 3, 1));
+    REFUSES(world, FE_ERROR_ARGUMENT, fe_body_set_filter(world, body, 0, 1, 0));
+    REFUSES(world, FE_ERROR_ARGUMENT, fe_body_set_filter(world, body, 3, 1, 0));
     SAYS("layer is 0x3, must be exactly one bit");
     OK(fe_world_destroy(world));
 }

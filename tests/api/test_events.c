@@ -48,8 +48,8 @@ static void destroy_box(touch *t) { OK(fe_body_destroy(t->world, t->box)); }
 static void destroy_ground(touch *t) { OK(fe_body_destroy(t->world, t->ground)); }
 static void destroy_shape(touch *t) { OK(fe_shape_destroy(t->world, t->box_shape)); }
 static void disable(touch *t) { OK(fe_body_set_enabled(t->world, t->box, 0)); }
-static void refilter(touch *t) { OK(fe_shape_set_filter(t->world, t->box_shape, 2, 2)); }
-static void refilter_body(touch *t) { OK(fe_body_set_filter(t->world, t->ground, 1, 0)); }
+static void refilter(touch *t) { OK(fe_shape_set_filter(t->world, t->box_shape, 2, 2, 0)); }
+static void refilter_body(touch *t) { OK(fe_body_set_filter(t->world, t->ground, 1, 0, 0)); }
 static void ignore(touch *t) { OK(fe_world_ignore_collision(t->world, t->box, t->ground, 1)); }
 static void make_static(touch *t) { OK(fe_body_set_type(t->world, t->box, FE_BODY_STATIC)); }
 static void teleport(touch *t)
@@ -150,7 +150,7 @@ static void enter_and_exit_balance_in_a_crowd(void **state)
             OK(fe_body_set_enabled(world, bodies[k], (int32_t)(random >> 8 & 1)));
             break;
         case 2:
-            OK(fe_body_set_filter(world, bodies[k], 1u << (random >> 9 & 1), 0xFFFFFFFF));
+            OK(fe_body_set_filter(world, bodies[k], 1u << (random >> 9 & 1), 0xFFFFFFFF, 0));
             break;
         case 3:
             OK(fe_body_set_type(world, bodies[k], (int32_t)(random >> 10 & 3) % 3));

@@ -17,7 +17,7 @@ static fe_asset new_field(fe_world *world)
 {
     fe_heightfield_def d = flat_def();
     fe_asset asset = 0;
-    OK(fe_heightfield_create(world, &d, &asset));
+    OK(fe_heightfield_create(world_store(world), &d, &asset));
     return asset;
 }
 
@@ -62,13 +62,13 @@ static void defaults_are_complete_but_for_the_heights(void **state)
     FE_TRUE(d.struct_size == sizeof d && d.cell_x == 1.0f && d.cell_z == 1.0f && !d.heights && !d.holes && !d.cell_materials);
     fe_asset asset = 7;
     d.rows = ROWS, d.columns = COLUMNS;
-    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_create(world, &d, &asset));
+    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_create(world_store(world), &d, &asset));
     FE_TRUE(asset == 0);
     d.heights = flat;
-    OK(fe_heightfield_create(world, &d, &asset));
-    FE_TRUE(fe_asset_is_valid(world, asset));
+    OK(fe_heightfield_create(world_store(world), &d, &asset));
+    FE_TRUE(fe_asset_is_valid(world_store(world), asset));
     d.struct_size = (uint32_t)offsetof(fe_heightfield_def, holes); // of an older client
-    OK(fe_heightfield_create(world, &d, &asset));
+    OK(fe_heightfield_create(world_store(world), &d, &asset));
     OK(fe_world_destroy(world));
 }
 
@@ -76,7 +76,7 @@ static void defaults_are_complete_but_for_the_heights(void **state)
     do {                                                                             \
         fe_heightfield_def d = flat_def();                                           \
         change;                                                                      \
-        REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_create(world, &d, &asset)); \
+        REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_create(world_store(world), &d, &asset)); \
     } while (0)
 
 static void what_is_out_of_range_is_refused(void **state)
@@ -115,9 +115,9 @@ static void what_is_out_of_range_is_refused(void **state)
     REFUSES_DEF((d.cell_materials = cells, d.materials = materials, d.material_count = 2));
     REFUSES_DEF(d.struct_size = 0);
     fe_heightfield_def d = flat_def();
-    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_create(world, NULL, &asset));
-    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_create(world, &d, NULL));
-    REFUSES(NULL, FE_ERROR_ARGUMENT, fe_heightfield_create(NULL, &d, &asset));
+    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_create(world_store(world), NULL, &asset));
+    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_create(world_store(world), &d, NULL));
+    REFUSES(NULL, FE_ERROR_ARGUMENT, fe_heightfield_create(world_store(NULL), &d, &asset));
     OK(fe_world_destroy(world));
 }
 
@@ -170,10 +170,10 @@ static void wrong_handles_are_refused(void **state)
         fe_geometry_heightfield(&g, wrong[i].handle);
         REFUSES(world, wrong[i].result, fe_shape_create(world, body, NULL, &g, &shape));
         REFUSES(world, wrong[i].result, fe_shape_set_geometry(world, terrain, &g));
-        REFUSES(world, wrong[i].result, fe_heightfield_set_heights(world, wrong[i].handle, 0, 0, 1, 1, heights));
-        REFUSES(world, wrong[i].result, fe_heightfield_get_heights(world, wrong[i].handle, 0, 0, 1, 1, heights));
-        REFUSES(world, wrong[i].result, fe_asset_destroy(world, wrong[i].handle));
-        FE_TRUE(!fe_asset_is_valid(world, wrong[i].handle));
+        REFUSES(world, wrong[i].result, fe_heightfield_set_heights(world_store(world), wrong[i].handle, 0, 0, 1, 1, heights));
+        REFUSES(world, wrong[i].result, fe_heightfield_get_heights(world_store(world), wrong[i].handle, 0, 0, 1, 1, heights));
+        REFUSES(world, wrong[i].result, fe_asset_destroy(world_store(world), wrong[i].handle));
+        FE_TRUE(!fe_asset_is_valid(world_store(world), wrong[i].handle));
     }
     FE_TRUE(!fe_asset_is_valid(NULL, asset));
     REFUSES(world, FE_ERROR_KIND, fe_body_destroy(world, asset));
@@ -192,10 +192,10 @@ static void an_asset_lives_until_its_last_shape_is_gone(void **state)
     fe_shape first = new_terrain(world, asset), second = new_terrain(world, asset), third = new_terrain(world, asset);
     fe_body body;
     OK(fe_shape_get_body(world, second, &body));
-    OK(fe_asset_destroy(world, asset));
-    OK(fe_asset_destroy(world, unused));
-    FE_TRUE(!fe_asset_is_valid(world, asset) && !fe_asset_is_valid(world, unused));
-    REFUSES(world, FE_ERROR_STALE, fe_asset_destroy(world, asset));
+    OK(fe_asset_destroy(world_store(world), asset));
+    OK(fe_asset_destroy(world_store(world), unused));
+    FE_TRUE(!fe_asset_is_valid(world_store(world), asset) && !fe_asset_is_valid(world_store(world), unused));
+    REFUSES(world, FE_ERROR_STALE, fe_asset_destroy(world_store(world), asset));
     SAYS("destroyed");
     fe_geometry g, sphere;
     fe_geometry_heightfield(&g, asset);
@@ -208,7 +208,7 @@ static void an_asset_lives_until_its_last_shape_is_gone(void **state)
     fe_asset next = new_field(world), after = new_field(world); // unused's slot, and a new one: asset's is taken still
     FE_TRUE(triangle_below(world, 1.0, 0.3, NULL) >= 0);
     OK(fe_shape_set_geometry(world, third, &sphere));
-    FE_TRUE(fe_asset_is_valid(world, next) && fe_asset_is_valid(world, after) && !fe_asset_is_valid(world, asset));
+    FE_TRUE(fe_asset_is_valid(world_store(world), next) && fe_asset_is_valid(world_store(world), after) && !fe_asset_is_valid(world_store(world), asset));
     fe_asset reborn = new_field(world); // in asset's slot
     FE_TRUE((reborn & 0xffffff) == (asset & 0xffffff) && reborn != asset);
     OK(fe_world_destroy(world));
@@ -224,7 +224,7 @@ static void rays_tell_the_triangle(void **state)
     holes[6] = 1; // row 1, column 2
     d.holes = holes;
     fe_asset asset;
-    OK(fe_heightfield_create(world, &d, &asset));
+    OK(fe_heightfield_create(world_store(world), &d, &asset));
     (void)new_terrain(world, asset);
     for (int32_t cell = 0; cell < CELLS; ++cell) {
         double x = 2.0 * (cell % (COLUMNS - 1)), z = 0.5 * (cell / (COLUMNS - 1)), y = -1.0;
@@ -248,8 +248,8 @@ static void new_heights_are_seen_at_once(void **state)
     (void)new_terrain(world, asset);
     const float peak[1] = {50.0f};
     float got[SAMPLES];
-    OK(fe_heightfield_set_heights(world, asset, 1, 2, 1, 1, peak));
-    OK(fe_heightfield_get_heights(world, asset, 0, 0, ROWS, COLUMNS, got));
+    OK(fe_heightfield_set_heights(world_store(world), asset, 1, 2, 1, 1, peak));
+    OK(fe_heightfield_get_heights(world_store(world), asset, 0, 0, ROWS, COLUMNS, got));
     for (int32_t i = 0; i < SAMPLES; ++i) FE_TRUE(got[i] == (i == COLUMNS + 2 ? 50.0f : 0.0f));
     double y = 0.0;
     FE_TRUE(triangle_below(world, 4.0, 0.5, &y) >= 0);
@@ -259,18 +259,18 @@ static void new_heights_are_seen_at_once(void **state)
         (void)triangle_below(world, around[i][0], around[i][1], &y);
         FE_WITHIN(y, 25.0, 50.0); // at most 0.3 of a cell off
     }
-    OK(fe_heightfield_set_heights(world, asset, 0, 0, ROWS, COLUMNS, flat));
+    OK(fe_heightfield_set_heights(world_store(world), asset, 0, 0, ROWS, COLUMNS, flat));
     FE_TRUE(triangle_below(world, 4.0, 0.5, &y) >= 0 && y == 0.0);
     float bad[2] = {0.0f, NOT_A_NUMBER};
-    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_set_heights(world, asset, 0, 0, 1, 2, bad));
-    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_set_heights(world, asset, 0, 0, 1, 1, NULL));
-    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_set_heights(world, asset, -1, 0, 1, 1, flat));
-    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_set_heights(world, asset, 0, COLUMNS, 1, 1, flat));
-    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_set_heights(world, asset, 1, 0, ROWS, 1, flat));
-    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_set_heights(world, asset, 0, 1, 1, COLUMNS, flat));
-    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_set_heights(world, asset, 0, 0, 0, 1, flat));
-    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_get_heights(world, asset, 0, 0, 1, 1, NULL));
-    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_get_heights(world, asset, 0, 0, 1, 6, got));
+    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_set_heights(world_store(world), asset, 0, 0, 1, 2, bad));
+    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_set_heights(world_store(world), asset, 0, 0, 1, 1, NULL));
+    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_set_heights(world_store(world), asset, -1, 0, 1, 1, flat));
+    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_set_heights(world_store(world), asset, 0, COLUMNS, 1, 1, flat));
+    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_set_heights(world_store(world), asset, 1, 0, ROWS, 1, flat));
+    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_set_heights(world_store(world), asset, 0, 1, 1, COLUMNS, flat));
+    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_set_heights(world_store(world), asset, 0, 0, 0, 1, flat));
+    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_get_heights(world_store(world), asset, 0, 0, 1, 1, NULL));
+    REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_get_heights(world_store(world), asset, 0, 0, 1, 6, got));
     OK(fe_world_destroy(world));
 }
 

@@ -284,8 +284,8 @@ static void settings_refuse_what_is_out_of_range(void **state)
     REFUSES(world, FE_ERROR_ARGUMENT, fe_shape_set_material(world, shape, NULL));
     REFUSES(world, FE_ERROR_STALE, fe_shape_set_material(world, stale, &material));
     REFUSES(world, FE_ERROR_ARGUMENT, fe_shape_get_material(world, shape, NULL));
-    REFUSES(world, FE_ERROR_ARGUMENT, fe_shape_set_filter(world, shape, 0, 1));
-    REFUSES(world, FE_ERROR_ARGUMENT, fe_shape_set_filter(world, shape, 6, 1));
+    REFUSES(world, FE_ERROR_ARGUMENT, fe_shape_set_filter(world, shape, 0, 1, 0));
+    REFUSES(world, FE_ERROR_ARGUMENT, fe_shape_set_filter(world, shape, 6, 1, 0));
     REFUSES(world, FE_ERROR_ARGUMENT, fe_shape_get_filter(world, shape, NULL, &u));
     REFUSES(world, FE_ERROR_ARGUMENT, fe_shape_get_filter(world, shape, &u, NULL));
     REFUSES(world, FE_ERROR_ARGUMENT, fe_shape_set_trigger(world, shape, 2));

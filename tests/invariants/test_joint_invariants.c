@@ -48,7 +48,7 @@ static crowd make_crowd(dice *d, int limited, int anchored)
     for (int i = 0; i < c.count; ++i) {
         vec at = v3(uniform(d, -0.3, 0.3), -0.5 * i, uniform(d, -0.3, 0.3));
         c.bodies[i] = add_dynamic(&c.s, any_form(d, uniform(d, 0.7, 1)), at, any_rotation(d), friction(0), WATER);
-        MUST(fe_body_set_filter(c.s.world, c.bodies[i], 2, 0));
+        MUST(fe_body_set_filter(c.s.world, c.bodies[i], 2, 0, 0));
         set_velocity(&c.s, c.bodies[i], somewhere(d, 2), somewhere(d, 3));
         fe_body parent = i ? c.bodies[i - 1 - pick(d, i < 2 ? 1 : 2)] : add_anchor(&c.s, at);
         vec middle = times(0.5, plus(at, position(&c.s, parent)));
@@ -204,7 +204,7 @@ static void sliders_on_long_arms_gain_no_energy(void **state)
             fe_body last = add_anchor(&c.s, v3(0, 0, 0));
             for (int i = 0; i < count; ++i) {
                 c.bodies[i] = add_dynamic(&c.s, box(0.5, 0.5, 0.5), v3(0, 0.6 + 1.2 * i, 0), UNTURNED, friction(0), mass);
-                MUST(fe_body_set_filter(c.s.world, c.bodies[i], 2, 0));
+                MUST(fe_body_set_filter(c.s.world, c.bodies[i], 2, 0, 0));
                 fe_configurable_joint_def d = slider_def();
                 d.axes[FE_DOF_LINEAR_X].motion = FE_MOTION_LIMITED, d.axes[FE_DOF_LINEAR_X].lower = -6, d.axes[FE_DOF_LINEAR_X].upper = 6;
                 d.hertz = hertz[k];

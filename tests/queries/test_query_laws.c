@@ -90,7 +90,7 @@ static void add_field(source *s, fe_world *world, double middle)
     def.rows = def.columns = SAMPLES, def.cell_x = 2, def.cell_z = 3, def.heights = heights, def.holes = holes;
     fe_asset asset;
     fe_geometry g;
-    OK(fe_heightfield_create(world, &def, &asset));
+    OK(fe_heightfield_create(world_store(world), &def, &asset));
     fe_geometry_heightfield(&g, asset);
     add_shape(world, new_body(world, FE_BODY_STATIC, middle - 7, 0, -10), &g);
 }
@@ -268,7 +268,7 @@ static fe_world *flat_world(void)
     def.rows = def.columns = SAMPLES, def.cell_x = def.cell_z = 0.75f, def.heights = heights;
     fe_asset asset;
     fe_geometry g;
-    OK(fe_heightfield_create(world, &def, &asset));
+    OK(fe_heightfield_create(world_store(world), &def, &asset));
     fe_geometry_heightfield(&g, asset);
     add_shape(world, new_body(world, FE_BODY_STATIC, -3, 0, 5), &g);
     fe_geometry_plane(&g, 0, 1, 0, 0);

@@ -131,10 +131,10 @@ static void one_field_case(bench *b, int32_t moving, tally *t)
     fe_transform pose = {fe_make_dvec3(middle, -middle, 1), {(float)uniform(b, -0.1, 0.1), 0, (float)uniform(b, -0.1, 0.1), 1}};
     fe_asset asset;
     fe_geometry g, mover = geometry_of(b, moving);
-    OK(fe_heightfield_create(b->world, &def, &asset));
+    OK(fe_heightfield_create(world_store(b->world), &def, &asset));
     fe_geometry_heightfield(&g, asset);
     OK(fe_shape_set_geometry(b->world, b->shape, &g));
-    OK(fe_asset_destroy(b->world, asset));
+    OK(fe_asset_destroy(world_store(b->world), asset));
     OK(fe_body_set_transform(b->world, b->body, &pose));
     OK(fe_body_get_transform(b->world, b->body, &pose));
     solid triangles[TRIANGLES];

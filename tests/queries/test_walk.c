@@ -107,7 +107,7 @@ static void add_field(known_world *k, int32_t body)
     fe_shape shape;
     fe_transform t = {fe__dadd(k->middle, fe_make_dvec3(uniform(k, -25, -10), uniform(k, -15, 15), uniform(k, -25, -10))),
                       {(float)uniform(k, -0.2, 0.2), 0, (float)uniform(k, -0.2, 0.2), 1}};
-    OK(fe_heightfield_create(k->world, &def, &asset));
+    OK(fe_heightfield_create(world_store(k->world), &def, &asset));
     OK(fe_body_set_type(k->world, k->bodies[body], FE_BODY_STATIC));
     OK(fe_body_set_transform(k->world, k->bodies[body], &t));
     OK(fe_body_get_transform(k->world, k->bodies[body], &t));

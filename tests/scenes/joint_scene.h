@@ -21,17 +21,17 @@ static inline fe_body add_anchor(scene *s, vec at)
 
 static inline fe_body add_plain(scene *s, fe_geometry form, vec at) { return add_dynamic(s, form, at, UNTURNED, friction(0.6), WATER); }
 
-static inline void touch_nothing(scene *s, fe_body body) { MUST(fe_body_set_filter(s->world, body, 2, 0)); }
+static inline void touch_nothing(scene *s, fe_body body) { MUST(fe_body_set_filter(s->world, body, 2, 0, 0)); }
 
 // ---- joints, points and axes in the scene's frame ------------------------------------------------------------------------------------
 
 // ball_def(): the defaults, and so for each type
-#define DEFAULTS(type)                             \
-    static inline fe_##type##_def type##_def(void) \
-    {                                              \
-        fe_##type##_def d;                         \
-        fe_##type##_def_init(&d, sizeof d);        \
-        return d;                                  \
+#define DEFAULTS(type)                                   \
+    static inline fe_##type##_joint_def type##_def(void) \
+    {                                                    \
+        fe_##type##_joint_def d;                         \
+        fe_##type##_joint_def_init(&d, sizeof d);        \
+        return d;                                        \
     }
 DEFAULTS(distance)
 DEFAULTS(ball)
@@ -41,15 +41,15 @@ DEFAULTS(configurable)
 #undef DEFAULTS
 
 // add_ball(s, d, a, b, point, axis), and so for each type with an axis
-#define ADDS(type)                                                                                            \
-    static inline fe_joint add_##type(scene *s, fe_##type##_def d, fe_body a, fe_body b, vec point, vec axis) \
-    {                                                                                                         \
-        fe_joint joint;                                                                                       \
-        fe_vec3 x = narrow(to_world(s, axis));                                                                \
-        vec p = to_world(s, point);                                                                           \
-        MUST(fe_##type##_def_at(s->world, &d, a, b, &p, &x));                                                 \
-        MUST(fe_##type##_create(s->world, &d, &joint));                                                       \
-        return joint;                                                                                         \
+#define ADDS(type)                                                                                                  \
+    static inline fe_joint add_##type(scene *s, fe_##type##_joint_def d, fe_body a, fe_body b, vec point, vec axis) \
+    {                                                                                                               \
+        fe_joint joint;                                                                                             \
+        fe_vec3 x = narrow(to_world(s, axis));                                                                      \
+        vec p = to_world(s, point);                                                                                 \
+        MUST(fe_##type##_joint_def_at(s->world, &d, a, b, &p, &x));                                                 \
+        MUST(fe_##type##_joint_create(s->world, &d, &joint));                                                       \
+        return joint;                                                                                               \
     }
 ADDS(ball)
 ADDS(hinge)

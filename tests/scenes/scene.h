@@ -157,9 +157,12 @@ static inline fe_geometry capsule(double half_height, double radius)
 }
 
 // static and dynamic friction alike
-static inline fe_material friction(double mu) { return (fe_material){(float)mu, (float)mu, 0, 0, 0}; }
+static inline fe_material friction(double mu) { return (fe_material)SURFACE((float)mu, (float)mu, 0, 0, 0); }
 
-static inline fe_material bouncy(double mu, double restitution) { return (fe_material){(float)mu, (float)mu, (float)restitution, 0, 0}; }
+static inline fe_material bouncy(double mu, double restitution)
+{
+    return (fe_material)SURFACE((float)mu, (float)mu, (float)restitution, 0, 0);
+}
 
 static inline fe_body add_body(scene *s, int32_t type, fe_geometry form, vec position, fe_quat rotation, fe_material material,
                                float density)

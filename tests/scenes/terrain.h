@@ -26,7 +26,7 @@ static inline fe_asset make_field(scene *s, int cells, double cell, double x, do
     fe_heightfield_def_init(&def, sizeof def);
     def.rows = def.columns = n, def.cell_x = def.cell_z = (float)cell, def.heights = heights;
     fe_asset asset = 0;
-    MUST(fe_heightfield_create(s->world, &def, &asset));
+    MUST(fe_heightfield_create(world_store(s->world), &def, &asset));
     free(heights);
     return asset;
 }

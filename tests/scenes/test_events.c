@@ -120,7 +120,7 @@ static void end_touch(scene *s, ending how, fe_body body, fe_body other)
         MUST(fe_body_set_enabled(s->world, body, 0));
         break;
     case REFILTER:
-        MUST(fe_body_set_filter(s->world, body, 2, 2));
+        MUST(fe_body_set_filter(s->world, body, 2, 2, 0));
         break;
     case IGNORE:
         MUST(fe_world_ignore_collision(s->world, body, other, 1));
@@ -186,7 +186,7 @@ static void what_ended_can_enter_again(void **state)
         end_touch(&s, (ending)how, body, ground);
         run(&s, 2);
         if (how == DISABLE) MUST(fe_body_set_enabled(s.world, body, 1));
-        if (how == REFILTER) MUST(fe_body_set_filter(s.world, body, 1, 0xffffffffu));
+        if (how == REFILTER) MUST(fe_body_set_filter(s.world, body, 1, 0xffffffffu, 0));
         if (how == IGNORE) MUST(fe_world_ignore_collision(s.world, ground, body, 0));
         run(&s, 1);
         FE_TRUE(told(&s, ground, body, FE_EVENT_ENTER) == 1);
@@ -225,7 +225,7 @@ static void enters_and_exits_balance_through_a_random_life(void **state)
         } else if (!last && what == 1) {
             MUST(fe_body_set_enabled(s.world, bodies[i], 1));
         } else if (!last && what == 2) {
-            MUST(fe_body_set_filter(s.world, bodies[i], 1u << pick(&d, 2), pick(&d, 2) ? 0xffffffffu : 1u));
+            MUST(fe_body_set_filter(s.world, bodies[i], 1u << pick(&d, 2), pick(&d, 2) ? 0xffffffffu : 1u, 0));
         } else if (!last && what == 3) {
             place(&s, bodies[i], plus(v3(0, 3, 0), somewhere(&d, 2)));
         } else if (!last && what == 4) {

@@ -82,7 +82,7 @@ static fe_body add_arm(scene *s, int side)
     def.frame.position = fe_make_vec3(0, 0.5f, 0);
     def.density = (float)(BALL / (4.0 / 3 * PI * RADIUS * RADIUS * RADIUS));
     MUST(fe_shape_create(s->world, arm, &def, &ball, &shape));
-    MUST(fe_body_set_filter(s->world, arm, 2, 0));
+    MUST(fe_body_set_filter(s->world, arm, 2, 0, 0));
     vec turning = v3(0, SPIN, 0);
     fe_dvec3 centre;
     MUST(fe_body_get_centre(s->world, arm, &centre));
@@ -123,7 +123,7 @@ static governor build_governor(void **state, double half, int substeps, float jo
     g.bodies[0] = add_dynamic(s, box(half, 0.5 * SHAFT, half), v3(0, 0.5 * SHAFT, 0), UNTURNED, friction(0), (float)DENSITY);
     g.bodies[1] = add_dynamic(s, box(0.05, 0.05, 0.05), v3(0, 0.5, 0), UNTURNED, friction(0), (float)DENSITY);
     for (int k = 0; k < 2; ++k) {
-        MUST(fe_body_set_filter(s->world, g.bodies[k], 2, 0));
+        MUST(fe_body_set_filter(s->world, g.bodies[k], 2, 0, 0));
         set_velocity(s, g.bodies[k], v3(0, 0, 0), v3(0, SPIN, 0));
         g.bodies[2 + k] = add_arm(s, k == 0 ? 1 : -1);
     }

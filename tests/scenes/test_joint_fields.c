@@ -399,7 +399,7 @@ static rig begin(void **state, int kind, const row *row)
     r.elsewhere = add_anchor(&r.s, v3(0, 1, 0));
     r.block = add_plain(&r.s, box(0.2, 0.25, 0.15), v3(0, 0, 0));
     r.other = add_plain(&r.s, sphere(0.1), v3(0, 5, 0));
-    MUST(fe_body_set_filter(r.s.world, r.other, 2, 0)); // when it is drawn to the anchor, it passes the block
+    MUST(fe_body_set_filter(r.s.world, r.other, 2, 0, 0)); // when it is drawn to the anchor, it passes the block
     r.mass = mass_of(&r.s, r.block);
     for (int k = 0; k < 3; ++k) r.moment[k] = moment_of(&r.s, r.block, k, 0);
     // a rod that pulls at a point off the centre would turn the block

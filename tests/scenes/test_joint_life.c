@@ -496,7 +496,7 @@ static void a_hub_with_a_hundred_joints_holds_them_all(void **state)
         double angle = 2 * PI * i / SPOKES;
         vec out = v3(cos(angle), sin(angle), 0);
         rim[i] = add_plain(&s, sphere(0.1), times(2, out));
-        MUST(fe_body_set_filter(s.world, rim[i], 2, 0));
+        MUST(fe_body_set_filter(s.world, rim[i], 2, 0, 0));
         spokes[i] = add_ball(&s, ball_def(), hub, rim[i], times(0.5, out), out);
     }
     double load = mass_of(&s, hub) + SPOKES * mass_of(&s, rim[0]);

@@ -69,7 +69,7 @@ static void a_ring_of_springs_keeps_its_size_when_it_falls(void **state)
         vec at = v3(radius * cos(angle), 10 + radius * sin(angle), 0);
         sides[i] = add_dynamic(&s, capsule(half, 0.5), at, turned(v3(0, 0, 1), angle), friction(0.6), WATER);
         MUST(fe_body_set_locks(s.world, sides[i], FE_AXIS_Z, FE_AXIS_X | FE_AXIS_Y));
-        MUST(fe_body_set_filter(s.world, sides[i], 2, 1)); // the ground only
+        MUST(fe_body_set_filter(s.world, sides[i], 2, 1, 0)); // the ground only
     }
     fe_fixed_joint_def d = fixed_def();
     d.angular_hertz = 5, d.angular_damping_ratio = 0;

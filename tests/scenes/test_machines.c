@@ -18,7 +18,7 @@ static void add_field(scene *s, double height(double x, double z))
     fe_heightfield_def_init(&field, sizeof field);
     field.rows = field.columns = SIDE, field.cell_x = field.cell_z = (float)CELL, field.heights = heights;
     fe_asset asset;
-    MUST(fe_heightfield_create(s->world, &field, &asset));
+    MUST(fe_heightfield_create(world_store(s->world), &field, &asset));
     fe_geometry form;
     fe_geometry_heightfield(&form, asset);
     add_body(s, FE_BODY_STATIC, form, v3(0, 0, -CELL * (SIDE - 1) / 2), UNTURNED, friction(0.8), WATER);

@@ -262,7 +262,7 @@ static void by_teleport(scene *s, fe_body body)
     t.position.x += 0.001;
     MUST(fe_body_set_transform(s->world, body, &t));
 }
-static void by_filter(scene *s, fe_body body) { MUST(fe_body_set_filter(s->world, body, 2, 0xffffffffu)); }
+static void by_filter(scene *s, fe_body body) { MUST(fe_body_set_filter(s->world, body, 2, 0xffffffffu, 0)); }
 static void by_type(scene *s, fe_body body) { MUST(fe_body_set_type(s->world, body, FE_BODY_STATIC)); }
 static void by_disabling(scene *s, fe_body body) { MUST(fe_body_set_enabled(s->world, body, 0)); }
 static void by_destroying(scene *s, fe_body body) { MUST(fe_body_destroy(s->world, body)); }
@@ -379,7 +379,7 @@ static void destroying_a_support_wakes_what_rested_on_it(void **state)
         settle(&s, 600);
         if (kind == 0) MUST(fe_body_destroy(s.world, support));
         if (kind == 1) MUST(fe_body_set_enabled(s.world, support, 0));
-        if (kind == 2) MUST(fe_body_set_filter(s.world, support, 1, 0));
+        if (kind == 2) MUST(fe_body_set_filter(s.world, support, 1, 0, 0));
         if (kind == 3) {
             fe_transform away = body_transform(s.world, support);
             away.position.x += 100;

@@ -191,7 +191,7 @@ static fe_material resisting(double rolling) { return (fe_material){0.5f, 0.5f, 
 static fe_body add_wave(scene *s, fe_material m)
 {
     fe_body field = add_field(s, 40, 1.0, -20, -20, wave, m);
-    MUST(fe_body_set_filter(s->world, field, 2, UINT32_MAX));
+    MUST(fe_body_set_filter(s->world, field, 2, UINT32_MAX, 0));
     return field;
 }
 
@@ -279,7 +279,7 @@ static void set_flat(scene *s, fe_asset asset, int row, int column, int size, fl
 {
     float heights[256];
     for (int i = 0; i < size * size; ++i) heights[i] = height;
-    MUST(fe_heightfield_set_heights(s->world, asset, row, column, size, size, heights));
+    MUST(fe_heightfield_set_heights(world_store(s->world), asset, row, column, size, size, heights));
 }
 
 // The ground falls 0.3 m under one of two sleepers: that one wakes and follows, the other sleeps on.
@@ -315,9 +315,9 @@ static fe_body field_with(scene *s, const uint8_t *holes, const uint8_t *kinds, 
     def.rows = def.columns = 9, def.heights = heights;
     def.holes = holes, def.cell_materials = kinds, def.materials = materials, def.material_count = count;
     fe_asset asset;
-    MUST(fe_heightfield_create(s->world, &def, &asset));
+    MUST(fe_heightfield_create(world_store(s->world), &def, &asset));
     fe_body body = place_field(s, asset, v3(-4, 0, -4), UNTURNED, friction(0.5));
-    MUST(fe_asset_destroy(s->world, asset)); // its shape keeps it
+    MUST(fe_asset_destroy(world_store(s->world), asset)); // its shape keeps it
     return body;
 }
 
@@ -377,7 +377,7 @@ static void contacts_tell_the_patches(void **state)
     fe_heightfield_def_init(&def, sizeof def);
     def.rows = def.columns = 3, def.cell_x = 4, def.cell_z = 1, def.heights = heights;
     fe_asset asset;
-    MUST(fe_heightfield_create(s.world, &def, &asset));
+    MUST(fe_heightfield_create(world_store(s.world), &def, &asset));
     fe_body ground = place_field(&s, asset, v3(-4, 0, -1), UNTURNED, friction(0));
     fe_body ball = add_dynamic(&s, sphere(0.5), v3(0.3, 0.5 * sqrt(2), 0), UNTURNED, friction(0), WATER);
     run(&s, 60);

@@ -46,8 +46,11 @@ static fe_geometry some_geometry(fuzz *f)
     fe_geometry g;
     memset(&g, 0, sizeof g);
     g.struct_size = sizeof g;
-    g.type = fuzz_byte(f) % 16;
-    if (g.type > FE_GEOMETRY_PLANE && g.type < 15) g.type %= 3;
+    static const int32_t types[] = {FE_GEOMETRY_SPHERE,  FE_GEOMETRY_CAPSULE, FE_GEOMETRY_BOX,    FE_GEOMETRY_SPHERE,
+                                    FE_GEOMETRY_CAPSULE, FE_GEOMETRY_BOX,     FE_GEOMETRY_SPHERE, FE_GEOMETRY_CAPSULE,
+                                    FE_GEOMETRY_BOX,     FE_GEOMETRY_SPHERE,  FE_GEOMETRY_BOX,    FE_GEOMETRY_PLANE,
+                                    FE_GEOMETRY_PLANE,   FE_GEOMETRY_NONE,    4,                  FE_GEOMETRY_HEIGHTFIELD};
+    g.type = types[fuzz_byte(f) % COUNT(types)];
     g.radius = fuzz_size(f);
     g.half_height = fuzz_size(f);
     g.half_extents.x = fuzz_size(f);
@@ -59,7 +62,7 @@ static fe_geometry some_geometry(fuzz *f)
 
 static fe_material some_material(fuzz *f)
 {
-    fe_material m = {0.6f, 0.5f, 0.0f, 0.0f, 0.0f};
+    fe_material m = SURFACE(0.6f, 0.5f, 0.0f, 0.0f, 0.0f);
     uint8_t which = fuzz_byte(f);
     if (which & 1) m.static_friction = fuzz_size(f);
     if (which & 2) m.dynamic_friction = fuzz_size(f);
@@ -136,7 +139,7 @@ static int32_t ignore(fuzz *f)
     return fe_world_ignore_collision(f->world, a, b, fuzz_byte(f) % 3);
 }
 
-static int32_t sync_queries(fuzz *f) { return fe_world_optimize(f->world); }
+static int32_t optimize(fuzz *f) { return fe_world_optimize(f->world); }
 
 static int32_t raycast(fuzz *f)
 {
@@ -151,7 +154,7 @@ static int32_t raycast(fuzz *f)
     if (filter.struct_size > sizeof filter) filter.struct_size = sizeof filter;
     fe_dvec3 origin = fuzz_dvec3(f), along = fuzz_dvec3(f);
     int32_t result = fe_world_raycast(f->world, or_null(f, &origin), &along, or_null(f, &filter), &hit);
-    if (result != FE_OK) return result;
+    if (result != 1) return result;
     if (!(hit.fraction >= 0.0 && hit.fraction <= 1.0) && !f->is_wild) fuzz_fail(f, "a fraction outside the segment");
     if (!fe_body_is_valid(f->world, hit.body) || !fe_shape_is_valid(f->world, hit.shape)) fuzz_fail(f, "a hit on nothing");
     float square = hit.normal.x * hit.normal.x + hit.normal.y * hit.normal.y + hit.normal.z * hit.normal.z;
@@ -164,7 +167,7 @@ static int32_t raycast(fuzz *f)
 static void check_fuzz_hit(fuzz *f, const fe_hit *hit)
 {
     if (!fe_body_is_valid(f->world, hit->body) || !fe_shape_is_valid(f->world, hit->shape)) fuzz_fail(f, "a hit on nothing");
-    if (!(hit->fraction >= 0.0 && hit->fraction <= 1.0) && !f->is_wild) fuzz_fail(f, "a fraction outside the way");
+    if (!(hit->fraction >= 0.0 && hit->fraction <= 1.0) && !f->is_wild) fuzz_fail(f, "a fraction outside the segment");
     fe__hash_double(&f->told, hit->fraction);
 }
 
@@ -182,7 +185,7 @@ static int32_t query_many(fuzz *f)
     }
     int32_t spread = fuzz_byte(f) % 3, count = fuzz_byte(f) % (MOST + 1);
     int32_t found = fuzz_byte(f) & 1 ? fe_world_raycast_many(f->world, or_null(f, rays), sizeof *rays, count, NULL, spread, hits, sizeof *hits)
-                                     : fe_world_sweep_many(f->world, or_null(f, &g), paths, sizeof(fe_ray), count, NULL, spread, hits, sizeof(fe_hit));
+                                     : fe_world_sweep_many(f->world, or_null(f, &g), paths, sizeof *paths, count, NULL, spread, hits, sizeof *hits);
     for (int32_t i = 0; i < count && found >= 0; ++i) {
         if (hits[i].body) check_fuzz_hit(f, &hits[i]);
     }
@@ -204,7 +207,7 @@ static int32_t query_forms(fuzz *f)
     int32_t room = fuzz_byte(f) % (MOST + 1), overlap = fe_world_overlap(f->world, &g, &t, &filter, bodies, room);
     int32_t all = fe_world_sweep_all(f->world, or_null(f, &g), &t, &way, &filter, hits, sizeof *hits, room);
     int32_t first = fe_world_sweep(f->world, &g, &t, &way, or_null(f, &filter), hits);
-    if (first == FE_OK) check_fuzz_hit(f, hits);
+    if (first == 1) check_fuzz_hit(f, hits);
     fe__hash_u64(&f->told, (uint64_t)(uint32_t)all);
     fe__hash_u64(&f->told, (uint64_t)(uint32_t)overlap);
     return fe_world_sweep_any(f->world, &g, &t, or_null(f, &way), &filter);
@@ -212,12 +215,12 @@ static int32_t query_forms(fuzz *f)
 
 static int32_t query_rays(fuzz *f)
 {
-    enum { MOST = 4, WIDEST = 80 };
+    enum { MOST = 4, WIDEST = sizeof(fe_hit) };
     fe_hit hits[MOST + 1]; // so that MOST of the widest fit
     fe_dvec3 origin = fuzz_dvec3(f), way = fuzz_dvec3(f);
     int32_t room = fuzz_byte(f) % (MOST + 1);
     uint32_t stride = fuzz_byte(f) % (WIDEST + 1);
-    int32_t all = fe_world_raycast_all(f->world, or_null(f, &origin), &way, NULL, hits, stride < WIDEST / 2 ? 0 : stride, room);
+    int32_t all = fe_world_raycast_all(f->world, or_null(f, &origin), &way, NULL, hits, stride < WIDEST / 2 ? WIDEST : stride, room);
     fe__hash_u64(&f->told, (uint64_t)(uint32_t)all);
     if (fe_body_raycast(f->world, fuzz_body(f), &origin, &way, hits) == 1) check_fuzz_hit(f, hits);
     if (fe_shape_raycast(f->world, fuzz_shape(f), &origin, &way, hits) == 1) check_fuzz_hit(f, hits);
@@ -230,7 +233,7 @@ static int32_t query_points(fuzz *f)
     fe_dvec3 point = fuzz_dvec3(f);
     double most = (double)fuzz_size(f);
     int32_t result = fe_world_closest_point(f->world, or_null(f, &point), most, NULL, &c);
-    if (result == FE_OK && !f->is_wild && !(c.distance <= most)) fuzz_fail(f, "a closest point too far off");
+    if (result == 1 && !f->is_wild && !(c.distance <= most)) fuzz_fail(f, "a closest point too far off");
     (void)fe_body_closest_point(f->world, fuzz_body(f), &point, &c);
     return fe_shape_closest_point(f->world, fuzz_shape(f), &point, or_null(f, &c) ? &c : NULL);
 }
@@ -440,7 +443,8 @@ static int32_t set_body_filter(fuzz *f)
 {
     fe_body body = fuzz_body(f);
     uint32_t layer = fuzz_byte(f) % 5u;
-    return fe_body_set_filter(f->world, body, layer, fuzz_byte(f));
+    const uint32_t mask = fuzz_byte(f);
+    return fe_body_set_filter(f->world, body, layer, mask, fuzz_byte(f) % 5 - 2);
 }
 
 static int32_t set_sleep_threshold(fuzz *f)
@@ -476,12 +480,12 @@ static int32_t set_geometry(fuzz *f)
     return fe_shape_set_geometry(f->world, shape, or_null(f, &g));
 }
 
-static int32_t set_local_pose(fuzz *f)
+static int32_t set_frame(fuzz *f)
 {
     fe_shape shape = fuzz_shape(f);
-    fe_vec3 p = fuzz_vec3(f);
-    fe_quat q = fuzz_quat(f);
-    return fe_shape_set_local_pose(f->world, shape, &p, or_null(f, &q));
+    fe_frame frame;
+    frame.position = fuzz_vec3(f), frame.rotation = fuzz_quat(f);
+    return fe_shape_set_frame(f->world, shape, or_null(f, &frame));
 }
 
 static int32_t set_density(fuzz *f)
@@ -501,7 +505,8 @@ static int32_t set_shape_filter(fuzz *f)
 {
     fe_shape shape = fuzz_shape(f);
     uint32_t layer = fuzz_byte(f) % 5u;
-    return fe_shape_set_filter(f->world, shape, layer, fuzz_byte(f));
+    const uint32_t mask = fuzz_byte(f);
+    return fe_shape_set_filter(f->world, shape, layer, mask, fuzz_byte(f) % 5 - 2);
 }
 
 static int32_t set_trigger(fuzz *f)
@@ -652,7 +657,7 @@ const fuzz_call fuzz_calls[] = {
     {"fe_world_set_substeps", set_substeps, 0},
     {"fe_world_set_tuning", set_tuning, 0},
     {"fe_world_ignore_collision", ignore, 0},
-    {"fe_world_optimize", sync_queries, 0},
+    {"fe_world_optimize", optimize, 0},
     {"fe_world_raycast", raycast, 0},
     {"fe_world_raycast_all, _any, fe_body_raycast, fe_shape_raycast", query_rays, 0},
     {"fe_world_sweep, _all, _any, fe_world_overlap", query_forms, 0},
@@ -675,7 +680,7 @@ const fuzz_call fuzz_calls[] = {
     {"fe_body_set_sleep_threshold", set_sleep_threshold, 0},
     {"fe_body_get_point_velocity", read_body, 0},
     {"fe_shape_set_geometry", set_geometry, 1},
-    {"fe_shape_set_local_pose", set_local_pose, 1},
+    {"fe_shape_set_frame", set_frame, 1},
     {"fe_shape_set_density", set_density, 1},
     {"fe_shape_set_material", set_material, 0},
     {"fe_shape_set_filter", set_shape_filter, 0},

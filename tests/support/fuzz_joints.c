@@ -196,7 +196,7 @@ int32_t fuzz_read_joint(fuzz *f)
         fuzz_fail(f, "a living joint cannot be read");
     if (!fe_body_is_valid(f->world, body_a) || !fe_body_is_valid(f->world, body_b)) fuzz_fail(f, "a joint holds a dead body");
     fe_joint_def front = {.struct_size = sizeof front};
-    fe_handle data = 0;
+    uint64_t data = 0;
     int32_t enabled = 0;
     if (fe_joint_get(f->world, joint, &front) || fe_joint_get_enabled(f->world, joint, &enabled) ||
         fe_joint_get_user_data(f->world, joint, &data) || enabled != front.enabled || data != front.user_data)

@@ -16,7 +16,7 @@ int32_t fuzz_create_field(fuzz *f)
 {
     float heights[MOST_SAMPLES * MOST_SAMPLES];
     uint8_t holes[MOST_SAMPLES * MOST_SAMPLES], kinds[MOST_SAMPLES * MOST_SAMPLES], which = fuzz_byte(f);
-    const fe_material materials[2] = {{0.6f, 0.5f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.5f, 0.1f, 0.0f}};
+    const fe_material materials[2] = {SURFACE(0.6f, 0.5f, 0.0f, 0.0f, 0.0f), SURFACE(0.0f, 0.0f, 0.5f, 0.1f, 0.0f)};
     for (int32_t i = 0; i < MOST_SAMPLES * MOST_SAMPLES; ++i) {
         heights[i] = which == 7 ? fuzz_float(f) : 0.01f * (float)(fuzz_byte(f) % 64);
         holes[i] = which == 9 ? fuzz_byte(f) % 3 : i % 13 == which;
@@ -35,8 +35,8 @@ int32_t fuzz_create_field(fuzz *f)
     d->heights = which == 1 ? NULL : heights;
     if (which & 16) d->holes = holes;
     if (which & 32) d->cell_materials = kinds, d->materials = materials, d->material_count = which == 33 ? 0 : 2;
-    if (fe_asset_is_valid(f->world, *next_asset(f))) return fe_asset_destroy(f->world, *next_asset(f));
-    fe_result result = fe_heightfield_create(f->world, d, next_asset(f));
+    if (fe_asset_is_valid(world_store(f->world), *next_asset(f))) return fe_asset_destroy(world_store(f->world), *next_asset(f));
+    fe_result result = fe_heightfield_create(world_store(f->world), d, next_asset(f));
     if (result == FE_OK) ++f->asset_count;
     return result;
 }
@@ -74,8 +74,8 @@ int32_t fuzz_edit_field(fuzz *f)
     for (int32_t i = 0; i < MOST_SAMPLES * MOST_SAMPLES; ++i) heights[i] = which == 7 ? fuzz_float(f) : 0.02f * (float)(fuzz_byte(f) % 64);
     int32_t row = fuzz_byte(f) % 9 - 1, column = fuzz_byte(f) % 9 - 1, rows = fuzz_byte(f) % 9, columns = fuzz_byte(f) % 9;
     fe_asset asset = fuzz_asset(f);
-    if (which % 5 == 0) return fe_heightfield_get_heights(f->world, asset, row, column, rows, columns, heights);
-    return fe_heightfield_set_heights(f->world, asset, row, column, rows, columns, which == 6 ? NULL : heights);
+    if (which % 5 == 0) return fe_heightfield_get_heights(world_store(f->world), asset, row, column, rows, columns, heights);
+    return fe_heightfield_set_heights(world_store(f->world), asset, row, column, rows, columns, which == 6 ? NULL : heights);
 }
 
-int32_t fuzz_destroy_asset(fuzz *f) { return fe_asset_destroy(f->world, fuzz_asset(f)); }
+int32_t fuzz_destroy_asset(fuzz *f) { return fe_asset_destroy(world_store(f->world), fuzz_asset(f)); }

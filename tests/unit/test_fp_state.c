@@ -2,6 +2,7 @@
 #include "fe_test.h"
 
 #include "core/fp_state.h"
+#include "core/threads.h"
 
 #include <fenv.h>
 #include <float.h>
