@@ -9,7 +9,7 @@
 
 enum {
     BLOCK_ALIGNMENT = 64, // a cache line, and the widest SIMD load
-    FIRST_CAPACITY = 16,  // records: below that, doubling would allocate at every other call
+    SMALL = 16,           // records: a smaller array grows fourfold; a world of one body stays small
     DOUBLE_BELOW = 1024,  // records: a larger array grows by a quarter
     GROWTH = 4,
     ROOM = 16, // a part of what is asked for at once is left over, so that a little more does not move the array again
@@ -67,13 +67,13 @@ static void *load_pointer(const void *array)
 
 static void store_pointer(void *array, void *pointer) { memcpy(array, &pointer, sizeof pointer); }
 
-// Doubling, and by a quarter once an array is large: still O(log n) times, and little room is left over
+// As much as is asked for, then fourfold, doubling, and by a quarter once an array is large: O(log n) times, and little room is left over
 int32_t fe__reserve(fe__memory *memory, void *array, int32_t *capacity, int64_t need, size_t size)
 {
     if (need <= *capacity) return 1;
     if (need > INT32_MAX) return 0;
-    int64_t grown = *capacity < FIRST_CAPACITY ? FIRST_CAPACITY : *capacity;
-    while (grown < need && grown < DOUBLE_BELOW) grown *= 2;
+    int64_t grown = *capacity ? *capacity : need < DOUBLE_BELOW ? need : DOUBLE_BELOW;
+    while (grown < need && grown < DOUBLE_BELOW) grown *= grown < SMALL ? 4 : 2;
     if (grown < need) grown = grown + grown / GROWTH > need + need / ROOM ? grown + grown / GROWTH : need + need / ROOM;
     if (grown > INT32_MAX) grown = INT32_MAX;
     if ((uint64_t)grown > PTRDIFF_MAX / size) return 0;
