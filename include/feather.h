@@ -1168,7 +1168,7 @@ FE_API int32_t fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, c
 FE_API int32_t fe_world_raycast_any(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation,
                                     const fe_query_filter *filter);
 /// Every body on a segment, each once, at its first hit, ordered by fraction, then by creation.
-/// @param stride  sizeof(fe_hit); at least 80, the hits are ordered where they lie
+/// @param stride  sizeof(fe_hit); at least 92, the hits are ordered where they lie
 /// @return how many bodies are hit; when they are more than `capacity` the nearest are written
 FE_API int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation,
                                     const fe_query_filter *filter, fe_hit *out_hits, uint32_t stride, int32_t capacity);

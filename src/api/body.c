@@ -51,10 +51,12 @@ static fe_result read_body_def(const char *function, const fe_body_def *def, fe_
     return FE_OK;
 }
 
-static fe_body create(fe_world *world, const fe_body_def *full)
+// Where nobody may sleep, nobody is born asleep
+static fe_body create(fe_world *world, fe_body_def full)
 {
+    if (!world->tuning.sleep_enabled) full.awake = 1;
     fe__fp_state fp = fe__fp_enter();
-    int32_t index = fe__body_create(world, full);
+    int32_t index = fe__body_create(world, &full);
     fe__fp_leave(fp);
     return fe__body_handle(world, index);
 }
@@ -67,7 +69,7 @@ fe_result fe_body_create(fe_world *world, const fe_body_def *def, fe_body *out_b
     fe_body_def full;
     FE_TRY(read_body_def(function, def, &full));
     FE_TRY(fe__report(function, fe__reserve_bodies(world, 1)));
-    *out_body = create(world, &full);
+    *out_body = create(world, full);
     return FE_OK;
 }
 
@@ -88,7 +90,7 @@ fe_result fe_body_create_many(fe_world *world, const fe_body_def *defs, uint32_t
     FE_TRY(fe__report(function, fe__reserve_bodies(world, count)));
     for (int32_t i = 0; i < count; ++i) {
         (void)read_body_def(function, fe__at_const(defs, stride, i), &full);
-        out_bodies[i] = create(world, &full);
+        out_bodies[i] = create(world, full);
     }
     return FE_OK;
 }
@@ -146,7 +148,7 @@ int32_t fe_body_is_valid(const fe_world *world, fe_body body)
 static int32_t must_be_static(const fe_world *world, int32_t body)
 {
     for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next) {
-        if (world->shapes[shape].form.type >= FE_GEOMETRY_PLANE) return 1;
+        if (world->shapes[shape].form.type >= FE__FORM_PLANE) return 1;
     }
     return 0;
 }
@@ -242,6 +244,12 @@ static void give_mass(fe_world *world, int32_t index, const fe_mass_data *data)
     fe__fp_state fp = fe__fp_enter();
     fe__body_set_mass(world, index, data);
     fe__fp_leave(fp);
+}
+
+void fe_mass_data_init(fe_mass_data *data, uint32_t struct_size)
+{
+    fe_mass_data defaults = {.struct_size = sizeof defaults, .mass = 1.0f, .inertia = {1.0f, 1.0f, 1.0f}, .inertia_rotation = {.w = 1.0f}};
+    fe__init_struct(data, &defaults, sizeof defaults, struct_size);
 }
 
 fe_result fe_body_set_mass_data(fe_world *world, fe_body body, const fe_mass_data *data)
@@ -394,6 +402,7 @@ fe_result fe_body_set_awake(fe_world *world, fe_body body, int32_t awake)
         return FE_OK;
     }
     if (world->bodies[index].awake_index < 0) return FE_OK;
+    if (!world->tuning.sleep_enabled) return fe__fail(function, FE_ERROR_STATE, "sleep_enabled of the world's tuning is 0");
     fe_result result = fe__put_to_sleep(world, index);
     if (result != FE_ERROR_STATE) return fe__report(function, result);
     return fe__fail(function, result, "body 0x%llx, or one that it touches, is not allowed to sleep now", body);
@@ -520,6 +529,27 @@ fe_result fe_body_set_filter(fe_world *world, fe_body body, uint32_t layer, uint
     for (int32_t shape = world->bodies[index].first_shape; shape >= 0; shape = world->shapes[shape].next) {
         fe__shape_set_filter(world, shape, layer, mask, group);
     }
+    return FE_OK;
+}
+
+fe_result fe_body_get_filter(const fe_world *world, fe_body body, uint32_t *out_layer, uint32_t *out_mask, int32_t *out_group)
+{
+    FE_READ(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_POINTER(out_layer);
+    FE_CHECK_POINTER(out_mask);
+    FE_CHECK_POINTER(out_group);
+    int32_t first = world->bodies[index].first_shape;
+    if (first < 0) return fe__fail(function, FE_ERROR_STATE, "body 0x%llx has no shapes, hence no filter", body);
+    const fe__shape *a = &world->shapes[first];
+    for (int32_t shape = a->next; shape >= 0; shape = world->shapes[shape].next) {
+        const fe__shape *b = &world->shapes[shape];
+        if (a->layer == b->layer && a->mask == b->mask && a->group == b->group) continue;
+        return fe__fail(function, FE_ERROR_STATE, "shapes of body 0x%llx have different filters: ask them", body);
+    }
+    *out_layer = a->layer;
+    *out_mask = a->mask;
+    *out_group = a->group;
     return FE_OK;
 }
 

@@ -147,3 +147,32 @@ int32_t fe_shape_get_contacts(const fe_world *world, fe_shape shape, fe_contact 
     fe__fp_leave(fp);
     return count;
 }
+
+// ---- who is inside --------------------------------------------------------------------------------------------------------------
+
+// The list of a body's pairs is in no order that shows: each is put where its creation says
+static int32_t add_overlap(const fe_world *world, int32_t shape, fe_shape *out_shapes, int32_t count, int32_t capacity)
+{
+    int32_t place = fe__mini(count, capacity);
+    uint64_t serial = world->shapes[shape].serial;
+    while (place > 0 && world->shapes[fe__id_slot_of(out_shapes[place - 1])].serial > serial) {
+        if (place < capacity) out_shapes[place] = out_shapes[place - 1];
+        --place;
+    }
+    if (place < capacity) out_shapes[place] = fe__shape_handle(world, shape);
+    return count + 1;
+}
+
+int32_t fe_shape_get_overlaps(const fe_world *world, fe_shape shape, fe_shape *out_shapes, int32_t capacity)
+{
+    FE_READ(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_ARRAY(out_shapes, capacity);
+    int32_t body = world->shapes[index].body, count = 0;
+    for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, body)) {
+        const fe__pair *p = &world->pairs[pair];
+        if (p->flags & FE__PAIR_PATCH || !(p->flags & FE__PAIR_TOUCHING) || (p->shape_a != index && p->shape_b != index)) continue;
+        count = add_overlap(world, p->shape_a == index ? p->shape_b : p->shape_a, out_shapes, count, capacity);
+    }
+    return count;
+}

@@ -21,6 +21,14 @@ static const fe__fields *const fields[FE__JOINT_TYPES] = {NULL,
 
 const fe__fields *fe__joint_fields(int32_t type) { return fields[type]; }
 
+void fe_joint_def_init(fe_joint_def *def, uint32_t struct_size)
+{
+    fe__joint_any defaults;
+    fe__joint_defaults(FE_JOINT_FIXED, &defaults);
+    defaults.common.struct_size = FE__JOINT_FRONT;
+    fe__init_struct(def, &defaults, FE__JOINT_FRONT, struct_size);
+}
+
 void fe__joint_defaults(int32_t type, fe__joint_any *out_def)
 {
     *out_def = (fe__joint_any){0};

@@ -8,7 +8,6 @@
 #include <stddef.h>
 
 // Hits are ordered in the caller's array, which needs them whole, as version 1.0 knew them.
-enum { LEAST_SORTED_HIT = offsetof(fe_hit, flags) + sizeof(uint32_t) };
 
 // ---- arguments ------------------------------------------------------------------------------------------------------------------
 static fe_query_filter default_filter(void) { return (fe_query_filter){.struct_size = sizeof(fe_query_filter), .mask = UINT32_MAX}; }
@@ -119,7 +118,7 @@ int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, cons
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     FE_CHECK_ARRAY(out_hits, capacity);
-    FE_CHECK_RECORD_STRIDE(stride, LEAST_SORTED_HIT, capacity);
+    FE_CHECK_RECORD_STRIDE(stride, FE_SORTED_HIT, capacity);
     fe_query_filter whole;
     FE_TRY(fe__read_filter(function, filter, &whole));
     fe__fp_state fp = fe__fp_enter();
@@ -178,7 +177,7 @@ int32_t fe_world_sweep_all(const fe_world *world, const fe_geometry *geometry, c
     FE_CHECK_TRANSFORM(start);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     FE_CHECK_ARRAY(out_hits, capacity);
-    FE_CHECK_RECORD_STRIDE(stride, LEAST_SORTED_HIT, capacity);
+    FE_CHECK_RECORD_STRIDE(stride, FE_SORTED_HIT, capacity);
     fe_query_filter whole;
     FE_TRY(fe__read_filter(function, filter, &whole));
     fe__fp_state fp = fe__fp_enter();
@@ -224,6 +223,48 @@ int32_t fe_world_overlap_any(const fe_world *world, const fe_geometry *geometry,
     int32_t overlaps = fe__overlap_any(&scene, &probe);
     fe__fp_leave(fp);
     return overlaps;
+}
+
+enum { LEAST_SORTED_OVERLAP = 16 }; // bytes: body and shape
+
+int32_t fe_world_overlap_shapes(const fe_world *world, const fe_geometry *geometry, const fe_transform *at, const fe_query_filter *filter,
+                                fe_overlap *out_overlaps, uint32_t stride, int32_t capacity)
+{
+    FE_READ(world);
+    fe__form form;
+    FE_TRY(fe__read_moving_form(function, geometry, &form));
+    FE_CHECK_TRANSFORM(at);
+    FE_CHECK_ARRAY(out_overlaps, capacity);
+    FE_CHECK_RECORD_STRIDE(stride, LEAST_SORTED_OVERLAP, capacity);
+    fe_query_filter whole;
+    FE_TRY(fe__read_filter(function, filter, &whole));
+    fe__fp_state fp = fe__fp_enter();
+    fe__scene scene = fe__scene_of(world, &whole);
+    fe__probe probe = fe__probe_form(&form, at, nowhere);
+    int32_t count = fe__overlap_shapes(&scene, &probe, out_overlaps, stride, capacity);
+    fe__fp_leave(fp);
+    return count;
+}
+
+int32_t fe_world_overlap_bounds(const fe_world *world, const fe_bounds *bounds, const fe_query_filter *filter, fe_shape *out_shapes,
+                                int32_t capacity)
+{
+    FE_READ(world);
+    FE_CHECK_POINTER(bounds);
+    FE_CHECK_DVEC3(&bounds->lower, FE_MAX_TRANSLATION);
+    FE_CHECK_DVEC3(&bounds->upper, FE_MAX_TRANSLATION);
+    if (bounds->lower.x > bounds->upper.x || bounds->lower.y > bounds->upper.y || bounds->lower.z > bounds->upper.z) {
+        return fe__fail(function, FE_ERROR_ARGUMENT, "lower of bounds is above upper along an axis");
+    }
+    FE_CHECK_ARRAY(out_shapes, capacity);
+    fe_query_filter whole;
+    FE_TRY(fe__read_filter(function, filter, &whole));
+    fe__fp_state fp = fe__fp_enter();
+    fe__scene scene = fe__scene_of(world, &whole);
+    fe__bounds box = {bounds->lower, bounds->upper};
+    int32_t count = fe__overlap_bounds(&scene, &box, out_shapes, capacity);
+    fe__fp_leave(fp);
+    return count;
 }
 
 // ---- what is near ---------------------------------------------------------------------------------------------------------------

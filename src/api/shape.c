@@ -136,7 +136,7 @@ static fe_shape_def default_shape(void)
     return (fe_shape_def){.struct_size = sizeof(fe_shape_def),
                           .density = 1000.0f,
                           .frame.rotation.w = 1.0f,
-                          .material = {.static_friction = 0.6f, .dynamic_friction = 0.5f},
+                          .material = fe__default_material(),
                           .layer = 1,
                           .mask = UINT32_MAX,
                           .events = FE_SHAPE_EVENTS_TOUCH,

@@ -150,6 +150,21 @@ fe_result fe_world_get_substeps(const fe_world *world, int32_t *out_substeps)
     return FE_OK;
 }
 
+fe_result fe_world_set_user_data(fe_world *world, uint64_t user_data)
+{
+    FE_WRITE(world);
+    world->user_data = user_data;
+    return FE_OK;
+}
+
+fe_result fe_world_get_number(const fe_world *world, uint32_t *out_number)
+{
+    FE_READ(world);
+    FE_CHECK_POINTER(out_number);
+    *out_number = (uint32_t)world->number;
+    return FE_OK;
+}
+
 fe_result fe_world_get_user_data(const fe_world *world, uint64_t *out_user_data)
 {
     FE_READ(world);
@@ -177,6 +192,9 @@ static fe_result read_tuning(const char *function, const fe_world_tuning *tuning
     FE_CHECK_FLOAT(copy->sleep_time, 0.0f, FE_MAX_VALUE);
     FE_CHECK_FLOAT(copy->speculative_distance, 0.001f, 0.1f);
     FE_CHECK_FLOAT(copy->max_linear_speed, FE_LEAST_VALUE, FE_MAX_SPEED);
+    FE_CHECK_BOOL(copy->sleep_enabled);
+    FE_CHECK_BOOL(copy->continuous_enabled);
+    FE_CHECK_BOOL(copy->warm_start_enabled);
     return FE_OK;
 }
 
@@ -195,7 +213,9 @@ fe_result fe_world_set_tuning(fe_world *world, const fe_world_tuning *tuning)
     FE_TRY(read_tuning(function, tuning, &copy));
     int32_t same_reach = copy.speculative_distance == world->tuning.speculative_distance;
     if (copy.joint_hertz != world->tuning.joint_hertz) world->joints.forest.changed = world->solver.graph_changed = 1; // what is a spring
+    int32_t wakes = world->tuning.sleep_enabled && !copy.sleep_enabled;
     world->tuning = copy;
+    if (wakes) wake_all(world);
     if (same_reach) return FE_OK;
     fe__fp_state fp = fe__fp_enter();
     renew_boxes(world);
@@ -221,6 +241,17 @@ fe_result fe_world_ignore_collision(fe_world *world, fe_body a, fe_body b, int32
     return fe__report(function, fe__ignore_collision(world, index_a, index_b, ignore));
 }
 
+fe_result fe_world_get_ignored(const fe_world *world, fe_body a, fe_body b, int32_t *out_ignored)
+{
+    FE_READ(world);
+    FE_FIND_BODY(index_a, a);
+    FE_FIND_BODY(index_b, b);
+    FE_CHECK_POINTER(out_ignored);
+    if (a == b) return fe__fail(function, FE_ERROR_ARGUMENT, "a and b are the same body 0x%llx", a);
+    *out_ignored = fe__pair_set_find(&world->ignored, index_a, index_b) >= 0;
+    return FE_OK;
+}
+
 fe_result fe_world_optimize(fe_world *world)
 {
     FE_WRITE(world);
@@ -228,6 +259,25 @@ fe_result fe_world_optimize(fe_world *world)
     int32_t built = fe__tree_rebuild(&world->static_tree, &world->memory, 1) && fe__tree_rebuild(&world->moving_tree, &world->memory, 1);
     fe__fp_leave(fp);
     return built ? FE_OK : fe__report(function, FE_ERROR_MEMORY);
+}
+
+// ---- the defaults of what is read into, and of what the host gives ---------------------------------------------------------------
+
+#define FE_DEFINE_EMPTY_INIT(name, type, argument)                        \
+    void name(type *argument, uint32_t struct_size)                       \
+    {                                                                     \
+        type defaults = {.struct_size = sizeof defaults};                 \
+        fe__init_struct(argument, &defaults, sizeof defaults, struct_size); \
+    }
+
+FE_DEFINE_EMPTY_INIT(fe_allocator_init, fe_allocator, allocator)
+FE_DEFINE_EMPTY_INIT(fe_profile_init, fe_profile, profile)
+FE_DEFINE_EMPTY_INIT(fe_counters_init, fe_counters, counters)
+
+void fe_task_system_init(fe_task_system *tasks, uint32_t struct_size)
+{
+    fe_task_system defaults = {.struct_size = sizeof defaults, .worker_count = 1};
+    fe__init_struct(tasks, &defaults, sizeof defaults, struct_size);
 }
 
 // ---- measures -------------------------------------------------------------------------------------------------------------------

@@ -103,6 +103,7 @@ void fe__stop_fast_bodies(fe__step *step)
 {
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
+    if (!w->tuning.continuous_enabled) return;
     atomic_store(&s->chased_count, 0);
     atomic_store(&s->kinematic_count, 0);
     s->kinematic_room = w->awake_body_count;

@@ -137,9 +137,21 @@ static void tell(const fe__scene *scene, const fe__probe *probe, int32_t index, 
     set(&out->point, &point);
     out->fraction = hit->t;
     out->normal = against_way(normal, way);
-    out->triangle = hit->triangle;
     out->depth = (float)hit->depth;
     out->flags = hit->inside ? FE_HIT_STARTED_INSIDE : 0u;
+    out->material = fe__scene_material(scene, shape, hit->triangle);
+    out->part = -1;
+    out->triangle = hit->triangle;
+    fe__scene_weights(scene, shape, hit->triangle, point, out->barycentric);
+    memset(out->reserved, 0, sizeof out->reserved);
+}
+
+int32_t fe__cast_inside(const fe__scene *scene, const fe__probe *probe, int32_t shape, fe_hit *out_hit)
+{
+    found f;
+    if (!meet(scene, probe, &scene->shapes[shape], 0.0, &f) || !f.hit.inside) return 0;
+    tell(scene, probe, shape, &f, out_hit);
+    return 1;
 }
 
 // ---- the nearest ----------------------------------------------------------------------------------------------------------------
@@ -253,9 +265,9 @@ static double visit_all(void *context, int32_t index, double limit)
 static int32_t hit_before(const void *context, const void *a, const void *b)
 {
     const fe__scene *scene = context;
-    fe_hit h, k; // records may be unaligned
-    memcpy(&h, a, sizeof h);
-    memcpy(&k, b, sizeof k);
+    fe_hit h, k; // records may be unaligned, and end after their flags
+    memcpy(&h, a, FE_SORTED_HIT);
+    memcpy(&k, b, FE_SORTED_HIT);
     if (h.fraction != k.fraction) return h.fraction < k.fraction;
     if (h.flags != k.flags) return h.flags > k.flags;
     return fe__created_before(&scene->shapes[fe__id_slot_of(h.shape)], &scene->shapes[fe__id_slot_of(k.shape)]);
@@ -267,7 +279,7 @@ int32_t fe__cast_all(const fe__scene *scene, const fe__probe *probe, fe_hit *out
                     .probe = probe,
                     .keep = {.records = out_hits,
                              .stride = stride,
-                             .size = sizeof(fe_hit),
+                             .size = stride < sizeof(fe_hit) ? stride : sizeof(fe_hit),
                              .capacity = capacity,
                              .before = hit_before,
                              .context = scene}};

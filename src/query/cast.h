@@ -7,6 +7,10 @@
 
 #include "collision/cast/sweep.h"
 
+#include <stddef.h>
+
+enum { FE_SORTED_HIT = offsetof(fe_hit, flags) + sizeof(uint32_t) }; // bytes of a hit that its order depends on
+
 typedef struct fe__probe {
     fe__form form;    // sphere, capsule or box; a sphere of radius 0: a ray
     fe__tree_way way; // of its centre, with the half widths of its bounds
@@ -18,6 +22,9 @@ fe__probe fe__probe_form(const fe__form *form, const fe_transform *from, fe_dvec
 
 // Does it overlap the shape where it starts? Exactly when a cast would start inside.
 int32_t fe__probe_overlaps(const fe__scene *scene, const fe__probe *probe, const fe__shape *shape);
+
+// Of one shape that the probe overlaps where it starts: a hit at fraction 0. With no translation its normal is the shortest way out. 1: it does
+int32_t fe__cast_inside(const fe__scene *scene, const fe__probe *probe, int32_t shape, fe_hit *out_hit);
 
 // The nearest; of equally near ones what overlaps at the start, then that of the body created first. 1: hit.
 int32_t fe__cast_closest(const fe__scene *scene, const fe__probe *probe, fe_hit *out_hit);

@@ -25,12 +25,16 @@ static fe_closest closest_of(const fe__scene *scene, int32_t index, const fe__ne
 {
     const fe__shape *shape = &scene->shapes[index];
     fe_quat q = shape->pose.rotation;
-    return (fe_closest){.body = fe__id_pool_handle(scene->body_ids, shape->body),
-                        .shape = fe__id_pool_handle(scene->shape_ids, index),
-                        .point = fe__dadd(shape->pose.position, fe__drotate(q, found->point)),
-                        .distance = found->distance,
-                        .normal = fe__narrow(fe__drotate(q, found->normal)),
-                        .triangle = found->triangle};
+    fe_closest closest = {.body = fe__id_pool_handle(scene->body_ids, shape->body),
+                          .shape = fe__id_pool_handle(scene->shape_ids, index),
+                          .point = fe__dadd(shape->pose.position, fe__drotate(q, found->point)),
+                          .distance = found->distance,
+                          .material = fe__scene_material(scene, shape, found->triangle),
+                          .normal = fe__narrow(fe__drotate(q, found->normal)),
+                          .part = -1,
+                          .triangle = found->triangle};
+    fe__scene_weights(scene, shape, found->triangle, closest.point, closest.barycentric);
+    return closest;
 }
 
 static double visit(void *context, int32_t index, double limit)

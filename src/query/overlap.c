@@ -5,6 +5,7 @@
 
 #include "query/keep.h"
 
+#include <stddef.h>
 #include <string.h>
 
 typedef struct search {
@@ -102,4 +103,108 @@ int32_t fe__overlap_any(const fe__scene *scene, const fe__probe *probe)
     search s = {.scene = scene, .probe = probe, .body = FE_ANY_BODY, .shape = -1};
     walk(&s, visit_any);
     return s.shape >= 0;
+}
+
+// ---- shapes ---------------------------------------------------------------------------------------------------------------------
+
+static int32_t overlap_before(const void *context, const void *a, const void *b)
+{
+    const fe__scene *scene = context;
+    fe_overlap of_a, of_b; // records may be unaligned, and shorter
+    memcpy(&of_a, a, offsetof(fe_overlap, material));
+    memcpy(&of_b, b, offsetof(fe_overlap, material));
+    return fe__created_before(&scene->shapes[fe__id_slot_of(of_a.shape)], &scene->shapes[fe__id_slot_of(of_b.shape)]);
+}
+
+static int32_t visit_shapes(void *context, int32_t index)
+{
+    search *s = context;
+    fe_hit hit;
+    if (!fe__scene_counts(s->scene, &s->scene->shapes[index]) || !fe__cast_inside(s->scene, s->probe, index, &hit)) return 1;
+    fe_overlap overlap = {.body = hit.body,
+                          .shape = hit.shape,
+                          .material = hit.material,
+                          .direction = hit.normal,
+                          .depth = hit.depth,
+                          .part = hit.part,
+                          .triangle = hit.triangle};
+    fe__keep_add(&s->keep, &overlap);
+    return 1;
+}
+
+int32_t fe__overlap_shapes(const fe__scene *scene, const fe__probe *probe, fe_overlap *out_overlaps, uint32_t stride, int32_t capacity)
+{
+    search s = {.scene = scene,
+                .probe = probe,
+                .body = FE_ANY_BODY,
+                .shape = -1,
+                .keep = {.records = out_overlaps,
+                         .stride = stride,
+                         .size = stride < sizeof *out_overlaps ? stride : sizeof *out_overlaps,
+                         .capacity = capacity,
+                         .before = overlap_before,
+                         .context = scene}};
+    walk(&s, visit_shapes);
+    fe__keep_sort(&s.keep);
+    return (int32_t)s.keep.found;
+}
+
+// ---- bounds ---------------------------------------------------------------------------------------------------------------------
+
+typedef struct bounds_search {
+    const fe__scene *scene;
+    const fe__bounds *box;
+    fe__keep keep;
+} bounds_search;
+
+static int32_t shape_before(const void *context, const void *a, const void *b)
+{
+    const fe__scene *scene = context;
+    uint64_t of_a, of_b;
+    memcpy(&of_a, a, sizeof of_a);
+    memcpy(&of_b, b, sizeof of_b);
+    return fe__created_before(&scene->shapes[of_a], &scene->shapes[of_b]);
+}
+
+// The corner of the box that is deepest in the half space
+static int32_t plane_meets(const fe__shape *plane, const fe__bounds *box)
+{
+    fe_dvec3 n = fe__drotate(plane->pose.rotation, fe__widen(plane->form.normal));
+    fe_dvec3 deepest = {n.x > 0.0 ? box->low.x : box->high.x, n.y > 0.0 ? box->low.y : box->high.y, n.z > 0.0 ? box->low.z : box->high.z};
+    return fe__ddot(n, fe__dsub(deepest, plane->pose.position)) <= (double)plane->form.distance;
+}
+
+static int32_t bounds_meet(const fe__shape *shape, const fe__bounds *box)
+{
+    fe__bounds b = fe__form_bounds(&shape->form, &shape->pose);
+    return b.low.x <= box->high.x && b.high.x >= box->low.x && b.low.y <= box->high.y && b.high.y >= box->low.y && b.low.z <= box->high.z &&
+           b.high.z >= box->low.z;
+}
+
+static int32_t visit_bounds(void *context, int32_t index)
+{
+    bounds_search *s = context;
+    const fe__shape *shape = &s->scene->shapes[index];
+    uint64_t record = (uint64_t)index;
+    if (!fe__scene_counts(s->scene, shape)) return 1;
+    if (shape->form.type == FE__FORM_PLANE ? plane_meets(shape, s->box) : bounds_meet(shape, s->box)) fe__keep_add(&s->keep, &record);
+    return 1;
+}
+
+int32_t fe__overlap_bounds(const fe__scene *scene, const fe__bounds *box, fe_shape *out_shapes, int32_t capacity)
+{
+    bounds_search s = {.scene = scene,
+                       .box = box,
+                       .keep = {.records = out_shapes,
+                                .stride = sizeof(fe_shape),
+                                .size = sizeof(fe_shape),
+                                .capacity = capacity,
+                                .before = shape_before,
+                                .context = scene}};
+    for (int32_t i = 0; i < scene->plane_count; ++i) (void)visit_bounds(&s, scene->planes[i]);
+    fe__tree_query(scene->static_tree, box, visit_bounds, &s);
+    fe__tree_query(scene->moving_tree, box, visit_bounds, &s);
+    fe__keep_sort(&s.keep);
+    for (int32_t i = 0; i < s.keep.kept; ++i) out_shapes[i] = fe__id_pool_handle(scene->shape_ids, (int32_t)out_shapes[i]);
+    return (int32_t)s.keep.found;
 }

@@ -36,6 +36,21 @@ static inline int32_t fe__scene_counts(const fe__scene *scene, const fe__shape *
     return 1;
 }
 
+// fe_material.user_id of a shape there
+static inline uint64_t fe__scene_material(const fe__scene *scene, const fe__shape *shape, int32_t triangle)
+{
+    (void)scene, (void)triangle;
+    return shape->material.user_id;
+}
+// fe_hit.barycentric of a point of the world
+static inline void fe__scene_weights(const fe__scene *scene, const fe__shape *shape, int32_t triangle, fe_dvec3 point, float *out_weights)
+{
+    out_weights[0] = out_weights[1] = 0.0f;
+    if (triangle < 0) return;
+    fe_dvec3 local = fe__drotate_back(shape->pose.rotation, fe__dsub(point, shape->pose.position));
+    fe__heightfield_weights(scene->fields + shape->form.field, triangle, local, out_weights);
+}
+
 // The order of all answers: by the body's creation, then by the shape's.
 static inline int32_t fe__created_before(const fe__shape *a, const fe__shape *b)
 {

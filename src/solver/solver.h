@@ -49,11 +49,16 @@ typedef struct fe__softness {
 // The substeps of an island, see solve.c
 enum { FE__USUAL, FE__STRAINED, FE__STRETCHED, FE__PACES };
 
+// Hertz are limited to what the substeps can follow, as shares of their rate (step/solve_stage.c says why)
+#define FE__MOST_CONTACT_HERTZ 0.125f
+#define FE__MOST_JOINT_HERTZ 0.225f
+
 typedef struct fe__step_constants {
     float h, inverse_h; // of a substep, s
     float push_speed;   // overlap is pushed out no faster, m/s
     float threshold;    // of restitution, m/s
     float warm_scale;   // h now / h of the stored impulses
+    float contact_warm_scale; // that, or 0: contacts begin without them
     float max_speed;    // m/s
     float speculative;  // m
     float strain;       // m/s; what a load of one step could do to its two bodies, from which on their island is strained

@@ -187,6 +187,7 @@ void fe__put_islands_to_sleep(fe__step *step)
     fe_world *w = step->world;
     float *timers = step->scratch->island_timers;
     int32_t some = 0;
+    if (!w->tuning.sleep_enabled) return;
     for (int32_t i = 0; i < w->solver.island_count; ++i) timers[i] = FLT_MAX;
     for (int32_t i = 0; i < w->awake_body_count; ++i) {
         const fe__body *body = w->bodies + w->awake_bodies[i];

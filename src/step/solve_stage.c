@@ -39,12 +39,11 @@ static float strain_of(const fe_world *w, float dt)
 // Joints': of a mode of many rows a pass puts right only a small share. It swings at sqrt(2 share) / h, the pushes of the soft pass add up
 // in its impulses, and its amplitude grows by 1 + (x^2 - 2) fade / 4 a substep, x = 2 pi hertz h, less what the passes take. So x^2 < 2,
 // 0.225 of the rate. Contacts against static bodies are stiffer than that, but end modes of softer ones.
-#define MOST_JOINT_HERTZ 0.225f
 
 fe__step_constants fe__constants_of(const fe_world *w, float dt, int32_t division)
 {
     const fe_world_tuning *t = &w->tuning;
-    float whole = dt / (float)w->substeps, rate = whole > 0.0f ? 1.0f / whole : 0.0f, hertz = fe__minf(t->contact_hertz, 0.125f * rate);
+    float whole = dt / (float)w->substeps, rate = whole > 0.0f ? 1.0f / whole : 0.0f, hertz = fe__minf(t->contact_hertz, FE__MOST_CONTACT_HERTZ * rate);
     float h = whole / (float)division;
     fe__step_constants c = {.h = h,
                             .inverse_h = h > 0.0f ? 1.0f / h : 0.0f,
@@ -58,7 +57,8 @@ fe__step_constants fe__constants_of(const fe_world *w, float dt, int32_t divisio
                             .division = division,
                             .sweeps = 1,
                             .gravity = w->gravity};
-    c.joint_hertz = MOST_JOINT_HERTZ * rate;
+    c.contact_warm_scale = t->warm_start_enabled ? c.warm_scale : 0.0f;
+    c.joint_hertz = FE__MOST_JOINT_HERTZ * rate;
     c.joint = fe__make_softness(fe__minf(t->joint_hertz, c.joint_hertz), t->joint_damping_ratio, h);
     c.between_dynamic = fe__make_softness(hertz, t->contact_damping_ratio, h);
     c.against_static = fe__make_softness(fe__minf(2.0f * t->contact_hertz, 0.25f * rate), t->contact_damping_ratio, h);

@@ -20,7 +20,10 @@ fe_world_tuning fe__default_tuning(void)
                              .hit_event_threshold = 1.0f,
                              .sleep_time = 0.5f,
                              .speculative_distance = 0.02f,
-                             .max_linear_speed = 4000.0f};
+                             .max_linear_speed = 4000.0f,
+                             .sleep_enabled = 1,
+                             .continuous_enabled = 1,
+                             .warm_start_enabled = 1};
 }
 
 // The host's task system, a shared pool, or workers of the world's own

@@ -45,7 +45,7 @@ void fe__body_add_force(fe_world *world, int32_t index, fe_vec3 force, fe_vec3 t
 }
 
 // I = R diag(principal) R^T in world axes, in double
-static void world_inertia(const fe__body *body, double inertia[3][3])
+void fe__body_world_inertia(const fe__body *body, double inertia[3][3])
 {
     fe_quat rotation = fe__rotation_of(body), axes = fe__quat_of(body->inertia_axes);
     double column[3][3];
@@ -66,7 +66,7 @@ static void world_inertia(const fe__body *body, double inertia[3][3])
 fe_vec3 fe__body_spin_change(const fe__body *body, fe_vec3 angular_impulse)
 {
     double m[3][3], l[3] = {(double)angular_impulse.x, (double)angular_impulse.y, (double)angular_impulse.z};
-    world_inertia(body, m);
+    fe__body_world_inertia(body, m);
     double size = fe__maxd(fe__maxd(m[0][0], m[1][1]), m[2][2]);
     uint32_t locks = (uint32_t)body->lock_bits >> 3;
     for (int k = 0; k < 3; ++k) {

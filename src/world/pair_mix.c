@@ -26,6 +26,28 @@ int32_t fe__pair_kind(const fe_world *world, int32_t shape_a, int32_t shape_b)
     return kind;
 }
 
+static float mix(int32_t combine, float a, float b)
+{
+    switch (combine) {
+    case FE_COMBINE_AVERAGE:
+        return 0.5f * (a + b);
+    case FE_COMBINE_MINIMUM:
+        return fe__minf(a, b);
+    case FE_COMBINE_MULTIPLY:
+        return a * b;
+    default:
+        return fe__maxf(a, b);
+    }
+}
+
+// A product of two large frictions stays within what one material may have
+#define MOST_FRICTION 1e6f
+static float mix_friction(int32_t combine, float a, float b)
+{
+    return combine == FE_COMBINE_DEFAULT ? sqrtf(a * b) : fe__minf(mix(combine, a, b), MOST_FRICTION);
+}
+static float mix_restitution(int32_t combine, float a, float b) { return mix(combine, a, b); }
+
 // velocity of a shape's surface, world axes
 static fe_vec3 surface_of(const fe__shape *shape) { return fe__rotate(shape->pose.rotation, shape->surface_velocity); }
 
@@ -39,9 +61,10 @@ void fe__pair_mix_surface(fe_world *world, int32_t pair)
     const fe_material *x = fe__shape_material(world, a, cell), *y = fe__shape_material(world, b, cell);
     fe_vec3 surface = fe__sub(surface_of(b), surface_of(a));
     if (p->flags & FE__PAIR_FLIPPED) surface = fe__neg(surface);
-    m->static_friction = sqrtf(x->static_friction * y->static_friction);
-    m->surface.dynamic_friction = sqrtf(x->dynamic_friction * y->dynamic_friction);
-    e->restitution = fe__maxf(x->restitution, y->restitution);
+    int32_t friction = fe__maxi(x->friction_combine, y->friction_combine);
+    m->static_friction = mix_friction(friction, x->static_friction, y->static_friction);
+    m->surface.dynamic_friction = mix_friction(friction, x->dynamic_friction, y->dynamic_friction);
+    e->restitution = mix_restitution(fe__maxi(x->restitution_combine, y->restitution_combine), x->restitution, y->restitution);
     e->rolling = fe__maxf(x->rolling_resistance, y->rolling_resistance) * form_radius(a, b);
     e->spinning = fe__maxf(x->spinning_resistance, y->spinning_resistance);
     e->surface_velocity[0] = surface.x, e->surface_velocity[1] = surface.y, e->surface_velocity[2] = surface.z;

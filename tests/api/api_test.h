@@ -44,6 +44,8 @@ static inline void check_refusal(int32_t result, int32_t expected, const char *c
     } while (0)
 
 #define OK(call) assert_int_equal(call, FE_OK)
+// A query finds one
+#define HIT(call) assert_int_equal(call, 1)
 // The sentence of the last failure contains the words
 #define SAYS(words)                                                              \
     do {                                                                         \
@@ -57,6 +59,18 @@ static inline fe_world *new_world(void)
 {
     fe_world *world = NULL;
     OK(fe_world_create(NULL, &world));
+    assert_non_null(world);
+    return world;
+}
+
+// Worlds with the same number give the same handles for the same calls
+static inline fe_world *new_world_of(uint32_t number)
+{
+    fe_world_def def;
+    fe_world *world = NULL;
+    fe_world_def_init(&def, sizeof def);
+    def.number = number;
+    OK(fe_world_create(&def, &world));
     assert_non_null(world);
     return world;
 }

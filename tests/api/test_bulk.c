@@ -53,7 +53,7 @@ static void writing_is_all_or_none(void **state)
     for (int i = 0; i < COUNT; ++i) bad[i].position.y = 50;
     bad[COUNT - 1].rotation.w = NOT_A_NUMBER;
     memcpy(wrong, bodies, sizeof wrong);
-    wrong[COUNT - 1] += 1u << 24;
+    wrong[COUNT - 1] += NEXT_GENERATION;
     REFUSES(world, FE_ERROR_ARGUMENT, fe_world_set_transforms(world, bodies, bad, 0, COUNT));
     REFUSES(world, FE_ERROR_STALE, fe_world_set_transforms(world, wrong, good, 0, COUNT));
     REFUSES(world, FE_ERROR_ARGUMENT, fe_world_set_transforms(world, bodies, good, 39, COUNT));
@@ -85,7 +85,7 @@ static void reading_is_all_or_none(void **state)
     memset(out, 0x22, sizeof out);
     memset(floats, 0x22, sizeof floats);
     memcpy(untouched, out, sizeof out);
-    bodies[COUNT - 1] += 1u << 24;
+    bodies[COUNT - 1] += NEXT_GENERATION;
     REFUSES(world, FE_ERROR_STALE, fe_world_get_transforms(world, bodies, out, 0, COUNT));
     REFUSES(world, FE_ERROR_STALE, fe_world_get_transforms_f32(world, bodies, &origin, floats, 0, COUNT));
     REFUSES(world, FE_ERROR_STALE, fe_world_get_velocities(world, bodies, floats, 0, COUNT));

@@ -219,7 +219,7 @@ static void bad_arrays_are_refused(void **state)
     REFUSES(t.world, FE_ERROR_ARGUMENT, fe_body_get_contacts(t.world, t.box, NULL, 0, 1));
     REFUSES(t.world, FE_ERROR_ARGUMENT, fe_body_get_contacts(t.world, t.box, contact, 6, 1));
     REFUSES(t.world, FE_ERROR_KIND, fe_body_get_contacts(t.world, t.box_shape, contact, sizeof *contact, 1));
-    REFUSES(t.world, FE_ERROR_STALE, fe_shape_get_contacts(t.world, t.box_shape + (1u << 24), contact, sizeof *contact, 1));
+    REFUSES(t.world, FE_ERROR_STALE, fe_shape_get_contacts(t.world, t.box_shape + NEXT_GENERATION, contact, sizeof *contact, 1));
     REFUSES(t.world, FE_ERROR_ARGUMENT, fe_shape_get_contacts(t.world, t.box_shape, contact, sizeof *contact, -1));
     FE_TRUE(contact[0].point_count == 0x66666666);
     OK(fe_world_destroy(t.world));

@@ -46,7 +46,7 @@ static int32_t triangle_below(const fe_world *world, double x, double z, double 
     fe_hit hit;
     int32_t result = fe_world_raycast(world, &(fe_dvec3){x, 100.0, z}, &(fe_dvec3){0.0, -200.0, 0.0}, NULL, &hit);
     if (result == 0) return -1;
-    OK(result);
+    assert_int_equal(result, 1);
     FE_TRUE(hit.normal.y > 0.0f && hit.triangle >= 0);
     if (y) *y = hit.point.y;
     return hit.triangle;
@@ -117,7 +117,7 @@ static void what_is_out_of_range_is_refused(void **state)
     fe_heightfield_def d = flat_def();
     REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_create(world_store(world), NULL, &asset));
     REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_create(world_store(world), &d, NULL));
-    REFUSES(NULL, FE_ERROR_ARGUMENT, fe_heightfield_create(world_store(NULL), &d, &asset));
+    REFUSES(NULL, FE_ERROR_ARGUMENT, fe_heightfield_create(NULL, &d, &asset));
     OK(fe_world_destroy(world));
 }
 
@@ -127,7 +127,6 @@ static void only_static_bodies_have_one(void **state)
     fe_world *world = new_world();
     fe_asset asset = new_field(world);
     fe_geometry g, sphere, got = {.struct_size = sizeof got};
-    fe_geometry_heightfield(NULL, asset);
     fe_geometry_heightfield(&g, asset);
     fe_geometry_sphere(&sphere, 1.0f);
     fe_shape shape;

@@ -11,12 +11,12 @@ static void init(int32_t kind, any_def *d)
 }
 
 // the names of the calls, so that their sentences can be checked
-static const char *const create_names[ANY_KINDS] = {"fe_distance_joint_create(", "fe_ball_joint_create(", "fe_hinge_joint_create(", "fe_fixed_joint_create(",
-                                                    "fe_configurable_joint_create("};
-static const char *const set_names[ANY_KINDS] = {"fe_distance_joint_set(", "fe_ball_joint_set(", "fe_hinge_joint_set(", "fe_fixed_joint_set(",
-                                                 "fe_configurable_joint_set("};
-static const char *const get_names[ANY_KINDS] = {"fe_distance_joint_get(", "fe_ball_joint_get(", "fe_hinge_joint_get(", "fe_fixed_joint_get(",
-                                                 "fe_configurable_joint_get("};
+static const char *const create_names[ANY_KINDS] = {"fe_distance_joint_create(", "fe_ball_joint_create(", "fe_hinge_joint_create(",
+                                                    "fe_fixed_joint_create(", "fe_configurable_joint_create("};
+static const char *const set_names[ANY_KINDS] = {"fe_distance_joint_set(", "fe_ball_joint_set(", "fe_hinge_joint_set(",
+                                                 "fe_fixed_joint_set(", "fe_configurable_joint_set("};
+static const char *const get_names[ANY_KINDS] = {"fe_distance_joint_get(", "fe_ball_joint_get(", "fe_hinge_joint_get(",
+                                                 "fe_fixed_joint_get(", "fe_configurable_joint_get("};
 
 #define REFUSES_AS(world, expected, call, name)                             \
     do {                                                                    \
@@ -66,7 +66,7 @@ static void defaults_are_those_of_the_header(void **state)
         FE_NEAR(d.common.frame_a.position.x, 0, 0), FE_NEAR(d.common.frame_b.position.z, 0, 0);
     }
     init(0, &d);
-    FE_NEAR(d.distance.lower, 1, 0), FE_NEAR(d.distance.upper, 1, 0), FE_NEAR(d.distance.length, 1, 0);
+    FE_NEAR(d.distance.lower, 1, 0), FE_NEAR(d.distance.upper, 1, 0), FE_NEAR(d.distance.target, 1, 0);
     FE_NEAR(d.distance.spring_hertz, 0, 0), FE_NEAR(d.distance.spring_damping_ratio, 1, 0), FE_NEAR(d.distance.spring_max, 1e15f, 0);
     FE_NEAR(d.distance.motor_max, 0, 0);
     init(1, &d);
@@ -100,7 +100,7 @@ static void make_unlike_defaults(int kind, any_def *d)
     d->common.frame_b = (fe_frame){{-1, -2, -3}, {0.6f, 0, 0, 0.8f}};
     switch (kind) {
     case 0:
-        d->distance.lower = 0.5f, d->distance.upper = 2, d->distance.length = 1.5f, d->distance.spring_hertz = 3;
+        d->distance.lower = 0.5f, d->distance.upper = 2, d->distance.target = 1.5f, d->distance.spring_hertz = 3;
         d->distance.spring_damping_ratio = 0.25f, d->distance.spring_max = 7, d->distance.motor_speed = -1, d->distance.motor_max = 9;
         break;
     case 1:
@@ -120,8 +120,20 @@ static void make_unlike_defaults(int kind, any_def *d)
     default:
         for (int k = 0; k < 6; ++k) {
             float v = (float)(k + 1);
-            d->configurable.axes[k] = (fe_joint_axis){FE_MOTION_LIMITED, -0.1f * v, 0.2f * v, v,     0.1f * v, FE_SPRING_STIFFNESS,
-                                                      0.01f * v,         10 * v,    2 * v,    3 * v, -v,       4 * v};
+            d->configurable.axes[k] = (fe_joint_axis){.motion = FE_MOTION_LIMITED,
+                                                      .lower = -0.1f * v,
+                                                      .upper = 0.2f * v,
+                                                      .limit_hertz = v,
+                                                      .limit_damping_ratio = 0.1f * v,
+                                                      .spring = FE_SPRING_STIFFNESS,
+                                                      .spring_hertz = 5 * v,
+                                                      .spring_damping_ratio = 0.3f * v,
+                                                      .spring_stiffness = 10 * v,
+                                                      .spring_damping = 2 * v,
+                                                      .spring_max = 3 * v,
+                                                      .target = 0.01f * v,
+                                                      .motor_speed = -v,
+                                                      .motor_max = 4 * v};
         }
         break;
     }
@@ -275,25 +287,23 @@ static void bad_values_of_the_front_are_refused(void **state)
 static void bad_values_of_each_type_are_refused(void **state)
 {
     (void)state;
-    static const size_t distance[] = {F(distance.lower),   F(distance.upper),           F(distance.length),
-                                      F(distance.spring_hertz), F(distance.spring_damping_ratio), F(distance.spring_max),
-                                      F(distance.motor_max)};
-    static const size_t ball[] = {F(ball.cone_y),      F(ball.cone_z),       F(ball.limit_hertz),         F(ball.limit_damping_ratio),
+    static const size_t distance[] = {
+        F(distance.lower),      F(distance.upper),    F(distance.target), F(distance.spring_hertz), F(distance.spring_damping_ratio),
+        F(distance.spring_max), F(distance.motor_max)};
+    static const size_t ball[] = {F(ball.cone_y),       F(ball.cone_z),     F(ball.limit_hertz),          F(ball.limit_damping_ratio),
                                   F(ball.spring_hertz), F(ball.spring_max), F(ball.spring_damping_ratio), F(ball.motor_max)};
-    static const size_t ball_any[] = {F(ball.lower), F(ball.upper), F(ball.target.w), F(ball.motor_velocity.x),
-                                      F(ball.motor_velocity.z)};
+    static const size_t ball_any[] = {F(ball.lower), F(ball.upper), F(ball.target.w), F(ball.motor_velocity.x), F(ball.motor_velocity.z)};
     static const size_t hinge[] = {F(hinge.limit_hertz),          F(hinge.limit_damping_ratio), F(hinge.spring_hertz),
-                                   F(hinge.spring_damping_ratio), F(hinge.spring_max),       F(hinge.motor_max)};
+                                   F(hinge.spring_damping_ratio), F(hinge.spring_max),          F(hinge.motor_max)};
     static const size_t hinge_any[] = {F(hinge.lower), F(hinge.upper), F(hinge.target), F(hinge.motor_speed)};
     static const size_t fixed[] = {F(fixed.angular_hertz), F(fixed.angular_damping_ratio)};
-    static const size_t axis[] = {offsetof(fe_joint_axis, limit_hertz), offsetof(fe_joint_axis, limit_damping_ratio),
-                                  offsetof(fe_joint_axis, stiffness),   offsetof(fe_joint_axis, damping),
-                                  offsetof(fe_joint_axis, drive_force), offsetof(fe_joint_axis, motor_force)};
-    static const size_t axis_any[] = {offsetof(fe_joint_axis, low), offsetof(fe_joint_axis, high), offsetof(fe_joint_axis, target),
-                                      offsetof(fe_joint_axis, motor_speed)};
+#define A(member) offsetof(fe_joint_axis, member)
+    static const size_t axis[] = {A(limit_hertz),      A(limit_damping_ratio), A(spring_hertz), A(spring_damping_ratio),
+                                  A(spring_stiffness), A(spring_damping),      A(spring_max),   A(motor_max)};
+    static const size_t axis_any[] = {A(lower), A(upper), A(target), A(motor_speed)};
     refuses_floats(0, distance, COUNT(distance), -1);
     refuses_float(0, F(distance.motor_speed), NOT_A_NUMBER);
-    refuses_float(0, F(distance.lower), 1.5f); // above max_length
+    refuses_float(0, F(distance.lower), 1.5f); // above upper
     refuses_float(0, F(distance.upper), 0);
     refuses_floats(1, ball, COUNT(ball), -1);
     refuses_floats(1, ball_any, COUNT(ball_any), 0);
@@ -316,10 +326,12 @@ static void bad_values_of_each_type_are_refused(void **state)
         for (size_t i = 0; i < COUNT(axis); ++i) refuses_float(4, at + axis[i], -1);
         for (size_t i = 0; i < COUNT(axis); ++i) refuses_float(4, at + axis[i], NOT_A_NUMBER);
         for (size_t i = 0; i < COUNT(axis_any); ++i) refuses_float(4, at + axis_any[i], NOT_A_NUMBER);
-        refuses_int(4, at + offsetof(fe_joint_axis, mode), 3);
-        refuses_int(4, at + offsetof(fe_joint_axis, drive), -1);
-        refuses_float(4, at + offsetof(fe_joint_axis, low), 1); // above high
-        if (k >= FE_DOF_ANGULAR_X) refuses_float(4, at + offsetof(fe_joint_axis, high), 3.2f);
+        refuses_int(4, at + A(motion), 3);
+        refuses_int(4, at + A(spring), -1);
+        refuses_int(4, at + A(reserved), 1);
+        refuses_int(4, at + A(reserved[1]), 1);
+        refuses_float(4, at + A(lower), 1); // above upper
+        if (k >= FE_DOF_ANGULAR_X) refuses_float(4, at + A(upper), 3.2f);
     }
 }
 
@@ -345,7 +357,7 @@ static void calls_with_a_bad_handle(fe_world *world, fe_joint joint, fe_result e
     fe_body a, b;
     fe_vec3 force, torque;
     fe_transform x, y;
-    fe_handle data;
+    uint64_t data;
     int32_t n;
     for (int kind = 0; kind < ANY_KINDS; ++kind) {
         init(kind, &d);
@@ -474,7 +486,7 @@ static void the_common_part_is_set_and_read_on_any_type(void **state)
         REFUSES(f.world, FE_ERROR_ARGUMENT, fe_joint_set(f.world, f.joint, &common));
 
         int32_t enabled;
-        fe_handle data;
+        uint64_t data;
         OK(fe_joint_set_enabled(f.world, f.joint, 0));
         OK(fe_joint_set_enabled(f.world, f.joint, 0));
         OK(fe_joint_get_enabled(f.world, f.joint, &enabled));
@@ -602,7 +614,7 @@ static void ready_made_definitions_are_whole(void **state)
     memset(&rope, 0xCD, sizeof rope);
     rope.struct_size = sizeof rope;
     OK(fe_rope_joint_def_at(f.world, &rope, f.a, f.b, &p, &q, 7));
-    FE_NEAR(rope.lower, 0, 0), FE_NEAR(rope.upper, 7, 0), FE_NEAR(rope.length, 5, 1e-6);
+    FE_NEAR(rope.lower, 0, 0), FE_NEAR(rope.upper, 7, 0), FE_NEAR(rope.target, 5, 1e-6);
     OK(fe_distance_joint_create(f.world, &rope, &joint));
     fe_distance_joint_def_init(&rope, sizeof rope);
     OK(fe_distance_joint_def_at(f.world, &rope, f.a, f.b, &p, &q));
@@ -665,7 +677,8 @@ static void bad_arguments_of_the_makers_are_refused(void **state)
     fe_fixed_joint_def fixed;
     fe_distance_joint_def rod;
     fe_configurable_joint_def c;
-    fe_ball_joint_def_init(&ball, sizeof ball), fe_hinge_joint_def_init(&hinge, sizeof hinge), fe_fixed_joint_def_init(&fixed, sizeof fixed);
+    fe_ball_joint_def_init(&ball, sizeof ball), fe_hinge_joint_def_init(&hinge, sizeof hinge),
+        fe_fixed_joint_def_init(&fixed, sizeof fixed);
     fe_distance_joint_def_init(&rod, sizeof rod), fe_configurable_joint_def_init(&c, sizeof c);
     REFUSES(w, FE_ERROR_ARGUMENT, fe_ball_joint_def_at(w, NULL, f.a, f.b, &p, &x));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_ball_joint_def_at(w, &ball, f.a, f.a, &p, &x));

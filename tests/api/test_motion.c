@@ -107,7 +107,7 @@ static void bad_motion_is_refused(void **state)
 {
     (void)state;
     fe_world *world = new_world();
-    fe_body box = new_box(world, 0, 10, 0), stale = box + (1u << 24);
+    fe_body box = new_box(world, 0, 10, 0), stale = box + NEXT_GENERATION;
     fe_shape shape;
     assert_int_equal(fe_body_get_shapes(world, box, &shape, 1), 1);
     fe_vec3 good = {1, 2, 3}, nan = {0, NOT_A_NUMBER, 0}, endless = {0, 0, -INFINITE}, huge = {1e30f, 0, 0};
@@ -234,9 +234,8 @@ static void a_kinematic_body_reaches_its_target(void **state)
     fe_geometry geometry;
     fe_geometry_box(&geometry, 1, 0.1f, 1);
     fe_shape shape = add_shape(world, lift, &geometry);
-    fe_vec3 aside = {0.7f, 0, 0}; // it turns about its origin, wherever its shapes are
-    fe_quat same = {0, 0, 0, 1};
-    OK(fe_shape_set_local_pose(world, shape, &aside, &same));
+    fe_frame aside = {{0.7f, 0, 0}, {0, 0, 0, 1}}; // it rotates about its origin, wherever its shapes are
+    OK(fe_shape_set_frame(world, shape, &aside));
     fe_transform target = fe_make_transform(1.5, 2.25, 2);
     target.rotation = (fe_quat){0, 0.38268343f, 0, 0.92387953f}; // 45 degrees about y
     OK(fe_body_set_target(world, lift, &target, 0.5f));

@@ -107,7 +107,7 @@ static void overlaps_answer(void **state)
     assert_int_equal(fe_world_overlap(a.world, &a.ball, &a.at, NULL, NULL, 0), 1);
     assert_int_equal(fe_world_overlap(a.world, &a.point, &a.at, NULL, NULL, 0), 1);
     assert_int_equal(fe_world_overlap(a.world, &a.ball, &a.far, NULL, bodies, 3), 0);
-    OK(fe_world_overlap_any(a.world, &a.ball, &a.at, NULL));
+    HIT(fe_world_overlap_any(a.world, &a.ball, &a.at, NULL));
     assert_int_equal(fe_world_overlap_any(a.world, &a.ball, &a.far, NULL), 0);
     OK(fe_world_destroy(a.world));
 }
@@ -163,18 +163,18 @@ static void many_at_once_answer_as_one_by_one(void **state)
     static fe_path paths[MANY];
     static fe_hit one[MANY], many[MANY], spread[MANY];
     for (int i = 0; i < MANY; ++i) {
-        rays[i] = (fe_ray){{0.01 * i - 2.5, 10, 0.02 * i - 2}, {0.3, -12 + 0.05 * (i % 100), 0.1}};
-        paths[i] = (fe_path){fe_make_transform(rays[i].origin.x, 10, rays[i].origin.z), rays[i].translation};
+        rays[i] = (fe_ray){{0.01 * i - 2.5, 10, 0.02 * i - 2}, {0.3, -12 + 0.05 * (i % 100), 0.1}, {0}};
+        paths[i] = (fe_path){fe_make_transform(rays[i].origin.x, 10, rays[i].origin.z), rays[i].translation, {0}};
     }
     for (int kind = 0; kind < 2; ++kind) {
         int32_t hits = 0;
         for (int i = 0; i < MANY; ++i) {
             int32_t result = kind ? fe_world_sweep(a.world, &a.ball, &paths[i].start, &paths[i].translation, NULL, &one[i])
-                                    : fe_world_raycast(a.world, &rays[i].origin, &rays[i].translation, NULL, &one[i]);
-            hits += result == FE_OK;
-            if (result == FE_OK) continue;
+                                  : fe_world_raycast(a.world, &rays[i].origin, &rays[i].translation, NULL, &one[i]);
+            hits += result;
+            if (result == 1) continue;
             fe_dvec3 end = {rays[i].origin.x + rays[i].translation.x, 10 + rays[i].translation.y, rays[i].origin.z + rays[i].translation.z};
-            one[i] = (fe_hit){.point = end, .fraction = 1, .triangle = -1};
+            one[i] = (fe_hit){.point = end, .fraction = 1, .part = -1, .triangle = -1};
         }
         FE_WITHIN(hits, 1, MANY - 1);
         for (int32_t s = 0; s < 2; ++s) {
@@ -215,7 +215,7 @@ static void bad_rays_are_refused(void **state)
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, NULL, &a.down, NULL, h, sizeof *h, 2));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, &a.above, NULL, NULL, h, sizeof *h, 2));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, &a.above, &a.down, &bad, h, sizeof *h, 2));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, &a.above, &a.down, NULL, NULL, 0, 2));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, &a.above, &a.down, NULL, NULL, sizeof(fe_hit), 2));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, &a.above, &a.down, NULL, h, sizeof *h, -1));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, &a.above, &a.down, NULL, h, 68, 2));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_all(w, &a.above, &a.down, NULL, h, 74, 2));
@@ -268,7 +268,7 @@ static void bad_sweeps_and_overlaps_are_refused(void **state)
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep(w, &a.ball, &a.at, &a.down, NULL, NULL));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_any(w, &a.ball, &a.at, NULL, NULL));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_all(w, &a.ball, &a.at, NULL, NULL, h, sizeof *h, 2));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_all(w, &a.ball, &a.at, &a.down, NULL, NULL, 0, 2));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_all(w, &a.ball, &a.at, &a.down, NULL, NULL, sizeof(fe_hit), 2));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_all(w, &a.ball, &a.at, &a.down, NULL, h, 8, 2));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_overlap(w, &a.ball, &a.at, NULL, NULL, 2));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_overlap(w, &a.ball, &a.at, NULL, b, -2));
@@ -282,21 +282,21 @@ static void bad_batches_are_refused(void **state)
     fe_world *w = a.world;
     fe_hit h[2], untouched[2];
     memset(h, 0x55, sizeof h), memcpy(untouched, h, sizeof h);
-    fe_ray rays[2] = {{a.above, a.down}, {a.above, {0, (double)NAN, 0}}};
-    fe_path paths[2] = {{a.far, a.down}, {a.far, {0, 0, (double)INFINITY}}};
+    fe_ray rays[2] = {{a.above, a.down, {0}}, {a.above, {0, (double)NAN, 0}, {0}}};
+    fe_path paths[2] = {{a.far, a.down, {0}}, {a.far, {0, 0, (double)INFINITY}, {0}}};
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, sizeof(fe_ray), 2, NULL, 0, h, sizeof(fe_hit))); // the second
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, 44, 1, NULL, 0, h, 0));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, 44, 1, NULL, 0, h, sizeof *h));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, sizeof(fe_ray), 1, NULL, 2, h, sizeof(fe_hit)));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, 0, 1, NULL, 0, h, 4));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, sizeof(fe_ray), 1, NULL, 0, NULL, 0));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, NULL, 0, 1, NULL, 0, h, sizeof(fe_hit)));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, sizeof *rays, 1, NULL, 0, h, 4));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, sizeof(fe_ray), 1, NULL, 0, NULL, sizeof *h));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, NULL, sizeof *rays, 1, NULL, 0, h, sizeof(fe_hit)));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, sizeof(fe_ray), -1, NULL, 0, h, sizeof(fe_hit)));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, paths, sizeof(fe_path), 2, NULL, 1, h, sizeof(fe_hit))); // the second
     REFUSES(w, FE_ERROR_UNSUPPORTED, fe_world_sweep_many(w, &a.plane, paths, sizeof(fe_path), 1, NULL, 1, h, sizeof(fe_hit)));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, paths, 60, 1, NULL, 1, h, 0));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, paths, 60, 1, NULL, 1, h, sizeof *h));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, paths, sizeof(fe_path), 1, NULL, -1, h, sizeof(fe_hit)));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, NULL, 0, 1, NULL, 1, h, sizeof(fe_hit)));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, paths, sizeof(fe_path), 1, NULL, 1, NULL, 0));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, NULL, sizeof *paths, 1, NULL, 1, h, sizeof(fe_hit)));
+    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, paths, sizeof(fe_path), 1, NULL, 1, NULL, sizeof *h));
     paths[1] = paths[0], paths[1].start.rotation.w = 0;
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, paths, sizeof(fe_path), 2, NULL, 1, h, sizeof(fe_hit)));
     assert_memory_equal(h, untouched, sizeof h);
@@ -349,16 +349,16 @@ static void intrude(void *user, fe_task task, void *argument, int32_t count)
     fe_hit h;
     fe_closest c;
     fe_body b;
-    fe_ray ray = {a->above, a->down};
-    fe_path path = {a->at, a->down};
+    fe_ray ray = {a->above, a->down, {0}};
+    fe_path path = {a->at, a->down, {0}};
     const int32_t results[] = {
         fe_world_raycast(a->world, &a->above, &a->down, NULL, &h),
         fe_world_raycast_any(a->world, &a->above, &a->down, NULL),
-        fe_world_raycast_all(a->world, &a->above, &a->down, NULL, &h, 0, 1),
+        fe_world_raycast_all(a->world, &a->above, &a->down, NULL, &h, sizeof h, 1),
         fe_world_raycast_many(a->world, &ray, sizeof(fe_ray), 1, NULL, 1, &h, sizeof(fe_hit)),
         fe_world_sweep(a->world, &a->ball, &a->at, &a->down, NULL, &h),
         fe_world_sweep_any(a->world, &a->ball, &a->at, &a->down, NULL),
-        fe_world_sweep_all(a->world, &a->ball, &a->at, &a->down, NULL, &h, 0, 1),
+        fe_world_sweep_all(a->world, &a->ball, &a->at, &a->down, NULL, &h, sizeof h, 1),
         fe_world_sweep_many(a->world, &a->ball, &path, sizeof(fe_path), 1, NULL, 1, &h, sizeof(fe_hit)),
         fe_world_overlap(a->world, &a->ball, &a->at, NULL, &b, 1),
         fe_world_overlap_any(a->world, &a->ball, &a->at, NULL),

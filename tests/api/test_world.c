@@ -17,7 +17,7 @@ static void defaults_are_those_of_the_header(void **state)
     fe_world *world = new_world();
     int32_t substeps;
     fe_vec3 gravity;
-    fe_handle data = 9;
+    uint64_t data = 9;
     OK(fe_world_get_substeps(world, &substeps));
     OK(fe_world_get_gravity(world, &gravity));
     OK(fe_world_get_user_data(world, &data));
@@ -291,7 +291,7 @@ static void an_ignored_pair_passes_through(void **state)
     OK(fe_world_ignore_collision(world, ground, box, 1));
     OK(fe_body_destroy(world, box));
     fe_body next = new_box(world, 0, 0.5, 0);
-    assert_int_equal(next & 0xFFFFFF, box & 0xFFFFFF);
+    assert_int_equal(next & HANDLE_SLOT, box & HANDLE_SLOT);
     step(world, 30);
     FE_NEAR(body_transform(world, next).position.y, 0.5, 0.01);
     REFUSES(world, FE_ERROR_ARGUMENT, fe_world_ignore_collision(world, next, next, 1));
@@ -507,7 +507,7 @@ static fe_result build(fe_world *world, miser *m, int32_t left, int32_t *out_fai
     defs[0].type = FE_BODY_STATIC;
     RETRIED(fe_body_create(world, &defs[0], &body));
     RETRIED(fe_shape_create(world, body, NULL, &plane, &shape));
-    RETRIED(fe_body_create_many(world, &defs[1], 0, 39, bodies));
+    RETRIED(fe_body_create_many(world, &defs[1], sizeof *defs, 39, bodies));
     for (int i = 0; i < 39; ++i) RETRIED(fe_shape_create(world, bodies[i], NULL, &box, &shape));
     RETRIED(fe_world_ignore_collision(world, bodies[0], bodies[1], 1));
     RETRIED(fe_body_set_type(world, bodies[2], FE_BODY_STATIC));

@@ -10,6 +10,7 @@ enum { BODIES = 300, STEPS = 600, SAMPLES = 17 };
 
 typedef struct scene {
     fe_world *world;
+    fe_store *store;
     fe_asset terrain;
     fe_body body[BODIES];
     int enter, leave, hit, sleep, wake, broken, rays, overlaps;
@@ -51,7 +52,8 @@ static void add_terrain(scene *s)
     field.rows = field.columns = SAMPLES;
     field.cell_x = field.cell_z = 2.0f;
     field.heights = heights;
-    check(fe_heightfield_create(s->world, &field, &s->terrain));
+    check(fe_world_get_store(s->world, &s->store));
+    check(fe_heightfield_create(s->store, &field, &s->terrain));
 
     fe_body_def still;
     fe_shape_def shape;
@@ -128,7 +130,7 @@ static void act(scene *s, int step)
         int32_t type = FE_BODY_STATIC, count;
         int32_t result = fe_world_raycast(s->world, &origin, &down, NULL, &hit);
         check(result);
-        if (result == FE_OK) check(fe_body_get_type(s->world, hit.body, &type));
+        if (result == 1) check(fe_body_get_type(s->world, hit.body, &type));
         if (type == FE_BODY_DYNAMIC) {
             ++s->rays;
             check(fe_body_add_impulse_at(s->world, hit.body, &kick, &hit.point));
@@ -138,7 +140,7 @@ static void act(scene *s, int step)
     }
     if (step == 200) {
         static const float hill[9] = {1, 1, 1, 1, 2, 1, 1, 1, 1};
-        check(fe_heightfield_set_heights(s->world, s->terrain, 7, 7, 3, 3, hill));
+        check(fe_heightfield_set_heights(s->store, s->terrain, 7, 7, 3, 3, hill));
     }
     if (step == 400)
         for (int i = 60; i < 70; ++i) check(fe_body_destroy(s->world, s->body[i]));

@@ -116,7 +116,8 @@ static void join_by_six_axes(arena *a, dice *d, fe_body one, fe_body two, vec po
         axis->motion = pick(d, 2) ? FE_MOTION_LOCKED : FE_MOTION_LIMITED;
         axis->lower = -(float)uniform(d, 0, 0.5), axis->upper = (float)uniform(d, 0, 0.5);
         if (axis->motion == FE_MOTION_LOCKED || !a->has_drives || pick(d, 2)) continue;
-        axis->spring = FE_SPRING_HERTZ, axis->spring_hertz = (float)uniform(d, 1, 10), axis->spring_damping_ratio = (float)uniform(d, 0.1, 1);
+        axis->spring = FE_SPRING_HERTZ, axis->spring_hertz = (float)uniform(d, 1, 10),
+        axis->spring_damping_ratio = (float)uniform(d, 0.1, 1);
     }
     a->joints[a->joint_count++] = add_configurable(&a->s, six, one, two, point, somewhere(d, 1));
 }
@@ -141,7 +142,7 @@ static void join_somehow(arena *a, dice *d, fe_body one, fe_body two)
         a->joints[a->joint_count++] = add_fixed(&a->s, fixed, one, two, middle);
         break;
     case 3:
-        spring.lower = 0.3f, spring.upper = 3, spring.length = (float)length(minus(p, q));
+        spring.lower = 0.3f, spring.upper = 3, spring.target = (float)length(minus(p, q));
         spring.spring_hertz = a->has_drives ? (float)uniform(d, 1, 10) : 0.0f, spring.spring_damping_ratio = (float)uniform(d, 0.1, 1);
         a->joints[a->joint_count++] = add_distance(&a->s, spring, one, two, p, q);
         break;

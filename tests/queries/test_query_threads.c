@@ -89,8 +89,8 @@ static void *ask(void *argument)
         memset(hits, 0, sizeof hits), memset(bodies, 0, sizeof bodies), memset(&c, 0, sizeof c);
         int32_t counts[7] = {fe_world_raycast(a->world, &t.position, &way, NULL, &hits[0]),
                              fe_world_sweep(a->world, &g, &t, &way, NULL, &hits[1]),
-                             fe_world_raycast_all(a->world, &t.position, &way, NULL, &hits[2], 0, 8),
-                             fe_world_sweep_all(a->world, &g, &t, &way, NULL, &hits[10], 0, MOST - 10),
+                             fe_world_raycast_all(a->world, &t.position, &way, NULL, &hits[2], sizeof *hits, 8),
+                             fe_world_sweep_all(a->world, &g, &t, &way, NULL, &hits[10], sizeof *hits, MOST - 10),
                              fe_world_overlap(a->world, &g, &t, NULL, bodies, MOST),
                              fe_world_closest_point(a->world, &t.position, 5, NULL, &c),
                              fe_world_sweep_any(a->world, &g, &t, &way, NULL)};
@@ -139,7 +139,8 @@ static void *ask_many(void *argument)
 {
     batch *b = argument;
     b->hits = fe_world_raycast_many(b->world, b->rays, sizeof(fe_ray), QUERIES, NULL, b->spread, b->rays_out, sizeof(fe_hit));
-    b->hits += fe_world_sweep_many(b->world, b->geometry, b->paths, sizeof(fe_path), QUERIES, NULL, b->spread, b->paths_out, sizeof(fe_hit));
+    b->hits +=
+        fe_world_sweep_many(b->world, b->geometry, b->paths, sizeof(fe_path), QUERIES, NULL, b->spread, b->paths_out, sizeof(fe_hit));
     return NULL;
 }
 
@@ -156,7 +157,7 @@ static void batches_do_not_depend_on_who_answers(void **state)
     fe_geometry g = geometry(&random);
     for (int32_t i = 0; i < QUERIES; ++i) {
         rays[i].origin = place(&random, 20), rays[i].translation = place(&random, 20);
-        paths[i] = (fe_path){fe_make_transform(rays[i].origin.x, rays[i].origin.y, rays[i].origin.z), rays[i].translation};
+        paths[i] = (fe_path){fe_make_transform(rays[i].origin.x, rays[i].origin.y, rays[i].origin.z), rays[i].translation, {0}};
     }
     pthread_t threads[3];
     for (int32_t i = 0; i < 3; ++i) {

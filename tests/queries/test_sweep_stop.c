@@ -165,11 +165,20 @@ static void one_field_case(bench *b, int32_t moving, tally *t)
     t->least = fmin(t->least, gap), t->most = fmax(t->most, gap), t->normal = fmax(t->normal, error);
 }
 
-static const char *const names[] = {"sphere", "capsule", "box", "plane", "field"};
+static const struct {
+    const char *name;
+    int32_t type;
+} kinds[] = {{"sphere", FE_GEOMETRY_SPHERE},
+             {"capsule", FE_GEOMETRY_CAPSULE},
+             {"box", FE_GEOMETRY_BOX},
+             {"plane", FE_GEOMETRY_PLANE},
+             {"field", FE_GEOMETRY_HEIGHTFIELD}};
+enum { MOVING_KINDS = 3, KINDS = 5 };
 
-static tally tally_of(int32_t moving, int32_t standing)
+static tally tally_of(int32_t mover, int32_t still)
 {
-    bench b = {.world = new_world(), .random = UINT64_C(0x9e3779b97f4a7c15) + (uint32_t)(moving * 8 + standing)};
+    const int32_t moving = kinds[mover].type, standing = kinds[still].type;
+    bench b = {.world = new_world(), .random = UINT64_C(0x9e3779b97f4a7c15) + (uint32_t)(mover * 8 + still)};
     b.body = new_body(b.world, FE_BODY_STATIC, 0, 0, 0);
     b.shape = add_box(b.world, b.body, 1);
     tally t = {0, INFINITY, -INFINITY, 0};
@@ -180,8 +189,8 @@ static tally tally_of(int32_t moving, int32_t standing)
             one_case(&b, moving, standing, &t);
     }
     OK(fe_world_destroy(b.world));
-    printf("| %-7s | %-7s | %6d | %9.4f | %9.4f | %7.1e |\n", names[moving], names[standing], (int)t.hits, 1e6 * t.least, 1e6 * t.most,
-           t.normal);
+    printf("| %-7s | %-7s | %6d | %9.4f | %9.4f | %7.1e |\n", kinds[mover].name, kinds[still].name, (int)t.hits, 1e6 * t.least,
+           1e6 * t.most, t.normal);
     return t;
 }
 
@@ -190,10 +199,10 @@ static void a_sweep_stops_before_the_body(void **state)
 {
     (void)state;
     printf("| moving  | stands  | hits   | least, um | most, um  | normal  |\n|---|---|---|---|---|---|\n");
-    for (int32_t moving = FE_GEOMETRY_SPHERE; moving <= FE_GEOMETRY_BOX; ++moving) {
-        for (int32_t standing = FE_GEOMETRY_SPHERE; standing <= FE_GEOMETRY_HEIGHTFIELD; ++standing) {
-            double bound = moving == FE_GEOMETRY_BOX && standing == FE_GEOMETRY_BOX ? 1e-4 : 1e-6;
-            tally t = tally_of(moving, standing);
+    for (int32_t mover = 0; mover < MOVING_KINDS; ++mover) {
+        for (int32_t still = 0; still < KINDS; ++still) {
+            double bound = kinds[mover].type == FE_GEOMETRY_BOX && kinds[still].type == FE_GEOMETRY_BOX ? 1e-4 : 1e-6;
+            tally t = tally_of(mover, still);
             FE_WITHIN(t.hits, cases / 4, cases);
             FE_WITHIN(t.least, 0, bound);
             FE_WITHIN(t.most, 0, bound);

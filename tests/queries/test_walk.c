@@ -66,7 +66,7 @@ static fe_geometry random_geometry(known_world *k, int32_t types)
 {
     fe_geometry g;
     float a = (float)uniform(k, 0.05, 2), b = (float)uniform(k, 0.05, 2), c = (float)uniform(k, 0.05, 2);
-    int32_t type = one_of(k, types);
+    int32_t type = FE_GEOMETRY_SPHERE + one_of(k, types); // then capsule, box
     if (type == FE_GEOMETRY_SPHERE) fe_geometry_sphere(&g, a);
     if (type == FE_GEOMETRY_CAPSULE) fe_geometry_capsule(&g, a, b);
     if (type == FE_GEOMETRY_BOX) fe_geometry_box(&g, a, b, c);
@@ -154,14 +154,13 @@ static void learn_poses(known_world *k)
         known_shape *s = &k->shapes[i];
         if (s->triangle >= 0) continue;
         fe_transform t = body_transform(k->world, k->bodies[s->body]);
-        fe_vec3 position;
-        fe_quat rotation;
+        fe_frame frame;
         fe_geometry g = {.struct_size = sizeof g};
-        OK(fe_shape_get_local_pose(k->world, s->shape, &position, &rotation));
+        OK(fe_shape_get_frame(k->world, s->shape, &frame));
         OK(fe_shape_get_geometry(k->world, s->shape, &g));
         fe__pose body = {t.position, t.rotation}, pose = body;
-        int32_t centred = position.x == 0.0f && position.y == 0.0f && position.z == 0.0f && rotation.w == 1.0f;
-        if (!centred) pose = fe__compose(&body, position, rotation);
+        int32_t centred = frame.position.x == 0.0f && frame.position.y == 0.0f && frame.position.z == 0.0f && frame.rotation.w == 1.0f;
+        if (!centred) pose = fe__compose(&body, frame.position, frame.rotation);
         s->solid = make_solid(&g, v_of(pose.position), pose.rotation);
     }
 }

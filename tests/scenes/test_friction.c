@@ -1,7 +1,7 @@
 // Coulomb friction of boxes on planes: what holds, what slides and how fast, what tips. Answers are those of statics and of mu g.
 #include "scene.h"
 
-static const fe_material SMOOTH = {0, 0, 0, 0, 0};
+static const fe_material SMOOTH = SURFACE(0, 0, 0, 0, 0);
 
 // ---- slopes ---------------------------------------------------------------------------------------------------------------------
 
@@ -94,7 +94,7 @@ static void a_sliding_box_follows_coulomb_on_a_plank(void **state)
 static void static_friction_holds_and_dynamic_friction_brakes(void **state)
 {
     scene s = scene_begin(state);
-    fe_material material = {0.6f, 0.4f, 0, 0, 0};
+    fe_material material = SURFACE(0.6f, 0.4f, 0, 0, 0);
     add_ground(&s, material);
     fe_body block = add_dynamic(&s, box(0.1, 0.1, 0.1), v3(0, 0.1, 0), UNTURNED, material, 1250);
     double moved_at = 0, gained = 0;
@@ -120,7 +120,7 @@ static void a_sudden_force_below_static_friction_moves_nothing(void **state)
     for (int h = 0; h < 4; ++h) {
         for (int f = 0; f < 5; ++f) {
             scene s = scene_begin(state);
-            fe_material material = {0.6f, 0.4f, 0, 0, 0};
+            fe_material material = SURFACE(0.6f, 0.4f, 0, 0, 0);
             add_ground(&s, material);
             fe_body block = add_dynamic(&s, box(0.5, half_heights[h], 0.5), v3(0, half_heights[h], 0), UNTURNED, material, WATER);
             run(&s, 60);

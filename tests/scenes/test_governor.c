@@ -103,7 +103,7 @@ static fe_joint add_coupler(const governor *g, int side)
                moment = fmax((double)m.inertia.x, (double)m.inertia.y);
         inverse += 1 / (double)m.mass + arm * arm / moment;
     }
-    d.lower = 0, d.upper = 10, d.length = 0.5f;
+    d.lower = 0, d.upper = 10, d.target = 0.5f;
     d.spring_hertz = (float)(sqrt(8e5 * inverse) / (2 * PI));
     d.spring_damping_ratio = (float)(4e4 * inverse / (2 * sqrt(8e5 * inverse)));
     return add_distance(&s, d, g->bodies[1], g->bodies[side > 0 ? 2 : 3], from, to);

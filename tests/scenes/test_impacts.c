@@ -413,9 +413,8 @@ static void cargo_in_a_free_drum_keeps_momentum_and_gains_no_energy(void **state
         bodies[0] = add_dynamic(&s, box(half + 2 * wall, wall, half + 2 * wall), v3(0, 0, 0), UNTURNED, friction(0.5), 500);
         fe_shape floor_shape;
         FE_TRUE(fe_body_get_shapes(s.world, bodies[0], &floor_shape, 1) == 1);
-        fe_vec3 down = fe_make_vec3(0, (float)(-half - wall), 0);
-        fe_quat none = UNTURNED;
-        MUST(fe_shape_set_local_pose(s.world, floor_shape, &down, &none));
+        const fe_frame down = {fe_make_vec3(0, (float)(-half - wall), 0), UNTURNED};
+        MUST(fe_shape_set_frame(s.world, floor_shape, &down));
         for (int k = 1; k < 6; ++k) {
             fe_shape_def def;
             fe_shape shape;

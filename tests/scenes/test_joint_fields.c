@@ -80,7 +80,7 @@ static double flight(const rig *r) { return discrete_way(r->row->push / inertia_
 static double held_if(const rig *r, double value) { return value > 0.5 ? 0 : flight(r); }
 static double flies_if(const rig *r, double value) { return value > 0.5 ? flight(r) : 0; }
 static double stopped_if(const rig *r, double value) { return value > 0.5 ? 0.25 : flight(r); } // at limits of 0.25
-static double mode_decides(const rig *r, double mode) { return mode < 0.5 ? 0 : mode < 1.5 ? 0.25 : flight(r); }
+static double motion_decides(const rig *r, double motion) { return motion < 0.5 ? 0 : motion < 1.5 ? 0.25 : flight(r); }
 
 static double gives(const rig *r, double hertz) { return r->row->push / spring_of(hertz, inertia_of(r)); }
 static double gives_by_stiffness(const rig *r, double stiffness) { return r->row->push / stiffness; }
@@ -90,9 +90,14 @@ static double creeps(const rig *r, double ratio)
     double hertz = 2, rate = 2 * PI * hertz / (2 * ratio);
     return gives(r, hertz) * (1 - exp(-rate * r->row->seconds));
 }
-static double kind_of_drive(const rig *r, double drive)
+// C x' = push - 200 x, for masses that the damper holds at once
+static double creeps_by_damping(const rig *r, double damping)
 {
-    return drive < 0.5 ? flight(r) : drive < 1.5 ? gives(r, 200) : gives_by_stiffness(r, 200);
+    return gives_by_stiffness(r, 200) * (1 - exp(-200 / damping * r->row->seconds));
+}
+static double kind_of_spring(const rig *r, double spring)
+{
+    return spring < 0.5 ? flight(r) : spring < 1.5 ? gives(r, 200) : gives_by_stiffness(r, 200);
 }
 static double no_more_than_cap(const rig *r, double cap) { return fmin(r->row->push, cap); }
 static double spun_up(const rig *r, double force) { return force * r->row->seconds / inertia_of(r); }
@@ -120,7 +125,8 @@ static double pace(const rig *r)
 static double resistance(const rig *r)
 {
     int axis = r->row->axis;
-    return axis < FE_DOF_ANGULAR_X ? -component(force_of(&r->s, r->joint), axis) : -component(torque_of(&r->s, r->joint), axis - FE_DOF_ANGULAR_X);
+    return axis < FE_DOF_ANGULAR_X ? -component(force_of(&r->s, r->joint), axis)
+                                   : -component(torque_of(&r->s, r->joint), axis - FE_DOF_ANGULAR_X);
 }
 
 static double told_angle(const rig *r)
@@ -133,7 +139,7 @@ static double is_whole(const rig *r) { return fe_joint_is_valid(r->s.world, r->j
 static double touches(const rig *r) { return fe_body_get_contacts(r->s.world, r->block, NULL, 0, 0); }
 static double told_data(const rig *r)
 {
-    fe_handle data = 0;
+    uint64_t data = 0;
     MUST(fe_joint_get_user_data(r->s.world, r->joint, &data));
     return (double)data;
 }
@@ -166,13 +172,23 @@ static void put_turn(rig *r, any_def *d, const row *row, double value)
 static void put_data(rig *r, any_def *d, const row *row, double value)
 {
     (void)r, (void)row;
-    d->common.user_data = (fe_handle)value;
+    d->common.user_data = (uint64_t)value;
 }
 
 static void put_end_a(rig *r, any_def *d, const row *row, double value)
 {
     (void)row;
     if (value > 0) d->common.body_a = r->elsewhere;
+}
+
+// The world in the anchor's place, with its frame so far along the axis
+static void put_world_origin(rig *r, any_def *d, const row *row, double value)
+{
+    vec at = v3(value * (row->axis == 0) - (r->kind == ANY_DISTANCE ? 2 : 0), value * (row->axis == 1), value * (row->axis == 2));
+    d->common.body_a = 0;
+    d->common.world_origin = to_world(&r->s, at);
+    d->common.frame_a.position = fe_make_vec3(0, 0, 0);
+    d->common.frame_a.rotation = r->s.turn;
 }
 
 static void put_end_b(rig *r, any_def *d, const row *row, double value)
@@ -197,9 +213,10 @@ static void put_collide(rig *r, any_def *d, const row *row, double value)
 
 PREPARE(damped, d->common.damping_ratio = 5)
 PREPARE(at_2_hertz, d->common.hertz = 2)
-PREPARE(any_length, d->distance.lower = 0, d->distance.upper = 100, d->distance.length = 2)
+PREPARE(any_length, d->distance.lower = 0, d->distance.upper = 100, d->distance.target = 2)
 PREPARE(no_least_length, d->distance.lower = 0, d->distance.upper = 2)
 PREPARE(no_longest_length, d->distance.lower = 2, d->distance.upper = 100)
+PREPARE(length_range, d->distance.lower = 1.75f, d->distance.upper = 2.25f)
 PREPARE(length_spring, any_length(d), d->distance.spring_hertz = 2)
 PREPARE(length_motor, any_length(d), d->distance.motor_max = 1e6f)
 PREPARE(length_racer, any_length(d), d->distance.motor_speed = 1000)
@@ -240,15 +257,18 @@ static const row solid_rows[] = {
     {FIELD(common.frame_b.position.x), {0, 0.5}, reversed, way, 0, 0, 2, NULL, NULL},
     {FIELD(common.frame_b.position.y), {0, 0.5}, reversed, way, 1, 0, 2, NULL, NULL},
     {FIELD(common.frame_b.position.z), {0, 0.5}, reversed, way, 2, 0, 2, NULL, NULL},
+    {FIELD(common.world_origin), {0, 0.5}, as_set, way, 0, 0, 2, NULL, put_world_origin},
+    {FIELD(common.world_origin), {0, 0.5}, as_set, way, 1, 0, 2, NULL, put_world_origin},
+    {FIELD(common.world_origin), {0, 0.5}, as_set, way, 2, 0, 2, NULL, put_world_origin},
 };
 
-#define TURN_ROWS(prepare_x, prepare_yz)                                                                   \
+#define TURN_ROWS(prepare_x, prepare_yz)                                                                         \
     {FIELD(common.frame_a.rotation), {0, 0.5}, as_set, way, FE_DOF_ANGULAR_X, 0, 3, prepare_x, put_turn},        \
         {FIELD(common.frame_a.rotation), {0, 0.5}, as_set, way, FE_DOF_ANGULAR_Y, 0, 3, prepare_yz, put_turn},   \
         {FIELD(common.frame_a.rotation), {0, 0.5}, as_set, way, FE_DOF_ANGULAR_Z, 0, 3, prepare_yz, put_turn},   \
         {FIELD(common.frame_b.rotation), {0, 0.5}, reversed, way, FE_DOF_ANGULAR_X, 0, 3, prepare_x, put_turn},  \
         {FIELD(common.frame_b.rotation), {0, 0.5}, reversed, way, FE_DOF_ANGULAR_Y, 0, 3, prepare_yz, put_turn}, \
-    {                                                                                                      \
+    {                                                                                                            \
         FIELD(common.frame_b.rotation), {0, 0.5}, reversed, way, FE_DOF_ANGULAR_Z, 0, 3, prepare_yz, put_turn    \
     }
 
@@ -257,6 +277,7 @@ static const row solid_rows[] = {
 static const row distance_rows[] = {
     {FIELD(common.body_a), {0, 1}, along_the_rod, way, 1, 0, 2, NULL, put_end_a},
     {FIELD(common.frame_a.position.x), {-2, -1.5}, with_the_anchor, way, 0, 0, 2, NULL, NULL},
+    {FIELD(common.world_origin), {0, 0.5}, as_set, way, 0, 0, 2, NULL, put_world_origin},
     {FIELD(common.frame_a.position.y), {0, 1}, along_the_rod, way, 1, 0, 2, NULL, NULL},
     {FIELD(common.frame_a.position.z), {0, 1}, along_the_rod, way, 2, 0, 2, NULL, NULL},
     {FIELD(common.frame_b.position.x), {0, 0.5}, reversed, way, 0, 0, 2, NULL, NULL},
@@ -266,9 +287,10 @@ static const row distance_rows[] = {
     {FIELD(common.frame_a.rotation), {0, 0.5}, reversed, told_angle, FE_DOF_ANGULAR_X, 0, 0, NULL, put_turn},
     {FIELD(common.frame_a.rotation), {0, 0.5}, reversed, told_angle, FE_DOF_ANGULAR_Y, 0, 0, NULL, put_turn},
     {FIELD(common.frame_b.rotation), {0, 0.5}, as_set, told_angle, FE_DOF_ANGULAR_Z, 0, 0, NULL, put_turn},
+    {FIELD(distance.limit_enabled), {0, 1}, stopped_if, way, 0, 100, 0.5, length_range, put_int},
     {FIELD(distance.lower), {1.5, 1.75}, beyond_rest, way, 0, -100, 3, no_least_length, NULL},
     {FIELD(distance.upper), {2.25, 2.5}, beyond_rest, way, 0, 100, 3, no_longest_length, NULL},
-    {FIELD(distance.length), {1.5, 2.5}, beyond_rest, way, 0, 0, 3, length_spring, NULL},
+    {FIELD(distance.target), {1.5, 2.5}, beyond_rest, way, 0, 0, 3, length_spring, NULL},
     {FIELD(distance.spring_hertz), {1, 2}, gives, way, 0, 100, 3, any_length, NULL},
     {FIELD(distance.spring_damping_ratio), {5, 20}, creeps, way, 0, 100, 1, length_spring, NULL},
     {FIELD(distance.spring_max), {60, 150}, no_more_than_cap, resistance, 0, 100, 3, length_spring, NULL},
@@ -345,29 +367,32 @@ typedef struct axis_row {
 #define RANGE .motion = FE_MOTION_LIMITED, .lower = -0.25f, .upper = 0.25f, .limit_damping_ratio = 1
 #define SOFT_RANGE .motion = FE_MOTION_LIMITED, .lower = -0.25f, .limit_hertz = 2, .limit_damping_ratio = 5
 #define SPRING .motion = FE_MOTION_FREE, .spring = FE_SPRING_HERTZ, .spring_hertz = 2, .spring_damping_ratio = 1, .spring_max = 1e15f
-#define STIFF .motion = FE_MOTION_FREE, .spring = FE_SPRING_STIFFNESS, .spring_stiffness = 200, .spring_damping = 200, .spring_max = 1e15f
+#define STIFF                                                                                                                           \
+    .motion = FE_MOTION_FREE, .spring = FE_SPRING_STIFFNESS, .spring_hertz = 200, .spring_damping_ratio = 200, .spring_stiffness = 200, \
+    .spring_damping = 200, .spring_max = 1e15f
 
 static const axis_row axis_rows[] = {
-    {OF_AXIS(mode), {FE_MOTION_LOCKED, FE_MOTION_LIMITED}, mode_decides, way, 10, 2, {RANGE}, 1},
-    {OF_AXIS(mode),
+    {OF_AXIS(motion), {FE_MOTION_LOCKED, FE_MOTION_LIMITED}, motion_decides, way, 10, 2, {RANGE}, 1},
+    {OF_AXIS(motion),
      {FE_MOTION_LIMITED, FE_MOTION_FREE},
-     mode_decides,
+     motion_decides,
      way,
      40,
      0.25,
      {.lower = 0.25f, .upper = 0.25f, .limit_damping_ratio = 1},
      1},
-    {OF_AXIS(low), {-0.5, -0.75}, as_set, way, -100, 2, {RANGE}, 0},
-    {OF_AXIS(high), {0.5, 0.75}, as_set, way, 100, 2, {RANGE}, 0},
+    {OF_AXIS(lower), {-0.5, -0.75}, as_set, way, -100, 2, {RANGE}, 0},
+    {OF_AXIS(upper), {0.5, 0.75}, as_set, way, 100, 2, {RANGE}, 0},
     {OF_AXIS(limit_hertz), {2, 4}, gives, way, 10, 5, {SOFT_RANGE}, 0},
     {OF_AXIS(limit_damping_ratio), {5, 20}, creeps, way, 10, 1, {SOFT_RANGE}, 0},
-    {OF_AXIS(drive), {FE_SPRING_NONE, FE_SPRING_HERTZ}, kind_of_drive, way, 1, 1, {STIFF}, 1},
-    {OF_AXIS(drive), {FE_SPRING_HERTZ, FE_SPRING_STIFFNESS}, kind_of_drive, way, 10, 5, {STIFF}, 1},
+    {OF_AXIS(spring), {FE_SPRING_NONE, FE_SPRING_HERTZ}, kind_of_spring, way, 1, 1, {STIFF}, 1},
+    {OF_AXIS(spring), {FE_SPRING_HERTZ, FE_SPRING_STIFFNESS}, kind_of_spring, way, 10, 5, {STIFF}, 1},
     {OF_AXIS(target), {0.25, -0.5}, as_set, way, 0, 3, {SPRING}, 0},
-    {OF_AXIS(stiffness), {2, 4}, gives, way, 10, 3, {SPRING}, 0},
-    {OF_AXIS(stiffness), {100, 200}, gives_by_stiffness, way, 10, 8, {STIFF}, 0},
-    {OF_AXIS(damping), {5, 20}, creeps, way, 10, 1, {SPRING}, 0},
-    {OF_AXIS(drive_force), {6, 15}, no_more_than_cap, resistance, 10, 1, {SPRING}, 0},
+    {OF_AXIS(spring_hertz), {2, 4}, gives, way, 10, 3, {SPRING}, 0},
+    {OF_AXIS(spring_stiffness), {100, 200}, gives_by_stiffness, way, 10, 8, {STIFF}, 0},
+    {OF_AXIS(spring_damping_ratio), {5, 20}, creeps, way, 10, 1, {SPRING}, 0},
+    {OF_AXIS(spring_damping), {200, 400}, creeps_by_damping, way, 10, 1, {STIFF}, 0},
+    {OF_AXIS(spring_max), {6, 15}, no_more_than_cap, resistance, 10, 1, {SPRING}, 0},
     {OF_AXIS(motor_speed), {0.5, -1}, as_set, pace, 0, 1, {.motion = FE_MOTION_FREE, .motor_max = 1e6f}, 0},
     {OF_AXIS(motor_max), {1, 3}, spun_up, pace, 0, 0.5, {.motion = FE_MOTION_FREE, .motor_speed = 1000}, 0},
 };
@@ -513,6 +538,7 @@ typedef struct exception {
 static const exception elsewhere[] = {
     {-1, AWAY(common.struct_size)},
     {-1, AWAY(common.reserved)},
+    {ANY_DISTANCE, AWAY(distance.reserved_end)},
     {ANY_BALL, AWAY(ball.reserved_end)},
     {ANY_HINGE, AWAY(hinge.reserved_end)},
     {ANY_DISTANCE, AWAY(common.break_torque)}, // a force along a line through the points has no torque about them

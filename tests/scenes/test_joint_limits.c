@@ -132,8 +132,9 @@ static void ends_at_half_a_turn_hold_against_motors_and_springs(void **state)
             hinge.motor_speed = (float)(4 * side), hinge.motor_max = ball.motor_max = (float)load,
             ball.motor_velocity.x = (float)(4 * side);
             hinge.spring_hertz = ball.spring_hertz = 1, hinge.target = (float)(side * PI), ball.target = rotation_of(side * PI, 0, 0);
-            *axis = (fe_joint_axis){FE_MOTION_LIMITED, low,        high, 0, 1, FE_SPRING_HERTZ, (float)(side * PI), 1, 1, 1e15f,
-                                    (float)(4 * side), (float)load};
+            axis->motion = FE_MOTION_LIMITED, axis->lower = low, axis->upper = high;
+            axis->spring = FE_SPRING_HERTZ, axis->spring_hertz = axis->spring_damping_ratio = 1, axis->target = (float)(side * PI);
+            axis->motor_speed = (float)(4 * side), axis->motor_max = (float)load;
             if (by == BY_HINGE) joint = hinge_of(&g, hinge);
             if (by == BY_BALL) joint = ball_of(&g, ball);
             if (by >= ABOUT_X) joint = configurable_of(&g, six);
@@ -204,8 +205,10 @@ static void a_target_beyond_a_limit_counts_as_the_limit(void **state)
 
     g = begin_gyre(state);
     fe_configurable_joint_def slide = slider_def();
-    slide.axes[FE_DOF_LINEAR_X].motion = FE_MOTION_LIMITED, slide.axes[FE_DOF_LINEAR_X].lower = -0.1f, slide.axes[FE_DOF_LINEAR_X].upper = 0.3f;
-    slide.axes[FE_DOF_LINEAR_X].spring = FE_SPRING_HERTZ, slide.axes[FE_DOF_LINEAR_X].spring_hertz = 3, slide.axes[FE_DOF_LINEAR_X].spring_damping_ratio = 1;
+    slide.axes[FE_DOF_LINEAR_X].motion = FE_MOTION_LIMITED, slide.axes[FE_DOF_LINEAR_X].lower = -0.1f,
+    slide.axes[FE_DOF_LINEAR_X].upper = 0.3f;
+    slide.axes[FE_DOF_LINEAR_X].spring = FE_SPRING_HERTZ, slide.axes[FE_DOF_LINEAR_X].spring_hertz = 3,
+    slide.axes[FE_DOF_LINEAR_X].spring_damping_ratio = 1;
     slide.axes[FE_DOF_LINEAR_X].target = 5;
     joint = configurable_of(&g, slide);
     run(&g.s, 240);
@@ -352,8 +355,9 @@ static void a_spring_pushes_up_to_its_cap(void **state)
             fe_joint joint = 0;
             hinge.spring_hertz = 2, hinge.spring_max = cap;
             ball.spring_hertz = 2, ball.spring_max = cap;
-            slide.axes[0].spring = FE_SPRING_HERTZ, slide.axes[0].spring_hertz = 2, slide.axes[0].spring_damping_ratio = 1, slide.axes[0].spring_max = cap;
-            rope.lower = 0, rope.upper = 100, rope.length = 2, rope.spring_hertz = 2, rope.spring_max = cap;
+            slide.axes[0].spring = FE_SPRING_HERTZ, slide.axes[0].spring_hertz = 2, slide.axes[0].spring_damping_ratio = 1,
+            slide.axes[0].spring_max = cap;
+            rope.lower = 0, rope.upper = 100, rope.target = 2, rope.spring_hertz = 2, rope.spring_max = cap;
             for (int k = 3; k < 6; ++k) six.axes[k] = slide.axes[0];
             if (where == 0) joint = hinge_of(&g, hinge);
             if (where == 1) joint = ball_of(&g, ball);
@@ -499,7 +503,8 @@ static void a_single_free_rotation_is_a_hinge_about_its_axis(void **state)
             fe_configurable_joint_def d = configurable_def();
             fe_joint_axis *axis = &d.axes[FE_DOF_ANGULAR_X + k];
             axis->motion = limited ? FE_MOTION_LIMITED : FE_MOTION_FREE, axis->lower = -1, axis->upper = (float)PI;
-            d.axes[FE_DOF_LINEAR_X + k].motion = FE_MOTION_LIMITED, d.axes[FE_DOF_LINEAR_X + k].lower = -0.5f, d.axes[FE_DOF_LINEAR_X + k].upper = 0.5f;
+            d.axes[FE_DOF_LINEAR_X + k].motion = FE_MOTION_LIMITED, d.axes[FE_DOF_LINEAR_X + k].lower = -0.5f,
+                                     d.axes[FE_DOF_LINEAR_X + k].upper = 0.5f;
             fe_joint joint = configurable_of(&g, d);
             vec along = v3(k == 0, k == 1, k == 2);
             set_velocity(&g.s, g.block, times(0.25, along), times(5, along));

@@ -166,7 +166,7 @@ static void a_distance_spring_swings_as_its_hertz_and_damping_say(void **state)
         fe_body anchor = add_anchor(&s, v3(0, 0, 0)), bob = add_plain(&s, sphere(0.1), v3(2.2, 0, 0));
         fe_distance_joint_def d = distance_def();
         double x[SAMPLES];
-        d.lower = 0, d.upper = 10, d.length = 2;
+        d.lower = 0, d.upper = 10, d.target = 2;
         d.spring_hertz = springs[k].hertz, d.spring_damping_ratio = springs[k].ratio;
         fe_joint joint = add_distance(&s, d, anchor, bob, v3(0, 0, 0), v3(2.2, 0, 0));
         for (int i = 0; i < SAMPLES; ++i, run(&s, 1)) x[i] = position(&s, bob).x - 2;
@@ -202,7 +202,8 @@ static void a_drive_along_an_axis_swings_by_hertz_or_by_stiffness(void **state)
             fe_configurable_joint_def d = slider_def();
             double x[SAMPLES], w = 2 * PI * (double)springs[k].hertz, m = mass_of(&s, cart);
             fe_joint_axis *axis = &d.axes[FE_DOF_LINEAR_X];
-            axis->target = 0.1f, axis->spring = FE_SPRING_HERTZ, axis->spring_hertz = springs[k].hertz, axis->spring_damping_ratio = springs[k].ratio;
+            axis->target = 0.1f, axis->spring = FE_SPRING_HERTZ, axis->spring_hertz = springs[k].hertz,
+            axis->spring_damping_ratio = springs[k].ratio;
             if (by_stiffness)
                 axis->spring = FE_SPRING_STIFFNESS, axis->spring_stiffness = (float)(m * w * w),
                 axis->spring_damping = (float)(2 * m * w * (double)springs[k].ratio);

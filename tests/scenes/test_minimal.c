@@ -122,7 +122,7 @@ static void a_running_belt_drives_its_own_body(void **state)
 static void a_contact_sticks_by_static_and_slides_by_dynamic_friction(void **state)
 {
     scene s = scene_begin(state);
-    fe_material rough = {0.8f, 0.2f, 0, 0, 0}, mixed = {0.45f, 0.2f, 0, 0, 0}; // sqrt(0.8 0.45) = 0.6
+    fe_material rough = SURFACE(0.8f, 0.2f, 0, 0, 0), mixed = SURFACE(0.45f, 0.2f, 0, 0, 0); // sqrt(0.8 0.45) = 0.6
     add_ground(&s, rough);
     fe_body body = add_dynamic(&s, box(0.5, 0.05, 0.5), v3(0, 0.05, 0), UNTURNED, mixed, 100);
     double weight = mass_of(&s, body) * G;

@@ -186,7 +186,7 @@ static double ground_below(const scene *s, vec p)
     return fe_world_raycast(s->world, &from, &way, &filter, &hit) == 1 ? hit.point.y : -1e9;
 }
 
-static fe_material resisting(double rolling) { return (fe_material){0.5f, 0.5f, 0, (float)rolling, 0.02f}; }
+static fe_material resisting(double rolling) { return (fe_material)SURFACE(0.5f, 0.5f, 0, (float)rolling, 0.02f); }
 
 static fe_body add_wave(scene *s, fe_material m)
 {
@@ -353,7 +353,7 @@ static void holes_let_through_what_fits(void **state)
 static void each_cell_has_its_material(void **state)
 {
     uint8_t kinds[64];
-    const fe_material materials[2] = {{0.5f, 0.5f, 0, 0, 0}, {0, 0, 0, 0, 0}};
+    const fe_material materials[2] = {SURFACE(0.5f, 0.5f, 0, 0, 0), SURFACE(0, 0, 0, 0, 0)};
     for (int i = 0; i < 64; ++i) kinds[i] = i / 8 >= 4;
     scene s = scene_begin(state);
     field_with(&s, NULL, kinds, materials, 2);
@@ -387,8 +387,10 @@ static void contacts_tell_the_patches(void **state)
     vec push = v3(0, 0, 0);
     for (int32_t i = 0; i < count; ++i) {
         assert_int_equal(contacts[i].point_count, 1);
-        assert_in_range(contacts[i].triangle, 0, 7);
-        FE_TRUE(contacts[i].body_a == ground || contacts[i].body_b == ground);
+        const int32_t ground_is_a = contacts[i].body_a == ground;
+        FE_TRUE(ground_is_a || contacts[i].body_b == ground);
+        assert_in_range(ground_is_a ? contacts[i].triangle_a : contacts[i].triangle_b, 0, 7);
+        assert_int_equal(ground_is_a ? contacts[i].triangle_b : contacts[i].triangle_a, -1);
         double sign = contacts[i].body_b == ball ? 1 : -1;
         vec n = times(sign, from_world(&s, widen(contacts[i].normal)));
         FE_NEAR(n.y, sqrt(0.5), 1e-5);

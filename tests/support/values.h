@@ -13,6 +13,10 @@
         .spinning_resistance = (spin)                                                                                   \
     }
 
+// A handle is kind, world, generation and slot + 1, in 3, 12, 17 and 21 bits
+#define HANDLE_SLOT ((UINT64_C(1) << 21) - 1)
+#define NEXT_GENERATION (UINT64_C(1) << 21)
+
 static inline void value_must(fe_result result)
 {
     if (result == FE_OK) return;

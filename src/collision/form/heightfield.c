@@ -41,6 +41,16 @@ static fe__form triangle_of(const fe__heightfield *f, int32_t row, int32_t colum
     return triangle;
 }
 
+// In a cell, u along x and v along z, both 0..1: the z side is (0,0) (0,1) (1,1), the x side (0,0) (1,1) (1,0)
+void fe__heightfield_weights(const fe__heightfield *f, int32_t triangle, fe_dvec3 point, float *out_weights)
+{
+    int32_t cell = triangle / 2, row = cell / (f->columns - 1), column = cell % (f->columns - 1);
+    double u = fe__clampd(point.x / f->cell_x - (double)column, 0.0, 1.0), v = fe__clampd(point.z / f->cell_z - (double)row, 0.0, 1.0);
+    double second = triangle % 2 ? v : fe__maxd(v - u, 0.0), third = triangle % 2 ? fe__maxd(u - v, 0.0) : u;
+    out_weights[0] = (float)second;
+    out_weights[1] = (float)third;
+}
+
 fe__form fe__heightfield_triangle(const fe__heightfield *f, int32_t triangle, fe_dvec3 origin)
 {
     int32_t cell = triangle >> 1;

@@ -35,6 +35,8 @@ static inline int32_t fe__heightfield_is_hole(const fe__heightfield *field, int3
 }
 
 // The triangle with its vertices relative to `origin` (field's frame), so that floats hold it exactly enough wherever it is.
+// Weights of the triangle's second and third vertex at a point of it, in the field's frame
+void fe__heightfield_weights(const fe__heightfield *field, int32_t triangle, fe_dvec3 point, float *out_weights);
 fe__form fe__heightfield_triangle(const fe__heightfield *field, int32_t triangle, fe_dvec3 origin);
 // Its vertices as they are, in the field's frame.
 void fe__heightfield_corners(const fe__heightfield *field, int32_t triangle, fe_dvec3 corner[3]);

@@ -19,7 +19,7 @@ FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int3
         store3(q->r, r);
         q->distance = row->separation[i] = separations[i];
         q->mass = w_choose(there, one, zero);
-        q->impulse = impulses[i] * c->warm_scale;
+        q->impulse = impulses[i] * c->contact_warm_scale;
         row->total[i] = zero;
         wide weight = w_choose(there, w_clamp(2.0f - separations[i] * (1.0f / c->speculative), w_set(LEAST_WEIGHT), one), zero);
         sum = sum + weight;
@@ -33,9 +33,9 @@ FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int3
 
 FE_INLINE void NAMED(prepare_friction)(ROW *row, wide4 impulse, wide3 t1, wide3 t2, const fe__step_constants *c)
 {
-    row->tangent_impulse[0] = w_dot(w_xyz(impulse), t1) * c->warm_scale;
-    row->tangent_impulse[1] = w_dot(w_xyz(impulse), t2) * c->warm_scale;
-    row->twist_impulse = impulse.w * c->warm_scale;
+    row->tangent_impulse[0] = w_dot(w_xyz(impulse), t1) * c->contact_warm_scale;
+    row->tangent_impulse[1] = w_dot(w_xyz(impulse), t2) * c->contact_warm_scale;
+    row->twist_impulse = impulse.w * c->contact_warm_scale;
 }
 
 // A side whose inertia is a ball's and whose points are as far from its centre as they are round does not show its turn
@@ -75,7 +75,7 @@ FE_INLINE void NAMED(prepare_special)(SPECIAL_ROW *x, const fe__solver *s, const
         for (int k = 0; k < 3; ++k) {
             x->mass_a[k][i] = locks_a >> k & 1 ? 0.0f : a[3];
             x->mass_b[k][i] = locks_b >> k & 1 ? 0.0f : b[3];
-            x->rolling_impulse[k][i] = e->rolling_impulse[k] * c->warm_scale;
+            x->rolling_impulse[k][i] = e->rolling_impulse[k] * c->contact_warm_scale;
             x->surface[k][i] = e->surface_velocity[k];
         }
         x->restitution[i] = e->restitution;

@@ -1,0 +1,91 @@
+// joint_drive.c - the API of what a game changes each step: speed of a motor, target of a spring, nothing else.
+#include "api/joint_def.h"
+#include "core/fp_state.h"
+#include "world/joint_state.h"
+#include "world/joints.h"
+
+// The motor's speed of a degree of freedom; NULL: the joint has no such motor
+static float *motor_speed_of(fe__joint_any *def, int32_t type, int32_t dof)
+{
+    switch (type) {
+    case FE_JOINT_DISTANCE:
+        return dof == FE_DOF_LINEAR_X ? &def->distance.motor_speed : NULL;
+    case FE_JOINT_BALL: {
+        float *velocity[3] = {&def->ball.motor_velocity.x, &def->ball.motor_velocity.y, &def->ball.motor_velocity.z};
+        return dof >= FE_DOF_ANGULAR_X ? velocity[dof - FE_DOF_ANGULAR_X] : NULL;
+    }
+    case FE_JOINT_HINGE:
+        return dof == FE_DOF_ANGULAR_X ? &def->hinge.motor_speed : NULL;
+    case FE_JOINT_CONFIGURABLE:
+        return &def->configurable.axes[dof].motor_speed;
+    default:
+        return NULL;
+    }
+}
+
+static float *target_of(fe__joint_any *def, int32_t type, int32_t dof)
+{
+    switch (type) {
+    case FE_JOINT_DISTANCE:
+        return dof == FE_DOF_LINEAR_X ? &def->distance.target : NULL;
+    case FE_JOINT_HINGE:
+        return dof == FE_DOF_ANGULAR_X ? &def->hinge.target : NULL;
+    case FE_JOINT_CONFIGURABLE:
+        return &def->configurable.axes[dof].target;
+    default:
+        return NULL;
+    }
+}
+
+static fe_result change(const char *function, fe_world *world, int32_t index, const fe__joint_any *full)
+{
+    FE_TRY(fe__check_joint_def(function, world->joint_records[index].type, full));
+    fe__fp_state fp = fe__fp_enter();
+    fe_result result = fe__joint_change(world, index, full);
+    fe__fp_leave(fp);
+    return fe__report(function, result);
+}
+
+fe_result fe_joint_set_motor_speed(fe_world *world, fe_joint joint, int32_t dof, float speed)
+{
+    FE_WRITE(world);
+    FE_FIND_JOINT(index, joint);
+    FE_CHECK_INT(dof, FE_DOF_LINEAR_X, FE_DOF_ANGULAR_Z);
+    FE_CHECK_FLOAT(speed, -FE_MAX_SPEED, FE_MAX_SPEED);
+    fe__joint_any full;
+    fe__joint_describe(world, index, &full);
+    float *field = motor_speed_of(&full, world->joint_records[index].type, dof);
+    if (!field) return fe__fail(function, FE_ERROR_STATE, "joint 0x%llx has no motor about or along dof %d", joint, (int)dof);
+    if (*field == speed) return FE_OK;
+    *field = speed;
+    return change(function, world, index, &full);
+}
+
+fe_result fe_joint_set_target(fe_world *world, fe_joint joint, int32_t dof, float target)
+{
+    FE_WRITE(world);
+    FE_FIND_JOINT(index, joint);
+    FE_CHECK_INT(dof, FE_DOF_LINEAR_X, FE_DOF_ANGULAR_Z);
+    FE_CHECK_FLOAT(target, -FE_MAX_LOCAL, FE_MAX_LOCAL);
+    fe__joint_any full;
+    fe__joint_describe(world, index, &full);
+    float *field = target_of(&full, world->joint_records[index].type, dof);
+    if (!field) return fe__fail(function, FE_ERROR_STATE, "joint 0x%llx has no spring about or along dof %d", joint, (int)dof);
+    if (*field == target) return FE_OK;
+    *field = target;
+    return change(function, world, index, &full);
+}
+
+fe_result fe_ball_joint_set_target(fe_world *world, fe_joint joint, const fe_quat *target)
+{
+    FE_WRITE(world);
+    FE_FIND_JOINT(index, joint);
+    FE_CHECK_QUAT(target);
+    if (world->joint_records[index].type != FE_JOINT_BALL) {
+        return fe__fail(function, FE_ERROR_STATE, "joint 0x%llx is no ball joint", joint);
+    }
+    fe__joint_any full;
+    fe__joint_describe(world, index, &full);
+    full.ball.target = *target;
+    return change(function, world, index, &full);
+}
