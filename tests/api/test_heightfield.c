@@ -209,7 +209,7 @@ static void an_asset_lives_until_its_last_shape_is_gone(void **state)
     OK(fe_shape_set_geometry(world, third, &sphere));
     FE_TRUE(fe_asset_is_valid(world_store(world), next) && fe_asset_is_valid(world_store(world), after) && !fe_asset_is_valid(world_store(world), asset));
     fe_asset reborn = new_field(world); // in asset's slot
-    FE_TRUE((reborn & 0x1fffff) == (asset & 0x1fffff) && reborn != asset);
+    FE_TRUE((reborn & 0xffffff) == (asset & 0xffffff) && reborn != asset);
     OK(fe_world_destroy(world));
 }
 
