@@ -2,12 +2,15 @@
 #
 #   make            build/libfeather.a and build/libfeather.so
 #   make demo       builds the library and runs examples/demo.c; needs a C compiler and make, nothing else
+#   make check      what a change is tried with first: builds, and asks the fast tests, in under two minutes on 2 cores
 #   make test       everything that is checked before a change is accepted (TESTS=pattern: the matching programs only)
+#   make test-long  in 40 minutes: 30 minutes of fuzz, the random tests with their full numbers, every mutation (LONG=pattern)
 #   make python     the Python package in build/python; make test-python: its tests; likewise for the other languages of bindings/
 #   make fuzz       FUZZ_SECONDS=600 of random calls of the API, with clang's libFuzzer and sanitizers
 #   make bench      every case, judged, with 8 or 32 variants where rounding decides; speed, beside Bullet and ODE where they are installed
 #   make proof      docs/PROOF.md: every case and speed scene in every engine; 40 minutes (PROOF="lines page": only these parts, see tools/proof)
 #   make proof-check  does that page say what the committed one says, times apart?
+#   make docs       the site of the API and of the documents in build/docs/html, by doxygen; what is undocumented is an error
 #   make install    PREFIX, LIBDIR, INCLUDEDIR, DESTDIR;  make uninstall takes it away again
 #   make examples, deps, format, clean
 #
@@ -93,7 +96,7 @@ STATIC := $(BUILD)/libfeather.a
 SHARED := $(BUILD)/libfeather.so
 VERSION = $(shell awk '/define FE_VERSION_(MAJOR|MINOR|PATCH)/ { v = v dot $$3; dot = "." } END { print v }' include/feather.h)
 
-.PHONY: all static shared demo examples tests test fuzz bench bench-build proof proof-check install uninstall deps format clean FORCE
+.PHONY: all static shared demo examples tests check test test-long fuzz bench bench-build proof proof-check docs install uninstall deps format clean FORCE
 all: static shared
 static: $(STATIC)
 shared: $(SHARED)
@@ -110,7 +113,9 @@ $(BUILD)/objects: FORCE
 
 $(BUILD)/obj/%.o: src/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
-	$(RUN)$(CC) $(C_FLAGS) $(STRICT) $(DEPENDENCIES) -c $< -o $@
+	$(RUN)$(CC) $(C_FLAGS) $(HOT) $(STRICT) $(DEPENDENCIES) -c $< -o $@
+# small matrices, whose loops are to be unrolled
+$(BUILD)/obj/solver/tree/%.o: HOT := $(SIMD_OPT)
 
 # Once per SIMD set. SIMD_OPT follows CFLAGS: a distribution's -O2 must not slow the kernels down.
 define simd_rule
@@ -166,14 +171,20 @@ $(BUILD)/feather-golden: $(GOLDEN_OBJECTS) $(STATIC)
 	$(RUN)$(CC) $(GOLDEN_OBJECTS) $(STATIC) $(LINK_FLAGS) -lm -o $@
 
 tests: $(TEST_PROGRAMS)
-test: export MAKE := $(MAKE)
-test: export CC := $(CC)
-test: export CXX := $(CXX)
-test: export CFLAGS := $(CFLAGS)
-test: export LDFLAGS := $(LDFLAGS)
+check test test-long: export MAKE := $(MAKE)
+check test test-long: export CC := $(CC)
+check test test-long: export CXX := $(CXX)
+check test test-long: export CFLAGS := $(CFLAGS)
+check test test-long: export LDFLAGS := $(LDFLAGS)
+check:
+	@tools/deps.sh check
+	@+tests/check $(BUILD)
 test:
 	@tools/deps.sh test
-	@+tests/run $(TESTS)
+	@+tests/run '$(TESTS)'
+test-long:
+	@tools/deps.sh all
+	@+tests/long '$(LONG)'
 
 # ---- fuzz -----------------------------------------------------------------------------------------------------------------------
 # What breaks it is left as build/fuzz/crash-*, to be given to build/fuzz/feather-fuzz again.
@@ -228,6 +239,14 @@ proof:
 proof-check:
 	@tools/proof --check
 
+# ---- docs -----------------------------------------------------------------------------------------------------------------------
+
+docs:
+	@tools/deps.sh docs
+	@mkdir -p $(BUILD)/docs
+	@(cat docs/Doxyfile; echo 'OUTPUT_DIRECTORY = $(BUILD)/docs'; echo 'PROJECT_NUMBER = $(VERSION)') | doxygen -
+	@echo '  $(BUILD)/docs/html/index.html'
+
 # ---- bindings: `make python`, `make test-python` and so on --------------------------------------------------------------------------------
 
 include $(wildcard bindings/*/rules.mk)
@@ -270,7 +289,7 @@ deps:
 	@tools/deps.sh all
 
 # Without the records of the ABI, which stay as they were written.
-FORMATTED = $(foreach top,src tests bench examples,$(foreach ext,c h cpp,$(foreach depth,* */* */*/*,$(wildcard $(top)/$(depth).$(ext)))))
+FORMATTED = $(foreach top,src tests bench examples,$(foreach ext,c h inl cpp,$(foreach depth,* */* */*/*,$(wildcard $(top)/$(depth).$(ext)))))
 format:
 	$(CLANG_FORMAT) -i include/feather.h $(filter-out tests/abi/feather_% tests/abi/layout.h,$(FORMATTED))
 

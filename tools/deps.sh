@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What the tests (tools/deps.sh test), the fuzzer (fuzz), the tests of one language (python, lua...) and the bench (all) need beyond the C compiler:
-# installs what is missing with apt where it may, and otherwise says what to install and fails. Needs are tried out, not looked up by package name.
+# What the short test (tools/deps.sh check), all tests (test), the fuzzer (fuzz), the tests of one language (python, lua, csharp), the site of the API
+# (docs) and the bench (all) need beyond the C compiler: installs what is missing with apt where it may, and otherwise says what to install and fails. Needs are tried out, not looked up by package name.
 set -uo pipefail
 wanted=${1:-all}
 CC=${CC:-cc} CXX=${CXX:-c++}
@@ -63,6 +63,18 @@ missing_for_wasm() {
         clang --version | awk 'match($0, /version [0-9]+/) { print "libclang-rt-" substr($0, RSTART + 8, RLENGTH - 8) "-dev-wasm32" }'
 }
 
+missing_for_check() {
+    links "$CC" "$work/empty.c" || echo gcc libc6-dev
+    links "$CC" "$work/cmocka.c" -lcmocka || echo libcmocka-dev
+}
+
+# The site of the API, and the comparison of two ABIs; without them the tests say so and go on
+missing_for_docs() {
+    has doxygen || echo doxygen
+    has dot || echo graphviz
+}
+missing_for_abi() { has abidiff || echo abigail-tools; }
+
 # Another machine's bits, in an emulator; without it the tests say so and go on
 missing_for_aarch64() {
     test "$(uname -m)" = x86_64 || return
@@ -80,18 +92,9 @@ missing_for_foreign() {
 
 # Prints the missing packages, by their Debian names.
 missing() {
-    if test "$wanted" = csharp; then
-        missing_for_csharp
-        return
-    fi
-    if test "$wanted" = python; then
-        missing_for_python
-        return
-    fi
-    if test "$wanted" = lua; then
-        missing_for_lua
-        return
-    fi
+    case $wanted in
+    check | python | lua | csharp | docs) "missing_for_$wanted"; return ;;
+    esac
     has gcc && links gcc "$work/empty.c" || echo gcc libc6-dev
     has clang && links clang "$work/empty.c" || echo clang
     links "$CXX" "$work/empty.cpp" || echo g++
@@ -100,7 +103,7 @@ missing() {
     links "$CC" -fsanitize=address,undefined "$work/empty.c" && links "$CC" -fsanitize=thread "$work/empty.c" ||
         echo "$("$CC" --version | awk '/clang/ && match($0, /version [0-9]+/) { print "libclang-rt-" substr($0, RSTART + 8, RLENGTH - 8) "-dev" }')"
     if test "$wanted" != fuzz; then missing_for_wasm; fi
-    if test "$wanted" != fuzz && test -z "${essential:-}"; then missing_for_aarch64; missing_for_foreign; fi
+    if test "$wanted" != fuzz && test -z "${essential:-}"; then missing_for_aarch64; missing_for_foreign; missing_for_docs; missing_for_abi; fi
     has cmake || echo cmake
     has pkg-config || echo pkg-config
     has valgrind || echo valgrind

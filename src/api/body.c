@@ -148,7 +148,7 @@ int32_t fe_body_is_valid(const fe_world *world, fe_body body)
 static int32_t must_be_static(const fe_world *world, int32_t body)
 {
     for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next) {
-        if (world->shapes[shape].form.type >= FE__FORM_PLANE) return 1;
+        if (fe__form_is_static_only(&world->shapes[shape].form)) return 1;
     }
     return 0;
 }

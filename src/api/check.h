@@ -87,7 +87,7 @@ enum { FE_MAX_SUBSTEPS = 64 };
 // Of records that may grow: the caller states it, unless there are none of them
 #define FE_CHECK_RECORD_STRIDE(stride, least, count) \
     if ((stride) != 0 || (count) != 0) FE_CHECK_STRIDE(stride, 0, least)
-#define FE_CHECK_RESERVED(words) FE_TRY(fe__check_reserved(function, words, (int32_t)(sizeof(words) / sizeof(uint32_t))))
+#define FE_CHECK_RESERVED(words) FE_TRY(fe__check_reserved(function, words, (int32_t)(sizeof(words) / (sizeof(uint32_t)))))
 // `copy` holds the defaults; what the caller's struct has replaces them
 #define FE_READ_STRUCT(given, copy) FE_TRY(fe__read_struct(function, #given, given, copy, FE_FIELDS_OF(copy)))
 #define FE_CHECK_STRUCT_SIZE(given) FE_TRY(fe__check_struct_size(function, #given, given, FE_FIELDS_OF(given)))

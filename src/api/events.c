@@ -89,7 +89,7 @@ static fe_contact describe(const fe_world *world, int32_t pair)
     const fe__pair *p = &world->pairs[pair];
     const fe__contact *c = &world->contacts[pair];
     float side = p->flags & FE__PAIR_FLIPPED ? -1.0f : 1.0f;
-    int32_t field_a = world->shapes[p->shape_a].form.type == FE__FORM_HEIGHTFIELD;
+    int32_t field_a = fe__form_is_field(&world->shapes[p->shape_a].form);
     fe_contact contact = {.body_a = fe__body_handle(world, p->body_a),
                           .body_b = fe__body_handle(world, p->body_b),
                           .shape_a = fe__shape_handle(world, p->shape_a),

@@ -80,7 +80,7 @@ fe_result fe_body_get_bounds(const fe_world *world, fe_body body, fe_bounds *out
     FE_CHECK_POINTER(out_bounds);
     if (world->bodies[index].shape_count == 0) return fe__fail(function, FE_ERROR_STATE, "body 0x%llx has no shapes", body);
     for (int32_t shape = world->bodies[index].first_shape; shape >= 0; shape = world->shapes[shape].next) {
-        if (world->shapes[shape].form.type != FE__FORM_PLANE) continue;
+        if (!fe__form_is_unbounded(&world->shapes[shape].form)) continue;
         return fe__fail(function, FE_ERROR_UNSUPPORTED, "body 0x%llx has a plane, which has no bounds", body);
     }
     fe__bounds bounds;
@@ -96,7 +96,7 @@ fe_result fe_shape_get_bounds(const fe_world *world, fe_shape shape, fe_bounds *
     FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_POINTER(out_bounds);
-    if (world->shapes[index].form.type == FE__FORM_PLANE) {
+    if (fe__form_is_unbounded(&world->shapes[index].form)) {
         return fe__fail(function, FE_ERROR_UNSUPPORTED, "shape 0x%llx is a plane, which has no bounds", shape);
     }
     fe__fp_state fp = fe__fp_enter();

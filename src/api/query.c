@@ -36,29 +36,28 @@ fe_result fe__read_moving_form(const char *function, const fe_geometry *geometry
     fe_geometry whole = {.struct_size = sizeof whole};
     FE_READ_STRUCT(geometry, &whole);
     geometry = &whole;
-    *out_form = (fe__form){.radius = 0.0f};
+    FE_CHECK_RESERVED(geometry->reserved);
+    FE_CHECK_RESERVED(geometry->reserved_end);
+    *out_form = (fe__form){.type = fe__form_of_geometry(geometry->type)};
     switch (geometry->type) {
     case FE_GEOMETRY_SPHERE:
-        out_form->type = FE__FORM_SPHERE;
         if (geometry->radius != 0.0f) FE_CHECK_LENGTH(geometry->radius);
         out_form->radius = geometry->radius;
         return FE_OK;
     case FE_GEOMETRY_CAPSULE:
-        out_form->type = FE__FORM_CAPSULE;
         FE_CHECK_LENGTH(geometry->half_height);
         FE_CHECK_LENGTH(geometry->radius);
         out_form->half_height = geometry->half_height;
         out_form->radius = geometry->radius;
         return FE_OK;
     case FE_GEOMETRY_BOX:
-        out_form->type = FE__FORM_BOX;
         FE_CHECK_LENGTH(geometry->half_extents.x);
         FE_CHECK_LENGTH(geometry->half_extents.y);
         FE_CHECK_LENGTH(geometry->half_extents.z);
         out_form->half = geometry->half_extents;
         return FE_OK;
     default:
-        return fe__fail(function, FE_ERROR_UNSUPPORTED, "geometry->type is %d; a sphere, a capsule or a box can be asked with",
+        return fe__fail(function, FE_ERROR_UNSUPPORTED, "type is %d, must be that of a sphere, a capsule or a box",
                         geometry->type);
     }
 }

@@ -59,30 +59,10 @@ static fe_result read_heightfield(const char *function, const fe_world *world, c
 
 static void let_go_of_asset(const fe_world *world, const fe__form *form)
 {
-    if (form->type != FE__FORM_HEIGHTFIELD) return;
+    if (!fe__form_has_asset(form)) return;
     fe__store_lock(world->store);
     fe__asset_release(world->store, form->field);
     fe__store_unlock(world->store);
-}
-
-// fe_geometry_type of each kind of form
-static const int32_t public_types[FE__FORM_HEIGHTFIELD + 1] = {FE_GEOMETRY_SPHERE, FE_GEOMETRY_CAPSULE, FE_GEOMETRY_BOX, FE_GEOMETRY_PLANE,
-                                                               FE_GEOMETRY_HEIGHTFIELD};
-
-// -1: no kind of geometry
-static int32_t form_type_of(int32_t type)
-{
-    for (int32_t i = 0; i <= FE__FORM_HEIGHTFIELD; ++i)
-        if (public_types[i] == type) return i;
-    return -1;
-}
-
-static fe_result check_reserved(const char *function, const fe_geometry *geometry)
-{
-    for (size_t i = 0; i < sizeof geometry->reserved / sizeof *geometry->reserved; ++i) FE_CHECK_INT(geometry->reserved[i], 0, 0);
-    FE_CHECK_INT((int64_t)geometry->reserved_end[0], 0, 0);
-    FE_CHECK_INT((int64_t)geometry->reserved_end[1], 0, 0);
-    return FE_OK;
 }
 
 // What a form does not use stays 0 (see form.h). On FE_OK its asset is kept alive until let_go_of_asset: another thread may destroy it.
@@ -91,10 +71,10 @@ static fe_result read_geometry(const char *function, const fe_world *world, cons
     fe_geometry whole = {.struct_size = sizeof whole};
     FE_READ_STRUCT(geometry, &whole);
     geometry = &whole;
-    FE_TRY(check_reserved(function, geometry));
-    *out_form = (fe__form){.type = form_type_of(geometry->type)};
-    if (out_form->type < 0)
-        return fe__fail(function, FE_ERROR_ARGUMENT, "geometry.type is %" PRId32 ", no kind of geometry", geometry->type);
+    FE_CHECK_RESERVED(geometry->reserved);
+    FE_CHECK_RESERVED(geometry->reserved_end);
+    *out_form = (fe__form){.type = fe__form_of_geometry(geometry->type)};
+    if (out_form->type < 0) return fe__fail(function, FE_ERROR_ARGUMENT, "type is %" PRId32 ", no fe_geometry_type", geometry->type);
     switch (geometry->type) {
     case FE_GEOMETRY_SPHERE:
         FE_CHECK_LENGTH(geometry->radius);
@@ -122,9 +102,9 @@ static fe_result read_geometry(const char *function, const fe_world *world, cons
 // planes and heightfields are static only
 static fe_result check_owner(const char *function, const fe_world *world, int32_t body, const fe__form *form)
 {
-    if (form->type < FE__FORM_PLANE || world->bodies[body].type == FE_BODY_STATIC) return FE_OK;
+    if (!fe__form_is_static_only(form) || world->bodies[body].type == FE_BODY_STATIC) return FE_OK;
     return fe__fail(function, FE_ERROR_UNSUPPORTED, "body 0x%llx is not static, a %s needs a static one", fe__body_handle(world, body),
-                    form->type == FE__FORM_PLANE ? "plane" : "heightfield");
+                    fe__traits_of(form)->name);
 }
 
 // ---- life -----------------------------------------------------------------------------------------------------------------------
@@ -246,8 +226,8 @@ fe_result fe_shape_get_geometry(const fe_world *world, fe_shape shape, fe_geomet
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_STRUCT_SIZE(out_geometry);
     const fe__form *form = &world->shapes[index].form;
-    fe_geometry geometry = {.struct_size = sizeof geometry, .type = public_types[form->type], .radius = form->radius};
-    if (form->type == FE__FORM_HEIGHTFIELD) {
+    fe_geometry geometry = {.struct_size = sizeof geometry, .type = fe__traits_of(form)->geometry, .radius = form->radius};
+    if (fe__form_has_asset(form)) {
         geometry.asset = fe__asset_handle(world, form->field);
     } else {
         geometry.half_height = form->half_height;

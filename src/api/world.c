@@ -263,10 +263,10 @@ fe_result fe_world_optimize(fe_world *world)
 
 // ---- the defaults of what is read into, and of what the host gives ---------------------------------------------------------------
 
-#define FE_DEFINE_EMPTY_INIT(name, type, argument)                        \
-    void name(type *argument, uint32_t struct_size)                       \
-    {                                                                     \
-        type defaults = {.struct_size = sizeof defaults};                 \
+#define FE_DEFINE_EMPTY_INIT(name, type, argument)                          \
+    void name(type *argument, uint32_t struct_size)                         \
+    {                                                                       \
+        type defaults = {.struct_size = sizeof defaults};                   \
         fe__init_struct(argument, &defaults, sizeof defaults, struct_size); \
     }
 

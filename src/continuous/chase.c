@@ -79,9 +79,9 @@ static fe__shift go_on(const fe__step *step, int32_t body, int32_t against, fe__
 }
 
 // A turn not made leaves the spin as the body has it in its own frame: turned with the world's, it would be another energy
-static void turn_spin(const float *motion, const fe__shift *end, float *spin)
+static void turn_spin(const fe__motion_line *motion, const fe__shift *end, float *spin)
 {
-    fe_quat missing = fe__product(fe__quat_of(motion + 4), fe__conjugate(end->turn));
+    fe_quat missing = fe__product(fe__quat_of(motion->rotation), fe__conjugate(end->turn));
     fe_vec3 w = fe__rotate_back(fe__normalized(missing), fe__quad_vector(spin));
     spin[0] = w.x, spin[1] = w.y, spin[2] = w.z;
 }
@@ -89,13 +89,12 @@ static void turn_spin(const float *motion, const fe__shift *end, float *spin)
 static void write_chase(const fe__step *step, const fe__body *body, const fe__shift *end, int32_t carried, fe__chase *chase)
 {
     const fe__solver *s = &step->world->solver;
-    for (int32_t k = 0; k < FE__LINE; ++k) chase->motion[k] = s->motion[body->line][k];
-    for (int32_t k = 0; k < FE__LINE; ++k) chase->velocity[k] = s->velocity[body->line][k];
-    if (!body->locked) turn_spin(chase->motion, end, chase->velocity + 4);
+    chase->motion = s->motion[body->line];
+    chase->velocity = s->velocity[body->line];
+    if (!body->locked) turn_spin(&chase->motion, end, chase->velocity.w);
     fe_vec3 p = fe__narrow(end->centre);
-    if (!carried) fe__give_back(step->world, body, fe__sub(p, fe__quad_vector(chase->motion)), chase->velocity);
-    const float motion[FE__LINE] = {p.x, p.y, p.z, chase->motion[3], end->turn.x, end->turn.y, end->turn.z, end->turn.w};
-    for (int32_t k = 0; k < FE__LINE; ++k) chase->motion[k] = motion[k];
+    if (!carried) fe__give_back(step->world, body, fe__sub(p, fe__quad_vector(chase->motion.shift)), chase->velocity.v);
+    chase->motion = (fe__motion_line){{p.x, p.y, p.z}, chase->motion.gyroscopic, {end->turn.x, end->turn.y, end->turn.z, end->turn.w}};
     chase->stopped = 1;
 }
 
@@ -123,8 +122,8 @@ void fe__apply_chase(fe_world *w, int32_t body, const fe__chase *chase)
 {
     if (!chase->stopped) return;
     int32_t line = w->bodies[body].line;
-    for (int32_t k = 0; k < FE__LINE; ++k) w->solver.motion[line][k] = chase->motion[k];
-    for (int32_t k = 0; k < FE__LINE; ++k) w->solver.velocity[line][k] = chase->velocity[k];
+    w->solver.motion[line] = chase->motion;
+    w->solver.velocity[line] = chase->velocity;
     w->solver.trail_count[line] = FE__NO_TRAIL;
 }
 

@@ -50,16 +50,17 @@ void fe__limit_energy(const fe__step *step, int32_t body)
     const fe_world *w = step->world;
     const fe__body *b = w->bodies + body;
     if (is_driven(b) || !is_pushed_by_static_only(w, body)) return;
-    float *velocity = w->solver.velocity[b->line];
-    const float *motion = w->solver.motion[b->line];
-    fe_quat before = fe__rotation_of(b), after = fe__product(fe__quat_of(motion + 4), before);
+    fe__velocity_line *velocity = w->solver.velocity + b->line;
+    const fe__motion_line *motion = w->solver.motion + b->line;
+    fe_quat before = {b->rotation[0], b->rotation[1], b->rotation[2], b->rotation[3]};
+    fe_quat after = fe__product(fe__quat_of(motion->rotation), before);
     float weight = b->mass * b->gravity_scale, h = step->constants.h;
     // of the discrete fall: v . h g / 2 belongs to the height
-    float work = weight * fe__dot(w->gravity, fe__quad_vector(motion));
-    work -= 0.5f * weight * h * fe__dot(w->gravity, fe__sub(fe__quad_vector(velocity), fe__quad_vector(b->velocity)));
+    float work = weight * fe__dot(w->gravity, fe__quad_vector(motion->shift));
+    work -= 0.5f * weight * h * fe__dot(w->gravity, fe__sub(fe__quad_vector(velocity->v), fe__quad_vector(b->velocity)));
     float most = energy_of(b, before, b->velocity, b->spin) * (1.0f + ENERGY_ROUNDING) + fe__maxf(work, 0.0f);
-    float now = energy_of(b, after, velocity, velocity + 4);
+    float now = energy_of(b, after, velocity->v, velocity->w);
     if (!(now > most)) return;
     float k = sqrtf(most / now);
-    for (int32_t i = 0; i < 3; ++i) velocity[i] *= k, velocity[4 + i] *= k;
+    for (int32_t i = 0; i < 3; ++i) velocity->v[i] *= k, velocity->w[i] *= k;
 }

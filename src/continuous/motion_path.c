@@ -7,9 +7,9 @@ static const fe__shift no_shift = {.turn = {0.0f, 0.0f, 0.0f, 1.0f}};
 
 static fe_quat forwards(fe_quat q) { return q.w < 0.0f ? (fe_quat){-q.x, -q.y, -q.z, -q.w} : q; }
 
-static fe__shift shift_of(const float *motion)
+static fe__shift shift_of(const fe__motion_line *motion)
 {
-    return (fe__shift){fe__widen(fe__quad_vector(motion)), forwards(fe__quat_of(motion + 4))};
+    return (fe__shift){fe__widen(fe__quad_vector(motion->shift)), forwards(fe__quat_of(motion->rotation))};
 }
 
 static int32_t moves(const fe__body *body) { return body->awake_index >= 0 && body->line >= 0; }
@@ -33,7 +33,7 @@ fe__shift fe__path_place(const fe__step *step, int32_t body, int32_t leg)
     const fe__solver *s = &step->world->solver;
     int32_t line = step->world->bodies[body].line;
     if (leg == 0) return no_shift;
-    return shift_of(leg == fe__path_legs(step, body) ? s->motion[line] : s->trail[s->trail_of[line]][leg - 1]);
+    return shift_of(leg == fe__path_legs(step, body) ? s->motion + line : s->trail[s->trail_of[line]] + leg - 1);
 }
 
 static fe_quat between(fe_quat a, fe_quat b, float t)
@@ -93,6 +93,6 @@ float fe__path_length(const fe__step *step, int32_t body)
 {
     const fe__body *b = step->world->bodies + body;
     if (!moves(b)) return 0.0f;
-    fe__shift end = shift_of(step->world->solver.motion[b->line]);
+    fe__shift end = shift_of(step->world->solver.motion + b->line);
     return length_of(&end, b->reach);
 }

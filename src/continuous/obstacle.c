@@ -25,16 +25,7 @@ typedef struct search {
     int32_t blocked; // fe__path_is_blocked
 } search;
 
-static fe__form dipped(const fe__form *form)
-{
-    fe__form thin = *form;
-    float dip = DIP * fe__form_thickness(form);
-    if (form->type == FE__FORM_BOX)
-        thin.half = fe__sub(form->half, fe__vec3(dip, dip, dip));
-    else
-        thin.radius -= dip;
-    return thin;
-}
+static fe__form dipped(const fe__form *form) { return fe__form_shrunk(form, DIP * fe__form_thickness(form)); }
 
 static void note(search *s, const fe__impact *deep, const fe__impact *touch, const fe__shape *obstacle, fe_dvec3 normal)
 {
@@ -130,8 +121,8 @@ static void try_shape(search *s, int32_t shape)
     fe__mobile other = fe__mobile_of_shape(s->step, obstacle, &motion);
     for (int32_t i = w->bodies[s->body].first_shape; i >= 0; i = w->shapes[i].next) {
         const fe__shape *own = w->shapes + i;
-        if (own->flags & FE__SHAPE_TRIGGER || own->form.type >= FE__FORM_PLANE || !fe__may_collide(w, i, shape)) continue;
-        if (obstacle->form.type == FE__FORM_HEIGHTFIELD)
+        if (own->flags & FE__SHAPE_TRIGGER || fe__form_is_static_only(&own->form) || !fe__may_collide(w, i, shape)) continue;
+        if (fe__form_is_field(&obstacle->form))
             try_field(s, own, obstacle, &other);
         else
             try_obstacle(s, own, obstacle, &other);

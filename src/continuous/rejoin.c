@@ -20,20 +20,20 @@ enum { MOST_SWEEPS = 32, MOST_ROUNDS = 3 };
 
 typedef struct end {
     const fe__body *body;
-    float *motion;  // NULL: does not move in this step
-    fe_dvec3 arm;   // m, world, now
-    double mass[3]; // inverse, along the world's axes, 1/kg; 0: held
-    double turn[3]; // 1: may turn about that axis of the world
+    fe__motion_line *motion; // NULL: does not move in this step
+    fe_dvec3 arm;            // m, world, now
+    double mass[3];          // inverse, along the world's axes, 1/kg; 0: held
+    double turn[3];          // 1: may turn about that axis of the world
 } end;
 
-static fe_quat turn_of(const end *e) { return e->motion ? fe__quat_of(e->motion + 4) : fe__identity(); }
+static fe_quat turn_of(const end *e) { return e->motion ? fe__quat_of(e->motion->rotation) : fe__identity(); }
 
 static end end_of(const fe_world *w, int32_t body, const float *local_arm, int32_t holds)
 {
     const fe__body *b = w->bodies + body;
     const int locks = (int)b->lock_bits, moves = b->awake_index >= 0 && b->line >= 0,
               held = (holds && b->flags & FE__BODY_HELD) || b->type != FE_BODY_DYNAMIC;
-    end e = {.body = b, .motion = moves ? w->solver.motion[b->line] : NULL};
+    end e = {.body = b, .motion = moves ? w->solver.motion + b->line : NULL};
     e.arm = fe__drotate(turn_of(&e), fe__drotate(fe__rotation_of(b), fe__widen(fe__quad_vector(local_arm))));
     for (int k = 0; k < 3 && !held; ++k) {
         e.mass[k] = locks >> k & 1 ? 0.0 : (double)b->inverse_mass;
@@ -46,7 +46,7 @@ static end end_of(const fe_world *w, int32_t body, const float *local_arm, int32
 static fe_dvec3 point_of(const end *e)
 {
     fe_dvec3 point = fe__dadd(fe__centre_of(e->body), e->arm);
-    return e->motion ? fe__dadd(point, fe__widen(fe__quad_vector(e->motion))) : point;
+    return e->motion ? fe__dadd(point, fe__widen(fe__quad_vector(e->motion->shift))) : point;
 }
 
 static fe_dvec3 along(const double *share, fe_dvec3 a) { return (fe_dvec3){share[0] * a.x, share[1] * a.y, share[2] * a.z}; }
@@ -71,14 +71,14 @@ static fe_dvec3 answer(const end *e, fe_dvec3 push)
 static void shift(const fe_world *w, const end *e, fe_dvec3 push)
 {
     if (e->body->type != FE_BODY_DYNAMIC || !e->motion) return;
-    fe__give_back(w, e->body, fe__narrow(along(e->mass, push)), w->solver.velocity[e->body->line]);
+    fe__give_back(w, e->body, fe__narrow(along(e->mass, push)), w->solver.velocity[e->body->line].v);
     fe_dvec3 way = along(e->mass, push), turn = turned_by(e, fe__dcross(e->arm, push));
     double angle = sqrt(fe__ddot(turn, turn)), half = 0.5 * (angle > MOST_TURN ? MOST_TURN / angle : 1.0);
     fe_quat q = {(float)(half * turn.x), (float)(half * turn.y), (float)(half * turn.z), 1.0f};
     q = fe__normalized(fe__product(q, turn_of(e)));
-    e->motion[0] = (float)((double)e->motion[0] + way.x), e->motion[1] = (float)((double)e->motion[1] + way.y);
-    e->motion[2] = (float)((double)e->motion[2] + way.z);
-    e->motion[4] = q.x, e->motion[5] = q.y, e->motion[6] = q.z, e->motion[7] = q.w;
+    float *p = e->motion->shift, *r = e->motion->rotation;
+    p[0] = (float)((double)p[0] + way.x), p[1] = (float)((double)p[1] + way.y), p[2] = (float)((double)p[2] + way.z);
+    r[0] = q.x, r[1] = q.y, r[2] = q.z, r[3] = q.w;
 }
 
 // x with K x = d; K: what pushes along the three axes answer together

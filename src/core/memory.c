@@ -2,7 +2,7 @@
 // A store calls it under its lock.
 #include "core/memory.h"
 
-#include "core/lock.h"
+#include "core/mutex.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -38,9 +38,9 @@ void fe__memory_init(fe__memory *memory, const fe_allocator *allocator)
 void *fe__allocate(fe__memory *memory, size_t size)
 {
     if (size == 0 || size > PTRDIFF_MAX) return NULL;
-    if (memory->guard) fe__lock_take(memory->guard);
+    if (memory->guard) fe__mutex_lock(memory->guard);
     void *block = memory->allocator.allocate(memory->allocator.user, size, BLOCK_ALIGNMENT);
-    if (memory->guard) fe__lock_give(memory->guard);
+    if (memory->guard) fe__mutex_unlock(memory->guard);
     if (!block) return NULL;
     memset(block, 0, size);
     memory->bytes += (int64_t)size;
@@ -51,9 +51,9 @@ void *fe__allocate(fe__memory *memory, size_t size)
 void fe__release(fe__memory *memory, void *block, size_t size)
 {
     if (!block) return;
-    if (memory->guard) fe__lock_take(memory->guard);
+    if (memory->guard) fe__mutex_lock(memory->guard);
     memory->allocator.release(memory->allocator.user, block, size);
-    if (memory->guard) fe__lock_give(memory->guard);
+    if (memory->guard) fe__mutex_unlock(memory->guard);
     memory->bytes -= (int64_t)size;
 }
 

@@ -12,7 +12,7 @@
 
 typedef struct fe__memory {
     fe_allocator allocator;
-    struct fe__lock *guard; // held around each call of the allocator; NULL: not needed
+    struct fe__mutex *guard; // held around each call of the allocator; NULL: not needed
     int64_t bytes;          // now
     int64_t allocations;    // ever
 } fe__memory;

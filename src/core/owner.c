@@ -1,7 +1,7 @@
 // owner.c - the slots of the threads that read. See owner.h.
 #include "core/owner.h"
 
-#include "core/lock.h"
+#include "core/mutex.h"
 
 #include <stdlib.h>
 

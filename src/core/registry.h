@@ -4,7 +4,7 @@
 // does not know. It is locked at creation and destruction only: searching a list is enough.
 #ifndef FE_CORE_REGISTRY_H
 #define FE_CORE_REGISTRY_H
-#include "core/lock.h"
+#include "core/mutex.h"
 #include "feather.h"
 
 #include <stdint.h>
@@ -17,7 +17,7 @@ typedef struct fe__entry {
 } fe__entry;
 
 typedef struct fe__registry {
-    fe__lock lock;
+    fe__mutex lock;
     fe__entry *first;
 } fe__registry;
 

@@ -72,7 +72,7 @@ struct fe_pool {
 };
 
 static _Thread_local int inside_task;
-static fe__registry pools = {FE_LOCK_INITIAL, NULL};
+static fe__registry pools = {FE_MUTEX_INITIAL, NULL};
 
 // ---- pausing, yielding, sleeping --------------------------------------------------------------------------------------------
 

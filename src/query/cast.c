@@ -5,6 +5,8 @@
 // the form of the trees nor the order of the tests shows in the answer.
 #include "query/cast.h"
 
+#include "collision/cast/ray.h"
+#include "collision/cast/sweep.h"
 #include "query/keep.h"
 
 #include <string.h>
@@ -17,7 +19,7 @@ static void set(fe_dvec3 *to, const fe_dvec3 *from) { to->x = from->x, to->y = f
 // Zeroing it whole would cost a twentieth of a ray.
 void fe__probe_ray(fe__probe *probe, const fe_dvec3 *origin, const fe_dvec3 *translation)
 {
-    probe->form = (fe__form){.type = FE__FORM_SPHERE};
+    probe->form = fe__point_form();
     set(&probe->way.origin, origin);
     set(&probe->way.translation, translation);
     probe->way.half = (fe_dvec3){0.0, 0.0, 0.0};
@@ -31,7 +33,7 @@ fe__probe fe__probe_form(const fe__form *form, const fe_transform *from, fe_dvec
                        .axes = fe__axes_of(from->rotation)};
 }
 
-static int32_t is_ray(const fe__probe *probe) { return probe->form.type == FE__FORM_SPHERE && probe->form.radius == 0.0f; }
+static int32_t is_ray(const fe__probe *probe) { return fe__form_is_point(&probe->form); }
 
 // ---- one shape ------------------------------------------------------------------------------------------------------------------
 // A hit in the frame of the shape. What is first in the end is turned into the world, not what is only tested.
@@ -44,7 +46,7 @@ typedef struct found {
 static int32_t is_turned(const fe__shape *shape)
 {
     fe_quat q = shape->pose.rotation;
-    return shape->form.type != FE__FORM_SPHERE && fe__absf(q.x) + fe__absf(q.y) + fe__absf(q.z) > 0.0f; // one branch, not three
+    return !fe__form_is_ball(&shape->form) && fe__absf(q.x) + fe__absf(q.y) + fe__absf(q.z) > 0.0f; // one branch, not three
 }
 
 static inline int32_t meet_ray(const fe__scene *scene, const fe__probe *probe, const fe__shape *shape, double limit, found *f)
@@ -58,7 +60,7 @@ static inline int32_t meet_ray(const fe__scene *scene, const fe__probe *probe, c
         set(&origin, &turned);
         set(&way, &turned_way);
     }
-    if (shape->form.type == FE__FORM_HEIGHTFIELD)
+    if (fe__form_is_field(&shape->form))
         return fe__heightfield_ray(fe__store_field(scene->store, shape->form.field), origin, way, limit, &f->hit);
     return fe__form_ray_at(&shape->form, &origin, &way, limit, &f->hit);
 }
@@ -77,7 +79,7 @@ static int32_t meet_form(const fe__scene *scene, const fe__probe *probe, const f
     fe__axes m = fe__axes_of(shape->pose.rotation);
     fe__mover mover = mover_of(probe, shape, &m);
     fe__sweep_hit hit;
-    int32_t is_field = shape->form.type == FE__FORM_HEIGHTFIELD;
+    int32_t is_field = fe__form_is_field(&shape->form);
     int32_t met = is_field ? fe__heightfield_sweep(fe__store_field(scene->store, shape->form.field), &mover, limit, &hit)
                            : fe__form_sweep(&shape->form, &mover, limit, &hit);
     if (!met) return 0;
@@ -95,7 +97,7 @@ int32_t fe__probe_overlaps(const fe__scene *scene, const fe__probe *probe, const
     }
     fe__axes m = fe__axes_of(shape->pose.rotation);
     fe__mover mover = mover_of(probe, shape, &m);
-    if (shape->form.type == FE__FORM_HEIGHTFIELD) return fe__heightfield_overlap(fe__store_field(scene->store, shape->form.field), &mover);
+    if (fe__form_is_field(&shape->form)) return fe__heightfield_overlap(fe__store_field(scene->store, shape->form.field), &mover);
     return fe__form_overlap(&shape->form, &mover);
 }
 

@@ -5,7 +5,7 @@
 #define FE_QUERY_CAST_H
 #include "query/scene.h"
 
-#include "collision/cast/sweep.h"
+#include "collision/cast/mover.h"
 
 #include <stddef.h>
 

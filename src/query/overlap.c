@@ -166,14 +166,6 @@ static int32_t shape_before(const void *context, const void *a, const void *b)
     return fe__created_before(&scene->shapes[of_a], &scene->shapes[of_b]);
 }
 
-// The corner of the box that is deepest in the half space
-static int32_t plane_meets(const fe__shape *plane, const fe__bounds *box)
-{
-    fe_dvec3 n = fe__drotate(plane->pose.rotation, fe__widen(plane->form.normal));
-    fe_dvec3 deepest = {n.x > 0.0 ? box->low.x : box->high.x, n.y > 0.0 ? box->low.y : box->high.y, n.z > 0.0 ? box->low.z : box->high.z};
-    return fe__ddot(n, fe__dsub(deepest, plane->pose.position)) <= (double)plane->form.distance;
-}
-
 static int32_t bounds_meet(const fe__shape *shape, const fe__bounds *box)
 {
     fe__bounds b = fe__form_bounds(&shape->form, &shape->pose);
@@ -187,7 +179,9 @@ static int32_t visit_bounds(void *context, int32_t index)
     const fe__shape *shape = &s->scene->shapes[index];
     uint64_t record = (uint64_t)index;
     if (!fe__scene_counts(s->scene, shape)) return 1;
-    if (shape->form.type == FE__FORM_PLANE ? plane_meets(shape, s->box) : bounds_meet(shape, s->box)) fe__keep_add(&s->keep, &record);
+    int32_t meets =
+        fe__form_is_unbounded(&shape->form) ? fe__plane_meets_box(&shape->form, &shape->pose, s->box) : bounds_meet(shape, s->box);
+    if (meets) fe__keep_add(&s->keep, &record);
     return 1;
 }
 

@@ -7,15 +7,19 @@
 #include "solver/solver.h"
 #include "solver/wide_body.h"
 
-FE_INLINE void load_line(float (*lines)[FE__LINE], int32_t i, wide4 *low, wide4 *high) { gather_line(lines + i, w_in_order, low, high); }
-FE_INLINE wide4 load_low(float (*lines)[FE__LINE], int32_t i) { return w_gather(lines[i], FE__LINE, w_in_order); }
-FE_INLINE wide4 load_high(float (*lines)[FE__LINE], int32_t i) { return w_gather(lines[i] + 4, FE__LINE, w_in_order); }
-FE_INLINE void store_line(float (*lines)[FE__LINE], int32_t i, wide4 low, wide4 high)
+// of W bodies from line i on
+FE_INLINE void load_line(const void *lines, int32_t i, wide4 *low, wide4 *high)
 {
-    w_scatter_both(lines[i], FE__LINE, w_in_order, low, high);
+    gather_line((const float *)lines + (int64_t)i * FE__LINE, w_in_order, low, high);
+}
+FE_INLINE wide4 load_low(const void *lines, int32_t i) { return gather_low((const float *)lines + (int64_t)i * FE__LINE, w_in_order); }
+FE_INLINE wide4 load_high(const void *lines, int32_t i) { return gather_high((const float *)lines + (int64_t)i * FE__LINE, w_in_order); }
+FE_INLINE void store_line(void *lines, int32_t i, wide4 low, wide4 high)
+{
+    w_scatter_both((float *)lines + (int64_t)i * FE__LINE, FE__LINE, w_in_order, low, high);
 }
 
-FE_INLINE void store_high(float (*lines)[FE__LINE], int32_t i, wide4 high) { w_scatter(lines[i] + 4, FE__LINE, w_in_order, high); }
+FE_INLINE void store_high(void *lines, int32_t i, wide4 high) { scatter_high((float *)lines + (int64_t)i * FE__LINE, w_in_order, high); }
 
 // ---- records to lines, once per step ------------------------------------------------------------------------------------------------
 enum { BODY_STRIDE = sizeof(fe__body) / sizeof(float) };
@@ -51,26 +55,21 @@ static void lock_line(fe__solver *s, const fe__body *body, int32_t line, fe_quat
         float k = 1.0f / (i[a][a] * i[b][b] - i[a][b] * i[a][b]);
         inverse[a][a] = k * i[b][b], inverse[b][b] = k * i[a][a], inverse[a][b] = inverse[b][a] = -(k * i[a][b]);
     }
-    float *out = s->inertia[line], *drive = s->drive[line];
+    fe__sym3 *out = &s->inertia[line].inverse;
+    fe__drive_line *drive = s->drive + line;
     if (n < 3) {
-        const float packed[6] = {inverse[0][0], inverse[0][1], inverse[0][2], inverse[1][1], inverse[1][2], inverse[2][2]};
-        for (int k = 0; k < 6; ++k) out[k] = packed[k];
-        const fe__sym3 sym = {out[0], out[1], out[2], out[3], out[4], out[5]};
-        const fe_vec3 turn = fe__mul_sym(&sym, fe__vec3(body->torque[0], body->torque[1], body->torque[2]));
-        drive[4] = turn.x, drive[5] = turn.y, drive[6] = turn.z;
+        *out = (fe__sym3){inverse[0][0], inverse[0][1], inverse[0][2], inverse[1][1], inverse[1][2], inverse[2][2]};
+        const fe_vec3 angular = fe__mul_sym(out, fe__quad_vector(body->torque));
+        drive->angular[0] = angular.x, drive->angular[1] = angular.y, drive->angular[2] = angular.z;
     }
     for (int k = 0; k < 3; ++k)
-        if (locks >> k & 1) drive[k] = 0.0f;
+        if (locks >> k & 1) drive->linear[k] = 0.0f;
 }
-
-// How the gyroscopic torque acts on a body, in a spare lane of each line that asks: 0 not at all. Most bodies' moments are then never read.
-#define TURNS_FREELY 1.0f // while it turns, see turn_freely
-#define TURNS_JOINED 2.0f // before the constraints are solved, see advance
 
 static float gyroscopic_kind(const fe__body *body)
 {
-    if (body->flags & FE__BODY_ISOTROPIC || body->type != FE_BODY_DYNAMIC) return 0.0f;
-    return body->joint_count ? TURNS_JOINED : TURNS_FREELY;
+    if (body->flags & FE__BODY_ISOTROPIC || body->type != FE_BODY_DYNAMIC) return FE__GYROSCOPIC_NONE;
+    return body->joint_count ? FE__GYROSCOPIC_JOINED : FE__GYROSCOPIC_FREE;
 }
 
 FE_INLINE void load_block(fe__solver *s, const fe__body *bodies, int32_t line, const fe__step_constants *c)
@@ -101,10 +100,10 @@ FE_INLINE void load_block(fe__solver *s, const fe__body *bodies, int32_t line, c
     store_line(s->motion, line, (wide4){zero, zero, zero, *(wide *)gyroscopic * there}, (wide4){zero, zero, zero, one});
     store_line(s->inertia, line, (wide4){i.xx, i.xy, i.xz, i.yy}, (wide4){i.yz, i.zz, *(wide *)gyroscopic * there, zero});
     store_line(s->drive, line, w_with(push, damping), w_with(w_mul(&i, w_xyz(torque)), spin_damping));
-    store_line(s->spin, line, axes, (wide4){inertia.x, inertia.y, inertia.z, zero});
+    store_line(s->axes, line, axes, (wide4){inertia.x, inertia.y, inertia.z, zero});
     for (int k = 0; k < FE_W && locked; ++k) {
         const fe__body *body = bodies + index[k];
-        const float *a = s->spin[line + k];
+        const float *a = s->axes[line + k].rotation;
         if (is_there[k] != 0.0f && body->locked && body->type == FE_BODY_DYNAMIC)
             lock_line(s, body, line + k, (fe_quat){a[0], a[1], a[2], a[3]});
     }
@@ -156,9 +155,9 @@ FE_INLINE void advance(const fe__solver *s, int32_t i, wide kind, const fe__step
 {
     wide4 push, turn;
     load_line(s->drive, i, &push, &turn);
-    wide_mask joined = w_greater(kind, w_set(TURNS_FREELY));
+    wide_mask joined = w_greater(kind, w_set(FE__GYROSCOPIC_FREE));
     if (w_any(joined)) {
-        wide4 axes = w_product(load_high(s->motion, i), load_low(s->spin, i)), principal = load_high(s->spin, i);
+        wide4 axes = w_product(load_high(s->motion, i), load_low(s->axes, i)), principal = load_high(s->axes, i);
         *w = w_choose3(joined, w_add(*w, free_change(*w, axes, w_xyz(principal), w_set(0.5f * c->h))), *w);
     }
     *v = w_scale(push.w, w_add_scaled(*v, w_set(c->h), w_xyz(push)));
@@ -204,11 +203,11 @@ FE_INLINE wide3 turn_freely(fe__solver *s, int32_t i, wide kind, wide4 turned, c
 {
     wide4 stored = load_high(s->velocity, i);
     wide3 w = w_xyz(stored);
-    wide_mask gyroscopic = w_and(w_greater(kind, w_set(0.0f)), w_not(w_greater(kind, w_set(TURNS_FREELY))));
+    wide_mask gyroscopic = w_and(w_greater(kind, w_set(0.0f)), w_not(w_greater(kind, w_set(FE__GYROSCOPIC_FREE))));
     if (!w_any(gyroscopic)) return w;
-    wide4 principal = load_high(s->spin, i), start = load_high(s->start, i);
+    wide4 principal = load_high(s->axes, i), start = load_high(s->start, i);
     wide half_h = w_set(0.5f * c->h);
-    wide3 change = free_change(w, w_product(turned, load_low(s->spin, i)), w_xyz(principal), half_h);
+    wide3 change = free_change(w, w_product(turned, load_low(s->axes, i)), w_xyz(principal), half_h);
     wide3 half = w_scale(w_set(0.5f), change), mean = w_choose3(gyroscopic, w_add(w, half), w), u = w_scale(half_h, mean);
     wide k = 1.0f / w_sqrt(1.0f + w_dot(u, u));
     change = w_add(change, w_turn(w_with(w_scale(k, u), k), half));

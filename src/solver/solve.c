@@ -3,7 +3,10 @@
 // A small batch is run whole by one worker, its rows in that worker's stretch of row memory. A large one is run by all workers together:
 // they walk the same program, claim blocks of each pass, and go on when the last block of a pass is done. Both walk the same passes over
 // the same groups in the same order of colours, so that who executes a batch never shows.
-#include "solver/graph/graph.h"
+#include "solver/solve.h"
+
+#include "solver/pace.h"
+#include "solver/tree/tree.h"
 
 #include <assert.h>
 #include <string.h>
@@ -175,7 +178,7 @@ static void leave_trails(const job *j, int32_t first, int32_t count, const fe__s
     for (int32_t i = first; i < first + count; ++i) {
         if (j->s->trail_count[i] == FE__NO_TRAIL) continue;
         int32_t substeps = ++j->s->trail_count[i];
-        if (substeps % stride == 0) memcpy(j->s->trail[j->s->trail_of[i]][substeps / stride - 1], j->s->motion[i], sizeof *j->s->motion);
+        if (substeps % stride == 0) j->s->trail[j->s->trail_of[i]][substeps / stride - 1] = j->s->motion[i];
     }
 }
 
@@ -221,11 +224,11 @@ static void run_joints(const job *j, const fe__group *g, verb verb, unsigned cha
 
 static void run_tree(const job *j, const fe__group *g, verb verb, unsigned char *rows, const fe__step_constants *c)
 {
-    const fe__tree_kernel *k = &j->k->joint->tree;
-    if (verb == PREPARE) k->prepare(j->s, j->joints, g->lane, rows, g->offset, c);
-    if (verb == SOLVE) k->solve(j->s, j->joints, g->lane, rows, g->offset, c);
-    if (verb == FOLLOW) k->follow(j->s, j->joints, g->lane, rows, g->offset, c);
-    if (verb == RELAX) k->relax(j->s, j->joints, g->lane, rows, g->offset, c);
+    const fe__tree_job tree = fe__tree_job_of(j->s, &j->k->joint->locks, j->joints, g->lane, rows, g->offset, c);
+    if (verb == PREPARE) fe__tree_prepare(&tree);
+    if (verb == SOLVE) fe__tree_solve(&tree);
+    if (verb == FOLLOW) fe__tree_follow(&tree);
+    if (verb == RELAX) fe__tree_relax(&tree);
 }
 
 // Stored impulses are those of the world's substeps
@@ -395,19 +398,13 @@ static int32_t useful_workers(const fe__solver *s, const fe__batch *b, int32_t w
 static void clear_static_line(fe__solver *s)
 {
     for (int32_t i = 0; i < FE__MAX_WIDTH; ++i) {
-        for (int32_t k = 0; k < FE__LINE; ++k)
-            s->velocity[i][k] = s->motion[i][k] = s->start[i][k] = s->inertia[i][k] = s->drive[i][k] = s->spin[i][k] = 0.0f;
-        s->motion[i][FE__LINE - 1] = 1.0f;
+        s->velocity[i] = (fe__velocity_line){0};
+        s->motion[i] = (fe__motion_line){.rotation = {0.0f, 0.0f, 0.0f, 1.0f}};
+        s->start[i] = (fe__start_line){0};
+        s->inertia[i] = (fe__inertia_line){0};
+        s->drive[i] = (fe__drive_line){0};
+        s->axes[i] = (fe__axes_line){0};
     }
-}
-
-// A pass hands an impulse on by a body or so. Where that is too slow substeps are finer: in islands of bodies that bear many times their
-// weight, which have more rigid passes too, and are strained; in islands whose joints open wide, which are stretched. Joined bodies press
-// each other with the forces of their joints, which is no strain.
-int32_t fe__pace_of(uint32_t flags, int32_t has_joints)
-{
-    if (has_joints) return flags & FE__BODY_STRETCHED ? FE__STRETCHED : FE__USUAL;
-    return flags & FE__BODY_STRAINED ? FE__STRAINED : FE__USUAL;
 }
 
 // the marks of the lines to the bodies, and all that is true of an island's bodies to `found`
@@ -416,7 +413,7 @@ static void note_marks(const fe__solver *s, const fe__batch *b, fe__body *bodies
     for (int32_t line = b->first_line; line < b->first_line + b->line_count; ++line) {
         fe__body *body = bodies + fe__maxi(s->body_of_line[line], 0);
         if (s->body_of_line[line] < 0 || body->type != FE_BODY_DYNAMIC) continue;
-        float mark = s->inertia[line][FE__LINE - 1];
+        float mark = s->inertia[line].mark;
         body->flags &= ~(uint32_t)(FE__BODY_STRAINED | FE__BODY_STRETCHED);
         if (mark == (float)FE__STRAINED) body->flags |= FE__BODY_STRAINED;
         if (mark == (float)FE__STRETCHED) body->flags |= FE__BODY_STRETCHED;

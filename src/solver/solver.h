@@ -15,6 +15,7 @@
 #include "solver/contact/contact.h"
 #include "solver/body.h"
 #include "solver/joint/joint.h"
+#include "solver/tree/lock.h"
 
 enum {
     FE__LINE = 8,        // floats in a line: two quads, 32 bytes
@@ -74,6 +75,65 @@ typedef struct fe__step_constants {
     float joint_hertz; // at most, 1/s
 } fe__step_constants;
 
+// What the kernels know of a body: a line of each kind, two quads, which they load and store whole
+typedef struct fe__velocity_line {
+    _Alignas(16) float v[3]; // m/s
+    float inverse_mass;      // 1/kg
+    float w[3];              // rad/s
+    float lock_bits;
+} fe__velocity_line;
+
+// Since the step began
+typedef struct fe__motion_line {
+    _Alignas(16) float shift[3]; // of the centre, m
+    float gyroscopic;            // FE__GYROSCOPIC_*
+    float rotation[4];           // x y z w
+} fe__motion_line;
+
+// Velocities before the constraint impulses of this substep
+typedef struct fe__start_line {
+    _Alignas(16) float v[3];
+    float inverse_mass;
+    float w[3];
+    float gyroscopic;
+} fe__start_line;
+
+typedef struct fe__inertia_line {
+    _Alignas(16) fe__sym3 inverse; // world
+    float gyroscopic;
+    float mark; // FE__STRAINED, FE__STRETCHED when the body turned out to be
+} fe__inertia_line;
+
+// Changes of velocity that no constraint makes; c: the damping, 1/s
+typedef struct fe__drive_line {
+    _Alignas(16) float linear[3]; // acceleration by gravity and forces, m/s2
+    float linear_damping;         // 1/(1 + h c)
+    float angular[3];             // by torques, rad/s2
+    float angular_damping;
+} fe__drive_line;
+
+// Of the principal inertia, when the step began
+typedef struct fe__axes_line {
+    _Alignas(16) float rotation[4]; // x y z w, world
+    float principal[3];             // moments, kg m2
+    float zero;
+} fe__axes_line;
+
+#define FE__IS_LINE(type) _Static_assert(sizeof(type) == sizeof(float) * FE__LINE, #type)
+FE__IS_LINE(fe__velocity_line);
+FE__IS_LINE(fe__motion_line);
+FE__IS_LINE(fe__start_line);
+FE__IS_LINE(fe__inertia_line);
+FE__IS_LINE(fe__drive_line);
+FE__IS_LINE(fe__axes_line);
+
+// How the gyroscopic torque acts on a body. Most bodies have none, and their moments are never read.
+enum {
+    FE__GYROSCOPIC_NONE,
+    FE__GYROSCOPIC_FREE,  // while it turns, see turn_freely
+    FE__GYROSCOPIC_JOINED // before the constraints are solved, see advance
+};
+
 // Lanes of one group: `count` rows of one kind at `row` (bytes into the batch's row memory), lanes from `lane`
 typedef struct fe__group {
     int32_t lane; // first
@@ -107,19 +167,8 @@ enum {
     FE__JOINT_KEYS = FE__PARTS * (FE__JOINT_COLOURS + 1), // colours of joints' groups: part, then colour
     FE__TREE_KIND = FE__ROW_KINDS + FE__PARTS,
     FE__TREE_COLOUR = FE__JOINT_KEYS, // trees share no dynamic body
-    FE__CONTACT_COLOURS,              // contacts' come after them
-    FE__MOST_LOCKS = 3                // parts of a joint that are locks
+    FE__CONTACT_COLOURS               // contacts' come after them
 };
-
-// Where a link of a tree finds its bodies and the rows of its joint, see joint_forest.h
-typedef struct fe__tree_place {
-    int32_t line, parent_line; // of the body, of the joint's other end
-    int32_t locks;
-    struct {
-        int32_t part, lane; // FE__PART_*; its lane in the row
-        int64_t row;        // bytes into the batch's row memory
-    } lock[FE__MOST_LOCKS];
-} fe__tree_place;
 
 typedef struct fe__row_block {
     _Alignas(64) unsigned char bytes[64];
@@ -135,13 +184,12 @@ typedef struct fe__pass {
 
 typedef struct fe__solver {
     // lines of bodies, W at a time. The block of FE__STATIC_LINE is zeros and read only
-    float (*velocity)[FE__LINE]; // v, inverse mass | w, lock bits
-    float (*motion)[FE__LINE];   // since the step began: centre, gyroscopic kind | rotation x y z w
-    float (*start)[FE__LINE];    // v, inverse mass | w, gyroscopic kind; before this substep's constraint impulses
-    float (*inertia)[FE__LINE]; // inverse, world: xx xy xz yy | yz zz gyroscopic kind, FE__STRAINED, FE__STRETCHED when the body turned out
-                                // to be
-    float (*drive)[FE__LINE];   // acceleration by gravity and forces, 1/(1 + h c) | by torques, 1/(1 + h c)
-    float (*spin)[FE__LINE];    // principal axes x y z w, world, when the step began | principal moments, 0
+    fe__velocity_line *velocity;
+    fe__motion_line *motion;
+    fe__start_line *start;
+    fe__inertia_line *inertia;
+    fe__drive_line *drive;
+    fe__axes_line *axes;
     int32_t line_count, line_capacity[6];
     int32_t *body_of_line; // -1: padding
     int32_t body_of_line_capacity;
@@ -149,7 +197,7 @@ typedef struct fe__solver {
     // Where bodies that are fast when the step begins went: `motion` after each fe__trail_stride substeps
     int16_t *trail_count;                // by line: substeps so far; FE__NO_TRAIL: a slow one
     int32_t *trail_of;                   // by line of a fast one: its trail
-    float (*trail)[FE__TRAIL][FE__LINE]; // in no order that matters
+    fe__motion_line (*trail)[FE__TRAIL]; // in no order that matters
     _Atomic int32_t trails;              // taken in this step
     int32_t trail_capacity[3];
 
@@ -202,18 +250,9 @@ typedef struct fe__joint_kernel {
                   const fe__step_constants *c);
 } fe__joint_kernel;
 
-// All locks of a tree at once. `rows` is the batch's row memory, `nodes` (bytes into it) where the tree keeps its matrices
-typedef struct fe__tree_kernel {
-    int32_t node_size; // bytes a link
-    void (*prepare)(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes, const fe__step_constants *c);
-    void (*solve)(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes, const fe__step_constants *c);
-    void (*relax)(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes, const fe__step_constants *c);
-    void (*follow)(fe__solver *s, const fe__joints *joints, int32_t tree, unsigned char *rows, int64_t nodes, const fe__step_constants *c);
-} fe__tree_kernel;
-
 typedef struct fe__joint_kernels {
     fe__joint_kernel of[FE__PARTS];
-    fe__tree_kernel tree;
+    fe__lock_lanes locks; // for the trees
 } fe__joint_kernels;
 
 // Passes over lines first..first + count - 1, both multiples of FE__MAX_WIDTH

@@ -14,16 +14,18 @@ FE_INLINE wide3 load3(const wide *p) { return (wide3){p[0], p[1], p[2]}; }
 FE_INLINE void store3(wide *p, wide3 a) { p[0] = a.x, p[1] = a.y, p[2] = a.z; }
 FE_INLINE wide3 w_times(wide3 a, wide3 b) { return (wide3){a.x * b.x, a.y * b.y, a.z * b.z}; }
 
-FE_INLINE wide4 gather_low(float (*lines)[FE__LINE], const int32_t *index) { return w_gather(lines[0], FE__LINE, index); }
-FE_INLINE wide4 gather_high(float (*lines)[FE__LINE], const int32_t *index) { return w_gather(lines[0] + 4, FE__LINE, index); }
+// `lines`: of any kind, two quads each
+FE_INLINE wide4 gather_low(const void *lines, const int32_t *index) { return w_gather(lines, FE__LINE, index); }
+FE_INLINE wide4 gather_high(const void *lines, const int32_t *index) { return w_gather((const float *)lines + 4, FE__LINE, index); }
+FE_INLINE void scatter_high(void *lines, const int32_t *index, wide4 high) { w_scatter((float *)lines + 4, FE__LINE, index, high); }
 
-FE_INLINE void gather_line(float (*lines)[FE__LINE], const int32_t *index, wide4 *low, wide4 *high)
+FE_INLINE void gather_line(const void *lines, const int32_t *index, wide4 *low, wide4 *high)
 {
-    w_gather_both(lines[0], FE__LINE, index, low, high);
+    w_gather_both(lines, FE__LINE, index, low, high);
 }
 
 FE_INLINE side side_of(wide4 v, wide4 w) { return (side){w_xyz(v), w_xyz(w), v.w, w.w}; }
-FE_INLINE side gather_lines(float (*lines)[FE__LINE], const int32_t *index)
+FE_INLINE side gather_lines(const void *lines, const int32_t *index)
 {
     wide4 low, high;
     gather_line(lines, index, &low, &high);
@@ -32,9 +34,9 @@ FE_INLINE side gather_lines(float (*lines)[FE__LINE], const int32_t *index)
 FE_INLINE side gather_side(const fe__solver *s, const int32_t *index) { return gather_lines(s->velocity, index); }
 FE_INLINE side start_side(const fe__solver *s, const int32_t *index) { return gather_lines(s->start, index); }
 
-FE_INLINE void scatter_side(float (*lines)[FE__LINE], const int32_t *index, const side *b)
+FE_INLINE void scatter_side(void *lines, const int32_t *index, const side *b)
 {
-    w_scatter_both(lines[0], FE__LINE, index, w_with(b->v, b->inverse_mass), w_with(b->w, b->locks));
+    w_scatter_both(lines, FE__LINE, index, w_with(b->v, b->inverse_mass), w_with(b->w, b->locks));
 }
 
 FE_INLINE wide_sym gather_inertia(const fe__solver *s, const int32_t *index)

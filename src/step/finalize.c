@@ -50,13 +50,13 @@ static void place_origin(fe__body *body)
 static float length_of(const float *v) { return sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 // Slow is who was slow on the way, too: what is pushed out of another body moves, but has no velocity when the step ends.
-static void tick_sleep_timer(fe_world *w, fe__body *body, const float *motion, float dt)
+static void tick_sleep_timer(fe_world *w, fe__body *body, const fe__motion_line *motion, float dt)
 {
     fe__body_note_speed(w, body);
     float threshold = body->sleep_threshold;
     int32_t slow = body->flags & FE__BODY_SLEEP_ALLOWED && body->speed < threshold;
     // dq = (n sin(a/2), cos(a/2)): a small turn a is twice the length of its vector
-    if (slow) slow = length_of(motion) + 2.0f * length_of(motion + 4) * body->reach < threshold * dt;
+    if (slow) slow = length_of(motion->shift) + 2.0f * length_of(motion->rotation) * body->reach < threshold * dt;
     body->sleep_timer = slow ? body->sleep_timer + dt : 0.0f;
 }
 
@@ -112,19 +112,20 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
         enum { AHEAD = 4 };
         fetch_box(w, i + AHEAD);
         fe__body *body = w->bodies + w->awake_bodies[i];
-        const float *velocity = w->solver.velocity[body->line], *motion = w->solver.motion[body->line];
+        const fe__velocity_line *velocity = w->solver.velocity + body->line;
+        const fe__motion_line *motion = w->solver.motion + body->line;
         if (!fe__motion_makes_sense(&w->solver, body->line)) {
             stop_lost(step, body);
             continue;
         }
         for (int k = 0; k < 3; ++k) {
-            body->velocity[k] = velocity[k], body->spin[k] = velocity[4 + k];
+            body->velocity[k] = velocity->v[k], body->spin[k] = velocity->w[k];
             body->force[k] = body->torque[k] = 0.0f;
         }
-        int32_t moved = shift(body, motion) | turn(body, motion + 4);
+        int32_t moved = shift(body, motion->shift) | turn(body, motion->rotation);
         tick_sleep_timer(w, body, motion, step->dt);
         if (!moved) continue;
-        if (some_wait) fe__odometer_advance(w->odometers + w->awake_bodies[i], length_of(motion), length_of(motion + 4));
+        if (some_wait) fe__odometer_advance(w->odometers + w->awake_bodies[i], length_of(motion->shift), length_of(motion->rotation));
         body->moved_step = w->step_number + 1;
         place_origin(body);
         follow_body(step, w->awake_bodies[i]);

@@ -1,6 +1,7 @@
 // island_bound.c - see island_bound.h. Input: pairs, joints and candidates of the step; output: the clusters that they join (clusters.h).
 #include "step/island_bound.h"
 
+#include "solver/graph/graph.h"
 #include "world/pairs.h"
 
 // Two bodies, of which at least one is dynamic, get so many lanes in common

@@ -4,6 +4,7 @@
 // below is float and small. Only the pair's own records are written.
 #include "step/narrow.h"
 
+#include "collision/manifold/collide.h"
 #include "step/ahead.h"
 #include "step/narrow_seam.h"
 #include "world/pose.h"
@@ -27,9 +28,8 @@ static void set_view(fe__view *v, const fe__shape *a, const fe__shape *b, const 
     v->rotation = fe__matrix(pose_a->rotation);
     v->relative.rotation = fe__matrix(fe__product(fe__conjugate(pose_a->rotation), pose_b->rotation));
     fe_dvec3 between = fe__dsub(pose_b->position, pose_a->position);
-    if (a->form.type == FE__FORM_PLANE) {
-        fe_dvec3 normal = fe__drotate(pose_a->rotation, fe__widen(a->form.normal));
-        v->form_a.distance = (float)((double)a->form.distance - fe__ddot(normal, between));
+    if (fe__form_is_unbounded(&a->form)) {
+        fe__plane_move_frame(&v->form_a, pose_a->rotation, between);
         v->relative.position = fe__vec3(0.0f, 0.0f, 0.0f);
         v->origin = pose_b->position;
     } else if (fe__ddot(between, between) < NEAR * NEAR)
@@ -99,7 +99,7 @@ static int32_t look_ahead(const fe_world *world, const fe__contact *m, float dt,
         if (touch.found.count) end = touch;
     }
     if (-deepest_of(&end.found) > fe__minf(fe__form_thickness(&v->a->form), fe__form_thickness(&v->b->form)) &&
-        v->a->form.type != FE__FORM_PLANE)
+        !fe__form_is_unbounded(&v->a->form))
         return found->count > 0;
     *v = end.v, *at = end.at, *found = end.found;
     return 1;

@@ -35,7 +35,7 @@ static void find_neighbours(const fe_world *w, const look *l, const fe__pose *po
     int32_t body = l->v.b->body;
     for (int32_t pair = w->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(w, pair, body)) {
         const fe__pair *p = w->pairs + pair;
-        const fe__shape *x = w->shapes + p->shape_a, *y = w->shapes + p->shape_b, *field = x->form.type == FE__FORM_HEIGHTFIELD ? x : y;
+        const fe__shape *x = w->shapes + p->shape_a, *y = w->shapes + p->shape_b, *field = fe__form_is_field(&x->form) ? x : y;
         if (p->flags & FE__PAIR_PATCH || p->next_patch < 0 || field == l->v.a || (x != l->v.b && y != l->v.b)) continue;
         if (terrain->neighbour_count == FE__NEIGHBOURS) return;
         fe_quat turn = fe__product(fe__conjugate(pose->rotation), field->pose.rotation);
@@ -49,7 +49,7 @@ static void look_at(const pair_view *p, const fe__pose *pose_field, const fe__po
 {
     const fe_world *w = p->world;
     l->v = (fe__view){.a = p->field, .b = p->other, .origin = pose_other->position, .rotation = fe__matrix(pose_field->rotation)};
-    l->v.form_a.type = FE__FORM_HEIGHTFIELD;
+    l->v.form_a = p->field->form;
     fe__terrain terrain; // its neighbours mean something up to their count
     terrain.field = fe__store_field(w->store, p->field->form.field), terrain.neighbour_count = 0;
     terrain.origin = fe__drotate_back(pose_field->rotation, fe__dsub(pose_other->position, pose_field->position));
@@ -225,7 +225,7 @@ void fe__collide_field_pair(fe_world *world, int32_t head, float dt)
     const fe__pair *p = world->pairs + head;
     const fe__contact *m = world->contacts + head;
     const fe__shape *x = world->shapes + p->shape_a, *y = world->shapes + p->shape_b;
-    int32_t swapped = x->form.type != FE__FORM_HEIGHTFIELD, sensor = (p->flags & FE__PAIR_SENSOR) != 0;
+    int32_t swapped = !fe__form_is_field(&x->form), sensor = (p->flags & FE__PAIR_SENSOR) != 0;
     pair_view view = {world, world->bodies + m->body_a, world->bodies + m->body_b, swapped ? y : x, swapped ? x : y, dt, 0.0f};
     float margin = world->tuning.speculative_distance, reach = fe__reach_in_step(world, view.a, view.b, dt);
     view.speed_limit = dt > 0.0f ? reach / dt : 0.0f;

@@ -44,7 +44,7 @@ static placed place(const fe__view *v, const fe__shape *shape)
 
 static int32_t is_static_box(const fe_world *w, const fe__shape *shape)
 {
-    return shape->form.type == FE__FORM_BOX && w->bodies[shape->body].type == FE_BODY_STATIC && !(shape->flags & FE__SHAPE_TRIGGER);
+    return fe__form_has_flat_faces(&shape->form) && w->bodies[shape->body].type == FE_BODY_STATIC && !(shape->flags & FE__SHAPE_TRIGGER);
 }
 
 // Other static boxes that the same shape is near

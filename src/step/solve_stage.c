@@ -1,7 +1,7 @@
 // solve_stage.c - see solve_stage.h. The constants of each pace of substeps, and the speeds of impacts before the solver.
 #include "step/solve_stage.h"
 
-#include "solver/graph/graph.h"
+#include "solver/solve.h"
 #include "world/pair_list.h"
 
 #include <float.h>

@@ -1,7 +1,7 @@
 // view.h - a pair as the narrow phase sees it: one shape in the frame of the other, the bodies at some time of the step.
 #ifndef FE_STEP_VIEW_H
 #define FE_STEP_VIEW_H
-#include "collision/manifold/collide.h"
+#include "collision/manifold/manifold.h"
 #include "world/world.h"
 
 typedef struct fe__view {

@@ -3,30 +3,30 @@
 
 #include "store/heightfield_asset.h"
 
-static fe__registry stores = {FE_LOCK_INITIAL, NULL};
+static fe__registry stores = {FE_MUTEX_INITIAL, NULL};
 
 // ---- numbers --------------------------------------------------------------------------------------------------------------------------
-static fe__lock numbers_lock = FE_LOCK_INITIAL;
+static fe__mutex numbers_lock = FE_MUTEX_INITIAL;
 static int32_t living[FE_ID_LAST_NUMBER + 1]; // stores with that number
 
 // The next of the counter that no living store has; when each is in use, the next of the counter.
 static int32_t take_number(int32_t number)
 {
-    fe__lock_take(&numbers_lock);
+    fe__mutex_lock(&numbers_lock);
     for (int32_t i = 0; !number; ++i) {
         int32_t drawn = fe__id_draw_number();
         if (!living[drawn] || i == FE_ID_LAST_NUMBER) number = drawn;
     }
     living[number] += 1;
-    fe__lock_give(&numbers_lock);
+    fe__mutex_unlock(&numbers_lock);
     return number;
 }
 
 static void give_number(int32_t number)
 {
-    fe__lock_take(&numbers_lock);
+    fe__mutex_lock(&numbers_lock);
     living[number] -= 1;
-    fe__lock_give(&numbers_lock);
+    fe__mutex_unlock(&numbers_lock);
 }
 
 // ---- life -----------------------------------------------------------------------------------------------------------------------------
@@ -36,8 +36,8 @@ fe_result fe__store_create(const fe_allocator *allocator, int32_t number, fe_sto
     fe__memory_init(&memory, allocator);
     fe_store *store = fe__allocate(&memory, sizeof *store);
     if (!store) return FE_ERROR_MEMORY;
-    fe__lock_init(&store->lock);
-    fe__lock_init(&store->allocator_guard);
+    fe__mutex_init(&store->lock);
+    fe__mutex_init(&store->allocator_guard);
     store->memory = memory;
     fe__id_pool_init(&store->ids, FE_KIND_ASSET, take_number(number));
     fe__registry_add(&stores, &store->entry);
@@ -54,8 +54,8 @@ static void free_store(fe_store *store)
     for (int32_t k = 0; k < FE__CHUNKS; ++k) fe__release(&store->memory, store->chunks[k], chunk_size(k));
     give_number(store->ids.number);
     fe__id_pool_free(&store->ids, &store->memory);
-    fe__lock_free(&store->allocator_guard);
-    fe__lock_free(&store->lock);
+    fe__mutex_free(&store->allocator_guard);
+    fe__mutex_free(&store->lock);
     fe__memory memory = store->memory;
     memory.guard = NULL;
     fe__release(&memory, store, sizeof *store);
@@ -120,9 +120,9 @@ void fe__store_leave(fe_store *store, fe__store_member *member)
 
 // ---- assets ---------------------------------------------------------------------------------------------------------------------------
 // Locking changes nothing that a reader of the store sees.
-static fe__lock *lock_of(const fe_store *store) { return &((fe_store *)(uintptr_t)store)->lock; }
-void fe__store_lock(const fe_store *store) { fe__lock_take(lock_of(store)); }
-void fe__store_unlock(const fe_store *store) { fe__lock_give(lock_of(store)); }
+static fe__mutex *lock_of(const fe_store *store) { return &((fe_store *)(uintptr_t)store)->lock; }
+void fe__store_lock(const fe_store *store) { fe__mutex_lock(lock_of(store)); }
+void fe__store_unlock(const fe_store *store) { fe__mutex_unlock(lock_of(store)); }
 
 fe_result fe__store_find(const fe_store *store, fe_asset handle, int32_t *out_index)
 {

@@ -7,7 +7,7 @@
 #define FE_STORE_STORE_H
 #include "collision/form/heightfield.h"
 #include "core/id_pool.h"
-#include "core/lock.h"
+#include "core/mutex.h"
 #include "core/memory.h"
 #include "core/registry.h"
 
@@ -32,8 +32,8 @@ typedef struct fe__store_member {
 } fe__store_member;
 
 struct fe_store {
-    fe__lock lock;            // for all that follows
-    fe__lock allocator_guard; // a world and its own store share an allocator, see fe__memory.guard
+    fe__mutex lock;            // for all that follows
+    fe__mutex allocator_guard; // a world and its own store share an allocator, see fe__memory.guard
     fe__memory memory;
     fe__entry entry; // in the registry, which counts the worlds
     fe__id_pool ids;

@@ -81,7 +81,7 @@ static void remove_use(fe_world *world, fe__asset_use *use)
 
 int32_t fe__reserve_asset_use(fe_world *world, const fe__form *form)
 {
-    if (form->type != FE__FORM_HEIGHTFIELD) return 1;
+    if (!fe__form_has_asset(form)) return 1;
     fe__store_lock(world->store);
     int32_t reserved = FE_RESERVE(&world->memory, world->uses, world->use_capacity, world->use_count + 1);
     fe__store_unlock(world->store);
@@ -93,7 +93,7 @@ void fe__shape_take_asset(fe_world *world, int32_t index)
 {
     fe__shape *shape = world->shapes + index;
     shape->next_user = -1;
-    if (shape->form.type != FE__FORM_HEIGHTFIELD) return;
+    if (!fe__form_has_asset(&shape->form)) return;
     int32_t asset = shape->form.field;
     fe__store_lock(world->store);
     fe__asset_use *use = find_use(world, asset);
@@ -107,7 +107,7 @@ void fe__shape_take_asset(fe_world *world, int32_t index)
 void fe__shape_release_asset(fe_world *world, int32_t index)
 {
     const fe__shape *shape = world->shapes + index;
-    if (shape->form.type != FE__FORM_HEIGHTFIELD) return;
+    if (!fe__form_has_asset(&shape->form)) return;
     fe__store_lock(world->store);
     fe__asset_use *use = find_use(world, shape->form.field);
     int32_t *at = &use->first_user;

@@ -1,4 +1,4 @@
-// forest.c - finds the trees among the joints, see solver/tree/joint_forest.h. Input: linked joints and masses; output: fe__joints.forest.
+// forest.c - finds the trees among the joints, see solver/tree/forest.h. Input: linked joints and masses; output: fe__joints.forest.
 //
 // Only what a sweep is bad at is worth the cost: a tree in which some joint bears far more than its own bodies weigh.
 #include "world/forest.h"

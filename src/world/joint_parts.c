@@ -154,10 +154,7 @@ static void plan_ball(const fe_ball_joint_def *d, fe__joint_plan *plan)
 // In the unit of its spring
 static float stiffness_of(const fe_joint_axis *a) { return a->spring == FE_SPRING_STIFFNESS ? a->spring_stiffness : a->spring_hertz; }
 static float damping_of(const fe_joint_axis *a) { return a->spring == FE_SPRING_STIFFNESS ? a->spring_damping : a->spring_damping_ratio; }
-static int32_t drives(const fe_joint_axis *a)
-{
-    return a->spring != FE_SPRING_NONE && (stiffness_of(a) > 0.0f || damping_of(a) > 0.0f);
-}
+static int32_t drives(const fe_joint_axis *a) { return a->spring != FE_SPRING_NONE && (stiffness_of(a) > 0.0f || damping_of(a) > 0.0f); }
 
 // Limits, drive and motor of an axis that is not locked. 0: it has none
 static int32_t plan_axis(const fe_joint_axis *a, fe__joint_axis *axis)

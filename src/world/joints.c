@@ -301,18 +301,18 @@ void fe__joint_describe(const fe_world *world, int32_t joint, fe__joint_any *out
 {
     const fe__joint_record *r = world->joint_records + joint;
     out_def->common = (fe_joint_def){.struct_size = (uint32_t)fe__joint_def_size(r->type),
-                                      .enabled = (r->flags & FE__JOINT_ENABLED) != 0,
-                                      .body_a = fe__body_handle(world, r->body[0]),
-                                      .body_b = fe__body_handle(world, r->body[1]),
-                                      .user_data = r->user_data,
-                                      .world_origin = r->world_origin,
-                                      .frame_a = r->frame[0],
-                                      .frame_b = r->frame[1],
-                                      .collide_connected = (r->flags & FE__JOINT_COLLIDES) != 0,
-                                      .hertz = r->hertz,
-                                      .damping_ratio = r->damping_ratio,
-                                      .break_force = r->break_force,
-                                      .break_torque = r->break_torque};
+                                     .enabled = (r->flags & FE__JOINT_ENABLED) != 0,
+                                     .body_a = fe__body_handle(world, r->body[0]),
+                                     .body_b = fe__body_handle(world, r->body[1]),
+                                     .user_data = r->user_data,
+                                     .world_origin = r->world_origin,
+                                     .frame_a = r->frame[0],
+                                     .frame_b = r->frame[1],
+                                     .collide_connected = (r->flags & FE__JOINT_COLLIDES) != 0,
+                                     .hertz = r->hertz,
+                                     .damping_ratio = r->damping_ratio,
+                                     .break_force = r->break_force,
+                                     .break_torque = r->break_torque};
     const fe__record_pool *pool = &world->joint_settings[r->type];
     memcpy((unsigned char *)out_def + FE__JOINT_FRONT, fe__record(pool, r->settings), (size_t)pool->size);
 }

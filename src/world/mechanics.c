@@ -58,7 +58,7 @@ static void grow(fe__bounds *all, const fe__bounds *b)
 static int32_t add_body(const fe_world *world, int32_t body, int32_t found, fe__bounds *all)
 {
     for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next) {
-        if (world->shapes[shape].form.type == FE__FORM_PLANE) continue;
+        if (fe__form_is_unbounded(&world->shapes[shape].form)) continue;
         fe__bounds b = fe__shape_bounds(world, shape, 0.0f);
         if (found)
             grow(all, &b);

@@ -8,7 +8,7 @@ static float form_radius(const fe__shape *a, const fe__shape *b) { return fe__ma
 
 static int32_t has_extra(const fe_world *world, const fe__shape *shape)
 {
-    if (shape->form.type == FE__FORM_HEIGHTFIELD && fe__store_asset(world->store, shape->form.field)->special) return 1;
+    if (fe__form_is_field(&shape->form) && fe__store_asset(world->store, shape->form.field)->special) return 1;
     const fe_material *m = &shape->material;
     fe_vec3 s = shape->surface_velocity;
     return m->restitution > 0.0f || m->rolling_resistance > 0.0f || m->spinning_resistance > 0.0f || s.x != 0.0f || s.y != 0.0f ||
@@ -21,7 +21,7 @@ int32_t fe__pair_kind(const fe_world *world, int32_t shape_a, int32_t shape_b)
     const fe__body *a = world->bodies + x->body, *b = world->bodies + y->body;
     int32_t kind = a->type == FE_BODY_DYNAMIC && b->type == FE_BODY_DYNAMIC ? FE__ROW_PAIR : 0;
     int32_t kinematic = a->type == FE_BODY_KINEMATIC || b->type == FE_BODY_KINEMATIC;
-    if (x->form.type == FE__FORM_SPHERE || y->form.type == FE__FORM_SPHERE) kind |= FE__ROW_SINGLE;
+    if (fe__form_is_ball(&x->form) || fe__form_is_ball(&y->form)) kind |= FE__ROW_SINGLE;
     if (a->locked || b->locked || kinematic || has_extra(world, x) || has_extra(world, y)) kind |= FE__ROW_SPECIAL;
     return kind;
 }

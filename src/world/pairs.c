@@ -1,6 +1,7 @@
 // pairs.c - the life of pairs: birth, and death with the exit it owes.
 #include "world/pairs.h"
 
+#include "collision/manifold/collide.h"
 #include "world/filter.h"
 #include "world/handles.h"
 #include "world/pair_link.h"
@@ -54,12 +55,10 @@ static int32_t concerns_sleepers(const fe_world *world, const fe__pair *p)
 }
 
 // ---- birth ----------------------------------------------------------------------------------------------------------------------------
-static float half_size(const fe__form *form) { return fe__maxf(fe__maxf(form->half.x, form->half.y), form->half.z); }
-
 // Which shape is fe__collide's A (see collide.h), and which body is the solver's A: the one that is not dynamic, else that shape's.
 static uint32_t sides(const fe_world *world, const fe__shape *a, const fe__shape *b)
 {
-    int32_t swapped = a->form.type != b->form.type ? a->form.type < b->form.type : half_size(&a->form) < half_size(&b->form);
+    int32_t swapped = fe__collide_swaps(&a->form, &b->form);
     int32_t dynamic_a = world->bodies[a->body].type == FE_BODY_DYNAMIC, dynamic_b = world->bodies[b->body].type == FE_BODY_DYNAMIC;
     int32_t flipped = dynamic_a != dynamic_b ? dynamic_a : swapped;
     return (swapped ? (uint32_t)FE__PAIR_SWAPPED : 0u) | (flipped ? (uint32_t)FE__PAIR_FLIPPED : 0u);
@@ -137,7 +136,7 @@ void fe__pair_release(fe_world *world, int32_t pair)
 fe_pair_event fe__pair_event_of(const fe_world *world, int32_t pair, int32_t kind)
 {
     const fe__pair *p = world->pairs + pair;
-    int32_t field_a = world->shapes[p->shape_a].form.type == FE__FORM_HEIGHTFIELD;
+    int32_t field_a = fe__form_is_field(&world->shapes[p->shape_a].form);
     return (fe_pair_event){.body_a = fe__body_handle(world, p->body_a),
                            .body_b = fe__body_handle(world, p->body_b),
                            .shape_a = fe__shape_handle(world, p->shape_a),

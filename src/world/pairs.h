@@ -9,10 +9,10 @@ void fe__pair_destroy(fe_world *world, int32_t pair);                       // u
 void fe__body_drop_pairs(fe_world *world, int32_t body);                    // all of them
 void fe__body_refilter(fe_world *world, int32_t body);                      // those that may no longer collide
 
-// Has one of them a heightfield? Such a pair has patches.
+// Is one of them a field? Such a pair has patches.
 static inline int32_t fe__is_field_pair(const fe_world *world, int32_t shape_a, int32_t shape_b)
 {
-    return world->shapes[shape_a].form.type == FE__FORM_HEIGHTFIELD || world->shapes[shape_b].form.type == FE__FORM_HEIGHTFIELD;
+    return fe__form_is_field(&world->shapes[shape_a].form) || fe__form_is_field(&world->shapes[shape_b].form);
 }
 
 fe_pair_event fe__pair_event_of(const fe_world *world, int32_t pair, int32_t kind);

@@ -135,7 +135,7 @@ static void exchange_asset(fe_world *world, int32_t index, const fe__form *befor
 {
     fe__shape *shape = &world->shapes[index];
     fe__form now = shape->form;
-    if (before->type == now.type && before->field == now.field) return;
+    if (fe__form_has_asset(before) && fe__form_has_asset(&now) && before->field == now.field) return;
     shape->form = *before;
     fe__shape_release_asset(world, index);
     shape->form = now;
@@ -152,7 +152,7 @@ static void change(fe_world *world, int32_t index, const fe__form *form, fe_vec3
     fe__shape_leave(world, index);
     fe__form before = shape->form;
     shape->form = *form;
-    if (before.type == FE__FORM_HEIGHTFIELD || form->type == FE__FORM_HEIGHTFIELD) exchange_asset(world, index, &before);
+    if (fe__form_has_asset(&before) || fe__form_has_asset(form)) exchange_asset(world, index, &before);
     set_local_pose(shape, position, rotation);
     fe__body_update_mass(world, body);
     fe__body_place(world, body);

@@ -19,7 +19,8 @@ typedef struct fe__candidate_buffer {
 
 // Where a body ends that something stood in the way of
 typedef struct fe__chase {
-    float motion[FE__LINE], velocity[FE__LINE];
+    fe__motion_line motion;
+    fe__velocity_line velocity;
     int32_t stopped;
 } fe__chase;
 

@@ -21,7 +21,7 @@
 #include "world/wait.h"
 #include "collision/form/heightfield.h"
 #include "collision/form/shape.h"
-#include "collision/manifold/terrain.h"
+#include "collision/manifold/patch.h"
 
 // An asset of the store that shapes of this world have.
 typedef struct fe__asset_use {

@@ -4,7 +4,7 @@
 // of the trees.
 #include "api/api_test.h"
 
-#include "collision/form/form.h"
+#include "collision/cast/ray.h"
 
 // ---- a random world and its reference -------------------------------------------------------------------------------------------
 

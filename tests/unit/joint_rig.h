@@ -4,6 +4,7 @@
 #include "../fe_test.h"
 #include "core/hash.h"
 #include "solver/graph/graph.h"
+#include "solver/solve.h"
 
 #include <float.h>
 #include <math.h>
@@ -146,14 +147,14 @@ static inline void rig_build(rig *r)
     r->built = 1;
 }
 
-static inline void rig_follow(fe__body *b, const float *velocity, const float *motion)
+static inline void rig_follow(fe__body *b, const fe__velocity_line *velocity, const fe__motion_line *motion)
 {
     fe_quat q = {b->rotation[0], b->rotation[1], b->rotation[2], b->rotation[3]};
-    q = fe__normalized(fe__product((fe_quat){motion[4], motion[5], motion[6], motion[7]}, q));
+    q = fe__normalized(fe__product(fe__quat_of(motion->rotation), q));
     b->rotation[0] = q.x, b->rotation[1] = q.y, b->rotation[2] = q.z, b->rotation[3] = q.w;
     for (int k = 0; k < 3; ++k) {
-        b->velocity[k] = velocity[k], b->spin[k] = velocity[4 + k];
-        b->centre[k] += (double)motion[k];
+        b->velocity[k] = velocity->v[k], b->spin[k] = velocity->w[k];
+        b->centre[k] += (double)motion->shift[k];
         b->centre_high[k] = (float)b->centre[k];
         b->centre_low[k] = (float)(b->centre[k] - (double)b->centre_high[k]);
     }
@@ -179,7 +180,7 @@ static inline void rig_step(rig *r)
     fe__solve(&r->solver, r->kernels, &r->workers, r->bodies, NULL, NULL, &r->joints, paces);
     for (int32_t i = 1; i < r->body_count; ++i) {
         fe__body *b = r->bodies + i;
-        rig_follow(b, r->solver.velocity[b->line], r->solver.motion[b->line]);
+        rig_follow(b, r->solver.velocity + b->line, r->solver.motion + b->line);
     }
 }
 

@@ -2,6 +2,7 @@
 #include "fe_test.h"
 
 #include "collision/manifold/collide.h"
+#include "collision/manifold/kernels.h"
 #include "collision/form/epa.h"
 #include "collision/form/gjk.h"
 

@@ -1,6 +1,7 @@
 // Heightfields: their triangles, the walk over those near a box, the ray. The reference looks at every triangle of a small field.
 #include "fe_test.h"
 
+#include "collision/cast/ray.h"
 #include "collision/form/gjk.h"
 #include "collision/form/heightfield.h"
 #include "collision_cases.h"

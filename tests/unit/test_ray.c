@@ -2,7 +2,7 @@
 // function, whose minimum and first zero are searched for in long double.
 #include "fe_test.h"
 
-#include "collision/form/form.h"
+#include "collision/cast/ray.h"
 
 #include <float.h>
 #include <math.h>

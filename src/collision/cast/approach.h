@@ -5,7 +5,7 @@
 // a height: what separates boxes serves all.
 #ifndef FE_COLLISION_CAST_APPROACH_H
 #define FE_COLLISION_CAST_APPROACH_H
-#include "collision/cast/sweep.h"
+#include "collision/cast/mover.h"
 
 typedef enum fe__core_kind { FE_CORE_POINT, FE_CORE_SEGMENT, FE_CORE_BOX, FE_CORE_TRIANGLE } fe__core_kind;
 
@@ -44,13 +44,13 @@ typedef struct fe__approach_hit {
 int32_t fe__boxes_sweep(const fe__approach *a, double limit, fe__approach_hit *hit);
 
 // ---- any pair (sweep.c) -----------------------------------------------------------------------------------------------------------
-typedef struct fe__overlap {
+typedef struct fe__core_overlap {
     double depth; // below 0: apart
     fe_dvec3 way_out;
-} fe__overlap;
+} fe__core_overlap;
 
 double fe__stop_gap(const fe__mover *mover);
-fe__overlap fe__approach_overlap(const fe__approach *a);
+fe__core_overlap fe__approach_overlap(const fe__approach *a);
 int32_t fe__approach_sweep(const fe__approach *a, double limit, fe__approach_hit *hit); // apart at the start
 int32_t fe__core_kind_of(const fe__form *form);
 void fe__core_half(const fe__form *form, double half[3]);

@@ -1,8 +1,8 @@
 // distance.c - see distance.h.
 #include "collision/cast/distance.h"
 
+#include "collision/cast/mover.h"
 #include "collision/form/gjk.h"
-#include "collision/cast/sweep.h"
 
 // B's deepest point below the surface of a half space A
 static void plane_gap(const fe__form *plane, const fe__pose *pose_a, const fe__form *b, const fe__pose *pose_b, fe__gap *gap)
@@ -18,18 +18,13 @@ static void plane_gap(const fe__form *plane, const fe__pose *pose_a, const fe__f
     gap->overlap = 0;
 }
 
-static double radius_of(const fe__form *form)
-{
-    return form->type == FE__FORM_SPHERE || form->type == FE__FORM_CAPSULE ? (double)form->radius : 0.0;
-}
-
 void fe__form_gap(const fe__form *a, const fe__pose *pose_a, const fe__form *b, const fe__pose *pose_b, fe__gap *gap)
 {
-    if (a->type == FE__FORM_PLANE) {
+    if (fe__form_is_unbounded(a)) {
         plane_gap(a, pose_a, b, pose_b, gap);
         return;
     }
-    if (b->type == FE__FORM_PLANE) {
+    if (fe__form_is_unbounded(b)) {
         plane_gap(b, pose_b, a, pose_a, gap);
         gap->on_b = fe__dsub(gap->on_b, fe__dscale(gap->distance + (double)a->radius, gap->normal));
         gap->normal = fe__dscale(-1.0, gap->normal);
@@ -46,6 +41,6 @@ void fe__form_gap(const fe__form *a, const fe__pose *pose_a, const fe__form *b, 
     fe__gjk_distance(&cores, (double)INFINITY, &gjk);
     gap->overlap = gjk.overlap;
     gap->on_b = fe__dadd(pose_a->position, fe__turn(&frame, gjk.on_b));
-    gap->distance = gjk.distance - radius_of(a) - radius_of(b);
+    gap->distance = gjk.distance - (double)a->radius - (double)b->radius;
     gap->normal = gjk.overlap ? (fe_dvec3){0.0, 0.0, 0.0} : fe__turn(&frame, fe__dscale(1.0 / gjk.distance, fe__dsub(gjk.on_b, gjk.on_a)));
 }

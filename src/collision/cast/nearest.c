@@ -1,6 +1,8 @@
 // nearest.c - see nearest.h.
 #include "collision/cast/nearest.h"
 
+#include "collision/cast/kinds.h"
+
 static double clamp(double x, double half) { return fe__mind(fe__maxd(x, -half), half); }
 
 // A core's nearest point and a radius. `flat` is the normal where the point lies on the core.
@@ -24,7 +26,18 @@ static fe__nearest on_box_from_inside(fe_dvec3 point, fe_dvec3 half)
     return (fe__nearest){fe__absd(p[axis]) - h[axis], {n[0], n[1], n[2]}, {on[0], on[1], on[2]}, -1};
 }
 
-static fe__nearest on_box(const fe__form *form, fe_dvec3 point)
+fe__nearest fe__nearest_on_sphere(const fe__form *form, fe_dvec3 point)
+{
+    return on_round(point, (fe_dvec3){0.0, 0.0, 0.0}, (double)form->radius, (fe_dvec3){0.0, 1.0, 0.0});
+}
+
+fe__nearest fe__nearest_on_capsule(const fe__form *form, fe_dvec3 point)
+{
+    return on_round(point, (fe_dvec3){0.0, clamp(point.y, (double)form->half_height), 0.0}, (double)form->radius,
+                    (fe_dvec3){1.0, 0.0, 0.0});
+}
+
+fe__nearest fe__nearest_on_box(const fe__form *form, fe_dvec3 point)
 {
     fe_dvec3 half = fe__widen(form->half), flat = {0.0, 1.0, 0.0};
     fe_dvec3 core = {clamp(point.x, half.x), clamp(point.y, half.y), clamp(point.z, half.z)};
@@ -32,7 +45,7 @@ static fe__nearest on_box(const fe__form *form, fe_dvec3 point)
     return inside ? on_box_from_inside(point, half) : on_round(point, core, 0.0, flat);
 }
 
-static fe__nearest on_plane(const fe__form *form, fe_dvec3 point)
+fe__nearest fe__nearest_on_plane(const fe__form *form, fe_dvec3 point)
 {
     fe_dvec3 n = fe__widen(form->normal);
     double length = sqrt(fe__ddot(n, n)); // 1 up to the rounding of floats
@@ -41,17 +54,4 @@ static fe__nearest on_plane(const fe__form *form, fe_dvec3 point)
     return (fe__nearest){height, unit, fe__dsub(point, fe__dscale(height, unit)), -1};
 }
 
-fe__nearest fe__form_nearest(const fe__form *form, fe_dvec3 point)
-{
-    double radius = (double)form->radius;
-    switch (form->type) {
-    case FE__FORM_SPHERE:
-        return on_round(point, (fe_dvec3){0.0, 0.0, 0.0}, radius, (fe_dvec3){0.0, 1.0, 0.0});
-    case FE__FORM_CAPSULE:
-        return on_round(point, (fe_dvec3){0.0, clamp(point.y, (double)form->half_height), 0.0}, radius, (fe_dvec3){1.0, 0.0, 0.0});
-    case FE__FORM_BOX:
-        return on_box(form, point);
-    default:
-        return on_plane(form, point);
-    }
-}
+fe__nearest fe__form_nearest(const fe__form *form, fe_dvec3 point) { return fe__casts[form->type].nearest(form, point); }

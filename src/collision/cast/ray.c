@@ -5,7 +5,9 @@
 // cancels, and take the root there; so a small sphere is met from 10 km away as exactly as the start is known (about 1e-12 m). Every finite
 // input gives an answer without NaN: lengths of translation and start are brought into the range in which squares neither overflow nor
 // vanish.
-#include "collision/form/form.h"
+#include "collision/cast/ray.h"
+
+#include "collision/cast/kinds.h"
 
 #include <math.h>
 
@@ -18,13 +20,6 @@ static double largest(fe_dvec3 a) { return fe__maxd(fe__maxd(fe__absd(a.x), fe__
 static double length(fe_dvec3 a) { return sqrt(fe__ddot(a, a)); }
 static double scale_for(double size) { return size > longest ? scale_down : size < shortest ? scale_up : 1.0; }
 
-// The ray with its translation scaled: origin + s * direction, t = s * per_s.
-typedef struct ray {
-    fe_dvec3 origin, direction;
-    double per_s;
-    double limit; // of t
-} ray;
-
 // ---- hits ---------------------------------------------------------------------------------------------------------------------
 // Field by field: hits are read at once, and what was written in pieces is not copied whole without a wait.
 static int32_t report(fe__ray_hit *hit, double t, fe_dvec3 normal, double depth, int32_t inside)
@@ -35,7 +30,7 @@ static int32_t report(fe__ray_hit *hit, double t, fe_dvec3 normal, double depth,
 }
 
 // A start inside: the normal is against the direction, or the shortest way out when there is none.
-static int32_t start_inside(const ray *r, double depth, fe_dvec3 way_out, fe__ray_hit *hit)
+static int32_t start_inside(const fe__scaled_ray *r, double depth, fe_dvec3 way_out, fe__ray_hit *hit)
 {
     double speed = length(r->direction);
     fe_dvec3 normal = speed > 0.0 ? fe__dscale(-1.0 / speed, r->direction) : way_out;
@@ -43,7 +38,7 @@ static int32_t start_inside(const ray *r, double depth, fe_dvec3 way_out, fe__ra
 }
 
 // A hit from outside at s. That s is positive is known; a rounding below 0 is none.
-static int32_t meet(const ray *r, double s, fe_dvec3 normal, fe__ray_hit *hit)
+static int32_t meet(const fe__scaled_ray *r, double s, fe_dvec3 normal, fe__ray_hit *hit)
 {
     double t = fe__maxd(s, 0.0) * r->per_s;
     if (!(t <= r->limit)) return 0;
@@ -74,7 +69,7 @@ static int32_t enter_round(fe_dvec3 o, fe_dvec3 d, double radius, entry *out)
 }
 
 // The ball of a radius about `centre`, met from outside.
-static int32_t meet_ball(const ray *r, fe_dvec3 centre, double radius, fe__ray_hit *hit)
+static int32_t meet_ball(const fe__scaled_ray *r, fe_dvec3 centre, double radius, fe__ray_hit *hit)
 {
     entry e;
     fe_dvec3 o = fe__dsub(r->origin, centre);
@@ -93,7 +88,7 @@ static double depth_in_round(fe_dvec3 away, double radius, fe_dvec3 flat, fe_dve
     return radius - distance / k;
 }
 
-static int32_t ray_sphere(const fe__form *form, const ray *r, fe__ray_hit *hit)
+int32_t fe__ray_sphere(const fe__form *form, const fe__scaled_ray *r, fe__ray_hit *hit)
 {
     double radius = (double)form->radius;
     fe_dvec3 way_out = {0.0, 0.0, 0.0}, up = {0.0, 1.0, 0.0};
@@ -104,7 +99,7 @@ static int32_t ray_sphere(const fe__form *form, const ray *r, fe__ray_hit *hit)
 
 // The capsule lies in the infinite cylinder about its axis. A ray enters that first, or starts in it: between the ends of the axis that is
 // the hit, beyond an end only the ball about that end can be.
-static int32_t ray_capsule(const fe__form *form, const ray *r, fe__ray_hit *hit)
+int32_t fe__ray_capsule(const fe__form *form, const fe__scaled_ray *r, fe__ray_hit *hit)
 {
     double radius = (double)form->radius, half = (double)form->half_height;
     fe_dvec3 o = r->origin, d = r->direction, way_out = {0.0, 0.0, 0.0}, aside = {1.0, 0.0, 0.0};
@@ -130,7 +125,7 @@ static fe_dvec3 axis_normal(int32_t axis, double sign)
     return (fe_dvec3){axis == 0 ? sign : 0.0, axis == 1 ? sign : 0.0, axis == 2 ? sign : 0.0};
 }
 
-static int32_t inside_box(const ray *r, const double o[3], const double half[3], fe__ray_hit *hit)
+static int32_t inside_box(const fe__scaled_ray *r, const double o[3], const double half[3], fe__ray_hit *hit)
 {
     double depth = half[0] - fe__absd(o[0]);
     int32_t axis = 0;
@@ -172,7 +167,7 @@ static int32_t is_in_box(fe_dvec3 o, const double half[3])
 // Three slabs (Kay and Kajiya 1986): the ray is in the box from the last entry to the first exit. On an edge the lowest axis gives the
 // normal. The signs of the direction, the order of the entries and which side is missed are random: nothing branches on them. From inside,
 // no slab is entered later than at 0 or left before.
-static int32_t ray_box(const fe__form *form, const ray *r, fe__ray_hit *hit)
+int32_t fe__ray_box(const fe__form *form, const fe__scaled_ray *r, fe__ray_hit *hit)
 {
     const double half[3] = {(double)form->half.x, (double)form->half.y, (double)form->half.z};
     const fe_dvec3 o = r->origin, d = r->direction;
@@ -186,7 +181,7 @@ static int32_t ray_box(const fe__form *form, const ray *r, fe__ray_hit *hit)
 }
 
 // The distance n.o - distance falls at the rate n.d. A quarter of both: the sum of three products of finite numbers is finite.
-static int32_t ray_plane(const fe__form *form, const ray *r, fe__ray_hit *hit)
+int32_t fe__ray_plane(const fe__form *form, const fe__scaled_ray *r, fe__ray_hit *hit)
 {
     const double quarter = 0.25;
     fe_dvec3 n = fe__widen(form->normal);
@@ -199,7 +194,7 @@ static int32_t ray_plane(const fe__form *form, const ray *r, fe__ray_hit *hit)
 }
 
 // From the side around which the vertices turn left:  n = e1 x e2,  t = n.(o - v0) / -n.d,  and the point is left of every side.
-static int32_t ray_triangle(const fe__form *form, const ray *r, fe__ray_hit *hit)
+int32_t fe__ray_triangle(const fe__form *form, const fe__scaled_ray *r, fe__ray_hit *hit)
 {
     const fe_dvec3 v[3] = {fe__widen(form->vertex[0]), fe__widen(form->vertex[1]), fe__widen(form->vertex[2])};
     fe_dvec3 n = fe__dcross(fe__dsub(v[1], v[0]), fe__dsub(v[2], v[0]));
@@ -218,17 +213,6 @@ static int32_t ray_triangle(const fe__form *form, const ray *r, fe__ray_hit *hit
 int32_t fe__form_ray_at(const fe__form *form, const fe_dvec3 *origin, const fe_dvec3 *translation, double limit, fe__ray_hit *hit)
 {
     double scale = scale_for(largest(*translation));
-    ray r = {{origin->x, origin->y, origin->z}, fe__dscale(scale, *translation), scale, limit}; // each number alone: see report
-    switch (form->type) {
-    case FE__FORM_SPHERE:
-        return ray_sphere(form, &r, hit);
-    case FE__FORM_CAPSULE:
-        return ray_capsule(form, &r, hit);
-    case FE__FORM_BOX:
-        return ray_box(form, &r, hit);
-    case FE__FORM_TRIANGLE:
-        return ray_triangle(form, &r, hit);
-    default:
-        return ray_plane(form, &r, hit);
-    }
+    fe__scaled_ray r = {{origin->x, origin->y, origin->z}, fe__dscale(scale, *translation), scale, limit}; // each number alone: see report
+    return fe__casts[form->type].ray(form, &r, hit);
 }

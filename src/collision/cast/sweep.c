@@ -4,7 +4,10 @@
 // step to where the tangent reaches the sum of the radii never goes too far: Newton's method from outside is conservative advancement with
 // the best possible bound. It converges quadratically, and by halves where the forms graze. Two boxes have a closed form (sweep_boxes.c),
 // so has a plane.
+#include "collision/cast/sweep.h"
+
 #include "collision/cast/approach.h"
+#include "collision/cast/kinds.h"
 
 // Halving 10 km comes down to 1e-11 m; bodies that are met squarely need 3 to 6.
 enum { MAX_STEPS = 64 };
@@ -23,11 +26,7 @@ fe__axes fe__axes_of(fe_quat q)
     };
 }
 
-// ---- which frame ----------------------------------------------------------------------------------------------------------------
-int32_t fe__core_kind_of(const fe__form *form)
-{
-    return form->type == FE__FORM_BOX ? FE_CORE_BOX : form->type == FE__FORM_CAPSULE ? FE_CORE_SEGMENT : FE_CORE_POINT;
-}
+int32_t fe__core_kind_of(const fe__form *form) { return fe__casts[form->type].core; }
 
 void fe__core_half(const fe__form *form, double half[3])
 {
@@ -71,9 +70,9 @@ static double plane_height(const fe__form *plane, const fe__mover *mover)
 }
 
 // In the approach's frame.
-fe__overlap fe__approach_overlap(const fe__approach *s)
+fe__core_overlap fe__approach_overlap(const fe__approach *s)
 {
-    fe__overlap o;
+    fe__core_overlap o;
     fe__core_gap gap = {0};
     if (s->other_kind != FE_CORE_BOX) fe__core_gap_of(s, s->position, &gap);
     if (gap.distance > 0.0) {
@@ -88,7 +87,7 @@ fe__overlap fe__approach_overlap(const fe__approach *s)
 
 int32_t fe__form_overlap(const fe__form *still, const fe__mover *mover)
 {
-    if (still->type == FE__FORM_PLANE) return plane_height(still, mover) <= 0.0;
+    if (fe__form_is_unbounded(still)) return plane_height(still, mover) <= 0.0;
     fe__approach s;
     (void)set_up(still, mover, &s);
     return fe__approach_overlap(&s).depth >= 0.0;
@@ -175,10 +174,10 @@ static void tell(const fe__form *still, const fe__mover *mover, int32_t swapped,
 
 int32_t fe__form_sweep(const fe__form *still, const fe__mover *mover, double limit, fe__sweep_hit *hit)
 {
-    if (still->type == FE__FORM_PLANE) return sweep_plane(still, mover, limit, hit);
+    if (fe__form_is_unbounded(still)) return sweep_plane(still, mover, limit, hit);
     fe__approach s;
     int32_t swapped = set_up(still, mover, &s);
-    fe__overlap o = fe__approach_overlap(&s);
+    fe__core_overlap o = fe__approach_overlap(&s);
     *hit = (fe__sweep_hit){.triangle = -1};
     if (o.depth >= 0.0) {
         fe_dvec3 out = swapped ? fe__turn(&mover->axes, fe__dscale(-1.0, o.way_out)) : o.way_out;

@@ -3,6 +3,7 @@
 // Input: queries, with the mover in the field's frame. The way is cut where the form has moved by about its own size or a cell, so that few
 // triangles lie under each piece; what is met within a piece is met first of all. Vertices are doubles: a stop is as exact as before a box.
 #include "collision/cast/approach.h"
+#include "collision/cast/sweep.h"
 
 // A normal that leans below a triangle by more than a rounding comes from under it.
 #define FROM_BELOW (-1e-9)

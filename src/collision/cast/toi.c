@@ -32,7 +32,7 @@ fe__pose fe__mobile_at(const fe__mobile *mobile, double s)
 static double reach_of(const fe__mobile *mobile)
 {
     fe__form core = *mobile->form;
-    if (core.type != FE__FORM_TRIANGLE) core.radius = 0.0f;
+    core.radius = 0.0f;
     return (double)fe__form_reach(&core, fe__narrow(fe__drotate_back(mobile->rotation, fe__dscale(-1.0, mobile->arm))));
 }
 

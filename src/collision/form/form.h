@@ -1,7 +1,14 @@
-// form.h - the forms of shapes: what they weigh, where they end, how a ray meets them.
+// form.h - the forms of shapes: what they weigh, where they end, how they look from a direction.
 //
-// A form lives in the frame of its shape. Everything below this layer knows forms and poses only; bodies and shapes are the world's. No
-// other folder switches over the kinds of forms.
+// A form lives in the frame of its shape. Everything below the world knows forms and poses only; bodies and shapes are the world's. Only
+// collision/ asks for the kind of a form; all others ask for its traits.
+//
+// A new form takes
+//   - its kind below (before the triangle; of two forms the later one is A in fe__collide), and its fields in fe__form,
+//   - a file here with what fe__form_traits lists, and its line in table.c,
+//   - in manifold/ a kernel for each partner that deserves one, in the table of collide.c; the general convex path serves all others,
+//   - in cast/ its ray and its nearest point, and its line in cast/table.c,
+//   - its public number and fields in feather.h, which the API reads in one place.
 #ifndef FE_COLLISION_FORM_FORM_H
 #define FE_COLLISION_FORM_FORM_H
 #include "core/math.h"
@@ -51,44 +58,69 @@ static inline fe__pose fe__compose(const fe__pose *body, fe_vec3 position, fe_qu
                       fe__normalized(fe__product(body->rotation, rotation))};
 }
 
-// Mass properties for a density: mass, kg; centre of mass and principal moments about it, in the form's frame (every form's principal axes
-// are its own axes). What is static only has none.
+// mass, kg, and principal moments about the centre of mass, kg m2. Both are the form's own: its origin, its axes. A static form has none
 typedef struct fe__mass {
     float mass;
     fe_vec3 inertia;
 } fe__mass;
-fe__mass fe__form_mass(const fe__form *form, float density);
 
-// Bounds of a form at a pose, in the world, as tight as the form allows. A plane's are infinite on all sides but the one its normal faces,
-// if that is an axis; callers treat planes apart.
 typedef struct fe__bounds {
     fe_dvec3 low, high;
 } fe__bounds;
-fe__bounds fe__form_bounds(const fe__form *form, const fe__pose *pose);
 
-// Does the box reach into the half space of a plane?
+struct fe__face; // support.h
+
+// ---- traits -------------------------------------------------------------------------------------------------------------------------
+typedef struct fe__form_traits {
+    const char *name;    // in the sentences of errors
+    int32_t geometry;    // fe_geometry_type, -1: not public
+    uint8_t static_only; // on static bodies alone, without mass
+    uint8_t is_ball;     // no rotation changes it, and it touches at one point
+    uint8_t flat_faces;  // a polyhedron
+    uint8_t unbounded;   // no box holds it, so that it is in no tree
+    uint8_t is_field;    // a surface of triangles (heightfield.h), touched in patches
+    uint8_t has_asset;   // shares what it is made of: fe__form.field
+    fe__mass (*mass)(const fe__form *form, double density);
+    fe__bounds (*bounds)(const fe__form *form, const fe__pose *pose);
+    float (*reach)(const fe__form *form, fe_vec3 centre);
+    float (*thickness)(const fe__form *form);
+    fe__form (*shrunk)(const fe__form *form, float by);
+    fe_dvec3 (*support)(const fe__form *form, fe_dvec3 direction);
+    void (*face)(const fe__form *form, fe_vec3 direction, struct fe__face *face);
+} fe__form_traits;
+extern const fe__form_traits fe__forms[FE__FORM_TYPES]; // table.c
+
+static inline const fe__form_traits *fe__traits_of(const fe__form *form) { return fe__forms + form->type; }
+static inline int32_t fe__form_is_static_only(const fe__form *form) { return fe__traits_of(form)->static_only; }
+static inline int32_t fe__form_is_ball(const fe__form *form) { return fe__traits_of(form)->is_ball; }
+static inline int32_t fe__form_has_flat_faces(const fe__form *form) { return fe__traits_of(form)->flat_faces; }
+static inline int32_t fe__form_is_unbounded(const fe__form *form) { return fe__traits_of(form)->unbounded; }
+static inline int32_t fe__form_is_field(const fe__form *form) { return fe__traits_of(form)->is_field; }
+static inline int32_t fe__form_has_asset(const fe__form *form) { return fe__traits_of(form)->has_asset; }
+
+int32_t fe__form_of_geometry(int32_t geometry); // the kind with that public number, -1: none
+
+// ---- what each form tells of itself ---------------------------------------------------------------------------------------------------
+static inline fe__mass fe__form_mass(const fe__form *form, float density) { return fe__traits_of(form)->mass(form, (double)density); }
+// Bounds at a pose, in the world, as tight as the form allows. A plane's are infinite on all sides but the one its normal faces, if that is
+// an axis; callers treat what is unbounded apart.
+static inline fe__bounds fe__form_bounds(const fe__form *form, const fe__pose *pose) { return fe__traits_of(form)->bounds(form, pose); }
+// largest distance from `centre` (form's frame) to a point of the form, m; 0 for what is static only
+static inline float fe__form_reach(const fe__form *form, fe_vec3 centre) { return fe__traits_of(form)->reach(form, centre); }
+// smallest half width of the form, m: what a fast body may not outrun; FLT_MAX for planes and heightfields
+static inline float fe__form_thickness(const fe__form *form) { return fe__traits_of(form)->thickness(form); }
+// the form without its outermost layer, `by` (m, less than its thickness) thick
+static inline fe__form fe__form_shrunk(const fe__form *form, float by) { return fe__traits_of(form)->shrunk(form, by); }
+
+// ---- points ---------------------------------------------------------------------------------------------------------------------------
+// A ball without size: the probe of a ray
+static inline fe__form fe__point_form(void) { return (fe__form){.type = FE__FORM_SPHERE}; }
+static inline int32_t fe__form_is_point(const fe__form *form) { return form->type == FE__FORM_SPHERE && form->radius == 0.0f; }
+
+// ---- planes (plane.c) -------------------------------------------------------------------------------------------------------------------
+// Does the box reach into the half space?
 int32_t fe__plane_meets_box(const fe__form *plane, const fe__pose *pose, const fe__bounds *box);
-
-// largest distance from `centre` (form's frame) to a point of the form; 0 for what is static only
-float fe__form_reach(const fe__form *form, fe_vec3 centre);
-// smallest half width of the form: what a fast body may not outrun; FLT_MAX for planes and heightfields
-float fe__form_thickness(const fe__form *form);
-
-// A ray against a form, exact, in double, in the form's frame: origin + t * translation, 0 <= t <= limit. Starting in the form is a hit at
-// t = 0 with the normal against the direction (for a zero translation: the shortest way out) and the depth below the surface. A triangle is
-// hit from its side only and has no inside; a heightfield's ray is in heightfield.h.
-typedef struct fe__ray_hit {
-    double t;
-    fe_dvec3 normal; // unit, form's frame
-    double depth;    // > 0 when inside, else 0
-    int32_t inside;
-    int32_t triangle; // of a heightfield, else -1
-} fe__ray_hit;
-int32_t fe__form_ray_at(const fe__form *form, const fe_dvec3 *origin, const fe_dvec3 *translation, double limit,
-                        fe__ray_hit *hit); // 1: hit
-static inline int32_t fe__form_ray(const fe__form *form, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__ray_hit *hit)
-{
-    return fe__form_ray_at(form, &origin, &translation, limit, hit);
-}
+// The plane in a frame whose origin is `away` (world axes) from that of its shape: as exact a thousand kilometres off
+void fe__plane_move_frame(fe__form *plane, fe_quat rotation, fe_dvec3 away);
 
 #endif

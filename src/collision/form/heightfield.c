@@ -4,6 +4,8 @@
 // between borders and diagonals; each g there belongs to both its neighbours, so that no ray slips through an edge.
 #include "collision/form/heightfield.h"
 
+#include "collision/form/kinds.h"
+
 static float height_of(const fe__heightfield *f, int32_t row, int32_t column) { return f->heights[(int64_t)row * f->columns + column]; }
 
 void fe__heightfield_measure(fe__heightfield *f, int32_t row, int32_t rows)
@@ -24,6 +26,15 @@ fe__form fe__heightfield_form(const fe__heightfield *f, int32_t index)
     const double up = 1.0 + 1e-7;
     float x = (float)(up * (double)(f->columns - 1) * f->cell_x), z = (float)(up * (double)(f->rows - 1) * f->cell_z);
     return (fe__form){.type = FE__FORM_HEIGHTFIELD, .field = index, .low = {0.0f, f->low, 0.0f}, .high = {x, f->high, z}};
+}
+
+// the rotated box of its own bounds
+fe__bounds fe__heightfield_bounds(const fe__form *form, const fe__pose *pose)
+{
+    fe_dvec3 low = fe__widen(form->low), high = fe__widen(form->high), half = fe__dscale(0.5, fe__dsub(high, low));
+    fe_dvec3 centre = fe__dadd(pose->position, fe__drotate(pose->rotation, fe__dscale(0.5, fe__dadd(low, high))));
+    half = fe__rotated_widths(pose->rotation, half);
+    return (fe__bounds){fe__dsub(centre, half), fe__dadd(centre, half)};
 }
 
 static fe_vec3 vertex_of(const fe__heightfield *f, int32_t row, int32_t column, fe_dvec3 origin)

@@ -1,14 +1,13 @@
 // support.h - what the general convex path knows of a form: the core's farthest point in a direction, and the face that looks that way.
 //
-// A new form (hull, triangle, cylinder) adds a case to each of the two functions and is complete for GJK, EPA and the manifold. The
-// swelling radius stays outside: it is added to the distance of the cores.
+// With both a form is complete for GJK, EPA and the manifold. The swelling radius stays outside: it is added to the distance of the cores.
 #ifndef FE_COLLISION_FORM_SUPPORT_H
 #define FE_COLLISION_FORM_SUPPORT_H
 #include "collision/form/clip.h"
 #include "collision/form/form.h"
 
 // The point of the core farthest along `direction` (any length), form's frame. Of equally far points always the same.
-fe_dvec3 fe__form_support(const fe__form *form, fe_dvec3 direction);
+static inline fe_dvec3 fe__form_support(const fe__form *form, fe_dvec3 direction) { return fe__traits_of(form)->support(form, direction); }
 
 // A face of the core: polygon (turning left around the normal), segment or point, form's frame.
 typedef struct fe__face {
@@ -18,6 +17,9 @@ typedef struct fe__face {
     uint32_t id; // of the face within the form
 } fe__face;
 
-void fe__form_face(const fe__form *form, fe_vec3 direction, fe__face *face);
+static inline void fe__form_face(const fe__form *form, fe_vec3 direction, fe__face *face)
+{
+    fe__traits_of(form)->face(form, direction, face);
+}
 
 #endif

@@ -1,7 +1,7 @@
 // collide.c - which kernel a pair of forms belongs to.
 //
-// Called by the world's narrow phase. A form without kernels of its own needs a support function and faces only (support.c): whatever the
-// table leaves empty goes the general convex way (convex.c).
+// A form without kernels of its own needs a support function and faces only (support.h): whatever the table leaves empty goes the general
+// convex way (convex.c).
 #include "collision/manifold/collide.h"
 #include "collision/manifold/kernels.h"
 
@@ -12,12 +12,11 @@
 static fe__kernel *const kernels[FE__FORM_TYPES][FE__FORM_TYPES] = {
     [FE__FORM_SPHERE] = {[FE__FORM_SPHERE] = fe__collide_sphere_sphere},
     [FE__FORM_CAPSULE] = {[FE__FORM_SPHERE] = fe__collide_capsule_sphere, [FE__FORM_CAPSULE] = fe__collide_capsule_capsule},
-    [FE__FORM_BOX] = {[FE__FORM_SPHERE] = fe__collide_box_sphere,
-                         [FE__FORM_CAPSULE] = fe__collide_box_capsule,
-                         [FE__FORM_BOX] = fe__collide_box_box},
+    [FE__FORM_BOX] =
+        {[FE__FORM_SPHERE] = fe__collide_box_sphere, [FE__FORM_CAPSULE] = fe__collide_box_capsule, [FE__FORM_BOX] = fe__collide_box_box},
     [FE__FORM_PLANE] = {[FE__FORM_SPHERE] = fe__collide_plane_sphere,
-                           [FE__FORM_CAPSULE] = fe__collide_plane_capsule,
-                           [FE__FORM_BOX] = fe__collide_plane_box},
+                        [FE__FORM_CAPSULE] = fe__collide_plane_capsule,
+                        [FE__FORM_BOX] = fe__collide_plane_box},
 };
 
 void fe__collide(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold)
@@ -28,4 +27,11 @@ void fe__collide(const fe__form *a, const fe__form *b, const fe__relative *b_in_
     fe__kernel *kernel = kernels[a->type][b->type];
     if (kernel == NULL) kernel = fe__collide_convex;
     kernel(a, b, b_in_a, margin, manifold);
+}
+
+static float half_size(const fe__form *form) { return fe__maxf(fe__maxf(form->half.x, form->half.y), form->half.z); }
+
+int32_t fe__collide_swaps(const fe__form *a, const fe__form *b)
+{
+    return a->type != b->type ? a->type < b->type : half_size(a) < half_size(b);
 }

@@ -3,9 +3,12 @@
 // Every kernel receives a manifold without points and adds those closer than `margin`. Its source is named in each kernel's file.
 #ifndef FE_COLLISION_MANIFOLD_KERNELS_H
 #define FE_COLLISION_MANIFOLD_KERNELS_H
-#include "collision/manifold/collide.h"
+#include "collision/manifold/manifold.h"
 
 typedef void fe__kernel(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold);
+
+// The general convex path: GJK on the cores, EPA when the cores overlap, faces clipped. Any pair but plane against plane.
+fe__kernel fe__collide_convex;
 
 fe__kernel fe__collide_sphere_sphere;
 fe__kernel fe__collide_capsule_sphere;

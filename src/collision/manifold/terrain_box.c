@@ -6,7 +6,7 @@
 #include "collision/form/clip.h"
 #include "collision/manifold/kernels.h"
 #include "collision/form/support.h"
-#include "collision/manifold/terrain_surface.h"
+#include "collision/manifold/terrain_kernels.h"
 
 enum { ON_FACE, ON_BOX_FACE, ON_EDGES };
 

@@ -134,7 +134,7 @@ static __attribute__((noinline)) void mark_strained(fe__solver *s, const int32_t
     _Alignas(64) float is[FE_W];
     *(wide *)is = w_choose(lanes, w_set(1.0f), w_set(0.0f));
     for (int i = 0; i < FE_W; ++i)
-        if (is[i] != 0.0f) s->inertia[line[i]][FE__LINE - 1] = 1.0f;
+        if (is[i] != 0.0f) s->inertia[line[i]].mark = (float)FE__STRAINED;
     atomic_store_explicit(&s->strained, 1, memory_order_relaxed);
 }
 
@@ -155,9 +155,9 @@ FE_INLINE void store_lanes(fe__contact *contacts, const int32_t *index, wide4 no
 }
 
 #define POINTS 4
-#include "solver/contact/contact_rows.h"
+#include "solver/contact/rows.inl"
 #define POINTS 1
-#include "solver/contact/contact_rows.h"
+#include "solver/contact/rows.inl"
 
 #define OF_KINDS(verb)                                                                                                \
     {                                                                                                                 \

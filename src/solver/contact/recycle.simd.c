@@ -63,7 +63,7 @@ FE_INLINE wide separation_now(const wide4 *point, wide constant, wide3 slope)
     return point->w + (constant + w_dot(slope, w_xyz(*point)));
 }
 
-// As in contact_rows.h: s = s0 + n.shift + (nB - nA).r + nB.span + rhoA nA.n + rhoB nB.n with nX = R(dqX)^T n - n
+// As in rows.inl: s = s0 + n.shift + (nB - nA).r + nB.span + rhoA nA.n + rhoB nB.n with nX = R(dqX)^T n - n
 static void recycle_block(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, float dt, uint8_t *out,
                           float *out_slack)
 {

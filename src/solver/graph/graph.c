@@ -3,6 +3,8 @@
 //
 // All orders that could matter follow the creation of the pairs; everything else is free to follow the awake lists, because lanes are
 // independent and a group's contacts share no dynamic body.
+#include "solver/graph/graph.h"
+
 #include "solver/graph/graph_build.h"
 
 #include "core/array_sort.h"
@@ -89,32 +91,10 @@ static void assign_lines(fe__builder *b, int32_t k)
     batch->line_count = s->line_count - batch->first_line;
 }
 
-// ---- lanes ----------------------------------------------------------------------------------------------------------------------------
-int32_t fe__line_of(const fe__builder *b, int32_t body)
-{
-    const fe__body *a = b->in->bodies + body;
-    if (a->type == FE_BODY_DYNAMIC) return a->line;
-    return fe__is_kinematic(a) && a->awake_index >= 0 ? b->kinematic_line[a->awake_index] : FE__STATIC_LINE;
-}
-
 static fe__lane lane_of(const fe__builder *b, const fe__linked *c)
 {
     int32_t line_a = c->awake_a < 0 ? FE__STATIC_LINE : c->key & FE__ROW_PAIR ? b->line[c->awake_a] : b->kinematic_line[c->awake_a];
     return (fe__lane){c->contact, line_a, b->line[c->awake_b]};
-}
-
-fe__group *fe__open_group(fe__builder *b, fe__batch *batch, fe__group like, int32_t lanes, int32_t row_size)
-{
-    fe__solver *s = b->s;
-    fe__group *g = s->groups + s->group_count++;
-    int32_t dummy = batch->first_line + (like.kind < FE__ROW_KINDS ? like.kind : FE__ROW_KINDS - 1 + like.sides);
-    *g = like;
-    g->lane = s->lane_count, g->offset = batch->row_bytes, g->rows = (lanes + like.width - 1) / like.width;
-    for (int32_t i = 0; i < g->rows * g->width; ++i) s->lanes[s->lane_count + i] = (fe__lane){0, dummy, dummy};
-    s->lane_count += g->rows * g->width;
-    batch->row_bytes += (int64_t)g->rows * row_size;
-    ++batch->group_count;
-    return g;
 }
 
 // Of a hub each contact has a colour to itself, or none: its group has a row, which would be empty but for a lane

@@ -1,7 +1,7 @@
 // graph_build.h - what the parts of a build of the graph share: first graph_islands.c, then graph.c and graph_joints.c for each batch.
-#ifndef FE_SOLVER_GRAPH_BUILD_H
-#define FE_SOLVER_GRAPH_BUILD_H
-#include "solver/graph/graph.h"
+#ifndef FE_SOLVER_GRAPH_GRAPH_BUILD_H
+#define FE_SOLVER_GRAPH_GRAPH_BUILD_H
+#include "solver/graph/graph_input.h"
 
 enum {
     FE__NONE = -1,

@@ -4,6 +4,7 @@
 #include "solver/graph/graph_build.h"
 
 #include "core/disjoint.h"
+#include "solver/pace.h"
 
 #include <string.h>
 

@@ -2,6 +2,7 @@
 #include "solver/graph/graph_build.h"
 
 #include "core/array_sort.h"
+#include "solver/tree/tree.h"
 
 #include <string.h>
 
@@ -64,7 +65,7 @@ static int32_t link_of(const fe__builder *b, int32_t joint)
 }
 
 // A link's bodies, and a tree's group, when the first of its links comes by
-static void open_link(fe__builder *b, fe__batch *batch, int32_t link, fe__lane lane, const fe__kernels *kernels)
+static void open_link(fe__builder *b, fe__batch *batch, int32_t link, fe__lane lane)
 {
     fe__solver *s = b->s;
     const fe__forest *f = &b->in->joints->forest;
@@ -77,7 +78,7 @@ static void open_link(fe__builder *b, fe__batch *batch, int32_t link, fe__lane l
     if (rootless) s->places[first] = (fe__tree_place){.line = fe__line_of(b, f->links[first].body), .parent_line = FE__STATIC_LINE};
     s->groups[s->group_count++] = (fe__group){
         .width = b->width, .kind = FE__TREE_KIND, .colour = FE__TREE_COLOUR, .lane = l->tree, .rows = 1, .offset = batch->row_bytes};
-    batch->row_bytes += (int64_t)count * kernels->joint->tree.node_size;
+    batch->row_bytes += fe__tree_bytes(count);
     ++batch->group_count, ++batch->trees;
 }
 
@@ -97,7 +98,7 @@ static void fill_joint_lanes(fe__builder *b, fe__batch *batch, int32_t joint, co
     const fe__joint *j = b->in->joints->joints + joint;
     fe__lane lane = joint_lane(b, joint);
     int32_t link = link_of(b, joint);
-    if (link >= 0) open_link(b, batch, link, lane, kernels);
+    if (link >= 0) open_link(b, batch, link, lane);
     for (int32_t part = 0; part < FE__PARTS; ++part) {
         if (!(j->rows >> part & 1)) continue;
         int32_t key = joint_key(part, j), at = b->joint_key_count[key]++;

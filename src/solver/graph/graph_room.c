@@ -1,5 +1,8 @@
 // graph_room.c - what a graph may need at most, reserved before it is built: lines, groups, lanes, rows, the scratch of the build.
+#include "solver/graph/graph.h"
+
 #include "solver/graph/graph_build.h"
+#include "solver/tree/tree.h"
 
 static int32_t joint_rows(const fe__graph_bound *b)
 {
@@ -62,7 +65,7 @@ static int64_t row_bytes(const fe__graph_bound *b, const fe__kernels *kernels, i
     int64_t widest = kernels->contact->row_size[b->special ? FE__ROW_PAIR | FE__ROW_SPECIAL : FE__ROW_PAIR];
     int64_t links = fe__minl(tree_links(b), bodies);
     return row_bound(b, contacts, kernels->width) * widest + joint_row_bound(b, joint_lanes, kernels->width) * widest_joint(b, kernels) +
-           links * (kernels->joint->tree.node_size + (int64_t)sizeof(fe__row_block));
+           links * (fe__tree_bytes(1) + (int64_t)sizeof(fe__row_block));
 }
 
 static int64_t scratch_bound(const fe__graph_bound *b)
@@ -115,7 +118,7 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
     int64_t sorted = fe__maxi(fe__mini(b->crowded, b->contacts), b->joint_set ? fe__mini(b->joint_set->overflowing, b->joints) : 0);
     if (!FE_RESERVE(memory, s->velocity, s->line_capacity[0], lines) || !FE_RESERVE(memory, s->motion, s->line_capacity[1], lines) ||
         !FE_RESERVE(memory, s->start, s->line_capacity[2], lines) || !FE_RESERVE(memory, s->inertia, s->line_capacity[3], lines) ||
-        !FE_RESERVE(memory, s->drive, s->line_capacity[4], lines) || !FE_RESERVE(memory, s->spin, s->line_capacity[5], lines) ||
+        !FE_RESERVE(memory, s->drive, s->line_capacity[4], lines) || !FE_RESERVE(memory, s->axes, s->line_capacity[5], lines) ||
         !FE_RESERVE(memory, s->body_of_line, s->body_of_line_capacity, lines) ||
         !FE_RESERVE(memory, s->trail_count, s->trail_capacity[0], lines) || !FE_RESERVE(memory, s->trail_of, s->trail_capacity[2], lines) ||
         !FE_RESERVE(memory, s->trail, s->trail_capacity[1], b->fast + (b->fast_kinematic ? copies : 0)) ||
@@ -137,7 +140,7 @@ void fe__solver_destroy(fe__solver *s, fe__memory *memory)
     FE_FREE(memory, s->start, s->line_capacity[2]);
     FE_FREE(memory, s->inertia, s->line_capacity[3]);
     FE_FREE(memory, s->drive, s->line_capacity[4]);
-    FE_FREE(memory, s->spin, s->line_capacity[5]);
+    FE_FREE(memory, s->axes, s->line_capacity[5]);
     FE_FREE(memory, s->body_of_line, s->body_of_line_capacity);
     FE_FREE(memory, s->trail_count, s->trail_capacity[0]);
     FE_FREE(memory, s->trail, s->trail_capacity[1]);

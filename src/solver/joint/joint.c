@@ -158,7 +158,7 @@ float fe__joint_wind(float twist, float before)
     return twist + whole * (2.0f * FE_PI);
 }
 
-// d(coordinate)/dt = gradient . (wB - wA) in frame A; see joint_axis.h, where the same is wide
+// d(coordinate)/dt = gradient . (wB - wA) in frame A; see axis.inl, where the same is wide
 static fe_vec3 angular_gradient(fe_quat q, fe__joint_part part, const fe__joint_axis *axis)
 {
     swing s = swing_of(q);

@@ -13,7 +13,7 @@
 #ifndef FE_SOLVER_JOINT_H
 #define FE_SOLVER_JOINT_H
 #include "solver/body.h"
-#include "solver/tree/joint_forest.h"
+#include "solver/tree/forest.h"
 
 // Parts of a joint: each is a lane in a row of a kind of its own. A pass goes through them in this order over all joints, so that what
 // holds the anchors together has the last word.

@@ -9,19 +9,13 @@
 #include "solver/wide_body.h"
 
 #include <float.h>
-#include <string.h>
 
-#include "solver/joint/joint_wide.h"
-#include "solver/joint/joint_axis.h"
-#include "solver/joint/joint_point.h"
-#include "solver/joint/joint_slide.h"
-#include "solver/joint/joint_turn.h"
-#include "solver/tree/joint_tree_rows.h"
-#include "solver/tree/joint_tree.h"
-#include "solver/tree/joint_tree_calm.h"
-#include "solver/tree/joint_tree_light.h"
-#include "solver/tree/joint_tree_warm.h"
-#include "solver/tree/joint_tree_passes.h"
+#include "solver/joint/wide.inl"
+#include "solver/joint/axis.inl"
+#include "solver/joint/point.inl"
+#include "solver/joint/slide.inl"
+#include "solver/joint/rotation.inl"
+#include "solver/joint/lock_lanes.inl"
 
 #define KERNELS(name, form)                                                          \
     {                                                                                \
@@ -44,4 +38,4 @@ const fe__joint_kernels FE_NAME(fe__joint_kernels) = {.of =
                                                               [FE__PART_SLIDE] = KERNELS(slide, slide),
                                                               [FE__PART_POINT] = KERNELS(point, point),
                                                           },
-                                                      .tree = {sizeof(tree_node), prepare_tree, solve_tree, relax_tree, follow_tree}};
+                                                      .locks = {read_lock, add_lock, take_lock, is_open, opens}};

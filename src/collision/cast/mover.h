@@ -1,0 +1,39 @@
+// mover.h - a form that moves in the frame of another, and where it is stopped.
+#ifndef FE_COLLISION_CAST_MOVER_H
+#define FE_COLLISION_CAST_MOVER_H
+#include "collision/form/heightfield.h"
+
+#define FE_SWEEP_GAP 1e-7 // m
+
+// Three columns of a rotation: the images of the axes.
+typedef struct fe__axes {
+    fe_dvec3 x, y, z;
+} fe__axes;
+
+fe__axes fe__axes_of(fe_quat q); // of any length
+static inline fe_dvec3 fe__turn(const fe__axes *m, fe_dvec3 a)
+{
+    return fe__dadd(fe__dadd(fe__dscale(a.x, m->x), fe__dscale(a.y, m->y)), fe__dscale(a.z, m->z));
+}
+static inline fe_dvec3 fe__turn_back(const fe__axes *m, fe_dvec3 a)
+{
+    return (fe_dvec3){fe__ddot(m->x, a), fe__ddot(m->y, a), fe__ddot(m->z, a)};
+}
+
+// The moving form (sphere, capsule or box) in the frame of the standing one.
+typedef struct fe__mover {
+    const fe__form *form;
+    fe__axes axes;
+    fe_dvec3 position, translation; // m
+} fe__mover;
+
+typedef struct fe__sweep_hit {
+    double t;         // of the translation
+    fe_dvec3 normal;  // unit, out of the standing form; inside: the shortest way out
+    fe_dvec3 point;   // of the standing form's surface, where it is met; inside: the mover's position
+    double depth;     // inside: how far out that way, m
+    int32_t inside;   // the forms overlap at the start
+    int32_t triangle; // of a heightfield, else -1
+} fe__sweep_hit;
+
+#endif

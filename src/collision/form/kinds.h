@@ -1,0 +1,45 @@
+// kinds.h - what each kind of form puts into the table of traits (form.h).
+#ifndef FE_COLLISION_FORM_KINDS_H
+#define FE_COLLISION_FORM_KINDS_H
+#include "collision/form/support.h"
+
+// sphere.c
+fe__mass fe__sphere_mass(const fe__form *form, double density);
+fe__bounds fe__sphere_bounds(const fe__form *form, const fe__pose *pose);
+
+// capsule.c
+fe__mass fe__capsule_mass(const fe__form *form, double density);
+fe_dvec3 fe__capsule_support(const fe__form *form, fe_dvec3 direction);
+void fe__capsule_face(const fe__form *form, fe_vec3 direction, fe__face *face);
+
+// box.c
+fe__mass fe__box_mass(const fe__form *form, double density);
+float fe__box_thickness(const fe__form *form);
+fe__form fe__box_shrunk(const fe__form *form, float by);
+fe_dvec3 fe__box_support(const fe__form *form, fe_dvec3 direction);
+void fe__box_face(const fe__form *form, fe_vec3 direction, fe__face *face);
+
+// plane.c
+fe__bounds fe__plane_bounds(const fe__form *form, const fe__pose *pose);
+
+// heightfield.c
+fe__bounds fe__heightfield_bounds(const fe__form *form, const fe__pose *pose);
+
+// triangle.c
+fe__bounds fe__triangle_bounds(const fe__form *form, const fe__pose *pose);
+fe_dvec3 fe__triangle_support(const fe__form *form, fe_dvec3 direction);
+void fe__triangle_face(const fe__form *form, fe_vec3 direction, fe__face *face);
+
+// common.c: of several
+fe__mass fe__no_mass(const fe__form *form, double density);
+float fe__no_reach(const fe__form *form, fe_vec3 centre);
+float fe__core_reach(const fe__form *form, fe_vec3 centre);             // of a core and a radius around it
+fe__bounds fe__core_bounds(const fe__form *form, const fe__pose *pose); // of the same, of a capsule or a box
+float fe__radius_of(const fe__form *form);                              // the thickness of what has a radius alone
+float fe__no_thickness(const fe__form *form);                           // nothing outruns it: FLT_MAX
+fe__form fe__less_radius(const fe__form *form, float by);               // shrunk
+fe_dvec3 fe__point_support(const fe__form *form, fe_dvec3 direction);   // the core is the origin
+void fe__point_face(const fe__form *form, fe_vec3 direction, fe__face *face);
+fe_dvec3 fe__rotated_widths(fe_quat rotation, fe_dvec3 half); // half widths along the world's axes of a rotated box
+
+#endif

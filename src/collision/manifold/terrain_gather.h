@@ -1,0 +1,35 @@
+// terrain_gather.h - where the points of the kernels of terrain.c go: into patches.
+#ifndef FE_COLLISION_MANIFOLD_TERRAIN_GATHER_H
+#define FE_COLLISION_MANIFOLD_TERRAIN_GATHER_H
+#include "collision/manifold/terrain_surface.h"
+
+enum { FE__RAW_POINTS = 16 };
+
+typedef struct fe__raw_patch {
+    fe_vec3 normal;
+    int32_t count, triangle, material;
+    float deepest;
+    fe__manifold_point points[FE__RAW_POINTS];
+} fe__raw_patch;
+
+typedef struct fe__gathering {
+    const fe__terrain *terrain;
+    float margin;
+    float felt;       // m, see fe__tile_feels
+    float tie;        // m, points as deep as each other
+    float same_place; // m, points of two triangles at their seam
+    int32_t single;   // one point a patch
+    int32_t count;
+    fe__raw_patch patches[FE__PATCHES + 1];
+} fe__gathering;
+
+// A surface has no inside: what is far below a triangle is not felt by it, unless the body's centre is above it, or under the ground.
+static inline int32_t fe__tile_feels(const fe__gathering *g, const fe__tile *tile, float separation)
+{
+    return separation >= -g->felt || fe__dot(tile->normal, tile->form.vertex[0]) <= 0.0f;
+}
+
+void fe__gather(fe__gathering *g, const fe__tile *tile, fe_vec3 normal, fe_vec3 point, float separation, uint32_t id);
+void fe__reduce_patch(fe__raw_patch *patch, float tie); // leaves at most FE_MAX_POINTS
+
+#endif

@@ -1,0 +1,169 @@
+// prepare.inl - contacts to rows at the beginning of a step, impulses back at its end. Part of rows.inl, once per number of
+// points.
+//
+// Contacts come from the whole of memory, in the order of the colours: those of the next row are asked for while this one is computed.
+
+// fills the points, returns the friction centre: the mean of the points weighted by how close they are
+FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int32_t *index, wide points, const fe__step_constants *c)
+{
+    wide zero = w_set(0.0f), one = w_set(1.0f), sum = zero, apart = zero;
+    wide4 impulse = w_gather(m->normal_impulse, CONTACT_STRIDE, index), separation = w_gather(m->separation, CONTACT_STRIDE, index);
+    wide impulses[FE__POINTS] = {impulse.x, impulse.y, impulse.z, impulse.w};
+    wide separations[FE__POINTS] = {separation.x, separation.y, separation.z, separation.w};
+    wide3 weighted = w_zero3();
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        point_row *q = row->point + i;
+        wide3 r = w_xyz(w_gather(m->point[i].arm, CONTACT_STRIDE, index));
+        wide_mask there = w_greater(points, w_set((float)i));
+        store3(q->r, r);
+        q->distance = row->separation[i] = separations[i];
+        q->mass = w_choose(there, one, zero);
+        q->impulse = impulses[i] * c->contact_warm_scale;
+        row->total[i] = zero;
+        wide weight = w_choose(there, w_clamp(2.0f - separations[i] * (1.0f / c->speculative), w_set(LEAST_WEIGHT), one), zero);
+        sum = sum + weight;
+        weighted = w_add_scaled(weighted, weight, r);
+        apart = apart + weight * separations[i];
+    }
+    wide inverse = w_inverse_or_zero(sum);
+    row->separation[POINTS] = inverse * apart;
+    return w_scale(inverse, weighted);
+}
+
+FE_INLINE void NAMED(prepare_friction)(ROW *row, wide4 impulse, wide3 t1, wide3 t2, const fe__step_constants *c)
+{
+    row->tangent_impulse[0] = w_dot(w_xyz(impulse), t1) * c->contact_warm_scale;
+    row->tangent_impulse[1] = w_dot(w_xyz(impulse), t2) * c->contact_warm_scale;
+    row->twist_impulse = impulse.w * c->contact_warm_scale;
+}
+
+// A side whose inertia is a ball's and whose points are as far from its centre as they are round does not show its turn
+FE_INLINE wide NAMED(still_turn)(const wide_sym *i, wide reach, int kind)
+{
+    wide spread = w_abs(i->xx - i->yy) + w_abs(i->yy - i->zz) + w_abs(i->xy) + w_abs(i->xz) + w_abs(i->yz);
+    wide_mask shows =
+        w_or(w_greater(spread, ROUND_INERTIA * (i->xx + i->yy + i->zz)), w_greater(reach, w_set(FROZEN_SHIFT * FROZEN_SHIFT)));
+    // a bounce is to gain no energy: no turn is too little
+    return w_choose(shows, w_set(kind & FE__ROW_SPECIAL ? 0.0f : 0.25f * FROZEN_TURN * FROZEN_TURN), w_set(FLT_MAX));
+}
+
+FE_INLINE void NAMED(prepare_following)(ROW *row, wide3 n, int kind)
+{
+    wide reach_a = w_set(0.0f), reach_b = reach_a;
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        wide3 r = load3(row->point[i].r), a = w_sub_scaled(r, row->round_a, n);
+        wide3 b = w_add_scaled(w_add(r, load3(row->found_span)), row->round_b, n);
+        wide there = row->point[i].mass;
+        reach_a = w_max(there * w_dot(a, a), reach_a), reach_b = w_max(there * w_dot(b, b), reach_b);
+    }
+    const wide_sym none = {0};
+    row->still_a = NAMED(still_turn)(kind & FE__ROW_PAIR ? &row->inertia_a : &none, reach_a, kind);
+    row->still_b = NAMED(still_turn)(&row->inertia_b, reach_b, kind);
+    row->follows = w_set(0.0f);
+}
+
+// Scalar, a lane at a time: special rows are few
+FE_INLINE void NAMED(prepare_special)(SPECIAL_ROW *x, const fe__solver *s, const fe__extra *extras, const int32_t *index,
+                                      const fe__step_constants *c)
+{
+    for (int i = 0; i < FE_W; ++i) {
+        const fe__extra *e = extras + index[i];
+        const fe__velocity_line *a = s->velocity + x->row.line_a[i], *b = s->velocity + x->row.line_b[i];
+        int locks_a = (int)a->lock_bits, locks_b = (int)b->lock_bits;
+        for (int k = 0; k < 3; ++k) {
+            x->mass_a[k][i] = locks_a >> k & 1 ? 0.0f : a->inverse_mass;
+            x->mass_b[k][i] = locks_b >> k & 1 ? 0.0f : b->inverse_mass;
+            x->rolling_impulse[k][i] = e->rolling_impulse[k] * c->contact_warm_scale;
+            x->surface[k][i] = e->surface_velocity[k];
+        }
+        x->restitution[i] = e->restitution;
+        x->rolling[i] = e->rolling;
+        x->spinning[i] = e->spinning;
+    }
+}
+
+FE_INLINE void NAMED(prepare_rolling)(SPECIAL_ROW *x, const fe__solver *s, const pair *p, int kind)
+{
+    NAMED(find_rolling_masses)(x, p, every_lane(), kind);
+    wide3 pull = w_sub(w_xyz(gather_low(s->drive, x->row.line_a)), w_xyz(gather_low(s->drive, x->row.line_b)));
+    x->closing = w_dot(p->normal, pull);
+    x->gain = w_set(0.0f);
+    UNROLL for (int i = 0; i < POINTS; ++i) x->approach[i] = x->flight[i] = w_set(0.0f);
+}
+
+// Of the arms as found. Those of a static A are counted from B's centre: no span between them. A special row has static and kinematic A's
+FE_INLINE wide3 NAMED(span_found)(const ROW *row, const fe__contact *m, const int32_t *index, int kind)
+{
+    if (!(kind & (FE__ROW_PAIR | FE__ROW_SPECIAL))) return w_zero3();
+    wide3 span = w_xyz(w_gather(m->found_span, CONTACT_STRIDE, index));
+    return w_choose3(NAMED(static_lanes)(row), w_zero3(), span);
+}
+
+FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s, const fe__contact *m, const fe__extra *extras,
+                                  const fe__step_constants *c, int kind)
+{
+    _Alignas(64) int32_t index[FE_W];
+    for (int i = 0; i < FE_W; ++i) {
+        index[i] = lane[i].contact;
+        row->line_a[i] = lane[i].line_a;
+        row->line_b[i] = lane[i].line_b;
+    }
+    row->inertia_b = gather_inertia(s, row->line_b);
+    if (kind & FE__ROW_PAIR) row->inertia_a = gather_inertia(s, row->line_a);
+    wide4 normal = w_gather(m->normal, CONTACT_STRIDE, index), span = w_gather(m->span, CONTACT_STRIDE, index);
+    wide4 surface = w_gather(&m->surface.dynamic_friction, CONTACT_STRIDE, index);
+    row->static_friction = span.w;
+    row->dynamic_friction = surface.x;
+    row->round_a = surface.y;
+    row->round_b = surface.z;
+    store3(row->normal, w_xyz(normal));
+    store3(row->span, w_xyz(span));
+    store3(row->start_span, w_xyz(span));
+    store3(row->found_span, NAMED(span_found)(row, m, index, kind));
+    if (kind & FE__ROW_SPECIAL) NAMED(prepare_special)((SPECIAL_ROW *)row, s, extras, index, c);
+
+    pair p = NAMED(gather_pair)(row, s, kind);
+    wide3 t1, t2;
+    tangents(p.normal, &t1, &t2);
+    store3(row->centre, NAMED(prepare_points)(row, m, index, normal.w, c));
+    NAMED(prepare_friction)(row, w_gather(m->friction_impulse, CONTACT_STRIDE, index), t1, t2, c);
+    NAMED(prepare_following)(row, p.normal, kind);
+    wide_mask ahead = w_and(w_greater(w_set(0.0f), surface.w), w_greater(surface.w, w_set(0.5f * FE__FOLLOWS)));
+    if (w_any(ahead)) NAMED(place_ahead)(row, m, index, ahead, kind);
+    MASSES masses;
+    NAMED(find_masses)(row, &p, kind, &masses);
+    NAMED(store_masses)(row, &masses, every_lane());
+    if (kind & FE__ROW_SPECIAL) NAMED(prepare_rolling)((SPECIAL_ROW *)row, s, &p, kind);
+    row->load = NAMED(load_of)(row);
+    NAMED(apply_all)(row, &p, kind);
+    NAMED(scatter_pair)(row, s, &p, kind);
+}
+
+FE_INLINE void NAMED(prepare)(fe__solver *s, fe__contact *contacts, const fe__extra *extras, const fe__lane *lanes, void *rows,
+                              int32_t count, const fe__step_constants *c, int kind)
+{
+    for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
+        for (int j = 0; j < FE_W && i + 1 < count; ++j) prefetch_contact(contacts + lanes[FE_W + j].contact);
+        NAMED(prepare_row)(NAMED(row_at)(rows, i, kind), lanes, s, contacts, extras, c, kind);
+    }
+}
+
+FE_INLINE void NAMED(store)(fe__contact *contacts, fe__extra *extras, const fe__lane *lanes, const void *rows, int32_t count, int kind)
+{
+    for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
+        const ROW *row = NAMED(row_at)((void *)(uintptr_t)rows, i, kind);
+        const SPECIAL_ROW *x = (const SPECIAL_ROW *)row;
+        wide impulse[FE__POINTS] = {0}, total[FE__POINTS] = {0};
+        _Alignas(64) int32_t index[FE_W];
+        for (int j = 0; j < FE_W; ++j) index[j] = lanes[j].contact;
+        for (int j = 0; j < FE_W && i + 4 < count; ++j) __builtin_prefetch(contacts[lanes[4 * FE_W + j].contact].normal_impulse, 1);
+        UNROLL for (int j = 0; j < POINTS; ++j) impulse[j] = row->point[j].impulse, total[j] = row->total[j];
+        wide3 friction = NAMED(friction_impulse)(row, load3(row->normal));
+        store_lanes(contacts, index, (wide4){impulse[0], impulse[1], impulse[2], impulse[3]}, w_with(friction, row->twist_impulse),
+                    (wide4){total[0], total[1], total[2], total[3]});
+        for (int j = 0; j < FE_W && kind & FE__ROW_SPECIAL; ++j)
+            for (int k = 0; k < 3 && index[j]; ++k) extras[index[j]].rolling_impulse[k] = x->rolling_impulse[k][j];
+    }
+}

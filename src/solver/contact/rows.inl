@@ -1,0 +1,606 @@
+// rows.inl - TGS Soft on rows of W contacts, POINTS points each. Included by contact.simd.c once per number of points.
+//
+// A contact of several points shares one normal n, and rB = rA + span with span = cA - cB. Whatever is asked of a point is then affine in
+// rA, and the work per point is one dot product:
+//
+//     normal velocity   vn_i = n.(vB - vA) + (n x wB).span + (n x (wB - wA)).rA_i            since n.(w x r) = (n x w).r
+//     separation        s_i  = s0_i + n.(dpB - dpA) + nB.span + (nB - nA).rA_i               nX = R(dqX)^T n - n, exact
+//     torque on A       sum_i rA_i x (n l_i) = (sum_i l_i rA_i) x n                          torque on B: that + span x (n sum l_i)
+//
+// A round side (sphere, capsule) is its core swelled by a radius rho: the core turns with the body, the radius stays along n. Its point is
+// core + rho n on A, core - rho n on B, so the separation gains  rhoA nA.n + rhoB nB.n: a ball that rolls keeps its distance.
+//
+// The points are solved on their impulses with the stored matrix K_ij = n.M^-1.n between points, and the bodies are touched once, by the
+// sum: a step for all points at once, which treats them alike, then a Gauss-Seidel sweep for what is left.
+//
+// `kind` is a constant of each instance: FE__ROW_PAIR both sides are dynamic, else only B moves; FE__ROW_SPECIAL the row carries a
+// special_row.
+
+#define NAMED(name) FE_PASTE(name, POINTS)
+#define ROW NAMED(contact_row)
+#define SPECIAL_ROW NAMED(special_row)
+#define MASSES NAMED(masses)
+#define PASSING NAMED(passing)
+
+typedef struct ROW {
+    int32_t line_a[FE_W], line_b[FE_W];
+    wide normal[3];
+    wide span[3]; // centre of A - centre of B
+    point_row point[POINTS];
+    wide coupling[POINTS == 1 ? 1 : 6]; // m_j K_ij for i < j: 01 02 03 12 13 23
+    wide_sym inertia_b, inertia_a;      // inverse, world. A copy streams faster than a gather
+    // relax only
+    wide separation[POINTS + 1]; // when the step began; the last: at the centre of friction
+    wide total[POINTS];          // of the impulses of the substeps so far
+    wide load;                   // sum of the normal impulses at the end of the last substep
+    wide start_span[3];          // when the step began
+    wide found_span[3];          // when the contact was found: for separations
+    wide round_a, round_b;
+    wide still_a, still_b; // square of |sin(turn / 2)| up to which arms and inertia of a side stay as they are
+    wide follows;          // 1: they no longer do, see follow
+    wide static_friction, dynamic_friction;
+    wide centre[3];       // of friction, from A's centre
+    wide tangent_mass[3]; // inverse of the 2 x 2 matrix: 11 12 22
+    wide tangent_impulse[2];
+    wide twist_mass, twist_impulse;
+    wide twist_tangent[2]; // tangent velocity that a unit of twist adds
+    wide lever[POINTS];    // |r_i - centre|
+    // of lanes that follow, when the step began: points on A from A's centre, on B from B's. The last is the centre of friction
+    wide first_a[POINTS + 1][3], first_b[POINTS + 1][3];
+} ROW;
+
+// What makes impulses of velocities: depends on arms and inertia alone
+typedef struct MASSES {
+    wide point[POINTS], coupling[POINTS == 1 ? 1 : 6], tangent[3], twist, twist_tangent[2], lever[POINTS];
+} MASSES;
+
+typedef struct SPECIAL_ROW {
+    ROW row;
+    wide mass_a[3], mass_b[3];             // inverse, along the world's axes: 0 where locked
+    wide restitution, closing;             // acceleration of the bodies towards each other along n, m/s2
+    wide approach[POINTS], flight[POINTS]; // of a touch in this substep: its speed (0: none) and Q, see record_touch
+    wide gain;                             // energy that the normal impulses of this substep gave to the bodies, J, see count_gain
+    wide rolling, spinning;                // torque caps over the normal force, m
+    wide_sym rolling_mass;                 // inverse of IA^-1 + IB^-1
+    wide spinning_mass;
+    wide rolling_impulse[3];
+    wide surface[3]; // velocity of B's surface against A's
+} SPECIAL_ROW;
+
+// What a rigid pass changes
+typedef struct PASSING {
+    wide point[POINTS], tangent[2], twist;
+    side a, b;
+    wide3 rolling; // these of special rows
+    wide gain, approach[POINTS], flight[POINTS];
+} PASSING;
+
+// ---- bodies in and out ----------------------------------------------------------------------------------------------------------
+FE_INLINE pair NAMED(gather_pair)(const ROW *row, const fe__solver *s, int kind)
+{
+    side still = {w_zero3(), w_zero3(), w_set(0.0f), w_set(0.0f)};
+    side a = kind & (FE__ROW_PAIR | FE__ROW_SPECIAL) ? gather_side(s, row->line_a) : still;
+    return (pair){a, gather_side(s, row->line_b), load3(row->normal), load3(row->span)};
+}
+
+FE_INLINE void NAMED(scatter_pair)(const ROW *row, const fe__solver *s, const pair *p, int kind)
+{
+    if (kind & FE__ROW_PAIR) scatter_side(s->velocity, row->line_a, &p->a);
+    scatter_side(s->velocity, row->line_b, &p->b);
+}
+
+// Impulse on B, its opposite on A; its moment about A's centre. About B's centre the moment is greater by span x impulse.
+FE_INLINE void NAMED(apply)(const ROW *row, pair *p, wide3 impulse, wide3 moment, int kind)
+{
+    const SPECIAL_ROW *x = (const SPECIAL_ROW *)row;
+    wide3 moment_b = w_add(moment, w_cross(p->span, impulse));
+    p->b.v = kind & FE__ROW_SPECIAL ? w_add(p->b.v, w_times(load3(x->mass_b), impulse)) : w_add_scaled(p->b.v, p->b.inverse_mass, impulse);
+    p->b.w = w_add(p->b.w, w_mul(&row->inertia_b, moment_b));
+    if (!(kind & FE__ROW_PAIR)) return;
+    p->a.v = kind & FE__ROW_SPECIAL ? w_sub(p->a.v, w_times(load3(x->mass_a), impulse)) : w_sub_scaled(p->a.v, p->a.inverse_mass, impulse);
+    p->a.w = w_sub(p->a.w, w_mul(&row->inertia_a, moment));
+}
+
+// a pure torque on B, its opposite on A
+FE_INLINE void NAMED(apply_torque)(const ROW *row, pair *p, wide3 torque, int kind)
+{
+    p->b.w = w_add(p->b.w, w_mul(&row->inertia_b, torque));
+    if (kind & FE__ROW_PAIR) p->a.w = w_sub(p->a.w, w_mul(&row->inertia_a, torque));
+}
+
+// ---- normals --------------------------------------------------------------------------------------------------------------------
+FE_INLINE motion NAMED(motion_of)(const ROW *row, const fe__solver *s, int kind)
+{
+    wide zero = w_set(0.0f);
+    motion m = {.turn_a = {zero, zero, zero, w_set(1.0f)}};
+    wide4 a, b;
+    gather_line(s->motion, row->line_b, &b, &m.turn_b);
+    m.shift = w_xyz(b);
+    if (!(kind & (FE__ROW_PAIR | FE__ROW_SPECIAL))) return m;
+    gather_line(s->motion, row->line_a, &a, &m.turn_a);
+    m.shift = w_sub(m.shift, w_xyz(a));
+    return m;
+}
+
+// after the bodies moved, of lanes whose arms are those of the step's start
+FE_INLINE void NAMED(find_distances)(ROW *row, const pair *p, const motion *m, int kind)
+{
+    wide3 nb = w_turn_back(m->turn_b, p->normal), na = w_zero3();
+    wide constant = w_dot(p->normal, m->shift) + w_dot(nb, load3(row->found_span)) + row->round_b * w_dot(nb, p->normal);
+    if (kind & (FE__ROW_PAIR | FE__ROW_SPECIAL)) {
+        na = w_turn_back(m->turn_a, p->normal);
+        constant = constant + row->round_a * w_dot(na, p->normal);
+    }
+    affine change = {constant, w_sub(nb, na)};
+    UNROLL for (int i = 0; i < POINTS; ++i) row->point[i].distance = row->separation[i] + at(&change, load3(row->point[i].r));
+}
+
+FE_INLINE affine NAMED(normal_velocity)(const pair *p)
+{
+    wide3 spin = w_cross(p->normal, p->b.w);
+    return (affine){w_dot(p->normal, w_sub(p->b.v, p->a.v)) + w_dot(spin, p->span), w_cross(p->normal, w_sub(p->b.w, p->a.w))};
+}
+
+// A point without impulse is about to touch: note its speed u and the energy of its flight, exact for the discrete motion v += h g, x += h
+// v:
+//     Q = u (u - g h) + 2 g s  before the bodies moved in this substep,   u (u + g h) + 2 g s  after       (s: gap, g: acceleration closing
+//     it)
+FE_INLINE void NAMED(record_touch)(SPECIAL_ROW *x, int i, wide impulse, wide vn, wide distance, const fe__step_constants *c, int moved)
+{
+    wide zero = w_set(0.0f), u = -vn, gap = w_max(distance, zero), g = x->closing;
+    wide flight = (moved ? u * (u + c->h * g) : u * (u - c->h * g)) + 2.0f * g * gap;
+    // as the impulse is computed, so that none is given to a point that is not noted
+    wide_mask closes = w_greater(zero, vn + w_max(distance * c->inverse_h, zero));
+    wide_mask touches = w_and(closes, w_greater(u, w_set(c->threshold)));
+    touches = w_and(touches, w_greater(x->row.point[i].mass * x->restitution, zero));
+    touches = w_and(touches, w_not(w_or(w_greater(impulse, zero), w_greater(x->approach[i], zero))));
+    x->approach[i] = w_choose(touches, u, x->approach[i]);
+    x->flight[i] = w_choose(touches, w_max(flight, zero), x->flight[i]);
+}
+
+// What changes d of the other points take from the wish of point j: scale_j sum_i m_j K_ij d_i. The stored m_j K_ij, i < j, stand for m_i
+// K_ij too.
+FE_INLINE wide NAMED(lost_at)(const ROW *row, const wide *scale, const wide *d, int j)
+{
+    wide sum = w_set(0.0f);
+    UNROLL for (int i = 0; i < POINTS; ++i) if (i != j) sum = sum + row->coupling[coupling_of[i][j]] * d[i];
+    return scale ? scale[j] * sum : sum;
+}
+
+// All points at once, each by the same share of what it asks for, e_i = wish_i - l_i:  d = a e,  a = e.e / e.(M e),  M_ij = m_j K_ij. A
+// step of steepest descent, and what it knows nothing of is the order of the points: a box that lands flat gets four equal impulses and
+// does not turn, where a sweep alone gives the first point the most.
+FE_INLINE void NAMED(predict_points)(ROW *row, wide *wish, const wide *scale)
+{
+    wide zero = w_set(0.0f), one = w_set(1.0f), square = zero, along = zero, d[POINTS];
+    UNROLL for (int i = 0; i < POINTS; ++i) d[i] = wish[i] - row->point[i].impulse;
+    UNROLL for (int j = 0; j < POINTS; ++j)
+    {
+        square = square + d[j] * d[j];
+        along = along + d[j] * (d[j] + NAMED(lost_at)(row, scale, d, j));
+    }
+    wide share = w_choose(w_greater(along, 0.5f * square), square / along, one);
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        wide before = row->point[i].impulse;
+        row->point[i].impulse = w_max(before + share * d[i], zero);
+        d[i] = row->point[i].impulse - before;
+    }
+    UNROLL for (int j = 0; j < POINTS; ++j) wish[j] = wish[j] - NAMED(lost_at)(row, scale, d, j);
+}
+
+// Runs the points against each other on their impulses. wish[i] is the new impulse of point i before max(., 0); a change d at point i
+// lowers wish[j] by scale_j m_j K_ij d. Returns the sum of the changes and their moment about A's centre.
+FE_INLINE wide3 NAMED(sweep_points)(ROW *row, wide *wish, const wide *scale, wide *out_sum)
+{
+    wide zero = w_set(0.0f), sum = zero, first[POINTS];
+    wide3 moment = w_zero3();
+    UNROLL for (int i = 0; i < POINTS; ++i) first[i] = row->point[i].impulse;
+    if (POINTS > 1) NAMED(predict_points)(row, wish, scale);
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        point_row *q = row->point + i;
+        wide impulse = w_max(wish[i], zero), change = impulse - q->impulse;
+        q->impulse = impulse;
+        UNROLL for (int j = i + 1; j < POINTS; ++j)
+        {
+            wide k = row->coupling[coupling_of[i][j]];
+            wish[j] = wish[j] - (scale ? scale[j] * k : k) * change;
+        }
+        change = impulse - first[i];
+        sum = sum + change;
+        moment = w_add_scaled(moment, change, load3(q->r));
+    }
+    *out_sum = sum;
+    return moment;
+}
+
+FE_INLINE wide NAMED(load_of)(const ROW *row)
+{
+    wide load = row->point[0].impulse;
+    UNROLL for (int i = 1; i < POINTS; ++i) load = load + row->point[i].impulse;
+    return load;
+}
+
+// The impulses that the points ask for while the others keep theirs, before max(., 0). out_scale: what their velocities count.
+// Soft (pushing):   l' = max((1 - is) l - m (ms vn + bias), 0);  bias = ms s / h where the gap s > 0, the spring's otherwise
+// Rigid (relaxing, and where there is a gap: for a loaded point, one of more than TOUCHING): l' = max(l - m (vn + max(s / h, 0)), 0)
+FE_INLINE void NAMED(wishes)(ROW *row, const fe__step_constants *c, const pair *p, int kind, int soft, wide *wish, wide *scale)
+{
+    const fe__softness *k = kind & FE__ROW_PAIR ? &c->between_dynamic : &c->against_static;
+    wide zero = w_set(0.0f), one = w_set(1.0f), slowest = w_set(-c->push_speed), rate = w_set(k->mass_scale * k->bias_rate);
+    affine velocity = NAMED(normal_velocity)(p);
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        const point_row *q = row->point + i;
+        wide3 r = load3(q->r);
+        wide vn = at(&velocity, r), distance = q->distance, ahead = distance * c->inverse_h;
+        if (kind & FE__ROW_SPECIAL) NAMED(record_touch)((SPECIAL_ROW *)row, i, q->impulse, vn, distance, c, !soft);
+        if (!soft) {
+            wish[i] = q->impulse - q->mass * (vn + w_max(ahead, zero));
+            continue;
+        }
+        wide_mask apart = w_greater(distance, w_choose(w_greater(q->impulse, zero), w_set(TOUCHING), zero));
+        scale[i] = w_choose(apart, one, w_set(k->mass_scale));
+        wide bias = w_choose(w_greater(distance, zero), scale[i] * ahead, w_max(rate * distance, slowest));
+        wish[i] = w_choose(apart, one, w_set(1.0f - k->impulse_scale)) * q->impulse - q->mass * (scale[i] * vn + bias);
+    }
+}
+
+FE_INLINE void NAMED(push_normals)(ROW *row, const fe__step_constants *c, pair *p, int kind, int soft)
+{
+    wide wish[POINTS], scale[POINTS], sum;
+    NAMED(wishes)(row, c, p, kind, soft, wish, scale);
+    wide3 moment = NAMED(sweep_points)(row, wish, soft ? scale : 0, &sum);
+    NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
+}
+
+// The energy that changes of the normal impulses give: the work at the mean of the speeds before and after, and what they change in the
+// discrete flight, whose energy is v^2/2 - g x + h g v / 2 of the closing acceleration g: a push before the bodies move shifts them too.
+FE_INLINE wide NAMED(gain_of)(const SPECIAL_ROW *x, const wide *before, const affine *was, const affine *is, wide flight)
+{
+    wide gain = w_set(0.0f);
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        const point_row *q = x->row.point + i;
+        wide3 r = load3(q->r);
+        gain = gain + (q->impulse - before[i]) * (0.5f * (at(was, r) + at(is, r)) + flight);
+    }
+    return gain;
+}
+
+FE_INLINE void NAMED(solve_normals)(ROW *row, const fe__step_constants *c, pair *p, int kind, int soft)
+{
+    SPECIAL_ROW *x = (SPECIAL_ROW *)row;
+    wide before[POINTS];
+    affine was = NAMED(normal_velocity)(p);
+    UNROLL for (int i = 0; i < POINTS; ++i) before[i] = row->point[i].impulse;
+    NAMED(push_normals)(row, c, p, kind, soft);
+    if (!(kind & FE__ROW_SPECIAL)) return;
+    affine is = NAMED(normal_velocity)(p);
+    wide gain = NAMED(gain_of)(x, before, &was, &is, (soft ? 0.5f : -0.5f) * c->h * x->closing);
+    x->gain = soft ? gain : x->gain + gain;
+}
+
+// ---- friction --------------------------------------------------------------------------------------------------------------------
+
+// Twist about n, |l| <= mu sum lever_i l_i; then the two tangents at the friction centre as one block, |l| <= mu sum l_i. Twist reaches the
+// tangents through twist_tangent, so that both are applied to the bodies at once. A contact sticks up to the static friction; one that
+// would need much more slides, with the dynamic one.
+// Returns the lanes whose friction is not settled, see settle.
+FE_INLINE wide_mask NAMED(solve_friction)(ROW *row, pair *p, int kind)
+{
+    wide3 t1, t2, ra = load3(row->centre), rb = w_add(ra, p->span);
+    tangents(p->normal, &t1, &t2);
+    wide load = NAMED(load_of)(row), twisted = w_set(0.0f);
+    if (POINTS > 1) {
+        wide twist_load = row->lever[0] * row->point[0].impulse;
+        UNROLL for (int i = 1; i < POINTS; ++i) twist_load = twist_load + row->lever[i] * row->point[i].impulse;
+        wide twist = row->twist_impulse - row->twist_mass * w_dot(p->normal, w_sub(p->b.w, p->a.w));
+        wide slide = row->dynamic_friction * twist_load, stick = row->static_friction * twist_load;
+        twist = w_choose(w_greater(w_abs(twist), stick), w_clamp(twist, -slide, slide), twist);
+        twisted = twist - row->twist_impulse;
+        row->twist_impulse = twist;
+    }
+    wide3 slip = w_sub(w_add(p->b.v, w_cross(p->b.w, rb)), w_add(p->a.v, w_cross(p->a.w, ra)));
+    if (kind & FE__ROW_SPECIAL) slip = w_add(slip, load3(((const SPECIAL_ROW *)row)->surface));
+    wide v1 = w_dot(t1, slip) + row->twist_tangent[0] * twisted, v2 = w_dot(t2, slip) + row->twist_tangent[1] * twisted;
+    const wide *m = row->tangent_mass;
+    wide l1 = row->tangent_impulse[0] - (m[0] * v1 + m[1] * v2), l2 = row->tangent_impulse[1] - (m[1] * v1 + m[2] * v2);
+    wide stick = row->static_friction * load, slide = row->dynamic_friction * load, square = l1 * l1 + l2 * l2;
+    wide most = w_choose(w_greater(square, BREAKAWAY * BREAKAWAY * stick * stick), slide, stick);
+    wide shrink = w_choose(w_greater(square, stick * stick), most / w_sqrt(square), w_set(1.0f));
+    l1 = l1 * shrink;
+    l2 = l2 * shrink;
+    wide3 impulse = w_add_scaled(w_scale(l1 - row->tangent_impulse[0], t1), l2 - row->tangent_impulse[1], t2);
+    row->tangent_impulse[0] = l1;
+    row->tangent_impulse[1] = l2;
+    NAMED(apply)(row, p, impulse, w_add_scaled(w_cross(ra, impulse), twisted, p->normal), kind);
+    wide answer = p->a.inverse_mass + p->b.inverse_mass, least = UNSETTLED * load * answer;
+    wide_mask changes = w_greater(answer * answer * w_dot(impulse, impulse), least * least + UNSETTLED_SPEED * UNSETTLED_SPEED);
+    return w_and(changes, w_greater(w_set(IMPACT_SPEED), (load - row->load) * answer));
+}
+
+// Rolling resistance: a torque in the tangent plane against the relative spin, at most rolling * load. Spinning resistance: the same about
+// n.
+FE_INLINE void NAMED(solve_rolling)(SPECIAL_ROW *x, pair *p, int kind)
+{
+    wide load = NAMED(load_of)(&x->row), one = w_set(1.0f);
+    wide3 n = p->normal, relative = w_sub(p->b.w, p->a.w), before = load3(x->rolling_impulse);
+    wide along = w_dot(n, before), turning = w_dot(n, relative), cap = x->spinning * load;
+    wide spin = w_clamp(along - x->spinning_mass * turning, -cap, cap);
+    wide3 roll = w_sub_scaled(before, along, n);
+    roll = w_sub(roll, w_mul(&x->rolling_mass, w_sub_scaled(relative, turning, n)));
+    roll = w_sub_scaled(roll, w_dot(n, roll), n);
+    wide most = x->rolling * load, square = w_dot(roll, roll);
+    roll = w_scale(w_choose(w_greater(square, most * most), most / w_sqrt(square), one), roll);
+    wide3 after = w_add_scaled(roll, spin, n);
+    store3(x->rolling_impulse, after);
+    NAMED(apply_torque)(&x->row, p, w_sub(after, before), kind);
+}
+
+FE_INLINE PASSING NAMED(passing_of)(const ROW *row, const pair *p, int kind)
+{
+    const SPECIAL_ROW *x = (const SPECIAL_ROW *)row;
+    PASSING was = {.tangent = {row->tangent_impulse[0], row->tangent_impulse[1]}, .twist = row->twist_impulse, .a = p->a, .b = p->b};
+    UNROLL for (int i = 0; i < POINTS; ++i) was.point[i] = row->point[i].impulse;
+    if (!(kind & FE__ROW_SPECIAL)) return was;
+    was.rolling = load3(x->rolling_impulse), was.gain = x->gain;
+    UNROLL for (int i = 0; i < POINTS; ++i) was.approach[i] = x->approach[i], was.flight[i] = x->flight[i];
+    return was;
+}
+
+// the lanes beside `lanes` are as before a pass
+FE_INLINE void NAMED(keep_others)(ROW *row, pair *p, const PASSING *was, wide_mask lanes, int kind)
+{
+    SPECIAL_ROW *x = (SPECIAL_ROW *)row;
+    p->a = choose_side(lanes, p->a, was->a), p->b = choose_side(lanes, p->b, was->b);
+    UNROLL for (int i = 0; i < POINTS; ++i) row->point[i].impulse = w_choose(lanes, row->point[i].impulse, was->point[i]);
+    for (int i = 0; i < 2; ++i) row->tangent_impulse[i] = w_choose(lanes, row->tangent_impulse[i], was->tangent[i]);
+    row->twist_impulse = w_choose(lanes, row->twist_impulse, was->twist);
+    if (!(kind & FE__ROW_SPECIAL)) return;
+    store3(x->rolling_impulse, w_choose3(lanes, load3(x->rolling_impulse), was->rolling));
+    x->gain = w_choose(lanes, x->gain, was->gain);
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        x->approach[i] = w_choose(lanes, x->approach[i], was->approach[i]);
+        x->flight[i] = w_choose(lanes, x->flight[i], was->flight[i]);
+    }
+}
+
+// A friction that comes at once, of what is set down on a slope or pushed, turns the body, and the less it is held the lower the friction
+// grips: a cube's friction is two fifths of what it should be. The points answer that turn and friction has its next part, until little is
+// left; what is at rest, or slides on, has its friction from before. Not in an impact, whose friction is over after the substep.
+static __attribute__((noinline)) pair NAMED(settle)(ROW *row, const fe__step_constants *c, pair p, wide_mask unsettled, int kind)
+{
+    for (int i = 0; i < SETTLING && w_any(unsettled); ++i) {
+        PASSING before = NAMED(passing_of)(row, &p, kind);
+        NAMED(solve_normals)(row, c, &p, kind, 0);
+        if (kind & FE__ROW_SPECIAL) NAMED(solve_rolling)((SPECIAL_ROW *)row, &p, kind);
+        wide_mask more = NAMED(solve_friction)(row, &p, kind);
+        NAMED(keep_others)(row, &p, &before, unsettled, kind);
+        unsettled = w_and(unsettled, more);
+    }
+    return p;
+}
+
+#include "solver/contact/follow.inl"
+
+// ---- restitution ----------------------------------------------------------------------------------------------------------------------
+// The speed that a touched point must leave with, at the gap s where it is now:
+//     v' = min( sqrt(e^2 Q - 2 g s) + g h / 2,  sqrt(Q - 2 g s) )
+// so that it flies to e^2 times the height it fell from, and never has more energy than it came with. Q: record_touch. A point that did not
+// touch may go on closing its gap, as in relax.
+FE_INLINE wide NAMED(bounce_speed)(const SPECIAL_ROW *x, int i, wide distance, const fe__step_constants *c)
+{
+    wide zero = w_set(0.0f), g = x->closing, gap = w_max(distance, zero), used = 2.0f * g * gap, e = x->restitution, q = x->flight[i];
+    wide wanted = w_sqrt(w_max(e * e * q - used, zero)) + 0.5f * c->h * g;
+    return w_choose(w_greater(x->approach[i], zero), w_min(wanted, w_sqrt(w_max(q - used, zero))), -(gap * c->inverse_h));
+}
+
+// What the touched contacts gave so far leaves the warm start: start takes M^-1 J^T l.
+FE_INLINE void NAMED(leave_warm_start)(const SPECIAL_ROW *x, fe__solver *s, const pair *p, wide_mask touched, int kind)
+{
+    const ROW *row = &x->row;
+    pair start = {start_side(s, row->line_a), start_side(s, row->line_b), p->normal, p->span}, was = start;
+    NAMED(apply_all)(row, &start, kind);
+    start.a.v = w_choose3(touched, start.a.v, was.a.v), start.a.w = w_choose3(touched, start.a.w, was.a.w);
+    start.b.v = w_choose3(touched, start.b.v, was.b.v), start.b.w = w_choose3(touched, start.b.w, was.b.w);
+    if (kind & FE__ROW_PAIR) scatter_side(s->start, row->line_a, &start.a);
+    scatter_side(s->start, row->line_b, &start.b);
+}
+
+// Of the touched lanes: nothing is left to warm-start. The others, which the sweeps ran over too, get their impulses back. `old`: impulses
+// that `total` already has, and `part` of the change came to pass.
+FE_INLINE void NAMED(forget_touched)(SPECIAL_ROW *x, const wide *old, wide part, wide_mask touched)
+{
+    ROW *row = &x->row;
+    wide zero = w_set(0.0f);
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        point_row *q = row->point + i;
+        row->total[i] = row->total[i] + w_choose(touched, part * (q->impulse - old[i]), zero);
+        q->impulse = w_choose(touched, zero, old[i]);
+        x->approach[i] = zero;
+    }
+    for (int i = 0; i < 2; ++i) row->tangent_impulse[i] = w_choose(touched, zero, row->tangent_impulse[i]);
+    for (int i = 0; i < 3; ++i) x->rolling_impulse[i] = w_choose(touched, zero, x->rolling_impulse[i]);
+    row->twist_impulse = w_choose(touched, zero, row->twist_impulse);
+    row->load = w_choose(touched, zero, row->load);
+}
+
+// The points together reach their speeds: each sweep looks at the bodies anew.
+FE_INLINE void NAMED(sweep_bounce)(ROW *row, pair *p, const wide *target, int kind)
+{
+    for (int sweep = 0; sweep < BOUNCE_SWEEPS; ++sweep) {
+        affine velocity = NAMED(normal_velocity)(p);
+        wide wish[POINTS], sum;
+        UNROLL for (int i = 0; i < POINTS; ++i)
+        {
+            const point_row *q = row->point + i;
+            wish[i] = q->impulse - q->mass * (at(&velocity, load3(q->r)) - target[i]);
+        }
+        wide3 moment = NAMED(sweep_points)(row, wish, 0, &sum);
+        NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
+    }
+}
+
+// The part of a bounce, 1 and less, with which the row's impulses of this substep gain no energy: gain + part b + part^2 a <= 0, of the
+// works
+//     b = sum of change . speed before,   a = half the sum of change . (speed after - before)
+FE_INLINE wide NAMED(part_without_gain)(const SPECIAL_ROW *x, const wide *old, const affine *was, const affine *is, wide flight)
+{
+    wide zero = w_set(0.0f), one = w_set(1.0f), b = NAMED(gain_of)(x, old, was, was, flight), all = NAMED(gain_of)(x, old, was, is, flight);
+    wide a = all - b, root = w_sqrt(w_max(b * b - 4.0f * a * x->gain, zero));
+    wide part = w_clamp((root - b) * w_inverse_or_zero(2.0f * a), zero, one);
+    return w_choose(w_greater(x->gain + all, zero), part, one);
+}
+
+// After relax, for contacts that touched in this substep.
+FE_INLINE void NAMED(bounce_row)(SPECIAL_ROW *x, fe__solver *s, const fe__step_constants *c, int kind)
+{
+    ROW *row = &x->row;
+    wide approach = x->approach[0];
+    UNROLL for (int i = 1; i < POINTS; ++i) approach = w_max(x->approach[i], approach);
+    wide_mask touched = w_greater(approach, w_set(0.0f));
+    if (!w_any(touched)) return;
+    pair p = NAMED(gather_pair)(row, s, kind), before = p;
+    wide target[POINTS], old[POINTS];
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        old[i] = row->point[i].impulse;
+        target[i] = NAMED(bounce_speed)(x, i, row->point[i].distance, c);
+    }
+    NAMED(leave_warm_start)(x, s, &p, touched, kind);
+    affine was = NAMED(normal_velocity)(&p);
+    NAMED(sweep_bounce)(row, &p, target, kind);
+    affine is = NAMED(normal_velocity)(&p);
+    wide part = NAMED(part_without_gain)(x, old, &was, &is, -0.5f * c->h * x->closing);
+    p.a = blend(part, &before.a, &p.a), p.b = blend(part, &before.b, &p.b);
+    NAMED(forget_touched)(x, old, part, touched);
+    if (kind & FE__ROW_PAIR) add_change(s, row->line_a, &before.a, &p.a, touched);
+    add_change(s, row->line_b, &before.b, &p.b, touched);
+}
+
+// ---- impacts --------------------------------------------------------------------------------------------------------------------------
+// What a substep carries to the next is a guess of its impulses. Those of an impact, of a load that rose by half at once, are over: the
+// next push takes back its normal part, but friction, which only relax solves, would act twice, on bodies that turned on, and give them
+// energy. So it is carried only as it was before, until the load has lasted for a substep.
+static __attribute__((noinline)) void NAMED(leave_friction)(ROW *row, const fe__solver *s, wide load, wide_mask rose, int kind)
+{
+    SPECIAL_ROW *x = (SPECIAL_ROW *)row;
+    wide3 n = load3(row->normal), centre = load3(row->centre);
+    wide keep = w_choose(rose, row->load / load, w_set(1.0f)), part = 1.0f - keep;
+    wide3 friction = w_scale(part, NAMED(friction_impulse)(row, n));
+    wide3 moment = w_add_scaled(w_cross(centre, friction), part * row->twist_impulse, n);
+    if (kind & FE__ROW_SPECIAL) moment = w_add_scaled(moment, part, load3(x->rolling_impulse));
+    pair start = {start_side(s, row->line_a), start_side(s, row->line_b), n, load3(row->span)}, was = start;
+    NAMED(apply)(row, &start, friction, moment, kind);
+    start.a = choose_side(rose, start.a, was.a), start.b = choose_side(rose, start.b, was.b);
+    if (kind & FE__ROW_PAIR) scatter_side(s->start, row->line_a, &start.a);
+    scatter_side(s->start, row->line_b, &start.b);
+    for (int i = 0; i < 2; ++i) row->tangent_impulse[i] = keep * row->tangent_impulse[i];
+    for (int i = 0; i < 3 && kind & FE__ROW_SPECIAL; ++i) x->rolling_impulse[i] = keep * x->rolling_impulse[i];
+    row->twist_impulse = keep * row->twist_impulse;
+}
+
+// ---- strain ----------------------------------------------------------------------------------------------------------------------------
+// Does the row bear so much that its island is strained? An impact does not count: the load is to last, so that the last substep's, times
+// their number, and that of the whole step are both large. In an island that is strained already, the last substep's alone.
+FE_INLINE void NAMED(find_strain)(const ROW *row, fe__solver *s, wide speed, wide answer, const fe__step_constants *c)
+{
+    wide total = row->total[0];
+    UNROLL for (int i = 1; i < POINTS; ++i) total = total + row->total[i];
+    wide lasting = w_min((float)c->substeps * speed, w_max(total * answer, w_set(c->forgets)));
+    wide_mask strained = w_greater(lasting, w_set(c->strain));
+    if (w_any(strained)) mark_strained(s, row->line_b, strained);
+}
+
+// ---- passes over the rows -----------------------------------------------------------------------------------------------------------
+FE_INLINE ROW *NAMED(row_at)(void *rows, int32_t i, int kind)
+{
+    return kind & FE__ROW_SPECIAL ? &((SPECIAL_ROW *)rows)[i].row : (ROW *)rows + i;
+}
+
+FE_INLINE void NAMED(solve)(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c, int kind)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        ROW *row = NAMED(row_at)(rows, i, kind);
+        pair p = NAMED(gather_pair)(row, s, kind);
+        NAMED(solve_normals)(row, c, &p, kind, 1);
+        NAMED(scatter_pair)(row, s, &p, kind);
+    }
+}
+
+FE_INLINE void NAMED(relax)(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c, int kind)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        ROW *row = NAMED(row_at)(rows, i, kind);
+        pair p = NAMED(gather_pair)(row, s, kind);
+        motion m = NAMED(motion_of)(row, s, kind);
+        NAMED(find_distances)(row, &p, &m, kind);
+        wide_mask moving = NAMED(moving)(row, &m, kind);
+        if (w_any(moving)) {
+            motion moved = m;
+            NAMED(follow)(row, s, &moved, moving, kind);
+            p.span = load3(row->span);
+        }
+        NAMED(solve_normals)(row, c, &p, kind, 0);
+        if (kind & FE__ROW_SPECIAL) NAMED(solve_rolling)((SPECIAL_ROW *)row, &p, kind);
+        wide_mask unsettled = NAMED(solve_friction)(row, &p, kind);
+        if (w_any(unsettled)) p = NAMED(settle)(row, c, p, unsettled, kind);
+        NAMED(scatter_pair)(row, s, &p, kind);
+        if (c->more) continue;
+        UNROLL for (int j = 0; j < POINTS; ++j) row->total[j] = row->total[j] + row->point[j].impulse;
+        wide load = NAMED(load_of)(row), answer = p.a.inverse_mass + p.b.inverse_mass;
+        wide_mask rose = w_and(w_greater(load, IMPACT_RISE * row->load), w_greater((load - row->load) * answer, w_set(IMPACT_SPEED)));
+        if (w_any(rose)) NAMED(leave_friction)(row, s, load, rose, kind);
+        row->load = load;
+        if (c->asks_strain) NAMED(find_strain)(row, s, load * answer, answer, c);
+    }
+}
+
+FE_INLINE void NAMED(bounce)(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c, int kind)
+{
+    for (int32_t i = 0; i < count; ++i) NAMED(bounce_row)((SPECIAL_ROW *)rows + i, s, c, kind);
+}
+
+#include "solver/contact/prepare.inl"
+
+// ---- the kernels of each kind --------------------------------------------------------------------------------------------------------
+#define INSTANCE(kind_name, kind)                                                                                                  \
+    static void NAMED(prepare_##kind_name)(fe__solver * s, fe__contact * contacts, const fe__extra *extras, const fe__lane *lanes, \
+                                           void *rows, int32_t count, const fe__step_constants *c)                                 \
+    {                                                                                                                              \
+        NAMED(prepare)(s, contacts, extras, lanes, rows, count, c, kind);                                                          \
+    }                                                                                                                              \
+    static void NAMED(solve_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c)                   \
+    {                                                                                                                              \
+        NAMED(solve)(s, rows, count, c, kind);                                                                                     \
+    }                                                                                                                              \
+    static void NAMED(relax_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c)                   \
+    {                                                                                                                              \
+        NAMED(relax)(s, rows, count, c, kind);                                                                                     \
+    }                                                                                                                              \
+    static void NAMED(bounce_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c)                  \
+    {                                                                                                                              \
+        if ((kind)&FE__ROW_SPECIAL) NAMED(bounce)(s, rows, count, c, kind);                                                        \
+    }                                                                                                                              \
+    static void NAMED(store_##kind_name)(fe__contact * contacts, fe__extra * extras, const fe__lane *lanes, const void *rows,      \
+                                         int32_t count)                                                                            \
+    {                                                                                                                              \
+        NAMED(store)(contacts, extras, lanes, rows, count, kind);                                                                  \
+    }
+
+INSTANCE(fixed, 0)
+INSTANCE(pair, FE__ROW_PAIR)
+INSTANCE(fixed_special, FE__ROW_SPECIAL)
+INSTANCE(pair_special, FE__ROW_PAIR | FE__ROW_SPECIAL)
+
+#undef INSTANCE
+#undef SPECIAL_ROW
+#undef MASSES
+#undef PASSING
+#undef ROW
+#undef NAMED
+#undef POINTS

@@ -1,0 +1,37 @@
+// forest.h - the joints that form trees, to be solved at once and exactly.
+//
+// A sweep passes an impulse on from joint to joint: a load of a thousand links' mass at the end of a chain takes a
+// thousand sweeps to be felt at its top, and until then the chain stretches. Where joints close no loop, all of them
+// can be met at once, in time that grows with their number alone (tree.h). A tree is a set of dynamic bodies, the
+// joints between them, and at most one joint to the rest of the world, whose bodies all count as one.
+//
+// The world finds the trees (world/forest.c); the graph gives lines and rows to those that are awake.
+#ifndef FE_SOLVER_TREE_FOREST_H
+#define FE_SOLVER_TREE_FOREST_H
+#include <stdint.h>
+
+// A body and the joint that holds it to its parent. Parents come before their children; the root is first.
+typedef struct fe__tree_link {
+    int32_t body;
+    int32_t joint;   // 0: the root of a tree that hangs on nothing
+    int32_t parent;  // link of the body above, counted from the tree's first; -1: the root
+    int32_t holds_b; // 1: the body is B of the joint, 0: A
+    int32_t tree;
+    float carried; // mass of the body and of all below it, kg
+} fe__tree_link;
+
+typedef struct fe__joint_tree {
+    int32_t first, count; // links
+    int32_t heavy;        // 1: solved in every substep; 0: from the sweep on that left a joint open, to the end of the step
+} fe__joint_tree;
+
+typedef struct fe__forest {
+    fe__joint_tree *trees;
+    fe__tree_link *links;
+    int32_t *link_of; // by joint: its link, -1: in no tree
+    int32_t tree_count, link_count;
+    int32_t capacity[3]; // of the arrays above
+    int32_t changed;     // joints were linked or unlinked, or masses of joined bodies changed, since the trees were found
+} fe__forest;
+
+#endif

@@ -1,0 +1,545 @@
+// The tree solver by itself: its rows against differences of their errors, its elimination against a dense solution of the
+// same system J M^-1 J^T l = -J v in this file. No sweep, no kernels: the locks are scalars in an array.
+#include "../fe_test.h"
+#include "solver/tree/eliminate.h"
+#include "solver/tree/rows.h"
+#include "solver/tree/tree.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+enum { MOST_LINKS = 32, MOST_ROWS = 6 * MOST_LINKS, DOFS = 6 * MOST_LINKS };
+
+// ---- a tree of locks in an array ------------------------------------------------------------------------------------------------
+typedef struct rig {
+    fe__solver solver;
+    fe__velocity_line velocity[MOST_LINKS + 1]; // line 0 is the world
+    fe__motion_line motion[MOST_LINKS + 1];
+    fe__start_line start[MOST_LINKS + 1];
+    fe__tree_link links[MOST_LINKS];
+    fe__tree_place places[MOST_LINKS];
+    fe__lock locks[MOST_LINKS];
+    double given[MOST_LINKS][6]; // impulses that the tree added to the locks
+    fe__sym3 inertia[MOST_LINKS + 1];
+    int32_t opens; // what is said of every lock
+    _Alignas(64) fe__tree_node nodes[MOST_LINKS];
+    fe__tree_job job;
+    uint32_t random;
+} rig;
+
+static rig the; // one at a time: large, and its lanes find it here
+
+static void read_lock(int32_t part, const void *row, int32_t lane, fe__lock *out_lock)
+{
+    (void)part, (void)lane;
+    memcpy(out_lock, row, sizeof *out_lock);
+}
+
+static int32_t rows_of(int32_t part) { return part == FE__PART_DISTANCE ? 1 : part == FE__PART_HINGE ? 2 : 3; }
+
+static int32_t add_lock(int32_t part, void *row, int32_t lane, const double *impulse, int32_t total)
+{
+    (void)lane, (void)total;
+    double *given = the.given[(fe__lock *)row - the.locks];
+    for (int32_t k = 0; k < rows_of(part); ++k) given[k] += impulse[k];
+    return rows_of(part);
+}
+
+static int32_t take_lock(int32_t part, void *row, int32_t lane, double *impulse)
+{
+    (void)row, (void)lane;
+    for (int32_t k = 0; k < rows_of(part); ++k) impulse[k] = 0.0;
+    return rows_of(part);
+}
+
+static int32_t is_open(const fe__tree_place *places, int32_t count, const unsigned char *rows, float gap)
+{
+    (void)places, (void)count, (void)rows, (void)gap;
+    return the.opens;
+}
+
+static int32_t opens(const fe__solver *s, const fe__tree_link *links, const fe__tree_place *places, int32_t count,
+                     const unsigned char *rows, float speed)
+{
+    (void)s, (void)links, (void)places, (void)count, (void)rows, (void)speed;
+    return the.opens;
+}
+
+static const fe__lock_lanes lanes = {read_lock, add_lock, take_lock, is_open, opens};
+
+static double any(double low, double high)
+{
+    the.random = the.random * 1664525u + 1013904223u;
+    return low + (high - low) * (double)(the.random >> 8) / 16777216.0;
+}
+
+static fe_vec3 any_vector(double most)
+{
+    float x = (float)any(-most, most), y = (float)any(-most, most), z = (float)any(-most, most);
+    return fe__vec3(x, y, z);
+}
+
+static fe_quat any_rotation(void)
+{
+    return fe__normalized((fe_quat){(float)any(-1, 1), (float)any(-1, 1), (float)any(-1, 1), (float)any(-1, 1)});
+}
+
+static void begin(uint32_t seed)
+{
+    memset(&the, 0, sizeof the);
+    the.random = seed;
+    the.solver.velocity = the.velocity, the.solver.motion = the.motion, the.solver.start = the.start;
+    for (int32_t i = 0; i <= MOST_LINKS; ++i) the.motion[i].rotation[3] = 1.0f;
+    the.job = (fe__tree_job){.solver = &the.solver,
+                             .lanes = &lanes,
+                             .links = the.links,
+                             .places = the.places,
+                             .heavy = 1,
+                             .rows = (unsigned char *)the.locks,
+                             .nodes = the.nodes,
+                             .h = 1.0 / 240.0,
+                             .rate = 0.1};
+}
+
+// the next link, of a body of that mass and inertia, held by a part to a parent or, -1, to the world
+static fe__lock *add_link(int32_t parent, int32_t holds_b, int32_t part, float mass, fe__sym3 inverse_inertia)
+{
+    int32_t i = the.job.count++, line = i + 1, above = parent + 1;
+    fe__lock *lock = the.locks + i;
+    the.velocity[line].inverse_mass = 1.0f / mass;
+    the.inertia[line] = inverse_inertia;
+    the.links[i] = (fe__tree_link){.body = line, .joint = line, .parent = parent, .holds_b = holds_b};
+    the.places[i] = (fe__tree_place){.line = line, .parent_line = above, .locks = 1};
+    the.places[i].lock[0].part = part;
+    the.places[i].lock[0].row = (int64_t)((unsigned char *)lock - (unsigned char *)the.locks);
+    lock->line_a = holds_b ? above : line, lock->line_b = holds_b ? line : above;
+    lock->inertia_a = the.inertia[lock->line_a], lock->inertia_b = the.inertia[lock->line_b];
+    lock->frame = fe__identity();
+    return lock;
+}
+
+// R diag R^T of moments between 0.2 and 1 of the mass
+static fe__sym3 any_inertia(float mass)
+{
+    fe__mat3 r = fe__matrix(any_rotation());
+    float x = 1.0f / (mass * (float)any(0.2, 1.0)), y = 1.0f / (mass * (float)any(0.2, 1.0)), z = 1.0f / (mass * (float)any(0.2, 1.0));
+    const float *c[3] = {&r.x.x, &r.y.x, &r.z.x};
+    float m[3][3];
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) m[i][j] = x * c[0][i] * c[0][j] + y * c[1][i] * c[1][j] + z * c[2][i] * c[2][j];
+    return (fe__sym3){m[0][0], m[0][1], m[0][2], m[1][1], m[1][2], m[2][2]};
+}
+
+static void set_velocity(int32_t line, fe_vec3 v, fe_vec3 w)
+{
+    fe__velocity_line *l = the.velocity + line;
+    l->v[0] = v.x, l->v[1] = v.y, l->v[2] = v.z, l->w[0] = w.x, l->w[1] = w.y, l->w[2] = w.z;
+}
+
+// a ball joint with arms of up to half a metre; velocities of a metre a second
+static void add_ball(int32_t parent, float mass)
+{
+    fe__lock *lock = add_link(parent, any(0, 1) < 0.5, FE__PART_POINT, mass, any_inertia(mass));
+    lock->arm_a = any_vector(0.5), lock->arm_b = any_vector(0.5);
+    set_velocity(the.job.count, any_vector(1.0), any_vector(1.0));
+}
+
+// the root of a tree that hangs on nothing
+static void add_free_root(float mass)
+{
+    add_link(-1, 1, FE__PART_POINT, mass, any_inertia(mass));
+    the.places[0].locks = 0, the.links[0].joint = 0;
+    set_velocity(1, any_vector(1.0), any_vector(1.0));
+}
+
+// ---- the dense system -----------------------------------------------------------------------------------------------------------
+typedef struct dense {
+    int32_t rows;
+    double j[MOST_ROWS][DOFS], mj[MOST_ROWS][DOFS]; // J, M^-1 J^T by row
+    double a[MOST_ROWS][MOST_ROWS], b[MOST_ROWS], l[MOST_ROWS], u[DOFS];
+    double condition; // of A, in the sum norm
+} dense;
+
+static dense by_hand;
+
+static double norm(double (*a)[MOST_ROWS], int32_t n)
+{
+    double most = 0.0;
+    for (int32_t i = 0; i < n; ++i) {
+        double sum = 0.0;
+        for (int32_t k = 0; k < n; ++k) sum += fabs(a[i][k]);
+        most = fmax(most, sum);
+    }
+    return most;
+}
+
+// the inverse of a, by Gauss and Jordan with pivots
+static void invert(double (*a)[MOST_ROWS], int32_t n, double (*out)[MOST_ROWS])
+{
+    for (int32_t i = 0; i < n; ++i)
+        for (int32_t k = 0; k < n; ++k) out[i][k] = i == k;
+    for (int32_t c = 0; c < n; ++c) {
+        int32_t pivot = c;
+        for (int32_t r = c; r < n; ++r)
+            if (fabs(a[r][c]) > fabs(a[pivot][c])) pivot = r;
+        for (int32_t k = 0; k < n; ++k) {
+            double x = a[c][k], y = out[c][k];
+            a[c][k] = a[pivot][k], a[pivot][k] = x, out[c][k] = out[pivot][k], out[pivot][k] = y;
+        }
+        double inverse = 1.0 / a[c][c];
+        for (int32_t k = 0; k < n; ++k) a[c][k] *= inverse, out[c][k] *= inverse;
+        for (int32_t r = 0; r < n; ++r) {
+            double f = r == c ? 0.0 : a[r][c];
+            for (int32_t k = 0; k < n && f != 0.0; ++k) a[r][k] -= f * a[c][k], out[r][k] -= f * out[c][k];
+        }
+    }
+}
+
+// M^-1 of a body times a row, without what it has locked
+static void respond(int32_t line, const double *row, double *out)
+{
+    const fe__sym3 *i = the.inertia + line;
+    const int32_t locks = (int32_t)the.velocity[line].lock_bits;
+    const double m = (double)the.velocity[line].inverse_mass;
+    for (int k = 0; k < 3; ++k) out[k] = locks >> k & 1 ? 0.0 : m * row[k];
+    out[3] = (double)i->xx * row[3] + (double)i->xy * row[4] + (double)i->xz * row[5];
+    out[4] = (double)i->xy * row[3] + (double)i->yy * row[4] + (double)i->yz * row[5];
+    out[5] = (double)i->xz * row[3] + (double)i->yz * row[4] + (double)i->zz * row[5];
+}
+
+// Rows of ball joints along the axes of `axes` (bits), as fe__tree_substitute meets them: J (v + M^-1 J^T l) = 0
+static void solve_densely(int32_t axes)
+{
+    static double scratch[MOST_ROWS][MOST_ROWS], inverse[MOST_ROWS][MOST_ROWS];
+    dense *d = &by_hand;
+    memset(d, 0, sizeof *d);
+    for (int32_t i = 0; i < the.job.count; ++i) {
+        const fe__lock *lock = the.locks + i;
+        for (int k = 0; k < 3 && the.places[i].locks; ++k) {
+            if (!(axes >> k & 1)) continue;
+            const fe_dvec3 e = {k == 0, k == 1, k == 2}, ma = fe__dcross(fe__widen(lock->arm_a), e),
+                           mb = fe__dcross(fe__widen(lock->arm_b), e);
+            const double a[6] = {-e.x, -e.y, -e.z, -ma.x, -ma.y, -ma.z}, b[6] = {e.x, e.y, e.z, mb.x, mb.y, mb.z};
+            if (lock->line_a) memcpy(d->j[d->rows] + 6 * (lock->line_a - 1), a, sizeof a);
+            if (lock->line_b) memcpy(d->j[d->rows] + 6 * (lock->line_b - 1), b, sizeof b);
+            ++d->rows;
+        }
+    }
+    for (int32_t r = 0; r < d->rows; ++r)
+        for (int32_t i = 0; i < the.job.count; ++i) {
+            const fe__velocity_line *line = the.velocity + i + 1;
+            respond(i + 1, d->j[r] + 6 * i, d->mj[r] + 6 * i);
+            for (int k = 0; k < 3; ++k) d->b[r] -= d->j[r][6 * i + k] * (double)line->v[k] + d->j[r][6 * i + 3 + k] * (double)line->w[k];
+        }
+    for (int32_t r = 0; r < d->rows; ++r)
+        for (int32_t c = 0; c < d->rows; ++c)
+            for (int32_t k = 0; k < 6 * the.job.count; ++k) d->a[r][c] += d->j[r][k] * d->mj[c][k];
+    memcpy(scratch, d->a, sizeof scratch);
+    invert(scratch, d->rows, inverse);
+    d->condition = norm(d->a, d->rows) * norm(inverse, d->rows);
+    for (int32_t r = 0; r < d->rows; ++r)
+        for (int32_t c = 0; c < d->rows; ++c) d->l[r] += inverse[r][c] * d->b[c];
+    for (int32_t r = 0; r < d->rows; ++r)
+        for (int32_t k = 0; k < 6 * the.job.count; ++k) d->u[k] += d->mj[r][k] * d->l[r];
+}
+
+// ---- comparison -----------------------------------------------------------------------------------------------------------------
+static void solve_tree(void)
+{
+    fe__tree_job *t = &the.job;
+    fe__tree_read(t);
+    fe__tree_eliminate(t);
+    for (int32_t i = 0; i < t->count; ++i) {
+        fe__tree_node *n = t->nodes + i;
+        const fe__velocity_line *below = fe__tree_below(t, i), *above = fe__tree_above(t, i);
+        for (int32_t r = 0; r < n->rows.count; ++r) {
+            n->request[r] = 0.0;
+            for (int k = 0; k < 3; ++k) {
+                n->request[r] -= n->rows.below[r][k] * (double)below->v[k] + n->rows.below[r][3 + k] * (double)below->w[k];
+                n->request[r] -= n->rows.above[r][k] * (double)above->v[k] + n->rows.above[r][3 + k] * (double)above->w[k];
+            }
+        }
+    }
+    fe__tree_substitute(t);
+}
+
+// An elimination of n rows whose pivots do not grow errs by some n eps, times the condition of the matrix. The inverse
+// inertias are inverted and back, by 6 x 6 matrices of a condition below 100, which the arms carry over.
+static double allowed(void) { return 1000.0 * by_hand.rows * DBL_EPSILON * by_hand.condition; }
+
+static double largest(const double *a, int32_t n)
+{
+    double most = 0.0;
+    for (int32_t k = 0; k < n; ++k) most = fmax(most, fabs(a[k]));
+    return most;
+}
+
+// u and l of the tree are those of the dense solution, and J (v + u) is 0
+static void compare(void)
+{
+    const dense *d = &by_hand;
+    double most_u = largest(d->u, 6 * the.job.count), most_l = largest(d->l, d->rows);
+    FE_TRUE(allowed() < 1e-3 && most_u > 0.0);
+    for (int32_t i = 0, row = 0; i < the.job.count; ++i) {
+        for (int k = 0; k < 6; ++k) FE_NEAR(the.nodes[i].change[k], d->u[6 * i + k], allowed() * most_u);
+        for (int32_t r = 0; r < the.nodes[i].locks; ++r, ++row) FE_NEAR(the.nodes[i].impulse[r], d->l[row], allowed() * most_l);
+    }
+    for (int32_t r = 0; r < d->rows; ++r) {
+        double left = -d->b[r], of = fabs(d->b[r]);
+        for (int32_t k = 0; k < 6 * the.job.count; ++k) {
+            double u = the.nodes[k / 6].change[k % 6];
+            left += d->j[r][k] * u, of += fabs(d->j[r][k] * u);
+        }
+        FE_NEAR(left, 0.0, 1e4 * d->rows * DBL_EPSILON * (of + most_u));
+    }
+}
+
+// Two thin rods of 1 m and 1 kg, end to end and level, fall from rest. Lagrange's equations of the double pendulum give the
+// angular accelerations 9/7 g/L and -3/7 g/L downwards.
+static void two_level_rods_begin_to_fall_as_lagrange_says(void **state)
+{
+    (void)state;
+    const float g = 10.0f, h = 1.0f / 240.0f;
+    const fe__sym3 rod = {1000.0f, 0.0f, 0.0f, 12.0f, 0.0f, 12.0f};
+    begin(1);
+    for (int32_t i = 0; i < 2; ++i) {
+        fe__lock *lock = add_link(i - 1, 1, FE__PART_POINT, 1.0f, rod);
+        lock->arm_a = fe__vec3(i ? 0.5f : 0.0f, 0.0f, 0.0f), lock->arm_b = fe__vec3(-0.5f, 0.0f, 0.0f);
+        set_velocity(i + 1, fe__vec3(0.0f, -g * h, 0.0f), fe__vec3(0.0f, 0.0f, 0.0f));
+    }
+    solve_tree();
+    // the velocities -g h are floats
+    FE_NEAR(the.nodes[0].change[5], -9.0 / 7.0 * (double)(g * h), 1e-7 * (double)(g * h));
+    FE_NEAR(the.nodes[1].change[5], 3.0 / 7.0 * (double)(g * h), 1e-7 * (double)(g * h));
+}
+
+static void chains_and_trees_are_solved_as_by_gauss(void **state)
+{
+    (void)state;
+    for (uint32_t seed = 1; seed <= 60; ++seed) {
+        const int32_t is_chain = seed % 2 != 0, is_free = seed % 3 == 0, links = 1 + (int32_t)(seed % 30);
+        begin(seed);
+        if (is_free) add_free_root(1.0f);
+        for (int32_t i = is_free; i < links + is_free; ++i)
+            add_ball(is_chain || i == 0 ? i - 1 : (int32_t)any(0, i - 0.01), (float)any(0.5, 2.0));
+        solve_densely(7);
+        solve_tree();
+        compare();
+    }
+}
+
+// The end weighs ten thousand links
+static void chains_with_a_heavy_end_are_solved_as_by_gauss(void **state)
+{
+    (void)state;
+    for (uint32_t seed = 1; seed <= 20; ++seed) {
+        const int32_t is_free = seed % 2 == 0;
+        begin(seed);
+        if (is_free) add_free_root(1.0f);
+        for (int32_t i = is_free; i < 20; ++i) add_ball(i - 1, i == 19 ? 1e4f : 1.0f);
+        solve_densely(7);
+        solve_tree();
+        compare();
+    }
+}
+
+// ---- locks ----------------------------------------------------------------------------------------------------------------------
+// What a lock leaves of an inverse inertia: the inverse of the block of R I R^T over the free axes. With one axis k locked
+// that is I^-1 less its part through k.
+static fe__sym3 lock_axis(fe__sym3 i, int k)
+{
+    float m[3][3] = {{i.xx, i.xy, i.xz}, {i.xy, i.yy, i.yz}, {i.xz, i.yz, i.zz}}, out[3][3];
+    for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c) out[r][c] = r == k || c == k ? 0.0f : m[r][c] - m[r][k] * m[k][c] / m[k][k];
+    return (fe__sym3){out[0][0], out[0][1], out[0][2], out[1][1], out[1][2], out[2][2]};
+}
+
+// some bodies of a chain may not move along an axis, or not turn about one
+static void locked_bodies_are_solved_as_by_gauss(void **state)
+{
+    (void)state;
+    for (uint32_t seed = 1; seed <= 20; ++seed) {
+        begin(seed);
+        for (int32_t i = 0; i < 12; ++i) {
+            const int lock = i % 3 == 0 ? (int)any(0, 5.99) : -1;
+            const float mass = (float)any(0.5, 2.0);
+            fe__sym3 inertia = any_inertia(mass);
+            if (lock >= 3) inertia = lock_axis(inertia, lock - 3);
+            fe__lock *joint = add_link(i - 1, i % 2, FE__PART_POINT, mass, inertia);
+            joint->arm_a = any_vector(0.5), joint->arm_b = any_vector(0.5);
+            set_velocity(i + 1, any_vector(1.0), any_vector(1.0));
+            if (lock < 0) continue;
+            the.velocity[i + 1].lock_bits = (float)(1 << lock);
+            (lock < 3 ? the.velocity[i + 1].v : the.velocity[i + 1].w)[lock % 3] = 0.0f;
+        }
+        solve_densely(7);
+        solve_tree();
+        compare();
+        for (int32_t i = 0; i < the.job.count; ++i)
+            for (int k = 0; k < 6; ++k)
+                if ((int32_t)the.velocity[i + 1].lock_bits >> k & 1) FE_TRUE(the.nodes[i].change[k] == 0.0);
+    }
+}
+
+// Every body kept in the plane: its joints' rows along Z respond to nothing, are left out, and ask for nothing
+static void chains_in_a_plane_are_those_of_the_plane(void **state)
+{
+    (void)state;
+    begin(7);
+    for (int32_t i = 0; i < 12; ++i) {
+        fe__sym3 spin = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f / (float)any(0.2, 1.0)};
+        fe__lock *joint = add_link(i - 1, i % 2, FE__PART_POINT, 1.0f, spin);
+        joint->arm_a = any_vector(0.5), joint->arm_b = any_vector(0.5);
+        set_velocity(i + 1, any_vector(1.0), any_vector(1.0));
+        fe__velocity_line *line = the.velocity + i + 1;
+        line->v[2] = line->w[0] = line->w[1] = 0.0f;
+        line->lock_bits = (float)(1 << 2 | 1 << 3 | 1 << 4);
+    }
+    solve_densely(3);
+    solve_tree();
+    double most = largest(by_hand.u, 6 * the.job.count);
+    for (int32_t i = 0; i < the.job.count; ++i) {
+        FE_TRUE(the.nodes[i].impulse[2] == 0.0);
+        for (int k = 0; k < 6; ++k) FE_NEAR(the.nodes[i].change[k], by_hand.u[6 * i + k], allowed() * most);
+    }
+}
+
+// Locks that say the same twice count once: what rounding leaves of the second is no row
+static void locks_that_say_the_same_count_once(void **state)
+{
+    (void)state;
+    for (uint32_t seed = 1; seed <= 20; ++seed) {
+        begin(seed);
+        for (int32_t i = 0; i < 12; ++i) add_ball(i - 1, (float)any(0.5, 2.0));
+        for (int32_t i = 0; i < 12; ++i) { // the point again, by rows along other axes
+            const int32_t again = MOST_LINKS - 1 - i;
+            fe__tree_place *p = the.places + i;
+            the.locks[again] = the.locks[i];
+            the.locks[again].frame = any_rotation();
+            for (int k = 0; k < 3; ++k) the.locks[again].keeps[k] = 1.0f;
+            p->lock[1].part = FE__PART_SLIDE;
+            p->lock[1].row = (int64_t)sizeof(fe__lock) * again;
+            p->locks = 2;
+        }
+        solve_densely(7);
+        solve_tree();
+        double most = largest(by_hand.u, 6 * the.job.count);
+        for (int32_t i = 0; i < the.job.count; ++i) {
+            for (int32_t r = 3; r < 6; ++r) FE_TRUE(the.nodes[i].impulse[r] == 0.0);
+            for (int k = 0; k < 6; ++k) FE_NEAR(the.nodes[i].change[k], by_hand.u[6 * i + k], allowed() * most);
+        }
+    }
+}
+
+// ---- rows -----------------------------------------------------------------------------------------------------------------------
+static void nudge(int32_t line, int32_t k, float by)
+{
+    fe__motion_line *m = the.motion + line;
+    if (k < 3) {
+        m->shift[k] += by;
+        return;
+    }
+    fe_quat turn = {k == 3 ? 0.5f * by : 0.0f, k == 4 ? 0.5f * by : 0.0f, k == 5 ? 0.5f * by : 0.0f, 1.0f};
+    turn = fe__normalized(fe__product(turn, fe__quat_of(m->rotation)));
+    m->rotation[0] = turn.x, m->rotation[1] = turn.y, m->rotation[2] = turn.z, m->rotation[3] = turn.w;
+}
+
+// where the errors of angular locks are 0: their rows are gradients there
+static void aim(fe__lock *lock, int32_t part)
+{
+    const fe_quat a = any_rotation();
+    const fe_vec3 zero = {0.0f, 0.0f, 0.0f};
+    lock->frame = part == FE__PART_FIXED ? fe__identity() : a;
+    lock->arm_a = any_vector(0.5), lock->arm_b = any_vector(0.5), lock->gap = part == FE__PART_DISTANCE ? any_vector(1.0) : zero;
+    lock->length = 0.3f;
+    lock->axis_b = fe__rotate(a, fe__vec3(1.0f, 0.0f, 0.0f));
+    lock->t1 = fe__rotate(a, fe__vec3(0.0f, 1.0f, 0.0f)), lock->t2 = fe__rotate(a, fe__vec3(0.0f, 0.0f, 1.0f));
+    lock->keeps[0] = 1.0f, lock->keeps[1] = 0.0f, lock->keeps[2] = 1.0f;
+    if (part == FE__PART_SLIDE) lock->gap = fe__scale(0.4f, lock->t1); // along the free axis
+}
+
+// Each row is the gradient of its error. Differences over 2 e err by e^2 times third derivatives, at most of 1 / 0.3^2 for a
+// rod, and by what a float of a position loses, 1e-7, over e.
+static void rows_are_gradients_of_their_errors(void **state)
+{
+    static const int32_t parts[] = {FE__PART_POINT, FE__PART_SLIDE, FE__PART_HINGE, FE__PART_FIXED, FE__PART_DISTANCE};
+    const float e = 0.01f;
+    (void)state;
+    for (uint32_t seed = 1; seed <= 10; ++seed)
+        for (size_t p = 0; p < sizeof parts / sizeof *parts; ++p) {
+            begin(seed);
+            add_free_root(1.0f);
+            aim(add_link(0, seed % 2 != 0, parts[p], 1.0f, any_inertia(1.0f)), parts[p]);
+            fe__tree_read(&the.job);
+            const fe__tree_rows rows = the.nodes[1].rows;
+            FE_TRUE(rows.count == (parts[p] == FE__PART_SLIDE ? 2 : rows_of(parts[p])));
+            for (int32_t k = 0; k < 12; ++k) {
+                double before[6];
+                const int32_t line = k < 6 ? 2 : 1; // of the body below, above
+                const fe__motion_line was = the.motion[line];
+                nudge(line, k % 6, -e);
+                fe__tree_read(&the.job);
+                memcpy(before, the.nodes[1].rows.error, sizeof before);
+                the.motion[line] = was;
+                nudge(line, k % 6, e);
+                fe__tree_read(&the.job);
+                the.motion[line] = was;
+                for (int32_t r = 0; r < rows.count; ++r) {
+                    double slope = (the.nodes[1].rows.error[r] - before[r]) / (2.0 * (double)e);
+                    FE_NEAR((k < 6 ? rows.below[r] : rows.above[r])[k % 6], slope, 11.0 * (double)(e * e) + 2e-7 / (double)e);
+                }
+            }
+        }
+}
+
+// ---- passes ---------------------------------------------------------------------------------------------------------------------
+// Relaxed chains have no velocity along their joints, no gap, and the momentum that they had. A light tree is left alone
+// until it opens. Closing the last gap, of 4 mm or less, leaves its square over the length of an arm.
+static void relax_leaves_no_speed_and_no_gap(void **state)
+{
+    (void)state;
+    for (int32_t heavy = 0; heavy < 2; ++heavy) {
+        begin(3);
+        the.job.heavy = heavy;
+        add_free_root(1.0f);
+        for (int32_t i = 1; i < 10; ++i) {
+            add_ball(i - 1, 1.0f);
+            the.locks[i].gap = any_vector(0.003);
+        }
+        fe_dvec3 before = {0.0, 0.0, 0.0}, after = before;
+        for (int32_t i = 1; i <= 10; ++i) before = fe__dadd(before, fe__widen(fe__quad_vector(the.velocity[i].v)));
+        fe__tree_prepare(&the.job);
+        const fe__velocity_line first = the.velocity[1];
+        fe__tree_relax(&the.job);
+        if (!heavy) {
+            FE_TRUE(memcmp(&first, the.velocity + 1, sizeof first) == 0 && the.solver.engaged == 0);
+            the.opens = 1;
+            fe__tree_relax(&the.job);
+            FE_TRUE(the.solver.engaged == 1);
+        }
+        for (int32_t i = 1; i <= 10; ++i) after = fe__dadd(after, fe__widen(fe__quad_vector(the.velocity[i].v)));
+        FE_NEAR(after.x, before.x, 10.0 * FLT_EPSILON), FE_NEAR(after.y, before.y, 10.0 * FLT_EPSILON);
+        // The rows along which velocities vanish are those from before the gaps closed
+        solve_densely(7);
+        for (int32_t r = 0; r < by_hand.rows; ++r) FE_NEAR(by_hand.b[r], 0.0, 20.0 * FLT_EPSILON);
+        fe__tree_read(&the.job);
+        for (int32_t i = 1; i < 10; ++i)
+            for (int32_t r = 0; r < the.nodes[i].locks; ++r) FE_NEAR(the.nodes[i].rows.error[r], 0.0, 1e-4);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(two_level_rods_begin_to_fall_as_lagrange_says),
+        cmocka_unit_test(chains_and_trees_are_solved_as_by_gauss),
+        cmocka_unit_test(chains_with_a_heavy_end_are_solved_as_by_gauss),
+        cmocka_unit_test(locked_bodies_are_solved_as_by_gauss),
+        cmocka_unit_test(chains_in_a_plane_are_those_of_the_plane),
+        cmocka_unit_test(locks_that_say_the_same_count_once),
+        cmocka_unit_test(rows_are_gradients_of_their_errors),
+        cmocka_unit_test(relax_leaves_no_speed_and_no_gap),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
