@@ -74,8 +74,6 @@ fe_result fe__store_try_destroy(fe_store *store, int32_t *out_users)
     return result;
 }
 
-int32_t fe__store_lives(const fe_store *store) { return fe__registry_has(&stores, &store->entry); }
-
 // ---- worlds ---------------------------------------------------------------------------------------------------------------------------
 static void list_member(fe_store *store, fe__store_member *member)
 {

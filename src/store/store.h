@@ -7,8 +7,8 @@
 #define FE_STORE_STORE_H
 #include "collision/form/heightfield.h"
 #include "core/id_pool.h"
-#include "core/mutex.h"
 #include "core/memory.h"
+#include "core/mutex.h"
 #include "core/registry.h"
 
 // What shapes share: a heightfield and the materials of its cells.
@@ -48,7 +48,6 @@ fe_result fe__store_create_own(const fe_allocator *allocator, int32_t number, fe
 void fe__store_destroy(fe_store *store); // by its owner, who has left it
 // FE_OK: destroyed. FE_ERROR_STALE: it was gone; FE_ERROR_STATE: so many worlds use it, or it is a world's own (0).
 fe_result fe__store_try_destroy(fe_store *store, int32_t *out_users);
-int32_t fe__store_lives(const fe_store *store);
 
 // A world begins to use the store. FE_ERROR_STALE: it is gone; FE_ERROR_ARGUMENT: it is another world's own.
 fe_result fe__store_join(fe_store *store, fe__store_member *member);
