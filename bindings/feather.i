@@ -1,7 +1,11 @@
-// One interface for every language: SWIG makes of it and of include/feather.h a flat private module for each, in which each function of the
-// header stands without its prefix (fe_world_step is world_step) and each constant under its own name. What a type becomes in a language is
-// said once, by type and name of a parameter, in python/python.i, csharp/csharp.i, lua/lua.i: a new function appears by itself. On the flat modules
-// stand the layers written by hand. (LuaJIT has no module: lua/feather/ffi.lua reads the header itself.)
+// One interface for every language. SWIG makes a flat private module from it and from include/feather.h: each function
+// of the header stands there without its prefix (fe_world_step is world_step), each constant under its own name. What a
+// type becomes in a language is stated once, by the type and the name of a parameter, in python/python.i,
+// csharp/csharp.i and lua/lua.i: a new function appears by itself. The layers written by hand stand on the flat modules.
+// (LuaJIT has no module: lua/feather/ffi.lua reads the header itself.)
+//
+// The inline functions at the end of the header (fe_geometry_sphere...) and those of twins.h are compiled into each
+// module. They stand beside the others: geometry_sphere, body_get_position.
 #if defined(SWIGCSHARP)
 %module Native
 #elif defined(SWIGPYTHON)
@@ -19,13 +23,17 @@
 
 %rename("%(strip:[fe_])s") "";
 %rename("$ignore", regexmatch$name="FORCE32$") "";
+%rename("$ignore", regexmatch$name="^reserved(_end)?$") "";
 
 // For hosts in C only: functions that the library calls from the thread that steps, or from the host's own workers.
 %ignore fe_allocator;
+%ignore fe_allocator_init;
 %ignore fe_task_system;
+%ignore fe_task_system_init;
 %ignore fe_task;
 %ignore fe_world_def::allocator;
 %ignore fe_world_def::tasks;
+%ignore fe_store_def::allocator;
 
 #if defined(SWIGPYTHON)
 %include "python/python.i"

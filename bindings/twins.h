@@ -1,5 +1,6 @@
-// Parts of what a function of feather.h reads or writes, for languages where the whole would cost a second tuple or table: compiled into
-// the bindings' flat modules, no part of the ABI. Errors are those of the function they call.
+// Parts of what a function of feather.h reads or writes, for languages where the whole would cost a second tuple or
+// table. They are compiled into the bindings' flat modules and are no part of the ABI. Errors are those of the function
+// they call.
 #ifndef FE_BINDINGS_TWINS_H
 #define FE_BINDINGS_TWINS_H
 
@@ -31,7 +32,7 @@ static inline fe_result fe_body_set_position(fe_world *world, fe_body body, cons
     return fe_body_set_transform(world, body, position ? &transform : 0);
 }
 
-/// Turns the body at once about its origin.
+/// Rotates the body at once about its origin.
 static inline fe_result fe_body_set_rotation(fe_world *world, fe_body body, const fe_quat *rotation)
 {
     fe_transform transform;

@@ -171,8 +171,9 @@ FE_API fe_result fe_pool_destroy(fe_pool *pool);
 // ---- stores and assets ----------------------------------------------------------------------------------------------
 //
 // A store holds assets: heavy data that the shapes of many worlds share. Any thread may create, read and destroy assets
-// of a store while worlds that use it step. A world without a store in its definition has one of its own. The handles of
-// assets carry their store's number. Creation from several threads at once may change these handles, and nothing else.
+// of a store while worlds that use it step. A world without a store in its definition has one of its own. The handles
+// of assets carry their store's number. Creation from several threads at once may change these handles, and nothing
+// else.
 
 /// The host's allocator. A world calls it from the thread that uses the world, never from workers. A store calls its
 /// own from any thread, one call at a time. A world and its own store share one, and take turns.
@@ -268,7 +269,8 @@ FE_API fe_result fe_heightfield_create(fe_store *store, const fe_heightfield_def
 /// @param row, column    its first sample
 /// @param rows, columns  its size, >= 1
 /// @param heights        rows x columns, row by row, m
-/// @return FE_ERROR_STEPPING while a world that uses it steps; FE_ERROR_BUSY while another thread is inside such a world
+/// @return FE_ERROR_STEPPING while a world that uses it steps; FE_ERROR_BUSY while another thread is inside such a
+///         world
 FE_API fe_result fe_heightfield_set_heights(fe_store *store, fe_asset asset, int32_t row, int32_t column, int32_t rows,
                                             int32_t columns, const float *heights);
 /// @param out_heights  rows x columns, row by row, m
@@ -396,8 +398,8 @@ typedef int32_t (*fe_pair_filter)(void *user, const fe_filter_pair *pair);
 
 /// Sets a function of yours that judges new pairs of shapes, when one of them asks for it (fe_shape_def.pair_filter).
 /// fe_world_step calls it on its own thread, in a fixed order, once for each pair whose bounds begin to meet. Layers,
-/// groups and ignored pairs are judged before it. Its answer holds until the bounds part, or the filter of either shape
-/// is set. Equal runs need equal answers.
+/// groups and ignored pairs are judged before it. Its answer holds until the bounds part. Setting the filter of a shape
+/// lets it judge anew what it refused. Equal runs need equal answers.
 /// @param filter  NULL: none
 /// @param user    handed to it
 FE_API fe_result fe_world_set_pair_filter(fe_world *world, fe_pair_filter filter, void *user);
@@ -675,17 +677,17 @@ typedef struct fe_shape_def {
     int32_t group;              ///< 0: none. Default 0
     uint32_t events;            ///< fe_shape_events; a pair has what either shape asks for. Default touch
     int32_t pair_filter;        ///< 1: the world's pair filter judges its new pairs. Default 0
-    int32_t one_way;            ///< 1: holds back only what comes against `one_way_direction`. Default 0
+    int32_t one_way;            ///< 1: holds only what comes against `one_way_direction`; no plane, no field. Default 0
     fe_vec3 one_way_direction;  ///< shape frame, any length but zero: up, for a floor to jump through. Default 0, 1, 0
-    fe_vec3 surface_velocity;   ///< of a conveyor belt, m/s, shape frame; only its part along the contact acts. Default 0
+    fe_vec3 surface_velocity;   ///< of a conveyor belt, m/s, shape frame; only its part along the contact acts
     uint64_t user_data;
 } fe_shape_def;
 
 FE_API void fe_shape_def_init(fe_shape_def *def, uint32_t struct_size);
 /// Mass and inertia of the body follow; it is not woken.
 /// @param def  NULL: the defaults
-/// @return FE_ERROR_UNSUPPORTED for a plane or a heightfield on a body that is not static; FE_ERROR_STALE for an asset of
-///         another store than the world's
+/// @return FE_ERROR_UNSUPPORTED for a plane or a heightfield on a body that is not static, or one-way; FE_ERROR_STALE
+///         for an asset of another store than the world's
 FE_API fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *def, const fe_geometry *geometry,
                                  fe_shape *out_shape);
 /// Its touching pairs send their exit. Mass and inertia of the body follow, unless they were set. The body and what it
@@ -709,7 +711,7 @@ FE_API fe_result fe_shape_get_density(const fe_world *world, fe_shape shape, flo
 /// heightfield with materials of their own keep them.
 FE_API fe_result fe_shape_set_material(fe_world *world, fe_shape shape, const fe_material *material);
 FE_API fe_result fe_shape_get_material(const fe_world *world, fe_shape shape, fe_material *out_material);
-/// Takes effect at the next step. The pair filter judges its pairs anew.
+/// Takes effect at the next step. The pair filter judges anew the pairs that it refused.
 /// @param layer  exactly one bit
 FE_API fe_result fe_shape_set_filter(fe_world *world, fe_shape shape, uint32_t layer, uint32_t mask, int32_t group);
 FE_API fe_result fe_shape_get_filter(const fe_world *world, fe_shape shape, uint32_t *out_layer, uint32_t *out_mask,
@@ -717,7 +719,8 @@ FE_API fe_result fe_shape_get_filter(const fe_world *world, fe_shape shape, uint
 /// Does the world's pair filter judge its pairs? Takes effect at the next step; its pairs are judged anew.
 FE_API fe_result fe_shape_set_pair_filter(fe_world *world, fe_shape shape, int32_t enabled);
 FE_API fe_result fe_shape_get_pair_filter(const fe_world *world, fe_shape shape, int32_t *out_enabled);
-/// See fe_shape_def. A change wakes the body and what it touches; what is inside the shape then passes.
+/// See fe_shape_def. A body that comes from behind or from a side passes, until the two are apart. A change wakes the
+/// body and what it touches; what is inside the shape then passes. FE_ERROR_UNSUPPORTED for planes and heightfields.
 /// @param direction  shape frame, any length but zero; NULL: as it is
 FE_API fe_result fe_shape_set_one_way(fe_world *world, fe_shape shape, int32_t enabled, const fe_vec3 *direction);
 /// @param out_direction  as it was set
@@ -761,16 +764,16 @@ FE_API int32_t fe_shape_get_overlaps(const fe_world *world, fe_shape shape, fe_s
 //
 // **Stiffness.** Springs, limits and locked axes are springs and dampers given by hertz, 1/s, and damping ratio
 // (1: critical). They act on the masses that move, so they do not depend on them. 0 Hz switches an optional spring off.
-// For a limit or a locked axis it means rigid: the world's joint_hertz and joint_damping_ratio, without oscillation. All
-// are limited to 0.225 of the substep rate. Limits and locked axes are damped more from half of that on.
+// For a limit or a locked axis it means rigid: the world's joint_hertz and joint_damping_ratio, without oscillation.
+// All are limited to 0.225 of the substep rate. Limits and locked axes are damped more from half of that on.
 //
-// **Heavy loads.** A rigid joint of this kind gives under a load of many times the bodies' own masses. Joints that close
-// no loop (chains, cranes, arms, telescopes) are solved exactly instead, all at once: then they do not give, whatever
-// hangs on them. At most one joint may hold such a tree to the rest of the world, and its bodies have no locks, or all
-// those of a plane, or all rotations. The exact solver begins at a load of 32 effective masses on a joint (a chain of 16
-// equal links), of 4 on one that locks rotations. Lighter trees use it in steps in which a blow or a pinch would open a
-// joint by more than 4 mm. A joint that is open by more than 4 mm when the step begins is closed gradually, by springs.
-// fe_counters.trees counts them. Limits, springs and contacts of such bodies stay what they are.
+// **Heavy loads.** A rigid joint of this kind gives under a load of many times the bodies' own masses. Joints that
+// close no loop (chains, cranes, arms, telescopes) are solved exactly instead, all at once: then they do not give,
+// whatever hangs on them. At most one joint may hold such a tree to the rest of the world. Its bodies have no locks, or
+// all those of a plane, or all rotations. The exact solver begins at a load of 32 effective masses on a joint (a chain
+// of 16 equal links), of 4 on one that locks rotations. Lighter trees use it in steps in which a blow or a pinch would
+// open a joint by more than 4 mm. A joint that is open by more than 4 mm when the step begins is closed gradually, by
+// springs. fe_counters.trees counts such trees. Limits, springs and contacts of their bodies stay what they are.
 //
 // **Springs and motors** push no harder than their cap. A motor drives to its speed; with speed 0 it is friction. A cap
 // of 0 switches it off.
@@ -806,8 +809,9 @@ typedef struct fe_joint_def {
 
 FE_API void fe_joint_def_init(fe_joint_def *def, uint32_t struct_size);
 
-/// Two points keep their distance within [lower, upper] (equal: a rod; from 0: a rope). A spring pulls it to `target`, a
-/// motor changes it. Only the positions of the frames count. The first fields are those of fe_joint_def, here and below.
+/// Two points keep their distance within [lower, upper] (equal: a rod; from 0: a rope). A spring pulls it to `target`,
+/// a motor changes it. Only the positions of the frames count. The first fields are those of fe_joint_def, here and
+/// below.
 typedef struct fe_distance_joint_def {
     uint32_t struct_size;
     int32_t enabled;
@@ -832,8 +836,8 @@ typedef struct fe_distance_joint_def {
     uint32_t reserved_end;
 } fe_distance_joint_def;
 
-/// Two points stay together. An elliptic cone may bound the swing of axis X, limits the twist about it. A spring rotates
-/// B to a target.
+/// Two points stay together. An elliptic cone may bound the swing of axis X, limits the twist about it. A spring
+/// rotates B to a target.
 typedef struct fe_ball_joint_def {
     uint32_t struct_size;
     int32_t enabled;
@@ -1127,7 +1131,7 @@ typedef enum fe_hit_flags {
 typedef struct fe_hit {
     fe_body body;
     fe_shape shape;
-    fe_dvec3 point;       ///< on the body's surface, m, world space; started inside: the start, or the form's centre there
+    fe_dvec3 point;       ///< on the body's surface, m, world space; started inside: where the centre started
     double fraction;      ///< 0..1 of the translation
     uint64_t material;    ///< fe_material.user_id of what was hit
     fe_vec3 normal;       ///< unit, out of the body; started inside: against the translation, or the shortest way out
@@ -1285,7 +1289,7 @@ FE_API int32_t fe_shape_closest_point(const fe_world *world, fe_shape shape, con
 FE_API int32_t fe_body_closest_point(const fe_world *world, fe_body body, const fe_dvec3 *point,
                                      fe_closest *out_closest);
 
-// ---- after the step: events, contacts, bulk reads --------------------------------------------------------------------
+// ---- after the step: events, contacts, bulk reads -------------------------------------------------------------------
 
 typedef enum fe_event_kind {
     FE_EVENT_ENTER = 1,
@@ -1337,7 +1341,8 @@ typedef struct fe_hit_event {
     uint32_t reserved[5];
 } fe_hit_event;
 
-/// Impacts of the last step on shapes that ask for FE_SHAPE_EVENTS_HIT, faster than fe_world_tuning.hit_event_threshold.
+/// Impacts of the last step on shapes that ask for FE_SHAPE_EVENTS_HIT, faster than
+/// fe_world_tuning.hit_event_threshold.
 /// @param stride  sizeof(fe_hit_event)
 FE_API int32_t fe_world_get_hit_events(const fe_world *world, fe_hit_event *out_events, uint32_t stride,
                                        int32_t capacity);
@@ -1411,7 +1416,7 @@ FE_API fe_result fe_world_set_velocities(fe_world *world, const fe_body *bodies,
 FE_API fe_result fe_world_add_forces(fe_world *world, const fe_body *bodies, const float *floats, uint32_t stride,
                                      int32_t count);
 
-// ---- sugar, compiled by the caller: no part of the ABI ----------------------------------------------------------------
+// ---- sugar, compiled by the caller: no part of the ABI --------------------------------------------------------------
 
 /// Each fills a geometry. What is out of range is found where the geometry is used.
 static inline void fe_geometry_sphere(fe_geometry *out_geometry, float radius)

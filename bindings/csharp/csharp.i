@@ -1,6 +1,7 @@
-// What feather.h's types become in C#: every pointer is void* here, and the layer above pins its own records (FeatherPhysics/*.cs, Records.cs made
-// from the header by records.py); handles are ulong, results and counts int. A negative one is thrown, so that no error passes unseen. Worlds are
-// pointers that World guards. Built with -DSWIG_CSHARP_NO_EXCEPTION_HELPER and its like (rules.mk): no callbacks, no static constructor.
+// What feather.h's types become in C#. Every pointer is void*: the layer above pins its own records
+// (FeatherPhysics/*.cs, and Records.cs, made from the header by records.py). Handles are ulong, results and counts int.
+// A negative one is thrown, so that no error passes unseen. Built with -DSWIG_CSHARP_NO_EXCEPTION_HELPER and its like
+// (rules.mk): no callbacks, no static constructor.
 %pragma(csharp) moduleclassmodifiers="internal static unsafe class"
 %pragma(csharp) imclassclassmodifiers="internal static unsafe class"
 %csmethodmodifiers "[global::System.Runtime.CompilerServices.MethodImpl(global::System.Runtime.CompilerServices.MethodImplOptions.AggressiveInlining)] public";
@@ -19,6 +20,8 @@
 %typemap(out)    SWIGTYPE *, const char * "$result = (void *)$1;"
 %typemap(csout)  SWIGTYPE *, const char * { return $imcall; }
 
+%apply SWIGTYPE * { void *user, fe_pair_filter filter };
+
 %typemap(ctype)  fe_result "int"
 %typemap(imtype) fe_result "int"
 %typemap(cstype) fe_result "int"
@@ -28,3 +31,11 @@
     if (result < 0) FeatherException.Throw(result);
     return result;
   }
+
+// Worlds whose memory outlives them: see shell.h.
+%{
+#include "csharp/shell.h"
+%}
+typedef struct fe_shell fe_shell;
+fe_result fe_shell_create_world(fe_world_def *def, fe_world **out_world, fe_shell **out_shell);
+void fe_shell_leave(fe_shell *shell);

@@ -3,23 +3,29 @@
 
     records.py include/feather.h Records.cs
 
-A definition (a struct with an `_init`) becomes a class that its constructor fills by that; every other struct a struct. Both have C's layout.
+A definition (fe_..._def, fe_world_tuning) becomes a class whose constructor fills it by its `_init`. Every other struct
+becomes a struct. Both have C's layout. Names of C in the comments become those of C#.
 """
 import re
 import sys
 from xml.sax.saxutils import escape
 
 BY_HAND = {"fe_vec3": "Vector3", "fe_quat": "Quaternion", "fe_dvec3": "DVec3", "fe_transform": "WorldTransform"}
-NAMES = {"fe_frame": "JointFrame", "fe_material": "SurfaceMaterial", "fe_profile": "StepProfile", "fe_counters": "WorldCounters",
-         "fe_path": "SweepPath", "fe_axis": "Axes", "fe_closest": "ClosestPoint", "fe_motion": "AxisMotion", "fe_spring": "AxisDrive"}
-PRIVATE = {"fe_query_filter": "NativeFilter", "fe_heightfield_def": "NativeHeightfield"}  # classes around these are written by hand
+# Some words belong to every program of Unity already: Transform, Bounds, Material, Motion.
+NAMES = {"fe_material": "SurfaceMaterial", "fe_bounds": "WorldBounds", "fe_energy": "WorldEnergy",
+         "fe_profile": "StepProfile", "fe_counters": "WorldCounters", "fe_path": "SweepPath", "fe_axis": "Axes",
+         "fe_closest": "ClosestPoint", "fe_motion": "AxisMotion", "fe_spring": "AxisSpring",
+         "fe_overlap": "ShapeOverlap"}
+PRIVATE = {"fe_query_filter": "NativeFilter",  # classes around these are written by hand
+           "fe_heightfield_def": "NativeHeightfield"}
 FOR_C = {"fe_allocator", "fe_task_system"}
 HANDLES = {"fe_body": "BodyHandle", "fe_shape": "ShapeHandle", "fe_joint": "JointHandle", "fe_asset": "AssetHandle"}
-PLAIN = {"int32_t": "int", "uint32_t": "uint", "int64_t": "long", "float": "float", "double": "double", "fe_handle": "ulong"}
-SWITCHES = {"awake", "sleep_allowed", "enabled", "bullet", "trigger", "is_trigger", "collide_connected", "limited", "swing_limited", "twist_limited"}
-ENUM_FIELDS = {"linear_locks": "fe_axis", "angular_locks": "fe_axis", "kind": "fe_event_kind", "mode": "fe_motion"}
+PLAIN = {"int32_t": "int", "uint32_t": "uint", "int64_t": "long", "uint64_t": "ulong", "float": "float",
+         "double": "double", "fe_handle": "ulong"}
+SWITCHES = {"awake", "sleep_allowed", "bullet", "trigger", "is_trigger", "collide_connected", "pair_filter", "one_way"}
+ENUM_FIELDS = {"linear_locks": "fe_axis", "angular_locks": "fe_axis", "kind": "fe_event_kind"}
 FLAGS = {"fe_axis", "fe_shape_events", "fe_query_flags", "fe_hit_flags"}
-AXES = ["AlongX", "AlongY", "AlongZ", "AboutX", "AboutY", "AboutZ"]  # of a configurable joint, by fe_dof
+AXES = ["LinearX", "LinearY", "LinearZ", "AngularX", "AngularY", "AngularZ"]  # of a configurable joint, by fe_dof
 
 
 def pascal(name):
@@ -27,38 +33,76 @@ def pascal(name):
 
 
 def type_name(name):
-    return NAMES.get(name) or PRIVATE.get(name) or pascal(name.removeprefix("fe_"))
+    return BY_HAND.get(name) or NAMES.get(name) or PRIVATE.get(name) or HANDLES.get(name) or pascal(name[3:])
 
 
-def summary(text, indent=""):
-    text = escape(" ".join(text.split()))
-    return f"{indent}/// <summary>{text}</summary>\n" if text else ""
+def is_definition(name):
+    return (name.endswith("_def") or name == "fe_world_tuning") and name not in PRIVATE
 
 
-def enum(name, body, doc):
-    items = [(m[1], m[2], m[3] or "") for m in re.finditer(r"^\s*(FE_\w+) = ([^,\n]+),?[ ]*(?:///< (.*))?$", body, re.M) if "FORCE32" not in m[1]]
-    words = [item[0].split("_") for item in items]
+def prefix_words(items):
+    """How many words all enumerators begin with."""
+    words = [item.split("_") for item in items]
     shared = 0
     while all(len(w) > shared + 1 and w[shared] == words[0][shared] for w in words):
         shared += 1
-    lines = "".join(summary(text, "        ") + f"        {pascal('_'.join(w[shared:]))} = {value},\n" for w, (_, value, text) in zip(words, items))
+    return shared
+
+
+class Words:
+    """C's names in a comment, as C# has them."""
+
+    def __init__(self, types):
+        self.enumerators = {}
+        for kind, name, body, _ in types:
+            items = [m[1] for m in re.finditer(r"^\s*(FE_\w+) = ", body, re.M) if "FORCE32" not in m[1]]
+            if kind == "enum":
+                shared = prefix_words(items)
+                for item in items:
+                    self.enumerators[item] = f"{type_name(name)}.{pascal('_'.join(item.split('_')[shared:]))}"
+        self.types = {name for _, name, _, _ in types}
+
+    def lower_case(self, match):
+        name, field = match[1], match[2]
+        if name in self.types or name in HANDLES:
+            return type_name(name) + (f".{pascal(field)}" if field else "")
+        owner, _, rest = name[3:].partition("_")
+        return f"{pascal(owner)}.{pascal(rest)}"
+
+    def __call__(self, text):
+        text = re.sub(r"FE_[A-Z0-9_]*[A-Z0-9]", lambda m: self.enumerators.get(m[0], m[0]), text)
+        text = re.sub(r"\b(fe_[a-z0-9_]+)(?:\.([a-z_]+))?\b", self.lower_case, text)
+        text = re.sub(r"`([a-z0-9]+(?:_[a-z0-9]+)+|[a-z]+)`", lambda m: pascal(m[1]), text)
+        return re.sub(r"\b[a-z]+(?:_[a-z]+)+\b", lambda m: pascal(m[0]), text).replace("NULL", "null")
+
+
+def summary(text, words, indent):
+    text = escape(" ".join(words(text).split()))
+    return f"{indent}/// <summary>{text}</summary>\n" if text else ""
+
+
+def enum(name, body, doc, words):
+    items = [m for m in re.finditer(r"^\s*(FE_\w+) = ([^,\n]+),?[ ]*(?:///< (.*))?$", body, re.M)
+             if "FORCE32" not in m[1]]
+    lines = "".join(summary(m[3] or "", words, "        ") +
+                    f"        {words.enumerators[m[1]].partition('.')[2]} = {m[2]},\n" for m in items)
     flags = "    [System.Flags]\n" if name in FLAGS else ""
-    return f"{summary(doc, '    ')}{flags}    public enum {type_name(name)}\n    {{\n{lines}    }}\n"
+    return f"{summary(doc, words, '    ')}{flags}    public enum {type_name(name)}\n    {{\n{lines}    }}\n"
 
 
 def field_type(base, name, doc, enums):
-    told = re.match(r"(fe_\w+)", doc)
+    stated = re.match(r"(fe_\w+)", doc)
     if base in ("int32_t", "uint32_t"):
-        if name in SWITCHES:
+        if name in SWITCHES or name.endswith("enabled"):
             return "Switch"
         if name in ENUM_FIELDS:
             return type_name(ENUM_FIELDS[name])
-        if told and told[1] in enums:
-            return type_name(told[1])
-    return BY_HAND.get(base) or HANDLES.get(base) or PLAIN.get(base) or type_name(base)
+        if stated and stated[1] in enums:
+            return type_name(stated[1])
+    return PLAIN.get(base) or type_name(base)
 
 
-def fields(struct, body, enums):
+def fields(body, enums):
     """(type, name, visibility, documentation) of each field, arrays spread out; continued comments joined."""
     body = re.sub(r"\n\s*///< ?", " ", re.sub(r"\n\s*///(?!<).*", "", body))
     for m in re.finditer(r"^\s*(const )?(\w+) ([^;]+);[ ]*(?:///< (.*))?$", body, re.M):
@@ -67,39 +111,57 @@ def fields(struct, body, enums):
             declarator = declarator.strip()
             name = declarator.lstrip("*").split("[")[0]
             hidden = name == "struct_size" or name.startswith("reserved") or "*" in declarator
-            hidden = hidden or struct.endswith("_def") and name in ("body_a", "body_b")  # World sees to it that they are of one world
             kind = "System.IntPtr" if "*" in declarator else field_type(base, name, doc, enums)
             array = re.search(r"\[(\d+)\]", declarator)
             names = [pascal(name)]
             if array:
-                names = AXES if name == "axes" else [f"{pascal(name).removesuffix('s')}{i}" for i in range(int(array[1]))]
+                count = int(array[1])
+                names = AXES if name == "axes" else [f"{re.sub('s$', '', pascal(name))}{i}" for i in range(count)]
             for each in names:
                 yield kind, each, "internal" if hidden else "public", doc
 
 
-def record(name, body, doc, enums, inits):
-    made = name in inits and name not in PRIVATE
-    kind = "sealed unsafe partial class" if made else "partial struct"
+def to_string(name, members):
+    parts = ", ".join(f"{member} = {{{member}}}" for member in members)
+    return ("        public override string ToString()\n        {\n"
+            f"            return System.FormattableString.Invariant(\n                $\"{name} {{{{ {parts} }}}}\");\n"
+            "        }\n")
+
+
+def record(name, body, doc, enums, words, shared_docs):
+    definition = is_definition(name)
+    kind = "sealed unsafe partial class" if definition else "partial struct"
     access = "internal" if name in PRIVATE else "public"
-    text = summary(doc, "    ") + f"    [StructLayout(LayoutKind.Sequential)]\n    {access} {kind} {type_name(name)}\n    {{\n"
-    for field, each, visibility, told in fields(name, body, enums):
-        text += summary(told if visibility == "public" else "", "        ") + f"        {visibility} {field} {each};\n"
-    if made:
-        text += f"\n        internal static readonly uint Size = (uint)Marshal.SizeOf(typeof({type_name(name)}));\n"
-        text += "        /// <summary>The library's defaults.</summary>\n"
-        text += f"        public {type_name(name)}() {{ fixed (uint* start = &StructSize) Native.{name.removeprefix('fe_')}_init(start, Size); }}\n"
+    own = type_name(name)
+    text = summary(doc, words, "    ")
+    text += f"    [StructLayout(LayoutKind.Sequential)]\n    {access} {kind} {own}\n    {{\n"
+    members = []
+    for field, each, visibility, comment in fields(body, enums):
+        comment = comment or name.endswith("_joint_def") and shared_docs.get(each) or ""
+        text += summary(comment if visibility == "public" else "", words, "        ")
+        text += f"        {visibility} {field} {each};\n"
+        if visibility == "public":
+            members.append(each)
+    if definition:
+        text += f"\n        internal static readonly uint Size = (uint)Marshal.SizeOf(typeof({own}));\n"
+        text += "        /// <summary>The library's defaults.</summary>\n        public " + own
+        text += f"() {{ fixed (uint* start = &StructSize) Native.{name[3:]}_init(start, Size); }}\n"
+    if access == "public":
+        text += to_string(own, members)
     return text + "    }\n"
 
 
 def main():
     header = open(sys.argv[1], encoding="utf-8").read()
-    types = [(m[2], m[4], m[3], re.sub(r"^///", "", m[1] or "", flags=re.M))
-             for m in re.finditer(r"((?:^///[^\n]*\n)*)^typedef (struct|enum) (\w+) \{\n(.*?)^\} \3;", header, re.M | re.S)
-             for m in [{1: m[1], 2: m[2], 3: m[3], 4: m[4]}]]
-    inits = set(re.findall(r"void (fe_\w+)_init\(", header))
-    enums = {name for kind, _, name, _ in types if kind == "enum"}
-    parts = [enum(name, body, doc) if kind == "enum" else record(name, body, doc, enums, inits)
-             for kind, body, name, doc in types if name not in BY_HAND and name not in FOR_C]
+    pattern = r"((?:^///[^\n]*\n)*)^typedef (struct|enum) (\w+) \{\n(.*?)^\} \3;"
+    types = [(m[2], m[3], m[4], re.sub(r"^///", "", m[1] or "", flags=re.M))
+             for m in re.finditer(pattern, header, re.M | re.S)]
+    words = Words(types)
+    enums = {name for kind, name, _, _ in types if kind == "enum"}
+    shared_docs = {member: doc for _, name, body, _ in types if name == "fe_joint_def"
+                   for _, member, _, doc in fields(body, enums)}
+    parts = [enum(name, body, doc, words) if kind == "enum" else record(name, body, doc, enums, words, shared_docs)
+             for kind, name, body, doc in types if name not in BY_HAND and name not in FOR_C]
     with open(sys.argv[2], "w", encoding="utf-8") as out:
         out.write("// Made from feather.h by bindings/csharp/records.py.\n#pragma warning disable 169, 414, 649, 1591\n"
                   "using System.Runtime.InteropServices;\n"

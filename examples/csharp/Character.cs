@@ -1,4 +1,5 @@
-// A character walks over hills: a capsule that sweeps, slides along what it meets, steps down to the ground. It is no body, only queries.
+// A character walks over hills: a capsule that sweeps, slides along what it meets and steps down to the ground. It is
+// no body, only queries.
 using System.Numerics;
 using FeatherPhysics;
 
@@ -26,20 +27,22 @@ static class Character
         const int n = 65;
         var heights = new float[n * n];
         for (int row = 0; row < n; row++)
-            for (int column = 0; column < n; column++) heights[row * n + column] = MathF.Sin(column * 0.2f) * MathF.Cos(row * 0.2f);
-        return world.CreateHeightfield(new HeightfieldDef { Rows = n, Columns = n, CellX = 0.5f, CellZ = 0.5f, Heights = heights });
+            for (int column = 0; column < n; column++)
+                heights[row * n + column] = MathF.Sin(column * 0.2f) * MathF.Cos(row * 0.2f);
+        var def = new HeightfieldDef { Rows = n, Columns = n, CellX = 0.5f, CellZ = 0.5f, Heights = heights };
+        return world.CreateHeightfield(def);
     }
 
     /// Moves until something stops it, then along that, at most three times.
-    static DVec3 Slide(World world, DVec3 at, DVec3 way)
+    static DVec3 Slide(World world, DVec3 at, DVec3 motion)
     {
-        for (int i = 0; i < 3 && way.Length > 1e-6; i++)
+        for (int i = 0; i < 3 && motion.Length > 1e-6; i++)
         {
-            if (!world.Sweep(Form, new WorldTransform(at), way, out Hit hit)) return at + way;
-            at = at + way * hit.Fraction + hit.Normal * Skin;
-            var rest = way * (1 - hit.Fraction);
+            if (!world.Sweep(Form, new WorldTransform(at), motion, out Hit hit)) return at + motion;
+            at = at + motion * hit.Fraction + hit.Normal * Skin;
+            var rest = motion * (1 - hit.Fraction);
             var normal = (DVec3)hit.Normal;
-            way = rest - normal * (rest.X * normal.X + rest.Y * normal.Y + rest.Z * normal.Z);
+            motion = rest - normal * (rest.X * normal.X + rest.Y * normal.Y + rest.Z * normal.Z);
         }
         return at;
     }
@@ -47,6 +50,7 @@ static class Character
     static DVec3 Fall(World world, DVec3 at, double depth)
     {
         var down = new DVec3(0, -depth, 0);
-        return world.Sweep(Form, new WorldTransform(at), down, out Hit hit) ? at + down * hit.Fraction + new Vector3(0, Skin, 0) : at + down;
+        if (!world.Sweep(Form, new WorldTransform(at), down, out Hit hit)) return at + down;
+        return at + down * hit.Fraction + new Vector3(0, Skin, 0);
     }
 }

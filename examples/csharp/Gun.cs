@@ -12,7 +12,8 @@ static class Gun
         for (int i = 0; i < 8; i++)
         {
             var box = world.CreateDynamic(new DVec3(0, 0.5 + i, 0));
-            box.AddBox(0.5f, 0.5f, 0.5f, new ShapeDef { Density = 100, Events = ShapeEvents.Touch | ShapeEvents.Hit });
+            var def = new ShapeDef { Density = 100, Events = ShapeEvents.Touch | ShapeEvents.Hit };
+            box.AddBox(0.5f, 0.5f, 0.5f, def);
             names[box] = $"box {i}";
         }
         for (int step = 0; step < 240; step++)
@@ -20,7 +21,8 @@ static class Gun
             if (step % 60 == 30) Shoot(world, names, new DVec3(-10, 1.5 + step / 60 * 1.5, 0.1));
             world.Step(1f / 60);
             foreach (ref readonly var e in world.HitEvents)
-                if (e.Speed > 5) Console.WriteLine($"  {names.GetValueOrDefault(e.BodyB, "something")} hits at {e.Speed:F1} m/s");
+                if (e.Speed > 5)
+                    Console.WriteLine($"  {names.GetValueOrDefault(e.BodyB, "something")} hits at {e.Speed:F1} m/s");
         }
     }
 

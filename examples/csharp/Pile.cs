@@ -40,7 +40,9 @@ static class Pile
         {
             if (hits[i].Fraction == 1) continue;
             double light = 60 + 180 * Math.Max(0, 0.6 * hits[i].Normal.Z + 0.8 * hits[i].Normal.Y);
-            (pixels[3 * i], pixels[3 * i + 1], pixels[3 * i + 2]) = ((byte)Math.Min(255, light), (byte)(0.8 * light), (byte)(0.6 * light));
+            pixels[3 * i] = (byte)Math.Min(255, light);
+            pixels[3 * i + 1] = (byte)(0.8 * light);
+            pixels[3 * i + 2] = (byte)(0.6 * light);
         }
         image.Write(pixels);
     }

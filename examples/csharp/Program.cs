@@ -1,7 +1,8 @@
 // The examples, one a file: dotnet run -- hello | pile | character | ragdoll | gun. Without a name: all.
 var examples = new Dictionary<string, Action>
 {
-    ["hello"] = Hello.Run, ["pile"] = Pile.Run, ["character"] = Character.Run, ["ragdoll"] = Ragdoll.Run, ["gun"] = Gun.Run,
+    ["hello"] = Hello.Run, ["pile"] = Pile.Run, ["character"] = Character.Run, ["ragdoll"] = Ragdoll.Run,
+    ["gun"] = Gun.Run,
 };
 foreach (var (name, run) in examples)
 {

@@ -1,5 +1,5 @@
-// A node of Godot 4 (C#) that plays a world of Feather. Add the package to the project (dotnet add package FeatherPhysics, see docs/csharp.md), put
-// this script on a Node3D, and call Follow for each body that a node shows.
+// A node of Godot 4 (C#) that plays a world of Feather. Add the package to the project (dotnet add package
+// FeatherPhysics, see docs/csharp.md), put this script on a Node3D, and call Follow for each body that a node shows.
 using System;
 using System.Collections.Generic;
 using FeatherPhysics;

@@ -19,9 +19,7 @@ static fe_result create(const char *function, fe_world *world, int32_t type, con
     fe__joint_defaults(type, &full);
     FE_TRY(fe__read_struct(function, "def", def, &full, fe__joint_fields(type)));
     int32_t bodies[2];
-    FE_TRY(fe__find_body(function, "body_a", world, full.common.body_a, &bodies[0]));
-    FE_TRY(fe__find_body(function, "body_b", world, full.common.body_b, &bodies[1]));
-    if (bodies[0] == bodies[1]) return fe__fail(function, FE_ERROR_ARGUMENT, "both ends are body 0x%llx", full.common.body_a);
+    FE_TRY(fe__find_joint_ends(function, world, full.common.body_a, full.common.body_b, bodies));
     FE_TRY(fe__check_joint_def(function, type, &full));
     int32_t joint = 0;
     fe__fp_state fp = fe__fp_enter();
@@ -69,8 +67,7 @@ static fe_result check_type(const char *function, const fe_world *world, int32_t
 // A joint keeps its bodies for life: 0 and their own handles will do
 static fe_result check_bodies(const char *function, const fe_world *world, int32_t index, const fe_joint_def *full)
 {
-    const int32_t *bodies = world->joint_records[index].body;
-    fe_body a = fe__body_handle(world, bodies[0]), b = fe__body_handle(world, bodies[1]);
+    fe_body a = fe__joint_end_handle(world, index, 0), b = fe__joint_end_handle(world, index, 1);
     if ((full->body_a == 0 || full->body_a == a) && (full->body_b == 0 || full->body_b == b)) return FE_OK;
     return fe__fail(function, FE_ERROR_ARGUMENT, "body_a, body_b are 0x%llx, 0x%llx, the joint has 0x%llx, 0x%llx, which no call changes",
                     full->body_a, full->body_b, a, b);
@@ -249,8 +246,8 @@ fe_result fe_joint_get_bodies(const fe_world *world, fe_joint joint, fe_body *ou
     FE_FIND_JOINT(index, joint);
     FE_CHECK_POINTER(out_body_a);
     FE_CHECK_POINTER(out_body_b);
-    *out_body_a = fe__body_handle(world, world->joint_records[index].body[0]);
-    *out_body_b = fe__body_handle(world, world->joint_records[index].body[1]);
+    *out_body_a = fe__joint_end_handle(world, index, 0);
+    *out_body_b = fe__joint_end_handle(world, index, 1);
     return FE_OK;
 }
 

@@ -9,14 +9,6 @@ typedef struct ends {
     int32_t body[2];
 } ends;
 
-static fe_result find_ends(const char *function, const fe_world *world, fe_body body_a, fe_body body_b, ends *out_ends)
-{
-    FE_TRY(fe__find_body(function, "body_a", world, body_a, &out_ends->body[0]));
-    FE_TRY(fe__find_body(function, "body_b", world, body_b, &out_ends->body[1]));
-    if (out_ends->body[0] != out_ends->body[1]) return FE_OK;
-    return fe__fail(function, FE_ERROR_ARGUMENT, "both ends are body 0x%llx", body_a);
-}
-
 // A point of the world in body space; far ones are found where the definition is used
 static fe_vec3 into_body(const fe__body *body, const fe_dvec3 *point)
 {
@@ -49,13 +41,31 @@ static fe_quat turn_upright(fe_vec3 axis, fe_vec3 up)
     return fe__normalized(fe__product(first, (fe_quat){(float)sine, 0.0f, 0.0f, (float)cosine}));
 }
 
+// The rotation of a body; the world's is none
+static fe_quat rotation_of(const fe_world *world, int32_t body)
+{
+    return body < 0 ? (fe_quat){0.0f, 0.0f, 0.0f, 1.0f} : fe__body_transform(&world->bodies[body]).rotation;
+}
+
+static void set_end(const fe_world *world, int32_t body, const fe_dvec3 *point, fe_quat rotation, fe_body *out_body, fe_frame *out_frame,
+                    fe_dvec3 *world_origin)
+{
+    if (body >= 0) {
+        *out_body = fe__body_handle(world, body);
+        *out_frame = frame_in(&world->bodies[body], point, rotation);
+        return;
+    }
+    *out_body = 0;
+    *out_frame = (fe_frame){{0.0f, 0.0f, 0.0f}, rotation};
+    *world_origin = *point;
+}
+
 static void set_ends(const fe_world *world, fe_joint_def *front, const ends *e, const fe_dvec3 *point_a, const fe_dvec3 *point_b,
                      fe_quat rotation)
 {
-    front->body_a = fe__body_handle(world, e->body[0]);
-    front->body_b = fe__body_handle(world, e->body[1]);
-    front->frame_a = frame_in(&world->bodies[e->body[0]], point_a, rotation);
-    front->frame_b = frame_in(&world->bodies[e->body[1]], point_b, rotation);
+    front->world_origin = (fe_dvec3){0.0, 0.0, 0.0};
+    set_end(world, e->body[0], point_a, rotation, &front->body_a, &front->frame_a, &front->world_origin);
+    set_end(world, e->body[1], point_b, rotation, &front->body_b, &front->frame_b, &front->world_origin);
 }
 
 // The caller's definition, as far as both sides know it, into a whole one and back
@@ -64,7 +74,7 @@ static fe_result open(const char *function, const fe_world *world, int32_t type,
 {
     fe__joint_defaults(type, full);
     FE_TRY(fe__read_struct(function, "def", def, full, fe__joint_fields(type)));
-    return find_ends(function, world, body_a, body_b, out_ends);
+    return fe__find_joint_ends(function, world, body_a, body_b, out_ends->body);
 }
 
 static fe_result at_point(const char *function, const fe_world *world, int32_t type, void *def, fe_body body_a, fe_body body_b,
@@ -76,7 +86,7 @@ static fe_result at_point(const char *function, const fe_world *world, int32_t t
     FE_CHECK_DVEC3(point, FE_MAX_POSITION);
     if (axis) FE_CHECK_DIRECTION(axis);
     fe__fp_state fp = fe__fp_enter();
-    fe_quat rotation = axis ? turn_to(*axis) : fe__body_transform(&world->bodies[e.body[0]]).rotation;
+    fe_quat rotation = axis ? turn_to(*axis) : rotation_of(world, e.body[0]);
     set_ends(world, &full.common, &e, point, point, rotation);
     fe__fp_leave(fp);
     fe__write_struct(def, &full, full.common.struct_size);
@@ -120,7 +130,7 @@ static fe_result between_points(const char *function, const fe_world *world, fe_
     FE_CHECK_DVEC3(point_a, FE_MAX_POSITION);
     FE_CHECK_DVEC3(point_b, FE_MAX_POSITION);
     fe_dvec3 d = fe__dsub(*point_b, *point_a);
-    set_ends(world, &full->common, e, point_a, point_b, fe__body_transform(&world->bodies[e->body[0]]).rotation);
+    set_ends(world, &full->common, e, point_a, point_b, rotation_of(world, e->body[0]));
     full->distance.target = full->distance.lower = full->distance.upper = (float)sqrt(fe__ddot(d, d));
     return FE_OK;
 }
@@ -146,7 +156,7 @@ static fe_result begin_ready(const char *function, const fe_world *world, int32_
 {
     FE_TRY(fe__check_struct_size(function, "def", def, fe__joint_fields(type)));
     fe__joint_defaults(type, full);
-    return find_ends(function, world, body_a, body_b, out_ends);
+    return fe__find_joint_ends(function, world, body_a, body_b, out_ends->body);
 }
 
 fe_result fe_rope_joint_def_at(const fe_world *world, fe_distance_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point_a,
@@ -192,8 +202,10 @@ static int32_t are_parallel(const fe_vec3 *a, const fe_vec3 *b)
 }
 
 // The mass that a body shows at a frame of its own, along the frame's Z: 1 / (1/m + (r x z) . I^-1 (r x z)), kg; 0 unless it is dynamic
-static float mass_along_z(const fe__body *body, const fe_frame *frame)
+static float mass_along_z(const fe_world *world, int32_t index, const fe_frame *frame)
 {
+    if (index < 0) return 0.0f;
+    const fe__body *body = &world->bodies[index];
     if (!(body->inverse_mass > 0.0f)) return 0.0f;
     fe_vec3 centre = {body->local_centre[0], body->local_centre[1], body->local_centre[2]};
     fe_vec3 arm = fe__sub(frame->position, centre), z = fe__rotate(frame->rotation, fe__vec3(0.0f, 0.0f, 1.0f));
@@ -206,8 +218,8 @@ static float mass_along_z(const fe__body *body, const fe_frame *frame)
 static void set_suspension(const fe_world *world, const ends *e, const fe_joint_def *front, float hertz, float damping_ratio,
                            fe_joint_axis *axis)
 {
-    float mass = mass_along_z(&world->bodies[e->body[0]], &front->frame_a), omega = 2.0f * FE_PI * hertz;
-    if (mass == 0.0f) mass = mass_along_z(&world->bodies[e->body[1]], &front->frame_b);
+    float mass = mass_along_z(world, e->body[0], &front->frame_a), omega = 2.0f * FE_PI * hertz;
+    if (mass == 0.0f) mass = mass_along_z(world, e->body[1], &front->frame_b);
     axis->spring = FE_SPRING_STIFFNESS;
     axis->spring_stiffness = fe__minf(mass * omega * omega, FE_MAX_FORCE);
     axis->spring_damping = fe__minf(2.0f * damping_ratio * mass * omega, FE_MAX_FORCE);
@@ -251,10 +263,10 @@ fe_result fe_motor_joint_def_at(const fe_world *world, fe_configurable_joint_def
     FE_CHECK_FLOAT(damping_ratio, 0.0f, FE_MAX_VALUE);
     FE_CHECK_FLOAT(max_force, 0.0f, FE_MAX_FORCE);
     FE_CHECK_FLOAT(max_torque, 0.0f, FE_MAX_FORCE);
-    const fe__body *b = &world->bodies[e.body[1]];
+    const fe__body *b = &world->bodies[e.body[1] >= 0 ? e.body[1] : e.body[0]];
     fe_dvec3 centre = {b->centre[0], b->centre[1], b->centre[2]};
     fe__fp_state fp = fe__fp_enter();
-    set_ends(world, &full.common, &e, &centre, &centre, fe__body_transform(&world->bodies[e.body[0]]).rotation);
+    set_ends(world, &full.common, &e, &centre, &centre, rotation_of(world, e.body[0]));
     fe__fp_leave(fp);
     for (int k = 0; k < 6; ++k) {
         fe_joint_axis *axis = full.configurable.axes + k;

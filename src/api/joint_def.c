@@ -21,6 +21,24 @@ static const fe__fields *const fields[FE__JOINT_TYPES] = {NULL,
 
 const fe__fields *fe__joint_fields(int32_t type) { return fields[type]; }
 
+static fe_result find_end(const char *function, const char *name, const fe_world *world, fe_body body, int32_t *out_body)
+{
+    if (body == 0) {
+        *out_body = -1;
+        return FE_OK;
+    }
+    return fe__find_body(function, name, world, body, out_body);
+}
+
+fe_result fe__find_joint_ends(const char *function, const fe_world *world, fe_body body_a, fe_body body_b, int32_t *out_bodies)
+{
+    FE_TRY(find_end(function, "body_a", world, body_a, &out_bodies[0]));
+    FE_TRY(find_end(function, "body_b", world, body_b, &out_bodies[1]));
+    if (out_bodies[0] != out_bodies[1]) return FE_OK;
+    if (body_a == 0) return fe__fail(function, FE_ERROR_ARGUMENT, "body_a and body_b are both 0: one end must be a body");
+    return fe__fail(function, FE_ERROR_ARGUMENT, "both ends are body 0x%llx", body_a);
+}
+
 void fe_joint_def_init(fe_joint_def *def, uint32_t struct_size)
 {
     fe__joint_any defaults;

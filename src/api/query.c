@@ -57,8 +57,7 @@ fe_result fe__read_moving_form(const char *function, const fe_geometry *geometry
         out_form->half = geometry->half_extents;
         return FE_OK;
     default:
-        return fe__fail(function, FE_ERROR_UNSUPPORTED, "type is %d, must be that of a sphere, a capsule or a box",
-                        geometry->type);
+        return fe__fail(function, FE_ERROR_UNSUPPORTED, "type is %d, must be that of a sphere, a capsule or a box", geometry->type);
     }
 }
 

@@ -61,7 +61,7 @@ static void answer(void *argument, int32_t first, int32_t end, int32_t worker)
         if (fe__cast_closest(&b->scene, &probe, &hit))
             hits += 1;
         else
-            hit = (fe_hit){.point = fe__dadd(probe.way.origin, probe.way.translation), .fraction = 1.0, .triangle = -1};
+            hit = (fe_hit){.point = fe__dadd(probe.way.origin, probe.way.translation), .fraction = 1.0, .part = -1, .triangle = -1};
         memcpy(fe__at(b->out_hits, b->stride, i), &hit, b->stride < sizeof hit ? b->stride : sizeof hit);
     }
     atomic_fetch_add_explicit(&b->hits, hits, memory_order_relaxed);

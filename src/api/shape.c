@@ -107,6 +107,12 @@ static fe_result check_owner(const char *function, const fe_world *world, int32_
                     fe__traits_of(form)->name);
 }
 
+static fe_result check_one_way(const char *function, const fe__form *form, uint32_t one_way)
+{
+    if (!one_way || !fe__form_is_static_only(form)) return FE_OK;
+    return fe__fail(function, FE_ERROR_UNSUPPORTED, "a %s cannot be one-way", fe__traits_of(form)->name);
+}
+
 // ---- life -----------------------------------------------------------------------------------------------------------------------
 
 enum { ALL_EVENTS = FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT };
@@ -142,6 +148,10 @@ static fe_result read_shape_def(const char *function, const fe_shape_def *def, f
     FE_CHECK_BOOL(full->trigger);
     FE_CHECK_BITS(full->events, ALL_EVENTS);
     FE_CHECK_VEC3(&full->surface_velocity, FE_MAX_SPEED);
+    FE_CHECK_BOOL(full->pair_filter);
+    FE_CHECK_BOOL(full->one_way);
+    FE_CHECK_DIRECTION(&full->one_way_direction);
+    FE_CHECK_VEC3(&full->one_way_direction, FE_MAX_VALUE);
     return FE_OK;
 }
 
@@ -149,6 +159,7 @@ static fe_result create_shape(const char *function, fe_world *world, int32_t bod
                               fe_shape *out_shape)
 {
     FE_TRY(check_owner(function, world, body, form));
+    FE_TRY(check_one_way(function, form, (uint32_t)def->one_way));
     fe__fp_state fp = fe__fp_enter();
     int32_t shape = fe__shape_create(world, body, def, form);
     fe__fp_leave(fp);
@@ -203,6 +214,7 @@ fe_result fe_shape_get_body(const fe_world *world, fe_shape shape, fe_body *out_
 static fe_result set_form(const char *function, fe_world *world, int32_t shape, const fe__form *form)
 {
     FE_TRY(check_owner(function, world, world->shapes[shape].body, form));
+    FE_TRY(check_one_way(function, form, world->shapes[shape].flags & FE__SHAPE_ONE_WAY));
     fe__fp_state fp = fe__fp_enter();
     fe_result result = fe__shape_set_form(world, shape, form);
     fe__fp_leave(fp);
@@ -354,6 +366,51 @@ fe_result fe_shape_get_filter(const fe_world *world, fe_shape shape, uint32_t *o
     *out_layer = world->shapes[index].layer;
     *out_mask = world->shapes[index].mask;
     *out_group = world->shapes[index].group;
+    return FE_OK;
+}
+
+fe_result fe_shape_set_pair_filter(fe_world *world, fe_shape shape, int32_t enabled)
+{
+    FE_WRITE(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_BOOL(enabled);
+    fe__shape_set_judged(world, index, enabled);
+    return FE_OK;
+}
+
+fe_result fe_shape_get_pair_filter(const fe_world *world, fe_shape shape, int32_t *out_enabled)
+{
+    FE_READ(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_POINTER(out_enabled);
+    *out_enabled = (world->shapes[index].flags & FE__SHAPE_JUDGED) != 0;
+    return FE_OK;
+}
+
+fe_result fe_shape_set_one_way(fe_world *world, fe_shape shape, int32_t enabled, const fe_vec3 *direction)
+{
+    FE_WRITE(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_BOOL(enabled);
+    if (direction) {
+        FE_CHECK_DIRECTION(direction);
+        FE_CHECK_VEC3(direction, FE_MAX_VALUE);
+    }
+    FE_TRY(check_one_way(function, &world->shapes[index].form, (uint32_t)enabled));
+    fe__fp_state fp = fe__fp_enter();
+    fe__shape_set_one_way(world, index, enabled, direction);
+    fe__fp_leave(fp);
+    return FE_OK;
+}
+
+fe_result fe_shape_get_one_way(const fe_world *world, fe_shape shape, int32_t *out_enabled, fe_vec3 *out_direction)
+{
+    FE_READ(world);
+    FE_FIND_SHAPE(index, shape);
+    FE_CHECK_POINTER(out_enabled);
+    FE_CHECK_POINTER(out_direction);
+    *out_enabled = (world->shapes[index].flags & FE__SHAPE_ONE_WAY) != 0;
+    *out_direction = world->shapes[index].one_way;
     return FE_OK;
 }
 

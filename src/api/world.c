@@ -241,6 +241,14 @@ fe_result fe_world_ignore_collision(fe_world *world, fe_body a, fe_body b, int32
     return fe__report(function, fe__ignore_collision(world, index_a, index_b, ignore));
 }
 
+fe_result fe_world_set_pair_filter(fe_world *world, fe_pair_filter filter, void *user)
+{
+    FE_WRITE(world);
+    world->pair_filter = filter;
+    world->pair_filter_user = user;
+    return FE_OK;
+}
+
 fe_result fe_world_get_ignored(const fe_world *world, fe_body a, fe_body b, int32_t *out_ignored)
 {
     FE_READ(world);

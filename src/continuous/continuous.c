@@ -54,7 +54,7 @@ static void add_partners(fe__step *step, int32_t kinematic)
         const fe__pair *p = w->pairs + pair;
         int32_t other = p->body_a == kinematic ? p->body_b : p->body_a;
         fe__body *body = w->bodies + other;
-        if (p->flags & FE__PAIR_SENSOR || body->type != FE_BODY_DYNAMIC || body->awake_index < 0 || body->flags & FE__BODY_CHASED) continue;
+        if (p->flags & (FE__PAIR_SENSOR | FE__PAIR_DENIED | FE__PAIR_PASSING) || body->type != FE_BODY_DYNAMIC || body->awake_index < 0 || body->flags & FE__BODY_CHASED) continue;
         if (length + fe__path_length(step, other) <= body->thickness) continue;
         if (fe__motion_makes_sense(&w->solver, body->line)) add_chased(step->scratch, body, other);
     }

@@ -113,6 +113,14 @@ static void try_field(search *s, const fe__shape *own, const fe__shape *obstacle
     }
 }
 
+// The pair filter refused the two, or one is on its way through the other
+static int32_t lets_pass(const fe_world *w, int32_t shape_a, int32_t shape_b)
+{
+    if (!((w->shapes[shape_a].flags | w->shapes[shape_b].flags) & (FE__SHAPE_JUDGED | FE__SHAPE_ONE_WAY))) return 0;
+    int32_t pair = fe__pair_set_find(&w->pair_set, shape_a, shape_b);
+    return pair >= 0 && w->pairs[pair].flags & (FE__PAIR_DENIED | FE__PAIR_PASSING);
+}
+
 static void try_shape(search *s, int32_t shape)
 {
     const fe_world *w = s->step->world;
@@ -121,7 +129,9 @@ static void try_shape(search *s, int32_t shape)
     fe__mobile other = fe__mobile_of_shape(s->step, obstacle, &motion);
     for (int32_t i = w->bodies[s->body].first_shape; i >= 0; i = w->shapes[i].next) {
         const fe__shape *own = w->shapes + i;
-        if (own->flags & FE__SHAPE_TRIGGER || fe__form_is_static_only(&own->form) || !fe__may_collide(w, i, shape)) continue;
+        if (own->flags & FE__SHAPE_TRIGGER || fe__form_is_static_only(&own->form) || !fe__may_collide(w, i, shape) ||
+            lets_pass(w, i, shape))
+            continue;
         if (fe__form_is_field(&obstacle->form))
             try_field(s, own, obstacle, &other);
         else

@@ -46,6 +46,18 @@ fe_handle fe__id_pool_allocate(fe__id_pool *pool)
     return fe__id_pool_handle(pool, slot);
 }
 
+void fe__id_pool_hide(fe__id_pool *pool, int32_t slot)
+{
+    pool->slots[slot].next = FE_ID_HIDDEN;
+    pool->alive_count -= 1;
+}
+
+void fe__id_pool_show(fe__id_pool *pool, int32_t slot)
+{
+    pool->slots[slot].next = FE_ID_ALIVE;
+    pool->alive_count += 1;
+}
+
 void fe__id_pool_release(fe__id_pool *pool, int32_t slot)
 {
     fe__id_slot *released = &pool->slots[slot];

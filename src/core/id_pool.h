@@ -29,6 +29,7 @@ enum {
     FE_ID_ALIVE = -1,   // fe__id_slot.next of a slot in use
     FE_ID_NONE = -2,    // ... of the last free one
     FE_ID_RETIRED = -3, // ... of one without generations left
+    FE_ID_HIDDEN = -4,  // ... of one in use whose handle is refused
 };
 
 typedef struct fe__id_slot {
@@ -55,6 +56,9 @@ void fe__id_pool_free(fe__id_pool *pool, fe__memory *memory);
 fe_result fe__id_pool_reserve(fe__id_pool *pool, fe__memory *memory, int32_t extra);
 // Only after a reserve that covers it.
 fe_handle fe__id_pool_allocate(fe__id_pool *pool);
+// A slot in use that no handle names, until it is shown again.
+void fe__id_pool_hide(fe__id_pool *pool, int32_t slot);
+void fe__id_pool_show(fe__id_pool *pool, int32_t slot);
 // The slot must be in use.
 void fe__id_pool_release(fe__id_pool *pool, int32_t slot);
 

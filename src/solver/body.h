@@ -20,7 +20,8 @@ enum {
     FE__BODY_CHASED = 1024,    // in the list of bodies that continuous collision looks at
     FE__BODY_STRAINED = 2048,  // bears many times its weight, or a body many times as heavy just came upon it
     FE__BODY_HELD = 4096,      // joined to others, and stopped by continuous collision in this step, see rejoin.h
-    FE__BODY_STRETCHED = 8192  // a joint of it is wide open
+    FE__BODY_STRETCHED = 8192, // a joint of it is wide open
+    FE__BODY_ANCHOR = 16384    // the end of a joint that is the world, see world/anchor.h
 };
 
 typedef struct fe__body {

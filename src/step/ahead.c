@@ -47,7 +47,7 @@ static int32_t is_turned_away(const fe_world *world, int32_t body, int32_t pair,
     for (int32_t i = world->bodies[body].first_contact; i >= 0; i = fe__next_pair(world, i, body)) {
         const fe__pair *p = world->pairs + i;
         int32_t other = p->body_a == body ? p->body_b : p->body_a;
-        if (i == pair || p->flags & FE__PAIR_SENSOR || world->bodies[other].type == FE_BODY_DYNAMIC ||
+        if (i == pair || p->flags & (FE__PAIR_SENSOR | FE__PAIR_DENIED | FE__PAIR_PASSING) || world->bodies[other].type == FE_BODY_DYNAMIC ||
             fe__is_field_pair(world, p->shape_a, p->shape_b))
             continue;
         fe__mobile a, b;

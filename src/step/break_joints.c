@@ -30,8 +30,8 @@ void fe__break_joints(fe__step *step)
         int32_t joint = items[i].value;
         const fe__joint_record *r = w->joint_records + joint;
         fe_joint_event e = {fe__joint_handle(w, joint),
-                            fe__body_handle(w, r->body[0]),
-                            fe__body_handle(w, r->body[1]),
+                            fe__joint_end_handle(w, joint, 0),
+                            fe__joint_end_handle(w, joint, 1),
                             r->user_data,
                             FE_EVENT_BREAK,
                             r->type,

@@ -235,6 +235,34 @@ static int32_t is_near(const fe__manifold *found, float distance)
     return 0;
 }
 
+// ---- one-way shapes -------------------------------------------------------------------------------------------------------------------
+// The least cosine between a one-way shape's direction and a normal that holds: 60 degrees, so that its edges do not catch what passes by
+#define ONE_WAY_COSINE 0.5f
+
+// The normal from the shape to what it meets
+static int32_t holds(const fe__shape *shape, fe_vec3 outward)
+{
+    fe_vec3 direction = fe__rotate(shape->pose.rotation, shape->one_way);
+    return fe__dot(direction, outward) >= ONE_WAY_COSINE * sqrtf(fe__dot(direction, direction));
+}
+
+// Does the pair pass a one-way shape? Decided where they first meet, by the side; what passes goes on until they are apart.
+static int32_t passes(fe__pair *p, const fe__view *v, const fe__manifold *found)
+{
+    if (!((v->a->flags | v->b->flags) & FE__SHAPE_ONE_WAY)) return 0;
+    if (!found->count) {
+        p->flags &= ~(uint32_t)FE__PAIR_PASSING;
+        return 0;
+    }
+    if (p->flags & FE__PAIR_PASSING) return 1;
+    if (p->flags & FE__PAIR_LINKED) return 0;
+    fe_vec3 normal = fe__mul(&v->rotation, found->normal); // from v->a to v->b
+    int32_t held =
+        (!(v->a->flags & FE__SHAPE_ONE_WAY) || holds(v->a, normal)) && (!(v->b->flags & FE__SHAPE_ONE_WAY) || holds(v->b, fe__neg(normal)));
+    if (!held) p->flags |= FE__PAIR_PASSING;
+    return !held;
+}
+
 void fe__collide_pair(fe_world *world, int32_t pair, float dt)
 {
     fe__pair *p = world->pairs + pair;
@@ -252,6 +280,10 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
     fe__collide(&v.form_a, &v.b->form, &v.relative, fe__maxf(margin, reach), &found);
     fe__mend_seam(world, &v, fe__maxf(margin, reach), &found);
     p->axis = found.axis, p->axis_separation = found.axis_separation;
+    if (p->flags & FE__PAIR_DENIED || passes(p, &v, &found)) {
+        write_apart(p, m, &at, a, b, 0.0f);
+        return;
+    }
 
     // some way off now, but closing: the normal may turn on that way
     int32_t near = is_near(&found, margin), ahead = found.count && !(p->flags & FE__PAIR_SENSOR) && !is_near(&found, FE__TURNS_LITTLE);

@@ -7,6 +7,7 @@
 
 #include "step/reserve.h"
 #include "world/filter.h"
+#include "world/handles.h"
 #include "world/pairs.h"
 
 enum { SHAPES_IN_BLOCK = 32, FIRST_ROOM = 256 };
@@ -124,6 +125,22 @@ static void sort_candidates(fe__step *step)
     for (int32_t i = 0; i < n; ++i) s->candidates[i] = (fe__candidate){items[i].value, items[i].spare};
 }
 
+// What the host says of a pair, in the order of creation, on this thread
+static int32_t is_denied(const fe_world *w, const fe__candidate *c)
+{
+    const fe__shape *a = w->shapes + c->shape_a, *b = w->shapes + c->shape_b;
+    if (!w->pair_filter || !((a->flags | b->flags) & FE__SHAPE_JUDGED)) return 0;
+    fe_filter_pair pair = {.body_a = fe__body_handle(w, a->body),
+                           .body_b = fe__body_handle(w, b->body),
+                           .shape_a = fe__shape_handle(w, c->shape_a),
+                           .shape_b = fe__shape_handle(w, c->shape_b),
+                           .body_user_data_a = w->bodies[a->body].user_data,
+                           .body_user_data_b = w->bodies[b->body].user_data,
+                           .shape_user_data_a = a->user_data,
+                           .shape_user_data_b = b->user_data};
+    return w->pair_filter(w->pair_filter_user, &pair) == 0;
+}
+
 void fe__find_new_pairs(fe__step *step)
 {
     fe_world *w = step->world;
@@ -131,7 +148,8 @@ void fe__find_new_pairs(fe__step *step)
     step->failed = !search_all(step) || !fe__reserve_step(step);
     if (step->failed) return;
     sort_candidates(step);
-    for (int32_t i = 0; i < s->candidate_count; ++i) fe__pair_create(w, s->candidates[i].shape_a, s->candidates[i].shape_b);
+    for (int32_t i = 0; i < s->candidate_count; ++i)
+        fe__pair_create(w, s->candidates[i].shape_a, s->candidates[i].shape_b, is_denied(w, s->candidates + i));
     for (int32_t i = 0; i < w->moved_count; ++i) w->shapes[w->moved[i]].flags &= ~(uint32_t)FE__SHAPE_MOVED;
     w->moved_count = 0;
 }

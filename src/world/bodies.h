@@ -5,7 +5,7 @@
 #define FE_WORLD_BODIES_H
 #include "world/world.h"
 
-fe_result fe__reserve_bodies(fe_world *world, int32_t extra);      // the `extra` creations that follow cannot fail
+fe_result fe__reserve_bodies(fe_world *world, int32_t extra);     // the `extra` creations that follow cannot fail
 int32_t fe__body_create(fe_world *world, const fe_body_def *def); // index; room was reserved
 void fe__body_destroy(fe_world *world, int32_t body);
 fe_result fe__body_set_type(fe_world *world, int32_t body, int32_t type);

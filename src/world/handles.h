@@ -11,4 +11,11 @@ static inline fe_handle fe__joint_handle(const fe_world *world, int32_t joint)
     return fe__id_pool_handle(&world->joint_ids, joint - 1); // joint 0 is none
 }
 
+// Of the end of a joint; 0: the world
+static inline fe_body fe__joint_end_handle(const fe_world *world, int32_t joint, int32_t side)
+{
+    int32_t body = world->joint_records[joint].body[side];
+    return world->bodies[body].flags & FE__BODY_ANCHOR ? 0 : fe__body_handle(world, body);
+}
+
 #endif

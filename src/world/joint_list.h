@@ -25,10 +25,7 @@ void fe__joint_retire(fe_world *world, int32_t joint);      // when none is
 void fe__joint_leave_awake(fe_world *world, int32_t joint); // whoever is
 
 // Does it keep its bodies from touching?
-static inline // ---- filter
-              // ---------------------------------------------------------------------------------------------------------------------------
-    int32_t
-    fe__joint_parts_bodies(const fe__joint_record *r)
+static inline int32_t fe__joint_parts_bodies(const fe__joint_record *r)
 {
     return (r->flags & (FE__JOINT_ENABLED | FE__JOINT_COLLIDES)) == FE__JOINT_ENABLED;
 }

@@ -22,8 +22,10 @@ typedef union fe__joint_any {
 } fe__joint_any;
 
 enum { FE__JOINT_FRONT = sizeof(fe_joint_def) }; // bytes: what follows is the type's own
-_Static_assert(offsetof(fe_distance_joint_def, limit_enabled) == FE__JOINT_FRONT && offsetof(fe_ball_joint_def, cone_enabled) == FE__JOINT_FRONT &&
-                   offsetof(fe_hinge_joint_def, limit_enabled) == FE__JOINT_FRONT && offsetof(fe_fixed_joint_def, angular_hertz) == FE__JOINT_FRONT &&
+_Static_assert(offsetof(fe_distance_joint_def, limit_enabled) == FE__JOINT_FRONT &&
+                   offsetof(fe_ball_joint_def, cone_enabled) == FE__JOINT_FRONT &&
+                   offsetof(fe_hinge_joint_def, limit_enabled) == FE__JOINT_FRONT &&
+                   offsetof(fe_fixed_joint_def, angular_hertz) == FE__JOINT_FRONT &&
                    offsetof(fe_configurable_joint_def, axes) == FE__JOINT_FRONT,
                "all definitions have one front");
 
@@ -51,8 +53,12 @@ typedef struct fe__joint_record {
 // bytes of a type's definition
 static inline int32_t fe__joint_def_size(int32_t type)
 {
-    static const int32_t sizes[FE__JOINT_TYPES] = {
-        0, sizeof(fe_distance_joint_def), sizeof(fe_ball_joint_def), sizeof(fe_hinge_joint_def), sizeof(fe_fixed_joint_def), sizeof(fe_configurable_joint_def)};
+    static const int32_t sizes[FE__JOINT_TYPES] = {0,
+                                                   sizeof(fe_distance_joint_def),
+                                                   sizeof(fe_ball_joint_def),
+                                                   sizeof(fe_hinge_joint_def),
+                                                   sizeof(fe_fixed_joint_def),
+                                                   sizeof(fe_configurable_joint_def)};
     return sizes[type];
 }
 

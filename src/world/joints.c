@@ -4,6 +4,8 @@
 // bodies are, and one of them is dynamic.
 #include "world/joints.h"
 
+#include "world/anchor.h"
+#include "world/bodies.h"
 #include "world/forest.h"
 #include "world/handles.h"
 #include "world/joint_list.h"
@@ -216,17 +218,23 @@ static void set_record(fe_world *world, int32_t joint, const fe__joint_any *def)
     r->break_force = d->break_force, r->break_torque = d->break_torque;
     r->user_data = d->user_data;
     r->world_origin = d->world_origin;
+    for (int k = 0; k < 2; ++k)
+        if (fe__is_anchor(world, r->body[k])) fe__anchor_move(world, r->body[k], d->world_origin);
     world->breakable_count += is_breakable(r);
     const fe__record_pool *pool = &world->joint_settings[r->type];
     memcpy(fe__record(pool, r->settings), (const unsigned char *)def + FE__JOINT_FRONT, (size_t)pool->size);
 }
 
-fe_result fe__joint_create(fe_world *world, int32_t type, const fe__joint_any *def, const int32_t *bodies, int32_t *out_joint)
+fe_result fe__joint_create(fe_world *world, int32_t type, const fe__joint_any *def, const int32_t *ends, int32_t *out_joint)
 {
     fe__joint_plan plan;
     fe__joint_make_plan(type, def, &plan);
     fe_result reserved = reserve(world, type, fe__joint_needs_axes(&plan));
+    if (reserved == FE_OK && (ends[0] < 0 || ends[1] < 0)) reserved = fe__reserve_bodies(world, 1);
     if (reserved != FE_OK) return reserved;
+    const fe_dvec3 origin = def->common.world_origin;
+    const int32_t bodies[2] = {ends[0] < 0 ? fe__anchor_create(world, origin) : ends[0],
+                               ends[1] < 0 ? fe__anchor_create(world, origin) : ends[1]};
 
     int32_t joint = 1 + fe__id_slot_of(fe__id_pool_allocate(&world->joint_ids));
     fe__joint_record *r = world->joint_records + joint;
@@ -288,6 +296,8 @@ void fe__joint_destroy(fe_world *world, int32_t joint)
     fe__record_pool_return(&world->joint_settings[r->type], r->settings);
     if (world->joints.frames[joint].axes) fe__record_pool_return(&world->joint_axes, world->joints.frames[joint].axes);
     world->joints.frames[joint].axes = 0;
+    for (int k = 0; k < 2; ++k)
+        if (fe__is_anchor(world, r->body[k])) fe__anchor_destroy(world, r->body[k]);
     r->type = 0;
     fe__id_pool_release(&world->joint_ids, joint - 1);
 }
@@ -302,8 +312,8 @@ void fe__joint_describe(const fe_world *world, int32_t joint, fe__joint_any *out
     const fe__joint_record *r = world->joint_records + joint;
     out_def->common = (fe_joint_def){.struct_size = (uint32_t)fe__joint_def_size(r->type),
                                      .enabled = (r->flags & FE__JOINT_ENABLED) != 0,
-                                     .body_a = fe__body_handle(world, r->body[0]),
-                                     .body_b = fe__body_handle(world, r->body[1]),
+                                     .body_a = fe__joint_end_handle(world, joint, 0),
+                                     .body_b = fe__joint_end_handle(world, joint, 1),
                                      .user_data = r->user_data,
                                      .world_origin = r->world_origin,
                                      .frame_a = r->frame[0],

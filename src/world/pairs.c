@@ -108,10 +108,13 @@ static void create_patches(fe_world *world, int32_t head)
     ++world->field_pair_count;
 }
 
-int32_t fe__pair_create(fe_world *world, int32_t shape_a, int32_t shape_b)
+int32_t fe__pair_create(fe_world *world, int32_t shape_a, int32_t shape_b, int32_t denied)
 {
     int32_t pair = create_record(world, shape_a, shape_b, 0);
-    if (fe__is_field_pair(world, shape_a, shape_b)) create_patches(world, pair);
+    if (denied)
+        world->pairs[pair].flags |= FE__PAIR_DENIED;
+    else if (fe__is_field_pair(world, shape_a, shape_b))
+        create_patches(world, pair);
     const fe__pair *p = world->pairs + pair;
     fe__pair_mix(world, pair);
     add_to_body(world, pair, p->body_a);

@@ -4,10 +4,11 @@
 #include "world/world.h"
 
 int32_t fe__reserve_pairs(fe_world *world, int32_t extra);
-int32_t fe__pair_create(fe_world *world, int32_t shape_a, int32_t shape_b); // room was reserved; A created first
-void fe__pair_destroy(fe_world *world, int32_t pair);                       // unlinks, owes the exit of a pair that touched
-void fe__body_drop_pairs(fe_world *world, int32_t body);                    // all of them
-void fe__body_refilter(fe_world *world, int32_t body);                      // those that may no longer collide
+// Room was reserved; A created first. `denied`: by the pair filter
+int32_t fe__pair_create(fe_world *world, int32_t shape_a, int32_t shape_b, int32_t denied);
+void fe__pair_destroy(fe_world *world, int32_t pair);    // unlinks, owes the exit of a pair that touched
+void fe__body_drop_pairs(fe_world *world, int32_t body); // all of them
+void fe__body_refilter(fe_world *world, int32_t body);   // those that may no longer collide
 
 // Is one of them a field? Such a pair has patches.
 static inline int32_t fe__is_field_pair(const fe_world *world, int32_t shape_a, int32_t shape_b)

@@ -83,7 +83,8 @@ int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *def,
     fe__shape *shape = &world->shapes[index];
     uint32_t listed = shape->flags & FE__SHAPE_MOVED;
     memset(shape, 0, sizeof *shape);
-    shape->flags = listed | (def->trigger ? FE__SHAPE_TRIGGER : 0u);
+    shape->flags = listed | (def->trigger ? FE__SHAPE_TRIGGER : 0u) | (def->pair_filter ? FE__SHAPE_JUDGED : 0u) |
+                   (def->one_way ? FE__SHAPE_ONE_WAY : 0u);
     shape->form = *form;
     shape->density = def->density;
     shape->material = def->material;
@@ -92,6 +93,7 @@ int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *def,
     shape->mask = def->mask;
     shape->events = def->events;
     shape->surface_velocity = def->surface_velocity;
+    shape->one_way = def->one_way_direction;
     shape->user_data = def->user_data;
     shape->body = body;
     shape->serial = world->next_serial++;
@@ -114,6 +116,17 @@ static void drop_pairs(fe_world *world, int32_t index)
         const fe__pair *p = &world->pairs[pair];
         if (p->flags & FE__PAIR_PATCH) continue;
         if (p->shape_a == index || p->shape_b == index) fe__pair_destroy(world, pair);
+    }
+}
+
+// The pair filter judges them anew
+static void drop_denied(fe_world *world, int32_t index)
+{
+    int32_t body = world->shapes[index].body;
+    for (int32_t pair = world->bodies[body].first_contact, next; pair >= 0; pair = next) {
+        next = fe__next_pair(world, pair, body);
+        const fe__pair *p = &world->pairs[pair];
+        if (p->flags & FE__PAIR_DENIED && (p->shape_a == index || p->shape_b == index)) fe__pair_destroy(world, pair);
     }
 }
 
@@ -184,7 +197,32 @@ void fe__shape_set_filter(fe_world *world, int32_t index, uint32_t layer, uint32
     shape->mask = mask;
     shape->group = group;
     fe__body_refilter(world, shape->body);
+    drop_denied(world, index);
     fe__shape_mark_moved(world, index);
+}
+
+// Every pair of the shape is found anew
+static void renew(fe_world *world, int32_t index)
+{
+    fe__body_disturb(world, world->shapes[index].body);
+    drop_pairs(world, index);
+    fe__shape_mark_moved(world, index);
+}
+
+void fe__shape_set_judged(fe_world *world, int32_t index, int32_t judged)
+{
+    fe__shape *shape = &world->shapes[index];
+    if (judged == ((shape->flags & FE__SHAPE_JUDGED) != 0)) return;
+    shape->flags ^= FE__SHAPE_JUDGED;
+    renew(world, index);
+}
+
+void fe__shape_set_one_way(fe_world *world, int32_t index, int32_t one_way, const fe_vec3 *direction)
+{
+    fe__shape *shape = &world->shapes[index];
+    if (direction) shape->one_way = *direction;
+    shape->flags = one_way ? shape->flags | FE__SHAPE_ONE_WAY : shape->flags & ~(uint32_t)FE__SHAPE_ONE_WAY;
+    renew(world, index);
 }
 
 void fe__shape_set_trigger(fe_world *world, int32_t index, int32_t trigger)

@@ -37,6 +37,9 @@ struct fe_world {
     uint64_t user_data;
     int32_t number; // in its handles
 
+    fe_pair_filter pair_filter; // or NULL
+    void *pair_filter_user;
+
     // settings
     fe_vec3 gravity;
     int32_t substeps;

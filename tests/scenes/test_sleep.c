@@ -370,6 +370,23 @@ static void a_moving_kinematic_body_wakes_and_a_still_one_lets_sleep(void **stat
     scene_end(&s);
 }
 
+// Asleep on a lift that moves, cargo would stay behind in the air: that is refused until the lift stands still.
+static void what_rides_cannot_be_put_to_sleep_by_hand(void **state)
+{
+    scene s = scene_begin(state);
+    fe_body lift = add_body(&s, FE_BODY_KINEMATIC, box(2, 0.1, 2), v3(0, -0.1, 0), UNTURNED, friction(0.6), WATER);
+    fe_body cargo = add_sleeper(&s, cube(), v3(0, 0.5, 0));
+    set_velocity(&s, lift, v3(0, 0.2, 0), v3(0, 0, 0));
+    run(&s, 60);
+    assert_int_equal(fe_body_set_awake(s.world, cargo, 0), FE_ERROR_STATE);
+    FE_TRUE(awake(&s, cargo));
+    set_velocity(&s, lift, v3(0, 0, 0), v3(0, 0, 0));
+    run(&s, 2);
+    MUST(fe_body_set_awake(s.world, cargo, 0));
+    FE_TRUE(!awake(&s, cargo));
+    scene_end(&s);
+}
+
 static void destroying_a_support_wakes_what_rested_on_it(void **state)
 {
     for (int kind = 0; kind < 4; ++kind) {
@@ -502,6 +519,7 @@ int main(void)
         TEST(reading_and_zero_forces_wake_nobody),
         TEST(a_touch_wakes_the_island_and_is_reported),
         TEST(a_moving_kinematic_body_wakes_and_a_still_one_lets_sleep),
+        TEST(what_rides_cannot_be_put_to_sleep_by_hand),
         TEST(destroying_a_support_wakes_what_rested_on_it),
         TEST(a_static_body_that_comes_to_a_sleeper_wakes_it),
         TEST(a_body_can_be_put_to_sleep_by_hand),

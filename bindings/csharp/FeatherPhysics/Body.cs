@@ -9,7 +9,10 @@ using System.Numerics;
 
 namespace FeatherPhysics
 {
-    /// <summary>A body of a world. A value: copy it freely, it keeps its world alive and says so when it is destroyed.</summary>
+    /// <summary>
+    /// A body of a world. A value: copy it freely. It keeps its world alive. Calls with a destroyed body throw. As an
+    /// end of a joint <c>default</c> is the world itself.
+    /// </summary>
     public readonly unsafe struct Body : IEquatable<Body>
     {
         readonly World world;
@@ -22,18 +25,11 @@ namespace FeatherPhysics
         public World World { get { return world; } }
         public BodyHandle Handle { get { return new BodyHandle(id); } }
         /// <summary>False once it is destroyed, or its world disposed.</summary>
-        public bool IsValid
-        {
-            get
-            {
-                if (world == null || world.IsDisposed) return false;
-                bool valid = Native.body_is_valid(P, id) != 0;
-                GC.KeepAlive(world);
-                return valid;
-            }
-        }
+        public bool IsValid { get { return World.IsThere(world, World.Kind.Body, id); } }
 
-        /// <summary>Destroys its shapes and joints too; pairs that touched send their exit with the next step's events.</summary>
+        /// <summary>
+        /// Destroys its shapes and joints too; pairs that touched send their exit with the next step's events.
+        /// </summary>
         public void Destroy() { Native.body_destroy(P, id); GC.KeepAlive(world); }
 
         // ---- shapes ----
@@ -50,15 +46,20 @@ namespace FeatherPhysics
             return new Shape(world, made);
         }
         public Shape AddSphere(float radius, ShapeDef def = null) { return Add(Geometry.Sphere(radius), def); }
-        public Shape AddCapsule(float halfHeight, float radius, ShapeDef def = null) { return Add(Geometry.Capsule(halfHeight, radius), def); }
-        public Shape AddBox(float halfX, float halfY, float halfZ, ShapeDef def = null) { return Add(Geometry.Box(halfX, halfY, halfZ), def); }
+        public Shape AddCapsule(float halfHeight, float radius, ShapeDef def = null)
+        {
+            return Add(Geometry.Capsule(halfHeight, radius), def);
+        }
+        public Shape AddBox(float halfX, float halfY, float halfZ, ShapeDef def = null)
+        {
+            return Add(Geometry.Box(halfX, halfY, halfZ), def);
+        }
         public Shape AddPlane(float normalX, float normalY, float normalZ, float distance, ShapeDef def = null)
         {
             return Add(Geometry.Plane(normalX, normalY, normalZ, distance), def);
         }
         public Shape AddTerrain(Heightfield field, ShapeDef def = null)
         {
-            World.CheckMine(world, field.World, "Body.AddTerrain", "heightfield", field.Handle.Value);
             return Add(Geometry.Terrain(field), def);
         }
         /// <summary>Writes its shapes in the order of creation and returns how many there are.</summary>
@@ -86,7 +87,7 @@ namespace FeatherPhysics
         {
             fixed (Contact* out_ = &MemoryMarshal.GetReference(contacts))
             {
-                int count = Native.body_get_contacts(P, id, out_, 0, contacts.Length);
+                int count = Native.body_get_contacts(P, id, out_, (uint)sizeof(Contact), contacts.Length);
                 GC.KeepAlive(world);
                 return count;
             }
@@ -119,7 +120,10 @@ namespace FeatherPhysics
         /// <summary>Its position seen from an origin, in float: what a renderer wants.</summary>
         public Vector3 PositionRelativeTo(DVec3 origin) { return Position.RelativeTo(origin); }
         /// <summary>Centre of mass, m.</summary>
-        public DVec3 Centre { get { DVec3 value; Native.body_get_centre(P, id, &value); GC.KeepAlive(world); return value; } }
+        public DVec3 Centre
+        {
+            get { DVec3 value; Native.body_get_centre(P, id, &value); GC.KeepAlive(world); return value; }
+        }
         /// <summary>Of the centre of mass, m/s. Setting wakes the body.</summary>
         public Vector3 LinearVelocity
         {
@@ -141,20 +145,38 @@ namespace FeatherPhysics
             return value;
         }
         /// <summary>Gives a kinematic body the velocities that bring it to a pose in some seconds.</summary>
-        public void SetTarget(WorldTransform target, float seconds) { Native.body_set_target(P, id, &target, seconds); GC.KeepAlive(world); }
+        public void SetTarget(WorldTransform target, float seconds)
+        {
+            Native.body_set_target(P, id, &target, seconds);
+            GC.KeepAlive(world);
+        }
 
         // ---- forces ----
 
         /// <summary>At the centre of mass, N, during all of the next step.</summary>
         public void AddForce(Vector3 force) { Native.body_add_force(P, id, &force); GC.KeepAlive(world); }
-        public void AddForce(Vector3 force, DVec3 point) { Native.body_add_force_at(P, id, &force, &point); GC.KeepAlive(world); }
+        /// <summary>At a point of the world, N. Its torque is the one that this point gives now.</summary>
+        public void AddForce(Vector3 force, DVec3 point)
+        {
+            Native.body_add_force_at(P, id, &force, &point);
+            GC.KeepAlive(world);
+        }
         /// <summary>N m, during all of the next step.</summary>
         public void AddTorque(Vector3 torque) { Native.body_add_torque(P, id, &torque); GC.KeepAlive(world); }
         /// <summary>Changes the velocity at once by impulse / mass. N s.</summary>
         public void AddImpulse(Vector3 impulse) { Native.body_add_impulse(P, id, &impulse); GC.KeepAlive(world); }
-        public void AddImpulse(Vector3 impulse, DVec3 point) { Native.body_add_impulse_at(P, id, &impulse, &point); GC.KeepAlive(world); }
+        /// <summary>At a point of the world: changes the angular velocity too.</summary>
+        public void AddImpulse(Vector3 impulse, DVec3 point)
+        {
+            Native.body_add_impulse_at(P, id, &impulse, &point);
+            GC.KeepAlive(world);
+        }
         /// <summary>N m s.</summary>
-        public void AddAngularImpulse(Vector3 impulse) { Native.body_add_angular_impulse(P, id, &impulse); GC.KeepAlive(world); }
+        public void AddAngularImpulse(Vector3 impulse)
+        {
+            Native.body_add_angular_impulse(P, id, &impulse);
+            GC.KeepAlive(world);
+        }
 
         // ---- mass ----
 
@@ -164,7 +186,9 @@ namespace FeatherPhysics
             get { float value; Native.body_get_mass(P, id, &value); GC.KeepAlive(world); return value; }
             set { Native.body_set_mass(P, id, value); GC.KeepAlive(world); }
         }
-        /// <summary>What the solver uses; setting overrides what the shapes give, until <see cref="ResetMass"/>.</summary>
+        /// <summary>
+        /// What the solver uses; setting overrides what the shapes give, until <see cref="ResetMass"/>.
+        /// </summary>
         public MassData MassData
         {
             get
@@ -175,15 +199,24 @@ namespace FeatherPhysics
                 GC.KeepAlive(world);
                 return value;
             }
-            set { value.StructSize = (uint)sizeof(MassData); Native.body_set_mass_data(P, id, &value); GC.KeepAlive(world); }
+            set
+            {
+                value.StructSize = (uint)sizeof(MassData);
+                Native.body_set_mass_data(P, id, &value);
+                GC.KeepAlive(world);
+            }
         }
         /// <summary>Mass and inertia from the shapes and their densities again.</summary>
         public void ResetMass() { Native.body_reset_mass(P, id); GC.KeepAlive(world); }
 
         // ---- settings ----
 
-        /// <summary>World axes along and around which it cannot move.</summary>
-        public void SetLocks(Axes linear, Axes angular) { Native.body_set_locks(P, id, (uint)linear, (uint)angular); GC.KeepAlive(world); }
+        /// <summary>World axes along and about which it cannot move.</summary>
+        public void SetLocks(Axes linear, Axes angular)
+        {
+            Native.body_set_locks(P, id, (uint)linear, (uint)angular);
+            GC.KeepAlive(world);
+        }
         public void GetLocks(out Axes linear, out Axes angular)
         {
             uint l, a;
@@ -193,7 +226,11 @@ namespace FeatherPhysics
             angular = (Axes)a;
         }
         /// <summary>1/s.</summary>
-        public void SetDamping(float linear, float angular) { Native.body_set_damping(P, id, linear, angular); GC.KeepAlive(world); }
+        public void SetDamping(float linear, float angular)
+        {
+            Native.body_set_damping(P, id, linear, angular);
+            GC.KeepAlive(world);
+        }
         public void GetDamping(out float linear, out float angular)
         {
             float l, a;
@@ -242,8 +279,28 @@ namespace FeatherPhysics
             get { ulong value; Native.body_get_user_data(P, id, &value); GC.KeepAlive(world); return value; }
             set { Native.body_set_user_data(P, id, value); GC.KeepAlive(world); }
         }
-        /// <summary>Layer and mask of all its shapes.</summary>
-        public void SetFilter(uint layer, uint mask) { Native.body_set_filter(P, id, layer, mask); GC.KeepAlive(world); }
+        /// <summary>Layer, mask and group of all its shapes, see <see cref="ShapeDef"/>.</summary>
+        public void SetFilter(uint layer, uint mask, int group = 0)
+        {
+            Native.body_set_filter(P, id, layer, mask, group);
+            GC.KeepAlive(world);
+        }
+        /// <summary>WrongStateException when it has no shapes, or when they have different filters.</summary>
+        public void GetFilter(out uint layer, out uint mask, out int group)
+        {
+            uint l, m;
+            int g;
+            Native.body_get_filter(P, id, &l, &m, &g);
+            GC.KeepAlive(world);
+            layer = l;
+            mask = m;
+            group = g;
+        }
+        /// <summary>The box around its shapes. It must have some, and none of them a plane.</summary>
+        public WorldBounds Bounds
+        {
+            get { WorldBounds value; Native.body_get_bounds(P, id, &value); GC.KeepAlive(world); return value; }
+        }
 
         // ---- queries ----
 
@@ -254,7 +311,7 @@ namespace FeatherPhysics
             int result = Native.body_raycast(P, id, &origin, &translation, &found);
             GC.KeepAlive(world);
             hit = found;
-            return result == 0;
+            return result == 1;
         }
         /// <summary>The point of this body that is closest to a point.</summary>
         public bool GetClosestPoint(DVec3 point, out ClosestPoint closest)
@@ -263,7 +320,7 @@ namespace FeatherPhysics
             int result = Native.body_closest_point(P, id, &point, &found);
             GC.KeepAlive(world);
             closest = found;
-            return result == 0;
+            return result == 1;
         }
 
         public bool Equals(Body other) { return world == other.world && id == other.id; }

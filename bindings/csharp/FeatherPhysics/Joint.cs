@@ -8,7 +8,7 @@ using System.Numerics;
 
 namespace FeatherPhysics
 {
-    /// <summary>A joint between two bodies.</summary>
+    /// <summary>A joint between two bodies, or between a body and the world.</summary>
     public readonly unsafe struct Joint : IEquatable<Joint>
     {
         readonly World world;
@@ -20,25 +20,21 @@ namespace FeatherPhysics
 
         public World World { get { return world; } }
         public JointHandle Handle { get { return new JointHandle(id); } }
-        public bool IsValid
-        {
-            get
-            {
-                if (world == null || world.IsDisposed) return false;
-                bool valid = Native.joint_is_valid(P, id) != 0;
-                GC.KeepAlive(world);
-                return valid;
-            }
-        }
+        /// <summary>False once it is destroyed or has broken, or its world is disposed.</summary>
+        public bool IsValid { get { return World.IsThere(world, World.Kind.Joint, id); } }
         public void Destroy() { Native.joint_destroy(P, id); GC.KeepAlive(world); }
-        public JointType Type { get { int value; Native.joint_get_type(P, id, &value); GC.KeepAlive(world); return (JointType)value; } }
+        public JointType Type
+        {
+            get { int value; Native.joint_get_type(P, id, &value); GC.KeepAlive(world); return (JointType)value; }
+        }
+        /// <summary><c>default</c> for the end that is the world.</summary>
         public void GetBodies(out Body bodyA, out Body bodyB)
         {
             ulong a, b;
             Native.joint_get_bodies(P, id, &a, &b);
             GC.KeepAlive(world);
-            bodyA = new Body(world, a);
-            bodyB = new Body(world, b);
+            bodyA = a == 0 ? default(Body) : new Body(world, a);
+            bodyB = b == 0 ? default(Body) : new Body(world, b);
         }
         public bool Enabled
         {
@@ -82,45 +78,103 @@ namespace FeatherPhysics
             torque = t;
         }
 
-        /// <summary>What all types have: stiffness, breaking, user data.</summary>
-        public JointDef Common
+        /// <summary>Speed of the motor alone: its cap stays. A change wakes its bodies.</summary>
+        /// <param name="dof">LinearX of a distance joint, AngularX of a hinge, an angular one of a ball joint, any of a
+        /// configurable joint</param>
+        /// <param name="speed">m/s or rad/s</param>
+        public void SetMotorSpeed(Dof dof, float speed)
         {
-            get
-            {
-                JointDef value = default(JointDef);
-                value.StructSize = (uint)sizeof(JointDef);
-                Native.joint_get(P, id, &value);
-                GC.KeepAlive(world);
-                return value;
-            }
-            set
-            {
-                value.StructSize = (uint)sizeof(JointDef);
-                value.BodyA = value.BodyB = default(BodyHandle);
-                Native.joint_set(P, id, &value);
-                GC.KeepAlive(world);
-            }
-        }
-
-        // A definition read back, changed and set again: all of it but the bodies. WrongStateException for a joint of another type.
-        public void Get(DistanceDef def) { World.NotNull(def, "Joint.Get"); fixed (uint* start = &def.StructSize) Native.distance_get(P, id, start); GC.KeepAlive(world); }
-        public void Set(DistanceDef def) { World.NotNull(def, "Joint.Set"); fixed (uint* start = &def.StructSize) Native.distance_set(P, id, start); GC.KeepAlive(world); }
-        public void Get(BallDef def) { World.NotNull(def, "Joint.Get"); fixed (uint* start = &def.StructSize) Native.ball_get(P, id, start); GC.KeepAlive(world); }
-        public void Set(BallDef def) { World.NotNull(def, "Joint.Set"); fixed (uint* start = &def.StructSize) Native.ball_set(P, id, start); GC.KeepAlive(world); }
-        public void Get(HingeDef def) { World.NotNull(def, "Joint.Get"); fixed (uint* start = &def.StructSize) Native.hinge_get(P, id, start); GC.KeepAlive(world); }
-        public void Set(HingeDef def) { World.NotNull(def, "Joint.Set"); fixed (uint* start = &def.StructSize) Native.hinge_set(P, id, start); GC.KeepAlive(world); }
-        public void Get(FixedDef def) { World.NotNull(def, "Joint.Get"); fixed (uint* start = &def.StructSize) Native.fixed_get(P, id, start); GC.KeepAlive(world); }
-        public void Set(FixedDef def) { World.NotNull(def, "Joint.Set"); fixed (uint* start = &def.StructSize) Native.fixed_set(P, id, start); GC.KeepAlive(world); }
-        public void Get(ConfigurableDef def)
-        {
-            World.NotNull(def, "Joint.Get");
-            fixed (uint* start = &def.StructSize) Native.configurable_get(P, id, start);
+            Native.joint_set_motor_speed(P, id, (int)dof, speed);
             GC.KeepAlive(world);
         }
-        public void Set(ConfigurableDef def)
+        /// <summary>Target of the spring alone. A change wakes its bodies.</summary>
+        /// <param name="dof">LinearX of a distance joint, AngularX of a hinge, any of a configurable joint</param>
+        /// <param name="target">m or rad</param>
+        public void SetTarget(Dof dof, float target)
+        {
+            Native.joint_set_target(P, id, (int)dof, target);
+            GC.KeepAlive(world);
+        }
+        /// <summary>Target rotation of a ball joint's spring alone. A change wakes its bodies.</summary>
+        public void SetTarget(Quaternion target)
+        {
+            Native.ball_joint_set_target(P, id, &target);
+            GC.KeepAlive(world);
+        }
+
+        // A definition is read, changed and set again: all of it but the bodies. WrongStateException for a joint of
+        // another type. JointDef is what all types have.
+
+        public void Get(JointDef def)
+        {
+            World.NotNull(def, "Joint.Get");
+            fixed (uint* start = &def.StructSize) Native.joint_get(P, id, start);
+            GC.KeepAlive(world);
+        }
+        public void Set(JointDef def)
         {
             World.NotNull(def, "Joint.Set");
-            fixed (uint* start = &def.StructSize) Native.configurable_set(P, id, start);
+            fixed (uint* start = &def.StructSize) Native.joint_set(P, id, start);
+            GC.KeepAlive(world);
+        }
+        public void Get(DistanceJointDef def)
+        {
+            World.NotNull(def, "Joint.Get");
+            fixed (uint* start = &def.StructSize) Native.distance_joint_get(P, id, start);
+            GC.KeepAlive(world);
+        }
+        public void Set(DistanceJointDef def)
+        {
+            World.NotNull(def, "Joint.Set");
+            fixed (uint* start = &def.StructSize) Native.distance_joint_set(P, id, start);
+            GC.KeepAlive(world);
+        }
+        public void Get(BallJointDef def)
+        {
+            World.NotNull(def, "Joint.Get");
+            fixed (uint* start = &def.StructSize) Native.ball_joint_get(P, id, start);
+            GC.KeepAlive(world);
+        }
+        public void Set(BallJointDef def)
+        {
+            World.NotNull(def, "Joint.Set");
+            fixed (uint* start = &def.StructSize) Native.ball_joint_set(P, id, start);
+            GC.KeepAlive(world);
+        }
+        public void Get(HingeJointDef def)
+        {
+            World.NotNull(def, "Joint.Get");
+            fixed (uint* start = &def.StructSize) Native.hinge_joint_get(P, id, start);
+            GC.KeepAlive(world);
+        }
+        public void Set(HingeJointDef def)
+        {
+            World.NotNull(def, "Joint.Set");
+            fixed (uint* start = &def.StructSize) Native.hinge_joint_set(P, id, start);
+            GC.KeepAlive(world);
+        }
+        public void Get(FixedJointDef def)
+        {
+            World.NotNull(def, "Joint.Get");
+            fixed (uint* start = &def.StructSize) Native.fixed_joint_get(P, id, start);
+            GC.KeepAlive(world);
+        }
+        public void Set(FixedJointDef def)
+        {
+            World.NotNull(def, "Joint.Set");
+            fixed (uint* start = &def.StructSize) Native.fixed_joint_set(P, id, start);
+            GC.KeepAlive(world);
+        }
+        public void Get(ConfigurableJointDef def)
+        {
+            World.NotNull(def, "Joint.Get");
+            fixed (uint* start = &def.StructSize) Native.configurable_joint_get(P, id, start);
+            GC.KeepAlive(world);
+        }
+        public void Set(ConfigurableJointDef def)
+        {
+            World.NotNull(def, "Joint.Set");
+            fixed (uint* start = &def.StructSize) Native.configurable_joint_set(P, id, start);
             GC.KeepAlive(world);
         }
 

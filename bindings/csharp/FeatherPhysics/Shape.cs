@@ -1,4 +1,4 @@
-// A shape, and a heightfield that shapes share: a world and a handle, with fe_shape_*, fe_heightfield_* as members.
+// A shape: a world and a handle, with fe_shape_* as members.
 using System;
 using System.Runtime.InteropServices;
 #if UNITY_5_3_OR_NEWER
@@ -21,19 +21,20 @@ namespace FeatherPhysics
 
         public World World { get { return world; } }
         public ShapeHandle Handle { get { return new ShapeHandle(id); } }
-        public bool IsValid
+        /// <summary>False once it is destroyed, or its world disposed.</summary>
+        public bool IsValid { get { return World.IsThere(world, World.Kind.Shape, id); } }
+        public void Destroy() { Native.shape_destroy(P, id); GC.KeepAlive(world); }
+
+        public Body Body
         {
             get
             {
-                if (world == null || world.IsDisposed) return false;
-                bool valid = Native.shape_is_valid(P, id) != 0;
+                ulong value;
+                Native.shape_get_body(P, id, &value);
                 GC.KeepAlive(world);
-                return valid;
+                return new Body(world, value);
             }
         }
-        public void Destroy() { Native.shape_destroy(P, id); GC.KeepAlive(world); }
-
-        public Body Body { get { ulong value; Native.shape_get_body(P, id, &value); GC.KeepAlive(world); return new Body(world, value); } }
         public Geometry Geometry
         {
             get
@@ -46,20 +47,16 @@ namespace FeatherPhysics
             }
             set { Native.shape_set_geometry(P, id, &value); GC.KeepAlive(world); }
         }
-        /// <summary>In the body's frame, m.</summary>
-        public void SetLocalPose(Vector3 position, Quaternion rotation)
+        /// <summary>Where it is in the body's space.</summary>
+        public Frame Frame
         {
-            Native.shape_set_local_pose(P, id, &position, &rotation);
-            GC.KeepAlive(world);
+            get { Frame value; Native.shape_get_frame(P, id, &value); GC.KeepAlive(world); return value; }
+            set { Native.shape_set_frame(P, id, &value); GC.KeepAlive(world); }
         }
-        public void GetLocalPose(out Vector3 position, out Quaternion rotation)
+        /// <summary>The box around it. A plane has none.</summary>
+        public WorldBounds Bounds
         {
-            Vector3 p;
-            Quaternion r;
-            Native.shape_get_local_pose(P, id, &p, &r);
-            GC.KeepAlive(world);
-            position = p;
-            rotation = r;
+            get { WorldBounds value; Native.shape_get_bounds(P, id, &value); GC.KeepAlive(world); return value; }
         }
         /// <summary>kg/m3.</summary>
         public float Density
@@ -72,15 +69,51 @@ namespace FeatherPhysics
             get { SurfaceMaterial value; Native.shape_get_material(P, id, &value); GC.KeepAlive(world); return value; }
             set { Native.shape_set_material(P, id, &value); GC.KeepAlive(world); }
         }
-        /// <summary>Its layer, exactly one bit, and the layers it collides with.</summary>
-        public void SetFilter(uint layer, uint mask) { Native.shape_set_filter(P, id, layer, mask); GC.KeepAlive(world); }
-        public void GetFilter(out uint layer, out uint mask)
+        /// <summary>Takes effect at the next step.</summary>
+        /// <param name="layer">exactly one bit</param>
+        /// <param name="mask">the layers that it collides with</param>
+        /// <param name="group">shapes of one group collide always (above 0) or never (below 0); 0: none</param>
+        public void SetFilter(uint layer, uint mask, int group = 0)
+        {
+            Native.shape_set_filter(P, id, layer, mask, group);
+            GC.KeepAlive(world);
+        }
+        public void GetFilter(out uint layer, out uint mask, out int group)
         {
             uint l, m;
-            Native.shape_get_filter(P, id, &l, &m);
+            int g;
+            Native.shape_get_filter(P, id, &l, &m, &g);
             GC.KeepAlive(world);
             layer = l;
             mask = m;
+            group = g;
+        }
+        /// <summary>Does the world's pair filter judge its new pairs? See <see cref="World.SetPairFilter"/>.</summary>
+        public bool PairFilter
+        {
+            get { int value; Native.shape_get_pair_filter(P, id, &value); GC.KeepAlive(world); return value != 0; }
+            set { Native.shape_set_pair_filter(P, id, value ? 1 : 0); GC.KeepAlive(world); }
+        }
+        /// <summary>Holds back only what comes against its direction: a floor to jump through.</summary>
+        public bool OneWay
+        {
+            get { bool enabled; Vector3 direction; GetOneWay(out enabled, out direction); return enabled; }
+            set { Native.shape_set_one_way(P, id, value ? 1 : 0, null); GC.KeepAlive(world); }
+        }
+        /// <param name="direction">shape frame, any length but zero: up, for a floor to jump through</param>
+        public void SetOneWay(bool enabled, Vector3 direction)
+        {
+            Native.shape_set_one_way(P, id, enabled ? 1 : 0, &direction);
+            GC.KeepAlive(world);
+        }
+        public void GetOneWay(out bool enabled, out Vector3 direction)
+        {
+            int on;
+            Vector3 d;
+            Native.shape_get_one_way(P, id, &on, &d);
+            GC.KeepAlive(world);
+            enabled = on != 0;
+            direction = d;
         }
         /// <summary>Reports what it touches and pushes nothing.</summary>
         public bool Trigger
@@ -105,12 +138,25 @@ namespace FeatherPhysics
             get { ulong value; Native.shape_get_user_data(P, id, &value); GC.KeepAlive(world); return value; }
             set { Native.shape_set_user_data(P, id, value); GC.KeepAlive(world); }
         }
+        /// <summary>
+        /// Writes the shapes that touched it at the end of the last step, in the order of creation, and returns how
+        /// many there are: who is inside a trigger now.
+        /// </summary>
+        public int GetOverlaps(Span<ShapeHandle> shapes)
+        {
+            fixed (ShapeHandle* out_ = &MemoryMarshal.GetReference(shapes))
+            {
+                int count = Native.shape_get_overlaps(P, id, out_, shapes.Length);
+                GC.KeepAlive(world);
+                return count;
+            }
+        }
         /// <summary>Writes its contacts and returns how many there are.</summary>
         public int GetContacts(Span<Contact> contacts)
         {
             fixed (Contact* out_ = &MemoryMarshal.GetReference(contacts))
             {
-                int count = Native.shape_get_contacts(P, id, out_, 0, contacts.Length);
+                int count = Native.shape_get_contacts(P, id, out_, (uint)sizeof(Contact), contacts.Length);
                 GC.KeepAlive(world);
                 return count;
             }
@@ -122,7 +168,7 @@ namespace FeatherPhysics
             int result = Native.shape_raycast(P, id, &origin, &translation, &found);
             GC.KeepAlive(world);
             hit = found;
-            return result == 0;
+            return result == 1;
         }
         /// <summary>The point of this shape that is closest to a point.</summary>
         public bool GetClosestPoint(DVec3 point, out ClosestPoint closest)
@@ -131,7 +177,7 @@ namespace FeatherPhysics
             int result = Native.shape_closest_point(P, id, &point, &found);
             GC.KeepAlive(world);
             closest = found;
-            return result == 0;
+            return result == 1;
         }
 
         public bool Equals(Shape other) { return world == other.world && id == other.id; }
@@ -140,60 +186,5 @@ namespace FeatherPhysics
         public static bool operator ==(Shape a, Shape b) { return a.Equals(b); }
         public static bool operator !=(Shape a, Shape b) { return !a.Equals(b); }
         public override string ToString() { return "Shape 0x" + id.ToString("x"); }
-    }
-
-    /// <summary>A grid of heights, see <see cref="World.CreateHeightfield"/>: sample (row, column) stands at x = column CellX, z = row CellZ.</summary>
-    public sealed class HeightfieldDef
-    {
-        /// <summary>Samples along z and along x.</summary>
-        public int Rows, Columns;
-        /// <summary>m from column to column and from row to row.</summary>
-        public float CellX = 1, CellZ = 1;
-        /// <summary>Rows x Columns, row by row, m.</summary>
-        public float[] Heights;
-        /// <summary>(Rows - 1) x (Columns - 1), 1: a hole; null: none.</summary>
-        public byte[] Holes;
-        /// <summary>A cell each: index into <see cref="Materials"/>; null: the shape's.</summary>
-        public byte[] CellMaterials;
-        public SurfaceMaterial[] Materials;
-    }
-
-    /// <summary>Terrain that shapes may share.</summary>
-    public readonly unsafe struct Heightfield
-    {
-        readonly World world;
-        readonly ulong id;
-
-        internal Heightfield(World world, ulong id) { this.world = world; this.id = id; }
-
-        void* P { get { return World.PointerOf(world, "Heightfield"); } }
-
-        public World World { get { return world; } }
-        public AssetHandle Handle { get { return new AssetHandle(id); } }
-        public bool IsValid
-        {
-            get
-            {
-                if (world == null || world.IsDisposed) return false;
-                bool valid = Native.asset_is_valid(P, id) != 0;
-                GC.KeepAlive(world);
-                return valid;
-            }
-        }
-        /// <summary>Its heights live until the last shape that has them is gone.</summary>
-        public void Destroy() { Native.asset_destroy(P, id); GC.KeepAlive(world); }
-        /// <summary>Changes the samples of a rectangle; bodies near it wake.</summary>
-        public void SetHeights(int row, int column, int rows, int columns, ReadOnlySpan<float> heights)
-        {
-            World.CheckLength((long)rows * columns, heights.Length, "Heightfield.SetHeights", "heights");
-            fixed (float* start = &MemoryMarshal.GetReference(heights)) Native.heightfield_set_heights(P, id, row, column, rows, columns, start);
-            GC.KeepAlive(world);
-        }
-        public void GetHeights(int row, int column, int rows, int columns, Span<float> heights)
-        {
-            World.CheckLength((long)rows * columns, heights.Length, "Heightfield.GetHeights", "heights");
-            fixed (float* start = &MemoryMarshal.GetReference(heights)) Native.heightfield_get_heights(P, id, row, column, rows, columns, start);
-            GC.KeepAlive(world);
-        }
     }
 }

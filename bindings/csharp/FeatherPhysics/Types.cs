@@ -1,5 +1,5 @@
-// Values that go in and out: positions in double, handles, switches. Vectors and quaternions are System.Numerics', in Unity UnityEngine's; all
-// have the layout of feather.h's records.
+// Values that go in and out: positions in double, handles, switches. Vectors and quaternions are those of
+// System.Numerics, in Unity those of UnityEngine. All have the layout of feather.h's records.
 using System;
 using System.Runtime.InteropServices;
 #if UNITY_5_3_OR_NEWER
@@ -18,7 +18,7 @@ namespace FeatherPhysics
 
         public DVec3(double x, double y, double z) { X = x; Y = y; Z = z; }
 
-        /// <summary>Rounds to float: near the origin only. <see cref="RelativeTo"/> keeps small numbers far away.</summary>
+        /// <summary>Rounds to float: near the origin only. <see cref="RelativeTo"/> serves far away.</summary>
         public static explicit operator Vector3(DVec3 a) { return new Vector3((float)a.X, (float)a.Y, (float)a.Z); }
 
         public static explicit operator DVec3(Vector3 a)
@@ -37,14 +37,17 @@ namespace FeatherPhysics
         public static DVec3 operator -(DVec3 a, DVec3 b) { return new DVec3(a.X - b.X, a.Y - b.Y, a.Z - b.Z); }
         public static DVec3 operator +(DVec3 a, Vector3 b) { return a + (DVec3)b; }
         public static DVec3 operator -(DVec3 a, Vector3 b) { return a - (DVec3)b; }
-        public static DVec3 operator *(DVec3 a, double factor) { return new DVec3(a.X * factor, a.Y * factor, a.Z * factor); }
+        public static DVec3 operator *(DVec3 a, double factor)
+        {
+            return new DVec3(a.X * factor, a.Y * factor, a.Z * factor);
+        }
         public static bool operator ==(DVec3 a, DVec3 b) { return a.X == b.X && a.Y == b.Y && a.Z == b.Z; }
         public static bool operator !=(DVec3 a, DVec3 b) { return !(a == b); }
         public double Length { get { return Math.Sqrt(X * X + Y * Y + Z * Z); } }
         public bool Equals(DVec3 other) { return X.Equals(other.X) && Y.Equals(other.Y) && Z.Equals(other.Z); }
         public override bool Equals(object other) { return other is DVec3 && Equals((DVec3)other); }
         public override int GetHashCode() { return (X.GetHashCode() * 397 ^ Y.GetHashCode()) * 397 ^ Z.GetHashCode(); }
-        public override string ToString() { return "(" + X + ", " + Y + ", " + Z + ")"; }
+        public override string ToString() { return FormattableString.Invariant($"({X}, {Y}, {Z})"); }
     }
 
     /// <summary>A pose in the world.</summary>
@@ -56,6 +59,10 @@ namespace FeatherPhysics
 
         public WorldTransform(DVec3 position) { Position = position; Rotation = new Quaternion(0, 0, 0, 1); }
         public WorldTransform(DVec3 position, Quaternion rotation) { Position = position; Rotation = rotation; }
+        public override string ToString()
+        {
+            return FormattableString.Invariant($"WorldTransform {{ Position = {Position}, Rotation = {Rotation} }}");
+        }
     }
 
     /// <summary>A pose relative to an origin, for drawing.</summary>
@@ -64,6 +71,10 @@ namespace FeatherPhysics
     {
         public Vector3 Position;
         public Quaternion Rotation;
+        public override string ToString()
+        {
+            return FormattableString.Invariant($"RelativeTransform {{ Position = {Position}, Rotation = {Rotation} }}");
+        }
     }
 
     /// <summary>Velocities of a body (m/s, rad/s), or a force and a torque on it (N, N m).</summary>
@@ -73,6 +84,10 @@ namespace FeatherPhysics
         public Vector3 Linear, Angular;
 
         public LinearAngular(Vector3 linear, Vector3 angular) { Linear = linear; Angular = angular; }
+        public override string ToString()
+        {
+            return FormattableString.Invariant($"LinearAngular {{ Linear = {Linear}, Angular = {Angular} }}");
+        }
     }
 
     /// <summary>A bool of four bytes, as the library has it.</summary>
@@ -87,7 +102,9 @@ namespace FeatherPhysics
         public override string ToString() { return (on != 0).ToString(); }
     }
 
-    /// <summary>Names a body in arrays, events and hits; <c>world[handle]</c> makes a <see cref="Body"/> of it.</summary>
+    /// <summary>
+    /// Names a body in arrays, events and hits; <c>world[handle]</c> makes a <see cref="Body"/> of it.
+    /// </summary>
     public readonly struct BodyHandle : IEquatable<BodyHandle>
     {
         public readonly ulong Value;
@@ -98,6 +115,7 @@ namespace FeatherPhysics
         public override int GetHashCode() { return Value.GetHashCode(); }
         public static bool operator ==(BodyHandle a, BodyHandle b) { return a.Value == b.Value; }
         public static bool operator !=(BodyHandle a, BodyHandle b) { return a.Value != b.Value; }
+        public override string ToString() { return "Body 0x" + Value.ToString("x"); }
     }
 
     /// <summary>Names a shape; see <see cref="BodyHandle"/>.</summary>
@@ -111,6 +129,7 @@ namespace FeatherPhysics
         public override int GetHashCode() { return Value.GetHashCode(); }
         public static bool operator ==(ShapeHandle a, ShapeHandle b) { return a.Value == b.Value; }
         public static bool operator !=(ShapeHandle a, ShapeHandle b) { return a.Value != b.Value; }
+        public override string ToString() { return "Shape 0x" + Value.ToString("x"); }
     }
 
     /// <summary>Names a joint; see <see cref="BodyHandle"/>.</summary>
@@ -124,13 +143,36 @@ namespace FeatherPhysics
         public override int GetHashCode() { return Value.GetHashCode(); }
         public static bool operator ==(JointHandle a, JointHandle b) { return a.Value == b.Value; }
         public static bool operator !=(JointHandle a, JointHandle b) { return a.Value != b.Value; }
+        public override string ToString() { return "Joint 0x" + Value.ToString("x"); }
     }
 
     /// <summary>Names what shapes share; see <see cref="Heightfield"/>.</summary>
-    public readonly struct AssetHandle
+    public readonly struct AssetHandle : IEquatable<AssetHandle>
     {
         public readonly ulong Value;
         public AssetHandle(ulong value) { Value = value; }
+        public bool Equals(AssetHandle other) { return Value == other.Value; }
+        public override bool Equals(object other) { return other is AssetHandle && Equals((AssetHandle)other); }
+        public override int GetHashCode() { return Value.GetHashCode(); }
+        public static bool operator ==(AssetHandle a, AssetHandle b) { return a.Value == b.Value; }
+        public static bool operator !=(AssetHandle a, AssetHandle b) { return a.Value != b.Value; }
+        public override string ToString() { return "Asset 0x" + Value.ToString("x"); }
+    }
+
+    public partial struct Frame
+    {
+        /// <summary>Without a rotation.</summary>
+        public Frame(Vector3 position) { Position = position; Rotation = new Quaternion(0, 0, 0, 1); }
+        public Frame(Vector3 position, Quaternion rotation) { Position = position; Rotation = rotation; }
+    }
+
+    public unsafe partial struct SurfaceMaterial
+    {
+        /// <summary>The library's defaults: begin with them, a bare <c>new SurfaceMaterial()</c> is all 0.</summary>
+        public static SurfaceMaterial Default
+        {
+            get { SurfaceMaterial made; Native.material_init(&made); return made; }
+        }
     }
 
     public partial class BodyDef
@@ -145,13 +187,28 @@ namespace FeatherPhysics
         internal static readonly uint Size = (uint)sizeof(Geometry);
 
         /// <param name="radius">m</param>
-        public static Geometry Sphere(float radius) { Geometry made; Native.geometry_sphere(&made, radius); return made; }
+        public static Geometry Sphere(float radius)
+        {
+            Geometry made;
+            Native.geometry_sphere(&made, radius);
+            return made;
+        }
         /// <summary>Along local Y.</summary>
         /// <param name="halfHeight">of the axis, without the caps, m</param>
         /// <param name="radius">m</param>
-        public static Geometry Capsule(float halfHeight, float radius) { Geometry made; Native.geometry_capsule(&made, halfHeight, radius); return made; }
+        public static Geometry Capsule(float halfHeight, float radius)
+        {
+            Geometry made;
+            Native.geometry_capsule(&made, halfHeight, radius);
+            return made;
+        }
         /// <summary>Half its edges, m.</summary>
-        public static Geometry Box(float halfX, float halfY, float halfZ) { Geometry made; Native.geometry_box(&made, halfX, halfY, halfZ); return made; }
+        public static Geometry Box(float halfX, float halfY, float halfZ)
+        {
+            Geometry made;
+            Native.geometry_box(&made, halfX, halfY, halfZ);
+            return made;
+        }
         /// <summary>The half space normal . p &lt;= distance, of static bodies only.</summary>
         public static Geometry Plane(float normalX, float normalY, float normalZ, float distance)
         {
@@ -180,6 +237,10 @@ namespace FeatherPhysics
             }
         }
     }
+
+    /// <summary>Judges two shapes that come near each other, see <see cref="World.SetPairFilter"/>.</summary>
+    /// <returns>may the two collide?</returns>
+    public delegate bool PairFilter(FilterPair pair);
 
     /// <summary>Who counts in a query. Make it once and keep it: queries with it allocate nothing.</summary>
     public sealed class QueryFilter

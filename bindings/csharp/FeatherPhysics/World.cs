@@ -1,4 +1,5 @@
-// A world, its pool, its life: bodies, joints, heightfields, the step, what is read after it. Queries are in WorldQueries.cs.
+// A world: settings, bodies, the step, what is read after it. WorldLife.cs has its life, WorldFilter.cs its pair
+// filter, WorldJoints.cs its joints, WorldQueries.cs its queries.
 using System;
 using System.Runtime.InteropServices;
 #if UNITY_5_3_OR_NEWER
@@ -9,132 +10,11 @@ using System.Numerics;
 
 namespace FeatherPhysics
 {
-    /// <summary>Worker threads that several worlds may share. Lives at least as long as its worlds.</summary>
-    public sealed unsafe class Pool : IDisposable
+    /// <summary>
+    /// Everything that can touch each other. One thread at a time writes, any number read while none does.
+    /// </summary>
+    public sealed unsafe partial class World
     {
-        internal sealed class PoolHandle : SafeHandle
-        {
-            public PoolHandle() : base(IntPtr.Zero, true) { }
-            public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
-            public void Set(IntPtr pool) { SetHandle(pool); }
-            protected override bool ReleaseHandle() { return NativePINVOKE.pool_destroy((void*)handle) == 0; }
-        }
-
-        internal readonly PoolHandle Safe = new PoolHandle();
-
-        /// <param name="workers">1..64, the thread that steps among them</param>
-        public Pool(int workers)
-        {
-            IntPtr made;
-            Native.pool_create(workers, &made);
-            Safe.Set(made);
-        }
-
-        /// <summary>The threads end with the last world that uses them.</summary>
-        public void Dispose() { Safe.Dispose(); }
-    }
-
-    /// <summary>Everything that can touch each other. One thread at a time writes; <see cref="Dispose"/> is a write.</summary>
-    public sealed unsafe partial class World : IDisposable
-    {
-        sealed class WorldHandle : SafeHandle
-        {
-            readonly Pool.PoolHandle pool; // kept until the world is gone
-
-            public WorldHandle(IntPtr world, Pool.PoolHandle pool) : base(IntPtr.Zero, true)
-            {
-                this.pool = pool;
-                SetHandle(world);
-            }
-            public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
-            /// What can fail, so that it can be told.
-            public void Destroy()
-            {
-                Native.world_destroy((void*)handle);
-                SetHandleAsInvalid();
-                if (pool != null) pool.DangerousRelease();
-            }
-            protected override bool ReleaseHandle()
-            {
-                bool done = NativePINVOKE.world_destroy((void*)handle) == 0;
-                if (done && pool != null) pool.DangerousRelease();
-                return done;
-            }
-        }
-
-        readonly WorldHandle safe;
-        void* pointer; // null when disposed
-
-        /// <param name="def">null: the defaults</param>
-        /// <param name="pool">null: workers of its own</param>
-        public World(WorldDef def = null, Pool pool = null)
-        {
-            if (def == null) def = new WorldDef();
-            bool held = false;
-            if (pool != null) pool.Safe.DangerousAddRef(ref held);
-            IntPtr made = IntPtr.Zero;
-            try
-            {
-                def.Pool = pool != null ? pool.Safe.DangerousGetHandle() : IntPtr.Zero;
-                fixed (uint* start = &def.StructSize) Native.world_create(start, &made);
-            }
-            catch
-            {
-                if (held) pool.Safe.DangerousRelease();
-                throw;
-            }
-            safe = new WorldHandle(made, pool != null ? pool.Safe : null);
-            pointer = (void*)made;
-        }
-
-        public World(Vector3 gravity) : this(new WorldDef { Gravity = gravity }) { }
-
-        /// <summary>Destroys the world and all in it. WorldSteppingException while another thread steps it.</summary>
-        public void Dispose()
-        {
-            if (pointer == null) return;
-            safe.Destroy();
-            pointer = null;
-            safe.Dispose();
-        }
-
-        public bool IsDisposed { get { return pointer == null; } }
-
-        void* P
-        {
-            get
-            {
-                if (pointer == null) ThrowDisposed();
-                return pointer;
-            }
-        }
-
-        static void ThrowDisposed() { throw new ObjectDisposedException("World", "World: the world is disposed"); }
-
-        internal static void* PointerOf(World world, string what)
-        {
-            if (world == null) throw new StaleHandleException(what + ": a default value, of no world");
-            return world.P;
-        }
-
-        internal static void CheckMine(World mine, World other, string where, string what, ulong id)
-        {
-            if (mine == null || mine == other) return;
-            throw new StaleHandleException(where + ": " + what + " 0x" + id.ToString("x") + (other == null ? " is of no world" : " is of another world"));
-        }
-
-        internal static void CheckLength(long needed, int length, string where, string what)
-        {
-            if (needed > length) throw new BadArgumentException(where + ": " + what + " has " + length + " elements, " + needed + " are needed");
-        }
-
-        internal static void NotNull(object value, string where)
-        {
-            if (value == null) throw new BadArgumentException(where + ": the definition is null");
-        }
-
-        void Mine(Body body, string where) { CheckMine(this, body.World, where, "body", body.Handle.Value); }
-
         /// <summary>The library's version, major &lt;&lt; 16 | minor &lt;&lt; 8 | patch.</summary>
         public static uint Version { get { return Native.version(); } }
 
@@ -152,7 +32,17 @@ namespace FeatherPhysics
             get { int value; Native.world_get_substeps(P, &value); GC.KeepAlive(this); return value; }
             set { Native.world_set_substeps(P, value); GC.KeepAlive(this); }
         }
-        public ulong UserData { get { ulong value; Native.world_get_user_data(P, &value); GC.KeepAlive(this); return value; } }
+        /// <summary>A number of yours.</summary>
+        public ulong UserData
+        {
+            get { ulong value; Native.world_get_user_data(P, &value); GC.KeepAlive(this); return value; }
+            set { Native.world_set_user_data(P, value); GC.KeepAlive(this); }
+        }
+        /// <summary>The number in this world's handles, 1..4095; see <see cref="WorldDef.Number"/>.</summary>
+        public uint Number
+        {
+            get { uint value; Native.world_get_number(P, &value); GC.KeepAlive(this); return value; }
+        }
         /// <summary>How the solver behaves: a copy; set it to change it.</summary>
         public WorldTuning Tuning
         {
@@ -170,7 +60,17 @@ namespace FeatherPhysics
                 GC.KeepAlive(this);
             }
         }
-        /// <summary>While ignored, two bodies never collide.</summary>
+        /// <summary>The stiffness that a step of dt seconds would really use, 1/s.</summary>
+        /// <param name="dt">0..1 s; 0: no limit</param>
+        public void GetHertz(float dt, out float contactHertz, out float jointHertz)
+        {
+            float c, j;
+            Native.world_get_hertz(P, dt, &c, &j);
+            GC.KeepAlive(this);
+            contactHertz = c;
+            jointHertz = j;
+        }
+        /// <summary>While ignored, two bodies never collide, whatever their layers and groups.</summary>
         public void IgnoreCollision(Body a, Body b, bool ignore = true)
         {
             Mine(a, "World.IgnoreCollision");
@@ -178,8 +78,20 @@ namespace FeatherPhysics
             Native.world_ignore_collision(P, a.Handle.Value, b.Handle.Value, ignore ? 1 : 0);
             GC.KeepAlive(this);
         }
-        /// <summary>Rebalances the trees that serve the queries; worth a call after a level is loaded.</summary>
-        public void SyncQueries() { Native.world_sync_queries(P); GC.KeepAlive(this); }
+        /// <summary>Does <see cref="IgnoreCollision"/> keep the two apart?</summary>
+        public bool IsIgnored(Body a, Body b)
+        {
+            Mine(a, "World.IsIgnored");
+            Mine(b, "World.IsIgnored");
+            int value;
+            Native.world_get_ignored(P, a.Handle.Value, b.Handle.Value, &value);
+            GC.KeepAlive(this);
+            return value != 0;
+        }
+        /// <summary>
+        /// Rebalances the trees that serve the queries. Worth a call after a level is loaded. Results never need it.
+        /// </summary>
+        public void Optimize() { Native.world_optimize(P); GC.KeepAlive(this); }
 
         // ---- bodies ----
 
@@ -192,9 +104,15 @@ namespace FeatherPhysics
             GC.KeepAlive(this);
             return new Body(this, made);
         }
-        public Body CreateStatic(DVec3 position) { return CreateBody(new BodyDef { Type = BodyType.Static, Position = position }); }
+        public Body CreateStatic(DVec3 position)
+        {
+            return CreateBody(new BodyDef { Type = BodyType.Static, Position = position });
+        }
         public Body CreateDynamic(DVec3 position) { return CreateBody(new BodyDef { Position = position }); }
-        public Body CreateKinematic(DVec3 position) { return CreateBody(new BodyDef { Type = BodyType.Kinematic, Position = position }); }
+        public Body CreateKinematic(DVec3 position)
+        {
+            return CreateBody(new BodyDef { Type = BodyType.Kinematic, Position = position });
+        }
 
         /// <summary>A body of one definition at each place: all or none.</summary>
         public void CreateBodies(BodyDef def, ReadOnlySpan<WorldTransform> at, Span<BodyHandle> made)
@@ -215,7 +133,8 @@ namespace FeatherPhysics
                         *(WorldTransform*)(copies + i * size + offset) = at[i];
                     }
                 }
-                fixed (BodyHandle* out_ = &MemoryMarshal.GetReference(made)) Native.body_create_many(P, copies, (uint)size, at.Length, out_);
+                fixed (BodyHandle* out_ = &MemoryMarshal.GetReference(made))
+                    Native.body_create_many(P, copies, (uint)size, at.Length, out_);
             }
             finally { Marshal.FreeHGlobal((IntPtr)copies); }
             GC.KeepAlive(this);
@@ -223,7 +142,8 @@ namespace FeatherPhysics
         /// <summary>All or none.</summary>
         public void DestroyBodies(ReadOnlySpan<BodyHandle> bodies)
         {
-            fixed (BodyHandle* start = &MemoryMarshal.GetReference(bodies)) Native.body_destroy_many(P, start, bodies.Length);
+            fixed (BodyHandle* start = &MemoryMarshal.GetReference(bodies))
+                Native.body_destroy_many(P, start, bodies.Length);
             GC.KeepAlive(this);
         }
 
@@ -242,6 +162,7 @@ namespace FeatherPhysics
                 return count;
             }
         }
+        /// <summary>Writes all joints in the order of creation and returns how many there are.</summary>
         public int GetJoints(Span<JointHandle> joints)
         {
             fixed (JointHandle* out_ = &MemoryMarshal.GetReference(joints))
@@ -254,91 +175,111 @@ namespace FeatherPhysics
 
         // ---- heightfields ----
 
-        /// <summary>Terrain for any number of shapes of this world: <c>body.AddTerrain(field)</c>.</summary>
-        public Heightfield CreateHeightfield(HeightfieldDef def)
+        Store store; // null until somebody asks for the world's own
+
+        /// <summary>
+        /// The store of its assets: the one that it was made with, or its own, which goes with the world.
+        /// </summary>
+        public Store Store
         {
-            NotNull(def, "World.CreateHeightfield");
-            CheckLength((long)def.Rows * def.Columns, def.Heights == null ? 0 : def.Heights.Length, "World.CreateHeightfield", "Heights");
-            long cells = Math.Max(0, (long)def.Rows - 1) * Math.Max(0, (long)def.Columns - 1);
-            if (def.Holes != null) CheckLength(cells, def.Holes.Length, "World.CreateHeightfield", "Holes");
-            if (def.CellMaterials != null) CheckLength(cells, def.CellMaterials.Length, "World.CreateHeightfield", "CellMaterials");
-            NativeHeightfield native;
-            Native.heightfield_def_init(&native, (uint)sizeof(NativeHeightfield));
-            native.Rows = def.Rows;
-            native.Columns = def.Columns;
-            native.CellX = def.CellX;
-            native.CellZ = def.CellZ;
-            native.MaterialCount = def.Materials == null ? 0 : def.Materials.Length;
-            ulong made;
-            fixed (float* heights = def.Heights)
-            fixed (byte* holes = def.Holes)
-            fixed (byte* cellMaterials = def.CellMaterials)
-            fixed (SurfaceMaterial* materials = def.Materials)
+            get
             {
-                native.Heights = (IntPtr)heights;
-                native.Holes = (IntPtr)holes;
-                native.CellMaterials = (IntPtr)cellMaterials;
-                native.Materials = (IntPtr)materials;
-                Native.heightfield_create(P, &native, &made);
+                if (store != null)
+                {
+                    if (IsDisposed) ThrowDisposed();
+                    return store;
+                }
+                IntPtr own;
+                Native.world_get_store(P, &own);
+                GC.KeepAlive(this);
+                System.Threading.Interlocked.CompareExchange(ref store, new Store(this, own), null);
+                return store;
             }
-            GC.KeepAlive(this);
-            return new Heightfield(this, made);
         }
+        /// <summary>Terrain in <see cref="Store"/>: <c>body.AddTerrain(field)</c>.</summary>
+        public Heightfield CreateHeightfield(HeightfieldDef def) { return Store.CreateHeightfield(def); }
 
         // ---- the step, and what is read after it ----
 
-        /// <summary>Moves the world on by dt seconds, 0..1.</summary>
-        public void Step(float dt) { Native.world_step(P, dt); GC.KeepAlive(this); }
+        /// <summary>Moves the world on by dt seconds, 0..1. 0 updates contacts and events and moves nothing.</summary>
+        public void Step(float dt)
+        {
+            Native.world_step(P, dt);
+            GC.KeepAlive(this);
+            if (thrown != null) ThrowFromFilter();
+        }
 
         PairEvent[] pairEvents = new PairEvent[64];
         BodyEvent[] bodyEvents = new BodyEvent[64];
         HitEvent[] hitEvents = new HitEvent[64];
         JointEvent[] jointEvents = new JointEvent[16];
 
-        /// Makes room where so many did not fit; they are then read again.
-        static bool Grows<T>(ref T[] events, int count)
+        // The getters read the field once: another thread may make a longer array of it at any time.
+
+        /// A longer array when so many did not fit; they are then read again.
+        static bool Grows<T>(ref T[] events, T[] read, int count)
         {
-            if (count <= events.Length) return false;
+            if (count <= read.Length) return false;
             events = new T[count + count / 2];
             return true;
         }
-        ReadOnlySpan<T> Told<T>(T[] events, int count)
+        ReadOnlySpan<T> Events<T>(T[] events, int count)
         {
             GC.KeepAlive(this);
             return new ReadOnlySpan<T>(events, 0, count);
         }
 
-        /// <summary>Shapes that began or ceased to touch in the last step. Valid until the next call of this.</summary>
+        /// <summary>
+        /// Shapes that began or ceased to touch in the last step. Valid until the next read of this property.
+        /// </summary>
         public ReadOnlySpan<PairEvent> PairEvents
         {
             get
             {
                 int count;
-                do fixed (PairEvent* start = pairEvents) count = Native.world_get_pair_events(P, start, 0, pairEvents.Length);
-                while (Grows(ref pairEvents, count));
-                return Told(pairEvents, count);
+                PairEvent[] into;
+                do
+                {
+                    into = pairEvents;
+                    fixed (PairEvent* start = into)
+                        count = Native.world_get_pair_events(P, start, (uint)sizeof(PairEvent), into.Length);
+                }
+                while (Grows(ref pairEvents, into, count));
+                return Events(into, count);
             }
         }
-        /// <summary>Bodies that fell asleep or woke in the last step.</summary>
+        /// <summary>Bodies that fell asleep or woke in the last step, and by calls before it.</summary>
         public ReadOnlySpan<BodyEvent> BodyEvents
         {
             get
             {
                 int count;
-                do fixed (BodyEvent* start = bodyEvents) count = Native.world_get_body_events(P, start, 0, bodyEvents.Length);
-                while (Grows(ref bodyEvents, count));
-                return Told(bodyEvents, count);
+                BodyEvent[] into;
+                do
+                {
+                    into = bodyEvents;
+                    fixed (BodyEvent* start = into)
+                        count = Native.world_get_body_events(P, start, (uint)sizeof(BodyEvent), into.Length);
+                }
+                while (Grows(ref bodyEvents, into, count));
+                return Events(into, count);
             }
         }
-        /// <summary>Impacts of the last step, of shapes that ask for them.</summary>
+        /// <summary>Impacts of the last step on shapes that ask for them.</summary>
         public ReadOnlySpan<HitEvent> HitEvents
         {
             get
             {
                 int count;
-                do fixed (HitEvent* start = hitEvents) count = Native.world_get_hit_events(P, start, 0, hitEvents.Length);
-                while (Grows(ref hitEvents, count));
-                return Told(hitEvents, count);
+                HitEvent[] into;
+                do
+                {
+                    into = hitEvents;
+                    fixed (HitEvent* start = into)
+                        count = Native.world_get_hit_events(P, start, (uint)sizeof(HitEvent), into.Length);
+                }
+                while (Grows(ref hitEvents, into, count));
+                return Events(into, count);
             }
         }
         /// <summary>Joints that broke in the last step.</summary>
@@ -347,9 +288,15 @@ namespace FeatherPhysics
             get
             {
                 int count;
-                do fixed (JointEvent* start = jointEvents) count = Native.world_get_joint_events(P, start, 0, jointEvents.Length);
-                while (Grows(ref jointEvents, count));
-                return Told(jointEvents, count);
+                JointEvent[] into;
+                do
+                {
+                    into = jointEvents;
+                    fixed (JointEvent* start = into)
+                        count = Native.world_get_joint_events(P, start, (uint)sizeof(JointEvent), into.Length);
+                }
+                while (Grows(ref jointEvents, into, count));
+                return Events(into, count);
             }
         }
 
@@ -388,6 +335,38 @@ namespace FeatherPhysics
             }
         }
 
+        /// <summary>The box around all shapes but planes. WrongStateException when there is none.</summary>
+        public WorldBounds Bounds
+        {
+            get { WorldBounds value; Native.world_get_bounds(P, &value); GC.KeepAlive(this); return value; }
+        }
+        /// <summary>
+        /// Of all enabled dynamic bodies, in the discrete flight: what a free flight keeps to rounding.
+        /// </summary>
+        public WorldEnergy Energy
+        {
+            get
+            {
+                WorldEnergy value = default(WorldEnergy);
+                value.StructSize = (uint)sizeof(WorldEnergy);
+                Native.world_get_energy(P, &value);
+                GC.KeepAlive(this);
+                return value;
+            }
+        }
+        /// <summary>Of all enabled dynamic bodies.</summary>
+        /// <param name="about">the point that the angular momentum is taken about, m</param>
+        /// <param name="linear">N s</param>
+        /// <param name="angular">N m s</param>
+        public void GetMomentum(DVec3 about, out DVec3 linear, out DVec3 angular)
+        {
+            DVec3 l, a;
+            Native.world_get_momentum(P, &about, &l, &a);
+            GC.KeepAlive(this);
+            linear = l;
+            angular = a;
+        }
+
         // ---- many bodies at once ----
 
         /// <summary>The bodies that the last step moved and where they are now; returns how many.</summary>
@@ -402,11 +381,13 @@ namespace FeatherPhysics
                 return count;
             }
         }
+        /// <summary>All or none, as all the calls below.</summary>
         public void GetTransforms(ReadOnlySpan<BodyHandle> bodies, Span<WorldTransform> transforms)
         {
             CheckLength(bodies.Length, transforms.Length, "World.GetTransforms", "transforms");
             fixed (BodyHandle* b = &MemoryMarshal.GetReference(bodies))
-            fixed (WorldTransform* t = &MemoryMarshal.GetReference(transforms)) Native.world_get_transforms(P, b, t, 0, bodies.Length);
+            fixed (WorldTransform* t = &MemoryMarshal.GetReference(transforms))
+                Native.world_get_transforms(P, b, t, 0, bodies.Length);
             GC.KeepAlive(this);
         }
         /// <summary>In float, relative to an origin: what a renderer wants.</summary>
@@ -414,28 +395,32 @@ namespace FeatherPhysics
         {
             CheckLength(bodies.Length, transforms.Length, "World.GetTransforms", "transforms");
             fixed (BodyHandle* b = &MemoryMarshal.GetReference(bodies))
-            fixed (RelativeTransform* t = &MemoryMarshal.GetReference(transforms)) Native.world_get_transforms_f32(P, b, &origin, t, 0, bodies.Length);
+            fixed (RelativeTransform* t = &MemoryMarshal.GetReference(transforms))
+                Native.world_get_transforms_f32(P, b, &origin, t, 0, bodies.Length);
             GC.KeepAlive(this);
         }
         public void SetTransforms(ReadOnlySpan<BodyHandle> bodies, ReadOnlySpan<WorldTransform> transforms)
         {
             CheckLength(bodies.Length, transforms.Length, "World.SetTransforms", "transforms");
             fixed (BodyHandle* b = &MemoryMarshal.GetReference(bodies))
-            fixed (WorldTransform* t = &MemoryMarshal.GetReference(transforms)) Native.world_set_transforms(P, b, t, 0, bodies.Length);
+            fixed (WorldTransform* t = &MemoryMarshal.GetReference(transforms))
+                Native.world_set_transforms(P, b, t, 0, bodies.Length);
             GC.KeepAlive(this);
         }
         public void GetVelocities(ReadOnlySpan<BodyHandle> bodies, Span<LinearAngular> velocities)
         {
             CheckLength(bodies.Length, velocities.Length, "World.GetVelocities", "velocities");
             fixed (BodyHandle* b = &MemoryMarshal.GetReference(bodies))
-            fixed (LinearAngular* v = &MemoryMarshal.GetReference(velocities)) Native.world_get_velocities(P, b, v, 0, bodies.Length);
+            fixed (LinearAngular* v = &MemoryMarshal.GetReference(velocities))
+                Native.world_get_velocities(P, b, v, 0, bodies.Length);
             GC.KeepAlive(this);
         }
         public void SetVelocities(ReadOnlySpan<BodyHandle> bodies, ReadOnlySpan<LinearAngular> velocities)
         {
             CheckLength(bodies.Length, velocities.Length, "World.SetVelocities", "velocities");
             fixed (BodyHandle* b = &MemoryMarshal.GetReference(bodies))
-            fixed (LinearAngular* v = &MemoryMarshal.GetReference(velocities)) Native.world_set_velocities(P, b, v, 0, bodies.Length);
+            fixed (LinearAngular* v = &MemoryMarshal.GetReference(velocities))
+                Native.world_set_velocities(P, b, v, 0, bodies.Length);
             GC.KeepAlive(this);
         }
         /// <summary>Force at the centre, N, and torque, N m, of each, during the next step.</summary>
@@ -443,7 +428,8 @@ namespace FeatherPhysics
         {
             CheckLength(bodies.Length, forces.Length, "World.AddForces", "forces");
             fixed (BodyHandle* b = &MemoryMarshal.GetReference(bodies))
-            fixed (LinearAngular* f = &MemoryMarshal.GetReference(forces)) Native.world_add_forces(P, b, f, 0, bodies.Length);
+            fixed (LinearAngular* f = &MemoryMarshal.GetReference(forces))
+                Native.world_add_forces(P, b, f, 0, bodies.Length);
             GC.KeepAlive(this);
         }
     }

@@ -6,18 +6,21 @@ namespace FeatherPhysics
 {
     public sealed unsafe partial class World
     {
-        static NativeFilter Filter(QueryFilter filter, BodyHandle* excluded)
-        {
-            NativeFilter native = default(NativeFilter);
-            native.StructSize = (uint)sizeof(NativeFilter);
-            native.Mask = filter.Mask;
-            native.Flags = filter.Triggers ? QueryFlags.Triggers : QueryFlags.Default;
-            native.ExcludedCount = filter.Excluded == null ? 0 : filter.Excluded.Length;
-            native.Excluded = (IntPtr)excluded;
-            return native;
-        }
+        // The list is read once from the filter, so that its length is that of what is pinned.
+        static BodyHandle[] Excluded(QueryFilter filter) { return filter == null ? null : filter.Excluded; }
 
-        static readonly QueryFilter Everything = new QueryFilter();
+        /// The filter as the library reads it: null for none.
+        static NativeFilter* Given(QueryFilter filter, BodyHandle[] excluded, BodyHandle* first, NativeFilter* into)
+        {
+            if (filter == null) return null;
+            *into = default(NativeFilter);
+            into->StructSize = (uint)sizeof(NativeFilter);
+            into->Mask = filter.Mask;
+            into->Flags = filter.Triggers ? QueryFlags.Triggers : QueryFlags.Default;
+            into->ExcludedCount = excluded == null ? 0 : excluded.Length;
+            into->Excluded = (IntPtr)first;
+            return into;
+        }
 
         /// <summary>The first body on a segment.</summary>
         /// <param name="translation">from the start to the end, m</param>
@@ -25,152 +28,193 @@ namespace FeatherPhysics
         public bool Raycast(DVec3 origin, DVec3 translation, out Hit hit, QueryFilter filter = null)
         {
             Hit found = default(Hit);
-            int result;
-            if (filter == null) result = Native.world_raycast(P, &origin, &translation, null, &found);
-            else fixed (BodyHandle* excluded = filter.Excluded)
-            {
-                NativeFilter native = Filter(filter, excluded);
-                result = Native.world_raycast(P, &origin, &translation, &native, &found);
-            }
+            BodyHandle[] excluded = Excluded(filter);
+            NativeFilter own;
+            int count;
+            fixed (BodyHandle* first = excluded)
+                count = Native.world_raycast(P, &origin, &translation, Given(filter, excluded, first, &own), &found);
             GC.KeepAlive(this);
             hit = found;
-            return result == 0;
+            return count == 1;
         }
         /// <summary>Is anything on the segment? Faster than the first.</summary>
         public bool RaycastAny(DVec3 origin, DVec3 translation, QueryFilter filter = null)
         {
-            filter = filter ?? Everything;
-            fixed (BodyHandle* excluded = filter.Excluded)
-            {
-                NativeFilter native = Filter(filter, excluded);
-                int result = Native.world_raycast_any(P, &origin, &translation, &native);
-                GC.KeepAlive(this);
-                return result == 0;
-            }
+            BodyHandle[] excluded = Excluded(filter);
+            NativeFilter own;
+            int count;
+            fixed (BodyHandle* first = excluded)
+                count = Native.world_raycast_any(P, &origin, &translation, Given(filter, excluded, first, &own));
+            GC.KeepAlive(this);
+            return count == 1;
         }
-        /// <summary>Every body on a segment at its first hit, nearest first; returns how many there are.</summary>
+        /// <summary>Every body on a segment at its first hit, nearest first. Returns how many there are.</summary>
         public int RaycastAll(DVec3 origin, DVec3 translation, Span<Hit> hits, QueryFilter filter = null)
         {
-            filter = filter ?? Everything;
-            fixed (BodyHandle* excluded = filter.Excluded)
+            BodyHandle[] excluded = Excluded(filter);
+            NativeFilter own;
+            fixed (BodyHandle* first = excluded)
             fixed (Hit* out_ = &MemoryMarshal.GetReference(hits))
             {
-                NativeFilter native = Filter(filter, excluded);
-                int count = Native.world_raycast_all(P, &origin, &translation, &native, out_, 0, hits.Length);
+                int count = Native.world_raycast_all(P, &origin, &translation, Given(filter, excluded, first, &own),
+                    out_, (uint)sizeof(Hit), hits.Length);
                 GC.KeepAlive(this);
                 return count;
             }
         }
-        /// <summary>A hit for each segment (of a miss the fraction is 1 and the body no body); returns how many hit.</summary>
+        /// <summary>A hit for each segment: of a miss the body is none, the fraction 1. Returns how many hit.</summary>
         /// <param name="spread">over the workers of the world</param>
-        public int RaycastMany(ReadOnlySpan<Ray> rays, Span<Hit> hits, QueryFilter filter = null, bool spread = false)
+        public int RaycastMany(ReadOnlySpan<Ray> rays, Span<Hit> hits, QueryFilter filter = null,
+            bool spread = false)
         {
             CheckLength(rays.Length, hits.Length, "World.RaycastMany", "hits");
-            filter = filter ?? Everything;
-            fixed (BodyHandle* excluded = filter.Excluded)
+            BodyHandle[] excluded = Excluded(filter);
+            NativeFilter own;
+            fixed (BodyHandle* first = excluded)
             fixed (Ray* start = &MemoryMarshal.GetReference(rays))
             fixed (Hit* out_ = &MemoryMarshal.GetReference(hits))
             {
-                NativeFilter native = Filter(filter, excluded);
-                int count = Native.world_raycast_many(P, start, 0, rays.Length, &native, spread ? 1 : 0, out_, 0);
+                int count = Native.world_raycast_many(P, start, (uint)sizeof(Ray), rays.Length,
+                    Given(filter, excluded, first, &own), spread ? 1 : 0, out_, (uint)sizeof(Hit));
                 GC.KeepAlive(this);
                 return count;
             }
         }
 
-        /// <summary>What a sphere, capsule or box that moves without turning touches first.</summary>
-        public bool Sweep(Geometry geometry, WorldTransform start, DVec3 translation, out Hit hit, QueryFilter filter = null)
+        /// <summary>What a sphere, capsule or box that moves without rotating touches first.</summary>
+        public bool Sweep(Geometry geometry, WorldTransform start, DVec3 translation, out Hit hit,
+            QueryFilter filter = null)
         {
-            filter = filter ?? Everything;
             Hit found = default(Hit);
-            int result;
-            fixed (BodyHandle* excluded = filter.Excluded)
-            {
-                NativeFilter native = Filter(filter, excluded);
-                result = Native.world_sweep(P, &geometry, &start, &translation, &native, &found);
-            }
+            BodyHandle[] excluded = Excluded(filter);
+            NativeFilter own;
+            int count;
+            fixed (BodyHandle* first = excluded)
+                count = Native.world_sweep(P, &geometry, &start, &translation,
+                    Given(filter, excluded, first, &own), &found);
             GC.KeepAlive(this);
             hit = found;
-            return result == 0;
+            return count == 1;
         }
+        /// <summary>Does it touch anything? Faster than the first.</summary>
         public bool SweepAny(Geometry geometry, WorldTransform start, DVec3 translation, QueryFilter filter = null)
         {
-            filter = filter ?? Everything;
-            fixed (BodyHandle* excluded = filter.Excluded)
-            {
-                NativeFilter native = Filter(filter, excluded);
-                int result = Native.world_sweep_any(P, &geometry, &start, &translation, &native);
-                GC.KeepAlive(this);
-                return result == 0;
-            }
+            BodyHandle[] excluded = Excluded(filter);
+            NativeFilter own;
+            int count;
+            fixed (BodyHandle* first = excluded)
+                count = Native.world_sweep_any(P, &geometry, &start, &translation,
+                    Given(filter, excluded, first, &own));
+            GC.KeepAlive(this);
+            return count == 1;
         }
-        /// <summary>Every body that it touches on its way, nearest first; returns how many there are.</summary>
-        public int SweepAll(Geometry geometry, WorldTransform start, DVec3 translation, Span<Hit> hits, QueryFilter filter = null)
+        /// <summary>Every body that it touches on its motion, nearest first. Returns how many there are.</summary>
+        public int SweepAll(Geometry geometry, WorldTransform start, DVec3 translation, Span<Hit> hits,
+            QueryFilter filter = null)
         {
-            filter = filter ?? Everything;
-            fixed (BodyHandle* excluded = filter.Excluded)
+            BodyHandle[] excluded = Excluded(filter);
+            NativeFilter own;
+            fixed (BodyHandle* first = excluded)
             fixed (Hit* out_ = &MemoryMarshal.GetReference(hits))
             {
-                NativeFilter native = Filter(filter, excluded);
-                int count = Native.world_sweep_all(P, &geometry, &start, &translation, &native, out_, 0, hits.Length);
+                int count = Native.world_sweep_all(P, &geometry, &start, &translation,
+                    Given(filter, excluded, first, &own), out_, (uint)sizeof(Hit), hits.Length);
                 GC.KeepAlive(this);
                 return count;
             }
         }
         /// <summary>One geometry along many paths; see <see cref="RaycastMany"/>.</summary>
-        public int SweepMany(Geometry geometry, ReadOnlySpan<SweepPath> paths, Span<Hit> hits, QueryFilter filter = null, bool spread = false)
+        public int SweepMany(Geometry geometry, ReadOnlySpan<SweepPath> paths, Span<Hit> hits,
+            QueryFilter filter = null,
+            bool spread = false)
         {
             CheckLength(paths.Length, hits.Length, "World.SweepMany", "hits");
-            filter = filter ?? Everything;
-            fixed (BodyHandle* excluded = filter.Excluded)
+            BodyHandle[] excluded = Excluded(filter);
+            NativeFilter own;
+            fixed (BodyHandle* first = excluded)
             fixed (SweepPath* start = &MemoryMarshal.GetReference(paths))
             fixed (Hit* out_ = &MemoryMarshal.GetReference(hits))
             {
-                NativeFilter native = Filter(filter, excluded);
-                int count = Native.world_sweep_many(P, &geometry, start, 0, paths.Length, &native, spread ? 1 : 0, out_, 0);
+                int count = Native.world_sweep_many(P, &geometry, start, (uint)sizeof(SweepPath), paths.Length,
+                    Given(filter, excluded, first, &own), spread ? 1 : 0, out_, (uint)sizeof(Hit));
                 GC.KeepAlive(this);
                 return count;
             }
         }
 
-        /// <summary>The bodies that a sphere, capsule or box overlaps, in the order of creation; returns how many there are.</summary>
+        /// <summary>
+        /// The bodies that a sphere, capsule or box overlaps, in the order of creation. Returns how many there are.
+        /// </summary>
         public int Overlap(Geometry geometry, WorldTransform at, Span<BodyHandle> bodies, QueryFilter filter = null)
         {
-            filter = filter ?? Everything;
-            fixed (BodyHandle* excluded = filter.Excluded)
+            BodyHandle[] excluded = Excluded(filter);
+            NativeFilter own;
+            fixed (BodyHandle* first = excluded)
             fixed (BodyHandle* out_ = &MemoryMarshal.GetReference(bodies))
             {
-                NativeFilter native = Filter(filter, excluded);
-                int count = Native.world_overlap(P, &geometry, &at, &native, out_, bodies.Length);
+                int count = Native.world_overlap(P, &geometry, &at, Given(filter, excluded, first, &own),
+                    out_, bodies.Length);
                 GC.KeepAlive(this);
                 return count;
             }
         }
+        /// <summary>Does it overlap anything?</summary>
         public bool OverlapAny(Geometry geometry, WorldTransform at, QueryFilter filter = null)
         {
-            filter = filter ?? Everything;
-            fixed (BodyHandle* excluded = filter.Excluded)
+            BodyHandle[] excluded = Excluded(filter);
+            NativeFilter own;
+            int count;
+            fixed (BodyHandle* first = excluded)
+                count = Native.world_overlap_any(P, &geometry, &at, Given(filter, excluded, first, &own));
+            GC.KeepAlive(this);
+            return count == 1;
+        }
+        /// <summary>The shapes that it overlaps, in the order of creation, with direction and depth: to move a
+        /// character out. Returns how many there are.</summary>
+        public int OverlapShapes(Geometry geometry, WorldTransform at, Span<ShapeOverlap> overlaps,
+            QueryFilter filter = null)
+        {
+            BodyHandle[] excluded = Excluded(filter);
+            NativeFilter own;
+            fixed (BodyHandle* first = excluded)
+            fixed (ShapeOverlap* out_ = &MemoryMarshal.GetReference(overlaps))
             {
-                NativeFilter native = Filter(filter, excluded);
-                int result = Native.world_overlap_any(P, &geometry, &at, &native);
+                int count = Native.world_overlap_shapes(P, &geometry, &at, Given(filter, excluded, first, &own),
+                    out_, (uint)sizeof(ShapeOverlap), overlaps.Length);
                 GC.KeepAlive(this);
-                return result == 0;
+                return count;
+            }
+        }
+        /// <summary>
+        /// The shapes whose bounds meet an axis-aligned box, in the order of creation. Returns how many there are.
+        /// </summary>
+        public int OverlapBounds(WorldBounds bounds, Span<ShapeHandle> shapes, QueryFilter filter = null)
+        {
+            BodyHandle[] excluded = Excluded(filter);
+            NativeFilter own;
+            fixed (BodyHandle* first = excluded)
+            fixed (ShapeHandle* out_ = &MemoryMarshal.GetReference(shapes))
+            {
+                int count = Native.world_overlap_bounds(P, &bounds, Given(filter, excluded, first, &own),
+                    out_, shapes.Length);
+                GC.KeepAlive(this);
+                return count;
             }
         }
         /// <summary>The point of all surfaces that is closest to a point, none farther than maxDistance, m.</summary>
-        public bool GetClosestPoint(DVec3 point, double maxDistance, out ClosestPoint closest, QueryFilter filter = null)
+        public bool GetClosestPoint(DVec3 point, double maxDistance, out ClosestPoint closest,
+            QueryFilter filter = null)
         {
-            filter = filter ?? Everything;
             ClosestPoint found = default(ClosestPoint);
-            int result;
-            fixed (BodyHandle* excluded = filter.Excluded)
-            {
-                NativeFilter native = Filter(filter, excluded);
-                result = Native.world_closest_point(P, &point, maxDistance, &native, &found);
-            }
+            BodyHandle[] excluded = Excluded(filter);
+            NativeFilter own;
+            int count;
+            fixed (BodyHandle* first = excluded)
+                count = Native.world_closest_point(P, &point, maxDistance,
+                    Given(filter, excluded, first, &own), &found);
             GC.KeepAlive(this);
             closest = found;
-            return result == 0;
+            return count == 1;
         }
     }
 }

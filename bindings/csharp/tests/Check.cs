@@ -12,7 +12,8 @@ namespace FeatherPhysics.Tests
 
         public static void Near(double value, double expected, double bound, string what)
         {
-            if (!(Math.Abs(value - expected) <= bound)) throw new LawBrokenException(what + ": " + value + " is not within " + bound + " of " + expected);
+            if (Math.Abs(value - expected) <= bound) return;
+            throw new LawBrokenException(what + ": " + value + " is not within " + bound + " of " + expected);
         }
 
         public static void Same<T>(T value, T expected, string what)
@@ -20,17 +21,21 @@ namespace FeatherPhysics.Tests
             if (!Equals(value, expected)) throw new LawBrokenException(what + ": " + value + " instead of " + expected);
         }
 
-        /// The call throws exactly that, and says what it was about.
-        public static void Throws<T>(Action call, string told) where T : Exception
+        /// The call throws exactly that, and its message names what it was about.
+        public static void Throws<T>(Action call, string named) where T : Exception
         {
             try { call(); }
             catch (T e)
             {
-                if (e.Message.IndexOf(told, StringComparison.Ordinal) < 0) throw new LawBrokenException("'" + e.Message + "' does not tell of '" + told + "'");
+                if (e.Message.IndexOf(named, StringComparison.Ordinal) < 0)
+                    throw new LawBrokenException("'" + e.Message + "' does not name '" + named + "'");
                 return;
             }
-            catch (Exception e) { throw new LawBrokenException(e.GetType().Name + " instead of " + typeof(T).Name + ": " + e.Message); }
-            throw new LawBrokenException("no " + typeof(T).Name + " of " + told);
+            catch (Exception e)
+            {
+                throw new LawBrokenException(e.GetType().Name + " instead of " + typeof(T).Name + ": " + e.Message);
+            }
+            throw new LawBrokenException("no " + typeof(T).Name + " of " + named);
         }
     }
 }

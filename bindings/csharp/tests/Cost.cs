@@ -35,7 +35,9 @@ namespace FeatherPhysics.Tests
             return best;
         }
 
-        static void Row(string name, double layer, double raw) { Console.WriteLine("{0,-32} {1,6:F1} ns   raw P/Invoke {2,6:F1} ns   x {3:F2}", name, layer, raw, layer / raw); }
+        static void Row(string name, double layer,
+            double raw) { Console.WriteLine("{0,-32} {1,6:F1} ns   raw P/Invoke {2,6:F1} ns   x {3:F2}", name, layer,
+            raw, layer / raw); }
 
         public static void Print()
         {
@@ -49,12 +51,18 @@ namespace FeatherPhysics.Tests
                 Body body = world.CreateBody();
                 float sum = 0;
                 void* w = (void*)rawWorld;
-                Row("body.LinearVelocity", Best(() => { for (int i = 0; i < Calls; ++i) sum += body.LinearVelocity.X; }, Calls),
-                    Best(() => { Vector3 v; for (int i = 0; i < Calls; ++i) { RawGetVelocity(w, id, &v); sum += v.X; } }, Calls));
-                Row("body.LinearVelocity = v", Best(() => { Vector3 v = new Vector3(1, 0, 0); for (int i = 0; i < Calls; ++i) body.LinearVelocity = v; }, Calls),
-                    Best(() => { Vector3 v = new Vector3(1, 0, 0); for (int i = 0; i < Calls; ++i) RawSetVelocity(w, id, &v); }, Calls));
-                Row("body.Transform", Best(() => { for (int i = 0; i < Calls; ++i) sum += (float)body.Transform.Position.X; }, Calls),
-                    Best(() => { WorldTransform t; for (int i = 0; i < Calls; ++i) { RawGetTransform(w, id, &t); sum += (float)t.Position.X; } }, Calls));
+                Row("body.LinearVelocity", Best(() => { for (int i = 0; i < Calls; ++i) sum += body.LinearVelocity.X; },
+                    Calls),
+                    Best(() => { Vector3 v; for (int i = 0; i < Calls; ++i) { RawGetVelocity(w, id,
+                        &v); sum += v.X; } }, Calls));
+                Row("body.LinearVelocity = v", Best(() => { Vector3 v = new Vector3(1, 0,
+                    0); for (int i = 0; i < Calls; ++i) body.LinearVelocity = v; }, Calls),
+                    Best(() => { Vector3 v = new Vector3(1, 0, 0); for (int i = 0; i < Calls; ++i) RawSetVelocity(w, id,
+                        &v); }, Calls));
+                Row("body.Transform",
+                    Best(() => { for (int i = 0; i < Calls; ++i) sum += (float)body.Transform.Position.X; }, Calls),
+                    Best(() => { WorldTransform t; for (int i = 0; i < Calls; ++i) { RawGetTransform(w, id,
+                        &t); sum += (float)t.Position.X; } }, Calls));
                 GC.KeepAlive(sum);
             }
             PrintBulk();
@@ -70,8 +78,11 @@ namespace FeatherPhysics.Tests
                 for (int i = 0; i < at.Length; ++i) at[i] = new WorldTransform(new DVec3(i, 0, 0));
                 BodyHandle[] bodies = new BodyHandle[10000];
                 world.CreateBodies(new BodyDef(), at, bodies);
-                Console.WriteLine("10000 transforms in double: {0:F1} ns a body", Best(() => { for (int i = 0; i < 20; ++i) world.GetTransforms(bodies, at); }, 200000));
-                Console.WriteLine("10000 transforms in float: {0:F1} ns a body", Best(() => { for (int i = 0; i < 20; ++i) world.GetTransforms(bodies, new DVec3(), near); }, 200000));
+                Console.WriteLine("10000 transforms in double: {0:F1} ns a body",
+                    Best(() => { for (int i = 0; i < 20; ++i) world.GetTransforms(bodies, at); }, 200000));
+                Console.WriteLine("10000 transforms in float: {0:F1} ns a body",
+                    Best(() => { for (int i = 0; i < 20; ++i) world.GetTransforms(bodies, new DVec3(), near); },
+                    200000));
             }
         }
 
@@ -82,7 +93,8 @@ namespace FeatherPhysics.Tests
             for (int i = 0; i < body.Length; ++i)
             {
                 body[i] = world.CreateDynamic(new DVec3(i % 3, 1 + i / 3, 0.1 * i));
-                body[i].AddSphere(0.5f, new ShapeDef { Events = ShapeEvents.Touch | ShapeEvents.Stay | ShapeEvents.Hit });
+                body[i].AddSphere(0.5f,
+                    new ShapeDef { Events = ShapeEvents.Touch | ShapeEvents.Stay | ShapeEvents.Hit });
             }
             return world;
         }
@@ -108,7 +120,8 @@ namespace FeatherPhysics.Tests
                     ClosestPoint closest;
                     if (world.Raycast(new DVec3(0, 9, 0), new DVec3(0, -20, 0), out hit, filter)) told += hit.Triangle;
                     told += world.RaycastAll(new DVec3(0, 9, 0), new DVec3(0, -20, 0), hits, filter);
-                    if (world.Sweep(Geometry.Sphere(0.5f), new WorldTransform(new DVec3(0, 9, 0)), new DVec3(0, -20, 0), out hit)) ++told;
+                    if (world.Sweep(Geometry.Sphere(0.5f), new WorldTransform(new DVec3(0, 9, 0)), new DVec3(0, -20, 0),
+                        out hit)) ++told;
                     told += world.Overlap(Geometry.Sphere(2), new WorldTransform(new DVec3()), bodies);
                     if (world.GetClosestPoint(new DVec3(0, 5, 0), 10, out closest)) ++told;
                     foreach (PairEvent e in world.PairEvents) told += (int)e.Kind;

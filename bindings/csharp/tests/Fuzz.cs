@@ -1,5 +1,6 @@
-// Random calls with random values: whatever comes, an answer or one of the layer's exceptions. Members are found by reflection, so that new ones are
-// called by themselves; those that take spans, which reflection cannot pass, are called by hand.
+// Random calls with random values: each ends in a value or in one of the layer's exceptions. Members are found by
+// reflection, so that new ones are called by themselves. Reflection cannot pass spans: members that take them are called
+// by hand.
 using System;
 using System.Collections.Generic;
 using System.Diagnostics;
@@ -10,8 +11,10 @@ namespace FeatherPhysics.Tests
 {
     sealed class Fuzz
     {
-        static readonly double[] Odd = { 0, -0.0, 1, -1, 0.5, 1e-3, 1e-30, 1e5, 1e9, 1e15, 1e300, double.NaN, double.PositiveInfinity, double.NegativeInfinity };
-        static readonly Type[] Kinds = { typeof(World), typeof(Body), typeof(Shape), typeof(Joint), typeof(Heightfield) };
+        static readonly double[] Odd = { 0, -0.0, 1, -1, 0.5, 1e-3, 1e-30, 1e5, 1e9, 1e15, 1e300, double.NaN,
+            double.PositiveInfinity, double.NegativeInfinity };
+        static readonly Type[] Kinds = { typeof(World), typeof(Body), typeof(Shape), typeof(Joint), typeof(Heightfield),
+            typeof(Store) };
 
         readonly Random random;
         readonly World[] worlds = new World[3];
@@ -25,7 +28,8 @@ namespace FeatherPhysics.Tests
             foreach (Type kind in Kinds)
             {
                 made[kind] = new object[24];
-                foreach (MethodInfo method in kind.GetMethods(BindingFlags.Public | BindingFlags.Instance | BindingFlags.DeclaredOnly))
+                const BindingFlags own = BindingFlags.Public | BindingFlags.Instance | BindingFlags.DeclaredOnly;
+                foreach (MethodInfo method in kind.GetMethods(own))
                     if (Callable(method)) methods.Add(method);
             }
         }
@@ -42,14 +46,16 @@ namespace FeatherPhysics.Tests
         double Number()
         {
             int kind = random.Next(4);
-            return kind == 0 ? Odd[random.Next(Odd.Length)] : kind == 1 ? random.Next(-9, 10) : random.NextDouble() * (kind == 2 ? 2 : 20) - 1;
+            return kind == 0 ? Odd[random.Next(Odd.Length)] : kind == 1 ? random.Next(-9,
+                10) : random.NextDouble() * (kind == 2 ? 2 : 20) - 1;
         }
 
         object Record(Type type)
         {
             object value = Activator.CreateInstance(type, true);
             foreach (FieldInfo field in type.GetFields(BindingFlags.Public | BindingFlags.Instance))
-                if (!field.IsInitOnly && (type.IsValueType || random.Next(6) == 0) && field.Name != "WorkerCount") field.SetValue(value, Value(field.FieldType));
+                if (!field.IsInitOnly && (type.IsValueType || random.Next(6) == 0) &&
+                    field.Name != "WorkerCount") field.SetValue(value, Value(field.FieldType));
             return value;
         }
 
@@ -58,7 +64,8 @@ namespace FeatherPhysics.Tests
             if (type.IsByRef) type = type.GetElementType();
             if (type == typeof(float)) return (float)Number();
             if (type == typeof(double)) return Number();
-            if (type == typeof(int)) return random.Next(5) == 0 ? random.Next(int.MinValue, int.MaxValue) : random.Next(-2, 12);
+            if (type == typeof(int)) return random.Next(5) == 0 ? random.Next(int.MinValue,
+                int.MaxValue) : random.Next(-2, 12);
             if (type == typeof(uint)) return random.Next(3) == 0 ? (uint)random.Next() : 1u << random.Next(32);
             if (type == typeof(ulong)) return (ulong)random.Next() << random.Next(40);
             if (type == typeof(long)) return (long)random.Next();
@@ -66,10 +73,12 @@ namespace FeatherPhysics.Tests
             if (type == typeof(Switch)) return (Switch)(random.Next(2) == 0);
             if (type == typeof(object)) return random.Next(2) == 0 ? null : new object();
             if (type == typeof(Vector3)) return new Vector3((float)Number(), (float)Number(), (float)Number());
-            if (type == typeof(Quaternion)) return new Quaternion((float)Number(), (float)Number(), (float)Number(), (float)Number());
+            if (type == typeof(Quaternion)) return new Quaternion((float)Number(), (float)Number(), (float)Number(),
+                (float)Number());
             if (type == typeof(DVec3)) return new DVec3(Number(), Number(), Number());
             if (type.IsEnum) return Enum.ToObject(type, random.Next(-1, 8));
             if (type == typeof(World)) return worlds[random.Next(worlds.Length)];
+            if (type == typeof(PairFilter)) return Filter();
             if (type == typeof(BodyHandle)) return new BodyHandle(Handle(typeof(Body)));
             if (type == typeof(ShapeHandle)) return new ShapeHandle(Handle(typeof(Shape)));
             if (type == typeof(JointHandle)) return new JointHandle(Handle(typeof(Joint)));
@@ -88,6 +97,17 @@ namespace FeatherPhysics.Tests
             return type.IsValueType ? Activator.CreateInstance(type) : null;
         }
 
+        PairFilter Filter()
+        {
+            World asked = worlds[random.Next(worlds.Length)];
+            if (random.Next(3) == 0) return null;
+            return pair =>
+            {
+                if (random.Next(4) == 0) asked.Gravity = new Vector3(0, -1, 0); // may be the world that steps
+                return random.Next(2) == 0;
+            };
+        }
+
         Geometry Form()
         {
             float size = (float)random.NextDouble() + 0.1f;
@@ -100,11 +120,13 @@ namespace FeatherPhysics.Tests
             }
         }
 
-        HeightfieldDef Terrain() { return new HeightfieldDef { Rows = 4, Columns = 5, CellX = 2, CellZ = 2, Heights = new float[20], Holes = new byte[12] }; }
+        HeightfieldDef Terrain() { return new HeightfieldDef { Rows = 4, Columns = 5, CellX = 2, CellZ = 2,
+            Heights = new float[20], Holes = new byte[12] }; }
 
         object Object(Type type)
         {
             if (type == typeof(World)) return worlds[random.Next(worlds.Length)];
+            if (type == typeof(Store)) return worlds[random.Next(worlds.Length)].Store;
             return made[type][random.Next(24)] ?? Activator.CreateInstance(type);
         }
 
@@ -112,12 +134,14 @@ namespace FeatherPhysics.Tests
         {
             if (random.Next(8) == 0) return (ulong)random.Next() << random.Next(40);
             object value = Object(type);
-            return type == typeof(Body) ? ((Body)value).Handle.Value : type == typeof(Shape) ? ((Shape)value).Handle.Value : ((Joint)value).Handle.Value;
+            return type == typeof(Body) ? ((Body)value).Handle.Value
+                : type == typeof(Shape) ? ((Shape)value).Handle.Value : ((Joint)value).Handle.Value;
         }
 
         void Keep(object value)
         {
-            if (value != null && made.ContainsKey(value.GetType()) && !(value is World)) made[value.GetType()][random.Next(24)] = value;
+            if (value != null && made.ContainsKey(value.GetType()) && !(value is World) &&
+                !(value is Store)) made[value.GetType()][random.Next(24)] = value;
         }
 
         void CallAny()
@@ -131,7 +155,8 @@ namespace FeatherPhysics.Tests
             catch (TargetInvocationException e)
             {
                 if (!(e.InnerException is FeatherException) && !(e.InnerException is ObjectDisposedException))
-                    throw new LawBrokenException(method.DeclaringType.Name + "." + method.Name + " threw " + e.InnerException);
+                    throw new LawBrokenException(
+                        method.DeclaringType.Name + "." + method.Name + " threw " + e.InnerException);
                 ++Refused;
             }
             ++Calls;
@@ -162,7 +187,11 @@ namespace FeatherPhysics.Tests
                     case 1: world.RaycastMany(Some<Ray>(), Some<Hit>(), filter, n > 2); break;
                     case 2: world.SweepAll(form, at, b, Some<Hit>(), filter); break;
                     case 3: world.SweepMany(form, Some<SweepPath>(), Some<Hit>(), filter, n > 2); break;
-                    case 4: world.Overlap(form, at, Some<BodyHandle>(), filter); break;
+                    case 4:
+                        world.Overlap(form, at, Some<BodyHandle>(), filter);
+                        world.OverlapShapes(form, at, Some<ShapeOverlap>(), filter);
+                        world.OverlapBounds((WorldBounds)Value(typeof(WorldBounds)), Some<ShapeHandle>(), filter);
+                        break;
                     case 5: world.GetMoved(Some<BodyHandle>(), Some<WorldTransform>()); break;
                     case 6: world.GetTransforms(Some<BodyHandle>(), Some<WorldTransform>()); break;
                     case 7: world.GetTransforms(Some<BodyHandle>(), a, Some<RelativeTransform>()); break;
@@ -170,14 +199,18 @@ namespace FeatherPhysics.Tests
                     case 9: world.GetVelocities(Some<BodyHandle>(), Some<LinearAngular>()); break;
                     case 10: world.SetVelocities(Some<BodyHandle>(), Some<LinearAngular>()); break;
                     case 11: world.AddForces(Some<BodyHandle>(), Some<LinearAngular>()); break;
-                    case 12: world.CreateBodies((BodyDef)Value(typeof(BodyDef)), Some<WorldTransform>(), Some<BodyHandle>()); break;
+                    case 12: world.CreateBodies((BodyDef)Value(typeof(BodyDef)), Some<WorldTransform>(),
+                        Some<BodyHandle>()); break;
                     case 13: world.DestroyBodies(Some<BodyHandle>()); break;
                     case 14: body.GetContacts(Some<Contact>()); break;
                     case 15: body.GetShapes(Some<ShapeHandle>()); body.GetJoints(Some<JointHandle>()); break;
                     case 16: field.SetHeights(n, n, random.Next(9), n, Some<float>()); break;
                     case 17: field.GetHeights(n, random.Next(9), n, n, Some<float>()); break;
                     case 18: world.GetBodies(Some<BodyHandle>()); world.GetJoints(Some<JointHandle>()); break;
-                    default: Calls += world.PairEvents.Length + world.BodyEvents.Length + world.HitEvents.Length + world.JointEvents.Length; break;
+                    default:
+                        Calls += world.PairEvents.Length + world.BodyEvents.Length;
+                        Calls += world.HitEvents.Length + world.JointEvents.Length;
+                        break;
                 }
             }
             catch (FeatherException) { ++Refused; }
@@ -212,7 +245,8 @@ namespace FeatherPhysics.Tests
                 if (early == 0 && clock.Elapsed.TotalSeconds > seconds / 2) early = Resident();
             }
             long late = Resident();
-            Console.WriteLine("fuzz: seed {0}, {1} calls, {2} refused, {3} MB at half time, {4} MB at the end", seed, fuzz.Calls, fuzz.Refused, early >> 20, late >> 20);
+            Console.WriteLine("fuzz: seed {0}, {1} calls, {2} refused, {3} MB at half time, {4} MB at the end", seed,
+                fuzz.Calls, fuzz.Refused, early >> 20, late >> 20);
             Check.True(late - early < 200L << 20, "memory grows");
             Check.True(fuzz.Calls - fuzz.Refused > fuzz.Calls / 20, "hardly a call is answered");
         }

@@ -1,4 +1,5 @@
-// What the tests run besides xunit:  laws (one by one, as on mono)  scenario [workers]  fuzz seconds [seed]  cost
+// What the tests run besides xunit:
+//   laws (one by one, as on mono) | scenario [workers] | fuzz seconds [seed] | threads seconds [rounds] | cost
 using System;
 using System.Globalization;
 using System.Reflection;
@@ -10,7 +11,8 @@ namespace FeatherPhysics.Tests
         static int RunLaws()
         {
             int passed = 0, failed = 0;
-            foreach (MethodInfo law in typeof(Laws).GetMethods(BindingFlags.Public | BindingFlags.Static | BindingFlags.DeclaredOnly))
+            const BindingFlags all = BindingFlags.Public | BindingFlags.Static | BindingFlags.DeclaredOnly;
+            foreach (MethodInfo law in typeof(Laws).GetMethods(all))
                 try
                 {
                     law.Invoke(null, null);
@@ -31,7 +33,12 @@ namespace FeatherPhysics.Tests
             string what = arguments.Length > 0 ? arguments[0] : "laws";
             if (what == "laws") return RunLaws();
             if (what == "scenario") Scenario.Run(arguments.Length > 1 ? int.Parse(arguments[1]) : 1);
-            else if (what == "fuzz") Fuzz.Run(double.Parse(arguments[1], CultureInfo.InvariantCulture), arguments.Length > 2 ? int.Parse(arguments[2]) : 1);
+            else if (what == "fuzz")
+                Fuzz.Run(double.Parse(arguments[1], CultureInfo.InvariantCulture),
+                    arguments.Length > 2 ? int.Parse(arguments[2]) : 1);
+            else if (what == "threads")
+                Threads.Run(double.Parse(arguments[1], CultureInfo.InvariantCulture),
+                    arguments.Length > 2 ? int.Parse(arguments[2]) : 1);
 #if NET
             else if (what == "cost") Cost.Print();
 #endif

@@ -8,22 +8,27 @@ namespace FeatherPhysics.Tests
     {
         const int Bodies = 300, Steps = 600, Samples = 17;
 
-        static DVec3 Place(int i) { return new DVec3(i % 10 * 1.5 - 6.75, 2.0 + i / 60 * 1.5, i / 10 % 6 * 1.5 - 3.75); }
+        static DVec3 Place(int i) { return new DVec3(i % 10 * 1.5 - 6.75, 2.0 + i / 60 * 1.5,
+            i / 10 % 6 * 1.5 - 3.75); }
 
         static Heightfield AddTerrain(World world)
         {
             float[] heights = new float[Samples * Samples];
             for (int row = 0; row < Samples; ++row)
-                for (int column = 0; column < Samples; ++column) heights[row * Samples + column] = (row * 7 + column * 3) % 5 * 0.125f;
-            Heightfield terrain = world.CreateHeightfield(new HeightfieldDef { Rows = Samples, Columns = Samples, CellX = 2, CellZ = 2, Heights = heights });
-            world.CreateStatic(new DVec3()).AddTerrain(terrain, new ShapeDef { LocalPosition = new Vector3(-16, 0, -16) });
+                for (int column = 0; column < Samples; ++column)
+                    heights[row * Samples + column] = (row * 7 + column * 3) % 5 * 0.125f;
+            Heightfield terrain = world.CreateHeightfield(new HeightfieldDef { Rows = Samples, Columns = Samples,
+                CellX = 2, CellZ = 2, Heights = heights });
+            world.CreateStatic(new DVec3()).AddTerrain(terrain, new ShapeDef { Frame = new Frame(new Vector3(-16, 0,
+                -16)) });
             return terrain;
         }
 
         static Body AddBody(World world, int i)
         {
             Body body = world.CreateDynamic(Place(i));
-            ShapeDef def = new ShapeDef { Events = i % 5 == 0 ? ShapeEvents.Touch | ShapeEvents.Hit : ShapeEvents.Touch };
+            ShapeDef def = new ShapeDef();
+            if (i % 5 == 0) def.Events = ShapeEvents.Touch | ShapeEvents.Hit;
             if (i % 3 == 0) body.AddSphere(0.5f, def);
             if (i % 3 == 1) body.AddBox(0.5f, 0.375f, 0.5f, def);
             if (i % 3 == 2) body.AddCapsule(0.25f, 0.375f, def);
@@ -34,10 +39,11 @@ namespace FeatherPhysics.Tests
         {
             Body a = body[i], b = body[i + 1];
             DVec3 from = Place(i), middle = new DVec3(from.X + 0.75, from.Y, from.Z);
-            if (i % 10 == 0) world.CreateBall(a, b, middle, new Vector3(1, 0, 0));
-            if (i % 10 == 4) world.CreateHinge(a, b, middle, new Vector3(0, 0, 1), new HingeDef { Limited = true, MinAngle = -0.5f, MaxAngle = 0.5f });
-            if (i % 10 == 7) world.CreateDistance(a, b, from, Place(i + 1));
-            if (i % 10 == 2) world.CreateFixed(a, b, middle, new FixedDef { BreakForce = 8192 });
+            if (i % 10 == 0) world.CreateBallJoint(a, b, middle, new Vector3(1, 0, 0));
+            if (i % 10 == 4) world.CreateHingeJoint(a, b, middle, new Vector3(0, 0, 1),
+                new HingeJointDef { LimitEnabled = true, Lower = -0.5f, Upper = 0.5f });
+            if (i % 10 == 7) world.CreateDistanceJoint(a, b, from, Place(i + 1));
+            if (i % 10 == 2) world.CreateFixedJoint(a, b, middle, new FixedJointDef { BreakForce = 8192 });
         }
 
         public static void Run(int workers)
@@ -48,7 +54,8 @@ namespace FeatherPhysics.Tests
                 Heightfield terrain = AddTerrain(world);
                 Body[] body = new Body[Bodies];
                 for (int i = 0; i < Bodies; ++i) body[i] = AddBody(world, i);
-                world.CreateBody(new BodyDef { Type = BodyType.Kinematic, Position = new DVec3(-10, 1, 0), LinearVelocity = new Vector3(0.5f, 0, 0) })
+                world.CreateBody(new BodyDef { Type = BodyType.Kinematic, Position = new DVec3(-10, 1, 0),
+                    LinearVelocity = new Vector3(0.5f, 0, 0) })
                     .AddBox(0.5f, 1, 4);
                 for (int i = 0; i + 1 < Bodies; ++i) AddJoint(world, body, i);
                 Geometry ball = Geometry.Sphere(3);
@@ -80,7 +87,8 @@ namespace FeatherPhysics.Tests
                 }
                 Console.WriteLine("hash {0:x16}", world.Hash);
             }
-            Console.WriteLine("enter {0} exit {1} hit {2} sleep {3} wake {4} break {5} rays {6} overlaps {7}", enter, leave, hits, sleep, wake, broken, rays, overlaps);
+            Console.WriteLine("enter {0} exit {1} hit {2} sleep {3} wake {4} break {5} rays {6} overlaps {7}", enter,
+                leave, hits, sleep, wake, broken, rays, overlaps);
         }
     }
 }

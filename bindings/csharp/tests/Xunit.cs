@@ -10,12 +10,16 @@ namespace FeatherPhysics.Tests
     {
         public static IEnumerable<object[]> Names()
         {
-            foreach (MethodInfo law in typeof(Laws).GetMethods(BindingFlags.Public | BindingFlags.Static | BindingFlags.DeclaredOnly)) yield return new object[] { law.Name };
+            const BindingFlags all = BindingFlags.Public | BindingFlags.Static | BindingFlags.DeclaredOnly;
+            foreach (MethodInfo law in typeof(Laws).GetMethods(all)) yield return new object[] { law.Name };
         }
 
         [Theory]
         [MemberData(nameof(Names))]
-        public void Law(string name) { ((Action)Delegate.CreateDelegate(typeof(Action), typeof(Laws).GetMethod(name)))(); }
+        public void Law(string name)
+        {
+            ((Action)Delegate.CreateDelegate(typeof(Action), typeof(Laws).GetMethod(name)))();
+        }
 
         [Fact]
         public void Steps_queries_and_events_allocate_nothing() { Assert.Equal(0, Cost.BytesOfSteps(2000)); }

@@ -8,6 +8,8 @@ enum {
     FE__SHAPE_CENTRED = 2, // local pose is the identity
     FE__SHAPE_IN_TREE = 4,
     FE__SHAPE_IN_PLANES = 8, // planes are in a list, not in a tree
+    FE__SHAPE_JUDGED = 32,   // the pair filter judges its new pairs
+    FE__SHAPE_ONE_WAY = 64,  // holds back only what comes against one_way
     FE__SHAPE_MOVED = 16     // in the list of proxies whose box is new: looks for pairs in the next step
 };
 
@@ -25,6 +27,7 @@ typedef struct fe__shape {
     uint32_t events; // fe_shape_events
     float density;
     fe_vec3 surface_velocity;
+    fe_vec3 one_way;        // its own frame, any length but zero
     int32_t next, previous; // of the body's shapes, in the order of creation
     uint64_t serial;        // of creation, never reused
     uint64_t body_serial;   // of its body

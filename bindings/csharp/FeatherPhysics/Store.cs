@@ -1,0 +1,218 @@
+// A store of assets, and the heightfields in it: fe_store_*, fe_heightfield_*, fe_asset_* as members.
+using System;
+using System.Runtime.InteropServices;
+
+namespace FeatherPhysics
+{
+    /// <summary>
+    /// Assets that several worlds may share. Any thread may create, read and destroy assets while worlds that use the
+    /// store step. A world without one has a store of its own: <see cref="World.Store"/>.
+    /// </summary>
+    public sealed unsafe class Store : IDisposable
+    {
+        internal sealed class StoreHandle : SafeHandle
+        {
+            public StoreHandle() : base(IntPtr.Zero, true) { }
+            public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
+            public void Set(IntPtr store) { SetHandle(store); }
+            protected override bool ReleaseHandle() { return NativePINVOKE.store_destroy((void*)handle) == 0; }
+        }
+
+        /// Null for the own store of a world, which goes with that world.
+        internal readonly StoreHandle Safe;
+        readonly World owner;
+        readonly IntPtr pointer;
+        volatile bool disposed;
+
+        /// <param name="def">null: the defaults</param>
+        public Store(StoreDef def = null)
+        {
+            IntPtr made;
+            if (def == null) Native.store_create(null, &made);
+            else fixed (uint* start = &def.StructSize) Native.store_create(start, &made);
+            Safe = new StoreHandle();
+            Safe.Set(made);
+            pointer = made;
+        }
+
+        internal Store(World owner, IntPtr pointer)
+        {
+            this.owner = owner;
+            this.pointer = pointer;
+        }
+
+        /// <summary>The store goes with the last world that uses it, a world's own store with that world.</summary>
+        public void Dispose()
+        {
+            if (Safe == null) return;
+            disposed = true;
+            Safe.Dispose();
+        }
+
+        /// Keeps the store until Leave(held), or throws ObjectDisposedException.
+        internal void* Enter(ref bool held)
+        {
+            if (Safe == null) owner.Hold(ref held);
+            else Hold(ref held);
+            return (void*)pointer;
+        }
+        internal void Hold(ref bool held)
+        {
+            if (disposed) throw new ObjectDisposedException("Store", "Store: the store is disposed");
+            Safe.DangerousAddRef(ref held);
+        }
+        internal void Leave(bool held)
+        {
+            if (!held) return;
+            if (Safe != null) Safe.DangerousRelease();
+            else owner.Release();
+        }
+
+        /// <summary>Memory of the store and its assets.</summary>
+        public long Bytes
+        {
+            get
+            {
+                bool held = false;
+                try
+                {
+                    long value;
+                    Native.store_get_bytes(Enter(ref held), &value);
+                    return value;
+                }
+                finally { Leave(held); }
+            }
+        }
+
+        /// <summary>Terrain for any number of shapes of the store's worlds: <c>body.AddTerrain(field)</c>.</summary>
+        public Heightfield CreateHeightfield(HeightfieldDef def)
+        {
+            const string where = "Store.CreateHeightfield";
+            World.NotNull(def, where);
+            // copies, so that what is checked is what is read, whatever another thread does to the definition
+            int rows = def.Rows, columns = def.Columns;
+            float[] heights = def.Heights;
+            byte[] holes = def.Holes, cellMaterials = def.CellMaterials;
+            SurfaceMaterial[] materials = def.Materials;
+            World.CheckLength((long)rows * columns, heights == null ? 0 : heights.Length, where, "Heights");
+            long cells = Math.Max(0, (long)rows - 1) * Math.Max(0, (long)columns - 1);
+            if (holes != null) World.CheckLength(cells, holes.Length, where, "Holes");
+            if (cellMaterials != null) World.CheckLength(cells, cellMaterials.Length, where, "CellMaterials");
+            NativeHeightfield native;
+            Native.heightfield_def_init(&native, (uint)sizeof(NativeHeightfield));
+            native.Rows = rows;
+            native.Columns = columns;
+            native.CellX = def.CellX;
+            native.CellZ = def.CellZ;
+            native.MaterialCount = materials == null ? 0 : materials.Length;
+            bool held = false;
+            try
+            {
+                fixed (float* heightsAt = heights)
+                fixed (byte* holesAt = holes)
+                fixed (byte* cellMaterialsAt = cellMaterials)
+                fixed (SurfaceMaterial* materialsAt = materials)
+                {
+                    native.Heights = (IntPtr)heightsAt;
+                    native.Holes = (IntPtr)holesAt;
+                    native.CellMaterials = (IntPtr)cellMaterialsAt;
+                    native.Materials = (IntPtr)materialsAt;
+                    ulong made;
+                    Native.heightfield_create(Enter(ref held), &native, &made);
+                    return new Heightfield(this, made);
+                }
+            }
+            finally { Leave(held); }
+        }
+    }
+
+    /// <summary>
+    /// A grid of heights, see <see cref="Store.CreateHeightfield"/>: sample (row, column) stands at x = column CellX,
+    /// z = row CellZ.
+    /// </summary>
+    public sealed class HeightfieldDef
+    {
+        /// <summary>Samples along z and along x.</summary>
+        public int Rows, Columns;
+        /// <summary>m from column to column and from row to row.</summary>
+        public float CellX = 1, CellZ = 1;
+        /// <summary>Rows x Columns, row by row, m.</summary>
+        public float[] Heights;
+        /// <summary>(Rows - 1) x (Columns - 1), 1: a hole; null: none.</summary>
+        public byte[] Holes;
+        /// <summary>A cell each: index into <see cref="Materials"/>; null: the shape's.</summary>
+        public byte[] CellMaterials;
+        public SurfaceMaterial[] Materials;
+    }
+
+    /// <summary>Terrain that shapes of many worlds may share. A value that keeps its store alive.</summary>
+    public readonly unsafe struct Heightfield : IEquatable<Heightfield>
+    {
+        readonly Store store;
+        readonly ulong id;
+
+        internal Heightfield(Store store, ulong id) { this.store = store; this.id = id; }
+
+        public Store Store { get { return store; } }
+        public AssetHandle Handle { get { return new AssetHandle(id); } }
+        /// <summary>False once it is destroyed, or its store disposed.</summary>
+        public bool IsValid
+        {
+            get
+            {
+                if (store == null) return false;
+                bool held = false;
+                try { return Native.asset_is_valid(store.Enter(ref held), id) != 0; }
+                catch (ObjectDisposedException) { return false; }
+                finally { store.Leave(held); }
+            }
+        }
+        /// <summary>The handle dies at once. Its heights live until the last shape that has them is gone.</summary>
+        public void Destroy()
+        {
+            bool held = false;
+            try { Native.asset_destroy(Enter(ref held), id); }
+            finally { Leave(held); }
+        }
+        /// <summary>
+        /// Changes the samples of a rectangle. Bodies near it wake in every world. WorldSteppingException while a world
+        /// that uses it steps.
+        /// </summary>
+        public void SetHeights(int row, int column, int rows, int columns, ReadOnlySpan<float> heights)
+        {
+            World.CheckLength((long)rows * columns, heights.Length, "Heightfield.SetHeights", "heights");
+            bool held = false;
+            try
+            {
+                fixed (float* start = &MemoryMarshal.GetReference(heights))
+                    Native.heightfield_set_heights(Enter(ref held), id, row, column, rows, columns, start);
+            }
+            finally { Leave(held); }
+        }
+        public void GetHeights(int row, int column, int rows, int columns, Span<float> heights)
+        {
+            World.CheckLength((long)rows * columns, heights.Length, "Heightfield.GetHeights", "heights");
+            bool held = false;
+            try
+            {
+                fixed (float* start = &MemoryMarshal.GetReference(heights))
+                    Native.heightfield_get_heights(Enter(ref held), id, row, column, rows, columns, start);
+            }
+            finally { Leave(held); }
+        }
+
+        void* Enter(ref bool held)
+        {
+            if (store == null) throw new StaleHandleException("Heightfield: a default value, of no store");
+            return store.Enter(ref held);
+        }
+        void Leave(bool held) { if (held) store.Leave(true); }
+
+        public bool Equals(Heightfield other) { return store == other.store && id == other.id; }
+        public override bool Equals(object other) { return other is Heightfield && Equals((Heightfield)other); }
+        public override int GetHashCode() { return id.GetHashCode(); }
+        public static bool operator ==(Heightfield a, Heightfield b) { return a.Equals(b); }
+        public static bool operator !=(Heightfield a, Heightfield b) { return !a.Equals(b); }
+        public override string ToString() { return "Heightfield 0x" + id.ToString("x"); }
+    }
+}
