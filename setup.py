@@ -1,6 +1,7 @@
-"""Builds the Python package: the Makefile makes the core with all its SIMD sets, SWIG the wrapper, setuptools links the two into one module.
+"""Builds the Python package. The Makefile makes the core with all its SIMD sets, SWIG makes the wrapper, setuptools
+links the two into one module.
 
-Needs a C compiler, make, SWIG and Python's header. FEATHER_ARCHIVE=path takes a libfeather.a that is there already.
+It needs a C compiler, make, SWIG and Python's header. FEATHER_ARCHIVE=path takes a libfeather.a that exists already.
 """
 
 import os

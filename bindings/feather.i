@@ -1,8 +1,8 @@
 // One interface for every language. SWIG makes a flat private module from it and from include/feather.h: each function
 // of the header stands there without its prefix (fe_world_step is world_step), each constant under its own name. What a
 // type becomes in a language is stated once, by the type and the name of a parameter, in python/python.i,
-// csharp/csharp.i and lua/lua.i: a new function appears by itself. The layers written by hand stand on the flat modules.
-// (LuaJIT has no module: lua/feather/ffi.lua reads the header itself.)
+// csharp/csharp.i and lua/lua.i: a new function appears by itself. The layers written by hand stand on the flat
+// modules. (LuaJIT has no module: lua/feather/ffi.lua reads the header itself.)
 //
 // The inline functions at the end of the header (fe_geometry_sphere...) and those of twins.h are compiled into each
 // module. They stand beside the others: geometry_sphere, body_get_position.

@@ -1,5 +1,6 @@
-// What Python objects become on their way into the library and back. Worlds and pools are capsules that own them: a body's object keeps its
-// world alive, and a world that is closed is an error. Arrays are anything with the buffer protocol (array, bytes, memoryview, NumPy).
+// Conversions of Python objects for the library, and back. Worlds, pools and stores are capsules that own
+// them: a body's object keeps its world alive, and a world that is closed is an error. Arrays are anything with the
+// buffer protocol (array, bytes, memoryview, NumPy).
 #ifndef FE_BINDINGS_PYTHON_CONVERT_H
 #define FE_BINDINGS_PYTHON_CONVERT_H
 
@@ -9,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-// ---- errors ---------------------------------------------------------------------------------------------------------------------
+// ---- errors ---------------------------------------------------------------------------------------------------------
 
-enum { ERROR_CLASSES = 9 }; // by -fe_result; 0: FeatherError itself
+enum { ERROR_CLASSES = 14 }; // by -fe_result; 0: FeatherError itself
 static PyObject *error_classes[ERROR_CLASSES];
 
 static PyObject *error_class(int result)
@@ -44,28 +45,44 @@ static int fails(int result, const char *text)
     return -1;
 }
 
-// ---- worlds and pools -----------------------------------------------------------------------------------------------------------
+// ---- worlds, pools, stores ------------------------------------------------------------------------------------------
 
 static const char world_name[] = "feather_physics.world";
 static const char pool_name[] = "feather_physics.pool";
+static const char store_name[] = "feather_physics.store";
 
 typedef struct world_box {
-    fe_world *world; ///< NULL: closed
-    PyObject *kept;  ///< what must outlive the world: its pool. Or NULL
-    int readers;     ///< threads that read it without the GIL
-    int steppers;    ///< 1 while a thread steps it without the GIL
+    fe_world *world;       ///< NULL: closed
+    PyObject *kept;        ///< what must outlive the world: its pool, its store. Or NULL
+    PyObject *filter;      ///< judges new pairs. Or NULL
+    PyObject *failure[3];  ///< type, value, trace of the filter's first failure in this step; type NULL: none
+    int readers;           ///< threads that read it without the GIL
+    int steppers;          ///< 1 while a thread steps it without the GIL, more when its filter steps again
+    unsigned long stepper; ///< that thread
 } world_box;
 
 typedef struct pool_box {
     fe_pool *pool; ///< NULL: closed
 } pool_box;
 
+typedef struct store_box {
+    fe_store *store; ///< NULL: closed
+    PyObject *world; ///< the capsule of the world that the store belongs to; NULL: it belongs to the box
+} store_box;
+
+static void close_world(world_box *box)
+{
+    box->world = NULL;
+    Py_CLEAR(box->filter);
+    Py_CLEAR(box->kept);
+}
+
 static void release_world(PyObject *capsule)
 {
     world_box *box = PyCapsule_GetPointer(capsule, world_name);
     if (!box) return;
     if (box->world) (void)fe_world_destroy(box->world);
-    Py_XDECREF(box->kept);
+    close_world(box);
     free(box);
 }
 
@@ -74,6 +91,15 @@ static void release_pool(PyObject *capsule)
     pool_box *box = PyCapsule_GetPointer(capsule, pool_name);
     if (!box) return;
     if (box->pool) (void)fe_pool_destroy(box->pool);
+    free(box);
+}
+
+static void release_store(PyObject *capsule)
+{
+    store_box *box = PyCapsule_GetPointer(capsule, store_name);
+    if (!box) return;
+    if (box->store && !box->world) (void)fe_store_destroy(box->store);
+    Py_XDECREF(box->world);
     free(box);
 }
 
@@ -103,42 +129,60 @@ static PyObject *new_pool(fe_pool *pool)
     return capsule;
 }
 
+/// @param world  capsule of the world that the store belongs to, or NULL
+static PyObject *new_store(fe_store *store, PyObject *world)
+{
+    store_box *box = calloc(1, sizeof *box);
+    PyObject *capsule = box ? PyCapsule_New(box, store_name, release_store) : PyErr_NoMemory();
+    if (capsule) {
+        box->store = store;
+        box->world = Py_XNewRef(world);
+    } else {
+        if (!world) (void)fe_store_destroy(store);
+        free(box);
+    }
+    return capsule;
+}
+
+static void *box_of(PyObject *object, const char *name, const char *what)
+{
+    if (PyCapsule_IsValid(object, name)) return PyCapsule_GetPointer(object, name);
+    PyErr_Format(PyExc_TypeError, "a %s is needed, not '%s'", what, Py_TYPE(object)->tp_name);
+    return NULL;
+}
+
 static world_box *world_of(PyObject *object)
 {
-    if (!PyCapsule_CheckExact(object)) {
-        PyErr_Format(PyExc_TypeError, "a world is needed, not '%s'", Py_TYPE(object)->tp_name);
-        return NULL;
-    }
-    world_box *box = PyCapsule_GetPointer(object, world_name);
-    if (!box) return NULL;
-    if (!box->world) {
+    world_box *box = box_of(object, world_name, "world");
+    if (box && !box->world) {
         (void)fails(FE_ERROR_STALE, "the world is closed");
         return NULL;
     }
     return box;
 }
 
-/// -1 where a world may not be read, or written, now: it is closed, or used without the GIL.
-static int may_use(const world_box *box, int writes, const char *function)
-{
-    if (!box->world) return fails(FE_ERROR_STALE, "the world is closed");
-    if (!box->steppers && !(writes && box->readers)) return 0;
-    PyErr_Format(error_class(FE_ERROR_STEPPING), "%s: another thread %s the world", function, box->steppers ? "steps" : "reads");
-    return -1;
-}
-
 static pool_box *pool_of(PyObject *object)
 {
-    if (!PyCapsule_CheckExact(object)) {
-        PyErr_Format(PyExc_TypeError, "a pool is needed, not '%s'", Py_TYPE(object)->tp_name);
-        return NULL;
-    }
-    pool_box *box = PyCapsule_GetPointer(object, pool_name);
+    pool_box *box = box_of(object, pool_name, "pool");
     if (box && !box->pool) {
         (void)fails(FE_ERROR_STALE, "the pool is closed");
         return NULL;
     }
     return box;
+}
+
+static int store_lives(const store_box *box)
+{
+    const world_box *world = box->world ? PyCapsule_GetPointer(box->world, world_name) : NULL;
+    if (box->store && (!box->world || (world && world->world))) return 1;
+    (void)fails(FE_ERROR_STALE, "the store is closed");
+    return 0;
+}
+
+static store_box *store_of(PyObject *object)
+{
+    store_box *box = box_of(object, store_name, "store");
+    return box && store_lives(box) ? box : NULL;
 }
 
 /// Makes a world hold a reference to what must not go before it.
@@ -151,24 +195,88 @@ static PyObject *world_keep(PyObject *world, PyObject *object)
     Py_RETURN_NONE;
 }
 
-// ---- small values ---------------------------------------------------------------------------------------------------------------
+// ---- threads and the pair filter ------------------------------------------------------------------------------------
 
-static PyTypeObject *vec3_type, *quat_type, *transform_type;
+/// -1 where a world may not be read, or written, now: it is closed, or another thread uses it without the GIL. What a
+/// pair filter may not do in its own thread is the library's to refuse.
+static int may_use(const world_box *box, int writes, const char *function)
+{
+    if (!box->world) return fails(FE_ERROR_STALE, "the world is closed");
+    int steps = box->steppers && box->stepper != PyThread_get_thread_ident();
+    if (!steps && !(writes && box->readers)) return 0;
+    PyErr_Format(error_class(FE_ERROR_BUSY), "%s: another thread %s the world", function, steps ? "steps" : "reads");
+    return -1;
+}
+
+static void enter_read(world_box *box) { ++box->readers; }
+
+static int leave_read(world_box *box)
+{
+    --box->readers;
+    return 0;
+}
+
+static void enter_step(world_box *box)
+{
+    if (box->steppers++ == 0) box->stepper = PyThread_get_thread_ident();
+}
+
+/// Raises what the filter raised during the step.
+static int leave_step(world_box *box)
+{
+    if (--box->steppers > 0 || !box->failure[0]) return 0;
+    PyErr_Restore(box->failure[0], box->failure[1], box->failure[2]);
+    box->failure[0] = box->failure[1] = box->failure[2] = NULL;
+    return -1;
+}
+
+static PyObject *pair_record(const fe_filter_pair *pair);
+
+/// Called by the library for a new pair, on the thread that steps. After a failure the rest of the step goes on with 1.
+static int32_t judge_pair(void *user, const fe_filter_pair *pair)
+{
+    world_box *box = user;
+    if (box->failure[0]) return 1;
+    PyGILState_STATE state = PyGILState_Ensure();
+    PyObject *record = pair_record(pair);
+    PyObject *filter = Py_NewRef(box->filter);
+    PyObject *answer = record ? PyObject_CallOneArg(filter, record) : NULL;
+    int32_t allowed = answer ? PyObject_IsTrue(answer) : -1;
+    if (allowed < 0) {
+        PyErr_Fetch(&box->failure[0], &box->failure[1], &box->failure[2]);
+        allowed = 1;
+    }
+    Py_XDECREF(answer);
+    Py_DECREF(filter);
+    Py_XDECREF(record);
+    PyGILState_Release(state);
+    return allowed;
+}
+
+/// The world holds its filter; None is no filter.
+static void keep_filter(world_box *box, PyObject *filter) { Py_XSETREF(box->filter, filter == Py_None ? NULL : Py_NewRef(filter)); }
+
+// ---- small values ---------------------------------------------------------------------------------------------------
+
+static PyTypeObject *vec3_type, *quat_type, *transform_type, *bounds_type;
 
 static PyStructSequence_Field vec3_fields[] = {{"x", NULL}, {"y", NULL}, {"z", NULL}, {NULL, NULL}};
 static PyStructSequence_Field quat_fields[] = {{"x", NULL}, {"y", NULL}, {"z", NULL}, {"w", NULL}, {NULL, NULL}};
 static PyStructSequence_Field transform_fields[] = {{"position", "m"}, {"rotation", "x, y, z, w"}, {NULL, NULL}};
+static PyStructSequence_Field bounds_fields[] = {{"lower", "m"}, {"upper", "m"}, {NULL, NULL}};
 static PyStructSequence_Desc vec3_desc = {"feather_physics.Vec3", "A vector: a tuple with the names x, y, z.", vec3_fields, 3};
 static PyStructSequence_Desc quat_desc = {"feather_physics.Quat", "A rotation: a tuple with the names x, y, z, w.", quat_fields, 4};
 static PyStructSequence_Desc transform_desc = {"feather_physics.Transform", "Position (Vec3, m) and rotation (Quat).", transform_fields, 2};
+static PyStructSequence_Desc bounds_desc = {"feather_physics.Bounds", "Two corners of a box (Vec3, m): lower, upper.", bounds_fields, 2};
 
 static int add_types(PyObject *module)
 {
     vec3_type = PyStructSequence_NewType(&vec3_desc);
     quat_type = PyStructSequence_NewType(&quat_desc);
     transform_type = PyStructSequence_NewType(&transform_desc);
-    return !vec3_type || !quat_type || !transform_type || PyModule_AddType(module, vec3_type) || PyModule_AddType(module, quat_type) ||
-           PyModule_AddType(module, transform_type);
+    bounds_type = PyStructSequence_NewType(&bounds_desc);
+    return !vec3_type || !quat_type || !transform_type || !bounds_type || PyModule_AddType(module, vec3_type) ||
+           PyModule_AddType(module, quat_type) || PyModule_AddType(module, transform_type) || PyModule_AddType(module, bounds_type);
 }
 
 static PyObject *numbers(PyTypeObject *type, const double *values, Py_ssize_t count)
@@ -195,22 +303,27 @@ static PyObject *from_quat(const fe_quat *q)
     return numbers(quat_type, (double[]){(double)q->x, (double)q->y, (double)q->z, (double)q->w}, 4);
 }
 
-static PyObject *pose(PyObject *position, PyObject *rotation)
+static PyObject *pair_of(PyTypeObject *type, PyObject *first, PyObject *second)
 {
-    PyObject *made = position && rotation ? PyStructSequence_New(transform_type) : NULL;
+    PyObject *made = first && second ? PyStructSequence_New(type) : NULL;
     if (!made) {
-        Py_XDECREF(position);
-        Py_XDECREF(rotation);
+        Py_XDECREF(first);
+        Py_XDECREF(second);
         return NULL;
     }
-    PyStructSequence_SET_ITEM(made, 0, position);
-    PyStructSequence_SET_ITEM(made, 1, rotation);
+    PyStructSequence_SET_ITEM(made, 0, first);
+    PyStructSequence_SET_ITEM(made, 1, second);
     return made;
 }
 
-static PyObject *from_transform(const fe_transform *t) { return pose(from_dvec3(&t->position), from_quat(&t->rotation)); }
+static PyObject *from_transform(const fe_transform *t)
+{
+    return pair_of(transform_type, from_dvec3(&t->position), from_quat(&t->rotation));
+}
 
-static PyObject *from_frame(const fe_frame *f) { return pose(from_vec3(&f->position), from_quat(&f->rotation)); }
+static PyObject *from_frame(const fe_frame *f) { return pair_of(transform_type, from_vec3(&f->position), from_quat(&f->rotation)); }
+
+static PyObject *from_bounds(const fe_bounds *b) { return pair_of(bounds_type, from_dvec3(&b->lower), from_dvec3(&b->upper)); }
 
 /// Reads `count` numbers from any sequence. `what` names the argument in the error.
 static int to_numbers(PyObject *object, double *values, Py_ssize_t count, const char *what)
@@ -259,24 +372,27 @@ static int to_quat(PyObject *object, fe_quat *q, const char *what)
     return 0;
 }
 
-static int to_pair(PyObject *object, PyObject **position, PyObject **rotation, const char *what)
+/// @param names  what the two are, for the error
+static int to_pair(PyObject *object, PyObject **first, PyObject **second, const char *what, const char *names)
 {
     PyObject *tuple = PySequence_Tuple(object);
     if (tuple && PyTuple_GET_SIZE(tuple) == 2) {
-        *position = Py_NewRef(PyTuple_GET_ITEM(tuple, 0));
-        *rotation = Py_NewRef(PyTuple_GET_ITEM(tuple, 1));
+        *first = Py_NewRef(PyTuple_GET_ITEM(tuple, 0));
+        *second = Py_NewRef(PyTuple_GET_ITEM(tuple, 1));
         Py_DECREF(tuple);
         return 0;
     }
     Py_XDECREF(tuple);
-    PyErr_Format(PyExc_TypeError, "%s: a position and a rotation are needed", what);
+    PyErr_Format(PyExc_TypeError, "%s: %s are needed", what, names);
     return -1;
 }
+
+static const char a_pose[] = "a position and a rotation";
 
 static int to_transform(PyObject *object, fe_transform *t, const char *what)
 {
     PyObject *position, *rotation;
-    if (to_pair(object, &position, &rotation, what)) return -1;
+    if (to_pair(object, &position, &rotation, what, a_pose)) return -1;
     int failed = to_dvec3(position, &t->position, what) || to_quat(rotation, &t->rotation, what);
     Py_DECREF(position);
     Py_DECREF(rotation);
@@ -286,27 +402,28 @@ static int to_transform(PyObject *object, fe_transform *t, const char *what)
 static int to_frame(PyObject *object, fe_frame *f, const char *what)
 {
     PyObject *position, *rotation;
-    if (to_pair(object, &position, &rotation, what)) return -1;
+    if (to_pair(object, &position, &rotation, what, a_pose)) return -1;
     int failed = to_vec3(position, &f->position, what) || to_quat(rotation, &f->rotation, what);
     Py_DECREF(position);
     Py_DECREF(rotation);
     return failed ? -1 : 0;
 }
 
-/// In the order of fe_material's fields.
-static int to_material(PyObject *object, fe_material *material, const char *what)
+static int to_bounds(PyObject *object, fe_bounds *b, const char *what)
 {
-    double n[5] = {0};
-    if (to_numbers(object, n, 5, what)) return -1;
-    material->static_friction = (float)n[0], material->dynamic_friction = (float)n[1], material->restitution = (float)n[2];
-    material->rolling_resistance = (float)n[3], material->spinning_resistance = (float)n[4];
-    return 0;
+    PyObject *lower, *upper;
+    if (to_pair(object, &lower, &upper, what, "a lower and an upper corner")) return -1;
+    int failed = to_dvec3(lower, &b->lower, what) || to_dvec3(upper, &b->upper, what);
+    Py_DECREF(lower);
+    Py_DECREF(upper);
+    return failed ? -1 : 0;
 }
 
 static PyObject *from_material(const fe_material *m)
 {
-    return Py_BuildValue("(ddddd)", (double)m->static_friction, (double)m->dynamic_friction, (double)m->restitution,
-                         (double)m->rolling_resistance, (double)m->spinning_resistance);
+    return Py_BuildValue("(dddddiiK)", (double)m->static_friction, (double)m->dynamic_friction, (double)m->restitution,
+                         (double)m->rolling_resistance, (double)m->spinning_resistance, (int)m->friction_combine,
+                         (int)m->restitution_combine, (unsigned long long)m->user_id);
 }
 
 /// A float of anything that has one; what is beyond its range becomes infinite, which the library refuses.
@@ -338,9 +455,33 @@ static int to_integer(PyObject *object, long long low, unsigned long long high, 
     return -1;
 }
 
-// ---- arrays ---------------------------------------------------------------------------------------------------------------------
+/// In the order of fe_material's fields: five numbers, then, if you like, two combine modes and the user's number.
+static int to_material(PyObject *object, fe_material *material, const char *what)
+{
+    fe_material m = {0};
+    PyObject *id = NULL;
+    unsigned long long number = 0;
+    PyObject *tuple = PySequence_Tuple(object);
+    if (!tuple) return -1;
+    int read = PyArg_ParseTuple(tuple, "fffff|iiO", &m.static_friction, &m.dynamic_friction, &m.restitution, &m.rolling_resistance,
+                                &m.spinning_resistance, &m.friction_combine, &m.restitution_combine, &id);
+    if (!read) {
+        PyErr_Clear();
+        PyErr_Format(PyExc_TypeError, "%s: five numbers, two combine modes and an integer are needed", what);
+    } else if (id && to_integer(id, 0, UINT64_MAX, &number, "user_id")) {
+        read = 0;
+    }
+    Py_DECREF(tuple);
+    if (!read) return -1;
+    m.user_id = number;
+    *material = m;
+    return 0;
+}
+
+// ---- arrays ---------------------------------------------------------------------------------------------------------
 
 enum { MAX_VIEWS = 6 };
+enum { RAY_SIZE = offsetof(fe_ray, reserved), PATH_SIZE = offsetof(fe_path, reserved) };
 
 /// The buffers that a call borrows, and how many records each has room for.
 typedef struct call_state {
@@ -349,6 +490,7 @@ typedef struct call_state {
     void *memory;     ///< copies of records, or NULL
     int64_t count;    ///< of the input arrays; -1: none yet
     int64_t capacity; ///< of the output arrays; -1: none yet
+    uint32_t stride;  ///< size of a record of the array, where the array is one of records; else 0: packed
 } call_state;
 
 static void begin_call(call_state *call)
@@ -356,6 +498,7 @@ static void begin_call(call_state *call)
     call->views = 0;
     call->memory = NULL;
     call->count = call->capacity = -1;
+    call->stride = 0;
 }
 
 static void end_call(call_state *call)
@@ -425,6 +568,7 @@ static int to_output(call_state *call, PyObject *object, size_t record, const ch
     }
     int64_t capacity = (int64_t)((size_t)view->len / record);
     if (call->capacity < 0 || capacity < call->capacity) call->capacity = capacity;
+    if (!*codes) call->stride = (uint32_t)record;
     *out_array = view->buf;
     return 0;
 }

@@ -1,8 +1,10 @@
-// What feather.h's types become in Python: small vectors are tuples with names, definitions and results objects with the header's fields, arrays
-// anything with the buffer protocol (their strides and counts are found from it), errors exceptions, worlds and pools capsules.
+// Types of feather.h in Python: small vectors are tuples with names, definitions and results objects with the header's
+// fields, arrays anything with the buffer protocol (their strides and counts are found from it), errors exceptions;
+// worlds, pools and stores are capsules.
 %{
 #include "python/convert.h"
 %}
+%include "records.i"
 %init %{
     if (add_types(m) || forget_ownership_methods(SwigPyObject_type())) return NULL;
 %}
@@ -31,9 +33,10 @@ static PyObject *flat_world_keep(PyObject *self, PyObject *arguments)
 }
 %}
 
-// ---- worlds and pools: `call` keeps what the arguments borrow, so that it is released whatever fails ------------------------------------------
+// ---- worlds, pools, stores: `call` keeps what the arguments borrow, so that it is released whatever fails -----------
 
-%typemap(arginit) fe_world *, const fe_world * "begin_call(&call$argnum);"
+%typemap(arginit) fe_world *, const fe_world *, fe_store *, const fe_store * "begin_call(&call$argnum);"
+%typemap(freearg) fe_world *, const fe_world *, fe_store *, const fe_store * "end_call(&call$argnum);"
 %typemap(in) fe_world * (world_box *box = 0, call_state call) {
     box = world_of($input);
     if (!box) SWIG_fail;
@@ -43,14 +46,13 @@ static PyObject *flat_world_keep(PyObject *self, PyObject *arguments)
 // when all arguments are converted: a number's __float__ may close the world, or let another thread step it
 %typemap(check) fe_world * "if (may_use(box$argnum, 1, \"$symname\")) SWIG_fail;"
 %typemap(check) const fe_world * "if (may_use(box$argnum, 0, \"$symname\")) SWIG_fail;"
-%typemap(freearg) fe_world *, const fe_world * "end_call(&call$argnum);"
 %typemap(argout) fe_world *, const fe_world * ""
 %typemap(argout) fe_world *world %{
-    if (result == FE_OK && strcmp("$symname", "world_destroy") == 0) box$argnum->world = NULL;
+    if (result == FE_OK && strcmp("$symname", "world_destroy") == 0) close_world(box$argnum);
 %}
-
 %typemap(in, numinputs=0) fe_world **out_world (fe_world *made = 0) "$1 = &made;"
 %typemap(argout) fe_world **out_world %{ $result = new_world(*$1); %}
+
 %typemap(in, numinputs=0) fe_pool **out_pool (fe_pool *made = 0) "$1 = &made;"
 %typemap(argout) fe_pool **out_pool %{ $result = new_pool(*$1); %}
 %typemap(in) fe_pool *pool (pool_box *given = 0) {
@@ -63,42 +65,82 @@ static PyObject *flat_world_keep(PyObject *self, PyObject *arguments)
 %typemap(argout) fe_pool *pool %{
     if (strcmp("$symname", "pool_destroy") == 0 && given$argnum) given$argnum->pool = NULL;
 %}
-%typemap(out) fe_pool * "$result = SWIG_Py_Void();"
+%typemap(out) fe_pool *, fe_store * "$result = SWIG_Py_Void();"
 
-// The GIL is given back where a call may take long and only reads what other threads may read, and in the step. What the others must not do meanwhile
-// is said while the GIL is held: the library's own check comes too late for who looked just before the step began.
-%define FE_WITHOUT_GIL(NAME, USERS)
+%typemap(in, numinputs=0) fe_store **out_store (fe_store *made = 0) "$1 = &made;"
+// the store that a world has: it is of use while the world lives
+%typemap(argout) fe_store **out_store %{
+    $result = new_store(*$1, strcmp("$symname", "world_get_store") == 0 ? swig_obj[0] : NULL);
+%}
+%typemap(in) fe_store *store (store_box *given = 0, call_state call) {
+    if ($input != Py_None) {
+        given = store_of($input);
+        if (!given) SWIG_fail;
+        $1 = given->store;
+    }
+}
+%typemap(in) const fe_store *store = fe_store *store;
+// when all arguments are converted, as above
+%typemap(check) fe_store *store, const fe_store *store "if (given$argnum && !store_lives(given$argnum)) SWIG_fail;"
+%typemap(argout) fe_store *store %{
+    if (strcmp("$symname", "store_destroy") == 0 && given$argnum) given$argnum->store = NULL;
+%}
+
+// The GIL is given back in the step, and where a call may take long and only reads. What the other threads must not do
+// meanwhile is checked while the GIL is held: the library's own check comes too late for a thread that closes the world
+// just before the step begins.
+%define FE_WITHOUT_GIL(NAME, ENTER, LEAVE)
 %exception NAME {
-    ++box1->USERS;
+    ENTER(box1);
     Py_BEGIN_ALLOW_THREADS
     $action
     Py_END_ALLOW_THREADS
-    --box1->USERS;
+    if (LEAVE(box1)) SWIG_fail;
 }
 %enddef
-FE_WITHOUT_GIL(fe_world_step, steppers)
-FE_WITHOUT_GIL(fe_world_raycast_many, readers)
-FE_WITHOUT_GIL(fe_world_sweep_many, readers)
-FE_WITHOUT_GIL(fe_world_get_moved, readers)
-FE_WITHOUT_GIL(fe_world_get_transforms, readers)
-FE_WITHOUT_GIL(fe_world_get_transforms_f32, readers)
-FE_WITHOUT_GIL(fe_world_get_velocities, readers)
+FE_WITHOUT_GIL(fe_world_step, enter_step, leave_step)
+FE_WITHOUT_GIL(fe_world_raycast_many, enter_read, leave_read)
+FE_WITHOUT_GIL(fe_world_sweep_many, enter_read, leave_read)
+FE_WITHOUT_GIL(fe_world_get_moved, enter_read, leave_read)
+FE_WITHOUT_GIL(fe_world_get_transforms, enter_read, leave_read)
+FE_WITHOUT_GIL(fe_world_get_transforms_f32, enter_read, leave_read)
+FE_WITHOUT_GIL(fe_world_get_velocities, enter_read, leave_read)
 
-// ---- results --------------------------------------------------------------------------------------------------------------------
+// A callable that takes a filter_pair and returns whether the two may collide, or None. The world keeps it.
+%typemap(in) (fe_pair_filter filter, void *user) {
+    if ($input != Py_None && !PyCallable_Check($input)) {
+        PyErr_Format(PyExc_TypeError, "filter: a callable is needed, not '%s'", Py_TYPE($input)->tp_name);
+        SWIG_fail;
+    }
+    $1 = $input == Py_None ? NULL : judge_pair;
+    $2 = box1;
+}
+%typemap(argout) (fe_pair_filter filter, void *user) "keep_filter(box1, $input);"
+%{
+static PyObject *pair_record(const fe_filter_pair *pair)
+{
+    fe_filter_pair *copy = malloc(sizeof *copy);
+    if (!copy) return PyErr_NoMemory();
+    *copy = *pair;
+    return SWIG_Python_NewPointerObj(NULL, copy, SWIGTYPE_p_fe_filter_pair, SWIG_POINTER_OWN);
+}
+%}
 
-%typemap(out) fe_result {
+// ---- results --------------------------------------------------------------------------------------------------------
+
+%typemap(out) fe_result, FE_FOUND {
     if ($1 < 0) {
         raise_result($1);
         SWIG_fail;
     }
     $result = SWIG_Py_Void();
 }
-%typemap(out) fe_result fe_world_raycast_any, fe_result fe_world_sweep_any, fe_result fe_world_overlap_any {
+%typemap(out) FE_ANY {
     if ($1 < 0) {
         raise_result($1);
         SWIG_fail;
     }
-    $result = PyBool_FromLong($1 == FE_OK);
+    $result = PyBool_FromLong($1);
 }
 // counts; a field that is read may be negative
 %typemap(out) int32_t {
@@ -109,7 +151,7 @@ FE_WITHOUT_GIL(fe_world_get_velocities, readers)
     $result = PyLong_FromLong($1);
 }
 
-// ---- numbers that go in ---------------------------------------------------------------------------------------------------------
+// ---- numbers that go in ---------------------------------------------------------------------------------------------
 
 %typemap(in) float, double {
     double value;
@@ -125,22 +167,27 @@ FE_WITHOUT_GIL(fe_world_get_velocities, readers)
 %enddef
 FE_INTEGER(int32_t, INT32_MIN, INT32_MAX)
 FE_INTEGER(uint32_t, 0, UINT32_MAX)
+FE_INTEGER(uint64_t, 0, UINT64_MAX)
 FE_INTEGER(fe_handle, 0, UINT64_MAX)
 
-// ---- values that come out -------------------------------------------------------------------------------------------------------
+// ---- values that come out -------------------------------------------------------------------------------------------
 
 %define FE_OUT(TYPE, MAKE)
 %typemap(in, numinputs=0) TYPE ($*1_ltype value) "$1 = &value;"
 %typemap(argout) TYPE { $result = SWIG_Python_AppendOutput($result, MAKE); }
 %enddef
 FE_OUT(fe_handle *, PyLong_FromUnsignedLongLong(*$1))
+FE_OUT(uint64_t *, PyLong_FromUnsignedLongLong(*$1))
 FE_OUT(int32_t *, PyLong_FromLong(*$1))
+FE_OUT(int64_t *, PyLong_FromLongLong(*$1))
 FE_OUT(uint32_t *, PyLong_FromUnsignedLong(*$1))
 FE_OUT(float *, PyFloat_FromDouble((double)*$1))
 %typemap(in, numinputs=0) uint32_t *out_words (uint32_t words[2]) "$1 = words;"
 %typemap(argout) uint32_t *out_words %{
     $result = PyLong_FromUnsignedLongLong((unsigned long long)$1[1] << 32 | $1[0]);
 %}
+
+%typemap(out) float barycentric[2] %{ $result = Py_BuildValue("(dd)", (double)$1[0], (double)$1[1]); %}
 
 // `fe_vec3 *` without a name is a value that goes in, as a member's setter has it.
 %define FE_SMALL(TYPE, NAME)
@@ -160,23 +207,33 @@ FE_SMALL(fe_dvec3, dvec3)
 FE_SMALL(fe_quat, quat)
 FE_SMALL(fe_transform, transform)
 FE_SMALL(fe_frame, frame)
+FE_SMALL(fe_bounds, bounds)
 FE_SMALL(fe_material, material)
+// one that may be NULL
+%typemap(in) const fe_vec3 *direction (fe_vec3 value) {
+    if ($input != Py_None) {
+        if (to_vec3($input, &value, "$1_name")) SWIG_fail;
+        $1 = &value;
+    }
+}
 FE_OUT_SMALL(fe_vec3, vec3, out_gravity)
 FE_OUT_SMALL(fe_vec3, vec3, out_velocity)
 FE_OUT_SMALL(fe_vec3, vec3, out_force)
 FE_OUT_SMALL(fe_vec3, vec3, out_torque)
-FE_OUT_SMALL(fe_vec3, vec3, out_position)
+FE_OUT_SMALL(fe_vec3, vec3, out_direction)
 FE_OUT_SMALL(fe_dvec3, dvec3, out_position)
 FE_OUT_SMALL(fe_dvec3, dvec3, out_centre)
+FE_OUT_SMALL(fe_dvec3, dvec3, out_linear)
+FE_OUT_SMALL(fe_dvec3, dvec3, out_angular)
 FE_OUT_SMALL(fe_quat, quat, out_rotation)
 FE_OUT_SMALL(fe_transform, transform, out_transform)
 FE_OUT_SMALL(fe_transform, transform, out_frame_a)
 FE_OUT_SMALL(fe_transform, transform, out_frame_b)
+FE_OUT_SMALL(fe_frame, frame, out_frame)
+FE_OUT_SMALL(fe_bounds, bounds, out_bounds)
 FE_OUT_SMALL(fe_material, material, out_material)
 
-// ---- records: objects with the fields of the struct -----------------------------------------------------------------------------------
-
-%include "records.i"
+// ---- records: objects with the fields of the struct -----------------------------------------------------------------
 
 // The first word is struct_size where there is one, and is written over where there is none.
 %typemap(in, numinputs=0) SWIGTYPE *OUT_RECORD {
@@ -187,21 +244,27 @@ FE_OUT_SMALL(fe_material, material, out_material)
     }
     *(uint32_t *)(void *)$1 = (uint32_t)sizeof *$1;
 }
-%typemap(argout) SWIGTYPE *OUT_RECORD %{
-    if (result == FE_OK) {
+%typemap(in, numinputs=0) SWIGTYPE *OUT_HIT = SWIGTYPE *OUT_RECORD;
+%define FE_GIVE_RECORD(RECORD, FILLED)
+%typemap(argout) SWIGTYPE *RECORD %{
+    if (FILLED) {
         $result = SWIG_Python_AppendOutput($result, SWIG_NewPointerObj($1, $1_descriptor, SWIG_POINTER_OWN));
         $1 = NULL;
     }
 %}
-%typemap(freearg) SWIGTYPE *OUT_RECORD "free($1);"
+%typemap(freearg) SWIGTYPE *RECORD "free($1);"
+%enddef
+FE_GIVE_RECORD(OUT_RECORD, result == FE_OK)
+FE_GIVE_RECORD(OUT_HIT, result > 0)
 FE_OUT_RECORDS
+FE_OUT_HITS
 // fe_geometry_box and its like return nothing that could fail
 %typemap(argout) fe_geometry *out_geometry %{
     $result = SWIG_Python_AppendOutput($result, SWIG_NewPointerObj($1, $1_descriptor, SWIG_POINTER_OWN));
     $1 = NULL;
 %}
 
-// ---- arrays ---------------------------------------------------------------------------------------------------------------------
+// ---- arrays ---------------------------------------------------------------------------------------------------------
 
 %define FE_INPUT(TYPE, RECORD, CODES)
 %typemap(in) TYPE {
@@ -220,8 +283,9 @@ FE_OUT_RECORDS
 %enddef
 FE_INPUT(const fe_handle *, sizeof *$1, "QqLl")
 FE_INPUT(const fe_transform *transforms, sizeof *$1, "")
-FE_INPUT(const fe_ray *rays, sizeof *$1, "")
-FE_INPUT(const fe_path *paths, sizeof *$1, "")
+// the front of fe_ray and fe_path, without what is reserved
+FE_INPUT(const fe_ray *rays, RAY_SIZE, "")
+FE_INPUT(const fe_path *paths, PATH_SIZE, "")
 FE_INPUT(const float *floats, 6 * sizeof *$1, "f")
 FE_INPUT(const float *heights, sizeof *$1, "f")
 %typemap(argout) const fe_handle *, const float * ""
@@ -229,6 +293,7 @@ FE_OUTPUT(fe_handle *out_bodies, sizeof *$1, "QqLl")
 FE_OUTPUT(fe_handle *out_shapes, sizeof *$1, "QqLl")
 FE_OUTPUT(fe_handle *out_joints, sizeof *$1, "QqLl")
 FE_OUTPUT(fe_transform *out_transforms, sizeof *$1, "")
+FE_OUTPUT(fe_overlap *out_overlaps, sizeof *$1, "")
 FE_OUTPUT(fe_hit *out_hits, sizeof *$1, "")
 FE_OUTPUT(fe_pair_event *out_events, sizeof *$1, "")
 FE_OUTPUT(fe_body_event *out_events, sizeof *$1, "")
@@ -240,12 +305,15 @@ FE_OUTPUT(float *out_heights, sizeof *$1, "f")
 %typemap(check) const float *heights "if (heights_fit(call1.count, arg5, arg6)) SWIG_fail;"
 %typemap(check) float *out_heights "if (heights_fit(call1.capacity, arg5, arg6)) SWIG_fail;"
 
-%typemap(in, numinputs=0) int32_t count, int32_t capacity, uint32_t stride, uint32_t ray_stride, uint32_t path_stride "$1 = 0;"
+%typemap(in, numinputs=0) int32_t count, int32_t capacity, uint32_t stride "$1 = 0;"
+%typemap(in, numinputs=0) uint32_t ray_stride "$1 = RAY_SIZE;"
+%typemap(in, numinputs=0) uint32_t path_stride "$1 = PATH_SIZE;"
+%typemap(check) uint32_t stride "$1 = call1.stride;"
 %typemap(check) int32_t count "if (array_count(&call1, &$1)) SWIG_fail;"
 %typemap(check) int32_t capacity "$1 = array_capacity(&call1);"
 
 // a sequence of definitions
-%typemap(in) const fe_body_def *descs {
+%typemap(in) const fe_body_def *defs {
     Py_ssize_t length = PySequence_Size($input);
     if (length < 0) SWIG_fail;
     fe_body_def *copies = calloc((size_t)length + 1, sizeof *copies);
@@ -256,16 +324,17 @@ FE_OUTPUT(float *out_heights, sizeof *$1, "f")
     call1.memory = copies;
     for (Py_ssize_t i = 0; i < length; ++i) {
         PyObject *item = PySequence_GetItem($input, i);
-        void *desc = NULL;
-        int converted = item ? SWIG_ConvertPtr(item, &desc, $1_descriptor, 0) : SWIG_ERROR;
-        if (SWIG_IsOK(converted) && desc) copies[i] = *(const fe_body_def *)desc;
+        void *definition = NULL;
+        int converted = item ? SWIG_ConvertPtr(item, &definition, $1_descriptor, 0) : SWIG_ERROR;
+        if (SWIG_IsOK(converted) && definition) copies[i] = *(const fe_body_def *)definition;
         Py_XDECREF(item);
-        if (!SWIG_IsOK(converted) || !desc) {
-            if (!PyErr_Occurred()) PyErr_SetString(PyExc_TypeError, "descs: definitions of bodies are needed");
+        if (!SWIG_IsOK(converted) || !definition) {
+            if (!PyErr_Occurred()) PyErr_SetString(PyExc_TypeError, "definitions: definitions of bodies are needed");
             SWIG_fail;
         }
     }
     call1.count = length;
+    call1.stride = (uint32_t)sizeof *copies;
     $1 = copies;
 }
 
@@ -276,7 +345,7 @@ FE_OUTPUT(float *out_heights, sizeof *$1, "f")
 }
 %ignore fe_query_filter;
 %ignore fe_query_filter_init;
-%typemap(in) const fe_heightfield_def *desc (fe_heightfield_def value) {
+%typemap(in) const fe_heightfield_def *def (fe_heightfield_def value) {
     if (to_heightfield(&call1, $input, &value)) SWIG_fail;
     $1 = &value;
 }
@@ -292,3 +361,4 @@ FE_OUTPUT(float *out_heights, sizeof *$1, "f")
 %ignore fe_joint_event;
 %ignore fe_contact;
 %ignore fe_contact_point;
+%ignore fe_overlap;

@@ -1,4 +1,5 @@
-# make python: the package in build/python, to be used with PYTHONPATH=build/python. make test-python: its tests. `pip install .` goes by setup.py.
+# make python builds the package in build/python: use it with PYTHONPATH=build/python. make test-python runs its tests.
+# `pip install .` builds by setup.py.
 
 PYTHON ?= $(if $(wildcard /usr/bin/python3),/usr/bin/python3,python3)
 SWIG ?= swig
@@ -14,9 +15,11 @@ python: $(PYTHON_PACKAGE)/_flat.so $(PYTHON_SOURCES:bindings/python/%=$(BUILD)/p
 $(BUILD)/python/flat.c: bindings/feather.i bindings/records.i bindings/twins.h bindings/python/python.i include/feather.h
 	@mkdir -p $(@D)
 	$(RUN)$(SWIG) -python -builtin -Iinclude -Ibindings -outdir $(@D) -o $@ bindings/feather.i
-$(PYTHON_PACKAGE)/_flat.so: $(BUILD)/python/flat.c bindings/python/convert.h $(STATIC)
+$(BUILD)/absent.a: bindings/absent.awk include/feather.h
+	$(RUN)awk -f bindings/absent.awk include/feather.h | $(CC) -x c -c -w -fPIC -Iinclude -o $(BUILD)/absent.o - && ar rcs $@ $(BUILD)/absent.o
+$(PYTHON_PACKAGE)/_flat.so: $(BUILD)/python/flat.c bindings/python/convert.h $(STATIC) $(BUILD)/absent.a
 	@mkdir -p $(@D)
-	$(RUN)$(CC) -shared $(WRAPPER_FLAGS) $(PYTHON_FLAGS) $< $(STATIC) $(LINK_FLAGS) -Wl,--exclude-libs,ALL -lm -o $@
+	$(RUN)$(CC) -shared $(WRAPPER_FLAGS) $(PYTHON_FLAGS) $< $(STATIC) $(BUILD)/absent.a $(LINK_FLAGS) -Wl,--exclude-libs,ALL -lm -o $@
 $(PYTHON_PACKAGE)/%: bindings/python/feather_physics/%
 	@mkdir -p $(@D)
 	@cp $< $@

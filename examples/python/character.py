@@ -1,4 +1,4 @@
-"""A character walks over hills: a capsule that is moved by sweeps, no rigid body. It slides along what it meets and is put on the ground."""
+"""A character walks over hills: a capsule that sweeps move, no rigid body. It slides along walls and stays on ground."""
 
 from math import sin
 from typing import Tuple
@@ -14,17 +14,17 @@ def plus(a: Point, b: Point, scale: float = 1.0) -> Point:
     return a[0] + scale * b[0], a[1] + scale * b[1], a[2] + scale * b[2]
 
 
-def slide(world: World, position: Point, way: Point) -> Point:
-    """Goes along `way`; what is left of it after a hit goes on along the surface."""
+def slide(world: World, position: Point, motion: Point) -> Point:
+    """Moves along `motion`; after a hit the rest of it goes on along the surface."""
     for _ in range(4):
-        hit = world.sweep(FORM, position, way)
+        hit = world.sweep(FORM, position, motion)
         if hit is None:
-            return plus(position, way)
+            return plus(position, motion)
         x, y, z = hit.normal
-        position = plus(plus(position, way, hit.fraction), (x, y, z), SKIN)
-        rest = (1 - hit.fraction) * way[0], (1 - hit.fraction) * way[1], (1 - hit.fraction) * way[2]
+        position = plus(plus(position, motion, hit.fraction), (x, y, z), SKIN)
+        rest = plus((0, 0, 0), motion, 1 - hit.fraction)
         into = rest[0] * x + rest[1] * y + rest[2] * z
-        way = plus(rest, (x, y, z), -into)
+        motion = plus(rest, (x, y, z), -into)
     return position
 
 
@@ -42,4 +42,5 @@ with World() as world:
         if ground:
             position = plus(position, tuple(ground.normal), SKIN)  # type: ignore[arg-type]
         if step % 40 == 0:
-            print(f"{step / 60:4.2f} s  at {position[0]:6.2f} {position[1]:6.2f} {position[2]:6.2f} m  {'on the ground' if ground else 'falling'}")
+            x, y, z = position
+            print(f"{step / 60:4.2f} s  at {x:6.2f} {y:6.2f} {z:6.2f} m  {'on the ground' if ground else 'falling'}")

@@ -21,7 +21,7 @@ with World(workers=2) as world:
     world.create_body("static").add_plane()
     for side in (-4, 4):
         world.create_body("static").add_plane(normal=(-side / 4, 0, 0), distance=-4)
-    # locked to the plane of the picture: along z, and around x and y
+    # locked to the plane of the picture: along z, and about x and y
     bodies = world.create_bodies([(i % 8 - 3.5 + i % 3 * 0.1, 1 + i // 8, 0) for i in range(COUNT)], locks=("z", "xy"))
     for i, body in enumerate(bodies):
         body.add_sphere(0.4) if i % 2 else body.add_box(0.45, 0.3, 0.3)
@@ -40,8 +40,8 @@ for i, (x, y, _, _, _, qz, qw) in enumerate(poses):
         axes.add_patch(Circle((x, y), 0.4, facecolor="tab:blue", edgecolor="black"))
     else:
         angle = 2 * np.arctan2(qz, qw)
-        turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
-        axes.add_patch(Polygon(corners @ turn + [x, y], facecolor="tab:orange", edgecolor="black"))
+        rotation = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
+        axes.add_patch(Polygon(corners @ rotation + [x, y], facecolor="tab:orange", edgecolor="black"))
 axes.plot([-4, -4, 4, 4], [12, 0, 0, 12], color="black")
 axes.set_aspect("equal")
 figure.savefig(picture, dpi=100)

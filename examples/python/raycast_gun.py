@@ -1,4 +1,4 @@
-"""A gun that hits at once: rays find what is shot at, an impulse pushes it. The shooter's own body does not count."""
+"""A gun that hits at once: a ray finds the target, an impulse pushes it. The shooter's own body does not count."""
 
 from math import cos, sin
 

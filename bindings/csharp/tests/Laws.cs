@@ -194,7 +194,7 @@ namespace FeatherPhysics.Tests
                     "switches of the world");
                 float contactHertz, jointHertz;
                 world.GetHertz(Dt, out contactHertz, out jointHertz);
-                Check.True(contactHertz == 20 && jointHertz == 0.225f * 4 * 60,
+                Check.True(contactHertz == 20 && Math.Abs(jointHertz - 0.225 * 4 * 60) < 1e-4,
                     "hertz " + contactHertz + ", " + jointHertz);
                 world.UserData = ulong.MaxValue;
                 Check.Same(world.UserData, ulong.MaxValue, "user data of the world");

@@ -8,13 +8,18 @@
             world.step(1 / 60)
         print(ball.position.y)
 
-Metres, kilograms, seconds, radians; right-handed axes; rotations are x, y, z, w. Different worlds may be used by different threads at once; one world
-by one thread at a time, except that several may read it. include/feather.h tells more of everything: the fields and functions have its names.
+Metres, kilograms, seconds, radians; right-handed axes; rotations are x, y, z, w. Different worlds may be used by
+different threads at once. One world may be read by several threads at once, or written by one. include/feather.h
+describes everything in full: fields and functions have its names.
 """
 
 from . import _flat
-from ._flat import Quat, Transform, Vec3
+from ._flat import Bounds, Quat, Transform, Vec3
 from .errors import (
+    BusyError,
+    DataError,
+    DegenerateError,
+    DivergedError,
     FeatherError,
     InvalidArgumentError,
     LimitError,
@@ -23,9 +28,10 @@ from .errors import (
     StateError,
     SteppingError,
     UnsupportedError,
+    VersionError,
     WrongKindError,
 )
-from .objects import Body, Heightfield, Joint, Shape
+from .objects import Body, Joint, Shape
 from .records import (
     BodyEvent,
     Box,
@@ -34,13 +40,20 @@ from .records import (
     Contact,
     ContactPoint,
     Counters,
+    Energy,
+    Filter,
+    FilterPair,
     Geometry,
+    Hertz,
     Hit,
     HitEvent,
     JointEvent,
     JointState,
     MassData,
     Material,
+    Momentum,
+    Overlap,
+    Packed,
     PairEvent,
     Plane,
     Profile,
@@ -48,20 +61,30 @@ from .records import (
     Tuning,
     Vector,
 )
+from .store import Heightfield, Store
 from .world import Pool, World
 
 __all__ = [
     "Body",
     "BodyEvent",
+    "Bounds",
     "Box",
+    "BusyError",
     "Capsule",
     "Closest",
     "Contact",
     "ContactPoint",
     "Counters",
+    "DataError",
+    "DegenerateError",
+    "DivergedError",
+    "Energy",
     "FeatherError",
+    "Filter",
+    "FilterPair",
     "Geometry",
     "Heightfield",
+    "Hertz",
     "Hit",
     "HitEvent",
     "InvalidArgumentError",
@@ -71,7 +94,10 @@ __all__ = [
     "LimitError",
     "MassData",
     "Material",
+    "Momentum",
     "OutOfMemoryError",
+    "Overlap",
+    "Packed",
     "PairEvent",
     "Plane",
     "Pool",
@@ -82,11 +108,13 @@ __all__ = [
     "StaleHandleError",
     "StateError",
     "SteppingError",
+    "Store",
     "Transform",
     "Tuning",
     "UnsupportedError",
     "Vec3",
     "Vector",
+    "VersionError",
     "World",
     "WrongKindError",
 ]

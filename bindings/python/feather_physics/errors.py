@@ -22,7 +22,7 @@ class WrongKindError(FeatherError, TypeError):
 
 
 class SteppingError(FeatherError):
-    """Another thread steps or reads the world (FE_ERROR_STEPPING)."""
+    """The world is in a step: a pair filter may not use it, and its heights may not change (FE_ERROR_STEPPING)."""
 
 
 class OutOfMemoryError(FeatherError, MemoryError):
@@ -41,6 +41,26 @@ class StateError(FeatherError):
     """Not now: the pool still has worlds, the body is not kinematic... (FE_ERROR_STATE)."""
 
 
+class BusyError(FeatherError):
+    """Another thread is inside the world (FE_ERROR_BUSY)."""
+
+
+class DegenerateError(FeatherError, ValueError):
+    """Flat or empty input of a builder (FE_ERROR_DEGENERATE)."""
+
+
+class DataError(FeatherError, ValueError):
+    """Cut, altered or foreign bytes (FE_ERROR_DATA)."""
+
+
+class VersionError(FeatherError):
+    """Bytes of a newer format (FE_ERROR_VERSION)."""
+
+
+class DivergedError(FeatherError):
+    """A replay went another way than its recording (FE_ERROR_DIVERGED)."""
+
+
 # ordered by the negative of fe_result
 _flat.set_error_classes(
     (
@@ -53,5 +73,10 @@ _flat.set_error_classes(
         LimitError,
         UnsupportedError,
         StateError,
+        BusyError,
+        DegenerateError,
+        DataError,
+        VersionError,
+        DivergedError,
     )
 )

@@ -1,55 +1,74 @@
-"""Bodies, shapes, joints and heightfields: a world and a handle. They are made by the world; two that name the same thing are equal."""
+"""Bodies, shapes and joints: a world and a handle. The world makes them; two that name the same thing are equal."""
 
 from __future__ import annotations
 
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, Callable, Dict, Generic, Iterable, List, Optional, Sequence, Tuple, TypeVar, Union, overload
+from typing import TYPE_CHECKING, Any, Callable, Generic, Iterable, List, Optional, Sequence, Tuple, TypeVar, Union
+from typing import overload
 
 from . import _flat, records
-from ._flat import Quat, Transform, Vec3
+from ._flat import Bounds, Quat, Transform, Vec3
 from .errors import InvalidArgumentError
-from .records import BODY_TYPES, JOINT_TYPES, NO_ROTATION, Box, Capsule, Geometry, Material, Plane, Sphere, Vector
+from .records import BODY_TYPES, JOINT_TYPES, NO_ROTATION, Box, Capsule, Filter, Geometry, Material, Plane, Sphere
+from .records import Vector
+from .store import Heightfield
+from .words import (
+    DOFS,
+    EVENT_BITS,
+    axes_text,
+    body_type,
+    events_bits,
+    fields_of,
+    fill,
+    flat_material,
+    locks_bits,
+    material_of,
+    word,
+)
 
 if TYPE_CHECKING:
     from .world import World
 
 Value = TypeVar("Value")
+Given = TypeVar("Given")
+Pose = Tuple[Vector, Vector]
+"""A position and a rotation: a Transform, or any two sequences of numbers."""
 
 
-class Attribute(Generic[Value]):
-    """A property that a pair of flat functions reads and writes."""
+class Attribute(Generic[Value, Given]):
+    """A property that a pair of flat functions reads and writes. It reads as Value; what is Given may be set."""
 
     def __init__(self, get: Callable[..., Any], set: Optional[Callable[..., Any]], doc: str):
         self._get, self._set, self.__doc__ = get, set, doc
 
     @overload
-    def __get__(self, owner: None, kind: Any) -> "Attribute[Value]": ...
+    def __get__(self, owner: None, kind: Any) -> "Attribute[Value, Given]": ...
 
     @overload
     def __get__(self, owner: "Entity", kind: Any) -> Value: ...
 
-    def __get__(self, owner: Optional["Entity"], kind: Any = None) -> Union[Value, "Attribute[Value]"]:
+    def __get__(self, owner: Optional["Entity"], kind: Any = None) -> Union[Value, "Attribute[Value, Given]"]:
         if owner is None:
             return self
         value: Value = self._get(owner._capsule, owner._id)
         return value
 
-    def __set__(self, owner: "Entity", value: Value) -> None:
+    def __set__(self, owner: "Entity", value: Given) -> None:
         if self._set is None:
             raise AttributeError("this cannot be set")
         self._set(owner._capsule, owner._id, value)
 
 
-class Switch(Attribute[bool]):
+class Switch(Attribute[bool, bool]):
     """A property that is 0 or 1 in C."""
 
     @overload
-    def __get__(self, owner: None, kind: Any) -> "Attribute[bool]": ...
+    def __get__(self, owner: None, kind: Any) -> "Attribute[bool, bool]": ...
 
     @overload
     def __get__(self, owner: "Entity", kind: Any) -> bool: ...
 
-    def __get__(self, owner: Optional["Entity"], kind: Any = None) -> Union[bool, "Attribute[bool]"]:
+    def __get__(self, owner: Optional["Entity"], kind: Any = None) -> Union[bool, "Attribute[bool, bool]"]:
         return self if owner is None else self._get(owner._capsule, owner._id) != 0
 
     def __set__(self, owner: "Entity", value: bool) -> None:
@@ -83,7 +102,7 @@ class Entity:
 
     @property
     def user_data(self) -> Any:
-        """Whatever you keep with it; None at first. (`tag` is the integer that the library keeps and hashes.)"""
+        """Whatever you keep with it; None at first. (`tag` is the integer that the library keeps.)"""
         return self._world._user_data.get(self._id)
 
     @user_data.setter
@@ -115,36 +134,44 @@ class Body(Entity):
 
     __slots__ = ()
 
-    @property
-    def position(self) -> Vec3:
-        """Of the body's origin, m. Setting it moves the body at once, through whatever is between."""
-        position: Vec3 = _get_position(self._capsule, self._id)
-        return position
-
-    @position.setter
-    def position(self, value: Vector) -> None:
-        _flat.body_set_position(self._capsule, self._id, value)
-
-    rotation: Attribute[Union[Quat, Vector]] = Attribute(_flat.body_get_rotation, _flat.body_set_rotation, "x, y, z, w; any length but zero.")
-    transform: Attribute[Union[Transform, Tuple[Vector, Vector]]] = Attribute(
+    position: Attribute[Vec3, Vector] = Attribute(
+        _flat.body_get_position,
+        _flat.body_set_position,
+        "Of the body's origin, m. Setting it moves the body at once, through whatever is between.",
+    )
+    rotation: Attribute[Quat, Vector] = Attribute(
+        _flat.body_get_rotation, _flat.body_set_rotation, "x, y, z, w; any length but zero."
+    )
+    transform: Attribute[Transform, Pose] = Attribute(
         _flat.body_get_transform, _flat.body_set_transform, "Position and rotation."
     )
-    linear_velocity: Attribute[Union[Vec3, Vector]] = Attribute(
+    linear_velocity: Attribute[Vec3, Vector] = Attribute(
         _flat.body_get_linear_velocity, _flat.body_set_linear_velocity, "Of the centre of mass, m/s."
     )
-    angular_velocity: Attribute[Union[Vec3, Vector]] = Attribute(
+    angular_velocity: Attribute[Vec3, Vector] = Attribute(
         _flat.body_get_angular_velocity, _flat.body_set_angular_velocity, "rad/s, world axes."
     )
-    centre: Attribute[Vec3] = Attribute(_flat.body_get_centre, None, "Centre of mass, m, world space.")
-    mass: Attribute[float] = Attribute(_flat.body_get_mass, _flat.body_set_mass, "kg; 0 when it is not dynamic.")
-    gravity_scale: Attribute[float] = Attribute(_flat.body_get_gravity_scale, _flat.body_set_gravity_scale, "Times the world's gravity.")
-    sleep_threshold: Attribute[float] = Attribute(
-        _flat.body_get_sleep_threshold, _flat.body_set_sleep_threshold, "It may sleep when its fastest point is slower, m/s."
+    centre: Attribute[Vec3, Vec3] = Attribute(_flat.body_get_centre, None, "Centre of mass, m, world space.")
+    bounds: Attribute[Bounds, Bounds] = Attribute(
+        _flat.body_get_bounds, None, "The box around its shapes, m, world space."
     )
-    tag: Attribute[int] = Attribute(_flat.body_get_user_data, _flat.body_set_user_data, "An integer of yours below 2^53, kept by the library.")
+    mass: Attribute[float, float] = Attribute(_flat.body_get_mass, _flat.body_set_mass, "kg; 0 when it is not dynamic.")
+    gravity_scale: Attribute[float, float] = Attribute(
+        _flat.body_get_gravity_scale, _flat.body_set_gravity_scale, "Factor of the world's gravity."
+    )
+    sleep_threshold: Attribute[float, float] = Attribute(
+        _flat.body_get_sleep_threshold,
+        _flat.body_set_sleep_threshold,
+        "It may sleep when its fastest point is slower, m/s.",
+    )
+    tag: Attribute[int, int] = Attribute(
+        _flat.body_get_user_data, _flat.body_set_user_data, "An integer of yours below 2^64, kept by the library."
+    )
     awake = Switch(_flat.body_get_awake, _flat.body_set_awake, "False: asleep. Static bodies are never awake.")
     sleep_allowed = Switch(_flat.body_get_sleep_allowed, _flat.body_set_sleep_allowed, "May it sleep?")
-    enabled = Switch(_flat.body_get_enabled, _flat.body_set_enabled, "False: neither moves, nor collides, nor is seen by queries.")
+    enabled = Switch(
+        _flat.body_get_enabled, _flat.body_set_enabled, "False: neither moves, nor collides, nor is seen by queries."
+    )
     bullet = Switch(_flat.body_get_bullet, _flat.body_set_bullet, "Stopped by moving bodies too when it is fast.")
 
     @property
@@ -174,18 +201,28 @@ class Body(Entity):
 
     @property
     def locks(self) -> Tuple[str, str]:
-        """World axes along and around which it cannot move: ("y", "xz") keeps its height and lets it turn about y only."""
+        """World axes along and about which it cannot move: ("y", "xz") keeps its height and lets it rotate about y
+        only."""
         linear, angular = _flat.body_get_locks(self._capsule, self._id)
         return axes_text(linear), axes_text(angular)
 
     @locks.setter
     def locks(self, value: Sequence[str]) -> None:
-        linear, angular = value
-        _flat.body_set_locks(self._capsule, self._id, axes_bits(linear), axes_bits(angular))
+        _flat.body_set_locks(self._capsule, self._id, *locks_bits(value))
+
+    @property
+    def filter(self) -> Filter:
+        """Layer, mask and group of all its shapes. A StateError when it has none, or when they differ."""
+        return Filter(*_flat.body_get_filter(self._capsule, self._id))
+
+    @filter.setter
+    def filter(self, value: Sequence[int]) -> None:
+        _flat.body_set_filter(self._capsule, self._id, *Filter(*value))
 
     @property
     def mass_data(self) -> records.MassData:
-        """Mass, centre and inertia that the solver uses. Setting it overrides what the shapes give, until reset_mass()."""
+        """Mass, centre and inertia that the solver uses. Setting it overrides what the shapes give, until
+        reset_mass()."""
         return records.copy_record(records.MassData, _flat.body_get_mass_data(self._capsule, self._id))
 
     @mass_data.setter
@@ -260,30 +297,38 @@ class Body(Entity):
         restitution: Optional[float] = None,
         layer: int = 1,
         mask: int = 0xFFFFFFFF,
+        group: int = 0,
         trigger: bool = False,
         events: Iterable[str] = ("touch",),
+        pair_filter: bool = False,
+        one_way: Optional[Vector] = None,
         surface_velocity: Vector = (0.0, 0.0, 0.0),
         tag: int = 0,
     ) -> "Shape":
-        """Gives the body a shape; position and rotation are in its frame. `friction` sets both static and dynamic friction."""
-        desc = _flat.shape_def()
+        """Gives the body a shape. Position and rotation are its frame in the body's space. `friction` sets both
+        static and dynamic friction. `one_way` is a direction in the shape's frame: the shape holds back only what
+        comes against it."""
+        definition = _flat.shape_def()
         if density is not None:
-            desc.density = density
-        desc.local_position = position
-        desc.local_rotation = rotation
-        surface = Material() if material is None else material
+            definition.density = density
+        definition.frame = (position, rotation)
+        surface = Material() if material is None else Material(*material)
         if friction is not None:
-            surface = Material(friction, friction, *surface[2:])
+            surface = surface._replace(static_friction=friction, dynamic_friction=friction)
         if restitution is not None:
-            surface = Material(*surface[:2], restitution, *surface[3:])
-        desc.material = surface
-        desc.layer = layer
-        desc.mask = mask
-        desc.trigger = 1 if trigger else 0
-        desc.events = events_bits(events)
-        desc.surface_velocity = surface_velocity
-        desc.user_data = tag
-        shape = _flat.shape_create(self._capsule, self._id, desc, flat_geometry(self._world, geometry))
+            surface = surface._replace(restitution=restitution)
+        definition.material = flat_material(surface)
+        definition.layer = layer
+        definition.mask = mask
+        definition.group = group
+        definition.trigger = 1 if trigger else 0
+        definition.events = events_bits(events)
+        definition.pair_filter = 1 if pair_filter else 0
+        if one_way is not None:
+            definition.one_way, definition.one_way_direction = 1, one_way
+        definition.surface_velocity = surface_velocity
+        definition.user_data = tag
+        shape = _flat.shape_create(self._capsule, self._id, definition, flat_geometry(self._world, geometry))
         return Shape(self._world, shape)
 
     def add_sphere(self, radius: float, **options: Any) -> "Shape":
@@ -301,10 +346,6 @@ class Body(Entity):
     def add_plane(self, normal: Vector = (0.0, 1.0, 0.0), distance: float = 0.0, **options: Any) -> "Shape":
         """The half space normal . p <= distance, for static bodies; for the options see add()."""
         return self.add(Plane(normal, distance), **options)
-
-    def set_filter(self, layer: int, mask: int) -> None:
-        """Layer and mask of all its shapes."""
-        _flat.body_set_filter(self._capsule, self._id, layer, mask)
 
     # ---- queries ----
 
@@ -327,12 +368,25 @@ class Shape(Entity):
 
     __slots__ = ()
 
-    density: Attribute[float] = Attribute(_flat.shape_get_density, _flat.shape_set_density, "kg/m3.")
-    surface_velocity: Attribute[Union[Vec3, Vector]] = Attribute(
+    density: Attribute[float, float] = Attribute(_flat.shape_get_density, _flat.shape_set_density, "kg/m3.")
+    surface_velocity: Attribute[Vec3, Vector] = Attribute(
         _flat.shape_get_surface_velocity, _flat.shape_set_surface_velocity, "Of a conveyor belt, m/s, shape frame."
     )
-    tag: Attribute[int] = Attribute(_flat.shape_get_user_data, _flat.shape_set_user_data, "An integer of yours below 2^53, kept by the library.")
-    trigger = Switch(_flat.shape_get_trigger, _flat.shape_set_trigger, "True: reports what it touches and pushes nothing.")
+    tag: Attribute[int, int] = Attribute(
+        _flat.shape_get_user_data, _flat.shape_set_user_data, "An integer of yours below 2^64, kept by the library."
+    )
+    frame: Attribute[Transform, Pose] = Attribute(
+        _flat.shape_get_frame, _flat.shape_set_frame, "Position, m, and rotation in the body's space."
+    )
+    bounds: Attribute[Bounds, Bounds] = Attribute(
+        _flat.shape_get_bounds, None, "The box around it, m, world space. An UnsupportedError for a plane."
+    )
+    trigger = Switch(
+        _flat.shape_get_trigger, _flat.shape_set_trigger, "True: reports what touches it and pushes nothing."
+    )
+    pair_filter = Switch(
+        _flat.shape_get_pair_filter, _flat.shape_set_pair_filter, "Does the world's pair filter judge its new pairs?"
+    )
 
     @property
     def is_valid(self) -> bool:
@@ -356,41 +410,40 @@ class Shape(Entity):
             return Box(*flat.half_extents)
         if flat.type == _flat.FE_GEOMETRY_PLANE:
             return Plane(flat.normal, flat.distance)
-        return Heightfield(self._world, flat.asset)
+        return Heightfield(self._world.store, flat.asset)
 
     @geometry.setter
     def geometry(self, value: Geometry) -> None:
         _flat.shape_set_geometry(self._capsule, self._id, flat_geometry(self._world, value))
 
     @property
-    def local_pose(self) -> Tuple[Vec3, Quat]:
-        """Position, m, and rotation in the body's frame."""
-        position, rotation = _flat.shape_get_local_pose(self._capsule, self._id)
-        return position, rotation
-
-    @local_pose.setter
-    def local_pose(self, value: Tuple[Vector, Vector]) -> None:
-        _flat.shape_set_local_pose(self._capsule, self._id, *value)
-
-    @property
     def material(self) -> Material:
-        """Friction, bounce, resistance to rolling and spinning."""
-        return Material(*_flat.shape_get_material(self._capsule, self._id))
+        """Friction, restitution, resistance to rolling and spinning, and a number of yours."""
+        return material_of(_flat.shape_get_material(self._capsule, self._id))
 
     @material.setter
-    def material(self, value: Sequence[float]) -> None:
-        _flat.shape_set_material(self._capsule, self._id, value)
+    def material(self, value: Sequence[Any]) -> None:
+        _flat.shape_set_material(self._capsule, self._id, flat_material(value))
 
     @property
-    def filter(self) -> Tuple[int, int]:
-        """Its layer (one bit) and the mask of layers it collides with."""
-        layer, mask = _flat.shape_get_filter(self._capsule, self._id)
-        return layer, mask
+    def filter(self) -> Filter:
+        """Its layer (one bit), the mask of layers it collides with, its group."""
+        return Filter(*_flat.shape_get_filter(self._capsule, self._id))
 
     @filter.setter
     def filter(self, value: Sequence[int]) -> None:
-        layer, mask = value
-        _flat.shape_set_filter(self._capsule, self._id, layer, mask)
+        _flat.shape_set_filter(self._capsule, self._id, *Filter(*value))
+
+    @property
+    def one_way(self) -> Optional[Vec3]:
+        """The direction, in the shape's frame, of a floor to jump through: it holds back only what comes against it.
+        None: it holds back everything."""
+        enabled, direction = _flat.shape_get_one_way(self._capsule, self._id)
+        return direction if enabled else None
+
+    @one_way.setter
+    def one_way(self, value: Optional[Vector]) -> None:
+        _flat.shape_set_one_way(self._capsule, self._id, 0 if value is None else 1, value)
 
     @property
     def events(self) -> Tuple[str, ...]:
@@ -407,6 +460,13 @@ class Shape(Entity):
         """What it touches or nearly touches."""
         return self._world._contacts(_flat.shape_get_contacts, self._id)
 
+    @property
+    def overlaps(self) -> List["Shape"]:
+        """Shapes that touched it at the end of the last step: who is inside a trigger now. In the order of
+        creation."""
+        ids = records.read_handles(_flat.shape_get_overlaps, self._capsule, self._id)
+        return [Shape(self._world, id) for id in ids]
+
     def raycast(self, origin: Vector, translation: Vector) -> Optional[records.Hit]:
         """Where a segment meets this shape, whatever its layer."""
         return self._world._hit(_flat.shape_raycast(self._capsule, self._id, origin, translation))
@@ -422,12 +482,15 @@ class Shape(Entity):
 
 
 class Joint(Entity):
-    """Ties body B to body A. The world's create_... methods make joints; their fields are those of the definitions in feather.h."""
+    """Ties body B to body A. The world's create_..._joint methods make joints; their fields are those of the
+    definitions in feather.h."""
 
     __slots__ = ()
 
     enabled = Switch(_flat.joint_get_enabled, _flat.joint_set_enabled, "False: as if it were not there.")
-    tag: Attribute[int] = Attribute(_flat.joint_get_user_data, _flat.joint_set_user_data, "An integer of yours below 2^53, kept by the library.")
+    tag: Attribute[int, int] = Attribute(
+        _flat.joint_get_user_data, _flat.joint_set_user_data, "An integer of yours below 2^64, kept by the library."
+    )
 
     @property
     def is_valid(self) -> bool:
@@ -440,10 +503,10 @@ class Joint(Entity):
         return JOINT_TYPES[_flat.joint_get_type(self._capsule, self._id)]
 
     @property
-    def bodies(self) -> Tuple[Body, Body]:
-        """A and B."""
+    def bodies(self) -> Tuple[Optional[Body], Optional[Body]]:
+        """A and B; None is the world."""
         a, b = _flat.joint_get_bodies(self._capsule, self._id)
-        return Body(self._world, a), Body(self._world, b)
+        return self._world._end(a), self._world._end(b)
 
     @property
     def frames(self) -> Tuple[Transform, Transform]:
@@ -470,88 +533,40 @@ class Joint(Entity):
 
     @property
     def definition(self) -> SimpleNamespace:
-        """A copy of its definition: the fields of fe_<type>_def in feather.h, `tag`, the axes of a configurable joint as along_x to about_z."""
-        desc = getattr(_flat, self.type + "_get")(self._capsule, self._id)
-        made = _fields_of(desc)
-        if hasattr(desc, "axis"):
-            for name, i in COORDINATES.items():
-                axis = _fields_of(desc.axis(i))
-                axis.mode, axis.drive = list(MOTIONS)[axis.mode], list(DRIVES)[axis.drive]
-                setattr(made, name, axis)
-        return made
+        """A copy of its definition: the fields of fe_<type>_joint_def in feather.h, `tag`, and the axes of a
+        configurable joint as linear_x to angular_z."""
+        return fields_of(getattr(_flat, self.type + "_joint_get")(self._capsule, self._id))
 
     def set(self, **fields: Any) -> None:
-        """Changes fields of its definition: hinge.set(motor_speed=2, motor_torque=10). Axes as in create_configurable."""
+        """Changes fields of its definition: hinge.set(motor_speed=2, motor_max=10). Axes as in
+        create_configurable_joint()."""
         kind = self.type
-        desc = getattr(_flat, kind + "_get")(self._capsule, self._id)
-        fill(desc, fields)
-        getattr(_flat, kind + "_set")(self._capsule, self._id, desc)
+        definition = getattr(_flat, kind + "_joint_get")(self._capsule, self._id)
+        fill(definition, fields)
+        getattr(_flat, kind + "_joint_set")(self._capsule, self._id, definition)
+
+    def set_motor_speed(self, speed: float, dof: Optional[str] = None) -> None:
+        """Changes the speed of its motor alone, m/s or rad/s. A configurable joint needs the axis, "linear_x" to
+        "angular_z", a ball joint an angular one."""
+        _flat.joint_set_motor_speed(self._capsule, self._id, self._dof(dof), speed)
+
+    def set_target(self, target: Union[float, Vector], dof: Optional[str] = None) -> None:
+        """Changes the target of its spring alone: m or rad, of a ball joint a rotation. A configurable joint needs
+        the axis."""
+        if self.type == "ball":
+            _flat.ball_joint_set_target(self._capsule, self._id, target)
+        else:
+            _flat.joint_set_target(self._capsule, self._id, self._dof(dof), target)
+
+    def _dof(self, dof: Optional[str]) -> int:
+        if dof is None:
+            dof = {"distance": "linear_x", "hinge": "angular_x"}.get(self.type)
+        return word(DOFS, dof, "dof")
 
     def destroy(self) -> None:
         """Its bodies wake, and may collide again from the next step on."""
         _flat.joint_destroy(self._capsule, self._id)
         self._world._user_data.pop(self._id, None)
-
-
-class Heightfield(Entity):
-    """A grid of heights that any number of shapes may share: body.add(heightfield)."""
-
-    __slots__ = ()
-
-    @property
-    def is_valid(self) -> bool:
-        """False once it is destroyed, or its world closed."""
-        return not self._world.closed and _flat.asset_is_valid(self._capsule, self._id) == 1
-
-    def get_heights(self, row: int, column: int, rows: int, columns: int, out: Any) -> Any:
-        """Fills a buffer of float32 with a rectangle of samples, m, row by row."""
-        _flat.heightfield_get_heights(self._capsule, self._id, row, column, rows, columns, out)
-        return out
-
-    def set_heights(self, row: int, column: int, rows: int, columns: int, heights: Any) -> None:
-        """Changes a rectangle of samples from a buffer of float32; bodies near it wake."""
-        _flat.heightfield_set_heights(self._capsule, self._id, row, column, rows, columns, heights)
-
-    def destroy(self) -> None:
-        """The handle dies at once, its heights with their last shape."""
-        _flat.asset_destroy(self._capsule, self._id)
-        self._world._user_data.pop(self._id, None)
-
-
-# ---- words for numbers ----------------------------------------------------------------------------------------------------------
-
-EVENT_BITS = {"touch": 1, "stay": 2, "hit": 4}
-MOTIONS = {"locked": 0, "limited": 1, "free": 2}
-DRIVES = {"none": 0, "hertz": 1, "stiffness": 2}
-COORDINATES = {"along_x": 0, "along_y": 1, "along_z": 2, "about_x": 3, "about_y": 4, "about_z": 5}
-
-
-def word(words: Dict[str, int], text: Any, what: str) -> int:
-    """The number of a word, or an error that tells the words there are."""
-    try:
-        return words[text]
-    except (KeyError, TypeError):
-        raise InvalidArgumentError(f"{what}: one of {', '.join(words)} is needed, not {text!r}") from None
-
-
-def body_type(text: Any) -> int:
-    """fe_body_type of a word."""
-    return word({name: i for i, name in enumerate(BODY_TYPES)}, text, "type")
-
-
-def events_bits(events: Iterable[str]) -> int:
-    """fe_shape_events of words."""
-    return sum({word(EVENT_BITS, event, "events") for event in ((events,) if isinstance(events, str) else events)})
-
-
-def axes_bits(text: str) -> int:
-    """FE_AXIS_X | ... of "xyz"."""
-    return sum({word({"x": 1, "y": 2, "z": 4}, letter, "axes") for letter in text})
-
-
-def axes_text(bits: int) -> str:
-    """The reverse of axes_bits."""
-    return "".join(letter for i, letter in enumerate("xyz") if bits >> i & 1)
 
 
 def flat_geometry(world: "World", geometry: Geometry) -> Any:
@@ -565,35 +580,8 @@ def flat_geometry(world: "World", geometry: Geometry) -> Any:
     if isinstance(geometry, Plane):
         x, y, z = geometry.normal
         return _flat.geometry_plane(x, y, z, geometry.distance)
-    return _flat.geometry_heightfield(handle_of(world, geometry, Heightfield))
-
-
-def fill(desc: Any, fields: Dict[str, Any]) -> None:
-    """Sets fields of a definition by name; those of an axis from a dictionary."""
-    for name, value in fields.items():
-        if name in COORDINATES and hasattr(desc, "axis"):
-            axis = desc.axis(COORDINATES[name])
-            for part, number in value.items():
-                words = MOTIONS if part == "mode" else DRIVES if part == "drive" else None
-                set_field(axis, part, word(words, number, part) if words else number)
-        elif isinstance(value, bool):
-            set_field(desc, name, int(value))
-        else:
-            set_field(desc, "user_data" if name == "tag" else name, value)
-
-
-def _fields_of(record: Any) -> SimpleNamespace:
-    """A copy of the numbers and vectors of a flat record."""
-    hidden = ("this", "thisown", "struct_size", "reserved", "reserved_end")
-    values = {name: getattr(record, name) for name in dir(record) if not name.startswith("_") and name not in hidden}
-    return SimpleNamespace(**{"tag" if name == "user_data" else name: value for name, value in values.items() if not callable(value)})
-
-
-def set_field(desc: Any, name: str, value: Any) -> None:
-    """Sets a field that must exist."""
-    if name.startswith("_") or not hasattr(desc, name):
-        raise TypeError(f"{type(desc).__name__} has no field {name!r}")
-    setattr(desc, name, value)
-
-
-_get_position = _flat.body_get_position
+    if not isinstance(geometry, Heightfield):
+        raise TypeError(f"a geometry is needed, not {type(geometry).__name__!r}")
+    if geometry._store is not world.store:
+        raise InvalidArgumentError(f"{geometry!r} belongs to another store than the world's")
+    return _flat.geometry_heightfield(geometry._id)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import struct
 from array import array
-from typing import TYPE_CHECKING, Any, Callable, List, NamedTuple, Sequence, Tuple, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple, TypeVar, Union
 
 from . import _flat
 from ._flat import Quat, Vec3
 
 if TYPE_CHECKING:
-    from .objects import Body, Heightfield, Joint, Shape
+    from .objects import Body, Joint, Shape
+    from .store import Heightfield
 
 Vector = Sequence[float]
 """Three numbers, or four for a rotation: any sequence."""
@@ -50,13 +51,61 @@ Geometry = Union[Sphere, Capsule, Box, Plane, "Heightfield"]
 
 
 class Material(NamedTuple):
-    """How a surface grips and bounces; see fe_material in feather.h. Two mix: friction sqrt(a b), the others the larger."""
+    """A surface; see fe_material in feather.h. The combine modes say how two mix: "default" (friction: sqrt(a b),
+    restitution: the larger), "average", "minimum", "multiply", "maximum"; the higher mode of the two counts. Hits and
+    contacts report `user_id`, any integer of yours."""
 
     static_friction: float = 0.6
     dynamic_friction: float = 0.5
     restitution: float = 0.0
     rolling_resistance: float = 0.0
     spinning_resistance: float = 0.0
+    friction_combine: str = "default"
+    restitution_combine: str = "default"
+    user_id: int = 0
+
+
+class Filter(NamedTuple):
+    """A shape's layer (one bit), the mask of layers it collides with, and its group: above 0 shapes of one group
+    always collide, below 0 never."""
+
+    layer: int = 1
+    mask: int = 0xFFFFFFFF
+    group: int = 0
+
+
+class FilterPair(NamedTuple):
+    """Two shapes that a pair filter judges; A is the one created first. The tags are those of bodies and shapes."""
+
+    body_a: "Body"
+    body_b: "Body"
+    shape_a: "Shape"
+    shape_b: "Shape"
+    body_tag_a: int
+    body_tag_b: int
+    shape_tag_a: int
+    shape_tag_b: int
+
+
+class Energy(NamedTuple):
+    """Kinetic and potential, J; see fe_world_get_energy in feather.h."""
+
+    kinetic: float
+    potential: float
+
+
+class Momentum(NamedTuple):
+    """Linear, N s, and angular about a point, N m s."""
+
+    linear: Vec3
+    angular: Vec3
+
+
+class Hertz(NamedTuple):
+    """The stiffness of contacts and of joints that a step really uses, 1/s."""
+
+    contact: float
+    joint: float
 
 
 class MassData(NamedTuple):
@@ -69,7 +118,7 @@ class MassData(NamedTuple):
 
 
 class Hit(NamedTuple):
-    """What a ray or a sweep met; see fe_hit in feather.h."""
+    """Where a ray or a sweep meets a body; see fe_hit in feather.h. `material` is the user_id of the surface."""
 
     body: "Body"
     shape: "Shape"
@@ -79,10 +128,13 @@ class Hit(NamedTuple):
     triangle: int
     depth: float
     started_inside: bool
+    part: int
+    barycentric: Tuple[float, float]
+    material: int
 
 
 class Closest(NamedTuple):
-    """The closest point of a surface; the distance is below 0 inside."""
+    """The closest point of a surface; the distance is below 0 inside. `material` is the user_id of the surface."""
 
     body: "Body"
     shape: "Shape"
@@ -90,6 +142,22 @@ class Closest(NamedTuple):
     distance: float
     normal: Vec3
     triangle: int
+    part: int
+    barycentric: Tuple[float, float]
+    material: int
+
+
+class Overlap(NamedTuple):
+    """A shape that a geometry overlaps. A translation of the geometry by `depth`, m, along `direction` parts the two.
+    `material` is the user_id of the surface."""
+
+    body: "Body"
+    shape: "Shape"
+    direction: Vec3
+    depth: float
+    part: int
+    triangle: int
+    material: int
 
 
 class PairEvent(NamedTuple):
@@ -101,6 +169,10 @@ class PairEvent(NamedTuple):
     shape_a: "Shape"
     shape_b: "Shape"
     is_trigger: bool
+    part_a: int
+    part_b: int
+    triangle_a: int
+    triangle_b: int
 
 
 class BodyEvent(NamedTuple):
@@ -121,14 +193,21 @@ class HitEvent(NamedTuple):
     normal: Vec3
     speed: float
     impulse: float
+    material_a: int
+    material_b: int
+    part_a: int
+    part_b: int
+    triangle_a: int
+    triangle_b: int
 
 
 class JointEvent(NamedTuple):
-    """A joint broke: it is gone. Force, N, and torque, N m, are what broke it."""
+    """A joint broke: it is gone. Force, N, and torque, N m, are the reaction that broke it. A body of None is the
+    world."""
 
     joint: "Joint"
-    body_a: "Body"
-    body_b: "Body"
+    body_a: Optional["Body"]
+    body_b: Optional["Body"]
     tag: int
     type: str
     force: Vec3
@@ -156,7 +235,12 @@ class Contact(NamedTuple):
     points: Tuple[ContactPoint, ...]
     friction_impulse: Vec3
     twist_impulse: float
-    triangle: int
+    material_a: int
+    material_b: int
+    part_a: int
+    part_b: int
+    triangle_a: int
+    triangle_b: int
 
 
 class JointState(NamedTuple):
@@ -187,6 +271,9 @@ class Tuning(NamedTuple):
     sleep_time: float
     speculative_distance: float
     max_linear_speed: float
+    sleep_enabled: bool
+    continuous_enabled: bool
+    warm_start_enabled: bool
 
 
 class Profile(NamedTuple):
@@ -231,28 +318,71 @@ Record = TypeVar("Record", bound=Tuple[Any, ...])
 
 def copy_record(kind: Callable[..., Record], flat: Any) -> Record:
     """A tuple of the fields that a flat record has under the same names."""
-    return kind(*[getattr(flat, name) for name in kind._fields])  # type: ignore[attr-defined]
+    values = ((name, getattr(flat, name)) for name in kind._fields)  # type: ignore[attr-defined]
+    return kind(*[value != 0 if name.endswith("_enabled") else value for name, value in values])
 
 
-# ---- packed records: the formats of the structs in feather.h, padding included. Tests compare their sizes with the library's. -----------------
+# ---- packed records ----------------------------------------------------------------------------------------------
 
-TRANSFORM = struct.Struct("=3d4f")
-HIT = struct.Struct("=QQ3dd3fifI")
-RAY = struct.Struct("=3d3d")
-PATH = struct.Struct("=3d4f3d")
-PAIR_EVENT = struct.Struct("=QQQQii")
-BODY_EVENT = struct.Struct("=Qii")
-HIT_EVENT = struct.Struct("=QQQQ3d3fffi")
-JOINT_EVENT = struct.Struct("=QQQQii3f3f")
-CONTACT_POINT = struct.Struct("=3dfffI")
-CONTACT = struct.Struct("=QQQQ3fi" + "3dfffI" * 4 + "3ffii")
+
+class Packed:
+    """How the library packs a record. `dtype` is what numpy.dtype() takes. The rest is as in struct.Struct."""
+
+    __slots__ = ("format", "size", "dtype", "pack", "unpack", "iter_unpack")
+
+    def __init__(self, fields: str):
+        """Fields as "name:format", padding as "name:20x"; a name may stand for a record: "points:4*CONTACT_POINT"."""
+        names: List[str] = []
+        formats: List[Any] = []
+        offsets: List[int] = []
+        self.format = "="
+        for name, code in (field.split(":") for field in fields.split()):
+            count, _, inner = code.partition("*")
+            record: Optional[Packed] = globals()[inner] if inner else None
+            if not code.endswith("x"):
+                names.append(name)
+                offsets.append(struct.calcsize(self.format))
+                formats.append((record.dtype, (int(count),)) if record else _numpy_format(code))
+            self.format += record.format[1:] * int(count) if record else code
+        packed = struct.Struct(self.format)
+        self.size = packed.size
+        self.pack, self.unpack, self.iter_unpack = packed.pack, packed.unpack, packed.iter_unpack
+        self.dtype: Dict[str, Any] = {"names": names, "formats": formats, "offsets": offsets, "itemsize": self.size}
+
+
+def _numpy_format(code: str) -> Any:
+    kind = {"Q": "<u8", "I": "<u4", "i": "<i4", "f": "<f4", "d": "<f8"}[code[-1]]
+    return (kind, (int(code[:-1]),)) if code[:-1] else kind
+
+
+_PAIR = "body_a:Q body_b:Q shape_a:Q shape_b:Q"
+_PARTS = "part_a:i part_b:i triangle_a:i triangle_b:i"
+_SURFACES = "material_a:Q material_b:Q"
+
+TRANSFORM = Packed("position:3d rotation:4f")
+RAY = Packed("origin:3d translation:3d")
+PATH = Packed("position:3d rotation:4f translation:3d")
+HIT = Packed(
+    "body:Q shape:Q point:3d fraction:d material:Q normal:3f depth:f part:i triangle:i barycentric:2f flags:I "
+    "reserved:20x"
+)
+OVERLAP = Packed("body:Q shape:Q material:Q direction:3f depth:f part:i triangle:i reserved:16x")
+PAIR_EVENT = Packed(f"{_PAIR} kind:i is_trigger:i {_PARTS} reserved:16x")
+BODY_EVENT = Packed("body:Q kind:i reserved:4x")
+HIT_EVENT = Packed(f"{_PAIR} {_SURFACES} point:3d normal:3f speed:f impulse:f {_PARTS} reserved:20x")
+JOINT_EVENT = Packed("joint:Q body_a:Q body_b:Q user_data:Q kind:i type:i force:3f torque:3f")
+CONTACT_POINT = Packed("point:3d separation:f normal_impulse:f total_impulse:f id:I")
+CONTACT = Packed(
+    f"{_PAIR} {_SURFACES} normal:3f point_count:i points:4*CONTACT_POINT friction_impulse:3f twist_impulse:f {_PARTS} "
+    "reserved:16x"
+)
 
 EVENT_KINDS = {1: "enter", 2: "stay", 3: "exit", 4: "sleep", 5: "wake", 6: "break"}
 BODY_TYPES = ("static", "kinematic", "dynamic")
 JOINT_TYPES = {1: "distance", 2: "ball", 3: "hinge", 4: "fixed", 5: "configurable"}
 
 
-def read_all(read: Callable[..., int], record: struct.Struct, *arguments: Any) -> List[Tuple[Any, ...]]:
+def read_all(read: Callable[..., int], record: Packed, *arguments: Any) -> List[Tuple[Any, ...]]:
     """All records that `read` has to give, as plain tuples."""
     count = read(*arguments, None)
     if count == 0:

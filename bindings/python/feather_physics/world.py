@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+import weakref
 from array import array
 from types import TracebackType
-from typing import Any, Callable, Dict, Iterable, List, Optional, Sequence, Tuple, Type, Union
+from typing import Any, Callable, Dict, Iterable, List, Optional, Sequence, Tuple, Type, Union, overload
 
 from . import _flat, records
-from ._flat import Vec3
-from .objects import Body, Heightfield, Joint, Shape, axes_bits, body_type, fill, flat_geometry, handle_of, word
-from .records import NO_ROTATION, Geometry, Material, Vector
+from ._flat import Bounds, Vec3
+from .objects import Body, Joint, Shape, flat_geometry, handle_of
+from .records import NO_ROTATION, FilterPair, Geometry, Vector
+from .store import Heightfield, Store
+from .words import body_type, fill, locks_bits, word
 
 ALL_LAYERS = 0xFFFFFFFF
-SIMD_SETS = {"auto": 0, "plain": 1, "sse2": 2, "avx2": 3, "avx512": 4, "neon": 5}
+SIMD_SETS = ("auto", "plain", "sse2", "avx2", "avx512", "neon")
+EVENTS = ("pair", "body", "hit", "joint")
+ZERO = (0.0, 0.0, 0.0)
+X = (1.0, 0.0, 0.0)
 
 
 class Pool:
@@ -21,15 +27,46 @@ class Pool:
     __slots__ = ("_capsule",)
 
     def __init__(self, workers: int):
+        """1 to 64 workers; the thread that steps a world is one of them."""
         self._capsule = _flat.pool_create(workers)
 
     def close(self) -> None:
         """Ends the threads. A StateError while a world uses them."""
         _flat.pool_destroy(self._capsule)
 
+    def __enter__(self) -> "Pool":
+        return self
+
+    def __exit__(
+        self, kind: Optional[Type[BaseException]], error: Optional[BaseException], trace: Optional[TracebackType]
+    ) -> None:
+        self.close()
+
+
+class _Gravity:
+    """m/s2. A change wakes all dynamic bodies."""
+
+    @overload
+    def __get__(self, world: None, kind: Any) -> "_Gravity": ...
+
+    @overload
+    def __get__(self, world: "World", kind: Any) -> Vec3: ...
+
+    def __get__(self, world: Optional["World"], kind: Any = None) -> Union[Vec3, "_Gravity"]:
+        if world is None:
+            return self
+        gravity: Vec3 = _flat.world_get_gravity(world._capsule)
+        return gravity
+
+    def __set__(self, world: "World", value: Vector) -> None:
+        _flat.world_set_gravity(world._capsule, value)
+
 
 class World:
-    """Everything that can touch each other. `with World() as world:` closes it at the end; so does losing it and all that is in it."""
+    """Everything that can touch each other. `with World() as world:` closes it at the end; so does losing it and all
+    that is in it."""
+
+    __slots__ = ("_capsule", "_closed", "_store", "_user_data", "_pair_filter", "__weakref__")
 
     def __init__(
         self,
@@ -38,23 +75,31 @@ class World:
         workers: int = 1,
         substeps: int = 8,
         simd: str = "auto",
+        number: int = 0,
         pool: Optional[Pool] = None,
+        store: Optional[Store] = None,
         tag: int = 0,
     ):
-        """Gravity is m/s2; workers, 1 to 64, are threads of its own unless a pool is given; the results do not depend on them."""
-        desc = _flat.world_def()
-        desc.gravity = gravity
-        desc.worker_count = workers
-        desc.substeps = substeps
-        desc.simd = word(SIMD_SETS, simd, "simd")
-        desc.user_data = tag
+        """Gravity is m/s2. Workers, 1 to 64, are threads of its own unless a pool is given; results do not depend on
+        them. The number, 1 to 4095, is part of the handles: worlds whose handles must agree need the same one; 0 is
+        the next of a counter. The store holds the heightfields; without one the world has its own."""
+        definition = _flat.world_def()
+        definition.gravity = gravity
+        definition.worker_count = workers
+        definition.substeps = substeps
+        definition.simd = word(SIMD_SETS, simd, "simd")
+        definition.number = number
+        definition.user_data = tag
         if pool is not None:
-            desc.pool = pool._capsule
-        self._capsule = _flat.world_create(desc)
-        if pool is not None:
-            _flat.world_keep(self._capsule, pool._capsule)
+            definition.pool = pool._capsule
+        if store is not None:
+            definition.store = store._capsule
+        self._capsule = _flat.world_create(definition)
+        _flat.world_keep(self._capsule, (pool and pool._capsule, store and store._capsule))
         self._closed = False
+        self._store = Store._of(self._capsule) if store is None else store
         self._user_data: Dict[int, Any] = {}
+        self._pair_filter: Optional[Callable[[FilterPair], Any]] = None
 
     def close(self) -> None:
         """Destroys the world and all in it: whatever was in it is stale afterwards. Closing again does nothing."""
@@ -62,6 +107,7 @@ class World:
             _flat.world_destroy(self._capsule)
             self._closed = True
             self._user_data.clear()
+            self._pair_filter = None
 
     @property
     def closed(self) -> bool:
@@ -71,7 +117,9 @@ class World:
     def __enter__(self) -> "World":
         return self
 
-    def __exit__(self, kind: Optional[Type[BaseException]], error: Optional[BaseException], trace: Optional[TracebackType]) -> None:
+    def __exit__(
+        self, kind: Optional[Type[BaseException]], error: Optional[BaseException], trace: Optional[TracebackType]
+    ) -> None:
         self.close()
 
     def __repr__(self) -> str:
@@ -80,18 +128,11 @@ class World:
     # ---- the world itself ----
 
     def step(self, dt: float = 1 / 60) -> None:
-        """Moves the world on by dt seconds, 0 to 1. Other Python threads run meanwhile."""
+        """Moves the world on by dt seconds, 0 to 1. Other Python threads run meanwhile. What the pair filter raised
+        is raised at the end."""
         _flat.world_step(self._capsule, dt)
 
-    @property
-    def gravity(self) -> Union[Vec3, Vector]:
-        """m/s2. A change wakes all dynamic bodies."""
-        gravity: Vec3 = _flat.world_get_gravity(self._capsule)
-        return gravity
-
-    @gravity.setter
-    def gravity(self, value: Vector) -> None:
-        _flat.world_set_gravity(self._capsule, value)
+    gravity = _Gravity()
 
     @property
     def substeps(self) -> int:
@@ -105,9 +146,24 @@ class World:
 
     @property
     def tag(self) -> int:
-        """The integer given to World()."""
+        """An integer of yours below 2^64, kept by the library."""
         tag: int = _flat.world_get_user_data(self._capsule)
         return tag
+
+    @tag.setter
+    def tag(self, value: int) -> None:
+        _flat.world_set_user_data(self._capsule, value)
+
+    @property
+    def number(self) -> int:
+        """The number in this world's handles, 1 to 4095."""
+        number: int = _flat.world_get_number(self._capsule)
+        return number
+
+    @property
+    def store(self) -> Store:
+        """What holds its heightfields: the one it was given, or its own."""
+        return self._store
 
     @property
     def tuning(self) -> records.Tuning:
@@ -117,9 +173,26 @@ class World:
     @tuning.setter
     def tuning(self, value: records.Tuning) -> None:
         flat = _flat.world_tuning()
-        for name, number in zip(records.Tuning._fields, value):
-            setattr(flat, name, number)
+        fill(flat, records.Tuning(*value)._asdict())
         _flat.world_set_tuning(self._capsule, flat)
+
+    def hertz(self, dt: float = 1 / 60) -> records.Hertz:
+        """The stiffness that a step of dt seconds would really use: the tuning's, limited by the substep rate."""
+        return records.Hertz(*_flat.world_get_hertz(self._capsule, dt))
+
+    @property
+    def bounds(self) -> Bounds:
+        """The box around all shapes but planes, m. A StateError when there is none."""
+        bounds: Bounds = _flat.world_get_bounds(self._capsule)
+        return bounds
+
+    def energy(self) -> records.Energy:
+        """Of all enabled dynamic bodies, J: what a free flight keeps to rounding."""
+        return records.copy_record(records.Energy, _flat.world_get_energy(self._capsule))
+
+    def momentum(self, about: Vector = ZERO) -> records.Momentum:
+        """Of all enabled dynamic bodies; the angular one about a point of the world, m."""
+        return records.Momentum(*_flat.world_get_momentum(self._capsule, about))
 
     @property
     def profile(self) -> records.Profile:
@@ -133,17 +206,33 @@ class World:
 
     @property
     def hash(self) -> int:
-        """64 bits over poses, velocities, contacts and events: equal for equal runs, on every machine and with every number of workers."""
+        """64 bits over poses, velocities, contacts and events: equal for equal runs, on every machine and with every
+        number of workers."""
         value: int = _flat.world_hash(self._capsule)
         return value
 
-    def sync_queries(self) -> None:
+    def optimize(self) -> None:
         """Rebalances the trees that serve the queries; worth a call after a level is loaded."""
-        _flat.world_sync_queries(self._capsule)
+        _flat.world_optimize(self._capsule)
 
     def ignore_collision(self, a: Body, b: Body, ignore: bool = True) -> None:
         """While ignored, two bodies never collide."""
         _flat.world_ignore_collision(self._capsule, self._body(a), self._body(b), 1 if ignore else 0)
+
+    def is_ignored(self, a: Body, b: Body) -> bool:
+        """Does ignore_collision() keep the two apart?"""
+        ignored: int = _flat.world_get_ignored(self._capsule, self._body(a), self._body(b))
+        return ignored != 0
+
+    def set_pair_filter(self, filter: Optional[Callable[[FilterPair], Any]]) -> None:
+        """Sets a function that judges new pairs of shapes, when one of them asks for it: body.add(...,
+        pair_filter=True). step() calls it once for each pair whose bounds begin to meet; it returns whether the two
+        may collide. It may not use the world. When it raises, the rest of the step lets all pairs collide; step()
+        raises the exception at its end. None: no filter."""
+        if filter is not None and not callable(filter):
+            raise TypeError(f"filter: a callable is needed, not {type(filter).__name__!r}")
+        _flat.world_set_pair_filter(self._capsule, None if filter is None else _judge(weakref.ref(self)))
+        self._pair_filter = filter
 
     # ---- bodies ----
 
@@ -151,28 +240,35 @@ class World:
         self,
         type: str = "dynamic",
         *,
-        position: Vector = (0.0, 0.0, 0.0),
+        position: Vector = ZERO,
         rotation: Vector = NO_ROTATION,
-        linear_velocity: Vector = (0.0, 0.0, 0.0),
-        angular_velocity: Vector = (0.0, 0.0, 0.0),
+        linear_velocity: Vector = ZERO,
+        angular_velocity: Vector = ZERO,
         damping: Sequence[float] = (0.0, 0.0),
         locks: Sequence[str] = ("", ""),
         user_data: Any = None,
         **fields: Any,
     ) -> Body:
-        """A "static", "kinematic" or "dynamic" body. Further fields are those of fe_body_def: gravity_scale, bullet, awake, tag..."""
-        body = Body(self, _flat.body_create(self._capsule, _body_def(type, position, rotation, linear_velocity, angular_velocity, damping, locks, fields)))
+        """A "static", "kinematic" or "dynamic" body. Further fields are those of fe_body_def: gravity_scale, bullet,
+        awake, tag..."""
+        velocities = linear_velocity, angular_velocity
+        definition = _body_def(type, position, rotation, velocities, damping, locks, fields)
+        body = Body(self, _flat.body_create(self._capsule, definition))
         if user_data is not None:
             body.user_data = user_data
         return body
 
-    def create_bodies(self, positions: Iterable[Vector], type: str = "dynamic", *, rotation: Vector = NO_ROTATION, **fields: Any) -> List[Body]:
+    def create_bodies(
+        self, positions: Iterable[Vector], type: str = "dynamic", *, rotation: Vector = NO_ROTATION, **fields: Any
+    ) -> List[Body]:
         """A body at each position, all or none; the fields as in create_body()."""
-        nothing = (0.0, 0.0, 0.0)
         locks, damping = fields.pop("locks", ("", "")), fields.pop("damping", (0.0, 0.0))
-        descs = [_body_def(type, position, rotation, nothing, nothing, damping, locks, fields) for position in positions]
-        ids = array("Q", bytes(8 * len(descs)))
-        _flat.body_create_many(self._capsule, descs, ids)
+        velocities = fields.pop("linear_velocity", ZERO), fields.pop("angular_velocity", ZERO)
+        definitions = [
+            _body_def(type, position, rotation, velocities, damping, locks, fields) for position in positions
+        ]
+        ids = array("Q", bytes(8 * len(definitions)))
+        _flat.body_create_many(self._capsule, definitions, ids)
         return [Body(self, id) for id in ids]
 
     def destroy_bodies(self, bodies: Any) -> None:
@@ -196,71 +292,102 @@ class World:
         """All, in the order of creation."""
         return [Joint(self, id) for id in records.read_handles(_flat.world_get_joints, self._capsule)]
 
-    def create_heightfield(
-        self,
-        heights: Any,
-        *,
-        rows: Optional[int] = None,
-        columns: Optional[int] = None,
-        cell_x: float = 1.0,
-        cell_z: float = 1.0,
-        holes: Any = None,
-        cell_materials: Any = None,
-        materials: Optional[Sequence[Sequence[float]]] = None,
-    ) -> Heightfield:
-        """Terrain from rows (along z) of samples (along x), m: a sequence of rows, or a buffer of float32 of that shape, or a flat one with rows and
-        columns. Holes and cell_materials are bytes, one a cell. body.add(heightfield) gives it to a body."""
-        samples, rows, columns = _samples(heights, rows, columns)
-        desc = (rows, columns, cell_x, cell_z, samples, holes, cell_materials, materials)
-        return Heightfield(self, _flat.heightfield_create(self._capsule, desc))
+    def create_heightfield(self, heights: Any, **options: Any) -> Heightfield:
+        """Terrain in this world's store, see Store.create_heightfield()."""
+        return self._store.create_heightfield(heights, **options)
 
-    # ---- joints: further fields are those of the definitions in feather.h ----
+    # ---- joints: an end of None is the world; further fields are those of the definitions in feather.h ----
 
-    def create_distance(self, a: Body, b: Body, point_a: Vector, point_b: Vector, **fields: Any) -> Joint:
-        """A rod between two points of the world, as long as they are apart now; min_length=0 makes it a rope."""
-        return self._joint("distance", _flat.distance_def_at, a, b, (point_a, point_b), fields)
+    def create_distance_joint(
+        self, a: Optional[Body], b: Optional[Body], point_a: Vector, point_b: Vector, **fields: Any
+    ) -> Joint:
+        """A rod between two points of the world, as long as they are apart now; lower=0 makes it a rope."""
+        return self._joint("distance", _flat.distance_joint_def_at, a, b, (point_a, point_b), fields)
 
-    def create_ball(self, a: Body, b: Body, point: Vector, axis: Vector = (1.0, 0.0, 0.0), **fields: Any) -> Joint:
+    def create_ball_joint(
+        self, a: Optional[Body], b: Optional[Body], point: Vector, axis: Vector = X, **fields: Any
+    ) -> Joint:
         """Two points stay together; swing and twist are about an axis of the world."""
-        return self._joint("ball", _flat.ball_def_at, a, b, (point, axis), fields)
+        return self._joint("ball", _flat.ball_joint_def_at, a, b, (point, axis), fields)
 
-    def create_hinge(self, a: Body, b: Body, point: Vector, axis: Vector, **fields: Any) -> Joint:
-        """B turns against A about an axis of the world."""
-        return self._joint("hinge", _flat.hinge_def_at, a, b, (point, axis), fields)
+    def create_hinge_joint(
+        self, a: Optional[Body], b: Optional[Body], point: Vector, axis: Vector, **fields: Any
+    ) -> Joint:
+        """B rotates against A about an axis of the world."""
+        return self._joint("hinge", _flat.hinge_joint_def_at, a, b, (point, axis), fields)
 
-    def create_fixed(self, a: Body, b: Body, point: Vector, **fields: Any) -> Joint:
+    def create_fixed_joint(self, a: Optional[Body], b: Optional[Body], point: Vector, **fields: Any) -> Joint:
         """Nothing moves."""
-        return self._joint("fixed", _flat.fixed_def_at, a, b, (point,), fields)
+        return self._joint("fixed", _flat.fixed_joint_def_at, a, b, (point,), fields)
 
-    def create_configurable(self, a: Body, b: Body, point: Vector, axis: Vector = (1.0, 0.0, 0.0), **fields: Any) -> Joint:
-        """Six axes: along_x={"mode": "limited", "low": -1, "high": 1}, about_y={"mode": "free"}...; those not named are locked."""
-        return self._joint("configurable", _flat.configurable_def_at, a, b, (point, axis), fields)
+    def create_configurable_joint(
+        self, a: Optional[Body], b: Optional[Body], point: Vector, axis: Vector = X, **fields: Any
+    ) -> Joint:
+        """Six axes: linear_x={"motion": "limited", "lower": -1, "upper": 1}, angular_y={"motion": "free"}...; those
+        not named are locked."""
+        return self._joint("configurable", _flat.configurable_joint_def_at, a, b, (point, axis), fields)
 
-    def create_rope(self, a: Body, b: Body, point_a: Vector, point_b: Vector, max_length: float, **fields: Any) -> Joint:
+    def create_rope_joint(
+        self,
+        a: Optional[Body],
+        b: Optional[Body],
+        point_a: Vector,
+        point_b: Vector,
+        max_length: float,
+        **fields: Any,
+    ) -> Joint:
         """Two points come no farther from each other than max_length, m."""
-        return self._joint("distance", _flat.rope_def_at, a, b, (point_a, point_b, max_length), fields)
+        return self._joint("distance", _flat.rope_joint_def_at, a, b, (point_a, point_b, max_length), fields)
 
-    def create_slider(self, a: Body, b: Body, point: Vector, axis: Vector, **fields: Any) -> Joint:
-        """B slides along an axis and does not turn; range, spring and motor are those of along_x."""
-        return self._joint("configurable", _flat.slider_def_at, a, b, (point, axis), fields)
-
-    def create_wheel(
-        self, chassis: Body, wheel: Body, point: Vector, axle: Vector, up: Vector, hertz: float, damping_ratio: float, travel: float, **fields: Any
+    def create_slider_joint(
+        self, a: Optional[Body], b: Optional[Body], point: Vector, axis: Vector, **fields: Any
     ) -> Joint:
-        """A wheel with suspension: about_x is its motor and brake, about_z steers."""
-        return self._joint("configurable", _flat.wheel_def_at, chassis, wheel, (point, axle, up, hertz, damping_ratio, travel), fields)
+        """B slides along an axis and does not rotate; limits, spring and motor are those of linear_x."""
+        return self._joint("configurable", _flat.slider_joint_def_at, a, b, (point, axis), fields)
 
-    def create_motor(
-        self, a: Body, b: Body, hertz: float, damping_ratio: float, max_force: float, max_torque: float, **fields: Any
+    def create_wheel_joint(
+        self,
+        chassis: Optional[Body],
+        wheel: Optional[Body],
+        point: Vector,
+        axle: Vector,
+        up: Vector,
+        hertz: float,
+        damping_ratio: float,
+        travel: float,
+        **fields: Any,
     ) -> Joint:
-        """Pulls and turns B towards a pose relative to A."""
-        return self._joint("configurable", _flat.motor_def_at, a, b, (hertz, damping_ratio, max_force, max_torque), fields)
+        """A wheel with suspension: angular_x is its motor and brake, angular_z steers, linear_z is the suspension."""
+        where = (point, axle, up, hertz, damping_ratio, travel)
+        return self._joint("configurable", _flat.wheel_joint_def_at, chassis, wheel, where, fields)
 
-    def _joint(self, kind: str, place: Callable[..., Any], a: Body, b: Body, where: Tuple[Any, ...], fields: Dict[str, Any]) -> Joint:
-        desc = getattr(_flat, kind + "_def")()
-        place(self._capsule, desc, self._body(a), self._body(b), *where)
-        fill(desc, fields)
-        return Joint(self, getattr(_flat, kind + "_create")(self._capsule, desc))
+    def create_motor_joint(
+        self,
+        a: Optional[Body],
+        b: Optional[Body],
+        hertz: float,
+        damping_ratio: float,
+        max_force: float,
+        max_torque: float,
+        **fields: Any,
+    ) -> Joint:
+        """Pulls and rotates B towards a pose relative to A, at first where it is; set_target() moves it."""
+        where = (hertz, damping_ratio, max_force, max_torque)
+        return self._joint("configurable", _flat.motor_joint_def_at, a, b, where, fields)
+
+    def _joint(
+        self,
+        kind: str,
+        place: Callable[..., Any],
+        a: Optional[Body],
+        b: Optional[Body],
+        where: Tuple[Any, ...],
+        fields: Dict[str, Any],
+    ) -> Joint:
+        definition = getattr(_flat, kind + "_joint_def")()
+        place(self._capsule, definition, *(0 if end is None else self._body(end) for end in (a, b)), *where)
+        fill(definition, fields)
+        return Joint(self, getattr(_flat, kind + "_joint_create")(self._capsule, definition))
 
     # ---- queries: `mask` says which layers count, `exclude` which bodies do not ----
 
@@ -270,7 +397,9 @@ class World:
         """The first body on the segment from origin to origin + translation, or None."""
         return self._hit(_flat.world_raycast(self._capsule, origin, translation, self._filter(mask, triggers, exclude)))
 
-    def raycast_any(self, origin: Vector, translation: Vector, *, mask: int = ALL_LAYERS, triggers: bool = False, exclude: Any = ()) -> bool:
+    def raycast_any(
+        self, origin: Vector, translation: Vector, *, mask: int = ALL_LAYERS, triggers: bool = False, exclude: Any = ()
+    ) -> bool:
         """Is anything on the segment?"""
         found: bool = _flat.world_raycast_any(self._capsule, origin, translation, self._filter(mask, triggers, exclude))
         return found
@@ -292,10 +421,9 @@ class World:
         triggers: bool = False,
         exclude: Any = (),
     ) -> Optional[records.Hit]:
-        """What a Sphere, Capsule or Box that moves without turning touches first, or None."""
-        start = (position, rotation)
-        flat = flat_geometry(self, geometry)
-        return self._hit(_flat.world_sweep(self._capsule, flat, start, translation, self._filter(mask, triggers, exclude)))
+        """What a moving Sphere, Capsule or Box touches first, or None. It does not rotate."""
+        flat, start, filter = flat_geometry(self, geometry), (position, rotation), self._filter(mask, triggers, exclude)
+        return self._hit(_flat.world_sweep(self._capsule, flat, start, translation, filter))
 
     def sweep_any(
         self,
@@ -309,9 +437,8 @@ class World:
         exclude: Any = (),
     ) -> bool:
         """Does it touch anything?"""
-        start = (position, rotation)
-        flat = flat_geometry(self, geometry)
-        found: bool = _flat.world_sweep_any(self._capsule, flat, start, translation, self._filter(mask, triggers, exclude))
+        flat, start, filter = flat_geometry(self, geometry), (position, rotation), self._filter(mask, triggers, exclude)
+        found: bool = _flat.world_sweep_any(self._capsule, flat, start, translation, filter)
         return found
 
     def sweep_all(
@@ -325,9 +452,9 @@ class World:
         triggers: bool = False,
         exclude: Any = (),
     ) -> List[records.Hit]:
-        """Every body that it touches on its way, nearest first."""
-        flat = flat_geometry(self, geometry)
-        return self._hits(_flat.world_sweep_all, flat, (position, rotation), translation, self._filter(mask, triggers, exclude))
+        """Every body that it touches on its motion, nearest first."""
+        flat, start, filter = flat_geometry(self, geometry), (position, rotation), self._filter(mask, triggers, exclude)
+        return self._hits(_flat.world_sweep_all, flat, start, translation, filter)
 
     def overlap(
         self,
@@ -340,9 +467,8 @@ class World:
         exclude: Any = (),
     ) -> List[Body]:
         """The bodies that a Sphere, Capsule or Box overlaps, in the order of creation."""
-        flat = flat_geometry(self, geometry)
-        at = (position, rotation)
-        ids = records.read_handles(_flat.world_overlap, self._capsule, flat, at, self._filter(mask, triggers, exclude))
+        flat, at, filter = flat_geometry(self, geometry), (position, rotation), self._filter(mask, triggers, exclude)
+        ids = records.read_handles(_flat.world_overlap, self._capsule, flat, at, filter)
         return [Body(self, id) for id in ids]
 
     def overlap_any(
@@ -356,21 +482,56 @@ class World:
         exclude: Any = (),
     ) -> bool:
         """Does it overlap anything?"""
-        flat = flat_geometry(self, geometry)
-        found: bool = _flat.world_overlap_any(self._capsule, flat, (position, rotation), self._filter(mask, triggers, exclude))
+        flat, at, filter = flat_geometry(self, geometry), (position, rotation), self._filter(mask, triggers, exclude)
+        found: bool = _flat.world_overlap_any(self._capsule, flat, at, filter)
         return found
+
+    def overlap_shapes(
+        self,
+        geometry: Geometry,
+        position: Vector,
+        *,
+        rotation: Vector = NO_ROTATION,
+        mask: int = ALL_LAYERS,
+        triggers: bool = False,
+        exclude: Any = (),
+    ) -> List[records.Overlap]:
+        """The shapes that it overlaps, with direction and depth: to move a character out. In the order of
+        creation."""
+        flat, at, filter = flat_geometry(self, geometry), (position, rotation), self._filter(mask, triggers, exclude)
+        found = records.read_all(_flat.world_overlap_shapes, records.OVERLAP, self._capsule, flat, at, filter)
+        return [
+            records.Overlap(Body(self, o[0]), Shape(self, o[1]), Vec3(o[3:6]), o[6], o[7], o[8], o[2]) for o in found
+        ]
+
+    def overlap_bounds(
+        self, lower: Vector, upper: Vector, *, mask: int = ALL_LAYERS, triggers: bool = False, exclude: Any = ()
+    ) -> List[Shape]:
+        """The shapes whose bounds meet an axis-aligned box, in the order of creation."""
+        filter = self._filter(mask, triggers, exclude)
+        ids = records.read_handles(_flat.world_overlap_bounds, self._capsule, (lower, upper), filter)
+        return [Shape(self, id) for id in ids]
 
     def closest_point(
         self, point: Vector, max_distance: float, *, mask: int = ALL_LAYERS, triggers: bool = False, exclude: Any = ()
     ) -> Optional[records.Closest]:
         """The point of all surfaces that is closest to a point, or None within max_distance, m."""
-        return self._closest(_flat.world_closest_point(self._capsule, point, max_distance, self._filter(mask, triggers, exclude)))
+        filter = self._filter(mask, triggers, exclude)
+        return self._closest(_flat.world_closest_point(self._capsule, point, max_distance, filter))
 
     def raycast_many(
-        self, rays: Any, out: Any = None, *, spread: bool = True, mask: int = ALL_LAYERS, triggers: bool = False, exclude: Any = ()
+        self,
+        rays: Any,
+        out: Any = None,
+        *,
+        spread: bool = True,
+        mask: int = ALL_LAYERS,
+        triggers: bool = False,
+        exclude: Any = (),
     ) -> Any:
-        """raycast() for a buffer of rays (6 doubles each: origin, translation), over the world's workers when `spread`. Fills a buffer of hits (72
-        bytes each, see records.HIT) and returns it; of a miss the body is 0 and the fraction 1."""
+        """raycast() for a buffer of rays (6 doubles each: origin, translation), over the world's workers when
+        `spread`. Fills a buffer of hits (see records.HIT) and returns it; of a miss the body is 0 and the fraction
+        1."""
         if out is None:
             out = bytearray(memoryview(rays).nbytes // records.RAY.size * records.HIT.size)
         _flat.world_raycast_many(self._capsule, rays, self._filter(mask, triggers, exclude), 1 if spread else 0, out)
@@ -390,8 +551,8 @@ class World:
         """sweep() of one geometry for a buffer of paths (64 bytes each, see records.PATH), like raycast_many()."""
         if out is None:
             out = bytearray(memoryview(paths).nbytes // records.PATH.size * records.HIT.size)
-        flat = flat_geometry(self, geometry)
-        _flat.world_sweep_many(self._capsule, flat, paths, self._filter(mask, triggers, exclude), 1 if spread else 0, out)
+        flat, filter = flat_geometry(self, geometry), self._filter(mask, triggers, exclude)
+        _flat.world_sweep_many(self._capsule, flat, paths, filter, 1 if spread else 0, out)
         return out
 
     # ---- events of the last step, in an order that does not depend on the workers ----
@@ -399,49 +560,52 @@ class World:
     @property
     def pair_events(self) -> List[records.PairEvent]:
         """Shapes that began, went on, or ceased to touch."""
-        return [
-            records.PairEvent(records.EVENT_KINDS[kind], Body(self, a), Body(self, b), Shape(self, shape_a), Shape(self, shape_b), trigger != 0)
-            for a, b, shape_a, shape_b, kind, trigger in records.read_all(_flat.world_get_pair_events, records.PAIR_EVENT, self._capsule)
-        ]
+        found = records.read_all(_flat.world_get_pair_events, records.PAIR_EVENT, self._capsule)
+        return [records.PairEvent(records.EVENT_KINDS[e[4]], *self._ends(e), e[5] != 0, *e[6:10]) for e in found]
 
     @property
     def body_events(self) -> List[records.BodyEvent]:
         """Bodies that fell asleep or woke."""
         found = records.read_all(_flat.world_get_body_events, records.BODY_EVENT, self._capsule)
-        return [records.BodyEvent(records.EVENT_KINDS[kind], Body(self, body)) for body, kind, _ in found]
+        return [records.BodyEvent(records.EVENT_KINDS[kind], Body(self, body)) for body, kind in found]
 
     @property
     def hit_events(self) -> List[records.HitEvent]:
         """Impacts of shapes that asked for them with events=("hit",)."""
+        found = records.read_all(_flat.world_get_hit_events, records.HIT_EVENT, self._capsule)
         return [
-            records.HitEvent(
-                Body(self, e[0]), Body(self, e[1]), Shape(self, e[2]), Shape(self, e[3]), Vec3(e[4:7]), Vec3(e[7:10]), e[10], e[11]
-            )
-            for e in records.read_all(_flat.world_get_hit_events, records.HIT_EVENT, self._capsule)
+            records.HitEvent(*self._ends(e), Vec3(e[6:9]), Vec3(e[9:12]), e[12], e[13], e[4], e[5], *e[14:18])
+            for e in found
         ]
 
     @property
     def joint_events(self) -> List[records.JointEvent]:
         """Joints that broke."""
+        found = records.read_all(_flat.world_get_joint_events, records.JOINT_EVENT, self._capsule)
         return [
             records.JointEvent(
-                Joint(self, e[0]), Body(self, e[1]), Body(self, e[2]), e[3], records.JOINT_TYPES[e[5]], Vec3(e[6:9]), Vec3(e[9:12])
+                Joint(self, joint), self._end(a), self._end(b), tag, records.JOINT_TYPES[type], Vec3(v[:3]), Vec3(v[3:])
             )
-            for e in records.read_all(_flat.world_get_joint_events, records.JOINT_EVENT, self._capsule)
+            for joint, a, b, tag, kind, type, *v in found
         ]
 
     def read_events(self, kind: str, out: Any = None) -> int:
-        """Fills a buffer with the packed events "pair", "body", "hit" or "joint" (see records.PAIR_EVENT...) and returns how many there are."""
-        read = word({"pair": 0, "body": 1, "hit": 2, "joint": 3}, kind, "kind")
-        functions = (_flat.world_get_pair_events, _flat.world_get_body_events, _flat.world_get_hit_events, _flat.world_get_joint_events)
-        count: int = functions[read](self._capsule, out)
-        return count
+        """Fills a buffer with the packed events "pair", "body", "hit" or "joint" (see records.PAIR_EVENT...) and
+        returns how many there are."""
+        read: Callable[..., int] = (
+            _flat.world_get_pair_events,
+            _flat.world_get_body_events,
+            _flat.world_get_hit_events,
+            _flat.world_get_joint_events,
+        )[word(EVENTS, kind, "kind")]
+        return read(self._capsule, out)
 
     # ---- bulk: buffers in, buffers out. Bodies are a buffer of handles (see body_ids) or a sequence of Body ----
 
-    def transforms(self, out: Any = None, *, bodies: Any = None, origin: Vector = (0.0, 0.0, 0.0)) -> Any:
-        """Position relative to an origin and rotation, 7 float32 a body: x y z, x y z w; of all bodies unless some are given. Fills `out`, any buffer
-        of float32 (a NumPy array of shape (n, 7) for example), or makes a memoryview of that shape."""
+    def transforms(self, out: Any = None, *, bodies: Any = None, origin: Vector = ZERO) -> Any:
+        """Position relative to an origin and rotation, 7 float32 a body: x y z, x y z w; of all bodies unless some
+        are given. Fills `out`, any buffer of float32 (a NumPy array of shape (n, 7) for example), or makes a
+        memoryview of that shape."""
         ids = self.body_ids() if bodies is None else self._ids(bodies)
         if out is None:
             out = _floats(ids, 7)
@@ -465,7 +629,8 @@ class World:
         _flat.world_add_forces(self._capsule, self._ids(bodies), forces)
 
     def exact_transforms(self, out: Any = None, *, bodies: Any = None) -> Any:
-        """Position as 3 doubles and rotation as 4 floats, 40 bytes a body (see records.TRANSFORM): fills `out` or makes a bytearray."""
+        """Position as 3 doubles and rotation as 4 floats, 40 bytes a body (see records.TRANSFORM): fills `out` or
+        makes a bytearray."""
         ids = self.body_ids() if bodies is None else self._ids(bodies)
         if out is None:
             out = bytearray(memoryview(ids).nbytes // 8 * records.TRANSFORM.size)
@@ -477,7 +642,7 @@ class World:
         _flat.world_set_transforms(self._capsule, self._ids(bodies), transforms)
 
     def moved(self) -> Tuple["array[int]", bytearray]:
-        """The handles of the bodies that the last step moved, and where they are now (40 bytes a body, see records.TRANSFORM)."""
+        """The handles of the bodies that the last step moved, and where they are now (see records.TRANSFORM)."""
         count = _flat.world_get_moved(self._capsule, None, None)
         ids, transforms = array("Q", bytes(8 * count)), bytearray(count * records.TRANSFORM.size)
         _flat.world_get_moved(self._capsule, ids, transforms)
@@ -500,45 +665,78 @@ class World:
             exclude = (exclude,)
         return mask, 1 if triggers else 0, self._ids(exclude) if len(exclude) else None
 
+    def _end(self, id: int) -> Optional[Body]:
+        return Body(self, id) if id else None
+
+    def _ends(self, ids: Sequence[int]) -> Tuple[Body, Body, Shape, Shape]:
+        return Body(self, ids[0]), Body(self, ids[1]), Shape(self, ids[2]), Shape(self, ids[3])
+
     def _hit(self, flat: Any) -> Optional[records.Hit]:
         if flat is None:
             return None
-        return records.Hit(
-            Body(self, flat.body), Shape(self, flat.shape), flat.point, flat.fraction, flat.normal, flat.triangle, flat.depth, flat.flags & 1 != 0
-        )
+        body, shape, inside = Body(self, flat.body), Shape(self, flat.shape), flat.flags & 1 != 0
+        hit = (flat.point, flat.fraction, flat.normal, flat.triangle, flat.depth, inside, flat.part)
+        return records.Hit(body, shape, *hit, flat.barycentric, flat.material)
 
     def _hits(self, read: Callable[..., int], *arguments: Any) -> List[records.Hit]:
+        found = records.read_all(read, records.HIT, self._capsule, *arguments)
         return [
-            records.Hit(Body(self, h[0]), Shape(self, h[1]), Vec3(h[2:5]), h[5], Vec3(h[6:9]), h[9], h[10], h[11] & 1 != 0)
-            for h in records.read_all(read, records.HIT, self._capsule, *arguments)
+            records.Hit(
+                Body(self, body),
+                Shape(self, shape),
+                Vec3((x, y, z)),
+                fraction,
+                Vec3((nx, ny, nz)),
+                triangle,
+                depth,
+                flags & 1 != 0,
+                part,
+                (u, v),
+                material,
+            )
+            for body, shape, x, y, z, fraction, material, nx, ny, nz, depth, part, triangle, u, v, flags in found
         ]
 
     def _closest(self, flat: Any) -> Optional[records.Closest]:
         if flat is None:
             return None
-        return records.Closest(Body(self, flat.body), Shape(self, flat.shape), flat.point, flat.distance, flat.normal, flat.triangle)
+        closest = (flat.point, flat.distance, flat.normal, flat.triangle, flat.part, flat.barycentric, flat.material)
+        return records.Closest(Body(self, flat.body), Shape(self, flat.shape), *closest)
 
     def _contacts(self, read: Callable[..., int], id: int) -> List[records.Contact]:
         return [_contact(self, c) for c in records.read_all(read, records.CONTACT, self._capsule, id)]
 
     def _forget(self, body: Body) -> None:
-        if self._user_data:
+        if self._user_data and body.is_valid:
             for entity in (body, *body.shapes, *body.joints):
                 self._user_data.pop(entity._id, None)
 
 
+def _judge(home: "weakref.ref[World]") -> Callable[[Any], Any]:
+    """What the library calls for a new pair. It holds no world: the world holds it, out of the sight of Python's
+    cycles."""
+
+    def judge(flat: Any) -> Any:
+        world = home()
+        if world is None or world._pair_filter is None:
+            return True
+        ends = world._ends((flat.body_a, flat.body_b, flat.shape_a, flat.shape_b))
+        tags = flat.body_user_data_a, flat.body_user_data_b, flat.shape_user_data_a, flat.shape_user_data_b
+        return world._pair_filter(FilterPair(*ends, *tags))
+
+    return judge
+
+
 def _contact(world: World, c: Tuple[Any, ...]) -> records.Contact:
-    points = (c[8 + 7 * i : 15 + 7 * i] for i in range(c[7]))
+    points = (c[10 + 7 * i : 17 + 7 * i] for i in range(c[9]))
     return records.Contact(
-        Body(world, c[0]),
-        Body(world, c[1]),
-        Shape(world, c[2]),
-        Shape(world, c[3]),
-        Vec3(c[4:7]),
+        *world._ends(c),
+        Vec3(c[6:9]),
         tuple(records.ContactPoint(Vec3(p[:3]), *p[3:]) for p in points),
-        Vec3(c[36:39]),
-        c[39],
-        c[40],
+        Vec3(c[38:41]),
+        c[41],
+        *c[4:6],
+        *c[42:46],
     )
 
 
@@ -546,48 +744,21 @@ def _body_def(
     type: str,
     position: Vector,
     rotation: Vector,
-    linear_velocity: Vector,
-    angular_velocity: Vector,
+    velocities: Tuple[Vector, Vector],
     damping: Sequence[float],
     locks: Sequence[str],
     fields: Dict[str, Any],
 ) -> Any:
-    desc = _flat.body_def()
-    desc.type = body_type(type)
-    desc.transform = (position, rotation)
-    desc.linear_velocity = linear_velocity
-    desc.angular_velocity = angular_velocity
-    desc.linear_damping, desc.angular_damping = damping
-    linear, angular = locks
-    desc.linear_locks, desc.angular_locks = axes_bits(linear), axes_bits(angular)
-    fill(desc, fields)
-    return desc
+    definition = _flat.body_def()
+    definition.type = body_type(type)
+    definition.transform = (position, rotation)
+    definition.linear_velocity, definition.angular_velocity = velocities
+    definition.linear_damping, definition.angular_damping = damping
+    definition.linear_locks, definition.angular_locks = locks_bits(locks)
+    fill(definition, fields)
+    return definition
 
 
 def _floats(ids: Any, width: int) -> memoryview:
     count = memoryview(ids).nbytes // 8
     return memoryview(bytearray(4 * width * max(count, 1))).cast("f", (max(count, 1), width))[:count]
-
-
-def _samples(heights: Any, rows: Optional[int], columns: Optional[int]) -> Tuple[Any, int, int]:
-    view: Optional[memoryview]
-    try:
-        view = memoryview(heights)
-        if view.format != "f":
-            heights = view.tolist()
-            view = None
-    except TypeError:
-        view = None
-    if view is not None and view.ndim == 2 and view.shape is not None:
-        return heights, view.shape[0], view.shape[1]
-    if view is None:
-        if rows is None or columns is None:
-            heights = [list(row) for row in heights]
-            rows, columns = len(heights), len(heights[0]) if heights else 0
-            if any(len(row) != columns for row in heights):
-                raise ValueError("heights: the rows are not of one length")
-            heights = [height for row in heights for height in row]
-        return array("f", heights), rows, columns
-    if rows is None or columns is None:
-        raise ValueError("heights: a flat buffer needs rows and columns")
-    return heights, rows, columns

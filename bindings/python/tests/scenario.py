@@ -29,13 +29,13 @@ def add_joint(world: World, bodies: List[Body], i: int) -> None:
     a, b, (x, y, z) = bodies[i], bodies[i + 1], place(i)
     middle = (x + 0.75, y, z)
     if i % 10 == 0:
-        world.create_ball(a, b, middle, (1, 0, 0))
+        world.create_ball_joint(a, b, middle, (1, 0, 0))
     elif i % 10 == 4:
-        world.create_hinge(a, b, middle, (0, 0, 1), limited=True, min_angle=-0.5, max_angle=0.5)
+        world.create_hinge_joint(a, b, middle, (0, 0, 1), limit_enabled=True, lower=-0.5, upper=0.5)
     elif i % 10 == 7:
-        world.create_distance(a, b, place(i), place(i + 1))
+        world.create_distance_joint(a, b, place(i), place(i + 1))
     elif i % 10 == 2:
-        world.create_fixed(a, b, middle, break_force=8192)
+        world.create_fixed_joint(a, b, middle, break_force=8192)
 
 
 def act(world: World, terrain: Heightfield, bodies: List[Body], step: int, told: "Counter[str]") -> None:

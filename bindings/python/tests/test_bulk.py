@@ -55,7 +55,7 @@ def test_velocities_and_forces(many: World) -> None:
 
 
 def test_exact_transforms_keep_their_doubles(many: World) -> None:
-    kind = np.dtype([("position", "<f8", 3), ("rotation", "<f4", 4)])
+    kind = np.dtype(records.TRANSFORM.dtype)
     ids = many.body_ids()
     poses = np.zeros(COUNT, kind)
     poses["position"][:, 0] = 1e8 + np.arange(COUNT) / 1024
@@ -68,11 +68,10 @@ def test_exact_transforms_keep_their_doubles(many: World) -> None:
 def test_many_rays_and_sweeps(world: World) -> None:
     world.create_body("static").add_plane()
     rays = np.array([[x, 1, 0, 0, -2, 0] for x in range(10)] + [[0, 1, 0, 0, 1, 0]], float)
-    kind = np.dtype({"names": ["body", "fraction"], "formats": ["<u8", "<f8"], "offsets": [0, 40], "itemsize": records.HIT.size})
-    hits = np.frombuffer(world.raycast_many(rays), kind)
+    hits = np.frombuffer(world.raycast_many(rays), records.HIT.dtype)
     assert (hits["fraction"] == [0.5] * 10 + [1]).all() and hits["body"][-1] == 0
     paths = b"".join(records.PATH.pack(x, 1, 0, 0, 0, 0, 1, 0, -2, 0) for x in range(10))
-    found = np.frombuffer(world.sweep_many(Sphere(0.5), paths, spread=False), kind)
+    found = np.frombuffer(world.sweep_many(Sphere(0.5), paths, spread=False), records.HIT.dtype)
     assert np.allclose(found["fraction"], 0.25, atol=1e-4)
 
 

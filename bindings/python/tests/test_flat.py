@@ -2,6 +2,7 @@
 
 import re
 
+import numpy as np
 import pytest
 from conftest import ROOT, Function, header_functions
 
@@ -10,12 +11,14 @@ from feather_physics import _flat, records
 
 # reached otherwise, and why
 ELSEWHERE = {
+    "fe_allocator_init": "allocators and task systems are functions of a host in C",
+    "fe_task_system_init": "allocators and task systems are functions of a host in C",
     "fe_heightfield_def_init": "fe_heightfield_create takes a tuple, whose arrays live as long as the call",
     "fe_query_filter_init": "filters are tuples of mask, flags and excluded bodies, for the same reason",
 }
 # arrays: a buffer goes in, though the name begins with out_
-BUFFERS = re.compile(r"out_(bodies|shapes|joints|transforms|hits|events|contacts|floats|heights)$")
-FOUND_FROM_BUFFERS = ("stride", "ray_stride", "path_stride", "count", "capacity", "struct_size")
+BUFFERS = re.compile(r"out_(bodies|shapes|joints|transforms|hits|overlaps|events|contacts|floats|heights)$")
+FOUND_FROM_BUFFERS = ("stride", "ray_stride", "path_stride", "count", "capacity", "struct_size", "user")
 
 
 def python_arguments(function: Function) -> int:
@@ -53,7 +56,7 @@ def test_function_is_there_with_the_arguments_that_go_in(function: Function) -> 
 def test_each_function_is_used_by_the_layer_above() -> None:
     text = "".join(path.read_text() for path in (ROOT / "bindings/python/feather_physics").glob("*.py"))
     kinds = ("distance", "ball", "hinge", "fixed", "configurable")
-    built = {f"fe_{kind}_{verb}" for kind in kinds for verb in ("create", "get", "set")}
+    built = {f"fe_{kind}_joint_{verb}" for kind in kinds for verb in ("create", "get", "set")}
     made_by_objects = {f.name for f in header_functions() if f.name.endswith("_init")}
     names = {
         "fe_last_error": "the text of the exceptions",
@@ -80,7 +83,12 @@ def test_packed_record_has_the_size_of_the_struct(name: str) -> None:
     header = (ROOT / "include/feather.h").read_text()
     body = re.search(rf"typedef struct fe_{name.lower()} {{(.*?)}} fe_{name.lower()};", header, re.S)
     assert body
-    assert getattr(records, name).size == struct_size(body.group(1), header)
+    record = getattr(records, name)
+    kept = re.sub(r"uint32_t reserved\[\d+\];", "", body.group(1)) if name in ("RAY", "PATH") else body.group(1)
+    assert record.size == struct_size(kept, header) == np.dtype(record.dtype).itemsize
+    fields = [n.split("[")[0].strip() for names in re.findall(r"^\s*\w+ ([\w\[\], ]+);", body.group(1), re.M) for n in names.split(",")]
+    expected = ["position", "rotation", "translation"] if name == "PATH" else [f for f in fields if f != "reserved"]
+    assert record.dtype["names"] == expected
 
 
 def struct_size(body: str, header: str) -> int:
@@ -103,7 +111,7 @@ def struct_size(body: str, header: str) -> int:
     return (total + align - 1) // align * align
 
 
-@pytest.mark.parametrize("name", ["Tuning", "Profile", "Counters", "JointState", "MassData"])
+@pytest.mark.parametrize("name", ["Tuning", "Profile", "Counters", "Energy", "JointState", "MassData"])
 def test_record_has_the_fields_of_the_struct(name: str) -> None:
     structs = {"Tuning": "world_tuning", "JointState": "joint_state", "MassData": "mass_data"}
     struct = "fe_" + structs.get(name, name.lower())
@@ -124,12 +132,12 @@ def test_fields_of_definitions_can_be_read_and_written_back() -> None:
     for name in dir(_flat):
         if not name.endswith("_def") or name.startswith("_"):
             continue
-        desc = getattr(_flat, name)()
-        for field in (f for f in dir(desc) if not f.startswith("_") and f not in ("this", "thisown", "struct_size", "axis", "axes", "pool")):
-            value = getattr(desc, field)
+        definition = getattr(_flat, name)()
+        for field in (f for f in dir(definition) if not f.startswith("_") and f not in ("this", "thisown", "struct_size", "axis", "axes", "pool", "store")):
+            value = getattr(definition, field)
             if callable(value):
                 continue
-            setattr(desc, field, value)
-            assert getattr(desc, field) == value, (name, field)
+            setattr(definition, field, value)
+            assert getattr(definition, field) == value, (name, field)
         with pytest.raises(AttributeError):
-            desc.struct_size = 5
+            definition.struct_size = 5

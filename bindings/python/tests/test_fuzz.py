@@ -129,7 +129,7 @@ def test_random_calls_of_the_package() -> None:
         for world in worlds:
             body = world.create_body()
             values.keep([body, body.add(Box(1, 1, 1)), world.create_heightfield([[0, 0], [0, 0]])])
-            values.keep(world.create_ball(body, world.create_body(), (0, 0, 0)))
+            values.keep(world.create_ball_joint(body, world.create_body(), (0, 0, 0)))
         for _ in range(300):
             target = values.random.choice([v for v in values.kept if isinstance(v, (World, Body)) or hasattr(v, "world")])
             names = [n for n in dir(type(target)) if not n.startswith("_")]

@@ -26,6 +26,13 @@ def test_types_are_right(tmp_path: Path) -> None:
     checked = [ROOT / "bindings/python/feather_physics", ROOT / "bindings/python/tests/scenario.py"]
     checked += [path for path in EXAMPLES if path.name != "pile.py"]  # matplotlib has no types
     run(["mypy", "--strict", "--cache-dir", tmp_path, "--python-executable", sys.executable, *checked], ROOT, environment)
+    right = tmp_path / "right.py"
+    right.write_text(
+        "import feather_physics as f\nw = f.World()\nw.gravity = (0, 0, 0)\nb = w.create_body()\nb.position = (1, 2, 3)\n"
+        "b.transform = ((0, 0, 0), (0, 0, 0, 1))\nb.linear_velocity = [1, 2, 3]\n"
+        "y: float = w.gravity.y + b.position.x + b.linear_velocity.x + b.transform.position.y + b.rotation.w\n"
+    )
+    run(["mypy", "--strict", right], tmp_path, environment)
     wrong = tmp_path / "wrong.py"
     wrong.write_text("import feather_physics as f\nf.World().create_body().position.colour\nf.World().raycast(5, (1, 2, 3))\n")
     done = subprocess.run(["mypy", "--strict", wrong], capture_output=True, text=True, env=environment)

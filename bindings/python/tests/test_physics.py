@@ -12,6 +12,8 @@ from feather_physics import (
     Box,
     Capsule,
     FeatherError,
+    Filter,
+    FilterPair,
     Heightfield,
     InvalidArgumentError,
     MassData,
@@ -21,6 +23,8 @@ from feather_physics import (
     Quat,
     Sphere,
     StateError,
+    SteppingError,
+    Store,
     UnsupportedError,
     Vec3,
     World,
@@ -70,7 +74,7 @@ def test_properties_are_read_as_they_were_written(world: World, ball: Body) -> N
         "mass": 2.0,
         "gravity_scale": 0.5,
         "sleep_threshold": 0.25,
-        "tag": 2**53 - 1,
+        "tag": 2**64 - 1,
         "sleep_allowed": False,
         "bullet": True,
         "damping": (0.5, 0.25),
@@ -96,9 +100,11 @@ def test_properties_of_shapes(world: World, ball: Body) -> None:
         "tag": 7,
         "trigger": True,
         "geometry": Capsule(0.5, 0.25),
-        "local_pose": ((1, 2, 3), (0, 0, 0, 1)),
-        "material": Material(0.5, 0.25, 0.125, 0.5, 0.25),
-        "filter": (2, 6),
+        "frame": ((1, 2, 3), (0, 0, 0, 1)),
+        "material": Material(0.5, 0.25, 0.125, 0.5, 0.25, "minimum", "average", 2**64 - 1),
+        "filter": Filter(2, 6, -3),
+        "pair_filter": True,
+        "one_way": (0, 0, 1),
         "events": ("touch", "hit"),
     }
     for name, value in values.items():
@@ -153,14 +159,19 @@ def test_kinematic_body_reaches_its_target(world: World) -> None:
 def test_world_settings() -> None:
     with World(gravity=(0, 0, -1), substeps=4, workers=2, tag=9, simd="plain") as world:
         assert (world.gravity, world.substeps, world.tag) == ((0, 0, -1), 4, 9)
+        world.tag = 2**64 - 1
+        assert world.tag == 2**64 - 1
         world.substeps = 6
         assert world.substeps == 6
         world.tuning = world.tuning._replace(contact_hertz=20)
         assert world.tuning.contact_hertz == 20
+        assert world.tuning.sleep_enabled is True
+        world.tuning = world.tuning._replace(sleep_enabled=False, continuous_enabled=False, warm_start_enabled=False)
+        assert world.tuning[-3:] == (False, False, False)
         assert world.counters.simd == 1 and world.counters.workers == 2
         world.step()
         assert world.profile.step > 0
-        world.sync_queries()
+        world.optimize()
         assert repr(world) == "<World of 0 bodies>"
     assert repr(world) == "<World, closed>"
 
@@ -208,31 +219,35 @@ def test_joints(world: World) -> None:
     b.add_sphere(0.25)
     x, z = (1, 0, 0), (0, 0, 1)
     made = [
-        world.create_distance(a, b, (0, 0, 0), x),
-        world.create_ball(a, b, (0, 0, 0), x, swing_limited=True, cone_y=0.5, cone_z=0.5),
-        world.create_hinge(a, b, (0, 0, 0), z, limited=True, min_angle=-1, max_angle=1),
-        world.create_fixed(a, b, x),
-        world.create_configurable(a, b, x, along_x={"mode": "limited", "low": -1, "high": 1}, about_y={"mode": "free"}),
-        world.create_rope(a, b, (0, 0, 0), x, 3),
-        world.create_slider(a, b, x, x, tag=5),
-        world.create_wheel(a, b, x, z, (0, 1, 0), 4, 0.7, 0.2),
-        world.create_motor(a, b, 5, 1, 100, 100),
+        world.create_distance_joint(a, b, (0, 0, 0), x),
+        world.create_ball_joint(a, b, (0, 0, 0), x, cone_enabled=True, cone_y=0.5, cone_z=0.5),
+        world.create_hinge_joint(a, b, (0, 0, 0), z, limit_enabled=True, lower=-1, upper=1),
+        world.create_fixed_joint(a, b, x),
+        world.create_configurable_joint(a, b, x, linear_x={"motion": "limited", "lower": -1, "upper": 1}, angular_y={"motion": "free"}),
+        world.create_rope_joint(a, b, (0, 0, 0), x, 3),
+        world.create_slider_joint(a, b, x, x, tag=5),
+        world.create_wheel_joint(a, b, x, z, (0, 1, 0), 4, 0.7, 0.2),
+        world.create_motor_joint(a, b, 5, 1, 100, 100),
     ]
     kinds = ["distance", "ball", "hinge", "fixed", "configurable", "distance", "configurable", "configurable", "configurable"]
     assert [joint.type for joint in made] == kinds
     assert world.joints == made == a.joints == b.joints
     assert all(joint.bodies == (a, b) and joint.is_valid and joint.enabled for joint in made)
-    assert made[4].definition.about_y.mode == "free" and made[5].definition.max_length == 3 and made[6].tag == 5
-    assert made[0].definition.min_length == pytest.approx(1)
+    assert made[4].definition.angular_y.motion == "free" and made[5].definition.upper == 3 and made[6].tag == 5
+    assert made[0].definition.lower == pytest.approx(1)
     hinge = made[2]
-    hinge.set(motor_speed=2, motor_torque=10, tag=3)
+    hinge.set(motor_speed=2, motor_max=10, tag=3)
     assert hinge.definition.motor_speed == 2 and hinge.tag == 3
-    made[4].set(along_x={"low": -2})
-    assert made[4].definition.along_x.low == -2 and made[4].definition.along_x.mode == "limited"
+    made[4].set(linear_x={"lower": -2})
+    assert made[4].definition.linear_x.lower == -2 and made[4].definition.linear_x.motion == "limited"
+    for joint in made:
+        definition = joint.definition
+        joint.set(**{name: value for name, value in vars(definition).items() if not name.startswith("body_")})
+        assert joint.definition == definition
     with pytest.raises(TypeError):
         hinge.set(colour=1)
     with pytest.raises(InvalidArgumentError):
-        world.create_fixed(a, a, x)
+        world.create_fixed_joint(a, a, x)
     for joint in made[:2] + made[3:]:
         joint.destroy()
         assert not joint.is_valid
@@ -248,7 +263,7 @@ def test_joints(world: World) -> None:
 def test_a_joint_that_breaks_sends_its_event(world: World) -> None:
     a, b = world.create_body("static"), world.create_body(position=(1, 0, 0))
     b.add_sphere(0.25)
-    joint = world.create_fixed(a, b, (0, 0, 0), break_force=1, tag=4)
+    joint = world.create_fixed_joint(a, b, (0, 0, 0), break_force=1, tag=4)
     (event,) = [e for e in run(world, 0.1) if type(e).__name__ == "JointEvent"]
     assert event.joint == joint and (event.body_a, event.body_b) == (a, b) and event.tag == 4 and event.type == "fixed"
     assert not joint.is_valid and math.hypot(*event.force) > 1
@@ -296,8 +311,9 @@ def test_collisions_can_be_ignored(world: World, ground: Body, ball: Body) -> No
     world.ignore_collision(ground, ball)
     run(world, 2)
     assert ball.position.y < -1
-    ball.set_filter(2, 4)
-    assert ball.shapes[0].filter == (2, 4)
+    assert world.is_ignored(ball, ground) and not world.is_ignored(ball, world.create_body())
+    ball.filter = Filter(2, 4, 5)
+    assert ball.shapes[0].filter == ball.filter == (2, 4, 5)
 
 
 def test_equal_runs_have_equal_hashes() -> None:
