@@ -50,6 +50,7 @@ missing_for_lua() {
     has luarocks || echo luarocks
     has valgrind || echo valgrind
     has love || echo love
+    has zip || echo zip
     has lua5.4 && lua5.4 -e 'require("luaunit")' 2> /dev/null || echo lua-unit
 }
 

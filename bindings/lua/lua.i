@@ -1,13 +1,21 @@
-// What feather.h's types become in Lua: vectors go in as tables {x, y, z} and come out as values, definitions and results are objects with the header's
-// fields, arrays flat tables of numbers, handles integers below 2^53, errors Lua errors with the library's sentence. lua/feather/ffi.lua does the same
-// for LuaJIT. One C module for each Lua, from this one source.
+// What feather.h's types become in Lua. Vectors go in as tables {x, y, z} and come out as values; definitions and
+// results are objects with the header's fields; arrays are flat tables of numbers; handles are integers below 2^53;
+// errors are Lua errors with the library's sentence. lua/feather/ffi.lua does the same for LuaJIT. One C module for
+// each Lua is made from this one source.
 %{
-#include "lua/convert.h"
+#include "lua/arrays.h"
+#include "lua/boxes.h"
+#include "lua/errors.h"
+#include "lua/heightfield.h"
+#include "lua/objects.h"
+#include "lua/pair_filter.h"
+#include "lua/values.h"
 %}
 %init %{
     add_types(L);
     hide_helpers(L, &swig_module);
 %}
+%native(hide_lines) int hide_lines(lua_State *L);
 %typemap(out) SWIGTYPE * %{
     SWIG_NewPointerObj(L, $1, $1_descriptor, $owner);
     SWIG_arg++;
@@ -15,41 +23,61 @@
 %}
 %include "records.i"
 
-// ---- worlds and pools -----------------------------------------------------------------------------------------------------------
+// ---- worlds, pools and stores ---------------------------------------------------------------------------------------
 
-%typemap(in) fe_world * (call_state call) "$1 = world_of(L, $input); call.count = 0;"
+%typemap(in) fe_world * (call_state call) "$1 = to_world(L, $input); call.count = 0;"
 %typemap(in) const fe_world * = fe_world *;
-// when all arguments are converted: a filter's __index may destroy the world
-%typemap(check) fe_world *, const fe_world * "$1 = world_in(L, lua_touserdata(L, 1));"
+// again, when all arguments are converted: a filter's __index may have destroyed the world
+%typemap(check) fe_world *, const fe_world * "$1 = check_world(L, lua_touserdata(L, 1));"
 %typemap(argout) fe_world *world %{
     if (result == FE_OK && strcmp("$symname", "world_destroy") == 0) ((world_box *)lua_touserdata(L, 1))->world = NULL;
 %}
 %typemap(argout) const fe_world * ""
 %typemap(in, numinputs=0) fe_world **out_world (fe_world *made = 0) "$1 = &made;"
-%typemap(argout) fe_world **out_world %{ push_world(L, *$1); SWIG_arg++; keep_pool(L); %}
+%typemap(argout) fe_world **out_world %{ push_world(L, *$1); SWIG_arg++; %}
+%exception fe_world_step %{ result = step(L, arg1, arg2); %}
+
+%typemap(in) (fe_pair_filter filter, void *user) "$1 = to_pair_filter(L, $input); $2 = lua_touserdata(L, 1);"
+%typemap(argout) (fe_pair_filter filter, void *user) "keep_pair_filter(L);"
+%ignore fe_filter_pair;
+
 %typemap(in, numinputs=0) fe_pool **out_pool (fe_pool *made = 0) "$1 = &made;"
 %typemap(argout) fe_pool **out_pool %{ push_pool(L, *$1); SWIG_arg++; %}
-%typemap(in) fe_pool *pool "$1 = pool_of(L, $input);"
+%typemap(in) fe_pool *pool "$1 = to_pool(L, $input);"
 %typemap(argout) fe_pool *pool %{
     if (strcmp("$symname", "pool_destroy") == 0) {
         ((pool_box *)lua_touserdata(L, 1))->pool = NULL;
     } else { // of a world's definition
-        lua_pushvalue(L, 1);
-        keep_alive(L, 2);
+        lua_pushvalue(L, 2);
+        keep_as(L, 1, "pool");
         lua_pop(L, 1);
     }
 %}
-%typemap(out) fe_pool * "lua_pushnil(L); SWIG_arg++;"
+%typemap(out) fe_pool *, fe_store * "lua_pushnil(L); SWIG_arg++;"
 
-// ---- results and numbers --------------------------------------------------------------------------------------------------------
+%typemap(in, numinputs=0) fe_store **out_store (fe_store *made = 0) "$1 = &made;"
+%typemap(argout) fe_store **out_store %{
+    push_store(L, *$1, strcmp("$symname", "world_get_store") == 0 ? 1 : 0);
+    SWIG_arg++;
+%}
+%typemap(in) fe_store * (call_state call) "$1 = to_store(L, $input); call.count = 0; (void)call;"
+%typemap(in) const fe_store * = fe_store *;
+%typemap(check) fe_store *, const fe_store * "$1 = to_store(L, $argnum);"
+%typemap(argout) fe_store *store %{
+    if (strcmp("$symname", "store_destroy") == 0) {
+        ((store_box *)lua_touserdata(L, 1))->store = NULL;
+    } else if (strcmp("$symname", "world_def_store_set") == 0) {
+        lua_pushvalue(L, 2);
+        keep_as(L, 1, "store");
+        lua_pop(L, 1);
+    }
+%}
+%typemap(argout) const fe_store * ""
+
+// ---- results and numbers --------------------------------------------------------------------------------------------
 
 %typemap(out) fe_result %{
     if ($1 < 0) raise_last(L);
-%}
-%typemap(out) fe_result fe_world_raycast_any, fe_result fe_world_sweep_any, fe_result fe_world_overlap_any %{
-    if ($1 < 0) raise_last(L);
-    lua_pushboolean(L, $1 == FE_OK);
-    SWIG_arg++;
 %}
 // counts; a field that is read may be negative
 %typemap(out) int32_t %{
@@ -57,10 +85,20 @@
     push_integer(L, (long long)$1);
     SWIG_arg++;
 %}
-%typemap(out) uint32_t, fe_handle %{ push_integer(L, (long long)$1); SWIG_arg++; %}
+%typemap(out) FE_ANY %{
+    if ($1 < 0) raise_last(L);
+    lua_pushboolean(L, $1 > 0);
+    SWIG_arg++;
+%}
+%typemap(out) FE_FOUND %{
+    if ($1 < 0) raise_last(L);
+%}
+%typemap(out) uint32_t, int64_t, fe_handle %{ push_integer(L, (long long)$1); SWIG_arg++; %}
+%typemap(out) uint64_t %{ push_u64(L, $1); SWIG_arg++; %}
 %typemap(in) int32_t "$1 = (int32_t)to_integer(L, $input, INT32_MIN, INT32_MAX, \"$1_name\");"
 %typemap(in) uint32_t "$1 = (uint32_t)to_integer(L, $input, 0, UINT32_MAX, \"$1_name\");"
 %typemap(in) fe_handle "$1 = (fe_handle)to_integer(L, $input, 0, 1LL << 53, \"$1_name\");"
+%typemap(in) uint64_t "$1 = to_u64(L, $input, \"$1_name\");"
 %typemap(in) float "$1 = (float)to_number(L, $input, \"$1_name\");"
 %typemap(in) double "$1 = to_number(L, $input, \"$1_name\");"
 
@@ -71,48 +109,60 @@
 FE_OUT(fe_handle *, push_integer(L, (long long)*$1); SWIG_arg++)
 FE_OUT(int32_t *, push_integer(L, (long long)*$1); SWIG_arg++)
 FE_OUT(uint32_t *, push_integer(L, (long long)*$1); SWIG_arg++)
+FE_OUT(int64_t *, push_integer(L, (long long)*$1); SWIG_arg++)
+FE_OUT(uint64_t *, push_u64(L, *$1); SWIG_arg++)
 FE_OUT(float *, lua_pushnumber(L, (lua_Number)*$1); SWIG_arg++)
 %typemap(in, numinputs=0) uint32_t *out_words (uint32_t words[2]) "$1 = words;"
 %typemap(argout) uint32_t *out_words %{ push_words(L, $1); SWIG_arg++; %}
 
 %typemap(in) const fe_vec3 * (fe_vec3 value) "to_vec3(L, $input, &value, \"$1_name\"); $1 = &value;"
+%typemap(in) const fe_vec3 *direction (fe_vec3 value) %{
+    $1 = NULL;
+    if (!lua_isnoneornil(L, $input)) to_vec3(L, $input, &value, "$1_name"), $1 = &value;
+%}
 %typemap(in) const fe_dvec3 * (fe_dvec3 value) "to_dvec3(L, $input, &value, \"$1_name\"); $1 = &value;"
 %typemap(in) const fe_quat * (fe_quat value) "to_quat(L, $input, &value, \"$1_name\"); $1 = &value;"
 %typemap(in) const fe_transform * (fe_transform value) "to_transform(L, $input, &value, \"$1_name\"); $1 = &value;"
+%typemap(in) const fe_frame * (fe_frame value) "to_frame(L, $input, &value, \"$1_name\"); $1 = &value;"
+%typemap(in) const fe_bounds * (fe_bounds value) "to_bounds(L, $input, &value, \"$1_name\"); $1 = &value;"
 %typemap(in) const fe_material * (fe_material value) "to_material(L, $input, &value, \"$1_name\"); $1 = &value;"
 FE_OUT(fe_vec3 *out_gravity, SWIG_arg += push_vec3(L, $1))
 FE_OUT(fe_vec3 *out_velocity, SWIG_arg += push_vec3(L, $1))
+FE_OUT(fe_vec3 *out_direction, SWIG_arg += push_vec3(L, $1))
 FE_OUT(fe_vec3 *out_force, SWIG_arg += push_vec3(L, $1))
 FE_OUT(fe_vec3 *out_torque, SWIG_arg += push_vec3(L, $1))
-FE_OUT(fe_vec3 *out_position, SWIG_arg += push_vec3(L, $1))
 FE_OUT(fe_dvec3 *out_position, SWIG_arg += push_dvec3(L, $1))
 FE_OUT(fe_dvec3 *out_centre, SWIG_arg += push_dvec3(L, $1))
+FE_OUT(fe_dvec3 *out_linear, SWIG_arg += push_dvec3(L, $1))
+FE_OUT(fe_dvec3 *out_angular, SWIG_arg += push_dvec3(L, $1))
 FE_OUT(fe_quat *out_rotation, SWIG_arg += push_quat(L, $1))
 FE_OUT(fe_transform *out_transform, SWIG_arg += push_transform(L, $1))
 FE_OUT(fe_transform *out_frame_a, SWIG_arg += push_transform(L, $1))
 FE_OUT(fe_transform *out_frame_b, SWIG_arg += push_transform(L, $1))
+FE_OUT(fe_frame *out_frame, SWIG_arg += push_frame(L, $1))
+FE_OUT(fe_bounds *out_bounds, SWIG_arg += push_bounds(L, $1))
 FE_OUT(fe_material *out_material, SWIG_arg += push_material(L, $1))
 
-// ---- records --------------------------------------------------------------------------------------------------------------------
+// ---- records --------------------------------------------------------------------------------------------------------
 
 %typemap(in, numinputs=0) SWIGTYPE *OUT_RECORD "$1 = NULL;"
 %typemap(check) SWIGTYPE *OUT_RECORD {
     $1 = ($1_ltype)calloc(1, sizeof *$1);
-    if (!$1) luaL_error(L, "feather: out of memory");
+    if (!$1) fail(L, "feather: out of memory");
     *(uint32_t *)(void *)$1 = (uint32_t)sizeof *$1;
     SWIG_NewPointerObj(L, $1, $1_descriptor, 1);
     call_record = lua_gettop(L);
 }
-%typemap(argout) SWIGTYPE *OUT_RECORD %{
-    if (result == FE_OK) lua_pushvalue(L, call_record); else lua_pushnil(L);
-    SWIG_arg++;
-%}
+%typemap(argout) SWIGTYPE *OUT_RECORD %{ lua_pushvalue(L, call_record); SWIG_arg++; %}
 %typemap(arginit) SWIGTYPE *OUT_RECORD "int call_record = 0;"
 FE_OUT_RECORDS
-// fe_geometry_box and its like return nothing that could fail
-%typemap(argout) fe_geometry *out_geometry %{ lua_pushvalue(L, call_record); SWIG_arg++; %}
+// a query's record: its values, or nil on a miss
+%typemap(in, numinputs=0) fe_hit *out_hit (fe_hit value) "$1 = &value;"
+%typemap(in, numinputs=0) fe_closest *out_closest (fe_closest value) "$1 = &value;"
+%typemap(argout) fe_hit *out_hit { SWIG_arg += result > 0 ? push_hit(L, $1) : push_nil(L); }
+%typemap(argout) fe_closest *out_closest { SWIG_arg += result > 0 ? push_closest(L, $1) : push_nil(L); }
 
-// ---- arrays ---------------------------------------------------------------------------------------------------------------------
+// ---- arrays ---------------------------------------------------------------------------------------------------------
 
 %typemap(in) const fe_handle * "$1 = to_handles(L, $input, &call1, \"$1_name\");"
 %typemap(in) const float *floats "$1 = to_floats(L, $input, 6, &call1, \"$1_name\");"
@@ -121,12 +171,14 @@ FE_OUT_RECORDS
 %typemap(in) const fe_transform *transforms "$1 = to_transforms(L, $input, &call1, \"$1_name\");"
 %typemap(in) const fe_ray *rays "$1 = to_rays(L, $input, &call1, \"$1_name\");"
 %typemap(in) const fe_path *paths "$1 = to_paths(L, $input, &call1, \"$1_name\");"
-%typemap(in, numinputs=0) int32_t count, int32_t capacity, uint32_t stride, uint32_t ray_stride, uint32_t path_stride "$1 = 0;"
+%typemap(in, numinputs=0) int32_t count, int32_t capacity, uint32_t stride "$1 = 0;"
+%typemap(in, numinputs=0) uint32_t ray_stride "$1 = (uint32_t)sizeof(fe_ray);"
+%typemap(in, numinputs=0) uint32_t path_stride "$1 = (uint32_t)sizeof(fe_path);"
 %typemap(check) int32_t count "$1 = call1.count;"
 
 %typemap(argout) const fe_handle *, const float * ""
 
-// one record for each that goes in
+// one record for each that goes in; of these, hits may grow and have their stride stated
 %typemap(in, numinputs=0) float *out_floats, fe_transform *out_transforms, fe_hit *out_hits, float *out_heights "$1 = NULL;"
 %typemap(check) float *out_floats "$1 = ($1_ltype)new_array(L, call1.count, 7 * sizeof *$1);"
 %typemap(check) fe_transform *out_transforms "$1 = ($1_ltype)new_array(L, call1.count, sizeof *$1);"
@@ -134,33 +186,48 @@ FE_OUT_RECORDS
 %typemap(check) float *out_heights "$1 = ($1_ltype)new_heights(L, arg5, arg6);"
 %typemap(argout) float *out_floats { push_floats(L, $1, call1.count * (ends_with("$symname", "transforms_f32") ? 7 : 6)); SWIG_arg++; }
 %typemap(argout) float *out_heights { push_floats(L, $1, arg5 * arg6); SWIG_arg++; }
+%exception fe_world_raycast_many {
+    arg8 = (uint32_t)sizeof(fe_hit);
+    $action
+}
+%exception fe_world_sweep_many {
+    arg9 = (uint32_t)sizeof(fe_hit);
+    $action
+}
 
 // all there are: asked for their number first
-%typemap(in, numinputs=0) fe_handle *out_bodies, fe_handle *out_shapes, fe_handle *out_joints, fe_pair_event *out_events, fe_body_event *out_events,
-    fe_hit_event *out_events, fe_joint_event *out_events, fe_contact *out_contacts "$1 = NULL;"
-%define FE_ALL(FUNCTION, OUT, CAPACITY)
+%typemap(in, numinputs=0) fe_handle *out_bodies, fe_handle *out_shapes, fe_handle *out_joints, fe_overlap *out_overlaps,
+    fe_pair_event *out_events, fe_body_event *out_events, fe_hit_event *out_events, fe_joint_event *out_events,
+    fe_contact *out_contacts "$1 = NULL;"
+%define FE_ALL(FUNCTION, OUT, STATE_STRIDE, CAPACITY)
 %exception FUNCTION {
     $action
     if (result > 0) {
         OUT = new_array(L, result, sizeof *OUT);
+        STATE_STRIDE;
         CAPACITY = result;
         $action
     }
 }
 %enddef
-FE_ALL(fe_world_get_bodies, arg2, arg3)
-FE_ALL(fe_world_get_joints, arg2, arg3)
-FE_ALL(fe_body_get_shapes, arg3, arg4)
-FE_ALL(fe_body_get_joints, arg3, arg4)
-FE_ALL(fe_world_overlap, arg5, arg6)
-FE_ALL(fe_world_raycast_all, arg5, arg7)
-FE_ALL(fe_world_sweep_all, arg6, arg8)
-FE_ALL(fe_world_get_pair_events, arg2, arg4)
-FE_ALL(fe_world_get_body_events, arg2, arg4)
-FE_ALL(fe_world_get_hit_events, arg2, arg4)
-FE_ALL(fe_world_get_joint_events, arg2, arg4)
-FE_ALL(fe_body_get_contacts, arg3, arg5)
-FE_ALL(fe_shape_get_contacts, arg3, arg5)
+%define FE_ALL_HANDLES(FUNCTION, OUT, CAPACITY) FE_ALL(FUNCTION, OUT, (void)0, CAPACITY) %enddef
+%define FE_ALL_RECORDS(FUNCTION, OUT, STRIDE, CAPACITY) FE_ALL(FUNCTION, OUT, STRIDE = (uint32_t)sizeof *OUT, CAPACITY) %enddef
+FE_ALL_HANDLES(fe_world_get_bodies, arg2, arg3)
+FE_ALL_HANDLES(fe_world_get_joints, arg2, arg3)
+FE_ALL_HANDLES(fe_body_get_shapes, arg3, arg4)
+FE_ALL_HANDLES(fe_body_get_joints, arg3, arg4)
+FE_ALL_HANDLES(fe_shape_get_overlaps, arg3, arg4)
+FE_ALL_HANDLES(fe_world_overlap, arg5, arg6)
+FE_ALL_HANDLES(fe_world_overlap_bounds, arg4, arg5)
+FE_ALL_RECORDS(fe_world_overlap_shapes, arg5, arg6, arg7)
+FE_ALL_RECORDS(fe_world_raycast_all, arg5, arg6, arg7)
+FE_ALL_RECORDS(fe_world_sweep_all, arg6, arg7, arg8)
+FE_ALL_RECORDS(fe_world_get_pair_events, arg2, arg3, arg4)
+FE_ALL_RECORDS(fe_world_get_body_events, arg2, arg3, arg4)
+FE_ALL_RECORDS(fe_world_get_hit_events, arg2, arg3, arg4)
+FE_ALL_RECORDS(fe_world_get_joint_events, arg2, arg3, arg4)
+FE_ALL_RECORDS(fe_body_get_contacts, arg3, arg4, arg5)
+FE_ALL_RECORDS(fe_shape_get_contacts, arg3, arg4, arg5)
 %exception fe_world_get_moved {
     $action
     if (result > 0) {
@@ -178,6 +245,7 @@ FE_PUSH_ALL(fe_handle *out_shapes, push_handles)
 FE_PUSH_ALL(fe_handle *out_joints, push_handles)
 FE_PUSH_ALL(fe_transform *out_transforms, push_transforms)
 FE_PUSH_ALL(fe_hit *out_hits, push_hits)
+FE_PUSH_ALL(fe_overlap *out_overlaps, push_overlaps)
 FE_PUSH_ALL(fe_pair_event *out_events, push_pair_events)
 FE_PUSH_ALL(fe_body_event *out_events, push_body_events)
 FE_PUSH_ALL(fe_hit_event *out_events, push_hit_events)
@@ -185,7 +253,7 @@ FE_PUSH_ALL(fe_joint_event *out_events, push_joint_events)
 FE_PUSH_ALL(fe_contact *out_contacts, push_contacts)
 
 %typemap(in) const fe_query_filter *filter (fe_query_filter value) "$1 = to_filter(L, $input, &value);"
-%typemap(in) const fe_heightfield_def *desc (fe_heightfield_def value) "to_heightfield(L, $input, &value); $1 = &value;"
+%typemap(in) const fe_heightfield_def *def (fe_heightfield_def value) "to_heightfield(L, $input, &value); $1 = &value;"
 %ignore fe_query_filter;
 %ignore fe_query_filter_init;
 %ignore fe_heightfield_def;
@@ -194,9 +262,13 @@ FE_PUSH_ALL(fe_contact *out_contacts, push_contacts)
 %ignore fe_body_create_many;
 %ignore fe_ray;
 %ignore fe_path;
+%ignore fe_hit;
+%ignore fe_closest;
+%ignore fe_overlap;
 %ignore fe_pair_event;
 %ignore fe_body_event;
 %ignore fe_hit_event;
 %ignore fe_joint_event;
 %ignore fe_contact;
 %ignore fe_contact_point;
+%ignore fe_bounds;

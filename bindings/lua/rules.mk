@@ -5,15 +5,16 @@ LUA_VERSIONS := $(foreach version,5.1 5.3 5.4,$(if $(shell $(PKG_CONFIG) --exist
 LUA_SOURCES := $(wildcard bindings/lua/feather/*.lua)
 
 .PHONY: lua test-lua
-lua: $(LUA_VERSIONS:%=$(BUILD)/lua/%/feather/core.so) $(LUA_SOURCES:bindings/lua/%=$(BUILD)/lua/%) $(BUILD)/lua/feather/header.lua $(BUILD)/lua/libfeather.so
+lua: $(LUA_VERSIONS:%=$(BUILD)/lua/%/feather/core.so) $(LUA_SOURCES:bindings/lua/%=$(BUILD)/lua/%)
+lua: $(BUILD)/lua/feather/header.lua $(BUILD)/lua/libfeather.so
 
 $(BUILD)/lua/core.c: bindings/feather.i bindings/records.i bindings/twins.h bindings/lua/lua.i include/feather.h
 	@mkdir -p $(@D)
 	$(RUN)$(SWIG) -lua -nomoduleglobal -Iinclude -Ibindings -o $@ bindings/feather.i
-$(BUILD)/lua/%/feather/core.so: $(BUILD)/lua/core.c bindings/lua/convert.h $(STATIC)
+$(BUILD)/lua/%/feather/core.so: $(BUILD)/lua/core.c $(wildcard bindings/lua/*.h) $(STATIC)
 	@mkdir -p $(@D)
-	$(RUN)$(CC) -shared $(WRAPPER_FLAGS) -Dluaopen_core=luaopen_feather_core $(shell $(PKG_CONFIG) --cflags lua$*) $< $(STATIC) $(LINK_FLAGS) \
-	    -Wl,--exclude-libs,ALL -lm -o $@
+	$(RUN)$(CC) -shared $(WRAPPER_FLAGS) -Dluaopen_core=luaopen_feather_core $(shell $(PKG_CONFIG) --cflags lua$*) \
+	    $< $(STATIC) $(LINK_FLAGS) -Wl,--exclude-libs,ALL -lm -o $@
 $(BUILD)/lua/feather/%.lua: bindings/lua/feather/%.lua
 	@mkdir -p $(@D)
 	@cp $< $@
@@ -29,8 +30,8 @@ $(BUILD)/lua/feather/header.lua: bindings/lua/header.awk include/feather.h
 lua-rock: $(BUILD)/lua/core.c $(BUILD)/lua/feather/header.lua $(BUILD)/lua/libfeather.so $(STATIC)
 	@mkdir -p $(BUILD)/rock
 	@cp $(BUILD)/lua/feather/header.lua $(BUILD)/lua/libfeather.so $(BUILD)/rock
-	$(RUN)$(CC) -shared $(WRAPPER_FLAGS) -Dluaopen_core=luaopen_feather_core -I$(LUA_INCDIR) $(BUILD)/lua/core.c $(STATIC) $(LINK_FLAGS) \
-	    -Wl,--exclude-libs,ALL -lm -o $(BUILD)/rock/core.so
+	$(RUN)$(CC) -shared $(WRAPPER_FLAGS) -Dluaopen_core=luaopen_feather_core -I$(LUA_INCDIR) $(BUILD)/lua/core.c \
+	    $(STATIC) $(LINK_FLAGS) -Wl,--exclude-libs,ALL -lm -o $(BUILD)/rock/core.so
 
 test-lua: export CC := $(CC)
 test-lua:

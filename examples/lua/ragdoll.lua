@@ -11,10 +11,16 @@ local function limb(x, y, half_height, radius)
     return body
 end
 local function ball(a, b, x, y, axis, cone)
-    return world:newBallJoint({ bodyA = a, bodyB = b, point = { x, H + y, 0 }, axis = axis, swingLimited = true, coneY = cone, coneZ = cone })
+    local point = { x, H + y, 0 }
+    return world:newBallJoint({
+        bodyA = a, bodyB = b, point = point, axis = axis, coneEnabled = true, coneY = cone, coneZ = cone,
+    })
 end
-local function hinge(a, b, x, y, low, high)
-    return world:newHingeJoint({ bodyA = a, bodyB = b, point = { x, H + y, 0 }, axis = X, limited = true, minAngle = low, maxAngle = high })
+local function hinge(a, b, x, y, lower, upper)
+    local point = { x, H + y, 0 }
+    return world:newHingeJoint({
+        bodyA = a, bodyB = b, point = point, axis = X, limitEnabled = true, lower = lower, upper = upper,
+    })
 end
 
 local pelvis, chest, head = limb(0, 0, 0.05, 0.15), limb(0, 0.4, 0.12, 0.17), limb(0, 0.8, 0.04, 0.11)
@@ -33,7 +39,8 @@ for step = 0, 240 do
         local apart = 0
         for _, joint in ipairs(joints) do apart = math.max(apart, joint:getState().linearError) end
         local x, y, z = head:getPosition()
-        print(string.format("%3.1f s  head at %5.2f %5.2f %5.2f m, joints apart by at most %4.2f mm", step / 60, x, y, z, 1000 * apart))
+        local line = "%3.1f s  head at %5.2f %5.2f %5.2f m, joints apart by at most %4.2f mm"
+        print(string.format(line, step / 60, x, y, z, 1000 * apart))
     end
     world:update(1 / 60)
 end

@@ -6,7 +6,8 @@ world:newBody({ type = "static" }):newPlane(0, 1, 0, 0)
 local shooter = world:newBody({ type = "static", position = { 0, 1, 0 } })
 shooter:newCapsule(0.5, 0.4)
 for i = 0, 7 do
-    local can = world:newBody({ position = { 6 * math.cos(i * 0.3 - 1), 0.3, 6 * math.sin(i * 0.3 - 1) }, userData = "can " .. i })
+    local angle = i * 0.3 - 1
+    local can = world:newBody({ position = { 6 * math.cos(angle), 0.3, 6 * math.sin(angle) }, userData = "can " .. i })
     can:newCapsule(0.1, 0.2, { density = 100 })
 end
 

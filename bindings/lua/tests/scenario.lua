@@ -26,7 +26,7 @@ local function add_joint(world, bodies, i)
     if i % 10 == 0 then
         world:newBallJoint({ bodyA = a, bodyB = b, point = middle, axis = { 1, 0, 0 } })
     elseif i % 10 == 4 then
-        world:newHingeJoint({ bodyA = a, bodyB = b, point = middle, axis = { 0, 0, 1 }, limited = true, minAngle = -0.5, maxAngle = 0.5 })
+        world:newHingeJoint({ bodyA = a, bodyB = b, point = middle, axis = { 0, 0, 1 }, limitEnabled = true, lower = -0.5, upper = 0.5 })
     elseif i % 10 == 7 then
         world:newDistanceJoint({ bodyA = a, bodyB = b, pointA = from, pointB = to })
     elseif i % 10 == 2 then

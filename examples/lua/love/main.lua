@@ -1,5 +1,6 @@
--- A pile of balls and boxes for LÖVE: copy feather/ and libfeather.so beside this file, then run `love .` in this folder. Space drops another body.
---   love . 120         plays 120 steps without a window and tells where the highest body is
+-- A pile of balls and boxes for LÖVE: copy feather/ and libfeather.so beside this file, then run `love .` in this
+-- folder. Space drops another body.
+--   love . 120         plays 120 steps without a window and prints where the highest body is
 local feather = require("feather")
 
 local world, bodies, SCALE = nil, {}, 40
@@ -47,7 +48,8 @@ function love.draw()
         love.graphics.push()
         love.graphics.translate(x, y)
         love.graphics.rotate(2 * math.atan2(qz, qw))
-        if i % 2 == 0 then love.graphics.circle("line", 0, 0, 0.4) else love.graphics.rectangle("line", -0.45, -0.3, 0.9, 0.6) end
+        if i % 2 == 0 then love.graphics.circle("line", 0, 0, 0.4)
+        else love.graphics.rectangle("line", -0.45, -0.3, 0.9, 0.6) end
         love.graphics.pop()
     end
 end
