@@ -1,8 +1,8 @@
 // bodies.simd.c - velocities and positions of bodies, W consecutive lines at a time. Compiled once per SIMD set.
 //
-// Within a step J, M and l at the end of a substep are those that warm-start the next, so the warm start's effect on a body is v_end -
-// start: one pass over bodies replaces a pass over rows. It holds as long as everything that is no constraint acts on `start` too; see
-// carry_velocities.
+// Within a step J, M and l at the end of a substep are those that warm-start the next, so the warm start's effect on a
+// body is v_end - start: one pass over bodies replaces a pass over rows. It holds as long as everything that is no
+// constraint acts on `start` too; see carry_velocities.
 #include "core/simd.h"
 #include "solver/solver.h"
 #include "solver/wide_body.h"
@@ -21,7 +21,7 @@ FE_INLINE void store_line(void *lines, int32_t i, wide4 low, wide4 high)
 
 FE_INLINE void store_high(void *lines, int32_t i, wide4 high) { scatter_high((float *)lines + (int64_t)i * FE__LINE, w_in_order, high); }
 
-// ---- records to lines, once per step ------------------------------------------------------------------------------------------------
+// ---- records to lines, once per step --------------------------------------------------------------------------------
 enum { BODY_STRIDE = sizeof(fe__body) / sizeof(float) };
 #define BODY_QUAD(field) w_gather(bodies->field, BODY_STRIDE, index)
 
@@ -35,8 +35,8 @@ FE_INLINE wide_sym world_inverse_inertia(wide4 axes, wide3 inverse)
                       ix.y * x.y + iy.y * y.y + iz.y * z.y, ix.y * x.z + iy.y * y.z + iz.y * z.z, ix.z * x.z + iy.z * y.z + iz.z * z.z};
 }
 
-// A locked body's inverse inertia is the inverse of the sub-block of R I R^T over its free axes, zero elsewhere: what a body on an axle
-// has.
+// A locked body's inverse inertia is the inverse of the sub-block of R I R^T over its free axes, zero elsewhere: what a
+// body on an axle has.
 static void lock_line(fe__solver *s, const fe__body *body, int32_t line, fe_quat axes)
 {
     int locks = (int)body->lock_bits, n = 0, free_axis[3];
@@ -93,13 +93,13 @@ FE_INLINE void load_block(fe__solver *s, const fe__body *bodies, int32_t line, c
                      w_choose(moves, one / inertia.z, zero)};
     wide_sym i = world_inverse_inertia(axes, inverse);
     wide mass = w_choose(moves, v.w, zero), g = w_choose(moves, *(wide *)scale, zero);
-    wide3 push = {g * c->gravity.x + mass * force.x, g * c->gravity.y + mass * force.y, g * c->gravity.z + mass * force.z};
+    wide3 linear = {g * c->gravity.x + mass * force.x, g * c->gravity.y + mass * force.y, g * c->gravity.z + mass * force.z};
     wide damping = w_choose(moves, one / (1.0f + c->h * force.w), one), spin_damping = w_choose(moves, one / (1.0f + c->h * torque.w), one);
     store_line(s->velocity, line, (wide4){v.x * there, v.y * there, v.z * there, mass},
                (wide4){w.x * there, w.y * there, w.z * there, w.w * there});
     store_line(s->motion, line, (wide4){zero, zero, zero, *(wide *)gyroscopic * there}, (wide4){zero, zero, zero, one});
     store_line(s->inertia, line, (wide4){i.xx, i.xy, i.xz, i.yy}, (wide4){i.yz, i.zz, *(wide *)gyroscopic * there, zero});
-    store_line(s->drive, line, w_with(push, damping), w_with(w_mul(&i, w_xyz(torque)), spin_damping));
+    store_line(s->drive, line, w_with(linear, damping), w_with(w_mul(&i, w_xyz(torque)), spin_damping));
     store_line(s->axes, line, axes, (wide4){inertia.x, inertia.y, inertia.z, zero});
     for (int k = 0; k < FE_W && locked; ++k) {
         const fe__body *body = bodies + index[k];
@@ -114,9 +114,10 @@ static void load(fe__solver *s, const fe__body *bodies, int32_t first, int32_t c
     for (int32_t i = first; i < first + count; i += FE_W) load_block(s, bodies, i, c);
 }
 
-// ---- gyroscopic torque ----------------------------------------------------------------------------------------------------------------
-// In principal axes  I w' + w x I w = 0.  Implicit midpoint, I (m - w) + h/2 m x I m = 0, w2 = 2 m - w, keeps the energy and |I w|; two
-// Newton steps from m = w solve it. What two steps leave open may add energy: the result is then shortened to the energy before.
+// ---- gyroscopic torque ----------------------------------------------------------------------------------------------
+// In principal axes  I w' + w x I w = 0.  Implicit midpoint, I (m - w) + h/2 m x I m = 0, w2 = 2 m - w, keeps the
+// energy and |I w|; two Newton steps from m = w solve it. What two steps leave open may add energy: the result is then
+// shortened to the energy before.
 
 // m - J^-1 f, J = I + h/2 ([m] I - [I m]), by cofactors; m itself where J is not safe to invert
 FE_INLINE wide3 newton(wide3 m, wide3 w, wide3 in, wide3 d)
@@ -147,21 +148,21 @@ FE_INLINE wide3 free_change(wide3 world, wide4 axes, wide3 in, wide half_h)
     return w_add(change, w_turn(axes, change)); // only the change is turned: w keeps its digits
 }
 
-// ---- velocities -----------------------------------------------------------------------------------------------------------------------
-// f(v): all that changes a velocity and is no constraint: gravity and forces, damping 1 / (1 + h c), the speed limit, and the gyroscopic
-// torque of joined bodies. Of free ones it acts while they turn; a joint must have answered it before its bodies move, or they move
-// apart.
+// ---- velocities -----------------------------------------------------------------------------------------------------
+// f(v): all that changes a velocity and is no constraint: gravity and forces, damping 1 / (1 + h c), the speed limit,
+// and the gyroscopic torque of joined bodies. Of free ones it acts while they rotate; a joint must have balanced it
+// before its bodies move, or they move apart.
 FE_INLINE void advance(const fe__solver *s, int32_t i, wide kind, const fe__step_constants *c, wide3 *v, wide3 *w)
 {
-    wide4 push, turn;
-    load_line(s->drive, i, &push, &turn);
+    wide4 linear, angular;
+    load_line(s->drive, i, &linear, &angular);
     wide_mask joined = w_greater(kind, w_set(FE__GYROSCOPIC_FREE));
     if (w_any(joined)) {
         wide4 axes = w_product(load_high(s->motion, i), load_low(s->axes, i)), principal = load_high(s->axes, i);
         *w = w_choose3(joined, w_add(*w, free_change(*w, axes, w_xyz(principal), w_set(0.5f * c->h))), *w);
     }
-    *v = w_scale(push.w, w_add_scaled(*v, w_set(c->h), w_xyz(push)));
-    *w = w_scale(turn.w, w_add_scaled(*w, w_set(c->h), w_xyz(turn)));
+    *v = w_scale(linear.w, w_add_scaled(*v, w_set(c->h), w_xyz(linear)));
+    *w = w_scale(angular.w, w_add_scaled(*w, w_set(c->h), w_xyz(angular)));
     wide square = w_dot(*v, *v), most = w_set(c->max_speed);
     wide_mask fast = w_greater(square, most * most);
     if (w_any(fast)) *v = w_scale(w_choose(fast, most / w_sqrt(square), w_set(1.0f)), *v);
@@ -181,8 +182,8 @@ static void begin_velocities(fe__solver *s, int32_t first, int32_t count, const 
     }
 }
 
-// The next substeps. Warm starting adds M^-1 J^T l, summed over a body's constraints; J, M and l are those that the last substep ended
-// with, and it began from `start` with no constraint impulse: the sum is d = v - start.
+// The next substeps. Warm starting adds M^-1 J^T l, summed over a body's constraints; J, M and l are those that the
+// last substep ended with, and it began from `start` with no constraint impulse: the sum is d = v - start.
 static void carry_velocities(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c)
 {
     for (int32_t i = first; i < first + count; i += FE_W) {
@@ -195,10 +196,10 @@ static void carry_velocities(fe__solver *s, int32_t first, int32_t count, const 
     }
 }
 
-// The spin is the body's own while it turns: w + c at the end of the substep, in axes that turned by Q. Returns the mean spin w + c/2,
-// which is what the body turns by: Q = Cayley(h (w + c/2)) then takes the angular momentum of the midpoint rule back to where it was,
-// exactly, and leaves w + c/2 alone. So  w' = Q (w + c) = w + c + (Q - 1) c/2,  and what changed leaves the warm start alone: start changes
-// as much.
+// The spin is the body's own while it rotates: w + c at the end of the substep, in axes that rotated by Q. Returns the
+// mean spin w + c/2, by which the body rotates: Q = Cayley(h (w + c/2)) then takes the angular momentum of the midpoint
+// rule back to where it was, exactly, and leaves w + c/2 alone. So  w' = Q (w + c) = w + c + (Q - 1) c/2,  and what
+// changed leaves the warm start alone: start changes as much.
 FE_INLINE wide3 turn_freely(fe__solver *s, int32_t i, wide kind, wide4 turned, const fe__step_constants *c)
 {
     wide4 stored = load_high(s->velocity, i);

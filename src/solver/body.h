@@ -1,7 +1,8 @@
 // body.h - the record of a body.
 //
-// Stable: it stays at the index of its handle while the body lives. The first four lines are what a step reads and writes, in quads that a
-// wide kernel gathers one by one; the rest is for the API and for life and death. Lists are kept by index, never by pointer.
+// Stable: it stays at the index of its handle while the body lives. The first four lines are what a step reads and
+// writes, in quads that a wide kernel gathers one by one; the rest is for the API and for life and death. Lists are
+// kept by index, never by pointer.
 #ifndef FE_SOLVER_BODY_H
 #define FE_SOLVER_BODY_H
 #include "core/math.h"
@@ -15,7 +16,7 @@ enum {
     FE__BODY_ISOTROPIC = 32,   // equal principal moments, or a rotation lock: no gyroscopic torque
     FE__BODY_STARTED = 64,     // scratch of a walk: over an island, over a list of handles
     FE__BODY_IGNORES = 128,    // named in fe_world.ignored
-    FE__BODY_STIRRED = 256,    // in the list of bodies that woke or fell asleep
+    FE__BODY_DISTURBED = 256,  // in the list of bodies that woke or fell asleep
     FE__BODY_SEEN_AWAKE = 512, // when the events of the last step were written
     FE__BODY_CHASED = 1024,    // in the list of bodies that continuous collision looks at
     FE__BODY_STRAINED = 2048,  // bears many times its weight, or a body many times as heavy just came upon it
@@ -25,7 +26,8 @@ enum {
 };
 
 typedef struct fe__body {
-    // pose. centre = high + low to 48 bits: the difference of two bodies' centres, taken in floats, is exact to the last digit of a float
+    // pose. centre = high + low to 48 bits: the difference of two bodies' centres, taken in floats, is exact to the
+    // last digit of a float
     _Alignas(64) float centre_high[4]; // centre of mass, m, rounded to float, 0
     float centre_low[3];               // what the rounding left
     float speed;                       // of the fastest point, m/s, at least
@@ -67,9 +69,10 @@ typedef struct fe__body {
     int32_t static_pairs;                         // of them, those with a static body
     int32_t coming_contacts;                      // while a step reserves: candidates with this body, else 0
     int32_t first_shape, last_shape, shape_count; // list in the order of creation
-    int32_t first_joint, last_joint, joint_total; // all joints, threaded through fe__joint_record.links in the order of creation; 0: none
-    int32_t locked;                               // 1: any lock bit is set
-    int64_t moved_step;                           // number of the last step that moved it, 0: none
+    // all joints, threaded through fe__joint_record.links in the order of creation; 0: none
+    int32_t first_joint, last_joint, joint_total;
+    int32_t locked;     // 1: any lock bit is set
+    int64_t moved_step; // number of the last step that moved it, 0: none
     uint64_t user_data;
     int32_t order_next, order_previous; // list of all bodies in the order of creation
 } fe__body;

@@ -3,9 +3,9 @@
 #define FE_SOLVER_PACE_H
 #include "solver/solver.h"
 
-// A pass hands an impulse on by a body or so. Where that is too slow substeps are finer: in islands of bodies that bear many times their
-// weight, which have more rigid passes too, and are strained; in islands whose joints open wide, which are stretched. Joined bodies press
-// each other with the forces of their joints, which is no strain.
+// A pass hands an impulse on by a body or so. Where that is too slow substeps are finer: in islands of bodies that bear
+// many times their weight, which have more relax passes too, and are strained; in islands whose joints open wide, which
+// are stretched. Joined bodies press each other with the forces of their joints, which is no strain.
 //
 // The pace of an island, by the flags of all its bodies.
 static inline int32_t fe__pace_of(uint32_t flags, int32_t has_joints)

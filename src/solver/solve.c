@@ -1,8 +1,9 @@
 // solve.c - runs the substeps: a program of passes for each batch.
 //
-// A small batch is run whole by one worker, its rows in that worker's stretch of row memory. A large one is run by all workers together:
-// they walk the same program, claim blocks of each pass, and go on when the last block of a pass is done. Both walk the same passes over
-// the same groups in the same order of colours, so that who executes a batch never shows.
+// A small batch is run whole by one worker, its rows in that worker's stretch of row memory. A large one is run by all
+// workers together: they walk the same program, claim blocks of each pass, and go on when the last block of a pass is
+// done. Both walk the same passes over the same groups in the same order of colours, so that who executes a batch never
+// shows.
 #include "solver/solve.h"
 
 #include "solver/pace.h"
@@ -12,13 +13,14 @@
 #include <string.h>
 
 enum {
-    LANES_IN_BLOCK = 64,   // rows of a block, in contacts: a microsecond of work
-    LINES_IN_BLOCK = 256,  // a multiple of FE__MAX_WIDTH
-    SERIAL_LANES = 128,    // colours are merged into one block while they have no more contacts: a barrier would cost more than they do
+    LANES_IN_BLOCK = 64,  // rows of a block, in contacts: a microsecond of work
+    LINES_IN_BLOCK = 256, // a multiple of FE__MAX_WIDTH
+    // colours are merged into one block while they have no more contacts: a barrier would cost more than they do
+    SERIAL_LANES = 128,
     LANES_PER_WORKER = 128 // a large batch calls a worker for so many contacts of its largest colour
 };
 
-// Constants of a substep of a batch; of the last one of a small batch; of all its rigid passes but the last
+// Constants of a substep of a batch; of the last one of a small batch; of all its relax passes but the last
 typedef struct paced {
     fe__step_constants usual, last, more;
 } paced;
@@ -55,7 +57,7 @@ fe__softness fe__make_softness(float hertz, float damping_ratio, float h)
     return (fe__softness){omega / a1, a2 * a3, a3};
 }
 
-// ---- the program of a batch -----------------------------------------------------------------------------------------------------------
+// ---- the program of a batch -----------------------------------------------------------------------------------------
 static int32_t blocks_of(int32_t items, int32_t block) { return (items + block - 1) / block; }
 
 static void add_pass(program *p, int32_t *part, verb verb, int32_t first_group, int32_t groups, int32_t blocks, int32_t serial)
@@ -157,9 +159,9 @@ static const fe__pass *pass_at(const program *p, int32_t i)
     return p->passes + p->prologue + p->substep + (i - p->prologue - looped);
 }
 
-// ---- one block of one pass ------------------------------------------------------------------------------------------------------------
-// Continuous collision follows the way that fast bodies really went, round a bounce too: the straight line to where they ended may cut what
-// they never met.
+// ---- one block of one pass ------------------------------------------------------------------------------------------
+// Continuous collision follows the path that fast bodies really took, round a bounce too: the straight line to where
+// they ended may cut what they never met.
 static void begin_trails(const job *j, int32_t first, int32_t count, const fe__step_constants *c)
 {
     float dt = (float)c->substeps * c->h;
@@ -173,7 +175,8 @@ static void begin_trails(const job *j, int32_t first, int32_t count, const fe__s
 
 static void leave_trails(const job *j, int32_t first, int32_t count, const fe__step_constants *c)
 {
-    int32_t stride = c->division * fe__trail_stride(c->substeps / c->division); // the world's substeps, whatever the batch's
+    // the world's substeps, whatever the batch's
+    int32_t stride = c->division * fe__trail_stride(c->substeps / c->division);
     if (!atomic_load_explicit(&j->s->trails, memory_order_relaxed)) return;
     for (int32_t i = first; i < first + count; ++i) {
         if (j->s->trail_count[i] == FE__NO_TRAIL) continue;
@@ -302,7 +305,7 @@ static void run_block(const job *j, const fe__batch *b, const fe__pass *p, unsig
     run_rows(j, g, (verb)p->verb, rows, first, fe__mini(rows_in_block, g->rows - first), c);
 }
 
-// ---- a small batch, whole -------------------------------------------------------------------------------------------------------------
+// ---- a small batch, whole -------------------------------------------------------------------------------------------
 static void run_all(const job *j, const fe__batch *b, verb verb, unsigned char *rows, const fe__step_constants *c)
 {
     const fe__group *groups = j->s->groups + b->first_group;
@@ -340,7 +343,7 @@ static void run_small_batches(void *argument, int32_t worker)
     }
 }
 
-// ---- a large batch, together ----------------------------------------------------------------------------------------------------------
+// ---- a large batch, together ----------------------------------------------------------------------------------------
 static int32_t claim_block(job *j, uint64_t pass_index, int32_t blocks)
 {
     uint64_t claim = atomic_load_explicit(&j->claim, memory_order_acquire);
@@ -432,7 +435,8 @@ static int32_t has_pace(const fe__solver *s, const fe__batch *b, const fe__body 
     return 1;
 }
 
-// Strained and stretched islands of the next step are those with a body that was in this one; another set of them is another graph.
+// Strained and stretched islands of the next step are those with a body that was in this one; another set of them is
+// another graph.
 static void note_strain(fe__solver *s, fe__body *bodies)
 {
     const uint32_t joined = 1; // a bit that is none of the two flags
@@ -452,7 +456,7 @@ static void set_constants(job *j, const fe__step_constants *constants)
     for (int32_t i = 0; i < FE__PACES; ++i) {
         paced *pace = j->paces + i;
         pace->usual = pace->last = pace->more = constants[i];
-        pace->last.asks_strain = i != FE__STRETCHED;
+        pace->last.finds_strain = i != FE__STRETCHED;
         pace->more.more = 1;
     }
 }

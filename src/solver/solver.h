@@ -1,9 +1,10 @@
 // solver.h - TGS Soft: what a step solves, and the kernels that solve it.
 //
-// The graph (graph.c) sorts awake bodies and linked contacts into batches: small islands, several to a batch, each solved whole by one
-// worker; an island above FE__ISLAND_LARGE contacts is a batch of its own, spread over the workers colour by colour. Which of the two an
-// island gets changes its result only where small ones are strained, see solve.c. In a batch, contacts lie in groups by (colour, kind of
-// row); a group's contacts share no dynamic body, W of them make a row.
+// The graph (graph.c) sorts awake bodies and linked contacts into batches: small islands, several to a batch, each
+// solved whole by one worker; an island above FE__ISLAND_LARGE contacts is a batch of its own, spread over the workers
+// colour by colour. Which of the two an island gets changes its result only where small ones are strained, see solve.c.
+// In a batch, contacts lie in groups by (colour, kind of row); a group's contacts share no dynamic body, W of them make
+// a row.
 //
 // The kernels (*.simd.c) are compiled once per SIMD set into a table; the world picks one at its creation.
 #ifndef FE_SOLVER_SOLVER_H
@@ -22,7 +23,7 @@ enum {
     FE__MAX_WIDTH = 16,  // lanes of the widest kernel: blocks of lines are padded to it
     FE__THIN_WIDTH = 4,  // lanes of the narrowest
     FE__STATIC_LINE = 0, // all zeros: what static bodies read
-    FE__TRAIL = 8,       // most places on the way of a fast body
+    FE__TRAIL = 8,       // most places on the path of a fast body
     FE__NO_TRAIL = -1,
 
     // kinds of rows, bits
@@ -36,8 +37,9 @@ enum {
     FE__OVERFLOW_COLOUR = 127, // one contact a row, in order of creation
     FE__COLOURS = 128,
 
-    // contacts above which an island is spread over the workers, and up to which smaller ones are batched, so that the rows of a batch stay
-    // in a second-level cache and fill their lanes. Constants, not the machine's: they decide who executes an island, never what comes out
+    // contacts above which an island is spread over the workers, and up to which smaller ones are batched, so that the
+    // rows of a batch stay in a second-level cache and fill their lanes. Constants, not the machine's: they decide who
+    // executes an island, never what comes out
     FE__ISLAND_LARGE = 1024,
     FE__BATCH_CONTACTS = 512
 };
@@ -56,20 +58,21 @@ enum { FE__USUAL, FE__STRAINED, FE__STRETCHED, FE__PACES };
 
 typedef struct fe__step_constants {
     float h, inverse_h; // of a substep, s
-    float push_speed;   // overlap is pushed out no faster, m/s
+    float bias_speed;   // overlap is corrected no faster, m/s
     float threshold;    // of restitution, m/s
     float warm_scale;   // h now / h of the stored impulses
     float contact_warm_scale; // that, or 0: contacts begin without them
     float max_speed;    // m/s
     float speculative;  // m
-    float strain;       // m/s; what a load of one step could do to its two bodies, from which on their island is strained
-    float open;         // m2; square of a joint's gap from which on its island is stretched
-    float forgets;      // 0: strain is what lasted for the step, FLT_MAX: what the last substep bore, m/s
+    // m/s; what a load of one step could do to its two bodies, from which on their island is strained
+    float strain;
+    float open;    // m2; square of a joint's gap from which on its island is stretched
+    float forgets; // 0: strain is what lasted for the step, FLT_MAX: what the last substep bore, m/s
     int32_t substeps;
-    int32_t division;    // substeps to one of the world's: 1, more in strained and stretched islands
-    int32_t sweeps;      // rigid passes over the contacts in a substep
-    int32_t more;        // 1: this is not the last of them
-    int32_t asks_strain; // 1: this is the last pass of a step
+    int32_t division;     // substeps to one of the world's: 1, more in strained and stretched islands
+    int32_t sweeps;       // relax passes over the contacts in a substep
+    int32_t more;         // 1: this is not the last of them
+    int32_t finds_strain; // 1: this is the last pass of a step
     fe_vec3 gravity;
     fe__softness between_dynamic, against_static, joint;
     float joint_hertz; // at most, 1/s
@@ -130,7 +133,7 @@ FE__IS_LINE(fe__axes_line);
 // How the gyroscopic torque acts on a body. Most bodies have none, and their moments are never read.
 enum {
     FE__GYROSCOPIC_NONE,
-    FE__GYROSCOPIC_FREE,  // while it turns, see turn_freely
+    FE__GYROSCOPIC_FREE,  // while it rotates, see turn_freely
     FE__GYROSCOPIC_JOINED // before the constraints are solved, see advance
 };
 
@@ -174,7 +177,7 @@ typedef struct fe__row_block {
     _Alignas(64) unsigned char bytes[64];
 } fe__row_block;
 
-// One turn of all workers over part of a large batch, see solve.c
+// One pass of all workers over part of a large batch, see solve.c
 typedef struct fe__pass {
     int32_t verb;
     int32_t first_group, group_count; // of consecutive colours
@@ -220,14 +223,16 @@ typedef struct fe__solver {
     fe__sort_item *sort_items;
     int32_t sort_capacity;
 
-    fe__row_block *rows;  // of the large batch at hand, or one stretch of worker_row_bytes for each worker; scratch of the graph's build
+    // of the large batch at hand, or one stretch of worker_row_bytes for each worker; scratch of the graph's build
+    fe__row_block *rows;
     int32_t row_capacity; // blocks
     int64_t worker_row_bytes;
 } fe__solver;
 
 static inline int32_t fe__trail_stride(int32_t substeps) { return (substeps + FE__TRAIL - 1) / FE__TRAIL; }
 
-// Passes over the rows of a group: `rows` is its first row, `lanes` its first lane, `count` rows. One entry for each kind of row.
+// Passes over the rows of a group: `rows` is its first row, `lanes` its first lane, `count` rows. One entry for each
+// kind of row.
 typedef struct fe__contact_kernels {
     int32_t row_size[FE__ROW_KINDS]; // bytes of a row of W contacts
     // contacts to rows; the stored impulses go to the bodies
@@ -266,8 +271,9 @@ typedef struct fe__body_kernels {
 // What recycling says of a contact
 enum { FE__STAYS, FE__MOVED, FE__STAYS_APART };
 
-// Separations at the start of the step, of length dt, of contacts that moved little. Of contact index[i], out[i] is FE__MOVED when it needs
-// a new manifold; FE__STAYS_APART when it needs none and has no points: it may move on by out_slack[i], m.
+// Separations at the start of the step, of length dt, of contacts that moved little. Of contact index[i], out[i] is
+// FE__MOVED when it needs a new manifold; FE__STAYS_APART when it needs none and has no points: it may move on by
+// out_slack[i], m.
 typedef void fe__recycle_kernel(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, float dt, uint8_t *out,
                                 float *out_slack);
 
@@ -277,10 +283,12 @@ typedef struct fe__kernels {
     const fe__joint_kernels *joint;
     const fe__body_kernels *body;
     fe__recycle_kernel *recycle;
-    const fe__contact_kernels *thin; // of FE__THIN_WIDTH lanes, for groups of no more contacts: the same bits from less memory
+    // of FE__THIN_WIDTH lanes, for groups of no more contacts: the same bits from less memory
+    const fe__contact_kernels *thin;
 } fe__kernels;
 
-// The table of a set, NULL when it was not built or this CPU lacks it. FE_SIMD_AUTO: the environment's FE_SIMD, else the widest.
+// The table of a set, NULL when it was not built or this CPU lacks it. FE_SIMD_AUTO: the environment's FE_SIMD, else
+// the widest.
 const fe__kernels *fe__kernels_of(int32_t simd);
 
 #endif

@@ -46,8 +46,8 @@ FE_INLINE wide_sym gather_inertia(const fe__solver *s, const int32_t *index)
     return (wide_sym){low.x, low.y, low.z, low.w, high.x, high.y};
 }
 
-// The inverse inertia of bodies that turned by q since the step began: R I^-1 R^T, row i of R being R^T e_i = e_i + (R^T e_i - e_i). What a
-// lock leaves of it is kept as it was.
+// The inverse inertia of bodies that turned by q since the step began: R I^-1 R^T, row i of R being R^T e_i = e_i +
+// (R^T e_i - e_i). What a lock leaves of it is kept as it was.
 FE_INLINE wide_sym turned_inertia(const fe__solver *s, const int32_t *index, wide4 q, wide locks)
 {
     wide_sym i = gather_inertia(s, index);

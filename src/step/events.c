@@ -188,7 +188,7 @@ void fe__collect_body_events(fe__step *step)
         int32_t index = w->stirred[i];
         fe__body *body = w->bodies + index;
         int32_t awake = body->awake_index >= 0, before = (body->flags & FE__BODY_SEEN_AWAKE) != 0;
-        body->flags &= ~(uint32_t)(FE__BODY_STIRRED | FE__BODY_SEEN_AWAKE);
+        body->flags &= ~(uint32_t)(FE__BODY_DISTURBED | FE__BODY_SEEN_AWAKE);
         if (awake) body->flags |= FE__BODY_SEEN_AWAKE;
         int32_t tells = fe__id_pool_is_alive(&w->body_ids, index) && body->flags & FE__BODY_ENABLED && body->type != FE_BODY_STATIC;
         if (tells && awake != before) items[count++] = (fe__sort_item){body->serial, index, awake};

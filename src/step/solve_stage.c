@@ -47,7 +47,7 @@ fe__step_constants fe__constants_of(const fe_world *w, float dt, int32_t divisio
     float h = whole / (float)division;
     fe__step_constants c = {.h = h,
                             .inverse_h = h > 0.0f ? 1.0f / h : 0.0f,
-                            .push_speed = t->contact_push_speed,
+                            .bias_speed = t->contact_push_speed,
                             .threshold = t->restitution_threshold,
                             .warm_scale = w->last_h > 0.0f ? fe__minf(whole / w->last_h, MOST_WARM_SCALE) / (float)division : 0.0f,
                             .max_speed = t->max_linear_speed,

@@ -11,7 +11,7 @@ int32_t fe__anchor_create(fe_world *world, fe_dvec3 origin)
     int32_t index = fe__id_slot_of(fe__id_pool_allocate(&world->body_ids));
     fe__id_pool_hide(&world->body_ids, index);
     fe__body *body = &world->bodies[index];
-    uint32_t listed = body->flags & FE__BODY_STIRRED; // the list names the slot, whoever has it
+    uint32_t listed = body->flags & FE__BODY_DISTURBED; // the list names the slot, whoever has it
     memset(body, 0, sizeof *body);
     body->type = FE_BODY_STATIC;
     body->flags = FE__BODY_ENABLED | FE__BODY_ANCHOR | listed;

@@ -97,7 +97,7 @@ int32_t fe__body_create(fe_world *world, const fe_body_def *def)
 {
     int32_t index = fe__id_slot_of(fe__id_pool_allocate(&world->body_ids));
     fe__body *body = &world->bodies[index];
-    uint32_t listed = body->flags & FE__BODY_STIRRED; // the list names the slot, whoever has it
+    uint32_t listed = body->flags & FE__BODY_DISTURBED; // the list names the slot, whoever has it
     memset(body, 0, sizeof *body);
     body->type = def->type;
     body->flags = initial_flags(def) | listed;

@@ -77,9 +77,9 @@ static void hash_axes(fe__hash *h, const fe__joint_axes *axes)
         fe__hash_float(h, axis->impulse.low), fe__hash_float(h, axis->impulse.high);
         fe__hash_float(h, axis->state.x), fe__hash_float(h, axis->state.force);
     }
-    hash_floats(h, axes->turn.impulse, 3);
-    hash_floats(h, axes->turn.motor_impulse, 3);
-    hash_floats(h, axes->turn.torque, 3);
+    hash_floats(h, axes->rotation.impulse, 3);
+    hash_floats(h, axes->rotation.motor_impulse, 3);
+    hash_floats(h, axes->rotation.torque, 3);
 }
 
 // settings, as they were set, and impulses

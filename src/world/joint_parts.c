@@ -71,11 +71,11 @@ static void plan_fixed(const fe_fixed_joint_def *d, fe__joint_plan *plan)
         plan->parts |= bit(FE__PART_FIXED);
         return;
     }
-    fe__joint_turn *turn = &plan->axes.turn;
-    plan->parts |= bit(FE__PART_TURN);
-    turn->target[3] = 1.0f;
-    turn->drive.stiffness = d->angular_hertz, turn->drive.damping = d->angular_damping_ratio, turn->drive.cap = FE__UNLIMITED,
-    turn->drive.unit = FE__DRIVE_HERTZ;
+    fe__joint_rotation *rotation = &plan->axes.rotation;
+    plan->parts |= bit(FE__PART_ROTATION);
+    rotation->target[3] = 1.0f;
+    rotation->drive.stiffness = d->angular_hertz, rotation->drive.damping = d->angular_damping_ratio, rotation->drive.cap = FE__UNLIMITED,
+    rotation->drive.unit = FE__DRIVE_HERTZ;
 }
 
 // ---- rotations of three angles --------------------------------------------------------------------------------------------------------
@@ -108,9 +108,9 @@ fe_quat fe__joint_shift(int32_t shift)
     return turns[shift];
 }
 
-static void set_target(fe__joint_turn *turn, fe_quat q)
+static void set_target(fe__joint_rotation *rotation, fe_quat q)
 {
-    turn->target[0] = q.x, turn->target[1] = q.y, turn->target[2] = q.z, turn->target[3] = q.w;
+    rotation->target[0] = q.x, rotation->target[1] = q.y, rotation->target[2] = q.z, rotation->target[3] = q.w;
 }
 
 // the target within cone and range: a swing too wide comes back along its own direction
@@ -139,15 +139,15 @@ static void plan_ball(const fe_ball_joint_def *d, fe__joint_plan *plan)
         set_limit(plan->axes.axis + FE__AXIS_TWIST, d->lower, d->upper, d->limit_hertz, d->limit_damping_ratio);
     }
     if (d->spring_hertz == 0.0f && d->motor_max == 0.0f) return;
-    fe__joint_turn *turn = &plan->axes.turn;
-    plan->parts |= bit(FE__PART_TURN);
-    set_target(turn, clamped_target(d));
+    fe__joint_rotation *rotation = &plan->axes.rotation;
+    plan->parts |= bit(FE__PART_ROTATION);
+    set_target(rotation, clamped_target(d));
     if (d->spring_hertz > 0.0f)
-        turn->drive.stiffness = d->spring_hertz, turn->drive.damping = d->spring_damping_ratio, turn->drive.cap = d->spring_max,
-        turn->drive.unit = FE__DRIVE_HERTZ;
-    turn->motor.velocity[0] = d->motor_velocity.x, turn->motor.velocity[1] = d->motor_velocity.y,
-    turn->motor.velocity[2] = d->motor_velocity.z;
-    turn->motor.cap = d->motor_max;
+        rotation->drive.stiffness = d->spring_hertz, rotation->drive.damping = d->spring_damping_ratio, rotation->drive.cap = d->spring_max,
+        rotation->drive.unit = FE__DRIVE_HERTZ;
+    rotation->motor.velocity[0] = d->motor_velocity.x, rotation->motor.velocity[1] = d->motor_velocity.y,
+    rotation->motor.velocity[2] = d->motor_velocity.z;
+    rotation->motor.cap = d->motor_max;
 }
 
 // ---- configurable ---------------------------------------------------------------------------------------------------------------------
@@ -177,15 +177,15 @@ static int32_t plan_turn(const fe_joint_axis *a, fe__joint_plan *plan)
         if (a[k].motion != FE_MOTION_FREE || !alike) return 0;
     }
     if (!drives(a) && a->motor_max == 0.0f) return 0;
-    fe__joint_turn *turn = &plan->axes.turn;
-    plan->parts |= bit(FE__PART_TURN);
-    set_target(turn, rotation_of((angles){a[0].target, a[1].target, a[2].target}));
+    fe__joint_rotation *rotation = &plan->axes.rotation;
+    plan->parts |= bit(FE__PART_ROTATION);
+    set_target(rotation, rotation_of((angles){a[0].target, a[1].target, a[2].target}));
     if (drives(a)) {
-        turn->drive.stiffness = stiffness_of(a), turn->drive.damping = damping_of(a), turn->drive.cap = a->spring_max;
-        turn->drive.unit = a->spring == FE_SPRING_STIFFNESS ? FE__DRIVE_STIFFNESS : FE__DRIVE_HERTZ;
+        rotation->drive.stiffness = stiffness_of(a), rotation->drive.damping = damping_of(a), rotation->drive.cap = a->spring_max;
+        rotation->drive.unit = a->spring == FE_SPRING_STIFFNESS ? FE__DRIVE_STIFFNESS : FE__DRIVE_HERTZ;
     }
-    for (int k = 0; k < 3; ++k) turn->motor.velocity[k] = a[k].motor_speed;
-    turn->motor.cap = a->motor_max;
+    for (int k = 0; k < 3; ++k) rotation->motor.velocity[k] = a[k].motor_speed;
+    rotation->motor.cap = a->motor_max;
     return 1;
 }
 

@@ -157,10 +157,10 @@ static void fill_axes(fe_world *world, int32_t joint, const fe__joint_plan *plan
         axes->axis[k].impulse = old.axis[k].impulse;
         axes->axis[k].state = old.axis[k].state;
     }
-    if (!(f->parts & plan->parts & 1u << FE__PART_TURN)) return;
-    memcpy(axes->turn.impulse, old.turn.impulse, sizeof old.turn.impulse);
-    memcpy(axes->turn.motor_impulse, old.turn.motor_impulse, sizeof old.turn.motor_impulse);
-    memcpy(axes->turn.torque, old.turn.torque, sizeof old.turn.torque);
+    if (!(f->parts & plan->parts & 1u << FE__PART_ROTATION)) return;
+    memcpy(axes->rotation.impulse, old.rotation.impulse, sizeof old.rotation.impulse);
+    memcpy(axes->rotation.motor_impulse, old.rotation.motor_impulse, sizeof old.rotation.motor_impulse);
+    memcpy(axes->rotation.torque, old.rotation.torque, sizeof old.rotation.torque);
 }
 
 static void fill(fe_world *world, int32_t joint, const fe__joint_plan *plan)

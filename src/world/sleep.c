@@ -11,8 +11,8 @@
 // Bodies whose state changed since the last step's events: each once, whatever happens in between
 static void stir(fe_world *world, int32_t index)
 {
-    if (world->bodies[index].flags & FE__BODY_STIRRED) return;
-    world->bodies[index].flags |= FE__BODY_STIRRED;
+    if (world->bodies[index].flags & FE__BODY_DISTURBED) return;
+    world->bodies[index].flags |= FE__BODY_DISTURBED;
     world->stirred[world->stirred_count++] = index;
 }
 

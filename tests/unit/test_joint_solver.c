@@ -230,7 +230,7 @@ static void set_limits(fe__joint_axes *axes, uint32_t parts)
     if (parts & PART(DISTANCE)) axes->axis[FE__AXIS_LINEAR].limit.low = axes->axis[FE__AXIS_LINEAR].limit.high = 0.25f;
     if (!(parts & (PART(CONE) | PART(HINGE))) && parts & PART(TWIST))
         axes->axis[FE__AXIS_TWIST].limit.low = axes->axis[FE__AXIS_TWIST].limit.high = 0.0f;
-    axes->turn.target[3] = 1.0f;
+    axes->rotation.target[3] = 1.0f;
 }
 
 // between neighbours of a tree, along a skew axis
@@ -304,13 +304,13 @@ static void add_everything(rig *r)
             axis[k].drive.target = 0.1f, axis[k].drive.stiffness = 2.0f, axis[k].drive.damping = 0.5f, axis[k].drive.cap = 50.0f;
         for (int k = 0; k < FE__AXES && j % 3; ++k) axis[k].motor.speed = 0.5f, axis[k].motor.cap = 5.0f;
     }
-    const fe__joint_turn turn = {.target = {0.1f, 0.2f, 0.0f, 0.97f},
-                                 .drive = {20.0f, 2.0f, 30.0f, FE__DRIVE_STIFFNESS},
-                                 .motor = {{0.0f, 0.1f, 0.0f}, 1.0f}};
+    const fe__joint_rotation turn = {.target = {0.1f, 0.2f, 0.0f, 0.97f},
+                                     .drive = {20.0f, 2.0f, 30.0f, FE__DRIVE_STIFFNESS},
+                                     .motor = {{0.0f, 0.1f, 0.0f}, 1.0f}};
     int32_t b = rig_capsule(r, 0.0, -2.0, 1.0, -2.0, 0.1, 1000.0);
-    int32_t j = rig_joint(r, 0, b, (fe_dvec3){0.0, -2.0, 0.0}, fe__identity(), PART(POINT) | PART(TURN));
+    int32_t j = rig_joint(r, 0, b, (fe_dvec3){0.0, -2.0, 0.0}, fe__identity(), PART(POINT) | PART(ROTATION));
     r->joints.frames[j].axes = j;
-    r->joints.axes[j].turn = turn;
+    r->joints.axes[j].rotation = turn;
     fe__joint_link(&r->joints, r->bodies, j);
 }
 

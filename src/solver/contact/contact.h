@@ -1,9 +1,10 @@
 // contact.h - what the solver knows of a touching pair.
 //
-// Four cache lines of quads, gathered one by one by the wide kernels. The narrow phase fills a contact; recycling (recycle.simd.c) updates
-// its separations while the pair moves little; prepare turns it into a lane of a row; store brings the impulses back. Side A is the static
-// or kinematic body where there is one. Arms and normal stay as the narrow phase found them, from step to step: arms that turn since let a
-// pyramid of 100 rows buckle out of its plane after 300 steps.
+// Four cache lines of quads, gathered one by one by the wide kernels. The narrow phase fills a contact; recycling
+// (recycle.simd.c) updates its separations while the pair moves little; prepare turns it into a lane of a row; store
+// brings the impulses back. Side A is the static or kinematic body where there is one. Arms and normal stay as the
+// narrow phase found them, from step to step: arms that rotated since let a pyramid of 100 rows buckle out of its plane
+// after 300 steps.
 #ifndef FE_SOLVER_CONTACT_H
 #define FE_SOLVER_CONTACT_H
 #include "core/math.h"
@@ -41,11 +42,12 @@ typedef struct fe__contact {
     float longest_arm;                // m
     // as found
     fe__contact_arm point[FE__POINTS];
-    float found_a[4], found_b[4]; // the bodies' rotations then; found ahead of time (it may not move): the turns from there
-    float found_low[4];           // what found_span left of the double difference, m, 0
-    int32_t body_a, body_b;       // records, a static body's too
-    int32_t kind;                 // FE__ROW_* of the row it goes to
-    int32_t colour;               // -1: not in the graph
+    // the bodies' rotations then; found ahead of time (it may not move): the rotations from there
+    float found_a[4], found_b[4];
+    float found_low[4];     // what found_span left of the double difference, m, 0
+    int32_t body_a, body_b; // records, a static body's too
+    int32_t kind;           // FE__ROW_* of the row it goes to
+    int32_t colour;         // -1: not in the graph
 } fe__contact;
 _Static_assert(sizeof(fe__contact) == 256, "a contact is four cache lines");
 FE__IS_QUAD(fe__contact, normal, point_count);

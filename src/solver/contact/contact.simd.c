@@ -1,7 +1,9 @@
-// contact.simd.c - the contact solver: rows of W contacts, of 4 points or of one. Compiled once per SIMD set; see core/simd.h.
+// contact.simd.c - the contact solver: rows of W contacts, of 4 points or of one. Compiled once per SIMD set; see
+// core/simd.h.
 //
-// TGS Soft after E. Catto, "Soft Constraints" (GDC 2011) and Solver2D (2024): in each substep a soft push, then positions, then a rigid
-// pass with friction. The first warm start is part of prepare; the later ones are carried by the bodies (bodies.simd.c).
+// TGS Soft after E. Catto, "Soft Constraints" (GDC 2011) and Solver2D (2024): in each substep a soft pass, then
+// positions, then a relax pass with friction. The first warm start is part of prepare; the later ones are carried by
+// the bodies (bodies.simd.c).
 #include "core/simd.h"
 #include "solver/solver.h"
 #include "solver/wide_body.h"
@@ -10,30 +12,32 @@
 
 #define UNROLL _Pragma("GCC unroll 8")
 
-// a gap up to which a loaded point is soft as if it touched, m. Of a face that just touches, rounding would otherwise make some points soft
-// and others rigid, and a box that landed flat would turn
+// a gap up to which a loaded point is soft as if it touched, m. Of a face that just touches, rounding would otherwise
+// make some points soft and others rigid, and a box that landed flat would rotate
 #define TOUCHING 1e-4f
 // in which the points of a contact reach the speeds of their bounce: each leaves a third of the last one's error
 #define BOUNCE_SWEEPS 8
-// What the bodies may shift against each other, m, and turn, rad, within a step while a contact's arms and inertia stay those of its start
+// What the bodies may shift against each other, m, and rotate, rad, within a step while a contact's arms and inertia
+// stay those of its start
 #define FROZEN_SHIFT 5e-4f
-#define FROZEN_TURN 5e-3f
-// a turn within the step, rad, up to which effective masses stay: they only decide how fast the sweeps converge
+#define FROZEN_ROTATION 5e-3f
+// a rotation within the step, rad, up to which effective masses stay: they only decide how fast the sweeps converge
 #define FROZEN_MASS 0.02f
-// differences of an inertia's moments, over their sum, that no turn shows of
+// Relative spread of the principal moments below which an inertia is isotropic
 #define ROUND_INERTIA 1e-4f
-// What sticks may ask for, of its static friction, and not slide. A force above the contact that comes at once turns the body until the
-// normals have answered its moment, a substep later; what was lost by then is asked for again: at most 1.25 times the force. What slides
-// asks for more from a hundredth of a m/s on
+// A sticking contact may exceed its static friction by this factor before it slides. A force above the contact that
+// comes at once rotates the body until the normals balance its moment, a substep later; friction then makes good what
+// was lost: at most 1.25 times the force. A sliding contact requests more from a hundredth of a m/s on.
 #define BREAKAWAY 1.3f
-// a change of friction in a pass, of the load and as a speed, m/s, from which on the row runs again, and how often at most
+// a change of friction in a pass, of the load and as a speed, m/s, from which on the row runs again, and how often at
+// most
 #define UNSETTLED 0.1f
 #define UNSETTLED_SPEED 0.005f
 #define SETTLING 4
 // of a load within a substep: an impact
 #define IMPACT_RISE 1.5f
-// and what it stops, m/s. What is set down takes up its weight at once too, g h, 0.04 m/s at four substeps of 1/30 s; its friction is no
-// impact's, and without it the body would begin to slide
+// and what it stops, m/s. What is set down takes up its weight at once too, g h, 0.04 m/s at four substeps of 1/30 s;
+// its friction is no impact's, and without it the body would begin to slide
 #define IMPACT_SPEED 0.05f
 
 typedef struct {
@@ -51,7 +55,7 @@ typedef struct {
 // of the bodies since the step began
 typedef struct {
     wide3 shift; // of B's centre against A's
-    wide4 turn_a, turn_b;
+    wide4 rotation_a, rotation_b;
 } motion;
 
 // a quantity of a point: constant + slope . rA
@@ -65,7 +69,7 @@ FE_INLINE wide at(const affine *f, wide3 r) { return f->constant + w_dot(f->slop
 FE_INLINE wide_mask no_lane(void) { return w_greater(w_set(0.0f), w_set(0.0f)); }
 FE_INLINE wide_mask every_lane(void) { return w_not(no_lane()); }
 
-FE_INLINE wide sine_square(wide4 q) { return w_dot(w_xyz(q), w_xyz(q)); } // of half the turn
+FE_INLINE wide sine_square(wide4 q) { return w_dot(w_xyz(q), w_xyz(q)); } // of half the angle
 
 FE_INLINE wide_sym choose_sym(wide_mask lanes, const wide_sym *yes, const wide_sym *no)
 {
@@ -79,7 +83,7 @@ FE_INLINE side choose_side(wide_mask lanes, side yes, side no)
     return no;
 }
 
-// a part of the way from one to the other
+// a part of the change from one to the other
 FE_INLINE side blend(wide part, const side *from, const side *to)
 {
     side b = *to;
@@ -90,8 +94,8 @@ FE_INLINE side blend(wide part, const side *from, const side *to)
 
 static const int coupling_of[FE__POINTS][FE__POINTS] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
 
-// Two unit vectors that make a basis with n (Duff et al., "Building an Orthonormal Basis, Revisited", 2017). They flip where n.z changes
-// sign, so they live no longer than a step.
+// Two unit vectors that make a basis with n (Duff et al., "Building an Orthonormal Basis, Revisited", 2017). They flip
+// where n.z changes sign, so they live no longer than a step.
 FE_INLINE void tangents(wide3 n, wide3 *t1, wide3 *t2)
 {
     wide one = w_set(1.0f);
@@ -114,12 +118,14 @@ FE_INLINE wide angular_response(const arm *m, const arm *n, int kind)
 
 enum { CONTACT_STRIDE = sizeof(fe__contact) / sizeof(float) };
 
-// a point that opened to twice the speculative distance still counts a little for the friction centre: the weights never all vanish
+// a point that opened to twice the speculative distance still counts a little for the friction centre: the weights
+// never all vanish
 #define LEAST_WEIGHT 1e-10f
-// ratio of the lesser to the greater eigenvalue below which a tangent matrix has one: far above rounding, far below what a shape can have
+// ratio of the lesser to the greater eigenvalue below which a tangent matrix has one: far above rounding, far below
+// what a shape can have
 #define ONE_WAY 1e-5f
-// of the bodies' inverse masses: what answers a push by less stands for a direction within 1e-5 of a locked one
-#define RIGID 1e-10f
+// of the bodies' inverse masses: a smaller response is that of a direction within 1e-5 of a locked one
+#define LEAST_RESPONSE 1e-10f
 // of the trace of a rolling mass, added to its diagonal
 #define REGULAR 1e-6f
 

@@ -1,9 +1,10 @@
-// follow.inl - effective masses of a row, and arms and inertia that follow the bodies within a step. Part of rows.inl, once per
-// number of points.
+// follow.inl - effective masses of a row, and arms and inertia that follow the bodies within a step. Part of rows.inl,
+// once per number of points.
 //
-// Impulses keep the angular momentum of two bodies only while they act at one point of space, and their energy only with the inertia of
-// where the bodies are. So each substep, after the bodies moved, points and inertia are set anew, in lanes whose bodies turn or shift
-// enough to show. Arms turn within the step only, from those it began with, see contact.h.
+// Impulses keep the angular momentum of two bodies only while they act at one point of space, and their energy only
+// with the inertia of where the bodies are. So each substep, after the bodies moved, points and inertia are set anew,
+// in lanes whose bodies rotate or shift enough to show. Arms rotate within the step only, from those it began with, see
+// contact.h.
 
 FE_INLINE arm NAMED(arm_of)(const ROW *row, wide3 r, wide3 span, wide3 direction, int kind)
 {
@@ -27,12 +28,13 @@ FE_INLINE wide NAMED(linear_response)(const ROW *row, const pair *p, wide3 u, wi
 // 1 / k. Where locks leave nothing to move, k is 0 or what rounding left of it: then 0
 FE_INLINE wide NAMED(mass_along)(const pair *p, wide k, int kind)
 {
-    wide least = kind & FE__ROW_SPECIAL ? RIGID * (p->a.inverse_mass + p->b.inverse_mass) : w_set(0.0f);
+    wide least = kind & FE__ROW_SPECIAL ? LEAST_RESPONSE * (p->a.inverse_mass + p->b.inverse_mass) : w_set(0.0f);
     return w_choose(w_greater(k, least), w_inverse_or_zero(k), w_set(0.0f));
 }
 
-// Inverse of the 2 x 2 matrix of the tangents. Where locks leave one direction u to slide in, it is k u u^T up to rounding, whose inverse
-// would fill the friction cone with noise across u: the pseudo-inverse, itself over the square of its trace, knows u only.
+// Inverse of the 2 x 2 matrix of the tangents. Where locks leave one direction u to slide in, it is k u u^T up to
+// rounding, whose inverse would fill the friction cone with noise across u: the pseudo-inverse, itself over the square
+// of its trace, knows u only.
 FE_INLINE void NAMED(invert_tangents)(MASSES *out, const pair *p, wide k11, wide k12, wide k22, int kind)
 {
     wide det = k11 * k22 - k12 * k12, inverse = w_inverse_or_zero(det), trace = k11 + k22;
@@ -99,7 +101,8 @@ FE_INLINE void NAMED(store_masses)(ROW *row, const MASSES *m, wide_mask lanes)
     row->twist_mass = w_choose(lanes, m->twist, row->twist_mass);
 }
 
-// A locked rotation has no inverse inertia: a little of the trace keeps the sum invertible, and what is locked does not spin anyway
+// A locked rotation has no inverse inertia: a little of the trace keeps the sum invertible, and what is locked does not
+// spin anyway
 FE_INLINE void NAMED(find_rolling_masses)(SPECIAL_ROW *x, const pair *p, wide_mask lanes, int kind)
 {
     wide_sym k = x->row.inertia_b;
@@ -114,7 +117,7 @@ FE_INLINE void NAMED(find_rolling_masses)(SPECIAL_ROW *x, const pair *p, wide_ma
     x->rolling_mass = choose_sym(lanes, &inverse, &x->rolling_mass);
 }
 
-// ---- all impulses of a contact -------------------------------------------------------------------------------------------------------
+// ---- all impulses of a contact --------------------------------------------------------------------------------------
 FE_INLINE wide3 NAMED(friction_impulse)(const ROW *row, wide3 normal)
 {
     wide3 t1, t2;
@@ -138,9 +141,10 @@ FE_INLINE void NAMED(apply_all)(const ROW *row, pair *p, int kind)
     NAMED(apply)(row, p, w_add_scaled(friction, NAMED(load_of)(row), p->normal), moment, kind);
 }
 
-// ---- points ---------------------------------------------------------------------------------------------------------------------------
-// The one point of space at which two surfaces touch. A round side takes it along when it rolls over a flat one; of two alike, each has it
-// on its own side, and it is between. Weight of B's: all of it where A is static, whose arms count from B's centre.
+// ---- points ---------------------------------------------------------------------------------------------------------
+// The one point of space at which two surfaces touch. A round side takes it along when it rolls over a flat one; of two
+// alike, each has it on its own side, and it is between. Weight of B's: all of it where A is static, whose arms count
+// from B's centre.
 FE_INLINE wide NAMED(weight_of_b)(const ROW *row, wide_mask is_static, int kind)
 {
     wide zero = w_set(0.0f), one = w_set(1.0f);
@@ -157,8 +161,8 @@ FE_INLINE wide_mask NAMED(static_lanes)(const ROW *row)
     return w_greater(*(const wide *)is_static, w_set(0.0f));
 }
 
-// Lanes that begin to follow keep where their points were: found midway between the surfaces, on both of them. What A's and B's slid since
-// then stays between them.
+// Lanes that begin to follow keep where their points were: found midway between the surfaces, on both of them. What A's
+// and B's slid since then stays between them.
 FE_INLINE void NAMED(begin_to_follow)(ROW *row, const wide *apart, wide_mask lanes, int kind)
 {
     wide zero = w_set(0.0f);
@@ -180,11 +184,11 @@ FE_INLINE void NAMED(begin_to_follow)(ROW *row, const wide *apart, wide_mask lan
 FE_INLINE wide NAMED(move_point)(ROW *row, const motion *m, wide3 n, wide3 span, wide weight, int i, wide_mask lanes, int kind)
 {
     wide *r = i < POINTS ? row->point[i].r : row->centre;
-    wide3 b = load3(row->first_b[i]), by = w_turn(m->turn_b, w_add_scaled(b, row->round_b, n));
+    wide3 b = load3(row->first_b[i]), by = w_turn(m->rotation_b, w_add_scaled(b, row->round_b, n));
     wide apart = w_dot(n, w_add(m->shift, by));
     wide3 place = w_add(b, by);
     if (kind & (FE__ROW_PAIR | FE__ROW_SPECIAL)) {
-        wide3 a = load3(row->first_a[i]), turned = w_turn(m->turn_a, w_sub_scaled(a, row->round_a, n));
+        wide3 a = load3(row->first_a[i]), turned = w_turn(m->rotation_a, w_sub_scaled(a, row->round_a, n));
         wide3 slid = w_sub(load3(row->start_span), load3(row->found_span));
         apart = apart - w_dot(n, turned);
         a = w_add(a, turned), place = w_add(w_sub(place, span), slid);
@@ -212,8 +216,8 @@ FE_INLINE void NAMED(move_points)(ROW *row, const motion *m, wide3 n, wide_mask 
     NAMED(move_point)(row, m, n, span, weight, POINTS, lanes, kind);
 }
 
-// A contact found ahead of time: its points are those of the touch, and found_a, found_b the rotations from there to where the bodies are.
-// Until then its points on A and on B are apart.
+// A contact found ahead of time: its points are those of the touch, and found_a, found_b the rotations from there to
+// where the bodies are. Until then its points on A and on B are apart.
 static __attribute__((noinline)) void NAMED(place_ahead)(ROW *row, const fe__contact *m, const int32_t *index, wide_mask lanes, int kind)
 {
     wide zero = w_set(0.0f);
@@ -226,10 +230,10 @@ static __attribute__((noinline)) void NAMED(place_ahead)(ROW *row, const fe__con
     UNROLL for (int i = 0; i <= POINTS; ++i)
     {
         wide3 a = load3(row->first_a[i]), b = load3(row->first_b[i]);
-        b = w_add(b, w_turn(back.turn_b, w_add_scaled(b, row->round_b, n)));
+        b = w_add(b, w_turn(back.rotation_b, w_add_scaled(b, row->round_b, n)));
         store3(row->first_b[i], w_choose3(lanes, b, load3(row->first_b[i])));
         if (!(kind & (FE__ROW_PAIR | FE__ROW_SPECIAL))) continue;
-        a = w_add(a, w_turn(back.turn_a, w_sub_scaled(a, row->round_a, n)));
+        a = w_add(a, w_turn(back.rotation_a, w_sub_scaled(a, row->round_a, n)));
         store3(row->first_a[i], w_choose3(lanes, a, load3(row->first_a[i])));
     }
     store3(row->found_span, w_choose3(lanes, load3(row->start_span), span));
@@ -237,16 +241,17 @@ static __attribute__((noinline)) void NAMED(place_ahead)(ROW *row, const fe__con
     NAMED(move_points)(row, &still, n, lanes, kind);
 }
 
-// ---- within the step ------------------------------------------------------------------------------------------------------------------
+// ---- within the step ------------------------------------------------------------------------------------------------
 FE_INLINE wide_mask NAMED(moving)(const ROW *row, const motion *m, int kind)
 {
-    wide_mask moving = w_or(w_greater(row->follows, w_set(0.0f)), w_greater(sine_square(m->turn_b), row->still_b));
+    wide_mask moving = w_or(w_greater(row->follows, w_set(0.0f)), w_greater(sine_square(m->rotation_b), row->still_b));
     if (!(kind & (FE__ROW_PAIR | FE__ROW_SPECIAL))) return moving;
-    moving = w_or(moving, w_greater(sine_square(m->turn_a), row->still_a));
+    moving = w_or(moving, w_greater(sine_square(m->rotation_a), row->still_a));
     return w_or(moving, w_greater(w_dot(m->shift, m->shift), w_set(FROZEN_SHIFT * FROZEN_SHIFT)));
 }
 
-// The warm start that the bodies carry is v - start: what changed in it without an impulse, `change` on B, is taken from start.
+// The warm start that the bodies carry is v - start: what changed in it without an impulse, `change` on B, is taken
+// from start.
 FE_INLINE void NAMED(correct_start)(const fe__solver *s, const int32_t *line, wide3 change, wide_mask lanes)
 {
     wide4 w = gather_high(s->start, line);
@@ -254,7 +259,8 @@ FE_INLINE void NAMED(correct_start)(const fe__solver *s, const int32_t *line, wi
     scatter_high(s->start, line, w_with(w_choose3(lanes, corrected, w_xyz(w)), w.w));
 }
 
-// Points, span, inertia and masses of the given lanes to where the bodies are. The warm start holds M^-1 J^T l of the old ones.
+// Points, span, inertia and masses of the given lanes to where the bodies are. The warm start holds M^-1 J^T l of the
+// old ones.
 static __attribute__((noinline)) void NAMED(follow)(ROW *row, const fe__solver *s, const motion *m, wide_mask lanes, int kind)
 {
     pair p = NAMED(gather_pair)(row, s, kind);
@@ -266,16 +272,16 @@ static __attribute__((noinline)) void NAMED(follow)(ROW *row, const fe__solver *
     NAMED(move_points)(row, m, p.normal, lanes, kind);
     p.span = load3(row->span);
     moment = NAMED(moment_of)(row, p.normal, friction, kind);
-    wide_sym b = turned_inertia(s, row->line_b, m->turn_b, p.b.locks);
+    wide_sym b = turned_inertia(s, row->line_b, m->rotation_b, p.b.locks);
     row->inertia_b = choose_sym(lanes, &b, &row->inertia_b);
     NAMED(correct_start)(s, row->line_b, w_sub(w_mul(&row->inertia_b, w_add(moment, w_cross(p.span, impulse))), change_b), lanes);
     if (kind & FE__ROW_PAIR) {
-        wide_sym a = turned_inertia(s, row->line_a, m->turn_a, p.a.locks);
+        wide_sym a = turned_inertia(s, row->line_a, m->rotation_a, p.a.locks);
         row->inertia_a = choose_sym(lanes, &a, &row->inertia_a);
         NAMED(correct_start)(s, row->line_a, w_sub(change_a, w_mul(&row->inertia_a, moment)), lanes);
     }
-    wide most = w_set(0.25f * FROZEN_MASS * FROZEN_MASS), turn = w_max(sine_square(m->turn_a), sine_square(m->turn_b));
-    wide_mask stale = w_and(lanes, w_greater(turn, most));
+    wide most = w_set(0.25f * FROZEN_MASS * FROZEN_MASS), angle = w_max(sine_square(m->rotation_a), sine_square(m->rotation_b));
+    wide_mask stale = w_and(lanes, w_greater(angle, most));
     if (!w_any(stale)) return;
     MASSES masses;
     NAMED(find_masses)(row, &p, kind, &masses);

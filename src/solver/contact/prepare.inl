@@ -1,7 +1,8 @@
-// prepare.inl - contacts to rows at the beginning of a step, impulses back at its end. Part of rows.inl, once per number of
-// points.
+// prepare.inl - contacts to rows at the beginning of a step, impulses back at its end. Part of rows.inl, once per
+// number of points.
 //
-// Contacts come from the whole of memory, in the order of the colours: those of the next row are asked for while this one is computed.
+// Contacts come from the whole of memory, in the order of the colours: those of the next row are fetched while this one
+// is computed.
 
 // fills the points, returns the friction centre: the mean of the points weighted by how close they are
 FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int32_t *index, wide points, const fe__step_constants *c)
@@ -38,14 +39,15 @@ FE_INLINE void NAMED(prepare_friction)(ROW *row, wide4 impulse, wide3 t1, wide3 
     row->twist_impulse = impulse.w * c->contact_warm_scale;
 }
 
-// A side whose inertia is a ball's and whose points are as far from its centre as they are round does not show its turn
-FE_INLINE wide NAMED(still_turn)(const wide_sym *i, wide reach, int kind)
+// The rotation of a side of isotropic inertia, whose points are as far from its centre as they are round, changes
+// nothing
+FE_INLINE wide NAMED(still_angle)(const wide_sym *i, wide reach, int kind)
 {
     wide spread = w_abs(i->xx - i->yy) + w_abs(i->yy - i->zz) + w_abs(i->xy) + w_abs(i->xz) + w_abs(i->yz);
     wide_mask shows =
         w_or(w_greater(spread, ROUND_INERTIA * (i->xx + i->yy + i->zz)), w_greater(reach, w_set(FROZEN_SHIFT * FROZEN_SHIFT)));
-    // a bounce is to gain no energy: no turn is too little
-    return w_choose(shows, w_set(kind & FE__ROW_SPECIAL ? 0.0f : 0.25f * FROZEN_TURN * FROZEN_TURN), w_set(FLT_MAX));
+    // a bounce is to gain no energy: no rotation is too small
+    return w_choose(shows, w_set(kind & FE__ROW_SPECIAL ? 0.0f : 0.25f * FROZEN_ROTATION * FROZEN_ROTATION), w_set(FLT_MAX));
 }
 
 FE_INLINE void NAMED(prepare_following)(ROW *row, wide3 n, int kind)
@@ -59,8 +61,8 @@ FE_INLINE void NAMED(prepare_following)(ROW *row, wide3 n, int kind)
         reach_a = w_max(there * w_dot(a, a), reach_a), reach_b = w_max(there * w_dot(b, b), reach_b);
     }
     const wide_sym none = {0};
-    row->still_a = NAMED(still_turn)(kind & FE__ROW_PAIR ? &row->inertia_a : &none, reach_a, kind);
-    row->still_b = NAMED(still_turn)(&row->inertia_b, reach_b, kind);
+    row->still_a = NAMED(still_angle)(kind & FE__ROW_PAIR ? &row->inertia_a : &none, reach_a, kind);
+    row->still_b = NAMED(still_angle)(&row->inertia_b, reach_b, kind);
     row->follows = w_set(0.0f);
 }
 
@@ -93,7 +95,8 @@ FE_INLINE void NAMED(prepare_rolling)(SPECIAL_ROW *x, const fe__solver *s, const
     UNROLL for (int i = 0; i < POINTS; ++i) x->approach[i] = x->flight[i] = w_set(0.0f);
 }
 
-// Of the arms as found. Those of a static A are counted from B's centre: no span between them. A special row has static and kinematic A's
+// Of the arms as found. Those of a static A are counted from B's centre: no span between them. A special row has static
+// and kinematic A's
 FE_INLINE wide3 NAMED(span_found)(const ROW *row, const fe__contact *m, const int32_t *index, int kind)
 {
     if (!(kind & (FE__ROW_PAIR | FE__ROW_SPECIAL))) return w_zero3();

@@ -1,16 +1,17 @@
-// recycle.simd.c - contacts that keep their manifold: the separations at the beginning of a step from the bodies' poses, W contacts at a
-// time.
+// recycle.simd.c - contacts that keep their manifold: the separations at the beginning of a step from the bodies'
+// poses, W contacts at a time.
 //
-// A pair that moved less than a tolerance since its last full narrow phase keeps normal, arms and ids; only the separations follow, exactly
-// for the material points it has. Compared with the last full test, not with the last step, so that drift is seen. Compiled once per SIMD
-// set.
+// A pair that moved less than a tolerance since its last full narrow phase keeps normal, arms and ids; only the
+// separations follow, exactly for the material points it has. Compared with the last full test, not with the last step,
+// so that drift is seen. Compiled once per SIMD set.
 #include "core/simd.h"
 #include "solver/solver.h"
 #include "solver/wide_body.h"
 
 #include <float.h>
 
-// m along the normal, whatever the manifold's tolerance: some overlaps of a deep pile, and no more than the speculative distance
+// m along the normal, whatever the manifold's tolerance: some overlaps of a deep pile, and no more than the speculative
+// distance
 #define MOST_ALONG 0.02f
 
 enum { CONTACT_STRIDE = sizeof(fe__contact) / sizeof(float), BODY_STRIDE = sizeof(fe__body) / sizeof(float) };
@@ -36,8 +37,8 @@ FE_INLINE centres centres_of(const fe__body *bodies, const int32_t *body)
     return c;
 }
 
-// By how much B's centre moved against A's since the contact was found: (cB - cA) + found span. The bodies' and the contact's high parts
-// cancel first, so that metres or a thousand kilometres between the centres cost no digit.
+// By how much B's centre moved against A's since the contact was found: (cB - cA) + found span. The bodies' and the
+// contact's high parts cancel first, so that metres or a thousand kilometres between the centres cost no digit.
 FE_INLINE wide3 shift_since_found(const centres *a, const centres *b, wide3 span, wide3 span_low)
 {
     wide3 low = w_sub(w_xyz(b->low), w_xyz(a->low)), e;
@@ -45,7 +46,7 @@ FE_INLINE wide3 shift_since_found(const centres *a, const centres *b, wide3 span
     return w_add(w_add(d, span), w_add(w_add(e, low), span_low));
 }
 
-FE_INLINE wide4 turn_since_found(const fe__body *bodies, const int32_t *body, wide4 found)
+FE_INLINE wide4 rotation_since_found(const fe__body *bodies, const int32_t *body, wide4 found)
 {
     return w_product(w_gather(bodies->rotation, BODY_STRIDE, body), w_conjugate(found));
 }
@@ -74,18 +75,18 @@ static void recycle_block(fe__contact *contacts, const fe__body *bodies, const i
     w_gather_both(contacts->found_a, CONTACT_STRIDE, index, &found_a, &found_b);
     centres at_a = centres_of(bodies, a), at_b = centres_of(bodies, b);
     wide3 n = w_xyz(normal), shift = shift_since_found(&at_a, &at_b, w_xyz(found), w_xyz(CONTACT_QUAD(found_low)));
-    wide4 turn_a = turn_since_found(bodies, a, found_a), turn_b = turn_since_found(bodies, b, found_b);
-    // a static A has its arms from B's centre: no span between them, and it does not turn
+    wide4 rotation_a = rotation_since_found(bodies, a, found_a), rotation_b = rotation_since_found(bodies, b, found_b);
+    // a static A has its arms from B's centre: no span between them, and it does not rotate
     wide3 arms_span = w_choose3(w_greater(w_set(0.5f), spans_of(bodies, a)), w_zero3(), w_xyz(found));
-    wide3 na = w_turn_back(turn_a, n), nb = w_turn_back(turn_b, n), slope = w_sub(nb, na);
+    wide3 na = w_turn_back(rotation_a, n), nb = w_turn_back(rotation_b, n), slope = w_sub(nb, na);
     wide constant = w_dot(n, shift) + w_dot(nb, arms_span) + surface.y * w_dot(na, n) + surface.z * w_dot(nb, n);
 
-    // Along the normal the separations follow exactly (a pair that came so far apart, or so deep, has other features); what ages a manifold
-    // is sliding and turning. A point slides by at most |slide| + 2 |sin(turn / 2)| reach of either body, and (x + y + z)^2 <= 3 (x^2 + y^2
-    // + z^2)
+    // Along the normal the separations follow exactly (a pair that came so far apart, or so deep, has other features);
+    // what ages a manifold is sliding and rotating. A point slides by at most |slide| + 2 |sin(angle / 2)| reach of
+    // either body, and (x + y + z)^2 <= 3 (x^2 + y^2 + z^2)
     wide along = w_dot(n, shift);
     wide3 slide = w_sub_scaled(shift, along, n);
-    wide turned = w_dot(w_xyz(turn_a), w_xyz(turn_a)) + w_dot(w_xyz(turn_b), w_xyz(turn_b));
+    wide turned = w_dot(w_xyz(rotation_a), w_xyz(rotation_a)) + w_dot(w_xyz(rotation_b), w_xyz(rotation_b));
     wide moved = 3.0f * (w_dot(slide, slide) + 4.0f * found.w * found.w * turned), zero = w_set(0.0f);
     // without points the bodies must not be able to meet in this step either
     wide travel = dt * (at_a.low.w + at_b.low.w);

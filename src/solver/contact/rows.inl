@@ -1,20 +1,23 @@
 // rows.inl - TGS Soft on rows of W contacts, POINTS points each. Included by contact.simd.c once per number of points.
 //
-// A contact of several points shares one normal n, and rB = rA + span with span = cA - cB. Whatever is asked of a point is then affine in
-// rA, and the work per point is one dot product:
+// A contact of several points shares one normal n, and rB = rA + span with span = cA - cB. Every quantity of a point is
+// then affine in rA, and the work per point is one dot product:
 //
-//     normal velocity   vn_i = n.(vB - vA) + (n x wB).span + (n x (wB - wA)).rA_i            since n.(w x r) = (n x w).r
+//     normal velocity   vn_i = n.(vB - vA) + (n x wB).span + (n x (wB - wA)).rA_i
+//                       since n.(w x r) = (n x w).r
 //     separation        s_i  = s0_i + n.(dpB - dpA) + nB.span + (nB - nA).rA_i               nX = R(dqX)^T n - n, exact
-//     torque on A       sum_i rA_i x (n l_i) = (sum_i l_i rA_i) x n                          torque on B: that + span x (n sum l_i)
+//     torque on A       sum_i rA_i x (n l_i) = (sum_i l_i rA_i) x n;  on B: that + span x (n sum l_i)
 //
-// A round side (sphere, capsule) is its core swelled by a radius rho: the core turns with the body, the radius stays along n. Its point is
-// core + rho n on A, core - rho n on B, so the separation gains  rhoA nA.n + rhoB nB.n: a ball that rolls keeps its distance.
+// A round side (sphere, capsule) is its core swelled by a radius rho: the core rotates with the body, the radius stays
+// along n. Its point is core + rho n on A, core - rho n on B, so the separation gains  rhoA nA.n + rhoB nB.n: a ball
+// that rolls keeps its distance.
 //
-// The points are solved on their impulses with the stored matrix K_ij = n.M^-1.n between points, and the bodies are touched once, by the
-// sum: a step for all points at once, which treats them alike, then a Gauss-Seidel sweep for what is left.
+// The points are solved on their impulses with the stored matrix K_ij = n.M^-1.n between points, and the bodies are
+// touched once, by the sum: a step for all points at once, which treats them alike, then a Gauss-Seidel sweep for what
+// is left.
 //
-// `kind` is a constant of each instance: FE__ROW_PAIR both sides are dynamic, else only B moves; FE__ROW_SPECIAL the row carries a
-// special_row.
+// `kind` is a constant of each instance: FE__ROW_PAIR both sides are dynamic, else only B moves; FE__ROW_SPECIAL the
+// row carries a special_row.
 
 #define NAMED(name) FE_PASTE(name, POINTS)
 #define ROW NAMED(contact_row)
@@ -36,7 +39,7 @@ typedef struct ROW {
     wide start_span[3];          // when the step began
     wide found_span[3];          // when the contact was found: for separations
     wide round_a, round_b;
-    wide still_a, still_b; // square of |sin(turn / 2)| up to which arms and inertia of a side stay as they are
+    wide still_a, still_b; // square of |sin(angle / 2)| up to which arms and inertia of a side stay as they are
     wide follows;          // 1: they no longer do, see follow
     wide static_friction, dynamic_friction;
     wide centre[3];       // of friction, from A's centre
@@ -45,7 +48,8 @@ typedef struct ROW {
     wide twist_mass, twist_impulse;
     wide twist_tangent[2]; // tangent velocity that a unit of twist adds
     wide lever[POINTS];    // |r_i - centre|
-    // of lanes that follow, when the step began: points on A from A's centre, on B from B's. The last is the centre of friction
+    // of lanes that follow, when the step began: points on A from A's centre, on B from B's. The last is the centre of
+    // friction
     wide first_a[POINTS + 1][3], first_b[POINTS + 1][3];
 } ROW;
 
@@ -59,15 +63,16 @@ typedef struct SPECIAL_ROW {
     wide mass_a[3], mass_b[3];             // inverse, along the world's axes: 0 where locked
     wide restitution, closing;             // acceleration of the bodies towards each other along n, m/s2
     wide approach[POINTS], flight[POINTS]; // of a touch in this substep: its speed (0: none) and Q, see record_touch
-    wide gain;                             // energy that the normal impulses of this substep gave to the bodies, J, see count_gain
-    wide rolling, spinning;                // torque caps over the normal force, m
-    wide_sym rolling_mass;                 // inverse of IA^-1 + IB^-1
+    // energy that the normal impulses of this substep gave to the bodies, J, see count_gain
+    wide gain;
+    wide rolling, spinning; // torque caps over the normal force, m
+    wide_sym rolling_mass;  // inverse of IA^-1 + IB^-1
     wide spinning_mass;
     wide rolling_impulse[3];
     wide surface[3]; // velocity of B's surface against A's
 } SPECIAL_ROW;
 
-// What a rigid pass changes
+// What a relax pass changes
 typedef struct PASSING {
     wide point[POINTS], tangent[2], twist;
     side a, b;
@@ -75,7 +80,7 @@ typedef struct PASSING {
     wide gain, approach[POINTS], flight[POINTS];
 } PASSING;
 
-// ---- bodies in and out ----------------------------------------------------------------------------------------------------------
+// ---- bodies in and out ----------------------------------------------------------------------------------------------
 FE_INLINE pair NAMED(gather_pair)(const ROW *row, const fe__solver *s, int kind)
 {
     side still = {w_zero3(), w_zero3(), w_set(0.0f), w_set(0.0f)};
@@ -89,7 +94,8 @@ FE_INLINE void NAMED(scatter_pair)(const ROW *row, const fe__solver *s, const pa
     scatter_side(s->velocity, row->line_b, &p->b);
 }
 
-// Impulse on B, its opposite on A; its moment about A's centre. About B's centre the moment is greater by span x impulse.
+// Impulse on B, its opposite on A; its moment about A's centre. About B's centre the moment is greater by span x
+// impulse.
 FE_INLINE void NAMED(apply)(const ROW *row, pair *p, wide3 impulse, wide3 moment, int kind)
 {
     const SPECIAL_ROW *x = (const SPECIAL_ROW *)row;
@@ -108,16 +114,16 @@ FE_INLINE void NAMED(apply_torque)(const ROW *row, pair *p, wide3 torque, int ki
     if (kind & FE__ROW_PAIR) p->a.w = w_sub(p->a.w, w_mul(&row->inertia_a, torque));
 }
 
-// ---- normals --------------------------------------------------------------------------------------------------------------------
+// ---- normals --------------------------------------------------------------------------------------------------------
 FE_INLINE motion NAMED(motion_of)(const ROW *row, const fe__solver *s, int kind)
 {
     wide zero = w_set(0.0f);
-    motion m = {.turn_a = {zero, zero, zero, w_set(1.0f)}};
+    motion m = {.rotation_a = {zero, zero, zero, w_set(1.0f)}};
     wide4 a, b;
-    gather_line(s->motion, row->line_b, &b, &m.turn_b);
+    gather_line(s->motion, row->line_b, &b, &m.rotation_b);
     m.shift = w_xyz(b);
     if (!(kind & (FE__ROW_PAIR | FE__ROW_SPECIAL))) return m;
-    gather_line(s->motion, row->line_a, &a, &m.turn_a);
+    gather_line(s->motion, row->line_a, &a, &m.rotation_a);
     m.shift = w_sub(m.shift, w_xyz(a));
     return m;
 }
@@ -125,10 +131,10 @@ FE_INLINE motion NAMED(motion_of)(const ROW *row, const fe__solver *s, int kind)
 // after the bodies moved, of lanes whose arms are those of the step's start
 FE_INLINE void NAMED(find_distances)(ROW *row, const pair *p, const motion *m, int kind)
 {
-    wide3 nb = w_turn_back(m->turn_b, p->normal), na = w_zero3();
+    wide3 nb = w_turn_back(m->rotation_b, p->normal), na = w_zero3();
     wide constant = w_dot(p->normal, m->shift) + w_dot(nb, load3(row->found_span)) + row->round_b * w_dot(nb, p->normal);
     if (kind & (FE__ROW_PAIR | FE__ROW_SPECIAL)) {
-        na = w_turn_back(m->turn_a, p->normal);
+        na = w_turn_back(m->rotation_a, p->normal);
         constant = constant + row->round_a * w_dot(na, p->normal);
     }
     affine change = {constant, w_sub(nb, na)};
@@ -141,10 +147,10 @@ FE_INLINE affine NAMED(normal_velocity)(const pair *p)
     return (affine){w_dot(p->normal, w_sub(p->b.v, p->a.v)) + w_dot(spin, p->span), w_cross(p->normal, w_sub(p->b.w, p->a.w))};
 }
 
-// A point without impulse is about to touch: note its speed u and the energy of its flight, exact for the discrete motion v += h g, x += h
-// v:
-//     Q = u (u - g h) + 2 g s  before the bodies moved in this substep,   u (u + g h) + 2 g s  after       (s: gap, g: acceleration closing
-//     it)
+// A point without impulse is about to touch: note its speed u and the energy of its flight, exact for the discrete
+// motion v += h g, x += h v:
+//     Q = u (u - g h) + 2 g s  before the bodies moved in this substep,   u (u + g h) + 2 g s  after
+// (s: the gap, g: the acceleration that closes it).
 FE_INLINE void NAMED(record_touch)(SPECIAL_ROW *x, int i, wide impulse, wide vn, wide distance, const fe__step_constants *c, int moved)
 {
     wide zero = w_set(0.0f), u = -vn, gap = w_max(distance, zero), g = x->closing;
@@ -158,8 +164,8 @@ FE_INLINE void NAMED(record_touch)(SPECIAL_ROW *x, int i, wide impulse, wide vn,
     x->flight[i] = w_choose(touches, w_max(flight, zero), x->flight[i]);
 }
 
-// What changes d of the other points take from the wish of point j: scale_j sum_i m_j K_ij d_i. The stored m_j K_ij, i < j, stand for m_i
-// K_ij too.
+// What changes d of the other points take from the request of point j: scale_j sum_i m_j K_ij d_i. The stored m_j K_ij,
+// i < j, stand for m_i K_ij too.
 FE_INLINE wide NAMED(lost_at)(const ROW *row, const wide *scale, const wide *d, int j)
 {
     wide sum = w_set(0.0f);
@@ -167,13 +173,13 @@ FE_INLINE wide NAMED(lost_at)(const ROW *row, const wide *scale, const wide *d, 
     return scale ? scale[j] * sum : sum;
 }
 
-// All points at once, each by the same share of what it asks for, e_i = wish_i - l_i:  d = a e,  a = e.e / e.(M e),  M_ij = m_j K_ij. A
-// step of steepest descent, and what it knows nothing of is the order of the points: a box that lands flat gets four equal impulses and
-// does not turn, where a sweep alone gives the first point the most.
-FE_INLINE void NAMED(predict_points)(ROW *row, wide *wish, const wide *scale)
+// All points at once, each by the same share of its request, e_i = wish_i - l_i:  d = a e,  a = e.e / e.(M e),  M_ij =
+// m_j K_ij. A step of steepest descent, and what it knows nothing of is the order of the points: a box that lands flat
+// gets four equal impulses and does not rotate, where a sweep alone gives the first point the most.
+FE_INLINE void NAMED(predict_points)(ROW *row, wide *request, const wide *scale)
 {
     wide zero = w_set(0.0f), one = w_set(1.0f), square = zero, along = zero, d[POINTS];
-    UNROLL for (int i = 0; i < POINTS; ++i) d[i] = wish[i] - row->point[i].impulse;
+    UNROLL for (int i = 0; i < POINTS; ++i) d[i] = request[i] - row->point[i].impulse;
     UNROLL for (int j = 0; j < POINTS; ++j)
     {
         square = square + d[j] * d[j];
@@ -186,26 +192,27 @@ FE_INLINE void NAMED(predict_points)(ROW *row, wide *wish, const wide *scale)
         row->point[i].impulse = w_max(before + share * d[i], zero);
         d[i] = row->point[i].impulse - before;
     }
-    UNROLL for (int j = 0; j < POINTS; ++j) wish[j] = wish[j] - NAMED(lost_at)(row, scale, d, j);
+    UNROLL for (int j = 0; j < POINTS; ++j) request[j] = request[j] - NAMED(lost_at)(row, scale, d, j);
 }
 
-// Runs the points against each other on their impulses. wish[i] is the new impulse of point i before max(., 0); a change d at point i
-// lowers wish[j] by scale_j m_j K_ij d. Returns the sum of the changes and their moment about A's centre.
-FE_INLINE wide3 NAMED(sweep_points)(ROW *row, wide *wish, const wide *scale, wide *out_sum)
+// Runs the points against each other on their impulses. request[i] is the new impulse of point i before max(., 0); a
+// change d at point i lowers request[j] by scale_j m_j K_ij d. Returns the sum of the changes and their moment about
+// A's centre.
+FE_INLINE wide3 NAMED(sweep_points)(ROW *row, wide *request, const wide *scale, wide *out_sum)
 {
     wide zero = w_set(0.0f), sum = zero, first[POINTS];
     wide3 moment = w_zero3();
     UNROLL for (int i = 0; i < POINTS; ++i) first[i] = row->point[i].impulse;
-    if (POINTS > 1) NAMED(predict_points)(row, wish, scale);
+    if (POINTS > 1) NAMED(predict_points)(row, request, scale);
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
         point_row *q = row->point + i;
-        wide impulse = w_max(wish[i], zero), change = impulse - q->impulse;
+        wide impulse = w_max(request[i], zero), change = impulse - q->impulse;
         q->impulse = impulse;
         UNROLL for (int j = i + 1; j < POINTS; ++j)
         {
             wide k = row->coupling[coupling_of[i][j]];
-            wish[j] = wish[j] - (scale ? scale[j] * k : k) * change;
+            request[j] = request[j] - (scale ? scale[j] * k : k) * change;
         }
         change = impulse - first[i];
         sum = sum + change;
@@ -222,13 +229,14 @@ FE_INLINE wide NAMED(load_of)(const ROW *row)
     return load;
 }
 
-// The impulses that the points ask for while the others keep theirs, before max(., 0). out_scale: what their velocities count.
-// Soft (pushing):   l' = max((1 - is) l - m (ms vn + bias), 0);  bias = ms s / h where the gap s > 0, the spring's otherwise
-// Rigid (relaxing, and where there is a gap: for a loaded point, one of more than TOUCHING): l' = max(l - m (vn + max(s / h, 0)), 0)
-FE_INLINE void NAMED(wishes)(ROW *row, const fe__step_constants *c, const pair *p, int kind, int soft, wide *wish, wide *scale)
+// The impulses that the points request while the others keep theirs, before max(., 0). `scale`: weights of their
+// velocities. Soft:   l' = max((1 - is) l - m (ms vn + bias), 0);  bias = ms s / h where the gap s > 0, the spring's
+// otherwise Relax, and wherever there is a gap (for a loaded point, of more than TOUCHING): l' = max(l - m (vn + max(s
+// / h, 0)), 0)
+FE_INLINE void NAMED(requests)(ROW *row, const fe__step_constants *c, const pair *p, int kind, int soft, wide *request, wide *scale)
 {
     const fe__softness *k = kind & FE__ROW_PAIR ? &c->between_dynamic : &c->against_static;
-    wide zero = w_set(0.0f), one = w_set(1.0f), slowest = w_set(-c->push_speed), rate = w_set(k->mass_scale * k->bias_rate);
+    wide zero = w_set(0.0f), one = w_set(1.0f), slowest = w_set(-c->bias_speed), rate = w_set(k->mass_scale * k->bias_rate);
     affine velocity = NAMED(normal_velocity)(p);
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
@@ -237,26 +245,27 @@ FE_INLINE void NAMED(wishes)(ROW *row, const fe__step_constants *c, const pair *
         wide vn = at(&velocity, r), distance = q->distance, ahead = distance * c->inverse_h;
         if (kind & FE__ROW_SPECIAL) NAMED(record_touch)((SPECIAL_ROW *)row, i, q->impulse, vn, distance, c, !soft);
         if (!soft) {
-            wish[i] = q->impulse - q->mass * (vn + w_max(ahead, zero));
+            request[i] = q->impulse - q->mass * (vn + w_max(ahead, zero));
             continue;
         }
         wide_mask apart = w_greater(distance, w_choose(w_greater(q->impulse, zero), w_set(TOUCHING), zero));
         scale[i] = w_choose(apart, one, w_set(k->mass_scale));
         wide bias = w_choose(w_greater(distance, zero), scale[i] * ahead, w_max(rate * distance, slowest));
-        wish[i] = w_choose(apart, one, w_set(1.0f - k->impulse_scale)) * q->impulse - q->mass * (scale[i] * vn + bias);
+        request[i] = w_choose(apart, one, w_set(1.0f - k->impulse_scale)) * q->impulse - q->mass * (scale[i] * vn + bias);
     }
 }
 
-FE_INLINE void NAMED(push_normals)(ROW *row, const fe__step_constants *c, pair *p, int kind, int soft)
+FE_INLINE void NAMED(apply_normals)(ROW *row, const fe__step_constants *c, pair *p, int kind, int soft)
 {
-    wide wish[POINTS], scale[POINTS], sum;
-    NAMED(wishes)(row, c, p, kind, soft, wish, scale);
-    wide3 moment = NAMED(sweep_points)(row, wish, soft ? scale : 0, &sum);
+    wide request[POINTS], scale[POINTS], sum;
+    NAMED(requests)(row, c, p, kind, soft, request, scale);
+    wide3 moment = NAMED(sweep_points)(row, request, soft ? scale : 0, &sum);
     NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
 }
 
-// The energy that changes of the normal impulses give: the work at the mean of the speeds before and after, and what they change in the
-// discrete flight, whose energy is v^2/2 - g x + h g v / 2 of the closing acceleration g: a push before the bodies move shifts them too.
+// The energy that changes of the normal impulses give: the work at the mean of the speeds before and after, and what
+// they change in the discrete flight, whose energy is v^2/2 - g x + h g v / 2 of the closing acceleration g: an impulse
+// before the bodies move shifts them too.
 FE_INLINE wide NAMED(gain_of)(const SPECIAL_ROW *x, const wide *before, const affine *was, const affine *is, wide flight)
 {
     wide gain = w_set(0.0f);
@@ -275,19 +284,19 @@ FE_INLINE void NAMED(solve_normals)(ROW *row, const fe__step_constants *c, pair 
     wide before[POINTS];
     affine was = NAMED(normal_velocity)(p);
     UNROLL for (int i = 0; i < POINTS; ++i) before[i] = row->point[i].impulse;
-    NAMED(push_normals)(row, c, p, kind, soft);
+    NAMED(apply_normals)(row, c, p, kind, soft);
     if (!(kind & FE__ROW_SPECIAL)) return;
     affine is = NAMED(normal_velocity)(p);
     wide gain = NAMED(gain_of)(x, before, &was, &is, (soft ? 0.5f : -0.5f) * c->h * x->closing);
     x->gain = soft ? gain : x->gain + gain;
 }
 
-// ---- friction --------------------------------------------------------------------------------------------------------------------
+// ---- friction -------------------------------------------------------------------------------------------------------
 
-// Twist about n, |l| <= mu sum lever_i l_i; then the two tangents at the friction centre as one block, |l| <= mu sum l_i. Twist reaches the
-// tangents through twist_tangent, so that both are applied to the bodies at once. A contact sticks up to the static friction; one that
-// would need much more slides, with the dynamic one.
-// Returns the lanes whose friction is not settled, see settle.
+// Twist about n, |l| <= mu sum lever_i l_i; then the two tangents at the friction centre as one block, |l| <= mu sum
+// l_i. Twist reaches the tangents through twist_tangent, so that both are applied to the bodies at once. A contact
+// sticks up to the static friction; one that would need much more slides, with the dynamic one. Returns the lanes whose
+// friction is not settled, see settle.
 FE_INLINE wide_mask NAMED(solve_friction)(ROW *row, pair *p, int kind)
 {
     wide3 t1, t2, ra = load3(row->centre), rb = w_add(ra, p->span);
@@ -316,13 +325,13 @@ FE_INLINE wide_mask NAMED(solve_friction)(ROW *row, pair *p, int kind)
     row->tangent_impulse[0] = l1;
     row->tangent_impulse[1] = l2;
     NAMED(apply)(row, p, impulse, w_add_scaled(w_cross(ra, impulse), twisted, p->normal), kind);
-    wide answer = p->a.inverse_mass + p->b.inverse_mass, least = UNSETTLED * load * answer;
-    wide_mask changes = w_greater(answer * answer * w_dot(impulse, impulse), least * least + UNSETTLED_SPEED * UNSETTLED_SPEED);
-    return w_and(changes, w_greater(w_set(IMPACT_SPEED), (load - row->load) * answer));
+    wide response = p->a.inverse_mass + p->b.inverse_mass, least = UNSETTLED * load * response;
+    wide_mask changes = w_greater(response * response * w_dot(impulse, impulse), least * least + UNSETTLED_SPEED * UNSETTLED_SPEED);
+    return w_and(changes, w_greater(w_set(IMPACT_SPEED), (load - row->load) * response));
 }
 
-// Rolling resistance: a torque in the tangent plane against the relative spin, at most rolling * load. Spinning resistance: the same about
-// n.
+// Rolling resistance: a torque in the tangent plane against the relative spin, at most rolling * load. Spinning
+// resistance: the same about n.
 FE_INLINE void NAMED(solve_rolling)(SPECIAL_ROW *x, pair *p, int kind)
 {
     wide load = NAMED(load_of)(&x->row), one = w_set(1.0f);
@@ -368,9 +377,10 @@ FE_INLINE void NAMED(keep_others)(ROW *row, pair *p, const PASSING *was, wide_ma
     }
 }
 
-// A friction that comes at once, of what is set down on a slope or pushed, turns the body, and the less it is held the lower the friction
-// grips: a cube's friction is two fifths of what it should be. The points answer that turn and friction has its next part, until little is
-// left; what is at rest, or slides on, has its friction from before. Not in an impact, whose friction is over after the substep.
+// A friction that comes at once, of what is set down on a slope or pushed, rotates the body, and the less it is held
+// the lower the friction grips: a cube's friction is two fifths of what it should be. The points resist that rotation
+// and friction has its next part, until little is left; what is at rest, or slides on, has its friction from before.
+// Not in an impact, whose friction is over after the substep.
 static __attribute__((noinline)) pair NAMED(settle)(ROW *row, const fe__step_constants *c, pair p, wide_mask unsettled, int kind)
 {
     for (int i = 0; i < SETTLING && w_any(unsettled); ++i) {
@@ -386,11 +396,11 @@ static __attribute__((noinline)) pair NAMED(settle)(ROW *row, const fe__step_con
 
 #include "solver/contact/follow.inl"
 
-// ---- restitution ----------------------------------------------------------------------------------------------------------------------
+// ---- restitution ----------------------------------------------------------------------------------------------------
 // The speed that a touched point must leave with, at the gap s where it is now:
 //     v' = min( sqrt(e^2 Q - 2 g s) + g h / 2,  sqrt(Q - 2 g s) )
-// so that it flies to e^2 times the height it fell from, and never has more energy than it came with. Q: record_touch. A point that did not
-// touch may go on closing its gap, as in relax.
+// so that it flies to e^2 times the height it fell from, and never has more energy than it came with. Q: record_touch.
+// A point that did not touch may go on closing its gap, as in relax.
 FE_INLINE wide NAMED(bounce_speed)(const SPECIAL_ROW *x, int i, wide distance, const fe__step_constants *c)
 {
     wide zero = w_set(0.0f), g = x->closing, gap = w_max(distance, zero), used = 2.0f * g * gap, e = x->restitution, q = x->flight[i];
@@ -410,8 +420,8 @@ FE_INLINE void NAMED(leave_warm_start)(const SPECIAL_ROW *x, fe__solver *s, cons
     scatter_side(s->start, row->line_b, &start.b);
 }
 
-// Of the touched lanes: nothing is left to warm-start. The others, which the sweeps ran over too, get their impulses back. `old`: impulses
-// that `total` already has, and `part` of the change came to pass.
+// Of the touched lanes: nothing is left to warm-start. The others, which the sweeps ran over too, get their impulses
+// back. `old`: impulses that `total` already has, and `part` of the change came to pass.
 FE_INLINE void NAMED(forget_touched)(SPECIAL_ROW *x, const wide *old, wide part, wide_mask touched)
 {
     ROW *row = &x->row;
@@ -434,19 +444,19 @@ FE_INLINE void NAMED(sweep_bounce)(ROW *row, pair *p, const wide *target, int ki
 {
     for (int sweep = 0; sweep < BOUNCE_SWEEPS; ++sweep) {
         affine velocity = NAMED(normal_velocity)(p);
-        wide wish[POINTS], sum;
+        wide request[POINTS], sum;
         UNROLL for (int i = 0; i < POINTS; ++i)
         {
             const point_row *q = row->point + i;
-            wish[i] = q->impulse - q->mass * (at(&velocity, load3(q->r)) - target[i]);
+            request[i] = q->impulse - q->mass * (at(&velocity, load3(q->r)) - target[i]);
         }
-        wide3 moment = NAMED(sweep_points)(row, wish, 0, &sum);
+        wide3 moment = NAMED(sweep_points)(row, request, 0, &sum);
         NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
     }
 }
 
-// The part of a bounce, 1 and less, with which the row's impulses of this substep gain no energy: gain + part b + part^2 a <= 0, of the
-// works
+// The part of a bounce, 1 and less, with which the row's impulses of this substep gain no energy: gain + part b +
+// part^2 a <= 0, of the works
 //     b = sum of change . speed before,   a = half the sum of change . (speed after - before)
 FE_INLINE wide NAMED(part_without_gain)(const SPECIAL_ROW *x, const wide *old, const affine *was, const affine *is, wide flight)
 {
@@ -482,10 +492,11 @@ FE_INLINE void NAMED(bounce_row)(SPECIAL_ROW *x, fe__solver *s, const fe__step_c
     add_change(s, row->line_b, &before.b, &p.b, touched);
 }
 
-// ---- impacts --------------------------------------------------------------------------------------------------------------------------
-// What a substep carries to the next is a guess of its impulses. Those of an impact, of a load that rose by half at once, are over: the
-// next push takes back its normal part, but friction, which only relax solves, would act twice, on bodies that turned on, and give them
-// energy. So it is carried only as it was before, until the load has lasted for a substep.
+// ---- impacts --------------------------------------------------------------------------------------------------------
+// What a substep carries to the next is a guess of its impulses. Those of an impact, of a load that rose by half at
+// once, are over: the next soft pass takes back its normal part, but friction, which only relax solves, would act
+// twice, on bodies that rotated on, and give them energy. So it is carried only as it was before, until the load has
+// lasted for a substep.
 static __attribute__((noinline)) void NAMED(leave_friction)(ROW *row, const fe__solver *s, wide load, wide_mask rose, int kind)
 {
     SPECIAL_ROW *x = (SPECIAL_ROW *)row;
@@ -504,19 +515,20 @@ static __attribute__((noinline)) void NAMED(leave_friction)(ROW *row, const fe__
     row->twist_impulse = keep * row->twist_impulse;
 }
 
-// ---- strain ----------------------------------------------------------------------------------------------------------------------------
-// Does the row bear so much that its island is strained? An impact does not count: the load is to last, so that the last substep's, times
-// their number, and that of the whole step are both large. In an island that is strained already, the last substep's alone.
-FE_INLINE void NAMED(find_strain)(const ROW *row, fe__solver *s, wide speed, wide answer, const fe__step_constants *c)
+// ---- strain ---------------------------------------------------------------------------------------------------------
+// Does the row bear so much that its island is strained? An impact does not count: the load is to last, so that the
+// last substep's, times their number, and that of the whole step are both large. In an island that is strained already,
+// the last substep's alone.
+FE_INLINE void NAMED(find_strain)(const ROW *row, fe__solver *s, wide speed, wide response, const fe__step_constants *c)
 {
     wide total = row->total[0];
     UNROLL for (int i = 1; i < POINTS; ++i) total = total + row->total[i];
-    wide lasting = w_min((float)c->substeps * speed, w_max(total * answer, w_set(c->forgets)));
+    wide lasting = w_min((float)c->substeps * speed, w_max(total * response, w_set(c->forgets)));
     wide_mask strained = w_greater(lasting, w_set(c->strain));
     if (w_any(strained)) mark_strained(s, row->line_b, strained);
 }
 
-// ---- passes over the rows -----------------------------------------------------------------------------------------------------------
+// ---- passes over the rows -------------------------------------------------------------------------------------------
 FE_INLINE ROW *NAMED(row_at)(void *rows, int32_t i, int kind)
 {
     return kind & FE__ROW_SPECIAL ? &((SPECIAL_ROW *)rows)[i].row : (ROW *)rows + i;
@@ -552,11 +564,11 @@ FE_INLINE void NAMED(relax)(fe__solver *s, void *rows, int32_t count, const fe__
         NAMED(scatter_pair)(row, s, &p, kind);
         if (c->more) continue;
         UNROLL for (int j = 0; j < POINTS; ++j) row->total[j] = row->total[j] + row->point[j].impulse;
-        wide load = NAMED(load_of)(row), answer = p.a.inverse_mass + p.b.inverse_mass;
-        wide_mask rose = w_and(w_greater(load, IMPACT_RISE * row->load), w_greater((load - row->load) * answer, w_set(IMPACT_SPEED)));
+        wide load = NAMED(load_of)(row), response = p.a.inverse_mass + p.b.inverse_mass;
+        wide_mask rose = w_and(w_greater(load, IMPACT_RISE * row->load), w_greater((load - row->load) * response, w_set(IMPACT_SPEED)));
         if (w_any(rose)) NAMED(leave_friction)(row, s, load, rose, kind);
         row->load = load;
-        if (c->asks_strain) NAMED(find_strain)(row, s, load * answer, answer, c);
+        if (c->finds_strain) NAMED(find_strain)(row, s, load * response, response, c);
     }
 }
 
@@ -567,7 +579,7 @@ FE_INLINE void NAMED(bounce)(fe__solver *s, void *rows, int32_t count, const fe_
 
 #include "solver/contact/prepare.inl"
 
-// ---- the kernels of each kind --------------------------------------------------------------------------------------------------------
+// ---- the kernels of each kind ---------------------------------------------------------------------------------------
 #define INSTANCE(kind_name, kind)                                                                                                  \
     static void NAMED(prepare_##kind_name)(fe__solver * s, fe__contact * contacts, const fe__extra *extras, const fe__lane *lanes, \
                                            void *rows, int32_t count, const fe__step_constants *c)                                 \

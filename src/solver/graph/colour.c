@@ -5,7 +5,7 @@
 
 #include <assert.h>
 
-// ---- the constraint graph -------------------------------------------------------------------------------------------------------------
+// ---- the constraint graph -------------------------------------------------------------------------------------------
 static int32_t first_colour(uint64_t used_low, uint64_t used_high, int32_t first, int32_t end)
 {
     for (int32_t word = first / 64; word <= (end - 1) / 64; ++word) {
@@ -22,10 +22,11 @@ static void take_colour(fe__body *body, int32_t colour) { body->colours[colour /
 
 static void return_colour(fe__body *body, int32_t colour) { body->colours[colour / 64] &= ~(UINT64_C(1) << colour % 64); }
 
-// Contacts of a pile come in an order, left before right. The first free colour would be another name for it: the solver would take left
-// before right everywhere, and what a sweep gets wrong would add up (the top of 100 rows went 0.15 m aside). So it is drawn which of a
-// colour and its mate (0 and 1, 2 and 3, ...) is taken; layers still follow each other as their colours come. The draw hangs on the
-// meetings of the two bodies and of those that they met, not on serials, which strangers shift.
+// Contacts of a pile come in an order, left before right. The first free colour would be another name for it: the
+// solver would take left before right everywhere, and what a sweep gets wrong would add up (the top of 100 rows went
+// 0.15 m aside). So it is drawn which of a colour and its mate (0 and 1, 2 and 3, ...) is taken; layers still follow
+// each other as their colours come. The draw hangs on the meetings of the two bodies and of those that they met, not on
+// serials, which strangers shift.
 static int32_t draw_colour(fe__body *a, fe__body *b)
 {
     uint64_t used[2] = {a->colours[0] | b->colours[0], a->colours[1] | b->colours[1]};

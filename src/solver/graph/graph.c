@@ -1,8 +1,8 @@
-// graph.c - the build: batches of islands (graph_islands.c), then of each its lines for bodies and its groups of lanes by colour and kind
-// of row; those of joints are in graph_joints.c, the room for all in graph_room.c.
+// graph.c - the build: batches of islands (graph_islands.c), then of each its lines for bodies and its groups of lanes
+// by colour and kind of row; those of joints are in graph_joints.c, the room for all in graph_room.c.
 //
-// All orders that could matter follow the creation of the pairs; everything else is free to follow the awake lists, because lanes are
-// independent and a group's contacts share no dynamic body.
+// All orders that could matter follow the creation of the pairs; everything else is free to follow the awake lists,
+// because lanes are independent and a group's contacts share no dynamic body.
 #include "solver/graph/graph.h"
 
 #include "solver/graph/graph_build.h"
@@ -49,7 +49,7 @@ static fe__builder make_builder(fe__solver *s, const fe__kernels *kernels, const
     return b;
 }
 
-// ---- lines ----------------------------------------------------------------------------------------------------------------------------
+// ---- lines ----------------------------------------------------------------------------------------------------------
 static void close_block(fe__solver *s)
 {
     while (s->line_count % FE__MAX_WIDTH) s->body_of_line[s->line_count++] = FE__NONE;
@@ -64,7 +64,8 @@ static void add_kinematic(fe__builder *b, const fe__batch *batch, int32_t awake)
     add_line(b->s, b->in->awake_bodies[awake]);
 }
 
-// its dummies, its bodies, and copies of the kinematic bodies that its contacts and joints read: those a worker moves along by itself
+// its dummies, its bodies, and copies of the kinematic bodies that its contacts and joints read: those a worker moves
+// along by itself
 static void assign_lines(fe__builder *b, int32_t k)
 {
     fe__solver *s = b->s;
@@ -105,7 +106,8 @@ static fe__group *open_contacts(fe__builder *b, fe__batch *batch, int32_t colour
     fe__group like = {.kind = kind, .colour = FE__CONTACT_COLOURS + colour, .alone = colour == FE__OVERFLOW_COLOUR};
     like.width = thin ? FE__THIN_WIDTH : b->width;
     if (!thin) return fe__open_group(b, batch, like, contacts, kernels->contact->row_size[kind]);
-    return fe__open_group(b, batch, like, contacts, (int32_t)fe__whole_blocks(kernels->thin->row_size[kind])); // a wide row may come next
+    // a wide row may come next
+    return fe__open_group(b, batch, like, contacts, (int32_t)fe__whole_blocks(kernels->thin->row_size[kind]));
 }
 
 // contacts beyond the colours of a crowded body: one a row, in the order of the pairs' creation
@@ -128,7 +130,7 @@ static void add_overflow(fe__builder *b, int32_t k, const fe__kernels *kernels)
     }
 }
 
-// ---- groups ---------------------------------------------------------------------------------------------------------------------------
+// ---- groups ---------------------------------------------------------------------------------------------------------
 static void make_groups(fe__builder *b, int32_t k, const fe__kernels *kernels)
 {
     fe__solver *s = b->s;
@@ -173,6 +175,6 @@ void fe__graph_build(fe__solver *s, const fe__kernels *kernels, const fe__graph_
     }
     assert(s->line_count <= s->body_of_line_capacity && s->lane_count <= s->lane_capacity && s->group_count <= s->group_capacity);
     assert(rows_fit(s));
-    (void)rows_fit; // without assertions nobody asks
+    (void)rows_fit; // used by the assertion alone
     s->graph_changed = 0;
 }

@@ -1,7 +1,7 @@
 // graph.h - which contacts are solved together: islands, batches, colours, rows.
 //
-// Input: the awake bodies and the linked contacts. Output: batches of lines, groups of lanes in fe__solver. The graph lives on while
-// nothing links, unlinks, wakes or sleeps.
+// Input: the awake bodies and the linked contacts. Output: batches of lines, groups of lanes in fe__solver. The graph
+// lives on while nothing links, unlinks, wakes or sleeps.
 #ifndef FE_SOLVER_GRAPH_GRAPH_H
 #define FE_SOLVER_GRAPH_GRAPH_H
 #include "solver/graph/graph_input.h"

@@ -1,4 +1,5 @@
-// graph_build.h - what the parts of a build of the graph share: first graph_islands.c, then graph.c and graph_joints.c for each batch.
+// graph_build.h - what the parts of a build of the graph share: first graph_islands.c, then graph.c and graph_joints.c
+// for each batch.
 #ifndef FE_SOLVER_GRAPH_GRAPH_BUILD_H
 #define FE_SOLVER_GRAPH_GRAPH_BUILD_H
 #include "solver/graph/graph_input.h"
@@ -10,13 +11,13 @@ enum {
     FE__JOINT_GROUP_KEYS = FE__JOINT_KEYS * FE__SIDES,
     // a batch of islands without contacts ends here: about as many lines as a second-level cache holds
     FE__BATCH_BODIES = 1024,
-    // lines of zeros before a batch's bodies, one for each kind of row: what its padding lanes name. A batch's own, so that no two workers
-    // write one line
+    // lines of zeros before a batch's bodies, one for each kind of row: what its padding lanes name. A batch's own, so
+    // that no two workers write one line
     FE__DUMMY_LINES = FE__MAX_WIDTH
 };
 _Static_assert((int)FE__DUMMY_LINES >= (int)FE__ROW_KINDS + (int)FE__SIDES, "one dummy line for each kind that may be in a colour");
 
-// What a build asks of a contact in the graph, which lies anywhere in memory: read once
+// What a build needs of a contact in the graph. Contacts lie anywhere in memory: each is read once.
 typedef struct fe__linked {
     int32_t contact;
     int32_t key;              // colour * FE__ROW_KINDS + kind of row
@@ -35,7 +36,7 @@ typedef struct fe__builder {
     int32_t *island_joints;
     int32_t *island_lanes; // contacts and parts of joints
     int32_t *island_bodies;
-    int32_t *island_pace;    // bits of FE__BODY_STRAINED, FE__BODY_STRETCHED until asked by pace_of
+    int32_t *island_pace;    // bits of FE__BODY_STRAINED, FE__BODY_STRETCHED until pace_of reads them
     int32_t *batch_of;       // of an island
     int32_t *kinematic_line; // by awake index: line of the copy in the batch at hand
     int32_t *body_order;     // awake indices by batch
@@ -67,7 +68,7 @@ static inline int64_t fe__whole_blocks(int64_t bytes)
 void fe__graph_find_batches(fe__builder *b);
 // Groups of the joints of batch k, and its trees
 void fe__graph_joint_groups(fe__builder *b, int32_t k, const fe__kernels *kernels);
-// A group of a batch, with a dummy in each lane. `like` tells all but the place
+// A group of a batch, with a dummy in each lane. `like` has all but the place
 fe__group *fe__open_group(fe__builder *b, fe__batch *batch, fe__group like, int32_t lanes, int32_t row_size);
 // Of a body in the batch at hand
 int32_t fe__line_of(const fe__builder *b, int32_t body);

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-enum { AHEAD = 16 }; // contacts come from the whole of memory: each is asked for so many turns before it is read
+enum { AHEAD = 16 }; // contacts come from the whole of memory: each is fetched so many rounds before it is read
 
 static void join(int32_t *parent, int32_t a, int32_t b)
 {
@@ -89,7 +89,7 @@ static void find_islands(fe__builder *b)
     count_constraints(b);
 }
 
-// ---- batches --------------------------------------------------------------------------------------------------------------------------
+// ---- batches --------------------------------------------------------------------------------------------------------
 static fe__batch *open_batch(fe__solver *s)
 {
     fe__batch *batch = s->batches + s->batch_count++;

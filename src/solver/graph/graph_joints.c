@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-// ---- lanes: by part, then by colour, then by which ends move --------------------------------------------------------------------------
+// ---- lanes: by part, then by colour, then by which ends move --------------------------------------------------------
 static int32_t joint_key(int32_t part, const fe__joint *j)
 {
     return (part * (FE__JOINT_COLOURS + 1) + j->colour) * FE__SIDES + (int32_t)fe__sides_of(j) - 1;
@@ -57,7 +57,7 @@ static void open_part(fe__builder *b, fe__batch *batch, int32_t part, int32_t ov
     }
 }
 
-// ---- trees ----------------------------------------------------------------------------------------------------------------------------
+// ---- trees ----------------------------------------------------------------------------------------------------------
 static int32_t link_of(const fe__builder *b, int32_t joint)
 {
     const fe__forest *f = &b->in->joints->forest;

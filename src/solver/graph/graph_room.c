@@ -1,4 +1,5 @@
-// graph_room.c - what a graph may need at most, reserved before it is built: lines, groups, lanes, rows, the scratch of the build.
+// graph_room.c - what a graph may need at most, reserved before it is built: lines, groups, lanes, rows, the scratch of
+// the build.
 #include "solver/graph/graph.h"
 
 #include "solver/graph/graph_build.h"
@@ -17,13 +18,14 @@ static int32_t overflowing_rows(const fe__graph_bound *b)
 
 static int32_t batch_bound(const fe__graph_bound *b)
 {
-    // two neighbouring small batches together exceed a limit; large islands exceed theirs; one for kinematic bodies, two that stayed open
+    // two neighbouring small batches together exceed a limit; large islands exceed theirs; one for kinematic bodies,
+    // two that stayed open
     int32_t lanes = b->contacts + joint_rows(b);
     return 2 * (lanes / FE__BATCH_CONTACTS + b->bodies / FE__BATCH_BODIES) + lanes / FE__ISLAND_LARGE + 4;
 }
 
-// distinct groups of one batch: a colour between dynamic bodies, or its mate, is below the contacts of both; one with others below the
-// body's
+// distinct groups of one batch: a colour between dynamic bodies, or its mate, is below the contacts of both; one with
+// others below the body's
 static int32_t group_bound(const fe__graph_bound *b)
 {
     const uint32_t pairs = 0xAA; // kinds with FE__ROW_PAIR
@@ -88,9 +90,9 @@ static int64_t all_rows(const fe__graph_bound *b, const fe__kernels *kernels, in
     return small * workers > large ? small * workers : large;
 }
 
-// Passes of a large batch, see make_program in solve.c. Its groups come colour by colour, a group or more each, and each of the four verbs
-// of rows (prepare, solve, relax, bounce; joints do not bounce) has a pass a colour at most. Three more are over lines, one stores, and one
-// is the trees'.
+// Passes of a large batch, see make_program in solve.c. Its groups come colour by colour, a group or more each, and
+// each of the four verbs of rows (prepare, solve, relax, bounce; joints do not bounce) has a pass a colour at most.
+// Three more are over lines, one stores, and one is the trees'.
 static int64_t pass_bound(int64_t groups)
 {
     enum { EVERY_COLOUR = 4 * FE__COLOURS + 3 * FE__CONTACT_COLOURS, OTHERS = 5 };

@@ -7,17 +7,18 @@
 // With q as in joint.h, X and X' the twist axes of A and B, e the unit axis of the swing, y its angle, f = e x X:
 //     twist      g = (X + X') / (1 + X.X') = X + ((q.x q.y + q.z q.w) Y + (q.x q.z - q.y q.w) Z) / (q.x^2 + q.w^2)
 //     swing s    s' = (y e)' = e (e.w) + f (y cot y (f.w) - y (X.w)),   w = wB - wA
-//     cone       C = (1 - r) / |dr/ds|, r^2 = (s.y / a)^2 + (s.z / b)^2: the way to the ellipse, inside positive; g along -dr/ds
+//     cone       C = (1 - r) / |dr/ds|, r^2 = (s.y / a)^2 + (s.z / b)^2: the distance to the ellipse, inside positive;
+//                g along -dr/ds
 //
 // Drive: a spring and damper, implicitly: K = m w^2, C = 2 m zeta w, or as given. With c = 1 / (h (C + h K)):
 //     change = -(v + h K c (x - target) + c l) / (1/m + c),   |l| <= cap h;   in the soft pass only: once a substep
-// Motor: change = -m (v - speed), |l| <= cap h. Limits: as a contact, pushed softly where overrun, met exactly where not.
+// Motor: change = -m (v - speed), |l| <= cap h. Limits: as a contact, soft where overrun, met exactly where not.
 
 typedef struct {
     wide mass, response; // 1 / K, K = g.M^-1.g
     wide x;
     wide low, high, rate, fade, rigid;
-    wide drive_mass, drive_push, drive_fade, drive_cap; // found once a substep; the cap is an impulse
+    wide drive_mass, drive_bias, drive_fade, drive_cap; // found once a substep; the cap is an impulse
     wide speed, motor_cap;
     wide drive, motor, under, over; // impulses: `over` acts downwards
     wide total;                     // of the impulses of the substeps so far
@@ -40,7 +41,8 @@ FE_INLINE void read_freedom(freedom *f, const fe__joints *joints, const row_join
                    .rate = soft.rate,
                    .fade = soft.fade,
                    .rigid = soft.rigid,
-                   .drive_cap = w_choose(w_greater(drive.y + motor.z * drive.z, zero), c->h * drive.w, zero), // off: no impulse
+                   // off: no impulse
+                   .drive_cap = w_choose(w_greater(drive.y + motor.z * drive.z, zero), c->h * drive.w, zero),
                    .speed = motor.x,
                    .motor_cap = c->h * motor.y,
                    .drive = scale * impulse.x,
@@ -72,7 +74,7 @@ FE_INLINE void aim_drive(freedom *f, wide error, const fe__step_constants *c)
     wide soft = c->h * (damp + c->h * k);
     f->drive_fade = w_inverse_or_zero(soft);
     f->drive_mass = w_choose(w_greater(f->drive_fade, zero), 1.0f / (f->response + f->drive_fade), zero);
-    f->drive_push = c->h * k * f->drive_fade * error;
+    f->drive_bias = c->h * k * f->drive_fade * error;
 }
 
 // x is known: mass and drive from the new gradient. A response no greater than `least` is none
@@ -81,7 +83,7 @@ FE_INLINE void aim(freedom *f, wide response, wide least, int part, const fe__st
     f->response = w_choose(w_greater(response, least), response, w_set(0.0f));
     f->mass = w_inverse_or_zero(f->response);
     wide error = f->x - f->target;
-    // a twist without limits goes the shorter way
+    // a twist without limits takes the shorter direction
     if (part == FE__PART_TWIST)
         error = w_choose(w_greater(f->limited, w_set(0.0f)), error, error - 2.0f * FE_PI * w_round(error * (0.5f / FE_PI)));
     aim_drive(f, error, c);
@@ -90,16 +92,16 @@ FE_INLINE void aim(freedom *f, wide response, wide least, int part, const fe__st
 // one limit: gap >= 0 inside, v its velocity. `lock`: both limits in one, in both directions
 FE_INLINE wide limit_impulse(const freedom *f, wide impulse, wide gap, wide v, wide_mask lock, const fe__step_constants *c, int soft)
 {
-    wide zero = w_set(0.0f), one = w_set(1.0f), wish;
+    wide zero = w_set(0.0f), one = w_set(1.0f), request;
     if (soft) {
         wide_mask apart = w_and(w_greater(gap, zero), w_not(lock));
-        wide fade = w_choose(apart, zero, f->fade), push = w_choose(apart, gap * c->inverse_h, f->rate * gap);
-        wish = (impulse - fade * impulse) - f->mass * ((one - fade) * v + push);
+        wide fade = w_choose(apart, zero, f->fade), bias = w_choose(apart, gap * c->inverse_h, f->rate * gap);
+        request = (impulse - fade * impulse) - f->mass * ((one - fade) * v + bias);
     } else {
         wide_mask spring = w_and(w_greater(one, f->rigid), w_or(lock, w_not(w_greater(gap, zero))));
-        wish = w_choose(spring, impulse, impulse - f->mass * (v + w_choose(lock, zero, w_max(gap, zero) * c->inverse_h)));
+        request = w_choose(spring, impulse, impulse - f->mass * (v + w_choose(lock, zero, w_max(gap, zero) * c->inverse_h)));
     }
-    return w_choose(lock, wish, w_max(wish, zero));
+    return w_choose(lock, request, w_max(request, zero));
 }
 
 // the change of the whole impulse
@@ -107,7 +109,7 @@ FE_INLINE wide solve_freedom(freedom *f, wide v, const fe__step_constants *c, in
 {
     wide before = impulse_of(f);
     if (soft) {
-        wide drive = w_clamp(f->drive - f->drive_mass * (v + f->drive_push + f->drive_fade * f->drive), -f->drive_cap, f->drive_cap);
+        wide drive = w_clamp(f->drive - f->drive_mass * (v + f->drive_bias + f->drive_fade * f->drive), -f->drive_cap, f->drive_cap);
         v = v + f->response * (drive - f->drive);
         f->drive = drive;
     }
@@ -122,7 +124,7 @@ FE_INLINE wide solve_freedom(freedom *f, wide v, const fe__step_constants *c, in
     return impulse_of(f) - before;
 }
 
-// A gradient that jumps (a twist half a turn of swing away, a distance through zero) has no use for its old impulse
+// A gradient that jumps (a twist at 180 degrees of swing, a distance through zero) has no use for its old impulse
 #define JUMP 0.25f // of the square of its length
 FE_INLINE wide_mask forget_jump(freedom *f, wide3 before, wide3 after)
 {
@@ -134,12 +136,12 @@ FE_INLINE wide_mask forget_jump(freedom *f, wide3 before, wide3 after)
     return jumps;
 }
 
-// ---- linear ---------------------------------------------------------------------------------------------------------------------------
+// ---- linear ---------------------------------------------------------------------------------------------------------
 typedef struct {
     line_pair line;
     wide u[3];
     wide moment_a[3], moment_b[3]; // of u at the anchors
-    wide spin_a[3], spin_b[3];     // what they turn
+    wide spin_a[3], spin_b[3];     // the rotation rates that u causes
     wide mass_a[3], mass_b[3];     // inverse, along the world's axes: 0 where locked
     freedom f;
     wide unlocked; // inverse masses, locks aside
@@ -167,23 +169,23 @@ FE_INLINE void place_linear(linear_row *row, const fe__solver *s, int part, cons
     wide3 ma = w_cross(arm, u), mb = w_cross(now.rb, u), sa = w_mul(&row->inertia_a, ma), sb = w_mul(&row->inertia_b, mb);
     wide linear = w_dot(u, w_times(w_add(load3(row->mass_a), load3(row->mass_b)), u));
     store3(row->u, u), store3(row->moment_a, ma), store3(row->moment_b, mb), store3(row->spin_a, sa), store3(row->spin_b, sb);
-    aim(&row->f, linear + (w_dot(ma, sa) + w_dot(mb, sb)), RIGID * row->unlocked, part, c);
+    aim(&row->f, linear + (w_dot(ma, sa) + w_dot(mb, sb)), LOCKED_RESPONSE * row->unlocked, part, c);
 }
 
-FE_INLINE void push_linear(const linear_row *row, ends *e, wide impulse)
+FE_INLINE void apply_linear(const linear_row *row, ends *e, wide impulse)
 {
     wide3 l = w_scale(impulse, load3(row->u));
     e->a.v = w_sub(e->a.v, w_times(load3(row->mass_a), l)), e->a.w = w_sub_scaled(e->a.w, impulse, load3(row->spin_a));
     e->b.v = w_add(e->b.v, w_times(load3(row->mass_b), l)), e->b.w = w_add_scaled(e->b.w, impulse, load3(row->spin_b));
 }
 
-// start takes what the impulse owes to the turn of the row
-FE_INLINE void owe_linear(const linear_row *row, const fe__solver *s, wide l, wide_mask jumps, wide3 u, wide3 spin_a, wide3 spin_b,
-                          int sides)
+// The row rotated: start takes what that changes in the effect of its impulse
+FE_INLINE void correct_start_linear(const linear_row *row, const fe__solver *s, wide l, wide_mask jumps, wide3 u, wide3 spin_a,
+                                    wide3 spin_b, int sides)
 {
     ends start = {start_side(s, row->line.a), start_side(s, row->line.b)};
-    wide3 turn = w_scale(l, w_sub(w_choose3(jumps, w_zero3(), load3(row->u)), u));
-    start.a.v = w_add(start.a.v, w_times(load3(row->mass_a), turn)), start.b.v = w_sub(start.b.v, w_times(load3(row->mass_b), turn));
+    wide3 change = w_scale(l, w_sub(w_choose3(jumps, w_zero3(), load3(row->u)), u));
+    start.a.v = w_add(start.a.v, w_times(load3(row->mass_a), change)), start.b.v = w_sub(start.b.v, w_times(load3(row->mass_b), change));
     start.a.w = w_add_scaled(start.a.w, l, w_sub(w_choose3(jumps, w_zero3(), load3(row->spin_a)), spin_a));
     start.b.w = w_sub_scaled(start.b.w, l, w_sub(w_choose3(jumps, w_zero3(), load3(row->spin_b)), spin_b));
     scatter_ends(s->start, &row->line, &start, sides);
@@ -211,7 +213,7 @@ FE_INLINE void prepare_linear(fe__solver *s, const fe__body *bodies, const fe__j
         row->unlocked = e.a.inverse_mass + e.b.inverse_mass;
         read_freedom(&row->f, joints, r, slot, 0, c);
         place_linear(row, s, part, c);
-        push_linear(row, &e, impulse_of(&row->f));
+        apply_linear(row, &e, impulse_of(&row->f));
         scatter_ends(s->velocity, &row->line, &e, sides);
     }
 }
@@ -220,7 +222,7 @@ static void solve_linear(fe__solver *s, void *rows, int32_t count, int32_t sides
 {
     for (linear_row *row = rows, *end = row + count; row < end; ++row) {
         ends e = gather_ends(s, &row->line);
-        push_linear(row, &e, solve_freedom(&row->f, linear_speed(row, &e), c, 1));
+        apply_linear(row, &e, solve_freedom(&row->f, linear_speed(row, &e), c, 1));
         scatter_ends(s->velocity, &row->line, &e, sides);
     }
 }
@@ -230,11 +232,11 @@ FE_INLINE void relax_linear(fe__solver *s, void *rows, int32_t count, int32_t si
     for (linear_row *row = rows, *end = row + count; row < end; ++row) {
         wide3 u = load3(row->u), spin_a = load3(row->spin_a), spin_b = load3(row->spin_b);
         wide l = impulse_of(&row->f);
-        TURN_INERTIA(row, w_zero3(), w_zero3()); // owe_linear sees the change of the spins
+        FOLLOW_INERTIA(row, w_zero3(), w_zero3()); // correct_start_linear sees the change of the spins
         place_linear(row, s, part, c);
-        owe_linear(row, s, l, forget_jump(&row->f, u, load3(row->u)), u, spin_a, spin_b, sides);
+        correct_start_linear(row, s, l, forget_jump(&row->f, u, load3(row->u)), u, spin_a, spin_b, sides);
         ends e = gather_ends(s, &row->line);
-        push_linear(row, &e, solve_freedom(&row->f, linear_speed(row, &e), c, 0));
+        apply_linear(row, &e, solve_freedom(&row->f, linear_speed(row, &e), c, 0));
         row->f.total = row->f.total + impulse_of(&row->f);
         scatter_ends(s->velocity, &row->line, &e, sides);
     }
@@ -252,11 +254,11 @@ FE_INLINE void store_linear(fe__solver *s, const fe__joints *joints, const fe__l
     }
 }
 
-// ---- angular --------------------------------------------------------------------------------------------------------------------------
+// ---- angular --------------------------------------------------------------------------------------------------------
 typedef struct {
     line_pair line;
     wide g[3];                 // gradient, world
-    wide spin_a[3], spin_b[3]; // what a unit impulse turns
+    wide spin_a[3], spin_b[3]; // the rotation rates that a unit impulse causes
     freedom f;
     wide_sym inertia_a, inertia_b;
     wide shaped;
@@ -269,17 +271,18 @@ typedef struct {
     wide y, z, angle, angle_cot;
 } swing;
 
-// half a turn of swing, where y cot y is infinite, is kept away from by this cosine of half the angle
+// A swing of 180 degrees, where y cot y is infinite, is kept away from by this cosine of half the angle
 #define LEAST_COSINE 0.02f
-// below this cosine of half the swing (168 degrees) no twist can be told: it is left alone
-#define TOLD 0.1f
+// below this cosine of half the swing (168 degrees) the twist is undefined: it is left alone
+#define TWIST_DEFINED 0.1f
 
 FE_INLINE swing swing_of(wide4 q)
 {
     wide zero = w_set(0.0f), one = w_set(1.0f), tiny = w_set(1e-12f);
     wide n = w_sqrt(q.w * q.w + q.x * q.x), sine = w_sqrt(q.y * q.y + q.z * q.z);
-    wide_mask tells = w_greater(n, tiny); // else half a turn: which twist went before cannot be told
-    wide y = w_choose(tells, q.w * q.y - q.x * q.z, q.y), z = w_choose(tells, q.w * q.z + q.x * q.y, q.z), length = w_sqrt(y * y + z * z);
+    wide_mask defined = w_greater(n, tiny); // else a swing of 180 degrees: the twist before it is undefined
+    wide y = w_choose(defined, q.w * q.y - q.x * q.z, q.y), z = w_choose(defined, q.w * q.z + q.x * q.y, q.z),
+         length = w_sqrt(y * y + z * z);
     wide_mask swings = w_greater(length, tiny);
     wide angle = 2.0f * w_atan2(sine, n), least = w_max(n, w_set(LEAST_COSINE));
     wide over_sine = w_choose(w_greater(sine, w_set(1e-4f)), angle / (2.0f * sine * least), one);
@@ -304,10 +307,10 @@ FE_INLINE wide3 cone_gradient(angular_row *row, const swing *s)
 FE_INLINE wide3 twist_gradient(freedom *f, wide4 q)
 {
     wide n2 = q.x * q.x + q.w * q.w, twist = 2.0f * w_atan2(q.x, q.w);
-    wide_mask told = w_greater(n2, w_set(TOLD * TOLD));
-    wide k = w_choose(told, 1.0f / n2, w_set(0.0f));
+    wide_mask defined = w_greater(n2, w_set(TWIST_DEFINED * TWIST_DEFINED));
+    wide k = w_choose(defined, 1.0f / n2, w_set(0.0f));
     wide wound = twist + 2.0f * FE_PI * w_round((f->x - twist) * (0.5f / FE_PI));
-    f->x = w_choose(w_and(told, w_greater(f->limited, w_set(0.0f))), wound, twist);
+    f->x = w_choose(w_and(defined, w_greater(f->limited, w_set(0.0f))), wound, twist);
     return (wide3){k * n2, k * (q.x * q.y + q.z * q.w), k * (q.x * q.z - q.y * q.w)};
 }
 
@@ -330,10 +333,10 @@ FE_INLINE void place_angular(angular_row *row, const fe__solver *s, int part, co
     g = turned(qa, g);
     wide3 sa = w_mul(&row->inertia_a, g), sb = w_mul(&row->inertia_b, g);
     store3(row->g, g), store3(row->spin_a, sa), store3(row->spin_b, sb);
-    aim(&row->f, w_dot(g, w_add(sa, sb)), RIGID * (trace(&row->inertia_a) + trace(&row->inertia_b)), part, c);
+    aim(&row->f, w_dot(g, w_add(sa, sb)), LOCKED_RESPONSE * (trace(&row->inertia_a) + trace(&row->inertia_b)), part, c);
 }
 
-FE_INLINE void push_angular(const angular_row *row, spins *e, wide impulse)
+FE_INLINE void apply_angular(const angular_row *row, spins *e, wide impulse)
 {
     e->a = w_sub_scaled(e->a, impulse, load3(row->spin_a));
     e->b = w_add_scaled(e->b, impulse, load3(row->spin_b));
@@ -355,7 +358,7 @@ FE_INLINE void prepare_angular(fe__solver *s, const fe__body *bodies, const fe__
         row->cone[0] = limit.x, row->cone[1] = limit.y;
         place_angular(row, s, part, c);
         spins e = gather_spins(s->velocity, &row->line);
-        push_angular(row, &e, impulse_of(&row->f));
+        apply_angular(row, &e, impulse_of(&row->f));
         scatter_spins(s->velocity, &row->line, &e, sides);
     }
 }
@@ -364,7 +367,7 @@ static void solve_angular(fe__solver *s, void *rows, int32_t count, int32_t side
 {
     for (angular_row *row = rows, *end = row + count; row < end; ++row) {
         spins e = gather_spins(s->velocity, &row->line);
-        push_angular(row, &e, solve_freedom(&row->f, w_dot(load3(row->g), w_sub(e.b, e.a)), c, 1));
+        apply_angular(row, &e, solve_freedom(&row->f, w_dot(load3(row->g), w_sub(e.b, e.a)), c, 1));
         scatter_spins(s->velocity, &row->line, &e, sides);
     }
 }
@@ -372,18 +375,18 @@ static void solve_angular(fe__solver *s, void *rows, int32_t count, int32_t side
 FE_INLINE void relax_angular(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c, int part)
 {
     for (angular_row *row = rows, *end = row + count; row < end; ++row) {
-        TURN_INERTIA(row, w_zero3(), w_zero3());
+        FOLLOW_INERTIA(row, w_zero3(), w_zero3());
         spins start = gather_spins(s->start, &row->line), e = gather_spins(s->velocity, &row->line);
         wide3 spin_a = load3(row->spin_a), spin_b = load3(row->spin_b);
         wide3 g = load3(row->g);
         wide l = impulse_of(&row->f);
         place_angular(row, s, part, c);
         wide_mask jumps = forget_jump(&row->f, g, load3(row->g));
-        // what l owes to the turn of the row
+        // the row rotated: start takes what that changes in the effect of l
         start.a = w_add_scaled(start.a, l, w_sub(w_choose3(jumps, w_zero3(), load3(row->spin_a)), spin_a));
         start.b = w_sub_scaled(start.b, l, w_sub(w_choose3(jumps, w_zero3(), load3(row->spin_b)), spin_b));
         scatter_spins(s->start, &row->line, &start, sides);
-        push_angular(row, &e, solve_freedom(&row->f, w_dot(load3(row->g), w_sub(e.b, e.a)), c, 0));
+        apply_angular(row, &e, solve_freedom(&row->f, w_dot(load3(row->g), w_sub(e.b, e.a)), c, 0));
         row->f.total = row->f.total + impulse_of(&row->f);
         scatter_spins(s->velocity, &row->line, &e, sides);
     }
@@ -401,7 +404,7 @@ FE_INLINE void store_angular(fe__solver *s, const fe__joints *joints, const fe__
     }
 }
 
-// ---- the kernels of each part ---------------------------------------------------------------------------------------------------------
+// ---- the kernels of each part ---------------------------------------------------------------------------------------
 #define AXIS_INSTANCE(name, form, part, slot)                                                                                      \
     static void prepare_##name(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes, void *rows, \
                                int32_t count, int32_t sides, const fe__step_constants *c)                                          \

@@ -6,7 +6,7 @@
 #include <assert.h>
 #include <string.h>
 
-// ---- the graph ------------------------------------------------------------------------------------------------------------------------
+// ---- the graph ------------------------------------------------------------------------------------------------------
 static const uint32_t all_colours = (1u << FE__JOINT_COLOURS) - 1u, all_parts = (1u << FE__PARTS) - 1u;
 
 static uint32_t sides_of(const fe__joint *j) { return j->rows >> FE__SIDES_SHIFT; }
@@ -88,12 +88,12 @@ void fe__joint_forget_impulses(fe__joints *joints, int32_t joint)
         memset(&axes->axis[k].impulse, 0, sizeof axes->axis[k].impulse);
         axes->axis[k].state.force = 0.0f;
     }
-    memset(axes->turn.impulse, 0, sizeof axes->turn.impulse);
-    memset(axes->turn.motor_impulse, 0, sizeof axes->turn.motor_impulse);
-    memset(axes->turn.torque, 0, sizeof axes->turn.torque);
+    memset(axes->rotation.impulse, 0, sizeof axes->rotation.impulse);
+    memset(axes->rotation.motor_impulse, 0, sizeof axes->rotation.motor_impulse);
+    memset(axes->rotation.torque, 0, sizeof axes->rotation.torque);
 }
 
-// ---- readings -------------------------------------------------------------------------------------------------------------------------
+// ---- readings -------------------------------------------------------------------------------------------------------
 static fe_quat quat_of(const float *q) { return (fe_quat){q[0], q[1], q[2], q[3]}; }
 static fe_vec3 vec_of(const float *a) { return fe__vec3(a[0], a[1], a[2]); }
 
@@ -120,17 +120,18 @@ static swing swing_of(fe_quat q)
 {
     float n = sqrtf(q.w * q.w + q.x * q.x), y = q.w * q.y - q.x * q.z, z = q.w * q.z + q.x * q.y, length = sqrtf(y * y + z * z);
     swing s = {1.0f, 0.0f, 0.0f, n, 0.0f};
-    if (n == 0.0f) y = q.y, z = q.z, length = sqrtf(y * y + z * z); // half a turn: which twist went before cannot be told
+    // a swing of 180 degrees: the twist before it is undefined
+    if (n == 0.0f) y = q.y, z = q.z, length = sqrtf(y * y + z * z);
     if (length > 0.0f) s.y = y / length, s.z = z / length;
     s.sine = sqrtf(q.y * q.y + q.z * q.z);
     s.angle = 2.0f * fe__atan2f(s.sine, n);
     return s;
 }
 
-// half a turn of swing, where y cot y is infinite, is kept away from by this cosine of half the angle
+// A swing of 180 degrees, where y cot y is infinite, is kept away from by this cosine of half the angle
 #define LEAST_COSINE 0.02f
-// below this cosine of half the swing (168 degrees) no twist can be told
-#define TOLD 0.1f
+// below this cosine of half the swing (168 degrees) the twist is undefined
+#define TWIST_DEFINED 0.1f
 
 static fe_quat positive(fe_quat q) { return q.w < 0.0f ? (fe_quat){-q.x, -q.y, -q.z, -q.w} : q; }
 
@@ -164,7 +165,7 @@ static fe_vec3 angular_gradient(fe_quat q, fe__joint_part part, const fe__joint_
     swing s = swing_of(q);
     fe_vec3 e = {0.0f, s.y, s.z}, u = {0.0f, s.z, -s.y};
     float g_e = s.y, g_u = s.z, n2 = q.w * q.w + q.x * q.x;
-    if (part == FE__PART_TWIST && n2 <= TOLD * TOLD) return fe__vec3(0.0f, 0.0f, 0.0f);
+    if (part == FE__PART_TWIST && n2 <= TWIST_DEFINED * TWIST_DEFINED) return fe__vec3(0.0f, 0.0f, 0.0f);
     if (part == FE__PART_TWIST) return fe__vec3(1.0f, (q.x * q.y + q.z * q.w) / n2, (q.x * q.z - q.y * q.w) / n2);
     if (part == FE__PART_SWING_Z) g_e = s.z, g_u = -s.y;
     if (part == FE__PART_CONE) {
@@ -205,5 +206,5 @@ void fe__joint_reaction_of(const fe__joints *joints, const fe__body *bodies, int
     const fe__joint_reaction *r = joints->reactions + joint;
     *out_force = fe__add(fe__rotate(frame_a, force), vec_of(r->force));
     *out_torque = fe__add(fe__rotate(frame_a, torque), vec_of(r->torque));
-    if (f->parts >> FE__PART_TURN & 1) *out_torque = fe__add(*out_torque, vec_of(joints->axes[f->axes].turn.torque));
+    if (f->parts >> FE__PART_ROTATION & 1) *out_torque = fe__add(*out_torque, vec_of(joints->axes[f->axes].rotation.torque));
 }

@@ -1,22 +1,24 @@
 // joint.h - what the solver knows of a joint.
 //
-// The world fills the records; fe__joint_link puts a joint into the constraint graph; prepare (joint.simd.c) turns its parts into lanes of
-// rows; store brings impulses and reactions back. Record 0 of each array is zeros: no joint, no axes.
+// The world fills the records; fe__joint_link puts a joint into the constraint graph; prepare (joint.simd.c) turns its
+// parts into lanes of rows; store brings impulses and reactions back. Record 0 of each array is zeros: no joint, no
+// axes.
 //
-// Body B's frame seen from A's:  q = (qA fA)^-1 (qB fB),  d = R(qA fA)^T (anchor of B - anchor of A).  The twist is about X, and q = swing
-// twist:
+// Body B's frame seen from A's:  q = (qA fA)^-1 (qB fB),  d = R(qA fA)^T (anchor of B - anchor of A).  The twist is
+// about X, and q = swing twist:
 //     twist   t = 2 atan2(q.x, q.w)
-//     swing   s = q twist^-1 = (n, 0, s.y, s.z),  n = sqrt(q.w^2 + q.x^2);  as a rotation vector  (y, z) = 2 atan2(|s|, n) (s.y, s.z) / |s|
+//     swing   s = q twist^-1 = (n, 0, s.y, s.z),  n = sqrt(q.w^2 + q.x^2);  as a rotation vector
+//             (y, z) = 2 atan2(|s|, n) (s.y, s.z) / |s|
 //     cone    (y / a)^2 + (z / b)^2 <= 1, half angles a about Y, b about Z
-// q and -q are one rotation: the one with w >= 0 counts, so that t is in [-pi, pi] and a swing at most pi. Impulses are those on B, torques
-// about its anchor; A gets the opposite.
+// q and -q are one rotation: the one with w >= 0 counts, so that t is in [-pi, pi] and a swing at most pi. Impulses are
+// those on B, torques about its anchor; A gets the opposite.
 #ifndef FE_SOLVER_JOINT_H
 #define FE_SOLVER_JOINT_H
 #include "solver/body.h"
 #include "solver/tree/forest.h"
 
-// Parts of a joint: each is a lane in a row of a kind of its own. A pass goes through them in this order over all joints, so that what
-// holds the anchors together has the last word.
+// Parts of a joint: each is a lane in a row of a kind of its own. A pass goes through them in this order over all
+// joints, so that what holds the anchors together has the last word.
 typedef enum fe__joint_part {
     FE__PART_X, // one axis: limits, drive, motor. Linear ones: along an axis of frame A, or between the anchors
     FE__PART_Y,
@@ -26,10 +28,11 @@ typedef enum fe__joint_part {
     FE__PART_SWING_Y,
     FE__PART_SWING_Z,
     FE__PART_CONE,
-    FE__PART_TURN,  // three angles at once: drive towards a rotation, friction
-    FE__PART_HINGE, // locks: X of B stays on X of A
-    FE__PART_FIXED, // the frames stay parallel
-    FE__PART_SLIDE, // anchors stay together along some axes of frame A; and any point with locked bodies or a softness of its own
+    FE__PART_ROTATION, // three angles at once: drive towards a rotation, friction
+    FE__PART_HINGE,    // locks: X of B stays on X of A
+    FE__PART_FIXED,    // the frames stay parallel
+    // anchors stay together along some axes of frame A; and any point with locked bodies or a softness of its own
+    FE__PART_SLIDE,
     FE__PART_POINT, // anchors stay together, with the world's softness
     FE__PARTS
 } fe__joint_part;
@@ -92,7 +95,8 @@ typedef struct fe__joint_reaction {
     float torque[4]; // N m, world axes; of HINGE and FIXED
 } fe__joint_reaction;
 
-enum { FE__DRIVE_HERTZ, FE__DRIVE_STIFFNESS }; // units of a drive: 1/s and a ratio; N/m and N s/m, N m/rad and N m s/rad
+// units of a drive: 1/s and a ratio; N/m and N s/m, N m/rad and N m s/rad
+enum { FE__DRIVE_HERTZ, FE__DRIVE_STIFFNESS };
 
 // One degree of freedom: x in m or rad
 typedef struct fe__joint_axis {
@@ -122,8 +126,8 @@ typedef struct fe__joint_axis {
 } fe__joint_axis;
 _Static_assert(sizeof(fe__joint_axis) == 80, "an axis is five quads");
 
-// Three angles at once, for TURN
-typedef struct fe__joint_turn {
+// Three angles at once, for ROTATION
+typedef struct fe__joint_rotation {
     _Alignas(16) float target[4]; // rotation q
     struct {
         float stiffness, damping, cap; // cap on the torque, N m
@@ -136,12 +140,12 @@ typedef struct fe__joint_turn {
     float impulse[4]; // of the drive, world axes
     float motor_impulse[4];
     float torque[4]; // mean over the last step, world axes
-} fe__joint_turn;
-_Static_assert(sizeof(fe__joint_turn) == 96, "a turn is six quads");
+} fe__joint_rotation;
+_Static_assert(sizeof(fe__joint_rotation) == 96, "a rotation is six quads");
 
 typedef struct fe__joint_axes {
     _Alignas(64) fe__joint_axis axis[FE__AXES];
-    fe__joint_turn turn;
+    fe__joint_rotation rotation;
 } fe__joint_axes;
 _Static_assert(sizeof(fe__joint_axes) == 576, "axes are nine cache lines");
 
@@ -160,13 +164,14 @@ typedef struct fe__joints {
     fe__forest forest;   // of all of them
 } fe__joints;
 
-// Into the graph: a colour, and which rows stand for its parts (locks and types of the bodies decide: unlink before they change, link
-// after). The caller sets fe__solver.graph_changed. A joint of two bodies that are not dynamic is never linked.
+// Into the graph: a colour, and which rows stand for its parts (locks and types of the bodies decide: unlink before
+// they change, link after). The caller sets fe__solver.graph_changed. A joint of two bodies that are not dynamic is
+// never linked.
 void fe__joint_link(fe__joints *joints, fe__body *bodies, int32_t joint);
 void fe__joint_unlink(fe__joints *joints, fe__body *bodies, int32_t joint); // keeps its impulses
 void fe__joint_forget_impulses(fe__joints *joints, int32_t joint);
 
-// ---- readings, from the poses as they are ---------------------------------------------------------------------------------------------
+// ---- readings, from the poses as they are ---------------------------------------------------------------------------
 typedef struct fe__joint_pose {
     fe_quat q;
     fe_vec3 d;                     // m, frame A
@@ -175,9 +180,9 @@ typedef struct fe__joint_pose {
 } fe__joint_pose;
 void fe__joint_pose_of(const fe__joints *joints, const fe__body *bodies, int32_t joint, fe__joint_pose *out_pose);
 fe_dvec3 fe__joint_gap(const fe__joint *joint, const fe__body *bodies); // anchor of B - anchor of A, m, world axes
-// The angle next to `before` that is `twist` plus whole turns. A twist with a range is unwound: it goes on beyond pi, so that a limit there
-// holds; FE__PART_TWIST's state.x remembers where it was. Whoever makes or moves a joint writes it: fe__joint_wind(twist, middle of the
-// range).
+// The angle next to `before` that is `twist` plus whole turns. A twist with a range is unwound: it goes on beyond pi,
+// so that a limit there holds; FE__PART_TWIST's state.x remembers where it was. Whoever makes or moves a joint writes
+// it: fe__joint_wind(twist, middle of the range).
 float fe__joint_wind(float twist, float before);
 // Mean force and torque of all parts on B over the last step, N and N m, world axes; the torque about B's anchor.
 void fe__joint_reaction_of(const fe__joints *joints, const fe__body *bodies, int32_t joint, fe_vec3 *out_force, fe_vec3 *out_torque);

@@ -1,8 +1,8 @@
-// joint.simd.c - the joint solver: rows of W joints' parts, a kind of row for each kind of part. Compiled once per SIMD set; see
-// core/simd.h.
+// joint.simd.c - the joint solver: rows of W joints' parts, a kind of row for each kind of part. Compiled once per SIMD
+// set; see core/simd.h.
 //
-// After E. Catto, "Soft Constraints" (GDC 2011), as the contacts: in each substep a soft pass, then positions, then a rigid one. The first
-// warm start is part of prepare; the later ones are carried by the bodies.
+// After E. Catto, "Soft Constraints" (GDC 2011), as the contacts: in each substep a soft pass, then positions, then a
+// relax pass. The first warm start is part of prepare; the later ones are carried by the bodies.
 #include "core/simd.h"
 #include "solver/joint/joint.h"
 #include "solver/solver.h"
@@ -32,7 +32,7 @@ const fe__joint_kernels FE_NAME(fe__joint_kernels) = {.of =
                                                               [FE__PART_SWING_Y] = KERNELS(swing_y, angular),
                                                               [FE__PART_SWING_Z] = KERNELS(swing_z, angular),
                                                               [FE__PART_CONE] = KERNELS(cone, angular),
-                                                              [FE__PART_TURN] = KERNELS(turn, turn),
+                                                              [FE__PART_ROTATION] = KERNELS(rotation, rotation),
                                                               [FE__PART_HINGE] = KERNELS(hinge, hinge),
                                                               [FE__PART_FIXED] = KERNELS(fixed, fixed),
                                                               [FE__PART_SLIDE] = KERNELS(slide, slide),

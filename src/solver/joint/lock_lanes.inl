@@ -4,7 +4,7 @@ FE_INLINE fe_vec3 lane_of(const wide *a, int32_t i) { return fe__vec3(a[0][i], a
 FE_INLINE fe_quat quat_lane(const wide *a, int32_t i) { return (fe_quat){a[0][i], a[1][i], a[2][i], a[3][i]}; }
 FE_INLINE fe__sym3 sym_lane(const wide_sym *a, int32_t i) { return (fe__sym3){a->xx[i], a->xy[i], a->xz[i], a->yy[i], a->yz[i], a->zz[i]}; }
 
-// ---- from a lane ------------------------------------------------------------------------------------------------------------------
+// ---- from a lane ----------------------------------------------------------------------------------------------------
 // what rows of anchors have alike
 #define READ_ANCHORS(row)                            \
     do {                                             \
@@ -74,7 +74,7 @@ static void read_lock(int32_t part, const void *row, int32_t lane, fe__lock *out
     }
 }
 
-// ---- to a lane --------------------------------------------------------------------------------------------------------------------
+// ---- to a lane ------------------------------------------------------------------------------------------------------
 FE_INLINE fe_dvec3 wide_lane(const wide *a, int32_t i) { return fe__widen(lane_of(a, i)); }
 FE_INLINE void add_lane(wide *to, int32_t i, double a) { (*to)[i] += (float)a; }
 FE_INLINE void add_lane3(wide *to, int32_t i, fe_dvec3 a) { add_lane(to, i, a.x), add_lane(to + 1, i, a.y), add_lane(to + 2, i, a.z); }
@@ -162,8 +162,8 @@ static int32_t take_lock(int32_t part, void *row, int32_t lane, double *impulse)
     }
 }
 
-// ---- is a lock open? --------------------------------------------------------------------------------------------------------------
-// Asked of each lock of light trees in every pass, so in floats.
+// ---- is a lock open? ------------------------------------------------------------------------------------------------
+// Evaluated for each lock of light trees in every pass, so in floats.
 FE_INLINE fe_vec3 speed_at(const fe__velocity_line *line, fe_vec3 arm)
 {
     return fe__add(fe__quad_vector(line->v), fe__cross(fe__quad_vector(line->w), arm));

@@ -1,8 +1,8 @@
 // point.inl - POINT: the anchors of two bodies stay together. Three rows, one block. Part of joint.simd.c.
 //
 //     v = vB + wB x rB - vA - wA x rA,   K = (1/mA + 1/mB) 1 - [rA] IA^-1 [rA] - [rB] IB^-1 [rB]
-//     soft   change = -(K^-1 (mass_scale v + mass_scale bias_rate gap) + impulse_scale l)          (Catto, Soft Constraints, GDC 2011)
-//     rigid  change = -K^-1 v
+//     soft   change = -(K^-1 (mass_scale v + mass_scale bias_rate gap) + impulse_scale l)   (Catto, Soft Constraints, GDC 2011)
+//     relax  change = -K^-1 v
 
 // 45 W floats, 180 bytes a joint; solve reads up to `total`
 typedef struct {
@@ -26,7 +26,7 @@ FE_INLINE wide_sym point_mass(const point_row *row, wide linear, wide3 ra, wide3
     return w_inverse_sym(&k);
 }
 
-FE_INLINE void push_point(const point_row *row, ends *e, wide3 ra, wide3 rb, wide3 impulse)
+FE_INLINE void apply_point(const point_row *row, ends *e, wide3 ra, wide3 rb, wide3 impulse)
 {
     e->a.v = w_sub_scaled(e->a.v, e->a.inverse_mass, impulse);
     e->a.w = w_sub(e->a.w, w_mul(&row->inertia_a, w_cross(ra, impulse)));
@@ -34,19 +34,19 @@ FE_INLINE void push_point(const point_row *row, ends *e, wide3 ra, wide3 rb, wid
     e->b.w = w_add(e->b.w, w_mul(&row->inertia_b, w_cross(rb, impulse)));
 }
 
-// start takes what the impulse owes to the turn of the arms
-FE_INLINE void owe_point(const point_row *row, const fe__solver *s, wide3 ra, wide3 rb, int sides)
+// The arms rotated: start takes what that changes in the effect of the impulse
+FE_INLINE void correct_start_point(const point_row *row, const fe__solver *s, wide3 ra, wide3 rb, int sides)
 {
     wide3 impulse = load3(row->impulse);
     if (sides & FE__MOVES_A) {
         wide4 w = gather_high(s->start, row->line.a);
-        wide3 owed = w_mul(&row->inertia_a, w_cross(w_sub(ra, load3(row->arm_a)), impulse));
-        scatter_high(s->start, row->line.a, w_with(w_add(w_xyz(w), owed), w.w));
+        wide3 change = w_mul(&row->inertia_a, w_cross(w_sub(ra, load3(row->arm_a)), impulse));
+        scatter_high(s->start, row->line.a, w_with(w_add(w_xyz(w), change), w.w));
     }
     if (sides & FE__MOVES_B) {
         wide4 w = gather_high(s->start, row->line.b);
-        wide3 owed = w_mul(&row->inertia_b, w_cross(w_sub(rb, load3(row->arm_b)), impulse));
-        scatter_high(s->start, row->line.b, w_with(w_sub(w_xyz(w), owed), w.w));
+        wide3 change = w_mul(&row->inertia_b, w_cross(w_sub(rb, load3(row->arm_b)), impulse));
+        scatter_high(s->start, row->line.b, w_with(w_sub(w_xyz(w), change), w.w));
     }
 }
 
@@ -66,7 +66,7 @@ static void prepare_point(fe__solver *s, const fe__body *bodies, const fe__joint
         store3(row->impulse, impulse), store3(row->total, w_zero3());
         store3(row->arm_a, first.ra), store3(row->arm_b, first.rb), store3(row->gap, first.gap);
         store3(row->first_arm_a, first.ra), store3(row->first_arm_b, first.rb), store3(row->first_gap, first.gap);
-        push_point(row, &e, first.ra, first.rb, impulse);
+        apply_point(row, &e, first.ra, first.rb, impulse);
         scatter_ends(s->velocity, &row->line, &e, sides);
     }
 }
@@ -78,10 +78,10 @@ static void solve_point(fe__solver *s, void *rows, int32_t count, int32_t sides,
     for (point_row *row = rows, *end = row + count; row < end; ++row) {
         ends e = gather_ends(s, &row->line);
         wide3 ra = load3(row->arm_a), rb = load3(row->arm_b), impulse = load3(row->impulse);
-        wide3 wish = w_add_scaled(w_scale(mass_scale, speed_between(&e, ra, rb)), rate, load3(row->gap));
-        wide3 change = minus(w_add_scaled(w_mul(&row->mass, wish), fade, impulse));
+        wide3 request = w_add_scaled(w_scale(mass_scale, speed_between(&e, ra, rb)), rate, load3(row->gap));
+        wide3 change = minus(w_add_scaled(w_mul(&row->mass, request), fade, impulse));
         store3(row->impulse, w_add(impulse, change));
-        push_point(row, &e, ra, rb, change);
+        apply_point(row, &e, ra, rb, change);
         scatter_ends(s->velocity, &row->line, &e, sides);
     }
 }
@@ -93,15 +93,15 @@ static void relax_point(fe__solver *s, void *rows, int32_t count, int32_t sides,
         const anchors first = {load3(row->first_arm_a), load3(row->first_arm_b), load3(row->first_gap)};
         anchors now = anchors_now(s, &row->line, &first);
         wide3 old = load3(row->impulse);
-        TURN_INERTIA(row, w_cross(load3(row->arm_a), old), w_cross(load3(row->arm_b), old));
-        owe_point(row, s, now.ra, now.rb, sides);
+        FOLLOW_INERTIA(row, w_cross(load3(row->arm_a), old), w_cross(load3(row->arm_b), old));
+        correct_start_point(row, s, now.ra, now.rb, sides);
         store3(row->arm_a, now.ra), store3(row->arm_b, now.rb), store3(row->gap, now.gap);
         ends e = gather_ends(s, &row->line);
         wide_sym mass = row->mass = point_mass(row, e.a.inverse_mass + e.b.inverse_mass, now.ra, now.rb);
         wide3 change = minus(w_mul(&mass, speed_between(&e, now.ra, now.rb))), impulse = w_add(load3(row->impulse), change);
         store3(row->impulse, impulse);
         store3(row->total, w_add(load3(row->total), impulse));
-        push_point(row, &e, now.ra, now.rb, change);
+        apply_point(row, &e, now.ra, now.rb, change);
         scatter_ends(s->velocity, &row->line, &e, sides);
     }
 }

@@ -1,12 +1,13 @@
-// rotation.inl - HINGE, FIXED: locks of rotations; TURN: drive to a rotation and friction about all axes. Part of joint.simd.c.
+// rotation.inl - HINGE, FIXED: locks of rotations; ROTATION: drive to a rotation and friction about all axes. Part of
+// joint.simd.c.
 //
 //     HINGE   t1, t2: Y and Z of A; C = (-t2.X', t1.X') with X' of B;  v = (t1.w, t2.w), w = wB - wA;  2 x 2 block
-//     FIXED   C = 2 vec(QB QA^-1), world axes; v = w: dC/dt = w up to C^2. K = IA^-1 + IB^-1, nothing turns
-//     TURN    error = rotation vector of q target^-1 in frame A, turned to the world; v = w
-// Order of a hinge: these first, its point last, in blocks of their own. One soft block of five would share its compliance: a bending
-// moment would open the anchors three times as far.
+//     FIXED   C = 2 vec(QB QA^-1), world axes; v = w: dC/dt = w up to C^2. K = IA^-1 + IB^-1 in world axes
+//     ROTATION  error = rotation vector of q target^-1 in frame A, rotated to the world; v = w
+// Order of a hinge: these first, its point last, in blocks of their own. One soft block of five would share its
+// compliance: a bending moment would open the anchors three times as far.
 
-// ---- hinge ----------------------------------------------------------------------------------------------------------------------------
+// ---- hinge ----------------------------------------------------------------------------------------------------------
 typedef struct {
     line_pair line;
     wide t1[3], t2[3]; // now
@@ -23,7 +24,7 @@ typedef struct {
 FE_INLINE void hinge_mass(hinge_row *row, wide3 t1, wide3 t2)
 {
     wide_sym k = sum_sym(&row->inertia_a, &row->inertia_b);
-    k = give_locked_turns(k, row->locked);
+    k = give_locked_rotations(k, row->locked);
     wide3 k1 = w_mul(&k, t1), k2 = w_mul(&k, t2);
     wide k11 = w_dot(t1, k1), k12 = w_dot(t1, k2), k22 = w_dot(t2, k2);
     wide more = w_choose(w_greater(row->locked, w_set(0.0f)), LOCKED_GIVE * trace(&k), w_set(0.0f));
@@ -35,8 +36,8 @@ FE_INLINE void hinge_mass(hinge_row *row, wide3 t1, wide3 t2)
 FE_INLINE void place_hinge(hinge_row *row, const fe__solver *s)
 {
     wide3 first1 = load3(row->first_t1), first2 = load3(row->first_t2), first_b = load3(row->first_axis_b);
-    wide3 t1 = w_add(first1, turn_of(s, row->line.a, first1)), t2 = w_add(first2, turn_of(s, row->line.a, first2));
-    wide3 axis_b = w_add(first_b, turn_of(s, row->line.b, first_b));
+    wide3 t1 = w_add(first1, rotate_with(s, row->line.a, first1)), t2 = w_add(first2, rotate_with(s, row->line.a, first2));
+    wide3 axis_b = w_add(first_b, rotate_with(s, row->line.b, first_b));
     row->error[0] = -w_dot(t2, axis_b), row->error[1] = w_dot(t1, axis_b);
     store3(row->t1, t1), store3(row->t2, t2);
     hinge_mass(row, t1, t2);
@@ -70,11 +71,11 @@ static void prepare_hinge(fe__solver *s, const fe__body *bodies, const fe__joint
     }
 }
 
-// wish: what the velocities should lose; fade: the share of the impulse given back
-FE_INLINE void change_hinge(hinge_row *row, spins *e, wide wish1, wide wish2, wide fade)
+// request: the velocity to lose; fade: the share of the impulse given back
+FE_INLINE void change_hinge(hinge_row *row, spins *e, wide request1, wide request2, wide fade)
 {
-    wide l1 = -(row->mass[0] * wish1 + row->mass[1] * wish2 + fade * row->impulse[0]);
-    wide l2 = -(row->mass[1] * wish1 + row->mass[2] * wish2 + fade * row->impulse[1]);
+    wide l1 = -(row->mass[0] * request1 + row->mass[1] * request2 + fade * row->impulse[0]);
+    wide l2 = -(row->mass[1] * request1 + row->mass[2] * request2 + fade * row->impulse[1]);
     row->impulse[0] = row->impulse[0] + l1, row->impulse[1] = row->impulse[1] + l2;
     twist_ends(e, &row->inertia_a, &row->inertia_b, hinge_torque(row, l1, l2));
 }
@@ -85,8 +86,8 @@ static void solve_hinge(fe__solver *s, void *rows, int32_t count, int32_t sides,
     for (hinge_row *row = rows, *end = row + count; row < end; ++row) {
         spins e = gather_spins(s->velocity, &row->line);
         wide3 spin = w_sub(e.b, e.a);
-        wide scale = 1.0f - row->fade, wish1 = scale * w_dot(load3(row->t1), spin) + row->rate * row->error[0];
-        change_hinge(row, &e, wish1, scale * w_dot(load3(row->t2), spin) + row->rate * row->error[1], row->fade);
+        wide scale = 1.0f - row->fade, request1 = scale * w_dot(load3(row->t1), spin) + row->rate * row->error[0];
+        change_hinge(row, &e, request1, scale * w_dot(load3(row->t2), spin) + row->rate * row->error[1], row->fade);
         scatter_spins(s->velocity, &row->line, &e, sides);
     }
 }
@@ -96,11 +97,11 @@ static void relax_hinge(fe__solver *s, void *rows, int32_t count, int32_t sides,
     (void)c;
     for (hinge_row *row = rows, *end = row + count; row < end; ++row) {
         wide3 t1 = load3(row->t1), t2 = load3(row->t2), torque = hinge_torque(row, row->impulse[0], row->impulse[1]);
-        TURN_INERTIA(row, torque, torque);
+        FOLLOW_INERTIA(row, torque, torque);
         place_hinge(row, s);
-        wide3 owed = w_add_scaled(w_scale(row->impulse[0], w_sub(load3(row->t1), t1)), row->impulse[1], w_sub(load3(row->t2), t2));
+        wide3 change = w_add_scaled(w_scale(row->impulse[0], w_sub(load3(row->t1), t1)), row->impulse[1], w_sub(load3(row->t2), t2));
         spins start = gather_spins(s->start, &row->line), e = gather_spins(s->velocity, &row->line);
-        twist_ends(&start, &row->inertia_a, &row->inertia_b, minus(owed));
+        twist_ends(&start, &row->inertia_a, &row->inertia_b, minus(change));
         scatter_spins(s->start, &row->line, &start, sides);
         wide3 spin = w_sub(e.b, e.a);
         change_hinge(row, &e, row->rigid * w_dot(load3(row->t1), spin), row->rigid * w_dot(load3(row->t2), spin), w_set(0.0f));
@@ -123,7 +124,7 @@ static void store_hinge(fe__solver *s, const fe__joints *joints, const fe__lane 
     }
 }
 
-// ---- fixed ----------------------------------------------------------------------------------------------------------------------------
+// ---- fixed ----------------------------------------------------------------------------------------------------------
 typedef struct {
     line_pair line;
     wide error[3];
@@ -136,17 +137,17 @@ typedef struct {
     wide locked;   // > 0: a body has locks
 } fixed_row;
 
-FE_INLINE wide_sym turn_mass(const wide_sym *a, const wide_sym *b, wide locked)
+FE_INLINE wide_sym rotation_mass(const wide_sym *a, const wide_sym *b, wide locked)
 {
     wide_sym k = sum_sym(a, b);
-    k = give_locked_turns(k, locked);
+    k = give_locked_rotations(k, locked);
     k = give(k, trace(&k), w_greater(locked, w_set(0.0f)));
     return inverse_scaled(&k);
 }
 
 FE_INLINE void place_fixed(fixed_row *row, const fe__solver *s)
 {
-    row->mass = turn_mass(&row->inertia_a, &row->inertia_b, row->locked);
+    row->mass = rotation_mass(&row->inertia_a, &row->inertia_b, row->locked);
     wide4 qa = gather_high(s->motion, row->line.a), qb = gather_high(s->motion, row->line.b);
     wide4 q = positive(w_product(w_product(qb, load4(row->first)), w_conjugate(qa)));
     store3(row->error, w_scale(w_set(2.0f), w_xyz(q)));
@@ -178,8 +179,9 @@ static void solve_fixed(fe__solver *s, void *rows, int32_t count, int32_t sides,
     (void)c;
     for (fixed_row *row = rows, *end = row + count; row < end; ++row) {
         spins e = gather_spins(s->velocity, &row->line);
-        wide3 wish = w_add_scaled(w_scale(1.0f - row->fade, w_sub(e.b, e.a)), row->rate, load3(row->error)), impulse = load3(row->impulse);
-        wide3 change = minus(w_add_scaled(w_mul(&row->mass, wish), row->fade, impulse));
+        wide3 request = w_add_scaled(w_scale(1.0f - row->fade, w_sub(e.b, e.a)), row->rate, load3(row->error)),
+              impulse = load3(row->impulse);
+        wide3 change = minus(w_add_scaled(w_mul(&row->mass, request), row->fade, impulse));
         store3(row->impulse, w_add(impulse, change));
         twist_ends(&e, &row->inertia_a, &row->inertia_b, change);
         scatter_spins(s->velocity, &row->line, &e, sides);
@@ -190,7 +192,7 @@ static void relax_fixed(fe__solver *s, void *rows, int32_t count, int32_t sides,
 {
     (void)c;
     for (fixed_row *row = rows, *end = row + count; row < end; ++row) {
-        TURN_INERTIA(row, load3(row->impulse), load3(row->impulse));
+        FOLLOW_INERTIA(row, load3(row->impulse), load3(row->impulse));
         place_fixed(row, s);
         spins e = gather_spins(s->velocity, &row->line);
         wide3 change = w_scale(-row->rigid, w_mul(&row->mass, w_sub(e.b, e.a))), impulse = w_add(load3(row->impulse), change);
@@ -214,29 +216,28 @@ static void store_fixed(fe__solver *s, const fe__joints *joints, const fe__lane 
     }
 }
 
-// ---- turn -----------------------------------------------------------------------------------------------------------------------------
+// ---- rotation -------------------------------------------------------------------------------------------------------
 
-// With K isotropic and given, or M w^2
-// with M = (IA^-1 + IB^-1)^-1, the drive is
-//     change = -(S (v + push error + inner l) + outer l),   |l| <= cap h
-// given: c = 1 / (h (C + h K)), S = (M^-1 + c)^-1, push = h K c, inner = c;   hertz: S = (1 - fade) M, push = rate / (1 - fade), outer =
-// fade
+// With K isotropic and given, or M w^2 with M = (IA^-1 + IB^-1)^-1, the drive is
+//     change = -(S (v + bias error + inner l) + outer l),   |l| <= cap h
+// given: c = 1 / (h (C + h K)), S = (M^-1 + c)^-1, bias = h K c, inner = c;   hertz: S = (1 - fade) M, bias = rate / (1
+// - fade), outer = fade
 typedef struct {
     line_pair line;
     wide error[3]; // world
     wide_sym drive_mass, mass;
-    wide push, inner, outer, drive_cap;
+    wide bias, inner, outer, drive_cap;
     wide impulse[3], motor_impulse[3];  // world
     wide velocity[3];                   // wanted of B against A, world
-    wide motor_cap, least_mass, shaped; // least_mass: at most what answers about any axis
+    wide motor_cap, least_mass, shaped; // least_mass: the least effective mass about any axis
     wide_sym inertia_a, inertia_b;
     wide total[3];
     wide first_a[4], first_b[4];
     wide target[4];
     wide motor[3]; // frame A
-    wide drive[4]; // as in fe__joint_turn
+    wide drive[4]; // as in fe__joint_rotation
     wide locked;   // > 0: a body has locks
-} turn_row;
+} rotation_row;
 
 FE_INLINE wide3 rotation_vector(wide4 q)
 {
@@ -246,14 +247,14 @@ FE_INLINE wide3 rotation_vector(wide4 q)
     return w_scale(k, u);
 }
 
-FE_INLINE void place_turn(turn_row *row, const fe__solver *s)
+FE_INLINE void place_rotation(rotation_row *row, const fe__solver *s)
 {
     wide4 qa = frame_now(s, row->line.a, row->first_a), q = w_product(w_conjugate(qa), frame_now(s, row->line.b, row->first_b));
     store3(row->error, turned(qa, rotation_vector(positive(w_product(q, w_conjugate(load4(row->target)))))));
     store3(row->velocity, turned(qa, load3(row->motor)));
 }
 
-FE_INLINE void aim_turn(turn_row *row, const fe__step_constants *c)
+FE_INLINE void aim_rotation(rotation_row *row, const fe__step_constants *c)
 {
     wide4 drive = load4(row->drive);
     wide zero = w_set(0.0f), one = w_set(1.0f), omega = 2.0f * FE_PI * drive.x;
@@ -269,7 +270,7 @@ FE_INLINE void aim_turn(turn_row *row, const fe__step_constants *c)
     k.xx = k.xx + more, k.yy = k.yy + more, k.zz = k.zz + more;
     wide_sym m = inverse_scaled(&k);
     row->drive_mass = (wide_sym){scale * m.xx, scale * m.xy, scale * m.xz, scale * m.yy, scale * m.yz, scale * m.zz};
-    row->push = w_choose(newtons, c->h * drive.x * given, c->h * omega * omega * fade * w_inverse_or_zero(stiff));
+    row->bias = w_choose(newtons, c->h * drive.x * given, c->h * omega * omega * fade * w_inverse_or_zero(stiff));
     row->inner = more;
     row->outer = w_choose(on, w_choose(newtons, zero, fade), one); // what is off forgets its impulse
     row->drive_cap = c->h * drive.z;
@@ -282,71 +283,71 @@ FE_INLINE wide3 shortened(wide3 a, wide most)
     return w_scale(w_choose(w_greater(square, most * most), most / w_sqrt(square), w_set(1.0f)), a);
 }
 
-static void prepare_turn(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes, void *rows, int32_t count,
-                         int32_t sides, const fe__step_constants *c)
+static void prepare_rotation(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes, void *rows,
+                             int32_t count, int32_t sides, const fe__step_constants *c)
 {
-    turn_row *row = rows;
+    rotation_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
         row_joints of = joints_of(joints, lanes, &row->line, i + 1 < count), *r = &of;
         find_axes(joints, r);
-        wide4 motor = AXES_QUAD(turn.motor);
+        wide4 motor = AXES_QUAD(rotation.motor);
         wide scale = w_set(c->warm_scale);
         store4(row->first_a, first_frame(bodies, r->body_a, FRAME_QUAD(frame_a)));
         store4(row->first_b, first_frame(bodies, r->body_b, FRAME_QUAD(frame_b)));
-        store4(row->target, AXES_QUAD(turn.target)), store3(row->motor, w_xyz(motor));
+        store4(row->target, AXES_QUAD(rotation.target)), store3(row->motor, w_xyz(motor));
         row->motor_cap = c->h * motor.w;
         row->inertia_a = gather_inertia(s, row->line.a), row->inertia_b = gather_inertia(s, row->line.b);
         row->shaped = shape_of(s, &row->line);
         spins e = gather_spins(s->velocity, &row->line);
         row->locked = e.locks_a + e.locks_b;
-        store4(row->drive, AXES_QUAD(turn.drive));
-        aim_turn(row, c);
-        store3(row->impulse, w_scale(scale, w_xyz(AXES_QUAD(turn.impulse))));
-        store3(row->motor_impulse, w_scale(scale, w_xyz(AXES_QUAD(turn.motor_impulse)))), store3(row->total, w_zero3());
-        place_turn(row, s);
+        store4(row->drive, AXES_QUAD(rotation.drive));
+        aim_rotation(row, c);
+        store3(row->impulse, w_scale(scale, w_xyz(AXES_QUAD(rotation.impulse))));
+        store3(row->motor_impulse, w_scale(scale, w_xyz(AXES_QUAD(rotation.motor_impulse)))), store3(row->total, w_zero3());
+        place_rotation(row, s);
         twist_ends(&e, &row->inertia_a, &row->inertia_b, w_add(load3(row->impulse), load3(row->motor_impulse)));
         scatter_spins(s->velocity, &row->line, &e, sides);
     }
 }
 
-FE_INLINE void drive_turn(turn_row *row, spins *e)
+FE_INLINE void drive_rotation(rotation_row *row, spins *e)
 {
-    wide3 impulse = load3(row->impulse), wish = w_add_scaled(w_sub(e->b, e->a), row->push, load3(row->error));
-    wish = w_mul(&row->drive_mass, w_add_scaled(wish, row->inner, impulse));
-    wide3 after = shortened(w_sub_scaled(w_sub(impulse, wish), row->outer, impulse), row->drive_cap);
+    wide3 impulse = load3(row->impulse), request = w_add_scaled(w_sub(e->b, e->a), row->bias, load3(row->error));
+    request = w_mul(&row->drive_mass, w_add_scaled(request, row->inner, impulse));
+    wide3 after = shortened(w_sub_scaled(w_sub(impulse, request), row->outer, impulse), row->drive_cap);
     twist_ends(e, &row->inertia_a, &row->inertia_b, w_sub(after, impulse));
     store3(row->impulse, after);
 }
 
-FE_INLINE void run_motor(turn_row *row, spins *e)
+FE_INLINE void run_motor(rotation_row *row, spins *e)
 {
     wide3 impulse = load3(row->motor_impulse), over = w_sub(w_sub(e->b, e->a), load3(row->velocity));
     wide3 after = w_sub(impulse, w_mul(&row->mass, over));
-    // what is too weak pushes along the speed that is missing, not where a skew inertia would need the torque
+    // A motor that is too weak acts along the missing velocity, not along the torque that a skew inertia would need
     wide_mask weak = w_greater(w_dot(after, after), row->motor_cap * row->motor_cap);
     after = w_choose3(weak, shortened(w_sub_scaled(impulse, row->least_mass, over), row->motor_cap), after);
     twist_ends(e, &row->inertia_a, &row->inertia_b, w_sub(after, impulse));
     store3(row->motor_impulse, after);
 }
 
-static void solve_turn(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c)
+static void solve_rotation(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c)
 {
     (void)c;
-    for (turn_row *row = rows, *end = row + count; row < end; ++row) {
+    for (rotation_row *row = rows, *end = row + count; row < end; ++row) {
         spins e = gather_spins(s->velocity, &row->line);
-        drive_turn(row, &e);
+        drive_rotation(row, &e);
         run_motor(row, &e);
         scatter_spins(s->velocity, &row->line, &e, sides);
     }
 }
 
-static void relax_turn(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c)
+static void relax_rotation(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c)
 {
-    for (turn_row *row = rows, *end = row + count; row < end; ++row) {
+    for (rotation_row *row = rows, *end = row + count; row < end; ++row) {
         wide3 torque = w_add(load3(row->impulse), load3(row->motor_impulse));
-        TURN_INERTIA(row, torque, torque);
-        aim_turn(row, c);
-        place_turn(row, s);
+        FOLLOW_INERTIA(row, torque, torque);
+        aim_rotation(row, c);
+        place_rotation(row, s);
         spins e = gather_spins(s->velocity, &row->line);
         run_motor(row, &e);
         store3(row->total, w_add(load3(row->total), w_add(load3(row->impulse), load3(row->motor_impulse))));
@@ -354,17 +355,18 @@ static void relax_turn(fe__solver *s, void *rows, int32_t count, int32_t sides, 
     }
 }
 
-static void store_turn(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count,
-                       const fe__step_constants *c)
+static void store_rotation(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count,
+                           const fe__step_constants *c)
 {
     (void)s;
-    const turn_row *row = rows;
+    const rotation_row *row = rows;
     wide zero = w_set(0.0f), mean = w_set(mean_of(c)), stored = stored_of(c);
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
         row_joints r = name_joints(lanes);
         find_axes(joints, &r);
-        put_lanes(joints->axes->turn.impulse, AXES_STRIDE, r.axes, r.real, w_with(w_scale(stored, load3(row->impulse)), zero));
-        put_lanes(joints->axes->turn.motor_impulse, AXES_STRIDE, r.axes, r.real, w_with(w_scale(stored, load3(row->motor_impulse)), zero));
-        put_lanes(joints->axes->turn.torque, AXES_STRIDE, r.axes, r.real, w_with(w_scale(mean, load3(row->total)), zero));
+        put_lanes(joints->axes->rotation.impulse, AXES_STRIDE, r.axes, r.real, w_with(w_scale(stored, load3(row->impulse)), zero));
+        put_lanes(joints->axes->rotation.motor_impulse, AXES_STRIDE, r.axes, r.real,
+                  w_with(w_scale(stored, load3(row->motor_impulse)), zero));
+        put_lanes(joints->axes->rotation.torque, AXES_STRIDE, r.axes, r.real, w_with(w_scale(mean, load3(row->total)), zero));
     }
 }

@@ -1,7 +1,10 @@
-// slide.inl - SLIDE: the anchors stay together along some axes u of frame A; and every point that is not plain. Part of joint.simd.c.
+// slide.inl - SLIDE: the anchors stay together along some axes u of frame A; and every point that is not plain. Part of
+// joint.simd.c.
 //
-//     C_i = u_i.d,   v_i = u_i.(vB + wB x rB - vA - wA x (rA + f)),   K_ij = u_i.K u_j    for locked i, j; f: d along the free axes
-// A free axis has 1 in the diagonal of K and wishes nothing. The impulse turns with frame A: its warm start owes in v and w.
+//     C_i = u_i.d,   v_i = u_i.(vB + wB x rB - vA - wA x (rA + f)),   K_ij = u_i.K u_j
+// for locked i, j; f: d along the free axes
+// A free axis has 1 in the diagonal of K and requests nothing. The impulse rotates with frame A: relax corrects its
+// warm start in v and w.
 typedef struct {
     line_pair line;
     wide u[3][3];  // axes of frame A, world
@@ -50,11 +53,12 @@ FE_INLINE wide_sym slide_mass(const slide_row *row, wide3 ra, wide3 rb)
     return f;
 }
 
-// the way along the free axes. (An arm that took the errors of the locked ones in too would feed wide gaps: nets of 1000:1 explode.)
-FE_INLINE wide3 free_way(const slide_row *row, wide3 gap)
+// The gap along the free axes. (With the errors of the locked ones in it too, the arm would feed wide gaps: nets of
+// 1000:1 explode.)
+FE_INLINE wide3 free_displacement(const slide_row *row, wide3 gap)
 {
-    wide3 way = in_frame(row, gap), keep = load3(row->keep);
-    return to_world(row, (wide3){(1.0f - keep.x) * way.x, (1.0f - keep.y) * way.y, (1.0f - keep.z) * way.z});
+    wide3 free = in_frame(row, gap), keep = load3(row->keep);
+    return to_world(row, (wide3){(1.0f - keep.x) * free.x, (1.0f - keep.y) * free.y, (1.0f - keep.z) * free.z});
 }
 
 FE_INLINE void place_slide(slide_row *row, const fe__solver *s)
@@ -63,13 +67,13 @@ FE_INLINE void place_slide(slide_row *row, const fe__solver *s)
     anchors now = anchors_now(s, &row->line, &first);
     wide4 q = frame_now(s, row->line.a, row->first_frame);
     for (int k = 0; k < 3; ++k) store3(row->u[k], frame_axis(q, k));
-    wide3 arm = w_add(now.ra, free_way(row, now.gap));
+    wide3 arm = w_add(now.ra, free_displacement(row, now.gap));
     store3(row->arm_a, arm), store3(row->arm_b, now.rb);
     store3(row->error, w_times(load3(row->keep), in_frame(row, now.gap)));
     row->mass = slide_mass(row, arm, now.rb);
 }
 
-FE_INLINE void push_slide(const slide_row *row, ends *e, wide3 impulse)
+FE_INLINE void apply_slide(const slide_row *row, ends *e, wide3 impulse)
 {
     e->a.v = w_sub(e->a.v, w_times(load3(row->mass_a), impulse));
     e->a.w = w_sub(e->a.w, w_mul(&row->inertia_a, w_cross(load3(row->arm_a), impulse)));
@@ -77,15 +81,16 @@ FE_INLINE void push_slide(const slide_row *row, ends *e, wide3 impulse)
     e->b.w = w_add(e->b.w, w_mul(&row->inertia_b, w_cross(load3(row->arm_b), impulse)));
 }
 
-// start takes what the impulse owes to the turn of arms and axes: `impulse` and the arms are those of before, in world axes
-FE_INLINE void owe_slide(const slide_row *row, const fe__solver *s, wide3 impulse, wide3 arm_a, wide3 arm_b, int sides)
+// Arms and axes rotated: start takes what that changes in the effect of the impulse. `impulse` and the arms are those
+// of before, in world axes.
+FE_INLINE void correct_start_slide(const slide_row *row, const fe__solver *s, wide3 impulse, wide3 arm_a, wide3 arm_b, int sides)
 {
     ends start = {start_side(s, row->line.a), start_side(s, row->line.b)};
-    wide3 now = to_world(row, load3(row->impulse)), turn = w_sub(now, impulse);
-    wide3 moment_a = w_add(w_cross(w_sub(load3(row->arm_a), arm_a), now), w_cross(arm_a, turn));
-    wide3 moment_b = w_add(w_cross(w_sub(load3(row->arm_b), arm_b), now), w_cross(arm_b, turn));
-    start.a.v = w_add(start.a.v, w_times(load3(row->mass_a), turn)), start.a.w = w_add(start.a.w, w_mul(&row->inertia_a, moment_a));
-    start.b.v = w_sub(start.b.v, w_times(load3(row->mass_b), turn)), start.b.w = w_sub(start.b.w, w_mul(&row->inertia_b, moment_b));
+    wide3 now = to_world(row, load3(row->impulse)), change = w_sub(now, impulse);
+    wide3 moment_a = w_add(w_cross(w_sub(load3(row->arm_a), arm_a), now), w_cross(arm_a, change));
+    wide3 moment_b = w_add(w_cross(w_sub(load3(row->arm_b), arm_b), now), w_cross(arm_b, change));
+    start.a.v = w_add(start.a.v, w_times(load3(row->mass_a), change)), start.a.w = w_add(start.a.w, w_mul(&row->inertia_a, moment_a));
+    start.b.v = w_sub(start.b.v, w_times(load3(row->mass_b), change)), start.b.w = w_sub(start.b.w, w_mul(&row->inertia_b, moment_b));
     scatter_ends(s->start, &row->line, &start, sides);
 }
 
@@ -120,7 +125,7 @@ static void prepare_slide(fe__solver *s, const fe__body *bodies, const fe__joint
         store3(row->impulse, w_scale(w_set(c->warm_scale), w_times(load3(row->keep), w_xyz(JOINT_QUAD(impulse)))));
         store3(row->total, w_zero3());
         place_slide(row, s);
-        push_slide(row, &e, to_world(row, load3(row->impulse)));
+        apply_slide(row, &e, to_world(row, load3(row->impulse)));
         scatter_ends(s->velocity, &row->line, &e, sides);
     }
 }
@@ -129,7 +134,7 @@ FE_INLINE void change_slide(slide_row *row, ends *e, wide3 change)
 {
     change = w_times(load3(row->keep), change);
     store3(row->impulse, w_add(load3(row->impulse), change));
-    push_slide(row, e, to_world(row, change));
+    apply_slide(row, e, to_world(row, change));
 }
 
 static void solve_slide(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c)
@@ -138,8 +143,8 @@ static void solve_slide(fe__solver *s, void *rows, int32_t count, int32_t sides,
     for (slide_row *row = rows, *end = row + count; row < end; ++row) {
         ends e = gather_ends(s, &row->line);
         wide3 speed = w_times(load3(row->keep), in_frame(row, speed_between(&e, load3(row->arm_a), load3(row->arm_b))));
-        wide3 wish = w_add_scaled(w_scale(1.0f - row->fade, speed), row->rate, load3(row->error));
-        change_slide(row, &e, minus(w_add_scaled(w_mul(&row->mass, wish), row->fade, load3(row->impulse))));
+        wide3 request = w_add_scaled(w_scale(1.0f - row->fade, speed), row->rate, load3(row->error));
+        change_slide(row, &e, minus(w_add_scaled(w_mul(&row->mass, request), row->fade, load3(row->impulse))));
         scatter_ends(s->velocity, &row->line, &e, sides);
     }
 }
@@ -149,9 +154,9 @@ static void relax_slide(fe__solver *s, void *rows, int32_t count, int32_t sides,
     (void)c;
     for (slide_row *row = rows, *end = row + count; row < end; ++row) {
         wide3 impulse = to_world(row, load3(row->impulse)), arm_a = load3(row->arm_a), arm_b = load3(row->arm_b);
-        TURN_INERTIA(row, w_cross(arm_a, impulse), w_cross(arm_b, impulse));
+        FOLLOW_INERTIA(row, w_cross(arm_a, impulse), w_cross(arm_b, impulse));
         place_slide(row, s);
-        owe_slide(row, s, impulse, arm_a, arm_b, sides);
+        correct_start_slide(row, s, impulse, arm_a, arm_b, sides);
         ends e = gather_ends(s, &row->line);
         wide3 speed = w_times(load3(row->keep), in_frame(row, speed_between(&e, load3(row->arm_a), load3(row->arm_b))));
         change_slide(row, &e, w_scale(-row->rigid, w_mul(&row->mass, speed)));

@@ -1,11 +1,11 @@
 // wide.inl - what rows of joints share: bodies in and out, records in and out, softness. Part of joint.simd.c.
 //
-// Arms and axes turn with their bodies in every substep (frozen ones gain energy: a chain explodes). All that follows from positions is
-// found once per substep, in relax, and serves the next solve too, which reads no motion.
+// Arms and axes rotate with their bodies in every substep (frozen ones gain energy: a chain explodes). All that follows
+// from positions is found once per substep, in relax, and serves the next solve too, which reads no motion.
 //
-// From the second substep the warm start is what the bodies carry, v - start (bodies.simd.c): J_old^T l of the impulse l that a joint held
-// when its arms turned. It should be J_new^T l. Relax moves `start` by the difference, -M^-1 (J_new - J_old)^T l, so that every warm start
-// is complete before the first constraint of the next substep is solved.
+// From the second substep the warm start is what the bodies carry, v - start (bodies.simd.c): J_old^T l of the impulse
+// l that a joint held when its arms turned. It should be J_new^T l. Relax moves `start` by the difference, -M^-1 (J_new
+// - J_old)^T l, so that every warm start is complete before the first constraint of the next substep is solved.
 
 typedef struct {
     int32_t a[FE_W], b[FE_W];
@@ -24,7 +24,7 @@ enum {
     BOTH_SIDES = FE__MOVES_A | FE__MOVES_B
 };
 
-// ---- bodies ---------------------------------------------------------------------------------------------------------------------------
+// ---- bodies ---------------------------------------------------------------------------------------------------------
 FE_INLINE ends gather_ends(const fe__solver *s, const line_pair *line) { return (ends){gather_side(s, line->a), gather_side(s, line->b)}; }
 
 // what does not move is never written: all workers read it
@@ -36,7 +36,7 @@ FE_INLINE void scatter_ends(void *lines, const line_pair *line, const ends *e, i
 
 FE_INLINE wide3 minus(wide3 a) { return (wide3){-a.x, -a.y, -a.z}; }
 
-// K - [r] I [r]: what an impulse at the arm r turns adds to the response of its point
+// K - [r] I [r]: the rotation that an impulse at the arm r causes adds to the response of its point
 FE_INLINE wide_sym add_arm(wide_sym k, const wide_sym *i, wide3 r)
 {
     wide t00 = r.y * i->xz - r.z * i->xy, t01 = r.y * i->yz - r.z * i->yy, t02 = r.y * i->zz - r.z * i->yz;
@@ -57,8 +57,8 @@ FE_INLINE wide3 speed_between(const ends *e, wide3 ra, wide3 rb)
     return w_sub(w_add(e->b.v, w_cross(e->b.w, rb)), w_add(e->a.v, w_cross(e->a.w, ra)));
 }
 
-// ---- a vector that turns with a body --------------------------------------------------------------------------------------------------
-FE_INLINE wide3 turn_of(const fe__solver *s, const int32_t *line, wide3 first) { return w_turn(gather_high(s->motion, line), first); }
+// ---- a vector that rotates with a body ------------------------------------------------------------------------------
+FE_INLINE wide3 rotate_with(const fe__solver *s, const int32_t *line, wide3 first) { return w_turn(gather_high(s->motion, line), first); }
 
 // anchors, by their arms from the centres, in world axes
 typedef struct {
@@ -73,7 +73,7 @@ FE_INLINE anchors anchors_now(const fe__solver *s, const line_pair *line, const 
     return (anchors){w_add(first->ra, ta), w_add(first->rb, tb), w_add(first->gap, w_add(w_sub(w_xyz(pb), w_xyz(pa)), w_sub(tb, ta)))};
 }
 
-// ---- records --------------------------------------------------------------------------------------------------------------------------
+// ---- records --------------------------------------------------------------------------------------------------------
 
 // The joints of a row.
 // Padding lanes stand for the first lane's joint, on lines of their own that nothing moves; they are never stored.
@@ -157,7 +157,8 @@ FE_INLINE float mean_of(const fe__step_constants *c) { return c->inverse_h / (fl
 // Stored impulses are those of the world's substeps
 FE_INLINE wide stored_of(const fe__step_constants *c) { return w_set((float)c->division); }
 
-// Joints of a row that are open too wide mark their bodies. Other workers may be at the same bodies, with the same mark.
+// Joints of a row that are open too wide mark their bodies. Other workers may be at the same bodies, with the same
+// mark.
 static __attribute__((noinline)) void mark_stretched(fe__solver *s, const fe__lane *lanes, wide_mask open)
 {
     float mark = (float)FE__STRETCHED;
@@ -177,17 +178,16 @@ FE_INLINE void find_stretch(fe__solver *s, const fe__lane *lanes, wide3 gap, con
     if (w_any(open)) mark_stretched(s, lanes, open);
 }
 
-// ---- softness -------------------------------------------------------------------------------------------------------------------------
+// ---- softness -------------------------------------------------------------------------------------------------------
 
-// change = -m ((1 - fade) v + rate C) - fade l.
-// With w = 2 pi hertz:  fade = 1 / (1 + h w (2 zeta + h w)),  rate = h w^2 fade
-// A stiffness of its own is a spring, which swings: the rigid pass leaves it alone. The world's is a lock that gives. Between them, from
-// half of the stiffness that the substeps allow (w h = pi / 4: eight substeps to a period, of which the implicit step damps half of
-// critical anyway), a spring takes a growing share of the rigid pass, and all of it at the most stiff: rows that fight over long arms, and
-// see each other only once a substep, otherwise gain energy.
+// change = -m ((1 - fade) v + rate C) - fade l. With w = 2 pi hertz:  fade = 1 / (1 + h w (2 zeta + h w)),  rate = h
+// w^2 fade A stiffness of its own is a spring, which swings: the relax pass leaves it alone. The world's is a lock that
+// gives. Between them, from half of the stiffness that the substeps allow (w h = pi / 4: eight substeps to a period, of
+// which the implicit step damps half of critical anyway), a spring takes a growing share of the relax pass, and all of
+// it at the most stiff: rows that fight over long arms, and see each other only once a substep, otherwise gain energy.
 typedef struct {
     wide rate, fade;
-    wide rigid; // the share of the rigid pass: 1 for a lock, 0 for a spring
+    wide rigid; // the share of the relax pass: 1 for a lock, 0 for a spring
 } lane_softness;
 
 // hertz 0: as `otherwise`
@@ -219,7 +219,8 @@ FE_INLINE wide_sym inverse_scaled(const wide_sym *m)
 
 FE_INLINE wide trace(const wide_sym *k) { return k->xx + k->yy + k->zz; }
 
-// Locked bodies may leave a matrix without an inverse: then what cannot move gives a little, as a share of what can. Others keep theirs.
+// Locked bodies may leave a matrix without an inverse: then what cannot move gives a little, as a share of what can.
+// Others keep theirs.
 #define LOCKED_GIVE 1e-4f
 FE_INLINE wide_sym give(wide_sym k, wide all, wide_mask locked)
 {
@@ -227,12 +228,13 @@ FE_INLINE wide_sym give(wide_sym k, wide all, wide_mask locked)
     k.xx = k.xx + more, k.yy = k.yy + more, k.zz = k.zz + more;
     return k;
 }
-// of all that moves: what answers by less is what rounding left of a locked direction
-#define RIGID 1e-6f
+// Of the response of all axes: a smaller one is what rounding left of a locked direction
+#define LOCKED_RESPONSE 1e-6f
 
-// Where bodies are locked, only turns answer along some axes: little in one pose, nothing in the next. Stiffness goes by K^-1, so that a
-// gap opened where the point gives would be a hundred times the energy where it does not: linkages of locked bodies flew apart. So a locked
-// axis answers with a share of what all others do, by how much of the inverse mass is locked.
+// Where bodies are locked, only rotations respond along some axes: little in one pose, nothing in the next. Stiffness
+// goes by K^-1, so that a gap opened where the point gives would be a hundred times the energy where it does not:
+// linkages of locked bodies flew apart. So a locked axis responds by a share of what all others do, in proportion to
+// the part of the inverse mass that is locked.
 #define LOCKED_SHARE 0.1f
 FE_INLINE wide_sym give_locked(wide_sym k, wide3 mass, wide unlocked)
 {
@@ -241,11 +243,11 @@ FE_INLINE wide_sym give_locked(wide_sym k, wide3 mass, wide unlocked)
     return k;
 }
 
-// likewise of turns, about an axis that is locked at both ends
-FE_INLINE wide_sym give_locked_turns(wide_sym k, wide locked)
+// likewise about an axis whose rotation is locked at both ends
+FE_INLINE wide_sym give_locked_rotations(wide_sym k, wide locked)
 {
     const wide zero = w_set(0.0f), all = trace(&k), share = w_choose(w_greater(locked, zero), LOCKED_SHARE * all, zero),
-               least = RIGID * all;
+               least = LOCKED_RESPONSE * all;
     k.xx = k.xx + w_choose(w_greater(k.xx, least), zero, share);
     k.yy = k.yy + w_choose(w_greater(k.yy, least), zero, share);
     k.zz = k.zz + w_choose(w_greater(k.zz, least), zero, share);
@@ -257,7 +259,7 @@ FE_INLINE wide_sym sum_sym(const wide_sym *a, const wide_sym *b)
     return (wide_sym){a->xx + b->xx, a->xy + b->xy, a->xz + b->xz, a->yy + b->yy, a->yz + b->yz, a->zz + b->zz};
 }
 
-// ---- rotations ------------------------------------------------------------------------------------------------------------------------
+// ---- rotations ------------------------------------------------------------------------------------------------------
 FE_INLINE wide4 load4(const wide *p) { return (wide4){p[0], p[1], p[2], p[3]}; }
 FE_INLINE void store4(wide *p, wide4 a) { p[0] = a.x, p[1] = a.y, p[2] = a.z, p[3] = a.w; }
 FE_INLINE wide4 first_frame(const fe__body *bodies, const int32_t *body, wide4 frame)
@@ -276,8 +278,8 @@ FE_INLINE wide4 positive(wide4 q)
     return (wide4){sign * q.x, sign * q.y, sign * q.z, sign * q.w};
 }
 
-// The angle of (x, y) from the x axis, x >= 0: from -pi/2 to pi/2, error below 2e-7. atan(t) = t + t^3 P(t^2) for |t| <= tan(pi/8), P by
-// Remez exchange with a relative error of 7e-10; beyond it around pi/4.
+// The angle of (x, y) from the x axis, x >= 0: from -pi/2 to pi/2, error below 2e-7. atan(t) = t + t^3 P(t^2) for |t|
+// <= tan(pi/8), P by Remez exchange with a relative error of 7e-10; beyond it around pi/4.
 FE_INLINE wide w_atan2(wide y, wide x)
 {
     wide one = w_set(1.0f), height = w_abs(y);
@@ -321,7 +323,7 @@ FE_INLINE wide3 frame_axis(wide4 q, int k)
     return turned(q, e);
 }
 
-// ---- bodies that only turn ------------------------------------------------------------------------------------------------------------
+// ---- bodies that only rotate ----------------------------------------------------------------------------------------
 typedef struct {
     wide3 a, b;
     wide locks_a, locks_b;
@@ -339,9 +341,9 @@ FE_INLINE void scatter_spins(void *lines, const line_pair *line, const spins *e,
     if (sides & FE__MOVES_B) scatter_high(lines, line->b, w_with(e->b, e->locks_b));
 }
 
-// ---- inertia that turns ---------------------------------------------------------------------------------------------------------------
-// sin^2 of half the angle from which on a body's turn within the step counts for its inertia: 0.02 rad
-#define TURNED 1e-4f
+// ---- inertia that rotates -------------------------------------------------------------------------------------------
+// sin^2 of half the angle from which on a body's rotation within the step counts for its inertia: 0.02 rad
+#define ROTATED 1e-4f
 
 // > 0 where a body's inertia is not that of a ball
 FE_INLINE wide shape_of(const fe__solver *s, const line_pair *line)
@@ -352,7 +354,7 @@ FE_INLINE wide shape_of(const fe__solver *s, const line_pair *line)
 FE_INLINE wide_sym change_inertia(const fe__solver *s, const int32_t *line, wide_mask shaped, wide_sym *inertia)
 {
     wide4 turn = gather_high(s->motion, line);
-    wide_mask turns = w_and(shaped, w_greater(w_dot(w_xyz(turn), w_xyz(turn)), w_set(TURNED)));
+    wide_mask turns = w_and(shaped, w_greater(w_dot(w_xyz(turn), w_xyz(turn)), w_set(ROTATED)));
     wide_sym was = *inertia, zero = {w_set(0), w_set(0), w_set(0), w_set(0), w_set(0), w_set(0)};
     if (!w_any(turns)) return zero;
     wide_sym now = turned_inertia(s, line, turn, gather_high(s->velocity, line).w);
@@ -362,10 +364,10 @@ FE_INLINE wide_sym change_inertia(const fe__solver *s, const int32_t *line, wide
     return (wide_sym){now.xx - was.xx, now.xy - was.xy, now.xz - was.xz, now.yy - was.yy, now.yz - was.yz, now.zz - was.zz};
 }
 
-// The inertias that a row copied follow the turn of its bodies: with those of the step's beginning, a rod that spins in a chain gains
-// energy. start takes what the row's moments owe to it.
-static void turn_inertia(const fe__solver *s, const line_pair *line, wide shaped, wide_sym *a, wide_sym *b, wide3 moment_a, wide3 moment_b,
-                         int sides)
+// The inertias that a row copied follow the rotation of its bodies: with those of the step's beginning, a rod that
+// spins in a chain gains energy. start takes what that changes in the effect of the row's moments.
+static void follow_inertia(const fe__solver *s, const line_pair *line, wide shaped, wide_sym *a, wide_sym *b, wide3 moment_a,
+                           wide3 moment_b, int sides)
 {
     wide_mask lanes = w_greater(shaped, w_set(0.0f));
     if (!w_any(lanes)) return;
@@ -374,8 +376,8 @@ static void turn_inertia(const fe__solver *s, const line_pair *line, wide shaped
     start.a = w_add(start.a, w_mul(&change_a, moment_a)), start.b = w_sub(start.b, w_mul(&change_b, moment_b));
     scatter_spins(s->start, line, &start, sides);
 }
-#define TURN_INERTIA(row, moment_a, moment_b) \
-    turn_inertia(s, &(row)->line, (row)->shaped, &(row)->inertia_a, &(row)->inertia_b, moment_a, moment_b, sides)
+#define FOLLOW_INERTIA(row, moment_a, moment_b) \
+    follow_inertia(s, &(row)->line, (row)->shaped, &(row)->inertia_a, &(row)->inertia_b, moment_a, moment_b, sides)
 
 // a torque on B, its opposite on A
 FE_INLINE void twist_ends(spins *e, const wide_sym *inertia_a, const wide_sym *inertia_b, wide3 torque)

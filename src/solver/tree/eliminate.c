@@ -1,10 +1,12 @@
-// eliminate.c - the constraints of a tree eliminated from its leaves upwards and met from its root downwards, see node.h.
+// eliminate.c - the constraints of a tree eliminated from its leaves upwards and met from its root downwards, see
+// node.h.
 #include "solver/tree/eliminate.h"
 
 #include <string.h>
 
-// ---- matrices, lower triangles --------------------------------------------------------------------------------------------------
-// a = L L^T in place. Where no more than `least` would be left in the diagonal, the row is left out: its column is zeros.
+// ---- matrices, lower triangles --------------------------------------------------------------------------------------
+// a = L L^T in place. Where no more than `least` would be left in the diagonal, the row is left out: its column is
+// zeros.
 static void factorise(double *a, int n, int stride, const double *least)
 {
     for (int k = 0; k < n; ++k) {
@@ -40,7 +42,7 @@ static inline void backward(const double *l, int n, int stride, double *x)
     }
 }
 
-// ---- from the leaves upwards ----------------------------------------------------------------------------------------------------
+// ---- from the leaves upwards ----------------------------------------------------------------------------------------
 static void reduce(fe__tree_node *n)
 {
     static const double nothing[6] = {0};
@@ -78,7 +80,7 @@ void fe__tree_eliminate(const fe__tree_job *t)
     }
 }
 
-// ---- requests up, changes down --------------------------------------------------------------------------------------------------
+// ---- requests up, changes down --------------------------------------------------------------------------------------
 static void hand_up(const fe__tree_job *t)
 {
     for (int32_t i = 0; i < t->count; ++i) memset(t->nodes[i].load, 0, sizeof t->nodes[i].load);

@@ -22,7 +22,8 @@ typedef struct fe__tree_link {
 
 typedef struct fe__joint_tree {
     int32_t first, count; // links
-    int32_t heavy;        // 1: solved in every substep; 0: from the sweep on that left a joint open, to the end of the step
+    // 1: solved in every substep; 0: from the sweep on that left a joint open, to the end of the step
+    int32_t heavy;
 } fe__joint_tree;
 
 typedef struct fe__forest {
@@ -31,7 +32,8 @@ typedef struct fe__forest {
     int32_t *link_of; // by joint: its link, -1: in no tree
     int32_t tree_count, link_count;
     int32_t capacity[3]; // of the arrays above
-    int32_t changed;     // joints were linked or unlinked, or masses of joined bodies changed, since the trees were found
+    // joints were linked or unlinked, or masses of joined bodies changed, since the trees were found
+    int32_t changed;
 } fe__forest;
 
 #endif

@@ -25,8 +25,9 @@ enum { FE__TREE_LOCKS = 6, FE__TREE_ROWS = FE__TREE_LOCKS + 3 }; // three more d
 typedef struct fe__tree_rows {
     double below[FE__TREE_ROWS][6], above[FE__TREE_ROWS][6]; // J
     double error[FE__TREE_ROWS];                             // m, rad
-    fe_dvec3 arm[2];                                         // from the centres of the body below, above to the joint's point, m
-    fe_dvec3 pull;                                           // impulse on the body below at that point, N s
+    // from the centres of the body below, above to the joint's point, m
+    fe_dvec3 arm[2];
+    fe_dvec3 pull; // impulse on the body below at that point, N s
     int32_t count;
     int32_t points; // bits of the rows that hold points
     double rod;     // length of a distance joint, m; else 0

@@ -21,7 +21,7 @@ void fe__tree_hide_locked(fe__tree_rows *rows, int32_t from, int32_t below, int3
         }
 }
 
-// ---- locks ----------------------------------------------------------------------------------------------------------------------
+// ---- locks ----------------------------------------------------------------------------------------------------------
 // A lock in double, the bodies where they are now
 typedef struct place {
     const fe__motion_line *a, *b;
@@ -133,7 +133,7 @@ static void add_lock(fe__tree_rows *t, int32_t holds_b, int32_t part, const fe__
     }
 }
 
-// ---- masses ---------------------------------------------------------------------------------------------------------------------
+// ---- masses ---------------------------------------------------------------------------------------------------------
 // of a symmetric matrix xx xy xz yy yz zz, 0 where it has none
 static void invert(const double i[6], double out[3][3])
 {

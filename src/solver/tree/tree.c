@@ -17,7 +17,7 @@
 // A rotation, rad, beyond which rows say nothing of where an arm leads
 #define FULL_TURN 0.25
 
-// ---- requests -------------------------------------------------------------------------------------------------------------------
+// ---- requests -------------------------------------------------------------------------------------------------------
 static void widen(const fe__velocity_line *line, double out[6])
 {
     for (int k = 0; k < 3; ++k) out[k] = (double)line->v[k], out[3 + k] = (double)line->w[k];
@@ -55,8 +55,8 @@ static velocity changed(const fe__velocity_line *line, const double *change)
                       {(double)line->w[0] + u[3], (double)line->w[1] + u[4], (double)line->w[2] + u[5]}};
 }
 
-// Of the arcs of a rotation, by its square: beyond FE__SLOW_TURN they are left to the positions, which lose energy by it
-// instead of gaining it
+// Of the arcs of a rotation, by its square: beyond FE__SLOW_TURN they are left to the positions, which lose energy by
+// it instead of gaining it
 static double slow_share(double square) { return fe__mind(fe__maxd(2.0 - square / (FE__SLOW_TURN * FE__SLOW_TURN), 0.0), 1.0); }
 
 // A point on an arm r leaves its tangent while the body turns: by integrate_positions' Q = Cayley(h w) it goes on by
@@ -75,7 +75,8 @@ static double leave_rod(const fe__tree_rows *rows, const velocity *below, const 
 {
     fe_dvec3 u = fe__tree_vector(rows->below[0]);
     fe_dvec3 v = fe__dsub(fe__dadd(below->v, fe__dcross(below->w, rows->arm[0])), fe__dadd(above->v, fe__dcross(above->w, rows->arm[1])));
-    double along = fe__ddot(v, u), turn = h * h * (fe__ddot(v, v) - along * along) / (rows->rod * rows->rod); // angle squared
+    // angle squared
+    double along = fe__ddot(v, u), turn = h * h * (fe__ddot(v, v) - along * along) / (rows->rod * rows->rod);
     return slow_share(turn) * 0.5 * turn * rows->rod;
 }
 
@@ -117,7 +118,7 @@ static double request_closed(const fe__tree_job *t)
     return sqrt(widest);
 }
 
-// ---- results --------------------------------------------------------------------------------------------------------------------
+// ---- results --------------------------------------------------------------------------------------------------------
 // to velocities and rows; with `total` the impulses count in the sums over the step
 static void apply(const fe__tree_job *t, int32_t total)
 {
@@ -156,7 +157,7 @@ static void move(const fe__tree_job *t)
     }
 }
 
-// ---- solutions ------------------------------------------------------------------------------------------------------------------
+// ---- solutions ------------------------------------------------------------------------------------------------------
 static void reduce(const fe__tree_job *t)
 {
     fe__tree_read(t);
@@ -204,7 +205,7 @@ static void close_gaps(const fe__tree_job *t)
     }
 }
 
-// ---- passes ---------------------------------------------------------------------------------------------------------------------
+// ---- passes ---------------------------------------------------------------------------------------------------------
 int64_t fe__tree_bytes(int32_t links) { return (int64_t)sizeof(fe__tree_node) * links; }
 
 fe__tree_job fe__tree_job_of(fe__solver *s, const fe__lock_lanes *lanes, const fe__joints *joints, int32_t tree, unsigned char *rows,

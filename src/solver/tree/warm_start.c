@@ -1,11 +1,11 @@
 // warm_start.c - heavy trees that turn fast begin a substep without the impulses of the last.
 //
 // A warm start guesses that a lock pulls as it did. Where it turns by much within a substep that is wrong, and after an
-// impact by far: relax turns J^T l with the arms, so that a light link on a long arm begins with velocities of the order
-// of l M^-1 l, of ten thousand times the energy that the tree has. The tree takes them back along J exactly, but limits,
-// contacts and the sweep itself have seen them, and make motion of them. The tree needs no guess: with u = M^-1 J^T l it
-// solves J (v + u) = request, from which any part of v that J^T spans drops out. So `start`, which the next warm start
-// is v less of (bodies.simd.c), takes all that the locks gave:
+// impact by far: relax turns J^T l with the arms, so that a light link on a long arm begins with velocities of the
+// order of l M^-1 l, of ten thousand times the energy that the tree has. The tree takes them back along J exactly, but
+// limits, contacts and the sweep itself have seen them, and make motion of them. The tree needs no guess: with u = M^-1
+// J^T l it solves J (v + u) = request, from which any part of v that J^T spans drops out. So `start`, which the next
+// warm start is v less of (bodies.simd.c), takes all that the locks gave:
 //     start += M^-1 J^T l,   l = 0
 // All locks of the tree or none: one that is kept pulls at links whose others no longer balance it.
 #include "solver/tree/warm_start.h"
@@ -30,7 +30,8 @@ static void give_start(const fe__tree_node *n, const double turn[6], fe__start_l
     fe__tree_add_spin(start->w, turn, fe__tree_vector(sum + 3));
 }
 
-// The rows are those of the pose that relax turned the sweep's to. No pulls are left that a jerk would be measured against.
+// The rows are those of the pose that relax turned the sweep's to. No pulls are left that a jerk would be measured
+// against.
 void fe__tree_forget_locks(const fe__tree_job *t)
 {
     if (!turns_fast(t)) return;
