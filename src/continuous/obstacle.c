@@ -92,7 +92,7 @@ static void try_obstacle(search *s, const fe__shape *own, const fe__shape *obsta
 static void try_field(search *s, const fe__shape *own, const fe__shape *obstacle, const fe__mobile *other)
 {
     const fe_world *w = s->step->world;
-    const fe__heightfield *field = w->fields + obstacle->form.field;
+    const fe__heightfield *field = fe__store_field(w->store, obstacle->form.field);
     fe__pose pose = fe__mobile_at(other, 0.0);
     fe_dvec3 travel = fe__dsub(s->motion.translation, other->motion.translation);
     fe_dvec3 from = fe__drotate_back(pose.rotation, fe__dsub(s->motion.centre, pose.position));

@@ -4,7 +4,7 @@
 // the centre of mass and derives the origin from it. Mass is in mass.c, velocities and forces in motion.c, shapes in shapes.c.
 #include "world/bodies.h"
 
-#include "world/assets.h"
+#include "world/asset_users.h"
 #include "world/joints.h"
 #include "world/mass.h"
 #include "world/pair_list.h"
@@ -161,7 +161,7 @@ fe_result fe__body_set_type(fe_world *world, int32_t index, int32_t type)
 {
     fe__body *body = &world->bodies[index];
     if (body->type == type) return FE_OK;
-    if (!fe__reserve_proxies(world, body->shape_count)) return FE_ERROR_MEMORY;
+    if (!fe__reserve_proxies(world, type, body->shape_count)) return FE_ERROR_MEMORY;
 
     part_from_neighbours(world, index);
     if (body->awake_index >= 0) fe__body_retire(world, index);
@@ -195,7 +195,7 @@ fe_result fe__body_set_enabled(fe_world *world, int32_t index, int32_t enabled)
         fe__body_link_joints(world, index); // none of them acts now
         return FE_OK;
     }
-    if (!fe__reserve_proxies(world, body->shape_count)) return FE_ERROR_MEMORY;
+    if (!fe__reserve_proxies(world, body->type, body->shape_count)) return FE_ERROR_MEMORY;
     body->flags |= FE__BODY_ENABLED;
     body->sleep_timer = 0.0f;
     enter_shapes(world, index);

@@ -48,18 +48,20 @@ fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t index)
 
 // ---- broad phase ----------------------------------------------------------------------------------------------------------------
 
-int32_t fe__reserve_proxies(fe_world *world, int32_t extra)
+static fe__tree *tree_of_type(fe_world *world, int32_t body_type)
+{
+    return body_type == FE_BODY_STATIC ? &world->static_tree : &world->moving_tree;
+}
+
+static fe__tree *tree_of(fe_world *world, const fe__shape *shape) { return tree_of_type(world, world->bodies[shape->body].type); }
+
+int32_t fe__reserve_proxies(fe_world *world, int32_t body_type, int32_t extra)
 {
     fe__memory *memory = &world->memory;
     int32_t limit = world->shape_capacity;
     return FE_RESERVE(memory, world->moved, world->moved_capacity, limit) &&
            FE_RESERVE(memory, world->planes, world->plane_capacity, (int64_t)world->plane_count + extra) &&
-           fe__tree_reserve(&world->static_tree, memory, limit, extra) && fe__tree_reserve(&world->moving_tree, memory, limit, extra);
-}
-
-static fe__tree *tree_of(fe_world *world, const fe__shape *shape)
-{
-    return world->bodies[shape->body].type == FE_BODY_STATIC ? &world->static_tree : &world->moving_tree;
+           fe__tree_reserve(tree_of_type(world, body_type), memory, limit, extra);
 }
 
 void fe__shape_mark_moved(fe_world *world, int32_t index)
