@@ -39,8 +39,7 @@ static inline int32_t fe__scene_counts(const fe__scene *scene, const fe__shape *
 // fe_material.user_id of a shape there
 static inline uint64_t fe__scene_material(const fe__scene *scene, const fe__shape *shape, int32_t triangle)
 {
-    (void)scene, (void)triangle;
-    return shape->material.user_id;
+    return fe__material_of_shape(scene->store, shape, triangle >= 0 ? triangle / 2 : -1)->user_id;
 }
 // fe_hit.barycentric of a point of the world
 static inline void fe__scene_weights(const fe__scene *scene, const fe__shape *shape, int32_t triangle, fe_dvec3 point, float *out_weights)

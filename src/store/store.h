@@ -6,6 +6,7 @@
 #ifndef FE_STORE_STORE_H
 #define FE_STORE_STORE_H
 #include "collision/form/heightfield.h"
+#include "collision/form/shape.h"
 #include "core/id_pool.h"
 #include "core/memory.h"
 #include "core/mutex.h"
@@ -74,5 +75,13 @@ static inline fe__asset *fe__store_asset(const fe_store *store, int32_t index)
     return store->chunks[top - FE__FIRST_CHUNK_BITS] + (i - (1u << top));
 }
 static inline const fe__heightfield *fe__store_field(const fe_store *store, int32_t index) { return &fe__store_asset(store, index)->field; }
+
+// Of a shape; `cell`: of its heightfield, -1: none in particular
+static inline const fe_material *fe__material_of_shape(const fe_store *store, const fe__shape *shape, int32_t cell)
+{
+    if (!fe__form_is_field(&shape->form) || cell < 0) return &shape->material;
+    const fe__asset *a = fe__store_asset(store, shape->form.field);
+    return a->material_count ? a->materials + a->field.cells[cell] : &shape->material;
+}
 
 #endif

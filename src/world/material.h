@@ -6,9 +6,7 @@
 // `cell`: of its heightfield, -1: none in particular
 static inline const fe_material *fe__shape_material(const fe_world *world, const fe__shape *shape, int32_t cell)
 {
-    if (!fe__form_is_field(&shape->form) || cell < 0) return &shape->material;
-    const fe__asset *a = fe__store_asset(world->store, shape->form.field);
-    return a->material_count ? a->materials + a->field.cells[cell] : &shape->material;
+    return fe__material_of_shape(world->store, shape, cell);
 }
 
 // Of a pair, under its points: of shape A (0) or B (1)
