@@ -54,7 +54,7 @@ static double visit(void *context, int32_t index, double limit)
     return fe__maxd(n.distance, 0.0);
 }
 
-static int32_t tell(const search *s, fe_closest *out_closest)
+static int32_t report(const search *s, fe_closest *out_closest)
 {
     if (s->shape < 0) return 0;
     *out_closest = closest_of(s->scene, s->shape, &s->found);
@@ -68,7 +68,7 @@ int32_t fe__closest(const fe__scene *scene, fe_dvec3 point, double most, fe_clos
     for (int32_t i = 0; i < scene->plane_count; ++i) limit = visit(&s, scene->planes[i], limit);
     limit = fe__tree_nearest(scene->static_tree, point, limit, visit, &s);
     (void)fe__tree_nearest(scene->moving_tree, point, limit, visit, &s);
-    return tell(&s, out_closest);
+    return report(&s, out_closest);
 }
 
 int32_t fe__closest_on_shapes(const fe__scene *scene, fe_dvec3 point, int32_t first, int32_t end, fe_closest *out_closest)
@@ -76,5 +76,5 @@ int32_t fe__closest_on_shapes(const fe__scene *scene, fe_dvec3 point, int32_t fi
     search s = {.scene = scene, .point = point, .shape = -1};
     double limit = (double)INFINITY;
     for (int32_t i = first; i != end; i = scene->shapes[i].next) limit = visit(&s, i, limit);
-    return tell(&s, out_closest);
+    return report(&s, out_closest);
 }

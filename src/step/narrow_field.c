@@ -78,7 +78,7 @@ static float deepest_of(const look *l)
 }
 
 // ---- ahead of time --------------------------------------------------------------------------------------------------------------------
-// As narrow.c, but a surface has no inside that would tell of a crossing: from far off the pair is followed by steps in which it cannot
+// As narrow.c, but a surface has no inside that would show a crossing: from far off the pair is followed by steps in which it cannot
 // close its gap (conservative advancement; Mirtich, 1996). 1: it touches within the step, at the poses looked at.
 static int32_t look_ahead(const pair_view *p, const look *now, look *then)
 {

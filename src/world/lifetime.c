@@ -109,7 +109,7 @@ static void free_records(fe_world *world)
     fe__clusters_free(&world->clusters, memory);
     FE_FREE(memory, world->awake_bodies, world->awake_body_capacity);
     FE_FREE(memory, world->awake_pairs, world->awake_pair_capacity);
-    FE_FREE(memory, world->waits, world->wait_capacity);
+    FE_FREE(memory, world->deferrals, world->deferral_capacity);
     fe__joints_free(world);
 }
 
@@ -127,7 +127,7 @@ static void free_events(fe_world *world)
     fe__memory *memory = &world->memory;
     FE_FREE(memory, world->pair_events, world->pair_event_capacity);
     FE_FREE(memory, world->body_events, world->body_event_capacity);
-    FE_FREE(memory, world->stirred, world->stirred_capacity);
+    FE_FREE(memory, world->disturbed, world->disturbed_capacity);
     FE_FREE(memory, world->hit_events, world->hit_event_capacity);
 }
 

@@ -7,7 +7,7 @@
 #define FAT_MOST 0.05  // m
 // It also reaches where the body will be after so many steps at its velocity: what it meets in the next step must have a pair before.
 #define STEPS_AHEAD 2.0f
-#define FIRST_DT (1.0f / 60.0f) // s, before the first step has told
+#define FIRST_DT (1.0f / 60.0f) // s, before the first step
 
 // ---- bounds ---------------------------------------------------------------------------------------------------------------------
 
@@ -26,9 +26,9 @@ static fe__bounds swept(const fe_world *world, int32_t index, fe__bounds b, floa
 {
     const fe__body *body = &world->bodies[world->shapes[index].body];
     double dt = (double)(steps * (world->last_dt > 0.0f ? world->last_dt : FIRST_DT));
-    fe_dvec3 way = fe__dscale(dt, fe__widen(fe__vec3(body->velocity[0], body->velocity[1], body->velocity[2])));
-    b.low = fe__dadd(b.low, (fe_dvec3){fe__mind(way.x, 0.0), fe__mind(way.y, 0.0), fe__mind(way.z, 0.0)});
-    b.high = fe__dadd(b.high, (fe_dvec3){fe__maxd(way.x, 0.0), fe__maxd(way.y, 0.0), fe__maxd(way.z, 0.0)});
+    fe_dvec3 travel = fe__dscale(dt, fe__widen(fe__vec3(body->velocity[0], body->velocity[1], body->velocity[2])));
+    b.low = fe__dadd(b.low, (fe_dvec3){fe__mind(travel.x, 0.0), fe__mind(travel.y, 0.0), fe__mind(travel.z, 0.0)});
+    b.high = fe__dadd(b.high, (fe_dvec3){fe__maxd(travel.x, 0.0), fe__maxd(travel.y, 0.0), fe__maxd(travel.z, 0.0)});
     return b;
 }
 

@@ -18,7 +18,7 @@
 #include "world/event_record.h"
 #include "world/joint_record.h"
 #include "world/pair.h"
-#include "world/wait.h"
+#include "world/deferral.h"
 #include "collision/form/heightfield.h"
 #include "collision/form/shape.h"
 #include "collision/manifold/patch.h"
@@ -97,9 +97,9 @@ struct fe_world {
     // who is awake: dense lists of indices, in no order that matters
     int32_t *awake_bodies;
     int32_t awake_body_count, awake_body_capacity;
-    int32_t *awake_pairs; // or ~pair, see wait.h
-    fe__wait *waits;      // beside it
-    int32_t awake_pair_count, awake_pair_capacity, wait_capacity;
+    int32_t *awake_pairs;    // or ~pair, see deferral.h
+    fe__deferral *deferrals; // beside it
+    int32_t awake_pair_count, awake_pair_capacity, deferral_capacity;
     int32_t *awake_joints;
     int32_t awake_joint_count, awake_joint_capacity;
 
@@ -118,8 +118,8 @@ struct fe_world {
     int32_t first_owed, owed_count; // records of ended pairs that owe an exit, linked as free ones are; 0: none
     fe__body_event_record *body_events;
     int32_t body_event_count, body_event_capacity;
-    int32_t *stirred; // bodies that woke or fell asleep since the last step's events, each once
-    int32_t stirred_count, stirred_capacity;
+    int32_t *disturbed; // bodies that woke or fell asleep since the last step's events, each once
+    int32_t disturbed_count, disturbed_capacity;
     fe__hit_event_record *hit_events;
     int32_t hit_event_count, hit_event_capacity;
     fe__joint_event_record *joint_events;
