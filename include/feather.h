@@ -176,7 +176,7 @@ FE_API fe_result fe_pool_destroy(fe_pool *pool);
 // else.
 
 /// The host's allocator. A world calls it from the thread that uses the world, never from workers. A store calls its
-/// own from any thread, one call at a time.
+/// own from any thread, one call at a time. A world and its own store share one, and take turns.
 typedef struct fe_allocator {
     uint32_t struct_size;
     uint32_t reserved;
@@ -198,7 +198,8 @@ FE_API void fe_store_def_init(fe_store_def *def, uint32_t struct_size);
 /// @param def  NULL: the defaults
 FE_API fe_result fe_store_create(const fe_store_def *def, fe_store **out_store);
 /// Frees the store and all its assets.
-/// @return FE_ERROR_STATE while a world uses the store, or for a world's own store
+/// @return FE_ERROR_STATE while a world uses the store, or for a world's own store; FE_ERROR_STALE for a store that is
+///         gone already
 FE_API fe_result fe_store_destroy(fe_store *store);
 /// Memory of the store and its assets.
 FE_API fe_result fe_store_get_bytes(const fe_store *store, int64_t *out_bytes);
@@ -320,7 +321,8 @@ FE_API void fe_world_def_init(fe_world_def *def, uint32_t struct_size);
 /// Worlds with different numbers refuse each other's handles. Those with the same number accept them: give the same
 /// number to worlds of one history whose handles must agree.
 /// @param def  NULL: the defaults
-/// @return FE_ERROR_UNSUPPORTED when this CPU lacks the SIMD set; FE_ERROR_STALE for a pool or a store that is gone
+/// @return FE_ERROR_UNSUPPORTED when this CPU lacks the SIMD set; FE_ERROR_STALE for a pool or a store that is gone;
+///         FE_ERROR_ARGUMENT for another world's own store
 FE_API fe_result fe_world_create(const fe_world_def *def, fe_world **out_world);
 /// Destroys the world and all in it. The pointer is dead afterwards.
 /// @return FE_ERROR_BUSY while another thread is inside a call with this world

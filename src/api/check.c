@@ -38,8 +38,9 @@ static fe_result find(const char *function, const char *name, const fe__id_pool 
         return fe__fail(function, result, "%s 0x%llx is a %s, not a %s", name, handle, kind_names[fe__id_kind_of(handle)], kind);
     }
     if (fe__id_kind_of(handle) != 0 && fe__id_number_of(handle) != pool->number) {
-        return fe__fail(function, result, "%s 0x%llx is a %s of world %" PRId32 ", this is world %" PRId32, name, handle, kind,
-                        fe__id_number_of(handle), pool->number);
+        const char *home = pool->kind == FE_KIND_ASSET ? "store" : "world";
+        return fe__fail(function, result, "%s 0x%llx is a %s of %s %" PRId32 ", this is %s %" PRId32, name, handle, kind, home,
+                        fe__id_number_of(handle), home, pool->number);
     }
     int32_t slot = fe__id_slot_of(handle), now = fe__id_pool_generation(pool, slot), then = fe__id_generation_of(handle);
     if (fe__id_kind_of(handle) != 0 && then > 0 && then < now) {
@@ -69,10 +70,10 @@ fe_result fe__find_joint(const char *function, const char *name, const fe_world 
     return FE_OK;
 }
 
-fe_result fe__find_asset(const char *function, const char *name, const fe_world *world, fe_asset handle, int32_t *out_index)
+fe_result fe__find_asset(const char *function, const char *name, const fe_store *store, fe_asset handle, int32_t *out_index)
 {
-    FE_TRY(find(function, name, &world->asset_ids, handle, out_index));
-    if (!world->assets[*out_index].destroyed) return FE_OK;
+    FE_TRY(find(function, name, &store->ids, handle, out_index));
+    if (!fe__store_asset(store, *out_index)->destroyed) return FE_OK;
     return fe__fail(function, FE_ERROR_STALE, "asset 0x%llx was destroyed; it lives on for its shapes only", handle);
 }
 
@@ -288,5 +289,14 @@ fe_result fe__check_material(const char *function, const fe_material *material)
     FE_CHECK_INT(material->friction_combine, FE_COMBINE_DEFAULT, FE_COMBINE_MAXIMUM);
     FE_CHECK_INT(material->restitution_combine, FE_COMBINE_DEFAULT, FE_COMBINE_MAXIMUM);
     FE_CHECK_RESERVED(material->reserved);
+    return FE_OK;
+}
+
+fe_result fe__read_allocator(const char *function, const fe_allocator *allocator, fe_allocator *copy)
+{
+    FE_READ_STRUCT(allocator, copy);
+    FE_CHECK_POINTER(copy->allocate);
+    FE_CHECK_POINTER(copy->release);
+    FE_CHECK_INT(copy->reserved, 0, 0);
     return FE_OK;
 }

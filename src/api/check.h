@@ -66,9 +66,6 @@ enum { FE_MAX_SUBSTEPS = 64 };
 #define FE_FIND_JOINT(index, handle) \
     int32_t index;                   \
     FE_TRY(fe__find_joint(function, #handle, world, handle, &index))
-#define FE_FIND_ASSET(index, handle) \
-    int32_t index;                   \
-    FE_TRY(fe__find_asset(function, #handle, world, handle, &index))
 #define FE_CHECK_POINTER(pointer) \
     if (!(pointer)) FE_TRY(fe__check_pointer(function, #pointer, 0))
 #define FE_CHECK_FLOAT(value, low, high) FE_TRY(fe__check_number(function, #value, "", (double)(value), (double)(low), (double)(high)))
@@ -108,7 +105,7 @@ fe_result fe__refuse(const char *function, const fe_world *world);
 fe_result fe__find_body(const char *function, const char *name, const fe_world *world, fe_body handle, int32_t *out_index);
 fe_result fe__find_shape(const char *function, const char *name, const fe_world *world, fe_shape handle, int32_t *out_index);
 fe_result fe__find_joint(const char *function, const char *name, const fe_world *world, fe_joint handle, int32_t *out_index);
-fe_result fe__find_asset(const char *function, const char *name, const fe_world *world, fe_asset handle, int32_t *out_index);
+fe_result fe__find_asset(const char *function, const char *name, const fe_store *store, fe_asset handle, int32_t *out_index); // locked
 fe_result fe__check_pointer(const char *function, const char *name, int32_t there);
 fe_result fe__check_number(const char *function, const char *name, const char *part, double value, double low, double high);
 fe_result fe__check_int(const char *function, const char *name, int64_t value, int64_t low, int64_t high);
@@ -124,6 +121,7 @@ fe_result fe__check_stride(const char *function, const char *name, uint32_t *str
 fe_result fe__check_reserved(const char *function, const void *words, int32_t count); // 32 bits each
 static inline fe_material fe__default_material(void) { return (fe_material){.static_friction = 0.6f, .dynamic_friction = 0.5f}; }
 fe_result fe__check_material(const char *function, const fe_material *material);
+fe_result fe__read_allocator(const char *function, const fe_allocator *allocator, fe_allocator *copy);
 fe_result fe__check_struct_size(const char *function, const char *name, const void *given, const fe__fields *fields);
 fe_result fe__read_struct(const char *function, const char *name, const void *given, void *copy, const fe__fields *fields);
 

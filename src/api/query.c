@@ -64,7 +64,7 @@ fe_result fe__read_moving_form(const char *function, const fe_geometry *geometry
 fe__scene fe__scene_of(const fe_world *world, const fe_query_filter *whole_filter)
 {
     return (fe__scene){.shapes = world->shapes,
-                       .fields = world->fields,
+                       .store = world->store,
                        .static_tree = &world->static_tree,
                        .moving_tree = &world->moving_tree,
                        .planes = world->planes,

@@ -46,12 +46,26 @@ static fe_result read_plane(const char *function, const fe_geometry *geometry, f
 
 static fe_result read_heightfield(const char *function, const fe_world *world, const fe_geometry *geometry, fe__form *out_form)
 {
-    FE_FIND_ASSET(index, geometry->asset);
-    *out_form = fe__heightfield_form(world->fields + index, index);
-    return FE_OK;
+    int32_t index;
+    fe__store_lock(world->store);
+    fe_result result = fe__find_asset(function, "geometry->asset", world->store, geometry->asset, &index);
+    if (result == FE_OK) {
+        fe__asset_retain(world->store, index);
+        *out_form = fe__heightfield_form(fe__store_field(world->store, index), index);
+    }
+    fe__store_unlock(world->store);
+    return result;
 }
 
-// What a form does not use stays 0 (see form.h).
+static void let_go_of_asset(const fe_world *world, const fe__form *form)
+{
+    if (!fe__form_has_asset(form)) return;
+    fe__store_lock(world->store);
+    fe__asset_release(world->store, form->field);
+    fe__store_unlock(world->store);
+}
+
+// What a form does not use stays 0 (see form.h). On FE_OK its asset is kept alive until let_go_of_asset: another thread may destroy it.
 static fe_result read_geometry(const char *function, const fe_world *world, const fe_geometry *geometry, fe__form *out_form)
 {
     fe_geometry whole = {.struct_size = sizeof whole};
@@ -141,6 +155,19 @@ static fe_result read_shape_def(const char *function, const fe_shape_def *def, f
     return FE_OK;
 }
 
+static fe_result create_shape(const char *function, fe_world *world, int32_t body, const fe_shape_def *def, const fe__form *form,
+                              fe_shape *out_shape)
+{
+    FE_TRY(check_owner(function, world, body, form));
+    FE_TRY(check_one_way(function, form, (uint32_t)def->one_way));
+    fe__fp_state fp = fe__fp_enter();
+    int32_t shape = fe__shape_create(world, body, def, form);
+    fe__fp_leave(fp);
+    if (shape < 0) return fe__report(function, (fe_result)shape);
+    *out_shape = fe__shape_handle(world, shape);
+    return FE_OK;
+}
+
 fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *def, const fe_geometry *geometry, fe_shape *out_shape)
 {
     if (out_shape) *out_shape = 0;
@@ -151,14 +178,9 @@ fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *def
     FE_TRY(read_shape_def(function, def, &full));
     fe__form form;
     FE_TRY(read_geometry(function, world, geometry, &form));
-    FE_TRY(check_owner(function, world, index, &form));
-    FE_TRY(check_one_way(function, &form, (uint32_t)full.one_way));
-    fe__fp_state fp = fe__fp_enter();
-    int32_t shape = fe__shape_create(world, index, &full, &form);
-    fe__fp_leave(fp);
-    if (shape < 0) return fe__report(function, (fe_result)shape);
-    *out_shape = fe__shape_handle(world, shape);
-    return FE_OK;
+    fe_result result = create_shape(function, world, index, &full, &form, out_shape);
+    let_go_of_asset(world, &form);
+    return result;
 }
 
 fe_result fe_shape_destroy(fe_world *world, fe_shape shape)
@@ -189,18 +211,25 @@ fe_result fe_shape_get_body(const fe_world *world, fe_shape shape, fe_body *out_
 
 // ---- form -----------------------------------------------------------------------------------------------------------------------
 
+static fe_result set_form(const char *function, fe_world *world, int32_t shape, const fe__form *form)
+{
+    FE_TRY(check_owner(function, world, world->shapes[shape].body, form));
+    FE_TRY(check_one_way(function, form, world->shapes[shape].flags & FE__SHAPE_ONE_WAY));
+    fe__fp_state fp = fe__fp_enter();
+    fe_result result = fe__shape_set_form(world, shape, form);
+    fe__fp_leave(fp);
+    return fe__report(function, result);
+}
+
 fe_result fe_shape_set_geometry(fe_world *world, fe_shape shape, const fe_geometry *geometry)
 {
     FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     fe__form form;
     FE_TRY(read_geometry(function, world, geometry, &form));
-    FE_TRY(check_owner(function, world, world->shapes[index].body, &form));
-    FE_TRY(check_one_way(function, &form, world->shapes[index].flags & FE__SHAPE_ONE_WAY));
-    fe__fp_state fp = fe__fp_enter();
-    fe_result result = fe__shape_set_form(world, index, &form);
-    fe__fp_leave(fp);
-    return fe__report(function, result);
+    fe_result result = set_form(function, world, index, &form);
+    let_go_of_asset(world, &form);
+    return result;
 }
 
 fe_result fe_shape_get_geometry(const fe_world *world, fe_shape shape, fe_geometry *out_geometry)

@@ -22,15 +22,6 @@ void fe_world_def_init(fe_world_def *def, uint32_t struct_size)
     fe__init_struct(def, &defaults, sizeof defaults, struct_size);
 }
 
-static fe_result read_allocator(const char *function, const fe_allocator *allocator, fe_allocator *copy)
-{
-    FE_READ_STRUCT(allocator, copy);
-    FE_CHECK_POINTER(copy->allocate);
-    FE_CHECK_POINTER(copy->release);
-    FE_CHECK_INT(copy->reserved, 0, 0);
-    return FE_OK;
-}
-
 static fe_result read_tasks(const char *function, const fe_task_system *tasks, fe_task_system *copy)
 {
     FE_READ_STRUCT(tasks, copy);
@@ -58,7 +49,7 @@ static fe_result read_world_def(const char *function, const fe_world_def *def, w
     FE_CHECK_INT(full->simd, FE_SIMD_AUTO, FE_SIMD_NEON);
     FE_CHECK_INT(full->number, 0, FE_ID_LAST_NUMBER);
     if (full->allocator) {
-        FE_TRY(read_allocator(function, full->allocator, &whole->allocator));
+        FE_TRY(fe__read_allocator(function, full->allocator, &whole->allocator));
         full->allocator = &whole->allocator;
     }
     if (full->tasks) {
@@ -79,6 +70,11 @@ fe_result fe_world_create(const fe_world_def *def, fe_world **out_world)
     if (result == FE_ERROR_UNSUPPORTED) {
         return fe__fail(function, result, "simd is %d, a set that this CPU or this build does not have", (int)whole.def.simd);
     }
+    if (result == FE_ERROR_STALE) {
+        const char *gone = whole.def.pool && !fe__pool_lives(whole.def.pool) ? "pool" : "store";
+        return fe__fail(function, result, "%s was destroyed before the world was created", gone);
+    }
+    if (result == FE_ERROR_ARGUMENT) return fe__fail(function, result, "store is another world's own; give both one of fe_store_create");
     FE_TRY(fe__report(function, result));
     *out_world = world;
     return FE_OK;
@@ -348,6 +344,6 @@ fe_result fe_world_get_store(const fe_world *world, fe_store **out_store)
 {
     FE_READ(world);
     FE_CHECK_POINTER(out_store);
-    *out_store = (fe_store *)(uintptr_t)&world->store;
+    *out_store = world->store;
     return FE_OK;
 }

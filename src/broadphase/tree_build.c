@@ -9,7 +9,6 @@ enum {
     BINS = 8,          // 4 to 16 were measured: no difference above the noise
     HALVED_DEPTH = 16, // from here on parts are halved, so that whatever the boxes, the depth is bounded
     MAX_DEPTH = 30,    // deeper trees are built anew
-    FIRST_NODES = 16,
 };
 static const double worn_cost = 1.3;      // of the cost when built
 static const double far_origin = 1000.0;  // m: up to there a float is good to 0.1 mm
@@ -315,8 +314,10 @@ int32_t fe__tree_rebuild(fe__tree *tree, fe__memory *memory, int32_t force)
     part whole = part_of(b.items, 0, tree->proxy_count);
     // as many free nodes as before, for insertions that were promised not to fail
     int64_t free_nodes = (int64_t)tree->node_capacity - tree->node_count;
-    int32_t built = FE_RESERVE(memory, b.nodes, b.capacity, fe__maxi(FIRST_NODES, tree->node_count)) &&
-                    build_node(&b, &whole, -1, 0, 0) == 0 && FE_RESERVE(memory, b.nodes, b.capacity, b.count + free_nodes);
+    // as large as before: it must not grow from one build to the next
+    b.nodes = fe__allocate(memory, (size_t)tree->node_capacity * sizeof *b.nodes);
+    b.capacity = b.nodes ? tree->node_capacity : 0;
+    int32_t built = b.nodes && build_node(&b, &whole, -1, 0, 0) == 0 && FE_RESERVE(memory, b.nodes, b.capacity, b.count + free_nodes);
     fe__release(memory, b.items, size);
     if (!built) {
         FE_FREE(memory, b.nodes, b.capacity);

@@ -26,16 +26,16 @@ static double room_of(const fe__step *step, const fe__obstacle *o)
     return fe__ddot(o->normal, fe__dadd(m.translation, fe__dsub(turned, arm)));
 }
 
-// The part of a way that no obstacle forbids: projected on one after the other until all agree, or nearly
-static fe_dvec3 allowed(const slide *s, fe_dvec3 way)
+// The part of a displacement that no obstacle forbids: projected on one after the other until all agree, or nearly
+static fe_dvec3 allowed(const slide *s, fe_dvec3 shift)
 {
     for (int32_t sweep = 0; sweep < SLIDE_SWEEPS; ++sweep) {
         for (int32_t i = 0; i < s->count; ++i) {
-            double over = fe__ddot(s->normal[i], way) - s->room[i];
-            if (over > 0.0) way = fe__dsub(way, fe__dscale(over, s->normal[i]));
+            double over = fe__ddot(s->normal[i], shift) - s->room[i];
+            if (over > 0.0) shift = fe__dsub(shift, fe__dscale(over, s->normal[i]));
         }
     }
-    return way;
+    return shift;
 }
 
 // The part of a normal along which the body can move at all
@@ -117,7 +117,7 @@ void fe__chase_body(const fe__step *step, int32_t body, int32_t against, fe__cha
     }
 }
 
-// Its way is now the straight one.
+// Its motion path is now the straight one.
 void fe__apply_chase(fe_world *w, int32_t body, const fe__chase *chase)
 {
     if (!chase->stopped) return;

@@ -1,9 +1,9 @@
 // continuous.c - the stage between solver and finalize: bodies that outran their thickness end where something stood in the way.
 //
 // Most impacts are the solver's: contacts are found ahead of time (narrow.c). What it misses - a body that turned or was deflected within
-// the step, that has no contact where it came to - is found here, on the way that the body really took, and changes its motion in the
+// the step, that has no contact where it came to - is found here, on the body's motion path, and changes its motion in the
 // solver's lines: up to the touch, then along the surface. Velocities stay, so that the next step has a contact with the speed of the
-// impact: it bounces, slides and tells its events as any other. Only the work of gravity on the way not gone is given back.
+// impact: it bounces, slides and reports its events as any other. Only the work of gravity on the path not gone is given back.
 //
 // Against static and kinematic bodies each body is its own. Bullets come after, against where the dynamic bodies now go; all see the same.
 #include "continuous/continuous.h"

@@ -5,13 +5,13 @@
 #include "world/filter.h"
 #include "world/pose.h"
 
-// Share of its thickness by which a shape may dip into another on its way. What stays out of the other by more than three quarters of its
+// Share of its thickness by which a shape may dip into another as it moves. What stays out of the other by more than three quarters of its
 // half width is pushed out on the side it came from.
 #define DIP 0.25f
 // A search for impacts goes on so much beyond the first one found, as a share of it: of two at once the one created first counts.
 #define BEYOND 1e-9
 
-// A leg of a body, on the way through the trees
+// A leg of a body, as it is carried through the trees
 typedef struct search {
     const fe__step *step;
     int32_t body, against;
@@ -56,7 +56,7 @@ static void try_form(search *s, const fe__shape *own, const fe__shape *obstacle,
     note(s, &deep, &touch, obstacle, touch.normal);
 }
 
-// Does any leg of the way close the gap at its start? The plane across the shortest distance then separates them all the way.
+// Does any leg close the gap at its start? If not, the plane across the shortest distance separates them for the whole step.
 static int32_t may_close(const search *s, const fe__shape *own, const fe__mobile *other)
 {
     const fe__step *step = s->step;
@@ -92,11 +92,11 @@ static void try_obstacle(search *s, const fe__shape *own, const fe__shape *obsta
 static void try_field(search *s, const fe__shape *own, const fe__shape *obstacle, const fe__mobile *other)
 {
     const fe_world *w = s->step->world;
-    const fe__heightfield *field = w->fields + obstacle->form.field;
+    const fe__heightfield *field = fe__store_field(w->store, obstacle->form.field);
     fe__pose pose = fe__mobile_at(other, 0.0);
-    fe_dvec3 way = fe__dsub(s->motion.translation, other->motion.translation);
+    fe_dvec3 travel = fe__dsub(s->motion.translation, other->motion.translation);
     fe_dvec3 from = fe__drotate_back(pose.rotation, fe__dsub(s->motion.centre, pose.position));
-    fe_dvec3 to = fe__dadd(from, fe__drotate_back(pose.rotation, way));
+    fe_dvec3 to = fe__dadd(from, fe__drotate_back(pose.rotation, travel));
     double reach = (double)w->bodies[s->body].reach;
     fe_dvec3 low = {fe__mind(from.x, to.x) - reach, fe__mind(from.y, to.y) - reach, fe__mind(from.z, to.z) - reach};
     fe_dvec3 high = {fe__maxd(from.x, to.x) + reach, fe__maxd(from.y, to.y) + reach, fe__maxd(from.z, to.z) + reach};

@@ -21,7 +21,7 @@ int32_t fe__path_is_blocked(const fe__step *step, int32_t body, int32_t against)
 // The first on its motion from `from` to `to`, between two times of the step.
 fe__obstacle fe__first_obstacle(const fe__step *step, int32_t body, int32_t against, const fe__shift *from, const fe__shift *to,
                                 double begin, double end);
-// Do two shapes, neither a heightfield, touch on their bodies' ways?
+// Do two shapes, neither a heightfield, touch on their bodies' motion paths?
 int32_t fe__paths_cross(const fe__step *step, int32_t shape_a, int32_t shape_b);
 
 #endif

@@ -1,6 +1,7 @@
-// memory.h - one allocator per world, counted, and arrays that grow.
+// memory.h - one allocator per world or store, counted, and arrays that grow.
 //
-// Only the thread that uses the world allocates. Growing never loses: a failed fe__reserve leaves the array as it was. All blocks are
+// Only the thread that uses the world allocates, or who holds the store's lock. A world and its own store share the host's allocator: a
+// guard lets one call at a time in. Growing never loses: a failed fe__reserve leaves the array as it was. All blocks are
 // aligned to 64 bytes and new memory is zeroed, so that padding lanes and spare fields hold zeros.
 #ifndef FE_CORE_MEMORY_H
 #define FE_CORE_MEMORY_H
@@ -11,8 +12,9 @@
 
 typedef struct fe__memory {
     fe_allocator allocator;
-    int64_t bytes;       // now
-    int64_t allocations; // ever
+    struct fe__mutex *guard; // held around each call of the allocator; NULL: not needed
+    int64_t bytes;          // now
+    int64_t allocations;    // ever
 } fe__memory;
 
 // Asks memory for a record ahead of its use. Always inlined, as must be whoever does only this: gcc takes a call without any effect that

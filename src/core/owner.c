@@ -1,12 +1,9 @@
 // owner.c - the slots of the threads that read. See owner.h.
 #include "core/owner.h"
 
-#include <stdlib.h>
+#include "core/mutex.h"
 
-#if !defined(__wasm__) || defined(_REENTRANT)
-#include <pthread.h>
-#define FE_HAS_THREADS 1
-#endif
+#include <stdlib.h>
 
 // Slots are made once and never freed while the library is loaded: who looks at all of them needs no lock. A thread that ends gives its
 // slot to the next one.
@@ -46,7 +43,7 @@ static fe__reader *make(void)
     return r;
 }
 
-#ifdef FE_HAS_THREADS
+#if FE_HAS_THREADS
 // A thread's end returns its slot. The key goes with the library: no thread that outlives it calls into memory that is gone.
 static pthread_key_t at_exit;
 static int has_key;

@@ -13,16 +13,13 @@
 #include "core/clock.h"
 #include "core/fp_state.h"
 #include "core/memory.h"
+#include "core/registry.h"
 
 #include <sched.h>
 #include <unistd.h>
 
-#if !defined(__wasm__) || defined(_REENTRANT)
-#include <pthread.h>
+#if FE_HAS_THREADS
 #include <signal.h>
-#define HAS_THREADS 1
-#else
-#define HAS_THREADS 0
 #endif
 #if defined(__linux__)
 #include <linux/futex.h>
@@ -66,8 +63,8 @@ struct fe_pool {
     int32_t thread_count; // worker_count - 1, or 0 where there are no threads
     int32_t started;      // of these; fewer only while the pool is created
     _Atomic int32_t core_count;
-    _Atomic int32_t users;
-#if HAS_THREADS
+    fe__entry entry; // in the registry, which counts the worlds
+#if FE_HAS_THREADS
     pthread_t threads[FE_MAX_WORKERS - 1];
     pthread_mutex_t mutex; // where there is no futex
     pthread_cond_t changed;
@@ -75,6 +72,7 @@ struct fe_pool {
 };
 
 static _Thread_local int inside_task;
+static fe__registry pools = {FE_MUTEX_INITIAL, NULL};
 
 // ---- pausing, yielding, sleeping --------------------------------------------------------------------------------------------
 
@@ -95,7 +93,7 @@ static void sleep_while(fe_pool *pool, _Atomic uint32_t *word, uint32_t value)
 #if defined(__linux__)
     (void)pool;
     syscall(SYS_futex, word, FUTEX_WAIT_PRIVATE, value, NULL, NULL, 0);
-#elif HAS_THREADS
+#elif FE_HAS_THREADS
     pthread_mutex_lock(&pool->mutex);
     if (atomic_load(word) == value) pthread_cond_wait(&pool->changed, &pool->mutex);
     pthread_mutex_unlock(&pool->mutex);
@@ -110,7 +108,7 @@ static void wake(fe_pool *pool, _Atomic uint32_t *word, int32_t count)
 #if defined(__linux__)
     (void)pool;
     syscall(SYS_futex, word, FUTEX_WAKE_PRIVATE, count, NULL, NULL, 0);
-#elif HAS_THREADS
+#elif FE_HAS_THREADS
     (void)word, (void)count; // one condition for all words: who was not meant sleeps on
     pthread_mutex_lock(&pool->mutex);
     pthread_cond_broadcast(&pool->changed);
@@ -220,7 +218,7 @@ static void call_helpers(fe_pool *pool, int32_t tasks)
 
 // ---- workers ----------------------------------------------------------------------------------------------------------------
 
-#if HAS_THREADS
+#if FE_HAS_THREADS
 static int has_news(fe_pool *pool) { return atomic_load(&pool->open) != 0 || atomic_load(&pool->stopping) != 0; }
 
 // Off the list of sleepers, unless somebody has called just now: that call is ours to take.
@@ -345,7 +343,7 @@ void fe__pool_end(fe_pool *pool)
 
 // ---- a pool's life ----------------------------------------------------------------------------------------------------------
 
-#if HAS_THREADS
+#if FE_HAS_THREADS
 static int32_t count_cores(void)
 {
 #if defined(__linux__)
@@ -406,22 +404,36 @@ fe_pool *fe__pool_create(int32_t worker_count)
     if (!pool) return NULL;
     pool->memory = memory;
     pool->worker_count = worker_count;
+    fe__registry_add(&pools, &pool->entry);
     if (start_threads(pool)) return pool;
     fe__pool_destroy(pool);
     return NULL;
 }
 
-void fe__pool_destroy(fe_pool *pool)
+static void free_pool(fe_pool *pool)
 {
     join_threads(pool);
     fe__memory memory = pool->memory;
     fe__release(&memory, pool, sizeof *pool);
 }
 
+void fe__pool_destroy(fe_pool *pool)
+{
+    fe__registry_remove(&pools, &pool->entry);
+    free_pool(pool);
+}
+
+fe_result fe__pool_try_destroy(fe_pool *pool, int32_t *out_users)
+{
+    fe_result result = fe__registry_withdraw(&pools, &pool->entry, out_users);
+    if (result == FE_OK) free_pool(pool);
+    return result;
+}
+
 int32_t fe__pool_worker_count(const fe_pool *pool) { return pool->worker_count; }
-void fe__pool_retain(fe_pool *pool) { atomic_fetch_add(&pool->users, 1); }
-void fe__pool_release(fe_pool *pool) { atomic_fetch_sub(&pool->users, 1); }
-int32_t fe__pool_users(const fe_pool *pool) { return atomic_load(&pool->users); }
+int32_t fe__pool_lives(const fe_pool *pool) { return fe__registry_has(&pools, &pool->entry); }
+fe_result fe__pool_retain(fe_pool *pool) { return fe__registry_retain(&pools, &pool->entry); }
+void fe__pool_release(fe_pool *pool) { fe__registry_release(&pools, &pool->entry); }
 void fe__pool_assume_cores(fe_pool *pool, int32_t core_count) { atomic_store(&pool->core_count, core_count); }
 
 // ---- what a world runs on ---------------------------------------------------------------------------------------------------

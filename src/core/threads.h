@@ -17,10 +17,12 @@ enum { FE_MAX_WORKERS = 64, FE_CACHE_LINE = 64 };
 // fe_pool is the pool; worlds count themselves in and out
 fe_pool *fe__pool_create(int32_t worker_count); // NULL when memory or threads are not to be had
 void fe__pool_destroy(fe_pool *pool);           // no world may use it
+// FE_OK: destroyed. FE_ERROR_STALE: it was gone; FE_ERROR_STATE: so many worlds use it.
+fe_result fe__pool_try_destroy(fe_pool *pool, int32_t *out_users);
+int32_t fe__pool_lives(const fe_pool *pool);
 int32_t fe__pool_worker_count(const fe_pool *pool);
-void fe__pool_retain(fe_pool *pool);
+fe_result fe__pool_retain(fe_pool *pool); // FE_ERROR_STALE: it is gone
 void fe__pool_release(fe_pool *pool);
-int32_t fe__pool_users(const fe_pool *pool);
 void fe__pool_run(fe_pool *pool, fe_task task, void *argument, int32_t count);
 // Around a step: more runs follow soon, so that idle workers spin for longer before they sleep. NULL is fine; pairs may nest and overlap.
 void fe__pool_begin(fe_pool *pool);

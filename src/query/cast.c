@@ -60,7 +60,8 @@ static inline int32_t meet_ray(const fe__scene *scene, const fe__probe *probe, c
         set(&origin, &turned);
         set(&way, &turned_way);
     }
-    if (fe__form_is_field(&shape->form)) return fe__heightfield_ray(scene->fields + shape->form.field, origin, way, limit, &f->hit);
+    if (fe__form_is_field(&shape->form))
+        return fe__heightfield_ray(fe__store_field(scene->store, shape->form.field), origin, way, limit, &f->hit);
     return fe__form_ray_at(&shape->form, &origin, &way, limit, &f->hit);
 }
 
@@ -79,7 +80,7 @@ static int32_t meet_form(const fe__scene *scene, const fe__probe *probe, const f
     fe__mover mover = mover_of(probe, shape, &m);
     fe__sweep_hit hit;
     int32_t is_field = fe__form_is_field(&shape->form);
-    int32_t met = is_field ? fe__heightfield_sweep(scene->fields + shape->form.field, &mover, limit, &hit)
+    int32_t met = is_field ? fe__heightfield_sweep(fe__store_field(scene->store, shape->form.field), &mover, limit, &hit)
                            : fe__form_sweep(&shape->form, &mover, limit, &hit);
     if (!met) return 0;
     *f = (found){{hit.t, hit.normal, hit.depth, hit.inside, hit.triangle}, hit.point};
@@ -96,7 +97,7 @@ int32_t fe__probe_overlaps(const fe__scene *scene, const fe__probe *probe, const
     }
     fe__axes m = fe__axes_of(shape->pose.rotation);
     fe__mover mover = mover_of(probe, shape, &m);
-    if (fe__form_is_field(&shape->form)) return fe__heightfield_overlap(scene->fields + shape->form.field, &mover);
+    if (fe__form_is_field(&shape->form)) return fe__heightfield_overlap(fe__store_field(scene->store, shape->form.field), &mover);
     return fe__form_overlap(&shape->form, &mover);
 }
 
@@ -105,7 +106,7 @@ static int32_t meet(const fe__scene *scene, const fe__probe *probe, const fe__sh
     return is_ray(probe) ? meet_ray(scene, probe, shape, limit, f) : meet_form(scene, probe, shape, limit, f);
 }
 
-// ---- telling --------------------------------------------------------------------------------------------------------------------
+// ---- reports --------------------------------------------------------------------------------------------------------------------
 // As a float a grazing normal may lean along the way by a rounding: it is turned back until it does not.
 static fe_vec3 against_way(fe_dvec3 normal, fe_dvec3 way)
 {
@@ -121,7 +122,7 @@ static fe_vec3 against_way(fe_dvec3 normal, fe_dvec3 way)
     return n;
 }
 
-static void tell(const fe__scene *scene, const fe__probe *probe, int32_t index, const found *f, fe_hit *out)
+static void report(const fe__scene *scene, const fe__probe *probe, int32_t index, const found *f, fe_hit *out)
 {
     const fe__shape *shape = &scene->shapes[index];
     const fe__ray_hit *hit = &f->hit;
@@ -151,7 +152,7 @@ int32_t fe__cast_inside(const fe__scene *scene, const fe__probe *probe, int32_t 
 {
     found f;
     if (!meet(scene, probe, &scene->shapes[shape], 0.0, &f) || !f.hit.inside) return 0;
-    tell(scene, probe, shape, &f, out_hit);
+    report(scene, probe, shape, &f, out_hit);
     return 1;
 }
 
@@ -194,10 +195,10 @@ static void walk(const fe__scene *scene, const fe__probe *probe, double limit, f
     (void)fe__tree_sweep(trees, 2, &probe->way, limit, visit, context);
 }
 
-static int32_t tell_nearest(const cast *c, fe_hit *out_hit)
+static int32_t report_nearest(const cast *c, fe_hit *out_hit)
 {
     if (c->shape < 0) return 0;
-    tell(c->scene, c->probe, c->shape, &c->found[c->which], out_hit);
+    report(c->scene, c->probe, c->shape, &c->found[c->which], out_hit);
     return 1;
 }
 
@@ -206,7 +207,7 @@ int32_t fe__cast_closest(const fe__scene *scene, const fe__probe *probe, fe_hit 
     cast c; // `found` means something once `shape` does
     c.scene = scene, c.probe = probe, c.body = FE_ANY_BODY, c.shape = -1, c.which = 0;
     walk(scene, probe, 1.0, visit_nearest, &c);
-    return tell_nearest(&c, out_hit);
+    return report_nearest(&c, out_hit);
 }
 
 int32_t fe__cast_shapes(const fe__scene *scene, const fe__probe *probe, int32_t first, int32_t end, fe_hit *out_hit)
@@ -214,7 +215,7 @@ int32_t fe__cast_shapes(const fe__scene *scene, const fe__probe *probe, int32_t 
     cast c = {.scene = scene, .probe = probe, .body = FE_ANY_BODY, .shape = -1};
     double limit = 1.0;
     for (int32_t i = first; i != end; i = scene->shapes[i].next) limit = visit_nearest(&c, i, limit);
-    return tell_nearest(&c, out_hit);
+    return report_nearest(&c, out_hit);
 }
 
 // ---- any ------------------------------------------------------------------------------------------------------------------------
@@ -241,7 +242,7 @@ typedef struct collection {
     fe__keep keep;
 } collection;
 
-// A body of several shapes is told once, by that of its hits that comes first: this one?
+// A body of several shapes is reported once, by that of its hits that comes first: this one?
 static int32_t is_first_of_body(const collection *c, int32_t index, const found *f)
 {
     const fe__shape *shape = &c->scene->shapes[index];
@@ -258,7 +259,7 @@ static double visit_all(void *context, int32_t index, double limit)
     found f;
     if (!fe__scene_counts(c->scene, shape) || !meet(c->scene, c->probe, shape, limit, &f) || !is_first_of_body(c, index, &f)) return limit;
     fe_hit hit;
-    tell(c->scene, c->probe, index, &f, &hit);
+    report(c->scene, c->probe, index, &f, &hit);
     fe__keep_add(&c->keep, &hit);
     return limit;
 }

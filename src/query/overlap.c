@@ -43,7 +43,7 @@ static int32_t visit_first(void *context, int32_t index)
     return 1;
 }
 
-// A body of several shapes is told once, by the first of them that overlaps: this one?
+// A body of several shapes is reported once, by the first of them that overlaps: this one?
 static int32_t is_first_of_body(const search *s, int32_t index)
 {
     const fe__shape *shape = &s->scene->shapes[index];

@@ -8,10 +8,11 @@
 #include "collision/form/heightfield.h"
 #include "collision/form/shape.h"
 #include "core/id_pool.h"
+#include "store/store.h"
 
 typedef struct fe__scene {
     const fe__shape *shapes;
-    const fe__heightfield *fields; // of shapes that have one, by fe__form.field
+    const fe_store *store; // of the heightfields that shapes have
     const fe__tree *static_tree, *moving_tree;
     const int32_t *planes;
     int32_t plane_count;
@@ -47,7 +48,7 @@ static inline void fe__scene_weights(const fe__scene *scene, const fe__shape *sh
     out_weights[0] = out_weights[1] = 0.0f;
     if (triangle < 0) return;
     fe_dvec3 local = fe__drotate_back(shape->pose.rotation, fe__dsub(point, shape->pose.position));
-    fe__heightfield_weights(scene->fields + shape->form.field, triangle, local, out_weights);
+    fe__heightfield_weights(fe__store_field(scene->store, shape->form.field), triangle, local, out_weights);
 }
 
 // The order of all answers: by the body's creation, then by the shape's.

@@ -6,7 +6,7 @@
 #include "world/pairs.h"
 #include "world/pose.h"
 
-// What a body would go into something fixed before it touches the other, as a share of its thickness, up to which its way stays the same
+// What a body would go into something fixed before it touches the other, as a share of its thickness, up to which its motion stays the same
 #define SHALLOW 0.25
 
 static fe__mobile mobile_of(const fe_world *world, int32_t shape, float dt, fe_dvec3 base)

@@ -47,14 +47,14 @@ static int32_t judge(const fe_world *w, int32_t pair)
 }
 
 // A pair without points may move by `slack` before it is looked at again. One with a heightfield is asked for more than its gap
-static void note_wait(const fe__step *step, int32_t pair, float slack)
+static void defer(const fe__step *step, int32_t pair, float slack)
 {
     const fe_world *w = step->world;
     const fe__pair *p = w->pairs + pair;
-    if (p->flags & (FE__PAIR_PATCH | FE__PAIR_MAY_TELL) || p->next_patch >= 0) return;
-    fe__begin_to_wait(w->waits + p->awake_index, w->odometers, p->body_a, p->body_b, slack, w->contacts[pair].longest_arm);
+    if (p->flags & (FE__PAIR_PATCH | FE__PAIR_MAY_REPORT) || p->next_patch >= 0) return;
+    fe__defer(w->deferrals + p->awake_index, w->odometers, p->body_a, p->body_b, slack, w->contacts[pair].longest_arm);
     w->awake_pairs[p->awake_index] = ~pair;
-    atomic_store_explicit(&step->scratch->some_wait, 1, memory_order_relaxed);
+    atomic_store_explicit(&step->scratch->some_deferred, 1, memory_order_relaxed);
 }
 
 static void note_result(fe__step *step, int32_t pair)
@@ -62,7 +62,7 @@ static void note_result(fe__step *step, int32_t pair)
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     w->pairs[pair].result = judge(w, pair);
-    if (!(w->contacts[pair].point_count > 0.0f)) note_wait(step, pair, w->contacts[pair].surface.tolerance);
+    if (!(w->contacts[pair].point_count > 0.0f)) defer(step, pair, w->contacts[pair].surface.tolerance);
     if (w->pairs[pair].result != FE__RESULT_NONE) s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
 }
 
@@ -82,23 +82,23 @@ static void collide_chunk(fe__step *step, int32_t *entries, int32_t count)
 {
     fe_world *w = step->world;
     int32_t heads[PAIRS_IN_BLOCK], patches[PAIRS_IN_BLOCK * (FE__PATCHES - 1)], head_count = 0, patch_count = 0, again = 0;
-    uint8_t said[PAIRS_IN_BLOCK * (FE__PATCHES - 1)];
+    uint8_t verdicts[PAIRS_IN_BLOCK * (FE__PATCHES - 1)];
     float slack[PAIRS_IN_BLOCK * (FE__PATCHES - 1)];
     for (int32_t i = 0; i < count; ++i) {
         entries[i] = fe__pair_of(entries[i]); // here none waits
         if (!(w->pairs[entries[i]].flags & FE__PAIR_PATCH)) heads[head_count++] = entries[i];
     }
     if (head_count == 0) return;
-    w->kernels->recycle(w->contacts, w->bodies, heads, head_count, step->dt, said, slack);
+    w->kernels->recycle(w->contacts, w->bodies, heads, head_count, step->dt, verdicts, slack);
     for (int32_t i = 0; i < head_count; ++i) {
-        if (said[i] == FE__MOVED) {
+        if (verdicts[i] == FE__MOVED) {
             heads[again++] = heads[i];
             continue;
         }
         for (int32_t patch = w->pairs[heads[i]].next_patch; patch >= 0; patch = w->pairs[patch].next_patch)
             if (w->contacts[patch].point_count > 0.0f) patches[patch_count++] = patch;
     }
-    if (patch_count) w->kernels->recycle(w->contacts, w->bodies, patches, patch_count, step->dt, said, slack);
+    if (patch_count) w->kernels->recycle(w->contacts, w->bodies, patches, patch_count, step->dt, verdicts, slack);
     for (int32_t i = 0; i < again; ++i) collide_with_patches(step, heads[i]);
     atomic_fetch_add_explicit(&step->scratch->recycled, head_count - again, memory_order_relaxed);
 }
@@ -127,16 +127,16 @@ FE_FETCHES fetch_pair(const fe_world *w, int32_t pair)
 }
 
 // The next awake pairs that do not wait, PAIRS_IN_CACHE at most. Moves *at behind them
-static int32_t list_asked(fe__step *step, int32_t *at, int32_t end, int32_t *out_pairs)
+static int32_t list_due(fe__step *step, int32_t *at, int32_t end, int32_t *out_pairs)
 {
     const fe_world *w = step->world;
     int32_t i = *at, count = 0;
     for (; i < end && count < PAIRS_IN_CACHE; ++i) {
         int32_t entry = w->awake_pairs[i];
-        __builtin_prefetch(w->waits + fe__mini(i + FETCHED_AHEAD, end - 1));
+        __builtin_prefetch(w->deferrals + fe__mini(i + FETCHED_AHEAD, end - 1));
         out_pairs[count] = entry;
         if (entry < 0) {
-            if (fe__still_waits(w->waits + i, w->odometers, step->dt)) continue;
+            if (fe__stays_deferred(w->deferrals + i, w->odometers, step->dt)) continue;
             out_pairs[count] = w->awake_pairs[i] = ~entry;
         }
         ++count;
@@ -151,14 +151,14 @@ static int32_t collide_some(fe__step *step, const int32_t *pairs, int32_t count)
     enum { AHEAD = 2 };
     fe_world *w = step->world;
     int32_t again[PAIRS_IN_CACHE], left = 0;
-    uint8_t said[PAIRS_IN_CACHE];
+    uint8_t verdicts[PAIRS_IN_CACHE];
     float slack[PAIRS_IN_CACHE];
-    w->kernels->recycle(w->contacts, w->bodies, pairs, count, step->dt, said, slack);
+    w->kernels->recycle(w->contacts, w->bodies, pairs, count, step->dt, verdicts, slack);
     for (int32_t i = 0; i < count; ++i) {
         int32_t pair = pairs[i];
-        if (said[i] == FE__STAYS) continue;
-        if (said[i] == FE__STAYS_APART) {
-            note_wait(step, pair, slack[i]);
+        if (verdicts[i] == FE__STAYS) continue;
+        if (verdicts[i] == FE__STAYS_APART) {
+            defer(step, pair, slack[i]);
             continue;
         }
         again[left++] = pair;
@@ -177,13 +177,13 @@ static void collide_block(void *argument, int32_t first, int32_t end, int32_t wo
 {
     const collide_job *job = argument;
     const fe__step_scratch *s = job->step->scratch;
-    int32_t list[PAIRS_IN_CACHE], again = 0, some_wait = atomic_load_explicit(&s->some_wait, memory_order_relaxed);
+    int32_t list[PAIRS_IN_CACHE], again = 0, some_deferred = atomic_load_explicit(&s->some_deferred, memory_order_relaxed);
     (void)worker;
     for (int32_t i = job->first + first, stop = job->first + end; i < stop;) {
         const int32_t *pairs = job->step->world->awake_pairs + i;
         int32_t count = fe__mini(PAIRS_IN_CACHE, stop - i);
-        if (some_wait)
-            count = list_asked(job->step, &i, stop, list), pairs = list;
+        if (some_deferred)
+            count = list_due(job->step, &i, stop, list), pairs = list;
         else
             i += count;
         again += collide_some(job->step, pairs, count);
@@ -255,13 +255,13 @@ const int32_t *fe__busy_pairs(fe__step *step, int32_t *out_count)
     const fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     *out_count = w->awake_pair_count;
-    if (!atomic_load(&s->some_wait)) return w->awake_pairs;
+    if (!atomic_load(&s->some_deferred)) return w->awake_pairs;
     int32_t count = 0;
     for (int32_t i = 0; i < w->awake_pair_count; ++i) {
         s->busy[count] = w->awake_pairs[i];
         count += w->awake_pairs[i] >= 0;
     }
-    atomic_store(&s->some_wait, count < w->awake_pair_count);
+    atomic_store(&s->some_deferred, count < w->awake_pair_count);
     *out_count = count;
     return s->busy;
 }

@@ -49,7 +49,7 @@ static void place_origin(fe__body *body)
 
 static float length_of(const float *v) { return sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-// Slow is who was slow on the way, too: what is pushed out of another body moves, but has no velocity when the step ends.
+// Slow is what was slow within the step, too: what is pushed out of another body moves, but has no velocity when the step ends.
 static void tick_sleep_timer(fe_world *w, fe__body *body, const fe__motion_line *motion, float dt)
 {
     fe__body_note_speed(w, body);
@@ -94,7 +94,7 @@ static void forget_lost(fe_world *w)
     }
 }
 
-// Bodies and shapes stream from memory; where in the tree a shape is, only its slot tells
+// Bodies and shapes stream from memory; only its slot says where in the tree a shape is
 FE_FETCHES fetch_box(const fe_world *w, int32_t i)
 {
     if (i >= w->awake_body_count) return;
@@ -106,7 +106,7 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
 {
     fe__step *step = argument;
     fe_world *w = step->world;
-    int32_t some_wait = atomic_load_explicit(&step->scratch->some_wait, memory_order_relaxed);
+    int32_t some_deferred = atomic_load_explicit(&step->scratch->some_deferred, memory_order_relaxed);
     (void)worker;
     for (int32_t i = first; i < end; ++i) {
         enum { AHEAD = 4 };
@@ -125,7 +125,7 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
         int32_t moved = shift(body, motion->shift) | turn(body, motion->rotation);
         tick_sleep_timer(w, body, motion, step->dt);
         if (!moved) continue;
-        if (some_wait) fe__odometer_advance(w->odometers + w->awake_bodies[i], length_of(motion->shift), length_of(motion->rotation));
+        if (some_deferred) fe__odometer_advance(w->odometers + w->awake_bodies[i], length_of(motion->shift), length_of(motion->rotation));
         body->moved_step = w->step_number + 1;
         place_origin(body);
         follow_body(step, w->awake_bodies[i]);

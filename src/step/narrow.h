@@ -3,7 +3,7 @@
 #define FE_STEP_NARROW_H
 #include "step/view.h"
 
-// A gap on whose way the features of two shapes change little, m
+// While a gap of this closes, m, the features of two shapes change little
 #define FE__TURNS_LITTLE 0.005f
 
 static inline void fe__copy3(float *out, fe_vec3 a) { out[0] = a.x, out[1] = a.y, out[2] = a.z; }

@@ -40,7 +40,7 @@ static void find_neighbours(const fe_world *w, const look *l, const fe__pose *po
         if (terrain->neighbour_count == FE__NEIGHBOURS) return;
         fe_quat turn = fe__product(fe__conjugate(pose->rotation), field->pose.rotation);
         terrain->neighbours[terrain->neighbour_count++] =
-            (fe__neighbour){w->fields + field->form.field,
+            (fe__neighbour){fe__store_field(w->store, field->form.field),
                             fe__drotate_back(field->pose.rotation, fe__dsub(l->v.origin, field->pose.position)), fe__matrix(turn)};
     }
 }
@@ -51,7 +51,7 @@ static void look_at(const pair_view *p, const fe__pose *pose_field, const fe__po
     l->v = (fe__view){.a = p->field, .b = p->other, .origin = pose_other->position, .rotation = fe__matrix(pose_field->rotation)};
     l->v.form_a = p->field->form;
     fe__terrain terrain; // its neighbours mean something up to their count
-    terrain.field = w->fields + p->field->form.field, terrain.neighbour_count = 0;
+    terrain.field = fe__store_field(w->store, p->field->form.field), terrain.neighbour_count = 0;
     terrain.origin = fe__drotate_back(pose_field->rotation, fe__dsub(pose_other->position, pose_field->position));
     if (w->field_pair_count > 1) find_neighbours(w, l, pose_field, &terrain);
     fe__mat3 rotation = fe__matrix(fe__product(fe__conjugate(pose_field->rotation), pose_other->rotation));
@@ -78,7 +78,7 @@ static float deepest_of(const look *l)
 }
 
 // ---- ahead of time --------------------------------------------------------------------------------------------------------------------
-// As narrow.c, but a surface has no inside that would tell of a crossing: from far off the pair is followed by steps in which it cannot
+// As narrow.c, but a surface has no inside that would show a crossing: from far off the pair is followed by steps in which it cannot
 // close its gap (conservative advancement; Mirtich, 1996). 1: it touches within the step, at the poses looked at.
 static int32_t look_ahead(const pair_view *p, const look *now, look *then)
 {

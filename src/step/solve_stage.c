@@ -19,7 +19,7 @@ enum { MOST_DIVISION = 16, FINE_SWEEPS = 3 };
 // A net of joints that bears more than its substeps can pass on opens. From ten times the linear slop on it is stretched, and has substeps
 // as short as by default, until no joint is open by half as much.
 #define STRETCHED_RATE 480.0f
-#define OPEN 0.05f // m
+#define STRETCHED_GAP 0.05f // m
 
 static int32_t division_of(float h, float rate)
 {
@@ -71,7 +71,7 @@ static void constants_of_paces(const fe_world *w, float dt, fe__step_constants p
     int32_t division = division_of(whole, STRETCHED_RATE);
     fe__step_constants *usual = paces + FE__USUAL, *strained = paces + FE__STRAINED, *stretched = paces + FE__STRETCHED;
     *usual = fe__constants_of(w, dt, 1);
-    usual->open = division > 1 ? OPEN * OPEN : FLT_MAX;
+    usual->open = division > 1 ? STRETCHED_GAP * STRETCHED_GAP : FLT_MAX;
     *strained = fe__constants_of(w, dt, division_of(whole, FINE_RATE));
     strained->strain *= 0.25f;
     strained->forgets = FLT_MAX;

@@ -4,7 +4,7 @@
 // the centre of mass and derives the origin from it. Mass is in mass.c, velocities and forces in motion.c, shapes in shapes.c.
 #include "world/bodies.h"
 
-#include "world/assets.h"
+#include "world/asset_users.h"
 #include "world/joints.h"
 #include "world/mass.h"
 #include "world/pair_list.h"
@@ -16,20 +16,6 @@
 #include "world/speed.h"
 
 #include <string.h>
-
-fe_result fe__reserve_bodies(fe_world *world, int32_t extra)
-{
-    fe_result ids = fe__id_pool_reserve(&world->body_ids, &world->memory, extra);
-    if (ids != FE_OK) return ids;
-    int64_t opened = world->body_ids.slot_count, fresh = fe__maxi(0, extra - world->body_ids.free_count);
-    if (!FE_RESERVE(&world->memory, world->bodies, world->body_capacity, opened + fresh) ||
-        !FE_RESERVE(&world->memory, world->odometers, world->odometer_capacity, opened + fresh))
-        return FE_ERROR_MEMORY;
-    int64_t alive = (int64_t)world->body_count + extra;
-    int32_t room = FE_RESERVE(&world->memory, world->awake_bodies, world->awake_body_capacity, alive) &&
-                   FE_RESERVE(&world->memory, world->stirred, world->stirred_capacity, world->body_capacity);
-    return room ? FE_OK : FE_ERROR_MEMORY;
-}
 
 static void append_to_order(fe_world *world, int32_t index)
 {
@@ -175,7 +161,7 @@ fe_result fe__body_set_type(fe_world *world, int32_t index, int32_t type)
 {
     fe__body *body = &world->bodies[index];
     if (body->type == type) return FE_OK;
-    if (!fe__reserve_proxies(world, body->shape_count)) return FE_ERROR_MEMORY;
+    if (!fe__reserve_proxies(world, type, body->shape_count)) return FE_ERROR_MEMORY;
 
     part_from_neighbours(world, index);
     if (body->awake_index >= 0) fe__body_retire(world, index);
@@ -209,7 +195,7 @@ fe_result fe__body_set_enabled(fe_world *world, int32_t index, int32_t enabled)
         fe__body_link_joints(world, index); // none of them acts now
         return FE_OK;
     }
-    if (!fe__reserve_proxies(world, body->shape_count)) return FE_ERROR_MEMORY;
+    if (!fe__reserve_proxies(world, body->type, body->shape_count)) return FE_ERROR_MEMORY;
     body->flags |= FE__BODY_ENABLED;
     body->sleep_timer = 0.0f;
     enter_shapes(world, index);
@@ -223,7 +209,7 @@ void fe__body_set_transform(fe_world *world, int32_t index, const fe_transform *
     fe__body *body = &world->bodies[index];
     fe__body_disturb(world, index);
     set_pose(body, transform);
-    fe__body_end_waits(world, index);
+    fe__body_end_deferrals(world, index);
     fe__body_place(world, index);
     fe__body_wind_joints(world, index);
     for (int32_t shape = body->first_shape; shape >= 0; shape = world->shapes[shape].next) fe__shape_touch(world, shape);

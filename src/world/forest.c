@@ -61,10 +61,10 @@ static int32_t have_one_axle(const fe_world *w, int32_t joint, int32_t other)
     const axle second[2] = {axle_of(g->frame_a, j->arm_a), axle_of(g->frame_b, j->arm_b)};
     float along[2], same[2];
     for (int k = 0; k < 2; ++k) {
-        fe_vec3 way = fe__sub(second[k].at, first[k].at), across = fe__cross(first[k].axis, way);
+        fe_vec3 between = fe__sub(second[k].at, first[k].at), across = fe__cross(first[k].axis, between);
         fe_vec3 turn = fe__cross(first[k].axis, second[k].axis);
         if (fe__dot(across, across) > SAME_WAY * SAME_WAY || fe__dot(turn, turn) > SAME_TURN * SAME_TURN) return 0;
-        along[k] = fe__dot(first[k].axis, way), same[k] = fe__dot(first[k].axis, second[k].axis);
+        along[k] = fe__dot(first[k].axis, between), same[k] = fe__dot(first[k].axis, second[k].axis);
     }
     return same[0] * same[1] > 0.0f && fe__absf(along[1] - along[0]) < SAME_WAY;
 }

@@ -5,7 +5,7 @@
 #include "world/joints.h"
 
 #include "world/anchor.h"
-#include "world/bodies.h"
+#include "world/body_room.h"
 #include "world/forest.h"
 #include "world/handles.h"
 #include "world/joint_list.h"

@@ -44,7 +44,7 @@ static void set_local_centre(fe_world *world, fe__body *body, fe_vec3 centre)
 
     body->local_centre[0] = centre.x, body->local_centre[1] = centre.y, body->local_centre[2] = centre.z;
     fe__body_place_centre(body);
-    fe__body_end_waits(world, (int32_t)(body - world->bodies));
+    fe__body_end_deferrals(world, (int32_t)(body - world->bodies));
 }
 
 static void set_sizes(fe_world *world, fe__body *body)

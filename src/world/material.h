@@ -7,8 +7,8 @@
 static inline const fe_material *fe__shape_material(const fe_world *world, const fe__shape *shape, int32_t cell)
 {
     if (!fe__form_is_field(&shape->form) || cell < 0) return &shape->material;
-    const fe__asset *a = world->assets + shape->form.field;
-    return a->material_count ? a->materials + world->fields[shape->form.field].cells[cell] : &shape->material;
+    const fe__asset *a = fe__store_asset(world->store, shape->form.field);
+    return a->material_count ? a->materials + a->field.cells[cell] : &shape->material;
 }
 
 #endif

@@ -81,7 +81,7 @@ fe_vec3 fe__body_spin_change(const fe__body *body, fe_vec3 angular_impulse)
                      (float)(fe__ddot(a, fe__dcross(b, right)) / determinant)};
 }
 
-// The turn is to * from^-1 = (u sin(angle / 2), cos(angle / 2)); q and -q are the same turn, the one with cos >= 0 is the shorter way.
+// The rotation is to * from^-1 = (u sin(angle / 2), cos(angle / 2)); of q and -q, which are the same, the one with cos >= 0 is the shorter.
 fe_vec3 fe__spin_between(fe_quat from, fe_quat to, double seconds)
 {
     double fx = -(double)from.x, fy = -(double)from.y, fz = -(double)from.z, fw = (double)from.w;

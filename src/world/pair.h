@@ -17,7 +17,7 @@ enum {
 };
 
 // Only of these the contact must be seen for events: the others, most of a heap, have no points and owe no exit
-enum { FE__PAIR_MAY_TELL = FE__PAIR_LINKED | FE__PAIR_SENSOR | FE__PAIR_TOUCHING | FE__PAIR_CROSSED | FE__PAIR_ONCE };
+enum { FE__PAIR_MAY_REPORT = FE__PAIR_LINKED | FE__PAIR_SENSOR | FE__PAIR_TOUCHING | FE__PAIR_CROSSED | FE__PAIR_ONCE };
 
 // What the narrow phase says of a pair in this step, applied afterwards in a fixed order
 enum { FE__RESULT_NONE, FE__RESULT_BEGIN, FE__RESULT_END, FE__RESULT_APART };

@@ -19,7 +19,7 @@ int32_t fe__reserve_pairs(fe_world *world, int32_t extra)
            FE_RESERVE(memory, world->extras, world->extra_capacity, limit) &&
            FE_RESERVE(memory, world->pair_serials, world->serial_capacity, 2 * limit) &&
            FE_RESERVE(memory, world->awake_pairs, world->awake_pair_capacity, limit) &&
-           FE_RESERVE(memory, world->waits, world->wait_capacity, limit) && fe__pair_set_reserve(&world->pair_set, memory, extra);
+           FE_RESERVE(memory, world->deferrals, world->deferral_capacity, limit) && fe__pair_set_reserve(&world->pair_set, memory, extra);
 }
 
 static int32_t is_with_static(const fe_world *world, int32_t pair)

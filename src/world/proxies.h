@@ -11,7 +11,7 @@ fe__bounds fe__shape_reach_bounds(const fe_world *world, int32_t shape); // what
 fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t shape);   // as the trees hold them
 
 // Puts the shape into its tree or list, takes it out, has it look for pairs. Room was reserved by fe__reserve_proxies.
-int32_t fe__reserve_proxies(fe_world *world, int32_t extra); // 0: no memory
+int32_t fe__reserve_proxies(fe_world *world, int32_t body_type, int32_t extra); // 0: no memory
 void fe__shape_enter(fe_world *world, int32_t shape);
 void fe__shape_leave(fe_world *world, int32_t shape);
 void fe__shape_touch(fe_world *world, int32_t shape);       // its pose or form is new: a new box, new pairs

@@ -13,7 +13,7 @@ static void stir(fe_world *world, int32_t index)
 {
     if (world->bodies[index].flags & FE__BODY_DISTURBED) return;
     world->bodies[index].flags |= FE__BODY_DISTURBED;
-    world->stirred[world->stirred_count++] = index;
+    world->disturbed[world->disturbed_count++] = index;
 }
 
 void fe__body_awaken_alone(fe_world *world, int32_t index)

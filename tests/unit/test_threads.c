@@ -72,13 +72,20 @@ static void worlds_are_counted_in_and_out(void **state)
 {
     (void)state;
     fe_pool *pool = fe__pool_create(1);
-    assert_int_equal(fe__pool_users(pool), 0);
-    fe__pool_retain(pool), fe__pool_retain(pool);
-    assert_int_equal(fe__pool_users(pool), 2);
+    int32_t users = -1;
+    assert_int_equal(fe__pool_retain(pool), FE_OK);
+    assert_int_equal(fe__pool_retain(pool), FE_OK);
+    assert_int_equal(fe__pool_try_destroy(pool, &users), FE_ERROR_STATE);
+    assert_int_equal(users, 2);
     fe__pool_release(pool);
-    assert_int_equal(fe__pool_users(pool), 1);
+    assert_int_equal(fe__pool_try_destroy(pool, &users), FE_ERROR_STATE);
+    assert_int_equal(users, 1);
     fe__pool_release(pool);
-    fe__pool_destroy(pool);
+    assert_true(fe__pool_lives(pool));
+    assert_int_equal(fe__pool_try_destroy(pool, &users), FE_OK);
+    assert_false(fe__pool_lives(pool));
+    assert_int_equal(fe__pool_try_destroy(pool, &users), FE_ERROR_STALE);
+    assert_int_equal(fe__pool_retain(pool), FE_ERROR_STALE);
 }
 
 // ---- several callers --------------------------------------------------------------------------------------------------------

@@ -156,7 +156,7 @@ static int32_t sweep_plane(const fe__form *plane, const fe__mover *mover, double
 }
 
 // From the approach's frame to the standing form's.
-static void tell(const fe__form *still, const fe__mover *mover, int32_t swapped, const fe__approach_hit *h, fe__sweep_hit *hit)
+static void report(const fe__form *still, const fe__mover *mover, int32_t swapped, const fe__approach_hit *h, fe__sweep_hit *hit)
 {
     fe_dvec3 normal = h->normal, point = h->point;
     hit->t = h->t;
@@ -186,6 +186,6 @@ int32_t fe__form_sweep(const fe__form *still, const fe__mover *mover, double lim
     }
     fe__approach_hit h;
     if (!fe__approach_sweep(&s, limit, &h)) return 0;
-    tell(still, mover, swapped, &h, hit);
+    report(still, mover, swapped, &h, hit);
     return 1;
 }

@@ -39,7 +39,7 @@ typedef struct fe__form {
         };
         fe_vec3 vertex[3];
         struct {
-            int32_t field; // of the world's heightfields
+            int32_t field; // its asset in the store
             fe_vec3 low, high;
         };
     };

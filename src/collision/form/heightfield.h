@@ -9,7 +9,7 @@
 //              | 0  \  |      both turn left around their upper side
 //   row + 1   p10 --- p11
 //
-// The world owns the records; narrow phase and queries read them, on any thread.
+// A store owns the records; narrow phase and queries read them, on any thread.
 #ifndef FE_COLLISION_FORM_HEIGHTFIELD_H
 #define FE_COLLISION_FORM_HEIGHTFIELD_H
 #include "collision/form/ray_hit.h"

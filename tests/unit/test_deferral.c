@@ -2,7 +2,7 @@
 // is looked at in the next step.
 #include "api/api_test.h"
 
-#include "world/wait.h"
+#include "world/deferral.h"
 
 #include <math.h>
 
@@ -52,14 +52,14 @@ static void what_waits_has_not_moved_too_far(void **state)
     for (int32_t i = 0; i < 2000; ++i) {
         float slack = 0.05f + 0.04f * any(), reach = 1.0f + any(), dt = 1.0f / 60.0f, most = 0.002f * (1.0f + any());
         place start[2] = {{{0.0, 0.0, 0.0}, fe__identity()}, {{3.0, 1.0, -2.0}, fe__identity()}}, now[2] = {start[0], start[1]};
-        fe__wait wait;
+        fe__deferral wait;
         o[0].speed = 0.0f, o[1].speed = 0.0f;
-        fe__begin_to_wait(&wait, o, 0, 1, slack, reach);
+        fe__defer(&wait, o, 0, 1, slack, reach);
         for (int32_t step = 0; step < 100; ++step) {
             move(now, o, most, most), move(now + 1, o + 1, most, i % 2 ? most : 0.0f);
             o[0].speed = any() + 1.0f, o[1].speed = any() + 1.0f;
             double way = moved(start, now, reach) + (double)(dt * (o[0].speed + o[1].speed));
-            if (!fe__still_waits(&wait, o, dt)) {
+            if (!fe__stays_deferred(&wait, o, dt)) {
                 ++ended;
                 break;
             }
@@ -75,12 +75,12 @@ static void a_way_beyond_the_odometer_ends_it(void **state)
 {
     (void)state;
     fe__odometer o[2] = {{0}};
-    fe__wait wait;
-    fe__begin_to_wait(&wait, o, 0, 1, 1e9f, 1.0f);
-    FE_TRUE(fe__still_waits(&wait, o, 1.0f / 60.0f));
+    fe__deferral wait;
+    fe__defer(&wait, o, 0, 1, 1e9f, 1.0f);
+    FE_TRUE(fe__stays_deferred(&wait, o, 1.0f / 60.0f));
     fe__odometer_advance(o, 1e30f, 1.0f);
     fe__odometer_advance(o + 1, INFINITY, 1.0f);
-    FE_TRUE(!fe__still_waits(&wait, o, 1.0f / 60.0f));
+    FE_TRUE(!fe__stays_deferred(&wait, o, 1.0f / 60.0f));
 }
 
 static void what_makes_no_sense_does_not_wait(void **state)
@@ -88,13 +88,13 @@ static void what_makes_no_sense_does_not_wait(void **state)
     (void)state;
     const float bad[] = {NAN, -INFINITY, -1.0f, 0.0f};
     fe__odometer o[2] = {{0}};
-    fe__wait wait;
+    fe__deferral wait;
     for (int i = 0; i < 4; ++i) {
-        fe__begin_to_wait(&wait, o, 0, 1, bad[i], 1.0f);
-        FE_TRUE(!fe__still_waits(&wait, o, 1.0f / 60.0f));
+        fe__defer(&wait, o, 0, 1, bad[i], 1.0f);
+        FE_TRUE(!fe__stays_deferred(&wait, o, 1.0f / 60.0f));
     }
-    fe__begin_to_wait(&wait, o, 0, 1, 1.0f, INFINITY);
-    FE_TRUE(!fe__still_waits(&wait, o, 1.0f / 60.0f));
+    fe__defer(&wait, o, 0, 1, 1.0f, INFINITY);
+    FE_TRUE(!fe__stays_deferred(&wait, o, 1.0f / 60.0f));
 }
 
 // Balls 4 cm apart: neighbours without points. Moved to touch, whichever it is, they are told of in the next step.

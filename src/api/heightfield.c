@@ -1,16 +1,9 @@
-// asset.c - the API of what shapes share: heightfields.
-#include "api/check.h"
+// heightfield.c - the API of heightfields: assets of a store. From any thread.
+#include "api/store.h"
 #include "core/fp_state.h"
-#include "world/assets.h"
-#include "world/handles.h"
+#include "world/asset_users.h"
 
 enum { MOST_LINES = 32768, MOST_SAMPLES = 1 << 28, MOST_MATERIALS = FE__CELL_HOLE };
-
-#define FE_BEGIN_STORE(store)        \
-    const char *function = __func__; \
-    FE_CHECK_POINTER(store);         \
-    fe_world *world = store->world;  \
-    FE_WRITE_AS(function, world)
 
 // ---- birth and death ------------------------------------------------------------------------------------------------------------
 
@@ -82,31 +75,18 @@ fe_result fe_heightfield_create(fe_store *store, const fe_heightfield_def *def, 
     FE_CHECK_POINTER(out_asset);
     fe_heightfield_def full;
     FE_TRY(read_heightfield(function, def, &full));
-    int32_t index = fe__heightfield_create(world, &full);
-    if (index < 0) return fe__report(function, (fe_result)index);
-    *out_asset = fe__asset_handle(world, index);
+    fe_asset asset;
+    fe_result result = fe__heightfield_create(store, &full, &asset);
+    if (result != FE_OK) return fe__report(function, result);
+    *out_asset = asset;
     return FE_OK;
-}
-
-fe_result fe_asset_destroy(fe_store *store, fe_asset asset)
-{
-    FE_BEGIN_STORE(store);
-    FE_FIND_ASSET(index, asset);
-    fe__asset_destroy(world, index);
-    return FE_OK;
-}
-
-int32_t fe_asset_is_valid(const fe_store *store, fe_asset asset)
-{
-    int32_t index;
-    const fe_world *world = store ? store->world : NULL;
-    return world && fe__id_pool_find(&world->asset_ids, asset, &index) == FE_OK && !world->assets[index].destroyed;
 }
 
 // ---- heights --------------------------------------------------------------------------------------------------------------------
 
-static fe_result check_part(const char *function, const fe__heightfield *field, int32_t row, int32_t column, int32_t rows, int32_t columns)
+static fe_result check_part(const char *function, const fe__heightfield *field, const fe__samples *part)
 {
+    int32_t row = part->row, column = part->column, rows = part->rows, columns = part->columns;
     FE_CHECK_INT(row, 0, field->rows - 1);
     FE_CHECK_INT(column, 0, field->columns - 1);
     FE_CHECK_INT(rows, 1, field->rows - row);
@@ -114,17 +94,47 @@ static fe_result check_part(const char *function, const fe__heightfield *field, 
     return FE_OK;
 }
 
+// Under the store's lock, as all that follows
+static fe_result find_part(const char *function, const fe_store *store, fe_asset asset, const fe__samples *part, int32_t *out_index)
+{
+    FE_TRY(fe__find_asset(function, "asset", store, asset, out_index));
+    return check_part(function, fe__store_field(store, *out_index), part);
+}
+
+static fe_result set_heights(const char *function, fe_store *store, fe_asset asset, const fe__samples *part, const float *heights)
+{
+    int32_t index;
+    FE_TRY(find_part(function, store, asset, part, &index));
+    FE_CHECK_POINTER(heights);
+    FE_TRY(check_heights(function, heights, (int64_t)part->rows * part->columns));
+    fe_result entered = fe__asset_enter_worlds(store, index);
+    if (entered != FE_OK) {
+        const char *why = entered == FE_ERROR_STEPPING ? "is in a step" : "has another thread inside";
+        return fe__fail(function, entered, "a world that uses asset 0x%llx %s; nothing was changed", asset, why);
+    }
+    fe__heightfield_edit(store, index, part, heights);
+    fe__asset_leave_worlds(store, index);
+    return FE_OK;
+}
+
 fe_result fe_heightfield_set_heights(fe_store *store, fe_asset asset, int32_t row, int32_t column, int32_t rows, int32_t columns,
                                      const float *heights)
 {
     FE_BEGIN_STORE(store);
-    FE_FIND_ASSET(index, asset);
-    FE_TRY(check_part(function, world->fields + index, row, column, rows, columns));
-    FE_CHECK_POINTER(heights);
-    FE_TRY(check_heights(function, heights, (int64_t)rows * columns));
     fe__fp_state fp = fe__fp_enter();
-    fe__heightfield_set_heights(world, index, row, column, rows, columns, heights);
+    fe__store_lock(store);
+    fe_result result = set_heights(function, store, asset, &(fe__samples){row, column, rows, columns}, heights);
+    fe__store_unlock(store);
     fe__fp_leave(fp);
+    return result;
+}
+
+static fe_result get_heights(const char *function, const fe_store *store, fe_asset asset, const fe__samples *part, float *out_heights)
+{
+    int32_t index;
+    FE_TRY(find_part(function, store, asset, part, &index));
+    FE_CHECK_POINTER(out_heights);
+    fe__heightfield_read(fe__store_field(store, index), part, out_heights);
     return FE_OK;
 }
 
@@ -132,12 +142,8 @@ fe_result fe_heightfield_get_heights(const fe_store *store, fe_asset asset, int3
                                      float *out_heights)
 {
     FE_BEGIN_STORE(store);
-    FE_FIND_ASSET(index, asset);
-    const fe__heightfield *field = world->fields + index;
-    FE_TRY(check_part(function, field, row, column, rows, columns));
-    FE_CHECK_POINTER(out_heights);
-    for (int32_t r = 0; r < rows; ++r)
-        for (int32_t c = 0; c < columns; ++c)
-            out_heights[(int64_t)r * columns + c] = field->heights[(int64_t)(row + r) * field->columns + column + c];
-    return FE_OK;
+    fe__store_lock(store);
+    fe_result result = get_heights(function, store, asset, &(fe__samples){row, column, rows, columns}, out_heights);
+    fe__store_unlock(store);
+    return result;
 }
