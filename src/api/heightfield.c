@@ -5,7 +5,8 @@
 
 enum { MOST_LINES = 32768, MOST_SAMPLES = 1 << 28, MOST_MATERIALS = FE__CELL_HOLE };
 
-// ---- birth and death ------------------------------------------------------------------------------------------------------------
+// ---- birth and death
+// ------------------------------------------------------------------------------------------------------------
 
 static fe_heightfield_def default_heightfield(void)
 {
@@ -34,8 +35,8 @@ static fe_result check_heights(const char *function, const float *heights, int64
 {
     for (int64_t i = 0; i < count; ++i) {
         if (heights[i] >= -FE_MAX_LOCAL && heights[i] <= FE_MAX_LOCAL) continue;
-        return fe__fail(function, FE_ERROR_ARGUMENT, "heights[%lld] is %.9g, must be in [%.9g, %.9g]", (long long)i, (double)heights[i],
-                        (double)-FE_MAX_LOCAL, (double)FE_MAX_LOCAL);
+        return fe__fail(function, FE_ERROR_ARGUMENT, "heights[%lld] is %.9g, must be in [%.9g, %.9g]", (long long)i,
+                        (double)heights[i], (double)-FE_MAX_LOCAL, (double)FE_MAX_LOCAL);
     }
     return FE_OK;
 }
@@ -44,7 +45,8 @@ static fe_result check_cells(const char *function, const char *name, const uint8
 {
     for (int64_t i = 0; cells && i < count; ++i) {
         if (cells[i] <= most) continue;
-        return fe__fail(function, FE_ERROR_ARGUMENT, "%s[%lld] is %d, must be in [0, %d]", name, (long long)i, cells[i], most);
+        return fe__fail(function, FE_ERROR_ARGUMENT, "%s[%lld] is %d, must be in [0, %d]", name, (long long)i, cells[i],
+                        most);
     }
     return FE_OK;
 }
@@ -82,7 +84,8 @@ fe_result fe_heightfield_create(fe_store *store, const fe_heightfield_def *def, 
     return FE_OK;
 }
 
-// ---- heights --------------------------------------------------------------------------------------------------------------------
+// ---- heights
+// --------------------------------------------------------------------------------------------------------------------
 
 static fe_result check_part(const char *function, const fe__heightfield *field, const fe__samples *part)
 {
@@ -95,13 +98,15 @@ static fe_result check_part(const char *function, const fe__heightfield *field, 
 }
 
 // Under the store's lock, as all that follows
-static fe_result find_part(const char *function, const fe_store *store, fe_asset asset, const fe__samples *part, int32_t *out_index)
+static fe_result find_part(const char *function, const fe_store *store, fe_asset asset, const fe__samples *part,
+                           int32_t *out_index)
 {
     FE_TRY(fe__find_asset(function, "asset", store, asset, out_index));
     return check_part(function, fe__store_field(store, *out_index), part);
 }
 
-static fe_result set_heights(const char *function, fe_store *store, fe_asset asset, const fe__samples *part, const float *heights)
+static fe_result set_heights(const char *function, fe_store *store, fe_asset asset, const fe__samples *part,
+                             const float *heights)
 {
     int32_t index;
     FE_TRY(find_part(function, store, asset, part, &index));
@@ -117,8 +122,8 @@ static fe_result set_heights(const char *function, fe_store *store, fe_asset ass
     return FE_OK;
 }
 
-fe_result fe_heightfield_set_heights(fe_store *store, fe_asset asset, int32_t row, int32_t column, int32_t rows, int32_t columns,
-                                     const float *heights)
+fe_result fe_heightfield_set_heights(fe_store *store, fe_asset asset, int32_t row, int32_t column, int32_t rows,
+                                     int32_t columns, const float *heights)
 {
     FE_BEGIN_STORE(store);
     fe__fp_state fp = fe__fp_enter();
@@ -129,7 +134,8 @@ fe_result fe_heightfield_set_heights(fe_store *store, fe_asset asset, int32_t ro
     return result;
 }
 
-static fe_result get_heights(const char *function, const fe_store *store, fe_asset asset, const fe__samples *part, float *out_heights)
+static fe_result get_heights(const char *function, const fe_store *store, fe_asset asset, const fe__samples *part,
+                             float *out_heights)
 {
     int32_t index;
     FE_TRY(find_part(function, store, asset, part, &index));
@@ -138,8 +144,8 @@ static fe_result get_heights(const char *function, const fe_store *store, fe_ass
     return FE_OK;
 }
 
-fe_result fe_heightfield_get_heights(const fe_store *store, fe_asset asset, int32_t row, int32_t column, int32_t rows, int32_t columns,
-                                     float *out_heights)
+fe_result fe_heightfield_get_heights(const fe_store *store, fe_asset asset, int32_t row, int32_t column, int32_t rows,
+                                     int32_t columns, float *out_heights)
 {
     FE_BEGIN_STORE(store);
     fe__store_lock(store);

@@ -1,7 +1,9 @@
-// store.c - the API of stores and of assets of any kind. From any thread: what a store holds is read and changed under its lock.
+// store.c - the API of stores and of assets of any kind. From any thread: what a store holds is read and changed under
+// its lock.
 #include "api/store.h"
 
-// ---- stores ---------------------------------------------------------------------------------------------------------------------
+// ---- stores
+// ---------------------------------------------------------------------------------------------------------------------
 
 void fe_store_def_init(fe_store_def *def, uint32_t struct_size)
 {
@@ -44,7 +46,8 @@ fe_result fe_store_get_bytes(const fe_store *store, int64_t *out_bytes)
     return FE_OK;
 }
 
-// ---- assets ---------------------------------------------------------------------------------------------------------------------
+// ---- assets
+// ---------------------------------------------------------------------------------------------------------------------
 
 fe_result fe_asset_destroy(fe_store *store, fe_asset asset)
 {

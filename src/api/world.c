@@ -9,11 +9,15 @@
 #include "world/proxies.h"
 #include "world/sleep.h"
 
-// ---- creation -------------------------------------------------------------------------------------------------------------------
+// ---- creation
+// -------------------------------------------------------------------------------------------------------------------
 
 static fe_world_def default_world(void)
 {
-    return (fe_world_def){.struct_size = sizeof(fe_world_def), .worker_count = 1, .gravity = {0.0f, -9.81f, 0.0f}, .substeps = 8};
+    return (fe_world_def){.struct_size = sizeof(fe_world_def),
+                          .worker_count = 1,
+                          .gravity = {0.0f, -9.81f, 0.0f},
+                          .substeps = 8};
 }
 
 void fe_world_def_init(fe_world_def *def, uint32_t struct_size)
@@ -68,13 +72,15 @@ fe_result fe_world_create(const fe_world_def *def, fe_world **out_world)
     fe_world *world;
     fe_result result = fe__world_create(&whole.def, &world);
     if (result == FE_ERROR_UNSUPPORTED) {
-        return fe__fail(function, result, "simd is %d, a set that this CPU or this build does not have", (int)whole.def.simd);
+        return fe__fail(function, result, "simd is %d, a set that this CPU or this build does not have",
+                        (int)whole.def.simd);
     }
     if (result == FE_ERROR_STALE) {
         const char *gone = whole.def.pool && !fe__pool_lives(whole.def.pool) ? "pool" : "store";
         return fe__fail(function, result, "%s was destroyed before the world was created", gone);
     }
-    if (result == FE_ERROR_ARGUMENT) return fe__fail(function, result, "store is another world's own; give both one of fe_store_create");
+    if (result == FE_ERROR_ARGUMENT)
+        return fe__fail(function, result, "store is another world's own; give both one of fe_store_create");
     FE_TRY(fe__report(function, result));
     *out_world = world;
     return FE_OK;
@@ -91,7 +97,8 @@ fe_result fe_world_destroy(fe_world *world)
     return FE_OK;
 }
 
-// ---- the step -------------------------------------------------------------------------------------------------------------------
+// ---- the step
+// -------------------------------------------------------------------------------------------------------------------
 
 fe_result fe_world_step(fe_world *world, float dt)
 {
@@ -106,7 +113,8 @@ fe_result fe_world_step(fe_world *world, float dt)
     return fe__report(function, result);
 }
 
-// ---- settings -------------------------------------------------------------------------------------------------------------------
+// ---- settings
+// -------------------------------------------------------------------------------------------------------------------
 
 static void wake_all(fe_world *world)
 {
@@ -202,7 +210,8 @@ static fe_result read_tuning(const char *function, const fe_world_tuning *tuning
 static void renew_boxes(fe_world *world)
 {
     for (int32_t body = world->first_body; body >= 0; body = world->bodies[body].order_next) {
-        for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next) fe__shape_touch(world, shape);
+        for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next)
+            fe__shape_touch(world, shape);
     }
 }
 
@@ -212,7 +221,8 @@ fe_result fe_world_set_tuning(fe_world *world, const fe_world_tuning *tuning)
     fe_world_tuning copy = world->tuning;
     FE_TRY(read_tuning(function, tuning, &copy));
     int32_t same_reach = copy.speculative_distance == world->tuning.speculative_distance;
-    if (copy.joint_hertz != world->tuning.joint_hertz) world->joints.forest.changed = world->solver.graph_changed = 1; // what is a spring
+    if (copy.joint_hertz != world->tuning.joint_hertz)
+        world->joints.forest.changed = world->solver.graph_changed = 1; // what is a spring
     int32_t wakes = world->tuning.sleep_enabled && !copy.sleep_enabled;
     world->tuning = copy;
     if (wakes) wake_all(world);
@@ -264,12 +274,14 @@ fe_result fe_world_optimize(fe_world *world)
 {
     FE_WRITE_ALONE(world);
     fe__fp_state fp = fe__fp_enter();
-    int32_t built = fe__tree_rebuild(&world->static_tree, &world->memory, 1) && fe__tree_rebuild(&world->moving_tree, &world->memory, 1);
+    int32_t built = fe__tree_rebuild(&world->static_tree, &world->memory, 1) &&
+                    fe__tree_rebuild(&world->moving_tree, &world->memory, 1);
     fe__fp_leave(fp);
     return built ? FE_OK : fe__report(function, FE_ERROR_MEMORY);
 }
 
-// ---- the defaults of what is read into, and of what the host gives ---------------------------------------------------------------
+// ---- the defaults of what is read into, and of what the host gives
+// ---------------------------------------------------------------
 
 #define FE_DEFINE_EMPTY_INIT(name, type, argument)                          \
     void name(type *argument, uint32_t struct_size)                         \
@@ -288,7 +300,8 @@ void fe_task_system_init(fe_task_system *tasks, uint32_t struct_size)
     fe__init_struct(tasks, &defaults, sizeof defaults, struct_size);
 }
 
-// ---- measures -------------------------------------------------------------------------------------------------------------------
+// ---- measures
+// -------------------------------------------------------------------------------------------------------------------
 
 fe_result fe_world_get_profile(const fe_world *world, fe_profile *out_profile)
 {

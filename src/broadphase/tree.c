@@ -3,7 +3,8 @@
 // tree_insert.c and tree_change.c change it; tree_build.c builds it; tree_query.c and tree_ray.simd.c ask.
 #include "broadphase/tree_node.h"
 
-// Spare nodes beyond one for each insertion, so that nodes can be split: one for each level of a deep tree, less in one of few nodes.
+// Spare nodes beyond one for each insertion, so that nodes can be split: one for each level of a deep tree, less in one
+// of few nodes.
 enum { SPLIT_ROOM = 32, ROOM_OF_A_NODE = 2 };
 
 #define DECLARE_SET(name) extern const fe__tree_kernels fe__tree_kernels_##name;
@@ -63,7 +64,8 @@ static void compact(fe__tree *tree)
         tree->nodes[to] = *node;
         tree->nodes[node->parent].child[node->lane] = to;
         for (int32_t lane = 0; lane < FE_TREE_WIDTH; ++lane)
-            if (node->child[lane] != FE_TREE_EMPTY) fe__tree_hang(tree, to, lane, fe__lane_box(node, lane), node->child[lane]);
+            if (node->child[lane] != FE_TREE_EMPTY)
+                fe__tree_hang(tree, to, lane, fe__lane_box(node, lane), node->child[lane]);
     }
     tree->node_count = count;
     tree->dead = 0;

@@ -1,8 +1,9 @@
 // tree_build.c - a new tree from the boxes of the old one, top down.
 //
-// A node's proxies are cut in two, and its costliest part again, until there are eight parts; each becomes a lane. A cut lies where the sum
-// of area x count of both sides is least (the surface area heuristic), tried at the borders of eight bins along the longest axis of the
-// centres (Wald 2007). The tree is made beside the old one and takes its place when it is whole.
+// A node's proxies are cut in two, and its costliest part again, until there are eight parts; each becomes a lane. A
+// cut lies where the sum of area x count of both sides is least (the surface area heuristic), tried at the borders of
+// eight bins along the longest axis of the centres (Wald 2007). The tree is made beside the old one and takes its place
+// when it is whole.
 #include "broadphase/tree_node.h"
 
 enum {
@@ -32,8 +33,9 @@ typedef struct builder {
     int32_t count, capacity, depth;
 } builder;
 
-// ---- cutting a part in two ----------------------------------------------------------------------------------------------------
-// without the proxy's bits, which make a denormal number that some machines are slow to compute with
+// ---- cutting a part in two
+// ---------------------------------------------------------------------------------------------------- without the
+// proxy's bits, which make a denormal number that some machines are slow to compute with
 static fe__quad low_of(const item *i)
 {
     const fe__quad_int xyz = {-1, -1, -1, 0};
@@ -162,7 +164,8 @@ static void cut(item *items, const part *p, int32_t depth, part *left, part *rig
     right->first = p->first + left->count;
 }
 
-// ---- nodes --------------------------------------------------------------------------------------------------------------------
+// ---- nodes
+// --------------------------------------------------------------------------------------------------------------------
 // The part with the largest area x count of those that do not fit one node; -1: all do.
 static int32_t costliest(const part parts[FE_TREE_WIDTH], int32_t count)
 {
@@ -230,8 +233,9 @@ static int32_t build_node(builder *b, const part *whole, int32_t parent, int32_t
     return index;
 }
 
-// ---- when, and from what ------------------------------------------------------------------------------------------------------
-// The sum of the areas of inner lanes: nodes that a random ray enters, up to a factor.
+// ---- when, and from what
+// ------------------------------------------------------------------------------------------------------ The sum of the
+// areas of inner lanes: nodes that a random ray enters, up to a factor.
 static double cost_of(const fe__tree_node *nodes, int32_t count)
 {
     double sum = 0.0;
@@ -240,8 +244,8 @@ static double cost_of(const fe__tree_node *nodes, int32_t count)
     return sum;
 }
 
-// Where the origin should move along an axis, relative to where it is: to the centre, if all boxes lie on one side of it. While it is among
-// the boxes a move would win one bit at most, and would cost each box another rounding.
+// Where the origin should move along an axis, relative to where it is: to the centre, if all boxes lie on one side of
+// it. While it is among the boxes a move would win one bit at most, and would cost each box another rounding.
 static double origin_shift(fe__tree_box all, int32_t axis)
 {
     double low = (double)all.low[axis], high = (double)all.high[axis];
@@ -258,7 +262,8 @@ static int32_t origin_is_far_off(fe__tree_box all)
 
 static int32_t is_degenerate(const fe__tree *tree)
 {
-    return tree->depth > MAX_DEPTH || tree->dead > tree->node_count / 4 || origin_is_far_off(fe__node_box(&tree->nodes[0])) ||
+    return tree->depth > MAX_DEPTH || tree->dead > tree->node_count / 4 ||
+           origin_is_far_off(fe__node_box(&tree->nodes[0])) ||
            cost_of(tree->nodes, tree->node_count) > worn_cost * (double)tree->built_cost;
 }
 
@@ -317,7 +322,8 @@ int32_t fe__tree_rebuild(fe__tree *tree, fe__memory *memory, int32_t force)
     // as large as before: it must not grow from one build to the next
     b.nodes = fe__allocate(memory, (size_t)tree->node_capacity * sizeof *b.nodes);
     b.capacity = b.nodes ? tree->node_capacity : 0;
-    int32_t built = b.nodes && build_node(&b, &whole, -1, 0, 0) == 0 && FE_RESERVE(memory, b.nodes, b.capacity, b.count + free_nodes);
+    int32_t built = b.nodes && build_node(&b, &whole, -1, 0, 0) == 0 &&
+                    FE_RESERVE(memory, b.nodes, b.capacity, b.count + free_nodes);
     fe__release(memory, b.items, size);
     if (!built) {
         FE_FREE(memory, b.nodes, b.capacity);

@@ -1,5 +1,5 @@
-// memory.c - see memory.h. Called from the world's own thread by the API and by the step's stages before they fan out; never by workers.
-// A store calls it under its lock.
+// memory.c - see memory.h. Called from the world's own thread by the API and by the step's stages before they fan out;
+// never by workers. A store calls it under its lock.
 #include "core/memory.h"
 
 #include "core/mutex.h"
@@ -31,7 +31,8 @@ static void default_release(void *user, void *block, uint64_t size)
 
 void fe__memory_init(fe__memory *memory, const fe_allocator *allocator)
 {
-    *memory = (fe__memory){.allocator = {.struct_size = sizeof(fe_allocator), .allocate = default_allocate, .release = default_release}};
+    *memory = (fe__memory){
+        .allocator = {.struct_size = sizeof(fe_allocator), .allocate = default_allocate, .release = default_release}};
     if (allocator) memory->allocator = *allocator;
 }
 
@@ -57,7 +58,8 @@ void fe__release(fe__memory *memory, void *block, size_t size)
     memory->bytes -= (int64_t)size;
 }
 
-// `array` is the address of a pointer of any type. It is read and written as bytes, because a T* may not be accessed as a void*.
+// `array` is the address of a pointer of any type. It is read and written as bytes, because a T* may not be accessed as
+// a void*.
 static void *load_pointer(const void *array)
 {
     void *pointer;
@@ -67,7 +69,8 @@ static void *load_pointer(const void *array)
 
 static void store_pointer(void *array, void *pointer) { memcpy(array, &pointer, sizeof pointer); }
 
-// As much as is asked for, then fourfold, doubling, and by a quarter once an array is large: O(log n) times, and little room is left over
+// As much as is asked for, then fourfold, doubling, and by a quarter once an array is large: O(log n) times, and little
+// room is left over
 int32_t fe__reserve(fe__memory *memory, void *array, int32_t *capacity, int64_t need, size_t size)
 {
     if (need <= *capacity) return 1;

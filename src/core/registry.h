@@ -1,7 +1,7 @@
 // registry.h - what lives now of one kind (pools, stores), and how many worlds use it.
 //
-// A definition holds a raw pointer that may outlive its target. The registry compares addresses and reads nothing behind a pointer that it
-// does not know. It is locked at creation and destruction only: searching a list is enough.
+// A definition holds a raw pointer that may outlive its target. The registry compares addresses and reads nothing
+// behind a pointer that it does not know. It is locked at creation and destruction only: searching a list is enough.
 #ifndef FE_CORE_REGISTRY_H
 #define FE_CORE_REGISTRY_H
 #include "core/mutex.h"
@@ -26,7 +26,8 @@ void fe__registry_remove(fe__registry *registry, fe__entry *entry); // by its ow
 // FE_OK: one user more. FE_ERROR_STALE: it is gone. FE_ERROR_ARGUMENT: a world owns it.
 fe_result fe__registry_retain(fe__registry *registry, fe__entry *entry);
 void fe__registry_release(fe__registry *registry, fe__entry *entry);
-// FE_OK: removed, nobody uses it or will. FE_ERROR_STALE: it was gone. FE_ERROR_STATE: so many use it, or a world owns it (0).
+// FE_OK: removed, nobody uses it or will. FE_ERROR_STALE: it was gone. FE_ERROR_STATE: so many use it, or a world owns
+// it (0).
 fe_result fe__registry_withdraw(fe__registry *registry, fe__entry *entry, int32_t *out_users);
 int32_t fe__registry_has(fe__registry *registry, const fe__entry *entry);
 

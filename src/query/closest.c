@@ -1,7 +1,7 @@
 // closest.c - see closest.h.
 //
-// Branch and bound in the trees: boxes farther than the nearest shape so far are passed over. Inside several shapes the deepest counts as
-// the nearest, and every box that holds the point is looked into.
+// Branch and bound in the trees: boxes farther than the nearest shape so far are passed over. Inside several shapes the
+// deepest counts as the nearest, and every box that holds the point is looked into.
 #include "query/closest.h"
 
 #include "collision/cast/nearest.h"
@@ -13,7 +13,8 @@ typedef struct search {
     fe__nearest found; // in the frame of the shape
 } search;
 
-static int32_t nearest_on(const fe__scene *scene, const fe__shape *shape, fe_dvec3 point, double limit, fe__nearest *nearest)
+static int32_t nearest_on(const fe__scene *scene, const fe__shape *shape, fe_dvec3 point, double limit,
+                          fe__nearest *nearest)
 {
     fe_dvec3 p = fe__drotate_back(shape->pose.rotation, fe__dsub(point, shape->pose.position));
     if (fe__form_is_field(&shape->form))
@@ -71,7 +72,8 @@ int32_t fe__closest(const fe__scene *scene, fe_dvec3 point, double most, fe_clos
     return report(&s, out_closest);
 }
 
-int32_t fe__closest_on_shapes(const fe__scene *scene, fe_dvec3 point, int32_t first, int32_t end, fe_closest *out_closest)
+int32_t fe__closest_on_shapes(const fe__scene *scene, fe_dvec3 point, int32_t first, int32_t end,
+                              fe_closest *out_closest)
 {
     search s = {.scene = scene, .point = point, .shape = -1};
     double limit = (double)INFINITY;

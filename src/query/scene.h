@@ -1,7 +1,7 @@
 // scene.h - what a query sees of a world, and which of it counts.
 //
-// Filled by the API for each call. Queries read it and write their answer, nothing else: any number of threads may ask at once. A shape in
-// a tree or in the list of planes belongs to an enabled body.
+// Filled by the API for each call. Queries read it and write their answer, nothing else: any number of threads may ask
+// at once. A shape in a tree or in the list of planes belongs to an enabled body.
 #ifndef FE_QUERY_SCENE_H
 #define FE_QUERY_SCENE_H
 #include "broadphase/tree.h"
@@ -42,7 +42,8 @@ static inline uint64_t fe__scene_material(const fe__scene *scene, const fe__shap
     return fe__material_of_shape(scene->store, shape, triangle >= 0 ? triangle / 2 : -1)->user_id;
 }
 // fe_hit.barycentric of a point of the world
-static inline void fe__scene_weights(const fe__scene *scene, const fe__shape *shape, int32_t triangle, fe_dvec3 point, float *out_weights)
+static inline void fe__scene_weights(const fe__scene *scene, const fe__shape *shape, int32_t triangle, fe_dvec3 point,
+                                     float *out_weights)
 {
     out_weights[0] = out_weights[1] = 0.0f;
     if (triangle < 0) return;

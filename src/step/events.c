@@ -1,7 +1,8 @@
-// events.c - what the step reports: touching begun, kept, ended; impacts; bodies that woke or fell asleep. In the order of creation.
+// events.c - what the step reports: touching begun, kept, ended; impacts; bodies that woke or fell asleep. In the order
+// of creation.
 //
-// A pair touches when a point had an impulse, or a gap of 0 or less, during the step. Exits of pairs that ended otherwise (destroyed,
-// re-filtered, boxes apart) wait in their records (fe_world.first_owed) and come out here.
+// A pair touches when a point had an impulse, or a gap of 0 or less, during the step. Exits of pairs that ended
+// otherwise (destroyed, re-filtered, boxes apart) wait in their records (fe_world.first_owed) and come out here.
 #include "step/events.h"
 
 #include "step/collide_stage.h"
@@ -12,7 +13,8 @@
 
 static fe__pair_event_record record_of(const fe_world *w, int32_t pair, int32_t kind)
 {
-    return (fe__pair_event_record){w->pair_serials[2 * pair], w->pair_serials[2 * pair + 1], fe__pair_event_of(w, pair, kind)};
+    return (fe__pair_event_record){w->pair_serials[2 * pair], w->pair_serials[2 * pair + 1],
+                                   fe__pair_event_of(w, pair, kind)};
 }
 
 static int32_t touches(const fe_world *w, int32_t head)
@@ -74,7 +76,8 @@ static void add_hit(fe_world *w, int32_t pair)
                                  .triangle_b = e.triangle_b}};
 }
 
-// ---- looking, on any thread: pairs that have something to report go to the list of results ----------------------------------------------
+// ---- looking, on any thread: pairs that have something to report go to the list of results
+// ----------------------------------------------
 enum { PAIRS_IN_BLOCK = 256, AHEAD = 16 }; // AHEAD: records come from memory while those before them are looked at
 
 FE_FETCHES fetch_ahead(const fe_world *w, const int32_t *pairs, int32_t i, int32_t end)
@@ -134,7 +137,8 @@ static void report(fe_world *w, int32_t pair)
         w->pair_events[w->pair_event_count++] = record_of(w, pair, kind);
 }
 
-// ---- order ----------------------------------------------------------------------------------------------------------------------------
+// ---- order
+// ----------------------------------------------------------------------------------------------------------------------------
 // Stable sorts by B, then by A. The records are moved once, along the cycles of the permutation.
 static void sort_records(fe__step *step, unsigned char *records, int32_t count, size_t size)
 {
@@ -193,13 +197,15 @@ void fe__collect_body_events(fe__step *step)
         int32_t awake = body->awake_index >= 0, before = (body->flags & FE__BODY_SEEN_AWAKE) != 0;
         body->flags &= ~(uint32_t)(FE__BODY_DISTURBED | FE__BODY_SEEN_AWAKE);
         if (awake) body->flags |= FE__BODY_SEEN_AWAKE;
-        int32_t reports = fe__id_pool_is_alive(&w->body_ids, index) && body->flags & FE__BODY_ENABLED && body->type != FE_BODY_STATIC;
+        int32_t reports =
+            fe__id_pool_is_alive(&w->body_ids, index) && body->flags & FE__BODY_ENABLED && body->type != FE_BODY_STATIC;
         if (reports && awake != before) items[count++] = (fe__sort_item){body->serial, index, awake};
     }
     w->disturbed_count = 0;
     fe__sort_keys(items, count, items + count);
     w->body_event_count = count;
     for (int32_t i = 0; i < count; ++i)
-        w->body_events[i] =
-            (fe__body_event_record){items[i].key, {fe__body_handle(w, items[i].value), items[i].spare ? FE_EVENT_WAKE : FE_EVENT_SLEEP, 0}};
+        w->body_events[i] = (fe__body_event_record){items[i].key,
+                                                    {fe__body_handle(w, items[i].value),
+                                                     items[i].spare ? FE_EVENT_WAKE : FE_EVENT_SLEEP, 0}};
 }

@@ -16,7 +16,7 @@ float fe__reach_in_step(const fe_world *world, const fe__body *a, const fe__body
 // how far a manifold with points may slide or turn before it is looked for anew, m
 float fe__recycle_tolerance(const fe__view *v);
 // Everything of a contact but its tolerance and impulses. `ahead`: `at` is not where the bodies are now.
-void fe__write_manifold(const fe_world *world, fe__contact *m, const fe__view *v, const fe__places *at, const fe__manifold *found,
-                        int32_t ahead);
+void fe__write_manifold(const fe_world *world, fe__contact *m, const fe__view *v, const fe__places *at,
+                        const fe__manifold *found, int32_t ahead);
 
 #endif

@@ -18,7 +18,8 @@ void fe__heightfield_free(fe_store *store, fe__asset *a)
     fe__release(&store->memory, a->materials, materials_size(a));
 }
 
-// ---- birth ----------------------------------------------------------------------------------------------------------------------------
+// ---- birth
+// ----------------------------------------------------------------------------------------------------------------------------
 static int32_t allocate(fe_store *store, const fe_heightfield_def *def, fe__asset *a)
 {
     fe__heightfield *f = &a->field;
@@ -50,14 +51,18 @@ static void fill_materials(fe__asset *a, const fe_heightfield_def *def)
 {
     uint32_t stride = def->material_stride ? def->material_stride : (uint32_t)sizeof(fe_material);
     for (int32_t i = 0; i < a->material_count; ++i) {
-        memcpy(a->materials + i, (const unsigned char *)def->materials + (size_t)stride * (size_t)i, sizeof *a->materials);
+        memcpy(a->materials + i, (const unsigned char *)def->materials + (size_t)stride * (size_t)i,
+               sizeof *a->materials);
         a->special |= needs_special_rows(a->materials + i);
     }
 }
 
 fe_result fe__heightfield_create(fe_store *store, const fe_heightfield_def *def, fe_asset *out_handle)
 {
-    fe__asset a = {.field = {.rows = def->rows, .columns = def->columns, .cell_x = (double)def->cell_x, .cell_z = (double)def->cell_z},
+    fe__asset a = {.field = {.rows = def->rows,
+                             .columns = def->columns,
+                             .cell_x = (double)def->cell_x,
+                             .cell_z = (double)def->cell_z},
                    .material_count = def->cell_materials ? def->material_count : 0};
     fe__store_lock(store);
     int32_t allocated = allocate(store, def, &a);
@@ -76,7 +81,8 @@ fe_result fe__heightfield_create(fe_store *store, const fe_heightfield_def *def,
     return result;
 }
 
-// ---- samples --------------------------------------------------------------------------------------------------------------------------
+// ---- samples
+// --------------------------------------------------------------------------------------------------------------------------
 static float *row_of(const fe__heightfield *f, const fe__samples *part, int32_t row)
 {
     return f->heights + (int64_t)(part->row + row) * f->columns + part->column;
@@ -99,5 +105,6 @@ fe__bounds fe__samples_bounds(const fe__heightfield *f, const fe__samples *part)
 {
     double far = (double)INFINITY;
     return (fe__bounds){{(double)(part->column - 1) * f->cell_x, -far, (double)(part->row - 1) * f->cell_z},
-                        {(double)(part->column + part->columns) * f->cell_x, far, (double)(part->row + part->rows) * f->cell_z}};
+                        {(double)(part->column + part->columns) * f->cell_x, far,
+                         (double)(part->row + part->rows) * f->cell_z}};
 }

@@ -3,8 +3,8 @@
 #define FE_STORE_HEIGHTFIELD_ASSET_H
 #include "store/store.h"
 
-// A copy of what a checked definition holds. The store's lock is free while samples are copied. FE_ERROR_MEMORY, FE_ERROR_LIMIT: nothing
-// changed.
+// A copy of what a checked definition holds. The store's lock is free while samples are copied. FE_ERROR_MEMORY,
+// FE_ERROR_LIMIT: nothing changed.
 fe_result fe__heightfield_create(fe_store *store, const fe_heightfield_def *def, fe_asset *out_handle);
 void fe__heightfield_free(fe_store *store, fe__asset *asset); // its blocks; under the lock
 

@@ -1,8 +1,9 @@
 // store.h - the store: assets, the heavy data that the shapes of many worlds share.
 //
-// Any thread creates, reads and destroys assets, under the store's lock. Worlds that step take no lock: the records of assets stand in
-// chunks that never move, and whoever learns an index has held the lock after its chunk and its record were written. A record lives as long
-// as its owner or a world uses it; its samples change only when every world that uses it has been entered (world/asset_users.h).
+// Any thread creates, reads and destroys assets, under the store's lock. Worlds that step take no lock: the records of
+// assets stand in chunks that never move, and whoever learns an index has held the lock after its chunk and its record
+// were written. A record lives as long as its owner or a world uses it; its samples change only when every world that
+// uses it has been entered (world/asset_users.h).
 #ifndef FE_STORE_STORE_H
 #define FE_STORE_STORE_H
 #include "collision/form/heightfield.h"
@@ -45,7 +46,8 @@ struct fe_store {
 // number 0: the next that no living store has
 fe_result fe__store_create(const fe_allocator *allocator, int32_t number, fe_store **out_store);
 // A world's own, which nobody else may use or destroy. The world has joined it, and shares the allocator and its guard.
-fe_result fe__store_create_own(const fe_allocator *allocator, int32_t number, fe__store_member *member, fe_store **out_store);
+fe_result fe__store_create_own(const fe_allocator *allocator, int32_t number, fe__store_member *member,
+                               fe_store **out_store);
 void fe__store_destroy(fe_store *store); // by its owner, who has left it
 // FE_OK: destroyed. FE_ERROR_STALE: it was gone; FE_ERROR_STATE: so many worlds use it, or it is a world's own (0).
 fe_result fe__store_try_destroy(fe_store *store, int32_t *out_users);
@@ -57,24 +59,30 @@ void fe__store_leave(fe_store *store, fe__store_member *member);
 void fe__store_lock(const fe_store *store);
 void fe__store_unlock(const fe_store *store);
 
-// ---- under the lock -------------------------------------------------------------------------------------------------------------------
+// ---- under the lock
+// -------------------------------------------------------------------------------------------------------------------
 // FE_OK, FE_ERROR_KIND, FE_ERROR_STALE: also for an asset that lives on for its shapes only
 fe_result fe__store_find(const fe_store *store, fe_asset handle, int32_t *out_index);
 void fe__asset_destroy(fe_store *store, int32_t index); // now, or with its last user
 void fe__asset_retain(fe_store *store, int32_t index);
 void fe__asset_release(fe_store *store, int32_t index); // the last user of a destroyed one frees it
-// Gives a record a place and a handle; the store owns its blocks then. FE_ERROR_MEMORY, FE_ERROR_LIMIT: nothing changed.
+// Gives a record a place and a handle; the store owns its blocks then. FE_ERROR_MEMORY, FE_ERROR_LIMIT: nothing
+// changed.
 fe_result fe__store_put(fe_store *store, const fe__asset *asset, fe_asset *out_handle);
 
-// ---- without the lock -----------------------------------------------------------------------------------------------------------------
-// The record of an asset that the caller uses: it stays where it is.
+// ---- without the lock
+// ----------------------------------------------------------------------------------------------------------------- The
+// record of an asset that the caller uses: it stays where it is.
 static inline fe__asset *fe__store_asset(const fe_store *store, int32_t index)
 {
     uint32_t i = (uint32_t)index + (1u << FE__FIRST_CHUNK_BITS);
     int32_t top = 31 - __builtin_clz(i);
     return store->chunks[top - FE__FIRST_CHUNK_BITS] + (i - (1u << top));
 }
-static inline const fe__heightfield *fe__store_field(const fe_store *store, int32_t index) { return &fe__store_asset(store, index)->field; }
+static inline const fe__heightfield *fe__store_field(const fe_store *store, int32_t index)
+{
+    return &fe__store_asset(store, index)->field;
+}
 
 // Of a shape; `cell`: of its heightfield, -1: none in particular
 static inline const fe_material *fe__material_of_shape(const fe_store *store, const fe__shape *shape, int32_t cell)

@@ -1,7 +1,7 @@
 // asset_users.c - see asset_users.h.
 //
-// Called by the API layer with checked arguments, between steps. A world's table of uses is read by who edits an asset, on another thread:
-// it is written under the store's lock only.
+// Called by the API layer with checked arguments, between steps. A world's table of uses is read by who edits an asset,
+// on another thread: it is written under the store's lock only.
 #include "world/asset_users.h"
 
 #include "world/pair_list.h"
@@ -10,7 +10,8 @@
 
 #include <string.h>
 
-// ---- the store --------------------------------------------------------------------------------------------------------------------------
+// ---- the store
+// --------------------------------------------------------------------------------------------------------------------------
 fe_result fe__world_open_store(fe_world *world, const fe_world_def *def)
 {
     world->member.world = world;
@@ -40,7 +41,8 @@ void fe__world_close_store(fe_world *world)
     world->store = NULL;
 }
 
-// ---- uses -------------------------------------------------------------------------------------------------------------------------------
+// ---- uses
+// -------------------------------------------------------------------------------------------------------------------------------
 // Place of the asset's use in the table, or where it belongs.
 static int32_t place_of(const fe_world *world, int32_t asset)
 {
@@ -117,7 +119,8 @@ void fe__shape_release_asset(fe_world *world, int32_t index)
     fe__store_unlock(world->store);
 }
 
-// ---- entering worlds --------------------------------------------------------------------------------------------------------------------
+// ---- entering worlds
+// --------------------------------------------------------------------------------------------------------------------
 // As a writer, with no reader inside: queries read the samples.
 static fe_result enter(fe_world *world)
 {
@@ -150,7 +153,8 @@ fe_result fe__asset_enter_worlds(fe_store *store, int32_t asset)
 
 void fe__asset_leave_worlds(fe_store *store, int32_t asset) { leave_until(store, asset, NULL); }
 
-// ---- new heights --------------------------------------------------------------------------------------------------------------------
+// ---- new heights
+// --------------------------------------------------------------------------------------------------------------------
 static int32_t is_over(const fe_world *world, const fe__shape *field, int32_t other, const fe__bounds *part)
 {
     const fe__shape *shape = world->shapes + other;
@@ -166,7 +170,8 @@ static int32_t is_over(const fe_world *world, const fe__shape *field, int32_t ot
 static void renew_pairs(fe_world *world, int32_t index, const fe__bounds *part)
 {
     const fe__shape *field = world->shapes + index;
-    for (int32_t pair = world->bodies[field->body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, field->body)) {
+    for (int32_t pair = world->bodies[field->body].first_contact; pair >= 0;
+         pair = fe__next_pair(world, pair, field->body)) {
         const fe__pair *p = world->pairs + pair;
         if (p->flags & FE__PAIR_PATCH || (p->shape_a != index && p->shape_b != index)) continue;
         int32_t other = p->shape_a == index ? p->shape_b : p->shape_a;

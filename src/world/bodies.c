@@ -1,7 +1,8 @@
 // bodies.c - the life of bodies: birth, pose, type, locks, enabling, death.
 //
-// Called by the API layer with checked arguments, between steps. A body's pose is its origin and rotation as they were set; the step moves
-// the centre of mass and derives the origin from it. Mass is in mass.c, velocities and forces in motion.c, shapes in shapes.c.
+// Called by the API layer with checked arguments, between steps. A body's pose is its origin and rotation as they were
+// set; the step moves the centre of mass and derives the origin from it. Mass is in mass.c, velocities and forces in
+// motion.c, shapes in shapes.c.
 #include "world/bodies.h"
 
 #include "world/asset_users.h"
@@ -50,7 +51,8 @@ static void set_pose(fe__body *body, const fe_transform *transform)
 {
     fe_quat q = fe__unit_rotation(transform->rotation);
     body->rotation[0] = q.x, body->rotation[1] = q.y, body->rotation[2] = q.z, body->rotation[3] = q.w;
-    body->origin[0] = transform->position.x, body->origin[1] = transform->position.y, body->origin[2] = transform->position.z;
+    body->origin[0] = transform->position.x, body->origin[1] = transform->position.y,
+    body->origin[2] = transform->position.z;
     fe__body_place_centre(body);
 }
 
@@ -143,12 +145,14 @@ void fe__body_destroy(fe_world *world, int32_t index)
 
 static void enter_shapes(fe_world *world, int32_t body)
 {
-    for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next) fe__shape_enter(world, shape);
+    for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next)
+        fe__shape_enter(world, shape);
 }
 
 static void leave_shapes(fe_world *world, int32_t body)
 {
-    for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next) fe__shape_leave(world, shape);
+    for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next)
+        fe__shape_leave(world, shape);
 }
 
 static void forget_forces(fe__body *body)
@@ -203,7 +207,8 @@ fe_result fe__body_set_enabled(fe_world *world, int32_t index, int32_t enabled)
     return FE_OK;
 }
 
-// Pairs stay: the narrow phase sees how far the body went, and those that came apart end in the next step with their exits.
+// Pairs stay: the narrow phase sees how far the body went, and those that came apart end in the next step with their
+// exits.
 void fe__body_set_transform(fe_world *world, int32_t index, const fe_transform *transform)
 {
     fe__body *body = &world->bodies[index];
@@ -212,9 +217,11 @@ void fe__body_set_transform(fe_world *world, int32_t index, const fe_transform *
     fe__body_end_deferrals(world, index);
     fe__body_place(world, index);
     fe__body_wind_joints(world, index);
-    for (int32_t shape = body->first_shape; shape >= 0; shape = world->shapes[shape].next) fe__shape_touch(world, shape);
+    for (int32_t shape = body->first_shape; shape >= 0; shape = world->shapes[shape].next)
+        fe__shape_touch(world, shape);
     if (body->type != FE_BODY_STATIC) return;
-    for (int32_t pair = body->first_contact; pair >= 0; pair = fe__next_pair(world, pair, index)) fe__pair_look_once(world, pair);
+    for (int32_t pair = body->first_contact; pair >= 0; pair = fe__next_pair(world, pair, index))
+        fe__pair_look_once(world, pair);
 }
 
 void fe__body_set_locks(fe_world *world, int32_t index, uint32_t linear, uint32_t angular)

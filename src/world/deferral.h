@@ -1,14 +1,16 @@
-// deferral.h - deferred pairs: awake, without points and events, whose bodies cannot have met since the narrow phase looked at them.
+// deferral.h - deferred pairs: awake, without points and events, whose bodies cannot have met since the narrow phase
+// looked at them.
 //
-// Most pairs of a heap are near misses. Recycling computes exactly how far the bodies of a pair moved against each other, from six cache
-// lines that lie anywhere. The sum of both bodies' travel is an upper bound of it, from records that lie one after the other and a small
-// table of bodies. Where the bound does not decide, the exact test does, so that no result depends on it. While a pair is deferred, no
-// stage reads more of it.
+// Most pairs of a heap are near misses. Recycling computes exactly how far the bodies of a pair moved against each
+// other, from six cache lines that lie anywhere. The sum of both bodies' travel is an upper bound of it, from records
+// that lie one after the other and a small table of bodies. Where the bound does not decide, the exact test does, so
+// that no result depends on it. While a pair is deferred, no stage reads more of it.
 #ifndef FE_WORLD_DEFERRAL_H
 #define FE_WORLD_DEFERRAL_H
 #include "core/math.h"
 
-// How far a body travelled since it was made, in ticks, modulo 2^32: only differences count. No pair is deferred for so long that one wraps
+// How far a body travelled since it was made, in ticks, modulo 2^32: only differences count. No pair is deferred for so
+// long that one wraps
 typedef struct fe__odometer {
     uint32_t shifted; // of its centre of mass, m
     uint32_t turned;  // |sin(angle / 2)| of its rotations
@@ -39,11 +41,14 @@ static inline void fe__odometer_advance(fe__odometer *o, float shift, float half
 }
 
 // From now on, when the recycling would let the bodies move by `slack` before it looks again
-static inline void fe__defer(fe__deferral *p, const fe__odometer *odometers, int32_t body_a, int32_t body_b, float slack, float reach)
+static inline void fe__defer(fe__deferral *p, const fe__odometer *odometers, int32_t body_a, int32_t body_b,
+                             float slack, float reach)
 {
     const fe__odometer *a = odometers + body_a, *b = odometers + body_b;
     const float rounding = 1e-5f * (1.0f + reach + slack); // of the exact test, m: it must come to the same
-    *p = (fe__deferral){body_a, body_b, a->shifted + b->shifted, a->turned + b->turned, fe__minf(FE__MOST_TRAVEL, slack - rounding), reach};
+    *p = (fe__deferral){
+        body_a, body_b, a->shifted + b->shifted, a->turned + b->turned, fe__minf(FE__MOST_TRAVEL, slack - rounding),
+        reach};
 }
 
 // Has not moved too far, by the measure of recycle.simd.c, nor will within a step of dt

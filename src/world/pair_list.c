@@ -1,8 +1,10 @@
 // pair_list.c - see pair_list.h.
 #include "world/pair_list.h"
 
-// ---- of a body ------------------------------------------------------------------------------------------------------------------------
-// ---- lists ---------------------------------------------------------------------------------------------------------------------------
+// ---- of a body
+// ------------------------------------------------------------------------------------------------------------------------
+// ---- lists
+// ---------------------------------------------------------------------------------------------------------------------------
 static fe__link *link_of(fe_world *world, int32_t pair, int32_t body)
 {
     return &world->pairs[pair].links[world->pairs[pair].body_a == body ? 0 : 1];
@@ -27,7 +29,8 @@ void fe__pair_remove_from_list(fe_world *world, int32_t pair, int32_t index)
     if (link.next >= 0) link_of(world, link.next, index)->previous = link.previous;
 }
 
-// ---- of the awake ---------------------------------------------------------------------------------------------------------------------
+// ---- of the awake
+// ---------------------------------------------------------------------------------------------------------------------
 void fe__pair_awaken(fe_world *world, int32_t pair)
 {
     if (world->pairs[pair].awake_index >= 0) return;
@@ -61,5 +64,6 @@ void fe__pair_look_once(fe_world *world, int32_t pair)
 
 void fe__body_end_deferrals(fe_world *world, int32_t body)
 {
-    for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, body)) end_deferral(world, pair);
+    for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, body))
+        end_deferral(world, pair);
 }

@@ -1,4 +1,5 @@
-// pair_list.h - the lists that a pair is in: of both bodies, and of the pairs that are awake, where some are deferred (deferral.h).
+// pair_list.h - the lists that a pair is in: of both bodies, and of the pairs that are awake, where some are deferred
+// (deferral.h).
 #ifndef FE_WORLD_PAIR_LIST_H
 #define FE_WORLD_PAIR_LIST_H
 #include "world/world.h"

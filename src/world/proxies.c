@@ -1,19 +1,22 @@
 // proxies.c - see proxies.h.
 #include "world/proxies.h"
 
-// A box in a tree is larger than its shape by the speculative distance (what touches must have a pair) and a share of its size, so that a
-// body may move a while before its tree changes: larger ones move further before it matters.
+// A box in a tree is larger than its shape by the speculative distance (what touches must have a pair) and a share of
+// its size, so that a body may move a while before its tree changes: larger ones move further before it matters.
 #define FAT_SHARE 0.12 // of the largest half extent
 #define FAT_MOST 0.05  // m
-// It also reaches where the body will be after so many steps at its velocity: what it meets in the next step must have a pair before.
+// It also reaches where the body will be after so many steps at its velocity: what it meets in the next step must have
+// a pair before.
 #define STEPS_AHEAD 2.0f
 #define FIRST_DT (1.0f / 60.0f) // s, before the first step
 
-// ---- bounds ---------------------------------------------------------------------------------------------------------------------
+// ---- bounds
+// ---------------------------------------------------------------------------------------------------------------------
 
 static fe__bounds grown(fe__bounds b, double margin)
 {
-    return (fe__bounds){{b.low.x - margin, b.low.y - margin, b.low.z - margin}, {b.high.x + margin, b.high.y + margin, b.high.z + margin}};
+    return (fe__bounds){{b.low.x - margin, b.low.y - margin, b.low.z - margin},
+                        {b.high.x + margin, b.high.y + margin, b.high.z + margin}};
 }
 
 fe__bounds fe__shape_bounds(const fe_world *world, int32_t index, float margin)
@@ -46,14 +49,18 @@ fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t index)
     return grown(b, (double)world->tuning.speculative_distance + fe__mind(FAT_MOST, FAT_SHARE * half));
 }
 
-// ---- broad phase ----------------------------------------------------------------------------------------------------------------
+// ---- broad phase
+// ----------------------------------------------------------------------------------------------------------------
 
 static fe__tree *tree_of_type(fe_world *world, int32_t body_type)
 {
     return body_type == FE_BODY_STATIC ? &world->static_tree : &world->moving_tree;
 }
 
-static fe__tree *tree_of(fe_world *world, const fe__shape *shape) { return tree_of_type(world, world->bodies[shape->body].type); }
+static fe__tree *tree_of(fe_world *world, const fe__shape *shape)
+{
+    return tree_of_type(world, world->bodies[shape->body].type);
+}
 
 int32_t fe__reserve_proxies(fe_world *world, int32_t body_type, int32_t extra)
 {

@@ -1,7 +1,7 @@
 // proxies.h - the places of shapes in the broad phase.
 //
-// A shape of a static body lives in the static tree, one of a moving body in the moving tree, planes in a list; a shape of a disabled body
-// in none. A new place is noted in fe_world.moved, from which the next step finds new pairs.
+// A shape of a static body lives in the static tree, one of a moving body in the moving tree, planes in a list; a shape
+// of a disabled body in none. A new place is noted in fe_world.moved, from which the next step finds new pairs.
 #ifndef FE_WORLD_PROXIES_H
 #define FE_WORLD_PROXIES_H
 #include "world/world.h"

@@ -14,7 +14,8 @@
 
 #include <string.h>
 
-// ---- birth and death ------------------------------------------------------------------------------------------------------------
+// ---- birth and death
+// ------------------------------------------------------------------------------------------------------------
 
 static fe_result reserve_shape(fe_world *world, int32_t body, const fe__form *form)
 {
@@ -60,8 +61,8 @@ static void remove_from_body(fe_world *world, int32_t index)
 static void set_local_pose(fe__shape *shape, fe_vec3 position, fe_quat rotation)
 {
     fe_quat q = fe__unit_rotation(rotation);
-    int32_t centred =
-        position.x == 0.0f && position.y == 0.0f && position.z == 0.0f && q.x == 0.0f && q.y == 0.0f && q.z == 0.0f && q.w == 1.0f;
+    int32_t centred = position.x == 0.0f && position.y == 0.0f && position.z == 0.0f && q.x == 0.0f && q.y == 0.0f &&
+                      q.z == 0.0f && q.w == 1.0f;
     shape->local_position = position;
     shape->local_rotation = q;
     shape->flags &= ~(uint32_t)FE__SHAPE_CENTRED;
@@ -142,7 +143,8 @@ void fe__shape_destroy(fe_world *world, int32_t index)
     fe__body_update_mass(world, body);
 }
 
-// ---- change ---------------------------------------------------------------------------------------------------------------------
+// ---- change
+// ---------------------------------------------------------------------------------------------------------------------
 
 static void exchange_asset(fe_world *world, int32_t index, const fe__form *before)
 {
@@ -187,7 +189,8 @@ void fe__shape_set_local_pose(fe_world *world, int32_t index, fe_vec3 position, 
     change(world, index, &form, position, rotation);
 }
 
-// Pairs that the new filter forbids end now, their exits come with the next step; those that it allows are found by the next step.
+// Pairs that the new filter forbids end now, their exits come with the next step; those that it allows are found by the
+// next step.
 void fe__shape_set_filter(fe_world *world, int32_t index, uint32_t layer, uint32_t mask, int32_t group)
 {
     fe__shape *shape = &world->shapes[index];

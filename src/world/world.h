@@ -1,7 +1,7 @@
 // world.h - the world: plain arrays of records, lists by index, and the stages' scratch.
 //
-// Below the API nothing checks handles or arguments: an index is a living record (asserts say so). Whatever a call needs is reserved before
-// it changes anything, so that a failed allocation leaves no trace.
+// Below the API nothing checks handles or arguments: an index is a living record (asserts say so). Whatever a call
+// needs is reserved before it changes anything, so that a failed allocation leaves no trace.
 #ifndef FE_WORLD_WORLD_H
 #define FE_WORLD_WORLD_H
 #include "broadphase/pair_set.h"
@@ -75,11 +75,12 @@ struct fe_world {
     int32_t pair_count, linked_count; // patches count with their head, and each that is linked
     int32_t field_pair_count;         // with a heightfield in them
     // bounds for what a step may need; they only grow
-    int32_t most_contacts;    // of one dynamic body
-    uint32_t row_kinds;       // 1 << FE__ROW_* of every pair
-    int32_t wants_hits;       // a shape asked for hit events
-    int32_t has_bullets;      // a body was one
-    _Atomic int32_t swiftest; // speed over thickness, 1/s, of the body that has most of it: the bits of a float, which rise with it
+    int32_t most_contacts; // of one dynamic body
+    uint32_t row_kinds;    // 1 << FE__ROW_* of every pair
+    int32_t wants_hits;    // a shape asked for hit events
+    int32_t has_bullets;   // a body was one
+    _Atomic int32_t
+        swiftest; // speed over thickness, 1/s, of the body that has most of it: the bits of a float, which rise with it
     fe__clusters clusters;
     fe__pair_set pair_set; // by shape indices
     fe__pair_set ignored;  // by body indices: fe_world_ignore_collision
@@ -107,8 +108,8 @@ struct fe_world {
     fe__tree static_tree, moving_tree; // proxies are shape indices; kinematic bodies' are in the moving tree
     int32_t *planes;                   // shapes
     int32_t plane_count, plane_capacity;
-    // shapes whose box is new since the last step's pairs. One that has left since is still listed (neither IN_TREE nor IN_PLANES): skip
-    // it. Who empties the list clears FE__SHAPE_MOVED of all in it
+    // shapes whose box is new since the last step's pairs. One that has left since is still listed (neither IN_TREE nor
+    // IN_PLANES): skip it. Who empties the list clears FE__SHAPE_MOVED of all in it
     int32_t *moved;
     int32_t moved_count, moved_capacity;
 

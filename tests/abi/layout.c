@@ -1,4 +1,5 @@
-// The ABI's sizes, offsets and values, checked by the compiler: on 64-bit machines, and on 32-bit ones that align 8-byte types to 8 or to 4.
+// The ABI's sizes, offsets and values, checked by the compiler: on 64-bit machines, and on 32-bit ones that align
+// 8-byte types to 8 or to 4.
 #include <feather.h>
 #include <stddef.h>
 

@@ -1,5 +1,5 @@
-// A program written for version 1.0, compiled with that version's header and linked with today's library. Each struct has its old size;
-// what lies behind it must stay as it was.
+// A program written for version 1.0, compiled with that version's header and linked with today's library. Each struct
+// has its old size; what lies behind it must stay as it was.
 #include "feather_1_0.h"
 #include <stdio.h>
 #include <string.h>

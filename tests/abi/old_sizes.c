@@ -1,6 +1,7 @@
-// Every struct of version 1.0 as an older and as a newer client has it: cut after each of its fields it runs or is refused by a sentence,
-// cut inside a field it is refused, longer by zeros it runs, longer by anything else it is refused. Nothing is written behind the caller's
-// size. The fields come from tests/abi/record, so that none is forgotten.
+// Every struct of version 1.0 as an older and as a newer client has it: cut after each of its fields it runs or is
+// refused by a sentence, cut inside a field it is refused, longer by zeros it runs, longer by anything else it is
+// refused. Nothing is written behind the caller's size. The fields come from tests/abi/record, so that none is
+// forgotten.
 #include "feather_1_0.h"
 
 #include <stddef.h>
@@ -21,7 +22,8 @@ enum { CANARY = 0xA5, LONGER = 64, MOST_BYTES = 1024 };
     } while (0)
 #define MUST(call) CHECK((call) >= 0, "a call of the scene")
 
-// ---- the structs, as recorded ---------------------------------------------------------------------------------------------------
+// ---- the structs, as recorded
+// ---------------------------------------------------------------------------------------------------
 typedef struct field {
     const char *type, *name; // name NULL: the struct itself
     uint32_t at, end;
@@ -42,7 +44,8 @@ static int ends_a_field(const char *type, uint32_t size)
     return 0;
 }
 
-// ---- a world to use them in -----------------------------------------------------------------------------------------------------
+// ---- a world to use them in
+// -----------------------------------------------------------------------------------------------------
 static fe_world *world;
 static fe_body ground, ball, arm;
 static fe_shape ground_shape, ball_shape;
@@ -93,7 +96,8 @@ static void make_scene(void)
     for (int i = 0; i < 30; ++i) MUST(fe_world_step(world, 1.0f / 60.0f));
 }
 
-// ---- each struct in use ---------------------------------------------------------------------------------------------------------
+// ---- each struct in use
+// ---------------------------------------------------------------------------------------------------------
 static void *allocate(void *user, uint64_t size, uint64_t alignment)
 {
     (void)user;
@@ -300,7 +304,8 @@ static const sized structs[] = {
 };
 enum { STRUCTS = sizeof structs / sizeof *structs };
 
-// ---- structs with a size --------------------------------------------------------------------------------------------------------
+// ---- structs with a size
+// --------------------------------------------------------------------------------------------------------
 
 // As an init of that size leaves it, with the canary behind
 static void prepare(const sized *t, unsigned char *s, uint32_t size)
@@ -334,15 +339,18 @@ static void try_sizes(const sized *t, int32_t (*use)(void *s), int writes)
         if (is_newer || (is_older && writes))
             CHECK(result >= 0, "%s of %u bytes", t->type, size);
         else if (is_older)
-            CHECK(result >= 0 || (strncmp(fe_last_error(), "fe_", 3) == 0 && !says("struct_size")), "%s of %u bytes", t->type, size);
+            CHECK(result >= 0 || (strncmp(fe_last_error(), "fe_", 3) == 0 && !says("struct_size")), "%s of %u bytes",
+                  t->type, size);
         else
-            CHECK(result == FE_ERROR_ARGUMENT && says("struct_size"), "%s of %u bytes gave %d", t->type, size, (int)result);
+            CHECK(result == FE_ERROR_ARGUMENT && says("struct_size"), "%s of %u bytes gave %d", t->type, size,
+                  (int)result);
     }
     if (writes) return;
     for (uint32_t i = 0; i < LONGER; ++i) {
         prepare(t, s, t->size + LONGER);
         s[t->size + i] = 1;
-        CHECK(use(s) == FE_ERROR_ARGUMENT && says("this version knows"), "%s with something at byte %u", t->type, t->size + i);
+        CHECK(use(s) == FE_ERROR_ARGUMENT && says("this version knows"), "%s with something at byte %u", t->type,
+              t->size + i);
     }
 }
 
@@ -361,10 +369,14 @@ static void try_init(const sized *t)
     }
 }
 
-// ---- records with a stride ------------------------------------------------------------------------------------------------------
+// ---- records with a stride
+// ------------------------------------------------------------------------------------------------------
 static const fe_dvec3 above = {0.0, 2.0, 0.0}, downwards = {0.0, -4.0, 0.0};
 
-static int32_t read_hits(void *out, uint32_t stride) { return fe_world_raycast_all(world, &above, &downwards, NULL, out, stride, 2); }
+static int32_t read_hits(void *out, uint32_t stride)
+{
+    return fe_world_raycast_all(world, &above, &downwards, NULL, out, stride, 2);
+}
 static int32_t read_many_hits(void *out, uint32_t stride)
 {
     const fe_ray rays[2] = {{above, downwards, {0}}, {above, downwards, {0}}};
@@ -373,9 +385,15 @@ static int32_t read_many_hits(void *out, uint32_t stride)
 static int32_t read_pair_events(void *out, uint32_t stride) { return fe_world_get_pair_events(world, out, stride, 2); }
 static int32_t read_body_events(void *out, uint32_t stride) { return fe_world_get_body_events(world, out, stride, 2); }
 static int32_t read_hit_events(void *out, uint32_t stride) { return fe_world_get_hit_events(world, out, stride, 2); }
-static int32_t read_joint_events(void *out, uint32_t stride) { return fe_world_get_joint_events(world, out, stride, 2); }
+static int32_t read_joint_events(void *out, uint32_t stride)
+{
+    return fe_world_get_joint_events(world, out, stride, 2);
+}
 static int32_t read_contacts(void *out, uint32_t stride) { return fe_body_get_contacts(world, ball, out, stride, 2); }
-static int32_t read_shape_contacts(void *out, uint32_t stride) { return fe_shape_get_contacts(world, ball_shape, out, stride, 2); }
+static int32_t read_shape_contacts(void *out, uint32_t stride)
+{
+    return fe_shape_get_contacts(world, ball_shape, out, stride, 2);
+}
 static int32_t read_overlaps(void *out, uint32_t stride)
 {
     static const fe_transform at = {{0.0, 0.4, 0.0}, {0.0f, 0.0f, 0.0f, 1.0f}};
@@ -420,9 +438,11 @@ static void try_strides(const record *r)
         const uint32_t shared = stride < r->size ? stride : r->size, written = (uint32_t)(count < 2 ? count : 2);
         for (uint32_t i = 0; i < written; ++i) {
             CHECK(memcmp(s + i * stride, whole + i * r->size, shared) == 0, "%s %u bytes apart", r->type, stride);
-            for (uint32_t k = shared; k < stride; ++k) CHECK(s[i * stride + k] == CANARY, "%s %u bytes apart: byte %u", r->type, stride, k);
+            for (uint32_t k = shared; k < stride; ++k)
+                CHECK(s[i * stride + k] == CANARY, "%s %u bytes apart: byte %u", r->type, stride, k);
         }
-        for (uint32_t k = written * stride; k < sizeof s; ++k) CHECK(s[k] == CANARY, "%s %u bytes apart: byte %u", r->type, stride, k);
+        for (uint32_t k = written * stride; k < sizeof s; ++k)
+            CHECK(s[k] == CANARY, "%s %u bytes apart: byte %u", r->type, stride, k);
     }
 }
 
@@ -441,10 +461,11 @@ static void try_inputs(void)
             memcpy(rays + i * stride, &ray, stride < sizeof ray ? stride : sizeof ray);
             memcpy(paths + i * stride, &path, stride < sizeof path ? stride : sizeof path);
         }
-        const int32_t of_rays = fe_world_raycast_many(world, (const fe_ray *)(const void *)rays, stride, 2, NULL, 0, hits, sizeof *hits);
+        const int32_t of_rays =
+            fe_world_raycast_many(world, (const fe_ray *)(const void *)rays, stride, 2, NULL, 0, hits, sizeof *hits);
         CHECK(of_rays == (stride < 48 ? FE_ERROR_ARGUMENT : 2), "rays %u bytes apart: %d", stride, (int)of_rays);
-        const int32_t of_paths =
-            fe_world_sweep_many(world, &sphere, (const fe_path *)(const void *)paths, stride, 2, NULL, 0, hits, sizeof *hits);
+        const int32_t of_paths = fe_world_sweep_many(world, &sphere, (const fe_path *)(const void *)paths, stride, 2,
+                                                     NULL, 0, hits, sizeof *hits);
         CHECK(of_paths == (stride < 64 ? FE_ERROR_ARGUMENT : 2), "paths %u bytes apart: %d", stride, (int)of_paths);
     }
 }
@@ -462,18 +483,21 @@ static void try_definitions(void)
     MUST(fe_body_create_many(world, &defs[0].def, sizeof *defs, 2, made));
     MUST(fe_body_destroy_many(world, made, 2));
     defs[1].newer[7] = 1;
-    CHECK(fe_body_create_many(world, &defs[0].def, sizeof *defs, 2, made) == FE_ERROR_ARGUMENT, "a value of a newer client");
+    CHECK(fe_body_create_many(world, &defs[0].def, sizeof *defs, 2, made) == FE_ERROR_ARGUMENT,
+          "a value of a newer client");
     defs[1].newer[7] = 0;
     CHECK(fe_body_create_many(world, &defs[0].def, sizeof(fe_body_def), 2, made) == FE_ERROR_ARGUMENT,
           "definitions longer than their stride");
 }
 
-// ---- is any forgotten? ----------------------------------------------------------------------------------------------------------
+// ---- is any forgotten?
+// ----------------------------------------------------------------------------------------------------------
 
 // These never grow, or have reserved room that the library writes
-static const char *const fixed[] = {"fe_vec3",          "fe_dvec3",    "fe_quat",       "fe_transform", "fe_frame",
-                                    "fe_bounds",        "fe_material", "fe_joint_axis", "fe_closest",   "fe_filter_pair",
-                                    "fe_contact_point", "fe_ray",      "fe_path"};
+static const char *const fixed[] = {"fe_vec3",    "fe_dvec3",       "fe_quat",          "fe_transform",
+                                    "fe_frame",   "fe_bounds",      "fe_material",      "fe_joint_axis",
+                                    "fe_closest", "fe_filter_pair", "fe_contact_point", "fe_ray",
+                                    "fe_path"};
 
 static int is_fixed(const char *type)
 {

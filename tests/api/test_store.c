@@ -1,4 +1,5 @@
-// The API of stores: who may use one, what its handles mean, how long an asset lives, edits that reach every world, and memory.
+// The API of stores: who may use one, what its handles mean, how long an asset lives, edits that reach every world, and
+// memory.
 #include "api_test.h"
 #include "robust/counting_allocator.h"
 
@@ -72,11 +73,13 @@ static int64_t bytes_of(const fe_store *store)
 static double height_of(const fe_world *world)
 {
     fe_hit hit;
-    assert_int_equal(fe_world_raycast(world, &(fe_dvec3){4.1, 100.0, 4.05}, &(fe_dvec3){0.0, -200.0, 0.0}, NULL, &hit), 1);
+    assert_int_equal(fe_world_raycast(world, &(fe_dvec3){4.1, 100.0, 4.05}, &(fe_dvec3){0.0, -200.0, 0.0}, NULL, &hit),
+                     1);
     return hit.point.y;
 }
 
-// ---- stores ---------------------------------------------------------------------------------------------------------------------
+// ---- stores
+// ---------------------------------------------------------------------------------------------------------------------
 
 static void a_store_has_defaults_and_refuses_what_is_wrong(void **state)
 {
@@ -173,12 +176,14 @@ static void definitions_that_outlive_a_store_or_a_pool_are_refused(void **state)
     OK(fe_world_destroy(other));
 }
 
-// ---- handles --------------------------------------------------------------------------------------------------------------------
+// ---- handles
+// --------------------------------------------------------------------------------------------------------------------
 
 static void handles_of_another_store_are_refused(void **state)
 {
     (void)state;
-    fe_store *one = new_store(17, NULL), *two = new_store(18, NULL), *drawn = new_store(0, NULL), *next = new_store(0, NULL);
+    fe_store *one = new_store(17, NULL), *two = new_store(18, NULL), *drawn = new_store(0, NULL),
+             *next = new_store(0, NULL);
     fe_world *world = new_world_on(one);
     fe_body body = new_body(world, FE_BODY_STATIC, 0, 0, 0);
     fe_asset mine = new_field(one), theirs = new_field(two), of_drawn = new_field(drawn), of_next = new_field(next);
@@ -189,8 +194,9 @@ static void handles_of_another_store_are_refused(void **state)
     const struct {
         fe_asset handle;
         fe_result result;
-    } wrong[] = {{theirs, FE_ERROR_STALE},   {of_drawn, FE_ERROR_STALE},   {of_next, FE_ERROR_STALE}, {0, FE_ERROR_STALE},
-                 {mine + 5, FE_ERROR_STALE}, {1ull << 60, FE_ERROR_STALE}, {body, FE_ERROR_KIND}};
+    } wrong[] = {{theirs, FE_ERROR_STALE}, {of_drawn, FE_ERROR_STALE}, {of_next, FE_ERROR_STALE},
+                 {0, FE_ERROR_STALE},      {mine + 5, FE_ERROR_STALE}, {1ull << 60, FE_ERROR_STALE},
+                 {body, FE_ERROR_KIND}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
         fe_geometry g;
         float heights[1] = {0.0f};
@@ -244,7 +250,8 @@ static void a_drawn_number_is_free(void **state)
     OK(fe_store_destroy(kept));
 }
 
-// ---- the life of an asset -------------------------------------------------------------------------------------------------------
+// ---- the life of an asset
+// -------------------------------------------------------------------------------------------------------
 
 static void a_destroyed_asset_lives_on_for_its_shapes_in_every_world(void **state)
 {
@@ -320,7 +327,8 @@ static void many_assets_keep_their_heights(void **state)
     OK(fe_store_destroy(store));
 }
 
-// ---- edits ----------------------------------------------------------------------------------------------------------------------
+// ---- edits
+// ----------------------------------------------------------------------------------------------------------------------
 
 static void edits_wake_bodies_in_every_world_and_in_no_other(void **state)
 {
@@ -468,7 +476,8 @@ static void edits_are_refused_while_a_world_that_uses_the_asset_is_entered(void 
     OK(fe_store_destroy(m.store));
 }
 
-// ---- memory ---------------------------------------------------------------------------------------------------------------------
+// ---- memory
+// ---------------------------------------------------------------------------------------------------------------------
 
 static fe_world *counted_world(counting *memory, fe_store *store)
 {
@@ -516,7 +525,8 @@ static void a_thousand_worlds_share_one_heightfield(void **state)
     free(worlds);
 }
 
-// Every allocation of the store fails in turn: the call says so, leaves nothing behind, and succeeds when it is repeated.
+// Every allocation of the store fails in turn: the call says so, leaves nothing behind, and succeeds when it is
+// repeated.
 static void a_store_without_memory_changes_nothing(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// The handles of another world are refused: by every function that takes one, with FE_ERROR_STALE, and nothing changes. 64 worlds have the
-// same history, hence handles that differ in their numbers alone.
+// The handles of another world are refused: by every function that takes one, with FE_ERROR_STALE, and nothing changes.
+// 64 worlds have the same history, hence handles that differ in their numbers alone.
 #include "fe_test.h"
 #include "support/values.h"
 
@@ -14,7 +14,8 @@ typedef struct handles {
     fe_joint joint;
 } handles;
 
-// ---- what the calls are given beside handles ------------------------------------------------------------------------------------
+// ---- what the calls are given beside handles
+// ------------------------------------------------------------------------------------
 static _Alignas(16) unsigned char room[4096];
 static const fe_vec3 axis = {1.0f, 0.0f, 0.0f}, up = {0.0f, 1.0f, 0.0f};
 static const fe_dvec3 point = {0.0, 1.0, 0.0};
@@ -79,7 +80,8 @@ static fe_mass_data *ready_fe_mass_data(void)
     return &s;
 }
 
-// ---- every function that takes a handle of a world, once for each handle that it takes ------------------------------------------
+// ---- every function that takes a handle of a world, once for each handle that it takes
+// ------------------------------------------
 static int32_t call_0(fe_world *w, const handles *own, const handles *h)
 {
     (void)own;
@@ -518,12 +520,14 @@ static int32_t call_86(fe_world *w, const handles *own, const handles *h)
 static int32_t call_87(fe_world *w, const handles *own, const handles *h)
 {
     (void)own;
-    return (int32_t)fe_configurable_joint_def_at(w, ready_fe_configurable_joint_def(), h->body, own->other, &point, &axis);
+    return (int32_t)fe_configurable_joint_def_at(w, ready_fe_configurable_joint_def(), h->body, own->other, &point,
+                                                 &axis);
 }
 static int32_t call_88(fe_world *w, const handles *own, const handles *h)
 {
     (void)own;
-    return (int32_t)fe_configurable_joint_def_at(w, ready_fe_configurable_joint_def(), own->body, h->other, &point, &axis);
+    return (int32_t)fe_configurable_joint_def_at(w, ready_fe_configurable_joint_def(), own->body, h->other, &point,
+                                                 &axis);
 }
 static int32_t call_89(fe_world *w, const handles *own, const handles *h)
 {
@@ -548,12 +552,14 @@ static int32_t call_92(fe_world *w, const handles *own, const handles *h)
 static int32_t call_93(fe_world *w, const handles *own, const handles *h)
 {
     (void)own;
-    return (int32_t)fe_wheel_joint_def_at(w, ready_fe_configurable_joint_def(), h->body, own->other, &point, &axis, &up, 1, 1, 1);
+    return (int32_t)fe_wheel_joint_def_at(w, ready_fe_configurable_joint_def(), h->body, own->other, &point, &axis, &up,
+                                          1, 1, 1);
 }
 static int32_t call_94(fe_world *w, const handles *own, const handles *h)
 {
     (void)own;
-    return (int32_t)fe_wheel_joint_def_at(w, ready_fe_configurable_joint_def(), own->body, h->other, &point, &axis, &up, 1, 1, 1);
+    return (int32_t)fe_wheel_joint_def_at(w, ready_fe_configurable_joint_def(), own->body, h->other, &point, &axis, &up,
+                                          1, 1, 1);
 }
 static int32_t call_95(fe_world *w, const handles *own, const handles *h)
 {
@@ -905,7 +911,8 @@ static const call calls[] = {
 };
 enum { CALLS = sizeof calls / sizeof *calls };
 
-// ---- the worlds -----------------------------------------------------------------------------------------------------------------
+// ---- the worlds
+// -----------------------------------------------------------------------------------------------------------------
 static fe_world *worlds[WORLDS];
 static handles of[WORLDS];
 
@@ -945,7 +952,8 @@ static void every_call_refuses_the_handles_of_63_other_worlds(void **state)
                 const size_t length = strlen(calls[c].name);
                 const int32_t asks = length > 9 && strcmp(calls[c].name + length - 9, "_is_valid") == 0;
                 if (result != (asks ? 0 : FE_ERROR_STALE))
-                    fail_msg("call %d, %s, gave %s: %s", (int)c, calls[c].name, fe_result_name(result), fe_last_error());
+                    fail_msg("call %d, %s, gave %s: %s", (int)c, calls[c].name, fe_result_name(result),
+                             fe_last_error());
             }
         }
         assert_true(hash_of(worlds[i]) == before);
@@ -953,13 +961,15 @@ static void every_call_refuses_the_handles_of_63_other_worlds(void **state)
     for (int32_t i = 0; i < WORLDS; ++i) assert_int_equal(fe_world_destroy(worlds[i]), FE_OK);
 }
 
-// ---- is any forgotten? ----------------------------------------------------------------------------------------------------------
+// ---- is any forgotten?
+// ----------------------------------------------------------------------------------------------------------
 
 // Takes a handle by value, or a const array of them
 static int32_t takes_a_handle(const char *declaration)
 {
-    static const char *const marks[] = {"fe_body body",   "fe_body a",      "fe_body b",       "fe_body chassis",  "fe_body wheel",
-                                        "fe_shape shape", "fe_joint joint", "const fe_body *", "const fe_shape *", "const fe_joint *"};
+    static const char *const marks[] = {"fe_body body",     "fe_body a",       "fe_body b",      "fe_body chassis",
+                                        "fe_body wheel",    "fe_shape shape",  "fe_joint joint", "const fe_body *",
+                                        "const fe_shape *", "const fe_joint *"};
     for (size_t i = 0; i < sizeof marks / sizeof *marks; ++i)
         if (strstr(declaration, marks[i])) return 1;
     return 0;

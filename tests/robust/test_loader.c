@@ -1,7 +1,7 @@
 // test_loader.c - a thread loads and unloads heightfields while worlds that share the store step on others.
 //
-// For ThreadSanitizer above all: a step takes no lock, and what the loader writes is nothing that a step reads. What the worlds compute
-// must not show that there was a loader.
+// For ThreadSanitizer above all: a step takes no lock, and what the loader writes is nothing that a step reads. What
+// the worlds compute must not show that there was a loader.
 #include "api/api_test.h"
 
 #include <pthread.h>
@@ -32,7 +32,8 @@ static fe_asset load(fe_store *store, int32_t seed)
     return fe_heightfield_create(store, &d, &asset) == FE_OK ? asset : 0;
 }
 
-// ---- the loader -----------------------------------------------------------------------------------------------------------------
+// ---- the loader
+// -----------------------------------------------------------------------------------------------------------------
 
 typedef struct loader {
     fe_store *store;
@@ -77,7 +78,8 @@ static void *work(void *argument)
     return NULL;
 }
 
-// ---- the worlds -----------------------------------------------------------------------------------------------------------------
+// ---- the worlds
+// -----------------------------------------------------------------------------------------------------------------
 
 static fe_body add_terrain(fe_world *world, fe_asset asset, double x)
 {
@@ -197,7 +199,8 @@ static void edits_come_between_steps_or_not_at_all(void **state)
     for (int32_t w = 0; w < WORLDS; ++w) steppers[w].world = new_world_on(store, asset, 1);
     loader l = {.store = store, .used = asset};
     begin(&l, &thread);
-    for (int32_t w = 0; w < WORLDS; ++w) assert_int_equal(pthread_create(threads + w, NULL, keep_stepping, steppers + w), 0);
+    for (int32_t w = 0; w < WORLDS; ++w)
+        assert_int_equal(pthread_create(threads + w, NULL, keep_stepping, steppers + w), 0);
     for (int32_t w = 0; w < WORLDS; ++w) pthread_join(threads[w], NULL);
     end(&l, thread);
     for (int32_t w = 0; w < WORLDS; ++w) assert_int_equal(steppers[w].errors, 0);

@@ -1,5 +1,5 @@
-// Near misses wait only while their bodies cannot have met: the odometers bound every way, also round their end, and what is moved by hand
-// is looked at in the next step.
+// Near misses wait only while their bodies cannot have met: the odometers bound every way, also round their end, and
+// what is moved by hand is looked at in the next step.
 #include "api/api_test.h"
 
 #include "world/deferral.h"
@@ -23,7 +23,8 @@ typedef struct place {
 // by up to so many m and half radians, as a step moves a body
 static void move(place *at, fe__odometer *o, float most, float most_turn)
 {
-    fe_vec3 shift = fe__scale(most, fe__vec3(any(), any(), any())), turn = fe__scale(most_turn, fe__vec3(any(), any(), any()));
+    fe_vec3 shift = fe__scale(most, fe__vec3(any(), any(), any())),
+            turn = fe__scale(most_turn, fe__vec3(any(), any(), any()));
     fe_quat q = fe__normalized((fe_quat){turn.x, turn.y, turn.z, 1.0f});
     at->centre = fe__dadd(at->centre, fe__widen(shift));
     at->rotation = fe__normalized(fe__product(q, at->rotation));
@@ -51,7 +52,8 @@ static void what_waits_has_not_moved_too_far(void **state)
     fe__odometer o[2] = {{UINT32_MAX - 1000, UINT32_MAX - 3, 0.0f}, {0x7ffffffe, 0x80000001, 0.0f}};
     for (int32_t i = 0; i < 2000; ++i) {
         float slack = 0.05f + 0.04f * any(), reach = 1.0f + any(), dt = 1.0f / 60.0f, most = 0.002f * (1.0f + any());
-        place start[2] = {{{0.0, 0.0, 0.0}, fe__identity()}, {{3.0, 1.0, -2.0}, fe__identity()}}, now[2] = {start[0], start[1]};
+        place start[2] = {{{0.0, 0.0, 0.0}, fe__identity()}, {{3.0, 1.0, -2.0}, fe__identity()}},
+              now[2] = {start[0], start[1]};
         fe__deferral wait;
         o[0].speed = 0.0f, o[1].speed = 0.0f;
         fe__defer(&wait, o, 0, 1, slack, reach);

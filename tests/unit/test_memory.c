@@ -36,7 +36,10 @@ static void host_release(void *user, void *block, uint64_t size)
 
 static fe__memory memory_of(host *h)
 {
-    fe_allocator allocator = {.struct_size = sizeof allocator, .allocate = host_allocate, .release = host_release, .user = h};
+    fe_allocator allocator = {.struct_size = sizeof allocator,
+                              .allocate = host_allocate,
+                              .release = host_release,
+                              .user = h};
     fe__memory memory;
     fe__memory_init(&memory, &allocator);
     return memory;
@@ -156,7 +159,8 @@ static void a_failed_reserve_changes_nothing(void **state)
     FE_FREE(&memory, numbers, capacity);
 }
 
-// Doubling beyond 2^30 records stops at what an int32_t can count; a size that overflows is refused before the host is asked.
+// Doubling beyond 2^30 records stops at what an int32_t can count; a size that overflows is refused before the host is
+// asked.
 static void capacities_stay_below_2_to_the_31(void **state)
 {
     (void)state;
@@ -176,9 +180,12 @@ static void capacities_stay_below_2_to_the_31(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(blocks_are_zeroed_and_aligned),    cmocka_unit_test(the_counters_tell_what_the_host_sees),
-        cmocka_unit_test(nothing_and_too_much_are_refused), cmocka_unit_test(arrays_grow_from_one_and_keep_their_records),
-        cmocka_unit_test(a_failed_reserve_changes_nothing), cmocka_unit_test(capacities_stay_below_2_to_the_31),
+        cmocka_unit_test(blocks_are_zeroed_and_aligned),
+        cmocka_unit_test(the_counters_tell_what_the_host_sees),
+        cmocka_unit_test(nothing_and_too_much_are_refused),
+        cmocka_unit_test(arrays_grow_from_one_and_keep_their_records),
+        cmocka_unit_test(a_failed_reserve_changes_nothing),
+        cmocka_unit_test(capacities_stay_below_2_to_the_31),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
