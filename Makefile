@@ -291,7 +291,7 @@ deps:
 # Without the records of the ABI, which stay as they were written.
 FORMATTED = $(foreach top,src tests bench examples,$(foreach ext,c h inl cpp,$(foreach depth,* */* */*/*,$(wildcard $(top)/$(depth).$(ext)))))
 format:
-	$(CLANG_FORMAT) -i include/feather.h $(filter-out tests/abi/feather_% tests/abi/layout.h,$(FORMATTED))
+	$(CLANG_FORMAT) -i include/feather.h $(filter-out tests/abi/feather_% tests/abi/layout%.h,$(FORMATTED))
 
 clean:
 	rm -rf $(BUILD)

@@ -1,4 +1,5 @@
-// Asks a scene after some steps a thousand rays, sweeps and overlaps (answers.h). A fingerprint is FNV-1a over what was hit and how far.
+// Asks a scene after some steps a thousand rays, sweeps and overlaps (answers.h). A fingerprint is FNV-1a over what was
+// hit and how far.
 #include "answers.h"
 
 #include "peers/peer.h"
@@ -43,8 +44,8 @@ static void ask(bench_world *world, int32_t kind, const bench_probe *p, uint64_t
     add_word(print, (uint64_t)(uint32_t)hit << 32 | bits);
 }
 
-// Time of a block of queries in units of the calibration loop beside it, each at its fastest of all rounds: another program, or the other
-// thread of the core, slows some rounds, seldom all.
+// Time of a block of queries in units of the calibration loop beside it, each at its fastest of all rounds: another
+// program, or the other thread of the core, slows some rounds, seldom all.
 static void ask_all(bench_world *world, double (*calibrate)(void), bench_reference *out)
 {
     const int32_t rounds = calibrate != NULL ? ROUNDS : 1;
@@ -64,7 +65,8 @@ static void ask_all(bench_world *world, double (*calibrate)(void), bench_referen
             }
             if (round == 0) add_word(&out->quick, print);
         }
-        for (int32_t block = 0; block < BLOCKS; block++) out->phases[kind] += least[block] / (calibrate != NULL ? unit : 1.0);
+        for (int32_t block = 0; block < BLOCKS; block++)
+            out->phases[kind] += least[block] / (calibrate != NULL ? unit : 1.0);
     }
 }
 

@@ -1,5 +1,6 @@
 /// @file answers.h
-/// Queries as a part of the regression set: a fingerprint of their answers, and their times. check.c compares with bench/reference.json.
+/// Queries as a part of the regression set: a fingerprint of their answers, and their times. check.c compares with
+/// bench/reference.json.
 #ifndef BENCH_ANSWERS_H
 #define BENCH_ANSWERS_H
 

@@ -1,5 +1,6 @@
 /// @file bench.h
-/// The commands of feather-bench. main.c finds a command in a table; each gets the arguments after its name and returns the exit code.
+/// The commands of feather-bench. main.c finds a command in a table; each gets the arguments after its name and returns
+/// the exit code.
 #ifndef BENCH_BENCH_H
 #define BENCH_BENCH_H
 

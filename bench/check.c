@@ -1,5 +1,6 @@
-// `feather-bench check` and `update`: has anything changed since a change was last accepted? Results by their fingerprint, quality by the
-// criteria, speed by phase, as a ratio to a calibration loop that runs between the steps, so that it means the same on every machine.
+// `feather-bench check` and `update`: has anything changed since a change was last accepted? Results by their
+// fingerprint, quality by the criteria, speed by phase, as a ratio to a calibration loop that runs between the steps,
+// so that it means the same on every machine.
 #include "bench.h"
 
 #include "answers.h"
@@ -23,7 +24,8 @@ enum {
 };
 static const double SLOWER = 1.5;      // what counts as a regression of speed; noise below it is common
 static const double LEAST_SHARE = 0.1; // of a step, and
-static const double LEAST_UNITS = 0.5; // of the calibration loop: shorter phases are not judged, their clock is too coarse
+static const double LEAST_UNITS =
+    0.5; // of the calibration loop: shorter phases are not judged, their clock is too coarse
 
 static const char *const regression_set[] = {
     "vertical-stack",
@@ -52,7 +54,8 @@ static const char *const regression_set[] = {
 };
 enum { SET = (int)(sizeof regression_set / sizeof regression_set[0]) };
 
-// A stretch of dependent and independent float work that the compiler cannot drop. Its time is the unit of the phases' times.
+// A stretch of dependent and independent float work that the compiler cannot drop. Its time is the unit of the phases'
+// times.
 static double calibrate(void)
 {
     enum { COUNT = 4096 };
@@ -68,7 +71,8 @@ static double calibrate(void)
     return bench_wall_ms() - start;
 }
 
-// ---- one scene ------------------------------------------------------------------------------------------------------------------------
+// ---- one scene
+// ------------------------------------------------------------------------------------------------------------------------
 
 // Fingerprint after QUICK_STEPS, then the whole run with its criteria, unless `quick`.
 static int fingerprint(const char *name, int32_t quick, bench_reference *out)
@@ -120,7 +124,8 @@ static int time_phases(const char *name, bench_reference *out)
     return status;
 }
 
-// ---- the commands ---------------------------------------------------------------------------------------------------------------------
+// ---- the commands
+// ---------------------------------------------------------------------------------------------------------------------
 
 static const bench_reference *find(const bench_reference *all, int32_t count, const char *name)
 {
@@ -134,12 +139,13 @@ static int32_t check_results(const bench_reference *was, const bench_reference *
 {
     int32_t bad = 0;
     if (now->quick != was->quick || (!quick && now->full != was->full)) {
-        printf("%-22s RESULTS CHANGED: fingerprint %016" PRIx64 ", was %016" PRIx64 "\n", now->scene, quick ? now->quick : now->full,
-               quick ? was->quick : was->full);
+        printf("%-22s RESULTS CHANGED: fingerprint %016" PRIx64 ", was %016" PRIx64 "\n", now->scene,
+               quick ? now->quick : now->full, quick ? was->quick : was->full);
         bad = 1;
     }
     if (!quick && now->passed < was->passed) {
-        printf("%-22s QUALITY: a criterion that held does not hold; try: feather-bench run %s\n", now->scene, now->scene);
+        printf("%-22s QUALITY: a criterion that held does not hold; try: feather-bench run %s\n", now->scene,
+               now->scene);
         bad = 1;
     }
     return bad;
@@ -179,7 +185,8 @@ static int32_t check_answers(const bench_reference *was, int32_t set, int32_t no
         if (attempt < ATTEMPTS && bench_answers(set, calibrate, &now) != 0) return 1;
     }
     if (slow >= 0)
-        printf("%-22s SLOWER: %s takes %.2f times as long\n", was->scene, bench_answer_phases[slow], now.phases[slow] / was->phases[slow]);
+        printf("%-22s SLOWER: %s takes %.2f times as long\n", was->scene, bench_answer_phases[slow],
+               now.phases[slow] / was->phases[slow]);
     return bad || slow >= 0;
 }
 
@@ -232,7 +239,8 @@ int bench_command_check(int argc, char **argv)
     }
     for (int32_t i = 0; i < BENCH_ANSWER_SETS && count >= 0; i++) {
         const bench_reference *then = find(was, count, bench_answer_names[i]);
-        if (then == NULL) printf("%-22s has no reference; accept it with: feather-bench update\n", bench_answer_names[i]);
+        if (then == NULL)
+            printf("%-22s has no reference; accept it with: feather-bench update\n", bench_answer_names[i]);
         bad += then == NULL || check_answers(then, i, r.no_speed);
     }
     if (isatty(STDERR_FILENO)) fprintf(stderr, "\r\033[K");
@@ -253,6 +261,6 @@ int bench_command_update(int argc, char **argv)
         if (bench_answers(i, calibrate, &now[SET + i]) != 0) return 1;
     }
     if (isatty(STDERR_FILENO)) fprintf(stderr, "\r\033[K");
-    return bench_reference_write(r.path, now, SET + BENCH_ANSWER_SETS, bench_feather.phase_names, bench_answer_phases, BENCH_ANSWER_SETS) !=
-           0;
+    return bench_reference_write(r.path, now, SET + BENCH_ANSWER_SETS, bench_feather.phase_names, bench_answer_phases,
+                                 BENCH_ANSWER_SETS) != 0;
 }

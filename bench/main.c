@@ -19,13 +19,15 @@ static const command commands[] = {
     {"queries", bench_command_queries, "rays, sweeps, overlaps beside Bullet's"},
     {"scenes", bench_command_scenes, "every case in Feather, judged"},
     {"run", bench_command_run, "one case: run NAME, with every measure"},
-    {"compare", bench_command_compare, "cases in all engines, side by side: exit 1 where Feather does worse than Box2D or ODE"},
+    {"compare", bench_command_compare,
+     "cases in all engines, side by side: exit 1 where Feather does worse than Box2D or ODE"},
     {"tasks", bench_command_tasks, "the runs that compare makes, one a line: about how long, case, engine, substeps"},
     {"worse", bench_command_worse, "that judgement alone, of tables that compare wrote: worse FILE.csv..."},
     {"profile", bench_command_profile, "where the time of a step goes: profile SCENE"},
     {"scaling", bench_command_scaling, "time and memory of 100 to 100 000 bodies, 1 and 2 workers"},
     {"table", bench_command_table, "a table as Markdown: table FILE.csv [COLUMN]..."},
-    {"peers", bench_command_peers, "are all engines built from the same data? Bodies, mass and places before the first step"},
+    {"peers", bench_command_peers,
+     "are all engines built from the same data? Bodies, mass and places before the first step"},
     {"check", bench_command_check, "the regression set against bench/reference.json: exit 1 on a regression"},
     {"update", bench_command_update, "accepts the present results as the reference"},
     {"list", bench_command_list, "the scenes, the cases and the engines"},
@@ -65,14 +67,17 @@ int bench_command_help(int argc, char **argv)
     (void)argc, (void)argv;
     printf("usage: feather-bench COMMAND [OPTION]...\n");
     for (size_t i = 0; i < command_count; i++) printf("  %-8s %s\n", commands[i].name, commands[i].about);
-    printf("options of scenes, run, compare and tasks: --scene, --peers, --only-peers, --workers, --substeps (default: 4 and 8), --out,\n"
-           "  --variants N          of cases whose measures rounding decides, judged by their medians; a quarter with many bodies "
+    printf("options of scenes, run, compare and tasks: --scene, --peers, --only-peers, --workers, --substeps (default: "
+           "4 and 8), --out,\n"
+           "  --variants N          of cases whose measures rounding decides, judged by their medians; a quarter with "
+           "many bodies "
            "(default: 32, 1)\n"
            "options of speed:\n"
            "  --scene NAME[,NAME]   scenes to run (default: those of the list); may be given several times\n"
            "  --peers bullet,ode    engines beside Feather, or none (default: all that were built in)\n"
            "  --workers N[,N]       Feather's workers (default: 1, and 2 at 4 substeps)\n"
-           "  --substeps N[,N]      Feather's substeps (default: 4 and 8); every number of workers runs with every one of substeps\n"
+           "  --substeps N[,N]      Feather's substeps (default: 4 and 8); every number of workers runs with every one "
+           "of substeps\n"
            "  --steps N             timed steps, instead of the scene's own\n"
            "  --rays                times 20 000 raycasts after the steps\n"
            "  --profile             Feather's phases and counters\n"

@@ -1,5 +1,5 @@
-// What every run tells whatever its case asks (trial.h): read from the series that trial.c recorded; the comparison of engines (worse.c)
-// and people read it.
+// What every run tells whatever its case asks (trial.h): read from the series that trial.c recorded; the comparison of
+// engines (worse.c) and people read it.
 #include "trial.h"
 
 #include <math.h>
@@ -26,12 +26,14 @@ static double within_slop(const bench_trial *t)
 {
     double weight = 0.0, square = 0.0;
     for (int k = 0; k < 3; k++) square += t->scene.gravity[k] * t->scene.gravity[k];
-    for (int32_t i = 0; i < t->scene.body_count; i++) weight += t->masses[i] * (double)t->scene.bodies[i].gravity_scale * sqrt(square);
+    for (int32_t i = 0; i < t->scene.body_count; i++)
+        weight += t->masses[i] * (double)t->scene.bodies[i].gravity_scale * sqrt(square);
     return weight * BENCH_LINEAR_SLOP;
 }
 
-// What was turned over: the largest kinetic energy and the range of the potential one. Springs give back what they hold, so that only what
-// rises above an earlier energy with its springs counts, and of that only what is more than the slop makes of it.
+// What was turned over: the largest kinetic energy and the range of the potential one. Springs give back what they
+// hold, so that only what rises above an earlier energy with its springs counts, and of that only what is more than the
+// slop makes of it.
 static double energy_gained(const bench_trial *t)
 {
     if (t->driven_until >= t->step) return (double)NAN;
@@ -56,6 +58,7 @@ void bench_measure(bench_trial *t)
     t->measures[BENCH_M_TILT] = bench_largest_tilt(t);
     t->measures[BENCH_M_SETTLED] = settled(t);
     t->measures[BENCH_M_ENERGY] = energy_gained(t);
-    if (t->scene.joint_count > 0) t->measures[BENCH_M_GAP] = bench_highest(t->gap, t->step > a_second ? t->step - a_second : 0, t->step);
+    if (t->scene.joint_count > 0)
+        t->measures[BENCH_M_GAP] = bench_highest(t->gap, t->step > a_second ? t->step - a_second : 0, t->step);
     t->measures[BENCH_M_DEEPEST] = bench_deepest(t);
 }

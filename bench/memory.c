@@ -16,4 +16,7 @@ static void *present_or_exit(void *memory)
 // calloc and realloc may give NULL for no bytes at all, hence at least one item.
 void *bench_allocate(size_t count, size_t size) { return present_or_exit(calloc(count > 0 ? count : 1, size)); }
 
-void *bench_resize(void *items, size_t count, size_t size) { return present_or_exit(realloc(items, (count > 0 ? count : 1) * size)); }
+void *bench_resize(void *items, size_t count, size_t size)
+{
+    return present_or_exit(realloc(items, (count > 0 ? count : 1) * size));
+}

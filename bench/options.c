@@ -44,7 +44,10 @@ static int parse_names(char *list, char **names, int32_t capacity, int32_t *coun
     return 0;
 }
 
-static int read_scenes(bench_options *o, char *value) { return parse_names(value, o->scenes, BENCH_MAX_SCENES, &o->scene_count); }
+static int read_scenes(bench_options *o, char *value)
+{
+    return parse_names(value, o->scenes, BENCH_MAX_SCENES, &o->scene_count);
+}
 
 static int read_peers(bench_options *o, char *value)
 {
@@ -73,9 +76,10 @@ static const struct option {
     int has_value;
     int (*read)(bench_options *options, char *value);
 } option_table[] = {
-    {"--scene", 1, read_scenes},   {"--peers", 1, read_peers},          {"--workers", 1, read_workers},   {"--steps", 1, read_steps},
-    {"--out", 1, read_out},        {"--substeps", 1, read_substeps},    {"--variants", 1, read_variants}, {"--rays", 0, set_rays},
-    {"--profile", 0, set_profile}, {"--only-peers", 0, set_only_peers},
+    {"--scene", 1, read_scenes},         {"--peers", 1, read_peers}, {"--workers", 1, read_workers},
+    {"--steps", 1, read_steps},          {"--out", 1, read_out},     {"--substeps", 1, read_substeps},
+    {"--variants", 1, read_variants},    {"--rays", 0, set_rays},    {"--profile", 0, set_profile},
+    {"--only-peers", 0, set_only_peers},
 };
 
 static const struct option *find_option(const char *name)
@@ -93,7 +97,8 @@ int bench_options_parse(bench_options *out_options, int argc, char **argv)
     for (int i = 0; i < argc; i++) {
         const struct option *option = find_option(argv[i]);
         if (option == NULL || (option->has_value && i + 1 == argc)) {
-            fprintf(stderr, option == NULL ? "feather-bench: no option \"%s\"\n" : "feather-bench: %s needs a value\n", argv[i]);
+            fprintf(stderr, option == NULL ? "feather-bench: no option \"%s\"\n" : "feather-bench: %s needs a value\n",
+                    argv[i]);
             return -1;
         }
         char *value = option->has_value ? argv[++i] : NULL;

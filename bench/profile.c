@@ -1,5 +1,5 @@
-// `feather-bench profile SCENE [--workers N] [--substeps N] [--steps N] [--out FILE]`: where the time of a step goes in Feather, on a scene
-// or a case, phase by phase. Writes build/profile.csv.
+// `feather-bench profile SCENE [--workers N] [--substeps N] [--steps N] [--out FILE]`: where the time of a step goes in
+// Feather, on a scene or a case, phase by phase. Writes build/profile.csv.
 #include "bench.h"
 
 #include "memory.h"
@@ -28,7 +28,8 @@ static int run(bench_world *world, const bench_scene *scene, int32_t steps, doub
 {
     double ms[BENCH_MAX_PHASES];
     for (int32_t i = 0; i < scene->warm_up_steps + steps; i++) {
-        if (isatty(STDERR_FILENO)) fprintf(stderr, "\r\033[K%s: step %d/%d", scene->name, i, scene->warm_up_steps + steps);
+        if (isatty(STDERR_FILENO))
+            fprintf(stderr, "\r\033[K%s: step %d/%d", scene->name, i, scene->warm_up_steps + steps);
         if (bench_feather.step(world, scene->dt) != 0) return -1;
         bench_feather.read_phases(world, ms);
         for (int32_t p = 0; i >= scene->warm_up_steps && bench_feather.phase_names[p] != NULL; p++) sums[p] += ms[p];
@@ -41,15 +42,16 @@ static void print(const bench_scene *scene, bench_world *world, int32_t steps, c
 {
     bench_counters c;
     bench_feather.read_counters(world, &c);
-    printf("%s: %d bodies, %d contacts (%d recycled), %d islands, %d rows (%.0f %% in batches of one worker, %.0f %% of their lanes "
+    printf("%s: %d bodies, %d contacts (%d recycled), %d islands, %d rows (%.0f %% in batches of one worker, %.0f %% "
+           "of their lanes "
            "filled), %.1f MB\n",
-           scene->name, scene->body_count, c.contacts, c.recycled, c.islands, c.rows, 100.0 * c.whole_share, 100.0 * c.fill,
-           (double)c.bytes / 1048576.0);
+           scene->name, scene->body_count, c.contacts, c.recycled, c.islands, c.rows, 100.0 * c.whole_share,
+           100.0 * c.fill, (double)c.bytes / 1048576.0);
     fprintf(csv, "scene,phase,ms,share\n");
     for (int32_t p = 0; bench_feather.phase_names[p] != NULL; p++) {
         const double share = sums[0] > 0.0 ? sums[p] / sums[0] : 0.0;
-        printf("  %-12s %9.4f ms %5.1f %% %.*s\n", bench_feather.phase_names[p], sums[p] / steps, 100.0 * share, (int)(BAR * share),
-               "########################################");
+        printf("  %-12s %9.4f ms %5.1f %% %.*s\n", bench_feather.phase_names[p], sums[p] / steps, 100.0 * share,
+               (int)(BAR * share), "########################################");
         fprintf(csv, "%s,%s,%.6f,%.4f\n", scene->name, bench_feather.phase_names[p], sums[p] / steps, share);
     }
 }
@@ -63,8 +65,8 @@ static int profile(const char *name, const bench_options *o, FILE *csv)
         return -1;
     }
     const int32_t steps = o->steps > 0 ? o->steps : scene.timed_steps;
-    bench_world *world =
-        bench_feather.create(&scene, o->worker_count > 0 ? o->workers[0] : 1, o->substep_count > 0 ? o->substeps[0] : SUBSTEPS);
+    bench_world *world = bench_feather.create(&scene, o->worker_count > 0 ? o->workers[0] : 1,
+                                              o->substep_count > 0 ? o->substeps[0] : SUBSTEPS);
     int status = world == NULL ? -1 : run(world, &scene, steps, sums);
     if (status == 0) print(&scene, world, steps, sums, csv);
     if (world != NULL) bench_feather.destroy(world);

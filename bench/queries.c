@@ -1,9 +1,9 @@
-// `feather-bench queries [SCENE]...`: rays, sweeps and overlaps in Feather and Bullet, by turns, on the same scenes, after their timed
-// steps.
+// `feather-bench queries [SCENE]...`: rays, sweeps and overlaps in Feather and Bullet, by turns, on the same scenes,
+// after their timed steps.
 //
-// Times are of the processor, one thread. What holds are the ratios of one run; the hits of both stand beside them, for a fast answer must
-// be the same answer. Bullet counts in floats, sweeps stop some millimetres early (its margins), so that some hits differ. Writes
-// build/queries.csv.
+// Times are of the processor, one thread. What holds are the ratios of one run; the hits of both stand beside them, for
+// a fast answer must be the same answer. Bullet counts in floats, sweeps stop some millimetres early (its margins), so
+// that some hits differ. Writes build/queries.csv.
 #include "bench.h"
 
 #include "memory.h"
@@ -21,7 +21,8 @@
 enum { COUNT = 20000, BLOCK = 500, PLOTTED = 16 };
 
 typedef enum kind { RAY, SPHERE, CAPSULE, BOX, OVERLAP, KINDS } kind;
-static const char *const kind_names[KINDS] = {"ray", "sweep of a sphere", "sweep of a capsule", "sweep of a box", "overlap"};
+static const char *const kind_names[KINDS] = {"ray", "sweep of a sphere", "sweep of a capsule", "sweep of a box",
+                                              "overlap"};
 
 typedef struct side {
     const bench_engine *engine;
@@ -34,15 +35,18 @@ typedef struct side {
 
 enum { SIDES = 2 };
 
-// ---- what is asked ------------------------------------------------------------------------------------------------------------------
+// ---- what is asked
+// ------------------------------------------------------------------------------------------------------------------
 
 // The rays of the speed table in the middle of the scene; where it is wide, the same about places all over it.
 static bench_ray make_way(const bench_scene *scene, uint64_t *state, uint64_t *places)
 {
     bench_ray way;
     double to[3], half = fmax(scene->query_half - 20.0, 0.0);
-    for (int axis = 0; axis < 3; axis++) way.origin[axis] = axis == 1 ? 30.0 * bench_random(state) : 40.0 * bench_random(state) - 20.0;
-    for (int axis = 0; axis < 3; axis++) to[axis] = axis == 1 ? 30.0 * bench_random(state) - 5.0 : 40.0 * bench_random(state) - 20.0;
+    for (int axis = 0; axis < 3; axis++)
+        way.origin[axis] = axis == 1 ? 30.0 * bench_random(state) : 40.0 * bench_random(state) - 20.0;
+    for (int axis = 0; axis < 3; axis++)
+        to[axis] = axis == 1 ? 30.0 * bench_random(state) - 5.0 : 40.0 * bench_random(state) - 20.0;
     for (int axis = 0; axis < 3; axis++) way.translation[axis] = to[axis] - way.origin[axis];
     for (int axis = 0; axis < 3 && half > 0.0; axis += 2) way.origin[axis] += half * (2.0 * bench_random(places) - 1.0);
     return way;
@@ -60,9 +64,11 @@ static bench_probe *make_probes(const bench_scene *scene, kind of)
         if (of == SPHERE) p->shape = bench_make_sphere(0.4f);
         if (of == CAPSULE) p->shape = bench_make_capsule(0.3f, 0.3f);
         if (of == OVERLAP)
-            p->shape = i % 2 ? bench_make_box(1.0f, 1.0f, 1.0f) : bench_make_sphere(1.0f), p->way.origin[1] *= overlap_heights;
+            p->shape = i % 2 ? bench_make_box(1.0f, 1.0f, 1.0f) : bench_make_sphere(1.0f),
+            p->way.origin[1] *= overlap_heights;
         double square = 0.0;
-        for (int k = 0; k < 4; k++) p->rotation[k] = 2.0 * bench_random(&turns) - 1.0, square += p->rotation[k] * p->rotation[k];
+        for (int k = 0; k < 4; k++)
+            p->rotation[k] = 2.0 * bench_random(&turns) - 1.0, square += p->rotation[k] * p->rotation[k];
         for (int k = 0; k < 4; k++) p->rotation[k] /= sqrt(square);
     }
     return probes;
@@ -97,7 +103,8 @@ static void ask_all(side sides[SIDES], const bench_scene *scene)
     }
 }
 
-// ---- a scene ------------------------------------------------------------------------------------------------------------------------
+// ---- a scene
+// ------------------------------------------------------------------------------------------------------------------------
 
 static int play(side *s, const bench_scene *scene)
 {
@@ -135,15 +142,17 @@ static int draw(const char *path)
     bench_series series[KINDS];
     for (int32_t i = 0; i < plotted_count; i++) labels[i] = plotted_names[i];
     for (kind of = RAY; of < KINDS; of++) series[of] = (bench_series){kind_names[of], NULL, plotted[of], plotted_count};
-    return plotted_count > 0 ? bench_svg_bars(path, "Time of a query, Bullet / Feather", labels, plotted_count, series, KINDS) : 0;
+    return plotted_count > 0
+               ? bench_svg_bars(path, "Time of a query, Bullet / Feather", labels, plotted_count, series, KINDS)
+               : 0;
 }
 
 static void print_scene(const bench_scene *scene, const side sides[SIDES], FILE *csv)
 {
     const int32_t plot = plotted_count < PLOTTED && sides[1].engine != NULL ? plotted_count++ : -1;
     if (plot >= 0) snprintf(plotted_names[plot], sizeof plotted_names[plot], "%s", scene->name);
-    printf("\n%s, us each      %16s %10s %8s %9s %9s %10s %10s\n", scene->name, "feather", "bullet", "bullet/", "hits", "bullet",
-           "fraction", "bullet");
+    printf("\n%s, us each      %16s %10s %8s %9s %9s %10s %10s\n", scene->name, "feather", "bullet", "bullet/", "hits",
+           "bullet", "fraction", "bullet");
     for (kind of = RAY; of < KINDS; of++) {
         double us[SIDES], mean[SIDES];
         for (int32_t i = 0; i < SIDES; i++) {
@@ -153,15 +162,16 @@ static void print_scene(const bench_scene *scene, const side sides[SIDES], FILE 
         print_line(kind_names[of], us[0], us[1]);
         if (plot >= 0) plotted[of][plot] = us[1] / us[0];
         printf(" %9d %9d %10.6f %10.6f\n", sides[0].hits[of], sides[1].hits[of], mean[0], mean[1]);
-        fprintf(csv, "%s,%s,%.6f,%.6f,%d,%d\n", scene->name, kind_names[of], us[0], us[1], sides[0].hits[of], sides[1].hits[of]);
+        fprintf(csv, "%s,%s,%.6f,%.6f,%d,%d\n", scene->name, kind_names[of], us[0], us[1], sides[0].hits[of],
+                sides[1].hits[of]);
     }
     if (scene->body_count < COUNT) return;
     print_line("body added", sides[0].create_us, sides[1].create_us);
     printf("\n");
     print_line("body removed", sides[0].remove_us, sides[1].remove_us);
     printf("\n");
-    fprintf(csv, "%s,body added,%.6f,%.6f,,\n%s,body removed,%.6f,%.6f,,\n", scene->name, sides[0].create_us, sides[1].create_us,
-            scene->name, sides[0].remove_us, sides[1].remove_us);
+    fprintf(csv, "%s,body added,%.6f,%.6f,,\n%s,body removed,%.6f,%.6f,,\n", scene->name, sides[0].create_us,
+            sides[1].create_us, scene->name, sides[0].remove_us, sides[1].remove_us);
 }
 
 static int run_scene(const char *name, FILE *csv)

@@ -1,5 +1,6 @@
 /// @file random.h
-/// The generator of the scenes' random numbers: xorshift64 (Marsaglia 2003, shifts 13, 7, 17), so that a scene is the same everywhere.
+/// The generator of the scenes' random numbers: xorshift64 (Marsaglia 2003, shifts 13, 7, 17), so that a scene is the
+/// same everywhere.
 #ifndef BENCH_RANDOM_H
 #define BENCH_RANDOM_H
 

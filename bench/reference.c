@@ -13,7 +13,8 @@ static int read_line(const char *line, bench_reference *out)
     int used = 0;
     memset(out, 0, sizeof *out);
     if (sscanf(line,
-               " {\"scene\": \"%63[^\"]\", \"quick\": \"%" SCNx64 "\", \"full\": \"%" SCNx64 "\", \"passed\": %" SCNd32 ", \"phases\": {%n",
+               " {\"scene\": \"%63[^\"]\", \"quick\": \"%" SCNx64 "\", \"full\": \"%" SCNx64 "\", \"passed\": %" SCNd32
+               ", \"phases\": {%n",
                out->scene, &out->quick, &out->full, &out->passed, &used) != 4 ||
         used == 0)
         return -1;
@@ -51,8 +52,8 @@ int32_t bench_reference_read(const char *path, bench_reference *scenes)
     return count;
 }
 
-int bench_reference_write(const char *path, const bench_reference *scenes, int32_t count, const char *const *phase_names,
-                          const char *const *other_names, int32_t other_count)
+int bench_reference_write(const char *path, const bench_reference *scenes, int32_t count,
+                          const char *const *phase_names, const char *const *other_names, int32_t other_count)
 {
     FILE *file = fopen(path, "w");
     if (file == NULL) {
@@ -62,10 +63,13 @@ int bench_reference_write(const char *path, const bench_reference *scenes, int32
     fprintf(file, "[\n");
     for (int32_t i = 0; i < count; i++) {
         const bench_reference *r = &scenes[i];
-        fprintf(file, "  {\"scene\": \"%s\", \"quick\": \"%016" PRIx64 "\", \"full\": \"%016" PRIx64 "\", \"passed\": %d, \"phases\": {",
+        fprintf(file,
+                "  {\"scene\": \"%s\", \"quick\": \"%016" PRIx64 "\", \"full\": \"%016" PRIx64
+                "\", \"passed\": %d, \"phases\": {",
                 r->scene, r->quick, r->full, r->passed);
         const char *const *names = i < count - other_count ? phase_names : other_names;
-        for (int32_t p = 0; p < r->phase_count; p++) fprintf(file, "%s\"%s\": %.4f", p > 0 ? ", " : "", names[p], r->phases[p]);
+        for (int32_t p = 0; p < r->phase_count; p++)
+            fprintf(file, "%s\"%s\": %.4f", p > 0 ? ", " : "", names[p], r->phases[p]);
         fprintf(file, "}}%s\n", i + 1 < count ? "," : "");
     }
     fprintf(file, "]\n");

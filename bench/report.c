@@ -15,7 +15,8 @@ static const bench_run *find_run(const bench_table *table, const char *engine)
 }
 
 // How many times as long the named engine takes; "-" when it is this one or was not run.
-static void print_ratio(const bench_table *table, const bench_run *run, const char *engine, double ours, double (*of)(const bench_run *))
+static void print_ratio(const bench_table *table, const bench_run *run, const char *engine, double ours,
+                        double (*of)(const bench_run *))
 {
     const bench_run *other = find_run(table, engine);
     if (other == NULL || other == run || ours <= 0.0) {
@@ -45,8 +46,8 @@ void bench_print_table(const bench_table *table)
 {
     const bench_scene *scene = &table->scene;
     printf("\n%s: %d bodies\n", scene->name, scene->body_count);
-    printf("%-16s %8s %8s %8s %8s | %15s %15s | %8s %8s %8s %8s %8s %8s\n", "", "ms mean", "median", "p99", "cpu", "bullet/ mean,med",
-           "ode/ mean,med", "top m", "deep mm", "drift mm", "z mm", "gap mm", "contacts");
+    printf("%-16s %8s %8s %8s %8s | %15s %15s | %8s %8s %8s %8s %8s %8s\n", "", "ms mean", "median", "p99", "cpu",
+           "bullet/ mean,med", "ode/ mean,med", "top m", "deep mm", "drift mm", "z mm", "gap mm", "contacts");
     for (int32_t i = 0; i < table->run_count; i++) {
         const bench_run *run = &table->runs[i];
         print_label(run);
@@ -55,8 +56,9 @@ void bench_print_table(const bench_table *table)
         print_ratio(table, run, "bullet", run->stats.median, median_of);
         print_ratio(table, run, "ode", run->stats.mean, mean_of);
         print_ratio(table, run, "ode", run->stats.median, median_of);
-        printf(" | %8.3f %8.2f %8.1f %8.2f %8.2f %8d%s\n", run->quality.top_height, 1e3 * run->contacts.deepest, 1e3 * run->quality.drift,
-               1e3 * run->quality.z_offset, 1e3 * run->quality.gap, run->contacts.pairs, run->quality.finite ? "" : "  NOT FINITE");
+        printf(" | %8.3f %8.2f %8.1f %8.2f %8.2f %8d%s\n", run->quality.top_height, 1e3 * run->contacts.deepest,
+               1e3 * run->quality.drift, 1e3 * run->quality.z_offset, 1e3 * run->quality.gap, run->contacts.pairs,
+               run->quality.finite ? "" : "  NOT FINITE");
     }
     for (int32_t i = 0; i < table->run_count; i++) {
         const bench_run *run = &table->runs[i];
@@ -69,7 +71,8 @@ void bench_print_table(const bench_table *table)
 
 void bench_print_rays(const bench_table *table)
 {
-    printf("%s: rays\n%-16s %10s %10s %10s %15s\n", table->scene.name, "", "us a ray", "hits", "fraction", "bullet/ ode/");
+    printf("%s: rays\n%-16s %10s %10s %10s %15s\n", table->scene.name, "", "us a ray", "hits", "fraction",
+           "bullet/ ode/");
     for (int32_t i = 0; i < table->run_count; i++) {
         const bench_run *run = &table->runs[i];
         print_label(run);
@@ -89,11 +92,14 @@ void bench_print_profiles(const bench_table *table)
         print_label(run);
         printf(" ms a step:");
         for (int32_t p = 0; run->engine->phase_names[p] != NULL; p++) {
-            printf(" %s %.3f", run->engine->phase_names[p], run->sample_count > 0 ? run->phases[p] / run->sample_count : 0.0);
+            printf(" %s %.3f", run->engine->phase_names[p],
+                   run->sample_count > 0 ? run->phases[p] / run->sample_count : 0.0);
         }
         const bench_counters *c = &run->counters;
-        printf("\n%16s islands %d, colours %d, rows %d (%.0f %% whole), fill %.0f %%, contacts %d (%d recycled), %.1f KB\n", "", c->islands,
-               c->colours, c->rows, 100.0 * c->whole_share, 100.0 * c->fill, c->contacts, c->recycled, (double)c->bytes / 1024.0);
+        printf("\n%16s islands %d, colours %d, rows %d (%.0f %% whole), fill %.0f %%, contacts %d (%d recycled), %.1f "
+               "KB\n",
+               "", c->islands, c->colours, c->rows, 100.0 * c->whole_share, 100.0 * c->fill, c->contacts, c->recycled,
+               (double)c->bytes / 1024.0);
     }
     fflush(stdout);
 }
@@ -111,10 +117,9 @@ FILE *bench_csv_open(const char *path)
         fprintf(stderr, "feather-bench: %s: %s\n", path, strerror(errno));
         return NULL;
     }
-    fprintf(
-        file,
-        "scene,engine,workers,substeps,ms_per_step,ms_median,ms_p99,top_height,deepest_overlap,drift,contacts,points,z_offset,joint_gap,"
-        "ms_cpu,ms_least,steps,bodies,ray_us,ray_hits,islands,rows,rows_whole,fill,recycled,bytes,hash\n");
+    fprintf(file, "scene,engine,workers,substeps,ms_per_step,ms_median,ms_p99,top_height,deepest_overlap,drift,"
+                  "contacts,points,z_offset,joint_gap,"
+                  "ms_cpu,ms_least,steps,bodies,ray_us,ray_hits,islands,rows,rows_whole,fill,recycled,bytes,hash\n");
     return file;
 }
 
@@ -130,9 +135,9 @@ void bench_csv_write(FILE *file, const bench_table *table)
         } else {
             fprintf(file, "1,,");
         }
-        fprintf(file, "%.6f,%.6f,%.6f,%.6f,%.6f,%.6f,%d,%d,%.6f,%.6f,", s->mean, s->median, s->p99, run->quality.top_height,
-                run->contacts.deepest, run->quality.drift, run->contacts.pairs, run->contacts.points, run->quality.z_offset,
-                run->quality.gap);
+        fprintf(file, "%.6f,%.6f,%.6f,%.6f,%.6f,%.6f,%d,%d,%.6f,%.6f,", s->mean, s->median, s->p99,
+                run->quality.top_height, run->contacts.deepest, run->quality.drift, run->contacts.pairs,
+                run->contacts.points, run->quality.z_offset, run->quality.gap);
         fprintf(file, "%.6f,%.6f,%d,%d,", cpu_of(run), s->least, run->sample_count, table->scene.body_count);
         if (run->ray_count > 0) {
             fprintf(file, "%.6f,%d,", ray_us_of(run), run->ray_hits);
@@ -141,7 +146,8 @@ void bench_csv_write(FILE *file, const bench_table *table)
         }
         const bench_counters *c = &run->counters;
         if (run->engine->read_counters != NULL) {
-            fprintf(file, "%d,%d,%.4f,%.4f,%d,%" PRId64 ",", c->islands, c->rows, c->whole_share, c->fill, c->recycled, c->bytes);
+            fprintf(file, "%d,%d,%.4f,%.4f,%d,%" PRId64 ",", c->islands, c->rows, c->whole_share, c->fill, c->recycled,
+                    c->bytes);
         } else {
             fprintf(file, ",,,,,,");
         }

@@ -1,5 +1,6 @@
 /// @file run.h
-/// One engine on one scene with its settings, and everything measured about it. speed.c fills runs, report.c prints them.
+/// One engine on one scene with its settings, and everything measured about it. speed.c fills runs, report.c prints
+/// them.
 #ifndef BENCH_RUN_H
 #define BENCH_RUN_H
 

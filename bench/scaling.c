@@ -1,8 +1,9 @@
-// `feather-bench scaling [--scene FAMILY[,FAMILY]] [--workers N[,N]] [--steps MOST] [--out FILE]`: time and memory of scenes of 100 to 100
-// 000 bodies, with one worker and two. Writes build/scaling.csv and, beside it, the same as a plot.
+// `feather-bench scaling [--scene FAMILY[,FAMILY]] [--workers N[,N]] [--steps MOST] [--out FILE]`: time and memory of
+// scenes of 100 to 100 000 bodies, with one worker and two. Writes build/scaling.csv and, beside it, the same as a
+// plot.
 //
-// The machine says how many workers can be measured. For more, what binds is told instead: how many barriers a step has, on which all
-// workers of a large island wait, and the share of the step that is not parallel.
+// The machine says how many workers can be measured. For more, what binds is told instead: how many barriers a step
+// has, on which all workers of a large island wait, and the share of the step that is not parallel.
 #include "bench.h"
 
 #include "memory.h"
@@ -54,15 +55,16 @@ typedef struct sample {
     uint64_t hash;
 } sample;
 
-// Of the step, what no second worker shortens: islands and sleep. (finalize and events merge their workers' lists, which their phases do
-// not tell apart.)
+// Of the step, what no second worker shortens: islands and sleep. (finalize and events merge their workers' lists,
+// which their phases do not tell apart.)
 static void add_serial(bench_world *world, double *serial, double *all)
 {
     double ms[BENCH_MAX_PHASES];
     bench_feather.read_phases(world, ms);
     *all += ms[0];
     for (int32_t p = 0; bench_feather.phase_names[p] != NULL; p++) {
-        if (strcmp(bench_feather.phase_names[p], "islands") == 0 || strcmp(bench_feather.phase_names[p], "sleep") == 0) *serial += ms[p];
+        if (strcmp(bench_feather.phase_names[p], "islands") == 0 || strcmp(bench_feather.phase_names[p], "sleep") == 0)
+            *serial += ms[p];
     }
 }
 
@@ -103,19 +105,21 @@ static void write_sample(FILE *csv, const bench_scene *scene, int32_t workers, c
     const double us = 1e3 * s->ms / scene->body_count, each = (double)s->counters.bytes / scene->body_count;
     char bytes[32] = "";
     if (workers == 1) snprintf(bytes, sizeof bytes, "%.1f", each);
-    printf("%-16s %8d %3d %10.4f %10.3f %10s %8.3f %6d\n", scene->name, scene->body_count, workers, s->ms, us, bytes, s->serial,
-           barriers_of(&s->counters));
-    fprintf(csv, "%s,%d,%d,%d,%.6f,%.6f,%s,%.4f,%d\n", scene->name, scene->body_count, s->counters.contacts, workers, s->ms, us, bytes,
-            s->serial, barriers_of(&s->counters));
+    printf("%-16s %8d %3d %10.4f %10.3f %10s %8.3f %6d\n", scene->name, scene->body_count, workers, s->ms, us, bytes,
+           s->serial, barriers_of(&s->counters));
+    fprintf(csv, "%s,%d,%d,%d,%.6f,%.6f,%s,%.4f,%d\n", scene->name, scene->body_count, s->counters.contacts, workers,
+            s->ms, us, bytes, s->serial, barriers_of(&s->counters));
     fflush(stdout);
 }
 
 static int run_family(const struct family *family, const bench_options *o, FILE *csv, line *lines)
 {
     static const int32_t usual[] = {1, 2};
-    const int32_t count = o->worker_count > 0 ? o->worker_count : 2, *workers = o->worker_count > 0 ? o->workers : usual;
+    const int32_t count = o->worker_count > 0 ? o->worker_count : 2,
+                  *workers = o->worker_count > 0 ? o->workers : usual;
     for (int32_t w = 0; w < count; w++)
-        snprintf(lines[w].name, sizeof lines[w].name, "%s, %d worker%s", family->name, workers[w], workers[w] > 1 ? "s" : "");
+        snprintf(lines[w].name, sizeof lines[w].name, "%s, %d worker%s", family->name, workers[w],
+                 workers[w] > 1 ? "s" : "");
     for (int32_t i = 0; i < SIZES; i++) {
         bench_scene scene;
         char name[64];
@@ -126,10 +130,12 @@ static int run_family(const struct family *family, const bench_options *o, FILE 
             sample s;
             if (isatty(STDERR_FILENO)) fprintf(stderr, "\r\033[K%s, %d workers\r", name, workers[w]);
             if (measure(&scene, workers[w], o->steps, &s) != 0) return -1;
-            if (w > 0 && s.hash != hash) fprintf(stderr, "*** %s ends differently with %d workers ***\n", name, workers[w]);
+            if (w > 0 && s.hash != hash)
+                fprintf(stderr, "*** %s ends differently with %d workers ***\n", name, workers[w]);
             hash = s.hash;
             write_sample(csv, &scene, workers[w], &s);
-            lines[w].bodies[lines[w].count] = scene.body_count, lines[w].us[lines[w].count++] = 1e3 * s.ms / scene.body_count;
+            lines[w].bodies[lines[w].count] = scene.body_count,
+            lines[w].us[lines[w].count++] = 1e3 * s.ms / scene.body_count;
         }
         bench_scene_destroy(&scene);
     }
@@ -149,11 +155,12 @@ static int draw(const char *path, const line *lines)
     bench_series series[MOST_LINES];
     int32_t count = 0;
     for (int32_t i = 0; i < MOST_LINES; i++) {
-        if (lines[i].count > 0) series[count++] = (bench_series){lines[i].name, lines[i].bodies, lines[i].us, lines[i].count};
+        if (lines[i].count > 0)
+            series[count++] = (bench_series){lines[i].name, lines[i].bodies, lines[i].us, lines[i].count};
     }
-    return count > 0
-               ? bench_svg_lines(path, "Time of a step for each body, 4 substeps", "bodies", "microseconds a body and step", series, count)
-               : 0;
+    return count > 0 ? bench_svg_lines(path, "Time of a step for each body, 4 substeps", "bodies",
+                                       "microseconds a body and step", series, count)
+                     : 0;
 }
 
 int bench_command_scaling(int argc, char **argv)
@@ -168,7 +175,8 @@ int bench_command_scaling(int argc, char **argv)
         return 1;
     }
     fprintf(csv, "scene,bodies,contacts,workers,ms,us_a_body,bytes_a_body,serial_share,barriers\n");
-    printf("%-16s %8s %3s %10s %10s %10s %8s %6s\n", "scene", "bodies", "w", "ms a step", "us a body", "bytes each", "serial", "barriers");
+    printf("%-16s %8s %3s %10s %10s %10s %8s %6s\n", "scene", "bodies", "w", "ms a step", "us a body", "bytes each",
+           "serial", "barriers");
     int status = 0;
     int32_t next = 0;
     for (int32_t i = 0; i < FAMILIES && status == 0; i++) {

@@ -194,9 +194,15 @@ static int32_t add_body(bench_scene *scene, int32_t shape, int32_t dynamic, doub
     return scene->body_count++;
 }
 
-int32_t bench_add_static(bench_scene *scene, int32_t shape, double x, double y, double z) { return add_body(scene, shape, 0, x, y, z); }
+int32_t bench_add_static(bench_scene *scene, int32_t shape, double x, double y, double z)
+{
+    return add_body(scene, shape, 0, x, y, z);
+}
 
-int32_t bench_add_dynamic(bench_scene *scene, int32_t shape, double x, double y, double z) { return add_body(scene, shape, 1, x, y, z); }
+int32_t bench_add_dynamic(bench_scene *scene, int32_t shape, double x, double y, double z)
+{
+    return add_body(scene, shape, 1, x, y, z);
+}
 
 int32_t bench_add_joint(bench_scene *scene, int32_t body_a, int32_t body_b, double x, double y, double z)
 {

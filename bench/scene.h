@@ -1,6 +1,7 @@
 /// @file scene.h
-/// A scene is data: shapes, bodies, joints and settings, defined once and built by every engine's adapter (peers/) from the same numbers.
-/// The families in scenes/ fill it; the runner, the adapters and tests read it. Metres, kilograms, seconds, radians; y is up.
+/// A scene is data: shapes, bodies, joints and settings, defined once and built by every engine's adapter (peers/) from
+/// the same numbers. The families in scenes/ fill it; the runner, the adapters and tests read it. Metres, kilograms,
+/// seconds, radians; y is up.
 #ifndef BENCH_SCENE_H
 #define BENCH_SCENE_H
 
@@ -17,7 +18,8 @@ typedef enum bench_form {
     BENCH_BOX,     ///< half
     BENCH_SPHERE,  ///< radius
     BENCH_CAPSULE, ///< half_height of the axis, along local y, and radius
-    BENCH_TERRAIN  ///< side x side samples, `cell` m apart, of bench_terrain_height, about the body's position; static, for queries
+    BENCH_TERRAIN  ///< side x side samples, `cell` m apart, of bench_terrain_height, about the body's position; static,
+                   ///< for queries
 } bench_form;
 
 typedef enum bench_relief {
@@ -91,7 +93,8 @@ typedef struct bench_scene {
     float dt;              ///< s
     int32_t warm_up_steps;
     int32_t timed_steps;
-    double query_half; ///< queries start within so many m of the middle, in x and z; 0: where the bodies of the speed scenes are
+    double query_half; ///< queries start within so many m of the middle, in x and z; 0: where the bodies of the speed
+                       ///< scenes are
     int32_t planar;    ///< 1: all happens in the plane z = 0, see bench_make_planar
     bench_shape *shapes;
     bench_body *bodies;
@@ -125,9 +128,9 @@ bench_shape bench_make_capsule(float half_height, float radius);
 bench_shape bench_make_terrain(int32_t side, float cell);
 /// m, of the sample in a row (along z) and a column (along x)
 float bench_terrain_height(const bench_shape *terrain, int32_t row, int32_t column);
-/// A scene laid out in the plane z = 0 becomes the twin of a two-dimensional one: bodies are locked to the plane; boxes get the depth 1 m;
-/// spheres and capsules get the mass of a disc or a stadium of depth 1 m and the same density (a sphere's inertia stays 2/5 m r2 where a
-/// disc has 1/2).
+/// A scene laid out in the plane z = 0 becomes the twin of a two-dimensional one: bodies are locked to the plane; boxes
+/// get the depth 1 m; spheres and capsules get the mass of a disc or a stadium of depth 1 m and the same density (a
+/// sphere's inertia stays 2/5 m r2 where a disc has 1/2).
 void bench_make_planar(bench_scene *scene);
 /// m2, of the outline in the plane z = 0
 double bench_shape_area(const bench_shape *shape);
@@ -140,7 +143,8 @@ double bench_scene_mass(const bench_scene *scene);
 int32_t bench_add_shape(bench_scene *scene, bench_shape shape);
 int32_t bench_add_static(bench_scene *scene, int32_t shape, double x, double y, double z);
 int32_t bench_add_dynamic(bench_scene *scene, int32_t shape, double x, double y, double z);
-int32_t bench_add_joint(bench_scene *scene, int32_t body_a, int32_t body_b, double x, double y, double z); ///< a ball joint
+int32_t bench_add_joint(bench_scene *scene, int32_t body_a, int32_t body_b, double x, double y,
+                        double z); ///< a ball joint
 /// Turns a body about the world's z axis, rad.
 void bench_turn_z(bench_body *body, double angle);
 

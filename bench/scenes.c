@@ -1,5 +1,5 @@
-// `feather-bench scenes`, `run` and `compare`: the cases, judged by their criteria, in Feather and in the engines beside it. `tasks` names
-// the runs that `compare` would make, for who makes them side by side (tools/proof).
+// `feather-bench scenes`, `run` and `compare`: the cases, judged by their criteria, in Feather and in the engines
+// beside it. `tasks` names the runs that `compare` would make, for who makes them side by side (tools/proof).
 #include "bench.h"
 
 #include "memory.h"
@@ -17,7 +17,8 @@
 enum { FEW = 4, MANY = 8 }; // substeps
 
 typedef struct outcome {
-    int32_t passed, known, failed, refused; // known: Feather misses what cases/known.c lists; refused: the engine cannot
+    int32_t passed, known, failed,
+        refused; // known: Feather misses what cases/known.c lists; refused: the engine cannot
 } outcome;
 
 static void show_progress(const char *name, const char *engine)
@@ -30,7 +31,8 @@ static void end_progress(void)
     if (isatty(STDERR_FILENO)) fprintf(stderr, "\r\033[K");
 }
 
-// ---- lines ----------------------------------------------------------------------------------------------------------------------------
+// ---- lines
+// ----------------------------------------------------------------------------------------------------------------------------
 
 static void print_label(const bench_trial *t)
 {
@@ -55,7 +57,8 @@ static int32_t is_known(const bench_trial *t)
 
 static void print_check(const bench_trial *t, const bench_check *c)
 {
-    printf("      %s %-44s %14.6g  in [%.6g, %.6g]%s\n", bench_check_passed(t, c) ? "  " : "->", c->what, c->value, c->low, c->high,
+    printf("      %s %-44s %14.6g  in [%.6g, %.6g]%s\n", bench_check_passed(t, c) ? "  " : "->", c->what, c->value,
+           c->low, c->high,
            (c->kind == BENCH_OWN || c->kind == BENCH_OWN_OPEN) && !t->engine->has_workers ? "  (Feather's own)" : "");
     if (t->variants > 1) printf("%65s%.6g to %.6g\n", "", c->from, c->to);
     if (cause_of(t, c) != NULL) printf("         known: %s\n", cause_of(t, c));
@@ -64,7 +67,11 @@ static void print_check(const bench_trial *t, const bench_check *c)
 static void print_trial(const bench_trial *t, int32_t all_checks)
 {
     print_label(t);
-    printf(" %s %9.3f ms a step", bench_trial_passed(t) ? "ok   " : is_known(t) ? "known" : "FAIL ", t->step > 0 ? t->ms / t->step : 0.0);
+    printf(" %s %9.3f ms a step",
+           bench_trial_passed(t) ? "ok   "
+           : is_known(t)         ? "known"
+                                 : "FAIL ",
+           t->step > 0 ? t->ms / t->step : 0.0);
     if (t->variants > 1) printf(", medians of %d variants", t->variants);
     printf("\n");
     for (int32_t i = 0; i < t->check_count; i++) {
@@ -76,15 +83,17 @@ static void print_trial(const bench_trial *t, int32_t all_checks)
     fflush(stdout);
 }
 
-static void write_row(FILE *csv, const bench_trial *t, const bench_check *c, const char *kind, int32_t ok, const char *cause)
+static void write_row(FILE *csv, const bench_trial *t, const bench_check *c, const char *kind, int32_t ok,
+                      const char *cause)
 {
     char settings[64];
     if (t->engine->has_workers)
         snprintf(settings, sizeof settings, "%d", t->substeps);
     else
         snprintf(settings, sizeof settings, "%s", t->engine->settings);
-    fprintf(csv, "%s,%s,%s,\"%s\",%.9g,%.9g,%.9g,%d,%.6f,%016" PRIx64 ",%s,\"%s\"\n", t->scene.name, t->engine->name, settings, c->what,
-            c->value, c->low, c->high, ok, t->step > 0 ? t->ms / t->step : 0.0, t->hash, kind, cause != NULL ? cause : "");
+    fprintf(csv, "%s,%s,%s,\"%s\",%.9g,%.9g,%.9g,%d,%.6f,%016" PRIx64 ",%s,\"%s\"\n", t->scene.name, t->engine->name,
+            settings, c->what, c->value, c->low, c->high, ok, t->step > 0 ? t->ms / t->step : 0.0, t->hash, kind,
+            cause != NULL ? cause : "");
 }
 
 static void write_csv(FILE *csv, const bench_trial *t)
@@ -95,7 +104,8 @@ static void write_csv(FILE *csv, const bench_trial *t)
     }
     for (int32_t i = 0; i < BENCH_MEASURES; i++) {
         if (!isnan(t->measures[i]))
-            write_row(csv, t, &(bench_check){.what = bench_measure_names[i], .value = t->measures[i]}, "measure", 1, NULL);
+            write_row(csv, t, &(bench_check){.what = bench_measure_names[i], .value = t->measures[i]}, "measure", 1,
+                      NULL);
     }
 }
 
@@ -110,7 +120,8 @@ static FILE *open_csv(const char *path)
     return csv;
 }
 
-// ---- one case in one engine -----------------------------------------------------------------------------------------------------------
+// ---- one case in one engine
+// -----------------------------------------------------------------------------------------------------------
 
 typedef struct series {
     const bench_options *options;
@@ -120,8 +131,8 @@ typedef struct series {
     outcome sum;
 } series;
 
-// Chaotic cases run in variants; those of many bodies in a quarter as many, and only where asked to. Other engines, ten times as slow, run
-// once.
+// Chaotic cases run in variants; those of many bodies in a quarter as many, and only where asked to. Other engines, ten
+// times as slow, run once.
 static int32_t variants_of(const bench_options *o, const bench_case *rule, const bench_engine *engine)
 {
     const int32_t share = 4;
@@ -131,7 +142,8 @@ static int32_t variants_of(const bench_options *o, const bench_case *rule, const
 }
 
 // About how long a run takes, so that the longest may begin first
-static void print_task(const series *s, const bench_case *rule, int32_t planar, const bench_engine *engine, int32_t substeps)
+static void print_task(const series *s, const bench_case *rule, int32_t planar, const bench_engine *engine,
+                       int32_t substeps)
 {
     const double slower = engine == &bench_feather ? 1.0 : 20.0; // other engines
     bench_scene scene;
@@ -168,7 +180,8 @@ static void try_feather(series *s, const bench_case *rule, int32_t planar)
     static const int32_t usual[] = {FEW, MANY};
     const bench_options *o = s->options;
     const int32_t count = o->no_feather ? 0 : o->substep_count > 0 ? o->substep_count : 2;
-    for (int32_t i = 0; i < count; i++) try_case(s, rule, planar, &bench_feather, o->substep_count > 0 ? o->substeps[i] : usual[i]);
+    for (int32_t i = 0; i < count; i++)
+        try_case(s, rule, planar, &bench_feather, o->substep_count > 0 ? o->substeps[i] : usual[i]);
 }
 
 static int32_t is_asked(const bench_options *o, const char *peer)
@@ -189,7 +202,8 @@ static void try_peers(series *s, const bench_case *rule, int32_t planar)
     }
 }
 
-// ---- the commands ---------------------------------------------------------------------------------------------------------------------
+// ---- the commands
+// ---------------------------------------------------------------------------------------------------------------------
 
 static int try_named(series *s, const char *name, int32_t with_peers)
 {
@@ -208,7 +222,8 @@ static void try_all(series *s, int32_t with_peers)
 {
     for (int32_t i = 0; i < bench_case_count(); i++) {
         const bench_case *rule = bench_case_at(i);
-        for (int32_t planar = rule->planar == BENCH_PLANAR_ONLY; planar <= (rule->planar != BENCH_NOT_PLANAR); planar++) {
+        for (int32_t planar = rule->planar == BENCH_PLANAR_ONLY; planar <= (rule->planar != BENCH_NOT_PLANAR);
+             planar++) {
             try_feather(s, rule, planar);
             if (with_peers) try_peers(s, rule, planar);
         }
@@ -226,7 +241,8 @@ static int run_cases(int argc, char **argv, const char *out, int32_t with_peers,
     for (int32_t i = 0; i < options.scene_count; i++) status |= try_named(&s, options.scenes[i], with_peers);
     if (options.scene_count == 0) try_all(&s, with_peers);
     fclose(s.csv);
-    printf("%d passed, %d miss what is known, %d failed, %d refused\n", s.sum.passed, s.sum.known, s.sum.failed, s.sum.refused);
+    printf("%d passed, %d miss what is known, %d failed, %d refused\n", s.sum.passed, s.sum.known, s.sum.failed,
+           s.sum.refused);
     return status == 0 && (with_peers || s.sum.failed + s.sum.refused == 0) ? 0 : 1;
 }
 

@@ -1,8 +1,8 @@
 // `feather-bench speed`: time per step of every engine on the same scenes.
 //
-// A shared machine drifts by half within minutes, so the engines take turns: a block of steps each, round after round, and the noise hits
-// all alike. What holds are the ratios of one run. The first step of a block runs with caches full of another engine's data, which no
-// game would see: it is made and not counted.
+// A shared machine drifts by half within minutes, so the engines take turns: a block of steps each, round after round,
+// and the noise hits all alike. What holds are the ratios of one run. The first step of a block runs with caches full
+// of another engine's data, which no game would see: it is made and not counted.
 #include "bench.h"
 
 #include "memory.h"
@@ -28,7 +28,8 @@ enum {
 
 static const uint64_t RAY_SEED = 0x1234567u;
 
-// ---- progress ---------------------------------------------------------------------------------------------------------------------
+// ---- progress
+// ---------------------------------------------------------------------------------------------------------------------
 
 static void show_progress(const bench_scene *scene, const char *what, int32_t done, int32_t all)
 {
@@ -40,7 +41,8 @@ static void end_progress(void)
     if (isatty(STDERR_FILENO)) fprintf(stderr, "\r\033[K");
 }
 
-// ---- which engines ----------------------------------------------------------------------------------------------------------------
+// ---- which engines
+// ----------------------------------------------------------------------------------------------------------------
 
 static void add_run(bench_table *table, const bench_engine *engine, int32_t workers, int32_t substeps)
 {
@@ -83,7 +85,8 @@ static void add_peer_runs(bench_table *table, const bench_options *options)
     for (int32_t i = 0; i < bench_engine_count; i++) {
         const bench_engine_entry *entry = &bench_engines[i];
         if (entry->engine == &bench_feather || !is_asked(options, entry->name)) continue;
-        if (entry->engine != NULL && (table->scene.planar || !entry->engine->planar_only)) add_run(table, entry->engine, 0, 0);
+        if (entry->engine != NULL && (table->scene.planar || !entry->engine->planar_only))
+            add_run(table, entry->engine, 0, 0);
     }
 }
 
@@ -106,7 +109,8 @@ static int check_peers(const bench_options *options)
     return 0;
 }
 
-// ---- worlds ---------------------------------------------------------------------------------------------------------------------------
+// ---- worlds
+// ---------------------------------------------------------------------------------------------------------------------------
 
 static int create_world(bench_table *table, bench_run *run, int32_t steps)
 {
@@ -119,7 +123,8 @@ static int create_world(bench_table *table, bench_run *run, int32_t steps)
     return bench_check_start(run->engine, run->world, &table->scene);
 }
 
-// ---- time -------------------------------------------------------------------------------------------------------------------------
+// ---- time
+// -------------------------------------------------------------------------------------------------------------------------
 
 static void add_phases(bench_run *run)
 {
@@ -170,7 +175,8 @@ static int time_steps(bench_table *table, int32_t steps)
     return 0;
 }
 
-// ---- rays -------------------------------------------------------------------------------------------------------------------------
+// ---- rays
+// -------------------------------------------------------------------------------------------------------------------------
 
 static bench_ray *make_rays(void)
 {
@@ -178,9 +184,12 @@ static bench_ray *make_rays(void)
     uint64_t state = RAY_SEED;
     for (int32_t i = 0; i < RAY_COUNT; i++) {
         double from[3], to[3];
-        for (int axis = 0; axis < 3; axis++) from[axis] = axis == 1 ? 30.0 * bench_random(&state) : 40.0 * bench_random(&state) - 20.0;
-        for (int axis = 0; axis < 3; axis++) to[axis] = axis == 1 ? 30.0 * bench_random(&state) - 5.0 : 40.0 * bench_random(&state) - 20.0;
-        for (int axis = 0; axis < 3; axis++) rays[i].origin[axis] = from[axis], rays[i].translation[axis] = to[axis] - from[axis];
+        for (int axis = 0; axis < 3; axis++)
+            from[axis] = axis == 1 ? 30.0 * bench_random(&state) : 40.0 * bench_random(&state) - 20.0;
+        for (int axis = 0; axis < 3; axis++)
+            to[axis] = axis == 1 ? 30.0 * bench_random(&state) - 5.0 : 40.0 * bench_random(&state) - 20.0;
+        for (int axis = 0; axis < 3; axis++)
+            rays[i].origin[axis] = from[axis], rays[i].translation[axis] = to[axis] - from[axis];
     }
     return rays;
 }
@@ -215,7 +224,8 @@ static void time_rays(bench_table *table)
     free(rays);
 }
 
-// ---- what became of the scene -----------------------------------------------------------------------------------------------------
+// ---- what became of the scene
+// -----------------------------------------------------------------------------------------------------
 
 static bench_quality measure_quality(const bench_scene *scene, const bench_pose *poses)
 {
@@ -252,16 +262,19 @@ static int check_hashes(const bench_table *table)
         const bench_run *a = &table->runs[i];
         for (int32_t k = i + 1; k < table->run_count; k++) {
             const bench_run *b = &table->runs[k];
-            if (a->engine != b->engine || a->engine->read_hash == NULL || a->substeps != b->substeps || a->hash == b->hash) continue;
-            fprintf(stderr, "*** %s: %s ends differently with %d and %d workers ***\n", table->scene.name, a->engine->name, a->workers,
-                    b->workers);
+            if (a->engine != b->engine || a->engine->read_hash == NULL || a->substeps != b->substeps ||
+                a->hash == b->hash)
+                continue;
+            fprintf(stderr, "*** %s: %s ends differently with %d and %d workers ***\n", table->scene.name,
+                    a->engine->name, a->workers, b->workers);
             status = -1;
         }
     }
     return status;
 }
 
-// ---- the command ------------------------------------------------------------------------------------------------------------------
+// ---- the command
+// ------------------------------------------------------------------------------------------------------------------
 
 static int run_table(bench_table *table, const bench_options *options)
 {
@@ -274,7 +287,8 @@ static int run_table(bench_table *table, const bench_options *options)
     for (int32_t r = 0; r < table->run_count; r++) status |= measure_end(table, &table->runs[r]);
     status |= check_hashes(table);
     if (options->rays) time_rays(table);
-    for (int32_t r = 0; r < table->run_count; r++) table->runs[r].engine->measure_contacts(table->runs[r].world, &table->runs[r].contacts);
+    for (int32_t r = 0; r < table->run_count; r++)
+        table->runs[r].engine->measure_contacts(table->runs[r].world, &table->runs[r].contacts);
     end_progress();
     bench_print_table(table);
     if (options->rays) bench_print_rays(table);
@@ -313,8 +327,8 @@ static int draw_ratios(const char *path, const ratios *all)
                                     {"ODE / Feather", NULL, all->over[1], all->count}};
     char title[96];
     for (int32_t i = 0; i < all->count; i++) labels[i] = all->names[i];
-    snprintf(title, sizeof title, "Time of a step, as a multiple of Feather's with %d worker%s and %d substeps", all->workers,
-             all->workers > 1 ? "s" : "", all->substeps);
+    snprintf(title, sizeof title, "Time of a step, as a multiple of Feather's with %d worker%s and %d substeps",
+             all->workers, all->workers > 1 ? "s" : "", all->substeps);
     return all->count > 0 ? bench_svg_bars(path, title, labels, all->count, series, 2) : 0;
 }
 

@@ -1,5 +1,6 @@
 /// @file start.h
-/// The same start for all: every engine must hold the scene's bodies, mass and poses, or what is compared are different things.
+/// The same start for all: every engine must hold the scene's bodies, mass and poses, or what is compared are different
+/// things.
 #ifndef BENCH_START_H
 #define BENCH_START_H
 

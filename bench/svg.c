@@ -34,7 +34,8 @@ static FILE *open_svg(const char *path, int32_t height, const char *title)
         return NULL;
     }
     fprintf(f,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" viewBox=\"0 0 %d %d\" font-family=\"sans-serif\" "
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" viewBox=\"0 0 %d %d\" "
+            "font-family=\"sans-serif\" "
             "font-size=\"12\">\n<rect width=\"100%%\" height=\"100%%\" fill=\"#ffffff\"/>\n<text x=\"%d\" y=\"%d\" "
             "font-size=\"15\">%s</text>\n",
             WIDTH, height, WIDTH, height, MARGIN, MARGIN + 10, title);
@@ -50,21 +51,25 @@ static int close_svg(FILE *f)
 static void draw_legend(FILE *f, const bench_series *series, int32_t count)
 {
     for (int32_t i = 0; i < count; i++) {
-        const int32_t x = MARGIN + i % IN_LEGEND * ((WIDTH - 2 * MARGIN) / IN_LEGEND), y = TITLE + 8 + i / IN_LEGEND * LEGEND;
-        fprintf(f, "<rect x=\"%d\" y=\"%d\" width=\"10\" height=\"10\" fill=\"%s\"/><text x=\"%d\" y=\"%d\">%s</text>\n", x, y - 9,
-                colours[i], x + 15, y, series[i].name);
+        const int32_t x = MARGIN + i % IN_LEGEND * ((WIDTH - 2 * MARGIN) / IN_LEGEND),
+                      y = TITLE + 8 + i / IN_LEGEND * LEGEND;
+        fprintf(f,
+                "<rect x=\"%d\" y=\"%d\" width=\"10\" height=\"10\" fill=\"%s\"/><text x=\"%d\" y=\"%d\">%s</text>\n",
+                x, y - 9, colours[i], x + 15, y, series[i].name);
     }
 }
 
 // where the plot begins
 static int32_t below_legend(int32_t count) { return TITLE + (1 + (count - 1) / IN_LEGEND) * LEGEND; }
 
-// ---- bars -----------------------------------------------------------------------------------------------------------------------------
+// ---- bars
+// -----------------------------------------------------------------------------------------------------------------------------
 
-int bench_svg_bars(const char *path, const char *title, const char *const *labels, int32_t label_count, const bench_series *series,
-                   int32_t series_count)
+int bench_svg_bars(const char *path, const char *title, const char *const *labels, int32_t label_count,
+                   const bench_series *series, int32_t series_count)
 {
-    const int32_t group = series_count * BAR + GROUP_GAP, top = below_legend(series_count), bottom = top + label_count * group;
+    const int32_t group = series_count * BAR + GROUP_GAP, top = below_legend(series_count),
+                  bottom = top + label_count * group;
     FILE *f = open_svg(path, bottom + MARGIN, title);
     double most = 1.0;
     if (f == NULL) return -1;
@@ -76,7 +81,8 @@ int bench_svg_bars(const char *path, const char *title, const char *const *label
     draw_legend(f, series, series_count);
     for (int32_t i = 0; i < label_count; i++) {
         const int32_t y = top + i * group;
-        fprintf(f, "<text x=\"%d\" y=\"%d\" text-anchor=\"end\">%s</text>\n", left - 8, y + series_count * BAR / 2 + 4, labels[i]);
+        fprintf(f, "<text x=\"%d\" y=\"%d\" text-anchor=\"end\">%s</text>\n", left - 8, y + series_count * BAR / 2 + 4,
+                labels[i]);
         for (int32_t s = 0; s < series_count; s++) {
             const double value = series[s].y[i], length = value * scale;
             if (!(value > 0.0)) continue;
@@ -86,19 +92,23 @@ int bench_svg_bars(const char *path, const char *title, const char *const *label
                     left, y + s * BAR, length, BAR - 1, colours[s], left + length + 4.0, y + s * BAR + BAR - 2, value);
         }
     }
-    fprintf(f, "<line x1=\"%.1f\" y1=\"%d\" x2=\"%.1f\" y2=\"%d\" stroke=\"#000000\" stroke-dasharray=\"3 3\"/>\n", left + scale, top - 4,
-            left + scale, bottom);
+    fprintf(f, "<line x1=\"%.1f\" y1=\"%d\" x2=\"%.1f\" y2=\"%d\" stroke=\"#000000\" stroke-dasharray=\"3 3\"/>\n",
+            left + scale, top - 4, left + scale, bottom);
     return close_svg(f);
 }
 
-// ---- lines ----------------------------------------------------------------------------------------------------------------------------
+// ---- lines
+// ----------------------------------------------------------------------------------------------------------------------------
 
 typedef struct axis {
     double low, high; // powers of ten
     double from, to;  // pixels
 } axis;
 
-static double place(const axis *a, double value) { return a->from + (a->to - a->from) * (log10(value) - a->low) / (a->high - a->low); }
+static double place(const axis *a, double value)
+{
+    return a->from + (a->to - a->from) * (log10(value) - a->low) / (a->high - a->low);
+}
 
 static axis axis_of(const bench_series *series, int32_t count, int32_t of_y, double from, double to)
 {
@@ -129,27 +139,30 @@ static void draw_grid(FILE *f, const axis *x, const axis *y, const char *x_name,
                 "text-anchor=\"end\">%g</text>\n",
                 x->from, at, x->to, at, x->from - 6.0, at + 4.0, pow(10.0, p));
     }
-    fprintf(f, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>\n", 0.5 * (x->from + x->to), y->from + 34.0, x_name);
-    fprintf(f, "<text transform=\"translate(%d %.1f) rotate(-90)\" text-anchor=\"middle\">%s</text>\n", MARGIN + 2, 0.5 * (y->from + y->to),
-            y_name);
+    fprintf(f, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>\n", 0.5 * (x->from + x->to),
+            y->from + 34.0, x_name);
+    fprintf(f, "<text transform=\"translate(%d %.1f) rotate(-90)\" text-anchor=\"middle\">%s</text>\n", MARGIN + 2,
+            0.5 * (y->from + y->to), y_name);
 }
 
-int bench_svg_lines(const char *path, const char *title, const char *x_name, const char *y_name, const bench_series *series,
-                    int32_t series_count)
+int bench_svg_lines(const char *path, const char *title, const char *x_name, const char *y_name,
+                    const bench_series *series, int32_t series_count)
 {
     const int32_t top = below_legend(series_count), bottom = top + PLOT;
-    const axis x = axis_of(series, series_count, 0, MARGIN + AXIS, WIDTH - 2 * MARGIN), y = axis_of(series, series_count, 1, bottom, top);
+    const axis x = axis_of(series, series_count, 0, MARGIN + AXIS, WIDTH - 2 * MARGIN),
+               y = axis_of(series, series_count, 1, bottom, top);
     FILE *f = open_svg(path, bottom + AXIS, title);
     if (f == NULL) return -1;
     draw_legend(f, series, series_count);
     draw_grid(f, &x, &y, x_name, y_name);
     for (int32_t s = 0; s < series_count; s++) {
         fprintf(f, "<polyline fill=\"none\" stroke-width=\"2\" stroke=\"%s\" points=\"", colours[s]);
-        for (int32_t i = 0; i < series[s].count; i++) fprintf(f, "%.1f,%.1f ", place(&x, series[s].x[i]), place(&y, series[s].y[i]));
+        for (int32_t i = 0; i < series[s].count; i++)
+            fprintf(f, "%.1f,%.1f ", place(&x, series[s].x[i]), place(&y, series[s].y[i]));
         fprintf(f, "\"/>\n");
         for (int32_t i = 0; i < series[s].count; i++)
-            fprintf(f, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\" fill=\"%s\"/>\n", place(&x, series[s].x[i]), place(&y, series[s].y[i]),
-                    colours[s]);
+            fprintf(f, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\" fill=\"%s\"/>\n", place(&x, series[s].x[i]),
+                    place(&y, series[s].y[i]), colours[s]);
     }
     return close_svg(f);
 }

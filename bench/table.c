@@ -1,4 +1,5 @@
-// `feather-bench table FILE.csv [COLUMN]...`: a table of any command as Markdown, all columns or those named, for pages and reports.
+// `feather-bench table FILE.csv [COLUMN]...`: a table of any command as Markdown, all columns or those named, for pages
+// and reports.
 #include "bench.h"
 
 #include <errno.h>

@@ -11,13 +11,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-// ---- geometry of poses --------------------------------------------------------------------------------------------------------------
+// ---- geometry of poses
+// --------------------------------------------------------------------------------------------------------------
 
 static void rotate(const double *q, const double *v, double *out)
 {
     double t[3];
     for (int k = 0; k < 3; k++) t[k] = 2.0 * (q[(k + 1) % 3] * v[(k + 2) % 3] - q[(k + 2) % 3] * v[(k + 1) % 3]);
-    for (int k = 0; k < 3; k++) out[k] = v[k] + q[3] * t[k] + q[(k + 1) % 3] * t[(k + 2) % 3] - q[(k + 2) % 3] * t[(k + 1) % 3];
+    for (int k = 0; k < 3; k++)
+        out[k] = v[k] + q[3] * t[k] + q[(k + 1) % 3] * t[(k + 2) % 3] - q[(k + 2) % 3] * t[(k + 1) % 3];
 }
 
 static void point_in_body(const bench_pose *pose, const double *point, double *out)
@@ -54,7 +56,8 @@ static double angle_of_y_axes(const bench_pose *a, const bench_pose *b)
     return atan2(length(cross), dot);
 }
 
-// ---- energy ---------------------------------------------------------------------------------------------------------------------------
+// ---- energy
+// ---------------------------------------------------------------------------------------------------------------------------
 
 // Principal moments in the body's frame, kg m2
 static void inertia_of(const bench_shape *s, double mass, double *out)
@@ -68,9 +71,11 @@ static void inertia_of(const bench_shape *s, double mass, double *out)
             out[k] = mass * (a * a + b * b) / 3.0;
         }
     } else { // a cylinder of height 2 h and two half balls, whose centres of mass are 3/8 r beyond its ends
-        const double cylinder = 2.0 * BENCH_PI * r * r * h, balls = 4.0 / 3.0 * BENCH_PI * r * r * r, density = mass / (cylinder + balls);
+        const double cylinder = 2.0 * BENCH_PI * r * r * h, balls = 4.0 / 3.0 * BENCH_PI * r * r * r,
+                     density = mass / (cylinder + balls);
         out[1] = density * (cylinder * 0.5 * r * r + balls * 0.4 * r * r);
-        out[0] = out[2] = density * (cylinder * (0.25 * r * r + h * h / 3.0) + balls * (0.4 * r * r + h * h + 0.75 * h * r));
+        out[0] = out[2] =
+            density * (cylinder * (0.25 * r * r + h * h / 3.0) + balls * (0.4 * r * r + h * h + 0.75 * h * r));
     }
 }
 
@@ -93,7 +98,8 @@ static double potential_of(const bench_trial *t, int32_t i)
     return t->masses[i] * (double)t->scene.bodies[i].gravity_scale * sum;
 }
 
-// ---- records --------------------------------------------------------------------------------------------------------------------------
+// ---- records
+// --------------------------------------------------------------------------------------------------------------------------
 
 static void note_track(bench_trial *t, int32_t i)
 {
@@ -137,11 +143,13 @@ double bench_joint_gap(const bench_scene *scene, const bench_pose *poses, int32_
     return distance(&poses[j->body_a], arms[0], &poses[j->body_b], arms[1]);
 }
 
-// Twice the energy over the gap's square, at most: the mass that moves when the anchors do, times the square of the joints' frequency
+// Twice the energy over the gap's square, at most: the mass that moves when the anchors do, times the square of the
+// joints' frequency
 static double spring_of(const bench_trial *t, int32_t joint)
 {
     const bench_joint *j = &t->scene.joints[joint];
-    const double a = t->masses[j->body_a], b = t->masses[j->body_b], w = 2.0 * BENCH_PI * fmax(60.0, j->stiffness_hertz);
+    const double a = t->masses[j->body_a], b = t->masses[j->body_b],
+                 w = 2.0 * BENCH_PI * fmax(60.0, j->stiffness_hertz);
     const double mass = a > 0.0 && b > 0.0 ? a * b / (a + b) : a + b;
     return mass * w * w;
 }
@@ -232,7 +240,8 @@ void bench_trial_set_gravity(bench_trial *t, const double *gravity)
     note_drive(t);
 }
 
-// ---- a run ----------------------------------------------------------------------------------------------------------------------------
+// ---- a run
+// ----------------------------------------------------------------------------------------------------------------------------
 
 const bench_case *bench_case_find(const char *name, int32_t *out_planar)
 {
@@ -377,7 +386,8 @@ int32_t bench_trial_passed(const bench_trial *t)
     return 1;
 }
 
-// ---- for judges -----------------------------------------------------------------------------------------------------------------------
+// ---- for judges
+// -----------------------------------------------------------------------------------------------------------------------
 
 const char *const bench_kind_names[] = {"law", "own", "stray", "open", "own open"};
 
@@ -417,7 +427,10 @@ void bench_expect_own_open(bench_trial *t, const char *what, double value, doubl
 
 double bench_tilt(const bench_trial *t, int32_t i) { return angle_of_y_axes(&t->poses[i], &t->scene.bodies[i].start); }
 
-double bench_drift(const bench_trial *t, int32_t i) { return horizontal_distance(&t->poses[i], &t->scene.bodies[i].start); }
+double bench_drift(const bench_trial *t, int32_t i)
+{
+    return horizontal_distance(&t->poses[i], &t->scene.bodies[i].start);
+}
 
 double bench_speed(const bench_trial *t, int32_t i) { return length(t->motions[i].linear); }
 

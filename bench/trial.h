@@ -1,8 +1,8 @@
 /// @file trial.h
-/// A case is a scene with a script and a criterion; a trial is one engine's run of it. The script pushes and takes bodies away, the watcher
-/// looks on after each step, the judge states at the end what must hold: measures with their bounds, which come from physics or from the
-/// engine's own constants (linear slop, the overlap and the gap of soft constraints). scenes.c runs the cases of cases/, compare.c puts the
-/// engines side by side.
+/// A case is a scene with a script and a criterion; a trial is one engine's run of it. The script pushes and takes
+/// bodies away, the watcher looks on after each step, the judge states at the end what must hold: measures with their
+/// bounds, which come from physics or from the engine's own constants (linear slop, the overlap and the gap of soft
+/// constraints). scenes.c runs the cases of cases/, compare.c puts the engines side by side.
 #ifndef BENCH_TRIAL_H
 #define BENCH_TRIAL_H
 
@@ -97,9 +97,10 @@ struct bench_trial {
     double *masses;        ///< kg, 0 for static bodies
     double (*arms)[2][3];  ///< of a joint's anchor in body A and in body B, m
 
-    double *energy;            ///< after each step, kinetic and potential, J; [0] is the start
-    double *kinetic;           ///< likewise, J
-    double *held;              ///< likewise, what open joints and overlaps hold as springs, J; infinite where overlaps were not measured
+    double *energy;  ///< after each step, kinetic and potential, J; [0] is the start
+    double *kinetic; ///< likewise, J
+    double *
+        held; ///< likewise, what open joints and overlaps hold as springs, J; infinite where overlaps were not measured
     double *gap;               ///< likewise, largest distance of a joint's two anchors, m
     double *gaps;              ///< likewise, sum of these distances, m
     double *fastest;           ///< likewise, speed of the fastest body, m/s
@@ -132,8 +133,8 @@ typedef struct bench_setup {
 
 /// Runs a case. 0: done (the checks tell how); -1: the engine cannot, and has said why on stderr.
 int bench_trial_run(bench_trial *trial, const bench_setup *setup);
-/// Runs the scene and its variants, `count` in all. `trial` ends as the scene itself, with the medians of all checks; of a check that
-/// leaves no room, the worst value. (variants.c)
+/// Runs the scene and its variants, `count` in all. `trial` ends as the scene itself, with the medians of all checks;
+/// of a check that leaves no room, the worst value. (variants.c)
 int bench_trial_run_variants(bench_trial *trial, const bench_setup *setup, int32_t count);
 enum { BENCH_VARIANTS = 32 };
 void bench_trial_free(bench_trial *trial);
@@ -146,7 +147,8 @@ void bench_measure(bench_trial *trial);
 /// Why Feather does not hold this check yet; NULL when it should (cases/known.c).
 const char *bench_known_cause(const bench_trial *trial, const bench_check *check);
 
-// ---- for judges -------------------------------------------------------------------------------------------------------------------
+// ---- for judges
+// -------------------------------------------------------------------------------------------------------------------
 
 void bench_expect(bench_trial *trial, const char *what, double value, double low, double high);
 void bench_expect_own(bench_trial *trial, const char *what, double value, double low, double high);
@@ -174,8 +176,9 @@ double bench_joint_gap(const bench_scene *scene, const bench_pose *poses, int32_
 void bench_measure_contacts(const bench_trial *trial, bench_contacts *out_contacts);
 double bench_deepest(const bench_trial *trial); ///< overlap, by Feather's narrow phase whoever made the poses, m
 
-/// Bounds of the soft constraints. A loaded point rests at an overlap of force / (effective mass w2), w = 2 pi hertz; a cube on its face,
-/// four corner points, at g / w2 times a factor that a lock to the plane changes (its corners lose one of their two levers).
+/// Bounds of the soft constraints. A loaded point rests at an overlap of force / (effective mass w2), w = 2 pi hertz; a
+/// cube on its face, four corner points, at g / w2 times a factor that a lock to the plane changes (its corners lose
+/// one of their two levers).
 double bench_contact_stiffness(const bench_trial *trial, int32_t against_static); ///< w2, 1/s2
 double bench_joint_stiffness(const bench_trial *trial);                           ///< likewise
 double bench_face_factor(const bench_trial *trial);                               ///< 1, in the plane 0.625

@@ -1,5 +1,5 @@
-// Runs a case and its variants and puts the medians where judges' values were (trial.h): what rounding decides differs from build to build
-// and says nothing, its median does. Measures are those of the scene itself.
+// Runs a case and its variants and puts the medians where judges' values were (trial.h): what rounding decides differs
+// from build to build and says nothing, its median does. Measures are those of the scene itself.
 #include "memory.h"
 #include "stats.h"
 #include "trial.h"
@@ -39,7 +39,8 @@ static void judge_all(bench_trial *t, const row *values, int32_t count)
 {
     for (int32_t i = 0; i < t->check_count; i++) {
         bench_check *c = &t->checks[i];
-        for (int32_t run = 0; run < count; run++) c->from = fmin(c->from, values[run][i]), c->to = fmax(c->to, values[run][i]);
+        for (int32_t run = 0; run < count; run++)
+            c->from = fmin(c->from, values[run][i]), c->to = fmax(c->to, values[run][i]);
         c->value = c->low < c->high ? median(values, count, i) : worst(values, count, i, c->low);
     }
 }

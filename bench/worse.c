@@ -1,13 +1,14 @@
-// `feather-bench worse`, and the end of `compare`: is there a scene in which Feather does worse than another engine? Read from the tables
-// that scenes.c writes. Worse is
+// `feather-bench worse`, and the end of `compare`: is there a scene in which Feather does worse than another engine?
+// Read from the tables that scenes.c writes. Worse is
 //
 //   falls          a criterion for all engines that the other holds and Feather does not
 //   drifts         what should stay moves farther than in the other engine by more than the linear slop
-//   opens          a joint's gap is beyond its bound (the predictor of soft joints, or the linear slop) and beyond the other's
-//   gains energy   more than the other by a thousandth of what is turned over, motors and forces apart
+//   opens          a joint's gap is beyond its bound (the predictor of soft joints, or the linear slop) and beyond the
+//   other's gains energy   more than the other by a thousandth of what is turned over, motors and forces apart
 //
-// Heights of soft stacks are Feather's own: other engines' contacts have skins and slops of their own, which add up over a stack. Cases
-// too long for an engine are not compared. Box2D and ODE at the default substeps count for the exit code; the rest is told.
+// Heights of soft stacks are Feather's own: other engines' contacts have skins and slops of their own, which add up
+// over a stack. Cases too long for an engine are not compared. Box2D and ODE at the default substeps count for the exit
+// code; the rest is told.
 #include "worse.h"
 
 #include "bench.h"
@@ -35,7 +36,8 @@ typedef struct rows {
     int32_t count, capacity;
 } rows;
 
-// ---- the tables -----------------------------------------------------------------------------------------------------------------------
+// ---- the tables
+// -----------------------------------------------------------------------------------------------------------------------
 
 static int32_t read_row(row *out, const char *line)
 {
@@ -44,8 +46,8 @@ static int32_t read_row(row *out, const char *line)
     memset(out, 0, sizeof *out);
     if (measure == NULL || sscanf(line, "%63[^,],%15[^,],%d", out->scene, out->engine, &out->substeps) < 2) return 0;
     if (strcmp(out->engine, bench_feather.name) != 0) out->substeps = 0;
-    return sscanf(measure, "\"%95[^\"]\",%lf,%lf,%lf,%d,%lf,%*[^,],%15[^,]", out->what, &out->value, &out->low, &out->high, &out->ok, &ms,
-                  out->kind) == 7;
+    return sscanf(measure, "\"%95[^\"]\",%lf,%lf,%lf,%d,%lf,%*[^,],%15[^,]", out->what, &out->value, &out->low,
+                  &out->high, &out->ok, &ms, out->kind) == 7;
 }
 
 static int read_rows(rows *all, const char *path)
@@ -73,12 +75,14 @@ static const row *find_row(const rows *all, const row *like, const char *engine)
 {
     for (int32_t i = 0; i < all->count; i++) {
         const row *r = &all->items[i];
-        if (strcmp(r->scene, like->scene) == 0 && strcmp(r->engine, engine) == 0 && strcmp(r->what, like->what) == 0) return r;
+        if (strcmp(r->scene, like->scene) == 0 && strcmp(r->engine, engine) == 0 && strcmp(r->what, like->what) == 0)
+            return r;
     }
     return NULL;
 }
 
-// ---- the judgement --------------------------------------------------------------------------------------------------------------------
+// ---- the judgement
+// --------------------------------------------------------------------------------------------------------------------
 
 static int32_t is_kind(const row *r, bench_kind kind) { return strcmp(r->kind, bench_kind_names[kind]) == 0; }
 
@@ -90,7 +94,8 @@ static const char *verdict(const row *ours, const row *theirs)
     if (is_kind(ours, BENCH_OWN)) return NULL;
     if (!ours->ok && theirs->ok) return "falls";
     if (is_kind(ours, BENCH_STRAY) && ours->value > theirs->value + BENCH_LINEAR_SLOP) return "drifts";
-    if (strcmp(ours->what, bench_measure_names[BENCH_M_ENERGY]) == 0 && ours->value > theirs->value + ENERGY_MARGIN) return "gains energy";
+    if (strcmp(ours->what, bench_measure_names[BENCH_M_ENERGY]) == 0 && ours->value > theirs->value + ENERGY_MARGIN)
+        return "gains energy";
     return NULL;
 }
 
@@ -98,8 +103,8 @@ static void print_verdict(const row *ours, const row *theirs, const char *worse)
 {
     char bound[48] = "";
     if (strcmp(ours->kind, "measure") != 0) snprintf(bound, sizeof bound, " of [%.4g, %.4g]", ours->low, ours->high);
-    printf("%-24s %d substeps: %-12s worse than %-6s  %s: %.4g%s, %.4g there\n", ours->scene, ours->substeps, worse, theirs->engine,
-           ours->what, ours->value, bound, theirs->value);
+    printf("%-24s %d substeps: %-12s worse than %-6s  %s: %.4g%s, %.4g there\n", ours->scene, ours->substeps, worse,
+           theirs->engine, ours->what, ours->value, bound, theirs->value);
 }
 
 int bench_worse(const char *const *paths, int32_t count)
@@ -125,9 +130,9 @@ int bench_worse(const char *const *paths, int32_t count)
             worse += p < THAT_COUNT && ours->substeps == DEFAULT_SUBSTEPS;
         }
     }
-    printf(
-        "%d substeps: worse than Box2D or ODE in %d measures (compared: %d with Box2D, %d with ODE; with Bullet, who is only told, %d)\n",
-        DEFAULT_SUBSTEPS, worse, compared[0], compared[1], compared[2]);
+    printf("%d substeps: worse than Box2D or ODE in %d measures (compared: %d with Box2D, %d with ODE; with Bullet, "
+           "who is only told, %d)\n",
+           DEFAULT_SUBSTEPS, worse, compared[0], compared[1], compared[2]);
     free(all.items);
     return worse != 0;
 }

@@ -1,6 +1,8 @@
-// demo.c - what the library promises, measured: a table of values beside the exact ones, and a pile of 2000 bodies against the clock.
+// demo.c - what the library promises, measured: a table of values beside the exact ones, and a pile of 2000 bodies
+// against the clock.
 //
-// Prints each value with its range and writes the same as build/demo.csv. Exits with 1 when a value is out of its range.
+// Prints each value with its range and writes the same as build/demo.csv. Exits with 1 when a value is out of its
+// range.
 #include "feather.h"
 
 #include <math.h>
@@ -32,7 +34,8 @@ static void must(fe_result result)
     exit(1);
 }
 
-// ---- building -------------------------------------------------------------------------------------------------------------------
+// ---- building
+// -------------------------------------------------------------------------------------------------------------------
 static fe_world *make_world(int workers)
 {
     fe_world_def def;
@@ -43,8 +46,8 @@ static fe_world *make_world(int workers)
     return world;
 }
 
-static fe_body add_body(fe_world *world, int32_t type, const fe_transform *at, const fe_geometry *geometry, float density,
-                        fe_material material)
+static fe_body add_body(fe_world *world, int32_t type, const fe_transform *at, const fe_geometry *geometry,
+                        float density, fe_material material)
 {
     fe_body_def body_def;
     fe_shape_def shape_def;
@@ -105,7 +108,8 @@ static uint64_t hash_of(const fe_world *world)
     return (uint64_t)words[1] << 32 | words[0];
 }
 
-// ---- the table ---------------------------------------------------------------------------------------------------------------------
+// ---- the table
+// ---------------------------------------------------------------------------------------------------------------------
 static fe_body build_pyramid(fe_world *world)
 {
     enum { ROWS = 10 };
@@ -197,7 +201,8 @@ static void push(void)
     must(fe_world_destroy(world));
 }
 
-// ---- normals -------------------------------------------------------------------------------------------------------------------------
+// ---- normals
+// -------------------------------------------------------------------------------------------------------------------------
 static uint64_t random_state = 0x9e3779b97f4a7c15u;
 
 static double uniform(double low, double high)
@@ -235,7 +240,8 @@ static int compare_doubles(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// a static box and a sphere that overlaps it, in random poses; the angle between the contact's normal and the exact one, degrees
+// a static box and a sphere that overlaps it, in random poses; the angle between the contact's normal and the exact
+// one, degrees
 static double normal_error(int i)
 {
     fe_world *world = make_world(1);
@@ -251,7 +257,8 @@ static double normal_error(int i)
     fe_body block = add_body(world, FE_BODY_STATIC, &box_at, &box, 1000, make_material(0.6f, 0));
     must(fe_body_get_transform(world, block, &box_at));
     fe_dvec3 offset = turn(box_at.rotation, fe_make_dvec3(c[0], c[1], c[2]));
-    ball_at.position = fe_make_dvec3(box_at.position.x + offset.x, box_at.position.y + offset.y, box_at.position.z + offset.z);
+    ball_at.position =
+        fe_make_dvec3(box_at.position.x + offset.x, box_at.position.y + offset.y, box_at.position.z + offset.z);
     fe_body sphere = add_body(world, FE_BODY_DYNAMIC, &ball_at, &ball, 1000, make_material(0.6f, 0));
     must(fe_world_step(world, 0));
     fe_contact contact;
@@ -275,7 +282,8 @@ static void normals(void)
     report("sphere on box, 2000 random poses", "normal, 99th %, degrees", errors[PAIRS * 99 / 100], 0, 0.001, "0");
 }
 
-// ---- the pile -------------------------------------------------------------------------------------------------------------------------
+// ---- the pile
+// -------------------------------------------------------------------------------------------------------------------------
 static double seconds(void)
 {
     struct timespec t;
@@ -309,8 +317,8 @@ static void build_pile(fe_world *world, fe_body *bodies, int count)
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// How much the body's surface at a point gives along n: 1/m + (r x n) . I^-1 (r x n), 1/kg; 0 for one that is not dynamic. Centre of mass
-// and principal axes of the pile's bodies are their frames.
+// How much the body's surface at a point gives along n: 1/m + (r x n) . I^-1 (r x n), 1/kg; 0 for one that is not
+// dynamic. Centre of mass and principal axes of the pile's bodies are their frames.
 static double yielding(const fe_world *world, fe_body body, fe_dvec3 point, fe_vec3 n)
 {
     fe_mass_data data = {.struct_size = sizeof data};
@@ -334,8 +342,8 @@ typedef struct overlap_sums {
     double overlaps, formula, deepest; // m
 } overlap_sums;
 
-// A contact is a spring: at rest a point that bears the force f overlaps by f (sum of yieldings) / w2, w = 2 pi hertz, twice the hertz
-// against what is not dynamic.
+// A contact is a spring: at rest a point that bears the force f overlaps by f (sum of yieldings) / w2, w = 2 pi hertz,
+// twice the hertz against what is not dynamic.
 static void add_overlaps(const fe_world *world, const fe_contact *contact, overlap_sums *sums)
 {
     const double hertz = 30, substep = DT / SUBSTEPS; // the library's defaults
@@ -386,8 +394,8 @@ static void pile(void)
         char scene[64];
         snprintf(scene, sizeof scene, "pile of %d bodies, 5 s, %d worker%s", BODIES, workers, workers > 1 ? "s" : "");
         report(scene, "ms per step", ms, 0, INFINITY, "-");
-        printf("%-44s worst step %.2f ms, %d contacts, %d awake, %.0f KB\n", "", 1e3 * worst, counters.contacts, counters.awake_bodies,
-               (double)counters.bytes / 1024);
+        printf("%-44s worst step %.2f ms, %d contacts, %d awake, %.0f KB\n", "", 1e3 * worst, counters.contacts,
+               counters.awake_bodies, (double)counters.bytes / 1024);
         sums = sum_overlaps(world, bodies, BODIES);
         must(fe_world_destroy(world));
     }
@@ -409,9 +417,12 @@ int main(int argc, char **argv)
     printf("Feather %d.%d.%d, 60 Hz, %d substeps\n\n", FE_VERSION_MAJOR, FE_VERSION_MINOR, FE_VERSION_PATCH, SUBSTEPS);
     pyramid();
     report("box on a 20 degree slope, friction 0.6", "slip in 10 s, m", slide(20, 0.6f, 0, 600), 0, 0.001, "0");
-    report("box on a 35 degree slope, friction 0.3", "0.5 s to 2.5 s, m", slide(35, 0.3f, 30, 150), 9.650, 9.660, "9.648 (9.655)");
-    report("bounce from 1 m, restitution 0.5: sphere", "height, m", rebound(&ball, 0.25, 1, 0.5f), 0.2490, 0.2502, "0.25");
-    report("bounce from 1 m, restitution 0.5: flat box", "height, m", rebound(&cube, 0.25, 1, 0.5f), 0.2490, 0.2502, "0.25");
+    report("box on a 35 degree slope, friction 0.3", "0.5 s to 2.5 s, m", slide(35, 0.3f, 30, 150), 9.650, 9.660,
+           "9.648 (9.655)");
+    report("bounce from 1 m, restitution 0.5: sphere", "height, m", rebound(&ball, 0.25, 1, 0.5f), 0.2490, 0.2502,
+           "0.25");
+    report("bounce from 1 m, restitution 0.5: flat box", "height, m", rebound(&cube, 0.25, 1, 0.5f), 0.2490, 0.2502,
+           "0.25");
     push();
     normals();
     pile();

@@ -68,7 +68,8 @@ static fe_result add_hills(fe_world *world)
     fe_asset asset;
     fe_geometry form;
     fe_body body;
-    for (int i = 0; i < SAMPLES * SAMPLES; ++i) heights[i] = 0.1f + 0.25f * (1 - cosf(0.5f * cell * (float)(i % SAMPLES)));
+    for (int i = 0; i < SAMPLES * SAMPLES; ++i)
+        heights[i] = 0.1f + 0.25f * (1 - cosf(0.5f * cell * (float)(i % SAMPLES)));
     fe_heightfield_def_init(&field, sizeof field);
     field.rows = field.columns = SAMPLES, field.cell_x = field.cell_z = cell, field.heights = heights;
     MACHINE_TRY(fe_world_get_store(world, &store));
@@ -87,8 +88,7 @@ static fe_result show_car(fe_world *world)
     MACHINE_TRY(run(world, 300));
     fe_vec3 v;
     MACHINE_TRY(fe_body_get_linear_velocity(world, c.chassis, &v));
-    printf("car      drove %.1f m over hills in 5 s, now at %.2f m/s\n", x_of(world, c.chassis) - valley,
-           (double)v.x);
+    printf("car      drove %.1f m over hills in 5 s, now at %.2f m/s\n", x_of(world, c.chassis) - valley, (double)v.x);
     return FE_OK;
 }
 
@@ -127,8 +127,8 @@ static fe_result show_crane(fe_world *world)
     MACHINE_TRY(fe_configurable_joint_set(world, c.winch, &rail));
     MACHINE_TRY(run(world, 1800));
     MACHINE_TRY(fe_joint_get_reaction(world, c.chain[0], &force, &torque));
-    printf("crane    carried %.0f kg on links of %.0f kg to x = %.2f m; the first bears %.0f N\n", (double)c.load_mass, (double)c.link_mass,
-           x_of(world, c.load), (double)force.y);
+    printf("crane    carried %.0f kg on links of %.0f kg to x = %.2f m; the first bears %.0f N\n", (double)c.load_mass,
+           (double)c.link_mass, x_of(world, c.load), (double)force.y);
     return FE_OK;
 }
 

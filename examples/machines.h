@@ -1,5 +1,5 @@
-// machines.h - things made of joints, to copy from: a ragdoll, a car, a rope bridge, a door, a crane. The tests and examples/machines.c use
-// them.
+// machines.h - things made of joints, to copy from: a ragdoll, a car, a rope bridge, a door, a crane. The tests and
+// examples/machines.c use them.
 //
 // Each builder fills a struct of handles and returns the first error, or FE_OK. y is up; lengths in m.
 #ifndef FEATHER_EXAMPLE_MACHINES_H
@@ -15,7 +15,8 @@
         if (machine_tried != FE_OK) return machine_tried; \
     } while (0)
 
-// ---- parts ------------------------------------------------------------------------------------------------------------------------
+// ---- parts
+// ------------------------------------------------------------------------------------------------------------------------
 static inline fe_vec3 machine_rotate(fe_quat q, fe_vec3 a)
 {
     fe_vec3 t = {2 * (q.y * a.z - q.z * a.y), 2 * (q.z * a.x - q.x * a.z), 2 * (q.x * a.y - q.y * a.x)};
@@ -39,8 +40,8 @@ static inline fe_quat machine_turn_y_to(fe_vec3 d)
     return q; // of any length: the library reads q/|q|
 }
 
-static inline fe_result machine_body(fe_world *world, int32_t type, fe_transform at, const fe_geometry *form, float density,
-                                     fe_body *out_body)
+static inline fe_result machine_body(fe_world *world, int32_t type, fe_transform at, const fe_geometry *form,
+                                     float density, fe_body *out_body)
 {
     fe_body_def body;
     fe_shape_def surface;
@@ -54,17 +55,19 @@ static inline fe_result machine_body(fe_world *world, int32_t type, fe_transform
     return fe_shape_create(world, *out_body, &surface, form, &shape);
 }
 
-static inline fe_result machine_box(fe_world *world, int32_t type, double x, double y, double z, float half_x, float half_y, float half_z,
-                                    float density, fe_body *out_body)
+static inline fe_result machine_box(fe_world *world, int32_t type, double x, double y, double z, float half_x,
+                                    float half_y, float half_z, float density, fe_body *out_body)
 {
     fe_geometry form;
     fe_geometry_box(&form, half_x, half_y, half_z);
     return machine_body(world, type, fe_make_transform(x, y, z), &form, density, out_body);
 }
 
-// ---- a ragdoll --------------------------------------------------------------------------------------------------------------------
-// Fourteen capsules of a person of 1.75 m and 90 kg, from Box3D's human: frames of the bones, ends of the capsules in them, the frames of
-// the joints about Z. Spine, neck, hips and shoulders are balls with a cone and a twist; knees and elbows hinges.
+// ---- a ragdoll
+// --------------------------------------------------------------------------------------------------------------------
+// Fourteen capsules of a person of 1.75 m and 90 kg, from Box3D's human: frames of the bones, ends of the capsules in
+// them, the frames of the joints about Z. Spine, neck, hips and shoulders are balls with a cone and a twist; knees and
+// elbows hinges.
 enum {
     RAGDOLL_BONES = 14,
     RAGDOLL_PELVIS = 0,
@@ -115,15 +118,18 @@ typedef struct ragdoll {
     fe_joint joints[RAGDOLL_BONES]; // to the parent; [0] is none
 } ragdoll;
 
-// A long thin bone turns about its axis a hundred times more easily than across it, a small one like the neck in any way; a soft solver
-// then has to hold heavy ends by a light one. No moment of a bone is below a quarter of its largest, or below its mass times (10 cm)^2.
+// A long thin bone turns about its axis a hundred times more easily than across it, a small one like the neck in any
+// way; a soft solver then has to hold heavy ends by a light one. No moment of a bone is below a quarter of its largest,
+// or below its mass times (10 cm)^2.
 static inline fe_result ragdoll_thicken(fe_world *world, fe_body bone)
 {
     fe_mass_data mass;
     mass.struct_size = sizeof mass;
     MACHINE_TRY(fe_body_get_mass_data(world, bone, &mass));
-    float largest = fmaxf(fmaxf(mass.inertia.x, mass.inertia.y), mass.inertia.z), least = fmaxf(0.25f * largest, 0.01f * mass.mass);
-    mass.inertia = fe_make_vec3(fmaxf(mass.inertia.x, least), fmaxf(mass.inertia.y, least), fmaxf(mass.inertia.z, least));
+    float largest = fmaxf(fmaxf(mass.inertia.x, mass.inertia.y), mass.inertia.z),
+          least = fmaxf(0.25f * largest, 0.01f * mass.mass);
+    mass.inertia =
+        fe_make_vec3(fmaxf(mass.inertia.x, least), fmaxf(mass.inertia.y, least), fmaxf(mass.inertia.z, least));
     return fe_body_set_mass_data(world, bone, &mass);
 }
 
@@ -137,8 +143,8 @@ static inline fe_result ragdoll_add_bone(fe_world *world, const ragdoll_bone *bo
             place = machine_rotate(at.rotation, bone->position);
     fe_body_def_init(&body, sizeof body);
     fe_shape_def_init(&surface, sizeof surface);
-    body.transform.position =
-        fe_make_dvec3(at.position.x + (double)place.x, at.position.y + (double)place.y, at.position.z + (double)place.z);
+    body.transform.position = fe_make_dvec3(at.position.x + (double)place.x, at.position.y + (double)place.y,
+                                            at.position.z + (double)place.z);
     body.transform.rotation = machine_multiply(at.rotation, bone->rotation);
     surface.frame.position = fe_make_vec3(0.5f * (a.x + b.x), 0.5f * (a.y + b.y), 0.5f * (a.z + b.z));
     surface.frame.rotation = machine_turn_y_to(along);
@@ -166,8 +172,8 @@ static inline fe_vec3 ragdoll_point_in_parent(const ragdoll_bone *bone, const ra
     return machine_rotate(back, d);
 }
 
-static inline fe_result ragdoll_add_joint(fe_world *world, const ragdoll_bone *bone, fe_body parent, fe_body child, float friction_torque,
-                                          fe_joint *out_joint)
+static inline fe_result ragdoll_add_joint(fe_world *world, const ragdoll_bone *bone, fe_body parent, fe_body child,
+                                          float friction_torque, fe_joint *out_joint)
 {
     fe_frame a = {ragdoll_point_in_parent(bone, ragdoll_bones + bone->parent), ragdoll_frame(bone->frame_a)};
     fe_frame b = {bone->point, ragdoll_frame(bone->frame_b)};
@@ -190,7 +196,8 @@ static inline fe_result ragdoll_add_joint(fe_world *world, const ragdoll_bone *b
     return fe_ball_joint_create(world, &ball, out_joint);
 }
 
-// A person standing at a place. Neighbours in the table do not touch because they are joined; thighs and belly overlap without being it.
+// A person standing at a place. Neighbours in the table do not touch because they are joined; thighs and belly overlap
+// without being it.
 static inline fe_result ragdoll_build(fe_world *world, fe_transform at, float friction_torque, ragdoll *out)
 {
     static const int strangers[3][2] = {{1, RAGDOLL_THIGH_L}, {1, RAGDOLL_THIGH_R}, {RAGDOLL_THIGH_L, RAGDOLL_THIGH_R}};
@@ -199,13 +206,16 @@ static inline fe_result ragdoll_build(fe_world *world, fe_transform at, float fr
         MACHINE_TRY(ragdoll_add_bone(world, bone, at, &out->bones[i]));
         out->joints[i] = 0;
         if (bone->parent < 0) continue;
-        MACHINE_TRY(ragdoll_add_joint(world, bone, out->bones[bone->parent], out->bones[i], friction_torque, &out->joints[i]));
+        MACHINE_TRY(
+            ragdoll_add_joint(world, bone, out->bones[bone->parent], out->bones[i], friction_torque, &out->joints[i]));
     }
-    for (int i = 0; i < 3; ++i) MACHINE_TRY(fe_world_ignore_collision(world, out->bones[strangers[i][0]], out->bones[strangers[i][1]], 1));
+    for (int i = 0; i < 3; ++i)
+        MACHINE_TRY(fe_world_ignore_collision(world, out->bones[strangers[i][0]], out->bones[strangers[i][1]], 1));
     return FE_OK;
 }
 
-// ---- a car ------------------------------------------------------------------------------------------------------------------------
+// ---- a car
+// ------------------------------------------------------------------------------------------------------------------------
 typedef struct car {
     fe_body chassis, wheels[4]; // front left, front right, rear left, rear right; it drives towards x
     fe_joint axles[4];
@@ -262,22 +272,25 @@ static inline fe_result car_drive(fe_world *world, const car *c, float speed, fl
     return FE_OK;
 }
 
-// ---- a rope bridge ----------------------------------------------------------------------------------------------------------------
+// ---- a rope bridge
+// ----------------------------------------------------------------------------------------------------------------
 enum { BRIDGE_PLANKS = 24 };
 typedef struct bridge {
     fe_body posts[2], planks[BRIDGE_PLANKS];
     fe_joint ropes[2 * (BRIDGE_PLANKS + 1)];
 } bridge;
 
-// Planks of 0.5 m along x, hung between two posts 4 % farther apart than they are long. Two ropes of 0.04 m at each seam
+// Planks of 0.5 m along x, hung between two posts 4 % farther apart than they are long. Two ropes of 0.04 m at each
+// seam
 static inline fe_result bridge_build(fe_world *world, double x, double y, double z, bridge *out)
 {
     const double pitch = 0.5, half = 0.23;
     for (int i = 0; i < 2; ++i)
-        MACHINE_TRY(
-            machine_box(world, FE_BODY_STATIC, x + (i ? BRIDGE_PLANKS * pitch + 0.5 : -0.5), y, z, 0.48f, 0.2f, 1, 0, &out->posts[i]));
+        MACHINE_TRY(machine_box(world, FE_BODY_STATIC, x + (i ? BRIDGE_PLANKS * pitch + 0.5 : -0.5), y, z, 0.48f, 0.2f,
+                                1, 0, &out->posts[i]));
     for (int i = 0; i < BRIDGE_PLANKS; ++i)
-        MACHINE_TRY(machine_box(world, FE_BODY_DYNAMIC, x + (i + 0.5) * pitch, y, z, (float)half, 0.04f, 0.8f, 600, &out->planks[i]));
+        MACHINE_TRY(machine_box(world, FE_BODY_DYNAMIC, x + (i + 0.5) * pitch, y, z, (float)half, 0.04f, 0.8f, 600,
+                                &out->planks[i]));
     for (int i = 0; i <= BRIDGE_PLANKS; ++i) {
         fe_body a = i ? out->planks[i - 1] : out->posts[0], b = i < BRIDGE_PLANKS ? out->planks[i] : out->posts[1];
         for (int side = 0; side < 2; ++side) {
@@ -292,7 +305,8 @@ static inline fe_result bridge_build(fe_world *world, double x, double y, double
     return FE_OK;
 }
 
-// ---- a door -----------------------------------------------------------------------------------------------------------------------
+// ---- a door
+// -----------------------------------------------------------------------------------------------------------------------
 typedef struct door {
     fe_body frame, leaf;
     fe_joint hinges[2];
@@ -316,7 +330,8 @@ static inline fe_result door_build(fe_world *world, double x, double y, double z
     return FE_OK;
 }
 
-// ---- a crane ----------------------------------------------------------------------------------------------------------------------
+// ---- a crane
+// ----------------------------------------------------------------------------------------------------------------------
 enum { CRANE_LINKS = 10 };
 typedef struct crane {
     fe_body mast, trolley, links[CRANE_LINKS], load;
@@ -325,8 +340,9 @@ typedef struct crane {
     float link_mass, load_mass; // kg
 } crane;
 
-// A trolley of 2 t on a rail at height y, ten links of 0.3 m and 1 kg below, and a load `ratio` times as heavy as a link. The joints close no
-// loop, so that they bear it without giving; the links are thickened, which lets them turn no faster than substeps can follow.
+// A trolley of 2 t on a rail at height y, ten links of 0.3 m and 1 kg below, and a load `ratio` times as heavy as a
+// link. The joints close no loop, so that they bear it without giving; the links are thickened, which lets them turn no
+// faster than substeps can follow.
 static inline fe_result crane_build(fe_world *world, double x, double y, double z, float ratio, crane *out)
 {
     const fe_vec3 along = {1, 0, 0}, down = {0, -1, 0};
@@ -338,8 +354,10 @@ static inline fe_result crane_build(fe_world *world, double x, double y, double 
     fe_dvec3 at = {x, y, z};
     rail.struct_size = sizeof rail;
     MACHINE_TRY(fe_slider_joint_def_at(world, &rail, out->mast, out->trolley, &at, &along));
-    rail.axes[FE_DOF_LINEAR_X].motion = FE_MOTION_LIMITED, rail.axes[FE_DOF_LINEAR_X].lower = -6, rail.axes[FE_DOF_LINEAR_X].upper = 6;
-    rail.axes[FE_DOF_LINEAR_X].spring = FE_SPRING_HERTZ, rail.axes[FE_DOF_LINEAR_X].spring_hertz = 0.5f, rail.axes[FE_DOF_LINEAR_X].spring_damping_ratio = 1;
+    rail.axes[FE_DOF_LINEAR_X].motion = FE_MOTION_LIMITED, rail.axes[FE_DOF_LINEAR_X].lower = -6,
+    rail.axes[FE_DOF_LINEAR_X].upper = 6;
+    rail.axes[FE_DOF_LINEAR_X].spring = FE_SPRING_HERTZ, rail.axes[FE_DOF_LINEAR_X].spring_hertz = 0.5f,
+    rail.axes[FE_DOF_LINEAR_X].spring_damping_ratio = 1;
     MACHINE_TRY(fe_configurable_joint_create(world, &rail, &out->winch));
     fe_geometry_capsule(&form, 0.1f, 0.05f);
     fe_body above = out->trolley;
@@ -347,7 +365,8 @@ static inline fe_result crane_build(fe_world *world, double x, double y, double 
         fe_body below;
         double top = y - 0.3 * i;
         if (i < CRANE_LINKS) {
-            MACHINE_TRY(machine_body(world, FE_BODY_DYNAMIC, fe_make_transform(x, top - 0.15, z), &form, 1000, &out->links[i]));
+            MACHINE_TRY(
+                machine_body(world, FE_BODY_DYNAMIC, fe_make_transform(x, top - 0.15, z), &form, 1000, &out->links[i]));
             MACHINE_TRY(fe_body_set_mass(world, out->links[i], out->link_mass));
             MACHINE_TRY(ragdoll_thicken(world, out->links[i]));
             below = out->links[i];

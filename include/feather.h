@@ -48,12 +48,13 @@
 /// **Growth.** A program built against this header runs with every later 1.x library. A struct that may grow begins
 /// with `struct_size`; its `_init(&x, sizeof x)` sets that and every default, and does nothing with NULL. A shorter
 /// struct of an older client is accepted, so is a longer one with a zero tail. A size that ends inside a field is
-/// refused. Enumerators are called FE_<ENUM>_<VALUE>, without the enum's closing _type, _kind or _flags; results are
-/// FE_OK and FE_ERROR_<REASON>.
+/// refused. Enumerators begin with FE_ and the enum's name without its closing _type, _kind or _flags; results are
+/// FE_OK, others that inform, and FE_ERROR_ with a reason.
 ///
 /// **Threads.** Different worlds are independent. Functions with a `const` world only read: any number of threads may
 /// call them at once, while none writes. All others write and need the world to themselves. A second writer gets
-/// FE_ERROR_BUSY; so does a reader while another thread writes, and a step or a destruction while another thread reads.
+/// FE_ERROR_BUSY, and so does a reader while another thread writes. While another thread reads, steps, destructions and
+/// calls that make or remove something get it; other writes do not notice readers and must not meet them.
 /// A call that begins after fe_world_destroy has returned is undefined, as after free.
 ///
 /// **Determinism.** The same calls in the same order give the same bits, handles and events: on every machine, with
@@ -64,9 +65,9 @@
 
 #include <stdint.h>
 
-#define FE_VERSION_MAJOR 1
-#define FE_VERSION_MINOR 0
-#define FE_VERSION_PATCH 0
+#define FE_VERSION_MAJOR 1 ///< of this header: programs of another one do not run with it
+#define FE_VERSION_MINOR 0 ///< grows with what is added
+#define FE_VERSION_PATCH 0 ///< grows with what is mended
 
 #ifdef SWIG
 #define FE_API
@@ -99,6 +100,7 @@ typedef struct fe_world fe_world; ///< everything that can touch each other
 typedef struct fe_pool fe_pool;   ///< worker threads that several worlds may share
 typedef struct fe_store fe_store; ///< assets that several worlds may share
 
+/// A vector: m, m/s, N... as its field says.
 typedef struct fe_vec3 {
     float x, y, z;
 } fe_vec3;
@@ -113,39 +115,41 @@ typedef struct fe_quat {
     float x, y, z, w;
 } fe_quat;
 
+/// A pose in the world.
 typedef struct fe_transform {
     fe_dvec3 position; ///< m
-    fe_quat rotation;
+    fe_quat rotation;  ///< from its own axes to the world's
 } fe_transform;
 
 /// A frame in the space of a body.
 typedef struct fe_frame {
     fe_vec3 position; ///< m
-    fe_quat rotation;
+    fe_quat rotation; ///< from its own axes to the body's
 } fe_frame;
 
 /// An axis-aligned box in world space, m.
 typedef struct fe_bounds {
-    fe_dvec3 lower, upper;
+    fe_dvec3 lower, upper; ///< its least and its greatest corner
 } fe_bounds;
 
+/// What a call came to. Below 0: an error, and nothing has changed.
 typedef enum fe_result {
     FE_OK = 0,
-    FE_FOREIGN = 2,             ///< done, from data of a library whose results differ
-    FE_END = 3,                 ///< done, and there is no more
-    FE_ERROR_ARGUMENT = -1,     ///< NULL, NaN, infinity, out of range
-    FE_ERROR_STALE = -2,        ///< the handle of something destroyed, of another world, or of nothing
-    FE_ERROR_KIND = -3,         ///< a shape's handle where a body's is expected
-    FE_ERROR_STEPPING = -4,     ///< the world is in a step
-    FE_ERROR_MEMORY = -5,       ///< the allocator returned NULL
-    FE_ERROR_LIMIT = -6,        ///< more than a world or a handle can hold
-    FE_ERROR_UNSUPPORTED = -7,  ///< this CPU, this kind of body or this geometry cannot
-    FE_ERROR_STATE = -8,        ///< not now: the pool still has worlds, the body is not kinematic...
-    FE_ERROR_BUSY = -9,         ///< another thread is inside the world
-    FE_ERROR_DEGENERATE = -10,  ///< flat or empty input of a builder
-    FE_ERROR_DATA = -11,        ///< cut, altered or foreign bytes
-    FE_ERROR_VERSION = -12,     ///< bytes of a newer format
-    FE_ERROR_DIVERGED = -13,    ///< a replay went another way than its recording
+    FE_FOREIGN = 2,            ///< done, from data of a library whose results differ
+    FE_END = 3,                ///< done, and there is no more
+    FE_ERROR_ARGUMENT = -1,    ///< NULL, NaN, infinity, out of range
+    FE_ERROR_STALE = -2,       ///< the handle of something destroyed, of another world, or of nothing
+    FE_ERROR_KIND = -3,        ///< a shape's handle where a body's is expected
+    FE_ERROR_STEPPING = -4,    ///< the world is in a step
+    FE_ERROR_MEMORY = -5,      ///< the allocator returned NULL
+    FE_ERROR_LIMIT = -6,       ///< more than a world or a handle can hold
+    FE_ERROR_UNSUPPORTED = -7, ///< this CPU, this kind of body or this geometry cannot
+    FE_ERROR_STATE = -8,       ///< not now: the pool still has worlds, the body is not kinematic...
+    FE_ERROR_BUSY = -9,        ///< another thread is inside the world
+    FE_ERROR_DEGENERATE = -10, ///< flat or empty input of a builder
+    FE_ERROR_DATA = -11,       ///< cut, altered or foreign bytes
+    FE_ERROR_VERSION = -12,    ///< bytes of a newer format
+    FE_ERROR_DIVERGED = -13,   ///< a replay went another way than its recording
     FE_RESULT_FORCE32 = 0x7fffffff
 } fe_result;
 
@@ -176,18 +180,20 @@ FE_API fe_result fe_pool_destroy(fe_pool *pool);
 // else.
 
 /// The host's allocator. A world calls it from the thread that uses the world, never from workers. A store calls its
-/// own from any thread, one call at a time.
+/// own from any thread, one call at a time. A world and its own store share one, and take turns.
 typedef struct fe_allocator {
     uint32_t struct_size;
     uint32_t reserved;
     /// `size` bytes aligned to `alignment` (a power of two, at most 64), or NULL
     void *(*allocate)(void *user, uint64_t size, uint64_t alignment);
+    /// gives back what `allocate` returned, with its size
     void (*release)(void *user, void *memory, uint64_t size);
-    void *user;
+    void *user; ///< handed to both
 } fe_allocator;
 
 FE_API void fe_allocator_init(fe_allocator *allocator, uint32_t struct_size);
 
+/// How a store begins.
 typedef struct fe_store_def {
     uint32_t struct_size;
     uint32_t number;               ///< 1..4095, part of its assets' handles; 0: the next free one. Default 0
@@ -198,7 +204,8 @@ FE_API void fe_store_def_init(fe_store_def *def, uint32_t struct_size);
 /// @param def  NULL: the defaults
 FE_API fe_result fe_store_create(const fe_store_def *def, fe_store **out_store);
 /// Frees the store and all its assets.
-/// @return FE_ERROR_STATE while a world uses the store, or for a world's own store
+/// @return FE_ERROR_STATE while a world uses the store, or for a world's own store; FE_ERROR_STALE for a store that is
+///         gone already
 FE_API fe_result fe_store_destroy(fe_store *store);
 /// Memory of the store and its assets.
 FE_API fe_result fe_store_get_bytes(const fe_store *store, int64_t *out_bytes);
@@ -230,7 +237,7 @@ typedef struct fe_material {
     int32_t friction_combine;    ///< fe_combine, of both frictions. Default FE_COMBINE_DEFAULT
     int32_t restitution_combine; ///< fe_combine. Default FE_COMBINE_DEFAULT
     uint32_t reserved[3];
-    uint64_t user_id;            ///< any number of yours: hits, contacts and hit events report it. Default 0
+    uint64_t user_id; ///< any number of yours: hits, contacts and hit events report it. Default 0
 } fe_material;
 
 /// The defaults. Never grows, hence without a size.
@@ -248,12 +255,12 @@ FE_API void fe_material_init(fe_material *material);
 /// pressed into the terrain is pushed out, unless its centre is deeper than the body's radius.
 typedef struct fe_heightfield_def {
     uint32_t struct_size;
-    int32_t rows;                  ///< of samples, along z, 2..32768; rows * columns <= 2^28
-    int32_t columns;               ///< of samples, along x, 2..32768
-    int32_t material_count;        ///< 0..255
-    float cell_x;                  ///< from column to column, m, 0.001..100000; all columns within 1e6 m
-    float cell_z;                  ///< from row to row
-    uint32_t material_stride;      ///< bytes from one material to the next, 0: packed
+    int32_t rows;             ///< of samples, along z, 2..32768; rows * columns <= 2^28
+    int32_t columns;          ///< of samples, along x, 2..32768
+    int32_t material_count;   ///< 0..255
+    float cell_x;             ///< from column to column, m, 0.001..100000; all columns within 1e6 m
+    float cell_z;             ///< from row to row
+    uint32_t material_stride; ///< bytes from one material to the next, 0: packed
     uint32_t reserved;
     const float *heights;          ///< rows x columns, row by row, m, within +-1e6. All arrays are copied
     const uint8_t *holes;          ///< a cell each: 1 is a hole, 0 is none; NULL: no holes
@@ -278,6 +285,7 @@ FE_API fe_result fe_heightfield_get_heights(const fe_store *store, fe_asset asse
 
 // ---- worlds ---------------------------------------------------------------------------------------------------------
 
+/// The sets of kernels. All give the same bits.
 typedef enum fe_simd {
     FE_SIMD_AUTO = 0,  ///< the widest of this CPU; the environment variable FE_SIMD = plain, sse2, avx2... overrides it
     FE_SIMD_PLAIN = 1, ///< C without intrinsics
@@ -288,6 +296,7 @@ typedef enum fe_simd {
     FE_SIMD_FORCE32 = 0x7fffffff
 } fe_simd;
 
+/// A part of a step, for the host's job system: `index` says which.
 typedef void (*fe_task)(void *argument, int32_t index);
 
 /// The host's job system, instead of a pool. `run` calls task(argument, i) once for each i in [0, count), on any
@@ -296,12 +305,14 @@ typedef void (*fe_task)(void *argument, int32_t index);
 typedef struct fe_task_system {
     uint32_t struct_size;
     int32_t worker_count; ///< 1..64: the largest `count` of a call
+    /// calls task(argument, 0) to task(argument, count - 1)
     void (*run)(void *user, fe_task task, void *argument, int32_t count);
-    void *user;
+    void *user; ///< handed to `run`
 } fe_task_system;
 
 FE_API void fe_task_system_init(fe_task_system *tasks, uint32_t struct_size);
 
+/// How a world begins.
 typedef struct fe_world_def {
     uint32_t struct_size;
     int32_t worker_count;          ///< 1..64 workers of its own, 1: none; ignored with a pool or tasks. Default 1
@@ -313,14 +324,15 @@ typedef struct fe_world_def {
     fe_store *store;               ///< of its assets; NULL: one of its own, with the world's number and allocator
     const fe_allocator *allocator; ///< copied; NULL: malloc
     const fe_task_system *tasks;   ///< copied; NULL: the pool or the world's own workers
-    uint64_t user_data;
+    uint64_t user_data;            ///< any number of yours. Default 0
 } fe_world_def;
 
 FE_API void fe_world_def_init(fe_world_def *def, uint32_t struct_size);
 /// Worlds with different numbers refuse each other's handles. Those with the same number accept them: give the same
 /// number to worlds of one history whose handles must agree.
 /// @param def  NULL: the defaults
-/// @return FE_ERROR_UNSUPPORTED when this CPU lacks the SIMD set; FE_ERROR_STALE for a pool or a store that is gone
+/// @return FE_ERROR_UNSUPPORTED when this CPU lacks the SIMD set; FE_ERROR_STALE for a pool or a store that is gone;
+///         FE_ERROR_ARGUMENT for another world's own store
 FE_API fe_result fe_world_create(const fe_world_def *def, fe_world **out_world);
 /// Destroys the world and all in it. The pointer is dead afterwards.
 /// @return FE_ERROR_BUSY while another thread is inside a call with this world
@@ -384,10 +396,10 @@ FE_API fe_result fe_world_optimize(fe_world *world);
 
 /// Two shapes that a pair filter judges. A is the one created first.
 typedef struct fe_filter_pair {
-    fe_body body_a, body_b;
-    fe_shape shape_a, shape_b;
-    uint64_t body_user_data_a, body_user_data_b;
-    uint64_t shape_user_data_a, shape_user_data_b;
+    fe_body body_a, body_b;                        ///< of the shapes
+    fe_shape shape_a, shape_b;                     ///< A was created first
+    uint64_t body_user_data_a, body_user_data_b;   ///< of the bodies
+    uint64_t shape_user_data_a, shape_user_data_b; ///< of the shapes
     uint64_t reserved[2];
 } fe_filter_pair;
 
@@ -412,32 +424,33 @@ typedef struct fe_profile {
     float solve;      ///< all substeps
     float continuous; ///< bodies too fast for their size
     float finalize;   ///< poses, bounds, trees
-    float events;
-    float sleep;
+    float events;     ///< touching begun and ended, impacts, broken joints
+    float sleep;      ///< who falls asleep
 } fe_profile;
 
 FE_API void fe_profile_init(fe_profile *profile, uint32_t struct_size);
 /// @param out_profile  its struct_size must be set
 FE_API fe_result fe_world_get_profile(const fe_world *world, fe_profile *out_profile);
 
+/// Sizes of a world now, and of what its last step did.
 typedef struct fe_counters {
     uint32_t struct_size;
-    int32_t bodies, shapes, joints;
-    int32_t awake_bodies;
-    int32_t pairs;      ///< pairs of shapes whose bounds meet
-    int32_t contacts;   ///< of these, touching, triggers not counted
-    int32_t recycled;   ///< contacts that kept their manifold in the last step
-    int32_t islands;    ///< awake
-    int32_t colours;    ///< of the largest island
-    int32_t rows;       ///< of W contacts each, or of 4 where a colour has no more
-    int32_t rows_whole; ///< of these, in islands that one worker solved whole
-    int32_t lanes;      ///< contacts in all rows
-    int32_t simd;       ///< fe_simd in use
-    int32_t simd_width; ///< W, floats side by side
-    int32_t workers;
-    int64_t bytes;       ///< allocated now, without its store
-    int64_t allocations; ///< since the world was created
-    int32_t trees;       ///< awake sets of joints without a loop that the last step solved exactly
+    int32_t bodies, shapes, joints; ///< alive
+    int32_t awake_bodies;           ///< dynamic and kinematic ones
+    int32_t pairs;                  ///< pairs of shapes whose bounds meet
+    int32_t contacts;               ///< of these, touching, triggers not counted
+    int32_t recycled;               ///< contacts that kept their manifold in the last step
+    int32_t islands;                ///< awake
+    int32_t colours;                ///< of the largest island
+    int32_t rows;                   ///< of W contacts each, or of 4 where a colour has no more
+    int32_t rows_whole;             ///< of these, in islands that one worker solved whole
+    int32_t lanes;                  ///< contacts in all rows
+    int32_t simd;                   ///< fe_simd in use
+    int32_t simd_width;             ///< W, floats side by side
+    int32_t workers;                ///< that a step is spread over
+    int64_t bytes;                  ///< allocated now, without its store
+    int64_t allocations;            ///< since the world was created
+    int32_t trees;                  ///< awake sets of joints without a loop that the last step solved exactly
     int32_t reserved;
 } fe_counters;
 
@@ -475,6 +488,7 @@ FE_API fe_result fe_world_get_momentum(const fe_world *world, const fe_dvec3 *ab
 
 // ---- bodies ---------------------------------------------------------------------------------------------------------
 
+/// What moves a body.
 typedef enum fe_body_type {
     FE_BODY_STATIC = 0,    ///< never moves by itself
     FE_BODY_KINEMATIC = 1, ///< moves by its velocities, which nothing else changes
@@ -482,6 +496,7 @@ typedef enum fe_body_type {
     FE_BODY_FORCE32 = 0x7fffffff
 } fe_body_type;
 
+/// World axes as bits.
 typedef enum fe_axis {
     FE_AXIS_NONE = 0,
     FE_AXIS_X = 1,
@@ -491,6 +506,7 @@ typedef enum fe_axis {
     FE_AXIS_FORCE32 = 0x7fffffff
 } fe_axis;
 
+/// How a body begins.
 typedef struct fe_body_def {
     uint32_t struct_size;
     int32_t type;             ///< fe_body_type. Default FE_BODY_DYNAMIC
@@ -507,7 +523,7 @@ typedef struct fe_body_def {
     int32_t sleep_allowed;    ///< Default 1
     int32_t enabled;          ///< 0: neither moves, nor collides, nor is seen by queries. Default 1
     int32_t bullet;           ///< 1: stopped by moving bodies too when it is fast. Default 0
-    uint64_t user_data;
+    uint64_t user_data;       ///< any number of yours. Default 0
 } fe_body_def;
 
 FE_API void fe_body_def_init(fe_body_def *def, uint32_t struct_size);
@@ -565,6 +581,7 @@ FE_API fe_result fe_body_add_impulse_at(fe_world *world, fe_body body, const fe_
 /// N m s.
 FE_API fe_result fe_body_add_angular_impulse(fe_world *world, fe_body body, const fe_vec3 *impulse);
 
+/// The mass of a body and how it is spread.
 typedef struct fe_mass_data {
     uint32_t struct_size;
     float mass;               ///< kg, > 0
@@ -627,6 +644,7 @@ FE_API fe_result fe_body_get_bounds(const fe_world *world, fe_body body, fe_boun
 
 // ---- shapes ---------------------------------------------------------------------------------------------------------
 
+/// The kinds of forms, and the fields of fe_geometry that each reads.
 typedef enum fe_geometry_type {
     FE_GEOMETRY_NONE = 0,
     FE_GEOMETRY_SPHERE = 1,       ///< radius
@@ -640,12 +658,12 @@ typedef enum fe_geometry_type {
 /// The form of a shape, in the shape's frame, m. Every length lies in [0.001, 100000].
 typedef struct fe_geometry {
     uint32_t struct_size;
-    int32_t type; ///< fe_geometry_type
-    float radius;
-    float half_height;
-    fe_vec3 half_extents;
-    fe_vec3 normal; ///< any length but zero
-    float distance;
+    int32_t type;         ///< fe_geometry_type
+    float radius;         ///< m
+    float half_height;    ///< of a capsule's axis, m
+    fe_vec3 half_extents; ///< of a box, m
+    fe_vec3 normal;       ///< of a plane, any length but zero
+    float distance;       ///< of a plane from the origin along its normal, m
     uint32_t reserved[5];
     fe_asset asset; ///< of a heightfield
     uint64_t reserved_end[2];
@@ -654,6 +672,7 @@ typedef struct fe_geometry {
 /// FE_GEOMETRY_NONE. fe_geometry_sphere and its like at the end of this header fill a whole geometry.
 FE_API void fe_geometry_init(fe_geometry *geometry, uint32_t struct_size);
 
+/// The events that a shape asks for, as bits.
 typedef enum fe_shape_events {
     FE_SHAPE_EVENTS_NONE = 0,
     FE_SHAPE_EVENTS_TOUCH = 1, ///< enter and exit
@@ -666,19 +685,19 @@ typedef enum fe_shape_events {
 /// the same one: above 0 they always collide, below 0 never.
 typedef struct fe_shape_def {
     uint32_t struct_size;
-    float density;              ///< kg/m3, >= 0; a trigger weighs too. Default 1000
-    fe_frame frame;             ///< of the shape, in the body's space. Default the body's own
-    int32_t trigger;            ///< 1: reports dynamic and kinematic bodies that touch it, pushes nothing. Default 0
+    float density;   ///< kg/m3, >= 0; a trigger weighs too. Default 1000
+    fe_frame frame;  ///< of the shape, in the body's space. Default the body's own
+    int32_t trigger; ///< 1: reports dynamic and kinematic bodies that touch it, pushes nothing. Default 0
     fe_material material;
-    uint32_t layer;             ///< exactly one bit. Default 1
-    uint32_t mask;              ///< the layers it collides with; 0: seen by queries only. Default all
-    int32_t group;              ///< 0: none. Default 0
-    uint32_t events;            ///< fe_shape_events; a pair has what either shape asks for. Default touch
-    int32_t pair_filter;        ///< 1: the world's pair filter judges its new pairs. Default 0
-    int32_t one_way;            ///< 1: holds only what comes against `one_way_direction`; no plane, no field. Default 0
-    fe_vec3 one_way_direction;  ///< shape frame, any length but zero: up, for a floor to jump through. Default 0, 1, 0
-    fe_vec3 surface_velocity;   ///< of a conveyor belt, m/s, shape frame; only its part along the contact acts
-    uint64_t user_data;
+    uint32_t layer;            ///< exactly one bit. Default 1
+    uint32_t mask;             ///< the layers it collides with; 0: seen by queries only. Default all
+    int32_t group;             ///< 0: none. Default 0
+    uint32_t events;           ///< fe_shape_events; a pair has what either shape asks for. Default touch
+    int32_t pair_filter;       ///< 1: the world's pair filter judges its new pairs. Default 0
+    int32_t one_way;           ///< 1: holds only what comes against `one_way_direction`; no plane, no field. Default 0
+    fe_vec3 one_way_direction; ///< shape frame, any length but zero: up, for a floor to jump through. Default 0, 1, 0
+    fe_vec3 surface_velocity;  ///< of a conveyor belt, m/s, shape frame; only its part along the contact acts
+    uint64_t user_data;        ///< any number of yours. Default 0
 } fe_shape_def;
 
 FE_API void fe_shape_def_init(fe_shape_def *def, uint32_t struct_size);
@@ -779,6 +798,7 @@ FE_API int32_t fe_shape_get_overlaps(const fe_world *world, fe_shape shape, fe_s
 // A joint acts while it and both bodies are enabled and at least one of them is dynamic. Changing a joint wakes its
 // bodies.
 
+/// The kinds of joints.
 typedef enum fe_joint_type {
     FE_JOINT_DISTANCE = 1,     ///< two points keep a distance or a range of it
     FE_JOINT_BALL = 2,         ///< two points stay together
@@ -794,7 +814,7 @@ typedef struct fe_joint_def {
     uint32_t struct_size;
     int32_t enabled;           ///< 0: as if it were not there. Default 1
     fe_body body_a, body_b;    ///< two different ones; 0 is the world; in a _set: they stay as they are
-    uint64_t user_data;
+    uint64_t user_data;        ///< any number of yours. Default 0
     fe_dvec3 world_origin;     ///< m, world space: where the frame of body 0 is measured from. Default 0
     fe_frame frame_a, frame_b; ///< in body space. Default: the bodies' own
     int32_t collide_connected; ///< 1: its two bodies may touch. Default 0: they never do
@@ -906,6 +926,7 @@ typedef struct fe_fixed_joint_def {
     float angular_damping_ratio; ///< >= 0. Default 1
 } fe_fixed_joint_def;
 
+/// What one axis of a configurable joint may do.
 typedef enum fe_motion {
     FE_MOTION_LOCKED = 0,  ///< stays 0
     FE_MOTION_LIMITED = 1, ///< within lower..upper
@@ -913,6 +934,7 @@ typedef enum fe_motion {
     FE_MOTION_FORCE32 = 0x7fffffff
 } fe_motion;
 
+/// How the spring of one axis of a configurable joint is given.
 typedef enum fe_spring {
     FE_SPRING_NONE = 0,
     FE_SPRING_HERTZ = 1,     ///< by spring_hertz and spring_damping_ratio, on the masses that move
@@ -1058,12 +1080,12 @@ FE_API fe_result fe_joint_get_enabled(const fe_world *world, fe_joint joint, int
 /// @param dof    fe_dof: FE_DOF_LINEAR_X for a distance joint, FE_DOF_ANGULAR_X for a hinge, an angular one for a ball
 ///               joint, any for a configurable joint
 /// @param speed  m/s or rad/s
-/// @return FE_ERROR_STATE for a joint without that motor
+/// @return FE_ERROR_STATE for a type of joint that has no such motor
 FE_API fe_result fe_joint_set_motor_speed(fe_world *world, fe_joint joint, int32_t dof, float speed);
 /// Target of the spring alone. A change wakes its bodies.
 /// @param dof     as above
 /// @param target  m or rad
-/// @return FE_ERROR_STATE for a joint without that spring, and for a ball joint
+/// @return FE_ERROR_STATE for a type of joint that has no such spring, and for a ball joint
 FE_API fe_result fe_joint_set_target(fe_world *world, fe_joint joint, int32_t dof, float target);
 /// Target rotation of a ball joint's spring alone. A change wakes its bodies.
 FE_API fe_result fe_ball_joint_set_target(fe_world *world, fe_joint joint, const fe_quat *target);
@@ -1103,6 +1125,7 @@ FE_API int32_t fe_body_get_joints(const fe_world *world, fe_body body, fe_joint 
 // All of them return a count: 1 or 0 for the first hit, for the closest point and for `_any`, n for `_all`. Negative is
 // an error. They see new and moved bodies at once.
 
+/// What a query sees besides bodies, as bits.
 typedef enum fe_query_flags {
     FE_QUERY_DEFAULT = 0,
     FE_QUERY_TRIGGERS = 1, ///< triggers count too
@@ -1120,12 +1143,14 @@ typedef struct fe_query_filter {
 
 FE_API void fe_query_filter_init(fe_query_filter *filter, uint32_t struct_size);
 
+/// What a hit is besides, as bits.
 typedef enum fe_hit_flags {
     FE_HIT_DEFAULT = 0,
     FE_HIT_STARTED_INSIDE = 1, ///< overlaps at the start: fraction 0
     FE_HIT_FORCE32 = 0x7fffffff
 } fe_hit_flags;
 
+/// Where a ray or a moving form met a body.
 typedef struct fe_hit {
     fe_body body;
     fe_shape shape;
@@ -1151,7 +1176,7 @@ typedef struct fe_ray {
 
 /// A motion of fe_world_sweep_many. The first 64 bytes will do.
 typedef struct fe_path {
-    fe_transform start;
+    fe_transform start;   ///< pose of the geometry there
     fe_dvec3 translation; ///< m
     uint32_t reserved[8];
 } fe_path;
@@ -1239,7 +1264,7 @@ typedef struct fe_overlap {
 } fe_overlap;
 
 /// The shapes that a geometry overlaps, in the order of creation, with direction and depth: to move a character out.
-/// @param stride  sizeof(fe_overlap)
+/// @param stride  sizeof(fe_overlap), at least 16
 /// @return how many there are; when they are more than `capacity` those created first are written
 FE_API int32_t fe_world_overlap_shapes(const fe_world *world, const fe_geometry *geometry, const fe_transform *at,
                                        const fe_query_filter *filter, fe_overlap *out_overlaps, uint32_t stride,
@@ -1250,6 +1275,7 @@ FE_API int32_t fe_world_overlap_shapes(const fe_world *world, const fe_geometry 
 FE_API int32_t fe_world_overlap_bounds(const fe_world *world, const fe_bounds *bounds, const fe_query_filter *filter,
                                        fe_shape *out_shapes, int32_t capacity);
 
+/// The point of a surface that is closest to a point.
 typedef struct fe_closest {
     fe_body body;
     fe_shape shape;
@@ -1289,6 +1315,7 @@ FE_API int32_t fe_body_closest_point(const fe_world *world, fe_body body, const 
 
 // ---- after the step: events, contacts, bulk reads -------------------------------------------------------------------
 
+/// What an event tells of.
 typedef enum fe_event_kind {
     FE_EVENT_ENTER = 1,
     FE_EVENT_STAY = 2,
@@ -1315,6 +1342,7 @@ typedef struct fe_pair_event {
 FE_API int32_t fe_world_get_pair_events(const fe_world *world, fe_pair_event *out_events, uint32_t stride,
                                         int32_t capacity);
 
+/// A body fell asleep or woke.
 typedef struct fe_body_event {
     fe_body body;
     int32_t kind; ///< FE_EVENT_SLEEP, FE_EVENT_WAKE
@@ -1326,6 +1354,7 @@ typedef struct fe_body_event {
 FE_API int32_t fe_world_get_body_events(const fe_world *world, fe_body_event *out_events, uint32_t stride,
                                         int32_t capacity);
 
+/// An impact.
 typedef struct fe_hit_event {
     fe_body body_a, body_b;
     fe_shape shape_a, shape_b;
@@ -1353,13 +1382,14 @@ typedef struct fe_joint_event {
     int32_t kind;           ///< FE_EVENT_BREAK
     int32_t type;           ///< fe_joint_type
     fe_vec3 force;          ///< reaction that broke it, see fe_joint_get_reaction
-    fe_vec3 torque;
+    fe_vec3 torque;         ///< likewise, N m
 } fe_joint_event;
 
 /// Events of the last step, in the order of the joints' creation. @param stride  sizeof(fe_joint_event)
 FE_API int32_t fe_world_get_joint_events(const fe_world *world, fe_joint_event *out_events, uint32_t stride,
                                          int32_t capacity);
 
+/// Where two shapes touch, or are about to.
 typedef struct fe_contact_point {
     fe_dvec3 point;       ///< between the surfaces, m, world space
     float separation;     ///< m, negative when they overlap
@@ -1375,11 +1405,11 @@ typedef struct fe_contact {
     uint64_t material_a, material_b; ///< fe_material.user_id under the deepest point
     fe_vec3 normal;                  ///< unit, from A to B
     int32_t point_count;             ///< 1..4
-    fe_contact_point points[4];
-    fe_vec3 friction_impulse;       ///< on B, of the last substep, N s
-    float twist_impulse;            ///< on B, about the normal, N m s
-    int32_t part_a, part_b;         ///< of a shape made of parts, else -1
-    int32_t triangle_a, triangle_b; ///< of a heightfield, under the deepest point, else -1
+    fe_contact_point points[4];      ///< the first point_count of them
+    fe_vec3 friction_impulse;        ///< on B, of the last substep, N s
+    float twist_impulse;             ///< on B, about the normal, N m s
+    int32_t part_a, part_b;          ///< of a shape made of parts, else -1
+    int32_t triangle_a, triangle_b;  ///< of a heightfield, under the deepest point, else -1
     uint32_t reserved[4];
 } fe_contact;
 

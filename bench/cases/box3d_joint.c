@@ -5,7 +5,8 @@
 
 static const double GRAVITY = 10.0; // m/s2
 
-// ---- ball and chain: 585:1 ------------------------------------------------------------------------------------------------------------
+// ---- ball and chain: 585:1
+// ------------------------------------------------------------------------------------------------------------
 
 enum { LINKS = 32 };
 
@@ -26,22 +27,26 @@ static void build_heavy_chain(bench_scene *s)
     bench_add_joint(s, last, ball, LINKS, 0.0, 0.0);
 }
 
-// The links stretch by 3.3 times what the resting load opens them, at most (S22). An open joint between two links holds k gap2 / 2, k =
-// half a link's mass x w2.
+// The links stretch by 3.3 times what the resting load opens them, at most (S22). An open joint between two links holds
+// k gap2 / 2, k = half a link's mass x w2.
 static void judge_heavy_chain(bench_trial *t)
 {
     const double link = t->masses[1], ball = t->masses[LINKS + 1], stiffness = 0.5 * link * bench_joint_stiffness(t);
     const double gap = (ball + LINKS * link) * GRAVITY / stiffness, most = bench_highest(t->gap, 0, t->step);
     const double held = 0.5 * stiffness * most * most * (LINKS + 1);
     // speed and height are half a substep apart: m g v h / 2, rising and falling
-    const double apart = (ball + LINKS * link) * GRAVITY * sqrt(2.0 * GRAVITY * LINKS) * (double)t->scene.dt / t->substeps;
+    const double apart =
+        (ball + LINKS * link) * GRAVITY * sqrt(2.0 * GRAVITY * LINKS) * (double)t->scene.dt / t->substeps;
     const int32_t half = t->step / 2;
     bench_expect_own_open(t, "largest sum of joint gaps, m", bench_highest(t->gaps, 0, t->step), 3.3 * gap * LINKS);
-    bench_expect_own(t, "rise of the energy / what the joints can hold", bench_rise(t->energy, 1, t->step) / (held + apart), 0.0, 1.0);
-    bench_expect(t, "kinetic energy late / early", bench_highest(t->kinetic, half, t->step) / bench_highest(t->kinetic, 0, half), 0.0, 1.0);
+    bench_expect_own(t, "rise of the energy / what the joints can hold",
+                     bench_rise(t->energy, 1, t->step) / (held + apart), 0.0, 1.0);
+    bench_expect(t, "kinetic energy late / early",
+                 bench_highest(t->kinetic, half, t->step) / bench_highest(t->kinetic, 0, half), 0.0, 1.0);
 }
 
-// ---- door: two hinges, a heavy blow at the free edge ----------------------------------------------------------------------------------
+// ---- door: two hinges, a heavy blow at the free edge
+// ----------------------------------------------------------------------------------
 
 static void build_door(bench_scene *s)
 {
@@ -73,11 +78,13 @@ static void watch_door(bench_trial *t)
 static void judge_door(bench_trial *t)
 {
     bench_expect_open(t, BENCH_GAP, bench_highest(t->gap, 0, t->step), 0.05);
-    bench_expect_open(t, "joint gap a second after the blow, m", bench_highest(t->gap, 120, t->step), BENCH_LINEAR_SLOP);
+    bench_expect_open(t, "joint gap a second after the blow, m", bench_highest(t->gap, 120, t->step),
+                      BENCH_LINEAR_SLOP);
     bench_expect(t, "largest angle, rad", t->notes[0], 0.0, 0.5 * BENCH_PI + 10.0 * BENCH_PI / 180.0);
 }
 
-// ---- ball joint with a cone and a twist range -----------------------------------------------------------------------------------------
+// ---- ball joint with a cone and a twist range
+// -----------------------------------------------------------------------------------------
 
 static void build_cone(bench_scene *s)
 {
@@ -110,7 +117,8 @@ static void judge_cone(bench_trial *t)
     bench_expect(t, "largest rise of the energy, share", bench_rise(t->energy, 1, t->step) / t->energy[0], 0.0, 0.01);
 }
 
-// ---- six sliders in a row, torn at ----------------------------------------------------------------------------------------------------
+// ---- six sliders in a row, torn at
+// ----------------------------------------------------------------------------------------------------
 
 enum { SLIDERS = 6 };
 
@@ -150,10 +158,13 @@ static void judge_sliders(bench_trial *t)
 }
 
 const bench_case bench_box3d_joint[] = {
-    {"heavy-chain", "Box3D", "32 links and a ball of 585 times their mass", 30.0, 0, build_heavy_chain, NULL, NULL, judge_heavy_chain,
+    {"heavy-chain", "Box3D", "32 links and a ball of 585 times their mass", 30.0, 0, build_heavy_chain, NULL, NULL,
+     judge_heavy_chain, BENCH_CALM},
+    {"door", "Box3D", "a door on two hinges is struck", 5.0, 0, build_door, act_door, watch_door, judge_door,
      BENCH_CALM},
-    {"door", "Box3D", "a door on two hinges is struck", 5.0, 0, build_door, act_door, watch_door, judge_door, BENCH_CALM},
-    {"cone", "Box3D", "a box swings and twists in its limits", 10.0, 0, build_cone, NULL, watch_cone, judge_cone, BENCH_CALM},
-    {"sliders", "Box3D", "six sliders in a row, torn at", 4.0, 0, build_sliders, act_sliders, NULL, judge_sliders, BENCH_CALM},
+    {"cone", "Box3D", "a box swings and twists in its limits", 10.0, 0, build_cone, NULL, watch_cone, judge_cone,
+     BENCH_CALM},
+    {"sliders", "Box3D", "six sliders in a row, torn at", 4.0, 0, build_sliders, act_sliders, NULL, judge_sliders,
+     BENCH_CALM},
 };
 const int32_t bench_box3d_joint_count = (int32_t)(sizeof bench_box3d_joint / sizeof bench_box3d_joint[0]);

@@ -1,5 +1,5 @@
-// Samples of Box3D and Box2D v3 that the other files have no place for, as data (E. Catto, Box3D, 2025, samples and determinism tests):
-// leaning towers, capsules that do not like to roll, a heap on waves, columns of hinged squares.
+// Samples of Box3D and Box2D v3 that the other files have no place for, as data (E. Catto, Box3D, 2025, samples and
+// determinism tests): leaning towers, capsules that do not like to roll, a heap on waves, columns of hinged squares.
 #include "cases.h"
 
 #include "../random.h"
@@ -8,10 +8,11 @@
 
 static const double DEGREE = BENCH_PI / 180.0;
 
-// ---- leaning towers -------------------------------------------------------------------------------------------------------------------
+// ---- leaning towers
+// -------------------------------------------------------------------------------------------------------------------
 
-// Each box sticks out by 0.2 m over the one below. Of n boxes above one the middle is 0.2 (n + 1) / 2 aside: three stay over its face of
-// half a metre, five do not.
+// Each box sticks out by 0.2 m over the one below. Of n boxes above one the middle is 0.2 (n + 1) / 2 aside: three stay
+// over its face of half a metre, five do not.
 enum { STANDING = 4, FALLING = 6, TOWERS = 5 };
 
 static void build_towers(bench_scene *s)
@@ -19,7 +20,8 @@ static void build_towers(bench_scene *s)
     const int32_t box = bench_box(s, 0.5, 0.5, 0.5, 1000.0, 0.3);
     bench_add_ground(s, 40.0, 0.6);
     for (int32_t j = 0; j < 2 * TOWERS; j++) {
-        for (int32_t i = 0; i < (j < TOWERS ? STANDING : FALLING); i++) bench_add_dynamic(s, box, -22.5 + 5.0 * j + 0.2 * i, 0.5 + i, 0.0);
+        for (int32_t i = 0; i < (j < TOWERS ? STANDING : FALLING); i++)
+            bench_add_dynamic(s, box, -22.5 + 5.0 * j + 0.2 * i, 0.5 + i, 0.0);
     }
 }
 
@@ -32,7 +34,8 @@ static void judge_towers(bench_trial *t)
     bench_expect(t, "height of the highest top of the towers of six, m", top, 0.0, FALLING - 1.5);
 }
 
-// ---- capsules with much resistance to rolling -----------------------------------------------------------------------------------------
+// ---- capsules with much resistance to rolling
+// -----------------------------------------------------------------------------------------
 
 enum { RESISTING = 10 };
 
@@ -47,8 +50,8 @@ static void build_resisting(bench_scene *s)
     }
 }
 
-// On one end a capsule falls over by its weight times cos 30 x 1 m, which a resistance of c x 0.5 m x weight holds for c = 1.8 alone, the
-// last one's.
+// On one end a capsule falls over by its weight times cos 30 x 1 m, which a resistance of c x 0.5 m x weight holds for
+// c = 1.8 alone, the last one's.
 static void judge_resisting(bench_trial *t)
 {
     double highest = 0.0;
@@ -58,7 +61,8 @@ static void judge_resisting(bench_trial *t)
     bench_expect(t, BENCH_SPEED, bench_largest_speed(t), 0.0, 0.05);
 }
 
-// ---- a heap on waves ------------------------------------------------------------------------------------------------------------------
+// ---- a heap on waves
+// ------------------------------------------------------------------------------------------------------------------
 
 enum { HEAP = 100, HEAP_SIDE = 5, REST_STEPS = 400 };
 
@@ -89,7 +93,8 @@ static void judge_wave_pile(bench_trial *t)
     bench_expect(t, BENCH_SPEED, bench_largest_speed(t), 0.0, 0.05);
 }
 
-// ---- columns of squares, hinged by pairs ----------------------------------------------------------------------------------------------
+// ---- columns of squares, hinged by pairs
+// ----------------------------------------------------------------------------------------------
 
 enum { HINGED_COLUMNS = 4, HINGED_ROWS = 20 };
 static const double SQUARE = 0.25; // m, half a side
@@ -127,18 +132,20 @@ static void judge_falling_hinges(bench_trial *t)
         const double angle = remainder(turn_about_z(t, j->body_b) - turn_about_z(t, j->body_a), 2.0 * BENCH_PI);
         beyond = fmax(beyond, fmax(j->limits[0] - angle, angle - j->limits[1]));
     }
-    bench_expect_open(t, "joint gap in the last second, m", bench_highest(t->gap, t->step - 60, t->step), BENCH_LINEAR_SLOP);
+    bench_expect_open(t, "joint gap in the last second, m", bench_highest(t->gap, t->step - 60, t->step),
+                      BENCH_LINEAR_SLOP);
     if (t->scene.planar) bench_expect(t, "beyond the limits at the end, rad", beyond, 0.0, 3.0 * DEGREE);
     bench_expect(t, BENCH_SPEED, bench_largest_speed(t), 0.0, 0.05);
 }
 
 const bench_case bench_box3d_more[] = {
-    {"leaning-towers", "Box3D, tilted stack", "towers of four stand, of six fall", 10.0, 0, build_towers, NULL, NULL, judge_towers,
-     BENCH_CALM},
-    {"high-resistance", "Box3D", "ten capsules that resist rolling", 10.0, 0, build_resisting, NULL, NULL, judge_resisting, BENCH_CALM},
-    {"wave-pile", "Box3D, determinism", "100 bodies on waves are at rest after 400 steps", REST_STEPS / 60.0, 0, build_wave_pile, NULL,
-     NULL, judge_wave_pile, BENCH_CALM},
-    {"falling-hinges", "Box2D v3, determinism", "columns of 20 squares hinged by pairs", 15.0, 1, build_falling_hinges, NULL, NULL,
-     judge_falling_hinges, BENCH_CALM},
+    {"leaning-towers", "Box3D, tilted stack", "towers of four stand, of six fall", 10.0, 0, build_towers, NULL, NULL,
+     judge_towers, BENCH_CALM},
+    {"high-resistance", "Box3D", "ten capsules that resist rolling", 10.0, 0, build_resisting, NULL, NULL,
+     judge_resisting, BENCH_CALM},
+    {"wave-pile", "Box3D, determinism", "100 bodies on waves are at rest after 400 steps", REST_STEPS / 60.0, 0,
+     build_wave_pile, NULL, NULL, judge_wave_pile, BENCH_CALM},
+    {"falling-hinges", "Box2D v3, determinism", "columns of 20 squares hinged by pairs", 15.0, 1, build_falling_hinges,
+     NULL, NULL, judge_falling_hinges, BENCH_CALM},
 };
 const int32_t bench_box3d_more_count = (int32_t)(sizeof bench_box3d_more / sizeof bench_box3d_more[0]);

@@ -5,7 +5,8 @@
 
 #include <math.h>
 
-// ---- spinning books: free turning about three axes ------------------------------------------------------------------------------------
+// ---- spinning books: free turning about three axes
+// ------------------------------------------------------------------------------------
 
 enum { BOOKS = 3, ABOUT_MIDDLE = 1 };
 
@@ -29,9 +30,12 @@ static void watch_books(bench_trial *t)
         const int axis = i == 2 ? 1 : 2;
         // the body's axis in the world is a column of its rotation
         const double column[3] = {2.0 * (q[axis] * q[0] + (axis == 1 ? -1.0 : 1.0) * q[3] * q[axis == 1 ? 2 : 1]),
-                                  axis == 1 ? 1.0 - 2.0 * (q[0] * q[0] + q[2] * q[2]) : 2.0 * (q[1] * q[2] - q[3] * q[0]),
-                                  axis == 1 ? 2.0 * (q[1] * q[2] + q[3] * q[0]) : 1.0 - 2.0 * (q[0] * q[0] + q[1] * q[1])};
-        const double dot = column[0] * w[0] + column[1] * w[1] + column[2] * w[2], length = sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+                                  axis == 1 ? 1.0 - 2.0 * (q[0] * q[0] + q[2] * q[2])
+                                            : 2.0 * (q[1] * q[2] - q[3] * q[0]),
+                                  axis == 1 ? 2.0 * (q[1] * q[2] + q[3] * q[0])
+                                            : 1.0 - 2.0 * (q[0] * q[0] + q[1] * q[1])};
+        const double dot = column[0] * w[0] + column[1] * w[1] + column[2] * w[2],
+                     length = sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
         t->notes[i] = fmax(t->notes[i], acos(fmin(1.0, fabs(dot) / length)));
     }
 }
@@ -45,7 +49,8 @@ static void judge_books(bench_trial *t)
     bench_expect(t, "about the shortest: wobble, rad", t->notes[3], 0.0, degree);
 }
 
-// ---- thin wall ------------------------------------------------------------------------------------------------------------------------
+// ---- thin wall
+// ------------------------------------------------------------------------------------------------------------------------
 
 enum { SHOTS = 3 };
 
@@ -56,7 +61,8 @@ static void build_thin_wall(bench_scene *s)
     bench_add_static(s, bench_box(s, 10.0, 10.0, 0.1, 1.0, 0.6), 0.0, 10.0, 0.0);
     for (int32_t i = 0; i < SHOTS; i++) {
         for (int32_t side = -1; side <= 1; side += 2) {
-            const int32_t body = bench_add_dynamic(s, forms[i], -6.0 + 3.0 * (2 * i + (side + 1) / 2) - 1.5, 10.0, 20.0);
+            const int32_t body =
+                bench_add_dynamic(s, forms[i], -6.0 + 3.0 * (2 * i + (side + 1) / 2) - 1.5, 10.0, 20.0);
             s->bodies[body].linear_velocity[2] = -180.0f;
             s->bodies[body].angular_velocity[0] = 20.0f, s->bodies[body].angular_velocity[1] = 5.0f * (float)side;
         }
@@ -68,9 +74,13 @@ static void watch_beyond_wall(bench_trial *t)
     for (int32_t i = 1; i < t->scene.body_count; i++) t->notes[0] += t->poses[i].position[2] < 0.0;
 }
 
-static void judge_thin_wall(bench_trial *t) { bench_expect(t, "bodies beyond the wall x steps", t->notes[0], 0.0, 0.0); }
+static void judge_thin_wall(bench_trial *t)
+{
+    bench_expect(t, "bodies beyond the wall x steps", t->notes[0], 0.0, 0.0);
+}
 
-// ---- spinning stick: 100 sticks fall on a narrow beam ---------------------------------------------------------------------------------
+// ---- spinning stick: 100 sticks fall on a narrow beam
+// ---------------------------------------------------------------------------------
 
 enum { STICKS = 100 };
 
@@ -86,7 +96,8 @@ static void build_spinning_sticks(bench_scene *s)
     }
 }
 
-// A stick whose middle comes down within the beam's width went through. (It may slide off a side later; notes: was it stopped once?)
+// A stick whose middle comes down within the beam's width went through. (It may slide off a side later; notes: was it
+// stopped once?)
 static void watch_spinning_sticks(bench_trial *t)
 {
     for (int32_t i = STICKS; i < 2 * STICKS; i++) {
@@ -95,9 +106,13 @@ static void watch_spinning_sticks(bench_trial *t)
     }
 }
 
-static void judge_spinning_sticks(bench_trial *t) { bench_expect(t, "sticks through the beam x steps", t->notes[0], 0.0, 0.0); }
+static void judge_spinning_sticks(bench_trial *t)
+{
+    bench_expect(t, "sticks through the beam x steps", t->notes[0], 0.0, 0.0);
+}
 
-// ---- bullet against a stack -----------------------------------------------------------------------------------------------------------
+// ---- bullet against a stack
+// -----------------------------------------------------------------------------------------------------------
 
 enum { STACKED = 10 };
 
@@ -119,11 +134,13 @@ static void watch_bullet(bench_trial *t)
 static void judge_bullet(bench_trial *t) { bench_expect(t, "bodies beyond the wall x steps", t->notes[0], 0.0, 0.0); }
 
 const bench_case bench_box3d_motion[] = {
-    {"spinning-books", "Box3D", "free turning about three axes", 60.0, 0, build_books, NULL, watch_books, judge_books, BENCH_CALM},
-    {"thin-wall", "Box3D", "spinning bodies at 180 m/s against 0.2 m", 1.0, 0, build_thin_wall, NULL, watch_beyond_wall, judge_thin_wall,
+    {"spinning-books", "Box3D", "free turning about three axes", 60.0, 0, build_books, NULL, watch_books, judge_books,
      BENCH_CALM},
-    {"spinning-sticks", "Box3D", "100 sticks at 100 m/s on a beam", 1.0, 0, build_spinning_sticks, NULL, watch_spinning_sticks,
-     judge_spinning_sticks, BENCH_CALM},
-    {"bullet", "Box3D", "500 m/s against a stack before a wall", 2.0, 0, build_bullet, NULL, watch_bullet, judge_bullet, BENCH_CALM},
+    {"thin-wall", "Box3D", "spinning bodies at 180 m/s against 0.2 m", 1.0, 0, build_thin_wall, NULL, watch_beyond_wall,
+     judge_thin_wall, BENCH_CALM},
+    {"spinning-sticks", "Box3D", "100 sticks at 100 m/s on a beam", 1.0, 0, build_spinning_sticks, NULL,
+     watch_spinning_sticks, judge_spinning_sticks, BENCH_CALM},
+    {"bullet", "Box3D", "500 m/s against a stack before a wall", 2.0, 0, build_bullet, NULL, watch_bullet, judge_bullet,
+     BENCH_CALM},
 };
 const int32_t bench_box3d_motion_count = (int32_t)(sizeof bench_box3d_motion / sizeof bench_box3d_motion[0]);

@@ -1,4 +1,5 @@
-// Samples of Box3D that stack, as data (E. Catto, Box3D, 2025, samples): 60 Hz, gravity 10 m/s2, friction 0.6, density 1000 unless told.
+// Samples of Box3D that stack, as data (E. Catto, Box3D, 2025, samples): 60 Hz, gravity 10 m/s2, friction 0.6, density
+// 1000 unless told.
 #include "cases.h"
 
 #include <math.h>
@@ -7,7 +8,8 @@ static const double GRAVITY = 10.0; // m/s2
 
 static void add_rolling(bench_scene *s, int32_t shape, double rolling) { s->shapes[shape].rolling = (float)rolling; }
 
-// ---- sphere stack, capsule stack, box stack -------------------------------------------------------------------------------------------
+// ---- sphere stack, capsule stack, box stack
+// -------------------------------------------------------------------------------------------
 
 enum { SPHERES = 30, CAPSULES = 20, BOXES = 40 };
 
@@ -55,7 +57,8 @@ static void build_capsule_stack(bench_scene *s)
 static double turned_by(const bench_trial *t, int32_t i)
 {
     double sum = 0.0;
-    for (int k = 0; k < 4; k++) sum += fabs(t->poses[i].rotation[k] - (double)(float)t->scene.bodies[i].start.rotation[k]);
+    for (int k = 0; k < 4; k++)
+        sum += fabs(t->poses[i].rotation[k] - (double)(float)t->scene.bodies[i].start.rotation[k]);
     return sum;
 }
 
@@ -82,7 +85,8 @@ static void judge_box_stack(bench_trial *t)
     bench_expect_stray(t, BENCH_DRIFT, bench_largest_drift(t), 0.2);
 }
 
-// ---- domino rings ---------------------------------------------------------------------------------------------------------------------
+// ---- domino rings
+// ---------------------------------------------------------------------------------------------------------------------
 
 enum { RINGS = 30, IN_RING = 181 };
 
@@ -94,7 +98,8 @@ static void build_domino_rings(bench_scene *s)
         const double radius = 7.0 + 1.1 * ring;
         for (int32_t i = 0; i < IN_RING; i++) {
             const double alpha = 2.0 * i, angle = alpha * BENCH_PI / 180.0;
-            const double x = radius * cos(angle) - alpha / 630.0 * cos(angle), z = radius * sin(angle) - alpha / 630.0 * sin(angle);
+            const double x = radius * cos(angle) - alpha / 630.0 * cos(angle),
+                         z = radius * sin(angle) - alpha / 630.0 * sin(angle);
             const int32_t body = bench_add_dynamic(s, domino, x, 0.8, z);
             bench_turn(&s->bodies[body], 0.0, 1.0, 0.0, -angle);
         }
@@ -119,7 +124,8 @@ static void judge_domino_rings(bench_trial *t)
     bench_expect(t, "largest rise of the energy, share", bench_rise(t->energy, 1, t->step) / t->energy[1], 0.0, 1e-4);
 }
 
-// ---- pyramid in a plane of locks ------------------------------------------------------------------------------------------------------
+// ---- pyramid in a plane of locks
+// ------------------------------------------------------------------------------------------------------
 
 enum { LOCKED_ROWS = 12 };
 
@@ -139,8 +145,8 @@ static void judge_locked_pyramid(bench_trial *t)
 {
     const int32_t top = t->scene.body_count - 1;
     const double n = LOCKED_ROWS, nominal = 2.0 * n - 1.0;
-    const double sink =
-        GRAVITY * (0.4375 * (n * (n + 1.0) / 2.0 - 1.0) / bench_contact_stiffness(t, 0) + (n + 1.0) / 2.0 / bench_contact_stiffness(t, 1));
+    const double sink = GRAVITY * (0.4375 * (n * (n + 1.0) / 2.0 - 1.0) / bench_contact_stiffness(t, 0) +
+                                   (n + 1.0) / 2.0 / bench_contact_stiffness(t, 1));
     double off = 0.0;
     for (int32_t i = 1; i <= top; i++) off = fmax(off, fabs(t->poses[i].position[2]));
     bench_expect_stray(t, "way out of the plane, m", off, 0.0);
@@ -149,7 +155,8 @@ static void judge_locked_pyramid(bench_trial *t)
     bench_expect_stray(t, "sideways way of the top, m", bench_drift(t, top), 0.1);
 }
 
-// ---- hello world: Box3D's own unit test -----------------------------------------------------------------------------------------------
+// ---- hello world: Box3D's own unit test
+// -----------------------------------------------------------------------------------------------
 
 static void build_hello(bench_scene *s)
 {
@@ -165,12 +172,16 @@ static void judge_hello(bench_trial *t)
 }
 
 const bench_case bench_box3d_stack[] = {
-    {"sphere-stack", "Box3D", "30 spheres on one another", 10.0, 0, build_sphere_stack, NULL, NULL, judge_sphere_stack, BENCH_CALM},
-    {"capsule-stack", "Box3D", "20 locked capsules", 10.0, 0, build_capsule_stack, NULL, NULL, judge_capsule_stack, BENCH_CALM},
-    {"box-stack-40", "Box3D", "40 boxes with gaps fall onto each other", 20.0, 0, build_box_stack, NULL, NULL, judge_box_stack, BENCH_CALM},
-    {"domino-rings", "Box3D", "30 rings of 181 dominoes", 75.0, 0, build_domino_rings, act_domino_rings, NULL, judge_domino_rings,
+    {"sphere-stack", "Box3D", "30 spheres on one another", 10.0, 0, build_sphere_stack, NULL, NULL, judge_sphere_stack,
      BENCH_CALM},
-    {"locked-pyramid", "Box3D", "12 rows kept in a plane", 60.0, 0, build_locked_pyramid, NULL, NULL, judge_locked_pyramid, BENCH_CALM},
+    {"capsule-stack", "Box3D", "20 locked capsules", 10.0, 0, build_capsule_stack, NULL, NULL, judge_capsule_stack,
+     BENCH_CALM},
+    {"box-stack-40", "Box3D", "40 boxes with gaps fall onto each other", 20.0, 0, build_box_stack, NULL, NULL,
+     judge_box_stack, BENCH_CALM},
+    {"domino-rings", "Box3D", "30 rings of 181 dominoes", 75.0, 0, build_domino_rings, act_domino_rings, NULL,
+     judge_domino_rings, BENCH_CALM},
+    {"locked-pyramid", "Box3D", "12 rows kept in a plane", 60.0, 0, build_locked_pyramid, NULL, NULL,
+     judge_locked_pyramid, BENCH_CALM},
     {"hello", "Box3D, unit test", "a cube falls", 1.5, 1, build_hello, NULL, NULL, judge_hello, BENCH_CALM},
 };
 const int32_t bench_box3d_stack_count = (int32_t)(sizeof bench_box3d_stack / sizeof bench_box3d_stack[0]);

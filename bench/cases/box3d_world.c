@@ -1,5 +1,5 @@
-// Scenes of Box3D on wide ground and in a turning drum, as data (E. Catto, Box3D, 2025, shared/benchmarks.c and samples): terrain, rain of
-// humans, washer, large world.
+// Scenes of Box3D on wide ground and in a turning drum, as data (E. Catto, Box3D, 2025, shared/benchmarks.c and
+// samples): terrain, rain of humans, washer, large world.
 #include "cases.h"
 
 #include "../random.h"
@@ -9,7 +9,8 @@
 static const double GRAVITY = 10.0; // m/s2
 static const double DEGREE = BENCH_PI / 180.0;
 
-// ---- thin boxes on a heightfield ------------------------------------------------------------------------------------------------------
+// ---- thin boxes on a heightfield
+// ------------------------------------------------------------------------------------------------------
 
 enum { THIN_SIDE = 32, WAVE_SAMPLES = 41, SCATTERED = 2 };
 
@@ -38,7 +39,8 @@ static void build_needles(bench_scene *s)
 static int32_t count_below(const bench_trial *t, double height)
 {
     int32_t count = 0;
-    for (int32_t i = 0; i < t->scene.body_count; i++) count += t->scene.bodies[i].dynamic && t->poses[i].position[1] < height;
+    for (int32_t i = 0; i < t->scene.body_count; i++)
+        count += t->scene.bodies[i].dynamic && t->poses[i].position[1] < height;
     return count;
 }
 
@@ -55,10 +57,12 @@ static void judge_needles(bench_trial *t)
     bench_expect(t, "boxes faster than 5 cm/s after 5 s", count_faster(t, 0.05), 0.0, 0.0);
 }
 
-// ---- rain of humans -------------------------------------------------------------------------------------------------------------------
+// ---- rain of humans
+// -------------------------------------------------------------------------------------------------------------------
 
-// The human of Box3D, 14 capsules: pose of the capsule's middle relative to the spawn point, joint to the parent there (point and axis;
-// ranges in degrees about the pose at the start; friction in units of 5 N m). Its springs are left out, which Bullet and ODE have not.
+// The human of Box3D, 14 capsules: pose of the capsule's middle relative to the spawn point, joint to the parent there
+// (point and axis; ranges in degrees about the pose at the start; friction in units of 5 N m). Its springs are left
+// out, which Bullet and ODE have not.
 static const struct bone {
     const char *name;
     int32_t parent;
@@ -68,7 +72,18 @@ static const struct bone {
     double joint[3], axis[3];
     double twist[2], cone, friction;
 } bones[] = {
-    {"pelvis", -1, {0, 1.0117, -0.044289}, {0, 0, 0.70711, 0.70711}, 0.07, 0.13, BENCH_BALL, {0, 0, 0}, {0, 0, 0}, {0.0, 0.0}, 0.0, 1.0},
+    {"pelvis",
+     -1,
+     {0, 1.0117, -0.044289},
+     {0, 0, 0.70711, 0.70711},
+     0.07,
+     0.13,
+     BENCH_BALL,
+     {0, 0, 0},
+     {0, 0, 0},
+     {0.0, 0.0},
+     0.0,
+     1.0},
     {"spine_01",
      0,
      {0, 1.1655, -0.029839},
@@ -230,7 +245,8 @@ enum { BONES = (int)(sizeof bones / sizeof bones[0]), RAIN_SIDE = 4, IN_CELL = 3
 
 static void add_bone_joint(bench_scene *s, const struct bone *b, int32_t hip, int32_t body, const double *at)
 {
-    bench_joint *joint = bench_add_ball(s, hip + b->parent, body, at[0] + b->joint[0], at[1] + b->joint[1], at[2] + b->joint[2]);
+    bench_joint *joint =
+        bench_add_ball(s, hip + b->parent, body, at[0] + b->joint[0], at[1] + b->joint[1], at[2] + b->joint[2]);
     joint->kind = b->kind;
     for (int k = 0; k < 3; k++) joint->axis[k] = b->axis[k];
     joint->has_limits = 1;
@@ -244,7 +260,8 @@ static void add_human(bench_scene *s, const int32_t *shapes, const double *at, i
     const int32_t hip = s->body_count;
     for (int32_t i = 0; i < BONES; i++) {
         const struct bone *b = &bones[i];
-        const int32_t body = bench_add_dynamic(s, shapes[i], at[0] + b->middle[0], at[1] + b->middle[1], at[2] + b->middle[2]);
+        const int32_t body =
+            bench_add_dynamic(s, shapes[i], at[0] + b->middle[0], at[1] + b->middle[1], at[2] + b->middle[2]);
         for (int k = 0; k < 4; k++) s->bodies[body].start.rotation[k] = b->rotation[k];
         s->bodies[body].group = group;
         if (b->parent >= 0) add_bone_joint(s, b, hip, body, at);
@@ -261,7 +278,8 @@ static void build_rain(bench_scene *s)
     add_waves(s, 1.875f, 8 * RAIN_SIDE + 1);
     for (int32_t i = 0; i < RAIN_SIDE * RAIN_SIDE * IN_CELL * LAYERS; i++) {
         const int32_t cell = i / IN_CELL % (RAIN_SIDE * RAIN_SIDE), layer = i / (RAIN_SIDE * RAIN_SIDE * IN_CELL);
-        const double at[3] = {15.0 * (cell % RAIN_SIDE - 1.5) + 0.75 * (i % IN_CELL), 6.0 + 3.0 * layer, 15.0 * (cell / RAIN_SIDE - 1.5)};
+        const double at[3] = {15.0 * (cell % RAIN_SIDE - 1.5) + 0.75 * (i % IN_CELL), 6.0 + 3.0 * layer,
+                              15.0 * (cell / RAIN_SIDE - 1.5)};
         add_human(s, shapes, at, ++group);
     }
 }
@@ -270,15 +288,16 @@ static void build_rain(bench_scene *s)
 static void judge_rain(bench_trial *t)
 {
     bench_expect(t, "bones below the ground", count_below(t, -1.5), 0.0, 0.0);
-    bench_expect_open(t, "largest joint gap in the last second, m", bench_highest(t->gap, bench_step_at(t, t->time - 1.0), t->step),
-                      2.0 * BENCH_LINEAR_SLOP);
+    bench_expect_open(t, "largest joint gap in the last second, m",
+                      bench_highest(t->gap, bench_step_at(t, t->time - 1.0), t->step), 2.0 * BENCH_LINEAR_SLOP);
     bench_expect(t, "bones faster than 5 cm/s at the end", count_faster(t, 0.05), 0.0, 0.0);
 }
 
-// ---- washer ---------------------------------------------------------------------------------------------------------------------------
+// ---- washer
+// ---------------------------------------------------------------------------------------------------------------------------
 
-// In the drum's own frame: it stands, gravity turns, once in 14.4 s. (What the turning frame adds, 3 m/s2 at the wall, is left out.) Cubes
-// of twice the size and an eighth in number.
+// In the drum's own frame: it stands, gravity turns, once in 14.4 s. (What the turning frame adds, 3 m/s2 at the wall,
+// is left out.) Cubes of twice the size and an eighth in number.
 enum { WALLS = 36, BLADES = 4, CUBES = 10 };
 static const double TURNING = 25.0 * BENCH_PI / 180.0; // rad/s
 
@@ -291,7 +310,8 @@ static void add_slab(bench_scene *s, int32_t slab, double radius, double angle)
 static void build_washer(bench_scene *s)
 {
     const double half_wall = 17.0 * tan(6.0 * DEGREE), half_blade = 15.0 * tan(5.0 * DEGREE);
-    const int32_t wall = bench_box(s, 1.0, half_wall, 10.0, 1.0, 0.6), blade = bench_box(s, 1.0, half_blade, 10.0, 1.0, 0.6);
+    const int32_t wall = bench_box(s, 1.0, half_wall, 10.0, 1.0, 0.6),
+                  blade = bench_box(s, 1.0, half_blade, 10.0, 1.0, 0.6);
     const int32_t end = bench_box(s, 20.0, 20.0, 1.0, 1.0, 0.6), cube = bench_box(s, 0.4, 0.4, 0.4, 1000.0, 0.6);
     for (int32_t i = 0; i < WALLS; i++) {
         const double angle = (10.0 * i + 5.0) * DEGREE;
@@ -300,7 +320,8 @@ static void build_washer(bench_scene *s)
     }
     for (int side = -1; side <= 1; side += 2) bench_add_static(s, end, 0.0, 0.0, 11.0 * side);
     for (int32_t i = 0; i < CUBES * CUBES * CUBES; i++)
-        bench_add_dynamic(s, cube, 1.6 * (i % CUBES) - 7.2, 1.6 * (i / CUBES % CUBES) - 7.2, 1.6 * (i / (CUBES * CUBES)) - 7.2);
+        bench_add_dynamic(s, cube, 1.6 * (i % CUBES) - 7.2, 1.6 * (i / CUBES % CUBES) - 7.2,
+                          1.6 * (i / (CUBES * CUBES)) - 7.2);
 }
 
 static void act_washer(bench_trial *t)
@@ -323,17 +344,20 @@ static void judge_washer(bench_trial *t)
     // a cube that rides down a blade has the drop of the drum's 32 m
     bench_expect(t, "cubes out of the drum x steps", t->notes[0], 0.0, 0.0);
     bench_expect(t, "fastest cube, m/s", bench_highest(t->fastest, 0, t->step), 0.0, sqrt(2.0 * GRAVITY * 32.0));
-    bench_expect(t, BENCH_DEEPEST, bench_deepest(t), 0.0, 8.0 * BENCH_LINEAR_SLOP); // 10 layers on a cube's corner, P1: 4 x 10 g/w2 = 11 mm
+    bench_expect(t, BENCH_DEEPEST, bench_deepest(t), 0.0,
+                 8.0 * BENCH_LINEAR_SLOP); // 10 layers on a cube's corner, P1: 4 x 10 g/w2 = 11 mm
 }
 
-// ---- large world ----------------------------------------------------------------------------------------------------------------------
+// ---- large world
+// ----------------------------------------------------------------------------------------------------------------------
 
 enum { TILES = 100, DROPPED = 10 };
 
 static void build_large_world(bench_scene *s)
 {
     const int32_t tile = bench_box(s, 5.0, 0.25, 5.0, 1.0, 0.6), ball = bench_sphere(s, 0.5, 1000.0, 0.6);
-    for (int32_t i = 0; i < TILES * TILES; i++) bench_add_static(s, tile, 10.0 * (i % TILES) - 495.0, 0.0, 10.0 * (i / TILES) - 495.0);
+    for (int32_t i = 0; i < TILES * TILES; i++)
+        bench_add_static(s, tile, 10.0 * (i % TILES) - 495.0, 0.0, 10.0 * (i / TILES) - 495.0);
     for (int32_t i = 0; i < DROPPED * DROPPED; i++)
         bench_add_dynamic(s, ball, 80.0 * (i % DROPPED) - 360.0, 1.5 + 0.1 * i, 80.0 * (i / DROPPED) - 360.0);
 }
@@ -350,10 +374,13 @@ static void judge_large_world(bench_trial *t)
 }
 
 const bench_case bench_box3d_world[] = {
-    {"needle-drop", "Box3D", "1024 thin boxes fall on waves", 5.0, 0, build_needles, NULL, NULL, judge_needles, BENCH_CHAOTIC_LONG},
-    {"rain", "Box3D", "96 humans of 14 bones fall on waves", 10.0, 0, build_rain, NULL, NULL, judge_rain, BENCH_CHAOTIC_LONG},
-    {"washer", "Box3D", "1000 cubes in a drum, gravity turns", 10.0, 0, build_washer, act_washer, watch_washer, judge_washer,
+    {"needle-drop", "Box3D", "1024 thin boxes fall on waves", 5.0, 0, build_needles, NULL, NULL, judge_needles,
      BENCH_CHAOTIC_LONG},
-    {"large-world", "Box3D", "100 balls on 10 000 tiles", 8.0, 0, build_large_world, NULL, NULL, judge_large_world, BENCH_CALM},
+    {"rain", "Box3D", "96 humans of 14 bones fall on waves", 10.0, 0, build_rain, NULL, NULL, judge_rain,
+     BENCH_CHAOTIC_LONG},
+    {"washer", "Box3D", "1000 cubes in a drum, gravity turns", 10.0, 0, build_washer, act_washer, watch_washer,
+     judge_washer, BENCH_CHAOTIC_LONG},
+    {"large-world", "Box3D", "100 balls on 10 000 tiles", 8.0, 0, build_large_world, NULL, NULL, judge_large_world,
+     BENCH_CALM},
 };
 const int32_t bench_box3d_world_count = (int32_t)(sizeof bench_box3d_world / sizeof bench_box3d_world[0]);

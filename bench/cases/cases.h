@@ -28,9 +28,11 @@ bench_joint *bench_add_hinge_z(bench_scene *scene, int32_t body_a, int32_t body_
 #define BENCH_DEEPEST "deepest overlap, m"
 
 extern const bench_case bench_solver2d_stack[], bench_solver2d_contact[], bench_solver2d_far[], bench_solver2d_joint[];
-extern const int32_t bench_solver2d_stack_count, bench_solver2d_contact_count, bench_solver2d_far_count, bench_solver2d_joint_count;
+extern const int32_t bench_solver2d_stack_count, bench_solver2d_contact_count, bench_solver2d_far_count,
+    bench_solver2d_joint_count;
 extern const bench_case bench_box3d_stack[], bench_box3d_slide[], bench_box3d_motion[], bench_box3d_joint[];
-extern const int32_t bench_box3d_stack_count, bench_box3d_slide_count, bench_box3d_motion_count, bench_box3d_joint_count;
+extern const int32_t bench_box3d_stack_count, bench_box3d_slide_count, bench_box3d_motion_count,
+    bench_box3d_joint_count;
 
 extern const bench_case bench_box3d_world[], bench_box3d_more[], bench_others[];
 extern const int32_t bench_box3d_world_count, bench_box3d_more_count, bench_others_count;

@@ -1,13 +1,15 @@
-// What Feather does not hold yet, each with its cause (bench_known_cause). A miss that is not listed here is a regression; one that holds
-// again is to be taken off the list.
+// What Feather does not hold yet, each with its cause (bench_known_cause). A miss that is not listed here is a
+// regression; one that holds again is to be taken off the list.
 #include "../trial.h"
 
 #include <string.h>
 
-#define GAS                                                                                                                               \
-    "nearly all that is lost is lost in one step: the layers come down 1 cm apart and meet at 9.2 m/s, 1.1 ms after each other; what "    \
-    "falls into one substep "                                                                                                             \
-    "(2.1 ms with eight) is one inelastic blow. Sixteen keep 99.9 % of it, as each impact has a substep of its own; thirty-two hold the " \
+#define GAS                                                                                                           \
+    "nearly all that is lost is lost in one step: the layers come down 1 cm apart and meet at 9.2 m/s, 1.1 ms after " \
+    "each other; what "                                                                                               \
+    "falls into one substep "                                                                                         \
+    "(2.1 ms with eight) is one inelastic blow. Sixteen keep 99.9 % of it, as each impact has a substep of its own; " \
+    "thirty-two hold the "                                                                                            \
     "bound"
 
 static const struct known {
@@ -17,8 +19,10 @@ static const struct known {
     const char *cause;
 } known[] = {
     {"washer", 0, "deepest overlap, m",
-     "cubes flung down at 18 rad/s turn a corner by 17 cm in a step: the edge that comes round is not among the features that the step "
-     "began with, and is found up to that deep in the next; so four of five overlaps beyond 4 cm, the others are not understood"},
+     "cubes flung down at 18 rad/s turn a corner by 17 cm in a step: the edge that comes round is not among the "
+     "features that the step "
+     "began with, and is found up to that deep in the next; so four of five overlaps beyond 4 cm, the others are not "
+     "understood"},
     {"elastic-666", 0, "mean squared error of the energy, J2", GAS},
 };
 
@@ -26,7 +30,8 @@ const char *bench_known_cause(const bench_trial *t, const bench_check *c)
 {
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         const struct known *k = &known[i];
-        if (strcmp(k->scene, t->scene.name) == 0 && strcmp(k->what, c->what) == 0 && (k->substeps == 0 || k->substeps == t->substeps))
+        if (strcmp(k->scene, t->scene.name) == 0 && strcmp(k->what, c->what) == 0 &&
+            (k->substeps == 0 || k->substeps == t->substeps))
             return k->cause;
     }
     return NULL;

@@ -1,4 +1,5 @@
-// Scenes of Jolt (J. Rouwe, Jolt Physics, performance test and samples) and of SimBenchmark (D. Kang, J. Hwangbo, 2018), as data.
+// Scenes of Jolt (J. Rouwe, Jolt Physics, performance test and samples) and of SimBenchmark (D. Kang, J. Hwangbo,
+// 2018), as data.
 #include "cases.h"
 
 #include "../random.h"
@@ -9,7 +10,8 @@ static const double EARTH = 9.81; // m/s2
 
 static void set_earth(bench_scene *s) { s->gravity[1] = -EARTH; }
 
-// ---- Jolt: a square pyramid of boxes, each half a metre above the one below -----------------------------------------------------------
+// ---- Jolt: a square pyramid of boxes, each half a metre above the one below
+// -----------------------------------------------------------
 
 enum { LEVELS = 15 };
 
@@ -35,7 +37,8 @@ static void judge_jolt_pyramid(bench_trial *t)
     bench_expect(t, BENCH_SPEED, bench_largest_speed(t), 0.0, 0.05);
 }
 
-// ---- Jolt: high speed -----------------------------------------------------------------------------------------------------------------
+// ---- Jolt: high speed
+// -----------------------------------------------------------------------------------------------------------------
 
 enum { FAST = 48 };
 static const double ROOM = 10.0, THIN = 0.1; // m: half the room, half its walls' thickness
@@ -55,7 +58,8 @@ static void build_high_speed(bench_scene *s)
         }
     }
     for (int32_t i = 0; i < FAST; i++) {
-        const int32_t added = bench_add_dynamic(s, forms[i % 3], 3.0 * (i % 4) - 4.5, 3.0 * (i / 16) - 3.0, 3.0 * (i / 4 % 4) - 4.5);
+        const int32_t added =
+            bench_add_dynamic(s, forms[i % 3], 3.0 * (i % 4) - 4.5, 3.0 * (i / 16) - 3.0, 3.0 * (i / 4 % 4) - 4.5);
         bench_body *body = &s->bodies[added];
         double way[3], square = 0.0;
         for (int k = 0; k < 3; k++) way[k] = 2.0 * bench_random(&state) - 1.0, square += way[k] * way[k];
@@ -78,10 +82,12 @@ static void judge_high_speed(bench_trial *t)
     bench_expect(t, "largest rise of the energy, share", bench_rise(t->energy, 0, t->step) / t->energy[0], 0.0, 1e-3);
 }
 
-// ---- SimBenchmark: rolling ------------------------------------------------------------------------------------------------------------
+// ---- SimBenchmark: rolling
+// ------------------------------------------------------------------------------------------------------------
 
 enum { BALLS = 25, PLATE = 1 };
-static const double PUSH = 150.0, A_PLATE = 0.7385, A_BALL = 0.2110; // N; m/s2, of the plate and, 2/7 of it, of what rolls on it
+static const double PUSH = 150.0, A_PLATE = 0.7385,
+                    A_BALL = 0.2110; // N; m/s2, of the plate and, 2/7 of it, of what rolls on it
 
 static void build_rolling(bench_scene *s)
 {
@@ -109,7 +115,8 @@ static void note_errors(bench_trial *t, double x, double z)
 {
     for (int32_t i = PLATE; i < t->scene.body_count; i++) {
         const double speed = t->time * (i == PLATE ? A_PLATE : A_BALL), *v = t->motions[i].linear;
-        const double square = (v[0] - speed * x) * (v[0] - speed * x) + v[1] * v[1] + (v[2] - speed * z) * (v[2] - speed * z);
+        const double square =
+            (v[0] - speed * x) * (v[0] - speed * x) + v[1] * v[1] + (v[2] - speed * z) * (v[2] - speed * z);
         t->notes[i == PLATE ? 0 : 1] += square / (i == PLATE ? 1.0 : BALLS) / t->step_count;
     }
 }
@@ -129,13 +136,15 @@ static void judge_rolling(bench_trial *t) { expect_rolling(t, 0.0); }
 
 static void judge_rolling_60(bench_trial *t) { expect_rolling(t, BENCH_PI / 3.0); }
 
-// ---- SimBenchmark: bouncing -----------------------------------------------------------------------------------------------------------
+// ---- SimBenchmark: bouncing
+// -----------------------------------------------------------------------------------------------------------
 
 enum { BOUNCING = 7 };
 
 static void build_bouncing(bench_scene *s)
 {
-    const int32_t ball = bench_sphere(s, 0.1, 10.0 / (4.0 / 3.0 * BENCH_PI * 0.001), 0.0), ground = bench_box(s, 50.0, 1.0, 50.0, 1.0, 0.0);
+    const int32_t ball = bench_sphere(s, 0.1, 10.0 / (4.0 / 3.0 * BENCH_PI * 0.001), 0.0),
+                  ground = bench_box(s, 50.0, 1.0, 50.0, 1.0, 0.0);
     s->shapes[ball].restitution = s->shapes[ground].restitution = 1.0f;
     set_earth(s);
     bench_add_static(s, ground, 0.0, -1.0, 0.0);
@@ -152,11 +161,13 @@ static void judge_bouncing(bench_trial *t)
     bench_expect(t, "largest energy / start", bench_highest(t->energy, 0, t->step) / t->energy[0], 0.0, 1.004);
 }
 
-// ---- SimBenchmark: elastic 666 --------------------------------------------------------------------------------------------------------
+// ---- SimBenchmark: elastic 666
+// --------------------------------------------------------------------------------------------------------
 
 enum { DROPPED = 6 };
 
-// A cube of 6 x 6 x 6 balls without friction, 1 cm apart and off their places by up to 1 mm, falls from 1.1 m and becomes a gas.
+// A cube of 6 x 6 x 6 balls without friction, 1 cm apart and off their places by up to 1 mm, falls from 1.1 m and
+// becomes a gas.
 static void build_elastic(bench_scene *s)
 {
     uint64_t state = 0x2545f4914f6cdd1du;
@@ -167,15 +178,16 @@ static void build_elastic(bench_scene *s)
     set_earth(s);
     bench_add_static(s, ground, 0.0, -1.0, 0.0);
     for (int32_t i = 0; i < DROPPED * DROPPED * DROPPED; i++) {
-        const double at[3] = {0.21 * (i % DROPPED), 1.101 + 0.21 * (i / (DROPPED * DROPPED)), 0.21 * (i / DROPPED % DROPPED)};
+        const double at[3] = {0.21 * (i % DROPPED), 1.101 + 0.21 * (i / (DROPPED * DROPPED)),
+                              0.21 * (i / DROPPED % DROPPED)};
         double off[3];
         for (int k = 0; k < 3; k++) off[k] = 0.001 * bench_random(&state);
         bench_add_dynamic(s, ball, at[0] + off[0], at[1] + off[1], at[2] + off[2]);
     }
 }
 
-// The scheme's energy swings by h v / (2 height) of itself within a flight (P3): 0.7 % at 5.6 m/s, 1.6 m and h = 1/240. Published mean
-// squared errors with steps of 10 ms: RaiSim 5.2e6, ODE 8.6e6, Bullet 9.9e6, DART 1.3e10 J2.
+// The scheme's energy swings by h v / (2 height) of itself within a flight (P3): 0.7 % at 5.6 m/s, 1.6 m and h = 1/240.
+// Published mean squared errors with steps of 10 ms: RaiSim 5.2e6, ODE 8.6e6, Bullet 9.9e6, DART 1.3e10 J2.
 static void judge_elastic(bench_trial *t)
 {
     double sum = 0.0;
@@ -184,9 +196,11 @@ static void judge_elastic(bench_trial *t)
     bench_expect(t, "largest energy / start", bench_highest(t->energy, 0, t->step) / t->energy[0], 0.0, 1.007);
 }
 
-// ---- Painleve's rods: slide on a tip where rigid bodies with friction have no consistent force ----------------------------------------
+// ---- Painleve's rods: slide on a tip where rigid bodies with friction have no consistent force
+// ----------------------------------------
 
-static const double LEANING = 63.0 * BENCH_PI / 180.0, ROD = 0.5, TIP = 0.02; // rad off the floor; m: half the axis, radius
+static const double LEANING = 63.0 * BENCH_PI / 180.0, ROD = 0.5,
+                    TIP = 0.02; // rad off the floor; m: half the axis, radius
 
 static void build_painleve(bench_scene *s)
 {
@@ -208,18 +222,19 @@ static void judge_painleve(bench_trial *t)
 }
 
 const bench_case bench_others[] = {
-    {"jolt-pyramid", "Jolt", "1240 boxes fall together into a pyramid", 10.0, 0, build_jolt_pyramid, NULL, NULL, judge_jolt_pyramid,
+    {"jolt-pyramid", "Jolt", "1240 boxes fall together into a pyramid", 10.0, 0, build_jolt_pyramid, NULL, NULL,
+     judge_jolt_pyramid, BENCH_CALM},
+    {"high-speed", "Jolt", "48 bodies at 250 m/s in a room of thin walls", 3.0, 0, build_high_speed, NULL,
+     watch_high_speed, judge_high_speed, BENCH_CALM},
+    {"rolling", "SimBenchmark", "25 balls on a plate that is pushed", 4.0, 0, build_rolling, act_rolling, watch_rolling,
+     judge_rolling, BENCH_CALM},
+    {"rolling-60", "SimBenchmark", "pushed at 60 degrees", 4.0, 0, build_rolling, act_rolling_60, watch_rolling_60,
+     judge_rolling_60, BENCH_CALM},
+    {"painleve", "P. Painleve, 1895", "two rods slide on a tip with friction 2", 4.0, 0, build_painleve, NULL, NULL,
+     judge_painleve, BENCH_CALM},
+    {"elastic-666", "SimBenchmark", "a cube of 216 balls falls and becomes a gas", 10.0, 0, build_elastic, NULL, NULL,
+     judge_elastic, BENCH_CALM},
+    {"bouncing", "SimBenchmark", "49 balls bounce without loss", 20.0, 0, build_bouncing, NULL, NULL, judge_bouncing,
      BENCH_CALM},
-    {"high-speed", "Jolt", "48 bodies at 250 m/s in a room of thin walls", 3.0, 0, build_high_speed, NULL, watch_high_speed,
-     judge_high_speed, BENCH_CALM},
-    {"rolling", "SimBenchmark", "25 balls on a plate that is pushed", 4.0, 0, build_rolling, act_rolling, watch_rolling, judge_rolling,
-     BENCH_CALM},
-    {"rolling-60", "SimBenchmark", "pushed at 60 degrees", 4.0, 0, build_rolling, act_rolling_60, watch_rolling_60, judge_rolling_60,
-     BENCH_CALM},
-    {"painleve", "P. Painleve, 1895", "two rods slide on a tip with friction 2", 4.0, 0, build_painleve, NULL, NULL, judge_painleve,
-     BENCH_CALM},
-    {"elastic-666", "SimBenchmark", "a cube of 216 balls falls and becomes a gas", 10.0, 0, build_elastic, NULL, NULL, judge_elastic,
-     BENCH_CALM},
-    {"bouncing", "SimBenchmark", "49 balls bounce without loss", 20.0, 0, build_bouncing, NULL, NULL, judge_bouncing, BENCH_CALM},
 };
 const int32_t bench_others_count = (int32_t)(sizeof bench_others / sizeof bench_others[0]);

@@ -1,15 +1,17 @@
-// Solver2D's samples of friction, overlap, crowding and toppling (E. Catto, Solver2D, 2024, samples/sample_contact.cpp). See
-// solver2d_stack.c.
+// Solver2D's samples of friction, overlap, crowding and toppling (E. Catto, Solver2D, 2024,
+// samples/sample_contact.cpp). See solver2d_stack.c.
 #include "cases.h"
 
 #include <math.h>
 
 static const double GRAVITY = 10.0; // m/s2
 
-// ---- friction ramp: five boxes of falling friction on three ramps --------------------------------------------------------------------
+// ---- friction ramp: five boxes of falling friction on three ramps
+// --------------------------------------------------------------------
 
 enum { RAMP_BOXES = 5, RAMP_PARTS = 6 };
-static const double RAMP = 0.25; // rad: tan = 0.2553; pairs of sqrt(0.2 x own) = 0.387, 0.316, 0.265, 0.141, 0: the first three hold
+static const double RAMP =
+    0.25; // rad: tan = 0.2553; pairs of sqrt(0.2 x own) = 0.387, 0.316, 0.265, 0.141, 0: the first three hold
 
 static void add_part(bench_scene *s, double half_x, double half_y, double x, double y, double angle)
 {
@@ -30,14 +32,15 @@ static void build_friction_ramp(bench_scene *s)
         bench_add_dynamic(s, bench_box(s, 0.5, 0.5, 0.5, 25.0, friction[i]), -15.0 + 4.0 * i, 28.0, 0.0);
 }
 
-// The third box's friction exceeds the slope's by 3.6 % only: whether it stops in time after its fall is not certain. The clean law is the
-// next case.
+// The third box's friction exceeds the slope's by 3.6 % only: whether it stops in time after its fall is not certain.
+// The clean law is the next case.
 static void judge_friction_ramp(bench_trial *t)
 {
     double fastest = 0.0, lowest_held = HUGE_VAL, highest_gone = -HUGE_VAL;
     for (int32_t i = 0; i < RAMP_BOXES; i++) {
         const bench_pose *p = &t->poses[RAMP_PARTS + i];
-        const double above_ramp = p->position[1] - 22.0 + tan(RAMP) * (p->position[0] + 4.0); // of the first ramp's middle line
+        const double above_ramp =
+            p->position[1] - 22.0 + tan(RAMP) * (p->position[0] + 4.0); // of the first ramp's middle line
         if (i < 2) {
             fastest = fmax(fastest, bench_speed(t, RAMP_PARTS + i));
             lowest_held = fmin(lowest_held, above_ramp);
@@ -50,7 +53,8 @@ static void judge_friction_ramp(bench_trial *t)
     bench_expect(t, "the two smooth ones: largest height, m", highest_gone, 0.0, 17.0);
 }
 
-// The clean law: boxes laid flush on a slope of 0.25 rad. Heavier friction holds to the slop; less slides with g (sin - mu cos).
+// The clean law: boxes laid flush on a slope of 0.25 rad. Heavier friction holds to the slop; less slides with g (sin -
+// mu cos).
 static void build_friction_slope(bench_scene *s)
 {
     static const double friction[RAMP_BOXES] = {0.75, 0.5, 0.35, 0.1, 0.0};
@@ -72,7 +76,8 @@ static double way(const bench_trial *t, int32_t body)
 
 static void judge_friction_slope(bench_trial *t)
 {
-    static const char *const ways[2] = {"way at friction 0.141 / a t (t + h) / 2", "way without friction / a t (t + h) / 2"};
+    static const char *const ways[2] = {"way at friction 0.141 / a t (t + h) / 2",
+                                        "way without friction / a t (t + h) / 2"};
     static const double friction[2] = {0.1, 0.0};
     const double h = (double)t->scene.dt / t->substeps, time = t->time;
     bench_expect_stray(t, "way of those that hold, m", fmax(way(t, 1), fmax(way(t, 2), way(t, 3))), BENCH_LINEAR_SLOP);
@@ -82,7 +87,8 @@ static void judge_friction_slope(bench_trial *t)
     }
 }
 
-// ---- overlap recovery: a pyramid pushed together by a quarter -------------------------------------------------------------------------
+// ---- overlap recovery: a pyramid pushed together by a quarter
+// -------------------------------------------------------------------------
 
 enum { OVERLAP_ROWS = 4, OVERLAP_BOXES = 10 };
 
@@ -91,7 +97,8 @@ static void build_overlap_recovery(bench_scene *s)
     const int32_t box = bench_box(s, 0.5, 0.5, 0.5, 1.0, 0.6);
     bench_add_ground(s, 40.0, 0.6);
     for (int32_t i = 0; i < OVERLAP_ROWS; i++) {
-        for (int32_t j = i; j < OVERLAP_ROWS; j++) bench_add_dynamic(s, box, 0.375 * (i - 4) + 0.75 * (j - i), 0.5 + 0.75 * i, 0.0);
+        for (int32_t j = i; j < OVERLAP_ROWS; j++)
+            bench_add_dynamic(s, box, 0.375 * (i - 4) + 0.75 * (j - i), 0.5 + 0.75 * i, 0.0);
     }
 }
 
@@ -115,7 +122,8 @@ static void judge_overlap_recovery(bench_trial *t)
     bench_expect(t, BENCH_SPEED, bench_largest_speed(t), 0.0, 0.01);
 }
 
-// ---- rush: 400 balls pulled to a point ------------------------------------------------------------------------------------------------
+// ---- rush: 400 balls pulled to a point
+// ------------------------------------------------------------------------------------------------
 
 enum { RUSHING = 400 };
 
@@ -152,17 +160,19 @@ static void judge_rush(bench_trial *t)
         squares += p[0] * p[0] + p[1] * p[1];
         sum += bench_speed(t, i) * bench_speed(t, i);
     }
-    // 401 discs cover 315 m2: packed as densely as discs can be, a disc of 10.5 m; loosely (0.77, what friction can hold up), one of 11.4
-    // m. The squared distances of an even disc have the mean R2 / 2.
+    // 401 discs cover 315 m2: packed as densely as discs can be, a disc of 10.5 m; loosely (0.77, what friction can
+    // hold up), one of 11.4 m. The squared distances of an even disc have the mean R2 / 2.
     bench_expect(t, "radius of the crowd, m", sqrt(2.0 * squares / RUSHING), 10.0, 11.5);
     bench_expect(t, "speed of the balls (rms), m/s", sqrt(sum / RUSHING), 0.0, 0.2);
-    // At the centre discs press each other with F = pressure x diameter / sqrt 3, 6.8 kN, on average. Forces in a jammed crowd are spread
-    // like exp(-1.5 F / mean) (Mueth, Jaeger, Nagel 1998): of 1200 contacts the largest bears some ln(1200) / 1.5 = 4.7 times that.
+    // At the centre discs press each other with F = pressure x diameter / sqrt 3, 6.8 kN, on average. Forces in a
+    // jammed crowd are spread like exp(-1.5 F / mean) (Mueth, Jaeger, Nagel 1998): of 1200 contacts the largest bears
+    // some ln(1200) / 1.5 = 4.7 times that.
     const double mass = t->masses[1], mean = 6800.0 / (0.5 * mass * bench_contact_stiffness(t, 0));
     bench_expect(t, BENCH_DEEPEST, bench_deepest(t), 0.0, 4.7 * mean + BENCH_LINEAR_SLOP);
 }
 
-// ---- double domino --------------------------------------------------------------------------------------------------------------------
+// ---- double domino
+// --------------------------------------------------------------------------------------------------------------------
 
 enum { DOMINOES = 15 };
 
@@ -198,8 +208,8 @@ static void judge_double_domino(bench_trial *t)
         fallen += t->notes[i] > 0.0;
         if (i > 1 && t->notes[i] < t->notes[i - 1]) ordered = 0;
     }
-    // a chain of smooth dominoes that do not bounce runs at 4.69 m/s = 1.48 sqrt(g h) in the end; friction slows it to a steady speed of
-    // its own
+    // a chain of smooth dominoes that do not bounce runs at 4.69 m/s = 1.48 sqrt(g h) in the end; friction slows it to
+    // a steady speed of its own
     const double pitch = t->scene.bodies[2].start.position[0] - t->scene.bodies[1].start.position[0];
     const double early = 4.0 * pitch / (t->notes[9] - t->notes[5]), late = 5.0 * pitch / (t->notes[14] - t->notes[9]);
     bench_expect(t, "dominoes fallen", fallen, DOMINOES, DOMINOES);
@@ -209,7 +219,8 @@ static void judge_double_domino(bench_trial *t)
     bench_expect(t, "largest rise of the energy, J", bench_rise(t->energy, 1, t->step), 0.0, 1e-3 * t->energy[1]);
 }
 
-// ---- confined: more balls than fit ----------------------------------------------------------------------------------------------------
+// ---- confined: more balls than fit
+// ----------------------------------------------------------------------------------------------------
 
 enum { CROWD_SIDE = 25, WALLS = 4 };
 
@@ -227,7 +238,8 @@ static void build_confined(bench_scene *s)
     add_wall(s, 10.25, 10.5, 10.25, 0.0);
     add_wall(s, 10.5, 0.0, 20.5, 0.5 * BENCH_PI);
     for (int32_t i = 0; i < CROWD_SIDE * CROWD_SIDE; i++) {
-        const int32_t body = bench_add_dynamic(s, ball, -8.75 + 0.72 * (i % CROWD_SIDE), 1.5 + 0.72 * (i / CROWD_SIDE), 0.0);
+        const int32_t body =
+            bench_add_dynamic(s, ball, -8.75 + 0.72 * (i % CROWD_SIDE), 1.5 + 0.72 * (i / CROWD_SIDE), 0.0);
         s->bodies[body].linear_locks = 4, s->bodies[body].angular_locks = 3;
     }
     s->gravity[1] = 0.0;
@@ -247,7 +259,8 @@ static void judge_confined(bench_trial *t)
     bench_expect(t, BENCH_DEEPEST, bench_deepest(t), 0.0, 0.5);
 }
 
-// ---- card house (after PEEL) ----------------------------------------------------------------------------------------------------------
+// ---- card house (after PEEL)
+// ----------------------------------------------------------------------------------------------------------
 
 static void add_card(bench_scene *s, int32_t card, double x, double y, double degrees)
 {
@@ -281,18 +294,22 @@ static void judge_card_house(bench_trial *t)
 }
 
 const bench_case bench_solver2d_contact[] = {
-    {"friction-ramp", "Solver2D", "boxes of falling friction on three ramps", 10.0, 1, build_friction_ramp, NULL, NULL, judge_friction_ramp,
-     BENCH_CALM},
-    {"friction-slope", "derived", "the same boxes laid on one slope", 4.0, 1, build_friction_slope, NULL, NULL, judge_friction_slope,
-     BENCH_CALM},
-    {"overlap-recovery", "Solver2D", "a pyramid pushed together by a quarter", 5.0, 1, build_overlap_recovery, NULL, watch_overlap_recovery,
-     judge_overlap_recovery, BENCH_CALM},
-    {"rush", "Solver2D", "400 balls pulled to a point", 10.0, 1, build_rush, act_rush, NULL, judge_rush, BENCH_CHAOTIC_LONG},
-    {"double-domino", "Solver2D", "15 dominoes", 10.0, 1, build_double_domino, act_double_domino, watch_double_domino, judge_double_domino,
-     BENCH_CHAOTIC},
-    {"domino-row", "Box3D", "15 dominoes, narrower and farther apart", 10.0, 0, build_domino_row, act_double_domino, watch_double_domino,
+    {"friction-ramp", "Solver2D", "boxes of falling friction on three ramps", 10.0, 1, build_friction_ramp, NULL, NULL,
+     judge_friction_ramp, BENCH_CALM},
+    {"friction-slope", "derived", "the same boxes laid on one slope", 4.0, 1, build_friction_slope, NULL, NULL,
+     judge_friction_slope, BENCH_CALM},
+    {"overlap-recovery", "Solver2D", "a pyramid pushed together by a quarter", 5.0, 1, build_overlap_recovery, NULL,
+     watch_overlap_recovery, judge_overlap_recovery, BENCH_CALM},
+    {"rush", "Solver2D", "400 balls pulled to a point", 10.0, 1, build_rush, act_rush, NULL, judge_rush,
+     BENCH_CHAOTIC_LONG},
+    {"double-domino", "Solver2D", "15 dominoes", 10.0, 1, build_double_domino, act_double_domino, watch_double_domino,
      judge_double_domino, BENCH_CHAOTIC},
-    {"confined", "Solver2D", "625 balls where 450 fit", 20.0, 1, build_confined, NULL, NULL, judge_confined, BENCH_CALM},
-    {"card-house", "Solver2D, PEEL", "40 cards of 2 mm", 10.0, 1, build_card_house, NULL, NULL, judge_card_house, BENCH_CHAOTIC},
+    {"domino-row", "Box3D", "15 dominoes, narrower and farther apart", 10.0, 0, build_domino_row, act_double_domino,
+     watch_double_domino, judge_double_domino, BENCH_CHAOTIC},
+    {"confined", "Solver2D", "625 balls where 450 fit", 20.0, 1, build_confined, NULL, NULL, judge_confined,
+     BENCH_CALM},
+    {"card-house", "Solver2D, PEEL", "40 cards of 2 mm", 10.0, 1, build_card_house, NULL, NULL, judge_card_house,
+     BENCH_CHAOTIC},
 };
-const int32_t bench_solver2d_contact_count = (int32_t)(sizeof bench_solver2d_contact / sizeof bench_solver2d_contact[0]);
+const int32_t bench_solver2d_contact_count =
+    (int32_t)(sizeof bench_solver2d_contact / sizeof bench_solver2d_contact[0]);

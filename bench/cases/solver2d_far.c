@@ -1,16 +1,18 @@
-// Solver2D's samples far from the origin (E. Catto, Solver2D, 2024, samples/sample_far.cpp): what a game with a large map needs. With
-// double positions they must behave as at the origin. See solver2d_stack.c for what all share.
+// Solver2D's samples far from the origin (E. Catto, Solver2D, 2024, samples/sample_far.cpp): what a game with a large
+// map needs. With double positions they must behave as at the origin. See solver2d_stack.c for what all share.
 #include "cases.h"
 
 #include <math.h>
 
 static void move_scene(bench_scene *s, double x, double y)
 {
-    for (int32_t i = 0; i < s->body_count; i++) s->bodies[i].start.position[0] += x, s->bodies[i].start.position[1] += y;
+    for (int32_t i = 0; i < s->body_count; i++)
+        s->bodies[i].start.position[0] += x, s->bodies[i].start.position[1] += y;
     for (int32_t i = 0; i < s->joint_count; i++) s->joints[i].anchor[0] += x, s->joints[i].anchor[1] += y;
 }
 
-// ---- pyramid of loosely set boxes -----------------------------------------------------------------------------------------------------
+// ---- pyramid of loosely set boxes
+// -----------------------------------------------------------------------------------------------------
 
 enum { BASE = 10 };
 
@@ -21,7 +23,8 @@ static void add_loose_pyramid(bench_scene *s)
     bench_add_ground(s, 100.0, 0.6);
     for (int32_t i = 0; i < BASE; i++) {
         for (int32_t j = i; j < BASE; j++) {
-            bench_add_dynamic(s, box, (i + 1) * half_pitch + 2.0 * (j - i) * half_pitch - 0.5 * BASE, (2 * i + 1) * half_pitch + 0.5, 0.0);
+            bench_add_dynamic(s, box, (i + 1) * half_pitch + 2.0 * (j - i) * half_pitch - 0.5 * BASE,
+                              (2 * i + 1) * half_pitch + 0.5, 0.0);
         }
     }
 }
@@ -42,7 +45,8 @@ static void judge_far_pyramid(bench_trial *t)
 {
     double drop = 0.0;
     for (int32_t i = 1; i < t->scene.body_count; i++) {
-        const double row = floor((t->scene.bodies[i].start.position[1] - t->scene.bodies[0].start.position[1] - 2.125) / 1.25 + 0.5);
+        const double row =
+            floor((t->scene.bodies[i].start.position[1] - t->scene.bodies[0].start.position[1] - 2.125) / 1.25 + 0.5);
         const double height = t->poses[i].position[1] - t->poses[0].position[1] - 1.0;
         drop = fmax(drop, fabs(height - row - 0.5));
     }
@@ -51,7 +55,8 @@ static void judge_far_pyramid(bench_trial *t)
     bench_expect(t, BENCH_SPEED, bench_largest_speed(t), 0.0, 0.01);
 }
 
-// ---- a plank on two supports with two boxes on it -------------------------------------------------------------------------------------
+// ---- a plank on two supports with two boxes on it
+// -------------------------------------------------------------------------------------
 
 enum { PLANK = 3 };
 
@@ -78,14 +83,16 @@ static void judge_far_stack(bench_trial *t)
     bench_expect(t, BENCH_SPEED, bench_largest_speed(t), 0.0, 0.01);
 }
 
-// ---- overlap recovery -----------------------------------------------------------------------------------------------------------------
+// ---- overlap recovery
+// -----------------------------------------------------------------------------------------------------------------
 
 static void build_far_recovery(bench_scene *s)
 {
     const int32_t box = bench_box(s, 0.5, 0.5, 0.5, 1.0, 0.6);
     bench_add_ground(s, 40.0, 0.6);
     for (int32_t i = 0; i < 4; i++) {
-        for (int32_t j = i; j < 4; j++) bench_add_dynamic(s, box, 0.375 * (i - 4) + 0.75 * (j - i), 0.5 + 0.75 * i, 0.0);
+        for (int32_t j = i; j < 4; j++)
+            bench_add_dynamic(s, box, 0.375 * (i - 4) + 0.75 * (j - i), 0.5 + 0.75 * i, 0.0);
     }
     move_scene(s, 80000.0, -70000.0);
 }
@@ -99,7 +106,8 @@ static void judge_far_recovery(bench_trial *t)
     bench_expect(t, BENCH_SPEED, bench_largest_speed(t), 0.0, 0.01);
 }
 
-// ---- chain ----------------------------------------------------------------------------------------------------------------------------
+// ---- chain
+// ----------------------------------------------------------------------------------------------------------------------------
 
 enum { LINKS = 40 };
 
@@ -130,11 +138,15 @@ static void judge_far_chain(bench_trial *t)
 }
 
 const bench_case bench_solver2d_far[] = {
-    {"far-pyramid", "Solver2D", "a pyramid of loose boxes 128 km from the origin", 10.0, 1, build_far_pyramid, NULL, NULL,
+    {"far-pyramid", "Solver2D", "a pyramid of loose boxes 128 km from the origin", 10.0, 1, build_far_pyramid, NULL,
+     NULL, judge_far_pyramid, BENCH_CALM},
+    {"very-far-pyramid", "Solver2D", "the same at 1200 km", 10.0, 1, build_very_far_pyramid, NULL, NULL,
      judge_far_pyramid, BENCH_CALM},
-    {"very-far-pyramid", "Solver2D", "the same at 1200 km", 10.0, 1, build_very_far_pyramid, NULL, NULL, judge_far_pyramid, BENCH_CALM},
-    {"far-stack", "Solver2D", "a plank on two supports, 47 km out", 10.0, 1, build_far_stack, NULL, NULL, judge_far_stack, BENCH_CALM},
-    {"far-recovery", "Solver2D", "overlapping boxes, 106 km out", 5.0, 1, build_far_recovery, NULL, NULL, judge_far_recovery, BENCH_CALM},
-    {"far-chain", "Solver2D", "a chain of 40 links, 53 km out", 30.0, 1, build_far_chain, NULL, NULL, judge_far_chain, BENCH_CALM},
+    {"far-stack", "Solver2D", "a plank on two supports, 47 km out", 10.0, 1, build_far_stack, NULL, NULL,
+     judge_far_stack, BENCH_CALM},
+    {"far-recovery", "Solver2D", "overlapping boxes, 106 km out", 5.0, 1, build_far_recovery, NULL, NULL,
+     judge_far_recovery, BENCH_CALM},
+    {"far-chain", "Solver2D", "a chain of 40 links, 53 km out", 30.0, 1, build_far_chain, NULL, NULL, judge_far_chain,
+     BENCH_CALM},
 };
 const int32_t bench_solver2d_far_count = (int32_t)(sizeof bench_solver2d_far / sizeof bench_solver2d_far[0]);

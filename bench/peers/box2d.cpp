@@ -1,6 +1,7 @@
 // Box2D 2.4 as a measuring stick (peer.h): planar scenes only, 8 velocity and 3 position iterations, no sleeping.
 //
-// Its polygons have a skin: at rest two of them stay 15 mm apart at their cores, so heights of stacks are not those of other engines.
+// Its polygons have a skin: at rest two of them stay 15 mm apart at their cores, so heights of stacks are not those of
+// other engines.
 #include "peer.h"
 
 #ifdef FE_BENCH_BOX2D
@@ -70,10 +71,12 @@ void add_form(b2Body *body, const bench_shape &shape, const bench_body &from)
 // The mass of the scene's body, spread as the outline's is.
 void set_mass(b2Body *body, const bench_shape &shape)
 {
-    const float mass = float(double(shape.density) * bench_shape_volume(&shape)), r = shape.radius, h = shape.half_height;
+    const float mass = float(double(shape.density) * bench_shape_volume(&shape)), r = shape.radius,
+                h = shape.half_height;
     b2MassData data{mass, b2Vec2_zero, 0.5f * mass * r * r};
     if (shape.form == BENCH_BOX) data.I = mass * (shape.half[0] * shape.half[0] + shape.half[1] * shape.half[1]) / 3.0f;
-    if (shape.form == BENCH_CAPSULE) { // a rectangle and two half discs, whose centres of mass are 4 r / (3 pi) beyond its ends
+    if (shape.form ==
+        BENCH_CAPSULE) { // a rectangle and two half discs, whose centres of mass are 4 r / (3 pi) beyond its ends
         const float rectangle = 4.0f * r * h, discs = b2_pi * r * r, per_area = mass / (rectangle + discs),
                     beyond = 4.0f * r / (3.0f * b2_pi);
         data.I = per_area * (rectangle * (r * r + h * h) / 3.0f + discs * (0.5f * r * r + h * h + 2.0f * h * beyond));
@@ -134,7 +137,8 @@ void add_distance(bench_world *w, const bench_joint &joint, b2Body *a, b2Body *b
 {
     b2DistanceJointDef def;
     def.Initialize(a, b, vector(joint.anchor), vector(joint.is_open ? joint.anchor_b : joint.anchor));
-    if (joint.hertz > 0.0) b2LinearStiffness(def.stiffness, def.damping, float(joint.hertz), float(joint.damping), a, b);
+    if (joint.hertz > 0.0)
+        b2LinearStiffness(def.stiffness, def.damping, float(joint.hertz), float(joint.damping), a, b);
     w->world->CreateJoint(&def);
 }
 
@@ -209,11 +213,15 @@ void read_motions(bench_world *w, bench_motion *out_motions)
 {
     for (size_t i = 0; i < w->bodies.size(); i++) {
         const b2Vec2 v = w->bodies[i]->GetLinearVelocity();
-        out_motions[i] = bench_motion{{double(v.x), double(v.y), 0.0}, {0.0, 0.0, double(w->bodies[i]->GetAngularVelocity())}};
+        out_motions[i] =
+            bench_motion{{double(v.x), double(v.y), 0.0}, {0.0, 0.0, double(w->bodies[i]->GetAngularVelocity())}};
     }
 }
 
-void add_force(bench_world *w, int32_t body, const double *force) { w->bodies[size_t(body)]->ApplyForceToCenter(vector(force), true); }
+void add_force(bench_world *w, int32_t body, const double *force)
+{
+    w->bodies[size_t(body)]->ApplyForceToCenter(vector(force), true);
+}
 
 void add_impulse(bench_world *w, int32_t body, const double *impulse, const double *point)
 {
@@ -241,13 +249,17 @@ void measure_contacts(bench_world *w, bench_contacts *out_contacts)
         contact->GetWorldManifold(&manifold);
         out_contacts->pairs++;
         out_contacts->points += points;
-        for (int32 p = 0; p < points; p++) out_contacts->deepest = std::fmax(out_contacts->deepest, -double(manifold.separations[p]));
+        for (int32 p = 0; p < points; p++)
+            out_contacts->deepest = std::fmax(out_contacts->deepest, -double(manifold.separations[p]));
     }
 }
 
 struct nearest_ray final : b2RayCastCallback {
     float nearest = 2.0f;
-    float ReportFixture(b2Fixture *, const b2Vec2 &, const b2Vec2 &, float fraction) override { return nearest = fraction; }
+    float ReportFixture(b2Fixture *, const b2Vec2 &, const b2Vec2 &, float fraction) override
+    {
+        return nearest = fraction;
+    }
 };
 
 int32_t raycast(bench_world *w, const bench_ray *ray, double *out_fraction)

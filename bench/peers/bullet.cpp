@@ -1,4 +1,5 @@
-// Bullet as a measuring stick (peer.h): its default sequential impulse world, 10 iterations, dbvt broad phase, one thread, no sleeping.
+// Bullet as a measuring stick (peer.h): its default sequential impulse world, 10 iterations, dbvt broad phase, one
+// thread, no sleeping.
 #include "peer.h"
 
 #ifdef FE_BENCH_BULLET
@@ -17,7 +18,8 @@
 #include <memory>
 #include <vector>
 
-// Members are destroyed from the last to the first: bodies and joints after the world let go of them in its own destructor.
+// Members are destroyed from the last to the first: bodies and joints after the world let go of them in its own
+// destructor.
 struct bench_world {
     std::vector<std::vector<float>> heights;               // of terrains, which do not copy them
     std::vector<std::unique_ptr<btCollisionShape>> shapes; // in the scene's order
@@ -40,18 +42,22 @@ btVector3 vector(const double *v) { return btVector3(float(v[0]), float(v[1]), f
 btVector3 vector(const float *v) { return btVector3(v[0], v[1], v[2]); }
 
 // 1 where a body may move or turn, 0 where it is locked
-btVector3 free_axes(int32_t locks) { return btVector3(locks & 1 ? 0.0f : 1.0f, locks & 2 ? 0.0f : 1.0f, locks & 4 ? 0.0f : 1.0f); }
+btVector3 free_axes(int32_t locks)
+{
+    return btVector3(locks & 1 ? 0.0f : 1.0f, locks & 2 ? 0.0f : 1.0f, locks & 4 ? 0.0f : 1.0f);
+}
 
 // It lies about the middle of its height: the body is moved by as much.
 std::unique_ptr<btCollisionShape> make_terrain(bench_world &w, const bench_shape &shape)
 {
     const size_t side = size_t(shape.side);
     std::vector<float> heights(side * side);
-    for (size_t i = 0; i < side * side; i++) heights[i] = bench_terrain_height(&shape, int32_t(i / side), int32_t(i % side));
+    for (size_t i = 0; i < side * side; i++)
+        heights[i] = bench_terrain_height(&shape, int32_t(i / side), int32_t(i % side));
     w.heights.push_back(std::move(heights));
     const float most = 8.0f; // m, above all heights
-    auto terrain = std::make_unique<btHeightfieldTerrainShape>(shape.side, shape.side, w.heights.back().data(), 1.0f, -most, most, 1,
-                                                               PHY_FLOAT, false);
+    auto terrain = std::make_unique<btHeightfieldTerrainShape>(shape.side, shape.side, w.heights.back().data(), 1.0f,
+                                                               -most, most, 1, PHY_FLOAT, false);
     terrain->setLocalScaling(btVector3(shape.cell, 1.0f, shape.cell));
     terrain->buildAccelerator();
     return terrain;
@@ -96,7 +102,8 @@ void add_body(bench_world *w, const bench_scene &scene, const bench_body &body)
     rigid->setLinearVelocity(vector(body.linear_velocity));
     rigid->setAngularVelocity(vector(body.angular_velocity));
     rigid->setActivationState(DISABLE_DEACTIVATION);
-    rigid->setDamping(1.0f - std::exp(-body.linear_damping), 1.0f - std::exp(-body.angular_damping)); // the share lost in a second
+    rigid->setDamping(1.0f - std::exp(-body.linear_damping),
+                      1.0f - std::exp(-body.angular_damping)); // the share lost in a second
     rigid->setRollingFriction(shape.rolling);
     rigid->setLinearFactor(free_axes(body.linear_locks));
     rigid->setAngularFactor(free_axes(body.angular_locks));
@@ -106,11 +113,13 @@ void add_body(bench_world *w, const bench_scene &scene, const bench_body &body)
     } else {
         w->world.addRigidBody(rigid.get(), btBroadphaseProxy::DefaultFilter, 0);
     }
-    if (body.dynamic) rigid->setGravity(body.gravity_scale * vector(scene.gravity)); // after joining the world, which sets its own
+    if (body.dynamic)
+        rigid->setGravity(body.gravity_scale * vector(scene.gravity)); // after joining the world, which sets its own
     w->bodies.push_back(std::move(rigid));
 }
 
-// The joint's frame at the start, in the space of `body`: `turn` takes the engine's axis of the joint (x or z) to the scene's.
+// The joint's frame at the start, in the space of `body`: `turn` takes the engine's axis of the joint (x or z) to the
+// scene's.
 btTransform frame_in(const btRigidBody &body, const bench_joint &joint, const btQuaternion &turn)
 {
     return body.getWorldTransform().inverse() * btTransform(turn, vector(joint.anchor));
@@ -193,7 +202,8 @@ struct group_filter final : btOverlapFilterCallback {
         const auto *body_a = static_cast<const btCollisionObject *>(a->m_clientObject),
                    *body_b = static_cast<const btCollisionObject *>(b->m_clientObject);
         if (body_a->getUserIndex() > 0 && body_a->getUserIndex() == body_b->getUserIndex()) return false;
-        return (a->m_collisionFilterGroup & b->m_collisionFilterMask) != 0 && (b->m_collisionFilterGroup & a->m_collisionFilterMask) != 0;
+        return (a->m_collisionFilterGroup & b->m_collisionFilterMask) != 0 &&
+               (b->m_collisionFilterGroup & a->m_collisionFilterMask) != 0;
     }
 };
 
@@ -205,7 +215,10 @@ void destroy(bench_world *w)
 }
 
 // The scenes' rule; Bullet's own is the product.
-btScalar mix_friction(const btCollisionObject *a, const btCollisionObject *b) { return btSqrt(a->getFriction() * b->getFriction()); }
+btScalar mix_friction(const btCollisionObject *a, const btCollisionObject *b)
+{
+    return btSqrt(a->getFriction() * b->getFriction());
+}
 
 bench_world *create(const bench_scene *scene, int32_t, int32_t)
 {
@@ -263,7 +276,10 @@ void read_motions(bench_world *w, bench_motion *out_motions)
     }
 }
 
-void add_force(bench_world *w, int32_t body, const double *force) { w->bodies[size_t(body)]->applyCentralForce(vector(force)); }
+void add_force(bench_world *w, int32_t body, const double *force)
+{
+    w->bodies[size_t(body)]->applyCentralForce(vector(force));
+}
 
 void add_impulse(bench_world *w, int32_t body, const double *impulse, const double *point)
 {
@@ -344,10 +360,11 @@ int32_t sweep(bench_world *w, const bench_probe *probe, double *out_fraction)
 struct body_counter final : btCollisionWorld::ContactResultCallback {
     const btCollisionObject *asks = nullptr, *last = nullptr;
     int32_t count = 0;
-    btScalar addSingleResult(btManifoldPoint &point, const btCollisionObjectWrapper *a, int, int, const btCollisionObjectWrapper *b, int,
-                             int) override
+    btScalar addSingleResult(btManifoldPoint &point, const btCollisionObjectWrapper *a, int, int,
+                             const btCollisionObjectWrapper *b, int, int) override
     {
-        const btCollisionObject *other = a->getCollisionObject() == asks ? b->getCollisionObject() : a->getCollisionObject();
+        const btCollisionObject *other =
+            a->getCollisionObject() == asks ? b->getCollisionObject() : a->getCollisionObject();
         if (point.getDistance() <= 0.0f && other != last) count++, last = other;
         return 0.0f;
     }

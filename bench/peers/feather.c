@@ -40,7 +40,8 @@ static fe_result add_terrain(fe_world *world, fe_body body, const bench_shape *s
 {
     const size_t side = (size_t)shape->side;
     float *heights = bench_allocate(side * side, sizeof *heights);
-    for (size_t i = 0; i < side * side; i++) heights[i] = bench_terrain_height(shape, (int32_t)(i / side), (int32_t)(i % side));
+    for (size_t i = 0; i < side * side; i++)
+        heights[i] = bench_terrain_height(shape, (int32_t)(i / side), (int32_t)(i % side));
     fe_heightfield_def field;
     fe_heightfield_def_init(&field, sizeof field);
     field.rows = field.columns = shape->side, field.cell_x = field.cell_z = shape->cell, field.heights = heights;
@@ -71,7 +72,8 @@ static fe_result add_body(fe_world *world, const bench_scene *scene, const bench
     def.transform.position = fe_make_dvec3(p[0], p[1], p[2]);
     def.transform.rotation = (fe_quat){(float)q[0], (float)q[1], (float)q[2], (float)q[3]};
     def.linear_velocity = fe_make_vec3(body->linear_velocity[0], body->linear_velocity[1], body->linear_velocity[2]);
-    def.angular_velocity = fe_make_vec3(body->angular_velocity[0], body->angular_velocity[1], body->angular_velocity[2]);
+    def.angular_velocity =
+        fe_make_vec3(body->angular_velocity[0], body->angular_velocity[1], body->angular_velocity[2]);
     def.linear_damping = body->linear_damping, def.angular_damping = body->angular_damping;
     def.gravity_scale = body->gravity_scale;
     def.linear_locks = (uint32_t)body->linear_locks, def.angular_locks = (uint32_t)body->angular_locks;
@@ -115,14 +117,17 @@ static fe_result part_groups(const bench_world *w, const bench_scene *scene)
     return result;
 }
 
-// ---- joints ---------------------------------------------------------------------------------------------------------------------------
-// Stiffness of joints that other engines set one by one: here it is the world's, as one joint's own would make it a spring that swings.
+// ---- joints
+// ---------------------------------------------------------------------------------------------------------------------------
+// Stiffness of joints that other engines set one by one: here it is the world's, as one joint's own would make it a
+// spring that swings.
 static fe_result set_tuning(fe_world *world, const bench_scene *scene)
 {
     fe_world_tuning tuning = {.struct_size = sizeof tuning};
     fe_result result = fe_world_get_tuning(world, &tuning);
     for (int32_t i = 0; i < scene->joint_count; i++) {
-        if (scene->joints[i].stiffness_hertz > (double)tuning.joint_hertz) tuning.joint_hertz = (float)scene->joints[i].stiffness_hertz;
+        if (scene->joints[i].stiffness_hertz > (double)tuning.joint_hertz)
+            tuning.joint_hertz = (float)scene->joints[i].stiffness_hertz;
     }
     if (scene->always_bounce) tuning.restitution_threshold = 0.0f;
     return result == FE_OK ? fe_world_set_tuning(world, &tuning) : result;
@@ -174,10 +179,15 @@ static fe_result add_slider(bench_world *w, const bench_joint *joint, const fe_d
 {
     fe_configurable_joint_def def;
     fe_configurable_joint_def_init(&def, sizeof def);
-    fe_result result = fe_slider_joint_def_at(w->world, &def, w->bodies[joint->body_a], w->bodies[joint->body_b], anchor, axis);
+    fe_result result =
+        fe_slider_joint_def_at(w->world, &def, w->bodies[joint->body_a], w->bodies[joint->body_b], anchor, axis);
     fe_joint_axis *along = &def.axes[FE_DOF_LINEAR_X];
-    if (joint->has_limits) along->motion = FE_MOTION_LIMITED, along->lower = (float)joint->limits[0], along->upper = (float)joint->limits[1];
-    if (joint->hertz > 0.0) along->spring = FE_SPRING_HERTZ, along->spring_hertz = (float)joint->hertz, along->spring_damping_ratio = (float)joint->damping;
+    if (joint->has_limits)
+        along->motion = FE_MOTION_LIMITED, along->lower = (float)joint->limits[0],
+        along->upper = (float)joint->limits[1];
+    if (joint->hertz > 0.0)
+        along->spring = FE_SPRING_HERTZ, along->spring_hertz = (float)joint->hertz,
+        along->spring_damping_ratio = (float)joint->damping;
     along->motor_speed = (float)joint->motor_speed, along->motor_max = (float)joint->motor_max;
     fe_joint created;
     return result == FE_OK ? fe_configurable_joint_create(w->world, &def, &created) : result;
@@ -187,7 +197,8 @@ static fe_result add_fixed(bench_world *w, const bench_joint *joint, const fe_dv
 {
     fe_fixed_joint_def def;
     fe_fixed_joint_def_init(&def, sizeof def);
-    fe_result result = fe_fixed_joint_def_at(w->world, &def, w->bodies[joint->body_a], w->bodies[joint->body_b], anchor);
+    fe_result result =
+        fe_fixed_joint_def_at(w->world, &def, w->bodies[joint->body_a], w->bodies[joint->body_b], anchor);
     fe_joint created;
     return result == FE_OK ? fe_fixed_joint_create(w->world, &def, &created) : result;
 }
@@ -197,7 +208,8 @@ static fe_result add_distance(bench_world *w, const bench_joint *joint, const fe
     fe_distance_joint_def def;
     fe_distance_joint_def_init(&def, sizeof def);
     const fe_dvec3 other = {joint->anchor_b[0], joint->anchor_b[1], joint->anchor_b[2]};
-    fe_result result = fe_distance_joint_def_at(w->world, &def, w->bodies[joint->body_a], w->bodies[joint->body_b], anchor, &other);
+    fe_result result =
+        fe_distance_joint_def_at(w->world, &def, w->bodies[joint->body_a], w->bodies[joint->body_b], anchor, &other);
     if (joint->hertz > 0.0) {
         def.lower = 0.0f, def.upper = 1e6f; // only the spring
         def.spring_hertz = (float)joint->hertz, def.spring_damping_ratio = (float)joint->damping;
@@ -241,7 +253,8 @@ static bench_world *create(const bench_scene *scene, int32_t workers, int32_t su
     def.substeps = substeps;
     def.gravity = fe_make_vec3((float)scene->gravity[0], (float)scene->gravity[1], (float)scene->gravity[2]);
     fe_result result = fe_world_create(&def, &w->world);
-    for (int32_t i = 0; i < w->count && result == FE_OK; i++) result = add_body(w->world, scene, &scene->bodies[i], &w->bodies[i]);
+    for (int32_t i = 0; i < w->count && result == FE_OK; i++)
+        result = add_body(w->world, scene, &scene->bodies[i], &w->bodies[i]);
     if (result == FE_OK) result = part_groups(w, scene);
     if (result == FE_OK) result = set_tuning(w->world, scene);
     for (int32_t i = 0; i < scene->joint_count && result == FE_OK; i++) result = add_joint(w, &scene->joints[i]);
@@ -329,7 +342,8 @@ static void bring_back(bench_world *w, int32_t body, const bench_pose *pose)
     const double *p = pose->position, *q = pose->rotation;
     const fe_transform at = {fe_make_dvec3(p[0], p[1], p[2]), {(float)q[0], (float)q[1], (float)q[2], (float)q[3]}};
     const fe_vec3 rest = {0.0f, 0.0f, 0.0f};
-    if (fe_body_set_transform(w->world, back, &at) != FE_OK || fe_body_set_linear_velocity(w->world, back, &rest) != FE_OK ||
+    if (fe_body_set_transform(w->world, back, &at) != FE_OK ||
+        fe_body_set_linear_velocity(w->world, back, &rest) != FE_OK ||
         fe_body_set_angular_velocity(w->world, back, &rest) != FE_OK || fe_body_set_enabled(w->world, back, 1) != FE_OK)
         complain("bring back");
 }
@@ -341,11 +355,12 @@ static double mass_of(const bench_world *w, fe_body body)
     return (double)mass;
 }
 
-// The four corners of a cube on a cube weigh together what the pair does: a pair is one spring on the mass of both, of 30 Hz, against what
-// is static of 60.
+// The four corners of a cube on a cube weigh together what the pair does: a pair is one spring on the mass of both, of
+// 30 Hz, against what is static of 60.
 static double held_by(const bench_world *w, const fe_contact *contact, double overlap)
 {
-    const double a = mass_of(w, contact->body_a), b = mass_of(w, contact->body_b), rate = 2.0 * BENCH_PI * 30.0 * overlap;
+    const double a = mass_of(w, contact->body_a), b = mass_of(w, contact->body_b),
+                 rate = 2.0 * BENCH_PI * 30.0 * overlap;
     return a > 0.0 && b > 0.0 ? 0.5 * a * b / (a + b) * rate * rate : 2.0 * (a + b) * rate * rate;
 }
 
@@ -365,7 +380,8 @@ static void add_contact(const bench_world *w, bench_contacts *sum, const fe_cont
 static void measure_contacts(bench_world *w, bench_contacts *out_contacts)
 {
     *out_contacts = (bench_contacts){0, 0, 0.0, 0.0};
-    if (fe_world_step(w->world, 0.0f) != FE_OK) complain("contacts"); // brings separations up to the final poses, moves nothing
+    if (fe_world_step(w->world, 0.0f) != FE_OK)
+        complain("contacts"); // brings separations up to the final poses, moves nothing
     fe_contact *contacts = NULL;
     int32_t capacity = 0;
     for (int32_t i = 0; i < w->count; i++) {

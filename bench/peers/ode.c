@@ -1,4 +1,5 @@
-// ODE as a measuring stick (peer.h): dWorldQuickStep with 20 iterations, hash space, up to 8 contacts a pair, one thread, no sleeping.
+// ODE as a measuring stick (peer.h): dWorldQuickStep with 20 iterations, hash space, up to 8 contacts a pair, one
+// thread, no sleeping.
 #include "peer.h"
 
 #ifdef FE_BENCH_ODE
@@ -39,19 +40,22 @@ static void set_mass(dBodyID body, const bench_shape *shape)
         break;
     case BENCH_BOX:
     default:
-        dMassSetBox(&mass, density, 2.0 * (double)shape->half[0], 2.0 * (double)shape->half[1], 2.0 * (double)shape->half[2]);
+        dMassSetBox(&mass, density, 2.0 * (double)shape->half[0], 2.0 * (double)shape->half[1],
+                    2.0 * (double)shape->half[2]);
         break;
     }
     dBodySetMass(body, &mass);
 }
 
-// About its middle, like the scene's. The engine keeps a copy of the heights; its record of them lives as long as the program.
+// About its middle, like the scene's. The engine keeps a copy of the heights; its record of them lives as long as the
+// program.
 static dGeomID make_terrain(dSpaceID space, const bench_shape *shape)
 {
     const size_t side = (size_t)shape->side;
     const double extent = (double)shape->cell * (shape->side - 1);
     float *heights = bench_allocate(side * side, sizeof *heights);
-    for (size_t i = 0; i < side * side; i++) heights[i] = bench_terrain_height(shape, (int32_t)(i / side), (int32_t)(i % side));
+    for (size_t i = 0; i < side * side; i++)
+        heights[i] = bench_terrain_height(shape, (int32_t)(i / side), (int32_t)(i % side));
     dHeightfieldDataID data = dGeomHeightfieldDataCreate();
     dGeomHeightfieldDataBuildSingle(data, heights, 1, extent, extent, shape->side, shape->side, 1.0, 0.0, 1.0, 0);
     free(heights);
@@ -69,14 +73,17 @@ static dGeomID make_geom(dSpaceID space, const bench_shape *shape)
         return dCreateCapsule(space, (double)shape->radius, 2.0 * (double)shape->half_height);
     case BENCH_BOX:
     default:
-        return dCreateBox(space, 2.0 * (double)shape->half[0], 2.0 * (double)shape->half[1], 2.0 * (double)shape->half[2]);
+        return dCreateBox(space, 2.0 * (double)shape->half[0], 2.0 * (double)shape->half[1],
+                          2.0 * (double)shape->half[2]);
     }
 }
 
-// A body kept in the plane z = 0; ODE has no locks of single axes. The engine's own way: dPlane2D keeps a body in x and y, turning about z.
+// A body kept in the plane z = 0; ODE has no locks of single axes. The engine's own way: dPlane2D keeps a body in x and
+// y, turning about z.
 static void lock_body(bench_world *w, const bench_body *body, dBodyID rigid)
 {
-    if (body->linear_locks == 4 && body->angular_locks == 3) dJointAttach(dJointCreatePlane2D(w->world, NULL), rigid, NULL);
+    if (body->linear_locks == 4 && body->angular_locks == 3)
+        dJointAttach(dJointCreatePlane2D(w->world, NULL), rigid, NULL);
 }
 
 // A static body is a geom alone: it has no body, and the pose is the geom's.
@@ -101,7 +108,8 @@ static void add_body(bench_world *w, const bench_scene *scene, const bench_body 
         dBodySetAngularVel(rigid, (double)u[0], (double)u[1], (double)u[2]);
         dBodySetPosition(rigid, p[0], p[1], p[2]);
         dBodySetQuaternion(rigid, rotation);
-        dBodySetLinearDamping(rigid, (double)body->linear_damping * (double)scene->dt); // ODE's is the share lost in a step
+        dBodySetLinearDamping(rigid,
+                              (double)body->linear_damping * (double)scene->dt); // ODE's is the share lost in a step
         dBodySetAngularDamping(rigid, (double)body->angular_damping * (double)scene->dt);
         dBodySetGravityMode(rigid, body->gravity_scale == 1.0f); // of other scales: see add_scaled_gravity
         lock_body(w, body, rigid);
@@ -214,7 +222,10 @@ static bench_world *create(const bench_scene *scene, int32_t workers, int32_t su
     return w;
 }
 
-static void set_gravity(bench_world *w, const double *gravity) { dWorldSetGravity(w->world, gravity[0], gravity[1], gravity[2]); }
+static void set_gravity(bench_world *w, const double *gravity)
+{
+    dWorldSetGravity(w->world, gravity[0], gravity[1], gravity[2]);
+}
 
 static int can_touch(dGeomID a, dGeomID b)
 {
@@ -237,7 +248,8 @@ static void make_contacts(void *user, dGeomID a, dGeomID b)
         dSurfaceParameters *surface = &contacts[i].surface;
         surface->mode = dContactApprox1; // friction in proportion to the normal force, not a fixed force
         surface->mu = sqrt((double)shape_a->friction * (double)shape_b->friction);
-        surface->bounce = (double)(shape_a->restitution > shape_b->restitution ? shape_a->restitution : shape_b->restitution);
+        surface->bounce =
+            (double)(shape_a->restitution > shape_b->restitution ? shape_a->restitution : shape_b->restitution);
         surface->bounce_vel = w->scene->always_bounce ? 0.0 : 1.0; // m/s, Feather's default threshold
         if (surface->bounce > 0.0) surface->mode |= dContactBounce;
         dJointAttach(dJointCreateContact(w->world, w->contact_joints, &contacts[i]), dGeomGetBody(a), dGeomGetBody(b));
@@ -315,7 +327,8 @@ static void add_force(bench_world *w, int32_t body, const double *force)
 static void add_impulse(bench_world *w, int32_t body, const double *impulse, const double *point)
 {
     const double rate = 1.0 / (double)w->scene->dt; // a force during one step
-    dBodyAddForceAtPos(dGeomGetBody(w->geoms[body]), rate * impulse[0], rate * impulse[1], rate * impulse[2], point[0], point[1], point[2]);
+    dBodyAddForceAtPos(dGeomGetBody(w->geoms[body]), rate * impulse[0], rate * impulse[1], rate * impulse[2], point[0],
+                       point[1], point[2]);
 }
 
 static void take_away(bench_world *w, int32_t body)

@@ -1,6 +1,7 @@
 /// @file peer.h
-/// What an engine must offer to be measured: build a scene, step it, tell poses, contacts and rays. One adapter per engine fills a
-/// bench_engine; the runner knows engines through it alone. An adapter without its package compiles to nothing.
+/// What an engine must offer to be measured: build a scene, step it, tell poses, contacts and rays. One adapter per
+/// engine fills a bench_engine; the runner knows engines through it alone. An adapter without its package compiles to
+/// nothing.
 #ifndef BENCH_PEER_H
 #define BENCH_PEER_H
 
@@ -66,10 +67,13 @@ typedef struct bench_engine {
     void (*read_poses)(bench_world *world, bench_pose *out_poses);
     void (*read_motions)(bench_world *world, bench_motion *out_motions);      ///< likewise; zeros for static bodies
     void (*add_force)(bench_world *world, int32_t body, const double *force); ///< at the centre, N, in the next step
-    void (*add_impulse)(bench_world *world, int32_t body, const double *impulse, const double *point); ///< N s, m, world space
-    void (*set_gravity)(bench_world *world, const double *gravity);                                    ///< m/s2, from the next step on
-    void (*take_away)(bench_world *world, int32_t body); ///< out of play: no contacts, no joints; its pose is of no interest any more
-    void (*bring_back)(bench_world *world, int32_t body, const bench_pose *pose); ///< what was taken away is in play there again, at rest
+    void (*add_impulse)(bench_world *world, int32_t body, const double *impulse,
+                        const double *point);                       ///< N s, m, world space
+    void (*set_gravity)(bench_world *world, const double *gravity); ///< m/s2, from the next step on
+    void (*take_away)(bench_world *world,
+                      int32_t body); ///< out of play: no contacts, no joints; its pose is of no interest any more
+    void (*bring_back)(bench_world *world, int32_t body,
+                       const bench_pose *pose); ///< what was taken away is in play there again, at rest
     /// May touch the engine's contact caches: the last call on a world before its destruction.
     void (*measure_contacts)(bench_world *world, bench_contacts *out_contacts);
     /// 1 on a hit.
@@ -80,7 +84,7 @@ typedef struct bench_engine {
     void (*read_counters)(bench_world *world, bench_counters *out_counters);              ///< optional
     uint64_t (*read_hash)(bench_world *world);                                            ///< optional
     int32_t (*sweep)(bench_world *world, const bench_probe *probe, double *out_fraction); ///< optional; 1 on a hit
-    int32_t (*overlap)(bench_world *world, const bench_probe *probe);                     ///< optional: how many bodies it overlaps
+    int32_t (*overlap)(bench_world *world, const bench_probe *probe); ///< optional: how many bodies it overlaps
 } bench_engine;
 
 extern const bench_engine bench_feather;

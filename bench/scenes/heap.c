@@ -1,5 +1,5 @@
-// n boxes, spheres and capsules in the air (fall) or tumbling over each other on open ground (awake): the lines by which smaller engines
-// are told.
+// n boxes, spheres and capsules in the air (fall) or tumbling over each other on open ground (awake): the lines by
+// which smaller engines are told.
 #include "../random.h"
 #include "../scene.h"
 
@@ -8,7 +8,8 @@ static const uint64_t SEED = 0x9e3779b97f4a7c15u;
 // Columns of layers; jitter lets what falls onto each other roll off.
 static void add_mixed(bench_scene *scene, int32_t n, int32_t side, double pitch, double lowest, double jitter)
 {
-    const int32_t shapes[3] = {bench_add_shape(scene, bench_make_box(0.4f, 0.3f, 0.5f)), bench_add_shape(scene, bench_make_sphere(0.45f)),
+    const int32_t shapes[3] = {bench_add_shape(scene, bench_make_box(0.4f, 0.3f, 0.5f)),
+                               bench_add_shape(scene, bench_make_sphere(0.45f)),
                                bench_add_shape(scene, bench_make_capsule(0.3f, 0.3f))};
     uint64_t state = SEED;
     bench_add_static(scene, bench_add_shape(scene, bench_make_box(200.0f, 1.0f, 200.0f)), 0.0, -1.0, 0.0);

@@ -15,10 +15,12 @@ void bench_build_level(bench_scene *scene, int32_t n)
         forms[i] = bench_add_shape(scene, bench_make_box(x, y, (float)(0.2 + 0.8 * bench_random(&state))));
     }
     for (int32_t i = 0; i < n; i++) {
-        double x = half * (2.0 * bench_random(&state) - 1.0), z = half * (2.0 * bench_random(&state) - 1.0), y = 8.0 * bench_random(&state);
+        double x = half * (2.0 * bench_random(&state) - 1.0), z = half * (2.0 * bench_random(&state) - 1.0),
+               y = 8.0 * bench_random(&state);
         int32_t body = bench_add_static(scene, forms[i % FORMS], x, y, z);
         double angle = BENCH_PI * bench_random(&state);
-        scene->bodies[body].start.rotation[1] = sin(0.5 * angle), scene->bodies[body].start.rotation[3] = cos(0.5 * angle);
+        scene->bodies[body].start.rotation[1] = sin(0.5 * angle),
+        scene->bodies[body].start.rotation[3] = cos(0.5 * angle);
     }
     scene->warm_up_steps = 1;
     scene->timed_steps = 1;

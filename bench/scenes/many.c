@@ -6,7 +6,8 @@ enum { ROWS = 10 };
 static void add_pyramid(bench_scene *scene, int32_t box, double centre, double z)
 {
     for (int32_t i = 0; i < ROWS; i++) {
-        for (int32_t j = i; j < ROWS; j++) bench_add_dynamic(scene, box, 0.5 * (i + 1) + (j - i) + centre - 0.5, i + 0.5, z);
+        for (int32_t j = i; j < ROWS; j++)
+            bench_add_dynamic(scene, box, 0.5 * (i + 1) + (j - i) + centre - 0.5, i + 0.5, z);
     }
 }
 

@@ -1,4 +1,5 @@
-// One flat pyramid of n rows of cubes: one large island, the solver's scene. Geometry of Box3D's benchmark large_pyramid.
+// One flat pyramid of n rows of cubes: one large island, the solver's scene. Geometry of Box3D's benchmark
+// large_pyramid.
 #include "../scene.h"
 
 void bench_build_pyramid(bench_scene *scene, int32_t n)

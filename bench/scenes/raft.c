@@ -14,7 +14,8 @@ void bench_build_raft(bench_scene *scene, int32_t n)
     bench_add_static(scene, ground, 0.0, -1.0, 0.0);
     bench_add_dynamic(scene, plate, 0.0, 0.5, 0.0);
     double corner = -0.5 * pitch * (side - 1);
-    for (int32_t i = 0; i < n; i++) bench_add_dynamic(scene, box, corner + pitch * (i % side), 1.5, corner + pitch * (i / side));
+    for (int32_t i = 0; i < n; i++)
+        bench_add_dynamic(scene, box, corner + pitch * (i % side), 1.5, corner + pitch * (i / side));
     scene->warm_up_steps = 60;
     scene->timed_steps = 60;
 }

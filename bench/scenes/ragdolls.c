@@ -1,5 +1,6 @@
-// n people of fourteen capsules, dropped on a heightfield: the ragdolls of examples/machines.h (Box3D's human) as data for every engine.
-// A joint's zero is the person standing, and its cone and range lie about that: not all engines know two frames.
+// n people of fourteen capsules, dropped on a heightfield: the ragdolls of examples/machines.h (Box3D's human) as data
+// for every engine. A joint's zero is the person standing, and its cone and range lie about that: not all engines know
+// two frames.
 #include "../../examples/machines.h"
 #include "../scene.h"
 
@@ -15,7 +16,8 @@ static fe_vec3 minus(fe_vec3 a, fe_vec3 b) { return fe_make_vec3(a.x - b.x, a.y 
 static int32_t add_shape(bench_scene *scene, const ragdoll_bone *bone)
 {
     fe_vec3 along = minus(bone->end_b, bone->end_a);
-    bench_shape capsule = bench_make_capsule(0.5f * sqrtf(along.x * along.x + along.y * along.y + along.z * along.z), bone->radius);
+    bench_shape capsule =
+        bench_make_capsule(0.5f * sqrtf(along.x * along.x + along.y * along.y + along.z * along.z), bone->radius);
     capsule.rolling = 0.2f;
     return bench_add_shape(scene, capsule);
 }
@@ -24,7 +26,8 @@ static int32_t add_shape(bench_scene *scene, const ragdoll_bone *bone)
 static int32_t add_bone(bench_scene *scene, const ragdoll_bone *bone, int32_t shape, double x, double z)
 {
     fe_vec3 along = minus(bone->end_b, bone->end_a);
-    fe_vec3 half = {0.5f * (bone->end_a.x + bone->end_b.x), 0.5f * (bone->end_a.y + bone->end_b.y), 0.5f * (bone->end_a.z + bone->end_b.z)};
+    fe_vec3 half = {0.5f * (bone->end_a.x + bone->end_b.x), 0.5f * (bone->end_a.y + bone->end_b.y),
+                    0.5f * (bone->end_a.z + bone->end_b.z)};
     fe_vec3 middle = machine_rotate(bone->rotation, half);
     fe_quat q = machine_multiply(bone->rotation, machine_turn_y_to(along));
     double length = sqrt((double)(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w));
@@ -39,12 +42,15 @@ static void add_joint(bench_scene *scene, const ragdoll_bone *bone, int32_t pare
 {
     const double degree = BENCH_PI / 180.0;
     fe_vec3 point = machine_rotate(bone->rotation, bone->point);
-    int32_t index = bench_add_joint(scene, parent, child, x + (double)(bone->position.x + point.x),
-                                    HEIGHT + (double)(bone->position.y + point.y), z + (double)(bone->position.z + point.z));
+    int32_t index =
+        bench_add_joint(scene, parent, child, x + (double)(bone->position.x + point.x),
+                        HEIGHT + (double)(bone->position.y + point.y), z + (double)(bone->position.z + point.z));
     bench_joint *joint = &scene->joints[index];
-    fe_vec3 axis = machine_rotate(machine_multiply(bone->rotation, bone->frame_b), fe_make_vec3(0, 0, 1)); // the table's are about Z
+    fe_vec3 axis = machine_rotate(machine_multiply(bone->rotation, bone->frame_b),
+                                  fe_make_vec3(0, 0, 1)); // the table's are about Z
     double length = sqrt((double)(axis.x * axis.x + axis.y * axis.y + axis.z * axis.z));
-    joint->axis[0] = (double)axis.x / length, joint->axis[1] = (double)axis.y / length, joint->axis[2] = (double)axis.z / length;
+    joint->axis[0] = (double)axis.x / length, joint->axis[1] = (double)axis.y / length,
+    joint->axis[2] = (double)axis.z / length;
     joint->kind = bone->joint == RAGDOLL_HINGE ? BENCH_HINGE : BENCH_BALL;
     joint->has_limits = 1;
     joint->limits[0] = (double)bone->low * degree, joint->limits[1] = (double)bone->high * degree;

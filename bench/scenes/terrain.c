@@ -7,7 +7,8 @@ float bench_terrain_height(const bench_shape *terrain, int32_t row, int32_t colu
 {
     const double x = column, z = row;
     if (terrain->relief == BENCH_WAVES) return (float)(0.5 * sin(0.2 * BENCH_PI * z) * sin(0.4 * BENCH_PI * x));
-    return (float)(2.5 * sin(0.021 * x) * cos(0.017 * z) + 0.6 * sin(0.13 * x + 0.11 * z) + 0.1 * sin(1.1 * x) * sin(0.9 * z));
+    return (float)(2.5 * sin(0.021 * x) * cos(0.017 * z) + 0.6 * sin(0.13 * x + 0.11 * z) +
+                   0.1 * sin(1.1 * x) * sin(0.9 * z));
 }
 
 void bench_build_terrain(bench_scene *scene, int32_t n)

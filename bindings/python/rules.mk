@@ -15,11 +15,9 @@ python: $(PYTHON_PACKAGE)/_flat.so $(PYTHON_SOURCES:bindings/python/%=$(BUILD)/p
 $(BUILD)/python/flat.c: bindings/feather.i bindings/records.i bindings/twins.h bindings/python/python.i include/feather.h
 	@mkdir -p $(@D)
 	$(RUN)$(SWIG) -python -builtin -Iinclude -Ibindings -outdir $(@D) -o $@ bindings/feather.i
-$(BUILD)/absent.a: bindings/absent.awk include/feather.h
-	$(RUN)awk -f bindings/absent.awk include/feather.h | $(CC) -x c -c -w -fPIC -Iinclude -o $(BUILD)/absent.o - && ar rcs $@ $(BUILD)/absent.o
-$(PYTHON_PACKAGE)/_flat.so: $(BUILD)/python/flat.c bindings/python/convert.h $(STATIC) $(BUILD)/absent.a
+$(PYTHON_PACKAGE)/_flat.so: $(BUILD)/python/flat.c bindings/python/convert.h $(STATIC)
 	@mkdir -p $(@D)
-	$(RUN)$(CC) -shared $(WRAPPER_FLAGS) $(PYTHON_FLAGS) $< $(STATIC) $(BUILD)/absent.a $(LINK_FLAGS) -Wl,--exclude-libs,ALL -lm -o $@
+	$(RUN)$(CC) -shared $(WRAPPER_FLAGS) $(PYTHON_FLAGS) $< $(STATIC) $(LINK_FLAGS) -Wl,--exclude-libs,ALL -lm -o $@
 $(PYTHON_PACKAGE)/%: bindings/python/feather_physics/%
 	@mkdir -p $(@D)
 	@cp $< $@

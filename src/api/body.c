@@ -9,7 +9,8 @@
 
 #include <string.h>
 
-// ---- life -----------------------------------------------------------------------------------------------------------------------
+// ---- life
+// -----------------------------------------------------------------------------------------------------------------------
 
 static fe_body_def default_body(void)
 {
@@ -64,7 +65,7 @@ static fe_body create(fe_world *world, fe_body_def full)
 fe_result fe_body_create(fe_world *world, const fe_body_def *def, fe_body *out_body)
 {
     if (out_body) *out_body = 0;
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     FE_CHECK_POINTER(out_body);
     fe_body_def full;
     FE_TRY(read_body_def(function, def, &full));
@@ -73,7 +74,8 @@ fe_result fe_body_create(fe_world *world, const fe_body_def *def, fe_body *out_b
     return FE_OK;
 }
 
-fe_result fe_body_create_many(fe_world *world, const fe_body_def *defs, uint32_t stride, int32_t count, fe_body *out_bodies)
+fe_result fe_body_create_many(fe_world *world, const fe_body_def *defs, uint32_t stride, int32_t count,
+                              fe_body *out_bodies)
 {
     if (out_bodies && count > 0) memset(out_bodies, 0, sizeof *out_bodies * (size_t)count);
     FE_WRITE(world);
@@ -104,19 +106,21 @@ static void destroy(fe_world *world, int32_t index)
 
 fe_result fe_body_destroy(fe_world *world, fe_body body)
 {
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     FE_FIND_BODY(index, body);
     destroy(world, index);
     return FE_OK;
 }
 
 // Finds all of them, each once; what is found is marked until the call ends.
-static fe_result mark_bodies(const char *function, fe_world *world, const fe_body *bodies, int32_t count, int32_t *out_marked)
+static fe_result mark_bodies(const char *function, fe_world *world, const fe_body *bodies, int32_t count,
+                             int32_t *out_marked)
 {
     for (int32_t i = 0; i < count; ++i) {
         FE_FIND_BODY(index, bodies[i]);
         if (world->bodies[index].flags & FE__BODY_STARTED) {
-            return fe__fail(function, FE_ERROR_ARGUMENT, "bodies[%d] is body 0x%llx for the second time", (int)i, bodies[i]);
+            return fe__fail(function, FE_ERROR_ARGUMENT, "bodies[%d] is body 0x%llx for the second time", (int)i,
+                            bodies[i]);
         }
         world->bodies[index].flags |= FE__BODY_STARTED;
         *out_marked = i + 1;
@@ -126,7 +130,7 @@ static fe_result mark_bodies(const char *function, fe_world *world, const fe_bod
 
 fe_result fe_body_destroy_many(fe_world *world, const fe_body *bodies, int32_t count)
 {
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     FE_CHECK_ARRAY(bodies, count);
     int32_t marked = 0;
     fe_result result = mark_bodies(function, world, bodies, count, &marked);
@@ -142,7 +146,8 @@ int32_t fe_body_is_valid(const fe_world *world, fe_body body)
     return world && fe__id_pool_find(&world->body_ids, body, &index) == FE_OK;
 }
 
-// ---- type and pose --------------------------------------------------------------------------------------------------------------
+// ---- type and pose
+// --------------------------------------------------------------------------------------------------------------
 
 // has a form that only static bodies may have
 static int32_t must_be_static(const fe_world *world, int32_t body)
@@ -155,11 +160,12 @@ static int32_t must_be_static(const fe_world *world, int32_t body)
 
 fe_result fe_body_set_type(fe_world *world, fe_body body, int32_t type)
 {
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_INT(type, FE_BODY_STATIC, FE_BODY_DYNAMIC);
     if (type != FE_BODY_STATIC && must_be_static(world, index)) {
-        return fe__fail(function, FE_ERROR_UNSUPPORTED, "body 0x%llx has a plane or a heightfield, so that it must be static", body);
+        return fe__fail(function, FE_ERROR_UNSUPPORTED,
+                        "body 0x%llx has a plane or a heightfield, so that it must be static", body);
     }
     fe__fp_state fp = fe__fp_enter();
     fe_result result = fe__body_set_type(world, index, type);
@@ -207,7 +213,8 @@ fe_result fe_body_get_centre(const fe_world *world, fe_body body, fe_dvec3 *out_
     return FE_OK;
 }
 
-// ---- mass -----------------------------------------------------------------------------------------------------------------------
+// ---- mass
+// -----------------------------------------------------------------------------------------------------------------------
 
 static fe_result check_dynamic(const char *function, const fe_world *world, int32_t index, fe_body body)
 {
@@ -215,15 +222,16 @@ static fe_result check_dynamic(const char *function, const fe_world *world, int3
     return fe__fail(function, FE_ERROR_STATE, "body 0x%llx is not dynamic, it has no mass", body);
 }
 
-// A moment is the integral of two of the squares x^2, y^2, z^2 over the mass: none exceeds the sum of the others. Flat bodies reach it, and
-// rounding passes it by a little.
+// A moment is the integral of two of the squares x^2, y^2, z^2 over the mass: none exceeds the sum of the others. Flat
+// bodies reach it, and rounding passes it by a little.
 static fe_result check_triangle(const char *function, const fe_vec3 *inertia)
 {
     const double slack = 1.0 + 1e-5;
     double x = (double)inertia->x, y = (double)inertia->y, z = (double)inertia->z;
     if (x <= (y + z) * slack && y <= (z + x) * slack && z <= (x + y) * slack) return FE_OK;
-    return fe__fail(function, FE_ERROR_ARGUMENT, "data->inertia is (%.9g, %.9g, %.9g): no body has a moment above the sum of the other two",
-                    x, y, z);
+    return fe__fail(function, FE_ERROR_ARGUMENT,
+                    "data->inertia is (%.9g, %.9g, %.9g): no body has a moment above the sum of the other two", x, y,
+                    z);
 }
 
 static fe_result read_mass_data(const char *function, const fe_mass_data *data, fe_mass_data *copy)
@@ -248,7 +256,10 @@ static void give_mass(fe_world *world, int32_t index, const fe_mass_data *data)
 
 void fe_mass_data_init(fe_mass_data *data, uint32_t struct_size)
 {
-    fe_mass_data defaults = {.struct_size = sizeof defaults, .mass = 1.0f, .inertia = {1.0f, 1.0f, 1.0f}, .inertia_rotation = {.w = 1.0f}};
+    fe_mass_data defaults = {.struct_size = sizeof defaults,
+                             .mass = 1.0f,
+                             .inertia = {1.0f, 1.0f, 1.0f},
+                             .inertia_rotation = {.w = 1.0f}};
     fe__init_struct(data, &defaults, sizeof defaults, struct_size);
 }
 
@@ -322,7 +333,8 @@ fe_result fe_body_reset_mass(fe_world *world, fe_body body)
     return FE_OK;
 }
 
-// ---- locks, damping, gravity ----------------------------------------------------------------------------------------------------
+// ---- locks, damping, gravity
+// ----------------------------------------------------------------------------------------------------
 
 fe_result fe_body_set_locks(fe_world *world, fe_body body, uint32_t linear_axes, uint32_t angular_axes)
 {
@@ -390,7 +402,8 @@ fe_result fe_body_get_gravity_scale(const fe_world *world, fe_body body, float *
     return FE_OK;
 }
 
-// ---- sleep ----------------------------------------------------------------------------------------------------------------------
+// ---- sleep
+// ----------------------------------------------------------------------------------------------------------------------
 
 fe_result fe_body_set_awake(fe_world *world, fe_body body, int32_t awake)
 {
@@ -402,7 +415,8 @@ fe_result fe_body_set_awake(fe_world *world, fe_body body, int32_t awake)
         return FE_OK;
     }
     if (world->bodies[index].awake_index < 0) return FE_OK;
-    if (!world->tuning.sleep_enabled) return fe__fail(function, FE_ERROR_STATE, "sleep_enabled of the world's tuning is 0");
+    if (!world->tuning.sleep_enabled)
+        return fe__fail(function, FE_ERROR_STATE, "sleep_enabled of the world's tuning is 0");
     fe_result result = fe__put_to_sleep(world, index);
     if (result != FE_ERROR_STATE) return fe__report(function, result);
     return fe__fail(function, result, "body 0x%llx, or one that it touches, is not allowed to sleep now", body);
@@ -460,11 +474,12 @@ fe_result fe_body_get_sleep_threshold(const fe_world *world, fe_body body, float
     return FE_OK;
 }
 
-// ---- switches -------------------------------------------------------------------------------------------------------------------
+// ---- switches
+// -------------------------------------------------------------------------------------------------------------------
 
 fe_result fe_body_set_enabled(fe_world *world, fe_body body, int32_t enabled)
 {
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_BOOL(enabled);
     fe__fp_state fp = fe__fp_enter();
@@ -518,21 +533,24 @@ fe_result fe_body_get_user_data(const fe_world *world, fe_body body, uint64_t *o
     return FE_OK;
 }
 
-// ---- its shapes -----------------------------------------------------------------------------------------------------------------
+// ---- its shapes
+// -----------------------------------------------------------------------------------------------------------------
 
 fe_result fe_body_set_filter(fe_world *world, fe_body body, uint32_t layer, uint32_t mask, int32_t group)
 {
     FE_WRITE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_FILTER(layer);
-    if (world->bodies[index].shape_count == 0) return fe__fail(function, FE_ERROR_STATE, "body 0x%llx has no shapes to filter", body);
+    if (world->bodies[index].shape_count == 0)
+        return fe__fail(function, FE_ERROR_STATE, "body 0x%llx has no shapes to filter", body);
     for (int32_t shape = world->bodies[index].first_shape; shape >= 0; shape = world->shapes[shape].next) {
         fe__shape_set_filter(world, shape, layer, mask, group);
     }
     return FE_OK;
 }
 
-fe_result fe_body_get_filter(const fe_world *world, fe_body body, uint32_t *out_layer, uint32_t *out_mask, int32_t *out_group)
+fe_result fe_body_get_filter(const fe_world *world, fe_body body, uint32_t *out_layer, uint32_t *out_mask,
+                             int32_t *out_group)
 {
     FE_READ(world);
     FE_FIND_BODY(index, body);
@@ -559,7 +577,8 @@ int32_t fe_body_get_shapes(const fe_world *world, fe_body body, fe_shape *out_sh
     FE_FIND_BODY(index, body);
     FE_CHECK_ARRAY(out_shapes, capacity);
     int32_t count = 0;
-    for (int32_t shape = world->bodies[index].first_shape; shape >= 0 && count < capacity; shape = world->shapes[shape].next) {
+    for (int32_t shape = world->bodies[index].first_shape; shape >= 0 && count < capacity;
+         shape = world->shapes[shape].next) {
         out_shapes[count++] = fe__shape_handle(world, shape);
     }
     return world->bodies[index].shape_count;

@@ -4,7 +4,8 @@
 #include "world/motion.h"
 #include "world/pose.h"
 
-// ---- velocities -----------------------------------------------------------------------------------------------------------------
+// ---- velocities
+// -----------------------------------------------------------------------------------------------------------------
 
 static fe_result check_moves(const char *function, const fe_world *world, int32_t index, fe_body body)
 {
@@ -75,7 +76,8 @@ fe_result fe_body_get_point_velocity(const fe_world *world, fe_body body, const 
 }
 
 // v = distance / seconds: the centre of a kinematic body is its origin
-static void velocities_to(const fe__body *body, const fe_transform *target, double seconds, fe_vec3 *out_linear, fe_vec3 *out_angular)
+static void velocities_to(const fe__body *body, const fe_transform *target, double seconds, fe_vec3 *out_linear,
+                          fe_vec3 *out_angular)
 {
     fe_transform now = fe__body_transform(body);
     *out_linear = fe__narrow(fe__dscale(1.0 / seconds, fe__dsub(target->position, now.position)));
@@ -101,7 +103,8 @@ fe_result fe_body_set_target(fe_world *world, fe_body body, const fe_transform *
     return FE_OK;
 }
 
-// ---- forces ---------------------------------------------------------------------------------------------------------------------
+// ---- forces
+// ---------------------------------------------------------------------------------------------------------------------
 
 static void push(fe_world *world, int32_t index, fe_vec3 force, fe_vec3 torque)
 {
@@ -150,7 +153,8 @@ fe_result fe_body_add_torque(fe_world *world, fe_body body, const fe_vec3 *torqu
     return FE_OK;
 }
 
-// ---- impulses -------------------------------------------------------------------------------------------------------------------
+// ---- impulses
+// -------------------------------------------------------------------------------------------------------------------
 
 static fe_result strike(const char *function, fe_world *world, int32_t index, fe_vec3 impulse, fe_vec3 angular_impulse)
 {

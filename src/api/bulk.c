@@ -1,7 +1,7 @@
 // bulk.c - the API that reads and writes many bodies with one call.
 //
-// Writing is all or none: everything is checked before the first body changes. A body may be named twice: its last value stands, forces add
-// up.
+// Writing is all or none: everything is checked before the first body changes. A body may be named twice: its last
+// value stands, forces add up.
 #include "api/check.h"
 #include "core/fp_state.h"
 #include "world/bodies.h"
@@ -21,7 +21,8 @@ typedef struct pose_f32 {
     fe_quat rotation;
 } pose_f32;
 
-_Static_assert(sizeof(twist) == 6 * sizeof(float) && sizeof(pose_f32) == 7 * sizeof(float), "these are arrays of floats to the caller");
+_Static_assert(sizeof(twist) == 6 * sizeof(float) && sizeof(pose_f32) == 7 * sizeof(float),
+               "these are arrays of floats to the caller");
 
 // The caller's arrays may lie at any address: records are copied, never pointed to.
 static twist twist_at(const float *floats, uint32_t stride, int32_t i)
@@ -47,9 +48,11 @@ static fe_result find_all(const char *function, const fe_world *world, const fe_
     return FE_OK;
 }
 
-// ---- poses ----------------------------------------------------------------------------------------------------------------------
+// ---- poses
+// ----------------------------------------------------------------------------------------------------------------------
 
-int32_t fe_world_get_moved(const fe_world *world, fe_body *out_bodies, fe_transform *out_transforms, uint32_t stride, int32_t capacity)
+int32_t fe_world_get_moved(const fe_world *world, fe_body *out_bodies, fe_transform *out_transforms, uint32_t stride,
+                           int32_t capacity)
 {
     FE_READ(world);
     FE_CHECK_ARRAY(out_bodies, capacity);
@@ -67,8 +70,8 @@ int32_t fe_world_get_moved(const fe_world *world, fe_body *out_bodies, fe_transf
     return count;
 }
 
-fe_result fe_world_get_transforms(const fe_world *world, const fe_body *bodies, fe_transform *out_transforms, uint32_t stride,
-                                  int32_t count)
+fe_result fe_world_get_transforms(const fe_world *world, const fe_body *bodies, fe_transform *out_transforms,
+                                  uint32_t stride, int32_t count)
 {
     FE_READ(world);
     FE_CHECK_ARRAY(bodies, count);
@@ -82,7 +85,8 @@ fe_result fe_world_get_transforms(const fe_world *world, const fe_body *bodies, 
     return FE_OK;
 }
 
-fe_result fe_world_set_transforms(fe_world *world, const fe_body *bodies, const fe_transform *transforms, uint32_t stride, int32_t count)
+fe_result fe_world_set_transforms(fe_world *world, const fe_body *bodies, const fe_transform *transforms,
+                                  uint32_t stride, int32_t count)
 {
     FE_WRITE(world);
     FE_CHECK_ARRAY(bodies, count);
@@ -102,8 +106,8 @@ fe_result fe_world_set_transforms(fe_world *world, const fe_body *bodies, const 
     return FE_OK;
 }
 
-fe_result fe_world_get_transforms_f32(const fe_world *world, const fe_body *bodies, const fe_dvec3 *origin, float *out_floats,
-                                      uint32_t stride, int32_t count)
+fe_result fe_world_get_transforms_f32(const fe_world *world, const fe_body *bodies, const fe_dvec3 *origin,
+                                      float *out_floats, uint32_t stride, int32_t count)
 {
     FE_READ(world);
     FE_CHECK_ARRAY(bodies, count);
@@ -121,9 +125,11 @@ fe_result fe_world_get_transforms_f32(const fe_world *world, const fe_body *bodi
     return FE_OK;
 }
 
-// ---- velocities and forces ------------------------------------------------------------------------------------------------------
+// ---- velocities and forces
+// ------------------------------------------------------------------------------------------------------
 
-fe_result fe_world_get_velocities(const fe_world *world, const fe_body *bodies, float *out_floats, uint32_t stride, int32_t count)
+fe_result fe_world_get_velocities(const fe_world *world, const fe_body *bodies, float *out_floats, uint32_t stride,
+                                  int32_t count)
 {
     FE_READ(world);
     FE_CHECK_ARRAY(bodies, count);
@@ -138,7 +144,8 @@ fe_result fe_world_get_velocities(const fe_world *world, const fe_body *bodies, 
     return FE_OK;
 }
 
-fe_result fe_world_set_velocities(fe_world *world, const fe_body *bodies, const float *floats, uint32_t stride, int32_t count)
+fe_result fe_world_set_velocities(fe_world *world, const fe_body *bodies, const float *floats, uint32_t stride,
+                                  int32_t count)
 {
     FE_WRITE(world);
     FE_CHECK_ARRAY(bodies, count);
@@ -162,7 +169,8 @@ fe_result fe_world_set_velocities(fe_world *world, const fe_body *bodies, const 
     return FE_OK;
 }
 
-fe_result fe_world_add_forces(fe_world *world, const fe_body *bodies, const float *floats, uint32_t stride, int32_t count)
+fe_result fe_world_add_forces(fe_world *world, const fe_body *bodies, const float *floats, uint32_t stride,
+                              int32_t count)
 {
     FE_WRITE(world);
     FE_CHECK_ARRAY(bodies, count);

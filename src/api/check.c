@@ -22,46 +22,62 @@ fe_result fe__refuse(const char *function, const fe_world *world)
     case FE__CLOSING:
         return fe__fail(function, FE_ERROR_BUSY, "the world is being destroyed");
     default:
-        return fe__fail(function, FE_ERROR_BUSY, "another call is changing this world now; one world needs one writer at a time");
+        return fe__fail(function, FE_ERROR_BUSY,
+                        "another call is changing this world now; one world needs one writer at a time");
     }
 }
 
-// ---- handles --------------------------------------------------------------------------------------------------------------------
+fe_result fe__refuse_writer(const char *function)
+{
+    return fe__fail(function, FE_ERROR_BUSY,
+                    "another thread is reading this world; call it when its calls have returned");
+}
 
-static fe_result find(const char *function, const char *name, const fe__id_pool *pool, fe_handle handle, int32_t *out_slot)
+// ---- handles
+// --------------------------------------------------------------------------------------------------------------------
+
+static fe_result find(const char *function, const char *name, const fe__id_pool *pool, fe_handle handle,
+                      int32_t *out_slot)
 {
     fe_result result = fe__id_pool_find(pool, handle, out_slot);
     if (result == FE_OK) return FE_OK;
     const char *kind = kind_names[pool->kind];
     if (handle == 0) return fe__fail(function, result, "%s is 0, the handle of nothing", name);
     if (result == FE_ERROR_KIND) {
-        return fe__fail(function, result, "%s 0x%llx is a %s, not a %s", name, handle, kind_names[fe__id_kind_of(handle)], kind);
+        return fe__fail(function, result, "%s 0x%llx is a %s, not a %s", name, handle,
+                        kind_names[fe__id_kind_of(handle)], kind);
     }
     if (fe__id_kind_of(handle) != 0 && fe__id_number_of(handle) != pool->number) {
-        return fe__fail(function, result, "%s 0x%llx is a %s of world %" PRId32 ", this is world %" PRId32, name, handle, kind,
-                        fe__id_number_of(handle), pool->number);
+        const char *home = pool->kind == FE_KIND_ASSET ? "store" : "world";
+        return fe__fail(function, result, "%s 0x%llx is a %s of %s %" PRId32 ", this is %s %" PRId32, name, handle,
+                        kind, home, fe__id_number_of(handle), home, pool->number);
     }
-    int32_t slot = fe__id_slot_of(handle), now = fe__id_pool_generation(pool, slot), then = fe__id_generation_of(handle);
+    int32_t slot = fe__id_slot_of(handle), now = fe__id_pool_generation(pool, slot),
+            then = fe__id_generation_of(handle);
     if (fe__id_kind_of(handle) != 0 && then > 0 && then < now) {
         return fe__fail(function, result,
-                        "%s 0x%llx was destroyed (slot %" PRId32 " is at generation %" PRId32 ", the handle has %" PRId32 ")", kind, handle,
-                        slot, now, then);
+                        "%s 0x%llx was destroyed (slot %" PRId32 " is at generation %" PRId32
+                        ", the handle has %" PRId32 ")",
+                        kind, handle, slot, now, then);
     }
     return fe__fail(function, result, "%s 0x%llx was never the handle of a %s in this world", name, handle, kind);
 }
 
-fe_result fe__find_body(const char *function, const char *name, const fe_world *world, fe_body handle, int32_t *out_index)
+fe_result fe__find_body(const char *function, const char *name, const fe_world *world, fe_body handle,
+                        int32_t *out_index)
 {
     return find(function, name, &world->body_ids, handle, out_index);
 }
 
-fe_result fe__find_shape(const char *function, const char *name, const fe_world *world, fe_shape handle, int32_t *out_index)
+fe_result fe__find_shape(const char *function, const char *name, const fe_world *world, fe_shape handle,
+                         int32_t *out_index)
 {
     return find(function, name, &world->shape_ids, handle, out_index);
 }
 
 // A joint's record is one above its slot: record 0 is no joint
-fe_result fe__find_joint(const char *function, const char *name, const fe_world *world, fe_joint handle, int32_t *out_index)
+fe_result fe__find_joint(const char *function, const char *name, const fe_world *world, fe_joint handle,
+                         int32_t *out_index)
 {
     int32_t slot;
     FE_TRY(find(function, name, &world->joint_ids, handle, &slot));
@@ -69,16 +85,19 @@ fe_result fe__find_joint(const char *function, const char *name, const fe_world 
     return FE_OK;
 }
 
-fe_result fe__find_asset(const char *function, const char *name, const fe_world *world, fe_asset handle, int32_t *out_index)
+fe_result fe__find_asset(const char *function, const char *name, const fe_store *store, fe_asset handle,
+                         int32_t *out_index)
 {
-    FE_TRY(find(function, name, &world->asset_ids, handle, out_index));
-    if (!world->assets[*out_index].destroyed) return FE_OK;
+    FE_TRY(find(function, name, &store->ids, handle, out_index));
+    if (!fe__store_asset(store, *out_index)->destroyed) return FE_OK;
     return fe__fail(function, FE_ERROR_STALE, "asset 0x%llx was destroyed; it lives on for its shapes only", handle);
 }
 
-// ---- words of a sentence --------------------------------------------------------------------------------------------------------
+// ---- words of a sentence
+// --------------------------------------------------------------------------------------------------------
 
-// The checks' arguments are expressions of the code, such as &full->frame.position. The caller knows what is behind the last arrow.
+// The checks' arguments are expressions of the code, such as &full->frame.position. The caller knows what is behind the
+// last arrow.
 static const char *callers_name(const char *expression)
 {
     const char *name = expression;
@@ -109,7 +128,8 @@ static number_text text_of(double value)
     return t;
 }
 
-// ---- values ---------------------------------------------------------------------------------------------------------------------
+// ---- values
+// ---------------------------------------------------------------------------------------------------------------------
 
 fe_result fe__check_pointer(const char *function, const char *name, int32_t there)
 {
@@ -117,30 +137,33 @@ fe_result fe__check_pointer(const char *function, const char *name, int32_t ther
 }
 
 // Finite first, by a comparison that raises nothing: a host may have unmasked the exceptions of NaNs.
-fe_result fe__check_number(const char *function, const char *name, const char *part, double value, double low, double high)
+fe_result fe__check_number(const char *function, const char *name, const char *part, double value, double low,
+                           double high)
 {
     if (__builtin_isfinite(value) && value >= low && value <= high) return FE_OK;
-    return fe__fail(function, FE_ERROR_ARGUMENT, "%s%s is %s, must be %s..%s", callers_name(name), part, text_of(value).text,
-                    text_of(low).text, text_of(high).text);
+    return fe__fail(function, FE_ERROR_ARGUMENT, "%s%s is %s, must be %s..%s", callers_name(name), part,
+                    text_of(value).text, text_of(low).text, text_of(high).text);
 }
 
 fe_result fe__check_int(const char *function, const char *name, int64_t value, int64_t low, int64_t high)
 {
     if (value >= low && value <= high) return FE_OK;
-    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is %" PRId64 ", must be %" PRId64 "..%" PRId64, callers_name(name), value, low, high);
+    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is %" PRId64 ", must be %" PRId64 "..%" PRId64, callers_name(name),
+                    value, low, high);
 }
 
 fe_result fe__check_bits(const char *function, const char *name, uint32_t value, uint32_t allowed)
 {
     if (!(value & ~allowed)) return FE_OK;
-    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is 0x%" PRIx32 ", only the bits of 0x%" PRIx32 " have a meaning", callers_name(name),
-                    value, allowed);
+    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is 0x%" PRIx32 ", only the bits of 0x%" PRIx32 " have a meaning",
+                    callers_name(name), value, allowed);
 }
 
 fe_result fe__check_layer(const char *function, const char *name, uint32_t layer)
 {
     if (layer != 0 && !(layer & (layer - 1))) return FE_OK;
-    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is 0x%" PRIx32 ", must be exactly one bit", callers_name(name), layer);
+    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is 0x%" PRIx32 ", must be exactly one bit", callers_name(name),
+                    layer);
 }
 
 fe_result fe__check_vec3(const char *function, const char *name, const fe_vec3 *v, float most)
@@ -173,10 +196,12 @@ fe_result fe__check_dvec3(const char *function, const char *name, const fe_dvec3
 fe_result fe__check_quat(const char *function, const char *name, const fe_quat *q)
 {
     FE_TRY(fe__check_pointer(function, name, q != NULL));
-    int32_t finite = __builtin_isfinite(q->x) && __builtin_isfinite(q->y) && __builtin_isfinite(q->z) && __builtin_isfinite(q->w);
+    int32_t finite =
+        __builtin_isfinite(q->x) && __builtin_isfinite(q->y) && __builtin_isfinite(q->z) && __builtin_isfinite(q->w);
     if (finite && (q->x != 0.0f || q->y != 0.0f || q->z != 0.0f || q->w != 0.0f)) return FE_OK;
-    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is (%s, %s, %s, %s), a rotation must be finite and not zero", callers_name(name),
-                    text_of((double)q->x).text, text_of((double)q->y).text, text_of((double)q->z).text, text_of((double)q->w).text);
+    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is (%s, %s, %s, %s), a rotation must be finite and not zero",
+                    callers_name(name), text_of((double)q->x).text, text_of((double)q->y).text,
+                    text_of((double)q->z).text, text_of((double)q->w).text);
 }
 
 fe_result fe__check_transform(const char *function, const char *name, const fe_transform *transform)
@@ -186,13 +211,17 @@ fe_result fe__check_transform(const char *function, const char *name, const fe_t
     return fe__check_quat(function, name, &transform->rotation);
 }
 
-// ---- arrays ---------------------------------------------------------------------------------------------------------------------
+// ---- arrays
+// ---------------------------------------------------------------------------------------------------------------------
 
-fe_result fe__check_array(const char *function, const char *name, const char *count_name, const void *array, int32_t count)
+fe_result fe__check_array(const char *function, const char *name, const char *count_name, const void *array,
+                          int32_t count)
 {
     name = callers_name(name), count_name = callers_name(count_name);
-    if (count < 0) return fe__fail(function, FE_ERROR_ARGUMENT, "%s is %" PRId32 ", must not be negative", count_name, count);
-    if (!array && count > 0) return fe__fail(function, FE_ERROR_ARGUMENT, "%s is NULL, but %s is %" PRId32, name, count_name, count);
+    if (count < 0)
+        return fe__fail(function, FE_ERROR_ARGUMENT, "%s is %" PRId32 ", must not be negative", count_name, count);
+    if (!array && count > 0)
+        return fe__fail(function, FE_ERROR_ARGUMENT, "%s is NULL, but %s is %" PRId32, name, count_name, count);
     return FE_OK;
 }
 
@@ -203,8 +232,9 @@ fe_result fe__check_stride(const char *function, const char *name, uint32_t *str
         return FE_OK;
     }
     if (*stride >= least && *stride % LEAST_STRIDE == 0) return FE_OK;
-    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is %" PRIu32 ", must be %sa multiple of %d of at least %" PRIu32, callers_name(name),
-                    *stride, packed ? "0 (packed) or " : "the size of the caller's record: ", LEAST_STRIDE, least);
+    return fe__fail(function, FE_ERROR_ARGUMENT, "%s is %" PRIu32 ", must be %sa multiple of %d of at least %" PRIu32,
+                    callers_name(name), *stride,
+                    packed ? "0 (packed) or " : "the size of the caller's record: ", LEAST_STRIDE, least);
 }
 
 fe_result fe__check_reserved(const char *function, const void *words, int32_t count)
@@ -217,7 +247,8 @@ fe_result fe__check_reserved(const char *function, const void *words, int32_t co
     return FE_OK;
 }
 
-// ---- structs that grow ----------------------------------------------------------------------------------------------------------
+// ---- structs that grow
+// ----------------------------------------------------------------------------------------------------------
 
 static uint32_t size_of(const void *given)
 {
@@ -241,21 +272,25 @@ fe_result fe__check_struct_size(const char *function, const char *name, const vo
     FE_TRY(fe__check_pointer(function, name, given != NULL));
     uint32_t size = size_of(given);
     if (ends_with_a_field(size, fields)) return FE_OK;
-    const char *cause = size >= sizeof size && size < fields->size ? "which ends inside a field" : "which is no size of any version";
-    return fe__fail(function, FE_ERROR_ARGUMENT, "%s.struct_size is %" PRIu32 ", %s (%" PRIu32 " in this one): is it filled by its _init?",
-                    name, size, cause, fields->size);
+    const char *cause =
+        size >= sizeof size && size < fields->size ? "which ends inside a field" : "which is no size of any version";
+    return fe__fail(function, FE_ERROR_ARGUMENT,
+                    "%s.struct_size is %" PRIu32 ", %s (%" PRIu32 " in this one): is it filled by its _init?", name,
+                    size, cause, fields->size);
 }
 
-// The front that both sides know is taken. What an older client does not have keeps its default; what a newer one has beyond must be zero,
-// because this version cannot honour it.
-fe_result fe__read_struct(const char *function, const char *name, const void *given, void *copy, const fe__fields *fields)
+// The front that both sides know is taken. What an older client does not have keeps its default; what a newer one has
+// beyond must be zero, because this version cannot honour it.
+fe_result fe__read_struct(const char *function, const char *name, const void *given, void *copy,
+                          const fe__fields *fields)
 {
     FE_TRY(fe__check_struct_size(function, name, given, fields));
     uint32_t given_size = size_of(given), size = fields->size;
     const unsigned char *bytes = given;
     for (uint32_t i = size; i < given_size; ++i) {
         if (bytes[i] == 0) continue;
-        return fe__fail(function, FE_ERROR_ARGUMENT, "%s has a value at byte %" PRIu32 ", this version knows %" PRIu32 " bytes of it",
+        return fe__fail(function, FE_ERROR_ARGUMENT,
+                        "%s has a value at byte %" PRIu32 ", this version knows %" PRIu32 " bytes of it",
                         callers_name(name), i, size);
     }
     memcpy(copy, given, given_size < size ? given_size : size);
@@ -288,5 +323,14 @@ fe_result fe__check_material(const char *function, const fe_material *material)
     FE_CHECK_INT(material->friction_combine, FE_COMBINE_DEFAULT, FE_COMBINE_MAXIMUM);
     FE_CHECK_INT(material->restitution_combine, FE_COMBINE_DEFAULT, FE_COMBINE_MAXIMUM);
     FE_CHECK_RESERVED(material->reserved);
+    return FE_OK;
+}
+
+fe_result fe__read_allocator(const char *function, const fe_allocator *allocator, fe_allocator *copy)
+{
+    FE_READ_STRUCT(allocator, copy);
+    FE_CHECK_POINTER(copy->allocate);
+    FE_CHECK_POINTER(copy->release);
+    FE_CHECK_INT(copy->reserved, 0, 0);
     return FE_OK;
 }

@@ -1,8 +1,9 @@
 // check.h - the door of the library: what every API function asks of its arguments.
 //
-// An API function opens with FE_READ(world) or FE_WRITE(world), which enter the world until the function returns (core/owner.h). Then comes
-// one line for each argument; each line leaves the function with an error and its sentence when the argument is wrong. Past these lines
-// nothing is checked again. The names in the sentences are those of the caller's argument or field:
+// An API function opens with FE_READ(world) or FE_WRITE(world), which enter the world until the function returns
+// (core/owner.h). Then comes one line for each argument; each line leaves the function with an error and its sentence
+// when the argument is wrong. Past these lines nothing is checked again. The names in the sentences are those of the
+// caller's argument or field:
 //
 //     fe_result fe_body_set_gravity_scale(fe_world *world, fe_body body, float scale)
 //     {
@@ -16,7 +17,8 @@
 #include "api/fields.h"
 #include "world/world.h"
 
-// The largest numbers taken. Squares and products of them stay far inside a float, so that no argument can make an infinity.
+// The largest numbers taken. Squares and products of them stay far inside a float, so that no argument can make an
+// infinity.
 #define FE_MAX_POSITION 1e9     // m, each coordinate: a double resolves 0.1 um there
 #define FE_MAX_TRANSLATION 1e10 // m, of a query
 #define FE_MAX_LOCAL 1e6f       // m, in a body's frame
@@ -46,8 +48,9 @@ enum { FE_MAX_SUBSTEPS = 64 };
 #define FE_READ_AS(function, world)                                                                   \
     FE_CLEANUP(fe__end_read) fe__reader *inside = (world) ? fe__reader_enter(&(world)->owner) : NULL; \
     if (!inside) return fe__refuse(function, world)
-#define FE_WRITE_AS(function, world)                                                                                    \
-    FE_CLEANUP(fe__end_write) fe__owner *inside = (world) && fe__owner_enter(&(world)->owner) ? &(world)->owner : NULL; \
+#define FE_WRITE_AS(function, world)                                                          \
+    FE_CLEANUP(fe__end_write)                                                                 \
+    fe__owner *inside = (world) && fe__owner_enter(&(world)->owner) ? &(world)->owner : NULL; \
     if (!inside) return fe__refuse(function, world)
 #define FE_READ(world)               \
     const char *function = __func__; \
@@ -55,6 +58,13 @@ enum { FE_MAX_SUBSTEPS = 64 };
 #define FE_WRITE(world)              \
     const char *function = __func__; \
     FE_WRITE_AS(function, world)
+// Of what makes or removes records: these may move, and no reader may hold on to them
+#define FE_WRITE_ALONE_AS(function, world) \
+    FE_WRITE_AS(function, world);          \
+    if (!fe__owner_be_alone(inside, FE__WRITER)) return fe__refuse_writer(function)
+#define FE_WRITE_ALONE(world)        \
+    const char *function = __func__; \
+    FE_WRITE_ALONE_AS(function, world)
 #define FE_BEGIN_WITHOUT_WORLD() const char *function = __func__
 // Declares `index`, the record that a handle names.
 #define FE_FIND_BODY(index, handle) \
@@ -66,12 +76,10 @@ enum { FE_MAX_SUBSTEPS = 64 };
 #define FE_FIND_JOINT(index, handle) \
     int32_t index;                   \
     FE_TRY(fe__find_joint(function, #handle, world, handle, &index))
-#define FE_FIND_ASSET(index, handle) \
-    int32_t index;                   \
-    FE_TRY(fe__find_asset(function, #handle, world, handle, &index))
 #define FE_CHECK_POINTER(pointer) \
     if (!(pointer)) FE_TRY(fe__check_pointer(function, #pointer, 0))
-#define FE_CHECK_FLOAT(value, low, high) FE_TRY(fe__check_number(function, #value, "", (double)(value), (double)(low), (double)(high)))
+#define FE_CHECK_FLOAT(value, low, high) \
+    FE_TRY(fe__check_number(function, #value, "", (double)(value), (double)(low), (double)(high)))
 #define FE_CHECK_INT(value, low, high) FE_TRY(fe__check_int(function, #value, value, low, high))
 #define FE_CHECK_BOOL(value) FE_TRY(fe__check_int(function, #value, value, 0, 1))
 #define FE_CHECK_BITS(value, allowed) FE_TRY(fe__check_bits(function, #value, value, allowed))
@@ -90,7 +98,8 @@ enum { FE_MAX_SUBSTEPS = 64 };
 // Of records that may grow: the caller states it, unless there are none of them
 #define FE_CHECK_RECORD_STRIDE(stride, least, count) \
     if ((stride) != 0 || (count) != 0) FE_CHECK_STRIDE(stride, 0, least)
-#define FE_CHECK_RESERVED(words) FE_TRY(fe__check_reserved(function, words, (int32_t)(sizeof(words) / (sizeof(uint32_t)))))
+#define FE_CHECK_RESERVED(words) \
+    FE_TRY(fe__check_reserved(function, words, (int32_t)(sizeof(words) / (sizeof(uint32_t)))))
 // `copy` holds the defaults; what the caller's struct has replaces them
 #define FE_READ_STRUCT(given, copy) FE_TRY(fe__read_struct(function, #given, given, copy, FE_FIELDS_OF(copy)))
 #define FE_CHECK_STRUCT_SIZE(given) FE_TRY(fe__check_struct_size(function, #given, given, FE_FIELDS_OF(given)))
@@ -105,12 +114,19 @@ static inline void fe__end_write(fe__owner **owner)
 }
 // Why the world could not be entered
 fe_result fe__refuse(const char *function, const fe_world *world);
-fe_result fe__find_body(const char *function, const char *name, const fe_world *world, fe_body handle, int32_t *out_index);
-fe_result fe__find_shape(const char *function, const char *name, const fe_world *world, fe_shape handle, int32_t *out_index);
-fe_result fe__find_joint(const char *function, const char *name, const fe_world *world, fe_joint handle, int32_t *out_index);
-fe_result fe__find_asset(const char *function, const char *name, const fe_world *world, fe_asset handle, int32_t *out_index);
+// A reader is inside
+fe_result fe__refuse_writer(const char *function);
+fe_result fe__find_body(const char *function, const char *name, const fe_world *world, fe_body handle,
+                        int32_t *out_index);
+fe_result fe__find_shape(const char *function, const char *name, const fe_world *world, fe_shape handle,
+                         int32_t *out_index);
+fe_result fe__find_joint(const char *function, const char *name, const fe_world *world, fe_joint handle,
+                         int32_t *out_index);
+fe_result fe__find_asset(const char *function, const char *name, const fe_store *store, fe_asset handle,
+                         int32_t *out_index); // locked
 fe_result fe__check_pointer(const char *function, const char *name, int32_t there);
-fe_result fe__check_number(const char *function, const char *name, const char *part, double value, double low, double high);
+fe_result fe__check_number(const char *function, const char *name, const char *part, double value, double low,
+                           double high);
 fe_result fe__check_int(const char *function, const char *name, int64_t value, int64_t low, int64_t high);
 fe_result fe__check_bits(const char *function, const char *name, uint32_t value, uint32_t allowed);
 fe_result fe__check_layer(const char *function, const char *name, uint32_t layer);
@@ -119,16 +135,22 @@ fe_result fe__check_direction(const char *function, const char *name, const fe_v
 fe_result fe__check_dvec3(const char *function, const char *name, const fe_dvec3 *v, double most);
 fe_result fe__check_quat(const char *function, const char *name, const fe_quat *q);
 fe_result fe__check_transform(const char *function, const char *name, const fe_transform *transform);
-fe_result fe__check_array(const char *function, const char *name, const char *count_name, const void *array, int32_t count);
+fe_result fe__check_array(const char *function, const char *name, const char *count_name, const void *array,
+                          int32_t count);
 fe_result fe__check_stride(const char *function, const char *name, uint32_t *stride, uint32_t packed, uint32_t least);
 fe_result fe__check_reserved(const char *function, const void *words, int32_t count); // 32 bits each
-static inline fe_material fe__default_material(void) { return (fe_material){.static_friction = 0.6f, .dynamic_friction = 0.5f}; }
+static inline fe_material fe__default_material(void)
+{
+    return (fe_material){.static_friction = 0.6f, .dynamic_friction = 0.5f};
+}
 fe_result fe__check_material(const char *function, const fe_material *material);
+fe_result fe__read_allocator(const char *function, const fe_allocator *allocator, fe_allocator *copy);
 fe_result fe__check_struct_size(const char *function, const char *name, const void *given, const fe__fields *fields);
-fe_result fe__read_struct(const char *function, const char *name, const void *given, void *copy, const fe__fields *fields);
+fe_result fe__read_struct(const char *function, const char *name, const void *given, void *copy,
+                          const fe__fields *fields);
 
-// |x| <= most, for finite most > 0. As integers, so that nothing is raised: the bits of doubles are in their order, and those of infinity
-// and NaN above all others.
+// |x| <= most, for finite most > 0. As integers, so that nothing is raised: the bits of doubles are in their order, and
+// those of infinity and NaN above all others.
 static inline int32_t fe__is_within(double x, double most)
 {
     union {
@@ -144,17 +166,27 @@ static inline int32_t fe__is_dvec3_within(const fe_dvec3 *v, double most)
 
 // Fills a caller's struct: as much as both sides know, but for struct_size, which stays the caller's.
 void fe__write_struct(void *out, const void *full, uint32_t size);
-// Fills a definition with its defaults; a struct_size of an older client gets the front of it, the tail of a longer one is zeroed.
+// Fills a definition with its defaults; a struct_size of an older client gets the front of it, the tail of a longer one
+// is zeroed.
 void fe__init_struct(void *out, const void *defaults, uint32_t size, uint32_t struct_size);
 static inline fe_transform fe__body_transform(const fe__body *body)
 {
     return (fe_transform){{body->origin[0], body->origin[1], body->origin[2]},
                           {body->rotation[0], body->rotation[1], body->rotation[2], body->rotation[3]}};
 }
-static inline fe_vec3 fe__body_velocity(const fe__body *body) { return (fe_vec3){body->velocity[0], body->velocity[1], body->velocity[2]}; }
-static inline fe_vec3 fe__body_spin(const fe__body *body) { return (fe_vec3){body->spin[0], body->spin[1], body->spin[2]}; }
+static inline fe_vec3 fe__body_velocity(const fe__body *body)
+{
+    return (fe_vec3){body->velocity[0], body->velocity[1], body->velocity[2]};
+}
+static inline fe_vec3 fe__body_spin(const fe__body *body)
+{
+    return (fe_vec3){body->spin[0], body->spin[1], body->spin[2]};
+}
 // Record i of a caller's array
-static inline void *fe__at(void *array, uint32_t stride, int32_t i) { return (unsigned char *)array + (size_t)stride * (size_t)i; }
+static inline void *fe__at(void *array, uint32_t stride, int32_t i)
+{
+    return (unsigned char *)array + (size_t)stride * (size_t)i;
+}
 static inline const void *fe__at_const(const void *array, uint32_t stride, int32_t i)
 {
     return (const unsigned char *)array + (size_t)stride * (size_t)i;

@@ -2,6 +2,7 @@
 #include "api/check.h"
 #include "core/fp_state.h"
 #include "world/handles.h"
+#include "world/material.h"
 #include "world/pair_list.h"
 #include "world/pairs.h"
 
@@ -16,7 +17,8 @@ static void put(void *out, uint32_t stride, int32_t i, const void *record, size_
     memcpy(fe__at(out, stride, i), record, size < stride ? size : stride);
 }
 
-// ---- events ---------------------------------------------------------------------------------------------------------------------
+// ---- events
+// ---------------------------------------------------------------------------------------------------------------------
 
 // Where the events of one kind lie: records with the event at an offset
 typedef struct event_list {
@@ -24,11 +26,11 @@ typedef struct event_list {
     size_t record_size, offset, event_size;
     int32_t count;
 } event_list;
-#define LIST_OF(kind)                                                                                                                   \
-    (event_list)                                                                                                                        \
-    {                                                                                                                                   \
-        world->kind##_events, sizeof(fe__##kind##_event_record), offsetof(fe__##kind##_event_record, event), sizeof(fe_##kind##_event), \
-            world->kind##_event_count                                                                                                   \
+#define LIST_OF(kind)                                                                                        \
+    (event_list)                                                                                             \
+    {                                                                                                        \
+        world->kind##_events, sizeof(fe__##kind##_event_record), offsetof(fe__##kind##_event_record, event), \
+            sizeof(fe_##kind##_event), world->kind##_event_count                                             \
     }
 
 static int32_t write_events(const char *function, event_list list, void *out_events, uint32_t stride, int32_t capacity)
@@ -37,7 +39,8 @@ static int32_t write_events(const char *function, event_list list, void *out_eve
     FE_CHECK_RECORD_STRIDE(stride, LEAST_RECORD, capacity);
     int32_t written = fe__mini(list.count, capacity);
     for (int32_t i = 0; i < written; ++i)
-        put(out_events, stride, i, (const unsigned char *)list.records + list.record_size * (size_t)i + list.offset, list.event_size);
+        put(out_events, stride, i, (const unsigned char *)list.records + list.record_size * (size_t)i + list.offset,
+            list.event_size);
     return list.count;
 }
 
@@ -65,7 +68,8 @@ int32_t fe_world_get_joint_events(const fe_world *world, fe_joint_event *out_eve
     return write_events(function, LIST_OF(joint), out_events, stride, capacity);
 }
 
-// ---- contacts -------------------------------------------------------------------------------------------------------------------
+// ---- contacts
+// -------------------------------------------------------------------------------------------------------------------
 
 static int32_t point_count(const fe_world *world, int32_t pair)
 {
@@ -82,8 +86,8 @@ static fe_contact_point describe_point(const fe_world *world, int32_t pair, int3
                               .id = world->pairs[pair].ids[i]};
 }
 
-// The solver may hold the pair with its sides exchanged: what is said of its B is then the negative of what B here feels. A twist about the
-// normal stays: both its axis and its owner change sides.
+// The solver may hold the pair with its sides exchanged: what is said of its B is then the negative of what B here
+// feels. A twist about the normal stays: both its axis and its owner change sides.
 static fe_contact describe(const fe_world *world, int32_t pair)
 {
     const fe__pair *p = &world->pairs[pair];
@@ -94,9 +98,12 @@ static fe_contact describe(const fe_world *world, int32_t pair)
                           .body_b = fe__body_handle(world, p->body_b),
                           .shape_a = fe__shape_handle(world, p->shape_a),
                           .shape_b = fe__shape_handle(world, p->shape_b),
+                          .material_a = fe__pair_material(world, pair, 0)->user_id,
+                          .material_b = fe__pair_material(world, pair, 1)->user_id,
                           .normal = {side * c->normal[0], side * c->normal[1], side * c->normal[2]},
                           .point_count = point_count(world, pair),
-                          .friction_impulse = {side * c->friction_impulse[0], side * c->friction_impulse[1], side * c->friction_impulse[2]},
+                          .friction_impulse = {side * c->friction_impulse[0], side * c->friction_impulse[1],
+                                               side * c->friction_impulse[2]},
                           .twist_impulse = c->twist_impulse,
                           .part_a = -1,
                           .part_b = -1,
@@ -107,8 +114,8 @@ static fe_contact describe(const fe_world *world, int32_t pair)
 }
 
 // Of a body, or of one of its shapes (-1: all)
-static int32_t write_contacts(const fe_world *world, int32_t body, int32_t shape, fe_contact *out_contacts, uint32_t stride,
-                              int32_t capacity)
+static int32_t write_contacts(const fe_world *world, int32_t body, int32_t shape, fe_contact *out_contacts,
+                              uint32_t stride, int32_t capacity)
 {
     int32_t count = 0;
     for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, body)) {
@@ -124,7 +131,8 @@ static int32_t write_contacts(const fe_world *world, int32_t body, int32_t shape
     return count;
 }
 
-int32_t fe_body_get_contacts(const fe_world *world, fe_body body, fe_contact *out_contacts, uint32_t stride, int32_t capacity)
+int32_t fe_body_get_contacts(const fe_world *world, fe_body body, fe_contact *out_contacts, uint32_t stride,
+                             int32_t capacity)
 {
     FE_READ(world);
     FE_FIND_BODY(index, body);
@@ -136,7 +144,8 @@ int32_t fe_body_get_contacts(const fe_world *world, fe_body body, fe_contact *ou
     return count;
 }
 
-int32_t fe_shape_get_contacts(const fe_world *world, fe_shape shape, fe_contact *out_contacts, uint32_t stride, int32_t capacity)
+int32_t fe_shape_get_contacts(const fe_world *world, fe_shape shape, fe_contact *out_contacts, uint32_t stride,
+                              int32_t capacity)
 {
     FE_READ(world);
     FE_FIND_SHAPE(index, shape);
@@ -148,7 +157,8 @@ int32_t fe_shape_get_contacts(const fe_world *world, fe_shape shape, fe_contact 
     return count;
 }
 
-// ---- who is inside --------------------------------------------------------------------------------------------------------------
+// ---- who is inside
+// --------------------------------------------------------------------------------------------------------------
 
 // The list of a body's pairs is in no order that shows: each is put where its creation says
 static int32_t add_overlap(const fe_world *world, int32_t shape, fe_shape *out_shapes, int32_t count, int32_t capacity)
@@ -171,7 +181,9 @@ int32_t fe_shape_get_overlaps(const fe_world *world, fe_shape shape, fe_shape *o
     int32_t body = world->shapes[index].body, count = 0;
     for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, body)) {
         const fe__pair *p = &world->pairs[pair];
-        if (p->flags & FE__PAIR_PATCH || !(p->flags & FE__PAIR_TOUCHING) || (p->shape_a != index && p->shape_b != index)) continue;
+        if (p->flags & FE__PAIR_PATCH || !(p->flags & FE__PAIR_TOUCHING) ||
+            (p->shape_a != index && p->shape_b != index))
+            continue;
         count = add_overlap(world, p->shape_a == index ? p->shape_b : p->shape_a, out_shapes, count, capacity);
     }
     return count;

@@ -9,10 +9,11 @@
 // Pointers of 4 bytes may leave a gap before a field of 8
 #define HAS_NO_PADDING(type) (sizeof(void *) < 8 || sizeof(type) == 0 FE_FIELDS_##type(SIZE_OF))
 
-#define DEFINE(type)                                                                     \
-    static const uint16_t ends_of_##type[] = {FE_FIELDS_##type(END_OF)};                 \
-    _Static_assert(HAS_NO_PADDING(type), "a field of " #type " is missing in fields.h"); \
-    const fe__fields fe__fields_of_##type = {sizeof(type), sizeof ends_of_##type / sizeof *ends_of_##type, ends_of_##type};
+#define DEFINE(type)                                                                                       \
+    static const uint16_t ends_of_##type[] = {FE_FIELDS_##type(END_OF)};                                   \
+    _Static_assert(HAS_NO_PADDING(type), "a field of " #type " is missing in fields.h");                   \
+    const fe__fields fe__fields_of_##type = {sizeof(type), sizeof ends_of_##type / sizeof *ends_of_##type, \
+                                             ends_of_##type};
 
 #define THIS fe_allocator
 DEFINE(fe_allocator)

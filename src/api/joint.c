@@ -1,4 +1,5 @@
-// joint.c - the API of joints: life, change, readings. Definitions are checked in joint_def.c, made from the world in joint_at.c.
+// joint.c - the API of joints: life, change, readings. Definitions are checked in joint_def.c, made from the world in
+// joint_at.c.
 #include "api/joint_def.h"
 #include "core/fp_state.h"
 #include "world/handles.h"
@@ -9,11 +10,12 @@
 static const char *const type_names[FE__JOINT_TYPES] = {"none",  "distance joint", "ball joint",
                                                         "hinge", "fixed joint",    "configurable joint"};
 
-// ---- birth ----------------------------------------------------------------------------------------------------------------------------
+// ---- birth
+// ----------------------------------------------------------------------------------------------------------------------------
 static fe_result create(const char *function, fe_world *world, int32_t type, const void *def, fe_joint *out_joint)
 {
     if (out_joint) *out_joint = 0;
-    FE_WRITE_AS(function, world);
+    FE_WRITE_ALONE_AS(function, world);
     FE_CHECK_POINTER(out_joint);
     fe__joint_any full;
     fe__joint_defaults(type, &full);
@@ -55,13 +57,14 @@ fe_result fe_configurable_joint_create(fe_world *world, const fe_configurable_jo
     return create(__func__, world, FE_JOINT_CONFIGURABLE, def, out_joint);
 }
 
-// ---- change ---------------------------------------------------------------------------------------------------------------------------
+// ---- change
+// ---------------------------------------------------------------------------------------------------------------------------
 static fe_result check_type(const char *function, const fe_world *world, int32_t index, int32_t type)
 {
     int32_t actual = world->joint_records[index].type;
     if (actual == type) return FE_OK;
-    return fe__fail(function, FE_ERROR_STATE, "joint 0x%llx is a %s, not a %s", fe__joint_handle(world, index), type_names[actual],
-                    type_names[type]);
+    return fe__fail(function, FE_ERROR_STATE, "joint 0x%llx is a %s, not a %s", fe__joint_handle(world, index),
+                    type_names[actual], type_names[type]);
 }
 
 // A joint keeps its bodies for life: 0 and their own handles will do
@@ -69,7 +72,8 @@ static fe_result check_bodies(const char *function, const fe_world *world, int32
 {
     fe_body a = fe__joint_end_handle(world, index, 0), b = fe__joint_end_handle(world, index, 1);
     if ((full->body_a == 0 || full->body_a == a) && (full->body_b == 0 || full->body_b == b)) return FE_OK;
-    return fe__fail(function, FE_ERROR_ARGUMENT, "body_a, body_b are 0x%llx, 0x%llx, the joint has 0x%llx, 0x%llx, which no call changes",
+    return fe__fail(function, FE_ERROR_ARGUMENT,
+                    "body_a, body_b are 0x%llx, 0x%llx, the joint has 0x%llx, 0x%llx, which no call changes",
                     full->body_a, full->body_b, a, b);
 }
 
@@ -151,7 +155,8 @@ fe_result fe_configurable_joint_get(const fe_world *world, fe_joint joint, fe_co
     return get(__func__, world, FE_JOINT_CONFIGURABLE, joint, out_def);
 }
 
-// ---- what all types have --------------------------------------------------------------------------------------------------------------
+// ---- what all types have
+// --------------------------------------------------------------------------------------------------------------
 fe_result fe_joint_set(fe_world *world, fe_joint joint, const fe_joint_def *def)
 {
     FE_WRITE(world);
@@ -217,7 +222,7 @@ fe_result fe_joint_get_user_data(const fe_world *world, fe_joint joint, uint64_t
 
 fe_result fe_joint_destroy(fe_world *world, fe_joint joint)
 {
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     FE_FIND_JOINT(index, joint);
     fe__fp_state fp = fe__fp_enter();
     fe__joint_destroy(world, index);
@@ -251,8 +256,10 @@ fe_result fe_joint_get_bodies(const fe_world *world, fe_joint joint, fe_body *ou
     return FE_OK;
 }
 
-// ---- readings -------------------------------------------------------------------------------------------------------------------------
-fe_result fe_joint_get_frames(const fe_world *world, fe_joint joint, fe_transform *out_frame_a, fe_transform *out_frame_b)
+// ---- readings
+// -------------------------------------------------------------------------------------------------------------------------
+fe_result fe_joint_get_frames(const fe_world *world, fe_joint joint, fe_transform *out_frame_a,
+                              fe_transform *out_frame_b)
 {
     FE_READ(world);
     FE_FIND_JOINT(index, joint);
@@ -312,7 +319,8 @@ int32_t fe_body_get_joints(const fe_world *world, fe_body body, fe_joint *out_jo
     FE_FIND_BODY(index, body);
     FE_CHECK_ARRAY(out_joints, capacity);
     int32_t count = 0;
-    for (int32_t joint = world->bodies[index].first_joint; joint && count < capacity; joint = fe__next_joint(world, joint, index))
+    for (int32_t joint = world->bodies[index].first_joint; joint && count < capacity;
+         joint = fe__next_joint(world, joint, index))
         out_joints[count++] = fe__joint_handle(world, joint);
     return world->bodies[index].joint_total;
 }

@@ -4,7 +4,8 @@
 #include "core/fp_state.h"
 #include "world/handles.h"
 
-// ---- frames ---------------------------------------------------------------------------------------------------------------------------
+// ---- frames
+// ---------------------------------------------------------------------------------------------------------------------------
 typedef struct ends {
     int32_t body[2];
 } ends;
@@ -18,14 +19,16 @@ static fe_vec3 into_body(const fe__body *body, const fe_dvec3 *point)
 
 static fe_frame frame_in(const fe__body *body, const fe_dvec3 *point, fe_quat rotation)
 {
-    return (fe_frame){into_body(body, point), fe__normalized(fe__product(fe__conjugate(fe__body_transform(body).rotation), rotation))};
+    return (fe_frame){into_body(body, point),
+                      fe__normalized(fe__product(fe__conjugate(fe__body_transform(body).rotation), rotation))};
 }
 
 // The shortest turn from X to a direction: (x cross a, 1 + x . a), normalised; half a turn about Z for -X
 static fe_quat turn_to(fe_vec3 axis)
 {
     const double opposite = 1e-12; // 1 + cosine below which the turn's axis is lost
-    double x = (double)axis.x, y = (double)axis.y, z = (double)axis.z, k = 1.0 / sqrt(x * x + y * y + z * z), w = 1.0 + k * x;
+    double x = (double)axis.x, y = (double)axis.y, z = (double)axis.z, k = 1.0 / sqrt(x * x + y * y + z * z),
+           w = 1.0 + k * x;
     if (w < opposite) return (fe_quat){0.0f, 0.0f, 1.0f, 0.0f};
     double qy = -k * z, qz = k * y, n = 1.0 / sqrt(qy * qy + qz * qz + w * w);
     return (fe_quat){0.0f, (float)(n * qy), (float)(n * qz), (float)(n * w)};
@@ -47,8 +50,8 @@ static fe_quat rotation_of(const fe_world *world, int32_t body)
     return body < 0 ? (fe_quat){0.0f, 0.0f, 0.0f, 1.0f} : fe__body_transform(&world->bodies[body]).rotation;
 }
 
-static void set_end(const fe_world *world, int32_t body, const fe_dvec3 *point, fe_quat rotation, fe_body *out_body, fe_frame *out_frame,
-                    fe_dvec3 *world_origin)
+static void set_end(const fe_world *world, int32_t body, const fe_dvec3 *point, fe_quat rotation, fe_body *out_body,
+                    fe_frame *out_frame, fe_dvec3 *world_origin)
 {
     if (body >= 0) {
         *out_body = fe__body_handle(world, body);
@@ -60,8 +63,8 @@ static void set_end(const fe_world *world, int32_t body, const fe_dvec3 *point, 
     *world_origin = *point;
 }
 
-static void set_ends(const fe_world *world, fe_joint_def *front, const ends *e, const fe_dvec3 *point_a, const fe_dvec3 *point_b,
-                     fe_quat rotation)
+static void set_ends(const fe_world *world, fe_joint_def *front, const ends *e, const fe_dvec3 *point_a,
+                     const fe_dvec3 *point_b, fe_quat rotation)
 {
     front->world_origin = (fe_dvec3){0.0, 0.0, 0.0};
     set_end(world, e->body[0], point_a, rotation, &front->body_a, &front->frame_a, &front->world_origin);
@@ -69,16 +72,16 @@ static void set_ends(const fe_world *world, fe_joint_def *front, const ends *e, 
 }
 
 // The caller's definition, as far as both sides know it, into a whole one and back
-static fe_result open(const char *function, const fe_world *world, int32_t type, const void *def, fe_body body_a, fe_body body_b,
-                      ends *out_ends, fe__joint_any *full)
+static fe_result open(const char *function, const fe_world *world, int32_t type, const void *def, fe_body body_a,
+                      fe_body body_b, ends *out_ends, fe__joint_any *full)
 {
     fe__joint_defaults(type, full);
     FE_TRY(fe__read_struct(function, "def", def, full, fe__joint_fields(type)));
     return fe__find_joint_ends(function, world, body_a, body_b, out_ends->body);
 }
 
-static fe_result at_point(const char *function, const fe_world *world, int32_t type, void *def, fe_body body_a, fe_body body_b,
-                          const fe_dvec3 *point, const fe_vec3 *axis)
+static fe_result at_point(const char *function, const fe_world *world, int32_t type, void *def, fe_body body_a,
+                          fe_body body_b, const fe_dvec3 *point, const fe_vec3 *axis)
 {
     ends e;
     fe__joint_any full;
@@ -93,39 +96,41 @@ static fe_result at_point(const char *function, const fe_world *world, int32_t t
     return FE_OK;
 }
 
-// ---- the five types -------------------------------------------------------------------------------------------------------------------
-fe_result fe_ball_joint_def_at(const fe_world *world, fe_ball_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
-                               const fe_vec3 *axis)
+// ---- the five types
+// -------------------------------------------------------------------------------------------------------------------
+fe_result fe_ball_joint_def_at(const fe_world *world, fe_ball_joint_def *def, fe_body body_a, fe_body body_b,
+                               const fe_dvec3 *point, const fe_vec3 *axis)
 {
     FE_READ(world);
     FE_CHECK_POINTER(axis);
     return at_point(function, world, FE_JOINT_BALL, def, body_a, body_b, point, axis);
 }
 
-fe_result fe_hinge_joint_def_at(const fe_world *world, fe_hinge_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point,
-                                const fe_vec3 *axis)
+fe_result fe_hinge_joint_def_at(const fe_world *world, fe_hinge_joint_def *def, fe_body body_a, fe_body body_b,
+                                const fe_dvec3 *point, const fe_vec3 *axis)
 {
     FE_READ(world);
     FE_CHECK_POINTER(axis);
     return at_point(function, world, FE_JOINT_HINGE, def, body_a, body_b, point, axis);
 }
 
-fe_result fe_fixed_joint_def_at(const fe_world *world, fe_fixed_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point)
+fe_result fe_fixed_joint_def_at(const fe_world *world, fe_fixed_joint_def *def, fe_body body_a, fe_body body_b,
+                                const fe_dvec3 *point)
 {
     FE_READ(world);
     return at_point(function, world, FE_JOINT_FIXED, def, body_a, body_b, point, NULL);
 }
 
-fe_result fe_configurable_joint_def_at(const fe_world *world, fe_configurable_joint_def *def, fe_body body_a, fe_body body_b,
-                                       const fe_dvec3 *point, const fe_vec3 *axis)
+fe_result fe_configurable_joint_def_at(const fe_world *world, fe_configurable_joint_def *def, fe_body body_a,
+                                       fe_body body_b, const fe_dvec3 *point, const fe_vec3 *axis)
 {
     FE_READ(world);
     FE_CHECK_POINTER(axis);
     return at_point(function, world, FE_JOINT_CONFIGURABLE, def, body_a, body_b, point, axis);
 }
 
-static fe_result between_points(const char *function, const fe_world *world, fe__joint_any *full, const ends *e, const fe_dvec3 *point_a,
-                                const fe_dvec3 *point_b)
+static fe_result between_points(const char *function, const fe_world *world, fe__joint_any *full, const ends *e,
+                                const fe_dvec3 *point_a, const fe_dvec3 *point_b)
 {
     FE_CHECK_DVEC3(point_a, FE_MAX_POSITION);
     FE_CHECK_DVEC3(point_b, FE_MAX_POSITION);
@@ -149,18 +154,19 @@ fe_result fe_distance_joint_def_at(const fe_world *world, fe_distance_joint_def 
     return result;
 }
 
-// ---- ready-made joints ----------------------------------------------------------------------------------------------------------------
-// A definition with the defaults, whatever the caller's holds beyond its size
-static fe_result begin_ready(const char *function, const fe_world *world, int32_t type, const void *def, fe_body body_a, fe_body body_b,
-                             ends *out_ends, fe__joint_any *full)
+// ---- ready-made joints
+// ---------------------------------------------------------------------------------------------------------------- A
+// definition with the defaults, whatever the caller's holds beyond its size
+static fe_result begin_ready(const char *function, const fe_world *world, int32_t type, const void *def, fe_body body_a,
+                             fe_body body_b, ends *out_ends, fe__joint_any *full)
 {
     FE_TRY(fe__check_struct_size(function, "def", def, fe__joint_fields(type)));
     fe__joint_defaults(type, full);
     return fe__find_joint_ends(function, world, body_a, body_b, out_ends->body);
 }
 
-fe_result fe_rope_joint_def_at(const fe_world *world, fe_distance_joint_def *def, fe_body body_a, fe_body body_b, const fe_dvec3 *point_a,
-                               const fe_dvec3 *point_b, float max_length)
+fe_result fe_rope_joint_def_at(const fe_world *world, fe_distance_joint_def *def, fe_body body_a, fe_body body_b,
+                               const fe_dvec3 *point_a, const fe_dvec3 *point_b, float max_length)
 {
     FE_READ(world);
     ends e;
@@ -201,7 +207,8 @@ static int32_t are_parallel(const fe_vec3 *a, const fe_vec3 *b)
     return fe__ddot(n, n) <= least * fe__ddot(x, x) * fe__ddot(y, y);
 }
 
-// The mass that a body shows at a frame of its own, along the frame's Z: 1 / (1/m + (r x z) . I^-1 (r x z)), kg; 0 unless it is dynamic
+// The mass that a body shows at a frame of its own, along the frame's Z: 1 / (1/m + (r x z) . I^-1 (r x z)), kg; 0
+// unless it is dynamic
 static float mass_along_z(const fe_world *world, int32_t index, const fe_frame *frame)
 {
     if (index < 0) return 0.0f;
@@ -211,12 +218,13 @@ static float mass_along_z(const fe_world *world, int32_t index, const fe_frame *
     fe_vec3 arm = fe__sub(frame->position, centre), z = fe__rotate(frame->rotation, fe__vec3(0.0f, 0.0f, 1.0f));
     fe_quat axes = {body->inertia_axes[0], body->inertia_axes[1], body->inertia_axes[2], body->inertia_axes[3]};
     fe_vec3 m = fe__rotate_back(axes, fe__cross(arm, z));
-    return 1.0f / (body->inverse_mass + m.x * m.x / body->inertia[0] + m.y * m.y / body->inertia[1] + m.z * m.z / body->inertia[2]);
+    return 1.0f / (body->inverse_mass + m.x * m.x / body->inertia[0] + m.y * m.y / body->inertia[1] +
+                   m.z * m.z / body->inertia[2]);
 }
 
 // In newtons: a spring in hertz would count the wheel's mass, a twentieth of what stands on it, and sag by metres
-static void set_suspension(const fe_world *world, const ends *e, const fe_joint_def *front, float hertz, float damping_ratio,
-                           fe_joint_axis *axis)
+static void set_suspension(const fe_world *world, const ends *e, const fe_joint_def *front, float hertz,
+                           float damping_ratio, fe_joint_axis *axis)
 {
     float mass = mass_along_z(world, e->body[0], &front->frame_a), omega = 2.0f * FE_PI * hertz;
     if (mass == 0.0f) mass = mass_along_z(world, e->body[1], &front->frame_b);
@@ -226,8 +234,8 @@ static void set_suspension(const fe_world *world, const ends *e, const fe_joint_
 }
 
 fe_result fe_wheel_joint_def_at(const fe_world *world, fe_configurable_joint_def *def, fe_body chassis, fe_body wheel,
-                                const fe_dvec3 *point, const fe_vec3 *axle, const fe_vec3 *up, float hertz, float damping_ratio,
-                                float travel)
+                                const fe_dvec3 *point, const fe_vec3 *axle, const fe_vec3 *up, float hertz,
+                                float damping_ratio, float travel)
 {
     FE_READ(world);
     ends e;
@@ -252,8 +260,8 @@ fe_result fe_wheel_joint_def_at(const fe_world *world, fe_configurable_joint_def
     return FE_OK;
 }
 
-fe_result fe_motor_joint_def_at(const fe_world *world, fe_configurable_joint_def *def, fe_body body_a, fe_body body_b, float hertz,
-                                float damping_ratio, float max_force, float max_torque)
+fe_result fe_motor_joint_def_at(const fe_world *world, fe_configurable_joint_def *def, fe_body body_a, fe_body body_b,
+                                float hertz, float damping_ratio, float max_force, float max_torque)
 {
     FE_READ(world);
     ends e;

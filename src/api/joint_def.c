@@ -6,10 +6,12 @@
 #define LEAST_CONE 0.01f
 #define NO_CAP FE_MAX_FORCE
 
-// ---- defaults -------------------------------------------------------------------------------------------------------------------------
+// ---- defaults
+// -------------------------------------------------------------------------------------------------------------------------
 static void default_axes(fe_joint_axis *axes)
 {
-    for (int k = 0; k < 6; ++k) axes[k] = (fe_joint_axis){.motion = FE_MOTION_LOCKED, .limit_damping_ratio = 1.0f, .spring_max = NO_CAP};
+    for (int k = 0; k < 6; ++k)
+        axes[k] = (fe_joint_axis){.motion = FE_MOTION_LOCKED, .limit_damping_ratio = 1.0f, .spring_max = NO_CAP};
 }
 
 static const fe__fields *const fields[FE__JOINT_TYPES] = {NULL,
@@ -21,7 +23,8 @@ static const fe__fields *const fields[FE__JOINT_TYPES] = {NULL,
 
 const fe__fields *fe__joint_fields(int32_t type) { return fields[type]; }
 
-static fe_result find_end(const char *function, const char *name, const fe_world *world, fe_body body, int32_t *out_body)
+static fe_result find_end(const char *function, const char *name, const fe_world *world, fe_body body,
+                          int32_t *out_body)
 {
     if (body == 0) {
         *out_body = -1;
@@ -30,12 +33,14 @@ static fe_result find_end(const char *function, const char *name, const fe_world
     return fe__find_body(function, name, world, body, out_body);
 }
 
-fe_result fe__find_joint_ends(const char *function, const fe_world *world, fe_body body_a, fe_body body_b, int32_t *out_bodies)
+fe_result fe__find_joint_ends(const char *function, const fe_world *world, fe_body body_a, fe_body body_b,
+                              int32_t *out_bodies)
 {
     FE_TRY(find_end(function, "body_a", world, body_a, &out_bodies[0]));
     FE_TRY(find_end(function, "body_b", world, body_b, &out_bodies[1]));
     if (out_bodies[0] != out_bodies[1]) return FE_OK;
-    if (body_a == 0) return fe__fail(function, FE_ERROR_ARGUMENT, "body_a and body_b are both 0: one end must be a body");
+    if (body_a == 0)
+        return fe__fail(function, FE_ERROR_ARGUMENT, "body_a and body_b are both 0: one end must be a body");
     return fe__fail(function, FE_ERROR_ARGUMENT, "both ends are body 0x%llx", body_a);
 }
 
@@ -90,13 +95,20 @@ static void init(int32_t type, void *def, uint32_t struct_size)
     fe__init_struct(def, &defaults, defaults.common.struct_size, struct_size);
 }
 
-void fe_distance_joint_def_init(fe_distance_joint_def *def, uint32_t struct_size) { init(FE_JOINT_DISTANCE, def, struct_size); }
+void fe_distance_joint_def_init(fe_distance_joint_def *def, uint32_t struct_size)
+{
+    init(FE_JOINT_DISTANCE, def, struct_size);
+}
 void fe_ball_joint_def_init(fe_ball_joint_def *def, uint32_t struct_size) { init(FE_JOINT_BALL, def, struct_size); }
 void fe_hinge_joint_def_init(fe_hinge_joint_def *def, uint32_t struct_size) { init(FE_JOINT_HINGE, def, struct_size); }
 void fe_fixed_joint_def_init(fe_fixed_joint_def *def, uint32_t struct_size) { init(FE_JOINT_FIXED, def, struct_size); }
-void fe_configurable_joint_def_init(fe_configurable_joint_def *def, uint32_t struct_size) { init(FE_JOINT_CONFIGURABLE, def, struct_size); }
+void fe_configurable_joint_def_init(fe_configurable_joint_def *def, uint32_t struct_size)
+{
+    init(FE_JOINT_CONFIGURABLE, def, struct_size);
+}
 
-// ---- checks ---------------------------------------------------------------------------------------------------------------------------
+// ---- checks
+// ---------------------------------------------------------------------------------------------------------------------------
 #define FE_CHECK_SOFTNESS(hertz, damping_ratio)            \
     do {                                                   \
         FE_CHECK_FLOAT(hertz, 0.0f, FE_MAX_VALUE);         \
@@ -178,7 +190,8 @@ static fe_result check_configurable(const char *function, const fe_configurable_
 {
     static const char *const names[6] = {"axes[FE_DOF_LINEAR_X]",  "axes[FE_DOF_LINEAR_Y]",  "axes[FE_DOF_LINEAR_Z]",
                                          "axes[FE_DOF_ANGULAR_X]", "axes[FE_DOF_ANGULAR_Y]", "axes[FE_DOF_ANGULAR_Z]"};
-#define CHECK(field, low, high) FE_TRY(fe__check_number(function, names[k], "." #field, (double)axis->field, (double)(low), (double)(high)))
+#define CHECK(field, low, high) \
+    FE_TRY(fe__check_number(function, names[k], "." #field, (double)axis->field, (double)(low), (double)(high)))
     for (int k = 0; k < 6; ++k) {
         const fe_joint_axis *axis = &full->axes[k];
         float reach = k < FE_DOF_ANGULAR_X ? FE_MAX_LOCAL : FE_PI;

@@ -55,7 +55,8 @@ fe_result fe_joint_set_motor_speed(fe_world *world, fe_joint joint, int32_t dof,
     fe__joint_any full;
     fe__joint_describe(world, index, &full);
     float *field = motor_speed_of(&full, world->joint_records[index].type, dof);
-    if (!field) return fe__fail(function, FE_ERROR_STATE, "joint 0x%llx has no motor about or along dof %d", joint, (int)dof);
+    if (!field)
+        return fe__fail(function, FE_ERROR_STATE, "joint 0x%llx has no motor about or along dof %d", joint, (int)dof);
     if (*field == speed) return FE_OK;
     *field = speed;
     return change(function, world, index, &full);
@@ -70,7 +71,8 @@ fe_result fe_joint_set_target(fe_world *world, fe_joint joint, int32_t dof, floa
     fe__joint_any full;
     fe__joint_describe(world, index, &full);
     float *field = target_of(&full, world->joint_records[index].type, dof);
-    if (!field) return fe__fail(function, FE_ERROR_STATE, "joint 0x%llx has no spring about or along dof %d", joint, (int)dof);
+    if (!field)
+        return fe__fail(function, FE_ERROR_STATE, "joint 0x%llx has no spring about or along dof %d", joint, (int)dof);
     if (*field == target) return FE_OK;
     *field = target;
     return change(function, world, index, &full);

@@ -5,7 +5,8 @@
 #include "world/mechanics.h"
 #include "world/proxies.h"
 
-// ---- energy and momentum ------------------------------------------------------------------------------------------------------------
+// ---- energy and momentum
+// ------------------------------------------------------------------------------------------------------------
 
 void fe_energy_init(fe_energy *energy, uint32_t struct_size)
 {
@@ -25,7 +26,8 @@ fe_result fe_world_get_energy(const fe_world *world, fe_energy *out_energy)
     return FE_OK;
 }
 
-fe_result fe_world_get_momentum(const fe_world *world, const fe_dvec3 *about, fe_dvec3 *out_linear, fe_dvec3 *out_angular)
+fe_result fe_world_get_momentum(const fe_world *world, const fe_dvec3 *about, fe_dvec3 *out_linear,
+                                fe_dvec3 *out_angular)
 {
     FE_READ(world);
     FE_CHECK_DVEC3(about, FE_MAX_POSITION);
@@ -37,7 +39,8 @@ fe_result fe_world_get_momentum(const fe_world *world, const fe_dvec3 *about, fe
     return FE_OK;
 }
 
-// ---- stiffness ----------------------------------------------------------------------------------------------------------------------
+// ---- stiffness
+// ----------------------------------------------------------------------------------------------------------------------
 
 fe_result fe_world_get_hertz(const fe_world *world, float dt, float *out_contact_hertz, float *out_joint_hertz)
 {
@@ -56,7 +59,8 @@ fe_result fe_world_get_hertz(const fe_world *world, float dt, float *out_contact
     return FE_OK;
 }
 
-// ---- bounds -------------------------------------------------------------------------------------------------------------------------
+// ---- bounds
+// -------------------------------------------------------------------------------------------------------------------------
 
 static fe_bounds public_bounds(const fe__bounds *b) { return (fe_bounds){b->low, b->high}; }
 
@@ -78,7 +82,8 @@ fe_result fe_body_get_bounds(const fe_world *world, fe_body body, fe_bounds *out
     FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_POINTER(out_bounds);
-    if (world->bodies[index].shape_count == 0) return fe__fail(function, FE_ERROR_STATE, "body 0x%llx has no shapes", body);
+    if (world->bodies[index].shape_count == 0)
+        return fe__fail(function, FE_ERROR_STATE, "body 0x%llx has no shapes", body);
     for (int32_t shape = world->bodies[index].first_shape; shape >= 0; shape = world->shapes[shape].next) {
         if (!fe__form_is_unbounded(&world->shapes[shape].form)) continue;
         return fe__fail(function, FE_ERROR_UNSUPPORTED, "body 0x%llx has a plane, which has no bounds", body);

@@ -16,8 +16,10 @@ fe_result fe_pool_destroy(fe_pool *pool)
 {
     FE_BEGIN_WITHOUT_WORLD();
     FE_CHECK_POINTER(pool);
-    int32_t users = fe__pool_users(pool);
-    if (users > 0) return fe__fail(function, FE_ERROR_STATE, "the pool still serves %d worlds, destroy them first", (int)users);
-    fe__pool_destroy(pool);
+    int32_t users;
+    fe_result result = fe__pool_try_destroy(pool, &users);
+    if (result == FE_ERROR_STATE)
+        return fe__fail(function, result, "the pool still serves %d worlds, destroy them first", (int)users);
+    if (result == FE_ERROR_STALE) return fe__fail(function, result, "the pool is gone already");
     return FE_OK;
 }

@@ -9,8 +9,12 @@
 
 // Hits are ordered in the caller's array, which needs them whole, as version 1.0 knew them.
 
-// ---- arguments ------------------------------------------------------------------------------------------------------------------
-static fe_query_filter default_filter(void) { return (fe_query_filter){.struct_size = sizeof(fe_query_filter), .mask = UINT32_MAX}; }
+// ---- arguments
+// ------------------------------------------------------------------------------------------------------------------
+static fe_query_filter default_filter(void)
+{
+    return (fe_query_filter){.struct_size = sizeof(fe_query_filter), .mask = UINT32_MAX};
+}
 
 void fe_query_filter_init(fe_query_filter *filter, uint32_t struct_size)
 {
@@ -21,7 +25,8 @@ void fe_query_filter_init(fe_query_filter *filter, uint32_t struct_size)
 fe_result fe__read_filter(const char *function, const fe_query_filter *filter, fe_query_filter *copy)
 {
     // field by field: a copy would read what was just written in other pieces, and wait for it
-    copy->struct_size = sizeof *copy, copy->mask = UINT32_MAX, copy->flags = 0, copy->excluded_count = 0, copy->excluded = NULL;
+    copy->struct_size = sizeof *copy, copy->mask = UINT32_MAX, copy->flags = 0, copy->excluded_count = 0,
+    copy->excluded = NULL;
     if (!filter) return FE_OK;
     FE_READ_STRUCT(filter, copy);
     FE_CHECK_BITS(copy->flags, FE_QUERY_TRIGGERS);
@@ -57,14 +62,15 @@ fe_result fe__read_moving_form(const char *function, const fe_geometry *geometry
         out_form->half = geometry->half_extents;
         return FE_OK;
     default:
-        return fe__fail(function, FE_ERROR_UNSUPPORTED, "type is %d, must be that of a sphere, a capsule or a box", geometry->type);
+        return fe__fail(function, FE_ERROR_UNSUPPORTED, "type is %d, must be that of a sphere, a capsule or a box",
+                        geometry->type);
     }
 }
 
 fe__scene fe__scene_of(const fe_world *world, const fe_query_filter *whole_filter)
 {
     return (fe__scene){.shapes = world->shapes,
-                       .fields = world->fields,
+                       .store = world->store,
                        .static_tree = &world->static_tree,
                        .moving_tree = &world->moving_tree,
                        .planes = world->planes,
@@ -74,9 +80,10 @@ fe__scene fe__scene_of(const fe_world *world, const fe_query_filter *whole_filte
                        .filter = whole_filter};
 }
 
-// ---- what a ray meets -----------------------------------------------------------------------------------------------------------
-int32_t fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
-                         fe_hit *out_hit)
+// ---- what a ray meets
+// -----------------------------------------------------------------------------------------------------------
+int32_t fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation,
+                         const fe_query_filter *filter, fe_hit *out_hit)
 {
     FE_READ(world);
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
@@ -93,7 +100,8 @@ int32_t fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const fe
     return hit;
 }
 
-int32_t fe_world_raycast_any(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter)
+int32_t fe_world_raycast_any(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation,
+                             const fe_query_filter *filter)
 {
     FE_READ(world);
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
@@ -109,8 +117,8 @@ int32_t fe_world_raycast_any(const fe_world *world, const fe_dvec3 *origin, cons
     return hit;
 }
 
-int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation, const fe_query_filter *filter,
-                             fe_hit *out_hits, uint32_t stride, int32_t capacity)
+int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation,
+                             const fe_query_filter *filter, fe_hit *out_hits, uint32_t stride, int32_t capacity)
 {
     FE_READ(world);
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
@@ -128,9 +136,10 @@ int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, cons
     return count;
 }
 
-// ---- what a moving form meets ---------------------------------------------------------------------------------------------------
-int32_t fe_world_sweep(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
-                       const fe_query_filter *filter, fe_hit *out_hit)
+// ---- what a moving form meets
+// ---------------------------------------------------------------------------------------------------
+int32_t fe_world_sweep(const fe_world *world, const fe_geometry *geometry, const fe_transform *start,
+                       const fe_dvec3 *translation, const fe_query_filter *filter, fe_hit *out_hit)
 {
     FE_READ(world);
     fe__form form;
@@ -148,8 +157,8 @@ int32_t fe_world_sweep(const fe_world *world, const fe_geometry *geometry, const
     return hit;
 }
 
-int32_t fe_world_sweep_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
-                           const fe_query_filter *filter)
+int32_t fe_world_sweep_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *start,
+                           const fe_dvec3 *translation, const fe_query_filter *filter)
 {
     FE_READ(world);
     fe__form form;
@@ -166,8 +175,9 @@ int32_t fe_world_sweep_any(const fe_world *world, const fe_geometry *geometry, c
     return hit;
 }
 
-int32_t fe_world_sweep_all(const fe_world *world, const fe_geometry *geometry, const fe_transform *start, const fe_dvec3 *translation,
-                           const fe_query_filter *filter, fe_hit *out_hits, uint32_t stride, int32_t capacity)
+int32_t fe_world_sweep_all(const fe_world *world, const fe_geometry *geometry, const fe_transform *start,
+                           const fe_dvec3 *translation, const fe_query_filter *filter, fe_hit *out_hits,
+                           uint32_t stride, int32_t capacity)
 {
     FE_READ(world);
     fe__form form;
@@ -186,11 +196,12 @@ int32_t fe_world_sweep_all(const fe_world *world, const fe_geometry *geometry, c
     return count;
 }
 
-// ---- what a form overlaps -------------------------------------------------------------------------------------------------------
+// ---- what a form overlaps
+// -------------------------------------------------------------------------------------------------------
 static const fe_dvec3 nowhere = {0.0, 0.0, 0.0};
 
-int32_t fe_world_overlap(const fe_world *world, const fe_geometry *geometry, const fe_transform *at, const fe_query_filter *filter,
-                         fe_body *out_bodies, int32_t capacity)
+int32_t fe_world_overlap(const fe_world *world, const fe_geometry *geometry, const fe_transform *at,
+                         const fe_query_filter *filter, fe_body *out_bodies, int32_t capacity)
 {
     FE_READ(world);
     fe__form form;
@@ -207,7 +218,8 @@ int32_t fe_world_overlap(const fe_world *world, const fe_geometry *geometry, con
     return count;
 }
 
-int32_t fe_world_overlap_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *at, const fe_query_filter *filter)
+int32_t fe_world_overlap_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *at,
+                             const fe_query_filter *filter)
 {
     FE_READ(world);
     fe__form form;
@@ -225,8 +237,9 @@ int32_t fe_world_overlap_any(const fe_world *world, const fe_geometry *geometry,
 
 enum { LEAST_SORTED_OVERLAP = 16 }; // bytes: body and shape
 
-int32_t fe_world_overlap_shapes(const fe_world *world, const fe_geometry *geometry, const fe_transform *at, const fe_query_filter *filter,
-                                fe_overlap *out_overlaps, uint32_t stride, int32_t capacity)
+int32_t fe_world_overlap_shapes(const fe_world *world, const fe_geometry *geometry, const fe_transform *at,
+                                const fe_query_filter *filter, fe_overlap *out_overlaps, uint32_t stride,
+                                int32_t capacity)
 {
     FE_READ(world);
     fe__form form;
@@ -244,8 +257,8 @@ int32_t fe_world_overlap_shapes(const fe_world *world, const fe_geometry *geomet
     return count;
 }
 
-int32_t fe_world_overlap_bounds(const fe_world *world, const fe_bounds *bounds, const fe_query_filter *filter, fe_shape *out_shapes,
-                                int32_t capacity)
+int32_t fe_world_overlap_bounds(const fe_world *world, const fe_bounds *bounds, const fe_query_filter *filter,
+                                fe_shape *out_shapes, int32_t capacity)
 {
     FE_READ(world);
     FE_CHECK_POINTER(bounds);
@@ -265,9 +278,10 @@ int32_t fe_world_overlap_bounds(const fe_world *world, const fe_bounds *bounds, 
     return count;
 }
 
-// ---- what is near ---------------------------------------------------------------------------------------------------------------
-int32_t fe_world_closest_point(const fe_world *world, const fe_dvec3 *point, double max_distance, const fe_query_filter *filter,
-                               fe_closest *out_closest)
+// ---- what is near
+// ---------------------------------------------------------------------------------------------------------------
+int32_t fe_world_closest_point(const fe_world *world, const fe_dvec3 *point, double max_distance,
+                               const fe_query_filter *filter, fe_closest *out_closest)
 {
     FE_READ(world);
     FE_CHECK_DVEC3(point, FE_MAX_POSITION);
@@ -282,10 +296,11 @@ int32_t fe_world_closest_point(const fe_world *world, const fe_dvec3 *point, dou
     return found;
 }
 
-// ---- one body, one shape --------------------------------------------------------------------------------------------------------
-// From shape `first` to before `end` in a body's list.
-static int32_t raycast_shapes(const fe_world *world, int32_t first, int32_t end, const fe_dvec3 *origin, const fe_dvec3 *translation,
-                              fe_hit *out_hit)
+// ---- one body, one shape
+// -------------------------------------------------------------------------------------------------------- From shape
+// `first` to before `end` in a body's list.
+static int32_t raycast_shapes(const fe_world *world, int32_t first, int32_t end, const fe_dvec3 *origin,
+                              const fe_dvec3 *translation, fe_hit *out_hit)
 {
     fe_query_filter everything = default_filter();
     everything.flags = FE_QUERY_TRIGGERS;
@@ -298,7 +313,8 @@ static int32_t raycast_shapes(const fe_world *world, int32_t first, int32_t end,
     return hit;
 }
 
-static int32_t closest_of_shapes(const fe_world *world, int32_t first, int32_t end, const fe_dvec3 *point, fe_closest *out_closest)
+static int32_t closest_of_shapes(const fe_world *world, int32_t first, int32_t end, const fe_dvec3 *point,
+                                 fe_closest *out_closest)
 {
     fe_query_filter everything = default_filter();
     everything.flags = FE_QUERY_TRIGGERS;
@@ -309,7 +325,8 @@ static int32_t closest_of_shapes(const fe_world *world, int32_t first, int32_t e
     return found;
 }
 
-int32_t fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_dvec3 *origin, const fe_dvec3 *translation, fe_hit *out_hit)
+int32_t fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_dvec3 *origin, const fe_dvec3 *translation,
+                         fe_hit *out_hit)
 {
     FE_READ(world);
     FE_FIND_SHAPE(index, shape);
@@ -319,7 +336,8 @@ int32_t fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_dvec3 *
     return raycast_shapes(world, index, world->shapes[index].next, origin, translation, out_hit);
 }
 
-int32_t fe_body_raycast(const fe_world *world, fe_body body, const fe_dvec3 *origin, const fe_dvec3 *translation, fe_hit *out_hit)
+int32_t fe_body_raycast(const fe_world *world, fe_body body, const fe_dvec3 *origin, const fe_dvec3 *translation,
+                        fe_hit *out_hit)
 {
     FE_READ(world);
     FE_FIND_BODY(index, body);

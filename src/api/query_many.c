@@ -1,4 +1,5 @@
-// query_many.c - the API of queries by the thousand: one check of world and filter, and the world's workers when asked for.
+// query_many.c - the API of queries by the thousand: one check of world and filter, and the world's workers when asked
+// for.
 #include "api/query.h"
 #include "core/fp_state.h"
 
@@ -61,7 +62,10 @@ static void answer(void *argument, int32_t first, int32_t end, int32_t worker)
         if (fe__cast_closest(&b->scene, &probe, &hit))
             hits += 1;
         else
-            hit = (fe_hit){.point = fe__dadd(probe.way.origin, probe.way.translation), .fraction = 1.0, .part = -1, .triangle = -1};
+            hit = (fe_hit){.point = fe__dadd(probe.way.origin, probe.way.translation),
+                           .fraction = 1.0,
+                           .part = -1,
+                           .triangle = -1};
         memcpy(fe__at(b->out_hits, b->stride, i), &hit, b->stride < sizeof hit ? b->stride : sizeof hit);
     }
     atomic_fetch_add_explicit(&b->hits, hits, memory_order_relaxed);
@@ -103,8 +107,8 @@ static fe_result check_path(const char *function, const fe_path *path, int32_t i
     return check_part(function, "paths[%" PRId32 "].translation", i, &path->translation, FE_MAX_TRANSLATION);
 }
 
-int32_t fe_world_raycast_many(const fe_world *world, const fe_ray *rays, uint32_t ray_stride, int32_t count, const fe_query_filter *filter,
-                              int32_t spread, fe_hit *out_hits, uint32_t stride)
+int32_t fe_world_raycast_many(const fe_world *world, const fe_ray *rays, uint32_t ray_stride, int32_t count,
+                              const fe_query_filter *filter, int32_t spread, fe_hit *out_hits, uint32_t stride)
 {
     FE_READ(world);
     FE_CHECK_ARRAY(rays, count);
@@ -118,12 +122,17 @@ int32_t fe_world_raycast_many(const fe_world *world, const fe_ray *rays, uint32_
         fe_ray ray = ray_at(rays, ray_stride, i);
         FE_TRY(check_ray(function, &ray, i));
     }
-    batch b = {.scene = fe__scene_of(world, &whole), .ways = rays, .way_stride = ray_stride, .out_hits = out_hits, .stride = stride};
+    batch b = {.scene = fe__scene_of(world, &whole),
+               .ways = rays,
+               .way_stride = ray_stride,
+               .out_hits = out_hits,
+               .stride = stride};
     return answer_all(world, &b, count, spread);
 }
 
-int32_t fe_world_sweep_many(const fe_world *world, const fe_geometry *geometry, const fe_path *paths, uint32_t path_stride, int32_t count,
-                            const fe_query_filter *filter, int32_t spread, fe_hit *out_hits, uint32_t stride)
+int32_t fe_world_sweep_many(const fe_world *world, const fe_geometry *geometry, const fe_path *paths,
+                            uint32_t path_stride, int32_t count, const fe_query_filter *filter, int32_t spread,
+                            fe_hit *out_hits, uint32_t stride)
 {
     FE_READ(world);
     fe__form form;

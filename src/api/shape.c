@@ -8,7 +8,8 @@
 #include "world/shapes.h"
 #include "world/sleep.h"
 
-// ---- geometry -------------------------------------------------------------------------------------------------------------------
+// ---- geometry
+// -------------------------------------------------------------------------------------------------------------------
 
 void fe_geometry_init(fe_geometry *geometry, uint32_t struct_size)
 {
@@ -18,7 +19,8 @@ void fe_geometry_init(fe_geometry *geometry, uint32_t struct_size)
 
 #define FE_CHECK_LENGTH(value) FE_CHECK_FLOAT(value, FE_LEAST_LENGTH, FE_MAX_LENGTH)
 
-// Kept as given when its length is 1 to the rounding of floats, so that reading a plane and setting it again changes nothing.
+// Kept as given when its length is 1 to the rounding of floats, so that reading a plane and setting it again changes
+// nothing.
 static fe_vec3 unit_normal(fe_vec3 n)
 {
     const double tolerance = 1e-7;
@@ -35,8 +37,9 @@ static fe_result read_plane(const char *function, const fe_geometry *geometry, f
     const fe_vec3 *normal = &geometry->normal;
     int32_t finite = __builtin_isfinite(normal->x) && __builtin_isfinite(normal->y) && __builtin_isfinite(normal->z);
     if (!finite || (normal->x == 0.0f && normal->y == 0.0f && normal->z == 0.0f)) {
-        return fe__fail(function, FE_ERROR_ARGUMENT, "geometry->normal is (%.9g, %.9g, %.9g), must be finite and not zero",
-                        (double)normal->x, (double)normal->y, (double)normal->z);
+        return fe__fail(function, FE_ERROR_ARGUMENT,
+                        "geometry->normal is (%.9g, %.9g, %.9g), must be finite and not zero", (double)normal->x,
+                        (double)normal->y, (double)normal->z);
     }
     FE_CHECK_FLOAT(geometry->distance, -FE_MAX_LOCAL, FE_MAX_LOCAL);
     out_form->normal = unit_normal(*normal);
@@ -44,15 +47,32 @@ static fe_result read_plane(const char *function, const fe_geometry *geometry, f
     return FE_OK;
 }
 
-static fe_result read_heightfield(const char *function, const fe_world *world, const fe_geometry *geometry, fe__form *out_form)
+static fe_result read_heightfield(const char *function, const fe_world *world, const fe_geometry *geometry,
+                                  fe__form *out_form)
 {
-    FE_FIND_ASSET(index, geometry->asset);
-    *out_form = fe__heightfield_form(world->fields + index, index);
-    return FE_OK;
+    int32_t index;
+    fe__store_lock(world->store);
+    fe_result result = fe__find_asset(function, "geometry->asset", world->store, geometry->asset, &index);
+    if (result == FE_OK) {
+        fe__asset_retain(world->store, index);
+        *out_form = fe__heightfield_form(fe__store_field(world->store, index), index);
+    }
+    fe__store_unlock(world->store);
+    return result;
 }
 
-// What a form does not use stays 0 (see form.h).
-static fe_result read_geometry(const char *function, const fe_world *world, const fe_geometry *geometry, fe__form *out_form)
+static void let_go_of_asset(const fe_world *world, const fe__form *form)
+{
+    if (!fe__form_has_asset(form)) return;
+    fe__store_lock(world->store);
+    fe__asset_release(world->store, form->field);
+    fe__store_unlock(world->store);
+}
+
+// What a form does not use stays 0 (see form.h). On FE_OK its asset is kept alive until let_go_of_asset: another thread
+// may destroy it.
+static fe_result read_geometry(const char *function, const fe_world *world, const fe_geometry *geometry,
+                               fe__form *out_form)
 {
     fe_geometry whole = {.struct_size = sizeof whole};
     FE_READ_STRUCT(geometry, &whole);
@@ -60,7 +80,8 @@ static fe_result read_geometry(const char *function, const fe_world *world, cons
     FE_CHECK_RESERVED(geometry->reserved);
     FE_CHECK_RESERVED(geometry->reserved_end);
     *out_form = (fe__form){.type = fe__form_of_geometry(geometry->type)};
-    if (out_form->type < 0) return fe__fail(function, FE_ERROR_ARGUMENT, "type is %" PRId32 ", no fe_geometry_type", geometry->type);
+    if (out_form->type < 0)
+        return fe__fail(function, FE_ERROR_ARGUMENT, "type is %" PRId32 ", no fe_geometry_type", geometry->type);
     switch (geometry->type) {
     case FE_GEOMETRY_SPHERE:
         FE_CHECK_LENGTH(geometry->radius);
@@ -89,8 +110,8 @@ static fe_result read_geometry(const char *function, const fe_world *world, cons
 static fe_result check_owner(const char *function, const fe_world *world, int32_t body, const fe__form *form)
 {
     if (!fe__form_is_static_only(form) || world->bodies[body].type == FE_BODY_STATIC) return FE_OK;
-    return fe__fail(function, FE_ERROR_UNSUPPORTED, "body 0x%llx is not static, a %s needs a static one", fe__body_handle(world, body),
-                    fe__traits_of(form)->name);
+    return fe__fail(function, FE_ERROR_UNSUPPORTED, "body 0x%llx is not static, a %s needs a static one",
+                    fe__body_handle(world, body), fe__traits_of(form)->name);
 }
 
 static fe_result check_one_way(const char *function, const fe__form *form, uint32_t one_way)
@@ -99,7 +120,8 @@ static fe_result check_one_way(const char *function, const fe__form *form, uint3
     return fe__fail(function, FE_ERROR_UNSUPPORTED, "a %s cannot be one-way", fe__traits_of(form)->name);
 }
 
-// ---- life -----------------------------------------------------------------------------------------------------------------------
+// ---- life
+// -----------------------------------------------------------------------------------------------------------------------
 
 enum { ALL_EVENTS = FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT };
 
@@ -141,29 +163,38 @@ static fe_result read_shape_def(const char *function, const fe_shape_def *def, f
     return FE_OK;
 }
 
-fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *def, const fe_geometry *geometry, fe_shape *out_shape)
+static fe_result create_shape(const char *function, fe_world *world, int32_t body, const fe_shape_def *def,
+                              const fe__form *form, fe_shape *out_shape)
 {
-    if (out_shape) *out_shape = 0;
-    FE_WRITE(world);
-    FE_FIND_BODY(index, body);
-    FE_CHECK_POINTER(out_shape);
-    fe_shape_def full;
-    FE_TRY(read_shape_def(function, def, &full));
-    fe__form form;
-    FE_TRY(read_geometry(function, world, geometry, &form));
-    FE_TRY(check_owner(function, world, index, &form));
-    FE_TRY(check_one_way(function, &form, (uint32_t)full.one_way));
+    FE_TRY(check_owner(function, world, body, form));
+    FE_TRY(check_one_way(function, form, (uint32_t)def->one_way));
     fe__fp_state fp = fe__fp_enter();
-    int32_t shape = fe__shape_create(world, index, &full, &form);
+    int32_t shape = fe__shape_create(world, body, def, form);
     fe__fp_leave(fp);
     if (shape < 0) return fe__report(function, (fe_result)shape);
     *out_shape = fe__shape_handle(world, shape);
     return FE_OK;
 }
 
+fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *def, const fe_geometry *geometry,
+                          fe_shape *out_shape)
+{
+    if (out_shape) *out_shape = 0;
+    FE_WRITE_ALONE(world);
+    FE_FIND_BODY(index, body);
+    FE_CHECK_POINTER(out_shape);
+    fe_shape_def full;
+    FE_TRY(read_shape_def(function, def, &full));
+    fe__form form;
+    FE_TRY(read_geometry(function, world, geometry, &form));
+    fe_result result = create_shape(function, world, index, &full, &form, out_shape);
+    let_go_of_asset(world, &form);
+    return result;
+}
+
 fe_result fe_shape_destroy(fe_world *world, fe_shape shape)
 {
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     FE_FIND_SHAPE(index, shape);
     fe__fp_state fp = fe__fp_enter();
     fe__shape_destroy(world, index);
@@ -187,20 +218,28 @@ fe_result fe_shape_get_body(const fe_world *world, fe_shape shape, fe_body *out_
     return FE_OK;
 }
 
-// ---- form -----------------------------------------------------------------------------------------------------------------------
+// ---- form
+// -----------------------------------------------------------------------------------------------------------------------
+
+static fe_result set_form(const char *function, fe_world *world, int32_t shape, const fe__form *form)
+{
+    FE_TRY(check_owner(function, world, world->shapes[shape].body, form));
+    FE_TRY(check_one_way(function, form, world->shapes[shape].flags & FE__SHAPE_ONE_WAY));
+    fe__fp_state fp = fe__fp_enter();
+    fe_result result = fe__shape_set_form(world, shape, form);
+    fe__fp_leave(fp);
+    return fe__report(function, result);
+}
 
 fe_result fe_shape_set_geometry(fe_world *world, fe_shape shape, const fe_geometry *geometry)
 {
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     FE_FIND_SHAPE(index, shape);
     fe__form form;
     FE_TRY(read_geometry(function, world, geometry, &form));
-    FE_TRY(check_owner(function, world, world->shapes[index].body, &form));
-    FE_TRY(check_one_way(function, &form, world->shapes[index].flags & FE__SHAPE_ONE_WAY));
-    fe__fp_state fp = fe__fp_enter();
-    fe_result result = fe__shape_set_form(world, index, &form);
-    fe__fp_leave(fp);
-    return fe__report(function, result);
+    fe_result result = set_form(function, world, index, &form);
+    let_go_of_asset(world, &form);
+    return result;
 }
 
 fe_result fe_shape_get_geometry(const fe_world *world, fe_shape shape, fe_geometry *out_geometry)
@@ -209,7 +248,9 @@ fe_result fe_shape_get_geometry(const fe_world *world, fe_shape shape, fe_geomet
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_STRUCT_SIZE(out_geometry);
     const fe__form *form = &world->shapes[index].form;
-    fe_geometry geometry = {.struct_size = sizeof geometry, .type = fe__traits_of(form)->geometry, .radius = form->radius};
+    fe_geometry geometry = {.struct_size = sizeof geometry,
+                            .type = fe__traits_of(form)->geometry,
+                            .radius = form->radius};
     if (fe__form_has_asset(form)) {
         geometry.asset = fe__asset_handle(world, form->field);
     } else {
@@ -267,7 +308,8 @@ fe_result fe_shape_get_density(const fe_world *world, fe_shape shape, float *out
     return FE_OK;
 }
 
-// ---- surface --------------------------------------------------------------------------------------------------------------------
+// ---- surface
+// --------------------------------------------------------------------------------------------------------------------
 
 // What rests by friction may start to slide, what lies on a belt to move.
 static void renew_surface(fe_world *world, int32_t index)
@@ -316,7 +358,8 @@ fe_result fe_shape_get_surface_velocity(const fe_world *world, fe_shape shape, f
     return FE_OK;
 }
 
-// ---- filter, trigger, events ----------------------------------------------------------------------------------------------------
+// ---- filter, trigger, events
+// ----------------------------------------------------------------------------------------------------
 
 fe_result fe_shape_set_filter(fe_world *world, fe_shape shape, uint32_t layer, uint32_t mask, int32_t group)
 {
@@ -327,7 +370,8 @@ fe_result fe_shape_set_filter(fe_world *world, fe_shape shape, uint32_t layer, u
     return FE_OK;
 }
 
-fe_result fe_shape_get_filter(const fe_world *world, fe_shape shape, uint32_t *out_layer, uint32_t *out_mask, int32_t *out_group)
+fe_result fe_shape_get_filter(const fe_world *world, fe_shape shape, uint32_t *out_layer, uint32_t *out_mask,
+                              int32_t *out_group)
 {
     FE_READ(world);
     FE_FIND_SHAPE(index, shape);

@@ -9,26 +9,21 @@
 #include "world/proxies.h"
 #include "world/sleep.h"
 
-// ---- creation -------------------------------------------------------------------------------------------------------------------
+// ---- creation
+// -------------------------------------------------------------------------------------------------------------------
 
 static fe_world_def default_world(void)
 {
-    return (fe_world_def){.struct_size = sizeof(fe_world_def), .worker_count = 1, .gravity = {0.0f, -9.81f, 0.0f}, .substeps = 8};
+    return (fe_world_def){.struct_size = sizeof(fe_world_def),
+                          .worker_count = 1,
+                          .gravity = {0.0f, -9.81f, 0.0f},
+                          .substeps = 8};
 }
 
 void fe_world_def_init(fe_world_def *def, uint32_t struct_size)
 {
     fe_world_def defaults = default_world();
     fe__init_struct(def, &defaults, sizeof defaults, struct_size);
-}
-
-static fe_result read_allocator(const char *function, const fe_allocator *allocator, fe_allocator *copy)
-{
-    FE_READ_STRUCT(allocator, copy);
-    FE_CHECK_POINTER(copy->allocate);
-    FE_CHECK_POINTER(copy->release);
-    FE_CHECK_INT(copy->reserved, 0, 0);
-    return FE_OK;
 }
 
 static fe_result read_tasks(const char *function, const fe_task_system *tasks, fe_task_system *copy)
@@ -58,7 +53,7 @@ static fe_result read_world_def(const char *function, const fe_world_def *def, w
     FE_CHECK_INT(full->simd, FE_SIMD_AUTO, FE_SIMD_NEON);
     FE_CHECK_INT(full->number, 0, FE_ID_LAST_NUMBER);
     if (full->allocator) {
-        FE_TRY(read_allocator(function, full->allocator, &whole->allocator));
+        FE_TRY(fe__read_allocator(function, full->allocator, &whole->allocator));
         full->allocator = &whole->allocator;
     }
     if (full->tasks) {
@@ -77,8 +72,15 @@ fe_result fe_world_create(const fe_world_def *def, fe_world **out_world)
     fe_world *world;
     fe_result result = fe__world_create(&whole.def, &world);
     if (result == FE_ERROR_UNSUPPORTED) {
-        return fe__fail(function, result, "simd is %d, a set that this CPU or this build does not have", (int)whole.def.simd);
+        return fe__fail(function, result, "simd is %d, a set that this CPU or this build does not have",
+                        (int)whole.def.simd);
     }
+    if (result == FE_ERROR_STALE) {
+        const char *gone = whole.def.pool && !fe__pool_lives(whole.def.pool) ? "pool" : "store";
+        return fe__fail(function, result, "%s was destroyed before the world was created", gone);
+    }
+    if (result == FE_ERROR_ARGUMENT)
+        return fe__fail(function, result, "store is another world's own; give both one of fe_store_create");
     FE_TRY(fe__report(function, result));
     *out_world = world;
     return FE_OK;
@@ -88,21 +90,22 @@ fe_result fe_world_destroy(fe_world *world)
 {
     FE_WRITE(world);
     if (!fe__owner_be_alone(inside, FE__CLOSING)) {
-        return fe__fail(function, FE_ERROR_BUSY, "another thread is reading this world; destroy it when its calls have returned");
+        return fe__refuse_writer(function);
     }
     inside = NULL; // its word goes with it
     fe__world_destroy(world);
     return FE_OK;
 }
 
-// ---- the step -------------------------------------------------------------------------------------------------------------------
+// ---- the step
+// -------------------------------------------------------------------------------------------------------------------
 
 fe_result fe_world_step(fe_world *world, float dt)
 {
     FE_WRITE(world);
     FE_CHECK_FLOAT(dt, 0.0f, FE_MAX_DT);
     if (!fe__owner_be_alone(inside, FE__STEP)) {
-        return fe__fail(function, FE_ERROR_BUSY, "another thread is reading this world; step it when its calls have returned");
+        return fe__refuse_writer(function);
     }
     fe__fp_state fp = fe__fp_enter();
     fe_result result = fe__world_step(world, dt);
@@ -110,7 +113,8 @@ fe_result fe_world_step(fe_world *world, float dt)
     return fe__report(function, result);
 }
 
-// ---- settings -------------------------------------------------------------------------------------------------------------------
+// ---- settings
+// -------------------------------------------------------------------------------------------------------------------
 
 static void wake_all(fe_world *world)
 {
@@ -206,17 +210,19 @@ static fe_result read_tuning(const char *function, const fe_world_tuning *tuning
 static void renew_boxes(fe_world *world)
 {
     for (int32_t body = world->first_body; body >= 0; body = world->bodies[body].order_next) {
-        for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next) fe__shape_touch(world, shape);
+        for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next)
+            fe__shape_touch(world, shape);
     }
 }
 
 fe_result fe_world_set_tuning(fe_world *world, const fe_world_tuning *tuning)
 {
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     fe_world_tuning copy = world->tuning;
     FE_TRY(read_tuning(function, tuning, &copy));
     int32_t same_reach = copy.speculative_distance == world->tuning.speculative_distance;
-    if (copy.joint_hertz != world->tuning.joint_hertz) world->joints.forest.changed = world->solver.graph_changed = 1; // what is a spring
+    if (copy.joint_hertz != world->tuning.joint_hertz)
+        world->joints.forest.changed = world->solver.graph_changed = 1; // what is a spring
     int32_t wakes = world->tuning.sleep_enabled && !copy.sleep_enabled;
     world->tuning = copy;
     if (wakes) wake_all(world);
@@ -237,7 +243,7 @@ fe_result fe_world_get_tuning(const fe_world *world, fe_world_tuning *out_tuning
 
 fe_result fe_world_ignore_collision(fe_world *world, fe_body a, fe_body b, int32_t ignore)
 {
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     FE_FIND_BODY(index_a, a);
     FE_FIND_BODY(index_b, b);
     FE_CHECK_BOOL(ignore);
@@ -266,14 +272,16 @@ fe_result fe_world_get_ignored(const fe_world *world, fe_body a, fe_body b, int3
 
 fe_result fe_world_optimize(fe_world *world)
 {
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     fe__fp_state fp = fe__fp_enter();
-    int32_t built = fe__tree_rebuild(&world->static_tree, &world->memory, 1) && fe__tree_rebuild(&world->moving_tree, &world->memory, 1);
+    int32_t built = fe__tree_rebuild(&world->static_tree, &world->memory, 1) &&
+                    fe__tree_rebuild(&world->moving_tree, &world->memory, 1);
     fe__fp_leave(fp);
     return built ? FE_OK : fe__report(function, FE_ERROR_MEMORY);
 }
 
-// ---- the defaults of what is read into, and of what the host gives ---------------------------------------------------------------
+// ---- the defaults of what is read into, and of what the host gives
+// ---------------------------------------------------------------
 
 #define FE_DEFINE_EMPTY_INIT(name, type, argument)                          \
     void name(type *argument, uint32_t struct_size)                         \
@@ -292,7 +300,8 @@ void fe_task_system_init(fe_task_system *tasks, uint32_t struct_size)
     fe__init_struct(tasks, &defaults, sizeof defaults, struct_size);
 }
 
-// ---- measures -------------------------------------------------------------------------------------------------------------------
+// ---- measures
+// -------------------------------------------------------------------------------------------------------------------
 
 fe_result fe_world_get_profile(const fe_world *world, fe_profile *out_profile)
 {
@@ -348,6 +357,6 @@ fe_result fe_world_get_store(const fe_world *world, fe_store **out_store)
 {
     FE_READ(world);
     FE_CHECK_POINTER(out_store);
-    *out_store = (fe_store *)(uintptr_t)&world->store;
+    *out_store = world->store;
     return FE_OK;
 }

@@ -1,8 +1,9 @@
 // lanes.h - eight floats side by side: what the tree's tests need and nothing else.
 //
-// Two quads of 128 bits, which every 64-bit machine has, so that one compile serves all of them. + - * / and comparisons are the compiler's
-// (vector extensions of gcc and clang); min, max and the sign mask are intrinsics on x86 and plain C of the same meaning elsewhere
-// (FE_PLAIN_C forces the latter). Each operation is IEEE and acts on each lane alone: the bits do not depend on the machine.
+// Two quads of 128 bits, which every 64-bit machine has, so that one compile serves all of them. + - * / and
+// comparisons are the compiler's (vector extensions of gcc and clang); min, max and the sign mask are intrinsics on x86
+// and plain C of the same meaning elsewhere (FE_PLAIN_C forces the latter). Each operation is IEEE and acts on each
+// lane alone: the bits do not depend on the machine.
 //     min(a, b) = a < b ? a : b       max(a, b) = a > b ? a : b
 #ifndef FE_BROADPHASE_LANES_H
 #define FE_BROADPHASE_LANES_H
@@ -27,7 +28,8 @@ typedef struct fe__lanes {
 
 #define FE_LANES_INLINE static inline __attribute__((always_inline))
 
-// ---- four ---------------------------------------------------------------------------------------------------------------------
+// ---- four
+// ---------------------------------------------------------------------------------------------------------------------
 FE_LANES_INLINE fe__quad fe__quad_set(float x) { return (fe__quad){x, x, x, x}; }
 FE_LANES_INLINE fe__quad fe__quad_choose(fe__quad_int mask, fe__quad yes, fe__quad no)
 {
@@ -46,7 +48,10 @@ FE_LANES_INLINE fe__quad fe__quad_max(fe__quad x, fe__quad y) { return (fe__quad
 // bit i: sign of lane i
 FE_LANES_INLINE uint32_t fe__quad_signs(fe__quad_int x) { return (uint32_t)_mm_movemask_ps((__m128)x); }
 #else
-FE_LANES_INLINE fe__quad fe__quad_narrow(fe__pair a, fe__pair b) { return (fe__quad){(float)a[0], (float)a[1], (float)b[0], (float)b[1]}; }
+FE_LANES_INLINE fe__quad fe__quad_narrow(fe__pair a, fe__pair b)
+{
+    return (fe__quad){(float)a[0], (float)a[1], (float)b[0], (float)b[1]};
+}
 FE_LANES_INLINE fe__quad fe__quad_min(fe__quad x, fe__quad y) { return fe__quad_choose(x < y, x, y); }
 FE_LANES_INLINE fe__quad fe__quad_max(fe__quad x, fe__quad y) { return fe__quad_choose(x > y, x, y); }
 FE_LANES_INLINE uint32_t fe__quad_signs(fe__quad_int x)
@@ -57,7 +62,8 @@ FE_LANES_INLINE uint32_t fe__quad_signs(fe__quad_int x)
 }
 #endif
 
-// ---- eight --------------------------------------------------------------------------------------------------------------------
+// ---- eight
+// --------------------------------------------------------------------------------------------------------------------
 FE_LANES_INLINE fe__lanes fe__lanes_load(const float *row) // 16-byte aligned
 {
     return (fe__lanes){*(const fe__quad *)row, *(const fe__quad *)(row + 4)};
@@ -71,17 +77,27 @@ FE_LANES_INLINE fe__lanes fe__lanes_set(float x) { return (fe__lanes){fe__quad_s
 FE_LANES_INLINE fe__lanes fe__lanes_add(fe__lanes x, fe__lanes y) { return (fe__lanes){x.a + y.a, x.b + y.b}; }
 FE_LANES_INLINE fe__lanes fe__lanes_sub(fe__lanes x, fe__lanes y) { return (fe__lanes){x.a - y.a, x.b - y.b}; }
 FE_LANES_INLINE fe__lanes fe__lanes_mul(fe__lanes x, fe__lanes y) { return (fe__lanes){x.a * y.a, x.b * y.b}; }
-FE_LANES_INLINE fe__lanes fe__lanes_min(fe__lanes x, fe__lanes y) { return (fe__lanes){fe__quad_min(x.a, y.a), fe__quad_min(x.b, y.b)}; }
-FE_LANES_INLINE fe__lanes fe__lanes_max(fe__lanes x, fe__lanes y) { return (fe__lanes){fe__quad_max(x.a, y.a), fe__quad_max(x.b, y.b)}; }
+FE_LANES_INLINE fe__lanes fe__lanes_min(fe__lanes x, fe__lanes y)
+{
+    return (fe__lanes){fe__quad_min(x.a, y.a), fe__quad_min(x.b, y.b)};
+}
+FE_LANES_INLINE fe__lanes fe__lanes_max(fe__lanes x, fe__lanes y)
+{
+    return (fe__lanes){fe__quad_max(x.a, y.a), fe__quad_max(x.b, y.b)};
+}
 // bit i: lane i of x is at most, or equal to, lane i of y
 FE_LANES_INLINE uint32_t fe__lanes_at_most(fe__lanes x, fe__lanes y)
 {
     return fe__quad_signs(x.a <= y.a) | fe__quad_signs(x.b <= y.b) << 4;
 }
-FE_LANES_INLINE uint32_t fe__lanes_equal(fe__lanes x, fe__lanes y) { return fe__quad_signs(x.a == y.a) | fe__quad_signs(x.b == y.b) << 4; }
+FE_LANES_INLINE uint32_t fe__lanes_equal(fe__lanes x, fe__lanes y)
+{
+    return fe__quad_signs(x.a == y.a) | fe__quad_signs(x.b == y.b) << 4;
+}
 
-// ---- eight in one register ----------------------------------------------------------------------------------------------------
-// For files that are compiled once per SIMD set: the widest ones have such registers. The same eight floats in any case.
+// ---- eight in one register
+// ---------------------------------------------------------------------------------------------------- For files that
+// are compiled once per SIMD set: the widest ones have such registers. The same eight floats in any case.
 #if FE_LANES_X86 && defined(__AVX__)
 typedef __m256 fe__eight;
 FE_LANES_INLINE fe__eight fe__eight_load(const float *row) { return _mm256_load_ps(row); } // 32-byte aligned

@@ -1,8 +1,8 @@
 // pair_set.c - see pair_set.h.
 //
-// The hash is Fibonacci's: the key times 2^64 over the golden ratio, upper bits. Shape indices of neighbours are close to each other, which
-// this spreads well. A removal closes the gap (Knuth 6.4, algorithm R), so there are no tombstones and a search ends at the first empty
-// entry.
+// The hash is Fibonacci's: the key times 2^64 over the golden ratio, upper bits. Shape indices of neighbours are close
+// to each other, which this spreads well. A removal closes the gap (Knuth 6.4, algorithm R), so there are no tombstones
+// and a search ends at the first empty entry.
 #include "broadphase/pair_set.h"
 
 enum { FIRST_CAPACITY = 64, LARGEST_CAPACITY = 1 << 30 };
@@ -39,7 +39,8 @@ int32_t fe__pair_set_reserve(fe__pair_set *set, fe__memory *memory, int32_t extr
     while (capacity < need) capacity *= 2;
     if (capacity > LARGEST_CAPACITY) return 0;
 
-    fe__pair_set grown = {fe__allocate(memory, (size_t)capacity * sizeof *grown.entries), (int32_t)capacity, set->count};
+    fe__pair_set grown = {fe__allocate(memory, (size_t)capacity * sizeof *grown.entries), (int32_t)capacity,
+                          set->count};
     if (!grown.entries) return 0;
     for (int32_t i = 0; i < set->capacity; ++i)
         if (set->entries[i].key != 0) grown.entries[find_entry(&grown, set->entries[i].key)] = set->entries[i];
@@ -68,7 +69,8 @@ void fe__pair_set_remove(fe__pair_set *set, int32_t a, int32_t b)
     uint32_t mask = (uint32_t)(set->capacity - 1), gap = find_entry(set, key_of(a, b));
     if (set->entries[gap].key == 0) return;
     set->count -= 1;
-    // An entry after the gap moves into it unless its home lies behind the gap: a search for it would then start too late to see it.
+    // An entry after the gap moves into it unless its home lies behind the gap: a search for it would then start too
+    // late to see it.
     for (uint32_t i = (gap + 1) & mask; set->entries[i].key != 0; i = (i + 1) & mask) {
         uint32_t home = home_of(set, set->entries[i].key);
         if (((i - home) & mask) < ((i - gap) & mask)) continue;
@@ -78,8 +80,8 @@ void fe__pair_set_remove(fe__pair_set *set, int32_t a, int32_t b)
     set->entries[gap] = (fe__pair_entry){0};
 }
 
-// A removal moves entries only towards the gap, which is where the walk stands: it looks there again, and misses none. (Entries that wrap
-// around from the front to the end were seen at the front.)
+// A removal moves entries only towards the gap, which is where the walk stands: it looks there again, and misses none.
+// (Entries that wrap around from the front to the end were seen at the front.)
 void fe__pair_set_remove_all(fe__pair_set *set, int32_t a)
 {
     for (int32_t i = 0; i < set->capacity;) {

@@ -1,9 +1,10 @@
 // tree.h - an 8-wide tree of boxes, for pairs and rays.
 //
-// A node has 8 lanes; a lane holds a box and a child: an inner node (>= 0), a proxy (~child), or nothing (FE_TREE_EMPTY, with an inside-out
-// box that no test ever hits). There are no leaf objects: a proxy's box is tested side by side with its neighbours'. A proxy is an index of
-// the caller's (a shape). Boxes are floats relative to `origin`, rounded outwards: a test may say "meets" too often, never too seldom, and
-// what decides is the caller's exact test. So the tree's form is invisible in every answer.
+// A node has 8 lanes; a lane holds a box and a child: an inner node (>= 0), a proxy (~child), or nothing
+// (FE_TREE_EMPTY, with an inside-out box that no test ever hits). There are no leaf objects: a proxy's box is tested
+// side by side with its neighbours'. A proxy is an index of the caller's (a shape). Boxes are floats relative to
+// `origin`, rounded outwards: a test may say "meets" too often, never too seldom, and what decides is the caller's
+// exact test. So the tree's form is invisible in every answer.
 //
 // Invariant: every node but the root has at least two children, so there are fewer nodes than proxies.
 #ifndef FE_BROADPHASE_TREE_H
@@ -39,7 +40,8 @@ typedef struct fe__tree {
 } fe__tree;
 
 void fe__tree_destroy(fe__tree *tree, fe__memory *memory);
-// Room for `extra` more proxies with indices below `limit`: the insertions that follow cannot fail. 0: no memory, nothing changed.
+// Room for `extra` more proxies with indices below `limit`: the insertions that follow cannot fail. 0: no memory,
+// nothing changed.
 int32_t fe__tree_reserve(fe__tree *tree, fe__memory *memory, int32_t limit, int32_t extra);
 // Bounds are finite, low <= high.
 void fe__tree_insert(fe__tree *tree, int32_t proxy, const fe__bounds *fat);
@@ -55,20 +57,22 @@ FE_FETCHES fe__tree_fetch(const fe__tree *tree, int32_t proxy)
 void fe__tree_get(const fe__tree *tree, int32_t proxy, fe__bounds *out_box);
 // New boxes for `count` proxies; refits what is above them (all nodes at once when many moved).
 void fe__tree_move(fe__tree *tree, const int32_t *proxies, const fe__bounds *fat, int32_t count);
-// Builds anew when the tree has degenerated (cost, dead nodes, depth, an origin far off), or always when `force`. Needs scratch memory: 0
-// when there is none, and the tree stays as it was. What was reserved stays reserved.
+// Builds anew when the tree has degenerated (cost, dead nodes, depth, an origin far off), or always when `force`. Needs
+// scratch memory: 0 when there is none, and the tree stays as it was. What was reserved stays reserved.
 int32_t fe__tree_rebuild(fe__tree *tree, fe__memory *memory, int32_t force);
 
-// Proxies whose boxes meet `box`, each once. Depth first; the order is the tree's, so the caller sorts what it keeps. `visit` returns 0 to
-// stop and must not change the tree. Reads only, any thread.
+// Proxies whose boxes meet `box`, each once. Depth first; the order is the tree's, so the caller sorts what it keeps.
+// `visit` returns 0 to stop and must not change the tree. Reads only, any thread.
 typedef int32_t (*fe__tree_visit)(void *context, int32_t proxy);
 void fe__tree_query(const fe__tree *tree, const fe__bounds *box, fe__tree_visit visit, void *context);
-// the same against the box the proxy has in `of` (margins included), which may be the same tree: then the proxy itself is visited too
+// the same against the box the proxy has in `of` (margins included), which may be the same tree: then the proxy itself
+// is visited too
 void fe__tree_query_proxy(const fe__tree *tree, const fe__tree *of, int32_t proxy, fe__tree_visit visit, void *context);
 
-// Proxies of one or two trees together whose boxes meet a box of half widths `half` at origin + t * translation, 0 <= t <= limit <=
-// 1, each once, of a node's children the nearest first. `visit` gets the limit and returns the new one (never greater; below 0 stops).
-// Boxes at exactly the limit are still visited, so that ties can be decided by the caller. Returns the last limit. Reads only, any thread.
+// Proxies of one or two trees together whose boxes meet a box of half widths `half` at origin + t * translation, 0 <= t
+// <= limit <= 1, each once, of a node's children the nearest first. `visit` gets the limit and returns the new one
+// (never greater; below 0 stops). Boxes at exactly the limit are still visited, so that ties can be decided by the
+// caller. Returns the last limit. Reads only, any thread.
 typedef double (*fe__tree_ray_visit)(void *context, int32_t proxy, double limit);
 typedef struct fe__tree_way {
     fe_dvec3 origin, translation, half;
@@ -76,8 +80,8 @@ typedef struct fe__tree_way {
 
 // One for each SIMD set. What they visit does not depend on it.
 struct fe__tree_kernels {
-    double (*sweep)(const fe__tree *const *trees, int32_t tree_count, const fe__tree_way *way, double limit, fe__tree_ray_visit visit,
-                    void *context);
+    double (*sweep)(const fe__tree *const *trees, int32_t tree_count, const fe__tree_way *way, double limit,
+                    fe__tree_ray_visit visit, void *context);
     double (*nearest)(const fe__tree *tree, fe_dvec3 point, double limit, fe__tree_ray_visit visit, void *context);
 };
 extern const fe__tree_kernels fe__tree_kernels_plain;
@@ -87,21 +91,22 @@ static inline const fe__tree_kernels *fe__kernels_of_tree(const fe__tree *tree)
     return tree->kernels ? tree->kernels : &fe__tree_kernels_plain;
 }
 
-static inline double fe__tree_sweep(const fe__tree *const *trees, int32_t tree_count, const fe__tree_way *way, double limit,
-                                    fe__tree_ray_visit visit, void *context)
+static inline double fe__tree_sweep(const fe__tree *const *trees, int32_t tree_count, const fe__tree_way *way,
+                                    double limit, fe__tree_ray_visit visit, void *context)
 {
     return fe__kernels_of_tree(trees[0])->sweep(trees, tree_count, way, limit, visit, context);
 }
-static inline double fe__tree_ray(const fe__tree *tree, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__tree_ray_visit visit,
-                                  void *context)
+static inline double fe__tree_ray(const fe__tree *tree, fe_dvec3 origin, fe_dvec3 translation, double limit,
+                                  fe__tree_ray_visit visit, void *context)
 {
     const fe__tree_way way = {origin, translation, {0.0, 0.0, 0.0}};
     return fe__tree_sweep(&tree, 1, &way, limit, visit, context);
 }
 
-// Proxies whose boxes are no farther from a point than `limit` m, each once, of a node's children the nearest first. `visit` returns the
-// new limit as above. Reads only, any thread.
-static inline double fe__tree_nearest(const fe__tree *tree, fe_dvec3 point, double limit, fe__tree_ray_visit visit, void *context)
+// Proxies whose boxes are no farther from a point than `limit` m, each once, of a node's children the nearest first.
+// `visit` returns the new limit as above. Reads only, any thread.
+static inline double fe__tree_nearest(const fe__tree *tree, fe_dvec3 point, double limit, fe__tree_ray_visit visit,
+                                      void *context)
 {
     return fe__kernels_of_tree(tree)->nearest(tree, point, limit, visit, context);
 }

@@ -1,15 +1,15 @@
 // tree_build.c - a new tree from the boxes of the old one, top down.
 //
-// A node's proxies are cut in two, and its costliest part again, until there are eight parts; each becomes a lane. A cut lies where the sum
-// of area x count of both sides is least (the surface area heuristic), tried at the borders of eight bins along the longest axis of the
-// centres (Wald 2007). The tree is made beside the old one and takes its place when it is whole.
+// A node's proxies are cut in two, and its costliest part again, until there are eight parts; each becomes a lane. A
+// cut lies where the sum of area x count of both sides is least (the surface area heuristic), tried at the borders of
+// eight bins along the longest axis of the centres (Wald 2007). The tree is made beside the old one and takes its place
+// when it is whole.
 #include "broadphase/tree_node.h"
 
 enum {
     BINS = 8,          // 4 to 16 were measured: no difference above the noise
     HALVED_DEPTH = 16, // from here on parts are halved, so that whatever the boxes, the depth is bounded
     MAX_DEPTH = 30,    // deeper trees are built anew
-    FIRST_NODES = 16,
 };
 static const double worn_cost = 1.3;      // of the cost when built
 static const double far_origin = 1000.0;  // m: up to there a float is good to 0.1 mm
@@ -33,8 +33,9 @@ typedef struct builder {
     int32_t count, capacity, depth;
 } builder;
 
-// ---- cutting a part in two ----------------------------------------------------------------------------------------------------
-// without the proxy's bits, which make a denormal number that some machines are slow to compute with
+// ---- cutting a part in two
+// ---------------------------------------------------------------------------------------------------- without the
+// proxy's bits, which make a denormal number that some machines are slow to compute with
 static fe__quad low_of(const item *i)
 {
     const fe__quad_int xyz = {-1, -1, -1, 0};
@@ -163,7 +164,8 @@ static void cut(item *items, const part *p, int32_t depth, part *left, part *rig
     right->first = p->first + left->count;
 }
 
-// ---- nodes --------------------------------------------------------------------------------------------------------------------
+// ---- nodes
+// --------------------------------------------------------------------------------------------------------------------
 // The part with the largest area x count of those that do not fit one node; -1: all do.
 static int32_t costliest(const part parts[FE_TREE_WIDTH], int32_t count)
 {
@@ -231,8 +233,9 @@ static int32_t build_node(builder *b, const part *whole, int32_t parent, int32_t
     return index;
 }
 
-// ---- when, and from what ------------------------------------------------------------------------------------------------------
-// The sum of the areas of inner lanes: nodes that a random ray enters, up to a factor.
+// ---- when, and from what
+// ------------------------------------------------------------------------------------------------------ The sum of the
+// areas of inner lanes: nodes that a random ray enters, up to a factor.
 static double cost_of(const fe__tree_node *nodes, int32_t count)
 {
     double sum = 0.0;
@@ -241,8 +244,8 @@ static double cost_of(const fe__tree_node *nodes, int32_t count)
     return sum;
 }
 
-// Where the origin should move along an axis, relative to where it is: to the centre, if all boxes lie on one side of it. While it is among
-// the boxes a move would win one bit at most, and would cost each box another rounding.
+// Where the origin should move along an axis, relative to where it is: to the centre, if all boxes lie on one side of
+// it. While it is among the boxes a move would win one bit at most, and would cost each box another rounding.
 static double origin_shift(fe__tree_box all, int32_t axis)
 {
     double low = (double)all.low[axis], high = (double)all.high[axis];
@@ -259,7 +262,8 @@ static int32_t origin_is_far_off(fe__tree_box all)
 
 static int32_t is_degenerate(const fe__tree *tree)
 {
-    return tree->depth > MAX_DEPTH || tree->dead > tree->node_count / 4 || origin_is_far_off(fe__node_box(&tree->nodes[0])) ||
+    return tree->depth > MAX_DEPTH || tree->dead > tree->node_count / 4 ||
+           origin_is_far_off(fe__node_box(&tree->nodes[0])) ||
            cost_of(tree->nodes, tree->node_count) > worn_cost * (double)tree->built_cost;
 }
 
@@ -315,8 +319,11 @@ int32_t fe__tree_rebuild(fe__tree *tree, fe__memory *memory, int32_t force)
     part whole = part_of(b.items, 0, tree->proxy_count);
     // as many free nodes as before, for insertions that were promised not to fail
     int64_t free_nodes = (int64_t)tree->node_capacity - tree->node_count;
-    int32_t built = FE_RESERVE(memory, b.nodes, b.capacity, fe__maxi(FIRST_NODES, tree->node_count)) &&
-                    build_node(&b, &whole, -1, 0, 0) == 0 && FE_RESERVE(memory, b.nodes, b.capacity, b.count + free_nodes);
+    // as large as before: it must not grow from one build to the next
+    b.nodes = fe__allocate(memory, (size_t)tree->node_capacity * sizeof *b.nodes);
+    b.capacity = b.nodes ? tree->node_capacity : 0;
+    int32_t built = b.nodes && build_node(&b, &whole, -1, 0, 0) == 0 &&
+                    FE_RESERVE(memory, b.nodes, b.capacity, b.count + free_nodes);
     fe__release(memory, b.items, size);
     if (!built) {
         FE_FREE(memory, b.nodes, b.capacity);

@@ -1,13 +1,16 @@
 // tree_change.c - proxies move and go.
 //
-// A removal joins what it leaves alone to the node above, so that insertions and removals in any number do not make the tree grow. Nothing
-// here allocates.
+// A removal joins what it leaves alone to the node above, so that insertions and removals in any number do not make the
+// tree grow. Nothing here allocates.
 #include "broadphase/tree_node.h"
 
 // More proxies than a 32nd of the nodes: refitting all nodes costs less than walking up from each.
 enum { REFIT_ALL = 32 };
 
-static int32_t same_box(fe__tree_box a, fe__tree_box b) { return (fe__quad_signs((a.low == b.low) & (a.high == b.high)) & 7u) == 7u; }
+static int32_t same_box(fe__tree_box a, fe__tree_box b)
+{
+    return (fe__quad_signs((a.low == b.low) & (a.high == b.high)) & 7u) == 7u;
+}
 
 void fe__tree_refit_above(fe__tree *tree, int32_t index)
 {

@@ -1,8 +1,9 @@
 // tree_insert.c - a proxy comes in.
 //
-// It goes down the lanes that grow least and ends beside other proxies. A full node is split in two, the new half goes to the parent, and
-// so on up to the root, as in an R-tree (Guttman 1984): the tree stays shallow in whatever order proxies come, also when they come in rows
-// or all at one place. Nothing here allocates: without spare nodes for a split, a proxy's lane becomes a node of two.
+// It goes down the lanes that grow least and ends beside other proxies. A full node is split in two, the new half goes
+// to the parent, and so on up to the root, as in an R-tree (Guttman 1984): the tree stays shallow in whatever order
+// proxies come, also when they come in rows or all at one place. Nothing here allocates: without spare nodes for a
+// split, a proxy's lane becomes a node of two.
 #include "broadphase/tree_node.h"
 
 enum {
@@ -31,7 +32,8 @@ static int32_t append_node(fe__tree *tree, int32_t parent, int32_t lane)
     return index;
 }
 
-// ---- where to ---------------------------------------------------------------------------------------------------------------------
+// ---- where to
+// ---------------------------------------------------------------------------------------------------------------------
 typedef struct lane_costs {
     _Alignas(16) float area[FE_TREE_WIDTH]; // of the lane's box
     _Alignas(16) float cost[FE_TREE_WIDTH]; // area that is added by putting the new box there
@@ -41,7 +43,8 @@ static fe__lanes areas(const fe__lanes low[3], const fe__lanes high[3])
 {
     fe__lanes d[3], far = fe__lanes_set((float)FE_TREE_FAR);
     for (int32_t k = 0; k < 3; ++k) d[k] = fe__lanes_min(fe__lanes_sub(high[k], low[k]), far);
-    return fe__lanes_add(fe__lanes_add(fe__lanes_mul(d[0], d[1]), fe__lanes_mul(d[1], d[2])), fe__lanes_mul(d[2], d[0]));
+    return fe__lanes_add(fe__lanes_add(fe__lanes_mul(d[0], d[1]), fe__lanes_mul(d[1], d[2])),
+                         fe__lanes_mul(d[2], d[0]));
 }
 
 // An inner node grows; a proxy's lane would become a node around both; an empty lane is not for sale.
@@ -64,7 +67,8 @@ static void find_costs(const fe__tree_node *node, fe__tree_box box, lane_costs *
     }
     fe__lanes before = areas(low, high), after = areas(low_both, high_both);
     fe__lanes_store(out->area, before);
-    fe__lanes_store(out->cost, (fe__lanes){cost_of(node->child, before.a, after.a), cost_of(node->child + 4, before.b, after.b)});
+    fe__lanes_store(out->cost,
+                    (fe__lanes){cost_of(node->child, before.a, after.a), cost_of(node->child + 4, before.b, after.b)});
 }
 
 static int32_t free_lane(const fe__tree_node *node)
@@ -79,12 +83,14 @@ static int32_t cheapest_lane(const lane_costs *c)
 {
     int32_t best = 0;
     for (int32_t lane = 1; lane < FE_TREE_WIDTH; ++lane)
-        if (c->cost[lane] < c->cost[best] || (c->cost[lane] == c->cost[best] && c->area[lane] < c->area[best])) best = lane;
+        if (c->cost[lane] < c->cost[best] || (c->cost[lane] == c->cost[best] && c->area[lane] < c->area[best]))
+            best = lane;
     return best;
 }
 
-// Goes down to the node that gets the proxy, and grows the boxes on the way. A box larger than the node it would enter (a floor among
-// crates) stays above it while there is a free lane. `out_lane`: the cheapest there, a proxy's unless another is free.
+// Goes down to the node that gets the proxy, and grows the boxes on the way. A box larger than the node it would enter
+// (a floor among crates) stays above it while there is a free lane. `out_lane`: the cheapest there, a proxy's unless
+// another is free.
 static int32_t descend(fe__tree *tree, fe__tree_box box, int32_t *out_lane, int32_t *out_depth)
 {
     int32_t index = 0;
@@ -100,14 +106,16 @@ static int32_t descend(fe__tree *tree, fe__tree_box box, int32_t *out_lane, int3
     }
 }
 
-// ---- splitting a full node ----------------------------------------------------------------------------------------------------
+// ---- splitting a full node
+// ----------------------------------------------------------------------------------------------------
 static void sort_by_centre(entry entries[NINE], int32_t axis)
 {
     for (int32_t i = 1; i < NINE; ++i) {
         entry e = entries[i];
         float centre = e.box.low[axis] + e.box.high[axis];
         int32_t k = i;
-        for (; k > 0 && entries[k - 1].box.low[axis] + entries[k - 1].box.high[axis] > centre; --k) entries[k] = entries[k - 1];
+        for (; k > 0 && entries[k - 1].box.low[axis] + entries[k - 1].box.high[axis] > centre; --k)
+            entries[k] = entries[k - 1];
         entries[k] = e;
     }
 }
@@ -135,7 +143,8 @@ static float cheapest_cut(const entry entries[NINE], int32_t *out_left)
     return best;
 }
 
-// Shares the children of a full node and one more between it and a new node, which is given back for the parent to hold.
+// Shares the children of a full node and one more between it and a new node, which is given back for the parent to
+// hold.
 static entry split(fe__tree *tree, int32_t index, const entry *extra)
 {
     fe__tree_node *node = &tree->nodes[index];
@@ -143,7 +152,8 @@ static entry split(fe__tree *tree, int32_t index, const entry *extra)
     float best = INFINITY;
     int32_t axis = 0, left = NINE / 2;
     for (int32_t k = 0; k < 3; ++k) {
-        for (int32_t lane = 0; lane < FE_TREE_WIDTH; ++lane) sorted[k][lane] = (entry){fe__lane_box(node, lane), node->child[lane]};
+        for (int32_t lane = 0; lane < FE_TREE_WIDTH; ++lane)
+            sorted[k][lane] = (entry){fe__lane_box(node, lane), node->child[lane]};
         sorted[k][FE_TREE_WIDTH] = *extra;
         sort_by_centre(sorted[k], k);
         int32_t cut = left;
@@ -169,15 +179,16 @@ static int32_t push_root_down(fe__tree *tree)
 {
     fe__tree_node *root = &tree->nodes[0];
     int32_t fresh = append_node(tree, 0, 0);
-    for (int32_t lane = 0; lane < FE_TREE_WIDTH; ++lane) fe__tree_hang(tree, fresh, lane, fe__lane_box(root, lane), root->child[lane]);
+    for (int32_t lane = 0; lane < FE_TREE_WIDTH; ++lane)
+        fe__tree_hang(tree, fresh, lane, fe__lane_box(root, lane), root->child[lane]);
     fe__node_init(root, -1, 0);
     fe__tree_hang(tree, 0, 0, fe__node_box(&tree->nodes[fresh]), fresh);
     tree->depth += 1;
     return fresh;
 }
 
-// Adds to a node, or splits it and adds the new half to its parent, and so on. Uses one node a level and one for a new root. The boxes
-// above were grown on the way down, and a split does not change their union.
+// Adds to a node, or splits it and adds the new half to its parent, and so on. Uses one node a level and one for a new
+// root. The boxes above were grown on the way down, and a split does not change their union.
 static void add(fe__tree *tree, int32_t index, entry e)
 {
     for (;;) {

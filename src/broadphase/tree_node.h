@@ -1,8 +1,8 @@
 // tree_node.h - what the tree's files share: boxes as floats rounded outwards, and the eight boxes of a node at once.
 //
-// Why no test misses: a coordinate is moved outwards by 2^-23 of itself, which is more than the roundings of the subtraction of the origin
-// and of the conversion to float together, and by FE_TREE_PAD, which is more than a denormal's error. Beyond FE_TREE_FAR the outer side is
-// put at
+// Why no test misses: a coordinate is moved outwards by 2^-23 of itself, which is more than the roundings of the
+// subtraction of the origin and of the conversion to float together, and by FE_TREE_PAD, which is more than a
+// denormal's error. Beyond FE_TREE_FAR the outer side is put at
 // +-FLT_MAX: the areas of what is nearer stay finite.
 #ifndef FE_BROADPHASE_TREE_NODE_H
 #define FE_BROADPHASE_TREE_NODE_H
@@ -15,8 +15,8 @@
 #define FE_TREE_PAD 1e-20   // m
 #define FE_TREE_FAR 1e15    // m from the tree's origin
 
-// Origins lie on a grid, so that the trees of a world mostly share theirs and a ray is prepared once for both. Half a cell off, a float is
-// good to 0.06 mm.
+// Origins lie on a grid, so that the trees of a world mostly share theirs and a ray is prepared once for both. Half a
+// cell off, a float is good to 0.06 mm.
 #define FE_TREE_CELL 1024.0 // m
 static inline double fe__tree_grid(double x)
 {
@@ -47,7 +47,8 @@ static inline fe__tree_box fe__tree_box_of(const fe_dvec3 *origin, const fe__bou
                           {fe__tree_round_up(high.x), fe__tree_round_up(high.y), fe__tree_round_up(high.z), 0.0f}};
 }
 
-// ---- one lane -----------------------------------------------------------------------------------------------------------------
+// ---- one lane
+// -----------------------------------------------------------------------------------------------------------------
 static inline fe__tree_box fe__lane_box(const fe__tree_node *node, int32_t lane)
 {
     return (fe__tree_box){{node->box[0][lane], node->box[1][lane], node->box[2][lane], 0.0f},
@@ -79,7 +80,8 @@ static inline void fe__tree_hang(fe__tree *tree, int32_t index, int32_t lane, fe
     }
 }
 
-// ---- eight lanes --------------------------------------------------------------------------------------------------------------
+// ---- eight lanes
+// --------------------------------------------------------------------------------------------------------------
 static inline void fe__node_init(fe__tree_node *node, int32_t parent, int32_t lane)
 {
     for (int32_t k = 0; k < FE_TREE_WIDTH; ++k) fe__lane_clear(node, k);
@@ -104,7 +106,10 @@ static inline fe__quad fe__node_high(const fe__tree_node *node)
     fe__quad zz = fe__quad_max(z, __builtin_shufflevector(z, z, 2, 3, 0, 1));
     return fe__quad_max(__builtin_shufflevector(xy, zz, 0, 2, 4, 4), __builtin_shufflevector(xy, zz, 1, 3, 5, 5));
 }
-static inline fe__tree_box fe__node_box(const fe__tree_node *node) { return (fe__tree_box){fe__node_low(node), fe__node_high(node)}; }
+static inline fe__tree_box fe__node_box(const fe__tree_node *node)
+{
+    return (fe__tree_box){fe__node_low(node), fe__node_high(node)};
+}
 
 // bit i: the box of lane i meets the box whose sides are spread over `low` and `high`
 static inline uint32_t fe__node_meets(const fe__tree_node *node, const fe__lanes low[3], const fe__lanes high[3])

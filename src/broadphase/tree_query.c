@@ -1,7 +1,7 @@
 // tree_query.c - which proxies' boxes meet a box.
 //
-// Depth first with a stack of fixed size. Below a node for which the stack has no room, the walk needs none: parents and lanes lead back
-// up. It tests nodes again after each child, so it is slower, and gives the same proxies.
+// Depth first with a stack of fixed size. Below a node for which the stack has no room, the walk needs none: parents
+// and lanes lead back up. It tests nodes again after each child, so it is slower, and gives the same proxies.
 #include "broadphase/tree_node.h"
 
 enum { STACK = 256 }; // 7 entries a level: enough for a depth of 36

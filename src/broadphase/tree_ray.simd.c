@@ -1,9 +1,10 @@
 // tree_ray.simd.c - which proxies' boxes a segment, or a box that moves along it, meets, nearest first.
 //
-// Slabs: along axis k the segment is between two planes for t in [(low - o) / d, (high - o) / d]. Floats, on the safe side: o is rounded
-// both ways and each plane takes the side that widens the interval; the quotients' roundings are covered by `slack`. Little work is done
-// per ray, so mispredicted branches and the set-up are the cost: the signs of the direction, which are random, do not branch.
-// Compiled once per SIMD set: the widest test a node in one go. What is visited is the same with all of them.
+// Slabs: along axis k the segment is between two planes for t in [(low - o) / d, (high - o) / d]. Floats, on the safe
+// side: o is rounded both ways and each plane takes the side that widens the interval; the quotients' roundings are
+// covered by `slack`. Little work is done per ray, so mispredicted branches and the set-up are the cost: the signs of
+// the direction, which are random, do not branch. Compiled once per SIMD set: the widest test a node in one go. What is
+// visited is the same with all of them.
 #include "broadphase/tree_node.h"
 #include "core/simd.h"
 
@@ -12,8 +13,8 @@ enum { STACK = 256 }; // 7 entries a level: enough for a depth of 36
 
 // five roundings of 2^-24 on each side of near <= far
 static const float slack = 1.000001f;
-// A component that moves less than FE_TREE_PAD in the whole segment moves as much: boxes and origin are swelled by more. The finite inverse
-// keeps 0 * inverse = 0, never NaN.
+// A component that moves less than FE_TREE_PAD in the whole segment moves as much: boxes and origin are swelled by
+// more. The finite inverse keeps 0 * inverse = 0, never NaN.
 static const float shortest_translation = (float)FE_TREE_PAD;
 // m: the rounding of a denormal quotient (7e-46) stays below FE_TREE_PAD
 static const float longest_translation = 1e24f;
@@ -30,11 +31,15 @@ typedef struct rows {
 } rows;
 #define FE_NEAR(signs, k) (ROW * ((k) + 3 * ((signs) >> (k)&1)))
 #define FE_FAR(signs, k) (ROW * ((k) + 3 - 3 * ((signs) >> (k)&1)))
-#define FE_ROWS(signs)                                                                                                      \
-    {                                                                                                                       \
-        {FE_NEAR(signs, 0), FE_NEAR(signs, 1), FE_NEAR(signs, 2)}, { FE_FAR(signs, 0), FE_FAR(signs, 1), FE_FAR(signs, 2) } \
+#define FE_ROWS(signs)                                             \
+    {                                                              \
+        {FE_NEAR(signs, 0), FE_NEAR(signs, 1), FE_NEAR(signs, 2)}, \
+        {                                                          \
+            FE_FAR(signs, 0), FE_FAR(signs, 1), FE_FAR(signs, 2)   \
+        }                                                          \
     }
-static const rows rows_of[] = {FE_ROWS(0), FE_ROWS(1), FE_ROWS(2), FE_ROWS(3), FE_ROWS(4), FE_ROWS(5), FE_ROWS(6), FE_ROWS(7)};
+static const rows rows_of[] = {FE_ROWS(0), FE_ROWS(1), FE_ROWS(2), FE_ROWS(3),
+                               FE_ROWS(4), FE_ROWS(5), FE_ROWS(6), FE_ROWS(7)};
 enum { SIGNS = 7 };
 
 // Of a way, whatever the tree
@@ -44,8 +49,8 @@ typedef struct direction {
     fe__quad_int backwards, blind; // blind: too fast for floats, excludes nothing
 } direction;
 
-// A child that waits: the bits of t, which order as t does, above those of the child. So entries compare, and change places, as integers,
-// without a branch on t, which nothing predicts.
+// A child that waits: the bits of t, which order as t does, above those of the child. So entries compare, and change
+// places, as integers, without a branch on t, which nothing predicts.
 typedef uint64_t entry;
 enum { CHILD_BITS = 32 };
 #define FE_STACK_END UINT64_MAX // beyond every limit
@@ -64,14 +69,15 @@ typedef struct cast {
     void *context;
 } cast;
 
-// What a walk asks of the boxes: where a ray enters them, or how far they are from a point. Each walk is compiled for each question.
+// What a walk asks of the boxes: where a ray enters them, or how far they are from a point. Each walk is compiled for
+// each question.
 typedef enum question { RAY, NEAREST } question;
 #define FE_COMPILED_FOR static inline __attribute__((always_inline))
 // What hardly ever happens keeps its registers to itself.
 #define FE_RARE static __attribute__((noinline, cold))
 
-// One by one: the caller has just written them so, and a load of two at once would wait until they are in the cache. The fourth is not
-// used.
+// One by one: the caller has just written them so, and a load of two at once would wait until they are in the cache.
+// The fourth is not used.
 static inline fe__quad narrow(double x, double y, double z)
 {
     float last = (float)z;
@@ -101,21 +107,24 @@ static inline void set_slabs(slabs *s, const direction *way, fe__quad low, fe__q
 FE_RARE void prepare_far_slabs(slabs *s, const direction *way, const fe__tree_way *box, const fe_dvec3 *tree)
 {
     fe_dvec3 o = fe__dsub(box->origin, *tree), half = box->half;
-    fe__quad low = {fe__tree_round_down(o.x - half.x), fe__tree_round_down(o.y - half.y), fe__tree_round_down(o.z - half.z), 0.0f};
-    fe__quad high = {fe__tree_round_up(o.x + half.x), fe__tree_round_up(o.y + half.y), fe__tree_round_up(o.z + half.z), 0.0f};
+    fe__quad low = {fe__tree_round_down(o.x - half.x), fe__tree_round_down(o.y - half.y),
+                    fe__tree_round_down(o.z - half.z), 0.0f};
+    fe__quad high = {fe__tree_round_up(o.x + half.x), fe__tree_round_up(o.y + half.y), fe__tree_round_up(o.z + half.z),
+                     0.0f};
     low = fe__quad_choose(way->blind, fe__quad_set(-FLT_MAX), low);
     high = fe__quad_choose(way->blind, fe__quad_set(FLT_MAX), high);
     set_slabs(s, way, low, high);
 }
 
-// A box that moves meets another when its centre meets that one swelled by its half widths: the origin is an interval to begin with, from
-// o - half to o + half, rounded outwards. Three roundings, each of 2^-24 of |o| + half at most: to floats, of the sum or difference, and of
-// the last step outwards.
+// A box that moves meets another when its centre meets that one swelled by its half widths: the origin is an interval
+// to begin with, from o - half to o + half, rounded outwards. Three roundings, each of 2^-24 of |o| + half at most: to
+// floats, of the sum or difference, and of the last step outwards.
 static inline void prepare_slabs(slabs *s, const direction *way, const fe__tree_way *box, const fe_dvec3 *tree)
 {
     const float four_roundings = 0x1p-22f;
     fe__quad o = narrow(box->origin.x - tree->x, box->origin.y - tree->y, box->origin.z - tree->z);
-    fe__quad half = narrow(box->half.x, box->half.y, box->half.z), size = (fe__quad)((fe__quad_int)o & INT32_MAX) + half;
+    fe__quad half = narrow(box->half.x, box->half.y, box->half.z),
+             size = (fe__quad)((fe__quad_int)o & INT32_MAX) + half;
     fe__quad away = size * four_roundings + fe__quad_set((float)FE_TREE_PAD);
     if (fe__quad_signs((size >= fe__quad_set((float)FE_TREE_FAR)) | way->blind))
         prepare_far_slabs(s, way, box, tree);
@@ -123,18 +132,22 @@ static inline void prepare_slabs(slabs *s, const direction *way, const fe__tree_
         set_slabs(s, way, (o - half) - away, (o + half) + away);
 }
 
-FE_COMPILED_FOR void clip(const char *box, const direction *way, const slabs *s, int32_t k, fe__eight *enter, fe__eight *leave)
+FE_COMPILED_FOR void clip(const char *box, const direction *way, const slabs *s, int32_t k, fe__eight *enter,
+                          fe__eight *leave)
 {
     fe__eight near_side = fe__eight_load((const float *)(const void *)(box + way->rows->near_row[k]));
     fe__eight far_side = fe__eight_load((const float *)(const void *)(box + way->rows->far_row[k]));
     fe__eight inverse = fe__eight_spread(&way->inverse[k]), far_inverse = fe__eight_spread(&way->far_inverse[k]);
     // in this order a -0 does not replace 0
-    *enter = fe__eight_max(fe__eight_mul(fe__eight_sub(near_side, fe__eight_spread(&s->near_origin[k])), inverse), *enter);
-    *leave = fe__eight_min(fe__eight_mul(fe__eight_sub(far_side, fe__eight_spread(&s->far_origin[k])), far_inverse), *leave);
+    *enter =
+        fe__eight_max(fe__eight_mul(fe__eight_sub(near_side, fe__eight_spread(&s->near_origin[k])), inverse), *enter);
+    *leave =
+        fe__eight_min(fe__eight_mul(fe__eight_sub(far_side, fe__eight_spread(&s->far_origin[k])), far_inverse), *leave);
 }
 
 // bit i: the segment meets lane i, at t[i] or later
-FE_COMPILED_FOR uint32_t hit_lanes(const fe__tree_node *node, const direction *way, const slabs *s, float limit, float t[FE_TREE_WIDTH])
+FE_COMPILED_FOR uint32_t hit_lanes(const fe__tree_node *node, const direction *way, const slabs *s, float limit,
+                                   float t[FE_TREE_WIDTH])
 {
     const char *box = (const char *)node->box;
     fe__eight enter = fe__eight_set(0.0f), leave = fe__eight_set(limit);
@@ -145,7 +158,8 @@ FE_COMPILED_FOR uint32_t hit_lanes(const fe__tree_node *node, const direction *w
     return fe__eight_at_most(enter, leave);
 }
 
-// The squared distance is  sum_k max(low_k - p_k, p_k - high_k, 0)^2. The origin's two roundings are in near_origin and far_origin.
+// The squared distance is  sum_k max(low_k - p_k, p_k - high_k, 0)^2. The origin's two roundings are in near_origin and
+// far_origin.
 static inline uint32_t near_lanes(const fe__tree_node *node, const slabs *s, float limit, float t[FE_TREE_WIDTH])
 {
     const fe__eight zero = fe__eight_set(0.0f);
@@ -160,7 +174,8 @@ static inline uint32_t near_lanes(const fe__tree_node *node, const slabs *s, flo
     return fe__eight_at_most(square, fe__eight_set(limit));
 }
 
-FE_COMPILED_FOR uint32_t meet_lanes(question q, const cast *c, int32_t tree, const fe__tree_node *node, float t[FE_TREE_WIDTH])
+FE_COMPILED_FOR uint32_t meet_lanes(question q, const cast *c, int32_t tree, const fe__tree_node *node,
+                                    float t[FE_TREE_WIDTH])
 {
     const slabs *s = c->slabs_of[tree];
     return q == RAY ? hit_lanes(node, &c->way, s, c->limit_up, t) : near_lanes(node, s, c->limit_up, t);
@@ -191,7 +206,10 @@ FE_COMPILED_FOR void set_limit(question q, cast *c, double limit)
     c->last = entry_of(c->limit_up, -1);
 }
 
-FE_COMPILED_FOR void visit_proxy(question q, cast *c, int32_t proxy) { set_limit(q, c, c->visit(c->context, proxy, c->limit)); }
+FE_COMPILED_FOR void visit_proxy(question q, cast *c, int32_t proxy)
+{
+    set_limit(q, c, c->visit(c->context, proxy, c->limit));
+}
 
 // The subtree at `top` when the stack is full: parents and lanes lead back up.
 FE_RARE void walk_without_stack(question q, cast *c, int32_t tree, int32_t top)
@@ -230,7 +248,8 @@ FE_COMPILED_FOR int32_t child_in(const cast *c, const fe__tree_node *node, int32
 static inline entry least(entry a, entry b) { return a > b ? b : a; }
 static inline entry greatest(entry a, entry b) { return a > b ? a : b; }
 
-// A node that waits on the stack is mostly visited, some time later: then it is there. Of a proxy, the root is asked for again.
+// A node that waits on the stack is mostly visited, some time later: then it is there. Of a proxy, the root is asked
+// for again.
 FE_COMPILED_FOR void ask_for(const cast *c, entry waiting)
 {
     const int32_t child = (int32_t)(uint32_t)waiting;
@@ -241,10 +260,11 @@ FE_COMPILED_FOR void ask_for(const cast *c, entry waiting)
     __builtin_prefetch(node->child);
 }
 
-// The nearest of the children that are met, at least one; the others go on the stack, the nearer the higher. Whether there is a second is
-// as random as the ray: nothing branches on it. The nearest is not read back from the stack: the next node waits for it.
-FE_COMPILED_FOR entry choose(const cast *c, const fe__tree_node *node, int32_t tag, uint32_t hits, const float *t, entry *stack,
-                             int32_t *top)
+// The nearest of the children that are met, at least one; the others go on the stack, the nearer the higher. Whether
+// there is a second is as random as the ray: nothing branches on it. The nearest is not read back from the stack: the
+// next node waits for it.
+FE_COMPILED_FOR entry choose(const cast *c, const fe__tree_node *node, int32_t tag, uint32_t hits, const float *t,
+                             entry *stack, int32_t *top)
 {
     const int32_t base = *top;
     const uint32_t others = hits & (hits - 1), first = (uint32_t)__builtin_ctz(hits);
@@ -275,7 +295,8 @@ FE_COMPILED_FOR entry choose(const cast *c, const fe__tree_node *node, int32_t t
 FE_COMPILED_FOR uint32_t meet_roots(question q, const cast *c, int32_t tree_count, float *t)
 {
     uint32_t hits = 0;
-    for (int32_t i = 0; i < tree_count; ++i) hits |= meet_lanes(q, c, i, c->nodes[i], t + i * FE_TREE_WIDTH) << i * FE_TREE_WIDTH;
+    for (int32_t i = 0; i < tree_count; ++i)
+        hits |= meet_lanes(q, c, i, c->nodes[i], t + i * FE_TREE_WIDTH) << i * FE_TREE_WIDTH;
     return hits;
 }
 
@@ -318,8 +339,8 @@ FE_COMPILED_FOR void walk(question q, cast *c, int32_t tree_count)
 
 static int32_t is_same(fe_dvec3 a, fe_dvec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-static double sweep(const fe__tree *const *trees, int32_t tree_count, const fe__tree_way *way, double limit, fe__tree_ray_visit visit,
-                    void *context)
+static double sweep(const fe__tree *const *trees, int32_t tree_count, const fe__tree_way *way, double limit,
+                    fe__tree_ray_visit visit, void *context)
 {
     if (limit < 0.0) return limit;
     cast c; // every field is set: zeroing it first would cost a tenth of a ray

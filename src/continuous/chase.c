@@ -26,27 +26,30 @@ static double room_of(const fe__step *step, const fe__obstacle *o)
     return fe__ddot(o->normal, fe__dadd(m.translation, fe__dsub(turned, arm)));
 }
 
-// The part of a way that no obstacle forbids: projected on one after the other until all agree, or nearly
-static fe_dvec3 allowed(const slide *s, fe_dvec3 way)
+// The part of a displacement that no obstacle forbids: projected on one after the other until all agree, or nearly
+static fe_dvec3 allowed(const slide *s, fe_dvec3 shift)
 {
     for (int32_t sweep = 0; sweep < SLIDE_SWEEPS; ++sweep) {
         for (int32_t i = 0; i < s->count; ++i) {
-            double over = fe__ddot(s->normal[i], way) - s->room[i];
-            if (over > 0.0) way = fe__dsub(way, fe__dscale(over, s->normal[i]));
+            double over = fe__ddot(s->normal[i], shift) - s->room[i];
+            if (over > 0.0) shift = fe__dsub(shift, fe__dscale(over, s->normal[i]));
         }
     }
-    return way;
+    return shift;
 }
 
 // The part of a normal along which the body can move at all
 static fe_dvec3 free_part(const fe__body *b, fe_dvec3 normal)
 {
     const uint32_t locks = (uint32_t)b->lock_bits;
-    return (fe_dvec3){locks & FE_AXIS_X ? 0.0 : normal.x, locks & FE_AXIS_Y ? 0.0 : normal.y, locks & FE_AXIS_Z ? 0.0 : normal.z};
+    return (fe_dvec3){locks & FE_AXIS_X ? 0.0 : normal.x, locks & FE_AXIS_Y ? 0.0 : normal.y,
+                      locks & FE_AXIS_Z ? 0.0 : normal.z};
 }
 
-// At an obstacle: the body goes on along it, and at the first one on turning too, unless that presses the touched point in.
-static void deflect(const fe__step *step, int32_t body, slide *s, const fe__obstacle *o, const fe__shift *at, fe__shift *end)
+// At an obstacle: the body goes on along it, and at the first one on turning too, unless that presses the touched point
+// in.
+static void deflect(const fe__step *step, int32_t body, slide *s, const fe__obstacle *o, const fe__shift *at,
+                    fe__shift *end)
 {
     const fe__body *b = step->world->bodies + body;
     fe_dvec3 normal = free_part(b, o->normal);
@@ -63,7 +66,8 @@ static void deflect(const fe__step *step, int32_t body, slide *s, const fe__obst
 }
 
 // From `at` (time `now`) towards `end`; returns where it came to.
-static fe__shift go_on(const fe__step *step, int32_t body, int32_t against, fe__obstacle o, fe__shift at, fe__shift end, int32_t *carried)
+static fe__shift go_on(const fe__step *step, int32_t body, int32_t against, fe__obstacle o, fe__shift at, fe__shift end,
+                       int32_t *carried)
 {
     slide s = {.count = 0};
     for (;;) {
@@ -78,7 +82,8 @@ static fe__shift go_on(const fe__step *step, int32_t body, int32_t against, fe__
     }
 }
 
-// A turn not made leaves the spin as the body has it in its own frame: turned with the world's, it would be another energy
+// A turn not made leaves the spin as the body has it in its own frame: turned with the world's, it would be another
+// energy
 static void turn_spin(const fe__motion_line *motion, const fe__shift *end, float *spin)
 {
     fe_quat missing = fe__product(fe__quat_of(motion->rotation), fe__conjugate(end->turn));
@@ -86,7 +91,8 @@ static void turn_spin(const fe__motion_line *motion, const fe__shift *end, float
     spin[0] = w.x, spin[1] = w.y, spin[2] = w.z;
 }
 
-static void write_chase(const fe__step *step, const fe__body *body, const fe__shift *end, int32_t carried, fe__chase *chase)
+static void write_chase(const fe__step *step, const fe__body *body, const fe__shift *end, int32_t carried,
+                        fe__chase *chase)
 {
     const fe__solver *s = &step->world->solver;
     chase->motion = s->motion[body->line];
@@ -94,7 +100,9 @@ static void write_chase(const fe__step *step, const fe__body *body, const fe__sh
     if (!body->locked) turn_spin(&chase->motion, end, chase->velocity.w);
     fe_vec3 p = fe__narrow(end->centre);
     if (!carried) fe__give_back(step->world, body, fe__sub(p, fe__quad_vector(chase->motion.shift)), chase->velocity.v);
-    chase->motion = (fe__motion_line){{p.x, p.y, p.z}, chase->motion.gyroscopic, {end->turn.x, end->turn.y, end->turn.z, end->turn.w}};
+    chase->motion = (fe__motion_line){{p.x, p.y, p.z},
+                                      chase->motion.gyroscopic,
+                                      {end->turn.x, end->turn.y, end->turn.z, end->turn.w}};
     chase->stopped = 1;
 }
 
@@ -110,14 +118,16 @@ void fe__chase_body(const fe__step *step, int32_t body, int32_t against, fe__cha
         fe__obstacle o = fe__first_obstacle(step, body, against, &from, &to, begin, end);
         if (o.body < 0) continue;
         int32_t carried = step->world->bodies[o.body].type != FE_BODY_STATIC;
-        fe__shift stop = fe__shift_between(&from, &to, (o.time - begin) / (end - begin)), last = fe__path_at(step, body, 1.0);
-        if (fe__ddot(o.normal, o.normal) > 0.0 && o.time < 1.0) stop = go_on(step, body, against, o, stop, last, &carried);
+        fe__shift stop = fe__shift_between(&from, &to, (o.time - begin) / (end - begin)),
+                  last = fe__path_at(step, body, 1.0);
+        if (fe__ddot(o.normal, o.normal) > 0.0 && o.time < 1.0)
+            stop = go_on(step, body, against, o, stop, last, &carried);
         write_chase(step, step->world->bodies + body, &stop, carried, chase);
         return;
     }
 }
 
-// Its way is now the straight one.
+// Its motion path is now the straight one.
 void fe__apply_chase(fe_world *w, int32_t body, const fe__chase *chase)
 {
     if (!chase->stopped) return;

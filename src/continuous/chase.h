@@ -3,7 +3,8 @@
 #define FE_CONTINUOUS_CHASE_H
 #include "world/step_scratch.h"
 
-// Follows a body on its motion path until something of that sort (FE__AGAINST_*) stands there. On any thread: writes *chase only
+// Follows a body on its motion path until something of that sort (FE__AGAINST_*) stands there. On any thread: writes
+// *chase only
 void fe__chase_body(const fe__step *step, int32_t body, int32_t against, fe__chase *chase);
 void fe__apply_chase(fe_world *world, int32_t body, const fe__chase *chase); // to its line
 // Against what is static or kinematic, both at once. 1: it was stopped

@@ -1,11 +1,14 @@
-// continuous.c - the stage between solver and finalize: bodies that outran their thickness end where something stood in the way.
+// continuous.c - the stage between solver and finalize: bodies that outran their thickness end where something stood in
+// the way.
 //
-// Most impacts are the solver's: contacts are found ahead of time (narrow.c). What it misses - a body that turned or was deflected within
-// the step, that has no contact where it came to - is found here, on the way that the body really took, and changes its motion in the
-// solver's lines: up to the touch, then along the surface. Velocities stay, so that the next step has a contact with the speed of the
-// impact: it bounces, slides and tells its events as any other. Only the work of gravity on the way not gone is given back.
+// Most impacts are the solver's: contacts are found ahead of time (narrow.c). What it misses - a body that turned or
+// was deflected within the step, that has no contact where it came to - is found here, on the body's motion path, and
+// changes its motion in the solver's lines: up to the touch, then along the surface. Velocities stay, so that the next
+// step has a contact with the speed of the impact: it bounces, slides and reports its events as any other. Only the
+// work of gravity on the path not gone is given back.
 //
-// Against static and kinematic bodies each body is its own. Bullets come after, against where the dynamic bodies now go; all see the same.
+// Against static and kinematic bodies each body is its own. Bullets come after, against where the dynamic bodies now
+// go; all see the same.
 #include "continuous/continuous.h"
 
 #include "continuous/chase.h"
@@ -18,7 +21,8 @@
 
 enum { BODIES_IN_BLOCK = 256, CHASES_IN_BLOCK = 4 };
 
-// ---- who is fast ------------------------------------------------------------------------------------------------------------------
+// ---- who is fast
+// ------------------------------------------------------------------------------------------------------------------
 static void add_chased(fe__step_scratch *s, fe__body *body, int32_t index)
 {
     body->flags |= FE__BODY_CHASED;
@@ -35,10 +39,12 @@ static void select_block(void *argument, int32_t first, int32_t end, int32_t wor
         int32_t index = w->awake_bodies[i];
         fe__body *body = w->bodies + index;
         if (body->type == FE_BODY_DYNAMIC) {
-            int32_t fast = w->solver.trail_count[body->line] != FE__NO_TRAIL || fe__path_length(step, index) > body->thickness;
+            int32_t fast =
+                w->solver.trail_count[body->line] != FE__NO_TRAIL || fe__path_length(step, index) > body->thickness;
             if (fast && fe__motion_makes_sense(&w->solver, body->line)) add_chased(s, body, index);
         } else if (body->contact_count && fe__path_length(step, index) > 0.0f) {
-            s->chased[s->kinematic_room + atomic_fetch_add_explicit(&s->kinematic_count, 1, memory_order_relaxed)] = index;
+            s->chased[s->kinematic_room + atomic_fetch_add_explicit(&s->kinematic_count, 1, memory_order_relaxed)] =
+                index;
         }
     }
 }
@@ -54,7 +60,9 @@ static void add_partners(fe__step *step, int32_t kinematic)
         const fe__pair *p = w->pairs + pair;
         int32_t other = p->body_a == kinematic ? p->body_b : p->body_a;
         fe__body *body = w->bodies + other;
-        if (p->flags & (FE__PAIR_SENSOR | FE__PAIR_DENIED | FE__PAIR_PASSING) || body->type != FE_BODY_DYNAMIC || body->awake_index < 0 || body->flags & FE__BODY_CHASED) continue;
+        if (p->flags & (FE__PAIR_SENSOR | FE__PAIR_DENIED | FE__PAIR_PASSING) || body->type != FE_BODY_DYNAMIC ||
+            body->awake_index < 0 || body->flags & FE__BODY_CHASED)
+            continue;
         if (length + fe__path_length(step, other) <= body->thickness) continue;
         if (fe__motion_makes_sense(&w->solver, body->line)) add_chased(step->scratch, body, other);
     }
@@ -83,7 +91,8 @@ static void bullet_block(void *argument, int32_t first, int32_t end, int32_t wor
     }
 }
 
-// ---- triggers ---------------------------------------------------------------------------------------------------------------------
+// ---- triggers
+// ---------------------------------------------------------------------------------------------------------------------
 // What was passed between two steps was touched: its enter comes in this step, its exit in the next.
 static void cross_triggers(const fe__step *step, int32_t body)
 {

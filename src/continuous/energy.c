@@ -11,8 +11,8 @@ static float energy_of(const fe__body *b, fe_quat rotation, const float *v, cons
 {
     fe_quat axes = fe__product(rotation, fe__quat_of(b->inertia_axes));
     fe_vec3 spin = fe__rotate_back(fe__normalized(axes), fe__quad_vector(w));
-    return 0.5f * (b->mass * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + b->inertia[0] * spin.x * spin.x + b->inertia[1] * spin.y * spin.y +
-                   b->inertia[2] * spin.z * spin.z);
+    return 0.5f * (b->mass * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + b->inertia[0] * spin.x * spin.x +
+                   b->inertia[1] * spin.y * spin.y + b->inertia[2] * spin.z * spin.z);
 }
 
 static int32_t is_driven(const fe__body *b)
@@ -31,7 +31,8 @@ static int32_t is_pushed_by_static_only(const fe_world *w, int32_t body)
         const fe__contact *m = w->contacts + i;
         if (!(p->flags & FE__PAIR_LINKED)) continue;
         const float *slip = w->extras[i].surface_velocity;
-        if (w->bodies[m->body_a].type != FE_BODY_STATIC || slip[0] != 0.0f || slip[1] != 0.0f || slip[2] != 0.0f) return 0;
+        if (w->bodies[m->body_a].type != FE_BODY_STATIC || slip[0] != 0.0f || slip[1] != 0.0f || slip[2] != 0.0f)
+            return 0;
         for (int32_t k = 0; k < FE__POINTS; ++k) pushed |= m->total_impulse[k] > 0.0f;
     }
     return pushed;
@@ -57,7 +58,8 @@ void fe__limit_energy(const fe__step *step, int32_t body)
     float weight = b->mass * b->gravity_scale, h = step->constants.h;
     // of the discrete fall: v . h g / 2 belongs to the height
     float work = weight * fe__dot(w->gravity, fe__quad_vector(motion->shift));
-    work -= 0.5f * weight * h * fe__dot(w->gravity, fe__sub(fe__quad_vector(velocity->v), fe__quad_vector(b->velocity)));
+    work -=
+        0.5f * weight * h * fe__dot(w->gravity, fe__sub(fe__quad_vector(velocity->v), fe__quad_vector(b->velocity)));
     float most = energy_of(b, before, b->velocity, b->spin) * (1.0f + ENERGY_ROUNDING) + fe__maxf(work, 0.0f);
     float now = energy_of(b, after, velocity->v, velocity->w);
     if (!(now > most)) return;

@@ -39,14 +39,16 @@ fe__shift fe__path_place(const fe__step *step, int32_t body, int32_t leg)
 static fe_quat between(fe_quat a, fe_quat b, float t)
 {
     float side = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w < 0.0f ? -t : t, u = 1.0f - t;
-    return fe__normalized((fe_quat){u * a.x + side * b.x, u * a.y + side * b.y, u * a.z + side * b.z, u * a.w + side * b.w});
+    return fe__normalized(
+        (fe_quat){u * a.x + side * b.x, u * a.y + side * b.y, u * a.z + side * b.z, u * a.w + side * b.w});
 }
 
 fe__shift fe__shift_between(const fe__shift *a, const fe__shift *b, double t)
 {
     if (t <= 0.0) return *a;
     if (t >= 1.0) return *b;
-    return (fe__shift){fe__dadd(a->centre, fe__dscale(t, fe__dsub(b->centre, a->centre))), forwards(between(a->turn, b->turn, (float)t))};
+    return (fe__shift){fe__dadd(a->centre, fe__dscale(t, fe__dsub(b->centre, a->centre))),
+                       forwards(between(a->turn, b->turn, (float)t))};
 }
 
 fe__shift fe__path_at(const fe__step *step, int32_t body, double time)
@@ -63,10 +65,11 @@ static int32_t is_still(fe_quat q) { return q.x == 0.0f && q.y == 0.0f && q.z ==
 
 fe__motion fe__motion_of_shifts(const fe__body *body, const fe__shift *from, const fe__shift *to, fe_dvec3 base)
 {
-    fe__motion m = {fe__dadd(fe__dsub(fe__centre_of(body), base), from->centre), fe__rotation_of(body), fe__dsub(to->centre, from->centre),
-                    fe__identity()};
+    fe__motion m = {fe__dadd(fe__dsub(fe__centre_of(body), base), from->centre), fe__rotation_of(body),
+                    fe__dsub(to->centre, from->centre), fe__identity()};
     if (!is_still(from->turn)) m.rotation = fe__normalized(fe__product(from->turn, m.rotation));
-    if (!is_still(from->turn) || !is_still(to->turn)) m.turn = forwards(fe__normalized(fe__product(to->turn, fe__conjugate(from->turn))));
+    if (!is_still(from->turn) || !is_still(to->turn))
+        m.turn = forwards(fe__normalized(fe__product(to->turn, fe__conjugate(from->turn))));
     return m;
 }
 
@@ -79,14 +82,16 @@ fe__motion fe__path_motion(const fe__step *step, int32_t body, double from, doub
 fe__mobile fe__mobile_of_shape(const fe__step *step, const fe__shape *shape, const fe__motion *motion)
 {
     fe_dvec3 centre = fe__widen(fe__quad_vector(step->world->bodies[shape->body].local_centre));
-    return (fe__mobile){&shape->form, fe__dsub(fe__widen(shape->local_position), centre), shape->local_rotation, *motion};
+    return (fe__mobile){&shape->form, fe__dsub(fe__widen(shape->local_position), centre), shape->local_rotation,
+                        *motion};
 }
 
 // An angle is no more than pi times the sine of its half
 static float length_of(const fe__shift *shift, float reach)
 {
     const fe_quat q = shift->turn;
-    return (float)sqrt(fe__ddot(shift->centre, shift->centre)) + FE_PI * sqrtf(q.x * q.x + q.y * q.y + q.z * q.z) * reach;
+    return (float)sqrt(fe__ddot(shift->centre, shift->centre)) +
+           FE_PI * sqrtf(q.x * q.x + q.y * q.y + q.z * q.z) * reach;
 }
 
 float fe__path_length(const fe__step *step, int32_t body)

@@ -1,7 +1,7 @@
 // motion_path.h - the swept motion of a body: where it is at any time of the step at hand, between solver and finalize.
 //
-// Straight pieces, the legs: one, or for a body that left a trail in the solver as many as that has. Read by the continuous stage, on any
-// thread: nothing of the world is written.
+// Straight pieces, the legs: one, or for a body that left a trail in the solver as many as that has. Read by the
+// continuous stage, on any thread: nothing of the world is written.
 #ifndef FE_CONTINUOUS_MOTION_PATH_H
 #define FE_CONTINUOUS_MOTION_PATH_H
 #include "collision/cast/toi.h"

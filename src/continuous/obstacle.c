@@ -5,13 +5,14 @@
 #include "world/filter.h"
 #include "world/pose.h"
 
-// Share of its thickness by which a shape may dip into another on its way. What stays out of the other by more than three quarters of its
-// half width is pushed out on the side it came from.
+// Share of its thickness by which a shape may dip into another as it moves. What stays out of the other by more than
+// three quarters of its half width is pushed out on the side it came from.
 #define DIP 0.25f
-// A search for impacts goes on so much beyond the first one found, as a share of it: of two at once the one created first counts.
+// A search for impacts goes on so much beyond the first one found, as a share of it: of two at once the one created
+// first counts.
 #define BEYOND 1e-9
 
-// A leg of a body, on the way through the trees
+// A leg of a body, as it is carried through the trees
 typedef struct search {
     const fe__step *step;
     int32_t body, against;
@@ -31,7 +32,8 @@ static void note(search *s, const fe__impact *deep, const fe__impact *touch, con
 {
     s->s = deep->s;
     s->serial = obstacle->serial;
-    s->first = (fe__obstacle){s->begin + touch->s * (s->end - s->begin), normal, fe__dadd(s->base, touch->on_b), obstacle->body};
+    s->first = (fe__obstacle){s->begin + touch->s * (s->end - s->begin), normal, fe__dadd(s->base, touch->on_b),
+                              obstacle->body};
 }
 
 // The dipped form decides whether there is an impact, the whole one when.
@@ -56,7 +58,8 @@ static void try_form(search *s, const fe__shape *own, const fe__shape *obstacle,
     note(s, &deep, &touch, obstacle, touch.normal);
 }
 
-// Does any leg of the way close the gap at its start? The plane across the shortest distance then separates them all the way.
+// Does any leg close the gap at its start? If not, the plane across the shortest distance separates them for the whole
+// step.
 static int32_t may_close(const search *s, const fe__shape *own, const fe__mobile *other)
 {
     const fe__step *step = s->step;
@@ -71,7 +74,8 @@ static int32_t may_close(const search *s, const fe__shape *own, const fe__mobile
     int32_t legs = fe__path_legs(step, s->body);
     for (int32_t leg = 1; leg <= legs; ++leg) {
         fe__shift at = fe__path_place(step, s->body, leg);
-        fe_dvec3 axis = {(double)at.turn.x, (double)at.turn.y, (double)at.turn.z}, across = fe__dcross(gap.normal, axis);
+        fe_dvec3 axis = {(double)at.turn.x, (double)at.turn.y, (double)at.turn.z},
+                 across = fe__dcross(gap.normal, axis);
         double turning = (double)FE_PI * sqrt(fe__ddot(across, across)) * (double)body->reach;
         if (fe__ddot(gap.normal, at.centre) + turning + 2.0 * FE_TOUCH > gap.distance) return 1;
     }
@@ -92,11 +96,11 @@ static void try_obstacle(search *s, const fe__shape *own, const fe__shape *obsta
 static void try_field(search *s, const fe__shape *own, const fe__shape *obstacle, const fe__mobile *other)
 {
     const fe_world *w = s->step->world;
-    const fe__heightfield *field = w->fields + obstacle->form.field;
+    const fe__heightfield *field = fe__store_field(w->store, obstacle->form.field);
     fe__pose pose = fe__mobile_at(other, 0.0);
-    fe_dvec3 way = fe__dsub(s->motion.translation, other->motion.translation);
+    fe_dvec3 travel = fe__dsub(s->motion.translation, other->motion.translation);
     fe_dvec3 from = fe__drotate_back(pose.rotation, fe__dsub(s->motion.centre, pose.position));
-    fe_dvec3 to = fe__dadd(from, fe__drotate_back(pose.rotation, way));
+    fe_dvec3 to = fe__dadd(from, fe__drotate_back(pose.rotation, travel));
     double reach = (double)w->bodies[s->body].reach;
     fe_dvec3 low = {fe__mind(from.x, to.x) - reach, fe__mind(from.y, to.y) - reach, fe__mind(from.z, to.z) - reach};
     fe_dvec3 high = {fe__maxd(from.x, to.x) + reach, fe__maxd(from.y, to.y) + reach, fe__maxd(from.z, to.z) + reach};
@@ -152,8 +156,10 @@ static int32_t visit(void *context, int32_t shape)
 
 static void add_place(fe__bounds *box, fe_dvec3 p, double reach)
 {
-    box->low = (fe_dvec3){fe__mind(box->low.x, p.x - reach), fe__mind(box->low.y, p.y - reach), fe__mind(box->low.z, p.z - reach)};
-    box->high = (fe_dvec3){fe__maxd(box->high.x, p.x + reach), fe__maxd(box->high.y, p.y + reach), fe__maxd(box->high.z, p.z + reach)};
+    box->low = (fe_dvec3){fe__mind(box->low.x, p.x - reach), fe__mind(box->low.y, p.y - reach),
+                          fe__mind(box->low.z, p.z - reach)};
+    box->high = (fe_dvec3){fe__maxd(box->high.x, p.x + reach), fe__maxd(box->high.y, p.y + reach),
+                           fe__maxd(box->high.z, p.z + reach)};
 }
 
 static void ask(search *s, const fe__bounds *box)
@@ -184,15 +190,16 @@ int32_t fe__path_is_blocked(const fe__step *step, int32_t body, int32_t against)
     int32_t legs = fe__path_legs(step, body);
     double reach = (double)b->reach;
     fe__bounds box = {fe__centre_of(b), fe__centre_of(b)};
-    for (int32_t leg = 0; leg <= legs; ++leg) add_place(&box, fe__dadd(s.base, fe__path_place(step, body, leg).centre), reach);
+    for (int32_t leg = 0; leg <= legs; ++leg)
+        add_place(&box, fe__dadd(s.base, fe__path_place(step, body, leg).centre), reach);
     s.motion = fe__path_motion(step, body, 0.0, 1.0, s.base);
     s.blocked = 0;
     ask(&s, &box);
     return s.blocked;
 }
 
-fe__obstacle fe__first_obstacle(const fe__step *step, int32_t body, int32_t against, const fe__shift *from, const fe__shift *to,
-                                double begins, double ends)
+fe__obstacle fe__first_obstacle(const fe__step *step, int32_t body, int32_t against, const fe__shift *from,
+                                const fe__shift *to, double begins, double ends)
 {
     const fe__body *b = step->world->bodies + body;
     search s = begin(step, body, against);
@@ -211,13 +218,15 @@ int32_t fe__paths_cross(const fe__step *step, int32_t shape_a, int32_t shape_b)
 {
     const fe_world *w = step->world;
     const fe__shape *a = w->shapes + shape_a, *b = w->shapes + shape_b;
-    int32_t body = fe__path_legs(step, a->body) > fe__path_legs(step, b->body) ? a->body : b->body, legs = fe__path_legs(step, body);
+    int32_t body = fe__path_legs(step, a->body) > fe__path_legs(step, b->body) ? a->body : b->body,
+            legs = fe__path_legs(step, body);
     fe_dvec3 base = fe__centre_of(w->bodies + body);
     for (int32_t leg = 0; leg < legs; ++leg) {
         double begins = fe__path_time(step, body, leg), ends = fe__path_time(step, body, leg + 1);
         fe__motion motion_a = fe__path_motion(step, a->body, begins, ends, base),
                    motion_b = fe__path_motion(step, b->body, begins, ends, base);
-        fe__mobile mobile_a = fe__mobile_of_shape(step, a, &motion_a), mobile_b = fe__mobile_of_shape(step, b, &motion_b);
+        fe__mobile mobile_a = fe__mobile_of_shape(step, a, &motion_a),
+                   mobile_b = fe__mobile_of_shape(step, b, &motion_b);
         fe__impact impact;
         if (fe__time_of_impact(&mobile_a, &mobile_b, 1.0, &impact) != FE_MEET_NEVER) return 1;
     }

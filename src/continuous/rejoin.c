@@ -1,8 +1,9 @@
 // rejoin.c - see rejoin.h. A bone that a wall stopped is where the wall is; the others went on without it.
 //
-// Positions only, by sweeps over the joints of the tree, each closed at once by the masses of its two ends (a step of Newton's method on
-// the gap d:  l = -K^-1 d,  dx = l / m,  turn = I^-1 (r x l)): few bodies, once in a while, and a tenth of the linear slop is enough.
-// Poses are motions since the step began, in the solver's lines (float[8]: centre, 0 | rotation).
+// Positions only, by sweeps over the joints of the tree, each closed at once by the masses of its two ends (a step of
+// Newton's method on the gap d:  l = -K^-1 d,  dx = l / m,  turn = I^-1 (r x l)): few bodies, once in a while, and a
+// tenth of the linear slop is enough. Poses are motions since the step began, in the solver's lines (float[8]: centre,
+// 0 | rotation).
 #include "continuous/rejoin.h"
 
 #include "continuous/chase.h"
@@ -49,7 +50,10 @@ static fe_dvec3 point_of(const end *e)
     return e->motion ? fe__dadd(point, fe__widen(fe__quad_vector(e->motion->shift))) : point;
 }
 
-static fe_dvec3 along(const double *share, fe_dvec3 a) { return (fe_dvec3){share[0] * a.x, share[1] * a.y, share[2] * a.z}; }
+static fe_dvec3 along(const double *share, fe_dvec3 a)
+{
+    return (fe_dvec3){share[0] * a.x, share[1] * a.y, share[2] * a.z};
+}
 
 // I^-1 m of a moment about the centre
 static fe_dvec3 turned_by(const end *e, fe_dvec3 moment)
@@ -61,37 +65,39 @@ static fe_dvec3 turned_by(const end *e, fe_dvec3 moment)
     return along(e->turn, fe__drotate(axes, m));
 }
 
-// how far a push of 1 N s2 at the end's point moves that point
-static fe_dvec3 answer(const end *e, fe_dvec3 push)
+// displacement of the end's point by a push there (N s2): the inverse mass that it shows
+static fe_dvec3 response(const end *e, fe_dvec3 push)
 {
     if (e->body->type != FE_BODY_DYNAMIC) return (fe_dvec3){0.0, 0.0, 0.0};
     return fe__dadd(along(e->mass, push), fe__dcross(turned_by(e, fe__dcross(e->arm, push)), e->arm));
 }
 
-static void shift(const fe_world *w, const end *e, fe_dvec3 push)
+static void move_end(const fe_world *w, const end *e, fe_dvec3 push)
 {
     if (e->body->type != FE_BODY_DYNAMIC || !e->motion) return;
     fe__give_back(w, e->body, fe__narrow(along(e->mass, push)), w->solver.velocity[e->body->line].v);
-    fe_dvec3 way = along(e->mass, push), turn = turned_by(e, fe__dcross(e->arm, push));
+    fe_dvec3 shift = along(e->mass, push), turn = turned_by(e, fe__dcross(e->arm, push));
     double angle = sqrt(fe__ddot(turn, turn)), half = 0.5 * (angle > MOST_TURN ? MOST_TURN / angle : 1.0);
     fe_quat q = {(float)(half * turn.x), (float)(half * turn.y), (float)(half * turn.z), 1.0f};
     q = fe__normalized(fe__product(q, turn_of(e)));
     float *p = e->motion->shift, *r = e->motion->rotation;
-    p[0] = (float)((double)p[0] + way.x), p[1] = (float)((double)p[1] + way.y), p[2] = (float)((double)p[2] + way.z);
+    p[0] = (float)((double)p[0] + shift.x), p[1] = (float)((double)p[1] + shift.y),
+    p[2] = (float)((double)p[2] + shift.z);
     r[0] = q.x, r[1] = q.y, r[2] = q.z, r[3] = q.w;
 }
 
-// x with K x = d; K: what pushes along the three axes answer together
+// x with K x = d; K: both responses to pushes along the three axes
 static fe_dvec3 push_for(const end *a, const end *b, fe_dvec3 d)
 {
     fe_dvec3 column[3];
     for (int k = 0; k < 3; ++k) {
         const fe_dvec3 unit = {k == 0, k == 1, k == 2};
-        column[k] = fe__dadd(answer(a, unit), answer(b, unit));
+        column[k] = fe__dadd(response(a, unit), response(b, unit));
     }
     const double least = SINGULAR * (column[0].x + column[1].y + column[2].z);
     column[0].x += least, column[1].y += least, column[2].z += least;
-    const fe_dvec3 yz = fe__dcross(column[1], column[2]), zx = fe__dcross(column[2], column[0]), xy = fe__dcross(column[0], column[1]);
+    const fe_dvec3 yz = fe__dcross(column[1], column[2]), zx = fe__dcross(column[2], column[0]),
+                   xy = fe__dcross(column[0], column[1]);
     const double volume = fe__ddot(column[0], yz), k = volume > 0.0 ? 1.0 / volume : 0.0;
     return (fe_dvec3){k * fe__ddot(yz, d), k * fe__ddot(zx, d), k * fe__ddot(xy, d)};
 }
@@ -104,7 +110,7 @@ static double close_joint(const fe_world *w, int32_t joint, int32_t holds)
     end a = end_of(w, j->body_a, j->arm_a, holds), b = end_of(w, j->body_b, j->arm_b, holds);
     fe_dvec3 gap = fe__dsub(point_of(&b), point_of(&a));
     fe_dvec3 push = push_for(&a, &b, gap);
-    shift(w, &a, push), shift(w, &b, fe__dscale(-1.0, push));
+    move_end(w, &a, push), move_end(w, &b, fe__dscale(-1.0, push));
     return sqrt(fe__ddot(gap, gap));
 }
 
@@ -146,7 +152,8 @@ static void rejoin(const fe__step *step, const fe__joint_tree *tree)
 {
     const fe_world *w = step->world;
     const fe__tree_link *links = w->joints.forest.links + tree->first;
-    for (int32_t i = 0; i < tree->count; ++i) w->solver.trail_count[w->bodies[links[i].body].line] = FE__NO_TRAIL; // straight ways now
+    for (int32_t i = 0; i < tree->count; ++i)
+        w->solver.trail_count[w->bodies[links[i].body].line] = FE__NO_TRAIL; // straight motions now
     for (int32_t round = 0; round < MOST_ROUNDS; ++round) {
         close_tree(w, tree, 1);
         if (!stop_others(step, tree)) break;
@@ -160,7 +167,8 @@ static const fe__joint_tree *tree_of_body(const fe_world *w, int32_t body)
 {
     const fe__forest *f = &w->joints.forest;
     for (int32_t joint = w->bodies[body].first_joint; joint; joint = fe__next_joint(w, joint, body))
-        if (w->joints.joints[joint].colour >= 0 && f->link_of[joint] >= 0) return f->trees + f->links[f->link_of[joint]].tree;
+        if (w->joints.joints[joint].colour >= 0 && f->link_of[joint] >= 0)
+            return f->trees + f->links[f->link_of[joint]].tree;
     return NULL;
 }
 

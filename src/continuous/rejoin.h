@@ -3,8 +3,8 @@
 #define FE_CONTINUOUS_REJOIN_H
 #include "world/step_scratch.h"
 
-// Of each tree of joints with bodies that were stopped (FE__BODY_HELD, which it clears): moves the others until their joints meet again,
-// the stopped ones stay. One thread.
+// Of each tree of joints with bodies that were stopped (FE__BODY_HELD, which it clears): moves the others until their
+// joints meet again, the stopped ones stay. One thread.
 void fe__rejoin_trees(fe__step *step);
 
 #endif

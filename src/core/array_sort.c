@@ -1,5 +1,6 @@
-// array_sort.c - see array_sort.h. Few items: by insertion. Many: radix sort, lowest byte first (Knuth, The Art of Computer Programming
-// 3, 5.2.5), which is stable and looks at no two keys together; bytes that all keys share, as the high ones of small serials, cost no pass.
+// array_sort.c - see array_sort.h. Few items: by insertion. Many: radix sort, lowest byte first (Knuth, The Art of
+// Computer Programming 3, 5.2.5), which is stable and looks at no two keys together; bytes that all keys share, as the
+// high ones of small serials, cost no pass.
 #include "core/array_sort.h"
 
 #include <string.h>

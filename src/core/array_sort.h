@@ -1,7 +1,7 @@
 // array_sort.h - sorts 64-bit keys with a 32-bit payload, the same way everywhere.
 //
-// Stable: items of equal keys keep their order, so that the result depends on the input alone. Used for pairs (by serials), events and
-// batches.
+// Stable: items of equal keys keep their order, so that the result depends on the input alone. Used for pairs (by
+// serials), events and batches.
 #ifndef FE_CORE_ARRAY_SORT_H
 #define FE_CORE_ARRAY_SORT_H
 #include <stdint.h>

@@ -1,10 +1,11 @@
 // fp_state.c - the floating-point state of a thread, see fp_state.h.
 //
-// Audio and game threads switch flush-to-zero on, some hosts round otherwise or trap. One register of each CPU says so, for scalar and
-// vector instructions of any width. It is written only when it is not as it should be: arithmetic waits for the write, some 5 ns a call.
-// Flags that were raised are left to the host. The functions have a file of their own, so that no arithmetic of the caller moves across the
-// switch. x86: Intel 64 Manual 1, 10.2.3 (MXCSR governs SSE, AVX and AVX-512). AArch64: Arm ARM C5.2.8 (FPCR). z/Architecture: Principles
-// of Operation, SA22-7832, chapter 19 (FPC register). WebAssembly has only the one state.
+// Audio and game threads switch flush-to-zero on, some hosts round otherwise or trap. One register of each CPU says so,
+// for scalar and vector instructions of any width. It is written only when it is not as it should be: arithmetic waits
+// for the write, some 5 ns a call. Flags that were raised are left to the host. The functions have a file of their own,
+// so that no arithmetic of the caller moves across the switch. x86: Intel 64 Manual 1, 10.2.3 (MXCSR governs SSE, AVX
+// and AVX-512). AArch64: Arm ARM C5.2.8 (FPCR). z/Architecture: Principles of Operation, SA22-7832, chapter 19 (FPC
+// register). WebAssembly has only the one state.
 #include "core/fp_state.h"
 
 #if defined(__i386__) && !defined(__SSE2_MATH__)
@@ -14,7 +15,8 @@
 #if defined(__x86_64__) || defined(__i386__)
 #include <xmmintrin.h>
 
-// all six exceptions masked (bits 7-12), round to nearest (13-14), flush to zero (15) and denormals are zero (6) off, no flag raised (0-5)
+// all six exceptions masked (bits 7-12), round to nearest (13-14), flush to zero (15) and denormals are zero (6) off,
+// no flag raised (0-5)
 enum { MXCSR_STATE = 0x1F80, MXCSR_FLAGS = 0x3F };
 
 #if defined(__i386__)
@@ -40,7 +42,10 @@ static void write_x87(uint64_t state) { (void)state; }
 #endif
 
 // MXCSR in the low half
-static int is_right(uint64_t state) { return (state & ~(uint64_t)MXCSR_FLAGS) == ((uint64_t)X87_STATE << 32 | MXCSR_STATE); }
+static int is_right(uint64_t state)
+{
+    return (state & ~(uint64_t)MXCSR_FLAGS) == ((uint64_t)X87_STATE << 32 | MXCSR_STATE);
+}
 
 static void write_state(uint64_t state)
 {

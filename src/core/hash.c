@@ -29,8 +29,8 @@ void fe__hash_struct(fe__hash *hash, const void *words, size_t size)
     fe__hash_u64(hash, last);
 }
 
-// The last word fed has been through one multiplication only. Two more of them, each followed by a shift that brings the high bits down,
-// let every bit of it reach every bit of the result.
+// The last word fed has been through one multiplication only. Two more of them, each followed by a shift that brings
+// the high bits down, let every bit of it reach every bit of the result.
 uint64_t fe__hash_end(const fe__hash *hash)
 {
     fe__hash mixed = *hash;

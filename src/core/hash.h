@@ -1,11 +1,12 @@
 // hash.h - a 64-bit fingerprint of a sequence of numbers, for fe_world_hash and for comparing two runs.
 //
-// It works on values, not on memory: the same words give the same hash on any machine. Floats enter as their bits, so that -0.0 and +0.0
-// differ: two runs that differ in a sign of zero are not the same run. Not for secrets, and not for hash tables in need of a cheap step.
+// It works on values, not on memory: the same words give the same hash on any machine. Floats enter as their bits, so
+// that -0.0 and +0.0 differ: two runs that differ in a sign of zero are not the same run. Not for secrets, and not for
+// hash tables in need of a cheap step.
 //
-// Each word w turns the state s into   s = (s ^ w) K,  s ^= s >> 32.   Both steps are one to one in s and in w, so that two sequences of
-// the same length that differ in one word never collide; others do with probability 2^-64. K is odd with well spread bits: 2^64 / golden
-// ratio.
+// Each word w turns the state s into   s = (s ^ w) K,  s ^= s >> 32.   Both steps are one to one in s and in w, so that
+// two sequences of the same length that differ in one word never collide; others do with probability 2^-64. K is odd
+// with well spread bits: 2^64 / golden ratio.
 #ifndef FE_CORE_HASH_H
 #define FE_CORE_HASH_H
 #include "feather.h"
@@ -60,12 +61,12 @@ static inline void fe__hash_dvec3(fe__hash *hash, fe_dvec3 a)
     fe__hash_double(hash, a.y);
     fe__hash_double(hash, a.z);
 }
-// Arrays of words: the same as feeding pairs (low word first) or single words; an odd last 32-bit word goes alone. The length goes in
-// first.
+// Arrays of words: the same as feeding pairs (low word first) or single words; an odd last 32-bit word goes alone. The
+// length goes in first.
 void fe__hash_u32_array(fe__hash *hash, const uint32_t *words, size_t count);
 void fe__hash_u64_array(fe__hash *hash, const uint64_t *words, size_t count);
-// A struct of `size` bytes whose fields are 32-bit words, as pairs like an array: the same whatever the order of a word's bytes. `size`
-// goes in first.
+// A struct of `size` bytes whose fields are 32-bit words, as pairs like an array: the same whatever the order of a
+// word's bytes. `size` goes in first.
 void fe__hash_struct(fe__hash *hash, const void *words, size_t size);
 // The fingerprint of all that was fed; more may be fed afterwards.
 uint64_t fe__hash_end(const fe__hash *hash);

@@ -1,10 +1,11 @@
 // id_pool.h - handles: numbers that name a slot of a table and notice when the slot was given to somebody else.
 //
-// From the low bits: 21 of slot + 1, 17 of generation, 12 of the number of the world or store, 3 of kind. So a handle is never 0, stays
-// below 2^53, and is refused by worlds of another number. A slot's generation starts at 1 and grows at each release. A slot that has used
-// its last one retires for good: no handle ever means a second thing. Free slots form a stack: the slot released last is given next, and
-// new slots are opened in rising order when the stack is empty. Hence the handles depend on the number and the order of calls alone. The
-// pool is plain arrays: copying them copies its future. The API layer is the only one that checks handles; all below it uses slots.
+// From the low bits: 21 of slot + 1, 17 of generation, 12 of the number of the world or store, 3 of kind. So a handle
+// is never 0, stays below 2^53, and is refused by worlds of another number. A slot's generation starts at 1 and grows
+// at each release. A slot that has used its last one retires for good: no handle ever means a second thing. Free slots
+// form a stack: the slot released last is given next, and new slots are opened in rising order when the stack is empty.
+// Hence the handles depend on the number and the order of calls alone. The pool is plain arrays: copying them copies
+// its future. The API layer is the only one that checks handles; all below it uses slots.
 #ifndef FE_CORE_ID_POOL_H
 #define FE_CORE_ID_POOL_H
 #include "core/memory.h"
@@ -52,7 +53,8 @@ void fe__id_pool_init(fe__id_pool *pool, fe__kind kind, int32_t number);
 // The next number of a counter of this process, for who gave none. From any thread.
 int32_t fe__id_draw_number(void);
 void fe__id_pool_free(fe__id_pool *pool, fe__memory *memory);
-// Makes the next `extra` allocations certain. FE_ERROR_MEMORY, or FE_ERROR_LIMIT when there are not that many slots; nothing changed then.
+// Makes the next `extra` allocations certain. FE_ERROR_MEMORY, or FE_ERROR_LIMIT when there are not that many slots;
+// nothing changed then.
 fe_result fe__id_pool_reserve(fe__id_pool *pool, fe__memory *memory, int32_t extra);
 // Only after a reserve that covers it.
 fe_handle fe__id_pool_allocate(fe__id_pool *pool);
@@ -67,7 +69,10 @@ static inline int32_t fe__id_generation_of(fe_handle handle)
 {
     return (int32_t)(handle >> FE_ID_SLOT_BITS & ((1u << FE_ID_GENERATION_BITS) - 1));
 }
-static inline int32_t fe__id_number_of(fe_handle handle) { return (int32_t)(handle >> FE_ID_NUMBER_SHIFT & FE_ID_LAST_NUMBER); }
+static inline int32_t fe__id_number_of(fe_handle handle)
+{
+    return (int32_t)(handle >> FE_ID_NUMBER_SHIFT & FE_ID_LAST_NUMBER);
+}
 // bits beyond the kind make it a kind that does not exist
 static inline int32_t fe__id_kind_of(fe_handle handle)
 {
@@ -76,8 +81,8 @@ static inline int32_t fe__id_kind_of(fe_handle handle)
 }
 static inline fe_handle fe__id_make(int32_t kind, int32_t number, int32_t generation, int32_t slot)
 {
-    return (fe_handle)kind << FE_ID_KIND_SHIFT | (fe_handle)number << FE_ID_NUMBER_SHIFT | (fe_handle)generation << FE_ID_SLOT_BITS |
-           (fe_handle)(slot + 1);
+    return (fe_handle)kind << FE_ID_KIND_SHIFT | (fe_handle)number << FE_ID_NUMBER_SHIFT |
+           (fe_handle)generation << FE_ID_SLOT_BITS | (fe_handle)(slot + 1);
 }
 
 static inline int32_t fe__id_pool_is_alive(const fe__id_pool *pool, int32_t slot)

@@ -1,7 +1,7 @@
 // math.h - vectors, quaternions and matrices of the scalar code.
 //
-// The public structs are the working types. Every function is built from IEEE + - * / and sqrt, in a fixed order, so that each compiler
-// gives the same bits (-ffp-contract=off). Trigonometry is in trig.h; libm beyond sqrt is not used.
+// The public structs are the working types. Every function is built from IEEE + - * / and sqrt, in a fixed order, so
+// that each compiler gives the same bits (-ffp-contract=off). Trigonometry is in trig.h; libm beyond sqrt is not used.
 #ifndef FE_CORE_MATH_H
 #define FE_CORE_MATH_H
 #include "feather.h"
@@ -13,8 +13,9 @@
 #define FE_PI 3.14159265358979323846f
 
 // Kernels load a vector and the number behind it as one quad
-#define FE__IS_QUAD(type, vector, fourth) \
-    _Static_assert(offsetof(type, vector) % 16 == 0 && offsetof(type, fourth) == offsetof(type, vector) + 12, #vector " and " #fourth)
+#define FE__IS_QUAD(type, vector, fourth)                                                                     \
+    _Static_assert(offsetof(type, vector) % 16 == 0 && offsetof(type, fourth) == offsetof(type, vector) + 12, \
+                   #vector " and " #fourth)
 
 typedef struct fe__mat3 {
     fe_vec3 x, y, z; // columns: the images of the axes
@@ -37,14 +38,18 @@ static inline int64_t fe__minl(int64_t a, int64_t b) { return a < b ? a : b; }
 static inline int64_t fe__maxl(int64_t a, int64_t b) { return a > b ? a : b; }
 static inline int32_t fe__maxi(int32_t a, int32_t b) { return a > b ? a : b; }
 
-// ---- fe_vec3 ------------------------------------------------------------------------------------------------------------------
+// ---- fe_vec3
+// ------------------------------------------------------------------------------------------------------------------
 static inline fe_vec3 fe__vec3(float x, float y, float z) { return (fe_vec3){x, y, z}; }
 static inline fe_vec3 fe__quad_vector(const float *a) { return (fe_vec3){a[0], a[1], a[2]}; }
 static inline fe_vec3 fe__add(fe_vec3 a, fe_vec3 b) { return (fe_vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }
 static inline fe_vec3 fe__sub(fe_vec3 a, fe_vec3 b) { return (fe_vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
 static inline fe_vec3 fe__neg(fe_vec3 a) { return (fe_vec3){-a.x, -a.y, -a.z}; }
 static inline fe_vec3 fe__scale(float s, fe_vec3 a) { return (fe_vec3){s * a.x, s * a.y, s * a.z}; }
-static inline fe_vec3 fe__add_scaled(fe_vec3 a, float s, fe_vec3 b) { return (fe_vec3){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z}; }
+static inline fe_vec3 fe__add_scaled(fe_vec3 a, float s, fe_vec3 b)
+{
+    return (fe_vec3){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
+}
 static inline float fe__dot(fe_vec3 a, fe_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 static inline fe_vec3 fe__cross(fe_vec3 a, fe_vec3 b)
 {
@@ -52,7 +57,8 @@ static inline fe_vec3 fe__cross(fe_vec3 a, fe_vec3 b)
 }
 static inline float fe__length(fe_vec3 a) { return sqrtf(fe__dot(a, a)); }
 
-// ---- fe_dvec3 -----------------------------------------------------------------------------------------------------------------
+// ---- fe_dvec3
+// -----------------------------------------------------------------------------------------------------------------
 static inline fe_dvec3 fe__dadd(fe_dvec3 a, fe_dvec3 b) { return (fe_dvec3){a.x + b.x, a.y + b.y, a.z + b.z}; }
 static inline fe_dvec3 fe__dsub(fe_dvec3 a, fe_dvec3 b) { return (fe_dvec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
 static inline fe_dvec3 fe__dscale(double s, fe_dvec3 a) { return (fe_dvec3){s * a.x, s * a.y, s * a.z}; }
@@ -64,7 +70,8 @@ static inline fe_dvec3 fe__dcross(fe_dvec3 a, fe_dvec3 b)
 static inline fe_dvec3 fe__widen(fe_vec3 a) { return (fe_dvec3){(double)a.x, (double)a.y, (double)a.z}; }
 static inline fe_vec3 fe__narrow(fe_dvec3 a) { return (fe_vec3){(float)a.x, (float)a.y, (float)a.z}; }
 
-// ---- rotations ----------------------------------------------------------------------------------------------------------------
+// ---- rotations
+// ----------------------------------------------------------------------------------------------------------------
 static inline fe_quat fe__quat_of(const float *a) { return (fe_quat){a[0], a[1], a[2], a[3]}; }
 static inline fe_quat fe__identity(void) { return (fe_quat){0.0f, 0.0f, 0.0f, 1.0f}; }
 static inline fe_quat fe__conjugate(fe_quat q) { return (fe_quat){-q.x, -q.y, -q.z, q.w}; }
@@ -76,7 +83,8 @@ static inline fe_quat fe__product(fe_quat a, fe_quat b) // b's rotation first
 // q/|q|, computed in double: what a stored rotation means
 static inline fe_quat fe__normalized(fe_quat q)
 {
-    double x = (double)q.x, y = (double)q.y, z = (double)q.z, w = (double)q.w, k = 1.0 / sqrt(x * x + y * y + z * z + w * w);
+    double x = (double)q.x, y = (double)q.y, z = (double)q.z, w = (double)q.w,
+           k = 1.0 / sqrt(x * x + y * y + z * z + w * w);
     return (fe_quat){(float)(k * x), (float)(k * y), (float)(k * z), (float)(k * w)};
 }
 // R(q) a = a + 2 w (u x a) + 2 u x (u x a), q = (u, w)
@@ -97,8 +105,8 @@ static inline fe_dvec3 fe__drotate(fe_quat q, fe_dvec3 a)
 static inline fe_dvec3 fe__drotate_back(fe_quat q, fe_dvec3 a) { return fe__drotate(fe__conjugate(q), a); }
 static inline fe__mat3 fe__matrix(fe_quat q)
 {
-    float xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z, wx = q.w * q.x, wy = q.w * q.y,
-          wz = q.w * q.z;
+    float xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z,
+          wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
     return (fe__mat3){{1.0f - 2.0f * (yy + zz), 2.0f * (xy + wz), 2.0f * (xz - wy)},
                       {2.0f * (xy - wz), 1.0f - 2.0f * (xx + zz), 2.0f * (yz + wx)},
                       {2.0f * (xz + wy), 2.0f * (yz - wx), 1.0f - 2.0f * (xx + yy)}};

@@ -1,12 +1,15 @@
-// memory.c - see memory.h. Called from the world's own thread by the API and by the step's stages before they fan out; never by workers.
+// memory.c - see memory.h. Called from the world's own thread by the API and by the step's stages before they fan out;
+// never by workers. A store calls it under its lock.
 #include "core/memory.h"
+
+#include "core/mutex.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 enum {
     BLOCK_ALIGNMENT = 64, // a cache line, and the widest SIMD load
-    FIRST_CAPACITY = 16,  // records: below that, doubling would allocate at every other call
+    SMALL = 16,           // records: a smaller array grows fourfold; a world of one body stays small
     DOUBLE_BELOW = 1024,  // records: a larger array grows by a quarter
     GROWTH = 4,
     ROOM = 16, // a part of what is asked for at once is left over, so that a little more does not move the array again
@@ -28,14 +31,17 @@ static void default_release(void *user, void *block, uint64_t size)
 
 void fe__memory_init(fe__memory *memory, const fe_allocator *allocator)
 {
-    *memory = (fe__memory){.allocator = {.struct_size = sizeof(fe_allocator), .allocate = default_allocate, .release = default_release}};
+    *memory = (fe__memory){
+        .allocator = {.struct_size = sizeof(fe_allocator), .allocate = default_allocate, .release = default_release}};
     if (allocator) memory->allocator = *allocator;
 }
 
 void *fe__allocate(fe__memory *memory, size_t size)
 {
     if (size == 0 || size > PTRDIFF_MAX) return NULL;
+    if (memory->guard) fe__mutex_lock(memory->guard);
     void *block = memory->allocator.allocate(memory->allocator.user, size, BLOCK_ALIGNMENT);
+    if (memory->guard) fe__mutex_unlock(memory->guard);
     if (!block) return NULL;
     memset(block, 0, size);
     memory->bytes += (int64_t)size;
@@ -46,11 +52,14 @@ void *fe__allocate(fe__memory *memory, size_t size)
 void fe__release(fe__memory *memory, void *block, size_t size)
 {
     if (!block) return;
+    if (memory->guard) fe__mutex_lock(memory->guard);
     memory->allocator.release(memory->allocator.user, block, size);
+    if (memory->guard) fe__mutex_unlock(memory->guard);
     memory->bytes -= (int64_t)size;
 }
 
-// `array` is the address of a pointer of any type. It is read and written as bytes, because a T* may not be accessed as a void*.
+// `array` is the address of a pointer of any type. It is read and written as bytes, because a T* may not be accessed as
+// a void*.
 static void *load_pointer(const void *array)
 {
     void *pointer;
@@ -60,13 +69,14 @@ static void *load_pointer(const void *array)
 
 static void store_pointer(void *array, void *pointer) { memcpy(array, &pointer, sizeof pointer); }
 
-// Doubling, and by a quarter once an array is large: still O(log n) times, and little room is left over
+// As much as is asked for, then fourfold, doubling, and by a quarter once an array is large: O(log n) times, and little
+// room is left over
 int32_t fe__reserve(fe__memory *memory, void *array, int32_t *capacity, int64_t need, size_t size)
 {
     if (need <= *capacity) return 1;
     if (need > INT32_MAX) return 0;
-    int64_t grown = *capacity < FIRST_CAPACITY ? FIRST_CAPACITY : *capacity;
-    while (grown < need && grown < DOUBLE_BELOW) grown *= 2;
+    int64_t grown = *capacity ? *capacity : need < DOUBLE_BELOW ? need : DOUBLE_BELOW;
+    while (grown < need && grown < DOUBLE_BELOW) grown *= grown < SMALL ? 4 : 2;
     if (grown < need) grown = grown + grown / GROWTH > need + need / ROOM ? grown + grown / GROWTH : need + need / ROOM;
     if (grown > INT32_MAX) grown = INT32_MAX;
     if ((uint64_t)grown > PTRDIFF_MAX / size) return 0;

@@ -1,15 +1,12 @@
 // owner.c - the slots of the threads that read. See owner.h.
 #include "core/owner.h"
 
+#include "core/mutex.h"
+
 #include <stdlib.h>
 
-#if !defined(__wasm__) || defined(_REENTRANT)
-#include <pthread.h>
-#define FE_HAS_THREADS 1
-#endif
-
-// Slots are made once and never freed while the library is loaded: who looks at all of them needs no lock. A thread that ends gives its
-// slot to the next one.
+// Slots are made once and never freed while the library is loaded: who looks at all of them needs no lock. A thread
+// that ends gives its slot to the next one.
 static _Atomic(fe__reader *) readers;
 static _Thread_local fe__reader *own;
 
@@ -30,7 +27,8 @@ static fe__reader *take_free(void)
 {
     for (fe__reader *r = atomic_load_explicit(&readers, memory_order_acquire); r; r = r->next) {
         int32_t taken = 0;
-        if (atomic_compare_exchange_strong_explicit(&r->taken, &taken, 1, memory_order_acquire, memory_order_relaxed)) return r;
+        if (atomic_compare_exchange_strong_explicit(&r->taken, &taken, 1, memory_order_acquire, memory_order_relaxed))
+            return r;
     }
     return NULL;
 }
@@ -46,8 +44,9 @@ static fe__reader *make(void)
     return r;
 }
 
-#ifdef FE_HAS_THREADS
-// A thread's end returns its slot. The key goes with the library: no thread that outlives it calls into memory that is gone.
+#if FE_HAS_THREADS
+// A thread's end returns its slot. The key goes with the library: no thread that outlives it calls into memory that is
+// gone.
 static pthread_key_t at_exit;
 static int has_key;
 static pthread_once_t once = PTHREAD_ONCE_INIT;

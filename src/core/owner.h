@@ -1,12 +1,13 @@
 // owner.h - who is inside a world now: one writer, or any number of readers.
 //
-// A writer takes one word of the world by a compare-exchange and gives it back by a store. A reader never touches that word, so that
-// readers on many cores share no cache line that is written: each thread has a slot of its own, in which it names what it reads, and then
-// looks at the word. Who must be alone (a step, a destruction) takes the word and then looks at the slots of all threads. Both sides write
-// first and look afterwards, in one total order (Dekker's algorithm, with sequentially consistent operations): at least one notices the
-// other.
+// A writer takes one word of the world by a compare-exchange and gives it back by a store. A reader never touches that
+// word, so that readers on many cores share no cache line that is written: each thread has a slot of its own, in which
+// it names what it reads, and then looks at the word. Who must be alone (a step, a destruction) takes the word and then
+// looks at the slots of all threads. Both sides write first and look afterwards, in one total order (Dekker's
+// algorithm, with sequentially consistent operations): at least one notices the other.
 //
-// A plain writer does not look at the slots: a reader that was inside before it is the caller's race.
+// A writer that moves no record does not look at the slots: a reader that was inside before it may see old and new
+// values.
 #ifndef FE_CORE_OWNER_H
 #define FE_CORE_OWNER_H
 #include "feather.h"
@@ -39,9 +40,13 @@ typedef struct fe__reader {
 static inline int fe__owner_enter(fe__owner *owner)
 {
     uint32_t nobody = FE__NOBODY;
-    return atomic_compare_exchange_strong_explicit(&owner->occupation, &nobody, FE__WRITER, memory_order_seq_cst, memory_order_relaxed);
+    return atomic_compare_exchange_strong_explicit(&owner->occupation, &nobody, FE__WRITER, memory_order_seq_cst,
+                                                   memory_order_relaxed);
 }
-static inline void fe__owner_leave(fe__owner *owner) { atomic_store_explicit(&owner->occupation, FE__NOBODY, memory_order_release); }
+static inline void fe__owner_leave(fe__owner *owner)
+{
+    atomic_store_explicit(&owner->occupation, FE__NOBODY, memory_order_release);
+}
 
 // From writer to step or closing, when no reader is inside. 0: one is, and the caller is still the writer.
 int fe__owner_be_alone(fe__owner *owner, fe__occupation as);

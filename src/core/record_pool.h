@@ -1,7 +1,7 @@
 // record_pool.h - records of one size, given out by index and taken back.
 //
-// Index 0 is never given: it is a record of zeros that means "none". A record given out is all zeros. Which index is next depends on the
-// order of calls alone.
+// Index 0 is never given: it is a record of zeros that means "none". A record given out is all zeros. Which index is
+// next depends on the order of calls alone.
 #ifndef FE_CORE_RECORD_POOL_H
 #define FE_CORE_RECORD_POOL_H
 #include "core/memory.h"
@@ -21,6 +21,9 @@ void fe__record_pool_free(fe__record_pool *pool, fe__memory *memory);
 fe_result fe__record_pool_reserve(fe__record_pool *pool, fe__memory *memory, int32_t extra);
 int32_t fe__record_pool_take(fe__record_pool *pool);
 void fe__record_pool_return(fe__record_pool *pool, int32_t index);
-static inline void *fe__record(const fe__record_pool *pool, int32_t index) { return pool->records + (size_t)pool->size * (size_t)index; }
+static inline void *fe__record(const fe__record_pool *pool, int32_t index)
+{
+    return pool->records + (size_t)pool->size * (size_t)index;
+}
 
 #endif

@@ -1,10 +1,12 @@
-// threads.c - see threads.h. Posix threads and C11 atomics; sleeping is a futex on Linux, a condition variable elsewhere.
+// threads.c - see threads.h. Posix threads and C11 atomics; sleeping is a futex on Linux, a condition variable
+// elsewhere.
 //
-// A run takes one of the pool's slots, says how many tasks it has, and raises its bit in `open`. Whoever sees the bit, the caller first of
-// all, claims tasks by counting `unclaimed` down, and counts `unfinished` down when one has returned; at 0 the caller takes its slot back.
-// A slot's task and argument are read only by who has claimed one of its tasks, and until that task is finished the slot cannot change
-// hands: so a worker that comes late to a slot that was given away meanwhile claims a task of the new run, or nothing, and either is right.
-// No run allocates. When all slots are taken, or from inside a task, the caller does its run alone.
+// A run takes one of the pool's slots, says how many tasks it has, and raises its bit in `open`. Whoever sees the bit,
+// the caller first of all, claims tasks by counting `unclaimed` down, and counts `unfinished` down when one has
+// returned; at 0 the caller takes its slot back. A slot's task and argument are read only by who has claimed one of its
+// tasks, and until that task is finished the slot cannot change hands: so a worker that comes late to a slot that was
+// given away meanwhile claims a task of the new run, or nothing, and either is right. No run allocates. When all slots
+// are taken, or from inside a task, the caller does its run alone.
 #if defined(__linux__)
 #define _GNU_SOURCE // sched_getaffinity
 #endif
@@ -13,16 +15,13 @@
 #include "core/clock.h"
 #include "core/fp_state.h"
 #include "core/memory.h"
+#include "core/registry.h"
 
 #include <sched.h>
 #include <unistd.h>
 
-#if !defined(__wasm__) || defined(_REENTRANT)
-#include <pthread.h>
+#if FE_HAS_THREADS
 #include <signal.h>
-#define HAS_THREADS 1
-#else
-#define HAS_THREADS 0
 #endif
 #if defined(__linux__)
 #include <linux/futex.h>
@@ -30,14 +29,15 @@
 #endif
 
 enum {
-    SLOTS = 32,               // bits of fe_pool.open
-    PAUSES_PER_LOOK = 16,     // spins between two looks at the clock
-    WAKE_AT_ONCE = 2,         // sleepers; each of them wakes two more while there is work, so that the caller does not pay for all
+    SLOTS = 32,           // bits of fe_pool.open
+    PAUSES_PER_LOOK = 16, // spins between two looks at the clock
+    WAKE_AT_ONCE =
+        2, // sleepers; each of them wakes two more while there is work, so that the caller does not pay for all
     STACK_SIZE = 1024 * 1024, // bytes of a thread: libraries' own sizes differ by a factor of 60
 };
 
-// Waking a sleeping thread takes some 50 us: spinning for less than that costs little more than it can save. During a step the next run is
-// near.
+// Waking a sleeping thread takes some 50 us: spinning for less than that costs little more than it can save. During a
+// step the next run is near.
 static const double spin_time = 20e-6;       // s
 static const double spin_time_step = 200e-6; // s
 
@@ -57,8 +57,8 @@ struct fe_pool {
     _Atomic int32_t steps;                            // now under way
     _Alignas(FE_CACHE_LINE) _Atomic uint32_t taken;   // bit s: slot s belongs to a caller
     _Alignas(FE_CACHE_LINE) _Atomic int32_t spinning; // workers
-    _Atomic int32_t sleeping;                         // workers that nobody has called; a call takes them off before they are awake
-    _Atomic uint32_t calls;                           // calls not yet taken by a sleeper, what they sleep on
+    _Atomic int32_t sleeping; // workers that nobody has called; a call takes them off before they are awake
+    _Atomic uint32_t calls;   // calls not yet taken by a sleeper, what they sleep on
     run_slot slots[SLOTS];
 
     fe__memory memory;
@@ -66,8 +66,8 @@ struct fe_pool {
     int32_t thread_count; // worker_count - 1, or 0 where there are no threads
     int32_t started;      // of these; fewer only while the pool is created
     _Atomic int32_t core_count;
-    _Atomic int32_t users;
-#if HAS_THREADS
+    fe__entry entry; // in the registry, which counts the worlds
+#if FE_HAS_THREADS
     pthread_t threads[FE_MAX_WORKERS - 1];
     pthread_mutex_t mutex; // where there is no futex
     pthread_cond_t changed;
@@ -75,8 +75,10 @@ struct fe_pool {
 };
 
 static _Thread_local int inside_task;
+static fe__registry pools = {FE_MUTEX_INITIAL, NULL};
 
-// ---- pausing, yielding, sleeping --------------------------------------------------------------------------------------------
+// ---- pausing, yielding, sleeping
+// --------------------------------------------------------------------------------------------
 
 void fe__pause(void)
 {
@@ -95,7 +97,7 @@ static void sleep_while(fe_pool *pool, _Atomic uint32_t *word, uint32_t value)
 #if defined(__linux__)
     (void)pool;
     syscall(SYS_futex, word, FUTEX_WAIT_PRIVATE, value, NULL, NULL, 0);
-#elif HAS_THREADS
+#elif FE_HAS_THREADS
     pthread_mutex_lock(&pool->mutex);
     if (atomic_load(word) == value) pthread_cond_wait(&pool->changed, &pool->mutex);
     pthread_mutex_unlock(&pool->mutex);
@@ -110,7 +112,7 @@ static void wake(fe_pool *pool, _Atomic uint32_t *word, int32_t count)
 #if defined(__linux__)
     (void)pool;
     syscall(SYS_futex, word, FUTEX_WAKE_PRIVATE, count, NULL, NULL, 0);
-#elif HAS_THREADS
+#elif FE_HAS_THREADS
     (void)word, (void)count; // one condition for all words: who was not meant sleeps on
     pthread_mutex_lock(&pool->mutex);
     pthread_cond_broadcast(&pool->changed);
@@ -120,7 +122,8 @@ static void wake(fe_pool *pool, _Atomic uint32_t *word, int32_t count)
 #endif
 }
 
-// ---- spinning ---------------------------------------------------------------------------------------------------------------
+// ---- spinning
+// ---------------------------------------------------------------------------------------------------------------
 
 typedef struct spinner {
     int32_t turns;
@@ -147,7 +150,8 @@ static int spin(fe_pool *pool, spinner *spinner)
     return now - spinner->start < (steps > 0 ? spin_time_step : spin_time);
 }
 
-// ---- tasks ------------------------------------------------------------------------------------------------------------------
+// ---- tasks
+// ------------------------------------------------------------------------------------------------------------------
 
 static void perform(fe_task task, void *argument, int32_t index)
 {
@@ -169,7 +173,8 @@ static int32_t claim(run_slot *slot)
 {
     int32_t left = atomic_load_explicit(&slot->unclaimed, memory_order_relaxed);
     while (left > 0) {
-        if (atomic_compare_exchange_weak_explicit(&slot->unclaimed, &left, left - 1, memory_order_acq_rel, memory_order_relaxed))
+        if (atomic_compare_exchange_weak_explicit(&slot->unclaimed, &left, left - 1, memory_order_acq_rel,
+                                                  memory_order_relaxed))
             return left;
     }
     return 0;
@@ -177,9 +182,11 @@ static int32_t claim(run_slot *slot)
 
 static void finish(fe_pool *pool, run_slot *slot)
 {
-    // The caller says that it sleeps before it looks at the count a last time, we count before we look whether it does: one of us notices.
-    // It may have gone on, and the slot be another's, by the time we look: then somebody is woken in vain.
-    if (atomic_fetch_sub(&slot->unfinished, 1) == 1 && atomic_load(&slot->caller_sleeps)) wake(pool, &slot->unfinished, 1);
+    // The caller says that it sleeps before it looks at the count a last time, we count before we look whether it does:
+    // one of us notices. It may have gone on, and the slot be another's, by the time we look: then somebody is woken in
+    // vain.
+    if (atomic_fetch_sub(&slot->unfinished, 1) == 1 && atomic_load(&slot->caller_sleeps))
+        wake(pool, &slot->unfinished, 1);
 }
 
 static void close_slot(fe_pool *pool, int32_t s)
@@ -198,7 +205,8 @@ static void work_on(fe_pool *pool, int32_t s)
     }
 }
 
-// ---- calling sleepers -------------------------------------------------------------------------------------------------------
+// ---- calling sleepers
+// -------------------------------------------------------------------------------------------------------
 
 // Wakes helpers for so many tasks, as far as spinning workers and the caller do not suffice and cores are free.
 static void call_helpers(fe_pool *pool, int32_t tasks)
@@ -218,9 +226,10 @@ static void call_helpers(fe_pool *pool, int32_t tasks)
     wake(pool, &pool->calls, count);
 }
 
-// ---- workers ----------------------------------------------------------------------------------------------------------------
+// ---- workers
+// ----------------------------------------------------------------------------------------------------------------
 
-#if HAS_THREADS
+#if FE_HAS_THREADS
 static int has_news(fe_pool *pool) { return atomic_load(&pool->open) != 0 || atomic_load(&pool->stopping) != 0; }
 
 // Off the list of sleepers, unless somebody has called just now: that call is ours to take.
@@ -282,7 +291,8 @@ static void *work(void *argument)
 }
 #endif
 
-// ---- runs -------------------------------------------------------------------------------------------------------------------
+// ---- runs
+// -------------------------------------------------------------------------------------------------------------------
 
 // -1: all are taken
 static int32_t take_slot(fe_pool *pool)
@@ -290,7 +300,8 @@ static int32_t take_slot(fe_pool *pool)
     uint32_t taken = atomic_load_explicit(&pool->taken, memory_order_relaxed);
     while (taken != ~0u) {
         int32_t s = __builtin_ctz(~taken);
-        if (atomic_compare_exchange_weak_explicit(&pool->taken, &taken, taken | 1u << s, memory_order_acquire, memory_order_relaxed))
+        if (atomic_compare_exchange_weak_explicit(&pool->taken, &taken, taken | 1u << s, memory_order_acquire,
+                                                  memory_order_relaxed))
             return s;
     }
     return -1;
@@ -343,9 +354,10 @@ void fe__pool_end(fe_pool *pool)
     if (pool) atomic_fetch_sub(&pool->steps, 1);
 }
 
-// ---- a pool's life ----------------------------------------------------------------------------------------------------------
+// ---- a pool's life
+// ----------------------------------------------------------------------------------------------------------
 
-#if HAS_THREADS
+#if FE_HAS_THREADS
 static int32_t count_cores(void)
 {
 #if defined(__linux__)
@@ -406,25 +418,40 @@ fe_pool *fe__pool_create(int32_t worker_count)
     if (!pool) return NULL;
     pool->memory = memory;
     pool->worker_count = worker_count;
+    fe__registry_add(&pools, &pool->entry);
     if (start_threads(pool)) return pool;
     fe__pool_destroy(pool);
     return NULL;
 }
 
-void fe__pool_destroy(fe_pool *pool)
+static void free_pool(fe_pool *pool)
 {
     join_threads(pool);
     fe__memory memory = pool->memory;
     fe__release(&memory, pool, sizeof *pool);
 }
 
+void fe__pool_destroy(fe_pool *pool)
+{
+    fe__registry_remove(&pools, &pool->entry);
+    free_pool(pool);
+}
+
+fe_result fe__pool_try_destroy(fe_pool *pool, int32_t *out_users)
+{
+    fe_result result = fe__registry_withdraw(&pools, &pool->entry, out_users);
+    if (result == FE_OK) free_pool(pool);
+    return result;
+}
+
 int32_t fe__pool_worker_count(const fe_pool *pool) { return pool->worker_count; }
-void fe__pool_retain(fe_pool *pool) { atomic_fetch_add(&pool->users, 1); }
-void fe__pool_release(fe_pool *pool) { atomic_fetch_sub(&pool->users, 1); }
-int32_t fe__pool_users(const fe_pool *pool) { return atomic_load(&pool->users); }
+int32_t fe__pool_lives(const fe_pool *pool) { return fe__registry_has(&pools, &pool->entry); }
+fe_result fe__pool_retain(fe_pool *pool) { return fe__registry_retain(&pools, &pool->entry); }
+void fe__pool_release(fe_pool *pool) { fe__registry_release(&pools, &pool->entry); }
 void fe__pool_assume_cores(fe_pool *pool, int32_t core_count) { atomic_store(&pool->core_count, core_count); }
 
-// ---- what a world runs on ---------------------------------------------------------------------------------------------------
+// ---- what a world runs on
+// ---------------------------------------------------------------------------------------------------
 
 typedef struct host_run {
     fe_task task;

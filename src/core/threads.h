@@ -1,10 +1,11 @@
 // threads.h - workers: a pool of persistent threads, or the host's task system, behind one call.
 //
-// fe__run is the only way to other threads: it calls task(argument, i) once for each i in [0, count) and returns when all have returned. A
-// task never waits for one that has not started, so that any number of real threads, down to one, finishes; tasks share work through atomic
-// counters of their own. A run from inside a task is done by that task's thread alone. The pool's threads spin for a few microseconds after
-// a run, longer between fe__pool_begin and fe__pool_end, then sleep; several worlds may run at once on one pool: each caller works too, and
-// whoever is free helps.
+// fe__run is the only way to other threads: it calls task(argument, i) once for each i in [0, count) and returns when
+// all have returned. A task never waits for one that has not started, so that any number of real threads, down to one,
+// finishes; tasks share work through atomic counters of their own. A run from inside a task is done by that task's
+// thread alone. The pool's threads spin for a few microseconds after a run, longer between fe__pool_begin and
+// fe__pool_end, then sleep; several worlds may run at once on one pool: each caller works too, and whoever is free
+// helps.
 #ifndef FE_CORE_THREADS_H
 #define FE_CORE_THREADS_H
 #include "feather.h"
@@ -17,12 +18,15 @@ enum { FE_MAX_WORKERS = 64, FE_CACHE_LINE = 64 };
 // fe_pool is the pool; worlds count themselves in and out
 fe_pool *fe__pool_create(int32_t worker_count); // NULL when memory or threads are not to be had
 void fe__pool_destroy(fe_pool *pool);           // no world may use it
+// FE_OK: destroyed. FE_ERROR_STALE: it was gone; FE_ERROR_STATE: so many worlds use it.
+fe_result fe__pool_try_destroy(fe_pool *pool, int32_t *out_users);
+int32_t fe__pool_lives(const fe_pool *pool);
 int32_t fe__pool_worker_count(const fe_pool *pool);
-void fe__pool_retain(fe_pool *pool);
+fe_result fe__pool_retain(fe_pool *pool); // FE_ERROR_STALE: it is gone
 void fe__pool_release(fe_pool *pool);
-int32_t fe__pool_users(const fe_pool *pool);
 void fe__pool_run(fe_pool *pool, fe_task task, void *argument, int32_t count);
-// Around a step: more runs follow soon, so that idle workers spin for longer before they sleep. NULL is fine; pairs may nest and overlap.
+// Around a step: more runs follow soon, so that idle workers spin for longer before they sleep. NULL is fine; pairs may
+// nest and overlap.
 void fe__pool_begin(fe_pool *pool);
 void fe__pool_end(fe_pool *pool);
 // As if the machine had that many cores; no more threads than cores are ever called to work. For tests.
@@ -36,7 +40,8 @@ typedef struct fe__workers {
 } fe__workers;
 void fe__run(const fe__workers *workers, fe_task task, void *argument, int32_t count);
 
-// Blocks of [0, count) claimed by whoever comes: each worker gets a disjoint range [first, end). Runs inline when one block holds it all.
+// Blocks of [0, count) claimed by whoever comes: each worker gets a disjoint range [first, end). Runs inline when one
+// block holds it all.
 typedef void (*fe__range_task)(void *argument, int32_t first, int32_t end, int32_t worker);
 void fe__parallel_for(const fe__workers *workers, int32_t count, int32_t block, fe__range_task task, void *argument);
 

@@ -1,14 +1,16 @@
 // trig.c - see trig.h.
 //
-// Each function reduces its argument to a short interval, keeping the rounding error of the reduction as a second number, and adds a
-// polynomial. The polynomials interpolate the exact function at the Chebyshev nodes of the interval, computed with 60 digits and rounded;
-// the errors named below are relative to the function and leave out the rounding of the evaluation. Reduction after Cody and Waite,
-// Software Manual for the Elementary Functions, 1980; exact differences after Knuth, The Art of Computer Programming 2, 4.2.2.
+// Each function reduces its argument to a short interval, keeping the rounding error of the reduction as a second
+// number, and adds a polynomial. The polynomials interpolate the exact function at the Chebyshev nodes of the interval,
+// computed with 60 digits and rounded; the errors named below are relative to the function and leave out the rounding
+// of the evaluation. Reduction after Cody and Waite, Software Manual for the Elementary Functions, 1980; exact
+// differences after Knuth, The Art of Computer Programming 2, 4.2.2.
 #include "core/trig.h"
 
 #include "core/math.h"
 
-// pi/2 = PART_1 + PART_2 + PART_3: the first two have 33 bits, so that their products with a whole number of 17 bits or less are exact.
+// pi/2 = PART_1 + PART_2 + PART_3: the first two have 33 bits, so that their products with a whole number of 17 bits or
+// less are exact.
 #define HALF_PI_PART_1 0x1.921fb544p+0
 #define HALF_PI_PART_2 0x1.0b4611a6p-34
 #define HALF_PI_PART_3 0x1.3198a2e037073p-69
@@ -57,7 +59,8 @@ static double sine_of(reduced_angle a)
     return h + (h * z * p + a.low * (1.0 - 0.5 * z));
 }
 
-// cos(h + l) = 1 - h^2 / 2 + h^4 Q(h^2) - h l, with the rounding error of 1 - h^2 / 2 given back. |h| <= pi/4: error of Q 9e-19.
+// cos(h + l) = 1 - h^2 / 2 + h^4 Q(h^2) - h l, with the rounding error of 1 - h^2 / 2 given back. |h| <= pi/4: error of
+// Q 9e-19.
 static double cosine_of(reduced_angle a)
 {
     double h = a.high, z = h * h;
@@ -93,7 +96,8 @@ void fe__sincos(double x, double *out_sine, double *out_cosine)
 //   atan(u) = u + u^3 P(u^2), error of P 3e-19
 static double first_octant(double n, double m)
 {
-    static const double quarter_high[5] = {0.0, 0.24497866312686414, 0.4636476090008061, 0.6435011087932844, 0.7853981633974483};
+    static const double quarter_high[5] = {0.0, 0.24497866312686414, 0.4636476090008061, 0.6435011087932844,
+                                           0.7853981633974483};
     static const double quarter_low[5] = {0.0, 1.0698755618734451e-17, 2.2698777452961687e-17, 1.5834785051444286e-17,
                                           3.061616997868383e-17};
     double eighth = 8.0 * n;
@@ -115,7 +119,8 @@ double fe__atan2(double y, double x)
 {
     double height = fe__absd(y), width = fe__absd(x);
     if (height == 0.0 && width == 0.0) return 0.0;
-    double angle = height > width ? HALF_PI_HIGH - (first_octant(width, height) - HALF_PI_LOW) : first_octant(height, width);
+    double angle =
+        height > width ? HALF_PI_HIGH - (first_octant(width, height) - HALF_PI_LOW) : first_octant(height, width);
     if (x < 0.0) angle = PI_HIGH - (angle - PI_LOW);
     return y < 0.0 ? -angle : angle;
 }

@@ -1,8 +1,8 @@
 // cast.c - see cast.h.
 //
-// The trees offer the shapes whose boxes the probe meets; each is tested exactly, in double, in its own frame, where the distance from the
-// world's origin costs nothing. What is nearer wins; at equal fractions the body created first, then its shape created first. So neither
-// the form of the trees nor the order of the tests shows in the answer.
+// The trees offer the shapes whose boxes the probe meets; each is tested exactly, in double, in its own frame, where
+// the distance from the world's origin costs nothing. What is nearer wins; at equal fractions the body created first,
+// then its shape created first. So neither the form of the trees nor the order of the tests shows in the answer.
 #include "query/cast.h"
 
 #include "collision/cast/ray.h"
@@ -11,9 +11,10 @@
 
 #include <string.h>
 
-// ---- the probe ------------------------------------------------------------------------------------------------------------------
-// In this file what was just written is not copied as a whole: compilers copy 16 bytes at once, and the processor, which has them in two
-// pieces on their way to memory, waits. A ray had five such waits, a fifth of its time.
+// ---- the probe
+// ------------------------------------------------------------------------------------------------------------------ In
+// this file what was just written is not copied as a whole: compilers copy 16 bytes at once, and the processor, which
+// has them in two pieces on their way to memory, waits. A ray had five such waits, a fifth of its time.
 static void set(fe_dvec3 *to, const fe_dvec3 *from) { to->x = from->x, to->y = from->y, to->z = from->z; }
 
 // Zeroing it whole would cost a twentieth of a ray.
@@ -35,8 +36,9 @@ fe__probe fe__probe_form(const fe__form *form, const fe_transform *from, fe_dvec
 
 static int32_t is_ray(const fe__probe *probe) { return fe__form_is_point(&probe->form); }
 
-// ---- one shape ------------------------------------------------------------------------------------------------------------------
-// A hit in the frame of the shape. What is first in the end is turned into the world, not what is only tested.
+// ---- one shape
+// ------------------------------------------------------------------------------------------------------------------ A
+// hit in the frame of the shape. What is first in the end is turned into the world, not what is only tested.
 typedef struct found {
     fe__ray_hit hit;
     fe_dvec3 point; // of a form that moves
@@ -46,10 +48,12 @@ typedef struct found {
 static int32_t is_turned(const fe__shape *shape)
 {
     fe_quat q = shape->pose.rotation;
-    return !fe__form_is_ball(&shape->form) && fe__absf(q.x) + fe__absf(q.y) + fe__absf(q.z) > 0.0f; // one branch, not three
+    return !fe__form_is_ball(&shape->form) &&
+           fe__absf(q.x) + fe__absf(q.y) + fe__absf(q.z) > 0.0f; // one branch, not three
 }
 
-static inline int32_t meet_ray(const fe__scene *scene, const fe__probe *probe, const fe__shape *shape, double limit, found *f)
+static inline int32_t meet_ray(const fe__scene *scene, const fe__probe *probe, const fe__shape *shape, double limit,
+                               found *f)
 {
     fe_quat q = shape->pose.rotation;
     fe_dvec3 origin = fe__dsub(probe->way.origin, shape->pose.position);
@@ -60,7 +64,8 @@ static inline int32_t meet_ray(const fe__scene *scene, const fe__probe *probe, c
         set(&origin, &turned);
         set(&way, &turned_way);
     }
-    if (fe__form_is_field(&shape->form)) return fe__heightfield_ray(scene->fields + shape->form.field, origin, way, limit, &f->hit);
+    if (fe__form_is_field(&shape->form))
+        return fe__heightfield_ray(fe__store_field(scene->store, shape->form.field), origin, way, limit, &f->hit);
     return fe__form_ray_at(&shape->form, &origin, &way, limit, &f->hit);
 }
 
@@ -79,8 +84,9 @@ static int32_t meet_form(const fe__scene *scene, const fe__probe *probe, const f
     fe__mover mover = mover_of(probe, shape, &m);
     fe__sweep_hit hit;
     int32_t is_field = fe__form_is_field(&shape->form);
-    int32_t met = is_field ? fe__heightfield_sweep(scene->fields + shape->form.field, &mover, limit, &hit)
-                           : fe__form_sweep(&shape->form, &mover, limit, &hit);
+    int32_t met = is_field
+                      ? fe__heightfield_sweep(fe__store_field(scene->store, shape->form.field), &mover, limit, &hit)
+                      : fe__form_sweep(&shape->form, &mover, limit, &hit);
     if (!met) return 0;
     *f = (found){{hit.t, hit.normal, hit.depth, hit.inside, hit.triangle}, hit.point};
     return 1;
@@ -96,7 +102,8 @@ int32_t fe__probe_overlaps(const fe__scene *scene, const fe__probe *probe, const
     }
     fe__axes m = fe__axes_of(shape->pose.rotation);
     fe__mover mover = mover_of(probe, shape, &m);
-    if (fe__form_is_field(&shape->form)) return fe__heightfield_overlap(scene->fields + shape->form.field, &mover);
+    if (fe__form_is_field(&shape->form))
+        return fe__heightfield_overlap(fe__store_field(scene->store, shape->form.field), &mover);
     return fe__form_overlap(&shape->form, &mover);
 }
 
@@ -105,7 +112,8 @@ static int32_t meet(const fe__scene *scene, const fe__probe *probe, const fe__sh
     return is_ray(probe) ? meet_ray(scene, probe, shape, limit, f) : meet_form(scene, probe, shape, limit, f);
 }
 
-// ---- telling --------------------------------------------------------------------------------------------------------------------
+// ---- reports
+// --------------------------------------------------------------------------------------------------------------------
 // As a float a grazing normal may lean along the way by a rounding: it is turned back until it does not.
 static fe_vec3 against_way(fe_dvec3 normal, fe_dvec3 way)
 {
@@ -121,7 +129,7 @@ static fe_vec3 against_way(fe_dvec3 normal, fe_dvec3 way)
     return n;
 }
 
-static void tell(const fe__scene *scene, const fe__probe *probe, int32_t index, const found *f, fe_hit *out)
+static void report(const fe__scene *scene, const fe__probe *probe, int32_t index, const found *f, fe_hit *out)
 {
     const fe__shape *shape = &scene->shapes[index];
     const fe__ray_hit *hit = &f->hit;
@@ -151,11 +159,12 @@ int32_t fe__cast_inside(const fe__scene *scene, const fe__probe *probe, int32_t 
 {
     found f;
     if (!meet(scene, probe, &scene->shapes[shape], 0.0, &f) || !f.hit.inside) return 0;
-    tell(scene, probe, shape, &f, out_hit);
+    report(scene, probe, shape, &f, out_hit);
     return 1;
 }
 
-// ---- the nearest ----------------------------------------------------------------------------------------------------------------
+// ---- the nearest
+// ----------------------------------------------------------------------------------------------------------------
 typedef struct cast {
     const fe__scene *scene;
     const fe__probe *probe;
@@ -180,7 +189,8 @@ static double visit_nearest(void *context, int32_t index, double limit)
     found *f = &c->found[1 - c->which];
     const found *best = &c->found[c->which];
     if (!meet(c->scene, c->probe, shape, limit, f)) return limit;
-    if (c->shape >= 0 && f->hit.t == best->hit.t && !comes_before(f, shape, best, &c->scene->shapes[c->shape])) return limit;
+    if (c->shape >= 0 && f->hit.t == best->hit.t && !comes_before(f, shape, best, &c->scene->shapes[c->shape]))
+        return limit;
     c->shape = index;
     c->which = 1 - c->which;
     return f->hit.t;
@@ -194,10 +204,10 @@ static void walk(const fe__scene *scene, const fe__probe *probe, double limit, f
     (void)fe__tree_sweep(trees, 2, &probe->way, limit, visit, context);
 }
 
-static int32_t tell_nearest(const cast *c, fe_hit *out_hit)
+static int32_t report_nearest(const cast *c, fe_hit *out_hit)
 {
     if (c->shape < 0) return 0;
-    tell(c->scene, c->probe, c->shape, &c->found[c->which], out_hit);
+    report(c->scene, c->probe, c->shape, &c->found[c->which], out_hit);
     return 1;
 }
 
@@ -206,7 +216,7 @@ int32_t fe__cast_closest(const fe__scene *scene, const fe__probe *probe, fe_hit 
     cast c; // `found` means something once `shape` does
     c.scene = scene, c.probe = probe, c.body = FE_ANY_BODY, c.shape = -1, c.which = 0;
     walk(scene, probe, 1.0, visit_nearest, &c);
-    return tell_nearest(&c, out_hit);
+    return report_nearest(&c, out_hit);
 }
 
 int32_t fe__cast_shapes(const fe__scene *scene, const fe__probe *probe, int32_t first, int32_t end, fe_hit *out_hit)
@@ -214,10 +224,11 @@ int32_t fe__cast_shapes(const fe__scene *scene, const fe__probe *probe, int32_t 
     cast c = {.scene = scene, .probe = probe, .body = FE_ANY_BODY, .shape = -1};
     double limit = 1.0;
     for (int32_t i = first; i != end; i = scene->shapes[i].next) limit = visit_nearest(&c, i, limit);
-    return tell_nearest(&c, out_hit);
+    return report_nearest(&c, out_hit);
 }
 
-// ---- any ------------------------------------------------------------------------------------------------------------------------
+// ---- any
+// ------------------------------------------------------------------------------------------------------------------------
 static double visit_any(void *context, int32_t index, double limit)
 {
     const double stop = -1.0;
@@ -234,14 +245,15 @@ int32_t fe__cast_any(const fe__scene *scene, const fe__probe *probe)
     return c.shape >= 0;
 }
 
-// ---- all ------------------------------------------------------------------------------------------------------------------------
+// ---- all
+// ------------------------------------------------------------------------------------------------------------------------
 typedef struct collection {
     const fe__scene *scene;
     const fe__probe *probe;
     fe__keep keep;
 } collection;
 
-// A body of several shapes is told once, by that of its hits that comes first: this one?
+// A body of several shapes is reported once, by that of its hits that comes first: this one?
 static int32_t is_first_of_body(const collection *c, int32_t index, const found *f)
 {
     const fe__shape *shape = &c->scene->shapes[index];
@@ -256,9 +268,11 @@ static double visit_all(void *context, int32_t index, double limit)
     collection *c = context;
     const fe__shape *shape = &c->scene->shapes[index];
     found f;
-    if (!fe__scene_counts(c->scene, shape) || !meet(c->scene, c->probe, shape, limit, &f) || !is_first_of_body(c, index, &f)) return limit;
+    if (!fe__scene_counts(c->scene, shape) || !meet(c->scene, c->probe, shape, limit, &f) ||
+        !is_first_of_body(c, index, &f))
+        return limit;
     fe_hit hit;
-    tell(c->scene, c->probe, index, &f, &hit);
+    report(c->scene, c->probe, index, &f, &hit);
     fe__keep_add(&c->keep, &hit);
     return limit;
 }
@@ -274,7 +288,8 @@ static int32_t hit_before(const void *context, const void *a, const void *b)
     return fe__created_before(&scene->shapes[fe__id_slot_of(h.shape)], &scene->shapes[fe__id_slot_of(k.shape)]);
 }
 
-int32_t fe__cast_all(const fe__scene *scene, const fe__probe *probe, fe_hit *out_hits, uint32_t stride, int32_t capacity)
+int32_t fe__cast_all(const fe__scene *scene, const fe__probe *probe, fe_hit *out_hits, uint32_t stride,
+                     int32_t capacity)
 {
     collection c = {.scene = scene,
                     .probe = probe,

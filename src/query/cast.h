@@ -1,6 +1,7 @@
 // cast.h - what a ray or a moving form meets.
 //
-// Rays and sweeps are one thing: a probe along a segment. A sphere of radius 0 is a point, so it sweeps as a ray, in every bit.
+// Rays and sweeps are one thing: a probe along a segment. A sphere of radius 0 is a point, so it sweeps as a ray, in
+// every bit.
 #ifndef FE_QUERY_CAST_H
 #define FE_QUERY_CAST_H
 #include "query/scene.h"
@@ -23,14 +24,16 @@ fe__probe fe__probe_form(const fe__form *form, const fe_transform *from, fe_dvec
 // Does it overlap the shape where it starts? Exactly when a cast would start inside.
 int32_t fe__probe_overlaps(const fe__scene *scene, const fe__probe *probe, const fe__shape *shape);
 
-// Of one shape that the probe overlaps where it starts: a hit at fraction 0. With no translation its normal is the shortest way out. 1: it does
+// Of one shape that the probe overlaps where it starts: a hit at fraction 0. With no translation its normal is the
+// shortest way out. 1: it does
 int32_t fe__cast_inside(const fe__scene *scene, const fe__probe *probe, int32_t shape, fe_hit *out_hit);
 
 // The nearest; of equally near ones what overlaps at the start, then that of the body created first. 1: hit.
 int32_t fe__cast_closest(const fe__scene *scene, const fe__probe *probe, fe_hit *out_hit);
 int32_t fe__cast_any(const fe__scene *scene, const fe__probe *probe);
 // The nearest hit of each body, the nearest `capacity` of these in order. Returns how many bodies are hit.
-int32_t fe__cast_all(const fe__scene *scene, const fe__probe *probe, fe_hit *out_hits, uint32_t stride, int32_t capacity);
+int32_t fe__cast_all(const fe__scene *scene, const fe__probe *probe, fe_hit *out_hits, uint32_t stride,
+                     int32_t capacity);
 // The nearest on the shapes of a body's list from `first` to before `end` (-1: its end), whatever the trees say.
 int32_t fe__cast_shapes(const fe__scene *scene, const fe__probe *probe, int32_t first, int32_t end, fe_hit *out_hit);
 

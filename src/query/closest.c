@@ -1,7 +1,7 @@
 // closest.c - see closest.h.
 //
-// Branch and bound in the trees: boxes farther than the nearest shape so far are passed over. Inside several shapes the deepest counts as
-// the nearest, and every box that holds the point is looked into.
+// Branch and bound in the trees: boxes farther than the nearest shape so far are passed over. Inside several shapes the
+// deepest counts as the nearest, and every box that holds the point is looked into.
 #include "query/closest.h"
 
 #include "collision/cast/nearest.h"
@@ -13,10 +13,12 @@ typedef struct search {
     fe__nearest found; // in the frame of the shape
 } search;
 
-static int32_t nearest_on(const fe__scene *scene, const fe__shape *shape, fe_dvec3 point, double limit, fe__nearest *nearest)
+static int32_t nearest_on(const fe__scene *scene, const fe__shape *shape, fe_dvec3 point, double limit,
+                          fe__nearest *nearest)
 {
     fe_dvec3 p = fe__drotate_back(shape->pose.rotation, fe__dsub(point, shape->pose.position));
-    if (fe__form_is_field(&shape->form)) return fe__heightfield_nearest(scene->fields + shape->form.field, p, limit, nearest);
+    if (fe__form_is_field(&shape->form))
+        return fe__heightfield_nearest(fe__store_field(scene->store, shape->form.field), p, limit, nearest);
     *nearest = fe__form_nearest(&shape->form, p);
     return nearest->distance <= limit;
 }
@@ -53,7 +55,7 @@ static double visit(void *context, int32_t index, double limit)
     return fe__maxd(n.distance, 0.0);
 }
 
-static int32_t tell(const search *s, fe_closest *out_closest)
+static int32_t report(const search *s, fe_closest *out_closest)
 {
     if (s->shape < 0) return 0;
     *out_closest = closest_of(s->scene, s->shape, &s->found);
@@ -67,13 +69,14 @@ int32_t fe__closest(const fe__scene *scene, fe_dvec3 point, double most, fe_clos
     for (int32_t i = 0; i < scene->plane_count; ++i) limit = visit(&s, scene->planes[i], limit);
     limit = fe__tree_nearest(scene->static_tree, point, limit, visit, &s);
     (void)fe__tree_nearest(scene->moving_tree, point, limit, visit, &s);
-    return tell(&s, out_closest);
+    return report(&s, out_closest);
 }
 
-int32_t fe__closest_on_shapes(const fe__scene *scene, fe_dvec3 point, int32_t first, int32_t end, fe_closest *out_closest)
+int32_t fe__closest_on_shapes(const fe__scene *scene, fe_dvec3 point, int32_t first, int32_t end,
+                              fe_closest *out_closest)
 {
     search s = {.scene = scene, .point = point, .shape = -1};
     double limit = (double)INFINITY;
     for (int32_t i = first; i != end; i = scene->shapes[i].next) limit = visit(&s, i, limit);
-    return tell(&s, out_closest);
+    return report(&s, out_closest);
 }

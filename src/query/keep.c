@@ -3,7 +3,10 @@
 
 #include <string.h>
 
-static unsigned char *at(const fe__keep *k, int32_t i) { return (unsigned char *)k->records + (size_t)k->stride * (size_t)i; }
+static unsigned char *at(const fe__keep *k, int32_t i)
+{
+    return (unsigned char *)k->records + (size_t)k->stride * (size_t)i;
+}
 static int32_t is_before(const fe__keep *k, const void *a, const void *b) { return k->before(k->context, a, b); }
 
 // Puts the record into the hole at i, or what is later than it, down to where it belongs.
@@ -25,7 +28,8 @@ void fe__keep_add(fe__keep *k, const void *record)
         return;
     }
     int32_t i = k->kept++;
-    for (int32_t parent; i > 0 && is_before(k, at(k, parent = (i - 1) / 2), record); i = parent) memcpy(at(k, i), at(k, parent), k->size);
+    for (int32_t parent; i > 0 && is_before(k, at(k, parent = (i - 1) / 2), record); i = parent)
+        memcpy(at(k, i), at(k, parent), k->size);
     memcpy(at(k, i), record, k->size);
 }
 

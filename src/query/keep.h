@@ -1,7 +1,8 @@
 // keep.h - the first few of many records, in the caller's array.
 //
-// A query counts all it finds and keeps those that come first, without memory of its own: while records come in, the array is a heap with
-// the last of the kept on top; at the end it is sorted. `before` is a total order, so that the order of arrival never shows.
+// A query counts all it finds and keeps those that come first, without memory of its own: while records come in, the
+// array is a heap with the last of the kept on top; at the end it is sorted. `before` is a total order, so that the
+// order of arrival never shows.
 #ifndef FE_QUERY_KEEP_H
 #define FE_QUERY_KEEP_H
 #include <stdint.h>

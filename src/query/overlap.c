@@ -28,7 +28,8 @@ static void walk(search *s, fe__tree_visit visit)
     for (int32_t i = 0; i < scene->plane_count; ++i) {
         if (!visit(s, scene->planes[i])) return;
     }
-    fe__bounds bounds = {fe__dsub(s->probe->way.origin, s->probe->way.half), fe__dadd(s->probe->way.origin, s->probe->way.half)};
+    fe__bounds bounds = {fe__dsub(s->probe->way.origin, s->probe->way.half),
+                         fe__dadd(s->probe->way.origin, s->probe->way.half)};
     fe__tree_query(scene->static_tree, &bounds, visit, s);
     fe__tree_query(scene->moving_tree, &bounds, visit, s);
 }
@@ -43,7 +44,7 @@ static int32_t visit_first(void *context, int32_t index)
     return 1;
 }
 
-// A body of several shapes is told once, by the first of them that overlaps: this one?
+// A body of several shapes is reported once, by the first of them that overlaps: this one?
 static int32_t is_first_of_body(const search *s, int32_t index)
 {
     const fe__shape *shape = &s->scene->shapes[index];
@@ -105,7 +106,8 @@ int32_t fe__overlap_any(const fe__scene *scene, const fe__probe *probe)
     return s.shape >= 0;
 }
 
-// ---- shapes ---------------------------------------------------------------------------------------------------------------------
+// ---- shapes
+// ---------------------------------------------------------------------------------------------------------------------
 
 static int32_t overlap_before(const void *context, const void *a, const void *b)
 {
@@ -120,7 +122,8 @@ static int32_t visit_shapes(void *context, int32_t index)
 {
     search *s = context;
     fe_hit hit;
-    if (!fe__scene_counts(s->scene, &s->scene->shapes[index]) || !fe__cast_inside(s->scene, s->probe, index, &hit)) return 1;
+    if (!fe__scene_counts(s->scene, &s->scene->shapes[index]) || !fe__cast_inside(s->scene, s->probe, index, &hit))
+        return 1;
     fe_overlap overlap = {.body = hit.body,
                           .shape = hit.shape,
                           .material = hit.material,
@@ -132,7 +135,8 @@ static int32_t visit_shapes(void *context, int32_t index)
     return 1;
 }
 
-int32_t fe__overlap_shapes(const fe__scene *scene, const fe__probe *probe, fe_overlap *out_overlaps, uint32_t stride, int32_t capacity)
+int32_t fe__overlap_shapes(const fe__scene *scene, const fe__probe *probe, fe_overlap *out_overlaps, uint32_t stride,
+                           int32_t capacity)
 {
     search s = {.scene = scene,
                 .probe = probe,
@@ -149,7 +153,8 @@ int32_t fe__overlap_shapes(const fe__scene *scene, const fe__probe *probe, fe_ov
     return (int32_t)s.keep.found;
 }
 
-// ---- bounds ---------------------------------------------------------------------------------------------------------------------
+// ---- bounds
+// ---------------------------------------------------------------------------------------------------------------------
 
 typedef struct bounds_search {
     const fe__scene *scene;
@@ -169,8 +174,8 @@ static int32_t shape_before(const void *context, const void *a, const void *b)
 static int32_t bounds_meet(const fe__shape *shape, const fe__bounds *box)
 {
     fe__bounds b = fe__form_bounds(&shape->form, &shape->pose);
-    return b.low.x <= box->high.x && b.high.x >= box->low.x && b.low.y <= box->high.y && b.high.y >= box->low.y && b.low.z <= box->high.z &&
-           b.high.z >= box->low.z;
+    return b.low.x <= box->high.x && b.high.x >= box->low.x && b.low.y <= box->high.y && b.high.y >= box->low.y &&
+           b.low.z <= box->high.z && b.high.z >= box->low.z;
 }
 
 static int32_t visit_bounds(void *context, int32_t index)
@@ -179,8 +184,8 @@ static int32_t visit_bounds(void *context, int32_t index)
     const fe__shape *shape = &s->scene->shapes[index];
     uint64_t record = (uint64_t)index;
     if (!fe__scene_counts(s->scene, shape)) return 1;
-    int32_t meets =
-        fe__form_is_unbounded(&shape->form) ? fe__plane_meets_box(&shape->form, &shape->pose, s->box) : bounds_meet(shape, s->box);
+    int32_t meets = fe__form_is_unbounded(&shape->form) ? fe__plane_meets_box(&shape->form, &shape->pose, s->box)
+                                                        : bounds_meet(shape, s->box);
     if (meets) fe__keep_add(&s->keep, &record);
     return 1;
 }
@@ -199,6 +204,7 @@ int32_t fe__overlap_bounds(const fe__scene *scene, const fe__bounds *box, fe_sha
     fe__tree_query(scene->static_tree, box, visit_bounds, &s);
     fe__tree_query(scene->moving_tree, box, visit_bounds, &s);
     fe__keep_sort(&s.keep);
-    for (int32_t i = 0; i < s.keep.kept; ++i) out_shapes[i] = fe__id_pool_handle(scene->shape_ids, (int32_t)out_shapes[i]);
+    for (int32_t i = 0; i < s.keep.kept; ++i)
+        out_shapes[i] = fe__id_pool_handle(scene->shape_ids, (int32_t)out_shapes[i]);
     return (int32_t)s.keep.found;
 }

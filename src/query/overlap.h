@@ -10,7 +10,8 @@ int32_t fe__overlap(const fe__scene *scene, const fe__probe *probe, fe_body *out
 int32_t fe__overlap_any(const fe__scene *scene, const fe__probe *probe);
 
 // The shapes, in the order of creation, with the shortest way out.
-int32_t fe__overlap_shapes(const fe__scene *scene, const fe__probe *probe, fe_overlap *out_overlaps, uint32_t stride, int32_t capacity);
+int32_t fe__overlap_shapes(const fe__scene *scene, const fe__probe *probe, fe_overlap *out_overlaps, uint32_t stride,
+                           int32_t capacity);
 // The shapes whose bounds meet a box.
 int32_t fe__overlap_bounds(const fe__scene *scene, const fe__bounds *bounds, fe_shape *out_shapes, int32_t capacity);
 

@@ -1,17 +1,18 @@
 // scene.h - what a query sees of a world, and which of it counts.
 //
-// Filled by the API for each call. Queries read it and write their answer, nothing else: any number of threads may ask at once. A shape in
-// a tree or in the list of planes belongs to an enabled body.
+// Filled by the API for each call. Queries read it and write their answer, nothing else: any number of threads may ask
+// at once. A shape in a tree or in the list of planes belongs to an enabled body.
 #ifndef FE_QUERY_SCENE_H
 #define FE_QUERY_SCENE_H
 #include "broadphase/tree.h"
 #include "collision/form/heightfield.h"
 #include "collision/form/shape.h"
 #include "core/id_pool.h"
+#include "store/store.h"
 
 typedef struct fe__scene {
     const fe__shape *shapes;
-    const fe__heightfield *fields; // of shapes that have one, by fe__form.field
+    const fe_store *store; // of the heightfields that shapes have
     const fe__tree *static_tree, *moving_tree;
     const int32_t *planes;
     int32_t plane_count;
@@ -38,16 +39,16 @@ static inline int32_t fe__scene_counts(const fe__scene *scene, const fe__shape *
 // fe_material.user_id of a shape there
 static inline uint64_t fe__scene_material(const fe__scene *scene, const fe__shape *shape, int32_t triangle)
 {
-    (void)scene, (void)triangle;
-    return shape->material.user_id;
+    return fe__material_of_shape(scene->store, shape, triangle >= 0 ? triangle / 2 : -1)->user_id;
 }
 // fe_hit.barycentric of a point of the world
-static inline void fe__scene_weights(const fe__scene *scene, const fe__shape *shape, int32_t triangle, fe_dvec3 point, float *out_weights)
+static inline void fe__scene_weights(const fe__scene *scene, const fe__shape *shape, int32_t triangle, fe_dvec3 point,
+                                     float *out_weights)
 {
     out_weights[0] = out_weights[1] = 0.0f;
     if (triangle < 0) return;
     fe_dvec3 local = fe__drotate_back(shape->pose.rotation, fe__dsub(point, shape->pose.position));
-    fe__heightfield_weights(scene->fields + shape->form.field, triangle, local, out_weights);
+    fe__heightfield_weights(fe__store_field(scene->store, shape->form.field), triangle, local, out_weights);
 }
 
 // The order of all answers: by the body's creation, then by the shape's.

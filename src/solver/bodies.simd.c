@@ -12,14 +12,23 @@ FE_INLINE void load_line(const void *lines, int32_t i, wide4 *low, wide4 *high)
 {
     gather_line((const float *)lines + (int64_t)i * FE__LINE, w_in_order, low, high);
 }
-FE_INLINE wide4 load_low(const void *lines, int32_t i) { return gather_low((const float *)lines + (int64_t)i * FE__LINE, w_in_order); }
-FE_INLINE wide4 load_high(const void *lines, int32_t i) { return gather_high((const float *)lines + (int64_t)i * FE__LINE, w_in_order); }
+FE_INLINE wide4 load_low(const void *lines, int32_t i)
+{
+    return gather_low((const float *)lines + (int64_t)i * FE__LINE, w_in_order);
+}
+FE_INLINE wide4 load_high(const void *lines, int32_t i)
+{
+    return gather_high((const float *)lines + (int64_t)i * FE__LINE, w_in_order);
+}
 FE_INLINE void store_line(void *lines, int32_t i, wide4 low, wide4 high)
 {
     w_scatter_both((float *)lines + (int64_t)i * FE__LINE, FE__LINE, w_in_order, low, high);
 }
 
-FE_INLINE void store_high(void *lines, int32_t i, wide4 high) { scatter_high((float *)lines + (int64_t)i * FE__LINE, w_in_order, high); }
+FE_INLINE void store_high(void *lines, int32_t i, wide4 high)
+{
+    scatter_high((float *)lines + (int64_t)i * FE__LINE, w_in_order, high);
+}
 
 // ---- records to lines, once per step --------------------------------------------------------------------------------
 enum { BODY_STRIDE = sizeof(fe__body) / sizeof(float) };
@@ -31,8 +40,9 @@ FE_INLINE wide_sym world_inverse_inertia(wide4 axes, wide3 inverse)
     wide3 x = {w_set(1.0f), w_set(0.0f), w_set(0.0f)}, y = {x.y, x.x, x.y}, z = {x.y, x.y, x.x};
     x = w_add(x, w_turn(axes, x)), y = w_add(y, w_turn(axes, y)), z = w_add(z, w_turn(axes, z));
     wide3 ix = w_scale(inverse.x, x), iy = w_scale(inverse.y, y), iz = w_scale(inverse.z, z);
-    return (wide_sym){ix.x * x.x + iy.x * y.x + iz.x * z.x, ix.x * x.y + iy.x * y.y + iz.x * z.y, ix.x * x.z + iy.x * y.z + iz.x * z.z,
-                      ix.y * x.y + iy.y * y.y + iz.y * z.y, ix.y * x.z + iy.y * y.z + iz.y * z.z, ix.z * x.z + iy.z * y.z + iz.z * z.z};
+    return (wide_sym){ix.x * x.x + iy.x * y.x + iz.x * z.x, ix.x * x.y + iy.x * y.y + iz.x * z.y,
+                      ix.x * x.z + iy.x * y.z + iz.x * z.z, ix.y * x.y + iy.y * y.y + iz.y * z.y,
+                      ix.y * x.z + iy.y * y.z + iz.y * z.z, ix.z * x.z + iy.z * y.z + iz.z * z.z};
 }
 
 // A locked body's inverse inertia is the inverse of the sub-block of R I R^T over its free axes, zero elsewhere: what a
@@ -93,12 +103,15 @@ FE_INLINE void load_block(fe__solver *s, const fe__body *bodies, int32_t line, c
                      w_choose(moves, one / inertia.z, zero)};
     wide_sym i = world_inverse_inertia(axes, inverse);
     wide mass = w_choose(moves, v.w, zero), g = w_choose(moves, *(wide *)scale, zero);
-    wide3 linear = {g * c->gravity.x + mass * force.x, g * c->gravity.y + mass * force.y, g * c->gravity.z + mass * force.z};
-    wide damping = w_choose(moves, one / (1.0f + c->h * force.w), one), spin_damping = w_choose(moves, one / (1.0f + c->h * torque.w), one);
+    wide3 linear = {g * c->gravity.x + mass * force.x, g * c->gravity.y + mass * force.y,
+                    g * c->gravity.z + mass * force.z};
+    wide damping = w_choose(moves, one / (1.0f + c->h * force.w), one),
+         spin_damping = w_choose(moves, one / (1.0f + c->h * torque.w), one);
     store_line(s->velocity, line, (wide4){v.x * there, v.y * there, v.z * there, mass},
                (wide4){w.x * there, w.y * there, w.z * there, w.w * there});
     store_line(s->motion, line, (wide4){zero, zero, zero, *(wide *)gyroscopic * there}, (wide4){zero, zero, zero, one});
-    store_line(s->inertia, line, (wide4){i.xx, i.xy, i.xz, i.yy}, (wide4){i.yz, i.zz, *(wide *)gyroscopic * there, zero});
+    store_line(s->inertia, line, (wide4){i.xx, i.xy, i.xz, i.yy},
+               (wide4){i.yz, i.zz, *(wide *)gyroscopic * there, zero});
     store_line(s->drive, line, w_with(linear, damping), w_with(w_mul(&i, w_xyz(torque)), spin_damping));
     store_line(s->axes, line, axes, (wide4){inertia.x, inertia.y, inertia.z, zero});
     for (int k = 0; k < FE_W && locked; ++k) {
@@ -122,7 +135,8 @@ static void load(fe__solver *s, const fe__body *bodies, int32_t first, int32_t c
 // m - J^-1 f, J = I + h/2 ([m] I - [I m]), by cofactors; m itself where J is not safe to invert
 FE_INLINE wide3 newton(wide3 m, wide3 w, wide3 in, wide3 d)
 {
-    wide3 f = {in.x * (m.x - w.x) + d.x * m.y * m.z, in.y * (m.y - w.y) + d.y * m.z * m.x, in.z * (m.z - w.z) + d.z * m.x * m.y};
+    wide3 f = {in.x * (m.x - w.x) + d.x * m.y * m.z, in.y * (m.y - w.y) + d.y * m.z * m.x,
+               in.z * (m.z - w.z) + d.z * m.x * m.y};
     wide xy = d.x * m.z, xz = d.x * m.y, yx = d.y * m.z, yz = d.y * m.x, zx = d.z * m.y, zy = d.z * m.x;
     wide3 c0 = {in.y * in.z - yz * zy, yz * zx - yx * in.z, yx * zy - in.y * zx};
     wide3 c1 = {xz * zy - xy * in.z, in.x * in.z - xz * zx, xy * zx - in.x * zy};
@@ -209,7 +223,8 @@ FE_INLINE wide3 turn_freely(fe__solver *s, int32_t i, wide kind, wide4 turned, c
     wide4 principal = load_high(s->axes, i), start = load_high(s->start, i);
     wide half_h = w_set(0.5f * c->h);
     wide3 change = free_change(w, w_product(turned, load_low(s->axes, i)), w_xyz(principal), half_h);
-    wide3 half = w_scale(w_set(0.5f), change), mean = w_choose3(gyroscopic, w_add(w, half), w), u = w_scale(half_h, mean);
+    wide3 half = w_scale(w_set(0.5f), change), mean = w_choose3(gyroscopic, w_add(w, half), w),
+          u = w_scale(half_h, mean);
     wide k = 1.0f / w_sqrt(1.0f + w_dot(u, u));
     change = w_add(change, w_turn(w_with(w_scale(k, u), k), half));
     store_high(s->velocity, i, w_with(w_choose3(gyroscopic, w_add(w, change), w), stored.w));

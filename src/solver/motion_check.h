@@ -9,8 +9,8 @@
 
 static inline int32_t fe__motion_makes_sense(const fe__solver *s, int32_t line)
 {
-    const float *v = s->velocity[line].v, *w = s->velocity[line].w, *dp = s->motion[line].shift, *dq = s->motion[line].rotation,
-                most = FE__MOST_SPEED * FE__MOST_SPEED;
+    const float *v = s->velocity[line].v, *w = s->velocity[line].w, *dp = s->motion[line].shift,
+                *dq = s->motion[line].rotation, most = FE__MOST_SPEED * FE__MOST_SPEED;
     float turned = dq[0] * dq[0] + dq[1] * dq[1] + dq[2] * dq[2] + dq[3] * dq[3];
     return v[0] * v[0] + v[1] * v[1] + v[2] * v[2] < most && w[0] * w[0] + w[1] * w[1] + w[2] * w[2] < most &&
            // a NaN is less than nothing

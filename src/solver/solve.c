@@ -53,14 +53,16 @@ typedef struct job {
 fe__softness fe__make_softness(float hertz, float damping_ratio, float h)
 {
     // an implicit spring and damper of that frequency: w / a1, a2 a3, a3
-    float omega = 2.0f * FE_PI * hertz, a1 = 2.0f * damping_ratio + h * omega, a2 = h * omega * a1, a3 = 1.0f / (1.0f + a2);
+    float omega = 2.0f * FE_PI * hertz, a1 = 2.0f * damping_ratio + h * omega, a2 = h * omega * a1,
+          a3 = 1.0f / (1.0f + a2);
     return (fe__softness){omega / a1, a2 * a3, a3};
 }
 
 // ---- the program of a batch -----------------------------------------------------------------------------------------
 static int32_t blocks_of(int32_t items, int32_t block) { return (items + block - 1) / block; }
 
-static void add_pass(program *p, int32_t *part, verb verb, int32_t first_group, int32_t groups, int32_t blocks, int32_t serial)
+static void add_pass(program *p, int32_t *part, verb verb, int32_t first_group, int32_t groups, int32_t blocks,
+                     int32_t serial)
 {
     int32_t i = p->prologue + p->substep + p->epilogue;
     assert(i < p->room);
@@ -145,7 +147,8 @@ static void make_program(program *p, fe__solver *s, const fe__batch *b, int32_t 
     add_colours(p, &p->substep, s, b, RELAX);
     if (b->bounces) add_colours(p, &p->substep, s, b, BOUNCE);
     add_pass(p, &p->substep, CARRY, 0, 0, line_blocks, 0);
-    if (b->group_count) add_pass(p, &p->epilogue, STORE, b->first_group, b->group_count, block_count(p, s, b->first_group, end), 0);
+    if (b->group_count)
+        add_pass(p, &p->epilogue, STORE, b->first_group, b->group_count, block_count(p, s, b->first_group, end), 0);
 }
 
 static int32_t pass_count(const program *p) { return p->prologue + p->substeps * p->substep - 1 + p->epilogue; }
@@ -187,7 +190,8 @@ static void leave_trails(const job *j, int32_t first, int32_t count, const fe__s
 
 static void run_lines(const job *j, const fe__batch *b, verb verb, int32_t block, const fe__step_constants *c)
 {
-    int32_t first = b->first_line + block * LINES_IN_BLOCK, count = fe__mini(LINES_IN_BLOCK, b->first_line + b->line_count - first);
+    int32_t first = b->first_line + block * LINES_IN_BLOCK,
+            count = fe__mini(LINES_IN_BLOCK, b->first_line + b->line_count - first);
     const fe__body_kernels *k = j->k->body;
     if (verb == LOAD) k->load(j->s, j->bodies, first, count, c);
     if (verb == LOAD) k->begin_velocities(j->s, first, count, c);
@@ -309,7 +313,8 @@ static void run_block(const job *j, const fe__batch *b, const fe__pass *p, unsig
 static void run_all(const job *j, const fe__batch *b, verb verb, unsigned char *rows, const fe__step_constants *c)
 {
     const fe__group *groups = j->s->groups + b->first_group;
-    int32_t of_lines = verb == LOAD || verb == INTEGRATE || verb == CARRY, line_blocks = blocks_of(b->line_count, LINES_IN_BLOCK);
+    int32_t of_lines = verb == LOAD || verb == INTEGRATE || verb == CARRY,
+            line_blocks = blocks_of(b->line_count, LINES_IN_BLOCK);
     for (int32_t i = 0; i < line_blocks && of_lines; ++i) run_lines(j, b, verb, i, c);
     for (int32_t i = 0; i < b->group_count && !of_lines; ++i) run_rows(j, groups + i, verb, rows, 0, groups[i].rows, c);
 }
@@ -348,7 +353,8 @@ static int32_t claim_block(job *j, uint64_t pass_index, int32_t blocks)
 {
     uint64_t claim = atomic_load_explicit(&j->claim, memory_order_acquire);
     while (claim >> 32 == pass_index && (int32_t)(claim & UINT32_MAX) < blocks)
-        if (atomic_compare_exchange_weak_explicit(&j->claim, &claim, claim + 1, memory_order_acq_rel, memory_order_acquire))
+        if (atomic_compare_exchange_weak_explicit(&j->claim, &claim, claim + 1, memory_order_acq_rel,
+                                                  memory_order_acquire))
             return (int32_t)(claim & UINT32_MAX);
     return -1;
 }
@@ -425,7 +431,8 @@ static void note_marks(const fe__solver *s, const fe__batch *b, fe__body *bodies
     }
 }
 
-static int32_t has_pace(const fe__solver *s, const fe__batch *b, const fe__body *bodies, const uint32_t *found, uint32_t joined)
+static int32_t has_pace(const fe__solver *s, const fe__batch *b, const fe__body *bodies, const uint32_t *found,
+                        uint32_t joined)
 {
     for (int32_t line = b->first_line; line < b->first_line + b->line_count; ++line) {
         const fe__body *body = bodies + fe__maxi(s->body_of_line[line], 0);
@@ -448,7 +455,8 @@ static void note_strain(fe__solver *s, fe__body *bodies)
     for (int32_t i = 0; i < s->batch_count - 1; ++i)
         if (i >= s->large_count || s->batches[i].joint_count) note_marks(s, s->batches + i, bodies, found, joined);
     for (int32_t i = 0; i < s->batch_count - 1; ++i)
-        if (i >= s->large_count || s->batches[i].joint_count) s->graph_changed |= !has_pace(s, s->batches + i, bodies, found, joined);
+        if (i >= s->large_count || s->batches[i].joint_count)
+            s->graph_changed |= !has_pace(s, s->batches + i, bodies, found, joined);
 }
 
 static void set_constants(job *j, const fe__step_constants *constants)
@@ -461,8 +469,9 @@ static void set_constants(job *j, const fe__step_constants *constants)
     }
 }
 
-void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *workers, fe__body *bodies, fe__contact *contacts,
-               fe__extra *extras, const fe__joints *joints, const fe__step_constants constants[FE__PACES])
+void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *workers, fe__body *bodies,
+               fe__contact *contacts, fe__extra *extras, const fe__joints *joints,
+               const fe__step_constants constants[FE__PACES])
 {
     job j = {.s = s, .k = kernels, .bodies = bodies, .contacts = contacts, .extras = extras, .joints = joints};
     atomic_store(&s->engaged, 0);

@@ -57,13 +57,13 @@ enum { FE__USUAL, FE__STRAINED, FE__STRETCHED, FE__PACES };
 #define FE__MOST_JOINT_HERTZ 0.225f
 
 typedef struct fe__step_constants {
-    float h, inverse_h; // of a substep, s
-    float bias_speed;   // overlap is corrected no faster, m/s
-    float threshold;    // of restitution, m/s
-    float warm_scale;   // h now / h of the stored impulses
+    float h, inverse_h;       // of a substep, s
+    float bias_speed;         // overlap is corrected no faster, m/s
+    float threshold;          // of restitution, m/s
+    float warm_scale;         // h now / h of the stored impulses
     float contact_warm_scale; // that, or 0: contacts begin without them
-    float max_speed;    // m/s
-    float speculative;  // m
+    float max_speed;          // m/s
+    float speculative;        // m
     // m/s; what a load of one step could do to its two bodies, from which on their island is strained
     float strain;
     float open;    // m2; square of a joint's gap from which on its island is stretched
@@ -236,19 +236,20 @@ static inline int32_t fe__trail_stride(int32_t substeps) { return (substeps + FE
 typedef struct fe__contact_kernels {
     int32_t row_size[FE__ROW_KINDS]; // bytes of a row of W contacts
     // contacts to rows; the stored impulses go to the bodies
-    void (*prepare[FE__ROW_KINDS])(fe__solver *s, fe__contact *contacts, const fe__extra *extras, const fe__lane *lanes, void *rows,
-                                   int32_t count, const fe__step_constants *c);
+    void (*prepare[FE__ROW_KINDS])(fe__solver *s, fe__contact *contacts, const fe__extra *extras, const fe__lane *lanes,
+                                   void *rows, int32_t count, const fe__step_constants *c);
     void (*solve[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
     void (*relax[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
     void (*bounce[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
-    void (*store[FE__ROW_KINDS])(fe__contact *contacts, fe__extra *extras, const fe__lane *lanes, const void *rows, int32_t count);
+    void (*store[FE__ROW_KINDS])(fe__contact *contacts, fe__extra *extras, const fe__lane *lanes, const void *rows,
+                                 int32_t count);
 } fe__contact_kernels;
 
 // The same for one kind of part of joints. `sides`: FE__MOVES_* of all lanes
 typedef struct fe__joint_kernel {
     int32_t row_size;
-    void (*prepare)(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes, void *rows, int32_t count,
-                    int32_t sides, const fe__step_constants *c);
+    void (*prepare)(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes, void *rows,
+                    int32_t count, int32_t sides, const fe__step_constants *c);
     void (*solve)(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c);
     void (*relax)(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c);
     void (*store)(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count,
@@ -274,8 +275,8 @@ enum { FE__STAYS, FE__MOVED, FE__STAYS_APART };
 // Separations at the start of the step, of length dt, of contacts that moved little. Of contact index[i], out[i] is
 // FE__MOVED when it needs a new manifold; FE__STAYS_APART when it needs none and has no points: it may move on by
 // out_slack[i], m.
-typedef void fe__recycle_kernel(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, float dt, uint8_t *out,
-                                float *out_slack);
+typedef void fe__recycle_kernel(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count,
+                                float dt, uint8_t *out, float *out_slack);
 
 typedef struct fe__kernels {
     int32_t simd, width; // fe_simd, W

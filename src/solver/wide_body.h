@@ -16,8 +16,14 @@ FE_INLINE wide3 w_times(wide3 a, wide3 b) { return (wide3){a.x * b.x, a.y * b.y,
 
 // `lines`: of any kind, two quads each
 FE_INLINE wide4 gather_low(const void *lines, const int32_t *index) { return w_gather(lines, FE__LINE, index); }
-FE_INLINE wide4 gather_high(const void *lines, const int32_t *index) { return w_gather((const float *)lines + 4, FE__LINE, index); }
-FE_INLINE void scatter_high(void *lines, const int32_t *index, wide4 high) { w_scatter((float *)lines + 4, FE__LINE, index, high); }
+FE_INLINE wide4 gather_high(const void *lines, const int32_t *index)
+{
+    return w_gather((const float *)lines + 4, FE__LINE, index);
+}
+FE_INLINE void scatter_high(void *lines, const int32_t *index, wide4 high)
+{
+    w_scatter((float *)lines + 4, FE__LINE, index, high);
+}
 
 FE_INLINE void gather_line(const void *lines, const int32_t *index, wide4 *low, wide4 *high)
 {
@@ -56,12 +62,14 @@ FE_INLINE wide_sym turned_inertia(const fe__solver *s, const int32_t *index, wid
     x = w_add(x, w_turn_back(q, x)), y = w_add(y, w_turn_back(q, y)), z = w_add(z, w_turn_back(q, z));
     wide3 ix = w_mul(&i, x), iy = w_mul(&i, y), iz = w_mul(&i, z);
     wide_mask locked = w_greater(locks, zero);
-    return (wide_sym){w_choose(locked, i.xx, w_dot(x, ix)), w_choose(locked, i.xy, w_dot(x, iy)), w_choose(locked, i.xz, w_dot(x, iz)),
-                      w_choose(locked, i.yy, w_dot(y, iy)), w_choose(locked, i.yz, w_dot(y, iz)), w_choose(locked, i.zz, w_dot(z, iz))};
+    return (wide_sym){w_choose(locked, i.xx, w_dot(x, ix)), w_choose(locked, i.xy, w_dot(x, iy)),
+                      w_choose(locked, i.xz, w_dot(x, iz)), w_choose(locked, i.yy, w_dot(y, iy)),
+                      w_choose(locked, i.yz, w_dot(y, iz)), w_choose(locked, i.zz, w_dot(z, iz))};
 }
 
 // in the given lanes: what bodies got and no warm start shall repeat, to velocity and start alike
-FE_INLINE void add_change(const fe__solver *s, const int32_t *index, const side *before, const side *after, wide_mask lanes)
+FE_INLINE void add_change(const fe__solver *s, const int32_t *index, const side *before, const side *after,
+                          wide_mask lanes)
 {
     side start = start_side(s, index), now = *before;
     start.v = w_choose3(lanes, w_add(start.v, w_sub(after->v, before->v)), start.v);

@@ -6,7 +6,8 @@
 #include "world/pairs.h"
 #include "world/pose.h"
 
-// What a body would go into something fixed before it touches the other, as a share of its thickness, up to which its way stays the same
+// What a body would go into something fixed before it touches the other, as a share of its thickness, up to which its
+// motion stays the same
 #define SHALLOW 0.25
 
 static fe__mobile mobile_of(const fe_world *world, int32_t shape, float dt, fe_dvec3 base)
@@ -16,18 +17,22 @@ static fe__mobile mobile_of(const fe_world *world, int32_t shape, float dt, fe_d
     fe_dvec3 centre;
     fe_quat rotation;
     fe__advance(world, body, dt, &centre, &rotation);
-    fe__motion m = {fe__dsub(fe__centre_of(body), base), fe__rotation_of(body), fe__dsub(centre, fe__centre_of(body)), fe__identity()};
+    fe__motion m = {fe__dsub(fe__centre_of(body), base), fe__rotation_of(body), fe__dsub(centre, fe__centre_of(body)),
+                    fe__identity()};
     if (body->awake_index >= 0) m.turn = fe__normalized(fe__product(rotation, fe__conjugate(m.rotation)));
     if (m.turn.w < 0.0f) m.turn = (fe_quat){-m.turn.x, -m.turn.y, -m.turn.z, -m.turn.w};
-    return (fe__mobile){&s->form, fe__dsub(fe__widen(s->local_position), fe__widen(fe__quad_vector(body->local_centre))), s->local_rotation,
-                        m};
+    return (fe__mobile){&s->form,
+                        fe__dsub(fe__widen(s->local_position), fe__widen(fe__quad_vector(body->local_centre))),
+                        s->local_rotation, m};
 }
 
-static fe__meeting meeting_of(const fe_world *world, int32_t pair, float dt, double limit, fe__mobile *a, fe__mobile *b, fe__impact *impact)
+static fe__meeting meeting_of(const fe_world *world, int32_t pair, float dt, double limit, fe__mobile *a, fe__mobile *b,
+                              fe__impact *impact)
 {
     const fe__pair *p = world->pairs + pair;
     const fe__body *near = world->bodies + (world->bodies[p->body_a].type == FE_BODY_DYNAMIC ? p->body_a : p->body_b);
-    *a = mobile_of(world, p->shape_a, dt, fe__centre_of(near)), *b = mobile_of(world, p->shape_b, dt, fe__centre_of(near));
+    *a = mobile_of(world, p->shape_a, dt, fe__centre_of(near)),
+    *b = mobile_of(world, p->shape_b, dt, fe__centre_of(near));
     return fe__time_of_impact(a, b, limit, impact);
 }
 
@@ -47,8 +52,8 @@ static int32_t is_turned_away(const fe_world *world, int32_t body, int32_t pair,
     for (int32_t i = world->bodies[body].first_contact; i >= 0; i = fe__next_pair(world, i, body)) {
         const fe__pair *p = world->pairs + i;
         int32_t other = p->body_a == body ? p->body_b : p->body_a;
-        if (i == pair || p->flags & (FE__PAIR_SENSOR | FE__PAIR_DENIED | FE__PAIR_PASSING) || world->bodies[other].type == FE_BODY_DYNAMIC ||
-            fe__is_field_pair(world, p->shape_a, p->shape_b))
+        if (i == pair || p->flags & (FE__PAIR_SENSOR | FE__PAIR_DENIED | FE__PAIR_PASSING) ||
+            world->bodies[other].type == FE_BODY_DYNAMIC || fe__is_field_pair(world, p->shape_a, p->shape_b))
             continue;
         fe__mobile a, b;
         fe__impact before;
@@ -73,7 +78,7 @@ int32_t fe__pair_touches_ahead(const fe_world *world, int32_t pair, float dt, fe
     const fe__motion *first = swapped ? &b.motion : &a.motion, *second = swapped ? &a.motion : &b.motion;
     const fe__body *body_a = world->bodies + m->body_a, *body_b = world->bodies + m->body_b;
     *out_touch = (fe__places){fe__dadd(fe__centre_of(body_a), fe__dscale(time, first->translation)),
-                              fe__dadd(fe__centre_of(body_b), fe__dscale(time, second->translation)), fe__motion_at(first, time).rotation,
-                              fe__motion_at(second, time).rotation};
+                              fe__dadd(fe__centre_of(body_b), fe__dscale(time, second->translation)),
+                              fe__motion_at(first, time).rotation, fe__motion_at(second, time).rotation};
     return 1;
 }

@@ -1,4 +1,5 @@
-// break_joints.c - joints that bore too much in the step, by its reactions, go: their events first, in the order of creation.
+// break_joints.c - joints that bore too much in the step, by its reactions, go: their events first, in the order of
+// creation.
 #include "step/break_joints.h"
 
 #include "core/array_sort.h"

@@ -1,8 +1,9 @@
-// collide_stage.c - stages 2 and 3: manifolds of the awake pairs, what begins and ends to touch, who wakes; then the constraint graph.
+// collide_stage.c - stages 2 and 3: manifolds of the awake pairs, what begins and ends to touch, who wakes; then the
+// constraint graph.
 //
-// A pair that moved little keeps its manifold (recycling, wide); the others go through the narrow phase one by one. Workers only write
-// their pairs' own records and a list of results; the results are applied afterwards, sorted by creation, so that colours and wake-ups
-// follow no thread.
+// A pair that moved little keeps its manifold (recycling, wide); the others go through the narrow phase one by one.
+// Workers only write their pairs' own records and a list of results; the results are applied afterwards, sorted by
+// creation, so that colours and wake-ups follow no thread.
 #include "step/collide_stage.h"
 
 #include "solver/graph/graph.h"
@@ -19,7 +20,8 @@ typedef struct collide_job {
     int32_t first; // of this round, in the list of awake pairs
 } collide_job;
 
-// ---- one pair -------------------------------------------------------------------------------------------------------------------------
+// ---- one pair
+// -------------------------------------------------------------------------------------------------------------------------
 static void box_of(const fe_world *w, int32_t shape, fe__bounds *out)
 {
     int32_t is_static = w->bodies[w->shapes[shape].body].type == FE_BODY_STATIC;
@@ -34,7 +36,8 @@ static int32_t boxes_part(const fe_world *w, const fe__pair *p)
     if (y->flags & FE__SHAPE_IN_TREE) box_of(w, p->shape_b, &b);
     if (x->flags & FE__SHAPE_IN_PLANES) return !fe__plane_meets_box(&x->form, &x->pose, &b);
     if (y->flags & FE__SHAPE_IN_PLANES) return !fe__plane_meets_box(&y->form, &y->pose, &a);
-    return a.high.x < b.low.x || b.high.x < a.low.x || a.high.y < b.low.y || b.high.y < a.low.y || a.high.z < b.low.z || b.high.z < a.low.z;
+    return a.high.x < b.low.x || b.high.x < a.low.x || a.high.y < b.low.y || b.high.y < a.low.y || a.high.z < b.low.z ||
+           b.high.z < a.low.z;
 }
 
 static int32_t judge(const fe_world *w, int32_t pair)
@@ -46,15 +49,16 @@ static int32_t judge(const fe_world *w, int32_t pair)
     return linked ? FE__RESULT_END : FE__RESULT_NONE;
 }
 
-// A pair without points may move by `slack` before it is looked at again. One with a heightfield is asked for more than its gap
-static void note_wait(const fe__step *step, int32_t pair, float slack)
+// A pair without points may move by `slack` before it is looked at again. One with a heightfield is asked for more than
+// its gap
+static void defer(const fe__step *step, int32_t pair, float slack)
 {
     const fe_world *w = step->world;
     const fe__pair *p = w->pairs + pair;
-    if (p->flags & (FE__PAIR_PATCH | FE__PAIR_MAY_TELL) || p->next_patch >= 0) return;
-    fe__begin_to_wait(w->waits + p->awake_index, w->odometers, p->body_a, p->body_b, slack, w->contacts[pair].longest_arm);
+    if (p->flags & (FE__PAIR_PATCH | FE__PAIR_MAY_REPORT) || p->next_patch >= 0) return;
+    fe__defer(w->deferrals + p->awake_index, w->odometers, p->body_a, p->body_b, slack, w->contacts[pair].longest_arm);
     w->awake_pairs[p->awake_index] = ~pair;
-    atomic_store_explicit(&step->scratch->some_wait, 1, memory_order_relaxed);
+    atomic_store_explicit(&step->scratch->some_deferred, 1, memory_order_relaxed);
 }
 
 static void note_result(fe__step *step, int32_t pair)
@@ -62,11 +66,13 @@ static void note_result(fe__step *step, int32_t pair)
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     w->pairs[pair].result = judge(w, pair);
-    if (!(w->contacts[pair].point_count > 0.0f)) note_wait(step, pair, w->contacts[pair].surface.tolerance);
-    if (w->pairs[pair].result != FE__RESULT_NONE) s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
+    if (!(w->contacts[pair].point_count > 0.0f)) defer(step, pair, w->contacts[pair].surface.tolerance);
+    if (w->pairs[pair].result != FE__RESULT_NONE)
+        s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
 }
 
-// ---- with heightfields: patches follow their heads, on the head's thread --------------------------------------------------------------
+// ---- with heightfields: patches follow their heads, on the head's thread
+// --------------------------------------------------------------
 static void collide_with_patches(fe__step *step, int32_t head)
 {
     fe_world *w = step->world;
@@ -81,24 +87,25 @@ static void collide_with_patches(fe__step *step, int32_t head)
 static void collide_chunk(fe__step *step, int32_t *entries, int32_t count)
 {
     fe_world *w = step->world;
-    int32_t heads[PAIRS_IN_BLOCK], patches[PAIRS_IN_BLOCK * (FE__PATCHES - 1)], head_count = 0, patch_count = 0, again = 0;
-    uint8_t said[PAIRS_IN_BLOCK * (FE__PATCHES - 1)];
+    int32_t heads[PAIRS_IN_BLOCK], patches[PAIRS_IN_BLOCK * (FE__PATCHES - 1)], head_count = 0, patch_count = 0,
+                                                                                again = 0;
+    uint8_t verdicts[PAIRS_IN_BLOCK * (FE__PATCHES - 1)];
     float slack[PAIRS_IN_BLOCK * (FE__PATCHES - 1)];
     for (int32_t i = 0; i < count; ++i) {
         entries[i] = fe__pair_of(entries[i]); // here none waits
         if (!(w->pairs[entries[i]].flags & FE__PAIR_PATCH)) heads[head_count++] = entries[i];
     }
     if (head_count == 0) return;
-    w->kernels->recycle(w->contacts, w->bodies, heads, head_count, step->dt, said, slack);
+    w->kernels->recycle(w->contacts, w->bodies, heads, head_count, step->dt, verdicts, slack);
     for (int32_t i = 0; i < head_count; ++i) {
-        if (said[i] == FE__MOVED) {
+        if (verdicts[i] == FE__MOVED) {
             heads[again++] = heads[i];
             continue;
         }
         for (int32_t patch = w->pairs[heads[i]].next_patch; patch >= 0; patch = w->pairs[patch].next_patch)
             if (w->contacts[patch].point_count > 0.0f) patches[patch_count++] = patch;
     }
-    if (patch_count) w->kernels->recycle(w->contacts, w->bodies, patches, patch_count, step->dt, said, slack);
+    if (patch_count) w->kernels->recycle(w->contacts, w->bodies, patches, patch_count, step->dt, verdicts, slack);
     for (int32_t i = 0; i < again; ++i) collide_with_patches(step, heads[i]);
     atomic_fetch_add_explicit(&step->scratch->recycled, head_count - again, memory_order_relaxed);
 }
@@ -111,7 +118,8 @@ static void collide_chunks(void *argument, int32_t first, int32_t end, int32_t w
         collide_chunk(job->step, job->step->world->awake_pairs + job->first + i, fe__mini(end - i, PAIRS_IN_BLOCK));
 }
 
-// ---- without --------------------------------------------------------------------------------------------------------------------------
+// ---- without
+// --------------------------------------------------------------------------------------------------------------------------
 // Records of pairs that the narrow phase will look at lie anywhere: they are asked for while it looks at others
 FE_FETCHES fetch_pair(const fe_world *w, int32_t pair)
 {
@@ -127,16 +135,16 @@ FE_FETCHES fetch_pair(const fe_world *w, int32_t pair)
 }
 
 // The next awake pairs that do not wait, PAIRS_IN_CACHE at most. Moves *at behind them
-static int32_t list_asked(fe__step *step, int32_t *at, int32_t end, int32_t *out_pairs)
+static int32_t list_due(fe__step *step, int32_t *at, int32_t end, int32_t *out_pairs)
 {
     const fe_world *w = step->world;
     int32_t i = *at, count = 0;
     for (; i < end && count < PAIRS_IN_CACHE; ++i) {
         int32_t entry = w->awake_pairs[i];
-        __builtin_prefetch(w->waits + fe__mini(i + FETCHED_AHEAD, end - 1));
+        __builtin_prefetch(w->deferrals + fe__mini(i + FETCHED_AHEAD, end - 1));
         out_pairs[count] = entry;
         if (entry < 0) {
-            if (fe__still_waits(w->waits + i, w->odometers, step->dt)) continue;
+            if (fe__stays_deferred(w->deferrals + i, w->odometers, step->dt)) continue;
             out_pairs[count] = w->awake_pairs[i] = ~entry;
         }
         ++count;
@@ -151,14 +159,14 @@ static int32_t collide_some(fe__step *step, const int32_t *pairs, int32_t count)
     enum { AHEAD = 2 };
     fe_world *w = step->world;
     int32_t again[PAIRS_IN_CACHE], left = 0;
-    uint8_t said[PAIRS_IN_CACHE];
+    uint8_t verdicts[PAIRS_IN_CACHE];
     float slack[PAIRS_IN_CACHE];
-    w->kernels->recycle(w->contacts, w->bodies, pairs, count, step->dt, said, slack);
+    w->kernels->recycle(w->contacts, w->bodies, pairs, count, step->dt, verdicts, slack);
     for (int32_t i = 0; i < count; ++i) {
         int32_t pair = pairs[i];
-        if (said[i] == FE__STAYS) continue;
-        if (said[i] == FE__STAYS_APART) {
-            note_wait(step, pair, slack[i]);
+        if (verdicts[i] == FE__STAYS) continue;
+        if (verdicts[i] == FE__STAYS_APART) {
+            defer(step, pair, slack[i]);
             continue;
         }
         again[left++] = pair;
@@ -177,13 +185,14 @@ static void collide_block(void *argument, int32_t first, int32_t end, int32_t wo
 {
     const collide_job *job = argument;
     const fe__step_scratch *s = job->step->scratch;
-    int32_t list[PAIRS_IN_CACHE], again = 0, some_wait = atomic_load_explicit(&s->some_wait, memory_order_relaxed);
+    int32_t list[PAIRS_IN_CACHE], again = 0,
+                                  some_deferred = atomic_load_explicit(&s->some_deferred, memory_order_relaxed);
     (void)worker;
     for (int32_t i = job->first + first, stop = job->first + end; i < stop;) {
         const int32_t *pairs = job->step->world->awake_pairs + i;
         int32_t count = fe__mini(PAIRS_IN_CACHE, stop - i);
-        if (some_wait)
-            count = list_asked(job->step, &i, stop, list), pairs = list;
+        if (some_deferred)
+            count = list_due(job->step, &i, stop, list), pairs = list;
         else
             i += count;
         again += collide_some(job->step, pairs, count);
@@ -191,7 +200,8 @@ static void collide_block(void *argument, int32_t first, int32_t end, int32_t wo
     atomic_fetch_add_explicit(&job->step->scratch->recycled, end - first - again, memory_order_relaxed);
 }
 
-// ---- results -------------------------------------------------------------------------------------------------------------------
+// ---- results
+// -------------------------------------------------------------------------------------------------------------------
 // by the creation of their shapes
 static void sort_pairs(fe__step *step, int32_t *pairs, int32_t count)
 {
@@ -238,7 +248,8 @@ void fe__update_contacts(fe__step *step)
     for (int32_t first = 0; first < w->awake_pair_count;) {
         int32_t end = w->awake_pair_count, results = atomic_load(&s->result_count);
         collide_job job = {step, first};
-        fe__parallel_for(&w->workers, end - first, PAIRS_IN_BLOCK, w->field_pair_count ? collide_chunks : collide_block, &job);
+        fe__parallel_for(&w->workers, end - first, PAIRS_IN_BLOCK, w->field_pair_count ? collide_chunks : collide_block,
+                         &job);
         apply_results(step, results);
         first = end;
     }
@@ -255,13 +266,13 @@ const int32_t *fe__busy_pairs(fe__step *step, int32_t *out_count)
     const fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     *out_count = w->awake_pair_count;
-    if (!atomic_load(&s->some_wait)) return w->awake_pairs;
+    if (!atomic_load(&s->some_deferred)) return w->awake_pairs;
     int32_t count = 0;
     for (int32_t i = 0; i < w->awake_pair_count; ++i) {
         s->busy[count] = w->awake_pairs[i];
         count += w->awake_pairs[i] >= 0;
     }
-    atomic_store(&s->some_wait, count < w->awake_pair_count);
+    atomic_store(&s->some_deferred, count < w->awake_pair_count);
     *out_count = count;
     return s->busy;
 }

@@ -1,17 +1,20 @@
-// events.c - what the step has to tell: touching begun, kept, ended; impacts; bodies that woke or fell asleep. In the order of creation.
+// events.c - what the step reports: touching begun, kept, ended; impacts; bodies that woke or fell asleep. In the order
+// of creation.
 //
-// A pair touches when a point had an impulse, or a gap of 0 or less, during the step. Exits of pairs that ended otherwise (destroyed,
-// re-filtered, boxes apart) wait in their records (fe_world.first_owed) and come out here.
+// A pair touches when a point had an impulse, or a gap of 0 or less, during the step. Exits of pairs that ended
+// otherwise (destroyed, re-filtered, boxes apart) wait in their records (fe_world.first_owed) and come out here.
 #include "step/events.h"
 
 #include "step/collide_stage.h"
 #include "world/handles.h"
 #include "world/pair_list.h"
+#include "world/material.h"
 #include "world/pairs.h"
 
 static fe__pair_event_record record_of(const fe_world *w, int32_t pair, int32_t kind)
 {
-    return (fe__pair_event_record){w->pair_serials[2 * pair], w->pair_serials[2 * pair + 1], fe__pair_event_of(w, pair, kind)};
+    return (fe__pair_event_record){w->pair_serials[2 * pair], w->pair_serials[2 * pair + 1],
+                                   fe__pair_event_of(w, pair, kind)};
 }
 
 static int32_t touches(const fe_world *w, int32_t head)
@@ -61,6 +64,8 @@ static void add_hit(fe_world *w, int32_t pair)
                                  .body_b = e.body_b,
                                  .shape_a = e.shape_a,
                                  .shape_b = e.shape_b,
+                                 .material_a = fe__pair_material(w, sum.pair, 0)->user_id,
+                                 .material_b = fe__pair_material(w, sum.pair, 1)->user_id,
                                  .point = fe__contact_point(w, sum.pair, sum.point),
                                  .normal = fe__scale(sign, fe__vec3(m->normal[0], m->normal[1], m->normal[2])),
                                  .speed = sum.approach,
@@ -71,13 +76,14 @@ static void add_hit(fe_world *w, int32_t pair)
                                  .triangle_b = e.triangle_b}};
 }
 
-// ---- looking, on any thread: pairs that have something to tell go to the list of results ----------------------------------------------
+// ---- looking, on any thread: pairs that have something to report go to the list of results
+// ----------------------------------------------
 enum { PAIRS_IN_BLOCK = 256, AHEAD = 16 }; // AHEAD: records come from memory while those before them are looked at
 
 FE_FETCHES fetch_ahead(const fe_world *w, const int32_t *pairs, int32_t i, int32_t end)
 {
     if (i + 2 * AHEAD < end) __builtin_prefetch(&w->pairs[pairs[i + 2 * AHEAD]].flags);
-    if (i + AHEAD >= end || !(w->pairs[pairs[i + AHEAD]].flags & FE__PAIR_MAY_TELL)) return;
+    if (i + AHEAD >= end || !(w->pairs[pairs[i + AHEAD]].flags & FE__PAIR_MAY_REPORT)) return;
     __builtin_prefetch(w->contacts[pairs[i + AHEAD]].separation);
     __builtin_prefetch(w->contacts[pairs[i + AHEAD]].total_impulse);
 }
@@ -98,14 +104,14 @@ static void look_block(void *argument, int32_t first, int32_t end, int32_t worke
         int32_t pair = job->pairs[i];
         fe__pair *p = w->pairs + pair;
         fetch_ahead(w, job->pairs, i, end);
-        if (p->flags & FE__PAIR_PATCH || !(p->flags & FE__PAIR_MAY_TELL)) continue;
+        if (p->flags & FE__PAIR_PATCH || !(p->flags & FE__PAIR_MAY_REPORT)) continue;
         int32_t now = touches(w, pair) || p->flags & FE__PAIR_CROSSED;
         p->flags &= ~(uint32_t)FE__PAIR_CROSSED;
-        int32_t before = (p->flags & FE__PAIR_TOUCHING) != 0, tells = now != before;
-        if (now && before) tells = (p->events & (FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT)) != 0;
-        tells |= (p->flags & FE__PAIR_ONCE) != 0;
+        int32_t before = (p->flags & FE__PAIR_TOUCHING) != 0, reports = now != before;
+        if (now && before) reports = (p->events & (FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT)) != 0;
+        reports |= (p->flags & FE__PAIR_ONCE) != 0;
         p->result = now ? (before ? FE_EVENT_STAY : FE_EVENT_ENTER) : FE_EVENT_EXIT;
-        if (tells) s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
+        if (reports) s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
     }
 }
 
@@ -116,7 +122,7 @@ static void forget_if_asleep(fe_world *w, int32_t pair)
     if (w->bodies[p->body_a].awake_index < 0 && w->bodies[p->body_b].awake_index < 0) fe__pair_retire(w, pair);
 }
 
-static void tell(fe_world *w, int32_t pair)
+static void report(fe_world *w, int32_t pair)
 {
     fe__pair *p = w->pairs + pair;
     int32_t kind = p->result;
@@ -131,7 +137,8 @@ static void tell(fe_world *w, int32_t pair)
         w->pair_events[w->pair_event_count++] = record_of(w, pair, kind);
 }
 
-// ---- order ----------------------------------------------------------------------------------------------------------------------------
+// ---- order
+// ----------------------------------------------------------------------------------------------------------------------------
 // Stable sorts by B, then by A. The records are moved once, along the cycles of the permutation.
 static void sort_records(fe__step *step, unsigned char *records, int32_t count, size_t size)
 {
@@ -174,7 +181,7 @@ void fe__collect_events(fe__step *step)
     look_job job = {step, fe__busy_pairs(step, &count)};
     fe__parallel_for(&w->workers, count, PAIRS_IN_BLOCK, look_block, &job);
     count = atomic_load(&s->result_count);
-    for (int32_t i = 0; i < count; ++i) tell(w, s->results[i]);
+    for (int32_t i = 0; i < count; ++i) report(w, s->results[i]);
     sort_records(step, (unsigned char *)w->pair_events, w->pair_event_count, sizeof *w->pair_events);
     sort_records(step, (unsigned char *)w->hit_events, w->hit_event_count, sizeof *w->hit_events);
 }
@@ -184,19 +191,21 @@ void fe__collect_body_events(fe__step *step)
     fe_world *w = step->world;
     fe__sort_item *items = step->scratch->sort_items;
     int32_t count = 0;
-    for (int32_t i = 0; i < w->stirred_count; ++i) {
-        int32_t index = w->stirred[i];
+    for (int32_t i = 0; i < w->disturbed_count; ++i) {
+        int32_t index = w->disturbed[i];
         fe__body *body = w->bodies + index;
         int32_t awake = body->awake_index >= 0, before = (body->flags & FE__BODY_SEEN_AWAKE) != 0;
         body->flags &= ~(uint32_t)(FE__BODY_DISTURBED | FE__BODY_SEEN_AWAKE);
         if (awake) body->flags |= FE__BODY_SEEN_AWAKE;
-        int32_t tells = fe__id_pool_is_alive(&w->body_ids, index) && body->flags & FE__BODY_ENABLED && body->type != FE_BODY_STATIC;
-        if (tells && awake != before) items[count++] = (fe__sort_item){body->serial, index, awake};
+        int32_t reports =
+            fe__id_pool_is_alive(&w->body_ids, index) && body->flags & FE__BODY_ENABLED && body->type != FE_BODY_STATIC;
+        if (reports && awake != before) items[count++] = (fe__sort_item){body->serial, index, awake};
     }
-    w->stirred_count = 0;
+    w->disturbed_count = 0;
     fe__sort_keys(items, count, items + count);
     w->body_event_count = count;
     for (int32_t i = 0; i < count; ++i)
-        w->body_events[i] =
-            (fe__body_event_record){items[i].key, {fe__body_handle(w, items[i].value), items[i].spare ? FE_EVENT_WAKE : FE_EVENT_SLEEP, 0}};
+        w->body_events[i] = (fe__body_event_record){items[i].key,
+                                                    {fe__body_handle(w, items[i].value),
+                                                     items[i].spare ? FE_EVENT_WAKE : FE_EVENT_SLEEP, 0}};
 }

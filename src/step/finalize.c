@@ -18,7 +18,8 @@
 
 enum { BODIES_IN_BLOCK = 64, BOXES_IN_BLOCK = 64, STEPS_BETWEEN_REBUILDS = 8, KEPT_LINES = 256 };
 
-// ---- poses ---------------------------------------------------------------------------------------------------------------------------
+// ---- poses
+// ---------------------------------------------------------------------------------------------------------------------------
 // q = dq q. A body that did not turn keeps its quaternion: no rounding of what stood still.
 static int32_t turn(fe__body *body, const float *dq)
 {
@@ -43,13 +44,16 @@ static void place_origin(fe__body *body)
 {
     const float *c = body->local_centre;
     fe_dvec3 arm = {0.0, 0.0, 0.0};
-    if (c[0] != 0.0f || c[1] != 0.0f || c[2] != 0.0f) arm = fe__drotate(fe__rotation_of(body), fe__widen(fe__quad_vector(c)));
-    body->origin[0] = body->centre[0] - arm.x, body->origin[1] = body->centre[1] - arm.y, body->origin[2] = body->centre[2] - arm.z;
+    if (c[0] != 0.0f || c[1] != 0.0f || c[2] != 0.0f)
+        arm = fe__drotate(fe__rotation_of(body), fe__widen(fe__quad_vector(c)));
+    body->origin[0] = body->centre[0] - arm.x, body->origin[1] = body->centre[1] - arm.y,
+    body->origin[2] = body->centre[2] - arm.z;
 }
 
 static float length_of(const float *v) { return sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-// Slow is who was slow on the way, too: what is pushed out of another body moves, but has no velocity when the step ends.
+// Slow is what was slow within the step, too: what is pushed out of another body moves, but has no velocity when the
+// step ends.
 static void tick_sleep_timer(fe_world *w, fe__body *body, const fe__motion_line *motion, float dt)
 {
     fe__body_note_speed(w, body);
@@ -68,7 +72,8 @@ static void follow_body(fe__step *step, int32_t index)
     for (int32_t i = w->bodies[index].first_shape; i >= 0; i = w->shapes[i].next) {
         if (!(w->shapes[i].flags & FE__SHAPE_IN_TREE)) continue;
         fe__bounds reach = fe__shape_reach_bounds(w, i);
-        if (!fe__tree_holds(&w->moving_tree, i, &reach)) s->left[atomic_fetch_add_explicit(&s->left_count, 1, memory_order_relaxed)] = i;
+        if (!fe__tree_holds(&w->moving_tree, i, &reach))
+            s->left[atomic_fetch_add_explicit(&s->left_count, 1, memory_order_relaxed)] = i;
     }
 }
 
@@ -94,7 +99,7 @@ static void forget_lost(fe_world *w)
     }
 }
 
-// Bodies and shapes stream from memory; where in the tree a shape is, only its slot tells
+// Bodies and shapes stream from memory; only its slot says where in the tree a shape is
 FE_FETCHES fetch_box(const fe_world *w, int32_t i)
 {
     if (i >= w->awake_body_count) return;
@@ -106,7 +111,7 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
 {
     fe__step *step = argument;
     fe_world *w = step->world;
-    int32_t some_wait = atomic_load_explicit(&step->scratch->some_wait, memory_order_relaxed);
+    int32_t some_deferred = atomic_load_explicit(&step->scratch->some_deferred, memory_order_relaxed);
     (void)worker;
     for (int32_t i = first; i < end; ++i) {
         enum { AHEAD = 4 };
@@ -125,7 +130,9 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
         int32_t moved = shift(body, motion->shift) | turn(body, motion->rotation);
         tick_sleep_timer(w, body, motion, step->dt);
         if (!moved) continue;
-        if (some_wait) fe__odometer_advance(w->odometers + w->awake_bodies[i], length_of(motion->shift), length_of(motion->rotation));
+        if (some_deferred)
+            fe__odometer_advance(w->odometers + w->awake_bodies[i], length_of(motion->shift),
+                                 length_of(motion->rotation));
         body->moved_step = w->step_number + 1;
         place_origin(body);
         follow_body(step, w->awake_bodies[i]);
@@ -136,7 +143,8 @@ static void box_block(void *argument, int32_t first, int32_t end, int32_t worker
 {
     const fe__step *step = argument;
     (void)worker;
-    for (int32_t i = first; i < end; ++i) step->scratch->boxes[i] = fe__shape_fat_bounds(step->world, step->scratch->left[i]);
+    for (int32_t i = first; i < end; ++i)
+        step->scratch->boxes[i] = fe__shape_fat_bounds(step->world, step->scratch->left[i]);
 }
 
 void fe__move_bodies(fe__step *step)
@@ -158,7 +166,8 @@ void fe__move_bodies(fe__step *step)
     }
 }
 
-// ---- sleep ----------------------------------------------------------------------------------------------------------------------------
+// ---- sleep
+// ----------------------------------------------------------------------------------------------------------------------------
 static int32_t stands_still(const fe__body *body)
 {
     const float *v = body->velocity, *w = body->spin;
@@ -203,7 +212,8 @@ void fe__put_islands_to_sleep(fe__step *step)
     for (int32_t i = w->awake_body_count - 1; i >= 0 && some; --i) {
         int32_t index = w->awake_bodies[i];
         const fe__body *body = w->bodies + index;
-        if (body->type == FE_BODY_DYNAMIC ? may_sleep(w, timers[body->island]) : stands_still(body)) fe__body_fall_asleep(w, index);
+        if (body->type == FE_BODY_DYNAMIC ? may_sleep(w, timers[body->island]) : stands_still(body))
+            fe__body_fall_asleep(w, index);
     }
     // a sleeping world keeps no rows
     if (!w->awake_body_count && w->solver.line_capacity[0] > KEPT_LINES) fe__solver_destroy(&w->solver, &w->memory);

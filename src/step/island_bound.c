@@ -1,4 +1,5 @@
-// island_bound.c - see island_bound.h. Input: pairs, joints and candidates of the step; output: the clusters that they join (clusters.h).
+// island_bound.c - see island_bound.h. Input: pairs, joints and candidates of the step; output: the clusters that they
+// join (clusters.h).
 #include "step/island_bound.h"
 
 #include "solver/graph/graph.h"
@@ -19,7 +20,8 @@ static void join_shapes(fe_world *w, int32_t shape_a, int32_t shape_b)
 static void join_candidates(const fe__step *step)
 {
     const fe__step_scratch *s = step->scratch;
-    for (int32_t i = 0; i < s->candidate_count; ++i) join_shapes(step->world, s->candidates[i].shape_a, s->candidates[i].shape_b);
+    for (int32_t i = 0; i < s->candidate_count; ++i)
+        join_shapes(step->world, s->candidates[i].shape_a, s->candidates[i].shape_b);
     step->world->clusters.has_grown |= s->candidate_count > 0;
 }
 
@@ -58,7 +60,8 @@ int32_t fe__bound_islands(fe__step *step, fe__graph_bound *bound)
     if (!fe__clusters_reserve(c, &w->memory, w->body_capacity)) return 0;
     if (!c->is_stale) join_candidates(step);
     bound->largest = c->most;
-    if (c->is_stale || (c->has_grown && !fe__graph_has_rows(&w->solver, w->kernels, bound, w->workers.count))) make_anew(step);
+    if (c->is_stale || (c->has_grown && !fe__graph_has_rows(&w->solver, w->kernels, bound, w->workers.count)))
+        make_anew(step);
     bound->largest = c->most;
     return 1;
 }

@@ -1,7 +1,7 @@
 // narrow.c - the narrow phase of one pair: two shapes, one manifold, one contact.
 //
-// Called by the collide stage on any thread, for pairs that cannot be recycled. Double positions are subtracted here, so that everything
-// below is float and small. Only the pair's own records are written.
+// Called by the collide stage on any thread, for pairs that cannot be recycled. Double positions are subtracted here,
+// so that everything below is float and small. Only the pair's own records are written.
 #include "step/narrow.h"
 
 #include "collision/manifold/collide.h"
@@ -11,17 +11,20 @@
 
 #include <string.h>
 
-// How far a pair may slide or turn before it needs a new manifold: at most this, m, and a share of the thinner form. Less for round forms,
-// whose normal turns with them.
+// How far a pair may slide or turn before it needs a new manifold: at most this, m, and a share of the thinner form.
+// Less for round forms, whose normal turns with them.
 #define RECYCLE_MOST 0.03f
 #define RECYCLE_SHARE 0.1f
 #define RECYCLE_ROUND 0.0005f
 
-// Closer than this to each other, m, shapes are placed in floats: a float of it is a micrometre fine. Beyond (a wide ground) in double.
+// Closer than this to each other, m, shapes are placed in floats: a float of it is a micrometre fine. Beyond (a wide
+// ground) in double.
 #define NEAR 16.0
 
-// B in A's frame. A plane has no centre that matters: its frame is put at B, so that a plane is as exact a thousand kilometres off.
-static void set_view(fe__view *v, const fe__shape *a, const fe__shape *b, const fe__pose *pose_a, const fe__pose *pose_b)
+// B in A's frame. A plane has no centre that matters: its frame is put at B, so that a plane is as exact a thousand
+// kilometres off.
+static void set_view(fe__view *v, const fe__shape *a, const fe__shape *b, const fe__pose *pose_a,
+                     const fe__pose *pose_b)
 {
     v->a = a, v->b = b, v->form_a = a->form;
     v->origin = pose_a->position;
@@ -38,9 +41,10 @@ static void set_view(fe__view *v, const fe__shape *a, const fe__shape *b, const 
         v->relative.position = fe__narrow(fe__drotate_back(pose_a->rotation, between));
 }
 
-// ---- ahead of time --------------------------------------------------------------------------------------------------------------------
-// Contacts are made once per step. What will touch only later in the step needs its contact now, or it would be found a step late, up to v
-// dt deep.
+// ---- ahead of time
+// --------------------------------------------------------------------------------------------------------------------
+// Contacts are made once per step. What will touch only later in the step needs its contact now, or it would be found a
+// step late, up to v dt deep.
 
 // how far the pair can close in the step, m
 float fe__reach_in_step(const fe_world *world, const fe__body *a, const fe__body *b, float dt)
@@ -61,10 +65,10 @@ static void predict_there(const fe_world *world, const fe__contact *m, const fe_
     const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
     const fe__places *at = &out->at;
     int32_t a_is_b = m->body_a != v->a->body;
-    fe__pose pose_a =
-        a_is_b ? fe__shape_pose_at(b, v->a, at->centre_b, at->rotation_b) : fe__shape_pose_at(a, v->a, at->centre_a, at->rotation_a);
-    fe__pose pose_b =
-        a_is_b ? fe__shape_pose_at(a, v->b, at->centre_a, at->rotation_a) : fe__shape_pose_at(b, v->b, at->centre_b, at->rotation_b);
+    fe__pose pose_a = a_is_b ? fe__shape_pose_at(b, v->a, at->centre_b, at->rotation_b)
+                             : fe__shape_pose_at(a, v->a, at->centre_a, at->rotation_a);
+    fe__pose pose_b = a_is_b ? fe__shape_pose_at(a, v->b, at->centre_a, at->rotation_a)
+                             : fe__shape_pose_at(b, v->b, at->centre_b, at->rotation_b);
     set_view(&out->v, v->a, v->b, &pose_a, &pose_b);
     out->found = (fe__manifold){.axis = -1};
     fe__collide(&out->v.form_a, &v->b->form, &out->v.relative, world->tuning.speculative_distance, &out->found);
@@ -85,10 +89,11 @@ static float deepest_of(const fe__manifold *found)
     return deepest;
 }
 
-// The manifold of the poses at the end of the step, or, when they overlap there, of the poses on the way where they touch at the mean
-// speed: the right features and normal for an impact, none for bodies that pass each other by. Deep in, features say nothing any more, and
-// the nearest ones of now must do.
-static int32_t look_ahead(const fe_world *world, const fe__contact *m, float dt, fe__view *v, fe__places *at, fe__manifold *found)
+// The manifold of the poses at the end of the step, or, when they overlap there, of the poses on the way where they
+// touch at the mean speed: the right features and normal for an impact, none for bodies that pass each other by. Deep
+// in, features say nothing any more, and the nearest ones of now must do.
+static int32_t look_ahead(const fe_world *world, const fe__contact *m, float dt, fe__view *v, fe__places *at,
+                          fe__manifold *found)
 {
     prediction end, touch;
     predict(world, m, v, dt, &end);
@@ -106,7 +111,8 @@ static int32_t look_ahead(const fe_world *world, const fe__contact *m, float dt,
 }
 
 // What may outrun its thickness has its contact with a static or kinematic body where it touches first.
-static int32_t look_far_ahead(const fe_world *world, const fe__contact *m, float dt, fe__view *v, fe__places *at, fe__manifold *found)
+static int32_t look_far_ahead(const fe_world *world, const fe__contact *m, float dt, fe__view *v, fe__places *at,
+                              fe__manifold *found)
 {
     prediction touch;
     if (!fe__pair_touches_ahead(world, (int32_t)(m - world->contacts), dt, &touch.at)) return 0;
@@ -143,7 +149,8 @@ static void note_poses(fe__contact *m, const fe__places *at, const fe__body *a, 
 }
 
 // points from A's frame to arms: from the centre of the solver's A, or of B when A is static (its centre may be far)
-static void set_points(fe__contact *m, const fe__view *v, const fe__places *at, const fe__manifold *found, const fe__body *a)
+static void set_points(fe__contact *m, const fe__view *v, const fe__places *at, const fe__manifold *found,
+                       const fe__body *a)
 {
     int32_t is_static = a->type == FE_BODY_STATIC;
     fe_vec3 base = fe__narrow(fe__dsub(v->origin, is_static ? at->centre_b : at->centre_a)), zero = {0.0f, 0.0f, 0.0f};
@@ -151,7 +158,8 @@ static void set_points(fe__contact *m, const fe__view *v, const fe__places *at, 
     float reach = 0.0f;
     for (int i = 0; i < FE__POINTS; ++i) {
         int there = i < found->count;
-        fe_vec3 arm = there ? fe__add(base, fe__mul(&v->rotation, found->points[i].point)) : zero, arm_b = fe__add(arm, span);
+        fe_vec3 arm = there ? fe__add(base, fe__mul(&v->rotation, found->points[i].point)) : zero,
+                arm_b = fe__add(arm, span);
         fe__copy3(m->point[i].arm, arm);
         m->point[i].separation = m->separation[i] = there ? found->points[i].separation : 0.0f;
         reach = fe__maxf(reach, fe__maxf(fe__dot(arm, arm), fe__dot(arm_b, arm_b)));
@@ -170,8 +178,8 @@ static void set_no_points(fe__contact *m, const fe__body *a, const fe__body *b)
     m->longest_arm = fe__maxf(a->reach, b->reach); // whatever part of the bodies may come near
 }
 
-// Separations now of a manifold found ahead of time, along its normal: as in recycle.simd.c. Its arms stay those of the touch, and the
-// turns from there to now take the place of the rotations.
+// Separations now of a manifold found ahead of time, along its normal: as in recycle.simd.c. Its arms stay those of the
+// touch, and the turns from there to now take the place of the rotations.
 static void step_back(fe__contact *m, const fe__places *at, const fe__body *a, const fe__body *b)
 {
     fe_quat turn_a = fe__product(fe__rotation_of(a), fe__conjugate(at->rotation_a)),
@@ -179,11 +187,12 @@ static void step_back(fe__contact *m, const fe__places *at, const fe__body *a, c
     copy4(m->found_a, turn_a);
     copy4(m->found_b, turn_b);
     fe_vec3 n = fe__quad_vector(m->normal), zero = {0.0f, 0.0f, 0.0f};
-    fe_vec3 na = fe__sub(fe__rotate_back(turn_a, n), n), nb = fe__sub(fe__rotate_back(turn_b, n), n), slope = fe__sub(nb, na);
+    fe_vec3 na = fe__sub(fe__rotate_back(turn_a, n), n), nb = fe__sub(fe__rotate_back(turn_b, n), n),
+            slope = fe__sub(nb, na);
     fe_dvec3 then = fe__dsub(at->centre_b, at->centre_a), now = fe__dsub(fe__centre_of(b), fe__centre_of(a));
     fe_vec3 span = a->type == FE_BODY_STATIC ? zero : fe__quad_vector(m->found_span);
-    float constant = fe__dot(n, fe__narrow(fe__dsub(now, then))) + fe__dot(nb, span) + m->surface.radius_a * fe__dot(na, n) +
-                     m->surface.radius_b * fe__dot(nb, n);
+    float constant = fe__dot(n, fe__narrow(fe__dsub(now, then))) + fe__dot(nb, span) +
+                     m->surface.radius_a * fe__dot(na, n) + m->surface.radius_b * fe__dot(nb, n);
     for (int i = 0; i < (int)m->point_count; ++i)
         m->separation[i] = m->point[i].separation + constant + fe__dot(slope, fe__quad_vector(m->point[i].arm));
 }
@@ -191,7 +200,8 @@ static void step_back(fe__contact *m, const fe__places *at, const fe__body *a, c
 float fe__recycle_tolerance(const fe__view *v)
 {
     if (v->a->form.radius > 0.0f || v->b->form.radius > 0.0f) return RECYCLE_ROUND;
-    return fe__minf(RECYCLE_MOST, RECYCLE_SHARE * fe__minf(fe__form_thickness(&v->a->form), fe__form_thickness(&v->b->form)));
+    return fe__minf(RECYCLE_MOST,
+                    RECYCLE_SHARE * fe__minf(fe__form_thickness(&v->a->form), fe__form_thickness(&v->b->form)));
 }
 
 static void write_contact(fe__contact *m, const fe__view *v, const fe__manifold *found, int32_t a_is_b)
@@ -204,8 +214,8 @@ static void write_contact(fe__contact *m, const fe__view *v, const fe__manifold 
     m->surface.radius_b = a_is_b ? v->form_a.radius : v->b->form.radius;
 }
 
-void fe__write_manifold(const fe_world *world, fe__contact *m, const fe__view *v, const fe__places *at, const fe__manifold *found,
-                        int32_t ahead)
+void fe__write_manifold(const fe_world *world, fe__contact *m, const fe__view *v, const fe__places *at,
+                        const fe__manifold *found, int32_t ahead)
 {
     const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
     note_poses(m, at, a, b);
@@ -219,10 +229,12 @@ void fe__write_manifold(const fe_world *world, fe__contact *m, const fe__view *v
 }
 
 // without points: not looked at again until the bodies may have moved by `gap`
-static void write_apart(fe__pair *p, fe__contact *m, const fe__places *at, const fe__body *a, const fe__body *b, float gap)
+static void write_apart(fe__pair *p, fe__contact *m, const fe__places *at, const fe__body *a, const fe__body *b,
+                        float gap)
 {
     fe__contact_forget_impulses(m);
-    p->axis = -1; // a kernel's memory begins with the first points, whenever the pair was made: unrelated bodies must not matter
+    p->axis = -1; // a kernel's memory begins with the first points, whenever the pair was made: unrelated bodies must
+                  // not matter
     m->surface.tolerance = fe__maxf(gap, 0.0f);
     note_poses(m, at, a, b);
     set_no_points(m, a, b);
@@ -235,8 +247,10 @@ static int32_t is_near(const fe__manifold *found, float distance)
     return 0;
 }
 
-// ---- one-way shapes -------------------------------------------------------------------------------------------------------------------
-// The least cosine between a one-way shape's direction and a normal that holds: 60 degrees, so that its edges do not catch what passes by
+// ---- one-way shapes
+// -------------------------------------------------------------------------------------------------------------------
+// The least cosine between a one-way shape's direction and a normal that holds: 60 degrees, so that its edges do not
+// catch what passes by
 #define ONE_WAY_COSINE 0.5f
 
 // The normal from the shape to what it meets
@@ -246,7 +260,8 @@ static int32_t holds(const fe__shape *shape, fe_vec3 outward)
     return fe__dot(direction, outward) >= ONE_WAY_COSINE * sqrtf(fe__dot(direction, direction));
 }
 
-// Does the pair pass a one-way shape? Decided where they first meet, by the side; what passes goes on until they are apart.
+// Does the pair pass a one-way shape? Decided where they first meet, by the side; what passes goes on until they are
+// apart.
 static int32_t passes(fe__pair *p, const fe__view *v, const fe__manifold *found)
 {
     if (!((v->a->flags | v->b->flags) & FE__SHAPE_ONE_WAY)) return 0;
@@ -257,8 +272,8 @@ static int32_t passes(fe__pair *p, const fe__view *v, const fe__manifold *found)
     if (p->flags & FE__PAIR_PASSING) return 1;
     if (p->flags & FE__PAIR_LINKED) return 0;
     fe_vec3 normal = fe__mul(&v->rotation, found->normal); // from v->a to v->b
-    int32_t held =
-        (!(v->a->flags & FE__SHAPE_ONE_WAY) || holds(v->a, normal)) && (!(v->b->flags & FE__SHAPE_ONE_WAY) || holds(v->b, fe__neg(normal)));
+    int32_t held = (!(v->a->flags & FE__SHAPE_ONE_WAY) || holds(v->a, normal)) &&
+                   (!(v->b->flags & FE__SHAPE_ONE_WAY) || holds(v->b, fe__neg(normal)));
     if (!held) p->flags |= FE__PAIR_PASSING;
     return !held;
 }
@@ -286,11 +301,14 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
     }
 
     // some way off now, but closing: the normal may turn on that way
-    int32_t near = is_near(&found, margin), ahead = found.count && !(p->flags & FE__PAIR_SENSOR) && !is_near(&found, FE__TURNS_LITTLE);
-    int32_t fast = reach > fe__minf(fe__form_thickness(&x->form), fe__form_thickness(&y->form)) && a->type != FE_BODY_DYNAMIC;
+    int32_t near = is_near(&found, margin),
+            ahead = found.count && !(p->flags & FE__PAIR_SENSOR) && !is_near(&found, FE__TURNS_LITTLE);
+    int32_t fast =
+        reach > fe__minf(fe__form_thickness(&x->form), fe__form_thickness(&y->form)) && a->type != FE_BODY_DYNAMIC;
     if (ahead) ahead = (fast ? look_far_ahead : look_ahead)(world, m, dt, &v, &at, &found);
     if (!ahead && !near) {
-        float gap = found.count ? deepest_of(&found) : found.axis_separation; // with points a kernel leaves the older one
+        float gap =
+            found.count ? deepest_of(&found) : found.axis_separation; // with points a kernel leaves the older one
         write_apart(p, m, &at, a, b, gap - margin);
         return;
     }

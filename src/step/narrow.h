@@ -3,7 +3,7 @@
 #define FE_STEP_NARROW_H
 #include "step/view.h"
 
-// A gap on whose way the features of two shapes change little, m
+// While a gap of this closes, m, the features of two shapes change little
 #define FE__TURNS_LITTLE 0.005f
 
 static inline void fe__copy3(float *out, fe_vec3 a) { out[0] = a.x, out[1] = a.y, out[2] = a.z; }
@@ -16,7 +16,7 @@ float fe__reach_in_step(const fe_world *world, const fe__body *a, const fe__body
 // how far a manifold with points may slide or turn before it is looked for anew, m
 float fe__recycle_tolerance(const fe__view *v);
 // Everything of a contact but its tolerance and impulses. `ahead`: `at` is not where the bodies are now.
-void fe__write_manifold(const fe_world *world, fe__contact *m, const fe__view *v, const fe__places *at, const fe__manifold *found,
-                        int32_t ahead);
+void fe__write_manifold(const fe_world *world, fe__contact *m, const fe__view *v, const fe__places *at,
+                        const fe__manifold *found, int32_t ahead);
 
 #endif

@@ -1,7 +1,8 @@
 // narrow_field.c - the narrow phase of a pair with a heightfield: patches by direction, each a contact of its own.
 //
-// Called by the collide stage on any thread, for heads that cannot be recycled. Only the pair's own records are written. The frame has the
-// heightfield's axes and its origin at the other shape; double positions are subtracted here.
+// Called by the collide stage on any thread, for heads that cannot be recycled. Only the pair's own records are
+// written. The frame has the heightfield's axes and its origin at the other shape; double positions are subtracted
+// here.
 #include "step/narrow_field.h"
 
 #include "collision/manifold/terrain.h"
@@ -28,30 +29,36 @@ typedef struct pair_view {
     float dt, speed_limit; // s; m/s that no point of either body exceeds
 } pair_view;
 
-// ---- one look -------------------------------------------------------------------------------------------------------------------------
+// ---- one look
+// -------------------------------------------------------------------------------------------------------------------------
 // Other heightfields that the same body is near: their surfaces may go on where this one ends.
 static void find_neighbours(const fe_world *w, const look *l, const fe__pose *pose, fe__terrain *terrain)
 {
     int32_t body = l->v.b->body;
     for (int32_t pair = w->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(w, pair, body)) {
         const fe__pair *p = w->pairs + pair;
-        const fe__shape *x = w->shapes + p->shape_a, *y = w->shapes + p->shape_b, *field = fe__form_is_field(&x->form) ? x : y;
+        const fe__shape *x = w->shapes + p->shape_a, *y = w->shapes + p->shape_b,
+                        *field = fe__form_is_field(&x->form) ? x : y;
         if (p->flags & FE__PAIR_PATCH || p->next_patch < 0 || field == l->v.a || (x != l->v.b && y != l->v.b)) continue;
         if (terrain->neighbour_count == FE__NEIGHBOURS) return;
         fe_quat turn = fe__product(fe__conjugate(pose->rotation), field->pose.rotation);
         terrain->neighbours[terrain->neighbour_count++] =
-            (fe__neighbour){w->fields + field->form.field,
-                            fe__drotate_back(field->pose.rotation, fe__dsub(l->v.origin, field->pose.position)), fe__matrix(turn)};
+            (fe__neighbour){fe__store_field(w->store, field->form.field),
+                            fe__drotate_back(field->pose.rotation, fe__dsub(l->v.origin, field->pose.position)),
+                            fe__matrix(turn)};
     }
 }
 
 static void look_at(const pair_view *p, const fe__pose *pose_field, const fe__pose *pose_other, float margin, look *l)
 {
     const fe_world *w = p->world;
-    l->v = (fe__view){.a = p->field, .b = p->other, .origin = pose_other->position, .rotation = fe__matrix(pose_field->rotation)};
+    l->v = (fe__view){.a = p->field,
+                      .b = p->other,
+                      .origin = pose_other->position,
+                      .rotation = fe__matrix(pose_field->rotation)};
     l->v.form_a = p->field->form;
     fe__terrain terrain; // its neighbours mean something up to their count
-    terrain.field = w->fields + p->field->form.field, terrain.neighbour_count = 0;
+    terrain.field = fe__store_field(w->store, p->field->form.field), terrain.neighbour_count = 0;
     terrain.origin = fe__drotate_back(pose_field->rotation, fe__dsub(pose_other->position, pose_field->position));
     if (w->field_pair_count > 1) find_neighbours(w, l, pose_field, &terrain);
     fe__mat3 rotation = fe__matrix(fe__product(fe__conjugate(pose_field->rotation), pose_other->rotation));
@@ -73,13 +80,16 @@ static float deepest_of(const look *l)
 {
     float deepest = l->patches[0].points[0].separation;
     for (int32_t i = 0; i < l->count; ++i)
-        for (int32_t k = 0; k < l->patches[i].count; ++k) deepest = fe__minf(deepest, l->patches[i].points[k].separation);
+        for (int32_t k = 0; k < l->patches[i].count; ++k)
+            deepest = fe__minf(deepest, l->patches[i].points[k].separation);
     return deepest;
 }
 
-// ---- ahead of time --------------------------------------------------------------------------------------------------------------------
-// As narrow.c, but a surface has no inside that would tell of a crossing: from far off the pair is followed by steps in which it cannot
-// close its gap (conservative advancement; Mirtich, 1996). 1: it touches within the step, at the poses looked at.
+// ---- ahead of time
+// --------------------------------------------------------------------------------------------------------------------
+// As narrow.c, but a surface has no inside that would show a crossing: from far off the pair is followed by steps in
+// which it cannot close its gap (conservative advancement; Mirtich, 1996). 1: it touches within the step, at the poses
+// looked at.
 static int32_t look_ahead(const pair_view *p, const look *now, look *then)
 {
     enum { MOST_LOOKS = 16 };
@@ -96,7 +106,8 @@ static int32_t look_ahead(const pair_view *p, const look *now, look *then)
     return then->count > 0;
 }
 
-// ---- records --------------------------------------------------------------------------------------------------------------------------
+// ---- records
+// --------------------------------------------------------------------------------------------------------------------------
 // What a record will hold: a patch of a look, and from which record its impulses come.
 typedef struct plan {
     const look *from;
@@ -112,7 +123,8 @@ typedef struct memory {
 
 static fe_vec3 world_normal(const plan *x) { return fe__mul(&x->from->v.rotation, x->patch->normal); }
 
-// A patch goes to the record whose normal is nearest to its own, so that impulses and colours stay. The head always has one.
+// A patch goes to the record whose normal is nearest to its own, so that impulses and colours stay. The head always has
+// one.
 static void assign(plan *plans, int32_t count, const memory *old, int32_t flipped, plan *slots)
 {
     const float alike = 0.9f; // cosine: 26 degrees
@@ -161,7 +173,8 @@ static fe__manifold manifold_of(const fe__patch *patch)
     return found;
 }
 
-static void write_record(fe_world *world, int32_t record, const plan *x, const look *now, const memory *old, float tolerance)
+static void write_record(fe_world *world, int32_t record, const plan *x, const look *now, const memory *old,
+                         float tolerance)
 {
     fe__pair *p = world->pairs + record;
     fe__contact *m = world->contacts + record;
@@ -198,7 +211,8 @@ static void write_records(fe_world *world, int32_t head, plan *plans, int32_t co
     }
 }
 
-// ---- the pair -------------------------------------------------------------------------------------------------------------------------
+// ---- the pair
+// -------------------------------------------------------------------------------------------------------------------------
 // Patches with a normal that `now` does not have
 static int32_t add_new_directions(plan *plans, int32_t count, const look *then)
 {
@@ -226,11 +240,13 @@ void fe__collide_field_pair(fe_world *world, int32_t head, float dt)
     const fe__contact *m = world->contacts + head;
     const fe__shape *x = world->shapes + p->shape_a, *y = world->shapes + p->shape_b;
     int32_t swapped = !fe__form_is_field(&x->form), sensor = (p->flags & FE__PAIR_SENSOR) != 0;
-    pair_view view = {world, world->bodies + m->body_a, world->bodies + m->body_b, swapped ? y : x, swapped ? x : y, dt, 0.0f};
+    pair_view view = {world, world->bodies + m->body_a, world->bodies + m->body_b, swapped ? y : x, swapped ? x : y, dt,
+                      0.0f};
     float margin = world->tuning.speculative_distance, reach = fe__reach_in_step(world, view.a, view.b, dt);
     view.speed_limit = dt > 0.0f ? reach / dt : 0.0f;
     look now, then;
-    now.at = (fe__places){fe__centre_of(view.a), fe__centre_of(view.b), fe__rotation_of(view.a), fe__rotation_of(view.b)};
+    now.at =
+        (fe__places){fe__centre_of(view.a), fe__centre_of(view.b), fe__rotation_of(view.a), fe__rotation_of(view.b)};
     look_at(&view, &view.field->pose, &view.other->pose, fe__maxf(margin, reach), &now);
 
     plan plans[FE__PATCHES];

@@ -1,8 +1,10 @@
-// narrow_seam.c - static boxes that lie flush: what rolls or slides over the seam must not feel the edge of the next one.
+// narrow_seam.c - static boxes that lie flush: what rolls or slides over the seam must not feel the edge of the next
+// one.
 //
-// Called by narrow.c with a manifold of a static box. A direction m of contact at a point q of the box holds only while no other static box
-// near the same body goes on from q and rises along m: it must lie in the normal cone of both (as in terrain_surface.h). A manifold whose
-// points all fail is exchanged for that of the box's face that the surroundings allow, which may have no points.
+// Called by narrow.c with a manifold of a static box. A direction m of contact at a point q of the box holds only while
+// no other static box near the same body goes on from q and rises along m: it must lie in the normal cone of both (as
+// in terrain_surface.h). A manifold whose points all fail is exchanged for that of the box's face that the surroundings
+// allow, which may have no points.
 #include "step/narrow_seam.h"
 
 #include "collision/form/clip.h"
@@ -13,7 +15,8 @@
 
 // Boxes closer than this lie flush, m
 #define FLUSH 0.001f
-// So far inside its rim a face is asked whether it is open, m, and as a share of its half width: the rim itself lies in every inner corner
+// So far inside its rim a face is asked whether it is open, m, and as a share of its half width: the rim itself lies in
+// every inner corner
 #define INSIDE 0.01f
 #define INSIDE_SHARE 0.1f
 
@@ -36,15 +39,17 @@ typedef struct seam {
 static placed place(const fe__view *v, const fe__shape *shape)
 {
     fe__mat3 r = fe__matrix(shape->pose.rotation);
-    placed p = {.form = &shape->form, .centre = fe__mul_transposed(&v->rotation, fe__narrow(fe__dsub(shape->pose.position, v->origin)))};
-    p.axes =
-        (fe__mat3){fe__mul_transposed(&v->rotation, r.x), fe__mul_transposed(&v->rotation, r.y), fe__mul_transposed(&v->rotation, r.z)};
+    placed p = {.form = &shape->form,
+                .centre = fe__mul_transposed(&v->rotation, fe__narrow(fe__dsub(shape->pose.position, v->origin)))};
+    p.axes = (fe__mat3){fe__mul_transposed(&v->rotation, r.x), fe__mul_transposed(&v->rotation, r.y),
+                        fe__mul_transposed(&v->rotation, r.z)};
     return p;
 }
 
 static int32_t is_static_box(const fe_world *w, const fe__shape *shape)
 {
-    return fe__form_has_flat_faces(&shape->form) && w->bodies[shape->body].type == FE_BODY_STATIC && !(shape->flags & FE__SHAPE_TRIGGER);
+    return fe__form_has_flat_faces(&shape->form) && w->bodies[shape->body].type == FE_BODY_STATIC &&
+           !(shape->flags & FE__SHAPE_TRIGGER);
 }
 
 // Other static boxes that the same shape is near
@@ -61,7 +66,8 @@ static void find_near(const fe_world *w, const fe__view *v, const fe__shape *box
 // Does the near box hold q, and go on from there along m?
 static int32_t goes_on(const placed *n, fe_vec3 q, fe_vec3 m)
 {
-    fe_vec3 half = n->form->half, p = fe__mul_transposed(&n->axes, fe__sub(q, n->centre)), along = fe__mul_transposed(&n->axes, m);
+    fe_vec3 half = n->form->half, p = fe__mul_transposed(&n->axes, fe__sub(q, n->centre)),
+            along = fe__mul_transposed(&n->axes, m);
     if (fe__absf(p.x) > half.x + FLUSH || fe__absf(p.y) > half.y + FLUSH || fe__absf(p.z) > half.z + FLUSH) return 0;
     float reach = fe__absf(along.x) * half.x + fe__absf(along.y) * half.y + fe__absf(along.z) * half.z;
     return reach - fe__dot(along, p) > FLUSH;
@@ -95,7 +101,8 @@ static int32_t all_shut(const seam *s, const fe_vec3 *q, int32_t count, fe_vec3 
     return 1;
 }
 
-// ---- the face instead -----------------------------------------------------------------------------------------------------------------
+// ---- the face instead
+// -----------------------------------------------------------------------------------------------------------------
 static fe_vec3 face_normal(const placed *box, int32_t face)
 {
     fe_vec3 axis = face / 2 == 0 ? box->axes.x : face / 2 == 1 ? box->axes.y : box->axes.z;
@@ -182,6 +189,7 @@ void fe__mend_seam(const fe_world *world, const fe__view *v, float margin, fe__m
     s.box = box_is_a ? a : b, s.other = box_is_a ? b : a;
     float sign = box_is_a ? 1.0f : -1.0f;
     fe_vec3 m = fe__scale(sign, found->normal), q[FE_MAX_POINTS];
-    for (int32_t i = 0; i < found->count; ++i) q[i] = fe__add_scaled(found->points[i].point, -0.5f * found->points[i].separation, m);
+    for (int32_t i = 0; i < found->count; ++i)
+        q[i] = fe__add_scaled(found->points[i].point, -0.5f * found->points[i].separation, m);
     if (all_shut(&s, q, found->count, m)) take_open_face(&s, q, m, sign, found);
 }

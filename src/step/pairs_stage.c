@@ -1,8 +1,8 @@
 // pairs_stage.c - stage 1: which shapes came near each other.
 //
-// Shapes with a new box (fe_world.moved) ask the trees and the planes; what passes the filter and has no record is a candidate. Workers
-// write to buffers of their own, merged and sorted by creation, so that neither the workers nor the trees show. Nothing of the world is
-// changed before all memory that the step can need is reserved.
+// Shapes with a new box (fe_world.moved) ask the trees and the planes; what passes the filter and has no record is a
+// candidate. Workers write to buffers of their own, merged and sorted by creation, so that neither the workers nor the
+// trees show. Nothing of the world is changed before all memory that the step can need is reserved.
 #include "step/pairs_stage.h"
 
 #include "step/reserve.h"
@@ -28,7 +28,8 @@ static int32_t found(void *context, int32_t other)
     if (!fe__may_collide(w, s->shape, other) || fe__pair_set_find(&w->pair_set, s->shape, other) >= 0) return 1;
     int32_t first = w->shapes[s->shape].serial < w->shapes[other].serial;
     if (s->buffer->count < s->room)
-        s->buffer->items[s->buffer->count] = first ? (fe__candidate){s->shape, other} : (fe__candidate){other, s->shape};
+        s->buffer->items[s->buffer->count] =
+            first ? (fe__candidate){s->shape, other} : (fe__candidate){other, s->shape};
     ++s->buffer->count;
     return 1;
 }
@@ -85,7 +86,8 @@ static int32_t reserve_candidates(fe__step *step, int32_t room)
     int32_t workers = step->world->workers.count;
     if (!FE_RESERVE(&step->world->memory, s->candidates, s->candidate_capacity, (int64_t)room * workers)) return 0;
     s->candidate_room = s->candidate_capacity / workers;
-    for (int32_t i = 0; i < workers; ++i) s->buffers[i].items = s->candidates + i * s->candidate_room, s->buffers[i].count = 0;
+    for (int32_t i = 0; i < workers; ++i)
+        s->buffers[i].items = s->candidates + i * s->candidate_room, s->buffers[i].count = 0;
     return 1;
 }
 

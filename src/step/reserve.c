@@ -1,7 +1,7 @@
 // reserve.c - all memory that a step can need, before it changes anything.
 //
-// The bounds follow from what is awake, what may wake, and the candidates just found. When one allocation fails, the step fails with the
-// world as it was; later stages cannot fail, so that no contact and no event is ever dropped.
+// The bounds follow from what is awake, what may wake, and the candidates just found. When one allocation fails, the
+// step fails with the world as it was; later stages cannot fail, so that no contact and no event is ever dropped.
 #include "step/reserve.h"
 
 #include "solver/graph/graph.h"
@@ -22,13 +22,16 @@ static int32_t may_wake(const fe__step *step)
     const fe__step_scratch *s = step->scratch;
     if (w->awake_body_count == w->body_count - w->static_count) return 0;
     for (int32_t i = 0; i < s->candidate_count; ++i) {
-        const fe__body *a = w->bodies + w->shapes[s->candidates[i].shape_a].body, *b = w->bodies + w->shapes[s->candidates[i].shape_b].body;
-        if ((a->awake_index < 0 && a->type == FE_BODY_DYNAMIC) || (b->awake_index < 0 && b->type == FE_BODY_DYNAMIC)) return 1;
+        const fe__body *a = w->bodies + w->shapes[s->candidates[i].shape_a].body,
+                       *b = w->bodies + w->shapes[s->candidates[i].shape_b].body;
+        if ((a->awake_index < 0 && a->type == FE_BODY_DYNAMIC) || (b->awake_index < 0 && b->type == FE_BODY_DYNAMIC))
+            return 1;
     }
     for (int32_t i = 0; i < w->awake_pair_count; ++i) {
         const fe__contact *m = w->contacts + fe__pair_of(w->awake_pairs[i]);
         const fe__body *a = w->bodies + m->body_a, *b = w->bodies + m->body_b;
-        if (m->colour < 0 && ((a->awake_index < 0 && a->type == FE_BODY_DYNAMIC) || (b->awake_index < 0 && b->type == FE_BODY_DYNAMIC)))
+        if (m->colour < 0 &&
+            ((a->awake_index < 0 && a->type == FE_BODY_DYNAMIC) || (b->awake_index < 0 && b->type == FE_BODY_DYNAMIC)))
             return 1;
     }
     return 0;
@@ -62,7 +65,8 @@ static void add_candidates(const fe__step *step, fe__graph_bound *b)
         for (int k = 0; k < 2; ++k) {
             fe__body *body = w->bodies + w->shapes[shapes[k]].body;
             body->coming_contacts += patches;
-            if (body->type == FE_BODY_DYNAMIC) b->most_contacts = fe__maxi(b->most_contacts, body->contact_count + body->coming_contacts);
+            if (body->type == FE_BODY_DYNAMIC)
+                b->most_contacts = fe__maxi(b->most_contacts, body->contact_count + body->coming_contacts);
         }
     }
 }
@@ -72,7 +76,8 @@ static void forget_candidates(const fe__step *step)
     const fe_world *w = step->world;
     for (int32_t i = 0; i < step->scratch->candidate_count; ++i) {
         const fe__candidate *c = step->scratch->candidates + i;
-        w->bodies[w->shapes[c->shape_a].body].coming_contacts = w->bodies[w->shapes[c->shape_b].body].coming_contacts = 0;
+        w->bodies[w->shapes[c->shape_a].body].coming_contacts = w->bodies[w->shapes[c->shape_b].body].coming_contacts =
+            0;
     }
 }
 
@@ -99,7 +104,8 @@ static fe__graph_bound bound_of(const fe__step *step)
     int32_t all = may_wake(step);
     fe__graph_bound b = {0};
     b.bodies = all ? w->body_count : w->awake_body_count;
-    b.contacts = (all ? w->pair_count : w->awake_pair_count) + step->scratch->candidate_count + w->field_pair_count * (FE__PATCHES - 1);
+    b.contacts = (all ? w->pair_count : w->awake_pair_count) + step->scratch->candidate_count +
+                 w->field_pair_count * (FE__PATCHES - 1);
     b.most_contacts = w->most_contacts;
     b.kinds = w->row_kinds;
     add_candidates(step, &b);
@@ -123,7 +129,8 @@ static int32_t reserve_scratch(fe__step *step, const fe__graph_bound *b)
     sorted += w->owed_count + w->joint_count;
     return FE_RESERVE(memory, s->results, s->result_capacity, (int64_t)b->contacts + 1) &&
            FE_RESERVE(memory, s->busy, s->busy_capacity, (int64_t)b->contacts + 1) &&
-           FE_RESERVE(memory, s->left, s->left_capacity, w->shape_count) && FE_RESERVE(memory, s->boxes, s->box_capacity, w->shape_count) &&
+           FE_RESERVE(memory, s->left, s->left_capacity, w->shape_count) &&
+           FE_RESERVE(memory, s->boxes, s->box_capacity, w->shape_count) &&
            FE_RESERVE(memory, s->chased, s->chased_capacity, (int64_t)2 * b->bodies) &&
            FE_RESERVE(memory, s->chases, s->chase_capacity, w->has_bullets ? b->bodies : 0) &&
            FE_RESERVE(memory, s->island_timers, s->island_capacity, b->bodies) &&
@@ -139,8 +146,9 @@ int32_t fe__reserve_step(fe__step *step)
     fe_world *w = step->world;
     if (!fe__find_joint_trees(w)) return 0;
     fe__graph_bound bound = bound_of(step);
-    if (!fe__reserve_pairs(w, step->scratch->candidate_count + step->scratch->candidate_patches) || !reserve_scratch(step, &bound))
+    if (!fe__reserve_pairs(w, step->scratch->candidate_count + step->scratch->candidate_patches) ||
+        !reserve_scratch(step, &bound))
         return 0;
-    return bound.bodies == 0 ||
-           (fe__bound_islands(step, &bound) && fe__graph_reserve(&w->solver, &w->memory, w->kernels, &bound, w->workers.count));
+    return bound.bodies == 0 || (fe__bound_islands(step, &bound) &&
+                                 fe__graph_reserve(&w->solver, &w->memory, w->kernels, &bound, w->workers.count));
 }

@@ -1,4 +1,5 @@
-// solve_stage.c - see solve_stage.h. The constants of each pace of substeps, and the speeds of impacts before the solver.
+// solve_stage.c - see solve_stage.h. The constants of each pace of substeps, and the speeds of impacts before the
+// solver.
 #include "step/solve_stage.h"
 
 #include "solver/solve.h"
@@ -6,20 +7,22 @@
 
 #include <float.h>
 
-// Impulses of rest grow with the substep, those of an impact do not: after a much shorter substep they are too large a guess
+// Impulses of rest grow with the substep, those of an impact do not: after a much shorter substep they are too large a
+// guess
 #define MOST_WARM_SCALE 16.0f
 
-// An island is strained by a load that lasts and could accelerate a body by so many times gravity (a stack of 40 equal boxes), until it is
-// less than a quarter of that. Without gravity that of the earth counts.
+// An island is strained by a load that lasts and could accelerate a body by so many times gravity (a stack of 40 equal
+// boxes), until it is less than a quarter of that. Without gravity that of the earth counts.
 #define STRAIN 80.0f
-// Impulses pass on by a body or so in a rigid pass, and the impact of a body hundreds of times as heavy needs hundreds: it arrives late,
-// with the bodies between deep in each other. In a strained island substeps are about a thousandth of a second, of three passes.
+// Impulses pass on by a body or so in a rigid pass, and the impact of a body hundreds of times as heavy needs hundreds:
+// it arrives late, with the bodies between deep in each other. In a strained island substeps are about a thousandth of
+// a second, of three passes.
 #define FINE_RATE 960.0f
 enum { MOST_DIVISION = 16, FINE_SWEEPS = 3 };
-// A net of joints that bears more than its substeps can pass on opens. From ten times the linear slop on it is stretched, and has substeps
-// as short as by default, until no joint is open by half as much.
+// A net of joints that bears more than its substeps can pass on opens. From ten times the linear slop on it is
+// stretched, and has substeps as short as by default, until no joint is open by half as much.
 #define STRETCHED_RATE 480.0f
-#define OPEN 0.05f // m
+#define STRETCHED_GAP 0.05f // m
 
 static int32_t division_of(float h, float rate)
 {
@@ -35,21 +38,25 @@ static float strain_of(const fe_world *w, float dt)
     return STRAIN * dt * (square > 0.0f ? __builtin_sqrtf(square) : 9.81f);
 }
 
-// Hertz are limited to what the world's substeps can follow: contacts' to an eighth of their rate, against static bodies to a quarter.
-// Joints': of a mode of many rows a pass puts right only a small share. It swings at sqrt(2 share) / h, the pushes of the soft pass add up
-// in its impulses, and its amplitude grows by 1 + (x^2 - 2) fade / 4 a substep, x = 2 pi hertz h, less what the passes take. So x^2 < 2,
-// 0.225 of the rate. Contacts against static bodies are stiffer than that, but end modes of softer ones.
+// Hertz are limited to what the world's substeps can follow: contacts' to an eighth of their rate, against static
+// bodies to a quarter. Joints': of a mode of many rows a pass puts right only a small share. It swings at sqrt(2 share)
+// / h, the pushes of the soft pass add up in its impulses, and its amplitude grows by 1 + (x^2 - 2) fade / 4 a substep,
+// x = 2 pi hertz h, less what the passes take. So x^2 < 2, 0.225 of the rate. Contacts against static bodies are
+// stiffer than that, but end modes of softer ones.
 
 fe__step_constants fe__constants_of(const fe_world *w, float dt, int32_t division)
 {
     const fe_world_tuning *t = &w->tuning;
-    float whole = dt / (float)w->substeps, rate = whole > 0.0f ? 1.0f / whole : 0.0f, hertz = fe__minf(t->contact_hertz, FE__MOST_CONTACT_HERTZ * rate);
+    float whole = dt / (float)w->substeps, rate = whole > 0.0f ? 1.0f / whole : 0.0f,
+          hertz = fe__minf(t->contact_hertz, FE__MOST_CONTACT_HERTZ * rate);
     float h = whole / (float)division;
     fe__step_constants c = {.h = h,
                             .inverse_h = h > 0.0f ? 1.0f / h : 0.0f,
                             .bias_speed = t->contact_push_speed,
                             .threshold = t->restitution_threshold,
-                            .warm_scale = w->last_h > 0.0f ? fe__minf(whole / w->last_h, MOST_WARM_SCALE) / (float)division : 0.0f,
+                            .warm_scale = w->last_h > 0.0f
+                                              ? fe__minf(whole / w->last_h, MOST_WARM_SCALE) / (float)division
+                                              : 0.0f,
                             .max_speed = t->max_linear_speed,
                             .speculative = t->speculative_distance,
                             .strain = strain_of(w, dt),
@@ -71,7 +78,7 @@ static void constants_of_paces(const fe_world *w, float dt, fe__step_constants p
     int32_t division = division_of(whole, STRETCHED_RATE);
     fe__step_constants *usual = paces + FE__USUAL, *strained = paces + FE__STRAINED, *stretched = paces + FE__STRETCHED;
     *usual = fe__constants_of(w, dt, 1);
-    usual->open = division > 1 ? OPEN * OPEN : FLT_MAX;
+    usual->open = division > 1 ? STRETCHED_GAP * STRETCHED_GAP : FLT_MAX;
     *strained = fe__constants_of(w, dt, division_of(whole, FINE_RATE));
     strained->strain *= 0.25f;
     strained->forgets = FLT_MAX;

@@ -19,8 +19,9 @@ typedef struct stage {
 } stage;
 
 static const stage stages[] = {
-    {fe__find_new_pairs, offsetof(fe_profile, pairs), 0},        // queries of moved proxies -> new pairs; all memory reserved
-    {fe__update_contacts, offsetof(fe_profile, collide), 0},     // narrow phase or recycling -> manifolds, begin and end, wakes
+    {fe__find_new_pairs, offsetof(fe_profile, pairs), 0}, // queries of moved proxies -> new pairs; all memory reserved
+    {fe__update_contacts, offsetof(fe_profile, collide),
+     0}, // narrow phase or recycling -> manifolds, begin and end, wakes
     {fe__build_islands, offsetof(fe_profile, islands), 0},       // small ones into batches, large ones into colours
     {fe__solve_islands, offsetof(fe_profile, solve), 1},         // all substeps -> velocities, motion, impulses
     {fe__stop_fast_bodies, offsetof(fe_profile, continuous), 1}, // continuous collision of what outran its thickness

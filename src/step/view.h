@@ -1,4 +1,5 @@
-// view.h - a pair as the narrow phase sees it: one shape in the frame of the other, the bodies at some time of the step.
+// view.h - a pair as the narrow phase sees it: one shape in the frame of the other, the bodies at some time of the
+// step.
 #ifndef FE_STEP_VIEW_H
 #define FE_STEP_VIEW_H
 #include "collision/manifold/manifold.h"

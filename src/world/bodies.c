@@ -1,10 +1,11 @@
 // bodies.c - the life of bodies: birth, pose, type, locks, enabling, death.
 //
-// Called by the API layer with checked arguments, between steps. A body's pose is its origin and rotation as they were set; the step moves
-// the centre of mass and derives the origin from it. Mass is in mass.c, velocities and forces in motion.c, shapes in shapes.c.
+// Called by the API layer with checked arguments, between steps. A body's pose is its origin and rotation as they were
+// set; the step moves the centre of mass and derives the origin from it. Mass is in mass.c, velocities and forces in
+// motion.c, shapes in shapes.c.
 #include "world/bodies.h"
 
-#include "world/assets.h"
+#include "world/asset_users.h"
 #include "world/joints.h"
 #include "world/mass.h"
 #include "world/pair_list.h"
@@ -16,20 +17,6 @@
 #include "world/speed.h"
 
 #include <string.h>
-
-fe_result fe__reserve_bodies(fe_world *world, int32_t extra)
-{
-    fe_result ids = fe__id_pool_reserve(&world->body_ids, &world->memory, extra);
-    if (ids != FE_OK) return ids;
-    int64_t opened = world->body_ids.slot_count, fresh = fe__maxi(0, extra - world->body_ids.free_count);
-    if (!FE_RESERVE(&world->memory, world->bodies, world->body_capacity, opened + fresh) ||
-        !FE_RESERVE(&world->memory, world->odometers, world->odometer_capacity, opened + fresh))
-        return FE_ERROR_MEMORY;
-    int64_t alive = (int64_t)world->body_count + extra;
-    int32_t room = FE_RESERVE(&world->memory, world->awake_bodies, world->awake_body_capacity, alive) &&
-                   FE_RESERVE(&world->memory, world->stirred, world->stirred_capacity, world->body_capacity);
-    return room ? FE_OK : FE_ERROR_MEMORY;
-}
 
 static void append_to_order(fe_world *world, int32_t index)
 {
@@ -64,7 +51,8 @@ static void set_pose(fe__body *body, const fe_transform *transform)
 {
     fe_quat q = fe__unit_rotation(transform->rotation);
     body->rotation[0] = q.x, body->rotation[1] = q.y, body->rotation[2] = q.z, body->rotation[3] = q.w;
-    body->origin[0] = transform->position.x, body->origin[1] = transform->position.y, body->origin[2] = transform->position.z;
+    body->origin[0] = transform->position.x, body->origin[1] = transform->position.y,
+    body->origin[2] = transform->position.z;
     fe__body_place_centre(body);
 }
 
@@ -157,12 +145,14 @@ void fe__body_destroy(fe_world *world, int32_t index)
 
 static void enter_shapes(fe_world *world, int32_t body)
 {
-    for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next) fe__shape_enter(world, shape);
+    for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next)
+        fe__shape_enter(world, shape);
 }
 
 static void leave_shapes(fe_world *world, int32_t body)
 {
-    for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next) fe__shape_leave(world, shape);
+    for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next)
+        fe__shape_leave(world, shape);
 }
 
 static void forget_forces(fe__body *body)
@@ -175,7 +165,7 @@ fe_result fe__body_set_type(fe_world *world, int32_t index, int32_t type)
 {
     fe__body *body = &world->bodies[index];
     if (body->type == type) return FE_OK;
-    if (!fe__reserve_proxies(world, body->shape_count)) return FE_ERROR_MEMORY;
+    if (!fe__reserve_proxies(world, type, body->shape_count)) return FE_ERROR_MEMORY;
 
     part_from_neighbours(world, index);
     if (body->awake_index >= 0) fe__body_retire(world, index);
@@ -209,7 +199,7 @@ fe_result fe__body_set_enabled(fe_world *world, int32_t index, int32_t enabled)
         fe__body_link_joints(world, index); // none of them acts now
         return FE_OK;
     }
-    if (!fe__reserve_proxies(world, body->shape_count)) return FE_ERROR_MEMORY;
+    if (!fe__reserve_proxies(world, body->type, body->shape_count)) return FE_ERROR_MEMORY;
     body->flags |= FE__BODY_ENABLED;
     body->sleep_timer = 0.0f;
     enter_shapes(world, index);
@@ -217,18 +207,21 @@ fe_result fe__body_set_enabled(fe_world *world, int32_t index, int32_t enabled)
     return FE_OK;
 }
 
-// Pairs stay: the narrow phase sees how far the body went, and those that came apart end in the next step with their exits.
+// Pairs stay: the narrow phase sees how far the body went, and those that came apart end in the next step with their
+// exits.
 void fe__body_set_transform(fe_world *world, int32_t index, const fe_transform *transform)
 {
     fe__body *body = &world->bodies[index];
     fe__body_disturb(world, index);
     set_pose(body, transform);
-    fe__body_end_waits(world, index);
+    fe__body_end_deferrals(world, index);
     fe__body_place(world, index);
     fe__body_wind_joints(world, index);
-    for (int32_t shape = body->first_shape; shape >= 0; shape = world->shapes[shape].next) fe__shape_touch(world, shape);
+    for (int32_t shape = body->first_shape; shape >= 0; shape = world->shapes[shape].next)
+        fe__shape_touch(world, shape);
     if (body->type != FE_BODY_STATIC) return;
-    for (int32_t pair = body->first_contact; pair >= 0; pair = fe__next_pair(world, pair, index)) fe__pair_look_once(world, pair);
+    for (int32_t pair = body->first_contact; pair >= 0; pair = fe__next_pair(world, pair, index))
+        fe__pair_look_once(world, pair);
 }
 
 void fe__body_set_locks(fe_world *world, int32_t index, uint32_t linear, uint32_t angular)

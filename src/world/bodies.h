@@ -3,9 +3,8 @@
 // What cannot fail returns void; otherwise FE_OK or the reason, with nothing changed.
 #ifndef FE_WORLD_BODIES_H
 #define FE_WORLD_BODIES_H
-#include "world/world.h"
+#include "world/body_room.h"
 
-fe_result fe__reserve_bodies(fe_world *world, int32_t extra);     // the `extra` creations that follow cannot fail
 int32_t fe__body_create(fe_world *world, const fe_body_def *def); // index; room was reserved
 void fe__body_destroy(fe_world *world, int32_t body);
 fe_result fe__body_set_type(fe_world *world, int32_t body, int32_t type);

@@ -6,7 +6,8 @@
 
 int32_t fe__clusters_reserve(fe__clusters *c, fe__memory *memory, int32_t bodies)
 {
-    return FE_RESERVE(memory, c->parent, c->capacity[0], bodies) && FE_RESERVE(memory, c->lanes, c->capacity[1], bodies);
+    return FE_RESERVE(memory, c->parent, c->capacity[0], bodies) &&
+           FE_RESERVE(memory, c->lanes, c->capacity[1], bodies);
 }
 
 void fe__clusters_part(fe__clusters *c)

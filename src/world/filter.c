@@ -1,6 +1,7 @@
 // filter.c - who may touch whom.
 //
-// Asked by the broad phase before a pair exists, so that what may not touch costs no narrow phase, wakes nobody and makes no event.
+// Asked by the broad phase before a pair exists, so that what may not touch costs no narrow phase, wakes nobody and
+// makes no event.
 #include "world/filter.h"
 
 #include "world/joint_list.h"

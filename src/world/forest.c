@@ -1,18 +1,23 @@
-// forest.c - finds the trees among the joints, see solver/tree/forest.h. Input: linked joints and masses; output: fe__joints.forest.
+// forest.c - finds the trees among the joints, see solver/tree/forest.h. Input: linked joints and masses; output:
+// fe__joints.forest.
 //
 // Only what a sweep is bad at is worth the cost: a tree in which some joint bears far more than its own bodies weigh.
 #include "world/forest.h"
 
 #include "world/joint_list.h"
 
-// The load on a joint against the effective mass that its stiffness counts with (m w^2), from which on a tree is solved at once. Under its
-// own weight such a joint of 60 Hz gives by 32 g / (2 pi 60 Hz)^2 = 2.2 mm: about half the linear slop.
+// The load on a joint against the effective mass that its stiffness counts with (m w^2), from which on a tree is solved
+// at once. Under its own weight such a joint of 60 Hz gives by 32 g / (2 pi 60 Hz)^2 = 2.2 mm: about half the linear
+// slop.
 #define HEAVY_LOAD 32.0f
 // The same for joints that lock rotations: such a row is a beam, which bends with the cube of its length
 #define HEAVY_BEAM 4.0f
 
 // A joint with hertz of its own is a spring, unless they are at least those of all that is rigid
-static int32_t is_spring(const fe_world *w, const fe__joint *j) { return j->hertz > 0.0f && j->hertz < w->tuning.joint_hertz; }
+static int32_t is_spring(const fe_world *w, const fe__joint *j)
+{
+    return j->hertz > 0.0f && j->hertz < w->tuning.joint_hertz;
+}
 
 // 1: rigid, so that it may be met exactly. Springs are not, nor limits, nor what has no colour of its own
 static int32_t is_edge(const fe_world *w, int32_t joint)
@@ -33,7 +38,8 @@ static int32_t is_beam(const fe_world *w, int32_t joint)
 
 static int32_t is_dynamic(const fe_world *w, int32_t body) { return w->bodies[body].type == FE_BODY_DYNAMIC; }
 
-// A door hangs on two hinges. The second of one axis locks what the first does, so that it closes no loop: it is left to the sweep.
+// A door hangs on two hinges. The second of one axis locks what the first does, so that it closes no loop: it is left
+// to the sweep.
 #define SAME_WAY 0.001f  // m, a fifth of the linear slop
 #define SAME_TURN 0.001f // rad
 
@@ -61,10 +67,10 @@ static int32_t have_one_axle(const fe_world *w, int32_t joint, int32_t other)
     const axle second[2] = {axle_of(g->frame_a, j->arm_a), axle_of(g->frame_b, j->arm_b)};
     float along[2], same[2];
     for (int k = 0; k < 2; ++k) {
-        fe_vec3 way = fe__sub(second[k].at, first[k].at), across = fe__cross(first[k].axis, way);
+        fe_vec3 between = fe__sub(second[k].at, first[k].at), across = fe__cross(first[k].axis, between);
         fe_vec3 turn = fe__cross(first[k].axis, second[k].axis);
         if (fe__dot(across, across) > SAME_WAY * SAME_WAY || fe__dot(turn, turn) > SAME_TURN * SAME_TURN) return 0;
-        along[k] = fe__dot(first[k].axis, way), same[k] = fe__dot(first[k].axis, second[k].axis);
+        along[k] = fe__dot(first[k].axis, between), same[k] = fe__dot(first[k].axis, second[k].axis);
     }
     return same[0] * same[1] > 0.0f && fe__absf(along[1] - along[0]) < SAME_WAY;
 }
@@ -74,7 +80,8 @@ static int32_t is_second_hinge(const fe_world *w, int32_t joint)
 {
     const int32_t *ends = w->joint_records[joint].body;
     int32_t at = ends[!is_dynamic(w, ends[0])];
-    if (is_dynamic(w, ends[1]) && w->bodies[ends[1]].joint_count < w->bodies[at].joint_count) at = ends[1]; // the shorter list
+    if (is_dynamic(w, ends[1]) && w->bodies[ends[1]].joint_count < w->bodies[at].joint_count)
+        at = ends[1]; // the shorter list
     if (!is_hinge(w, joint)) return 0;
     for (int32_t i = w->bodies[at].first_joint; i != joint; i = fe__next_joint(w, i, at)) {
         const int32_t *others = w->joint_records[i].body;
@@ -86,13 +93,17 @@ static int32_t is_second_hinge(const fe_world *w, int32_t joint)
 
 static fe__tree_link link_to(const fe_world *w, int32_t body, int32_t joint, int32_t parent)
 {
-    return (fe__tree_link){.body = body, .joint = joint, .parent = parent, .holds_b = joint && w->joint_records[joint].body[1] == body};
+    return (fe__tree_link){.body = body,
+                           .joint = joint,
+                           .parent = parent,
+                           .holds_b = joint && w->joint_records[joint].body[1] == body};
 }
 
 typedef struct component {
     int32_t bodies, edges; // dynamic bodies, joints between them
     int32_t anchors;       // joints to the rest of the world
-    int32_t root, anchor;  // of a tree: the anchored body, or else the first that a spring holds, or the first of all; its anchor, 0: none
+    int32_t root, anchor;  // of a tree: the anchored body, or else the first that a spring holds, or the first of all;
+                           // its anchor, 0: none
     int32_t sprung;        // 1: a spring holds the root
 } component;
 
@@ -176,9 +187,10 @@ static void keep_tree(fe__forest *f, int32_t count, int32_t heavy)
     f->link_count += count;
 }
 
-// Where a turn would have to answer along a locked axis there are poses from which no way leads on, and near them forces without bound: a
-// spring gives there, an exact solution does not. It never has to where turns about the other two axes are locked as well (a plane, its
-// bodies turn about its normal), or all. Of turns locked about one axis alone no pose tells what they were.
+// Where a turn would have to answer along a locked axis there are poses from which no way leads on, and near them
+// forces without bound: a spring gives there, an exact solution does not. It never has to where turns about the other
+// two axes are locked as well (a plane, its bodies turn about its normal), or all. Of turns locked about one axis alone
+// no pose tells what they were.
 static int32_t has_way_on(uint32_t locks)
 {
     const uint32_t linear = locks & FE_AXIS_ALL, angular = locks >> 3;

@@ -3,9 +3,18 @@
 #define FE_WORLD_HANDLES_H
 #include "world/world.h"
 
-static inline fe_handle fe__body_handle(const fe_world *world, int32_t body) { return fe__id_pool_handle(&world->body_ids, body); }
-static inline fe_handle fe__shape_handle(const fe_world *world, int32_t shape) { return fe__id_pool_handle(&world->shape_ids, shape); }
-static inline fe_handle fe__asset_handle(const fe_world *world, int32_t asset) { return fe__id_pool_handle(&world->asset_ids, asset); }
+static inline fe_handle fe__body_handle(const fe_world *world, int32_t body)
+{
+    return fe__id_pool_handle(&world->body_ids, body);
+}
+static inline fe_handle fe__shape_handle(const fe_world *world, int32_t shape)
+{
+    return fe__id_pool_handle(&world->shape_ids, shape);
+}
+static inline fe_handle fe__asset_handle(const fe_world *world, int32_t asset)
+{
+    return fe__store_asset(world->store, asset)->handle;
+}
 static inline fe_handle fe__joint_handle(const fe_world *world, int32_t joint)
 {
     return fe__id_pool_handle(&world->joint_ids, joint - 1); // joint 0 is none

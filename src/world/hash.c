@@ -1,4 +1,5 @@
-// hash.c - the fingerprint of a world: poses, velocities, contacts, joints, events. It knows nothing of rows, lanes, slots or lists.
+// hash.c - the fingerprint of a world: poses, velocities, contacts, joints, events. It knows nothing of rows, lanes,
+// slots or lists.
 #include "world/hash.h"
 
 #include "core/hash.h"

@@ -11,7 +11,8 @@ fe_result fe__ignore_collision(fe_world *world, int32_t a, int32_t b, int32_t ig
     if (ignored == ignore) return FE_OK;
     if (!ignore) {
         fe__pair_set_remove(&world->ignored, a, b);
-        for (int32_t i = world->bodies[a].first_shape; i >= 0; i = world->shapes[i].next) fe__shape_mark_moved(world, i);
+        for (int32_t i = world->bodies[a].first_shape; i >= 0; i = world->shapes[i].next)
+            fe__shape_mark_moved(world, i);
         return FE_OK;
     }
     if (!fe__pair_set_reserve(&world->ignored, &world->memory, 1)) return FE_ERROR_MEMORY;

@@ -1,7 +1,7 @@
 // joint_hash.c - the settings of a joint as words, for the fingerprint of a world.
 //
-// The order of these words is that of the first definitions of joints. It is kept apart from the structs of the API, so that a field more
-// there changes no fingerprint of a world that does not use it.
+// The order of these words is that of the first definitions of joints. It is kept apart from the structs of the API, so
+// that a field more there changes no fingerprint of a world that does not use it.
 #include "world/hash.h"
 
 #include <string.h>
@@ -22,7 +22,10 @@ static void put_zeros(words *w, int32_t count)
     for (int32_t i = 0; i < count; ++i) put(w, 0);
 }
 static void put_vec3(words *w, fe_vec3 a) { put_float(w, a.x), put_float(w, a.y), put_float(w, a.z); }
-static void put_quat(words *w, fe_quat q) { put_float(w, q.x), put_float(w, q.y), put_float(w, q.z), put_float(w, q.w); }
+static void put_quat(words *w, fe_quat q)
+{
+    put_float(w, q.x), put_float(w, q.y), put_float(w, q.z), put_float(w, q.w);
+}
 
 // Neither bodies nor user data: these are slots, and what is the host's
 static void put_common(words *w, const fe_joint_def *d)

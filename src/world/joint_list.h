@@ -1,4 +1,5 @@
-// joint_list.h - the lists that a joint is in: of both bodies, of all joints by creation, and of the joints that are awake.
+// joint_list.h - the lists that a joint is in: of both bodies, of all joints by creation, and of the joints that are
+// awake.
 #ifndef FE_WORLD_JOINT_LIST_H
 #define FE_WORLD_JOINT_LIST_H
 #include "world/world.h"

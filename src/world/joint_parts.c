@@ -1,7 +1,8 @@
-// joint_parts.c - what each type of joint is made of: locks, limits, drives and motors, as the solver knows them (solver/joint/joint.h).
+// joint_parts.c - what each type of joint is made of: locks, limits, drives and motors, as the solver knows them
+// (solver/joint/joint.h).
 //
-// Called when a joint is made or changed, with a checked definition. Targets are clamped to the limits here, so that no drive presses on a
-// stop for good.
+// Called when a joint is made or changed, with a checked definition. Targets are clamped to the limits here, so that no
+// drive presses on a stop for good.
 #include "world/joint_parts.h"
 
 #include "core/trig.h"
@@ -11,10 +12,12 @@
 
 static uint32_t bit(fe__joint_part part) { return 1u << part; }
 
-// ---- one axis -------------------------------------------------------------------------------------------------------------------------
+// ---- one axis
+// -------------------------------------------------------------------------------------------------------------------------
 static void set_limit(fe__joint_axis *axis, float low, float high, float hertz, float damping_ratio)
 {
-    axis->limit.low = low, axis->limit.high = high, axis->limit.hertz = hertz, axis->limit.damping_ratio = damping_ratio;
+    axis->limit.low = low, axis->limit.high = high, axis->limit.hertz = hertz,
+    axis->limit.damping_ratio = damping_ratio;
 }
 
 static void set_unlimited(fe__joint_axis *axis) { set_limit(axis, -FE__UNLIMITED, FE__UNLIMITED, 0.0f, 0.0f); }
@@ -26,15 +29,21 @@ static void set_drive(fe__joint_axis *axis, float target, float stiffness, float
     axis->motor.drive_unit = (float)unit;
 }
 
-static void set_motor(fe__joint_axis *axis, float speed, float cap) { axis->motor.speed = speed, axis->motor.cap = cap; }
+static void set_motor(fe__joint_axis *axis, float speed, float cap)
+{
+    axis->motor.speed = speed, axis->motor.cap = cap;
+}
 
-// ---- distance, hinge, fixed -----------------------------------------------------------------------------------------------------------
+// ---- distance, hinge, fixed
+// -----------------------------------------------------------------------------------------------------------
 static void plan_distance(const fe_distance_joint_def *d, fe__joint_plan *plan)
 {
     fe__joint_axis *axis = plan->axes.axis + FE__AXIS_LINEAR;
     plan->parts = bit(FE__PART_DISTANCE);
-    set_limit(axis, d->limit_enabled ? d->lower : 0.0f, d->limit_enabled ? d->upper : MOST_DISTANCE, d->hertz, d->damping_ratio);
-    if (d->spring_hertz > 0.0f) set_drive(axis, d->target, d->spring_hertz, d->spring_damping_ratio, d->spring_max, FE__DRIVE_HERTZ);
+    set_limit(axis, d->limit_enabled ? d->lower : 0.0f, d->limit_enabled ? d->upper : MOST_DISTANCE, d->hertz,
+              d->damping_ratio);
+    if (d->spring_hertz > 0.0f)
+        set_drive(axis, d->target, d->spring_hertz, d->spring_damping_ratio, d->spring_max, FE__DRIVE_HERTZ);
     set_motor(axis, d->motor_speed, d->motor_max);
 }
 
@@ -53,7 +62,8 @@ static void plan_hinge(const fe_hinge_joint_def *d, fe__joint_plan *plan)
     plan->parts |= bit(FE__PART_TWIST);
     set_unlimited(axis);
     if (d->limit_enabled) set_limit(axis, d->lower, d->upper, d->limit_hertz, d->limit_damping_ratio);
-    if (d->spring_hertz > 0.0f) set_drive(axis, d->target, d->spring_hertz, d->spring_damping_ratio, d->spring_max, FE__DRIVE_HERTZ);
+    if (d->spring_hertz > 0.0f)
+        set_drive(axis, d->target, d->spring_hertz, d->spring_damping_ratio, d->spring_max, FE__DRIVE_HERTZ);
     set_motor(axis, d->motor_speed, d->motor_max);
 }
 
@@ -74,11 +84,12 @@ static void plan_fixed(const fe_fixed_joint_def *d, fe__joint_plan *plan)
     fe__joint_rotation *rotation = &plan->axes.rotation;
     plan->parts |= bit(FE__PART_ROTATION);
     rotation->target[3] = 1.0f;
-    rotation->drive.stiffness = d->angular_hertz, rotation->drive.damping = d->angular_damping_ratio, rotation->drive.cap = FE__UNLIMITED,
-    rotation->drive.unit = FE__DRIVE_HERTZ;
+    rotation->drive.stiffness = d->angular_hertz, rotation->drive.damping = d->angular_damping_ratio,
+    rotation->drive.cap = FE__UNLIMITED, rotation->drive.unit = FE__DRIVE_HERTZ;
 }
 
-// ---- rotations of three angles --------------------------------------------------------------------------------------------------------
+// ---- rotations of three angles
+// --------------------------------------------------------------------------------------------------------
 typedef struct angles {
     float twist, swing_y, swing_z; // rad
 } angles;
@@ -97,7 +108,8 @@ void fe__joint_angles(fe_quat q, float *out_twist, float *out_swing_y, float *ou
 {
     if (q.w < 0.0f) q = (fe_quat){-q.x, -q.y, -q.z, -q.w};
     float n = sqrtf(q.w * q.w + q.x * q.x), sine = sqrtf(q.y * q.y + q.z * q.z), angle = 2.0f * fe__atan2f(sine, n);
-    float y = n > 0.0f ? q.w * q.y - q.x * q.z : q.y, z = n > 0.0f ? q.w * q.z + q.x * q.y : q.z, length = sqrtf(y * y + z * z);
+    float y = n > 0.0f ? q.w * q.y - q.x * q.z : q.y, z = n > 0.0f ? q.w * q.z + q.x * q.y : q.z,
+          length = sqrtf(y * y + z * z);
     float k = length > 0.0f ? angle / length : 0.0f;
     *out_twist = 2.0f * fe__atan2f(q.x, q.w), *out_swing_y = k * y, *out_swing_z = k * z;
 }
@@ -120,7 +132,8 @@ static fe_quat clamped_target(const fe_ball_joint_def *d)
     angles a;
     fe__joint_angles(q, &a.twist, &a.swing_y, &a.swing_z);
     float y = a.swing_y / d->cone_y, z = a.swing_z / d->cone_z, out = y * y + z * z;
-    int32_t twists = d->limit_enabled && (a.twist < d->lower || a.twist > d->upper), swings = d->cone_enabled && out > 1.0f;
+    int32_t twists = d->limit_enabled && (a.twist < d->lower || a.twist > d->upper),
+            swings = d->cone_enabled && out > 1.0f;
     if (!twists && !swings) return q;
     if (twists) a.twist = fe__clampf(a.twist, d->lower, d->upper);
     if (swings) a.swing_y /= sqrtf(out), a.swing_z /= sqrtf(out);
@@ -143,18 +156,28 @@ static void plan_ball(const fe_ball_joint_def *d, fe__joint_plan *plan)
     plan->parts |= bit(FE__PART_ROTATION);
     set_target(rotation, clamped_target(d));
     if (d->spring_hertz > 0.0f)
-        rotation->drive.stiffness = d->spring_hertz, rotation->drive.damping = d->spring_damping_ratio, rotation->drive.cap = d->spring_max,
-        rotation->drive.unit = FE__DRIVE_HERTZ;
+        rotation->drive.stiffness = d->spring_hertz, rotation->drive.damping = d->spring_damping_ratio,
+        rotation->drive.cap = d->spring_max, rotation->drive.unit = FE__DRIVE_HERTZ;
     rotation->motor.velocity[0] = d->motor_velocity.x, rotation->motor.velocity[1] = d->motor_velocity.y,
     rotation->motor.velocity[2] = d->motor_velocity.z;
     rotation->motor.cap = d->motor_max;
 }
 
-// ---- configurable ---------------------------------------------------------------------------------------------------------------------
+// ---- configurable
+// ---------------------------------------------------------------------------------------------------------------------
 // In the unit of its spring
-static float stiffness_of(const fe_joint_axis *a) { return a->spring == FE_SPRING_STIFFNESS ? a->spring_stiffness : a->spring_hertz; }
-static float damping_of(const fe_joint_axis *a) { return a->spring == FE_SPRING_STIFFNESS ? a->spring_damping : a->spring_damping_ratio; }
-static int32_t drives(const fe_joint_axis *a) { return a->spring != FE_SPRING_NONE && (stiffness_of(a) > 0.0f || damping_of(a) > 0.0f); }
+static float stiffness_of(const fe_joint_axis *a)
+{
+    return a->spring == FE_SPRING_STIFFNESS ? a->spring_stiffness : a->spring_hertz;
+}
+static float damping_of(const fe_joint_axis *a)
+{
+    return a->spring == FE_SPRING_STIFFNESS ? a->spring_damping : a->spring_damping_ratio;
+}
+static int32_t drives(const fe_joint_axis *a)
+{
+    return a->spring != FE_SPRING_NONE && (stiffness_of(a) > 0.0f || damping_of(a) > 0.0f);
+}
 
 // Limits, drive and motor of an axis that is not locked. 0: it has none
 static int32_t plan_axis(const fe_joint_axis *a, fe__joint_axis *axis)
@@ -168,12 +191,14 @@ static int32_t plan_axis(const fe_joint_axis *a, fe__joint_axis *axis)
     return 1;
 }
 
-// One drive for three free rotations, when they are driven alike: angles about three axes do not add up when they are large
+// One drive for three free rotations, when they are driven alike: angles about three axes do not add up when they are
+// large
 static int32_t plan_turn(const fe_joint_axis *a, fe__joint_plan *plan)
 {
     for (int k = 0; k < 3; ++k) {
-        int32_t alike = a[k].spring == a[0].spring && stiffness_of(a + k) == stiffness_of(a) && damping_of(a + k) == damping_of(a) &&
-                        a[k].spring_max == a[0].spring_max && a[k].motor_max == a[0].motor_max;
+        int32_t alike = a[k].spring == a[0].spring && stiffness_of(a + k) == stiffness_of(a) &&
+                        damping_of(a + k) == damping_of(a) && a[k].spring_max == a[0].spring_max &&
+                        a[k].motor_max == a[0].motor_max;
         if (a[k].motion != FE_MOTION_FREE || !alike) return 0;
     }
     if (!drives(a) && a->motor_max == 0.0f) return 0;
@@ -181,7 +206,8 @@ static int32_t plan_turn(const fe_joint_axis *a, fe__joint_plan *plan)
     plan->parts |= bit(FE__PART_ROTATION);
     set_target(rotation, rotation_of((angles){a[0].target, a[1].target, a[2].target}));
     if (drives(a)) {
-        rotation->drive.stiffness = stiffness_of(a), rotation->drive.damping = damping_of(a), rotation->drive.cap = a->spring_max;
+        rotation->drive.stiffness = stiffness_of(a), rotation->drive.damping = damping_of(a),
+        rotation->drive.cap = a->spring_max;
         rotation->drive.unit = a->spring == FE_SPRING_STIFFNESS ? FE__DRIVE_STIFFNESS : FE__DRIVE_HERTZ;
     }
     for (int k = 0; k < 3; ++k) rotation->motor.velocity[k] = a[k].motor_speed;
@@ -191,8 +217,8 @@ static int32_t plan_turn(const fe_joint_axis *a, fe__joint_plan *plan)
 
 static int32_t is_locked(const fe_joint_axis *a) { return a->motion == FE_MOTION_LOCKED; }
 
-// Where a rotation is locked, q loses its meaning at half a turn of swing: a cardan joint cannot pass it. Free swings end before, at 170
-// degrees
+// Where a rotation is locked, q loses its meaning at half a turn of swing: a cardan joint cannot pass it. Free swings
+// end before, at 170 degrees
 #define MOST_SWING 2.967f
 #define MOST_CARDAN 2.4f         // where the twist is locked: its gradient grows as 1 / cos(swing / 2)
 #define MOST_SWING_OF_TWO 1.697f // each, when their ranges are apart: sqrt(2) times it is the former
@@ -219,7 +245,8 @@ static void bound_swings(const fe_joint_axis *about, fe__joint_plan *plan)
 static void plan_rotations(const fe_configurable_joint_def *d, const fe_joint_axis *about, fe__joint_plan *plan)
 {
     static const fe__joint_part parts[3] = {FE__PART_TWIST, FE__PART_SWING_Y, FE__PART_SWING_Z};
-    int32_t locked = is_locked(about) + is_locked(about + 1) + is_locked(about + 2), hinge = is_locked(about + 1) && is_locked(about + 2);
+    int32_t locked = is_locked(about) + is_locked(about + 1) + is_locked(about + 2),
+            hinge = is_locked(about + 1) && is_locked(about + 2);
     if (locked == 3) {
         plan->parts |= bit(FE__PART_FIXED);
         return;
@@ -235,7 +262,8 @@ static void plan_rotations(const fe_configurable_joint_def *d, const fe_joint_ax
     if (locked && !hinge) bound_swings(about, plan);
 }
 
-// The one rotation that is not locked becomes the twist, which any number of turns leaves well defined: the joint's axes move up by `shift`
+// The one rotation that is not locked becomes the twist, which any number of turns leaves well defined: the joint's
+// axes move up by `shift`
 static int32_t shift_of(const fe_configurable_joint_def *d)
 {
     const fe_joint_axis *about = d->axes + FE_DOF_ANGULAR_X;
@@ -250,7 +278,8 @@ static void plan_configurable(const fe_configurable_joint_def *d, fe__joint_plan
     static const uint32_t locks[3] = {FE__LOCK_X, FE__LOCK_Y, FE__LOCK_Z};
     fe_joint_axis along[3], about[3];
     plan->shift = shift_of(d);
-    for (int k = 0; k < 3; ++k) along[k] = d->axes[(k + plan->shift) % 3], about[k] = d->axes[FE_DOF_ANGULAR_X + (k + plan->shift) % 3];
+    for (int k = 0; k < 3; ++k)
+        along[k] = d->axes[(k + plan->shift) % 3], about[k] = d->axes[FE_DOF_ANGULAR_X + (k + plan->shift) % 3];
     for (int k = 0; k < 3; ++k) {
         if (is_locked(along + k))
             plan->locked |= locks[k];
@@ -264,7 +293,8 @@ static void plan_configurable(const fe_configurable_joint_def *d, fe__joint_plan
     plan_rotations(d, about, plan);
 }
 
-// ---- all ------------------------------------------------------------------------------------------------------------------------------
+// ---- all
+// ------------------------------------------------------------------------------------------------------------------------------
 void fe__joint_make_plan(int32_t type, const fe__joint_any *def, fe__joint_plan *out_plan)
 {
     *out_plan = (fe__joint_plan){.hertz = def->common.hertz, .damping_ratio = def->common.damping_ratio};
@@ -289,7 +319,8 @@ void fe__joint_make_plan(int32_t type, const fe__joint_any *def, fe__joint_plan 
 
 fe__joint_part fe__joint_part_at(uint32_t parts, int32_t place)
 {
-    static const fe__joint_part plain[FE__AXES] = {FE__PART_X, FE__PART_Y, FE__PART_Z, FE__PART_TWIST, FE__PART_SWING_Y, FE__PART_SWING_Z};
+    static const fe__joint_part plain[FE__AXES] = {FE__PART_X,     FE__PART_Y,       FE__PART_Z,
+                                                   FE__PART_TWIST, FE__PART_SWING_Y, FE__PART_SWING_Z};
     if (parts >> plain[place] & 1) return plain[place];
     if (place == FE__AXIS_LINEAR && parts >> FE__PART_DISTANCE & 1) return FE__PART_DISTANCE;
     if (place == FE__AXIS_SWING && parts >> FE__PART_CONE & 1) return FE__PART_CONE;

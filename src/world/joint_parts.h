@@ -16,7 +16,8 @@ void fe__joint_make_plan(int32_t type, const fe__joint_any *def, fe__joint_plan 
 // Do its parts need a record of axes?
 static inline int32_t fe__joint_needs_axes(const fe__joint_plan *plan)
 {
-    return (plan->parts & ~(1u << FE__PART_HINGE | 1u << FE__PART_FIXED | 1u << FE__PART_SLIDE | 1u << FE__PART_POINT)) != 0;
+    return (plan->parts &
+            ~(1u << FE__PART_HINGE | 1u << FE__PART_FIXED | 1u << FE__PART_SLIDE | 1u << FE__PART_POINT)) != 0;
 }
 // The part that uses a place in fe__joint_axes.axis, FE__PARTS: none
 fe__joint_part fe__joint_part_at(uint32_t parts, int32_t place);

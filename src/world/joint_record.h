@@ -1,7 +1,7 @@
 // joint_record.h - the cold half of a joint: what the API set, and its places in lists.
 //
-// Record i here, fe__joints' records i and slot i - 1 of the handles are one thing; index 0 is no joint. What only one type has lies in a
-// pool of that type's settings, so that a cloth of ball joints does not pay for configurable ones.
+// Record i here, fe__joints' records i and slot i - 1 of the handles are one thing; index 0 is no joint. What only one
+// type has lies in a pool of that type's settings, so that a cloth of ball joints does not pay for configurable ones.
 #ifndef FE_WORLD_JOINT_RECORD_H
 #define FE_WORLD_JOINT_RECORD_H
 #include "core/math.h"

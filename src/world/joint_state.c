@@ -11,8 +11,9 @@ fe_transform fe__joint_frame_now(const fe_world *world, int32_t joint, int32_t s
 {
     const fe__joint_record *r = world->joint_records + joint;
     const fe__body *b = world->bodies + r->body[side];
-    return (fe_transform){fe__dadd(fe__origin_of(b), fe__drotate(fe__rotation_of(b), fe__widen(r->frame[side].position))),
-                          fe__normalized(fe__product(fe__rotation_of(b), r->frame[side].rotation))};
+    return (
+        fe_transform){fe__dadd(fe__origin_of(b), fe__drotate(fe__rotation_of(b), fe__widen(r->frame[side].position))),
+                      fe__normalized(fe__product(fe__rotation_of(b), r->frame[side].rotation))};
 }
 
 // of a body's point, m/s
@@ -21,8 +22,12 @@ static fe_vec3 velocity_at(const fe__body *b, fe_dvec3 point)
     return fe__add(fe__quad_vector(b->velocity), fe__cross(spin_of(b), fe__narrow(fe__dsub(point, fe__centre_of(b)))));
 }
 
-// ---- errors ---------------------------------------------------------------------------------------------------------------------------
-static float beyond(const fe__joint_axis *axis, float x) { return fe__maxf(fe__maxf(axis->limit.low - x, x - axis->limit.high), 0.0f); }
+// ---- errors
+// ---------------------------------------------------------------------------------------------------------------------------
+static float beyond(const fe__joint_axis *axis, float x)
+{
+    return fe__maxf(fe__maxf(axis->limit.low - x, x - axis->limit.high), 0.0f);
+}
 
 static float linear_error(const fe__joint_frame *f, const fe__joint_axes *axes, const fe__joint_pose *pose)
 {
@@ -43,9 +48,13 @@ static float cone_error(const fe__joint_axis *axis, float y, float z)
     return out > 1.0f ? sqrtf(y * y + z * z) * (1.0f - 1.0f / out) : 0.0f;
 }
 
-static float whole_angle(fe_quat q) { return 2.0f * fe__atan2f(sqrtf(q.x * q.x + q.y * q.y + q.z * q.z), fe__absf(q.w)); }
+static float whole_angle(fe_quat q)
+{
+    return 2.0f * fe__atan2f(sqrtf(q.x * q.x + q.y * q.y + q.z * q.z), fe__absf(q.w));
+}
 
-static float angular_error(const fe__joint_frame *f, const fe__joint_axes *axes, const fe__joint_pose *pose, float twist)
+static float angular_error(const fe__joint_frame *f, const fe__joint_axes *axes, const fe__joint_pose *pose,
+                           float twist)
 {
     float swing = sqrtf(pose->swing_y * pose->swing_y + pose->swing_z * pose->swing_z), error = 0.0f;
     if (f->parts >> FE__PART_FIXED & 1) return whole_angle(pose->q);
@@ -53,12 +62,15 @@ static float angular_error(const fe__joint_frame *f, const fe__joint_axes *axes,
     if (!axes) return error;
     if (f->parts >> FE__PART_TWIST & 1) error = fe__maxf(error, beyond(axes->axis + FE__AXIS_TWIST, twist));
     if (f->parts >> FE__PART_SWING_Y & 1) error = fe__maxf(error, beyond(axes->axis + FE__AXIS_SWING, pose->swing_y));
-    if (f->parts >> FE__PART_SWING_Z & 1) error = fe__maxf(error, beyond(axes->axis + FE__AXIS_SWING + 1, pose->swing_z));
-    if (f->parts >> FE__PART_CONE & 1) error = fe__maxf(error, cone_error(axes->axis + FE__AXIS_SWING, pose->swing_y, pose->swing_z));
+    if (f->parts >> FE__PART_SWING_Z & 1)
+        error = fe__maxf(error, beyond(axes->axis + FE__AXIS_SWING + 1, pose->swing_z));
+    if (f->parts >> FE__PART_CONE & 1)
+        error = fe__maxf(error, cone_error(axes->axis + FE__AXIS_SWING, pose->swing_y, pose->swing_z));
     return error;
 }
 
-// ---- state ----------------------------------------------------------------------------------------------------------------------------
+// ---- state
+// ----------------------------------------------------------------------------------------------------------------------------
 // From the solver's axes back to those of the definition
 static void write_coordinates(int32_t shift, const fe__joint_pose *pose, float twist, fe_joint_state *s)
 {
@@ -84,11 +96,13 @@ void fe__joint_state_of(const fe_world *world, int32_t joint, fe_joint_state *s)
     if (f->parts >> FE__PART_TWIST & 1) twist = fe__joint_wind(pose.twist, axes->axis[FE__AXIS_TWIST].state.x);
     write_coordinates(r->shift, &pose, twist, s);
     s->angular_velocity = fe__rotate_back(frame_a.rotation, fe__sub(spin_of(b), spin_of(a)));
-    // frame A turns under the moving point: d/dt (R^T x) = R^T (x' - wA x x), x from A's point, is the velocity against A's matter at B's
-    // point
-    s->linear_velocity = fe__rotate_back(frame_a.rotation, fe__sub(velocity_at(b, frame_b.position), velocity_at(a, frame_b.position)));
+    // frame A turns under the moving point: d/dt (R^T x) = R^T (x' - wA x x), x from A's point, is the velocity against
+    // A's matter at B's point
+    s->linear_velocity =
+        fe__rotate_back(frame_a.rotation, fe__sub(velocity_at(b, frame_b.position), velocity_at(a, frame_b.position)));
     s->length = pose.length;
-    s->speed = pose.length > 0.0f ? fe__dot(s->translation, s->linear_velocity) / pose.length : fe__length(s->linear_velocity);
+    s->speed =
+        pose.length > 0.0f ? fe__dot(s->translation, s->linear_velocity) / pose.length : fe__length(s->linear_velocity);
     s->linear_error = linear_error(f, axes, &pose);
     s->angular_error = angular_error(f, axes, &pose, twist);
     if (r->type != FE_JOINT_FIXED) return; // whose springs hold too

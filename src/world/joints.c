@@ -1,11 +1,11 @@
 // joints.c - the life of joints: birth, change, places in lists and in the constraint graph, death.
 //
-// Called by the API layer with checked definitions, between steps, and by the life of bodies. A joint is linked while it is enabled, its
-// bodies are, and one of them is dynamic.
+// Called by the API layer with checked definitions, between steps, and by the life of bodies. A joint is linked while
+// it is enabled, its bodies are, and one of them is dynamic.
 #include "world/joints.h"
 
 #include "world/anchor.h"
-#include "world/bodies.h"
+#include "world/body_room.h"
 #include "world/forest.h"
 #include "world/handles.h"
 #include "world/joint_list.h"
@@ -41,7 +41,8 @@ void fe__joints_free(fe_world *world)
     FE_FREE(memory, world->joint_events, world->joint_event_capacity);
 }
 
-// ---- the constraint graph -------------------------------------------------------------------------------------------------------------
+// ---- the constraint graph
+// -------------------------------------------------------------------------------------------------------------
 static int32_t acts(const fe_world *world, const fe__joint_record *r)
 {
     const fe__body *a = world->bodies + r->body[0], *b = world->bodies + r->body[1];
@@ -70,19 +71,22 @@ static void unlink(fe_world *world, int32_t joint)
 
 void fe__body_unlink_joints(fe_world *world, int32_t body)
 {
-    for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body)) unlink(world, joint);
+    for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body))
+        unlink(world, joint);
 }
 
 void fe__body_link_joints(fe_world *world, int32_t body)
 {
-    for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body)) link(world, joint);
+    for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body))
+        link(world, joint);
 }
 
 // Pairs that may no longer be end now; those that may be again are found by the next step
 static void refilter(fe_world *world, const fe__joint_record *r, int32_t parted)
 {
     if (!parted) {
-        for (int32_t i = world->bodies[r->body[0]].first_shape; i >= 0; i = world->shapes[i].next) fe__shape_mark_moved(world, i);
+        for (int32_t i = world->bodies[r->body[0]].first_shape; i >= 0; i = world->shapes[i].next)
+            fe__shape_mark_moved(world, i);
         return;
     }
     int32_t fewer = world->bodies[r->body[0]].contact_count <= world->bodies[r->body[1]].contact_count ? 0 : 1;
@@ -95,10 +99,14 @@ static void wake_bodies(fe_world *world, const int32_t *bodies)
         if (world->bodies[bodies[k]].flags & FE__BODY_ENABLED) fe__wake(world, bodies[k]);
 }
 
-// ---- what the solver reads ------------------------------------------------------------------------------------------------------------
+// ---- what the solver reads
+// ------------------------------------------------------------------------------------------------------------
 static void set_vec(float *out, fe_vec3 a) { out[0] = a.x, out[1] = a.y, out[2] = a.z; }
 static void set_quat(float *out, fe_quat q) { out[0] = q.x, out[1] = q.y, out[2] = q.z, out[3] = q.w; }
-static fe_vec3 local_centre(const fe__body *b) { return fe__vec3(b->local_centre[0], b->local_centre[1], b->local_centre[2]); }
+static fe_vec3 local_centre(const fe__body *b)
+{
+    return fe__vec3(b->local_centre[0], b->local_centre[1], b->local_centre[2]);
+}
 
 // A twist counts its turns from the middle of its range
 static void wind(fe_world *world, int32_t joint)
@@ -108,7 +116,9 @@ static void wind(fe_world *world, int32_t joint)
     fe__joint_axis *axis = world->joints.axes[f->axes].axis + FE__AXIS_TWIST;
     fe__joint_pose pose;
     fe__joint_pose_of(&world->joints, world->bodies, joint, &pose);
-    axis->state.x = axis->limit.high < FE__UNLIMITED ? fe__joint_wind(pose.twist, 0.5f * (axis->limit.low + axis->limit.high)) : pose.twist;
+    axis->state.x = axis->limit.high < FE__UNLIMITED
+                        ? fe__joint_wind(pose.twist, 0.5f * (axis->limit.low + axis->limit.high))
+                        : pose.twist;
 }
 
 static void place_anchors(fe_world *world, int32_t joint)
@@ -121,12 +131,14 @@ static void place_anchors(fe_world *world, int32_t joint)
 
 void fe__body_place_anchors(fe_world *world, int32_t body)
 {
-    for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body)) place_anchors(world, joint);
+    for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body))
+        place_anchors(world, joint);
 }
 
 void fe__body_wind_joints(fe_world *world, int32_t body)
 {
-    for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body)) wind(world, joint);
+    for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body))
+        wind(world, joint);
 }
 
 // What the last step left in them may be no number
@@ -179,7 +191,8 @@ static void fill(fe_world *world, int32_t joint, const fe__joint_plan *plan)
     wind(world, joint);
 }
 
-// ---- birth, change, death -------------------------------------------------------------------------------------------------------------
+// ---- birth, change, death
+// -------------------------------------------------------------------------------------------------------------
 static fe_result reserve_axes(fe_world *world, int32_t extra)
 {
     fe_result result = fe__record_pool_reserve(&world->joint_axes, &world->memory, extra);
@@ -225,7 +238,8 @@ static void set_record(fe_world *world, int32_t joint, const fe__joint_any *def)
     memcpy(fe__record(pool, r->settings), (const unsigned char *)def + FE__JOINT_FRONT, (size_t)pool->size);
 }
 
-fe_result fe__joint_create(fe_world *world, int32_t type, const fe__joint_any *def, const int32_t *ends, int32_t *out_joint)
+fe_result fe__joint_create(fe_world *world, int32_t type, const fe__joint_any *def, const int32_t *ends,
+                           int32_t *out_joint)
 {
     fe__joint_plan plan;
     fe__joint_make_plan(type, def, &plan);

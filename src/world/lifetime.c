@@ -4,7 +4,7 @@
 #include "world/lifetime.h"
 
 #include "solver/graph/graph.h"
-#include "world/assets.h"
+#include "world/asset_users.h"
 #include "world/joints.h"
 #include "world/step_scratch.h"
 
@@ -44,7 +44,11 @@ static fe_result hire_workers(fe_world *world, const fe_world_def *def)
         workers->pool = world->own_pool;
     }
     if (!workers->pool) return FE_OK;
-    fe__pool_retain(workers->pool);
+    fe_result retained = fe__pool_retain(workers->pool);
+    if (retained != FE_OK) {
+        workers->pool = NULL;
+        return retained;
+    }
     workers->count = fe__pool_worker_count(workers->pool);
     return FE_OK;
 }
@@ -75,16 +79,15 @@ fe_result fe__world_create(const fe_world_def *def, fe_world **out_world)
     fe__id_pool_init(&world->body_ids, FE_KIND_BODY, world->number);
     fe__id_pool_init(&world->shape_ids, FE_KIND_SHAPE, world->number);
     fe__joints_init(world);
-    fe__id_pool_init(&world->asset_ids, FE_KIND_ASSET, world->number);
     world->next_serial = 1;
     world->first_body = world->last_body = world->first_free_pair = -1;
     world->pair_limit = 1; // contact 0 is no contact
     fe_result result = hire_workers(world, def);
+    if (result == FE_OK) result = fe__world_open_store(world, def);
     if (result != FE_OK) {
         fe__world_destroy(world);
         return result;
     }
-    world->store.world = world;
     *out_world = world;
     return FE_OK;
 }
@@ -94,7 +97,6 @@ static void free_records(fe_world *world)
     fe__memory *memory = &world->memory;
     fe__id_pool_free(&world->body_ids, memory);
     fe__id_pool_free(&world->shape_ids, memory);
-    fe__assets_free(world);
     FE_FREE(memory, world->bodies, world->body_capacity);
     FE_FREE(memory, world->odometers, world->odometer_capacity);
     FE_FREE(memory, world->shapes, world->shape_capacity);
@@ -107,7 +109,7 @@ static void free_records(fe_world *world)
     fe__clusters_free(&world->clusters, memory);
     FE_FREE(memory, world->awake_bodies, world->awake_body_capacity);
     FE_FREE(memory, world->awake_pairs, world->awake_pair_capacity);
-    FE_FREE(memory, world->waits, world->wait_capacity);
+    FE_FREE(memory, world->deferrals, world->deferral_capacity);
     fe__joints_free(world);
 }
 
@@ -125,7 +127,7 @@ static void free_events(fe_world *world)
     fe__memory *memory = &world->memory;
     FE_FREE(memory, world->pair_events, world->pair_event_capacity);
     FE_FREE(memory, world->body_events, world->body_event_capacity);
-    FE_FREE(memory, world->stirred, world->stirred_capacity);
+    FE_FREE(memory, world->disturbed, world->disturbed_capacity);
     FE_FREE(memory, world->hit_events, world->hit_event_capacity);
 }
 
@@ -135,6 +137,7 @@ void fe__world_destroy(fe_world *world)
     fe__solver_destroy(&world->solver, &world->memory);
     free_events(world);
     free_broad_phase(world);
+    fe__world_close_store(world);
     free_records(world);
     dismiss_workers(world);
     fe__memory memory = world->memory;

@@ -3,7 +3,8 @@
 #define FE_WORLD_LIFETIME_H
 #include "world/world.h"
 
-// An empty world, all its memory from the definition's allocator. FE_ERROR_MEMORY; FE_ERROR_UNSUPPORTED: no such SIMD set here.
+// An empty world, all its memory from the definition's allocator. FE_ERROR_MEMORY; FE_ERROR_UNSUPPORTED: no such SIMD
+// set here; FE_ERROR_STALE: the pool or the store is gone; FE_ERROR_ARGUMENT: the store is another world's own.
 fe_result fe__world_create(const fe_world_def *def, fe_world **out_world);
 void fe__world_destroy(fe_world *world);
 fe_world_tuning fe__default_tuning(void);

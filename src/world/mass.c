@@ -1,8 +1,8 @@
 // mass.c - what a body weighs: from its shapes and their densities, or as given.
 //
 // Called when shapes, type or locks change; the solver reads inverse_mass, inertia, inertia_axes and local_centre. Only
-// dynamic bodies have mass; the centre of the others is their origin, so that a kinematic body turns about the point its owner placed.
-// Computed in double: the parts of a large body far from its centre would cancel in float.
+// dynamic bodies have mass; the centre of the others is their origin, so that a kinematic body turns about the point
+// its owner placed. Computed in double: the parts of a large body far from its centre would cancel in float.
 #include "world/mass.h"
 
 #include "world/joints.h"
@@ -13,13 +13,14 @@
 
 #include <float.h>
 
-// A body lighter than this, kg, would have an inverse mass or inertia that floats cannot hold: it counts as weightless. (A sphere of the
-// smallest radius, 1 mm, of water weighs 4e-6 kg.)
+// A body lighter than this, kg, would have an inverse mass or inertia that floats cannot hold: it counts as weightless.
+// (A sphere of the smallest radius, 1 mm, of water weighs 4e-6 kg.)
 #define LEAST_MASS 1e-9
 // What a weightless dynamic body has instead: 1 kg, and the inertia of a sphere of 1 m, 2/5 m r^2
 #define DEFAULT_MASS 1.0f
 #define DEFAULT_INERTIA 0.4f
-// Principal moments that differ by less are equal: the gyroscopic torque of the difference is below the solver's rounding
+// Principal moments that differ by less are equal: the gyroscopic torque of the difference is below the solver's
+// rounding
 #define ISOTROPY 1e-6f
 
 enum { JACOBI_SWEEPS = 12 }; // converges quadratically: 5 or 6 are used
@@ -30,10 +31,11 @@ typedef struct mass_properties {
     fe_quat axes;
 } mass_properties;
 
-// ---- velocities follow the centre -----------------------------------------------------------------------------------------------
+// ---- velocities follow the centre
+// -----------------------------------------------------------------------------------------------
 
-// The velocity is that of the centre of mass. When the centre becomes another material point, its velocity there is v + w x (R delta): no
-// point of the body changes its motion.
+// The velocity is that of the centre of mass. When the centre becomes another material point, its velocity there is v +
+// w x (R delta): no point of the body changes its motion.
 static void set_local_centre(fe_world *world, fe__body *body, fe_vec3 centre)
 {
     fe_vec3 old = fe__quad_vector(body->local_centre), w = fe__quad_vector(body->spin);
@@ -44,7 +46,7 @@ static void set_local_centre(fe_world *world, fe__body *body, fe_vec3 centre)
 
     body->local_centre[0] = centre.x, body->local_centre[1] = centre.y, body->local_centre[2] = centre.z;
     fe__body_place_centre(body);
-    fe__body_end_waits(world, (int32_t)(body - world->bodies));
+    fe__body_end_deferrals(world, (int32_t)(body - world->bodies));
 }
 
 static void set_sizes(fe_world *world, fe__body *body)
@@ -70,19 +72,22 @@ static void apply(fe_world *world, fe__body *body, const mass_properties *p)
     body->inertia[0] = inertia.x, body->inertia[1] = inertia.y, body->inertia[2] = inertia.z, body->mass = p->mass;
     body->inertia_axes[0] = p->axes.x, body->inertia_axes[1] = p->axes.y, body->inertia_axes[2] = p->axes.z,
     body->inertia_axes[3] = p->axes.w;
-    if (p->centre.x != body->local_centre[0] || p->centre.y != body->local_centre[1] || p->centre.z != body->local_centre[2]) {
+    if (p->centre.x != body->local_centre[0] || p->centre.y != body->local_centre[1] ||
+        p->centre.z != body->local_centre[2]) {
         set_local_centre(world, body, p->centre);
     }
     set_sizes(world, body);
     if (body->joint_count) world->joints.forest.changed = world->solver.graph_changed = 1; // which trees bear much
 
-    float largest = fe__maxf(fe__maxf(inertia.x, inertia.y), inertia.z), least = fe__minf(fe__minf(inertia.x, inertia.y), inertia.z);
+    float largest = fe__maxf(fe__maxf(inertia.x, inertia.y), inertia.z),
+          least = fe__minf(fe__minf(inertia.x, inertia.y), inertia.z);
     int32_t turns_locked = (uint32_t)body->lock_bits >> 3 != 0;
     body->flags &= ~(uint32_t)FE__BODY_ISOTROPIC;
     if (turns_locked || largest - least <= ISOTROPY * largest) body->flags |= FE__BODY_ISOTROPIC;
 }
 
-// ---- sums over shapes -----------------------------------------------------------------------------------------------------------
+// ---- sums over shapes
+// -----------------------------------------------------------------------------------------------------------
 
 static fe__mass shape_mass(const fe__shape *shape) { return fe__form_mass(&shape->form, shape->density); }
 
@@ -90,7 +95,8 @@ typedef struct tensor {
     double m[3][3];
 } tensor;
 
-// Adds the inertia of a shape about the body's centre: R diag(I) R^T + m (d^2 1 - d d^T), d from the body's centre to the shape's
+// Adds the inertia of a shape about the body's centre: R diag(I) R^T + m (d^2 1 - d d^T), d from the body's centre to
+// the shape's
 static void add_shape(tensor *sum, const fe__shape *shape, const fe__mass *mass, fe_dvec3 centre)
 {
     fe_dvec3 d = fe__dsub(fe__widen(shape->local_position), centre);
@@ -109,8 +115,8 @@ static void add_shape(tensor *sum, const fe__shape *shape, const fe__mass *mass,
     }
 }
 
-// One Jacobi rotation in the plane (p, q) that zeroes a[p][q]; `v` collects the rotations, its columns become the axes. Golub and Van Loan,
-// Matrix Computations, 8.5
+// One Jacobi rotation in the plane (p, q) that zeroes a[p][q]; `v` collects the rotations, its columns become the axes.
+// Golub and Van Loan, Matrix Computations, 8.5
 static void rotate_plane(tensor *a, tensor *v, int p, int q)
 {
     double apq = a->m[p][q];
@@ -146,8 +152,8 @@ static tensor diagonalise(tensor *a)
     return axes;
 }
 
-// The quaternion of a rotation matrix, from its largest component so that nothing cancels (Shepperd 1978). Jacobi's product of rotations is
-// one.
+// The quaternion of a rotation matrix, from its largest component so that nothing cancels (Shepperd 1978). Jacobi's
+// product of rotations is one.
 static fe_quat quaternion_of(const tensor *r)
 {
     double trace = r->m[0][0] + r->m[1][1] + r->m[2][2], q[4];
@@ -156,19 +162,22 @@ static fe_quat quaternion_of(const tensor *r)
     if (trace >= r->m[k][k]) {
         q[3] = 0.5 * sqrt(1.0 + trace);
         double scale = 0.25 / q[3];
-        q[0] = scale * (r->m[2][1] - r->m[1][2]), q[1] = scale * (r->m[0][2] - r->m[2][0]), q[2] = scale * (r->m[1][0] - r->m[0][1]);
+        q[0] = scale * (r->m[2][1] - r->m[1][2]), q[1] = scale * (r->m[0][2] - r->m[2][0]),
+        q[2] = scale * (r->m[1][0] - r->m[0][1]);
     } else {
         int i = (k + 1) % 3, j = (k + 2) % 3;
         q[k] = 0.5 * sqrt(1.0 + r->m[k][k] - r->m[i][i] - r->m[j][j]);
         double scale = 0.25 / q[k];
-        q[i] = scale * (r->m[i][k] + r->m[k][i]), q[j] = scale * (r->m[j][k] + r->m[k][j]), q[3] = scale * (r->m[j][i] - r->m[i][j]);
+        q[i] = scale * (r->m[i][k] + r->m[k][i]), q[j] = scale * (r->m[j][k] + r->m[k][j]),
+        q[3] = scale * (r->m[j][i] - r->m[i][j]);
     }
     return fe__unit_rotation((fe_quat){(float)q[0], (float)q[1], (float)q[2], (float)q[3]});
 }
 
 static mass_properties weightless(void)
 {
-    return (mass_properties){DEFAULT_MASS, {0, 0, 0}, {DEFAULT_INERTIA, DEFAULT_INERTIA, DEFAULT_INERTIA}, fe__identity()};
+    return (
+        mass_properties){DEFAULT_MASS, {0, 0, 0}, {DEFAULT_INERTIA, DEFAULT_INERTIA, DEFAULT_INERTIA}, fe__identity()};
 }
 
 static mass_properties combine(const fe_world *world, const fe__body *body, double total, fe_dvec3 moment)
@@ -180,7 +189,10 @@ static mass_properties combine(const fe_world *world, const fe__body *body, doub
         add_shape(&sum, &world->shapes[i], &mass, fe__widen(centre));
     }
     tensor axes = diagonalise(&sum);
-    return (mass_properties){(float)total, centre, {(float)sum.m[0][0], (float)sum.m[1][1], (float)sum.m[2][2]}, quaternion_of(&axes)};
+    return (mass_properties){(float)total,
+                             centre,
+                             {(float)sum.m[0][0], (float)sum.m[1][1], (float)sum.m[2][2]},
+                             quaternion_of(&axes)};
 }
 
 static mass_properties from_shapes(const fe_world *world, const fe__body *body)
@@ -204,7 +216,8 @@ static mass_properties from_shapes(const fe_world *world, const fe__body *body)
     return (mass_properties){mass.mass, only->local_position, mass.inertia, only->local_rotation};
 }
 
-// ---- the interface --------------------------------------------------------------------------------------------------------------
+// ---- the interface
+// --------------------------------------------------------------------------------------------------------------
 
 void fe__body_update_mass(fe_world *world, int32_t index)
 {

@@ -3,7 +3,7 @@
 #define FE_WORLD_MASS_H
 #include "world/world.h"
 
-void fe__body_update_mass(fe_world *world, int32_t body);                        // from the shapes, unless given; reach always
+void fe__body_update_mass(fe_world *world, int32_t body); // from the shapes, unless given; reach always
 void fe__body_set_mass(fe_world *world, int32_t body, const fe_mass_data *data); // given
 void fe__body_mass_data(const fe_world *world, int32_t body, fe_mass_data *out_data);
 

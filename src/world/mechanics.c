@@ -16,8 +16,8 @@ static fe_dvec3 spin_momentum(const fe__body *body)
                       m[2][0] * w.x + m[2][1] * w.y + m[2][2] * w.z};
 }
 
-// T = (m v.v + w.I w) / 2,  V = -m g.(x - h v / 2): symplectic Euler keeps T(v) + V(x - h v / 2) in a uniform field, as v' = v + h g and
-// x' = x + h v' give T' - T = h m g.(v + h g / 2) = -(V' - V)
+// T = (m v.v + w.I w) / 2,  V = -m g.(x - h v / 2): symplectic Euler keeps T(v) + V(x - h v / 2) in a uniform field, as
+// v' = v + h g and x' = x + h v' give T' - T = h m g.(v + h g / 2) = -(V' - V)
 void fe__world_energy(const fe_world *world, double *out_kinetic, double *out_potential)
 {
     const fe_dvec3 gravity = fe__widen(world->gravity);
@@ -51,8 +51,10 @@ void fe__world_momentum(const fe_world *world, fe_dvec3 about, fe_dvec3 *out_lin
 
 static void grow(fe__bounds *all, const fe__bounds *b)
 {
-    all->low = (fe_dvec3){fe__mind(all->low.x, b->low.x), fe__mind(all->low.y, b->low.y), fe__mind(all->low.z, b->low.z)};
-    all->high = (fe_dvec3){fe__maxd(all->high.x, b->high.x), fe__maxd(all->high.y, b->high.y), fe__maxd(all->high.z, b->high.z)};
+    all->low =
+        (fe_dvec3){fe__mind(all->low.x, b->low.x), fe__mind(all->low.y, b->low.y), fe__mind(all->low.z, b->low.z)};
+    all->high = (fe_dvec3){fe__maxd(all->high.x, b->high.x), fe__maxd(all->high.y, b->high.y),
+                           fe__maxd(all->high.z, b->high.z)};
 }
 
 static int32_t add_body(const fe_world *world, int32_t body, int32_t found, fe__bounds *all)
@@ -73,6 +75,7 @@ int32_t fe__body_bounds(const fe_world *world, int32_t body, fe__bounds *out_bou
 {
     if (body >= 0) return add_body(world, body, 0, out_bounds);
     int32_t found = 0;
-    for (int32_t i = world->first_body; i >= 0; i = world->bodies[i].order_next) found = add_body(world, i, found, out_bounds);
+    for (int32_t i = world->first_body; i >= 0; i = world->bodies[i].order_next)
+        found = add_body(world, i, found, out_bounds);
     return found;
 }

@@ -1,6 +1,7 @@
 // motion.c - velocities, forces and impulses given between steps.
 //
-// Called by the API layer. What it writes, the next step's solver reads: forces act during all of that step and are cleared by it.
+// Called by the API layer. What it writes, the next step's solver reads: forces act during all of that step and are
+// cleared by it.
 #include "world/motion.h"
 
 #include "core/trig.h"
@@ -14,8 +15,8 @@
 
 static int32_t moves(const fe__body *body)
 {
-    return body->velocity[0] != 0.0f || body->velocity[1] != 0.0f || body->velocity[2] != 0.0f || body->spin[0] != 0.0f ||
-           body->spin[1] != 0.0f || body->spin[2] != 0.0f;
+    return body->velocity[0] != 0.0f || body->velocity[1] != 0.0f || body->velocity[2] != 0.0f ||
+           body->spin[0] != 0.0f || body->spin[1] != 0.0f || body->spin[2] != 0.0f;
 }
 
 void fe__body_set_velocity(fe_world *world, int32_t index, const fe_vec3 *linear, const fe_vec3 *angular)
@@ -61,8 +62,8 @@ void fe__body_world_inertia(const fe__body *body, double inertia[3][3])
     }
 }
 
-// Solves I w = L by Cramer's rule. A locked axis keeps its w at 0: its row and column become those of the unit matrix (scaled like the
-// rest), its L 0; what is left is the inertia of a body on the free axes.
+// Solves I w = L by Cramer's rule. A locked axis keeps its w at 0: its row and column become those of the unit matrix
+// (scaled like the rest), its L 0; what is left is the inertia of a body on the free axes.
 fe_vec3 fe__body_spin_change(const fe__body *body, fe_vec3 angular_impulse)
 {
     double m[3][3], l[3] = {(double)angular_impulse.x, (double)angular_impulse.y, (double)angular_impulse.z};
@@ -75,13 +76,16 @@ fe_vec3 fe__body_spin_change(const fe__body *body, fe_vec3 angular_impulse)
         m[k][k] = size;
         l[k] = 0.0;
     }
-    fe_dvec3 a = {m[0][0], m[1][0], m[2][0]}, b = {m[0][1], m[1][1], m[2][1]}, c = {m[0][2], m[1][2], m[2][2]}, right = {l[0], l[1], l[2]};
+    fe_dvec3 a = {m[0][0], m[1][0], m[2][0]}, b = {m[0][1], m[1][1], m[2][1]}, c = {m[0][2], m[1][2], m[2][2]},
+             right = {l[0], l[1], l[2]};
     double determinant = fe__ddot(a, fe__dcross(b, c));
-    return (fe_vec3){(float)(fe__ddot(right, fe__dcross(b, c)) / determinant), (float)(fe__ddot(a, fe__dcross(right, c)) / determinant),
+    return (fe_vec3){(float)(fe__ddot(right, fe__dcross(b, c)) / determinant),
+                     (float)(fe__ddot(a, fe__dcross(right, c)) / determinant),
                      (float)(fe__ddot(a, fe__dcross(b, right)) / determinant)};
 }
 
-// The turn is to * from^-1 = (u sin(angle / 2), cos(angle / 2)); q and -q are the same turn, the one with cos >= 0 is the shorter way.
+// The rotation is to * from^-1 = (u sin(angle / 2), cos(angle / 2)); of q and -q, which are the same, the one with cos
+// >= 0 is the shorter.
 fe_vec3 fe__spin_between(fe_quat from, fe_quat to, double seconds)
 {
     double fx = -(double)from.x, fy = -(double)from.y, fz = -(double)from.z, fw = (double)from.w;

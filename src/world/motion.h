@@ -14,7 +14,8 @@ static inline int32_t fe__body_feels_forces(const fe__body *body)
 void fe__body_add_force(fe_world *world, int32_t body, fe_vec3 force, fe_vec3 torque);
 // kg m2, world axes, about the centre of mass
 void fe__body_world_inertia(const fe__body *body, double inertia[3][3]);
-// The change of the angular velocity by an impulse about the centre: the exact inverse of the inertia over the free axes.
+// The change of the angular velocity by an impulse about the centre: the exact inverse of the inertia over the free
+// axes.
 fe_vec3 fe__body_spin_change(const fe__body *body, fe_vec3 angular_impulse);
 // The angular velocity that rotates `from` into `to` by the shorter way in `seconds`.
 fe_vec3 fe__spin_between(fe_quat from, fe_quat to, double seconds);

@@ -1,4 +1,5 @@
-// pair.h - two shapes whose boxes meet: the cold half of a contact. Record i of the pairs and record i of the contacts are one thing.
+// pair.h - two shapes whose boxes meet: the cold half of a contact. Record i of the pairs and record i of the contacts
+// are one thing.
 #ifndef FE_WORLD_PAIR_H
 #define FE_WORLD_PAIR_H
 #include "core/math.h"
@@ -17,7 +18,7 @@ enum {
 };
 
 // Only of these the contact must be seen for events: the others, most of a heap, have no points and owe no exit
-enum { FE__PAIR_MAY_TELL = FE__PAIR_LINKED | FE__PAIR_SENSOR | FE__PAIR_TOUCHING | FE__PAIR_CROSSED | FE__PAIR_ONCE };
+enum { FE__PAIR_MAY_REPORT = FE__PAIR_LINKED | FE__PAIR_SENSOR | FE__PAIR_TOUCHING | FE__PAIR_CROSSED | FE__PAIR_ONCE };
 
 // What the narrow phase says of a pair in this step, applied afterwards in a fixed order
 enum { FE__RESULT_NONE, FE__RESULT_BEGIN, FE__RESULT_END, FE__RESULT_APART };
@@ -26,9 +27,10 @@ typedef struct fe__link {
     int32_t next, previous; // pair index, -1: none
 } fe__link;
 
-// A pair with a heightfield has a patch of points for each direction: its own contact, and those of FE__PATCHES - 1 patch records that live
-// as long as it does. To the solver each is a contact; while linked it is in the lists of bodies and of awake pairs. Events, filters and
-// recycling are the head's alone. Of all patches the head has points first.
+// A pair with a heightfield has a patch of points for each direction: its own contact, and those of FE__PATCHES - 1
+// patch records that live as long as it does. To the solver each is a contact; while linked it is in the lists of
+// bodies and of awake pairs. Events, filters and recycling are the head's alone. Of all patches the head has points
+// first.
 typedef struct fe__pair {
     int32_t shape_a, shape_b; // A was created first
     int32_t body_a, body_b;

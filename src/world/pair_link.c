@@ -13,7 +13,8 @@ static void enter_lists(fe_world *world, int32_t patch)
     if (world->pairs[p->head].awake_index >= 0) fe__pair_awaken(world, patch);
 }
 
-// A body that comes upon one so many times lighter strains it: its impact is not to find the island unprepared, see solve.c
+// A body that comes upon one so many times lighter strains it: its impact is not to find the island unprepared, see
+// solve.c
 #define UNEVEN 10.0f
 
 static void note_uneven(fe__body *a, fe__body *b)

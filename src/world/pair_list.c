@@ -1,8 +1,10 @@
 // pair_list.c - see pair_list.h.
 #include "world/pair_list.h"
 
-// ---- of a body ------------------------------------------------------------------------------------------------------------------------
-// ---- lists ---------------------------------------------------------------------------------------------------------------------------
+// ---- of a body
+// ------------------------------------------------------------------------------------------------------------------------
+// ---- lists
+// ---------------------------------------------------------------------------------------------------------------------------
 static fe__link *link_of(fe_world *world, int32_t pair, int32_t body)
 {
     return &world->pairs[pair].links[world->pairs[pair].body_a == body ? 0 : 1];
@@ -27,7 +29,8 @@ void fe__pair_remove_from_list(fe_world *world, int32_t pair, int32_t index)
     if (link.next >= 0) link_of(world, link.next, index)->previous = link.previous;
 }
 
-// ---- of the awake ---------------------------------------------------------------------------------------------------------------------
+// ---- of the awake
+// ---------------------------------------------------------------------------------------------------------------------
 void fe__pair_awaken(fe_world *world, int32_t pair)
 {
     if (world->pairs[pair].awake_index >= 0) return;
@@ -41,12 +44,12 @@ void fe__pair_retire(fe_world *world, int32_t pair)
     if (place < 0) return;
     int32_t last = --world->awake_pair_count;
     world->awake_pairs[place] = world->awake_pairs[last];
-    world->waits[place] = world->waits[last];
+    world->deferrals[place] = world->deferrals[last];
     world->pairs[fe__pair_of(world->awake_pairs[place])].awake_index = place;
     world->pairs[pair].awake_index = -1;
 }
 
-static void end_wait(fe_world *world, int32_t pair)
+static void end_deferral(fe_world *world, int32_t pair)
 {
     if (world->pairs[pair].awake_index >= 0) world->awake_pairs[world->pairs[pair].awake_index] = pair;
 }
@@ -56,10 +59,11 @@ void fe__pair_look_once(fe_world *world, int32_t pair)
     if (world->pairs[pair].flags & FE__PAIR_PATCH) return; // looked at with its head
     world->pairs[pair].flags |= FE__PAIR_ONCE;
     fe__pair_awaken(world, pair);
-    end_wait(world, pair);
+    end_deferral(world, pair);
 }
 
-void fe__body_end_waits(fe_world *world, int32_t body)
+void fe__body_end_deferrals(fe_world *world, int32_t body)
 {
-    for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, body)) end_wait(world, pair);
+    for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, body))
+        end_deferral(world, pair);
 }

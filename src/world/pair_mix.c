@@ -3,16 +3,17 @@
 
 #include "world/material.h"
 
-// ---- materials ------------------------------------------------------------------------------------------------------------------------
+// ---- materials
+// ------------------------------------------------------------------------------------------------------------------------
 static float form_radius(const fe__shape *a, const fe__shape *b) { return fe__maxf(a->form.radius, b->form.radius); }
 
 static int32_t has_extra(const fe_world *world, const fe__shape *shape)
 {
-    if (fe__form_is_field(&shape->form) && world->assets[shape->form.field].special) return 1;
+    if (fe__form_is_field(&shape->form) && fe__store_asset(world->store, shape->form.field)->special) return 1;
     const fe_material *m = &shape->material;
     fe_vec3 s = shape->surface_velocity;
-    return m->restitution > 0.0f || m->rolling_resistance > 0.0f || m->spinning_resistance > 0.0f || s.x != 0.0f || s.y != 0.0f ||
-           s.z != 0.0f;
+    return m->restitution > 0.0f || m->rolling_resistance > 0.0f || m->spinning_resistance > 0.0f || s.x != 0.0f ||
+           s.y != 0.0f || s.z != 0.0f;
 }
 
 int32_t fe__pair_kind(const fe_world *world, int32_t shape_a, int32_t shape_b)
@@ -64,7 +65,8 @@ void fe__pair_mix_surface(fe_world *world, int32_t pair)
     int32_t friction = fe__maxi(x->friction_combine, y->friction_combine);
     m->static_friction = mix_friction(friction, x->static_friction, y->static_friction);
     m->surface.dynamic_friction = mix_friction(friction, x->dynamic_friction, y->dynamic_friction);
-    e->restitution = mix_restitution(fe__maxi(x->restitution_combine, y->restitution_combine), x->restitution, y->restitution);
+    e->restitution =
+        mix_restitution(fe__maxi(x->restitution_combine, y->restitution_combine), x->restitution, y->restitution);
     e->rolling = fe__maxf(x->rolling_resistance, y->rolling_resistance) * form_radius(a, b);
     e->spinning = fe__maxf(x->spinning_resistance, y->spinning_resistance);
     e->surface_velocity[0] = surface.x, e->surface_velocity[1] = surface.y, e->surface_velocity[2] = surface.z;

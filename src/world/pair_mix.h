@@ -5,6 +5,6 @@
 
 int32_t fe__pair_kind(const fe_world *world, int32_t shape_a, int32_t shape_b); // FE__ROW_* of their contact
 void fe__pair_mix(fe_world *world, int32_t pair);                               // materials, events, row kind
-void fe__pair_mix_surface(fe_world *world, int32_t pair);                       // frictions and the like; writes the pair's records only
+void fe__pair_mix_surface(fe_world *world, int32_t pair); // frictions and the like; writes the pair's records only
 
 #endif

@@ -19,7 +19,8 @@ int32_t fe__reserve_pairs(fe_world *world, int32_t extra)
            FE_RESERVE(memory, world->extras, world->extra_capacity, limit) &&
            FE_RESERVE(memory, world->pair_serials, world->serial_capacity, 2 * limit) &&
            FE_RESERVE(memory, world->awake_pairs, world->awake_pair_capacity, limit) &&
-           FE_RESERVE(memory, world->waits, world->wait_capacity, limit) && fe__pair_set_reserve(&world->pair_set, memory, extra);
+           FE_RESERVE(memory, world->deferrals, world->deferral_capacity, limit) &&
+           fe__pair_set_reserve(&world->pair_set, memory, extra);
 }
 
 static int32_t is_with_static(const fe_world *world, int32_t pair)
@@ -45,21 +46,26 @@ static void remove_from_body(fe_world *world, int32_t pair, int32_t index)
     world->bodies[index].static_pairs -= is_with_static(world, pair);
 }
 
-// Triggers see sleepers, and a static body that comes to a sleeper wakes it. Bodies that are created asleep stay so, whatever they touch.
+// Triggers see sleepers, and a static body that comes to a sleeper wakes it. Bodies that are created asleep stay so,
+// whatever they touch.
 static int32_t concerns_sleepers(const fe_world *world, const fe__pair *p)
 {
     const fe__shape *a = world->shapes + p->shape_a, *b = world->shapes + p->shape_b;
-    int32_t dynamic_a = world->bodies[p->body_a].type == FE_BODY_DYNAMIC, dynamic_b = world->bodies[p->body_b].type == FE_BODY_DYNAMIC;
+    int32_t dynamic_a = world->bodies[p->body_a].type == FE_BODY_DYNAMIC,
+            dynamic_b = world->bodies[p->body_b].type == FE_BODY_DYNAMIC;
     const fe__shape *sleeper = dynamic_a ? a : b;
     return p->flags & FE__PAIR_SENSOR || (dynamic_a != dynamic_b && !(sleeper->flags & FE__SHAPE_MOVED));
 }
 
-// ---- birth ----------------------------------------------------------------------------------------------------------------------------
-// Which shape is fe__collide's A (see collide.h), and which body is the solver's A: the one that is not dynamic, else that shape's.
+// ---- birth
+// ----------------------------------------------------------------------------------------------------------------------------
+// Which shape is fe__collide's A (see collide.h), and which body is the solver's A: the one that is not dynamic, else
+// that shape's.
 static uint32_t sides(const fe_world *world, const fe__shape *a, const fe__shape *b)
 {
     int32_t swapped = fe__collide_swaps(&a->form, &b->form);
-    int32_t dynamic_a = world->bodies[a->body].type == FE_BODY_DYNAMIC, dynamic_b = world->bodies[b->body].type == FE_BODY_DYNAMIC;
+    int32_t dynamic_a = world->bodies[a->body].type == FE_BODY_DYNAMIC,
+            dynamic_b = world->bodies[b->body].type == FE_BODY_DYNAMIC;
     int32_t flipped = dynamic_a != dynamic_b ? dynamic_a : swapped;
     return (swapped ? (uint32_t)FE__PAIR_SWAPPED : 0u) | (flipped ? (uint32_t)FE__PAIR_FLIPPED : 0u);
 }
@@ -135,7 +141,8 @@ void fe__pair_release(fe_world *world, int32_t pair)
     world->first_free_pair = pair;
 }
 
-// ---- events ---------------------------------------------------------------------------------------------------------------------------
+// ---- events
+// ---------------------------------------------------------------------------------------------------------------------------
 fe_pair_event fe__pair_event_of(const fe_world *world, int32_t pair, int32_t kind)
 {
     const fe__pair *p = world->pairs + pair;
@@ -195,7 +202,8 @@ void fe__report_owed_exits(fe_world *world)
     world->owed_count = 0;
 }
 
-// ---- death ----------------------------------------------------------------------------------------------------------------------------
+// ---- death
+// ----------------------------------------------------------------------------------------------------------------------------
 static void destroy_patches(fe_world *world, int32_t head)
 {
     if (world->pairs[head].next_patch < 0) return;
@@ -237,6 +245,7 @@ void fe__body_refilter(fe_world *world, int32_t body)
     for (int32_t pair = world->bodies[body].first_contact, next; pair >= 0; pair = next) {
         next = fe__next_pair(world, pair, body);
         if (world->pairs[pair].flags & FE__PAIR_PATCH) continue;
-        if (!fe__may_collide(world, world->pairs[pair].shape_a, world->pairs[pair].shape_b)) fe__pair_destroy(world, pair);
+        if (!fe__may_collide(world, world->pairs[pair].shape_a, world->pairs[pair].shape_b))
+            fe__pair_destroy(world, pair);
     }
 }

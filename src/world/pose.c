@@ -1,8 +1,8 @@
 // pose.c - see pose.h.
 #include "world/pose.h"
 
-// A rotation is kept bit for bit when its length is 1 to this accuracy. Rounding q/|q| to floats leaves less (half a unit in the last
-// place, 6e-8), so that normalising twice changes nothing.
+// A rotation is kept bit for bit when its length is 1 to this accuracy. Rounding q/|q| to floats leaves less (half a
+// unit in the last place, 6e-8), so that normalising twice changes nothing.
 #define UNIT_TOLERANCE 1e-7
 
 fe_quat fe__unit_rotation(fe_quat q)
@@ -30,7 +30,8 @@ void fe__body_place(fe_world *world, int32_t index)
     fe__pose pose = {fe__origin_of(body), fe__rotation_of(body)};
     for (int32_t i = body->first_shape; i >= 0; i = world->shapes[i].next) {
         fe__shape *shape = &world->shapes[i];
-        shape->pose = shape->flags & FE__SHAPE_CENTRED ? pose : fe__compose(&pose, shape->local_position, shape->local_rotation);
+        shape->pose =
+            shape->flags & FE__SHAPE_CENTRED ? pose : fe__compose(&pose, shape->local_position, shape->local_rotation);
     }
 }
 

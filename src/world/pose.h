@@ -4,7 +4,10 @@
 #include "world/world.h"
 
 static inline fe_quat fe__rotation_of(const fe__body *b) { return fe__quat_of(b->rotation); }
-static inline fe_dvec3 fe__centre_of(const fe__body *b) { return (fe_dvec3){b->centre[0], b->centre[1], b->centre[2]}; } // of mass
+static inline fe_dvec3 fe__centre_of(const fe__body *b)
+{
+    return (fe_dvec3){b->centre[0], b->centre[1], b->centre[2]};
+} // of mass
 static inline fe_dvec3 fe__origin_of(const fe__body *b) { return (fe_dvec3){b->origin[0], b->origin[1], b->origin[2]}; }
 
 fe_quat fe__unit_rotation(fe_quat q);               // unchanged when its length is 1 already, q/|q| else

@@ -1,19 +1,22 @@
 // proxies.c - see proxies.h.
 #include "world/proxies.h"
 
-// A box in a tree is larger than its shape by the speculative distance (what touches must have a pair) and a share of its size, so that a
-// body may move a while before its tree changes: larger ones move further before it matters.
+// A box in a tree is larger than its shape by the speculative distance (what touches must have a pair) and a share of
+// its size, so that a body may move a while before its tree changes: larger ones move further before it matters.
 #define FAT_SHARE 0.12 // of the largest half extent
 #define FAT_MOST 0.05  // m
-// It also reaches where the body will be after so many steps at its velocity: what it meets in the next step must have a pair before.
+// It also reaches where the body will be after so many steps at its velocity: what it meets in the next step must have
+// a pair before.
 #define STEPS_AHEAD 2.0f
-#define FIRST_DT (1.0f / 60.0f) // s, before the first step has told
+#define FIRST_DT (1.0f / 60.0f) // s, before the first step
 
-// ---- bounds ---------------------------------------------------------------------------------------------------------------------
+// ---- bounds
+// ---------------------------------------------------------------------------------------------------------------------
 
 static fe__bounds grown(fe__bounds b, double margin)
 {
-    return (fe__bounds){{b.low.x - margin, b.low.y - margin, b.low.z - margin}, {b.high.x + margin, b.high.y + margin, b.high.z + margin}};
+    return (fe__bounds){{b.low.x - margin, b.low.y - margin, b.low.z - margin},
+                        {b.high.x + margin, b.high.y + margin, b.high.z + margin}};
 }
 
 fe__bounds fe__shape_bounds(const fe_world *world, int32_t index, float margin)
@@ -26,9 +29,9 @@ static fe__bounds swept(const fe_world *world, int32_t index, fe__bounds b, floa
 {
     const fe__body *body = &world->bodies[world->shapes[index].body];
     double dt = (double)(steps * (world->last_dt > 0.0f ? world->last_dt : FIRST_DT));
-    fe_dvec3 way = fe__dscale(dt, fe__widen(fe__vec3(body->velocity[0], body->velocity[1], body->velocity[2])));
-    b.low = fe__dadd(b.low, (fe_dvec3){fe__mind(way.x, 0.0), fe__mind(way.y, 0.0), fe__mind(way.z, 0.0)});
-    b.high = fe__dadd(b.high, (fe_dvec3){fe__maxd(way.x, 0.0), fe__maxd(way.y, 0.0), fe__maxd(way.z, 0.0)});
+    fe_dvec3 travel = fe__dscale(dt, fe__widen(fe__vec3(body->velocity[0], body->velocity[1], body->velocity[2])));
+    b.low = fe__dadd(b.low, (fe_dvec3){fe__mind(travel.x, 0.0), fe__mind(travel.y, 0.0), fe__mind(travel.z, 0.0)});
+    b.high = fe__dadd(b.high, (fe_dvec3){fe__maxd(travel.x, 0.0), fe__maxd(travel.y, 0.0), fe__maxd(travel.z, 0.0)});
     return b;
 }
 
@@ -46,20 +49,26 @@ fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t index)
     return grown(b, (double)world->tuning.speculative_distance + fe__mind(FAT_MOST, FAT_SHARE * half));
 }
 
-// ---- broad phase ----------------------------------------------------------------------------------------------------------------
+// ---- broad phase
+// ----------------------------------------------------------------------------------------------------------------
 
-int32_t fe__reserve_proxies(fe_world *world, int32_t extra)
+static fe__tree *tree_of_type(fe_world *world, int32_t body_type)
+{
+    return body_type == FE_BODY_STATIC ? &world->static_tree : &world->moving_tree;
+}
+
+static fe__tree *tree_of(fe_world *world, const fe__shape *shape)
+{
+    return tree_of_type(world, world->bodies[shape->body].type);
+}
+
+int32_t fe__reserve_proxies(fe_world *world, int32_t body_type, int32_t extra)
 {
     fe__memory *memory = &world->memory;
     int32_t limit = world->shape_capacity;
     return FE_RESERVE(memory, world->moved, world->moved_capacity, limit) &&
            FE_RESERVE(memory, world->planes, world->plane_capacity, (int64_t)world->plane_count + extra) &&
-           fe__tree_reserve(&world->static_tree, memory, limit, extra) && fe__tree_reserve(&world->moving_tree, memory, limit, extra);
-}
-
-static fe__tree *tree_of(fe_world *world, const fe__shape *shape)
-{
-    return world->bodies[shape->body].type == FE_BODY_STATIC ? &world->static_tree : &world->moving_tree;
+           fe__tree_reserve(tree_of_type(world, body_type), memory, limit, extra);
 }
 
 void fe__shape_mark_moved(fe_world *world, int32_t index)

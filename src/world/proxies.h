@@ -1,7 +1,7 @@
 // proxies.h - the places of shapes in the broad phase.
 //
-// A shape of a static body lives in the static tree, one of a moving body in the moving tree, planes in a list; a shape of a disabled body
-// in none. A new place is noted in fe_world.moved, from which the next step finds new pairs.
+// A shape of a static body lives in the static tree, one of a moving body in the moving tree, planes in a list; a shape
+// of a disabled body in none. A new place is noted in fe_world.moved, from which the next step finds new pairs.
 #ifndef FE_WORLD_PROXIES_H
 #define FE_WORLD_PROXIES_H
 #include "world/world.h"
@@ -11,7 +11,7 @@ fe__bounds fe__shape_reach_bounds(const fe_world *world, int32_t shape); // what
 fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t shape);   // as the trees hold them
 
 // Puts the shape into its tree or list, takes it out, has it look for pairs. Room was reserved by fe__reserve_proxies.
-int32_t fe__reserve_proxies(fe_world *world, int32_t extra); // 0: no memory
+int32_t fe__reserve_proxies(fe_world *world, int32_t body_type, int32_t extra); // 0: no memory
 void fe__shape_enter(fe_world *world, int32_t shape);
 void fe__shape_leave(fe_world *world, int32_t shape);
 void fe__shape_touch(fe_world *world, int32_t shape);       // its pose or form is new: a new box, new pairs

@@ -3,7 +3,7 @@
 // Called by the API layer with checked arguments, between steps.
 #include "world/shapes.h"
 
-#include "world/assets.h"
+#include "world/asset_users.h"
 #include "world/mass.h"
 #include "world/pair_list.h"
 #include "world/pair_mix.h"
@@ -14,15 +14,17 @@
 
 #include <string.h>
 
-// ---- birth and death ------------------------------------------------------------------------------------------------------------
+// ---- birth and death
+// ------------------------------------------------------------------------------------------------------------
 
-static fe_result reserve_shape(fe_world *world)
+static fe_result reserve_shape(fe_world *world, int32_t body, const fe__form *form)
 {
     fe_result ids = fe__id_pool_reserve(&world->shape_ids, &world->memory, 1);
     if (ids != FE_OK) return ids;
     int64_t need = (int64_t)world->shape_ids.slot_count + (world->shape_ids.free_count ? 0 : 1);
     if (!FE_RESERVE(&world->memory, world->shapes, world->shape_capacity, need)) return FE_ERROR_MEMORY;
-    return fe__reserve_proxies(world, 1) ? FE_OK : FE_ERROR_MEMORY;
+    if (!fe__reserve_asset_use(world, form)) return FE_ERROR_MEMORY;
+    return fe__reserve_proxies(world, world->bodies[body].type, 1) ? FE_OK : FE_ERROR_MEMORY;
 }
 
 static void append_to_body(fe_world *world, int32_t index)
@@ -59,8 +61,8 @@ static void remove_from_body(fe_world *world, int32_t index)
 static void set_local_pose(fe__shape *shape, fe_vec3 position, fe_quat rotation)
 {
     fe_quat q = fe__unit_rotation(rotation);
-    int32_t centred =
-        position.x == 0.0f && position.y == 0.0f && position.z == 0.0f && q.x == 0.0f && q.y == 0.0f && q.z == 0.0f && q.w == 1.0f;
+    int32_t centred = position.x == 0.0f && position.y == 0.0f && position.z == 0.0f && q.x == 0.0f && q.y == 0.0f &&
+                      q.z == 0.0f && q.w == 1.0f;
     shape->local_position = position;
     shape->local_rotation = q;
     shape->flags &= ~(uint32_t)FE__SHAPE_CENTRED;
@@ -76,7 +78,7 @@ static void note_events(fe_world *world, uint32_t events)
 // A sleeping body goes on sleeping: a level may be built asleep.
 int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *def, const fe__form *form)
 {
-    fe_result reserved = reserve_shape(world);
+    fe_result reserved = reserve_shape(world, body, form);
     if (reserved != FE_OK) return reserved;
     int32_t index = fe__id_slot_of(fe__id_pool_allocate(&world->shape_ids));
     fe__shape *shape = &world->shapes[index];
@@ -141,7 +143,8 @@ void fe__shape_destroy(fe_world *world, int32_t index)
     fe__body_update_mass(world, body);
 }
 
-// ---- change ---------------------------------------------------------------------------------------------------------------------
+// ---- change
+// ---------------------------------------------------------------------------------------------------------------------
 
 static void exchange_asset(fe_world *world, int32_t index, const fe__form *before)
 {
@@ -173,8 +176,9 @@ static void change(fe_world *world, int32_t index, const fe__form *form, fe_vec3
 
 fe_result fe__shape_set_form(fe_world *world, int32_t index, const fe__form *form)
 {
-    if (!fe__reserve_proxies(world, 1)) return FE_ERROR_MEMORY;
     const fe__shape *shape = &world->shapes[index];
+    if (!fe__reserve_asset_use(world, form)) return FE_ERROR_MEMORY;
+    if (!fe__reserve_proxies(world, world->bodies[shape->body].type, 1)) return FE_ERROR_MEMORY;
     change(world, index, form, shape->local_position, shape->local_rotation);
     return FE_OK;
 }
@@ -185,7 +189,8 @@ void fe__shape_set_local_pose(fe_world *world, int32_t index, fe_vec3 position, 
     change(world, index, &form, position, rotation);
 }
 
-// Pairs that the new filter forbids end now, their exits come with the next step; those that it allows are found by the next step.
+// Pairs that the new filter forbids end now, their exits come with the next step; those that it allows are found by the
+// next step.
 void fe__shape_set_filter(fe_world *world, int32_t index, uint32_t layer, uint32_t mask, int32_t group)
 {
     fe__shape *shape = &world->shapes[index];

@@ -3,15 +3,18 @@
 #define FE_WORLD_SHAPES_H
 #include "world/world.h"
 
-int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *def, const fe__form *form); // index, or negative: fe_result
+int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *def,
+                         const fe__form *form); // index, or negative: fe_result
 void fe__shape_destroy(fe_world *world, int32_t shape);
 fe_result fe__shape_set_form(fe_world *world, int32_t shape, const fe__form *form);
 void fe__shape_set_local_pose(fe_world *world, int32_t shape, fe_vec3 position, fe_quat rotation);
 void fe__shape_set_filter(fe_world *world, int32_t shape, uint32_t layer, uint32_t mask, int32_t group);
 // Does the pair filter judge its pairs? They are found anew
 void fe__shape_set_judged(fe_world *world, int32_t shape, int32_t judged);
-void fe__shape_set_one_way(fe_world *world, int32_t shape, int32_t one_way, const fe_vec3 *direction); // NULL: the direction as it is
+void fe__shape_set_one_way(fe_world *world, int32_t shape, int32_t one_way,
+                           const fe_vec3 *direction); // NULL: the direction as it is
 void fe__shape_set_trigger(fe_world *world, int32_t shape, int32_t trigger);
-void fe__shape_material_changed(fe_world *world, int32_t shape); // material, events, surface velocity: its pairs mix anew
+void fe__shape_material_changed(fe_world *world,
+                                int32_t shape); // material, events, surface velocity: its pairs mix anew
 
 #endif

@@ -1,7 +1,7 @@
 // sleep.c - who is awake: dense lists of bodies and pairs, islands that fall asleep and wake together.
 //
-// A pair is in its list while one of its bodies is. The order of the lists is of no consequence: everything that could show is sorted by
-// creation.
+// A pair is in its list while one of its bodies is. The order of the lists is of no consequence: everything that could
+// show is sorted by creation.
 #include "world/sleep.h"
 
 #include "world/joint_list.h"
@@ -13,7 +13,7 @@ static void stir(fe_world *world, int32_t index)
 {
     if (world->bodies[index].flags & FE__BODY_DISTURBED) return;
     world->bodies[index].flags |= FE__BODY_DISTURBED;
-    world->stirred[world->stirred_count++] = index;
+    world->disturbed[world->disturbed_count++] = index;
 }
 
 void fe__body_awaken_alone(fe_world *world, int32_t index)
@@ -23,8 +23,10 @@ void fe__body_awaken_alone(fe_world *world, int32_t index)
     if (body->awake_index >= 0) return;
     body->awake_index = world->awake_body_count;
     world->awake_bodies[world->awake_body_count++] = index;
-    for (int32_t pair = body->first_contact; pair >= 0; pair = fe__next_pair(world, pair, index)) fe__pair_awaken(world, pair);
-    for (int32_t joint = body->first_joint; joint; joint = fe__next_joint(world, joint, index)) fe__joint_awaken(world, joint);
+    for (int32_t pair = body->first_contact; pair >= 0; pair = fe__next_pair(world, pair, index))
+        fe__pair_awaken(world, pair);
+    for (int32_t joint = body->first_joint; joint; joint = fe__next_joint(world, joint, index))
+        fe__joint_awaken(world, joint);
     world->solver.graph_changed = 1;
     stir(world, index);
 }
@@ -41,7 +43,8 @@ void fe__body_retire(fe_world *world, int32_t index)
         int32_t other = p->body_a == index ? p->body_b : p->body_a;
         if (world->bodies[other].awake_index < 0) fe__pair_retire(world, pair);
     }
-    for (int32_t joint = body->first_joint; joint; joint = fe__next_joint(world, joint, index)) fe__joint_retire(world, joint);
+    for (int32_t joint = body->first_joint; joint; joint = fe__next_joint(world, joint, index))
+        fe__joint_retire(world, joint);
     world->solver.graph_changed = 1;
     stir(world, index);
 }
@@ -115,7 +118,8 @@ static int32_t is_driven(const fe_world *world, int32_t body, int32_t low)
         if (p->flags & FE__PAIR_LINKED && is_driving(world, p->body_a == body ? p->body_b : p->body_a, low)) return 1;
     }
     for (int32_t joint = world->bodies[body].first_joint; joint; joint = fe__next_joint(world, joint, body))
-        if (world->joints.joints[joint].colour >= 0 && is_driving(world, fe__joint_other(world, joint, body), low)) return 1;
+        if (world->joints.joints[joint].colour >= 0 && is_driving(world, fe__joint_other(world, joint, body), low))
+            return 1;
     return 0;
 }
 

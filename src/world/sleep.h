@@ -3,9 +3,10 @@
 #define FE_WORLD_SLEEP_H
 #include "world/world.h"
 
-void fe__wake(fe_world *world, int32_t body);              // it and all that touches it, through dynamic bodies; nothing on static ones
-void fe__wake_neighbours(fe_world *world, int32_t body);   // all that touches it, not the body
-void fe__body_disturb(fe_world *world, int32_t body);      // wakes it and what touches it; of a static body what touches it
+void fe__wake(fe_world *world,
+              int32_t body); // it and all that touches it, through dynamic bodies; nothing on static ones
+void fe__wake_neighbours(fe_world *world, int32_t body); // all that touches it, not the body
+void fe__body_disturb(fe_world *world, int32_t body); // wakes it and what touches it; of a static body what touches it
 fe_result fe__put_to_sleep(fe_world *world, int32_t body); // the body's island; FE_ERROR_STATE when part of it may not
 void fe__body_awaken_alone(fe_world *world, int32_t body); // into the awake lists, its pairs too
 void fe__body_retire(fe_world *world, int32_t body);       // out of the awake lists

@@ -8,8 +8,8 @@ void fe__body_note_swiftness(fe_world *world, const fe__body *body)
     float swiftness = body->thickness > 0.0f ? body->speed / body->thickness : 0.0f;
     int32_t bits, most = atomic_load_explicit(&world->swiftest, memory_order_relaxed);
     memcpy(&bits, &swiftness, sizeof bits);
-    while (bits > most &&
-           !atomic_compare_exchange_weak_explicit(&world->swiftest, &most, bits, memory_order_relaxed, memory_order_relaxed)) {}
+    while (bits > most && !atomic_compare_exchange_weak_explicit(&world->swiftest, &most, bits, memory_order_relaxed,
+                                                                 memory_order_relaxed)) {}
 }
 
 // What the narrow phase asks: how fast the fastest point may be

@@ -1,7 +1,7 @@
 // step_scratch.h - what the stages of a step share.
 //
-// The scratch lives from step to step, so that a settled scene's step allocates nothing. Everything is reserved before the world changes
-// (step/reserve.c); from there on nothing allocates.
+// The scratch lives from step to step, so that a settled scene's step allocates nothing. Everything is reserved before
+// the world changes (step/reserve.c); from there on nothing allocates.
 #ifndef FE_WORLD_STEP_SCRATCH_H
 #define FE_WORLD_STEP_SCRATCH_H
 #include "core/array_sort.h"
@@ -30,8 +30,8 @@ typedef struct fe__step_scratch {
     int32_t candidate_patches; // further records that the candidates with heightfields need
     fe__candidate_buffer buffers[FE_MAX_WORKERS];
 
-    int32_t *busy;             // awake pairs that do not wait
-    _Atomic int32_t some_wait; // 0: no awake pair does
+    int32_t *busy;                 // awake pairs that do not wait
+    _Atomic int32_t some_deferred; // 0: no awake pair does
     int32_t busy_capacity;
     int32_t *results; // pairs that begin, end or part in this step
     int32_t result_capacity;
@@ -44,7 +44,8 @@ typedef struct fe__step_scratch {
     _Atomic int32_t left_count;
     _Atomic int32_t lost_count; // bodies that overflowed in this step
 
-    int32_t *chased;   // bodies that continuous collision looks at: dynamic ones, and kinematic ones from kinematic_room on
+    int32_t
+        *chased; // bodies that continuous collision looks at: dynamic ones, and kinematic ones from kinematic_room on
     fe__chase *chases; // what became of bullets, by place in that list
     int32_t chased_capacity, chase_capacity;
     int32_t kinematic_room;

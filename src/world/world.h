@@ -1,7 +1,7 @@
 // world.h - the world: plain arrays of records, lists by index, and the stages' scratch.
 //
-// Below the API nothing checks handles or arguments: an index is a living record (asserts say so). Whatever a call needs is reserved before
-// it changes anything, so that a failed allocation leaves no trace.
+// Below the API nothing checks handles or arguments: an index is a living record (asserts say so). Whatever a call
+// needs is reserved before it changes anything, so that a failed allocation leaves no trace.
 #ifndef FE_WORLD_WORLD_H
 #define FE_WORLD_WORLD_H
 #include "broadphase/pair_set.h"
@@ -13,30 +13,23 @@
 #include "core/threads.h"
 #include "solver/solver.h"
 #include "solver/body.h"
+#include "store/store.h"
 #include "world/clusters.h"
 #include "world/event_record.h"
 #include "world/joint_record.h"
 #include "world/pair.h"
-#include "world/wait.h"
+#include "world/deferral.h"
 #include "collision/form/heightfield.h"
 #include "collision/form/shape.h"
 #include "collision/manifold/patch.h"
 
-// What shapes share. Record i of the assets and record i of the heightfields are one thing.
-typedef struct fe__asset {
-    fe_material *materials; // of the cells
-    int32_t material_count;
-    int32_t special;    // a material needs special rows
-    int32_t first_user; // shapes, threaded through fe__shape.next_user; -1: none
-    int32_t destroyed;  // by its owner: it goes with its last user
-} fe__asset;
-
-struct fe_store {
-    fe_world *world;
-};
+// An asset of the store that shapes of this world have.
+typedef struct fe__asset_use {
+    int32_t asset;
+    int32_t first_user; // shapes, threaded through fe__shape.next_user
+} fe__asset_use;
 
 struct fe_world {
-    fe_store store;
     fe__memory memory;
     fe__workers workers;
     fe_pool *own_pool; // or NULL
@@ -55,15 +48,17 @@ struct fe_world {
     int32_t simd;               // fe_simd
 
     // records
-    fe__id_pool body_ids, shape_ids, asset_ids;
+    fe__id_pool body_ids, shape_ids;
     fe__body *bodies;
     fe__odometer *odometers; // by body
     int32_t body_capacity, odometer_capacity;
     fe__shape *shapes;
     int32_t shape_capacity;
-    fe__heightfield *fields; // heightfields, and the rest of the same assets
-    fe__asset *assets;
-    int32_t field_capacity, asset_capacity;
+    fe_store *store; // of the assets that shapes have; its own, or of its definition
+    int32_t owns_store;
+    fe__store_member member; // in the store's list
+    fe__asset_use *uses;     // by rising asset; under the store's lock
+    int32_t use_count, use_capacity;
     uint64_t next_serial;                      // of bodies, shapes and joints alike
     int32_t first_body, last_body, body_count; // in the order of creation
     int32_t static_count;                      // of them
@@ -80,11 +75,12 @@ struct fe_world {
     int32_t pair_count, linked_count; // patches count with their head, and each that is linked
     int32_t field_pair_count;         // with a heightfield in them
     // bounds for what a step may need; they only grow
-    int32_t most_contacts;    // of one dynamic body
-    uint32_t row_kinds;       // 1 << FE__ROW_* of every pair
-    int32_t wants_hits;       // a shape asked for hit events
-    int32_t has_bullets;      // a body was one
-    _Atomic int32_t swiftest; // speed over thickness, 1/s, of the body that has most of it: the bits of a float, which rise with it
+    int32_t most_contacts; // of one dynamic body
+    uint32_t row_kinds;    // 1 << FE__ROW_* of every pair
+    int32_t wants_hits;    // a shape asked for hit events
+    int32_t has_bullets;   // a body was one
+    _Atomic int32_t
+        swiftest; // speed over thickness, 1/s, of the body that has most of it: the bits of a float, which rise with it
     fe__clusters clusters;
     fe__pair_set pair_set; // by shape indices
     fe__pair_set ignored;  // by body indices: fe_world_ignore_collision
@@ -102,9 +98,9 @@ struct fe_world {
     // who is awake: dense lists of indices, in no order that matters
     int32_t *awake_bodies;
     int32_t awake_body_count, awake_body_capacity;
-    int32_t *awake_pairs; // or ~pair, see wait.h
-    fe__wait *waits;      // beside it
-    int32_t awake_pair_count, awake_pair_capacity, wait_capacity;
+    int32_t *awake_pairs;    // or ~pair, see deferral.h
+    fe__deferral *deferrals; // beside it
+    int32_t awake_pair_count, awake_pair_capacity, deferral_capacity;
     int32_t *awake_joints;
     int32_t awake_joint_count, awake_joint_capacity;
 
@@ -112,8 +108,8 @@ struct fe_world {
     fe__tree static_tree, moving_tree; // proxies are shape indices; kinematic bodies' are in the moving tree
     int32_t *planes;                   // shapes
     int32_t plane_count, plane_capacity;
-    // shapes whose box is new since the last step's pairs. One that has left since is still listed (neither IN_TREE nor IN_PLANES): skip
-    // it. Who empties the list clears FE__SHAPE_MOVED of all in it
+    // shapes whose box is new since the last step's pairs. One that has left since is still listed (neither IN_TREE nor
+    // IN_PLANES): skip it. Who empties the list clears FE__SHAPE_MOVED of all in it
     int32_t *moved;
     int32_t moved_count, moved_capacity;
 
@@ -123,8 +119,8 @@ struct fe_world {
     int32_t first_owed, owed_count; // records of ended pairs that owe an exit, linked as free ones are; 0: none
     fe__body_event_record *body_events;
     int32_t body_event_count, body_event_capacity;
-    int32_t *stirred; // bodies that woke or fell asleep since the last step's events, each once
-    int32_t stirred_count, stirred_capacity;
+    int32_t *disturbed; // bodies that woke or fell asleep since the last step's events, each once
+    int32_t disturbed_count, disturbed_capacity;
     fe__hit_event_record *hit_events;
     int32_t hit_event_count, hit_event_capacity;
     fe__joint_event_record *joint_events;

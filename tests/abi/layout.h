@@ -1,447 +1,539 @@
 // Written by tests/abi/record. Sizes and offsets in bytes.
-FE_SIZE(fe_vec3, 12);
-FE_OFFSET(fe_vec3, x, 0);
-FE_OFFSET(fe_vec3, y, 4);
-FE_OFFSET(fe_vec3, z, 8);
-FE_SIZE(fe_dvec3, 24);
-FE_OFFSET(fe_dvec3, x, 0);
-FE_OFFSET(fe_dvec3, y, 8);
-FE_OFFSET(fe_dvec3, z, 16);
-FE_SIZE(fe_quat, 16);
-FE_OFFSET(fe_quat, x, 0);
-FE_OFFSET(fe_quat, y, 4);
-FE_OFFSET(fe_quat, z, 8);
-FE_OFFSET(fe_quat, w, 12);
-FE_SIZE(fe_transform, 40);
-FE_OFFSET(fe_transform, position, 0);
-FE_OFFSET(fe_transform, rotation, 24);
-FE_VALUE(FE_OK, 0);
-FE_VALUE(FE_MISS, 1);
-FE_VALUE(FE_ERROR_ARGUMENT, -1);
-FE_VALUE(FE_ERROR_STALE, -2);
-FE_VALUE(FE_ERROR_KIND, -3);
-FE_VALUE(FE_ERROR_STEPPING, -4);
-FE_VALUE(FE_ERROR_MEMORY, -5);
-FE_VALUE(FE_ERROR_LIMIT, -6);
-FE_VALUE(FE_ERROR_UNSUPPORTED, -7);
-FE_VALUE(FE_ERROR_STATE, -8);
-FE_VALUE(FE_RESULT_FORCE32, 2147483647);
-FE_VALUE(FE_SIMD_AUTO, 0);
-FE_VALUE(FE_SIMD_PLAIN, 1);
-FE_VALUE(FE_SIMD_SSE2, 2);
-FE_VALUE(FE_SIMD_AVX2, 3);
-FE_VALUE(FE_SIMD_AVX512, 4);
-FE_VALUE(FE_SIMD_NEON, 5);
-FE_VALUE(FE_SIMD_FORCE32, 2147483647);
-#if UINTPTR_MAX == UINT64_MAX
-FE_SIZE(fe_allocator, 32);
-FE_OFFSET(fe_allocator, struct_size, 0);
-FE_OFFSET(fe_allocator, reserved, 4);
-FE_OFFSET(fe_allocator, allocate, 8);
-FE_OFFSET(fe_allocator, release, 16);
-FE_OFFSET(fe_allocator, user, 24);
-FE_SIZE(fe_task_system, 24);
-FE_OFFSET(fe_task_system, struct_size, 0);
-FE_OFFSET(fe_task_system, worker_count, 4);
-FE_OFFSET(fe_task_system, run, 8);
-FE_OFFSET(fe_task_system, user, 16);
-FE_SIZE(fe_world_def, 64);
-FE_OFFSET(fe_world_def, struct_size, 0);
-FE_OFFSET(fe_world_def, worker_count, 4);
-FE_OFFSET(fe_world_def, gravity, 8);
-FE_OFFSET(fe_world_def, substeps, 20);
-FE_OFFSET(fe_world_def, simd, 24);
-FE_OFFSET(fe_world_def, pool, 32);
-FE_OFFSET(fe_world_def, allocator, 40);
-FE_OFFSET(fe_world_def, tasks, 48);
-FE_OFFSET(fe_world_def, user_data, 56);
-#endif
-FE_SIZE(fe_world_tuning, 44);
-FE_OFFSET(fe_world_tuning, struct_size, 0);
-FE_OFFSET(fe_world_tuning, contact_hertz, 4);
-FE_OFFSET(fe_world_tuning, contact_damping_ratio, 8);
-FE_OFFSET(fe_world_tuning, contact_push_speed, 12);
-FE_OFFSET(fe_world_tuning, joint_hertz, 16);
-FE_OFFSET(fe_world_tuning, joint_damping_ratio, 20);
-FE_OFFSET(fe_world_tuning, restitution_threshold, 24);
-FE_OFFSET(fe_world_tuning, hit_event_threshold, 28);
-FE_OFFSET(fe_world_tuning, sleep_time, 32);
-FE_OFFSET(fe_world_tuning, speculative_distance, 36);
-FE_OFFSET(fe_world_tuning, max_linear_speed, 40);
-FE_SIZE(fe_profile, 40);
-FE_OFFSET(fe_profile, struct_size, 0);
-FE_OFFSET(fe_profile, step, 4);
-FE_OFFSET(fe_profile, pairs, 8);
-FE_OFFSET(fe_profile, collide, 12);
-FE_OFFSET(fe_profile, islands, 16);
-FE_OFFSET(fe_profile, solve, 20);
-FE_OFFSET(fe_profile, continuous, 24);
-FE_OFFSET(fe_profile, finalize, 28);
-FE_OFFSET(fe_profile, events, 32);
-FE_OFFSET(fe_profile, sleep, 36);
-FE_SIZE(fe_counters, 88);
-FE_OFFSET(fe_counters, struct_size, 0);
-FE_OFFSET(fe_counters, bodies, 4);
-FE_OFFSET(fe_counters, shapes, 8);
-FE_OFFSET(fe_counters, joints, 12);
-FE_OFFSET(fe_counters, awake_bodies, 16);
-FE_OFFSET(fe_counters, pairs, 20);
-FE_OFFSET(fe_counters, contacts, 24);
-FE_OFFSET(fe_counters, recycled, 28);
-FE_OFFSET(fe_counters, islands, 32);
-FE_OFFSET(fe_counters, colours, 36);
-FE_OFFSET(fe_counters, rows, 40);
-FE_OFFSET(fe_counters, rows_whole, 44);
-FE_OFFSET(fe_counters, lanes, 48);
-FE_OFFSET(fe_counters, simd, 52);
-FE_OFFSET(fe_counters, simd_width, 56);
-FE_OFFSET(fe_counters, workers, 60);
-FE_OFFSET(fe_counters, bytes, 64);
-FE_OFFSET(fe_counters, allocations, 72);
-FE_OFFSET(fe_counters, trees, 80);
-FE_VALUE(FE_BODY_STATIC, 0);
-FE_VALUE(FE_BODY_KINEMATIC, 1);
-FE_VALUE(FE_BODY_DYNAMIC, 2);
-FE_VALUE(FE_BODY_TYPE_FORCE32, 2147483647);
-FE_VALUE(FE_AXIS_NONE, 0);
-FE_VALUE(FE_AXIS_X, 1);
-FE_VALUE(FE_AXIS_Y, 2);
-FE_VALUE(FE_AXIS_Z, 4);
-FE_VALUE(FE_AXIS_ALL, 7);
-FE_VALUE(FE_AXIS_FORCE32, 2147483647);
-FE_SIZE(fe_body_def, 120);
-FE_OFFSET(fe_body_def, struct_size, 0);
-FE_OFFSET(fe_body_def, type, 4);
-FE_OFFSET(fe_body_def, transform, 8);
-FE_OFFSET(fe_body_def, linear_velocity, 48);
-FE_OFFSET(fe_body_def, angular_velocity, 60);
-FE_OFFSET(fe_body_def, linear_damping, 72);
-FE_OFFSET(fe_body_def, angular_damping, 76);
-FE_OFFSET(fe_body_def, gravity_scale, 80);
-FE_OFFSET(fe_body_def, sleep_threshold, 84);
-FE_OFFSET(fe_body_def, linear_locks, 88);
-FE_OFFSET(fe_body_def, angular_locks, 92);
-FE_OFFSET(fe_body_def, awake, 96);
-FE_OFFSET(fe_body_def, sleep_allowed, 100);
-FE_OFFSET(fe_body_def, enabled, 104);
-FE_OFFSET(fe_body_def, bullet, 108);
-FE_OFFSET(fe_body_def, user_data, 112);
-FE_SIZE(fe_mass_data, 48);
-FE_OFFSET(fe_mass_data, struct_size, 0);
-FE_OFFSET(fe_mass_data, mass, 4);
-FE_OFFSET(fe_mass_data, centre, 8);
-FE_OFFSET(fe_mass_data, inertia, 20);
-FE_OFFSET(fe_mass_data, inertia_rotation, 32);
-FE_VALUE(FE_GEOMETRY_SPHERE, 0);
-FE_VALUE(FE_GEOMETRY_CAPSULE, 1);
-FE_VALUE(FE_GEOMETRY_BOX, 2);
-FE_VALUE(FE_GEOMETRY_PLANE, 3);
-FE_VALUE(FE_GEOMETRY_HEIGHTFIELD, 4);
-FE_VALUE(FE_GEOMETRY_TYPE_FORCE32, 2147483647);
-FE_SIZE(fe_geometry, 56);
-FE_OFFSET(fe_geometry, struct_size, 0);
-FE_OFFSET(fe_geometry, type, 4);
-FE_OFFSET(fe_geometry, radius, 8);
-FE_OFFSET(fe_geometry, half_height, 12);
-FE_OFFSET(fe_geometry, half_extents, 16);
-FE_OFFSET(fe_geometry, normal, 28);
-FE_OFFSET(fe_geometry, distance, 40);
-FE_OFFSET(fe_geometry, asset, 48);
-FE_SIZE(fe_material, 20);
-FE_OFFSET(fe_material, static_friction, 0);
-FE_OFFSET(fe_material, dynamic_friction, 4);
-FE_OFFSET(fe_material, restitution, 8);
-FE_OFFSET(fe_material, rolling_resistance, 12);
-FE_OFFSET(fe_material, spinning_resistance, 16);
-FE_VALUE(FE_EVENTS_NONE, 0);
-FE_VALUE(FE_EVENTS_TOUCH, 1);
-FE_VALUE(FE_EVENTS_STAY, 2);
-FE_VALUE(FE_EVENTS_HIT, 4);
-FE_VALUE(FE_SHAPE_EVENTS_FORCE32, 2147483647);
-FE_SIZE(fe_shape_def, 96);
-FE_OFFSET(fe_shape_def, struct_size, 0);
-FE_OFFSET(fe_shape_def, density, 4);
-FE_OFFSET(fe_shape_def, local_position, 8);
-FE_OFFSET(fe_shape_def, local_rotation, 20);
-FE_OFFSET(fe_shape_def, material, 36);
-FE_OFFSET(fe_shape_def, layer, 56);
-FE_OFFSET(fe_shape_def, mask, 60);
-FE_OFFSET(fe_shape_def, trigger, 64);
-FE_OFFSET(fe_shape_def, events, 68);
-FE_OFFSET(fe_shape_def, surface_velocity, 72);
-FE_OFFSET(fe_shape_def, user_data, 88);
-FE_SIZE(fe_frame, 28);
-FE_OFFSET(fe_frame, position, 0);
-FE_OFFSET(fe_frame, rotation, 12);
-FE_VALUE(FE_JOINT_DISTANCE, 1);
-FE_VALUE(FE_JOINT_BALL, 2);
-FE_VALUE(FE_JOINT_HINGE, 3);
-FE_VALUE(FE_JOINT_FIXED, 4);
-FE_VALUE(FE_JOINT_CONFIGURABLE, 5);
-FE_VALUE(FE_JOINT_TYPE_FORCE32, 2147483647);
-FE_SIZE(fe_joint_def, 112);
-FE_OFFSET(fe_joint_def, struct_size, 0);
-FE_OFFSET(fe_joint_def, enabled, 4);
-FE_OFFSET(fe_joint_def, body_a, 8);
-FE_OFFSET(fe_joint_def, body_b, 16);
-FE_OFFSET(fe_joint_def, user_data, 24);
-FE_OFFSET(fe_joint_def, frame_a, 32);
-FE_OFFSET(fe_joint_def, frame_b, 60);
-FE_OFFSET(fe_joint_def, collide_connected, 88);
-FE_OFFSET(fe_joint_def, hertz, 92);
-FE_OFFSET(fe_joint_def, damping_ratio, 96);
-FE_OFFSET(fe_joint_def, break_force, 100);
-FE_OFFSET(fe_joint_def, break_torque, 104);
-FE_OFFSET(fe_joint_def, reserved, 108);
-FE_SIZE(fe_distance_def, 144);
-FE_OFFSET(fe_distance_def, struct_size, 0);
-FE_OFFSET(fe_distance_def, enabled, 4);
-FE_OFFSET(fe_distance_def, body_a, 8);
-FE_OFFSET(fe_distance_def, body_b, 16);
-FE_OFFSET(fe_distance_def, user_data, 24);
-FE_OFFSET(fe_distance_def, frame_a, 32);
-FE_OFFSET(fe_distance_def, frame_b, 60);
-FE_OFFSET(fe_distance_def, collide_connected, 88);
-FE_OFFSET(fe_distance_def, hertz, 92);
-FE_OFFSET(fe_distance_def, damping_ratio, 96);
-FE_OFFSET(fe_distance_def, break_force, 100);
-FE_OFFSET(fe_distance_def, break_torque, 104);
-FE_OFFSET(fe_distance_def, reserved, 108);
-FE_OFFSET(fe_distance_def, min_length, 112);
-FE_OFFSET(fe_distance_def, max_length, 116);
-FE_OFFSET(fe_distance_def, length, 120);
-FE_OFFSET(fe_distance_def, spring_hertz, 124);
-FE_OFFSET(fe_distance_def, spring_damping_ratio, 128);
-FE_OFFSET(fe_distance_def, spring_force, 132);
-FE_OFFSET(fe_distance_def, motor_speed, 136);
-FE_OFFSET(fe_distance_def, motor_force, 140);
-FE_SIZE(fe_ball_def, 192);
-FE_OFFSET(fe_ball_def, struct_size, 0);
-FE_OFFSET(fe_ball_def, enabled, 4);
-FE_OFFSET(fe_ball_def, body_a, 8);
-FE_OFFSET(fe_ball_def, body_b, 16);
-FE_OFFSET(fe_ball_def, user_data, 24);
-FE_OFFSET(fe_ball_def, frame_a, 32);
-FE_OFFSET(fe_ball_def, frame_b, 60);
-FE_OFFSET(fe_ball_def, collide_connected, 88);
-FE_OFFSET(fe_ball_def, hertz, 92);
-FE_OFFSET(fe_ball_def, damping_ratio, 96);
-FE_OFFSET(fe_ball_def, break_force, 100);
-FE_OFFSET(fe_ball_def, break_torque, 104);
-FE_OFFSET(fe_ball_def, reserved, 108);
-FE_OFFSET(fe_ball_def, swing_limited, 112);
-FE_OFFSET(fe_ball_def, cone_y, 116);
-FE_OFFSET(fe_ball_def, cone_z, 120);
-FE_OFFSET(fe_ball_def, twist_limited, 124);
-FE_OFFSET(fe_ball_def, min_twist, 128);
-FE_OFFSET(fe_ball_def, max_twist, 132);
-FE_OFFSET(fe_ball_def, limit_hertz, 136);
-FE_OFFSET(fe_ball_def, limit_damping_ratio, 140);
-FE_OFFSET(fe_ball_def, drive_hertz, 144);
-FE_OFFSET(fe_ball_def, drive_damping_ratio, 148);
-FE_OFFSET(fe_ball_def, drive_torque, 152);
-FE_OFFSET(fe_ball_def, target, 156);
-FE_OFFSET(fe_ball_def, motor_velocity, 172);
-FE_OFFSET(fe_ball_def, motor_torque, 184);
-FE_OFFSET(fe_ball_def, reserved_end, 188);
-FE_SIZE(fe_hinge_def, 160);
-FE_OFFSET(fe_hinge_def, struct_size, 0);
-FE_OFFSET(fe_hinge_def, enabled, 4);
-FE_OFFSET(fe_hinge_def, body_a, 8);
-FE_OFFSET(fe_hinge_def, body_b, 16);
-FE_OFFSET(fe_hinge_def, user_data, 24);
-FE_OFFSET(fe_hinge_def, frame_a, 32);
-FE_OFFSET(fe_hinge_def, frame_b, 60);
-FE_OFFSET(fe_hinge_def, collide_connected, 88);
-FE_OFFSET(fe_hinge_def, hertz, 92);
-FE_OFFSET(fe_hinge_def, damping_ratio, 96);
-FE_OFFSET(fe_hinge_def, break_force, 100);
-FE_OFFSET(fe_hinge_def, break_torque, 104);
-FE_OFFSET(fe_hinge_def, reserved, 108);
-FE_OFFSET(fe_hinge_def, limited, 112);
-FE_OFFSET(fe_hinge_def, min_angle, 116);
-FE_OFFSET(fe_hinge_def, max_angle, 120);
-FE_OFFSET(fe_hinge_def, limit_hertz, 124);
-FE_OFFSET(fe_hinge_def, limit_damping_ratio, 128);
-FE_OFFSET(fe_hinge_def, spring_hertz, 132);
-FE_OFFSET(fe_hinge_def, spring_damping_ratio, 136);
-FE_OFFSET(fe_hinge_def, spring_torque, 140);
-FE_OFFSET(fe_hinge_def, target, 144);
-FE_OFFSET(fe_hinge_def, motor_speed, 148);
-FE_OFFSET(fe_hinge_def, motor_torque, 152);
-FE_OFFSET(fe_hinge_def, reserved_end, 156);
-FE_SIZE(fe_fixed_def, 120);
-FE_OFFSET(fe_fixed_def, struct_size, 0);
-FE_OFFSET(fe_fixed_def, enabled, 4);
-FE_OFFSET(fe_fixed_def, body_a, 8);
-FE_OFFSET(fe_fixed_def, body_b, 16);
-FE_OFFSET(fe_fixed_def, user_data, 24);
-FE_OFFSET(fe_fixed_def, frame_a, 32);
-FE_OFFSET(fe_fixed_def, frame_b, 60);
-FE_OFFSET(fe_fixed_def, collide_connected, 88);
-FE_OFFSET(fe_fixed_def, hertz, 92);
-FE_OFFSET(fe_fixed_def, damping_ratio, 96);
-FE_OFFSET(fe_fixed_def, break_force, 100);
-FE_OFFSET(fe_fixed_def, break_torque, 104);
-FE_OFFSET(fe_fixed_def, reserved, 108);
-FE_OFFSET(fe_fixed_def, angular_hertz, 112);
-FE_OFFSET(fe_fixed_def, angular_damping_ratio, 116);
-FE_VALUE(FE_MOTION_LOCKED, 0);
-FE_VALUE(FE_MOTION_LIMITED, 1);
-FE_VALUE(FE_MOTION_FREE, 2);
-FE_VALUE(FE_MOTION_FORCE32, 2147483647);
-FE_VALUE(FE_DRIVE_NONE, 0);
-FE_VALUE(FE_DRIVE_HERTZ, 1);
-FE_VALUE(FE_DRIVE_STIFFNESS, 2);
-FE_VALUE(FE_DRIVE_FORCE32, 2147483647);
-FE_SIZE(fe_joint_axis, 48);
-FE_OFFSET(fe_joint_axis, mode, 0);
-FE_OFFSET(fe_joint_axis, low, 4);
-FE_OFFSET(fe_joint_axis, high, 8);
-FE_OFFSET(fe_joint_axis, limit_hertz, 12);
-FE_OFFSET(fe_joint_axis, limit_damping_ratio, 16);
-FE_OFFSET(fe_joint_axis, drive, 20);
-FE_OFFSET(fe_joint_axis, target, 24);
-FE_OFFSET(fe_joint_axis, stiffness, 28);
-FE_OFFSET(fe_joint_axis, damping, 32);
-FE_OFFSET(fe_joint_axis, drive_force, 36);
-FE_OFFSET(fe_joint_axis, motor_speed, 40);
-FE_OFFSET(fe_joint_axis, motor_force, 44);
-FE_VALUE(FE_ALONG_X, 0);
-FE_VALUE(FE_ALONG_Y, 1);
-FE_VALUE(FE_ALONG_Z, 2);
-FE_VALUE(FE_ABOUT_X, 3);
-FE_VALUE(FE_ABOUT_Y, 4);
-FE_VALUE(FE_ABOUT_Z, 5);
-FE_VALUE(FE_JOINT_COORDINATE_FORCE32, 2147483647);
-FE_SIZE(fe_configurable_def, 400);
-FE_OFFSET(fe_configurable_def, struct_size, 0);
-FE_OFFSET(fe_configurable_def, enabled, 4);
-FE_OFFSET(fe_configurable_def, body_a, 8);
-FE_OFFSET(fe_configurable_def, body_b, 16);
-FE_OFFSET(fe_configurable_def, user_data, 24);
-FE_OFFSET(fe_configurable_def, frame_a, 32);
-FE_OFFSET(fe_configurable_def, frame_b, 60);
-FE_OFFSET(fe_configurable_def, collide_connected, 88);
-FE_OFFSET(fe_configurable_def, hertz, 92);
-FE_OFFSET(fe_configurable_def, damping_ratio, 96);
-FE_OFFSET(fe_configurable_def, break_force, 100);
-FE_OFFSET(fe_configurable_def, break_torque, 104);
-FE_OFFSET(fe_configurable_def, reserved, 108);
-FE_OFFSET(fe_configurable_def, axes, 112);
-FE_SIZE(fe_joint_state, 68);
-FE_OFFSET(fe_joint_state, struct_size, 0);
-FE_OFFSET(fe_joint_state, angle, 4);
-FE_OFFSET(fe_joint_state, swing_y, 8);
-FE_OFFSET(fe_joint_state, swing_z, 12);
-FE_OFFSET(fe_joint_state, angular_velocity, 16);
-FE_OFFSET(fe_joint_state, translation, 28);
-FE_OFFSET(fe_joint_state, linear_velocity, 40);
-FE_OFFSET(fe_joint_state, length, 52);
-FE_OFFSET(fe_joint_state, speed, 56);
-FE_OFFSET(fe_joint_state, linear_error, 60);
-FE_OFFSET(fe_joint_state, angular_error, 64);
-#if UINTPTR_MAX == UINT64_MAX
-FE_SIZE(fe_heightfield_def, 64);
-FE_OFFSET(fe_heightfield_def, struct_size, 0);
-FE_OFFSET(fe_heightfield_def, rows, 4);
-FE_OFFSET(fe_heightfield_def, columns, 8);
-FE_OFFSET(fe_heightfield_def, cell_x, 12);
-FE_OFFSET(fe_heightfield_def, cell_z, 16);
-FE_OFFSET(fe_heightfield_def, heights, 24);
-FE_OFFSET(fe_heightfield_def, holes, 32);
-FE_OFFSET(fe_heightfield_def, cell_materials, 40);
-FE_OFFSET(fe_heightfield_def, materials, 48);
-FE_OFFSET(fe_heightfield_def, material_stride, 56);
-FE_OFFSET(fe_heightfield_def, material_count, 60);
-#endif
-FE_VALUE(FE_QUERY_DEFAULT, 0);
-FE_VALUE(FE_QUERY_TRIGGERS, 1);
-FE_VALUE(FE_QUERY_FLAGS_FORCE32, 2147483647);
-#if UINTPTR_MAX == UINT64_MAX
-FE_SIZE(fe_query_filter, 24);
-FE_OFFSET(fe_query_filter, struct_size, 0);
-FE_OFFSET(fe_query_filter, mask, 4);
-FE_OFFSET(fe_query_filter, flags, 8);
-FE_OFFSET(fe_query_filter, excluded_count, 12);
-FE_OFFSET(fe_query_filter, excluded, 16);
-#endif
-FE_VALUE(FE_HIT_STARTED_INSIDE, 1);
-FE_VALUE(FE_HIT_FLAGS_FORCE32, 2147483647);
-FE_SIZE(fe_hit, 72);
-FE_OFFSET(fe_hit, body, 0);
-FE_OFFSET(fe_hit, shape, 8);
-FE_OFFSET(fe_hit, point, 16);
-FE_OFFSET(fe_hit, fraction, 40);
-FE_OFFSET(fe_hit, normal, 48);
-FE_OFFSET(fe_hit, triangle, 60);
-FE_OFFSET(fe_hit, depth, 64);
-FE_OFFSET(fe_hit, flags, 68);
-FE_SIZE(fe_ray, 48);
-FE_OFFSET(fe_ray, origin, 0);
-FE_OFFSET(fe_ray, translation, 24);
-FE_SIZE(fe_path, 64);
-FE_OFFSET(fe_path, start, 0);
-FE_OFFSET(fe_path, translation, 40);
-FE_SIZE(fe_closest, 64);
-FE_OFFSET(fe_closest, body, 0);
-FE_OFFSET(fe_closest, shape, 8);
-FE_OFFSET(fe_closest, point, 16);
-FE_OFFSET(fe_closest, distance, 40);
-FE_OFFSET(fe_closest, normal, 48);
-FE_OFFSET(fe_closest, triangle, 60);
-FE_VALUE(FE_ENTER, 1);
-FE_VALUE(FE_STAY, 2);
-FE_VALUE(FE_EXIT, 3);
-FE_VALUE(FE_SLEEP, 4);
-FE_VALUE(FE_WAKE, 5);
-FE_VALUE(FE_BREAK, 6);
-FE_VALUE(FE_EVENT_KIND_FORCE32, 2147483647);
-FE_SIZE(fe_pair_event, 40);
-FE_OFFSET(fe_pair_event, body_a, 0);
-FE_OFFSET(fe_pair_event, body_b, 8);
-FE_OFFSET(fe_pair_event, shape_a, 16);
-FE_OFFSET(fe_pair_event, shape_b, 24);
-FE_OFFSET(fe_pair_event, kind, 32);
-FE_OFFSET(fe_pair_event, is_trigger, 36);
-FE_SIZE(fe_body_event, 16);
-FE_OFFSET(fe_body_event, body, 0);
-FE_OFFSET(fe_body_event, kind, 8);
-FE_OFFSET(fe_body_event, reserved, 12);
-FE_SIZE(fe_hit_event, 80);
-FE_OFFSET(fe_hit_event, body_a, 0);
-FE_OFFSET(fe_hit_event, body_b, 8);
-FE_OFFSET(fe_hit_event, shape_a, 16);
-FE_OFFSET(fe_hit_event, shape_b, 24);
-FE_OFFSET(fe_hit_event, point, 32);
-FE_OFFSET(fe_hit_event, normal, 56);
-FE_OFFSET(fe_hit_event, speed, 68);
-FE_OFFSET(fe_hit_event, impulse, 72);
-FE_OFFSET(fe_hit_event, reserved, 76);
-FE_SIZE(fe_joint_event, 64);
-FE_OFFSET(fe_joint_event, joint, 0);
-FE_OFFSET(fe_joint_event, body_a, 8);
-FE_OFFSET(fe_joint_event, body_b, 16);
-FE_OFFSET(fe_joint_event, user_data, 24);
-FE_OFFSET(fe_joint_event, kind, 32);
-FE_OFFSET(fe_joint_event, type, 36);
-FE_OFFSET(fe_joint_event, force, 40);
-FE_OFFSET(fe_joint_event, torque, 52);
-FE_SIZE(fe_contact_point, 40);
-FE_OFFSET(fe_contact_point, point, 0);
-FE_OFFSET(fe_contact_point, separation, 24);
-FE_OFFSET(fe_contact_point, normal_impulse, 28);
-FE_OFFSET(fe_contact_point, total_impulse, 32);
-FE_OFFSET(fe_contact_point, id, 36);
-FE_SIZE(fe_contact, 232);
-FE_OFFSET(fe_contact, body_a, 0);
-FE_OFFSET(fe_contact, body_b, 8);
-FE_OFFSET(fe_contact, shape_a, 16);
-FE_OFFSET(fe_contact, shape_b, 24);
-FE_OFFSET(fe_contact, normal, 32);
-FE_OFFSET(fe_contact, point_count, 44);
-FE_OFFSET(fe_contact, points, 48);
-FE_OFFSET(fe_contact, friction_impulse, 208);
-FE_OFFSET(fe_contact, twist_impulse, 220);
-FE_OFFSET(fe_contact, triangle, 224);
-FE_OFFSET(fe_contact, reserved, 228);
+FE_SIZE(fe_vec3, 12)
+FE_OFFSET(fe_vec3, x, 0)
+FE_OFFSET(fe_vec3, y, 4)
+FE_OFFSET(fe_vec3, z, 8)
+FE_SIZE(fe_dvec3, 24)
+FE_OFFSET(fe_dvec3, x, 0)
+FE_OFFSET(fe_dvec3, y, 8)
+FE_OFFSET(fe_dvec3, z, 16)
+FE_SIZE(fe_quat, 16)
+FE_OFFSET(fe_quat, x, 0)
+FE_OFFSET(fe_quat, y, 4)
+FE_OFFSET(fe_quat, z, 8)
+FE_OFFSET(fe_quat, w, 12)
+FE_SIZE(fe_transform, 40)
+FE_OFFSET(fe_transform, position, 0)
+FE_OFFSET(fe_transform, rotation, 24)
+FE_SIZE(fe_frame, 28)
+FE_OFFSET(fe_frame, position, 0)
+FE_OFFSET(fe_frame, rotation, 12)
+FE_SIZE(fe_bounds, 48)
+FE_OFFSET(fe_bounds, lower, 0)
+FE_OFFSET(fe_bounds, upper, 24)
+FE_VALUE(FE_OK, 0)
+FE_VALUE(FE_FOREIGN, 2)
+FE_VALUE(FE_END, 3)
+FE_VALUE(FE_ERROR_ARGUMENT, -1)
+FE_VALUE(FE_ERROR_STALE, -2)
+FE_VALUE(FE_ERROR_KIND, -3)
+FE_VALUE(FE_ERROR_STEPPING, -4)
+FE_VALUE(FE_ERROR_MEMORY, -5)
+FE_VALUE(FE_ERROR_LIMIT, -6)
+FE_VALUE(FE_ERROR_UNSUPPORTED, -7)
+FE_VALUE(FE_ERROR_STATE, -8)
+FE_VALUE(FE_ERROR_BUSY, -9)
+FE_VALUE(FE_ERROR_DEGENERATE, -10)
+FE_VALUE(FE_ERROR_DATA, -11)
+FE_VALUE(FE_ERROR_VERSION, -12)
+FE_VALUE(FE_ERROR_DIVERGED, -13)
+FE_VALUE(FE_RESULT_FORCE32, 2147483647)
+FE_SIZE(fe_allocator, 32)
+FE_OFFSET(fe_allocator, struct_size, 0)
+FE_OFFSET(fe_allocator, reserved, 4)
+FE_OFFSET(fe_allocator, allocate, 8)
+FE_OFFSET(fe_allocator, release, 16)
+FE_OFFSET(fe_allocator, user, 24)
+FE_SIZE(fe_store_def, 16)
+FE_OFFSET(fe_store_def, struct_size, 0)
+FE_OFFSET(fe_store_def, number, 4)
+FE_OFFSET(fe_store_def, allocator, 8)
+FE_VALUE(FE_COMBINE_DEFAULT, 0)
+FE_VALUE(FE_COMBINE_AVERAGE, 1)
+FE_VALUE(FE_COMBINE_MINIMUM, 2)
+FE_VALUE(FE_COMBINE_MULTIPLY, 3)
+FE_VALUE(FE_COMBINE_MAXIMUM, 4)
+FE_VALUE(FE_COMBINE_FORCE32, 2147483647)
+FE_SIZE(fe_material, 48)
+FE_OFFSET(fe_material, static_friction, 0)
+FE_OFFSET(fe_material, dynamic_friction, 4)
+FE_OFFSET(fe_material, restitution, 8)
+FE_OFFSET(fe_material, rolling_resistance, 12)
+FE_OFFSET(fe_material, spinning_resistance, 16)
+FE_OFFSET(fe_material, friction_combine, 20)
+FE_OFFSET(fe_material, restitution_combine, 24)
+FE_OFFSET(fe_material, reserved, 28)
+FE_OFFSET(fe_material, user_id, 40)
+FE_SIZE(fe_heightfield_def, 64)
+FE_OFFSET(fe_heightfield_def, struct_size, 0)
+FE_OFFSET(fe_heightfield_def, rows, 4)
+FE_OFFSET(fe_heightfield_def, columns, 8)
+FE_OFFSET(fe_heightfield_def, material_count, 12)
+FE_OFFSET(fe_heightfield_def, cell_x, 16)
+FE_OFFSET(fe_heightfield_def, cell_z, 20)
+FE_OFFSET(fe_heightfield_def, material_stride, 24)
+FE_OFFSET(fe_heightfield_def, reserved, 28)
+FE_OFFSET(fe_heightfield_def, heights, 32)
+FE_OFFSET(fe_heightfield_def, holes, 40)
+FE_OFFSET(fe_heightfield_def, cell_materials, 48)
+FE_OFFSET(fe_heightfield_def, materials, 56)
+FE_VALUE(FE_SIMD_AUTO, 0)
+FE_VALUE(FE_SIMD_PLAIN, 1)
+FE_VALUE(FE_SIMD_SSE2, 2)
+FE_VALUE(FE_SIMD_AVX2, 3)
+FE_VALUE(FE_SIMD_AVX512, 4)
+FE_VALUE(FE_SIMD_NEON, 5)
+FE_VALUE(FE_SIMD_FORCE32, 2147483647)
+FE_SIZE(fe_task_system, 24)
+FE_OFFSET(fe_task_system, struct_size, 0)
+FE_OFFSET(fe_task_system, worker_count, 4)
+FE_OFFSET(fe_task_system, run, 8)
+FE_OFFSET(fe_task_system, user, 16)
+FE_SIZE(fe_world_def, 72)
+FE_OFFSET(fe_world_def, struct_size, 0)
+FE_OFFSET(fe_world_def, worker_count, 4)
+FE_OFFSET(fe_world_def, gravity, 8)
+FE_OFFSET(fe_world_def, substeps, 20)
+FE_OFFSET(fe_world_def, simd, 24)
+FE_OFFSET(fe_world_def, number, 28)
+FE_OFFSET(fe_world_def, pool, 32)
+FE_OFFSET(fe_world_def, store, 40)
+FE_OFFSET(fe_world_def, allocator, 48)
+FE_OFFSET(fe_world_def, tasks, 56)
+FE_OFFSET(fe_world_def, user_data, 64)
+FE_SIZE(fe_world_tuning, 56)
+FE_OFFSET(fe_world_tuning, struct_size, 0)
+FE_OFFSET(fe_world_tuning, contact_hertz, 4)
+FE_OFFSET(fe_world_tuning, contact_damping_ratio, 8)
+FE_OFFSET(fe_world_tuning, contact_push_speed, 12)
+FE_OFFSET(fe_world_tuning, joint_hertz, 16)
+FE_OFFSET(fe_world_tuning, joint_damping_ratio, 20)
+FE_OFFSET(fe_world_tuning, restitution_threshold, 24)
+FE_OFFSET(fe_world_tuning, hit_event_threshold, 28)
+FE_OFFSET(fe_world_tuning, sleep_time, 32)
+FE_OFFSET(fe_world_tuning, speculative_distance, 36)
+FE_OFFSET(fe_world_tuning, max_linear_speed, 40)
+FE_OFFSET(fe_world_tuning, sleep_enabled, 44)
+FE_OFFSET(fe_world_tuning, continuous_enabled, 48)
+FE_OFFSET(fe_world_tuning, warm_start_enabled, 52)
+FE_SIZE(fe_filter_pair, 80)
+FE_OFFSET(fe_filter_pair, body_a, 0)
+FE_OFFSET(fe_filter_pair, body_b, 8)
+FE_OFFSET(fe_filter_pair, shape_a, 16)
+FE_OFFSET(fe_filter_pair, shape_b, 24)
+FE_OFFSET(fe_filter_pair, body_user_data_a, 32)
+FE_OFFSET(fe_filter_pair, body_user_data_b, 40)
+FE_OFFSET(fe_filter_pair, shape_user_data_a, 48)
+FE_OFFSET(fe_filter_pair, shape_user_data_b, 56)
+FE_OFFSET(fe_filter_pair, reserved, 64)
+FE_SIZE(fe_profile, 40)
+FE_OFFSET(fe_profile, struct_size, 0)
+FE_OFFSET(fe_profile, step, 4)
+FE_OFFSET(fe_profile, pairs, 8)
+FE_OFFSET(fe_profile, collide, 12)
+FE_OFFSET(fe_profile, islands, 16)
+FE_OFFSET(fe_profile, solve, 20)
+FE_OFFSET(fe_profile, continuous, 24)
+FE_OFFSET(fe_profile, finalize, 28)
+FE_OFFSET(fe_profile, events, 32)
+FE_OFFSET(fe_profile, sleep, 36)
+FE_SIZE(fe_counters, 88)
+FE_OFFSET(fe_counters, struct_size, 0)
+FE_OFFSET(fe_counters, bodies, 4)
+FE_OFFSET(fe_counters, shapes, 8)
+FE_OFFSET(fe_counters, joints, 12)
+FE_OFFSET(fe_counters, awake_bodies, 16)
+FE_OFFSET(fe_counters, pairs, 20)
+FE_OFFSET(fe_counters, contacts, 24)
+FE_OFFSET(fe_counters, recycled, 28)
+FE_OFFSET(fe_counters, islands, 32)
+FE_OFFSET(fe_counters, colours, 36)
+FE_OFFSET(fe_counters, rows, 40)
+FE_OFFSET(fe_counters, rows_whole, 44)
+FE_OFFSET(fe_counters, lanes, 48)
+FE_OFFSET(fe_counters, simd, 52)
+FE_OFFSET(fe_counters, simd_width, 56)
+FE_OFFSET(fe_counters, workers, 60)
+FE_OFFSET(fe_counters, bytes, 64)
+FE_OFFSET(fe_counters, allocations, 72)
+FE_OFFSET(fe_counters, trees, 80)
+FE_OFFSET(fe_counters, reserved, 84)
+FE_SIZE(fe_energy, 24)
+FE_OFFSET(fe_energy, struct_size, 0)
+FE_OFFSET(fe_energy, reserved, 4)
+FE_OFFSET(fe_energy, kinetic, 8)
+FE_OFFSET(fe_energy, potential, 16)
+FE_VALUE(FE_BODY_STATIC, 0)
+FE_VALUE(FE_BODY_KINEMATIC, 1)
+FE_VALUE(FE_BODY_DYNAMIC, 2)
+FE_VALUE(FE_BODY_FORCE32, 2147483647)
+FE_VALUE(FE_AXIS_NONE, 0)
+FE_VALUE(FE_AXIS_X, 1)
+FE_VALUE(FE_AXIS_Y, 2)
+FE_VALUE(FE_AXIS_Z, 4)
+FE_VALUE(FE_AXIS_ALL, 7)
+FE_VALUE(FE_AXIS_FORCE32, 2147483647)
+FE_SIZE(fe_body_def, 120)
+FE_OFFSET(fe_body_def, struct_size, 0)
+FE_OFFSET(fe_body_def, type, 4)
+FE_OFFSET(fe_body_def, transform, 8)
+FE_OFFSET(fe_body_def, linear_velocity, 48)
+FE_OFFSET(fe_body_def, angular_velocity, 60)
+FE_OFFSET(fe_body_def, linear_damping, 72)
+FE_OFFSET(fe_body_def, angular_damping, 76)
+FE_OFFSET(fe_body_def, gravity_scale, 80)
+FE_OFFSET(fe_body_def, sleep_threshold, 84)
+FE_OFFSET(fe_body_def, linear_locks, 88)
+FE_OFFSET(fe_body_def, angular_locks, 92)
+FE_OFFSET(fe_body_def, awake, 96)
+FE_OFFSET(fe_body_def, sleep_allowed, 100)
+FE_OFFSET(fe_body_def, enabled, 104)
+FE_OFFSET(fe_body_def, bullet, 108)
+FE_OFFSET(fe_body_def, user_data, 112)
+FE_SIZE(fe_mass_data, 48)
+FE_OFFSET(fe_mass_data, struct_size, 0)
+FE_OFFSET(fe_mass_data, mass, 4)
+FE_OFFSET(fe_mass_data, centre, 8)
+FE_OFFSET(fe_mass_data, inertia, 20)
+FE_OFFSET(fe_mass_data, inertia_rotation, 32)
+FE_VALUE(FE_GEOMETRY_NONE, 0)
+FE_VALUE(FE_GEOMETRY_SPHERE, 1)
+FE_VALUE(FE_GEOMETRY_CAPSULE, 2)
+FE_VALUE(FE_GEOMETRY_BOX, 3)
+FE_VALUE(FE_GEOMETRY_PLANE, 64)
+FE_VALUE(FE_GEOMETRY_HEIGHTFIELD, 96)
+FE_VALUE(FE_GEOMETRY_FORCE32, 2147483647)
+FE_SIZE(fe_geometry, 88)
+FE_OFFSET(fe_geometry, struct_size, 0)
+FE_OFFSET(fe_geometry, type, 4)
+FE_OFFSET(fe_geometry, radius, 8)
+FE_OFFSET(fe_geometry, half_height, 12)
+FE_OFFSET(fe_geometry, half_extents, 16)
+FE_OFFSET(fe_geometry, normal, 28)
+FE_OFFSET(fe_geometry, distance, 40)
+FE_OFFSET(fe_geometry, reserved, 44)
+FE_OFFSET(fe_geometry, asset, 64)
+FE_OFFSET(fe_geometry, reserved_end, 72)
+FE_VALUE(FE_SHAPE_EVENTS_NONE, 0)
+FE_VALUE(FE_SHAPE_EVENTS_TOUCH, 1)
+FE_VALUE(FE_SHAPE_EVENTS_STAY, 2)
+FE_VALUE(FE_SHAPE_EVENTS_HIT, 4)
+FE_VALUE(FE_SHAPE_EVENTS_FORCE32, 2147483647)
+FE_SIZE(fe_shape_def, 144)
+FE_OFFSET(fe_shape_def, struct_size, 0)
+FE_OFFSET(fe_shape_def, density, 4)
+FE_OFFSET(fe_shape_def, frame, 8)
+FE_OFFSET(fe_shape_def, trigger, 36)
+FE_OFFSET(fe_shape_def, material, 40)
+FE_OFFSET(fe_shape_def, layer, 88)
+FE_OFFSET(fe_shape_def, mask, 92)
+FE_OFFSET(fe_shape_def, group, 96)
+FE_OFFSET(fe_shape_def, events, 100)
+FE_OFFSET(fe_shape_def, pair_filter, 104)
+FE_OFFSET(fe_shape_def, one_way, 108)
+FE_OFFSET(fe_shape_def, one_way_direction, 112)
+FE_OFFSET(fe_shape_def, surface_velocity, 124)
+FE_OFFSET(fe_shape_def, user_data, 136)
+FE_VALUE(FE_JOINT_DISTANCE, 1)
+FE_VALUE(FE_JOINT_BALL, 2)
+FE_VALUE(FE_JOINT_HINGE, 3)
+FE_VALUE(FE_JOINT_FIXED, 4)
+FE_VALUE(FE_JOINT_CONFIGURABLE, 5)
+FE_VALUE(FE_JOINT_FORCE32, 2147483647)
+FE_SIZE(fe_joint_def, 136)
+FE_OFFSET(fe_joint_def, struct_size, 0)
+FE_OFFSET(fe_joint_def, enabled, 4)
+FE_OFFSET(fe_joint_def, body_a, 8)
+FE_OFFSET(fe_joint_def, body_b, 16)
+FE_OFFSET(fe_joint_def, user_data, 24)
+FE_OFFSET(fe_joint_def, world_origin, 32)
+FE_OFFSET(fe_joint_def, frame_a, 56)
+FE_OFFSET(fe_joint_def, frame_b, 84)
+FE_OFFSET(fe_joint_def, collide_connected, 112)
+FE_OFFSET(fe_joint_def, hertz, 116)
+FE_OFFSET(fe_joint_def, damping_ratio, 120)
+FE_OFFSET(fe_joint_def, break_force, 124)
+FE_OFFSET(fe_joint_def, break_torque, 128)
+FE_OFFSET(fe_joint_def, reserved, 132)
+FE_SIZE(fe_distance_joint_def, 176)
+FE_OFFSET(fe_distance_joint_def, struct_size, 0)
+FE_OFFSET(fe_distance_joint_def, enabled, 4)
+FE_OFFSET(fe_distance_joint_def, body_a, 8)
+FE_OFFSET(fe_distance_joint_def, body_b, 16)
+FE_OFFSET(fe_distance_joint_def, user_data, 24)
+FE_OFFSET(fe_distance_joint_def, world_origin, 32)
+FE_OFFSET(fe_distance_joint_def, frame_a, 56)
+FE_OFFSET(fe_distance_joint_def, frame_b, 84)
+FE_OFFSET(fe_distance_joint_def, collide_connected, 112)
+FE_OFFSET(fe_distance_joint_def, hertz, 116)
+FE_OFFSET(fe_distance_joint_def, damping_ratio, 120)
+FE_OFFSET(fe_distance_joint_def, break_force, 124)
+FE_OFFSET(fe_distance_joint_def, break_torque, 128)
+FE_OFFSET(fe_distance_joint_def, reserved, 132)
+FE_OFFSET(fe_distance_joint_def, limit_enabled, 136)
+FE_OFFSET(fe_distance_joint_def, lower, 140)
+FE_OFFSET(fe_distance_joint_def, upper, 144)
+FE_OFFSET(fe_distance_joint_def, spring_hertz, 148)
+FE_OFFSET(fe_distance_joint_def, spring_damping_ratio, 152)
+FE_OFFSET(fe_distance_joint_def, spring_max, 156)
+FE_OFFSET(fe_distance_joint_def, target, 160)
+FE_OFFSET(fe_distance_joint_def, motor_speed, 164)
+FE_OFFSET(fe_distance_joint_def, motor_max, 168)
+FE_OFFSET(fe_distance_joint_def, reserved_end, 172)
+FE_SIZE(fe_ball_joint_def, 216)
+FE_OFFSET(fe_ball_joint_def, struct_size, 0)
+FE_OFFSET(fe_ball_joint_def, enabled, 4)
+FE_OFFSET(fe_ball_joint_def, body_a, 8)
+FE_OFFSET(fe_ball_joint_def, body_b, 16)
+FE_OFFSET(fe_ball_joint_def, user_data, 24)
+FE_OFFSET(fe_ball_joint_def, world_origin, 32)
+FE_OFFSET(fe_ball_joint_def, frame_a, 56)
+FE_OFFSET(fe_ball_joint_def, frame_b, 84)
+FE_OFFSET(fe_ball_joint_def, collide_connected, 112)
+FE_OFFSET(fe_ball_joint_def, hertz, 116)
+FE_OFFSET(fe_ball_joint_def, damping_ratio, 120)
+FE_OFFSET(fe_ball_joint_def, break_force, 124)
+FE_OFFSET(fe_ball_joint_def, break_torque, 128)
+FE_OFFSET(fe_ball_joint_def, reserved, 132)
+FE_OFFSET(fe_ball_joint_def, cone_enabled, 136)
+FE_OFFSET(fe_ball_joint_def, cone_y, 140)
+FE_OFFSET(fe_ball_joint_def, cone_z, 144)
+FE_OFFSET(fe_ball_joint_def, limit_enabled, 148)
+FE_OFFSET(fe_ball_joint_def, lower, 152)
+FE_OFFSET(fe_ball_joint_def, upper, 156)
+FE_OFFSET(fe_ball_joint_def, limit_hertz, 160)
+FE_OFFSET(fe_ball_joint_def, limit_damping_ratio, 164)
+FE_OFFSET(fe_ball_joint_def, spring_hertz, 168)
+FE_OFFSET(fe_ball_joint_def, spring_damping_ratio, 172)
+FE_OFFSET(fe_ball_joint_def, spring_max, 176)
+FE_OFFSET(fe_ball_joint_def, target, 180)
+FE_OFFSET(fe_ball_joint_def, motor_velocity, 196)
+FE_OFFSET(fe_ball_joint_def, motor_max, 208)
+FE_OFFSET(fe_ball_joint_def, reserved_end, 212)
+FE_SIZE(fe_hinge_joint_def, 184)
+FE_OFFSET(fe_hinge_joint_def, struct_size, 0)
+FE_OFFSET(fe_hinge_joint_def, enabled, 4)
+FE_OFFSET(fe_hinge_joint_def, body_a, 8)
+FE_OFFSET(fe_hinge_joint_def, body_b, 16)
+FE_OFFSET(fe_hinge_joint_def, user_data, 24)
+FE_OFFSET(fe_hinge_joint_def, world_origin, 32)
+FE_OFFSET(fe_hinge_joint_def, frame_a, 56)
+FE_OFFSET(fe_hinge_joint_def, frame_b, 84)
+FE_OFFSET(fe_hinge_joint_def, collide_connected, 112)
+FE_OFFSET(fe_hinge_joint_def, hertz, 116)
+FE_OFFSET(fe_hinge_joint_def, damping_ratio, 120)
+FE_OFFSET(fe_hinge_joint_def, break_force, 124)
+FE_OFFSET(fe_hinge_joint_def, break_torque, 128)
+FE_OFFSET(fe_hinge_joint_def, reserved, 132)
+FE_OFFSET(fe_hinge_joint_def, limit_enabled, 136)
+FE_OFFSET(fe_hinge_joint_def, lower, 140)
+FE_OFFSET(fe_hinge_joint_def, upper, 144)
+FE_OFFSET(fe_hinge_joint_def, limit_hertz, 148)
+FE_OFFSET(fe_hinge_joint_def, limit_damping_ratio, 152)
+FE_OFFSET(fe_hinge_joint_def, spring_hertz, 156)
+FE_OFFSET(fe_hinge_joint_def, spring_damping_ratio, 160)
+FE_OFFSET(fe_hinge_joint_def, spring_max, 164)
+FE_OFFSET(fe_hinge_joint_def, target, 168)
+FE_OFFSET(fe_hinge_joint_def, motor_speed, 172)
+FE_OFFSET(fe_hinge_joint_def, motor_max, 176)
+FE_OFFSET(fe_hinge_joint_def, reserved_end, 180)
+FE_SIZE(fe_fixed_joint_def, 144)
+FE_OFFSET(fe_fixed_joint_def, struct_size, 0)
+FE_OFFSET(fe_fixed_joint_def, enabled, 4)
+FE_OFFSET(fe_fixed_joint_def, body_a, 8)
+FE_OFFSET(fe_fixed_joint_def, body_b, 16)
+FE_OFFSET(fe_fixed_joint_def, user_data, 24)
+FE_OFFSET(fe_fixed_joint_def, world_origin, 32)
+FE_OFFSET(fe_fixed_joint_def, frame_a, 56)
+FE_OFFSET(fe_fixed_joint_def, frame_b, 84)
+FE_OFFSET(fe_fixed_joint_def, collide_connected, 112)
+FE_OFFSET(fe_fixed_joint_def, hertz, 116)
+FE_OFFSET(fe_fixed_joint_def, damping_ratio, 120)
+FE_OFFSET(fe_fixed_joint_def, break_force, 124)
+FE_OFFSET(fe_fixed_joint_def, break_torque, 128)
+FE_OFFSET(fe_fixed_joint_def, reserved, 132)
+FE_OFFSET(fe_fixed_joint_def, angular_hertz, 136)
+FE_OFFSET(fe_fixed_joint_def, angular_damping_ratio, 140)
+FE_VALUE(FE_MOTION_LOCKED, 0)
+FE_VALUE(FE_MOTION_LIMITED, 1)
+FE_VALUE(FE_MOTION_FREE, 2)
+FE_VALUE(FE_MOTION_FORCE32, 2147483647)
+FE_VALUE(FE_SPRING_NONE, 0)
+FE_VALUE(FE_SPRING_HERTZ, 1)
+FE_VALUE(FE_SPRING_STIFFNESS, 2)
+FE_VALUE(FE_SPRING_FORCE32, 2147483647)
+FE_SIZE(fe_joint_axis, 64)
+FE_OFFSET(fe_joint_axis, motion, 0)
+FE_OFFSET(fe_joint_axis, lower, 4)
+FE_OFFSET(fe_joint_axis, upper, 8)
+FE_OFFSET(fe_joint_axis, limit_hertz, 12)
+FE_OFFSET(fe_joint_axis, limit_damping_ratio, 16)
+FE_OFFSET(fe_joint_axis, spring, 20)
+FE_OFFSET(fe_joint_axis, spring_hertz, 24)
+FE_OFFSET(fe_joint_axis, spring_damping_ratio, 28)
+FE_OFFSET(fe_joint_axis, spring_stiffness, 32)
+FE_OFFSET(fe_joint_axis, spring_damping, 36)
+FE_OFFSET(fe_joint_axis, spring_max, 40)
+FE_OFFSET(fe_joint_axis, target, 44)
+FE_OFFSET(fe_joint_axis, motor_speed, 48)
+FE_OFFSET(fe_joint_axis, motor_max, 52)
+FE_OFFSET(fe_joint_axis, reserved, 56)
+FE_VALUE(FE_DOF_LINEAR_X, 0)
+FE_VALUE(FE_DOF_LINEAR_Y, 1)
+FE_VALUE(FE_DOF_LINEAR_Z, 2)
+FE_VALUE(FE_DOF_ANGULAR_X, 3)
+FE_VALUE(FE_DOF_ANGULAR_Y, 4)
+FE_VALUE(FE_DOF_ANGULAR_Z, 5)
+FE_VALUE(FE_DOF_FORCE32, 2147483647)
+FE_SIZE(fe_configurable_joint_def, 520)
+FE_OFFSET(fe_configurable_joint_def, struct_size, 0)
+FE_OFFSET(fe_configurable_joint_def, enabled, 4)
+FE_OFFSET(fe_configurable_joint_def, body_a, 8)
+FE_OFFSET(fe_configurable_joint_def, body_b, 16)
+FE_OFFSET(fe_configurable_joint_def, user_data, 24)
+FE_OFFSET(fe_configurable_joint_def, world_origin, 32)
+FE_OFFSET(fe_configurable_joint_def, frame_a, 56)
+FE_OFFSET(fe_configurable_joint_def, frame_b, 84)
+FE_OFFSET(fe_configurable_joint_def, collide_connected, 112)
+FE_OFFSET(fe_configurable_joint_def, hertz, 116)
+FE_OFFSET(fe_configurable_joint_def, damping_ratio, 120)
+FE_OFFSET(fe_configurable_joint_def, break_force, 124)
+FE_OFFSET(fe_configurable_joint_def, break_torque, 128)
+FE_OFFSET(fe_configurable_joint_def, reserved, 132)
+FE_OFFSET(fe_configurable_joint_def, axes, 136)
+FE_SIZE(fe_joint_state, 68)
+FE_OFFSET(fe_joint_state, struct_size, 0)
+FE_OFFSET(fe_joint_state, angle, 4)
+FE_OFFSET(fe_joint_state, swing_y, 8)
+FE_OFFSET(fe_joint_state, swing_z, 12)
+FE_OFFSET(fe_joint_state, angular_velocity, 16)
+FE_OFFSET(fe_joint_state, translation, 28)
+FE_OFFSET(fe_joint_state, linear_velocity, 40)
+FE_OFFSET(fe_joint_state, length, 52)
+FE_OFFSET(fe_joint_state, speed, 56)
+FE_OFFSET(fe_joint_state, linear_error, 60)
+FE_OFFSET(fe_joint_state, angular_error, 64)
+FE_VALUE(FE_QUERY_DEFAULT, 0)
+FE_VALUE(FE_QUERY_TRIGGERS, 1)
+FE_VALUE(FE_QUERY_FORCE32, 2147483647)
+FE_SIZE(fe_query_filter, 24)
+FE_OFFSET(fe_query_filter, struct_size, 0)
+FE_OFFSET(fe_query_filter, mask, 4)
+FE_OFFSET(fe_query_filter, flags, 8)
+FE_OFFSET(fe_query_filter, excluded_count, 12)
+FE_OFFSET(fe_query_filter, excluded, 16)
+FE_VALUE(FE_HIT_DEFAULT, 0)
+FE_VALUE(FE_HIT_STARTED_INSIDE, 1)
+FE_VALUE(FE_HIT_FORCE32, 2147483647)
+FE_SIZE(fe_hit, 112)
+FE_OFFSET(fe_hit, body, 0)
+FE_OFFSET(fe_hit, shape, 8)
+FE_OFFSET(fe_hit, point, 16)
+FE_OFFSET(fe_hit, fraction, 40)
+FE_OFFSET(fe_hit, material, 48)
+FE_OFFSET(fe_hit, normal, 56)
+FE_OFFSET(fe_hit, depth, 68)
+FE_OFFSET(fe_hit, part, 72)
+FE_OFFSET(fe_hit, triangle, 76)
+FE_OFFSET(fe_hit, barycentric, 80)
+FE_OFFSET(fe_hit, flags, 88)
+FE_OFFSET(fe_hit, reserved, 92)
+FE_SIZE(fe_ray, 64)
+FE_OFFSET(fe_ray, origin, 0)
+FE_OFFSET(fe_ray, translation, 24)
+FE_OFFSET(fe_ray, reserved, 48)
+FE_SIZE(fe_path, 96)
+FE_OFFSET(fe_path, start, 0)
+FE_OFFSET(fe_path, translation, 40)
+FE_OFFSET(fe_path, reserved, 64)
+FE_SIZE(fe_overlap, 64)
+FE_OFFSET(fe_overlap, body, 0)
+FE_OFFSET(fe_overlap, shape, 8)
+FE_OFFSET(fe_overlap, material, 16)
+FE_OFFSET(fe_overlap, direction, 24)
+FE_OFFSET(fe_overlap, depth, 36)
+FE_OFFSET(fe_overlap, part, 40)
+FE_OFFSET(fe_overlap, triangle, 44)
+FE_OFFSET(fe_overlap, reserved, 48)
+FE_SIZE(fe_closest, 104)
+FE_OFFSET(fe_closest, body, 0)
+FE_OFFSET(fe_closest, shape, 8)
+FE_OFFSET(fe_closest, point, 16)
+FE_OFFSET(fe_closest, distance, 40)
+FE_OFFSET(fe_closest, material, 48)
+FE_OFFSET(fe_closest, normal, 56)
+FE_OFFSET(fe_closest, part, 68)
+FE_OFFSET(fe_closest, triangle, 72)
+FE_OFFSET(fe_closest, barycentric, 76)
+FE_OFFSET(fe_closest, reserved, 84)
+FE_VALUE(FE_EVENT_ENTER, 1)
+FE_VALUE(FE_EVENT_STAY, 2)
+FE_VALUE(FE_EVENT_EXIT, 3)
+FE_VALUE(FE_EVENT_SLEEP, 4)
+FE_VALUE(FE_EVENT_WAKE, 5)
+FE_VALUE(FE_EVENT_BREAK, 6)
+FE_VALUE(FE_EVENT_FORCE32, 2147483647)
+FE_SIZE(fe_pair_event, 72)
+FE_OFFSET(fe_pair_event, body_a, 0)
+FE_OFFSET(fe_pair_event, body_b, 8)
+FE_OFFSET(fe_pair_event, shape_a, 16)
+FE_OFFSET(fe_pair_event, shape_b, 24)
+FE_OFFSET(fe_pair_event, kind, 32)
+FE_OFFSET(fe_pair_event, is_trigger, 36)
+FE_OFFSET(fe_pair_event, part_a, 40)
+FE_OFFSET(fe_pair_event, part_b, 44)
+FE_OFFSET(fe_pair_event, triangle_a, 48)
+FE_OFFSET(fe_pair_event, triangle_b, 52)
+FE_OFFSET(fe_pair_event, reserved, 56)
+FE_SIZE(fe_body_event, 16)
+FE_OFFSET(fe_body_event, body, 0)
+FE_OFFSET(fe_body_event, kind, 8)
+FE_OFFSET(fe_body_event, reserved, 12)
+FE_SIZE(fe_hit_event, 128)
+FE_OFFSET(fe_hit_event, body_a, 0)
+FE_OFFSET(fe_hit_event, body_b, 8)
+FE_OFFSET(fe_hit_event, shape_a, 16)
+FE_OFFSET(fe_hit_event, shape_b, 24)
+FE_OFFSET(fe_hit_event, material_a, 32)
+FE_OFFSET(fe_hit_event, material_b, 40)
+FE_OFFSET(fe_hit_event, point, 48)
+FE_OFFSET(fe_hit_event, normal, 72)
+FE_OFFSET(fe_hit_event, speed, 84)
+FE_OFFSET(fe_hit_event, impulse, 88)
+FE_OFFSET(fe_hit_event, part_a, 92)
+FE_OFFSET(fe_hit_event, part_b, 96)
+FE_OFFSET(fe_hit_event, triangle_a, 100)
+FE_OFFSET(fe_hit_event, triangle_b, 104)
+FE_OFFSET(fe_hit_event, reserved, 108)
+FE_SIZE(fe_joint_event, 64)
+FE_OFFSET(fe_joint_event, joint, 0)
+FE_OFFSET(fe_joint_event, body_a, 8)
+FE_OFFSET(fe_joint_event, body_b, 16)
+FE_OFFSET(fe_joint_event, user_data, 24)
+FE_OFFSET(fe_joint_event, kind, 32)
+FE_OFFSET(fe_joint_event, type, 36)
+FE_OFFSET(fe_joint_event, force, 40)
+FE_OFFSET(fe_joint_event, torque, 52)
+FE_SIZE(fe_contact_point, 40)
+FE_OFFSET(fe_contact_point, point, 0)
+FE_OFFSET(fe_contact_point, separation, 24)
+FE_OFFSET(fe_contact_point, normal_impulse, 28)
+FE_OFFSET(fe_contact_point, total_impulse, 32)
+FE_OFFSET(fe_contact_point, id, 36)
+FE_SIZE(fe_contact, 272)
+FE_OFFSET(fe_contact, body_a, 0)
+FE_OFFSET(fe_contact, body_b, 8)
+FE_OFFSET(fe_contact, shape_a, 16)
+FE_OFFSET(fe_contact, shape_b, 24)
+FE_OFFSET(fe_contact, material_a, 32)
+FE_OFFSET(fe_contact, material_b, 40)
+FE_OFFSET(fe_contact, normal, 48)
+FE_OFFSET(fe_contact, point_count, 60)
+FE_OFFSET(fe_contact, points, 64)
+FE_OFFSET(fe_contact, friction_impulse, 224)
+FE_OFFSET(fe_contact, twist_impulse, 236)
+FE_OFFSET(fe_contact, part_a, 240)
+FE_OFFSET(fe_contact, part_b, 244)
+FE_OFFSET(fe_contact, triangle_a, 248)
+FE_OFFSET(fe_contact, triangle_b, 252)
+FE_OFFSET(fe_contact, reserved, 256)

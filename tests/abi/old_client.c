@@ -1,5 +1,5 @@
-// A program written for version 1.0, compiled with that version's header and linked with today's library. Each struct has its old size;
-// what lies behind it must stay as it was.
+// A program written for version 1.0, compiled with that version's header and linked with today's library. Each struct
+// has its old size; what lies behind it must stay as it was.
 #include "feather_1_0.h"
 #include <stdio.h>
 #include <string.h>
@@ -70,7 +70,7 @@ static int read_back(const fe_world *world, fe_body ball)
     CHECK(fe_body_get_mass_data(world, ball, &mass.value) == FE_OK && intact(mass.canary));
     GUARDED(fe_hit, hit);
     fe_dvec3 origin = {0.0, 5.0, 0.0}, translation = {0.0, -10.0, 0.0};
-    CHECK(fe_world_raycast(world, &origin, &translation, NULL, &hit.value) == FE_OK);
+    CHECK(fe_world_raycast(world, &origin, &translation, NULL, &hit.value) == 1);
     CHECK(intact(hit.canary) && hit.value.body == ball);
     return 0;
 }

@@ -1,6 +1,7 @@
 // api_test.h - what the tests of the API share: worlds with something in them, and the law of errors.
 //
-// The law: a refused call says why (the sentence begins with the function's name) and changes nothing (the world's fingerprint stays).
+// The law: a refused call says why (the sentence begins with the function's name) and changes nothing (the world's
+// fingerprint stays).
 #ifndef FE_API_TEST_H
 #define FE_API_TEST_H
 #include "fe_test.h"

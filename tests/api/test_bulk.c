@@ -108,7 +108,8 @@ static void floats_are_relative_to_a_near_origin(void **state)
     fe_dvec3 origin = {1e8, -1e8, 1};
     row r;
     OK(fe_world_get_transforms_f32(world, &body, &origin, r.relative, sizeof r, 1));
-    FE_NEAR(r.relative[0], 0.125, 1e-8), FE_NEAR(r.relative[1], 0, 0), FE_NEAR(r.relative[2], 2, 0), FE_NEAR(r.relative[6], 1, 0);
+    FE_NEAR(r.relative[0], 0.125, 1e-8), FE_NEAR(r.relative[1], 0, 0), FE_NEAR(r.relative[2], 2, 0),
+        FE_NEAR(r.relative[6], 1, 0);
     OK(fe_world_destroy(world));
 }
 
@@ -154,7 +155,8 @@ static void the_moved_are_those_of_the_last_step(void **state)
     (void)state;
     fe_world *world = new_world();
     new_ground(world);
-    fe_body falling = new_box(world, 0, 50, 0), resting = new_box(world, 10, 0.5, 0), also = new_box(world, 20, 60, 0), moved[4];
+    fe_body falling = new_box(world, 0, 50, 0), resting = new_box(world, 10, 0.5, 0), also = new_box(world, 20, 60, 0),
+            moved[4];
     fe_transform poses[4];
     struct {
         fe_transform transform;

@@ -27,7 +27,8 @@ static touch touching_box(void)
     step(t.world, 1);
     assert_int_equal(fe_world_get_pair_events(t.world, &event, sizeof event, 1), 1);
     assert_int_equal(event.kind, FE_EVENT_ENTER);
-    assert_true(event.body_a == t.ground && event.body_b == t.box && event.shape_a == t.ground_shape && event.shape_b == t.box_shape);
+    assert_true(event.body_a == t.ground && event.body_b == t.box && event.shape_a == t.ground_shape &&
+                event.shape_b == t.box_shape);
     assert_int_equal(event.is_trigger, 0);
     return t;
 }
@@ -40,7 +41,8 @@ static int32_t count_kind(const fe_world *world, int32_t kind)
     return found;
 }
 
-// ---- what ends a touch ----------------------------------------------------------------------------------------------------------
+// ---- what ends a touch
+// ----------------------------------------------------------------------------------------------------------
 
 typedef void change(touch *t);
 
@@ -138,7 +140,8 @@ static void enter_and_exit_balance_in_a_crowd(void **state)
         step(world, 1);
         int32_t count = fe_world_get_pair_events(world, events, sizeof *events, 512);
         FE_WITHIN(count, 0, 512);
-        for (int32_t i = 0; i < count; ++i) balance += events[i].kind == FE_EVENT_ENTER ? 1 : events[i].kind == FE_EVENT_EXIT ? -1 : 0;
+        for (int32_t i = 0; i < count; ++i)
+            balance += events[i].kind == FE_EVENT_ENTER ? 1 : events[i].kind == FE_EVENT_EXIT ? -1 : 0;
         FE_TRUE(balance >= 0);
         random = random * 1664525u + 1013904223u;
         int k = (int)(random >> 20) % BODIES;
@@ -166,7 +169,8 @@ static void enter_and_exit_balance_in_a_crowd(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- arrays of events -----------------------------------------------------------------------------------------------------------
+// ---- arrays of events
+// -----------------------------------------------------------------------------------------------------------
 
 static void events_come_in_the_order_of_creation(void **state)
 {
@@ -219,7 +223,8 @@ static void bad_arrays_are_refused(void **state)
     REFUSES(t.world, FE_ERROR_ARGUMENT, fe_body_get_contacts(t.world, t.box, NULL, 0, 1));
     REFUSES(t.world, FE_ERROR_ARGUMENT, fe_body_get_contacts(t.world, t.box, contact, 6, 1));
     REFUSES(t.world, FE_ERROR_KIND, fe_body_get_contacts(t.world, t.box_shape, contact, sizeof *contact, 1));
-    REFUSES(t.world, FE_ERROR_STALE, fe_shape_get_contacts(t.world, t.box_shape + NEXT_GENERATION, contact, sizeof *contact, 1));
+    REFUSES(t.world, FE_ERROR_STALE,
+            fe_shape_get_contacts(t.world, t.box_shape + NEXT_GENERATION, contact, sizeof *contact, 1));
     REFUSES(t.world, FE_ERROR_ARGUMENT, fe_shape_get_contacts(t.world, t.box_shape, contact, sizeof *contact, -1));
     FE_TRUE(contact[0].point_count == 0x66666666);
     OK(fe_world_destroy(t.world));
@@ -249,7 +254,8 @@ static void stay_and_hit_are_sent_where_asked_for(void **state)
     assert_int_equal(hits, 1);
     assert_true(hit.body_a == ground && hit.body_b == chatty);
     FE_NEAR(hit.normal.y, 1, 1e-6);
-    // it fell 1.5 m: sqrt(2 g h) = 5.42 m/s, to within a step's gravity; m v is what the ground gives, and the weight of a step
+    // it fell 1.5 m: sqrt(2 g h) = 5.42 m/s, to within a step's gravity; m v is what the ground gives, and the weight
+    // of a step
     FE_NEAR(hit.speed, 5.42, 9.81 / 60);
     FE_NEAR(hit.impulse, 5420, 1000 * 9.81 / 60 * 2);
     FE_NEAR(hit.point.y, 0, 0.05);
@@ -276,7 +282,8 @@ static void sleep_and_wake_are_told(void **state)
     OK(fe_world_destroy(t.world));
 }
 
-// ---- triggers -------------------------------------------------------------------------------------------------------------------
+// ---- triggers
+// -------------------------------------------------------------------------------------------------------------------
 
 static void a_trigger_reports_and_pushes_nothing(void **state)
 {
@@ -314,10 +321,11 @@ static void a_trigger_reports_and_pushes_nothing(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- contacts -------------------------------------------------------------------------------------------------------------------
+// ---- contacts
+// -------------------------------------------------------------------------------------------------------------------
 
-// A cube of 1000 kg at rest on the ground, held by 4 points: normal impulses of a substep sum to m g h, over the step to m g dt. The normal
-// points from the body created first.
+// A cube of 1000 kg at rest on the ground, held by 4 points: normal impulses of a substep sum to m g h, over the step
+// to m g dt. The normal points from the body created first.
 static void contacts_carry_the_weight(void **state)
 {
     (void)state;
@@ -331,7 +339,8 @@ static void contacts_carry_the_weight(void **state)
         assert_int_equal(fe_body_get_contacts(world, ground, &same, sizeof same, 1), 1);
         assert_memory_equal(&contact, &same, sizeof contact);
         assert_true(contact.body_a == (ground_first ? ground : box) && contact.body_b == (ground_first ? box : ground));
-        assert_true(contact.shape_a == shape_of(world, contact.body_a) && contact.shape_b == shape_of(world, contact.body_b));
+        assert_true(contact.shape_a == shape_of(world, contact.body_a) &&
+                    contact.shape_b == shape_of(world, contact.body_b));
         FE_NEAR(contact.normal.y, ground_first ? 1 : -1, 1e-6);
         assert_int_equal(contact.point_count, 4);
         double per_substep = 0, total = 0;

@@ -1,7 +1,8 @@
 // Who meets whom: groups, the pair filter, one-way shapes, and how materials mix.
 #include "api_test.h"
 
-// ---- groups ---------------------------------------------------------------------------------------------------------------------
+// ---- groups
+// ---------------------------------------------------------------------------------------------------------------------
 
 static fe_body sphere_at(fe_world *world, double y, uint32_t layer, uint32_t mask, int32_t group)
 {
@@ -17,7 +18,8 @@ static fe_body sphere_at(fe_world *world, double y, uint32_t layer, uint32_t mas
 }
 
 // Two spheres that overlap: with a contact when they may meet
-static int32_t touch(uint32_t layer_a, uint32_t mask_a, int32_t group_a, uint32_t layer_b, uint32_t mask_b, int32_t group_b)
+static int32_t touch(uint32_t layer_a, uint32_t mask_a, int32_t group_a, uint32_t layer_b, uint32_t mask_b,
+                     int32_t group_b)
 {
     fe_world *world = new_world();
     fe_body a = sphere_at(world, 0, layer_a, mask_a, group_a);
@@ -28,7 +30,8 @@ static int32_t touch(uint32_t layer_a, uint32_t mask_a, int32_t group_a, uint32_
     return count;
 }
 
-// Every combination of groups and of layers that meet or do not: one group of both decides, above 0 yes, below 0 no; layers decide otherwise.
+// Every combination of groups and of layers that meet or do not: one group of both decides, above 0 yes, below 0 no;
+// layers decide otherwise.
 static void a_group_of_both_decides_and_layers_otherwise(void **state)
 {
     (void)state;
@@ -86,7 +89,8 @@ static void ignored_pairs_are_read(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- the pair filter --------------------------------------------------------------------------------------------------------------
+// ---- the pair filter
+// --------------------------------------------------------------------------------------------------------------
 
 typedef struct judge {
     fe_world *world;
@@ -137,7 +141,9 @@ static void the_pair_filter_judges_each_new_pair_once(void **state)
     new_ground(world);
     fe_body stands = judged_box(world, 0.5, 1), falls = judged_box(world, 3, 2);
     for (int i = 0; i < 60; ++i) OK(fe_world_step(world, 1.0f / 60.0f));
-    assert_int_equal(j.calls, 3); // box 1 and ground, box 2 and box 1, box 2 and ground: each once, although they meet for many steps
+    assert_int_equal(
+        j.calls,
+        3); // box 1 and ground, box 2 and box 1, box 2 and ground: each once, although they meet for many steps
     for (int i = 0; i < 30; ++i) OK(fe_world_step(world, 1.0f / 60.0f));
     assert_int_equal(j.calls, 3);
     assert_int_equal(j.stepping, 3);
@@ -180,7 +186,8 @@ static void a_refusal_ends_with_the_filter(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- one-way shapes ---------------------------------------------------------------------------------------------------------------
+// ---- one-way shapes
+// ---------------------------------------------------------------------------------------------------------------
 
 static fe_shape new_platform(fe_world *world, int32_t one_way)
 {
@@ -195,8 +202,8 @@ static fe_shape new_platform(fe_world *world, int32_t one_way)
     return shape;
 }
 
-// Thrown up at 9 m/s from y = 0.5 a body would reach 0.5 + 81 / (2 g) = 4.6 m: it passes a one-way floor from below and stands on it
-// afterwards; an ordinary one holds it down.
+// Thrown up at 9 m/s from y = 0.5 a body would reach 0.5 + 81 / (2 g) = 4.6 m: it passes a one-way floor from below and
+// stands on it afterwards; an ordinary one holds it down.
 static void a_one_way_floor_lets_pass_from_below(void **state)
 {
     (void)state;
@@ -206,8 +213,10 @@ static void a_one_way_floor_lets_pass_from_below(void **state)
             new_ground(world);
             new_platform(world, one_way);
             fe_body body = new_body(world, FE_BODY_DYNAMIC, 0, 0.5, 0);
-            if (kind) add_sphere(world, body, 0.3f);
-            else add_box(world, body, 0.3f);
+            if (kind)
+                add_sphere(world, body, 0.3f);
+            else
+                add_box(world, body, 0.3f);
             OK(fe_body_set_linear_velocity(world, body, &(fe_vec3){0, 9, 0}));
             double highest = 0;
             for (int i = 0; i < 180; ++i) {
@@ -263,7 +272,8 @@ static void one_way_is_read_as_it_was_set(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- materials --------------------------------------------------------------------------------------------------------------------
+// ---- materials
+// --------------------------------------------------------------------------------------------------------------------
 
 static fe_material material(float friction, float restitution, int32_t combine)
 {
@@ -334,7 +344,8 @@ static void restitution_mixes_by_the_higher_mode(void **state)
     const double a = 0.5, b = 0.8;
     const double expected[] = {b, 0.5 * (a + b), a, a * b, b};
     for (int32_t i = 0; i < 5; ++i)
-        assert_true(fabs(bounce(material(0.5f, (float)a, i), material(0.5f, (float)b, FE_COMBINE_DEFAULT)) - expected[i]) < 0.02);
+        assert_true(fabs(bounce(material(0.5f, (float)a, i), material(0.5f, (float)b, FE_COMBINE_DEFAULT)) -
+                         expected[i]) < 0.02);
 }
 
 static void bad_materials_are_refused(void **state)

@@ -59,7 +59,8 @@ static void defaults_are_complete_but_for_the_heights(void **state)
     fe_heightfield_def d;
     fe_heightfield_def_init(NULL, sizeof d);
     fe_heightfield_def_init(&d, sizeof d);
-    FE_TRUE(d.struct_size == sizeof d && d.cell_x == 1.0f && d.cell_z == 1.0f && !d.heights && !d.holes && !d.cell_materials);
+    FE_TRUE(d.struct_size == sizeof d && d.cell_x == 1.0f && d.cell_z == 1.0f && !d.heights && !d.holes &&
+            !d.cell_materials);
     fe_asset asset = 7;
     d.rows = ROWS, d.columns = COLUMNS;
     REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_create(world_store(world), &d, &asset));
@@ -72,10 +73,10 @@ static void defaults_are_complete_but_for_the_heights(void **state)
     OK(fe_world_destroy(world));
 }
 
-#define REFUSES_DEF(change)                                                          \
-    do {                                                                             \
-        fe_heightfield_def d = flat_def();                                           \
-        change;                                                                      \
+#define REFUSES_DEF(change)                                                                       \
+    do {                                                                                          \
+        fe_heightfield_def d = flat_def();                                                        \
+        change;                                                                                   \
         REFUSES(world, FE_ERROR_ARGUMENT, fe_heightfield_create(world_store(world), &d, &asset)); \
     } while (0)
 
@@ -140,11 +141,15 @@ static void only_static_bodies_have_one(void **state)
     }
     shape = new_terrain(world, asset);
     OK(fe_shape_get_geometry(world, shape, &got));
-    FE_TRUE(got.type == FE_GEOMETRY_HEIGHTFIELD && got.asset == asset && got.radius == 0.0f && got.half_extents.x == 0.0f);
+    FE_TRUE(got.type == FE_GEOMETRY_HEIGHTFIELD && got.asset == asset && got.radius == 0.0f &&
+            got.half_extents.x == 0.0f);
     fe_body body;
     OK(fe_shape_get_body(world, shape, &body));
     REFUSES(world, FE_ERROR_UNSUPPORTED, fe_body_set_type(world, body, FE_BODY_DYNAMIC));
-    fe_mass_data mass = {.struct_size = sizeof mass, .mass = 1.0f, .inertia = {1.0f, 1.0f, 1.0f}, .inertia_rotation = {.w = 1.0f}};
+    fe_mass_data mass = {.struct_size = sizeof mass,
+                         .mass = 1.0f,
+                         .inertia = {1.0f, 1.0f, 1.0f},
+                         .inertia_rotation = {.w = 1.0f}};
     REFUSES(world, FE_ERROR_STATE, fe_body_set_mass_data(world, body, &mass));
     REFUSES(world, FE_ERROR_STATE, fe_body_set_mass(world, body, 1.0f));
     OK(fe_world_destroy(world));
@@ -161,16 +166,21 @@ static void wrong_handles_are_refused(void **state)
     const struct {
         fe_handle handle;
         int32_t result;
-    } wrong[] = {
-        {0, FE_ERROR_STALE}, {body, FE_ERROR_KIND}, {terrain, FE_ERROR_KIND}, {foreign, FE_ERROR_STALE}, {UINT64_MAX, FE_ERROR_STALE}};
+    } wrong[] = {{0, FE_ERROR_STALE},
+                 {body, FE_ERROR_KIND},
+                 {terrain, FE_ERROR_KIND},
+                 {foreign, FE_ERROR_STALE},
+                 {UINT64_MAX, FE_ERROR_STALE}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
         fe_geometry g;
         float heights[1] = {0};
         fe_geometry_heightfield(&g, wrong[i].handle);
         REFUSES(world, wrong[i].result, fe_shape_create(world, body, NULL, &g, &shape));
         REFUSES(world, wrong[i].result, fe_shape_set_geometry(world, terrain, &g));
-        REFUSES(world, wrong[i].result, fe_heightfield_set_heights(world_store(world), wrong[i].handle, 0, 0, 1, 1, heights));
-        REFUSES(world, wrong[i].result, fe_heightfield_get_heights(world_store(world), wrong[i].handle, 0, 0, 1, 1, heights));
+        REFUSES(world, wrong[i].result,
+                fe_heightfield_set_heights(world_store(world), wrong[i].handle, 0, 0, 1, 1, heights));
+        REFUSES(world, wrong[i].result,
+                fe_heightfield_get_heights(world_store(world), wrong[i].handle, 0, 0, 1, 1, heights));
         REFUSES(world, wrong[i].result, fe_asset_destroy(world_store(world), wrong[i].handle));
         FE_TRUE(!fe_asset_is_valid(world_store(world), wrong[i].handle));
     }
@@ -207,9 +217,10 @@ static void an_asset_lives_until_its_last_shape_is_gone(void **state)
     fe_asset next = new_field(world), after = new_field(world); // unused's slot, and a new one: asset's is taken still
     FE_TRUE(triangle_below(world, 1.0, 0.3, NULL) >= 0);
     OK(fe_shape_set_geometry(world, third, &sphere));
-    FE_TRUE(fe_asset_is_valid(world_store(world), next) && fe_asset_is_valid(world_store(world), after) && !fe_asset_is_valid(world_store(world), asset));
+    FE_TRUE(fe_asset_is_valid(world_store(world), next) && fe_asset_is_valid(world_store(world), after) &&
+            !fe_asset_is_valid(world_store(world), asset));
     fe_asset reborn = new_field(world); // in asset's slot
-    FE_TRUE((reborn & 0xffffff) == (asset & 0xffffff) && reborn != asset);
+    FE_TRUE((reborn & HANDLE_SLOT) == (asset & HANDLE_SLOT) && reborn != asset);
     OK(fe_world_destroy(world));
 }
 

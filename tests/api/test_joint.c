@@ -11,8 +11,9 @@ static void init(int32_t kind, any_def *d)
 }
 
 // the names of the calls, so that their sentences can be checked
-static const char *const create_names[ANY_KINDS] = {"fe_distance_joint_create(", "fe_ball_joint_create(", "fe_hinge_joint_create(",
-                                                    "fe_fixed_joint_create(", "fe_configurable_joint_create("};
+static const char *const create_names[ANY_KINDS] = {"fe_distance_joint_create(", "fe_ball_joint_create(",
+                                                    "fe_hinge_joint_create(", "fe_fixed_joint_create(",
+                                                    "fe_configurable_joint_create("};
 static const char *const set_names[ANY_KINDS] = {"fe_distance_joint_set(", "fe_ball_joint_set(", "fe_hinge_joint_set(",
                                                  "fe_fixed_joint_set(", "fe_configurable_joint_set("};
 static const char *const get_names[ANY_KINDS] = {"fe_distance_joint_get(", "fe_ball_joint_get(", "fe_hinge_joint_get(",
@@ -50,7 +51,8 @@ static fixture begin(int kind)
 
 static void end(fixture *f) { OK(fe_world_destroy(f->world)); }
 
-// ---- definitions ------------------------------------------------------------------------------------------------------------------
+// ---- definitions
+// ------------------------------------------------------------------------------------------------------------------
 
 static void defaults_are_those_of_the_header(void **state)
 {
@@ -59,7 +61,8 @@ static void defaults_are_those_of_the_header(void **state)
     for (int kind = 0; kind < ANY_KINDS; ++kind) {
         init(kind, &d);
         assert_int_equal(d.common.struct_size, any_sizes[kind]);
-        assert_true(d.common.enabled == 1 && d.common.collide_connected == 0 && d.common.body_a == 0 && d.common.body_b == 0);
+        assert_true(d.common.enabled == 1 && d.common.collide_connected == 0 && d.common.body_a == 0 &&
+                    d.common.body_b == 0);
         FE_NEAR(d.common.hertz, 0, 0), FE_NEAR(d.common.damping_ratio, 1, 0);
         FE_NEAR(d.common.break_force + d.common.break_torque, 0, 0);
         FE_NEAR(d.common.frame_a.rotation.w, 1, 0), FE_NEAR(d.common.frame_b.rotation.w, 1, 0);
@@ -67,7 +70,8 @@ static void defaults_are_those_of_the_header(void **state)
     }
     init(0, &d);
     FE_NEAR(d.distance.lower, 1, 0), FE_NEAR(d.distance.upper, 1, 0), FE_NEAR(d.distance.target, 1, 0);
-    FE_NEAR(d.distance.spring_hertz, 0, 0), FE_NEAR(d.distance.spring_damping_ratio, 1, 0), FE_NEAR(d.distance.spring_max, 1e15f, 0);
+    FE_NEAR(d.distance.spring_hertz, 0, 0), FE_NEAR(d.distance.spring_damping_ratio, 1, 0),
+        FE_NEAR(d.distance.spring_max, 1e15f, 0);
     FE_NEAR(d.distance.motor_max, 0, 0);
     init(1, &d);
     FE_NEAR(d.ball.cone_y, ANY_PI, 0), FE_NEAR(d.ball.cone_z, ANY_PI, 0), FE_NEAR(d.ball.lower, -ANY_PI, 0),
@@ -78,13 +82,15 @@ static void defaults_are_those_of_the_header(void **state)
     FE_NEAR(d.ball.limit_damping_ratio, 1, 0), FE_NEAR(d.ball.spring_damping_ratio, 1, 0);
     init(2, &d);
     FE_NEAR(d.hinge.lower, -ANY_PI, 0), FE_NEAR(d.hinge.upper, ANY_PI, 0), FE_NEAR(d.hinge.spring_max, 1e15f, 0);
-    FE_NEAR(d.hinge.spring_damping_ratio, 1, 0), FE_NEAR(d.hinge.limit_damping_ratio, 1, 0), FE_NEAR(d.hinge.motor_max, 0, 0);
+    FE_NEAR(d.hinge.spring_damping_ratio, 1, 0), FE_NEAR(d.hinge.limit_damping_ratio, 1, 0),
+        FE_NEAR(d.hinge.motor_max, 0, 0);
     assert_int_equal(d.hinge.limit_enabled, 0);
     init(3, &d);
     FE_NEAR(d.fixed.angular_hertz, 0, 0), FE_NEAR(d.fixed.angular_damping_ratio, 1, 0);
     init(4, &d);
     for (int k = 0; k < 6; ++k) {
-        assert_true(d.configurable.axes[k].motion == FE_MOTION_LOCKED && d.configurable.axes[k].spring == FE_SPRING_NONE);
+        assert_true(d.configurable.axes[k].motion == FE_MOTION_LOCKED &&
+                    d.configurable.axes[k].spring == FE_SPRING_NONE);
         FE_NEAR(d.configurable.axes[k].limit_damping_ratio, 1, 0), FE_NEAR(d.configurable.axes[k].spring_max, 1e15f, 0);
     }
     fe_hinge_joint_def_init(NULL, sizeof(fe_hinge_joint_def)); // does nothing
@@ -101,17 +107,20 @@ static void make_unlike_defaults(int kind, any_def *d)
     switch (kind) {
     case 0:
         d->distance.lower = 0.5f, d->distance.upper = 2, d->distance.target = 1.5f, d->distance.spring_hertz = 3;
-        d->distance.spring_damping_ratio = 0.25f, d->distance.spring_max = 7, d->distance.motor_speed = -1, d->distance.motor_max = 9;
+        d->distance.spring_damping_ratio = 0.25f, d->distance.spring_max = 7, d->distance.motor_speed = -1,
+        d->distance.motor_max = 9;
         break;
     case 1:
-        d->ball.cone_enabled = 1, d->ball.cone_y = 0.5f, d->ball.cone_z = 0.25f, d->ball.limit_enabled = 1, d->ball.lower = -1;
+        d->ball.cone_enabled = 1, d->ball.cone_y = 0.5f, d->ball.cone_z = 0.25f, d->ball.limit_enabled = 1,
+        d->ball.lower = -1;
         d->ball.upper = 2, d->ball.limit_hertz = 11, d->ball.limit_damping_ratio = 0.125f, d->ball.spring_hertz = 2;
         d->ball.spring_damping_ratio = 0.7f, d->ball.spring_max = 5, d->ball.target = (fe_quat){0, 0, 0.6f, 0.8f};
         d->ball.motor_velocity = fe_make_vec3(1, 2, 3), d->ball.motor_max = 4;
         break;
     case 2:
         d->hinge.limit_enabled = 1, d->hinge.lower = -0.5f, d->hinge.upper = 0.75f, d->hinge.limit_hertz = 12;
-        d->hinge.limit_damping_ratio = 0.3f, d->hinge.spring_hertz = 4, d->hinge.spring_damping_ratio = 0.9f, d->hinge.spring_max = 8;
+        d->hinge.limit_damping_ratio = 0.3f, d->hinge.spring_hertz = 4, d->hinge.spring_damping_ratio = 0.9f,
+        d->hinge.spring_max = 8;
         d->hinge.target = 0.25f, d->hinge.motor_speed = -3, d->hinge.motor_max = 6;
         break;
     case 3:
@@ -191,7 +200,8 @@ static void an_older_clients_definition_keeps_what_it_does_not_know(void **state
         memcpy(longer, &size, sizeof size);
         OK(any_set(kind, f.world, f.joint, (const any_def *)(const void *)longer));
         longer[any_sizes[kind] + 3] = 1;
-        REFUSES_AS(f.world, FE_ERROR_ARGUMENT, any_set(kind, f.world, f.joint, (const any_def *)(const void *)longer), set_names[kind]);
+        REFUSES_AS(f.world, FE_ERROR_ARGUMENT, any_set(kind, f.world, f.joint, (const any_def *)(const void *)longer),
+                   set_names[kind]);
         end(&f);
     }
 }
@@ -210,8 +220,9 @@ static void bad_ends_are_refused(void **state)
         const struct {
             fe_body a, b;
             int32_t result;
-        } cases[] = {{0, f.b, FE_ERROR_STALE},    {f.a, 0, FE_ERROR_STALE},    {f.a, f.a, FE_ERROR_ARGUMENT}, {gone, f.b, FE_ERROR_STALE},
-                     {f.a, gone, FE_ERROR_STALE}, {shape, f.b, FE_ERROR_KIND}, {f.a, shape, FE_ERROR_KIND}};
+        } cases[] = {{1, f.b, FE_ERROR_STALE},    {0, 0, FE_ERROR_ARGUMENT},   {f.a, f.a, FE_ERROR_ARGUMENT},
+                     {gone, f.b, FE_ERROR_STALE}, {f.a, gone, FE_ERROR_STALE}, {shape, f.b, FE_ERROR_KIND},
+                     {f.a, shape, FE_ERROR_KIND}};
         for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
             d.common.body_a = cases[i].a, d.common.body_b = cases[i].b;
             joint = 7;
@@ -270,9 +281,11 @@ static void refuses_floats(int kind, const size_t *offsets, size_t count, float 
 static void bad_values_of_the_front_are_refused(void **state)
 {
     (void)state;
-    static const size_t any[] = {F(common.frame_a.position.x), F(common.frame_a.position.z), F(common.frame_b.position.y),
-                                 F(common.frame_a.rotation.w), F(common.frame_b.rotation.x)};
-    static const size_t positive[] = {F(common.hertz), F(common.damping_ratio), F(common.break_force), F(common.break_torque)};
+    static const size_t any[] = {F(common.frame_a.position.x), F(common.frame_a.position.z),
+                                 F(common.frame_b.position.y), F(common.frame_a.rotation.w),
+                                 F(common.frame_b.rotation.x)};
+    static const size_t positive[] = {F(common.hertz), F(common.damping_ratio), F(common.break_force),
+                                      F(common.break_torque)};
     for (int kind = 0; kind < ANY_KINDS; ++kind) {
         refuses_floats(kind, any, COUNT(any), 0);
         refuses_floats(kind, positive, COUNT(positive), -1);
@@ -287,12 +300,18 @@ static void bad_values_of_the_front_are_refused(void **state)
 static void bad_values_of_each_type_are_refused(void **state)
 {
     (void)state;
-    static const size_t distance[] = {
-        F(distance.lower),      F(distance.upper),    F(distance.target), F(distance.spring_hertz), F(distance.spring_damping_ratio),
-        F(distance.spring_max), F(distance.motor_max)};
-    static const size_t ball[] = {F(ball.cone_y),       F(ball.cone_z),     F(ball.limit_hertz),          F(ball.limit_damping_ratio),
-                                  F(ball.spring_hertz), F(ball.spring_max), F(ball.spring_damping_ratio), F(ball.motor_max)};
-    static const size_t ball_any[] = {F(ball.lower), F(ball.upper), F(ball.target.w), F(ball.motor_velocity.x), F(ball.motor_velocity.z)};
+    static const size_t distance[] = {F(distance.lower),
+                                      F(distance.upper),
+                                      F(distance.target),
+                                      F(distance.spring_hertz),
+                                      F(distance.spring_damping_ratio),
+                                      F(distance.spring_max),
+                                      F(distance.motor_max)};
+    static const size_t ball[] = {
+        F(ball.cone_y),       F(ball.cone_z),     F(ball.limit_hertz),          F(ball.limit_damping_ratio),
+        F(ball.spring_hertz), F(ball.spring_max), F(ball.spring_damping_ratio), F(ball.motor_max)};
+    static const size_t ball_any[] = {F(ball.lower), F(ball.upper), F(ball.target.w), F(ball.motor_velocity.x),
+                                      F(ball.motor_velocity.z)};
     static const size_t hinge[] = {F(hinge.limit_hertz),          F(hinge.limit_damping_ratio), F(hinge.spring_hertz),
                                    F(hinge.spring_damping_ratio), F(hinge.spring_max),          F(hinge.motor_max)};
     static const size_t hinge_any[] = {F(hinge.lower), F(hinge.upper), F(hinge.target), F(hinge.motor_speed)};
@@ -348,7 +367,8 @@ static void limits_of_exactly_half_a_turn_are_accepted(void **state)
     end(&f);
 }
 
-// ---- handles ----------------------------------------------------------------------------------------------------------------------
+// ---- handles
+// ----------------------------------------------------------------------------------------------------------------------
 
 static void calls_with_a_bad_handle(fe_world *world, fe_joint joint, fe_result expected)
 {
@@ -460,7 +480,8 @@ static void null_pointers_are_errors(void **state)
     end(&f);
 }
 
-// ---- what all types have ----------------------------------------------------------------------------------------------------------
+// ---- what all types have
+// ----------------------------------------------------------------------------------------------------------
 
 static void the_common_part_is_set_and_read_on_any_type(void **state)
 {
@@ -479,7 +500,8 @@ static void the_common_part_is_set_and_read_on_any_type(void **state)
         FE_NEAR(read.break_force, 12, 0);
         assert_true(read.user_data == 34 && read.collide_connected == 1 && read.body_b == f.b);
         OK(any_get(kind, f.world, f.joint, &after));
-        assert_memory_equal((char *)&before + sizeof common, (char *)&after + sizeof common, any_sizes[kind] - sizeof common);
+        assert_memory_equal((char *)&before + sizeof common, (char *)&after + sizeof common,
+                            any_sizes[kind] - sizeof common);
         common.body_a = f.b;
         REFUSES(f.world, FE_ERROR_ARGUMENT, fe_joint_set(f.world, f.joint, &common)); // bodies stay
         common.body_a = 0, common.break_torque = NOT_A_NUMBER;
@@ -532,7 +554,8 @@ static void joints_are_listed_in_the_order_of_creation(void **state)
     end(&f);
 }
 
-// ---- frames from the world --------------------------------------------------------------------------------------------------------
+// ---- frames from the world
+// --------------------------------------------------------------------------------------------------------
 
 static void check_state_is_zero(const fe_world *world, fe_joint joint)
 {
@@ -541,14 +564,16 @@ static void check_state_is_zero(const fe_world *world, fe_joint joint)
     // angles of float quaternions: a few units in the last place of 1; points of bodies some metres across
     const double angle = 2e-6, gap = 2e-6;
     FE_NEAR(s.angle, 0, angle), FE_NEAR(s.swing_y, 0, angle), FE_NEAR(s.swing_z, 0, angle);
-    FE_NEAR(s.translation.x, 0, gap), FE_NEAR(s.translation.y, 0, gap), FE_NEAR(s.translation.z, 0, gap), FE_NEAR(s.length, 0, gap);
+    FE_NEAR(s.translation.x, 0, gap), FE_NEAR(s.translation.y, 0, gap), FE_NEAR(s.translation.z, 0, gap),
+        FE_NEAR(s.length, 0, gap);
     FE_NEAR(s.linear_error, 0, gap), FE_NEAR(s.angular_error, 0, angle);
 }
 
 static fixture turned_pair(void)
 {
     fixture f = begin(-1);
-    fe_transform t = {{1e5, -2e4, 3e4}, {0.1f, -0.7f, 0.3f, 0.5f}}, u = {{1e5 + 1, -2e4 + 2, 3e4 - 1}, {-0.4f, 0.2f, 0.6f, -0.3f}};
+    fe_transform t = {{1e5, -2e4, 3e4}, {0.1f, -0.7f, 0.3f, 0.5f}},
+                 u = {{1e5 + 1, -2e4 + 2, 3e4 - 1}, {-0.4f, 0.2f, 0.6f, -0.3f}};
     OK(fe_body_set_transform(f.world, f.a, &t));
     OK(fe_body_set_transform(f.world, f.b, &u));
     return f;
@@ -584,7 +609,8 @@ static void frames_made_from_the_world_are_zero_now(void **state)
         FE_NEAR(1 - 2 * (q.y * q.y + q.z * q.z), (double)axes[i].x / n, 1e-6);
         FE_NEAR(2 * (q.x * q.y + q.w * q.z), (double)axes[i].y / n, 1e-6);
         FE_NEAR(2 * (q.x * q.z - q.w * q.y), (double)axes[i].z / n, 1e-6);
-        FE_NEAR(frame_b.position.x, point.x, 1e-6), FE_NEAR(frame_b.position.y, point.y, 1e-6), FE_NEAR(frame_b.position.z, point.z, 1e-6);
+        FE_NEAR(frame_b.position.x, point.x, 1e-6), FE_NEAR(frame_b.position.y, point.y, 1e-6),
+            FE_NEAR(frame_b.position.z, point.z, 1e-6);
         fe_fixed_joint_def_init(&fixed, sizeof fixed);
         OK(fe_fixed_joint_def_at(f.world, &fixed, f.a, f.b, &point));
         OK(fe_fixed_joint_create(f.world, &fixed, &joint));
@@ -626,8 +652,10 @@ static void ready_made_definitions_are_whole(void **state)
     OK(fe_wheel_joint_def_at(f.world, &c, f.a, f.b, &p, &axle, &up, 4, 0.7f, 0.2f));
     OK(fe_configurable_joint_create(f.world, &c, &joint));
     check_state_is_zero(f.world, joint);
-    assert_true(c.axes[FE_DOF_ANGULAR_X].motion == FE_MOTION_FREE && c.axes[FE_DOF_LINEAR_Z].motion == FE_MOTION_LIMITED);
-    assert_true(c.axes[FE_DOF_ANGULAR_Z].motion == FE_MOTION_LOCKED && c.axes[FE_DOF_LINEAR_X].motion == FE_MOTION_LOCKED);
+    assert_true(c.axes[FE_DOF_ANGULAR_X].motion == FE_MOTION_FREE &&
+                c.axes[FE_DOF_LINEAR_Z].motion == FE_MOTION_LIMITED);
+    assert_true(c.axes[FE_DOF_ANGULAR_Z].motion == FE_MOTION_LOCKED &&
+                c.axes[FE_DOF_LINEAR_X].motion == FE_MOTION_LOCKED);
     fe_transform a, b;
     OK(fe_joint_get_frames(f.world, joint, &a, &b));
     fe_quat r = a.rotation;
@@ -684,12 +712,12 @@ static void bad_arguments_of_the_makers_are_refused(void **state)
     REFUSES(w, FE_ERROR_ARGUMENT, fe_ball_joint_def_at(w, &ball, f.a, f.a, &p, &x));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_ball_joint_def_at(w, &ball, f.a, f.b, NULL, &x));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_ball_joint_def_at(w, &ball, f.a, f.b, &p, NULL));
-    REFUSES(w, FE_ERROR_STALE, fe_ball_joint_def_at(w, &ball, 0, f.b, &p, &x));
+    REFUSES(w, FE_ERROR_STALE, fe_ball_joint_def_at(w, &ball, 1, f.b, &p, &x));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_hinge_joint_def_at(w, &hinge, f.a, f.b, &p, &none));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_hinge_joint_def_at(w, &hinge, f.a, f.b, &p, &nan));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_hinge_joint_def_at(w, &hinge, f.a, f.b, &far, &x));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_hinge_joint_def_at(w, NULL, f.a, f.b, &p, &x));
-    REFUSES(w, FE_ERROR_STALE, fe_fixed_joint_def_at(w, &fixed, f.a, 0, &p));
+    REFUSES(w, FE_ERROR_STALE, fe_fixed_joint_def_at(w, &fixed, f.a, 1, &p));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_fixed_joint_def_at(w, &fixed, f.a, f.b, NULL));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_distance_joint_def_at(w, &rod, f.a, f.b, &p, NULL));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_distance_joint_def_at(w, NULL, f.a, f.b, &p, &p));
@@ -708,12 +736,14 @@ static void bad_arguments_of_the_makers_are_refused(void **state)
     REFUSES(w, FE_ERROR_ARGUMENT, fe_wheel_joint_def_at(w, &c, f.a, f.b, &p, &x, &up, 1, 1, -1));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_motor_joint_def_at(w, &c, f.a, f.b, 1, 1, -1, 1));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_motor_joint_def_at(w, &c, f.a, f.b, 1, 1, 1, NOT_A_NUMBER));
-    REFUSES(w, FE_ERROR_STALE, fe_motor_joint_def_at(w, &c, f.a, 0, 1, 1, 1, 1));
-    check_refusal(fe_motor_joint_def_at(NULL, &c, f.a, f.b, 1, 1, 1, 1), FE_ERROR_ARGUMENT, "fe_motor_joint_def_at(", __FILE__, __LINE__);
+    REFUSES(w, FE_ERROR_STALE, fe_motor_joint_def_at(w, &c, f.a, 1, 1, 1, 1, 1));
+    check_refusal(fe_motor_joint_def_at(NULL, &c, f.a, f.b, 1, 1, 1, 1), FE_ERROR_ARGUMENT, "fe_motor_joint_def_at(",
+                  __FILE__, __LINE__);
     end(&f);
 }
 
-// ---- readings ---------------------------------------------------------------------------------------------------------------------
+// ---- readings
+// ---------------------------------------------------------------------------------------------------------------------
 
 // B's frame turned by `q` against A's, both at the origin
 static fe_joint_state state_of_turn(fe_quat q)
@@ -741,7 +771,8 @@ static void angles_are_twist_about_x_and_swing(void **state)
                 double swing = sqrt(y * y + z * z), k = swing > 0 ? sin(swing / 2) / swing : 0;
                 double sy = k * y, sz = k * z, sw = cos(swing / 2), tx = sin(twist / 2), tw = cos(twist / 2);
                 // swing times twist
-                fe_quat q = {(float)(sw * tx), (float)(sy * tw + sz * tx), (float)(sz * tw - sy * tx), (float)(sw * tw)};
+                fe_quat q = {(float)(sw * tx), (float)(sy * tw + sz * tx), (float)(sz * tw - sy * tx),
+                             (float)(sw * tw)};
                 fe_joint_state s = state_of_turn(q);
                 FE_NEAR(s.angle, twist, 1e-5), FE_NEAR(s.swing_y, y, 1e-5), FE_NEAR(s.swing_z, z, 1e-5);
             }
@@ -765,7 +796,8 @@ static void speeds_are_those_of_b_in_frame_a(void **state)
     OK(fe_joint_get_state(f.world, joint, &s));
     FE_NEAR(s.length, 2, 1e-6), FE_NEAR(s.speed, 3, 1e-6), FE_NEAR(s.linear_error, 1, 1e-6);
     FE_NEAR(s.translation.x, 0, 1e-6), FE_NEAR(s.translation.y, -2, 1e-6);
-    FE_NEAR(s.linear_velocity.x, 4 - 2, 1e-6), FE_NEAR(s.linear_velocity.y, -3, 1e-6); // A's matter there moves at 2 along y
+    FE_NEAR(s.linear_velocity.x, 4 - 2, 1e-6),
+        FE_NEAR(s.linear_velocity.y, -3, 1e-6); // A's matter there moves at 2 along y
     FE_NEAR(s.angular_velocity.z, 0, 1e-6);
     end(&f);
 }

@@ -86,7 +86,8 @@ static void the_world_is_no_body(void **state)
     assert_int_equal(fe_joint_is_valid(world, joint), 0);
     fe_ball_joint_def_init(&def, sizeof def);
     REFUSES(world, FE_ERROR_ARGUMENT, fe_ball_joint_create(world, &def, &joint));
-    REFUSES(world, FE_ERROR_ARGUMENT, fe_ball_joint_def_at(world, &def, 0, 0, &(fe_dvec3){0, 0, 0}, &(fe_vec3){1, 0, 0}));
+    REFUSES(world, FE_ERROR_ARGUMENT,
+            fe_ball_joint_def_at(world, &def, 0, 0, &(fe_dvec3){0, 0, 0}, &(fe_vec3){1, 0, 0}));
     OK(fe_world_destroy(world));
 }
 
@@ -107,11 +108,13 @@ static void a_break_tells_of_the_world(void **state)
         step(world, 1);
         count = fe_world_get_joint_events(world, &event, sizeof event, 1);
     }
-    FE_TRUE(count == 1 && event.joint == joint && event.body_a == 0 && event.body_b == bob && event.kind == FE_EVENT_BREAK);
+    FE_TRUE(count == 1 && event.joint == joint && event.body_a == 0 && event.body_b == bob &&
+            event.kind == FE_EVENT_BREAK);
     OK(fe_world_destroy(world));
 }
 
-// ---- what changes each step -----------------------------------------------------------------------------------------------------------
+// ---- what changes each step
+// -----------------------------------------------------------------------------------------------------------
 
 static void speed_and_target_change_alone(void **state)
 {

@@ -8,7 +8,8 @@ static fe_mass_data mass_of(const fe_world *world, fe_body body)
     return data;
 }
 
-static fe_shape add_at(fe_world *world, fe_body body, const fe_geometry *geometry, float density, float x, float y, float z)
+static fe_shape add_at(fe_world *world, fe_body body, const fe_geometry *geometry, float density, float x, float y,
+                       float z)
 {
     fe_shape_def def;
     fe_shape_def_init(&def, sizeof def);
@@ -66,8 +67,8 @@ static void one_shape_weighs_what_the_textbook_says(void **state)
     OK(fe_world_destroy(world));
 }
 
-// The moments of a whole do not depend on how it was cut: a 2 x 2 x 4 m box from two halves, from eight cubes, from shapes turned by 90
-// degrees.
+// The moments of a whole do not depend on how it was cut: a 2 x 2 x 4 m box from two halves, from eight cubes, from
+// shapes turned by 90 degrees.
 static void a_body_of_parts_weighs_like_the_whole(void **state)
 {
     (void)state;
@@ -81,7 +82,8 @@ static void a_body_of_parts_weighs_like_the_whole(void **state)
             if (parts == 2)
                 add_at(world, body, &half, 1000, 0, 0, 10.0f + (i ? 1.0f : -1.0f));
             else
-                add_at(world, body, &cube, 1000, i & 1 ? 0.5f : -0.5f, i & 2 ? 0.5f : -0.5f, 10 + (float)(i >> 2) - 1.5f);
+                add_at(world, body, &cube, 1000, i & 1 ? 0.5f : -0.5f, i & 2 ? 0.5f : -0.5f,
+                       10 + (float)(i >> 2) - 1.5f);
         }
         fe_mass_data data = mass_of(world, body);
         FE_NEAR(data.mass, 16000, 0);
@@ -97,8 +99,8 @@ static void a_body_of_parts_weighs_like_the_whole(void **state)
     OK(fe_world_destroy(world));
 }
 
-// Principal axes: a dumbbell along (1, 1, 0) of two 1 m spheres, d from the middle. Its long axis has 2 (2/5 m r^2), the others m d^2 more
-// each; the tensor in the body's axes must come out of R diag R^T.
+// Principal axes: a dumbbell along (1, 1, 0) of two 1 m spheres, d from the middle. Its long axis has 2 (2/5 m r^2),
+// the others m d^2 more each; the tensor in the body's axes must come out of R diag R^T.
 static void principal_axes_are_found(void **state)
 {
     (void)state;
@@ -160,10 +162,12 @@ static void given_mass_stays_until_reset(void **state)
     OK(fe_body_set_mass_data(world, body, &set));
     add_sphere(world, body, 1); // no longer counts
     got = mass_of(world, body);
-    FE_NEAR(got.mass, 10, 0), FE_NEAR(got.centre.y, -0.25, 0), FE_NEAR(got.inertia.z, 2.5, 0), FE_NEAR(got.inertia_rotation.w, 1, 0);
+    FE_NEAR(got.mass, 10, 0), FE_NEAR(got.centre.y, -0.25, 0), FE_NEAR(got.inertia.z, 2.5, 0),
+        FE_NEAR(got.inertia_rotation.w, 1, 0);
     OK(fe_body_set_mass(world, body, 20)); // scales the inertia
     got = mass_of(world, body);
-    FE_NEAR(got.mass, 20, 0), FE_NEAR(got.inertia.x, 2, 1e-6), FE_NEAR(got.inertia.z, 5, 1e-6), FE_NEAR(got.centre.y, -0.25, 0);
+    FE_NEAR(got.mass, 20, 0), FE_NEAR(got.inertia.x, 2, 1e-6), FE_NEAR(got.inertia.z, 5, 1e-6),
+        FE_NEAR(got.centre.y, -0.25, 0);
     OK(fe_body_reset_mass(world, body));
     FE_NEAR(mass_of(world, body).mass, 1000 + 4000 / 3.0 * 3.14159265358979, 1e-3);
     OK(fe_world_destroy(world));
@@ -173,7 +177,8 @@ static void bad_mass_is_refused(void **state)
 {
     (void)state;
     fe_world *world = new_world();
-    fe_body body = new_box(world, 0, 0, 0), ground = new_ground(world), lift = new_body(world, FE_BODY_KINEMATIC, 9, 9, 9);
+    fe_body body = new_box(world, 0, 0, 0), ground = new_ground(world),
+            lift = new_body(world, FE_BODY_KINEMATIC, 9, 9, 9);
     fe_mass_data good = {sizeof good, 10, {0, 0, 0}, {1, 1, 1}, {0, 0, 0, 1}}, bad;
     REFUSES(world, FE_ERROR_ARGUMENT, fe_body_set_mass(world, body, 0));
     REFUSES(world, FE_ERROR_ARGUMENT, fe_body_set_mass(world, body, -1));

@@ -1,4 +1,5 @@
-// What a world amounts to: energy, momentum, bounds, stiffness in use, who overlaps what and how deep; the switches of its tuning.
+// What a world amounts to: energy, momentum, bounds, stiffness in use, who overlaps what and how deep; the switches of
+// its tuning.
 #include "api_test.h"
 
 static fe_energy energy_of(const fe_world *world)
@@ -9,8 +10,9 @@ static fe_energy energy_of(const fe_world *world)
     return e;
 }
 
-// A thrown, spinning brick of 16 kg in free flight: T + V of the discrete flight stays to rounding. Each of 960 substeps rounds a velocity of up
-// to 20 m/s to a float, by 1e-6 m/s at most: m v dv = 16 20 960e-6 = 0.31 J. T(v) + V(x) would swing by h/2 m g v = 3.3 J.
+// A thrown, spinning brick of 16 kg in free flight: T + V of the discrete flight stays to rounding. Each of 960
+// substeps rounds a velocity of up to 20 m/s to a float, by 1e-6 m/s at most: m v dv = 16 20 960e-6 = 0.31 J. T(v) +
+// V(x) would swing by h/2 m g v = 3.3 J.
 static void energy_of_a_free_flight_stays(void **state)
 {
     (void)state;
@@ -73,15 +75,18 @@ static void bounds_hold_the_shapes(void **state)
     REFUSES(world, FE_ERROR_STATE, fe_world_get_bounds(world, &b));
     REFUSES(world, FE_ERROR_UNSUPPORTED, fe_body_get_bounds(world, ground, &b));
     REFUSES(world, FE_ERROR_UNSUPPORTED, fe_shape_get_bounds(world, plane, &b));
-    fe_body box = new_box(world, 1, 2, 3), empty = new_body(world, FE_BODY_DYNAMIC, 0, 0, 0), ball = new_body(world, FE_BODY_STATIC, -4, 0, 0);
+    fe_body box = new_box(world, 1, 2, 3), empty = new_body(world, FE_BODY_DYNAMIC, 0, 0, 0),
+            ball = new_body(world, FE_BODY_STATIC, -4, 0, 0);
     fe_shape sphere = add_sphere(world, ball, 2);
     REFUSES(world, FE_ERROR_STATE, fe_body_get_bounds(world, empty, &b));
     OK(fe_body_get_bounds(world, box, &b));
-    assert_true(b.lower.x == 0.5 && b.lower.y == 1.5 && b.lower.z == 2.5 && b.upper.x == 1.5 && b.upper.y == 2.5 && b.upper.z == 3.5);
+    assert_true(b.lower.x == 0.5 && b.lower.y == 1.5 && b.lower.z == 2.5 && b.upper.x == 1.5 && b.upper.y == 2.5 &&
+                b.upper.z == 3.5);
     OK(fe_shape_get_bounds(world, sphere, &b));
     assert_true(b.lower.x == -6 && b.upper.y == 2);
     OK(fe_world_get_bounds(world, &b));
-    assert_true(b.lower.x == -6 && b.lower.y == -2 && b.lower.z == -2 && b.upper.x == 1.5 && b.upper.y == 2.5 && b.upper.z == 3.5);
+    assert_true(b.lower.x == -6 && b.lower.y == -2 && b.lower.z == -2 && b.upper.x == 1.5 && b.upper.y == 2.5 &&
+                b.upper.z == 3.5);
     REFUSES(world, FE_ERROR_ARGUMENT, fe_world_get_bounds(world, NULL));
     OK(fe_world_destroy(world));
 }
@@ -132,7 +137,8 @@ static void overlaps_tell_the_way_out(void **state)
     // a shorter record gets its front, in order
     at = fe_make_transform(0.4, 0.8, 0);
     unsigned char few[2][24];
-    assert_int_equal(fe_world_overlap_shapes(world, &capsule, &at, NULL, (fe_overlap *)(void *)few, sizeof few[0], 2), 2);
+    assert_int_equal(fe_world_overlap_shapes(world, &capsule, &at, NULL, (fe_overlap *)(void *)few, sizeof few[0], 2),
+                     2);
     REFUSES(world, FE_ERROR_ARGUMENT, fe_world_overlap_shapes(world, &capsule, &at, NULL, found, 0, 4));
     fe_geometry plane;
     fe_geometry_plane(&plane, 0, 1, 0, 0);
@@ -168,7 +174,8 @@ static void a_trigger_tells_who_is_inside(void **state)
 {
     (void)state;
     fe_world *world = new_world();
-    fe_body zone = new_body(world, FE_BODY_STATIC, 0, 0, 0), in = new_box(world, 0, 0.3, 0), out = new_box(world, 9, 0, 0), second = new_box(world, 1, 0, 0);
+    fe_body zone = new_body(world, FE_BODY_STATIC, 0, 0, 0), in = new_box(world, 0, 0.3, 0),
+            out = new_box(world, 9, 0, 0), second = new_box(world, 1, 0, 0);
     fe_shape_def def;
     fe_shape_def_init(&def, sizeof def);
     def.trigger = 1;
@@ -193,7 +200,8 @@ static void a_trigger_tells_who_is_inside(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- switches -----------------------------------------------------------------------------------------------------------------------
+// ---- switches
+// -----------------------------------------------------------------------------------------------------------------------
 
 static fe_world *world_with(int32_t sleep, int32_t continuous, int32_t warm_start)
 {

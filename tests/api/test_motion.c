@@ -64,7 +64,8 @@ static void a_force_acts_for_one_step(void **state)
     FE_NEAR(velocity(world, pushed).x, 12.0 / 60, 1e-6);
     FE_NEAR(spin(world, turned).y, 1000 / (1000 / 6.0) / 60, 1e-6);
     FE_NEAR(velocity(world, at).x, 6.0 / 60, 1e-6);
-    FE_NEAR(spin(world, at).z, -3000 / (1000 / 6.0) / 60, 1e-3); // (0, 0.5, 0) x (6000, 0, 0); the arm turns a little meanwhile
+    FE_NEAR(spin(world, at).z, -3000 / (1000 / 6.0) / 60,
+            1e-3); // (0, 0.5, 0) x (6000, 0, 0); the arm turns a little meanwhile
     step(world, 1);
     FE_NEAR(velocity(world, pushed).x, 12.0 / 60, 1e-6);
     OK(fe_world_destroy(world));
@@ -165,7 +166,8 @@ static void no_number_of_forces_makes_an_infinity(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- locks ----------------------------------------------------------------------------------------------------------------------
+// ---- locks
+// ----------------------------------------------------------------------------------------------------------------------
 
 static void what_is_locked_stays_zero(void **state)
 {
@@ -192,8 +194,8 @@ static void what_is_locked_stays_zero(void **state)
     OK(fe_world_destroy(world));
 }
 
-// About its free axis a locked body has its own inertia there, not the inverse of the whole tensor's inverse: a long box turned by 45
-// degrees about z, free about x only, has Ixx = (I1 + I2) / 2.
+// About its free axis a locked body has its own inertia there, not the inverse of the whole tensor's inverse: a long
+// box turned by 45 degrees about z, free about x only, has Ixx = (I1 + I2) / 2.
 static void a_locked_body_turns_like_one_on_an_axle(void **state)
 {
     (void)state;
@@ -224,7 +226,8 @@ static void a_locked_body_turns_like_one_on_an_axle(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- kinematic ------------------------------------------------------------------------------------------------------------------
+// ---- kinematic
+// ------------------------------------------------------------------------------------------------------------------
 
 static void a_kinematic_body_reaches_its_target(void **state)
 {
@@ -258,7 +261,8 @@ static void only_kinematic_bodies_have_targets(void **state)
 {
     (void)state;
     fe_world *world = new_world();
-    fe_body lift = new_body(world, FE_BODY_KINEMATIC, 0, 0, 0), box = new_box(world, 5, 0, 0), ground = new_ground(world);
+    fe_body lift = new_body(world, FE_BODY_KINEMATIC, 0, 0, 0), box = new_box(world, 5, 0, 0),
+            ground = new_ground(world);
     fe_transform target = fe_make_transform(1, 0, 0), bad = fe_make_transform((double)NOT_A_NUMBER, 0, 0),
                  far = fe_make_transform(1e9, 0, 0);
     REFUSES(world, FE_ERROR_STATE, fe_body_set_target(world, box, &target, 1));

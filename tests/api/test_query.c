@@ -28,7 +28,8 @@ static asked new_asked(void)
     return a;
 }
 
-// ---- answers ------------------------------------------------------------------------------------------------------------------------
+// ---- answers
+// ------------------------------------------------------------------------------------------------------------------------
 
 static void rays_answer(void **state)
 {
@@ -64,7 +65,9 @@ static void hits_are_written_with_a_stride(void **state)
     assert_int_equal(fe_world_raycast_all(a.world, &a.above, &a.down, NULL, &wide[0].hit, sizeof wide[0], 2), 2);
     assert_true(wide[0].hit.body == a.box && wide[1].hit.body == a.ground && wide[0].mine == 7 && wide[1].mine == 8);
     unsigned char packed[2 * (sizeof(fe_hit) + 4) + 4]; // no double is aligned
-    assert_int_equal(fe_world_raycast_all(a.world, &a.above, &a.down, NULL, (fe_hit *)(void *)(packed + 4), sizeof(fe_hit) + 4, 2), 2);
+    assert_int_equal(fe_world_raycast_all(a.world, &a.above, &a.down, NULL, (fe_hit *)(void *)(packed + 4),
+                                          sizeof(fe_hit) + 4, 2),
+                     2);
     assert_memory_equal(packed + 4, &wide[0].hit, sizeof(fe_hit));
     assert_memory_equal(packed + 8 + sizeof(fe_hit), &wide[1].hit, sizeof(fe_hit));
     OK(fe_world_destroy(a.world));
@@ -169,31 +172,36 @@ static void many_at_once_answer_as_one_by_one(void **state)
     for (int kind = 0; kind < 2; ++kind) {
         int32_t hits = 0;
         for (int i = 0; i < MANY; ++i) {
-            int32_t result = kind ? fe_world_sweep(a.world, &a.ball, &paths[i].start, &paths[i].translation, NULL, &one[i])
-                                  : fe_world_raycast(a.world, &rays[i].origin, &rays[i].translation, NULL, &one[i]);
+            int32_t result =
+                kind ? fe_world_sweep(a.world, &a.ball, &paths[i].start, &paths[i].translation, NULL, &one[i])
+                     : fe_world_raycast(a.world, &rays[i].origin, &rays[i].translation, NULL, &one[i]);
             hits += result;
             if (result == 1) continue;
-            fe_dvec3 end = {rays[i].origin.x + rays[i].translation.x, 10 + rays[i].translation.y, rays[i].origin.z + rays[i].translation.z};
+            fe_dvec3 end = {rays[i].origin.x + rays[i].translation.x, 10 + rays[i].translation.y,
+                            rays[i].origin.z + rays[i].translation.z};
             one[i] = (fe_hit){.point = end, .fraction = 1, .part = -1, .triangle = -1};
         }
         FE_WITHIN(hits, 1, MANY - 1);
         for (int32_t s = 0; s < 2; ++s) {
             fe_hit *out = s ? spread : many;
-            int32_t found = kind ? fe_world_sweep_many(a.world, &a.ball, paths, sizeof(fe_path), MANY, NULL, s, out, sizeof(fe_hit))
-                                 : fe_world_raycast_many(a.world, rays, sizeof(fe_ray), MANY, NULL, s, out, sizeof(fe_hit));
+            int32_t found =
+                kind ? fe_world_sweep_many(a.world, &a.ball, paths, sizeof(fe_path), MANY, NULL, s, out, sizeof(fe_hit))
+                     : fe_world_raycast_many(a.world, rays, sizeof(fe_ray), MANY, NULL, s, out, sizeof(fe_hit));
             assert_int_equal(found, hits);
             assert_memory_equal(out, one, sizeof one);
         }
     }
     fe_body bodies[MANY]; // the front of each hit
-    FE_TRUE(fe_world_sweep_many(a.world, &a.ball, paths, sizeof *paths, MANY, NULL, 0, (fe_hit *)(void *)bodies, sizeof *bodies) > 0);
+    FE_TRUE(fe_world_sweep_many(a.world, &a.ball, paths, sizeof *paths, MANY, NULL, 0, (fe_hit *)(void *)bodies,
+                                sizeof *bodies) > 0);
     for (int i = 0; i < MANY; ++i) assert_true(bodies[i] == one[i].body);
     assert_int_equal(fe_world_raycast_many(a.world, NULL, 0, 0, NULL, 1, NULL, 0), 0);
     assert_int_equal(fe_world_sweep_many(a.world, &a.ball, NULL, 0, 0, NULL, 1, NULL, 0), 0);
     OK(fe_world_destroy(a.world));
 }
 
-// ---- errors -------------------------------------------------------------------------------------------------------------------------
+// ---- errors
+// -------------------------------------------------------------------------------------------------------------------------
 
 static const fe_dvec3 bad_vectors[] = {{(double)NAN, 0, 0}, {0, (double)INFINITY, 0}, {0, 0, 1e11}};
 enum { BAD = sizeof bad_vectors / sizeof *bad_vectors };
@@ -284,21 +292,26 @@ static void bad_batches_are_refused(void **state)
     memset(h, 0x55, sizeof h), memcpy(untouched, h, sizeof h);
     fe_ray rays[2] = {{a.above, a.down, {0}}, {a.above, {0, (double)NAN, 0}, {0}}};
     fe_path paths[2] = {{a.far, a.down, {0}}, {a.far, {0, 0, (double)INFINITY}, {0}}};
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, sizeof(fe_ray), 2, NULL, 0, h, sizeof(fe_hit))); // the second
+    REFUSES(w, FE_ERROR_ARGUMENT,
+            fe_world_raycast_many(w, rays, sizeof(fe_ray), 2, NULL, 0, h, sizeof(fe_hit))); // the second
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, 44, 1, NULL, 0, h, sizeof *h));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, sizeof(fe_ray), 1, NULL, 2, h, sizeof(fe_hit)));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, sizeof *rays, 1, NULL, 0, h, 4));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, sizeof(fe_ray), 1, NULL, 0, NULL, sizeof *h));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, NULL, sizeof *rays, 1, NULL, 0, h, sizeof(fe_hit)));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, sizeof(fe_ray), -1, NULL, 0, h, sizeof(fe_hit)));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, paths, sizeof(fe_path), 2, NULL, 1, h, sizeof(fe_hit))); // the second
-    REFUSES(w, FE_ERROR_UNSUPPORTED, fe_world_sweep_many(w, &a.plane, paths, sizeof(fe_path), 1, NULL, 1, h, sizeof(fe_hit)));
+    REFUSES(w, FE_ERROR_ARGUMENT,
+            fe_world_sweep_many(w, &a.ball, paths, sizeof(fe_path), 2, NULL, 1, h, sizeof(fe_hit))); // the second
+    REFUSES(w, FE_ERROR_UNSUPPORTED,
+            fe_world_sweep_many(w, &a.plane, paths, sizeof(fe_path), 1, NULL, 1, h, sizeof(fe_hit)));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, paths, 60, 1, NULL, 1, h, sizeof *h));
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, paths, sizeof(fe_path), 1, NULL, -1, h, sizeof(fe_hit)));
+    REFUSES(w, FE_ERROR_ARGUMENT,
+            fe_world_sweep_many(w, &a.ball, paths, sizeof(fe_path), 1, NULL, -1, h, sizeof(fe_hit)));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, NULL, sizeof *paths, 1, NULL, 1, h, sizeof(fe_hit)));
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, paths, sizeof(fe_path), 1, NULL, 1, NULL, sizeof *h));
     paths[1] = paths[0], paths[1].start.rotation.w = 0;
-    REFUSES(w, FE_ERROR_ARGUMENT, fe_world_sweep_many(w, &a.ball, paths, sizeof(fe_path), 2, NULL, 1, h, sizeof(fe_hit)));
+    REFUSES(w, FE_ERROR_ARGUMENT,
+            fe_world_sweep_many(w, &a.ball, paths, sizeof(fe_path), 2, NULL, 1, h, sizeof(fe_hit)));
     assert_memory_equal(h, untouched, sizeof h);
     OK(fe_world_destroy(w));
 }

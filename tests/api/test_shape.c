@@ -8,7 +8,8 @@ static fe_shape only_shape(const fe_world *world, fe_body body)
     return shape;
 }
 
-// ---- definitions ----------------------------------------------------------------------------------------------------------------
+// ---- definitions
+// ----------------------------------------------------------------------------------------------------------------
 
 static void defaults_are_those_of_the_header(void **state)
 {
@@ -31,8 +32,10 @@ static void what_a_definition_says_is_read_back(void **state)
     fe_shape_def def;
     fe_shape_def_init(&def, sizeof def);
     def.density = 7, def.frame.position = fe_make_vec3(1, 2, 3), def.frame.rotation = (fe_quat){0, 0, 3, 4};
-    def.material = (fe_material){0.1f, 0.2f, 0.3f, 0.4f, 0.5f, FE_COMBINE_MINIMUM, FE_COMBINE_MULTIPLY, {0}, UINT64_MAX};
-    def.layer = 4, def.mask = 8, def.group = -3, def.trigger = 1, def.events = FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT;
+    def.material =
+        (fe_material){0.1f, 0.2f, 0.3f, 0.4f, 0.5f, FE_COMBINE_MINIMUM, FE_COMBINE_MULTIPLY, {0}, UINT64_MAX};
+    def.layer = 4, def.mask = 8, def.group = -3, def.trigger = 1,
+    def.events = FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT;
     def.surface_velocity = fe_make_vec3(0, 0, 2), def.user_data = 99;
     fe_geometry capsule, got = {.struct_size = sizeof got};
     fe_geometry_capsule(&capsule, 0.5f, 0.25f);
@@ -58,11 +61,12 @@ static void what_a_definition_says_is_read_back(void **state)
     OK(fe_shape_get_surface_velocity(world, shape, &velocity));
     OK(fe_shape_get_user_data(world, shape, &data));
     assert_true(owner == body && got.type == FE_GEOMETRY_CAPSULE);
-    FE_NEAR(got.half_height, 0.5, 0), FE_NEAR(got.radius, 0.25, 0), FE_NEAR(density, 7, 0), FE_NEAR(frame.position.y, 2, 0);
+    FE_NEAR(got.half_height, 0.5, 0), FE_NEAR(got.radius, 0.25, 0), FE_NEAR(density, 7, 0),
+        FE_NEAR(frame.position.y, 2, 0);
     FE_NEAR(frame.rotation.z, 0.6, 1e-7), FE_NEAR(frame.rotation.w, 0.8, 1e-7);
     assert_memory_equal(&material, &def.material, sizeof material);
-    assert_true(group == -3 && layer == 4 && mask == 8 && events == (FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT) && trigger == 1 &&
-                data == 99);
+    assert_true(group == -3 && layer == 4 && mask == 8 && events == (FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT) &&
+                trigger == 1 && data == 99);
     FE_NEAR(velocity.z, 2, 0);
     OK(fe_world_destroy(world));
 }
@@ -140,7 +144,8 @@ static void an_older_definition_gets_the_defaults(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- geometry -------------------------------------------------------------------------------------------------------------------
+// ---- geometry
+// -------------------------------------------------------------------------------------------------------------------
 
 static void lengths_lie_between_a_millimetre_and_a_hundred_kilometres(void **state)
 {
@@ -251,7 +256,8 @@ static void a_bad_frame_is_refused(void **state)
     fe_world *world = new_world();
     fe_body body = new_box(world, 0, 0, 0);
     fe_shape shape = only_shape(world, body);
-    const fe_frame far = {{1e7f, 0, 0}, {0, 0, 0, 1}}, flat = {{1, 2, 3}, {0, 0, 0, 0}}, nan = {{0, NOT_A_NUMBER, 0}, {0, 0, 0, 1}};
+    const fe_frame far = {{1e7f, 0, 0}, {0, 0, 0, 1}}, flat = {{1, 2, 3}, {0, 0, 0, 0}},
+                   nan = {{0, NOT_A_NUMBER, 0}, {0, 0, 0, 1}};
     REFUSES(world, FE_ERROR_ARGUMENT, fe_shape_set_frame(world, shape, &far));
     REFUSES(world, FE_ERROR_ARGUMENT, fe_shape_set_frame(world, shape, &flat));
     REFUSES(world, FE_ERROR_ARGUMENT, fe_shape_set_frame(world, shape, &nan));
@@ -260,7 +266,8 @@ static void a_bad_frame_is_refused(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- the rest -------------------------------------------------------------------------------------------------------------------
+// ---- the rest
+// -------------------------------------------------------------------------------------------------------------------
 
 static void settings_refuse_what_is_out_of_range(void **state)
 {

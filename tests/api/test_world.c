@@ -4,7 +4,8 @@
 #include <fenv.h>
 #include <stdlib.h>
 
-// ---- creation -------------------------------------------------------------------------------------------------------------------
+// ---- creation
+// -------------------------------------------------------------------------------------------------------------------
 
 static void defaults_are_those_of_the_header(void **state)
 {
@@ -51,7 +52,8 @@ static void a_bad_definition_is_refused(void **state)
     fe_world_def good, bad;
     fe_world *world = NULL;
     fe_world_def_init(&good, sizeof good);
-    fe_allocator allocator = {.struct_size = sizeof allocator, .allocate = allocate, .release = give_back}, lame = allocator;
+    fe_allocator allocator = {.struct_size = sizeof allocator, .allocate = allocate, .release = give_back},
+                 lame = allocator;
     fe_task_system tasks = {.struct_size = sizeof tasks, .worker_count = 2, .run = run_here}, idle = tasks;
 #define REFUSED_WITH(change)                                         \
     bad = good;                                                      \
@@ -106,7 +108,8 @@ static void an_older_definition_gets_the_defaults(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- settings -------------------------------------------------------------------------------------------------------------------
+// ---- settings
+// -------------------------------------------------------------------------------------------------------------------
 
 static void settings_are_read_back_and_refuse_nonsense(void **state)
 {
@@ -141,9 +144,12 @@ static void tuning_is_read_back_and_refuses_nonsense(void **state)
     fe_world *world = new_world();
     fe_world_tuning good, bad, got = {.struct_size = sizeof got};
     fe_world_tuning_init(&good, sizeof good);
-    FE_NEAR(good.contact_hertz, 30, 0), FE_NEAR(good.contact_damping_ratio, 10, 0), FE_NEAR(good.contact_push_speed, 3, 0);
-    FE_NEAR(good.joint_hertz, 60, 0), FE_NEAR(good.joint_damping_ratio, 2, 0), FE_NEAR(good.restitution_threshold, 1, 0);
-    FE_NEAR(good.hit_event_threshold, 1, 0), FE_NEAR(good.sleep_time, 0.5, 0), FE_NEAR(good.speculative_distance, 0.02f, 0);
+    FE_NEAR(good.contact_hertz, 30, 0), FE_NEAR(good.contact_damping_ratio, 10, 0),
+        FE_NEAR(good.contact_push_speed, 3, 0);
+    FE_NEAR(good.joint_hertz, 60, 0), FE_NEAR(good.joint_damping_ratio, 2, 0),
+        FE_NEAR(good.restitution_threshold, 1, 0);
+    FE_NEAR(good.hit_event_threshold, 1, 0), FE_NEAR(good.sleep_time, 0.5, 0),
+        FE_NEAR(good.speculative_distance, 0.02f, 0);
     FE_NEAR(good.max_linear_speed, 4000, 0);
 #define REFUSED_WITH(change) \
     bad = good;              \
@@ -176,7 +182,8 @@ static void tuning_is_read_back_and_refuses_nonsense(void **state)
     OK(fe_world_destroy(world));
 }
 
-// Contacts are made up to the speculative distance: a box 80 mm above the ground, made while it was 20 mm, has one when it becomes 100 mm.
+// Contacts are made up to the speculative distance: a box 80 mm above the ground, made while it was 20 mm, has one when
+// it becomes 100 mm.
 static void a_longer_speculative_distance_finds_what_is_there(void **state)
 {
     (void)state;
@@ -250,7 +257,8 @@ static void counters_count(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- two worlds -----------------------------------------------------------------------------------------------------------------
+// ---- two worlds
+// -----------------------------------------------------------------------------------------------------------------
 
 static void worlds_know_nothing_of_each_other(void **state)
 {
@@ -325,7 +333,8 @@ static void a_destroyed_body_is_ignored_by_nobody(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- the step -------------------------------------------------------------------------------------------------------------------
+// ---- the step
+// -------------------------------------------------------------------------------------------------------------------
 
 static void a_bad_time_step_is_refused(void **state)
 {
@@ -364,10 +373,13 @@ static void intrude(void *user, fe_task task, void *argument, int32_t count)
     check_refusal(fe_body_create(world, NULL, &body), FE_ERROR_STEPPING, "fe_body_create(", __FILE__, __LINE__);
     assert_true(body == 0);
     check_refusal(fe_body_destroy(world, in->body), FE_ERROR_STEPPING, "fe_body_destroy(", __FILE__, __LINE__);
-    check_refusal(fe_body_set_transform(world, in->body, &t), FE_ERROR_STEPPING, "fe_body_set_transform(", __FILE__, __LINE__);
+    check_refusal(fe_body_set_transform(world, in->body, &t), FE_ERROR_STEPPING, "fe_body_set_transform(", __FILE__,
+                  __LINE__);
     check_refusal(fe_body_add_force(world, in->body, &v), FE_ERROR_STEPPING, "fe_body_add_force(", __FILE__, __LINE__);
-    check_refusal(fe_world_raycast(world, &from, &from, NULL, &hit), FE_ERROR_STEPPING, "fe_world_raycast(", __FILE__, __LINE__);
-    check_refusal(fe_world_get_pair_events(world, NULL, 0, 0), FE_ERROR_STEPPING, "fe_world_get_pair_events(", __FILE__, __LINE__);
+    check_refusal(fe_world_raycast(world, &from, &from, NULL, &hit), FE_ERROR_STEPPING, "fe_world_raycast(", __FILE__,
+                  __LINE__);
+    check_refusal(fe_world_get_pair_events(world, NULL, 0, 0), FE_ERROR_STEPPING, "fe_world_get_pair_events(", __FILE__,
+                  __LINE__);
     assert_int_equal(fe_body_is_valid(world, in->body), 1); // only looks at the handle
 }
 
@@ -391,9 +403,11 @@ static void calls_during_a_step_are_refused(void **state)
     OK(fe_world_destroy(plain));
 }
 
-// ---- the host's floating-point state --------------------------------------------------------------------------------------------
+// ---- the host's floating-point state
+// --------------------------------------------------------------------------------------------
 
-// Everything that computes, as one script. Its own arithmetic is exact, so that the mode can only show in the library's.
+// Everything that computes, as one script. Its own arithmetic is exact, so that the mode can only show in the
+// library's.
 static uint64_t play_script(void)
 {
     fe_world *world = new_world();
@@ -445,7 +459,8 @@ static void the_host_s_rounding_does_not_show(void **state)
     }
 }
 
-// ---- memory ---------------------------------------------------------------------------------------------------------------------
+// ---- memory
+// ---------------------------------------------------------------------------------------------------------------------
 
 typedef struct miser {
     int64_t live;
@@ -469,7 +484,10 @@ static void count_release(void *user, void *memory, uint64_t size)
 
 static fe_world *world_of(miser *m, fe_result *out_result)
 {
-    fe_allocator allocator = {.struct_size = sizeof allocator, .allocate = allocate_while_it_lasts, .release = count_release, .user = m};
+    fe_allocator allocator = {.struct_size = sizeof allocator,
+                              .allocate = allocate_while_it_lasts,
+                              .release = count_release,
+                              .user = m};
     fe_world_def def;
     fe_world_def_init(&def, sizeof def);
     def.allocator = &allocator;
@@ -478,8 +496,8 @@ static fe_world *world_of(miser *m, fe_result *out_result)
     return world;
 }
 
-// Each call, when it has no memory, changes nothing; repeated with memory it does what it would have done. `left` counts how far the
-// allocator goes.
+// Each call, when it has no memory, changes nothing; repeated with memory it does what it would have done. `left`
+// counts how far the allocator goes.
 static fe_result build(fe_world *world, miser *m, int32_t left, int32_t *out_failures)
 {
     fe_body_def defs[40];
@@ -570,14 +588,22 @@ static void a_world_that_cannot_be_made_leaves_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(defaults_are_those_of_the_header),         cmocka_unit_test(a_bad_definition_is_refused),
-        cmocka_unit_test(an_older_definition_gets_the_defaults),    cmocka_unit_test(settings_are_read_back_and_refuse_nonsense),
-        cmocka_unit_test(tuning_is_read_back_and_refuses_nonsense), cmocka_unit_test(a_longer_speculative_distance_finds_what_is_there),
-        cmocka_unit_test(another_gravity_wakes_everything),         cmocka_unit_test(counters_count),
-        cmocka_unit_test(worlds_know_nothing_of_each_other),        cmocka_unit_test(an_ignored_pair_passes_through),
-        cmocka_unit_test(a_destroyed_body_is_ignored_by_nobody),    cmocka_unit_test(a_bad_time_step_is_refused),
-        cmocka_unit_test(calls_during_a_step_are_refused),          cmocka_unit_test(the_host_s_rounding_does_not_show),
-        cmocka_unit_test(without_memory_nothing_changes),           cmocka_unit_test(a_world_that_cannot_be_made_leaves_nothing),
+        cmocka_unit_test(defaults_are_those_of_the_header),
+        cmocka_unit_test(a_bad_definition_is_refused),
+        cmocka_unit_test(an_older_definition_gets_the_defaults),
+        cmocka_unit_test(settings_are_read_back_and_refuse_nonsense),
+        cmocka_unit_test(tuning_is_read_back_and_refuses_nonsense),
+        cmocka_unit_test(a_longer_speculative_distance_finds_what_is_there),
+        cmocka_unit_test(another_gravity_wakes_everything),
+        cmocka_unit_test(counters_count),
+        cmocka_unit_test(worlds_know_nothing_of_each_other),
+        cmocka_unit_test(an_ignored_pair_passes_through),
+        cmocka_unit_test(a_destroyed_body_is_ignored_by_nobody),
+        cmocka_unit_test(a_bad_time_step_is_refused),
+        cmocka_unit_test(calls_during_a_step_are_refused),
+        cmocka_unit_test(the_host_s_rounding_does_not_show),
+        cmocka_unit_test(without_memory_nothing_changes),
+        cmocka_unit_test(a_world_that_cannot_be_made_leaves_nothing),
     };
     return cmocka_run_group_tests_name("world", tests, NULL, NULL);
 }

@@ -42,7 +42,8 @@ int main(void)
     int failed = 0;
     if (fe_world_create(NULL, &world) != FE_OK) return 1;
     fe_geometry_sphere(&ball, 0.5f);
-    if (fe_body_create(world, NULL, &body) != FE_OK || fe_shape_create(world, body, NULL, &ball, &shape) != FE_OK) return 1;
+    if (fe_body_create(world, NULL, &body) != FE_OK || fe_shape_create(world, body, NULL, &ball, &shape) != FE_OK)
+        return 1;
     MEASURE("is_valid", CALLS, fe_body_is_valid(world, body));
     MEASURE("get_transform", CALLS, fe_body_get_transform(world, body, &transform));
     MEASURE("set_velocity", CALLS, fe_body_set_linear_velocity(world, body, &velocity));

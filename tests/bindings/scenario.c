@@ -1,5 +1,5 @@
-// The scene that every language plays: 300 bodies with joints on a heightfield, events, queries, 600 steps. All print the same two lines.
-// Numbers are dyadic fractions, so that a language of doubles gives the library the same floats.
+// The scene that every language plays: 300 bodies with joints on a heightfield, events, queries, 600 steps. All print
+// the same two lines. Numbers are dyadic fractions, so that a language of doubles gives the library the same floats.
 //   scenario [workers]
 #include "feather.h"
 
@@ -46,7 +46,8 @@ static void add_terrain(scene *s)
 {
     static float heights[SAMPLES * SAMPLES];
     for (int row = 0; row < SAMPLES; ++row)
-        for (int column = 0; column < SAMPLES; ++column) heights[row * SAMPLES + column] = (float)((row * 7 + column * 3) % 5) * 0.125f;
+        for (int column = 0; column < SAMPLES; ++column)
+            heights[row * SAMPLES + column] = (float)((row * 7 + column * 3) % 5) * 0.125f;
     fe_heightfield_def field;
     fe_heightfield_def_init(&field, sizeof field);
     field.rows = field.columns = SAMPLES;
@@ -181,8 +182,8 @@ int main(int count, char **arguments)
     uint32_t hash[2];
     check(fe_world_hash(s.world, hash));
     printf("hash %08x%08x\n", (unsigned)hash[1], (unsigned)hash[0]);
-    printf("enter %d exit %d hit %d sleep %d wake %d break %d rays %d overlaps %d\n", s.enter, s.leave, s.hit, s.sleep, s.wake, s.broken,
-           s.rays, s.overlaps);
+    printf("enter %d exit %d hit %d sleep %d wake %d break %d rays %d overlaps %d\n", s.enter, s.leave, s.hit, s.sleep,
+           s.wake, s.broken, s.rays, s.overlaps);
     check(fe_world_destroy(s.world));
     return 0;
 }

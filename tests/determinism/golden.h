@@ -1,4 +1,5 @@
-// golden.h - the golden hashes of scripts, and runs that are held against them; what the programs that compare hashes share.
+// golden.h - the golden hashes of scripts, and runs that are held against them; what the programs that compare hashes
+// share.
 #ifndef FE_TESTS_GOLDEN_H
 #define FE_TESTS_GOLDEN_H
 #include "fe_test.h"
@@ -41,7 +42,8 @@ static inline const golden *find_golden(const char *script, int32_t step)
     return NULL;
 }
 
-// ---- worlds ---------------------------------------------------------------------------------------------------------------------------
+// ---- worlds
+// ---------------------------------------------------------------------------------------------------------------------------
 
 // NULL: this CPU has no such set
 static inline fe_world *new_world(int32_t simd, int32_t workers)
@@ -62,7 +64,8 @@ static inline void compare(const play *p, const script *s, int32_t workers)
     const golden *g = find_golden(s->name, p->step);
     if (!g) fail_msg("no golden hash of %s at step %d: write it with 'test_determinism update'", s->name, (int)p->step);
     if (g->hash == play_hash(p) && g->told == play_told(p)) return;
-    fail_msg("%s, %d workers, step %d: hash %016" PRIx64 " and told %016" PRIx64 ", golden are %016" PRIx64 " and %016" PRIx64
+    fail_msg("%s, %d workers, step %d: hash %016" PRIx64 " and told %016" PRIx64 ", golden are %016" PRIx64
+             " and %016" PRIx64
              "\n(if results were meant to change: run 'test_determinism update' and commit the file)",
              s->name, (int)workers, (int)p->step, play_hash(p), play_told(p), g->hash, g->told);
 }
@@ -85,9 +88,12 @@ typedef struct condition {
     int32_t simd;
 } condition;
 
-#define GOLDEN_TEST(script, name, set)                                                                                           \
-    {                                                                                                                            \
-#script "_has_the_golden_hashes_with_" name, gives_the_golden_hashes, NULL, NULL, &(condition) { &script_##script, set } \
+#define GOLDEN_TEST(script, name, set)                                                                 \
+    {                                                                                                  \
+#script "_has_the_golden_hashes_with_" name, gives_the_golden_hashes, NULL, NULL, &(condition) \
+        {                                                                                              \
+            &script_##script, set                                                                      \
+        }                                                                                              \
     }
 
 // Skips where this CPU has no such set.

@@ -1,5 +1,5 @@
-// print_golden.c - prints what golden.txt holds, as this machine computes it, of all scripts but the two big ones; without cmocka, for
-// machines that are only emulated (tests/determinism/aarch64).
+// print_golden.c - prints what golden.txt holds, as this machine computes it, of all scripts but the two big ones;
+// without cmocka, for machines that are only emulated (tests/determinism/aarch64).
 //
 //   feather-golden [simd] [steps] [script]...    fe_simd, 0: the widest; of each script, at most; those named only
 #include "support/play.h"
@@ -16,7 +16,8 @@ static int is_asked(const script *s, int count, char **arguments)
 
 int main(int count, char **arguments)
 {
-    const script *const scripts[] = {&script_crowd, &script_mixed, &script_terrain, &script_fast, &script_joints, &script_spawn};
+    const script *const scripts[] = {&script_crowd, &script_mixed,  &script_terrain,
+                                     &script_fast,  &script_joints, &script_spawn};
     fe_world_def def;
     fe_world_def_init(&def, sizeof def);
     int32_t steps = count > 2 ? atoi(arguments[2]) : INT32_MAX;

@@ -1,11 +1,12 @@
-// test_determinism.c - the same calls give the same bits: with every number of workers, every SIMD set, every compiler (the same golden.txt
-// serves all builds), whatever else is in the world.
+// test_determinism.c - the same calls give the same bits: with every number of workers, every SIMD set, every compiler
+// (the same golden.txt serves all builds), whatever else is in the world.
 //
 //   test_determinism           all; a part of it where the code is slow, without optimization or with sanitizers
 //   test_determinism update    writes golden.txt: after a change that was meant to change results
 #include "determinism/golden.h"
 
-// ---- every number of workers, every SIMD set ------------------------------------------------------------------------------------------
+// ---- every number of workers, every SIMD set
+// ------------------------------------------------------------------------------------------
 
 static void gives_the_golden_hashes(void **state)
 {
@@ -24,7 +25,8 @@ static void gives_the_golden_hashes(void **state)
     for (int32_t i = 0; i < count; ++i) run(c->script, c->simd, workers[i], steps);
 }
 
-// The script is worth its name only while its net is spread over workers, its chains are trees, and its weak strings break
+// The script is worth its name only while its net is spread over workers, its chains are trees, and its weak strings
+// break
 static void joints_have_an_island_that_is_spread_trees_and_strings_that_break(void **state)
 {
     (void)state;
@@ -72,7 +74,8 @@ static void every_kind_of_query_spawns(void **state)
     fe_world_destroy(p.world);
 }
 
-// ---- other bodies ---------------------------------------------------------------------------------------------------------------------
+// ---- other bodies
+// ---------------------------------------------------------------------------------------------------------------------
 
 typedef struct motion {
     fe_transform transform;
@@ -181,7 +184,8 @@ static void bodies_that_came_and_went_change_no_trajectory(void **state)
     compare_with_strangers(&script_crowd, STRANGER_STEPS, add_and_take_away, NULL);
 }
 
-// ---- main -----------------------------------------------------------------------------------------------------------------------------
+// ---- main
+// -----------------------------------------------------------------------------------------------------------------------------
 
 static int update(void)
 {

@@ -1,5 +1,6 @@
-// test_determinism_joints.c - test_determinism for scenes of the bench's size, by the same golden.txt: 300 people on rough ground, and a
-// cloth of 10 000 balls that tears. Every number of workers runs with the widest set of kernels, every set with some number of workers.
+// test_determinism_joints.c - test_determinism for scenes of the bench's size, by the same golden.txt: 300 people on
+// rough ground, and a cloth of 10 000 balls that tears. Every number of workers runs with the widest set of kernels,
+// every set with some number of workers.
 #include "determinism/golden.h"
 
 #if defined(FE_SANITIZED)
@@ -23,7 +24,8 @@ static void gives_the_golden_hashes(void **state)
     for (int32_t i = 0; i < count; ++i) run(c->script, c->simd, workers[i], c->script->steps);
 }
 
-// The scripts are worth their names only while people lie on the ground, and the cloth tears and is spread over the workers
+// The scripts are worth their names only while people lie on the ground, and the cloth tears and is spread over the
+// workers
 static void people_touch_the_ground_and_the_cloth_tears(void **state)
 {
     (void)state;

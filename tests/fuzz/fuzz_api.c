@@ -1,4 +1,5 @@
-// fuzz_api.c - the harness as a libFuzzer target: make fuzz. The world has several workers, so that merging is fuzzed too.
+// fuzz_api.c - the harness as a libFuzzer target: make fuzz. The world has several workers, so that merging is fuzzed
+// too.
 #include "support/fuzz.h"
 
 #include "feather.h"

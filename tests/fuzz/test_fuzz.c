@@ -1,5 +1,5 @@
-// test_fuzz.c - the fuzzer's harness on streams of random bytes: bounded, the same at every run. Each stream is run in two settings, which
-// must tell the same.
+// test_fuzz.c - the fuzzer's harness on streams of random bytes: bounded, the same at every run. Each stream is run in
+// two settings, which must tell the same.
 #include "fe_test.h"
 #include "feather.h"
 #include "support/fuzz.h"

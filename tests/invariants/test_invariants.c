@@ -1,6 +1,7 @@
 // What must hold in any scene, at every step: 60 random ones of every kind of body, and flights of free bodies.
 //
-// A scene is made from its number alone. It is run with 1 and with 8 workers side by side, and looked at after each step.
+// A scene is made from its number alone. It is run with 1 and with 8 workers side by side, and looked at after each
+// step.
 #include "scenes/mechanics.h"
 
 #include <stdlib.h>
@@ -60,12 +61,14 @@ static void add_bodies(arena *a, dice *d, int dynamic, int kinematic)
         fe_geometry form = any_form(d, uniform(d, 0.4, 1.2));
         // apart from each other: overlaps at birth would give energy
         vec at = v3(1.4 * (i % 3 - 1), 2 + 1.4 * (i / 9), 1.4 * (i / 3 % 3 - 1));
-        fe_body body = add_body(&a->s, moves ? FE_BODY_DYNAMIC : FE_BODY_KINEMATIC, form, at, any_rotation(d), any_material(d, 1),
-                                (float)uniform(d, 200, 4000));
+        fe_body body = add_body(&a->s, moves ? FE_BODY_DYNAMIC : FE_BODY_KINEMATIC, form, at, any_rotation(d),
+                                any_material(d, 1), (float)uniform(d, 200, 4000));
         set_velocity(&a->s, body, times(moves ? 3 : 0.5, somewhere(d, 1)), times(moves ? 5 : 1, somewhere(d, 1)));
-        if (moves && pick(d, 6) == 0) MUST(fe_body_set_locks(a->s.world, body, (uint32_t)pick(d, 8), (uint32_t)pick(d, 8)));
+        if (moves && pick(d, 6) == 0)
+            MUST(fe_body_set_locks(a->s.world, body, (uint32_t)pick(d, 8), (uint32_t)pick(d, 8)));
         if (moves && pick(d, 3) == 0) MUST(fe_body_set_sleep_allowed(a->s.world, body, 1));
-        if (moves && pick(d, 5) == 0) MUST(fe_body_set_damping(a->s.world, body, (float)uniform(d, 0, 1), (float)uniform(d, 0, 1)));
+        if (moves && pick(d, 5) == 0)
+            MUST(fe_body_set_damping(a->s.world, body, (float)uniform(d, 0, 1), (float)uniform(d, 0, 1)));
         if (moves && pick(d, 8) == 0) MUST(fe_body_set_gravity_scale(a->s.world, body, (float)uniform(d, 0.2, 1)));
         a->bodies[a->count++] = body;
         a->dynamic += moves;
@@ -80,12 +83,14 @@ static arena build_arena(int number, int workers)
     a.s.world = create_world(workers, a.s.substeps, v3(0, -G, 0));
     add_planes(&a, &d);
     for (int i = pick(&d, 4); i > 0; --i)
-        add_static(&a.s, any_form(&d, 1.5), v3(uniform(&d, -2, 2), 0, uniform(&d, -2, 2)), any_rotation(&d), any_material(&d, 1));
+        add_static(&a.s, any_form(&d, 1.5), v3(uniform(&d, -2, 2), 0, uniform(&d, -2, 2)), any_rotation(&d),
+                   any_material(&d, 1));
     add_bodies(&a, &d, 12 + pick(&d, 30), number % 3 ? 0 : 1 + pick(&d, 3));
     return a;
 }
 
-// ---- laws -------------------------------------------------------------------------------------------------------------------------
+// ---- laws
+// -------------------------------------------------------------------------------------------------------------------------
 
 static void everything_is_finite_and_unit(const arena *a)
 {
@@ -100,10 +105,10 @@ static void everything_is_finite_and_unit(const arena *a)
     }
 }
 
-// Contacts are found before they touch, so what enters a plane does so within a soft contact: by P1 of the load on a point, at most the
-// weight of all bodies, whose effective mass is m / 7 at least (a corner of a flat box: 1 + 3 + 3). Contacts are found once per step: a
-// corner that swings down only after another one was stopped has a step to itself. Its speed is remembered for a third of a second, while
-// the overlap is pushed out.
+// Contacts are found before they touch, so what enters a plane does so within a soft contact: by P1 of the load on a
+// point, at most the weight of all bodies, whose effective mass is m / 7 at least (a corner of a flat box: 1 + 3 + 3).
+// Contacts are found once per step: a corner that swings down only after another one was stopped has a step to itself.
+// Its speed is remembered for a third of a second, while the overlap is pushed out.
 static void nobody_is_in_a_plane(arena *a)
 {
     double weight = 0;
@@ -151,9 +156,9 @@ static void random_scenes_hold_the_laws_at_every_step(void **state)
     }
 }
 
-// Gravity, contacts, friction and damping only ever take energy. A soft contact stores what it gives under its load: m g times the sink of
-// P1, a millimetre for what lies here, and may give it back; a body that a heavy one pins to the ground in its fall stores more, some parts
-// in a thousand of the kinetic energy; in one heap of forty more.
+// Gravity, contacts, friction and damping only ever take energy. A soft contact stores what it gives under its load: m
+// g times the sink of P1, a millimetre for what lies here, and may give it back; a body that a heavy one pins to the
+// ground in its fall stores more, some parts in a thousand of the kinetic energy; in one heap of forty more.
 static void closed_scenes_gain_no_energy(void **state)
 {
     (void)state;
@@ -184,17 +189,19 @@ static void closed_scenes_gain_no_energy(void **state)
     report_shortfall(&gain);
 }
 
-// Nothing touches: momentum and angular momentum stay to the rounding of floats, energy within the promise of the gyroscopic step.
+// Nothing touches: momentum and angular momentum stay to the rounding of floats, energy within the promise of the
+// gyroscopic step.
 static void free_flight_keeps_momentum_and_angular_momentum(void **state)
 {
     (void)state;
     for (int number = 0; number < SCENES; ++number) {
         dice d = {(uint64_t)(number * 31 + 5)};
-        scene s = {create_world(1, number % 2 ? 8 : 4, v3(0, 0, 0)), UNTURNED, number % 2 ? 8 : 4, STEP / (number % 2 ? 8 : 4)};
+        scene s = {create_world(1, number % 2 ? 8 : 4, v3(0, 0, 0)), UNTURNED, number % 2 ? 8 : 4,
+                   STEP / (number % 2 ? 8 : 4)};
         fe_body bodies[8];
         for (int i = 0; i < 8; ++i) {
-            bodies[i] =
-                add_dynamic(&s, any_form(&d, 1), v3(100.0 * i, 0, 0), any_rotation(&d), friction(0.5), (float)uniform(&d, 100, 5000));
+            bodies[i] = add_dynamic(&s, any_form(&d, 1), v3(100.0 * i, 0, 0), any_rotation(&d), friction(0.5),
+                                    (float)uniform(&d, 100, 5000));
             vec w = somewhere(&d, 10);
             set_velocity(&s, bodies[i], somewhere(&d, 10), w);
         }
@@ -210,9 +217,9 @@ static void free_flight_keeps_momentum_and_angular_momentum(void **state)
             for (int i = 0; i < 8; ++i) {
                 fe_mass_data mass = mass_data_of(&s, bodies[i]);
                 vec now = own_angular_momentum(&s, bodies[i], &mass);
-                // Size within 0.5 %. A substep turns the spin, then the body: they are half a substep's turn apart. And the direction
-                // drifts with the angle by which a substep lags, (w h)^3 / 12: 1 % in V50 (5 rad/s, 10 s, 4 substeps, where the lag sums to
-                // 0.18 %).
+                // Size within 0.5 %. A substep turns the spin, then the body: they are half a substep's turn apart. And
+                // the direction drifts with the angle by which a substep lags, (w h)^3 / 12: 1 % in V50 (5 rad/s, 10 s,
+                // 4 substeps, where the lag sums to 0.18 %).
                 double turn = length(spin(&s, bodies[i])) * s.h, lag = step * s.substeps * turn * turn * turn / 12;
                 FE_NEAR(length(now), length(first[i]), 0.005 * length(first[i]));
                 FE_WITHIN(between(now, first[i]), 0, 0.5 * turn + lag * 0.01 / 0.0018);

@@ -1,5 +1,5 @@
-// Laws of joints on random scenes: no joint adds energy; momentum and angular momentum are kept in free flight; ragdolls come together
-// again.
+// Laws of joints on random scenes: no joint adds energy; momentum and angular momentum are kept in free flight;
+// ragdolls come together again.
 #include "../../examples/machines.h"
 #include "scenes/joint_scene.h"
 
@@ -23,12 +23,14 @@ static fe_joint join_somehow(scene *s, dice *d, fe_body a, fe_body b, vec point,
     axis.x += 2;
     if (limited) {
         ball.cone_enabled = pick(d, 2), ball.limit_enabled = pick(d, 2);
-        ball.cone_y = (float)uniform(d, 0.2, 2), ball.cone_z = (float)uniform(d, 0.2, 2), ball.lower = -(float)uniform(d, 0, 2),
-        ball.upper = (float)uniform(d, 0, 2);
+        ball.cone_y = (float)uniform(d, 0.2, 2), ball.cone_z = (float)uniform(d, 0.2, 2),
+        ball.lower = -(float)uniform(d, 0, 2), ball.upper = (float)uniform(d, 0, 2);
         hinge.limit_enabled = 1, hinge.lower = -(float)uniform(d, 0, 2), hinge.upper = (float)uniform(d, 0, 3.14);
     }
     for (int k = 0; k < 6; ++k) {
-        six.axes[k].motion = k < FE_DOF_ANGULAR_X ? pick(d, 2) : limited ? pick(d, 3) : 2 * pick(d, 2); // what slides away for ever is no machine
+        six.axes[k].motion = k < FE_DOF_ANGULAR_X ? pick(d, 2)
+                             : limited            ? pick(d, 3)
+                                                  : 2 * pick(d, 2); // what slides away for ever is no machine
         six.axes[k].lower = -(float)uniform(d, 0, 0.5), six.axes[k].upper = (float)uniform(d, 0, 0.5);
     }
     rope.lower = 0, rope.upper = 1e-3f + (float)length(minus(position(s, a), position(s, b)));
@@ -53,13 +55,15 @@ static crowd make_crowd(dice *d, int limited, int anchored)
         fe_body parent = i ? c.bodies[i - 1 - pick(d, i < 2 ? 1 : 2)] : add_anchor(&c.s, at);
         vec middle = times(0.5, plus(at, position(&c.s, parent)));
         if (!i && !anchored) continue;
-        c.joints[c.joint_count++] = join_somehow(&c.s, d, parent, c.bodies[i], plus(middle, somewhere(d, 0.1)), limited);
+        c.joints[c.joint_count++] =
+            join_somehow(&c.s, d, parent, c.bodies[i], plus(middle, somewhere(d, 0.1)), limited);
     }
     return c;
 }
 
-// What gaps and angles hold as springs is energy that comes back: on the masses of both ends, w = 2 pi 60 Hz. Bounded from above by the
-// heavier body's mass and inertia, because a joint on the bodies' whole is never stiffer than on one of them
+// What gaps and angles hold as springs is energy that comes back: on the masses of both ends, w = 2 pi 60 Hz. Bounded
+// from above by the heavier body's mass and inertia, because a joint on the bodies' whole is never stiffer than on one
+// of them
 static double stored_in(const crowd *c)
 {
     double w = 2 * PI * 60, sum = 0;
@@ -73,12 +77,15 @@ static double stored_in(const crowd *c)
             mass = fmax(mass, (double)x.mass);
             moment = fmax(moment, fmax((double)x.inertia.x, fmax((double)x.inertia.y, (double)x.inertia.z)));
         }
-        sum += 0.5 * w * w * (mass * (double)(at.linear_error * at.linear_error) + moment * (double)(at.angular_error * at.angular_error));
+        sum += 0.5 * w * w *
+               (mass * (double)(at.linear_error * at.linear_error) +
+                moment * (double)(at.angular_error * at.angular_error));
     }
     return sum;
 }
 
-// ---- energy ---------------------------------------------------------------------------------------------------------------------------
+// ---- energy
+// ---------------------------------------------------------------------------------------------------------------------------
 
 #if SLOW_BUILD
 enum { SCENES = 6, STEPS = 120, THROWS = 2, DROPS = 2 };
@@ -100,7 +107,8 @@ static void no_joint_adds_energy(void **state)
             for (int i = 0; i < STEPS; ++i) {
                 run(&c.s, 1);
                 totals now = totals_of(&c.s, c.bodies, c.count);
-                double share = 0.5 * c.s.h * G * sqrt(2 * now.kinetic * mass); // of the scheme, exact in free flight only
+                double share =
+                    0.5 * c.s.h * G * sqrt(2 * now.kinetic * mass); // of the scheme, exact in free flight only
                 FE_WITHIN(now.energy, -1e12, start.energy + share + 1e-5 * start.kinetic);
                 FE_WITHIN(stored_in(&c), 0, 1e12);
             }
@@ -108,8 +116,8 @@ static void no_joint_adds_energy(void **state)
         }
 }
 
-// Bodies of 1 : 100 that are all locked in the same axes, whatever these are: they come to poses from which hardly any way leads on. What
-// they lose there may be lost; what gaps hold comes back
+// Bodies of 1 : 100 that are all locked in the same axes, whatever these are: they come to poses from which hardly any
+// way leads on. What they lose there may be lost; what gaps hold comes back
 static void bodies_locked_alike_gain_no_energy(void **state)
 {
     (void)state;
@@ -119,7 +127,8 @@ static void bodies_locked_alike_gain_no_energy(void **state)
         const uint32_t linear = (uint32_t)pick(&d, 8), angular = (uint32_t)pick(&d, 8);
         double least = 1e30;
         for (int i = 0; i < c.count; ++i) {
-            MUST(fe_body_set_mass(c.s.world, c.bodies[i], (float)(mass_of(&c.s, c.bodies[i]) * pow(100, uniform(&d, 0, 1)))));
+            MUST(fe_body_set_mass(c.s.world, c.bodies[i],
+                                  (float)(mass_of(&c.s, c.bodies[i]) * pow(100, uniform(&d, 0, 1)))));
             MUST(fe_body_set_locks(c.s.world, c.bodies[i], linear, angular));
         }
         for (int i = 0; i < STEPS; ++i) {
@@ -132,7 +141,8 @@ static void bodies_locked_alike_gain_no_energy(void **state)
     }
 }
 
-// ---- impacts --------------------------------------------------------------------------------------------------------------------------
+// ---- impacts
+// --------------------------------------------------------------------------------------------------------------------------
 static fe_joint join_with_limits(scene *s, dice *d, fe_body a, fe_body b, vec point)
 {
     const int kind = pick(d, 3);
@@ -146,8 +156,8 @@ static fe_joint join_with_limits(scene *s, dice *d, fe_body a, fe_body b, vec po
     return kind == 1 ? add_hinge(s, hinge, a, b, point, axis) : add_fixed(s, fixed_def(), a, b, point);
 }
 
-// Shot at a wall of 4 cm: a branching chain, bodies of up to 1 : 3 in size and 1 : 100 in density, joints with limits halfway between their
-// bodies, so that light links have long arms
+// Shot at a wall of 4 cm: a branching chain, bodies of up to 1 : 3 in size and 1 : 100 in density, joints with limits
+// halfway between their bodies, so that light links have long arms
 static crowd make_lash(dice *d)
 {
     crowd c = {.s = scene_begin(NULL), .count = 3 + pick(d, MOST_BODIES - 2)};
@@ -169,8 +179,9 @@ static crowd make_lash(dice *d)
     return c;
 }
 
-// The smallest group first: a light link between two heavy ones. Chosen from 120 because they bear heavy loads and gained from twice to a
-// billion times their energy while links that turn fast began with the impulses of the last substep
+// The smallest group first: a light link between two heavy ones. Chosen from 120 because they bear heavy loads and
+// gained from twice to a billion times their energy while links that turn fast began with the impulses of the last
+// substep
 static void heavy_chains_gain_no_energy_at_a_wall(void **state)
 {
     (void)state;
@@ -188,9 +199,9 @@ static void heavy_chains_gain_no_energy_at_a_wall(void **state)
     }
 }
 
-// Cubes of 1 m and 1 t slide out on each other by up to 6 m, pulled for 2 s: arms of six times their size, between which FIXED and SLIDE
-// fight. Let go, they have no more than the kinetic energy of that moment and what the springs hold: gaps, angles, and the limits that bore
-// the pull
+// Cubes of 1 m and 1 t slide out on each other by up to 6 m, pulled for 2 s: arms of six times their size, between
+// which FIXED and SLIDE fight. Let go, they have no more than the kinetic energy of that moment and what the springs
+// hold: gaps, angles, and the limits that bore the pull
 static void sliders_on_long_arms_gain_no_energy(void **state)
 {
     (void)state;
@@ -203,29 +214,34 @@ static void sliders_on_long_arms_gain_no_energy(void **state)
             set_gravity(&c.s, v3(0, 0, 0));
             fe_body last = add_anchor(&c.s, v3(0, 0, 0));
             for (int i = 0; i < count; ++i) {
-                c.bodies[i] = add_dynamic(&c.s, box(0.5, 0.5, 0.5), v3(0, 0.6 + 1.2 * i, 0), UNTURNED, friction(0), mass);
+                c.bodies[i] =
+                    add_dynamic(&c.s, box(0.5, 0.5, 0.5), v3(0, 0.6 + 1.2 * i, 0), UNTURNED, friction(0), mass);
                 MUST(fe_body_set_filter(c.s.world, c.bodies[i], 2, 0, 0));
                 fe_configurable_joint_def d = slider_def();
-                d.axes[FE_DOF_LINEAR_X].motion = FE_MOTION_LIMITED, d.axes[FE_DOF_LINEAR_X].lower = -6, d.axes[FE_DOF_LINEAR_X].upper = 6;
+                d.axes[FE_DOF_LINEAR_X].motion = FE_MOTION_LIMITED, d.axes[FE_DOF_LINEAR_X].lower = -6,
+                d.axes[FE_DOF_LINEAR_X].upper = 6;
                 d.hertz = hertz[k];
                 c.joints[i] = add_configurable(&c.s, d, last, c.bodies[i], v3(0, 1.2 * i, 0), v3(1, 0, 0));
                 last = c.bodies[i];
             }
             const fe_vec3 pull = {1e5f, 5e4f, 5e4f};
-            double stiffer = fmin(hertz[k], 120) / 60, w = 2 * PI * 30, most = 0; // than stored_in believes; no limit is softer than 30 Hz
+            double stiffer = fmin(hertz[k], 120) / 60, w = 2 * PI * 30,
+                   most = 0; // than stored_in believes; no limit is softer than 30 Hz
             stiffer *= stiffer;
             for (int i = 0; i < PULLED + LET_GO; ++i) {
                 if (i < PULLED) MUST(fe_body_add_force(c.s.world, c.bodies[count - 1], &pull));
                 run(&c.s, 1);
                 double kinetic = totals_of(&c.s, c.bodies, count).kinetic;
-                if (i == PULLED - 1) most = kinetic + stiffer * stored_in(&c) + count * (double)(pull.x * pull.x) / (2 * mass * w * w);
+                if (i == PULLED - 1)
+                    most = kinetic + stiffer * stored_in(&c) + count * (double)(pull.x * pull.x) / (2 * mass * w * w);
                 if (i >= PULLED) FE_WITHIN(kinetic, 0, most);
             }
             scene_end(&c.s);
         }
 }
 
-// ---- momentum -------------------------------------------------------------------------------------------------------------------------
+// ---- momentum
+// -------------------------------------------------------------------------------------------------------------------------
 
 static void joints_keep_momentum_and_angular_momentum(void **state)
 {
@@ -244,13 +260,14 @@ static void joints_keep_momentum_and_angular_momentum(void **state)
     }
 }
 
-// ---- ragdolls -------------------------------------------------------------------------------------------------------------------------
+// ---- ragdolls
+// -------------------------------------------------------------------------------------------------------------------------
 enum { LONGEST_THROW = 600 }; // steps: it flies for up to 2 s, and has 5 s from the last fall (S23)
 
 static double bones_energy(const scene *s, const ragdoll *r) { return totals_of(s, r->bones, RAGDOLL_BONES).energy; }
 
-// S23: a ragdoll at rest for the half second that a body needs to fall asleep is whole: gaps within the linear slop, angles within 3
-// degrees
+// S23: a ragdoll at rest for the half second that a body needs to fall asleep is whole: gaps within the linear slop,
+// angles within 3 degrees
 static void check_whole(const scene *s, const ragdoll *r)
 {
     for (int i = 1; i < RAGDOLL_BONES; ++i) {
@@ -267,8 +284,8 @@ static int sleeps(const scene *s, const ragdoll *r)
     return !awake;
 }
 
-// Thrown at 30 m/s into the corner of three walls. It may be thrown back up by several metres. One in some hundreds comes to lie on an arm
-// that has nowhere to go: contacts and limits quarrel for it by some mm/s, and it stays awake
+// Thrown at 30 m/s into the corner of three walls. It may be thrown back up by several metres. One in some hundreds
+// comes to lie on an arm that has nowhere to go: contacts and limits quarrel for it by some mm/s, and it stays awake
 static void ragdolls_thrown_into_a_corner_come_together_again(void **state)
 {
     enum { MOST_JAMMED = THROWS / 100 };
@@ -282,10 +299,10 @@ static void ragdolls_thrown_into_a_corner_come_together_again(void **state)
         add_plane(&s, v3(1, 0, 0), 0, friction(0.6));
         add_plane(&s, v3(0, 0, 1), 0, friction(0.6));
         fe_transform at = {v3(4, 2, 4), any_rotation(&d)};
-        double norm = sqrt((double)(at.rotation.x * at.rotation.x + at.rotation.y * at.rotation.y + at.rotation.z * at.rotation.z +
-                                    at.rotation.w * at.rotation.w));
-        at.rotation = (fe_quat){(float)(at.rotation.x / norm), (float)(at.rotation.y / norm), (float)(at.rotation.z / norm),
-                                (float)(at.rotation.w / norm)};
+        double norm = sqrt((double)(at.rotation.x * at.rotation.x + at.rotation.y * at.rotation.y +
+                                    at.rotation.z * at.rotation.z + at.rotation.w * at.rotation.w));
+        at.rotation = (fe_quat){(float)(at.rotation.x / norm), (float)(at.rotation.y / norm),
+                                (float)(at.rotation.z / norm), (float)(at.rotation.w / norm)};
         MUST(ragdoll_build(s.world, at, 5, &r));
         vec way = v3(-uniform(&d, 0.5, 1), -uniform(&d, 0, 0.6), -uniform(&d, 0.5, 1));
         for (int i = 0; i < RAGDOLL_BONES; ++i) set_velocity(&s, r.bones[i], times(30 / length(way), way), v3(0, 0, 0));
@@ -307,8 +324,8 @@ static void ragdolls_thrown_into_a_corner_come_together_again(void **state)
     report_shortfall(&unrest);
 }
 
-// S23: dropped from a metre and a half; at rest and asleep within 5 s. Tilted by some degrees: one that lands upright may stand on its feet
-// for as long as it likes before it falls over
+// S23: dropped from a metre and a half; at rest and asleep within 5 s. Tilted by some degrees: one that lands upright
+// may stand on its feet for as long as it likes before it falls over
 static void a_ragdoll_comes_to_rest(void **state)
 {
     (void)state;
@@ -347,11 +364,14 @@ static void ragdolls_under_paddles_stay_in_one_piece(void **state)
         d.motor_speed = i ? -5 : 5, d.motor_max = 200;
         add_hinge(&s, d, post, paddle, v3(0, 2.5 + 3 * i, 0), v3(0, 0, 1));
     }
-    for (int i = 0; i < 4; ++i) add_plane(&s, v3(i == 0 ? 1 : i == 1 ? -1 : 0, 0, i == 2 ? 1 : i == 3 ? -1 : 0), -3, friction(0.2));
+    for (int i = 0; i < 4; ++i)
+        add_plane(&s, v3(i == 0 ? 1 : i == 1 ? -1 : 0, 0, i == 2 ? 1 : i == 3 ? -1 : 0), -3, friction(0.2));
     int born = 0;
     for (int i = 0; i < (SLOW_BUILD ? 120 : 480); ++i) {
         if (i % 40 == 0 && born < PEOPLE)
-            MUST(ragdoll_build(s.world, fe_make_transform(born % 2 ? 1.5 : -1.5, 8, 0.3 * (born % 3 - 1)), 5, &people[born])), ++born;
+            MUST(ragdoll_build(s.world, fe_make_transform(born % 2 ? 1.5 : -1.5, 8, 0.3 * (born % 3 - 1)), 5,
+                               &people[born])),
+                ++born;
         run(&s, 1);
         for (int p = 0; p < born; ++p)
             for (int k = 1; k < RAGDOLL_BONES; ++k) FE_WITHIN(gap_of(&s, people[p].joints[k]), 0, LINEAR_SLOP);

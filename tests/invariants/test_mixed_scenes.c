@@ -1,11 +1,11 @@
-// Random scenes of everything at once: heightfield, boxes, a lift, triggers, bodies of all forms with locks, joints of all types with
-// limits, springs, motors and breaking. Nothing becomes NaN or is lost, no energy comes from nowhere, one worker and eight compute the
-// same.
+// Random scenes of everything at once: heightfield, boxes, a lift, triggers, bodies of all forms with locks, joints of
+// all types with limits, springs, motors and breaking. Nothing becomes NaN or is lost, no energy comes from nowhere,
+// one worker and eight compute the same.
 //
 //   test_mixed_scenes [count [first]]    so many scenes, 600 steps each; a part of them without arguments
 //
-// A scene is made from its number alone, with one draw at a time: C does not say which argument of a call comes first. By turns: with
-// springs and motors; without, so that energy never rises; with a lift, whose work nobody counts.
+// A scene is made from its number alone, with one draw at a time: C does not say which argument of a call comes first.
+// By turns: with springs and motors; without, so that energy never rises; with a lift, whose work nobody counts.
 #include "scenes/joint_scene.h"
 #include "scenes/terrain.h"
 
@@ -130,7 +130,8 @@ static void join_somehow(arena *a, dice *d, fe_body one, fe_body two)
     fe_distance_joint_def spring = distance_def();
     switch (pick(d, 5)) {
     case 0:
-        ball.cone_enabled = pick(d, 2), ball.cone_y = (float)uniform(d, 0.2, 1.5), ball.cone_z = (float)uniform(d, 0.2, 1.5);
+        ball.cone_enabled = pick(d, 2), ball.cone_y = (float)uniform(d, 0.2, 1.5),
+        ball.cone_z = (float)uniform(d, 0.2, 1.5);
         ball.motor_max = (float)uniform(d, 0, 5); // a friction
         a->joints[a->joint_count++] = add_ball(&a->s, ball, one, two, middle, somewhere(d, 1));
         break;
@@ -143,7 +144,8 @@ static void join_somehow(arena *a, dice *d, fe_body one, fe_body two)
         break;
     case 3:
         spring.lower = 0.3f, spring.upper = 3, spring.target = (float)length(minus(p, q));
-        spring.spring_hertz = a->has_drives ? (float)uniform(d, 1, 10) : 0.0f, spring.spring_damping_ratio = (float)uniform(d, 0.1, 1);
+        spring.spring_hertz = a->has_drives ? (float)uniform(d, 1, 10) : 0.0f,
+        spring.spring_damping_ratio = (float)uniform(d, 0.1, 1);
         a->joints[a->joint_count++] = add_distance(&a->s, spring, one, two, p, q);
         break;
     default:
@@ -211,14 +213,16 @@ static double held_in_joints(const arena *a)
             mass = fmax(mass, (double)data.mass);
             moment = fmax(moment, fmax((double)data.inertia.x, fmax((double)data.inertia.y, (double)data.inertia.z)));
         }
-        sum += 0.5 * w * w * (mass * (double)(at.linear_error * at.linear_error) + moment * (double)(at.angular_error * at.angular_error));
+        sum += 0.5 * w * w *
+               (mass * (double)(at.linear_error * at.linear_error) +
+                moment * (double)(at.angular_error * at.angular_error));
     }
     return sum;
 }
 
-// What the motors gave so far is all that may come in. What soft contacts hold under their load, a millimetre of it, goes in and out; a
-// body that a heavy one pins to the ground in its fall gives back some parts in a thousand of the fall. Where other forces than gravity
-// act, the scheme's energy is off by h/2 g.v.
+// What the motors gave so far is all that may come in. What soft contacts hold under their load, a millimetre of it,
+// goes in and out; a body that a heavy one pins to the ground in its fall gives back some parts in a thousand of the
+// fall. Where other forces than gravity act, the scheme's energy is off by h/2 g.v.
 static void no_energy_came_in(arena *a, const totals *start, int step)
 {
     totals now = totals_of(&a->s, a->bodies, a->count);
@@ -246,7 +250,8 @@ static void play(int number)
     scene_end(&eight.s);
 }
 
-// Heavy bodies that are locked in different ways hold a light one between them, in poses in which hardly any way leads on
+// Heavy bodies that are locked in different ways hold a light one between them, in poses in which hardly any way leads
+// on
 static void linkages_of_locked_bodies_do_not_fly_apart(void **state)
 {
     enum { LOCKED_LINKAGE = 165 };

@@ -1,8 +1,8 @@
 // exact.h - the distance of two forms in long double, by a walk over all pairs of vertices and edges.
 //
-// The judge of the queries' tests: slow, plain, and made of nothing that the library uses. A solid is the hull of its vertices (a point, a
-// segment, a triangle, a box), swelled by a radius, or a half space. Two hulls that are apart are nearest at a vertex of one or at two
-// edges; they overlap when an edge or a vertex of one meets the other.
+// The judge of the queries' tests: slow, plain, and made of nothing that the library uses. A solid is the hull of its
+// vertices (a point, a segment, a triangle, a box), swelled by a radius, or a half space. Two hulls that are apart are
+// nearest at a vertex of one or at two edges; they overlap when an edge or a vertex of one meets the other.
 #ifndef FE_QUERIES_EXACT_H
 #define FE_QUERIES_EXACT_H
 #include "feather.h"
@@ -19,7 +19,10 @@ static inline vec v_add(vec a, vec b) { return (vec){a.x + b.x, a.y + b.y, a.z +
 static inline vec v_sub(vec a, vec b) { return (vec){a.x - b.x, a.y - b.y, a.z - b.z}; }
 static inline vec v_scale(real s, vec a) { return (vec){s * a.x, s * a.y, s * a.z}; }
 static inline real v_dot(vec a, vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static inline vec v_cross(vec a, vec b) { return (vec){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+static inline vec v_cross(vec a, vec b)
+{
+    return (vec){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 static inline real v_length(vec a) { return sqrtl(v_dot(a, a)); }
 static inline vec v_of(fe_dvec3 a) { return (vec){a.x, a.y, a.z}; }
 static inline vec v_off(fe_vec3 a) { return (vec){a.x, a.y, a.z}; }
@@ -98,7 +101,8 @@ static inline solid make_triangle_solid(vec a, vec b, vec c)
 }
 
 // Triangle `half` of a cell of a heightfield at a pose, as feather.h describes it.
-static inline solid make_field_solid(const fe_heightfield_def *d, int row, int column, int half, vec position, fe_quat q)
+static inline solid make_field_solid(const fe_heightfield_def *d, int row, int column, int half, vec position,
+                                     fe_quat q)
 {
     const int rows[2][3] = {{0, 1, 1}, {0, 1, 0}}, columns[2][3] = {{0, 0, 1}, {0, 1, 1}};
     vec v[3];
@@ -110,7 +114,8 @@ static inline solid make_field_solid(const fe_heightfield_def *d, int row, int c
     return make_triangle_solid(v[0], v[1], v[2]);
 }
 
-// ---- nearest points ---------------------------------------------------------------------------------------------------------------
+// ---- nearest points
+// ---------------------------------------------------------------------------------------------------------------
 typedef struct nearness {
     real distance; // of the cores; of a half space signed
     vec on_still, on_mover;
@@ -156,7 +161,8 @@ static inline vec nearest_on_core(const solid *s, vec p)
 static inline void nearest_of_edges(vec a, vec b, vec c, vec d, nearness *n)
 {
     vec u = v_sub(b, a), v = v_sub(d, c), w = v_sub(a, c);
-    real uu = v_dot(u, u), uv = v_dot(u, v), vv = v_dot(v, v), uw = v_dot(u, w), vw = v_dot(v, w), det = uu * vv - uv * uv;
+    real uu = v_dot(u, u), uv = v_dot(u, v), vv = v_dot(v, v), uw = v_dot(u, w), vw = v_dot(v, w),
+         det = uu * vv - uv * uv;
     if (!(det > 1e-25L * uu * vv)) return; // parallel: the vertices tell
     real s = (uv * vw - vv * uw) / det, t = (uu * vw - uv * uw) / det;
     if (s < 0 || s > 1 || t < 0 || t > 1) return; // ends: the vertices tell
@@ -208,8 +214,9 @@ static inline nearness nearest(const solid *mover, vec shift, const solid *still
     nearness n = {INFINITY, {0, 0, 0}, {0, 0, 0}};
     for (int i = 0; i < mover->vertices; ++i) {
         vec p = v_add(mover->vertex[i], shift);
-        vec q = still->type == FE_GEOMETRY_PLANE ? v_sub(p, v_scale(v_dot(still->normal, p) - still->offset, still->normal))
-                                                 : nearest_on_core(still, p);
+        vec q = still->type == FE_GEOMETRY_PLANE
+                    ? v_sub(p, v_scale(v_dot(still->normal, p) - still->offset, still->normal))
+                    : nearest_on_core(still, p);
         real d = still->type == FE_GEOMETRY_PLANE ? v_dot(still->normal, p) - still->offset : v_length(v_sub(p, q));
         if (d < n.distance) n = (nearness){d, q, p};
     }
@@ -255,8 +262,8 @@ static inline int overlap_at(const solid *mover, const solid *still, vec shift, 
     return nearest(&a, shift, &b).distance == 0;
 }
 
-// A ray against a triangle from its upper side: 1 it is met before `end`, -1 not, 0 it passes by an edge, an end or the plane too closely
-// to tell.
+// A ray against a triangle from its upper side: 1 it is met before `end`, -1 not, 0 it passes by an edge, an end or the
+// plane too closely to tell.
 static inline int ray_meets_triangle(vec origin, vec way, const solid *s, real end, real margin)
 {
     real above = v_dot(s->normal, v_sub(origin, s->vertex[0])), rate = v_dot(s->normal, way), inside = INFINITY;
@@ -270,9 +277,10 @@ static inline int ray_meets_triangle(vec origin, vec way, const solid *s, real e
     return inside > margin && above > margin && above + end * rate < -margin;
 }
 
-// ---- on the way -----------------------------------------------------------------------------------------------------------------
-// The gap is a convex function of t, so that its tangents bound it from below. Does it fall below -margin in [0, end]: 1; is it above
-// margin all the way: -1; or neither: 0?
+// ---- on the way
+// ----------------------------------------------------------------------------------------------------------------- The
+// gap is a convex function of t, so that its tangents bound it from below. Does it fall below -margin in [0, end]: 1;
+// is it above margin all the way: -1; or neither: 0?
 static inline int meets_on_the_way(const solid *mover, const solid *still, vec way, real end, real margin)
 {
     real t[2] = {0, end}, f[2], rate[2], radius = mover->radius + still->radius;

@@ -2,8 +2,8 @@
 //
 //     build/tests/queries/test_query_laws 1000000     that many inputs
 //
-// The inputs like edges: whole numbers, equal sizes, no rotation, zero translations, so that surfaces touch exactly and edges lie along
-// edges.
+// The inputs like edges: whole numbers, equal sizes, no rotation, zero translations, so that surfaces touch exactly and
+// edges lie along edges.
 #include "api/api_test.h"
 
 #include <stdlib.h>
@@ -43,7 +43,8 @@ static fe_quat rotation(source *s)
 {
     static const fe_quat simple[] = {{0, 0, 0, 1}, {1, 0, 0, 0}, {0, 0, 1, 1}, {1, 1, 1, 1}};
     if (s->round || one_of(s, 4) == 0) return simple[one_of(s, 4)];
-    float x = (float)uniform(s, -1, 1), y = (float)uniform(s, -1, 1), z = (float)uniform(s, -1, 1), w = (float)uniform(s, 0.1, 1);
+    float x = (float)uniform(s, -1, 1), y = (float)uniform(s, -1, 1), z = (float)uniform(s, -1, 1),
+          w = (float)uniform(s, 0.1, 1);
     return (fe_quat){x, y, z, w};
 }
 
@@ -112,7 +113,8 @@ static fe_world *random_world(source *s)
         for (int32_t shapes = one_of(s, 3) == 0 ? 3 : 1; shapes > 0; --shapes) {
             fe_shape_def shape;
             fe_shape_def_init(&shape, sizeof shape);
-            if (shapes > 1) shape.frame.position = fe_make_vec3((float)number(s, 3), (float)number(s, 3), (float)number(s, 3));
+            if (shapes > 1)
+                shape.frame.position = fe_make_vec3((float)number(s, 3), (float)number(s, 3), (float)number(s, 3));
             shape.trigger = one_of(s, 5) == 0;
             fe_geometry g = geometry(s, def.type == FE_BODY_STATIC && i < 3 ? 4 : 3);
             fe_shape handle;
@@ -146,12 +148,14 @@ static input random_input(source *s, const fe_world *world)
     return in;
 }
 
-// ---- the laws -------------------------------------------------------------------------------------------------------------------------
+// ---- the laws
+// -------------------------------------------------------------------------------------------------------------------------
 static double along(fe_vec3 n, fe_dvec3 way) { return (double)n.x * way.x + (double)n.y * way.y + (double)n.z * way.z; }
 
 static const char *broken_by_hit(const input *in, const fe_hit *hit)
 {
-    double square = along(hit->normal, fe_make_dvec3((double)hit->normal.x, (double)hit->normal.y, (double)hit->normal.z));
+    double square =
+        along(hit->normal, fe_make_dvec3((double)hit->normal.x, (double)hit->normal.y, (double)hit->normal.z));
     if (!(square > 0.999999 && square < 1.000001)) return "a normal has length 1";
     if (!(along(hit->normal, in->way) <= 0)) return "a normal never points along the way";
     if (!(hit->fraction >= 0 && hit->fraction <= 1)) return "a fraction is in 0..1";
@@ -165,7 +169,8 @@ static const char *broken_by_sweep(const fe_world *world, const input *in)
     static fe_hit hits[BODIES];
     fe_body inside[BODIES];
     fe_hit first;
-    int32_t all = fe_world_sweep_all(world, &in->geometry, &in->start, &in->way, NULL, hits, sizeof *hits, BODIES), flagged = 0;
+    int32_t all = fe_world_sweep_all(world, &in->geometry, &in->start, &in->way, NULL, hits, sizeof *hits, BODIES),
+            flagged = 0;
     int32_t overlap = fe_world_overlap(world, &in->geometry, &in->start, NULL, inside, BODIES);
     if (all < 0 || overlap < 0) return "a good query is answered";
     for (int32_t i = 0; i < all; ++i) {
@@ -176,13 +181,15 @@ static const char *broken_by_sweep(const fe_world *world, const input *in)
             return "what starts inside is what overlaps, in order of creation";
     }
     if (flagged != overlap) return "overlap and a start inside are one";
-    if ((fe_world_overlap_any(world, &in->geometry, &in->start, NULL) == FE_OK) != (overlap > 0)) return "any overlap";
+    if ((fe_world_overlap_any(world, &in->geometry, &in->start, NULL) == 1) != (overlap > 0)) return "any overlap";
     int32_t result = fe_world_sweep(world, &in->geometry, &in->start, &in->way, NULL, &first);
     if (result != (all > 0 ? 1 : 0) || fe_world_sweep_any(world, &in->geometry, &in->start, &in->way, NULL) != result)
         return "first, any and all agree";
-    if ((result == FE_OK && first.flags != 0) != (overlap > 0)) return "overlap and a start inside are one for the first hit";
+    if ((result == 1 && first.flags != 0) != (overlap > 0))
+        return "overlap and a start inside are one for the first hit";
     if (all > 0 && memcmp(&first, hits, sizeof first) != 0) return "the first of all is the first";
-    if (in->way.x == 0 && in->way.y == 0 && in->way.z == 0 && all != overlap) return "a zero translation is an overlap test";
+    if (in->way.x == 0 && in->way.y == 0 && in->way.z == 0 && all != overlap)
+        return "a zero translation is an overlap test";
     return NULL;
 }
 
@@ -192,19 +199,22 @@ static const char *broken_by_ray(const fe_world *world, const input *in)
     fe_hit ray, sweep;
     memset(&ray, 0, sizeof ray), memset(&sweep, 0, sizeof sweep);
     int32_t result = fe_world_raycast(world, &in->start.position, &in->way, NULL, &ray);
-    if (result != fe_world_sweep(world, &in->geometry, &in->start, &in->way, NULL, &sweep) || memcmp(&ray, &sweep, sizeof ray) != 0)
+    if (result != fe_world_sweep(world, &in->geometry, &in->start, &in->way, NULL, &sweep) ||
+        memcmp(&ray, &sweep, sizeof ray) != 0)
         return "a sphere of radius 0 sweeps as a ray";
     return NULL;
 }
 
-// From where a sweep stopped, nothing overlaps. A heightfield may, whose triangles let pass what comes from below; it is the first body.
+// From where a sweep stopped, nothing overlaps. A heightfield may, whose triangles let pass what comes from below; it
+// is the first body.
 static const char *broken_by_stop(const fe_world *world, const input *in)
 {
     fe_hit hit;
     if (in->geometry.type == FE_GEOMETRY_SPHERE && in->geometry.radius == 0) return NULL; // a ray ends on the surface
     if (fe_world_sweep(world, &in->geometry, &in->start, &in->way, NULL, &hit) != 1 || hit.flags) return NULL;
     fe_transform stop = in->start;
-    stop.position.x += hit.fraction * in->way.x, stop.position.y += hit.fraction * in->way.y, stop.position.z += hit.fraction * in->way.z;
+    stop.position.x += hit.fraction * in->way.x, stop.position.y += hit.fraction * in->way.y,
+        stop.position.z += hit.fraction * in->way.z;
     fe_body bodies[2], field;
     fe_world_get_bodies(world, &field, 1);
     int32_t count = fe_world_overlap(world, &in->geometry, &stop, NULL, bodies, 2);
@@ -217,7 +227,8 @@ static const char *broken_by_nan(const fe_world *world, const input *in)
     fe_dvec3 way = in->way;
     fe_hit hit;
     way.y = (double)NOT_A_NUMBER;
-    if (fe_world_sweep(world, &in->geometry, &in->start, &way, NULL, &hit) != FE_ERROR_ARGUMENT) return "NaN is refused";
+    if (fe_world_sweep(world, &in->geometry, &in->start, &way, NULL, &hit) != FE_ERROR_ARGUMENT)
+        return "NaN is refused";
     return NULL;
 }
 
@@ -225,17 +236,19 @@ static void print_input(const input *in, uint64_t seed, int32_t number_of_world)
 {
     const fe_geometry *g = &in->geometry;
     const fe_transform *t = &in->start;
-    print_error("world %d, seed 0x%llx, geometry %d r %a h %a half %a %a %a\n", (int)number_of_world, (unsigned long long)seed,
-                (int)g->type, (double)g->radius, (double)g->half_height, (double)g->half_extents.x, (double)g->half_extents.y,
-                (double)g->half_extents.z);
-    print_error("start %a %a %a, rotation %a %a %a %a, way %a %a %a\n", t->position.x, t->position.y, t->position.z, (double)t->rotation.x,
-                (double)t->rotation.y, (double)t->rotation.z, (double)t->rotation.w, in->way.x, in->way.y, in->way.z);
+    print_error("world %d, seed 0x%llx, geometry %d r %a h %a half %a %a %a\n", (int)number_of_world,
+                (unsigned long long)seed, (int)g->type, (double)g->radius, (double)g->half_height,
+                (double)g->half_extents.x, (double)g->half_extents.y, (double)g->half_extents.z);
+    print_error("start %a %a %a, rotation %a %a %a %a, way %a %a %a\n", t->position.x, t->position.y, t->position.z,
+                (double)t->rotation.x, (double)t->rotation.y, (double)t->rotation.z, (double)t->rotation.w, in->way.x,
+                in->way.y, in->way.z);
 }
 
 static void the_laws_of_queries_hold(void **state)
 {
     (void)state;
-    static const char *(*const laws[])(const fe_world *, const input *) = {broken_by_sweep, broken_by_ray, broken_by_stop, broken_by_nan};
+    static const char *(*const laws[])(const fe_world *, const input *) = {broken_by_sweep, broken_by_ray,
+                                                                           broken_by_stop, broken_by_nan};
     for (int32_t w = 0; w * PER_WORLD < inputs; ++w) {
         uint64_t seed = UINT64_C(88172645463325252) + (uint64_t)(uint32_t)w * UINT64_C(0x9e3779b97f4a7c15);
         source s = {.random = seed, .round = w % 2};
@@ -254,7 +267,8 @@ static void the_laws_of_queries_hold(void **state)
     }
 }
 
-// ---- sliding --------------------------------------------------------------------------------------------------------------------------
+// ---- sliding
+// --------------------------------------------------------------------------------------------------------------------------
 
 // Flat ground at 0: flush boxes from -6 to 6, a heightfield behind them, a plane under the rest.
 static fe_world *flat_world(void)
@@ -294,7 +308,8 @@ static void what_has_stopped_slides(void **state)
         fe_hit hit;
         HIT(fe_world_sweep(world, &g, &t, &down, NULL, &hit));
         FE_WITHIN(hit.fraction, 0.4, 0.6);
-        t.position.x += hit.fraction * down.x, t.position.y += hit.fraction * down.y, t.position.z += hit.fraction * down.z;
+        t.position.x += hit.fraction * down.x, t.position.y += hit.fraction * down.y,
+            t.position.z += hit.fraction * down.z;
         for (int s = 0; s < 4; ++s) assert_int_equal(fe_world_sweep(world, &g, &t, &slides[s], NULL, &hit), 0);
         fe_dvec3 on = {0, -1e-3, 0}; // but what goes on into the ground stops where it is
         HIT(fe_world_sweep(world, &g, &t, &on, NULL, &hit));
@@ -307,6 +322,7 @@ static void what_has_stopped_slides(void **state)
 int main(int argc, char **argv)
 {
     if (argc > 1) inputs = atoi(argv[1]);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_laws_of_queries_hold), cmocka_unit_test(what_has_stopped_slides)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_laws_of_queries_hold),
+                                       cmocka_unit_test(what_has_stopped_slides)};
     return cmocka_run_group_tests_name("query_laws", tests, NULL, NULL);
 }

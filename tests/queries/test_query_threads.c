@@ -1,4 +1,5 @@
-// Eight threads ask one world at once and get what one thread gets; nothing is allocated; a batch spread over workers answers the same.
+// Eight threads ask one world at once and get what one thread gets; nothing is allocated; a batch spread over workers
+// answers the same.
 //
 // For ThreadSanitizer above all: queries read and write nothing that is shared.
 #include "api/api_test.h"
@@ -94,7 +95,8 @@ static void *ask(void *argument)
                              fe_world_overlap(a->world, &g, &t, NULL, bodies, MOST),
                              fe_world_closest_point(a->world, &t.position, 5, NULL, &c),
                              fe_world_sweep_any(a->world, &g, &t, &way, NULL)};
-        a->sum = mix(mix(mix(mix(a->sum, hits, sizeof hits), bodies, sizeof bodies), &c, sizeof c), counts, sizeof counts);
+        a->sum =
+            mix(mix(mix(mix(a->sum, hits, sizeof hits), bodies, sizeof bodies), &c, sizeof c), counts, sizeof counts);
         a->found += counts[3];
     }
     return NULL;
@@ -110,7 +112,8 @@ static void eight_threads_get_what_one_gets(void **state)
     asker alone[THREADS], together[THREADS];
     pthread_t threads[THREADS];
     for (int32_t i = 0; i < THREADS; ++i) {
-        alone[i] = together[i] = (asker){.world = world, .seed = UINT64_C(0x9e3779b97f4a7c15) + (uint32_t)(i / 2)}; // two ask the same
+        alone[i] = together[i] =
+            (asker){.world = world, .seed = UINT64_C(0x9e3779b97f4a7c15) + (uint32_t)(i / 2)}; // two ask the same
         ask(&alone[i]);
     }
     for (int32_t i = 0; i < THREADS; ++i) assert_int_equal(pthread_create(&threads[i], NULL, ask, &together[i]), 0);
@@ -138,9 +141,10 @@ typedef struct batch {
 static void *ask_many(void *argument)
 {
     batch *b = argument;
-    b->hits = fe_world_raycast_many(b->world, b->rays, sizeof(fe_ray), QUERIES, NULL, b->spread, b->rays_out, sizeof(fe_hit));
-    b->hits +=
-        fe_world_sweep_many(b->world, b->geometry, b->paths, sizeof(fe_path), QUERIES, NULL, b->spread, b->paths_out, sizeof(fe_hit));
+    b->hits =
+        fe_world_raycast_many(b->world, b->rays, sizeof(fe_ray), QUERIES, NULL, b->spread, b->rays_out, sizeof(fe_hit));
+    b->hits += fe_world_sweep_many(b->world, b->geometry, b->paths, sizeof(fe_path), QUERIES, NULL, b->spread,
+                                   b->paths_out, sizeof(fe_hit));
     return NULL;
 }
 
@@ -157,7 +161,9 @@ static void batches_do_not_depend_on_who_answers(void **state)
     fe_geometry g = geometry(&random);
     for (int32_t i = 0; i < QUERIES; ++i) {
         rays[i].origin = place(&random, 20), rays[i].translation = place(&random, 20);
-        paths[i] = (fe_path){fe_make_transform(rays[i].origin.x, rays[i].origin.y, rays[i].origin.z), rays[i].translation, {0}};
+        paths[i] = (fe_path){fe_make_transform(rays[i].origin.x, rays[i].origin.y, rays[i].origin.z),
+                             rays[i].translation,
+                             {0}};
     }
     pthread_t threads[3];
     for (int32_t i = 0; i < 3; ++i) {

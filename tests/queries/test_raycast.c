@@ -1,12 +1,14 @@
-// The ray against every shape asked one by one: nearest, ties, filters, starts inside, far from the origin; and its errors.
+// The ray against every shape asked one by one: nearest, ties, filters, starts inside, far from the origin; and its
+// errors.
 //
-// Reference: fe__form_ray (tested against geometry on its own) over all shapes, with poses composed here, in the order of creation. Nothing
-// of the trees.
+// Reference: fe__form_ray (tested against geometry on its own) over all shapes, with poses composed here, in the order
+// of creation. Nothing of the trees.
 #include "api/api_test.h"
 
 #include "collision/cast/ray.h"
 
-// ---- a random world and its reference -------------------------------------------------------------------------------------------
+// ---- a random world and its reference
+// -------------------------------------------------------------------------------------------
 
 enum { BODIES = 150, SHAPES = 400 };
 
@@ -125,8 +127,8 @@ static int32_t is_in(const fe_query_filter *filter, const known_shape *s)
     return 1;
 }
 
-// Shapes are asked in the order of creation of their bodies (each body got all its shapes before the next was made), so that < keeps the
-// first.
+// Shapes are asked in the order of creation of their bodies (each body got all its shapes before the next was made), so
+// that < keeps the first.
 static answer reference(const known_world *k, fe_dvec3 origin, fe_dvec3 translation, const fe_query_filter *filter)
 {
     answer best = {.index = -1, .fraction = 2};
@@ -138,7 +140,8 @@ static answer reference(const known_world *k, fe_dvec3 origin, fe_dvec3 translat
         int32_t centred = s->frame.position.x == 0.0f && s->frame.rotation.w == 1.0f;
         if (!centred) pose = fe__compose(&body, s->frame.position, s->frame.rotation);
         if (s->form.type == FE__FORM_SPHERE) pose.rotation = fe__identity(); // a ball is asked without turning
-        fe_dvec3 o = fe__drotate_back(pose.rotation, fe__dsub(origin, pose.position)), d = fe__drotate_back(pose.rotation, translation);
+        fe_dvec3 o = fe__drotate_back(pose.rotation, fe__dsub(origin, pose.position)),
+                 d = fe__drotate_back(pose.rotation, translation);
         fe__ray_hit hit;
         if (!fe__form_ray(&s->form, o, d, 1.0, &hit) || hit.t >= best.fraction) continue;
         best = (answer){i, hit.t, fe__drotate(pose.rotation, hit.normal), hit.depth, hit.inside};
@@ -226,7 +229,8 @@ static void a_ray_finds_it_while_the_world_moves(void **state)
     OK(fe_world_destroy(k.world));
 }
 
-// ---- laws -----------------------------------------------------------------------------------------------------------------------
+// ---- laws
+// -----------------------------------------------------------------------------------------------------------------------
 
 static fe_hit cast(const fe_world *world, fe_dvec3 from, fe_dvec3 translation)
 {
@@ -301,7 +305,8 @@ static void a_start_inside_is_a_hit_at_once(void **state)
     add_box(world, body, 1);
     fe_hit hit = cast(world, fe_make_dvec3(0.75, 0, 0), fe_make_dvec3(0, 0, 3));
     assert_true(hit.flags == FE_HIT_STARTED_INSIDE);
-    FE_NEAR(hit.fraction, 0, 0), FE_NEAR(hit.normal.z, -1, 0), FE_NEAR(hit.depth, 0.25, 1e-7), FE_NEAR(hit.point.x, 0.75, 0);
+    FE_NEAR(hit.fraction, 0, 0), FE_NEAR(hit.normal.z, -1, 0), FE_NEAR(hit.depth, 0.25, 1e-7),
+        FE_NEAR(hit.point.x, 0.75, 0);
     hit = cast(world, fe_make_dvec3(0.75, 0, 0), fe_make_dvec3(0, 0, 0));
     FE_NEAR(hit.normal.x, 1, 1e-7), FE_NEAR(hit.depth, 0.25, 1e-7);
     fe_dvec3 outside = {2, 0, 0}, nowhere = {0, 0, 0};
@@ -325,15 +330,16 @@ static void an_empty_world_is_missed(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- arguments ------------------------------------------------------------------------------------------------------------------
+// ---- arguments
+// ------------------------------------------------------------------------------------------------------------------
 
 static void bad_rays_are_refused(void **state)
 {
     (void)state;
     fe_world *world = new_world();
     fe_body box = new_box(world, 0, 0, 0);
-    fe_dvec3 from = {0, 10, 0}, down = {0, -20, 0}, nan = {0, (double)NOT_A_NUMBER, 0}, endless = {0, 0, (double)-INFINITE},
-             huge = {1e11, 0, 0};
+    fe_dvec3 from = {0, 10, 0}, down = {0, -20, 0}, nan = {0, (double)NOT_A_NUMBER, 0},
+             endless = {0, 0, (double)-INFINITE}, huge = {1e11, 0, 0};
     fe_hit hit, untouched;
     memset(&hit, 0x55, sizeof hit);
     untouched = hit;

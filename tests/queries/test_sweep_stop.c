@@ -2,7 +2,8 @@
 //
 //     build/tests/queries/test_sweep_stop 100000      that many cases a pair of forms, and the table of docs/QUERIES.md
 //
-// Shapes of 1 cm to 1 km, ways of 1 mm to 10 km, at the world's origin and 1e6 m off it. The judge is exact.h, in long double.
+// Shapes of 1 cm to 1 km, ways of 1 mm to 10 km, at the world's origin and 1e6 m off it. The judge is exact.h, in long
+// double.
 #include "api/api_test.h"
 #include "queries/exact.h"
 
@@ -46,7 +47,8 @@ static fe_dvec3 direction(bench *b)
 static fe_quat rotation(bench *b)
 {
     if (uniform(b, 0, 1) < 0.2) return (fe_quat){0, 0, 0, 1};
-    float x = (float)uniform(b, -1, 1), y = (float)uniform(b, -1, 1), z = (float)uniform(b, -1, 1), w = (float)uniform(b, 0.1, 1);
+    float x = (float)uniform(b, -1, 1), y = (float)uniform(b, -1, 1), z = (float)uniform(b, -1, 1),
+          w = (float)uniform(b, 0.1, 1);
     return (fe_quat){x, y, z, w};
 }
 
@@ -63,7 +65,10 @@ static fe_geometry geometry_of(bench *b, int32_t type)
     return g;
 }
 
-static fe_dvec3 along(fe_dvec3 p, double s, fe_dvec3 d) { return fe_make_dvec3(p.x + s * d.x, p.y + s * d.y, p.z + s * d.z); }
+static fe_dvec3 along(fe_dvec3 p, double s, fe_dvec3 d)
+{
+    return fe_make_dvec3(p.x + s * d.x, p.y + s * d.y, p.z + s * d.z);
+}
 
 typedef struct tally {
     int32_t hits;
@@ -75,7 +80,9 @@ static void one_case(bench *b, int32_t moving, int32_t standing, tally *t)
 {
     double middle = uniform(b, 0, 1) < 0.5 ? 0 : 1e6;
     fe_geometry still = geometry_of(b, standing), mover = geometry_of(b, moving);
-    fe_transform pose = {fe_make_dvec3(middle + uniform(b, -10, 10), -middle + uniform(b, -10, 10), uniform(b, -10, 10)), rotation(b)};
+    fe_transform pose = {fe_make_dvec3(middle + uniform(b, -10, 10), -middle + uniform(b, -10, 10),
+                                       uniform(b, -10, 10)),
+                         rotation(b)};
     fe_transform start = {pose.position, rotation(b)};
     OK(fe_shape_set_geometry(b->world, b->shape, &still));
     OK(fe_body_set_transform(b->world, b->body, &pose));
@@ -102,7 +109,8 @@ static void one_case(bench *b, int32_t moving, int32_t standing, tally *t)
     t->least = fmin(t->least, gap), t->most = fmax(t->most, gap), t->normal = fmax(t->normal, error);
 }
 
-// ---- heightfields ---------------------------------------------------------------------------------------------------------------------
+// ---- heightfields
+// ---------------------------------------------------------------------------------------------------------------------
 
 enum { SAMPLES = 6, TRIANGLES = 2 * (SAMPLES - 1) * (SAMPLES - 1) };
 
@@ -128,7 +136,8 @@ static void one_field_case(bench *b, int32_t moving, tally *t)
     fe_heightfield_def_init(&def, sizeof def);
     def.rows = def.columns = SAMPLES, def.cell_x = def.cell_z = cell, def.heights = heights;
     double middle = uniform(b, 0, 1) < 0.5 ? 0 : 1e6;
-    fe_transform pose = {fe_make_dvec3(middle, -middle, 1), {(float)uniform(b, -0.1, 0.1), 0, (float)uniform(b, -0.1, 0.1), 1}};
+    fe_transform pose = {fe_make_dvec3(middle, -middle, 1),
+                         {(float)uniform(b, -0.1, 0.1), 0, (float)uniform(b, -0.1, 0.1), 1}};
     fe_asset asset;
     fe_geometry g, mover = geometry_of(b, moving);
     OK(fe_heightfield_create(world_store(b->world), &def, &asset));
@@ -139,7 +148,8 @@ static void one_field_case(bench *b, int32_t moving, tally *t)
     OK(fe_body_get_transform(b->world, b->body, &pose));
     solid triangles[TRIANGLES];
     for (int32_t i = 0; i < TRIANGLES; ++i)
-        triangles[i] = make_field_solid(&def, i / 2 / (SAMPLES - 1), i / 2 % (SAMPLES - 1), i % 2, v_of(pose.position), pose.rotation);
+        triangles[i] = make_field_solid(&def, i / 2 / (SAMPLES - 1), i / 2 % (SAMPLES - 1), i % 2, v_of(pose.position),
+                                        pose.rotation);
     fe_transform start = {pose.position, rotation(b)};
     solid of_mover = make_solid(&mover, v_of(start.position), start.rotation);
     double reach = (double)of_mover.reach + 4 * (double)cell;
@@ -158,9 +168,11 @@ static void one_field_case(bench *b, int32_t moving, tally *t)
     if (fe_world_sweep(b->world, &mover, &start, &translation, NULL, &hit) != 1 || hit.flags) return;
     of_mover = make_solid(&mover, v_of(start.position), start.rotation);
     vec shift = v_scale(hit.fraction, v_of(translation));
-    nearness n = nearest_triangle(&of_mover, shift, triangles), of_hit = nearest(&of_mover, shift, &triangles[hit.triangle]);
+    nearness n = nearest_triangle(&of_mover, shift, triangles),
+             of_hit = nearest(&of_mover, shift, &triangles[hit.triangle]);
     vec away = v_sub(of_hit.on_mover, of_hit.on_still); // two triangles may be as near
-    double gap = (double)(n.distance - of_mover.radius), error = (double)(v_length(v_cross(away, v_off(hit.normal))) / v_length(away));
+    double gap = (double)(n.distance - of_mover.radius),
+           error = (double)(v_length(v_cross(away, v_off(hit.normal))) / v_length(away));
     t->hits += 1;
     t->least = fmin(t->least, gap), t->most = fmax(t->most, gap), t->normal = fmax(t->normal, error);
 }
@@ -189,8 +201,8 @@ static tally tally_of(int32_t mover, int32_t still)
             one_case(&b, moving, standing, &t);
     }
     OK(fe_world_destroy(b.world));
-    printf("| %-7s | %-7s | %6d | %9.4f | %9.4f | %7.1e |\n", kinds[mover].name, kinds[still].name, (int)t.hits, 1e6 * t.least,
-           1e6 * t.most, t.normal);
+    printf("| %-7s | %-7s | %6d | %9.4f | %9.4f | %7.1e |\n", kinds[mover].name, kinds[still].name, (int)t.hits,
+           1e6 * t.least, 1e6 * t.most, t.normal);
     return t;
 }
 

@@ -15,13 +15,20 @@ enum { QUERIES = 150 };
 #else
 enum { QUERIES = 2500 };
 #endif
-enum { BODIES = 300, FIELDS = 2, SAMPLES = 8, TRIANGLES = 2 * (SAMPLES - 1) * (SAMPLES - 1), SHAPES = 800 + FIELDS * TRIANGLES };
+enum {
+    BODIES = 300,
+    FIELDS = 2,
+    SAMPLES = 8,
+    TRIANGLES = 2 * (SAMPLES - 1) * (SAMPLES - 1),
+    SHAPES = 800 + FIELDS * TRIANGLES
+};
 #define GRAZE 2e-6L // m
 
 static int32_t queries = QUERIES;
 
-// ---- a world of every kind ----------------------------------------------------------------------------------------------------------
-// A shape, or a triangle of a heightfield
+// ---- a world of every kind
+// ---------------------------------------------------------------------------------------------------------- A shape,
+// or a triangle of a heightfield
 typedef struct known_shape {
     fe_shape shape;
     int32_t triangle; // else -1
@@ -105,7 +112,8 @@ static void add_field(known_world *k, int32_t body)
     fe_asset asset;
     fe_geometry g;
     fe_shape shape;
-    fe_transform t = {fe__dadd(k->middle, fe_make_dvec3(uniform(k, -25, -10), uniform(k, -15, 15), uniform(k, -25, -10))),
+    fe_transform t = {fe__dadd(k->middle,
+                               fe_make_dvec3(uniform(k, -25, -10), uniform(k, -15, 15), uniform(k, -25, -10))),
                       {(float)uniform(k, -0.2, 0.2), 0, (float)uniform(k, -0.2, 0.2), 1}};
     OK(fe_heightfield_create(world_store(k->world), &def, &asset));
     OK(fe_body_set_type(k->world, k->bodies[body], FE_BODY_STATIC));
@@ -116,9 +124,10 @@ static void add_field(known_world *k, int32_t body)
     for (int32_t i = 0; i < TRIANGLES; ++i) {
         int32_t cell = i / 2;
         if (holes[cell]) continue;
-        solid s = make_field_solid(&def, cell / (SAMPLES - 1), cell % (SAMPLES - 1), i % 2, v_of(t.position), t.rotation);
-        k->shapes[k->count++] =
-            (known_shape){.shape = shape, .triangle = i, .rim = has_rim(holes, i), .solid = s, .body = body, .layer = 1};
+        solid s =
+            make_field_solid(&def, cell / (SAMPLES - 1), cell % (SAMPLES - 1), i % 2, v_of(t.position), t.rotation);
+        k->shapes[k->count++] = (known_shape){
+            .shape = shape, .triangle = i, .rim = has_rim(holes, i), .solid = s, .body = body, .layer = 1};
     }
 }
 
@@ -159,7 +168,8 @@ static void learn_poses(known_world *k)
         OK(fe_shape_get_frame(k->world, s->shape, &frame));
         OK(fe_shape_get_geometry(k->world, s->shape, &g));
         fe__pose body = {t.position, t.rotation}, pose = body;
-        int32_t centred = frame.position.x == 0.0f && frame.position.y == 0.0f && frame.position.z == 0.0f && frame.rotation.w == 1.0f;
+        int32_t centred = frame.position.x == 0.0f && frame.position.y == 0.0f && frame.position.z == 0.0f &&
+                          frame.rotation.w == 1.0f;
         if (!centred) pose = fe__compose(&body, frame.position, frame.rotation);
         s->solid = make_solid(&g, v_of(pose.position), pose.rotation);
     }
@@ -173,7 +183,8 @@ static void make_world(known_world *k, double middle, uint64_t seed)
     learn_poses(k);
 }
 
-// ---- queries and who counts -----------------------------------------------------------------------------------------------------------
+// ---- queries and who counts
+// -----------------------------------------------------------------------------------------------------------
 typedef struct query {
     fe_geometry geometry;
     fe_transform start;
@@ -216,7 +227,8 @@ static int32_t counts(const known_world *k, const query *q, const known_shape *s
 static int32_t comes_near(const query *q, const known_shape *s, real end)
 {
     if (s->solid.type == FE_GEOMETRY_PLANE) return 1;
-    vec o = q->mover.centre, near = nearest_on_edge(o, v_add(v_add(o, v_scale(end, v_of(q->way))), (vec){1e-9L, 0, 0}), s->solid.centre);
+    vec o = q->mover.centre,
+        near = nearest_on_edge(o, v_add(v_add(o, v_scale(end, v_of(q->way))), (vec){1e-9L, 0, 0}), s->solid.centre);
     return v_length(v_sub(near, s->solid.centre)) <= s->solid.reach + q->mover.reach + 1e-3L;
 }
 
@@ -265,7 +277,8 @@ static int32_t shape_index(const known_world *k, fe_shape shape, int32_t triangl
     return i;
 }
 
-// ---- hits -----------------------------------------------------------------------------------------------------------------------------
+// ---- hits
+// -----------------------------------------------------------------------------------------------------------------------------
 static int32_t cast(const known_world *k, const query *q, fe_hit *hit)
 {
     return q->is_ray ? fe_world_raycast(k->world, &q->start.position, &q->way, &q->filter, hit)
@@ -278,8 +291,10 @@ static int32_t cast_any(const known_world *k, const query *q)
 }
 static int32_t cast_all(const known_world *k, const query *q, fe_hit *hits, int32_t capacity)
 {
-    return q->is_ray ? fe_world_raycast_all(k->world, &q->start.position, &q->way, &q->filter, hits, sizeof *hits, capacity)
-                     : fe_world_sweep_all(k->world, &q->geometry, &q->start, &q->way, &q->filter, hits, sizeof *hits, capacity);
+    return q->is_ray
+               ? fe_world_raycast_all(k->world, &q->start.position, &q->way, &q->filter, hits, sizeof *hits, capacity)
+               : fe_world_sweep_all(k->world, &q->geometry, &q->start, &q->way, &q->filter, hits, sizeof *hits,
+                                    capacity);
 }
 
 // Signed: below 0 inside. A triangle is not seen from below.
@@ -318,7 +333,8 @@ static void check_hit(const known_world *k, const query *q, const fe_hit *hit)
     FE_WITHIN(gap, -rounding, boxes ? 1e-4L : q->is_ray ? rounding : 1e-6L);
     vec away = s->solid.type == FE_GEOMETRY_PLANE ? s->solid.normal : v_sub(n.on_mover, n.on_still);
     if (s->triangle >= 0 && q->is_ray) away = s->solid.normal;
-    if (v_length(away) > 1e-8L) FE_WITHIN(v_length(v_sub(v_scale(1 / v_length(away), away), v_off(hit->normal))), 0, 1e-5);
+    if (v_length(away) > 1e-8L)
+        FE_WITHIN(v_length(v_sub(v_scale(1 / v_length(away), away), v_off(hit->normal))), 0, 1e-5);
     // the point is on both surfaces
     vec point = v_of(hit->point);
     real far = 1e-6L + v_length(point) * 1e-15L;
@@ -332,20 +348,21 @@ static int32_t check_nearest(const known_world *k, const query *q)
     fe_hit hit;
     memset(&hit, 0x55, sizeof hit);
     int32_t result = cast(k, q, &hit), any = cast_any(k, q);
-    assert_true(result == FE_OK || result == 0);
+    assert_true(result == 1 || result == 0);
     assert_int_equal(any, result);
-    real end = result == FE_OK ? hit.fraction : 1;
-    if (result == FE_OK) check_hit(k, q, &hit);
+    real end = result == 1 ? hit.fraction : 1;
+    if (result == 1) check_hit(k, q, &hit);
     for (int32_t i = 0; i < k->count; ++i) {
         const known_shape *s = &k->shapes[i];
-        if (!counts(k, q, s) || (result == FE_OK && ((s->shape == hit.shape && s->triangle == hit.triangle) || hit.flags))) continue;
+        if (!counts(k, q, s) || (result == 1 && ((s->shape == hit.shape && s->triangle == hit.triangle) || hit.flags)))
+            continue;
         if (meets(q, s, end) > 0) {
             print_error("shape %d is met before fraction %.17Lg (result %d, shape %d)\n", i, end, result,
-                        result == FE_OK ? shape_index(k, hit.shape, hit.triangle) : -1);
+                        result == 1 ? shape_index(k, hit.shape, hit.triangle) : -1);
             fail();
         }
     }
-    return result == FE_OK;
+    return result == 1;
 }
 
 // Each body that is met is told once, at its first shape, in order; with little room the front of the same.
@@ -368,7 +385,8 @@ static int32_t check_all(const known_world *k, const query *q)
     for (int32_t i = 0; i < k->count; ++i) {
         const known_shape *s = &k->shapes[i];
         const fe_hit *hit = told[s->body] >= 0 ? &hits[told[s->body]] : NULL;
-        if (!counts(k, q, s) || (hit && ((hit->shape == s->shape && hit->triangle == s->triangle) || hit->flags))) continue;
+        if (!counts(k, q, s) || (hit && ((hit->shape == s->shape && hit->triangle == s->triangle) || hit->flags)))
+            continue;
         FE_TRUE(meets(q, s, hit ? hit->fraction : 1) <= 0);
     }
     assert_int_equal(cast_all(k, q, few, 3), count);
@@ -411,7 +429,8 @@ static void sweeps_find_what_a_walk_finds(void **state)
     casts_find_what_a_walk_finds(0);
 }
 
-// ---- overlaps -------------------------------------------------------------------------------------------------------------------------
+// ---- overlaps
+// -------------------------------------------------------------------------------------------------------------------------
 static int32_t check_overlap(const known_world *k, const query *q)
 {
     static fe_body found[BODIES], few[2];
@@ -467,7 +486,7 @@ static void the_way_out_of_an_overlap_is_as_long_as_told(void **state)
         fe_hit hit;
         random_query(&k, &q, 0);
         q.way = fe_make_dvec3(0, 0, 0);
-        if (cast(&k, &q, &hit) != FE_OK) continue;
+        if (cast(&k, &q, &hit) != 1) continue;
         assert_int_equal(hit.flags, FE_HIT_STARTED_INSIDE);
         const solid *still = &k.shapes[shape_index(&k, hit.shape, hit.triangle)].solid;
         vec n = v_scale(1 / v_length(v_off(hit.normal)), v_off(hit.normal));
@@ -481,7 +500,8 @@ static void the_way_out_of_an_overlap_is_as_long_as_told(void **state)
     OK(fe_world_destroy(k.world));
 }
 
-// ---- the closest point ----------------------------------------------------------------------------------------------------------------
+// ---- the closest point
+// ----------------------------------------------------------------------------------------------------------------
 static void the_closest_point_is_that_of_a_walk(void **state)
 {
     (void)state;
@@ -503,7 +523,7 @@ static void the_closest_point_is_that_of_a_walk(void **state)
             FE_TRUE(best > most - 1e-9);
             continue;
         }
-        assert_int_equal(result, FE_OK);
+        assert_int_equal(result, 1);
         found += 1;
         const known_shape *s = &k.shapes[shape_index(&k, c.shape, c.triangle)];
         assert_true(counts(&k, &q, s) && k.bodies[s->body] == c.body);
@@ -523,8 +543,10 @@ int main(int argc, char **argv)
 {
     if (argc > 1) queries = atoi(argv[1]);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rays_find_what_a_walk_finds),         cmocka_unit_test(sweeps_find_what_a_walk_finds),
-        cmocka_unit_test(overlaps_find_what_a_walk_finds),     cmocka_unit_test(the_way_out_of_an_overlap_is_as_long_as_told),
+        cmocka_unit_test(rays_find_what_a_walk_finds),
+        cmocka_unit_test(sweeps_find_what_a_walk_finds),
+        cmocka_unit_test(overlaps_find_what_a_walk_finds),
+        cmocka_unit_test(the_way_out_of_an_overlap_is_as_long_as_told),
         cmocka_unit_test(the_closest_point_is_that_of_a_walk),
     };
     return cmocka_run_group_tests_name("walk", tests, NULL, NULL);

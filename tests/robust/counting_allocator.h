@@ -25,7 +25,8 @@ static void *counting_allocate(void *user, uint64_t size, uint64_t alignment)
         c->failures += 1;
         return NULL;
     }
-    unsigned char *memory = aligned_alloc((size_t)alignment, (size_t)((size + 2 * alignment - 1) / alignment * alignment));
+    unsigned char *memory =
+        aligned_alloc((size_t)alignment, (size_t)((size + 2 * alignment - 1) / alignment * alignment));
     if (!memory) return NULL;
     memcpy(memory, &size, sizeof size);
     memset(memory + alignment, 0xA5, (size_t)size); // nobody may count on zeros

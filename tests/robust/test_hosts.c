@@ -1,5 +1,5 @@
-// test_hosts.c - inside other programs: threads with another floating-point state, the host's own job system, one pool for several worlds,
-// calls that come while a world steps.
+// test_hosts.c - inside other programs: threads with another floating-point state, the host's own job system, one pool
+// for several worlds, calls that come while a world steps.
 #include "core/threads.h"
 #include "fe_test.h"
 #include "support/play.h"
@@ -51,7 +51,8 @@ static void same(outcome a, outcome b)
     FE_TRUE(a.told == b.told);
 }
 
-// ---- the floating-point state ---------------------------------------------------------------------------------------------------------
+// ---- the floating-point state
+// ---------------------------------------------------------------------------------------------------------
 #if defined(__x86_64__)
 #include <xmmintrin.h>
 // rounding up, flush to zero, denormals are zero; exceptions masked
@@ -106,7 +107,8 @@ static void the_host_keeps_its_floating_point_state(void **state)
     }
 }
 
-// ---- the host's jobs ------------------------------------------------------------------------------------------------------------------
+// ---- the host's jobs
+// ------------------------------------------------------------------------------------------------------------------
 
 static void run_backwards(void *user, fe_task task, void *argument, int32_t count)
 {
@@ -177,7 +179,8 @@ static void a_host_task_system_gives_the_same_bits(void **state)
     same(host_outcome(&script_crowd, 3, run_on_threads, NULL), expected);
 }
 
-// ---- one pool, several worlds ---------------------------------------------------------------------------------------------------------
+// ---- one pool, several worlds
+// ---------------------------------------------------------------------------------------------------------
 
 typedef struct host_thread {
     play play;
@@ -212,7 +215,8 @@ static void worlds_on_one_pool_step_at_once(void **state)
     assert_int_equal(fe_pool_destroy(pool), FE_OK);
 }
 
-// ---- calls during a step --------------------------------------------------------------------------------------------------------------
+// ---- calls during a step
+// --------------------------------------------------------------------------------------------------------------
 
 typedef struct intruder {
     fe_world *world;

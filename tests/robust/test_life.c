@@ -1,4 +1,5 @@
-// test_life.c - bodies come, change and go in every order: memory stays flat, handles never alias, nothing is left behind.
+// test_life.c - bodies come, change and go in every order: memory stays flat, handles never alias, nothing is left
+// behind.
 #include "fe_test.h"
 #include "robust/counting_allocator.h"
 #include "support/play.h"
@@ -72,7 +73,8 @@ static void all_is_finite(const fe_world *world, const fe_body *bodies, int32_t 
     }
 }
 
-// ---- coming and going -----------------------------------------------------------------------------------------------------------------
+// ---- coming and going
+// -----------------------------------------------------------------------------------------------------------------
 
 // 64 bodies at a time in a heap on the ground, the oldest replaced: slots, pairs, tree nodes and events go round
 static void memory_stays_flat_over_many_spawns(void **state)
@@ -186,7 +188,8 @@ static void all_bodies_can_be_removed_and_come_back(void **state)
         if (order == 0)
             PLAY(p, fe_body_destroy_many(p->world, bodies, count));
         else
-            for (int32_t i = 0; i < count; ++i) PLAY(p, fe_body_destroy(p->world, bodies[order == 1 ? count - 1 - i : (i * 11) % count]));
+            for (int32_t i = 0; i < count; ++i)
+                PLAY(p, fe_body_destroy(p->world, bodies[order == 1 ? count - 1 - i : (i * 11) % count]));
         nothing_is_left(p->world);
         step(p, 1);
         fe_pair_event events[4];
@@ -223,13 +226,15 @@ static void thousands_can_be_created_one_by_one(void **state)
     step(p, 1);
 }
 
-// ---- changes --------------------------------------------------------------------------------------------------------------------------
+// ---- changes
+// --------------------------------------------------------------------------------------------------------------------------
 
 enum { TWINS = 9 }; // pairs of bodies, actors 1 + 2 k and 2 + 2 k
 
 static double apart(const play *p, int32_t k)
 {
-    fe_dvec3 a = body_transform(p->world, p->actors[1 + 2 * k]).position, b = body_transform(p->world, p->actors[2 + 2 * k]).position;
+    fe_dvec3 a = body_transform(p->world, p->actors[1 + 2 * k]).position,
+             b = body_transform(p->world, p->actors[2 + 2 * k]).position;
     return sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y) + (b.z - a.z) * (b.z - a.z));
 }
 
@@ -241,7 +246,8 @@ static double deepest(const play *p, int32_t actor)
     double most = 0.0;
     assert_in_range(count, 1, 8);
     for (int32_t i = 0; i < count; ++i)
-        for (int32_t k = 0; k < contacts[i].point_count; ++k) most = fmax(most, -(double)contacts[i].points[k].separation);
+        for (int32_t k = 0; k < contacts[i].point_count; ++k)
+            most = fmax(most, -(double)contacts[i].points[k].separation);
     return most;
 }
 
@@ -272,8 +278,8 @@ static void a_body_born_inside_another_gets_out(void **state)
             FE_WITHIN(at.y, 0.1, 2.0); // one on the other, thrown up at 3 m/s: 1.5 m and 0.46 m
         }
     }
-    // A metre closes at 3 m/s to a third, then by 9 a second, w / (2 zeta + h w) of the contacts' spring; what stands sleeps after half a
-    // second
+    // A metre closes at 3 m/s to a third, then by 9 a second, w / (2 zeta + h w) of the contacts' spring; what stands
+    // sleeps after half a second
     for (int32_t k = 1; k < p->actor_count; ++k) FE_WITHIN(deepest(p, k), 0.0, 0.05);
 }
 
@@ -317,7 +323,8 @@ static void what_rests_on_a_moving_platform_stays_awake(void **state)
     step(p, 240);
     assert_int_equal(awake(p->world, p->actors[above]), 1);
     assert_int_equal(fe_body_set_awake(p->world, p->actors[above], 0), FE_ERROR_STATE);
-    double offset = body_transform(p->world, p->actors[above]).position.x - body_transform(p->world, p->actors[below]).position.x;
+    double offset =
+        body_transform(p->world, p->actors[above]).position.x - body_transform(p->world, p->actors[below]).position.x;
     FE_NEAR(offset, 0.0, 0.002); // it slips until its speed is that of the platform: v^2 / (2 mu g), far below
     const fe_vec3 still = {0.0f, 0.0f, 0.0f};
     PLAY(p, fe_body_set_linear_velocity(p->world, p->actors[below], &still));
@@ -367,7 +374,8 @@ static void teleports_between_steps(void **state)
     }
 }
 
-// What entered has left: pairs in the order of their events, while bodies are destroyed, disabled and filtered as the events are read
+// What entered has left: pairs in the order of their events, while bodies are destroyed, disabled and filtered as the
+// events are read
 static void events_balance_when_bodies_go_in_the_event_loop(void **state)
 {
     play *p = *state;
@@ -381,7 +389,8 @@ static void events_balance_when_bodies_go_in_the_event_loop(void **state)
         for (int32_t k = 0; k < count; ++k) {
             enters += events[k].kind == FE_EVENT_ENTER;
             exits += events[k].kind == FE_EVENT_EXIT;
-            if ((i + k) % 11 == 3 && fe_body_is_valid(p->world, events[k].body_b)) PLAY(p, fe_body_destroy(p->world, events[k].body_b));
+            if ((i + k) % 11 == 3 && fe_body_is_valid(p->world, events[k].body_b))
+                PLAY(p, fe_body_destroy(p->world, events[k].body_b));
             if ((i + k) % 13 == 5 && fe_body_is_valid(p->world, events[k].body_b))
                 PLAY(p, fe_body_set_enabled(p->world, events[k].body_b, 0));
         }
@@ -391,11 +400,13 @@ static void events_balance_when_bodies_go_in_the_event_loop(void **state)
     int32_t count = fe_world_get_bodies(p->world, bodies, 400), last;
     assert_in_range(count, 1, 300);
     last = fe_world_get_pair_events(p->world, events, sizeof *events, MOST);
-    for (int32_t k = 0; k < last; ++k) enters += events[k].kind == FE_EVENT_ENTER, exits += events[k].kind == FE_EVENT_EXIT;
+    for (int32_t k = 0; k < last; ++k)
+        enters += events[k].kind == FE_EVENT_ENTER, exits += events[k].kind == FE_EVENT_EXIT;
     PLAY(p, fe_body_destroy_many(p->world, bodies, count));
     step(p, 1);
     last = fe_world_get_pair_events(p->world, events, sizeof *events, MOST);
-    for (int32_t k = 0; k < last; ++k) enters += events[k].kind == FE_EVENT_ENTER, exits += events[k].kind == FE_EVENT_EXIT;
+    for (int32_t k = 0; k < last; ++k)
+        enters += events[k].kind == FE_EVENT_ENTER, exits += events[k].kind == FE_EVENT_EXIT;
     assert_in_range(enters, 100, 1000000);
     assert_int_equal(enters, exits);
 }

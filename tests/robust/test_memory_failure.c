@@ -1,5 +1,5 @@
-// test_memory_failure.c - an allocation that fails, whichever it is: the call says FE_ERROR_MEMORY, the world is as before, the call can be
-// repeated, and the run goes on to the end that it would have had.
+// test_memory_failure.c - an allocation that fails, whichever it is: the call says FE_ERROR_MEMORY, the world is as
+// before, the call can be repeated, and the run goes on to the end that it would have had.
 #include "fe_test.h"
 #include "robust/counting_allocator.h"
 #include "support/play.h"
@@ -70,7 +70,8 @@ static void fails_and_goes_on(int64_t count)
     assert_in_range(whole.calls, 50, 2000);
     for (int64_t first = 1; first + count <= whole.calls; first += STRIDE) {
         outcome o = run(first, count);
-        if (o.hash != whole.hash || o.told != whole.told) fail_msg("allocation %d fails, and the run ends otherwise", (int)first);
+        if (o.hash != whole.hash || o.told != whole.told)
+            fail_msg("allocation %d fails, and the run ends otherwise", (int)first);
     }
 }
 

@@ -53,14 +53,16 @@ static void a_settled_bowl_steps_without_allocating(void **state)
     int32_t step = 0, landed = 0;
     for (; step < LONGEST_FALL && landed < POURED; ++step) {
         FE_TRUE(fe_world_step(p.world, p.dt) == FE_OK);
-        while (landed < POURED && fe_body_get_contacts(p.world, bodies[landed], NULL, 0, 0) > 0) ++landed; // the last layer lands last
+        while (landed < POURED && fe_body_get_contacts(p.world, bodies[landed], NULL, 0, 0) > 0)
+            ++landed; // the last layer lands last
     }
     assert_int_equal(landed, POURED);
     for (int32_t i = 0; i < SETTLING_STEPS; ++i) FE_TRUE(fe_world_step(p.world, p.dt) == FE_OK);
     int64_t calls = memory.calls;
     for (int32_t i = 0; i < QUIET_STEPS; ++i) {
         FE_TRUE(fe_world_step(p.world, p.dt) == FE_OK);
-        if (memory.calls != calls) fail_msg("%d allocations in step %d after the bowl has settled", (int)(memory.calls - calls), (int)i);
+        if (memory.calls != calls)
+            fail_msg("%d allocations in step %d after the bowl has settled", (int)(memory.calls - calls), (int)i);
     }
     assert_int_equal(p.errors, 0);
     fe_world_destroy(p.world);
@@ -68,7 +70,8 @@ static void a_settled_bowl_steps_without_allocating(void **state)
     assert_int_equal(memory.wrong, 0);
 }
 
-// Doubling arrays: going from 16 to n records asks log2(n / 16) + 1 times an array; a step reserves some 50 arrays at most
+// Doubling arrays: going from 16 to n records asks log2(n / 16) + 1 times an array; a step reserves some 50 arrays at
+// most
 static void a_growing_world_allocates_as_its_logarithm(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-// Two threads in one world: a second writer, a reader beside a writer, a step or a destruction beside a reader are errors, never a crash.
+// Two threads in one world: a second writer, a reader beside a writer, a step or a destruction beside a reader are
+// errors, never a crash.
 #include "fe_test.h"
 #include "feather.h"
 
@@ -16,7 +17,10 @@ typedef struct shared {
     int32_t readers;
 } shared;
 
-static int32_t is_expected(int32_t result) { return result >= 0 || result == FE_ERROR_BUSY || result == FE_ERROR_STEPPING; }
+static int32_t is_expected(int32_t result)
+{
+    return result >= 0 || result == FE_ERROR_BUSY || result == FE_ERROR_STEPPING;
+}
 
 static void note(shared *s, int32_t result)
 {
@@ -24,7 +28,8 @@ static void note(shared *s, int32_t result)
     if (!is_expected(result)) atomic_store(&s->wrong, result);
 }
 
-// ---- writers ----------------------------------------------------------------------------------------------------------------------
+// ---- writers
+// ----------------------------------------------------------------------------------------------------------------------
 
 static void *write_on(void *argument)
 {
@@ -39,7 +44,8 @@ static void *write_on(void *argument)
         fe_shape shape;
         note(s, fe_shape_create(s->world, body, NULL, &ball, &shape));
         if (i % 16 == 0) note(s, fe_world_step(s->world, 1.0f / 60.0f));
-        while ((result = fe_body_destroy(s->world, body)) == FE_ERROR_BUSY || result == FE_ERROR_STEPPING) note(s, result);
+        while ((result = fe_body_destroy(s->world, body)) == FE_ERROR_BUSY || result == FE_ERROR_STEPPING)
+            note(s, result);
         note(s, result);
     }
     return NULL;
@@ -64,7 +70,8 @@ static void two_writers_never_meet(void **state)
     assert_int_equal(fe_world_destroy(s.world), FE_OK);
 }
 
-// ---- readers beside a step ----------------------------------------------------------------------------------------------------------
+// ---- readers beside a step
+// ----------------------------------------------------------------------------------------------------------
 
 static void *read_on(void *argument)
 {
@@ -94,7 +101,8 @@ static void make_scene(shared *s)
     }
 }
 
-// Either side notices: a step that would run beside a reader is refused and changes nothing; so the world steps as often as steps succeed
+// Either side notices: a step that would run beside a reader is refused and changes nothing; so the world steps as
+// often as steps succeed
 static void a_step_and_readers_exclude_each_other(void **state)
 {
     (void)state;
@@ -117,7 +125,8 @@ static void a_step_and_readers_exclude_each_other(void **state)
     assert_int_equal(fe_world_destroy(s.world), FE_OK);
 }
 
-// ---- destruction -------------------------------------------------------------------------------------------------------------------
+// ---- destruction
+// -------------------------------------------------------------------------------------------------------------------
 
 typedef struct stuck {
     fe_world *world;

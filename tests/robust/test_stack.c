@@ -1,7 +1,8 @@
-// test_stack.c - how much of the caller's stack the library takes: whole plays, each on a painted stack of a thread's own.
+// test_stack.c - how much of the caller's stack the library takes: whole plays, each on a painted stack of a thread's
+// own.
 //
-// 64 KB is what wasm-ld gives a whole program, variables and all, where what overflows is not noticed. So half of it is the bound for
-// whatever is called; what a play and the C library take counts too.
+// 64 KB is what wasm-ld gives a whole program, variables and all, where what overflows is not noticed. So half of it is
+// the bound for whatever is called; what a play and the C library take counts too.
 #include "fe_test.h"
 #include "support/play.h"
 

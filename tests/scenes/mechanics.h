@@ -1,4 +1,5 @@
-// mechanics.h - what a scene's bodies have together: energy, momentum, angular momentum, and how far float arithmetic lets them drift.
+// mechanics.h - what a scene's bodies have together: energy, momentum, angular momentum, and how far float arithmetic
+// lets them drift.
 //
 // Everything in double, in the frame of the scene, from what the API tells. Sums are in the order of the given bodies.
 #ifndef MECHANICS_H
@@ -6,15 +7,15 @@
 
 #include "scenes/scene.h"
 
-// Velocities are floats: momentum keeps 1e-5 of what the bodies carry through many collisions, angular momentum 1e-4 (arms stay while the
-// bodies shift by less than half a millimetre in a step)
+// Velocities are floats: momentum keeps 1e-5 of what the bodies carry through many collisions, angular momentum 1e-4
+// (arms stay while the bodies shift by less than half a millimetre in a step)
 #define MOMENTUM_DRIFT 1e-5
 #define ANGULAR_DRIFT 1e-4
 // of the energy: what no step may gain
 #define ENERGY_GAIN 1e-5
 
-// A law that the engine does not hold yet in this scene (CHANGELOG.md, "Known limits"): by how much it is missed is printed, and the case
-// counts as skipped, not as passed. A gross miss fails all the same.
+// A law that the engine does not hold yet in this scene (CHANGELOG.md, "Known limits"): by how much it is missed is
+// printed, and the case counts as skipped, not as passed. A gross miss fails all the same.
 typedef struct shortfall {
     const char *what;
     double worst; // value over its bound, 1 and less: held
@@ -55,7 +56,8 @@ static inline vec own_angular_momentum(const scene *s, fe_body body, const fe_ma
     return sum;
 }
 
-// The scheme v += h a; x += h v keeps  v^2/2 - a.x + h a.v/2  bit by bit of its flight: that is the energy here (gravity only).
+// The scheme v += h a; x += h v keeps  v^2/2 - a.x + h a.v/2  bit by bit of its flight: that is the energy here
+// (gravity only).
 static inline totals totals_of(const scene *s, const fe_body *bodies, int count)
 {
     totals t = {0};
@@ -79,7 +81,8 @@ static inline totals totals_of(const scene *s, const fe_body *bodies, int count)
     return t;
 }
 
-// ---- random scenes ----------------------------------------------------------------------------------------------------------------
+// ---- random scenes
+// ----------------------------------------------------------------------------------------------------------------
 
 typedef struct dice {
     uint64_t state;
@@ -120,7 +123,8 @@ static inline fe_geometry any_form(dice *d, double size)
     }
 }
 
-// ---- what the machine allows ------------------------------------------------------------------------------------------------------
+// ---- what the machine allows
+// ------------------------------------------------------------------------------------------------------
 
 // Builds with sanitizers are some ten times slower: they get smaller scenes.
 #if defined(FE_SANITIZED) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

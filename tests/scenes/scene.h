@@ -1,8 +1,9 @@
 // scene.h - what the tests of scenes share: building a world, moving it on, reading it.
 //
-// A test describes its scene with +y up, in the frame of the scene. The scene's `turn` brings that frame into the world, so that one test
-// runs with gravity along any axis: an engine that knows what is up would show. All that comes in and goes out here is in the scene's frame
-// and in double. Bodies do not sleep unless a test lets them: a body that creeps must be seen to creep.
+// A test describes its scene with +y up, in the frame of the scene. The scene's `turn` brings that frame into the
+// world, so that one test runs with gravity along any axis: an engine that knows what is up would show. All that comes
+// in and goes out here is in the scene's frame and in double. Bodies do not sleep unless a test lets them: a body that
+// creeps must be seen to creep.
 //
 //   static void ball_falls(void **state) { scene s = scene_begin(state); ... scene_end(&s); }
 //   const struct CMUnitTest tests[] = {EVERY_WAY_UP(ball_falls), WITH_4_SUBSTEPS(ball_falls)};
@@ -24,7 +25,8 @@
 #define WATER 1000.0f // kg/m3
 #define UNTURNED ((fe_quat){0, 0, 0, 1})
 
-// ---- vectors ----------------------------------------------------------------------------------------------------------------------
+// ---- vectors
+// ----------------------------------------------------------------------------------------------------------------------
 
 typedef fe_dvec3 vec;
 
@@ -35,7 +37,10 @@ static inline vec plus(vec a, vec b) { return v3(a.x + b.x, a.y + b.y, a.z + b.z
 static inline vec minus(vec a, vec b) { return v3(a.x - b.x, a.y - b.y, a.z - b.z); }
 static inline vec times(double k, vec a) { return v3(k * a.x, k * a.y, k * a.z); }
 static inline double dot(vec a, vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static inline vec cross(vec a, vec b) { return v3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); }
+static inline vec cross(vec a, vec b)
+{
+    return v3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
 static inline double length(vec a) { return sqrt(dot(a, a)); }
 static inline double between(vec a, vec b) { return atan2(length(cross(a, b)), dot(a, b)); } // angle, rad
 
@@ -67,7 +72,8 @@ static inline fe_quat turned(vec axis, double angle)
     return (fe_quat){(float)(k * axis.x), (float)(k * axis.y), (float)(k * axis.z), (float)cos(angle / 2)};
 }
 
-// ---- worlds -----------------------------------------------------------------------------------------------------------------------
+// ---- worlds
+// -----------------------------------------------------------------------------------------------------------------------
 
 typedef struct setup {
     fe_quat turn;
@@ -96,9 +102,9 @@ SETUP askew = {{0.35f, -0.61f, 0.27f, 0.66f}, 8};
     }
 #define TEST(f) TEST_WITH(f, "", upright)
 #define WITH_4_SUBSTEPS(f) TEST_WITH(f, ", 4 substeps", upright_4)
-#define EVERY_WAY_UP(f)                                                                                                    \
-    TEST(f), TEST_WITH(f, ", z up", up_along_z), TEST_WITH(f, ", x up", up_along_x), TEST_WITH(f, ", -y up", upside_down), \
-        TEST_WITH(f, ", askew", askew)
+#define EVERY_WAY_UP(f)                                                              \
+    TEST(f), TEST_WITH(f, ", z up", up_along_z), TEST_WITH(f, ", x up", up_along_x), \
+        TEST_WITH(f, ", -y up", upside_down), TEST_WITH(f, ", askew", askew)
 
 // a call that must succeed
 #define MUST(call) FE_TRUE((call) >= 0)
@@ -112,8 +118,8 @@ static inline void set_gravity(scene *s, vec gravity)
     MUST(fe_world_set_gravity(s->world, &g));
 }
 
-// A world at 60 Hz with 9.81 m/s2 downwards. `state` is cmocka's, from one of the macros above; NULL, or pointing to NULL: upright, 8
-// substeps.
+// A world at 60 Hz with 9.81 m/s2 downwards. `state` is cmocka's, from one of the macros above; NULL, or pointing to
+// NULL: upright, 8 substeps.
 static inline scene scene_begin(void **state)
 {
     const setup *how = state && *state ? (const setup *)*state : &upright;
@@ -133,7 +139,8 @@ static inline void run(scene *s, int steps)
     for (int i = 0; i < steps; ++i) MUST(fe_world_step(s->world, DT));
 }
 
-// ---- bodies -----------------------------------------------------------------------------------------------------------------------
+// ---- bodies
+// -----------------------------------------------------------------------------------------------------------------------
 
 static inline fe_geometry sphere(double radius)
 {
@@ -164,8 +171,8 @@ static inline fe_material bouncy(double mu, double restitution)
     return (fe_material)SURFACE((float)mu, (float)mu, (float)restitution, 0, 0);
 }
 
-static inline fe_body add_body(scene *s, int32_t type, fe_geometry form, vec position, fe_quat rotation, fe_material material,
-                               float density)
+static inline fe_body add_body(scene *s, int32_t type, fe_geometry form, vec position, fe_quat rotation,
+                               fe_material material, float density)
 {
     fe_body_def body_def;
     fe_shape_def shape_def;
@@ -184,7 +191,8 @@ static inline fe_body add_body(scene *s, int32_t type, fe_geometry form, vec pos
     return body;
 }
 
-static inline fe_body add_dynamic(scene *s, fe_geometry form, vec position, fe_quat rotation, fe_material material, float density)
+static inline fe_body add_dynamic(scene *s, fe_geometry form, vec position, fe_quat rotation, fe_material material,
+                                  float density)
 {
     return add_body(s, FE_BODY_DYNAMIC, form, position, rotation, material, density);
 }
@@ -209,7 +217,10 @@ static inline fe_body add_ground(scene *s, fe_material material) { return add_pl
 static inline vec slope_normal(double angle) { return v3(-sin(angle), cos(angle), 0); }
 static inline vec downhill(double angle) { return v3(-cos(angle), -sin(angle), 0); }
 static inline fe_quat slope_turn(double angle) { return turned(v3(0, 0, 1), angle); }
-static inline fe_body add_slope(scene *s, double angle, fe_material material) { return add_plane(s, slope_normal(angle), 0, material); }
+static inline fe_body add_slope(scene *s, double angle, fe_material material)
+{
+    return add_plane(s, slope_normal(angle), 0, material);
+}
 
 static inline void set_velocity(scene *s, fe_body body, vec linear, vec angular)
 {
@@ -238,9 +249,13 @@ static inline void add_torque(scene *s, fe_body body, vec torque)
     MUST(fe_body_add_torque(s->world, body, &t));
 }
 
-// ---- reading ----------------------------------------------------------------------------------------------------------------------
+// ---- reading
+// ----------------------------------------------------------------------------------------------------------------------
 
-static inline vec position(const scene *s, fe_body body) { return from_world(s, body_transform(s->world, body).position); }
+static inline vec position(const scene *s, fe_body body)
+{
+    return from_world(s, body_transform(s->world, body).position);
+}
 
 // where the body's own axis `local` points to
 static inline vec axis_of(const scene *s, fe_body body, vec local)
@@ -251,8 +266,14 @@ static inline vec axis_of(const scene *s, fe_body body, vec local)
 // between the body's y axis and up, rad
 static inline double tilt(const scene *s, fe_body body) { return between(axis_of(s, body, v3(0, 1, 0)), v3(0, 1, 0)); }
 
-static inline vec velocity(const scene *s, fe_body body) { return from_world(s, widen(body_linear_velocity(s->world, body))); }
-static inline vec spin(const scene *s, fe_body body) { return from_world(s, widen(body_angular_velocity(s->world, body))); }
+static inline vec velocity(const scene *s, fe_body body)
+{
+    return from_world(s, widen(body_linear_velocity(s->world, body)));
+}
+static inline vec spin(const scene *s, fe_body body)
+{
+    return from_world(s, widen(body_angular_velocity(s->world, body)));
+}
 
 static inline double mass_of(const scene *s, fe_body body)
 {
@@ -283,7 +304,8 @@ static inline double normal_impulse(const scene *s, fe_body a, fe_body b)
     return sum;
 }
 
-// ---- what to expect ---------------------------------------------------------------------------------------------------------------
+// ---- what to expect
+// ---------------------------------------------------------------------------------------------------------------
 
 // Relative error of a velocity after n additions in float: half a unit in the last place each, 3e-8 on average.
 static inline double rounding(double additions) { return fmax(1e-6, 3e-8 * additions); }

@@ -14,8 +14,8 @@ static inline double level(double x, double z)
     return 0.0;
 }
 
-// A heightfield of `cells` x `cells`, each `cell` m wide, whose first sample stands at (x, z) and whose heights are those of `at` in the
-// scene
+// A heightfield of `cells` x `cells`, each `cell` m wide, whose first sample stands at (x, z) and whose heights are
+// those of `at` in the scene
 static inline fe_asset make_field(scene *s, int cells, double cell, double x, double z, height_at *at)
 {
     int n = cells + 1;
@@ -38,7 +38,8 @@ static inline fe_body place_field(scene *s, fe_asset asset, vec corner, fe_quat 
     return add_static(s, form, corner, rotation, material);
 }
 
-static inline fe_body add_field(scene *s, int cells, double cell, double x, double z, height_at *at, fe_material material)
+static inline fe_body add_field(scene *s, int cells, double cell, double x, double z, height_at *at,
+                                fe_material material)
 {
     return place_field(s, make_field(s, cells, cell, x, z, at), v3(x, 0, z), UNTURNED, material);
 }

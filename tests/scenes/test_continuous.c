@@ -18,9 +18,11 @@ static fe_geometry fast_form(dice *d, int kind)
     return box(x, y, 0.1);
 }
 
-// ---- walls --------------------------------------------------------------------------------------------------------------------------
+// ---- walls
+// --------------------------------------------------------------------------------------------------------------------------
 
-// The middle of a wall, its normal, and a body that comes from where the normal points. The wall may go towards it at some speed.
+// The middle of a wall, its normal, and a body that comes from where the normal points. The wall may go towards it at
+// some speed.
 typedef struct shot {
     fe_body body, wall;
     vec centre, normal, velocity;
@@ -33,9 +35,10 @@ static shot add_shot(scene *s, dice *d, vec place, int kind, double speed, doubl
     fe_quat attitude = any_rotation(d);
     shot a = {.centre = place, .normal = rotate(attitude, v3(0, 0, 1)), .speed = speed + wall_speed};
     double half = uniform(d, 0.005, 0.1), restitution = uniform(d, 0, 1), mu = uniform(d, 0, 1);
-    a.wall = add_body(s, wall_speed > 0 ? FE_BODY_KINEMATIC : FE_BODY_STATIC, box(30, 30, half), place, attitude, bouncy(mu, restitution),
-                      WATER);
-    double angle = uniform(d, 0, 70 * DEGREES), around = uniform(d, 0, 2 * PI), gone = uniform(d, 0, 1) * (speed + wall_speed) * STEP;
+    a.wall = add_body(s, wall_speed > 0 ? FE_BODY_KINEMATIC : FE_BODY_STATIC, box(30, 30, half), place, attitude,
+                      bouncy(mu, restitution), WATER);
+    double angle = uniform(d, 0, 70 * DEGREES), around = uniform(d, 0, 2 * PI),
+           gone = uniform(d, 0, 1) * (speed + wall_speed) * STEP;
     vec way = rotate(attitude, v3(sin(angle) * cos(around), sin(angle) * sin(around), -cos(angle)));
     vec aim = plus(place, rotate(attitude, v3(uniform(d, -2, 2), uniform(d, -2, 2), 0)));
     vec from = minus(aim, times((0.8 + half) / cos(angle) + gone, way));
@@ -84,7 +87,8 @@ static void spheres_stay_before_walls_that_move(void **state) { shoot(state, 0, 
 static void capsules_stay_before_walls_that_move(void **state) { shoot(state, 1, 1); }
 static void boxes_stay_before_walls_that_move(void **state) { shoot(state, 2, 1); }
 
-// A sphere, a capsule or a box of half a metre that comes down with 180 m/s on a wall 20 cm thick, spinning: three metres a step
+// A sphere, a capsule or a box of half a metre that comes down with 180 m/s on a wall 20 cm thick, spinning: three
+// metres a step
 static void a_thin_wall_stops_what_tumbles(void **state)
 {
     for (int k = 0; k < 6; ++k) {
@@ -101,8 +105,8 @@ static void a_thin_wall_stops_what_tumbles(void **state)
     }
 }
 
-// A stick of 4 m falls with 100 m/s, spinning, across a wall 25 cm thin and a metre high: its middle is never in the wall, and it does not
-// change sides below the top.
+// A stick of 4 m falls with 100 m/s, spinning, across a wall 25 cm thin and a metre high: its middle is never in the
+// wall, and it does not change sides below the top.
 static void a_spinning_stick_stays_above_a_wall(void **state)
 {
     enum { WALL_STEPS = 60 };
@@ -174,10 +178,12 @@ static void fast_bodies_stay_above_hills(void **state)
     for (int k = 0; k < count; ++k) {
         vec place = v3(200.0 * k, 0, 0);
         place_field(&s, asset, plus(place, v3(-50, 0, -50)), UNTURNED, friction(0.5));
-        double speed = pow(10, uniform(&d, 1, 3)), angle = uniform(&d, 0, 60) * DEGREES, around = uniform(&d, 0, 2 * PI);
+        double speed = pow(10, uniform(&d, 1, 3)), angle = uniform(&d, 0, 60) * DEGREES,
+               around = uniform(&d, 0, 2 * PI);
         vec way = v3(sin(angle) * cos(around), -cos(angle), sin(angle) * sin(around));
         double back = (1.2 + uniform(&d, 0, 1) * speed * STEP) / cos(angle);
-        bodies[k] = add_dynamic(&s, fast_form(&d, k % 3), minus(place, times(back, way)), any_rotation(&d), friction(0.5), WATER);
+        bodies[k] = add_dynamic(&s, fast_form(&d, k % 3), minus(place, times(back, way)), any_rotation(&d),
+                                friction(0.5), WATER);
         set_velocity(&s, bodies[k], times(speed, way), somewhere(&d, 20));
     }
     for (int step = 0; step < 20; ++step) {
@@ -212,7 +218,8 @@ static void bullets_stay_before_moving_bodies(void **state)
     for (int step = 0; step < 15; ++step) {
         run(&s, 1);
         for (int k = 0; k < count; ++k) {
-            vec from = minus(position(&s, bullets[k]), position(&s, plates[k])), normal = axis_of(&s, plates[k], v3(1, 0, 0));
+            vec from = minus(position(&s, bullets[k]), position(&s, plates[k])),
+                normal = axis_of(&s, plates[k], v3(1, 0, 0));
             double height = dot(from, normal);
             FE_TRUE(height > 0 || length(minus(from, times(height, normal))) > 5);
         }
@@ -222,7 +229,8 @@ static void bullets_stay_before_moving_bodies(void **state)
     scene_end(&s);
 }
 
-// ---- rooms --------------------------------------------------------------------------------------------------------------------------
+// ---- rooms
+// --------------------------------------------------------------------------------------------------------------------------
 static void add_room(scene *s, double half, double thick, fe_material material)
 {
     for (int k = 0; k < 6; ++k) {
@@ -239,8 +247,8 @@ static int is_inside(const scene *s, fe_body body, double half)
     return fabs(p.x) < half && fabs(p.y) < half && fabs(p.z) < half;
 }
 
-// Elastic balls fly through a room of 10 m at up to 300 m/s, half of it a step, into its edges and corners too: all stay in, and keep their
-// energy within 2 %.
+// Elastic balls fly through a room of 10 m at up to 300 m/s, half of it a step, into its edges and corners too: all
+// stay in, and keep their energy within 2 %.
 static void balls_in_a_room_keep_their_energy(void **state)
 {
     enum { MOST = 200 };
@@ -263,8 +271,8 @@ static void balls_in_a_room_keep_their_energy(void **state)
     }
 }
 
-// At the floor of the room already, and on the way past its edge before the wall is reached: floor first, then wall, each turns the ball
-// straight back.
+// At the floor of the room already, and on the way past its edge before the wall is reached: floor first, then wall,
+// each turns the ball straight back.
 static void one_wall_of_a_corner_follows_the_other(void **state)
 {
     dice d = {12};
@@ -273,8 +281,8 @@ static void one_wall_of_a_corner_follows_the_other(void **state)
         set_gravity(&s, v3(0, 0, 0));
         add_room(&s, 5, 0.05, bouncy(0, 1));
         vec v = v3(uniform(&d, -150, 150), uniform(&d, -150, -50), uniform(&d, 100, 200));
-        fe_body ball =
-            add_dynamic(&s, sphere(0.2), v3(0, -4.8 + uniform(&d, 0, 0.002), uniform(&d, 3.5, 4.5)), UNTURNED, bouncy(0, 1), WATER);
+        fe_body ball = add_dynamic(&s, sphere(0.2), v3(0, -4.8 + uniform(&d, 0, 0.002), uniform(&d, 3.5, 4.5)),
+                                   UNTURNED, bouncy(0, 1), WATER);
         set_velocity(&s, ball, v, v3(0, 0, 0));
         run(&s, 3);
         vec now = velocity(&s, ball);
@@ -308,7 +316,8 @@ static void a_crowd_at_high_speed_stays_in_its_room(void **state)
     scene_end(&s);
 }
 
-// A ball at 100 m/s against a wall: elastic, it is on its way back in the same or the next step with 98 % of its energy and more.
+// A ball at 100 m/s against a wall: elastic, it is on its way back in the same or the next step with 98 % of its energy
+// and more.
 static void an_elastic_impact_loses_no_time(void **state)
 {
     dice d = {3};
@@ -337,8 +346,8 @@ static void gravity_gives_no_more_than_the_way_gone(void **state)
     for (int k = 0; k < cases(50, 400); ++k) {
         scene s = scene_begin(state);
         add_static(&s, box(10, 0.02, 10), v3(0, -0.02, 0), UNTURNED, bouncy(0, 1));
-        fe_body ball =
-            add_dynamic(&s, k % 2 ? box(0.1, 0.1, 0.1) : sphere(0.1), v3(0, 6 + uniform(&d, 0, 3), 0), UNTURNED, bouncy(0, 1), WATER);
+        fe_body ball = add_dynamic(&s, k % 2 ? box(0.1, 0.1, 0.1) : sphere(0.1), v3(0, 6 + uniform(&d, 0, 3), 0),
+                                   UNTURNED, bouncy(0, 1), WATER);
         set_velocity(&s, ball, v3(0, -150, 0), v3(0, 0, 0));
         double begin = totals_of(&s, &ball, 1).energy;
         for (int step = 0; step < 20; ++step) {
@@ -349,8 +358,8 @@ static void gravity_gives_no_more_than_the_way_gone(void **state)
     }
 }
 
-// Bodies that tumble into a wall off its normal, with any friction and restitution: what hits something that stands has no more energy
-// after it. Free flight of what spins by a radian a substep may gain a thousandth.
+// Bodies that tumble into a wall off its normal, with any friction and restitution: what hits something that stands has
+// no more energy after it. Free flight of what spins by a radian a substep may gain a thousandth.
 static void a_wall_gives_no_energy(void **state)
 {
     dice d = {13};
@@ -371,8 +380,8 @@ static void a_wall_gives_no_energy(void **state)
     }
 }
 
-// Without friction a ball that grazes a thin wall at 5 degrees and 200 m/s goes on along it at the same speed: of the way along the wall
-// nothing is lost, in no step.
+// Without friction a ball that grazes a thin wall at 5 degrees and 200 m/s goes on along it at the same speed: of the
+// way along the wall nothing is lost, in no step.
 static void a_glancing_ball_goes_on_along_the_wall(void **state)
 {
     dice d = {5};
@@ -380,7 +389,8 @@ static void a_glancing_ball_goes_on_along_the_wall(void **state)
         scene s = scene_begin(state);
         set_gravity(&s, v3(0, 0, 0));
         add_static(&s, box(100, 0.02, 10), v3(0, -0.02, 0), UNTURNED, friction(0));
-        fe_body ball = add_dynamic(&s, sphere(0.1), v3(-90, 0.1 + uniform(&d, 0, 0.5), 0), UNTURNED, friction(0), WATER);
+        fe_body ball =
+            add_dynamic(&s, sphere(0.1), v3(-90, 0.1 + uniform(&d, 0, 0.5), 0), UNTURNED, friction(0), WATER);
         double vx = 200 * cos(5 * DEGREES), vy = -200 * sin(5 * DEGREES);
         set_velocity(&s, ball, v3(vx, vy, 0), v3(0, 0, 0));
         double x = -90;
@@ -403,8 +413,8 @@ static void wedges_hold(void **state)
         set_gravity(&s, v3(0, 0, 0));
         for (int side = -1; side <= 1; side += 2) {
             vec along = v3(cos(angle), side * sin(angle), 0), out = v3(sin(angle), -side * cos(angle), 0);
-            add_static(&s, box(30, 0.02, 30), minus(times(30, along), times(0.02, out)), turned(v3(0, 0, 1), side * angle),
-                       bouncy(0.3, 0.3));
+            add_static(&s, box(30, 0.02, 30), minus(times(30, along), times(0.02, out)),
+                       turned(v3(0, 0, 1), side * angle), bouncy(0.3, 0.3));
         }
         fe_body body = add_dynamic(&s, fast_form(&d, k % 3), v3(8, 0, 0), any_rotation(&d), bouncy(0.3, 0.3), WATER);
         set_velocity(&s, body, times(speed, v3(-1, uniform(&d, -0.2, 0.2), uniform(&d, -0.1, 0.1))), somewhere(&d, 10));
@@ -419,7 +429,8 @@ static void wedges_hold(void **state)
     }
 }
 
-// ---- what only passes by --------------------------------------------------------------------------------------------------------------
+// ---- what only passes by
+// --------------------------------------------------------------------------------------------------------------
 
 static void pass_by(const scene *s, const scene *bare, fe_body body, fe_body same)
 {
@@ -428,15 +439,16 @@ static void pass_by(const scene *s, const scene *bare, fe_body body, fe_body sam
     FE_TRUE(memcmp(&a, &b, sizeof a) == 0 && memcmp(&v, &w, sizeof v) == 0);
 }
 
-// Sticks that spin as fast as 100 rad/s past a wall, their tips 1 cm and more before it, and bodies that fly along it: bit for bit as if
-// there were none.
+// Sticks that spin as fast as 100 rad/s past a wall, their tips 1 cm and more before it, and bodies that fly along it:
+// bit for bit as if there were none.
 static void what_passes_by_is_left_alone(void **state)
 {
     dice d = {8};
     for (int k = 0; k < cases(60, 400); ++k) {
         scene s = scene_begin(state), bare = scene_begin(state);
         fe_geometry form = k % 2 ? box(1, 0.05, 0.05) : capsule(0.9, 0.05);
-        double reach = k % 2 ? sqrt(1 + 2 * 0.05 * 0.05) : 0.95, speed = uniform(&d, 0, 200), spinning = uniform(&d, 10, 100);
+        double reach = k % 2 ? sqrt(1 + 2 * 0.05 * 0.05) : 0.95, speed = uniform(&d, 0, 200),
+               spinning = uniform(&d, 10, 100);
         fe_quat attitude = any_rotation(&d);
         vec w = somewhere(&d, 1), place = v3(-50, reach + 0.06 + uniform(&d, 0, 0.1), 0);
         fe_body bodies[2];
@@ -457,8 +469,8 @@ static void what_passes_by_is_left_alone(void **state)
     }
 }
 
-// Within one step a ball comes down at 45 degrees beside a small roof, bounces on the ground under it, and comes up on its other side. The
-// straight line from where the step begins to where it ends cuts the roof; the way does not.
+// Within one step a ball comes down at 45 degrees beside a small roof, bounces on the ground under it, and comes up on
+// its other side. The straight line from where the step begins to where it ends cuts the roof; the way does not.
 static void a_bounce_below_a_roof_is_no_hit(void **state)
 {
     scene s = scene_begin(state), bare = scene_begin(state);
@@ -481,7 +493,8 @@ static void a_bounce_below_a_roof_is_no_hit(void **state)
     scene_end(&bare);
 }
 
-// ---- triggers and events --------------------------------------------------------------------------------------------------------------
+// ---- triggers and events
+// --------------------------------------------------------------------------------------------------------------
 static int told(const scene *s, fe_body a, fe_body b, int kind)
 {
     fe_pair_event events[64];
@@ -494,8 +507,8 @@ static int told(const scene *s, fe_body a, fe_body b, int kind)
     return found;
 }
 
-// A ball at 10 to 300 m/s through a trigger 5 cm thin, standing or moving, or a trigger that flies over a resting ball: one enter, then one
-// exit.
+// A ball at 10 to 300 m/s through a trigger 5 cm thin, standing or moving, or a trigger that flies over a resting ball:
+// one enter, then one exit.
 static void thin_triggers_tell_who_went_through(void **state)
 {
     dice d = {53};
@@ -503,13 +516,14 @@ static void thin_triggers_tell_who_went_through(void **state)
         scene s = scene_begin(state);
         set_gravity(&s, v3(0, 0, 0));
         double speed = uniform(&d, 10, 300), part = k % 3 == 0 ? 0 : k % 3 == 1 ? 1 : 0.5;
-        fe_body zone =
-            add_body(&s, part > 0 ? FE_BODY_KINEMATIC : FE_BODY_STATIC, box(0.025, 5, 5), v3(0, 0, 0), UNTURNED, friction(0), WATER);
+        fe_body zone = add_body(&s, part > 0 ? FE_BODY_KINEMATIC : FE_BODY_STATIC, box(0.025, 5, 5), v3(0, 0, 0),
+                                UNTURNED, friction(0), WATER);
         fe_shape shape;
         MUST(fe_body_get_shapes(s.world, zone, &shape, 1));
         MUST(fe_shape_set_trigger(s.world, shape, 1));
         MUST(fe_shape_set_events(s.world, shape, FE_SHAPE_EVENTS_TOUCH));
-        fe_body ball = add_dynamic(&s, sphere(0.25), v3(2 + uniform(&d, 0, 1) * speed * STEP, 0, 0), UNTURNED, friction(0), WATER);
+        fe_body ball =
+            add_dynamic(&s, sphere(0.25), v3(2 + uniform(&d, 0, 1) * speed * STEP, 0, 0), UNTURNED, friction(0), WATER);
         set_velocity(&s, ball, v3(-(1 - part) * speed, 0, 0), v3(0, 0, 0));
         if (part > 0) set_velocity(&s, zone, v3(part * speed, 0, 0), v3(0, 0, 0));
         int enters = 0, exits = 0;
@@ -525,8 +539,8 @@ static void thin_triggers_tell_who_went_through(void **state)
     }
 }
 
-// What continuous collision stops, tells its impact: an enter, and a first hit with the speed of what touches. A ball does not turn: with
-// the speed it came with.
+// What continuous collision stops, tells its impact: an enter, and a first hit with the speed of what touches. A ball
+// does not turn: with the speed it came with.
 static void a_stopped_body_tells_its_impact(void **state)
 {
     dice d = {60};
@@ -535,8 +549,8 @@ static void a_stopped_body_tells_its_impact(void **state)
         set_gravity(&s, v3(0, 0, 0));
         double speed = pow(10, uniform(&d, 1.5, 3));
         fe_body wall = add_static(&s, box(0.02, 10, 10), v3(0, 0, 0), UNTURNED, friction(0.3));
-        fe_body ball =
-            add_dynamic(&s, fast_form(&d, k % 3), v3(0.8 + uniform(&d, 0, 1) * speed * STEP, 0, 0), any_rotation(&d), friction(0.3), WATER);
+        fe_body ball = add_dynamic(&s, fast_form(&d, k % 3), v3(0.8 + uniform(&d, 0, 1) * speed * STEP, 0, 0),
+                                   any_rotation(&d), friction(0.3), WATER);
         fe_shape shape;
         MUST(fe_body_get_shapes(s.world, ball, &shape, 1));
         MUST(fe_shape_set_events(s.world, shape, FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_HIT));

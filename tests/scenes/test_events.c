@@ -1,4 +1,5 @@
-// Events: enter and exit balance whatever ends a touch, triggers see everything, nobody passes unseen, and the order is that of creation.
+// Events: enter and exit balance whatever ends a touch, triggers see everything, nobody passes unseen, and the order is
+// that of creation.
 #include "scenes/mechanics.h"
 
 #include <string.h>
@@ -58,14 +59,16 @@ static void place(scene *s, fe_body body, vec at)
 
 static fe_geometry cube(void) { return box(0.5, 0.5, 0.5); }
 
-// ---- balance ----------------------------------------------------------------------------------------------------------------------
+// ---- balance
+// ----------------------------------------------------------------------------------------------------------------------
 
 // one enter when it lands, stays only while it lies and only if asked for, one exit when it is gone
 static void a_landing_enters_stays_and_exits(void **state)
 {
     for (int wants_stay = 0; wants_stay < 2; ++wants_stay) {
         scene s = scene_begin(state);
-        fe_body ground = add_ground(&s, friction(0.6)), body = add_dynamic(&s, cube(), v3(0, 1, 0), UNTURNED, friction(0.6), WATER);
+        fe_body ground = add_ground(&s, friction(0.6)),
+                body = add_dynamic(&s, cube(), v3(0, 1, 0), UNTURNED, friction(0.6), WATER);
         if (wants_stay) ask(&s, body, FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_STAY);
         int enters = 0, stays = 0, exits = 0, steps_after = 0;
         for (int i = 0; i < 120; ++i) {
@@ -94,7 +97,8 @@ static void without_asking_nothing_is_told(void **state)
 {
     scene s = scene_begin(state);
     ask(&s, add_ground(&s, friction(0.6)), FE_SHAPE_EVENTS_NONE);
-    fe_body body = ask(&s, add_dynamic(&s, cube(), v3(0, 0.6, 0), UNTURNED, friction(0.6), WATER), FE_SHAPE_EVENTS_NONE);
+    fe_body body =
+        ask(&s, add_dynamic(&s, cube(), v3(0, 0.6, 0), UNTURNED, friction(0.6), WATER), FE_SHAPE_EVENTS_NONE);
     for (int i = 0; i < 60; ++i) {
         run(&s, 1);
         FE_TRUE(events_of(&s).count == 0);
@@ -105,7 +109,17 @@ static void without_asking_nothing_is_told(void **state)
     scene_end(&s);
 }
 
-typedef enum ending { DESTROY, DESTROY_SHAPE, DISABLE, REFILTER, IGNORE, TELEPORT, TYPE, MAKE_STATIC_BOTH, ENDINGS } ending;
+typedef enum ending {
+    DESTROY,
+    DESTROY_SHAPE,
+    DISABLE,
+    REFILTER,
+    IGNORE,
+    TELEPORT,
+    TYPE,
+    MAKE_STATIC_BOTH,
+    ENDINGS
+} ending;
 
 static void end_touch(scene *s, ending how, fe_body body, fe_body other)
 {
@@ -148,7 +162,8 @@ static void every_end_of_a_touch_sends_one_exit(void **state)
                 scene s = scene_begin(state);
                 fe_body ground = add_static(&s, box(5, 0.5, 5), v3(0, -0.5, 0), UNTURNED, friction(0.6));
                 fe_body zone = make_trigger(&s, add_static(&s, box(2, 2, 2), v3(0, 1, 0), UNTURNED, friction(0.6)));
-                fe_body body = add_dynamic(&s, cube(), v3(0, 0.5, 0), UNTURNED, friction(0.6), WATER), other = trigger ? zone : ground;
+                fe_body body = add_dynamic(&s, cube(), v3(0, 0.5, 0), UNTURNED, friction(0.6), WATER),
+                        other = trigger ? zone : ground;
                 MUST(fe_body_set_sleep_allowed(s.world, body, 1));
                 int balance = 0;
                 for (int i = 0; i < (asleep ? 120 : 10); ++i) {
@@ -165,7 +180,8 @@ static void every_end_of_a_touch_sends_one_exit(void **state)
                 }
                 end_touch(&s, (ending)how, body, other);
                 run(&s, 1);
-                if (told(&s, other, body, FE_EVENT_EXIT) != 1) print_error("ending %d, asleep %d, trigger %d\n", how, asleep, trigger);
+                if (told(&s, other, body, FE_EVENT_EXIT) != 1)
+                    print_error("ending %d, asleep %d, trigger %d\n", how, asleep, trigger);
                 FE_TRUE(told(&s, other, body, FE_EVENT_EXIT) == 1);
                 for (int i = 0; i < 5; ++i) {
                     run(&s, 1);
@@ -253,7 +269,8 @@ static void enters_and_exits_balance_through_a_random_life(void **state)
     scene_end(&s);
 }
 
-// ---- within one step --------------------------------------------------------------------------------------------------------------
+// ---- within one step
+// --------------------------------------------------------------------------------------------------------------
 
 // A ball that hits and leaves within one step had an impulse in it: it enters, and exits in the next.
 static void a_bounce_within_one_step_enters_and_exits(void **state)
@@ -276,7 +293,8 @@ static void a_bounce_within_one_step_enters_and_exits(void **state)
     }
 }
 
-// ---- triggers ---------------------------------------------------------------------------------------------------------------------
+// ---- triggers
+// ---------------------------------------------------------------------------------------------------------------------
 
 // a trigger box 4 m high over y = 0..4, a body thrown or carried through it: one enter, one exit, no push
 static void a_trigger_sees_dynamic_and_kinematic_bodies_and_pushes_nothing(void **state)
@@ -286,7 +304,8 @@ static void a_trigger_sees_dynamic_and_kinematic_bodies_and_pushes_nothing(void 
         for (int i = 0; i < 2; ++i) {
             scene s = scene_begin(state);
             set_gravity(&s, v3(0, 0, 0));
-            fe_body zone = make_trigger(&s, add_body(&s, trigger_type, box(1, 1, 1), v3(0, 0, 0), UNTURNED, friction(0.6), WATER));
+            fe_body zone =
+                make_trigger(&s, add_body(&s, trigger_type, box(1, 1, 1), v3(0, 0, 0), UNTURNED, friction(0.6), WATER));
             fe_body body = add_body(&s, types[i], sphere(0.25), v3(-3, 0.3, 0), UNTURNED, friction(0.6), WATER);
             set_velocity(&s, body, v3(4, 0, 0), v3(0, 0, 0));
             int enters = 0, exits = 0;
@@ -330,7 +349,8 @@ static void a_trigger_sees_sleepers_and_lets_them_sleep(void **state)
         enters += told(&s, zone, sleeper, FE_EVENT_ENTER);
     }
     FE_TRUE(enters == 1);
-    fe_body probe = make_trigger(&s, add_body(&s, FE_BODY_KINEMATIC, sphere(0.5), v3(-4, 0.5, 0), UNTURNED, friction(0.6), WATER));
+    fe_body probe =
+        make_trigger(&s, add_body(&s, FE_BODY_KINEMATIC, sphere(0.5), v3(-4, 0.5, 0), UNTURNED, friction(0.6), WATER));
     set_velocity(&s, probe, v3(4, 0, 0), v3(0, 0, 0));
     int probed = 0, left = 0;
     for (int i = 0; i < 120; ++i) {
@@ -360,7 +380,8 @@ static void triggers_see_triggers_that_move(void **state)
     make_trigger(&s, add_static(&s, box(1, 1, 1), v3(1, 0, 0), UNTURNED, friction(0.6)));
     run(&s, 2);
     FE_TRUE(events_of(&s).count == 0);
-    fe_body probe = make_trigger(&s, add_body(&s, FE_BODY_KINEMATIC, sphere(0.2), v3(0, 0, 0), UNTURNED, friction(0.6), WATER));
+    fe_body probe =
+        make_trigger(&s, add_body(&s, FE_BODY_KINEMATIC, sphere(0.2), v3(0, 0, 0), UNTURNED, friction(0.6), WATER));
     int enters = 0;
     for (int i = 0; i < 2; ++i) {
         run(&s, 1);
@@ -370,7 +391,8 @@ static void triggers_see_triggers_that_move(void **state)
     scene_end(&s);
 }
 
-// ---- order and hits ---------------------------------------------------------------------------------------------------------------
+// ---- order and hits
+// ---------------------------------------------------------------------------------------------------------------
 
 // Bodies are created, some destroyed, and their slots used again: events come in the order of creation all the same.
 static void events_come_in_the_order_of_creation(void **state)
@@ -379,7 +401,8 @@ static void events_come_in_the_order_of_creation(void **state)
     scene s = scene_begin(state);
     fe_body bodies[COUNT], ground = add_ground(&s, friction(0.6));
     int rank_of[COUNT];
-    for (int i = 0; i < COUNT; ++i) bodies[i] = add_dynamic(&s, cube(), v3(2.0 * i, 0.5, 0), UNTURNED, friction(0.6), WATER);
+    for (int i = 0; i < COUNT; ++i)
+        bodies[i] = add_dynamic(&s, cube(), v3(2.0 * i, 0.5, 0), UNTURNED, friction(0.6), WATER);
     run(&s, 2);
     for (int i = 0; i < COUNT; i += 3) MUST(fe_body_destroy(s.world, bodies[i]));
     for (int i = COUNT - 1; i >= 0; --i)
@@ -390,7 +413,8 @@ static void events_come_in_the_order_of_creation(void **state)
         if (i % 3) rank_of[i] = rank++;
     for (int i = COUNT - 1; i >= 0; --i)
         if (i % 3 == 0) rank_of[i] = rank++;
-    for (int i = 0; i < COUNT; ++i) set_velocity(&s, bodies[i], v3(0, 3, 0), v3(0, 0, 0)); // all leave and land together
+    for (int i = 0; i < COUNT; ++i)
+        set_velocity(&s, bodies[i], v3(0, 3, 0), v3(0, 0, 0)); // all leave and land together
     int seen = 0;
     for (int k = 0; k < 60; ++k) {
         run(&s, 1);
@@ -411,7 +435,8 @@ static void events_come_in_the_order_of_creation(void **state)
     scene_end(&s);
 }
 
-// Speed of approach g t to within a step of falling, impulse m v (1 + e), the point where it hit, the normal from A to B.
+// Speed of approach g t to within a step of falling, impulse m v (1 + e), the point where it hit, the normal from A to
+// B.
 static void a_hit_is_told_with_its_speed_impulse_and_point(void **state)
 {
     static const double restitutions[] = {0, 0.5};
@@ -419,7 +444,8 @@ static void a_hit_is_told_with_its_speed_impulse_and_point(void **state)
         double e = restitutions[i], height = 2, speed = sqrt(2 * G * height);
         scene s = scene_begin(state);
         fe_body ground = add_ground(&s, bouncy(0.6, e));
-        fe_body ball = ask(&s, add_dynamic(&s, sphere(0.25), v3(3, 0.25 + height, -2), UNTURNED, bouncy(0.6, e), WATER), FE_SHAPE_EVENTS_HIT);
+        fe_body ball = ask(&s, add_dynamic(&s, sphere(0.25), v3(3, 0.25 + height, -2), UNTURNED, bouncy(0.6, e), WATER),
+                           FE_SHAPE_EVENTS_HIT);
         double mass = mass_of(&s, ball);
         int hits = 0;
         for (int k = 0; k < 50 && !hits; ++k) {
@@ -445,7 +471,8 @@ static void soft_touches_are_no_hits(void **state)
     scene s = scene_begin(state);
     add_ground(&s, friction(0.6));
     double speed = 0.9; // the threshold is 1 m/s
-    ask(&s, add_dynamic(&s, sphere(0.25), v3(0, 0.25 + speed * speed / (2 * G), 0), UNTURNED, friction(0.6), WATER), FE_SHAPE_EVENTS_HIT);
+    ask(&s, add_dynamic(&s, sphere(0.25), v3(0, 0.25 + speed * speed / (2 * G), 0), UNTURNED, friction(0.6), WATER),
+        FE_SHAPE_EVENTS_HIT);
     add_dynamic(&s, sphere(0.25), v3(3, 2, 0), UNTURNED, friction(0.6), WATER);
     for (int k = 0; k < 120; ++k) {
         run(&s, 1);
@@ -460,7 +487,8 @@ static void passing_by_is_no_event(void **state)
     scene s = scene_begin(state);
     set_gravity(&s, v3(0, 0, 0));
     fe_body block = add_static(&s, box(1, 1, 1), v3(0, 0, 0), UNTURNED, friction(0.6));
-    fe_body ball = ask(&s, add_dynamic(&s, sphere(0.25), v3(-5, 1.26, 0), UNTURNED, friction(0.6), WATER), FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_HIT);
+    fe_body ball = ask(&s, add_dynamic(&s, sphere(0.25), v3(-5, 1.26, 0), UNTURNED, friction(0.6), WATER),
+                       FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_HIT);
     set_velocity(&s, ball, v3(20, 0, 0), v3(0, 0, 0));
     for (int k = 0; k < 60; ++k) {
         run(&s, 1);
@@ -476,7 +504,8 @@ static void passing_by_is_no_event(void **state)
 static void a_step_of_zero_time_updates_events(void **state)
 {
     scene s = scene_begin(state);
-    fe_body ground = add_ground(&s, friction(0.6)), body = add_dynamic(&s, cube(), v3(0, 0.499, 0), UNTURNED, friction(0.6), WATER);
+    fe_body ground = add_ground(&s, friction(0.6)),
+            body = add_dynamic(&s, cube(), v3(0, 0.499, 0), UNTURNED, friction(0.6), WATER);
     MUST(fe_world_step(s.world, 0));
     FE_TRUE(told(&s, ground, body, FE_EVENT_ENTER) == 1);
     FE_NEAR(position(&s, body).y, 0.499, 0);

@@ -1,15 +1,18 @@
-// Coulomb friction of boxes on planes: what holds, what slides and how fast, what tips. Answers are those of statics and of mu g.
+// Coulomb friction of boxes on planes: what holds, what slides and how fast, what tips. Answers are those of statics
+// and of mu g.
 #include "scene.h"
 
 static const fe_material SMOOTH = SURFACE(0, 0, 0, 0, 0);
 
-// ---- slopes ---------------------------------------------------------------------------------------------------------------------
+// ---- slopes
+// ---------------------------------------------------------------------------------------------------------------------
 
 // A box lying flush on a slope
 static fe_body add_box_on_slope(scene *s, double angle, double half_along, double half_up, double mu)
 {
     add_slope(s, angle, friction(mu));
-    return add_dynamic(s, box(half_along, half_up, 0.5), times(half_up, slope_normal(angle)), slope_turn(angle), friction(mu), WATER);
+    return add_dynamic(s, box(half_along, half_up, 0.5), times(half_up, slope_normal(angle)), slope_turn(angle),
+                       friction(mu), WATER);
 }
 
 static double slip_in(scene *s, fe_body body, int steps)
@@ -39,7 +42,10 @@ static void a_box_sticks_just_below_the_angle_of_friction(void **state)
 }
 
 // way between two moments of a motion from rest
-static double discrete_way_between(double a, double t0, double t1, double h) { return discrete_way(a, t1, h) - discrete_way(a, t0, h); }
+static double discrete_way_between(double a, double t0, double t1, double h)
+{
+    return discrete_way(a, t1, h) - discrete_way(a, t0, h);
+}
 
 // a = 0.02 g sin(angle): a tenth of it is two thousandths of the friction
 static void a_box_slides_just_above_the_angle_of_friction(void **state)
@@ -81,14 +87,16 @@ static void a_sliding_box_follows_coulomb_on_a_plank(void **state)
         scene s = scene_begin(state);
         double angle = 35 * DEGREES;
         add_static(&s, box(20, 0.5, 2), times(-0.5, slope_normal(angle)), slope_turn(angle), friction(0.3));
-        fe_body block = add_dynamic(&s, box(0.5, 0.5, 0.5), times(0.5, slope_normal(angle)), slope_turn(angle), friction(0.3), WATER);
+        fe_body block = add_dynamic(&s, box(0.5, 0.5, 0.5), times(0.5, slope_normal(angle)), slope_turn(angle),
+                                    friction(0.3), WATER);
         if (locked) MUST(fe_body_set_locks(s.world, block, FE_AXIS_Z, FE_AXIS_X | FE_AXIS_Y));
         check_slide(&s, block, angle, 0.3);
         scene_end(&s);
     }
 }
 
-// ---- on the level ---------------------------------------------------------------------------------------------------------------
+// ---- on the level
+// ---------------------------------------------------------------------------------------------------------------
 
 // 10 kg: a cube of 0.2 m. A force that grows by 1 N/s moves it above mu_s m g, and then only mu_d m g resist.
 static void static_friction_holds_and_dynamic_friction_brakes(void **state)
@@ -105,15 +113,16 @@ static void static_friction_holds_and_dynamic_friction_brakes(void **state)
         // 0.01 m/s: above what a contact that sticks can creep with, below what one step gives to a box that slides
         if (!(moved_at > 0) && velocity(&s, block).x > 0.01) moved_at = force;
         gained = velocity(&s, block).x - before;
-        if (moved_at > 0 && force > moved_at + 2 * STEP) FE_NEAR(gained, STEP * (force - 0.4 * 10 * G) / 10, 0.01 * gained);
+        if (moved_at > 0 && force > moved_at + 2 * STEP)
+            FE_NEAR(gained, STEP * (force - 0.4 * 10 * G) / 10, 0.01 * gained);
     }
     FE_WITHIN(moved_at, 0.6 * 10 * G, 0.6 * 10 * G + 0.5);
     FE_TRUE(gained > 0);
     scene_end(&s);
 }
 
-// A force that comes at once, above the contact: static friction holds all of it, whatever the dynamic one is; what topples the box first
-// is left out
+// A force that comes at once, above the contact: static friction holds all of it, whatever the dynamic one is; what
+// topples the box first is left out
 static void a_sudden_force_below_static_friction_moves_nothing(void **state)
 {
     static const double half_heights[] = {0.1, 0.3, 0.5, 0.7}, shares[] = {0.4, 0.45, 0.5, 0.55, 0.58};
@@ -122,7 +131,8 @@ static void a_sudden_force_below_static_friction_moves_nothing(void **state)
             scene s = scene_begin(state);
             fe_material material = SURFACE(0.6f, 0.4f, 0, 0, 0);
             add_ground(&s, material);
-            fe_body block = add_dynamic(&s, box(0.5, half_heights[h], 0.5), v3(0, half_heights[h], 0), UNTURNED, material, WATER);
+            fe_body block =
+                add_dynamic(&s, box(0.5, half_heights[h], 0.5), v3(0, half_heights[h], 0), UNTURNED, material, WATER);
             run(&s, 60);
             for (int i = 0; i < 60; ++i) {
                 add_force(&s, block, v3(shares[f] * mass_of(&s, block) * G, 0, 0));
@@ -135,8 +145,8 @@ static void a_sudden_force_below_static_friction_moves_nothing(void **state)
     }
 }
 
-// What is set down on a slope has all of its friction from the first substep on: it gains no tenth of what gravity alone gives it in a step
-// beyond (sin - mu cos) g t
+// What is set down on a slope has all of its friction from the first substep on: it gains no tenth of what gravity
+// alone gives it in a step beyond (sin - mu cos) g t
 static void a_box_set_down_on_a_slope_has_its_friction_at_once(void **state)
 {
     for (int half = 0; half < 3; ++half) {
@@ -177,8 +187,8 @@ static void a_sliding_box_stops_after_the_same_way_in_every_direction(void **sta
     scene_end(&s);
 }
 
-// A block thrown onto a slab that glides freely: friction brakes the one and drags the other until both have  m v0 / (m + M),  after
-// v0 / (mu g (1 + m / M)) and  v0 / 2  times that against each other
+// A block thrown onto a slab that glides freely: friction brakes the one and drags the other until both have  m v0 / (m
+// + M),  after v0 / (mu g (1 + m / M)) and  v0 / 2  times that against each other
 static void a_block_drags_a_free_slab_to_their_common_velocity(void **state)
 {
     scene s = scene_begin(state);
@@ -186,7 +196,8 @@ static void a_block_drags_a_free_slab_to_their_common_velocity(void **state)
     add_ground(&s, SMOOTH);
     fe_body slab = add_dynamic(&s, box(4, 0.25, 4), v3(0, 0.25, 0), UNTURNED, friction(mu), 100);
     fe_body block = add_dynamic(&s, box(0.5, 0.25, 0.5), v3(0, 0.75, 0), UNTURNED, friction(mu), WATER);
-    double m = mass_of(&s, block), mass = mass_of(&s, slab), common = m * v0 / (m + mass), time = v0 / (mu * G * (1 + m / mass));
+    double m = mass_of(&s, block), mass = mass_of(&s, slab), common = m * v0 / (m + mass),
+           time = v0 / (mu * G * (1 + m / mass));
     int half_time = (int)(time / 2 / STEP);
     vec ahead = v3(0.6, 0, 0.8);
     set_velocity(&s, block, times(v0, ahead), v3(0, 0, 0));
@@ -200,10 +211,14 @@ static void a_block_drags_a_free_slab_to_their_common_velocity(void **state)
     scene_end(&s);
 }
 
-// ---- tipping --------------------------------------------------------------------------------------------------------------------
+// ---- tipping
+// --------------------------------------------------------------------------------------------------------------------
 
 // between the body's y axis and the slope's normal, rad
-static double lean(const scene *s, fe_body body, double angle) { return between(axis_of(s, body, v3(0, 1, 0)), slope_normal(angle)); }
+static double lean(const scene *s, fe_body body, double angle)
+{
+    return between(axis_of(s, body, v3(0, 1, 0)), slope_normal(angle));
+}
 
 // A box of width w and height H topples on a slope above tan(angle) = w / H: 26.57 degrees for 0.5 and 1 m
 static void a_box_stands_below_its_tipping_angle(void **state)
@@ -264,9 +279,11 @@ static void a_cube_pushed_at_its_top_tips_at_half_its_weight(void **state)
     scene_end(&s);
 }
 
-// ---- the ladder -----------------------------------------------------------------------------------------------------------------
-// A plank of length L and thickness t, at `angle` to the floor, between it (mu) and a smooth wall. It stands on the corners of its lower
-// side: moments about the lower one give the wall's force  N = m g (1 / (2 tan) - t / (2 L)). It holds as long as N <= mu m g.
+// ---- the ladder
+// ----------------------------------------------------------------------------------------------------------------- A
+// plank of length L and thickness t, at `angle` to the floor, between it (mu) and a smooth wall. It stands on the
+// corners of its lower side: moments about the lower one give the wall's force  N = m g (1 / (2 tan) - t / (2 L)). It
+// holds as long as N <= mu m g.
 
 static const double LENGTH = 4, THICKNESS = 0.1;
 
@@ -277,12 +294,13 @@ typedef struct ladder {
 static ladder add_ladder(scene *s, double angle, double mu)
 {
     vec along = v3(cos(angle), sin(angle), 0), up = v3(-sin(angle), cos(angle), 0);
-    vec foot = minus(times(-LENGTH / 2, along), times(THICKNESS / 2, up)), head = minus(times(LENGTH / 2, along), times(THICKNESS / 2, up));
+    vec foot = minus(times(-LENGTH / 2, along), times(THICKNESS / 2, up)),
+        head = minus(times(LENGTH / 2, along), times(THICKNESS / 2, up));
     ladder l;
     add_ground(s, friction(mu));
     l.wall = add_plane(s, v3(-1, 0, 0), 0, SMOOTH);
-    l.plank =
-        add_dynamic(s, box(LENGTH / 2, THICKNESS / 2, 0.25), v3(-head.x, -foot.y, 0), turned(v3(0, 0, 1), angle), friction(mu), WATER);
+    l.plank = add_dynamic(s, box(LENGTH / 2, THICKNESS / 2, 0.25), v3(-head.x, -foot.y, 0), turned(v3(0, 0, 1), angle),
+                          friction(mu), WATER);
     return l;
 }
 

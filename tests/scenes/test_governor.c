@@ -1,10 +1,12 @@
-// test_governor.c - Watt's governor, problem A05 of the IFToMM library of benchmark problems (M. Gonzalez, D. Dopico, U. Lugris, J.
-// Cuadrado, A benchmarking system for MBS simulation software, Multibody Syst. Dyn. 16, 2006): a shaft spins freely, one turn a second; two
-// rods with balls of 5 kg hang from its top; two stiff dampers (8e5 N/m, 4e4 N s/m) between the rods' middles and a slider pull that up as
-// the balls swing out. Its figures here; the balls are points there, and have a radius of 5 cm here.
+// test_governor.c - Watt's governor, problem A05 of the IFToMM library of benchmark problems (M. Gonzalez, D. Dopico,
+// U. Lugris, J. Cuadrado, A benchmarking system for MBS simulation software, Multibody Syst. Dyn. 16, 2006): a shaft
+// spins freely, one turn a second; two rods with balls of 5 kg hang from its top; two stiff dampers (8e5 N/m, 4e4 N
+// s/m) between the rods' middles and a slider pull that up as the balls swing out. Its figures here; the balls are
+// points there, and have a radius of 5 cm here.
 //
-// With couplers that do not give it has one degree of freedom, the rods' angle p from the vertical, as the angular momentum L about the
-// shaft stays:   A(p) p'^2 / 2 + L^2 / (2 J(p)) + V(p) = E.   Solved below by Runge and Kutta, it is what the scene is held against.
+// With couplers that do not give it has one degree of freedom, the rods' angle p from the vertical, as the angular
+// momentum L about the shaft stays:   A(p) p'^2 / 2 + L^2 / (2 J(p)) + V(p) = E.   Solved below by Runge and Kutta, it
+// is what the scene is held against.
 #include "scenes/joint_scene.h"
 
 #define RADIUS 0.05 // m, of the balls, whose moment is 0.1 % of what they have about the shaft
@@ -17,7 +19,8 @@
 #define SPIN (2 * PI)  // rad/s
 #define DENSITY 3000.0 // kg/m3
 
-// ---- the answer -----------------------------------------------------------------------------------------------------------------------
+// ---- the answer
+// -----------------------------------------------------------------------------------------------------------------------
 
 static double own_moment(void) { return 0.4 * BALL * RADIUS * RADIUS; }
 
@@ -62,7 +65,8 @@ static void advance(swing *w, double h)
     w->rate += h * (r1 + 2 * r2 + 2 * r3 + r4) / 6;
 }
 
-// ---- the scene ------------------------------------------------------------------------------------------------------------------------
+// ---- the scene
+// ------------------------------------------------------------------------------------------------------------------------
 
 typedef struct governor {
     scene s;
@@ -73,8 +77,8 @@ typedef struct governor {
 static fe_body add_arm(scene *s, int side)
 {
     vec along = v3(side * sin(START), -cos(START), 0), top = v3(side * ASIDE, SHAFT, 0);
-    fe_body arm = add_dynamic(s, box(0.005, 0.5, 0.005), plus(top, times(0.5, along)), turned(v3(0, 0, 1), side * (START - PI)),
-                              friction(0), (float)DENSITY);
+    fe_body arm = add_dynamic(s, box(0.005, 0.5, 0.005), plus(top, times(0.5, along)),
+                              turned(v3(0, 0, 1), side * (START - PI)), friction(0), (float)DENSITY);
     fe_shape_def def;
     fe_shape shape;
     fe_geometry ball = sphere(RADIUS);
@@ -95,7 +99,8 @@ static fe_joint add_coupler(const governor *g, int side)
 {
     scene s = g->s;
     fe_distance_joint_def d = distance_def();
-    vec from = v3(side * ASIDE, SHAFT - cos(START), 0), to = plus(from, times(0.5, v3(side * sin(START), cos(START), 0)));
+    vec from = v3(side * ASIDE, SHAFT - cos(START), 0),
+        to = plus(from, times(0.5, v3(side * sin(START), cos(START), 0)));
     double inverse = 0;
     for (int k = 0; k < 2; ++k) {
         fe_mass_data m = mass_data_of(&s, g->bodies[k == 0 ? 1 : 2]);
@@ -120,7 +125,8 @@ static governor build_governor(void **state, double half, int substeps, float jo
     tuning.joint_hertz = joint_hertz;
     MUST(fe_world_set_tuning(s->world, &tuning));
     fe_body ground = add_anchor(s, v3(0, 0, 0));
-    g.bodies[0] = add_dynamic(s, box(half, 0.5 * SHAFT, half), v3(0, 0.5 * SHAFT, 0), UNTURNED, friction(0), (float)DENSITY);
+    g.bodies[0] =
+        add_dynamic(s, box(half, 0.5 * SHAFT, half), v3(0, 0.5 * SHAFT, 0), UNTURNED, friction(0), (float)DENSITY);
     g.bodies[1] = add_dynamic(s, box(0.05, 0.05, 0.05), v3(0, 0.5, 0), UNTURNED, friction(0), (float)DENSITY);
     for (int k = 0; k < 2; ++k) {
         MUST(fe_body_set_filter(s->world, g.bodies[k], 2, 0, 0));
@@ -131,14 +137,16 @@ static governor build_governor(void **state, double half, int substeps, float jo
     g.hinges[1] = add_configurable(s, slider_def(), g.bodies[0], g.bodies[1], v3(0, 0.5, 0), v3(0, 1, 0));
     for (int k = 0; k < 2; ++k) {
         const int side = k == 0 ? 1 : -1;
-        g.hinges[2 + k] = add_hinge(s, hinge_def(), g.bodies[0], g.bodies[2 + k], v3(side * ASIDE, SHAFT, 0), v3(0, 0, 1));
+        g.hinges[2 + k] =
+            add_hinge(s, hinge_def(), g.bodies[0], g.bodies[2 + k], v3(side * ASIDE, SHAFT, 0), v3(0, 0, 1));
         g.couplers[k] = add_coupler(&g, side);
     }
     return g;
 }
 
-// The slider rises and falls by the equation: its range within 5 % of the stroke over ten seconds, in time with it to a tenth of a swing.
-// As in the library's other problems no more than 5 % of the energy may be lost, none gained, and no joint may open by 5 mm.
+// The slider rises and falls by the equation: its range within 5 % of the stroke over ten seconds, in time with it to a
+// tenth of a swing. As in the library's other problems no more than 5 % of the energy may be lost, none gained, and no
+// joint may open by 5 mm.
 static void check_governor(void **state, double half, int substeps, float joint_hertz)
 {
     governor g = build_governor(state, half, substeps, joint_hertz);
@@ -166,8 +174,8 @@ static void check_governor(void **state, double half, int substeps, float joint_
 
 static void a_stiff_governor_follows_its_one_equation(void **state) { check_governor(state, 0.05, 8, 60); }
 
-// The problem's own shaft, 1 cm thick: at the hinges, 5 cm aside, its moment makes it 2 g against 5 kg. Eight substeps throw that apart
-// (it gains 40 % of its energy with sixteen); it holds with 32 and joints of 240 Hz.
+// The problem's own shaft, 1 cm thick: at the hinges, 5 cm aside, its moment makes it 2 g against 5 kg. Eight substeps
+// throw that apart (it gains 40 % of its energy with sixteen); it holds with 32 and joints of 240 Hz.
 static void so_does_one_on_a_thin_shaft_with_small_substeps(void **state) { check_governor(state, 0.005, 32, 240); }
 
 int main(void)

@@ -1,10 +1,12 @@
-// Free rotation: the box of the Gazebo benchmark flips when theory says, stable axes stay stable, and nothing gains energy at any speed.
+// Free rotation: the box of the Gazebo benchmark flips when theory says, stable axes stay stable, and nothing gains
+// energy at any speed.
 #include "scenes/mechanics.h"
 
 // 0.1 x 0.4 x 0.9 m, 10 kg: moments 0.808333, 0.683333, 0.141667 kg m2
 static fe_body add_gazebo_box(scene *s, vec linear, vec angular)
 {
-    fe_body body = add_dynamic(s, box(0.05, 0.2, 0.45), v3(0, 0, 0), UNTURNED, friction(0.6), (float)(10 / (0.1 * 0.4 * 0.9)));
+    fe_body body =
+        add_dynamic(s, box(0.05, 0.2, 0.45), v3(0, 0, 0), UNTURNED, friction(0.6), (float)(10 / (0.1 * 0.4 * 0.9)));
     set_velocity(s, body, linear, angular);
     return body;
 }
@@ -14,7 +16,10 @@ typedef struct flips {
     int count;
 } flips;
 
-static double spin_about(const scene *s, fe_body body, vec local) { return dot(spin(s, body), axis_of(s, body, local)); }
+static double spin_about(const scene *s, fe_body body, vec local)
+{
+    return dot(spin(s, body), axis_of(s, body, local));
+}
 
 static void note_flip(flips *f, double before, double now, double t)
 {
@@ -22,8 +27,9 @@ static void note_flip(flips *f, double before, double now, double t)
     f->times[f->count++] = t - STEP * now / (now - before); // linear between two steps
 }
 
-// T/2 = 2 K(k) sqrt(I1 I2 I3 / ((I3 - I2)(L^2 - 2 E I1))) = 3.0284 s. The first change of sign, after 1.1660 s, tells of the start; later
-// intervals are logarithmic in what rounding adds, hence 3 %. Angular momentum within 0.5 % in size and 1 % in direction; energy within 1
+// T/2 = 2 K(k) sqrt(I1 I2 I3 / ((I3 - I2)(L^2 - 2 E I1))) = 3.0284 s. The first change of sign, after 1.1660 s, tells
+// of the start; later intervals are logarithmic in what rounding adds, hence 3 %. Angular momentum within 0.5 % in size
+// and 1 % in direction; energy within 1
 // %, never above.
 static void the_intermediate_axis_flips_on_time(void **state)
 {
@@ -63,8 +69,9 @@ static void a_thrown_box_flips_as_a_floating_one(void **state)
     double mass = mass_of(&s, body), g = (double)9.8f, start = totals_of(&s, &body, 1).energy;
     vec v = v3(-2, 2, 8), w = v3(0.1, 5, 0.1);
     fe_mass_data data = mass_data_of(&s, body);
-    double kinetic = 0.5 * mass * dot(v, v) +
-                     0.5 * ((double)data.inertia.x * w.x * w.x + (double)data.inertia.y * w.y * w.y + (double)data.inertia.z * w.z * w.z);
+    double kinetic =
+        0.5 * mass * dot(v, v) + 0.5 * ((double)data.inertia.x * w.x * w.x + (double)data.inertia.y * w.y * w.y +
+                                        (double)data.inertia.z * w.z * w.z);
     FE_NEAR(kinetic, 368.546412, 1e-5 * 368.546412);
     flips f = {.count = 0};
     double last = spin_about(&s, body, v3(0, 1, 0));
@@ -82,8 +89,8 @@ static void a_thrown_box_flips_as_a_floating_one(void **state)
     scene_end(&s);
 }
 
-// About the axis of the largest or the smallest moment a perturbed spin precesses on a small cone for ever: sin(angle) = 1 % of the spin
-// across.
+// About the axis of the largest or the smallest moment a perturbed spin precesses on a small cone for ever: sin(angle)
+// = 1 % of the spin across.
 static void spins_about_the_outer_axes_stay(void **state)
 {
     static const vec axes[] = {{1, 0, 0}, {0, 0, 1}};
@@ -91,13 +98,15 @@ static void spins_about_the_outer_axes_stay(void **state)
         scene s = scene_begin(state);
         set_gravity(&s, v3(0, 0, 0));
         vec across = v3(0.05, 0.05, 0.05);
-        fe_body body = add_gazebo_box(&s, v3(0, 0, 0), plus(times(5, axes[k]), minus(across, times(dot(across, axes[k]), axes[k]))));
+        fe_body body = add_gazebo_box(&s, v3(0, 0, 0),
+                                      plus(times(5, axes[k]), minus(across, times(dot(across, axes[k]), axes[k]))));
         vec first = axis_of(&s, body, axes[k]);
         double energy = totals_of(&s, &body, 1).energy;
         int minutes = SLOW_BUILD ? 600 : 3600;
         for (int i = 0; i < minutes; ++i) {
             run(&s, 1);
-            // the axis circles the angular momentum: twice the tilt that the moments' ratio (5.7 at most) makes of 1.4 %
+            // the axis circles the angular momentum: twice the tilt that the moments' ratio (5.7 at most) makes of 1.4
+            // %
             FE_WITHIN(between(axis_of(&s, body, axes[k]), first), 0, 2 * 5.7 * 0.0142);
             FE_WITHIN(between(spin(&s, body), axis_of(&s, body, axes[k])), 0, 5.7 * 0.0142);
             FE_WITHIN(totals_of(&s, &body, 1).energy / energy, 0.99, 1 + ENERGY_GAIN);
@@ -144,7 +153,8 @@ static void no_speed_gains_energy(void **state)
             for (int n = 0; n < 60; ++n) {
                 run(&s, 1);
                 double now = totals_of(&s, &body, 1).energy;
-                // the rotation read back is a float quaternion: what turns fast is known to 1e-7 rad of pose, 1e-6 of energy
+                // the rotation read back is a float quaternion: what turns fast is known to 1e-7 rad of pose, 1e-6 of
+                // energy
                 FE_WITHIN(now, 0, lowest + ENERGY_GAIN * energy);
                 lowest = fmin(lowest, now);
             }
@@ -152,7 +162,8 @@ static void no_speed_gains_energy(void **state)
         }
 }
 
-// Upright on its round end a spinning capsule touches in one point below its centre: nothing brakes the spin but a spinning resistance.
+// Upright on its round end a spinning capsule touches in one point below its centre: nothing brakes the spin but a
+// spinning resistance.
 static void an_upright_capsule_spins_on(void **state)
 {
     scene s = scene_begin(state);
@@ -165,9 +176,11 @@ static void an_upright_capsule_spins_on(void **state)
     scene_end(&s);
 }
 
-// ---- a capsule on its tip, exactly ------------------------------------------------------------------------------------------------
-// A solid of revolution whose round end of radius R, centred at L below its centre of mass, slides and rolls on a plane with Coulomb's
-// friction. The height is y = L a.y + R of its axis a, so the normal force N follows from  m (y'' + g) = N  with y'' linear in N:
+// ---- a capsule on its tip, exactly
+// ------------------------------------------------------------------------------------------------ A solid of
+// revolution whose round end of radius R, centred at L below its centre of mass, slides and rolls on a plane with
+// Coulomb's friction. The height is y = L a.y + R of its axis a, so the normal force N follows from  m (y'' + g) = N
+// with y'' linear in N:
 //     I w' = r x N (n - mu slip / |slip|) - w x I w,   a' = w x a,   m v' = -N mu slip / |slip|   (v: level)
 typedef struct top {
     double mass, across, along, radius, reach, mu; // kg, kg m2, m
@@ -192,14 +205,16 @@ static leaning change_of(const top *t, leaning s)
     vec gyroscopic = cross(with_moments(s.axis, s.spin, t->across, t->along), s.spin);
     vec free = with_moments(s.axis, gyroscopic, 1 / t->across, 1 / t->along);
     vec pushed = with_moments(s.axis, cross(r, force), 1 / t->across, 1 / t->along);
-    double falling = t->reach * plus(cross(free, s.axis), cross(s.spin, turning)).y, rising = t->reach * cross(pushed, s.axis).y;
+    double falling = t->reach * plus(cross(free, s.axis), cross(s.spin, turning)).y,
+           rising = t->reach * cross(pushed, s.axis).y;
     double n = fmax((falling + G) * t->mass / (1 - t->mass * rising), 0);
     return (leaning){turning, plus(free, times(n, pushed)), times(n / t->mass, v3(force.x, 0, force.z))};
 }
 
 static leaning after(leaning s, double h, leaning change)
 {
-    return (leaning){plus(s.axis, times(h, change.axis)), plus(s.spin, times(h, change.spin)), plus(s.velocity, times(h, change.velocity))};
+    return (leaning){plus(s.axis, times(h, change.axis)), plus(s.spin, times(h, change.spin)),
+                     plus(s.velocity, times(h, change.velocity))};
 }
 
 // the most that it leans in the time, by Runge and Kutta's rule of fourth order
@@ -239,8 +254,8 @@ static double capsule_leans(void **state, double w, shortfall *gain, top *out)
     return most;
 }
 
-// Slow it falls; faster it stands, by (I3 w)^2 > 4 I1 m g l; faster still the friction of its round end lets it sink to 61 degrees, where
-// it rolls on. 5 % of the lean.
+// Slow it falls; faster it stands, by (I3 w)^2 > 4 I1 m g l; faster still the friction of its round end lets it sink to
+// 61 degrees, where it rolls on. 5 % of the lean.
 static void a_capsule_on_its_tip_leans_as_mechanics_say(void **state)
 {
     shortfall gain = {"energy gained by a capsule that spins on its tip", 0};

@@ -1,5 +1,6 @@
-// Bodies in more contacts than there are colours: a raft under a crowd. Each of its contacts has a row to itself, a thin one, and those
-// beyond the colours have no order but that of creation: whatever runs them, on rows of whatever width, the result has the same bits.
+// Bodies in more contacts than there are colours: a raft under a crowd. Each of its contacts has a row to itself, a
+// thin one, and those beyond the colours have no order but that of creation: whatever runs them, on rows of whatever
+// width, the result has the same bits.
 #include "determinism/golden.h"
 
 // the large one has more contacts than an island that one worker solves whole may have

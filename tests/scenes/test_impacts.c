@@ -1,9 +1,12 @@
-// Impacts: what bounces comes back as high as its restitution says, and what collides keeps momentum, angular momentum and energy.
+// Impacts: what bounces comes back as high as its restitution says, and what collides keeps momentum, angular momentum
+// and energy.
 #include "scenes/mechanics.h"
 
-// ---- drops ------------------------------------------------------------------------------------------------------------------------
+// ---- drops
+// ------------------------------------------------------------------------------------------------------------------------
 
-// Height above the ground to which the discrete flight goes from here: v^2/2 + g y - h g v/2 stays as it is (P3), so this is its top.
+// Height above the ground to which the discrete flight goes from here: v^2/2 + g y - h g v/2 stays as it is (P3), so
+// this is its top.
 static double apex(const scene *s, fe_body body, double rest)
 {
     double v = velocity(s, body).y, y = position(s, body).y - rest;
@@ -31,8 +34,9 @@ static double dropped(void **state, fe_geometry form, double rest, double height
     return top;
 }
 
-// Newton: v' = e v, so e^2 h, whatever the height and so whatever part of a step is left at the impact. 0.1 %; at e = 1 the speed is capped
-// by the energy of the discrete flight, which costs up to 2 %. Never higher by more than 1e-5 of the drop.
+// Newton: v' = e v, so e^2 h, whatever the height and so whatever part of a step is left at the impact. 0.1 %; at e = 1
+// the speed is capped by the energy of the discrete flight, which costs up to 2 %. Never higher by more than 1e-5 of
+// the drop.
 static void rises_as_it_must(void **state, fe_geometry form, double rest)
 {
     static const double restitutions[] = {0.3, 0.5, 0.8, 1};
@@ -47,11 +51,18 @@ static void rises_as_it_must(void **state, fe_geometry form, double rest)
 }
 
 static void sphere_rebounds_to_e2_of_the_height(void **state) { rises_as_it_must(state, sphere(0.25), 0.25); }
-static void flat_box_rebounds_to_e2_of_the_height(void **state) { rises_as_it_must(state, box(0.25, 0.25, 0.25), 0.25); }
+static void flat_box_rebounds_to_e2_of_the_height(void **state)
+{
+    rises_as_it_must(state, box(0.25, 0.25, 0.25), 0.25);
+}
 static void wide_box_rebounds_to_e2_of_the_height(void **state) { rises_as_it_must(state, box(0.8, 0.1, 0.3), 0.1); }
-static void upright_capsule_rebounds_to_e2_of_the_height(void **state) { rises_as_it_must(state, capsule(0.3, 0.25), 0.55); }
+static void upright_capsule_rebounds_to_e2_of_the_height(void **state)
+{
+    rises_as_it_must(state, capsule(0.3, 0.25), 0.55);
+}
 
-// The speed after n bounces is e^n of the first one's, while the impacts are above 1 m/s; 0.1 % of the height is lost at most in each.
+// The speed after n bounces is e^n of the first one's, while the impacts are above 1 m/s; 0.1 % of the height is lost
+// at most in each.
 static void rebounds_follow_the_powers_of_e(void **state)
 {
     const double e = (double)0.8f, height = 2, rest = 0.2;
@@ -82,7 +93,8 @@ static void without_restitution_nothing_bounces(void **state)
         scene s = scene_begin(state);
         add_ground(&s, bouncy(0.6, 0));
         fe_body ball = add_dynamic(&s, sphere(0.25), v3(0, 0.25 + heights[i], 0), UNTURNED, bouncy(0.6, 0), WATER);
-        fe_body cube = add_dynamic(&s, box(0.25, 0.25, 0.25), v3(2, 0.25 + heights[i], 0), UNTURNED, bouncy(0.6, 0), WATER);
+        fe_body cube =
+            add_dynamic(&s, box(0.25, 0.25, 0.25), v3(2, 0.25 + heights[i], 0), UNTURNED, bouncy(0.6, 0), WATER);
         while (position(&s, ball).y > 0.25 + LINEAR_SLOP) run(&s, 1);
         for (int k = 0; k < 60; ++k) {
             run(&s, 1);
@@ -93,8 +105,8 @@ static void without_restitution_nothing_bounces(void **state)
     }
 }
 
-// Restitution 1: each bounce may lose what the cap on its speed takes, less than g v h / 2 of the energy per flight; over time t that is
-// h g t / 2 of the height. Never above the start.
+// Restitution 1: each bounce may lose what the cap on its speed takes, less than g v h / 2 of the energy per flight;
+// over time t that is h g t / 2 of the height. Never above the start.
 static void restitution_1_keeps_20_bounces(void **state)
 {
     const double height = 5, rest = 0.25;
@@ -119,9 +131,9 @@ static void restitution_1_keeps_20_bounces(void **state)
 // what no law may be missed by, whatever its shortfall
 #define GROSS 0.1
 
-// Boxes in any pose land on a corner or an edge. With restitution 1 and without friction nothing is lost but what the cap takes; with any
-// other nothing is gained. What lies, and rocks, gets back what its soft contact stores: m g times the sink of P1, of a corner of a flat
-// box, whose effective mass is m / (1 + 3 + 3).
+// Boxes in any pose land on a corner or an edge. With restitution 1 and without friction nothing is lost but what the
+// cap takes; with any other nothing is gained. What lies, and rocks, gets back what its soft contact stores: m g times
+// the sink of P1, of a corner of a flat box, whose effective mass is m / (1 + 3 + 3).
 static void tilted_boxes_keep_their_energy(void **state)
 {
     dice d = {7};
@@ -131,7 +143,8 @@ static void tilted_boxes_keep_their_energy(void **state)
         fe_material material = bouncy(elastic ? 0 : 0.5, elastic ? 1 : 0.5);
         add_ground(&s, material);
         vec half = v3(uniform(&d, 0.15, 0.4), uniform(&d, 0.15, 0.4), uniform(&d, 0.15, 0.4));
-        fe_body body = add_dynamic(&s, box(half.x, half.y, half.z), v3(0, uniform(&d, 1.2, 4), 0), any_rotation(&d), material, WATER);
+        fe_body body = add_dynamic(&s, box(half.x, half.y, half.z), v3(0, uniform(&d, 1.2, 4), 0), any_rotation(&d),
+                                   material, WATER);
         double before = totals_of(&s, &body, 1).energy, lowest = before, mass = mass_of(&s, body);
         double stored = elastic ? 0 : mass * G * sink(mass * G, mass / 7, 1);
         for (int k = 0; k < 240; ++k) {
@@ -145,8 +158,8 @@ static void tilted_boxes_keep_their_energy(void **state)
     }
 }
 
-// A box that lands on one end turns: the point of impact leaves at e of its speed (Newton). For a rod of mass m, half length a, moment I
-// hit at its end with speed u, frictionless:  impulse = m u (1 + e) / (1 + m a^2 / I).
+// A box that lands on one end turns: the point of impact leaves at e of its speed (Newton). For a rod of mass m, half
+// length a, moment I hit at its end with speed u, frictionless:  impulse = m u (1 + e) / (1 + m a^2 / I).
 static void box_landing_on_its_edge_gets_newtons_impulse(void **state)
 {
     const double angle = 20 * DEGREES, height = 1;
@@ -156,8 +169,8 @@ static void box_landing_on_its_edge_gets_newtons_impulse(void **state)
         scene s = scene_begin(state);
         add_ground(&s, bouncy(0, e));
         vec half = v3(0.5, 0.05, 0.2), corner = rotate(turned(v3(0, 0, 1), angle), v3(-half.x, -half.y, 0));
-        fe_body body =
-            add_dynamic(&s, box(half.x, half.y, half.z), v3(0, height - corner.y, 0), turned(v3(0, 0, 1), angle), bouncy(0, e), WATER);
+        fe_body body = add_dynamic(&s, box(half.x, half.y, half.z), v3(0, height - corner.y, 0),
+                                   turned(v3(0, 0, 1), angle), bouncy(0, e), WATER);
         double mass = mass_of(&s, body), moment = (double)mass_data_of(&s, body).inertia.z, before = 0;
         while (spin(&s, body).z == 0) {
             before = velocity(&s, body).y;
@@ -167,7 +180,8 @@ static void box_landing_on_its_edge_gets_newtons_impulse(void **state)
         double impulse = mass * (velocity(&s, body).y - before + G * STEP);
         double arm = corner.x, speed = sqrt(2 * G * height);
         double lightness = 1 / (1 + mass * arm * arm / moment), exact = mass * speed * (1 + e) * lightness;
-        // without restitution the end stays on the ground, which carries its share of the weight for what is left of the step
+        // without restitution the end stays on the ground, which carries its share of the weight for what is left of
+        // the step
         double carried = e == 0 ? mass * G * STEP * lightness : 0;
         FE_WITHIN(impulse, 0.99 * exact, 1.01 * exact + carried);
         FE_WITHIN(fabs(spin(&s, body).z * moment / arm), 0.99 * exact, 1.01 * exact + carried);
@@ -175,7 +189,8 @@ static void box_landing_on_its_edge_gets_newtons_impulse(void **state)
     }
 }
 
-// ---- two bodies -------------------------------------------------------------------------------------------------------------------
+// ---- two bodies
+// -------------------------------------------------------------------------------------------------------------------
 
 // v1' = (m1 v1 + m2 v2 + m2 e (v2 - v1)) / (m1 + m2), and the same for the other
 static void collisions_in_a_line_follow_newton(void **state)
@@ -187,7 +202,8 @@ static void collisions_in_a_line_follow_newton(void **state)
             scene s = scene_begin(state);
             set_gravity(&s, v3(0, 0, 0));
             fe_body one = add_dynamic(&s, sphere(0.5), v3(-0.8, 0, 0), UNTURNED, bouncy(0.5, e), 100);
-            fe_body two = add_dynamic(&s, sphere(0.5), v3(0.8, 0, 0), UNTURNED, bouncy(0.5, e), (float)(100 * ratios[i]));
+            fe_body two =
+                add_dynamic(&s, sphere(0.5), v3(0.8, 0, 0), UNTURNED, bouncy(0.5, e), (float)(100 * ratios[i]));
             set_velocity(&s, one, v3(v1, 0, 0), v3(0, 0, 0));
             set_velocity(&s, two, v3(v2, 0, 0), v3(0, 0, 0));
             double m1 = mass_of(&s, one), m2 = mass_of(&s, two), p = m1 * v1 + m2 * v2, scale = m1 * v1 - m2 * v2;
@@ -202,8 +218,8 @@ static void collisions_in_a_line_follow_newton(void **state)
         }
 }
 
-// The target leaves along the line of centres at the moment of the touch, asin(b / 2r) off the way of the striker, and the striker at a
-// right angle to it, whatever part of a step is left when they touch.
+// The target leaves along the line of centres at the moment of the touch, asin(b / 2r) off the way of the striker, and
+// the striker at a right angle to it, whatever part of a step is left when they touch.
 static void billiard_balls_part_at_right_angles(void **state)
 {
     const double radius = 0.5, speed = 5;
@@ -226,8 +242,8 @@ static void billiard_balls_part_at_right_angles(void **state)
     }
 }
 
-// Two balls fly one behind the other, 0.3 m apart: within the reach of a step at that speed, yet they do not meet. Then they slow down and
-// close the gap: at no time are they deeper than a slop.
+// Two balls fly one behind the other, 0.3 m apart: within the reach of a step at that speed, yet they do not meet. Then
+// they slow down and close the gap: at no time are they deeper than a slop.
 static void balls_that_flew_in_a_row_meet(void **state)
 {
     const double radius = 0.5, gap = 0.3;
@@ -235,7 +251,8 @@ static void balls_that_flew_in_a_row_meet(void **state)
     fe_body balls[2];
     set_gravity(&s, v3(0, 0, 0));
     for (int i = 0; i < 2; ++i) {
-        balls[i] = add_dynamic(&s, sphere(radius), v3((2 * i - 1) * (radius + 0.45), 0, 0), UNTURNED, friction(0.5), WATER);
+        balls[i] =
+            add_dynamic(&s, sphere(radius), v3((2 * i - 1) * (radius + 0.45), 0, 0), UNTURNED, friction(0.5), WATER);
         set_velocity(&s, balls[i], v3(20 + (1 - 2 * i) * 0.5, 0, 0), v3(0, 0, 0));
     }
     double apart = 1;
@@ -251,14 +268,16 @@ static void balls_that_flew_in_a_row_meet(void **state)
     scene_end(&s);
 }
 
-// ---- cradles ----------------------------------------------------------------------------------------------------------------------
+// ---- cradles
+// ----------------------------------------------------------------------------------------------------------------------
 
 enum { BALLS = 5 };
 
 static void swing_cradle(scene *s, fe_body *balls, double gap, double speed)
 {
     set_gravity(s, v3(0, 0, 0));
-    for (int i = 0; i < BALLS; ++i) balls[i] = add_dynamic(s, sphere(0.1), v3((0.2 + gap) * i, 0, 0), UNTURNED, bouncy(0, 1), WATER);
+    for (int i = 0; i < BALLS; ++i)
+        balls[i] = add_dynamic(s, sphere(0.1), v3((0.2 + gap) * i, 0, 0), UNTURNED, bouncy(0, 1), WATER);
     set_velocity(s, balls[0], v3(speed, 0, 0), v3(0, 0, 0));
 }
 
@@ -292,12 +311,14 @@ static void touching_cradle_keeps_momentum_and_gains_no_energy(void **state)
             FE_WITHIN(now.energy, 0, lowest + ENERGY_GAIN * before.energy);
             lowest = fmin(lowest, now.energy);
         }
-        for (int k = 1; k < BALLS; ++k) FE_WITHIN(position(&s, balls[k]).x - position(&s, balls[k - 1]).x, 0.2 - LINEAR_SLOP, 10);
+        for (int k = 1; k < BALLS; ++k)
+            FE_WITHIN(position(&s, balls[k]).x - position(&s, balls[k - 1]).x, 0.2 - LINEAR_SLOP, 10);
         scene_end(&s);
     }
 }
 
-// ---- nobody is forgotten ------------------------------------------------------------------------------------------------------------
+// ---- nobody is forgotten
+// ------------------------------------------------------------------------------------------------------------
 
 static int has_contact(const scene *s, fe_body a, fe_body b)
 {
@@ -308,8 +329,8 @@ static int has_contact(const scene *s, fe_body a, fe_body b)
     return 0;
 }
 
-// A spiral of balls falls to one point, in a plane, and lies there: pairs that came near, flew past each other and came again lie in each
-// other with a contact or not at all.
+// A spiral of balls falls to one point, in a plane, and lies there: pairs that came near, flew past each other and came
+// again lie in each other with a contact or not at all.
 static void balls_that_overlap_have_a_contact(void **state)
 {
     enum { COUNT = 400 };
@@ -339,7 +360,8 @@ static void balls_that_overlap_have_a_contact(void **state)
     scene_end(&s);
 }
 
-// ---- many bodies, nothing outside ---------------------------------------------------------------------------------------------------
+// ---- many bodies, nothing outside
+// ---------------------------------------------------------------------------------------------------
 
 typedef struct shortfalls {
     shortfall momentum, angular, energy;
@@ -347,8 +369,9 @@ typedef struct shortfalls {
 
 static shortfalls no_shortfalls(void)
 {
-    return (
-        shortfalls){{"momentum lost by free bodies", 0}, {"angular momentum lost by free bodies", 0}, {"energy gained by free bodies", 0}};
+    return (shortfalls){{"momentum lost by free bodies", 0},
+                        {"angular momentum lost by free bodies", 0},
+                        {"energy gained by free bodies", 0}};
 }
 
 static void keeps_what_it_has(scene *s, const fe_body *bodies, int count, int steps, shortfalls *f)
@@ -360,8 +383,10 @@ static void keeps_what_it_has(scene *s, const fe_body *bodies, int count, int st
         totals now = totals_of(s, bodies, count);
         // the scale of rounding is the most that the bodies have carried
         most.momenta = fmax(most.momenta, now.momenta), most.angular_all = fmax(most.angular_all, now.angular_all);
-        measure(&f->momentum, length(minus(now.momentum, before.momentum)), MOMENTUM_DRIFT * most.momenta, GROSS * most.momenta);
-        measure(&f->angular, length(minus(now.angular, before.angular)), ANGULAR_DRIFT * most.angular_all, GROSS * most.angular_all);
+        measure(&f->momentum, length(minus(now.momentum, before.momentum)), MOMENTUM_DRIFT * most.momenta,
+                GROSS * most.momenta);
+        measure(&f->angular, length(minus(now.angular, before.angular)), ANGULAR_DRIFT * most.angular_all,
+                GROSS * most.angular_all);
         measure(&f->energy, now.energy - lowest, ENERGY_GAIN * before.energy, GROSS * before.energy);
         FE_WITHIN(now.energy, 0, 2 * before.energy);
         lowest = fmin(lowest, now.energy);
@@ -384,8 +409,8 @@ static void free_cluster_keeps_momentum_and_gains_no_energy(void **state)
         for (int k = 0; k < COUNT; ++k) {
             vec at = times(1.2, v3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
             fe_geometry form = any_form(&d, 1);
-            bodies[k] =
-                add_dynamic(&s, form, at, any_rotation(&d), bouncy(uniform(&d, 0, 1), restitutions[i % 3]), (float)uniform(&d, 200, 2000));
+            bodies[k] = add_dynamic(&s, form, at, any_rotation(&d), bouncy(uniform(&d, 0, 1), restitutions[i % 3]),
+                                    (float)uniform(&d, 200, 2000));
             vec w = somewhere(&d, 4);
             set_velocity(&s, bodies[k], plus(times(-2, at), somewhere(&d, 1)), w);
         }
@@ -398,8 +423,9 @@ static void free_cluster_keeps_momentum_and_gains_no_energy(void **state)
     report_shortfall(&f.energy);
 }
 
-// A free drum of six walls spins; what is in it is flung to the walls and slides along them, and on one another, for seconds. The drum
-// carries a hundred times the angular momentum of each of them in one float, whose rounding is what is measured.
+// A free drum of six walls spins; what is in it is flung to the walls and slides along them, and on one another, for
+// seconds. The drum carries a hundred times the angular momentum of each of them in one float, whose rounding is what
+// is measured.
 static void cargo_in_a_free_drum_keeps_momentum_and_gains_no_energy(void **state)
 {
     enum { CARGO = 18 };
@@ -410,7 +436,8 @@ static void cargo_in_a_free_drum_keeps_momentum_and_gains_no_energy(void **state
         fe_body bodies[CARGO + 1];
         set_gravity(&s, v3(0, 0, 0));
         const double half = 1.5, wall = 0.2;
-        bodies[0] = add_dynamic(&s, box(half + 2 * wall, wall, half + 2 * wall), v3(0, 0, 0), UNTURNED, friction(0.5), 500);
+        bodies[0] =
+            add_dynamic(&s, box(half + 2 * wall, wall, half + 2 * wall), v3(0, 0, 0), UNTURNED, friction(0.5), 500);
         fe_shape floor_shape;
         FE_TRUE(fe_body_get_shapes(s.world, bodies[0], &floor_shape, 1) == 1);
         const fe_frame down = {fe_make_vec3(0, (float)(-half - wall), 0), UNTURNED};
@@ -433,7 +460,8 @@ static void cargo_in_a_free_drum_keeps_momentum_and_gains_no_energy(void **state
         for (int k = 0; k < CARGO; ++k) {
             vec at = times(0.9, v3(k % 3 - 1, k / 3 % 2 - 0.5, k / 6 - 1)), w = somewhere(&d, 2);
             fe_geometry form = any_form(&d, 0.8);
-            bodies[k + 1] = add_dynamic(&s, form, at, any_rotation(&d), friction(uniform(&d, 0, 0.8)), (float)uniform(&d, 300, 1500));
+            bodies[k + 1] = add_dynamic(&s, form, at, any_rotation(&d), friction(uniform(&d, 0, 0.8)),
+                                        (float)uniform(&d, 300, 1500));
             set_velocity(&s, bodies[k + 1], somewhere(&d, 1), w);
         }
         keeps_what_it_has(&s, bodies, CARGO + 1, 300, &f);

@@ -1,11 +1,13 @@
-// Free flight, forces, damping and axis locks against exact answers: the discrete ones of  v += h a; x += h v  (P3), h the substep.
+// Free flight, forces, damping and axis locks against exact answers: the discrete ones of  v += h a; x += h v  (P3), h
+// the substep.
 //
 // Velocities are floats: tolerances are the rounding of that many additions (see scene.h).
 #include "scene.h"
 
 static setup one_substep = {{0, 0, 0, 1}, 1};
 
-// ---- free flight ----------------------------------------------------------------------------------------------------------------
+// ---- free flight
+// ----------------------------------------------------------------------------------------------------------------
 
 // y = g t (t + h) / 2 after 1 s, 10 mm more than g t^2 / 2 at 8 substeps; v = g t
 static void free_fall_takes_the_discrete_way(void **state)
@@ -56,7 +58,8 @@ static void free_flight_only_loses_the_energy_of_the_discrete_scheme(void **stat
     scene_end(&s);
 }
 
-// ---- forces and damping ---------------------------------------------------------------------------------------------------------
+// ---- forces and damping
+// ---------------------------------------------------------------------------------------------------------
 
 // v = F t / m, and not one bit more once the calls end
 static void a_force_acts_in_all_substeps_of_the_next_step_only(void **state)
@@ -98,7 +101,8 @@ static void a_torque_spins_a_box_by_its_principal_moment(void **state)
     }
 }
 
-// v = v0 / (1 + h c)^n: 0.13548 v0 after 4 s at c = 0.5, where the exponential has 0.13534 v0. Factor and product are both rounded.
+// v = v0 / (1 + h c)^n: 0.13548 v0 after 4 s at c = 0.5, where the exponential has 0.13534 v0. Factor and product are
+// both rounded.
 static void damping_follows_its_discrete_law(void **state)
 {
     scene s = scene_begin(state);
@@ -114,14 +118,15 @@ static void damping_follows_its_discrete_law(void **state)
     scene_end(&s);
 }
 
-// ---- locks ----------------------------------------------------------------------------------------------------------------------
+// ---- locks
+// ----------------------------------------------------------------------------------------------------------------------
 
 enum { LINEAR_BITS = 7, ALL_LOCKS = 64 };
 
 static double component(vec a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
 
-// A box above the ground, pushed into the corner of two walls, twisted, and hit by a ball. Where it turns about one axis only, it starts
-// turned about that one.
+// A box above the ground, pushed into the corner of two walls, twisted, and hit by a ball. Where it turns about one
+// axis only, it starts turned about that one.
 static fe_body add_locked_box(scene *s, uint32_t linear, uint32_t angular)
 {
     uint32_t free_axes = ~angular & FE_AXIS_ALL;
@@ -138,7 +143,8 @@ static void check_locks(const scene *s, fe_body block, uint32_t linear, uint32_t
     vec w = spin(s, block), v = velocity(s, block);
     uint32_t turns = ~angular & FE_AXIS_ALL;
     for (int k = 0; k < 3; ++k) {
-        if (linear >> k & 1) FE_TRUE(component(now.position, k) == component(first.position, k) && component(v, k) == 0);
+        if (linear >> k & 1)
+            FE_TRUE(component(now.position, k) == component(first.position, k) && component(v, k) == 0);
         if (angular >> k & 1) FE_TRUE(component(w, k) == 0);
     }
     const float *q = &now.rotation.x, *q0 = &first.rotation.x;
@@ -182,8 +188,8 @@ static void locked_coordinates_stay_bit_for_bit_and_free_ones_move(void **state)
     for (uint32_t locks = 1; locks < ALL_LOCKS; ++locks) run_locked(locks & LINEAR_BITS, locks >> 3);
 }
 
-// Locked along the ground's normal, a body rests on its lock and the ground has nothing to carry: no friction, also where rounding tilts
-// the normal
+// Locked along the ground's normal, a body rests on its lock and the ground has nothing to carry: no friction, also
+// where rounding tilts the normal
 static void the_ground_does_not_hold_what_cannot_move_into_it(void **state)
 {
     const double tilts[] = {0, 1e-7, -1e-7};
@@ -256,8 +262,8 @@ static void world_inertia(const scene *s, fe_body rod, double out[3][3])
         }
 }
 
-// With one axis locked, the two free ones u, v obey  (I_uu I_uv; I_uv I_vv) w' = M. Inertia is that of the step's beginning: one step is
-// exact.
+// With one axis locked, the two free ones u, v obey  (I_uu I_uv; I_uv I_vv) w' = M. Inertia is that of the step's
+// beginning: one step is exact.
 static void two_free_axes_turn_by_the_inertia_between_them(void **state)
 {
     for (int locked = 0; locked < 3; ++locked) {
@@ -273,7 +279,8 @@ static void two_free_axes_turn_by_the_inertia_between_them(void **state)
         double det = inertia[u][u] * inertia[v][v] - inertia[u][v] * inertia[u][v];
         double wu = STEP * (inertia[v][v] * t[u] - inertia[u][v] * t[v]) / det,
                wv = STEP * (inertia[u][u] * t[v] - inertia[u][v] * t[u]) / det;
-        double error = hypot(wu, wv) * rounding(s.substeps) * inertia[u][u] * inertia[v][v] / det; // the difference cancels digits
+        double error =
+            hypot(wu, wv) * rounding(s.substeps) * inertia[u][u] * inertia[v][v] / det; // the difference cancels digits
         FE_NEAR(component(spin(&s, rod), u), wu, error);
         FE_NEAR(component(spin(&s, rod), v), wv, error);
         FE_TRUE(component(spin(&s, rod), locked) == 0);

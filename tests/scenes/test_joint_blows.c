@@ -26,8 +26,8 @@ static puppet add_puppet(scene *s, vec at, fe_ball_joint_def ball)
     for (int i = 0; i < 2 * LIMBS; ++i) {
         double side = i % 2 ? -1 : 1, y = i % LIMBS < 2 ? 0.22 : -0.22, out = 0.15 + 0.3 * (i / LIMBS);
         vec root = plus(at, v3(side * out, y, 0));
-        p.bones[1 + i] =
-            add_dynamic(s, capsule(0.1, 0.05), plus(root, v3(side * 0.15, 0, 0)), turned(v3(0, 0, 1), PI / 2), friction(0.6), WATER);
+        p.bones[1 + i] = add_dynamic(s, capsule(0.1, 0.05), plus(root, v3(side * 0.15, 0, 0)),
+                                     turned(v3(0, 0, 1), PI / 2), friction(0.6), WATER);
         MUST(fe_body_set_mass(s->world, p.bones[1 + i], 0.1f));
         p.joints[i] = add_ball(s, ball, p.bones[i < LIMBS ? 0 : 1 + i - LIMBS], p.bones[1 + i], root, v3(side, 0, 0));
     }
@@ -94,7 +94,8 @@ static void walls_hold_back_the_whole(void **state)
     }
 }
 
-// ---- a heap that all workers solve together, stirred by a bar -------------------------------------------------------------------------
+// ---- a heap that all workers solve together, stirred by a bar
+// -------------------------------------------------------------------------
 typedef struct heap {
     scene s;
     puppet puppets[HEAP];
@@ -154,7 +155,8 @@ static void a_heap_is_the_same_for_all_workers(void **state)
     scene_end(&four.s);
 }
 
-// ---- what is rigid --------------------------------------------------------------------------------------------------------------------
+// ---- what is rigid
+// --------------------------------------------------------------------------------------------------------------------
 
 // A joint with hertz of its own is a spring only where others are stiffer
 static void as_stiff_as_the_world_is_rigid(void **state)
@@ -178,7 +180,8 @@ static void as_stiff_as_the_world_is_rigid(void **state)
     }
 }
 
-// ---- doors -----------------------------------------------------------------------------------------------------------------------------
+// ---- doors
+// -----------------------------------------------------------------------------------------------------------------------------
 
 // Two leaves of 1 m, the second on the first, each on two hinges 1.5 m apart; the upper ones `askew`, rad
 typedef struct door {
@@ -193,8 +196,8 @@ static door add_door(scene *s, fe_body frame, double askew)
         d.leaves[i] = add_plain(s, box(0.5, 1, 0.05), v3(0.5 + i, 0, 0));
         touch_nothing(s, d.leaves[i]);
         for (int k = 0; k < 2; ++k)
-            d.hinges[2 * i + k] = add_hinge(s, hinge_def(), i ? d.leaves[0] : frame, d.leaves[i], v3(i, k ? 0.75 : -0.75, 0),
-                                            v3(0, k ? cos(askew) : 1, k ? sin(askew) : 0));
+            d.hinges[2 * i + k] = add_hinge(s, hinge_def(), i ? d.leaves[0] : frame, d.leaves[i],
+                                            v3(i, k ? 0.75 : -0.75, 0), v3(0, k ? cos(askew) : 1, k ? sin(askew) : 0));
     }
     return d;
 }

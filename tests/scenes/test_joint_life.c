@@ -1,4 +1,5 @@
-// What joints do to the rest of a world: sleep, filters, events, types, locks, masses, teleports, steps of other lengths.
+// What joints do to the rest of a world: sleep, filters, events, types, locks, masses, teleports, steps of other
+// lengths.
 #include "scenes/joint_scene.h"
 
 static int is_awake(const scene *s, fe_body body)
@@ -35,7 +36,8 @@ static tied add_tied(scene *s)
     return t;
 }
 
-// ---- sleep --------------------------------------------------------------------------------------------------------------------------
+// ---- sleep
+// --------------------------------------------------------------------------------------------------------------------------
 
 static void joined_bodies_sleep_and_wake_together(void **state)
 {
@@ -98,7 +100,8 @@ static void each_change_of_a_joint_wakes_its_bodies(void **state)
 static void a_joint_to_the_ground_wakes_only_its_own_body(void **state)
 {
     scene s = scene_begin(state);
-    fe_body ground = add_ground(&s, friction(0.6)), a = add_sleeper(&s, v3(0, 0.5, 0)), b = add_sleeper(&s, v3(4, 0.5, 0));
+    fe_body ground = add_ground(&s, friction(0.6)), a = add_sleeper(&s, v3(0, 0.5, 0)),
+            b = add_sleeper(&s, v3(4, 0.5, 0));
     run(&s, 60);
     FE_TRUE(!is_awake(&s, a) && !is_awake(&s, b));
     add_ball(&s, ball_def(), ground, a, v3(0, 0, 0), v3(0, 1, 0));
@@ -118,7 +121,8 @@ static void a_moving_kinematic_body_keeps_awake_what_it_holds(void **state)
     set_velocity(&s, hand, v3(0.01, 0, 0), v3(0, 0, 0)); // slower than the sleep threshold
     run(&s, 240);
     FE_TRUE(is_awake(&s, bob));
-    FE_NEAR(position(&s, bob).x, 4 * 0.01 - 0.01 * 5 / G, 0.001); // it lags by what the air takes: v c / g of its string of 1 m
+    FE_NEAR(position(&s, bob).x, 4 * 0.01 - 0.01 * 5 / G,
+            0.001); // it lags by what the air takes: v c / g of its string of 1 m
     FE_TRUE(fe_body_set_awake(s.world, bob, 0) == FE_ERROR_STATE);
     set_velocity(&s, hand, v3(0, 0, 0), v3(0, 0, 0));
     run(&s, 240);
@@ -130,7 +134,8 @@ static void a_moving_kinematic_body_keeps_awake_what_it_holds(void **state)
     scene_end(&s);
 }
 
-// ---- filter ---------------------------------------------------------------------------------------------------------------------------
+// ---- filter
+// ---------------------------------------------------------------------------------------------------------------------------
 
 static int32_t pair_events(const scene *s, int32_t kind)
 {
@@ -179,7 +184,8 @@ static void joined_bodies_touch_only_if_asked(void **state)
     scene_end(&s);
 }
 
-// ---- breaking -------------------------------------------------------------------------------------------------------------------------
+// ---- breaking
+// -------------------------------------------------------------------------------------------------------------------------
 
 static void a_joint_breaks_above_its_force_and_says_so(void **state)
 {
@@ -190,8 +196,8 @@ static void a_joint_breaks_above_its_force_and_says_so(void **state)
             double load = mass_of(&s, bar) * G * (by_torque ? 0.5 : 1);
             fe_fixed_joint_def d = fixed_def();
             d.user_data = 77;
-            // the load comes at once: a spring without damping would take twice the load, this one, overdamped, no more than a fifth above
-            // it
+            // the load comes at once: a spring without damping would take twice the load, this one, overdamped, no more
+            // than a fifth above it
             float most = (float)(load * (heavy ? 0.95 : 1.3));
             if (by_torque)
                 d.break_torque = most;
@@ -205,8 +211,8 @@ static void a_joint_breaks_above_its_force_and_says_so(void **state)
                 int32_t count = fe_world_get_joint_events(s.world, &e, sizeof e, 1);
                 if (!count) continue;
                 FE_TRUE(++broke == 1 && count == 1);
-                FE_TRUE(e.joint == joint && e.body_a == anchor && e.body_b == bar && e.user_data == 77 && e.kind == FE_EVENT_BREAK &&
-                        e.type == FE_JOINT_FIXED);
+                FE_TRUE(e.joint == joint && e.body_a == anchor && e.body_b == bar && e.user_data == 77 &&
+                        e.kind == FE_EVENT_BREAK && e.type == FE_JOINT_FIXED);
                 FE_WITHIN(length(widen(by_torque ? e.torque : e.force)), (double)most, 1.3 * load);
                 FE_TRUE(!fe_joint_is_valid(s.world, joint));
             }
@@ -220,7 +226,8 @@ static void a_joint_breaks_above_its_force_and_says_so(void **state)
         }
 }
 
-// six weights on six strings, made in another order than they hang; those too heavy break in the order of their creation
+// six weights on six strings, made in another order than they hang; those too heavy break in the order of their
+// creation
 static void joints_break_in_the_order_of_creation(void **state)
 {
     enum { WEIGHTS = 6 };
@@ -251,7 +258,8 @@ static void joints_break_in_the_order_of_creation(void **state)
     scene_end(&s);
 }
 
-// ---- what a joint holds goes on through changes ---------------------------------------------------------------------------------------
+// ---- what a joint holds goes on through changes
+// ---------------------------------------------------------------------------------------
 
 typedef struct hung {
     fe_body anchor, upper, lower;
@@ -261,8 +269,12 @@ typedef struct hung {
 
 static hung add_hung(scene *s)
 {
-    hung h = {
-        add_anchor(s, v3(0, 2, 0)), add_plain(s, box(0.2, 0.4, 0.2), v3(0, 1, 0)), add_plain(s, box(0.2, 0.4, 0.2), v3(0, -1, 0)), 0, 0, 0};
+    hung h = {add_anchor(s, v3(0, 2, 0)),
+              add_plain(s, box(0.2, 0.4, 0.2), v3(0, 1, 0)),
+              add_plain(s, box(0.2, 0.4, 0.2), v3(0, -1, 0)),
+              0,
+              0,
+              0};
     h.top = add_ball(s, ball_def(), h.anchor, h.upper, v3(0, 2, 0), v3(0, -1, 0));
     h.middle = add_hinge(s, hinge_def(), h.upper, h.lower, v3(0, 0, 0), v3(1, 0, 0));
     h.weight = mass_of(s, h.upper) * G;
@@ -294,7 +306,8 @@ static void a_disabled_joint_holds_nothing_and_holds_again(void **state)
     for (int i = 0; i < 300; ++i) {
         run(&s, 1);
         totals now = totals_of(&s, (fe_body[]){h.upper, h.lower}, 2);
-        FE_WITHIN(now.energy, -1e9, before.energy + h.weight * 0.06); // what the open joint stores by its height, and no more
+        FE_WITHIN(now.energy, -1e9,
+                  before.energy + h.weight * 0.06); // what the open joint stores by its height, and no more
     }
     check_hangs(&s, &h, LINEAR_SLOP);
     scene_end(&s);
@@ -353,8 +366,8 @@ static void steps_of_other_lengths_change_no_force(void **state)
         MUST(fe_world_set_substeps(s.world, substeps[k]));
         for (int i = 0; i < 3; ++i) {
             MUST(fe_world_step(s.world, (float)lengths[k]));
-            // a chain at rest: the first step with the new length already bears the weight, up to the change of softness (hertz are limited
-            // by the substep) that the world settles to
+            // a chain at rest: the first step with the new length already bears the weight, up to the change of
+            // softness (hertz are limited by the substep) that the world settles to
             FE_WITHIN(length(velocity(&s, h.lower)), 0, 0.05);
         }
         for (int i = 0; i < 60; ++i) MUST(fe_world_step(s.world, (float)lengths[k]));
@@ -374,7 +387,8 @@ static void a_teleported_pair_goes_on_as_it_was(void **state)
     d.limit_enabled = 1, d.lower = -0.2f, d.upper = (float)PI;
     fe_joint joint = add_hinge(&s, d, a, b, v3(0.5, 0, 0), v3(0, 0, 1));
     fe_transform t = {to_world(&s, v3(1000, 5, 0)), compose(s.turn, turned(v3(0, 1, 1), 2))};
-    fe_transform u = {plus(t.position, rotate(t.rotation, v3(0.5, 0, 0))), compose(t.rotation, turned(v3(0, 0, 1), 3.1))};
+    fe_transform u = {plus(t.position, rotate(t.rotation, v3(0.5, 0, 0))),
+                      compose(t.rotation, turned(v3(0, 0, 1), 3.1))};
     u.position = plus(u.position, rotate(u.rotation, v3(0.5, 0, 0)));
     MUST(fe_body_set_transform(s.world, a, &t));
     MUST(fe_body_set_transform(s.world, b, &u)); // 3.1 rad: close to the end of its range
@@ -405,7 +419,8 @@ static void joints_without_a_dynamic_end_do_nothing(void **state)
     scene_end(&s);
 }
 
-// ---- locks (V7, B37) ------------------------------------------------------------------------------------------------------------------
+// ---- locks (V7, B37)
+// ------------------------------------------------------------------------------------------------------------------
 
 static void check_locked(const fe_transform *was, const fe_transform *is, uint32_t linear, uint32_t angular)
 {
@@ -413,8 +428,8 @@ static void check_locked(const fe_transform *was, const fe_transform *is, uint32
     for (int k = 0; k < 3; ++k)
         if (linear >> k & 1) FE_TRUE(p[k] == q[k]);
     if (angular != 7) return;
-    FE_TRUE(was->rotation.x == is->rotation.x && was->rotation.y == is->rotation.y && was->rotation.z == is->rotation.z &&
-            was->rotation.w == is->rotation.w);
+    FE_TRUE(was->rotation.x == is->rotation.x && was->rotation.y == is->rotation.y &&
+            was->rotation.z == is->rotation.z && was->rotation.w == is->rotation.w);
 }
 
 // each of the 63 locks on the lower of two bodies, tied by each type of joint, with gravity, a push and a ground
@@ -428,10 +443,12 @@ static void no_joint_moves_a_locked_coordinate(void **state)
         for (int type = 0; type < 5; ++type) {
             vec at = v3(3 * type, 1, 0);
             fe_body upper = add_dynamic(&s, box(0.2, 0.2, 0.2), at, UNTURNED, friction(0.5), WATER),
-                    lower = add_dynamic(&s, box(0.3, 0.2, 0.1), plus(at, v3(0.3, -1, 0.2)), turned(v3(1, 2, 3), 1), friction(0.5), WATER);
+                    lower = add_dynamic(&s, box(0.3, 0.2, 0.1), plus(at, v3(0.3, -1, 0.2)), turned(v3(1, 2, 3), 1),
+                                        friction(0.5), WATER);
             vec point = plus(at, v3(0, -0.5, 0));
             fe_configurable_joint_def six = configurable_def();
-            for (int k = 0; k < 6; ++k) six.axes[k].motion = FE_MOTION_LIMITED, six.axes[k].lower = -0.1f, six.axes[k].upper = 0.1f;
+            for (int k = 0; k < 6; ++k)
+                six.axes[k].motion = FE_MOTION_LIMITED, six.axes[k].lower = -0.1f, six.axes[k].upper = 0.1f;
             MUST(fe_body_set_locks(s.world, lower, linear, angular));
             add_rod(&s, anchor, upper, v3(3 * type, 2, 0), at);
             if (type == 0) add_rod(&s, upper, lower, at, position(&s, lower));
@@ -453,7 +470,8 @@ static void no_joint_moves_a_locked_coordinate(void **state)
     }
 }
 
-// ---- many -----------------------------------------------------------------------------------------------------------------------------
+// ---- many
+// -----------------------------------------------------------------------------------------------------------------------------
 
 static void making_and_destroying_joints_takes_no_more_and_more_memory(void **state)
 {

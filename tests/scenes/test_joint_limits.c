@@ -47,12 +47,14 @@ static fe_joint configurable_of(gyre *g, fe_configurable_joint_def d)
 static double square(double a) { return a * a; }
 static double stiffness_of(double hertz) { return square(2 * PI * hertz); } // for a mass of 1
 
-// ---- cone and twist -------------------------------------------------------------------------------------------------------------------
+// ---- cone and twist
+// -------------------------------------------------------------------------------------------------------------------
 
 // swing times twist
 static fe_quat rotation_of(double twist, double y, double z)
 {
-    double swing = sqrt(y * y + z * z), k = swing > 0 ? sin(swing / 2) / swing : 0, sy = k * y, sz = k * z, sw = cos(swing / 2);
+    double swing = sqrt(y * y + z * z), k = swing > 0 ? sin(swing / 2) / swing : 0, sy = k * y, sz = k * z,
+           sw = cos(swing / 2);
     double tx = sin(twist / 2), tw = cos(twist / 2);
     return (fe_quat){(float)(sw * tx), (float)(sy * tw + sz * tx), (float)(sz * tw - sy * tx), (float)(sw * tw)};
 }
@@ -80,7 +82,8 @@ static void cone_and_twist_hold_together_from_every_side(void **state)
                 FE_WITHIN(out > 1 ? sqrt(y * y + z * z) * (1 - 1 / out) : 0, 0, 2 * DEGREES);
                 FE_WITHIN(side * (double)at.angle, 100 * DEGREES, end + 1 * DEGREES);
                 FE_NEAR((double)at.angular_error,
-                        fmax(out > 1 ? sqrt(y * y + z * z) * (1 - 1 / out) : 0, fmax(side * (double)at.angle - end, 0)), 1e-4);
+                        fmax(out > 1 ? sqrt(y * y + z * z) * (1 - 1 / out) : 0, fmax(side * (double)at.angle - end, 0)),
+                        1e-4);
             }
             fe_joint_state at = state_of(&g.s, joint);
             FE_NEAR(sqrt(square((double)at.swing_y / a) + square((double)at.swing_z / b)), 1,
@@ -113,7 +116,8 @@ static void the_ellipse_does_not_turn_with_the_twist(void **state)
         }
 }
 
-// Ranges that end at half a turn, on one side or on both, hold from either side against a motor and a spring that press on
+// Ranges that end at half a turn, on one side or on both, hold from either side against a motor and a spring that press
+// on
 static void ends_at_half_a_turn_hold_against_motors_and_springs(void **state)
 {
     enum { BY_HINGE, BY_BALL, ABOUT_X, ABOUT_Y, ABOUT_Z, WAYS };
@@ -121,19 +125,23 @@ static void ends_at_half_a_turn_hold_against_motors_and_springs(void **state)
         for (int k = 0; k < 4; ++k) {
             gyre g = begin_gyre(state);
             double side = k % 2 ? 1 : -1, load = 20, most = 0;
-            float other = k / 2 ? (float)PI : 0.5f, low = side < 0 ? -(float)PI : -other, high = side > 0 ? (float)PI : other;
+            float other = k / 2 ? (float)PI : 0.5f, low = side < 0 ? -(float)PI : -other,
+                  high = side > 0 ? (float)PI : other;
             int about = by <= BY_BALL ? 0 : by - ABOUT_X;
             fe_joint joint = 0;
             fe_hinge_joint_def hinge = hinge_def();
             fe_ball_joint_def ball = ball_def();
             fe_configurable_joint_def six = configurable_def();
             fe_joint_axis *axis = &six.axes[FE_DOF_ANGULAR_X + about];
-            hinge.limit_enabled = ball.limit_enabled = 1, hinge.lower = ball.lower = low, hinge.upper = ball.upper = high;
+            hinge.limit_enabled = ball.limit_enabled = 1, hinge.lower = ball.lower = low,
+            hinge.upper = ball.upper = high;
             hinge.motor_speed = (float)(4 * side), hinge.motor_max = ball.motor_max = (float)load,
             ball.motor_velocity.x = (float)(4 * side);
-            hinge.spring_hertz = ball.spring_hertz = 1, hinge.target = (float)(side * PI), ball.target = rotation_of(side * PI, 0, 0);
+            hinge.spring_hertz = ball.spring_hertz = 1, hinge.target = (float)(side * PI),
+            ball.target = rotation_of(side * PI, 0, 0);
             axis->motion = FE_MOTION_LIMITED, axis->lower = low, axis->upper = high;
-            axis->spring = FE_SPRING_HERTZ, axis->spring_hertz = axis->spring_damping_ratio = 1, axis->target = (float)(side * PI);
+            axis->spring = FE_SPRING_HERTZ, axis->spring_hertz = axis->spring_damping_ratio = 1,
+            axis->target = (float)(side * PI);
             axis->motor_speed = (float)(4 * side), axis->motor_max = (float)load;
             if (by == BY_HINGE) joint = hinge_of(&g, hinge);
             if (by == BY_BALL) joint = ball_of(&g, ball);
@@ -174,7 +182,8 @@ static void a_swing_over_half_a_turn_stays_sane(void **state)
     }
 }
 
-// ---- targets beyond limits ------------------------------------------------------------------------------------------------------------
+// ---- targets beyond limits
+// ------------------------------------------------------------------------------------------------------------
 
 static void a_target_beyond_a_limit_counts_as_the_limit(void **state)
 {
@@ -193,7 +202,8 @@ static void a_target_beyond_a_limit_counts_as_the_limit(void **state)
 
     g = begin_gyre(state);
     fe_ball_joint_def ball = ball_def();
-    ball.cone_enabled = ball.limit_enabled = 1, ball.cone_y = 0.5f, ball.cone_z = 0.25f, ball.lower = -0.1f, ball.upper = 0.2f;
+    ball.cone_enabled = ball.limit_enabled = 1, ball.cone_y = 0.5f, ball.cone_z = 0.25f, ball.lower = -0.1f,
+    ball.upper = 0.2f;
     ball.spring_hertz = 3, ball.target = rotation_of(1, 1, 1);
     joint = ball_of(&g, ball);
     run(&g.s, 300);
@@ -216,9 +226,11 @@ static void a_target_beyond_a_limit_counts_as_the_limit(void **state)
     scene_end(&g.s);
 }
 
-// ---- softness of what is held, and of limits ------------------------------------------------------------------------------------------
+// ---- softness of what is held, and of limits
+// ------------------------------------------------------------------------------------------
 
-// What hangs by a joint of `hertz` sinks by g / w^2. Highly damped it creeps there as C x' = -K x, by w / (2 zeta) a second
+// What hangs by a joint of `hertz` sinks by g / w^2. Highly damped it creeps there as C x' = -K x, by w / (2 zeta) a
+// second
 static void locks_give_by_their_hertz_and_come_back_by_their_damping(void **state)
 {
     for (int type = 0; type < 4; ++type)
@@ -237,7 +249,8 @@ static void locks_give_by_their_hertz_and_come_back_by_their_damping(void **stat
             if (type == 1) joint = add_ball(&s, ball, anchor, weight, v3(0, 0, 0), v3(0, 1, 0));
             if (type == 2) joint = add_hinge(&s, hinge, anchor, weight, v3(0, 0, 0), v3(0, 1, 0));
             if (type == 3) joint = add_configurable(&s, six, anchor, weight, v3(0, 0, 0), v3(0, 1, 0));
-            double give = G / stiffness_of((double)hertz), rate = 2 * PI * (double)hertz / (2 * (double)ratio), seconds = 1 / rate;
+            double give = G / stiffness_of((double)hertz), rate = 2 * PI * (double)hertz / (2 * (double)ratio),
+                   seconds = 1 / rate;
             int steps = (int)(seconds / STEP + 0.5);
             run(&s, steps);
             FE_NEAR(gap_of(&s, joint), give * (1 - exp(-rate * steps * STEP)), 0.1 * give);
@@ -258,8 +271,8 @@ static void soft_joints_swing(void **state)
         d.hertz = 5, d.damping_ratio = bouncy ? 0.1f : 1.5f;
         fe_ball_joint_def ball = ball_def();
         ball.hertz = d.hertz, ball.damping_ratio = d.damping_ratio;
-        fe_joint joint =
-            is_ball ? add_ball(&s, ball, anchor, weight, v3(0, 0, 0), v3(0, 1, 0)) : add_fixed(&s, d, anchor, weight, v3(0, 0, 0));
+        fe_joint joint = is_ball ? add_ball(&s, ball, anchor, weight, v3(0, 0, 0), v3(0, 1, 0))
+                                 : add_fixed(&s, d, anchor, weight, v3(0, 0, 0));
         double give = G / stiffness_of(5), most = 0;
         for (int i = 0; i < 600; ++i) {
             run(&s, 1);
@@ -267,8 +280,8 @@ static void soft_joints_swing(void **state)
         }
         FE_NEAR(-position(&s, weight).y, give, 0.02 * give);
         FE_NEAR(gap_of(&s, joint), give, 0.02 * give);
-        // a sudden load on a spring of damping 0.1 overshoots by exp(-pi 0.1 / sqrt(1 - 0.01)) = 0.73, with the damping of the scheme, pi f
-        // h, 0.66
+        // a sudden load on a spring of damping 0.1 overshoots by exp(-pi 0.1 / sqrt(1 - 0.01)) = 0.73, with the damping
+        // of the scheme, pi f h, 0.66
         if (bouncy)
             FE_WITHIN(most, 1.55 * give, 1.75 * give);
         else
@@ -306,7 +319,8 @@ static void limits_give_by_their_hertz_and_come_back_by_their_damping(void **sta
             fe_ball_joint_def ball = ball_def();
             fe_configurable_joint_def slide = slider_def();
             fe_joint joint = 0;
-            hinge.limit_enabled = 1, hinge.lower = -0.01f, hinge.upper = 0, hinge.limit_hertz = hertz, hinge.limit_damping_ratio = ratio;
+            hinge.limit_enabled = 1, hinge.lower = -0.01f, hinge.upper = 0, hinge.limit_hertz = hertz,
+            hinge.limit_damping_ratio = ratio;
             ball.limit_enabled = 1, ball.lower = -0.01f, ball.upper = 0;
             ball.limit_hertz = hertz, ball.limit_damping_ratio = ratio;
             slide.axes[0].motion = FE_MOTION_LIMITED, slide.axes[0].lower = -0.01f, slide.axes[0].upper = 0;
@@ -320,7 +334,8 @@ static void limits_give_by_their_hertz_and_come_back_by_their_damping(void **sta
                 ball.limit_enabled = 0, ball.cone_enabled = 1, ball.cone_y = ball.cone_z = 0.5f;
                 joint = ball_of(&g, ball), inertia = g.moment[1];
             }
-            double give = load / (inertia * stiffness_of((double)hertz)), rate = 2 * PI * (double)hertz / (2 * (double)ratio);
+            double give = load / (inertia * stiffness_of((double)hertz)),
+                   rate = 2 * PI * (double)hertz / (2 * (double)ratio);
             int steps = (int)(1 / (rate * STEP) + 0.5);
             for (int i = 0; i < 20 * steps; ++i) {
                 vec push = where == 3 ? v3(0, load, 0) : v3(load, 0, 0);
@@ -338,9 +353,11 @@ static void limits_give_by_their_hertz_and_come_back_by_their_damping(void **sta
         }
 }
 
-// ---- caps -----------------------------------------------------------------------------------------------------------------------------
+// ---- caps
+// -----------------------------------------------------------------------------------------------------------------------------
 
-// A constant push against a spring: below the cap it rests at push / stiffness, above it runs away with what the cap leaves
+// A constant push against a spring: below the cap it rests at push / stiffness, above it runs away with what the cap
+// leaves
 static void a_spring_pushes_up_to_its_cap(void **state)
 {
     for (int where = 0; where < 5; ++where)
@@ -355,15 +372,16 @@ static void a_spring_pushes_up_to_its_cap(void **state)
             fe_joint joint = 0;
             hinge.spring_hertz = 2, hinge.spring_max = cap;
             ball.spring_hertz = 2, ball.spring_max = cap;
-            slide.axes[0].spring = FE_SPRING_HERTZ, slide.axes[0].spring_hertz = 2, slide.axes[0].spring_damping_ratio = 1,
-            slide.axes[0].spring_max = cap;
+            slide.axes[0].spring = FE_SPRING_HERTZ, slide.axes[0].spring_hertz = 2,
+            slide.axes[0].spring_damping_ratio = 1, slide.axes[0].spring_max = cap;
             rope.lower = 0, rope.upper = 100, rope.target = 2, rope.spring_hertz = 2, rope.spring_max = cap;
             for (int k = 3; k < 6; ++k) six.axes[k] = slide.axes[0];
             if (where == 0) joint = hinge_of(&g, hinge);
             if (where == 1) joint = ball_of(&g, ball);
             if (where == 2) joint = configurable_of(&g, slide), inertia = g.mass;
             if (where == 3) joint = configurable_of(&g, six);
-            if (where == 4) joint = add_distance(&g.s, rope, g.anchor, g.block, v3(-2, 0, 0), v3(0, 0, 0)), inertia = g.mass;
+            if (where == 4)
+                joint = add_distance(&g.s, rope, g.anchor, g.block, v3(-2, 0, 0), v3(0, 0, 0)), inertia = g.mass;
             int is_linear = where == 2 || where == 4, steps = enough ? 300 : 60;
             for (int i = 0; i < steps; ++i) {
                 if (is_linear)
@@ -381,7 +399,8 @@ static void a_spring_pushes_up_to_its_cap(void **state)
                 // once beyond cap / stiffness it accelerates by (load - cap) / inertia; before, by more
                 double v = is_linear ? length(velocity(&g.s, g.block)) : length(spin(&g.s, g.block));
                 FE_WITHIN(v, (load - (double)cap) * seconds / inertia, load * seconds / inertia);
-                FE_NEAR(length(is_linear ? force_of(&g.s, joint) : torque_of(&g.s, joint)), (double)cap, 0.01 * (double)cap);
+                FE_NEAR(length(is_linear ? force_of(&g.s, joint) : torque_of(&g.s, joint)), (double)cap,
+                        0.01 * (double)cap);
             }
             scene_end(&g.s);
         }
@@ -407,7 +426,8 @@ static void a_motor_holds_up_to_its_cap_and_runs_at_its_speed(void **state)
             if (where == 0) joint = hinge_of(&g, hinge);
             if (where == 1) joint = ball_of(&g, ball);
             if (where == 2) joint = configurable_of(&g, slide), inertia = g.mass;
-            if (where == 3) joint = add_distance(&g.s, rope, g.anchor, g.block, v3(-2, 0, 0), v3(0, 0, 0)), inertia = g.mass;
+            if (where == 3)
+                joint = add_distance(&g.s, rope, g.anchor, g.block, v3(-2, 0, 0), v3(0, 0, 0)), inertia = g.mass;
             int is_linear = where >= 2, steps = enough ? 600 : 60;
             for (int i = 0; i < steps; ++i) {
                 if (is_linear)
@@ -423,7 +443,8 @@ static void a_motor_holds_up_to_its_cap_and_runs_at_its_speed(void **state)
                 FE_NEAR(v, -(load - (double)cap) / inertia, 0.01 * load / inertia);
             fe_vec3 force, torque;
             MUST(fe_joint_get_reaction(g.s.world, joint, &force, &torque));
-            FE_NEAR(is_linear ? force_of(&g.s, joint).x : torque_of(&g.s, joint).x, enough ? load : (double)cap, 0.01 * load);
+            FE_NEAR(is_linear ? force_of(&g.s, joint).x : torque_of(&g.s, joint).x, enough ? load : (double)cap,
+                    0.01 * load);
             scene_end(&g.s);
         }
 }
@@ -439,7 +460,8 @@ static void each_axis_of_a_configurable_joint_has_its_own_drive_and_motor(void *
             if (by_motor)
                 axis->motor_speed = 0.25f, axis->motor_max = 1e4f;
             else
-                axis->spring = FE_SPRING_HERTZ, axis->spring_hertz = 3, axis->spring_damping_ratio = 1, axis->target = 0.5f;
+                axis->spring = FE_SPRING_HERTZ, axis->spring_hertz = 3, axis->spring_damping_ratio = 1,
+                axis->target = 0.5f;
             fe_joint joint = configurable_of(&g, six);
             run(&g.s, 240);
             fe_joint_state at = state_of(&g.s, joint);
@@ -470,7 +492,8 @@ static void a_motor_moves_to_a_pose_and_holds_it_within_its_caps(void **state)
     scene_end(&s);
 }
 
-// ---- locked bodies --------------------------------------------------------------------------------------------------------------------
+// ---- locked bodies
+// --------------------------------------------------------------------------------------------------------------------
 
 // the axes that are free move to their limits, those that are locked stay; limits of locked ones do no harm
 static void limits_hold_bodies_with_locked_axes(void **state)
@@ -489,7 +512,8 @@ static void limits_hold_bodies_with_locked_axes(void **state)
         }
         fe_joint_state at = state_of(&g.s, joint);
         const double x[3] = {(double)at.angle, (double)at.swing_y, (double)at.swing_z}, stop[3] = {0.75, 0.5, 0.25};
-        for (uint32_t k = 0; k < 3; ++k) FE_NEAR(x[k], k == axis ? stop[k] + joint_give(&g.s, 10, g.moment[k]) : 0, 1e-4);
+        for (uint32_t k = 0; k < 3; ++k)
+            FE_NEAR(x[k], k == axis ? stop[k] + joint_give(&g.s, 10, g.moment[k]) : 0, 1e-4);
         scene_end(&g.s);
     }
 }

@@ -1,10 +1,11 @@
-// Samples of Box2D v3 with joints that are springs (E. Catto, 2024): a cantilever (B34), a ring (B35), light between heavy and a windmill
-// (B36), a box on each joint's spring (B30), a scissor lift (B33).
+// Samples of Box2D v3 with joints that are springs (E. Catto, 2024): a cantilever (B34), a ring (B35), light between
+// heavy and a windmill (B36), a box on each joint's spring (B30), a scissor lift (B33).
 #include "scenes/joint_scene.h"
 
 static fe_quat lying(void) { return turned(v3(0, 0, 1), -PI / 2); } // a capsule along x
 
-// ---- cantilever -------------------------------------------------------------------------------------------------------------------
+// ---- cantilever
+// -------------------------------------------------------------------------------------------------------------------
 
 enum { BARS = 8 };
 
@@ -23,8 +24,8 @@ static double tip_of_cantilever(void **state, float hertz, double *out_expected)
         last = bar;
     }
     run(&s, 900);
-    // joint j bears the moment of what is beyond it, m g n^2 / 2 with n = 8 - j, on the inertia of one bar or of two in series; the tip
-    // moves by n times its angle
+    // joint j bears the moment of what is beyond it, m g n^2 / 2 with n = 8 - j, on the inertia of one bar or of two in
+    // series; the tip moves by n times its angle
     double m = mass_of(&s, last), moment = moment_of(&s, last, 0, 0), w = 2 * PI * (double)hertz, sum = 0;
     for (int n = 1; n <= BARS; ++n) sum += m * G * n * n * n / 2 / (n == BARS ? moment : moment / 2);
     *out_expected = sum / (w * w);
@@ -43,7 +44,8 @@ static void a_cantilever_bends_by_its_load_over_its_hertz_squared(void **state)
     for (int i = 2; i < 4; ++i) FE_NEAR(sag[i], expected[i], 0.25 * expected[i]);
 }
 
-// ---- ring -------------------------------------------------------------------------------------------------------------------------
+// ---- ring
+// -------------------------------------------------------------------------------------------------------------------------
 
 enum { SIDES = 7 };
 
@@ -74,7 +76,8 @@ static void a_ring_of_springs_keeps_its_size_when_it_falls(void **state)
     fe_fixed_joint_def d = fixed_def();
     d.angular_hertz = 5, d.angular_damping_ratio = 0;
     for (int i = 0; i < SIDES; ++i)
-        add_fixed(&s, d, sides[i], sides[(i + 1) % SIDES], times(0.5, plus(position(&s, sides[i]), position(&s, sides[(i + 1) % SIDES]))));
+        add_fixed(&s, d, sides[i], sides[(i + 1) % SIDES],
+                  times(0.5, plus(position(&s, sides[i]), position(&s, sides[(i + 1) % SIDES]))));
     measure_ring(&s, sides, &around, &area);
     double start = totals_of(&s, sides, SIDES).energy, deep = totals_of(&s, sides, SIDES).kinetic;
     for (int i = 0; i < 900; ++i) {
@@ -88,7 +91,8 @@ static void a_ring_of_springs_keeps_its_size_when_it_falls(void **state)
     scene_end(&s);
 }
 
-// ---- light between heavy --------------------------------------------------------------------------------------------------------------
+// ---- light between heavy
+// --------------------------------------------------------------------------------------------------------------
 
 static void a_light_ball_on_springs_between_heavy_ones_adds_no_energy(void **state)
 {
@@ -99,7 +103,8 @@ static void a_light_ball_on_springs_between_heavy_ones_adds_no_energy(void **sta
                 middle = add_plain(&s, sphere(radius), v3(0, 2, 0)), all[3] = {left, right, middle};
         add_ground(&s, friction(0.6));
         fe_configurable_joint_def d = slider_def();
-        d.axes[FE_DOF_LINEAR_X].spring = FE_SPRING_HERTZ, d.axes[FE_DOF_LINEAR_X].spring_hertz = 10, d.axes[FE_DOF_LINEAR_X].spring_damping_ratio = 2;
+        d.axes[FE_DOF_LINEAR_X].spring = FE_SPRING_HERTZ, d.axes[FE_DOF_LINEAR_X].spring_hertz = 10,
+        d.axes[FE_DOF_LINEAR_X].spring_damping_ratio = 2;
         fe_joint joints[2] = {add_configurable(&s, d, left, middle, v3(0, 2, 0), v3(1, 0, 0)),
                               add_configurable(&s, d, middle, right, v3(0, 2, 0), v3(1, 0, 0))};
         set_velocity(&s, left, v3(1, 0, 0), v3(0, 0, 0));
@@ -142,13 +147,16 @@ static void a_windmill_of_soft_blades_turns_and_stays_whole(void **state)
     scene_end(&s);
 }
 
-// ---- a box on the springs of each joint (B30) -----------------------------------------------------------------------------------------
+// ---- a box on the springs of each joint (B30)
+// -----------------------------------------------------------------------------------------
 
-// Half a period after it was let go, 0.25 beyond where it rests, it is as far on the other side, less what the damping took
+// Half a period after it was let go, 0.25 beyond where it rests, it is as far on the other side, less what the damping
+// took
 static void a_box_on_a_slider_swings_in_its_range_and_stops_at_its_motor(void **state)
 {
     scene s = scene_begin(state);
-    fe_body anchor = add_anchor(&s, v3(0, 5.5, 0)), heavy = add_dynamic(&s, box(0.5, 1.5, 0.25), v3(0, 4, 0), UNTURNED, friction(0), 100);
+    fe_body anchor = add_anchor(&s, v3(0, 5.5, 0)),
+            heavy = add_dynamic(&s, box(0.5, 1.5, 0.25), v3(0, 4, 0), UNTURNED, friction(0), 100);
     fe_configurable_joint_def d = slider_def();
     fe_joint_axis *along = &d.axes[FE_DOF_LINEAR_X];
     along->motion = FE_MOTION_LIMITED, along->lower = -1, along->upper = 1;
@@ -158,7 +166,8 @@ static void a_box_on_a_slider_swings_in_its_range_and_stops_at_its_motor(void **
     double most = 0, least = 0;
     for (int i = 0; i < 30; ++i) { // 0.5 s
         run(&s, 1);
-        most = fmax(most, (double)state_of(&s, joint).translation.x), least = fmin(least, (double)state_of(&s, joint).translation.x);
+        most = fmax(most, (double)state_of(&s, joint).translation.x),
+        least = fmin(least, (double)state_of(&s, joint).translation.x);
     }
     double w = 4 * PI, quarter = 5 / w * exp(-0.1 * PI / 2), three = 5 / w * exp(-0.1 * 3 * PI / 2);
     FE_NEAR(most, quarter, 0.05 * quarter);
@@ -171,7 +180,8 @@ static void a_box_on_a_slider_swings_in_its_range_and_stops_at_its_motor(void **
     scene_end(&s);
 }
 
-// ---- a scissor lift (B33) ---------------------------------------------------------------------------------------------------------
+// ---- a scissor lift (B33)
+// ---------------------------------------------------------------------------------------------------------
 
 enum { STAGES = 3, HINGES = 3 * STAGES };
 #define REACH 2.5    // m, half of a bar
@@ -207,8 +217,10 @@ static void build_lift(scene *s, float speed, lift *l)
     fe_body ground = add_anchor(s, v3(0, 0, 0)), left = ground, right = ground;
     for (int i = 0; i < STAGES; ++i) {
         double middle = bottom + (2 * i + 1) * y;
-        fe_body rising = add_dynamic(s, capsule(REACH, 0.15), v3(0, middle, 0), turned(v3(0, 0, 1), CROSSED - PI / 2), friction(0.6), 1);
-        fe_body falling = add_dynamic(s, capsule(REACH, 0.15), v3(0, middle, 0), turned(v3(0, 0, 1), -CROSSED - PI / 2), friction(0.6), 1);
+        fe_body rising = add_dynamic(s, capsule(REACH, 0.15), v3(0, middle, 0), turned(v3(0, 0, 1), CROSSED - PI / 2),
+                                     friction(0.6), 1);
+        fe_body falling = add_dynamic(s, capsule(REACH, 0.15), v3(0, middle, 0), turned(v3(0, 0, 1), -CROSSED - PI / 2),
+                                      friction(0.6), 1);
         touch_nothing(s, rising), touch_nothing(s, falling);
         join_bars(s, l, rising, falling, v3(0, middle, 0));
         join_bars(s, l, left, rising, v3(-x, middle - y, 0));
@@ -225,9 +237,9 @@ static void build_lift(scene *s, float speed, lift *l)
     l->rail = join_foot(s, l->platform, right, v3(x, top, 0), 0, 0);
 }
 
-// Each stage is 2 sqrt(REACH^2 - (w/2)^2) high, w the distance of the feet: drawn in at 0.25 m/s, it tells the platform's height, once its
-// leap at the start (the flat bars lift it 20 times as fast as the foot goes) has died away. A gap along a bar, two a level, lowers its
-// stage by the gap times the slope's cotangent.
+// Each stage is 2 sqrt(REACH^2 - (w/2)^2) high, w the distance of the feet: drawn in at 0.25 m/s, it tells the
+// platform's height, once its leap at the start (the flat bars lift it 20 times as fast as the foot goes) has died
+// away. A gap along a bar, two a level, lowers its stage by the gap times the slope's cotangent.
 static void a_scissor_lift_rises_as_its_feet_close_and_stays_level(void **state)
 {
     scene s = scene_begin(state);
@@ -235,11 +247,13 @@ static void a_scissor_lift_rises_as_its_feet_close_and_stays_level(void **state)
     build_lift(&s, -0.25f, &l);
     for (int i = 0; i < 480; ++i) {
         run(&s, 1);
-        double half = REACH * cos(CROSSED) + 0.5 * (double)state_of(&s, l.foot).translation.x, rise = sqrt(REACH * REACH - half * half);
+        double half = REACH * cos(CROSSED) + 0.5 * (double)state_of(&s, l.foot).translation.x,
+               rise = sqrt(REACH * REACH - half * half);
         double gap = fmax(worst_gap(&s, l.hinges, HINGES), fmax(gap_of(&s, l.foot), gap_of(&s, l.rail)));
         FE_WITHIN(gap, 0, 0.05);
         FE_WITHIN(tilt(&s, l.platform), 0, 2 * DEGREES);
-        if (i >= 300) FE_NEAR(position(&s, l.platform).y, 0.4 + 2 * STAGES * rise, LINEAR_SLOP + 4 * STAGES * gap * half / rise);
+        if (i >= 300)
+            FE_NEAR(position(&s, l.platform).y, 0.4 + 2 * STAGES * rise, LINEAR_SLOP + 4 * STAGES * gap * half / rise);
         FE_NEAR(position(&s, l.platform).z, 0, 0.05);
     }
     FE_NEAR(state_of(&s, l.foot).translation.x, -0.25 * 480 / 60, 0.05);
@@ -249,9 +263,12 @@ static void a_scissor_lift_rises_as_its_feet_close_and_stays_level(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(a_cantilever_bends_by_its_load_over_its_hertz_squared),        TEST(a_ring_of_springs_keeps_its_size_when_it_falls),
-        TEST(a_light_ball_on_springs_between_heavy_ones_adds_no_energy),    TEST(a_windmill_of_soft_blades_turns_and_stays_whole),
-        TEST(a_box_on_a_slider_swings_in_its_range_and_stops_at_its_motor), TEST(a_scissor_lift_rises_as_its_feet_close_and_stays_level),
+        TEST(a_cantilever_bends_by_its_load_over_its_hertz_squared),
+        TEST(a_ring_of_springs_keeps_its_size_when_it_falls),
+        TEST(a_light_ball_on_springs_between_heavy_ones_adds_no_energy),
+        TEST(a_windmill_of_soft_blades_turns_and_stays_whole),
+        TEST(a_box_on_a_slider_swings_in_its_range_and_stops_at_its_motor),
+        TEST(a_scissor_lift_rises_as_its_feet_close_and_stays_level),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-// Scenes with joints that engines are compared by: S20 to S23, S25, S26, B25 to B30, B32, chains of 1000:1, linkages. Bounds by P2
-// (joint_give).
+// Scenes with joints that engines are compared by: S20 to S23, S25, S26, B25 to B30, B32, chains of 1000:1, linkages.
+// Bounds by P2 (joint_give).
 #include "scenes/joint_scene.h"
 
 #define SOURCE_G 10.0 // m/s2, of the sources
@@ -32,7 +32,8 @@ static double speed_square(const scene *s, const fe_body *bodies, int count)
     return sum;
 }
 
-// ---- chains ---------------------------------------------------------------------------------------------------------------------------
+// ---- chains
+// ---------------------------------------------------------------------------------------------------------------------------
 
 enum { MOST_LINKS = 48 };
 typedef struct chain {
@@ -42,14 +43,16 @@ typedef struct chain {
 } chain;
 
 // `count` capsules of half length `half` in a row along x from `from`
-static chain add_chain(scene *s, vec from, int count, double half, double radius, double density, double friction_torque)
+static chain add_chain(scene *s, vec from, int count, double half, double radius, double density,
+                       double friction_torque)
 {
     chain c = {.anchor = add_anchor(s, from), .count = count};
     fe_ball_joint_def d = ball_def();
     d.motor_max = (float)friction_torque;
     for (int i = 0; i < count; ++i) {
         vec end = plus(from, v3(2 * half * i, 0, 0));
-        c.links[i] = add_dynamic(s, capsule(half, radius), plus(end, v3(half, 0, 0)), lying(), friction(0.6), (float)density);
+        c.links[i] =
+            add_dynamic(s, capsule(half, radius), plus(end, v3(half, 0, 0)), lying(), friction(0.6), (float)density);
         touch_nothing(s, c.links[i]);
         c.joints[i] = add_ball(s, d, i ? c.links[i - 1] : c.anchor, c.links[i], end, v3(1, 0, 0));
     }
@@ -59,7 +62,8 @@ static chain add_chain(scene *s, vec from, int count, double half, double radius
 static void add_end(scene *s, chain *c, vec from, double half, double radius, double density)
 {
     vec end = plus(from, v3(2 * half * c->count, 0, 0));
-    c->links[c->count] = add_dynamic(s, sphere(radius), plus(end, v3(radius, 0, 0)), UNTURNED, friction(0.6), (float)density);
+    c->links[c->count] =
+        add_dynamic(s, sphere(radius), plus(end, v3(radius, 0, 0)), UNTURNED, friction(0.6), (float)density);
     touch_nothing(s, c->links[c->count]);
     c->joints[c->count] = add_ball(s, ball_def(), c->links[c->count - 1], c->links[c->count], end, v3(1, 0, 0));
 }
@@ -71,9 +75,10 @@ static double sum_of_gaps(const scene *s, const chain *c)
     return sum;
 }
 
-// S22, B25: a ball of 585 times a link's mass swings down on 32 links. Tension reaches 3 M g on the first swing, by which joints that give
-// would stretch 3.3 times as far as predictor P2 says of the load at rest, 8.6 m; later the ball falls slack into its chain and jerks it
-// taut. The chain is a tree: all of it together stays within the slop of one joint.
+// S22, B25: a ball of 585 times a link's mass swings down on 32 links. Tension reaches 3 M g on the first swing, by
+// which joints that give would stretch 3.3 times as far as predictor P2 says of the load at rest, 8.6 m; later the ball
+// falls slack into its chain and jerks it taut. The chain is a tree: all of it together stays within the slop of one
+// joint.
 static void a_ball_on_a_chain_does_not_stretch_it(void **state)
 {
     scene s = begin_source(state);
@@ -100,8 +105,8 @@ static void a_load_of_a_thousand_links_hangs_still_on_its_chain(void **state)
     fe_body above = add_anchor(&s, v3(0, 0, 0)), load = 0;
     fe_joint joints[LINKS + 1];
     for (int i = 0; i <= LINKS; ++i) {
-        fe_body below =
-            add_plain(&s, i < LINKS ? capsule(0.1, 0.05) : box(0.5, 0.5, 0.5), v3(0, i < LINKS ? -0.15 - 0.3 * i : -0.3 * i - 0.5, 0));
+        fe_body below = add_plain(&s, i < LINKS ? capsule(0.1, 0.05) : box(0.5, 0.5, 0.5),
+                                  v3(0, i < LINKS ? -0.15 - 0.3 * i : -0.3 * i - 0.5, 0));
         MUST(fe_body_set_mass(s.world, below, i < LINKS ? 1 : 1000));
         joints[i] = add_ball(&s, ball_def(), above, below, v3(0, -0.3 * i, 0), v3(0, -1, 0));
         above = load = below;
@@ -173,7 +178,8 @@ static void a_cloth_hangs_by_the_predicted_gaps(void **state)
     scene s = begin_source(state);
     for (int k = 0; k < N; ++k)
         for (int i = 0; i < N; ++i) {
-            balls[i][k] = add_body(&s, i ? FE_BODY_DYNAMIC : FE_BODY_STATIC, sphere(0.4), v3(k, -i, 0), UNTURNED, friction(0), WATER);
+            balls[i][k] = add_body(&s, i ? FE_BODY_DYNAMIC : FE_BODY_STATIC, sphere(0.4), v3(k, -i, 0), UNTURNED,
+                                   friction(0), WATER);
             touch_nothing(&s, balls[i][k]);
             if (i) set_damping(&s, balls[i][k], 1);
             if (i) add_ball(&s, ball_def(), balls[i - 1][k], balls[i][k], v3(k, 0.5 - i, 0), v3(0, 1, 0));
@@ -190,10 +196,12 @@ static void a_cloth_hangs_by_the_predicted_gaps(void **state)
     scene_end(&s);
 }
 
-// ---- bridges --------------------------------------------------------------------------------------------------------------------------
+// ---- bridges
+// --------------------------------------------------------------------------------------------------------------------------
 
 // S21, B26: planks between two ends without slack, held stiffly. sag^2 = 3/8 L sum(gaps)
-static void check_bridge(void **state, int planks, double length_of_plank, double half_height, double half_depth, int balls)
+static void check_bridge(void **state, int planks, double length_of_plank, double half_height, double half_depth,
+                         int balls)
 {
     enum { MOST = 160 };
     static fe_body bodies[MOST];
@@ -214,7 +222,8 @@ static void check_bridge(void **state, int planks, double length_of_plank, doubl
         fe_body a = i ? bodies[i - 1] : left, b = i < planks ? bodies[i] : right;
         vec at = v3(i * length_of_plank, 0, 0);
         if (!balls) joints[count++] = add_hinge(&s, hinge_def(), a, b, at, v3(0, 0, 1));
-        for (int k = 0; k < balls; ++k) joints[count++] = add_ball(&s, ball_def(), a, b, plus(at, v3(0, 0, k ? 0.4 : -0.4)), v3(1, 0, 0));
+        for (int k = 0; k < balls; ++k)
+            joints[count++] = add_ball(&s, ball_def(), a, b, plus(at, v3(0, 0, k ? 0.4 : -0.4)), v3(1, 0, 0));
     }
     double early = 0, late = 0, sag = 0, span = planks * length_of_plank;
     const int steps = SLOW_BUILD ? 120 : 900;
@@ -233,20 +242,26 @@ static void check_bridge(void **state, int planks, double length_of_plank, doubl
 }
 
 static void a_bridge_of_hinges_sags_no_more_than_its_gaps(void **state) { check_bridge(state, 160, 1, 0.125, 0.5, 0); }
-static void a_bridge_of_balls_sags_no_more_than_its_gaps(void **state) { check_bridge(state, 150, 0.25, 0.125, 0.5, 2); }
+static void a_bridge_of_balls_sags_no_more_than_its_gaps(void **state)
+{
+    check_bridge(state, 150, 0.25, 0.125, 0.5, 2);
+}
 
-// ---- a door that is hit (B27) ---------------------------------------------------------------------------------------------------------
+// ---- a door that is hit (B27)
+// ---------------------------------------------------------------------------------------------------------
 
 static void a_slammed_door_stays_in_its_hinges(void **state)
 {
     scene s = begin_source(state);
     set_joint_hertz(&s, 120);
-    fe_body frame = add_anchor(&s, v3(0, 0, 0)), leaf = add_dynamic(&s, box(0.75, 1.5, 0.1), v3(0, 1.5, 0), UNTURNED, friction(0.6), WATER);
+    fe_body frame = add_anchor(&s, v3(0, 0, 0)),
+            leaf = add_dynamic(&s, box(0.75, 1.5, 0.1), v3(0, 1.5, 0), UNTURNED, friction(0.6), WATER);
     MUST(fe_body_set_gravity_scale(s.world, leaf, 2));
     fe_joint hinges[2];
     for (int i = 0; i < 2; ++i) {
         fe_hinge_joint_def d = hinge_def();
-        d.limit_enabled = 1, d.lower = -(float)(PI / 2), d.upper = (float)(PI / 2), d.spring_hertz = 1, d.spring_damping_ratio = 0.5f;
+        d.limit_enabled = 1, d.lower = -(float)(PI / 2), d.upper = (float)(PI / 2), d.spring_hertz = 1,
+        d.spring_damping_ratio = 0.5f;
         hinges[i] = add_hinge(&s, d, frame, leaf, v3(-0.75, 3 * i, 0), v3(0, 1, 0));
     }
     fe_vec3 impulse = narrow(to_world(&s, v3(0, 0, 50000)));
@@ -264,7 +279,8 @@ static void a_slammed_door_stays_in_its_hinges(void **state)
     scene_end(&s);
 }
 
-// ---- single joints under load (B28 to B30, B32) ---------------------------------------------------------------------------------------
+// ---- single joints under load (B28 to B30, B32)
+// ---------------------------------------------------------------------------------------
 
 static void a_chain_of_rods_falls_and_keeps_its_lengths(void **state)
 {
@@ -281,7 +297,8 @@ static void a_chain_of_rods_falls_and_keeps_its_lengths(void **state)
     double m = mass_of(&s, balls[0]), start = totals_of(&s, balls, RODS).energy;
     for (int i = 0; i < 600; ++i) {
         run(&s, 1);
-        for (int k = 0; k < RODS && i < 240; ++k) FE_NEAR(state_of(&s, rods[k]).length, 1, 4 * LINEAR_SLOP); // its end whips
+        for (int k = 0; k < RODS && i < 240; ++k)
+            FE_NEAR(state_of(&s, rods[k]).length, 1, 4 * LINEAR_SLOP); // its end whips
         FE_WITHIN(totals_of(&s, balls, RODS).energy, -1e9, start + 1e-5 * RODS * m * SOURCE_G * RODS);
     }
     scene_end(&s);
@@ -295,7 +312,8 @@ static void limits_of_a_heavy_box_hold_against_strong_motors(void **state)
         fe_body anchor = add_anchor(&s, v3(0, 5.5, 0)),
                 body = add_dynamic(&s, box(0.5, 1.5, 0.25), v3(0, 4, 0), UNTURNED, friction(0.6), 100);
         fe_ball_joint_def d = ball_def();
-        d.cone_enabled = d.limit_enabled = 1, d.cone_y = d.cone_z = (float)cone, d.lower = -(float)twist, d.upper = (float)twist;
+        d.cone_enabled = d.limit_enabled = 1, d.cone_y = d.cone_z = (float)cone, d.lower = -(float)twist,
+        d.upper = (float)twist;
         d.spring_hertz = 2, d.spring_damping_ratio = 0.7f;
         d.motor_velocity = narrow(v3(k % 2 ? 3 : -3, 5 * cos(k * PI / 4), 5 * sin(k * PI / 4))), d.motor_max = 1e4f;
         fe_joint joint = add_ball(&s, d, anchor, body, v3(0, 5.5, 0), v3(0, -1, 0));
@@ -310,8 +328,8 @@ static void limits_of_a_heavy_box_hold_against_strong_motors(void **state)
         fe_body anchor = add_anchor(&s, v3(0, 5.5, 0)),
                 body = add_dynamic(&s, box(0.5, 1.5, 0.25), v3(0, 4, 0), UNTURNED, friction(0.6), 100);
         fe_hinge_joint_def d = hinge_def();
-        d.limit_enabled = 1, d.lower = -(float)twist, d.upper = (float)twist, d.spring_hertz = 0.5f, d.motor_speed = (float)(5 * k),
-        d.motor_max = 5000;
+        d.limit_enabled = 1, d.lower = -(float)twist, d.upper = (float)twist, d.spring_hertz = 0.5f,
+        d.motor_speed = (float)(5 * k), d.motor_max = 5000;
         fe_joint joint = add_hinge(&s, d, anchor, body, v3(0, 5.5, 0), v3(0, 0, 1));
         for (int i = 0; i < 240; ++i) {
             run(&s, 1);
@@ -354,19 +372,21 @@ static void telescopes_pulled_hard_come_back(void **state)
     }
 }
 
-// ---- linkages (IFToMM A02, A04) -------------------------------------------------------------------------------------------------------
+// ---- linkages (IFToMM A02, A04)
+// -------------------------------------------------------------------------------------------------------
 
 static fe_body add_link(scene *s, vec from, vec to)
 {
     vec along = minus(to, from), middle = times(0.5, plus(from, to));
     vec side = fabs(along.y) > 0.9 * length(along) ? v3(0, 0, 1) : cross(v3(0, 1, 0), along);
-    fe_body body =
-        add_dynamic(s, box(0.05, 0.5 * length(along), 0.05), middle, turned(side, between(v3(0, 1, 0), along)), friction(0), 100);
+    fe_body body = add_dynamic(s, box(0.05, 0.5 * length(along), 0.05), middle,
+                               turned(side, between(v3(0, 1, 0), along)), friction(0), 100);
     touch_nothing(s, body);
     return body;
 }
 
-// Two squares of rods in the plane, side by side: flat they may go either way. Without gravity's help they stay together
+// Two squares of rods in the plane, side by side: flat they may go either way. Without gravity's help they stay
+// together
 static void a_double_four_bar_passes_its_flat_position(void **state)
 {
     scene s = scene_begin(state);
@@ -409,7 +429,8 @@ static void bricards_linkage_moves_as_one(void **state)
     fe_joint joints[6];
     rods[5] = ground; // from corner 5 to corner 0
     for (int i = 0; i < 5; ++i) {
-        vec from = v3(corners[i][0], corners[i][1], corners[i][2]), to = v3(corners[i + 1][0], corners[i + 1][1], corners[i + 1][2]);
+        vec from = v3(corners[i][0], corners[i][1], corners[i][2]),
+            to = v3(corners[i + 1][0], corners[i + 1][1], corners[i + 1][2]);
         rods[i] = add_link(&s, from, to);
     }
     for (int i = 0; i < 6; ++i) { // each hinge across the two rods it joins

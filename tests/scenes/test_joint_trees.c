@@ -1,4 +1,5 @@
-// Joints without a loop under a heavy load are met exactly: whatever their type, whatever hangs on them, whoever holds them.
+// Joints without a loop under a heavy load are met exactly: whatever their type, whatever hangs on them, whoever holds
+// them.
 #include "scenes/joint_scene.h"
 
 enum { LINKS = 12, MOST_BODIES = 40, KINDS = 5 };
@@ -54,10 +55,11 @@ static chain hang(scene *s, kind k, fe_body above, double load)
 
 static double widest_gap(const scene *s, const chain *c) { return worst_gap(s, c->joints, c->count); }
 
-// ---- exact ----------------------------------------------------------------------------------------------------------------------------
+// ---- exact
+// ----------------------------------------------------------------------------------------------------------------------------
 
-// A thousand links swung sideways with 3 m/s, a hundred on rods: what calms light links sees turns, not the way across a rod. Rods and
-// hinges swing, sliders slide, fixed ones stay
+// A thousand links swung sideways with 3 m/s, a hundred on rods: what calms light links sees turns, not the way across
+// a rod. Rods and hinges swing, sliders slide, fixed ones stay
 static void a_load_swings(void **state, kind k, double load)
 {
     scene s = scene_begin(state);
@@ -78,7 +80,8 @@ static void on_fixed_joints(void **state) { a_load_swings(state, FIXTURES, 1000)
 static void on_rods(void **state) { a_load_swings(state, RODS, 100); }
 static void on_sliders(void **state) { a_load_swings(state, SLIDERS, 1000); }
 
-// A beam of twelve fixed joints, held at one end, a load of fifty links at the other: P2 of its first joint alone is a sag of 40 degrees
+// A beam of twelve fixed joints, held at one end, a load of fifty links at the other: P2 of its first joint alone is a
+// sag of 40 degrees
 static void a_beam_does_not_bend(void **state)
 {
     scene s = scene_begin(state);
@@ -115,7 +118,8 @@ static void a_free_tree_keeps_its_momenta(void **state)
     chain c = hang(&s, BALLS, add_anchor(&s, v3(0, 0, 0)), 500);
     MUST(fe_joint_destroy(s.world, c.joints[0]));
     set_mass(&s, c.bodies[0], 500);
-    set_velocity(&s, c.bodies[0], v3(2, 0, 0.5), v3(0, 0, 0)), set_velocity(&s, c.bodies[LINKS - 1], v3(-2, 0, 0), v3(0, 0, 0));
+    set_velocity(&s, c.bodies[0], v3(2, 0, 0.5), v3(0, 0, 0)),
+        set_velocity(&s, c.bodies[LINKS - 1], v3(-2, 0, 0), v3(0, 0, 0));
     const totals start = totals_of(&s, c.bodies, c.count);
     for (int i = 0; i < (SLOW_BUILD ? 60 : 300); ++i) {
         run(&s, 1);
@@ -147,7 +151,8 @@ static void random_trees_hold(void **state)
             touch_nothing(&s, c.bodies[i]);
             set_mass(&s, c.bodies[i], pick(&d, 3) ? uniform(&d, 1, 5) : uniform(&d, 100, 1000));
             set_velocity(&s, c.bodies[i], somewhere(&d, 3), v3(0, 0, 0));
-            c.joints[i] = join(&s, (kind)pick(&d, RODS), i ? c.bodies[above] : anchor, c.bodies[i], times(0.5, plus(from, places[i])));
+            c.joints[i] = join(&s, (kind)pick(&d, RODS), i ? c.bodies[above] : anchor, c.bodies[i],
+                               times(0.5, plus(from, places[i])));
         }
         run(&s, 1); // flung apart, then held
         const double start = totals_of(&s, c.bodies, c.count).energy;
@@ -195,9 +200,11 @@ static void locked_bodies_swing_in_their_plane(void **state)
     scene_end(&s);
 }
 
-// ---- which are trees ------------------------------------------------------------------------------------------------------------------
+// ---- which are trees
+// ------------------------------------------------------------------------------------------------------------------
 
-// A second hold closes a loop through the world; without it the chain is a tree again, and nothing tells that there was one
+// A second hold closes a loop through the world; without it the chain is a tree again, and nothing tells that there was
+// one
 static void a_loop_is_no_tree(void **state)
 {
     uint32_t words[2][2];
@@ -205,7 +212,8 @@ static void a_loop_is_no_tree(void **state)
         scene s = scene_begin(state);
         fe_body anchor = add_anchor(&s, v3(0, 0, 0)), spare = add_anchor(&s, v3(0, -STEP_LENGTH * LINKS, 0));
         chain c = hang(&s, BALLS, anchor, 1000);
-        fe_joint second = add_ball(&s, ball_def(), c.bodies[LINKS - 1], spare, v3(0, -STEP_LENGTH * LINKS, 0), v3(0, 1, 0));
+        fe_joint second =
+            add_ball(&s, ball_def(), c.bodies[LINKS - 1], spare, v3(0, -STEP_LENGTH * LINKS, 0), v3(0, 1, 0));
         if (!with) MUST(fe_joint_set_enabled(s.world, second, 0));
         MUST(fe_world_step(s.world, 0)); // finds what there is of trees, moves nothing
         if (with) MUST(fe_joint_set_enabled(s.world, second, 0));

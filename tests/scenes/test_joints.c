@@ -1,7 +1,8 @@
 // Joints against statics and mechanics: loads, springs, pendulums, motors, sliders. V41 to V45, V48, V49.
 #include "scenes/joint_scene.h"
 
-// ---- V41: what hangs weighs what it weighs ------------------------------------------------------------------------------------------
+// ---- V41: what hangs weighs what it weighs
+// ------------------------------------------------------------------------------------------
 
 typedef enum holder { ROD, BALL, HINGE, FIXED, LOCKED, SLIDER_ACROSS, HOLDERS } holder;
 
@@ -31,7 +32,8 @@ static void every_joint_bears_the_weight_and_gives_as_predicted(void **state)
         scene s = scene_begin(state);
         fe_body anchor = add_anchor(&s, v3(0, 2, 0)), upper = add_plain(&s, box(0.2, 0.2, 0.2), v3(0, 0, 0)),
                 lower = add_plain(&s, box(0.2, 0.2, 0.2), v3(0, -2, 0));
-        fe_joint top = hold(&s, (holder)by, anchor, upper, v3(0, 0, 0)), middle = hold(&s, (holder)by, upper, lower, v3(0, -2, 0));
+        fe_joint top = hold(&s, (holder)by, anchor, upper, v3(0, 0, 0)),
+                 middle = hold(&s, (holder)by, upper, lower, v3(0, -2, 0));
         double m = mass_of(&s, upper);
         run(&s, 120);
         FE_NEAR(force_of(&s, top).y, 2 * m * G, 0.005 * 2 * m * G);
@@ -46,7 +48,8 @@ static void every_joint_bears_the_weight_and_gives_as_predicted(void **state)
     }
 }
 
-// a bracket: bar of 2 m fixed at its end; force m g, moment m g L / 2, sag by the softness against the bar's moment about the wall
+// a bracket: bar of 2 m fixed at its end; force m g, moment m g L / 2, sag by the softness against the bar's moment
+// about the wall
 static void a_fixed_bar_bears_its_moment(void **state)
 {
     scene s = scene_begin(state);
@@ -63,7 +66,8 @@ static void a_fixed_bar_bears_its_moment(void **state)
     scene_end(&s);
 }
 
-// ---- V42: distance ------------------------------------------------------------------------------------------------------------------
+// ---- V42: distance
+// ------------------------------------------------------------------------------------------------------------------
 
 static void a_rod_keeps_its_length_while_it_swings(void **state)
 {
@@ -123,9 +127,11 @@ static void a_slack_rope_lets_fall_freely_until_it_is_taut(void **state)
     scene_end(&s);
 }
 
-// ---- V43: springs -------------------------------------------------------------------------------------------------------------------
+// ---- V43: springs
+// -------------------------------------------------------------------------------------------------------------------
 
-// Frequency and damping of a decaying oscillation x_n, sampled every step: x_(n+1) = a x_n - b x_(n-1), by least squares
+// Frequency and damping of a decaying oscillation x_n, sampled every step: x_(n+1) = a x_n - b x_(n-1), by least
+// squares
 static void identify(const double *x, int count, double *out_frequency, double *out_ratio)
 {
     double s11 = 0, s12 = 0, s22 = 0, r1 = 0, r2 = 0;
@@ -231,7 +237,8 @@ static void a_fixed_joint_with_hertz_is_a_spring_of_them(void **state)
     }
 }
 
-// ---- V44, V45: pendulums ------------------------------------------------------------------------------------------------------------
+// ---- V44, V45: pendulums
+// ------------------------------------------------------------------------------------------------------------
 
 // Mean period over `count` swings of `what`, from its rising zeros, interpolated
 static double period_of(scene *s, int count, double (*what)(const scene *s, fe_body body), fe_body body)
@@ -338,7 +345,8 @@ static void a_conical_pendulum_keeps_its_circle(void **state)
     }
 }
 
-// ---- V48: motors and stops of hinges -------------------------------------------------------------------------------------------------
+// ---- V48: motors and stops of hinges
+// -------------------------------------------------------------------------------------------------
 
 // arm of 2 kg and 1 m from the origin along x, turning about z
 static fe_joint add_arm(scene *s, fe_hinge_joint_def d, fe_body *out_arm)
@@ -369,8 +377,8 @@ static void a_motor_holds_up_to_its_torque(void **state)
             FE_NEAR(state_of(&s, joint).angle, angle, 1e-6);
             FE_NEAR(torque_of(&s, joint).z, 2 * G * 0.5, 0.005 * 2 * G * 0.5);
         } else {
-            // falls with what is left: 0.21 N m on I = 2 (1/3 + ...), 0.16 rad/s2; by more than a tenth of a radian after 1 s is
-            // impossible, by 2 deg certain
+            // falls with what is left: 0.21 N m on I = 2 (1/3 + ...), 0.16 rad/s2; by more than a tenth of a radian
+            // after 1 s is impossible, by 2 deg certain
             FE_WITHIN(angle, -0.5 * 0.5, -2 * DEGREES);
             FE_NEAR(torque_of(&s, joint).z, (double)cases[k].torque, 0.005 * 10);
         }
@@ -427,7 +435,8 @@ static void a_stop_gives_as_predicted(void **state)
                 most = fmax(most, side * (double)state_of(&s, joint).angle - (double)stop);
             }
             FE_WITHIN(most, -1, 1 * DEGREES);
-            double least_give = joint_give(&s, 20, moment_of(&s, arm, 2, 0.5)), most_give = joint_give(&s, 20, moment_of(&s, arm, 2, 0));
+            double least_give = joint_give(&s, 20, moment_of(&s, arm, 2, 0.5)),
+                   most_give = joint_give(&s, 20, moment_of(&s, arm, 2, 0));
             double give = side * (double)state_of(&s, joint).angle - (double)stop;
             FE_WITHIN(give, 0.8 * least_give, 1.25 * most_give);
             FE_NEAR(state_of(&s, joint).angular_velocity.x, 0, 1e-3);
@@ -435,7 +444,8 @@ static void a_stop_gives_as_predicted(void **state)
         }
 }
 
-// ---- V49: sliders, universal joints, drives ------------------------------------------------------------------------------------------
+// ---- V49: sliders, universal joints, drives
+// ------------------------------------------------------------------------------------------
 
 static void a_slider_on_a_slope_accelerates_as_a_point(void **state)
 {
@@ -496,7 +506,8 @@ static void a_drive_to_a_rotation_settles_at_torque_over_stiffness(void **state)
     fe_joint joint = add_ball(&s, d, anchor, arm, v3(0, 0, 0), v3(1, 0, 0));
     run(&s, 600);
     fe_joint_state at = state_of(&s, joint);
-    double sag = -atan2(axis_of(&s, arm, v3(1, 0, 0)).y, axis_of(&s, arm, v3(1, 0, 0)).x), load = mass_of(&s, arm) * G * 0.5 * cos(sag);
+    double sag = -atan2(axis_of(&s, arm, v3(1, 0, 0)).y, axis_of(&s, arm, v3(1, 0, 0)).x),
+           load = mass_of(&s, arm) * G * 0.5 * cos(sag);
     // hertz act on the inertia of the bar about its centre
     double w = 2 * PI * 4, expected = load / (moment_of(&s, arm, 2, 0) * w * w);
     FE_NEAR(sag, expected, 0.02 * expected);
@@ -535,7 +546,8 @@ static void all_six_limits_of_a_configurable_joint_hold(void **state)
             set_gravity(&s, v3(0, 0, 0));
             fe_body anchor = add_anchor(&s, v3(0, 0, 0)), block = add_plain(&s, box(0.2, 0.25, 0.3), v3(0, 0, 0));
             fe_configurable_joint_def d = configurable_def();
-            for (int i = 0; i < 6; ++i) d.axes[i].motion = FE_MOTION_LIMITED, d.axes[i].lower = -0.2f, d.axes[i].upper = 0.4f;
+            for (int i = 0; i < 6; ++i)
+                d.axes[i].motion = FE_MOTION_LIMITED, d.axes[i].lower = -0.2f, d.axes[i].upper = 0.4f;
             d.axes[k].motor_speed = (float)side, d.axes[k].motor_max = 500;
             fe_joint joint;
             d.body_a = anchor, d.body_b = block;
@@ -545,7 +557,8 @@ static void all_six_limits_of_a_configurable_joint_hold(void **state)
             const double x[6] = {(double)at.translation.x, (double)at.translation.y, (double)at.translation.z,
                                  (double)at.angle,         (double)at.swing_y,       (double)at.swing_z};
             double stop = side > 0 ? (double)0.4f : -(double)0.2f, load = 500;
-            double mass = k < 3 ? mass_of(&s, block) : moment_of(&s, block, k - 3, 0), give = joint_give(&s, load, mass);
+            double mass = k < 3 ? mass_of(&s, block) : moment_of(&s, block, k - 3, 0),
+                   give = joint_give(&s, load, mass);
             FE_NEAR(x[k], stop + side * give, 0.05 * give + 1e-5);
             for (int i = 0; i < 6; ++i)
                 if (i != k) FE_NEAR(x[i], 0, 1e-3);

@@ -1,19 +1,24 @@
-// The machines of examples/machines.h do what they are for: a car drives over hills, a rope bridge hangs and bears, a door closes, a crane
-// carries a thousand times a link's weight. (The ragdoll: tests/invariants/test_joint_invariants.c.)
+// The machines of examples/machines.h do what they are for: a car drives over hills, a rope bridge hangs and bears, a
+// door closes, a crane carries a thousand times a link's weight. (The ragdoll:
+// tests/invariants/test_joint_invariants.c.)
 #include "../../examples/machines.h"
 #include "scenes/joint_scene.h"
 
 enum { SIDE = 97 }; // samples of the hills, 0.5 m apart
 #define CELL 0.5
 
-static double hill(double x) { return 0.25 * (1 - cos(0.5 * x)); } // m; its steepest slope of 0.125 takes 1.6 kN of the motors' 2 kN
+static double hill(double x)
+{
+    return 0.25 * (1 - cos(0.5 * x));
+} // m; its steepest slope of 0.125 takes 1.6 kN of the motors' 2 kN
 static double hills(double x, double z) { return (void)z, hill(x); }
 
 // Ground for a car that drives along x, from 0 to 48, in the middle of z
 static void add_field(scene *s, double height(double x, double z))
 {
     static float heights[SIDE * SIDE];
-    for (int i = 0; i < SIDE * SIDE; ++i) heights[i] = (float)height(CELL * (i % SIDE), CELL * (i / SIDE - (SIDE - 1) / 2));
+    for (int i = 0; i < SIDE * SIDE; ++i)
+        heights[i] = (float)height(CELL * (i % SIDE), CELL * (i / SIDE - (SIDE - 1) / 2));
     fe_heightfield_def field;
     fe_heightfield_def_init(&field, sizeof field);
     field.rows = field.columns = SIDE, field.cell_x = field.cell_z = (float)CELL, field.heights = heights;
@@ -41,7 +46,8 @@ static void a_car_drives_over_hills_on_its_wheel_joints(void **state)
             fe_joint_state at = state_of(&s, c.axles[k]);
             FE_WITHIN(at.linear_error, 0, 2 * LINEAR_SLOP); // across the suspension, and beyond its travel
             FE_WITHIN(at.translation.z, -0.25 - 2 * LINEAR_SLOP, 0.25 + 2 * LINEAR_SLOP);
-            FE_WITHIN(position(&s, c.wheels[k]).y, hill(position(&s, c.wheels[k]).x) + 0.4 - 0.05, 3); // not in the ground
+            FE_WITHIN(position(&s, c.wheels[k]).y, hill(position(&s, c.wheels[k]).x) + 0.4 - 0.05,
+                      3); // not in the ground
         }
         highest = fmax(highest, position(&s, c.chassis).y), lowest = fmin(lowest, position(&s, c.chassis).y);
     }
@@ -64,7 +70,8 @@ static void a_car_rests_on_its_springs(void **state)
     for (int k = 0; k < 4; ++k) {
         fe_configurable_joint_def d = {.struct_size = sizeof d};
         MUST(fe_configurable_joint_get(s.world, c.axles[k], &d));
-        FE_NEAR(state_of(&s, c.axles[k]).translation.z, mass_of(&s, c.chassis) * G / 4 / (double)d.axes[FE_DOF_LINEAR_Z].spring_stiffness, LINEAR_SLOP);
+        FE_NEAR(state_of(&s, c.axles[k]).translation.z,
+                mass_of(&s, c.chassis) * G / 4 / (double)d.axes[FE_DOF_LINEAR_Z].spring_stiffness, LINEAR_SLOP);
     }
     scene_end(&s);
 }
@@ -118,11 +125,13 @@ static void a_rope_bridge_hangs_by_its_ropes_and_bears_a_load(void **state)
     FE_WITHIN(slack, (BRIDGE_PLANKS + 1) * (rope - room), (BRIDGE_PLANKS + 1) * (rope - room + 2 * LINEAR_SLOP));
     double sag = 5 - position(&s, b.planks[BRIDGE_PLANKS / 2]).y;
     FE_NEAR(sag, sqrt(3.0 / 8 * span * slack), 0.15 * sag);
-    fe_body load = add_plain(&s, box(0.2, 0.2, 0.2), plus(position(&s, b.planks[BRIDGE_PLANKS / 2]), v3(0, 0.5, 0))); // 64 kg
+    fe_body load =
+        add_plain(&s, box(0.2, 0.2, 0.2), plus(position(&s, b.planks[BRIDGE_PLANKS / 2]), v3(0, 0.5, 0))); // 64 kg
     run(&s, 300);
     FE_NEAR(position(&s, load).x, span / 2, 1);
     FE_WITHIN(position(&s, load).y, 5 - 1.5 * sag, 5);
-    for (int i = 0; i < 2 * (BRIDGE_PLANKS + 1); ++i) FE_WITHIN(state_of(&s, b.ropes[i]).length, 0, rope + 2 * LINEAR_SLOP);
+    for (int i = 0; i < 2 * (BRIDGE_PLANKS + 1); ++i)
+        FE_WITHIN(state_of(&s, b.ropes[i]).length, 0, rope + 2 * LINEAR_SLOP);
     scene_end(&s);
 }
 
@@ -141,7 +150,8 @@ static void a_door_is_flung_open_to_its_stop_and_closes(void **state)
         double angle = fabs((double)state_of(&s, d.hinges[0]).angle);
         widest = fmax(widest, angle);
         FE_WITHIN(angle, 0, 101 * DEGREES);
-        FE_WITHIN(worst_gap(&s, d.hinges, 2), 0, i < 60 ? 0.05 : LINEAR_SLOP); // the blow opens them, they close in 1 s (B27)
+        FE_WITHIN(worst_gap(&s, d.hinges, 2), 0,
+                  i < 60 ? 0.05 : LINEAR_SLOP); // the blow opens them, they close in 1 s (B27)
     }
     FE_WITHIN(widest, 90 * DEGREES, 101 * DEGREES);
     FE_NEAR(state_of(&s, d.hinges[0]).angle, 0, 1 * DEGREES);

@@ -17,7 +17,8 @@ static fe_shape shape_of(const scene *s, fe_body body)
     return shape;
 }
 
-// ---- kinematic bodies ---------------------------------------------------------------------------------------------------------------
+// ---- kinematic bodies
+// ---------------------------------------------------------------------------------------------------------------
 
 // A platform takes its box along: up and down at once, sideways while the friction can: mu g = 5.9 m/s2.
 static void a_platform_carries_a_box(void **state)
@@ -45,8 +46,8 @@ static void a_platform_carries_a_box(void **state)
     }
 }
 
-// A turntable takes its box round: v = w r, held inwards by friction while w^2 r < mu g. Friction gives the substep's velocity before it is
-// gone: inwards by r w^2 h / 2 each second. With w rising to 1 in 2 s, w^2 sums to 8/3 s^-1.
+// A turntable takes its box round: v = w r, held inwards by friction while w^2 r < mu g. Friction gives the substep's
+// velocity before it is gone: inwards by r w^2 h / 2 each second. With w rising to 1 in 2 s, w^2 sums to 8/3 s^-1.
 static void a_turntable_takes_a_box_round(void **state)
 {
     scene s = scene_begin(state);
@@ -83,7 +84,8 @@ static void a_target_is_reached_in_time(void **state)
     scene_end(&s);
 }
 
-// ---- surfaces ---------------------------------------------------------------------------------------------------------------------
+// ---- surfaces
+// ---------------------------------------------------------------------------------------------------------------------
 
 // A belt that runs at 2 m/s brings a box to 2 m/s, by mu g on the way; its own body stands.
 static void a_conveyor_brings_a_box_to_its_speed(void **state)
@@ -146,9 +148,11 @@ static void a_contact_sticks_by_static_and_slides_by_dynamic_friction(void **sta
     scene_end(&s);
 }
 
-// ---- settings that change -----------------------------------------------------------------------------------------------------------
+// ---- settings that change
+// -----------------------------------------------------------------------------------------------------------
 
-// A stack at rest stays at rest when the substeps and the step change: stored impulses are per substep, and are rescaled.
+// A stack at rest stays at rest when the substeps and the step change: stored impulses are per substep, and are
+// rescaled.
 static void substeps_and_steps_may_change_under_a_stack(void **state)
 {
     enum { COUNT = 5 };
@@ -158,7 +162,8 @@ static void substeps_and_steps_may_change_under_a_stack(void **state)
     vec before[COUNT];
     scene s = scene_begin(state);
     add_ground(&s, friction(0.6));
-    for (int k = 0; k < COUNT; ++k) bodies[k] = add_dynamic(&s, cube(), v3(0, 0.5 + k, 0), UNTURNED, friction(0.6), WATER);
+    for (int k = 0; k < COUNT; ++k)
+        bodies[k] = add_dynamic(&s, cube(), v3(0, 0.5 + k, 0), UNTURNED, friction(0.6), WATER);
     run(&s, 600);
     for (int k = 0; k < COUNT; ++k) before[k] = position(&s, bodies[k]);
     for (int i = 0; i < 6; ++i) {
@@ -168,7 +173,8 @@ static void substeps_and_steps_may_change_under_a_stack(void **state)
             for (int k = 0; k < COUNT; ++k) {
                 // without rescaling, half the impulse would be missing for a substep: g dt / 16 = 10 mm/s at least
                 FE_NEAR(length(velocity(&s, bodies[k])), 0, 1e-3);
-                // hertz are clamped to an eighth of the substep rate: at 30 Hz and 8 substeps not below the 30 they are set to
+                // hertz are clamped to an eighth of the substep rate: at 30 Hz and 8 substeps not below the 30 they are
+                // set to
                 FE_NEAR(length(minus(position(&s, bodies[k]), before[k])), 0, 1e-4);
             }
         }
@@ -265,7 +271,8 @@ static void a_force_waits_for_a_step_that_takes_time(void **state)
     scene_end(&s);
 }
 
-// ---- bodies -----------------------------------------------------------------------------------------------------------------------
+// ---- bodies
+// -----------------------------------------------------------------------------------------------------------------------
 
 static void add_shape(scene *s, fe_body body, fe_geometry form, vec at, float density)
 {
@@ -277,8 +284,8 @@ static void add_shape(scene *s, fe_body body, fe_geometry form, vec at, float de
     MUST(fe_shape_create(s->world, body, &def, &form, &shape));
 }
 
-// Two balls on a bar: the centre is the balance point, and the moments follow Steiner. It lies on both balls, each loaded by the lever
-// (V18).
+// Two balls on a bar: the centre is the balance point, and the moments follow Steiner. It lies on both balls, each
+// loaded by the lever (V18).
 static void a_body_of_several_shapes_weighs_and_lies_as_its_parts(void **state)
 {
     scene s = scene_begin(state);
@@ -332,8 +339,11 @@ static void a_given_mass_holds_until_it_is_reset(void **state)
     scene s = scene_begin(state);
     set_gravity(&s, v3(0, 0, 0));
     fe_body body = add_dynamic(&s, cube(), v3(0, 0, 0), UNTURNED, friction(0.6), 1000);
-    fe_mass_data data = {
-        .struct_size = sizeof data, .mass = 10, .centre = {0.25f, 0, 0}, .inertia = {1, 2, 2.5f}, .inertia_rotation = {0, 0, 0, 1}};
+    fe_mass_data data = {.struct_size = sizeof data,
+                         .mass = 10,
+                         .centre = {0.25f, 0, 0},
+                         .inertia = {1, 2, 2.5f},
+                         .inertia_rotation = {0, 0, 0, 1}};
     MUST(fe_body_set_mass_data(s.world, body, &data));
     fe_vec3 twist = narrow(to_world(&s, v3(0, 3, 0)));
     add_force(&s, body, v3(60, 0, 0));
@@ -403,9 +413,11 @@ static void far_from_the_origin_is_as_near(void **state)
         scene s = scene_begin(state);
         fe_body bodies[COUNT];
         add_static(&s, box(10, 1, 10), v3(d, -d - 1, 0.5 * d), UNTURNED, friction(0.6));
-        for (int k = 0; k < 3; ++k) bodies[k] = add_dynamic(&s, cube(), v3(d, -d + 0.5 + k, 0.5 * d), UNTURNED, friction(0.6), WATER);
+        for (int k = 0; k < 3; ++k)
+            bodies[k] = add_dynamic(&s, cube(), v3(d, -d + 0.5 + k, 0.5 * d), UNTURNED, friction(0.6), WATER);
         bodies[3] = add_dynamic(&s, sphere(0.5), v3(d + 3, -d + 0.6, 0.5 * d), UNTURNED, friction(0.6), WATER);
-        bodies[4] = add_dynamic(&s, capsule(0.5, 0.25), v3(d - 3, -d + 0.3, 0.5 * d), turned(v3(0, 0, 1), PI / 2), friction(0.6), WATER);
+        bodies[4] = add_dynamic(&s, capsule(0.5, 0.25), v3(d - 3, -d + 0.3, 0.5 * d), turned(v3(0, 0, 1), PI / 2),
+                                friction(0.6), WATER);
         bodies[5] = add_dynamic(&s, box(0.5, 0.05, 0.3), v3(d, -d + 0.06, 0.5 * d + 3), UNTURNED, friction(0.6), WATER);
         run(&s, 300);
         for (int k = 0; k < COUNT; ++k) {
@@ -426,7 +438,8 @@ static void a_fall_far_away_is_the_same_fall(void **state)
         vec at = far ? v3(65536, 32768, -16384) : v3(0, 0, 0); // powers of two: sums are exact
         scene s = scene_begin(state);
         add_static(&s, box(8, 1, 8), plus(at, v3(0, -1, 0)), UNTURNED, bouncy(0.5, 0.5));
-        fe_body body = add_dynamic(&s, box(0.5, 0.25, 0.375), plus(at, v3(0, 2, 0)), turned(v3(1, 2, 3), 1), bouncy(0.5, 0.5), WATER);
+        fe_body body = add_dynamic(&s, box(0.5, 0.25, 0.375), plus(at, v3(0, 2, 0)), turned(v3(1, 2, 3), 1),
+                                   bouncy(0.5, 0.5), WATER);
         for (int k = 0; k < 30; ++k) run(&s, 1);
         vec now = minus(position(&s, body), at);
         here[far] = now;
@@ -442,7 +455,8 @@ static void locked_axes_stay_bit_for_bit(void **state)
     add_ground(&s, friction(0.3));
     fe_body body = add_dynamic(&s, box(0.5, 0.3, 0.4), v3(0, 2, 0.125), UNTURNED, friction(0.3), WATER);
     MUST(fe_body_set_locks(s.world, body, FE_AXIS_Z, FE_AXIS_X | FE_AXIS_Y));
-    for (int i = 0; i < 6; ++i) add_dynamic(&s, sphere(0.3), v3(0.1 * i - 0.3, 3 + i, 0.2), UNTURNED, friction(0.5), WATER);
+    for (int i = 0; i < 6; ++i)
+        add_dynamic(&s, sphere(0.3), v3(0.1 * i - 0.3, 3 + i, 0.2), UNTURNED, friction(0.5), WATER);
     for (int k = 0; k < 300; ++k) {
         add_force(&s, body, v3(500, 0, 2000));
         add_torque(&s, body, v3(300, 300, 100));
@@ -451,7 +465,8 @@ static void locked_axes_stay_bit_for_bit(void **state)
         FE_TRUE(t.position.z == 0.125);
         FE_TRUE(t.rotation.x == 0 && t.rotation.y == 0);
     }
-    FE_WITHIN(position(&s, body).x, 0.1, 0.5 * 500 / mass_of(&s, body) * 5 * 5); // it slides, by no more than without friction
+    FE_WITHIN(position(&s, body).x, 0.1,
+              0.5 * 500 / mass_of(&s, body) * 5 * 5); // it slides, by no more than without friction
     scene_end(&s);
 }
 

@@ -31,7 +31,8 @@ static net *hang_net(scene *s, int columns, int rows, int anchors, double gravit
             fe_body body = n.ball[k][i] = is_anchor(&n, k, i) ? add_anchor(s, at) : add_plain(s, sphere(0.4), at);
             if (!is_anchor(&n, k, i)) MUST(fe_body_set_gravity_scale(s->world, body, (float)gravity_scale));
             if (i > 0) join(s, &n, n.ball[k][i - 1], body, v3(k, 0.5 - i, 0));
-            if (k > 0 && !(is_anchor(&n, k, i) && is_anchor(&n, k - 1, i))) join(s, &n, n.ball[k - 1][i], body, v3(k - 0.5, -i, 0));
+            if (k > 0 && !(is_anchor(&n, k, i) && is_anchor(&n, k - 1, i)))
+                join(s, &n, n.ball[k - 1][i], body, v3(k - 0.5, -i, 0));
         }
     return &n;
 }
@@ -43,16 +44,23 @@ static void for_all_balls(scene *s, const net *n, void (*f)(scene *s, fe_body ba
             if (!is_anchor(n, k, i)) f(s, n->ball[k][i], value);
 }
 
-static void set_weight(scene *s, fe_body ball, double scale) { MUST(fe_body_set_gravity_scale(s->world, ball, (float)scale)); }
-static void set_drag(scene *s, fe_body ball, double rate) { MUST(fe_body_set_damping(s->world, ball, (float)rate, (float)rate)); }
+static void set_weight(scene *s, fe_body ball, double scale)
+{
+    MUST(fe_body_set_gravity_scale(s->world, ball, (float)scale));
+}
+static void set_drag(scene *s, fe_body ball, double rate)
+{
+    MUST(fe_body_set_damping(s->world, ball, (float)rate, (float)rate));
+}
 static void set_alone(scene *s, fe_body ball, double unused)
 {
     (void)unused;
     touch_nothing(s, ball);
 }
 
-// ---- how far it opens -----------------------------------------------------------------------------------------------------------------
-// It falls until its joints hold it, and swings. 3.3 times the gap at rest, P2: what scenes of chains are allowed.
+// ---- how far it opens
+// ----------------------------------------------------------------------------------------------------------------- It
+// falls until its joints hold it, and swings. 3.3 times the gap at rest, P2: what scenes of chains are allowed.
 static void a_large_net_opens_by_what_it_weighs(void **state)
 {
 #if SLOW_BUILD
@@ -75,12 +83,15 @@ static void a_large_net_opens_by_what_it_weighs(void **state)
 #endif
 }
 
-// ---- what its joints bear -------------------------------------------------------------------------------------------------------------
-// A ladder of two columns. Its widest gap is that of the second row's, between two balls; the first hangs on what does not move.
+// ---- what its joints bear
+// ------------------------------------------------------------------------------------------------------------- A
+// ladder of two columns. Its widest gap is that of the second row's, between two balls; the first hangs on what does
+// not move.
 static void check_ladder(const scene *s, const net *n, double scale)
 {
     double mass = mass_of(s, n->ball[0][1]), load = (n->rows - 2) * mass * scale * G, force = 0;
-    FE_NEAR(worst_gap(s, n->joint, n->joint_count), joint_give(s, load, mass / 2), 0.02 * joint_give(s, load, mass / 2));
+    FE_NEAR(worst_gap(s, n->joint, n->joint_count), joint_give(s, load, mass / 2),
+            0.02 * joint_give(s, load, mass / 2));
     for (int i = 0; i < n->joint_count; ++i) {
         vec f = force_of(s, n->joint[i]);
         force = fmax(force, f.y);
@@ -88,8 +99,8 @@ static void check_ladder(const scene *s, const net *n, double scale)
     FE_NEAR(force, load + mass * scale * G, 0.015 * load);
 }
 
-// Its gaps are those of the world's substeps, whether it is stretched or not: 11 cm; 4 cm, where it stays stretched; 2 cm, where it does
-// not; 4 cm again, where it stays so
+// Its gaps are those of the world's substeps, whether it is stretched or not: 11 cm; 4 cm, where it stays stretched; 2
+// cm, where it does not; 4 cm again, where it stays so
 static void a_net_bears_the_same_however_stretched_it_is(void **state)
 {
     const double scales[] = {36, 13, 6, 13};
@@ -104,8 +115,8 @@ static void a_net_bears_the_same_however_stretched_it_is(void **state)
     scene_end(&s);
 }
 
-// Its load is taken from it within six seconds, so slowly that it follows its gaps up; the step in which it is stretched no more does not
-// show. A substep of its own weight would be g h = 0.4 m/s.
+// Its load is taken from it within six seconds, so slowly that it follows its gaps up; the step in which it is
+// stretched no more does not show. A substep of its own weight would be g h = 0.4 m/s.
 static void a_net_comes_back_without_a_jerk(void **state)
 {
     enum { STEPS = 360 };
@@ -125,7 +136,8 @@ static void a_net_comes_back_without_a_jerk(void **state)
     scene_end(&s);
 }
 
-// ---- determinism ----------------------------------------------------------------------------------------------------------------------
+// ---- determinism
+// ----------------------------------------------------------------------------------------------------------------------
 // A net that opens while it falls on a floor: islands below and above the size from which on all workers share one
 static void hash_of_fall(fe_simd simd, int workers, int columns, int rows, uint32_t out_hash[4])
 {
@@ -165,9 +177,12 @@ static void a_stretched_net_is_the_same_for_all_workers_and_sets(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(a_large_net_opens_by_what_it_weighs),          WITH_4_SUBSTEPS(a_large_net_opens_by_what_it_weighs),
-        TEST(a_net_bears_the_same_however_stretched_it_is), WITH_4_SUBSTEPS(a_net_bears_the_same_however_stretched_it_is),
-        WITH_4_SUBSTEPS(a_net_comes_back_without_a_jerk),   TEST(a_stretched_net_is_the_same_for_all_workers_and_sets),
+        TEST(a_large_net_opens_by_what_it_weighs),
+        WITH_4_SUBSTEPS(a_large_net_opens_by_what_it_weighs),
+        TEST(a_net_bears_the_same_however_stretched_it_is),
+        WITH_4_SUBSTEPS(a_net_bears_the_same_however_stretched_it_is),
+        WITH_4_SUBSTEPS(a_net_comes_back_without_a_jerk),
+        TEST(a_stretched_net_is_the_same_for_all_workers_and_sets),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,10 +1,12 @@
-// Rolling and spinning on planes: accelerations of round bodies, the change from sliding to rolling, resistances, the twist of a flat
-// contact.
+// Rolling and spinning on planes: accelerations of round bodies, the change from sliding to rolling, resistances, the
+// twist of a flat contact.
 #include "scene.h"
 
-static const double LAW = 0.01, CAP = 0.02; // what may be off, relative: a law of motion; one that is ended by a cap on a torque
+static const double LAW = 0.01,
+                    CAP = 0.02; // what may be off, relative: a law of motion; one that is ended by a cap on a torque
 
-// ---- down a slope ---------------------------------------------------------------------------------------------------------------
+// ---- down a slope
+// ---------------------------------------------------------------------------------------------------------------
 
 // way down the slope in the first 2 s, m
 static double way_down(scene *s, fe_body body, double angle)
@@ -49,9 +51,11 @@ static void a_capsule_rolls_on_its_side_by_its_moment(void **state)
     const double angle = 20 * DEGREES, half = 0.6, r = 0.3, cylinder = WATER * PI * r * r * 2 * half,
                  ball = WATER * 4.0 / 3 * PI * r * r * r;
     double mass = cylinder + ball, axial = cylinder * r * r / 2 + ball * 2.0 / 5 * r * r;
-    double ends = ball * (2.0 / 5 * r * r + half * half + 3.0 / 4 * half * r), across = cylinder * (r * r / 4 + half * half / 3) + ends;
+    double ends = ball * (2.0 / 5 * r * r + half * half + 3.0 / 4 * half * r),
+           across = cylinder * (r * r / 4 + half * half / 3) + ends;
     add_slope(&s, angle, friction(0.6));
-    fe_body pill = add_dynamic(&s, capsule(half, r), times(r, slope_normal(angle)), turned(v3(1, 0, 0), PI / 2), friction(0.6), WATER);
+    fe_body pill = add_dynamic(&s, capsule(half, r), times(r, slope_normal(angle)), turned(v3(1, 0, 0), PI / 2),
+                               friction(0.6), WATER);
     fe_mass_data data = mass_data_of(&s, pill);
     FE_NEAR(data.mass, mass, 1e-6 * mass);
     FE_NEAR(data.inertia.y, axial, 1e-6 * axial);
@@ -63,13 +67,15 @@ static void a_capsule_rolls_on_its_side_by_its_moment(void **state)
     scene_end(&s);
 }
 
-// ---- on the level ---------------------------------------------------------------------------------------------------------------
+// ---- on the level
+// ---------------------------------------------------------------------------------------------------------------
 
 // It slides for 2 v0 / (7 mu g) and 12 v0^2 / (49 mu g), then rolls with 5/7 v0, for ever
 static void a_sliding_sphere_ends_rolling_with_five_sevenths(void **state)
 {
     scene s = scene_begin(state);
-    const double r = 0.5, mu = 0.2, v0 = 5, v = 5.0 / 7 * v0, t = 2 * v0 / (7 * mu * G), way = 12 * v0 * v0 / (49 * mu * G);
+    const double r = 0.5, mu = 0.2, v0 = 5, v = 5.0 / 7 * v0, t = 2 * v0 / (7 * mu * G),
+                 way = 12 * v0 * v0 / (49 * mu * G);
     add_ground(&s, friction(mu));
     fe_body ball = add_dynamic(&s, sphere(r), v3(0, r, 0), UNTURNED, friction(mu), WATER);
     set_velocity(&s, ball, v3(v0, 0, 0), v3(0, 0, 0));
@@ -87,7 +93,8 @@ static void a_sliding_sphere_ends_rolling_with_five_sevenths(void **state)
     scene_end(&s);
 }
 
-// The contact follows the round side: at 10 m/s a point fixed on it would leave the ground by 27 mm in a step. Overlap by P1, 5 % of it.
+// The contact follows the round side: at 10 m/s a point fixed on it would leave the ground by 27 mm in a step. Overlap
+// by P1, 5 % of it.
 static void check_fast_roll(scene *s, fe_body body, double r, double predicted)
 {
     double v0 = 10;
@@ -118,8 +125,9 @@ static void what_rolls_fast_keeps_its_height_and_its_speed(void **state)
     scene_end(&s);
 }
 
-// A ball on a slab that moves with a under it: friction F = m a_ball turns it by F r = 2/5 m r^2 w', and  a_ball + w' r = a, so that
-// a_ball = 2/7 a. It stands on the slab by P1. Either may be the contact's first body: the one created first.
+// A ball on a slab that moves with a under it: friction F = m a_ball turns it by F r = 2/5 m r^2 w', and  a_ball + w' r
+// = a, so that a_ball = 2/7 a. It stands on the slab by P1. Either may be the contact's first body: the one created
+// first.
 static void a_ball_on_a_pulled_slab_follows_with_two_sevenths(void **state)
 {
     for (int ball_first = 0; ball_first < 2; ++ball_first) {
@@ -144,8 +152,9 @@ static void a_ball_on_a_pulled_slab_follows_with_two_sevenths(void **state)
     }
 }
 
-// ---- rolling resistance ---------------------------------------------------------------------------------------------------------
-// Its torque is at most c r N: a rolling sphere slows with 5/7 c g, and holds on a slope up to tan(angle) = c
+// ---- rolling resistance
+// --------------------------------------------------------------------------------------------------------- Its torque
+// is at most c r N: a rolling sphere slows with 5/7 c g, and holds on a slope up to tan(angle) = c
 
 static fe_material rolling(double c)
 {
@@ -186,9 +195,11 @@ static void rolling_resistance_holds_a_sphere_up_to_its_slope(void **state)
     }
 }
 
-// ---- about the normal -----------------------------------------------------------------------------------------------------------
+// ---- about the normal
+// -----------------------------------------------------------------------------------------------------------
 
-// Its torque is at most s N: t = 2 r^2 w0 / (5 s g). It stays where it is, but for what the rounding of its spin gives it to roll with.
+// Its torque is at most s N: t = 2 r^2 w0 / (5 s g). It stays where it is, but for what the rounding of its spin gives
+// it to roll with.
 static void a_spinning_sphere_stops_by_its_spinning_resistance(void **state)
 {
     scene s = scene_begin(state);
@@ -217,7 +228,8 @@ static void spinning_resistance_hands_the_spin_to_a_free_slab(void **state)
     add_ground(&s, friction(0));
     fe_body slab = add_dynamic(&s, box(1, 0.1, 1), v3(0, 0.1, 0), UNTURNED, friction(0.6), WATER);
     fe_body ball = add_dynamic(&s, sphere(r), v3(0, 0.2 + r, 0), UNTURNED, material, WATER);
-    double of_ball = 0.4 * mass_of(&s, ball) * r * r, of_slab = mass_of(&s, slab) * 2.0 / 3, common = w0 * of_ball / (of_ball + of_slab);
+    double of_ball = 0.4 * mass_of(&s, ball) * r * r, of_slab = mass_of(&s, slab) * 2.0 / 3,
+           common = w0 * of_ball / (of_ball + of_slab);
     set_velocity(&s, ball, v3(0, 0, 0), v3(0, w0, 0));
     run(&s, 30);
     double given = 0.1 * mass_of(&s, ball) * G * 30 * STEP;
@@ -265,7 +277,8 @@ static void a_cube_spinning_on_its_face_is_braked_by_its_corners(void **state)
     scene_end(&s);
 }
 
-// Friction acts at the centre and as a twist: each brakes as if it were alone, v = v0 - mu g t, w = w0 - w' t, straight ahead
+// Friction acts at the centre and as a twist: each brakes as if it were alone, v = v0 - mu g t, w = w0 - w' t, straight
+// ahead
 static void sliding_and_spinning_brake_apart_from_each_other(void **state)
 {
     scene s = scene_begin(state);

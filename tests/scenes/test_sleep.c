@@ -76,7 +76,8 @@ static int all_awake(const scene *s, const fe_body *bodies, int count)
     return sum != 0;
 }
 
-// ---- falling asleep -----------------------------------------------------------------------------------------------------------------
+// ---- falling asleep
+// -----------------------------------------------------------------------------------------------------------------
 
 // 0.5 s below 0.05 m/s: a body at rest from the start sleeps after 30 steps, the rounding of 30 sums included one more.
 static void a_body_at_rest_sleeps_after_half_a_second(void **state)
@@ -109,7 +110,8 @@ static void the_fastest_point_decides(void **state)
     }
 }
 
-// What pushes bodies apart adds nothing to their velocity: born at one place they are out of each other, but for the slop, before they sleep.
+// What pushes bodies apart adds nothing to their velocity: born at one place they are out of each other, but for the
+// slop, before they sleep.
 static void what_is_pushed_apart_is_not_at_rest(void **state)
 {
     scene s = scene_begin(state);
@@ -176,7 +178,8 @@ static void one_that_may_not_sleep_keeps_its_island_awake(void **state)
     scene_end(&s);
 }
 
-// ---- asleep -----------------------------------------------------------------------------------------------------------------------
+// ---- asleep
+// -----------------------------------------------------------------------------------------------------------------------
 
 static void a_sleeping_world_does_not_change_one_bit(void **state)
 {
@@ -189,7 +192,8 @@ static void a_sleeping_world_does_not_change_one_bit(void **state)
     build_tower(&s, bodies + TOWER, 3);
     bodies[COUNT - 1] = add_sleeper(&s, capsule(0.4, 0.3), v3(-3, 0.7, 0));
     MUST(fe_body_set_transform(s.world, bodies[COUNT - 1],
-                               &(fe_transform){to_world(&s, v3(-3, 0.3, 0)), compose(s.turn, turned(v3(0, 0, 1), 90 * DEGREES))}));
+                               &(fe_transform){to_world(&s, v3(-3, 0.3, 0)),
+                                               compose(s.turn, turned(v3(0, 0, 1), 90 * DEGREES))}));
     settle(&s, 600);
     run(&s, 1); // the events of falling asleep are gone
     for (int i = 0; i < COUNT; ++i) before[i] = body_transform(s.world, bodies[i]);
@@ -209,8 +213,9 @@ static void a_sleeping_world_does_not_change_one_bit(void **state)
     scene_end(&s);
 }
 
-// Waking gives the stack back its impulses: it must not sag, hop or slide. The slow pole of an overdamped contact is w / (2 zeta) = 9.4
-// 1/s: after 8 s nothing moves that is not rounding, and the fall of one step without impulses would be 0.16 m/s.
+// Waking gives the stack back its impulses: it must not sag, hop or slide. The slow pole of an overdamped contact is w
+// / (2 zeta) = 9.4 1/s: after 8 s nothing moves that is not rounding, and the fall of one step without impulses would
+// be 0.16 m/s.
 static void waking_disturbs_nothing(void **state)
 {
     scene s = scene_begin(state);
@@ -236,9 +241,11 @@ static void waking_disturbs_nothing(void **state)
     scene_end(&s);
 }
 
-// ---- waking -----------------------------------------------------------------------------------------------------------------------
+// ---- waking
+// -----------------------------------------------------------------------------------------------------------------------
 
-// Each of these wakes its body and all that it stands on or carries, at once, and the next step tells; another island sleeps on.
+// Each of these wakes its body and all that it stands on or carries, at once, and the next step tells; another island
+// sleeps on.
 typedef void stimulus(scene *s, fe_body body);
 
 static void by_force(scene *s, fe_body body) { add_force(s, body, v3(1, 0, 0)); }
@@ -278,8 +285,10 @@ static void by_form(scene *s, fe_body body)
 
 static void every_change_wakes_the_island(void **state)
 {
-    static stimulus *const stimuli[] = {by_force,  by_torque, by_impulse,   by_angular_impulse, by_velocity, by_spin, by_call, by_teleport,
-                                        by_filter, by_type,   by_disabling, by_destroying,      by_locks,    by_mass, by_form};
+    static stimulus *const stimuli[] = {by_force,    by_torque, by_impulse,   by_angular_impulse,
+                                        by_velocity, by_spin,   by_call,      by_teleport,
+                                        by_filter,   by_type,   by_disabling, by_destroying,
+                                        by_locks,    by_mass,   by_form};
     enum { COUNT = sizeof stimuli / sizeof *stimuli };
     for (int i = 0; i < COUNT; ++i) {
         scene s = scene_begin(state);
@@ -318,7 +327,8 @@ static void reading_and_zero_forces_wake_nobody(void **state)
     vec from = to_world(&s, v3(-5, 0.5, 0)), way = to_world(&s, v3(10, 0, 0));
     FE_TRUE(fe_world_raycast(s.world, &from, &way, NULL, &hit) == 1);
     FE_TRUE(hit.body == bodies[0]);
-    FE_TRUE(fe_body_get_contacts(s.world, bodies[1], contacts, sizeof *contacts, 8) == 2); // sleep does not end a contact
+    FE_TRUE(fe_body_get_contacts(s.world, bodies[1], contacts, sizeof *contacts, 8) ==
+            2); // sleep does not end a contact
     MUST(fe_body_set_user_data(s.world, bodies[1], 7));
     FE_TRUE(awake_count(&s) == 0);
     run(&s, 1);
@@ -326,7 +336,8 @@ static void reading_and_zero_forces_wake_nobody(void **state)
     scene_end(&s);
 }
 
-// The first touch of a sleeper is told, and wakes its whole island in that step; one that sleeps elsewhere goes on sleeping.
+// The first touch of a sleeper is told, and wakes its whole island in that step; one that sleeps elsewhere goes on
+// sleeping.
 static void a_touch_wakes_the_island_and_is_reported(void **state)
 {
     scene s = scene_begin(state);
@@ -343,7 +354,8 @@ static void a_touch_wakes_the_island_and_is_reported(void **state)
         run(&s, 1);
         fe_pair_event events[16];
         int32_t count = fe_world_get_pair_events(s.world, events, sizeof *events, 16);
-        for (int k = 0; k < count; ++k) entered |= events[k].kind == FE_EVENT_ENTER && events[k].body_a == bodies[0] && events[k].body_b == ball;
+        for (int k = 0; k < count; ++k)
+            entered |= events[k].kind == FE_EVENT_ENTER && events[k].body_a == bodies[0] && events[k].body_b == ball;
     }
     FE_TRUE(entered);
     FE_TRUE(all_awake(&s, bodies, TOWER));
@@ -410,7 +422,8 @@ static void destroying_a_support_wakes_what_rested_on_it(void **state)
     }
 }
 
-// A static body made in a sleeper, or moved into it, is a touch like any other; a world that is loaded asleep stays asleep.
+// A static body made in a sleeper, or moved into it, is a touch like any other; a world that is loaded asleep stays
+// asleep.
 static void a_static_body_that_comes_to_a_sleeper_wakes_it(void **state)
 {
     for (int made = 0; made < 2; ++made) {

@@ -12,10 +12,11 @@ static double fastest(const scene *s, const fe_body *bodies, int count)
     return most;
 }
 
-// ---- P1 ---------------------------------------------------------------------------------------------------------------------------
+// ---- P1
+// ---------------------------------------------------------------------------------------------------------------------------
 
-// n cubes: the interface that carries k of them gives by 2 k g / w30^2 (two bodies of mass m in series), the ground by n g / w60^2. 20 %:
-// the corners of a stack do not share its weight evenly.
+// n cubes: the interface that carries k of them gives by 2 k g / w30^2 (two bodies of mass m in series), the ground by
+// n g / w60^2. 20 %: the corners of a stack do not share its weight evenly.
 static void a_stack_of_cubes_sinks_by_p1(void **state)
 {
     static const int heights[] = {1, 2, 5, 10, 20};
@@ -24,7 +25,8 @@ static void a_stack_of_cubes_sinks_by_p1(void **state)
         fe_body bodies[20];
         scene s = scene_begin(state);
         add_ground(&s, friction(0.6));
-        for (int k = 0; k < n; ++k) bodies[k] = add_dynamic(&s, cube(0.5), v3(0, 0.5 + k, 0), UNTURNED, friction(0.6), WATER);
+        for (int k = 0; k < n; ++k)
+            bodies[k] = add_dynamic(&s, cube(0.5), v3(0, 0.5 + k, 0), UNTURNED, friction(0.6), WATER);
         run(&s, 600);
         double below = 0;
         for (int k = 0; k < n; ++k) {
@@ -46,7 +48,8 @@ static void every_interface_carries_what_is_above_it(void **state)
     fe_body bodies[COUNT];
     scene s = scene_begin(state);
     fe_body ground = add_ground(&s, friction(0.6));
-    for (int k = 0; k < COUNT; ++k) bodies[k] = add_dynamic(&s, cube(0.5), v3(0, 0.5 + k, 0), UNTURNED, friction(0.6), WATER);
+    for (int k = 0; k < COUNT; ++k)
+        bodies[k] = add_dynamic(&s, cube(0.5), v3(0, 0.5 + k, 0), UNTURNED, friction(0.6), WATER);
     run(&s, 600);
     for (int k = 0; k < COUNT; ++k) {
         double weight = (COUNT - k) * mass_of(&s, bodies[0]) * G * STEP;
@@ -61,7 +64,8 @@ static void a_stack_of_spheres_stands_by_symmetry_and_sinks_by_p1(void **state)
     fe_body bodies[COUNT];
     scene s = scene_begin(state);
     add_ground(&s, friction(0.6));
-    for (int k = 0; k < COUNT; ++k) bodies[k] = add_dynamic(&s, sphere(0.5), v3(0, 0.5 + k, 0), UNTURNED, friction(0.6), WATER);
+    for (int k = 0; k < COUNT; ++k)
+        bodies[k] = add_dynamic(&s, sphere(0.5), v3(0, 0.5 + k, 0), UNTURNED, friction(0.6), WATER);
     run(&s, 600);
     double below = 0;
     for (int k = 0; k < COUNT; ++k) {
@@ -73,7 +77,8 @@ static void a_stack_of_spheres_stands_by_symmetry_and_sinks_by_p1(void **state)
     scene_end(&s);
 }
 
-// ---- standing -----------------------------------------------------------------------------------------------------------------------
+// ---- standing
+// -----------------------------------------------------------------------------------------------------------------------
 
 // B4 sinks by n (n - 1) g / w30^2 + n g / w60^2 = 0.433 m
 static void forty_boxes_stand_for_20_seconds(void **state)
@@ -82,7 +87,8 @@ static void forty_boxes_stand_for_20_seconds(void **state)
     fe_body bodies[COUNT];
     scene s = scene_begin(state);
     add_ground(&s, friction(0.6));
-    for (int k = 0; k < COUNT; ++k) bodies[k] = add_dynamic(&s, cube(0.5), v3(0, 0.5 + k, 0), UNTURNED, friction(0.6), WATER);
+    for (int k = 0; k < COUNT; ++k)
+        bodies[k] = add_dynamic(&s, cube(0.5), v3(0, 0.5 + k, 0), UNTURNED, friction(0.6), WATER);
     run(&s, 1200);
     double below = sink(COUNT * G, 1, 1);
     for (int k = 1; k < COUNT; ++k) below += sink((COUNT - k) * G, 0.5, 0);
@@ -95,7 +101,8 @@ static void forty_boxes_stand_for_20_seconds(void **state)
     scene_end(&s);
 }
 
-// S8: 15 boxes fall into place from gaps of 0.1 m, shifted by 10 mm in turn; none ends up by more than 20 mm beside its place
+// S8: 15 boxes fall into place from gaps of 0.1 m, shifted by 10 mm in turn; none ends up by more than 20 mm beside its
+// place
 static void a_stack_that_falls_into_place_stands(void **state)
 {
     enum { COUNT = 15 };
@@ -103,7 +110,8 @@ static void a_stack_that_falls_into_place_stands(void **state)
     scene s = scene_begin(state);
     add_ground(&s, friction(0.3));
     for (int k = 0; k < COUNT; ++k)
-        bodies[k] = add_dynamic(&s, cube(0.5), v3(k % 2 ? 0.01 : -0.01, 0.55 + 1.1 * k, 0), UNTURNED, friction(0.3), WATER);
+        bodies[k] =
+            add_dynamic(&s, cube(0.5), v3(k % 2 ? 0.01 : -0.01, 0.55 + 1.1 * k, 0), UNTURNED, friction(0.3), WATER);
     run(&s, 1200);
     double below = sink(COUNT * G, 1, 1);
     for (int k = 1; k < COUNT; ++k) below += sink((COUNT - k) * G, 0.5, 0);
@@ -117,16 +125,17 @@ static void a_stack_that_falls_into_place_stands(void **state)
     scene_end(&s);
 }
 
-// B4: boxes right above each other, a quarter of their size apart, fall: nothing in it points to a side, so that none may go there.
-// Rounding is all that is left, far below the linear slop; a solver that takes the corners of a box one after the other throws the column
-// over.
+// B4: boxes right above each other, a quarter of their size apart, fall: nothing in it points to a side, so that none
+// may go there. Rounding is all that is left, far below the linear slop; a solver that takes the corners of a box one
+// after the other throws the column over.
 static void boxes_that_fall_onto_each_other_stay_in_line(void **state)
 {
     enum { COUNT = SLOW_BUILD ? 15 : 40 };
     fe_body bodies[COUNT];
     scene s = scene_begin(state);
     add_ground(&s, friction(0.6));
-    for (int k = 0; k < COUNT; ++k) bodies[k] = add_dynamic(&s, cube(0.5), v3(0, 0.75 + 1.25 * k, 0), UNTURNED, friction(0.6), WATER);
+    for (int k = 0; k < COUNT; ++k)
+        bodies[k] = add_dynamic(&s, cube(0.5), v3(0, 0.75 + 1.25 * k, 0), UNTURNED, friction(0.6), WATER);
     run(&s, 600);
     for (int k = 0; k < COUNT; ++k) {
         FE_WITHIN(hypot(position(&s, bodies[k]).x, position(&s, bodies[k]).z), 0, LINEAR_SLOP);
@@ -143,7 +152,8 @@ static void a_box_that_lands_flat_stays_where_it_landed(void **state)
         const double *half = halves[i];
         scene s = scene_begin(state);
         add_ground(&s, friction(0.5));
-        fe_body body = add_dynamic(&s, box(half[0], half[1], half[2]), v3(0, half[1] + 3, 0), UNTURNED, friction(0.5), WATER);
+        fe_body body =
+            add_dynamic(&s, box(half[0], half[1], half[2]), v3(0, half[1] + 3, 0), UNTURNED, friction(0.5), WATER);
         run(&s, 120);
         FE_WITHIN(hypot(position(&s, body).x, position(&s, body).z), 0, 0.02 * LINEAR_SLOP);
         FE_WITHIN(tilt(&s, body), 0, 1e-4);
@@ -151,9 +161,10 @@ static void a_box_that_lands_flat_stays_where_it_landed(void **state)
     }
 }
 
-// A column of n light boxes is one of n links with springs between them: per interface, with the points at +-a, K = m/2 w^2 a^2. It carries
-// P = (pi/2)^2 / n^2 K / link at most (Euler), 109 N per kg of the light boxes at 30 Hz where a hundredfold load weighs 981: at 30 Hz two
-// stand and ten buckle, at 120 Hz (which needs 16 substeps) ten stand: 1747 N per kg.
+// A column of n light boxes is one of n links with springs between them: per interface, with the points at +-a, K = m/2
+// w^2 a^2. It carries P = (pi/2)^2 / n^2 K / link at most (Euler), 109 N per kg of the light boxes at 30 Hz where a
+// hundredfold load weighs 981: at 30 Hz two stand and ten buckle, at 120 Hz (which needs 16 substeps) ten stand: 1747 N
+// per kg.
 static void a_column_carries_a_hundred_times_its_boxes_below_eulers_load(void **state)
 {
     static const struct {
@@ -185,7 +196,8 @@ static void a_column_carries_a_hundred_times_its_boxes_below_eulers_load(void **
     }
 }
 
-// Above Euler's load the column comes down; it does so without gaining energy, and everything comes to rest above the ground.
+// Above Euler's load the column comes down; it does so without gaining energy, and everything comes to rest above the
+// ground.
 static void an_overloaded_column_comes_down_and_settles(void **state)
 {
     enum { COUNT = 10 };
@@ -207,8 +219,8 @@ static void an_overloaded_column_comes_down_and_settles(void **state)
     scene_end(&s);
 }
 
-// A plate with 500 boxes on it is one body in 500 contacts: more than there are colours. It must carry them all, and sink by P1 of the
-// ground.
+// A plate with 500 boxes on it is one body in 500 contacts: more than there are colours. It must carry them all, and
+// sink by P1 of the ground.
 static void a_plate_carries_500_boxes(void **state)
 {
     enum { SIDE_X = SLOW_BUILD ? 5 : 20, SIDE_Z = SLOW_BUILD ? 5 : 25, COUNT = SIDE_X * SIDE_Z };
@@ -216,14 +228,16 @@ static void a_plate_carries_500_boxes(void **state)
     scene s = scene_begin(state);
     add_ground(&s, friction(0.6));
     const double pitch = 0.6, half = 0.25;
-    fe_body plate = add_dynamic(&s, box(0.5 * pitch * SIDE_X, 0.25, 0.5 * pitch * SIDE_Z), v3(0, 0.25, 0), UNTURNED, friction(0.6), WATER);
+    fe_body plate = add_dynamic(&s, box(0.5 * pitch * SIDE_X, 0.25, 0.5 * pitch * SIDE_Z), v3(0, 0.25, 0), UNTURNED,
+                                friction(0.6), WATER);
     for (int i = 0; i < COUNT; ++i) {
         vec at = v3(pitch * (i % SIDE_X - 0.5 * (SIDE_X - 1)), 0.5 + half, pitch * (i / SIDE_X - 0.5 * (SIDE_Z - 1)));
         bodies[i] = add_dynamic(&s, cube(half), at, UNTURNED, friction(0.6), WATER);
     }
     run(&s, 300);
     // a corner of the plate: 1 / m_eff = 1 / m + x^2 / Iz + z^2 / Ix; four of them
-    double all = mass_of(&s, plate) + COUNT * mass_of(&s, bodies[0]), x = 0.5 * pitch * SIDE_X, z = 0.5 * pitch * SIDE_Z;
+    double all = mass_of(&s, plate) + COUNT * mass_of(&s, bodies[0]), x = 0.5 * pitch * SIDE_X,
+           z = 0.5 * pitch * SIDE_Z;
     fe_mass_data data = mass_data_of(&s, plate);
     double corner = 1 / (1 / mass_of(&s, plate) + x * x / (double)data.inertia.z + z * z / (double)data.inertia.x);
     double plate_sink = sink(all * G / 4, corner, 1);
@@ -249,7 +263,8 @@ static void small_boxes_do_not_jitter(void **state)
     int n = 0;
     for (int row = 0; row < 5; ++row)
         for (int i = 0; i < 5 - row; ++i)
-            bodies[n++] = add_dynamic(&s, cube(0.025), v3(0.05 * i + 0.025 * row, 0.025 + 0.05 * row, 0), UNTURNED, friction(0.6), WATER);
+            bodies[n++] = add_dynamic(&s, cube(0.025), v3(0.05 * i + 0.025 * row, 0.025 + 0.05 * row, 0), UNTURNED,
+                                      friction(0.6), WATER);
     run(&s, 300);
     vec before[COUNT];
     for (int i = 0; i < COUNT; ++i) before[i] = position(&s, bodies[i]);
@@ -261,8 +276,8 @@ static void small_boxes_do_not_jitter(void **state)
     scene_end(&s);
 }
 
-// S7: boxes made with a quarter of overlap come apart without a leap: every interface is pushed out at 3 m/s at most, and what the
-// push gave as velocity is relaxed away
+// S7: boxes made with a quarter of overlap come apart without a leap: every interface is pushed out at 3 m/s at most,
+// and what the push gave as velocity is relaxed away
 static void overlaps_are_pushed_out_gently(void **state)
 {
     enum { COUNT = 10 };
@@ -272,8 +287,8 @@ static void overlaps_are_pushed_out_gently(void **state)
     int n = 0;
     for (int i = 0; i < 4; ++i)
         for (int j = i; j < 4; ++j)
-            bodies[n++] =
-                add_dynamic(&s, cube(0.5), v3(0.375 * (i - 4) + 0.75 * (j - i), 0.5 + 0.75 * i, 0), UNTURNED, friction(0.6), WATER);
+            bodies[n++] = add_dynamic(&s, cube(0.5), v3(0.375 * (i - 4) + 0.75 * (j - i), 0.5 + 0.75 * i, 0), UNTURNED,
+                                      friction(0.6), WATER);
     double highest = 0, first = totals_of(&s, bodies, COUNT).energy;
     for (int k = 0; k < 300; ++k) {
         run(&s, 1);
@@ -311,7 +326,8 @@ static void a_load_taken_away_lets_nothing_leap(void **state)
     scene_end(&s);
 }
 
-// ---- pyramids ---------------------------------------------------------------------------------------------------------------------
+// ---- pyramids
+// ---------------------------------------------------------------------------------------------------------------------
 
 typedef struct pyramid {
     fe_body *bodies;
@@ -325,15 +341,16 @@ static pyramid build_pyramid(scene *s, int rows)
     add_static(s, box(400, 1, 400), v3(0, -1, 0), UNTURNED, friction(0.6));
     for (int i = 0; i < rows; ++i)
         for (int j = i; j < rows; ++j)
-            p.bodies[p.count++] =
-                add_dynamic(s, cube(0.5), v3((i + 1) * 0.5 + (j - i) - 0.5 * rows, i + 0.5, 0), UNTURNED, friction(0.6), 100);
+            p.bodies[p.count++] = add_dynamic(s, cube(0.5), v3((i + 1) * 0.5 + (j - i) - 0.5 * rows, i + 0.5, 0),
+                                              UNTURNED, friction(0.6), 100);
     return p;
 }
 
 // nobody is out of the plane by more than `depth`, nobody sank by half a box below P1's line or rose above it
 static void pyramid_stands(const scene *s, const pyramid *p, double depth)
 {
-    double top = 0.40625 * (0.5 * p->rows * (p->rows + 1) - 1) * G / pow(2 * PI * 30, 2) + 0.5 * (p->rows + 1) * G / pow(2 * PI * 60, 2);
+    double top = 0.40625 * (0.5 * p->rows * (p->rows + 1) - 1) * G / pow(2 * PI * 30, 2) +
+                 0.5 * (p->rows + 1) * G / pow(2 * PI * 60, 2);
     for (int i = 0, n = 0; i < p->rows; ++i)
         for (int j = i; j < p->rows; ++j, ++n) {
             vec at = position(s, p->bodies[n]);
@@ -356,8 +373,8 @@ static void a_pyramid_of_ten_rows_sinks_by_p1(void **state)
     free(p.bodies);
 }
 
-// The soft column of a hundred rows buckles out of its plane where arms turn with their bodies: |z| stays below 0.1 m for 600 steps, and
-// nobody leaves its row in 1000. Slow builds stand a smaller one.
+// The soft column of a hundred rows buckles out of its plane where arms turn with their bodies: |z| stays below 0.1 m
+// for 600 steps, and nobody leaves its row in 1000. Slow builds stand a smaller one.
 static void a_pyramid_of_a_hundred_rows_stands(void **state)
 {
     scene s = scene_begin(state);
@@ -372,8 +389,8 @@ static void a_pyramid_of_a_hundred_rows_stands(void **state)
     free(p.bodies);
 }
 
-// A pyramid is the same seen from behind: what lets its top go to one side is the order in which its contacts are solved. It comes to rest
-// within the linear slop of where it was made.
+// A pyramid is the same seen from behind: what lets its top go to one side is the order in which its contacts are
+// solved. It comes to rest within the linear slop of where it was made.
 static void the_top_of_a_pyramid_goes_to_neither_side(void **state)
 {
     scene s = scene_begin(state);
@@ -385,7 +402,8 @@ static void the_top_of_a_pyramid_goes_to_neither_side(void **state)
     free(p.bodies);
 }
 
-// S3: a box of 300 times their mass falls 2 m onto a pyramid of ten rows: nobody is moved by a twentieth of a box, nor turned by 2 degrees
+// S3: a box of 300 times their mass falls 2 m onto a pyramid of ten rows: nobody is moved by a twentieth of a box, nor
+// turned by 2 degrees
 #if defined(FE_SANITIZED)
 enum { AFTER_THE_FALL = 150 };
 #else

@@ -1,10 +1,14 @@
-// What rests: forces by statics, overlaps by the fixed point of a soft contact (P1: load / (effective mass w^2), w = 2 pi 30/s, twice that
-// against a static body). The effective mass of a contact point: 1 / (1/m + (r x n) . I^-1 (r x n)), summed over the bodies that move.
+// What rests: forces by statics, overlaps by the fixed point of a soft contact (P1: load / (effective mass w^2), w = 2
+// pi 30/s, twice that against a static body). The effective mass of a contact point: 1 / (1/m + (r x n) . I^-1 (r x
+// n)), summed over the bodies that move.
 #include "scene.h"
 
-static const double SINGLE = 0.05, STACK = 0.2; // what P1 may be off by, relative: one body; what the bodies of a stack do to each other
+static const double SINGLE = 0.05,
+                    STACK =
+                        0.2; // what P1 may be off by, relative: one body; what the bodies of a stack do to each other
 
-// ---- one body on the ground -----------------------------------------------------------------------------------------------------
+// ---- one body on the ground
+// -----------------------------------------------------------------------------------------------------
 
 static void a_sphere_sinks_by_the_predicted_overlap(void **state)
 {
@@ -47,7 +51,8 @@ static void a_capsule_on_its_side_sinks_by_the_predicted_overlap(void **state)
     scene_end(&s);
 }
 
-// ---- stacks ---------------------------------------------------------------------------------------------------------------------
+// ---- stacks
+// ---------------------------------------------------------------------------------------------------------------------
 
 enum { HIGHEST = 10 };
 
@@ -60,8 +65,9 @@ static fe_body build_stack(scene *s, fe_geometry form, int count, fe_body *bodie
     return floor;
 }
 
-// The interface below k bodies carries k m g. Of a cube: four corners of m / 8 each between two cubes, of m / 4 each on the ground. Of a
-// sphere: one point of m / 2, and of m. So both give by 2 k g / w^2, and by n g / (2 w)^2 on the ground.
+// The interface below k bodies carries k m g. Of a cube: four corners of m / 8 each between two cubes, of m / 4 each on
+// the ground. Of a sphere: one point of m / 2, and of m. So both give by 2 k g / w^2, and by n g / (2 w)^2 on the
+// ground.
 static void check_sinks(const scene *s, const fe_body *bodies, int count)
 {
     double below = sink(count * G, 1, 1), sunk = below;
@@ -99,7 +105,8 @@ static void each_interface_of_a_stack_carries_what_is_above_it(void **state)
     fe_body cubes[HIGHEST], floor = build_stack(&s, box(0.5, 0.5, 0.5), 5, cubes);
     double weight = mass_of(&s, cubes[0]) * G * STEP;
     FE_NEAR(normal_impulse(&s, cubes[0], floor), 5 * weight, 0.005 * 5 * weight);
-    for (int i = 1; i < 5; ++i) FE_NEAR(normal_impulse(&s, cubes[i], cubes[i - 1]), (5 - i) * weight, 0.005 * (5 - i) * weight);
+    for (int i = 1; i < 5; ++i)
+        FE_NEAR(normal_impulse(&s, cubes[i], cubes[i - 1]), (5 - i) * weight, 0.005 * (5 - i) * weight);
     scene_end(&s);
 }
 
@@ -112,8 +119,8 @@ static void the_ground_carries_the_weight_of_a_pyramid(void **state)
     double weight = 0, carried = 0;
     for (int row = 0; row < ROWS; ++row)
         for (int i = 0; i < ROWS - row; ++i) {
-            fe_body cube =
-                add_dynamic(&s, box(0.25, 0.25, 0.25), v3(0.5 * i + 0.25 * row, 0.25 + 0.5 * row, 0), UNTURNED, friction(0.6), WATER);
+            fe_body cube = add_dynamic(&s, box(0.25, 0.25, 0.25), v3(0.5 * i + 0.25 * row, 0.25 + 0.5 * row, 0),
+                                       UNTURNED, friction(0.6), WATER);
             weight += mass_of(&s, cube) * G * STEP;
             if (row == 0) bottom[i] = cube;
         }
@@ -123,7 +130,8 @@ static void the_ground_carries_the_weight_of_a_pyramid(void **state)
     scene_end(&s);
 }
 
-// ---- two supports ---------------------------------------------------------------------------------------------------------------
+// ---- two supports
+// ---------------------------------------------------------------------------------------------------------------
 
 // A smooth sphere between two planes at `angle` from the vertical: each carries N = m g / (2 sin angle) and gives by P1
 static void a_sphere_in_a_groove_is_carried_by_both_sides(void **state)
@@ -145,8 +153,8 @@ static void a_sphere_in_a_groove_is_carried_by_both_sides(void **state)
     }
 }
 
-// Rough sides may carry a part by friction, but nothing moves. Along the groove the ball rolls freely, and a float's rounding (6e-8) is all
-// that keeps gravity square to it: g t^2 / 2 of that.
+// Rough sides may carry a part by friction, but nothing moves. Along the groove the ball rolls freely, and a float's
+// rounding (6e-8) is all that keeps gravity square to it: g t^2 / 2 of that.
 static void a_sphere_in_a_rough_groove_neither_drifts_nor_spins(void **state)
 {
     scene s = scene_begin(state);

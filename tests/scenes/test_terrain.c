@@ -1,4 +1,5 @@
-// Heightfields and flush boxes carry what rolls, slides and rests on them as a plane does; edges that are not there are not felt.
+// Heightfields and flush boxes carry what rolls, slides and rests on them as a plane does; edges that are not there are
+// not felt.
 #include "scenes/mechanics.h"
 #include "scenes/terrain.h"
 
@@ -10,14 +11,18 @@ enum { HEADINGS = 2, RAIN = 60, NEEDLES = 8 };
 enum { HEADINGS = 16, RAIN = 500, NEEDLES = 32 };
 #endif
 
-// ---- rolling and sliding ------------------------------------------------------------------------------------------------------------
+// ---- rolling and sliding
+// ------------------------------------------------------------------------------------------------------------
 
 enum { SPHERE, CAPSULE, BOX, FORMS };
 typedef void make_ground(scene *s, fe_material m);
 
 #define SPEED 10.0 // m/s
 
-static fe_geometry form_of(int kind) { return kind == SPHERE ? sphere(0.5) : kind == CAPSULE ? capsule(0.5, 0.3) : box(0.5, 0.25, 0.4); }
+static fe_geometry form_of(int kind)
+{
+    return kind == SPHERE ? sphere(0.5) : kind == CAPSULE ? capsule(0.5, 0.3) : box(0.5, 0.25, 0.4);
+}
 static double height_of(int kind) { return kind == SPHERE ? 0.5 : kind == CAPSULE ? 0.3 : 0.25; }
 // a box loses a good part of its speed in 5 s
 static fe_material surface_of(int kind) { return friction(kind == BOX ? 0.1 : 0.5); }
@@ -95,14 +100,16 @@ static void four_fields_at_a_corner_are_one(void **state) { rides_on(state, four
 static void flush_boxes_are_one(void **state)
 {
     for (int kind = 0; kind < FORMS; ++kind) {
-        ride plane = go(state, plane_ground, kind, 0, v3(0, 0, 0), 280), r = go(state, row_of_boxes, kind, 0, v3(-24, 0, 0.1), 280);
+        ride plane = go(state, plane_ground, kind, 0, v3(0, 0, 0), 280),
+             r = go(state, row_of_boxes, kind, 0, v3(-24, 0, 0.1), 280);
         as_on_a_plane(&r, &plane);
         r = go(state, row_of_boxes, kind, PI, v3(24, 0, -0.3), 280);
         as_on_a_plane(&r, &plane);
     }
 }
 
-// 10 m/s over a slope of 20 degrees, at an angle to its fall line, through its middle after 2 s straight on; a plane or a field
+// 10 m/s over a slope of 20 degrees, at an angle to its fall line, through its middle after 2 s straight on; a plane or
+// a field
 static vec ride_on_slope(void **state, int kind, double heading, int field)
 {
     enum { STEPS = 240, SETTLED = 5 };
@@ -110,12 +117,14 @@ static vec ride_on_slope(void **state, int kind, double heading, int field)
     scene s = scene_begin(state);
     fe_material m = surface_of(kind);
     if (field)
-        place_field(&s, make_field(&s, 100, 1.0, 0, 0, level), rotate(slope_turn(angle), v3(-50, 0, -50)), slope_turn(angle), m);
+        place_field(&s, make_field(&s, 100, 1.0, 0, 0, level), rotate(slope_turn(angle), v3(-50, 0, -50)),
+                    slope_turn(angle), m);
     else
         add_slope(&s, angle, m);
     vec n = slope_normal(angle);
     fe_quat turn = compose(slope_turn(angle), turned(v3(0, 1, 0), -heading));
-    vec along = rotate(turn, v3(1, 0, 0)), axle = cross(n, along), start = plus(times(-20, along), times(height_of(kind), n));
+    vec along = rotate(turn, v3(1, 0, 0)), axle = cross(n, along),
+        start = plus(times(-20, along), times(height_of(kind), n));
     if (kind == CAPSULE) turn = compose(turn, turned(v3(1, 0, 0), PI / 2)); // lies across
     fe_body body = add_dynamic(&s, form_of(kind), start, turn, m, WATER);
     set_velocity(&s, body, times(SPEED, along), kind == BOX ? v3(0, 0, 0) : times(SPEED / height_of(kind), axle));
@@ -130,8 +139,8 @@ static vec ride_on_slope(void **state, int kind, double heading, int field)
     return way;
 }
 
-// At every heading over a field turned by 20 degrees: as far as over a slope, nothing off it, and nothing aside, but for the capsule: its
-// axis may point anywhere, nothing turns it back, and where it points it rolls.
+// At every heading over a field turned by 20 degrees: as far as over a slope, nothing off it, and nothing aside, but
+// for the capsule: its axis may point anywhere, nothing turns it back, and where it points it rolls.
 static void tilted_fields_are_planes(void **state)
 {
     for (int kind = 0; kind < FORMS; ++kind) {
@@ -144,7 +153,8 @@ static void tilted_fields_are_planes(void **state)
     }
 }
 
-// B50: a body of a character, rotations locked, walks over many triangles at a constant speed: never a vertical speed above 0.5 m/s
+// B50: a body of a character, rotations locked, walks over many triangles at a constant speed: never a vertical speed
+// above 0.5 m/s
 static void characters_do_not_stumble(void **state)
 {
     for (int i = 0; i < HEADINGS; ++i) {
@@ -164,7 +174,8 @@ static void characters_do_not_stumble(void **state)
     }
 }
 
-// ---- rain -----------------------------------------------------------------------------------------------------------------------------
+// ---- rain
+// -----------------------------------------------------------------------------------------------------------------------------
 
 static double wave(double x, double z) { return 0.5 * sin(2 * PI * 0.1 * x) * sin(2 * PI * 0.2 * z); }
 
@@ -241,7 +252,8 @@ static void rain_comes_to_rest_on_a_wave(void **state)
     report_shortfall(&unrest);
 }
 
-// B49: thin boxes from 5 m, turning: none below the ground, and all asleep in the end, heaps of them in the valleys too.
+// B49: thin boxes from 5 m, turning: none below the ground, and all asleep in the end, heaps of them in the valleys
+// too.
 static int needles(void **state)
 {
     static fe_body bodies[NEEDLES * NEEDLES];
@@ -251,7 +263,8 @@ static int needles(void **state)
     add_wave(&s, m);
     seed = 2;
     for (int i = 0; i < NEEDLES * NEEDLES; ++i) {
-        bodies[count] = add_dynamic(&s, box(0.02, 0.2, 0.04), v3(0.5 * (i % NEEDLES - NEEDLES / 2), 5, 0.5 * (i / NEEDLES - NEEDLES / 2)),
+        bodies[count] = add_dynamic(&s, box(0.02, 0.2, 0.04),
+                                    v3(0.5 * (i % NEEDLES - NEEDLES / 2), 5, 0.5 * (i / NEEDLES - NEEDLES / 2)),
                                     UNTURNED, m, WATER);
         vec v = v3(draw(-1, 1), 0, 0), w = v3(draw(-5, 5), 0, 0);
         v.y = draw(-1, 1), v.z = draw(-1, 1), w.y = draw(-5, 5), w.z = draw(-5, 5);
@@ -273,7 +286,8 @@ static void needles_stay_above_ground(void **state) { (void)needles(state); }
 
 static void needles_fall_asleep(void **state) { assert_int_equal(needles(state), 0); }
 
-// ---- edits, holes, materials ----------------------------------------------------------------------------------------------------------
+// ---- edits, holes, materials
+// ----------------------------------------------------------------------------------------------------------
 
 static void set_flat(scene *s, fe_asset asset, int row, int column, int size, float height)
 {
@@ -321,7 +335,8 @@ static fe_body field_with(scene *s, const uint8_t *holes, const uint8_t *kinds, 
     return body;
 }
 
-// One cell is a hole: what is small falls through, what is large rests across its rim, a box with its middle over solid ground too.
+// One cell is a hole: what is small falls through, what is large rests across its rim, a box with its middle over solid
+// ground too.
 static void holes_let_through_what_fits(void **state)
 {
     uint8_t holes[64] = {0};
@@ -340,7 +355,8 @@ static void holes_let_through_what_fits(void **state)
     FE_NEAR(position(&s, overhang).y, 0.2, LINEAR_SLOP);
     MUST(fe_body_destroy(s.world, plank));
 
-    // a ball of radius 1 over a square hole of side 1 touches the middles of its sides, 0.5 m off: its centre is sqrt(1 - 0.25) above
+    // a ball of radius 1 over a square hole of side 1 touches the middles of its sides, 0.5 m off: its centre is sqrt(1
+    // - 0.25) above
     fe_body ball = add_dynamic(&s, sphere(1), v3(0.5, 0.9, 0.5), UNTURNED, friction(0.5), WATER);
     run(&s, 240);
     FE_NEAR(position(&s, ball).y, sqrt(0.75), LINEAR_SLOP);
@@ -348,8 +364,8 @@ static void holes_let_through_what_fits(void **state)
     scene_end(&s);
 }
 
-// Half of the field is ice. A box that slides at v comes to rest after v^2 / (2 mu g) on the rough half, and does not slow down on the
-// other.
+// Half of the field is ice. A box that slides at v comes to rest after v^2 / (2 mu g) on the rough half, and does not
+// slow down on the other.
 static void each_cell_has_its_material(void **state)
 {
     uint8_t kinds[64];
@@ -405,7 +421,8 @@ static void contacts_tell_the_patches(void **state)
     for (int step = 0; step < 90; ++step) {
         run(&s, 1);
         int32_t n = fe_world_get_pair_events(s.world, events, sizeof *events, 8);
-        for (int32_t i = 0; i < n; ++i) begins += events[i].kind == FE_EVENT_ENTER, ends += events[i].kind == FE_EVENT_EXIT;
+        for (int32_t i = 0; i < n; ++i)
+            begins += events[i].kind == FE_EVENT_ENTER, ends += events[i].kind == FE_EVENT_EXIT;
     }
     FE_TRUE(begins == 1 && ends == 1);
     scene_end(&s);

@@ -1,4 +1,5 @@
-// any_joint.h - the five types of joints as one: a definition of any of them, and its calls by kind, which is fe_joint_type - 1.
+// any_joint.h - the five types of joints as one: a definition of any of them, and its calls by kind, which is
+// fe_joint_type - 1.
 #ifndef FE_TESTS_ANY_JOINT_H
 #define FE_TESTS_ANY_JOINT_H
 #include "feather.h"
@@ -17,7 +18,8 @@ typedef union any_def {
     fe_configurable_joint_def configurable;
 } any_def;
 
-static const uint32_t any_sizes[ANY_KINDS] = {sizeof(fe_distance_joint_def), sizeof(fe_ball_joint_def), sizeof(fe_hinge_joint_def), sizeof(fe_fixed_joint_def),
+static const uint32_t any_sizes[ANY_KINDS] = {sizeof(fe_distance_joint_def), sizeof(fe_ball_joint_def),
+                                              sizeof(fe_hinge_joint_def), sizeof(fe_fixed_joint_def),
                                               sizeof(fe_configurable_joint_def)};
 
 static inline void any_init(int32_t kind, any_def *d)

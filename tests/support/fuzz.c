@@ -1,7 +1,7 @@
 // fuzz.c - see fuzz.h: the stream, the checks, and the loop over calls. The calls themselves are in fuzz_calls.c.
 //
-// What must always hold: nothing crashes; a call that returns an error has changed nothing; an accepted call leaves numbers only; a call
-// that found no memory can be repeated; the fingerprint can be computed.
+// What must always hold: nothing crashes; a call that returns an error has changed nothing; an accepted call leaves
+// numbers only; a call that found no memory can be repeated; the fingerprint can be computed.
 #include "support/fuzz_state.h"
 
 #include <math.h>
@@ -17,7 +17,8 @@ void fuzz_fail(const fuzz *f, const char *what)
     abort();
 }
 
-// ---- the stream -----------------------------------------------------------------------------------------------------------------------
+// ---- the stream
+// -----------------------------------------------------------------------------------------------------------------------
 
 uint8_t fuzz_byte(fuzz *f)
 {
@@ -32,7 +33,8 @@ uint32_t fuzz_word(fuzz *f)
     return word;
 }
 
-// Mostly what a game would give; now and then what no one should. A sane stream has no accepted value that a game could not mean.
+// Mostly what a game would give; now and then what no one should. A sane stream has no accepted value that a game could
+// not mean.
 float fuzz_float(fuzz *f)
 {
     static const float wild[16] = {NAN,  INFINITY, -INFINITY, 3.4e38f, -3.4e38f, 1e-40f, -1e-45f, -0.0f,
@@ -131,7 +133,8 @@ void fuzz_array(fuzz *f, uint32_t packed, fuzz_span *out)
     out->data = how_many == 200 ? NULL : f->room;
 }
 
-// ---- the checks -----------------------------------------------------------------------------------------------------------------------
+// ---- the checks
+// -----------------------------------------------------------------------------------------------------------------------
 
 static uint64_t world_hash(const fuzz *f)
 {
@@ -177,8 +180,9 @@ static void check_body(fuzz *f, fe_body body)
     fe_mass_data mass = {.struct_size = sizeof mass};
     fe_vec3 v, spin;
     int32_t awake;
-    if (fe_body_get_transform(w, body, &t) || fe_body_get_centre(w, body, &centre) || fe_body_get_linear_velocity(w, body, &v) ||
-        fe_body_get_angular_velocity(w, body, &spin) || fe_body_get_mass_data(w, body, &mass) || fe_body_get_awake(w, body, &awake))
+    if (fe_body_get_transform(w, body, &t) || fe_body_get_centre(w, body, &centre) ||
+        fe_body_get_linear_velocity(w, body, &v) || fe_body_get_angular_velocity(w, body, &spin) ||
+        fe_body_get_mass_data(w, body, &mass) || fe_body_get_awake(w, body, &awake))
         fuzz_fail(f, "a living body cannot be read");
     check_position(f, t.position, "position");
     check_position(f, centre, "centre");
@@ -188,7 +192,8 @@ static void check_body(fuzz *f, fe_body body)
     check_numbers(f, &mass.mass, 1, "mass");
     check_numbers(f, &mass.centre.x, 3, "centre of mass");
     check_numbers(f, &mass.inertia.x, 3, "inertia");
-    float square = t.rotation.x * t.rotation.x + t.rotation.y * t.rotation.y + t.rotation.z * t.rotation.z + t.rotation.w * t.rotation.w;
+    float square = t.rotation.x * t.rotation.x + t.rotation.y * t.rotation.y + t.rotation.z * t.rotation.z +
+                   t.rotation.w * t.rotation.w;
     if (!(square > 0.999f && square < 1.001f) && !f->is_wild) fuzz_fail(f, "a rotation that is no unit quaternion");
     check_contacts(f, body);
     fe__hash_dvec3(&f->told, centre);
@@ -203,7 +208,8 @@ void fuzz_check(fuzz *f)
     for (int32_t i = 0; i < count && i < FUZZ_HANDLES; ++i) check_body(f, bodies[i]);
 }
 
-// ---- memory that fails ----------------------------------------------------------------------------------------------------------------
+// ---- memory that fails
+// ----------------------------------------------------------------------------------------------------------------
 
 static void *allocate(void *user, uint64_t size, uint64_t alignment)
 {
@@ -221,7 +227,8 @@ static void release(void *user, void *memory, uint64_t size)
     free(memory);
 }
 
-// ---- worlds ---------------------------------------------------------------------------------------------------------------------------
+// ---- worlds
+// ---------------------------------------------------------------------------------------------------------------------------
 
 // every third task first: an order that no loop has
 static void run_tasks(void *user, fe_task task, void *argument, int32_t count)
@@ -262,8 +269,8 @@ static void call(fuzz *f, const fuzz_call *c)
         if (attempt > 0) fuzz_fail(f, "no memory, though the allocator has some");
     }
     if (f->tells)
-        fprintf(stderr, "call %d: %s: %d, bodies %d, shapes %d\n", (int)f->call_count, c->name, (int)result, (int)f->body_count,
-                (int)f->shape_count);
+        fprintf(stderr, "call %d: %s: %d, bodies %d, shapes %d\n", (int)f->call_count, c->name, (int)result,
+                (int)f->body_count, (int)f->shape_count);
     fe__hash_i32(&f->told, result);
     fe__hash_u64(&f->told, world_hash(f));
 }

@@ -1,4 +1,5 @@
-// fuzz.h - a stream of bytes as calls of the API. The same harness serves libFuzzer (fuzz_api.c) and a bounded test (test_fuzz.c).
+// fuzz.h - a stream of bytes as calls of the API. The same harness serves libFuzzer (fuzz_api.c) and a bounded test
+// (test_fuzz.c).
 #ifndef FE_TESTS_FUZZ_H
 #define FE_TESTS_FUZZ_H
 #include <stddef.h>
@@ -7,11 +8,12 @@
 typedef struct fuzz_setting {
     int32_t workers; // above 1: tasks of one thread, in an order of their own
     int32_t simd;    // fe_simd
-    int32_t is_wild; // 1: every value that the API takes, up to its limits. Results may then overflow, and only crashes count
+    int32_t is_wild; // 1: every value that the API takes, up to its limits. Results may then overflow, and only crashes
+                     // count
 } fuzz_setting;
 
-// Makes a world, calls what the bytes say, checks what must always hold and aborts when it does not. Returns a fingerprint of all results,
-// which no setting may change.
+// Makes a world, calls what the bytes say, checks what must always hold and aborts when it does not. Returns a
+// fingerprint of all results, which no setting may change.
 uint64_t fuzz_run(const uint8_t *bytes, size_t size, const fuzz_setting *setting);
 
 #endif

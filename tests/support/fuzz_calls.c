@@ -8,7 +8,8 @@
 // NULL now and then, where a pointer is asked
 static const void *or_null(fuzz *f, const void *pointer) { return fuzz_byte(f) == 1 ? NULL : pointer; }
 
-// ---- definitions ----------------------------------------------------------------------------------------------------------------------
+// ---- definitions
+// ----------------------------------------------------------------------------------------------------------------------
 
 typedef struct long_body_def {
     fe_body_def def;
@@ -35,9 +36,11 @@ static fe_body_def some_body(fuzz *f)
     if (more & 1) d.linear_velocity = fuzz_vec3(f);
     if (more & 2) d.angular_velocity = fuzz_vec3(f);
     if ((more & 12) == 12) d.linear_locks = fuzz_byte(f) % 9u, d.angular_locks = fuzz_byte(f) % 9u;
-    if ((more & 48) == 48) d.linear_damping = fuzz_float(f), d.gravity_scale = fuzz_float(f), d.sleep_threshold = fuzz_float(f);
+    if ((more & 48) == 48)
+        d.linear_damping = fuzz_float(f), d.gravity_scale = fuzz_float(f), d.sleep_threshold = fuzz_float(f);
     if ((more & 80) == 80)
-        d.awake = fuzz_byte(f) % 3, d.enabled = fuzz_byte(f) % 3, d.bullet = fuzz_byte(f) % 3, d.sleep_allowed = fuzz_byte(f) % 2;
+        d.awake = fuzz_byte(f) % 3, d.enabled = fuzz_byte(f) % 3, d.bullet = fuzz_byte(f) % 3,
+        d.sleep_allowed = fuzz_byte(f) % 2;
     return d;
 }
 
@@ -46,10 +49,12 @@ static fe_geometry some_geometry(fuzz *f)
     fe_geometry g;
     memset(&g, 0, sizeof g);
     g.struct_size = sizeof g;
-    static const int32_t types[] = {FE_GEOMETRY_SPHERE,  FE_GEOMETRY_CAPSULE, FE_GEOMETRY_BOX,    FE_GEOMETRY_SPHERE,
-                                    FE_GEOMETRY_CAPSULE, FE_GEOMETRY_BOX,     FE_GEOMETRY_SPHERE, FE_GEOMETRY_CAPSULE,
-                                    FE_GEOMETRY_BOX,     FE_GEOMETRY_SPHERE,  FE_GEOMETRY_BOX,    FE_GEOMETRY_PLANE,
-                                    FE_GEOMETRY_PLANE,   FE_GEOMETRY_NONE,    4,                  FE_GEOMETRY_HEIGHTFIELD};
+    static const int32_t types[] = {FE_GEOMETRY_SPHERE,     FE_GEOMETRY_CAPSULE, FE_GEOMETRY_BOX,
+                                    FE_GEOMETRY_SPHERE,     FE_GEOMETRY_CAPSULE, FE_GEOMETRY_BOX,
+                                    FE_GEOMETRY_SPHERE,     FE_GEOMETRY_CAPSULE, FE_GEOMETRY_BOX,
+                                    FE_GEOMETRY_SPHERE,     FE_GEOMETRY_BOX,     FE_GEOMETRY_PLANE,
+                                    FE_GEOMETRY_PLANE,      FE_GEOMETRY_NONE,    4,
+                                    FE_GEOMETRY_HEIGHTFIELD};
     g.type = types[fuzz_byte(f) % COUNT(types)];
     g.radius = fuzz_size(f);
     g.half_height = fuzz_size(f);
@@ -81,11 +86,13 @@ static fe_shape_def some_shape(fuzz *f)
     if ((which & 6) == 6) d.frame.position = fuzz_vec3(f), d.frame.rotation = fuzz_quat(f);
     if ((which & 24) == 24) d.layer = fuzz_byte(f) % 5u, d.mask = fuzz_byte(f);
     if (which & 32) d.events = fuzz_byte(f) % 9u;
-    if ((which & 192) == 192) d.trigger = fuzz_byte(f) % 3, d.density = fuzz_float(f), d.surface_velocity = fuzz_vec3(f);
+    if ((which & 192) == 192)
+        d.trigger = fuzz_byte(f) % 3, d.density = fuzz_float(f), d.surface_velocity = fuzz_vec3(f);
     return d;
 }
 
-// ---- worlds ---------------------------------------------------------------------------------------------------------------------------
+// ---- worlds
+// ---------------------------------------------------------------------------------------------------------------------------
 
 static int32_t step(fuzz *f)
 {
@@ -156,17 +163,20 @@ static int32_t raycast(fuzz *f)
     int32_t result = fe_world_raycast(f->world, or_null(f, &origin), &along, or_null(f, &filter), &hit);
     if (result != 1) return result;
     if (!(hit.fraction >= 0.0 && hit.fraction <= 1.0) && !f->is_wild) fuzz_fail(f, "a fraction outside the segment");
-    if (!fe_body_is_valid(f->world, hit.body) || !fe_shape_is_valid(f->world, hit.shape)) fuzz_fail(f, "a hit on nothing");
+    if (!fe_body_is_valid(f->world, hit.body) || !fe_shape_is_valid(f->world, hit.shape))
+        fuzz_fail(f, "a hit on nothing");
     float square = hit.normal.x * hit.normal.x + hit.normal.y * hit.normal.y + hit.normal.z * hit.normal.z;
     int32_t no_direction = along.x == 0.0 && along.y == 0.0 && along.z == 0.0;
-    if (!f->is_wild && !no_direction && !(square > 0.999f && square < 1.001f)) fuzz_fail(f, "a normal that is no unit vector");
+    if (!f->is_wild && !no_direction && !(square > 0.999f && square < 1.001f))
+        fuzz_fail(f, "a normal that is no unit vector");
     fe__hash_double(&f->told, hit.fraction);
     return result;
 }
 
 static void check_fuzz_hit(fuzz *f, const fe_hit *hit)
 {
-    if (!fe_body_is_valid(f->world, hit->body) || !fe_shape_is_valid(f->world, hit->shape)) fuzz_fail(f, "a hit on nothing");
+    if (!fe_body_is_valid(f->world, hit->body) || !fe_shape_is_valid(f->world, hit->shape))
+        fuzz_fail(f, "a hit on nothing");
     if (!(hit->fraction >= 0.0 && hit->fraction <= 1.0) && !f->is_wild) fuzz_fail(f, "a fraction outside the segment");
     fe__hash_double(&f->told, hit->fraction);
 }
@@ -184,8 +194,10 @@ static int32_t query_many(fuzz *f)
         paths[i].start = fuzz_transform(f);
     }
     int32_t spread = fuzz_byte(f) % 3, count = fuzz_byte(f) % (MOST + 1);
-    int32_t found = fuzz_byte(f) & 1 ? fe_world_raycast_many(f->world, or_null(f, rays), sizeof *rays, count, NULL, spread, hits, sizeof *hits)
-                                     : fe_world_sweep_many(f->world, or_null(f, &g), paths, sizeof *paths, count, NULL, spread, hits, sizeof *hits);
+    int32_t found = fuzz_byte(f) & 1 ? fe_world_raycast_many(f->world, or_null(f, rays), sizeof *rays, count, NULL,
+                                                             spread, hits, sizeof *hits)
+                                     : fe_world_sweep_many(f->world, or_null(f, &g), paths, sizeof *paths, count, NULL,
+                                                           spread, hits, sizeof *hits);
     for (int32_t i = 0; i < count && found >= 0; ++i) {
         if (hits[i].body) check_fuzz_hit(f, &hits[i]);
     }
@@ -220,7 +232,8 @@ static int32_t query_rays(fuzz *f)
     fe_dvec3 origin = fuzz_dvec3(f), way = fuzz_dvec3(f);
     int32_t room = fuzz_byte(f) % (MOST + 1);
     uint32_t stride = fuzz_byte(f) % (WIDEST + 1);
-    int32_t all = fe_world_raycast_all(f->world, or_null(f, &origin), &way, NULL, hits, stride < WIDEST / 2 ? WIDEST : stride, room);
+    int32_t all = fe_world_raycast_all(f->world, or_null(f, &origin), &way, NULL, hits,
+                                       stride < WIDEST / 2 ? WIDEST : stride, room);
     fe__hash_u64(&f->told, (uint64_t)(uint32_t)all);
     if (fe_body_raycast(f->world, fuzz_body(f), &origin, &way, hits) == 1) check_fuzz_hit(f, hits);
     if (fe_shape_raycast(f->world, fuzz_shape(f), &origin, &way, hits) == 1) check_fuzz_hit(f, hits);
@@ -244,7 +257,8 @@ static int32_t fail_memory(fuzz *f)
     return FE_OK;
 }
 
-// ---- bodies ---------------------------------------------------------------------------------------------------------------------------
+// ---- bodies
+// ---------------------------------------------------------------------------------------------------------------------------
 
 static void note_body(fuzz *f, fe_body body)
 {
@@ -412,8 +426,8 @@ static int32_t set_gravity_scale(fuzz *f)
 
 static int32_t set_switch(fuzz *f)
 {
-    static fe_result (*const switches[])(fe_world *, fe_body, int32_t) = {fe_body_set_awake, fe_body_set_sleep_allowed, fe_body_set_enabled,
-                                                                          fe_body_set_bullet};
+    static fe_result (*const switches[])(fe_world *, fe_body, int32_t) = {fe_body_set_awake, fe_body_set_sleep_allowed,
+                                                                          fe_body_set_enabled, fe_body_set_bullet};
     fe_body body = fuzz_body(f);
     int32_t which = fuzz_byte(f) % COUNT(switches);
     return switches[which](f->world, body, fuzz_byte(f) % 3);
@@ -421,9 +435,10 @@ static int32_t set_switch(fuzz *f)
 
 static int32_t push(fuzz *f)
 {
-    static fe_result (*const pushes[])(fe_world *, fe_body, const fe_vec3 *) = {fe_body_set_linear_velocity, fe_body_set_angular_velocity,
-                                                                                fe_body_add_force,           fe_body_add_torque,
-                                                                                fe_body_add_impulse,         fe_body_add_angular_impulse};
+    static fe_result (*const pushes[])(fe_world *, fe_body,
+                                       const fe_vec3 *) = {fe_body_set_linear_velocity, fe_body_set_angular_velocity,
+                                                           fe_body_add_force,           fe_body_add_torque,
+                                                           fe_body_add_impulse,         fe_body_add_angular_impulse};
     fe_body body = fuzz_body(f);
     fe_vec3 v = fuzz_vec3(f);
     int32_t which = fuzz_byte(f) % COUNT(pushes);
@@ -466,7 +481,8 @@ static int32_t read_body(fuzz *f)
     return FE_OK;
 }
 
-// ---- shapes ---------------------------------------------------------------------------------------------------------------------------
+// ---- shapes
+// ---------------------------------------------------------------------------------------------------------------------------
 
 static int32_t destroy_shape(fuzz *f) { return fe_shape_destroy(f->world, fuzz_shape(f)); }
 
@@ -544,7 +560,8 @@ static int32_t read_shape(fuzz *f)
     return FE_OK;
 }
 
-// ---- arrays ---------------------------------------------------------------------------------------------------------------------------
+// ---- arrays
+// ---------------------------------------------------------------------------------------------------------------------------
 
 static int32_t read_events(fuzz *f)
 {
@@ -589,7 +606,8 @@ static int32_t read_bulk(fuzz *f)
     fe_dvec3 origin = fuzz_dvec3(f);
     fuzz_array(f, which == 0 ? sizeof(fe_transform) : which == 1 ? 28 : 24, &a);
     if (which == 0) return fe_world_get_transforms(f->world, f->bodies, a.data, a.stride, a.count);
-    if (which == 1) return fe_world_get_transforms_f32(f->world, f->bodies, or_null(f, &origin), a.data, a.stride, a.count);
+    if (which == 1)
+        return fe_world_get_transforms_f32(f->world, f->bodies, or_null(f, &origin), a.data, a.stride, a.count);
     return fe_world_get_velocities(f->world, f->bodies, a.data, a.stride, a.count);
 }
 
@@ -599,7 +617,8 @@ static void fill_room(fuzz *f)
     float numbers[64];
     for (int32_t i = 0; i < COUNT(numbers); ++i) numbers[i] = (float)(i % 7) * 0.25f;
     numbers[fuzz_byte(f) % COUNT(numbers)] = fuzz_float(f);
-    for (size_t at = 0; at + sizeof numbers <= sizeof f->room; at += sizeof numbers) memcpy(f->room + at, numbers, sizeof numbers);
+    for (size_t at = 0; at + sizeof numbers <= sizeof f->room; at += sizeof numbers)
+        memcpy(f->room + at, numbers, sizeof numbers);
 }
 
 static int32_t write_bulk(fuzz *f)

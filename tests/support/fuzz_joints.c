@@ -24,14 +24,18 @@ static void set_sensible(fuzz *f, int32_t kind, any_def *d)
     uint8_t which = fuzz_byte(f);
     float size = (float)(fuzz_byte(f) % 32) / 32.0f;
     if (kind == ANY_DISTANCE)
-        d->distance.lower = 0.5f * size, d->distance.upper = 0.1f + size, d->distance.spring_hertz = which & 1 ? 2.0f : 0.0f;
+        d->distance.lower = 0.5f * size, d->distance.upper = 0.1f + size,
+        d->distance.spring_hertz = which & 1 ? 2.0f : 0.0f;
     if (kind == ANY_DISTANCE) d->distance.motor_max = which & 2 ? 50.0f : 0.0f, d->distance.motor_speed = size;
     if (kind == ANY_BALL)
-        d->ball.cone_enabled = which & 1, d->ball.limit_enabled = which >> 1 & 1, d->ball.cone_y = 0.1f + size, d->ball.cone_z = 0.4f;
+        d->ball.cone_enabled = which & 1, d->ball.limit_enabled = which >> 1 & 1, d->ball.cone_y = 0.1f + size,
+        d->ball.cone_z = 0.4f;
     if (kind == ANY_BALL)
-        d->ball.lower = -size, d->ball.spring_hertz = which & 4 ? 3.0f : 0.0f, d->ball.motor_max = which & 8 ? 5.0f : 0.0f;
+        d->ball.lower = -size, d->ball.spring_hertz = which & 4 ? 3.0f : 0.0f,
+        d->ball.motor_max = which & 8 ? 5.0f : 0.0f;
     if (kind == ANY_HINGE)
-        d->hinge.limit_enabled = which & 1, d->hinge.lower = -size, d->hinge.upper = which & 16 ? 3.1415927f : 0.5f * size;
+        d->hinge.limit_enabled = which & 1, d->hinge.lower = -size,
+        d->hinge.upper = which & 16 ? 3.1415927f : 0.5f * size;
     if (kind == ANY_HINGE)
         d->hinge.spring_hertz = which & 2 ? 2.0f : 0.0f, d->hinge.motor_max = which & 4 ? 20.0f : 0.0f,
         d->hinge.motor_speed = 4.0f * size;
@@ -40,7 +44,8 @@ static void set_sensible(fuzz *f, int32_t kind, any_def *d)
         fe_joint_axis *axis = d->configurable.axes + k;
         uint8_t way = fuzz_byte(f);
         axis->motion = way % 3, axis->lower = -size, axis->upper = 0.5f * size;
-        axis->spring = way / 3 % 3, axis->spring_hertz = axis->spring_stiffness = 5.0f, axis->spring_damping_ratio = axis->spring_damping = 1.0f, axis->target = size - 0.5f;
+        axis->spring = way / 3 % 3, axis->spring_hertz = axis->spring_stiffness = 5.0f,
+        axis->spring_damping_ratio = axis->spring_damping = 1.0f, axis->target = size - 0.5f;
         if (way & 64) axis->motor_max = 10.0f, axis->motor_speed = 1.0f;
     }
 }
@@ -53,7 +58,8 @@ static void fill(fuzz *f, int32_t kind, long_joint_def *d)
     uint8_t kind_of_rubbish = fuzz_byte(f);
     set_sensible(f, kind, &d->def);
     if (kind_of_rubbish & 1) d->def.common.hertz = fuzz_size(f), d->def.common.damping_ratio = fuzz_size(f);
-    if (kind_of_rubbish & 2) d->def.common.frame_a.rotation = fuzz_quat(f), d->def.common.frame_b.position = fuzz_vec3(f);
+    if (kind_of_rubbish & 2)
+        d->def.common.frame_a.rotation = fuzz_quat(f), d->def.common.frame_b.position = fuzz_vec3(f);
     if ((kind_of_rubbish & 12) == 12)
         d->def.common.break_force = 1000.0f * fuzz_size(f), d->def.common.break_torque = 100.0f * fuzz_size(f);
     if (kind_of_rubbish & 16) d->def.common.collide_connected = fuzz_byte(f) % 3;
@@ -98,11 +104,13 @@ int32_t fuzz_join(fuzz *f)
     if (fuzz_byte(f) % 8 == 1) axis = fuzz_vec3(f), point = fuzz_dvec3(f);
     if (fe_body_is_valid(f->world, a)) point = body_transform(f->world, a).position;
     fe_result result;
-    if (kind == ANY_DISTANCE) result = fe_rope_joint_def_at(f->world, &d.def.distance, a, b, &point, &point, fuzz_size(f));
+    if (kind == ANY_DISTANCE)
+        result = fe_rope_joint_def_at(f->world, &d.def.distance, a, b, &point, &point, fuzz_size(f));
     if (kind == ANY_BALL) result = fe_ball_joint_def_at(f->world, &d.def.ball, a, b, &point, &axis);
     if (kind == ANY_HINGE) result = fe_hinge_joint_def_at(f->world, &d.def.hinge, a, b, &point, &axis);
     if (kind == ANY_FIXED) result = fe_fixed_joint_def_at(f->world, &d.def.fixed, a, b, &point);
-    if (kind == ANY_CONFIGURABLE) result = fe_configurable_joint_def_at(f->world, &d.def.configurable, a, b, &point, &axis);
+    if (kind == ANY_CONFIGURABLE)
+        result = fe_configurable_joint_def_at(f->world, &d.def.configurable, a, b, &point, &axis);
     if (result != FE_OK) return result;
     fe_joint oldest = f->joints[f->joint_count % FUZZ_HANDLES];
     if (fe_joint_is_valid(f->world, oldest)) return fe_joint_destroy(f->world, oldest);
@@ -194,7 +202,9 @@ int32_t fuzz_read_joint(fuzz *f)
     if (fe_joint_get_type(f->world, joint, &type) || fe_joint_get_reaction(f->world, joint, &force, &torque) ||
         fe_joint_get_frames(f->world, joint, &a, &b) || fe_joint_get_bodies(f->world, joint, &body_a, &body_b))
         fuzz_fail(f, "a living joint cannot be read");
-    if (!fe_body_is_valid(f->world, body_a) || !fe_body_is_valid(f->world, body_b)) fuzz_fail(f, "a joint holds a dead body");
+    if ((body_a && !fe_body_is_valid(f->world, body_a)) || (body_b && !fe_body_is_valid(f->world, body_b)) ||
+        body_a == body_b)
+        fuzz_fail(f, "a joint holds a dead body");
     fe_joint_def front = {.struct_size = sizeof front};
     uint64_t data = 0;
     int32_t enabled = 0;

@@ -8,7 +8,10 @@
 
 enum { ERRORS_TOLD = 5 }; // of a play
 
-void play_begin(play *p, fe_world *world) { *p = (play){.world = world, .seed = 1, .dt = 1.0f / 60.0f, .told = fe__hash_begin()}; }
+void play_begin(play *p, fe_world *world)
+{
+    *p = (play){.world = world, .seed = 1, .dt = 1.0f / 60.0f, .told = fe__hash_begin()};
+}
 
 void play_before(play *p)
 {
@@ -32,7 +35,8 @@ uint64_t play_hash(const play *p)
 
 uint64_t play_told(const play *p) { return fe__hash_end(&p->told); }
 
-// A handle without the world's number, kind, generation and slot in 3, 24 and 24 bits: as the hashes of golden.txt hold it
+// A handle without the world's number, kind, generation and slot in 3, 24 and 24 bits: as the hashes of golden.txt hold
+// it
 static uint64_t told_handle(fe_handle handle)
 {
     if (handle == 0) return 0;
@@ -40,7 +44,8 @@ static uint64_t told_handle(fe_handle handle)
     return kind << 48 | generation << 24 | (uint64_t)(fe__id_slot_of(handle) + 1);
 }
 
-// ---- what the world tells after each step ---------------------------------------------------------------------------------------------
+// ---- what the world tells after each step
+// ---------------------------------------------------------------------------------------------
 
 static void hear_pairs(play *p)
 {
@@ -50,7 +55,8 @@ static void hear_pairs(play *p)
     fe__hash_i32(&p->told, count);
     for (int32_t i = 0; i < count; ++i) {
         const fe_pair_event *e = events + i;
-        const uint64_t words[4] = {told_handle(e->body_a), told_handle(e->body_b), told_handle(e->shape_a), told_handle(e->shape_b)};
+        const uint64_t words[4] = {told_handle(e->body_a), told_handle(e->body_b), told_handle(e->shape_a),
+                                   told_handle(e->shape_b)};
         fe__hash_u64_array(&p->told, words, 4);
         fe__hash_i32(&p->told, e->kind * 2 + e->is_trigger);
     }
@@ -78,7 +84,8 @@ static void hear_hits(play *p)
     fe__hash_i32(&p->told, count);
     for (int32_t i = 0; i < count; ++i) {
         const fe_hit_event *e = events + i;
-        const uint64_t words[4] = {told_handle(e->body_a), told_handle(e->body_b), told_handle(e->shape_a), told_handle(e->shape_b)};
+        const uint64_t words[4] = {told_handle(e->body_a), told_handle(e->body_b), told_handle(e->shape_a),
+                                   told_handle(e->shape_b)};
         fe__hash_u64_array(&p->told, words, 4);
         fe__hash_dvec3(&p->told, e->point);
         fe__hash_vec3(&p->told, e->normal);
@@ -156,7 +163,8 @@ void play_print(FILE *out, const script *s, fe_world *world, int32_t steps)
     }
 }
 
-// ---- what scripts are written with ----------------------------------------------------------------------------------------------------
+// ---- what scripts are written with
+// ----------------------------------------------------------------------------------------------------
 
 // Knuth's line of numbers modulo 2^32; its high bits are the random ones
 uint32_t play_draw(play *p)

@@ -1,8 +1,9 @@
 // play.h - scripts: whole runs of a world, told once, played under many conditions.
 //
-// A script builds a scene and says which calls come before each step. Every call that can fail goes through PLAY, so that a test can look
-// at the world before and after it, make it fail, or change the thread's state around it. Two plays of one script make the same calls in
-// the same order; numbers come from integers, and no rule of C leaves the order of two draws open.
+// A script builds a scene and says which calls come before each step. Every call that can fail goes through PLAY, so
+// that a test can look at the world before and after it, make it fail, or change the thread's state around it. Two
+// plays of one script make the same calls in the same order; numbers come from integers, and no rule of C leaves the
+// order of two draws open.
 #ifndef FE_TESTS_PLAY_H
 #define FE_TESTS_PLAY_H
 #include "core/hash.h"
@@ -64,7 +65,8 @@ int32_t play_after(play *p, fe_result result, const char *text);
         play_before(p); \
     } while (play_after((p), (call), #call))
 
-// ---- what scripts are written with ----------------------------------------------------------------------------------------------------
+// ---- what scripts are written with
+// ----------------------------------------------------------------------------------------------------
 uint32_t play_draw(play *p); // the next of 2^24 numbers
 float play_between(play *p, float low, float high);
 

@@ -1,12 +1,14 @@
-// play_crowd.c - the script with everything in it: a tilted pit full of boxes, spheres and capsules, rolling and bouncing things on a
-// tilted plane, locked bodies, riders on a kinematic platform, a conveyor, triggers, stacks that sleep and are woken, bodies that come and
-// go, settings that change. More than 1000 contacts in one island, so that it is spread over the workers, and small islands beside it.
+// play_crowd.c - the script with everything in it: a tilted pit full of boxes, spheres and capsules, rolling and
+// bouncing things on a tilted plane, locked bodies, riders on a kinematic platform, a conveyor, triggers, stacks that
+// sleep and are woken, bodies that come and go, settings that change. More than 1000 contacts in one island, so that it
+// is spread over the workers, and small islands beside it.
 #include "support/play.h"
 
 enum { PIT_BODIES = 480, ROLLERS = 24, BOUNCERS = 9, LOCKED = 16, RIDERS = 6, STACKS = 4, STACK_BOXES = 5, CARGO = 4 };
 enum { PIT, ROLLER, BOUNCER, LOCK, PLATFORM, RIDER, STACK, CARGO_BOX, FLOOR, TRIGGER }; // groups
 
-// ---- the pit --------------------------------------------------------------------------------------------------------------------------
+// ---- the pit
+// --------------------------------------------------------------------------------------------------------------------------
 
 static const double pit_x = -12.0, pit_half = 2.4; // m
 
@@ -59,7 +61,8 @@ static void build_pit(play *p)
     }
 }
 
-// ---- on the plane ---------------------------------------------------------------------------------------------------------------------
+// ---- on the plane
+// ---------------------------------------------------------------------------------------------------------------------
 
 static void build_rollers(play *p)
 {
@@ -79,7 +82,8 @@ static void build_rollers(play *p)
     }
     p->groups[BOUNCER] = p->actor_count;
     for (int32_t i = 0; i < BOUNCERS; ++i) {
-        part a = i % 3 ? part_sphere(0.25f, 4.0 + i, 2.0 + 0.3 * i, 6.0) : part_box(0.2f, 0.3f, 0.25f, 4.0 + i, 3.0, 6.0);
+        part a =
+            i % 3 ? part_sphere(0.25f, 4.0 + i, 2.0 + 0.3 * i, 6.0) : part_box(0.2f, 0.3f, 0.25f, 4.0 + i, 3.0, 6.0);
         a.shape.material.restitution = 0.9f;
         a.shape.events = FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_HIT;
         a.body.transform.rotation.z = 0.2f * (float)(i % 2);
@@ -107,7 +111,8 @@ static void build_platform(play *p)
     p->groups[PLATFORM] = play_add(p, &platform);
     p->groups[RIDER] = p->actor_count;
     for (int32_t i = 0; i < RIDERS; ++i) {
-        part a = i % 2 ? part_box(0.2f, 0.15f, 0.3f, -1.0 + 0.4 * i, 2.3, -5.0) : part_capsule(0.2f, 0.15f, -1.0 + 0.4 * i, 2.5, -5.0);
+        part a = i % 2 ? part_box(0.2f, 0.15f, 0.3f, -1.0 + 0.4 * i, 2.3, -5.0)
+                       : part_capsule(0.2f, 0.15f, -1.0 + 0.4 * i, 2.5, -5.0);
         play_add(p, &a);
     }
     part belt = part_static_box(2.0f, 0.2f, 0.6f, 0.0, 0.6, 4.0);
@@ -149,7 +154,8 @@ static void build(play *p)
     build_stacks(p);
 }
 
-// ---- what happens ---------------------------------------------------------------------------------------------------------------------
+// ---- what happens
+// ---------------------------------------------------------------------------------------------------------------------
 
 // along a triangle wave of 1 m and 2 s, turning slowly
 static void drive_platform(play *p)

@@ -1,8 +1,19 @@
-// play_fast.c - the script of fast bodies: balls, sticks and boxes at up to 300 m/s in a room of thin walls over terrain, bullets among
-// plates, a wall that sweeps, a blade that turns, triggers crossed within a step.
+// play_fast.c - the script of fast bodies: balls, sticks and boxes at up to 300 m/s in a room of thin walls over
+// terrain, bullets among plates, a wall that sweeps, a blade that turns, triggers crossed within a step.
 #include "support/play.h"
 
-enum { CELLS = 16, SAMPLES = CELLS + 1, WALLS = 4, BODIES = 60, PLATES = 12, SWEEPER = 5, BLADE = 6, ZONE = 7, FLYING_ZONE = 8, FIRST = 9 };
+enum {
+    CELLS = 16,
+    SAMPLES = CELLS + 1,
+    WALLS = 4,
+    BODIES = 60,
+    PLATES = 12,
+    SWEEPER = 5,
+    BLADE = 6,
+    ZONE = 7,
+    FLYING_ZONE = 8,
+    FIRST = 9
+};
 
 static void add_floor(play *p)
 {
@@ -22,7 +33,8 @@ static void add_walls(play *p)
 {
     for (int32_t i = 0; i < WALLS; ++i) {
         double out = i % 2 ? 8.0 : -8.0;
-        part wall = i < 2 ? part_static_box(0.02f, 6.0f, 8.0f, out, 5.0, 0.0) : part_static_box(8.0f, 6.0f, 0.02f, 0.0, 5.0, out);
+        part wall = i < 2 ? part_static_box(0.02f, 6.0f, 8.0f, out, 5.0, 0.0)
+                          : part_static_box(8.0f, 6.0f, 0.02f, 0.0, 5.0, out);
         wall.shape.events = FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_HIT;
         play_add(p, &wall);
     }
@@ -46,8 +58,11 @@ static void add_machines(play *p)
 
 static part any_part(play *p, int32_t i)
 {
-    double x = (double)play_between(p, -6.0f, 6.0f), y = (double)play_between(p, 2.0f, 9.0f), z = (double)play_between(p, -6.0f, 6.0f);
-    part a = i % 3 == 0 ? part_sphere(0.1f, x, y, z) : i % 3 == 1 ? part_capsule(0.4f, 0.1f, x, y, z) : part_box(0.4f, 0.1f, 0.1f, x, y, z);
+    double x = (double)play_between(p, -6.0f, 6.0f), y = (double)play_between(p, 2.0f, 9.0f),
+           z = (double)play_between(p, -6.0f, 6.0f);
+    part a = i % 3 == 0   ? part_sphere(0.1f, x, y, z)
+             : i % 3 == 1 ? part_capsule(0.4f, 0.1f, x, y, z)
+                          : part_box(0.4f, 0.1f, 0.1f, x, y, z);
     a.body.bullet = i % 4 == 0;
     a.shape.material.restitution = i % 2 ? 0.5f : 0.0f;
     a.body.transform.rotation.x = play_between(p, -1.0f, 1.0f);
@@ -57,7 +72,8 @@ static part any_part(play *p, int32_t i)
 static void shoot(play *p, int32_t actor)
 {
     fe_vec3 v = {0.0f, 0.0f, 0.0f}, w = {0.0f, 0.0f, 0.0f};
-    v.x = play_between(p, -300.0f, 300.0f), v.y = play_between(p, -100.0f, 100.0f), v.z = play_between(p, -300.0f, 300.0f);
+    v.x = play_between(p, -300.0f, 300.0f), v.y = play_between(p, -100.0f, 100.0f),
+    v.z = play_between(p, -300.0f, 300.0f);
     w.x = play_between(p, -30.0f, 30.0f), w.z = play_between(p, -30.0f, 30.0f);
     PLAY(p, fe_body_set_linear_velocity(p->world, p->actors[actor], &v));
     PLAY(p, fe_body_set_angular_velocity(p->world, p->actors[actor], &w));
@@ -83,7 +99,8 @@ static void act(play *p)
     if (p->step % 15 == 0)
         for (int32_t i = p->step / 15 % 3; i < BODIES; i += 3) shoot(p, FIRST + i);
     if (p->step % 20 == 10) {
-        fe_vec3 sweep = {p->step % 40 == 10 ? -90.0f : 90.0f, 0.0f, 0.0f}, fly = {0.0f, 0.0f, p->step % 40 == 10 ? -120.0f : 120.0f};
+        fe_vec3 sweep = {p->step % 40 == 10 ? -90.0f : 90.0f, 0.0f, 0.0f},
+                fly = {0.0f, 0.0f, p->step % 40 == 10 ? -120.0f : 120.0f};
         PLAY(p, fe_body_set_linear_velocity(p->world, p->actors[SWEEPER], &sweep));
         PLAY(p, fe_body_set_linear_velocity(p->world, p->actors[FLYING_ZONE], &fly));
     }

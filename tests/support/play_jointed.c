@@ -1,13 +1,14 @@
-// play_jointed.c - two big scripts of joints, as large as the bench's: 300 people of fourteen bones who fall on rough ground
-// (ragdolls-300), and a cloth of 100 x 100 balls in one island (joints-100), which tears along a row. Joints are destroyed while it all
-// moves.
+// play_jointed.c - two big scripts of joints, as large as the bench's: 300 people of fourteen bones who fall on rough
+// ground (ragdolls-300), and a cloth of 100 x 100 balls in one island (joints-100), which tears along a row. Joints are
+// destroyed while it all moves.
 #include "support/play.h"
 
 #include "../../examples/machines.h"
 
 enum { PEOPLE = 300, COLUMNS = 18, REMEMBERED = 90, SAMPLES = 41, CLOTH = 100, TEAR = 3 };
 
-// ---- people ---------------------------------------------------------------------------------------------------------------------------
+// ---- people
+// ---------------------------------------------------------------------------------------------------------------------------
 
 static void add_rough_ground(play *p)
 {
@@ -15,7 +16,8 @@ static void add_rough_ground(play *p)
     fe_asset field = 0;
     fe_heightfield_def def;
     fe_heightfield_def_init(&def, sizeof def);
-    for (int32_t i = 0; i < SAMPLES * SAMPLES; ++i) heights[i] = 0.0625f * (float)((i % SAMPLES * 7 + i / SAMPLES * 3) % 5);
+    for (int32_t i = 0; i < SAMPLES * SAMPLES; ++i)
+        heights[i] = 0.0625f * (float)((i % SAMPLES * 7 + i / SAMPLES * 3) % 5);
     def.rows = def.columns = SAMPLES, def.heights = heights;
     PLAY(p, fe_heightfield_create(world_store(p->world), &def, &field));
     part ground = part_static_box(1.0f, 1.0f, 1.0f, -2.0, 0.0, -2.0);
@@ -38,10 +40,12 @@ static void build_people(play *p)
 static void take_people_apart(play *p)
 {
     if (p->step != 30) return;
-    for (int32_t i = 0; i < p->joint_count; i += 5) PLAY(p, fe_joint_destroy(p->world, p->joints[(i * 7 + 3) % p->joint_count]));
+    for (int32_t i = 0; i < p->joint_count; i += 5)
+        PLAY(p, fe_joint_destroy(p->world, p->joints[(i * 7 + 3) % p->joint_count]));
 }
 
-// ---- cloth ----------------------------------------------------------------------------------------------------------------------------
+// ---- cloth
+// ----------------------------------------------------------------------------------------------------------------------------
 
 static void tie(play *p, fe_body a, fe_body b, double x, double z, float break_force)
 {

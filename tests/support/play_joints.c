@@ -1,6 +1,7 @@
-// play_joints.c - the script of joints: ragdolls of examples/machines.h fall over each other, a net of ball joints in one island wide
-// enough to be spread over the workers, heavy weights on chains that reach into it, a row of each type with limits, springs and motors at
-// work, strings that break in one step, joints that are made, changed, switched and destroyed, bodies that take theirs along.
+// play_joints.c - the script of joints: ragdolls of examples/machines.h fall over each other, a net of ball joints in
+// one island wide enough to be spread over the workers, heavy weights on chains that reach into it, a row of each type
+// with limits, springs and motors at work, strings that break in one step, joints that are made, changed, switched and
+// destroyed, bodies that take theirs along.
 #include "support/any_joint.h"
 #include "support/play.h"
 
@@ -28,14 +29,16 @@ static void tie(play *p, int32_t a, int32_t b, fe_dvec3 point, float break_force
     PLAY(p, fe_ball_joint_create(p->world, &d, new_joint(p)));
 }
 
-// ---- a net of balls in the air, and what falls into it --------------------------------------------------------------------------------
+// ---- a net of balls in the air, and what falls into it
+// --------------------------------------------------------------------------------
 
 static void add_net(play *p)
 {
     p->groups[NET_GROUP] = p->actor_count;
     for (int32_t i = 0; i < NET * NET; ++i) {
         int32_t row = i / NET, column = i % NET;
-        fe_dvec3 at = {-20.0 + 0.25 * column, 6.0, 0.25 * row}, left = {at.x - 0.125, at.y, at.z}, behind = {at.x, at.y, at.z - 0.125};
+        fe_dvec3 at = {-20.0 + 0.25 * column, 6.0, 0.25 * row}, left = {at.x - 0.125, at.y, at.z},
+                 behind = {at.x, at.y, at.z - 0.125};
         part knot = part_sphere(0.1f, at.x, at.y, at.z);
         if (row == 0 || column == 0) knot.body.type = FE_BODY_STATIC;
         knot.shape.layer = 2, knot.shape.mask = 4; // touches guests only
@@ -51,7 +54,8 @@ static void add_net(play *p)
     }
 }
 
-// Weights of 130 links each, on chains of which every other is branched: trees of the net's island, as soon as they touch it
+// Weights of 130 links each, on chains of which every other is branched: trees of the net's island, as soon as they
+// touch it
 static void add_chains(play *p)
 {
     for (int32_t i = 0; i < CHAINS; ++i) {
@@ -59,7 +63,8 @@ static void add_chains(play *p)
         part post = part_static_box(0.05f, 0.05f, 0.05f, x, y + 0.2 * LINKS + 0.1, z);
         int32_t above = play_add(p, &post);
         for (int32_t k = 0; k <= LINKS; ++k) {
-            part link = part_capsule(0.05f, 0.02f, x, y + 0.2 * (LINKS - k), z), weight = part_box(0.2f, 0.1f, 0.2f, x, y, z);
+            part link = part_capsule(0.05f, 0.02f, x, y + 0.2 * (LINKS - k), z),
+                 weight = part_box(0.2f, 0.1f, 0.2f, x, y, z);
             link.shape.mask = 0, weight.shape.layer = 4;
             weight.body.linear_velocity.x = 2.0f;
             int32_t actor = play_add(p, k < LINKS ? &link : &weight);
@@ -74,7 +79,8 @@ static void add_chains(play *p)
     }
 }
 
-// ---- a row of all types ---------------------------------------------------------------------------------------------------------------
+// ---- a row of all types
+// ---------------------------------------------------------------------------------------------------------------
 
 static void hang(play *p, int32_t i, fe_body a, fe_body b)
 {
@@ -95,7 +101,8 @@ static void hang(play *p, int32_t i, fe_body a, fe_body b)
         PLAY(p, fe_ball_joint_def_at(p->world, &d.ball, a, b, &top, &axis));
         break;
     case ANY_HINGE:
-        d.hinge.limit_enabled = i % 2, d.hinge.lower = -0.5f, d.hinge.upper = 3.1415927f, d.hinge.spring_hertz = strength;
+        d.hinge.limit_enabled = i % 2, d.hinge.lower = -0.5f, d.hinge.upper = 3.1415927f,
+        d.hinge.spring_hertz = strength;
         d.hinge.motor_speed = 3, d.hinge.motor_max = 30 * strength, d.hinge.hertz = 10 * strength;
         PLAY(p, fe_hinge_joint_def_at(p->world, &d.hinge, a, b, &top, &axis));
         break;
@@ -107,7 +114,9 @@ static void hang(play *p, int32_t i, fe_body a, fe_body b)
         for (int32_t k = 0; k < 6; ++k) {
             fe_joint_axis *way = &d.configurable.axes[k];
             way->motion = (k + i / ANY_KINDS) % 3, way->lower = -0.2f, way->upper = 0.3f;
-            if (way->motion) way->spring = 1 + k % 2, way->spring_hertz = way->spring_stiffness = 2, way->spring_damping_ratio = way->spring_damping = 0.5f, way->motor_max = 3, way->motor_speed = 1;
+            if (way->motion)
+                way->spring = 1 + k % 2, way->spring_hertz = way->spring_stiffness = 2,
+                way->spring_damping_ratio = way->spring_damping = 0.5f, way->motor_max = 3, way->motor_speed = 1;
         }
         PLAY(p, fe_configurable_joint_def_at(p->world, &d.configurable, a, b, &top, &axis));
         break;
@@ -128,7 +137,8 @@ static void add_row(play *p)
     }
 }
 
-// ---- strings, two thirds of which are too weak, made in another order than they hang --------------------------------------------------
+// ---- strings, two thirds of which are too weak, made in another order than they hang
+// --------------------------------------------------
 
 static void add_strings(play *p)
 {
@@ -140,11 +150,13 @@ static void add_strings(play *p)
     p->groups[STRING_JOINTS] = p->joint_count;
     for (int32_t i = 0; i < STRINGS; ++i) {
         int32_t which = i * 5 % STRINGS;
-        tie(p, p->groups[ROW_GROUP], p->groups[STRING_GROUP] + which, (fe_dvec3){which, 3.0, -12.0}, i % 3 ? 200.0f : 2000.0f);
+        tie(p, p->groups[ROW_GROUP], p->groups[STRING_GROUP] + which, (fe_dvec3){which, 3.0, -12.0},
+            i % 3 ? 200.0f : 2000.0f);
     }
 }
 
-// ---- the script -----------------------------------------------------------------------------------------------------------------------
+// ---- the script
+// -----------------------------------------------------------------------------------------------------------------------
 
 static void build(play *p)
 {

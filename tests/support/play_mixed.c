@@ -1,5 +1,5 @@
-// play_mixed.c - 300 bodies of all forms fall on flat ground in heaps, come to rest and sleep: many small islands. And a brief script, in
-// which two dozen bodies meet with every kind of call: for tests that play it hundreds of times.
+// play_mixed.c - 300 bodies of all forms fall on flat ground in heaps, come to rest and sleep: many small islands. And
+// a brief script, in which two dozen bodies meet with every kind of call: for tests that play it hundreds of times.
 #include "support/any_joint.h"
 #include "support/play.h"
 
@@ -8,7 +8,9 @@ enum { HEAPS = 20, HEAP_BODIES = 15 };
 static part any_part(play *p, int32_t i, double x, double y, double z)
 {
     float a = play_between(p, 0.15f, 0.4f), b = play_between(p, 0.15f, 0.4f), c = play_between(p, 0.15f, 0.4f);
-    part made = i % 3 == 0 ? part_box(a, b, c, x, y, z) : i % 3 == 1 ? part_sphere(a, x, y, z) : part_capsule(b, a, x, y, z);
+    part made = i % 3 == 0   ? part_box(a, b, c, x, y, z)
+                : i % 3 == 1 ? part_sphere(a, x, y, z)
+                             : part_capsule(b, a, x, y, z);
     made.body.transform.rotation.x = play_between(p, -1.0f, 1.0f);
     made.body.transform.rotation.y = play_between(p, -1.0f, 1.0f);
     made.shape.material.rolling_resistance = 0.2f; // or spheres would never stop
@@ -34,7 +36,8 @@ static void act_mixed(play *p) { (void)p; }
 
 const script script_mixed = {"mixed", 600, build_mixed, act_mixed};
 
-// ---- the brief one --------------------------------------------------------------------------------------------------------------------
+// ---- the brief one
+// --------------------------------------------------------------------------------------------------------------------
 
 enum { BRIEF_BODIES = 18, ROOF = 1, TRIGGER = 2, FIRST = 3 };
 
@@ -87,7 +90,8 @@ static void bring_crowd(play *p)
     }
     if (p->step == 50) {
         PLAY(p, fe_body_create_many(p->world, defs, sizeof *defs, CROWD, crowd));
-        for (int32_t i = 0; i < CROWD; ++i) PLAY(p, fe_shape_create(p->world, crowd[i], NULL, &ball, p->shapes + 100 + i));
+        for (int32_t i = 0; i < CROWD; ++i)
+            PLAY(p, fe_shape_create(p->world, crowd[i], NULL, &ball, p->shapes + 100 + i));
         for (int32_t i = 0; i < CROWD; ++i) PLAY(p, fe_shape_create(p->world, crowd[0], NULL, &ball, &extra));
     }
     if (p->step == 52) bring_hill(p);
@@ -95,7 +99,8 @@ static void bring_crowd(play *p)
     if (p->step == 80) PLAY(p, fe_body_create_many(p->world, defs, sizeof *defs, CROWD, crowd));
 }
 
-// a joint of each type between neighbours, one of them too weak for its load; changed, switched, destroyed, and gone with their bodies
+// a joint of each type between neighbours, one of them too weak for its load; changed, switched, destroyed, and gone
+// with their bodies
 static void bring_joints(play *p)
 {
     const fe_body *actor = p->actors + FIRST;

@@ -1,6 +1,6 @@
-// play_spawn.c - the script of bodies that queries place: by turns where a ray hits, where a box overlaps nothing, and where a swept ball
-// stops. A wrong bit in an answer becomes a wrong body. No gravity; what is pushed comes to rest by damping (after Box3D's test of that
-// kind).
+// play_spawn.c - the script of bodies that queries place: by turns where a ray hits, where a box overlaps nothing, and
+// where a swept ball stops. A wrong bit in an answer becomes a wrong body. No gravity; what is pushed comes to rest by
+// damping (after Box3D's test of that kind).
 #include "support/play.h"
 
 enum { SPAWNED = 50, EVERY = 2, PILLARS = 9, TRIES = 8 };
@@ -70,7 +70,8 @@ static void spawn_where_stopped(play *p, fe_dvec3 from, fe_dvec3 way)
 static void act(play *p)
 {
     if (p->step % EVERY != 0 || p->actor_count >= PILLARS + SPAWNED) return;
-    fe_dvec3 from = somewhere(p), way = {-2.0 * from.x, -2.0 * from.y, -2.0 * from.z}; // through the pillar in the middle
+    fe_dvec3 from = somewhere(p),
+             way = {-2.0 * from.x, -2.0 * from.y, -2.0 * from.z}; // through the pillar in the middle
     switch (p->step / EVERY % 3) {
     case 0:
         spawn_at_hit(p, from, way);

@@ -1,5 +1,6 @@
-// play_terrain.c - the script of heightfields: two waves side by side, with holes and cells of other materials, under a rain of spheres,
-// capsules and boxes; heights that change under sleeping bodies, a trigger that feels the ground, an asset whose handle dies.
+// play_terrain.c - the script of heightfields: two waves side by side, with holes and cells of other materials, under a
+// rain of spheres, capsules and boxes; heights that change under sleeping bodies, a trigger that feels the ground, an
+// asset whose handle dies.
 #include "support/play.h"
 
 enum { CELLS = 16, SAMPLES = CELLS + 1, FIELDS = 2, BODIES = 140, EDIT = 4 };
@@ -16,7 +17,8 @@ static fe_asset make_field(play *p, int32_t which)
     fe_asset field = 0;
     float heights[SAMPLES * SAMPLES];
     uint8_t holes[CELLS * CELLS] = {0}, kinds[CELLS * CELLS];
-    const fe_material materials[3] = {SURFACE(0.6f, 0.5f, 0.0f, 0.1f, 0.02f), SURFACE(0.1f, 0.1f, 0.0f, 0.1f, 0.02f), SURFACE(0.6f, 0.5f, 0.6f, 0.1f, 0.02f)};
+    const fe_material materials[3] = {SURFACE(0.6f, 0.5f, 0.0f, 0.1f, 0.02f), SURFACE(0.1f, 0.1f, 0.0f, 0.1f, 0.02f),
+                                      SURFACE(0.6f, 0.5f, 0.6f, 0.1f, 0.02f)};
     for (int32_t i = 0; i < SAMPLES * SAMPLES; ++i) heights[i] = wave(i % SAMPLES + which * CELLS, i / SAMPLES);
     for (int32_t i = 0; i < CELLS * CELLS; ++i) kinds[i] = (uint8_t)(i % 11 == 0 ? 1 : i % 13 == 0 ? 2 : 0);
     holes[5 * CELLS + 5] = holes[5 * CELLS + 6] = (uint8_t)which;

@@ -1,4 +1,5 @@
-// values.h - what tests read of a world, as values, and constants of structs that grow. A stale handle ends the program.
+// values.h - what tests read of a world, as values, and constants of structs that grow. A stale handle ends the
+// program.
 #ifndef FE_TESTS_VALUES_H
 #define FE_TESTS_VALUES_H
 #include "feather.h"
@@ -7,10 +8,10 @@
 #include <stdlib.h>
 
 // A constant fe_material; what it does not name is 0, which is the default
-#define SURFACE(stick, slide, bounce, roll, spin)                                                                       \
-    {                                                                                                                   \
-        .static_friction = (stick), .dynamic_friction = (slide), .restitution = (bounce), .rolling_resistance = (roll), \
-        .spinning_resistance = (spin)                                                                                   \
+#define SURFACE(stick, slide, bounce, roll, spin)                                         \
+    {                                                                                     \
+        .static_friction = (stick), .dynamic_friction = (slide), .restitution = (bounce), \
+        .rolling_resistance = (roll), .spinning_resistance = (spin)                       \
     }
 
 // A handle is kind, world, generation and slot + 1, in 3, 12, 17 and 21 bits

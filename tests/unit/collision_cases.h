@@ -46,7 +46,8 @@ static inline fe_quat random_rotation(void)
 static inline fe_quat turn_about(fe_dvec3 axis, double angle)
 {
     double s = sin(0.5 * angle);
-    return fe__normalized((fe_quat){(float)(s * axis.x), (float)(s * axis.y), (float)(s * axis.z), (float)cos(0.5 * angle)});
+    return fe__normalized(
+        (fe_quat){(float)(s * axis.x), (float)(s * axis.y), (float)(s * axis.z), (float)cos(0.5 * angle)});
 }
 
 static inline fe__form sphere(float radius) { return (fe__form){.type = FE__FORM_SPHERE, .radius = radius}; }
@@ -57,7 +58,8 @@ static inline fe__form capsule(float half_height, float radius)
 static inline fe__form box(float x, float y, float z) { return (fe__form){.type = FE__FORM_BOX, .half = {x, y, z}}; }
 static inline fe__form plane(fe_vec3 normal, float distance)
 {
-    return (fe__form){.type = FE__FORM_PLANE, .normal = fe__scale(1.0f / fe__length(normal), normal), .distance = distance};
+    return (
+        fe__form){.type = FE__FORM_PLANE, .normal = fe__scale(1.0f / fe__length(normal), normal), .distance = distance};
 }
 
 // Sizes of 5 cm to 1 m.
@@ -93,9 +95,13 @@ static inline frame frame_of(const fe__relative *r)
     return (frame){fe__widen(r->position), x, y, fe__dcross(x, y)};
 }
 
-static inline fe__relative relative(fe_vec3 position, fe_quat rotation) { return (fe__relative){position, fe__matrix(rotation)}; }
+static inline fe__relative relative(fe_vec3 position, fe_quat rotation)
+{
+    return (fe__relative){position, fe__matrix(rotation)};
+}
 
-// ---- the cores: points +-x +-y +-z of the half widths ---------------------------------------------------------------------------------
+// ---- the cores: points +-x +-y +-z of the half widths
+// ---------------------------------------------------------------------------------
 static inline fe_dvec3 core_widths(const fe__form *form)
 {
     return (fe_dvec3){(double)form->half.x, (double)form->half.y + (double)form->half_height, (double)form->half.z};
@@ -139,7 +145,8 @@ static inline double gap_along(const fe__form *a, const fe__form *b, const frame
     return low - high - (double)a->radius - (double)b->radius;
 }
 
-// Of cores: the largest gap along any face normal or pair of edges: below 0, the depth (Gottschalk); above, a lower bound of the distance.
+// Of cores: the largest gap along any face normal or pair of edges: below 0, the depth (Gottschalk); above, a lower
+// bound of the distance.
 static inline double brute_gap(const fe__form *a, const fe__form *b, const frame *r)
 {
     fe_dvec3 of_a[3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
@@ -184,9 +191,9 @@ static inline double degrees_between(fe_dvec3 a, fe_dvec3 b)
 
 static inline void print_form(const char *name, const fe__form *f)
 {
-    printf("  %s: type %d radius %.9g half_height %.9g half %.9g %.9g %.9g normal %.9g %.9g %.9g distance %.9g\n", name, f->type,
-           (double)f->radius, (double)f->half_height, (double)f->half.x, (double)f->half.y, (double)f->half.z, (double)f->normal.x,
-           (double)f->normal.y, (double)f->normal.z, (double)f->distance);
+    printf("  %s: type %d radius %.9g half_height %.9g half %.9g %.9g %.9g normal %.9g %.9g %.9g distance %.9g\n", name,
+           f->type, (double)f->radius, (double)f->half_height, (double)f->half.x, (double)f->half.y, (double)f->half.z,
+           (double)f->normal.x, (double)f->normal.y, (double)f->normal.z, (double)f->distance);
 }
 
 static inline void print_case(const fe__form *a, const fe__form *b, const fe__relative *b_in_a)

@@ -1,4 +1,5 @@
-// joint_rig.h - bodies and joints straight on the solver: records by hand, the graph, the substeps, poses. No world, no shapes, no API.
+// joint_rig.h - bodies and joints straight on the solver: records by hand, the graph, the substeps, poses. No world, no
+// shapes, no API.
 #ifndef FE_TESTS_JOINT_RIG_H
 #define FE_TESTS_JOINT_RIG_H
 #include "../fe_test.h"
@@ -37,7 +38,8 @@ static inline rig rig_make(int32_t simd, fe_pool *pool, int32_t workers, int32_t
     r.joints.frames = fe__allocate(&r.memory, sizeof(fe__joint_frame) * RIG_JOINTS);
     r.joints.reactions = fe__allocate(&r.memory, sizeof(fe__joint_reaction) * RIG_JOINTS);
     r.joints.axes = fe__allocate(&r.memory, sizeof(fe__joint_axes) * RIG_AXES);
-    r.bodies[0] = (fe__body){.rotation = {0, 0, 0, 1}, .inertia_axes = {0, 0, 0, 1}, .type = FE_BODY_STATIC, .awake_index = -1};
+    r.bodies[0] =
+        (fe__body){.rotation = {0, 0, 0, 1}, .inertia_axes = {0, 0, 0, 1}, .type = FE_BODY_STATIC, .awake_index = -1};
     r.body_count = 1;
     return r;
 }
@@ -79,13 +81,15 @@ static inline int32_t rig_body(rig *r, double x, double y, double z, float mass,
 static inline void rig_to_local(const fe__body *b, fe_dvec3 point, float *out_arm)
 {
     fe_dvec3 d = {point.x - b->centre[0], point.y - b->centre[1], point.z - b->centre[2]};
-    fe_vec3 a = fe__narrow(fe__drotate_back((fe_quat){b->rotation[0], b->rotation[1], b->rotation[2], b->rotation[3]}, d));
+    fe_vec3 a =
+        fe__narrow(fe__drotate_back((fe_quat){b->rotation[0], b->rotation[1], b->rotation[2], b->rotation[3]}, d));
     out_arm[0] = a.x, out_arm[1] = a.y, out_arm[2] = a.z;
 }
 
 static inline void rig_to_frame(const fe__body *b, fe_quat world, float *out_frame)
 {
-    fe_quat q = fe__product(fe__conjugate((fe_quat){b->rotation[0], b->rotation[1], b->rotation[2], b->rotation[3]}), world);
+    fe_quat q =
+        fe__product(fe__conjugate((fe_quat){b->rotation[0], b->rotation[1], b->rotation[2], b->rotation[3]}), world);
     out_frame[0] = q.x, out_frame[1] = q.y, out_frame[2] = q.z, out_frame[3] = q.w;
 }
 
@@ -194,7 +198,8 @@ static inline double rig_energy(const rig *r)
         fe_dvec3 v = {b->velocity[0], b->velocity[1], b->velocity[2]},
                  w = fe__drotate_back(q, (fe_dvec3){b->spin[0], b->spin[1], b->spin[2]});
         double m = b->mass;
-        sum += 0.5 * m * fe__ddot(v, v) + 0.5 * (b->inertia[0] * w.x * w.x + b->inertia[1] * w.y * w.y + b->inertia[2] * w.z * w.z);
+        sum += 0.5 * m * fe__ddot(v, v) +
+               0.5 * (b->inertia[0] * w.x * w.x + b->inertia[1] * w.y * w.y + b->inertia[2] * w.z * w.z);
         sum -= m * r->gravity * b->centre[1];
     }
     return sum;

@@ -1,4 +1,5 @@
-// Cutting a face by another and keeping four points: two independent ways give one area, and four points keep most of it.
+// Cutting a face by another and keeping four points: two independent ways give one area, and four points keep most of
+// it.
 #include "fe_test.h"
 
 #include "collision/form/clip.h"
@@ -16,7 +17,8 @@ static fe_dvec3 middle;
 static int by_angle(const void *a, const void *b)
 {
     const fe__clip_vertex *p = a, *q = b;
-    double x = atan2((double)p->v - middle.y, (double)p->u - middle.x), y = atan2((double)q->v - middle.y, (double)q->u - middle.x);
+    double x = atan2((double)p->v - middle.y, (double)p->u - middle.x),
+           y = atan2((double)q->v - middle.y, (double)q->u - middle.x);
     return x < y ? -1 : x > y;
 }
 
@@ -45,7 +47,8 @@ static faces random_faces(void)
     faces f;
     f.half_u = (float)uniform(0.1, 1.0), f.half_v = (float)uniform(0.1, 1.0);
     fe_vec3 centre = random_vector(0.7);
-    double angle = uniform(-3.0, 3.0), x = uniform(0.1, 1.0), y = uniform(0.1, 1.0), skew = uniform(0.8, 1.0), rise = uniform(-0.05, 0.05);
+    double angle = uniform(-3.0, 3.0), x = uniform(0.1, 1.0), y = uniform(0.1, 1.0), skew = uniform(0.8, 1.0),
+           rise = uniform(-0.05, 0.05);
     f.incident.centre = centre;
     f.incident.x = fe__vec3((float)(x * cos(angle)), (float)(x * sin(angle)), (float)(x * rise));
     f.incident.y = fe__vec3((float)(-y * sin(angle)), (float)(y * skew * cos(angle)), (float)(-y * rise));
@@ -58,8 +61,8 @@ static faces random_faces(void)
     return f;
 }
 
-// Four edges side by side, and one vertex after the other, cut the same area out of the same faces. Both are widened by the slack or less:
-// along 12 m of rims at most.
+// Four edges side by side, and one vertex after the other, cut the same area out of the same faces. Both are widened by
+// the slack or less: along 12 m of rims at most.
 static void both_cuts_leave_the_same_area(void **state)
 {
     (void)state;
@@ -74,11 +77,13 @@ static void both_cuts_leave_the_same_area(void **state)
         meeting += a > 0.0;
         for (int32_t k = 0; k < n; ++k) {
             // on the incident face's plane: height is linear in u and v
-            double det = (double)f.incident.x.x * (double)f.incident.y.y - (double)f.incident.x.y * (double)f.incident.y.x;
+            double det =
+                (double)f.incident.x.x * (double)f.incident.y.y - (double)f.incident.x.y * (double)f.incident.y.x;
             double du = (double)(lanes[k].u - f.incident.centre.x), dv = (double)(lanes[k].v - f.incident.centre.y);
             double s = (du * (double)f.incident.y.y - dv * (double)f.incident.y.x) / det,
                    t = (dv * (double)f.incident.x.x - du * (double)f.incident.x.y) / det;
-            FE_NEAR(lanes[k].height, (double)f.incident.centre.z + s * (double)f.incident.x.z + t * (double)f.incident.y.z, 2e-6);
+            FE_NEAR(lanes[k].height,
+                    (double)f.incident.centre.z + s * (double)f.incident.x.z + t * (double)f.incident.y.z, 2e-6);
             FE_WITHIN(fe__absf(lanes[k].u), 0.0, f.half_u + 2.0f * SLACK);
             FE_WITHIN(fe__absf(lanes[k].v), 0.0, f.half_v + 2.0f * SLACK);
             for (int32_t j = 0; j < k; ++j) FE_TRUE(lanes[k].id != lanes[j].id);
@@ -87,8 +92,8 @@ static void both_cuts_leave_the_same_area(void **state)
     FE_TRUE(meeting > CASES / 4);
 }
 
-// Where all carry: the deepest point stays, within the tie, and so does at least half of the area (of a regular octagon four corners keep
-// 0.71).
+// Where all carry: the deepest point stays, within the tie, and so does at least half of the area (of a regular octagon
+// four corners keep 0.71).
 static void four_points_keep_the_deepest_and_most_of_the_area(void **state)
 {
     (void)state;
@@ -110,7 +115,8 @@ static void four_points_keep_the_deepest_and_most_of_the_area(void **state)
     }
 }
 
-// Two vertices below the face side by side and four far off, clear of it: both are kept, whichever of them is deeper by a little.
+// Two vertices below the face side by side and four far off, clear of it: both are kept, whichever of them is deeper by
+// a little.
 static void what_carries_is_kept(void **state)
 {
     (void)state;
@@ -129,8 +135,12 @@ static void what_carries_is_kept(void **state)
 static void lines_and_points_are_cut_too(void **state)
 {
     (void)state;
-    const fe__clip_vertex square[4] = {{-1.0f, -1.0f, 0.0f, 0}, {1.0f, -1.0f, 0.0f, 0}, {1.0f, 1.0f, 0.0f, 0}, {-1.0f, 1.0f, 0.0f, 0}};
-    fe__clip_vertex line[FE_CLIP_VERTICES] = {{-2.0f, 0.5f, 0.0f, fe__clip_id(1, 0)}, {2.0f, 0.5f, 4.0f, fe__clip_id(0, 1)}};
+    const fe__clip_vertex square[4] = {{-1.0f, -1.0f, 0.0f, 0},
+                                       {1.0f, -1.0f, 0.0f, 0},
+                                       {1.0f, 1.0f, 0.0f, 0},
+                                       {-1.0f, 1.0f, 0.0f, 0}};
+    fe__clip_vertex line[FE_CLIP_VERTICES] = {{-2.0f, 0.5f, 0.0f, fe__clip_id(1, 0)},
+                                              {2.0f, 0.5f, 4.0f, fe__clip_id(0, 1)}};
     FE_TRUE(fe__clip_polygon(square, 4, line, 2, 0.0f) == 2);
     FE_NEAR(fe__minf(line[0].u, line[1].u), -1.0, 1e-6);
     FE_NEAR(fe__maxf(line[0].u, line[1].u), 1.0, 1e-6);

@@ -1,4 +1,5 @@
-// The narrow phase: every pair of forms against the distance and depth of their cores in double, and the laws of manifolds.
+// The narrow phase: every pair of forms against the distance and depth of their cores in double, and the laws of
+// manifolds.
 #include "fe_test.h"
 
 #include "collision/manifold/collide.h"
@@ -12,8 +13,8 @@ enum { POSES = 20000 };
 #define MARGIN 0.02f
 // Forms of up to 1 m half width lie up to 4 m apart: float rounds by 2.4e-7 there, and some ten roundings add up.
 #define ROUNDING 3e-6
-// Of two answers as deep as each other within this the steadier is given (kernels.h); the box kernel chooses twice, face of A before face
-// of B before edge.
+// Of two answers as deep as each other within this the steadier is given (kernels.h); the box kernel chooses twice,
+// face of A before face of B before edge.
 #define TIE 0.0005
 #define FACE_DEGREES 5.0
 #define HALF_PI 1.57079632679489662
@@ -31,13 +32,14 @@ static truth true_contact(const fe__form *a, const fe__form *b, const fe__relati
     fe__gjk g;
     fe__gjk_distance(&cores, 1e30, &g);
     double radii = (double)a->radius + (double)b->radius;
-    if (!g.overlap) return (truth){g.distance - radii, g.distance, fe__dscale(1.0 / g.distance, fe__dsub(g.on_b, g.on_a))};
+    if (!g.overlap)
+        return (truth){g.distance - radii, g.distance, fe__dscale(1.0 / g.distance, fe__dsub(g.on_b, g.on_a))};
     fe__penetration p = fe__epa_depth(&cores, &g);
     return (truth){-p.depth - radii, -p.depth, p.normal};
 }
 
-// A pose at which B is about to touch A or overlaps it by up to `depth`: in one case of three turned as A or by a quarter, but for a
-// milliradian.
+// A pose at which B is about to touch A or overlaps it by up to `depth`: in one case of three turned as A or by a
+// quarter, but for a milliradian.
 static fe__relative near_pose(const fe__form *a, const fe__form *b, double depth)
 {
     fe_quat rotation = random_rotation();
@@ -82,23 +84,25 @@ static void assert_laws(const fe__form *a, const fe__form *b, const fe__relative
     print_case(a, b, r);
     if (a->type != FE__FORM_PLANE) {
         truth t = true_contact(a, b, r);
-        printf("  truth: separation %.9g core distance %.9g normal %.9g %.9g %.9g\n", t.separation, t.distance, t.normal.x, t.normal.y,
-               t.normal.z);
+        printf("  truth: separation %.9g core distance %.9g normal %.9g %.9g %.9g\n", t.separation, t.distance,
+               t.normal.x, t.normal.y, t.normal.z);
     }
-    printf("  found: normal %.9g %.9g %.9g axis %d\n", (double)m->normal.x, (double)m->normal.y, (double)m->normal.z, m->axis);
+    printf("  found: normal %.9g %.9g %.9g axis %d\n", (double)m->normal.x, (double)m->normal.y, (double)m->normal.z,
+           m->axis);
     for (int32_t i = 0; i < m->count; ++i) {
         const fe__manifold_point *p = &m->points[i];
-        printf("  point %.9g %.9g %.9g separation %.9g id %x\n", (double)p->point.x, (double)p->point.y, (double)p->point.z,
-               (double)p->separation, p->id);
+        printf("  point %.9g %.9g %.9g separation %.9g id %x\n", (double)p->point.x, (double)p->point.y,
+               (double)p->point.z, (double)p->separation, p->id);
     }
     print_error("%s\n", failure);
     failure = NULL;
     fail();
 }
 
-// What every manifold obeys: a unit normal, points with names of their own, none beyond the margin, each midway between two points of the
-// surfaces, which are a radius out from the cores along the normal.
-static void check_manifold(const fe__form *a, const fe__form *b, const fe__relative *r, const fe__manifold *m, double tolerance)
+// What every manifold obeys: a unit normal, points with names of their own, none beyond the margin, each midway between
+// two points of the surfaces, which are a radius out from the cores along the normal.
+static void check_manifold(const fe__form *a, const fe__form *b, const fe__relative *r, const fe__manifold *m,
+                           double tolerance)
 {
     frame f = frame_of(r);
     fe_dvec3 n = fe__widen(m->normal);
@@ -115,7 +119,8 @@ static void check_manifold(const fe__form *a, const fe__form *b, const fe__relat
         fe_dvec3 p = fe__widen(m->points[i].point);
         LAW(m->points[i].separation <= MARGIN);
         LAW(fe__absd(surface_distance(&core_a, fe__dsub(p, fe__dscale(half + (double)a->radius, n)))) <= tolerance);
-        LAW(fe__absd(surface_distance(&core_b, into_b(&f, fe__dadd(p, fe__dscale(half + (double)b->radius, n))))) <= tolerance);
+        LAW(fe__absd(surface_distance(&core_b, into_b(&f, fe__dadd(p, fe__dscale(half + (double)b->radius, n))))) <=
+            tolerance);
         for (int32_t k = 0; k < i; ++k) LAW(m->points[i].id != m->points[k].id);
     }
 }
@@ -127,7 +132,8 @@ static void check_exact(const truth *t, const fe__manifold *m)
     if (m->count == 0) return;
     LAW(fe__absd((double)deepest(m) - t->separation) <= ROUNDING);
     // the direction of a core `distance` away whose ends are rounded
-    if (fe__absd(t->distance) > 1e-3) LAW(degrees_between(fe__widen(m->normal), t->normal) <= 60.0 * ROUNDING / fe__absd(t->distance));
+    if (fe__absd(t->distance) > 1e-3)
+        LAW(degrees_between(fe__widen(m->normal), t->normal) <= 60.0 * ROUNDING / fe__absd(t->distance));
 }
 
 static void pair_with_one_point(int32_t type_a, int32_t type_b)
@@ -171,11 +177,14 @@ static void check_near(const truth *t, const fe__manifold *m, double degrees, do
     if (t->separation > (double)MARGIN + allowed) LAW(m->count == 0);
     if (m->count == 0) return;
     LAW(fe__absd((double)deepest(m) - t->separation) <= allowed);
-    if (t->distance > 1e-3) LAW(degrees_between(fe__widen(m->normal), t->normal) <= degrees + 60.0 * ROUNDING / t->distance);
+    if (t->distance > 1e-3)
+        LAW(degrees_between(fe__widen(m->normal), t->normal) <= degrees + 60.0 * ROUNDING / t->distance);
 }
 
-// Cores that overlap may have several ways out that are as short: what the normal must do is to lead out within a tie of the shortest.
-static void check_way_out(const fe__form *a, const fe__form *b, const fe__relative *r, const truth *t, const fe__manifold *m, double ties)
+// Cores that overlap may have several ways out that are as short: what the normal must do is to lead out within a tie
+// of the shortest.
+static void check_way_out(const fe__form *a, const fe__form *b, const fe__relative *r, const truth *t,
+                          const fe__manifold *m, double ties)
 {
     if (t->distance > 0.0 || m->count == 0) return;
     frame f = frame_of(r);
@@ -200,11 +209,13 @@ static void pair_with_many_points(int32_t type_a, int32_t type_b, double degrees
             fe__manifold m = collide(&a, &b, &r, general);
             check_near(&t, &m, degrees, ties);
             check_way_out(&a, &b, &r, &t, &m, ties);
-            // two points of an edge or a core and a core d away may lie aside by half of sqrt(2 n.d tie): there |d| exceeds n . d by a tie
+            // two points of an edge or a core and a core d away may lie aside by half of sqrt(2 n.d tie): there |d|
+            // exceeds n . d by a tie
             double d = (double)(a.radius + b.radius) + (double)highest(&m),
                    aside = b.radius > 0.0f ? 0.5 * sqrt(2.0 * fe__maxd(d, 0.0) * TIE) : 0.0;
             // and where the cores are askew, by up to 11.5 degrees of d
-            if (b.radius > 0.0f && m.axis > 0) aside = fe__maxd(aside, 0.5 * sin(11.5 * HALF_PI / 90.0) * fe__maxd(d, 0.0));
+            if (b.radius > 0.0f && m.axis > 0)
+                aside = fe__maxd(aside, 0.5 * sin(11.5 * HALF_PI / 90.0) * fe__maxd(d, 0.0));
             check_manifold(&a, &b, &r, &m, ties * TIE + aside + ROUNDING);
             assert_laws(&a, &b, &r, &m);
         }
@@ -223,9 +234,11 @@ static void box_and_capsule_are_exact_within_a_tie(void **state)
     pair_with_many_points(FE__FORM_BOX, FE__FORM_CAPSULE, FACE_DEGREES, 1.0);
 }
 
-// ---- box against box ------------------------------------------------------------------------------------------------------------
-// Overlapping boxes: the exhaustive test of 15 axes on corners gives the depth; the kernel may prefer a face twice by a tie. Boxes apart
-// have points exactly when their distance is within the margin, and none is nearer than the gap along the best axis.
+// ---- box against box
+// ------------------------------------------------------------------------------------------------------------
+// Overlapping boxes: the exhaustive test of 15 axes on corners gives the depth; the kernel may prefer a face twice by a
+// tie. Boxes apart have points exactly when their distance is within the margin, and none is nearer than the gap along
+// the best axis.
 static void check_boxes(const fe__form *a, const fe__form *b, const fe__relative *r, const fe__manifold *m)
 {
     frame f = frame_of(r);
@@ -253,7 +266,8 @@ static void box_and_box_are_exact_within_two_ties(void **state)
         for (int32_t general = 0; general < 2; ++general) {
             fe__manifold m = collide(&a, &b, &r, general);
             check_boxes(&a, &b, &r, &m);
-            // edges within two ties of the best axis need not cross: their nearest ends are further apart than the depth
+            // edges within two ties of the best axis need not cross: their nearest ends are further apart than the
+            // depth
             check_manifold(&a, &b, &r, &m, 5.0 * TIE);
             assert_laws(&a, &b, &r, &m);
         }
@@ -280,12 +294,14 @@ static void mirrored_and_swapped_boxes_are_as_deep(void **state)
         LAW((double)fe__absf(deepest(&m) - deepest(&n)) <=
             0.1 * TIE + ROUNDING); // of more than four, points within that are one as good as another
         LAW((double)fe__absf(deepest(&m) - deepest(&o)) <= 2.0 * TIE + ROUNDING);
-        if (m.axis == n.axis) LAW(fe__absf(m.normal.x + n.normal.x) <= 1e-5f && fe__absf(m.normal.y - n.normal.y) <= 1e-5f);
+        if (m.axis == n.axis)
+            LAW(fe__absf(m.normal.x + n.normal.x) <= 1e-5f && fe__absf(m.normal.y - n.normal.y) <= 1e-5f);
         assert_laws(&a, &b, &r, &m);
     }
 }
 
-// Cubes stacked by hand: jitter of 0.1 mrad and 0.1 mm. Always the face, and four points at the corners within the jitter.
+// Cubes stacked by hand: jitter of 0.1 mrad and 0.1 mm. Always the face, and four points at the corners within the
+// jitter.
 static void a_face_on_a_face_has_its_four_corners(void **state)
 {
     (void)state;
@@ -325,7 +341,8 @@ static void names_last_while_the_same_features_meet(void **state)
         for (int32_t i = 0; i < 100; ++i) {
             fe_vec3 jitter = random_vector(1e-5);
             fe_dvec3 axis = random_direction();
-            fe__relative r = relative(fe__add(position, jitter), fe__normalized(fe__product(turn_about(axis, uniform(0.0, 1e-5)), turn)));
+            fe__relative r = relative(fe__add(position, jitter),
+                                      fe__normalized(fe__product(turn_about(axis, uniform(0.0, 1e-5)), turn)));
             m = first;
             fe__collide(&ground, &small, &r, MARGIN, &m);
             FE_TRUE(m.count == 4);
@@ -354,7 +371,8 @@ static void depth_is_continuous(void **state)
         for (int32_t i = 0; i < 100; ++i) {
             fe__mat3 turn = fe__matrix(turn_about(axis, step));
             r.position = fe__add_scaled(r.position, (float)step, velocity);
-            r.rotation = (fe__mat3){fe__mul(&turn, r.rotation.x), fe__mul(&turn, r.rotation.y), fe__mul(&turn, r.rotation.z)};
+            r.rotation =
+                (fe__mat3){fe__mul(&turn, r.rotation.x), fe__mul(&turn, r.rotation.y), fe__mul(&turn, r.rotation.z)};
             int32_t had = m.count;
             fe__collide(&a, &b, &r, MARGIN, &m);
             float now = deepest(&m);

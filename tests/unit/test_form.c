@@ -31,8 +31,8 @@ static void masses_of_sphere_and_box_are_the_textbooks(void **state)
     FE_NEAR(mass.inertia.z, 3000.0 * (1.0 + 4.0) / 12.0, 1e-3);
 }
 
-// A body of revolution is a sum of discs: dm = pi r^2 dy, about its axis dm r^2 / 2, across it dm (r^2 / 4 + y^2). Simpson over each part
-// of the capsule is exact up to cubic terms; the quartic leaves (1/n)^4 of the whole.
+// A body of revolution is a sum of discs: dm = pi r^2 dy, about its axis dm r^2 / 2, across it dm (r^2 / 4 + y^2).
+// Simpson over each part of the capsule is exact up to cubic terms; the quartic leaves (1/n)^4 of the whole.
 static void masses_of_capsules_are_sums_of_discs(void **state)
 {
     (void)state;
@@ -44,8 +44,13 @@ static void masses_of_capsules_are_sums_of_discs(void **state)
         for (int32_t part = 0; part < 3; ++part) {
             double dy = (high[part] - low[part]) / SLICES;
             for (int32_t k = 0; k <= SLICES; ++k) {
-                double y = low[part] + dy * k, beyond = fe__maxd(fe__absd(y) - h, 0.0), square = fe__maxd(r * r - beyond * beyond, 0.0);
-                double weight = dy / 3.0 * (k == 0 || k == SLICES ? 1.0 : k & 1 ? 4.0 : 2.0), disc = weight * PI * square;
+                double y = low[part] + dy * k, beyond = fe__maxd(fe__absd(y) - h, 0.0),
+                       square = fe__maxd(r * r - beyond * beyond, 0.0);
+                double weight = dy / 3.0 *
+                                (k == 0 || k == SLICES ? 1.0
+                                 : k & 1               ? 4.0
+                                                       : 2.0),
+                       disc = weight * PI * square;
                 sum[0] += disc, sum[1] += disc * 0.5 * square, sum[2] += disc * (0.25 * square + y * y);
             }
         }
@@ -65,7 +70,8 @@ static void a_plane_has_no_mass(void **state)
     FE_TRUE(mass.mass == 0.0f && mass.inertia.x == 0.0f && mass.inertia.y == 0.0f && mass.inertia.z == 0.0f);
 }
 
-// Each side of the bounds is touched by the form's farthest point that way, and by none beyond: in double, at any distance from the origin.
+// Each side of the bounds is touched by the form's farthest point that way, and by none beyond: in double, at any
+// distance from the origin.
 static void bounds_are_tight(void **state)
 {
     (void)state;
@@ -76,7 +82,8 @@ static void bounds_are_tight(void **state)
         fe__pose pose = {fe__widen(place), random_rotation()};
         fe__bounds bounds = fe__form_bounds(&form, &pose);
         const fe_dvec3 axes[3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
-        const double low[3] = {bounds.low.x, bounds.low.y, bounds.low.z}, high[3] = {bounds.high.x, bounds.high.y, bounds.high.z};
+        const double low[3] = {bounds.low.x, bounds.low.y, bounds.low.z},
+                     high[3] = {bounds.high.x, bounds.high.y, bounds.high.z};
         for (int32_t k = 0; k < 3; ++k) {
             for (int32_t sign = -1; sign <= 1; sign += 2) {
                 fe_dvec3 out = fe__dscale(sign, axes[k]), local = fe__drotate_back(pose.rotation, out);
@@ -96,7 +103,8 @@ static void a_plane_is_bounded_only_along_an_axis(void **state)
     for (int32_t i = 0; i < 6; ++i) {
         fe__form form = plane(axes[i], 2.0f);
         fe__bounds bounds = fe__form_bounds(&form, &pose);
-        const double low[3] = {bounds.low.x, bounds.low.y, bounds.low.z}, high[3] = {bounds.high.x, bounds.high.y, bounds.high.z};
+        const double low[3] = {bounds.low.x, bounds.low.y, bounds.low.z},
+                     high[3] = {bounds.high.x, bounds.high.y, bounds.high.z};
         const double position[3] = {10.0, 20.0, 30.0};
         for (int32_t k = 0; k < 3; ++k) {
             int32_t faces = k == i / 2, negative = i & 1;
@@ -106,7 +114,8 @@ static void a_plane_is_bounded_only_along_an_axis(void **state)
     }
     fe__form slope = plane(fe__vec3(1.0f, 1.0f, 0.0f), 2.0f);
     fe__bounds bounds = fe__form_bounds(&slope, &pose);
-    FE_TRUE(bounds.low.x == -INFINITY && bounds.high.x == INFINITY && bounds.low.y == -INFINITY && bounds.high.y == INFINITY);
+    FE_TRUE(bounds.low.x == -INFINITY && bounds.high.x == INFINITY && bounds.low.y == -INFINITY &&
+            bounds.high.y == INFINITY);
 }
 
 // No corner, swelled by the radius, is farther than the reach, and one is as far.
@@ -140,7 +149,8 @@ static void thickness_is_the_smallest_half_width(void **state)
     FE_TRUE(fe__form_thickness(&ground) >= 1e30f); // a half space is never outrun
 }
 
-// The face in a direction is flat, turns left around its normal, and lies as far out as the support point when the direction is its normal.
+// The face in a direction is flat, turns left around its normal, and lies as far out as the support point when the
+// direction is its normal.
 static void faces_turn_left_around_their_normals(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-// Whatever the host has done to the floating-point state, Feather computes in its own, on every thread, and hands the host's back.
+// Whatever the host has done to the floating-point state, Feather computes in its own, on every thread, and hands the
+// host's back.
 #include "fe_test.h"
 
 #include "core/fp_state.h"
@@ -12,7 +13,10 @@
 enum { FLUSH_RESULTS = 0x8000, FLUSH_INPUTS = 0x0040, ROUND_UP = 0x4000, OVERFLOW_TRAP = 0x0400 };
 static uint64_t state_now(void) { return _mm_getcsr(); }
 static void set_state(uint64_t state) { _mm_setcsr((unsigned)state); }
-static uint64_t hostile_state(void) { return (_mm_getcsr() | FLUSH_RESULTS | FLUSH_INPUTS | ROUND_UP) & ~(unsigned)OVERFLOW_TRAP; }
+static uint64_t hostile_state(void)
+{
+    return (_mm_getcsr() | FLUSH_RESULTS | FLUSH_INPUTS | ROUND_UP) & ~(unsigned)OVERFLOW_TRAP;
+}
 #elif defined(__aarch64__)
 enum { FLUSH = 1 << 24, ROUND_UP = 1 << 22 };
 static uint64_t state_now(void)
@@ -31,7 +35,8 @@ static uint64_t hostile_state(void) { return 0; }
 
 static volatile float least_normal = FLT_MIN, half = 0.5f, one = 1.0f, third = 3.0f, most = FLT_MAX;
 
-// Each check fails in one hostile mode: flushed results, flushed inputs, directed rounding, traps (which would end the program).
+// Each check fails in one hostile mode: flushed results, flushed inputs, directed rounding, traps (which would end the
+// program).
 static int computes_as_ieee_says(void)
 {
     volatile float denormal = least_normal * half;
@@ -123,7 +128,8 @@ static void tasks_of_a_hosts_system_compute_in_the_same_state(void **state)
 {
     (void)state;
     findings f = {0};
-    fe__workers workers = {.count = 4, .tasks = {.struct_size = sizeof workers.tasks, .worker_count = 4, .run = hostile_run}};
+    fe__workers workers = {.count = 4,
+                           .tasks = {.struct_size = sizeof workers.tasks, .worker_count = 4, .run = hostile_run}};
     fe__run(&workers, check, &f, 4);
     assert_int_equal(f.right, 4);
     assert_int_equal(f.wrong, 0);

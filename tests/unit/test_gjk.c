@@ -1,4 +1,5 @@
-// Distance (GJK) and depth (EPA) of cores, against brute force in double: corners and edges one by one, all separating axes.
+// Distance (GJK) and depth (EPA) of cores, against brute force in double: corners and edges one by one, all separating
+// axes.
 #include "fe_test.h"
 
 #include "collision/form/epa.h"
@@ -11,7 +12,10 @@ enum { POSES = 20000 };
 // of the cores' size: double rounding is 1e-16, some tens of operations, and EPA's faces are one within 1e-11
 #define PRECISION 1e-10
 
-static fe__cores cores_of(const fe__form *a, const fe__form *b, const frame *r) { return (fe__cores){a, b, r->position, r->x, r->y, r->z}; }
+static fe__cores cores_of(const fe__form *a, const fe__form *b, const frame *r)
+{
+    return (fe__cores){a, b, r->position, r->x, r->y, r->z};
+}
 
 // Nearest points of the segments p, p + d and q, q + e: the pair of lines, then every end against the other segment.
 static double point_to_segment(fe_dvec3 x, fe_dvec3 p, fe_dvec3 d)
@@ -33,7 +37,8 @@ static double segment_to_segment(fe_dvec3 p, fe_dvec3 d, fe_dvec3 q, fe_dvec3 e)
     return fe__mind(best, fe__absd(fe__ddot(pq, n)) / sqrt(square));
 }
 
-static const int8_t edges[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3}, {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+static const int8_t edges[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
+                                    {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
 
 // Of cores that do not overlap: some corner and the other core, or two edges, are nearest.
 static double brute_distance(const fe__form *a, const fe__form *b, const frame *r)
@@ -118,7 +123,8 @@ static void aligned_boxes_and_segments_agree_with_brute_force(void **state)
             fe_vec3 x = axes[turn / 6], y = axes[turn % 6];
             if (fe__dot(x, y) != 0.0f) continue;
             for (int32_t place = 0; place < 7 * 7 * 7; ++place) {
-                fe_vec3 p = {0.25f * (float)(place % 7 - 3), 0.25f * (float)(place / 7 % 7 - 3), 0.25f * (float)(place / 49 - 3)};
+                fe_vec3 p = {0.25f * (float)(place % 7 - 3), 0.25f * (float)(place / 7 % 7 - 3),
+                             0.25f * (float)(place / 49 - 3)};
                 fe__relative r = {p, {x, y, fe__cross(x, y)}};
                 if (a->type == FE__FORM_CAPSULE && b->type == FE__FORM_CAPSULE) continue; // flat: below
                 assert_distance(a, b, &r, 2.0);
@@ -159,7 +165,8 @@ static void crossing_segments_part_across_both(void **state)
     for (int32_t i = 0; i < 1000; ++i) {
         // both in the plane z = const after a turn about z: exactly flat; B's centre within A's length
         double angle = uniform(0.1, 3.0);
-        fe__relative r = relative(fe__vec3(0.0f, (float)uniform(-0.9, 0.9), 0.0f), turn_about((fe_dvec3){0.0, 0.0, 1.0}, angle));
+        fe__relative r =
+            relative(fe__vec3(0.0f, (float)uniform(-0.9, 0.9), 0.0f), turn_about((fe_dvec3){0.0, 0.0, 1.0}, angle));
         fe__penetration p = depth_of(&a, &b, &r);
         FE_NEAR(p.depth, 0.0, PRECISION);
         FE_NEAR(fe__absd(p.normal.z), 1.0, 1e-12);

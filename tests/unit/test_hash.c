@@ -14,7 +14,8 @@ static uint64_t hash_of(const uint64_t *words, int count)
 static void the_step_is_the_documented_one(void **state)
 {
     (void)state;
-    uint64_t s = 0, words[] = {UINT64_C(0x0123456789ABCDEF), 0, ~UINT64_C(0), 1, 5, 0, 0}; // 4 words, then what the end feeds
+    uint64_t s = 0,
+             words[] = {UINT64_C(0x0123456789ABCDEF), 0, ~UINT64_C(0), 1, 5, 0, 0}; // 4 words, then what the end feeds
     words[4] = 4;
     for (int i = 0; i < 7; ++i) {
         s = (s ^ words[i]) * UINT64_C(0x9E3779B97F4A7C15);
@@ -80,15 +81,16 @@ static void arrays_of_32_bits_go_in_as_pairs(void **state)
 static void vectors_go_in_by_their_bits(void **state)
 {
     (void)state;
-    const uint64_t words[5] = {UINT64_C(0x400000003F800000), 0xBF800000, UINT64_C(0x3FF0000000000000), UINT64_C(0xC000000000000000), 0};
+    const uint64_t words[5] = {UINT64_C(0x400000003F800000), 0xBF800000, UINT64_C(0x3FF0000000000000),
+                               UINT64_C(0xC000000000000000), 0};
     fe__hash hash = fe__hash_begin();
     fe__hash_vec3(&hash, (fe_vec3){1.0f, 2.0f, -1.0f});
     fe__hash_dvec3(&hash, (fe_dvec3){1.0, -2.0, 0.0});
     assert_true(fe__hash_end(&hash) == hash_of(words, 5));
 }
 
-// One bit turned in any of 8 words turns half of the 64 result bits: 32 +- 4 each (the standard deviation of one fair try), and 32 +- 1 on
-// average over 512 tries, which fair coins miss once in 10^7.
+// One bit turned in any of 8 words turns half of the 64 result bits: 32 +- 4 each (the standard deviation of one fair
+// try), and 32 +- 1 on average over 512 tries, which fair coins miss once in 10^7.
 static void one_bit_turns_half_of_the_result(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-// Heightfields: their triangles, the walk over those near a box, the ray. The reference looks at every triangle of a small field.
+// Heightfields: their triangles, the walk over those near a box, the ray. The reference looks at every triangle of a
+// small field.
 #include "fe_test.h"
 
 #include "collision/cast/ray.h"
@@ -25,18 +26,23 @@ typedef struct field {
 // steep, with a hole in every eighth cell or so
 static void random_field(field *f)
 {
-    f->record = (fe__heightfield){.rows = ROWS, .columns = COLUMNS, .cell_x = uniform(0.2, 3.0), .cell_z = uniform(0.2, 3.0)};
+    f->record =
+        (fe__heightfield){.rows = ROWS, .columns = COLUMNS, .cell_x = uniform(0.2, 3.0), .cell_z = uniform(0.2, 3.0)};
     f->record.heights = f->heights, f->record.cells = uniform(0.0, 1.0) < 0.5 ? f->cells : NULL;
     f->record.low = FLT_MAX, f->record.high = -FLT_MAX;
     double size = uniform(0.0, 1.0) < 0.2 ? 0.0 : 2.0;
     for (int32_t i = 0; i < ROWS * COLUMNS; ++i) {
         f->heights[i] = (float)uniform(-size, size);
-        f->record.low = fe__minf(f->record.low, f->heights[i]), f->record.high = fe__maxf(f->record.high, f->heights[i]);
+        f->record.low = fe__minf(f->record.low, f->heights[i]),
+        f->record.high = fe__maxf(f->record.high, f->heights[i]);
     }
     for (int32_t i = 0; i < CELLS; ++i) f->cells[i] = uniform(0.0, 1.0) < 0.125 ? FE__CELL_HOLE : 0;
 }
 
-static int32_t is_hole(const field *f, int32_t triangle) { return f->record.cells && f->cells[triangle / 2] == FE__CELL_HOLE; }
+static int32_t is_hole(const field *f, int32_t triangle)
+{
+    return f->record.cells && f->cells[triangle / 2] == FE__CELL_HOLE;
+}
 
 static fe_dvec3 point_near(const field *f, double beyond)
 {
@@ -57,8 +63,8 @@ static void triangles_tile_the_grid(void **state)
     for (int32_t i = 0; i < TRIANGLES; ++i) {
         fe__form t = fe__heightfield_triangle(&f.record, i, none);
         FE_TRUE(t.type == FE__FORM_TRIANGLE && t.radius == 0.0f);
-        fe_dvec3 n =
-            fe__dcross(fe__dsub(fe__widen(t.vertex[1]), fe__widen(t.vertex[0])), fe__dsub(fe__widen(t.vertex[2]), fe__widen(t.vertex[0])));
+        fe_dvec3 n = fe__dcross(fe__dsub(fe__widen(t.vertex[1]), fe__widen(t.vertex[0])),
+                                fe__dsub(fe__widen(t.vertex[2]), fe__widen(t.vertex[0])));
         FE_TRUE(n.y > 0.0);
         area += 0.5 * n.y;
         n = fe__dscale(1.0 / sqrt(fe__ddot(n, n)), n);
@@ -93,8 +99,8 @@ static void walk_hands_out_what_meets_the_box(void **state)
         for (int32_t i = 0; i < TRIANGLES; ++i) {
             fe__form t = fe__heightfield_triangle(&f.record, i, centre);
             fe__bounds b = fe__form_bounds(&t, &pose);
-            int32_t apart = b.low.x > box.high.x || b.high.x < box.low.x || b.low.y > box.high.y || b.high.y < box.low.y ||
-                            b.low.z > box.high.z || b.high.z < box.low.z;
+            int32_t apart = b.low.x > box.high.x || b.high.x < box.low.x || b.low.y > box.high.y ||
+                            b.high.y < box.low.y || b.low.z > box.high.z || b.high.z < box.low.z;
             FE_TRUE(seen[i] || apart || is_hole(&f, i));
         }
     }
@@ -114,8 +120,8 @@ static int32_t nearest_triangle(const field *f, fe_dvec3 origin, fe_dvec3 way, f
     return found;
 }
 
-// The vertices of the reference's triangles are floats, a few 1e-7 m off. Where they disagree on hit or miss, the ray passes an edge within
-// that.
+// The vertices of the reference's triangles are floats, a few 1e-7 m off. Where they disagree on hit or miss, the ray
+// passes an edge within that.
 static void rays_meet_the_nearest_triangle(void **state)
 {
     (void)state;
@@ -123,13 +129,15 @@ static void rays_meet_the_nearest_triangle(void **state)
     for (int32_t c = 0; c < CASES; ++c) {
         field f;
         random_field(&f);
-        fe_dvec3 origin = point_near(&f, 4.0), target = point_near(&f, 0.0), way = fe__dscale(1.5, fe__dsub(target, origin));
+        fe_dvec3 origin = point_near(&f, 4.0), target = point_near(&f, 0.0),
+                 way = fe__dscale(1.5, fe__dsub(target, origin));
         if (c % 8 == 0) way.x = 0.0;
         if (c % 8 == 1) way.z = 0.0;
         if (c % 8 == 2) way.x = way.z = 0.0;
         if (c % 8 == 3) origin = target;
         fe__ray_hit hit, expected;
-        int32_t found = fe__heightfield_ray(&f.record, origin, way, 1.0, &hit), should = nearest_triangle(&f, origin, way, &expected);
+        int32_t found = fe__heightfield_ray(&f.record, origin, way, 1.0, &hit),
+                should = nearest_triangle(&f, origin, way, &expected);
         double length = sqrt(fe__ddot(way, way));
         if (found != should || (found && fe__absd(hit.t - expected.t) * length > 1e-4)) {
             ++doubtful;
@@ -144,7 +152,8 @@ static void rays_meet_the_nearest_triangle(void **state)
     FE_WITHIN(doubtful, 0, CASES / 1000);
 }
 
-// Straight down on samples, edges and diagonals, or slanting to a millimetre below them: nothing slips through where there is no hole.
+// Straight down on samples, edges and diagonals, or slanting to a millimetre below them: nothing slips through where
+// there is no hole.
 static void no_ray_slips_through_an_edge(void **state)
 {
     (void)state;
@@ -152,7 +161,8 @@ static void no_ray_slips_through_an_edge(void **state)
         field f;
         random_field(&f);
         f.record.cells = NULL;
-        double column = (double)(int32_t)uniform(0.0, COLUMNS), row = (double)(int32_t)uniform(0.0, ROWS), along = uniform(0.0, 1.0);
+        double column = (double)(int32_t)uniform(0.0, COLUMNS), row = (double)(int32_t)uniform(0.0, ROWS),
+               along = uniform(0.0, 1.0);
         if (c & 1) column = fe__mind(column + along, COLUMNS - 1);
         if (c & 2) row = fe__mind(row + along, ROWS - 1);
         fe_dvec3 above = {column * f.record.cell_x, 50.0, row * f.record.cell_z}, origin = point_near(&f, 0.0);

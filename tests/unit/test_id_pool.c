@@ -89,7 +89,8 @@ static void another_kind_is_told_from_a_stale_handle(void **state)
     assert_int_equal(fe__id_pool_find(&pool, ~UINT64_C(0), &slot), FE_ERROR_STALE);
 }
 
-// Of all numbers, only the handles that are out are accepted: tried with every slot and generation near those in use, and with noise.
+// Of all numbers, only the handles that are out are accepted: tried with every slot and generation near those in use,
+// and with noise.
 static void a_made_up_number_is_never_accepted(void **state)
 {
     (void)state;
@@ -175,7 +176,8 @@ static void after_a_reserve_no_allocation_fails(void **state)
     assert_int_equal(fe__id_pool_reserve(&pool, &without, FE_ID_MAX_SLOTS - 9), FE_ERROR_MEMORY);
     assert_int_equal(fe__id_pool_reserve(&pool, &without, FE_ID_MAX_SLOTS - 8), FE_ERROR_LIMIT);
     assert_int_equal(fe__id_pool_reserve(&pool, &without, INT32_MAX), FE_ERROR_LIMIT);
-    for (int32_t i = 0; i < room - 9; ++i) assert_int_equal(fe__id_pool_find(&pool, fe__id_pool_allocate(&pool), &slot), FE_OK);
+    for (int32_t i = 0; i < room - 9; ++i)
+        assert_int_equal(fe__id_pool_find(&pool, fe__id_pool_allocate(&pool), &slot), FE_OK);
     assert_int_equal(pool.alive_count, room);
 }
 

@@ -1,5 +1,5 @@
-// test_joint_solver.c - the rows of joints, straight on the solver (joint_rig.h): energy, stretch, and the same bits at every width and
-// with any number of workers. Scenes through the API are in tests/scenes.
+// test_joint_solver.c - the rows of joints, straight on the solver (joint_rig.h): energy, stretch, and the same bits at
+// every width and with any number of workers. Scenes through the API are in tests/scenes.
 #include "joint_rig.h"
 
 #ifdef FE_SANITIZED
@@ -74,8 +74,8 @@ static void pendulum_keeps_its_energy(void **state)
     rig_free(&r);
 }
 
-// Limbs that whirl in free flight: damping of the soft joints is all that happens to their energy. At every step, because arms that turn
-// without their correction of the warm start gain within a second.
+// Limbs that whirl in free flight: damping of the soft joints is all that happens to their energy. At every step,
+// because arms that turn without their correction of the warm start gain within a second.
 static void tree_in_free_flight_never_gains_energy(void **state)
 {
     (void)state;
@@ -99,8 +99,8 @@ static void damp(rig *r, float damping)
     for (int32_t i = 1; i < r->body_count; ++i) r->bodies[i].linear_damping = r->bodies[i].angular_damping = damping;
 }
 
-// 30 capsules carry a ball of 585 times their mass, and of 1000. P2: a link of mass m between two joints stretches its joints by (M/m) 2 g
-// / w^2 at most; 3.3 times that while it swings.
+// 30 capsules carry a ball of 585 times their mass, and of 1000. P2: a link of mass m between two joints stretches its
+// joints by (M/m) 2 g / w^2 at most; 3.3 times that while it swings.
 static void chains_carry_a_ball_of_585_and_of_1000_links(void **state)
 {
     static const double ratios[] = {585.0, 1000.0};
@@ -109,7 +109,8 @@ static void chains_carry_a_ball_of_585_and_of_1000_links(void **state)
         rig r = rig_make(FE_SIMD_AUTO, NULL, 1, 4);
         add_chain(&r, 30, k ? 0.0 : -1.5, ratios[k]);
         if (k) damp(&r, 0.1f);
-        double p2 = ratios[k] * 2.0 * 10.0 / omega_squared, start = rig_energy(&r), scale = r.bodies[31].mass * 10.0 * 30.0;
+        double p2 = ratios[k] * 2.0 * 10.0 / omega_squared, start = rig_energy(&r),
+               scale = r.bodies[31].mass * 10.0 * 30.0;
         for (int32_t i = 0; i < SHORTER(1800, 300); ++i) {
             rig_step(&r);
             FE_WITHIN(rig_largest_gap(&r), 0.0, 3.3 * p2);
@@ -137,8 +138,9 @@ static double length_of(const rig *r, int32_t joint)
     return (double)pose.length;
 }
 
-// A crane: a boom of 4 m on a hinge, held by a stay of 5 m from 3 m above, carries 1000 times its mass on a rope. Each gives by load /
-// (m_eff w^2): the boom's tip answers by 4 / m upwards, by (1 + (2 x 0.6)^2 m / I) / m along the stay, which bears 5/3 of the load.
+// A crane: a boom of 4 m on a hinge, held by a stay of 5 m from 3 m above, carries 1000 times its mass on a rope. Each
+// gives by load / (m_eff w^2): the boom's tip answers by 4 / m upwards, by (1 + (2 x 0.6)^2 m / I) / m along the stay,
+// which bears 5/3 of the load.
 static void crane_carries_a_thousand_times_its_boom(void **state)
 {
     (void)state;
@@ -147,8 +149,8 @@ static void crane_carries_a_thousand_times_its_boom(void **state)
     int32_t boom = rig_capsule(&r, 0.0, 0.0, 4.0, 0.0, 0.1, 1000.0);
     double m = r.bodies[boom].mass, inertia = r.bodies[boom].inertia[2], give = 1000.0 * 10.0 / omega_squared;
     float load_mass = (float)(1000.0 * m), moment = 0.1f * load_mass;
-    int32_t hinge =
-        rig_joint(&r, 0, boom, (fe_dvec3){0, 0, 0}, (fe_quat){0.0f, -half, 0.0f, half}, 1u << FE__PART_HINGE | 1u << FE__PART_POINT);
+    int32_t hinge = rig_joint(&r, 0, boom, (fe_dvec3){0, 0, 0}, (fe_quat){0.0f, -half, 0.0f, half},
+                              1u << FE__PART_HINGE | 1u << FE__PART_POINT);
     fe__joint_link(&r.joints, r.bodies, hinge);
     int32_t load = rig_body(&r, 4.0, -2.5, 0.0, load_mass, moment, moment, moment);
     int32_t stay = add_rod(&r, 0, boom, (fe_dvec3){0, 3, 0}, (fe_dvec3){4, 0, 0}, 5.0f, 5.0f);
@@ -160,13 +162,14 @@ static void crane_carries_a_thousand_times_its_boom(void **state)
         FE_WITHIN(length_of(&r, stay) - 5.0, -0.01, 3.3 * stay_give);
         FE_WITHIN(length_of(&r, rope) - 2.0, -0.01, 3.3 * rope_give);
     }
-    FE_NEAR(length_of(&r, stay) - 5.0, stay_give, SHORTER(0.1, 1.0) * stay_give); // it sags: the angles are not quite those it began with
+    FE_NEAR(length_of(&r, stay) - 5.0, stay_give,
+            SHORTER(0.1, 1.0) * stay_give); // it sags: the angles are not quite those it began with
     FE_NEAR(length_of(&r, rope) - 2.0, rope_give, SHORTER(0.1, 1.0) * rope_give);
     rig_free(&r);
 }
 
-// A cloth of n rows: a joint that carries k spheres opens by 2 k g / w^2 (P2). The cloth is a spring that is let go: it swings to twice its
-// rest.
+// A cloth of n rows: a joint that carries k spheres opens by 2 k g / w^2 (P2). The cloth is a spring that is let go: it
+// swings to twice its rest.
 static void cloth_hangs_as_predicted(void **state)
 {
     enum { N = 12 };
@@ -194,7 +197,8 @@ static void add_wheel(rig *r)
     }
 }
 
-// ---- every kind -----------------------------------------------------------------------------------------------------------------------
+// ---- every kind
+// -----------------------------------------------------------------------------------------------------------------------
 #define PART(name) (1u << FE__PART_##name)
 
 typedef struct kind {
@@ -263,11 +267,13 @@ static void whirl(rig *r, fe_dvec3 w)
         if (b->type != FE_BODY_DYNAMIC) continue;
         fe_vec3 v = fe__narrow(fe__dcross(w, (fe_dvec3){b->centre[0], b->centre[1], b->centre[2]}));
         b->velocity[0] = v.x, b->velocity[1] = v.y, b->velocity[2] = v.z;
-        b->spin[0] = (float)w.x + 0.5f * (float)(i % 3), b->spin[1] = (float)w.y - 0.4f * (float)(i % 2), b->spin[2] = (float)w.z;
+        b->spin[0] = (float)w.x + 0.5f * (float)(i % 3), b->spin[1] = (float)w.y - 0.4f * (float)(i % 2),
+        b->spin[2] = (float)w.z;
     }
 }
 
-// Boughs of five bodies that whirl freely, a bough for each kind of joint: no kind gives energy, none loses what it holds together.
+// Boughs of five bodies that whirl freely, a bough for each kind of joint: no kind gives energy, none loses what it
+// holds together.
 static void no_kind_of_joint_adds_energy(void **state)
 {
     (void)state;
@@ -301,7 +307,8 @@ static void add_everything(rig *r)
     for (int32_t j = 1; j <= r->joint_count; ++j) {
         fe__joint_axis *axis = r->joints.axes[j].axis;
         for (int k = 0; k < FE__AXES && j % 2; ++k)
-            axis[k].drive.target = 0.1f, axis[k].drive.stiffness = 2.0f, axis[k].drive.damping = 0.5f, axis[k].drive.cap = 50.0f;
+            axis[k].drive.target = 0.1f, axis[k].drive.stiffness = 2.0f, axis[k].drive.damping = 0.5f,
+            axis[k].drive.cap = 50.0f;
         for (int k = 0; k < FE__AXES && j % 3; ++k) axis[k].motor.speed = 0.5f, axis[k].motor.cap = 5.0f;
     }
     const fe__joint_rotation turn = {.target = {0.1f, 0.2f, 0.0f, 0.97f},

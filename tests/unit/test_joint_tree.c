@@ -1,5 +1,5 @@
-// The tree solver by itself: its rows against differences of their errors, its elimination against a dense solution of the
-// same system J M^-1 J^T l = -J v in this file. No sweep, no kernels: the locks are scalars in an array.
+// The tree solver by itself: its rows against differences of their errors, its elimination against a dense solution of
+// the same system J M^-1 J^T l = -J v in this file. No sweep, no kernels: the locks are scalars in an array.
 #include "../fe_test.h"
 #include "solver/tree/eliminate.h"
 #include "solver/tree/rows.h"
@@ -11,7 +11,8 @@
 
 enum { MOST_LINKS = 32, MOST_ROWS = 6 * MOST_LINKS, DOFS = 6 * MOST_LINKS };
 
-// ---- a tree of locks in an array ------------------------------------------------------------------------------------------------
+// ---- a tree of locks in an array
+// ------------------------------------------------------------------------------------------------
 typedef struct rig {
     fe__solver solver;
     fe__velocity_line velocity[MOST_LINKS + 1]; // line 0 is the world
@@ -123,7 +124,8 @@ static fe__lock *add_link(int32_t parent, int32_t holds_b, int32_t part, float m
 static fe__sym3 any_inertia(float mass)
 {
     fe__mat3 r = fe__matrix(any_rotation());
-    float x = 1.0f / (mass * (float)any(0.2, 1.0)), y = 1.0f / (mass * (float)any(0.2, 1.0)), z = 1.0f / (mass * (float)any(0.2, 1.0));
+    float x = 1.0f / (mass * (float)any(0.2, 1.0)), y = 1.0f / (mass * (float)any(0.2, 1.0)),
+          z = 1.0f / (mass * (float)any(0.2, 1.0));
     const float *c[3] = {&r.x.x, &r.y.x, &r.z.x};
     float m[3][3];
     for (int i = 0; i < 3; ++i)
@@ -153,7 +155,8 @@ static void add_free_root(float mass)
     set_velocity(1, any_vector(1.0), any_vector(1.0));
 }
 
-// ---- the dense system -----------------------------------------------------------------------------------------------------------
+// ---- the dense system
+// -----------------------------------------------------------------------------------------------------------
 typedef struct dense {
     int32_t rows;
     double j[MOST_ROWS][DOFS], mj[MOST_ROWS][DOFS]; // J, M^-1 J^T by row
@@ -230,7 +233,8 @@ static void solve_densely(int32_t axes)
         for (int32_t i = 0; i < the.job.count; ++i) {
             const fe__velocity_line *line = the.velocity + i + 1;
             respond(i + 1, d->j[r] + 6 * i, d->mj[r] + 6 * i);
-            for (int k = 0; k < 3; ++k) d->b[r] -= d->j[r][6 * i + k] * (double)line->v[k] + d->j[r][6 * i + 3 + k] * (double)line->w[k];
+            for (int k = 0; k < 3; ++k)
+                d->b[r] -= d->j[r][6 * i + k] * (double)line->v[k] + d->j[r][6 * i + 3 + k] * (double)line->w[k];
         }
     for (int32_t r = 0; r < d->rows; ++r)
         for (int32_t c = 0; c < d->rows; ++c)
@@ -244,7 +248,8 @@ static void solve_densely(int32_t axes)
         for (int32_t k = 0; k < 6 * the.job.count; ++k) d->u[k] += d->mj[r][k] * d->l[r];
 }
 
-// ---- comparison -----------------------------------------------------------------------------------------------------------------
+// ---- comparison
+// -----------------------------------------------------------------------------------------------------------------
 static void solve_tree(void)
 {
     fe__tree_job *t = &the.job;
@@ -256,8 +261,10 @@ static void solve_tree(void)
         for (int32_t r = 0; r < n->rows.count; ++r) {
             n->request[r] = 0.0;
             for (int k = 0; k < 3; ++k) {
-                n->request[r] -= n->rows.below[r][k] * (double)below->v[k] + n->rows.below[r][3 + k] * (double)below->w[k];
-                n->request[r] -= n->rows.above[r][k] * (double)above->v[k] + n->rows.above[r][3 + k] * (double)above->w[k];
+                n->request[r] -=
+                    n->rows.below[r][k] * (double)below->v[k] + n->rows.below[r][3 + k] * (double)below->w[k];
+                n->request[r] -=
+                    n->rows.above[r][k] * (double)above->v[k] + n->rows.above[r][3 + k] * (double)above->w[k];
             }
         }
     }
@@ -283,7 +290,8 @@ static void compare(void)
     FE_TRUE(allowed() < 1e-3 && most_u > 0.0);
     for (int32_t i = 0, row = 0; i < the.job.count; ++i) {
         for (int k = 0; k < 6; ++k) FE_NEAR(the.nodes[i].change[k], d->u[6 * i + k], allowed() * most_u);
-        for (int32_t r = 0; r < the.nodes[i].locks; ++r, ++row) FE_NEAR(the.nodes[i].impulse[r], d->l[row], allowed() * most_l);
+        for (int32_t r = 0; r < the.nodes[i].locks; ++r, ++row)
+            FE_NEAR(the.nodes[i].impulse[r], d->l[row], allowed() * most_l);
     }
     for (int32_t r = 0; r < d->rows; ++r) {
         double left = -d->b[r], of = fabs(d->b[r]);
@@ -295,8 +303,8 @@ static void compare(void)
     }
 }
 
-// Two thin rods of 1 m and 1 kg, end to end and level, fall from rest. Lagrange's equations of the double pendulum give the
-// angular accelerations 9/7 g/L and -3/7 g/L downwards.
+// Two thin rods of 1 m and 1 kg, end to end and level, fall from rest. Lagrange's equations of the double pendulum give
+// the angular accelerations 9/7 g/L and -3/7 g/L downwards.
 static void two_level_rods_begin_to_fall_as_lagrange_says(void **state)
 {
     (void)state;
@@ -344,9 +352,10 @@ static void chains_with_a_heavy_end_are_solved_as_by_gauss(void **state)
     }
 }
 
-// ---- locks ----------------------------------------------------------------------------------------------------------------------
-// What a lock leaves of an inverse inertia: the inverse of the block of R I R^T over the free axes. With one axis k locked
-// that is I^-1 less its part through k.
+// ---- locks
+// ----------------------------------------------------------------------------------------------------------------------
+// What a lock leaves of an inverse inertia: the inverse of the block of R I R^T over the free axes. With one axis k
+// locked that is I^-1 less its part through k.
 static fe__sym3 lock_axis(fe__sym3 i, int k)
 {
     float m[3][3] = {{i.xx, i.xy, i.xz}, {i.xy, i.yy, i.yz}, {i.xz, i.yz, i.zz}}, out[3][3];
@@ -432,7 +441,8 @@ static void locks_that_say_the_same_count_once(void **state)
     }
 }
 
-// ---- rows -----------------------------------------------------------------------------------------------------------------------
+// ---- rows
+// -----------------------------------------------------------------------------------------------------------------------
 static void nudge(int32_t line, int32_t k, float by)
 {
     fe__motion_line *m = the.motion + line;
@@ -451,7 +461,8 @@ static void aim(fe__lock *lock, int32_t part)
     const fe_quat a = any_rotation();
     const fe_vec3 zero = {0.0f, 0.0f, 0.0f};
     lock->frame = part == FE__PART_FIXED ? fe__identity() : a;
-    lock->arm_a = any_vector(0.5), lock->arm_b = any_vector(0.5), lock->gap = part == FE__PART_DISTANCE ? any_vector(1.0) : zero;
+    lock->arm_a = any_vector(0.5), lock->arm_b = any_vector(0.5),
+    lock->gap = part == FE__PART_DISTANCE ? any_vector(1.0) : zero;
     lock->length = 0.3f;
     lock->axis_b = fe__rotate(a, fe__vec3(1.0f, 0.0f, 0.0f));
     lock->t1 = fe__rotate(a, fe__vec3(0.0f, 1.0f, 0.0f)), lock->t2 = fe__rotate(a, fe__vec3(0.0f, 0.0f, 1.0f));
@@ -459,8 +470,8 @@ static void aim(fe__lock *lock, int32_t part)
     if (part == FE__PART_SLIDE) lock->gap = fe__scale(0.4f, lock->t1); // along the free axis
 }
 
-// Each row is the gradient of its error. Differences over 2 e err by e^2 times third derivatives, at most of 1 / 0.3^2 for a
-// rod, and by what a float of a position loses, 1e-7, over e.
+// Each row is the gradient of its error. Differences over 2 e err by e^2 times third derivatives, at most of 1 / 0.3^2
+// for a rod, and by what a float of a position loses, 1e-7, over e.
 static void rows_are_gradients_of_their_errors(void **state)
 {
     static const int32_t parts[] = {FE__PART_POINT, FE__PART_SLIDE, FE__PART_HINGE, FE__PART_FIXED, FE__PART_DISTANCE};
@@ -487,15 +498,17 @@ static void rows_are_gradients_of_their_errors(void **state)
                 the.motion[line] = was;
                 for (int32_t r = 0; r < rows.count; ++r) {
                     double slope = (the.nodes[1].rows.error[r] - before[r]) / (2.0 * (double)e);
-                    FE_NEAR((k < 6 ? rows.below[r] : rows.above[r])[k % 6], slope, 11.0 * (double)(e * e) + 2e-7 / (double)e);
+                    FE_NEAR((k < 6 ? rows.below[r] : rows.above[r])[k % 6], slope,
+                            11.0 * (double)(e * e) + 2e-7 / (double)e);
                 }
             }
         }
 }
 
-// ---- passes ---------------------------------------------------------------------------------------------------------------------
-// Relaxed chains have no velocity along their joints, no gap, and the momentum that they had. A light tree is left alone
-// until it opens. Closing the last gap, of 4 mm or less, leaves its square over the length of an arm.
+// ---- passes
+// ---------------------------------------------------------------------------------------------------------------------
+// Relaxed chains have no velocity along their joints, no gap, and the momentum that they had. A light tree is left
+// alone until it opens. Closing the last gap, of 4 mm or less, leaves its square over the length of an arm.
 static void relax_leaves_no_speed_and_no_gap(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-// Manifolds that decide whether things stand: resting forms, forms in one place, forms of 1 mm and of 500 m, the axis kept between steps.
+// Manifolds that decide whether things stand: resting forms, forms in one place, forms of 1 mm and of 500 m, the axis
+// kept between steps.
 #include "fe_test.h"
 
 #include "collision/manifold/collide.h"
@@ -19,7 +20,8 @@ static fe__manifold collide(const fe__form *a, const fe__form *b, const fe__rela
     return m;
 }
 
-// ---- sphere against box ---------------------------------------------------------------------------------------------------------------
+// ---- sphere against box
+// ---------------------------------------------------------------------------------------------------------------
 static int by_size(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
@@ -42,8 +44,8 @@ static fe_dvec3 exact_normal(const fe__form *a, fe_dvec3 c)
     return (fe_dvec3){k == 0 ? side : 0.0, k == 1 ? side : 0.0, k == 2 ? side : 0.0};
 }
 
-// Centres from far outside over 1 micrometre above the surface to deep inside: the normal is that of exact arithmetic on the same input.
-// The law asks 0.001 degree of 99 %; here even the worst of them keeps it.
+// Centres from far outside over 1 micrometre above the surface to deep inside: the normal is that of exact arithmetic
+// on the same input. The law asks 0.001 degree of 99 %; here even the worst of them keeps it.
 static void the_normal_of_a_sphere_on_a_box_is_exact(void **state)
 {
     (void)state;
@@ -93,8 +95,10 @@ static void a_centre_on_or_in_the_box_leaves_by_the_nearest_face(void **state)
     }
 }
 
-// ---- planes -------------------------------------------------------------------------------------------------------------------------
-// Against the corners of B's core in double: the deepest is found, every point is such a corner, and the general path says the same.
+// ---- planes
+// -------------------------------------------------------------------------------------------------------------------------
+// Against the corners of B's core in double: the deepest is found, every point is such a corner, and the general path
+// says the same.
 static void a_plane_finds_the_deepest_corners(void **state)
 {
     (void)state;
@@ -103,7 +107,8 @@ static void a_plane_finds_the_deepest_corners(void **state)
         fe__form a = random_form(FE__FORM_PLANE), b = random_form(i % 3);
         fe_vec3 position = random_vector(1.0);
         fe__relative r = relative(position, random_rotation());
-        r.position = fe__add_scaled(r.position, a.distance - fe__dot(a.normal, r.position) + (float)uniform(0.0, 1.5), a.normal);
+        r.position =
+            fe__add_scaled(r.position, a.distance - fe__dot(a.normal, r.position) + (float)uniform(0.0, 1.5), a.normal);
         frame f = frame_of(&r);
         fe_dvec3 corner[8];
         corners_in_a(&b, &f, corner);
@@ -117,8 +122,9 @@ static void a_plane_finds_the_deepest_corners(void **state)
         FE_NEAR(deepest(&m), low, rounding);
         FE_NEAR(deepest(&general), low, rounding);
         for (int32_t k = 0; k < m.count; ++k) {
-            fe_dvec3 on_b = fe__dadd(fe__widen(m.points[k].point),
-                                     fe__dscale(0.5 * (double)m.points[k].separation + (double)b.radius, fe__widen(a.normal)));
+            fe_dvec3 on_b =
+                fe__dadd(fe__widen(m.points[k].point),
+                         fe__dscale(0.5 * (double)m.points[k].separation + (double)b.radius, fe__widen(a.normal)));
             double nearest = INFINITY;
             for (int32_t c = 0; c < 8; ++c) {
                 fe_dvec3 d = fe__dsub(on_b, corner[c]);
@@ -132,20 +138,24 @@ static void a_plane_finds_the_deepest_corners(void **state)
 static void forms_lying_on_a_plane_have_all_their_points(void **state)
 {
     (void)state;
-    const fe__form ground = plane(fe__vec3(0.0f, 1.0f, 0.0f), 1.0f), b = box(0.5f, 0.25f, 0.75f), c = capsule(0.5f, 0.25f);
+    const fe__form ground = plane(fe__vec3(0.0f, 1.0f, 0.0f), 1.0f), b = box(0.5f, 0.25f, 0.75f),
+                   c = capsule(0.5f, 0.25f);
     fe__relative flat = relative(fe__vec3(300.0f, 1.249f, -200.0f), fe__identity());
     fe__manifold m = collide(&ground, &b, &flat, MARGIN);
     FE_TRUE(m.count == 4);
     for (int32_t k = 0; k < 4; ++k) FE_NEAR(m.points[k].separation, -0.001, 1e-6);
-    fe__relative lying = relative(fe__vec3(300.0f, 1.249f, -200.0f), turn_about((fe_dvec3){0.0, 0.0, 1.0}, 1.57079632679489662));
+    fe__relative lying =
+        relative(fe__vec3(300.0f, 1.249f, -200.0f), turn_about((fe_dvec3){0.0, 0.0, 1.0}, 1.57079632679489662));
     m = collide(&ground, &c, &lying, MARGIN);
     FE_TRUE(m.count == 2);
     for (int32_t k = 0; k < 2; ++k) FE_NEAR(m.points[k].separation, -0.001, 1e-6);
     FE_NEAR(fe__absf(m.points[0].point.x - m.points[1].point.x), 1.0, 1e-4); // float at 300 m
 }
 
-// ---- capsules --------------------------------------------------------------------------------------------------------------------
-// Side by side, whichever way each of them points, and shifted along each other: two points at the ends of the stretch they share.
+// ---- capsules
+// --------------------------------------------------------------------------------------------------------------------
+// Side by side, whichever way each of them points, and shifted along each other: two points at the ends of the stretch
+// they share.
 static void parallel_capsules_touch_along_their_common_stretch(void **state)
 {
     (void)state;
@@ -163,7 +173,8 @@ static void parallel_capsules_touch_along_their_common_stretch(void **state)
         fe__manifold m = collide(&a, &b, &r, MARGIN);
         FE_TRUE(m.count == 2);
         double low = fe__maxd(-1.0, shift - 0.75), high = fe__mind(1.0, shift + 0.75);
-        float y0 = fe__minf(m.points[0].point.y, m.points[1].point.y), y1 = fe__maxf(m.points[0].point.y, m.points[1].point.y);
+        float y0 = fe__minf(m.points[0].point.y, m.points[1].point.y),
+              y1 = fe__maxf(m.points[0].point.y, m.points[1].point.y);
         // the tilt of 1.7 mrad moves the ends by that of 0.75 m, and by the square of it along
         FE_NEAR(y0, low, 0.002);
         FE_NEAR(y1, high, 0.002);
@@ -188,7 +199,8 @@ static void crossed_capsules_touch_at_one_point(void **state)
     }
 }
 
-// A few degrees apart: the nearest points, and the ends of the common stretch at their own clearance, |d| less the radii.
+// A few degrees apart: the nearest points, and the ends of the common stretch at their own clearance, |d| less the
+// radii.
 static void capsules_askew_are_held_at_three_points(void **state)
 {
     (void)state;
@@ -206,15 +218,16 @@ static void capsules_askew_are_held_at_three_points(void **state)
     }
 }
 
-// A bar on its edge across a bar of 8 cm, 5 cm deep: its tip hangs lower beyond the rim, yet it is the two rims that carry it.
+// A bar on its edge across a bar of 8 cm, 5 cm deep: its tip hangs lower beyond the rim, yet it is the two rims that
+// carry it.
 static void an_edge_across_a_face_has_points_at_both_rims(void **state)
 {
     (void)state;
     const fe__form a = box(0.04f, 0.1f, 0.2f), b = box(0.2f, 0.04f, 0.04f);
     for (int32_t i = 0; i < 100; ++i) {
         double angle = uniform(-0.06, 0.06), deep = uniform(0.0, 0.05); // 3.5 degrees
-        fe_quat q = fe__normalized(
-            fe__product(turn_about((fe_dvec3){0.0, 0.0, 1.0}, angle), turn_about((fe_dvec3){1.0, 0.0, 0.0}, 0.78539816339744831)));
+        fe_quat q = fe__normalized(fe__product(turn_about((fe_dvec3){0.0, 0.0, 1.0}, angle),
+                                               turn_about((fe_dvec3){1.0, 0.0, 0.0}, 0.78539816339744831)));
         fe__relative r = relative(fe__vec3(0.0f, (float)(0.1 + 0.04 * sqrt(2.0) / cos(angle) - deep), 0.0f), q);
         fe__manifold m = collide(&a, &b, &r, MARGIN);
         double least = 1.0, most = -1.0;
@@ -254,7 +267,8 @@ static void a_capsule_lies_on_faces_and_edges(void **state)
     }
 }
 
-// ---- in one place, tiny, huge ---------------------------------------------------------------------------------------------------------
+// ---- in one place, tiny, huge
+// ---------------------------------------------------------------------------------------------------------
 static void assert_sound(const fe__form *a, const fe__form *b, const fe__relative *r, const fe__manifold *m)
 {
     fe_dvec3 n = fe__widen(m->normal);
@@ -309,18 +323,20 @@ static void boxes_of_a_millimetre_are_as_exact_for_their_size(void **state)
     }
 }
 
-// A box of 5 cm on a ground of 500 m, 300 m off its centre, and a capsule and a sphere: heights as near the origin, four corners, one axis.
+// A box of 5 cm on a ground of 500 m, 300 m off its centre, and a capsule and a sphere: heights as near the origin,
+// four corners, one axis.
 static void a_wide_ground_carries_small_things(void **state)
 {
     (void)state;
-    const fe__form ground = box(250.0f, 0.5f, 250.0f), small = box(0.025f, 0.025f, 0.025f), pill = capsule(0.025f, 0.025f),
-                   ball = sphere(0.025f);
+    const fe__form ground = box(250.0f, 0.5f, 250.0f), small = box(0.025f, 0.025f, 0.025f),
+                   pill = capsule(0.025f, 0.025f), ball = sphere(0.025f);
     const fe_quat along_x = turn_about((fe_dvec3){0.0, 0.0, 1.0}, 1.57079632679489662);
     for (int32_t i = 0; i < 5000; ++i) {
         fe_vec3 position = random_vector(220.0);
         position.y = 0.5249f;
         fe_dvec3 axis = random_direction();
-        fe_quat yaw = turn_about((fe_dvec3){0.0, 1.0, 0.0}, uniform(-3.0, 3.0)), tilt = turn_about(axis, uniform(0.0, 1e-3));
+        fe_quat yaw = turn_about((fe_dvec3){0.0, 1.0, 0.0}, uniform(-3.0, 3.0)),
+                tilt = turn_about(axis, uniform(0.0, 1e-3));
         fe__relative r = relative(position, fe__normalized(fe__product(tilt, yaw)));
         fe__manifold m = collide(&ground, &small, &r, MARGIN);
         FE_TRUE(m.count == 4 && m.axis == 1);
@@ -341,12 +357,14 @@ static void a_wide_ground_carries_small_things(void **state)
     }
 }
 
-// ---- margin and kept axis -------------------------------------------------------------------------------------------------------------
+// ---- margin and kept axis
+// -------------------------------------------------------------------------------------------------------------
 static void the_margin_is_the_callers(void **state)
 {
     (void)state;
     const float margins[3] = {0.001f, 0.02f, 0.1f};
-    const fe__form forms[4] = {sphere(0.5f), capsule(0.5f, 0.5f), box(0.5f, 0.5f, 0.5f), plane(fe__vec3(1.0f, 0.0f, 0.0f), 0.5f)};
+    const fe__form forms[4] = {sphere(0.5f), capsule(0.5f, 0.5f), box(0.5f, 0.5f, 0.5f),
+                               plane(fe__vec3(1.0f, 0.0f, 0.0f), 0.5f)};
     for (int32_t pair = 0; pair < 12; ++pair) {
         const fe__form *a = &forms[pair / 3], *b = &forms[pair % 3];
         if (a->type < b->type) continue;
@@ -377,7 +395,8 @@ static void the_old_points_do_not_matter(void **state)
         clean.axis_separation = dirty.axis_separation = (float)uniform(-0.01, 0.01);
         fe__collide(&a, &b, &r, MARGIN, &clean);
         fe__collide(&a, &b, &r, MARGIN, &dirty);
-        FE_TRUE(clean.count == dirty.count && clean.axis == dirty.axis && clean.axis_separation == dirty.axis_separation);
+        FE_TRUE(clean.count == dirty.count && clean.axis == dirty.axis &&
+                clean.axis_separation == dirty.axis_separation);
         FE_TRUE(memcmp(&clean.normal, &dirty.normal, sizeof clean.normal) == 0);
         FE_TRUE(memcmp(clean.points, dirty.points, sizeof clean.points[0] * (size_t)clean.count) == 0);
     }
@@ -393,7 +412,8 @@ static void a_kept_axis_is_nearly_the_best(void **state)
         fe_vec3 position = random_vector(1.2), step = random_vector(0.004);
         fe_dvec3 axis = random_direction();
         fe_quat q = random_rotation(), turn = turn_about(axis, uniform(0.0, 0.004));
-        fe__relative first = relative(position, q), second = relative(fe__add(position, step), fe__normalized(fe__product(turn, q)));
+        fe__relative first = relative(position, q),
+                     second = relative(fe__add(position, step), fe__normalized(fe__product(turn, q)));
         fe__manifold m = collide(&a, &b, &first, MARGIN);
         fe__collide(&a, &b, &second, MARGIN, &m);
         frame f = frame_of(&second);

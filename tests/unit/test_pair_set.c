@@ -35,7 +35,10 @@ static void host_release(void *user, void *block, uint64_t size)
 
 static fe__memory memory_of(host *h)
 {
-    fe_allocator allocator = {.struct_size = sizeof allocator, .allocate = host_allocate, .release = host_release, .user = h};
+    fe_allocator allocator = {.struct_size = sizeof allocator,
+                              .allocate = host_allocate,
+                              .release = host_release,
+                              .user = h};
     fe__memory memory;
     fe__memory_init(&memory, &allocator);
     return memory;
@@ -151,8 +154,10 @@ static void pairs_that_come_and_go_take_no_more_room(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(it_holds_what_was_put_in_and_not_taken_out), cmocka_unit_test(any_two_indices_are_a_pair_of_their_own),
-        cmocka_unit_test(what_is_reserved_needs_no_memory),           cmocka_unit_test(a_refusal_changes_nothing),
+        cmocka_unit_test(it_holds_what_was_put_in_and_not_taken_out),
+        cmocka_unit_test(any_two_indices_are_a_pair_of_their_own),
+        cmocka_unit_test(what_is_reserved_needs_no_memory),
+        cmocka_unit_test(a_refusal_changes_nothing),
         cmocka_unit_test(pairs_that_come_and_go_take_no_more_room),
     };
     return cmocka_run_group_tests_name("pair_set", tests, NULL, NULL);

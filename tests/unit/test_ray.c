@@ -1,5 +1,5 @@
-// A ray meets a form where its surface is. The reference knows no closed form: along a line the distance to a convex body is a convex
-// function, whose minimum and first zero are searched for in long double.
+// A ray meets a form where its surface is. The reference knows no closed form: along a line the distance to a convex
+// body is a convex function, whose minimum and first zero are searched for in long double.
 #include "fe_test.h"
 
 #include "collision/cast/ray.h"
@@ -14,7 +14,8 @@ enum { CASES = 100000, INSIDE_CASES = 20000 };
 // Every quantity passes through a few roundings of lengths up to `scale`.
 static const double roundings = 16.0 * DBL_EPSILON;
 
-// ---- random cases ---------------------------------------------------------------------------------------------------------------
+// ---- random cases
+// ---------------------------------------------------------------------------------------------------------------
 static uint64_t noise = 1;
 
 static double uniform(double low, double high)
@@ -69,7 +70,8 @@ static double size_of(const fe__form *f)
     return (double)f->radius + (double)f->half_height + sqrt(fe__ddot(h, h)) + fe__absd((double)f->distance);
 }
 
-// ---- the reference --------------------------------------------------------------------------------------------------------------
+// ---- the reference
+// --------------------------------------------------------------------------------------------------------------
 typedef struct real3 {
     real x, y, z;
 } real3;
@@ -87,7 +89,8 @@ static real distance_to(const fe__form *f, real3 p)
         return (nx * p.x + ny * p.y + nz * p.z - (real)f->distance) / length_of((real3){nx, ny, nz});
     }
     if (f->type == FE__FORM_BOX) {
-        real x = fabsl(p.x) - hx, y = fabsl(p.y) - hy, z = fabsl(p.z) - hz, most = x > y ? (x > z ? x : z) : (y > z ? y : z);
+        real x = fabsl(p.x) - hx, y = fabsl(p.y) - hy, z = fabsl(p.z) - hz,
+             most = x > y ? (x > z ? x : z) : (y > z ? y : z);
         return most <= 0 ? most : length_of((real3){x > 0 ? x : 0, y > 0 ? y : 0, z > 0 ? z : 0});
     }
     return length_of((real3){p.x, p.y - clamp(p.y, f->half_height), p.z}) - (real)f->radius;
@@ -137,7 +140,8 @@ static real first_time(const fe__form *f, fe_dvec3 o, fe_dvec3 d, real inside)
     return inside;
 }
 
-// ---- random rays ----------------------------------------------------------------------------------------------------------------
+// ---- random rays
+// ----------------------------------------------------------------------------------------------------------------
 typedef struct tally {
     int32_t hits, misses, inside, grazing;
 } tally;
@@ -163,9 +167,11 @@ static void check_normal(const fe__form *f, const fe__ray_hit *hit, real3 p, dou
     FE_NEAR(n.z - (double)e.z, 0.0, allowed);
 }
 
-// A residual e of the surface equation is an error e / cos along a ray that meets the surface at that angle from its normal. Where the ray
-// all but grazes a round surface (e is no longer small beside size * cos^2), only the residual says something.
-static void check_hit(const fe__form *f, fe_dvec3 o, fe_dvec3 d, real inside, const fe__ray_hit *hit, double error, tally *count)
+// A residual e of the surface equation is an error e / cos along a ray that meets the surface at that angle from its
+// normal. Where the ray all but grazes a round surface (e is no longer small beside size * cos^2), only the residual
+// says something.
+static void check_hit(const fe__form *f, fe_dvec3 o, fe_dvec3 d, real inside, const fe__ray_hit *hit, double error,
+                      tally *count)
 {
     double length = sqrt(fe__ddot(d, d)), cosine = -fe__ddot(hit->normal, d) / length;
     FE_WITHIN(hit->t, 0.0, 1.0);
@@ -219,7 +225,9 @@ static void rays_meet(int32_t type)
         fe_dvec3 d = fe__dscale(length, any_direction());
         fe_dvec3 target = fe__dscale(one_in(3) ? 0.1 * s : 1.2 * s, any_direction());
         if (type == FE__FORM_PLANE) target = fe__dadd(target, fe__dscale((double)f.distance, fe__widen(f.normal)));
-        if (one_in(3)) target = (fe_dvec3){(double)f.half.x, (double)f.half_height + (double)f.radius, (double)f.half.z}; // rims and poles
+        if (one_in(3))
+            target = (fe_dvec3){(double)f.half.x, (double)f.half_height + (double)f.radius,
+                                (double)f.half.z}; // rims and poles
         fe_dvec3 o = fe__dsub(target, fe__dscale(uniform(-0.2, 1.2), d));
         check_ray(&f, o, d, &count);
     }
@@ -233,14 +241,16 @@ static void rays_meet_capsules(void **state) { (void)state, rays_meet(FE__FORM_C
 static void rays_meet_boxes(void **state) { (void)state, rays_meet(FE__FORM_BOX); }
 static void rays_meet_planes(void **state) { (void)state, rays_meet(FE__FORM_PLANE); }
 
-// ---- starts inside --------------------------------------------------------------------------------------------------------------
+// ---- starts inside
+// --------------------------------------------------------------------------------------------------------------
 static void a_start_inside_faces_the_ray_and_without_one_the_nearest_way_out(void **state)
 {
     (void)state;
     int32_t inside = 0;
     for (int32_t i = 0; i < INSIDE_CASES; ++i) {
         fe__form f = any_form(i % 4);
-        fe_dvec3 o = fe__dscale(uniform(0.0, 1.0) * size_of(&f), any_direction()), d = fe__dscale(any_size(1e-3, 1e4), any_direction());
+        fe_dvec3 o = fe__dscale(uniform(0.0, 1.0) * size_of(&f), any_direction()),
+                 d = fe__dscale(any_size(1e-3, 1e4), any_direction());
         fe_dvec3 zero = {0.0, 0.0, 0.0};
         double error = roundings * 2.0 * size_of(&f), start = (double)distance_to(&f, at(o, zero, 0));
         fe__ray_hit hit;
@@ -256,7 +266,8 @@ static void a_start_inside_faces_the_ray_and_without_one_the_nearest_way_out(voi
         FE_TRUE(fe__form_ray(&f, o, zero, 1.0, &hit) && hit.t == 0.0 && hit.inside == 1);
         FE_NEAR(hit.depth, -start, error);
         FE_NEAR(fe__ddot(hit.normal, hit.normal), 1.0, roundings);
-        FE_NEAR(distance_to(&f, at(o, hit.normal, hit.depth)), 0.0, error); // the way out of this length ends on the surface
+        FE_NEAR(distance_to(&f, at(o, hit.normal, hit.depth)), 0.0,
+                error); // the way out of this length ends on the surface
     }
     FE_TRUE(inside > INSIDE_CASES / 4);
 }
@@ -276,8 +287,9 @@ static void the_centre_has_a_way_out(void **state)
     }
 }
 
-// ---- exact cases ----------------------------------------------------------------------------------------------------------------
-// A form is closed: what touches it from outside meets it, what passes by one unit in the last place does not.
+// ---- exact cases
+// ---------------------------------------------------------------------------------------------------------------- A
+// form is closed: what touches it from outside meets it, what passes by one unit in the last place does not.
 static void touching_is_meeting_and_one_ulp_aside_is_not(void **state)
 {
     (void)state;
@@ -337,8 +349,10 @@ static void on_an_edge_the_lowest_axis_gives_the_normal(void **state)
     (void)state;
     fe__form box = {.type = FE__FORM_BOX, .half = {1.0f, 1.0f, 1.0f}};
     fe__ray_hit hit;
-    FE_TRUE(fe__form_ray(&box, (fe_dvec3){2.0, 2.0, 2.0}, (fe_dvec3){-2.0, -2.0, -2.0}, 1.0, &hit) && hit.t == 0.5 && hit.normal.x == 1.0);
-    FE_TRUE(fe__form_ray(&box, (fe_dvec3){0.0, -2.0, 2.0}, (fe_dvec3){0.0, 2.0, -2.0}, 1.0, &hit) && hit.t == 0.5 && hit.normal.y == -1.0);
+    FE_TRUE(fe__form_ray(&box, (fe_dvec3){2.0, 2.0, 2.0}, (fe_dvec3){-2.0, -2.0, -2.0}, 1.0, &hit) && hit.t == 0.5 &&
+            hit.normal.x == 1.0);
+    FE_TRUE(fe__form_ray(&box, (fe_dvec3){0.0, -2.0, 2.0}, (fe_dvec3){0.0, 2.0, -2.0}, 1.0, &hit) && hit.t == 0.5 &&
+            hit.normal.y == -1.0);
 }
 
 static void the_limit_is_the_last_moment_that_counts(void **state)
@@ -357,7 +371,8 @@ static void the_limit_is_the_last_moment_that_counts(void **state)
     FE_TRUE(hits > INSIDE_CASES / 4);
 }
 
-// ---- the whole range of double --------------------------------------------------------------------------------------------------
+// ---- the whole range of double
+// --------------------------------------------------------------------------------------------------
 static double any_finite(void)
 {
     for (;;) {
@@ -414,10 +429,12 @@ static void rays_along_an_axis_are_exact_at_any_length(void **state)
     for (double length = 8.0; length < 1e300; length *= 1024.0) {
         for (int32_t i = 0; i < 4; ++i) {
             fe__ray_hit hit;
-            FE_TRUE(fe__form_ray(&forms[i], (fe_dvec3){length, 0.0, 0.0}, (fe_dvec3){-2.0 * length, 0.0, 0.0}, 1.0, &hit));
+            FE_TRUE(
+                fe__form_ray(&forms[i], (fe_dvec3){length, 0.0, 0.0}, (fe_dvec3){-2.0 * length, 0.0, 0.0}, 1.0, &hit));
             FE_NEAR(hit.t, 0.5 - 0.5 / length, DBL_EPSILON);
             FE_TRUE(hit.normal.x == 1.0 && hit.normal.y == 0.0 && hit.normal.z == 0.0);
-            FE_TRUE(!fe__form_ray(&forms[i], (fe_dvec3){length, 0.0, 0.0}, (fe_dvec3){2.0 * length, 0.0, 0.0}, 1.0, &hit));
+            FE_TRUE(
+                !fe__form_ray(&forms[i], (fe_dvec3){length, 0.0, 0.0}, (fe_dvec3){2.0 * length, 0.0, 0.0}, 1.0, &hit));
         }
     }
 }

@@ -16,7 +16,8 @@ static uint64_t random_bits(void)
     return noise >> 32 ^ noise << 29;
 }
 
-// `value` is the item's place before, `spare` a copy of the key's low bits: both tell afterwards whether the item is whole.
+// `value` is the item's place before, `spare` a copy of the key's low bits: both tell afterwards whether the item is
+// whole.
 static void fill(int32_t count, uint64_t mask)
 {
     for (int32_t i = 0; i < count; ++i) {
@@ -25,14 +26,16 @@ static void fill(int32_t count, uint64_t mask)
     }
 }
 
-// Sorted and stable: (key, place before) rises strictly, so no item is there twice; n places within [0, n) are then all of them.
+// Sorted and stable: (key, place before) rises strictly, so no item is there twice; n places within [0, n) are then all
+// of them.
 static void assert_sorted(int32_t count)
 {
     for (int32_t i = 0; i < count; ++i) {
         assert_in_range(items[i].value, 0, count - 1);
         assert_int_equal(items[i].spare, (int32_t)(items[i].key & 0xFFFF));
         if (i == 0) continue;
-        assert_true(items[i - 1].key < items[i].key || (items[i - 1].key == items[i].key && items[i - 1].value < items[i].value));
+        assert_true(items[i - 1].key < items[i].key ||
+                    (items[i - 1].key == items[i].key && items[i - 1].value < items[i].value));
     }
 }
 
@@ -50,7 +53,8 @@ static void any_count_and_any_keys_are_sorted_stably(void **state)
 {
     (void)state;
     const int32_t counts[] = {0, 1, 2, 3, 15, 47, 48, 49, 50, 255, 256, 257, 1000, MOST};
-    const uint64_t masks[] = {0, 1, 0xFF, 0x3FF, 0xFFFFFFFF, UINT64_C(0xFF00000000000000), UINT64_C(0x00FF00FF0000FF00), ~UINT64_C(0)};
+    const uint64_t masks[] = {
+        0, 1, 0xFF, 0x3FF, 0xFFFFFFFF, UINT64_C(0xFF00000000000000), UINT64_C(0x00FF00FF0000FF00), ~UINT64_C(0)};
     for (size_t c = 0; c < sizeof counts / sizeof *counts; ++c) {
         for (size_t m = 0; m < sizeof masks / sizeof *masks; ++m) {
             noise = c * 100 + m + 1;

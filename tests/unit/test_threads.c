@@ -72,16 +72,24 @@ static void worlds_are_counted_in_and_out(void **state)
 {
     (void)state;
     fe_pool *pool = fe__pool_create(1);
-    assert_int_equal(fe__pool_users(pool), 0);
-    fe__pool_retain(pool), fe__pool_retain(pool);
-    assert_int_equal(fe__pool_users(pool), 2);
+    int32_t users = -1;
+    assert_int_equal(fe__pool_retain(pool), FE_OK);
+    assert_int_equal(fe__pool_retain(pool), FE_OK);
+    assert_int_equal(fe__pool_try_destroy(pool, &users), FE_ERROR_STATE);
+    assert_int_equal(users, 2);
     fe__pool_release(pool);
-    assert_int_equal(fe__pool_users(pool), 1);
+    assert_int_equal(fe__pool_try_destroy(pool, &users), FE_ERROR_STATE);
+    assert_int_equal(users, 1);
     fe__pool_release(pool);
-    fe__pool_destroy(pool);
+    assert_true(fe__pool_lives(pool));
+    assert_int_equal(fe__pool_try_destroy(pool, &users), FE_OK);
+    assert_false(fe__pool_lives(pool));
+    assert_int_equal(fe__pool_try_destroy(pool, &users), FE_ERROR_STALE);
+    assert_int_equal(fe__pool_retain(pool), FE_ERROR_STALE);
 }
 
-// ---- several callers --------------------------------------------------------------------------------------------------------
+// ---- several callers
+// --------------------------------------------------------------------------------------------------------
 
 typedef struct caller {
     fe_pool *pool;
@@ -144,7 +152,8 @@ static void sixteen_workers_work_on_the_cores_there_are(void **state)
     fe__pool_destroy(pool);
 }
 
-// ---- runs inside runs -------------------------------------------------------------------------------------------------------
+// ---- runs inside runs
+// -------------------------------------------------------------------------------------------------------
 
 typedef struct nest {
     fe_pool *pool;
@@ -181,7 +190,8 @@ static void a_run_inside_a_task_stays_on_its_thread(void **state)
     fe__pool_destroy(n.pool);
 }
 
-// ---- parallel_for -----------------------------------------------------------------------------------------------------------
+// ---- parallel_for
+// -----------------------------------------------------------------------------------------------------------
 
 enum { RANGE = 10007 }; // a prime: no block size divides it
 
@@ -266,10 +276,11 @@ static void the_largest_range_does_not_overflow(void **state)
     fe__pool_destroy(pool);
 }
 
-// ---- time -------------------------------------------------------------------------------------------------------------------
+// ---- time
+// -------------------------------------------------------------------------------------------------------------------
 
-// Tasks that are in the same run and both running may wait for each other, as a solver's barriers do; here with as many threads as tasks,
-// each of which must come although all were asleep.
+// Tasks that are in the same run and both running may wait for each other, as a solver's barriers do; here with as many
+// threads as tasks, each of which must come although all were asleep.
 typedef struct meeting {
     _Atomic int32_t present;
     int32_t expected;
@@ -296,7 +307,8 @@ static void all_sleepers_come_when_there_is_work_for_all(void **state)
     fe__pool_destroy(pool);
 }
 
-// 7 idle threads would use 7 times 0.2 s, or all of the cores there are; asleep they use nothing. Bound: a tenth of one core.
+// 7 idle threads would use 7 times 0.2 s, or all of the cores there are; asleep they use nothing. Bound: a tenth of one
+// core.
 static void an_idle_pool_burns_no_core(void **state)
 {
     (void)state;

@@ -53,8 +53,8 @@ static fe__form any_form(int kind, double size)
     return form;
 }
 
-// A ball's distance to a form is that of its centre, less its radius. Sizes from 1 cm to 1 km; bound: 1e-9 of what is there, and the
-// rounding of a plane's normal (a float's length) over the distance to it.
+// A ball's distance to a form is that of its centre, less its radius. Sizes from 1 cm to 1 km; bound: 1e-9 of what is
+// there, and the rounding of a plane's normal (a float's length) over the distance to it.
 static void a_balls_gap_is_that_of_its_centre(void **state)
 {
     (void)state;
@@ -106,7 +106,8 @@ static double gap_at(const fe__mobile *a, const fe__mobile *b, double s)
     return gap.overlap ? -1 : gap.distance;
 }
 
-// Poses are turned in floats: a millionth of the arms. Up to the impact the gap is never less than half of what counts as a touch.
+// Poses are turned in floats: a millionth of the arms. Up to the impact the gap is never less than half of what counts
+// as a touch.
 #define ROUNDING 2e-6
 
 static void judge(const fe__mobile *a, const fe__mobile *b, int *met)
@@ -118,19 +119,22 @@ static void judge(const fe__mobile *a, const fe__mobile *b, int *met)
     if (meeting == FE_MEET_NOW) FE_WITHIN(begin, -1e30, 0);
     if (meeting == FE_MEET_NOW) return;
     FE_WITHIN(begin, 0, 1e30);
-    for (int i = 0; i <= SAMPLES; ++i) FE_WITHIN(gap_at(a, b, end * i / SAMPLES), begin < FE_TOUCH ? 0 : 0.25 * FE_TOUCH - ROUNDING, 1e30);
+    for (int i = 0; i <= SAMPLES; ++i)
+        FE_WITHIN(gap_at(a, b, end * i / SAMPLES), begin < FE_TOUCH ? 0 : 0.25 * FE_TOUCH - ROUNDING, 1e30);
     if (meeting == FE_MEET_LATER) FE_WITHIN(gap_at(a, b, end), 0, FE_TOUCH + ROUNDING);
     if (meeting == FE_MEET_LATER) FE_WITHIN(impact.s, 0, 1);
 }
 
-// Every kind against every kind, both moving and turning: the first touch is found, within a tenth of a millimetre, and none that is none.
+// Every kind against every kind, both moving and turning: the first touch is found, within a tenth of a millimetre, and
+// none that is none.
 static void the_time_of_impact_is_the_first_touch(void **state)
 {
     int met[3] = {0};
     (void)state;
     for (int i = 0; i < CASES; ++i) {
         fe__form a = any_form(i % 3, 1), b = any_form(i / 3 % 5, 1);
-        fe__mobile first = any_mobile(&a, 4, 6, 0.8), second = any_mobile(&b, 4, 6, b.type >= FE__FORM_PLANE ? 0.0 : 0.8);
+        fe__mobile first = any_mobile(&a, 4, 6, 0.8),
+                   second = any_mobile(&b, 4, 6, b.type >= FE__FORM_PLANE ? 0.0 : 0.8);
         if (b.type == FE__FORM_PLANE) second.motion.translation = (fe_dvec3){0, 0, 0};
         judge(&first, &second, met);
         judge(&second, &first, met);

@@ -11,7 +11,8 @@
 
 enum { PROXIES = 700, CHURN = 6000, ALL = 60000 };
 
-// ---- random boxes -----------------------------------------------------------------------------------------------------------------
+// ---- random boxes
+// -----------------------------------------------------------------------------------------------------------------
 static uint64_t noise = 1;
 
 static double uniform(double low, double high)
@@ -44,12 +45,14 @@ static fe_dvec3 any_point(const place *p)
 static fe__bounds any_box(const place *p)
 {
     fe_dvec3 c = any_point(p);
-    double x = p->grid ? 1.0 : uniform(0.01, 1.5), y = p->grid ? 1.0 : uniform(0.01, 1.5), z = p->grid ? 0.5 : uniform(0.01, 1.5);
+    double x = p->grid ? 1.0 : uniform(0.01, 1.5), y = p->grid ? 1.0 : uniform(0.01, 1.5),
+           z = p->grid ? 0.5 : uniform(0.01, 1.5);
     if (below(200) == 0) x *= 20.0, z *= 20.0; // a floor
     return (fe__bounds){{c.x - x, c.y - y, c.z - z}, {c.x + x, c.y + y, c.z + z}};
 }
 
-// ---- a tree and what should be in it -------------------------------------------------------------------------------------------------
+// ---- a tree and what should be in it
+// -------------------------------------------------------------------------------------------------
 typedef struct model {
     fe__tree tree;
     fe__bounds box[PROXIES];
@@ -66,12 +69,12 @@ static int32_t mark(void *context, int32_t proxy)
 
 static int32_t meets(const fe__bounds *a, const fe__bounds *b, double gap)
 {
-    return a->low.x <= b->high.x + gap && b->low.x <= a->high.x + gap && a->low.y <= b->high.y + gap && b->low.y <= a->high.y + gap &&
-           a->low.z <= b->high.z + gap && b->low.z <= a->high.z + gap;
+    return a->low.x <= b->high.x + gap && b->low.x <= a->high.x + gap && a->low.y <= b->high.y + gap &&
+           b->low.y <= a->high.y + gap && a->low.z <= b->high.z + gap && b->low.z <= a->high.z + gap;
 }
 
-// How far a box may reach out of itself: 2^-23 of the coordinates relative to the origin, and the rounding of floats; as much for the
-// query's box; twice that after the origin has moved.
+// How far a box may reach out of itself: 2^-23 of the coordinates relative to the origin, and the rounding of floats;
+// as much for the query's box; twice that after the origin has moved.
 static double largest_gap(const fe__tree *tree, const place *p)
 {
     fe_dvec3 d = fe__dsub(p->centre, tree->origin);
@@ -122,7 +125,8 @@ static void check_query_proxy(model *m, const model *of, const place *p)
     check_visits(m, &of->box[proxy], largest_gap(&m->tree, p) + largest_gap(&of->tree, p));
 }
 
-// ---- rays -------------------------------------------------------------------------------------------------------------------------
+// ---- rays
+// -------------------------------------------------------------------------------------------------------------------------
 typedef struct ray {
     model *m;
     fe_dvec3 origin, translation;
@@ -130,11 +134,13 @@ typedef struct ray {
     int32_t hit; // lowest of those at `best`, -1: none
 } ray;
 
-// When the ray enters the box, exactly in the reals but for the divisions; -1: never. Long double, and the same for tree and search.
+// When the ray enters the box, exactly in the reals but for the divisions; -1: never. Long double, and the same for
+// tree and search.
 static double entry_of(const fe__bounds *b, const ray *r)
 {
     const double low[3] = {b->low.x, b->low.y, b->low.z}, high[3] = {b->high.x, b->high.y, b->high.z};
-    const double o[3] = {r->origin.x, r->origin.y, r->origin.z}, d[3] = {r->translation.x, r->translation.y, r->translation.z};
+    const double o[3] = {r->origin.x, r->origin.y, r->origin.z},
+                 d[3] = {r->translation.x, r->translation.y, r->translation.z};
     long double enter = 0.0L, leave = 1.0L;
     for (int32_t k = 0; k < 3; ++k) {
         long double in = (long double)low[k] - o[k], out = (long double)high[k] - o[k];
@@ -212,7 +218,8 @@ static int32_t check_any_ray(model *m, const place *p)
     return check_ray(m, o, d, below(3) ? 1.0 : uniform(0.0, 1.0));
 }
 
-// ---- the structure ----------------------------------------------------------------------------------------------------------------
+// ---- the structure
+// ----------------------------------------------------------------------------------------------------------------
 static void check_lane(const fe__tree *tree, int32_t index, int32_t lane, int32_t *proxies)
 {
     const fe__tree_node *node = &tree->nodes[index];
@@ -266,7 +273,8 @@ static void check_structure(const fe__tree *tree)
     assert_int_equal(dead, tree->dead);
 }
 
-// ---- a life of changes --------------------------------------------------------------------------------------------------------------
+// ---- a life of changes
+// --------------------------------------------------------------------------------------------------------------
 static void insert(model *m, fe__memory *memory, int32_t proxy, const place *p)
 {
     m->box[proxy] = any_box(p);
@@ -339,16 +347,30 @@ static void live(place p)
     free(b);
 }
 
-static void it_finds_what_a_search_finds_at_the_origin(void **state) { (void)state, live((place){{0.0, 0.0, 0.0}, 12.0, 0}); }
-static void it_finds_what_a_search_finds_on_a_grid(void **state) { (void)state, live((place){{0.0, 0.0, 0.0}, 9.0, 1}); }
-static void it_finds_what_a_search_finds_100_km_away(void **state) { (void)state, live((place){{1e5, -1e5, 1e5}, 9.0, 1}); }
-static void it_finds_what_a_search_finds_30000_km_away(void **state) { (void)state, live((place){{-3e7, 3e7, 3e7}, 12.0, 0}); }
+static void it_finds_what_a_search_finds_at_the_origin(void **state)
+{
+    (void)state, live((place){{0.0, 0.0, 0.0}, 12.0, 0});
+}
+static void it_finds_what_a_search_finds_on_a_grid(void **state)
+{
+    (void)state, live((place){{0.0, 0.0, 0.0}, 9.0, 1});
+}
+static void it_finds_what_a_search_finds_100_km_away(void **state)
+{
+    (void)state, live((place){{1e5, -1e5, 1e5}, 9.0, 1});
+}
+static void it_finds_what_a_search_finds_30000_km_away(void **state)
+{
+    (void)state, live((place){{-3e7, 3e7, 3e7}, 12.0, 0});
+}
 
-// ---- extremes -----------------------------------------------------------------------------------------------------------------------
+// ---- extremes
+// -----------------------------------------------------------------------------------------------------------------------
 // 10^-320 to 10^most m, either sign, and 0
 static double any_magnitude(double most)
 {
-    double x = below(8) == 0 ? 0.0 : pow(10.0, below(3) == 0 ? uniform(-320.0, most) : uniform(-3.0, fe__mind(most, 18.0)));
+    double x =
+        below(8) == 0 ? 0.0 : pow(10.0, below(3) == 0 ? uniform(-320.0, most) : uniform(-3.0, fe__mind(most, 18.0)));
     return below(2) ? x : -x;
 }
 
@@ -358,8 +380,8 @@ static fe_dvec3 any_extreme(double most)
     return (fe_dvec3){x, y, any_magnitude(most)};
 }
 
-// The float tests may not lose what the exact one finds, whatever the lengths: of boxes and queries in all of double, of boxes for rays up
-// to 10^18 m.
+// The float tests may not lose what the exact one finds, whatever the lengths: of boxes and queries in all of double,
+// of boxes for rays up to 10^18 m.
 static void extremes_are_not_missed(double largest_box, int32_t *hits)
 {
     enum { BOXES = 40, QUERIES = 200 };
@@ -420,8 +442,8 @@ static double hit_at_once(void *context, int32_t proxy, double limit)
     return 1.5 / 32.0; // in the first box, which ends at 2 / 32
 }
 
-// A spine of nodes; each has the next one in lane `down` and seven nodes of two proxies in the others. Walking down the spine first leaves
-// seven nodes a level for later: no insertion makes a tree so deep.
+// A spine of nodes; each has the next one in lane `down` and seven nodes of two proxies in the others. Walking down the
+// spine first leaves seven nodes a level for later: no insertion makes a tree so deep.
 enum { SPINE = 50 };
 
 static void make_spine(model *m, int32_t down)
@@ -439,7 +461,8 @@ static void make_spine(model *m, int32_t down)
                 for (int32_t k = 0; k < FE_TREE_WIDTH; ++k) {
                     int32_t proxy = k < 2 ? tree->proxy_count++ : -1;
                     tree->nodes[next].child[k] = k < 2 ? ~proxy : FE_TREE_EMPTY;
-                    for (int32_t row = 0; row < 6; ++row) tree->nodes[next].box[row][k] = (row < 3) == (k < 2) ? -1.0f : 1.0f;
+                    for (int32_t row = 0; row < 6; ++row)
+                        tree->nodes[next].box[row][k] = (row < 3) == (k < 2) ? -1.0f : 1.0f;
                     if (k >= 2) continue;
                     tree->slot[proxy] = next * FE_TREE_WIDTH + k;
                     m->box[proxy] = box;
@@ -448,7 +471,8 @@ static void make_spine(model *m, int32_t down)
             }
             tree->nodes[i].child[lane] = is_spine && next == SPINE ? FE_TREE_EMPTY : next;
             for (int32_t row = 0; row < 6; ++row) tree->nodes[i].box[row][lane] = row < 3 ? -1.0f : 1.0f;
-            if (is_spine) tree->nodes[i].box[0][lane] = next == SPINE ? 2.0f : -1.5f; // nothing below, or nearer to a ray along x
+            if (is_spine)
+                tree->nodes[i].box[0][lane] = next == SPINE ? 2.0f : -1.5f; // nothing below, or nearer to a ray along x
         }
     }
     tree->depth = SPINE;
@@ -484,8 +508,8 @@ static void a_tree_deeper_than_the_stack_loses_nothing(void **state)
     }
 }
 
-// A corner is where near and far sides are met at once, so that a single rounding to the wrong side loses it. The exact test decides
-// whether the ray, which is rounded too, does meet the box.
+// A corner is where near and far sides are met at once, so that a single rounding to the wrong side loses it. The exact
+// test decides whether the ray, which is rounded too, does meet the box.
 static void a_ray_through_a_corner_is_not_missed(void **state)
 {
     (void)state;
@@ -499,7 +523,8 @@ static void a_ray_through_a_corner_is_not_missed(void **state)
     fe__tree_insert(&m->tree, 1, &m->box[1]);
     int32_t hits = 0;
     for (int32_t i = 0; i < 300000; ++i) {
-        fe_dvec3 corner = {uniform(1.0, 2.0), uniform(1.0, 2.0), uniform(-1.0, 1.0)}, back = {uniform(0.5, 2.0), -uniform(0.5, 2.0), 0.0};
+        fe_dvec3 corner = {uniform(1.0, 2.0), uniform(1.0, 2.0), uniform(-1.0, 1.0)},
+                 back = {uniform(0.5, 2.0), -uniform(0.5, 2.0), 0.0};
         m->box[0] = (fe__bounds){{corner.x - 0.25, corner.y - 0.25, corner.z}, {corner.x, corner.y, corner.z}};
         fe__tree_insert(&m->tree, 0, &m->box[0]);
         fe_dvec3 o = fe__dadd(corner, back);
@@ -554,12 +579,14 @@ static void a_visitor_can_stop(void **state)
     fe__tree_query(&tree, &box, stop_after, visits);
     assert_int_equal(visits[0], 3);
     visits[0] = 0;
-    FE_TRUE(fe__tree_ray(&tree, (fe_dvec3){-2.0, 0.0, 0.0}, (fe_dvec3){9.0, 0.0, 0.0}, 1.0, stop_ray_at_third, visits) == -1.0);
+    FE_TRUE(fe__tree_ray(&tree, (fe_dvec3){-2.0, 0.0, 0.0}, (fe_dvec3){9.0, 0.0, 0.0}, 1.0, stop_ray_at_third,
+                         visits) == -1.0);
     assert_int_equal(visits[0], 3);
     fe__tree_destroy(&tree, &memory);
 }
 
-// ---- shape ------------------------------------------------------------------------------------------------------------------------
+// ---- shape
+// ------------------------------------------------------------------------------------------------------------------------
 typedef enum order { IN_ROWS, SCATTERED, ONE_PLACE, SHRINKING, GROWING, FLOORS, POINTS, ORDERS } order;
 
 static fe__bounds box_in_order(order order, int32_t i)
@@ -573,8 +600,8 @@ static fe__bounds box_in_order(order order, int32_t i)
     return (fe__bounds){{c.x - s, c.y - s, c.z - s}, {c.x + s, c.y + s, c.z + s}};
 }
 
-// Splits leave two children at least on each side, so that a node at height h holds 2^(h + 1) proxies or more and 60 000 need a depth of 14
-// at most. A floor that stays above the rest is no exception: it takes a lane that was free.
+// Splits leave two children at least on each side, so that a node at height h holds 2^(h + 1) proxies or more and 60
+// 000 need a depth of 14 at most. A floor that stays above the rest is no exception: it takes a lane that was free.
 static void it_is_shallow_in_whatever_order_proxies_come(void **state)
 {
     (void)state;
@@ -707,7 +734,8 @@ static void the_origin_follows_at_a_rebuild(void **state)
     assert_int_equal(fe__tree_rebuild(&tree, &memory, 1), 1);
     fe__tree_move(&tree, proxies, boxes, 10); // all together: the cost stays
     assert_int_equal(fe__tree_rebuild(&tree, &memory, 0), 1);
-    const double cell = 1024.0; // of the grid of origins; floats at 10^7 m are 1 m apart, and boxes grow by 2^-23 of that
+    const double cell =
+        1024.0; // of the grid of origins; floats at 10^7 m are 1 m apart, and boxes grow by 2^-23 of that
     FE_NEAR(tree.origin.x, 1e7 + 45.5, 0.5 * cell + 4.0);
     FE_TRUE(fmod(tree.origin.x, cell) == 0.0);
     fe__tree_move(&tree, proxies, boxes, 10);
@@ -752,7 +780,8 @@ static void a_box_holds_what_lies_in_it_and_nothing_that_stands_out(void **state
             FE_TRUE(fe__tree_holds(&tree, 0, &tight));
             double *side[6] = {&tight.low.x, &tight.low.y, &tight.low.z, &tight.high.x, &tight.high.y, &tight.high.z};
             int32_t k = below(6);
-            double saved = *side[k], sign = k < 3 ? 1.0 : -1.0, step = 1e-3; // of boxes up to 60 m wide, about the origin
+            double saved = *side[k], sign = k < 3 ? 1.0 : -1.0,
+                   step = 1e-3; // of boxes up to 60 m wide, about the origin
             *side[k] = saved + sign * step;
             FE_TRUE(fe__tree_holds(&tree, 0, &tight));
             *side[k] = saved - sign * step;
@@ -763,7 +792,8 @@ static void a_box_holds_what_lies_in_it_and_nothing_that_stands_out(void **state
     }
 }
 
-// ---- memory -------------------------------------------------------------------------------------------------------------------------
+// ---- memory
+// -------------------------------------------------------------------------------------------------------------------------
 typedef struct host {
     int32_t allowed; // allocations until the first refusal
     int32_t once;    // only that one is refused
@@ -788,7 +818,10 @@ static void host_release(void *user, void *block, uint64_t size)
 
 static fe__memory memory_of(host *h)
 {
-    fe_allocator allocator = {.struct_size = sizeof allocator, .allocate = host_allocate, .release = host_release, .user = h};
+    fe_allocator allocator = {.struct_size = sizeof allocator,
+                              .allocate = host_allocate,
+                              .release = host_release,
+                              .user = h};
     fe__memory memory;
     fe__memory_init(&memory, &allocator);
     return memory;
@@ -894,7 +927,8 @@ static void what_is_reserved_fits(void **state)
     }
 }
 
-// Of a reservation, no more than the nodes asked for is there in the end, so insertions that come with none to spare may not split.
+// Of a reservation, no more than the nodes asked for is there in the end, so insertions that come with none to spare
+// may not split.
 static void the_last_reserved_nodes_are_not_spent_on_splits(void **state)
 {
     (void)state;
@@ -918,7 +952,8 @@ static void the_last_reserved_nodes_are_not_spent_on_splits(void **state)
     fe__tree_destroy(&tree, &memory);
 }
 
-// A cube of 8 x 8 x 8 boxes fills every node of a build. Ten more, far from each other, would split ten of them, and the root.
+// A cube of 8 x 8 x 8 boxes fills every node of a build. Ten more, far from each other, would split ten of them, and
+// the root.
 static void the_last_reserved_nodes_are_not_spent_on_the_first_splits(void **state)
 {
     (void)state;
@@ -945,8 +980,8 @@ static void the_last_reserved_nodes_are_not_spent_on_the_first_splits(void **sta
     fe__tree_destroy(&tree, &memory);
 }
 
-// A node has two children at least, and a quarter of the nodes are dead at most before they are used again: 4/3 nodes a proxy and room for
-// splits, doubled by the array's growth.
+// A node has two children at least, and a quarter of the nodes are dead at most before they are used again: 4/3 nodes a
+// proxy and room for splits, doubled by the array's growth.
 static void proxies_that_come_and_go_take_no_more_memory(void **state)
 {
     (void)state;

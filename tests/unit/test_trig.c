@@ -7,7 +7,8 @@
 #include <float.h>
 #include <math.h>
 
-// The reference is the library's long double, which has 11 bits more at least (on the machines where it is not a double).
+// The reference is the library's long double, which has 11 bits more at least (on the machines where it is not a
+// double).
 #define PI_L 3.141592653589793238462643383279502884L
 
 static uint64_t noise = 1;
@@ -112,7 +113,8 @@ static void the_arc_tangent_knows_its_axes(void **state)
     assert_true(fe__atan2(1.0, 1.0) == pi / 4 && fe__atan2(-1.0, 1.0) == -pi / 4);
     FE_NEAR(fe__atan2(1.0, -1.0), 3 * pi / 4, 2.0 * DBL_EPSILON);
     assert_true(fe__atan2(DBL_TRUE_MIN, 1.0) == DBL_TRUE_MIN);
-    FE_TRUE(isnan(fe__atan2(NAN, 1.0)) && isnan(fe__atan2(1.0, NAN)) && isnan(fe__atan2(NAN, 0.0)) && isnan(fe__atan2(0.0, NAN)));
+    FE_TRUE(isnan(fe__atan2(NAN, 1.0)) && isnan(fe__atan2(1.0, NAN)) && isnan(fe__atan2(NAN, 0.0)) &&
+            isnan(fe__atan2(0.0, NAN)));
 }
 
 static void float_versions_round_the_double_ones(void **state)
@@ -145,10 +147,14 @@ static void every_machine_computes_the_same_bits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sine_and_cosine_are_off_by_one_unit_at_most), cmocka_unit_test(the_reduction_is_exact_up_to_1e5),
-        cmocka_unit_test(sine_is_odd_and_cosine_even_to_the_bit),      cmocka_unit_test(angles_without_meaning_have_a_sine_all_the_same),
-        cmocka_unit_test(the_arc_tangent_is_off_by_two_units_at_most), cmocka_unit_test(the_arc_tangent_knows_its_axes),
-        cmocka_unit_test(float_versions_round_the_double_ones),        cmocka_unit_test(every_machine_computes_the_same_bits),
+        cmocka_unit_test(sine_and_cosine_are_off_by_one_unit_at_most),
+        cmocka_unit_test(the_reduction_is_exact_up_to_1e5),
+        cmocka_unit_test(sine_is_odd_and_cosine_even_to_the_bit),
+        cmocka_unit_test(angles_without_meaning_have_a_sine_all_the_same),
+        cmocka_unit_test(the_arc_tangent_is_off_by_two_units_at_most),
+        cmocka_unit_test(the_arc_tangent_knows_its_axes),
+        cmocka_unit_test(float_versions_round_the_double_ones),
+        cmocka_unit_test(every_machine_computes_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
 // approach.c - nearest points of two cores: closed forms in double, in the frame of one of them.
 //
-// Input: the sweeps' pairs (sweep.c). Segments: Ericson, Real-Time Collision Detection, 5.1.9. Segment and box: the squared distance from a
-// box along a line is convex and made of parabolas that meet where a coordinate crosses a side; bracket the zero of its slope between
-// these.
+// Input: the sweeps' pairs (sweep.c). Segments: Ericson, Real-Time Collision Detection, 5.1.9. Segment and box: the
+// squared distance from a box along a line is convex and made of parabolas that meet where a coordinate crosses a side;
+// bracket the zero of its slope between these.
 #include "collision/cast/approach.h"
 
 static double clamp(double x, double half) { return fe__mind(fe__maxd(x, -half), half); }
@@ -11,7 +11,8 @@ static double excess(double x, double half) { return x > half ? x - half : x < -
 // Below this squared sine two segments are parallel to the last digit.
 #define PARALLEL 1e-30
 
-// Where on the segment  p + u a, |u| <= h,  a (unit) and p in the frame, it is nearest to the frame's segment  v y, |v| <= k:
+// Where on the segment  p + u a, |u| <= h,  a (unit) and p in the frame, it is nearest to the frame's segment  v y, |v|
+// <= k:
 //   d/du: u + a.p - v a.y = 0,   d/dv: v = p.y + u a.y
 static double nearest_on_segments(const fe__approach *s, fe_dvec3 p)
 {
@@ -72,7 +73,8 @@ void fe__core_gap_of(const fe__approach *s, fe_dvec3 position, fe__core_gap *gap
     }
     double u = nearest_on_other(s, position);
     fe_dvec3 q = fe__dadd(position, fe__dscale(u, s->axes.y));
-    gap->on_frame = (fe_dvec3){clamp(q.x, s->frame_half[0]), clamp(q.y, s->frame_half[1]), clamp(q.z, s->frame_half[2])};
+    gap->on_frame =
+        (fe_dvec3){clamp(q.x, s->frame_half[0]), clamp(q.y, s->frame_half[1]), clamp(q.z, s->frame_half[2])};
     gap->away = (fe_dvec3){excess(q.x, s->frame_half[0]), excess(q.y, s->frame_half[1]), excess(q.z, s->frame_half[2])};
     gap->distance = sqrt(fe__ddot(gap->away, gap->away));
 }

@@ -1,8 +1,8 @@
 // approach.h - what the sweep's files share: two cores, one moving in the frame of the other.
 //
-// Every form but the plane is a core - a point, a segment along y, a box - swelled by its radius. Of two forms the one whose core has more
-// dimensions gives the frame, whichever of them moves: so there are six kinds of pairs. A point is a box of no size, a segment one of only
-// a height: what separates boxes serves all.
+// Every form but the plane is a core - a point, a segment along y, a box - swelled by its radius. Of two forms the one
+// whose core has more dimensions gives the frame, whichever of them moves: so there are six kinds of pairs. A point is
+// a box of no size, a segment one of only a height: what separates boxes serves all.
 #ifndef FE_COLLISION_CAST_APPROACH_H
 #define FE_COLLISION_CAST_APPROACH_H
 #include "collision/cast/mover.h"
@@ -25,14 +25,16 @@ typedef struct fe__core_gap {
     fe_dvec3 on_frame;
     fe_dvec3 away; // from there to the other core's nearest point
 } fe__core_gap;
-void fe__core_gap_of(const fe__approach *a, fe_dvec3 position, fe__core_gap *gap);     // of point and segment only, not of two boxes
+void fe__core_gap_of(const fe__approach *a, fe_dvec3 position,
+                     fe__core_gap *gap); // of point and segment only, not of two boxes
 void fe__triangle_gap_of(const fe__approach *a, fe_dvec3 position, fe__core_gap *gap); // the frame is a triangle
 fe_dvec3 fe__nearest_on_triangle(const fe_dvec3 vertex[3], fe_dvec3 normal, fe_dvec3 point);
 // Nearest points p + u a, |u| <= half, and q + w b, 0 <= w <= length, of two segments; a and b are unit.
-void fe__nearest_on_segments(fe_dvec3 p, fe_dvec3 a, double half, fe_dvec3 q, fe_dvec3 b, double length, double *u, double *w);
+void fe__nearest_on_segments(fe_dvec3 p, fe_dvec3 a, double half, fe_dvec3 q, fe_dvec3 b, double length, double *u,
+                             double *w);
 
-// The overlap of two cores as boxes: how far, and along which unit axis, the other must move out. Below 0: they are apart, by what does not
-// matter.
+// The overlap of two cores as boxes: how far, and along which unit axis, the other must move out. Below 0: they are
+// apart, by what does not matter.
 double fe__core_depth(const fe__approach *a, fe_dvec3 *way_out);
 
 typedef struct fe__approach_hit {
@@ -43,7 +45,8 @@ typedef struct fe__approach_hit {
 // Two boxes, or a box and a triangle, apart at the start. 1: they meet, and the stop is at t <= limit.
 int32_t fe__boxes_sweep(const fe__approach *a, double limit, fe__approach_hit *hit);
 
-// ---- any pair (sweep.c) -----------------------------------------------------------------------------------------------------------
+// ---- any pair (sweep.c)
+// -----------------------------------------------------------------------------------------------------------
 typedef struct fe__core_overlap {
     double depth; // below 0: apart
     fe_dvec3 way_out;

@@ -1,13 +1,14 @@
 // approach_triangle.c - nearest points of a triangle and a point or a segment, in double.
 //
-// Input: the triangles of heightfields near a moving form (sweep_field.c). A segment that does not pierce the triangle is nearest to it at
-// one of its ends or at one of the triangle's sides.
+// Input: the triangles of heightfields near a moving form (sweep_field.c). A segment that does not pierce the triangle
+// is nearest to it at one of its ends or at one of the triangle's sides.
 #include "collision/cast/approach.h"
 
 // Below this squared sine two segments are parallel to the last digit.
 #define PARALLEL 1e-30
 
-void fe__nearest_on_segments(fe_dvec3 p, fe_dvec3 a, double half, fe_dvec3 q, fe_dvec3 b, double length, double *u, double *w)
+void fe__nearest_on_segments(fe_dvec3 p, fe_dvec3 a, double half, fe_dvec3 q, fe_dvec3 b, double length, double *u,
+                             double *w)
 {
     fe_dvec3 r = fe__dsub(p, q), cross = fe__dcross(a, b);
     double cosine = fe__ddot(a, b), along_a = fe__ddot(a, r), along_b = fe__ddot(b, r), square = fe__ddot(cross, cross);

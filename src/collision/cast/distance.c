@@ -5,7 +5,8 @@
 #include "collision/form/gjk.h"
 
 // B's deepest point below the surface of a half space A
-static void plane_gap(const fe__form *plane, const fe__pose *pose_a, const fe__form *b, const fe__pose *pose_b, fe__gap *gap)
+static void plane_gap(const fe__form *plane, const fe__pose *pose_a, const fe__form *b, const fe__pose *pose_b,
+                      fe__gap *gap)
 {
     fe_dvec3 normal = fe__drotate(pose_a->rotation, fe__widen(plane->normal));
     fe_dvec3 down = fe__drotate_back(pose_b->rotation, fe__dscale(-1.0, normal));
@@ -42,5 +43,6 @@ void fe__form_gap(const fe__form *a, const fe__pose *pose_a, const fe__form *b, 
     gap->overlap = gjk.overlap;
     gap->on_b = fe__dadd(pose_a->position, fe__turn(&frame, gjk.on_b));
     gap->distance = gjk.distance - (double)a->radius - (double)b->radius;
-    gap->normal = gjk.overlap ? (fe_dvec3){0.0, 0.0, 0.0} : fe__turn(&frame, fe__dscale(1.0 / gjk.distance, fe__dsub(gjk.on_b, gjk.on_a)));
+    gap->normal = gjk.overlap ? (fe_dvec3){0.0, 0.0, 0.0}
+                              : fe__turn(&frame, fe__dscale(1.0 / gjk.distance, fe__dsub(gjk.on_b, gjk.on_a)));
 }

@@ -1,7 +1,7 @@
 // distance.h - how far two forms are apart, wherever they are.
 //
-// In double, by GJK on the cores, in a frame that the caller puts near them. Read by the time of impact. Planes are half spaces; a
-// heightfield hands in its triangles.
+// In double, by GJK on the cores, in a frame that the caller puts near them. Read by the time of impact. Planes are
+// half spaces; a heightfield hands in its triangles.
 #ifndef FE_COLLISION_CAST_DISTANCE_H
 #define FE_COLLISION_CAST_DISTANCE_H
 #include "collision/form/form.h"

@@ -54,4 +54,7 @@ fe__nearest fe__nearest_on_plane(const fe__form *form, fe_dvec3 point)
     return (fe__nearest){height, unit, fe__dsub(point, fe__dscale(height, unit)), -1};
 }
 
-fe__nearest fe__form_nearest(const fe__form *form, fe_dvec3 point) { return fe__casts[form->type].nearest(form, point); }
+fe__nearest fe__form_nearest(const fe__form *form, fe_dvec3 point)
+{
+    return fe__casts[form->type].nearest(form, point);
+}

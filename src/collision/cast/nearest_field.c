@@ -1,11 +1,14 @@
 // nearest_field.c - the nearest point of a heightfield; see nearest.h.
 //
-// Boxes around the point, each twice as wide as the one before, until the nearest point found is nearer than the box is wide: nothing
-// outside of it can be nearer still.
+// Boxes around the point, each twice as wide as the one before, until the nearest point found is nearer than the box is
+// wide: nothing outside of it can be nearer still.
 #include "collision/cast/approach.h"
 #include "collision/cast/nearest.h"
 
-static fe__bounds around(fe_dvec3 p, double r) { return (fe__bounds){{p.x - r, p.y - r, p.z - r}, {p.x + r, p.y + r, p.z + r}}; }
+static fe__bounds around(fe_dvec3 p, double r)
+{
+    return (fe__bounds){{p.x - r, p.y - r, p.z - r}, {p.x + r, p.y + r, p.z + r}};
+}
 
 // m, from the point to the bounds of all triangles
 static double distance_to_bounds(const fe__heightfield *f, fe_dvec3 p)

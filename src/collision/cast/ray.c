@@ -1,18 +1,18 @@
 // ray.c - where a ray meets a form: closed forms in double, in the form's frame.
 //
-// Input: the query's ray, turned into the frame of a shape. Read by queries and by what stops fast bodies. A form is a closed set: a start
-// on its surface is a start inside, of depth 0. The round forms first move the start to the point nearest to their centre, where nothing
-// cancels, and take the root there; so a small sphere is met from 10 km away as exactly as the start is known (about 1e-12 m). Every finite
-// input gives an answer without NaN: lengths of translation and start are brought into the range in which squares neither overflow nor
-// vanish.
+// Input: the query's ray, turned into the frame of a shape. Read by queries and by what stops fast bodies. A form is a
+// closed set: a start on its surface is a start inside, of depth 0. The round forms first move the start to the point
+// nearest to their centre, where nothing cancels, and take the root there; so a small sphere is met from 10 km away as
+// exactly as the start is known (about 1e-12 m). Every finite input gives an answer without NaN: lengths of translation
+// and start are brought into the range in which squares neither overflow nor vanish.
 #include "collision/cast/ray.h"
 
 #include "collision/cast/kinds.h"
 
 #include <math.h>
 
-// Squares and products of lengths between these limits are finite, normal numbers. Beyond them, lengths are scaled by a power of two, which
-// is exact, and brings the whole range of double (5e-324 to 1.8e308) to within 1e-114 and 1e98.
+// Squares and products of lengths between these limits are finite, normal numbers. Beyond them, lengths are scaled by a
+// power of two, which is exact, and brings the whole range of double (5e-324 to 1.8e308) to within 1e-114 and 1e98.
 static const double shortest = 1e-100, longest = 1e100;
 static const double scale_up = 0x1p700, scale_down = 0x1p-700;
 
@@ -20,7 +20,8 @@ static double largest(fe_dvec3 a) { return fe__maxd(fe__maxd(fe__absd(a.x), fe__
 static double length(fe_dvec3 a) { return sqrt(fe__ddot(a, a)); }
 static double scale_for(double size) { return size > longest ? scale_down : size < shortest ? scale_up : 1.0; }
 
-// ---- hits ---------------------------------------------------------------------------------------------------------------------
+// ---- hits
+// ---------------------------------------------------------------------------------------------------------------------
 // Field by field: hits are read at once, and what was written in pieces is not copied whole without a wait.
 static int32_t report(fe__ray_hit *hit, double t, fe_dvec3 normal, double depth, int32_t inside)
 {
@@ -45,14 +46,16 @@ static int32_t meet(const fe__scaled_ray *r, double s, fe_dvec3 normal, fe__ray_
     return report(hit, t, normal, 0.0, 0);
 }
 
-// ---- round surfaces -----------------------------------------------------------------------------------------------------------
+// ---- round surfaces
+// -----------------------------------------------------------------------------------------------------------
 typedef struct entry {
     double s;
     fe_dvec3 normal; // unit
 } entry;
 
 // Where the line o + s d enters the ball of a radius about 0, or, for o and d without y, the cylinder about the y axis.
-//   s0 = -o.d / d.d,  p = o + s0 d  (nearest point),  h = sqrt(r^2 - p^2)  (half chord),  s = s0 - h / |d|,  normal = (p - h d / |d|) / r
+//   s0 = -o.d / d.d,  p = o + s0 d  (nearest point),  h = sqrt(r^2 - p^2)  (half chord),  s = s0 - h / |d|,  normal =
+//   (p - h d / |d|) / r
 static int32_t enter_round(fe_dvec3 o, fe_dvec3 d, double radius, entry *out)
 {
     double k = largest(o) > longest ? scale_down : 1.0, speed = length(d);
@@ -77,7 +80,8 @@ static int32_t meet_ball(const fe__scaled_ray *r, fe_dvec3 centre, double radius
     return enter_round(o, r->direction, radius, &e) && meet(r, e.s, e.normal, hit);
 }
 
-// Depth below the surface of a point `away` from the core of a radius; below 0 outside. `way_out` is `flat` where the point is on the core.
+// Depth below the surface of a point `away` from the core of a radius; below 0 outside. `way_out` is `flat` where the
+// point is on the core.
 static double depth_in_round(fe_dvec3 away, double radius, fe_dvec3 flat, fe_dvec3 *way_out)
 {
     if (largest(away) > radius) return -1.0;
@@ -97,8 +101,8 @@ int32_t fe__ray_sphere(const fe__form *form, const fe__scaled_ray *r, fe__ray_hi
     return meet_ball(r, (fe_dvec3){0.0, 0.0, 0.0}, radius, hit);
 }
 
-// The capsule lies in the infinite cylinder about its axis. A ray enters that first, or starts in it: between the ends of the axis that is
-// the hit, beyond an end only the ball about that end can be.
+// The capsule lies in the infinite cylinder about its axis. A ray enters that first, or starts in it: between the ends
+// of the axis that is the hit, beyond an end only the ball about that end can be.
 int32_t fe__ray_capsule(const fe__form *form, const fe__scaled_ray *r, fe__ray_hit *hit)
 {
     double radius = (double)form->radius, half = (double)form->half_height;
@@ -111,7 +115,8 @@ int32_t fe__ray_capsule(const fe__form *form, const fe__scaled_ray *r, fe__ray_h
     double y = o.y;
     if (depth_in_round(across, radius, aside, &unused) < 0.0) {
         entry e;
-        if (fe__ddot(fe__dscale(scale_for(largest(across)), across), drift) >= 0.0) return 0; // parallel to the axis, or away from it
+        if (fe__ddot(fe__dscale(scale_for(largest(across)), across), drift) >= 0.0)
+            return 0; // parallel to the axis, or away from it
         if (!enter_round(across, drift, radius, &e)) return 0;
         y = o.y + fe__maxd(e.s, 0.0) * d.y;
         if (fe__absd(y) <= half) return meet(r, e.s, e.normal, hit);
@@ -119,7 +124,8 @@ int32_t fe__ray_capsule(const fe__form *form, const fe__scaled_ray *r, fe__ray_h
     return meet_ball(r, (fe_dvec3){0.0, y > 0.0 ? half : -half, 0.0}, radius, hit);
 }
 
-// ---- flat surfaces ------------------------------------------------------------------------------------------------------------
+// ---- flat surfaces
+// ------------------------------------------------------------------------------------------------------------
 static fe_dvec3 axis_normal(int32_t axis, double sign)
 {
     return (fe_dvec3){axis == 0 ? sign : 0.0, axis == 1 ? sign : 0.0, axis == 2 ? sign : 0.0};
@@ -139,8 +145,8 @@ static int32_t inside_box(const fe__scaled_ray *r, const double o[3], const doub
     return start_inside(r, depth, axis_normal(axis, o[axis] < 0.0 ? -1.0 : 1.0), hit);
 }
 
-// One slab: the ray is in it from the first to the second. Along it, 0 / 0 is met on its sides only, and a NaN counts for no bound below.
-// Two quotients take no longer than one.
+// One slab: the ray is in it from the first to the second. Along it, 0 / 0 is met on its sides only, and a NaN counts
+// for no bound below. Two quotients take no longer than one.
 typedef double two __attribute__((vector_size(16)));
 static inline two cross_slab(double o, double d, double half)
 {
@@ -164,23 +170,25 @@ static int32_t is_in_box(fe_dvec3 o, const double half[3])
     return fe__absd(o.x) <= half[0] && fe__absd(o.y) <= half[1] && fe__absd(o.z) <= half[2];
 }
 
-// Three slabs (Kay and Kajiya 1986): the ray is in the box from the last entry to the first exit. On an edge the lowest axis gives the
-// normal. The signs of the direction, the order of the entries and which side is missed are random: nothing branches on them. From inside,
-// no slab is entered later than at 0 or left before.
+// Three slabs (Kay and Kajiya 1986): the ray is in the box from the last entry to the first exit. On an edge the lowest
+// axis gives the normal. The signs of the direction, the order of the entries and which side is missed are random:
+// nothing branches on them. From inside, no slab is entered later than at 0 or left before.
 int32_t fe__ray_box(const fe__form *form, const fe__scaled_ray *r, fe__ray_hit *hit)
 {
     const double half[3] = {(double)form->half.x, (double)form->half.y, (double)form->half.z};
     const fe_dvec3 o = r->origin, d = r->direction;
     const two x = cross_slab(o.x, d.x, half[0]), y = cross_slab(o.y, d.y, half[1]), z = cross_slab(o.z, d.z, half[2]);
     const double none = (double)INFINITY;
-    double enter = fe__maxd(z[0], fe__maxd(y[0], fe__maxd(x[0], -none))), leave = fe__mind(z[1], fe__mind(y[1], fe__mind(x[1], none)));
+    double enter = fe__maxd(z[0], fe__maxd(y[0], fe__maxd(x[0], -none))),
+           leave = fe__mind(z[1], fe__mind(y[1], fe__mind(x[1], none)));
     if ((enter > leave) | (leave < 0.0) | !(fe__maxd(enter, 0.0) * r->per_s <= r->limit)) return 0;
     if (enter <= 0.0 && is_in_box(o, half)) return inside_box(r, (const double[3]){o.x, o.y, o.z}, half, hit);
     const int32_t is_x = x[0] >= enter, is_y = (y[0] >= enter) & ~is_x, is_z = 1 & ~(is_x | is_y);
     return meet(r, enter, (fe_dvec3){against(d.x, is_x), against(d.y, is_y), against(d.z, is_z)}, hit);
 }
 
-// The distance n.o - distance falls at the rate n.d. A quarter of both: the sum of three products of finite numbers is finite.
+// The distance n.o - distance falls at the rate n.d. A quarter of both: the sum of three products of finite numbers is
+// finite.
 int32_t fe__ray_plane(const fe__form *form, const fe__scaled_ray *r, fe__ray_hit *hit)
 {
     const double quarter = 0.25;
@@ -193,7 +201,8 @@ int32_t fe__ray_plane(const fe__form *form, const fe__scaled_ray *r, fe__ray_hit
     return rate < 0.0 && meet(r, above / -rate, unit, hit);
 }
 
-// From the side around which the vertices turn left:  n = e1 x e2,  t = n.(o - v0) / -n.d,  and the point is left of every side.
+// From the side around which the vertices turn left:  n = e1 x e2,  t = n.(o - v0) / -n.d,  and the point is left of
+// every side.
 int32_t fe__ray_triangle(const fe__form *form, const fe__scaled_ray *r, fe__ray_hit *hit)
 {
     const fe_dvec3 v[3] = {fe__widen(form->vertex[0]), fe__widen(form->vertex[1]), fe__widen(form->vertex[2])};
@@ -210,9 +219,13 @@ int32_t fe__ray_triangle(const fe__form *form, const fe__scaled_ray *r, fe__ray_
     return meet(r, s, fe__dscale(1.0 / length(n), n), hit);
 }
 
-int32_t fe__form_ray_at(const fe__form *form, const fe_dvec3 *origin, const fe_dvec3 *translation, double limit, fe__ray_hit *hit)
+int32_t fe__form_ray_at(const fe__form *form, const fe_dvec3 *origin, const fe_dvec3 *translation, double limit,
+                        fe__ray_hit *hit)
 {
     double scale = scale_for(largest(*translation));
-    fe__scaled_ray r = {{origin->x, origin->y, origin->z}, fe__dscale(scale, *translation), scale, limit}; // each number alone: see report
+    fe__scaled_ray r = {{origin->x, origin->y, origin->z},
+                        fe__dscale(scale, *translation),
+                        scale,
+                        limit}; // each number alone: see report
     return fe__casts[form->type].ray(form, &r, hit);
 }

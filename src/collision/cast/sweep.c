@@ -1,9 +1,9 @@
 // sweep.c - when a moving form meets a standing one; see sweep.h.
 //
-// The distance f(t) of two convex cores, one of them moving straight, is a convex function of t. So its tangent stays below it, and the
-// step to where the tangent reaches the sum of the radii never goes too far: Newton's method from outside is conservative advancement with
-// the best possible bound. It converges quadratically, and by halves where the forms graze. Two boxes have a closed form (sweep_boxes.c),
-// so has a plane.
+// The distance f(t) of two convex cores, one of them moving straight, is a convex function of t. So its tangent stays
+// below it, and the step to where the tangent reaches the sum of the radii never goes too far: Newton's method from
+// outside is conservative advancement with the best possible bound. It converges quadratically, and by halves where the
+// forms graze. Two boxes have a closed form (sweep_boxes.c), so has a plane.
 #include "collision/cast/sweep.h"
 
 #include "collision/cast/approach.h"
@@ -16,7 +16,8 @@ enum { MAX_STEPS = 64 };
 
 fe__axes fe__axes_of(fe_quat q)
 {
-    double x = (double)q.x, y = (double)q.y, z = (double)q.z, w = (double)q.w, k = 2.0 / (x * x + y * y + z * z + w * w);
+    double x = (double)q.x, y = (double)q.y, z = (double)q.z, w = (double)q.w,
+           k = 2.0 / (x * x + y * y + z * z + w * w);
     double xx = k * x * x, yy = k * y * y, zz = k * z * z, xy = k * x * y, xz = k * x * z, yz = k * y * z;
     double wx = k * w * x, wy = k * w * y, wz = k * w * z;
     return (fe__axes){
@@ -30,17 +31,22 @@ int32_t fe__core_kind_of(const fe__form *form) { return fe__casts[form->type].co
 
 void fe__core_half(const fe__form *form, double half[3])
 {
-    half[0] = (double)form->half.x, half[1] = (double)form->half.y + (double)form->half_height, half[2] = (double)form->half.z;
+    half[0] = (double)form->half.x, half[1] = (double)form->half.y + (double)form->half_height,
+    half[2] = (double)form->half.z;
 }
 
 // What keeps the bodies apart is never below what rounding may take.
 static double size(fe_dvec3 a) { return fe__absd(a.x) + fe__absd(a.y) + fe__absd(a.z); }
-double fe__stop_gap(const fe__mover *mover) { return FE_SWEEP_GAP + ROUNDING * (size(mover->position) + size(mover->translation)); }
+double fe__stop_gap(const fe__mover *mover)
+{
+    return FE_SWEEP_GAP + ROUNDING * (size(mover->position) + size(mover->translation));
+}
 
 // 1: the mover gives the frame
 static int32_t set_up(const fe__form *still, const fe__mover *mover, fe__approach *s)
 {
-    int32_t still_kind = fe__core_kind_of(still), mover_kind = fe__core_kind_of(mover->form), swapped = mover_kind > still_kind;
+    int32_t still_kind = fe__core_kind_of(still), mover_kind = fe__core_kind_of(mover->form),
+            swapped = mover_kind > still_kind;
     const fe__axes *m = &mover->axes;
     s->radius = (double)still->radius + (double)mover->form->radius;
     if (swapped) {
@@ -58,7 +64,8 @@ static int32_t set_up(const fe__form *still, const fe__mover *mover, fe__approac
     return swapped;
 }
 
-// ---- overlap --------------------------------------------------------------------------------------------------------------------
+// ---- overlap
+// --------------------------------------------------------------------------------------------------------------------
 static double plane_height(const fe__form *plane, const fe__mover *mover)
 {
     fe_dvec3 n = fe__widen(plane->normal);
@@ -93,8 +100,10 @@ int32_t fe__form_overlap(const fe__form *still, const fe__mover *mover)
     return fe__approach_overlap(&s).depth >= 0.0;
 }
 
-// ---- sweeps ---------------------------------------------------------------------------------------------------------------------
-// Newton's method from `t` to where the distance is `goal`, to the left of it by at most `tolerance`. 0: it never comes so near.
+// ---- sweeps
+// ---------------------------------------------------------------------------------------------------------------------
+// Newton's method from `t` to where the distance is `goal`, to the left of it by at most `tolerance`. 0: it never comes
+// so near.
 static int32_t advance(const fe__approach *s, double goal, double tolerance, double *t, fe__core_gap *gap)
 {
     for (int32_t i = 0;; ++i) {
@@ -107,8 +116,8 @@ static int32_t advance(const fe__approach *s, double goal, double tolerance, dou
     }
 }
 
-// It stops where the gap begins, or at once within it; and only when it would come through half of that, for what slides along a surface
-// must not stick to it by a rounding.
+// It stops where the gap begins, or at once within it; and only when it would come through half of that, for what
+// slides along a surface must not stick to it by a rounding.
 static int32_t sweep_round(const fe__approach *s, double limit, fe__approach_hit *hit)
 {
     double tolerance = (double)GAP_TOLERANCE * s->gap, t = 0.0, clearance;
@@ -156,14 +165,16 @@ static int32_t sweep_plane(const fe__form *plane, const fe__mover *mover, double
 }
 
 // From the approach's frame to the standing form's.
-static void tell(const fe__form *still, const fe__mover *mover, int32_t swapped, const fe__approach_hit *h, fe__sweep_hit *hit)
+static void report(const fe__form *still, const fe__mover *mover, int32_t swapped, const fe__approach_hit *h,
+                   fe__sweep_hit *hit)
 {
     fe_dvec3 normal = h->normal, point = h->point;
     hit->t = h->t;
     if (swapped) {
         // the nearest point of the still core is beyond the gap from the mover's; both lie on one line along the normal
         normal = fe__turn(&mover->axes, fe__dscale(-1.0, normal));
-        point = fe__dadd(fe__dadd(mover->position, fe__dscale(h->t, mover->translation)), fe__turn(&mover->axes, point));
+        point =
+            fe__dadd(fe__dadd(mover->position, fe__dscale(h->t, mover->translation)), fe__turn(&mover->axes, point));
         point = fe__dsub(point, fe__dscale((double)mover->form->radius, normal));
     } else {
         point = fe__dadd(point, fe__dscale((double)still->radius, normal));
@@ -186,6 +197,6 @@ int32_t fe__form_sweep(const fe__form *still, const fe__mover *mover, double lim
     }
     fe__approach_hit h;
     if (!fe__approach_sweep(&s, limit, &h)) return 0;
-    tell(still, mover, swapped, &h, hit);
+    report(still, mover, swapped, &h, hit);
     return 1;
 }

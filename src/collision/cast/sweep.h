@@ -1,8 +1,9 @@
 // sweep.h - a form that moves without turning, against a form that stands.
 //
-// Called by the queries with both forms in the frame of the standing one, in double. Everything rests on the exact forms: no skin, no
-// shrinking. A sweep stops FE_SWEEP_GAP before the other form, so that rounding never carries it in; what overlaps at the start is a hit at
-// t = 0, and what starts within the gap and comes nearer stops at once. What does not come nearer is never hit, however close it passes.
+// Called by the queries with both forms in the frame of the standing one, in double. Everything rests on the exact
+// forms: no skin, no shrinking. A sweep stops FE_SWEEP_GAP before the other form, so that rounding never carries it in;
+// what overlaps at the start is a hit at t = 0, and what starts within the gap and comes nearer stops at once. What
+// does not come nearer is never hit, however close it passes.
 #ifndef FE_COLLISION_CAST_SWEEP_H
 #define FE_COLLISION_CAST_SWEEP_H
 #include "collision/cast/mover.h"
@@ -12,8 +13,8 @@ int32_t fe__form_sweep(const fe__form *still, const fe__mover *mover, double lim
 // 1 exactly when a sweep from there would start inside.
 int32_t fe__form_overlap(const fe__form *still, const fe__mover *mover);
 
-// The same for a heightfield, in its frame: holes are not there, and a triangle is met from its upper side only. What cuts the surface
-// overlaps it; what comes from below passes.
+// The same for a heightfield, in its frame: holes are not there, and a triangle is met from its upper side only. What
+// cuts the surface overlaps it; what comes from below passes.
 int32_t fe__heightfield_sweep(const fe__heightfield *field, const fe__mover *mover, double limit, fe__sweep_hit *hit);
 int32_t fe__heightfield_overlap(const fe__heightfield *field, const fe__mover *mover);
 

@@ -1,14 +1,16 @@
-// sweep_boxes.c - two boxes, or a box and a triangle, one of them moving: a ray against their difference, which slabs bound.
+// sweep_boxes.c - two boxes, or a box and a triangle, one of them moving: a ray against their difference, which slabs
+// bound.
 //
-// The points by which box B's centre can be off A's while they overlap make a polytope whose faces lie across the axes of A, those of B and
-// the products of an axis of each (Gottschalk, Lin, Manocha 1996). Across a unit axis n,
+// The points by which box B's centre can be off A's while they overlap make a polytope whose faces lie across the axes
+// of A, those of B and the products of an axis of each (Gottschalk, Lin, Manocha 1996). Across a unit axis n,
 //   |n . (p + t d)| <= e = sum_k a_k |n . A_k| + sum_k b_k |n . B_k|
-// so a sweep is the last entry and the first exit of 15 slabs: exact, without iteration. Boxes without size (segments, points) do as well.
-// A triangle has one face and three edges, 13 axes in all, and its slabs are not centred.
+// so a sweep is the last entry and the first exit of 15 slabs: exact, without iteration. Boxes without size (segments,
+// points) do as well. A triangle has one face and three edges, 13 axes in all, and its slabs are not centred.
 #include "collision/cast/approach.h"
 
 enum { BOX_AXES = 15, TRIANGLE_AXES = 13 };
-// Below this sine two edges are parallel and their product is no axis: what it would add is that small a part of their length.
+// Below this sine two edges are parallel and their product is no axis: what it would add is that small a part of their
+// length.
 #define PARALLEL 1e-12
 
 // m, a direction's part along an axis that is none: edges and faces that lie across the normal
@@ -17,7 +19,10 @@ enum { BOX_AXES = 15, TRIANGLE_AXES = 13 };
 static fe_dvec3 axis_of(const fe__axes *m, int32_t k) { return k == 0 ? m->x : k == 1 ? m->y : m->z; }
 static double part(fe_dvec3 a, int32_t k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
 static fe_dvec3 unit(int32_t k) { return (fe_dvec3){k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0}; }
-static int32_t axis_count(const fe__approach *s) { return s->frame_kind == FE_CORE_TRIANGLE ? TRIANGLE_AXES : BOX_AXES; }
+static int32_t axis_count(const fe__approach *s)
+{
+    return s->frame_kind == FE_CORE_TRIANGLE ? TRIANGLE_AXES : BOX_AXES;
+}
 
 static int32_t make_unit(fe_dvec3 *n)
 {
@@ -27,7 +32,8 @@ static int32_t make_unit(fe_dvec3 *n)
     return 1;
 }
 
-// A side of the triangle times an axis of the box. Near parallel ones leave a product of rounding: what of it lies along them is taken off.
+// A side of the triangle times an axis of the box. Near parallel ones leave a product of rounding: what of it lies
+// along them is taken off.
 static int32_t side_axis(const fe__approach *s, int32_t side, fe_dvec3 a, fe_dvec3 *n)
 {
     fe_dvec3 e = fe__dsub(s->vertex[(side + 1) % 3], s->vertex[side]);
@@ -39,8 +45,8 @@ static int32_t side_axis(const fe__approach *s, int32_t side, fe_dvec3 a, fe_dve
     return make_unit(n);
 }
 
-// Axis `index`: faces of the frame, faces of the other, then edges. The product of an axis of the frame with another's has no cancellation:
-// it is exactly across both. 0: parallel edges.
+// Axis `index`: faces of the frame, faces of the other, then edges. The product of an axis of the frame with another's
+// has no cancellation: it is exactly across both. 0: parallel edges.
 static int32_t separating_axis(const fe__approach *s, int32_t index, fe_dvec3 *n)
 {
     int32_t triangle = s->frame_kind == FE_CORE_TRIANGLE, faces = triangle ? 1 : 3;
@@ -64,7 +70,8 @@ static int32_t separating_axis(const fe__approach *s, int32_t index, fe_dvec3 *n
 static double extent(const fe__approach *s, fe_dvec3 n, double *middle)
 {
     fe_dvec3 m = fe__turn_back(&s->axes, n);
-    double other = s->other_half[0] * fe__absd(m.x) + s->other_half[1] * fe__absd(m.y) + s->other_half[2] * fe__absd(m.z);
+    double other =
+        s->other_half[0] * fe__absd(m.x) + s->other_half[1] * fe__absd(m.y) + s->other_half[2] * fe__absd(m.z);
     if (s->frame_kind == FE_CORE_TRIANGLE) {
         double a = fe__ddot(n, s->vertex[0]), b = fe__ddot(n, s->vertex[1]), c = fe__ddot(n, s->vertex[2]);
         double low = fe__mind(fe__mind(a, b), c), high = fe__maxd(fe__maxd(a, b), c);
@@ -72,7 +79,8 @@ static double extent(const fe__approach *s, fe_dvec3 n, double *middle)
         return 0.5 * (high - low) + other;
     }
     *middle = 0.0;
-    return s->frame_half[0] * fe__absd(n.x) + s->frame_half[1] * fe__absd(n.y) + s->frame_half[2] * fe__absd(n.z) + other;
+    return s->frame_half[0] * fe__absd(n.x) + s->frame_half[1] * fe__absd(n.y) + s->frame_half[2] * fe__absd(n.z) +
+           other;
 }
 
 double fe__core_depth(const fe__approach *s, fe_dvec3 *way_out)
@@ -91,8 +99,9 @@ double fe__core_depth(const fe__approach *s, fe_dvec3 *way_out)
     return depth;
 }
 
-// ---- where they touch -----------------------------------------------------------------------------------------------------------
-// What of a box lies farthest along a direction: a corner, an edge or a face, as a box with up to two free half widths.
+// ---- where they touch
+// ----------------------------------------------------------------------------------------------------------- What of a
+// box lies farthest along a direction: a corner, an edge or a face, as a box with up to two free half widths.
 typedef struct feature {
     fe_dvec3 centre;
     double free[3]; // half widths along the box's axes, 0: fixed
@@ -118,9 +127,9 @@ static feature feature_along(const double half[3], fe_dvec3 along)
 static fe_dvec3 clamp_to(const feature *f, fe_dvec3 p)
 {
     fe_dvec3 d = fe__dsub(p, f->centre);
-    return fe__dadd(f->centre,
-                    (fe_dvec3){fe__mind(fe__maxd(d.x, -f->free[0]), f->free[0]), fe__mind(fe__maxd(d.y, -f->free[1]), f->free[1]),
-                               fe__mind(fe__maxd(d.z, -f->free[2]), f->free[2])});
+    return fe__dadd(f->centre, (fe_dvec3){fe__mind(fe__maxd(d.x, -f->free[0]), f->free[0]),
+                                          fe__mind(fe__maxd(d.y, -f->free[1]), f->free[1]),
+                                          fe__mind(fe__maxd(d.z, -f->free[2]), f->free[2])});
 }
 
 // Two edges: the nearest point on the frame's.
@@ -166,8 +175,8 @@ static fe_dvec3 touching_point_of_triangle(const fe__approach *s, fe_dvec3 posit
         fe_dvec3 side = fe__dsub(corner[1], corner[0]);
         double length = sqrt(fe__ddot(side, side)), u, w;
         fe_dvec3 b = fe__dscale(1.0 / length, side);
-        fe__nearest_on_segments(centre, axis_of(&s->axes, of_other.free_axis), of_other.free[of_other.free_axis], corner[0], b, length, &u,
-                                &w);
+        fe__nearest_on_segments(centre, axis_of(&s->axes, of_other.free_axis), of_other.free[of_other.free_axis],
+                                corner[0], b, length, &u, &w);
         return fe__dadd(corner[0], fe__dscale(w, b));
     }
     fe_dvec3 p = clamp_to_corners(s, corner, count, centre);
@@ -178,7 +187,8 @@ static fe_dvec3 touching_point_of_triangle(const fe__approach *s, fe_dvec3 posit
     return p;
 }
 
-// A point of both features, on the frame's. They lie in one plane across the normal: clamping to each in turn ends in both (von Neumann).
+// A point of both features, on the frame's. They lie in one plane across the normal: clamping to each in turn ends in
+// both (von Neumann).
 static fe_dvec3 touching_point(const fe__approach *s, fe_dvec3 position, fe_dvec3 normal)
 {
     if (s->frame_kind == FE_CORE_TRIANGLE) return touching_point_of_triangle(s, position, normal);
@@ -193,7 +203,8 @@ static fe_dvec3 touching_point(const fe__approach *s, fe_dvec3 position, fe_dvec
     return p;
 }
 
-// ---- the sweep ------------------------------------------------------------------------------------------------------------------
+// ---- the sweep
+// ------------------------------------------------------------------------------------------------------------------
 typedef struct passage {
     double enter, leave; // of the polytope itself: they decide
     double stop;         // entry of the polytope with all its faces moved out by the gap
@@ -203,7 +214,8 @@ typedef struct passage {
 // 0: outside of this slab for good, or after leaving another.
 static int32_t clip_to_slab(const fe__approach *s, fe_dvec3 n, passage *p)
 {
-    double middle, e = extent(s, n, &middle), centre = fe__ddot(n, s->position) - middle, rate = fe__ddot(n, s->translation);
+    double middle, e = extent(s, n, &middle), centre = fe__ddot(n, s->position) - middle,
+                   rate = fe__ddot(n, s->translation);
     if (rate > 0.0) n = fe__dscale(-1.0, n), centre = -centre, rate = -rate; // n against the motion
     if (rate == 0.0) return fe__absd(centre) <= e;
     double enter = (centre - e) / -rate, leave = (centre + e) / -rate;

@@ -1,7 +1,8 @@
 // sweep_field.c - a moving form against a heightfield: its triangles, piece by piece along the way.
 //
-// Input: queries, with the mover in the field's frame. The way is cut where the form has moved by about its own size or a cell, so that few
-// triangles lie under each piece; what is met within a piece is met first of all. Vertices are doubles: a stop is as exact as before a box.
+// Input: queries, with the mover in the field's frame. The way is cut where the form has moved by about its own size or
+// a cell, so that few triangles lie under each piece; what is met within a piece is met first of all. Vertices are
+// doubles: a stop is as exact as before a box.
 #include "collision/cast/approach.h"
 #include "collision/cast/sweep.h"
 
@@ -69,12 +70,14 @@ int32_t fe__heightfield_overlap(const fe__heightfield *field, const fe__mover *m
     return 0;
 }
 
-// ---- one triangle ---------------------------------------------------------------------------------------------------------------------
+// ---- one triangle
+// ---------------------------------------------------------------------------------------------------------------------
 // The mover's half width along the triangle's normal, m, and its height at t over the triangle's plane.
 static double thickness_across(const fe__approach *p)
 {
     fe_dvec3 m = fe__turn_back(&p->axes, p->normal);
-    return p->other_half[0] * fe__absd(m.x) + p->other_half[1] * fe__absd(m.y) + p->other_half[2] * fe__absd(m.z) + p->radius;
+    return p->other_half[0] * fe__absd(m.x) + p->other_half[1] * fe__absd(m.y) + p->other_half[2] * fe__absd(m.z) +
+           p->radius;
 }
 
 static double height_at(const fe__approach *p, double t)
@@ -89,15 +92,17 @@ static int32_t is_open(const fe__heightfield *f, int32_t row, int32_t column)
     return fe__heightfield_is_hole(f, row * (f->columns - 1) + column);
 }
 
-// Is the point on a side behind which there is nothing, a hole or the field's end? Sides as fe__heightfield_corners gives them; the
-// diagonal never is one.
+// Is the point on a side behind which there is nothing, a hole or the field's end? Sides as fe__heightfield_corners
+// gives them; the diagonal never is one.
 static int32_t is_on_rim(const search *s, int32_t triangle, fe_dvec3 point)
 {
     static const int32_t step_row[2][3] = {{0, 1, 0}, {0, 0, -1}}, step_column[2][3] = {{-1, 0, 0}, {0, 1, 0}};
     int32_t cell = triangle >> 1, half = triangle & 1, columns = s->field->columns - 1, diagonal = half ? 0 : 2;
     const fe_dvec3 *v = s->pair.vertex;
     for (int32_t i = 0; i < 3; ++i) {
-        if (i == diagonal || !is_open(s->field, cell / columns + step_row[half][i], cell % columns + step_column[half][i])) continue;
+        if (i == diagonal ||
+            !is_open(s->field, cell / columns + step_row[half][i], cell % columns + step_column[half][i]))
+            continue;
         fe_dvec3 side = fe__dsub(v[(i + 1) % 3], v[i]), across = fe__dcross(side, fe__dsub(point, v[i]));
         if (fe__ddot(across, across) <= ON_SIDE * ON_SIDE * fe__ddot(side, side)) return 1;
     }
@@ -111,14 +116,17 @@ static int32_t is_met(const search *s, int32_t triangle, const fe__approach_hit 
     return height_at(&s->pair, hit->t) + thickness_across(&s->pair) > 0.0 && is_on_rim(s, triangle, hit->point);
 }
 
-// Of a start inside the deepest triangle tells; of hits the first. Equal ones: the triangle with the lowest number, which comes first.
+// Of a start inside the deepest triangle tells; of hits the first. Equal ones: the triangle with the lowest number,
+// which comes first.
 static void meet_triangle(search *s, int32_t triangle, fe__sweep_hit *best)
 {
     take_triangle(s, triangle);
     if (fe__approach_overlap(&s->pair).depth >= 0.0) {
-        double depth = fe__maxd(thickness_across(&s->pair) - height_at(&s->pair, 0.0), 0.0); // until it is over the plane
+        double depth =
+            fe__maxd(thickness_across(&s->pair) - height_at(&s->pair, 0.0), 0.0); // until it is over the plane
         if (best->inside && !(depth > best->depth)) return;
-        *best = (fe__sweep_hit){.normal = s->pair.normal, .point = s->mover->position, .depth = depth, .inside = 1, .triangle = triangle};
+        *best = (fe__sweep_hit){
+            .normal = s->pair.normal, .point = s->mover->position, .depth = depth, .inside = 1, .triangle = triangle};
         return;
     }
     fe__approach_hit hit;
@@ -128,7 +136,8 @@ static void meet_triangle(search *s, int32_t triangle, fe__sweep_hit *best)
     *best = (fe__sweep_hit){.t = hit.t, .normal = hit.normal, .point = hit.point, .triangle = triangle};
 }
 
-// ---- the way --------------------------------------------------------------------------------------------------------------------------
+// ---- the way
+// --------------------------------------------------------------------------------------------------------------------------
 // The part of [0, limit] on which the mover's bounds meet those of the field.
 static int32_t clip(const search *s, double limit, double *from, double *to)
 {

@@ -1,5 +1,5 @@
-// table.c - what rays, points and moving forms meet, for every kind of form. A heightfield has functions of its own (heightfield.h,
-// nearest.h, sweep.h), so has a plane that a form moves against (sweep.c).
+// table.c - what rays, points and moving forms meet, for every kind of form. A heightfield has functions of its own
+// (heightfield.h, nearest.h, sweep.h), so has a plane that a form moves against (sweep.c).
 #include "collision/cast/approach.h"
 #include "collision/cast/kinds.h"
 

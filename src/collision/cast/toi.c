@@ -3,8 +3,8 @@
 
 #include "collision/cast/distance.h"
 
-// What comes this near so slowly is taken for a touch. A stick of length l that turns past a wall, its tip e off, takes pi (2 l / e)^(1/2)
-// steps: 450 at a ten-thousandth of its length.
+// What comes this near so slowly is taken for a touch. A stick of length l that turns past a wall, its tip e off, takes
+// pi (2 l / e)^(1/2) steps: 450 at a ten-thousandth of its length.
 enum { MOST_ADVANCES = 512 };
 
 static fe_quat part_of_turn(fe_quat turn, double s)
@@ -36,8 +36,8 @@ static double reach_of(const fe__mobile *mobile)
     return (double)fe__form_reach(&core, fe__narrow(fe__drotate_back(mobile->rotation, fe__dscale(-1.0, mobile->arm))));
 }
 
-// With the half angle f, the rotation of normalize(1 + s (turn - 1)) is fastest at s = 1/2: 4 tan(f / 2) = 4 sin f / (1 + cos f), rad. The
-// axis stands still, so that a point at r moves along n by  n.(w x r) = (n x w).r.
+// With the half angle f, the rotation of normalize(1 + s (turn - 1)) is fastest at s = 1/2: 4 tan(f / 2) = 4 sin f / (1
+// + cos f), rad. The axis stands still, so that a point at r moves along n by  n.(w x r) = (n x w).r.
 static double turning_along(const fe__mobile *mobile, double reach, fe_dvec3 n)
 {
     fe_quat turn = mobile->motion.turn;
@@ -72,7 +72,8 @@ fe__meeting fe__time_of_impact(const fe__mobile *a, const fe__mobile *b, double 
         impact->normal = gap.normal, impact->on_b = gap.on_b, impact->overlap = gap.overlap;
         if (gap.overlap || gap.distance <= 0.0) return i > 0 ? FE_MEET_LATER : FE_MEET_NOW;
         if (gap.distance <= FE_TOUCH && comes_nearer(a, b, impact->s, &gap)) return FE_MEET_LATER;
-        double speed = fe__ddot(gap.normal, closing) + turning_along(a, reach_a, gap.normal) + turning_along(b, reach_b, gap.normal);
+        double speed = fe__ddot(gap.normal, closing) + turning_along(a, reach_a, gap.normal) +
+                       turning_along(b, reach_b, gap.normal);
         // half of the touching distance is left, so that the next look finds a normal
         double way = fe__maxd(gap.distance - 0.5 * FE_TOUCH, 0.25 * FE_TOUCH);
         if (!(speed * (limit - impact->s) > way)) return FE_MEET_NEVER;

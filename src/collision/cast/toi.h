@@ -1,12 +1,14 @@
 // toi.h - when do two moving forms touch? Conservative advancement, in double.
 //
-// After B. Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems (1996), 2.3; the bound along the shortest distance is that of X.
-// Zhang, M. Lee, Y. J. Kim, Interactive continuous collision detection for non-convex polyhedra (2006).
+// After B. Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems (1996), 2.3; the bound along the shortest
+// distance is that of X. Zhang, M. Lee, Y. J. Kim, Interactive continuous collision detection for non-convex polyhedra
+// (2006).
 #ifndef FE_COLLISION_CAST_TOI_H
 #define FE_COLLISION_CAST_TOI_H
 #include "collision/form/form.h"
 
-// From one pose of a body to another: the centre goes straight, the rotation with it: normalize(1 + s (turn - 1)) rotation, turn.w >= 0.
+// From one pose of a body to another: the centre goes straight, the rotation with it: normalize(1 + s (turn - 1))
+// rotation, turn.w >= 0.
 typedef struct fe__motion {
     fe_dvec3 centre;      // m, at s = 0; near the origin of the caller's frame
     fe_quat rotation;     // unit

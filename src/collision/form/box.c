@@ -6,7 +6,8 @@ fe__mass fe__box_mass(const fe__form *form, double density)
     fe_dvec3 h = fe__widen(form->half);
     double mass = density * 8.0 * h.x * h.y * h.z, third = mass / 3.0;
     double xx = h.x * h.x, yy = h.y * h.y, zz = h.z * h.z;
-    return (fe__mass){(float)mass, {(float)(third * (yy + zz)), (float)(third * (xx + zz)), (float)(third * (xx + yy))}};
+    return (fe__mass){(float)mass,
+                      {(float)(third * (yy + zz)), (float)(third * (xx + zz)), (float)(third * (xx + yy))}};
 }
 
 float fe__box_thickness(const fe__form *form) { return fe__minf(form->half.x, fe__minf(form->half.y, form->half.z)); }
@@ -21,7 +22,8 @@ fe__form fe__box_shrunk(const fe__form *form, float by)
 fe_dvec3 fe__box_support(const fe__form *form, fe_dvec3 direction)
 {
     fe_dvec3 half = fe__widen(form->half);
-    return (fe_dvec3){direction.x < 0.0 ? -half.x : half.x, direction.y < 0.0 ? -half.y : half.y, direction.z < 0.0 ? -half.z : half.z};
+    return (fe_dvec3){direction.x < 0.0 ? -half.x : half.x, direction.y < 0.0 ? -half.y : half.y,
+                      direction.z < 0.0 ? -half.z : half.z};
 }
 
 // Corners in turn around the outward axis; of equal axes the lowest.

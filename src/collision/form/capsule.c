@@ -1,8 +1,8 @@
 // capsule.c - the capsule: half_height of its axis, along y, and radius.
 #include "collision/form/kinds.h"
 
-// A cylinder of length 2h and two half balls. A half ball's centre of mass is 3r/8 beyond the flat side, so that about the capsule's
-// centre, by Steiner, both together have  m (2/5 r^2 + h^2 + 3/4 h r)  across the axis.
+// A cylinder of length 2h and two half balls. A half ball's centre of mass is 3r/8 beyond the flat side, so that about
+// the capsule's centre, by Steiner, both together have  m (2/5 r^2 + h^2 + 3/4 h r)  across the axis.
 fe__mass fe__capsule_mass(const fe__form *form, double density)
 {
     double r = (double)form->radius, h = (double)form->half_height, rr = r * r;

@@ -1,8 +1,8 @@
 // clip.c - cutting a face by another, and choosing four of the vertices.
 //
-// Input: two faces in the plane of one of them, from box_box.c and convex.c, which turn the vertices into contact points. The rectangle's
-// cut works on the four edges of the incident face side by side (Liang and Barsky, 1984) without a branch; the general one is Sutherland
-// and Hodgman's (1974).
+// Input: two faces in the plane of one of them, from box_box.c and convex.c, which turn the vertices into contact
+// points. The rectangle's cut works on the four edges of the incident face side by side (Liang and Barsky, 1984)
+// without a branch; the general one is Sutherland and Hodgman's (1974).
 #define FE_W 4
 #include "collision/form/clip.h"
 
@@ -10,7 +10,8 @@
 
 #include <string.h>
 
-// ---- four lanes -----------------------------------------------------------------------------------------------------------------
+// ---- four lanes
+// -----------------------------------------------------------------------------------------------------------------
 static inline wide absolute(wide a) { return (wide)((wide_int)a & 0x7fffffff); }
 static inline wide_int choose_int(wide_int m, wide_int yes, wide_int no) { return (m & yes) | (~m & no); }
 static inline uint32_t bits(wide_int m)
@@ -28,28 +29,33 @@ typedef struct lanes {
 
 static inline lanes at(const fe__parallelogram *p, wide i, wide j)
 {
-    return (lanes){p->centre.x + i * p->x.x + j * p->y.x, p->centre.y + i * p->x.y + j * p->y.y, p->centre.z + i * p->x.z + j * p->y.z};
+    return (lanes){p->centre.x + i * p->x.x + j * p->y.x, p->centre.y + i * p->x.y + j * p->y.y,
+                   p->centre.z + i * p->x.z + j * p->y.z};
 }
 
-// ---- the four edges ---------------------------------------------------------------------------------------------------------------
-// Edge k runs from corner k to corner k + 1, around the parallelogram; so do the corners of the rectangle.
+// ---- the four edges
+// --------------------------------------------------------------------------------------------------------------- Edge
+// k runs from corner k to corner k + 1, around the parallelogram; so do the corners of the rectangle.
 static const wide corner_i = {-1.0f, 1.0f, 1.0f, -1.0f}, corner_j = {-1.0f, -1.0f, 1.0f, 1.0f};
 static const wide step_i = {2.0f, 0.0f, -2.0f, 0.0f}, step_j = {0.0f, 2.0f, 0.0f, -2.0f};
 
 typedef struct cut_edges {
     lanes start, end;
-    wide_int has_start, has_end;   // the end is given only where the next edge does not give it as its start
-    wide_int side_start, side_end; // the rectangle's side that cuts there: 0 +u, 1 +v, 2 -u, 3 -v; -1 a start that nothing cut
+    wide_int has_start, has_end; // the end is given only where the next edge does not give it as its start
+    wide_int side_start,
+        side_end; // the rectangle's side that cuts there: 0 +u, 1 +v, 2 -u, 3 -v; -1 a start that nothing cut
 } cut_edges;
 
-// What of start + t step, 0 <= t <= 1, lies in the rectangle: inside |u| <= h for t between (-h - u) / du and (h - u) / du, whichever comes
-// first. An edge parallel to a side has du = 0, which becomes so small that it is inside always or never.
+// What of start + t step, 0 <= t <= 1, lies in the rectangle: inside |u| <= h for t between (-h - u) / du and (h - u) /
+// du, whichever comes first. An edge parallel to a side has du = 0, which becomes so small that it is inside always or
+// never.
 static inline cut_edges cut_by_rectangle(const fe__parallelogram *p, float half_u, float half_v)
 {
     const wide zero = {0.0f, 0.0f, 0.0f, 0.0f}, one = {1.0f, 1.0f, 1.0f, 1.0f}, tiny = {1e-12f, 1e-12f, 1e-12f, 1e-12f};
     lanes s = at(p, corner_i, corner_j);
     lanes d = {step_i * p->x.x + step_j * p->y.x, step_i * p->x.y + step_j * p->y.y, step_i * p->x.z + step_j * p->y.z};
-    wide inverse_u = one / w_choose(absolute(d.u) < tiny, tiny, d.u), inverse_v = one / w_choose(absolute(d.v) < tiny, tiny, d.v);
+    wide inverse_u = one / w_choose(absolute(d.u) < tiny, tiny, d.u),
+         inverse_v = one / w_choose(absolute(d.v) < tiny, tiny, d.v);
     wide au = (-half_u - s.u) * inverse_u, bu = (half_u - s.u) * inverse_u, av = (-half_v - s.v) * inverse_v,
          bv = (half_v - s.v) * inverse_v;
     wide enter_u = w_min(au, bu), leave_u = w_max(au, bu), enter_v = w_min(av, bv), leave_v = w_max(av, bv);
@@ -68,16 +74,18 @@ static inline cut_edges cut_by_rectangle(const fe__parallelogram *p, float half_
     return cut;
 }
 
-// The rectangle's corners that lie in the parallelogram, at its height: corner = centre + i x + j y solved for i and j. Only half the
-// slack, so that an edge that has just left the rectangle and a corner that has just left the parallelogram never both lose a point: a
-// point given twice does no harm, one lost tilts a stack.
-static inline lanes corners_inside(const fe__parallelogram *p, float half_u, float half_v, float slack, wide_int *inside)
+// The rectangle's corners that lie in the parallelogram, at its height: corner = centre + i x + j y solved for i and j.
+// Only half the slack, so that an edge that has just left the rectangle and a corner that has just left the
+// parallelogram never both lose a point: a point given twice does no harm, one lost tilts a stack.
+static inline lanes corners_inside(const fe__parallelogram *p, float half_u, float half_v, float slack,
+                                   wide_int *inside)
 {
     float inverse = 1.0f / (p->x.x * p->y.y - p->x.y * p->y.x);
     wide u = corner_i * half_u, v = corner_j * half_v, du = u - p->centre.x, dv = v - p->centre.y;
     wide i = (du * p->y.y - dv * p->y.x) * inverse, j = (p->x.x * dv - p->x.y * du) * inverse;
     float size = 0.5f * slack * fe__absf(inverse);
-    float slack_i = size * (fe__absf(p->y.x) + fe__absf(p->y.y)), slack_j = size * (fe__absf(p->x.x) + fe__absf(p->x.y));
+    float slack_i = size * (fe__absf(p->y.x) + fe__absf(p->y.y)),
+          slack_j = size * (fe__absf(p->x.x) + fe__absf(p->x.y));
     *inside = (absolute(i) < w_set(1.0f - slack_i)) & (absolute(j) < w_set(1.0f - slack_j));
     return (lanes){u, v, p->centre.z + i * p->x.z + j * p->y.z};
 }
@@ -96,8 +104,8 @@ int32_t fe__clip_rectangle(const fe__parallelogram *incident, float half_u, floa
     wide_int inside;
     lanes corner = corners_inside(incident, half_u, half_v, slack, &inside);
     wide near = w_set(margin);
-    uint32_t left = bits(cut.has_start & (cut.start.height <= near)) | bits(cut.has_end & (cut.end.height <= near)) << 4 |
-                    bits(inside & (corner.height <= near)) << 8;
+    uint32_t left = bits(cut.has_start & (cut.start.height <= near)) |
+                    bits(cut.has_end & (cut.end.height <= near)) << 4 | bits(inside & (corner.height <= near)) << 8;
 
     float u[12], v[12], height[12];
     int32_t side[8];
@@ -122,25 +130,33 @@ int32_t fe__clip_rectangle(const fe__parallelogram *incident, float half_u, floa
     return count;
 }
 
-// ---- any polygon --------------------------------------------------------------------------------------------------------------------
-// The part of a polygon, or of an open line of one or two vertices, on the left of the line through p along (du, dv), by name `side`.
+// ---- any polygon
+// --------------------------------------------------------------------------------------------------------------------
+// The part of a polygon, or of an open line of one or two vertices, on the left of the line through p along (du, dv),
+// by name `side`.
 typedef struct cutter {
     float u, v, du, dv; // the direction has length 1
     float slack;
     int32_t side;
 } cutter;
 
-static float inside_by(const cutter *c, const fe__clip_vertex *p) { return c->du * (p->v - c->v) - c->dv * (p->u - c->u) + c->slack; }
+static float inside_by(const cutter *c, const fe__clip_vertex *p)
+{
+    return c->du * (p->v - c->v) - c->dv * (p->u - c->u) + c->slack;
+}
 
-static fe__clip_vertex crossing(const fe__clip_vertex *p, const fe__clip_vertex *q, float at_p, float at_q, int32_t side)
+static fe__clip_vertex crossing(const fe__clip_vertex *p, const fe__clip_vertex *q, float at_p, float at_q,
+                                int32_t side)
 {
     float t = at_p / (at_p - at_q);
     int32_t edge = (int32_t)(p->id & 0xff); // the one from p to q
     uint32_t id = at_p > at_q ? fe__clip_id(edge, FE_CLIP_SIDE + side) : fe__clip_id(FE_CLIP_SIDE + side, edge);
-    return (fe__clip_vertex){p->u + t * (q->u - p->u), p->v + t * (q->v - p->v), p->height + t * (q->height - p->height), id};
+    return (fe__clip_vertex){p->u + t * (q->u - p->u), p->v + t * (q->v - p->v),
+                             p->height + t * (q->height - p->height), id};
 }
 
-static int32_t cut_polygon(const cutter *c, const fe__clip_vertex *in, int32_t count, int32_t closed, fe__clip_vertex *out)
+static int32_t cut_polygon(const cutter *c, const fe__clip_vertex *in, int32_t count, int32_t closed,
+                           fe__clip_vertex *out)
 {
     int32_t left = 0;
     for (int32_t i = 0; i < count; ++i) {
@@ -155,7 +171,8 @@ static int32_t cut_polygon(const cutter *c, const fe__clip_vertex *in, int32_t c
     return left;
 }
 
-int32_t fe__clip_polygon(const fe__clip_vertex *reference, int32_t reference_count, fe__clip_vertex *incident, int32_t count, float slack)
+int32_t fe__clip_polygon(const fe__clip_vertex *reference, int32_t reference_count, fe__clip_vertex *incident,
+                         int32_t count, float slack)
 {
     fe__clip_vertex other[FE_CLIP_VERTICES], *in = incident, *out = other;
     int32_t closed = count > 2;
@@ -171,7 +188,8 @@ int32_t fe__clip_polygon(const fe__clip_vertex *reference, int32_t reference_cou
     return count;
 }
 
-// ---- four of many -------------------------------------------------------------------------------------------------------------------
+// ---- four of many
+// -------------------------------------------------------------------------------------------------------------------
 static float apart(const fe__clip_vertex *p, const fe__clip_vertex *q)
 {
     float du = p->u - q->u, dv = p->v - q->v;
@@ -216,8 +234,8 @@ static int32_t is_among(const fe__clip_vertex *p, int32_t i, const int32_t *chos
     return 0;
 }
 
-// What spans most may lie clear of the face and carry nothing: it gives way to a vertex below. Else of two that carry, side by side, now
-// one is chosen and now the other, and the load swings between them.
+// What spans most may lie clear of the face and carry nothing: it gives way to a vertex below. Else of two that carry,
+// side by side, now one is chosen and now the other, and the load swings between them.
 static void keep_what_carries(const fe__clip_vertex *p, int32_t count, float tie, int32_t *chosen, int32_t chosen_count)
 {
     const float clear = 0.001f; // m, a few overlaps of a body at rest
@@ -237,7 +255,8 @@ int32_t fe__reduce_to_four(fe__clip_vertex *p, int32_t count, float tie)
 {
     if (count <= 4) return count;
     int32_t first = deepest(p, count, tie), second = farthest(p, count, first, tie), left = first, right = first;
-    float du = p[second].u - p[first].u, dv = p[second].v - p[first].v, step = tie * sqrtf(du * du + dv * dv), most = step, least = -step;
+    float du = p[second].u - p[first].u, dv = p[second].v - p[first].v, step = tie * sqrtf(du * du + dv * dv),
+          most = step, least = -step;
     for (int32_t i = 0; i < count; ++i) {
         float area = du * (p[i].v - p[first].v) - dv * (p[i].u - p[first].u);
         if (area > most) most = area + step, left = i;

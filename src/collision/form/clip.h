@@ -1,13 +1,13 @@
 // clip.h - the polygon in which two faces meet, and its four points.
 //
-// Used by box against box (four edges side by side) and by the general convex path (any polygon). Both work in the plane of the reference
-// face: u, v along it, height over it, below 0 inside. The incident face is what is cut.
+// Used by box against box (four edges side by side) and by the general convex path (any polygon). Both work in the
+// plane of the reference face: u, v along it, height over it, below 0 inside. The incident face is what is cut.
 #ifndef FE_COLLISION_FORM_CLIP_H
 #define FE_COLLISION_FORM_CLIP_H
 #include "core/math.h"
 
-// id: the edges before and after the vertex. Edges of the incident face count from 0, sides of the reference face from FE_CLIP_SIDE: the
-// name of a vertex lives as long as the two meet.
+// id: the edges before and after the vertex. Edges of the incident face count from 0, sides of the reference face from
+// FE_CLIP_SIDE: the name of a vertex lives as long as the two meet.
 typedef struct fe__clip_vertex {
     float u, v, height;
     uint32_t id;
@@ -26,17 +26,20 @@ typedef struct fe__parallelogram {
     fe_vec3 centre, x, y;
 } fe__parallelogram;
 
-// Cuts the parallelogram by the rectangle |u| <= half_u, |v| <= half_v, widened by `slack`. Gives the vertices below `margin`, among them
-// the rectangle's corners over or under the parallelogram, 12 at most.
+// Cuts the parallelogram by the rectangle |u| <= half_u, |v| <= half_v, widened by `slack`. Gives the vertices below
+// `margin`, among them the rectangle's corners over or under the parallelogram, 12 at most.
 int32_t fe__clip_rectangle(const fe__parallelogram *incident, float half_u, float half_v, float slack, float margin,
                            fe__clip_vertex out[12]);
 
-// Cuts a polygon, a segment or a point (count > 2, 2, 1; at most FE_FACE_VERTICES) by a convex polygon that turns left, widened by `slack`
-// (Sutherland and Hodgman, 1974). `incident` must hold FE_CLIP_VERTICES and is overwritten. Returns the count left.
-int32_t fe__clip_polygon(const fe__clip_vertex *reference, int32_t reference_count, fe__clip_vertex *incident, int32_t count, float slack);
+// Cuts a polygon, a segment or a point (count > 2, 2, 1; at most FE_FACE_VERTICES) by a convex polygon that turns left,
+// widened by `slack` (Sutherland and Hodgman, 1974). `incident` must hold FE_CLIP_VERTICES and is overwritten. Returns
+// the count left.
+int32_t fe__clip_polygon(const fe__clip_vertex *reference, int32_t reference_count, fe__clip_vertex *incident,
+                         int32_t count, float slack);
 
-// Leaves at most four: the deepest, the farthest from it, and those that span most area on either side; of these, what is clear of the
-// face gives way to what lies below. Of vertices that are equal within `tie` (m) the first, so that rounding errors do not choose.
+// Leaves at most four: the deepest, the farthest from it, and those that span most area on either side; of these, what
+// is clear of the face gives way to what lies below. Of vertices that are equal within `tie` (m) the first, so that
+// rounding errors do not choose.
 int32_t fe__reduce_to_four(fe__clip_vertex *vertices, int32_t count, float tie);
 
 #endif

@@ -21,10 +21,12 @@ float fe__no_thickness(const fe__form *form)
     return FLT_MAX;
 }
 
-// |R| half, the half widths along the world's axes of a box rotated by q: R = 1 + k (...), k = 2 / q.q, so that any length of q will do.
+// |R| half, the half widths along the world's axes of a box rotated by q: R = 1 + k (...), k = 2 / q.q, so that any
+// length of q will do.
 fe_dvec3 fe__rotated_widths(fe_quat q, fe_dvec3 half)
 {
-    double x = (double)q.x, y = (double)q.y, z = (double)q.z, w = (double)q.w, k = 2.0 / (x * x + y * y + z * z + w * w);
+    double x = (double)q.x, y = (double)q.y, z = (double)q.z, w = (double)q.w,
+           k = 2.0 / (x * x + y * y + z * z + w * w);
     double xx = k * x * x, yy = k * y * y, zz = k * z * z, xy = k * x * y, xz = k * x * z, yz = k * y * z;
     double wx = k * w * x, wy = k * w * y, wz = k * w * z;
     return (fe_dvec3){fe__absd(1.0 - yy - zz) * half.x + fe__absd(xy - wz) * half.y + fe__absd(xz + wy) * half.z,

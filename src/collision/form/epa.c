@@ -1,8 +1,8 @@
 // epa.c - depth of two cores that overlap; see epa.h.
 //
-// A polytope inside the cores' difference, with the origin in it, is blown up where its surface is nearest the origin until that face is
-// one of the difference itself: van den Bergen (2001). Differences without volume (points, lines and plane figures: two segments, or a
-// segment and a point) have depth 0 and are left across themselves.
+// A polytope inside the cores' difference, with the origin in it, is blown up where its surface is nearest the origin
+// until that face is one of the difference itself: van den Bergen (2001). Differences without volume (points, lines and
+// plane figures: two segments, or a segment and a point) have depth 0 and are left across themselves.
 #include "collision/form/epa.h"
 
 #include <string.h>
@@ -33,12 +33,15 @@ static fe_dvec3 unit(fe_dvec3 a) { return fe__dscale(1.0 / sqrt(fe__ddot(a, a)),
 static fe_dvec3 perpendicular(fe_dvec3 d)
 {
     double x = fe__absd(d.x), y = fe__absd(d.y), z = fe__absd(d.z);
-    fe_dvec3 axis = x <= y && x <= z ? (fe_dvec3){1.0, 0.0, 0.0} : y <= z ? (fe_dvec3){0.0, 1.0, 0.0} : (fe_dvec3){0.0, 0.0, 1.0};
+    fe_dvec3 axis = x <= y && x <= z ? (fe_dvec3){1.0, 0.0, 0.0}
+                    : y <= z         ? (fe_dvec3){0.0, 1.0, 0.0}
+                                     : (fe_dvec3){0.0, 0.0, 1.0};
     return unit(fe__dsub(axis, fe__dscale(fe__ddot(axis, d) / fe__ddot(d, d), d)));
 }
 
-// ---- the first tetrahedron ----------------------------------------------------------------------------------------------------------
-// Adds the farthest vertex along one of the directions, if it is out of the point, line or plane that the vertices span.
+// ---- the first tetrahedron
+// ---------------------------------------------------------------------------------------------------------- Adds the
+// farthest vertex along one of the directions, if it is out of the point, line or plane that the vertices span.
 static int32_t add_off_span(polytope *p, const fe__cores *cores, const fe_dvec3 *directions, int32_t count)
 {
     for (int32_t i = 0; i < 2 * count; ++i) {
@@ -93,7 +96,8 @@ static int32_t enclose_origin(polytope *p, const fe__cores *cores, fe_dvec3 *acr
     return 3;
 }
 
-// ---- growing --------------------------------------------------------------------------------------------------------------------------
+// ---- growing
+// --------------------------------------------------------------------------------------------------------------------------
 static void add_face(polytope *p, int32_t i, int32_t j, int32_t k)
 {
     face *f = &p->face[p->face_count++];
@@ -145,7 +149,8 @@ static void toggle_edge(horizon *h, int16_t from, int16_t to)
     ++h->count;
 }
 
-// Replaces the faces that the last vertex sees, those in one plane with it included, by faces from their rim to it. 0: no room.
+// Replaces the faces that the last vertex sees, those in one plane with it included, by faces from their rim to it. 0:
+// no room.
 static int32_t grow(polytope *p, int32_t nearest)
 {
     int32_t apex = p->vertex_count - 1;
@@ -168,14 +173,16 @@ static int32_t grow(polytope *p, int32_t nearest)
     return 1;
 }
 
-// ---- the answer -----------------------------------------------------------------------------------------------------------------------
+// ---- the answer
+// -----------------------------------------------------------------------------------------------------------------------
 static fe__penetration flat_answer(const fe__cores *cores, const fe__gjk *g, fe_dvec3 across)
 {
     if (fe__ddot(across, cores->position) < 0.0) across = fe__dscale(-1.0, across);
     return (fe__penetration){across, 0.0, g->on_a, g->on_b};
 }
 
-// The origin's foot on the face lies in the face or, where several triangles make up one face of the difference, in one of those.
+// The origin's foot on the face lies in the face or, where several triangles make up one face of the difference, in one
+// of those.
 static fe__penetration face_answer(const polytope *p, const face *f)
 {
     fe_dvec3 foot = fe__dscale(f->distance, f->normal), on_a = {0.0, 0.0, 0.0};

@@ -1,4 +1,5 @@
-// epa.h - depth of two cores that overlap (van den Bergen, Proximity queries and penetration depth computation, 2001), in double.
+// epa.h - depth of two cores that overlap (van den Bergen, Proximity queries and penetration depth computation, 2001),
+// in double.
 //
 // Goes on from the simplex around the origin with which GJK ended.
 #ifndef FE_COLLISION_FORM_EPA_H

@@ -1,19 +1,21 @@
 // form.h - the forms of shapes: what they weigh, where they end, how they look from a direction.
 //
-// A form lives in the frame of its shape. Everything below the world knows forms and poses only; bodies and shapes are the world's. Only
-// collision/ asks for the kind of a form; all others ask for its traits.
+// A form lives in the frame of its shape. Everything below the world knows forms and poses only; bodies and shapes are
+// the world's. Only collision/ asks for the kind of a form; all others ask for its traits.
 //
 // A new form takes
 //   - its kind below (before the triangle; of two forms the later one is A in fe__collide), and its fields in fe__form,
 //   - a file here with what fe__form_traits lists, and its line in table.c,
-//   - in manifold/ a kernel for each partner that deserves one, in the table of collide.c; the general convex path serves all others,
+//   - in manifold/ a kernel for each partner that deserves one, in the table of collide.c; the general convex path
+//   serves all others,
 //   - in cast/ its ray and its nearest point, and its line in cast/table.c,
 //   - its public number and fields in feather.h, which the API reads in one place.
 #ifndef FE_COLLISION_FORM_FORM_H
 #define FE_COLLISION_FORM_FORM_H
 #include "core/math.h"
 
-// The kinds of forms, in the order of the kernels. A triangle is no public form: heightfields hand out theirs one by one.
+// The kinds of forms, in the order of the kernels. A triangle is no public form: heightfields hand out theirs one by
+// one.
 typedef enum fe__form_type {
     FE__FORM_SPHERE,
     FE__FORM_CAPSULE,
@@ -24,9 +26,10 @@ typedef enum fe__form_type {
     FE__FORM_TYPES
 } fe__form_type;
 
-// sphere: radius.  capsule: half_height along y, radius.  box: half.  plane: the half space normal . p <= distance, normal of length 1.
-// Unused fields are 0, so that each of these is a core (point, segment, box) swelled by its radius. triangle: vertices, turning left around
-// the side that counts.  heightfield: its record's index, its bounds (heightfield.h).
+// sphere: radius.  capsule: half_height along y, radius.  box: half.  plane: the half space normal . p <= distance,
+// normal of length 1. Unused fields are 0, so that each of these is a core (point, segment, box) swelled by its radius.
+// triangle: vertices, turning left around the side that counts.  heightfield: its record's index, its bounds
+// (heightfield.h).
 typedef struct fe__form {
     int32_t type; // fe__form_type
     float radius;
@@ -39,7 +42,7 @@ typedef struct fe__form {
         };
         fe_vec3 vertex[3];
         struct {
-            int32_t field; // of the world's heightfields
+            int32_t field; // its asset in the store
             fe_vec3 low, high;
         };
     };
@@ -58,7 +61,8 @@ static inline fe__pose fe__compose(const fe__pose *body, fe_vec3 position, fe_qu
                       fe__normalized(fe__product(body->rotation, rotation))};
 }
 
-// mass, kg, and principal moments about the centre of mass, kg m2. Both are the form's own: its origin, its axes. A static form has none
+// mass, kg, and principal moments about the centre of mass, kg m2. Both are the form's own: its origin, its axes. A
+// static form has none
 typedef struct fe__mass {
     float mass;
     fe_vec3 inertia;
@@ -70,7 +74,8 @@ typedef struct fe__bounds {
 
 struct fe__face; // support.h
 
-// ---- traits -------------------------------------------------------------------------------------------------------------------------
+// ---- traits
+// -------------------------------------------------------------------------------------------------------------------------
 typedef struct fe__form_traits {
     const char *name;    // in the sentences of errors
     int32_t geometry;    // fe_geometry_type, -1: not public
@@ -100,24 +105,39 @@ static inline int32_t fe__form_has_asset(const fe__form *form) { return fe__trai
 
 int32_t fe__form_of_geometry(int32_t geometry); // the kind with that public number, -1: none
 
-// ---- what each form tells of itself ---------------------------------------------------------------------------------------------------
-static inline fe__mass fe__form_mass(const fe__form *form, float density) { return fe__traits_of(form)->mass(form, (double)density); }
-// Bounds at a pose, in the world, as tight as the form allows. A plane's are infinite on all sides but the one its normal faces, if that is
-// an axis; callers treat what is unbounded apart.
-static inline fe__bounds fe__form_bounds(const fe__form *form, const fe__pose *pose) { return fe__traits_of(form)->bounds(form, pose); }
+// ---- what each form tells of itself
+// ---------------------------------------------------------------------------------------------------
+static inline fe__mass fe__form_mass(const fe__form *form, float density)
+{
+    return fe__traits_of(form)->mass(form, (double)density);
+}
+// Bounds at a pose, in the world, as tight as the form allows. A plane's are infinite on all sides but the one its
+// normal faces, if that is an axis; callers treat what is unbounded apart.
+static inline fe__bounds fe__form_bounds(const fe__form *form, const fe__pose *pose)
+{
+    return fe__traits_of(form)->bounds(form, pose);
+}
 // largest distance from `centre` (form's frame) to a point of the form, m; 0 for what is static only
-static inline float fe__form_reach(const fe__form *form, fe_vec3 centre) { return fe__traits_of(form)->reach(form, centre); }
+static inline float fe__form_reach(const fe__form *form, fe_vec3 centre)
+{
+    return fe__traits_of(form)->reach(form, centre);
+}
 // smallest half width of the form, m: what a fast body may not outrun; FLT_MAX for planes and heightfields
 static inline float fe__form_thickness(const fe__form *form) { return fe__traits_of(form)->thickness(form); }
 // the form without its outermost layer, `by` (m, less than its thickness) thick
 static inline fe__form fe__form_shrunk(const fe__form *form, float by) { return fe__traits_of(form)->shrunk(form, by); }
 
-// ---- points ---------------------------------------------------------------------------------------------------------------------------
+// ---- points
+// ---------------------------------------------------------------------------------------------------------------------------
 // A ball without size: the probe of a ray
 static inline fe__form fe__point_form(void) { return (fe__form){.type = FE__FORM_SPHERE}; }
-static inline int32_t fe__form_is_point(const fe__form *form) { return form->type == FE__FORM_SPHERE && form->radius == 0.0f; }
+static inline int32_t fe__form_is_point(const fe__form *form)
+{
+    return form->type == FE__FORM_SPHERE && form->radius == 0.0f;
+}
 
-// ---- planes (plane.c) -------------------------------------------------------------------------------------------------------------------
+// ---- planes (plane.c)
+// -------------------------------------------------------------------------------------------------------------------
 // Does the box reach into the half space?
 int32_t fe__plane_meets_box(const fe__form *plane, const fe__pose *pose, const fe__bounds *box);
 // The plane in a frame whose origin is `away` (world axes) from that of its shape: as exact a thousand kilometres off

@@ -1,7 +1,7 @@
 // gjk.c - distance of two cores; see gjk.h.
 //
-// Sources: Gilbert, Johnson, Keerthi, A fast procedure for computing the distance between complex objects (1988); the nearest points of
-// triangle and tetrahedron by regions, Ericson, Real-Time Collision Detection, 5.1.5 and 5.1.6.
+// Sources: Gilbert, Johnson, Keerthi, A fast procedure for computing the distance between complex objects (1988); the
+// nearest points of triangle and tetrahedron by regions, Ericson, Real-Time Collision Detection, 5.1.5 and 5.1.6.
 #include "collision/form/gjk.h"
 
 enum { MAX_ITERATIONS = 64 }; // boxes and segments need at most 12
@@ -12,14 +12,17 @@ enum { MAX_ITERATIONS = 64 }; // boxes and segments need at most 12
 fe__vertex fe__cores_support(const fe__cores *cores, fe_dvec3 direction)
 {
     fe_dvec3 on_a = fe__form_support(cores->a, direction);
-    fe_dvec3 local = {-fe__ddot(cores->axis_x, direction), -fe__ddot(cores->axis_y, direction), -fe__ddot(cores->axis_z, direction)};
+    fe_dvec3 local = {-fe__ddot(cores->axis_x, direction), -fe__ddot(cores->axis_y, direction),
+                      -fe__ddot(cores->axis_z, direction)};
     fe_dvec3 q = fe__form_support(cores->b, local);
-    fe_dvec3 turned = fe__dadd(fe__dadd(fe__dscale(q.x, cores->axis_x), fe__dscale(q.y, cores->axis_y)), fe__dscale(q.z, cores->axis_z));
+    fe_dvec3 turned = fe__dadd(fe__dadd(fe__dscale(q.x, cores->axis_x), fe__dscale(q.y, cores->axis_y)),
+                               fe__dscale(q.z, cores->axis_z));
     return (fe__vertex){fe__dsub(on_a, fe__dadd(cores->position, turned)), on_a};
 }
 
-// ---- nearest points of simplices ------------------------------------------------------------------------------------------------
-// Each gives the weights of the corners in the point nearest the origin; a corner outside the nearest feature has 0.
+// ---- nearest points of simplices
+// ------------------------------------------------------------------------------------------------ Each gives the
+// weights of the corners in the point nearest the origin; a corner outside the nearest feature has 0.
 static void weigh_line(fe_dvec3 a, fe_dvec3 b, double *weight)
 {
     fe_dvec3 ab = fe__dsub(b, a);
@@ -65,7 +68,8 @@ static fe_dvec3 weighted(const fe__vertex *vertex, const double *weight, int32_t
     return sum;
 }
 
-// 1 when the origin and d lie on different sides of the triangle's plane. In a tetrahedron as flat as rounding no side is sure: 1.
+// 1 when the origin and d lie on different sides of the triangle's plane. In a tetrahedron as flat as rounding no side
+// is sure: 1.
 static int32_t is_outside(fe_dvec3 a, fe_dvec3 b, fe_dvec3 c, fe_dvec3 d, double size)
 {
     fe_dvec3 normal = fe__dcross(fe__dsub(b, a), fe__dsub(c, a));
@@ -80,7 +84,8 @@ static int32_t weigh_tetrahedron(const fe__vertex *vertex, double *weight, doubl
     double best = (double)INFINITY;
     for (int32_t f = 0; f < 4; ++f) {
         const int8_t *k = faces[f];
-        fe_dvec3 a = vertex[k[0]].difference, b = vertex[k[1]].difference, c = vertex[k[2]].difference, d = vertex[k[3]].difference;
+        fe_dvec3 a = vertex[k[0]].difference, b = vertex[k[1]].difference, c = vertex[k[2]].difference,
+                 d = vertex[k[3]].difference;
         if (!is_outside(a, b, c, d, size)) continue;
         double w[3];
         weigh_triangle(a, b, c, w);
@@ -115,7 +120,8 @@ int32_t fe__nearest_in_simplex(fe__vertex *vertex, double *weight, int32_t count
     return drop_weightless(vertex, weight, count);
 }
 
-// ---- the walk towards the origin ------------------------------------------------------------------------------------------------------
+// ---- the walk towards the origin
+// ------------------------------------------------------------------------------------------------------
 static int32_t is_known(const fe__gjk *g, const fe__vertex *w)
 {
     for (int32_t i = 0; i < g->count; ++i) {

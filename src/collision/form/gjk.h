@@ -1,8 +1,8 @@
 // gjk.h - distance of two cores (Gilbert, Johnson, Keerthi, 1988), in double.
 //
-// Used by the general convex path. The two cores' difference { p - q : p in A, q in B } contains the origin exactly when they overlap, and
-// its point nearest the origin is the shortest vector from B to A. Double, because this path is not hot and serves shapes from 1 mm to 100
-// km.
+// Used by the general convex path. The two cores' difference { p - q : p in A, q in B } contains the origin exactly
+// when they overlap, and its point nearest the origin is the shortest vector from B to A. Double, because this path is
+// not hot and serves shapes from 1 mm to 100 km.
 #ifndef FE_COLLISION_FORM_GJK_H
 #define FE_COLLISION_FORM_GJK_H
 #include "collision/form/support.h"
@@ -22,8 +22,8 @@ typedef struct fe__vertex {
 // The vertex farthest along `direction`.
 fe__vertex fe__cores_support(const fe__cores *cores, fe_dvec3 direction);
 
-// Weights of the vertices of a point, line or triangle (count 1..3) whose sum is nearest the origin. Vertices without weight are removed;
-// returns the count left.
+// Weights of the vertices of a point, line or triangle (count 1..3) whose sum is nearest the origin. Vertices without
+// weight are removed; returns the count left.
 int32_t fe__nearest_in_simplex(fe__vertex *vertex, double *weight, int32_t count);
 
 typedef struct fe__gjk {

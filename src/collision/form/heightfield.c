@@ -1,12 +1,16 @@
 // heightfield.c - triangles of a heightfield, a walk over those near a box, and a ray; see heightfield.h.
 //
-// The ray walks from cell to cell (Amanatides and Woo, A Fast Voxel Traversal Algorithm, 1987). Its height over the surface, g, is linear
-// between borders and diagonals; each g there belongs to both its neighbours, so that no ray slips through an edge.
+// The ray walks from cell to cell (Amanatides and Woo, A Fast Voxel Traversal Algorithm, 1987). Its height over the
+// surface, g, is linear between borders and diagonals; each g there belongs to both its neighbours, so that no ray
+// slips through an edge.
 #include "collision/form/heightfield.h"
 
 #include "collision/form/kinds.h"
 
-static float height_of(const fe__heightfield *f, int32_t row, int32_t column) { return f->heights[(int64_t)row * f->columns + column]; }
+static float height_of(const fe__heightfield *f, int32_t row, int32_t column)
+{
+    return f->heights[(int64_t)row * f->columns + column];
+}
 
 void fe__heightfield_measure(fe__heightfield *f, int32_t row, int32_t rows)
 {
@@ -17,7 +21,8 @@ void fe__heightfield_measure(fe__heightfield *f, int32_t row, int32_t rows)
         f->ranges[r][0] = low, f->ranges[r][1] = high;
     }
     f->low = f->ranges[0][0], f->high = f->ranges[0][1];
-    for (int32_t r = 1; r < f->rows; ++r) f->low = fe__minf(f->low, f->ranges[r][0]), f->high = fe__maxf(f->high, f->ranges[r][1]);
+    for (int32_t r = 1; r < f->rows; ++r)
+        f->low = fe__minf(f->low, f->ranges[r][0]), f->high = fe__maxf(f->high, f->ranges[r][1]);
 }
 
 // The far corner is rounded outwards.
@@ -25,7 +30,8 @@ fe__form fe__heightfield_form(const fe__heightfield *f, int32_t index)
 {
     const double up = 1.0 + 1e-7;
     float x = (float)(up * (double)(f->columns - 1) * f->cell_x), z = (float)(up * (double)(f->rows - 1) * f->cell_z);
-    return (fe__form){.type = FE__FORM_HEIGHTFIELD, .field = index, .low = {0.0f, f->low, 0.0f}, .high = {x, f->high, z}};
+    return (
+        fe__form){.type = FE__FORM_HEIGHTFIELD, .field = index, .low = {0.0f, f->low, 0.0f}, .high = {x, f->high, z}};
 }
 
 // the rotated box of its own bounds
@@ -56,7 +62,8 @@ static fe__form triangle_of(const fe__heightfield *f, int32_t row, int32_t colum
 void fe__heightfield_weights(const fe__heightfield *f, int32_t triangle, fe_dvec3 point, float *out_weights)
 {
     int32_t cell = triangle / 2, row = cell / (f->columns - 1), column = cell % (f->columns - 1);
-    double u = fe__clampd(point.x / f->cell_x - (double)column, 0.0, 1.0), v = fe__clampd(point.z / f->cell_z - (double)row, 0.0, 1.0);
+    double u = fe__clampd(point.x / f->cell_x - (double)column, 0.0, 1.0),
+           v = fe__clampd(point.z / f->cell_z - (double)row, 0.0, 1.0);
     double second = triangle % 2 ? v : fe__maxd(v - u, 0.0), third = triangle % 2 ? fe__maxd(u - v, 0.0) : u;
     out_weights[0] = (float)second;
     out_weights[1] = (float)third;
@@ -92,7 +99,8 @@ fe_dvec3 fe__heightfield_normal(const fe__heightfield *f, int32_t triangle)
     return (fe_dvec3){-k * rise_x, k * area, -k * rise_z};
 }
 
-// ---- the walk -------------------------------------------------------------------------------------------------------------------------
+// ---- the walk
+// -------------------------------------------------------------------------------------------------------------------------
 // the cell a coordinate (in cells) lies in, of `count`
 static int32_t cell_of(double x, int32_t count)
 {
@@ -103,9 +111,11 @@ static int32_t cell_of(double x, int32_t count)
 fe__triangle_walk fe__heightfield_walk(const fe__heightfield *f, const fe__bounds *box, fe_dvec3 origin)
 {
     int32_t columns = f->columns - 1, rows = f->rows - 1;
-    double x0 = box->low.x / f->cell_x, x1 = box->high.x / f->cell_x, z0 = box->low.z / f->cell_z, z1 = box->high.z / f->cell_z;
+    double x0 = box->low.x / f->cell_x, x1 = box->high.x / f->cell_x, z0 = box->low.z / f->cell_z,
+           z1 = box->high.z / f->cell_z;
     fe__triangle_walk walk = {.field = f, .origin = origin, .low = box->low.y, .high = box->high.y};
-    if (!(x1 >= 0.0 && x0 <= (double)columns && z1 >= 0.0 && z0 <= (double)rows)) return walk; // nothing: row == end_row
+    if (!(x1 >= 0.0 && x0 <= (double)columns && z1 >= 0.0 && z0 <= (double)rows))
+        return walk; // nothing: row == end_row
     walk.first_column = walk.column = cell_of(x0, columns);
     walk.end_column = cell_of(x1, columns) + 1;
     walk.row = cell_of(z0, rows);
@@ -135,7 +145,8 @@ int32_t fe__next_triangle(fe__triangle_walk *walk, fe__form *triangle)
     return -1;
 }
 
-// ---- the ray --------------------------------------------------------------------------------------------------------------------------
+// ---- the ray
+// --------------------------------------------------------------------------------------------------------------------------
 // x and z in cells; g is known at t unless the ray flew over the last cell, which it did above 0
 typedef struct traverse {
     const fe__heightfield *field;
@@ -146,7 +157,8 @@ typedef struct traverse {
     double g;
 } traverse;
 
-// Height of the ray at t over the plane of a triangle of the cell. Both halves agree on the diagonal, and neighbours on their border.
+// Height of the ray at t over the plane of a triangle of the cell. Both halves agree on the diagonal, and neighbours on
+// their border.
 static double height_over(const traverse *r, double t, int32_t half)
 {
     const float *h = r->field->heights + (int64_t)r->row * r->field->columns + r->column, *next = h + r->field->columns;
@@ -197,12 +209,16 @@ static int32_t flies_over(const traverse *r, double to)
 // What moves less than this moves by nothing, m
 #define STILL 1e-200
 
-// Where the ray is over the field, no farther above or below the heights than a cell. `per` is 1 / way, 0 where it stands still.
+// Where the ray is over the field, no farther above or below the heights than a cell. `per` is 1 / way, 0 where it
+// stands still.
 static int32_t clip(const fe__heightfield *f, fe_dvec3 o, fe_dvec3 per, double limit, double *from, double *to)
 {
-    double spare = f->cell_x + f->cell_z + 1e-6 * (fe__absd((double)f->low) + fe__absd((double)f->high)); // far above rounding
-    const double low[3] = {0.0, (double)f->low - spare, 0.0}, origin[3] = {o.x, o.y, o.z}, slope[3] = {per.x, per.y, per.z};
-    const double high[3] = {(double)(f->columns - 1) * f->cell_x, (double)f->high + spare, (double)(f->rows - 1) * f->cell_z};
+    double spare =
+        f->cell_x + f->cell_z + 1e-6 * (fe__absd((double)f->low) + fe__absd((double)f->high)); // far above rounding
+    const double low[3] = {0.0, (double)f->low - spare, 0.0}, origin[3] = {o.x, o.y, o.z},
+                 slope[3] = {per.x, per.y, per.z};
+    const double high[3] = {(double)(f->columns - 1) * f->cell_x, (double)f->high + spare,
+                            (double)(f->rows - 1) * f->cell_z};
     double enter = 0.0, leave = limit;
     for (int32_t k = 0; k < 3; ++k) {
         if (slope[k] == 0.0) {
@@ -219,7 +235,8 @@ static int32_t clip(const fe__heightfield *f, fe_dvec3 o, fe_dvec3 per, double l
 
 static double inverse(double way) { return fe__absd(way) < STILL ? 0.0 : 1.0 / way; }
 
-int32_t fe__heightfield_ray(const fe__heightfield *f, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__ray_hit *hit)
+int32_t fe__heightfield_ray(const fe__heightfield *f, fe_dvec3 origin, fe_dvec3 translation, double limit,
+                            fe__ray_hit *hit)
 {
     traverse r = {.field = f};
     fe_dvec3 per = {inverse(translation.x), inverse(translation.y), inverse(translation.z)};

@@ -23,7 +23,8 @@ int32_t fe__plane_meets_box(const fe__form *plane, const fe__pose *pose, const f
 {
     fe_dvec3 n = fe__drotate(pose->rotation, fe__widen(plane->normal));
     double d = fe__ddot(n, pose->position) + (double)plane->distance;
-    fe_dvec3 low = {n.x > 0.0 ? box->low.x : box->high.x, n.y > 0.0 ? box->low.y : box->high.y, n.z > 0.0 ? box->low.z : box->high.z};
+    fe_dvec3 low = {n.x > 0.0 ? box->low.x : box->high.x, n.y > 0.0 ? box->low.y : box->high.y,
+                    n.z > 0.0 ? box->low.z : box->high.z};
     return fe__ddot(n, low) <= d;
 }
 

@@ -1,13 +1,18 @@
-// support.h - what the general convex path knows of a form: the core's farthest point in a direction, and the face that looks that way.
+// support.h - what the general convex path knows of a form: the core's farthest point in a direction, and the face that
+// looks that way.
 //
-// With both a form is complete for GJK, EPA and the manifold. The swelling radius stays outside: it is added to the distance of the cores.
+// With both a form is complete for GJK, EPA and the manifold. The swelling radius stays outside: it is added to the
+// distance of the cores.
 #ifndef FE_COLLISION_FORM_SUPPORT_H
 #define FE_COLLISION_FORM_SUPPORT_H
 #include "collision/form/clip.h"
 #include "collision/form/form.h"
 
 // The point of the core farthest along `direction` (any length), form's frame. Of equally far points always the same.
-static inline fe_dvec3 fe__form_support(const fe__form *form, fe_dvec3 direction) { return fe__traits_of(form)->support(form, direction); }
+static inline fe_dvec3 fe__form_support(const fe__form *form, fe_dvec3 direction)
+{
+    return fe__traits_of(form)->support(form, direction);
+}
 
 // A face of the core: polygon (turning left around the normal), segment or point, form's frame.
 typedef struct fe__face {

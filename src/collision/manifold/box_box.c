@@ -1,12 +1,13 @@
-// box_box.c - box against box: the separating axis test (Gottschalk, Lin, Manocha, 1996), then a face cut by a face or two crossing edges.
+// box_box.c - box against box: the separating axis test (Gottschalk, Lin, Manocha, 1996), then a face cut by a face or
+// two crossing edges.
 //
-// A kernel of collide.c's table. All is in the frame of A: half extents a; B has half extents b, centre t and axes R, R_ij = A_i . B_j.
-// Axes are numbered  0..2 face of A,  3..5 face of B,  6..14 edges A_i x B_j as 6 + 3 i + j;  a separation below 0 is a depth. Rows of R
-// serve four lanes.
+// A kernel of collide.c's table. All is in the frame of A: half extents a; B has half extents b, centre t and axes R,
+// R_ij = A_i . B_j. Axes are numbered  0..2 face of A,  3..5 face of B,  6..14 edges A_i x B_j as 6 + 3 i + j;  a
+// separation below 0 is a depth. Rows of R serve four lanes.
 //
-// Ties: a face of A beats a face of B beats an edge unless the later is better by fe__tie, and within a class the lowest number wins, so
-// that equal axes never alternate. manifold->axis is the axis of the last full test and axis_separation what that test found along it: a
-// face that has hardly moved since is cut again without another test.
+// Ties: a face of A beats a face of B beats an edge unless the later is better by fe__tie, and within a class the
+// lowest number wins, so that equal axes never alternate. manifold->axis is the axis of the last full test and
+// axis_separation what that test found along it: a face that has hardly moved since is cut again without another test.
 #define FE_W 4
 #include "collision/form/clip.h"
 #include "collision/manifold/kernels.h"
@@ -23,7 +24,8 @@ typedef struct box_pair {
     wide row[3];    // R_i0 R_i1 R_i2: A_i in B's frame
     wide abs_row[3];
     float tie;
-    float slack; // by which a face reaches beyond its rim: 1e-4 of the smallest half extent, and the rounding of the largest
+    float slack; // by which a face reaches beyond its rim: 1e-4 of the smallest half extent, and the rounding of the
+                 // largest
 } box_pair;
 
 static inline wide absolute(wide x) { return (wide)((wide_int)x & 0x7fffffff); }
@@ -39,7 +41,8 @@ static inline box_pair make_pair(const fe__form *a, const fe__form *b, const fe_
     box_pair q;
     q.a = pack(a->half), q.b = pack(b->half), q.t = pack(b_in_a->position);
     q.column[0] = pack(x), q.column[1] = pack(y), q.column[2] = pack(z);
-    q.row[0] = (wide){x.x, y.x, z.x, 0.0f}, q.row[1] = (wide){x.y, y.y, z.y, 0.0f}, q.row[2] = (wide){x.z, y.z, z.z, 0.0f};
+    q.row[0] = (wide){x.x, y.x, z.x, 0.0f}, q.row[1] = (wide){x.y, y.y, z.y, 0.0f},
+    q.row[2] = (wide){x.z, y.z, z.z, 0.0f};
     for (int32_t i = 0; i < 3; ++i) q.abs_row[i] = absolute(q.row[i]);
     float smallest = fe__minf(least(a->half), least(b->half)), largest = fe__maxf(greatest(a->half), greatest(b->half));
     q.tie = fe__tie(smallest);
@@ -47,7 +50,8 @@ static inline box_pair make_pair(const fe__form *a, const fe__form *b, const fe_
     return q;
 }
 
-// ---- the axes ---------------------------------------------------------------------------------------------------------------------
+// ---- the axes
+// ---------------------------------------------------------------------------------------------------------------------
 // A_i: |t_i| - a_i - sum_j |R_ij| b_j
 static inline wide faces_of_a(const box_pair *q)
 {
@@ -117,8 +121,9 @@ static float separation_along(const box_pair *q, int32_t axis)
     return edge_row(q, (axis - EDGE) / 3)[(axis - EDGE) % 3];
 }
 
-// ---- a face against a face ----------------------------------------------------------------------------------------------------------
-// Two boxes seen from the one whose face is the reference.
+// ---- a face against a face
+// ---------------------------------------------------------------------------------------------------------- Two boxes
+// seen from the one whose face is the reference.
 typedef struct face_view {
     float half[3], other[3]; // half extents of the reference box and of the other
     float centre[3];         // of the other
@@ -165,7 +170,8 @@ static fe__parallelogram incident_face(const face_view *q, int32_t f, int32_t u,
 }
 
 // The points of face f of the reference box, in the reference box's frame, midway between the surfaces.
-static float clip_faces(const box_pair *pair, const face_view *q, int32_t axis, int32_t f, float margin, fe__manifold *manifold)
+static float clip_faces(const box_pair *pair, const face_view *q, int32_t axis, int32_t f, float margin,
+                        fe__manifold *manifold)
 {
     int32_t u = next[f + 1], v = next[f + 2];
     float side = q->centre[f] < 0.0f ? -1.0f : 1.0f;
@@ -200,8 +206,9 @@ static void touch_faces(const box_pair *q, int32_t axis, float margin, fe__manif
     }
 }
 
-// ---- an edge against an edge --------------------------------------------------------------------------------------------------------
-// The face of either box whose normal n is, but for 5 degrees; -1: none.
+// ---- an edge against an edge
+// -------------------------------------------------------------------------------------------------------- The face of
+// either box whose normal n is, but for 5 degrees; -1: none.
 static int32_t face_along(const box_pair *q, fe_vec3 n)
 {
     float most = FE_FACE_COS, of_a[3] = {n.x, n.y, n.z};
@@ -216,8 +223,9 @@ static int32_t face_along(const box_pair *q, fe_vec3 n)
     return face;
 }
 
-// An edge that lies across a face crosses two of its rims. Which of the two is deeper changes with the least turn, and one point that jumps
-// from rim to rim swings the boxes for ever; so both rims get their points, if the face says as deep an overlap as the edges do.
+// An edge that lies across a face crosses two of its rims. Which of the two is deeper changes with the least turn, and
+// one point that jumps from rim to rim swings the boxes for ever; so both rims get their points, if the face says as
+// deep an overlap as the edges do.
 static int32_t lay_on_face(const box_pair *q, fe_vec3 n, float separation, float margin, fe__manifold *manifold)
 {
     int32_t face = face_along(q, n);
@@ -234,11 +242,12 @@ static int32_t lay_on_face(const box_pair *q, fe_vec3 n, float separation, float
     return 0;
 }
 
-// The support edges along n: pa + s A_i and pb + r B_j, and their nearest points. Lines that meet outside their edges while the boxes are
-// apart say nothing: something else of the boxes is nearest.
+// The support edges along n: pa + s A_i and pb + r B_j, and their nearest points. Lines that meet outside their edges
+// while the boxes are apart say nothing: something else of the boxes is nearest.
 static void touch_edges(const box_pair *q, int32_t axis, float separation, float margin, fe__manifold *manifold)
 {
-    int32_t i = (axis - EDGE) / 3, j = (axis - EDGE) % 3, u = next[i + 1], v = next[i + 2], k = next[j + 1], l = next[j + 2];
+    int32_t i = (axis - EDGE) / 3, j = (axis - EDGE) % 3, u = next[i + 1], v = next[i + 2], k = next[j + 1],
+            l = next[j + 2];
     float nu = -q->row[v][j], nv = q->row[u][j], square = nu * nu + nv * nv, inverse = 1.0f / sqrtf(square);
     if (nu * q->t[u] + nv * q->t[v] < 0.0f) inverse = -inverse;
     nu *= inverse, nv *= inverse;
@@ -248,7 +257,8 @@ static void touch_edges(const box_pair *q, int32_t axis, float separation, float
 
     fe_vec3 normal = {n[0], n[1], n[2]}, edge_b = unpack(q->column[j]);
     float nk = fe__dot(normal, unpack(q->column[k])), nl = fe__dot(normal, unpack(q->column[l]));
-    fe_vec3 on_b = unpack(q->t + q->column[k] * (nk > 0.0f ? -q->b[k] : q->b[k]) + q->column[l] * (nl > 0.0f ? -q->b[l] : q->b[l]));
+    fe_vec3 on_b = unpack(q->t + q->column[k] * (nk > 0.0f ? -q->b[k] : q->b[k]) +
+                          q->column[l] * (nl > 0.0f ? -q->b[l] : q->b[l]));
     fe_vec3 d = fe__sub(on_b, fe__vec3(pa[0], pa[1], pa[2]));
     float along_a = i == 0 ? d.x : i == 1 ? d.y : d.z, along_b = fe__dot(d, edge_b), cosine = q->row[i][j];
     float s = fe__clampf((along_a - cosine * along_b) / square, -q->a[i], q->a[i]);
@@ -261,13 +271,15 @@ static void touch_edges(const box_pair *q, int32_t axis, float separation, float
     if (separation > 0.0f && fe__dot(d, d) > most * most) return;
     if (lay_on_face(q, normal, separation, margin, manifold)) return;
     manifold->normal = normal;
-    uint32_t signs = (uint32_t)(nu > 0.0f) | (uint32_t)(nv > 0.0f) << 1 | (uint32_t)(nk > 0.0f) << 2 | (uint32_t)(nl > 0.0f) << 3;
+    uint32_t signs =
+        (uint32_t)(nu > 0.0f) | (uint32_t)(nv > 0.0f) << 1 | (uint32_t)(nk > 0.0f) << 2 | (uint32_t)(nl > 0.0f) << 3;
     fe__add_point(manifold, fe__scale(0.5f, fe__add(on_a, on_b)), separation, (uint32_t)axis << 16 | signs);
 }
 
-// ---- the kernel ---------------------------------------------------------------------------------------------------------------------
-// A face is kept while the separation along it is within this many ties (5 mm) of what the last full test found, and no deeper: what a full
-// test would give differs from it by no more than that depth.
+// ---- the kernel
+// ---------------------------------------------------------------------------------------------------------------------
+// A face is kept while the separation along it is within this many ties (5 mm) of what the last full test found, and no
+// deeper: what a full test would give differs from it by no more than that depth.
 #define KEEP_TIES 10.0f
 
 static int32_t is_kept(const box_pair *q, int32_t axis, float now, float before)
@@ -275,7 +287,8 @@ static int32_t is_kept(const box_pair *q, int32_t axis, float now, float before)
     return axis < EDGE && fe__absf(now - before) < KEEP_TIES * q->tie && now > -KEEP_TIES * q->tie;
 }
 
-void fe__collide_box_box(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold)
+void fe__collide_box_box(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin,
+                         fe__manifold *manifold)
 {
     box_pair q = make_pair(a, b, b_in_a);
     if (manifold->axis >= 0) {

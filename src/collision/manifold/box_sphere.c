@@ -1,7 +1,7 @@
 // box_sphere.c - box against sphere: the nearest point of the box to the centre, exact but for rounding.
 //
-// A kernel of collide.c's table; A is the box. Each difference below is of neighbouring floats, hence without error (Sterbenz), whenever
-// the centre is near the surface: the normal is as good from 1 micrometre as from 1 metre.
+// A kernel of collide.c's table; A is the box. Each difference below is of neighbouring floats, hence without error
+// (Sterbenz), whenever the centre is near the surface: the normal is as good from 1 micrometre as from 1 metre.
 #include "collision/manifold/kernels.h"
 
 // The centre is inside: out through the nearest face, of equal ones that of the lowest axis.
@@ -19,10 +19,12 @@ static void leave_box(const fe__form *box, fe_vec3 c, float radius, fe__manifold
     fe__add_point(manifold, fe__add_scaled(c, 0.5f * (depth[k] - radius), out[k]), -depth[k] - radius, 0);
 }
 
-void fe__collide_box_sphere(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold)
+void fe__collide_box_sphere(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin,
+                            fe__manifold *manifold)
 {
     fe_vec3 c = b_in_a->position, h = a->half;
-    fe_vec3 nearest = {fe__clampf(c.x, -h.x, h.x), fe__clampf(c.y, -h.y, h.y), fe__clampf(c.z, -h.z, h.z)}, d = fe__sub(c, nearest);
+    fe_vec3 nearest = {fe__clampf(c.x, -h.x, h.x), fe__clampf(c.y, -h.y, h.y), fe__clampf(c.z, -h.z, h.z)},
+            d = fe__sub(c, nearest);
     float square = fe__dot(d, d), limit = b->radius + margin;
     if (square > limit * limit) {
         fe__stay_apart(manifold, sqrtf(square) - b->radius);

@@ -1,10 +1,12 @@
-// capsule.c - capsule against sphere and capsule: the nearest points of the cores, and the ends of the stretch where they run side by side.
+// capsule.c - capsule against sphere and capsule: the nearest points of the cores, and the ends of the stretch where
+// they run side by side.
 //
-// Kernels of collide.c's table; A is a capsule, its core the segment |y| <= half height. Source of the nearest points: Ericson, Real-Time
-// Collision Detection, 5.1.9, simplified because one segment lies on an axis.
+// Kernels of collide.c's table; A is a capsule, its core the segment |y| <= half height. Source of the nearest points:
+// Ericson, Real-Time Collision Detection, 5.1.9, simplified because one segment lies on an axis.
 #include "collision/manifold/kernels.h"
 
-void fe__collide_capsule_sphere(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold)
+void fe__collide_capsule_sphere(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin,
+                                fe__manifold *manifold)
 {
     float y = fe__clampf(b_in_a->position.y, -a->half_height, a->half_height);
     fe_vec3 d = {b_in_a->position.x, b_in_a->position.y - y, b_in_a->position.z};
@@ -14,11 +16,13 @@ void fe__collide_capsule_sphere(const fe__form *a, const fe__form *b, const fe__
         return;
     }
     manifold->normal = fe__direction(d, distance);
-    fe__add_point(manifold, fe__add_scaled(fe__vec3(0.0f, y, 0.0f), a->radius + 0.5f * separation, manifold->normal), separation, 0);
+    fe__add_point(manifold, fe__add_scaled(fe__vec3(0.0f, y, 0.0f), a->radius + 0.5f * separation, manifold->normal),
+                  separation, 0);
 }
 
-// Nearest points (0, s, 0), |s| <= half, and c + t e, |t| <= reach, e of length 1. Seen along y the lines are nearest where
-// (c + t e) . (ex, 0, ez) = 0; no difference of large terms, however near to parallel. Parallel ones meet amid their common stretch.
+// Nearest points (0, s, 0), |s| <= half, and c + t e, |t| <= reach, e of length 1. Seen along y the lines are nearest
+// where (c + t e) . (ex, 0, ez) = 0; no difference of large terms, however near to parallel. Parallel ones meet amid
+// their common stretch.
 static float nearest_segments(float half, fe_vec3 c, fe_vec3 e, float reach, float *t)
 {
     const float parallel = 1e-12f; // sin^2: below it float cannot tell the direction across
@@ -47,7 +51,8 @@ static fe_vec3 crossing_normal(fe_vec3 c, fe_vec3 e)
     return fe__dot(n, c) < 0.0f ? fe__neg(n) : n;
 }
 
-void fe__collide_capsule_capsule(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold)
+void fe__collide_capsule_capsule(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin,
+                                 fe__manifold *manifold)
 {
     fe_vec3 c = b_in_a->position, e = b_in_a->rotation.y;
     float t, s = nearest_segments(a->half_height, c, e, b->half_height, &t);
@@ -69,8 +74,8 @@ void fe__collide_capsule_capsule(const fe__form *a, const fe__form *b, const fe_
 
 #define SHORT_STRETCH 0.01f // of the radii: two points nearer than that hold no better than one
 
-// The part t0..t1 of b = centre + t half, |t| <= 1, that lies between the two planes through the ends of a; 0 when there is none worth two
-// points.
+// The part t0..t1 of b = centre + t half, |t| <= 1, that lies between the two planes through the ends of a; 0 when
+// there is none worth two points.
 static int32_t common_stretch(const fe__segment *a, const fe__segment *b, float *t0, float *t1)
 {
     float aa = fe__dot(a->half, a->half), slope = fe__dot(a->half, b->half), bb = fe__dot(b->half, b->half);
@@ -107,14 +112,15 @@ static fe_vec3 between_surfaces(const fe__segment *a, const fe__segment *b, cons
     return fe__add_scaled(fe__add_scaled(at->on_a, 0.5f, at->d), 0.5f * (a->radius - b->radius), normal);
 }
 
-// Segments askew: their nearest points run along them with the least turn, and a contact there alone swings for ever. So the ends of the
-// stretch hold them, at their true clearance, |d| less the radii, or where d has turned from the normal by 10 degrees; the nearest points
-// are the third.
-static int32_t lay_askew(const fe__segment *a, const fe__segment *b, const float t[2], fe_vec3 nearest, fe_vec3 normal, float separation,
-                         float margin, fe__manifold *manifold)
+// Segments askew: their nearest points run along them with the least turn, and a contact there alone swings for ever.
+// So the ends of the stretch hold them, at their true clearance, |d| less the radii, or where d has turned from the
+// normal by 10 degrees; the nearest points are the third.
+static int32_t lay_askew(const fe__segment *a, const fe__segment *b, const float t[2], fe_vec3 nearest, fe_vec3 normal,
+                         float separation, float margin, fe__manifold *manifold)
 {
     const float aside = 0.176f, another_way = 0.98f; // tan 10 degrees; cos 11.5: round an end of a core
-    float radii = a->radius + b->radius, slope = fe__dot(a->half, b->half) / fe__dot(a->half, a->half), bb = fe__dot(b->half, b->half);
+    float radii = a->radius + b->radius, slope = fe__dot(a->half, b->half) / fe__dot(a->half, a->half),
+          bb = fe__dot(b->half, b->half);
     fe_vec3 drift = fe__sub(b->half, fe__scale(slope, a->half));
     // sin^2 > 1/4: more than 30 degrees apart the nearest points hardly run
     if (4.0f * fe__dot(drift, drift) > bb) return 0;
@@ -133,10 +139,10 @@ static int32_t lay_askew(const fe__segment *a, const fe__segment *b, const float
     return manifold->count;
 }
 
-// At each end of the stretch b is d away from a's line. Its separation along the normal, n . d less the radii, is short of the true one,
-// |d| less the radii, where b has drifted aside: beyond a tie the segments are askew.
-int32_t fe__lay_segments(const fe__segment *a, const fe__segment *b, fe_vec3 normal, fe_vec3 nearest, float separation, float margin,
-                         fe__manifold *manifold)
+// At each end of the stretch b is d away from a's line. Its separation along the normal, n . d less the radii, is short
+// of the true one, |d| less the radii, where b has drifted aside: beyond a tie the segments are askew.
+int32_t fe__lay_segments(const fe__segment *a, const fe__segment *b, fe_vec3 normal, fe_vec3 nearest, float separation,
+                         float margin, fe__manifold *manifold)
 {
     float t[2], radii = a->radius + b->radius, tie = fe__tie(0.5f * radii);
     if (!common_stretch(a, b, &t[0], &t[1])) return 0;

@@ -1,7 +1,7 @@
 // collide.c - which kernel a pair of forms belongs to.
 //
-// A form without kernels of its own needs a support function and faces only (support.h): whatever the table leaves empty goes the general
-// convex way (convex.c).
+// A form without kernels of its own needs a support function and faces only (support.h): whatever the table leaves
+// empty goes the general convex way (convex.c).
 #include "collision/manifold/collide.h"
 #include "collision/manifold/kernels.h"
 
@@ -11,9 +11,11 @@
 // [type of A][type of B]
 static fe__kernel *const kernels[FE__FORM_TYPES][FE__FORM_TYPES] = {
     [FE__FORM_SPHERE] = {[FE__FORM_SPHERE] = fe__collide_sphere_sphere},
-    [FE__FORM_CAPSULE] = {[FE__FORM_SPHERE] = fe__collide_capsule_sphere, [FE__FORM_CAPSULE] = fe__collide_capsule_capsule},
-    [FE__FORM_BOX] =
-        {[FE__FORM_SPHERE] = fe__collide_box_sphere, [FE__FORM_CAPSULE] = fe__collide_box_capsule, [FE__FORM_BOX] = fe__collide_box_box},
+    [FE__FORM_CAPSULE] =
+        {[FE__FORM_SPHERE] = fe__collide_capsule_sphere, [FE__FORM_CAPSULE] = fe__collide_capsule_capsule},
+    [FE__FORM_BOX] = {[FE__FORM_SPHERE] = fe__collide_box_sphere,
+                      [FE__FORM_CAPSULE] = fe__collide_box_capsule,
+                      [FE__FORM_BOX] = fe__collide_box_box},
     [FE__FORM_PLANE] = {[FE__FORM_SPHERE] = fe__collide_plane_sphere,
                         [FE__FORM_CAPSULE] = fe__collide_plane_capsule,
                         [FE__FORM_BOX] = fe__collide_plane_box},

@@ -1,8 +1,9 @@
 // convex.c - any two convex forms: the general path.
 //
-// Called by collide.c for pairs without a kernel, and by kernels for the cases they leave (a capsule whose core cuts a box, boxes corner to
-// rim). Knows forms by support points and faces only (support.h). The nearest points of the cores (gjk.c), or the deepest (epa.c), give
-// normal and separation; where a face lies along that normal it is cut with what faces it (clip.c), else the one point is the contact.
+// Called by collide.c for pairs without a kernel, and by kernels for the cases they leave (a capsule whose core cuts a
+// box, boxes corner to rim). Knows forms by support points and faces only (support.h). The nearest points of the cores
+// (gjk.c), or the deepest (epa.c), give normal and separation; where a face lies along that normal it is cut with what
+// faces it (clip.c), else the one point is the contact.
 #include "collision/form/epa.h"
 #include "collision/form/gjk.h"
 #include "collision/manifold/kernels.h"
@@ -21,8 +22,12 @@ typedef struct nearest {
 
 static fe__cores make_cores(const fe__form *a, const fe__form *b, const fe__relative *b_in_a)
 {
-    return (fe__cores){
-        a, b, fe__widen(b_in_a->position), fe__widen(b_in_a->rotation.x), fe__widen(b_in_a->rotation.y), fe__widen(b_in_a->rotation.z)};
+    return (fe__cores){a,
+                       b,
+                       fe__widen(b_in_a->position),
+                       fe__widen(b_in_a->rotation.x),
+                       fe__widen(b_in_a->rotation.y),
+                       fe__widen(b_in_a->rotation.z)};
 }
 
 static int32_t find_nearest(const fe__cores *cores, float margin, nearest *found)
@@ -36,7 +41,8 @@ static int32_t find_nearest(const fe__cores *cores, float margin, nearest *found
         *found = (nearest){fe__narrow(p.normal), (float)(-p.depth - radii), fe__narrow(p.on_a), fe__narrow(p.on_b), 1};
     } else {
         fe_dvec3 normal = fe__dscale(1.0 / gjk.distance, fe__dsub(gjk.on_b, gjk.on_a));
-        *found = (nearest){fe__narrow(normal), (float)(gjk.distance - radii), fe__narrow(gjk.on_a), fe__narrow(gjk.on_b), 0};
+        *found =
+            (nearest){fe__narrow(normal), (float)(gjk.distance - radii), fe__narrow(gjk.on_a), fe__narrow(gjk.on_b), 0};
     }
     return 1;
 }
@@ -45,7 +51,8 @@ static int32_t find_nearest(const fe__cores *cores, float margin, nearest *found
 static void move_face(fe__face *face, const fe__relative *b_in_a)
 {
     face->normal = fe__mul(&b_in_a->rotation, face->normal);
-    for (int32_t i = 0; i < face->count; ++i) face->vertex[i] = fe__add(b_in_a->position, fe__mul(&b_in_a->rotation, face->vertex[i]));
+    for (int32_t i = 0; i < face->count; ++i)
+        face->vertex[i] = fe__add(b_in_a->position, fe__mul(&b_in_a->rotation, face->vertex[i]));
 }
 
 // A frame in a polygon: origin at its first vertex, u along its first edge, n its normal.
@@ -85,11 +92,12 @@ static float extent(const fe__face *face)
     return most;
 }
 
-// Cuts `incident` by `reference` (a polygon whose normal is near the contact's) and gives the vertices below the margin, when the deepest
-// of them says the same as the nearest points do; else nothing. Where the cores overlap, what hangs over the rim has to come out too.
-// `flip` is 1 when the reference is B's.
-static int32_t clip_faces(const fe__face *reference, const fe__face *incident, float reference_radius, float incident_radius, int32_t flip,
-                          const nearest *found, float margin, fe__manifold *manifold)
+// Cuts `incident` by `reference` (a polygon whose normal is near the contact's) and gives the vertices below the
+// margin, when the deepest of them says the same as the nearest points do; else nothing. Where the cores overlap, what
+// hangs over the rim has to come out too. `flip` is 1 when the reference is B's.
+static int32_t clip_faces(const fe__face *reference, const fe__face *incident, float reference_radius,
+                          float incident_radius, int32_t flip, const nearest *found, float margin,
+                          fe__manifold *manifold)
 {
     float radii = reference_radius + incident_radius, rounding = 1e-6f * fe__maxf(extent(reference), extent(incident));
     fe__clip_vertex side[FE_FACE_VERTICES], vertex[FE_CLIP_VERTICES];
@@ -113,8 +121,8 @@ static int32_t clip_faces(const fe__face *reference, const fe__face *incident, f
     for (int32_t i = 0; i < near; ++i) {
         fe_vec3 p = fe__add_scaled(fe__add_scaled(frame.origin, vertex[i].u, frame.u), vertex[i].v, frame.v);
         // from the reference core out to its surface, and half the way on
-        fe__add_point(manifold, fe__add_scaled(p, reference_radius + 0.5f * vertex[i].height, frame.n), vertex[i].height,
-                      faces | vertex[i].id);
+        fe__add_point(manifold, fe__add_scaled(p, reference_radius + 0.5f * vertex[i].height, frame.n),
+                      vertex[i].height, faces | vertex[i].id);
     }
     return near;
 }
@@ -126,8 +134,8 @@ static fe_vec3 middle_of(const nearest *found, const fe__form *a, const fe__form
                                    fe__add_scaled(found->on_b, -b->radius, found->normal)));
 }
 
-static int32_t touch_along_features(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, const nearest *found, float margin,
-                                    fe__manifold *manifold)
+static int32_t touch_along_features(const fe__form *a, const fe__form *b, const fe__relative *b_in_a,
+                                    const nearest *found, float margin, fe__manifold *manifold)
 {
     fe__face face_a, face_b;
     fe__form_face(a, found->normal, &face_a);
@@ -148,11 +156,14 @@ static int32_t touch_along_features(const fe__form *a, const fe__form *b, const 
         segments[i].half = fe__scale(0.5f, fe__sub(faces[i]->vertex[1], faces[i]->vertex[0]));
         segments[i].radius = i == 0 ? a->radius : b->radius;
     }
-    return fe__lay_segments(&segments[0], &segments[1], found->normal, middle_of(found, a, b), found->separation, margin, manifold);
+    return fe__lay_segments(&segments[0], &segments[1], found->normal, middle_of(found, a, b), found->separation,
+                            margin, manifold);
 }
 
-// A half space has no support point against itself, but the other's is all it takes: B's deepest point and the face around it.
-static void touch_plane(const fe__form *plane, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold)
+// A half space has no support point against itself, but the other's is all it takes: B's deepest point and the face
+// around it.
+static void touch_plane(const fe__form *plane, const fe__form *b, const fe__relative *b_in_a, float margin,
+                        fe__manifold *manifold)
 {
     fe__face face;
     fe__form_face(b, fe__neg(fe__mul_transposed(&b_in_a->rotation, plane->normal)), &face);
@@ -172,11 +183,13 @@ static void touch_plane(const fe__form *plane, const fe__form *b, const fe__rela
     if (near > 0) manifold->normal = plane->normal;
     for (int32_t i = 0; i < near; ++i) {
         fe_vec3 p = fe__add_scaled(fe__add_scaled(frame.origin, vertex[i].u, frame.u), vertex[i].v, frame.v);
-        fe__add_point(manifold, fe__add_scaled(p, 0.5f * vertex[i].height, frame.n), vertex[i].height, face.id << 16 | vertex[i].id);
+        fe__add_point(manifold, fe__add_scaled(p, 0.5f * vertex[i].height, frame.n), vertex[i].height,
+                      face.id << 16 | vertex[i].id);
     }
 }
 
-void fe__collide_convex(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold)
+void fe__collide_convex(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin,
+                        fe__manifold *manifold)
 {
     assert(b->type != FE__FORM_PLANE);
     manifold->normal = fe__vec3(0.0f, 0.0f, 0.0f);

@@ -1,13 +1,17 @@
-// kernels.h - what the kernels of the pairs share: their signature, their tolerances, and points on segments side by side.
+// kernels.h - what the kernels of the pairs share: their signature, their tolerances, and points on segments side by
+// side.
 //
-// Every kernel receives a manifold without points and adds those closer than `margin`. Its source is named in each kernel's file.
+// Every kernel receives a manifold without points and adds those closer than `margin`. Its source is named in each
+// kernel's file.
 #ifndef FE_COLLISION_MANIFOLD_KERNELS_H
 #define FE_COLLISION_MANIFOLD_KERNELS_H
 #include "collision/manifold/manifold.h"
 
-typedef void fe__kernel(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold);
+typedef void fe__kernel(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin,
+                        fe__manifold *manifold);
 
-// The general convex path: GJK on the cores, EPA when the cores overlap, faces clipped. Any pair but plane against plane.
+// The general convex path: GJK on the cores, EPA when the cores overlap, faces clipped. Any pair but plane against
+// plane.
 fe__kernel fe__collide_convex;
 
 fe__kernel fe__collide_sphere_sphere;
@@ -20,15 +24,15 @@ fe__kernel fe__collide_plane_sphere;
 fe__kernel fe__collide_plane_capsule;
 fe__kernel fe__collide_plane_box;
 
-// Two answers whose depths differ by less than this are equally right, and the steadier one (more points, the same face as before) is
-// given: a tenth of the solver's slop of 5 mm, or 2 % of the smallest width of a small shape, m.
+// Two answers whose depths differ by less than this are equally right, and the steadier one (more points, the same face
+// as before) is given: a tenth of the solver's slop of 5 mm, or 2 % of the smallest width of a small shape, m.
 static inline float fe__tie(float width) { return fe__minf(0.0005f, 0.02f * width); }
 
 // cos 5 degrees: a normal this near to a face's is taken for the face's, so that a form lying on it has all its points
 #define FE_FACE_COS 0.9962f
 
-// d / length, by division: along an axis the result is exactly 1. Where there is no length there is no direction, and symmetry leaves the
-// normal open: x.
+// d / length, by division: along an axis the result is exactly 1. Where there is no length there is no direction, and
+// symmetry leaves the normal open: x.
 static inline fe_vec3 fe__direction(fe_vec3 d, float length)
 {
     const float no_length = 1e-15f; // m: its square is still a normal float
@@ -49,10 +53,11 @@ typedef struct fe__segment {
     float radius;
 } fe__segment;
 
-// Two segments whose nearest points are `separation` apart along `normal` (from a to b), `nearest` midway between the surfaces there: gives
-// the two ends of the stretch along which they run side by side, if that says the same as the nearest points do; a few degrees askew these
-// and the nearest point; else nothing. Returns the number of points added, with ids 1, 2 and 0; the normal is set with them.
-int32_t fe__lay_segments(const fe__segment *a, const fe__segment *b, fe_vec3 normal, fe_vec3 nearest, float separation, float margin,
-                         fe__manifold *manifold);
+// Two segments whose nearest points are `separation` apart along `normal` (from a to b), `nearest` midway between the
+// surfaces there: gives the two ends of the stretch along which they run side by side, if that says the same as the
+// nearest points do; a few degrees askew these and the nearest point; else nothing. Returns the number of points added,
+// with ids 1, 2 and 0; the normal is set with them.
+int32_t fe__lay_segments(const fe__segment *a, const fe__segment *b, fe_vec3 normal, fe_vec3 nearest, float separation,
+                         float margin, fe__manifold *manifold);
 
 #endif

@@ -11,9 +11,9 @@ typedef struct fe__manifold_point {
     uint32_t id;      // of the two features; the same next step while the same features meet
 } fe__manifold_point;
 
-// Of one pair. The caller keeps `axis` and `axis_separation` from step to step and passes them in: a kernel may try them first. Without
-// points, axis_separation comes out as a distance that the forms are not closer than, so that the caller need not ask again before they
-// moved as far.
+// Of one pair. The caller keeps `axis` and `axis_separation` from step to step and passes them in: a kernel may try
+// them first. Without points, axis_separation comes out as a distance that the forms are not closer than, so that the
+// caller need not ask again before they moved as far.
 typedef struct fe__manifold {
     fe_vec3 normal; // unit, from A to B, A's frame; (0, 0, 0) without points
     int32_t count;  // 0..4

@@ -1,12 +1,13 @@
-// patch.h - points of one normal and one material: what a form and a heightfield have instead of a manifold; and what such a kernel is
-// given.
+// patch.h - points of one normal and one material: what a form and a heightfield have instead of a manifold; and what
+// such a kernel is given.
 #ifndef FE_COLLISION_MANIFOLD_PATCH_H
 #define FE_COLLISION_MANIFOLD_PATCH_H
 #include "collision/form/heightfield.h"
 #include "collision/manifold/manifold.h"
 
 enum {
-    FE__PATCHES = 6,    // at most, of one pair. What has more directions than that is merged with the most similar ones: no contact is lost
+    FE__PATCHES = 6, // at most, of one pair. What has more directions than that is merged with the most similar ones:
+                     // no contact is lost
     FE__NEIGHBOURS = 4, // other heightfields under the same body
 };
 

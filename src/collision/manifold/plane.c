@@ -1,7 +1,7 @@
 // plane.c - half space against sphere, capsule and box: the deepest points, each with its own separation.
 //
-// Kernels of collide.c's table; A is the plane. Heights over it are taken in double: far from the plane's origin n . p and the distance are
-// large and nearly equal.
+// Kernels of collide.c's table; A is the plane. Heights over it are taken in double: far from the plane's origin n . p
+// and the distance are large and nearly equal.
 #include "collision/manifold/kernels.h"
 
 static float height(const fe__form *plane, fe_vec3 p)
@@ -10,21 +10,24 @@ static float height(const fe__form *plane, fe_vec3 p)
 }
 
 // p is a point of B's core, its radius below it touches
-static void add_below(const fe__form *plane, fe_vec3 p, float radius, float separation, float margin, uint32_t id, fe__manifold *manifold)
+static void add_below(const fe__form *plane, fe_vec3 p, float radius, float separation, float margin, uint32_t id,
+                      fe__manifold *manifold)
 {
     if (separation > margin) return;
     manifold->normal = plane->normal;
     fe__add_point(manifold, fe__add_scaled(p, -(radius + 0.5f * separation), plane->normal), separation, id);
 }
 
-void fe__collide_plane_sphere(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold)
+void fe__collide_plane_sphere(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin,
+                              fe__manifold *manifold)
 {
     float separation = height(a, b_in_a->position) - b->radius;
     fe__stay_apart(manifold, separation);
     add_below(a, b_in_a->position, b->radius, separation, margin, 0, manifold);
 }
 
-void fe__collide_plane_capsule(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold)
+void fe__collide_plane_capsule(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin,
+                               fe__manifold *manifold)
 {
     fe_vec3 half = fe__scale(b->half_height, b_in_a->rotation.y);
     float middle = height(a, b_in_a->position) - b->radius, rise = fe__dot(a->normal, half);
@@ -33,8 +36,10 @@ void fe__collide_plane_capsule(const fe__form *a, const fe__form *b, const fe__r
     add_below(a, fe__add(b_in_a->position, half), b->radius, middle + rise, margin, 1, manifold);
 }
 
-// The corners of the face that looks most against the plane. A corner's id is its place in the box, whichever face it was found on.
-void fe__collide_plane_box(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold)
+// The corners of the face that looks most against the plane. A corner's id is its place in the box, whichever face it
+// was found on.
+void fe__collide_plane_box(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin,
+                           fe__manifold *manifold)
 {
     const fe_vec3 edge[3] = {fe__scale(b->half.x, b_in_a->rotation.x), fe__scale(b->half.y, b_in_a->rotation.y),
                              fe__scale(b->half.z, b_in_a->rotation.z)};

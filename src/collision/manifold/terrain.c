@@ -6,12 +6,12 @@
 
 #include <float.h>
 
-// of half the smallest width: a form's centre below, but less than a quarter of that width deep. Half would lose what is pressed hard, all
-// would let a thin ridge push out what leans on its other side
+// of half the smallest width: a form's centre below, but less than a quarter of that width deep. Half would lose what
+// is pressed hard, all would let a thin ridge push out what leans on its other side
 #define FELT 1.5f
 
-// How deep the centre of B is under the ground, but no deeper than B reaches: a body that was pressed or spun into the ground comes up
-// again, one far below is left alone. Else 0.
+// How deep the centre of B is under the ground, but no deeper than B reaches: a body that was pressed or spun into the
+// ground comes up again, one far below is left alone. Else 0.
 static double sunk(const fe__terrain *t, const fe__form *b)
 {
     double height;
@@ -31,12 +31,16 @@ static fe__bounds bounds_around(const fe__terrain *t, const fe__form *b, const f
     return (fe__bounds){fe__dsub(t->origin, fe__widen(w)), fe__dadd(t->origin, fe__widen(w))};
 }
 
-// Is a triangle farther than `reach` from a round form's core, whose box has the half widths `core`? Then it has no point of it.
+// Is a triangle farther than `reach` from a round form's core, whose box has the half widths `core`? Then it has no
+// point of it.
 static int32_t is_beyond(const fe_vec3 v[3], fe_vec3 core, float reach)
 {
-    float x = fe__maxf(fe__minf(fe__minf(v[0].x, v[1].x), v[2].x), -fe__maxf(fe__maxf(v[0].x, v[1].x), v[2].x)) - core.x;
-    float y = fe__maxf(fe__minf(fe__minf(v[0].y, v[1].y), v[2].y), -fe__maxf(fe__maxf(v[0].y, v[1].y), v[2].y)) - core.y;
-    float z = fe__maxf(fe__minf(fe__minf(v[0].z, v[1].z), v[2].z), -fe__maxf(fe__maxf(v[0].z, v[1].z), v[2].z)) - core.z;
+    float x =
+        fe__maxf(fe__minf(fe__minf(v[0].x, v[1].x), v[2].x), -fe__maxf(fe__maxf(v[0].x, v[1].x), v[2].x)) - core.x;
+    float y =
+        fe__maxf(fe__minf(fe__minf(v[0].y, v[1].y), v[2].y), -fe__maxf(fe__maxf(v[0].y, v[1].y), v[2].y)) - core.y;
+    float z =
+        fe__maxf(fe__minf(fe__minf(v[0].z, v[1].z), v[2].z), -fe__maxf(fe__maxf(v[0].z, v[1].z), v[2].z)) - core.z;
     x = fe__maxf(x, 0.0f), y = fe__maxf(y, 0.0f), z = fe__maxf(z, 0.0f);
     return x * x + y * y + z * z > reach * reach;
 }
@@ -73,11 +77,12 @@ static float gap_around(const fe__terrain *t, const fe__form *b, const fe__mat3 
     return fe__next_triangle(&walk, &triangle) < 0 ? wide : margin;
 }
 
-int32_t fe__collide_terrain(const fe__terrain *t, const fe__form *b, const fe__mat3 *rotation, float margin, fe__patch patches[FE__PATCHES],
-                            float *gap)
+int32_t fe__collide_terrain(const fe__terrain *t, const fe__form *b, const fe__mat3 *rotation, float margin,
+                            fe__patch patches[FE__PATCHES], float *gap)
 {
     fe__gathering g;
-    g.terrain = t, g.margin = margin, g.felt = FELT * fe__form_thickness(b), g.single = fe__form_is_ball(b), g.count = 0;
+    g.terrain = t, g.margin = margin, g.felt = FELT * fe__form_thickness(b), g.single = fe__form_is_ball(b),
+    g.count = 0;
     g.tie = 0.1f * fe__tie(fe__form_thickness(b)), g.same_place = fe__minf(0.002f, 0.02f * fe__form_thickness(b));
     gather_all(&g, b, rotation);
     if (!g.count) *gap = gap_around(t, b, rotation, margin);

@@ -1,8 +1,9 @@
-// terrain_box.c - a box on a triangle of a heightfield: separating axes (Gottschalk, Lin, Manocha, 1996), of those that the surface allows
-// the one with the least overlap; then faces cut by faces, or two crossing edges.
+// terrain_box.c - a box on a triangle of a heightfield: separating axes (Gottschalk, Lin, Manocha, 1996), of those that
+// the surface allows the one with the least overlap; then faces cut by faces, or two crossing edges.
 //
-// The box is centred at the origin. A direction m points out of the surface: separation(m) = -R(m) - max_i m.v_i, with R(m) = sum_j half_j
-// |m.x_j|. The face's normal is always allowed, and taken unless another is better by more than a tie.
+// The box is centred at the origin. A direction m points out of the surface: separation(m) = -R(m) - max_i m.v_i, with
+// R(m) = sum_j half_j |m.x_j|. The face's normal is always allowed, and taken unless another is better by more than a
+// tie.
 #include "collision/form/clip.h"
 #include "collision/manifold/kernels.h"
 #include "collision/form/support.h"
@@ -38,14 +39,16 @@ static float reach(const contest *c, fe_vec3 m)
 static int32_t try_axis(contest *c, fe_vec3 m, int32_t kind, int32_t box_axis, int32_t side)
 {
     const fe_vec3 *v = c->tile->form.vertex;
-    float a = fe__dot(m, v[0]), b = fe__dot(m, v[1]), d = fe__dot(m, v[2]), r = reach(c, m), upward = fe__dot(m, c->tile->normal);
+    float a = fe__dot(m, v[0]), b = fe__dot(m, v[1]), d = fe__dot(m, v[2]), r = reach(c, m),
+          upward = fe__dot(m, c->tile->normal);
     float forth = -r - fe__maxf(a, fe__maxf(b, d)), back = fe__minf(a, fe__minf(b, d)) - r;
     if (fe__maxf(forth, back) > c->g->margin) return 0;
     const float level = 1e-3f; // sine: along the face both ways are out of the surface
     for (int32_t i = 0; i < 2; ++i) {
         float separation = i ? back : forth, up = i ? -upward : upward;
         fe_vec3 way = i ? fe__neg(m) : m;
-        if (up < -level || separation <= c->best.separation + c->tie || !fe__tile_allows(c->g->terrain, c->tile, way)) continue;
+        if (up < -level || separation <= c->best.separation + c->tie || !fe__tile_allows(c->g->terrain, c->tile, way))
+            continue;
         c->best = (axis){kind, box_axis, side, way, separation};
     }
     return 1;
@@ -70,8 +73,8 @@ static int32_t find_axis(contest *c)
     return 1;
 }
 
-// A direction that is nearly a face's: the face, so that a box lying on a ridge has all its points. The triangle's first: its normal does
-// not turn with the box, and is the same in the next step.
+// A direction that is nearly a face's: the face, so that a box lying on a ridge has all its points. The triangle's
+// first: its normal does not turn with the box, and is the same in the next step.
 static void prefer_face(contest *c)
 {
     fe_vec3 m = c->best.m;
@@ -87,7 +90,8 @@ static void prefer_face(contest *c)
     }
 }
 
-// ---- faces ----------------------------------------------------------------------------------------------------------------------------
+// ---- faces
+// ----------------------------------------------------------------------------------------------------------------------------
 static void project(const fe_vec3 *points, int32_t count, fe_vec3 origin, const fe__mat3 *frame, fe__clip_vertex *out)
 {
     for (int32_t i = 0; i < count; ++i) {
@@ -104,9 +108,10 @@ static void box_face(const contest *c, fe_vec3 direction, fe__face *face)
 
 static int32_t is_vertex(uint32_t id) { return (id & 0xff) < FE_CLIP_SIDE && id >> 8 < FE_CLIP_SIDE; }
 
-// Cuts the incident polygon by the reference's; `out` is the reference's normal. What is near goes along `normal`, out of the surface.
-static void cut_faces(contest *c, const fe_vec3 *reference, int32_t reference_count, const fe_vec3 *incident, int32_t incident_count,
-                      fe_vec3 out, fe_vec3 normal, uint32_t body_id)
+// Cuts the incident polygon by the reference's; `out` is the reference's normal. What is near goes along `normal`, out
+// of the surface.
+static void cut_faces(contest *c, const fe_vec3 *reference, int32_t reference_count, const fe_vec3 *incident,
+                      int32_t incident_count, fe_vec3 out, fe_vec3 normal, uint32_t body_id)
 {
     fe_vec3 edge = fe__sub(reference[1], reference[0]), u = fe__scale(1.0f / fe__length(edge), edge);
     fe__mat3 frame = {u, fe__cross(out, u), out};
@@ -140,9 +145,10 @@ static void touch_box_face(contest *c)
     cut_faces(c, face.vertex, face.count, c->tile->form.vertex, 3, fe__neg(c->best.m), c->best.m, 0);
 }
 
-// ---- edges ----------------------------------------------------------------------------------------------------------------------------
-// The box's edge along x_j that is deepest against m, and the triangle's side: the point between the nearest points of their lines. 0: the
-// two do not cross, because what they would say better is not allowed here.
+// ---- edges
+// ----------------------------------------------------------------------------------------------------------------------------
+// The box's edge along x_j that is deepest against m, and the triangle's side: the point between the nearest points of
+// their lines. 0: the two do not cross, because what they would say better is not allowed here.
 static int32_t touch_edges(contest *c)
 {
     int32_t j = c->best.box_axis, k = c->best.side;
@@ -161,7 +167,8 @@ static int32_t touch_edges(contest *c)
 
 void fe__tile_touch_box(fe__gathering *g, const fe__tile *tile, const fe__form *box, const fe__mat3 *rotation)
 {
-    contest c = {.g = g, .tile = tile, .box = box, .rotation = rotation, .half = {box->half.x, box->half.y, box->half.z}};
+    contest c = {
+        .g = g, .tile = tile, .box = box, .rotation = rotation, .half = {box->half.x, box->half.y, box->half.z}};
     c.axes[0] = rotation->x, c.axes[1] = rotation->y, c.axes[2] = rotation->z;
     c.tie = fe__tie(fe__form_thickness(box));
     fe_vec3 n = tile->normal;

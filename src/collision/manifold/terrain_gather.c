@@ -10,13 +10,15 @@
 // Leaves at most four of the first `count` points; a point's index goes through the clipper's id.
 static int32_t widest_four(fe__raw_patch *p, int32_t count, float tie)
 {
-    fe_vec3 n = p->normal, a = fe__absf(n.x) < 0.7f ? fe__vec3(1.0f, 0.0f, 0.0f) : fe__vec3(0.0f, 1.0f, 0.0f), u = fe__cross(n, a);
+    fe_vec3 n = p->normal, a = fe__absf(n.x) < 0.7f ? fe__vec3(1.0f, 0.0f, 0.0f) : fe__vec3(0.0f, 1.0f, 0.0f),
+            u = fe__cross(n, a);
     u = fe__scale(1.0f / fe__length(u), u);
     fe_vec3 v = fe__cross(n, u);
     fe__clip_vertex vertex[FE__RAW_POINTS];
     fe__manifold_point kept[FE_MAX_POINTS];
     for (int32_t i = 0; i < count; ++i)
-        vertex[i] = (fe__clip_vertex){fe__dot(u, p->points[i].point), fe__dot(v, p->points[i].point), p->points[i].separation, (uint32_t)i};
+        vertex[i] = (fe__clip_vertex){fe__dot(u, p->points[i].point), fe__dot(v, p->points[i].point),
+                                      p->points[i].separation, (uint32_t)i};
     count = fe__reduce_to_four(vertex, count, tie);
     for (int32_t i = 0; i < count; ++i) kept[i] = p->points[vertex[i].id];
     for (int32_t i = 0; i < count; ++i) p->points[i] = kept[i];
@@ -46,8 +48,8 @@ static void choose_farthest(fe__raw_patch *p, int32_t chosen)
     swap(p, chosen, best);
 }
 
-// At most four points. Those that touch span the patch; what stands off comes after them: on uneven ground the widest four of all would
-// leave out what carries.
+// At most four points. Those that touch span the patch; what stands off comes after them: on uneven ground the widest
+// four of all would leave out what carries.
 void fe__reduce_patch(fe__raw_patch *p, float tie)
 {
     const float touching = 0.001f; // m, a few overlaps of a body at rest
@@ -89,8 +91,8 @@ static void merge_most_similar(fe__gathering *g)
     float most = -FLT_MAX;
     for (int32_t i = 0; i < g->count; ++i) {
         for (int32_t j = i + 1; j < g->count; ++j) {
-            float alike =
-                fe__dot(g->patches[i].normal, g->patches[j].normal) - (g->patches[i].material != g->patches[j].material ? 2.0f : 0.0f);
+            float alike = fe__dot(g->patches[i].normal, g->patches[j].normal) -
+                          (g->patches[i].material != g->patches[j].material ? 2.0f : 0.0f);
             if (alike > most) most = alike, a = i, b = j;
         }
     }
@@ -112,7 +114,8 @@ void fe__gather(fe__gathering *g, const fe__tile *tile, fe_vec3 normal, fe_vec3 
         add_point(g, patch, &p, tile->index);
         return;
     }
-    g->patches[g->count++] = (fe__raw_patch){.normal = normal, .triangle = tile->index, .material = material, .deepest = FLT_MAX};
+    g->patches[g->count++] =
+        (fe__raw_patch){.normal = normal, .triangle = tile->index, .material = material, .deepest = FLT_MAX};
     add_point(g, g->patches + g->count - 1, &p, tile->index);
     if (g->count > FE__PATCHES) merge_most_similar(g);
 }

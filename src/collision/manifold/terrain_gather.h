@@ -23,7 +23,8 @@ typedef struct fe__gathering {
     fe__raw_patch patches[FE__PATCHES + 1];
 } fe__gathering;
 
-// A surface has no inside: what is far below a triangle is not felt by it, unless the body's centre is above it, or under the ground.
+// A surface has no inside: what is far below a triangle is not felt by it, unless the body's centre is above it, or
+// under the ground.
 static inline int32_t fe__tile_feels(const fe__gathering *g, const fe__tile *tile, float separation)
 {
     return separation >= -g->felt || fe__dot(tile->normal, tile->form.vertex[0]) <= 0.0f;

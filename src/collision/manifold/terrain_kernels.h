@@ -1,4 +1,5 @@
-// terrain_kernels.h - a form on one triangle of a heightfield (terrain_round.c, terrain_box.c). It is centred at the origin.
+// terrain_kernels.h - a form on one triangle of a heightfield (terrain_round.c, terrain_box.c). It is centred at the
+// origin.
 #ifndef FE_COLLISION_MANIFOLD_TERRAIN_KERNELS_H
 #define FE_COLLISION_MANIFOLD_TERRAIN_KERNELS_H
 #include "collision/manifold/terrain_gather.h"

@@ -1,7 +1,7 @@
 // terrain_round.c - a sphere or a capsule on a triangle of a heightfield.
 //
-// The core (a point, a segment) over the face gives points along the face's normal; near a convex side the nearest points of core and side
-// give one along the line between them, where the surface allows it.
+// The core (a point, a segment) over the face gives points along the face's normal; near a convex side the nearest
+// points of core and side give one along the line between them, where the surface allows it.
 #include "collision/manifold/kernels.h"
 #include "collision/manifold/terrain_kernels.h"
 
@@ -12,7 +12,10 @@ typedef struct stretch {
     float from, to;
 } stretch;
 
-static fe_vec3 core_point(const fe_vec3 ends[2], float s) { return fe__add_scaled(ends[0], s, fe__sub(ends[1], ends[0])); }
+static fe_vec3 core_point(const fe_vec3 ends[2], float s)
+{
+    return fe__add_scaled(ends[0], s, fe__sub(ends[1], ends[0]));
+}
 
 // cuts away where  a + s (b - a) > most
 static void cut(stretch *part, float a, float b, float most)
@@ -27,7 +30,8 @@ static void cut(stretch *part, float a, float b, float most)
 }
 
 // halfway between the surfaces of the core's point and the triangle
-static void gather(fe__gathering *g, const fe__tile *tile, fe_vec3 normal, fe_vec3 core, float height, float radius, uint32_t id)
+static void gather(fe__gathering *g, const fe__tile *tile, fe_vec3 normal, fe_vec3 core, float height, float radius,
+                   uint32_t id)
 {
     float separation = height - radius;
     if (separation > g->margin || !fe__tile_feels(g, tile, separation)) return;
@@ -42,7 +46,8 @@ static uint32_t touch_face(fe__gathering *g, const fe__tile *tile, const fe_vec3
     stretch part = {0.0f, 1.0f};
     for (int32_t k = 0; k < 3; ++k) {
         fe_vec3 side = fe__sub(v[(k + 1) % 3], v[k]), out = fe__cross(side, n);
-        float a = fe__dot(out, fe__sub(ends[0], v[k])), b = fe__dot(out, fe__sub(ends[1], v[k])), most = slack * fe__length(side);
+        float a = fe__dot(out, fe__sub(ends[0], v[k])), b = fe__dot(out, fe__sub(ends[1], v[k])),
+              most = slack * fe__length(side);
         cut(&part, a, b, most);
         if (fe__maxf(a, b) > -most) beyond |= 1u << k;
     }
@@ -51,17 +56,20 @@ static uint32_t touch_face(fe__gathering *g, const fe__tile *tile, const fe_vec3
     for (int32_t i = 0; i < 2; ++i) {
         fe_vec3 p = core_point(ends, at[i]);
         int32_t is_end = at[i] == (float)i;
-        gather(g, tile, n, p, fe__dot(n, fe__sub(p, v[0])), radius, is_end ? (uint32_t)(END_ID + i) : fe__tile_id(tile, (uint32_t)i));
+        gather(g, tile, n, p, fe__dot(n, fe__sub(p, v[0])), radius,
+               is_end ? (uint32_t)(END_ID + i) : fe__tile_id(tile, (uint32_t)i));
         if (g->single) break;
     }
     return beyond;
 }
 
-// Nearest points of the core and a side: s of the core, u of the side (Eberly; Ericson, Real-Time Collision Detection, 5.1.9)
+// Nearest points of the core and a side: s of the core, u of the side (Eberly; Ericson, Real-Time Collision
+// Detection, 5.1.9)
 static void nearest_of(const fe_vec3 ends[2], fe_vec3 start, fe_vec3 side, float *s, float *u)
 {
     fe_vec3 d = fe__sub(ends[1], ends[0]), r = fe__sub(ends[0], start);
-    float a = fe__dot(d, d), e = fe__dot(side, side), f = fe__dot(side, r), b = fe__dot(d, side), c = fe__dot(d, r), det = a * e - b * b;
+    float a = fe__dot(d, d), e = fe__dot(side, side), f = fe__dot(side, r), b = fe__dot(d, side), c = fe__dot(d, r),
+          det = a * e - b * b;
     *s = det > 1e-6f * a * e ? fe__clampf((b * f - c * e) / det, 0.0f, 1.0f) : 0.0f;
     *u = fe__clampf((b * *s + f) / e, 0.0f, 1.0f);
     *s = a > 0.0f ? fe__clampf((b * *u - c) / a, 0.0f, 1.0f) : 0.0f;
@@ -82,9 +90,11 @@ static void touch_side(fe__gathering *g, const fe__tile *tile, int32_t k, const 
     fe_vec3 d = fe__sub(ends[1], ends[0]);
     float across = fe__dot(d, m), length = fe__dot(d, d), cosine = fe__dot(d, side);
     stretch part = {s, s};
-    if (length > 0.0f && across * across < 1e-4f * length && cosine * cosine > FE_FACE_COS * FE_FACE_COS * length * fe__dot(side, side)) {
+    if (length > 0.0f && across * across < 1e-4f * length &&
+        cosine * cosine > FE_FACE_COS * FE_FACE_COS * length * fe__dot(side, side)) {
         part = (stretch){0.0f, 1.0f};
-        float most = fe__dot(side, side), a = fe__dot(side, fe__sub(ends[0], start)), b = fe__dot(side, fe__sub(ends[1], start));
+        float most = fe__dot(side, side), a = fe__dot(side, fe__sub(ends[0], start)),
+              b = fe__dot(side, fe__sub(ends[1], start));
         cut(&part, a, b, most);
         cut(&part, -a, -b, 0.0f);
     }
@@ -108,6 +118,7 @@ void fe__tile_touch_round(fe__gathering *g, const fe__tile *tile, const fe_vec3 
     for (int32_t k = 0; k < 3; ++k) {
         if (!(beyond >> k & 1)) continue; // what is nearest to the core is not there
         int32_t other = fe__tile_beyond(g->terrain, tile, k);
-        if (other < 0 || other > tile->index) touch_side(g, tile, k, ends, radius); // of the two at a side the first has it
+        if (other < 0 || other > tile->index)
+            touch_side(g, tile, k, ends, radius); // of the two at a side the first has it
     }
 }

@@ -1,8 +1,9 @@
 // terrain_surface.c - normal cones of a heightfield's faces, edges and vertices; see terrain_surface.h.
 //
-// A direction m is in the normal cone of a point of a surface when nothing near the point rises along m. For a piecewise flat surface it is
-// enough to look at the samples next to it (Connolly; van den Bergen: Voronoi regions of a mesh's features). Beyond the border of the grid
-// the neighbouring heightfields are asked for their height a little further on.
+// A direction m is in the normal cone of a point of a surface when nothing near the point rises along m. For a
+// piecewise flat surface it is enough to look at the samples next to it (Connolly; van den Bergen: Voronoi regions of a
+// mesh's features). Beyond the border of the grid the neighbouring heightfields are asked for their height a little
+// further on.
 #include "collision/manifold/terrain_surface.h"
 
 // Slopes below this count as flat: 0.06 degrees
@@ -20,12 +21,13 @@ static int32_t cell_present(const fe__heightfield *f, int32_t row, int32_t colum
 static fe_vec3 sample(const fe__terrain *t, int32_t row, int32_t column)
 {
     const fe__heightfield *f = t->field;
-    fe_dvec3 p = {(double)column * f->cell_x, (double)f->heights[(int64_t)row * f->columns + column], (double)row * f->cell_z};
+    fe_dvec3 p = {(double)column * f->cell_x, (double)f->heights[(int64_t)row * f->columns + column],
+                  (double)row * f->cell_z};
     return fe__narrow(fe__dsub(p, t->origin));
 }
 
-// Grid offsets of a triangle's vertices, and beyond each side: the other triangle's cell and half, its third vertex, the way out in the
-// grid
+// Grid offsets of a triangle's vertices, and beyond each side: the other triangle's cell and half, its third vertex,
+// the way out in the grid
 typedef struct beyond {
     int8_t row, column, half, third_row, third_column, out_row, out_column;
 } beyond;
@@ -65,7 +67,8 @@ static float longest_side(const fe_vec3 v[3])
 fe__tile fe__tile_of(const fe__terrain *t, const fe__form *triangle, int32_t index)
 {
     int32_t cell = index >> 1, columns = t->field->columns - 1;
-    fe__tile tile = {.form = *triangle, .index = index, .row = cell / columns, .column = cell % columns, .half = index & 1};
+    fe__tile tile = {
+        .form = *triangle, .index = index, .row = cell / columns, .column = cell % columns, .half = index & 1};
     const fe_vec3 *v = triangle->vertex;
     fe_vec3 n = fe__cross(fe__sub(v[1], v[0]), fe__sub(v[2], v[0]));
     tile.normal = fe__scale(1.0f / fe__length(n), n);
@@ -79,17 +82,23 @@ int32_t fe__tile_is_convex(const fe__terrain *t, const fe__tile *tile, int32_t s
     return fe__dot(tile->normal, fe__sub(third_of(t, tile, side), tile->form.vertex[side])) < -FLAT * tile->size;
 }
 
-// ---- beyond the border ----------------------------------------------------------------------------------------------------------------
-static fe_dvec3 into(const fe__neighbour *n, fe_vec3 p) { return fe__dadd(n->position, fe__widen(fe__mul_transposed(&n->axes, p))); }
+// ---- beyond the border
+// ----------------------------------------------------------------------------------------------------------------
+static fe_dvec3 into(const fe__neighbour *n, fe_vec3 p)
+{
+    return fe__dadd(n->position, fe__widen(fe__mul_transposed(&n->axes, p)));
+}
 
 int32_t fe__heightfield_height(const fe__heightfield *f, fe_dvec3 p, double *height)
 {
     double x = p.x / f->cell_x, z = p.z / f->cell_z, columns = (double)(f->columns - 1), rows = (double)(f->rows - 1);
     if (!(x >= -BESIDE && x <= columns + BESIDE && z >= -BESIDE && z <= rows + BESIDE)) return 0;
-    int32_t column = (int32_t)fe__maxd(fe__mind(x, columns - 1.0), 0.0), row = (int32_t)fe__maxd(fe__mind(z, rows - 1.0), 0.0);
+    int32_t column = (int32_t)fe__maxd(fe__mind(x, columns - 1.0), 0.0),
+            row = (int32_t)fe__maxd(fe__mind(z, rows - 1.0), 0.0);
     if (!cell_present(f, row, column)) return 0;
     const float *h = f->heights + (int64_t)row * f->columns + column, *next = h + f->columns;
-    double u = x - (double)column, v = z - (double)row, h00 = (double)h[0], h11 = (double)next[1], side = (double)(u > v ? h[1] : next[0]);
+    double u = x - (double)column, v = z - (double)row, h00 = (double)h[0], h11 = (double)next[1],
+           side = (double)(u > v ? h[1] : next[0]);
     *height = u > v ? h00 + u * (side - h00) + v * (h11 - side) : h00 + v * (side - h00) + u * (h11 - side);
     return 1;
 }
@@ -112,7 +121,8 @@ static int32_t neighbour_rises(const fe__terrain *t, fe_vec3 p, fe_vec3 way, fe_
 
 static fe_vec3 way_out(const fe__terrain *t, int32_t out_row, int32_t out_column)
 {
-    return fe__vec3((float)(BEYOND * (double)out_column * t->field->cell_x), 0.0f, (float)(BEYOND * (double)out_row * t->field->cell_z));
+    return fe__vec3((float)(BEYOND * (double)out_column * t->field->cell_x), 0.0f,
+                    (float)(BEYOND * (double)out_row * t->field->cell_z));
 }
 
 static int32_t on_border(const fe__heightfield *f, int32_t row, int32_t column)
@@ -120,7 +130,8 @@ static int32_t on_border(const fe__heightfield *f, int32_t row, int32_t column)
     return row == 0 || row == f->rows - 1 || column == 0 || column == f->columns - 1;
 }
 
-// ---- cones ----------------------------------------------------------------------------------------------------------------------------
+// ---- cones
+// ----------------------------------------------------------------------------------------------------------------------------
 static int32_t side_allows(const fe__terrain *t, const fe__tile *tile, int32_t side, fe_vec3 m)
 {
     const fe_vec3 *v = tile->form.vertex;

@@ -17,8 +17,9 @@ int32_t fe__tile_is_convex(const fe__terrain *terrain, const fe__tile *tile, int
 // The triangle beyond side k, -1: a hole or the border.
 int32_t fe__tile_beyond(const fe__terrain *terrain, const fe__tile *tile, int32_t side);
 
-// May the surface be touched along m (unit, out of it) at the vertices of the tile that lie farthest along m? Exactly when nothing of the
-// surface around them rises along m. `m` need not be perpendicular to what is touched beyond a tolerance of a thousandth.
+// May the surface be touched along m (unit, out of it) at the vertices of the tile that lie farthest along m? Exactly
+// when nothing of the surface around them rises along m. `m` need not be perpendicular to what is touched beyond a
+// tolerance of a thousandth.
 int32_t fe__tile_allows(const fe__terrain *terrain, const fe__tile *tile, fe_vec3 m);
 
 // 1 and the height of the surface at x and z of p, all in the field's frame; 0 beside it and in holes.

@@ -73,8 +73,9 @@ FE_INLINE wide sine_square(wide4 q) { return w_dot(w_xyz(q), w_xyz(q)); } // of 
 
 FE_INLINE wide_sym choose_sym(wide_mask lanes, const wide_sym *yes, const wide_sym *no)
 {
-    return (wide_sym){w_choose(lanes, yes->xx, no->xx), w_choose(lanes, yes->xy, no->xy), w_choose(lanes, yes->xz, no->xz),
-                      w_choose(lanes, yes->yy, no->yy), w_choose(lanes, yes->yz, no->yz), w_choose(lanes, yes->zz, no->zz)};
+    return (wide_sym){w_choose(lanes, yes->xx, no->xx), w_choose(lanes, yes->xy, no->xy),
+                      w_choose(lanes, yes->xz, no->xz), w_choose(lanes, yes->yy, no->yy),
+                      w_choose(lanes, yes->yz, no->yz), w_choose(lanes, yes->zz, no->zz)};
 }
 
 FE_INLINE side choose_side(wide_mask lanes, side yes, side no)

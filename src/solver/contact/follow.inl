@@ -95,9 +95,11 @@ FE_INLINE void NAMED(store_masses)(ROW *row, const MASSES *m, wide_mask lanes)
         row->point[i].mass = w_choose(lanes, m->point[i], row->point[i].mass);
         row->lever[i] = w_choose(lanes, m->lever[i], row->lever[i]);
     }
-    UNROLL for (int i = 0; i < (POINTS == 1 ? 0 : 6); ++i) row->coupling[i] = w_choose(lanes, m->coupling[i], row->coupling[i]);
+    UNROLL for (int i = 0; i < (POINTS == 1 ? 0 : 6); ++i) row->coupling[i] =
+        w_choose(lanes, m->coupling[i], row->coupling[i]);
     UNROLL for (int i = 0; i < 3; ++i) row->tangent_mass[i] = w_choose(lanes, m->tangent[i], row->tangent_mass[i]);
-    UNROLL for (int i = 0; i < 2; ++i) row->twist_tangent[i] = w_choose(lanes, m->twist_tangent[i], row->twist_tangent[i]);
+    UNROLL for (int i = 0; i < 2; ++i) row->twist_tangent[i] =
+        w_choose(lanes, m->twist_tangent[i], row->twist_tangent[i]);
     row->twist_mass = w_choose(lanes, m->twist, row->twist_mass);
 }
 
@@ -129,7 +131,8 @@ FE_INLINE wide3 NAMED(friction_impulse)(const ROW *row, wide3 normal)
 FE_INLINE wide3 NAMED(moment_of)(const ROW *row, wide3 normal, wide3 friction, int kind)
 {
     wide3 moment = w_zero3();
-    UNROLL for (int i = 0; i < POINTS; ++i) moment = w_add_scaled(moment, row->point[i].impulse, load3(row->point[i].r));
+    UNROLL for (int i = 0; i < POINTS; ++i) moment =
+        w_add_scaled(moment, row->point[i].impulse, load3(row->point[i].r));
     moment = w_add(w_cross(moment, normal), w_cross(load3(row->centre), friction));
     moment = w_add_scaled(moment, row->twist_impulse, normal);
     return kind & FE__ROW_SPECIAL ? w_add(moment, load3(((const SPECIAL_ROW *)row)->rolling_impulse)) : moment;
@@ -176,12 +179,14 @@ FE_INLINE void NAMED(begin_to_follow)(ROW *row, const wide *apart, wide_mask lan
         wide half = 0.5f * apart[i];
         wide3 a = w_sub_scaled(r, half, n), b = w_add_scaled(w_add(r, load3(row->found_span)), half, n);
         store3(row->first_b[i], w_choose3(fresh, b, load3(row->first_b[i])));
-        if (kind & (FE__ROW_PAIR | FE__ROW_SPECIAL)) store3(row->first_a[i], w_choose3(fresh, a, load3(row->first_a[i])));
+        if (kind & (FE__ROW_PAIR | FE__ROW_SPECIAL))
+            store3(row->first_a[i], w_choose3(fresh, a, load3(row->first_a[i])));
     }
 }
 
 // Where the bodies' motion brought point i; returns by how much B's point went from A's along the normal.
-FE_INLINE wide NAMED(move_point)(ROW *row, const motion *m, wide3 n, wide3 span, wide weight, int i, wide_mask lanes, int kind)
+FE_INLINE wide NAMED(move_point)(ROW *row, const motion *m, wide3 n, wide3 span, wide weight, int i, wide_mask lanes,
+                                 int kind)
 {
     wide *r = i < POINTS ? row->point[i].r : row->centre;
     wide3 b = load3(row->first_b[i]), by = w_turn(m->rotation_b, w_add_scaled(b, row->round_b, n));
@@ -218,7 +223,8 @@ FE_INLINE void NAMED(move_points)(ROW *row, const motion *m, wide3 n, wide_mask 
 
 // A contact found ahead of time: its points are those of the touch, and found_a, found_b the rotations from there to
 // where the bodies are. Until then its points on A and on B are apart.
-static __attribute__((noinline)) void NAMED(place_ahead)(ROW *row, const fe__contact *m, const int32_t *index, wide_mask lanes, int kind)
+static __attribute__((noinline)) void NAMED(place_ahead)(ROW *row, const fe__contact *m, const int32_t *index,
+                                                         wide_mask lanes, int kind)
 {
     wide zero = w_set(0.0f);
     wide3 n = load3(row->normal), span = load3(row->found_span);
@@ -261,10 +267,12 @@ FE_INLINE void NAMED(correct_start)(const fe__solver *s, const int32_t *line, wi
 
 // Points, span, inertia and masses of the given lanes to where the bodies are. The warm start holds M^-1 J^T l of the
 // old ones.
-static __attribute__((noinline)) void NAMED(follow)(ROW *row, const fe__solver *s, const motion *m, wide_mask lanes, int kind)
+static __attribute__((noinline)) void NAMED(follow)(ROW *row, const fe__solver *s, const motion *m, wide_mask lanes,
+                                                    int kind)
 {
     pair p = NAMED(gather_pair)(row, s, kind);
-    wide3 friction = NAMED(friction_impulse)(row, p.normal), impulse = w_add_scaled(friction, NAMED(load_of)(row), p.normal);
+    wide3 friction = NAMED(friction_impulse)(row, p.normal),
+          impulse = w_add_scaled(friction, NAMED(load_of)(row), p.normal);
     wide3 moment = NAMED(moment_of)(row, p.normal, friction, kind), change_a = w_zero3();
     if (kind & FE__ROW_PAIR) change_a = w_mul(&row->inertia_a, moment);
     wide3 change_b = w_mul(&row->inertia_b, w_add(moment, w_cross(p.span, impulse)));
@@ -274,13 +282,15 @@ static __attribute__((noinline)) void NAMED(follow)(ROW *row, const fe__solver *
     moment = NAMED(moment_of)(row, p.normal, friction, kind);
     wide_sym b = turned_inertia(s, row->line_b, m->rotation_b, p.b.locks);
     row->inertia_b = choose_sym(lanes, &b, &row->inertia_b);
-    NAMED(correct_start)(s, row->line_b, w_sub(w_mul(&row->inertia_b, w_add(moment, w_cross(p.span, impulse))), change_b), lanes);
+    NAMED(correct_start)
+    (s, row->line_b, w_sub(w_mul(&row->inertia_b, w_add(moment, w_cross(p.span, impulse))), change_b), lanes);
     if (kind & FE__ROW_PAIR) {
         wide_sym a = turned_inertia(s, row->line_a, m->rotation_a, p.a.locks);
         row->inertia_a = choose_sym(lanes, &a, &row->inertia_a);
         NAMED(correct_start)(s, row->line_a, w_sub(change_a, w_mul(&row->inertia_a, moment)), lanes);
     }
-    wide most = w_set(0.25f * FROZEN_MASS * FROZEN_MASS), angle = w_max(sine_square(m->rotation_a), sine_square(m->rotation_b));
+    wide most = w_set(0.25f * FROZEN_MASS * FROZEN_MASS),
+         angle = w_max(sine_square(m->rotation_a), sine_square(m->rotation_b));
     wide_mask stale = w_and(lanes, w_greater(angle, most));
     if (!w_any(stale)) return;
     MASSES masses;

@@ -5,10 +5,12 @@
 // is computed.
 
 // fills the points, returns the friction centre: the mean of the points weighted by how close they are
-FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int32_t *index, wide points, const fe__step_constants *c)
+FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int32_t *index, wide points,
+                                      const fe__step_constants *c)
 {
     wide zero = w_set(0.0f), one = w_set(1.0f), sum = zero, apart = zero;
-    wide4 impulse = w_gather(m->normal_impulse, CONTACT_STRIDE, index), separation = w_gather(m->separation, CONTACT_STRIDE, index);
+    wide4 impulse = w_gather(m->normal_impulse, CONTACT_STRIDE, index),
+          separation = w_gather(m->separation, CONTACT_STRIDE, index);
     wide impulses[FE__POINTS] = {impulse.x, impulse.y, impulse.z, impulse.w};
     wide separations[FE__POINTS] = {separation.x, separation.y, separation.z, separation.w};
     wide3 weighted = w_zero3();
@@ -22,7 +24,8 @@ FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int3
         q->mass = w_choose(there, one, zero);
         q->impulse = impulses[i] * c->contact_warm_scale;
         row->total[i] = zero;
-        wide weight = w_choose(there, w_clamp(2.0f - separations[i] * (1.0f / c->speculative), w_set(LEAST_WEIGHT), one), zero);
+        wide weight =
+            w_choose(there, w_clamp(2.0f - separations[i] * (1.0f / c->speculative), w_set(LEAST_WEIGHT), one), zero);
         sum = sum + weight;
         weighted = w_add_scaled(weighted, weight, r);
         apart = apart + weight * separations[i];
@@ -44,10 +47,11 @@ FE_INLINE void NAMED(prepare_friction)(ROW *row, wide4 impulse, wide3 t1, wide3 
 FE_INLINE wide NAMED(still_angle)(const wide_sym *i, wide reach, int kind)
 {
     wide spread = w_abs(i->xx - i->yy) + w_abs(i->yy - i->zz) + w_abs(i->xy) + w_abs(i->xz) + w_abs(i->yz);
-    wide_mask shows =
-        w_or(w_greater(spread, ROUND_INERTIA * (i->xx + i->yy + i->zz)), w_greater(reach, w_set(FROZEN_SHIFT * FROZEN_SHIFT)));
+    wide_mask shows = w_or(w_greater(spread, ROUND_INERTIA * (i->xx + i->yy + i->zz)),
+                           w_greater(reach, w_set(FROZEN_SHIFT * FROZEN_SHIFT)));
     // a bounce is to gain no energy: no rotation is too small
-    return w_choose(shows, w_set(kind & FE__ROW_SPECIAL ? 0.0f : 0.25f * FROZEN_ROTATION * FROZEN_ROTATION), w_set(FLT_MAX));
+    return w_choose(shows, w_set(kind & FE__ROW_SPECIAL ? 0.0f : 0.25f * FROZEN_ROTATION * FROZEN_ROTATION),
+                    w_set(FLT_MAX));
 }
 
 FE_INLINE void NAMED(prepare_following)(ROW *row, wide3 n, int kind)
@@ -67,8 +71,8 @@ FE_INLINE void NAMED(prepare_following)(ROW *row, wide3 n, int kind)
 }
 
 // Scalar, a lane at a time: special rows are few
-FE_INLINE void NAMED(prepare_special)(SPECIAL_ROW *x, const fe__solver *s, const fe__extra *extras, const int32_t *index,
-                                      const fe__step_constants *c)
+FE_INLINE void NAMED(prepare_special)(SPECIAL_ROW *x, const fe__solver *s, const fe__extra *extras,
+                                      const int32_t *index, const fe__step_constants *c)
 {
     for (int i = 0; i < FE_W; ++i) {
         const fe__extra *e = extras + index[i];
@@ -104,8 +108,8 @@ FE_INLINE wide3 NAMED(span_found)(const ROW *row, const fe__contact *m, const in
     return w_choose3(NAMED(static_lanes)(row), w_zero3(), span);
 }
 
-FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s, const fe__contact *m, const fe__extra *extras,
-                                  const fe__step_constants *c, int kind)
+FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s, const fe__contact *m,
+                                  const fe__extra *extras, const fe__step_constants *c, int kind)
 {
     _Alignas(64) int32_t index[FE_W];
     for (int i = 0; i < FE_W; ++i) {
@@ -144,8 +148,8 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
     NAMED(scatter_pair)(row, s, &p, kind);
 }
 
-FE_INLINE void NAMED(prepare)(fe__solver *s, fe__contact *contacts, const fe__extra *extras, const fe__lane *lanes, void *rows,
-                              int32_t count, const fe__step_constants *c, int kind)
+FE_INLINE void NAMED(prepare)(fe__solver *s, fe__contact *contacts, const fe__extra *extras, const fe__lane *lanes,
+                              void *rows, int32_t count, const fe__step_constants *c, int kind)
 {
     for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
         for (int j = 0; j < FE_W && i + 1 < count; ++j) prefetch_contact(contacts + lanes[FE_W + j].contact);
@@ -153,7 +157,8 @@ FE_INLINE void NAMED(prepare)(fe__solver *s, fe__contact *contacts, const fe__ex
     }
 }
 
-FE_INLINE void NAMED(store)(fe__contact *contacts, fe__extra *extras, const fe__lane *lanes, const void *rows, int32_t count, int kind)
+FE_INLINE void NAMED(store)(fe__contact *contacts, fe__extra *extras, const fe__lane *lanes, const void *rows,
+                            int32_t count, int kind)
 {
     for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
         const ROW *row = NAMED(row_at)((void *)(uintptr_t)rows, i, kind);
@@ -161,11 +166,12 @@ FE_INLINE void NAMED(store)(fe__contact *contacts, fe__extra *extras, const fe__
         wide impulse[FE__POINTS] = {0}, total[FE__POINTS] = {0};
         _Alignas(64) int32_t index[FE_W];
         for (int j = 0; j < FE_W; ++j) index[j] = lanes[j].contact;
-        for (int j = 0; j < FE_W && i + 4 < count; ++j) __builtin_prefetch(contacts[lanes[4 * FE_W + j].contact].normal_impulse, 1);
+        for (int j = 0; j < FE_W && i + 4 < count; ++j)
+            __builtin_prefetch(contacts[lanes[4 * FE_W + j].contact].normal_impulse, 1);
         UNROLL for (int j = 0; j < POINTS; ++j) impulse[j] = row->point[j].impulse, total[j] = row->total[j];
         wide3 friction = NAMED(friction_impulse)(row, load3(row->normal));
-        store_lanes(contacts, index, (wide4){impulse[0], impulse[1], impulse[2], impulse[3]}, w_with(friction, row->twist_impulse),
-                    (wide4){total[0], total[1], total[2], total[3]});
+        store_lanes(contacts, index, (wide4){impulse[0], impulse[1], impulse[2], impulse[3]},
+                    w_with(friction, row->twist_impulse), (wide4){total[0], total[1], total[2], total[3]});
         for (int j = 0; j < FE_W && kind & FE__ROW_SPECIAL; ++j)
             for (int k = 0; k < 3 && index[j]; ++k) extras[index[j]].rolling_impulse[k] = x->rolling_impulse[k][j];
     }

@@ -42,7 +42,8 @@ FE_INLINE centres centres_of(const fe__body *bodies, const int32_t *body)
 FE_INLINE wide3 shift_since_found(const centres *a, const centres *b, wide3 span, wide3 span_low)
 {
     wide3 low = w_sub(w_xyz(b->low), w_xyz(a->low)), e;
-    wide3 d = {difference(b->high.x, a->high.x, &e.x), difference(b->high.y, a->high.y, &e.y), difference(b->high.z, a->high.z, &e.z)};
+    wide3 d = {difference(b->high.x, a->high.x, &e.x), difference(b->high.y, a->high.y, &e.y),
+               difference(b->high.z, a->high.z, &e.z)};
     return w_add(w_add(d, span), w_add(w_add(e, low), span_low));
 }
 
@@ -65,12 +66,13 @@ FE_INLINE wide separation_now(const wide4 *point, wide constant, wide3 slope)
 }
 
 // As in rows.inl: s = s0 + n.shift + (nB - nA).r + nB.span + rhoA nA.n + rhoB nB.n with nX = R(dqX)^T n - n
-static void recycle_block(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, float dt, uint8_t *out,
-                          float *out_slack)
+static void recycle_block(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, float dt,
+                          uint8_t *out, float *out_slack)
 {
     _Alignas(64) int32_t a[FE_W], b[FE_W];
     for (int i = 0; i < FE_W; ++i) a[i] = contacts[index[i]].body_a, b[i] = contacts[index[i]].body_b;
-    wide4 normal = CONTACT_QUAD(normal), surface = CONTACT_QUAD(surface.dynamic_friction), found = CONTACT_QUAD(found_span);
+    wide4 normal = CONTACT_QUAD(normal), surface = CONTACT_QUAD(surface.dynamic_friction),
+          found = CONTACT_QUAD(found_span);
     wide4 found_a, found_b, point[FE__POINTS];
     w_gather_both(contacts->found_a, CONTACT_STRIDE, index, &found_a, &found_b);
     centres at_a = centres_of(bodies, a), at_b = centres_of(bodies, b);
@@ -103,7 +105,8 @@ static void recycle_block(fe__contact *contacts, const fe__body *bodies, const i
         *(wide *)slack = surface.w - w_sqrt(moved);
         for (int i = 0; i < count; ++i) out_slack[i] = slack[i];
     }
-    for (int i = 0; i < FE__POINTS; i += 2) w_gather_both(contacts->point[i].arm, CONTACT_STRIDE, index, point + i, point + i + 1);
+    for (int i = 0; i < FE__POINTS; i += 2)
+        w_gather_both(contacts->point[i].arm, CONTACT_STRIDE, index, point + i, point + i + 1);
     wide4 separation = {separation_now(point, constant, slope), separation_now(point + 1, constant, slope),
                         separation_now(point + 2, constant, slope), separation_now(point + 3, constant, slope)};
     w_scatter(now[0], FE__POINTS, w_in_order, separation);
@@ -121,8 +124,8 @@ FE_INLINE void fetch_ahead(const fe__contact *m)
 
 fe__recycle_kernel FE_NAME(fe__recycle);
 
-void FE_NAME(fe__recycle)(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, float dt, uint8_t *out,
-                          float *out_slack)
+void FE_NAME(fe__recycle)(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, float dt,
+                          uint8_t *out, float *out_slack)
 {
     int32_t i = 0;
     for (; i + FE_W <= count; i += FE_W) {

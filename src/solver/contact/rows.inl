@@ -100,10 +100,12 @@ FE_INLINE void NAMED(apply)(const ROW *row, pair *p, wide3 impulse, wide3 moment
 {
     const SPECIAL_ROW *x = (const SPECIAL_ROW *)row;
     wide3 moment_b = w_add(moment, w_cross(p->span, impulse));
-    p->b.v = kind & FE__ROW_SPECIAL ? w_add(p->b.v, w_times(load3(x->mass_b), impulse)) : w_add_scaled(p->b.v, p->b.inverse_mass, impulse);
+    p->b.v = kind & FE__ROW_SPECIAL ? w_add(p->b.v, w_times(load3(x->mass_b), impulse))
+                                    : w_add_scaled(p->b.v, p->b.inverse_mass, impulse);
     p->b.w = w_add(p->b.w, w_mul(&row->inertia_b, moment_b));
     if (!(kind & FE__ROW_PAIR)) return;
-    p->a.v = kind & FE__ROW_SPECIAL ? w_sub(p->a.v, w_times(load3(x->mass_a), impulse)) : w_sub_scaled(p->a.v, p->a.inverse_mass, impulse);
+    p->a.v = kind & FE__ROW_SPECIAL ? w_sub(p->a.v, w_times(load3(x->mass_a), impulse))
+                                    : w_sub_scaled(p->a.v, p->a.inverse_mass, impulse);
     p->a.w = w_sub(p->a.w, w_mul(&row->inertia_a, moment));
 }
 
@@ -132,26 +134,30 @@ FE_INLINE motion NAMED(motion_of)(const ROW *row, const fe__solver *s, int kind)
 FE_INLINE void NAMED(find_distances)(ROW *row, const pair *p, const motion *m, int kind)
 {
     wide3 nb = w_turn_back(m->rotation_b, p->normal), na = w_zero3();
-    wide constant = w_dot(p->normal, m->shift) + w_dot(nb, load3(row->found_span)) + row->round_b * w_dot(nb, p->normal);
+    wide constant =
+        w_dot(p->normal, m->shift) + w_dot(nb, load3(row->found_span)) + row->round_b * w_dot(nb, p->normal);
     if (kind & (FE__ROW_PAIR | FE__ROW_SPECIAL)) {
         na = w_turn_back(m->rotation_a, p->normal);
         constant = constant + row->round_a * w_dot(na, p->normal);
     }
     affine change = {constant, w_sub(nb, na)};
-    UNROLL for (int i = 0; i < POINTS; ++i) row->point[i].distance = row->separation[i] + at(&change, load3(row->point[i].r));
+    UNROLL for (int i = 0; i < POINTS; ++i) row->point[i].distance =
+        row->separation[i] + at(&change, load3(row->point[i].r));
 }
 
 FE_INLINE affine NAMED(normal_velocity)(const pair *p)
 {
     wide3 spin = w_cross(p->normal, p->b.w);
-    return (affine){w_dot(p->normal, w_sub(p->b.v, p->a.v)) + w_dot(spin, p->span), w_cross(p->normal, w_sub(p->b.w, p->a.w))};
+    return (affine){w_dot(p->normal, w_sub(p->b.v, p->a.v)) + w_dot(spin, p->span),
+                    w_cross(p->normal, w_sub(p->b.w, p->a.w))};
 }
 
 // A point without impulse is about to touch: note its speed u and the energy of its flight, exact for the discrete
 // motion v += h g, x += h v:
 //     Q = u (u - g h) + 2 g s  before the bodies moved in this substep,   u (u + g h) + 2 g s  after
 // (s: the gap, g: the acceleration that closes it).
-FE_INLINE void NAMED(record_touch)(SPECIAL_ROW *x, int i, wide impulse, wide vn, wide distance, const fe__step_constants *c, int moved)
+FE_INLINE void NAMED(record_touch)(SPECIAL_ROW *x, int i, wide impulse, wide vn, wide distance,
+                                   const fe__step_constants *c, int moved)
 {
     wide zero = w_set(0.0f), u = -vn, gap = w_max(distance, zero), g = x->closing;
     wide flight = (moved ? u * (u + c->h * g) : u * (u - c->h * g)) + 2.0f * g * gap;
@@ -233,10 +239,12 @@ FE_INLINE wide NAMED(load_of)(const ROW *row)
 // velocities. Soft:   l' = max((1 - is) l - m (ms vn + bias), 0);  bias = ms s / h where the gap s > 0, the spring's
 // otherwise Relax, and wherever there is a gap (for a loaded point, of more than TOUCHING): l' = max(l - m (vn + max(s
 // / h, 0)), 0)
-FE_INLINE void NAMED(requests)(ROW *row, const fe__step_constants *c, const pair *p, int kind, int soft, wide *request, wide *scale)
+FE_INLINE void NAMED(requests)(ROW *row, const fe__step_constants *c, const pair *p, int kind, int soft, wide *request,
+                               wide *scale)
 {
     const fe__softness *k = kind & FE__ROW_PAIR ? &c->between_dynamic : &c->against_static;
-    wide zero = w_set(0.0f), one = w_set(1.0f), slowest = w_set(-c->bias_speed), rate = w_set(k->mass_scale * k->bias_rate);
+    wide zero = w_set(0.0f), one = w_set(1.0f), slowest = w_set(-c->bias_speed),
+         rate = w_set(k->mass_scale * k->bias_rate);
     affine velocity = NAMED(normal_velocity)(p);
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
@@ -251,7 +259,8 @@ FE_INLINE void NAMED(requests)(ROW *row, const fe__step_constants *c, const pair
         wide_mask apart = w_greater(distance, w_choose(w_greater(q->impulse, zero), w_set(TOUCHING), zero));
         scale[i] = w_choose(apart, one, w_set(k->mass_scale));
         wide bias = w_choose(w_greater(distance, zero), scale[i] * ahead, w_max(rate * distance, slowest));
-        request[i] = w_choose(apart, one, w_set(1.0f - k->impulse_scale)) * q->impulse - q->mass * (scale[i] * vn + bias);
+        request[i] =
+            w_choose(apart, one, w_set(1.0f - k->impulse_scale)) * q->impulse - q->mass * (scale[i] * vn + bias);
     }
 }
 
@@ -266,7 +275,8 @@ FE_INLINE void NAMED(apply_normals)(ROW *row, const fe__step_constants *c, pair 
 // The energy that changes of the normal impulses give: the work at the mean of the speeds before and after, and what
 // they change in the discrete flight, whose energy is v^2/2 - g x + h g v / 2 of the closing acceleration g: an impulse
 // before the bodies move shifts them too.
-FE_INLINE wide NAMED(gain_of)(const SPECIAL_ROW *x, const wide *before, const affine *was, const affine *is, wide flight)
+FE_INLINE wide NAMED(gain_of)(const SPECIAL_ROW *x, const wide *before, const affine *was, const affine *is,
+                              wide flight)
 {
     wide gain = w_set(0.0f);
     UNROLL for (int i = 0; i < POINTS; ++i)
@@ -326,7 +336,8 @@ FE_INLINE wide_mask NAMED(solve_friction)(ROW *row, pair *p, int kind)
     row->tangent_impulse[1] = l2;
     NAMED(apply)(row, p, impulse, w_add_scaled(w_cross(ra, impulse), twisted, p->normal), kind);
     wide response = p->a.inverse_mass + p->b.inverse_mass, least = UNSETTLED * load * response;
-    wide_mask changes = w_greater(response * response * w_dot(impulse, impulse), least * least + UNSETTLED_SPEED * UNSETTLED_SPEED);
+    wide_mask changes =
+        w_greater(response * response * w_dot(impulse, impulse), least * least + UNSETTLED_SPEED * UNSETTLED_SPEED);
     return w_and(changes, w_greater(w_set(IMPACT_SPEED), (load - row->load) * response));
 }
 
@@ -351,7 +362,10 @@ FE_INLINE void NAMED(solve_rolling)(SPECIAL_ROW *x, pair *p, int kind)
 FE_INLINE PASSING NAMED(passing_of)(const ROW *row, const pair *p, int kind)
 {
     const SPECIAL_ROW *x = (const SPECIAL_ROW *)row;
-    PASSING was = {.tangent = {row->tangent_impulse[0], row->tangent_impulse[1]}, .twist = row->twist_impulse, .a = p->a, .b = p->b};
+    PASSING was = {.tangent = {row->tangent_impulse[0], row->tangent_impulse[1]},
+                   .twist = row->twist_impulse,
+                   .a = p->a,
+                   .b = p->b};
     UNROLL for (int i = 0; i < POINTS; ++i) was.point[i] = row->point[i].impulse;
     if (!(kind & FE__ROW_SPECIAL)) return was;
     was.rolling = load3(x->rolling_impulse), was.gain = x->gain;
@@ -364,7 +378,8 @@ FE_INLINE void NAMED(keep_others)(ROW *row, pair *p, const PASSING *was, wide_ma
 {
     SPECIAL_ROW *x = (SPECIAL_ROW *)row;
     p->a = choose_side(lanes, p->a, was->a), p->b = choose_side(lanes, p->b, was->b);
-    UNROLL for (int i = 0; i < POINTS; ++i) row->point[i].impulse = w_choose(lanes, row->point[i].impulse, was->point[i]);
+    UNROLL for (int i = 0; i < POINTS; ++i) row->point[i].impulse =
+        w_choose(lanes, row->point[i].impulse, was->point[i]);
     for (int i = 0; i < 2; ++i) row->tangent_impulse[i] = w_choose(lanes, row->tangent_impulse[i], was->tangent[i]);
     row->twist_impulse = w_choose(lanes, row->twist_impulse, was->twist);
     if (!(kind & FE__ROW_SPECIAL)) return;
@@ -381,7 +396,8 @@ FE_INLINE void NAMED(keep_others)(ROW *row, pair *p, const PASSING *was, wide_ma
 // the lower the friction grips: a cube's friction is two fifths of what it should be. The points resist that rotation
 // and friction has its next part, until little is left; what is at rest, or slides on, has its friction from before.
 // Not in an impact, whose friction is over after the substep.
-static __attribute__((noinline)) pair NAMED(settle)(ROW *row, const fe__step_constants *c, pair p, wide_mask unsettled, int kind)
+static __attribute__((noinline)) pair NAMED(settle)(ROW *row, const fe__step_constants *c, pair p, wide_mask unsettled,
+                                                    int kind)
 {
     for (int i = 0; i < SETTLING && w_any(unsettled); ++i) {
         PASSING before = NAMED(passing_of)(row, &p, kind);
@@ -403,9 +419,11 @@ static __attribute__((noinline)) pair NAMED(settle)(ROW *row, const fe__step_con
 // A point that did not touch may go on closing its gap, as in relax.
 FE_INLINE wide NAMED(bounce_speed)(const SPECIAL_ROW *x, int i, wide distance, const fe__step_constants *c)
 {
-    wide zero = w_set(0.0f), g = x->closing, gap = w_max(distance, zero), used = 2.0f * g * gap, e = x->restitution, q = x->flight[i];
+    wide zero = w_set(0.0f), g = x->closing, gap = w_max(distance, zero), used = 2.0f * g * gap, e = x->restitution,
+         q = x->flight[i];
     wide wanted = w_sqrt(w_max(e * e * q - used, zero)) + 0.5f * c->h * g;
-    return w_choose(w_greater(x->approach[i], zero), w_min(wanted, w_sqrt(w_max(q - used, zero))), -(gap * c->inverse_h));
+    return w_choose(w_greater(x->approach[i], zero), w_min(wanted, w_sqrt(w_max(q - used, zero))),
+                    -(gap * c->inverse_h));
 }
 
 // What the touched contacts gave so far leaves the warm start: start takes M^-1 J^T l.
@@ -458,9 +476,11 @@ FE_INLINE void NAMED(sweep_bounce)(ROW *row, pair *p, const wide *target, int ki
 // The part of a bounce, 1 and less, with which the row's impulses of this substep gain no energy: gain + part b +
 // part^2 a <= 0, of the works
 //     b = sum of change . speed before,   a = half the sum of change . (speed after - before)
-FE_INLINE wide NAMED(part_without_gain)(const SPECIAL_ROW *x, const wide *old, const affine *was, const affine *is, wide flight)
+FE_INLINE wide NAMED(part_without_gain)(const SPECIAL_ROW *x, const wide *old, const affine *was, const affine *is,
+                                        wide flight)
 {
-    wide zero = w_set(0.0f), one = w_set(1.0f), b = NAMED(gain_of)(x, old, was, was, flight), all = NAMED(gain_of)(x, old, was, is, flight);
+    wide zero = w_set(0.0f), one = w_set(1.0f), b = NAMED(gain_of)(x, old, was, was, flight),
+         all = NAMED(gain_of)(x, old, was, is, flight);
     wide a = all - b, root = w_sqrt(w_max(b * b - 4.0f * a * x->gain, zero));
     wide part = w_clamp((root - b) * w_inverse_or_zero(2.0f * a), zero, one);
     return w_choose(w_greater(x->gain + all, zero), part, one);
@@ -497,7 +517,8 @@ FE_INLINE void NAMED(bounce_row)(SPECIAL_ROW *x, fe__solver *s, const fe__step_c
 // once, are over: the next soft pass takes back its normal part, but friction, which only relax solves, would act
 // twice, on bodies that rotated on, and give them energy. So it is carried only as it was before, until the load has
 // lasted for a substep.
-static __attribute__((noinline)) void NAMED(leave_friction)(ROW *row, const fe__solver *s, wide load, wide_mask rose, int kind)
+static __attribute__((noinline)) void NAMED(leave_friction)(ROW *row, const fe__solver *s, wide load, wide_mask rose,
+                                                            int kind)
 {
     SPECIAL_ROW *x = (SPECIAL_ROW *)row;
     wide3 n = load3(row->normal), centre = load3(row->centre);
@@ -565,7 +586,8 @@ FE_INLINE void NAMED(relax)(fe__solver *s, void *rows, int32_t count, const fe__
         if (c->more) continue;
         UNROLL for (int j = 0; j < POINTS; ++j) row->total[j] = row->total[j] + row->point[j].impulse;
         wide load = NAMED(load_of)(row), response = p.a.inverse_mass + p.b.inverse_mass;
-        wide_mask rose = w_and(w_greater(load, IMPACT_RISE * row->load), w_greater((load - row->load) * response, w_set(IMPACT_SPEED)));
+        wide_mask rose = w_and(w_greater(load, IMPACT_RISE * row->load),
+                               w_greater((load - row->load) * response, w_set(IMPACT_SPEED)));
         if (w_any(rose)) NAMED(leave_friction)(row, s, load, rose, kind);
         row->load = load;
         if (c->finds_strain) NAMED(find_strain)(row, s, load * response, response, c);
@@ -580,28 +602,29 @@ FE_INLINE void NAMED(bounce)(fe__solver *s, void *rows, int32_t count, const fe_
 #include "solver/contact/prepare.inl"
 
 // ---- the kernels of each kind ---------------------------------------------------------------------------------------
-#define INSTANCE(kind_name, kind)                                                                                                  \
-    static void NAMED(prepare_##kind_name)(fe__solver * s, fe__contact * contacts, const fe__extra *extras, const fe__lane *lanes, \
-                                           void *rows, int32_t count, const fe__step_constants *c)                                 \
-    {                                                                                                                              \
-        NAMED(prepare)(s, contacts, extras, lanes, rows, count, c, kind);                                                          \
-    }                                                                                                                              \
-    static void NAMED(solve_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c)                   \
-    {                                                                                                                              \
-        NAMED(solve)(s, rows, count, c, kind);                                                                                     \
-    }                                                                                                                              \
-    static void NAMED(relax_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c)                   \
-    {                                                                                                                              \
-        NAMED(relax)(s, rows, count, c, kind);                                                                                     \
-    }                                                                                                                              \
-    static void NAMED(bounce_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c)                  \
-    {                                                                                                                              \
-        if ((kind)&FE__ROW_SPECIAL) NAMED(bounce)(s, rows, count, c, kind);                                                        \
-    }                                                                                                                              \
-    static void NAMED(store_##kind_name)(fe__contact * contacts, fe__extra * extras, const fe__lane *lanes, const void *rows,      \
-                                         int32_t count)                                                                            \
-    {                                                                                                                              \
-        NAMED(store)(contacts, extras, lanes, rows, count, kind);                                                                  \
+#define INSTANCE(kind_name, kind)                                                                                 \
+    static void NAMED(prepare_##kind_name)(fe__solver * s, fe__contact * contacts, const fe__extra *extras,       \
+                                           const fe__lane *lanes, void *rows, int32_t count,                      \
+                                           const fe__step_constants *c)                                           \
+    {                                                                                                             \
+        NAMED(prepare)(s, contacts, extras, lanes, rows, count, c, kind);                                         \
+    }                                                                                                             \
+    static void NAMED(solve_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c)  \
+    {                                                                                                             \
+        NAMED(solve)(s, rows, count, c, kind);                                                                    \
+    }                                                                                                             \
+    static void NAMED(relax_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c)  \
+    {                                                                                                             \
+        NAMED(relax)(s, rows, count, c, kind);                                                                    \
+    }                                                                                                             \
+    static void NAMED(bounce_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c) \
+    {                                                                                                             \
+        if ((kind)&FE__ROW_SPECIAL) NAMED(bounce)(s, rows, count, c, kind);                                       \
+    }                                                                                                             \
+    static void NAMED(store_##kind_name)(fe__contact * contacts, fe__extra * extras, const fe__lane *lanes,       \
+                                         const void *rows, int32_t count)                                         \
+    {                                                                                                             \
+        NAMED(store)(contacts, extras, lanes, rows, count, kind);                                                 \
     }
 
 INSTANCE(fixed, 0)

@@ -20,7 +20,10 @@ static int32_t first_colour(uint64_t used_low, uint64_t used_high, int32_t first
 
 static void take_colour(fe__body *body, int32_t colour) { body->colours[colour / 64] |= UINT64_C(1) << colour % 64; }
 
-static void return_colour(fe__body *body, int32_t colour) { body->colours[colour / 64] &= ~(UINT64_C(1) << colour % 64); }
+static void return_colour(fe__body *body, int32_t colour)
+{
+    body->colours[colour / 64] &= ~(UINT64_C(1) << colour % 64);
+}
 
 // Contacts of a pile come in an order, left before right. The first free colour would be another name for it: the
 // solver would take left before right everywhere, and what a sweep gets wrong would add up (the top of 100 rows went
@@ -43,7 +46,8 @@ void fe__colour_contact(fe__body *bodies, fe__contact *m)
     fe__body *a = bodies + m->body_a, *b = bodies + m->body_b;
     int32_t both = m->kind & FE__ROW_PAIR;
     m->colour =
-        both ? draw_colour(a, b) : first_colour(b->colours[0], b->colours[1], FE__PAIR_COLOURS, FE__PAIR_COLOURS + FE__STATIC_COLOURS);
+        both ? draw_colour(a, b)
+             : first_colour(b->colours[0], b->colours[1], FE__PAIR_COLOURS, FE__PAIR_COLOURS + FE__STATIC_COLOURS);
     if (m->colour == FE__OVERFLOW_COLOUR) return;
     take_colour(b, m->colour);
     if (both) take_colour(a, m->colour);

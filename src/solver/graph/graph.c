@@ -59,7 +59,8 @@ static void add_line(fe__solver *s, int32_t body) { s->body_of_line[s->line_coun
 
 static void add_kinematic(fe__builder *b, const fe__batch *batch, int32_t awake)
 {
-    if (awake < 0 || !fe__is_kinematic(fe__awake_body(b, awake)) || b->kinematic_line[awake] >= batch->first_line) return;
+    if (awake < 0 || !fe__is_kinematic(fe__awake_body(b, awake)) || b->kinematic_line[awake] >= batch->first_line)
+        return;
     b->kinematic_line[awake] = b->s->line_count;
     add_line(b->s, b->in->awake_bodies[awake]);
 }
@@ -94,7 +95,9 @@ static void assign_lines(fe__builder *b, int32_t k)
 
 static fe__lane lane_of(const fe__builder *b, const fe__linked *c)
 {
-    int32_t line_a = c->awake_a < 0 ? FE__STATIC_LINE : c->key & FE__ROW_PAIR ? b->line[c->awake_a] : b->kinematic_line[c->awake_a];
+    int32_t line_a = c->awake_a < 0          ? FE__STATIC_LINE
+                     : c->key & FE__ROW_PAIR ? b->line[c->awake_a]
+                                             : b->kinematic_line[c->awake_a];
     return (fe__lane){c->contact, line_a, b->line[c->awake_b]};
 }
 
@@ -122,11 +125,13 @@ static void add_overflow(fe__builder *b, int32_t k, const fe__kernels *kernels)
     }
     if (n == 0) return; // then there may be no items at all
     fe__sort_keys(s->sort_items, n, s->sort_items + n);
-    for (int32_t i = 0; i < n; ++i) s->sort_items[i].key = b->in->serials[2 * b->linked[s->sort_items[i].value].contact];
+    for (int32_t i = 0; i < n; ++i)
+        s->sort_items[i].key = b->in->serials[2 * b->linked[s->sort_items[i].value].contact];
     fe__sort_keys(s->sort_items, n, s->sort_items + n);
     for (int32_t i = 0; i < n; ++i) {
         const fe__linked *c = b->linked + s->sort_items[i].value;
-        s->lanes[open_contacts(b, s->batches + k, FE__OVERFLOW_COLOUR, c->key % FE__ROW_KINDS, 1, kernels)->lane] = lane_of(b, c);
+        s->lanes[open_contacts(b, s->batches + k, FE__OVERFLOW_COLOUR, c->key % FE__ROW_KINDS, 1, kernels)->lane] =
+            lane_of(b, c);
     }
 }
 
@@ -145,7 +150,9 @@ static void make_groups(fe__builder *b, int32_t k, const fe__kernels *kernels)
     }
     for (int32_t key = 0; key < FE__OVERFLOW_COLOUR * FE__ROW_KINDS; ++key) {
         int32_t contacts = b->key_count[key];
-        if (contacts) b->key_count[key] = open_contacts(b, batch, key / FE__ROW_KINDS, key % FE__ROW_KINDS, contacts, kernels)->lane;
+        if (contacts)
+            b->key_count[key] =
+                open_contacts(b, batch, key / FE__ROW_KINDS, key % FE__ROW_KINDS, contacts, kernels)->lane;
     }
     for (int32_t i = b->contact_start[k]; i < b->contact_start[k + 1]; ++i) {
         const fe__linked *c = b->linked + b->contact_order[i];
@@ -158,7 +165,8 @@ static void make_groups(fe__builder *b, int32_t k, const fe__kernels *kernels)
 static int32_t rows_fit(const fe__solver *s)
 {
     for (int32_t k = 0; k < s->batch_count; ++k)
-        if (s->batches[k].row_bytes > (k < s->large_count ? (int64_t)sizeof(fe__row_block) * s->row_capacity : s->worker_row_bytes))
+        if (s->batches[k].row_bytes >
+            (k < s->large_count ? (int64_t)sizeof(fe__row_block) * s->row_capacity : s->worker_row_bytes))
             return 0;
     return 1;
 }
@@ -173,7 +181,8 @@ void fe__graph_build(fe__solver *s, const fe__kernels *kernels, const fe__graph_
         assign_lines(&b, k);
         make_groups(&b, k, kernels);
     }
-    assert(s->line_count <= s->body_of_line_capacity && s->lane_count <= s->lane_capacity && s->group_count <= s->group_capacity);
+    assert(s->line_count <= s->body_of_line_capacity && s->lane_count <= s->lane_capacity &&
+           s->group_count <= s->group_capacity);
     assert(rows_fit(s));
     (void)rows_fit; // used by the assertion alone
     s->graph_changed = 0;

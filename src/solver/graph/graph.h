@@ -7,9 +7,11 @@
 #include "solver/graph/graph_input.h"
 
 // 1: there are rows already for any such graph, whatever its islands
-int32_t fe__graph_has_rows(const fe__solver *s, const fe__kernels *kernels, const fe__graph_bound *bound, int32_t workers);
+int32_t fe__graph_has_rows(const fe__solver *s, const fe__kernels *kernels, const fe__graph_bound *bound,
+                           int32_t workers);
 // Room for every graph within the bound. 0: no memory, nothing changed but capacities.
-int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *kernels, const fe__graph_bound *bound, int32_t workers);
+int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *kernels, const fe__graph_bound *bound,
+                          int32_t workers);
 void fe__graph_build(fe__solver *s, const fe__kernels *kernels, const fe__graph_input *input);
 void fe__solver_destroy(fe__solver *s, fe__memory *memory);
 

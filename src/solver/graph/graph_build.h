@@ -15,7 +15,8 @@ enum {
     // that no two workers write one line
     FE__DUMMY_LINES = FE__MAX_WIDTH
 };
-_Static_assert((int)FE__DUMMY_LINES >= (int)FE__ROW_KINDS + (int)FE__SIDES, "one dummy line for each kind that may be in a colour");
+_Static_assert((int)FE__DUMMY_LINES >= (int)FE__ROW_KINDS + (int)FE__SIDES,
+               "one dummy line for each kind that may be in a colour");
 
 // What a build needs of a contact in the graph. Contacts lie anywhere in memory: each is read once.
 typedef struct fe__linked {
@@ -53,9 +54,15 @@ typedef struct fe__builder {
     int32_t *joint_key_group;
 } fe__builder;
 
-static inline const fe__body *fe__awake_body(const fe__builder *b, int32_t i) { return b->in->bodies + b->in->awake_bodies[i]; }
+static inline const fe__body *fe__awake_body(const fe__builder *b, int32_t i)
+{
+    return b->in->bodies + b->in->awake_bodies[i];
+}
 static inline int32_t fe__is_kinematic(const fe__body *body) { return body->type == FE_BODY_KINEMATIC; }
-static inline uint32_t fe__sides_of(const fe__joint *j) { return j->rows >> FE__SIDES_SHIFT & (FE__MOVES_A | FE__MOVES_B); }
+static inline uint32_t fe__sides_of(const fe__joint *j)
+{
+    return j->rows >> FE__SIDES_SHIFT & (FE__MOVES_A | FE__MOVES_B);
+}
 
 // Rows of narrow kernels are not whole blocks, but nodes of trees begin with one
 static inline int64_t fe__whole_blocks(int64_t bytes)

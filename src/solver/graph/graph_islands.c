@@ -35,7 +35,10 @@ static void join_contacts(fe__builder *b)
     }
 }
 
-static const fe__joint *joint_at(const fe__builder *b, int32_t i) { return b->in->joints->joints + b->in->awake_joints[i]; }
+static const fe__joint *joint_at(const fe__builder *b, int32_t i)
+{
+    return b->in->joints->joints + b->in->awake_joints[i];
+}
 
 static void join_joints(fe__builder *b)
 {
@@ -83,7 +86,8 @@ static void find_islands(fe__builder *b)
         } else
             b->island_of[i] = b->island_of[b->parent[i]];
         ++b->island_bodies[b->island_of[i]];
-        b->island_pace[b->island_of[i]] |= (int32_t)(fe__awake_body(b, i)->flags & (FE__BODY_STRAINED | FE__BODY_STRETCHED));
+        b->island_pace[b->island_of[i]] |=
+            (int32_t)(fe__awake_body(b, i)->flags & (FE__BODY_STRAINED | FE__BODY_STRETCHED));
     }
     b->s->island_count = count;
     count_constraints(b);
@@ -171,8 +175,10 @@ static void sort_by_batch(fe__builder *b)
     sum_up(b->body_start, batches);
     for (int32_t i = 0; i < in->body_count; ++i) b->body_order[b->body_start[batch_of_body(b, i)]++] = i;
     unwind(b->body_start, batches);
-    for (int32_t k = 0; k < batches; ++k) b->contact_start[k + 1] = b->contact_start[k] + b->s->batches[k].contact_count;
-    for (int32_t i = 0; i < b->linked_count; ++i) b->contact_order[b->contact_start[batch_of_body(b, b->linked[i].awake_b)]++] = i;
+    for (int32_t k = 0; k < batches; ++k)
+        b->contact_start[k + 1] = b->contact_start[k] + b->s->batches[k].contact_count;
+    for (int32_t i = 0; i < b->linked_count; ++i)
+        b->contact_order[b->contact_start[batch_of_body(b, b->linked[i].awake_b)]++] = i;
     unwind(b->contact_start, batches);
     b->joint_start[0] = 0;
     for (int32_t k = 0; k < batches; ++k) b->joint_start[k + 1] = b->joint_start[k] + b->s->batches[k].joint_count;

@@ -53,7 +53,8 @@ static void open_part(fe__builder *b, fe__batch *batch, int32_t part, int32_t ov
     for (int32_t i = 0; i < overflowing; ++i) {
         int32_t joint = s->sort_items[i].value;
         const fe__joint *j = b->in->joints->joints + joint;
-        if (j->rows >> part & 1) s->lanes[open_joints(b, batch, joint_key(part, j), 1, kernels)->lane] = joint_lane(b, joint);
+        if (j->rows >> part & 1)
+            s->lanes[open_joints(b, batch, joint_key(part, j), 1, kernels)->lane] = joint_lane(b, joint);
     }
 }
 
@@ -71,19 +72,26 @@ static void open_link(fe__builder *b, fe__batch *batch, int32_t link, fe__lane l
     const fe__forest *f = &b->in->joints->forest;
     const fe__tree_link *l = f->links + link;
     int32_t first = f->trees[l->tree].first, count = f->trees[l->tree].count, rootless = !f->links[first].joint;
-    s->places[link] =
-        (fe__tree_place){.line = l->holds_b ? lane.line_b : lane.line_a, .parent_line = l->holds_b ? lane.line_a : lane.line_b};
+    s->places[link] = (fe__tree_place){.line = l->holds_b ? lane.line_b : lane.line_a,
+                                       .parent_line = l->holds_b ? lane.line_a : lane.line_b};
     if (link != first + rootless) return;
     batch->row_bytes = fe__whole_blocks(batch->row_bytes);
-    if (rootless) s->places[first] = (fe__tree_place){.line = fe__line_of(b, f->links[first].body), .parent_line = FE__STATIC_LINE};
-    s->groups[s->group_count++] = (fe__group){
-        .width = b->width, .kind = FE__TREE_KIND, .colour = FE__TREE_COLOUR, .lane = l->tree, .rows = 1, .offset = batch->row_bytes};
+    if (rootless)
+        s->places[first] =
+            (fe__tree_place){.line = fe__line_of(b, f->links[first].body), .parent_line = FE__STATIC_LINE};
+    s->groups[s->group_count++] = (fe__group){.width = b->width,
+                                              .kind = FE__TREE_KIND,
+                                              .colour = FE__TREE_COLOUR,
+                                              .lane = l->tree,
+                                              .rows = 1,
+                                              .offset = batch->row_bytes};
     batch->row_bytes += fe__tree_bytes(count);
     ++batch->group_count, ++batch->trees;
 }
 
 // the rows of a link's locks
-static void add_lock(const fe__builder *b, int32_t link, int32_t part, int32_t group, int32_t lane, const fe__kernels *kernels)
+static void add_lock(const fe__builder *b, int32_t link, int32_t part, int32_t group, int32_t lane,
+                     const fe__kernels *kernels)
 {
     const fe__group *g = b->s->groups + group;
     fe__tree_place *p = b->s->places + link;
@@ -114,7 +122,8 @@ void fe__graph_joint_groups(fe__builder *b, int32_t k, const fe__kernels *kernel
     memset(b->joint_key_count, 0, sizeof(int32_t) * FE__JOINT_GROUP_KEYS);
     for (int32_t i = b->joint_start[k]; i < b->joint_start[k + 1]; ++i) {
         const fe__joint *j = b->in->joints->joints + b->joint_order[i];
-        for (int32_t part = 0; part < FE__PARTS; ++part) b->joint_key_count[joint_key(part, j)] += (int32_t)(j->rows >> part & 1);
+        for (int32_t part = 0; part < FE__PARTS; ++part)
+            b->joint_key_count[joint_key(part, j)] += (int32_t)(j->rows >> part & 1);
     }
     int32_t overflowing = sort_overflow(b, k);
     for (int32_t part = 0; part < FE__PARTS; ++part) open_part(b, batch, part, overflowing, kernels);

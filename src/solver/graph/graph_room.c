@@ -7,13 +7,16 @@
 
 static int32_t joint_rows(const fe__graph_bound *b)
 {
-    return b->joint_set ? (int32_t)fe__minl(b->joint_set->rows, (int64_t)b->joints * __builtin_popcount(b->joint_set->row_kinds)) : 0;
+    return b->joint_set
+               ? (int32_t)fe__minl(b->joint_set->rows, (int64_t)b->joints * __builtin_popcount(b->joint_set->row_kinds))
+               : 0;
 }
 
 static int32_t overflowing_rows(const fe__graph_bound *b)
 {
     if (!b->joint_set) return 0;
-    return (int32_t)fe__minl(joint_rows(b), (int64_t)b->joint_set->overflowing * __builtin_popcount(b->joint_set->row_kinds));
+    return (int32_t)fe__minl(joint_rows(b),
+                             (int64_t)b->joint_set->overflowing * __builtin_popcount(b->joint_set->row_kinds));
 }
 
 static int32_t batch_bound(const fe__graph_bound *b)
@@ -36,7 +39,8 @@ static int32_t group_bound(const fe__graph_bound *b)
 static int32_t joint_group_bound(const fe__graph_bound *b)
 {
     if (!b->joint_set) return 0;
-    return fe__mini(2 * b->joint_set->most, FE__JOINT_COLOURS) * __builtin_popcount(b->joint_set->row_kinds) * FE__SIDES;
+    return fe__mini(2 * b->joint_set->most, FE__JOINT_COLOURS) * __builtin_popcount(b->joint_set->row_kinds) *
+           FE__SIDES;
 }
 
 static int64_t joint_row_bound(const fe__graph_bound *b, int32_t lanes, int32_t width)
@@ -62,18 +66,20 @@ static int64_t row_bound(const fe__graph_bound *b, int32_t contacts, int32_t wid
 static int32_t tree_links(const fe__graph_bound *b) { return b->joint_set ? b->joint_set->forest.link_count : 0; }
 
 // bytes of rows of so many contacts and parts of joints; each body is in one tree at most
-static int64_t row_bytes(const fe__graph_bound *b, const fe__kernels *kernels, int32_t contacts, int32_t joint_lanes, int64_t bodies)
+static int64_t row_bytes(const fe__graph_bound *b, const fe__kernels *kernels, int32_t contacts, int32_t joint_lanes,
+                         int64_t bodies)
 {
     int64_t widest = kernels->contact->row_size[b->special ? FE__ROW_PAIR | FE__ROW_SPECIAL : FE__ROW_PAIR];
     int64_t links = fe__minl(tree_links(b), bodies);
-    return row_bound(b, contacts, kernels->width) * widest + joint_row_bound(b, joint_lanes, kernels->width) * widest_joint(b, kernels) +
+    return row_bound(b, contacts, kernels->width) * widest +
+           joint_row_bound(b, joint_lanes, kernels->width) * widest_joint(b, kernels) +
            links * (fe__tree_bytes(1) + (int64_t)sizeof(fe__row_block));
 }
 
 static int64_t scratch_bound(const fe__graph_bound *b)
 {
-    return 11 * (int64_t)b->bodies + (FE__LINKED_INTS + 1) * (int64_t)b->contacts + b->joints + 3 * (batch_bound(b) + 1) + FE__GROUP_KEYS +
-           2 * FE__JOINT_GROUP_KEYS;
+    return 11 * (int64_t)b->bodies + (FE__LINKED_INTS + 1) * (int64_t)b->contacts + b->joints +
+           3 * (batch_bound(b) + 1) + FE__GROUP_KEYS + 2 * FE__JOINT_GROUP_KEYS;
 }
 
 // bytes of rows of the largest island, and of a worker's stretch
@@ -81,11 +87,11 @@ static int64_t all_rows(const fe__graph_bound *b, const fe__kernels *kernels, in
 {
     int32_t some = FE__BATCH_CONTACTS + FE__ISLAND_LARGE, parts = joint_rows(b);
     // an island has a body more than constraints, at most
-    int64_t small =
-        row_bytes(b, kernels, fe__mini(b->contacts, some), fe__mini(parts, some), fe__maxi(FE__BATCH_BODIES, FE__ISLAND_LARGE + 1));
-    int64_t large = b->largest > FE__ISLAND_LARGE
-                        ? row_bytes(b, kernels, fe__mini(b->contacts, b->largest), fe__mini(parts, b->largest), (int64_t)b->largest + 1)
-                        : 0;
+    int64_t small = row_bytes(b, kernels, fe__mini(b->contacts, some), fe__mini(parts, some),
+                              fe__maxi(FE__BATCH_BODIES, FE__ISLAND_LARGE + 1));
+    int64_t large = b->largest > FE__ISLAND_LARGE ? row_bytes(b, kernels, fe__mini(b->contacts, b->largest),
+                                                              fe__mini(parts, b->largest), (int64_t)b->largest + 1)
+                                                  : 0;
     *out_small = small;
     return small * workers > large ? small * workers : large;
 }
@@ -99,13 +105,15 @@ static int64_t pass_bound(int64_t groups)
     return fe__minl(4 * groups, EVERY_COLOUR) + OTHERS;
 }
 
-int32_t fe__graph_has_rows(const fe__solver *s, const fe__kernels *kernels, const fe__graph_bound *bound, int32_t workers)
+int32_t fe__graph_has_rows(const fe__solver *s, const fe__kernels *kernels, const fe__graph_bound *bound,
+                           int32_t workers)
 {
     int64_t small;
     return all_rows(bound, kernels, workers, &small) < (int64_t)sizeof(fe__row_block) * s->row_capacity;
 }
 
-int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *kernels, const fe__graph_bound *b, int32_t workers)
+int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *kernels, const fe__graph_bound *b,
+                          int32_t workers)
 {
     int32_t batches = batch_bound(b), width = kernels->width, parts = joint_rows(b);
     int64_t all_lanes = (int64_t)b->contacts + parts;
@@ -117,14 +125,20 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
     int64_t lines = FE__MAX_WIDTH + (int64_t)b->bodies + (int64_t)batches * (FE__DUMMY_LINES + FE__MAX_WIDTH) + copies;
     int64_t small, rows = all_rows(b, kernels, workers, &small);
     int64_t building = (int64_t)sizeof(int32_t) * scratch_bound(b);
-    int64_t sorted = fe__maxi(fe__mini(b->crowded, b->contacts), b->joint_set ? fe__mini(b->joint_set->overflowing, b->joints) : 0);
-    if (!FE_RESERVE(memory, s->velocity, s->line_capacity[0], lines) || !FE_RESERVE(memory, s->motion, s->line_capacity[1], lines) ||
-        !FE_RESERVE(memory, s->start, s->line_capacity[2], lines) || !FE_RESERVE(memory, s->inertia, s->line_capacity[3], lines) ||
-        !FE_RESERVE(memory, s->drive, s->line_capacity[4], lines) || !FE_RESERVE(memory, s->axes, s->line_capacity[5], lines) ||
+    int64_t sorted =
+        fe__maxi(fe__mini(b->crowded, b->contacts), b->joint_set ? fe__mini(b->joint_set->overflowing, b->joints) : 0);
+    if (!FE_RESERVE(memory, s->velocity, s->line_capacity[0], lines) ||
+        !FE_RESERVE(memory, s->motion, s->line_capacity[1], lines) ||
+        !FE_RESERVE(memory, s->start, s->line_capacity[2], lines) ||
+        !FE_RESERVE(memory, s->inertia, s->line_capacity[3], lines) ||
+        !FE_RESERVE(memory, s->drive, s->line_capacity[4], lines) ||
+        !FE_RESERVE(memory, s->axes, s->line_capacity[5], lines) ||
         !FE_RESERVE(memory, s->body_of_line, s->body_of_line_capacity, lines) ||
-        !FE_RESERVE(memory, s->trail_count, s->trail_capacity[0], lines) || !FE_RESERVE(memory, s->trail_of, s->trail_capacity[2], lines) ||
+        !FE_RESERVE(memory, s->trail_count, s->trail_capacity[0], lines) ||
+        !FE_RESERVE(memory, s->trail_of, s->trail_capacity[2], lines) ||
         !FE_RESERVE(memory, s->trail, s->trail_capacity[1], b->fast + (b->fast_kinematic ? copies : 0)) ||
-        !FE_RESERVE(memory, s->batches, s->batch_capacity, batches) || !FE_RESERVE(memory, s->groups, s->group_capacity, groups + 1) ||
+        !FE_RESERVE(memory, s->batches, s->batch_capacity, batches) ||
+        !FE_RESERVE(memory, s->groups, s->group_capacity, groups + 1) ||
         !FE_RESERVE(memory, s->lanes, s->lane_capacity, lanes + width) ||
         !FE_RESERVE(memory, s->places, s->place_capacity, tree_links(b)) ||
         !FE_RESERVE(memory, s->passes, s->pass_capacity, pass_bound(groups)) ||

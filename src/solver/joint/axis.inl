@@ -29,7 +29,8 @@ typedef struct {
 
 FE_INLINE wide impulse_of(const freedom *f) { return (f->drive + f->motor) + (f->under - f->over); }
 
-FE_INLINE void read_freedom(freedom *f, const fe__joints *joints, const row_joints *r, int slot, int cone, const fe__step_constants *c)
+FE_INLINE void read_freedom(freedom *f, const fe__joints *joints, const row_joints *r, int slot, int cone,
+                            const fe__step_constants *c)
 {
     wide4 limit = AXES_QUAD(axis[slot].limit), drive = AXES_QUAD(axis[slot].drive), motor = AXES_QUAD(axis[slot].motor);
     wide4 impulse = AXES_QUAD(axis[slot].impulse), state = AXES_QUAD(axis[slot].state);
@@ -57,12 +58,14 @@ FE_INLINE void read_freedom(freedom *f, const fe__joints *joints, const row_join
     f->limited = w_choose(w_or(w_greater(f->low, -none), w_greater(none, f->high)), one, zero);
 }
 
-static void write_freedom(const fe__joints *joints, const row_joints *r, const freedom *f, int slot, const fe__step_constants *c)
+static void write_freedom(const fe__joints *joints, const row_joints *r, const freedom *f, int slot,
+                          const fe__step_constants *c)
 {
     wide zero = w_set(0.0f), stored = stored_of(c);
     wide4 impulses = {stored * f->drive, stored * f->motor, stored * f->under, stored * f->over};
     put_lanes(&joints->axes->axis[slot].impulse.drive, AXES_STRIDE, r->axes, r->real, impulses);
-    put_lanes(&joints->axes->axis[slot].state.x, AXES_STRIDE, r->axes, r->real, (wide4){f->x, w_set(mean_of(c)) * f->total, zero, zero});
+    put_lanes(&joints->axes->axis[slot].state.x, AXES_STRIDE, r->axes, r->real,
+              (wide4){f->x, w_set(mean_of(c)) * f->total, zero, zero});
 }
 
 FE_INLINE void aim_drive(freedom *f, wide error, const fe__step_constants *c)
@@ -85,12 +88,14 @@ FE_INLINE void aim(freedom *f, wide response, wide least, int part, const fe__st
     wide error = f->x - f->target;
     // a twist without limits takes the shorter direction
     if (part == FE__PART_TWIST)
-        error = w_choose(w_greater(f->limited, w_set(0.0f)), error, error - 2.0f * FE_PI * w_round(error * (0.5f / FE_PI)));
+        error =
+            w_choose(w_greater(f->limited, w_set(0.0f)), error, error - 2.0f * FE_PI * w_round(error * (0.5f / FE_PI)));
     aim_drive(f, error, c);
 }
 
 // one limit: gap >= 0 inside, v its velocity. `lock`: both limits in one, in both directions
-FE_INLINE wide limit_impulse(const freedom *f, wide impulse, wide gap, wide v, wide_mask lock, const fe__step_constants *c, int soft)
+FE_INLINE wide limit_impulse(const freedom *f, wide impulse, wide gap, wide v, wide_mask lock,
+                             const fe__step_constants *c, int soft)
 {
     wide zero = w_set(0.0f), one = w_set(1.0f), request;
     if (soft) {
@@ -99,7 +104,8 @@ FE_INLINE wide limit_impulse(const freedom *f, wide impulse, wide gap, wide v, w
         request = (impulse - fade * impulse) - f->mass * ((one - fade) * v + bias);
     } else {
         wide_mask spring = w_and(w_greater(one, f->rigid), w_or(lock, w_not(w_greater(gap, zero))));
-        request = w_choose(spring, impulse, impulse - f->mass * (v + w_choose(lock, zero, w_max(gap, zero) * c->inverse_h)));
+        request =
+            w_choose(spring, impulse, impulse - f->mass * (v + w_choose(lock, zero, w_max(gap, zero) * c->inverse_h)));
     }
     return w_choose(lock, request, w_max(request, zero));
 }
@@ -109,7 +115,8 @@ FE_INLINE wide solve_freedom(freedom *f, wide v, const fe__step_constants *c, in
 {
     wide before = impulse_of(f);
     if (soft) {
-        wide drive = w_clamp(f->drive - f->drive_mass * (v + f->drive_bias + f->drive_fade * f->drive), -f->drive_cap, f->drive_cap);
+        wide drive = w_clamp(f->drive - f->drive_mass * (v + f->drive_bias + f->drive_fade * f->drive), -f->drive_cap,
+                             f->drive_cap);
         v = v + f->response * (drive - f->drive);
         f->drive = drive;
     }
@@ -159,16 +166,19 @@ FE_INLINE void place_linear(linear_row *row, const fe__solver *s, int part, cons
     if (part == FE__PART_DISTANCE) {
         wide length = w_sqrt(w_dot(now.gap, now.gap));
         wide_mask apart = w_greater(length, w_set(0.0f));
-        u = w_choose3(apart, w_scale(1.0f / length, now.gap), frame_axis(frame_now(s, row->line.a, row->first_frame), 0));
+        u = w_choose3(apart, w_scale(1.0f / length, now.gap),
+                      frame_axis(frame_now(s, row->line.a, row->first_frame), 0));
         row->f.x = length;
     } else {
         u = frame_axis(frame_now(s, row->line.a, row->first_frame), part - FE__PART_X);
         row->f.x = w_dot(u, now.gap);
         arm = w_add(arm, now.gap);
     }
-    wide3 ma = w_cross(arm, u), mb = w_cross(now.rb, u), sa = w_mul(&row->inertia_a, ma), sb = w_mul(&row->inertia_b, mb);
+    wide3 ma = w_cross(arm, u), mb = w_cross(now.rb, u), sa = w_mul(&row->inertia_a, ma),
+          sb = w_mul(&row->inertia_b, mb);
     wide linear = w_dot(u, w_times(w_add(load3(row->mass_a), load3(row->mass_b)), u));
-    store3(row->u, u), store3(row->moment_a, ma), store3(row->moment_b, mb), store3(row->spin_a, sa), store3(row->spin_b, sb);
+    store3(row->u, u), store3(row->moment_a, ma), store3(row->moment_b, mb), store3(row->spin_a, sa),
+        store3(row->spin_b, sb);
     aim(&row->f, linear + (w_dot(ma, sa) + w_dot(mb, sb)), LOCKED_RESPONSE * row->unlocked, part, c);
 }
 
@@ -180,12 +190,13 @@ FE_INLINE void apply_linear(const linear_row *row, ends *e, wide impulse)
 }
 
 // The row rotated: start takes what that changes in the effect of its impulse
-FE_INLINE void correct_start_linear(const linear_row *row, const fe__solver *s, wide l, wide_mask jumps, wide3 u, wide3 spin_a,
-                                    wide3 spin_b, int sides)
+FE_INLINE void correct_start_linear(const linear_row *row, const fe__solver *s, wide l, wide_mask jumps, wide3 u,
+                                    wide3 spin_a, wide3 spin_b, int sides)
 {
     ends start = {start_side(s, row->line.a), start_side(s, row->line.b)};
     wide3 change = w_scale(l, w_sub(w_choose3(jumps, w_zero3(), load3(row->u)), u));
-    start.a.v = w_add(start.a.v, w_times(load3(row->mass_a), change)), start.b.v = w_sub(start.b.v, w_times(load3(row->mass_b), change));
+    start.a.v = w_add(start.a.v, w_times(load3(row->mass_a), change)),
+    start.b.v = w_sub(start.b.v, w_times(load3(row->mass_b), change));
     start.a.w = w_add_scaled(start.a.w, l, w_sub(w_choose3(jumps, w_zero3(), load3(row->spin_a)), spin_a));
     start.b.w = w_sub_scaled(start.b.w, l, w_sub(w_choose3(jumps, w_zero3(), load3(row->spin_b)), spin_b));
     scatter_ends(s->start, &row->line, &start, sides);
@@ -193,11 +204,12 @@ FE_INLINE void correct_start_linear(const linear_row *row, const fe__solver *s, 
 
 FE_INLINE wide linear_speed(const linear_row *row, const ends *e)
 {
-    return w_dot(load3(row->u), w_sub(e->b.v, e->a.v)) + (w_dot(load3(row->moment_b), e->b.w) - w_dot(load3(row->moment_a), e->a.w));
+    return w_dot(load3(row->u), w_sub(e->b.v, e->a.v)) +
+           (w_dot(load3(row->moment_b), e->b.w) - w_dot(load3(row->moment_a), e->a.w));
 }
 
-FE_INLINE void prepare_linear(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes, void *rows,
-                              int32_t count, int32_t sides, const fe__step_constants *c, int part, int slot)
+FE_INLINE void prepare_linear(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes,
+                              void *rows, int32_t count, int32_t sides, const fe__step_constants *c, int part, int slot)
 {
     linear_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
@@ -227,7 +239,8 @@ static void solve_linear(fe__solver *s, void *rows, int32_t count, int32_t sides
     }
 }
 
-FE_INLINE void relax_linear(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c, int part)
+FE_INLINE void relax_linear(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c,
+                            int part)
 {
     for (linear_row *row = rows, *end = row + count; row < end; ++row) {
         wide3 u = load3(row->u), spin_a = load3(row->spin_a), spin_b = load3(row->spin_b);
@@ -242,8 +255,8 @@ FE_INLINE void relax_linear(fe__solver *s, void *rows, int32_t count, int32_t si
     }
 }
 
-FE_INLINE void store_linear(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count,
-                            const fe__step_constants *c, int slot)
+FE_INLINE void store_linear(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows,
+                            int32_t count, const fe__step_constants *c, int slot)
 {
     (void)s;
     const linear_row *row = rows;
@@ -286,19 +299,22 @@ FE_INLINE swing swing_of(wide4 q)
     wide_mask swings = w_greater(length, tiny);
     wide angle = 2.0f * w_atan2(sine, n), least = w_max(n, w_set(LEAST_COSINE));
     wide over_sine = w_choose(w_greater(sine, w_set(1e-4f)), angle / (2.0f * sine * least), one);
-    return (swing){w_choose(swings, y / length, one), w_choose(swings, z / length, zero), angle, over_sine * (n * n - sine * sine)};
+    return (swing){w_choose(swings, y / length, one), w_choose(swings, z / length, zero), angle,
+                   over_sine * (n * n - sine * sine)};
 }
 
 // gradient of a swing coordinate with slopes along e and f
 FE_INLINE wide3 swing_gradient(const swing *s, wide along_e, wide along_f)
 {
-    return (wide3){-(along_f * s->angle), along_e * s->y + along_f * s->angle_cot * s->z, along_e * s->z - along_f * s->angle_cot * s->y};
+    return (wide3){-(along_f * s->angle), along_e * s->y + along_f * s->angle_cot * s->z,
+                   along_e * s->z - along_f * s->angle_cot * s->y};
 }
 
 FE_INLINE wide3 cone_gradient(angular_row *row, const swing *s)
 {
     wide ya = s->y / row->cone[0], zb = s->z / row->cone[1], reach = s->angle * w_sqrt(ya * ya + zb * zb);
-    wide y = ya / row->cone[0], z = zb / row->cone[1], k = 1.0f / w_sqrt(y * y + z * z), over = w_sqrt(ya * ya + zb * zb);
+    wide y = ya / row->cone[0], z = zb / row->cone[1], k = 1.0f / w_sqrt(y * y + z * z),
+         over = w_sqrt(ya * ya + zb * zb);
     // |dr/ds| = sqrt(y^2 + z^2) / over
     row->f.x = (1.0f - reach) * over * k;
     return swing_gradient(s, -(k * (y * s->y + z * s->z)), -(k * (y * s->z - z * s->y)));
@@ -316,7 +332,8 @@ FE_INLINE wide3 twist_gradient(freedom *f, wide4 q)
 
 FE_INLINE void place_angular(angular_row *row, const fe__solver *s, int part, const fe__step_constants *c)
 {
-    wide4 qa = frame_now(s, row->line.a, row->first_a), q = positive(w_product(w_conjugate(qa), frame_now(s, row->line.b, row->first_b)));
+    wide4 qa = frame_now(s, row->line.a, row->first_a),
+          q = positive(w_product(w_conjugate(qa), frame_now(s, row->line.b, row->first_b)));
     wide3 g;
     if (part == FE__PART_TWIST)
         g = twist_gradient(&row->f, q);
@@ -342,8 +359,9 @@ FE_INLINE void apply_angular(const angular_row *row, spins *e, wide impulse)
     e->b = w_add_scaled(e->b, impulse, load3(row->spin_b));
 }
 
-FE_INLINE void prepare_angular(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes, void *rows,
-                               int32_t count, int32_t sides, const fe__step_constants *c, int part, int slot)
+FE_INLINE void prepare_angular(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes,
+                               void *rows, int32_t count, int32_t sides, const fe__step_constants *c, int part,
+                               int slot)
 {
     angular_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
@@ -372,7 +390,8 @@ static void solve_angular(fe__solver *s, void *rows, int32_t count, int32_t side
     }
 }
 
-FE_INLINE void relax_angular(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c, int part)
+FE_INLINE void relax_angular(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c,
+                             int part)
 {
     for (angular_row *row = rows, *end = row + count; row < end; ++row) {
         FOLLOW_INERTIA(row, w_zero3(), w_zero3());
@@ -392,8 +411,8 @@ FE_INLINE void relax_angular(fe__solver *s, void *rows, int32_t count, int32_t s
     }
 }
 
-FE_INLINE void store_angular(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count,
-                             const fe__step_constants *c, int slot)
+FE_INLINE void store_angular(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows,
+                             int32_t count, const fe__step_constants *c, int slot)
 {
     (void)s;
     const angular_row *row = rows;
@@ -405,20 +424,20 @@ FE_INLINE void store_angular(fe__solver *s, const fe__joints *joints, const fe__
 }
 
 // ---- the kernels of each part ---------------------------------------------------------------------------------------
-#define AXIS_INSTANCE(name, form, part, slot)                                                                                      \
-    static void prepare_##name(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes, void *rows, \
-                               int32_t count, int32_t sides, const fe__step_constants *c)                                          \
-    {                                                                                                                              \
-        prepare_##form(s, bodies, joints, lanes, rows, count, sides, c, part, slot);                                               \
-    }                                                                                                                              \
-    static void relax_##name(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c)                 \
-    {                                                                                                                              \
-        relax_##form(s, rows, count, sides, c, part);                                                                              \
-    }                                                                                                                              \
-    static void store_##name(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count,      \
-                             const fe__step_constants *c)                                                                          \
-    {                                                                                                                              \
-        store_##form(s, joints, lanes, rows, count, c, slot);                                                                      \
+#define AXIS_INSTANCE(name, form, part, slot)                                                                          \
+    static void prepare_##name(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes, \
+                               void *rows, int32_t count, int32_t sides, const fe__step_constants *c)                  \
+    {                                                                                                                  \
+        prepare_##form(s, bodies, joints, lanes, rows, count, sides, c, part, slot);                                   \
+    }                                                                                                                  \
+    static void relax_##name(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c)     \
+    {                                                                                                                  \
+        relax_##form(s, rows, count, sides, c, part);                                                                  \
+    }                                                                                                                  \
+    static void store_##name(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows,         \
+                             int32_t count, const fe__step_constants *c)                                               \
+    {                                                                                                                  \
+        store_##form(s, joints, lanes, rows, count, c, slot);                                                          \
     }
 
 AXIS_INSTANCE(x, linear, FE__PART_X, FE__AXIS_LINEAR)

@@ -118,7 +118,8 @@ typedef struct swing {
 
 static swing swing_of(fe_quat q)
 {
-    float n = sqrtf(q.w * q.w + q.x * q.x), y = q.w * q.y - q.x * q.z, z = q.w * q.z + q.x * q.y, length = sqrtf(y * y + z * z);
+    float n = sqrtf(q.w * q.w + q.x * q.x), y = q.w * q.y - q.x * q.z, z = q.w * q.z + q.x * q.y,
+          length = sqrtf(y * y + z * z);
     swing s = {1.0f, 0.0f, 0.0f, n, 0.0f};
     // a swing of 180 degrees: the twist before it is undefined
     if (n == 0.0f) y = q.y, z = q.z, length = sqrtf(y * y + z * z);
@@ -155,7 +156,8 @@ void fe__joint_pose_of(const fe__joints *joints, const fe__body *bodies, int32_t
 
 float fe__joint_wind(float twist, float before)
 {
-    float turns = (before - twist) * (0.5f / FE_PI), whole = (float)(int32_t)fe__clampf(turns + (turns < 0.0f ? -0.5f : 0.5f), -1e6f, 1e6f);
+    float turns = (before - twist) * (0.5f / FE_PI),
+          whole = (float)(int32_t)fe__clampf(turns + (turns < 0.0f ? -0.5f : 0.5f), -1e6f, 1e6f);
     return twist + whole * (2.0f * FE_PI);
 }
 
@@ -186,9 +188,11 @@ static fe_vec3 linear_direction(const fe__joint_pose *pose, fe__joint_part part)
     return pose->length > 0.0f ? fe__scale(1.0f / pose->length, pose->d) : fe__vec3(1.0f, 0.0f, 0.0f);
 }
 
-void fe__joint_reaction_of(const fe__joints *joints, const fe__body *bodies, int32_t joint, fe_vec3 *out_force, fe_vec3 *out_torque)
+void fe__joint_reaction_of(const fe__joints *joints, const fe__body *bodies, int32_t joint, fe_vec3 *out_force,
+                           fe_vec3 *out_torque)
 {
-    static const int32_t place[] = {0, 1, 2, FE__AXIS_LINEAR, FE__AXIS_TWIST, FE__AXIS_SWING, FE__AXIS_SWING + 1, FE__AXIS_SWING};
+    static const int32_t place[] = {
+        0, 1, 2, FE__AXIS_LINEAR, FE__AXIS_TWIST, FE__AXIS_SWING, FE__AXIS_SWING + 1, FE__AXIS_SWING};
     const fe__joint *j = joints->joints + joint;
     const fe__joint_frame *f = joints->frames + joint;
     fe_vec3 force = {0.0f, 0.0f, 0.0f}, torque = force;
@@ -206,5 +210,6 @@ void fe__joint_reaction_of(const fe__joints *joints, const fe__body *bodies, int
     const fe__joint_reaction *r = joints->reactions + joint;
     *out_force = fe__add(fe__rotate(frame_a, force), vec_of(r->force));
     *out_torque = fe__add(fe__rotate(frame_a, torque), vec_of(r->torque));
-    if (f->parts >> FE__PART_ROTATION & 1) *out_torque = fe__add(*out_torque, vec_of(joints->axes[f->axes].rotation.torque));
+    if (f->parts >> FE__PART_ROTATION & 1)
+        *out_torque = fe__add(*out_torque, vec_of(joints->axes[f->axes].rotation.torque));
 }

@@ -185,6 +185,7 @@ fe_dvec3 fe__joint_gap(const fe__joint *joint, const fe__body *bodies); // ancho
 // it: fe__joint_wind(twist, middle of the range).
 float fe__joint_wind(float twist, float before);
 // Mean force and torque of all parts on B over the last step, N and N m, world axes; the torque about B's anchor.
-void fe__joint_reaction_of(const fe__joints *joints, const fe__body *bodies, int32_t joint, fe_vec3 *out_force, fe_vec3 *out_torque);
+void fe__joint_reaction_of(const fe__joints *joints, const fe__body *bodies, int32_t joint, fe_vec3 *out_force,
+                           fe_vec3 *out_torque);
 
 #endif

@@ -2,7 +2,10 @@
 
 FE_INLINE fe_vec3 lane_of(const wide *a, int32_t i) { return fe__vec3(a[0][i], a[1][i], a[2][i]); }
 FE_INLINE fe_quat quat_lane(const wide *a, int32_t i) { return (fe_quat){a[0][i], a[1][i], a[2][i], a[3][i]}; }
-FE_INLINE fe__sym3 sym_lane(const wide_sym *a, int32_t i) { return (fe__sym3){a->xx[i], a->xy[i], a->xz[i], a->yy[i], a->yz[i], a->zz[i]}; }
+FE_INLINE fe__sym3 sym_lane(const wide_sym *a, int32_t i)
+{
+    return (fe__sym3){a->xx[i], a->xy[i], a->xz[i], a->yy[i], a->yz[i], a->zz[i]};
+}
 
 // ---- from a lane ----------------------------------------------------------------------------------------------------
 // what rows of anchors have alike
@@ -37,7 +40,8 @@ static void read_slide(const slide_row *row, int32_t i, fe__lock *out)
 static void read_hinge(const hinge_row *row, int32_t i, fe__lock *out)
 {
     READ_ENDS(row);
-    out->t1 = lane_of(row->first_t1, i), out->t2 = lane_of(row->first_t2, i), out->axis_b = lane_of(row->first_axis_b, i);
+    out->t1 = lane_of(row->first_t1, i), out->t2 = lane_of(row->first_t2, i),
+    out->axis_b = lane_of(row->first_axis_b, i);
 }
 
 static void read_fixed(const fixed_row *row, int32_t i, fe__lock *out)
@@ -77,7 +81,10 @@ static void read_lock(int32_t part, const void *row, int32_t lane, fe__lock *out
 // ---- to a lane ------------------------------------------------------------------------------------------------------
 FE_INLINE fe_dvec3 wide_lane(const wide *a, int32_t i) { return fe__widen(lane_of(a, i)); }
 FE_INLINE void add_lane(wide *to, int32_t i, double a) { (*to)[i] += (float)a; }
-FE_INLINE void add_lane3(wide *to, int32_t i, fe_dvec3 a) { add_lane(to, i, a.x), add_lane(to + 1, i, a.y), add_lane(to + 2, i, a.z); }
+FE_INLINE void add_lane3(wide *to, int32_t i, fe_dvec3 a)
+{
+    add_lane(to, i, a.x), add_lane(to + 1, i, a.y), add_lane(to + 2, i, a.z);
+}
 
 static int32_t add_slide(slide_row *row, int32_t i, const double *l, int32_t total)
 {
@@ -94,7 +101,9 @@ static int32_t add_slide(slide_row *row, int32_t i, const double *l, int32_t tot
 static int32_t add_hinge(hinge_row *row, int32_t i, const double *l, int32_t total)
 {
     add_lane(row->impulse, i, l[0]), add_lane(row->impulse + 1, i, l[1]);
-    if (total) add_lane3(row->total, i, fe__dadd(fe__dscale(l[0], wide_lane(row->t1, i)), fe__dscale(l[1], wide_lane(row->t2, i))));
+    if (total)
+        add_lane3(row->total, i,
+                  fe__dadd(fe__dscale(l[0], wide_lane(row->t1, i)), fe__dscale(l[1], wide_lane(row->t2, i))));
     return 2;
 }
 
@@ -172,7 +181,8 @@ FE_INLINE fe_vec3 speed_at(const fe__velocity_line *line, fe_vec3 arm)
 // the part of d along the locked axes
 static fe_vec3 locked_part(const slide_row *row, int32_t i, fe_vec3 d)
 {
-    return fe__vec3(row->keep[0][i] * fe__dot(lane_of(row->u[0], i), d), row->keep[1][i] * fe__dot(lane_of(row->u[1], i), d),
+    return fe__vec3(row->keep[0][i] * fe__dot(lane_of(row->u[0], i), d),
+                    row->keep[1][i] * fe__dot(lane_of(row->u[1], i), d),
                     row->keep[2][i] * fe__dot(lane_of(row->u[2], i), d));
 }
 
@@ -184,15 +194,18 @@ static float rod_speed(const linear_row *row, int32_t i, const fe__velocity_line
 }
 
 // Of B's point against A's along what the lock forbids, squared
-FE_INLINE float forbidden_speed(int32_t part, const void *row, int32_t i, const fe__velocity_line *a, const fe__velocity_line *b)
+FE_INLINE float forbidden_speed(int32_t part, const void *row, int32_t i, const fe__velocity_line *a,
+                                const fe__velocity_line *b)
 {
     const point_row *point = row;
     const slide_row *slide = row;
     fe_vec3 v = {0.0f, 0.0f, 0.0f};
-    if (part == FE__PART_POINT) v = fe__sub(speed_at(b, lane_of(point->arm_b, i)), speed_at(a, lane_of(point->arm_a, i)));
+    if (part == FE__PART_POINT)
+        v = fe__sub(speed_at(b, lane_of(point->arm_b, i)), speed_at(a, lane_of(point->arm_a, i)));
     if (part == FE__PART_DISTANCE) v.x = rod_speed(row, i, a, b);
     if (part == FE__PART_SLIDE)
-        v = locked_part(slide, i, fe__sub(speed_at(b, lane_of(slide->arm_b, i)), speed_at(a, lane_of(slide->arm_a, i))));
+        v = locked_part(slide, i,
+                        fe__sub(speed_at(b, lane_of(slide->arm_b, i)), speed_at(a, lane_of(slide->arm_a, i))));
     return fe__dot(v, v);
 }
 
@@ -223,7 +236,8 @@ static int32_t opens(const fe__solver *s, const fe__tree_link *links, const fe__
         const fe__velocity_line *below = s->velocity + p->line, *above = s->velocity + p->parent_line;
         const fe__velocity_line *a = links[i].holds_b ? above : below, *b = links[i].holds_b ? below : above;
         for (int32_t k = 0; k < p->locks; ++k)
-            if (forbidden_speed(p->lock[k].part, rows + p->lock[k].row, p->lock[k].lane, a, b) > speed * speed) return 1;
+            if (forbidden_speed(p->lock[k].part, rows + p->lock[k].row, p->lock[k].lane, a, b) > speed * speed)
+                return 1;
     }
     return 0;
 }

@@ -1,8 +1,8 @@
 // point.inl - POINT: the anchors of two bodies stay together. Three rows, one block. Part of joint.simd.c.
 //
 //     v = vB + wB x rB - vA - wA x rA,   K = (1/mA + 1/mB) 1 - [rA] IA^-1 [rA] - [rB] IB^-1 [rB]
-//     soft   change = -(K^-1 (mass_scale v + mass_scale bias_rate gap) + impulse_scale l)   (Catto, Soft Constraints, GDC 2011)
-//     relax  change = -K^-1 v
+//     soft   change = -(K^-1 (mass_scale v + mass_scale bias_rate gap) + impulse_scale l)   (Catto, Soft Constraints,
+//     GDC 2011) relax  change = -K^-1 v
 
 // 45 W floats, 180 bytes a joint; solve reads up to `total`
 typedef struct {
@@ -50,8 +50,8 @@ FE_INLINE void correct_start_point(const point_row *row, const fe__solver *s, wi
     }
 }
 
-static void prepare_point(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes, void *rows, int32_t count,
-                          int32_t sides, const fe__step_constants *c)
+static void prepare_point(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes,
+                          void *rows, int32_t count, int32_t sides, const fe__step_constants *c)
 {
     point_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
@@ -74,7 +74,8 @@ static void prepare_point(fe__solver *s, const fe__body *bodies, const fe__joint
 static void solve_point(fe__solver *s, void *rows, int32_t count, int32_t sides, const fe__step_constants *c)
 {
     const fe__softness *soft = &c->joint;
-    wide rate = w_set(soft->mass_scale * soft->bias_rate), mass_scale = w_set(soft->mass_scale), fade = w_set(soft->impulse_scale);
+    wide rate = w_set(soft->mass_scale * soft->bias_rate), mass_scale = w_set(soft->mass_scale),
+         fade = w_set(soft->impulse_scale);
     for (point_row *row = rows, *end = row + count; row < end; ++row) {
         ends e = gather_ends(s, &row->line);
         wide3 ra = load3(row->arm_a), rb = load3(row->arm_b), impulse = load3(row->impulse);
@@ -98,7 +99,8 @@ static void relax_point(fe__solver *s, void *rows, int32_t count, int32_t sides,
         store3(row->arm_a, now.ra), store3(row->arm_b, now.rb), store3(row->gap, now.gap);
         ends e = gather_ends(s, &row->line);
         wide_sym mass = row->mass = point_mass(row, e.a.inverse_mass + e.b.inverse_mass, now.ra, now.rb);
-        wide3 change = minus(w_mul(&mass, speed_between(&e, now.ra, now.rb))), impulse = w_add(load3(row->impulse), change);
+        wide3 change = minus(w_mul(&mass, speed_between(&e, now.ra, now.rb))),
+              impulse = w_add(load3(row->impulse), change);
         store3(row->impulse, impulse);
         store3(row->total, w_add(load3(row->total), impulse));
         apply_point(row, &e, now.ra, now.rb, change);
@@ -113,8 +115,10 @@ static void store_point(fe__solver *s, const fe__joints *joints, const fe__lane 
     wide zero = w_set(0.0f), mean = w_set(mean_of(c)), stored = stored_of(c);
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
         row_joints r = name_joints(lanes);
-        put_lanes(joints->joints->impulse, JOINT_STRIDE, r.joint, r.real, w_with(w_scale(stored, load3(row->impulse)), zero));
+        put_lanes(joints->joints->impulse, JOINT_STRIDE, r.joint, r.real,
+                  w_with(w_scale(stored, load3(row->impulse)), zero));
         find_stretch(s, lanes, load3(row->gap), c);
-        put_lanes(joints->reactions->force, REACTION_STRIDE, r.joint, r.real, w_with(w_scale(mean, load3(row->total)), zero));
+        put_lanes(joints->reactions->force, REACTION_STRIDE, r.joint, r.real,
+                  w_with(w_scale(mean, load3(row->total)), zero));
     }
 }

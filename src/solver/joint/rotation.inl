@@ -36,7 +36,8 @@ FE_INLINE void hinge_mass(hinge_row *row, wide3 t1, wide3 t2)
 FE_INLINE void place_hinge(hinge_row *row, const fe__solver *s)
 {
     wide3 first1 = load3(row->first_t1), first2 = load3(row->first_t2), first_b = load3(row->first_axis_b);
-    wide3 t1 = w_add(first1, rotate_with(s, row->line.a, first1)), t2 = w_add(first2, rotate_with(s, row->line.a, first2));
+    wide3 t1 = w_add(first1, rotate_with(s, row->line.a, first1)),
+          t2 = w_add(first2, rotate_with(s, row->line.a, first2));
     wide3 axis_b = w_add(first_b, rotate_with(s, row->line.b, first_b));
     row->error[0] = -w_dot(t2, axis_b), row->error[1] = w_dot(t1, axis_b);
     store3(row->t1, t1), store3(row->t2, t2);
@@ -48,17 +49,19 @@ FE_INLINE wide3 hinge_torque(const hinge_row *row, wide l1, wide l2)
     return w_add_scaled(w_scale(l1, load3(row->t1)), l2, load3(row->t2));
 }
 
-static void prepare_hinge(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes, void *rows, int32_t count,
-                          int32_t sides, const fe__step_constants *c)
+static void prepare_hinge(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes,
+                          void *rows, int32_t count, int32_t sides, const fe__step_constants *c)
 {
     hinge_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
         row_joints of = joints_of(joints, lanes, &row->line, i + 1 < count), *r = &of;
-        wide4 qa = first_frame(bodies, r->body_a, FRAME_QUAD(frame_a)), qb = first_frame(bodies, r->body_b, FRAME_QUAD(frame_b));
+        wide4 qa = first_frame(bodies, r->body_a, FRAME_QUAD(frame_a)),
+              qb = first_frame(bodies, r->body_b, FRAME_QUAD(frame_b));
         wide4 impulse = FRAME_QUAD(impulse);
         lane_softness soft = lock_softness(joints, r, c);
         row->rate = soft.rate, row->fade = soft.fade, row->rigid = soft.rigid;
-        store3(row->first_t1, frame_axis(qa, 1)), store3(row->first_t2, frame_axis(qa, 2)), store3(row->first_axis_b, frame_axis(qb, 0));
+        store3(row->first_t1, frame_axis(qa, 1)), store3(row->first_t2, frame_axis(qa, 2)),
+            store3(row->first_axis_b, frame_axis(qb, 0));
         row->inertia_a = gather_inertia(s, row->line.a), row->inertia_b = gather_inertia(s, row->line.b);
         row->shaped = shape_of(s, &row->line);
         spins e = gather_spins(s->velocity, &row->line);
@@ -99,12 +102,14 @@ static void relax_hinge(fe__solver *s, void *rows, int32_t count, int32_t sides,
         wide3 t1 = load3(row->t1), t2 = load3(row->t2), torque = hinge_torque(row, row->impulse[0], row->impulse[1]);
         FOLLOW_INERTIA(row, torque, torque);
         place_hinge(row, s);
-        wide3 change = w_add_scaled(w_scale(row->impulse[0], w_sub(load3(row->t1), t1)), row->impulse[1], w_sub(load3(row->t2), t2));
+        wide3 change = w_add_scaled(w_scale(row->impulse[0], w_sub(load3(row->t1), t1)), row->impulse[1],
+                                    w_sub(load3(row->t2), t2));
         spins start = gather_spins(s->start, &row->line), e = gather_spins(s->velocity, &row->line);
         twist_ends(&start, &row->inertia_a, &row->inertia_b, minus(change));
         scatter_spins(s->start, &row->line, &start, sides);
         wide3 spin = w_sub(e.b, e.a);
-        change_hinge(row, &e, row->rigid * w_dot(load3(row->t1), spin), row->rigid * w_dot(load3(row->t2), spin), w_set(0.0f));
+        change_hinge(row, &e, row->rigid * w_dot(load3(row->t1), spin), row->rigid * w_dot(load3(row->t2), spin),
+                     w_set(0.0f));
         store3(row->total, w_add(load3(row->total), hinge_torque(row, row->impulse[0], row->impulse[1])));
         scatter_spins(s->velocity, &row->line, &e, sides);
     }
@@ -120,7 +125,8 @@ static void store_hinge(fe__solver *s, const fe__joints *joints, const fe__lane 
         row_joints r = name_joints(lanes);
         put_lanes(joints->frames->impulse, FRAME_STRIDE, r.joint, r.real,
                   (wide4){stored * row->impulse[0], stored * row->impulse[1], zero, zero});
-        put_lanes(joints->reactions->torque, REACTION_STRIDE, r.joint, r.real, w_with(w_scale(mean, load3(row->total)), zero));
+        put_lanes(joints->reactions->torque, REACTION_STRIDE, r.joint, r.real,
+                  w_with(w_scale(mean, load3(row->total)), zero));
     }
 }
 
@@ -153,13 +159,14 @@ FE_INLINE void place_fixed(fixed_row *row, const fe__solver *s)
     store3(row->error, w_scale(w_set(2.0f), w_xyz(q)));
 }
 
-static void prepare_fixed(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes, void *rows, int32_t count,
-                          int32_t sides, const fe__step_constants *c)
+static void prepare_fixed(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes,
+                          void *rows, int32_t count, int32_t sides, const fe__step_constants *c)
 {
     fixed_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
         row_joints of = joints_of(joints, lanes, &row->line, i + 1 < count), *r = &of;
-        wide4 qa = first_frame(bodies, r->body_a, FRAME_QUAD(frame_a)), qb = first_frame(bodies, r->body_b, FRAME_QUAD(frame_b));
+        wide4 qa = first_frame(bodies, r->body_a, FRAME_QUAD(frame_a)),
+              qb = first_frame(bodies, r->body_b, FRAME_QUAD(frame_b));
         lane_softness soft = lock_softness(joints, r, c);
         row->rate = soft.rate, row->fade = soft.fade, row->rigid = soft.rigid;
         store4(row->first, w_product(qb, w_conjugate(qa)));
@@ -195,7 +202,8 @@ static void relax_fixed(fe__solver *s, void *rows, int32_t count, int32_t sides,
         FOLLOW_INERTIA(row, load3(row->impulse), load3(row->impulse));
         place_fixed(row, s);
         spins e = gather_spins(s->velocity, &row->line);
-        wide3 change = w_scale(-row->rigid, w_mul(&row->mass, w_sub(e.b, e.a))), impulse = w_add(load3(row->impulse), change);
+        wide3 change = w_scale(-row->rigid, w_mul(&row->mass, w_sub(e.b, e.a))),
+              impulse = w_add(load3(row->impulse), change);
         store3(row->impulse, impulse);
         store3(row->total, w_add(load3(row->total), impulse));
         twist_ends(&e, &row->inertia_a, &row->inertia_b, change);
@@ -211,8 +219,10 @@ static void store_fixed(fe__solver *s, const fe__joints *joints, const fe__lane 
     wide zero = w_set(0.0f), mean = w_set(mean_of(c)), stored = stored_of(c);
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
         row_joints r = name_joints(lanes);
-        put_lanes(joints->frames->impulse, FRAME_STRIDE, r.joint, r.real, w_with(w_scale(stored, load3(row->impulse)), zero));
-        put_lanes(joints->reactions->torque, REACTION_STRIDE, r.joint, r.real, w_with(w_scale(mean, load3(row->total)), zero));
+        put_lanes(joints->frames->impulse, FRAME_STRIDE, r.joint, r.real,
+                  w_with(w_scale(stored, load3(row->impulse)), zero));
+        put_lanes(joints->reactions->torque, REACTION_STRIDE, r.joint, r.real,
+                  w_with(w_scale(mean, load3(row->total)), zero));
     }
 }
 
@@ -249,7 +259,8 @@ FE_INLINE wide3 rotation_vector(wide4 q)
 
 FE_INLINE void place_rotation(rotation_row *row, const fe__solver *s)
 {
-    wide4 qa = frame_now(s, row->line.a, row->first_a), q = w_product(w_conjugate(qa), frame_now(s, row->line.b, row->first_b));
+    wide4 qa = frame_now(s, row->line.a, row->first_a),
+          q = w_product(w_conjugate(qa), frame_now(s, row->line.b, row->first_b));
     store3(row->error, turned(qa, rotation_vector(positive(w_product(q, w_conjugate(load4(row->target)))))));
     store3(row->velocity, turned(qa, load3(row->motor)));
 }
@@ -283,8 +294,8 @@ FE_INLINE wide3 shortened(wide3 a, wide most)
     return w_scale(w_choose(w_greater(square, most * most), most / w_sqrt(square), w_set(1.0f)), a);
 }
 
-static void prepare_rotation(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes, void *rows,
-                             int32_t count, int32_t sides, const fe__step_constants *c)
+static void prepare_rotation(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes,
+                             void *rows, int32_t count, int32_t sides, const fe__step_constants *c)
 {
     rotation_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
@@ -303,7 +314,8 @@ static void prepare_rotation(fe__solver *s, const fe__body *bodies, const fe__jo
         store4(row->drive, AXES_QUAD(rotation.drive));
         aim_rotation(row, c);
         store3(row->impulse, w_scale(scale, w_xyz(AXES_QUAD(rotation.impulse))));
-        store3(row->motor_impulse, w_scale(scale, w_xyz(AXES_QUAD(rotation.motor_impulse)))), store3(row->total, w_zero3());
+        store3(row->motor_impulse, w_scale(scale, w_xyz(AXES_QUAD(rotation.motor_impulse)))),
+            store3(row->total, w_zero3());
         place_rotation(row, s);
         twist_ends(&e, &row->inertia_a, &row->inertia_b, w_add(load3(row->impulse), load3(row->motor_impulse)));
         scatter_spins(s->velocity, &row->line, &e, sides);
@@ -355,8 +367,8 @@ static void relax_rotation(fe__solver *s, void *rows, int32_t count, int32_t sid
     }
 }
 
-static void store_rotation(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows, int32_t count,
-                           const fe__step_constants *c)
+static void store_rotation(fe__solver *s, const fe__joints *joints, const fe__lane *lanes, const void *rows,
+                           int32_t count, const fe__step_constants *c)
 {
     (void)s;
     const rotation_row *row = rows;
@@ -364,9 +376,11 @@ static void store_rotation(fe__solver *s, const fe__joints *joints, const fe__la
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
         row_joints r = name_joints(lanes);
         find_axes(joints, &r);
-        put_lanes(joints->axes->rotation.impulse, AXES_STRIDE, r.axes, r.real, w_with(w_scale(stored, load3(row->impulse)), zero));
+        put_lanes(joints->axes->rotation.impulse, AXES_STRIDE, r.axes, r.real,
+                  w_with(w_scale(stored, load3(row->impulse)), zero));
         put_lanes(joints->axes->rotation.motor_impulse, AXES_STRIDE, r.axes, r.real,
                   w_with(w_scale(stored, load3(row->motor_impulse)), zero));
-        put_lanes(joints->axes->rotation.torque, AXES_STRIDE, r.axes, r.real, w_with(w_scale(mean, load3(row->total)), zero));
+        put_lanes(joints->axes->rotation.torque, AXES_STRIDE, r.axes, r.real,
+                  w_with(w_scale(mean, load3(row->total)), zero));
     }
 }

@@ -43,7 +43,8 @@ FE_INLINE wide_sym slide_mass(const slide_row *row, wide3 ra, wide3 rb)
     k = give_locked(k, m, row->unlocked);
     wide3 x = in_frame(row, w_mul(&k, load3(row->u[0]))), y = in_frame(row, w_mul(&k, load3(row->u[1]))),
           z = in_frame(row, w_mul(&k, load3(row->u[2])));
-    wide_sym f = {keep.x * x.x, keep.x * keep.y * x.y, keep.x * keep.z * x.z, keep.y * y.y, keep.y * keep.z * y.z, keep.z * z.z};
+    wide_sym f = {keep.x * x.x, keep.x * keep.y * x.y, keep.x * keep.z * x.z,
+                  keep.y * y.y, keep.y * keep.z * y.z, keep.z * z.z};
     f = give(f, trace(&k), w_greater(row->locked, zero));
     // a free axis counts as much as the others, so that the inverse keeps its digits; times 0 in the end
     wide scale = w_max(f.xx, w_max(f.yy, f.zz));
@@ -83,14 +84,17 @@ FE_INLINE void apply_slide(const slide_row *row, ends *e, wide3 impulse)
 
 // Arms and axes rotated: start takes what that changes in the effect of the impulse. `impulse` and the arms are those
 // of before, in world axes.
-FE_INLINE void correct_start_slide(const slide_row *row, const fe__solver *s, wide3 impulse, wide3 arm_a, wide3 arm_b, int sides)
+FE_INLINE void correct_start_slide(const slide_row *row, const fe__solver *s, wide3 impulse, wide3 arm_a, wide3 arm_b,
+                                   int sides)
 {
     ends start = {start_side(s, row->line.a), start_side(s, row->line.b)};
     wide3 now = to_world(row, load3(row->impulse)), change = w_sub(now, impulse);
     wide3 moment_a = w_add(w_cross(w_sub(load3(row->arm_a), arm_a), now), w_cross(arm_a, change));
     wide3 moment_b = w_add(w_cross(w_sub(load3(row->arm_b), arm_b), now), w_cross(arm_b, change));
-    start.a.v = w_add(start.a.v, w_times(load3(row->mass_a), change)), start.a.w = w_add(start.a.w, w_mul(&row->inertia_a, moment_a));
-    start.b.v = w_sub(start.b.v, w_times(load3(row->mass_b), change)), start.b.w = w_sub(start.b.w, w_mul(&row->inertia_b, moment_b));
+    start.a.v = w_add(start.a.v, w_times(load3(row->mass_a), change)),
+    start.a.w = w_add(start.a.w, w_mul(&row->inertia_a, moment_a));
+    start.b.v = w_sub(start.b.v, w_times(load3(row->mass_b), change)),
+    start.b.w = w_sub(start.b.w, w_mul(&row->inertia_b, moment_b));
     scatter_ends(s->start, &row->line, &start, sides);
 }
 
@@ -106,8 +110,8 @@ FE_INLINE wide3 locked_axes(const fe__joints *joints, const row_joints *r)
     return (wide3){*(wide *)keep[0], *(wide *)keep[1], *(wide *)keep[2]};
 }
 
-static void prepare_slide(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes, void *rows, int32_t count,
-                          int32_t sides, const fe__step_constants *c)
+static void prepare_slide(fe__solver *s, const fe__body *bodies, const fe__joints *joints, const fe__lane *lanes,
+                          void *rows, int32_t count, int32_t sides, const fe__step_constants *c)
 {
     slide_row *row = rows;
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
@@ -120,7 +124,8 @@ static void prepare_slide(fe__solver *s, const fe__body *bodies, const fe__joint
         row->inertia_a = gather_inertia(s, row->line.a), row->inertia_b = gather_inertia(s, row->line.b);
         row->shaped = shape_of(s, &row->line);
         ends e = gather_ends(s, &row->line);
-        store3(row->mass_a, free_mass(&e.a)), store3(row->mass_b, free_mass(&e.b)), store3(row->keep, locked_axes(joints, r));
+        store3(row->mass_a, free_mass(&e.a)), store3(row->mass_b, free_mass(&e.b)),
+            store3(row->keep, locked_axes(joints, r));
         row->locked = e.a.locks + e.b.locks, row->unlocked = e.a.inverse_mass + e.b.inverse_mass;
         store3(row->impulse, w_scale(w_set(c->warm_scale), w_times(load3(row->keep), w_xyz(JOINT_QUAD(impulse)))));
         store3(row->total, w_zero3());
@@ -172,8 +177,10 @@ static void store_slide(fe__solver *s, const fe__joints *joints, const fe__lane 
     wide zero = w_set(0.0f), mean = w_set(mean_of(c)), stored = stored_of(c);
     for (int32_t i = 0; i < count; ++i, ++row, lanes += FE_W) {
         row_joints r = name_joints(lanes);
-        put_lanes(joints->joints->impulse, JOINT_STRIDE, r.joint, r.real, w_with(w_scale(stored, load3(row->impulse)), zero));
+        put_lanes(joints->joints->impulse, JOINT_STRIDE, r.joint, r.real,
+                  w_with(w_scale(stored, load3(row->impulse)), zero));
         find_stretch(s, lanes, load3(row->error), c);
-        put_lanes(joints->reactions->force, REACTION_STRIDE, r.joint, r.real, w_with(w_scale(mean, load3(row->total)), zero));
+        put_lanes(joints->reactions->force, REACTION_STRIDE, r.joint, r.real,
+                  w_with(w_scale(mean, load3(row->total)), zero));
     }
 }

@@ -25,7 +25,10 @@ enum {
 };
 
 // ---- bodies ---------------------------------------------------------------------------------------------------------
-FE_INLINE ends gather_ends(const fe__solver *s, const line_pair *line) { return (ends){gather_side(s, line->a), gather_side(s, line->b)}; }
+FE_INLINE ends gather_ends(const fe__solver *s, const line_pair *line)
+{
+    return (ends){gather_side(s, line->a), gather_side(s, line->b)};
+}
 
 // what does not move is never written: all workers read it
 FE_INLINE void scatter_ends(void *lines, const line_pair *line, const ends *e, int sides)
@@ -58,7 +61,10 @@ FE_INLINE wide3 speed_between(const ends *e, wide3 ra, wide3 rb)
 }
 
 // ---- a vector that rotates with a body ------------------------------------------------------------------------------
-FE_INLINE wide3 rotate_with(const fe__solver *s, const int32_t *line, wide3 first) { return w_turn(gather_high(s->motion, line), first); }
+FE_INLINE wide3 rotate_with(const fe__solver *s, const int32_t *line, wide3 first)
+{
+    return w_turn(gather_high(s->motion, line), first);
+}
 
 // anchors, by their arms from the centres, in world axes
 typedef struct {
@@ -70,7 +76,8 @@ FE_INLINE anchors anchors_now(const fe__solver *s, const line_pair *line, const 
     wide4 pa, pb, qa, qb;
     gather_line(s->motion, line->a, &pa, &qa), gather_line(s->motion, line->b, &pb, &qb);
     wide3 ta = w_turn(qa, first->ra), tb = w_turn(qb, first->rb);
-    return (anchors){w_add(first->ra, ta), w_add(first->rb, tb), w_add(first->gap, w_add(w_sub(w_xyz(pb), w_xyz(pa)), w_sub(tb, ta)))};
+    return (anchors){w_add(first->ra, ta), w_add(first->rb, tb),
+                     w_add(first->gap, w_add(w_sub(w_xyz(pb), w_xyz(pa)), w_sub(tb, ta)))};
 }
 
 // ---- records --------------------------------------------------------------------------------------------------------
@@ -166,8 +173,10 @@ static __attribute__((noinline)) void mark_stretched(fe__solver *s, const fe__la
     *(wide *)is = w_choose(open, w_set(1.0f), w_set(0.0f));
     for (int i = 0; i < FE_W; ++i) {
         if (is[i] == 0.0f || !lanes[i].contact) continue;
-        if (lanes[i].line_a != FE__STATIC_LINE) __atomic_store(&s->inertia[lanes[i].line_a].mark, &mark, __ATOMIC_RELAXED);
-        if (lanes[i].line_b != FE__STATIC_LINE) __atomic_store(&s->inertia[lanes[i].line_b].mark, &mark, __ATOMIC_RELAXED);
+        if (lanes[i].line_a != FE__STATIC_LINE)
+            __atomic_store(&s->inertia[lanes[i].line_a].mark, &mark, __ATOMIC_RELAXED);
+        if (lanes[i].line_b != FE__STATIC_LINE)
+            __atomic_store(&s->inertia[lanes[i].line_b].mark, &mark, __ATOMIC_RELAXED);
     }
     atomic_store_explicit(&s->strained, 1, memory_order_relaxed);
 }
@@ -197,8 +206,8 @@ FE_INLINE lane_softness softness_of(wide hertz, wide ratio, const lane_softness 
     wide fade = 1.0f / (1.0f + c->h * omega * (2.0f * ratio + c->h * omega));
     wide rigid = w_clamp(hertz * (2.0f / c->joint_hertz) - 1.0f, w_set(0.0f), w_set(1.0f));
     wide_mask own = w_greater(hertz, w_set(0.0f));
-    return (lane_softness){w_choose(own, c->h * omega * omega * fade, otherwise->rate), w_choose(own, fade, otherwise->fade),
-                           w_choose(own, rigid, otherwise->rigid)};
+    return (lane_softness){w_choose(own, c->h * omega * omega * fade, otherwise->rate),
+                           w_choose(own, fade, otherwise->fade), w_choose(own, rigid, otherwise->rigid)};
 }
 
 // of a joint's locks
@@ -239,7 +248,8 @@ FE_INLINE wide_sym give(wide_sym k, wide all, wide_mask locked)
 FE_INLINE wide_sym give_locked(wide_sym k, wide3 mass, wide unlocked)
 {
     wide more = LOCKED_SHARE * trace(&k) * w_inverse_or_zero(unlocked);
-    k.xx = k.xx + more * (unlocked - mass.x), k.yy = k.yy + more * (unlocked - mass.y), k.zz = k.zz + more * (unlocked - mass.z);
+    k.xx = k.xx + more * (unlocked - mass.x), k.yy = k.yy + more * (unlocked - mass.y),
+    k.zz = k.zz + more * (unlocked - mass.z);
     return k;
 }
 
@@ -358,16 +368,18 @@ FE_INLINE wide_sym change_inertia(const fe__solver *s, const int32_t *line, wide
     wide_sym was = *inertia, zero = {w_set(0), w_set(0), w_set(0), w_set(0), w_set(0), w_set(0)};
     if (!w_any(turns)) return zero;
     wide_sym now = turned_inertia(s, line, turn, gather_high(s->velocity, line).w);
-    *inertia = (wide_sym){w_choose(turns, now.xx, was.xx), w_choose(turns, now.xy, was.xy), w_choose(turns, now.xz, was.xz),
-                          w_choose(turns, now.yy, was.yy), w_choose(turns, now.yz, was.yz), w_choose(turns, now.zz, was.zz)};
+    *inertia =
+        (wide_sym){w_choose(turns, now.xx, was.xx), w_choose(turns, now.xy, was.xy), w_choose(turns, now.xz, was.xz),
+                   w_choose(turns, now.yy, was.yy), w_choose(turns, now.yz, was.yz), w_choose(turns, now.zz, was.zz)};
     now = *inertia;
-    return (wide_sym){now.xx - was.xx, now.xy - was.xy, now.xz - was.xz, now.yy - was.yy, now.yz - was.yz, now.zz - was.zz};
+    return (wide_sym){now.xx - was.xx, now.xy - was.xy, now.xz - was.xz,
+                      now.yy - was.yy, now.yz - was.yz, now.zz - was.zz};
 }
 
 // The inertias that a row copied follow the rotation of its bodies: with those of the step's beginning, a rod that
 // spins in a chain gains energy. start takes what that changes in the effect of the row's moments.
-static void follow_inertia(const fe__solver *s, const line_pair *line, wide shaped, wide_sym *a, wide_sym *b, wide3 moment_a,
-                           wide3 moment_b, int sides)
+static void follow_inertia(const fe__solver *s, const line_pair *line, wide shaped, wide_sym *a, wide_sym *b,
+                           wide3 moment_a, wide3 moment_b, int sides)
 {
     wide_mask lanes = w_greater(shaped, w_set(0.0f));
     if (!w_any(lanes)) return;

@@ -29,7 +29,10 @@ static void find_tensions(const fe__tree_job *t)
 }
 
 // share of the body's tension that is more than it can follow
-static double excess_of(const fe__tree_node *n) { return n->tension > n->inertia ? 1.0 - n->inertia / n->tension : 0.0; }
+static double excess_of(const fe__tree_node *n)
+{
+    return n->tension > n->inertia ? 1.0 - n->inertia / n->tension : 0.0;
+}
 
 void fe__tree_add_damping(const fe__tree_job *t)
 {
@@ -44,7 +47,8 @@ void fe__tree_add_damping(const fe__tree_job *t)
             n->least[n->rows.count] = 0.0;
             fe__tree_add_row(&n->rows, t->links[i].holds_b, still, fe__tree_unit(k), fe__tree_unit(k), 0.0);
         }
-        fe__tree_hide_locked(&n->rows, n->locks, (int32_t)fe__tree_below(t, i)->lock_bits, (int32_t)fe__tree_above(t, i)->lock_bits);
+        fe__tree_hide_locked(&n->rows, n->locks, (int32_t)fe__tree_below(t, i)->lock_bits,
+                             (int32_t)fe__tree_above(t, i)->lock_bits);
     }
 }
 
@@ -76,5 +80,7 @@ void fe__tree_forget_damping(const fe__tree_job *t, int32_t i)
     if (n->rows.count == n->locks) return;
     fe_dvec3 below = fe__dscale(t->links[i].holds_b ? 1.0 : -1.0, fe__tree_vector(l));
     fe__tree_add_spin(t->solver->start[t->places[i].line].w, n->inverse_inertia, below);
-    if (parent) fe__tree_add_spin(t->solver->start[t->places[i].parent_line].w, parent->inverse_inertia, fe__dscale(-1.0, below));
+    if (parent)
+        fe__tree_add_spin(t->solver->start[t->places[i].parent_line].w, parent->inverse_inertia,
+                          fe__dscale(-1.0, below));
 }

@@ -45,8 +45,8 @@ typedef struct fe__lock_lanes {
     // 1: a lock of these links is open by more than `gap`, m
     int32_t (*is_open)(const fe__tree_place *places, int32_t count, const unsigned char *rows, float gap);
     // 1: the points of a lock come apart faster than `speed`, m/s
-    int32_t (*opens)(const struct fe__solver *s, const fe__tree_link *links, const fe__tree_place *places, int32_t count,
-                     const unsigned char *rows, float speed);
+    int32_t (*opens)(const struct fe__solver *s, const fe__tree_link *links, const fe__tree_place *places,
+                     int32_t count, const unsigned char *rows, float speed);
 } fe__lock_lanes;
 
 #endif

@@ -70,7 +70,10 @@ static inline fe__tree_node *fe__tree_parent(const fe__tree_job *t, int32_t i)
 {
     return t->links[i].parent < 0 ? NULL : t->nodes + t->links[i].parent;
 }
-static inline const fe__velocity_line *fe__tree_below(const fe__tree_job *t, int32_t i) { return t->solver->velocity + t->places[i].line; }
+static inline const fe__velocity_line *fe__tree_below(const fe__tree_job *t, int32_t i)
+{
+    return t->solver->velocity + t->places[i].line;
+}
 static inline const fe__velocity_line *fe__tree_above(const fe__tree_job *t, int32_t i)
 {
     return t->solver->velocity + t->places[i].parent_line;

@@ -28,9 +28,15 @@ typedef struct place {
     fe_dvec3 ra, rb, gap; // arms of the anchors; anchor of B - anchor of A
 } place;
 
-static fe_dvec3 turned(const fe__motion_line *motion, fe_dvec3 first) { return fe__drotate(fe__quat_of(motion->rotation), first); }
+static fe_dvec3 turned(const fe__motion_line *motion, fe_dvec3 first)
+{
+    return fe__drotate(fe__quat_of(motion->rotation), first);
+}
 
-static place ends_of(const fe__solver *s, const fe__lock *l) { return (place){.a = s->motion + l->line_a, .b = s->motion + l->line_b}; }
+static place ends_of(const fe__solver *s, const fe__lock *l)
+{
+    return (place){.a = s->motion + l->line_a, .b = s->motion + l->line_b};
+}
 
 static place anchors_of(const fe__solver *s, const fe__lock *l)
 {
@@ -77,7 +83,8 @@ static void add_slide(fe__tree_rows *t, int32_t holds_b, const fe__lock *l, cons
     set_arms(t, holds_b, arm, p.rb);
     for (int k = 0; k < 3; ++k) {
         add_pull(t, holds_b, fe__dscale((double)l->impulse[k], u[k]));
-        if (l->keeps[k] > 0.0f) fe__tree_add_row(t, holds_b, u[k], fe__dcross(arm, u[k]), fe__dcross(p.rb, u[k]), fe__ddot(u[k], p.gap));
+        if (l->keeps[k] > 0.0f)
+            fe__tree_add_row(t, holds_b, u[k], fe__dcross(arm, u[k]), fe__dcross(p.rb, u[k]), fe__ddot(u[k], p.gap));
     }
 }
 
@@ -200,7 +207,8 @@ static void read_link(const fe__tree_job *t, int32_t i)
         t->lanes->read(p->lock[k].part, t->rows + p->lock[k].row, p->lock[k].lane, &lock);
         add_lock(&n->rows, holds_b, p->lock[k].part, &lock, t->solver);
         if (!n->weighed) weigh(n, fe__tree_below(t, i), holds_b ? &lock.inertia_b : &lock.inertia_a);
-        if (parent && !parent->weighed) weigh(parent, fe__tree_above(t, i), holds_b ? &lock.inertia_a : &lock.inertia_b);
+        if (parent && !parent->weighed)
+            weigh(parent, fe__tree_above(t, i), holds_b ? &lock.inertia_a : &lock.inertia_b);
     }
     n->locks = n->rows.count;
     find_least(n, (double)fe__tree_below(t, i)->inverse_mass);

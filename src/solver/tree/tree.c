@@ -57,7 +57,10 @@ static velocity changed(const fe__velocity_line *line, const double *change)
 
 // Of the arcs of a rotation, by its square: beyond FE__SLOW_TURN they are left to the positions, which lose energy by
 // it instead of gaining it
-static double slow_share(double square) { return fe__mind(fe__maxd(2.0 - square / (FE__SLOW_TURN * FE__SLOW_TURN), 0.0), 1.0); }
+static double slow_share(double square)
+{
+    return fe__mind(fe__maxd(2.0 - square / (FE__SLOW_TURN * FE__SLOW_TURN), 0.0), 1.0);
+}
 
 // A point on an arm r leaves its tangent while the body turns: by integrate_positions' Q = Cayley(h w) it goes on by
 //     (Q - 1) r - h w x r = 2/(1 + u^2) (u x r + u x (u x r)) - 2 u x r,   u = h w / 2
@@ -67,14 +70,16 @@ static fe_dvec3 leave_tangent(fe_dvec3 r, fe_dvec3 w, double h)
     double square = fe__ddot(r, r), along = square > 0.0 ? fe__ddot(w, r) / square : 0.0;
     fe_dvec3 u = fe__dscale(0.5 * h, fe__dadd(w, fe__dscale(-along, r))), a = fe__dcross(u, r);
     double k = 2.0 / (1.0 + fe__ddot(u, u));
-    return fe__dscale(slow_share(4.0 * fe__ddot(u, u)), fe__dadd(fe__dscale(k - 2.0, a), fe__dscale(k, fe__dcross(u, a))));
+    return fe__dscale(slow_share(4.0 * fe__ddot(u, u)),
+                      fe__dadd(fe__dscale(k - 2.0, a), fe__dscale(k, fe__dcross(u, a))));
 }
 
 // A rod grows by the square of what its ends move across it
 static double leave_rod(const fe__tree_rows *rows, const velocity *below, const velocity *above, double h)
 {
     fe_dvec3 u = fe__tree_vector(rows->below[0]);
-    fe_dvec3 v = fe__dsub(fe__dadd(below->v, fe__dcross(below->w, rows->arm[0])), fe__dadd(above->v, fe__dcross(above->w, rows->arm[1])));
+    fe_dvec3 v = fe__dsub(fe__dadd(below->v, fe__dcross(below->w, rows->arm[0])),
+                          fe__dadd(above->v, fe__dcross(above->w, rows->arm[1])));
     // angle squared
     double along = fe__ddot(v, u), turn = h * h * (fe__ddot(v, v) - along * along) / (rows->rod * rows->rod);
     return slow_share(turn) * 0.5 * turn * rows->rod;
@@ -88,7 +93,8 @@ static void request_arcs(const fe__tree_job *t)
         fe__tree_node *n = t->nodes + i;
         velocity below = changed(fe__tree_below(t, i), n->change),
                  above = changed(fe__tree_above(t, i), fe__tree_parent(t, i) ? fe__tree_parent(t, i)->change : NULL);
-        fe_dvec3 off_below = leave_tangent(n->rows.arm[0], below.w, t->h), off_above = leave_tangent(n->rows.arm[1], above.w, t->h);
+        fe_dvec3 off_below = leave_tangent(n->rows.arm[0], below.w, t->h),
+                 off_above = leave_tangent(n->rows.arm[1], above.w, t->h);
         for (int32_t r = 0; r < n->locks; ++r) {
             const fe_dvec3 b = fe__tree_vector(n->rows.below[r]), a = fe__tree_vector(n->rows.above[r]);
             n->request[r] -= (fe__ddot(b, off_below) + fe__ddot(a, off_above)) / t->h;
@@ -109,7 +115,8 @@ static double request_closed(const fe__tree_job *t)
         arm = fe__maxd(arm, n->rows.rod);
         for (int32_t r = 0; r < n->rows.count; ++r) {
             int32_t point = n->rows.points >> r & 1;
-            double error = n->rows.error[r], most = fe__maxd(FULL_TURN * (point ? arm : 1.0), t->rate * fe__absd(error));
+            double error = n->rows.error[r],
+                   most = fe__maxd(FULL_TURN * (point ? arm : 1.0), t->rate * fe__absd(error));
             n->request[r] = fe__mind(fe__maxd(-error, -most), most);
             gap += point ? error * error : 0.0;
         }
@@ -132,7 +139,8 @@ static void apply(const fe__tree_job *t, int32_t total)
         }
         fe__tree_forget_damping(t, i);
         for (int32_t k = 0, first = 0; k < p->locks; ++k)
-            first += t->lanes->add(p->lock[k].part, t->rows + p->lock[k].row, p->lock[k].lane, n->impulse + first, total);
+            first +=
+                t->lanes->add(p->lock[k].part, t->rows + p->lock[k].row, p->lock[k].lane, n->impulse + first, total);
     }
 }
 
@@ -208,8 +216,8 @@ static void close_gaps(const fe__tree_job *t)
 // ---- passes ---------------------------------------------------------------------------------------------------------
 int64_t fe__tree_bytes(int32_t links) { return (int64_t)sizeof(fe__tree_node) * links; }
 
-fe__tree_job fe__tree_job_of(fe__solver *s, const fe__lock_lanes *lanes, const fe__joints *joints, int32_t tree, unsigned char *rows,
-                             int64_t nodes, const fe__step_constants *c)
+fe__tree_job fe__tree_job_of(fe__solver *s, const fe__lock_lanes *lanes, const fe__joints *joints, int32_t tree,
+                             unsigned char *rows, int64_t nodes, const fe__step_constants *c)
 {
     const fe__joint_tree *t = joints->forest.trees + tree;
     return (fe__tree_job){.solver = s,
@@ -232,7 +240,10 @@ static void engage(const fe__tree_job *t)
     atomic_fetch_add_explicit(&t->solver->engaged, 1, memory_order_relaxed);
 }
 
-static int32_t is_open(const fe__tree_job *t, float gap) { return t->lanes->is_open(t->places, t->count, t->rows, gap); }
+static int32_t is_open(const fe__tree_job *t, float gap)
+{
+    return t->lanes->is_open(t->places, t->count, t->rows, gap);
+}
 
 // by the velocities as they are
 static int32_t will_open(const fe__tree_job *t)

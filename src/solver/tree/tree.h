@@ -13,8 +13,8 @@
 // Bytes of the nodes of so many links; they begin with a whole block
 int64_t fe__tree_bytes(int32_t links);
 // `rows`: the batch's row memory; `nodes`: where the tree has its own, bytes into it
-fe__tree_job fe__tree_job_of(fe__solver *s, const fe__lock_lanes *lanes, const fe__joints *joints, int32_t tree, unsigned char *rows,
-                             int64_t nodes, const fe__step_constants *c);
+fe__tree_job fe__tree_job_of(fe__solver *s, const fe__lock_lanes *lanes, const fe__joints *joints, int32_t tree,
+                             unsigned char *rows, int64_t nodes, const fe__step_constants *c);
 
 // Each after the same pass over the rows of the joints
 void fe__tree_prepare(const fe__tree_job *t);

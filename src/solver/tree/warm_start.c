@@ -20,8 +20,8 @@ static int32_t turns_fast(const fe__tree_job *t)
 }
 
 // M^-1 J^T l of one side to where its body started from
-static void give_start(const fe__tree_node *n, const double turn[6], fe__start_line *start, double inverse_mass, double (*rows)[6],
-                       const double *l)
+static void give_start(const fe__tree_node *n, const double turn[6], fe__start_line *start, double inverse_mass,
+                       double (*rows)[6], const double *l)
 {
     double sum[6] = {0};
     for (int32_t r = 0; r < n->locks; ++r)
@@ -43,9 +43,11 @@ void fe__tree_forget_locks(const fe__tree_job *t)
         double l[FE__TREE_ROWS] = {0};
         for (int32_t k = 0, first = 0; k < p->locks; ++k)
             first += t->lanes->take(p->lock[k].part, t->rows + p->lock[k].row, p->lock[k].lane, l + first);
-        give_start(n, n->inverse_inertia, start + p->line, (double)fe__tree_below(t, i)->inverse_mass, n->rows.below, l);
+        give_start(n, n->inverse_inertia, start + p->line, (double)fe__tree_below(t, i)->inverse_mass, n->rows.below,
+                   l);
         if (parent)
-            give_start(n, parent->inverse_inertia, start + p->parent_line, (double)fe__tree_above(t, i)->inverse_mass, n->rows.above, l);
+            give_start(n, parent->inverse_inertia, start + p->parent_line, (double)fe__tree_above(t, i)->inverse_mass,
+                       n->rows.above, l);
         n->rows.pull = (fe_dvec3){0.0, 0.0, 0.0};
     }
 }

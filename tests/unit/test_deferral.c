@@ -1,8 +1,8 @@
-// Near misses wait only while their bodies cannot have met: the odometers bound every way, also round their end, and what is moved by hand
-// is looked at in the next step.
+// Near misses wait only while their bodies cannot have met: the odometers bound every way, also round their end, and
+// what is moved by hand is looked at in the next step.
 #include "api/api_test.h"
 
-#include "world/wait.h"
+#include "world/deferral.h"
 
 #include <math.h>
 
@@ -23,7 +23,8 @@ typedef struct place {
 // by up to so many m and half radians, as a step moves a body
 static void move(place *at, fe__odometer *o, float most, float most_turn)
 {
-    fe_vec3 shift = fe__scale(most, fe__vec3(any(), any(), any())), turn = fe__scale(most_turn, fe__vec3(any(), any(), any()));
+    fe_vec3 shift = fe__scale(most, fe__vec3(any(), any(), any())),
+            turn = fe__scale(most_turn, fe__vec3(any(), any(), any()));
     fe_quat q = fe__normalized((fe_quat){turn.x, turn.y, turn.z, 1.0f});
     at->centre = fe__dadd(at->centre, fe__widen(shift));
     at->rotation = fe__normalized(fe__product(q, at->rotation));
@@ -51,15 +52,16 @@ static void what_waits_has_not_moved_too_far(void **state)
     fe__odometer o[2] = {{UINT32_MAX - 1000, UINT32_MAX - 3, 0.0f}, {0x7ffffffe, 0x80000001, 0.0f}};
     for (int32_t i = 0; i < 2000; ++i) {
         float slack = 0.05f + 0.04f * any(), reach = 1.0f + any(), dt = 1.0f / 60.0f, most = 0.002f * (1.0f + any());
-        place start[2] = {{{0.0, 0.0, 0.0}, fe__identity()}, {{3.0, 1.0, -2.0}, fe__identity()}}, now[2] = {start[0], start[1]};
-        fe__wait wait;
+        place start[2] = {{{0.0, 0.0, 0.0}, fe__identity()}, {{3.0, 1.0, -2.0}, fe__identity()}},
+              now[2] = {start[0], start[1]};
+        fe__deferral wait;
         o[0].speed = 0.0f, o[1].speed = 0.0f;
-        fe__begin_to_wait(&wait, o, 0, 1, slack, reach);
+        fe__defer(&wait, o, 0, 1, slack, reach);
         for (int32_t step = 0; step < 100; ++step) {
             move(now, o, most, most), move(now + 1, o + 1, most, i % 2 ? most : 0.0f);
             o[0].speed = any() + 1.0f, o[1].speed = any() + 1.0f;
             double way = moved(start, now, reach) + (double)(dt * (o[0].speed + o[1].speed));
-            if (!fe__still_waits(&wait, o, dt)) {
+            if (!fe__stays_deferred(&wait, o, dt)) {
                 ++ended;
                 break;
             }
@@ -75,12 +77,12 @@ static void a_way_beyond_the_odometer_ends_it(void **state)
 {
     (void)state;
     fe__odometer o[2] = {{0}};
-    fe__wait wait;
-    fe__begin_to_wait(&wait, o, 0, 1, 1e9f, 1.0f);
-    FE_TRUE(fe__still_waits(&wait, o, 1.0f / 60.0f));
+    fe__deferral wait;
+    fe__defer(&wait, o, 0, 1, 1e9f, 1.0f);
+    FE_TRUE(fe__stays_deferred(&wait, o, 1.0f / 60.0f));
     fe__odometer_advance(o, 1e30f, 1.0f);
     fe__odometer_advance(o + 1, INFINITY, 1.0f);
-    FE_TRUE(!fe__still_waits(&wait, o, 1.0f / 60.0f));
+    FE_TRUE(!fe__stays_deferred(&wait, o, 1.0f / 60.0f));
 }
 
 static void what_makes_no_sense_does_not_wait(void **state)
@@ -88,13 +90,13 @@ static void what_makes_no_sense_does_not_wait(void **state)
     (void)state;
     const float bad[] = {NAN, -INFINITY, -1.0f, 0.0f};
     fe__odometer o[2] = {{0}};
-    fe__wait wait;
+    fe__deferral wait;
     for (int i = 0; i < 4; ++i) {
-        fe__begin_to_wait(&wait, o, 0, 1, bad[i], 1.0f);
-        FE_TRUE(!fe__still_waits(&wait, o, 1.0f / 60.0f));
+        fe__defer(&wait, o, 0, 1, bad[i], 1.0f);
+        FE_TRUE(!fe__stays_deferred(&wait, o, 1.0f / 60.0f));
     }
-    fe__begin_to_wait(&wait, o, 0, 1, 1.0f, INFINITY);
-    FE_TRUE(!fe__still_waits(&wait, o, 1.0f / 60.0f));
+    fe__defer(&wait, o, 0, 1, 1.0f, INFINITY);
+    FE_TRUE(!fe__stays_deferred(&wait, o, 1.0f / 60.0f));
 }
 
 // Balls 4 cm apart: neighbours without points. Moved to touch, whichever it is, they are told of in the next step.

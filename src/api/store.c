@@ -1,0 +1,71 @@
+// store.c - the API of stores and of assets of any kind. From any thread: what a store holds is read and changed under
+// its lock.
+#include "api/store.h"
+
+// ---- stores
+// ---------------------------------------------------------------------------------------------------------------------
+
+void fe_store_def_init(fe_store_def *def, uint32_t struct_size)
+{
+    fe_store_def defaults = {.struct_size = sizeof defaults};
+    fe__init_struct(def, &defaults, sizeof defaults, struct_size);
+}
+
+fe_result fe_store_create(const fe_store_def *def, fe_store **out_store)
+{
+    const char *function = __func__;
+    FE_CHECK_POINTER(out_store);
+    fe_store_def full = {.struct_size = sizeof full};
+    fe_allocator allocator = {.struct_size = sizeof allocator};
+    if (def) {
+        FE_READ_STRUCT(def, &full);
+        FE_CHECK_INT(full.number, 0, FE_ID_LAST_NUMBER);
+        if (full.allocator) FE_TRY(fe__read_allocator(function, full.allocator, &allocator));
+    }
+    return fe__report(function, fe__store_create(full.allocator ? &allocator : NULL, (int32_t)full.number, out_store));
+}
+
+fe_result fe_store_destroy(fe_store *store)
+{
+    FE_BEGIN_STORE(store);
+    int32_t users;
+    fe_result result = fe__store_try_destroy(store, &users);
+    if (result == FE_OK) return FE_OK;
+    if (result == FE_ERROR_STALE) return fe__fail(function, result, "the store is gone already");
+    if (users == 0) return fe__fail(function, result, "the store is a world's own: it goes with the world");
+    return fe__fail(function, result, "the store still serves %d worlds, destroy them first", (int)users);
+}
+
+fe_result fe_store_get_bytes(const fe_store *store, int64_t *out_bytes)
+{
+    FE_BEGIN_STORE(store);
+    FE_CHECK_POINTER(out_bytes);
+    fe__store_lock(store);
+    *out_bytes = store->memory.bytes;
+    fe__store_unlock(store);
+    return FE_OK;
+}
+
+// ---- assets
+// ---------------------------------------------------------------------------------------------------------------------
+
+fe_result fe_asset_destroy(fe_store *store, fe_asset asset)
+{
+    FE_BEGIN_STORE(store);
+    int32_t index;
+    fe__store_lock(store);
+    fe_result result = fe__find_asset(function, "asset", store, asset, &index);
+    if (result == FE_OK) fe__asset_destroy(store, index);
+    fe__store_unlock(store);
+    return result;
+}
+
+int32_t fe_asset_is_valid(const fe_store *store, fe_asset asset)
+{
+    if (!store) return 0;
+    int32_t index;
+    fe__store_lock(store);
+    fe_result result = fe__store_find(store, asset, &index);
+    fe__store_unlock(store);
+    return result == FE_OK;
+}

@@ -1,0 +1,14 @@
+// mutex.c - see mutex.h.
+#include "core/mutex.h"
+
+#if FE_HAS_THREADS
+void fe__mutex_init(fe__mutex *mutex) { pthread_mutex_init(&mutex->handle, NULL); }
+void fe__mutex_free(fe__mutex *mutex) { pthread_mutex_destroy(&mutex->handle); }
+void fe__mutex_lock(fe__mutex *mutex) { pthread_mutex_lock(&mutex->handle); }
+void fe__mutex_unlock(fe__mutex *mutex) { pthread_mutex_unlock(&mutex->handle); }
+#else
+void fe__mutex_init(fe__mutex *mutex) { mutex->unused = 0; }
+void fe__mutex_free(fe__mutex *mutex) { (void)mutex; }
+void fe__mutex_lock(fe__mutex *mutex) { (void)mutex; }
+void fe__mutex_unlock(fe__mutex *mutex) { (void)mutex; }
+#endif

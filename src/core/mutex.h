@@ -1,0 +1,35 @@
+// mutex.h - a mutex: for what threads share outside of steps, and hold for long enough to sleep on.
+//
+// Where there are no threads it is nothing. Not recursive.
+#ifndef FE_CORE_MUTEX_H
+#define FE_CORE_MUTEX_H
+
+#if !defined(__wasm__) || defined(_REENTRANT)
+#define FE_HAS_THREADS 1
+#include <pthread.h>
+#define FE_MUTEX_INITIAL          \
+    {                             \
+        PTHREAD_MUTEX_INITIALIZER \
+    }
+#else
+#define FE_HAS_THREADS 0
+#define FE_MUTEX_INITIAL \
+    {                    \
+        0                \
+    }
+#endif
+
+typedef struct fe__mutex {
+#if FE_HAS_THREADS
+    pthread_mutex_t handle;
+#else
+    int unused;
+#endif
+} fe__mutex;
+
+void fe__mutex_init(fe__mutex *mutex);
+void fe__mutex_free(fe__mutex *mutex);
+void fe__mutex_lock(fe__mutex *mutex);
+void fe__mutex_unlock(fe__mutex *mutex);
+
+#endif

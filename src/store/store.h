@@ -1,0 +1,95 @@
+// store.h - the store: assets, the heavy data that the shapes of many worlds share.
+//
+// Any thread creates, reads and destroys assets, under the store's lock. Worlds that step take no lock: the records of
+// assets stand in chunks that never move, and whoever learns an index has held the lock after its chunk and its record
+// were written. A record lives as long as its owner or a world uses it; its samples change only when every world that
+// uses it has been entered (world/asset_users.h).
+#ifndef FE_STORE_STORE_H
+#define FE_STORE_STORE_H
+#include "collision/form/heightfield.h"
+#include "collision/form/shape.h"
+#include "core/id_pool.h"
+#include "core/memory.h"
+#include "core/mutex.h"
+#include "core/registry.h"
+
+// What shapes share: a heightfield and the materials of its cells.
+typedef struct fe__asset {
+    fe__heightfield field;
+    fe_material *materials; // of the cells
+    int32_t material_count;
+    int32_t special;   // a material needs special rows
+    int32_t users;     // worlds with shapes that have it, and calls that are about to make one
+    int32_t destroyed; // by its owner: it goes with its last user
+    fe_asset handle;   // kept here, so that it can be read without the lock
+} fe__asset;
+
+// Chunk k holds 4 * 2^k records: two shifts find one.
+enum { FE__FIRST_CHUNK_BITS = 2, FE__CHUNKS = FE_ID_SLOT_BITS - FE__FIRST_CHUNK_BITS + 1 };
+
+// A world in its store's list.
+typedef struct fe__store_member {
+    struct fe__store_member *next, *previous;
+    fe_world *world;
+} fe__store_member;
+
+struct fe_store {
+    fe__mutex lock;            // for all that follows
+    fe__mutex allocator_guard; // a world and its own store share an allocator, see fe__memory.guard
+    fe__memory memory;
+    fe__entry entry; // in the registry, which counts the worlds
+    fe__id_pool ids;
+    fe__asset *chunks[FE__CHUNKS]; // each written once
+    fe__store_member *first_member;
+};
+
+// number 0: the next that no living store has
+fe_result fe__store_create(const fe_allocator *allocator, int32_t number, fe_store **out_store);
+// A world's own, which nobody else may use or destroy. The world has joined it, and shares the allocator and its guard.
+fe_result fe__store_create_own(const fe_allocator *allocator, int32_t number, fe__store_member *member,
+                               fe_store **out_store);
+void fe__store_destroy(fe_store *store); // by its owner, who has left it
+// FE_OK: destroyed. FE_ERROR_STALE: it was gone; FE_ERROR_STATE: so many worlds use it, or it is a world's own (0).
+fe_result fe__store_try_destroy(fe_store *store, int32_t *out_users);
+
+// A world begins to use the store. FE_ERROR_STALE: it is gone; FE_ERROR_ARGUMENT: it is another world's own.
+fe_result fe__store_join(fe_store *store, fe__store_member *member);
+void fe__store_leave(fe_store *store, fe__store_member *member);
+
+void fe__store_lock(const fe_store *store);
+void fe__store_unlock(const fe_store *store);
+
+// ---- under the lock
+// -------------------------------------------------------------------------------------------------------------------
+// FE_OK, FE_ERROR_KIND, FE_ERROR_STALE: also for an asset that lives on for its shapes only
+fe_result fe__store_find(const fe_store *store, fe_asset handle, int32_t *out_index);
+void fe__asset_destroy(fe_store *store, int32_t index); // now, or with its last user
+void fe__asset_retain(fe_store *store, int32_t index);
+void fe__asset_release(fe_store *store, int32_t index); // the last user of a destroyed one frees it
+// Gives a record a place and a handle; the store owns its blocks then. FE_ERROR_MEMORY, FE_ERROR_LIMIT: nothing
+// changed.
+fe_result fe__store_put(fe_store *store, const fe__asset *asset, fe_asset *out_handle);
+
+// ---- without the lock
+// ----------------------------------------------------------------------------------------------------------------- The
+// record of an asset that the caller uses: it stays where it is.
+static inline fe__asset *fe__store_asset(const fe_store *store, int32_t index)
+{
+    uint32_t i = (uint32_t)index + (1u << FE__FIRST_CHUNK_BITS);
+    int32_t top = 31 - __builtin_clz(i);
+    return store->chunks[top - FE__FIRST_CHUNK_BITS] + (i - (1u << top));
+}
+static inline const fe__heightfield *fe__store_field(const fe_store *store, int32_t index)
+{
+    return &fe__store_asset(store, index)->field;
+}
+
+// Of a shape; `cell`: of its heightfield, -1: none in particular
+static inline const fe_material *fe__material_of_shape(const fe_store *store, const fe__shape *shape, int32_t cell)
+{
+    if (!fe__form_is_field(&shape->form) || cell < 0) return &shape->material;
+    const fe__asset *a = fe__store_asset(store, shape->form.field);
+    return a->material_count ? a->materials + a->field.cells[cell] : &shape->material;
+}
+
+#endif

@@ -1,0 +1,202 @@
+// asset_users.c - see asset_users.h.
+//
+// Called by the API layer with checked arguments, between steps. A world's table of uses is read by who edits an asset,
+// on another thread: it is written under the store's lock only.
+#include "world/asset_users.h"
+
+#include "world/pair_list.h"
+#include "world/proxies.h"
+#include "world/sleep.h"
+
+#include <string.h>
+
+// ---- the store
+// --------------------------------------------------------------------------------------------------------------------------
+fe_result fe__world_open_store(fe_world *world, const fe_world_def *def)
+{
+    world->member.world = world;
+    if (def->store) {
+        fe_result result = fe__store_join(def->store, &world->member);
+        if (result == FE_OK) world->store = def->store;
+        return result;
+    }
+    fe_result result = fe__store_create_own(def->allocator, world->number, &world->member, &world->store);
+    if (result != FE_OK) return result;
+    world->owns_store = 1;
+    world->memory.guard = world->store->memory.guard;
+    return FE_OK;
+}
+
+void fe__world_close_store(fe_world *world)
+{
+    if (!world->store) return;
+    fe__store_lock(world->store);
+    for (int32_t i = 0; i < world->use_count; ++i) fe__asset_release(world->store, world->uses[i].asset);
+    world->use_count = 0;
+    FE_FREE(&world->memory, world->uses, world->use_capacity);
+    fe__store_unlock(world->store);
+    fe__store_leave(world->store, &world->member);
+    world->memory.guard = NULL;
+    if (world->owns_store) fe__store_destroy(world->store);
+    world->store = NULL;
+}
+
+// ---- uses
+// -------------------------------------------------------------------------------------------------------------------------------
+// Place of the asset's use in the table, or where it belongs.
+static int32_t place_of(const fe_world *world, int32_t asset)
+{
+    int32_t low = 0, high = world->use_count;
+    while (low < high) {
+        int32_t middle = (low + high) / 2;
+        if (world->uses[middle].asset < asset)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static fe__asset_use *find_use(const fe_world *world, int32_t asset)
+{
+    int32_t place = place_of(world, asset);
+    return place < world->use_count && world->uses[place].asset == asset ? world->uses + place : NULL;
+}
+
+static fe__asset_use *add_use(fe_world *world, int32_t asset)
+{
+    fe__asset_use *use = world->uses + place_of(world, asset);
+    memmove(use + 1, use, (size_t)(world->uses + world->use_count - use) * sizeof *use);
+    world->use_count += 1;
+    *use = (fe__asset_use){asset, -1};
+    fe__asset_retain(world->store, asset);
+    return use;
+}
+
+static void remove_use(fe_world *world, fe__asset_use *use)
+{
+    int32_t asset = use->asset;
+    world->use_count -= 1;
+    memmove(use, use + 1, (size_t)(world->uses + world->use_count - use) * sizeof *use);
+    fe__asset_release(world->store, asset);
+}
+
+int32_t fe__reserve_asset_use(fe_world *world, const fe__form *form)
+{
+    if (!fe__form_has_asset(form)) return 1;
+    fe__store_lock(world->store);
+    int32_t reserved = FE_RESERVE(&world->memory, world->uses, world->use_capacity, world->use_count + 1);
+    fe__store_unlock(world->store);
+    return reserved;
+}
+
+// The form is read anew: between the check of its handle and now another thread may have edited the heights.
+void fe__shape_take_asset(fe_world *world, int32_t index)
+{
+    fe__shape *shape = world->shapes + index;
+    shape->next_user = -1;
+    if (!fe__form_has_asset(&shape->form)) return;
+    int32_t asset = shape->form.field;
+    fe__store_lock(world->store);
+    fe__asset_use *use = find_use(world, asset);
+    if (!use) use = add_use(world, asset);
+    shape->next_user = use->first_user;
+    use->first_user = index;
+    shape->form = fe__heightfield_form(fe__store_field(world->store, asset), asset);
+    fe__store_unlock(world->store);
+}
+
+void fe__shape_release_asset(fe_world *world, int32_t index)
+{
+    const fe__shape *shape = world->shapes + index;
+    if (!fe__form_has_asset(&shape->form)) return;
+    fe__store_lock(world->store);
+    fe__asset_use *use = find_use(world, shape->form.field);
+    int32_t *at = &use->first_user;
+    while (*at != index) at = &world->shapes[*at].next_user;
+    *at = shape->next_user;
+    if (use->first_user < 0) remove_use(world, use);
+    fe__store_unlock(world->store);
+}
+
+// ---- entering worlds
+// --------------------------------------------------------------------------------------------------------------------
+// As a writer, with no reader inside: queries read the samples.
+static fe_result enter(fe_world *world)
+{
+    fe__owner *owner = &world->owner;
+    if (!fe__owner_enter(owner)) {
+        uint32_t occupation = atomic_load_explicit(&owner->occupation, memory_order_acquire);
+        return occupation == FE__STEP ? FE_ERROR_STEPPING : FE_ERROR_BUSY;
+    }
+    if (fe__owner_be_alone(owner, FE__WRITER)) return FE_OK;
+    fe__owner_leave(owner);
+    return FE_ERROR_BUSY;
+}
+
+static void leave_until(fe_store *store, int32_t asset, const fe__store_member *end)
+{
+    for (fe__store_member *m = store->first_member; m != end; m = m->next)
+        if (find_use(m->world, asset)) fe__owner_leave(&m->world->owner);
+}
+
+fe_result fe__asset_enter_worlds(fe_store *store, int32_t asset)
+{
+    for (fe__store_member *m = store->first_member; m; m = m->next) {
+        fe_result entered = find_use(m->world, asset) ? enter(m->world) : FE_OK;
+        if (entered == FE_OK) continue;
+        leave_until(store, asset, m);
+        return entered;
+    }
+    return FE_OK;
+}
+
+void fe__asset_leave_worlds(fe_store *store, int32_t asset) { leave_until(store, asset, NULL); }
+
+// ---- new heights
+// --------------------------------------------------------------------------------------------------------------------
+static int32_t is_over(const fe_world *world, const fe__shape *field, int32_t other, const fe__bounds *part)
+{
+    const fe__shape *shape = world->shapes + other;
+    fe__pose local = {fe__drotate_back(field->pose.rotation, fe__dsub(shape->pose.position, field->pose.position)),
+                      fe__product(fe__conjugate(field->pose.rotation), shape->pose.rotation)};
+    fe__bounds b = fe__form_bounds(&shape->form, &local);
+    double margin = (double)world->tuning.speculative_distance;
+    return b.low.x - margin <= part->high.x && b.high.x + margin >= part->low.x && b.low.z - margin <= part->high.z &&
+           b.high.z + margin >= part->low.z;
+}
+
+// What touches that part, or is near it, wakes and looks anew.
+static void renew_pairs(fe_world *world, int32_t index, const fe__bounds *part)
+{
+    const fe__shape *field = world->shapes + index;
+    for (int32_t pair = world->bodies[field->body].first_contact; pair >= 0;
+         pair = fe__next_pair(world, pair, field->body)) {
+        const fe__pair *p = world->pairs + pair;
+        if (p->flags & FE__PAIR_PATCH || (p->shape_a != index && p->shape_b != index)) continue;
+        int32_t other = p->shape_a == index ? p->shape_b : p->shape_a;
+        if (!is_over(world, field, other, part)) continue;
+        world->contacts[pair].surface.tolerance = 0.0f; // what moved by nothing has moved too far
+        if (p->flags & FE__PAIR_LINKED) fe__wake(world, world->shapes[other].body);
+        fe__pair_look_once(world, pair);
+    }
+}
+
+static void renew_shapes(fe_world *world, int32_t asset, const fe__form *form, const fe__bounds *part)
+{
+    const fe__asset_use *use = find_use(world, asset);
+    for (int32_t shape = use ? use->first_user : -1; shape >= 0; shape = world->shapes[shape].next_user) {
+        world->shapes[shape].form = *form;
+        renew_pairs(world, shape, part);
+        fe__shape_touch(world, shape);
+    }
+}
+
+void fe__heightfield_edit(fe_store *store, int32_t asset, const fe__samples *part, const float *heights)
+{
+    fe__heightfield *field = &fe__store_asset(store, asset)->field;
+    fe__heightfield_write(field, part, heights);
+    fe__form form = fe__heightfield_form(field, asset);
+    fe__bounds changed = fe__samples_bounds(field, part);
+    for (fe__store_member *m = store->first_member; m; m = m->next) renew_shapes(m->world, asset, &form, &changed);
+}

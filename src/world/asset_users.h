@@ -1,0 +1,27 @@
+// asset_users.h - the shapes of a world that have assets of its store, and what an edit of an asset means for all
+// worlds.
+#ifndef FE_WORLD_ASSET_USERS_H
+#define FE_WORLD_ASSET_USERS_H
+#include "store/heightfield_asset.h"
+#include "world/world.h"
+
+// Joins the store of the definition, or makes one of the world's own. FE_ERROR_STALE, FE_ERROR_ARGUMENT: see
+// fe__store_join.
+fe_result fe__world_open_store(fe_world *world, const fe_world_def *def);
+void fe__world_close_store(fe_world *world); // whatever its shapes have
+
+// Room for one more asset in use: the next fe__shape_take_asset of that form is certain. 0: no memory.
+int32_t fe__reserve_asset_use(fe_world *world, const fe__form *form);
+void fe__shape_take_asset(fe_world *world, int32_t shape);    // becomes a user of its form's, if it has one
+void fe__shape_release_asset(fe_world *world, int32_t shape); // the last user of a destroyed one frees it
+
+// ---- edits, under the store's lock
+// ------------------------------------------------------------------------------------------------------ Every world
+// that uses the asset is entered for writing, or none: FE_ERROR_STEPPING, FE_ERROR_BUSY.
+fe_result fe__asset_enter_worlds(fe_store *store, int32_t asset);
+void fe__asset_leave_worlds(fe_store *store, int32_t asset);
+// The worlds were entered. New heights reach the shapes' bounds and trees at once, the contacts in the next step;
+// bodies near them wake.
+void fe__heightfield_edit(fe_store *store, int32_t asset, const fe__samples *part, const float *heights);
+
+#endif
