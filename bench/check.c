@@ -71,8 +71,7 @@ static double calibrate(void)
     return bench_wall_ms() - start;
 }
 
-// ---- one scene
-// ------------------------------------------------------------------------------------------------------------------------
+// ---- one scene -----------------------------------------------------------------------------------------------------
 
 // Fingerprint after QUICK_STEPS, then the whole run with its criteria, unless `quick`.
 static int fingerprint(const char *name, int32_t quick, bench_reference *out)
@@ -124,8 +123,7 @@ static int time_phases(const char *name, bench_reference *out)
     return status;
 }
 
-// ---- the commands
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- the commands --------------------------------------------------------------------------------------------------
 
 static const bench_reference *find(const bench_reference *all, int32_t count, const char *name)
 {

@@ -35,8 +35,7 @@ typedef struct side {
 
 enum { SIDES = 2 };
 
-// ---- what is asked
-// ------------------------------------------------------------------------------------------------------------------
+// ---- what is asked -------------------------------------------------------------------------------------------------
 
 // The rays of the speed table in the middle of the scene; where it is wide, the same about places all over it.
 static bench_ray make_way(const bench_scene *scene, uint64_t *state, uint64_t *places)
@@ -103,8 +102,7 @@ static void ask_all(side sides[SIDES], const bench_scene *scene)
     }
 }
 
-// ---- a scene
-// ------------------------------------------------------------------------------------------------------------------------
+// ---- a scene -------------------------------------------------------------------------------------------------------
 
 static int play(side *s, const bench_scene *scene)
 {

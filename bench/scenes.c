@@ -31,8 +31,7 @@ static void end_progress(void)
     if (isatty(STDERR_FILENO)) fprintf(stderr, "\r\033[K");
 }
 
-// ---- lines
-// ----------------------------------------------------------------------------------------------------------------------------
+// ---- lines ---------------------------------------------------------------------------------------------------------
 
 static void print_label(const bench_trial *t)
 {
@@ -120,8 +119,7 @@ static FILE *open_csv(const char *path)
     return csv;
 }
 
-// ---- one case in one engine
-// -----------------------------------------------------------------------------------------------------------
+// ---- one case in one engine ----------------------------------------------------------------------------------------
 
 typedef struct series {
     const bench_options *options;
@@ -202,8 +200,7 @@ static void try_peers(series *s, const bench_case *rule, int32_t planar)
     }
 }
 
-// ---- the commands
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- the commands --------------------------------------------------------------------------------------------------
 
 static int try_named(series *s, const char *name, int32_t with_peers)
 {

@@ -28,8 +28,7 @@ enum {
 
 static const uint64_t RAY_SEED = 0x1234567u;
 
-// ---- progress
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- progress ------------------------------------------------------------------------------------------------------
 
 static void show_progress(const bench_scene *scene, const char *what, int32_t done, int32_t all)
 {
@@ -41,8 +40,7 @@ static void end_progress(void)
     if (isatty(STDERR_FILENO)) fprintf(stderr, "\r\033[K");
 }
 
-// ---- which engines
-// ----------------------------------------------------------------------------------------------------------------
+// ---- which engines -------------------------------------------------------------------------------------------------
 
 static void add_run(bench_table *table, const bench_engine *engine, int32_t workers, int32_t substeps)
 {
@@ -109,8 +107,7 @@ static int check_peers(const bench_options *options)
     return 0;
 }
 
-// ---- worlds
-// ---------------------------------------------------------------------------------------------------------------------------
+// ---- worlds --------------------------------------------------------------------------------------------------------
 
 static int create_world(bench_table *table, bench_run *run, int32_t steps)
 {
@@ -123,8 +120,7 @@ static int create_world(bench_table *table, bench_run *run, int32_t steps)
     return bench_check_start(run->engine, run->world, &table->scene);
 }
 
-// ---- time
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- time ----------------------------------------------------------------------------------------------------------
 
 static void add_phases(bench_run *run)
 {
@@ -175,8 +171,7 @@ static int time_steps(bench_table *table, int32_t steps)
     return 0;
 }
 
-// ---- rays
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- rays ----------------------------------------------------------------------------------------------------------
 
 static bench_ray *make_rays(void)
 {
@@ -224,8 +219,7 @@ static void time_rays(bench_table *table)
     free(rays);
 }
 
-// ---- what became of the scene
-// -----------------------------------------------------------------------------------------------------
+// ---- what became of the scene --------------------------------------------------------------------------------------
 
 static bench_quality measure_quality(const bench_scene *scene, const bench_pose *poses)
 {
@@ -273,8 +267,7 @@ static int check_hashes(const bench_table *table)
     return status;
 }
 
-// ---- the command
-// ------------------------------------------------------------------------------------------------------------------
+// ---- the command ---------------------------------------------------------------------------------------------------
 
 static int run_table(bench_table *table, const bench_options *options)
 {

@@ -62,8 +62,7 @@ static void draw_legend(FILE *f, const bench_series *series, int32_t count)
 // where the plot begins
 static int32_t below_legend(int32_t count) { return TITLE + (1 + (count - 1) / IN_LEGEND) * LEGEND; }
 
-// ---- bars
-// -----------------------------------------------------------------------------------------------------------------------------
+// ---- bars ----------------------------------------------------------------------------------------------------------
 
 int bench_svg_bars(const char *path, const char *title, const char *const *labels, int32_t label_count,
                    const bench_series *series, int32_t series_count)
@@ -97,8 +96,7 @@ int bench_svg_bars(const char *path, const char *title, const char *const *label
     return close_svg(f);
 }
 
-// ---- lines
-// ----------------------------------------------------------------------------------------------------------------------------
+// ---- lines ---------------------------------------------------------------------------------------------------------
 
 typedef struct axis {
     double low, high; // powers of ten

@@ -11,8 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// ---- geometry of poses
-// --------------------------------------------------------------------------------------------------------------
+// ---- geometry of poses ---------------------------------------------------------------------------------------------
 
 static void rotate(const double *q, const double *v, double *out)
 {
@@ -56,8 +55,7 @@ static double angle_of_y_axes(const bench_pose *a, const bench_pose *b)
     return atan2(length(cross), dot);
 }
 
-// ---- energy
-// ---------------------------------------------------------------------------------------------------------------------------
+// ---- energy --------------------------------------------------------------------------------------------------------
 
 // Principal moments in the body's frame, kg m2
 static void inertia_of(const bench_shape *s, double mass, double *out)
@@ -98,8 +96,7 @@ static double potential_of(const bench_trial *t, int32_t i)
     return t->masses[i] * (double)t->scene.bodies[i].gravity_scale * sum;
 }
 
-// ---- records
-// --------------------------------------------------------------------------------------------------------------------------
+// ---- records -------------------------------------------------------------------------------------------------------
 
 static void note_track(bench_trial *t, int32_t i)
 {
@@ -240,8 +237,7 @@ void bench_trial_set_gravity(bench_trial *t, const double *gravity)
     note_drive(t);
 }
 
-// ---- a run
-// ----------------------------------------------------------------------------------------------------------------------------
+// ---- a run ---------------------------------------------------------------------------------------------------------
 
 const bench_case *bench_case_find(const char *name, int32_t *out_planar)
 {
@@ -386,8 +382,7 @@ int32_t bench_trial_passed(const bench_trial *t)
     return 1;
 }
 
-// ---- for judges
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- for judges ----------------------------------------------------------------------------------------------------
 
 const char *const bench_kind_names[] = {"law", "own", "stray", "open", "own open"};
 

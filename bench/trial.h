@@ -147,8 +147,7 @@ void bench_measure(bench_trial *trial);
 /// Why Feather does not hold this check yet; NULL when it should (cases/known.c).
 const char *bench_known_cause(const bench_trial *trial, const bench_check *check);
 
-// ---- for judges
-// -------------------------------------------------------------------------------------------------------------------
+// ---- for judges ----------------------------------------------------------------------------------------------------
 
 void bench_expect(bench_trial *trial, const char *what, double value, double low, double high);
 void bench_expect_own(bench_trial *trial, const char *what, double value, double low, double high);

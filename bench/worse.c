@@ -36,8 +36,7 @@ typedef struct rows {
     int32_t count, capacity;
 } rows;
 
-// ---- the tables
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- the tables ----------------------------------------------------------------------------------------------------
 
 static int32_t read_row(row *out, const char *line)
 {
@@ -81,8 +80,7 @@ static const row *find_row(const rows *all, const row *like, const char *engine)
     return NULL;
 }
 
-// ---- the judgement
-// --------------------------------------------------------------------------------------------------------------------
+// ---- the judgement -------------------------------------------------------------------------------------------------
 
 static int32_t is_kind(const row *r, bench_kind kind) { return strcmp(r->kind, bench_kind_names[kind]) == 0; }
 

@@ -15,8 +15,7 @@
         if (machine_tried != FE_OK) return machine_tried; \
     } while (0)
 
-// ---- parts
-// ------------------------------------------------------------------------------------------------------------------------
+// ---- parts ---------------------------------------------------------------------------------------------------------
 static inline fe_vec3 machine_rotate(fe_quat q, fe_vec3 a)
 {
     fe_vec3 t = {2 * (q.y * a.z - q.z * a.y), 2 * (q.z * a.x - q.x * a.z), 2 * (q.x * a.y - q.y * a.x)};
@@ -63,8 +62,7 @@ static inline fe_result machine_box(fe_world *world, int32_t type, double x, dou
     return machine_body(world, type, fe_make_transform(x, y, z), &form, density, out_body);
 }
 
-// ---- a ragdoll
-// --------------------------------------------------------------------------------------------------------------------
+// ---- a ragdoll -----------------------------------------------------------------------------------------------------
 // Fourteen capsules of a person of 1.75 m and 90 kg, from Box3D's human: frames of the bones, ends of the capsules in
 // them, the frames of the joints about Z. Spine, neck, hips and shoulders are balls with a cone and a twist; knees and
 // elbows hinges.
@@ -214,8 +212,7 @@ static inline fe_result ragdoll_build(fe_world *world, fe_transform at, float fr
     return FE_OK;
 }
 
-// ---- a car
-// ------------------------------------------------------------------------------------------------------------------------
+// ---- a car ---------------------------------------------------------------------------------------------------------
 typedef struct car {
     fe_body chassis, wheels[4]; // front left, front right, rear left, rear right; it drives towards x
     fe_joint axles[4];
@@ -272,8 +269,7 @@ static inline fe_result car_drive(fe_world *world, const car *c, float speed, fl
     return FE_OK;
 }
 
-// ---- a rope bridge
-// ----------------------------------------------------------------------------------------------------------------
+// ---- a rope bridge -------------------------------------------------------------------------------------------------
 enum { BRIDGE_PLANKS = 24 };
 typedef struct bridge {
     fe_body posts[2], planks[BRIDGE_PLANKS];
@@ -305,8 +301,7 @@ static inline fe_result bridge_build(fe_world *world, double x, double y, double
     return FE_OK;
 }
 
-// ---- a door
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- a door --------------------------------------------------------------------------------------------------------
 typedef struct door {
     fe_body frame, leaf;
     fe_joint hinges[2];
@@ -330,8 +325,7 @@ static inline fe_result door_build(fe_world *world, double x, double y, double z
     return FE_OK;
 }
 
-// ---- a crane
-// ----------------------------------------------------------------------------------------------------------------------
+// ---- a crane -------------------------------------------------------------------------------------------------------
 enum { CRANE_LINKS = 10 };
 typedef struct crane {
     fe_body mast, trolley, links[CRANE_LINKS], load;

@@ -5,8 +5,7 @@
 
 static const double GRAVITY = 10.0; // m/s2
 
-// ---- ball and chain: 585:1
-// ------------------------------------------------------------------------------------------------------------
+// ---- ball and chain: 585:1 -----------------------------------------------------------------------------------------
 
 enum { LINKS = 32 };
 
@@ -45,8 +44,7 @@ static void judge_heavy_chain(bench_trial *t)
                  bench_highest(t->kinetic, half, t->step) / bench_highest(t->kinetic, 0, half), 0.0, 1.0);
 }
 
-// ---- door: two hinges, a heavy blow at the free edge
-// ----------------------------------------------------------------------------------
+// ---- door: two hinges, a heavy blow at the free edge ---------------------------------------------------------------
 
 static void build_door(bench_scene *s)
 {
@@ -83,8 +81,7 @@ static void judge_door(bench_trial *t)
     bench_expect(t, "largest angle, rad", t->notes[0], 0.0, 0.5 * BENCH_PI + 10.0 * BENCH_PI / 180.0);
 }
 
-// ---- ball joint with a cone and a twist range
-// -----------------------------------------------------------------------------------------
+// ---- ball joint with a cone and a twist range ----------------------------------------------------------------------
 
 static void build_cone(bench_scene *s)
 {
@@ -117,8 +114,7 @@ static void judge_cone(bench_trial *t)
     bench_expect(t, "largest rise of the energy, share", bench_rise(t->energy, 1, t->step) / t->energy[0], 0.0, 0.01);
 }
 
-// ---- six sliders in a row, torn at
-// ----------------------------------------------------------------------------------------------------
+// ---- six sliders in a row, torn at ---------------------------------------------------------------------------------
 
 enum { SLIDERS = 6 };
 

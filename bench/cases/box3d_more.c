@@ -8,8 +8,7 @@
 
 static const double DEGREE = BENCH_PI / 180.0;
 
-// ---- leaning towers
-// -------------------------------------------------------------------------------------------------------------------
+// ---- leaning towers ------------------------------------------------------------------------------------------------
 
 // Each box sticks out by 0.2 m over the one below. Of n boxes above one the middle is 0.2 (n + 1) / 2 aside: three stay
 // over its face of half a metre, five do not.
@@ -34,8 +33,7 @@ static void judge_towers(bench_trial *t)
     bench_expect(t, "height of the highest top of the towers of six, m", top, 0.0, FALLING - 1.5);
 }
 
-// ---- capsules with much resistance to rolling
-// -----------------------------------------------------------------------------------------
+// ---- capsules with much resistance to rolling ----------------------------------------------------------------------
 
 enum { RESISTING = 10 };
 
@@ -61,8 +59,7 @@ static void judge_resisting(bench_trial *t)
     bench_expect(t, BENCH_SPEED, bench_largest_speed(t), 0.0, 0.05);
 }
 
-// ---- a heap on waves
-// ------------------------------------------------------------------------------------------------------------------
+// ---- a heap on waves -----------------------------------------------------------------------------------------------
 
 enum { HEAP = 100, HEAP_SIDE = 5, REST_STEPS = 400 };
 
@@ -93,8 +90,7 @@ static void judge_wave_pile(bench_trial *t)
     bench_expect(t, BENCH_SPEED, bench_largest_speed(t), 0.0, 0.05);
 }
 
-// ---- columns of squares, hinged by pairs
-// ----------------------------------------------------------------------------------------------
+// ---- columns of squares, hinged by pairs ---------------------------------------------------------------------------
 
 enum { HINGED_COLUMNS = 4, HINGED_ROWS = 20 };
 static const double SQUARE = 0.25; // m, half a side

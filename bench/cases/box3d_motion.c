@@ -5,8 +5,7 @@
 
 #include <math.h>
 
-// ---- spinning books: free turning about three axes
-// ------------------------------------------------------------------------------------
+// ---- spinning books: free turning about three axes -----------------------------------------------------------------
 
 enum { BOOKS = 3, ABOUT_MIDDLE = 1 };
 
@@ -49,8 +48,7 @@ static void judge_books(bench_trial *t)
     bench_expect(t, "about the shortest: wobble, rad", t->notes[3], 0.0, degree);
 }
 
-// ---- thin wall
-// ------------------------------------------------------------------------------------------------------------------------
+// ---- thin wall -----------------------------------------------------------------------------------------------------
 
 enum { SHOTS = 3 };
 
@@ -79,8 +77,7 @@ static void judge_thin_wall(bench_trial *t)
     bench_expect(t, "bodies beyond the wall x steps", t->notes[0], 0.0, 0.0);
 }
 
-// ---- spinning stick: 100 sticks fall on a narrow beam
-// ---------------------------------------------------------------------------------
+// ---- spinning stick: 100 sticks fall on a narrow beam --------------------------------------------------------------
 
 enum { STICKS = 100 };
 
@@ -111,8 +108,7 @@ static void judge_spinning_sticks(bench_trial *t)
     bench_expect(t, "sticks through the beam x steps", t->notes[0], 0.0, 0.0);
 }
 
-// ---- bullet against a stack
-// -----------------------------------------------------------------------------------------------------------
+// ---- bullet against a stack ----------------------------------------------------------------------------------------
 
 enum { STACKED = 10 };
 

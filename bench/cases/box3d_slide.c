@@ -13,8 +13,7 @@ static double way(const bench_trial *t, int32_t body)
                 (p[2] - start[2]) * (p[2] - start[2]));
 }
 
-// ---- inclined plane: 40 degrees, five frictions
-// ---------------------------------------------------------------------------------------
+// ---- inclined plane: 40 degrees, five frictions --------------------------------------------------------------------
 
 enum { ON_PLANE = 5 };
 static const double STEEP = 40.0 * BENCH_PI / 180.0;
@@ -57,8 +56,7 @@ static void judge_inclined_plane(bench_trial *t)
     bench_expect_stray(t, "friction 1: way, m (tan 40 = 0.84)", way(t, ON_PLANE), BENCH_LINEAR_SLOP);
 }
 
-// ---- rolling resistance
-// ---------------------------------------------------------------------------------------------------------------
+// ---- rolling resistance --------------------------------------------------------------------------------------------
 
 enum { ROLLERS = 5 };
 static const double GENTLE = 10.0 * BENCH_PI / 180.0;
@@ -85,8 +83,7 @@ static void judge_rolling_resistance(bench_trial *t)
     bench_expect_stray(t, "resistance 0.2: way, m (tan 10 = 0.176)", way(t, ROLLERS), BENCH_LINEAR_SLOP);
 }
 
-// ---- isotropic friction
-// ---------------------------------------------------------------------------------------------------------------
+// ---- isotropic friction --------------------------------------------------------------------------------------------
 
 enum { DIRECTIONS = 32 };
 static const double DEPARTURE = 25.0; // m/s
@@ -115,8 +112,7 @@ static void judge_isotropic_friction(bench_trial *t)
     bench_expect(t, "spread over 32 directions", (most - least) / exact, 0.0, 0.01);
 }
 
-// ---- slide and twist: a box that spins on a slope it does not slide down
-// --------------------------------------------------------------
+// ---- slide and twist: a box that spins on a slope it does not slide down -------------------------------------------
 
 static const double TWIST_SLOPE = 20.0 * BENCH_PI / 180.0;
 static const double TWIST_SPIN = 25.0; // rad/s about the slope's normal
@@ -146,8 +142,7 @@ static void judge_slide_twist(bench_trial *t)
     bench_expect_own(t, "way down the slope, m", way(t, 1), 0.0, 0.1);
 }
 
-// ---- restitution row
-// ------------------------------------------------------------------------------------------------------------------
+// ---- restitution row -----------------------------------------------------------------------------------------------
 
 enum { BOUNCERS = 40 };
 static const double DROP = 39.5; // m, of the lowest point

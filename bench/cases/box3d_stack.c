@@ -8,8 +8,7 @@ static const double GRAVITY = 10.0; // m/s2
 
 static void add_rolling(bench_scene *s, int32_t shape, double rolling) { s->shapes[shape].rolling = (float)rolling; }
 
-// ---- sphere stack, capsule stack, box stack
-// -------------------------------------------------------------------------------------------
+// ---- sphere stack, capsule stack, box stack ------------------------------------------------------------------------
 
 enum { SPHERES = 30, CAPSULES = 20, BOXES = 40 };
 
@@ -85,8 +84,7 @@ static void judge_box_stack(bench_trial *t)
     bench_expect_stray(t, BENCH_DRIFT, bench_largest_drift(t), 0.2);
 }
 
-// ---- domino rings
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- domino rings --------------------------------------------------------------------------------------------------
 
 enum { RINGS = 30, IN_RING = 181 };
 
@@ -124,8 +122,7 @@ static void judge_domino_rings(bench_trial *t)
     bench_expect(t, "largest rise of the energy, share", bench_rise(t->energy, 1, t->step) / t->energy[1], 0.0, 1e-4);
 }
 
-// ---- pyramid in a plane of locks
-// ------------------------------------------------------------------------------------------------------
+// ---- pyramid in a plane of locks -----------------------------------------------------------------------------------
 
 enum { LOCKED_ROWS = 12 };
 
@@ -155,8 +152,7 @@ static void judge_locked_pyramid(bench_trial *t)
     bench_expect_stray(t, "sideways way of the top, m", bench_drift(t, top), 0.1);
 }
 
-// ---- hello world: Box3D's own unit test
-// -----------------------------------------------------------------------------------------------
+// ---- hello world: Box3D's own unit test ----------------------------------------------------------------------------
 
 static void build_hello(bench_scene *s)
 {

@@ -9,8 +9,7 @@
 static const double GRAVITY = 10.0; // m/s2
 static const double DEGREE = BENCH_PI / 180.0;
 
-// ---- thin boxes on a heightfield
-// ------------------------------------------------------------------------------------------------------
+// ---- thin boxes on a heightfield -----------------------------------------------------------------------------------
 
 enum { THIN_SIDE = 32, WAVE_SAMPLES = 41, SCATTERED = 2 };
 
@@ -57,8 +56,7 @@ static void judge_needles(bench_trial *t)
     bench_expect(t, "boxes faster than 5 cm/s after 5 s", count_faster(t, 0.05), 0.0, 0.0);
 }
 
-// ---- rain of humans
-// -------------------------------------------------------------------------------------------------------------------
+// ---- rain of humans ------------------------------------------------------------------------------------------------
 
 // The human of Box3D, 14 capsules: pose of the capsule's middle relative to the spawn point, joint to the parent there
 // (point and axis; ranges in degrees about the pose at the start; friction in units of 5 N m). Its springs are left
@@ -293,8 +291,7 @@ static void judge_rain(bench_trial *t)
     bench_expect(t, "bones faster than 5 cm/s at the end", count_faster(t, 0.05), 0.0, 0.0);
 }
 
-// ---- washer
-// ---------------------------------------------------------------------------------------------------------------------------
+// ---- washer --------------------------------------------------------------------------------------------------------
 
 // In the drum's own frame: it stands, gravity turns, once in 14.4 s. (What the turning frame adds, 3 m/s2 at the wall,
 // is left out.) Cubes of twice the size and an eighth in number.
@@ -348,8 +345,7 @@ static void judge_washer(bench_trial *t)
                  8.0 * BENCH_LINEAR_SLOP); // 10 layers on a cube's corner, P1: 4 x 10 g/w2 = 11 mm
 }
 
-// ---- large world
-// ----------------------------------------------------------------------------------------------------------------------
+// ---- large world ---------------------------------------------------------------------------------------------------
 
 enum { TILES = 100, DROPPED = 10 };
 

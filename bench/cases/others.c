@@ -10,8 +10,7 @@ static const double EARTH = 9.81; // m/s2
 
 static void set_earth(bench_scene *s) { s->gravity[1] = -EARTH; }
 
-// ---- Jolt: a square pyramid of boxes, each half a metre above the one below
-// -----------------------------------------------------------
+// ---- Jolt: a square pyramid of boxes, each half a metre above the one below ----------------------------------------
 
 enum { LEVELS = 15 };
 
@@ -37,8 +36,7 @@ static void judge_jolt_pyramid(bench_trial *t)
     bench_expect(t, BENCH_SPEED, bench_largest_speed(t), 0.0, 0.05);
 }
 
-// ---- Jolt: high speed
-// -----------------------------------------------------------------------------------------------------------------
+// ---- Jolt: high speed ----------------------------------------------------------------------------------------------
 
 enum { FAST = 48 };
 static const double ROOM = 10.0, THIN = 0.1; // m: half the room, half its walls' thickness
@@ -82,8 +80,7 @@ static void judge_high_speed(bench_trial *t)
     bench_expect(t, "largest rise of the energy, share", bench_rise(t->energy, 0, t->step) / t->energy[0], 0.0, 1e-3);
 }
 
-// ---- SimBenchmark: rolling
-// ------------------------------------------------------------------------------------------------------------
+// ---- SimBenchmark: rolling -----------------------------------------------------------------------------------------
 
 enum { BALLS = 25, PLATE = 1 };
 static const double PUSH = 150.0, A_PLATE = 0.7385,
@@ -136,8 +133,7 @@ static void judge_rolling(bench_trial *t) { expect_rolling(t, 0.0); }
 
 static void judge_rolling_60(bench_trial *t) { expect_rolling(t, BENCH_PI / 3.0); }
 
-// ---- SimBenchmark: bouncing
-// -----------------------------------------------------------------------------------------------------------
+// ---- SimBenchmark: bouncing ----------------------------------------------------------------------------------------
 
 enum { BOUNCING = 7 };
 
@@ -161,8 +157,7 @@ static void judge_bouncing(bench_trial *t)
     bench_expect(t, "largest energy / start", bench_highest(t->energy, 0, t->step) / t->energy[0], 0.0, 1.004);
 }
 
-// ---- SimBenchmark: elastic 666
-// --------------------------------------------------------------------------------------------------------
+// ---- SimBenchmark: elastic 666 -------------------------------------------------------------------------------------
 
 enum { DROPPED = 6 };
 
@@ -196,8 +191,7 @@ static void judge_elastic(bench_trial *t)
     bench_expect(t, "largest energy / start", bench_highest(t->energy, 0, t->step) / t->energy[0], 0.0, 1.007);
 }
 
-// ---- Painleve's rods: slide on a tip where rigid bodies with friction have no consistent force
-// ----------------------------------------
+// ---- Painleve's rods: slide on a tip where rigid bodies with friction have no consistent force ---------------------
 
 static const double LEANING = 63.0 * BENCH_PI / 180.0, ROD = 0.5,
                     TIP = 0.02; // rad off the floor; m: half the axis, radius

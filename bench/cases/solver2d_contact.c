@@ -6,8 +6,7 @@
 
 static const double GRAVITY = 10.0; // m/s2
 
-// ---- friction ramp: five boxes of falling friction on three ramps
-// --------------------------------------------------------------------
+// ---- friction ramp: five boxes of falling friction on three ramps --------------------------------------------------
 
 enum { RAMP_BOXES = 5, RAMP_PARTS = 6 };
 static const double RAMP =
@@ -87,8 +86,7 @@ static void judge_friction_slope(bench_trial *t)
     }
 }
 
-// ---- overlap recovery: a pyramid pushed together by a quarter
-// -------------------------------------------------------------------------
+// ---- overlap recovery: a pyramid pushed together by a quarter ------------------------------------------------------
 
 enum { OVERLAP_ROWS = 4, OVERLAP_BOXES = 10 };
 
@@ -122,8 +120,7 @@ static void judge_overlap_recovery(bench_trial *t)
     bench_expect(t, BENCH_SPEED, bench_largest_speed(t), 0.0, 0.01);
 }
 
-// ---- rush: 400 balls pulled to a point
-// ------------------------------------------------------------------------------------------------
+// ---- rush: 400 balls pulled to a point -----------------------------------------------------------------------------
 
 enum { RUSHING = 400 };
 
@@ -171,8 +168,7 @@ static void judge_rush(bench_trial *t)
     bench_expect(t, BENCH_DEEPEST, bench_deepest(t), 0.0, 4.7 * mean + BENCH_LINEAR_SLOP);
 }
 
-// ---- double domino
-// --------------------------------------------------------------------------------------------------------------------
+// ---- double domino -------------------------------------------------------------------------------------------------
 
 enum { DOMINOES = 15 };
 
@@ -219,8 +215,7 @@ static void judge_double_domino(bench_trial *t)
     bench_expect(t, "largest rise of the energy, J", bench_rise(t->energy, 1, t->step), 0.0, 1e-3 * t->energy[1]);
 }
 
-// ---- confined: more balls than fit
-// ----------------------------------------------------------------------------------------------------
+// ---- confined: more balls than fit ---------------------------------------------------------------------------------
 
 enum { CROWD_SIDE = 25, WALLS = 4 };
 
@@ -259,8 +254,7 @@ static void judge_confined(bench_trial *t)
     bench_expect(t, BENCH_DEEPEST, bench_deepest(t), 0.0, 0.5);
 }
 
-// ---- card house (after PEEL)
-// ----------------------------------------------------------------------------------------------------------
+// ---- card house (after PEEL) ---------------------------------------------------------------------------------------
 
 static void add_card(bench_scene *s, int32_t card, double x, double y, double degrees)
 {

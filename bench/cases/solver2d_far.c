@@ -11,8 +11,7 @@ static void move_scene(bench_scene *s, double x, double y)
     for (int32_t i = 0; i < s->joint_count; i++) s->joints[i].anchor[0] += x, s->joints[i].anchor[1] += y;
 }
 
-// ---- pyramid of loosely set boxes
-// -----------------------------------------------------------------------------------------------------
+// ---- pyramid of loosely set boxes ----------------------------------------------------------------------------------
 
 enum { BASE = 10 };
 
@@ -55,8 +54,7 @@ static void judge_far_pyramid(bench_trial *t)
     bench_expect(t, BENCH_SPEED, bench_largest_speed(t), 0.0, 0.01);
 }
 
-// ---- a plank on two supports with two boxes on it
-// -------------------------------------------------------------------------------------
+// ---- a plank on two supports with two boxes on it ------------------------------------------------------------------
 
 enum { PLANK = 3 };
 
@@ -83,8 +81,7 @@ static void judge_far_stack(bench_trial *t)
     bench_expect(t, BENCH_SPEED, bench_largest_speed(t), 0.0, 0.01);
 }
 
-// ---- overlap recovery
-// -----------------------------------------------------------------------------------------------------------------
+// ---- overlap recovery ----------------------------------------------------------------------------------------------
 
 static void build_far_recovery(bench_scene *s)
 {
@@ -106,8 +103,7 @@ static void judge_far_recovery(bench_trial *t)
     bench_expect(t, BENCH_SPEED, bench_largest_speed(t), 0.0, 0.01);
 }
 
-// ---- chain
-// ----------------------------------------------------------------------------------------------------------------------------
+// ---- chain ---------------------------------------------------------------------------------------------------------
 
 enum { LINKS = 40 };
 

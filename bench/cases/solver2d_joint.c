@@ -13,8 +13,7 @@ static void damp(bench_scene *s, int32_t body)
     s->bodies[body].collides = 0;
 }
 
-// ---- bridge: 160 planks without any slack
-// ---------------------------------------------------------------------------------------------
+// ---- bridge: 160 planks without any slack --------------------------------------------------------------------------
 
 enum { PLANKS = 160 };
 
@@ -49,8 +48,7 @@ static void judge_bridge(bench_trial *t)
                  bench_rms(t->fastest, fifteen, t->step) / bench_rms(t->fastest, five, ten), 0.0, exp(-0.5));
 }
 
-// ---- ball and chain: 672:1
-// ------------------------------------------------------------------------------------------------------------
+// ---- ball and chain: 672:1 -----------------------------------------------------------------------------------------
 
 enum { LINKS = 40 };
 
@@ -88,8 +86,7 @@ static void judge_ball_and_chain(bench_trial *t)
                  bench_highest(t->kinetic, half, t->step) / bench_highest(t->kinetic, 0, half), 0.0, 1.0);
 }
 
-// ---- joint grid: a heavy net on seven anchors
-// -----------------------------------------------------------------------------------------
+// ---- joint grid: a heavy net on seven anchors ----------------------------------------------------------------------
 
 enum { GRID = 100 };
 
@@ -121,8 +118,7 @@ static void judge_joint_grid(bench_trial *t)
                  0.9);
 }
 
-// ---- stretched chain: every joint starts a metre open
-// ---------------------------------------------------------------------------------
+// ---- stretched chain: every joint starts a metre open --------------------------------------------------------------
 
 static void build_stretched_chain(bench_scene *s)
 {
@@ -149,8 +145,7 @@ static void judge_stretched_chain(bench_trial *t)
     bench_expect(t, "height of the last ball, m", t->poses[LINKS].position[1], -LINKS * gap, 0.5 + LINKS * gap);
 }
 
-// ---- ragdolls
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- ragdolls ------------------------------------------------------------------------------------------------------
 
 // A bone: a capsule along y from `low` to `high` about `y`; its hinge to the parent at `joint`; range in half turns;
 // friction in T = 0.025 scale N m.
@@ -244,8 +239,7 @@ static void build_far_ragdolls(bench_scene *s)
     for (int32_t i = 0; i < s->joint_count; i++) s->joints[i].anchor[0] += 6000.0, s->joints[i].anchor[1] -= 1500.0;
 }
 
-// ---- ragdolls through a funnel with paddles
-// -------------------------------------------------------------------------------------------
+// ---- ragdolls through a funnel with paddles ------------------------------------------------------------------------
 
 // Every half second a human of twice the size comes in on top, on the left and on the right by turns; whose torso is
 // below the funnel is taken away, and may come in again. Thirty-two at most at a time. (Solver2D lets them in 1.5 m

@@ -7,8 +7,7 @@
 
 static const double GRAVITY = 10.0; // m/s2
 
-// ---- single box: falls 3 m and stays
-// -----------------------------------------------------------------------------------------------
+// ---- single box: falls 3 m and stays -------------------------------------------------------------------------------
 
 static void build_single_box(bench_scene *s)
 {
@@ -36,8 +35,7 @@ static void judge_single_box(bench_trial *t)
     bench_expect(t, BENCH_SPEED, bench_largest_speed(t), 0.0, 1e-3);
 }
 
-// ---- warm start energy: a heavy ball is taken off two light ones
-// --------------------------------------------------------------------
+// ---- warm start energy: a heavy ball is taken off two light ones ---------------------------------------------------
 
 enum { HEAVY = 3, REMOVED_AT = 119, A_SECOND = 60 };
 
@@ -71,8 +69,7 @@ static void judge_warm_start_energy(bench_trial *t)
     bench_expect(t, "kinetic energy a second later, J", t->kinetic[REMOVED_AT + 1 + A_SECOND], 0.0, 1e-4);
 }
 
-// ---- high mass ratio 1: a box 100 to 300 times as heavy falls on a pyramid
-// -----------------------------------------------------------
+// ---- high mass ratio 1: a box 100 to 300 times as heavy falls on a pyramid -----------------------------------------
 
 enum { ROWS = 10, PYRAMIDS = 3, IN_PYRAMID = 55 };
 
@@ -110,8 +107,7 @@ static void judge_high_mass_ratio_1(bench_trial *t)
     bench_expect(t, BENCH_SPEED, bench_largest_speed(t), 0.0, 0.05);
 }
 
-// ---- high mass ratio 2 and 3: a block of 400 kg falls on two small boxes of 1 kg
-// ------------------------------------------------------
+// ---- high mass ratio 2 and 3: a block of 400 kg falls on two small boxes of 1 kg -----------------------------------
 
 static void add_big_on_small(bench_scene *s)
 {
@@ -152,8 +148,7 @@ static void judge_big_on_small(bench_trial *t)
     bench_expect_stray(t, "drift of the small boxes, m", fmax(bench_drift(t, 1), bench_drift(t, 2)), 0.05);
 }
 
-// ---- vertical stack, pyramid
-// ----------------------------------------------------------------------------------------------------------
+// ---- vertical stack, pyramid ---------------------------------------------------------------------------------------
 
 enum { STACKED = 15, BASE = 20 };
 
@@ -208,8 +203,7 @@ static void judge_pyramid(bench_trial *t)
     bench_expect(t, "largest drop, m (a row is 1)", drop, -0.5, 0.5 + (rows > BASE ? sink : 0.0));
 }
 
-// ---- circle stack: kept upright by exact symmetry
-// -------------------------------------------------------------------------------------
+// ---- circle stack: kept upright by exact symmetry ------------------------------------------------------------------
 
 enum { CIRCLES = 10 };
 

@@ -117,8 +117,7 @@ static fe_result part_groups(const bench_world *w, const bench_scene *scene)
     return result;
 }
 
-// ---- joints
-// ---------------------------------------------------------------------------------------------------------------------------
+// ---- joints --------------------------------------------------------------------------------------------------------
 // Stiffness of joints that other engines set one by one: here it is the world's, as one joint's own would make it a
 // spring that swings.
 static fe_result set_tuning(fe_world *world, const bench_scene *scene)

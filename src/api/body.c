@@ -9,8 +9,7 @@
 
 #include <string.h>
 
-// ---- life
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- life ----------------------------------------------------------------------------------------------------------
 
 static fe_body_def default_body(void)
 {
@@ -146,8 +145,7 @@ int32_t fe_body_is_valid(const fe_world *world, fe_body body)
     return world && fe__id_pool_find(&world->body_ids, body, &index) == FE_OK;
 }
 
-// ---- type and pose
-// --------------------------------------------------------------------------------------------------------------
+// ---- type and pose -------------------------------------------------------------------------------------------------
 
 // has a form that only static bodies may have
 static int32_t must_be_static(const fe_world *world, int32_t body)
@@ -213,8 +211,7 @@ fe_result fe_body_get_centre(const fe_world *world, fe_body body, fe_dvec3 *out_
     return FE_OK;
 }
 
-// ---- mass
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- mass ----------------------------------------------------------------------------------------------------------
 
 static fe_result check_dynamic(const char *function, const fe_world *world, int32_t index, fe_body body)
 {
@@ -333,8 +330,7 @@ fe_result fe_body_reset_mass(fe_world *world, fe_body body)
     return FE_OK;
 }
 
-// ---- locks, damping, gravity
-// ----------------------------------------------------------------------------------------------------
+// ---- locks, damping, gravity ---------------------------------------------------------------------------------------
 
 fe_result fe_body_set_locks(fe_world *world, fe_body body, uint32_t linear_axes, uint32_t angular_axes)
 {
@@ -402,8 +398,7 @@ fe_result fe_body_get_gravity_scale(const fe_world *world, fe_body body, float *
     return FE_OK;
 }
 
-// ---- sleep
-// ----------------------------------------------------------------------------------------------------------------------
+// ---- sleep ---------------------------------------------------------------------------------------------------------
 
 fe_result fe_body_set_awake(fe_world *world, fe_body body, int32_t awake)
 {
@@ -474,8 +469,7 @@ fe_result fe_body_get_sleep_threshold(const fe_world *world, fe_body body, float
     return FE_OK;
 }
 
-// ---- switches
-// -------------------------------------------------------------------------------------------------------------------
+// ---- switches ------------------------------------------------------------------------------------------------------
 
 fe_result fe_body_set_enabled(fe_world *world, fe_body body, int32_t enabled)
 {
@@ -533,8 +527,7 @@ fe_result fe_body_get_user_data(const fe_world *world, fe_body body, uint64_t *o
     return FE_OK;
 }
 
-// ---- its shapes
-// -----------------------------------------------------------------------------------------------------------------
+// ---- its shapes ----------------------------------------------------------------------------------------------------
 
 fe_result fe_body_set_filter(fe_world *world, fe_body body, uint32_t layer, uint32_t mask, int32_t group)
 {

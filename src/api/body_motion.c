@@ -4,8 +4,7 @@
 #include "world/motion.h"
 #include "world/pose.h"
 
-// ---- velocities
-// -----------------------------------------------------------------------------------------------------------------
+// ---- velocities ----------------------------------------------------------------------------------------------------
 
 static fe_result check_moves(const char *function, const fe_world *world, int32_t index, fe_body body)
 {
@@ -103,8 +102,7 @@ fe_result fe_body_set_target(fe_world *world, fe_body body, const fe_transform *
     return FE_OK;
 }
 
-// ---- forces
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- forces --------------------------------------------------------------------------------------------------------
 
 static void push(fe_world *world, int32_t index, fe_vec3 force, fe_vec3 torque)
 {
@@ -153,8 +151,7 @@ fe_result fe_body_add_torque(fe_world *world, fe_body body, const fe_vec3 *torqu
     return FE_OK;
 }
 
-// ---- impulses
-// -------------------------------------------------------------------------------------------------------------------
+// ---- impulses ------------------------------------------------------------------------------------------------------
 
 static fe_result strike(const char *function, fe_world *world, int32_t index, fe_vec3 impulse, fe_vec3 angular_impulse)
 {

@@ -48,8 +48,7 @@ static fe_result find_all(const char *function, const fe_world *world, const fe_
     return FE_OK;
 }
 
-// ---- poses
-// ----------------------------------------------------------------------------------------------------------------------
+// ---- poses ---------------------------------------------------------------------------------------------------------
 
 int32_t fe_world_get_moved(const fe_world *world, fe_body *out_bodies, fe_transform *out_transforms, uint32_t stride,
                            int32_t capacity)
@@ -125,8 +124,7 @@ fe_result fe_world_get_transforms_f32(const fe_world *world, const fe_body *bodi
     return FE_OK;
 }
 
-// ---- velocities and forces
-// ------------------------------------------------------------------------------------------------------
+// ---- velocities and forces -----------------------------------------------------------------------------------------
 
 fe_result fe_world_get_velocities(const fe_world *world, const fe_body *bodies, float *out_floats, uint32_t stride,
                                   int32_t count)

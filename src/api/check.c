@@ -33,8 +33,7 @@ fe_result fe__refuse_writer(const char *function)
                     "another thread is reading this world; call it when its calls have returned");
 }
 
-// ---- handles
-// --------------------------------------------------------------------------------------------------------------------
+// ---- handles -------------------------------------------------------------------------------------------------------
 
 static fe_result find(const char *function, const char *name, const fe__id_pool *pool, fe_handle handle,
                       int32_t *out_slot)
@@ -93,8 +92,7 @@ fe_result fe__find_asset(const char *function, const char *name, const fe_store 
     return fe__fail(function, FE_ERROR_STALE, "asset 0x%llx was destroyed; it lives on for its shapes only", handle);
 }
 
-// ---- words of a sentence
-// --------------------------------------------------------------------------------------------------------
+// ---- words of a sentence -------------------------------------------------------------------------------------------
 
 // The checks' arguments are expressions of the code, such as &full->frame.position. The caller knows what is behind the
 // last arrow.
@@ -128,8 +126,7 @@ static number_text text_of(double value)
     return t;
 }
 
-// ---- values
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- values --------------------------------------------------------------------------------------------------------
 
 fe_result fe__check_pointer(const char *function, const char *name, int32_t there)
 {
@@ -211,8 +208,7 @@ fe_result fe__check_transform(const char *function, const char *name, const fe_t
     return fe__check_quat(function, name, &transform->rotation);
 }
 
-// ---- arrays
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- arrays --------------------------------------------------------------------------------------------------------
 
 fe_result fe__check_array(const char *function, const char *name, const char *count_name, const void *array,
                           int32_t count)
@@ -247,8 +243,7 @@ fe_result fe__check_reserved(const char *function, const void *words, int32_t co
     return FE_OK;
 }
 
-// ---- structs that grow
-// ----------------------------------------------------------------------------------------------------------
+// ---- structs that grow ---------------------------------------------------------------------------------------------
 
 static uint32_t size_of(const void *given)
 {

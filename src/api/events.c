@@ -17,8 +17,7 @@ static void put(void *out, uint32_t stride, int32_t i, const void *record, size_
     memcpy(fe__at(out, stride, i), record, size < stride ? size : stride);
 }
 
-// ---- events
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- events --------------------------------------------------------------------------------------------------------
 
 // Where the events of one kind lie: records with the event at an offset
 typedef struct event_list {
@@ -68,8 +67,7 @@ int32_t fe_world_get_joint_events(const fe_world *world, fe_joint_event *out_eve
     return write_events(function, LIST_OF(joint), out_events, stride, capacity);
 }
 
-// ---- contacts
-// -------------------------------------------------------------------------------------------------------------------
+// ---- contacts ------------------------------------------------------------------------------------------------------
 
 static int32_t point_count(const fe_world *world, int32_t pair)
 {
@@ -157,8 +155,7 @@ int32_t fe_shape_get_contacts(const fe_world *world, fe_shape shape, fe_contact 
     return count;
 }
 
-// ---- who is inside
-// --------------------------------------------------------------------------------------------------------------
+// ---- who is inside -------------------------------------------------------------------------------------------------
 
 // The list of a body's pairs is in no order that shows: each is put where its creation says
 static int32_t add_overlap(const fe_world *world, int32_t shape, fe_shape *out_shapes, int32_t count, int32_t capacity)

@@ -5,8 +5,7 @@
 
 enum { MOST_LINES = 32768, MOST_SAMPLES = 1 << 28, MOST_MATERIALS = FE__CELL_HOLE };
 
-// ---- birth and death
-// ------------------------------------------------------------------------------------------------------------
+// ---- birth and death -----------------------------------------------------------------------------------------------
 
 static fe_heightfield_def default_heightfield(void)
 {
@@ -84,8 +83,7 @@ fe_result fe_heightfield_create(fe_store *store, const fe_heightfield_def *def, 
     return FE_OK;
 }
 
-// ---- heights
-// --------------------------------------------------------------------------------------------------------------------
+// ---- heights -------------------------------------------------------------------------------------------------------
 
 static fe_result check_part(const char *function, const fe__heightfield *field, const fe__samples *part)
 {

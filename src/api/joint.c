@@ -10,8 +10,7 @@
 static const char *const type_names[FE__JOINT_TYPES] = {"none",  "distance joint", "ball joint",
                                                         "hinge", "fixed joint",    "configurable joint"};
 
-// ---- birth
-// ----------------------------------------------------------------------------------------------------------------------------
+// ---- birth ---------------------------------------------------------------------------------------------------------
 static fe_result create(const char *function, fe_world *world, int32_t type, const void *def, fe_joint *out_joint)
 {
     if (out_joint) *out_joint = 0;
@@ -57,8 +56,7 @@ fe_result fe_configurable_joint_create(fe_world *world, const fe_configurable_jo
     return create(__func__, world, FE_JOINT_CONFIGURABLE, def, out_joint);
 }
 
-// ---- change
-// ---------------------------------------------------------------------------------------------------------------------------
+// ---- change --------------------------------------------------------------------------------------------------------
 static fe_result check_type(const char *function, const fe_world *world, int32_t index, int32_t type)
 {
     int32_t actual = world->joint_records[index].type;
@@ -155,8 +153,7 @@ fe_result fe_configurable_joint_get(const fe_world *world, fe_joint joint, fe_co
     return get(__func__, world, FE_JOINT_CONFIGURABLE, joint, out_def);
 }
 
-// ---- what all types have
-// --------------------------------------------------------------------------------------------------------------
+// ---- what all types have -------------------------------------------------------------------------------------------
 fe_result fe_joint_set(fe_world *world, fe_joint joint, const fe_joint_def *def)
 {
     FE_WRITE(world);
@@ -256,8 +253,7 @@ fe_result fe_joint_get_bodies(const fe_world *world, fe_joint joint, fe_body *ou
     return FE_OK;
 }
 
-// ---- readings
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- readings ------------------------------------------------------------------------------------------------------
 fe_result fe_joint_get_frames(const fe_world *world, fe_joint joint, fe_transform *out_frame_a,
                               fe_transform *out_frame_b)
 {

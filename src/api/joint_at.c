@@ -4,8 +4,7 @@
 #include "core/fp_state.h"
 #include "world/handles.h"
 
-// ---- frames
-// ---------------------------------------------------------------------------------------------------------------------------
+// ---- frames --------------------------------------------------------------------------------------------------------
 typedef struct ends {
     int32_t body[2];
 } ends;
@@ -96,8 +95,7 @@ static fe_result at_point(const char *function, const fe_world *world, int32_t t
     return FE_OK;
 }
 
-// ---- the five types
-// -------------------------------------------------------------------------------------------------------------------
+// ---- the five types ------------------------------------------------------------------------------------------------
 fe_result fe_ball_joint_def_at(const fe_world *world, fe_ball_joint_def *def, fe_body body_a, fe_body body_b,
                                const fe_dvec3 *point, const fe_vec3 *axis)
 {

@@ -6,8 +6,7 @@
 #define LEAST_CONE 0.01f
 #define NO_CAP FE_MAX_FORCE
 
-// ---- defaults
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- defaults ------------------------------------------------------------------------------------------------------
 static void default_axes(fe_joint_axis *axes)
 {
     for (int k = 0; k < 6; ++k)
@@ -107,8 +106,7 @@ void fe_configurable_joint_def_init(fe_configurable_joint_def *def, uint32_t str
     init(FE_JOINT_CONFIGURABLE, def, struct_size);
 }
 
-// ---- checks
-// ---------------------------------------------------------------------------------------------------------------------------
+// ---- checks --------------------------------------------------------------------------------------------------------
 #define FE_CHECK_SOFTNESS(hertz, damping_ratio)            \
     do {                                                   \
         FE_CHECK_FLOAT(hertz, 0.0f, FE_MAX_VALUE);         \

@@ -5,8 +5,7 @@
 #include "world/mechanics.h"
 #include "world/proxies.h"
 
-// ---- energy and momentum
-// ------------------------------------------------------------------------------------------------------------
+// ---- energy and momentum -------------------------------------------------------------------------------------------
 
 void fe_energy_init(fe_energy *energy, uint32_t struct_size)
 {
@@ -39,8 +38,7 @@ fe_result fe_world_get_momentum(const fe_world *world, const fe_dvec3 *about, fe
     return FE_OK;
 }
 
-// ---- stiffness
-// ----------------------------------------------------------------------------------------------------------------------
+// ---- stiffness -----------------------------------------------------------------------------------------------------
 
 fe_result fe_world_get_hertz(const fe_world *world, float dt, float *out_contact_hertz, float *out_joint_hertz)
 {
@@ -59,8 +57,7 @@ fe_result fe_world_get_hertz(const fe_world *world, float dt, float *out_contact
     return FE_OK;
 }
 
-// ---- bounds
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- bounds --------------------------------------------------------------------------------------------------------
 
 static fe_bounds public_bounds(const fe__bounds *b) { return (fe_bounds){b->low, b->high}; }
 

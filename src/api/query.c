@@ -9,8 +9,7 @@
 
 // Hits are ordered in the caller's array, which needs them whole, as version 1.0 knew them.
 
-// ---- arguments
-// ------------------------------------------------------------------------------------------------------------------
+// ---- arguments -----------------------------------------------------------------------------------------------------
 static fe_query_filter default_filter(void)
 {
     return (fe_query_filter){.struct_size = sizeof(fe_query_filter), .mask = UINT32_MAX};
@@ -80,8 +79,7 @@ fe__scene fe__scene_of(const fe_world *world, const fe_query_filter *whole_filte
                        .filter = whole_filter};
 }
 
-// ---- what a ray meets
-// -----------------------------------------------------------------------------------------------------------
+// ---- what a ray meets ----------------------------------------------------------------------------------------------
 int32_t fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const fe_dvec3 *translation,
                          const fe_query_filter *filter, fe_hit *out_hit)
 {
@@ -136,8 +134,7 @@ int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, cons
     return count;
 }
 
-// ---- what a moving form meets
-// ---------------------------------------------------------------------------------------------------
+// ---- what a moving form meets --------------------------------------------------------------------------------------
 int32_t fe_world_sweep(const fe_world *world, const fe_geometry *geometry, const fe_transform *start,
                        const fe_dvec3 *translation, const fe_query_filter *filter, fe_hit *out_hit)
 {
@@ -196,8 +193,7 @@ int32_t fe_world_sweep_all(const fe_world *world, const fe_geometry *geometry, c
     return count;
 }
 
-// ---- what a form overlaps
-// -------------------------------------------------------------------------------------------------------
+// ---- what a form overlaps ------------------------------------------------------------------------------------------
 static const fe_dvec3 nowhere = {0.0, 0.0, 0.0};
 
 int32_t fe_world_overlap(const fe_world *world, const fe_geometry *geometry, const fe_transform *at,
@@ -278,8 +274,7 @@ int32_t fe_world_overlap_bounds(const fe_world *world, const fe_bounds *bounds, 
     return count;
 }
 
-// ---- what is near
-// ---------------------------------------------------------------------------------------------------------------
+// ---- what is near --------------------------------------------------------------------------------------------------
 int32_t fe_world_closest_point(const fe_world *world, const fe_dvec3 *point, double max_distance,
                                const fe_query_filter *filter, fe_closest *out_closest)
 {

@@ -8,8 +8,7 @@
 #include "world/shapes.h"
 #include "world/sleep.h"
 
-// ---- geometry
-// -------------------------------------------------------------------------------------------------------------------
+// ---- geometry ------------------------------------------------------------------------------------------------------
 
 void fe_geometry_init(fe_geometry *geometry, uint32_t struct_size)
 {
@@ -120,8 +119,7 @@ static fe_result check_one_way(const char *function, const fe__form *form, uint3
     return fe__fail(function, FE_ERROR_UNSUPPORTED, "a %s cannot be one-way", fe__traits_of(form)->name);
 }
 
-// ---- life
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- life ----------------------------------------------------------------------------------------------------------
 
 enum { ALL_EVENTS = FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT };
 
@@ -218,8 +216,7 @@ fe_result fe_shape_get_body(const fe_world *world, fe_shape shape, fe_body *out_
     return FE_OK;
 }
 
-// ---- form
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- form ----------------------------------------------------------------------------------------------------------
 
 static fe_result set_form(const char *function, fe_world *world, int32_t shape, const fe__form *form)
 {
@@ -308,8 +305,7 @@ fe_result fe_shape_get_density(const fe_world *world, fe_shape shape, float *out
     return FE_OK;
 }
 
-// ---- surface
-// --------------------------------------------------------------------------------------------------------------------
+// ---- surface -------------------------------------------------------------------------------------------------------
 
 // What rests by friction may start to slide, what lies on a belt to move.
 static void renew_surface(fe_world *world, int32_t index)
@@ -358,8 +354,7 @@ fe_result fe_shape_get_surface_velocity(const fe_world *world, fe_shape shape, f
     return FE_OK;
 }
 
-// ---- filter, trigger, events
-// ----------------------------------------------------------------------------------------------------
+// ---- filter, trigger, events ---------------------------------------------------------------------------------------
 
 fe_result fe_shape_set_filter(fe_world *world, fe_shape shape, uint32_t layer, uint32_t mask, int32_t group)
 {

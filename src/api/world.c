@@ -9,8 +9,7 @@
 #include "world/proxies.h"
 #include "world/sleep.h"
 
-// ---- creation
-// -------------------------------------------------------------------------------------------------------------------
+// ---- creation ------------------------------------------------------------------------------------------------------
 
 static fe_world_def default_world(void)
 {
@@ -97,8 +96,7 @@ fe_result fe_world_destroy(fe_world *world)
     return FE_OK;
 }
 
-// ---- the step
-// -------------------------------------------------------------------------------------------------------------------
+// ---- the step ------------------------------------------------------------------------------------------------------
 
 fe_result fe_world_step(fe_world *world, float dt)
 {
@@ -113,8 +111,7 @@ fe_result fe_world_step(fe_world *world, float dt)
     return fe__report(function, result);
 }
 
-// ---- settings
-// -------------------------------------------------------------------------------------------------------------------
+// ---- settings ------------------------------------------------------------------------------------------------------
 
 static void wake_all(fe_world *world)
 {
@@ -280,8 +277,7 @@ fe_result fe_world_optimize(fe_world *world)
     return built ? FE_OK : fe__report(function, FE_ERROR_MEMORY);
 }
 
-// ---- the defaults of what is read into, and of what the host gives
-// ---------------------------------------------------------------
+// ---- the defaults of what is read into, and of what the host gives -------------------------------------------------
 
 #define FE_DEFINE_EMPTY_INIT(name, type, argument)                          \
     void name(type *argument, uint32_t struct_size)                         \
@@ -300,8 +296,7 @@ void fe_task_system_init(fe_task_system *tasks, uint32_t struct_size)
     fe__init_struct(tasks, &defaults, sizeof defaults, struct_size);
 }
 
-// ---- measures
-// -------------------------------------------------------------------------------------------------------------------
+// ---- measures ------------------------------------------------------------------------------------------------------
 
 fe_result fe_world_get_profile(const fe_world *world, fe_profile *out_profile)
 {

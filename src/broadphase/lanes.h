@@ -28,8 +28,7 @@ typedef struct fe__lanes {
 
 #define FE_LANES_INLINE static inline __attribute__((always_inline))
 
-// ---- four
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- four ----------------------------------------------------------------------------------------------------------
 FE_LANES_INLINE fe__quad fe__quad_set(float x) { return (fe__quad){x, x, x, x}; }
 FE_LANES_INLINE fe__quad fe__quad_choose(fe__quad_int mask, fe__quad yes, fe__quad no)
 {
@@ -62,8 +61,7 @@ FE_LANES_INLINE uint32_t fe__quad_signs(fe__quad_int x)
 }
 #endif
 
-// ---- eight
-// --------------------------------------------------------------------------------------------------------------------
+// ---- eight ---------------------------------------------------------------------------------------------------------
 FE_LANES_INLINE fe__lanes fe__lanes_load(const float *row) // 16-byte aligned
 {
     return (fe__lanes){*(const fe__quad *)row, *(const fe__quad *)(row + 4)};

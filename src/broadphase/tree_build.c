@@ -164,8 +164,7 @@ static void cut(item *items, const part *p, int32_t depth, part *left, part *rig
     right->first = p->first + left->count;
 }
 
-// ---- nodes
-// --------------------------------------------------------------------------------------------------------------------
+// ---- nodes ---------------------------------------------------------------------------------------------------------
 // The part with the largest area x count of those that do not fit one node; -1: all do.
 static int32_t costliest(const part parts[FE_TREE_WIDTH], int32_t count)
 {

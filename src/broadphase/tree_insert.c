@@ -32,8 +32,7 @@ static int32_t append_node(fe__tree *tree, int32_t parent, int32_t lane)
     return index;
 }
 
-// ---- where to
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- where to ------------------------------------------------------------------------------------------------------
 typedef struct lane_costs {
     _Alignas(16) float area[FE_TREE_WIDTH]; // of the lane's box
     _Alignas(16) float cost[FE_TREE_WIDTH]; // area that is added by putting the new box there
@@ -106,8 +105,7 @@ static int32_t descend(fe__tree *tree, fe__tree_box box, int32_t *out_lane, int3
     }
 }
 
-// ---- splitting a full node
-// ----------------------------------------------------------------------------------------------------
+// ---- splitting a full node -----------------------------------------------------------------------------------------
 static void sort_by_centre(entry entries[NINE], int32_t axis)
 {
     for (int32_t i = 1; i < NINE; ++i) {

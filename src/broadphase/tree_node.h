@@ -47,8 +47,7 @@ static inline fe__tree_box fe__tree_box_of(const fe_dvec3 *origin, const fe__bou
                           {fe__tree_round_up(high.x), fe__tree_round_up(high.y), fe__tree_round_up(high.z), 0.0f}};
 }
 
-// ---- one lane
-// -----------------------------------------------------------------------------------------------------------------
+// ---- one lane ------------------------------------------------------------------------------------------------------
 static inline fe__tree_box fe__lane_box(const fe__tree_node *node, int32_t lane)
 {
     return (fe__tree_box){{node->box[0][lane], node->box[1][lane], node->box[2][lane], 0.0f},
@@ -80,8 +79,7 @@ static inline void fe__tree_hang(fe__tree *tree, int32_t index, int32_t lane, fe
     }
 }
 
-// ---- eight lanes
-// --------------------------------------------------------------------------------------------------------------
+// ---- eight lanes ---------------------------------------------------------------------------------------------------
 static inline void fe__node_init(fe__tree_node *node, int32_t parent, int32_t lane)
 {
     for (int32_t k = 0; k < FE_TREE_WIDTH; ++k) fe__lane_clear(node, k);

@@ -21,8 +21,7 @@
 
 enum { BODIES_IN_BLOCK = 256, CHASES_IN_BLOCK = 4 };
 
-// ---- who is fast
-// ------------------------------------------------------------------------------------------------------------------
+// ---- who is fast ---------------------------------------------------------------------------------------------------
 static void add_chased(fe__step_scratch *s, fe__body *body, int32_t index)
 {
     body->flags |= FE__BODY_CHASED;
@@ -91,8 +90,7 @@ static void bullet_block(void *argument, int32_t first, int32_t end, int32_t wor
     }
 }
 
-// ---- triggers
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- triggers ------------------------------------------------------------------------------------------------------
 // What was passed between two steps was touched: its enter comes in this step, its exit in the next.
 static void cross_triggers(const fe__step *step, int32_t body)
 {

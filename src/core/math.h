@@ -38,8 +38,7 @@ static inline int64_t fe__minl(int64_t a, int64_t b) { return a < b ? a : b; }
 static inline int64_t fe__maxl(int64_t a, int64_t b) { return a > b ? a : b; }
 static inline int32_t fe__maxi(int32_t a, int32_t b) { return a > b ? a : b; }
 
-// ---- fe_vec3
-// ------------------------------------------------------------------------------------------------------------------
+// ---- fe_vec3 -------------------------------------------------------------------------------------------------------
 static inline fe_vec3 fe__vec3(float x, float y, float z) { return (fe_vec3){x, y, z}; }
 static inline fe_vec3 fe__quad_vector(const float *a) { return (fe_vec3){a[0], a[1], a[2]}; }
 static inline fe_vec3 fe__add(fe_vec3 a, fe_vec3 b) { return (fe_vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -57,8 +56,7 @@ static inline fe_vec3 fe__cross(fe_vec3 a, fe_vec3 b)
 }
 static inline float fe__length(fe_vec3 a) { return sqrtf(fe__dot(a, a)); }
 
-// ---- fe_dvec3
-// -----------------------------------------------------------------------------------------------------------------
+// ---- fe_dvec3 ------------------------------------------------------------------------------------------------------
 static inline fe_dvec3 fe__dadd(fe_dvec3 a, fe_dvec3 b) { return (fe_dvec3){a.x + b.x, a.y + b.y, a.z + b.z}; }
 static inline fe_dvec3 fe__dsub(fe_dvec3 a, fe_dvec3 b) { return (fe_dvec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
 static inline fe_dvec3 fe__dscale(double s, fe_dvec3 a) { return (fe_dvec3){s * a.x, s * a.y, s * a.z}; }
@@ -70,8 +68,7 @@ static inline fe_dvec3 fe__dcross(fe_dvec3 a, fe_dvec3 b)
 static inline fe_dvec3 fe__widen(fe_vec3 a) { return (fe_dvec3){(double)a.x, (double)a.y, (double)a.z}; }
 static inline fe_vec3 fe__narrow(fe_dvec3 a) { return (fe_vec3){(float)a.x, (float)a.y, (float)a.z}; }
 
-// ---- rotations
-// ----------------------------------------------------------------------------------------------------------------
+// ---- rotations -----------------------------------------------------------------------------------------------------
 static inline fe_quat fe__quat_of(const float *a) { return (fe_quat){a[0], a[1], a[2], a[3]}; }
 static inline fe_quat fe__identity(void) { return (fe_quat){0.0f, 0.0f, 0.0f, 1.0f}; }
 static inline fe_quat fe__conjugate(fe_quat q) { return (fe_quat){-q.x, -q.y, -q.z, q.w}; }

@@ -77,8 +77,7 @@ struct fe_pool {
 static _Thread_local int inside_task;
 static fe__registry pools = {FE_MUTEX_INITIAL, NULL};
 
-// ---- pausing, yielding, sleeping
-// --------------------------------------------------------------------------------------------
+// ---- pausing, yielding, sleeping -----------------------------------------------------------------------------------
 
 void fe__pause(void)
 {
@@ -122,8 +121,7 @@ static void wake(fe_pool *pool, _Atomic uint32_t *word, int32_t count)
 #endif
 }
 
-// ---- spinning
-// ---------------------------------------------------------------------------------------------------------------
+// ---- spinning ------------------------------------------------------------------------------------------------------
 
 typedef struct spinner {
     int32_t turns;
@@ -150,8 +148,7 @@ static int spin(fe_pool *pool, spinner *spinner)
     return now - spinner->start < (steps > 0 ? spin_time_step : spin_time);
 }
 
-// ---- tasks
-// ------------------------------------------------------------------------------------------------------------------
+// ---- tasks ---------------------------------------------------------------------------------------------------------
 
 static void perform(fe_task task, void *argument, int32_t index)
 {
@@ -205,8 +202,7 @@ static void work_on(fe_pool *pool, int32_t s)
     }
 }
 
-// ---- calling sleepers
-// -------------------------------------------------------------------------------------------------------
+// ---- calling sleepers ----------------------------------------------------------------------------------------------
 
 // Wakes helpers for so many tasks, as far as spinning workers and the caller do not suffice and cores are free.
 static void call_helpers(fe_pool *pool, int32_t tasks)
@@ -226,8 +222,7 @@ static void call_helpers(fe_pool *pool, int32_t tasks)
     wake(pool, &pool->calls, count);
 }
 
-// ---- workers
-// ----------------------------------------------------------------------------------------------------------------
+// ---- workers -------------------------------------------------------------------------------------------------------
 
 #if FE_HAS_THREADS
 static int has_news(fe_pool *pool) { return atomic_load(&pool->open) != 0 || atomic_load(&pool->stopping) != 0; }
@@ -291,8 +286,7 @@ static void *work(void *argument)
 }
 #endif
 
-// ---- runs
-// -------------------------------------------------------------------------------------------------------------------
+// ---- runs ----------------------------------------------------------------------------------------------------------
 
 // -1: all are taken
 static int32_t take_slot(fe_pool *pool)
@@ -354,8 +348,7 @@ void fe__pool_end(fe_pool *pool)
     if (pool) atomic_fetch_sub(&pool->steps, 1);
 }
 
-// ---- a pool's life
-// ----------------------------------------------------------------------------------------------------------
+// ---- a pool's life -------------------------------------------------------------------------------------------------
 
 #if FE_HAS_THREADS
 static int32_t count_cores(void)
@@ -450,8 +443,7 @@ fe_result fe__pool_retain(fe_pool *pool) { return fe__registry_retain(&pools, &p
 void fe__pool_release(fe_pool *pool) { fe__registry_release(&pools, &pool->entry); }
 void fe__pool_assume_cores(fe_pool *pool, int32_t core_count) { atomic_store(&pool->core_count, core_count); }
 
-// ---- what a world runs on
-// ---------------------------------------------------------------------------------------------------
+// ---- what a world runs on ------------------------------------------------------------------------------------------
 
 typedef struct host_run {
     fe_task task;

@@ -112,8 +112,7 @@ static int32_t meet(const fe__scene *scene, const fe__probe *probe, const fe__sh
     return is_ray(probe) ? meet_ray(scene, probe, shape, limit, f) : meet_form(scene, probe, shape, limit, f);
 }
 
-// ---- reports
-// --------------------------------------------------------------------------------------------------------------------
+// ---- reports -------------------------------------------------------------------------------------------------------
 // As a float a grazing normal may lean along the way by a rounding: it is turned back until it does not.
 static fe_vec3 against_way(fe_dvec3 normal, fe_dvec3 way)
 {
@@ -163,8 +162,7 @@ int32_t fe__cast_inside(const fe__scene *scene, const fe__probe *probe, int32_t 
     return 1;
 }
 
-// ---- the nearest
-// ----------------------------------------------------------------------------------------------------------------
+// ---- the nearest ---------------------------------------------------------------------------------------------------
 typedef struct cast {
     const fe__scene *scene;
     const fe__probe *probe;
@@ -227,8 +225,7 @@ int32_t fe__cast_shapes(const fe__scene *scene, const fe__probe *probe, int32_t 
     return report_nearest(&c, out_hit);
 }
 
-// ---- any
-// ------------------------------------------------------------------------------------------------------------------------
+// ---- any -----------------------------------------------------------------------------------------------------------
 static double visit_any(void *context, int32_t index, double limit)
 {
     const double stop = -1.0;
@@ -245,8 +242,7 @@ int32_t fe__cast_any(const fe__scene *scene, const fe__probe *probe)
     return c.shape >= 0;
 }
 
-// ---- all
-// ------------------------------------------------------------------------------------------------------------------------
+// ---- all -----------------------------------------------------------------------------------------------------------
 typedef struct collection {
     const fe__scene *scene;
     const fe__probe *probe;

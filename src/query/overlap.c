@@ -106,8 +106,7 @@ int32_t fe__overlap_any(const fe__scene *scene, const fe__probe *probe)
     return s.shape >= 0;
 }
 
-// ---- shapes
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- shapes --------------------------------------------------------------------------------------------------------
 
 static int32_t overlap_before(const void *context, const void *a, const void *b)
 {
@@ -153,8 +152,7 @@ int32_t fe__overlap_shapes(const fe__scene *scene, const fe__probe *probe, fe_ov
     return (int32_t)s.keep.found;
 }
 
-// ---- bounds
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- bounds --------------------------------------------------------------------------------------------------------
 
 typedef struct bounds_search {
     const fe__scene *scene;

@@ -20,8 +20,7 @@ typedef struct collide_job {
     int32_t first; // of this round, in the list of awake pairs
 } collide_job;
 
-// ---- one pair
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- one pair ------------------------------------------------------------------------------------------------------
 static void box_of(const fe_world *w, int32_t shape, fe__bounds *out)
 {
     int32_t is_static = w->bodies[w->shapes[shape].body].type == FE_BODY_STATIC;
@@ -71,8 +70,7 @@ static void note_result(fe__step *step, int32_t pair)
         s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
 }
 
-// ---- with heightfields: patches follow their heads, on the head's thread
-// --------------------------------------------------------------
+// ---- with heightfields: patches follow their heads, on the head's thread -------------------------------------------
 static void collide_with_patches(fe__step *step, int32_t head)
 {
     fe_world *w = step->world;
@@ -118,8 +116,7 @@ static void collide_chunks(void *argument, int32_t first, int32_t end, int32_t w
         collide_chunk(job->step, job->step->world->awake_pairs + job->first + i, fe__mini(end - i, PAIRS_IN_BLOCK));
 }
 
-// ---- without
-// --------------------------------------------------------------------------------------------------------------------------
+// ---- without -------------------------------------------------------------------------------------------------------
 // Records of pairs that the narrow phase will look at lie anywhere: they are asked for while it looks at others
 FE_FETCHES fetch_pair(const fe_world *w, int32_t pair)
 {
@@ -200,8 +197,7 @@ static void collide_block(void *argument, int32_t first, int32_t end, int32_t wo
     atomic_fetch_add_explicit(&job->step->scratch->recycled, end - first - again, memory_order_relaxed);
 }
 
-// ---- results
-// -------------------------------------------------------------------------------------------------------------------
+// ---- results -------------------------------------------------------------------------------------------------------
 // by the creation of their shapes
 static void sort_pairs(fe__step *step, int32_t *pairs, int32_t count)
 {

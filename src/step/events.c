@@ -76,8 +76,7 @@ static void add_hit(fe_world *w, int32_t pair)
                                  .triangle_b = e.triangle_b}};
 }
 
-// ---- looking, on any thread: pairs that have something to report go to the list of results
-// ----------------------------------------------
+// ---- looking, on any thread: pairs that have something to report go to the list of results -------------------------
 enum { PAIRS_IN_BLOCK = 256, AHEAD = 16 }; // AHEAD: records come from memory while those before them are looked at
 
 FE_FETCHES fetch_ahead(const fe_world *w, const int32_t *pairs, int32_t i, int32_t end)
@@ -137,8 +136,7 @@ static void report(fe_world *w, int32_t pair)
         w->pair_events[w->pair_event_count++] = record_of(w, pair, kind);
 }
 
-// ---- order
-// ----------------------------------------------------------------------------------------------------------------------------
+// ---- order ---------------------------------------------------------------------------------------------------------
 // Stable sorts by B, then by A. The records are moved once, along the cycles of the permutation.
 static void sort_records(fe__step *step, unsigned char *records, int32_t count, size_t size)
 {

@@ -18,8 +18,7 @@
 
 enum { BODIES_IN_BLOCK = 64, BOXES_IN_BLOCK = 64, STEPS_BETWEEN_REBUILDS = 8, KEPT_LINES = 256 };
 
-// ---- poses
-// ---------------------------------------------------------------------------------------------------------------------------
+// ---- poses ---------------------------------------------------------------------------------------------------------
 // q = dq q. A body that did not turn keeps its quaternion: no rounding of what stood still.
 static int32_t turn(fe__body *body, const float *dq)
 {
@@ -166,8 +165,7 @@ void fe__move_bodies(fe__step *step)
     }
 }
 
-// ---- sleep
-// ----------------------------------------------------------------------------------------------------------------------------
+// ---- sleep ---------------------------------------------------------------------------------------------------------
 static int32_t stands_still(const fe__body *body)
 {
     const float *v = body->velocity, *w = body->spin;

@@ -41,8 +41,7 @@ static void set_view(fe__view *v, const fe__shape *a, const fe__shape *b, const 
         v->relative.position = fe__narrow(fe__drotate_back(pose_a->rotation, between));
 }
 
-// ---- ahead of time
-// --------------------------------------------------------------------------------------------------------------------
+// ---- ahead of time -------------------------------------------------------------------------------------------------
 // Contacts are made once per step. What will touch only later in the step needs its contact now, or it would be found a
 // step late, up to v dt deep.
 
@@ -247,8 +246,7 @@ static int32_t is_near(const fe__manifold *found, float distance)
     return 0;
 }
 
-// ---- one-way shapes
-// -------------------------------------------------------------------------------------------------------------------
+// ---- one-way shapes ------------------------------------------------------------------------------------------------
 // The least cosine between a one-way shape's direction and a normal that holds: 60 degrees, so that its edges do not
 // catch what passes by
 #define ONE_WAY_COSINE 0.5f

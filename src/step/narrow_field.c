@@ -29,8 +29,7 @@ typedef struct pair_view {
     float dt, speed_limit; // s; m/s that no point of either body exceeds
 } pair_view;
 
-// ---- one look
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- one look ------------------------------------------------------------------------------------------------------
 // Other heightfields that the same body is near: their surfaces may go on where this one ends.
 static void find_neighbours(const fe_world *w, const look *l, const fe__pose *pose, fe__terrain *terrain)
 {
@@ -85,8 +84,7 @@ static float deepest_of(const look *l)
     return deepest;
 }
 
-// ---- ahead of time
-// --------------------------------------------------------------------------------------------------------------------
+// ---- ahead of time -------------------------------------------------------------------------------------------------
 // As narrow.c, but a surface has no inside that would show a crossing: from far off the pair is followed by steps in
 // which it cannot close its gap (conservative advancement; Mirtich, 1996). 1: it touches within the step, at the poses
 // looked at.
@@ -106,8 +104,7 @@ static int32_t look_ahead(const pair_view *p, const look *now, look *then)
     return then->count > 0;
 }
 
-// ---- records
-// --------------------------------------------------------------------------------------------------------------------------
+// ---- records -------------------------------------------------------------------------------------------------------
 // What a record will hold: a patch of a look, and from which record its impulses come.
 typedef struct plan {
     const look *from;
@@ -211,8 +208,7 @@ static void write_records(fe_world *world, int32_t head, plan *plans, int32_t co
     }
 }
 
-// ---- the pair
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- the pair ------------------------------------------------------------------------------------------------------
 // Patches with a normal that `now` does not have
 static int32_t add_new_directions(plan *plans, int32_t count, const look *then)
 {

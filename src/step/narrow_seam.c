@@ -101,8 +101,7 @@ static int32_t all_shut(const seam *s, const fe_vec3 *q, int32_t count, fe_vec3 
     return 1;
 }
 
-// ---- the face instead
-// -----------------------------------------------------------------------------------------------------------------
+// ---- the face instead ----------------------------------------------------------------------------------------------
 static fe_vec3 face_normal(const placed *box, int32_t face)
 {
     fe_vec3 axis = face / 2 == 0 ? box->axes.x : face / 2 == 1 ? box->axes.y : box->axes.z;

@@ -18,8 +18,7 @@ void fe__heightfield_free(fe_store *store, fe__asset *a)
     fe__release(&store->memory, a->materials, materials_size(a));
 }
 
-// ---- birth
-// ----------------------------------------------------------------------------------------------------------------------------
+// ---- birth ---------------------------------------------------------------------------------------------------------
 static int32_t allocate(fe_store *store, const fe_heightfield_def *def, fe__asset *a)
 {
     fe__heightfield *f = &a->field;
@@ -81,8 +80,7 @@ fe_result fe__heightfield_create(fe_store *store, const fe_heightfield_def *def,
     return result;
 }
 
-// ---- samples
-// --------------------------------------------------------------------------------------------------------------------------
+// ---- samples -------------------------------------------------------------------------------------------------------
 static float *row_of(const fe__heightfield *f, const fe__samples *part, int32_t row)
 {
     return f->heights + (int64_t)(part->row + row) * f->columns + part->column;

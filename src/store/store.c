@@ -5,8 +5,7 @@
 
 static fe__registry stores = {FE_MUTEX_INITIAL, NULL};
 
-// ---- numbers
-// --------------------------------------------------------------------------------------------------------------------------
+// ---- numbers -------------------------------------------------------------------------------------------------------
 static fe__mutex numbers_lock = FE_MUTEX_INITIAL;
 static int32_t living[FE_ID_LAST_NUMBER + 1]; // stores with that number
 
@@ -30,8 +29,7 @@ static void give_number(int32_t number)
     fe__mutex_unlock(&numbers_lock);
 }
 
-// ---- life
-// -----------------------------------------------------------------------------------------------------------------------------
+// ---- life ----------------------------------------------------------------------------------------------------------
 fe_result fe__store_create(const fe_allocator *allocator, int32_t number, fe_store **out_store)
 {
     fe__memory memory;
@@ -76,8 +74,7 @@ fe_result fe__store_try_destroy(fe_store *store, int32_t *out_users)
     return result;
 }
 
-// ---- worlds
-// ---------------------------------------------------------------------------------------------------------------------------
+// ---- worlds --------------------------------------------------------------------------------------------------------
 static void list_member(fe_store *store, fe__store_member *member)
 {
     fe__store_lock(store);
@@ -120,8 +117,7 @@ void fe__store_leave(fe_store *store, fe__store_member *member)
     fe__registry_release(&stores, &store->entry);
 }
 
-// ---- assets
-// ---------------------------------------------------------------------------------------------------------------------------
+// ---- assets --------------------------------------------------------------------------------------------------------
 // Locking changes nothing that a reader of the store sees.
 static fe__mutex *lock_of(const fe_store *store) { return &((fe_store *)(uintptr_t)store)->lock; }
 void fe__store_lock(const fe_store *store) { fe__mutex_lock(lock_of(store)); }

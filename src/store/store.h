@@ -59,8 +59,7 @@ void fe__store_leave(fe_store *store, fe__store_member *member);
 void fe__store_lock(const fe_store *store);
 void fe__store_unlock(const fe_store *store);
 
-// ---- under the lock
-// -------------------------------------------------------------------------------------------------------------------
+// ---- under the lock ------------------------------------------------------------------------------------------------
 // FE_OK, FE_ERROR_KIND, FE_ERROR_STALE: also for an asset that lives on for its shapes only
 fe_result fe__store_find(const fe_store *store, fe_asset handle, int32_t *out_index);
 void fe__asset_destroy(fe_store *store, int32_t index); // now, or with its last user

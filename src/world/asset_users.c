@@ -10,8 +10,7 @@
 
 #include <string.h>
 
-// ---- the store
-// --------------------------------------------------------------------------------------------------------------------------
+// ---- the store -----------------------------------------------------------------------------------------------------
 fe_result fe__world_open_store(fe_world *world, const fe_world_def *def)
 {
     world->member.world = world;
@@ -41,8 +40,7 @@ void fe__world_close_store(fe_world *world)
     world->store = NULL;
 }
 
-// ---- uses
-// -------------------------------------------------------------------------------------------------------------------------------
+// ---- uses ----------------------------------------------------------------------------------------------------------
 // Place of the asset's use in the table, or where it belongs.
 static int32_t place_of(const fe_world *world, int32_t asset)
 {
@@ -119,8 +117,7 @@ void fe__shape_release_asset(fe_world *world, int32_t index)
     fe__store_unlock(world->store);
 }
 
-// ---- entering worlds
-// --------------------------------------------------------------------------------------------------------------------
+// ---- entering worlds -----------------------------------------------------------------------------------------------
 // As a writer, with no reader inside: queries read the samples.
 static fe_result enter(fe_world *world)
 {
@@ -153,8 +150,7 @@ fe_result fe__asset_enter_worlds(fe_store *store, int32_t asset)
 
 void fe__asset_leave_worlds(fe_store *store, int32_t asset) { leave_until(store, asset, NULL); }
 
-// ---- new heights
-// --------------------------------------------------------------------------------------------------------------------
+// ---- new heights ---------------------------------------------------------------------------------------------------
 static int32_t is_over(const fe_world *world, const fe__shape *field, int32_t other, const fe__bounds *part)
 {
     const fe__shape *shape = world->shapes + other;

@@ -1,8 +1,7 @@
 // joint_list.c - see joint_list.h.
 #include "world/joint_list.h"
 
-// ---- of a body
-// ------------------------------------------------------------------------------------------------------------------------
+// ---- of a body -----------------------------------------------------------------------------------------------------
 static fe__link *link_of(fe_world *world, int32_t joint, int32_t body)
 {
     fe__joint_record *r = world->joint_records + joint;
@@ -63,10 +62,8 @@ void fe__joint_remove_from_order(fe_world *world, int32_t joint)
     --world->joint_count;
 }
 
-// ---- who is awake
-// ---------------------------------------------------------------------------------------------------------------------
-// ---- of the awake
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- who is awake --------------------------------------------------------------------------------------------------
+// ---- of the awake --------------------------------------------------------------------------------------------------
 static int32_t is_awake_dynamic(const fe_world *world, int32_t body)
 {
     return world->bodies[body].type == FE_BODY_DYNAMIC && world->bodies[body].awake_index >= 0;
@@ -95,8 +92,7 @@ void fe__joint_retire(fe_world *world, int32_t joint)
     if (r->awake_index < 0 || is_awake_dynamic(world, r->body[0]) || is_awake_dynamic(world, r->body[1])) return;
     fe__joint_leave_awake(world, joint);
 }
-// ---- who is joined
-// --------------------------------------------------------------------------------------------------------------------
+// ---- who is joined -------------------------------------------------------------------------------------------------
 int32_t fe__bodies_joined(const fe_world *world, int32_t a, int32_t b)
 {
     int32_t from = world->bodies[a].joint_total <= world->bodies[b].joint_total ? a : b, to = from == a ? b : a;

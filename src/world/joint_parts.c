@@ -12,8 +12,7 @@
 
 static uint32_t bit(fe__joint_part part) { return 1u << part; }
 
-// ---- one axis
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- one axis ------------------------------------------------------------------------------------------------------
 static void set_limit(fe__joint_axis *axis, float low, float high, float hertz, float damping_ratio)
 {
     axis->limit.low = low, axis->limit.high = high, axis->limit.hertz = hertz,
@@ -34,8 +33,7 @@ static void set_motor(fe__joint_axis *axis, float speed, float cap)
     axis->motor.speed = speed, axis->motor.cap = cap;
 }
 
-// ---- distance, hinge, fixed
-// -----------------------------------------------------------------------------------------------------------
+// ---- distance, hinge, fixed ----------------------------------------------------------------------------------------
 static void plan_distance(const fe_distance_joint_def *d, fe__joint_plan *plan)
 {
     fe__joint_axis *axis = plan->axes.axis + FE__AXIS_LINEAR;
@@ -88,8 +86,7 @@ static void plan_fixed(const fe_fixed_joint_def *d, fe__joint_plan *plan)
     rotation->drive.cap = FE__UNLIMITED, rotation->drive.unit = FE__DRIVE_HERTZ;
 }
 
-// ---- rotations of three angles
-// --------------------------------------------------------------------------------------------------------
+// ---- rotations of three angles -------------------------------------------------------------------------------------
 typedef struct angles {
     float twist, swing_y, swing_z; // rad
 } angles;
@@ -163,8 +160,7 @@ static void plan_ball(const fe_ball_joint_def *d, fe__joint_plan *plan)
     rotation->motor.cap = d->motor_max;
 }
 
-// ---- configurable
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- configurable --------------------------------------------------------------------------------------------------
 // In the unit of its spring
 static float stiffness_of(const fe_joint_axis *a)
 {
@@ -293,8 +289,7 @@ static void plan_configurable(const fe_configurable_joint_def *d, fe__joint_plan
     plan_rotations(d, about, plan);
 }
 
-// ---- all
-// ------------------------------------------------------------------------------------------------------------------------------
+// ---- all -----------------------------------------------------------------------------------------------------------
 void fe__joint_make_plan(int32_t type, const fe__joint_any *def, fe__joint_plan *out_plan)
 {
     *out_plan = (fe__joint_plan){.hertz = def->common.hertz, .damping_ratio = def->common.damping_ratio};

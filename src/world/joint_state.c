@@ -22,8 +22,7 @@ static fe_vec3 velocity_at(const fe__body *b, fe_dvec3 point)
     return fe__add(fe__quad_vector(b->velocity), fe__cross(spin_of(b), fe__narrow(fe__dsub(point, fe__centre_of(b)))));
 }
 
-// ---- errors
-// ---------------------------------------------------------------------------------------------------------------------------
+// ---- errors --------------------------------------------------------------------------------------------------------
 static float beyond(const fe__joint_axis *axis, float x)
 {
     return fe__maxf(fe__maxf(axis->limit.low - x, x - axis->limit.high), 0.0f);
@@ -69,8 +68,7 @@ static float angular_error(const fe__joint_frame *f, const fe__joint_axes *axes,
     return error;
 }
 
-// ---- state
-// ----------------------------------------------------------------------------------------------------------------------------
+// ---- state ---------------------------------------------------------------------------------------------------------
 // From the solver's axes back to those of the definition
 static void write_coordinates(int32_t shift, const fe__joint_pose *pose, float twist, fe_joint_state *s)
 {

@@ -41,8 +41,7 @@ void fe__joints_free(fe_world *world)
     FE_FREE(memory, world->joint_events, world->joint_event_capacity);
 }
 
-// ---- the constraint graph
-// -------------------------------------------------------------------------------------------------------------
+// ---- the constraint graph ------------------------------------------------------------------------------------------
 static int32_t acts(const fe_world *world, const fe__joint_record *r)
 {
     const fe__body *a = world->bodies + r->body[0], *b = world->bodies + r->body[1];
@@ -99,8 +98,7 @@ static void wake_bodies(fe_world *world, const int32_t *bodies)
         if (world->bodies[bodies[k]].flags & FE__BODY_ENABLED) fe__wake(world, bodies[k]);
 }
 
-// ---- what the solver reads
-// ------------------------------------------------------------------------------------------------------------
+// ---- what the solver reads -----------------------------------------------------------------------------------------
 static void set_vec(float *out, fe_vec3 a) { out[0] = a.x, out[1] = a.y, out[2] = a.z; }
 static void set_quat(float *out, fe_quat q) { out[0] = q.x, out[1] = q.y, out[2] = q.z, out[3] = q.w; }
 static fe_vec3 local_centre(const fe__body *b)
@@ -191,8 +189,7 @@ static void fill(fe_world *world, int32_t joint, const fe__joint_plan *plan)
     wind(world, joint);
 }
 
-// ---- birth, change, death
-// -------------------------------------------------------------------------------------------------------------
+// ---- birth, change, death ------------------------------------------------------------------------------------------
 static fe_result reserve_axes(fe_world *world, int32_t extra)
 {
     fe_result result = fe__record_pool_reserve(&world->joint_axes, &world->memory, extra);

@@ -31,8 +31,7 @@ typedef struct mass_properties {
     fe_quat axes;
 } mass_properties;
 
-// ---- velocities follow the centre
-// -----------------------------------------------------------------------------------------------
+// ---- velocities follow the centre ----------------------------------------------------------------------------------
 
 // The velocity is that of the centre of mass. When the centre becomes another material point, its velocity there is v +
 // w x (R delta): no point of the body changes its motion.
@@ -86,8 +85,7 @@ static void apply(fe_world *world, fe__body *body, const mass_properties *p)
     if (turns_locked || largest - least <= ISOTROPY * largest) body->flags |= FE__BODY_ISOTROPIC;
 }
 
-// ---- sums over shapes
-// -----------------------------------------------------------------------------------------------------------
+// ---- sums over shapes ----------------------------------------------------------------------------------------------
 
 static fe__mass shape_mass(const fe__shape *shape) { return fe__form_mass(&shape->form, shape->density); }
 
@@ -216,8 +214,7 @@ static mass_properties from_shapes(const fe_world *world, const fe__body *body)
     return (mass_properties){mass.mass, only->local_position, mass.inertia, only->local_rotation};
 }
 
-// ---- the interface
-// --------------------------------------------------------------------------------------------------------------
+// ---- the interface -------------------------------------------------------------------------------------------------
 
 void fe__body_update_mass(fe_world *world, int32_t index)
 {

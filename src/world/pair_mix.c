@@ -3,8 +3,7 @@
 
 #include "world/material.h"
 
-// ---- materials
-// ------------------------------------------------------------------------------------------------------------------------
+// ---- materials -----------------------------------------------------------------------------------------------------
 static float form_radius(const fe__shape *a, const fe__shape *b) { return fe__maxf(a->form.radius, b->form.radius); }
 
 static int32_t has_extra(const fe_world *world, const fe__shape *shape)

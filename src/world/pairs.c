@@ -57,8 +57,7 @@ static int32_t concerns_sleepers(const fe_world *world, const fe__pair *p)
     return p->flags & FE__PAIR_SENSOR || (dynamic_a != dynamic_b && !(sleeper->flags & FE__SHAPE_MOVED));
 }
 
-// ---- birth
-// ----------------------------------------------------------------------------------------------------------------------------
+// ---- birth ---------------------------------------------------------------------------------------------------------
 // Which shape is fe__collide's A (see collide.h), and which body is the solver's A: the one that is not dynamic, else
 // that shape's.
 static uint32_t sides(const fe_world *world, const fe__shape *a, const fe__shape *b)
@@ -141,8 +140,7 @@ void fe__pair_release(fe_world *world, int32_t pair)
     world->first_free_pair = pair;
 }
 
-// ---- events
-// ---------------------------------------------------------------------------------------------------------------------------
+// ---- events --------------------------------------------------------------------------------------------------------
 fe_pair_event fe__pair_event_of(const fe_world *world, int32_t pair, int32_t kind)
 {
     const fe__pair *p = world->pairs + pair;
@@ -202,8 +200,7 @@ void fe__report_owed_exits(fe_world *world)
     world->owed_count = 0;
 }
 
-// ---- death
-// ----------------------------------------------------------------------------------------------------------------------------
+// ---- death ---------------------------------------------------------------------------------------------------------
 static void destroy_patches(fe_world *world, int32_t head)
 {
     if (world->pairs[head].next_patch < 0) return;

@@ -10,8 +10,7 @@
 #define STEPS_AHEAD 2.0f
 #define FIRST_DT (1.0f / 60.0f) // s, before the first step
 
-// ---- bounds
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- bounds --------------------------------------------------------------------------------------------------------
 
 static fe__bounds grown(fe__bounds b, double margin)
 {
@@ -49,8 +48,7 @@ fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t index)
     return grown(b, (double)world->tuning.speculative_distance + fe__mind(FAT_MOST, FAT_SHARE * half));
 }
 
-// ---- broad phase
-// ----------------------------------------------------------------------------------------------------------------
+// ---- broad phase ---------------------------------------------------------------------------------------------------
 
 static fe__tree *tree_of_type(fe_world *world, int32_t body_type)
 {

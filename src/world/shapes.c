@@ -14,8 +14,7 @@
 
 #include <string.h>
 
-// ---- birth and death
-// ------------------------------------------------------------------------------------------------------------
+// ---- birth and death -----------------------------------------------------------------------------------------------
 
 static fe_result reserve_shape(fe_world *world, int32_t body, const fe__form *form)
 {
@@ -143,8 +142,7 @@ void fe__shape_destroy(fe_world *world, int32_t index)
     fe__body_update_mass(world, body);
 }
 
-// ---- change
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- change --------------------------------------------------------------------------------------------------------
 
 static void exchange_asset(fe_world *world, int32_t index, const fe__form *before)
 {

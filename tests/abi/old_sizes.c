@@ -22,8 +22,7 @@ enum { CANARY = 0xA5, LONGER = 64, MOST_BYTES = 1024 };
     } while (0)
 #define MUST(call) CHECK((call) >= 0, "a call of the scene")
 
-// ---- the structs, as recorded
-// ---------------------------------------------------------------------------------------------------
+// ---- the structs, as recorded --------------------------------------------------------------------------------------
 typedef struct field {
     const char *type, *name; // name NULL: the struct itself
     uint32_t at, end;
@@ -44,8 +43,7 @@ static int ends_a_field(const char *type, uint32_t size)
     return 0;
 }
 
-// ---- a world to use them in
-// -----------------------------------------------------------------------------------------------------
+// ---- a world to use them in ----------------------------------------------------------------------------------------
 static fe_world *world;
 static fe_body ground, ball, arm;
 static fe_shape ground_shape, ball_shape;
@@ -96,8 +94,7 @@ static void make_scene(void)
     for (int i = 0; i < 30; ++i) MUST(fe_world_step(world, 1.0f / 60.0f));
 }
 
-// ---- each struct in use
-// ---------------------------------------------------------------------------------------------------------
+// ---- each struct in use --------------------------------------------------------------------------------------------
 static void *allocate(void *user, uint64_t size, uint64_t alignment)
 {
     (void)user;
@@ -304,8 +301,7 @@ static const sized structs[] = {
 };
 enum { STRUCTS = sizeof structs / sizeof *structs };
 
-// ---- structs with a size
-// --------------------------------------------------------------------------------------------------------
+// ---- structs with a size -------------------------------------------------------------------------------------------
 
 // As an init of that size leaves it, with the canary behind
 static void prepare(const sized *t, unsigned char *s, uint32_t size)
@@ -369,8 +365,7 @@ static void try_init(const sized *t)
     }
 }
 
-// ---- records with a stride
-// ------------------------------------------------------------------------------------------------------
+// ---- records with a stride -----------------------------------------------------------------------------------------
 static const fe_dvec3 above = {0.0, 2.0, 0.0}, downwards = {0.0, -4.0, 0.0};
 
 static int32_t read_hits(void *out, uint32_t stride)
@@ -490,8 +485,7 @@ static void try_definitions(void)
           "definitions longer than their stride");
 }
 
-// ---- is any forgotten?
-// ----------------------------------------------------------------------------------------------------------
+// ---- is any forgotten? ---------------------------------------------------------------------------------------------
 
 // These never grow, or have reserved room that the library writes
 static const char *const fixed[] = {"fe_vec3",    "fe_dvec3",       "fe_quat",          "fe_transform",

@@ -1,8 +1,7 @@
 // The API of bodies: life, pose, type, locks, sleep, switches; each documented error.
 #include "api/api_test.h"
 
-// ---- life
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- life ----------------------------------------------------------------------------------------------------------
 
 static void defaults_are_those_of_the_header(void **state)
 {
@@ -313,8 +312,7 @@ static void bodies_are_listed_in_the_order_of_creation(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- pose
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- pose ----------------------------------------------------------------------------------------------------------
 
 static void a_pose_comes_back_bit_for_bit(void **state)
 {
@@ -372,8 +370,7 @@ static void a_bad_pose_is_refused(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- type
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- type ----------------------------------------------------------------------------------------------------------
 
 static void a_body_changes_its_type(void **state)
 {
@@ -422,8 +419,7 @@ static void a_plane_is_static_only(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- sleep, switches
-// ------------------------------------------------------------------------------------------------------------
+// ---- sleep, switches -----------------------------------------------------------------------------------------------
 
 static void a_body_starts_asleep_and_wakes_when_told(void **state)
 {
@@ -585,8 +581,7 @@ static void settings_refuse_what_is_out_of_range(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- shapes of a body
-// -----------------------------------------------------------------------------------------------------------
+// ---- shapes of a body ----------------------------------------------------------------------------------------------
 
 static void shapes_are_listed_in_the_order_of_creation(void **state)
 {

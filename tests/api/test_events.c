@@ -41,8 +41,7 @@ static int32_t count_kind(const fe_world *world, int32_t kind)
     return found;
 }
 
-// ---- what ends a touch
-// ----------------------------------------------------------------------------------------------------------
+// ---- what ends a touch ---------------------------------------------------------------------------------------------
 
 typedef void change(touch *t);
 
@@ -169,8 +168,7 @@ static void enter_and_exit_balance_in_a_crowd(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- arrays of events
-// -----------------------------------------------------------------------------------------------------------
+// ---- arrays of events ----------------------------------------------------------------------------------------------
 
 static void events_come_in_the_order_of_creation(void **state)
 {
@@ -282,8 +280,7 @@ static void sleep_and_wake_are_told(void **state)
     OK(fe_world_destroy(t.world));
 }
 
-// ---- triggers
-// -------------------------------------------------------------------------------------------------------------------
+// ---- triggers ------------------------------------------------------------------------------------------------------
 
 static void a_trigger_reports_and_pushes_nothing(void **state)
 {
@@ -321,8 +318,7 @@ static void a_trigger_reports_and_pushes_nothing(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- contacts
-// -------------------------------------------------------------------------------------------------------------------
+// ---- contacts ------------------------------------------------------------------------------------------------------
 
 // A cube of 1000 kg at rest on the ground, held by 4 points: normal impulses of a substep sum to m g h, over the step
 // to m g dt. The normal points from the body created first.

@@ -1,8 +1,7 @@
 // Who meets whom: groups, the pair filter, one-way shapes, and how materials mix.
 #include "api_test.h"
 
-// ---- groups
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- groups --------------------------------------------------------------------------------------------------------
 
 static fe_body sphere_at(fe_world *world, double y, uint32_t layer, uint32_t mask, int32_t group)
 {
@@ -89,8 +88,7 @@ static void ignored_pairs_are_read(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- the pair filter
-// --------------------------------------------------------------------------------------------------------------
+// ---- the pair filter -----------------------------------------------------------------------------------------------
 
 typedef struct judge {
     fe_world *world;
@@ -186,8 +184,7 @@ static void a_refusal_ends_with_the_filter(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- one-way shapes
-// ---------------------------------------------------------------------------------------------------------------
+// ---- one-way shapes ------------------------------------------------------------------------------------------------
 
 static fe_shape new_platform(fe_world *world, int32_t one_way)
 {
@@ -272,8 +269,7 @@ static void one_way_is_read_as_it_was_set(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- materials
-// --------------------------------------------------------------------------------------------------------------------
+// ---- materials -----------------------------------------------------------------------------------------------------
 
 static fe_material material(float friction, float restitution, int32_t combine)
 {

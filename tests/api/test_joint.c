@@ -51,8 +51,7 @@ static fixture begin(int kind)
 
 static void end(fixture *f) { OK(fe_world_destroy(f->world)); }
 
-// ---- definitions
-// ------------------------------------------------------------------------------------------------------------------
+// ---- definitions ---------------------------------------------------------------------------------------------------
 
 static void defaults_are_those_of_the_header(void **state)
 {
@@ -367,8 +366,7 @@ static void limits_of_exactly_half_a_turn_are_accepted(void **state)
     end(&f);
 }
 
-// ---- handles
-// ----------------------------------------------------------------------------------------------------------------------
+// ---- handles -------------------------------------------------------------------------------------------------------
 
 static void calls_with_a_bad_handle(fe_world *world, fe_joint joint, fe_result expected)
 {
@@ -480,8 +478,7 @@ static void null_pointers_are_errors(void **state)
     end(&f);
 }
 
-// ---- what all types have
-// ----------------------------------------------------------------------------------------------------------
+// ---- what all types have -------------------------------------------------------------------------------------------
 
 static void the_common_part_is_set_and_read_on_any_type(void **state)
 {
@@ -554,8 +551,7 @@ static void joints_are_listed_in_the_order_of_creation(void **state)
     end(&f);
 }
 
-// ---- frames from the world
-// --------------------------------------------------------------------------------------------------------
+// ---- frames from the world -----------------------------------------------------------------------------------------
 
 static void check_state_is_zero(const fe_world *world, fe_joint joint)
 {
@@ -742,8 +738,7 @@ static void bad_arguments_of_the_makers_are_refused(void **state)
     end(&f);
 }
 
-// ---- readings
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- readings ------------------------------------------------------------------------------------------------------
 
 // B's frame turned by `q` against A's, both at the origin
 static fe_joint_state state_of_turn(fe_quat q)

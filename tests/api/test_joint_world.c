@@ -113,8 +113,7 @@ static void a_break_tells_of_the_world(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- what changes each step
-// -----------------------------------------------------------------------------------------------------------
+// ---- what changes each step ----------------------------------------------------------------------------------------
 
 static void speed_and_target_change_alone(void **state)
 {

@@ -200,8 +200,7 @@ static void a_trigger_tells_who_is_inside(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- switches
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- switches ------------------------------------------------------------------------------------------------------
 
 static fe_world *world_with(int32_t sleep, int32_t continuous, int32_t warm_start)
 {

@@ -166,8 +166,7 @@ static void no_number_of_forces_makes_an_infinity(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- locks
-// ----------------------------------------------------------------------------------------------------------------------
+// ---- locks ---------------------------------------------------------------------------------------------------------
 
 static void what_is_locked_stays_zero(void **state)
 {
@@ -226,8 +225,7 @@ static void a_locked_body_turns_like_one_on_an_axle(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- kinematic
-// ------------------------------------------------------------------------------------------------------------------
+// ---- kinematic -----------------------------------------------------------------------------------------------------
 
 static void a_kinematic_body_reaches_its_target(void **state)
 {

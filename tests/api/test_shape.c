@@ -8,8 +8,7 @@ static fe_shape only_shape(const fe_world *world, fe_body body)
     return shape;
 }
 
-// ---- definitions
-// ----------------------------------------------------------------------------------------------------------------
+// ---- definitions ---------------------------------------------------------------------------------------------------
 
 static void defaults_are_those_of_the_header(void **state)
 {
@@ -144,8 +143,7 @@ static void an_older_definition_gets_the_defaults(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- geometry
-// -------------------------------------------------------------------------------------------------------------------
+// ---- geometry ------------------------------------------------------------------------------------------------------
 
 static void lengths_lie_between_a_millimetre_and_a_hundred_kilometres(void **state)
 {
@@ -266,8 +264,7 @@ static void a_bad_frame_is_refused(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- the rest
-// -------------------------------------------------------------------------------------------------------------------
+// ---- the rest ------------------------------------------------------------------------------------------------------
 
 static void settings_refuse_what_is_out_of_range(void **state)
 {

@@ -78,8 +78,7 @@ static double height_of(const fe_world *world)
     return hit.point.y;
 }
 
-// ---- stores
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- stores --------------------------------------------------------------------------------------------------------
 
 static void a_store_has_defaults_and_refuses_what_is_wrong(void **state)
 {
@@ -176,8 +175,7 @@ static void definitions_that_outlive_a_store_or_a_pool_are_refused(void **state)
     OK(fe_world_destroy(other));
 }
 
-// ---- handles
-// --------------------------------------------------------------------------------------------------------------------
+// ---- handles -------------------------------------------------------------------------------------------------------
 
 static void handles_of_another_store_are_refused(void **state)
 {
@@ -250,8 +248,7 @@ static void a_drawn_number_is_free(void **state)
     OK(fe_store_destroy(kept));
 }
 
-// ---- the life of an asset
-// -------------------------------------------------------------------------------------------------------
+// ---- the life of an asset ------------------------------------------------------------------------------------------
 
 static void a_destroyed_asset_lives_on_for_its_shapes_in_every_world(void **state)
 {
@@ -327,8 +324,7 @@ static void many_assets_keep_their_heights(void **state)
     OK(fe_store_destroy(store));
 }
 
-// ---- edits
-// ----------------------------------------------------------------------------------------------------------------------
+// ---- edits ---------------------------------------------------------------------------------------------------------
 
 static void edits_wake_bodies_in_every_world_and_in_no_other(void **state)
 {
@@ -476,8 +472,7 @@ static void edits_are_refused_while_a_world_that_uses_the_asset_is_entered(void 
     OK(fe_store_destroy(m.store));
 }
 
-// ---- memory
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- memory --------------------------------------------------------------------------------------------------------
 
 static fe_world *counted_world(counting *memory, fe_store *store)
 {

@@ -4,8 +4,7 @@
 #include <fenv.h>
 #include <stdlib.h>
 
-// ---- creation
-// -------------------------------------------------------------------------------------------------------------------
+// ---- creation ------------------------------------------------------------------------------------------------------
 
 static void defaults_are_those_of_the_header(void **state)
 {
@@ -108,8 +107,7 @@ static void an_older_definition_gets_the_defaults(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- settings
-// -------------------------------------------------------------------------------------------------------------------
+// ---- settings ------------------------------------------------------------------------------------------------------
 
 static void settings_are_read_back_and_refuse_nonsense(void **state)
 {
@@ -257,8 +255,7 @@ static void counters_count(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- two worlds
-// -----------------------------------------------------------------------------------------------------------------
+// ---- two worlds ----------------------------------------------------------------------------------------------------
 
 static void worlds_know_nothing_of_each_other(void **state)
 {
@@ -333,8 +330,7 @@ static void a_destroyed_body_is_ignored_by_nobody(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- the step
-// -------------------------------------------------------------------------------------------------------------------
+// ---- the step ------------------------------------------------------------------------------------------------------
 
 static void a_bad_time_step_is_refused(void **state)
 {
@@ -403,8 +399,7 @@ static void calls_during_a_step_are_refused(void **state)
     OK(fe_world_destroy(plain));
 }
 
-// ---- the host's floating-point state
-// --------------------------------------------------------------------------------------------
+// ---- the host's floating-point state -------------------------------------------------------------------------------
 
 // Everything that computes, as one script. Its own arithmetic is exact, so that the mode can only show in the
 // library's.
@@ -459,8 +454,7 @@ static void the_host_s_rounding_does_not_show(void **state)
     }
 }
 
-// ---- memory
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- memory --------------------------------------------------------------------------------------------------------
 
 typedef struct miser {
     int64_t live;

@@ -42,8 +42,7 @@ static inline const golden *find_golden(const char *script, int32_t step)
     return NULL;
 }
 
-// ---- worlds
-// ---------------------------------------------------------------------------------------------------------------------------
+// ---- worlds --------------------------------------------------------------------------------------------------------
 
 // NULL: this CPU has no such set
 static inline fe_world *new_world(int32_t simd, int32_t workers)

@@ -5,8 +5,7 @@
 //   test_determinism update    writes golden.txt: after a change that was meant to change results
 #include "determinism/golden.h"
 
-// ---- every number of workers, every SIMD set
-// ------------------------------------------------------------------------------------------
+// ---- every number of workers, every SIMD set -----------------------------------------------------------------------
 
 static void gives_the_golden_hashes(void **state)
 {
@@ -74,8 +73,7 @@ static void every_kind_of_query_spawns(void **state)
     fe_world_destroy(p.world);
 }
 
-// ---- other bodies
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- other bodies --------------------------------------------------------------------------------------------------
 
 typedef struct motion {
     fe_transform transform;
@@ -184,8 +182,7 @@ static void bodies_that_came_and_went_change_no_trajectory(void **state)
     compare_with_strangers(&script_crowd, STRANGER_STEPS, add_and_take_away, NULL);
 }
 
-// ---- main
-// -----------------------------------------------------------------------------------------------------------------------------
+// ---- main ----------------------------------------------------------------------------------------------------------
 
 static int update(void)
 {

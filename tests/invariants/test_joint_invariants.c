@@ -84,8 +84,7 @@ static double stored_in(const crowd *c)
     return sum;
 }
 
-// ---- energy
-// ---------------------------------------------------------------------------------------------------------------------------
+// ---- energy --------------------------------------------------------------------------------------------------------
 
 #if SLOW_BUILD
 enum { SCENES = 6, STEPS = 120, THROWS = 2, DROPS = 2 };
@@ -141,8 +140,7 @@ static void bodies_locked_alike_gain_no_energy(void **state)
     }
 }
 
-// ---- impacts
-// --------------------------------------------------------------------------------------------------------------------------
+// ---- impacts -------------------------------------------------------------------------------------------------------
 static fe_joint join_with_limits(scene *s, dice *d, fe_body a, fe_body b, vec point)
 {
     const int kind = pick(d, 3);
@@ -240,8 +238,7 @@ static void sliders_on_long_arms_gain_no_energy(void **state)
         }
 }
 
-// ---- momentum
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- momentum ------------------------------------------------------------------------------------------------------
 
 static void joints_keep_momentum_and_angular_momentum(void **state)
 {
@@ -260,8 +257,7 @@ static void joints_keep_momentum_and_angular_momentum(void **state)
     }
 }
 
-// ---- ragdolls
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- ragdolls ------------------------------------------------------------------------------------------------------
 enum { LONGEST_THROW = 600 }; // steps: it flies for up to 2 s, and has 5 s from the last fall (S23)
 
 static double bones_energy(const scene *s, const ragdoll *r) { return totals_of(s, r->bones, RAGDOLL_BONES).energy; }

@@ -114,8 +114,7 @@ static inline solid make_field_solid(const fe_heightfield_def *d, int row, int c
     return make_triangle_solid(v[0], v[1], v[2]);
 }
 
-// ---- nearest points
-// ---------------------------------------------------------------------------------------------------------------
+// ---- nearest points ------------------------------------------------------------------------------------------------
 typedef struct nearness {
     real distance; // of the cores; of a half space signed
     vec on_still, on_mover;

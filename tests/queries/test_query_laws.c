@@ -148,8 +148,7 @@ static input random_input(source *s, const fe_world *world)
     return in;
 }
 
-// ---- the laws
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- the laws ------------------------------------------------------------------------------------------------------
 static double along(fe_vec3 n, fe_dvec3 way) { return (double)n.x * way.x + (double)n.y * way.y + (double)n.z * way.z; }
 
 static const char *broken_by_hit(const input *in, const fe_hit *hit)
@@ -267,8 +266,7 @@ static void the_laws_of_queries_hold(void **state)
     }
 }
 
-// ---- sliding
-// --------------------------------------------------------------------------------------------------------------------------
+// ---- sliding -------------------------------------------------------------------------------------------------------
 
 // Flat ground at 0: flush boxes from -6 to 6, a heightfield behind them, a plane under the rest.
 static fe_world *flat_world(void)

@@ -7,8 +7,7 @@
 
 #include "collision/cast/ray.h"
 
-// ---- a random world and its reference
-// -------------------------------------------------------------------------------------------
+// ---- a random world and its reference ------------------------------------------------------------------------------
 
 enum { BODIES = 150, SHAPES = 400 };
 
@@ -229,8 +228,7 @@ static void a_ray_finds_it_while_the_world_moves(void **state)
     OK(fe_world_destroy(k.world));
 }
 
-// ---- laws
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- laws ----------------------------------------------------------------------------------------------------------
 
 static fe_hit cast(const fe_world *world, fe_dvec3 from, fe_dvec3 translation)
 {
@@ -330,8 +328,7 @@ static void an_empty_world_is_missed(void **state)
     OK(fe_world_destroy(world));
 }
 
-// ---- arguments
-// ------------------------------------------------------------------------------------------------------------------
+// ---- arguments -----------------------------------------------------------------------------------------------------
 
 static void bad_rays_are_refused(void **state)
 {

@@ -109,8 +109,7 @@ static void one_case(bench *b, int32_t moving, int32_t standing, tally *t)
     t->least = fmin(t->least, gap), t->most = fmax(t->most, gap), t->normal = fmax(t->normal, error);
 }
 
-// ---- heightfields
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- heightfields --------------------------------------------------------------------------------------------------
 
 enum { SAMPLES = 6, TRIANGLES = 2 * (SAMPLES - 1) * (SAMPLES - 1) };
 

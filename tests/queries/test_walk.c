@@ -183,8 +183,7 @@ static void make_world(known_world *k, double middle, uint64_t seed)
     learn_poses(k);
 }
 
-// ---- queries and who counts
-// -----------------------------------------------------------------------------------------------------------
+// ---- queries and who counts ----------------------------------------------------------------------------------------
 typedef struct query {
     fe_geometry geometry;
     fe_transform start;
@@ -277,8 +276,7 @@ static int32_t shape_index(const known_world *k, fe_shape shape, int32_t triangl
     return i;
 }
 
-// ---- hits
-// -----------------------------------------------------------------------------------------------------------------------------
+// ---- hits ----------------------------------------------------------------------------------------------------------
 static int32_t cast(const known_world *k, const query *q, fe_hit *hit)
 {
     return q->is_ray ? fe_world_raycast(k->world, &q->start.position, &q->way, &q->filter, hit)
@@ -429,8 +427,7 @@ static void sweeps_find_what_a_walk_finds(void **state)
     casts_find_what_a_walk_finds(0);
 }
 
-// ---- overlaps
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- overlaps ------------------------------------------------------------------------------------------------------
 static int32_t check_overlap(const known_world *k, const query *q)
 {
     static fe_body found[BODIES], few[2];
@@ -500,8 +497,7 @@ static void the_way_out_of_an_overlap_is_as_long_as_told(void **state)
     OK(fe_world_destroy(k.world));
 }
 
-// ---- the closest point
-// ----------------------------------------------------------------------------------------------------------------
+// ---- the closest point ---------------------------------------------------------------------------------------------
 static void the_closest_point_is_that_of_a_walk(void **state)
 {
     (void)state;

@@ -14,8 +14,7 @@ typedef struct handles {
     fe_joint joint;
 } handles;
 
-// ---- what the calls are given beside handles
-// ------------------------------------------------------------------------------------
+// ---- what the calls are given beside handles -----------------------------------------------------------------------
 static _Alignas(16) unsigned char room[4096];
 static const fe_vec3 axis = {1.0f, 0.0f, 0.0f}, up = {0.0f, 1.0f, 0.0f};
 static const fe_dvec3 point = {0.0, 1.0, 0.0};
@@ -80,8 +79,7 @@ static fe_mass_data *ready_fe_mass_data(void)
     return &s;
 }
 
-// ---- every function that takes a handle of a world, once for each handle that it takes
-// ------------------------------------------
+// ---- every function that takes a handle of a world, once for each handle that it takes -----------------------------
 static int32_t call_0(fe_world *w, const handles *own, const handles *h)
 {
     (void)own;
@@ -911,8 +909,7 @@ static const call calls[] = {
 };
 enum { CALLS = sizeof calls / sizeof *calls };
 
-// ---- the worlds
-// -----------------------------------------------------------------------------------------------------------------
+// ---- the worlds ----------------------------------------------------------------------------------------------------
 static fe_world *worlds[WORLDS];
 static handles of[WORLDS];
 
@@ -961,8 +958,7 @@ static void every_call_refuses_the_handles_of_63_other_worlds(void **state)
     for (int32_t i = 0; i < WORLDS; ++i) assert_int_equal(fe_world_destroy(worlds[i]), FE_OK);
 }
 
-// ---- is any forgotten?
-// ----------------------------------------------------------------------------------------------------------
+// ---- is any forgotten? ---------------------------------------------------------------------------------------------
 
 // Takes a handle by value, or a const array of them
 static int32_t takes_a_handle(const char *declaration)

@@ -51,8 +51,7 @@ static void same(outcome a, outcome b)
     FE_TRUE(a.told == b.told);
 }
 
-// ---- the floating-point state
-// ---------------------------------------------------------------------------------------------------------
+// ---- the floating-point state --------------------------------------------------------------------------------------
 #if defined(__x86_64__)
 #include <xmmintrin.h>
 // rounding up, flush to zero, denormals are zero; exceptions masked
@@ -107,8 +106,7 @@ static void the_host_keeps_its_floating_point_state(void **state)
     }
 }
 
-// ---- the host's jobs
-// ------------------------------------------------------------------------------------------------------------------
+// ---- the host's jobs -----------------------------------------------------------------------------------------------
 
 static void run_backwards(void *user, fe_task task, void *argument, int32_t count)
 {
@@ -179,8 +177,7 @@ static void a_host_task_system_gives_the_same_bits(void **state)
     same(host_outcome(&script_crowd, 3, run_on_threads, NULL), expected);
 }
 
-// ---- one pool, several worlds
-// ---------------------------------------------------------------------------------------------------------
+// ---- one pool, several worlds --------------------------------------------------------------------------------------
 
 typedef struct host_thread {
     play play;
@@ -215,8 +212,7 @@ static void worlds_on_one_pool_step_at_once(void **state)
     assert_int_equal(fe_pool_destroy(pool), FE_OK);
 }
 
-// ---- calls during a step
-// --------------------------------------------------------------------------------------------------------------
+// ---- calls during a step -------------------------------------------------------------------------------------------
 
 typedef struct intruder {
     fe_world *world;

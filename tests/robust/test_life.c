@@ -73,8 +73,7 @@ static void all_is_finite(const fe_world *world, const fe_body *bodies, int32_t 
     }
 }
 
-// ---- coming and going
-// -----------------------------------------------------------------------------------------------------------------
+// ---- coming and going ----------------------------------------------------------------------------------------------
 
 // 64 bodies at a time in a heap on the ground, the oldest replaced: slots, pairs, tree nodes and events go round
 static void memory_stays_flat_over_many_spawns(void **state)
@@ -226,8 +225,7 @@ static void thousands_can_be_created_one_by_one(void **state)
     step(p, 1);
 }
 
-// ---- changes
-// --------------------------------------------------------------------------------------------------------------------------
+// ---- changes -------------------------------------------------------------------------------------------------------
 
 enum { TWINS = 9 }; // pairs of bodies, actors 1 + 2 k and 2 + 2 k
 

@@ -32,8 +32,7 @@ static fe_asset load(fe_store *store, int32_t seed)
     return fe_heightfield_create(store, &d, &asset) == FE_OK ? asset : 0;
 }
 
-// ---- the loader
-// -----------------------------------------------------------------------------------------------------------------
+// ---- the loader ----------------------------------------------------------------------------------------------------
 
 typedef struct loader {
     fe_store *store;
@@ -78,8 +77,7 @@ static void *work(void *argument)
     return NULL;
 }
 
-// ---- the worlds
-// -----------------------------------------------------------------------------------------------------------------
+// ---- the worlds ----------------------------------------------------------------------------------------------------
 
 static fe_body add_terrain(fe_world *world, fe_asset asset, double x)
 {

@@ -28,8 +28,7 @@ static void note(shared *s, int32_t result)
     if (!is_expected(result)) atomic_store(&s->wrong, result);
 }
 
-// ---- writers
-// ----------------------------------------------------------------------------------------------------------------------
+// ---- writers -------------------------------------------------------------------------------------------------------
 
 static void *write_on(void *argument)
 {
@@ -70,8 +69,7 @@ static void two_writers_never_meet(void **state)
     assert_int_equal(fe_world_destroy(s.world), FE_OK);
 }
 
-// ---- readers beside a step
-// ----------------------------------------------------------------------------------------------------------
+// ---- readers beside a step -----------------------------------------------------------------------------------------
 
 static void *read_on(void *argument)
 {
@@ -125,8 +123,7 @@ static void a_step_and_readers_exclude_each_other(void **state)
     assert_int_equal(fe_world_destroy(s.world), FE_OK);
 }
 
-// ---- destruction
-// -------------------------------------------------------------------------------------------------------------------
+// ---- destruction ---------------------------------------------------------------------------------------------------
 
 typedef struct stuck {
     fe_world *world;

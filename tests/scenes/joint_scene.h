@@ -4,8 +4,7 @@
 
 #include "scenes/mechanics.h"
 
-// ---- bodies
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- bodies --------------------------------------------------------------------------------------------------------
 
 // a static body without a shape: a place to hold on to
 static inline fe_body add_anchor(scene *s, vec at)
@@ -27,8 +26,7 @@ static inline fe_body add_plain(scene *s, fe_geometry form, vec at)
 
 static inline void touch_nothing(scene *s, fe_body body) { MUST(fe_body_set_filter(s->world, body, 2, 0, 0)); }
 
-// ---- joints, points and axes in the scene's frame
-// ------------------------------------------------------------------------------------
+// ---- joints, points and axes in the scene's frame ------------------------------------------------------------------
 
 // ball_def(): the defaults, and so for each type
 #define DEFAULTS(type)                                   \
@@ -101,8 +99,7 @@ static inline fe_configurable_joint_def slider_def(void)
     return d;
 }
 
-// ---- reading
-// --------------------------------------------------------------------------------------------------------------------------
+// ---- reading -------------------------------------------------------------------------------------------------------
 
 static inline fe_joint_state state_of(const scene *s, fe_joint joint)
 {

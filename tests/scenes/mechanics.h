@@ -81,8 +81,7 @@ static inline totals totals_of(const scene *s, const fe_body *bodies, int count)
     return t;
 }
 
-// ---- random scenes
-// ----------------------------------------------------------------------------------------------------------------
+// ---- random scenes -------------------------------------------------------------------------------------------------
 
 typedef struct dice {
     uint64_t state;
@@ -123,8 +122,7 @@ static inline fe_geometry any_form(dice *d, double size)
     }
 }
 
-// ---- what the machine allows
-// ------------------------------------------------------------------------------------------------------
+// ---- what the machine allows ---------------------------------------------------------------------------------------
 
 // Builds with sanitizers are some ten times slower: they get smaller scenes.
 #if defined(FE_SANITIZED) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

@@ -25,8 +25,7 @@
 #define WATER 1000.0f // kg/m3
 #define UNTURNED ((fe_quat){0, 0, 0, 1})
 
-// ---- vectors
-// ----------------------------------------------------------------------------------------------------------------------
+// ---- vectors -------------------------------------------------------------------------------------------------------
 
 typedef fe_dvec3 vec;
 
@@ -72,8 +71,7 @@ static inline fe_quat turned(vec axis, double angle)
     return (fe_quat){(float)(k * axis.x), (float)(k * axis.y), (float)(k * axis.z), (float)cos(angle / 2)};
 }
 
-// ---- worlds
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- worlds --------------------------------------------------------------------------------------------------------
 
 typedef struct setup {
     fe_quat turn;
@@ -139,8 +137,7 @@ static inline void run(scene *s, int steps)
     for (int i = 0; i < steps; ++i) MUST(fe_world_step(s->world, DT));
 }
 
-// ---- bodies
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- bodies --------------------------------------------------------------------------------------------------------
 
 static inline fe_geometry sphere(double radius)
 {
@@ -249,8 +246,7 @@ static inline void add_torque(scene *s, fe_body body, vec torque)
     MUST(fe_body_add_torque(s->world, body, &t));
 }
 
-// ---- reading
-// ----------------------------------------------------------------------------------------------------------------------
+// ---- reading -------------------------------------------------------------------------------------------------------
 
 static inline vec position(const scene *s, fe_body body)
 {
@@ -304,8 +300,7 @@ static inline double normal_impulse(const scene *s, fe_body a, fe_body b)
     return sum;
 }
 
-// ---- what to expect
-// ---------------------------------------------------------------------------------------------------------------
+// ---- what to expect ------------------------------------------------------------------------------------------------
 
 // Relative error of a velocity after n additions in float: half a unit in the last place each, 3e-8 on average.
 static inline double rounding(double additions) { return fmax(1e-6, 3e-8 * additions); }

@@ -18,8 +18,7 @@ static fe_geometry fast_form(dice *d, int kind)
     return box(x, y, 0.1);
 }
 
-// ---- walls
-// --------------------------------------------------------------------------------------------------------------------------
+// ---- walls ---------------------------------------------------------------------------------------------------------
 
 // The middle of a wall, its normal, and a body that comes from where the normal points. The wall may go towards it at
 // some speed.
@@ -229,8 +228,7 @@ static void bullets_stay_before_moving_bodies(void **state)
     scene_end(&s);
 }
 
-// ---- rooms
-// --------------------------------------------------------------------------------------------------------------------------
+// ---- rooms ---------------------------------------------------------------------------------------------------------
 static void add_room(scene *s, double half, double thick, fe_material material)
 {
     for (int k = 0; k < 6; ++k) {
@@ -429,8 +427,7 @@ static void wedges_hold(void **state)
     }
 }
 
-// ---- what only passes by
-// --------------------------------------------------------------------------------------------------------------
+// ---- what only passes by -------------------------------------------------------------------------------------------
 
 static void pass_by(const scene *s, const scene *bare, fe_body body, fe_body same)
 {
@@ -493,8 +490,7 @@ static void a_bounce_below_a_roof_is_no_hit(void **state)
     scene_end(&bare);
 }
 
-// ---- triggers and events
-// --------------------------------------------------------------------------------------------------------------
+// ---- triggers and events -------------------------------------------------------------------------------------------
 static int told(const scene *s, fe_body a, fe_body b, int kind)
 {
     fe_pair_event events[64];

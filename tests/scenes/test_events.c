@@ -59,8 +59,7 @@ static void place(scene *s, fe_body body, vec at)
 
 static fe_geometry cube(void) { return box(0.5, 0.5, 0.5); }
 
-// ---- balance
-// ----------------------------------------------------------------------------------------------------------------------
+// ---- balance -------------------------------------------------------------------------------------------------------
 
 // one enter when it lands, stays only while it lies and only if asked for, one exit when it is gone
 static void a_landing_enters_stays_and_exits(void **state)
@@ -269,8 +268,7 @@ static void enters_and_exits_balance_through_a_random_life(void **state)
     scene_end(&s);
 }
 
-// ---- within one step
-// --------------------------------------------------------------------------------------------------------------
+// ---- within one step -----------------------------------------------------------------------------------------------
 
 // A ball that hits and leaves within one step had an impulse in it: it enters, and exits in the next.
 static void a_bounce_within_one_step_enters_and_exits(void **state)
@@ -293,8 +291,7 @@ static void a_bounce_within_one_step_enters_and_exits(void **state)
     }
 }
 
-// ---- triggers
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- triggers ------------------------------------------------------------------------------------------------------
 
 // a trigger box 4 m high over y = 0..4, a body thrown or carried through it: one enter, one exit, no push
 static void a_trigger_sees_dynamic_and_kinematic_bodies_and_pushes_nothing(void **state)
@@ -391,8 +388,7 @@ static void triggers_see_triggers_that_move(void **state)
     scene_end(&s);
 }
 
-// ---- order and hits
-// ---------------------------------------------------------------------------------------------------------------
+// ---- order and hits ------------------------------------------------------------------------------------------------
 
 // Bodies are created, some destroyed, and their slots used again: events come in the order of creation all the same.
 static void events_come_in_the_order_of_creation(void **state)

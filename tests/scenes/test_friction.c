@@ -4,8 +4,7 @@
 
 static const fe_material SMOOTH = SURFACE(0, 0, 0, 0, 0);
 
-// ---- slopes
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- slopes --------------------------------------------------------------------------------------------------------
 
 // A box lying flush on a slope
 static fe_body add_box_on_slope(scene *s, double angle, double half_along, double half_up, double mu)
@@ -95,8 +94,7 @@ static void a_sliding_box_follows_coulomb_on_a_plank(void **state)
     }
 }
 
-// ---- on the level
-// ---------------------------------------------------------------------------------------------------------------
+// ---- on the level --------------------------------------------------------------------------------------------------
 
 // 10 kg: a cube of 0.2 m. A force that grows by 1 N/s moves it above mu_s m g, and then only mu_d m g resist.
 static void static_friction_holds_and_dynamic_friction_brakes(void **state)
@@ -211,8 +209,7 @@ static void a_block_drags_a_free_slab_to_their_common_velocity(void **state)
     scene_end(&s);
 }
 
-// ---- tipping
-// --------------------------------------------------------------------------------------------------------------------
+// ---- tipping -------------------------------------------------------------------------------------------------------
 
 // between the body's y axis and the slope's normal, rad
 static double lean(const scene *s, fe_body body, double angle)

@@ -2,8 +2,7 @@
 // and energy.
 #include "scenes/mechanics.h"
 
-// ---- drops
-// ------------------------------------------------------------------------------------------------------------------------
+// ---- drops ---------------------------------------------------------------------------------------------------------
 
 // Height above the ground to which the discrete flight goes from here: v^2/2 + g y - h g v/2 stays as it is (P3), so
 // this is its top.
@@ -189,8 +188,7 @@ static void box_landing_on_its_edge_gets_newtons_impulse(void **state)
     }
 }
 
-// ---- two bodies
-// -------------------------------------------------------------------------------------------------------------------
+// ---- two bodies ----------------------------------------------------------------------------------------------------
 
 // v1' = (m1 v1 + m2 v2 + m2 e (v2 - v1)) / (m1 + m2), and the same for the other
 static void collisions_in_a_line_follow_newton(void **state)
@@ -268,8 +266,7 @@ static void balls_that_flew_in_a_row_meet(void **state)
     scene_end(&s);
 }
 
-// ---- cradles
-// ----------------------------------------------------------------------------------------------------------------------
+// ---- cradles -------------------------------------------------------------------------------------------------------
 
 enum { BALLS = 5 };
 
@@ -317,8 +314,7 @@ static void touching_cradle_keeps_momentum_and_gains_no_energy(void **state)
     }
 }
 
-// ---- nobody is forgotten
-// ------------------------------------------------------------------------------------------------------------
+// ---- nobody is forgotten -------------------------------------------------------------------------------------------
 
 static int has_contact(const scene *s, fe_body a, fe_body b)
 {
@@ -360,8 +356,7 @@ static void balls_that_overlap_have_a_contact(void **state)
     scene_end(&s);
 }
 
-// ---- many bodies, nothing outside
-// ---------------------------------------------------------------------------------------------------
+// ---- many bodies, nothing outside ----------------------------------------------------------------------------------
 
 typedef struct shortfalls {
     shortfall momentum, angular, energy;

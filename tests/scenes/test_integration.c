@@ -6,8 +6,7 @@
 
 static setup one_substep = {{0, 0, 0, 1}, 1};
 
-// ---- free flight
-// ----------------------------------------------------------------------------------------------------------------
+// ---- free flight ---------------------------------------------------------------------------------------------------
 
 // y = g t (t + h) / 2 after 1 s, 10 mm more than g t^2 / 2 at 8 substeps; v = g t
 static void free_fall_takes_the_discrete_way(void **state)
@@ -58,8 +57,7 @@ static void free_flight_only_loses_the_energy_of_the_discrete_scheme(void **stat
     scene_end(&s);
 }
 
-// ---- forces and damping
-// ---------------------------------------------------------------------------------------------------------
+// ---- forces and damping --------------------------------------------------------------------------------------------
 
 // v = F t / m, and not one bit more once the calls end
 static void a_force_acts_in_all_substeps_of_the_next_step_only(void **state)
@@ -118,8 +116,7 @@ static void damping_follows_its_discrete_law(void **state)
     scene_end(&s);
 }
 
-// ---- locks
-// ----------------------------------------------------------------------------------------------------------------------
+// ---- locks ---------------------------------------------------------------------------------------------------------
 
 enum { LINEAR_BITS = 7, ALL_LOCKS = 64 };
 

@@ -94,8 +94,7 @@ static void walls_hold_back_the_whole(void **state)
     }
 }
 
-// ---- a heap that all workers solve together, stirred by a bar
-// -------------------------------------------------------------------------
+// ---- a heap that all workers solve together, stirred by a bar ------------------------------------------------------
 typedef struct heap {
     scene s;
     puppet puppets[HEAP];
@@ -155,8 +154,7 @@ static void a_heap_is_the_same_for_all_workers(void **state)
     scene_end(&four.s);
 }
 
-// ---- what is rigid
-// --------------------------------------------------------------------------------------------------------------------
+// ---- what is rigid -------------------------------------------------------------------------------------------------
 
 // A joint with hertz of its own is a spring only where others are stiffer
 static void as_stiff_as_the_world_is_rigid(void **state)
@@ -180,8 +178,7 @@ static void as_stiff_as_the_world_is_rigid(void **state)
     }
 }
 
-// ---- doors
-// -----------------------------------------------------------------------------------------------------------------------------
+// ---- doors ---------------------------------------------------------------------------------------------------------
 
 // Two leaves of 1 m, the second on the first, each on two hinges 1.5 m apart; the upper ones `askew`, rad
 typedef struct door {

@@ -41,8 +41,7 @@ struct row {
 // per cent
 #define TOLERANCE 0.1
 
-// ---- laws
-// ---------------------------------------------------------------------------------------------------------------------------
+// ---- laws ----------------------------------------------------------------------------------------------------------
 
 static double inertia_of(const rig *r)
 {
@@ -113,8 +112,7 @@ static double no_more_than_cap(const rig *r, double cap) { return fmin(r->row->p
 static double spun_up(const rig *r, double force) { return force * r->row->seconds / inertia_of(r); }
 static double whole_if_stronger(const rig *r, double strength) { return strength > r->row->push; }
 
-// ---- readings
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- readings ------------------------------------------------------------------------------------------------------
 
 static double component(vec a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
 
@@ -156,8 +154,7 @@ static double told_data(const rig *r)
     return (double)data;
 }
 
-// ---- values
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- values --------------------------------------------------------------------------------------------------------
 
 static void put_int(rig *r, any_def *d, const row *row, double value)
 {
@@ -220,8 +217,7 @@ static void put_collide(rig *r, any_def *d, const row *row, double value)
     put_int(r, d, row, value);
 }
 
-// ---- what else a definition needs
-// -----------------------------------------------------------------------------------------------------
+// ---- what else a definition needs ----------------------------------------------------------------------------------
 
 #define PREPARE(name, ...) \
     static void name(any_def *d) { __VA_ARGS__; }
@@ -253,8 +249,7 @@ PREPARE(hinge_motor, d->hinge.motor_max = 1e6f)
 PREPARE(hinge_racer, d->hinge.motor_speed = 1000)
 PREPARE(angular_spring, d->fixed.angular_hertz = 2, d->fixed.angular_damping_ratio = 5)
 
-// ---- rows of what all types have
-// ------------------------------------------------------------------------------------------------------
+// ---- rows of what all types have -----------------------------------------------------------------------------------
 
 static const row common_rows[] = {
     {FIELD(common.enabled), {1, 0}, held_if, way, 0, 100, 0.5, NULL, put_int},
@@ -290,8 +285,7 @@ static const row solid_rows[] = {
         FIELD(common.frame_b.rotation), {0, 0.5}, reversed, way, FE_DOF_ANGULAR_Z, 0, 3, prepare_yz, put_turn    \
     }
 
-// ---- rows of each type
-// ----------------------------------------------------------------------------------------------------------------
+// ---- rows of each type ---------------------------------------------------------------------------------------------
 
 static const row distance_rows[] = {
     {FIELD(common.body_a), {0, 1}, along_the_rod, way, 1, 0, 2, NULL, put_end_a},
@@ -369,8 +363,7 @@ static const row six_rows[] = {
     {FIELD(common.break_torque), {5, 15}, whole_if_stronger, is_whole, FE_DOF_ANGULAR_Y, 10, 0.5, NULL, NULL},
 };
 
-// ---- rows of an axis, for each of the six
-// ---------------------------------------------------------------------------------------------
+// ---- rows of an axis, for each of the six --------------------------------------------------------------------------
 
 typedef struct axis_row {
     const char *name;
@@ -419,8 +412,7 @@ static const axis_row axis_rows[] = {
     {OF_AXIS(motor_max), {1, 3}, spun_up, pace, 0, 0.5, {.motion = FE_MOTION_FREE, .motor_speed = 1000}, 0},
 };
 
-// ---- the rig
-// --------------------------------------------------------------------------------------------------------------------------
+// ---- the rig -------------------------------------------------------------------------------------------------------
 
 static void init(int kind, any_def *d)
 {
@@ -499,8 +491,7 @@ static int differs_as_foretold(void **state, int kind, const row *row, const fe_
     return 0;
 }
 
-// ---- all rows
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- all rows ------------------------------------------------------------------------------------------------------
 
 typedef struct table {
     const row *rows;
@@ -552,8 +543,7 @@ static void each_field_of_each_axis_alone_decides_too(void **state)
     FE_TRUE(misses == 0);
 }
 
-// ---- no field is left out
-// -------------------------------------------------------------------------------------------------------------
+// ---- no field is left out ------------------------------------------------------------------------------------------
 
 typedef struct exception {
     int kind; // -1: all

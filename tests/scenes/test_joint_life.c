@@ -36,8 +36,7 @@ static tied add_tied(scene *s)
     return t;
 }
 
-// ---- sleep
-// --------------------------------------------------------------------------------------------------------------------------
+// ---- sleep ---------------------------------------------------------------------------------------------------------
 
 static void joined_bodies_sleep_and_wake_together(void **state)
 {
@@ -134,8 +133,7 @@ static void a_moving_kinematic_body_keeps_awake_what_it_holds(void **state)
     scene_end(&s);
 }
 
-// ---- filter
-// ---------------------------------------------------------------------------------------------------------------------------
+// ---- filter --------------------------------------------------------------------------------------------------------
 
 static int32_t pair_events(const scene *s, int32_t kind)
 {
@@ -184,8 +182,7 @@ static void joined_bodies_touch_only_if_asked(void **state)
     scene_end(&s);
 }
 
-// ---- breaking
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- breaking ------------------------------------------------------------------------------------------------------
 
 static void a_joint_breaks_above_its_force_and_says_so(void **state)
 {
@@ -258,8 +255,7 @@ static void joints_break_in_the_order_of_creation(void **state)
     scene_end(&s);
 }
 
-// ---- what a joint holds goes on through changes
-// ---------------------------------------------------------------------------------------
+// ---- what a joint holds goes on through changes --------------------------------------------------------------------
 
 typedef struct hung {
     fe_body anchor, upper, lower;
@@ -419,8 +415,7 @@ static void joints_without_a_dynamic_end_do_nothing(void **state)
     scene_end(&s);
 }
 
-// ---- locks (V7, B37)
-// ------------------------------------------------------------------------------------------------------------------
+// ---- locks (V7, B37) -----------------------------------------------------------------------------------------------
 
 static void check_locked(const fe_transform *was, const fe_transform *is, uint32_t linear, uint32_t angular)
 {
@@ -470,8 +465,7 @@ static void no_joint_moves_a_locked_coordinate(void **state)
     }
 }
 
-// ---- many
-// -----------------------------------------------------------------------------------------------------------------------------
+// ---- many ----------------------------------------------------------------------------------------------------------
 
 static void making_and_destroying_joints_takes_no_more_and_more_memory(void **state)
 {

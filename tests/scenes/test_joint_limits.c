@@ -47,8 +47,7 @@ static fe_joint configurable_of(gyre *g, fe_configurable_joint_def d)
 static double square(double a) { return a * a; }
 static double stiffness_of(double hertz) { return square(2 * PI * hertz); } // for a mass of 1
 
-// ---- cone and twist
-// -------------------------------------------------------------------------------------------------------------------
+// ---- cone and twist ------------------------------------------------------------------------------------------------
 
 // swing times twist
 static fe_quat rotation_of(double twist, double y, double z)
@@ -182,8 +181,7 @@ static void a_swing_over_half_a_turn_stays_sane(void **state)
     }
 }
 
-// ---- targets beyond limits
-// ------------------------------------------------------------------------------------------------------------
+// ---- targets beyond limits -----------------------------------------------------------------------------------------
 
 static void a_target_beyond_a_limit_counts_as_the_limit(void **state)
 {
@@ -226,8 +224,7 @@ static void a_target_beyond_a_limit_counts_as_the_limit(void **state)
     scene_end(&g.s);
 }
 
-// ---- softness of what is held, and of limits
-// ------------------------------------------------------------------------------------------
+// ---- softness of what is held, and of limits -----------------------------------------------------------------------
 
 // What hangs by a joint of `hertz` sinks by g / w^2. Highly damped it creeps there as C x' = -K x, by w / (2 zeta) a
 // second
@@ -353,8 +350,7 @@ static void limits_give_by_their_hertz_and_come_back_by_their_damping(void **sta
         }
 }
 
-// ---- caps
-// -----------------------------------------------------------------------------------------------------------------------------
+// ---- caps ----------------------------------------------------------------------------------------------------------
 
 // A constant push against a spring: below the cap it rests at push / stiffness, above it runs away with what the cap
 // leaves
@@ -492,8 +488,7 @@ static void a_motor_moves_to_a_pose_and_holds_it_within_its_caps(void **state)
     scene_end(&s);
 }
 
-// ---- locked bodies
-// --------------------------------------------------------------------------------------------------------------------
+// ---- locked bodies -------------------------------------------------------------------------------------------------
 
 // the axes that are free move to their limits, those that are locked stay; limits of locked ones do no harm
 static void limits_hold_bodies_with_locked_axes(void **state)

@@ -4,8 +4,7 @@
 
 static fe_quat lying(void) { return turned(v3(0, 0, 1), -PI / 2); } // a capsule along x
 
-// ---- cantilever
-// -------------------------------------------------------------------------------------------------------------------
+// ---- cantilever ----------------------------------------------------------------------------------------------------
 
 enum { BARS = 8 };
 
@@ -44,8 +43,7 @@ static void a_cantilever_bends_by_its_load_over_its_hertz_squared(void **state)
     for (int i = 2; i < 4; ++i) FE_NEAR(sag[i], expected[i], 0.25 * expected[i]);
 }
 
-// ---- ring
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- ring ----------------------------------------------------------------------------------------------------------
 
 enum { SIDES = 7 };
 
@@ -91,8 +89,7 @@ static void a_ring_of_springs_keeps_its_size_when_it_falls(void **state)
     scene_end(&s);
 }
 
-// ---- light between heavy
-// --------------------------------------------------------------------------------------------------------------
+// ---- light between heavy -------------------------------------------------------------------------------------------
 
 static void a_light_ball_on_springs_between_heavy_ones_adds_no_energy(void **state)
 {
@@ -147,8 +144,7 @@ static void a_windmill_of_soft_blades_turns_and_stays_whole(void **state)
     scene_end(&s);
 }
 
-// ---- a box on the springs of each joint (B30)
-// -----------------------------------------------------------------------------------------
+// ---- a box on the springs of each joint (B30) ----------------------------------------------------------------------
 
 // Half a period after it was let go, 0.25 beyond where it rests, it is as far on the other side, less what the damping
 // took
@@ -180,8 +176,7 @@ static void a_box_on_a_slider_swings_in_its_range_and_stops_at_its_motor(void **
     scene_end(&s);
 }
 
-// ---- a scissor lift (B33)
-// ---------------------------------------------------------------------------------------------------------
+// ---- a scissor lift (B33) ------------------------------------------------------------------------------------------
 
 enum { STAGES = 3, HINGES = 3 * STAGES };
 #define REACH 2.5    // m, half of a bar

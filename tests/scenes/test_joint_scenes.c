@@ -32,8 +32,7 @@ static double speed_square(const scene *s, const fe_body *bodies, int count)
     return sum;
 }
 
-// ---- chains
-// ---------------------------------------------------------------------------------------------------------------------------
+// ---- chains --------------------------------------------------------------------------------------------------------
 
 enum { MOST_LINKS = 48 };
 typedef struct chain {
@@ -196,8 +195,7 @@ static void a_cloth_hangs_by_the_predicted_gaps(void **state)
     scene_end(&s);
 }
 
-// ---- bridges
-// --------------------------------------------------------------------------------------------------------------------------
+// ---- bridges -------------------------------------------------------------------------------------------------------
 
 // S21, B26: planks between two ends without slack, held stiffly. sag^2 = 3/8 L sum(gaps)
 static void check_bridge(void **state, int planks, double length_of_plank, double half_height, double half_depth,
@@ -247,8 +245,7 @@ static void a_bridge_of_balls_sags_no_more_than_its_gaps(void **state)
     check_bridge(state, 150, 0.25, 0.125, 0.5, 2);
 }
 
-// ---- a door that is hit (B27)
-// ---------------------------------------------------------------------------------------------------------
+// ---- a door that is hit (B27) --------------------------------------------------------------------------------------
 
 static void a_slammed_door_stays_in_its_hinges(void **state)
 {
@@ -279,8 +276,7 @@ static void a_slammed_door_stays_in_its_hinges(void **state)
     scene_end(&s);
 }
 
-// ---- single joints under load (B28 to B30, B32)
-// ---------------------------------------------------------------------------------------
+// ---- single joints under load (B28 to B30, B32) --------------------------------------------------------------------
 
 static void a_chain_of_rods_falls_and_keeps_its_lengths(void **state)
 {
@@ -372,8 +368,7 @@ static void telescopes_pulled_hard_come_back(void **state)
     }
 }
 
-// ---- linkages (IFToMM A02, A04)
-// -------------------------------------------------------------------------------------------------------
+// ---- linkages (IFToMM A02, A04) ------------------------------------------------------------------------------------
 
 static fe_body add_link(scene *s, vec from, vec to)
 {

@@ -55,8 +55,7 @@ static chain hang(scene *s, kind k, fe_body above, double load)
 
 static double widest_gap(const scene *s, const chain *c) { return worst_gap(s, c->joints, c->count); }
 
-// ---- exact
-// ----------------------------------------------------------------------------------------------------------------------------
+// ---- exact ---------------------------------------------------------------------------------------------------------
 
 // A thousand links swung sideways with 3 m/s, a hundred on rods: what calms light links sees turns, not the way across
 // a rod. Rods and hinges swing, sliders slide, fixed ones stay
@@ -200,8 +199,7 @@ static void locked_bodies_swing_in_their_plane(void **state)
     scene_end(&s);
 }
 
-// ---- which are trees
-// ------------------------------------------------------------------------------------------------------------------
+// ---- which are trees -----------------------------------------------------------------------------------------------
 
 // A second hold closes a loop through the world; without it the chain is a tree again, and nothing tells that there was
 // one

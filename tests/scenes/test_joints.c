@@ -1,8 +1,7 @@
 // Joints against statics and mechanics: loads, springs, pendulums, motors, sliders. V41 to V45, V48, V49.
 #include "scenes/joint_scene.h"
 
-// ---- V41: what hangs weighs what it weighs
-// ------------------------------------------------------------------------------------------
+// ---- V41: what hangs weighs what it weighs -------------------------------------------------------------------------
 
 typedef enum holder { ROD, BALL, HINGE, FIXED, LOCKED, SLIDER_ACROSS, HOLDERS } holder;
 
@@ -66,8 +65,7 @@ static void a_fixed_bar_bears_its_moment(void **state)
     scene_end(&s);
 }
 
-// ---- V42: distance
-// ------------------------------------------------------------------------------------------------------------------
+// ---- V42: distance -------------------------------------------------------------------------------------------------
 
 static void a_rod_keeps_its_length_while_it_swings(void **state)
 {
@@ -127,8 +125,7 @@ static void a_slack_rope_lets_fall_freely_until_it_is_taut(void **state)
     scene_end(&s);
 }
 
-// ---- V43: springs
-// -------------------------------------------------------------------------------------------------------------------
+// ---- V43: springs --------------------------------------------------------------------------------------------------
 
 // Frequency and damping of a decaying oscillation x_n, sampled every step: x_(n+1) = a x_n - b x_(n-1), by least
 // squares
@@ -237,8 +234,7 @@ static void a_fixed_joint_with_hertz_is_a_spring_of_them(void **state)
     }
 }
 
-// ---- V44, V45: pendulums
-// ------------------------------------------------------------------------------------------------------------
+// ---- V44, V45: pendulums -------------------------------------------------------------------------------------------
 
 // Mean period over `count` swings of `what`, from its rising zeros, interpolated
 static double period_of(scene *s, int count, double (*what)(const scene *s, fe_body body), fe_body body)
@@ -345,8 +341,7 @@ static void a_conical_pendulum_keeps_its_circle(void **state)
     }
 }
 
-// ---- V48: motors and stops of hinges
-// -------------------------------------------------------------------------------------------------
+// ---- V48: motors and stops of hinges -------------------------------------------------------------------------------
 
 // arm of 2 kg and 1 m from the origin along x, turning about z
 static fe_joint add_arm(scene *s, fe_hinge_joint_def d, fe_body *out_arm)
@@ -444,8 +439,7 @@ static void a_stop_gives_as_predicted(void **state)
         }
 }
 
-// ---- V49: sliders, universal joints, drives
-// ------------------------------------------------------------------------------------------
+// ---- V49: sliders, universal joints, drives ------------------------------------------------------------------------
 
 static void a_slider_on_a_slope_accelerates_as_a_point(void **state)
 {

@@ -17,8 +17,7 @@ static fe_shape shape_of(const scene *s, fe_body body)
     return shape;
 }
 
-// ---- kinematic bodies
-// ---------------------------------------------------------------------------------------------------------------
+// ---- kinematic bodies ----------------------------------------------------------------------------------------------
 
 // A platform takes its box along: up and down at once, sideways while the friction can: mu g = 5.9 m/s2.
 static void a_platform_carries_a_box(void **state)
@@ -84,8 +83,7 @@ static void a_target_is_reached_in_time(void **state)
     scene_end(&s);
 }
 
-// ---- surfaces
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- surfaces ------------------------------------------------------------------------------------------------------
 
 // A belt that runs at 2 m/s brings a box to 2 m/s, by mu g on the way; its own body stands.
 static void a_conveyor_brings_a_box_to_its_speed(void **state)
@@ -148,8 +146,7 @@ static void a_contact_sticks_by_static_and_slides_by_dynamic_friction(void **sta
     scene_end(&s);
 }
 
-// ---- settings that change
-// -----------------------------------------------------------------------------------------------------------
+// ---- settings that change ------------------------------------------------------------------------------------------
 
 // A stack at rest stays at rest when the substeps and the step change: stored impulses are per substep, and are
 // rescaled.
@@ -271,8 +268,7 @@ static void a_force_waits_for_a_step_that_takes_time(void **state)
     scene_end(&s);
 }
 
-// ---- bodies
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- bodies --------------------------------------------------------------------------------------------------------
 
 static void add_shape(scene *s, fe_body body, fe_geometry form, vec at, float density)
 {

@@ -136,8 +136,7 @@ static void a_net_comes_back_without_a_jerk(void **state)
     scene_end(&s);
 }
 
-// ---- determinism
-// ----------------------------------------------------------------------------------------------------------------------
+// ---- determinism ---------------------------------------------------------------------------------------------------
 // A net that opens while it falls on a floor: islands below and above the size from which on all workers share one
 static void hash_of_fall(fe_simd simd, int workers, int columns, int rows, uint32_t out_hash[4])
 {

@@ -5,8 +5,7 @@
 static const double LAW = 0.01,
                     CAP = 0.02; // what may be off, relative: a law of motion; one that is ended by a cap on a torque
 
-// ---- down a slope
-// ---------------------------------------------------------------------------------------------------------------
+// ---- down a slope --------------------------------------------------------------------------------------------------
 
 // way down the slope in the first 2 s, m
 static double way_down(scene *s, fe_body body, double angle)
@@ -67,8 +66,7 @@ static void a_capsule_rolls_on_its_side_by_its_moment(void **state)
     scene_end(&s);
 }
 
-// ---- on the level
-// ---------------------------------------------------------------------------------------------------------------
+// ---- on the level --------------------------------------------------------------------------------------------------
 
 // It slides for 2 v0 / (7 mu g) and 12 v0^2 / (49 mu g), then rolls with 5/7 v0, for ever
 static void a_sliding_sphere_ends_rolling_with_five_sevenths(void **state)
@@ -195,8 +193,7 @@ static void rolling_resistance_holds_a_sphere_up_to_its_slope(void **state)
     }
 }
 
-// ---- about the normal
-// -----------------------------------------------------------------------------------------------------------
+// ---- about the normal ----------------------------------------------------------------------------------------------
 
 // Its torque is at most s N: t = 2 r^2 w0 / (5 s g). It stays where it is, but for what the rounding of its spin gives
 // it to roll with.

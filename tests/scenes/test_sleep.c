@@ -76,8 +76,7 @@ static int all_awake(const scene *s, const fe_body *bodies, int count)
     return sum != 0;
 }
 
-// ---- falling asleep
-// -----------------------------------------------------------------------------------------------------------------
+// ---- falling asleep ------------------------------------------------------------------------------------------------
 
 // 0.5 s below 0.05 m/s: a body at rest from the start sleeps after 30 steps, the rounding of 30 sums included one more.
 static void a_body_at_rest_sleeps_after_half_a_second(void **state)
@@ -178,8 +177,7 @@ static void one_that_may_not_sleep_keeps_its_island_awake(void **state)
     scene_end(&s);
 }
 
-// ---- asleep
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- asleep --------------------------------------------------------------------------------------------------------
 
 static void a_sleeping_world_does_not_change_one_bit(void **state)
 {
@@ -241,8 +239,7 @@ static void waking_disturbs_nothing(void **state)
     scene_end(&s);
 }
 
-// ---- waking
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- waking --------------------------------------------------------------------------------------------------------
 
 // Each of these wakes its body and all that it stands on or carries, at once, and the next step tells; another island
 // sleeps on.

@@ -12,8 +12,7 @@ static double fastest(const scene *s, const fe_body *bodies, int count)
     return most;
 }
 
-// ---- P1
-// ---------------------------------------------------------------------------------------------------------------------------
+// ---- P1 ------------------------------------------------------------------------------------------------------------
 
 // n cubes: the interface that carries k of them gives by 2 k g / w30^2 (two bodies of mass m in series), the ground by
 // n g / w60^2. 20 %: the corners of a stack do not share its weight evenly.
@@ -77,8 +76,7 @@ static void a_stack_of_spheres_stands_by_symmetry_and_sinks_by_p1(void **state)
     scene_end(&s);
 }
 
-// ---- standing
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- standing ------------------------------------------------------------------------------------------------------
 
 // B4 sinks by n (n - 1) g / w30^2 + n g / w60^2 = 0.433 m
 static void forty_boxes_stand_for_20_seconds(void **state)
@@ -326,8 +324,7 @@ static void a_load_taken_away_lets_nothing_leap(void **state)
     scene_end(&s);
 }
 
-// ---- pyramids
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- pyramids ------------------------------------------------------------------------------------------------------
 
 typedef struct pyramid {
     fe_body *bodies;

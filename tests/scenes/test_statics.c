@@ -7,8 +7,7 @@ static const double SINGLE = 0.05,
                     STACK =
                         0.2; // what P1 may be off by, relative: one body; what the bodies of a stack do to each other
 
-// ---- one body on the ground
-// -----------------------------------------------------------------------------------------------------
+// ---- one body on the ground ----------------------------------------------------------------------------------------
 
 static void a_sphere_sinks_by_the_predicted_overlap(void **state)
 {
@@ -51,8 +50,7 @@ static void a_capsule_on_its_side_sinks_by_the_predicted_overlap(void **state)
     scene_end(&s);
 }
 
-// ---- stacks
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- stacks --------------------------------------------------------------------------------------------------------
 
 enum { HIGHEST = 10 };
 
@@ -130,8 +128,7 @@ static void the_ground_carries_the_weight_of_a_pyramid(void **state)
     scene_end(&s);
 }
 
-// ---- two supports
-// ---------------------------------------------------------------------------------------------------------------
+// ---- two supports --------------------------------------------------------------------------------------------------
 
 // A smooth sphere between two planes at `angle` from the vertical: each carries N = m g / (2 sin angle) and gives by P1
 static void a_sphere_in_a_groove_is_carried_by_both_sides(void **state)

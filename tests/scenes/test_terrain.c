@@ -11,8 +11,7 @@ enum { HEADINGS = 2, RAIN = 60, NEEDLES = 8 };
 enum { HEADINGS = 16, RAIN = 500, NEEDLES = 32 };
 #endif
 
-// ---- rolling and sliding
-// ------------------------------------------------------------------------------------------------------------
+// ---- rolling and sliding -------------------------------------------------------------------------------------------
 
 enum { SPHERE, CAPSULE, BOX, FORMS };
 typedef void make_ground(scene *s, fe_material m);
@@ -174,8 +173,7 @@ static void characters_do_not_stumble(void **state)
     }
 }
 
-// ---- rain
-// -----------------------------------------------------------------------------------------------------------------------------
+// ---- rain ----------------------------------------------------------------------------------------------------------
 
 static double wave(double x, double z) { return 0.5 * sin(2 * PI * 0.1 * x) * sin(2 * PI * 0.2 * z); }
 
@@ -286,8 +284,7 @@ static void needles_stay_above_ground(void **state) { (void)needles(state); }
 
 static void needles_fall_asleep(void **state) { assert_int_equal(needles(state), 0); }
 
-// ---- edits, holes, materials
-// ----------------------------------------------------------------------------------------------------------
+// ---- edits, holes, materials ---------------------------------------------------------------------------------------
 
 static void set_flat(scene *s, fe_asset asset, int row, int column, int size, float height)
 {

@@ -17,8 +17,7 @@ void fuzz_fail(const fuzz *f, const char *what)
     abort();
 }
 
-// ---- the stream
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- the stream ----------------------------------------------------------------------------------------------------
 
 uint8_t fuzz_byte(fuzz *f)
 {
@@ -133,8 +132,7 @@ void fuzz_array(fuzz *f, uint32_t packed, fuzz_span *out)
     out->data = how_many == 200 ? NULL : f->room;
 }
 
-// ---- the checks
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- the checks ----------------------------------------------------------------------------------------------------
 
 static uint64_t world_hash(const fuzz *f)
 {
@@ -208,8 +206,7 @@ void fuzz_check(fuzz *f)
     for (int32_t i = 0; i < count && i < FUZZ_HANDLES; ++i) check_body(f, bodies[i]);
 }
 
-// ---- memory that fails
-// ----------------------------------------------------------------------------------------------------------------
+// ---- memory that fails ---------------------------------------------------------------------------------------------
 
 static void *allocate(void *user, uint64_t size, uint64_t alignment)
 {
@@ -227,8 +224,7 @@ static void release(void *user, void *memory, uint64_t size)
     free(memory);
 }
 
-// ---- worlds
-// ---------------------------------------------------------------------------------------------------------------------------
+// ---- worlds --------------------------------------------------------------------------------------------------------
 
 // every third task first: an order that no loop has
 static void run_tasks(void *user, fe_task task, void *argument, int32_t count)

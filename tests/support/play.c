@@ -44,8 +44,7 @@ static uint64_t told_handle(fe_handle handle)
     return kind << 48 | generation << 24 | (uint64_t)(fe__id_slot_of(handle) + 1);
 }
 
-// ---- what the world tells after each step
-// ---------------------------------------------------------------------------------------------
+// ---- what the world tells after each step --------------------------------------------------------------------------
 
 static void hear_pairs(play *p)
 {
@@ -163,8 +162,7 @@ void play_print(FILE *out, const script *s, fe_world *world, int32_t steps)
     }
 }
 
-// ---- what scripts are written with
-// ----------------------------------------------------------------------------------------------------
+// ---- what scripts are written with ---------------------------------------------------------------------------------
 
 // Knuth's line of numbers modulo 2^32; its high bits are the random ones
 uint32_t play_draw(play *p)

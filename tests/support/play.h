@@ -65,8 +65,7 @@ int32_t play_after(play *p, fe_result result, const char *text);
         play_before(p); \
     } while (play_after((p), (call), #call))
 
-// ---- what scripts are written with
-// ----------------------------------------------------------------------------------------------------
+// ---- what scripts are written with ---------------------------------------------------------------------------------
 uint32_t play_draw(play *p); // the next of 2^24 numbers
 float play_between(play *p, float low, float high);
 

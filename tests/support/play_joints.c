@@ -29,8 +29,7 @@ static void tie(play *p, int32_t a, int32_t b, fe_dvec3 point, float break_force
     PLAY(p, fe_ball_joint_create(p->world, &d, new_joint(p)));
 }
 
-// ---- a net of balls in the air, and what falls into it
-// --------------------------------------------------------------------------------
+// ---- a net of balls in the air, and what falls into it -------------------------------------------------------------
 
 static void add_net(play *p)
 {
@@ -79,8 +78,7 @@ static void add_chains(play *p)
     }
 }
 
-// ---- a row of all types
-// ---------------------------------------------------------------------------------------------------------------
+// ---- a row of all types --------------------------------------------------------------------------------------------
 
 static void hang(play *p, int32_t i, fe_body a, fe_body b)
 {
@@ -137,8 +135,7 @@ static void add_row(play *p)
     }
 }
 
-// ---- strings, two thirds of which are too weak, made in another order than they hang
-// --------------------------------------------------
+// ---- strings, two thirds of which are too weak, made in another order than they hang -------------------------------
 
 static void add_strings(play *p)
 {
@@ -155,8 +152,7 @@ static void add_strings(play *p)
     }
 }
 
-// ---- the script
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- the script ----------------------------------------------------------------------------------------------------
 
 static void build(play *p)
 {

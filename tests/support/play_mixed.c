@@ -36,8 +36,7 @@ static void act_mixed(play *p) { (void)p; }
 
 const script script_mixed = {"mixed", 600, build_mixed, act_mixed};
 
-// ---- the brief one
-// --------------------------------------------------------------------------------------------------------------------
+// ---- the brief one -------------------------------------------------------------------------------------------------
 
 enum { BRIEF_BODIES = 18, ROOF = 1, TRIGGER = 2, FIRST = 3 };
 

@@ -100,8 +100,7 @@ static inline fe__relative relative(fe_vec3 position, fe_quat rotation)
     return (fe__relative){position, fe__matrix(rotation)};
 }
 
-// ---- the cores: points +-x +-y +-z of the half widths
-// ---------------------------------------------------------------------------------
+// ---- the cores: points +-x +-y +-z of the half widths --------------------------------------------------------------
 static inline fe_dvec3 core_widths(const fe__form *form)
 {
     return (fe_dvec3){(double)form->half.x, (double)form->half.y + (double)form->half_height, (double)form->half.z};

@@ -234,8 +234,7 @@ static void box_and_capsule_are_exact_within_a_tie(void **state)
     pair_with_many_points(FE__FORM_BOX, FE__FORM_CAPSULE, FACE_DEGREES, 1.0);
 }
 
-// ---- box against box
-// ------------------------------------------------------------------------------------------------------------
+// ---- box against box -----------------------------------------------------------------------------------------------
 // Overlapping boxes: the exhaustive test of 15 axes on corners gives the depth; the kernel may prefer a face twice by a
 // tie. Boxes apart have points exactly when their distance is within the margin, and none is nearer than the gap along
 // the best axis.

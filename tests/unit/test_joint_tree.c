@@ -11,8 +11,7 @@
 
 enum { MOST_LINKS = 32, MOST_ROWS = 6 * MOST_LINKS, DOFS = 6 * MOST_LINKS };
 
-// ---- a tree of locks in an array
-// ------------------------------------------------------------------------------------------------
+// ---- a tree of locks in an array -----------------------------------------------------------------------------------
 typedef struct rig {
     fe__solver solver;
     fe__velocity_line velocity[MOST_LINKS + 1]; // line 0 is the world
@@ -155,8 +154,7 @@ static void add_free_root(float mass)
     set_velocity(1, any_vector(1.0), any_vector(1.0));
 }
 
-// ---- the dense system
-// -----------------------------------------------------------------------------------------------------------
+// ---- the dense system ----------------------------------------------------------------------------------------------
 typedef struct dense {
     int32_t rows;
     double j[MOST_ROWS][DOFS], mj[MOST_ROWS][DOFS]; // J, M^-1 J^T by row
@@ -248,8 +246,7 @@ static void solve_densely(int32_t axes)
         for (int32_t k = 0; k < 6 * the.job.count; ++k) d->u[k] += d->mj[r][k] * d->l[r];
 }
 
-// ---- comparison
-// -----------------------------------------------------------------------------------------------------------------
+// ---- comparison ----------------------------------------------------------------------------------------------------
 static void solve_tree(void)
 {
     fe__tree_job *t = &the.job;
@@ -352,8 +349,7 @@ static void chains_with_a_heavy_end_are_solved_as_by_gauss(void **state)
     }
 }
 
-// ---- locks
-// ----------------------------------------------------------------------------------------------------------------------
+// ---- locks ---------------------------------------------------------------------------------------------------------
 // What a lock leaves of an inverse inertia: the inverse of the block of R I R^T over the free axes. With one axis k
 // locked that is I^-1 less its part through k.
 static fe__sym3 lock_axis(fe__sym3 i, int k)
@@ -441,8 +437,7 @@ static void locks_that_say_the_same_count_once(void **state)
     }
 }
 
-// ---- rows
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- rows ----------------------------------------------------------------------------------------------------------
 static void nudge(int32_t line, int32_t k, float by)
 {
     fe__motion_line *m = the.motion + line;
@@ -505,8 +500,7 @@ static void rows_are_gradients_of_their_errors(void **state)
         }
 }
 
-// ---- passes
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- passes --------------------------------------------------------------------------------------------------------
 // Relaxed chains have no velocity along their joints, no gap, and the momentum that they had. A light tree is left
 // alone until it opens. Closing the last gap, of 4 mm or less, leaves its square over the length of an arm.
 static void relax_leaves_no_speed_and_no_gap(void **state)

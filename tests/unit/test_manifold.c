@@ -20,8 +20,7 @@ static fe__manifold collide(const fe__form *a, const fe__form *b, const fe__rela
     return m;
 }
 
-// ---- sphere against box
-// ---------------------------------------------------------------------------------------------------------------
+// ---- sphere against box --------------------------------------------------------------------------------------------
 static int by_size(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
@@ -95,8 +94,7 @@ static void a_centre_on_or_in_the_box_leaves_by_the_nearest_face(void **state)
     }
 }
 
-// ---- planes
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- planes --------------------------------------------------------------------------------------------------------
 // Against the corners of B's core in double: the deepest is found, every point is such a corner, and the general path
 // says the same.
 static void a_plane_finds_the_deepest_corners(void **state)
@@ -152,8 +150,7 @@ static void forms_lying_on_a_plane_have_all_their_points(void **state)
     FE_NEAR(fe__absf(m.points[0].point.x - m.points[1].point.x), 1.0, 1e-4); // float at 300 m
 }
 
-// ---- capsules
-// --------------------------------------------------------------------------------------------------------------------
+// ---- capsules ------------------------------------------------------------------------------------------------------
 // Side by side, whichever way each of them points, and shifted along each other: two points at the ends of the stretch
 // they share.
 static void parallel_capsules_touch_along_their_common_stretch(void **state)
@@ -267,8 +264,7 @@ static void a_capsule_lies_on_faces_and_edges(void **state)
     }
 }
 
-// ---- in one place, tiny, huge
-// ---------------------------------------------------------------------------------------------------------
+// ---- in one place, tiny, huge --------------------------------------------------------------------------------------
 static void assert_sound(const fe__form *a, const fe__form *b, const fe__relative *r, const fe__manifold *m)
 {
     fe_dvec3 n = fe__widen(m->normal);
@@ -357,8 +353,7 @@ static void a_wide_ground_carries_small_things(void **state)
     }
 }
 
-// ---- margin and kept axis
-// -------------------------------------------------------------------------------------------------------------
+// ---- margin and kept axis ------------------------------------------------------------------------------------------
 static void the_margin_is_the_callers(void **state)
 {
     (void)state;

@@ -14,8 +14,7 @@ enum { CASES = 100000, INSIDE_CASES = 20000 };
 // Every quantity passes through a few roundings of lengths up to `scale`.
 static const double roundings = 16.0 * DBL_EPSILON;
 
-// ---- random cases
-// ---------------------------------------------------------------------------------------------------------------
+// ---- random cases --------------------------------------------------------------------------------------------------
 static uint64_t noise = 1;
 
 static double uniform(double low, double high)
@@ -70,8 +69,7 @@ static double size_of(const fe__form *f)
     return (double)f->radius + (double)f->half_height + sqrt(fe__ddot(h, h)) + fe__absd((double)f->distance);
 }
 
-// ---- the reference
-// --------------------------------------------------------------------------------------------------------------
+// ---- the reference -------------------------------------------------------------------------------------------------
 typedef struct real3 {
     real x, y, z;
 } real3;
@@ -140,8 +138,7 @@ static real first_time(const fe__form *f, fe_dvec3 o, fe_dvec3 d, real inside)
     return inside;
 }
 
-// ---- random rays
-// ----------------------------------------------------------------------------------------------------------------
+// ---- random rays ---------------------------------------------------------------------------------------------------
 typedef struct tally {
     int32_t hits, misses, inside, grazing;
 } tally;
@@ -241,8 +238,7 @@ static void rays_meet_capsules(void **state) { (void)state, rays_meet(FE__FORM_C
 static void rays_meet_boxes(void **state) { (void)state, rays_meet(FE__FORM_BOX); }
 static void rays_meet_planes(void **state) { (void)state, rays_meet(FE__FORM_PLANE); }
 
-// ---- starts inside
-// --------------------------------------------------------------------------------------------------------------
+// ---- starts inside -------------------------------------------------------------------------------------------------
 static void a_start_inside_faces_the_ray_and_without_one_the_nearest_way_out(void **state)
 {
     (void)state;
@@ -371,8 +367,7 @@ static void the_limit_is_the_last_moment_that_counts(void **state)
     FE_TRUE(hits > INSIDE_CASES / 4);
 }
 
-// ---- the whole range of double
-// --------------------------------------------------------------------------------------------------
+// ---- the whole range of double -------------------------------------------------------------------------------------
 static double any_finite(void)
 {
     for (;;) {

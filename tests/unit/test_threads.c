@@ -88,8 +88,7 @@ static void worlds_are_counted_in_and_out(void **state)
     assert_int_equal(fe__pool_retain(pool), FE_ERROR_STALE);
 }
 
-// ---- several callers
-// --------------------------------------------------------------------------------------------------------
+// ---- several callers -----------------------------------------------------------------------------------------------
 
 typedef struct caller {
     fe_pool *pool;
@@ -152,8 +151,7 @@ static void sixteen_workers_work_on_the_cores_there_are(void **state)
     fe__pool_destroy(pool);
 }
 
-// ---- runs inside runs
-// -------------------------------------------------------------------------------------------------------
+// ---- runs inside runs ----------------------------------------------------------------------------------------------
 
 typedef struct nest {
     fe_pool *pool;
@@ -190,8 +188,7 @@ static void a_run_inside_a_task_stays_on_its_thread(void **state)
     fe__pool_destroy(n.pool);
 }
 
-// ---- parallel_for
-// -----------------------------------------------------------------------------------------------------------
+// ---- parallel_for --------------------------------------------------------------------------------------------------
 
 enum { RANGE = 10007 }; // a prime: no block size divides it
 
@@ -276,8 +273,7 @@ static void the_largest_range_does_not_overflow(void **state)
     fe__pool_destroy(pool);
 }
 
-// ---- time
-// -------------------------------------------------------------------------------------------------------------------
+// ---- time ----------------------------------------------------------------------------------------------------------
 
 // Tasks that are in the same run and both running may wait for each other, as a solver's barriers do; here with as many
 // threads as tasks, each of which must come although all were asleep.

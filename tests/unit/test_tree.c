@@ -11,8 +11,7 @@
 
 enum { PROXIES = 700, CHURN = 6000, ALL = 60000 };
 
-// ---- random boxes
-// -----------------------------------------------------------------------------------------------------------------
+// ---- random boxes --------------------------------------------------------------------------------------------------
 static uint64_t noise = 1;
 
 static double uniform(double low, double high)
@@ -51,8 +50,7 @@ static fe__bounds any_box(const place *p)
     return (fe__bounds){{c.x - x, c.y - y, c.z - z}, {c.x + x, c.y + y, c.z + z}};
 }
 
-// ---- a tree and what should be in it
-// -------------------------------------------------------------------------------------------------
+// ---- a tree and what should be in it -------------------------------------------------------------------------------
 typedef struct model {
     fe__tree tree;
     fe__bounds box[PROXIES];
@@ -125,8 +123,7 @@ static void check_query_proxy(model *m, const model *of, const place *p)
     check_visits(m, &of->box[proxy], largest_gap(&m->tree, p) + largest_gap(&of->tree, p));
 }
 
-// ---- rays
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- rays ----------------------------------------------------------------------------------------------------------
 typedef struct ray {
     model *m;
     fe_dvec3 origin, translation;
@@ -218,8 +215,7 @@ static int32_t check_any_ray(model *m, const place *p)
     return check_ray(m, o, d, below(3) ? 1.0 : uniform(0.0, 1.0));
 }
 
-// ---- the structure
-// ----------------------------------------------------------------------------------------------------------------
+// ---- the structure -------------------------------------------------------------------------------------------------
 static void check_lane(const fe__tree *tree, int32_t index, int32_t lane, int32_t *proxies)
 {
     const fe__tree_node *node = &tree->nodes[index];
@@ -273,8 +269,7 @@ static void check_structure(const fe__tree *tree)
     assert_int_equal(dead, tree->dead);
 }
 
-// ---- a life of changes
-// --------------------------------------------------------------------------------------------------------------
+// ---- a life of changes ---------------------------------------------------------------------------------------------
 static void insert(model *m, fe__memory *memory, int32_t proxy, const place *p)
 {
     m->box[proxy] = any_box(p);
@@ -364,8 +359,7 @@ static void it_finds_what_a_search_finds_30000_km_away(void **state)
     (void)state, live((place){{-3e7, 3e7, 3e7}, 12.0, 0});
 }
 
-// ---- extremes
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- extremes ------------------------------------------------------------------------------------------------------
 // 10^-320 to 10^most m, either sign, and 0
 static double any_magnitude(double most)
 {
@@ -585,8 +579,7 @@ static void a_visitor_can_stop(void **state)
     fe__tree_destroy(&tree, &memory);
 }
 
-// ---- shape
-// ------------------------------------------------------------------------------------------------------------------------
+// ---- shape ---------------------------------------------------------------------------------------------------------
 typedef enum order { IN_ROWS, SCATTERED, ONE_PLACE, SHRINKING, GROWING, FLOORS, POINTS, ORDERS } order;
 
 static fe__bounds box_in_order(order order, int32_t i)
@@ -792,8 +785,7 @@ static void a_box_holds_what_lies_in_it_and_nothing_that_stands_out(void **state
     }
 }
 
-// ---- memory
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- memory --------------------------------------------------------------------------------------------------------
 typedef struct host {
     int32_t allowed; // allocations until the first refusal
     int32_t once;    // only that one is refused

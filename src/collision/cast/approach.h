@@ -45,8 +45,7 @@ typedef struct fe__approach_hit {
 // Two boxes, or a box and a triangle, apart at the start. 1: they meet, and the stop is at t <= limit.
 int32_t fe__boxes_sweep(const fe__approach *a, double limit, fe__approach_hit *hit);
 
-// ---- any pair (sweep.c)
-// -----------------------------------------------------------------------------------------------------------
+// ---- any pair (sweep.c) --------------------------------------------------------------------------------------------
 typedef struct fe__core_overlap {
     double depth; // below 0: apart
     fe_dvec3 way_out;

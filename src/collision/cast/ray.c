@@ -20,8 +20,7 @@ static double largest(fe_dvec3 a) { return fe__maxd(fe__maxd(fe__absd(a.x), fe__
 static double length(fe_dvec3 a) { return sqrt(fe__ddot(a, a)); }
 static double scale_for(double size) { return size > longest ? scale_down : size < shortest ? scale_up : 1.0; }
 
-// ---- hits
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- hits ----------------------------------------------------------------------------------------------------------
 // Field by field: hits are read at once, and what was written in pieces is not copied whole without a wait.
 static int32_t report(fe__ray_hit *hit, double t, fe_dvec3 normal, double depth, int32_t inside)
 {
@@ -46,8 +45,7 @@ static int32_t meet(const fe__scaled_ray *r, double s, fe_dvec3 normal, fe__ray_
     return report(hit, t, normal, 0.0, 0);
 }
 
-// ---- round surfaces
-// -----------------------------------------------------------------------------------------------------------
+// ---- round surfaces ------------------------------------------------------------------------------------------------
 typedef struct entry {
     double s;
     fe_dvec3 normal; // unit
@@ -124,8 +122,7 @@ int32_t fe__ray_capsule(const fe__form *form, const fe__scaled_ray *r, fe__ray_h
     return meet_ball(r, (fe_dvec3){0.0, y > 0.0 ? half : -half, 0.0}, radius, hit);
 }
 
-// ---- flat surfaces
-// ------------------------------------------------------------------------------------------------------------
+// ---- flat surfaces -------------------------------------------------------------------------------------------------
 static fe_dvec3 axis_normal(int32_t axis, double sign)
 {
     return (fe_dvec3){axis == 0 ? sign : 0.0, axis == 1 ? sign : 0.0, axis == 2 ? sign : 0.0};

@@ -64,8 +64,7 @@ static int32_t set_up(const fe__form *still, const fe__mover *mover, fe__approac
     return swapped;
 }
 
-// ---- overlap
-// --------------------------------------------------------------------------------------------------------------------
+// ---- overlap -------------------------------------------------------------------------------------------------------
 static double plane_height(const fe__form *plane, const fe__mover *mover)
 {
     fe_dvec3 n = fe__widen(plane->normal);
@@ -100,8 +99,7 @@ int32_t fe__form_overlap(const fe__form *still, const fe__mover *mover)
     return fe__approach_overlap(&s).depth >= 0.0;
 }
 
-// ---- sweeps
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- sweeps --------------------------------------------------------------------------------------------------------
 // Newton's method from `t` to where the distance is `goal`, to the left of it by at most `tolerance`. 0: it never comes
 // so near.
 static int32_t advance(const fe__approach *s, double goal, double tolerance, double *t, fe__core_gap *gap)

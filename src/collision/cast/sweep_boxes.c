@@ -203,8 +203,7 @@ static fe_dvec3 touching_point(const fe__approach *s, fe_dvec3 position, fe_dvec
     return p;
 }
 
-// ---- the sweep
-// ------------------------------------------------------------------------------------------------------------------
+// ---- the sweep -----------------------------------------------------------------------------------------------------
 typedef struct passage {
     double enter, leave; // of the polytope itself: they decide
     double stop;         // entry of the polytope with all its faces moved out by the gap

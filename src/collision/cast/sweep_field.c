@@ -70,8 +70,7 @@ int32_t fe__heightfield_overlap(const fe__heightfield *field, const fe__mover *m
     return 0;
 }
 
-// ---- one triangle
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- one triangle --------------------------------------------------------------------------------------------------
 // The mover's half width along the triangle's normal, m, and its height at t over the triangle's plane.
 static double thickness_across(const fe__approach *p)
 {
@@ -136,8 +135,7 @@ static void meet_triangle(search *s, int32_t triangle, fe__sweep_hit *best)
     *best = (fe__sweep_hit){.t = hit.t, .normal = hit.normal, .point = hit.point, .triangle = triangle};
 }
 
-// ---- the way
-// --------------------------------------------------------------------------------------------------------------------------
+// ---- the way -------------------------------------------------------------------------------------------------------
 // The part of [0, limit] on which the mover's bounds meet those of the field.
 static int32_t clip(const search *s, double limit, double *from, double *to)
 {

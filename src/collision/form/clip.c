@@ -10,8 +10,7 @@
 
 #include <string.h>
 
-// ---- four lanes
-// -----------------------------------------------------------------------------------------------------------------
+// ---- four lanes ----------------------------------------------------------------------------------------------------
 static inline wide absolute(wide a) { return (wide)((wide_int)a & 0x7fffffff); }
 static inline wide_int choose_int(wide_int m, wide_int yes, wide_int no) { return (m & yes) | (~m & no); }
 static inline uint32_t bits(wide_int m)
@@ -130,8 +129,7 @@ int32_t fe__clip_rectangle(const fe__parallelogram *incident, float half_u, floa
     return count;
 }
 
-// ---- any polygon
-// --------------------------------------------------------------------------------------------------------------------
+// ---- any polygon ---------------------------------------------------------------------------------------------------
 // The part of a polygon, or of an open line of one or two vertices, on the left of the line through p along (du, dv),
 // by name `side`.
 typedef struct cutter {
@@ -188,8 +186,7 @@ int32_t fe__clip_polygon(const fe__clip_vertex *reference, int32_t reference_cou
     return count;
 }
 
-// ---- four of many
-// -------------------------------------------------------------------------------------------------------------------
+// ---- four of many --------------------------------------------------------------------------------------------------
 static float apart(const fe__clip_vertex *p, const fe__clip_vertex *q)
 {
     float du = p->u - q->u, dv = p->v - q->v;

@@ -96,8 +96,7 @@ static int32_t enclose_origin(polytope *p, const fe__cores *cores, fe_dvec3 *acr
     return 3;
 }
 
-// ---- growing
-// --------------------------------------------------------------------------------------------------------------------------
+// ---- growing -------------------------------------------------------------------------------------------------------
 static void add_face(polytope *p, int32_t i, int32_t j, int32_t k)
 {
     face *f = &p->face[p->face_count++];
@@ -173,8 +172,7 @@ static int32_t grow(polytope *p, int32_t nearest)
     return 1;
 }
 
-// ---- the answer
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- the answer ----------------------------------------------------------------------------------------------------
 static fe__penetration flat_answer(const fe__cores *cores, const fe__gjk *g, fe_dvec3 across)
 {
     if (fe__ddot(across, cores->position) < 0.0) across = fe__dscale(-1.0, across);

@@ -74,8 +74,7 @@ typedef struct fe__bounds {
 
 struct fe__face; // support.h
 
-// ---- traits
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- traits --------------------------------------------------------------------------------------------------------
 typedef struct fe__form_traits {
     const char *name;    // in the sentences of errors
     int32_t geometry;    // fe_geometry_type, -1: not public
@@ -105,8 +104,7 @@ static inline int32_t fe__form_has_asset(const fe__form *form) { return fe__trai
 
 int32_t fe__form_of_geometry(int32_t geometry); // the kind with that public number, -1: none
 
-// ---- what each form tells of itself
-// ---------------------------------------------------------------------------------------------------
+// ---- what each form tells of itself --------------------------------------------------------------------------------
 static inline fe__mass fe__form_mass(const fe__form *form, float density)
 {
     return fe__traits_of(form)->mass(form, (double)density);
@@ -127,8 +125,7 @@ static inline float fe__form_thickness(const fe__form *form) { return fe__traits
 // the form without its outermost layer, `by` (m, less than its thickness) thick
 static inline fe__form fe__form_shrunk(const fe__form *form, float by) { return fe__traits_of(form)->shrunk(form, by); }
 
-// ---- points
-// ---------------------------------------------------------------------------------------------------------------------------
+// ---- points --------------------------------------------------------------------------------------------------------
 // A ball without size: the probe of a ray
 static inline fe__form fe__point_form(void) { return (fe__form){.type = FE__FORM_SPHERE}; }
 static inline int32_t fe__form_is_point(const fe__form *form)
@@ -136,8 +133,7 @@ static inline int32_t fe__form_is_point(const fe__form *form)
     return form->type == FE__FORM_SPHERE && form->radius == 0.0f;
 }
 
-// ---- planes (plane.c)
-// -------------------------------------------------------------------------------------------------------------------
+// ---- planes (plane.c) ----------------------------------------------------------------------------------------------
 // Does the box reach into the half space?
 int32_t fe__plane_meets_box(const fe__form *plane, const fe__pose *pose, const fe__bounds *box);
 // The plane in a frame whose origin is `away` (world axes) from that of its shape: as exact a thousand kilometres off

@@ -120,8 +120,7 @@ int32_t fe__nearest_in_simplex(fe__vertex *vertex, double *weight, int32_t count
     return drop_weightless(vertex, weight, count);
 }
 
-// ---- the walk towards the origin
-// ------------------------------------------------------------------------------------------------------
+// ---- the walk towards the origin -----------------------------------------------------------------------------------
 static int32_t is_known(const fe__gjk *g, const fe__vertex *w)
 {
     for (int32_t i = 0; i < g->count; ++i) {

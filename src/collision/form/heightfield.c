@@ -99,8 +99,7 @@ fe_dvec3 fe__heightfield_normal(const fe__heightfield *f, int32_t triangle)
     return (fe_dvec3){-k * rise_x, k * area, -k * rise_z};
 }
 
-// ---- the walk
-// -------------------------------------------------------------------------------------------------------------------------
+// ---- the walk ------------------------------------------------------------------------------------------------------
 // the cell a coordinate (in cells) lies in, of `count`
 static int32_t cell_of(double x, int32_t count)
 {
@@ -145,8 +144,7 @@ int32_t fe__next_triangle(fe__triangle_walk *walk, fe__form *triangle)
     return -1;
 }
 
-// ---- the ray
-// --------------------------------------------------------------------------------------------------------------------------
+// ---- the ray -------------------------------------------------------------------------------------------------------
 // x and z in cells; g is known at t unless the ray flew over the last cell, which it did above 0
 typedef struct traverse {
     const fe__heightfield *field;

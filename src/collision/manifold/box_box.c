@@ -50,8 +50,7 @@ static inline box_pair make_pair(const fe__form *a, const fe__form *b, const fe_
     return q;
 }
 
-// ---- the axes
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- the axes ------------------------------------------------------------------------------------------------------
 // A_i: |t_i| - a_i - sum_j |R_ij| b_j
 static inline wide faces_of_a(const box_pair *q)
 {
@@ -276,8 +275,7 @@ static void touch_edges(const box_pair *q, int32_t axis, float separation, float
     fe__add_point(manifold, fe__scale(0.5f, fe__add(on_a, on_b)), separation, (uint32_t)axis << 16 | signs);
 }
 
-// ---- the kernel
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- the kernel ----------------------------------------------------------------------------------------------------
 // A face is kept while the separation along it is within this many ties (5 mm) of what the last full test found, and no
 // deeper: what a full test would give differs from it by no more than that depth.
 #define KEEP_TIES 10.0f

@@ -90,8 +90,7 @@ static void prefer_face(contest *c)
     }
 }
 
-// ---- faces
-// ----------------------------------------------------------------------------------------------------------------------------
+// ---- faces ---------------------------------------------------------------------------------------------------------
 static void project(const fe_vec3 *points, int32_t count, fe_vec3 origin, const fe__mat3 *frame, fe__clip_vertex *out)
 {
     for (int32_t i = 0; i < count; ++i) {
@@ -145,8 +144,7 @@ static void touch_box_face(contest *c)
     cut_faces(c, face.vertex, face.count, c->tile->form.vertex, 3, fe__neg(c->best.m), c->best.m, 0);
 }
 
-// ---- edges
-// ----------------------------------------------------------------------------------------------------------------------------
+// ---- edges ---------------------------------------------------------------------------------------------------------
 // The box's edge along x_j that is deepest against m, and the triangle's side: the point between the nearest points of
 // their lines. 0: the two do not cross, because what they would say better is not allowed here.
 static int32_t touch_edges(contest *c)

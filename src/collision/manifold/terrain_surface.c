@@ -82,8 +82,7 @@ int32_t fe__tile_is_convex(const fe__terrain *t, const fe__tile *tile, int32_t s
     return fe__dot(tile->normal, fe__sub(third_of(t, tile, side), tile->form.vertex[side])) < -FLAT * tile->size;
 }
 
-// ---- beyond the border
-// ----------------------------------------------------------------------------------------------------------------
+// ---- beyond the border ---------------------------------------------------------------------------------------------
 static fe_dvec3 into(const fe__neighbour *n, fe_vec3 p)
 {
     return fe__dadd(n->position, fe__widen(fe__mul_transposed(&n->axes, p)));
@@ -130,8 +129,7 @@ static int32_t on_border(const fe__heightfield *f, int32_t row, int32_t column)
     return row == 0 || row == f->rows - 1 || column == 0 || column == f->columns - 1;
 }
 
-// ---- cones
-// ----------------------------------------------------------------------------------------------------------------------------
+// ---- cones ---------------------------------------------------------------------------------------------------------
 static int32_t side_allows(const fe__terrain *t, const fe__tile *tile, int32_t side, fe_vec3 m)
 {
     const fe_vec3 *v = tile->form.vertex;
