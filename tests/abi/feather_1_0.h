@@ -65,9 +65,12 @@
 
 #include <stdint.h>
 
-#define FE_VERSION_MAJOR 1 ///< of this header: programs of another one do not run with it
-#define FE_VERSION_MINOR 0 ///< grows with what is added
-#define FE_VERSION_PATCH 0 ///< grows with what is mended
+/// The version of this header. Programs of another major number do not run with it.
+#define FE_VERSION_MAJOR 1
+/// Grows with what is added.
+#define FE_VERSION_MINOR 0
+/// Grows with what is mended.
+#define FE_VERSION_PATCH 0
 
 #ifdef SWIG
 #define FE_API
