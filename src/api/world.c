@@ -7,6 +7,7 @@
 #include "world/ignore.h"
 #include "world/lifetime.h"
 #include "world/proxies.h"
+#include "world/shapes.h"
 #include "world/sleep.h"
 
 // ---- creation ------------------------------------------------------------------------------------------------------
@@ -250,9 +251,10 @@ fe_result fe_world_ignore_collision(fe_world *world, fe_body a, fe_body b, int32
 
 fe_result fe_world_set_pair_filter(fe_world *world, fe_pair_filter filter, void *user)
 {
-    FE_WRITE(world);
+    FE_WRITE_ALONE(world);
     world->pair_filter = filter;
     world->pair_filter_user = user;
+    fe__world_judge_anew(world);
     return FE_OK;
 }
 

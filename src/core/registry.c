@@ -1,6 +1,8 @@
 // registry.c - see registry.h.
 #include "core/registry.h"
 
+#include <stddef.h>
+
 static int32_t is_listed(const fe__registry *registry, const fe__entry *entry)
 {
     for (const fe__entry *at = registry->first; at; at = at->next)

@@ -202,6 +202,17 @@ void fe__shape_set_filter(fe_world *world, int32_t index, uint32_t layer, uint32
     fe__shape_mark_moved(world, index);
 }
 
+void fe__world_judge_anew(fe_world *world)
+{
+    for (int32_t pair = 1; pair < world->pair_limit; ++pair) {
+        const fe__pair *p = &world->pairs[pair];
+        if (!(p->flags & FE__PAIR_DENIED)) continue;
+        fe__shape_mark_moved(world, p->shape_a);
+        fe__shape_mark_moved(world, p->shape_b);
+        fe__pair_destroy(world, pair);
+    }
+}
+
 // Every pair of the shape is found anew
 static void renew(fe_world *world, int32_t index)
 {

@@ -178,8 +178,18 @@ static void a_refusal_ends_with_the_filter(void **state)
     OK(fe_world_set_pair_filter(world, NULL, NULL));
     OK(fe_world_step(world, 0.0f));
     assert_int_equal(fe_body_get_contacts(world, a, NULL, 0, 0), 1);
+    OK(fe_shape_set_pair_filter(world, shape, 1));
+    j.denies = 1;
+    OK(fe_world_set_pair_filter(world, decide, &j)); // it judges new pairs: this one goes on
+    OK(fe_world_step(world, 0.0f));
     REFUSES(world, FE_ERROR_ARGUMENT, fe_shape_set_pair_filter(world, shape, 2));
     REFUSES(world, FE_ERROR_ARGUMENT, fe_shape_get_pair_filter(world, shape, NULL));
+    fe_body c = judged_box(world, -0.9, 1);
+    OK(fe_world_step(world, 0.0f));
+    assert_int_equal(fe_body_get_contacts(world, c, NULL, 0, 0), 0);
+    OK(fe_world_set_pair_filter(world, NULL, NULL)); // what it refused is new again
+    OK(fe_world_step(world, 0.0f));
+    assert_int_equal(fe_body_get_contacts(world, c, NULL, 0, 0), 1);
     assert_int_equal(fe_world_set_pair_filter(NULL, decide, &j), FE_ERROR_ARGUMENT);
     OK(fe_world_destroy(world));
 }

@@ -178,7 +178,7 @@ def test_a_floor_to_jump_through(world: World) -> None:
 
 def two_balls(world: World) -> List[Body]:
     world.create_body("static", tag=5).add_plane(pair_filter=True, tag=2**64 - 1)
-    balls = world.create_bodies([(0, 0.6, 0), (3, 0.6, 0)])
+    balls = world.create_bodies([(0, 0.52, 0), (3, 0.52, 0)])
     for ball in balls:
         ball.add_sphere(0.5)
     return balls
