@@ -411,8 +411,8 @@ typedef int32_t (*fe_pair_filter)(void *user, const fe_filter_pair *pair);
 
 /// Sets a function of yours that judges new pairs of shapes, when one of them asks for it (fe_shape_def.pair_filter).
 /// fe_world_step calls it on its own thread, in a fixed order, once for each pair whose bounds begin to meet. Layers,
-/// groups and ignored pairs are judged before it. Its answer holds until the bounds part. Setting the filter of a shape
-/// lets it judge anew what it refused. Equal runs need equal answers.
+/// groups and ignored pairs are judged before it. Its answer holds until the bounds part. Setting the filter of a
+/// shape, or another pair filter, lets what was refused be judged anew. Equal runs need equal answers.
 /// @param filter  NULL: none
 /// @param user    handed to it
 FE_API fe_result fe_world_set_pair_filter(fe_world *world, fe_pair_filter filter, void *user);
