@@ -183,8 +183,8 @@ static int32_t query_many(fuzz *f)
 {
     enum { MOST = 4 };
     fe_hit hits[MOST];
-    fe_ray rays[MOST];
-    fe_path paths[MOST];
+    fe_ray rays[MOST] = {{.reserved = {0}}};
+    fe_path paths[MOST] = {{.reserved = {0}}};
     fe_geometry g = some_geometry(f);
     for (int32_t i = 0; i < MOST; ++i) {
         rays[i].origin = fuzz_dvec3(f);
