@@ -16,6 +16,7 @@ static const char *const kind_names[] = {"nothing", "body", "shape", "joint", "a
 fe_result fe__refuse(const char *function, const fe_world *world)
 {
     if (!world) return fe__fail(function, FE_ERROR_ARGUMENT, "world is NULL");
+    if (!fe__reader_of_thread()) return fe__report(function, FE_ERROR_MEMORY);
     switch (atomic_load_explicit(&world->owner.occupation, memory_order_acquire)) {
     case FE__STEP:
         return fe__fail(function, FE_ERROR_STEPPING, "the world is in a step; call it when fe_world_step has returned");

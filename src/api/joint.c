@@ -75,7 +75,7 @@ static fe_result check_bodies(const char *function, const fe_world *world, int32
                     full->body_a, full->body_b, a, b);
 }
 
-static fe_result change(const char *function, fe_world *world, int32_t index, const fe__joint_any *full)
+fe_result fe__change_joint(const char *function, fe_world *world, int32_t index, const fe__joint_any *full)
 {
     fe__fp_state fp = fe__fp_enter();
     fe_result result = fe__joint_change(world, index, full);
@@ -93,7 +93,7 @@ static fe_result set(const char *function, fe_world *world, int32_t type, fe_joi
     FE_TRY(fe__read_struct(function, "def", def, &full, fe__joint_fields(type)));
     FE_TRY(check_bodies(function, world, index, &full.common));
     FE_TRY(fe__check_joint_def(function, type, &full));
-    return change(function, world, index, &full);
+    return fe__change_joint(function, world, index, &full);
 }
 
 static fe_result get(const char *function, const fe_world *world, int32_t type, fe_joint joint, void *out_def)
@@ -165,7 +165,7 @@ fe_result fe_joint_set(fe_world *world, fe_joint joint, const fe_joint_def *def)
     full.common.struct_size = size;
     FE_TRY(check_bodies(function, world, index, &full.common));
     FE_TRY(fe__check_joint_common(function, &full.common));
-    return change(function, world, index, &full);
+    return fe__change_joint(function, world, index, &full);
 }
 
 fe_result fe_joint_get(const fe_world *world, fe_joint joint, fe_joint_def *out_def)
@@ -188,7 +188,7 @@ fe_result fe_joint_set_enabled(fe_world *world, fe_joint joint, int32_t enabled)
     fe__joint_describe(world, index, &full);
     if (full.common.enabled == enabled) return FE_OK;
     full.common.enabled = enabled;
-    return change(function, world, index, &full);
+    return fe__change_joint(function, world, index, &full);
 }
 
 fe_result fe_joint_get_enabled(const fe_world *world, fe_joint joint, int32_t *out_enabled)

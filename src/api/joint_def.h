@@ -12,6 +12,8 @@ fe_result fe__check_joint_common(const char *function, const fe_joint_def *full)
 // The bodies of a joint's ends; -1 is the world, which one of them may be
 fe_result fe__find_joint_ends(const char *function, const fe_world *world, fe_body body_a, fe_body body_b,
                               int32_t *out_bodies);
+// Makes the joint what a checked definition says (joint.c)
+fe_result fe__change_joint(const char *function, fe_world *world, int32_t index, const fe__joint_any *full);
 // Of the definition of a type
 const fe__fields *fe__joint_fields(int32_t type);
 

@@ -1,6 +1,5 @@
 // joint_drive.c - the API of what a game changes each step: speed of a motor, target of a spring, nothing else.
 #include "api/joint_def.h"
-#include "core/fp_state.h"
 #include "world/joint_state.h"
 #include "world/joints.h"
 
@@ -37,45 +36,36 @@ static float *target_of(fe__joint_any *def, int32_t type, int32_t dof)
     }
 }
 
-static fe_result change(const char *function, fe_world *world, int32_t index, const fe__joint_any *full)
+typedef float *(*field_of)(fe__joint_any *def, int32_t type, int32_t dof);
+
+static fe_result set(const char *function, fe_world *world, fe_joint joint, int32_t dof, field_of find,
+                     const char *name, float value)
 {
-    FE_TRY(fe__check_joint_def(function, world->joint_records[index].type, full));
-    fe__fp_state fp = fe__fp_enter();
-    fe_result result = fe__joint_change(world, index, full);
-    fe__fp_leave(fp);
-    return fe__report(function, result);
+    FE_WRITE_AS(function, world);
+    FE_FIND_JOINT(index, joint);
+    FE_CHECK_INT(dof, FE_DOF_LINEAR_X, FE_DOF_ANGULAR_Z);
+    FE_TRY(fe__check_number(function, name, "", (double)value, (double)-FE_MAX_SPEED, (double)FE_MAX_SPEED));
+    fe__joint_any full;
+    fe__joint_describe(world, index, &full);
+    int32_t type = world->joint_records[index].type;
+    float *field = find(&full, type, dof);
+    if (!field)
+        return fe__fail(function, FE_ERROR_STATE, "joint 0x%llx has no %s about or along dof %d", joint, name,
+                        (int)dof);
+    if (*field == value) return FE_OK;
+    *field = value;
+    FE_TRY(fe__check_joint_def(function, type, &full));
+    return fe__change_joint(function, world, index, &full);
 }
 
 fe_result fe_joint_set_motor_speed(fe_world *world, fe_joint joint, int32_t dof, float speed)
 {
-    FE_WRITE(world);
-    FE_FIND_JOINT(index, joint);
-    FE_CHECK_INT(dof, FE_DOF_LINEAR_X, FE_DOF_ANGULAR_Z);
-    FE_CHECK_FLOAT(speed, -FE_MAX_SPEED, FE_MAX_SPEED);
-    fe__joint_any full;
-    fe__joint_describe(world, index, &full);
-    float *field = motor_speed_of(&full, world->joint_records[index].type, dof);
-    if (!field)
-        return fe__fail(function, FE_ERROR_STATE, "joint 0x%llx has no motor about or along dof %d", joint, (int)dof);
-    if (*field == speed) return FE_OK;
-    *field = speed;
-    return change(function, world, index, &full);
+    return set(__func__, world, joint, dof, motor_speed_of, "speed", speed);
 }
 
 fe_result fe_joint_set_target(fe_world *world, fe_joint joint, int32_t dof, float target)
 {
-    FE_WRITE(world);
-    FE_FIND_JOINT(index, joint);
-    FE_CHECK_INT(dof, FE_DOF_LINEAR_X, FE_DOF_ANGULAR_Z);
-    FE_CHECK_FLOAT(target, -FE_MAX_LOCAL, FE_MAX_LOCAL);
-    fe__joint_any full;
-    fe__joint_describe(world, index, &full);
-    float *field = target_of(&full, world->joint_records[index].type, dof);
-    if (!field)
-        return fe__fail(function, FE_ERROR_STATE, "joint 0x%llx has no spring about or along dof %d", joint, (int)dof);
-    if (*field == target) return FE_OK;
-    *field = target;
-    return change(function, world, index, &full);
+    return set(__func__, world, joint, dof, target_of, "target", target);
 }
 
 fe_result fe_ball_joint_set_target(fe_world *world, fe_joint joint, const fe_quat *target)
@@ -89,5 +79,5 @@ fe_result fe_ball_joint_set_target(fe_world *world, fe_joint joint, const fe_qua
     fe__joint_any full;
     fe__joint_describe(world, index, &full);
     full.ball.target = *target;
-    return change(function, world, index, &full);
+    return fe__change_joint(function, world, index, &full);
 }

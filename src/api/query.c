@@ -5,10 +5,6 @@
 #include "query/overlap.h"
 #include "core/fp_state.h"
 
-#include <stddef.h>
-
-// Hits are ordered in the caller's array, which needs them whole, as version 1.0 knew them.
-
 // ---- arguments -----------------------------------------------------------------------------------------------------
 static fe_query_filter default_filter(void)
 {
@@ -87,14 +83,12 @@ int32_t fe_world_raycast(const fe_world *world, const fe_dvec3 *origin, const fe
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     FE_CHECK_POINTER(out_hit);
-    fe_query_filter whole;
-    FE_TRY(fe__read_filter(function, filter, &whole));
-    fe__fp_state fp = fe__fp_enter();
-    fe__scene scene = fe__scene_of(world, &whole);
+    fe__query query;
+    FE_TRY(fe__begin_query(function, world, filter, &query));
     fe__probe probe;
     fe__probe_ray(&probe, origin, translation);
-    int32_t hit = fe__cast_closest(&scene, &probe, out_hit);
-    fe__fp_leave(fp);
+    int32_t hit = fe__cast_closest(&query.scene, &probe, out_hit);
+    fe__end_query(&query);
     return hit;
 }
 
@@ -104,14 +98,12 @@ int32_t fe_world_raycast_any(const fe_world *world, const fe_dvec3 *origin, cons
     FE_READ(world);
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
-    fe_query_filter whole;
-    FE_TRY(fe__read_filter(function, filter, &whole));
-    fe__fp_state fp = fe__fp_enter();
-    fe__scene scene = fe__scene_of(world, &whole);
+    fe__query query;
+    FE_TRY(fe__begin_query(function, world, filter, &query));
     fe__probe probe;
     fe__probe_ray(&probe, origin, translation);
-    int32_t hit = fe__cast_any(&scene, &probe);
-    fe__fp_leave(fp);
+    int32_t hit = fe__cast_any(&query.scene, &probe);
+    fe__end_query(&query);
     return hit;
 }
 
@@ -123,14 +115,12 @@ int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origin, cons
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     FE_CHECK_ARRAY(out_hits, capacity);
     FE_CHECK_RECORD_STRIDE(stride, FE_SORTED_HIT, capacity);
-    fe_query_filter whole;
-    FE_TRY(fe__read_filter(function, filter, &whole));
-    fe__fp_state fp = fe__fp_enter();
-    fe__scene scene = fe__scene_of(world, &whole);
+    fe__query query;
+    FE_TRY(fe__begin_query(function, world, filter, &query));
     fe__probe probe;
     fe__probe_ray(&probe, origin, translation);
-    int32_t count = fe__cast_all(&scene, &probe, out_hits, stride, capacity);
-    fe__fp_leave(fp);
+    int32_t count = fe__cast_all(&query.scene, &probe, out_hits, stride, capacity);
+    fe__end_query(&query);
     return count;
 }
 
@@ -144,13 +134,11 @@ int32_t fe_world_sweep(const fe_world *world, const fe_geometry *geometry, const
     FE_CHECK_TRANSFORM(start);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     FE_CHECK_POINTER(out_hit);
-    fe_query_filter whole;
-    FE_TRY(fe__read_filter(function, filter, &whole));
-    fe__fp_state fp = fe__fp_enter();
-    fe__scene scene = fe__scene_of(world, &whole);
+    fe__query query;
+    FE_TRY(fe__begin_query(function, world, filter, &query));
     fe__probe probe = fe__probe_form(&form, start, *translation);
-    int32_t hit = fe__cast_closest(&scene, &probe, out_hit);
-    fe__fp_leave(fp);
+    int32_t hit = fe__cast_closest(&query.scene, &probe, out_hit);
+    fe__end_query(&query);
     return hit;
 }
 
@@ -162,13 +150,11 @@ int32_t fe_world_sweep_any(const fe_world *world, const fe_geometry *geometry, c
     FE_TRY(fe__read_moving_form(function, geometry, &form));
     FE_CHECK_TRANSFORM(start);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
-    fe_query_filter whole;
-    FE_TRY(fe__read_filter(function, filter, &whole));
-    fe__fp_state fp = fe__fp_enter();
-    fe__scene scene = fe__scene_of(world, &whole);
+    fe__query query;
+    FE_TRY(fe__begin_query(function, world, filter, &query));
     fe__probe probe = fe__probe_form(&form, start, *translation);
-    int32_t hit = fe__cast_any(&scene, &probe);
-    fe__fp_leave(fp);
+    int32_t hit = fe__cast_any(&query.scene, &probe);
+    fe__end_query(&query);
     return hit;
 }
 
@@ -183,13 +169,11 @@ int32_t fe_world_sweep_all(const fe_world *world, const fe_geometry *geometry, c
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     FE_CHECK_ARRAY(out_hits, capacity);
     FE_CHECK_RECORD_STRIDE(stride, FE_SORTED_HIT, capacity);
-    fe_query_filter whole;
-    FE_TRY(fe__read_filter(function, filter, &whole));
-    fe__fp_state fp = fe__fp_enter();
-    fe__scene scene = fe__scene_of(world, &whole);
+    fe__query query;
+    FE_TRY(fe__begin_query(function, world, filter, &query));
     fe__probe probe = fe__probe_form(&form, start, *translation);
-    int32_t count = fe__cast_all(&scene, &probe, out_hits, stride, capacity);
-    fe__fp_leave(fp);
+    int32_t count = fe__cast_all(&query.scene, &probe, out_hits, stride, capacity);
+    fe__end_query(&query);
     return count;
 }
 
@@ -204,13 +188,11 @@ int32_t fe_world_overlap(const fe_world *world, const fe_geometry *geometry, con
     FE_TRY(fe__read_moving_form(function, geometry, &form));
     FE_CHECK_TRANSFORM(at);
     FE_CHECK_ARRAY(out_bodies, capacity);
-    fe_query_filter whole;
-    FE_TRY(fe__read_filter(function, filter, &whole));
-    fe__fp_state fp = fe__fp_enter();
-    fe__scene scene = fe__scene_of(world, &whole);
+    fe__query query;
+    FE_TRY(fe__begin_query(function, world, filter, &query));
     fe__probe probe = fe__probe_form(&form, at, nowhere);
-    int32_t count = fe__overlap(&scene, &probe, out_bodies, capacity);
-    fe__fp_leave(fp);
+    int32_t count = fe__overlap(&query.scene, &probe, out_bodies, capacity);
+    fe__end_query(&query);
     return count;
 }
 
@@ -221,13 +203,11 @@ int32_t fe_world_overlap_any(const fe_world *world, const fe_geometry *geometry,
     fe__form form;
     FE_TRY(fe__read_moving_form(function, geometry, &form));
     FE_CHECK_TRANSFORM(at);
-    fe_query_filter whole;
-    FE_TRY(fe__read_filter(function, filter, &whole));
-    fe__fp_state fp = fe__fp_enter();
-    fe__scene scene = fe__scene_of(world, &whole);
+    fe__query query;
+    FE_TRY(fe__begin_query(function, world, filter, &query));
     fe__probe probe = fe__probe_form(&form, at, nowhere);
-    int32_t overlaps = fe__overlap_any(&scene, &probe);
-    fe__fp_leave(fp);
+    int32_t overlaps = fe__overlap_any(&query.scene, &probe);
+    fe__end_query(&query);
     return overlaps;
 }
 
@@ -243,13 +223,11 @@ int32_t fe_world_overlap_shapes(const fe_world *world, const fe_geometry *geomet
     FE_CHECK_TRANSFORM(at);
     FE_CHECK_ARRAY(out_overlaps, capacity);
     FE_CHECK_RECORD_STRIDE(stride, LEAST_SORTED_OVERLAP, capacity);
-    fe_query_filter whole;
-    FE_TRY(fe__read_filter(function, filter, &whole));
-    fe__fp_state fp = fe__fp_enter();
-    fe__scene scene = fe__scene_of(world, &whole);
+    fe__query query;
+    FE_TRY(fe__begin_query(function, world, filter, &query));
     fe__probe probe = fe__probe_form(&form, at, nowhere);
-    int32_t count = fe__overlap_shapes(&scene, &probe, out_overlaps, stride, capacity);
-    fe__fp_leave(fp);
+    int32_t count = fe__overlap_shapes(&query.scene, &probe, out_overlaps, stride, capacity);
+    fe__end_query(&query);
     return count;
 }
 
@@ -264,13 +242,11 @@ int32_t fe_world_overlap_bounds(const fe_world *world, const fe_bounds *bounds, 
         return fe__fail(function, FE_ERROR_ARGUMENT, "lower of bounds is above upper along an axis");
     }
     FE_CHECK_ARRAY(out_shapes, capacity);
-    fe_query_filter whole;
-    FE_TRY(fe__read_filter(function, filter, &whole));
-    fe__fp_state fp = fe__fp_enter();
-    fe__scene scene = fe__scene_of(world, &whole);
+    fe__query query;
+    FE_TRY(fe__begin_query(function, world, filter, &query));
     fe__bounds box = {bounds->lower, bounds->upper};
-    int32_t count = fe__overlap_bounds(&scene, &box, out_shapes, capacity);
-    fe__fp_leave(fp);
+    int32_t count = fe__overlap_bounds(&query.scene, &box, out_shapes, capacity);
+    fe__end_query(&query);
     return count;
 }
 
@@ -282,12 +258,10 @@ int32_t fe_world_closest_point(const fe_world *world, const fe_dvec3 *point, dou
     FE_CHECK_DVEC3(point, FE_MAX_POSITION);
     FE_CHECK_FLOAT(max_distance, 0.0, FE_MAX_TRANSLATION);
     FE_CHECK_POINTER(out_closest);
-    fe_query_filter whole;
-    FE_TRY(fe__read_filter(function, filter, &whole));
-    fe__fp_state fp = fe__fp_enter();
-    fe__scene scene = fe__scene_of(world, &whole);
-    int32_t found = fe__closest(&scene, *point, max_distance, out_closest);
-    fe__fp_leave(fp);
+    fe__query query;
+    FE_TRY(fe__begin_query(function, world, filter, &query));
+    int32_t found = fe__closest(&query.scene, *point, max_distance, out_closest);
+    fe__end_query(&query);
     return found;
 }
 
@@ -297,26 +271,26 @@ int32_t fe_world_closest_point(const fe_world *world, const fe_dvec3 *point, dou
 static int32_t raycast_shapes(const fe_world *world, int32_t first, int32_t end, const fe_dvec3 *origin,
                               const fe_dvec3 *translation, fe_hit *out_hit)
 {
-    fe_query_filter everything = default_filter();
-    everything.flags = FE_QUERY_TRIGGERS;
-    fe__fp_state fp = fe__fp_enter();
-    fe__scene scene = fe__scene_of(world, &everything);
+    fe__query query;
+    query.filter = default_filter();
+    query.filter.flags = FE_QUERY_TRIGGERS;
+    fe__open_query(world, &query);
     fe__probe probe;
     fe__probe_ray(&probe, origin, translation);
-    int32_t hit = fe__cast_shapes(&scene, &probe, first, end, out_hit);
-    fe__fp_leave(fp);
+    int32_t hit = fe__cast_shapes(&query.scene, &probe, first, end, out_hit);
+    fe__end_query(&query);
     return hit;
 }
 
 static int32_t closest_of_shapes(const fe_world *world, int32_t first, int32_t end, const fe_dvec3 *point,
                                  fe_closest *out_closest)
 {
-    fe_query_filter everything = default_filter();
-    everything.flags = FE_QUERY_TRIGGERS;
-    fe__fp_state fp = fe__fp_enter();
-    fe__scene scene = fe__scene_of(world, &everything);
-    int32_t found = fe__closest_on_shapes(&scene, *point, first, end, out_closest);
-    fe__fp_leave(fp);
+    fe__query query;
+    query.filter = default_filter();
+    query.filter.flags = FE_QUERY_TRIGGERS;
+    fe__open_query(world, &query);
+    int32_t found = fe__closest_on_shapes(&query.scene, *point, first, end, out_closest);
+    fe__end_query(&query);
     return found;
 }
 

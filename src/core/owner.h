@@ -2,9 +2,10 @@
 //
 // A writer takes one word of the world by a compare-exchange and gives it back by a store. A reader never touches that
 // word, so that readers on many cores share no cache line that is written: each thread has a slot of its own, in which
-// it names what it reads, and then looks at the word. Who must be alone (a step, a destruction) takes the word and then
-// looks at the slots of all threads. Both sides write first and look afterwards, in one total order (Dekker's
-// algorithm, with sequentially consistent operations): at least one notices the other.
+// it names what it reads, and then looks at the word. Who must be alone (a step, a destruction, a call that makes or
+// removes records) takes the word and then looks at the slots of all threads. Both sides write first and look
+// afterwards, in one total order (Dekker's algorithm, with sequentially consistent operations): at least one notices
+// the other.
 //
 // A writer that moves no record does not look at the slots: a reader that was inside before it may see old and new
 // values.
