@@ -3,6 +3,7 @@ local native = require("feather.native")
 local objects = require("feather.objects")
 local options = require("feather.options")
 local fail = require("feather.where").fail
+local heightfield_of = require("feather.store").heightfield_of
 local core, xyz = native.core, objects.xyz
 local Body, Shape, Heightfield = objects.Body, objects.Shape, objects.Heightfield
 local unpack = unpack or table.unpack
@@ -43,7 +44,7 @@ function Shape:getForm()
     local g = core.shape_get_geometry(self.native, self.id)
     local read = READ[g.type]
     if read then return read(g) end
-    return { "heightfield", self.world:getStore():heightfieldOf(native.number(g.asset)) }
+    return { "heightfield", heightfield_of(self.world:getStore(), native.number(g.asset)) }
 end
 
 -- ---- making them ----------------------------------------------------------------------------------------------------

@@ -34,11 +34,13 @@ function Store:getBytes() return core.store_get_bytes(self.native) end
 
 -- ---- heightfields ---------------------------------------------------------------------------------------------------
 
-function Store:heightfieldOf(id)
-    local found = self.objects[id]
+-- The object of a handle that the core told. No method: a script could pass NaN, and LuaJIT 2.1 crashes where a trace
+-- stores with a key of NaN.
+function shared.heightfield_of(store, id)
+    local found = store.objects[id]
     if not found then
-        found = setmetatable({ store = self, native = self.native, id = id }, Heightfield)
-        self.objects[id] = found
+        found = setmetatable({ store = store, native = store.native, id = id }, Heightfield)
+        store.objects[id] = found
     end
     return found
 end
@@ -58,7 +60,7 @@ function Store:newHeightfield(given)
             materials[i] = options.material_numbers(material, options.default_material())
         end
     end
-    return self:heightfieldOf(core.heightfield_create(self.native, {
+    return shared.heightfield_of(self, core.heightfield_create(self.native, {
         rows = given.rows, columns = given.columns, cell_x = given.cellX or 1, cell_z = given.cellZ or 1,
         heights = given.heights, holes = given.holes, cell_materials = given.cellMaterials, materials = materials,
     }))
