@@ -1308,11 +1308,11 @@ FE_API int32_t fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_
 FE_API int32_t fe_body_raycast(const fe_world *world, fe_body body, const fe_dvec3 *origin, const fe_dvec3 *translation,
                                fe_hit *out_hit);
 /// The closest point of one shape, however far.
-/// @return 1; 0 from below a heightfield
+/// @return 1; 0 from below a heightfield, and for one whose cells are all holes
 FE_API int32_t fe_shape_closest_point(const fe_world *world, fe_shape shape, const fe_dvec3 *point,
                                       fe_closest *out_closest);
 /// The closest point of one body, however far.
-/// @return 1; 0 for a body without shapes, and from below a heightfield
+/// @return 1; 0 for a body none of whose shapes has one
 FE_API int32_t fe_body_closest_point(const fe_world *world, fe_body body, const fe_dvec3 *point,
                                      fe_closest *out_closest);
 
