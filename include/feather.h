@@ -342,7 +342,8 @@ FE_API fe_result fe_world_create(const fe_world_def *def, fe_world **out_world);
 FE_API fe_result fe_world_destroy(fe_world *world);
 /// Moves the world on by dt seconds. It takes less than 32 KB of the caller's stack.
 ///
-/// FE_ERROR_MEMORY leaves the world as it was before the call. It can be stepped again.
+/// FE_ERROR_MEMORY leaves the world as it was before the call. It can be stepped again, and then goes on with the same
+/// bits as if memory had lasted.
 /// @param dt  0..1 s; 0 updates contacts and events and moves nothing
 FE_API fe_result fe_world_step(fe_world *world, float dt);
 

@@ -305,29 +305,43 @@ static void adopt(fe__tree *tree, fe__memory *memory, const builder *b, fe_dvec3
     }
 }
 
-int32_t fe__tree_rebuild(fe__tree *tree, fe__memory *memory, int32_t force)
-{
-    if (tree->proxy_count == 0 || (!force && !is_degenerate(tree))) return 1;
-    size_t size = (size_t)tree->proxy_count * sizeof(item);
-    builder b = {.memory = memory, .items = fe__allocate(memory, size)};
-    if (!b.items) return 0;
+static void discard(builder *b) { FE_FREE(b->memory, b->nodes, b->capacity); }
 
-    fe__tree_box all = fe__node_box(&tree->nodes[0]);
-    fe_dvec3 shift = {origin_shift(all, 0), origin_shift(all, 1), origin_shift(all, 2)};
-    collect(tree, shift, b.items);
-    part whole = part_of(b.items, 0, tree->proxy_count);
+// 0: no memory, and nothing is left of it
+static int32_t build(const fe__tree *tree, builder *b, fe_dvec3 shift)
+{
+    size_t size = (size_t)tree->proxy_count * sizeof(item);
+    b->items = fe__allocate(b->memory, size);
+    if (!b->items) return 0;
+    collect(tree, shift, b->items);
+    part whole = part_of(b->items, 0, tree->proxy_count);
     // as many free nodes as before, for insertions that were promised not to fail
     int64_t free_nodes = (int64_t)tree->node_capacity - tree->node_count;
     // as large as before: it must not grow from one build to the next
-    b.nodes = fe__allocate(memory, (size_t)tree->node_capacity * sizeof *b.nodes);
-    b.capacity = b.nodes ? tree->node_capacity : 0;
-    int32_t built = b.nodes && build_node(&b, &whole, -1, 0, 0) == 0 &&
-                    FE_RESERVE(memory, b.nodes, b.capacity, b.count + free_nodes);
-    fe__release(memory, b.items, size);
-    if (!built) {
-        FE_FREE(memory, b.nodes, b.capacity);
+    b->nodes = fe__allocate(b->memory, (size_t)tree->node_capacity * sizeof *b->nodes);
+    b->capacity = b->nodes ? tree->node_capacity : 0;
+    int32_t built = b->nodes && build_node(b, &whole, -1, 0, 0) == 0 &&
+                    FE_RESERVE(b->memory, b->nodes, b->capacity, b->count + free_nodes);
+    fe__release(b->memory, b->items, size);
+    if (!built) discard(b);
+    return built;
+}
+
+int32_t fe__trees_rebuild(fe__tree *const *trees, int32_t count, fe__memory *memory, int32_t force)
+{
+    builder built[FE_TREES] = {{0}};
+    fe_dvec3 shift[FE_TREES];
+    for (int32_t i = 0; i < count; ++i) {
+        const fe__tree *tree = trees[i];
+        if (tree->proxy_count == 0 || (!force && !is_degenerate(tree))) continue;
+        fe__tree_box all = fe__node_box(&tree->nodes[0]);
+        shift[i] = (fe_dvec3){origin_shift(all, 0), origin_shift(all, 1), origin_shift(all, 2)};
+        built[i].memory = memory;
+        if (build(tree, built + i, shift[i])) continue;
+        while (--i >= 0) discard(built + i);
         return 0;
     }
-    adopt(tree, memory, &b, shift);
+    for (int32_t i = 0; i < count; ++i)
+        if (built[i].nodes) adopt(trees[i], memory, built + i, shift[i]);
     return 1;
 }

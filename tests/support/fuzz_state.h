@@ -23,6 +23,9 @@ typedef struct fuzz {
     const char *call_name;
     fe__hash told;
     int32_t fail_after; // allocations: the one that brings it to 0 fails
+    uint32_t failures;  // see fuzz_setting
+    uint64_t chance;    // state of its draws
+    int32_t is_stepping;
     int64_t blocks;
     int32_t is_wild;
     int32_t tells;                                          // the environment has FE_FUZZ_TELL: prints each call
@@ -45,6 +48,7 @@ typedef struct fuzz_span {
 
 _Noreturn void fuzz_fail(const fuzz *f, const char *what);
 void fuzz_check(fuzz *f); // all that can be read is a number
+fe_result fuzz_step(fuzz *f, float dt); // fe_world_step, until memory lasts
 uint8_t fuzz_byte(fuzz *f);
 uint32_t fuzz_word(fuzz *f);
 float fuzz_float(fuzz *f);
