@@ -15,8 +15,7 @@
 
 // Levers: the rotation of a body may give way to each of its joints by a share of what the joint's stiffness counts on.
 // A sweep meets one joint after the other. Where these shares add up to more than this, it lets a star of joints swing,
-// and beyond that gain energy from rounding alone. A chain of spheres or boxes has 0.7, a
-// ragdoll less.
+// and beyond that gain energy from rounding alone. A chain of spheres or boxes has 0.7, a ragdoll less.
 #define HEAVY_LEVERS 1.5f
 
 // A joint with hertz of its own is a spring, unless they are at least those of all that is rigid
