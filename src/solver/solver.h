@@ -122,6 +122,14 @@ typedef struct fe__axes_line {
     float zero;
 } fe__axes_line;
 
+// Of joined bodies on which a gyroscopic torque acts
+typedef struct fe__joined_line {
+    _Alignas(16) float relaxed[3]; // when the step began: fe__body.relaxed
+    float zero;
+    float moved[3]; // the spin by which it rotated in the last substep, rad/s
+    float unused;
+} fe__joined_line;
+
 #define FE__IS_LINE(type) _Static_assert(sizeof(type) == sizeof(float) * FE__LINE, #type)
 FE__IS_LINE(fe__velocity_line);
 FE__IS_LINE(fe__motion_line);
@@ -129,12 +137,13 @@ FE__IS_LINE(fe__start_line);
 FE__IS_LINE(fe__inertia_line);
 FE__IS_LINE(fe__drive_line);
 FE__IS_LINE(fe__axes_line);
+FE__IS_LINE(fe__joined_line);
 
 // How the gyroscopic torque acts on a body. Most bodies have none, and their moments are never read.
 enum {
     FE__GYROSCOPIC_NONE,
     FE__GYROSCOPIC_FREE,  // while it rotates, see turn_freely
-    FE__GYROSCOPIC_JOINED // before the constraints are solved, see advance
+    FE__GYROSCOPIC_JOINED // before the constraints are solved, see joined_change
 };
 
 // Lanes of one group: `count` rows of one kind at `row` (bytes into the batch's row memory), lanes from `lane`
@@ -193,7 +202,8 @@ typedef struct fe__solver {
     fe__inertia_line *inertia;
     fe__drive_line *drive;
     fe__axes_line *axes;
-    int32_t line_count, line_capacity[6];
+    fe__joined_line *joined;
+    int32_t line_count, line_capacity[7];
     int32_t *body_of_line; // -1: padding
     int32_t body_of_line_capacity;
 
@@ -265,6 +275,7 @@ typedef struct fe__joint_kernels {
 typedef struct fe__body_kernels {
     void (*load)(fe__solver *s, const fe__body *bodies, int32_t first, int32_t count, const fe__step_constants *c);
     void (*begin_velocities)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);
+    void (*balance_spins)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);
     void (*carry_velocities)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);
     void (*integrate_positions)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);
 } fe__body_kernels;

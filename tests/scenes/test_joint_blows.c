@@ -221,7 +221,9 @@ static void a_blow_takes_no_door_off_its_hinges(void **state)
         for (int i = 0; i < 60; ++i) {
             run(&s, 1);
             FE_TRUE(i > 0 || trees_of(&s) == 1);
-            FE_WITHIN(worst_gap(&s, d.hinges, 4), 0, CLOSED);
+            // the second of a pair is the sweep's: open as far as a tree may be, and by what a substep adds before it
+            // is solved
+            for (int k = 0; k < 4; ++k) FE_WITHIN(gap_of(&s, d.hinges[k]), 0, k % 2 ? 2 * 0.004 : CLOSED);
         }
         scene_end(&s);
     }
