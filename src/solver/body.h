@@ -15,7 +15,7 @@ enum {
     FE__BODY_LOST = 16,        // overflowed in this step, see finalize.c
     FE__BODY_ISOTROPIC = 32,   // equal principal moments, or a rotation lock: no gyroscopic torque
     FE__BODY_STARTED = 64,     // scratch of a walk: over an island, over a list of handles
-    FE__BODY_IGNORES = 128,    // named in fe_world.ignored
+    FE__BODY_IGNORES = 128,    // first_ignored is not 0
     FE__BODY_DISTURBED = 256,  // in the list of bodies that woke or fell asleep
     FE__BODY_SEEN_AWAKE = 512, // when the events of the last step were written
     FE__BODY_CHASED = 1024,    // in the list of bodies that continuous collision looks at
@@ -71,8 +71,9 @@ typedef struct fe__body {
     int32_t first_shape, last_shape, shape_count; // list in the order of creation
     // all joints, threaded through fe__joint_record.links in the order of creation; 0: none
     int32_t first_joint, last_joint, joint_total;
-    int32_t locked;     // 1: any lock bit is set
-    int64_t moved_step; // number of the last step that moved it, 0: none
+    int32_t first_ignored; // list of fe_world.ignores, 0: none
+    int32_t locked;        // 1: any lock bit is set
+    int64_t moved_step;    // number of the last step that moved it, 0: none
     uint64_t user_data;
     int32_t order_next, order_previous; // list of all bodies in the order of creation
 } fe__body;

@@ -83,7 +83,9 @@ struct fe_world {
         swiftest; // speed over thickness, 1/s, of the body that has most of it: the bits of a float, which rise with it
     fe__clusters clusters;
     fe__pair_set pair_set; // by shape indices
-    fe__pair_set ignored;  // by body indices: fe_world_ignore_collision
+    // fe_world_ignore_collision: by body indices, index of the record, which is in the lists of both bodies (ignore.h)
+    fe__pair_set ignored;
+    fe__record_pool ignores;
 
     // joints: what the solver reads, and the rest by the same index; slot i - 1 of the handles is joint i
     fe__id_pool joint_ids;
