@@ -15,9 +15,16 @@ static const double worn_cost = 1.3;      // of the cost when built
 static const double far_origin = 1000.0;  // m: up to there a float is good to 0.1 mm
 static const float largest_scale = 1e30f; // 1/m: centres that are closer are taken for equal
 
-// A box on its way into a node. The fourth lane of `low` holds the proxy's bits.
+// A box on its way into a node, two quads long: the proxy is where the low corner's quad has nothing.
 typedef struct item {
-    fe__quad low, high;
+    union {
+        fe__quad low_and_proxy;
+        struct {
+            float low[3];
+            int32_t proxy;
+        };
+    };
+    fe__quad high;
 } item;
 
 // items [first, first + count) and the box around them
@@ -33,13 +40,12 @@ typedef struct builder {
     int32_t count, capacity, depth;
 } builder;
 
-// ---- cutting a part in two
-// ---------------------------------------------------------------------------------------------------- without the
-// proxy's bits, which make a denormal number that some machines are slow to compute with
+// ---- cutting a part in two ------------------------------------------------------------------------------------------
+// Without the proxy's bits, which make a denormal number that some machines are slow to compute with
 static fe__quad low_of(const item *i)
 {
     const fe__quad_int xyz = {-1, -1, -1, 0};
-    return (fe__quad)((fe__quad_int)i->low & xyz);
+    return (fe__quad)((fe__quad_int)i->low_and_proxy & xyz);
 }
 
 static part nothing(int32_t first) { return (part){fe__quad_set(INFINITY), fe__quad_set(-INFINITY), first, 0}; }
@@ -221,7 +227,7 @@ static int32_t build_node(builder *b, const part *whole, int32_t parent, int32_t
     for (int32_t k = 0; k < count; ++k) {
         int32_t child;
         if (parts[k].count == 1) {
-            child = ~((fe__quad_int)b->items[parts[k].first].low)[3];
+            child = ~b->items[parts[k].first].proxy;
         } else {
             child = build_node(b, &parts[k], index, k, depth + 1);
             if (child < 0) return -1;
@@ -232,9 +238,8 @@ static int32_t build_node(builder *b, const part *whole, int32_t parent, int32_t
     return index;
 }
 
-// ---- when, and from what
-// ------------------------------------------------------------------------------------------------------ The sum of the
-// areas of inner lanes: nodes that a random ray enters, up to a factor.
+// ---- when, and from what --------------------------------------------------------------------------------------------
+// The sum of the areas of inner lanes: nodes that a random ray enters, up to a factor.
 static double cost_of(const fe__tree_node *nodes, int32_t count)
 {
     double sum = 0.0;
@@ -280,8 +285,9 @@ static void collect(const fe__tree *tree, fe_dvec3 shift, item *items)
                                      {(double)box.high[0], (double)box.high[1], (double)box.high[2]}};
                 box = fe__tree_box_of(&shift, &bounds);
             }
-            const fe__quad_int id = {0, 0, 0, ~node->child[lane]}, xyz = {-1, -1, -1, 0};
-            items[count++] = (item){(fe__quad)(((fe__quad_int)box.low & xyz) | id), box.high};
+            item *made = &items[count++];
+            made->low_and_proxy = box.low, made->high = box.high;
+            made->proxy = ~node->child[lane];
         }
     }
 }

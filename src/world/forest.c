@@ -46,7 +46,7 @@ static int32_t is_dynamic(const fe_world *w, int32_t body) { return w->bodies[bo
 // A door hangs on two hinges. The second of one axis locks what the first does, so that it closes no loop: it is left
 // to the sweep.
 #define SAME_WAY 0.001f  // m, a fifth of the linear slop
-#define SAME_TURN 0.001f // rad
+#define SAME_AXIS 0.001f // rad
 
 typedef struct axle {
     fe_vec3 axis, at; // in the frame of one of its bodies
@@ -73,8 +73,8 @@ static int32_t have_one_axle(const fe_world *w, int32_t joint, int32_t other)
     float along[2], same[2];
     for (int k = 0; k < 2; ++k) {
         fe_vec3 between = fe__sub(second[k].at, first[k].at), across = fe__cross(first[k].axis, between);
-        fe_vec3 turn = fe__cross(first[k].axis, second[k].axis);
-        if (fe__dot(across, across) > SAME_WAY * SAME_WAY || fe__dot(turn, turn) > SAME_TURN * SAME_TURN) return 0;
+        fe_vec3 askew = fe__cross(first[k].axis, second[k].axis);
+        if (fe__dot(across, across) > SAME_WAY * SAME_WAY || fe__dot(askew, askew) > SAME_AXIS * SAME_AXIS) return 0;
         along[k] = fe__dot(first[k].axis, between), same[k] = fe__dot(first[k].axis, second[k].axis);
     }
     return same[0] * same[1] > 0.0f && fe__absf(along[1] - along[0]) < SAME_WAY;
@@ -231,15 +231,15 @@ static void keep_tree(fe__forest *f, int32_t count, int32_t heavy)
     f->link_count += count;
 }
 
-// Where a turn would have to answer along a locked axis there are poses from which no way leads on, and near them
-// forces without bound: a spring gives there, an exact solution does not. It never has to where turns about the other
-// two axes are locked as well (a plane, its bodies turn about its normal), or all. Of turns locked about one axis alone
-// no pose tells what they were.
-static int32_t has_way_on(uint32_t locks)
+// A rotation that needs a response along a locked axis has singular poses. Near them forces have no bound: a spring
+// gives there, an exact solution does not. None needs one where all rotations are locked, or two and no translation
+// across the third axis (a plane, whose bodies rotate about its normal), or nothing. A lock of one rotation alone is
+// nonholonomic: no pose records what it allowed.
+static int32_t is_never_singular(uint32_t locks)
 {
     const uint32_t linear = locks & FE_AXIS_ALL, angular = locks >> 3;
-    const int32_t turns = __builtin_popcount(~angular & FE_AXIS_ALL); // axes to turn about
-    return turns == 0 || (turns == 1 && !(linear & angular)) || (turns == 3 && !linear);
+    const int32_t rotations = __builtin_popcount(~angular & FE_AXIS_ALL); // that are free
+    return rotations == 0 || (rotations == 1 && !(linear & angular)) || (rotations == 3 && !linear);
 }
 
 // nor may bodies be locked in different ways
@@ -248,7 +248,7 @@ static int32_t may_be_exact(const fe_world *w, const component *c, const fe__tre
     const float locks = w->bodies[links[0].body].lock_bits;
     for (int32_t i = 1; i < c->bodies; ++i)
         if (w->bodies[links[i].body].lock_bits != locks) return 0;
-    return has_way_on((uint32_t)locks);
+    return is_never_singular((uint32_t)locks);
 }
 
 static void plant(fe_world *w, int32_t body)

@@ -63,6 +63,19 @@ fe_shape fuzz_shape(fuzz *f);
 uint32_t fuzz_struct_size(fuzz *f, uint32_t right);
 void fuzz_array(fuzz *f, uint32_t packed, fuzz_span *out); // in f->room, stride and count as a client might give them
 
+// NULL now and then, where a pointer is asked
+static inline const void *or_null(fuzz *f, const void *pointer) { return fuzz_byte(f) == 1 ? NULL : pointer; }
+
+// fuzz_calls.c
+fe_geometry fuzz_geometry(fuzz *f);
+// fuzz_pairs.c
+int32_t fuzz_set_filter(fuzz *f);
+int32_t fuzz_judge_shape(fuzz *f);
+int32_t fuzz_set_one_way(fuzz *f);
+int32_t fuzz_read_bounds(fuzz *f);
+int32_t fuzz_overlap_shapes(fuzz *f);
+int32_t fuzz_overlap_bounds(fuzz *f);
+int32_t fuzz_read_overlaps(fuzz *f);
 // fuzz_terrain.c
 int32_t fuzz_create_field(fuzz *f);
 int32_t fuzz_place_field(fuzz *f);
