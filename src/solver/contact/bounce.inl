@@ -44,7 +44,7 @@ FE_INLINE void NAMED(forget_touched)(SPECIAL_ROW *x, const PASSING *was, wide pa
     wide zero = w_set(0.0f);
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
-        point_row *q = row->point + i;
+        contact_point *q = row->point + i;
         row->total[i] = row->total[i] + w_choose(touched, part * (q->impulse - was->point[i]), zero);
         q->impulse = w_choose(touched, zero, q->impulse);
         x->approach[i] = zero;
@@ -61,7 +61,7 @@ FE_INLINE void NAMED(bounce_points)(ROW *row, pair *p, const wide *target, int k
     wide request[POINTS], sum;
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
-        const point_row *q = row->point + i;
+        const contact_point *q = row->point + i;
         request[i] = q->impulse - q->mass * (at(&velocity, load3(q->r)) - target[i]);
     }
     wide3 moment = NAMED(sweep_points)(row, request, 0, &sum);
