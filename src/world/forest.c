@@ -91,10 +91,28 @@ static int32_t is_second_hinge(const fe_world *w, int32_t joint)
     return 0;
 }
 
+// no joint lets them move along and about all axes
+static int32_t form_of(const fe_world *w, int32_t joint)
+{
+    const uint32_t rows = joint ? w->joints.joints[joint].rows : 0;
+    const int32_t has_point = (int32_t)(rows >> FE__PART_POINT & 1), has_slide = (int32_t)(rows >> FE__PART_SLIDE & 1),
+                  is_rod = (int32_t)(rows >> FE__PART_DISTANCE & 1), has_hinge = (int32_t)(rows >> FE__PART_HINGE & 1),
+                  is_fixed = (int32_t)(rows >> FE__PART_FIXED & 1);
+    int32_t along = FE__FORM_ALONG, about = FE__FORM_ABOUT;
+    if (has_point && !has_hinge && !is_fixed) return FE__FORM_BALL;
+    if (is_rod) along = 6;
+    if (has_slide) along = FE__FORM_ALONG & ~(int32_t)w->joints.frames[joint].locked;
+    if (has_point) along = 0;
+    if (has_hinge) about = 8;
+    if (is_fixed) about = 0;
+    return along | about | (is_rod ? FE__FORM_ROD : 0);
+}
+
 static fe__tree_link link_to(const fe_world *w, int32_t body, int32_t joint, int32_t parent)
 {
     return (fe__tree_link){.body = body,
                            .joint = joint,
+                           .form = form_of(w, joint),
                            .parent = parent,
                            .holds_b = joint && w->joint_records[joint].body[1] == body};
 }
@@ -177,13 +195,17 @@ static float heaviest_load(const fe_world *w, const component *c, fe__tree_link 
     return most;
 }
 
-static void keep_tree(fe__forest *f, int32_t count, int32_t heavy)
+static void keep_tree(fe__forest *f, int32_t count, int32_t heavy, uint32_t locks)
 {
     for (int32_t i = f->link_count; i < f->link_count + count; ++i) {
         f->links[i].tree = f->tree_count;
         if (f->links[i].joint) f->link_of[f->links[i].joint] = i;
     }
-    f->trees[f->tree_count++] = (fe__joint_tree){f->link_count, count, heavy};
+    f->trees[f->tree_count++] = (fe__joint_tree){.first = f->link_count,
+                                                 .count = count,
+                                                 .heavy = heavy,
+                                                 .locks = locks,
+                                                 .form = fe__form_of_tree(f->links + f->link_count, count, heavy, locks)};
     f->link_count += count;
 }
 
@@ -214,7 +236,10 @@ static void plant(fe_world *w, int32_t body)
     component c = explore(w, body, links);
     if (c.edges != c.bodies - 1 || c.anchors > 1) return;
     arrange(w, &c, links);
-    if (may_be_exact(w, &c, links)) keep_tree(f, c.bodies, heaviest_load(w, &c, links) >= 1.0f);
+    if (may_be_exact(w, &c, links)) {
+        const uint32_t locks = (uint32_t)w->bodies[links[0].body].lock_bits;
+        keep_tree(f, c.bodies, heaviest_load(w, &c, links) >= 1.0f, locks);
+    }
 }
 
 static void clear_marks(fe_world *w, int32_t joint)
