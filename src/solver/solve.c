@@ -335,7 +335,8 @@ static void run_batch(const job *j, const fe__batch *b, unsigned char *rows)
     run_all(j, b, PREPARE, rows, c);
     for (int32_t n = 0; n < c->substeps; ++n) {
         run_all(j, b, SOLVE, rows, c);
-        for (int32_t i = 0; i < b->tree_groups; ++i) run_trees(j, j->s->groups + first_tree_group(b) + i, FOLLOW, rows, c);
+        for (int32_t i = 0; i < b->tree_groups; ++i)
+            run_trees(j, j->s->groups + first_tree_group(b) + i, FOLLOW, rows, c);
         run_all(j, b, INTEGRATE, rows, c);
         for (int32_t i = 1; i < c->sweeps; ++i) run_all(j, b, RELAX, rows, &pace->more);
         run_all(j, b, RELAX, rows, n + 1 < c->substeps ? c : &pace->last);

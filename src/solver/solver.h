@@ -152,8 +152,8 @@ typedef struct fe__group {
 } fe__group;
 
 typedef struct fe__batch {
-    int32_t first_line, line_count;   // a multiple of FE__MAX_WIDTH
-    int32_t first_group, group_count; // joints' first
+    int32_t first_line, line_count;    // a multiple of FE__MAX_WIDTH
+    int32_t first_group, group_count;  // joints' first
     int32_t joint_groups, tree_groups; // the trees' are the last of the joints'
     int32_t contact_count, joint_count, body_count, island_count;
     int32_t lane_count; // contacts and parts of joints
@@ -259,8 +259,8 @@ typedef struct fe__joint_kernel {
                   const fe__step_constants *c);
 } fe__joint_kernel;
 
-// Passes over trees of one form side by side, each after the same pass over the rows of the joints. `follow` comes after
-// the contacts of a soft pass, which know nothing of the joints: what was struck or pinched would fly off.
+// Passes over trees of one form side by side, each after the same pass over the rows of the joints. `follow` comes
+// after the contacts of a soft pass, which know nothing of the joints: what was struck or pinched would fly off.
 struct fe__tree_job;
 typedef struct fe__forest_kernels {
     int32_t lanes;                  // trees side by side

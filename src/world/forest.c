@@ -101,8 +101,9 @@ static int32_t form_of(const fe_world *w, int32_t joint)
     int32_t along = FE__FORM_ALONG, about = FE__FORM_ABOUT;
     if (has_point && !has_hinge && !is_fixed) return FE__FORM_BALL;
     if (is_rod) along = 6;
-    if (has_slide) along = FE__FORM_ALONG & ~(int32_t)w->joints.frames[joint].locked;
-    if (has_point) along = 0;
+    if (has_slide && !(w->joints.frames[joint].parts >> FE__PART_POINT & 1))
+        along = FE__FORM_ALONG & ~(int32_t)w->joints.frames[joint].locked;
+    if (has_point || (has_slide && w->joints.frames[joint].parts >> FE__PART_POINT & 1)) along = 0;
     if (has_hinge) about = 8;
     if (is_fixed) about = 0;
     return along | about | (is_rod ? FE__FORM_ROD : 0);
@@ -201,11 +202,12 @@ static void keep_tree(fe__forest *f, int32_t count, int32_t heavy, uint32_t lock
         f->links[i].tree = f->tree_count;
         if (f->links[i].joint) f->link_of[f->links[i].joint] = i;
     }
-    f->trees[f->tree_count++] = (fe__joint_tree){.first = f->link_count,
-                                                 .count = count,
-                                                 .heavy = heavy,
-                                                 .locks = locks,
-                                                 .form = fe__form_of_tree(f->links + f->link_count, count, heavy, locks)};
+    f->trees[f->tree_count++] =
+        (fe__joint_tree){.first = f->link_count,
+                         .count = count,
+                         .heavy = heavy,
+                         .locks = locks,
+                         .form = fe__form_of_tree(f->links + f->link_count, count, heavy, locks)};
     f->link_count += count;
 }
 

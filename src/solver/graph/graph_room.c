@@ -125,9 +125,8 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
     int64_t small, rows = all_rows(b, kernels, workers, &small);
     int64_t building = (int64_t)sizeof(int32_t) * scratch_bound(b);
     int32_t trees = b->joint_set ? b->joint_set->forest.tree_count : 0;
-    int64_t sorted =
-        fe__maxi(fe__maxi(fe__mini(b->crowded, b->contacts), trees),
-                 b->joint_set ? fe__mini(b->joint_set->overflowing, b->joints) : 0);
+    int64_t sorted = fe__maxi(fe__maxi(fe__mini(b->crowded, b->contacts), trees),
+                              b->joint_set ? fe__mini(b->joint_set->overflowing, b->joints) : 0);
     if (!FE_RESERVE(memory, s->velocity, s->line_capacity[0], lines) ||
         !FE_RESERVE(memory, s->motion, s->line_capacity[1], lines) ||
         !FE_RESERVE(memory, s->start, s->line_capacity[2], lines) ||

@@ -63,7 +63,7 @@ static int32_t jerked(const pass *t)
 // w += I^-1 l of a body, in the given lanes of its line
 FE_INLINE void add_spin(const pass *t, const tree_node *n, line_names line, int32_t lanes, real3 l)
 {
-    const real3 now = r_mul(&n->turn, r_mul_sym(&n->first_inverse, r_mul_transposed(&n->turn, l)));
+    const real3 now = r_mul(&n->principal, r_mul_sym(&n->first_inverse, r_mul_transposed(&n->principal, l)));
     const lines start = read_lines(t->solver->start, line.at);
     const half w[3] = {narrow(r_widen(start.a[4]) + now.x), narrow(r_widen(start.a[5]) + now.y),
                        narrow(r_widen(start.a[6]) + now.z)};
@@ -80,8 +80,7 @@ static void forget_damping(const pass *t, int32_t i, int32_t lanes)
     if (!is_ball(t, i)) {
         given = r_zero3();
         for (int k = 0; k < 3; ++k)
-            if (t->links[i].form >> (3 + k) & 1)
-                given = r_add_scaled(given, r_dot(n->ang[k], n->impulse_w), n->ang[k]);
+            if (t->links[i].form >> (3 + k) & 1) given = r_add_scaled(given, r_dot(n->ang[k], n->impulse_w), n->ang[k]);
     }
     add_spin(t, n, line_of(t, i), lanes, given);
     if (above) add_spin(t, above, line_above(t, i), lanes, r_scale(r_set(-1.0), given));

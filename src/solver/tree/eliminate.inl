@@ -131,10 +131,6 @@ FE_INLINE real3 ball_gives(const freedom *f, real3 x)
 FE_INLINE int32_t is_damped(const tree_node *n) { return r_bits(r_greater(n->damping, r_set(0.0))); }
 
 // ---- others ---------------------------------------------------------------------------------------------------------
-FE_INLINE real3 unit3(int k)
-{
-    return (real3){r_set(k == 0), r_set(k == 1), r_set(k == 2)};
-}
 // freedom k: 0..2 along, 3..5 about
 FE_INLINE real3 axis_of(const tree_node *n, int k) { return k < 3 ? n->lin[k] : n->ang[k - 3]; }
 

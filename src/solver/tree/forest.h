@@ -23,7 +23,7 @@ typedef struct fe__tree_link {
 
 // How a joint lets its bodies move against each other
 enum {
-    FE__FORM_ALONG = 7,      // bits of the joint's axes x, y, z
+    FE__FORM_ALONG = 7, // bits of the joint's axes x, y, z
     FE__FORM_ABOUT = 7 << 3,
     FE__FORM_BALL = 1 << 6, // about all, and a plain point: no other bit is set
     FE__FORM_ROD = 1 << 7   // of fixed length, along x

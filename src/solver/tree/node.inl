@@ -32,28 +32,30 @@ typedef struct tree_node {
     // when the step began
     real3 first_below, first_above, first_gap; // arms from the centres to a ball joint's point, m
     real_sym first_inertia, first_inverse;     // about the centre, kg m2 and its inverse
+    real side;                                 // 1: the body below is B of the joint, -1: A
     real mass;                                 // kg
     // where the bodies are now
-    real_mat turn; // since the step began
-    real3 shift;   // m
-    real3 below, above;    // from the centres of the body below, above to the point, m
-    real3 gap, swing;      // what the joint has to bring back to zero, m, rad
-    real3 lin[3], ang[3];  // axes of the joint, of which some are freedoms. A ball joint has none: its are the world's
-    real rod;              // length of a distance joint, m; else 0
-    real3 pull;            // impulse on the body below at the point when the matrices were found, N s
-    real_sym inertia;                         // about the centre, world axes
+    real_mat turn;        // since the step began
+    real_mat principal;   // the same, but of what the joints' inertia has followed: see FE__ROTATED
+    real3 shift;          // m
+    real3 below, above;   // from the centres of the body below, above to the point, m
+    real3 gap, swing;     // what the joint has to bring back to zero, m, rad
+    real3 lin[3], ang[3]; // axes of the joint, of which some are freedoms. A ball joint has none: its are the world's
+    real rod;             // length of a distance joint, m; else 0
+    real3 pull;           // impulse on the body below at the point when the matrices were found, N s
+    real_sym inertia;     // about the centre, world axes
     real tension, expected, damping, heaviest; // see damping.inl; the largest moment about an axis that is not locked
     // found by the elimination
     real3 from_above; // from the point of the body above to this one, m
     mass p;
     freedom free[FREEDOMS];
     // of one solution
-    real3 v, w;              // velocities as they are
-    real3 rest;              // what the points lack to move as one, m/s
-    real3 ask_v, ask_w;      // r
-    real3 slip;              // of the rotations, rad/s
-    real3 load_v, load_w;    // p
-    real3 change_v, change_w; // u
+    real3 v, w;                 // velocities as they are
+    real3 rest;                 // what the points lack to move as one, m/s
+    real3 ask_v, ask_w;         // r
+    real3 slip;                 // of the rotations, rad/s
+    real3 load_v, load_w;       // p
+    real3 change_v, change_w;   // u
     real3 impulse_v, impulse_w; // l
 } tree_node;
 

@@ -43,7 +43,8 @@ static void load_masses(const pass *t, int32_t i, int lane)
     tree_node *n = t->nodes + i;
     const int32_t line = t->places[lane][i].line;
     const fe__sym3 *in = &t->solver->inertia[line].inverse;
-    double inverse[6] = {(double)in->xx, (double)in->xy, (double)in->xz, (double)in->yy, (double)in->yz, (double)in->zz},
+    double inverse[6] = {(double)in->xx, (double)in->xy, (double)in->xz,
+                         (double)in->yy, (double)in->yz, (double)in->zz},
            inertia[6];
     set_lane(&n->mass, lane, 1.0 / (double)t->solver->velocity[line].inverse_mass);
     set_lane_sym(&n->first_inverse, lane, inverse);
@@ -71,9 +72,11 @@ static void load_bundle(const pass *t)
     for (int32_t i = 0; i < t->count; ++i) {
         for (int lane = 0; lane < LANES; ++lane) {
             load_masses(t, i, lane);
+            set_lane(&t->nodes[i].side, lane, t->links_of[lane][i].holds_b ? 1.0 : -1.0);
             if (is_ball(t, i)) load_ball(t, i, lane);
         }
         t->nodes[i].rod = r_set(0.0);
+        t->nodes[i].principal = (real_mat){unit3(0), unit3(1), unit3(2)};
     }
 }
 
@@ -81,12 +84,14 @@ static void load_bundle(const pass *t)
 typedef struct pose {
     real_mat turn;
     real3 shift;
+    real angle; // sin^2 of half of it
 } pose;
 
 FE_INLINE pose pose_of(const pass *t, line_names line)
 {
     const lines l = read_lines(t->solver->motion, line.at);
-    return (pose){r_matrix(r_widen(l.a[4]), r_widen(l.a[5]), r_widen(l.a[6]), r_widen(l.a[7])), widen3(l.a)};
+    const real3 v = widen3(l.a + 4);
+    return (pose){r_matrix(v.x, v.y, v.z, r_widen(l.a[7])), widen3(l.a), r_dot(v, v)};
 }
 
 // of a joint's impulse on the body below: what the sweep and the tree gave it so far
@@ -106,7 +111,7 @@ static real3 pull_of(const pass *t, int32_t i)
 static void read_ball(const pass *t, int32_t i, real_mask lanes)
 {
     tree_node *n = t->nodes + i, *above = above_of(t, i);
-    const pose at = above ? (pose){above->turn, above->shift} : pose_of(t, line_above(t, i));
+    const pose at = above ? (pose){above->turn, above->shift, r_set(0.0)} : pose_of(t, line_above(t, i));
     const real3 below = r_mul(&n->turn, n->first_below), to = r_mul(&at.turn, n->first_above);
     const real3 swing = r_sub(r_sub(below, n->first_below), r_sub(to, n->first_above));
     const real3 gap = r_add(n->first_gap, r_add(r_sub(n->shift, at.shift), swing));
@@ -206,7 +211,8 @@ static void read_hinge(axes *a, const fe__lock *l, const fe__solver *s)
 
 static void read_fixed(axes *a, const fe__lock *l, const fe__solver *s)
 {
-    const fe_quat first = fe__quat_of(s->motion[l->line_a].rotation), second = fe__quat_of(s->motion[l->line_b].rotation);
+    const fe_quat first = fe__quat_of(s->motion[l->line_a].rotation),
+                  second = fe__quat_of(s->motion[l->line_b].rotation);
     const fe_quat q = fe__product(fe__product(second, l->frame), fe__conjugate(first));
     const double two = q.w < 0.0f ? -2.0 : 2.0;
     a->swing = (fe_dvec3){two * (double)q.x, two * (double)q.y, two * (double)q.z};
@@ -301,7 +307,7 @@ static void read_joint(const pass *t, int32_t i, int lane)
 // The pose of a lane that is not read stays, and so does this
 FE_INLINE void weigh(tree_node *n, uint32_t locks)
 {
-    n->inertia = r_turn_sym(&n->turn, &n->first_inertia);
+    n->inertia = r_turn_sym(&n->principal, &n->first_inertia);
     n->heaviest = r_set(0.0);
     if (!(locks & 8)) n->heaviest = r_max(n->heaviest, n->inertia.xx);
     if (!(locks & 16)) n->heaviest = r_max(n->heaviest, n->inertia.yy);
@@ -317,9 +323,9 @@ static void read_tree(const pass *t, int32_t lanes)
     for (int32_t i = 0; i < t->count; ++i) {
         tree_node *n = t->nodes + i;
         const pose at = pose_of(t, line_of(t, i));
-        n->turn.x = r_choose3(these, at.turn.x, n->turn.x);
-        n->turn.y = r_choose3(these, at.turn.y, n->turn.y);
-        n->turn.z = r_choose3(these, at.turn.z, n->turn.z);
+        const real_mask turned_far = r_both(these, r_greater(at.angle, r_set((double)FE__ROTATED)));
+        n->turn = r_choose_mat(these, at.turn, n->turn);
+        n->principal = r_choose_mat(turned_far, at.turn, n->principal);
         n->shift = r_choose3(these, at.shift, n->shift);
         weigh(n, t->locks);
         if (is_ball(t, i)) read_ball(t, i, these);

@@ -33,10 +33,7 @@ FE_INLINE real_mask r_mask(int32_t bits)
 #else
 typedef int64_t real_mask __attribute__((vector_size(8 * LANES)));
 FE_INLINE real_mask r_greater(real a, real b) { return a > b; }
-FE_INLINE real r_choose(real_mask m, real yes, real no)
-{
-    return (real)((m & (real_mask)yes) | (~m & (real_mask)no));
-}
+FE_INLINE real r_choose(real_mask m, real yes, real no) { return (real)((m & (real_mask)yes) | (~m & (real_mask)no)); }
 FE_INLINE real r_min(real a, real b) { return r_choose(a < b, a, b); }
 FE_INLINE real r_max(real a, real b) { return r_choose(a > b, a, b); }
 FE_INLINE real r_sqrt(real a)
@@ -48,13 +45,24 @@ FE_INLINE int32_t r_bits(real_mask m) { return (int32_t)((m[0] & 1) | (m[1] & 2)
 FE_INLINE real_mask r_mask(int32_t bits) { return (real_mask){-(bits & 1), -(bits >> 1 & 1)}; }
 #endif
 
+FE_INLINE real_mask r_both(real_mask a, real_mask b) { return (real_mask)(a & b); }
+
 // a value for each lane: PER_LANE(a[i]) names its lane i
 #if FE_W == 16
-#define PER_LANE_(E) {E(0), E(1), E(2), E(3), E(4), E(5), E(6), E(7)}
+#define PER_LANE_(E)                                   \
+    {                                                  \
+        E(0), E(1), E(2), E(3), E(4), E(5), E(6), E(7) \
+    }
 #elif FE_W == 8
-#define PER_LANE_(E) {E(0), E(1), E(2), E(3)}
+#define PER_LANE_(E)           \
+    {                          \
+        E(0), E(1), E(2), E(3) \
+    }
 #else
-#define PER_LANE_(E) {E(0), E(1)}
+#define PER_LANE_(E) \
+    {                \
+        E(0), E(1)   \
+    }
 #endif
 
 // ---- the same at every width ----------------------------------------------------------------------------------------
@@ -70,6 +78,7 @@ typedef struct real_mat {
 
 FE_INLINE real r_set(double a) { return a - (real){0}; }
 FE_INLINE real3 r_zero3(void) { return (real3){r_set(0.0), r_set(0.0), r_set(0.0)}; }
+FE_INLINE real3 unit3(int k) { return (real3){r_set(k == 0), r_set(k == 1), r_set(k == 2)}; }
 FE_INLINE real3 r_add(real3 a, real3 b) { return (real3){a.x + b.x, a.y + b.y, a.z + b.z}; }
 FE_INLINE real3 r_sub(real3 a, real3 b) { return (real3){a.x - b.x, a.y - b.y, a.z - b.z}; }
 FE_INLINE real3 r_scale(real s, real3 a) { return (real3){s * a.x, s * a.y, s * a.z}; }
@@ -84,15 +93,16 @@ FE_INLINE real3 r_choose3(real_mask m, real3 yes, real3 no)
 {
     return (real3){r_choose(m, yes.x, no.x), r_choose(m, yes.y, no.y), r_choose(m, yes.z, no.z)};
 }
+FE_INLINE real_mat r_choose_mat(real_mask m, real_mat yes, real_mat no)
+{
+    return (real_mat){r_choose3(m, yes.x, no.x), r_choose3(m, yes.y, no.y), r_choose3(m, yes.z, no.z)};
+}
 FE_INLINE real3 r_mul_sym(const real_sym *m, real3 a)
 {
     return (real3){m->xx * a.x + m->xy * a.y + m->xz * a.z, m->xy * a.x + m->yy * a.y + m->yz * a.z,
                    m->xz * a.x + m->yz * a.y + m->zz * a.z};
 }
-FE_INLINE real3 r_mul(const real_mat *m, real3 a)
-{
-    return (real3){r_dot(m->x, a), r_dot(m->y, a), r_dot(m->z, a)};
-}
+FE_INLINE real3 r_mul(const real_mat *m, real3 a) { return (real3){r_dot(m->x, a), r_dot(m->y, a), r_dot(m->z, a)}; }
 FE_INLINE real3 r_mul_transposed(const real_mat *m, real3 a)
 {
     return r_add_scaled(r_add_scaled(r_scale(a.x, m->x), a.y, m->y), a.z, m->z);
@@ -110,6 +120,8 @@ FE_INLINE real_mat r_matrix(real x, real y, real z, real w)
     real sx = k * x, sy = k * y, sz = k * z;
     real xx = sx * x, yy = sy * y, zz = sz * z, xy = sx * y, xz = sx * z, yz = sy * z, wx = sx * w, wy = sy * w,
          wz = sz * w;
-    return (real_mat){{1.0 - (yy + zz), xy - wz, xz + wy}, {xy + wz, 1.0 - (xx + zz), yz - wx}, {xz - wy, yz + wx, 1.0 - (xx + yy)}};
+    return (real_mat){{1.0 - (yy + zz), xy - wz, xz + wy},
+                      {xy + wz, 1.0 - (xx + zz), yz - wx},
+                      {xz - wy, yz + wx, 1.0 - (xx + yy)}};
 }
 FE_INLINE real r_widen(half a) { return __builtin_convertvector(a, real); }

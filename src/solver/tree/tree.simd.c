@@ -2,6 +2,7 @@
 // side, a lane each; see tree.h. Compiled once per SIMD set.
 #include "core/simd.h"
 #include "solver/tree/tree.h"
+#include "solver/wide_body.h"
 
 #include <string.h>
 
@@ -119,7 +120,8 @@ static void request_arcs(const pass *t)
         if (on) above = (velocity){r_add(above.v, centre_change(on)), r_add(above.w, on->change_w)};
         const real3 off = r_sub(leave_tangent(n->below, below.w, t->h), leave_tangent(n->above, above.w, t->h));
         n->ask_v = r_sub_scaled(n->rest, rate, locked_along(t, i, off));
-        if (is_rod(t, i)) n->ask_v = r_sub_scaled(n->ask_v, rate * leave_rod(n, below, above, t->h), n->lin[0]);
+        if (is_rod(t, i))
+            n->ask_v = r_sub_scaled(n->ask_v, rate * n->side * leave_rod(n, below, above, t->h), n->lin[0]);
     }
 }
 
@@ -157,7 +159,8 @@ static void apply(const pass *t, int32_t lanes, int32_t total)
         const tree_node *n = t->nodes + i;
         const line_names line = line_of(t, i);
         const real3 v = r_add(n->v, centre_change(n)), w = r_add(n->w, n->change_w);
-        const half linear[3] = {narrow(v.x), narrow(v.y), narrow(v.z)}, angular[3] = {narrow(w.x), narrow(w.y), narrow(w.z)};
+        const half linear[3] = {narrow(v.x), narrow(v.y), narrow(v.z)},
+                   angular[3] = {narrow(w.x), narrow(w.y), narrow(w.z)};
         write_lines(t->solver->velocity, line.at, lanes, 0, 3, linear);
         write_lines(t->solver->velocity, line.at, lanes, 4, 3, angular);
         forget_damping(t, i, lanes);

@@ -22,7 +22,8 @@ static int32_t row_axes(const pass *t, int32_t i, int lane, int32_t part, fe_dve
     const int32_t form = t->links[i].form;
     int32_t count = 0;
     if (part == FE__PART_DISTANCE) axis[count++] = get_lane3(n->lin, lane);
-    if (part == FE__PART_HINGE) axis[count++] = get_lane3(n->ang + 1, lane), axis[count++] = get_lane3(n->ang + 2, lane);
+    if (part == FE__PART_HINGE)
+        axis[count++] = get_lane3(n->ang + 1, lane), axis[count++] = get_lane3(n->ang + 2, lane);
     for (int k = 0; k < 3 && part == FE__PART_SLIDE; ++k)
         if (!(form >> k & 1)) axis[count++] = get_lane3(n->lin + k, lane);
     for (int k = 0; k < 3 && (part == FE__PART_POINT || part == FE__PART_FIXED); ++k) axis[count++] = unit(k);
