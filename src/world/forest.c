@@ -103,15 +103,15 @@ static int32_t form_of(const fe_world *w, int32_t joint)
     const int32_t has_point = (int32_t)(rows >> FE__PART_POINT & 1), has_slide = (int32_t)(rows >> FE__PART_SLIDE & 1),
                   is_rod = (int32_t)(rows >> FE__PART_DISTANCE & 1), has_hinge = (int32_t)(rows >> FE__PART_HINGE & 1),
                   is_fixed = (int32_t)(rows >> FE__PART_FIXED & 1);
-    int32_t along = FE__FORM_ALONG, about = FE__FORM_ABOUT;
-    if (has_point && !has_hinge && !is_fixed) return FE__FORM_BALL;
+    int32_t along = FE__TREE_ALONG, about = FE__TREE_ABOUT;
+    if (has_point && !has_hinge && !is_fixed) return FE__TREE_BALL;
     if (is_rod) along = 6;
     if (has_slide && !(w->joints.frames[joint].parts >> FE__PART_POINT & 1))
-        along = FE__FORM_ALONG & ~(int32_t)w->joints.frames[joint].locked;
+        along = FE__TREE_ALONG & ~(int32_t)w->joints.frames[joint].locked;
     if (has_point || (has_slide && w->joints.frames[joint].parts >> FE__PART_POINT & 1)) along = 0;
     if (has_hinge) about = 8;
     if (is_fixed) about = 0;
-    return along | about | (is_rod ? FE__FORM_ROD : 0);
+    return along | about | (is_rod ? FE__TREE_ROD : 0);
 }
 
 static fe__tree_link link_to(const fe_world *w, int32_t body, int32_t joint, int32_t parent)
@@ -201,9 +201,6 @@ static float heaviest_load(const fe_world *w, const component *c, fe__tree_link 
     return most;
 }
 
-<<<<<<< HEAD
-static void keep_tree(fe__forest *f, int32_t count, int32_t heavy, uint32_t locks)
-=======
 // trace of K_w = -[r] I^-1 [r], what the body's rotation adds to a point's inverse effective mass, 1/kg:
 //     tr K_w = |r|^2 tr I^-1 - r.I^-1 r
 static float give_of_rotation(const fe__body *b, const float *arm)
@@ -243,8 +240,7 @@ static int32_t is_heavy(const fe_world *w, const component *c, fe__tree_link *li
     return 0;
 }
 
-static void keep_tree(fe__forest *f, int32_t count, int32_t heavy)
->>>>>>> next
+static void keep_tree(fe__forest *f, int32_t count, int32_t heavy, uint32_t locks)
 {
     for (int32_t i = f->link_count; i < f->link_count + count; ++i) {
         f->links[i].tree = f->tree_count;
@@ -286,14 +282,8 @@ static void plant(fe_world *w, int32_t body)
     component c = explore(w, body, links);
     if (c.edges != c.bodies - 1 || c.anchors > 1) return;
     arrange(w, &c, links);
-<<<<<<< HEAD
-    if (may_be_exact(w, &c, links)) {
-        const uint32_t locks = (uint32_t)w->bodies[links[0].body].lock_bits;
-        keep_tree(f, c.bodies, heaviest_load(w, &c, links) >= 1.0f, locks);
-    }
-=======
-    if (may_be_exact(w, &c, links)) keep_tree(f, c.bodies, is_heavy(w, &c, links));
->>>>>>> next
+    if (may_be_exact(w, &c, links))
+        keep_tree(f, c.bodies, is_heavy(w, &c, links), (uint32_t)w->bodies[links[0].body].lock_bits);
 }
 
 static void clear_marks(fe_world *w, int32_t joint)

@@ -121,15 +121,15 @@ static int32_t form_of(int32_t part)
 {
     switch (part) {
     case FE__PART_POINT:
-        return FE__FORM_BALL;
+        return FE__TREE_BALL;
     case FE__PART_SLIDE:
-        return FE__FORM_ABOUT;
+        return FE__TREE_ABOUT;
     case FE__PART_HINGE:
-        return FE__FORM_ALONG | 8;
+        return FE__TREE_ALONG | 8;
     case FE__PART_FIXED:
-        return FE__FORM_ALONG;
+        return FE__TREE_ALONG;
     default:
-        return 6 | FE__FORM_ABOUT | FE__FORM_ROD;
+        return 6 | FE__TREE_ABOUT | FE__TREE_ROD;
     }
 }
 
@@ -182,7 +182,7 @@ static void add_ball(int32_t parent, float mass)
 static void add_free_root(float mass)
 {
     add_link(-1, 1, FE__PART_POINT, mass, any_inertia(mass));
-    the.places[0].locks = 0, the.links[0].joint = 0, the.links[0].form = FE__FORM_ALONG | FE__FORM_ABOUT;
+    the.places[0].locks = 0, the.links[0].joint = 0, the.links[0].form = FE__TREE_ALONG | FE__TREE_ABOUT;
     set_velocity(1, any_vector(1.0), any_vector(1.0));
 }
 
@@ -492,9 +492,9 @@ static int32_t rows_of_link(int32_t i, row out[6])
     const int32_t form = the.links[i].form;
     int32_t count = 0;
     for (int k = 0; k < 3; ++k)
-        if (!(form >> k & 1)) out[count++] = (row){form == FE__FORM_BALL ? unit(k) : get_lane3(n->lin + k, 0), 0};
+        if (!(form >> k & 1)) out[count++] = (row){form == FE__TREE_BALL ? unit(k) : get_lane3(n->lin + k, 0), 0};
     for (int k = 0; k < 3; ++k)
-        if (!(form >> (3 + k) & 1) && form != FE__FORM_BALL) out[count++] = (row){get_lane3(n->ang + k, 0), 1};
+        if (!(form >> (3 + k) & 1) && form != FE__TREE_BALL) out[count++] = (row){get_lane3(n->ang + k, 0), 1};
     return count;
 }
 

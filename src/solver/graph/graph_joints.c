@@ -46,10 +46,6 @@ static int32_t link_of(const fe__builder *b, int32_t joint)
     return f->link_count ? f->link_of[joint] : FE__NONE;
 }
 
-<<<<<<< HEAD
-// A link's bodies, and the tree itself, when the first of its links comes by
-static void open_link(fe__builder *b, int32_t link, fe__lane lane)
-=======
 static void set_bodies(fe__builder *b, int32_t link, fe__lane lane)
 {
     int32_t holds_b = b->in->joints->forest.links[link].holds_b;
@@ -57,20 +53,13 @@ static void set_bodies(fe__builder *b, int32_t link, fe__lane lane)
                                           .parent_line = holds_b ? lane.line_a : lane.line_b};
 }
 
-// a tree's group, when the first of its links comes by
-static void open_tree(fe__builder *b, fe__batch *batch, int32_t link)
->>>>>>> next
+// a tree, when the first of its links comes by
+static void open_tree(fe__builder *b, int32_t link)
 {
     fe__solver *s = b->s;
     const fe__forest *f = &b->in->joints->forest;
     const fe__tree_link *l = f->links + link;
-<<<<<<< HEAD
     int32_t first = f->trees[l->tree].first, rootless = !f->links[first].joint;
-    s->places[link] = (fe__tree_place){.line = l->holds_b ? lane.line_b : lane.line_a,
-                                       .parent_line = l->holds_b ? lane.line_a : lane.line_b};
-=======
-    int32_t first = f->trees[l->tree].first, count = f->trees[l->tree].count, rootless = !f->links[first].joint;
->>>>>>> next
     if (link != first + rootless) return;
     if (rootless)
         s->places[first] =
@@ -123,9 +112,6 @@ static void add_lock(const fe__builder *b, int32_t link, int32_t part, int32_t g
     p->lock[p->locks++].row = g->offset + (int64_t)((lane - g->lane) / b->width) * kernels->joint->of[part].row_size;
 }
 
-<<<<<<< HEAD
-static void fill_joint_lanes(fe__builder *b, int32_t joint, const fe__kernels *kernels)
-=======
 static void open_part(fe__builder *b, fe__batch *batch, int32_t part, int32_t overflowing, const fe__kernels *kernels)
 {
     enum { KEYS = FE__JOINT_COLOURS * FE__SIDES };
@@ -146,17 +132,12 @@ static void open_part(fe__builder *b, fe__batch *batch, int32_t part, int32_t ov
     }
 }
 
-static void fill_joint_lanes(fe__builder *b, fe__batch *batch, int32_t joint, const fe__kernels *kernels)
->>>>>>> next
+static void fill_joint_lanes(fe__builder *b, int32_t joint, const fe__kernels *kernels)
 {
     const fe__joint *j = b->in->joints->joints + joint;
     fe__lane lane = joint_lane(b, joint);
     int32_t link = link_of(b, joint);
-<<<<<<< HEAD
-    if (link >= 0) open_link(b, link, lane);
-=======
-    if (link >= 0) set_bodies(b, link, lane), open_tree(b, batch, link);
->>>>>>> next
+    if (link >= 0) set_bodies(b, link, lane), open_tree(b, link);
     for (int32_t part = 0; part < FE__PARTS; ++part) {
         if (!(j->rows >> part & 1)) continue;
         int32_t key = joint_key(part, j), at = b->joint_key_count[key]++;
@@ -175,19 +156,15 @@ void fe__graph_joint_groups(fe__builder *b, int32_t k, const fe__kernels *kernel
         for (int32_t part = 0; part < FE__PARTS; ++part)
             b->joint_key_count[joint_key(part, j)] += (int32_t)(j->rows >> part & 1);
     }
-<<<<<<< HEAD
     int32_t overflowing = sort_overflow(b, k), first_tree = b->s->tree_count;
-=======
-    int32_t overflowing = sort_overflow(b, k);
     for (int32_t i = 0; i < overflowing; ++i) {
         int32_t joint = b->s->sort_items[i].value, link = link_of(b, joint);
         if (link >= 0) set_bodies(b, link, joint_lane(b, joint));
     }
->>>>>>> next
     for (int32_t part = 0; part < FE__PARTS; ++part) open_part(b, batch, part, overflowing, kernels);
     for (int32_t i = 0; i < overflowing; ++i) {
         int32_t link = link_of(b, b->s->sort_items[i].value);
-        if (link >= 0) open_tree(b, batch, link);
+        if (link >= 0) open_tree(b, link);
     }
     for (int32_t i = b->joint_start[k]; i < b->joint_start[k + 1]; ++i) {
         const fe__joint *j = b->in->joints->joints + b->joint_order[i];

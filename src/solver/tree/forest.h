@@ -16,17 +16,17 @@ typedef struct fe__tree_link {
     int32_t joint;   // 0: the root of a tree that hangs on nothing
     int32_t parent;  // link of the body above, counted from the tree's first; -1: the root
     int32_t holds_b; // 1: the body is B of the joint, 0: A
-    int32_t form;    // FE__FORM_*
+    int32_t form;    // FE__TREE_BALL...
     int32_t tree;
     float carried; // mass of the body and of all below it, kg
 } fe__tree_link;
 
 // How a joint lets its bodies move against each other
 enum {
-    FE__FORM_ALONG = 7, // bits of the joint's axes x, y, z
-    FE__FORM_ABOUT = 7 << 3,
-    FE__FORM_BALL = 1 << 6, // about all, and a plain point: no other bit is set
-    FE__FORM_ROD = 1 << 7   // of fixed length, along x
+    FE__TREE_ALONG = 7, // bits of the joint's axes x, y, z
+    FE__TREE_ABOUT = 7 << 3,
+    FE__TREE_BALL = 1 << 6, // about all, and a plain point: no other bit is set
+    FE__TREE_ROD = 1 << 7   // of fixed length, along x
 };
 
 typedef struct fe__joint_tree {

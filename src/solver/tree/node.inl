@@ -88,7 +88,7 @@ FE_INLINE tree_node *above_of(const pass *t, int32_t i)
 {
     return t->links[i].parent < 0 ? NULL : t->nodes + t->links[i].parent;
 }
-FE_INLINE int32_t is_ball(const pass *t, int32_t i) { return t->links[i].form & FE__FORM_BALL; }
+FE_INLINE int32_t is_ball(const pass *t, int32_t i) { return t->links[i].form & FE__TREE_BALL; }
 FE_INLINE int32_t is_root(const pass *t, int32_t i) { return !t->links[i].joint; } // of a tree that hangs on nothing
 
 // ---- lines ----------------------------------------------------------------------------------------------------------

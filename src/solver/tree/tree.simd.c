@@ -107,7 +107,7 @@ FE_INLINE real leave_rod(const tree_node *n, velocity below, velocity above, rea
     return r_choose(r_greater(n->rod, r_set(0.0)), slow_share(turn) * 0.5 * turn * n->rod, r_set(0.0));
 }
 
-FE_INLINE int32_t is_rod(const pass *t, int32_t i) { return t->links[i].form & FE__FORM_ROD; }
+FE_INLINE int32_t is_rod(const pass *t, int32_t i) { return t->links[i].form & FE__TREE_ROD; }
 
 // Velocities with which the points meet after the substep, on the arcs of the velocities at hand
 static void request_arcs(const pass *t)
