@@ -175,13 +175,15 @@ FE_INLINE wide_mask is_joined(wide kind) { return w_greater(kind, w_set(FE__GYRO
 // h/2 w x w' per second, and a disc that a hinge holds askew slows down: there d and c are nearly opposite, and each is
 // far larger than their sum. Of d the warm start is known; what the solution will change about it is about what relax
 // changed last, back: it leads the velocities half a substep ahead. So `moved`, w1, is taken before relax.
-// A blow is no d that goes on: what is more than STEADY of the spin is left out.
+// A blow is no d that goes on: what is more than STEADY of the spin is left out. Nor is there a d to go by where the
+// locks' warm start was taken back (tree/warm_start.inl): what relax changed is then more than what is left of it.
 #define STEADY 0.1f
 FE_INLINE wide3 joined_change(const fe__solver *s, int32_t i, wide kind, wide3 w, wide3 moved, wide3 warm, wide half_h)
 {
     wide4 axes = w_product(load_high(s->motion, i), load_low(s->axes, i)), principal = load_high(s->axes, i);
-    wide3 ahead = w_add_scaled(w_sub(moved, w), w_set(0.5f), warm);
-    wide_mask steady = w_not(w_greater(w_dot(ahead, ahead), STEADY * STEADY * w_dot(w, w)));
+    wide3 relaxed = w_sub(w, moved), ahead = w_sub(w_scale(w_set(0.5f), warm), relaxed);
+    wide_mask blow = w_greater(w_dot(ahead, ahead), STEADY * STEADY * w_dot(w, w));
+    wide_mask steady = w_and(w_greater(w_dot(warm, warm), w_dot(relaxed, relaxed)), w_not(blow));
     wide3 base = w_choose3(steady, w_add(w, ahead), w);
     wide3 change = free_change(base, axes, w_xyz(principal), half_h);
     return w_choose3(is_joined(kind), change, (wide3){w_set(0.0f), w_set(0.0f), w_set(0.0f)});
