@@ -30,6 +30,11 @@ FE_INLINE void store_high(void *lines, int32_t i, wide4 high)
     scatter_high((float *)lines + (int64_t)i * FE__LINE, w_in_order, high);
 }
 
+FE_INLINE void store_moved(fe__solver *s, int32_t i, wide3 spin)
+{
+    w_scatter(s->moved_spin[i], 4, w_in_order, (wide4){spin.x, spin.y, spin.z, w_set(0.0f)});
+}
+
 // ---- records to lines, once per step --------------------------------------------------------------------------------
 enum { BODY_STRIDE = sizeof(fe__body) / sizeof(float) };
 #define BODY_QUAD(field) w_gather(bodies->field, BODY_STRIDE, index)
@@ -115,7 +120,7 @@ FE_INLINE void load_block(fe__solver *s, const fe__body *bodies, int32_t line, c
                (wide4){i.yz, i.zz, *(wide *)gyroscopic * there, zero});
     store_line(s->drive, line, w_with(linear, damping), w_with(w_mul(&i, w_xyz(torque)), spin_damping));
     store_line(s->axes, line, axes, (wide4){inertia.x, inertia.y, inertia.z, zero});
-    if (joined) store_line(s->joined, line, BODY_QUAD(relaxed), v);
+    if (joined) store_moved(s, line, w_sub(w_xyz(w), w_xyz(BODY_QUAD(relaxed))));
     for (int k = 0; k < FE_W && locked; ++k) {
         const fe__body *body = bodies + index[k];
         const float *a = s->axes[line + k].rotation;
@@ -174,12 +179,13 @@ FE_INLINE wide_mask is_joined(wide kind) { return w_greater(kind, w_set(FE__GYRO
 // d what the constraints add from move to move, c the change by the torque. Without d a heavy top tilts by some
 // h/2 w x w' per second, and a disc that a hinge holds askew slows down: there d and c are nearly opposite, and each is
 // far larger than their sum. Of d the warm start is known; what the solution will change about it is about what relax
-// changed last, back: it leads the velocities half a substep ahead. So `moved`, w1, is taken before relax.
+// changed last, back: it leads the velocities half a substep ahead. So w1, `moved`, is taken before relax.
 // A blow is no d that goes on: what is more than STEADY of the spin is left out. Nor is there a d to go by where the
 // locks' warm start was taken back (tree/warm_start.inl): what relax changed is then more than what is left of it.
 #define STEADY 0.1f
-FE_INLINE wide3 joined_change(const fe__solver *s, int32_t i, wide kind, wide3 w, wide3 moved, wide3 warm, wide half_h)
+FE_INLINE wide3 joined_change(const fe__solver *s, int32_t i, wide kind, wide3 w, wide3 warm, wide half_h)
 {
+    wide3 moved = w_xyz(w_gather(s->moved_spin[i], 4, w_in_order));
     wide4 axes = w_product(load_high(s->motion, i), load_low(s->axes, i)), principal = load_high(s->axes, i);
     wide3 relaxed = w_sub(w, moved), ahead = w_sub(w_scale(w_set(0.5f), warm), relaxed);
     wide_mask blow = w_greater(w_dot(ahead, ahead), STEADY * STEADY * w_dot(w, w));
@@ -223,8 +229,8 @@ static void balance_spins(fe__solver *s, int32_t first, int32_t count, const fe_
         wide4 start = load_high(s->start, i);
         if (!w_any(is_joined(start.w))) continue;
         wide4 spin = load_high(s->velocity, i);
-        wide3 w = w_xyz(spin), w0 = w_xyz(start), moved = w_sub(w0, w_xyz(load_low(s->joined, i)));
-        wide3 change = joined_change(s, i, start.w, w0, moved, w_sub(w, w0), w_set(0.5f * c->h));
+        wide3 w = w_xyz(spin), w0 = w_xyz(start);
+        wide3 change = joined_change(s, i, start.w, w0, w_sub(w, w0), w_set(0.5f * c->h));
         store_high(s->velocity, i, w_with(w_add(w, change), spin.w));
         store_high(s->start, i, w_with(w_add(w0, change), start.w));
     }
@@ -238,10 +244,7 @@ static void carry_velocities(fe__solver *s, int32_t first, int32_t count, const 
         wide4 v, w, start, spin;
         load_line(s->velocity, i, &v, &w), load_line(s->start, i, &start, &spin);
         wide3 dv = w_sub(w_xyz(v), w_xyz(start)), dw = w_sub(w_xyz(w), w_xyz(spin)), v0 = w_xyz(v), w0 = w_xyz(w);
-        if (w_any(is_joined(spin.w))) {
-            wide3 moved = w_xyz(load_high(s->joined, i));
-            w0 = w_add(w0, joined_change(s, i, spin.w, w0, moved, dw, w_set(0.5f * c->h)));
-        }
+        if (w_any(is_joined(spin.w))) w0 = w_add(w0, joined_change(s, i, spin.w, w0, dw, w_set(0.5f * c->h)));
         advance(s, i, c, &v0, &w0);
         store_line(s->start, i, w_with(v0, v.w), w_with(w0, spin.w));
         store_line(s->velocity, i, w_with(w_add(v0, dv), v.w), w_with(w_add(w0, dw), w.w));
@@ -277,7 +280,7 @@ static void integrate_positions(fe__solver *s, int32_t first, int32_t count, con
         wide4 p, q;
         load_line(s->motion, i, &p, &q);
         wide3 v = w_xyz(load_low(s->velocity, i)), half = w_scale(w_set(0.5f * c->h), turn_freely(s, i, p.w, q, c));
-        if (w_any(is_joined(p.w))) store_high(s->joined, i, load_high(s->velocity, i));
+        if (w_any(is_joined(p.w))) store_moved(s, i, w_xyz(load_high(s->velocity, i)));
         wide3 u = w_add(w_xyz(q), w_add(w_scale(q.w, half), w_cross(half, w_xyz(q))));
         wide a = q.w - w_dot(half, w_xyz(q));
         wide k = 1.0f / w_sqrt(w_dot(u, u) + a * a);

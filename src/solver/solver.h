@@ -122,14 +122,6 @@ typedef struct fe__axes_line {
     float zero;
 } fe__axes_line;
 
-// Of joined bodies on which a gyroscopic torque acts
-typedef struct fe__joined_line {
-    _Alignas(16) float relaxed[3]; // when the step began: fe__body.relaxed
-    float zero;
-    float moved[3]; // the spin by which it rotated in the last substep, rad/s
-    float unused;
-} fe__joined_line;
-
 #define FE__IS_LINE(type) _Static_assert(sizeof(type) == sizeof(float) * FE__LINE, #type)
 FE__IS_LINE(fe__velocity_line);
 FE__IS_LINE(fe__motion_line);
@@ -137,7 +129,6 @@ FE__IS_LINE(fe__start_line);
 FE__IS_LINE(fe__inertia_line);
 FE__IS_LINE(fe__drive_line);
 FE__IS_LINE(fe__axes_line);
-FE__IS_LINE(fe__joined_line);
 
 // How the gyroscopic torque acts on a body. Most bodies have none, and their moments are never read.
 enum {
@@ -203,7 +194,7 @@ typedef struct fe__solver {
     fe__inertia_line *inertia;
     fe__drive_line *drive;
     fe__axes_line *axes;
-    fe__joined_line *joined;
+    float (*moved_spin)[4]; // by line of FE__GYROSCOPIC_JOINED: by what it rotated in the last substep, rad/s, 0
     int32_t line_count, line_capacity[7];
     int32_t *body_of_line; // -1: padding
     int32_t body_of_line_capacity;

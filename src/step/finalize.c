@@ -111,8 +111,7 @@ FE_FETCHES fetch_box(const fe_world *w, int32_t i)
 static void note_relaxed(const fe__solver *s, fe__body *body)
 {
     if (s->motion[body->line].gyroscopic != (float)FE__GYROSCOPIC_JOINED) return;
-    const fe__joined_line *joined = s->joined + body->line;
-    for (int k = 0; k < 3; ++k) body->relaxed[k] = body->spin[k] - joined->moved[k];
+    for (int k = 0; k < 3; ++k) body->relaxed[k] = body->spin[k] - s->moved_spin[body->line][k];
 }
 
 static void move_block(void *argument, int32_t first, int32_t end, int32_t worker)
