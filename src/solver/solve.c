@@ -7,6 +7,7 @@
 #include "solver/solve.h"
 
 #include "solver/pace.h"
+#include "solver/pass_on.h"
 #include "solver/tree/tree.h"
 
 #include <assert.h>
@@ -25,7 +26,7 @@ typedef struct paced {
     fe__step_constants usual, last, more;
 } paced;
 
-typedef enum verb { LOAD, PREPARE, BALANCE, SOLVE, FOLLOW, INTEGRATE, RELAX, BOUNCE, CARRY, STORE } verb;
+typedef enum verb { LOAD, PREPARE, BALANCE, SOLVE, FOLLOW, INTEGRATE, RELAX, BOUNCE, PASS_ON, CARRY, STORE } verb;
 
 typedef struct program {
     int32_t rows_in_block;
@@ -147,6 +148,7 @@ static void make_program(program *p, fe__solver *s, const fe__batch *b, int32_t 
     add_pass(p, &p->substep, INTEGRATE, 0, 0, line_blocks, 0);
     add_colours(p, &p->substep, s, b, RELAX);
     if (b->bounces) add_colours(p, &p->substep, s, b, BOUNCE);
+    if (b->bounces) add_pass(p, &p->substep, PASS_ON, b->first_group, b->group_count, 1, 1);
     add_pass(p, &p->substep, CARRY, 0, 0, line_blocks, 0);
     if (b->group_count)
         add_pass(p, &p->epilogue, STORE, b->first_group, b->group_count, block_count(p, s, b->first_group, end), 0);
@@ -200,6 +202,7 @@ static void run_lines(const job *j, const fe__batch *b, verb verb, int32_t block
     if (verb == BALANCE) k->balance_spins(j->s, first, count, c);
     if (verb == INTEGRATE) k->integrate_positions(j->s, first, count, c);
     if (verb == INTEGRATE) leave_trails(j, first, count, c);
+    if (verb == INTEGRATE && b->bounces) memset(j->s->touches_of + first, 0, (size_t)count);
     if (verb == CARRY) k->carry_velocities(j->s, first, count, c);
 }
 
@@ -227,6 +230,7 @@ static void run_joints(const job *j, const fe__group *g, verb verb, unsigned cha
     case FOLLOW:
     case INTEGRATE:
     case BOUNCE:
+    case PASS_ON:
     case CARRY:
         break;
     }
@@ -297,6 +301,7 @@ static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char 
     case BALANCE:
     case FOLLOW:
     case INTEGRATE:
+    case PASS_ON:
     case CARRY:
         break;
     }
@@ -308,6 +313,10 @@ static void run_block(const job *j, const fe__batch *b, const fe__pass *p, unsig
     const fe__step_constants *c = &j->paces[b->pace].usual;
     if (!p->group_count) {
         run_lines(j, b, (verb)p->verb, block, c);
+        return;
+    }
+    if (p->verb == PASS_ON) {
+        fe__pass_on(j->s, j->k, b, rows, c);
         return;
     }
     const fe__group *g = j->s->groups + p->first_group;
@@ -346,6 +355,7 @@ static void run_batch(const job *j, const fe__batch *b, unsigned char *rows)
         for (int32_t i = 1; i < c->sweeps; ++i) run_all(j, b, RELAX, rows, &pace->more);
         run_all(j, b, RELAX, rows, n + 1 < c->substeps ? c : &pace->last);
         if (b->bounces) run_all(j, b, BOUNCE, rows, c);
+        if (b->bounces) fe__pass_on(j->s, j->k, b, rows, c);
         if (n + 1 < c->substeps) run_all(j, b, CARRY, rows, c);
     }
     run_all(j, b, STORE, rows, c);
@@ -420,6 +430,7 @@ static int32_t useful_workers(const fe__solver *s, const fe__batch *b, int32_t w
 
 static void clear_static_line(fe__solver *s)
 {
+    if (s->touches_of) s->touches_of[FE__STATIC_LINE] = 0;
     for (int32_t i = 0; i < FE__MAX_WIDTH; ++i) {
         s->velocity[i] = (fe__velocity_line){0};
         s->motion[i] = (fe__motion_line){.rotation = {0.0f, 0.0f, 0.0f, 1.0f}};
@@ -494,6 +505,7 @@ void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *wor
     clear_static_line(s);
     atomic_store(&s->trails, 0);
     atomic_store(&s->strained, 0);
+    atomic_store(&s->chained, 0);
     for (int32_t i = 0; i < s->large_count; ++i) {
         j.batch = s->batches + i;
         make_program(&j.program, s, j.batch, constants[j.batch->pace].substeps, kernels->width);

@@ -186,6 +186,13 @@ typedef struct fe__pass {
     int32_t serial; // one block, groups in order
 } fe__pass;
 
+// A contact with restitution that touched in this substep, and a body of which has another one
+typedef struct fe__touch {
+    float when;             // s into the substep
+    int32_t lane;           // of the solver's
+    int32_t line_a, line_b; // FE__STATIC_LINE for what is not dynamic
+} fe__touch;
+
 typedef struct fe__solver {
     // lines of bodies, W at a time. The block of FE__STATIC_LINE is zeros and read only
     fe__velocity_line *velocity;
@@ -205,6 +212,12 @@ typedef struct fe__solver {
     fe__motion_line (*trail)[FE__TRAIL]; // in no order that matters
     _Atomic int32_t trails;              // taken in this step
     int32_t trail_capacity[3];
+
+    uint8_t *touches_of; // by line: contacts with restitution that touched in this substep, as far as two
+    int32_t touches_of_capacity;
+    fe__touch *touches; // of a batch: from its first lane, see pass_on.c
+    int32_t touch_capacity;
+    _Atomic int32_t chained; // 1: two of them shared a body, in this step
 
     _Atomic int32_t strained; // 1: a line is strained or stretched, in this step
     _Atomic int32_t engaged;  // light trees that were solved in this step
@@ -235,6 +248,16 @@ typedef struct fe__solver {
 
 static inline int32_t fe__trail_stride(int32_t substeps) { return (substeps + FE__TRAIL - 1) / FE__TRAIL; }
 
+// What is done with one touch of a chain of impacts, see pass_on.c
+typedef enum fe__touch_act {
+    FE__TOUCH_FAST,    // is it faster than the threshold of restitution?
+    FE__TOUCH_TAKE,    // what it gave in this substep leaves the velocities
+    FE__TOUCH_RETURN,  // and returns
+    FE__TOUCH_FORGET,  // the impulses that were taken
+    FE__TOUCH_PASS_ON, // bounces if it closes; did it?
+    FE__TOUCH_BOUNCE   // as if it were alone
+} fe__touch_act;
+
 // Passes over the rows of a group: `rows` is its first row, `lanes` its first lane, `count` rows. One entry for each
 // kind of row.
 typedef struct fe__contact_kernels {
@@ -245,6 +268,11 @@ typedef struct fe__contact_kernels {
     void (*solve[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
     void (*relax[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
     void (*bounce[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
+    // touches whose bodies have another one, to `out`; `lane`: the first. How many
+    int32_t (*touches[FE__ROW_KINDS])(const fe__solver *s, const void *rows, int32_t count, int32_t lane,
+                                      fe__touch *out);
+    int32_t (*act[FE__ROW_KINDS])(fe__solver *s, void *row, int32_t lane, fe__touch_act act,
+                                  const fe__step_constants *c); // lane of the row
     void (*store[FE__ROW_KINDS])(fe__contact *contacts, fe__extra *extras, const fe__lane *lanes, const void *rows,
                                  int32_t count);
 } fe__contact_kernels;

@@ -4,23 +4,51 @@
 // speeds they leave with, and friction and rolling resistance what all impulses of the touch allow them, those that
 // stopped it and those of the bounce.
 
-FE_INLINE wide_mask NAMED(touched)(const SPECIAL_ROW *x)
+// faster than `least`
+FE_INLINE wide_mask NAMED(touched)(const SPECIAL_ROW *x, float least)
 {
     wide approach = x->approach[0];
     UNROLL for (int i = 1; i < POINTS; ++i) approach = w_max(x->approach[i], approach);
-    return w_greater(approach, w_set(0.0f));
+    return w_greater(approach, w_set(least));
+}
+
+// Does a dynamic body of the lane have another touch in this substep?
+FE_INLINE wide_mask NAMED(in_chain)(const SPECIAL_ROW *x, const fe__solver *s, wide_mask lanes, int kind)
+{
+    _Alignas(64) float most[FE_W];
+    for (int i = 0; i < FE_W; ++i) {
+        uint8_t of_a = kind & FE__ROW_PAIR ? s->touches_of[x->row.line_a[i]] : 0,
+                of_b = s->touches_of[x->row.line_b[i]];
+        most[i] = (float)(of_a > of_b ? of_a : of_b);
+    }
+    return w_and(lanes, w_greater(*(wide *)most, w_set(1.0f)));
+}
+
+// The touches of a body in this substep, as far as two; colours share no dynamic body.
+FE_INLINE void NAMED(count_touches)(const SPECIAL_ROW *x, fe__solver *s, int kind)
+{
+    wide_mask lanes = NAMED(touched)(x, 0.0f);
+    if (!w_any(lanes)) return;
+    _Alignas(64) float is[FE_W];
+    *(wide *)is = w_choose(lanes, w_set(1.0f), w_set(0.0f));
+    for (int i = 0; i < FE_W; ++i) {
+        if (is[i] == 0.0f) continue;
+        uint8_t *of_a = s->touches_of + x->row.line_a[i], *of_b = s->touches_of + x->row.line_b[i];
+        if (kind & FE__ROW_PAIR && *of_a < 2) ++*of_a;
+        if (*of_b < 2) ++*of_b;
+    }
 }
 
 // The speed that a touched point must leave with, at the gap s where it is now:
 //     v' = min( sqrt(e^2 Q - 2 g s) + g h / 2,  sqrt(Q - 2 g s) )
 // so that it flies to e^2 times the height it fell from, and never has more energy than it came with. Q: record_touch.
-// A point that did not touch may go on closing its gap, as in relax.
-FE_INLINE wide NAMED(bounce_speed)(const SPECIAL_ROW *x, int i, wide distance, const fe__step_constants *c)
+// A point that did not touch, faster than `least`, may go on closing its gap, as in relax.
+FE_INLINE wide NAMED(bounce_speed)(const SPECIAL_ROW *x, int i, wide distance, float least, const fe__step_constants *c)
 {
     wide zero = w_set(0.0f), g = x->closing, gap = w_max(distance, zero), used = 2.0f * g * gap, e = x->restitution,
          q = x->flight[i];
     wide wanted = w_sqrt(w_max(e * e * q - used, zero)) + 0.5f * c->h * g;
-    return w_choose(w_greater(x->approach[i], zero), w_min(wanted, w_sqrt(w_max(q - used, zero))),
+    return w_choose(w_greater(x->approach[i], w_set(least)), w_min(wanted, w_sqrt(w_max(q - used, zero))),
                     -(gap * c->inverse_h));
 }
 
@@ -47,7 +75,7 @@ FE_INLINE void NAMED(forget_touched)(SPECIAL_ROW *x, const PASSING *was, wide pa
         contact_point *q = row->point + i;
         row->total[i] = row->total[i] + w_choose(touched, part * (q->impulse - was->point[i]), zero);
         q->impulse = w_choose(touched, zero, q->impulse);
-        x->approach[i] = zero;
+        x->approach[i] = w_choose(touched, zero, x->approach[i]);
     }
     for (int i = 0; i < 2; ++i) row->tangent_impulse[i] = w_choose(touched, zero, row->tangent_impulse[i]);
     for (int i = 0; i < 3; ++i) x->rolling_impulse[i] = w_choose(touched, zero, x->rolling_impulse[i]);
@@ -100,17 +128,16 @@ FE_INLINE wide NAMED(part_without_gain)(const SPECIAL_ROW *x, const wrench *chan
     return w_choose(w_greater(x->gain + a + b, zero), part, one);
 }
 
-// After relax, for contacts that touched in this substep.
-FE_INLINE void NAMED(bounce_row)(SPECIAL_ROW *x, fe__solver *s, const fe__step_constants *c, int kind)
+// The given lanes touched, at points that are faster than `least`.
+FE_INLINE void NAMED(bounce_lanes)(SPECIAL_ROW *x, fe__solver *s, wide_mask touched, float least,
+                                   const fe__step_constants *c, int kind)
 {
     ROW *row = &x->row;
-    wide_mask touched = NAMED(touched)(x);
-    if (!w_any(touched)) return;
     pair p = NAMED(gather_pair)(row, s, kind), before = p;
     PASSING was = NAMED(passing_of)(row, &p, kind);
     NAMED(leave_warm_start)(x, s, &p, touched, kind);
     wide target[POINTS], load = NAMED(load_of)(row);
-    UNROLL for (int i = 0; i < POINTS; ++i) target[i] = NAMED(bounce_speed)(x, i, row->point[i].distance, c);
+    UNROLL for (int i = 0; i < POINTS; ++i) target[i] = NAMED(bounce_speed)(x, i, row->point[i].distance, least, c);
     wrench given = NAMED(wrench_of)(row, p.normal, kind);
     NAMED(sweep_bounce)(x, &p, target, kind);
     wrench all = NAMED(wrench_of)(row, p.normal, kind);
@@ -122,4 +149,83 @@ FE_INLINE void NAMED(bounce_row)(SPECIAL_ROW *x, fe__solver *s, const fe__step_c
     NAMED(forget_touched)(x, &was, part, touched);
     if (kind & FE__ROW_PAIR) add_change(s, row->line_a, &before.a, &p.a, touched);
     add_change(s, row->line_b, &before.b, &p.b, touched);
+}
+
+// After relax, for contacts that touched in this substep, and share no body with another touch.
+FE_INLINE void NAMED(bounce_row)(SPECIAL_ROW *x, fe__solver *s, const fe__step_constants *c, int kind)
+{
+    wide_mask touched = NAMED(touched)(x, c->threshold);
+    if (!w_any(touched)) return;
+    wide_mask chained = NAMED(in_chain)(x, s, touched, kind);
+    if (w_any(chained)) atomic_store_explicit(&s->chained, 1, memory_order_relaxed);
+    touched = w_and(touched, w_not(chained));
+    if (w_any(touched)) NAMED(bounce_lanes)(x, s, touched, c->threshold, c, kind);
+}
+
+// ---- impacts of a chain, one by one: see pass_on.c ------------------------------------------------------------------
+// What the contact gave in this substep leaves the velocities of its bodies, or returns.
+FE_INLINE void NAMED(take_back)(const SPECIAL_ROW *x, fe__solver *s, wide_mask lanes, float sign, int kind)
+{
+    const ROW *row = &x->row;
+    pair p = NAMED(gather_pair)(row, s, kind), before = p;
+    wrench all = NAMED(wrench_of)(row, p.normal, kind);
+    NAMED(apply)(row, &p, w_scale(w_set(sign), all.impulse), w_scale(w_set(sign), all.moment), kind);
+    p.a = choose_side(lanes, p.a, before.a), p.b = choose_side(lanes, p.b, before.b);
+    NAMED(scatter_pair)(row, s, &p, kind);
+}
+
+FE_INLINE void NAMED(forget_given)(SPECIAL_ROW *x, wide_mask lanes)
+{
+    PASSING none;
+    wide zero = w_set(0.0f);
+    UNROLL for (int i = 0; i < POINTS; ++i) none.point[i] = zero;
+    NAMED(forget_touched)(x, &none, w_set(-1.0f), lanes);
+    x->gain = w_choose(lanes, zero, x->gain);
+}
+
+// Points that close: at once, whatever their speed. Returns whether there are any.
+FE_INLINE int32_t NAMED(pass_on)(SPECIAL_ROW *x, fe__solver *s, wide_mask lanes, const fe__step_constants *c, int kind)
+{
+    pair p = NAMED(gather_pair)(&x->row, s, kind);
+    affine velocity = NAMED(normal_velocity)(&p);
+    wide zero = w_set(0.0f), g = x->closing;
+    wide_mask any = no_lane();
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        const contact_point *q = x->row.point + i;
+        wide gap = w_max(q->distance, zero), u = -at(&velocity, load3(q->r));
+        wide_mask closes = w_and(lanes, w_greater(u - gap * c->inverse_h, w_set(CLOSING)));
+        closes = w_and(closes, w_greater(q->mass, zero));
+        x->approach[i] = w_choose(lanes, w_choose(closes, u, zero), x->approach[i]);
+        x->flight[i] = w_choose(lanes, w_max(u * (u - c->h * g) + 2.0f * g * gap, zero), x->flight[i]);
+        any = w_or(any, closes);
+    }
+    if (!w_any(any)) return 0;
+    NAMED(bounce_lanes)(x, s, lanes, 0.0f, c, kind);
+    return 1;
+}
+
+FE_INLINE int32_t NAMED(act)(fe__solver *s, SPECIAL_ROW *x, int32_t lane, fe__touch_act act,
+                             const fe__step_constants *c, int kind)
+{
+    wide_mask lanes = only_lane(lane), fast = w_and(lanes, NAMED(touched)(x, c->threshold));
+    switch (act) {
+    case FE__TOUCH_FAST:
+        return w_any(fast) != 0;
+    case FE__TOUCH_TAKE:
+        NAMED(take_back)(x, s, lanes, -1.0f, kind);
+        return 1;
+    case FE__TOUCH_RETURN:
+        NAMED(take_back)(x, s, lanes, 1.0f, kind);
+        return 1;
+    case FE__TOUCH_FORGET:
+        NAMED(forget_given)(x, lanes);
+        return 1;
+    case FE__TOUCH_PASS_ON:
+        return NAMED(pass_on)(x, s, lanes, c, kind);
+    case FE__TOUCH_BOUNCE:
+        if (w_any(fast)) NAMED(bounce_lanes)(x, s, fast, c->threshold, c, kind);
+        return 1;
+    }
+    return 0;
 }

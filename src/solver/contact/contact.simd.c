@@ -17,6 +17,8 @@
 #define TOUCHING 1e-4f
 // in which the points of a contact reach the speeds of their bounce: each leaves a third of the last one's error
 #define BOUNCE_SWEEPS 8
+// of the points of a chain of impacts, m/s: what closes more slowly is left to the next substep
+#define CLOSING 1e-3f
 // What the bodies may shift against each other, m, and rotate, rad, within a step while a contact's arms and inertia
 // stay those of its start
 #define FROZEN_SHIFT 5e-4f
@@ -166,6 +168,13 @@ FE_INLINE void store_lanes(fe__contact *contacts, const int32_t *index, wide4 no
     }
 }
 
+FE_INLINE wide_mask only_lane(int32_t lane)
+{
+    _Alignas(64) float is[FE_W] = {0};
+    is[lane] = 1.0f;
+    return w_greater(*(wide *)is, w_set(0.0f));
+}
+
 #define POINTS 4
 #include "solver/contact/rows.inl"
 #define POINTS 1
@@ -192,5 +201,7 @@ const fe__contact_kernels FE_NAME(fe__contact_kernels) = {
     .solve = OF_KINDS(solve),
     .relax = OF_KINDS(relax),
     .bounce = OF_KINDS(bounce),
+    .touches = OF_KINDS(touches),
+    .act = OF_KINDS(act),
     .store = OF_KINDS(store),
 };

@@ -63,6 +63,7 @@ typedef struct SPECIAL_ROW {
     wide mass_a[3], mass_b[3];             // inverse, along the world's axes: 0 where locked
     wide restitution, closing;             // acceleration of the bodies towards each other along n, m/s2
     wide approach[POINTS], flight[POINTS]; // of a touch in this substep: its speed (0: none) and Q, see record_touch
+    wide when;                             // the first touch, s into the substep
     // energy that the normal impulses of this substep gave to the bodies, J, see count_gain
     wide gain;
     wide rolling, spinning; // torque caps over the normal force, m
@@ -152,10 +153,11 @@ FE_INLINE affine NAMED(normal_velocity)(const pair *p)
                     w_cross(p->normal, w_sub(p->b.w, p->a.w))};
 }
 
-// A point without impulse is about to touch: note its speed u and the energy of its flight, exact for the discrete
-// motion v += h g, x += h v:
+// A point without impulse is about to touch: note its speed u, its time, and the energy of its flight, exact for the
+// discrete motion v += h g, x += h v:
 //     Q = u (u - g h) + 2 g s  before the bodies moved in this substep,   u (u + g h) + 2 g s  after
-// (s: the gap, g: the acceleration that closes it).
+// (s: the gap, g: the acceleration that closes it). Only what is faster than the threshold bounces; of the others a
+// chain of impacts knows (pass_on.c).
 FE_INLINE void NAMED(record_touch)(SPECIAL_ROW *x, int i, wide impulse, wide vn, wide distance,
                                    const fe__step_constants *c, int moved)
 {
@@ -163,11 +165,12 @@ FE_INLINE void NAMED(record_touch)(SPECIAL_ROW *x, int i, wide impulse, wide vn,
     wide flight = (moved ? u * (u + c->h * g) : u * (u - c->h * g)) + 2.0f * g * gap;
     // as the impulse is computed, so that none is given to a point that is not noted
     wide_mask closes = w_greater(zero, vn + w_max(distance * c->inverse_h, zero));
-    wide_mask touches = w_and(closes, w_greater(u, w_set(c->threshold)));
-    touches = w_and(touches, w_greater(x->row.point[i].mass * x->restitution, zero));
-    touches = w_and(touches, w_not(w_or(w_greater(impulse, zero), w_greater(x->approach[i], zero))));
-    x->approach[i] = w_choose(touches, u, x->approach[i]);
+    wide_mask touches = w_and(closes, w_greater(x->row.point[i].mass * x->restitution, zero));
+    touches = w_and(touches, w_not(w_greater(impulse, zero)));
+    if (moved) touches = w_and(touches, w_not(w_greater(x->approach[i], w_set(c->threshold))));
+    x->approach[i] = w_choose(touches, u, moved ? x->approach[i] : zero);
     x->flight[i] = w_choose(touches, w_max(flight, zero), x->flight[i]);
+    if (!moved) x->when = w_choose(touches, w_min(x->when, gap / u), x->when);
 }
 
 // What changes d of the other points take from the request of point j: scale_j sum_i m_j K_ij d_i. The stored m_j K_ij,
@@ -294,6 +297,7 @@ FE_INLINE void NAMED(solve_normals)(ROW *row, const fe__step_constants *c, pair 
     wide before[POINTS];
     affine was = NAMED(normal_velocity)(p);
     UNROLL for (int i = 0; i < POINTS; ++i) before[i] = row->point[i].impulse;
+    if (kind & FE__ROW_SPECIAL && soft) x->when = w_set(c->h);
     NAMED(apply_normals)(row, c, p, kind, soft);
     if (!(kind & FE__ROW_SPECIAL)) return;
     affine is = NAMED(normal_velocity)(p);
@@ -490,9 +494,10 @@ FE_INLINE void NAMED(relax)(fe__solver *s, void *rows, int32_t count, const fe__
         wide load = NAMED(load_of)(row), response = p.a.inverse_mass + p.b.inverse_mass;
         wide_mask rose = w_and(w_greater(load, IMPACT_RISE * row->load),
                                w_greater((load - row->load) * response, w_set(IMPACT_SPEED)));
-        if (kind & FE__ROW_SPECIAL) rose = w_and(rose, w_not(NAMED(touched)((SPECIAL_ROW *)row)));
+        if (kind & FE__ROW_SPECIAL) rose = w_and(rose, w_not(NAMED(touched)((SPECIAL_ROW *)row, c->threshold)));
         if (w_any(rose)) NAMED(leave_friction)(row, s, load, rose, kind);
         row->load = load;
+        if (kind & FE__ROW_SPECIAL) NAMED(count_touches)((SPECIAL_ROW *)row, s, kind);
         if (c->finds_strain) NAMED(find_strain)(row, s, load * response, response, c);
     }
 }
@@ -500,6 +505,26 @@ FE_INLINE void NAMED(relax)(fe__solver *s, void *rows, int32_t count, const fe__
 FE_INLINE void NAMED(bounce)(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c, int kind)
 {
     for (int32_t i = 0; i < count; ++i) NAMED(bounce_row)((SPECIAL_ROW *)rows + i, s, c, kind);
+}
+
+// The touches of rows that share a body with another touch, see pass_on.c. `lane`: of the first row. Returns how many
+FE_INLINE int32_t NAMED(touches)(const fe__solver *s, const void *rows, int32_t count, int32_t lane, fe__touch *out,
+                                 int kind)
+{
+    int32_t found = 0;
+    for (int32_t i = 0; i < count; ++i, lane += FE_W) {
+        const SPECIAL_ROW *x = (const SPECIAL_ROW *)rows + i;
+        wide_mask lanes = NAMED(touched)(x, 0.0f);
+        if (!w_any(lanes)) continue;
+        _Alignas(64) float is[FE_W], when[FE_W];
+        *(wide *)is = w_choose(NAMED(in_chain)(x, s, lanes, kind), w_set(1.0f), w_set(0.0f));
+        *(wide *)when = x->when;
+        for (int k = 0; k < FE_W; ++k)
+            if (is[k] != 0.0f)
+                out[found++] = (fe__touch){when[k], lane + k, kind & FE__ROW_PAIR ? x->row.line_a[k] : FE__STATIC_LINE,
+                                           x->row.line_b[k]};
+    }
+    return found;
 }
 
 #include "solver/contact/prepare.inl"
@@ -523,6 +548,16 @@ FE_INLINE void NAMED(bounce)(fe__solver *s, void *rows, int32_t count, const fe_
     static void NAMED(bounce_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c) \
     {                                                                                                             \
         if ((kind)&FE__ROW_SPECIAL) NAMED(bounce)(s, rows, count, c, kind);                                       \
+    }                                                                                                             \
+    static int32_t NAMED(touches_##kind_name)(const fe__solver *s, const void *rows, int32_t count, int32_t lane, \
+                                              fe__touch *out)                                                     \
+    {                                                                                                             \
+        return (kind)&FE__ROW_SPECIAL ? NAMED(touches)(s, rows, count, lane, out, kind) : 0;                      \
+    }                                                                                                             \
+    static int32_t NAMED(act_##kind_name)(fe__solver * s, void *row, int32_t lane, fe__touch_act act,             \
+                                          const fe__step_constants *c)                                            \
+    {                                                                                                             \
+        return (kind)&FE__ROW_SPECIAL ? NAMED(act)(s, row, lane, act, c, kind) : 0;                               \
     }                                                                                                             \
     static void NAMED(store_##kind_name)(fe__contact * contacts, fe__extra * extras, const fe__lane *lanes,       \
                                          const void *rows, int32_t count)                                         \

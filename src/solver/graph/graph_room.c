@@ -97,10 +97,10 @@ static int64_t all_rows(const fe__graph_bound *b, const fe__kernels *kernels, in
 
 // Passes of a large batch, see make_program in solve.c. Its groups come colour by colour, a group or more each, and
 // each of the four verbs of rows (prepare, solve, relax, bounce; joints do not bounce) has a pass a colour at most.
-// Three more are over lines, one stores, and one is the trees'.
+// Three more are over lines, one stores, one passes impacts on, and one is the trees'.
 static int64_t pass_bound(int64_t groups)
 {
-    enum { EVERY_COLOUR = 4 * FE__COLOURS + 3 * FE__CONTACT_COLOURS, OTHERS = 5 };
+    enum { EVERY_COLOUR = 4 * FE__COLOURS + 3 * FE__CONTACT_COLOURS, OTHERS = 6 };
     return fe__minl(4 * groups, EVERY_COLOUR) + OTHERS;
 }
 
@@ -138,6 +138,8 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
         !FE_RESERVE(memory, s->trail_count, s->trail_capacity[0], lines) ||
         !FE_RESERVE(memory, s->trail_of, s->trail_capacity[2], lines) ||
         !FE_RESERVE(memory, s->trail, s->trail_capacity[1], b->fast + (b->fast_kinematic ? copies : 0)) ||
+        !FE_RESERVE(memory, s->touches_of, s->touches_of_capacity, b->special ? lines : 0) ||
+        !FE_RESERVE(memory, s->touches, s->touch_capacity, b->special ? lanes + width : 0) ||
         !FE_RESERVE(memory, s->batches, s->batch_capacity, batches) ||
         !FE_RESERVE(memory, s->groups, s->group_capacity, groups + 1) ||
         !FE_RESERVE(memory, s->lanes, s->lane_capacity, lanes + width) ||
@@ -164,6 +166,8 @@ void fe__solver_destroy(fe__solver *s, fe__memory *memory)
     FE_FREE(memory, s->trail_count, s->trail_capacity[0]);
     FE_FREE(memory, s->trail, s->trail_capacity[1]);
     FE_FREE(memory, s->trail_of, s->trail_capacity[2]);
+    FE_FREE(memory, s->touches_of, s->touches_of_capacity);
+    FE_FREE(memory, s->touches, s->touch_capacity);
     FE_FREE(memory, s->batches, s->batch_capacity);
     FE_FREE(memory, s->groups, s->group_capacity);
     FE_FREE(memory, s->lanes, s->lane_capacity);
