@@ -316,7 +316,7 @@ static void run_block(const job *j, const fe__batch *b, const fe__pass *p, unsig
         return;
     }
     if (p->verb == PASS_ON) {
-        fe__pass_on(j->s, j->k, b, rows, c);
+        fe__pass_on(j->s, j->k, j->bodies, b, rows, c);
         return;
     }
     const fe__group *g = j->s->groups + p->first_group;
@@ -355,7 +355,7 @@ static void run_batch(const job *j, const fe__batch *b, unsigned char *rows)
         for (int32_t i = 1; i < c->sweeps; ++i) run_all(j, b, RELAX, rows, &pace->more);
         run_all(j, b, RELAX, rows, n + 1 < c->substeps ? c : &pace->last);
         if (b->bounces) run_all(j, b, BOUNCE, rows, c);
-        if (b->bounces) fe__pass_on(j->s, j->k, b, rows, c);
+        if (b->bounces) fe__pass_on(j->s, j->k, j->bodies, b, rows, c);
         if (n + 1 < c->substeps) run_all(j, b, CARRY, rows, c);
     }
     run_all(j, b, STORE, rows, c);

@@ -188,9 +188,10 @@ typedef struct fe__pass {
 
 // A contact with restitution that touched in this substep, and a body of which has another one
 typedef struct fe__touch {
-    float when;             // s into the substep
-    int32_t lane;           // of the solver's
-    int32_t line_a, line_b; // FE__STATIC_LINE for what is not dynamic
+    float when;               // s into the substep
+    float change_a, change_b; // of the bodies' velocities in it, m/s; not yet known where the touch is found
+    int32_t lane;             // of the solver's
+    int32_t line_a, line_b;   // FE__STATIC_LINE for what is not dynamic
 } fe__touch;
 
 typedef struct fe__solver {

@@ -521,8 +521,9 @@ FE_INLINE int32_t NAMED(touches)(const fe__solver *s, const void *rows, int32_t 
         *(wide *)when = x->when;
         for (int k = 0; k < FE_W; ++k)
             if (is[k] != 0.0f)
-                out[found++] = (fe__touch){when[k], lane + k, kind & FE__ROW_PAIR ? x->row.line_a[k] : FE__STATIC_LINE,
-                                           x->row.line_b[k]};
+                out[found++] = (fe__touch){
+                    when[k],         0.0f, 0.0f, lane + k, kind & FE__ROW_PAIR ? x->row.line_a[k] : FE__STATIC_LINE,
+                    x->row.line_b[k]};
     }
     return found;
 }
