@@ -25,7 +25,7 @@ typedef struct paced {
     fe__step_constants usual, last, more;
 } paced;
 
-typedef enum verb { LOAD, PREPARE, SOLVE, FOLLOW, INTEGRATE, RELAX, BOUNCE, CARRY, STORE } verb;
+typedef enum verb { LOAD, PREPARE, SOLVE, FOLLOW, INTEGRATE, RELAX, BOUNCE, CARRY, END, STORE } verb;
 
 typedef struct program {
     int32_t rows_in_block;
@@ -147,6 +147,7 @@ static void make_program(program *p, fe__solver *s, const fe__batch *b, int32_t 
     add_colours(p, &p->substep, s, b, RELAX);
     if (b->bounces) add_colours(p, &p->substep, s, b, BOUNCE);
     add_pass(p, &p->substep, CARRY, 0, 0, line_blocks, 0);
+    add_pass(p, &p->epilogue, END, 0, 0, line_blocks, 0);
     if (b->group_count)
         add_pass(p, &p->epilogue, STORE, b->first_group, b->group_count, block_count(p, s, b->first_group, end), 0);
 }
@@ -199,6 +200,7 @@ static void run_lines(const job *j, const fe__batch *b, verb verb, int32_t block
     if (verb == INTEGRATE) k->integrate_positions(j->s, first, count, c);
     if (verb == INTEGRATE) leave_trails(j, first, count, c);
     if (verb == CARRY) k->carry_velocities(j->s, first, count, c);
+    if (verb == END) k->end_velocities(j->s, first, count);
 }
 
 static void run_joints(const job *j, const fe__group *g, verb verb, unsigned char *rows, int32_t first, int32_t count,
@@ -225,6 +227,7 @@ static void run_joints(const job *j, const fe__group *g, verb verb, unsigned cha
     case INTEGRATE:
     case BOUNCE:
     case CARRY:
+    case END:
         break;
     }
 }
@@ -286,6 +289,7 @@ static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char 
     case FOLLOW:
     case INTEGRATE:
     case CARRY:
+    case END:
         break;
     }
 }
@@ -313,7 +317,7 @@ static void run_block(const job *j, const fe__batch *b, const fe__pass *p, unsig
 static void run_all(const job *j, const fe__batch *b, verb verb, unsigned char *rows, const fe__step_constants *c)
 {
     const fe__group *groups = j->s->groups + b->first_group;
-    int32_t of_lines = verb == LOAD || verb == INTEGRATE || verb == CARRY,
+    int32_t of_lines = verb == LOAD || verb == INTEGRATE || verb == CARRY || verb == END,
             line_blocks = blocks_of(b->line_count, LINES_IN_BLOCK);
     for (int32_t i = 0; i < line_blocks && of_lines; ++i) run_lines(j, b, verb, i, c);
     for (int32_t i = 0; i < b->group_count && !of_lines; ++i) run_rows(j, groups + i, verb, rows, 0, groups[i].rows, c);
@@ -334,6 +338,7 @@ static void run_batch(const job *j, const fe__batch *b, unsigned char *rows)
         if (b->bounces) run_all(j, b, BOUNCE, rows, c);
         if (n + 1 < c->substeps) run_all(j, b, CARRY, rows, c);
     }
+    run_all(j, b, END, rows, c);
     run_all(j, b, STORE, rows, c);
 }
 

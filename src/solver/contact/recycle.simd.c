@@ -44,12 +44,13 @@ FE_INLINE wide3 shift_since_found(const centres *a, const centres *b, wide3 span
     wide3 low = w_sub(w_xyz(b->low), w_xyz(a->low)), e;
     wide3 d = {difference(b->high.x, a->high.x, &e.x), difference(b->high.y, a->high.y, &e.y),
                difference(b->high.z, a->high.z, &e.z)};
-    return w_add(w_add(d, span), w_add(w_add(e, low), span_low));
+    return w_settle3(w_add(w_add(d, span), w_add(w_add(e, low), span_low)), w_set(FE__LEAST_ARM));
 }
 
 FE_INLINE wide4 rotation_since_found(const fe__body *bodies, const int32_t *body, wide4 found)
 {
-    return w_product(w_gather(bodies->rotation, BODY_STRIDE, body), w_conjugate(found));
+    wide4 q = w_product(w_gather(bodies->rotation, BODY_STRIDE, body), w_conjugate(found));
+    return w_with(w_settle3(w_xyz(q), w_set(FE__LEAST_LEAN)), q.w);
 }
 
 // 0 for a static A, 1 otherwise
@@ -118,7 +119,8 @@ static void recycle_block(fe__contact *contacts, const fe__body *bodies, const i
     wide4 found_a, found_b, point[FE__POINTS];
     w_gather_both(contacts->found_a, CONTACT_STRIDE, index, &found_a, &found_b);
     sides s = {bodies, a, b, centres_of(bodies, a), centres_of(bodies, b)};
-    wide3 n = w_xyz(normal), shift = shift_since_found(&s.at_a, &s.at_b, w_xyz(found), w_xyz(CONTACT_QUAD(found_low)));
+    wide3 n = w_settle3(w_xyz(normal), w_set(FE__LEAST_LEAN)),
+          shift = shift_since_found(&s.at_a, &s.at_b, w_xyz(found), w_xyz(CONTACT_QUAD(found_low)));
     wide4 rotation_a = rotation_since_found(bodies, a, found_a), rotation_b = rotation_since_found(bodies, b, found_b);
     // a static A has its arms from B's centre: no span between them, and it does not rotate
     wide3 arms_span = w_choose3(w_greater(w_set(0.5f), spans_of(bodies, a)), w_zero3(), w_xyz(found));
@@ -129,7 +131,7 @@ static void recycle_block(fe__contact *contacts, const fe__body *bodies, const i
     // what ages a manifold is sliding and rotating. A point slides by at most |slide| + 2 |sin(angle / 2)| reach of
     // either body, and (x + y + z)^2 <= 3 (x^2 + y^2 + z^2)
     wide along = w_dot(n, shift);
-    wide3 slide = w_sub_scaled(shift, along, n);
+    wide3 slide = w_settle3(w_sub_scaled(shift, along, n), w_set(FE__LEAST_ARM));
     wide turned = w_dot(w_xyz(rotation_a), w_xyz(rotation_a)) + w_dot(w_xyz(rotation_b), w_xyz(rotation_b));
     wide moved = 3.0f * (w_dot(slide, slide) + 4.0f * found.w * found.w * turned), zero = w_set(0.0f);
     for (int i = 0; i < FE__POINTS; i += 2)

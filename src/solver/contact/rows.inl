@@ -195,7 +195,7 @@ FE_INLINE void NAMED(predict_points)(ROW *row, wide *request, const wide *scale)
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
         wide before = row->point[i].impulse;
-        row->point[i].impulse = w_max(before + share * d[i], zero);
+        row->point[i].impulse = w_pushing(before + share * d[i]);
         d[i] = row->point[i].impulse - before;
     }
     UNROLL for (int j = 0; j < POINTS; ++j) request[j] = request[j] - NAMED(lost_at)(row, scale, d, j);
@@ -213,7 +213,7 @@ FE_INLINE wide3 NAMED(sweep_points)(ROW *row, wide *request, const wide *scale, 
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
         point_row *q = row->point + i;
-        wide impulse = w_max(request[i], zero), change = impulse - q->impulse;
+        wide impulse = w_pushing(request[i]), change = impulse - q->impulse;
         q->impulse = impulse;
         UNROLL for (int j = i + 1; j < POINTS; ++j)
         {
@@ -318,6 +318,7 @@ FE_INLINE wide_mask NAMED(solve_friction)(ROW *row, pair *p, int kind)
         wide twist = row->twist_impulse - row->twist_mass * w_dot(p->normal, w_sub(p->b.w, p->a.w));
         wide slide = row->dynamic_friction * twist_load, stick = row->static_friction * twist_load;
         twist = w_choose(w_greater(w_abs(twist), stick), w_clamp(twist, -slide, slide), twist);
+        twist = w_settle(twist, w_set(FE__LEAST_TWIST));
         twisted = twist - row->twist_impulse;
         row->twist_impulse = twist;
     }
@@ -329,8 +330,8 @@ FE_INLINE wide_mask NAMED(solve_friction)(ROW *row, pair *p, int kind)
     wide stick = row->static_friction * load, slide = row->dynamic_friction * load, square = l1 * l1 + l2 * l2;
     wide most = w_choose(w_greater(square, BREAKAWAY * BREAKAWAY * stick * stick), slide, stick);
     wide shrink = w_choose(w_greater(square, stick * stick), most / w_sqrt(square), w_set(1.0f));
-    l1 = l1 * shrink;
-    l2 = l2 * shrink;
+    l1 = w_settle(l1 * shrink, w_set(FE__LEAST_IMPULSE));
+    l2 = w_settle(l2 * shrink, w_set(FE__LEAST_IMPULSE));
     wide3 impulse = w_add_scaled(w_scale(l1 - row->tangent_impulse[0], t1), l2 - row->tangent_impulse[1], t2);
     row->tangent_impulse[0] = l1;
     row->tangent_impulse[1] = l2;
@@ -354,7 +355,7 @@ FE_INLINE void NAMED(solve_rolling)(SPECIAL_ROW *x, pair *p, int kind)
     roll = w_sub_scaled(roll, w_dot(n, roll), n);
     wide most = x->rolling * load, square = w_dot(roll, roll);
     roll = w_scale(w_choose(w_greater(square, most * most), most / w_sqrt(square), one), roll);
-    wide3 after = w_add_scaled(roll, spin, n);
+    wide3 after = w_settle3(w_add_scaled(roll, spin, n), w_set(FE__LEAST_TWIST));
     store3(x->rolling_impulse, after);
     NAMED(apply_torque)(&x->row, p, w_sub(after, before), kind);
 }
