@@ -17,7 +17,7 @@ FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int3
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
         point_row *q = row->point + i;
-        wide3 r = w_settle3(w_xyz(w_gather(m->point[i].arm, CONTACT_STRIDE, index)), w_set(FE__LEAST_ARM));
+        wide3 r = w_xyz(w_gather(m->point[i].arm, CONTACT_STRIDE, index));
         wide_mask there = w_greater(points, w_set((float)i));
         store3(q->r, r);
         q->distance = row->separation[i] = separations[i];
@@ -125,10 +125,9 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
     row->dynamic_friction = surface.x;
     row->round_a = surface.y;
     row->round_b = surface.z;
-    wide3 now = w_settle3(w_xyz(span), w_set(FE__LEAST_ARM));
     store3(row->normal, w_settle3(w_xyz(normal), w_set(FE__LEAST_LEAN)));
-    store3(row->span, now);
-    store3(row->start_span, now);
+    store3(row->span, w_xyz(span));
+    store3(row->start_span, w_xyz(span));
     store3(row->found_span, NAMED(span_found)(row, m, index, kind));
     if (kind & FE__ROW_SPECIAL) NAMED(prepare_special)((SPECIAL_ROW *)row, s, extras, index, c);
 

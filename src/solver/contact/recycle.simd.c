@@ -44,7 +44,7 @@ FE_INLINE wide3 shift_since_found(const centres *a, const centres *b, wide3 span
     wide3 low = w_sub(w_xyz(b->low), w_xyz(a->low)), e;
     wide3 d = {difference(b->high.x, a->high.x, &e.x), difference(b->high.y, a->high.y, &e.y),
                difference(b->high.z, a->high.z, &e.z)};
-    return w_settle3(w_add(w_add(d, span), w_add(w_add(e, low), span_low)), w_set(FE__LEAST_ARM));
+    return w_settle3(w_add(w_add(d, span), w_add(w_add(e, low), span_low)), w_set(FE__LEAST_SHIFT));
 }
 
 FE_INLINE wide4 rotation_since_found(const fe__body *bodies, const int32_t *body, wide4 found)
@@ -131,7 +131,7 @@ static void recycle_block(fe__contact *contacts, const fe__body *bodies, const i
     // what ages a manifold is sliding and rotating. A point slides by at most |slide| + 2 |sin(angle / 2)| reach of
     // either body, and (x + y + z)^2 <= 3 (x^2 + y^2 + z^2)
     wide along = w_dot(n, shift);
-    wide3 slide = w_settle3(w_sub_scaled(shift, along, n), w_set(FE__LEAST_ARM));
+    wide3 slide = w_sub_scaled(shift, along, n);
     wide turned = w_dot(w_xyz(rotation_a), w_xyz(rotation_a)) + w_dot(w_xyz(rotation_b), w_xyz(rotation_b));
     wide moved = 3.0f * (w_dot(slide, slide) + 4.0f * found.w * found.w * turned), zero = w_set(0.0f);
     for (int i = 0; i < FE__POINTS; i += 2)

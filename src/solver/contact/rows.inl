@@ -195,7 +195,7 @@ FE_INLINE void NAMED(predict_points)(ROW *row, wide *request, const wide *scale)
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
         wide before = row->point[i].impulse;
-        row->point[i].impulse = w_pushing(before + share * d[i]);
+        row->point[i].impulse = w_max(before + share * d[i], zero);
         d[i] = row->point[i].impulse - before;
     }
     UNROLL for (int j = 0; j < POINTS; ++j) request[j] = request[j] - NAMED(lost_at)(row, scale, d, j);
