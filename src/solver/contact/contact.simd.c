@@ -45,7 +45,7 @@ typedef struct {
     wide distance; // separation where the bodies are now: they move only before relax
     wide mass;     // m_i = 1 / K_ii, 0 for a point that is not there
     wide impulse;
-} point_row;
+} contact_point;
 
 typedef struct {
     side a, b;
@@ -57,6 +57,11 @@ typedef struct {
     wide3 shift; // of B's centre against A's
     wide4 rotation_a, rotation_b;
 } motion;
+
+// impulses of a contact together: on B, with their moment about A's centre
+typedef struct {
+    wide3 impulse, moment;
+} wrench;
 
 // a quantity of a point: constant + slope . rA
 typedef struct {
