@@ -252,7 +252,7 @@ FE_INLINE wide3 turn_freely(fe__solver *s, int32_t i, wide kind, wide4 turned, c
           u = w_scale(half_h, mean);
     wide k = 1.0f / w_sqrt(1.0f + w_dot(u, u));
     change = w_add(change, w_turn(w_with(w_scale(k, u), k), half));
-    store_high(s->velocity, i, w_with(w_choose3(gyroscopic, w_add(w, change), w), stored.w));
+    store_high(s->velocity, i, w_with(w_choose3(gyroscopic, w_add(w, change), w_xyz(stored)), stored.w));
     store_high(s->start, i, w_with(w_choose3(gyroscopic, w_add(w_xyz(start), change), w_xyz(start)), start.w));
     return mean;
 }
