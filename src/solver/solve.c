@@ -25,7 +25,7 @@ typedef struct paced {
     fe__step_constants usual, last, more;
 } paced;
 
-typedef enum verb { LOAD, PREPARE, SOLVE, FOLLOW, INTEGRATE, RELAX, BOUNCE, CARRY, END, STORE } verb;
+typedef enum verb { LOAD, PREPARE, BALANCE, SOLVE, FOLLOW, INTEGRATE, RELAX, BOUNCE, CARRY, STORE } verb;
 
 typedef struct program {
     int32_t rows_in_block;
@@ -128,7 +128,7 @@ static void add_colours(program *p, int32_t *part, const fe__solver *s, const fe
     }
 }
 
-static int32_t first_tree(const fe__batch *b) { return b->first_group + b->joint_groups - b->trees; }
+static int32_t first_tree_group(const fe__batch *b) { return b->first_group + b->joint_groups - b->tree_groups; }
 
 static void make_program(program *p, fe__solver *s, const fe__batch *b, int32_t substeps, int32_t width)
 {
@@ -141,13 +141,13 @@ static void make_program(program *p, fe__solver *s, const fe__batch *b, int32_t 
     number_blocks(p, s, b);
     add_pass(p, &p->prologue, LOAD, 0, 0, line_blocks, 0);
     add_colours(p, &p->prologue, s, b, PREPARE);
+    if (b->joint_count) add_pass(p, &p->prologue, BALANCE, 0, 0, line_blocks, 0);
     add_colours(p, &p->substep, s, b, SOLVE);
-    if (b->trees) add_pass(p, &p->substep, FOLLOW, first_tree(b), b->trees, b->trees, 0);
+    if (b->tree_groups) add_pass(p, &p->substep, FOLLOW, first_tree_group(b), b->tree_groups, b->tree_groups, 0);
     add_pass(p, &p->substep, INTEGRATE, 0, 0, line_blocks, 0);
     add_colours(p, &p->substep, s, b, RELAX);
     if (b->bounces) add_colours(p, &p->substep, s, b, BOUNCE);
     add_pass(p, &p->substep, CARRY, 0, 0, line_blocks, 0);
-    add_pass(p, &p->epilogue, END, 0, 0, line_blocks, 0);
     if (b->group_count)
         add_pass(p, &p->epilogue, STORE, b->first_group, b->group_count, block_count(p, s, b->first_group, end), 0);
 }
@@ -197,10 +197,10 @@ static void run_lines(const job *j, const fe__batch *b, verb verb, int32_t block
     if (verb == LOAD) k->load(j->s, j->bodies, first, count, c);
     if (verb == LOAD) k->begin_velocities(j->s, first, count, c);
     if (verb == LOAD) begin_trails(j, first, count, c);
+    if (verb == BALANCE) k->balance_spins(j->s, first, count, c);
     if (verb == INTEGRATE) k->integrate_positions(j->s, first, count, c);
     if (verb == INTEGRATE) leave_trails(j, first, count, c);
     if (verb == CARRY) k->carry_velocities(j->s, first, count, c);
-    if (verb == END) k->end_velocities(j->s, first, count);
 }
 
 static void run_joints(const job *j, const fe__group *g, verb verb, unsigned char *rows, int32_t first, int32_t count,
@@ -223,22 +223,30 @@ static void run_joints(const job *j, const fe__group *g, verb verb, unsigned cha
         k->store(j->s, j->joints, lanes, row, count, c);
         break;
     case LOAD:
+    case BALANCE:
     case FOLLOW:
     case INTEGRATE:
     case BOUNCE:
     case CARRY:
-    case END:
         break;
     }
 }
 
-static void run_tree(const job *j, const fe__group *g, verb verb, unsigned char *rows, const fe__step_constants *c)
+static void run_trees(const job *j, const fe__group *g, verb verb, unsigned char *rows, const fe__step_constants *c)
 {
-    const fe__tree_job tree = fe__tree_job_of(j->s, &j->k->joint->locks, j->joints, g->lane, rows, g->offset, c);
-    if (verb == PREPARE) fe__tree_prepare(&tree);
-    if (verb == SOLVE) fe__tree_solve(&tree);
-    if (verb == FOLLOW) fe__tree_follow(&tree);
-    if (verb == RELAX) fe__tree_relax(&tree);
+    const fe__tree_job trees = {.solver = j->s,
+                                .lanes = &j->k->joint->locks,
+                                .forest = &j->joints->forest,
+                                .trees = j->s->trees + g->lane,
+                                .count = g->trees,
+                                .rows = rows,
+                                .nodes = rows + g->offset,
+                                .h = (double)c->h,
+                                .rate = (double)(c->h * c->joint.bias_rate)};
+    if (verb == PREPARE) j->k->forest->prepare(&trees);
+    if (verb == SOLVE) j->k->forest->solve(&trees);
+    if (verb == FOLLOW) j->k->forest->follow(&trees);
+    if (verb == RELAX) j->k->forest->relax(&trees);
 }
 
 // Stored impulses are those of the world's substeps
@@ -258,7 +266,7 @@ static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char 
                      const fe__step_constants *c)
 {
     if (g->kind == FE__TREE_KIND) {
-        run_tree(j, g, verb, rows, c);
+        run_trees(j, g, verb, rows, c);
         return;
     }
     if (g->kind >= FE__ROW_KINDS) {
@@ -286,10 +294,10 @@ static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char 
         if (c->division > 1) scale_impulses(j, g, lanes, count, (float)c->division);
         break;
     case LOAD:
+    case BALANCE:
     case FOLLOW:
     case INTEGRATE:
     case CARRY:
-    case END:
         break;
     }
 }
@@ -317,7 +325,7 @@ static void run_block(const job *j, const fe__batch *b, const fe__pass *p, unsig
 static void run_all(const job *j, const fe__batch *b, verb verb, unsigned char *rows, const fe__step_constants *c)
 {
     const fe__group *groups = j->s->groups + b->first_group;
-    int32_t of_lines = verb == LOAD || verb == INTEGRATE || verb == CARRY || verb == END,
+    int32_t of_lines = verb == LOAD || verb == BALANCE || verb == INTEGRATE || verb == CARRY,
             line_blocks = blocks_of(b->line_count, LINES_IN_BLOCK);
     for (int32_t i = 0; i < line_blocks && of_lines; ++i) run_lines(j, b, verb, i, c);
     for (int32_t i = 0; i < b->group_count && !of_lines; ++i) run_rows(j, groups + i, verb, rows, 0, groups[i].rows, c);
@@ -329,16 +337,17 @@ static void run_batch(const job *j, const fe__batch *b, unsigned char *rows)
     const fe__step_constants *c = &pace->usual;
     run_all(j, b, LOAD, rows, c);
     run_all(j, b, PREPARE, rows, c);
+    if (b->joint_count) run_all(j, b, BALANCE, rows, c);
     for (int32_t n = 0; n < c->substeps; ++n) {
         run_all(j, b, SOLVE, rows, c);
-        for (int32_t i = 0; i < b->trees; ++i) run_tree(j, j->s->groups + first_tree(b) + i, FOLLOW, rows, c);
+        for (int32_t i = 0; i < b->tree_groups; ++i)
+            run_trees(j, j->s->groups + first_tree_group(b) + i, FOLLOW, rows, c);
         run_all(j, b, INTEGRATE, rows, c);
         for (int32_t i = 1; i < c->sweeps; ++i) run_all(j, b, RELAX, rows, &pace->more);
         run_all(j, b, RELAX, rows, n + 1 < c->substeps ? c : &pace->last);
         if (b->bounces) run_all(j, b, BOUNCE, rows, c);
         if (n + 1 < c->substeps) run_all(j, b, CARRY, rows, c);
     }
-    run_all(j, b, END, rows, c);
     run_all(j, b, STORE, rows, c);
 }
 

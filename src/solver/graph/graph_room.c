@@ -3,7 +3,6 @@
 #include "solver/graph/graph.h"
 
 #include "solver/graph/graph_build.h"
-#include "solver/tree/tree.h"
 
 static int32_t joint_rows(const fe__graph_bound *b)
 {
@@ -73,7 +72,7 @@ static int64_t row_bytes(const fe__graph_bound *b, const fe__kernels *kernels, i
     int64_t links = fe__minl(tree_links(b), bodies);
     return row_bound(b, contacts, kernels->width) * widest +
            joint_row_bound(b, joint_lanes, kernels->width) * widest_joint(b, kernels) +
-           links * (fe__tree_bytes(1) + (int64_t)sizeof(fe__row_block));
+           links * (fe__forest_bytes(kernels, 1) + (int64_t)sizeof(fe__row_block));
 }
 
 static int64_t scratch_bound(const fe__graph_bound *b)
@@ -98,10 +97,10 @@ static int64_t all_rows(const fe__graph_bound *b, const fe__kernels *kernels, in
 
 // Passes of a large batch, see make_program in solve.c. Its groups come colour by colour, a group or more each, and
 // each of the four verbs of rows (prepare, solve, relax, bounce; joints do not bounce) has a pass a colour at most.
-// Four more are over lines, one stores, and one is the trees'.
+// Three more are over lines, one stores, and one is the trees'.
 static int64_t pass_bound(int64_t groups)
 {
-    enum { EVERY_COLOUR = 4 * FE__COLOURS + 3 * FE__CONTACT_COLOURS, OTHERS = 6 };
+    enum { EVERY_COLOUR = 4 * FE__COLOURS + 3 * FE__CONTACT_COLOURS, OTHERS = 5 };
     return fe__minl(4 * groups, EVERY_COLOUR) + OTHERS;
 }
 
@@ -125,14 +124,16 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
     int64_t lines = FE__MAX_WIDTH + (int64_t)b->bodies + (int64_t)batches * (FE__DUMMY_LINES + FE__MAX_WIDTH) + copies;
     int64_t small, rows = all_rows(b, kernels, workers, &small);
     int64_t building = (int64_t)sizeof(int32_t) * scratch_bound(b);
-    int64_t sorted =
-        fe__maxi(fe__mini(b->crowded, b->contacts), b->joint_set ? fe__mini(b->joint_set->overflowing, b->joints) : 0);
+    int32_t trees = b->joint_set ? b->joint_set->forest.tree_count : 0;
+    int64_t sorted = fe__maxi(fe__maxi(fe__mini(b->crowded, b->contacts), trees),
+                              b->joint_set ? fe__mini(b->joint_set->overflowing, b->joints) : 0);
     if (!FE_RESERVE(memory, s->velocity, s->line_capacity[0], lines) ||
         !FE_RESERVE(memory, s->motion, s->line_capacity[1], lines) ||
         !FE_RESERVE(memory, s->start, s->line_capacity[2], lines) ||
         !FE_RESERVE(memory, s->inertia, s->line_capacity[3], lines) ||
         !FE_RESERVE(memory, s->drive, s->line_capacity[4], lines) ||
         !FE_RESERVE(memory, s->axes, s->line_capacity[5], lines) ||
+        !FE_RESERVE(memory, s->moved_spin, s->line_capacity[6], b->joints ? lines : 0) ||
         !FE_RESERVE(memory, s->body_of_line, s->body_of_line_capacity, lines) ||
         !FE_RESERVE(memory, s->trail_count, s->trail_capacity[0], lines) ||
         !FE_RESERVE(memory, s->trail_of, s->trail_capacity[2], lines) ||
@@ -141,6 +142,7 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
         !FE_RESERVE(memory, s->groups, s->group_capacity, groups + 1) ||
         !FE_RESERVE(memory, s->lanes, s->lane_capacity, lanes + width) ||
         !FE_RESERVE(memory, s->places, s->place_capacity, tree_links(b)) ||
+        !FE_RESERVE(memory, s->trees, s->tree_capacity, trees) ||
         !FE_RESERVE(memory, s->passes, s->pass_capacity, pass_bound(groups)) ||
         !FE_RESERVE(memory, s->sort_items, s->sort_capacity, 2 * sorted) ||
         !FE_RESERVE(memory, s->rows, s->row_capacity, fe__maxl(rows, building) / (int64_t)sizeof(fe__row_block) + 1))
@@ -157,6 +159,7 @@ void fe__solver_destroy(fe__solver *s, fe__memory *memory)
     FE_FREE(memory, s->inertia, s->line_capacity[3]);
     FE_FREE(memory, s->drive, s->line_capacity[4]);
     FE_FREE(memory, s->axes, s->line_capacity[5]);
+    FE_FREE(memory, s->moved_spin, s->line_capacity[6]);
     FE_FREE(memory, s->body_of_line, s->body_of_line_capacity);
     FE_FREE(memory, s->trail_count, s->trail_capacity[0]);
     FE_FREE(memory, s->trail, s->trail_capacity[1]);
@@ -165,6 +168,7 @@ void fe__solver_destroy(fe__solver *s, fe__memory *memory)
     FE_FREE(memory, s->groups, s->group_capacity);
     FE_FREE(memory, s->lanes, s->lane_capacity);
     FE_FREE(memory, s->places, s->place_capacity);
+    FE_FREE(memory, s->trees, s->tree_capacity);
     FE_FREE(memory, s->passes, s->pass_capacity);
     FE_FREE(memory, s->sort_items, s->sort_capacity);
     FE_FREE(memory, s->rows, s->row_capacity);
