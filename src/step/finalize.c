@@ -24,8 +24,8 @@ static int32_t turn(fe__body *body, const float *dq)
 {
     if (dq[0] == 0.0f && dq[1] == 0.0f && dq[2] == 0.0f) return 0;
     fe_quat q = fe__normalized(fe__product(fe__quat_of(dq), fe__rotation_of(body)));
-    const float turned[4] = {q.x, q.y, q.z, q.w};
-    for (int k = 0; k < 4; ++k) body->rotation[k] = fe__settle(turned[k], FE__LEAST_SPEED);
+    body->rotation[0] = fe__settle(q.x, FE__LEAST_SPEED), body->rotation[1] = fe__settle(q.y, FE__LEAST_SPEED);
+    body->rotation[2] = fe__settle(q.z, FE__LEAST_SPEED), body->rotation[3] = fe__settle(q.w, FE__LEAST_SPEED);
     return 1;
 }
 

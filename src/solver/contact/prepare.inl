@@ -125,7 +125,7 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
     row->dynamic_friction = surface.x;
     row->round_a = surface.y;
     row->round_b = surface.z;
-    store3(row->normal, w_settle3(w_xyz(normal), w_set(FE__LEAST_LEAN)));
+    store3(row->normal, w_xyz(normal));
     store3(row->span, w_xyz(span));
     store3(row->start_span, w_xyz(span));
     store3(row->found_span, NAMED(span_found)(row, m, index, kind));

@@ -155,8 +155,7 @@ static void recycle_block(fe__contact *contacts, const fe__body *bodies, const i
     wide4 found_a, found_b, point[FE__POINTS];
     w_gather_both(contacts->found_a, CONTACT_STRIDE, index, &found_a, &found_b);
     sides s = {bodies, a, b, centres_of(bodies, a), centres_of(bodies, b)};
-    wide3 n = w_settle3(w_xyz(normal), w_set(FE__LEAST_LEAN)),
-          shift = shift_since_found(&s.at_a, &s.at_b, w_xyz(found), w_xyz(CONTACT_QUAD(found_low)));
+    wide3 n = w_xyz(normal), shift = shift_since_found(&s.at_a, &s.at_b, w_xyz(found), w_xyz(CONTACT_QUAD(found_low)));
     wide4 rotation_a = rotation_since_found(bodies, a, found_a), rotation_b = rotation_since_found(bodies, b, found_b);
     // a static A has its arms from B's centre: no span between them, and it does not rotate
     wide3 arms_span = w_choose3(w_greater(w_set(0.5f), spans_of(bodies, a)), w_zero3(), w_xyz(found));
