@@ -71,9 +71,6 @@ typedef struct {
 
 FE_INLINE wide at(const affine *f, wide3 r) { return f->constant + w_dot(f->slope, r); }
 
-// an impulse that pushes, or none
-FE_INLINE wide w_pushing(wide a) { return w_choose(w_greater(a, w_set(FE__LEAST_IMPULSE)), a, w_set(0.0f)); }
-
 FE_INLINE wide_mask no_lane(void) { return w_greater(w_set(0.0f), w_set(0.0f)); }
 FE_INLINE wide_mask every_lane(void) { return w_not(no_lane()); }
 

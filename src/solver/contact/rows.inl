@@ -213,7 +213,7 @@ FE_INLINE wide3 NAMED(sweep_points)(ROW *row, wide *request, const wide *scale, 
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
         contact_point *q = row->point + i;
-        wide impulse = w_pushing(request[i]), change = impulse - q->impulse;
+        wide impulse = w_max(request[i], zero), change = impulse - q->impulse;
         q->impulse = impulse;
         UNROLL for (int j = i + 1; j < POINTS; ++j)
         {
@@ -326,19 +326,20 @@ FE_INLINE wide_mask NAMED(solve_friction)(ROW *row, pair *p, int kind)
     if (kind & FE__ROW_SPECIAL) slip = w_add(slip, load3(((const SPECIAL_ROW *)row)->surface));
     wide v1 = w_dot(t1, slip) + row->twist_tangent[0] * twisted, v2 = w_dot(t2, slip) + row->twist_tangent[1] * twisted;
     const wide *m = row->tangent_mass;
-    wide l1 = row->tangent_impulse[0] - (m[0] * v1 + m[1] * v2), l2 = row->tangent_impulse[1] - (m[1] * v1 + m[2] * v2);
+    wide least = w_set(FE__LEAST_IMPULSE), l1 = w_settle(row->tangent_impulse[0] - (m[0] * v1 + m[1] * v2), least),
+         l2 = w_settle(row->tangent_impulse[1] - (m[1] * v1 + m[2] * v2), least);
     wide stick = row->static_friction * load, slide = row->dynamic_friction * load, square = l1 * l1 + l2 * l2;
     wide most = w_choose(w_greater(square, BREAKAWAY * BREAKAWAY * stick * stick), slide, stick);
     wide shrink = w_choose(w_greater(square, stick * stick), most / w_sqrt(square), w_set(1.0f));
-    l1 = w_settle(l1 * shrink, w_set(FE__LEAST_IMPULSE));
-    l2 = w_settle(l2 * shrink, w_set(FE__LEAST_IMPULSE));
-    wide3 impulse = w_add_scaled(w_scale(l1 - row->tangent_impulse[0], t1), l2 - row->tangent_impulse[1], t2);
+    l1 = l1 * shrink;
+    l2 = l2 * shrink;
+    wide d1 = l1 - row->tangent_impulse[0], d2 = l2 - row->tangent_impulse[1];
+    wide3 impulse = w_add_scaled(w_scale(d1, t1), d2, t2);
     row->tangent_impulse[0] = l1;
     row->tangent_impulse[1] = l2;
     NAMED(apply)(row, p, impulse, w_add_scaled(w_cross(ra, impulse), twisted, p->normal), kind);
-    wide response = p->a.inverse_mass + p->b.inverse_mass, least = UNSETTLED * load * response;
-    wide_mask changes =
-        w_greater(response * response * w_dot(impulse, impulse), least * least + UNSETTLED_SPEED * UNSETTLED_SPEED);
+    wide response = p->a.inverse_mass + p->b.inverse_mass;
+    wide_mask changes = w_greater(response * (w_abs(d1) + w_abs(d2)), UNSETTLED * load * response + UNSETTLED_SPEED);
     return w_and(changes, w_greater(w_set(IMPACT_SPEED), (load - row->load) * response));
 }
 
