@@ -47,10 +47,10 @@ FE_INLINE wide_sym world_inverse_inertia(wide4 axes, wide3 inverse)
     wide3 ix = w_scale(inverse.x, x), iy = w_scale(inverse.y, y), iz = w_scale(inverse.z, z);
     wide least = FE__LEAST_LEAN * (inverse.x + inverse.y + inverse.z);
     return (wide_sym){ix.x * x.x + iy.x * y.x + iz.x * z.x,
-                      w_settle(ix.x * x.y + iy.x * y.y + iz.x * z.y, least),
-                      w_settle(ix.x * x.z + iy.x * y.z + iz.x * z.z, least),
+                      w_flush(ix.x * x.y + iy.x * y.y + iz.x * z.y, least),
+                      w_flush(ix.x * x.z + iy.x * y.z + iz.x * z.z, least),
                       ix.y * x.y + iy.y * y.y + iz.y * z.y,
-                      w_settle(ix.y * x.z + iy.y * y.z + iz.y * z.z, least),
+                      w_flush(ix.y * x.z + iy.y * y.z + iz.y * z.z, least),
                       ix.z * x.z + iy.z * y.z + iz.z * z.z};
 }
 
@@ -106,11 +106,9 @@ FE_INLINE void load_block(fe__solver *s, const fe__body *bodies, int32_t line, c
         locked |= body >= 0 && bodies[body].lock_bits != 0.0f && bodies[body].type == FE_BODY_DYNAMIC;
     }
     wide zero = w_set(0.0f), one = w_set(1.0f), there = *(wide *)is_there;
-    wide least = w_set(FE__LEAST_SPEED);
     wide4 v = BODY_QUAD(velocity), w = BODY_QUAD(spin), force = BODY_QUAD(force), torque = BODY_QUAD(torque);
     wide4 inertia = BODY_QUAD(inertia), axes = w_product(BODY_QUAD(rotation), BODY_QUAD(inertia_axes));
-    wide lean = w_set(FE__LEAST_LEAN);
-    axes = w_with(w_settle3(w_xyz(axes), lean), w_settle(axes.w, lean));
+    axes = w_with(w_flush3(w_xyz(axes), w_set(FE__LEAST_LEAN)), w_flush(axes.w, w_set(FE__LEAST_LEAN)));
     wide_mask moves = w_greater(v.w * there, zero);
     wide3 inverse = {w_choose(moves, one / inertia.x, zero), w_choose(moves, one / inertia.y, zero),
                      w_choose(moves, one / inertia.z, zero)};
@@ -120,8 +118,8 @@ FE_INLINE void load_block(fe__solver *s, const fe__body *bodies, int32_t line, c
                     g * c->gravity.z + mass * force.z};
     wide damping = w_choose(moves, one / (1.0f + c->h * force.w), one),
          spin_damping = w_choose(moves, one / (1.0f + c->h * torque.w), one);
-    store_line(s->velocity, line, w_with(w_settle3(w_scale(there, w_xyz(v)), least), mass),
-               w_with(w_settle3(w_scale(there, w_xyz(w)), least), w.w * there));
+    store_line(s->velocity, line, (wide4){v.x * there, v.y * there, v.z * there, mass},
+               (wide4){w.x * there, w.y * there, w.z * there, w.w * there});
     store_line(s->motion, line, (wide4){zero, zero, zero, *(wide *)gyroscopic * there}, (wide4){zero, zero, zero, one});
     store_line(s->inertia, line, (wide4){i.xx, i.xy, i.xz, i.yy},
                (wide4){i.yz, i.zz, *(wide *)gyroscopic * there, zero});
@@ -146,7 +144,7 @@ static void load(fe__solver *s, const fe__body *bodies, int32_t first, int32_t c
 // energy and |I w|; two Newton steps from m = w solve it. What two steps leave open may add energy: the result is then
 // shortened to the energy before.
 
-// rad/s about a principal axis, two centuries a turn; of the axes, what they lean. The torque is quadratic in both
+// rad/s about a principal axis, two centuries a turn; also of the axes, what they lean. The torque is quadratic in both
 #define LEAST_SPIN 1e-9f
 
 // m - J^-1 f, J = I + h/2 ([m] I - [I m]), by cofactors; m itself where J is not safe to invert
@@ -170,14 +168,14 @@ FE_INLINE wide twice_energy(wide3 w, wide3 in) { return in.x * w.x * w.x + in.y 
 FE_INLINE wide3 free_change(wide3 world, wide4 axes, wide3 in, wide half_h)
 {
     wide least = w_set(LEAST_SPIN);
-    axes = w_with(w_settle3(w_xyz(axes), least), axes.w), world = w_settle3(world, least);
-    wide3 w = w_settle3(w_add(world, w_turn_back(axes, world)), least);
+    axes = w_with(w_flush3(w_xyz(axes), least), axes.w);
+    wide3 w = w_flush3(w_add(world, w_turn_back(axes, world)), least);
     wide3 d = {half_h * (in.z - in.y), half_h * (in.x - in.z), half_h * (in.y - in.x)};
-    wide3 m = newton(w_settle3(newton(w, w, in, d), least), w, in, d);
-    wide3 w2 = w_settle3(w_sub(w_add(m, m), w), w_set(FE__LEAST_SPEED));
+    wide3 m = newton(w_flush3(newton(w, w, in, d), least), w, in, d);
+    wide3 w2 = w_flush3(w_sub(w_add(m, m), w), w_set(FE__LEAST_SPEED));
     wide before = twice_energy(w, in), after = twice_energy(w2, in);
     wide k = w_choose(w_greater(after, before), w_sqrt(before / after), w_set(1.0f));
-    wide3 change = w_settle3(w_sub(w_scale(k, w2), w), w_set(FE__LEAST_SPEED));
+    wide3 change = w_sub(w_scale(k, w2), w);
     return w_add(change, w_turn(axes, change)); // only the change is turned: w keeps its digits
 }
 
@@ -255,7 +253,7 @@ static void carry_velocities(fe__solver *s, int32_t first, int32_t count, const 
     for (int32_t i = first; i < first + count; i += FE_W) {
         wide4 v, w, start, spin;
         load_line(s->velocity, i, &v, &w), load_line(s->start, i, &start, &spin);
-        wide3 v0 = w_settle3(w_xyz(v), w_set(FE__LEAST_SPEED)), w0 = w_settle3(w_xyz(w), w_set(FE__LEAST_SPEED));
+        wide3 v0 = w_flush3(w_xyz(v), w_set(FE__LEAST_SPEED)), w0 = w_flush3(w_xyz(w), w_set(FE__LEAST_SPEED));
         wide3 dv = w_sub(v0, w_xyz(start)), dw = w_sub(w0, w_xyz(spin));
         if (w_any(is_joined(spin.w))) w0 = w_add(w0, joined_change(s, i, spin.w, w0, dw, w_set(0.5f * c->h)));
         advance(s, i, c, &v0, &w0);
@@ -271,7 +269,7 @@ static void carry_velocities(fe__solver *s, int32_t first, int32_t count, const 
 FE_INLINE wide3 turn_freely(fe__solver *s, int32_t i, wide kind, wide4 turned, const fe__step_constants *c)
 {
     wide4 stored = load_high(s->velocity, i);
-    wide3 w = w_settle3(w_xyz(stored), w_set(FE__LEAST_SPEED));
+    wide3 w = w_flush3(w_xyz(stored), w_set(FE__LEAST_SPEED));
     wide_mask gyroscopic = w_and(w_greater(kind, w_set(0.0f)), w_not(w_greater(kind, w_set(FE__GYROSCOPIC_FREE))));
     if (!w_any(gyroscopic)) return w;
     wide4 principal = load_high(s->axes, i), start = load_high(s->start, i);
@@ -294,12 +292,11 @@ static void integrate_positions(fe__solver *s, int32_t first, int32_t count, con
         load_line(s->motion, i, &p, &q);
         wide3 v = w_xyz(load_low(s->velocity, i)), half = w_scale(w_set(0.5f * c->h), turn_freely(s, i, p.w, q, c));
         if (w_any(is_joined(p.w))) store_moved(s, i, w_xyz(load_high(s->velocity, i)));
-        wide least = w_set(FE__LEAST_SPEED);
-        wide3 u = w_settle3(w_add(w_xyz(q), w_add(w_scale(q.w, half), w_cross(half, w_xyz(q)))), least);
+        wide3 u = w_add(w_xyz(q), w_add(w_scale(q.w, half), w_cross(half, w_xyz(q))));
+        u = w_flush3(u, w_set(FE__LEAST_SPEED));
         wide a = q.w - w_dot(half, w_xyz(q));
         wide k = 1.0f / w_sqrt(w_dot(u, u) + a * a);
-        store_line(s->motion, i, w_with(w_settle3(w_add_scaled(w_xyz(p), w_set(c->h), v), least), p.w),
-                   w_with(w_scale(k, u), k * a));
+        store_line(s->motion, i, w_with(w_add_scaled(w_xyz(p), w_set(c->h), v), p.w), w_with(w_scale(k, u), k * a));
     }
 }
 

@@ -26,7 +26,7 @@ static int32_t turn(fe__body *body, const float *dq)
 {
     if (dq[0] == 0.0f && dq[1] == 0.0f && dq[2] == 0.0f) return 0;
     fe_quat q = fe__normalized(fe__product(fe__quat_of(dq), fe__rotation_of(body)));
-    *(quad *)body->rotation = w_settle((wide){q.x, q.y, q.z, q.w}, w_set(FE__LEAST_SPEED));
+    *(quad *)body->rotation = w_flush((wide){q.x, q.y, q.z, q.w}, w_set(FE__LEAST_SPEED));
     return 1;
 }
 
@@ -110,9 +110,9 @@ FE_FETCHES fetch_box(const fe_world *w, int32_t i)
 }
 
 // three numbers of a quad, whose fourth is the body's own
-static void take_settled(float *out, const float *in)
+static void take_flushed(float *out, const float *in)
 {
-    wide a = w_settle(*(const quad *)in, w_set(FE__LEAST_SPEED));
+    wide a = w_flush(*(const quad *)in, w_set(FE__LEAST_SPEED));
     a[3] = out[3];
     *(quad *)out = a;
 }
@@ -140,8 +140,8 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
             stop_lost(step, body);
             continue;
         }
-        take_settled(body->velocity, velocity->v);
-        take_settled(body->spin, velocity->w);
+        take_flushed(body->velocity, velocity->v);
+        take_flushed(body->spin, velocity->w);
         for (int k = 0; k < 3; ++k) body->force[k] = body->torque[k] = 0.0f;
         note_relaxed(&w->solver, body);
         int32_t moved = shift(body, motion->shift) | turn(body, motion->rotation);

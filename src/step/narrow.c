@@ -31,8 +31,9 @@ static void set_view(fe__view *v, const fe__shape *a, const fe__shape *b, const 
     v->origin = pose_a->position;
     v->rotation = fe__matrix(pose_a->rotation);
     fe_quat q = fe__product(fe__conjugate(pose_a->rotation), pose_b->rotation);
-    for (float *part = &q.x; part <= &q.w; ++part) *part = fe__settle(*part, FE__LEAST_LEAN);
-    v->relative.rotation = fe__matrix(q);
+    const float least = FE__LEAST_LEAN;
+    v->relative.rotation = fe__matrix(
+        (fe_quat){fe__flush(q.x, least), fe__flush(q.y, least), fe__flush(q.z, least), fe__flush(q.w, least)});
     fe_dvec3 between = fe__dsub(pose_b->position, pose_a->position);
     if (fe__form_is_unbounded(&a->form)) {
         fe__plane_move_frame(&v->form_a, pose_a->rotation, between);
@@ -223,7 +224,7 @@ float fe__recycle_tolerance(const fe__view *v)
 static fe_vec3 solvers_normal(const fe__contact *m, const fe__view *v, fe_vec3 normal)
 {
     fe_vec3 n = fe__mul(&v->rotation, normal);
-    n = fe__vec3(fe__settle(n.x, FE__LEAST_LEAN), fe__settle(n.y, FE__LEAST_LEAN), fe__settle(n.z, FE__LEAST_LEAN));
+    n = fe__vec3(fe__flush(n.x, FE__LEAST_LEAN), fe__flush(n.y, FE__LEAST_LEAN), fe__flush(n.z, FE__LEAST_LEAN));
     return m->body_a != v->a->body ? fe__neg(n) : n;
 }
 

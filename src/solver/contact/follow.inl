@@ -58,7 +58,7 @@ FE_INLINE void NAMED(find_friction_masses)(const ROW *row, const pair *p, int ki
     wide k11 = NAMED(linear_response)(row, p, t1, t1, one, kind) + angular_response(&m1, &m1, kind);
     wide k22 = NAMED(linear_response)(row, p, t2, t2, one, kind) + angular_response(&m2, &m2, kind);
     wide k12 = NAMED(linear_response)(row, p, t1, t2, zero, kind) + angular_response(&m1, &m2, kind);
-    k12 = w_settle(k12, FE__LEAST_LEAN * (k11 + k22));
+    k12 = w_flush(k12, FE__LEAST_LEAN * (k11 + k22));
     NAMED(invert_tangents)(out, p, k11, k12, k22, kind);
     arm spin = {p->normal, p->normal, w_zero3(), w_mul(&row->inertia_b, p->normal)};
     if (kind & FE__ROW_PAIR) spin.spin_a = w_mul(&row->inertia_a, p->normal);
@@ -178,7 +178,7 @@ FE_INLINE void NAMED(begin_to_follow)(ROW *row, const wide *apart, wide_mask lan
     wide zero = w_set(0.0f);
     wide_mask fresh = w_and(lanes, w_not(w_greater(row->follows, zero)));
     if (!w_any(fresh)) return;
-    // what other lanes hold here was never written: anything, denormals too
+    // other lanes hold what was never written: denormals too
     wide_mask kept = w_greater(row->follows, zero);
     row->follows = w_choose(fresh, w_set(1.0f), row->follows);
     wide3 n = load3(row->normal);

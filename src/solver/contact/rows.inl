@@ -318,7 +318,7 @@ FE_INLINE wide_mask NAMED(solve_friction)(ROW *row, pair *p, int kind)
         wide twist = row->twist_impulse - row->twist_mass * w_dot(p->normal, w_sub(p->b.w, p->a.w));
         wide slide = row->dynamic_friction * twist_load, stick = row->static_friction * twist_load;
         twist = w_choose(w_greater(w_abs(twist), stick), w_clamp(twist, -slide, slide), twist);
-        twist = w_settle(twist, w_set(FE__LEAST_TWIST));
+        twist = w_flush(twist, w_set(FE__LEAST_TWIST));
         twisted = twist - row->twist_impulse;
         row->twist_impulse = twist;
     }
@@ -326,8 +326,8 @@ FE_INLINE wide_mask NAMED(solve_friction)(ROW *row, pair *p, int kind)
     if (kind & FE__ROW_SPECIAL) slip = w_add(slip, load3(((const SPECIAL_ROW *)row)->surface));
     wide v1 = w_dot(t1, slip) + row->twist_tangent[0] * twisted, v2 = w_dot(t2, slip) + row->twist_tangent[1] * twisted;
     const wide *m = row->tangent_mass;
-    wide least = w_set(FE__LEAST_IMPULSE), l1 = w_settle(row->tangent_impulse[0] - (m[0] * v1 + m[1] * v2), least),
-         l2 = w_settle(row->tangent_impulse[1] - (m[1] * v1 + m[2] * v2), least);
+    wide least = w_set(FE__LEAST_IMPULSE), l1 = w_flush(row->tangent_impulse[0] - (m[0] * v1 + m[1] * v2), least),
+         l2 = w_flush(row->tangent_impulse[1] - (m[1] * v1 + m[2] * v2), least);
     wide stick = row->static_friction * load, slide = row->dynamic_friction * load, square = l1 * l1 + l2 * l2;
     wide most = w_choose(w_greater(square, BREAKAWAY * BREAKAWAY * stick * stick), slide, stick);
     wide shrink = w_choose(w_greater(square, stick * stick), most / w_sqrt(square), w_set(1.0f));
@@ -356,7 +356,7 @@ FE_INLINE void NAMED(solve_rolling)(SPECIAL_ROW *x, pair *p, int kind)
     roll = w_sub_scaled(roll, w_dot(n, roll), n);
     wide most = x->rolling * load, square = w_dot(roll, roll);
     roll = w_scale(w_choose(w_greater(square, most * most), most / w_sqrt(square), one), roll);
-    wide3 after = w_settle3(w_add_scaled(roll, spin, n), w_set(FE__LEAST_TWIST));
+    wide3 after = w_flush3(w_add_scaled(roll, spin, n), w_set(FE__LEAST_TWIST));
     store3(x->rolling_impulse, after);
     NAMED(apply_torque)(&x->row, p, w_sub(after, before), kind);
 }
