@@ -128,7 +128,7 @@ static int32_t reserve_scratch(fe__step *step, const fe__graph_bound *b)
     int64_t sorted = 1 + fe__maxi(fe__maxi(b->contacts, step->scratch->candidate_count), w->body_count);
     sorted += w->owed_count + w->joint_count;
     return FE_RENEW(memory, s->results, s->result_capacity, (int64_t)b->contacts + 1) &&
-           FE_RENEW(memory, s->busy, s->busy_capacity, (int64_t)b->contacts + 1) &&
+           FE_RESERVE(memory, s->busy, s->busy_capacity, (int64_t)b->contacts + 1) &&
            FE_RENEW(memory, s->left, s->left_capacity, w->shape_count) &&
            FE_RENEW(memory, s->boxes, s->box_capacity, w->shape_count) &&
            FE_RENEW(memory, s->chased, s->chased_capacity, (int64_t)2 * b->bodies) &&
