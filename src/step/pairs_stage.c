@@ -85,7 +85,7 @@ static int32_t reserve_candidates(fe__step *step, int32_t room)
 {
     fe__step_scratch *s = step->scratch;
     int32_t workers = step->world->workers.count;
-    if (!FE_RESERVE(&step->world->memory, s->candidates, s->candidate_capacity, (int64_t)room * workers)) return 0;
+    if (!FE_RENEW(&step->world->memory, s->candidates, s->candidate_capacity, (int64_t)room * workers)) return 0;
     s->candidate_room = s->candidate_capacity / workers;
     for (int32_t i = 0; i < workers; ++i)
         s->buffers[i].items = s->candidates + i * s->candidate_room, s->buffers[i].count = 0;
