@@ -1,5 +1,6 @@
 // Numbers that decay end at zero: what the solver keeps from step to step, and from substep to substep, is never
-// denormal. Arithmetic on denormals gives the right bits a hundred times as slowly, so only a count shows them.
+// denormal, and what it flushes is 0 or no less than its bounds (solver/solver.h). Arithmetic on denormals gives the
+// right bits a hundred times as slowly, so only a count shows them.
 #include "scenes/joint_scene.h"
 
 #include "world/deferral.h"
@@ -35,9 +36,10 @@ static int32_t in_bodies(const fe_world *w)
 static int32_t in_lines(const fe__solver *s)
 {
     const size_t lines = (size_t)s->line_count * FE__LINE;
-    return denormals_in((const float *)s->velocity, lines) + denormals_in((const float *)s->motion, lines) +
-           denormals_in((const float *)s->start, lines) + denormals_in((const float *)s->inertia, lines) +
-           denormals_in((const float *)s->axes, lines);
+    int32_t sum = denormals_in((const float *)s->velocity, lines) + denormals_in((const float *)s->motion, lines) +
+                  denormals_in((const float *)s->start, lines) + denormals_in((const float *)s->inertia, lines);
+    for (int32_t i = 0; i < s->line_count; ++i) sum += BELOW(FE__LEAST_LEAN, s->axes[i].rotation);
+    return sum;
 }
 
 static int32_t in_contacts(const fe_world *w)
