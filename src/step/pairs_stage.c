@@ -5,6 +5,7 @@
 // trees show. Nothing of the world is changed before all memory that the step can need is reserved.
 #include "step/pairs_stage.h"
 
+#include "step/due.h"
 #include "step/reserve.h"
 #include "world/filter.h"
 #include "world/handles.h"
@@ -147,7 +148,7 @@ void fe__find_new_pairs(fe__step *step)
 {
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
-    step->failed = !search_all(step) || !fe__reserve_step(step);
+    step->failed = !search_all(step) || !fe__find_due(step) || !fe__reserve_step(step);
     if (step->failed) return;
     sort_candidates(step);
     for (int32_t i = 0; i < s->candidate_count; ++i)
