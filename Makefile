@@ -190,7 +190,7 @@ test-long:
 # What breaks it is left as build/fuzz/crash-*, to be given to build/fuzz/feather-fuzz again.
 
 FUZZ_SECONDS ?= 600
-FUZZ_OBJECTS := $(addprefix $(BUILD)/tests/,fuzz/fuzz_api.o support/fuzz.o support/fuzz_calls.o support/fuzz_joints.o support/fuzz_terrain.o)
+FUZZ_OBJECTS := $(addprefix $(BUILD)/tests/,fuzz/fuzz_api.o support/fuzz.o support/fuzz_calls.o support/fuzz_joints.o support/fuzz_pairs.o support/fuzz_terrain.o)
 
 $(BUILD)/feather-fuzz: $(FUZZ_OBJECTS) $(STATIC)
 	$(RUN)$(CC) $(FUZZ_OBJECTS) $(STATIC) -fsanitize=fuzzer $(LINK_FLAGS) -lm -o $@

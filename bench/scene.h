@@ -148,6 +148,10 @@ int32_t bench_add_joint(bench_scene *scene, int32_t body_a, int32_t body_b, doub
 /// Turns a body about the world's z axis, rad.
 void bench_turn_z(bench_body *body, double angle);
 
+/// A ground and the four walls of a pit of 12 x 12 m about the middle; the walls have friction 0.3.
+/// @param half_height  of a wall, m; it begins 1 m below the ground's top
+void bench_add_pit(bench_scene *scene, float half_height);
+
 void bench_build_rest(bench_scene *scene, int32_t n);
 void bench_build_pyramid(bench_scene *scene, int32_t n);
 void bench_build_many(bench_scene *scene, int32_t n);
@@ -160,6 +164,15 @@ void bench_build_awake(bench_scene *scene, int32_t n);
 void bench_build_level(bench_scene *scene, int32_t n);
 void bench_build_terrain(bench_scene *scene, int32_t n);
 void bench_build_ragdolls(bench_scene *scene, int32_t n);
+void bench_build_pile(bench_scene *scene, int32_t n);
+void bench_build_debris(bench_scene *scene, int32_t n);
+void bench_build_balls(bench_scene *scene, int32_t n);
+void bench_build_capsulespit(bench_scene *scene, int32_t n);
+void bench_build_grid(bench_scene *scene, int32_t n);
+void bench_build_wall(bench_scene *scene, int32_t n);
+void bench_build_town(bench_scene *scene, int32_t n);
+void bench_build_volley(bench_scene *scene, int32_t n);
+void bench_build_chains(bench_scene *scene, int32_t n);
 
 #ifdef __cplusplus
 }

@@ -342,7 +342,8 @@ FE_API fe_result fe_world_create(const fe_world_def *def, fe_world **out_world);
 FE_API fe_result fe_world_destroy(fe_world *world);
 /// Moves the world on by dt seconds. It takes less than 32 KB of the caller's stack.
 ///
-/// FE_ERROR_MEMORY leaves the world as it was before the call. It can be stepped again.
+/// FE_ERROR_MEMORY leaves the world as it was before the call. It can be stepped again, and then goes on with the same
+/// bits as if memory had lasted.
 ///
 /// Of bodies in one place, a thousand born in a point, each touches the 48 that are deepest in it: of two dynamic
 /// bodies that both have more than 48 neighbours, a contact is left out when it is among the 48 deepest of neither. In
@@ -1313,11 +1314,11 @@ FE_API int32_t fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_
 FE_API int32_t fe_body_raycast(const fe_world *world, fe_body body, const fe_dvec3 *origin, const fe_dvec3 *translation,
                                fe_hit *out_hit);
 /// The closest point of one shape, however far.
-/// @return 1; 0 from below a heightfield
+/// @return 1; 0 from below a heightfield, and for one whose cells are all holes
 FE_API int32_t fe_shape_closest_point(const fe_world *world, fe_shape shape, const fe_dvec3 *point,
                                       fe_closest *out_closest);
 /// The closest point of one body, however far.
-/// @return 1; 0 for a body without shapes, and from below a heightfield
+/// @return 1; 0 for a body none of whose shapes has one
 FE_API int32_t fe_body_closest_point(const fe_world *world, fe_body body, const fe_dvec3 *point,
                                      fe_closest *out_closest);
 

@@ -9,20 +9,6 @@ enum {
     LAYER = COLUMNS * COLUMNS, // bodies of a layer
 };
 
-static void add_pit(bench_scene *scene)
-{
-    bench_shape wall_x = bench_make_box(1.0f, 11.0f, 8.0f);
-    bench_shape wall_z = bench_make_box(8.0f, 11.0f, 1.0f);
-    wall_x.friction = wall_z.friction = 0.3f;
-    int32_t across_x = bench_add_shape(scene, wall_x);
-    int32_t across_z = bench_add_shape(scene, wall_z);
-    bench_add_static(scene, bench_add_shape(scene, bench_make_box(20.0f, 1.0f, 20.0f)), 0.0, -1.0, 0.0);
-    for (int32_t side = -1; side <= 1; side += 2) {
-        bench_add_static(scene, across_x, 7.0 * side, 10.0, 0.0);
-        bench_add_static(scene, across_z, 0.0, 10.0, 7.0 * side);
-    }
-}
-
 void bench_build_bowl(bench_scene *scene, int32_t n)
 {
     const double pitch = 1.2, jitter = 0.3, layer_height = 1.5; // m
@@ -32,7 +18,7 @@ void bench_build_bowl(bench_scene *scene, int32_t n)
         forms[i].friction = 0.4f;
         shapes[i] = bench_add_shape(scene, forms[i]);
     }
-    add_pit(scene);
+    bench_add_pit(scene, 11.0f);
     uint64_t state = SEED;
     for (int32_t b = 0; b < n; b++) {
         int32_t layer = b / LAYER, c = b % LAYER;

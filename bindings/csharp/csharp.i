@@ -4,7 +4,8 @@
 // (rules.mk): no callbacks, no static constructor.
 %pragma(csharp) moduleclassmodifiers="internal static unsafe class"
 %pragma(csharp) imclassclassmodifiers="internal static unsafe class"
-%csmethodmodifiers "[global::System.Runtime.CompilerServices.MethodImpl(global::System.Runtime.CompilerServices.MethodImplOptions.AggressiveInlining)] public";
+%csmethodmodifiers "[global::System.Runtime.CompilerServices.MethodImpl(
+    global::System.Runtime.CompilerServices.MethodImplOptions.AggressiveInlining)] public";
 %csconst(1);
 
 %rename("$ignore", %$isconstant) "";

@@ -83,7 +83,8 @@ static fe_ray *to_rays(lua_State *L, int index, call_state *call, const char *wh
         int n = 6 * i;
         rays[i] = (fe_ray){0};
         rays[i].origin = (fe_dvec3){at(L, index, n + 1, what), at(L, index, n + 2, what), at(L, index, n + 3, what)};
-        rays[i].translation = (fe_dvec3){at(L, index, n + 4, what), at(L, index, n + 5, what), at(L, index, n + 6, what)};
+        rays[i].translation =
+            (fe_dvec3){at(L, index, n + 4, what), at(L, index, n + 5, what), at(L, index, n + 6, what)};
     }
     return rays;
 }
@@ -96,7 +97,8 @@ static fe_path *to_paths(lua_State *L, int index, call_state *call, const char *
         int n = 10 * i;
         paths[i] = (fe_path){0};
         transform_at(L, index, n + 1, &paths[i].start, what);
-        paths[i].translation = (fe_dvec3){at(L, index, n + 8, what), at(L, index, n + 9, what), at(L, index, n + 10, what)};
+        paths[i].translation =
+            (fe_dvec3){at(L, index, n + 8, what), at(L, index, n + 9, what), at(L, index, n + 10, what)};
     }
     return paths;
 }
@@ -155,7 +157,10 @@ static void put_u64(lua_State *L, int *n, uint64_t value)
     lua_rawseti(L, -2, ++*n);
 }
 
-static void put_vec3(lua_State *L, int *n, const fe_vec3 *v) { put(L, n, (double)v->x), put(L, n, (double)v->y), put(L, n, (double)v->z); }
+static void put_vec3(lua_State *L, int *n, const fe_vec3 *v)
+{
+    put(L, n, (double)v->x), put(L, n, (double)v->y), put(L, n, (double)v->z);
+}
 
 static void put_dvec3(lua_State *L, int *n, const fe_dvec3 *v) { put(L, n, v->x), put(L, n, v->y), put(L, n, v->z); }
 

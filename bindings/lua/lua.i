@@ -179,12 +179,16 @@ FE_OUT_RECORDS
 %typemap(argout) const fe_handle *, const float * ""
 
 // one record for each that goes in; of these, hits may grow and have their stride stated
-%typemap(in, numinputs=0) float *out_floats, fe_transform *out_transforms, fe_hit *out_hits, float *out_heights "$1 = NULL;"
+%typemap(in, numinputs=0) float *out_floats, fe_transform *out_transforms, fe_hit *out_hits,
+    float *out_heights "$1 = NULL;"
 %typemap(check) float *out_floats "$1 = ($1_ltype)new_array(L, call1.count, 7 * sizeof *$1);"
 %typemap(check) fe_transform *out_transforms "$1 = ($1_ltype)new_array(L, call1.count, sizeof *$1);"
 %typemap(check) fe_hit *out_hits "$1 = ($1_ltype)new_array(L, call1.count, sizeof *$1);"
 %typemap(check) float *out_heights "$1 = ($1_ltype)new_heights(L, arg5, arg6);"
-%typemap(argout) float *out_floats { push_floats(L, $1, call1.count * (ends_with("$symname", "transforms_f32") ? 7 : 6)); SWIG_arg++; }
+%typemap(argout) float *out_floats {
+    push_floats(L, $1, call1.count * (ends_with("$symname", "transforms_f32") ? 7 : 6));
+    SWIG_arg++;
+}
 %typemap(argout) float *out_heights { push_floats(L, $1, arg5 * arg6); SWIG_arg++; }
 %exception fe_world_raycast_many {
     arg8 = (uint32_t)sizeof(fe_hit);
@@ -211,7 +215,9 @@ FE_OUT_RECORDS
 }
 %enddef
 %define FE_ALL_HANDLES(FUNCTION, OUT, CAPACITY) FE_ALL(FUNCTION, OUT, (void)0, CAPACITY) %enddef
-%define FE_ALL_RECORDS(FUNCTION, OUT, STRIDE, CAPACITY) FE_ALL(FUNCTION, OUT, STRIDE = (uint32_t)sizeof *OUT, CAPACITY) %enddef
+%define FE_ALL_RECORDS(FUNCTION, OUT, STRIDE, CAPACITY)
+FE_ALL(FUNCTION, OUT, STRIDE = (uint32_t)sizeof *OUT, CAPACITY)
+%enddef
 FE_ALL_HANDLES(fe_world_get_bodies, arg2, arg3)
 FE_ALL_HANDLES(fe_world_get_joints, arg2, arg3)
 FE_ALL_HANDLES(fe_body_get_shapes, arg3, arg4)

@@ -17,7 +17,8 @@ static int call_filter(lua_State *L)
     lua_pushvalue(L, lua_upvalueindex(1));
     lua_insert(L, 1);
     lua_call(L, lua_gettop(L) - 1, 1);
-    if (!lua_isboolean(L, -1)) return fail(L, "feather: the pair filter returned a %s, not true or false", luaL_typename(L, -1));
+    if (!lua_isboolean(L, -1))
+        return fail(L, "feather: the pair filter returned a %s, not true or false", luaL_typename(L, -1));
     return 1;
 }
 

@@ -30,7 +30,8 @@ static size_t raw_length(lua_State *L, int index)
 
 static double to_number(lua_State *L, int index, const char *what)
 {
-    if (lua_type(L, index) != LUA_TNUMBER) fail(L, "feather: %s: a number is needed, not a %s", what, luaL_typename(L, index));
+    if (lua_type(L, index) != LUA_TNUMBER)
+        fail(L, "feather: %s: a number is needed, not a %s", what, luaL_typename(L, index));
     return (double)lua_tonumber(L, index);
 }
 
@@ -117,7 +118,8 @@ static void to_quat(lua_State *L, int t, fe_quat *q, const char *what)
 
 static void transform_at(lua_State *L, int t, int first, fe_transform *value, const char *what)
 {
-    value->position.x = at(L, t, first, what), value->position.y = at(L, t, first + 1, what), value->position.z = at(L, t, first + 2, what);
+    value->position.x = at(L, t, first, what), value->position.y = at(L, t, first + 1, what),
+    value->position.z = at(L, t, first + 2, what);
     quat_at(L, t, first + 3, &value->rotation, what);
 }
 
@@ -172,13 +174,20 @@ static int push_vec3(lua_State *L, const fe_vec3 *v)
 
 static int push_quat(lua_State *L, const fe_quat *q)
 {
-    lua_pushnumber(L, (double)q->x), lua_pushnumber(L, (double)q->y), lua_pushnumber(L, (double)q->z), lua_pushnumber(L, (double)q->w);
+    lua_pushnumber(L, (double)q->x), lua_pushnumber(L, (double)q->y);
+    lua_pushnumber(L, (double)q->z), lua_pushnumber(L, (double)q->w);
     return 4;
 }
 
-static int push_transform(lua_State *L, const fe_transform *t) { return push_dvec3(L, &t->position) + push_quat(L, &t->rotation); }
+static int push_transform(lua_State *L, const fe_transform *t)
+{
+    return push_dvec3(L, &t->position) + push_quat(L, &t->rotation);
+}
 
-static int push_frame(lua_State *L, const fe_frame *f) { return push_vec3(L, &f->position) + push_quat(L, &f->rotation); }
+static int push_frame(lua_State *L, const fe_frame *f)
+{
+    return push_vec3(L, &f->position) + push_quat(L, &f->rotation);
+}
 
 static int push_bounds(lua_State *L, const fe_bounds *b) { return push_dvec3(L, &b->lower) + push_dvec3(L, &b->upper); }
 

@@ -254,7 +254,10 @@ static int32_t judge_pair(void *user, const fe_filter_pair *pair)
 }
 
 /// The world holds its filter; None is no filter.
-static void keep_filter(world_box *box, PyObject *filter) { Py_XSETREF(box->filter, filter == Py_None ? NULL : Py_NewRef(filter)); }
+static void keep_filter(world_box *box, PyObject *filter)
+{
+    Py_XSETREF(box->filter, filter == Py_None ? NULL : Py_NewRef(filter));
+}
 
 // ---- small values ---------------------------------------------------------------------------------------------------
 
@@ -264,10 +267,14 @@ static PyStructSequence_Field vec3_fields[] = {{"x", NULL}, {"y", NULL}, {"z", N
 static PyStructSequence_Field quat_fields[] = {{"x", NULL}, {"y", NULL}, {"z", NULL}, {"w", NULL}, {NULL, NULL}};
 static PyStructSequence_Field transform_fields[] = {{"position", "m"}, {"rotation", "x, y, z, w"}, {NULL, NULL}};
 static PyStructSequence_Field bounds_fields[] = {{"lower", "m"}, {"upper", "m"}, {NULL, NULL}};
-static PyStructSequence_Desc vec3_desc = {"feather_physics.Vec3", "A vector: a tuple with the names x, y, z.", vec3_fields, 3};
-static PyStructSequence_Desc quat_desc = {"feather_physics.Quat", "A rotation: a tuple with the names x, y, z, w.", quat_fields, 4};
-static PyStructSequence_Desc transform_desc = {"feather_physics.Transform", "Position (Vec3, m) and rotation (Quat).", transform_fields, 2};
-static PyStructSequence_Desc bounds_desc = {"feather_physics.Bounds", "Two corners of a box (Vec3, m): lower, upper.", bounds_fields, 2};
+static PyStructSequence_Desc vec3_desc = {"feather_physics.Vec3", "A vector: a tuple with the names x, y, z.",
+                                          vec3_fields, 3};
+static PyStructSequence_Desc quat_desc = {"feather_physics.Quat", "A rotation: a tuple with the names x, y, z, w.",
+                                          quat_fields, 4};
+static PyStructSequence_Desc transform_desc = {"feather_physics.Transform", "Position (Vec3, m) and rotation (Quat).",
+                                               transform_fields, 2};
+static PyStructSequence_Desc bounds_desc = {"feather_physics.Bounds", "Two corners of a box (Vec3, m): lower, upper.",
+                                            bounds_fields, 2};
 
 static int add_types(PyObject *module)
 {
@@ -276,7 +283,8 @@ static int add_types(PyObject *module)
     transform_type = PyStructSequence_NewType(&transform_desc);
     bounds_type = PyStructSequence_NewType(&bounds_desc);
     return !vec3_type || !quat_type || !transform_type || !bounds_type || PyModule_AddType(module, vec3_type) ||
-           PyModule_AddType(module, quat_type) || PyModule_AddType(module, transform_type) || PyModule_AddType(module, bounds_type);
+           PyModule_AddType(module, quat_type) || PyModule_AddType(module, transform_type) ||
+           PyModule_AddType(module, bounds_type);
 }
 
 static PyObject *numbers(PyTypeObject *type, const double *values, Py_ssize_t count)
@@ -294,7 +302,10 @@ static PyObject *numbers(PyTypeObject *type, const double *values, Py_ssize_t co
     return made;
 }
 
-static PyObject *from_vec3(const fe_vec3 *v) { return numbers(vec3_type, (double[]){(double)v->x, (double)v->y, (double)v->z}, 3); }
+static PyObject *from_vec3(const fe_vec3 *v)
+{
+    return numbers(vec3_type, (double[]){(double)v->x, (double)v->y, (double)v->z}, 3);
+}
 
 static PyObject *from_dvec3(const fe_dvec3 *v) { return numbers(vec3_type, (double[]){v->x, v->y, v->z}, 3); }
 
@@ -321,9 +332,15 @@ static PyObject *from_transform(const fe_transform *t)
     return pair_of(transform_type, from_dvec3(&t->position), from_quat(&t->rotation));
 }
 
-static PyObject *from_frame(const fe_frame *f) { return pair_of(transform_type, from_vec3(&f->position), from_quat(&f->rotation)); }
+static PyObject *from_frame(const fe_frame *f)
+{
+    return pair_of(transform_type, from_vec3(&f->position), from_quat(&f->rotation));
+}
 
-static PyObject *from_bounds(const fe_bounds *b) { return pair_of(bounds_type, from_dvec3(&b->lower), from_dvec3(&b->upper)); }
+static PyObject *from_bounds(const fe_bounds *b)
+{
+    return pair_of(bounds_type, from_dvec3(&b->lower), from_dvec3(&b->upper));
+}
 
 /// Reads `count` numbers from any sequence. `what` names the argument in the error.
 static int to_numbers(PyObject *object, double *values, Py_ssize_t count, const char *what)
@@ -331,7 +348,8 @@ static int to_numbers(PyObject *object, double *values, Py_ssize_t count, const 
     PyObject *fast = PyTuple_Check(object) || PyList_Check(object) ? Py_NewRef(object) : PySequence_Tuple(object);
     if (!fast) {
         if (PyErr_ExceptionMatches(PyExc_TypeError))
-            PyErr_Format(PyExc_TypeError, "%s: %zd numbers are needed, not '%s'", what, count, Py_TYPE(object)->tp_name);
+            PyErr_Format(PyExc_TypeError, "%s: %zd numbers are needed, not '%s'", what, count,
+                         Py_TYPE(object)->tp_name);
         return -1;
     }
     Py_ssize_t length = PySequence_Fast_GET_SIZE(fast);
@@ -437,7 +455,8 @@ static int to_double(PyObject *object, double *value, const char *what)
 }
 
 /// An integer within [low, high].
-static int to_integer(PyObject *object, long long low, unsigned long long high, unsigned long long *value, const char *what)
+static int to_integer(PyObject *object, long long low, unsigned long long high, unsigned long long *value,
+                      const char *what)
 {
     int negative = 0;
     PyObject *number = PyLong_Check(object) ? Py_NewRef(object) : PyNumber_Index(object);
@@ -463,8 +482,9 @@ static int to_material(PyObject *object, fe_material *material, const char *what
     unsigned long long number = 0;
     PyObject *tuple = PySequence_Tuple(object);
     if (!tuple) return -1;
-    int read = PyArg_ParseTuple(tuple, "fffff|iiO", &m.static_friction, &m.dynamic_friction, &m.restitution, &m.rolling_resistance,
-                                &m.spinning_resistance, &m.friction_combine, &m.restitution_combine, &id);
+    int read = PyArg_ParseTuple(tuple, "fffff|iiO", &m.static_friction, &m.dynamic_friction, &m.restitution,
+                                &m.rolling_resistance, &m.spinning_resistance, &m.friction_combine,
+                                &m.restitution_combine, &id);
     if (!read) {
         PyErr_Clear();
         PyErr_Format(PyExc_TypeError, "%s: five numbers, two combine modes and an integer are needed", what);
@@ -517,7 +537,8 @@ static int borrow(call_state *call, PyObject *object, size_t record, int flags, 
     if (PyObject_GetBuffer(object, view, flags)) return -1;
     ++call->views;
     if ((size_t)view->len % record) {
-        PyErr_Format(PyExc_ValueError, "%s: %zd bytes are not whole records of %zd", what, view->len, (Py_ssize_t)record);
+        PyErr_Format(PyExc_ValueError, "%s: %zd bytes are not whole records of %zd", what, view->len,
+                     (Py_ssize_t)record);
         return -1;
     }
     // one byte items may be packed records; others must be items of these
@@ -537,7 +558,8 @@ static int format_is(const Py_buffer *view, const char *codes)
 }
 
 /// An array to read. `codes`: the item formats allowed ("" for records).
-static int to_input(call_state *call, PyObject *object, size_t record, const char *codes, const char *what, const void **out_array)
+static int to_input(call_state *call, PyObject *object, size_t record, const char *codes, const char *what,
+                    const void **out_array)
 {
     Py_buffer *view;
     if (borrow(call, object, record, PyBUF_C_CONTIGUOUS | PyBUF_FORMAT, what, &view)) return -1;
@@ -547,7 +569,8 @@ static int to_input(call_state *call, PyObject *object, size_t record, const cha
     }
     int64_t count = (int64_t)((size_t)view->len / record);
     if (call->count >= 0 && call->count != count) {
-        PyErr_Format(PyExc_ValueError, "%s: %lld records where the other array has %lld", what, (long long)count, (long long)call->count);
+        PyErr_Format(PyExc_ValueError, "%s: %lld records where the other array has %lld", what, (long long)count,
+                     (long long)call->count);
         return -1;
     }
     call->count = count;
@@ -556,7 +579,8 @@ static int to_input(call_state *call, PyObject *object, size_t record, const cha
 }
 
 /// An array to fill; None is NULL.
-static int to_output(call_state *call, PyObject *object, size_t record, const char *codes, const char *what, void **out_array)
+static int to_output(call_state *call, PyObject *object, size_t record, const char *codes, const char *what,
+                     void **out_array)
 {
     *out_array = NULL;
     if (object == Py_None) return 0;
@@ -579,7 +603,8 @@ static int array_count(const call_state *call, int32_t *out_count)
     int64_t count = call->count < 0 ? 0 : call->count;
     if (count > INT32_MAX) return fails(FE_ERROR_LIMIT, "an array has more than 2^31 - 1 records");
     if (call->capacity >= 0 && call->capacity < count) {
-        PyErr_Format(PyExc_ValueError, "room for %lld records where %lld are needed", (long long)call->capacity, (long long)count);
+        PyErr_Format(PyExc_ValueError, "room for %lld records where %lld are needed", (long long)call->capacity,
+                     (long long)count);
         return -1;
     }
     *out_count = (int32_t)count;
@@ -598,7 +623,8 @@ static int to_filter(call_state *call, PyObject *object, fe_query_filter *filter
     if (object == Py_None) return 0;
     unsigned int mask, flags;
     PyObject *excluded;
-    if (!PyTuple_Check(object)) return PyErr_SetString(PyExc_TypeError, "filter: a tuple of mask, flags, excluded bodies is needed"), -1;
+    if (!PyTuple_Check(object))
+        return PyErr_SetString(PyExc_TypeError, "filter: a tuple of mask, flags, excluded bodies is needed"), -1;
     if (!PyArg_ParseTuple(object, "IIO;filter: mask, flags, excluded", &mask, &flags, &excluded)) return -1;
     fe_query_filter_init(filter, (uint32_t)sizeof *filter);
     filter->mask = mask;
@@ -620,7 +646,8 @@ static int to_bytes(call_state *call, PyObject *object, size_t count, const char
     if (object == Py_None) return 0;
     Py_buffer *view;
     if (borrow(call, object, 1, PyBUF_C_CONTIGUOUS, what, &view)) return -1;
-    if ((size_t)view->len != count) return PyErr_Format(PyExc_ValueError, "%s: %zu bytes are needed, not %zd", what, count, view->len), -1;
+    if ((size_t)view->len != count)
+        return PyErr_Format(PyExc_ValueError, "%s: %zu bytes are needed, not %zd", what, count, view->len), -1;
     *out_bytes = view->buf;
     return 0;
 }
@@ -651,13 +678,14 @@ static int to_heightfield(call_state *call, PyObject *object, fe_heightfield_def
     PyObject *heights, *holes, *cells, *materials;
     fe_heightfield_def_init(def, (uint32_t)sizeof *def);
     if (!PyTuple_Check(object)) return PyErr_SetString(PyExc_TypeError, "heightfield: a tuple is needed"), -1;
-    if (!PyArg_ParseTuple(object, "iiffOOOO;heightfield", &def->rows, &def->columns, &def->cell_x, &def->cell_z, &heights, &holes, &cells,
-                          &materials))
+    if (!PyArg_ParseTuple(object, "iiffOOOO;heightfield", &def->rows, &def->columns, &def->cell_x, &def->cell_z,
+                          &heights, &holes, &cells, &materials))
         return -1;
     if (def->rows < 2 || def->columns < 2)
         return PyErr_SetString(error_class(FE_ERROR_ARGUMENT), "heightfield: 2 rows and 2 columns at least"), -1;
     const void *samples;
-    size_t count = (size_t)def->rows * (size_t)def->columns, cell_count = (size_t)(def->rows - 1) * (size_t)(def->columns - 1);
+    size_t count = (size_t)def->rows * (size_t)def->columns,
+           cell_count = (size_t)(def->rows - 1) * (size_t)(def->columns - 1);
     if (to_input(call, heights, sizeof(float), "f", "heights", &samples)) return -1;
     if ((size_t)call->count != count) {
         PyErr_Format(PyExc_ValueError, "heights: %zu floats are needed, not %lld", count, (long long)call->count);
@@ -665,7 +693,8 @@ static int to_heightfield(call_state *call, PyObject *object, fe_heightfield_def
     }
     def->heights = samples;
     return to_bytes(call, holes, cell_count, "holes", &def->holes) ||
-                   to_bytes(call, cells, cell_count, "cell_materials", &def->cell_materials) || to_materials(call, materials, def)
+                   to_bytes(call, cells, cell_count, "cell_materials", &def->cell_materials) ||
+                   to_materials(call, materials, def)
                ? -1
                : 0;
 }
@@ -674,7 +703,8 @@ static int to_heightfield(call_state *call, PyObject *object, fe_heightfield_def
 static int heights_fit(int64_t have, int32_t rows, int32_t columns)
 {
     if (rows <= 0 || columns <= 0 || (int64_t)rows * columns <= have) return 0;
-    PyErr_Format(PyExc_ValueError, "heights: %lld floats where %lld are needed", (long long)have, (long long)rows * columns);
+    PyErr_Format(PyExc_ValueError, "heights: %lld floats where %lld are needed", (long long)have,
+                 (long long)rows * columns);
     return -1;
 }
 

@@ -1,4 +1,4 @@
-"""A character walks over hills: a capsule that sweeps move, no rigid body. It slides along walls and stays on ground."""
+"""A character walks over hills: a capsule that sweeps move, no rigid body. It slides on walls and stays on ground."""
 
 from math import sin
 from typing import Tuple

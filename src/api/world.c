@@ -273,8 +273,8 @@ fe_result fe_world_optimize(fe_world *world)
 {
     FE_WRITE_ALONE(world);
     fe__fp_state fp = fe__fp_enter();
-    int32_t built = fe__tree_rebuild(&world->static_tree, &world->memory, 1) &&
-                    fe__tree_rebuild(&world->moving_tree, &world->memory, 1);
+    fe__tree *trees[] = {&world->static_tree, &world->moving_tree};
+    int32_t built = fe__trees_rebuild(trees, 2, &world->memory, 1);
     fe__fp_leave(fp);
     return built ? FE_OK : fe__report(function, FE_ERROR_MEMORY);
 }

@@ -57,9 +57,11 @@ FE_FETCHES fe__tree_fetch(const fe__tree *tree, int32_t proxy)
 void fe__tree_get(const fe__tree *tree, int32_t proxy, fe__bounds *out_box);
 // New boxes for `count` proxies; refits what is above them (all nodes at once when many moved).
 void fe__tree_move(fe__tree *tree, const int32_t *proxies, const fe__bounds *fat, int32_t count);
-// Builds anew when the tree has degenerated (cost, dead nodes, depth, an origin far off), or always when `force`. Needs
-// scratch memory: 0 when there is none, and the tree stays as it was. What was reserved stays reserved.
-int32_t fe__tree_rebuild(fe__tree *tree, fe__memory *memory, int32_t force);
+// Builds anew what of at most FE_TREES trees has degenerated (cost, dead nodes, depth, an origin far off), or all when
+// `force`. Needs scratch memory: 0 when there is none, and every tree stays as it was: a new origin shows in the last
+// bits of the boxes. What was reserved stays reserved.
+enum { FE_TREES = 2 };
+int32_t fe__trees_rebuild(fe__tree *const *trees, int32_t count, fe__memory *memory, int32_t force);
 
 // Proxies whose boxes meet `box`, each once. Depth first; the order is the tree's, so the caller sorts what it keeps.
 // `visit` returns 0 to stop and must not change the tree. Reads only, any thread.

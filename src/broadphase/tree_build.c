@@ -15,9 +15,16 @@ static const double worn_cost = 1.3;      // of the cost when built
 static const double far_origin = 1000.0;  // m: up to there a float is good to 0.1 mm
 static const float largest_scale = 1e30f; // 1/m: centres that are closer are taken for equal
 
-// A box on its way into a node. The fourth lane of `low` holds the proxy's bits.
+// A box on its way into a node, two quads long: the proxy is where the low corner's quad has nothing.
 typedef struct item {
-    fe__quad low, high;
+    union {
+        fe__quad low_and_proxy;
+        struct {
+            float low[3];
+            int32_t proxy;
+        };
+    };
+    fe__quad high;
 } item;
 
 // items [first, first + count) and the box around them
@@ -33,13 +40,12 @@ typedef struct builder {
     int32_t count, capacity, depth;
 } builder;
 
-// ---- cutting a part in two
-// ---------------------------------------------------------------------------------------------------- without the
-// proxy's bits, which make a denormal number that some machines are slow to compute with
+// ---- cutting a part in two ------------------------------------------------------------------------------------------
+// Without the proxy's bits, which make a denormal number that some machines are slow to compute with
 static fe__quad low_of(const item *i)
 {
     const fe__quad_int xyz = {-1, -1, -1, 0};
-    return (fe__quad)((fe__quad_int)i->low & xyz);
+    return (fe__quad)((fe__quad_int)i->low_and_proxy & xyz);
 }
 
 static part nothing(int32_t first) { return (part){fe__quad_set(INFINITY), fe__quad_set(-INFINITY), first, 0}; }
@@ -221,7 +227,7 @@ static int32_t build_node(builder *b, const part *whole, int32_t parent, int32_t
     for (int32_t k = 0; k < count; ++k) {
         int32_t child;
         if (parts[k].count == 1) {
-            child = ~((fe__quad_int)b->items[parts[k].first].low)[3];
+            child = ~b->items[parts[k].first].proxy;
         } else {
             child = build_node(b, &parts[k], index, k, depth + 1);
             if (child < 0) return -1;
@@ -232,9 +238,8 @@ static int32_t build_node(builder *b, const part *whole, int32_t parent, int32_t
     return index;
 }
 
-// ---- when, and from what
-// ------------------------------------------------------------------------------------------------------ The sum of the
-// areas of inner lanes: nodes that a random ray enters, up to a factor.
+// ---- when, and from what --------------------------------------------------------------------------------------------
+// The sum of the areas of inner lanes: nodes that a random ray enters, up to a factor.
 static double cost_of(const fe__tree_node *nodes, int32_t count)
 {
     double sum = 0.0;
@@ -280,8 +285,9 @@ static void collect(const fe__tree *tree, fe_dvec3 shift, item *items)
                                      {(double)box.high[0], (double)box.high[1], (double)box.high[2]}};
                 box = fe__tree_box_of(&shift, &bounds);
             }
-            const fe__quad_int id = {0, 0, 0, ~node->child[lane]}, xyz = {-1, -1, -1, 0};
-            items[count++] = (item){(fe__quad)(((fe__quad_int)box.low & xyz) | id), box.high};
+            item *made = &items[count++];
+            made->low_and_proxy = box.low, made->high = box.high;
+            made->proxy = ~node->child[lane];
         }
     }
 }
@@ -305,29 +311,43 @@ static void adopt(fe__tree *tree, fe__memory *memory, const builder *b, fe_dvec3
     }
 }
 
-int32_t fe__tree_rebuild(fe__tree *tree, fe__memory *memory, int32_t force)
-{
-    if (tree->proxy_count == 0 || (!force && !is_degenerate(tree))) return 1;
-    size_t size = (size_t)tree->proxy_count * sizeof(item);
-    builder b = {.memory = memory, .items = fe__allocate(memory, size)};
-    if (!b.items) return 0;
+static void discard(builder *b) { FE_FREE(b->memory, b->nodes, b->capacity); }
 
-    fe__tree_box all = fe__node_box(&tree->nodes[0]);
-    fe_dvec3 shift = {origin_shift(all, 0), origin_shift(all, 1), origin_shift(all, 2)};
-    collect(tree, shift, b.items);
-    part whole = part_of(b.items, 0, tree->proxy_count);
+// 0: no memory, and nothing is left of it
+static int32_t build(const fe__tree *tree, builder *b, fe_dvec3 shift)
+{
+    size_t size = (size_t)tree->proxy_count * sizeof(item);
+    b->items = fe__allocate(b->memory, size);
+    if (!b->items) return 0;
+    collect(tree, shift, b->items);
+    part whole = part_of(b->items, 0, tree->proxy_count);
     // as many free nodes as before, for insertions that were promised not to fail
     int64_t free_nodes = (int64_t)tree->node_capacity - tree->node_count;
     // as large as before: it must not grow from one build to the next
-    b.nodes = fe__allocate(memory, (size_t)tree->node_capacity * sizeof *b.nodes);
-    b.capacity = b.nodes ? tree->node_capacity : 0;
-    int32_t built = b.nodes && build_node(&b, &whole, -1, 0, 0) == 0 &&
-                    FE_RESERVE(memory, b.nodes, b.capacity, b.count + free_nodes);
-    fe__release(memory, b.items, size);
-    if (!built) {
-        FE_FREE(memory, b.nodes, b.capacity);
+    b->nodes = fe__allocate(b->memory, (size_t)tree->node_capacity * sizeof *b->nodes);
+    b->capacity = b->nodes ? tree->node_capacity : 0;
+    int32_t built = b->nodes && build_node(b, &whole, -1, 0, 0) == 0 &&
+                    FE_RESERVE(b->memory, b->nodes, b->capacity, b->count + free_nodes);
+    fe__release(b->memory, b->items, size);
+    if (!built) discard(b);
+    return built;
+}
+
+int32_t fe__trees_rebuild(fe__tree *const *trees, int32_t count, fe__memory *memory, int32_t force)
+{
+    builder built[FE_TREES] = {{0}};
+    fe_dvec3 shift[FE_TREES];
+    for (int32_t i = 0; i < count; ++i) {
+        const fe__tree *tree = trees[i];
+        if (tree->proxy_count == 0 || (!force && !is_degenerate(tree))) continue;
+        fe__tree_box all = fe__node_box(&tree->nodes[0]);
+        shift[i] = (fe_dvec3){origin_shift(all, 0), origin_shift(all, 1), origin_shift(all, 2)};
+        built[i].memory = memory;
+        if (build(tree, built + i, shift[i])) continue;
+        while (--i >= 0) discard(built + i);
         return 0;
     }
-    adopt(tree, memory, &b, shift);
+    for (int32_t i = 0; i < count; ++i)
+        if (built[i].nodes) adopt(trees[i], memory, built + i, shift[i]);
     return 1;
 }

@@ -60,9 +60,10 @@ static void deflect(const fe__step *step, int32_t body, slide *s, const fe__obst
     end->centre = fe__dadd(at->centre, allowed(s, fe__dsub(end->centre, at->centre)));
     fe_dvec3 base = fe__centre_of(b);
     fe__motion rest = fe__motion_of_shifts(b, at, end, base);
-    fe_dvec3 axis = {(double)rest.turn.x, (double)rest.turn.y, (double)rest.turn.z};
+    fe_dvec3 axis = {(double)rest.angular_displacement.x, (double)rest.angular_displacement.y,
+                     (double)rest.angular_displacement.z};
     fe_dvec3 arm = fe__dsub(o->point, fe__dadd(base, at->centre));
-    if (s->count > 1 || fe__ddot(o->normal, fe__dcross(axis, arm)) > 0.0) end->turn = at->turn;
+    if (s->count > 1 || fe__ddot(o->normal, fe__dcross(axis, arm)) > 0.0) end->rotation = at->rotation;
 }
 
 // From `at` (time `now`) towards `end`; returns where it came to.
@@ -82,11 +83,11 @@ static fe__shift go_on(const fe__step *step, int32_t body, int32_t against, fe__
     }
 }
 
-// A turn not made leaves the spin as the body has it in its own frame: turned with the world's, it would be another
+// A rotation not made leaves the spin as the body has it in its own frame: turned with the world's, it would be another
 // energy
 static void turn_spin(const fe__motion_line *motion, const fe__shift *end, float *spin)
 {
-    fe_quat missing = fe__product(fe__quat_of(motion->rotation), fe__conjugate(end->turn));
+    fe_quat missing = fe__product(fe__quat_of(motion->rotation), fe__conjugate(end->rotation));
     fe_vec3 w = fe__rotate_back(fe__normalized(missing), fe__quad_vector(spin));
     spin[0] = w.x, spin[1] = w.y, spin[2] = w.z;
 }
@@ -102,7 +103,7 @@ static void write_chase(const fe__step *step, const fe__body *body, const fe__sh
     if (!carried) fe__give_back(step->world, body, fe__sub(p, fe__quad_vector(chase->motion.shift)), chase->velocity.v);
     chase->motion = (fe__motion_line){{p.x, p.y, p.z},
                                       chase->motion.gyroscopic,
-                                      {end->turn.x, end->turn.y, end->turn.z, end->turn.w}};
+                                      {end->rotation.x, end->rotation.y, end->rotation.z, end->rotation.w}};
     chase->stopped = 1;
 }
 

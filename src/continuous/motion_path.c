@@ -3,7 +3,7 @@
 
 #include "world/pose.h"
 
-static const fe__shift no_shift = {.turn = {0.0f, 0.0f, 0.0f, 1.0f}};
+static const fe__shift no_shift = {.rotation = {0.0f, 0.0f, 0.0f, 1.0f}};
 
 static fe_quat forwards(fe_quat q) { return q.w < 0.0f ? (fe_quat){-q.x, -q.y, -q.z, -q.w} : q; }
 
@@ -48,7 +48,7 @@ fe__shift fe__shift_between(const fe__shift *a, const fe__shift *b, double t)
     if (t <= 0.0) return *a;
     if (t >= 1.0) return *b;
     return (fe__shift){fe__dadd(a->centre, fe__dscale(t, fe__dsub(b->centre, a->centre))),
-                       forwards(between(a->turn, b->turn, (float)t))};
+                       forwards(between(a->rotation, b->rotation, (float)t))};
 }
 
 fe__shift fe__path_at(const fe__step *step, int32_t body, double time)
@@ -67,9 +67,9 @@ fe__motion fe__motion_of_shifts(const fe__body *body, const fe__shift *from, con
 {
     fe__motion m = {fe__dadd(fe__dsub(fe__centre_of(body), base), from->centre), fe__rotation_of(body),
                     fe__dsub(to->centre, from->centre), fe__identity()};
-    if (!is_still(from->turn)) m.rotation = fe__normalized(fe__product(from->turn, m.rotation));
-    if (!is_still(from->turn) || !is_still(to->turn))
-        m.turn = forwards(fe__normalized(fe__product(to->turn, fe__conjugate(from->turn))));
+    if (!is_still(from->rotation)) m.rotation = fe__normalized(fe__product(from->rotation, m.rotation));
+    if (!is_still(from->rotation) || !is_still(to->rotation))
+        m.angular_displacement = forwards(fe__normalized(fe__product(to->rotation, fe__conjugate(from->rotation))));
     return m;
 }
 
@@ -89,7 +89,7 @@ fe__mobile fe__mobile_of_shape(const fe__step *step, const fe__shape *shape, con
 // An angle is no more than pi times the sine of its half
 static float length_of(const fe__shift *shift, float reach)
 {
-    const fe_quat q = shift->turn;
+    const fe_quat q = shift->rotation;
     return (float)sqrt(fe__ddot(shift->centre, shift->centre)) +
            FE_PI * sqrtf(q.x * q.x + q.y * q.y + q.z * q.z) * reach;
 }

@@ -10,7 +10,7 @@
 // A body's motion since the step began: the shift of its centre, and its rotation, w >= 0.
 typedef struct fe__shift {
     fe_dvec3 centre; // m
-    fe_quat turn;
+    fe_quat rotation;
 } fe__shift;
 
 int32_t fe__path_legs(const fe__step *step, int32_t body);                 // straight pieces

@@ -74,7 +74,7 @@ static int32_t may_close(const search *s, const fe__shape *own, const fe__mobile
     int32_t legs = fe__path_legs(step, s->body);
     for (int32_t leg = 1; leg <= legs; ++leg) {
         fe__shift at = fe__path_place(step, s->body, leg);
-        fe_dvec3 axis = {(double)at.turn.x, (double)at.turn.y, (double)at.turn.z},
+        fe_dvec3 axis = {(double)at.rotation.x, (double)at.rotation.y, (double)at.rotation.z},
                  across = fe__dcross(gap.normal, axis);
         double turning = (double)FE_PI * sqrt(fe__ddot(across, across)) * (double)body->reach;
         if (fe__ddot(gap.normal, at.centre) + turning + 2.0 * FE_TOUCH > gap.distance) return 1;

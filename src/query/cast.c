@@ -116,13 +116,13 @@ static int32_t meet(const fe__scene *scene, const fe__probe *probe, const fe__sh
 // As a float a grazing normal may lean along the way by a rounding: it is turned back until it does not.
 static fe_vec3 against_way(fe_dvec3 normal, fe_dvec3 way)
 {
-    const double turn = 1e-7; // more than a float's rounding
+    const double rounding = 1e-7; // more than a float's rounding
     double square = fe__ddot(way, way);
     fe_vec3 n = fe__narrow(normal);
     if (!(square > 0.0)) return n;
     fe_dvec3 unit = fe__dscale(1.0 / sqrt(square), way);
     for (int32_t i = 0; i < 4 && fe__ddot(fe__widen(n), unit) > 0.0; ++i) {
-        normal = fe__dsub(normal, fe__dscale(fe__ddot(normal, unit) + turn, unit));
+        normal = fe__dsub(normal, fe__dscale(fe__ddot(normal, unit) + rounding, unit));
         n = fe__narrow(normal);
     }
     return n;

@@ -281,11 +281,11 @@ typedef struct fe__body_kernels {
 // What recycling says of a contact
 enum { FE__STAYS, FE__MOVED, FE__STAYS_APART };
 
-// Separations at the start of the step, of length dt, of contacts that moved little. Of contact index[i], out[i] is
-// FE__MOVED when it needs a new manifold; FE__STAYS_APART when it needs none and has no points: it may move on by
-// out_slack[i], m.
+// Separations at the start of the step, of length dt, of contacts that moved little; `fall`: what gravity may add to
+// their motion in it, m. Of contact index[i], out[i] is FE__MOVED when it needs a new manifold; FE__STAYS_APART when it
+// needs none and has no points: it may move on by out_slack[i], m.
 typedef void fe__recycle_kernel(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count,
-                                float dt, uint8_t *out, float *out_slack);
+                                float dt, float fall, uint8_t *out, float *out_slack);
 
 typedef struct fe__kernels {
     int32_t simd, width; // fe_simd, W

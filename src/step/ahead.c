@@ -19,8 +19,9 @@ static fe__mobile mobile_of(const fe_world *world, int32_t shape, float dt, fe_d
     fe__advance(world, body, dt, &centre, &rotation);
     fe__motion m = {fe__dsub(fe__centre_of(body), base), fe__rotation_of(body), fe__dsub(centre, fe__centre_of(body)),
                     fe__identity()};
-    if (body->awake_index >= 0) m.turn = fe__normalized(fe__product(rotation, fe__conjugate(m.rotation)));
-    if (m.turn.w < 0.0f) m.turn = (fe_quat){-m.turn.x, -m.turn.y, -m.turn.z, -m.turn.w};
+    fe_quat q = m.angular_displacement;
+    if (body->awake_index >= 0) q = fe__normalized(fe__product(rotation, fe__conjugate(m.rotation)));
+    m.angular_displacement = q.w < 0.0f ? (fe_quat){-q.x, -q.y, -q.z, -q.w} : q;
     return (fe__mobile){&s->form,
                         fe__dsub(fe__widen(s->local_position), fe__widen(fe__quad_vector(body->local_centre))),
                         s->local_rotation, m};
@@ -36,12 +37,12 @@ static fe__meeting meeting_of(const fe_world *world, int32_t pair, float dt, dou
     return fe__time_of_impact(a, b, limit, impact);
 }
 
-// sine of half the turn until the touch above which a contact says nothing of the bodies as they are now
+// sine of half the angle until the touch above which a contact says nothing of the bodies as they are now
 #define TURNED 0.25f
 
 static int32_t turns_far(const fe__motion *m, double time)
 {
-    fe_quat q = m->turn;
+    fe_quat q = m->angular_displacement;
     return (float)time * sqrtf(q.x * q.x + q.y * q.y + q.z * q.z) > TURNED;
 }
 

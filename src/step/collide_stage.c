@@ -71,13 +71,13 @@ static void collide_chunk(fe__step *step, int32_t *entries, int32_t count)
     int32_t heads[PAIRS_IN_BLOCK], patches[PAIRS_IN_BLOCK * (FE__PATCHES - 1)], head_count = 0, patch_count = 0,
                                                                                 again = 0;
     uint8_t verdicts[PAIRS_IN_BLOCK * (FE__PATCHES - 1)];
-    float slack[PAIRS_IN_BLOCK * (FE__PATCHES - 1)];
+    float slack[PAIRS_IN_BLOCK * (FE__PATCHES - 1)], fall = fe__fall_in_step(w, step->dt);
     for (int32_t i = 0; i < count; ++i) {
         entries[i] = fe__pair_of(entries[i]); // here none waits
         if (!(w->pairs[entries[i]].flags & FE__PAIR_PATCH)) heads[head_count++] = entries[i];
     }
     if (head_count == 0) return;
-    w->kernels->recycle(w->contacts, w->bodies, heads, head_count, step->dt, verdicts, slack);
+    w->kernels->recycle(w->contacts, w->bodies, heads, head_count, step->dt, fall, verdicts, slack);
     for (int32_t i = 0; i < head_count; ++i) {
         if (verdicts[i] == FE__MOVED) {
             heads[again++] = heads[i];
@@ -86,7 +86,7 @@ static void collide_chunk(fe__step *step, int32_t *entries, int32_t count)
         for (int32_t patch = w->pairs[heads[i]].next_patch; patch >= 0; patch = w->pairs[patch].next_patch)
             if (w->contacts[patch].point_count > 0.0f) patches[patch_count++] = patch;
     }
-    if (patch_count) w->kernels->recycle(w->contacts, w->bodies, patches, patch_count, step->dt, verdicts, slack);
+    if (patch_count) w->kernels->recycle(w->contacts, w->bodies, patches, patch_count, step->dt, fall, verdicts, slack);
     for (int32_t i = 0; i < again; ++i) collide_with_patches(step, heads[i]);
     atomic_fetch_add_explicit(&step->scratch->recycled, head_count - again, memory_order_relaxed);
 }
@@ -134,8 +134,8 @@ static int32_t collide_some(fe__step *step, const int32_t *pairs, int32_t count)
     fe_world *w = step->world;
     int32_t again[PAIRS_IN_CACHE], left = 0;
     uint8_t verdicts[PAIRS_IN_CACHE];
-    float slack[PAIRS_IN_CACHE];
-    w->kernels->recycle(w->contacts, w->bodies, pairs, count, step->dt, verdicts, slack);
+    float slack[PAIRS_IN_CACHE], fall = fe__fall_in_step(w, step->dt);
+    w->kernels->recycle(w->contacts, w->bodies, pairs, count, step->dt, fall, verdicts, slack);
     for (int32_t i = 0; i < count; ++i) {
         int32_t pair = pairs[i];
         if (verdicts[i] == FE__STAYS) continue;

@@ -16,7 +16,7 @@
 
 #include <float.h>
 
-enum { BODIES_IN_BLOCK = 64, BOXES_IN_BLOCK = 64, STEPS_BETWEEN_REBUILDS = 8, KEPT_LINES = 256 };
+enum { BODIES_IN_BLOCK = 64, BOXES_IN_BLOCK = 64, KEPT_LINES = 256 };
 
 // ---- poses ---------------------------------------------------------------------------------------------------------
 // q = dq q. A body that did not turn keeps its quaternion: no rounding of what stood still.
@@ -159,10 +159,6 @@ void fe__move_bodies(fe__step *step)
     fe__parallel_for(&w->workers, left, BOXES_IN_BLOCK, box_block, step);
     if (left) fe__tree_move(&w->moving_tree, s->left, s->boxes, left);
     for (int32_t i = 0; i < left; ++i) fe__shape_mark_moved(w, s->left[i]);
-    if (++s->step_count % STEPS_BETWEEN_REBUILDS == 0) {
-        fe__tree_rebuild(&w->moving_tree, &w->memory, 0);
-        fe__tree_rebuild(&w->static_tree, &w->memory, 0);
-    }
 }
 
 // ---- sleep ---------------------------------------------------------------------------------------------------------

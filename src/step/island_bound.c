@@ -56,7 +56,7 @@ int32_t fe__bound_islands(fe__step *step, fe__graph_bound *bound)
         c->is_stale |= step->scratch->candidate_count > 0; // nobody asks, nobody counts
         return 1;
     }
-    if (c->capacity[0] < w->body_capacity) c->is_stale = 1;
+    if (c->body_count < w->body_capacity) c->is_stale = 1;
     if (!fe__clusters_reserve(c, &w->memory, w->body_capacity)) return 0;
     if (!c->is_stale) join_candidates(step);
     bound->largest = c->most;

@@ -45,11 +45,23 @@ static void set_view(fe__view *v, const fe__shape *a, const fe__shape *b, const 
 // Contacts are made once per step. What will touch only later in the step needs its contact now, or it would be found a
 // step late, up to v dt deep.
 
-// how far the pair can close in the step, m
+float fe__fall_in_step(const fe_world *world, float dt) { return fe__length(world->gravity) * dt * dt; }
+
+// speed = |v| + |w| reach; as in recycle.simd.c
+static float speed_by_spin(const fe__body *body) { return body->speed - fe__length(fe__quad_vector(body->velocity)); }
+
 float fe__reach_in_step(const fe_world *world, const fe__body *a, const fe__body *b, float dt)
 {
-    float fall = fe__length(world->gravity) * dt * dt;
-    return (a->speed + b->speed) * dt + fall;
+    fe_vec3 v = fe__sub(fe__quad_vector(a->velocity), fe__quad_vector(b->velocity));
+    return (fe__length(v) + speed_by_spin(a) + speed_by_spin(b)) * dt + fe__fall_in_step(world, dt);
+}
+
+// The same along the normal from the solver's A to its B: while a gap along it stays open, they cannot touch
+static float reach_along(const fe_world *world, const fe__body *a, const fe__body *b, fe_vec3 normal, float dt)
+{
+    fe_vec3 v = fe__sub(fe__quad_vector(a->velocity), fe__quad_vector(b->velocity));
+    return (fe__maxf(fe__dot(normal, v), 0.0f) + speed_by_spin(a) + speed_by_spin(b)) * dt +
+           fe__fall_in_step(world, dt);
 }
 
 typedef struct prediction {
@@ -227,14 +239,14 @@ void fe__write_manifold(const fe_world *world, fe__contact *m, const fe__view *v
     if (ahead) step_back(m, at, a, b);
 }
 
-// without points: not looked at again until the bodies may have moved by `gap`
+// without points: not looked at again until the bodies may have moved by `slack`
 static void write_apart(fe__pair *p, fe__contact *m, const fe__places *at, const fe__body *a, const fe__body *b,
-                        float gap)
+                        float slack)
 {
     fe__contact_forget_impulses(m);
     p->axis = -1; // a kernel's memory begins with the first points, whenever the pair was made: unrelated bodies must
                   // not matter
-    m->surface.tolerance = fe__maxf(gap, 0.0f);
+    m->surface.tolerance = slack;
     note_poses(m, at, a, b);
     set_no_points(m, a, b);
 }
@@ -276,6 +288,18 @@ static int32_t passes(fe__pair *p, const fe__view *v, const fe__manifold *found)
     return !held;
 }
 
+// some way off now, but closing within the step: the normal may turn on that way
+static int32_t may_touch_from_afar(const fe_world *world, const fe__pair *p, const fe__contact *m, const fe__view *v,
+                                   const fe__manifold *found, float dt)
+{
+    if (!found->count || p->flags & FE__PAIR_SENSOR) return 0;
+    float gap = deepest_of(found);
+    if (gap <= FE__TURNS_LITTLE) return 0;
+    fe_vec3 normal = fe__mul(&v->rotation, found->normal);
+    if (m->body_a != v->a->body) normal = fe__neg(normal);
+    return gap <= reach_along(world, world->bodies + m->body_a, world->bodies + m->body_b, normal, dt);
+}
+
 void fe__collide_pair(fe_world *world, int32_t pair, float dt)
 {
     fe__pair *p = world->pairs + pair;
@@ -298,16 +322,14 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
         return;
     }
 
-    // some way off now, but closing: the normal may turn on that way
-    int32_t near = is_near(&found, margin),
-            ahead = found.count && !(p->flags & FE__PAIR_SENSOR) && !is_near(&found, FE__TURNS_LITTLE);
+    int32_t near = is_near(&found, margin), ahead = may_touch_from_afar(world, p, m, &v, &found, dt);
     int32_t fast =
         reach > fe__minf(fe__form_thickness(&x->form), fe__form_thickness(&y->form)) && a->type != FE_BODY_DYNAMIC;
     if (ahead) ahead = (fast ? look_far_ahead : look_ahead)(world, m, dt, &v, &at, &found);
     if (!ahead && !near) {
         float gap =
             found.count ? deepest_of(&found) : found.axis_separation; // with points a kernel leaves the older one
-        write_apart(p, m, &at, a, b, gap - margin);
+        write_apart(p, m, &at, a, b, fe__slack(gap, margin));
         return;
     }
     match_impulses(p, m, &found);

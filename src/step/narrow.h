@@ -3,14 +3,22 @@
 #define FE_STEP_NARROW_H
 #include "step/view.h"
 
-// While a gap of this closes, m, the features of two shapes change little
-#define FE__TURNS_LITTLE 0.005f
-
 static inline void fe__copy3(float *out, fe_vec3 a) { out[0] = a.x, out[1] = a.y, out[2] = a.z; }
+
+// How far a pair without points, a gap of `gap` apart, may move before it is looked at again, m. It comes a little
+// nearer than the margin within which points are made, so that a pair that hovers at the margin is not looked at in
+// each step.
+static inline float fe__slack(float gap, float margin)
+{
+    const float least = 0.875f; // of the margin
+    return fe__maxf(gap - least * margin, 0.0f);
+}
 
 // The narrow phase of one pair, for a step of dt seconds. Only the pair is written.
 void fe__collide_pair(fe_world *world, int32_t pair, float dt);
 
+// how far gravity may bring a body towards another one in the step, m
+float fe__fall_in_step(const fe_world *world, float dt);
 // how far the pair can close in the step, m
 float fe__reach_in_step(const fe_world *world, const fe__body *a, const fe__body *b, float dt);
 // how far a manifold with points may slide or turn before it is looked for anew, m

@@ -259,7 +259,7 @@ void fe__collide_field_pair(fe_world *world, int32_t head, float dt)
             if (ahead) count = add_new_directions(plans, count, &then);
         }
     }
-    float tolerance = ahead ? 0.0f : now.count ? fe__recycle_tolerance(&now.v) : fe__maxf(now.gap - margin, 0.0f);
+    float tolerance = ahead ? 0.0f : now.count ? fe__recycle_tolerance(&now.v) : fe__slack(now.gap, margin);
     if (!count && now.count) tolerance = 0.0f;
     write_records(world, head, plans, count, &now, tolerance);
 }

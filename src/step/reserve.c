@@ -185,6 +185,16 @@ static int32_t reserve_scratch(fe__step *step, const fe__graph_bound *b)
            FE_RESERVE(memory, w->joint_events, w->joint_event_capacity, w->breakable_count);
 }
 
+// Trees that have degenerated are built anew here, where the step may still fail, and last: nothing of a step that
+// fails shows, nor do trees that could not be built.
+static int32_t renew_trees(fe_world *w)
+{
+    enum { STEPS_BETWEEN_LOOKS = 8 };
+    fe__tree *trees[] = {&w->moving_tree, &w->static_tree};
+    if (w->step_number == 0 || w->step_number % STEPS_BETWEEN_LOOKS) return 1;
+    return fe__trees_rebuild(trees, 2, &w->memory, 0);
+}
+
 int32_t fe__reserve_step(fe__step *step)
 {
     fe_world *w = step->world;
@@ -193,6 +203,7 @@ int32_t fe__reserve_step(fe__step *step)
     if (!fe__reserve_pairs(w, step->scratch->candidate_count + step->scratch->candidate_patches) ||
         !reserve_scratch(step, &bound))
         return 0;
-    return bound.bodies == 0 || (fe__bound_islands(step, &bound) &&
-                                 fe__graph_reserve(&w->solver, &w->memory, w->kernels, &bound, w->workers.count));
+    return (bound.bodies == 0 || (fe__bound_islands(step, &bound) &&
+                                  fe__graph_reserve(&w->solver, &w->memory, w->kernels, &bound, w->workers.count))) &&
+           renew_trees(w);
 }

@@ -6,13 +6,15 @@
 
 int32_t fe__clusters_reserve(fe__clusters *c, fe__memory *memory, int32_t bodies)
 {
-    return FE_RESERVE(memory, c->parent, c->capacity[0], bodies) &&
-           FE_RESERVE(memory, c->lanes, c->capacity[1], bodies);
+    if (!FE_RESERVE(memory, c->parent, c->capacity[0], bodies) || !FE_RESERVE(memory, c->lanes, c->capacity[1], bodies))
+        return 0;
+    c->body_count = bodies;
+    return 1;
 }
 
 void fe__clusters_part(fe__clusters *c)
 {
-    for (int32_t i = 0; i < c->capacity[0]; ++i) c->parent[i] = i, c->lanes[i] = 0;
+    for (int32_t i = 0; i < c->body_count; ++i) c->parent[i] = i, c->lanes[i] = 0;
     c->most = c->is_stale = c->has_grown = 0;
 }
 

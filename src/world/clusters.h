@@ -10,7 +10,7 @@
 typedef struct fe__clusters {
     int32_t *parent; // by body: another of its cluster, itself at the root
     int32_t *lanes;  // by root: contacts and parts of joints
-    int32_t capacity[2];
+    int32_t capacity[2], body_count; // of both arrays; how many bodies have a place in both
     int32_t most;      // lanes of one cluster
     int32_t is_stale;  // 1: something was joined that is not in them
     int32_t has_grown; // 1: candidates came since they were made

@@ -13,18 +13,23 @@
 // The same for joints that lock rotations: such a row is a beam, which bends with the cube of its length
 #define HEAVY_BEAM 4.0f
 
+// Levers: the rotation of a body may give way to each of its joints by a share of what the joint's stiffness counts on.
+// A sweep meets one joint after the other. Where these shares add up to more than this, it lets a star of joints swing,
+// and beyond that gain energy from rounding alone. A chain of spheres or boxes has 0.7, a ragdoll less.
+#define HEAVY_LEVERS 1.5f
+
 // A joint with hertz of its own is a spring, unless they are at least those of all that is rigid
 static int32_t is_spring(const fe_world *w, const fe__joint *j)
 {
     return j->hertz > 0.0f && j->hertz < w->tuning.joint_hertz;
 }
 
-// 1: rigid, so that it may be met exactly. Springs are not, nor limits, nor what has no colour of its own
+// 1: rigid, so that it may be met exactly. Springs are not, nor limits
 static int32_t is_edge(const fe_world *w, int32_t joint)
 {
     const fe__joint *j = w->joints.joints + joint;
     const fe__joint_frame *f = w->joints.frames + joint;
-    if (j->colour < 0 || j->colour == FE__JOINT_OVERFLOW || is_spring(w, j)) return 0;
+    if (j->colour < 0 || is_spring(w, j)) return 0;
     if (j->rows & FE__LOCKS) return 1;
     if (!(j->rows >> FE__PART_DISTANCE & 1)) return 0;
     const fe__joint_axis *axis = w->joints.axes[f->axes].axis + FE__AXIS_LINEAR;
@@ -41,7 +46,7 @@ static int32_t is_dynamic(const fe_world *w, int32_t body) { return w->bodies[bo
 // A door hangs on two hinges. The second of one axis locks what the first does, so that it closes no loop: it is left
 // to the sweep.
 #define SAME_WAY 0.001f  // m, a fifth of the linear slop
-#define SAME_TURN 0.001f // rad
+#define SAME_AXIS 0.001f // rad
 
 typedef struct axle {
     fe_vec3 axis, at; // in the frame of one of its bodies
@@ -68,8 +73,8 @@ static int32_t have_one_axle(const fe_world *w, int32_t joint, int32_t other)
     float along[2], same[2];
     for (int k = 0; k < 2; ++k) {
         fe_vec3 between = fe__sub(second[k].at, first[k].at), across = fe__cross(first[k].axis, between);
-        fe_vec3 turn = fe__cross(first[k].axis, second[k].axis);
-        if (fe__dot(across, across) > SAME_WAY * SAME_WAY || fe__dot(turn, turn) > SAME_TURN * SAME_TURN) return 0;
+        fe_vec3 askew = fe__cross(first[k].axis, second[k].axis);
+        if (fe__dot(across, across) > SAME_WAY * SAME_WAY || fe__dot(askew, askew) > SAME_AXIS * SAME_AXIS) return 0;
         along[k] = fe__dot(first[k].axis, between), same[k] = fe__dot(first[k].axis, second[k].axis);
     }
     return same[0] * same[1] > 0.0f && fe__absf(along[1] - along[0]) < SAME_WAY;
@@ -177,6 +182,45 @@ static float heaviest_load(const fe_world *w, const component *c, fe__tree_link 
     return most;
 }
 
+// trace of K_w = -[r] I^-1 [r], what the body's rotation adds to a point's inverse effective mass, 1/kg:
+//     tr K_w = |r|^2 tr I^-1 - r.I^-1 r
+static float give_of_rotation(const fe__body *b, const float *arm)
+{
+    fe_vec3 r = fe__rotate(fe__conjugate(fe__quat_of(b->inertia_axes)), fe__vec3(arm[0], arm[1], arm[2]));
+    float x = 1.0f / b->inertia[0], y = 1.0f / b->inertia[1], z = 1.0f / b->inertia[2];
+    return r.x * r.x * (y + z) + r.y * r.y * (x + z) + r.z * r.z * (x + y);
+}
+
+// Sum over the points that a body is joined at: the part of a point's inverse effective mass (as traces) that is this
+// body's rotation
+static float levers_of(const fe_world *w, int32_t body)
+{
+    const uint32_t points = 1u << FE__PART_POINT | 1u << FE__PART_SLIDE;
+    float sum = 0.0f;
+    for (int32_t i = w->bodies[body].first_joint; i; i = fe__next_joint(w, i, body)) {
+        const fe__joint *j = w->joints.joints + i;
+        float own = 0.0f, all = 0.0f;
+        if (!is_edge(w, i) || !(j->rows & points) || is_second_hinge(w, i)) continue;
+        for (int k = 0; k < 2; ++k) {
+            int32_t end = w->joint_records[i].body[k];
+            if (!is_dynamic(w, end)) continue;
+            float give = give_of_rotation(w->bodies + end, k ? j->arm_b : j->arm_a);
+            all += 3.0f * w->bodies[end].inverse_mass + give;
+            own += end == body ? give : 0.0f;
+        }
+        sum += own / all;
+    }
+    return sum;
+}
+
+static int32_t is_heavy(const fe_world *w, const component *c, fe__tree_link *links)
+{
+    if (heaviest_load(w, c, links) >= 1.0f) return 1;
+    for (int32_t i = 0; i < c->bodies; ++i)
+        if (levers_of(w, links[i].body) > HEAVY_LEVERS) return 1;
+    return 0;
+}
+
 static void keep_tree(fe__forest *f, int32_t count, int32_t heavy)
 {
     for (int32_t i = f->link_count; i < f->link_count + count; ++i) {
@@ -187,15 +231,15 @@ static void keep_tree(fe__forest *f, int32_t count, int32_t heavy)
     f->link_count += count;
 }
 
-// Where a turn would have to answer along a locked axis there are poses from which no way leads on, and near them
-// forces without bound: a spring gives there, an exact solution does not. It never has to where turns about the other
-// two axes are locked as well (a plane, its bodies turn about its normal), or all. Of turns locked about one axis alone
-// no pose tells what they were.
-static int32_t has_way_on(uint32_t locks)
+// A rotation that needs a response along a locked axis has singular poses. Near them forces have no bound: a spring
+// gives there, an exact solution does not. None needs one where all rotations are locked, or two and no translation
+// across the third axis (a plane, whose bodies rotate about its normal), or nothing. A lock of one rotation alone is
+// nonholonomic: no pose records what it allowed.
+static int32_t is_never_singular(uint32_t locks)
 {
     const uint32_t linear = locks & FE_AXIS_ALL, angular = locks >> 3;
-    const int32_t turns = __builtin_popcount(~angular & FE_AXIS_ALL); // axes to turn about
-    return turns == 0 || (turns == 1 && !(linear & angular)) || (turns == 3 && !linear);
+    const int32_t rotations = __builtin_popcount(~angular & FE_AXIS_ALL); // that are free
+    return rotations == 0 || (rotations == 1 && !(linear & angular)) || (rotations == 3 && !linear);
 }
 
 // nor may bodies be locked in different ways
@@ -204,7 +248,7 @@ static int32_t may_be_exact(const fe_world *w, const component *c, const fe__tre
     const float locks = w->bodies[links[0].body].lock_bits;
     for (int32_t i = 1; i < c->bodies; ++i)
         if (w->bodies[links[i].body].lock_bits != locks) return 0;
-    return has_way_on((uint32_t)locks);
+    return is_never_singular((uint32_t)locks);
 }
 
 static void plant(fe_world *w, int32_t body)
@@ -214,7 +258,7 @@ static void plant(fe_world *w, int32_t body)
     component c = explore(w, body, links);
     if (c.edges != c.bodies - 1 || c.anchors > 1) return;
     arrange(w, &c, links);
-    if (may_be_exact(w, &c, links)) keep_tree(f, c.bodies, heaviest_load(w, &c, links) >= 1.0f);
+    if (may_be_exact(w, &c, links)) keep_tree(f, c.bodies, is_heavy(w, &c, links));
 }
 
 static void clear_marks(fe_world *w, int32_t joint)

@@ -71,7 +71,6 @@ typedef struct fe__step_scratch {
     int32_t island_capacity;
     fe__sort_item *sort_items; // two stretches
     int32_t sort_capacity;
-    int32_t step_count;
 } fe__step_scratch;
 
 typedef struct fe__step {

@@ -284,6 +284,49 @@ static void new_heights_are_seen_at_once(void **state)
     OK(fe_world_destroy(world));
 }
 
+// The upper side is all there is of a heightfield: from below it, and over holes only, nothing is the closest point,
+// whoever asks. From above the flat field the closest point is straight below; beside a hole, on the hole's rim.
+static void a_closest_point_is_on_the_upper_side_or_there_is_none(void **state)
+{
+    (void)state;
+    fe_world *world = new_world();
+    fe_heightfield_def d = flat_def();
+    uint8_t holes[CELLS];
+    memset(holes, 1, sizeof holes);
+    d.holes = holes;
+    fe_asset all_holes = 0;
+    OK(fe_heightfield_create(world_store(world), &d, &all_holes));
+    fe_shape nothing = new_terrain(world, all_holes);
+    const fe_dvec3 above = {3.0, 2.0, 0.75}, below = {3.0, -3.0, 0.75}, far_off = {-9e8, 9e8, 9e8};
+    const fe_dvec3 *points[] = {&above, &below, &far_off};
+    fe_closest c = {.distance = 7.0};
+    for (int32_t i = 0; i < 3; ++i) {
+        assert_int_equal(fe_shape_closest_point(world, nothing, points[i], &c), 0);
+        assert_int_equal(fe_world_closest_point(world, points[i], 1e10, NULL, &c), 0);
+    }
+    fe_shape flat_shape = new_terrain(world, new_field(world));
+    fe_body body = 0;
+    OK(fe_shape_get_body(world, flat_shape, &body));
+    assert_int_equal(fe_shape_closest_point(world, flat_shape, &below, &c), 0);
+    assert_int_equal(fe_body_closest_point(world, body, &below, &c), 0);
+    assert_int_equal(fe_world_closest_point(world, &below, 1e10, NULL, &c), 0);
+    FE_TRUE(c.distance == 7.0 && c.shape == 0); // a miss writes nothing
+    HIT(fe_shape_closest_point(world, flat_shape, &above, &c));
+    FE_TRUE(c.distance == 2.0 && c.normal.x == 0.0f && c.normal.y == 1.0f && c.normal.z == 0.0f);
+    HIT(fe_shape_closest_point(world, flat_shape, &far_off, &c));
+    FE_NEAR(c.distance, 9e8 * sqrt(3.0), 10.0); // the field's size
+
+    memset(holes, 0, sizeof holes);
+    holes[COLUMNS - 1 + 1] = 1; // row 1, column 1: 2 <= x <= 4, 0.5 <= z <= 1
+    fe_asset pierced = 0;
+    OK(fe_heightfield_create(world_store(world), &d, &pierced));
+    fe_shape rim = new_terrain(world, pierced);
+    HIT(fe_shape_closest_point(world, rim, &(fe_dvec3){3.0, 0.0, 0.6}, &c));
+    FE_NEAR(c.distance, 0.1, 1e-12);
+    FE_NEAR(c.point.z, 0.5, 1e-12);
+    OK(fe_world_destroy(world));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -294,6 +337,7 @@ int main(void)
         cmocka_unit_test(an_asset_lives_until_its_last_shape_is_gone),
         cmocka_unit_test(rays_tell_the_triangle),
         cmocka_unit_test(new_heights_are_seen_at_once),
+        cmocka_unit_test(a_closest_point_is_on_the_upper_side_or_there_is_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

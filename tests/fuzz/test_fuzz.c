@@ -24,11 +24,25 @@ static void no_stream_of_calls_breaks_a_world(void **state)
 {
     (void)state;
     static uint8_t bytes[STREAM_BYTES];
-    const fuzz_setting alone = {1, FE_SIMD_PLAIN, 0}, together = {4, FE_SIMD_AUTO, 0};
+    const fuzz_setting alone = {1, FE_SIMD_PLAIN, 0, 0}, together = {4, FE_SIMD_AUTO, 0, 0};
     for (uint32_t seed = 0; seed < STREAMS; ++seed) {
         fill(bytes, seed);
         if (fuzz_run(bytes, STREAM_BYTES, &alone) != fuzz_run(bytes, STREAM_BYTES, &together))
             fail_msg("stream %u ends otherwise with more workers", seed);
+    }
+}
+
+// sane values and wild ones: a step that found no memory and is repeated at once is the step that found some
+static void failed_steps_leave_no_trace(void **state)
+{
+    (void)state;
+    static uint8_t bytes[STREAM_BYTES];
+    for (uint32_t seed = 0; seed < STREAMS; ++seed) {
+        fill(bytes, 2 * STREAMS + seed);
+        const int32_t is_wild = (int32_t)(seed % 2);
+        const fuzz_setting calm = {1, FE_SIMD_AUTO, is_wild, 1}, unlucky = {1, FE_SIMD_AUTO, is_wild, 2 + seed};
+        if (fuzz_run(bytes, STREAM_BYTES, &calm) != fuzz_run(bytes, STREAM_BYTES, &unlucky))
+            fail_msg("stream %u ends otherwise when steps are repeated", seed);
     }
 }
 
@@ -37,7 +51,7 @@ static void no_stream_of_wild_values_crashes(void **state)
 {
     (void)state;
     static uint8_t bytes[STREAM_BYTES];
-    const fuzz_setting wild = {4, FE_SIMD_AUTO, 1};
+    const fuzz_setting wild = {4, FE_SIMD_AUTO, 1, 0};
     for (uint32_t seed = 0; seed < STREAMS; ++seed) {
         fill(bytes, STREAMS + seed);
         fuzz_run(bytes, STREAM_BYTES, &wild);
@@ -47,6 +61,7 @@ static void no_stream_of_wild_values_crashes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(no_stream_of_calls_breaks_a_world),
+                                       cmocka_unit_test(failed_steps_leave_no_trace),
                                        cmocka_unit_test(no_stream_of_wild_values_crashes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

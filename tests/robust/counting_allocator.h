@@ -1,4 +1,5 @@
-// counting_allocator.h - an allocator that counts, checks what it is given back, and fails when it is told to.
+// counting_allocator.h - an allocator that counts, checks what it is given back and what was written behind it, and
+// fails when it is told to.
 #ifndef FE_TESTS_COUNTING_ALLOCATOR_H
 #define FE_TESTS_COUNTING_ALLOCATOR_H
 #include "fe_test.h"
@@ -12,24 +13,37 @@ typedef struct counting {
     int64_t blocks, bytes; // out now
     int64_t most_bytes;
     int64_t fail_from, fail_count; // the call with this number fails, and so many from there; 0: none
+    int32_t is_unlucky;            // 1: every second call fails, by chance
+    uint64_t chance;               // state of these draws, not 0
     int64_t failures;
-    int64_t wrong; // releases of another size than the allocation's
+    int64_t wrong; // releases of another size than the allocation's, or of what was written over its end
 } counting;
+
+static int32_t counting_fails(counting *c)
+{
+    if (c->calls >= c->fail_from && c->calls < c->fail_from + c->fail_count) return 1;
+    if (!c->is_unlucky) return 0;
+    c->chance ^= c->chance << 13, c->chance ^= c->chance >> 7, c->chance ^= c->chance << 17;
+    return (int32_t)(c->chance >> 63);
+}
+
+enum { COUNTING_GUARD = 64, COUNTING_MARK = 0x5A }; // bytes behind a block, and what stands in them
 
 // the size stands before the block, which keeps its alignment
 static void *counting_allocate(void *user, uint64_t size, uint64_t alignment)
 {
     counting *c = user;
     c->calls += 1;
-    if (c->calls >= c->fail_from && c->calls < c->fail_from + c->fail_count) {
+    if (counting_fails(c)) {
         c->failures += 1;
         return NULL;
     }
     unsigned char *memory =
-        aligned_alloc((size_t)alignment, (size_t)((size + 2 * alignment - 1) / alignment * alignment));
+        aligned_alloc((size_t)alignment, (size_t)((size + COUNTING_GUARD + 2 * alignment - 1) / alignment * alignment));
     if (!memory) return NULL;
     memcpy(memory, &size, sizeof size);
     memset(memory + alignment, 0xA5, (size_t)size); // nobody may count on zeros
+    memset(memory + alignment + size, COUNTING_MARK, COUNTING_GUARD);
     c->blocks += 1;
     c->bytes += (int64_t)size;
     if (c->bytes > c->most_bytes) c->most_bytes = c->bytes;
@@ -44,7 +58,10 @@ static void counting_release(void *user, void *block, uint64_t size)
     uint64_t given;
     unsigned char *memory = (unsigned char *)block - COUNTING_ALIGNMENT;
     memcpy(&given, memory, sizeof given);
-    if (given != size) c->wrong += 1;
+    const unsigned char *guard = memory + COUNTING_ALIGNMENT + given;
+    int32_t whole = given == size;
+    for (int32_t i = 0; i < COUNTING_GUARD; ++i) whole &= guard[i] == COUNTING_MARK;
+    if (!whole) c->wrong += 1;
     c->blocks -= 1;
     c->bytes -= (int64_t)size;
     free(memory);

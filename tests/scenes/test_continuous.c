@@ -154,6 +154,48 @@ static void a_bullet_hits_a_stack_and_all_stay_before_the_wall(void **state)
     scene_end(&s);
 }
 
+// A kinematic blade of 2 m turns by 80 degrees in a step and carries a resting ball before it. When the step begins,
+// the nearest point of the blade is one by the hub, which hardly moves: the contact there holds nothing off.
+static void a_blade_takes_along_what_rests(void **state)
+{
+    const double from = -1.1, to = 0.3;
+    for (int k = 0; k < 4; ++k) {
+        scene s = scene_begin(state);
+        set_gravity(&s, v3(0, 0, 0));
+        fe_body blade = add_body(&s, FE_BODY_KINEMATIC, box(1, 0.02, 0.3), v3(0, 0, 0), turned(v3(0, 0, 1), from),
+                                 friction(0), WATER);
+        const fe_frame hub = {{1, 0, 0}, {0, 0, 0, 1}};
+        fe_shape shape;
+        MUST(fe_body_get_shapes(s.world, blade, &shape, 1));
+        MUST(fe_shape_set_frame(s.world, shape, &hub));
+        fe_body ball = add_dynamic(&s, sphere(0.1), v3(0.5 + 0.1 * k, 0, 0), UNTURNED, friction(0), WATER);
+        set_velocity(&s, blade, v3(0, 0, 0), v3(0, 0, (to - from) / STEP));
+        run(&s, 1);
+        FE_TRUE(cross(axis_of(&s, blade, v3(1, 0, 0)), position(&s, ball)).z > 0);
+        scene_end(&s);
+    }
+}
+
+// A resting ball before a thin wall is struck by a heavy one at 20 m/s: in the same step it goes more than three radii,
+// and no contact with the wall was found for a ball at rest.
+static void a_struck_ball_stays_before_the_wall(void **state)
+{
+    for (int k = 0; k < 8; ++k) {
+        double x = 0.12 + 0.02 * k;
+        scene s = scene_begin(state);
+        set_gravity(&s, v3(0, 0, 0));
+        add_static(&s, box(0.01, 5, 5), v3(0, 0, 0), UNTURNED, friction(0));
+        fe_body ball = add_dynamic(&s, sphere(0.1), v3(x, 0, 0), UNTURNED, friction(0), WATER);
+        fe_body hammer = add_dynamic(&s, sphere(0.3), v3(x + 0.45, 0, 0), UNTURNED, friction(0), 10 * WATER);
+        set_velocity(&s, hammer, v3(-20, 0, 0), v3(0, 0, 0));
+        for (int step = 0; step < 4; ++step) {
+            run(&s, 1);
+            FE_WITHIN(position(&s, ball).x, 0.01, 1);
+        }
+        scene_end(&s);
+    }
+}
+
 static double hills(double x, double z) { return 0.5 * sin(0.9 * x) * sin(0.7 * z); }
 
 // Height of the surface: each cell's diagonal joins (row, column) and (row + 1, column + 1)
@@ -378,6 +420,46 @@ static void a_wall_gives_no_energy(void **state)
     }
 }
 
+static double ridges(double x, double z)
+{
+    (void)z;
+    return fabs(x - 2 * floor(x / 2) - 1);
+}
+
+// Rough sticks without bounce fall across ridges of 45 degrees at 10 to 300 m/s: what meets the ground at both ends at
+// once has no more energy after any step, as before a wall.
+static void ridges_give_no_energy(void **state)
+{
+    enum { STICKS = 20 };
+    dice d = {10};
+    scene s = scene_begin(state);
+    fe_body sticks[STICKS];
+    double before[STICKS];
+    set_gravity(&s, v3(0, 0, 0));
+    fe_asset asset = make_field(&s, 100, 1, -50, -50, ridges);
+    for (int k = 0; k < STICKS; ++k) {
+        vec place = v3(200.0 * k, 0, 0);
+        place_field(&s, asset, plus(place, v3(-50, 0, -50)), UNTURNED, friction(0.8));
+        double speed = pow(10, uniform(&d, 1, 2.5)), angle = uniform(&d, 0, 60) * DEGREES,
+               around = uniform(&d, 0, 2 * PI);
+        vec way = v3(sin(angle) * cos(around), -cos(angle), sin(angle) * sin(around));
+        double back = (1.5 + uniform(&d, 0, 1) * speed * STEP) / cos(angle);
+        sticks[k] =
+            add_dynamic(&s, box(1, 0.1, 0.1), minus(place, times(back, way)), any_rotation(&d), friction(0.8), WATER);
+        set_velocity(&s, sticks[k], times(speed, way), somewhere(&d, 5));
+        before[k] = totals_of(&s, sticks + k, 1).kinetic;
+    }
+    for (int step = 0; step < 20; ++step) {
+        run(&s, 1);
+        for (int k = 0; k < STICKS; ++k) {
+            double now = totals_of(&s, sticks + k, 1).kinetic;
+            FE_WITHIN(now / before[k], 0, 1.001);
+            before[k] = now;
+        }
+    }
+    scene_end(&s);
+}
+
 // Without friction a ball that grazes a thin wall at 5 degrees and 200 m/s goes on along it at the same speed: of the
 // way along the wall nothing is lost, in no step.
 static void a_glancing_ball_goes_on_along_the_wall(void **state)
@@ -535,6 +617,49 @@ static void thin_triggers_tell_who_went_through(void **state)
     }
 }
 
+static fe_body add_trigger(scene *s, fe_geometry form, vec at, fe_quat rotation)
+{
+    fe_body zone = add_static(s, form, at, rotation, friction(0));
+    fe_shape shape;
+    MUST(fe_body_get_shapes(s->world, zone, &shape, 1));
+    MUST(fe_shape_set_trigger(s->world, shape, 1));
+    MUST(fe_shape_set_events(s->world, shape, FE_SHAPE_EVENTS_TOUCH));
+    return zone;
+}
+
+// Six radii a step through a thin trigger that stands askew: 0.3 m before it, then 0.3 m behind. The ball stays in the
+// trigger's bounds for long after: the exit comes in the next step all the same.
+static void what_was_crossed_is_left_in_the_next_step(void **state)
+{
+    scene s = scene_begin(state);
+    set_gravity(&s, v3(0, 0, 0));
+    fe_body zone = add_trigger(&s, box(0.01, 5, 5), v3(0, 0, 0), turned(v3(0, 0, 1), 45 * DEGREES));
+    fe_body ball = add_dynamic(&s, sphere(0.1), v3(1.5, 0, 0), UNTURNED, friction(0), WATER);
+    set_velocity(&s, ball, v3(-0.6 / STEP, 0, 0), v3(0, 0, 0));
+    for (int step = 0; step < 12; ++step) {
+        run(&s, 1);
+        FE_NEAR(told(&s, zone, ball, FE_EVENT_ENTER), step == 2, 0);
+        FE_NEAR(told(&s, zone, ball, FE_EVENT_EXIT), step == 3, 0);
+    }
+    scene_end(&s);
+}
+
+// Three and a half radii a step: within one the ball comes down through a thin trigger, bounces on the ground, and is
+// up again. It ends as high as it began, 5 cm clear of the trigger, which only its path has met.
+static void a_bounce_through_a_trigger_is_seen(void **state)
+{
+    scene s = scene_begin(state);
+    set_gravity(&s, v3(0, 0, 0));
+    add_ground(&s, bouncy(0, 1));
+    fe_body zone = add_trigger(&s, box(5, 0.005, 5), v3(0, 0.095, 0), UNTURNED);
+    fe_body ball = add_dynamic(&s, sphere(0.1), v3(0, 0.25, 0), UNTURNED, bouncy(0, 1), WATER);
+    set_velocity(&s, ball, v3(0.19 / STEP, -0.3 / STEP, 0), v3(0, 0, 0));
+    run(&s, 1);
+    FE_WITHIN(position(&s, ball).y, 0.21, 0.3);
+    FE_NEAR(told(&s, zone, ball, FE_EVENT_ENTER), 1, 0);
+    scene_end(&s);
+}
+
 // What continuous collision stops, tells its impact: an enter, and a first hit with the speed of what touches. A ball
 // does not turn: with the speed it came with.
 static void a_stopped_body_tells_its_impact(void **state)
@@ -584,6 +709,8 @@ int main(int argc, char **argv)
         TEST(a_bullet_hits_a_stack_and_all_stay_before_the_wall),
         WITH_4_SUBSTEPS(a_bullet_hits_a_stack_and_all_stay_before_the_wall),
         TEST(bullets_stay_before_moving_bodies),
+        EVERY_WAY_UP(a_blade_takes_along_what_rests),
+        EVERY_WAY_UP(a_struck_ball_stays_before_the_wall),
         TEST(fast_bodies_stay_above_hills),
         WITH_4_SUBSTEPS(fast_bodies_stay_above_hills),
         TEST(balls_in_a_room_keep_their_energy),
@@ -592,11 +719,14 @@ int main(int argc, char **argv)
         TEST(an_elastic_impact_loses_no_time),
         TEST(gravity_gives_no_more_than_the_way_gone),
         TEST(a_wall_gives_no_energy),
+        TEST(ridges_give_no_energy),
         TEST(a_glancing_ball_goes_on_along_the_wall),
         TEST(wedges_hold),
         TEST(what_passes_by_is_left_alone),
         TEST(a_bounce_below_a_roof_is_no_hit),
         TEST(thin_triggers_tell_who_went_through),
+        EVERY_WAY_UP(what_was_crossed_is_left_in_the_next_step),
+        EVERY_WAY_UP(a_bounce_through_a_trigger_is_seen),
         TEST(a_stopped_body_tells_its_impact),
     };
     (void)argv;

@@ -116,6 +116,28 @@ static void damping_follows_its_discrete_law(void **state)
     scene_end(&s);
 }
 
+// Above the limit a velocity is cut to it and keeps its direction; below, and for the spin, nothing happens.
+static void the_speed_limit_cuts_and_keeps_the_direction(void **state)
+{
+    const vec fast = v3(300, -900, 400), slow = v3(29, 0, 40), w = v3(0, 70, 0);
+    scene s = scene_begin(state);
+    fe_world_tuning tuning;
+    fe_world_tuning_init(&tuning, sizeof tuning);
+    tuning.max_linear_speed = 50;
+    MUST(fe_world_set_tuning(s.world, &tuning));
+    set_gravity(&s, v3(0, 0, 0));
+    fe_body a = add_dynamic(&s, sphere(0.5), v3(0, 0, 0), UNTURNED, friction(0.6), WATER);
+    fe_body b = add_dynamic(&s, sphere(0.5), v3(0, 0, 9), UNTURNED, friction(0.6), WATER);
+    set_velocity(&s, a, fast, w), set_velocity(&s, b, slow, w);
+    run(&s, 1);
+    double error = 50 * rounding(s.substeps);
+    FE_NEAR(length(minus(velocity(&s, a), times(50 / length(fast), fast))), 0, error);
+    FE_NEAR(length(position(&s, a)), 50 * STEP, error * STEP);
+    FE_NEAR(length(minus(velocity(&s, b), slow)), 0, error);
+    FE_NEAR(length(minus(spin(&s, a), w)), 0, 70 * rounding(s.substeps));
+    scene_end(&s);
+}
+
 // ---- locks ---------------------------------------------------------------------------------------------------------
 
 enum { LINEAR_BITS = 7, ALL_LOCKS = 64 };
@@ -299,6 +321,7 @@ int main(void)
         EVERY_WAY_UP(a_torque_spins_a_box_by_its_principal_moment),
         TEST(damping_follows_its_discrete_law),
         WITH_4_SUBSTEPS(damping_follows_its_discrete_law),
+        EVERY_WAY_UP(the_speed_limit_cuts_and_keeps_the_direction),
         TEST(locked_coordinates_stay_bit_for_bit_and_free_ones_move),
         TEST(the_ground_does_not_hold_what_cannot_move_into_it),
         TEST(locks_taken_off_leave_no_trace),

@@ -208,10 +208,18 @@ void fuzz_check(fuzz *f)
 
 // ---- memory that fails ---------------------------------------------------------------------------------------------
 
+static int32_t fails(fuzz *f)
+{
+    if (f->fail_after > 0) return --f->fail_after == 0;
+    if (!f->is_stepping || f->failures < 2) return 0;
+    f->chance ^= f->chance << 13, f->chance ^= f->chance >> 7, f->chance ^= f->chance << 17;
+    return (int32_t)(f->chance >> 63);
+}
+
 static void *allocate(void *user, uint64_t size, uint64_t alignment)
 {
     fuzz *f = user;
-    if (f->fail_after > 0 && --f->fail_after == 0) return NULL;
+    if (fails(f)) return NULL;
     f->blocks += 1;
     return aligned_alloc((size_t)alignment, (size_t)((size + alignment - 1) / alignment * alignment));
 }
@@ -222,6 +230,18 @@ static void release(void *user, void *memory, uint64_t size)
     (void)size;
     f->blocks -= 1;
     free(memory);
+}
+
+fe_result fuzz_step(fuzz *f, float dt)
+{
+    for (;;) {
+        uint64_t before = world_hash(f);
+        f->is_stepping = 1;
+        fe_result result = fe_world_step(f->world, dt);
+        f->is_stepping = 0;
+        if (result != FE_ERROR_MEMORY || f->failures < 2) return result;
+        if (world_hash(f) != before) fuzz_fail(f, "a failed step changed the world");
+    }
 }
 
 // ---- worlds --------------------------------------------------------------------------------------------------------
@@ -278,6 +298,8 @@ uint64_t fuzz_run(const uint8_t *bytes, size_t size, const fuzz_setting *setting
     f->bytes = bytes;
     f->size = size;
     f->is_wild = setting->is_wild;
+    f->failures = setting->failures;
+    f->chance = UINT64_C(0x9E3779B97F4A7C15) * setting->failures;
     f->told = fe__hash_begin();
     f->call_name = "fe_world_create";
     f->tells = getenv("FE_FUZZ_TELL") != NULL;

@@ -10,6 +10,8 @@ typedef struct fuzz_setting {
     int32_t simd;    // fe_simd
     int32_t is_wild; // 1: every value that the API takes, up to its limits. Results may then overflow, and only crashes
                      // count
+    uint32_t failures; // 0: the stream says which allocations fail. 1: none does. Above: a seed; inside steps every
+                       // second one does, by chance, and a step that failed is repeated at once
 } fuzz_setting;
 
 // Makes a world, calls what the bytes say, checks what must always hold and aborts when it does not. Returns a

@@ -5,9 +5,6 @@
 
 #define COUNT(array) ((int32_t)(sizeof(array) / sizeof *(array)))
 
-// NULL now and then, where a pointer is asked
-static const void *or_null(fuzz *f, const void *pointer) { return fuzz_byte(f) == 1 ? NULL : pointer; }
-
 // ---- definitions ---------------------------------------------------------------------------------------------------
 
 typedef struct long_body_def {
@@ -43,7 +40,7 @@ static fe_body_def some_body(fuzz *f)
     return d;
 }
 
-static fe_geometry some_geometry(fuzz *f)
+fe_geometry fuzz_geometry(fuzz *f)
 {
     fe_geometry g;
     memset(&g, 0, sizeof g);
@@ -85,6 +82,8 @@ static fe_shape_def some_shape(fuzz *f)
     if ((which & 6) == 6) d.frame.position = fuzz_vec3(f), d.frame.rotation = fuzz_quat(f);
     if ((which & 24) == 24) d.layer = fuzz_byte(f) % 5u, d.mask = fuzz_byte(f);
     if (which & 32) d.events = fuzz_byte(f) % 9u;
+    if ((which & 36) == 36)
+        d.pair_filter = fuzz_byte(f) % 3, d.one_way = fuzz_byte(f) % 3, d.one_way_direction = fuzz_vec3(f);
     if ((which & 192) == 192)
         d.trigger = fuzz_byte(f) % 3, d.density = fuzz_float(f), d.surface_velocity = fuzz_vec3(f);
     return d;
@@ -98,7 +97,7 @@ static int32_t step(fuzz *f)
     uint8_t kind = fuzz_byte(f);
     float dt = kind < 240 ? lengths[kind % 8] : fuzz_float(f);
     if (f->steps >= FUZZ_MOST_STEPS) return FE_OK;
-    fe_result result = fe_world_step(f->world, dt);
+    fe_result result = fuzz_step(f, dt);
     if (result == FE_OK) f->steps += 1;
     return result;
 }
@@ -106,8 +105,8 @@ static int32_t step(fuzz *f)
 static int32_t step_some(fuzz *f)
 {
     for (int32_t i = 0; i < 10 && f->steps < FUZZ_MOST_STEPS; ++i, ++f->steps) {
-        fe_result result = fe_world_step(f->world, 1.0f / 60.0f);
-        while (result == FE_ERROR_MEMORY) result = fe_world_step(f->world, 1.0f / 60.0f);
+        fe_result result = fuzz_step(f, 1.0f / 60.0f);
+        while (result == FE_ERROR_MEMORY) result = fuzz_step(f, 1.0f / 60.0f);
         if (result != FE_OK) fuzz_fail(f, "a step fails");
         fuzz_check(f);
     }
@@ -185,7 +184,7 @@ static int32_t query_many(fuzz *f)
     fe_hit hits[MOST];
     fe_ray rays[MOST] = {{.reserved = {0}}};
     fe_path paths[MOST] = {{.reserved = {0}}};
-    fe_geometry g = some_geometry(f);
+    fe_geometry g = fuzz_geometry(f);
     for (int32_t i = 0; i < MOST; ++i) {
         rays[i].origin = fuzz_dvec3(f);
         rays[i].translation = paths[i].translation = fuzz_dvec3(f);
@@ -207,7 +206,7 @@ static int32_t query_forms(fuzz *f)
     enum { MOST = 4 };
     fe_hit hits[MOST];
     fe_body bodies[MOST];
-    fe_geometry g = some_geometry(f);
+    fe_geometry g = fuzz_geometry(f);
     if (fuzz_byte(f) % 8 == 0) g.type = FE_GEOMETRY_SPHERE, g.radius = 0.0f;
     fe_transform t = fuzz_transform(f);
     fe_dvec3 way = fuzz_dvec3(f);
@@ -251,7 +250,8 @@ static int32_t query_points(fuzz *f)
 
 static int32_t fail_memory(fuzz *f)
 {
-    f->fail_after = 1 + fuzz_byte(f) % 8;
+    int32_t which = 1 + fuzz_byte(f) % 8;
+    if (!f->failures) f->fail_after = which;
     return FE_OK;
 }
 
@@ -294,7 +294,7 @@ static int32_t create_shape(fuzz *f)
     memset(&g, 0, sizeof g);
     fe_body body = fuzz_body(f);
     d.def = some_shape(f);
-    g.geometry = some_geometry(f);
+    g.geometry = fuzz_geometry(f);
     d.def.struct_size = fuzz_struct_size(f, sizeof d.def);
     g.geometry.struct_size = fuzz_struct_size(f, sizeof g.geometry);
     fe_shape oldest = f->shapes[f->shape_count % FUZZ_HANDLES];
@@ -487,7 +487,7 @@ static int32_t set_geometry(fuzz *f)
     long_geometry g;
     memset(&g, 0, sizeof g);
     fe_shape shape = fuzz_shape(f);
-    g.geometry = some_geometry(f);
+    g.geometry = fuzz_geometry(f);
     g.geometry.struct_size = fuzz_struct_size(f, sizeof g.geometry);
     return fe_shape_set_geometry(f->world, shape, or_null(f, &g));
 }
@@ -707,6 +707,13 @@ const fuzz_call fuzz_calls[] = {
     {"bulk reads", read_bulk, 0},
     {"bulk writes", write_bulk, 1},
     {"fe_world_get_counters", read_measures, 0},
+    {"fe_world_set_pair_filter", fuzz_set_filter, 0},
+    {"fe_shape_set_pair_filter", fuzz_judge_shape, 0},
+    {"fe_shape_set_one_way", fuzz_set_one_way, 1},
+    {"fe_world_get_bounds, fe_body_get_bounds, fe_shape_get_bounds", fuzz_read_bounds, 0},
+    {"fe_world_overlap_shapes", fuzz_overlap_shapes, 0},
+    {"fe_world_overlap_bounds", fuzz_overlap_bounds, 0},
+    {"fe_shape_get_overlaps", fuzz_read_overlaps, 0},
     {"fe_hinge_joint_create and such", fuzz_create_joint, 1},
     {"a whole joint", fuzz_join, 1},
     {"a whole joint", fuzz_join, 1},

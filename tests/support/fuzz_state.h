@@ -23,6 +23,9 @@ typedef struct fuzz {
     const char *call_name;
     fe__hash told;
     int32_t fail_after; // allocations: the one that brings it to 0 fails
+    uint32_t failures;  // see fuzz_setting
+    uint64_t chance;    // state of its draws
+    int32_t is_stepping;
     int64_t blocks;
     int32_t is_wild;
     int32_t tells;                                          // the environment has FE_FUZZ_TELL: prints each call
@@ -45,6 +48,7 @@ typedef struct fuzz_span {
 
 _Noreturn void fuzz_fail(const fuzz *f, const char *what);
 void fuzz_check(fuzz *f); // all that can be read is a number
+fe_result fuzz_step(fuzz *f, float dt); // fe_world_step, until memory lasts
 uint8_t fuzz_byte(fuzz *f);
 uint32_t fuzz_word(fuzz *f);
 float fuzz_float(fuzz *f);
@@ -59,6 +63,19 @@ fe_shape fuzz_shape(fuzz *f);
 uint32_t fuzz_struct_size(fuzz *f, uint32_t right);
 void fuzz_array(fuzz *f, uint32_t packed, fuzz_span *out); // in f->room, stride and count as a client might give them
 
+// NULL now and then, where a pointer is asked
+static inline const void *or_null(fuzz *f, const void *pointer) { return fuzz_byte(f) == 1 ? NULL : pointer; }
+
+// fuzz_calls.c
+fe_geometry fuzz_geometry(fuzz *f);
+// fuzz_pairs.c
+int32_t fuzz_set_filter(fuzz *f);
+int32_t fuzz_judge_shape(fuzz *f);
+int32_t fuzz_set_one_way(fuzz *f);
+int32_t fuzz_read_bounds(fuzz *f);
+int32_t fuzz_overlap_shapes(fuzz *f);
+int32_t fuzz_overlap_bounds(fuzz *f);
+int32_t fuzz_read_overlaps(fuzz *f);
 // fuzz_terrain.c
 int32_t fuzz_create_field(fuzz *f);
 int32_t fuzz_place_field(fuzz *f);

@@ -50,6 +50,11 @@ static fe__bounds any_box(const place *p)
     return (fe__bounds){{c.x - x, c.y - y, c.z - z}, {c.x + x, c.y + y, c.z + z}};
 }
 
+static int32_t rebuild(fe__tree *tree, fe__memory *memory, int32_t force)
+{
+    return fe__trees_rebuild(&tree, 1, memory, force);
+}
+
 // ---- a tree and what should be in it -------------------------------------------------------------------------------
 typedef struct model {
     fe__tree tree;
@@ -308,7 +313,7 @@ static void change(model *m, fe__memory *memory, const place *p)
     else if (what < 99)
         move_some(m, p, PROXIES);
     else
-        assert_int_equal(fe__tree_rebuild(&m->tree, memory, below(2)), 1);
+        assert_int_equal(rebuild(&m->tree, memory, below(2)), 1);
 }
 
 // Two trees, so that one can be asked with the other's boxes. Now and then everything goes, or moves to another place.
@@ -391,7 +396,7 @@ static void extremes_are_not_missed(double largest_box, int32_t *hits)
         fe__tree_insert(&m->tree, i, &m->box[i]);
         FE_TRUE(fe__tree_holds(&m->tree, i, &m->box[i]));
     }
-    assert_int_equal(fe__tree_rebuild(&m->tree, &memory, below(2)), 1);
+    assert_int_equal(rebuild(&m->tree, &memory, below(2)), 1);
     check_structure(&m->tree);
     for (int32_t i = 0; i < QUERIES; ++i) {
         fe__tree_query(&m->tree, &m->box[i % BOXES], mark, m);
@@ -495,7 +500,7 @@ static void a_tree_deeper_than_the_stack_loses_nothing(void **state)
             FE_TRUE(check_ray(m, (fe_dvec3){-2.0, 0.0, 0.0}, (fe_dvec3){4.0, 0.0, 0.0}, 1.0));
             m->box[nearest].low.x = -0.5;
         }
-        assert_int_equal(fe__tree_rebuild(&m->tree, &memory, 0), 1); // too deep
+        assert_int_equal(rebuild(&m->tree, &memory, 0), 1); // too deep
         FE_WITHIN(m->tree.depth, 0, 30);
         fe__tree_destroy(&m->tree, &memory);
         free(m);
@@ -609,7 +614,7 @@ static void it_is_shallow_in_whatever_order_proxies_come(void **state)
         }
         check_structure(&tree);
         FE_WITHIN(tree.depth, 4, 14); // 8^5 < 60 000
-        assert_int_equal(fe__tree_rebuild(&tree, &memory, 1), 1);
+        assert_int_equal(rebuild(&tree, &memory, 1), 1);
         check_structure(&tree);
         FE_WITHIN(tree.depth, 5, 14);
         fe__tree_destroy(&tree, &memory);
@@ -640,21 +645,21 @@ static void a_worn_tree_is_built_anew_and_a_good_one_is_left_alone(void **state)
         fe__tree_insert(&tree, i, &boxes[i]);
     }
     int64_t allocations = memory.allocations;
-    assert_int_equal(fe__tree_rebuild(&tree, &memory, 0), 1); // it was never built
+    assert_int_equal(rebuild(&tree, &memory, 0), 1); // it was never built
     FE_TRUE(memory.allocations > allocations);
     allocations = memory.allocations;
-    assert_int_equal(fe__tree_rebuild(&tree, &memory, 0), 1); // it is as built
+    assert_int_equal(rebuild(&tree, &memory, 0), 1); // it is as built
     assert_int_equal(memory.allocations, allocations);
 
     for (int32_t i = 0; i < N; ++i) boxes[i] = any_box(&p); // neighbours scatter
     fe__tree_move(&tree, proxies, boxes, N);
-    assert_int_equal(fe__tree_rebuild(&tree, &memory, 0), 1);
+    assert_int_equal(rebuild(&tree, &memory, 0), 1);
     FE_TRUE(memory.allocations > allocations);
     allocations = memory.allocations;
 
     for (int32_t i = 0; i < N * 19 / 20; ++i) fe__tree_remove(&tree, i); // most nodes are dead
     FE_TRUE(tree.dead > tree.node_count / 4);
-    assert_int_equal(fe__tree_rebuild(&tree, &memory, 0), 1);
+    assert_int_equal(rebuild(&tree, &memory, 0), 1);
     FE_TRUE(memory.allocations > allocations && tree.dead == 0);
     check_structure(&tree);
     fe__tree_destroy(&tree, &memory);
@@ -724,9 +729,9 @@ static void the_origin_follows_at_a_rebuild(void **state)
         fe__tree_insert(&tree, i, &boxes[i]);
         boxes[i].low.x += 1e7, boxes[i].high.x += 1e7;
     }
-    assert_int_equal(fe__tree_rebuild(&tree, &memory, 1), 1);
+    assert_int_equal(rebuild(&tree, &memory, 1), 1);
     fe__tree_move(&tree, proxies, boxes, 10); // all together: the cost stays
-    assert_int_equal(fe__tree_rebuild(&tree, &memory, 0), 1);
+    assert_int_equal(rebuild(&tree, &memory, 0), 1);
     const double cell =
         1024.0; // of the grid of origins; floats at 10^7 m are 1 m apart, and boxes grow by 2^-23 of that
     FE_NEAR(tree.origin.x, 1e7 + 45.5, 0.5 * cell + 4.0);
@@ -745,7 +750,7 @@ static void the_origin_follows_at_a_rebuild(void **state)
         fe__tree_remove(&tree, 0);
         other.high.x += 7.3;
         fe__tree_insert(&tree, 0, &other);
-        assert_int_equal(fe__tree_rebuild(&tree, &memory, 1), 1);
+        assert_int_equal(rebuild(&tree, &memory, 1), 1);
     }
     fe__tree_get(&tree, 7, &after);
     assert_memory_equal(&before, &after, sizeof before);
@@ -829,7 +834,7 @@ static int32_t refuse_builds(model *m, host *h, fe__memory *memory, const place 
     fe__tree before = m->tree;
     int64_t bytes = memory->bytes;
     int32_t allowed = 0;
-    for (h->allowed = 0; !fe__tree_rebuild(&m->tree, memory, 1); h->allowed = ++allowed) {
+    for (h->allowed = 0; !rebuild(&m->tree, memory, 1); h->allowed = ++allowed) {
         assert_memory_equal(&m->tree, &before, sizeof before);
         assert_memory_equal(m->tree.nodes, nodes, size);
         assert_int_equal(memory->bytes, bytes);
@@ -905,9 +910,9 @@ static void what_is_reserved_fits(void **state)
             fe__bounds box = any_box(&p);
             fe__tree_insert(&tree, i, &box);
         }
-        if (round & 1) assert_int_equal(fe__tree_rebuild(&tree, &memory, 1), 1);
+        if (round & 1) assert_int_equal(rebuild(&tree, &memory, 1), 1);
         assert_int_equal(fe__tree_reserve(&tree, &memory, N, N / 2), 1);
-        if (round & 2) assert_int_equal(fe__tree_rebuild(&tree, &memory, 1), 1);
+        if (round & 2) assert_int_equal(rebuild(&tree, &memory, 1), 1);
         h.allowed = 0;
         for (int32_t i = N / 2; i < N; ++i) {
             fe__bounds box = any_box(&p);
@@ -960,7 +965,7 @@ static void the_last_reserved_nodes_are_not_spent_on_the_first_splits(void **sta
         boxes[i] = (fe__bounds){{x, y, z}, {x + 1.0, y + 1.0, z + 1.0}};
         fe__tree_insert(&tree, i, &boxes[i]);
     }
-    assert_int_equal(fe__tree_rebuild(&tree, &memory, 1), 1);
+    assert_int_equal(rebuild(&tree, &memory, 1), 1);
     assert_int_equal(tree.node_count, 1 + 8 + 64);
     assert_int_equal(fe__tree_reserve(&tree, &memory, CUBE + MORE, MORE), 1);
     int32_t capacity = tree.node_capacity;

@@ -14,8 +14,8 @@ typedef struct fe__nearest {
 
 fe__nearest fe__form_nearest(const fe__form *form, fe_dvec3 point);
 
-// The nearest point of a heightfield's upper side, no farther than `limit`: 1. From below a triangle it is not seen: a
-// point under the surface has none.
+// The nearest point of a heightfield's upper side, no farther than `limit`, which may be infinite: 1. From below a
+// triangle it is not seen: a point under all of them has none, and a field of holes has none for any point.
 int32_t fe__heightfield_nearest(const fe__heightfield *field, fe_dvec3 point, double limit, fe__nearest *nearest);
 
 #endif

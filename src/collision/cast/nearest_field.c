@@ -45,6 +45,6 @@ int32_t fe__heightfield_nearest(const fe__heightfield *f, fe_dvec3 point, double
         width = fe__mind(width, limit);
         nearest_in(f, point, width, nearest);
         if (nearest->distance <= width) return 1;
-        if (width >= limit || width >= all) return nearest->distance <= limit;
+        if (width >= limit || width >= all) return nearest->triangle >= 0 && nearest->distance <= limit;
     }
 }

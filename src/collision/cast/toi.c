@@ -7,17 +7,18 @@
 // pi (2 l / e)^(1/2) steps: 450 at a ten-thousandth of its length.
 enum { MOST_ADVANCES = 512 };
 
-static fe_quat part_of_turn(fe_quat turn, double s)
+static fe_quat part_of(fe_quat rotation, double s)
 {
     float t = (float)s;
-    return (fe_quat){t * turn.x, t * turn.y, t * turn.z, 1.0f + t * (turn.w - 1.0f)};
+    return (fe_quat){t * rotation.x, t * rotation.y, t * rotation.z, 1.0f + t * (rotation.w - 1.0f)};
 }
 
 fe__pose fe__motion_at(const fe__motion *m, double s)
 {
     fe__pose pose = {fe__dadd(m->centre, fe__dscale(s, m->translation)), m->rotation};
-    if (m->turn.x != 0.0f || m->turn.y != 0.0f || m->turn.z != 0.0f)
-        pose.rotation = fe__normalized(fe__product(part_of_turn(m->turn, s), m->rotation));
+    const fe_quat q = m->angular_displacement;
+    if (q.x != 0.0f || q.y != 0.0f || q.z != 0.0f)
+        pose.rotation = fe__normalized(fe__product(part_of(q, s), m->rotation));
     return pose;
 }
 
@@ -36,19 +37,21 @@ static double reach_of(const fe__mobile *mobile)
     return (double)fe__form_reach(&core, fe__narrow(fe__drotate_back(mobile->rotation, fe__dscale(-1.0, mobile->arm))));
 }
 
-// With the half angle f, the rotation of normalize(1 + s (turn - 1)) is fastest at s = 1/2: 4 tan(f / 2) = 4 sin f / (1
-// + cos f), rad. The axis stands still, so that a point at r moves along n by  n.(w x r) = (n x w).r.
+// With the angular displacement q and its half angle f, normalize(1 + s (q - 1)) rotates fastest at s = 1/2:
+// 4 tan(f / 2) = 4 sin f / (1 + cos f), rad. The axis stands still, so that a point at r moves along n by
+// n.(w x r) = (n x w).r.
 static double turning_along(const fe__mobile *mobile, double reach, fe_dvec3 n)
 {
-    fe_quat turn = mobile->motion.turn;
-    fe_dvec3 axis = {(double)turn.x, (double)turn.y, (double)turn.z}, across = fe__dcross(n, axis);
-    return 4.0 / (1.0 + (double)turn.w) * sqrt(fe__ddot(across, across)) * reach;
+    fe_quat q = mobile->motion.angular_displacement;
+    fe_dvec3 axis = {(double)q.x, (double)q.y, (double)q.z}, across = fe__dcross(n, axis);
+    return 4.0 / (1.0 + (double)q.w) * sqrt(fe__ddot(across, across)) * reach;
 }
 
 // Speed along n, m per unit of s, of a point at p on the body as it is at s
 static double speed_there(const fe__motion *m, double s, fe_dvec3 p, fe_dvec3 n)
 {
-    fe_dvec3 spin = {2.0 * (double)m->turn.x, 2.0 * (double)m->turn.y, 2.0 * (double)m->turn.z};
+    const fe_quat q = m->angular_displacement;
+    fe_dvec3 spin = {2.0 * (double)q.x, 2.0 * (double)q.y, 2.0 * (double)q.z};
     fe_dvec3 arm = fe__dsub(p, fe__dadd(m->centre, fe__dscale(s, m->translation)));
     return fe__ddot(n, fe__dadd(m->translation, fe__dcross(spin, arm)));
 }

@@ -7,13 +7,13 @@
 #define FE_COLLISION_CAST_TOI_H
 #include "collision/form/form.h"
 
-// From one pose of a body to another: the centre goes straight, the rotation with it: normalize(1 + s (turn - 1))
-// rotation, turn.w >= 0.
+// From one pose of a body to another: the centre goes straight, the rotation with it:
+// normalize(1 + s (angular_displacement - 1)) rotation, angular_displacement.w >= 0.
 typedef struct fe__motion {
-    fe_dvec3 centre;      // m, at s = 0; near the origin of the caller's frame
-    fe_quat rotation;     // unit
-    fe_dvec3 translation; // m, until s = 1
-    fe_quat turn;         // unit
+    fe_dvec3 centre;              // m, at s = 0; near the origin of the caller's frame
+    fe_quat rotation;             // unit, at s = 0
+    fe_dvec3 translation;         // m, until s = 1
+    fe_quat angular_displacement; // unit, until s = 1
 } fe__motion;
 
 typedef struct fe__mobile {

@@ -10,6 +10,8 @@
 #include "core/math.h"
 
 enum { FE__POINTS = 4 };
+// While a gap of this closes, m, the features of two shapes change little
+#define FE__TURNS_LITTLE 0.005f
 #define FE__FOLLOWS (-1e15f)
 // found ahead of time, at the poses of the touch: good for one step. Its square is 0
 #define FE__AHEAD (-1e-30f)

@@ -45,7 +45,7 @@ typedef struct {
     wide distance; // separation where the bodies are now: they move only before relax
     wide mass;     // m_i = 1 / K_ii, 0 for a point that is not there
     wide impulse;
-} point_row;
+} contact_point;
 
 typedef struct {
     side a, b;

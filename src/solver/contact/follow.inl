@@ -78,7 +78,7 @@ FE_INLINE void NAMED(find_masses)(const ROW *row, const pair *p, int kind, MASSE
     arm arms[POINTS];
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
-        const point_row *q = row->point + i;
+        const contact_point *q = row->point + i;
         arms[i] = NAMED(arm_of)(row, load3(q->r), p->span, p->normal, kind);
         wide mass = NAMED(mass_along)(p, linear + angular_response(arms + i, arms + i, kind), kind);
         out->point[i] = w_choose(w_greater(q->mass, zero), mass, zero);

@@ -16,7 +16,7 @@ FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int3
     wide3 weighted = w_zero3();
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
-        point_row *q = row->point + i;
+        contact_point *q = row->point + i;
         wide3 r = w_xyz(w_gather(m->point[i].arm, CONTACT_STRIDE, index));
         wide_mask there = w_greater(points, w_set((float)i));
         store3(q->r, r);

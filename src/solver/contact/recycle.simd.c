@@ -60,6 +60,48 @@ FE_INLINE wide spans_of(const fe__body *bodies, const int32_t *a)
     return *(const wide *)spans;
 }
 
+typedef struct {
+    const fe__body *bodies;
+    const int32_t *a, *b;
+    centres at_a, at_b;
+} sides;
+
+// How far the pair may come together in a step, m, by its centres and by its spins: along the normal, and at all. The
+// same as in narrow.c, speed being |v| + |w| reach
+typedef struct {
+    wide along, at_all;
+} approach;
+
+FE_INLINE approach approach_of(const sides *s, wide3 n, float dt)
+{
+    wide3 va = w_xyz(w_gather(s->bodies->velocity, BODY_STRIDE, s->a)),
+          vb = w_xyz(w_gather(s->bodies->velocity, BODY_STRIDE, s->b)), v = w_sub(va, vb);
+    wide spins = (s->at_a.low.w - w_sqrt(w_dot(va, va))) + (s->at_b.low.w - w_sqrt(w_dot(vb, vb)));
+    return (approach){dt * (w_max(w_dot(n, v), w_set(0.0f)) + spins), dt * (w_sqrt(w_dot(v, v)) + spins)};
+}
+
+// of the points that there are
+FE_INLINE wide least_separation(const wide4 *separation, wide count)
+{
+    wide none = w_set(FLT_MAX),
+         one_two = w_min(separation->x, w_choose(w_greater(count, w_set(1.0f)), separation->y, none));
+    return w_min(one_two, w_min(w_choose(w_greater(count, w_set(2.0f)), separation->z, none),
+                                w_choose(w_greater(count, w_set(3.0f)), separation->w, none)));
+}
+
+// How far the pair may have moved since its manifold was found, m. Without points the bodies must not be able to meet
+// in this step either. Where a wide gap may close in it, the manifold is to be that of the touch (narrow.c)
+FE_INLINE wide limit_of(const sides *s, wide4 normal, wide tolerance, wide least, float dt, float fall)
+{
+    wide zero = w_set(0.0f);
+    wide_mask apart = w_not(w_greater(normal.w, zero));
+    wide_mask open = w_and(w_greater(least, w_set(FE__TURNS_LITTLE)), w_greater(tolerance, zero));
+    if (!w_any(w_or(apart, open))) return tolerance;
+    approach most = approach_of(s, w_xyz(normal), dt);
+    wide_mask closes = w_and(open, w_not(w_greater(least, most.along + fall)));
+    return w_choose(apart, w_max(tolerance - most.at_all, zero), w_choose(closes, zero, tolerance));
+}
+
 FE_INLINE wide separation_now(const wide4 *point, wide constant, wide3 slope)
 {
     return point->w + (constant + w_dot(slope, w_xyz(*point)));
@@ -67,7 +109,7 @@ FE_INLINE wide separation_now(const wide4 *point, wide constant, wide3 slope)
 
 // As in rows.inl: s = s0 + n.shift + (nB - nA).r + nB.span + rhoA nA.n + rhoB nB.n with nX = R(dqX)^T n - n
 static void recycle_block(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, float dt,
-                          uint8_t *out, float *out_slack)
+                          float fall, uint8_t *out, float *out_slack)
 {
     _Alignas(64) int32_t a[FE_W], b[FE_W];
     for (int i = 0; i < FE_W; ++i) a[i] = contacts[index[i]].body_a, b[i] = contacts[index[i]].body_b;
@@ -75,8 +117,8 @@ static void recycle_block(fe__contact *contacts, const fe__body *bodies, const i
           found = CONTACT_QUAD(found_span);
     wide4 found_a, found_b, point[FE__POINTS];
     w_gather_both(contacts->found_a, CONTACT_STRIDE, index, &found_a, &found_b);
-    centres at_a = centres_of(bodies, a), at_b = centres_of(bodies, b);
-    wide3 n = w_xyz(normal), shift = shift_since_found(&at_a, &at_b, w_xyz(found), w_xyz(CONTACT_QUAD(found_low)));
+    sides s = {bodies, a, b, centres_of(bodies, a), centres_of(bodies, b)};
+    wide3 n = w_xyz(normal), shift = shift_since_found(&s.at_a, &s.at_b, w_xyz(found), w_xyz(CONTACT_QUAD(found_low)));
     wide4 rotation_a = rotation_since_found(bodies, a, found_a), rotation_b = rotation_since_found(bodies, b, found_b);
     // a static A has its arms from B's centre: no span between them, and it does not rotate
     wide3 arms_span = w_choose3(w_greater(w_set(0.5f), spans_of(bodies, a)), w_zero3(), w_xyz(found));
@@ -90,13 +132,14 @@ static void recycle_block(fe__contact *contacts, const fe__body *bodies, const i
     wide3 slide = w_sub_scaled(shift, along, n);
     wide turned = w_dot(w_xyz(rotation_a), w_xyz(rotation_a)) + w_dot(w_xyz(rotation_b), w_xyz(rotation_b));
     wide moved = 3.0f * (w_dot(slide, slide) + 4.0f * found.w * found.w * turned), zero = w_set(0.0f);
-    // without points the bodies must not be able to meet in this step either
-    wide travel = dt * (at_a.low.w + at_b.low.w);
-    wide limit = w_choose(w_greater(normal.w, zero), surface.w, w_max(surface.w - travel, zero));
+    for (int i = 0; i < FE__POINTS; i += 2)
+        w_gather_both(contacts->point[i].arm, CONTACT_STRIDE, index, point + i, point + i + 1);
+    wide4 separation = {separation_now(point, constant, slope), separation_now(point + 1, constant, slope),
+                        separation_now(point + 2, constant, slope), separation_now(point + 3, constant, slope)};
+    wide limit = limit_of(&s, normal, surface.w, least_separation(&separation, normal.w), dt, fall);
     // a patch of a heightfield goes with its head: its tolerance is below 0
     wide most_along = w_choose(w_greater(zero, surface.w), w_set(FLT_MAX), w_set(MOST_ALONG));
     unsigned far = w_bits(w_or(w_not(w_greater(limit * limit, moved)), w_greater(w_abs(along), most_along)));
-
     unsigned apart = w_bits(w_not(w_greater(normal.w, zero)));
 
     _Alignas(64) float now[FE_W][FE__POINTS];
@@ -105,10 +148,6 @@ static void recycle_block(fe__contact *contacts, const fe__body *bodies, const i
         *(wide *)slack = surface.w - w_sqrt(moved);
         for (int i = 0; i < count; ++i) out_slack[i] = slack[i];
     }
-    for (int i = 0; i < FE__POINTS; i += 2)
-        w_gather_both(contacts->point[i].arm, CONTACT_STRIDE, index, point + i, point + i + 1);
-    wide4 separation = {separation_now(point, constant, slope), separation_now(point + 1, constant, slope),
-                        separation_now(point + 2, constant, slope), separation_now(point + 3, constant, slope)};
     w_scatter(now[0], FE__POINTS, w_in_order, separation);
     for (int i = 0; i < count; ++i) {
         out[i] = (uint8_t)(far >> i & 1 ? FE__MOVED : apart >> i & 1 ? FE__STAYS_APART : FE__STAYS);
@@ -125,15 +164,15 @@ FE_INLINE void fetch_ahead(const fe__contact *m)
 fe__recycle_kernel FE_NAME(fe__recycle);
 
 void FE_NAME(fe__recycle)(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, float dt,
-                          uint8_t *out, float *out_slack)
+                          float fall, uint8_t *out, float *out_slack)
 {
     int32_t i = 0;
     for (; i + FE_W <= count; i += FE_W) {
         for (int32_t k = i + FE_W; k < count && k < i + 2 * FE_W; ++k) fetch_ahead(contacts + index[k]);
-        recycle_block(contacts, bodies, index + i, FE_W, dt, out + i, out_slack + i);
+        recycle_block(contacts, bodies, index + i, FE_W, dt, fall, out + i, out_slack + i);
     }
     if (i == count) return;
     int32_t rest[FE_W] = {0};
     for (int32_t k = i; k < count; ++k) rest[k - i] = index[k];
-    recycle_block(contacts, bodies, rest, count - i, dt, out + i, out_slack + i);
+    recycle_block(contacts, bodies, rest, count - i, dt, fall, out + i, out_slack + i);
 }

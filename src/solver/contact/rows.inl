@@ -29,7 +29,7 @@ typedef struct ROW {
     int32_t line_a[FE_W], line_b[FE_W];
     wide normal[3];
     wide span[3]; // centre of A - centre of B
-    point_row point[POINTS];
+    contact_point point[POINTS];
     wide coupling[POINTS == 1 ? 1 : 6]; // m_j K_ij for i < j: 01 02 03 12 13 23
     wide_sym inertia_b, inertia_a;      // inverse, world. A copy streams faster than a gather
     // relax only
@@ -212,7 +212,7 @@ FE_INLINE wide3 NAMED(sweep_points)(ROW *row, wide *request, const wide *scale, 
     if (POINTS > 1) NAMED(predict_points)(row, request, scale);
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
-        point_row *q = row->point + i;
+        contact_point *q = row->point + i;
         wide impulse = w_max(request[i], zero), change = impulse - q->impulse;
         q->impulse = impulse;
         UNROLL for (int j = i + 1; j < POINTS; ++j)
@@ -248,7 +248,7 @@ FE_INLINE void NAMED(requests)(ROW *row, const fe__step_constants *c, const pair
     affine velocity = NAMED(normal_velocity)(p);
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
-        const point_row *q = row->point + i;
+        const contact_point *q = row->point + i;
         wide3 r = load3(q->r);
         wide vn = at(&velocity, r), distance = q->distance, ahead = distance * c->inverse_h;
         if (kind & FE__ROW_SPECIAL) NAMED(record_touch)((SPECIAL_ROW *)row, i, q->impulse, vn, distance, c, !soft);
@@ -281,7 +281,7 @@ FE_INLINE wide NAMED(gain_of)(const SPECIAL_ROW *x, const wide *before, const af
     wide gain = w_set(0.0f);
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
-        const point_row *q = x->row.point + i;
+        const contact_point *q = x->row.point + i;
         wide3 r = load3(q->r);
         gain = gain + (q->impulse - before[i]) * (0.5f * (at(was, r) + at(is, r)) + flight);
     }
@@ -446,7 +446,7 @@ FE_INLINE void NAMED(forget_touched)(SPECIAL_ROW *x, const wide *old, wide part,
     wide zero = w_set(0.0f);
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
-        point_row *q = row->point + i;
+        contact_point *q = row->point + i;
         row->total[i] = row->total[i] + w_choose(touched, part * (q->impulse - old[i]), zero);
         q->impulse = w_choose(touched, zero, old[i]);
         x->approach[i] = zero;
@@ -465,7 +465,7 @@ FE_INLINE void NAMED(sweep_bounce)(ROW *row, pair *p, const wide *target, int ki
         wide request[POINTS], sum;
         UNROLL for (int i = 0; i < POINTS; ++i)
         {
-            const point_row *q = row->point + i;
+            const contact_point *q = row->point + i;
             request[i] = q->impulse - q->mass * (at(&velocity, load3(q->r)) - target[i]);
         }
         wide3 moment = NAMED(sweep_points)(row, request, 0, &sum);

@@ -40,24 +40,6 @@ static int32_t sort_overflow(fe__builder *b, int32_t k)
     return n;
 }
 
-static void open_part(fe__builder *b, fe__batch *batch, int32_t part, int32_t overflowing, const fe__kernels *kernels)
-{
-    enum { KEYS = FE__JOINT_COLOURS * FE__SIDES };
-    fe__solver *s = b->s;
-    int32_t first = part * (FE__JOINT_COLOURS + 1) * FE__SIDES;
-    for (int32_t key = first; key < first + KEYS; ++key) {
-        if (!b->joint_key_count[key]) continue;
-        b->joint_key_group[key] = s->group_count;
-        b->joint_key_count[key] = open_joints(b, batch, key, b->joint_key_count[key], kernels)->lane;
-    }
-    for (int32_t i = 0; i < overflowing; ++i) {
-        int32_t joint = s->sort_items[i].value;
-        const fe__joint *j = b->in->joints->joints + joint;
-        if (j->rows >> part & 1)
-            s->lanes[open_joints(b, batch, joint_key(part, j), 1, kernels)->lane] = joint_lane(b, joint);
-    }
-}
-
 // ---- trees ----------------------------------------------------------------------------------------------------------
 static int32_t link_of(const fe__builder *b, int32_t joint)
 {
@@ -65,15 +47,20 @@ static int32_t link_of(const fe__builder *b, int32_t joint)
     return f->link_count ? f->link_of[joint] : FE__NONE;
 }
 
-// A link's bodies, and a tree's group, when the first of its links comes by
-static void open_link(fe__builder *b, fe__batch *batch, int32_t link, fe__lane lane)
+static void set_bodies(fe__builder *b, int32_t link, fe__lane lane)
+{
+    int32_t holds_b = b->in->joints->forest.links[link].holds_b;
+    b->s->places[link] = (fe__tree_place){.line = holds_b ? lane.line_b : lane.line_a,
+                                          .parent_line = holds_b ? lane.line_a : lane.line_b};
+}
+
+// a tree's group, when the first of its links comes by
+static void open_tree(fe__builder *b, fe__batch *batch, int32_t link)
 {
     fe__solver *s = b->s;
     const fe__forest *f = &b->in->joints->forest;
     const fe__tree_link *l = f->links + link;
     int32_t first = f->trees[l->tree].first, count = f->trees[l->tree].count, rootless = !f->links[first].joint;
-    s->places[link] = (fe__tree_place){.line = l->holds_b ? lane.line_b : lane.line_a,
-                                       .parent_line = l->holds_b ? lane.line_a : lane.line_b};
     if (link != first + rootless) return;
     batch->row_bytes = fe__whole_blocks(batch->row_bytes);
     if (rootless)
@@ -101,12 +88,32 @@ static void add_lock(const fe__builder *b, int32_t link, int32_t part, int32_t g
     p->lock[p->locks++].row = g->offset + (int64_t)((lane - g->lane) / b->width) * kernels->joint->of[part].row_size;
 }
 
+static void open_part(fe__builder *b, fe__batch *batch, int32_t part, int32_t overflowing, const fe__kernels *kernels)
+{
+    enum { KEYS = FE__JOINT_COLOURS * FE__SIDES };
+    fe__solver *s = b->s;
+    int32_t first = part * (FE__JOINT_COLOURS + 1) * FE__SIDES;
+    for (int32_t key = first; key < first + KEYS; ++key) {
+        if (!b->joint_key_count[key]) continue;
+        b->joint_key_group[key] = s->group_count;
+        b->joint_key_count[key] = open_joints(b, batch, key, b->joint_key_count[key], kernels)->lane;
+    }
+    for (int32_t i = 0; i < overflowing; ++i) {
+        int32_t joint = s->sort_items[i].value, link = link_of(b, joint);
+        const fe__joint *j = b->in->joints->joints + joint;
+        if (!(j->rows >> part & 1)) continue;
+        int32_t group = s->group_count, lane = open_joints(b, batch, joint_key(part, j), 1, kernels)->lane;
+        s->lanes[lane] = joint_lane(b, joint);
+        if (link >= 0) add_lock(b, link, part, group, lane, kernels);
+    }
+}
+
 static void fill_joint_lanes(fe__builder *b, fe__batch *batch, int32_t joint, const fe__kernels *kernels)
 {
     const fe__joint *j = b->in->joints->joints + joint;
     fe__lane lane = joint_lane(b, joint);
     int32_t link = link_of(b, joint);
-    if (link >= 0) open_link(b, batch, link, lane);
+    if (link >= 0) set_bodies(b, link, lane), open_tree(b, batch, link);
     for (int32_t part = 0; part < FE__PARTS; ++part) {
         if (!(j->rows >> part & 1)) continue;
         int32_t key = joint_key(part, j), at = b->joint_key_count[key]++;
@@ -126,7 +133,15 @@ void fe__graph_joint_groups(fe__builder *b, int32_t k, const fe__kernels *kernel
             b->joint_key_count[joint_key(part, j)] += (int32_t)(j->rows >> part & 1);
     }
     int32_t overflowing = sort_overflow(b, k);
+    for (int32_t i = 0; i < overflowing; ++i) {
+        int32_t joint = b->s->sort_items[i].value, link = link_of(b, joint);
+        if (link >= 0) set_bodies(b, link, joint_lane(b, joint));
+    }
     for (int32_t part = 0; part < FE__PARTS; ++part) open_part(b, batch, part, overflowing, kernels);
+    for (int32_t i = 0; i < overflowing; ++i) {
+        int32_t link = link_of(b, b->s->sort_items[i].value);
+        if (link >= 0) open_tree(b, batch, link);
+    }
     for (int32_t i = b->joint_start[k]; i < b->joint_start[k + 1]; ++i) {
         const fe__joint *j = b->in->joints->joints + b->joint_order[i];
         if (j->colour != FE__JOINT_OVERFLOW) fill_joint_lanes(b, batch, b->joint_order[i], kernels);
