@@ -4,6 +4,7 @@
 // so that everything below is float and small. Only the pair's own records are written.
 #include "step/narrow.h"
 
+#include "collision/form/support.h"
 #include "collision/manifold/collide.h"
 #include "step/ahead.h"
 #include "step/narrow_seam.h"
@@ -215,11 +216,16 @@ float fe__recycle_tolerance(const fe__view *v)
                     RECYCLE_SHARE * fe__minf(fe__form_thickness(&v->a->form), fe__form_thickness(&v->b->form)));
 }
 
+// A manifold's normal points away from fe__collide's A; the solver's A may be the other one
+static fe_vec3 solvers_normal(const fe__contact *m, const fe__view *v, fe_vec3 normal)
+{
+    fe_vec3 n = fe__mul(&v->rotation, normal);
+    return m->body_a != v->a->body ? fe__neg(n) : n;
+}
+
 static void write_contact(fe__contact *m, const fe__view *v, const fe__manifold *found, int32_t a_is_b)
 {
-    // the manifold's normal points away from fe__collide's A; the solver's A may be the other one
-    fe_vec3 normal = fe__mul(&v->rotation, found->normal);
-    fe__copy3(m->normal, a_is_b ? fe__neg(normal) : normal);
+    fe__copy3(m->normal, solvers_normal(m, v, found->normal));
     m->point_count = (float)found->count;
     m->surface.radius_a = a_is_b ? v->b->form.radius : v->form_a.radius;
     m->surface.radius_b = a_is_b ? v->form_a.radius : v->b->form.radius;
@@ -239,16 +245,46 @@ void fe__write_manifold(const fe_world *world, fe__contact *m, const fe__view *v
     if (ahead) step_back(m, at, a, b);
 }
 
-// without points: not looked at again until the bodies may have moved by `slack`
-static void write_apart(fe__pair *p, fe__contact *m, const fe__places *at, const fe__body *a, const fe__body *b,
-                        float slack)
+// A gap between two shapes without points: of two planes with this normal that have the shapes beyond them; without a
+// normal, of the shapes
+typedef struct gap {
+    float distance; // m
+    fe_vec3 normal; // unit, from fe__collide's A to its B, A's frame; or (0, 0, 0)
+} gap;
+
+// with points a kernel leaves the older axis_separation
+static gap gap_of(const fe__view *v, const fe__manifold *found)
 {
+    if (!found->count) return (gap){found->axis_separation, found->normal};
+    if (fe__form_is_unbounded(&v->form_a)) return (gap){deepest_of(found), found->normal};
+    fe_vec3 n = found->normal, from_b = fe__neg(fe__mul_transposed(&v->relative.rotation, n));
+    fe_vec3 on_a = fe__narrow(fe__form_support(&v->form_a, fe__widen(n))),
+            on_b = fe__narrow(fe__form_support(&v->b->form, fe__widen(from_b)));
+    on_b = fe__add(v->relative.position, fe__mul(&v->relative.rotation, on_b));
+    return (gap){fe__dot(n, fe__sub(on_b, on_a)) - v->form_a.radius - v->b->form.radius, n};
+}
+
+// From a body's centre of mass to the farthest point of a shape's core, m. The round layer about it reaches no farther
+// when it turns
+static float arm_of(const fe__body *body, const fe__shape *shape)
+{
+    fe_vec3 from_shape = fe__sub(fe__quad_vector(body->local_centre), shape->local_position);
+    return fe__form_reach(&shape->form, fe__rotate_back(shape->local_rotation, from_shape)) - shape->form.radius;
+}
+
+// without points: not looked at again until the bodies may have closed `slack` of their gap
+static void write_apart(fe__pair *p, fe__contact *m, const fe__view *v, const fe__places *at, const fe__body *a,
+                        const fe__body *b, float slack, fe_vec3 normal)
+{
+    int32_t a_is_b = m->body_a != v->a->body;
     fe__contact_forget_impulses(m);
     p->axis = -1; // a kernel's memory begins with the first points, whenever the pair was made: unrelated bodies must
                   // not matter
     m->surface.tolerance = slack;
     note_poses(m, at, a, b);
     set_no_points(m, a, b);
+    fe__copy3(m->normal, normal);
+    m->surface.radius_a = arm_of(a, a_is_b ? v->b : v->a), m->surface.radius_b = arm_of(b, a_is_b ? v->a : v->b);
 }
 
 static int32_t is_near(const fe__manifold *found, float distance)
@@ -295,8 +331,7 @@ static int32_t may_touch_from_afar(const fe_world *world, const fe__pair *p, con
     if (!found->count || p->flags & FE__PAIR_SENSOR) return 0;
     float gap = deepest_of(found);
     if (gap <= FE__TURNS_LITTLE) return 0;
-    fe_vec3 normal = fe__mul(&v->rotation, found->normal);
-    if (m->body_a != v->a->body) normal = fe__neg(normal);
+    fe_vec3 normal = solvers_normal(m, v, found->normal);
     return gap <= reach_along(world, world->bodies + m->body_a, world->bodies + m->body_b, normal, dt);
 }
 
@@ -318,7 +353,7 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
     fe__mend_seam(world, &v, fe__maxf(margin, reach), &found);
     p->axis = found.axis, p->axis_separation = found.axis_separation;
     if (p->flags & FE__PAIR_DENIED || passes(p, &v, &found)) {
-        write_apart(p, m, &at, a, b, 0.0f);
+        write_apart(p, m, &v, &at, a, b, 0.0f, fe__vec3(0.0f, 0.0f, 0.0f));
         return;
     }
 
@@ -327,9 +362,8 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
         reach > fe__minf(fe__form_thickness(&x->form), fe__form_thickness(&y->form)) && a->type != FE_BODY_DYNAMIC;
     if (ahead) ahead = (fast ? look_far_ahead : look_ahead)(world, m, dt, &v, &at, &found);
     if (!ahead && !near) {
-        float gap =
-            found.count ? deepest_of(&found) : found.axis_separation; // with points a kernel leaves the older one
-        write_apart(p, m, &at, a, b, fe__slack(gap, margin));
+        gap left = gap_of(&v, &found);
+        write_apart(p, m, &v, &at, a, b, fe__slack(left.distance, margin), solvers_normal(m, &v, left.normal));
         return;
     }
     match_impulses(p, m, &found);

@@ -150,7 +150,7 @@ static void touch_face(const seam *s, fe_vec3 f, float sign, fe__manifold *found
         if (vertex[i].height <= s->margin) vertex[near++] = vertex[i];
     }
     found->count = fe__reduce_to_four(vertex, near, tie);
-    found->normal = fe__scale(sign, f);
+    if (found->count) found->normal = fe__scale(sign, f);
     for (int32_t i = 0; i < found->count; ++i) {
         fe_vec3 p = fe__add_scaled(fe__add_scaled(reference.vertex[0], vertex[i].u, frame.x), vertex[i].v, frame.y);
         found->points[i] = (fe__manifold_point){fe__add_scaled(p, 0.5f * vertex[i].height, f), vertex[i].height,
@@ -171,7 +171,8 @@ static void take_open_face(const seam *s, const fe_vec3 *q, fe_vec3 m, float sig
     }
     found->count = 0;
     found->axis = -1;
-    found->axis_separation = s->margin; // look again in the next step
+    found->axis_separation = 0.0f; // look again in the next step
+    found->normal = fe__vec3(0.0f, 0.0f, 0.0f);
     if (most > -FLT_MAX && most <= s->margin) touch_face(s, best, sign, found);
 }
 

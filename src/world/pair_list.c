@@ -61,8 +61,11 @@ void fe__pair_look_once(fe_world *world, int32_t pair)
     end_deferral(world, pair);
 }
 
+// Without points: a gap was measured from the centre as it was
 void fe__body_end_deferrals(fe_world *world, int32_t body)
 {
-    for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, body))
+    for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, body)) {
         end_deferral(world, pair);
+        if (!(world->contacts[pair].point_count > 0.0f)) world->contacts[pair].surface.tolerance = 0.0f;
+    }
 }

@@ -99,8 +99,9 @@ static void assert_laws(const fe__form *a, const fe__form *b, const fe__relative
     fail();
 }
 
-// What every manifold obeys: a unit normal, points with names of their own, none beyond the margin, each midway between
-// two points of the surfaces, which are a radius out from the cores along the normal.
+// What every manifold obeys: a unit normal, without points one that parts the forms as far as it says; points with
+// names of their own, none beyond the margin, each midway between two points of the surfaces, which are a radius out
+// from the cores along the normal.
 static void check_manifold(const fe__form *a, const fe__form *b, const fe__relative *r, const fe__manifold *m,
                            double tolerance)
 {
@@ -110,7 +111,8 @@ static void check_manifold(const fe__form *a, const fe__form *b, const fe__relat
     core_a.radius = core_b.radius = 0.0f;
     LAW(m->count >= 0 && m->count <= FE_MAX_POINTS);
     if (m->count == 0) {
-        LAW(fe__ddot(n, n) == 0.0);
+        LAW(fe__ddot(n, n) == 0.0 || fe__absd(fe__ddot(n, n) - 1.0) <= 2e-6);
+        LAW(fe__ddot(n, n) == 0.0 || gap_along(a, b, &f, n) >= (double)m->axis_separation - tolerance);
         return;
     }
     LAW(fe__absd(fe__ddot(n, n) - 1.0) <= 2e-6);

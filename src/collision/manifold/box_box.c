@@ -120,6 +120,38 @@ static float separation_along(const box_pair *q, int32_t axis)
     return edge_row(q, (axis - EDGE) / 3)[(axis - EDGE) % 3];
 }
 
+// sin^2 of the angle between A_i and B_j, and the parts along A_u and A_v of the unit normal A_i x B_j, from A to B
+typedef struct edge_normal {
+    float square, u, v;
+} edge_normal;
+
+static edge_normal edge_normal_of(const box_pair *q, int32_t u, int32_t v, int32_t j)
+{
+    float nu = -q->row[v][j], nv = q->row[u][j], square = nu * nu + nv * nv, inverse = 1.0f / sqrtf(square);
+    if (nu * q->t[u] + nv * q->t[v] < 0.0f) inverse = -inverse;
+    return (edge_normal){square, nu * inverse, nv * inverse};
+}
+
+static const int8_t next[5] = {0, 1, 2, 0, 1};
+
+// unit, from A to B, of boxes that the axis separates
+static fe_vec3 normal_along(const box_pair *q, int32_t axis)
+{
+    float n[3] = {0.0f, 0.0f, 0.0f};
+    if (axis < FACE_B) {
+        n[axis] = q->t[axis] < 0.0f ? -1.0f : 1.0f;
+    } else if (axis < EDGE) {
+        wide b = q->column[axis - FACE_B], along = b * q->t;
+        float sign = along[0] + along[1] + along[2] < 0.0f ? -1.0f : 1.0f;
+        for (int32_t k = 0; k < 3; ++k) n[k] = sign * b[k];
+    } else {
+        int32_t i = (axis - EDGE) / 3, u = next[i + 1], v = next[i + 2];
+        edge_normal e = edge_normal_of(q, u, v, (axis - EDGE) % 3);
+        n[u] = e.u, n[v] = e.v;
+    }
+    return fe__vec3(n[0], n[1], n[2]);
+}
+
 // ---- a face against a face
 // ---------------------------------------------------------------------------------------------------------- Two boxes
 // seen from the one whose face is the reference.
@@ -149,8 +181,6 @@ static face_view view_from_b(const box_pair *q)
     }
     return view;
 }
-
-static const int8_t next[5] = {0, 1, 2, 0, 1};
 
 // The face of the other box that looks most against the reference face f, in the frame (u, v, height over f).
 static fe__parallelogram incident_face(const face_view *q, int32_t f, int32_t u, int32_t v, float side)
@@ -247,10 +277,8 @@ static void touch_edges(const box_pair *q, int32_t axis, float separation, float
 {
     int32_t i = (axis - EDGE) / 3, j = (axis - EDGE) % 3, u = next[i + 1], v = next[i + 2], k = next[j + 1],
             l = next[j + 2];
-    float nu = -q->row[v][j], nv = q->row[u][j], square = nu * nu + nv * nv, inverse = 1.0f / sqrtf(square);
-    if (nu * q->t[u] + nv * q->t[v] < 0.0f) inverse = -inverse;
-    nu *= inverse, nv *= inverse;
-    float n[3], pa[3];
+    edge_normal e = edge_normal_of(q, u, v, j);
+    float nu = e.u, nv = e.v, square = e.square, n[3], pa[3];
     n[i] = 0.0f, n[u] = nu, n[v] = nv;
     pa[i] = 0.0f, pa[u] = nu > 0.0f ? q->a[u] : -q->a[u], pa[v] = nv > 0.0f ? q->a[v] : -q->a[v];
 
@@ -291,7 +319,10 @@ void fe__collide_box_box(const fe__form *a, const fe__form *b, const fe__relativ
     box_pair q = make_pair(a, b, b_in_a);
     if (manifold->axis >= 0) {
         float now = separation_along(&q, manifold->axis);
-        if (now > margin) return;
+        if (now > margin) {
+            fe__stay_apart(manifold, now, normal_along(&q, manifold->axis));
+            return;
+        }
         if (is_kept(&q, manifold->axis, now, manifold->axis_separation)) {
             touch_faces(&q, manifold->axis, margin, manifold);
             if (manifold->count > 0) return;
@@ -301,7 +332,10 @@ void fe__collide_box_box(const fe__form *a, const fe__form *b, const fe__relativ
     int32_t axis = find_axis(&q, margin, &separation);
     manifold->axis = axis;
     manifold->axis_separation = separation;
-    if (separation > margin) return;
+    if (separation > margin) {
+        manifold->normal = normal_along(&q, axis);
+        return;
+    }
     if (axis < EDGE)
         touch_faces(&q, axis, margin, manifold);
     else

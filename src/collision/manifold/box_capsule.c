@@ -131,7 +131,8 @@ void fe__collide_box_capsule(const fe__form *a, const fe__form *b, const fe__rel
         square += d[i] * d[i];
     }
     if (square > limit * limit) {
-        fe__stay_apart(manifold, sqrtf(square) - b->radius);
+        float distance = sqrtf(square);
+        fe__stay_apart(manifold, distance - b->radius, fe__direction(fe__vec3(d[0], d[1], d[2]), distance));
         return;
     }
     // Nearer than 1/100 of the radius, rounding (of c, against large boxes) starts to turn d: the general way computes

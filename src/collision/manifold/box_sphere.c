@@ -27,7 +27,8 @@ void fe__collide_box_sphere(const fe__form *a, const fe__form *b, const fe__rela
             d = fe__sub(c, nearest);
     float square = fe__dot(d, d), limit = b->radius + margin;
     if (square > limit * limit) {
-        fe__stay_apart(manifold, sqrtf(square) - b->radius);
+        float distance = sqrtf(square);
+        fe__stay_apart(manifold, distance - b->radius, fe__direction(d, distance));
         return;
     }
     if (!(square > 0.0f)) {

@@ -12,7 +12,7 @@ void fe__collide_capsule_sphere(const fe__form *a, const fe__form *b, const fe__
     fe_vec3 d = {b_in_a->position.x, b_in_a->position.y - y, b_in_a->position.z};
     float distance = fe__length(d), separation = distance - a->radius - b->radius;
     if (separation > margin) {
-        fe__stay_apart(manifold, separation);
+        fe__stay_apart(manifold, separation, fe__direction(d, distance));
         return;
     }
     manifold->normal = fe__direction(d, distance);
@@ -59,7 +59,7 @@ void fe__collide_capsule_capsule(const fe__form *a, const fe__form *b, const fe_
     fe_vec3 on_a = {0.0f, s, 0.0f}, d = fe__sub(fe__add_scaled(c, t, e), on_a);
     float distance = fe__length(d), radii = a->radius + b->radius, separation = distance - radii;
     if (separation > margin) {
-        fe__stay_apart(manifold, separation);
+        fe__stay_apart(manifold, separation, fe__direction(d, distance));
         return;
     }
     const float clear = 1e-6f; // of the radii: nearer cores have a direction of rounding errors

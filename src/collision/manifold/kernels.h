@@ -39,8 +39,12 @@ static inline fe_vec3 fe__direction(fe_vec3 d, float length)
     return length > no_length ? fe__vec3(d.x / length, d.y / length, d.z / length) : fe__vec3(1.0f, 0.0f, 0.0f);
 }
 
-// should no point be added, the forms are `separation` apart, or more
-static inline void fe__stay_apart(fe__manifold *manifold, float separation) { manifold->axis_separation = separation; }
+// should no point be added, the forms are `separation` apart along the unit normal from A to B
+static inline void fe__stay_apart(fe__manifold *manifold, float separation, fe_vec3 normal)
+{
+    manifold->axis_separation = separation;
+    manifold->normal = normal;
+}
 
 static inline void fe__add_point(fe__manifold *manifold, fe_vec3 point, float separation, uint32_t id)
 {

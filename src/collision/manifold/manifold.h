@@ -13,9 +13,9 @@ typedef struct fe__manifold_point {
 
 // Of one pair. The caller keeps `axis` and `axis_separation` from step to step and passes them in: a kernel may try
 // them first. Without points, axis_separation comes out as a distance that the forms are not closer than, so that the
-// caller need not ask again before they moved as far.
+// caller need not ask again before they moved as far; with a normal they are so far apart along it.
 typedef struct fe__manifold {
-    fe_vec3 normal; // unit, from A to B, A's frame; (0, 0, 0) without points
+    fe_vec3 normal; // unit, from A to B, A's frame; (0, 0, 0) where none is known
     int32_t count;  // 0..4
     int32_t axis;   // kernel's own, -1: none yet
     float axis_separation;

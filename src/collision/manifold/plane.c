@@ -22,7 +22,7 @@ void fe__collide_plane_sphere(const fe__form *a, const fe__form *b, const fe__re
                               fe__manifold *manifold)
 {
     float separation = height(a, b_in_a->position) - b->radius;
-    fe__stay_apart(manifold, separation);
+    fe__stay_apart(manifold, separation, a->normal);
     add_below(a, b_in_a->position, b->radius, separation, margin, 0, manifold);
 }
 
@@ -31,7 +31,7 @@ void fe__collide_plane_capsule(const fe__form *a, const fe__form *b, const fe__r
 {
     fe_vec3 half = fe__scale(b->half_height, b_in_a->rotation.y);
     float middle = height(a, b_in_a->position) - b->radius, rise = fe__dot(a->normal, half);
-    fe__stay_apart(manifold, middle - fe__absf(rise));
+    fe__stay_apart(manifold, middle - fe__absf(rise), a->normal);
     add_below(a, fe__sub(b_in_a->position, half), b->radius, middle - rise, margin, 0, manifold);
     add_below(a, fe__add(b_in_a->position, half), b->radius, middle + rise, margin, 1, manifold);
 }
@@ -53,7 +53,7 @@ void fe__collide_plane_box(const fe__form *a, const fe__form *b, const fe__relat
     int32_t u = (k + 1) % 3, v = (k + 2) % 3;
     float side = cosine[k] > 0.0f ? -1.0f : 1.0f, middle = height(a, b_in_a->position) + side * rise[k];
     float lowest = middle - fe__absf(rise[u]) - fe__absf(rise[v]);
-    fe__stay_apart(manifold, lowest);
+    fe__stay_apart(manifold, lowest, a->normal);
     if (lowest > margin) return;
     fe_vec3 face = fe__add_scaled(b_in_a->position, side, edge[k]);
     for (int32_t i = 0; i < 4; ++i) {

@@ -9,7 +9,7 @@ void fe__collide_sphere_sphere(const fe__form *a, const fe__form *b, const fe__r
     fe_vec3 d = b_in_a->position;
     float radii = a->radius + b->radius, distance = fe__length(d), separation = distance - radii;
     if (separation > margin) {
-        fe__stay_apart(manifold, separation);
+        fe__stay_apart(manifold, separation, fe__direction(d, distance));
         return;
     }
     manifold->normal = fe__direction(d, distance);

@@ -18,7 +18,7 @@ enum { FE__POINTS = 4 };
 
 typedef struct fe__surface {
     float dynamic_friction;
-    float radius_a, radius_b; // of the round sides, m
+    float radius_a, radius_b; // of the round sides, m; without points: arms that turns act on
     float tolerance;          // how far the pair may move, m; FE__FOLLOWS: as far as its head; FE__AHEAD
 } fe__surface;
 
@@ -30,7 +30,7 @@ typedef struct fe__contact_arm {
 typedef struct fe__contact {
     // now: read by prepare
     _Alignas(64) float separation[FE__POINTS]; // m, when the step begins
-    float normal[3];                           // unit, from A to B, world
+    float normal[3];                           // unit, from A to B, world; without points: of a plane between, or 0
     float point_count;                         // a whole number
     float span[3];                             // centre of A - centre of B, m, for torques on B; 0 when A is static
     float static_friction;

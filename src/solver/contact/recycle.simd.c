@@ -13,6 +13,9 @@
 // m along the normal, whatever the manifold's tolerance: some overlaps of a deep pile, and no more than the speculative
 // distance
 #define MOST_ALONG 0.02f
+// m, and a share of the longest arm: how far a pair without points may go before it is looked at, whatever its gap
+#define MOST_AWAY 0.25f
+#define AWAY_SHARE 0.5f
 
 enum { CONTACT_STRIDE = sizeof(fe__contact) / sizeof(float), BODY_STRIDE = sizeof(fe__body) / sizeof(float) };
 #define CONTACT_QUAD(field) w_gather((const float *)&contacts->field, CONTACT_STRIDE, index)
@@ -60,24 +63,26 @@ FE_INLINE wide spans_of(const fe__body *bodies, const int32_t *a)
     return *(const wide *)spans;
 }
 
+FE_INLINE wide length(wide3 a) { return w_sqrt(w_dot(a, a)); }
+
 typedef struct {
     const fe__body *bodies;
     const int32_t *a, *b;
     centres at_a, at_b;
 } sides;
 
-// How far the pair may come together in a step, m, by its centres and by its spins: along the normal, and at all. The
-// same as in narrow.c, speed being |v| + |w| reach
-typedef struct {
-    wide along, at_all;
-} approach;
-
-FE_INLINE approach approach_of(const sides *s, wide3 n, float dt)
+// How far the pair may come together in a step, m. Along a normal n between the two, v.n and the turns count: those of
+// a body without points by |w x n| arm, others as in narrow.c, by speed = |v| + |w| reach. Without a normal all does
+FE_INLINE wide approach_of(const sides *s, wide3 n, wide_mask has_normal, wide_mask apart, wide4 surface, float dt)
 {
-    wide3 va = w_xyz(w_gather(s->bodies->velocity, BODY_STRIDE, s->a)),
-          vb = w_xyz(w_gather(s->bodies->velocity, BODY_STRIDE, s->b)), v = w_sub(va, vb);
-    wide spins = (s->at_a.low.w - w_sqrt(w_dot(va, va))) + (s->at_b.low.w - w_sqrt(w_dot(vb, vb)));
-    return (approach){dt * (w_max(w_dot(n, v), w_set(0.0f)) + spins), dt * (w_sqrt(w_dot(v, v)) + spins)};
+    wide4 va, wa, vb, wb;
+    w_gather_both(s->bodies->velocity, BODY_STRIDE, s->a, &va, &wa);
+    w_gather_both(s->bodies->velocity, BODY_STRIDE, s->b, &vb, &wb);
+    wide3 v = w_sub(w_xyz(va), w_xyz(vb));
+    wide straight = w_choose(has_normal, w_max(w_dot(n, v), w_set(0.0f)), length(v));
+    wide spins = (s->at_a.low.w - length(w_xyz(va))) + (s->at_b.low.w - length(w_xyz(vb)));
+    wide turns = surface.y * length(w_cross(w_xyz(wa), n)) + surface.z * length(w_cross(w_xyz(wb), n));
+    return dt * (straight + w_choose(w_and(apart, has_normal), turns, spins));
 }
 
 // of the points that there are
@@ -89,22 +94,53 @@ FE_INLINE wide least_separation(const wide4 *separation, wide count)
                                 w_choose(w_greater(count, w_set(3.0f)), separation->w, none)));
 }
 
-// How far the pair may have moved since its manifold was found, m. Without points the bodies must not be able to meet
-// in this step either. Where a wide gap may close in it, the manifold is to be that of the touch (narrow.c)
-FE_INLINE wide limit_of(const sides *s, wide4 normal, wide tolerance, wide least, float dt, float fall)
+// How the bodies moved against each other since the contact was found
+typedef struct {
+    wide3 shift;  // of B's centre, m
+    wide along;   // of that, away along the normal
+    wide3 na, nb; // by how much the normal turned in the frame of either: R(dq)^T n - n
+    wide turned;  // sum over both of sin^2(angle / 2)
+    wide reach;   // longest arm of the rotations, m
+} motion;
+
+// Along the normal the separations follow exactly (a pair that came so far apart, or so deep, has other features); what
+// ages a manifold is sliding and rotating. A point slides by at most |slide| + 2 |sin(angle / 2)| reach of either body,
+// and (x + y + z)^2 <= 3 (x^2 + y^2 + z^2). A patch of a heightfield goes with its head: its tolerance is below 0
+FE_INLINE wide_mask is_old(const motion *m, wide3 n, wide tolerance)
 {
-    wide zero = w_set(0.0f);
-    wide_mask apart = w_not(w_greater(normal.w, zero));
-    wide_mask open = w_and(w_greater(least, w_set(FE__TURNS_LITTLE)), w_greater(tolerance, zero));
-    if (!w_any(w_or(apart, open))) return tolerance;
-    approach most = approach_of(s, w_xyz(normal), dt);
-    wide_mask closes = w_and(open, w_not(w_greater(least, most.along + fall)));
-    return w_choose(apart, w_max(tolerance - most.at_all, zero), w_choose(closes, zero, tolerance));
+    wide3 slide = w_sub_scaled(m->shift, m->along, n);
+    wide moved = 3.0f * (w_dot(slide, slide) + 4.0f * m->reach * m->reach * m->turned);
+    wide most_along = w_choose(w_greater(w_set(0.0f), tolerance), w_set(FLT_MAX), w_set(MOST_ALONG));
+    return w_or(w_not(w_greater(tolerance * tolerance, moved)), w_greater(w_abs(m->along), most_along));
+}
+
+// What is left of the gap of a pair without points, m. Between two planes with the normal n it changes by the shift
+// along n, and where a body turned, by how much farther it reaches along n: h(R^T n) - h(n) <= |R^T n - n| arm, h being
+// its support function. Without a normal all motion counts
+FE_INLINE wide gap_left(const motion *m, wide_mask has_normal, wide4 surface)
+{
+    wide turns = surface.y * length(m->na) + surface.z * length(m->nb);
+    wide moved = w_sqrt(3.0f * (w_dot(m->shift, m->shift) + 4.0f * m->reach * m->reach * m->turned));
+    return surface.w + w_choose(has_normal, m->along - turns, -moved);
+}
+
+// Whether the boxes parted shows in the narrow phase: what went so far is looked at
+FE_INLINE wide_mask went_away(const motion *m, wide tolerance)
+{
+    wide most = w_max(tolerance, w_min(w_set(MOST_AWAY), AWAY_SHARE * m->reach));
+    return w_greater(w_dot(m->shift, m->shift), most * most);
 }
 
 FE_INLINE wide separation_now(const wide4 *point, wide constant, wide3 slope)
 {
     return point->w + (constant + w_dot(slope, w_xyz(*point)));
+}
+
+FE_INLINE void put_lanes(float *out, wide values, int32_t count)
+{
+    _Alignas(64) float lanes[FE_W];
+    *(wide *)lanes = values;
+    for (int i = 0; i < count; ++i) out[i] = lanes[i];
 }
 
 // As in rows.inl: s = s0 + n.shift + (nB - nA).r + nB.span + rhoA nA.n + rhoB nB.n with nX = R(dqX)^T n - n
@@ -125,32 +161,40 @@ static void recycle_block(fe__contact *contacts, const fe__body *bodies, const i
     wide3 na = w_turn_back(rotation_a, n), nb = w_turn_back(rotation_b, n), slope = w_sub(nb, na);
     wide constant = w_dot(n, shift) + w_dot(nb, arms_span) + surface.y * w_dot(na, n) + surface.z * w_dot(nb, n);
 
-    // Along the normal the separations follow exactly (a pair that came so far apart, or so deep, has other features);
-    // what ages a manifold is sliding and rotating. A point slides by at most |slide| + 2 |sin(angle / 2)| reach of
-    // either body, and (x + y + z)^2 <= 3 (x^2 + y^2 + z^2)
-    wide along = w_dot(n, shift);
-    wide3 slide = w_sub_scaled(shift, along, n);
-    wide turned = w_dot(w_xyz(rotation_a), w_xyz(rotation_a)) + w_dot(w_xyz(rotation_b), w_xyz(rotation_b));
-    wide moved = 3.0f * (w_dot(slide, slide) + 4.0f * found.w * found.w * turned), zero = w_set(0.0f);
+    motion m = {
+        shift,
+        w_dot(n, shift),
+        na,
+        nb,
+        w_dot(w_xyz(rotation_a), w_xyz(rotation_a)) + w_dot(w_xyz(rotation_b), w_xyz(rotation_b)),
+        found.w,
+    };
     for (int i = 0; i < FE__POINTS; i += 2)
         w_gather_both(contacts->point[i].arm, CONTACT_STRIDE, index, point + i, point + i + 1);
     wide4 separation = {separation_now(point, constant, slope), separation_now(point + 1, constant, slope),
                         separation_now(point + 2, constant, slope), separation_now(point + 3, constant, slope)};
-    wide limit = limit_of(&s, normal, surface.w, least_separation(&separation, normal.w), dt, fall);
-    // a patch of a heightfield goes with its head: its tolerance is below 0
-    wide most_along = w_choose(w_greater(zero, surface.w), w_set(FLT_MAX), w_set(MOST_ALONG));
-    unsigned far = w_bits(w_or(w_not(w_greater(limit * limit, moved)), w_greater(w_abs(along), most_along)));
-    unsigned apart = w_bits(w_not(w_greater(normal.w, zero)));
+
+    // Without points the bodies must not be able to meet in this step either. Where a wide gap may close in it, the
+    // manifold is to be that of the touch (narrow.c)
+    wide zero = w_set(0.0f), least = least_separation(&separation, normal.w);
+    wide_mask old = is_old(&m, n, surface.w), apart = w_not(w_greater(normal.w, zero)),
+              open = w_and(w_greater(least, w_set(FE__TURNS_LITTLE)), w_greater(surface.w, zero));
+    if (w_any(w_or(apart, open))) {
+        wide_mask has_normal = w_greater(w_dot(n, n), zero);
+        wide left = gap_left(&m, has_normal, surface);
+        wide approach = approach_of(&s, n, has_normal, apart, surface, dt);
+        wide_mask meets = w_not(w_and(w_greater(left, approach), w_greater(surface.w, zero))),
+                  closes = w_not(w_greater(least, approach + fall));
+        old = w_or(w_and(apart, w_or(meets, went_away(&m, surface.w))),
+                   w_and(w_not(apart), w_or(old, w_and(open, closes))));
+        put_lanes(out_slack, left, count);
+    }
+    unsigned far = w_bits(old), without = w_bits(apart);
 
     _Alignas(64) float now[FE_W][FE__POINTS];
-    if (apart & ~far) {
-        _Alignas(64) float slack[FE_W];
-        *(wide *)slack = surface.w - w_sqrt(moved);
-        for (int i = 0; i < count; ++i) out_slack[i] = slack[i];
-    }
     w_scatter(now[0], FE__POINTS, w_in_order, separation);
     for (int i = 0; i < count; ++i) {
-        out[i] = (uint8_t)(far >> i & 1 ? FE__MOVED : apart >> i & 1 ? FE__STAYS_APART : FE__STAYS);
+        out[i] = (uint8_t)(far >> i & 1 ? FE__MOVED : without >> i & 1 ? FE__STAYS_APART : FE__STAYS);
         if (out[i] == FE__STAYS) *(quad *)contacts[index[i]].separation = *(const quad *)now[i];
     }
 }
