@@ -36,16 +36,23 @@ void fe__memory_init(fe__memory *memory, const fe_allocator *allocator)
     if (allocator) memory->allocator = *allocator;
 }
 
-void *fe__allocate(fe__memory *memory, size_t size)
+// counted, and whatever was there before still in it
+static void *take(fe__memory *memory, size_t size)
 {
     if (size == 0 || size > PTRDIFF_MAX) return NULL;
     if (memory->guard) fe__mutex_lock(memory->guard);
     void *block = memory->allocator.allocate(memory->allocator.user, size, BLOCK_ALIGNMENT);
     if (memory->guard) fe__mutex_unlock(memory->guard);
     if (!block) return NULL;
-    memset(block, 0, size);
     memory->bytes += (int64_t)size;
     memory->allocations += 1;
+    return block;
+}
+
+void *fe__allocate(fe__memory *memory, size_t size)
+{
+    void *block = take(memory, size);
+    if (block) memset(block, 0, size);
     return block;
 }
 
@@ -81,11 +88,12 @@ int32_t fe__reserve(fe__memory *memory, void *array, int32_t *capacity, int64_t 
     if (grown > INT32_MAX) grown = INT32_MAX;
     if ((uint64_t)grown > PTRDIFF_MAX / size) return 0;
 
-    void *block = fe__allocate(memory, (size_t)grown * size);
+    size_t new_size = (size_t)grown * size, old_size = (size_t)*capacity * size;
+    char *block = take(memory, new_size);
     if (!block) return 0;
     void *old = load_pointer(array);
-    size_t old_size = (size_t)*capacity * size;
     if (old) memcpy(block, old, old_size);
+    memset(block + old_size, 0, new_size - old_size);
     fe__release(memory, old, old_size);
     store_pointer(array, block);
     *capacity = (int32_t)grown;
