@@ -58,6 +58,11 @@ typedef struct {
     wide4 rotation_a, rotation_b;
 } motion;
 
+// impulses of a contact together: on B, with their moment about A's centre
+typedef struct {
+    wide3 impulse, moment;
+} wrench;
+
 // a quantity of a point: constant + slope . rA
 typedef struct {
     wide constant;

@@ -138,10 +138,16 @@ FE_INLINE wide3 NAMED(moment_of)(const ROW *row, wide3 normal, wide3 friction, i
     return kind & FE__ROW_SPECIAL ? w_add(moment, load3(((const SPECIAL_ROW *)row)->rolling_impulse)) : moment;
 }
 
+FE_INLINE wrench NAMED(wrench_of)(const ROW *row, wide3 normal, int kind)
+{
+    wide3 friction = NAMED(friction_impulse)(row, normal);
+    return (wrench){w_add_scaled(friction, NAMED(load_of)(row), normal), NAMED(moment_of)(row, normal, friction, kind)};
+}
+
 FE_INLINE void NAMED(apply_all)(const ROW *row, pair *p, int kind)
 {
-    wide3 friction = NAMED(friction_impulse)(row, p->normal), moment = NAMED(moment_of)(row, p->normal, friction, kind);
-    NAMED(apply)(row, p, w_add_scaled(friction, NAMED(load_of)(row), p->normal), moment, kind);
+    wrench all = NAMED(wrench_of)(row, p->normal, kind);
+    NAMED(apply)(row, p, all.impulse, all.moment, kind);
 }
 
 // ---- points ---------------------------------------------------------------------------------------------------------

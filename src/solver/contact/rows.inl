@@ -412,105 +412,7 @@ static __attribute__((noinline)) pair NAMED(settle)(ROW *row, const fe__step_con
 
 #include "solver/contact/follow.inl"
 
-// ---- restitution ----------------------------------------------------------------------------------------------------
-// The speed that a touched point must leave with, at the gap s where it is now:
-//     v' = min( sqrt(e^2 Q - 2 g s) + g h / 2,  sqrt(Q - 2 g s) )
-// so that it flies to e^2 times the height it fell from, and never has more energy than it came with. Q: record_touch.
-// A point that did not touch may go on closing its gap, as in relax.
-FE_INLINE wide NAMED(bounce_speed)(const SPECIAL_ROW *x, int i, wide distance, const fe__step_constants *c)
-{
-    wide zero = w_set(0.0f), g = x->closing, gap = w_max(distance, zero), used = 2.0f * g * gap, e = x->restitution,
-         q = x->flight[i];
-    wide wanted = w_sqrt(w_max(e * e * q - used, zero)) + 0.5f * c->h * g;
-    return w_choose(w_greater(x->approach[i], zero), w_min(wanted, w_sqrt(w_max(q - used, zero))),
-                    -(gap * c->inverse_h));
-}
-
-// What the touched contacts gave so far leaves the warm start: start takes M^-1 J^T l.
-FE_INLINE void NAMED(leave_warm_start)(const SPECIAL_ROW *x, fe__solver *s, const pair *p, wide_mask touched, int kind)
-{
-    const ROW *row = &x->row;
-    pair start = {start_side(s, row->line_a), start_side(s, row->line_b), p->normal, p->span}, was = start;
-    NAMED(apply_all)(row, &start, kind);
-    start.a.v = w_choose3(touched, start.a.v, was.a.v), start.a.w = w_choose3(touched, start.a.w, was.a.w);
-    start.b.v = w_choose3(touched, start.b.v, was.b.v), start.b.w = w_choose3(touched, start.b.w, was.b.w);
-    if (kind & FE__ROW_PAIR) scatter_side(s->start, row->line_a, &start.a);
-    scatter_side(s->start, row->line_b, &start.b);
-}
-
-// Of the touched lanes: nothing is left to warm-start. The others, which the sweeps ran over too, get their impulses
-// back. `old`: impulses that `total` already has, and `part` of the change came to pass.
-FE_INLINE void NAMED(forget_touched)(SPECIAL_ROW *x, const wide *old, wide part, wide_mask touched)
-{
-    ROW *row = &x->row;
-    wide zero = w_set(0.0f);
-    UNROLL for (int i = 0; i < POINTS; ++i)
-    {
-        contact_point *q = row->point + i;
-        row->total[i] = row->total[i] + w_choose(touched, part * (q->impulse - old[i]), zero);
-        q->impulse = w_choose(touched, zero, old[i]);
-        x->approach[i] = zero;
-    }
-    for (int i = 0; i < 2; ++i) row->tangent_impulse[i] = w_choose(touched, zero, row->tangent_impulse[i]);
-    for (int i = 0; i < 3; ++i) x->rolling_impulse[i] = w_choose(touched, zero, x->rolling_impulse[i]);
-    row->twist_impulse = w_choose(touched, zero, row->twist_impulse);
-    row->load = w_choose(touched, zero, row->load);
-}
-
-// The points together reach their speeds: each sweep looks at the bodies anew.
-FE_INLINE void NAMED(sweep_bounce)(ROW *row, pair *p, const wide *target, int kind)
-{
-    for (int sweep = 0; sweep < BOUNCE_SWEEPS; ++sweep) {
-        affine velocity = NAMED(normal_velocity)(p);
-        wide request[POINTS], sum;
-        UNROLL for (int i = 0; i < POINTS; ++i)
-        {
-            const contact_point *q = row->point + i;
-            request[i] = q->impulse - q->mass * (at(&velocity, load3(q->r)) - target[i]);
-        }
-        wide3 moment = NAMED(sweep_points)(row, request, 0, &sum);
-        NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
-    }
-}
-
-// The part of a bounce, 1 and less, with which the row's impulses of this substep gain no energy: gain + part b +
-// part^2 a <= 0, of the works
-//     b = sum of change . speed before,   a = half the sum of change . (speed after - before)
-FE_INLINE wide NAMED(part_without_gain)(const SPECIAL_ROW *x, const wide *old, const affine *was, const affine *is,
-                                        wide flight)
-{
-    wide zero = w_set(0.0f), one = w_set(1.0f), b = NAMED(gain_of)(x, old, was, was, flight),
-         all = NAMED(gain_of)(x, old, was, is, flight);
-    wide a = all - b, root = w_sqrt(w_max(b * b - 4.0f * a * x->gain, zero));
-    wide part = w_clamp((root - b) * w_inverse_or_zero(2.0f * a), zero, one);
-    return w_choose(w_greater(x->gain + all, zero), part, one);
-}
-
-// After relax, for contacts that touched in this substep.
-FE_INLINE void NAMED(bounce_row)(SPECIAL_ROW *x, fe__solver *s, const fe__step_constants *c, int kind)
-{
-    ROW *row = &x->row;
-    wide approach = x->approach[0];
-    UNROLL for (int i = 1; i < POINTS; ++i) approach = w_max(x->approach[i], approach);
-    wide_mask touched = w_greater(approach, w_set(0.0f));
-    if (!w_any(touched)) return;
-    pair p = NAMED(gather_pair)(row, s, kind), before = p;
-    wide target[POINTS], old[POINTS];
-    UNROLL for (int i = 0; i < POINTS; ++i)
-    {
-        old[i] = row->point[i].impulse;
-        target[i] = NAMED(bounce_speed)(x, i, row->point[i].distance, c);
-    }
-    NAMED(leave_warm_start)(x, s, &p, touched, kind);
-    affine was = NAMED(normal_velocity)(&p);
-    NAMED(sweep_bounce)(row, &p, target, kind);
-    affine is = NAMED(normal_velocity)(&p);
-    wide part = NAMED(part_without_gain)(x, old, &was, &is, -0.5f * c->h * x->closing);
-    p.a = blend(part, &before.a, &p.a), p.b = blend(part, &before.b, &p.b);
-    NAMED(forget_touched)(x, old, part, touched);
-    if (kind & FE__ROW_PAIR) add_change(s, row->line_a, &before.a, &p.a, touched);
-    add_change(s, row->line_b, &before.b, &p.b, touched);
-}
+#include "solver/contact/bounce.inl"
 
 // ---- impacts --------------------------------------------------------------------------------------------------------
 // What a substep carries to the next is a guess of its impulses. Those of an impact, of a load that rose by half at
@@ -588,6 +490,7 @@ FE_INLINE void NAMED(relax)(fe__solver *s, void *rows, int32_t count, const fe__
         wide load = NAMED(load_of)(row), response = p.a.inverse_mass + p.b.inverse_mass;
         wide_mask rose = w_and(w_greater(load, IMPACT_RISE * row->load),
                                w_greater((load - row->load) * response, w_set(IMPACT_SPEED)));
+        if (kind & FE__ROW_SPECIAL) rose = w_and(rose, w_not(NAMED(touched)((SPECIAL_ROW *)row)));
         if (w_any(rose)) NAMED(leave_friction)(row, s, load, rose, kind);
         row->load = load;
         if (c->finds_strain) NAMED(find_strain)(row, s, load * response, response, c);

@@ -1,0 +1,125 @@
+// bounce.inl - restitution. Part of rows.inl, once per number of points.
+//
+// Relax notes what touches in a substep (record_touch) and stops it. The bounce, after relax, gives the points the
+// speeds they leave with, and friction and rolling resistance what all impulses of the touch allow them, those that
+// stopped it and those of the bounce.
+
+FE_INLINE wide_mask NAMED(touched)(const SPECIAL_ROW *x)
+{
+    wide approach = x->approach[0];
+    UNROLL for (int i = 1; i < POINTS; ++i) approach = w_max(x->approach[i], approach);
+    return w_greater(approach, w_set(0.0f));
+}
+
+// The speed that a touched point must leave with, at the gap s where it is now:
+//     v' = min( sqrt(e^2 Q - 2 g s) + g h / 2,  sqrt(Q - 2 g s) )
+// so that it flies to e^2 times the height it fell from, and never has more energy than it came with. Q: record_touch.
+// A point that did not touch may go on closing its gap, as in relax.
+FE_INLINE wide NAMED(bounce_speed)(const SPECIAL_ROW *x, int i, wide distance, const fe__step_constants *c)
+{
+    wide zero = w_set(0.0f), g = x->closing, gap = w_max(distance, zero), used = 2.0f * g * gap, e = x->restitution,
+         q = x->flight[i];
+    wide wanted = w_sqrt(w_max(e * e * q - used, zero)) + 0.5f * c->h * g;
+    return w_choose(w_greater(x->approach[i], zero), w_min(wanted, w_sqrt(w_max(q - used, zero))),
+                    -(gap * c->inverse_h));
+}
+
+// What the touched contacts gave so far leaves the warm start: start takes M^-1 J^T l.
+FE_INLINE void NAMED(leave_warm_start)(const SPECIAL_ROW *x, fe__solver *s, const pair *p, wide_mask touched, int kind)
+{
+    const ROW *row = &x->row;
+    pair start = {start_side(s, row->line_a), start_side(s, row->line_b), p->normal, p->span}, was = start;
+    NAMED(apply_all)(row, &start, kind);
+    start.a.v = w_choose3(touched, start.a.v, was.a.v), start.a.w = w_choose3(touched, start.a.w, was.a.w);
+    start.b.v = w_choose3(touched, start.b.v, was.b.v), start.b.w = w_choose3(touched, start.b.w, was.b.w);
+    if (kind & FE__ROW_PAIR) scatter_side(s->start, row->line_a, &start.a);
+    scatter_side(s->start, row->line_b, &start.b);
+}
+
+// Nothing of the touched lanes is left to warm-start. `was`: what `total` already has, and `part` of the change came to
+// pass.
+FE_INLINE void NAMED(forget_touched)(SPECIAL_ROW *x, const PASSING *was, wide part, wide_mask touched)
+{
+    ROW *row = &x->row;
+    wide zero = w_set(0.0f);
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        contact_point *q = row->point + i;
+        row->total[i] = row->total[i] + w_choose(touched, part * (q->impulse - was->point[i]), zero);
+        q->impulse = w_choose(touched, zero, q->impulse);
+        x->approach[i] = zero;
+    }
+    for (int i = 0; i < 2; ++i) row->tangent_impulse[i] = w_choose(touched, zero, row->tangent_impulse[i]);
+    for (int i = 0; i < 3; ++i) x->rolling_impulse[i] = w_choose(touched, zero, x->rolling_impulse[i]);
+    row->twist_impulse = w_choose(touched, zero, row->twist_impulse);
+    row->load = w_choose(touched, zero, row->load);
+}
+
+FE_INLINE void NAMED(bounce_points)(ROW *row, pair *p, const wide *target, int kind)
+{
+    affine velocity = NAMED(normal_velocity)(p);
+    wide request[POINTS], sum;
+    UNROLL for (int i = 0; i < POINTS; ++i)
+    {
+        const contact_point *q = row->point + i;
+        request[i] = q->impulse - q->mass * (at(&velocity, load3(q->r)) - target[i]);
+    }
+    wide3 moment = NAMED(sweep_points)(row, request, 0, &sum);
+    NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
+}
+
+// Friction rotates the bodies and the points turn them back, until both are as they must be: each sweep looks at the
+// bodies anew.
+FE_INLINE void NAMED(sweep_bounce)(SPECIAL_ROW *x, pair *p, const wide *target, int kind)
+{
+    for (int sweep = 1; sweep < BOUNCE_SWEEPS; ++sweep) {
+        NAMED(bounce_points)(&x->row, p, target, kind);
+        NAMED(solve_rolling)(x, p, kind);
+        NAMED(solve_friction)(&x->row, p, kind);
+    }
+    NAMED(bounce_points)(&x->row, p, target, kind);
+}
+
+FE_INLINE wide NAMED(power_of)(const wrench *w, const pair *p)
+{
+    wide3 moment_b = w_add(w->moment, w_cross(p->span, w->impulse));
+    return w_dot(w->impulse, w_sub(p->b.v, p->a.v)) + w_dot(moment_b, p->b.w) - w_dot(w->moment, p->a.w);
+}
+
+// The part of a bounce, 1 and less, with which the row's impulses of this substep gain no energy: gain + part b +
+// part^2 a <= 0, of the works of its change
+//     b = change . speed before,   a = half of change . (speed after - before)
+// and what the normal ones change in the discrete flight, see gain_of.
+FE_INLINE wide NAMED(part_without_gain)(const SPECIAL_ROW *x, const wrench *change, wide flight, const pair *was,
+                                        const pair *is)
+{
+    wide zero = w_set(0.0f), one = w_set(1.0f), first = NAMED(power_of)(change, was), b = first + flight,
+         a = 0.5f * (NAMED(power_of)(change, is) - first);
+    wide root = w_sqrt(w_max(b * b - 4.0f * a * x->gain, zero));
+    wide part = w_clamp((root - b) * w_inverse_or_zero(2.0f * a), zero, one);
+    return w_choose(w_greater(x->gain + a + b, zero), part, one);
+}
+
+// After relax, for contacts that touched in this substep.
+FE_INLINE void NAMED(bounce_row)(SPECIAL_ROW *x, fe__solver *s, const fe__step_constants *c, int kind)
+{
+    ROW *row = &x->row;
+    wide_mask touched = NAMED(touched)(x);
+    if (!w_any(touched)) return;
+    pair p = NAMED(gather_pair)(row, s, kind), before = p;
+    PASSING was = NAMED(passing_of)(row, &p, kind);
+    NAMED(leave_warm_start)(x, s, &p, touched, kind);
+    wide target[POINTS], load = NAMED(load_of)(row);
+    UNROLL for (int i = 0; i < POINTS; ++i) target[i] = NAMED(bounce_speed)(x, i, row->point[i].distance, c);
+    wrench given = NAMED(wrench_of)(row, p.normal, kind);
+    NAMED(sweep_bounce)(x, &p, target, kind);
+    wrench all = NAMED(wrench_of)(row, p.normal, kind);
+    wrench change = {w_sub(all.impulse, given.impulse), w_sub(all.moment, given.moment)};
+    wide flight = (load - NAMED(load_of)(row)) * (0.5f * c->h * x->closing);
+    wide part = NAMED(part_without_gain)(x, &change, flight, &before, &p);
+    p.a = blend(part, &before.a, &p.a), p.b = blend(part, &before.b, &p.b);
+    NAMED(keep_others)(row, &p, &was, touched, kind);
+    NAMED(forget_touched)(x, &was, part, touched);
+    if (kind & FE__ROW_PAIR) add_change(s, row->line_a, &before.a, &p.a, touched);
+    add_change(s, row->line_b, &before.b, &p.b, touched);
+}
