@@ -348,7 +348,7 @@ FE_API fe_result fe_world_destroy(fe_world *world);
 /// Of bodies in one place, a thousand born in a point, each touches the 48 that are deepest in it: of two dynamic
 /// bodies that both have more than 48 neighbours, a contact is left out when it is among the 48 deepest of neither. In
 /// the steps that follow they look for each other again. fe_counters.contacts_left_out counts what was left out.
-/// @param dt  0..1 s; 0 updates contacts and events and moves nothing
+/// @param dt  0..1 s; 0 updates contacts and events and moves nothing. Less than 1e-5 s counts as 0
 FE_API fe_result fe_world_step(fe_world *world, float dt);
 
 /// m/s2. A change wakes all dynamic bodies.
@@ -389,7 +389,7 @@ FE_API fe_result fe_world_set_tuning(fe_world *world, const fe_world_tuning *tun
 FE_API fe_result fe_world_get_tuning(const fe_world *world, fe_world_tuning *out_tuning);
 /// The stiffness that a step of dt seconds would really use: contact_hertz is limited to an eighth of the substep rate,
 /// joint_hertz to 0.225 of it.
-/// @param dt                 0..1 s; 0: no limit
+/// @param dt                 0..1 s; 0, and less than 1e-5 s: no limit
 /// @param out_contact_hertz  1/s, between two dynamic bodies
 /// @param out_joint_hertz    1/s
 FE_API fe_result fe_world_get_hertz(const fe_world *world, float dt, float *out_contact_hertz, float *out_joint_hertz);

@@ -48,7 +48,7 @@ fe_result fe_world_get_hertz(const fe_world *world, float dt, float *out_contact
     FE_CHECK_POINTER(out_joint_hertz);
     *out_contact_hertz = world->tuning.contact_hertz;
     *out_joint_hertz = world->tuning.joint_hertz;
-    if (dt == 0.0f) return FE_OK;
+    if (fe__counted_dt(dt) == 0.0f) return FE_OK;
     fe__fp_state fp = fe__fp_enter();
     float rate = 1.0f / (dt / (float)world->substeps);
     *out_contact_hertz = fe__minf(*out_contact_hertz, FE__MOST_CONTACT_HERTZ * rate);

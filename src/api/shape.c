@@ -291,7 +291,7 @@ fe_result fe_shape_set_density(fe_world *world, fe_shape shape, float density)
     fe__fp_state fp = fe__fp_enter();
     world->shapes[index].density = density;
     fe__body_disturb(world, world->shapes[index].body);
-    fe__body_update_mass(world, world->shapes[index].body);
+    fe__body_densities_changed(world, world->shapes[index].body);
     fe__fp_leave(fp);
     return FE_OK;
 }

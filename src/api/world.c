@@ -107,7 +107,7 @@ fe_result fe_world_step(fe_world *world, float dt)
         return fe__refuse_writer(function);
     }
     fe__fp_state fp = fe__fp_enter();
-    fe_result result = fe__world_step(world, dt);
+    fe_result result = fe__world_step(world, fe__counted_dt(dt));
     fe__fp_leave(fp);
     return fe__report(function, result);
 }

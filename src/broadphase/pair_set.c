@@ -79,17 +79,3 @@ void fe__pair_set_remove(fe__pair_set *set, int32_t a, int32_t b)
     }
     set->entries[gap] = (fe__pair_entry){0};
 }
-
-// A removal moves entries only towards the gap, which is where the walk stands: it looks there again, and misses none.
-// (Entries that wrap around from the front to the end were seen at the front.)
-void fe__pair_set_remove_all(fe__pair_set *set, int32_t a)
-{
-    for (int32_t i = 0; i < set->capacity;) {
-        uint64_t key = set->entries[i].key;
-        int32_t low = (int32_t)(key >> 32), high = (int32_t)(key & UINT32_MAX);
-        if (key != 0 && (low == a || high == a))
-            fe__pair_set_remove(set, low, high);
-        else
-            ++i;
-    }
-}

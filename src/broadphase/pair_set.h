@@ -23,6 +23,5 @@ int32_t fe__pair_set_reserve(fe__pair_set *set, fe__memory *memory,
 void fe__pair_set_insert(fe__pair_set *set, int32_t a, int32_t b, int32_t value); // a != b, in any order; not there yet
 int32_t fe__pair_set_find(const fe__pair_set *set, int32_t a, int32_t b);         // value, -1: not there
 void fe__pair_set_remove(fe__pair_set *set, int32_t a, int32_t b);                // nothing when not there
-void fe__pair_set_remove_all(fe__pair_set *set, int32_t a); // every pair with a: walks the whole set
 
 #endif

@@ -11,18 +11,19 @@ enum {
     FE__BODY_ENABLED = 1,
     FE__BODY_BULLET = 2,
     FE__BODY_SLEEP_ALLOWED = 4,
-    FE__BODY_MASS_GIVEN = 8,   // mass data set by hand: shapes no longer change it
-    FE__BODY_LOST = 16,        // overflowed in this step, see finalize.c
-    FE__BODY_ISOTROPIC = 32,   // equal principal moments, or a rotation lock: no gyroscopic torque
-    FE__BODY_STARTED = 64,     // scratch of a walk: over an island, over a list of handles
-    FE__BODY_IGNORES = 128,    // named in fe_world.ignored
-    FE__BODY_DISTURBED = 256,  // in the list of bodies that woke or fell asleep
-    FE__BODY_SEEN_AWAKE = 512, // when the events of the last step were written
-    FE__BODY_CHASED = 1024,    // in the list of bodies that continuous collision looks at
-    FE__BODY_STRAINED = 2048,  // bears many times its weight, or a body many times as heavy just came upon it
-    FE__BODY_HELD = 4096,      // joined to others, and stopped by continuous collision in this step, see rejoin.h
-    FE__BODY_STRETCHED = 8192, // a joint of it is wide open
-    FE__BODY_ANCHOR = 16384    // the end of a joint that is the world, see world/anchor.h
+    FE__BODY_MASS_GIVEN = 8,     // mass data set by hand: shapes no longer change it
+    FE__BODY_LOST = 16,          // overflowed in this step, see finalize.c
+    FE__BODY_ISOTROPIC = 32,     // equal principal moments, or a rotation lock: no gyroscopic torque
+    FE__BODY_STARTED = 64,       // scratch of a walk: over an island, over a list of handles
+    FE__BODY_IGNORES = 128,      // first_ignored is not 0
+    FE__BODY_DISTURBED = 256,    // in the list of bodies that woke or fell asleep
+    FE__BODY_SEEN_AWAKE = 512,   // when the events of the last step were written
+    FE__BODY_CHASED = 1024,      // in the list of bodies that continuous collision looks at
+    FE__BODY_STRAINED = 2048,    // bears many times its weight, or a body many times as heavy just came upon it
+    FE__BODY_HELD = 4096,        // joined to others, and stopped by continuous collision in this step, see rejoin.h
+    FE__BODY_STRETCHED = 8192,   // a joint of it is wide open
+    FE__BODY_ANCHOR = 16384,     // the end of a joint that is the world, see world/anchor.h
+    FE__BODY_SIZES_STALE = 32768 // a static one: reach and thickness are of shapes that it had
 };
 
 typedef struct fe__body {
@@ -71,8 +72,9 @@ typedef struct fe__body {
     int32_t first_shape, last_shape, shape_count; // list in the order of creation
     // all joints, threaded through fe__joint_record.links in the order of creation; 0: none
     int32_t first_joint, last_joint, joint_total;
-    int32_t locked;     // 1: any lock bit is set
-    int64_t moved_step; // number of the last step that moved it, 0: none
+    int32_t first_ignored; // list of fe_world.ignores, 0: none
+    int32_t locked;        // 1: any lock bit is set
+    int64_t moved_step;    // number of the last step that moved it, 0: none
     uint64_t user_data;
     int32_t order_next, order_previous; // list of all bodies in the order of creation
 } fe__body;

@@ -10,6 +10,7 @@
 #include "step/reserve.h"
 #include "world/filter.h"
 #include "world/handles.h"
+#include "world/mass.h"
 #include "world/pairs.h"
 
 enum { SHAPES_IN_BLOCK = 32, FIRST_ROOM = 256 };
@@ -149,6 +150,7 @@ void fe__find_new_pairs(fe__step *step)
 {
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
+    fe__settle_sizes(w);
     step->failed = !search_all(step) || !fe__thin_crowds(step) || !fe__find_due(step) || !fe__reserve_step(step);
     if (step->failed) return;
     sort_candidates(step);

@@ -6,6 +6,7 @@
 #include "world/bodies.h"
 
 #include "world/asset_users.h"
+#include "world/ignore.h"
 #include "world/joints.h"
 #include "world/mass.h"
 #include "world/pair_list.h"
@@ -138,7 +139,7 @@ void fe__body_destroy(fe_world *world, int32_t index)
         world->shape_count -= 1;
     }
     // the slot's next body must not inherit whom this one ignored
-    if (body->flags & FE__BODY_IGNORES) fe__pair_set_remove_all(&world->ignored, index);
+    fe__body_ignore_none(world, index);
     remove_from_order(world, index);
     fe__id_pool_release(&world->body_ids, index);
 }

@@ -1,9 +1,19 @@
 // ignore.h - pairs of bodies that ignore each other.
+//
+// Each has a record in fe_world.ignores, found by its bodies through fe_world.ignored, and threaded into the lists of
+// both: a body that goes takes its own pairs along, however many others there are.
 #ifndef FE_WORLD_IGNORE_H
 #define FE_WORLD_IGNORE_H
 #include "world/world.h"
 
-// Their pairs end with it; without it the next step finds them. FE_ERROR_MEMORY: nothing changed.
+typedef struct fe__ignore {
+    int32_t body[2];
+    fe__link links[2]; // in the list of body[0] and of body[1]; 0: none
+} fe__ignore;
+
+// Their pairs end with it; without it the next step finds them. FE_ERROR_MEMORY, FE_ERROR_LIMIT: nothing changed.
 fe_result fe__ignore_collision(fe_world *world, int32_t body_a, int32_t body_b, int32_t ignore);
+// Of a body that goes: the slot's next body must not inherit whom it ignored.
+void fe__body_ignore_none(fe_world *world, int32_t body);
 
 #endif

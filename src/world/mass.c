@@ -48,18 +48,21 @@ static void set_local_centre(fe_world *world, fe__body *body, fe_vec3 centre)
     fe__body_end_deferrals(world, (int32_t)(body - world->bodies));
 }
 
-static void set_sizes(fe_world *world, fe__body *body)
+// The largest reach and the least thickness: the same whatever the order of the shapes
+static void add_sizes(fe__body *body, const fe__shape *shape)
 {
     fe_vec3 centre = fe__quad_vector(body->local_centre);
-    float reach = 0.0f;
+    fe_vec3 in_form = fe__rotate_back(shape->local_rotation, fe__sub(centre, shape->local_position));
+    body->thickness = fe__minf(body->thickness, fe__form_thickness(&shape->form));
+    body->reach = fe__maxf(body->reach, fe__form_reach(&shape->form, in_form));
+}
+
+static void set_sizes(fe_world *world, fe__body *body)
+{
     body->thickness = FLT_MAX;
-    for (int32_t i = body->first_shape; i >= 0; i = world->shapes[i].next) {
-        const fe__shape *shape = &world->shapes[i];
-        body->thickness = fe__minf(body->thickness, fe__form_thickness(&shape->form));
-        fe_vec3 in_form = fe__rotate_back(shape->local_rotation, fe__sub(centre, shape->local_position));
-        reach = fe__maxf(reach, fe__form_reach(&shape->form, in_form));
-    }
-    body->reach = reach;
+    body->reach = 0.0f;
+    for (int32_t i = body->first_shape; i >= 0; i = world->shapes[i].next) add_sizes(body, &world->shapes[i]);
+    body->flags &= ~(uint32_t)FE__BODY_SIZES_STALE;
     fe__body_note_swiftness(world, body);
 }
 
@@ -230,6 +233,51 @@ void fe__body_update_mass(fe_world *world, int32_t index)
     }
     apply(world, body, &p);
     fe__body_place_anchors(world, index);
+}
+
+// ---- shapes come and go --------------------------------------------------------------------------------------------
+// Only of a dynamic body that weighs what its shapes do is the centre of mass the shapes' affair. Else a level of n
+// shapes on one body is made, changed and taken apart in a time that grows with n, not with its square.
+
+static int32_t weighs_its_shapes(const fe__body *body)
+{
+    return body->type == FE_BODY_DYNAMIC && !(body->flags & FE__BODY_MASS_GIVEN);
+}
+
+void fe__body_gain_shape(fe_world *world, int32_t index, int32_t shape)
+{
+    fe__body *body = &world->bodies[index];
+    if (weighs_its_shapes(body)) {
+        fe__body_update_mass(world, index);
+        return;
+    }
+    add_sizes(body, &world->shapes[shape]);
+    fe__body_note_swiftness(world, body);
+}
+
+void fe__body_sizes_changed(fe_world *world, int32_t index)
+{
+    enum { FEW_SHAPES = 16 }; // are looked through at once
+    fe__body *body = &world->bodies[index];
+    if (body->type != FE_BODY_STATIC || body->shape_count <= FEW_SHAPES) {
+        fe__body_update_mass(world, index);
+        return;
+    }
+    body->flags |= FE__BODY_SIZES_STALE;
+    world->has_stale_sizes = 1;
+}
+
+void fe__body_densities_changed(fe_world *world, int32_t index)
+{
+    if (weighs_its_shapes(&world->bodies[index])) fe__body_update_mass(world, index);
+}
+
+void fe__settle_sizes(fe_world *world)
+{
+    if (!world->has_stale_sizes) return;
+    for (int32_t i = world->first_body; i >= 0; i = world->bodies[i].order_next)
+        if (world->bodies[i].flags & FE__BODY_SIZES_STALE) set_sizes(world, &world->bodies[i]);
+    world->has_stale_sizes = 0;
 }
 
 void fe__body_set_mass(fe_world *world, int32_t index, const fe_mass_data *data)

@@ -3,7 +3,13 @@
 #define FE_WORLD_MASS_H
 #include "world/world.h"
 
-void fe__body_update_mass(fe_world *world, int32_t body); // from the shapes, unless given; reach always
+void fe__body_update_mass(fe_world *world, int32_t body);               // from the shapes, unless given; reach always
+void fe__body_gain_shape(fe_world *world, int32_t body, int32_t shape); // after it came
+// After a shape went, or got another form or frame. Those of a static body with many shapes, which only a step reads,
+// are put right at its beginning by fe__settle_sizes.
+void fe__body_sizes_changed(fe_world *world, int32_t body);
+void fe__body_densities_changed(fe_world *world, int32_t body);
+void fe__settle_sizes(fe_world *world);
 void fe__body_set_mass(fe_world *world, int32_t body, const fe_mass_data *data); // given
 void fe__body_mass_data(const fe_world *world, int32_t body, fe_mass_data *out_data);
 

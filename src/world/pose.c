@@ -24,15 +24,24 @@ void fe__body_place_centre(fe__body *body)
     }
 }
 
+static void place(fe__shape *shape, const fe__pose *pose)
+{
+    shape->pose =
+        shape->flags & FE__SHAPE_CENTRED ? *pose : fe__compose(pose, shape->local_position, shape->local_rotation);
+}
+
 void fe__body_place(fe_world *world, int32_t index)
 {
     const fe__body *body = &world->bodies[index];
     fe__pose pose = {fe__origin_of(body), fe__rotation_of(body)};
-    for (int32_t i = body->first_shape; i >= 0; i = world->shapes[i].next) {
-        fe__shape *shape = &world->shapes[i];
-        shape->pose =
-            shape->flags & FE__SHAPE_CENTRED ? pose : fe__compose(&pose, shape->local_position, shape->local_rotation);
-    }
+    for (int32_t i = body->first_shape; i >= 0; i = world->shapes[i].next) place(&world->shapes[i], &pose);
+}
+
+void fe__shape_place(fe_world *world, int32_t index)
+{
+    const fe__body *body = &world->bodies[world->shapes[index].body];
+    fe__pose pose = {fe__origin_of(body), fe__rotation_of(body)};
+    place(&world->shapes[index], &pose);
 }
 
 void fe__advance(const fe_world *world, const fe__body *body, float dt, fe_dvec3 *centre, fe_quat *rotation)

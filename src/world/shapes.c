@@ -101,8 +101,8 @@ int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *def,
     set_local_pose(shape, def->frame.position, def->frame.rotation);
     append_to_body(world, index);
     fe__shape_take_asset(world, index);
-    fe__body_update_mass(world, body);
-    fe__body_place(world, body);
+    fe__body_gain_shape(world, body, index);
+    fe__shape_place(world, index);
     if (world->bodies[body].flags & FE__BODY_ENABLED) fe__shape_enter(world, index);
     note_events(world, def->events);
     return index;
@@ -139,7 +139,7 @@ void fe__shape_destroy(fe_world *world, int32_t index)
     remove_from_body(world, index);
     fe__shape_release_asset(world, index);
     fe__id_pool_release(&world->shape_ids, index);
-    fe__body_update_mass(world, body);
+    fe__body_sizes_changed(world, body);
 }
 
 // ---- change --------------------------------------------------------------------------------------------------------
@@ -167,8 +167,8 @@ static void change(fe_world *world, int32_t index, const fe__form *form, fe_vec3
     shape->form = *form;
     if (fe__form_has_asset(&before) || fe__form_has_asset(form)) exchange_asset(world, index, &before);
     set_local_pose(shape, position, rotation);
-    fe__body_update_mass(world, body);
-    fe__body_place(world, body);
+    fe__body_sizes_changed(world, body);
+    fe__shape_place(world, index);
     if (world->bodies[body].flags & FE__BODY_ENABLED) fe__shape_enter(world, index);
 }
 

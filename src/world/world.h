@@ -82,11 +82,14 @@ struct fe_world {
     uint32_t row_kinds;                   // 1 << FE__ROW_* of every pair
     int32_t wants_hits;                   // a shape asked for hit events
     int32_t has_bullets;                  // a body was one
+    int32_t has_stale_sizes;              // a body has FE__BODY_SIZES_STALE
     _Atomic int32_t
         swiftest; // speed over thickness, 1/s, of the body that has most of it: the bits of a float, which rise with it
     fe__clusters clusters;
     fe__pair_set pair_set; // by shape indices
-    fe__pair_set ignored;  // by body indices: fe_world_ignore_collision
+    // fe_world_ignore_collision: by body indices, index of the record, which is in the lists of both bodies (ignore.h)
+    fe__pair_set ignored;
+    fe__record_pool ignores;
 
     // joints: what the solver reads, and the rest by the same index; slot i - 1 of the handles is joint i
     fe__id_pool joint_ids;

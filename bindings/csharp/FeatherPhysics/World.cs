@@ -61,7 +61,7 @@ namespace FeatherPhysics
             }
         }
         /// <summary>The stiffness that a step of dt seconds would really use, 1/s.</summary>
-        /// <param name="dt">0..1 s; 0: no limit</param>
+        /// <param name="dt">0..1 s; 0, and less than 1e-5 s: no limit</param>
         public void GetHertz(float dt, out float contactHertz, out float jointHertz)
         {
             float c, j;
@@ -201,7 +201,8 @@ namespace FeatherPhysics
 
         // ---- the step, and what is read after it ----
 
-        /// <summary>Moves the world on by dt seconds, 0..1. 0 updates contacts and events and moves nothing.</summary>
+        /// <summary>Moves the world on by dt seconds, 0..1. 0 updates contacts and events and moves nothing;
+        /// less than 1e-5 counts as 0.</summary>
         public void Step(float dt)
         {
             Native.world_step(P, dt);
