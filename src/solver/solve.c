@@ -128,7 +128,7 @@ static void add_colours(program *p, int32_t *part, const fe__solver *s, const fe
     }
 }
 
-static int32_t first_tree(const fe__batch *b) { return b->first_group + b->joint_groups - b->trees; }
+static int32_t first_tree_group(const fe__batch *b) { return b->first_group + b->joint_groups - b->tree_groups; }
 
 static void make_program(program *p, fe__solver *s, const fe__batch *b, int32_t substeps, int32_t width)
 {
@@ -142,7 +142,7 @@ static void make_program(program *p, fe__solver *s, const fe__batch *b, int32_t 
     add_pass(p, &p->prologue, LOAD, 0, 0, line_blocks, 0);
     add_colours(p, &p->prologue, s, b, PREPARE);
     add_colours(p, &p->substep, s, b, SOLVE);
-    if (b->trees) add_pass(p, &p->substep, FOLLOW, first_tree(b), b->trees, b->trees, 0);
+    if (b->tree_groups) add_pass(p, &p->substep, FOLLOW, first_tree_group(b), b->tree_groups, b->tree_groups, 0);
     add_pass(p, &p->substep, INTEGRATE, 0, 0, line_blocks, 0);
     add_colours(p, &p->substep, s, b, RELAX);
     if (b->bounces) add_colours(p, &p->substep, s, b, BOUNCE);
@@ -229,13 +229,21 @@ static void run_joints(const job *j, const fe__group *g, verb verb, unsigned cha
     }
 }
 
-static void run_tree(const job *j, const fe__group *g, verb verb, unsigned char *rows, const fe__step_constants *c)
+static void run_trees(const job *j, const fe__group *g, verb verb, unsigned char *rows, const fe__step_constants *c)
 {
-    const fe__tree_job tree = fe__tree_job_of(j->s, &j->k->joint->locks, j->joints, g->lane, rows, g->offset, c);
-    if (verb == PREPARE) fe__tree_prepare(&tree);
-    if (verb == SOLVE) fe__tree_solve(&tree);
-    if (verb == FOLLOW) fe__tree_follow(&tree);
-    if (verb == RELAX) fe__tree_relax(&tree);
+    const fe__tree_job trees = {.solver = j->s,
+                                .lanes = &j->k->joint->locks,
+                                .forest = &j->joints->forest,
+                                .trees = j->s->trees + g->lane,
+                                .count = g->trees,
+                                .rows = rows,
+                                .nodes = rows + g->offset,
+                                .h = (double)c->h,
+                                .rate = (double)(c->h * c->joint.bias_rate)};
+    if (verb == PREPARE) j->k->forest->prepare(&trees);
+    if (verb == SOLVE) j->k->forest->solve(&trees);
+    if (verb == FOLLOW) j->k->forest->follow(&trees);
+    if (verb == RELAX) j->k->forest->relax(&trees);
 }
 
 // Stored impulses are those of the world's substeps
@@ -255,7 +263,7 @@ static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char 
                      const fe__step_constants *c)
 {
     if (g->kind == FE__TREE_KIND) {
-        run_tree(j, g, verb, rows, c);
+        run_trees(j, g, verb, rows, c);
         return;
     }
     if (g->kind >= FE__ROW_KINDS) {
@@ -327,7 +335,8 @@ static void run_batch(const job *j, const fe__batch *b, unsigned char *rows)
     run_all(j, b, PREPARE, rows, c);
     for (int32_t n = 0; n < c->substeps; ++n) {
         run_all(j, b, SOLVE, rows, c);
-        for (int32_t i = 0; i < b->trees; ++i) run_tree(j, j->s->groups + first_tree(b) + i, FOLLOW, rows, c);
+        for (int32_t i = 0; i < b->tree_groups; ++i)
+            run_trees(j, j->s->groups + first_tree_group(b) + i, FOLLOW, rows, c);
         run_all(j, b, INTEGRATE, rows, c);
         for (int32_t i = 1; i < c->sweeps; ++i) run_all(j, b, RELAX, rows, &pace->more);
         run_all(j, b, RELAX, rows, n + 1 < c->substeps ? c : &pace->last);

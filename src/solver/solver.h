@@ -142,18 +142,19 @@ typedef struct fe__group {
     int32_t lane; // first
     int32_t rows;
     int32_t width;  // lanes of a row: W, or FE__THIN_WIDTH; W of a tree, which is work for several
-    int32_t kind;   // FE__ROW_*, or FE__ROW_KINDS + part of joints, or FE__TREE_KIND: one tree, `lane` is its index
+    int32_t kind;   // FE__ROW_*, or FE__ROW_KINDS + part of joints, or FE__TREE_KIND: see `trees`
     int32_t colour; // rises; groups of one share no dynamic body
     int32_t sides;  // FE__MOVES_*, of joints
+    int32_t trees;  // side by side, of fe__solver.trees from `lane` on
     int32_t alone;  // 1: overflow, one row after another
     int32_t block;  // of a large batch: first one, of all blocks of its groups, see solve.c
     int64_t offset; // of the first row, bytes
 } fe__group;
 
 typedef struct fe__batch {
-    int32_t first_line, line_count;   // a multiple of FE__MAX_WIDTH
-    int32_t first_group, group_count; // joints' first
-    int32_t joint_groups, trees;      // the trees are the last of the joints' groups
+    int32_t first_line, line_count;    // a multiple of FE__MAX_WIDTH
+    int32_t first_group, group_count;  // joints' first
+    int32_t joint_groups, tree_groups; // the trees' are the last of the joints'
     int32_t contact_count, joint_count, body_count, island_count;
     int32_t lane_count; // contacts and parts of joints
     int32_t bounces;    // special rows are in it
@@ -226,6 +227,8 @@ typedef struct fe__solver {
     int32_t lane_count, lane_capacity;
     fe__tree_place *places; // by link of the forest; of trees that are awake
     int32_t place_capacity;
+    int32_t *trees; // that are awake, those of a group one after another
+    int32_t tree_count, tree_capacity;
     fe__pass *passes; // of the large batch at hand
     int32_t pass_capacity;
     int32_t island_count;
@@ -265,6 +268,18 @@ typedef struct fe__joint_kernel {
                   const fe__step_constants *c);
 } fe__joint_kernel;
 
+// Passes over trees of one form side by side, each after the same pass over the rows of the joints. `follow` comes
+// after the contacts of a soft pass, which know nothing of the joints: what was struck or pinched would fly off.
+struct fe__tree_job;
+typedef struct fe__forest_kernels {
+    int32_t lanes;                  // trees side by side
+    int32_t head_bytes, link_bytes; // of row memory for so many links of such trees
+    void (*prepare)(const struct fe__tree_job *job);
+    void (*solve)(const struct fe__tree_job *job);
+    void (*follow)(const struct fe__tree_job *job);
+    void (*relax)(const struct fe__tree_job *job);
+} fe__forest_kernels;
+
 typedef struct fe__joint_kernels {
     fe__joint_kernel of[FE__PARTS];
     fe__lock_lanes locks; // for the trees
@@ -291,6 +306,7 @@ typedef struct fe__kernels {
     int32_t simd, width; // fe_simd, W
     const fe__contact_kernels *contact;
     const fe__joint_kernels *joint;
+    const fe__forest_kernels *forest;
     const fe__body_kernels *body;
     fe__recycle_kernel *recycle;
     // of FE__THIN_WIDTH lanes, for groups of no more contacts: the same bits from less memory

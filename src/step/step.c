@@ -47,7 +47,7 @@ static void count(const fe__step *step)
         int32_t rows = 0, colours = 0;
         for (int32_t g = b->first_group; g < b->first_group + b->group_count; ++g) {
             if (s->groups[g].kind == FE__TREE_KIND)
-                c->trees += w->joints.forest.trees[s->groups[g].lane].heavy;
+                c->trees += s->groups[g].trees * w->joints.forest.trees[s->trees[s->groups[g].lane]].heavy;
             else
                 rows += s->groups[g].rows;
             colours += g == b->first_group || s->groups[g].colour != s->groups[g - 1].colour;

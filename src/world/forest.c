@@ -96,10 +96,29 @@ static int32_t is_second_hinge(const fe_world *w, int32_t joint)
     return 0;
 }
 
+// no joint lets them move along and about all axes
+static int32_t form_of(const fe_world *w, int32_t joint)
+{
+    const uint32_t rows = joint ? w->joints.joints[joint].rows : 0;
+    const int32_t has_point = (int32_t)(rows >> FE__PART_POINT & 1), has_slide = (int32_t)(rows >> FE__PART_SLIDE & 1),
+                  is_rod = (int32_t)(rows >> FE__PART_DISTANCE & 1), has_hinge = (int32_t)(rows >> FE__PART_HINGE & 1),
+                  is_fixed = (int32_t)(rows >> FE__PART_FIXED & 1);
+    int32_t along = FE__TREE_ALONG, about = FE__TREE_ABOUT;
+    if (has_point && !has_hinge && !is_fixed) return FE__TREE_BALL;
+    if (is_rod) along = 6;
+    if (has_slide && !(w->joints.frames[joint].parts >> FE__PART_POINT & 1))
+        along = FE__TREE_ALONG & ~(int32_t)w->joints.frames[joint].locked;
+    if (has_point || (has_slide && w->joints.frames[joint].parts >> FE__PART_POINT & 1)) along = 0;
+    if (has_hinge) about = 8;
+    if (is_fixed) about = 0;
+    return along | about | (is_rod ? FE__TREE_ROD : 0);
+}
+
 static fe__tree_link link_to(const fe_world *w, int32_t body, int32_t joint, int32_t parent)
 {
     return (fe__tree_link){.body = body,
                            .joint = joint,
+                           .form = form_of(w, joint),
                            .parent = parent,
                            .holds_b = joint && w->joint_records[joint].body[1] == body};
 }
@@ -221,13 +240,18 @@ static int32_t is_heavy(const fe_world *w, const component *c, fe__tree_link *li
     return 0;
 }
 
-static void keep_tree(fe__forest *f, int32_t count, int32_t heavy)
+static void keep_tree(fe__forest *f, int32_t count, int32_t heavy, uint32_t locks)
 {
     for (int32_t i = f->link_count; i < f->link_count + count; ++i) {
         f->links[i].tree = f->tree_count;
         if (f->links[i].joint) f->link_of[f->links[i].joint] = i;
     }
-    f->trees[f->tree_count++] = (fe__joint_tree){f->link_count, count, heavy};
+    f->trees[f->tree_count++] =
+        (fe__joint_tree){.first = f->link_count,
+                         .count = count,
+                         .heavy = heavy,
+                         .locks = locks,
+                         .form = fe__form_of_tree(f->links + f->link_count, count, heavy, locks)};
     f->link_count += count;
 }
 
@@ -258,7 +282,8 @@ static void plant(fe_world *w, int32_t body)
     component c = explore(w, body, links);
     if (c.edges != c.bodies - 1 || c.anchors > 1) return;
     arrange(w, &c, links);
-    if (may_be_exact(w, &c, links)) keep_tree(f, c.bodies, is_heavy(w, &c, links));
+    if (may_be_exact(w, &c, links))
+        keep_tree(f, c.bodies, is_heavy(w, &c, links), (uint32_t)w->bodies[links[0].body].lock_bits);
 }
 
 static void clear_marks(fe_world *w, int32_t joint)

@@ -2,6 +2,8 @@
 // them.
 #include "scenes/joint_scene.h"
 
+#include <string.h>
+
 enum { LINKS = 12, MOST_BODIES = 40, KINDS = 5 };
 #define STEP_LENGTH 0.2 // m, from joint to joint
 #define EXACT (LINEAR_SLOP / 10)
@@ -199,6 +201,44 @@ static void locked_bodies_swing_in_their_plane(void **state)
     scene_end(&s);
 }
 
+// ---- side by side --------------------------------------------------------------------------------------------------
+// the last pose of a chain that is flung, beside so many others of its form that are flung harder
+static void fling(void **state, kind k, double load, int beside, fe_transform out_poses[LINKS])
+{
+    scene s = scene_begin(state);
+    fe_body anchor = add_anchor(&s, v3(0, 0, 0));
+    chain c = hang(&s, k, anchor, load);
+    set_velocity(&s, c.bodies[LINKS - 1], v3(20, 0, 0), v3(0, 0, 0));
+    for (int i = 1; i <= beside; ++i) {
+        chain other = hang(&s, k, anchor, load);
+        set_velocity(&s, other.bodies[LINKS - 1], v3(20 + 8 * i, 3 * i, 5 * i), v3(0, 0, 0));
+    }
+    for (int i = 0; i < (SLOW_BUILD ? 30 : 90); ++i) {
+        run(&s, 1);
+        if (load > 1) FE_TRUE(trees_of(&s) == 1 + beside);
+    }
+    for (int i = 0; i < LINKS; ++i) MUST(fe_body_get_transform(s.world, c.bodies[i], out_poses + i));
+    scene_end(&s);
+}
+
+// What happens to a tree is nothing to one of its form: taut or slack, struck or not, it ends where it ends alone
+static void neighbours_do_not_show(void **state)
+{
+    static const int beside[] = {1, 8};
+    for (int k = 0; k < KINDS; ++k)
+        for (double load = 1; load < 1e4; load *= 100) {
+            fe_transform alone[LINKS], among[LINKS];
+            fling(state, (kind)k, load, 0, alone);
+            for (size_t i = 0; i < sizeof beside / sizeof *beside; ++i) {
+                fling(state, (kind)k, load, beside[i], among);
+                for (int j = 0; j < LINKS; ++j) {
+                    FE_TRUE(!memcmp(&alone[j].position, &among[j].position, sizeof alone[j].position));
+                    FE_TRUE(!memcmp(&alone[j].rotation, &among[j].rotation, sizeof alone[j].rotation));
+                }
+            }
+        }
+}
+
 // ---- which are trees -----------------------------------------------------------------------------------------------
 
 // A second hold closes a loop through the world; without it the chain is a tree again, and nothing tells that there was
@@ -261,6 +301,7 @@ int main(void)
         TEST(random_trees_hold),
         TEST(a_trolley_carries_its_load),
         TEST(locked_bodies_swing_in_their_plane),
+        TEST(neighbours_do_not_show),
         TEST(a_loop_is_no_tree),
         TEST(only_a_heavy_load_makes_a_tree),
     };

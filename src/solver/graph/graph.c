@@ -178,7 +178,7 @@ void fe__graph_build(fe__solver *s, const fe__kernels *kernels, const fe__graph_
 {
     fe__builder b = make_builder(s, kernels, input);
     fe__graph_find_batches(&b);
-    s->group_count = s->lane_count = s->line_count = 0;
+    s->group_count = s->lane_count = s->line_count = s->tree_count = 0;
     s->built = (fe__built){.overflow = 0};
     s->unbuilt = 0;
     for (int32_t i = 0; i < FE__MAX_WIDTH; ++i) add_line(s, FE__NONE); // FE__STATIC_LINE and its block

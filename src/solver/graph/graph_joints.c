@@ -2,7 +2,6 @@
 #include "solver/graph/graph_build.h"
 
 #include "core/array_sort.h"
-#include "solver/tree/tree.h"
 
 #include <string.h>
 
@@ -54,26 +53,51 @@ static void set_bodies(fe__builder *b, int32_t link, fe__lane lane)
                                           .parent_line = holds_b ? lane.line_a : lane.line_b};
 }
 
-// a tree's group, when the first of its links comes by
-static void open_tree(fe__builder *b, fe__batch *batch, int32_t link)
+// a tree, when the first of its links comes by
+static void open_tree(fe__builder *b, int32_t link)
 {
     fe__solver *s = b->s;
     const fe__forest *f = &b->in->joints->forest;
     const fe__tree_link *l = f->links + link;
-    int32_t first = f->trees[l->tree].first, count = f->trees[l->tree].count, rootless = !f->links[first].joint;
+    int32_t first = f->trees[l->tree].first, rootless = !f->links[first].joint;
     if (link != first + rootless) return;
-    batch->row_bytes = fe__whole_blocks(batch->row_bytes);
     if (rootless)
         s->places[first] =
             (fe__tree_place){.line = fe__line_of(b, f->links[first].body), .parent_line = FE__STATIC_LINE};
-    s->groups[s->group_count++] = (fe__group){.width = b->width,
-                                              .kind = FE__TREE_KIND,
-                                              .colour = FE__TREE_COLOUR,
-                                              .lane = l->tree,
-                                              .rows = 1,
-                                              .offset = batch->row_bytes};
-    batch->row_bytes += fe__tree_bytes(count);
-    ++batch->group_count, ++batch->trees;
+    s->trees[s->tree_count++] = l->tree;
+}
+
+// those of one form one after another
+static void sort_trees(fe__solver *s, const fe__forest *f, int32_t first)
+{
+    fe__sort_item *items = s->sort_items;
+    int32_t n = s->tree_count - first;
+    for (int32_t i = 0; i < n; ++i)
+        items[i] = (fe__sort_item){f->trees[s->trees[first + i]].form, s->trees[first + i], 0};
+    fe__sort_keys(items, n, items + n);
+    for (int32_t i = 0; i < n; ++i) s->trees[first + i] = items[i].value;
+}
+
+// The trees of a batch from `first` on, as many side by side as there are lanes
+static void group_trees(fe__builder *b, fe__batch *batch, int32_t first, const fe__kernels *kernels)
+{
+    fe__solver *s = b->s;
+    const fe__forest *f = &b->in->joints->forest;
+    sort_trees(s, f, first);
+    for (int32_t i = first, last; i < s->tree_count; i = last) {
+        for (last = i + 1; last < s->tree_count && last - i < kernels->forest->lanes; ++last)
+            if (!fe__trees_are_alike(f, s->trees[i], s->trees[last])) break;
+        batch->row_bytes = fe__whole_blocks(batch->row_bytes);
+        s->groups[s->group_count++] = (fe__group){.width = b->width,
+                                                  .kind = FE__TREE_KIND,
+                                                  .colour = FE__TREE_COLOUR,
+                                                  .lane = i,
+                                                  .rows = 1,
+                                                  .trees = last - i,
+                                                  .offset = batch->row_bytes};
+        batch->row_bytes += fe__forest_bytes(kernels, f->trees[s->trees[i]].count);
+        ++batch->group_count, ++batch->tree_groups;
+    }
 }
 
 // the rows of a link's locks
@@ -108,12 +132,12 @@ static void open_part(fe__builder *b, fe__batch *batch, int32_t part, int32_t ov
     }
 }
 
-static void fill_joint_lanes(fe__builder *b, fe__batch *batch, int32_t joint, const fe__kernels *kernels)
+static void fill_joint_lanes(fe__builder *b, int32_t joint, const fe__kernels *kernels)
 {
     const fe__joint *j = b->in->joints->joints + joint;
     fe__lane lane = joint_lane(b, joint);
     int32_t link = link_of(b, joint);
-    if (link >= 0) set_bodies(b, link, lane), open_tree(b, batch, link);
+    if (link >= 0) set_bodies(b, link, lane), open_tree(b, link);
     for (int32_t part = 0; part < FE__PARTS; ++part) {
         if (!(j->rows >> part & 1)) continue;
         int32_t key = joint_key(part, j), at = b->joint_key_count[key]++;
@@ -132,7 +156,7 @@ void fe__graph_joint_groups(fe__builder *b, int32_t k, const fe__kernels *kernel
         for (int32_t part = 0; part < FE__PARTS; ++part)
             b->joint_key_count[joint_key(part, j)] += (int32_t)(j->rows >> part & 1);
     }
-    int32_t overflowing = sort_overflow(b, k);
+    int32_t overflowing = sort_overflow(b, k), first_tree = b->s->tree_count;
     for (int32_t i = 0; i < overflowing; ++i) {
         int32_t joint = b->s->sort_items[i].value, link = link_of(b, joint);
         if (link >= 0) set_bodies(b, link, joint_lane(b, joint));
@@ -140,11 +164,12 @@ void fe__graph_joint_groups(fe__builder *b, int32_t k, const fe__kernels *kernel
     for (int32_t part = 0; part < FE__PARTS; ++part) open_part(b, batch, part, overflowing, kernels);
     for (int32_t i = 0; i < overflowing; ++i) {
         int32_t link = link_of(b, b->s->sort_items[i].value);
-        if (link >= 0) open_tree(b, batch, link);
+        if (link >= 0) open_tree(b, link);
     }
     for (int32_t i = b->joint_start[k]; i < b->joint_start[k + 1]; ++i) {
         const fe__joint *j = b->in->joints->joints + b->joint_order[i];
-        if (j->colour != FE__JOINT_OVERFLOW) fill_joint_lanes(b, batch, b->joint_order[i], kernels);
+        if (j->colour != FE__JOINT_OVERFLOW) fill_joint_lanes(b, b->joint_order[i], kernels);
     }
+    if (b->s->tree_count > first_tree) group_trees(b, batch, first_tree, kernels);
     batch->joint_groups = batch->group_count;
 }

@@ -3,7 +3,6 @@
 #include "solver/graph/graph.h"
 
 #include "solver/graph/graph_build.h"
-#include "solver/tree/tree.h"
 
 static int32_t joint_rows(const fe__graph_bound *b)
 {
@@ -123,7 +122,7 @@ static int64_t row_bytes(const fe__solver *s, const fe__graph_bound *b, const fe
     int64_t links = fe__minl(tree_links(b), bodies);
     return contact_bytes(s, b, kernels, contacts) +
            joint_row_bound(b, joint_lanes, kernels->width) * widest_joint(b, kernels) +
-           links * (fe__tree_bytes(1) + (int64_t)sizeof(fe__row_block));
+           links * (fe__forest_bytes(kernels, 1) + (int64_t)sizeof(fe__row_block));
 }
 
 static int64_t scratch_bound(const fe__graph_bound *b)
@@ -178,7 +177,9 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
     int64_t lines = FE__MAX_WIDTH + (int64_t)b->bodies + (int64_t)batches * (FE__DUMMY_LINES + FE__MAX_WIDTH) + copies;
     int64_t small, rows = all_rows(s, b, kernels, workers, &small);
     int64_t building = (int64_t)sizeof(int32_t) * scratch_bound(b);
-    int64_t sorted = fe__maxi(overflow_bound(s, b), b->joint_set ? fe__mini(b->joint_set->overflowing, b->joints) : 0);
+    int32_t trees = b->joint_set ? b->joint_set->forest.tree_count : 0;
+    int64_t sorted = fe__maxi(fe__maxi(overflow_bound(s, b), trees),
+                              b->joint_set ? fe__mini(b->joint_set->overflowing, b->joints) : 0);
     if (!FE_RESERVE(memory, s->velocity, s->line_capacity[0], lines) ||
         !FE_RESERVE(memory, s->motion, s->line_capacity[1], lines) ||
         !FE_RESERVE(memory, s->start, s->line_capacity[2], lines) ||
@@ -193,6 +194,7 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
         !FE_RESERVE(memory, s->groups, s->group_capacity, groups + 1) ||
         !FE_RESERVE(memory, s->lanes, s->lane_capacity, lanes + width) ||
         !FE_RESERVE(memory, s->places, s->place_capacity, tree_links(b)) ||
+        !FE_RESERVE(memory, s->trees, s->tree_capacity, trees) ||
         !FE_RESERVE(memory, s->passes, s->pass_capacity, pass_bound(groups)) ||
         !FE_RESERVE(memory, s->sort_items, s->sort_capacity, 2 * sorted) ||
         !FE_RESERVE(memory, s->rows, s->row_capacity, fe__maxl(rows, building) / (int64_t)sizeof(fe__row_block) + 1))
@@ -217,6 +219,7 @@ void fe__solver_destroy(fe__solver *s, fe__memory *memory)
     FE_FREE(memory, s->groups, s->group_capacity);
     FE_FREE(memory, s->lanes, s->lane_capacity);
     FE_FREE(memory, s->places, s->place_capacity);
+    FE_FREE(memory, s->trees, s->tree_capacity);
     FE_FREE(memory, s->passes, s->pass_capacity);
     FE_FREE(memory, s->sort_items, s->sort_capacity);
     FE_FREE(memory, s->rows, s->row_capacity);

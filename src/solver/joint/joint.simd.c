@@ -38,4 +38,5 @@ const fe__joint_kernels FE_NAME(fe__joint_kernels) = {.of =
                                                               [FE__PART_SLIDE] = KERNELS(slide, slide),
                                                               [FE__PART_POINT] = KERNELS(point, point),
                                                           },
-                                                      .locks = {read_lock, add_lock, take_lock, is_open, opens}};
+                                                      .locks = {read_lock, pull_of, add_lock, take_lock, is_open,
+                                                                opens}};

@@ -78,6 +78,18 @@ static void read_lock(int32_t part, const void *row, int32_t lane, fe__lock *out
     }
 }
 
+static void pull_of(int32_t part, const void *row, int32_t lane, fe_vec3 *out_impulse)
+{
+    const point_row *point = row;
+    const slide_row *slide = row;
+    const linear_row *rod = row;
+    *out_impulse = fe__vec3(0.0f, 0.0f, 0.0f);
+    if (part == FE__PART_POINT) *out_impulse = lane_of(point->impulse, lane);
+    if (part == FE__PART_DISTANCE) *out_impulse = fe__scale(rod->f.under[lane], lane_of(rod->u, lane));
+    for (int k = 0; k < 3 && part == FE__PART_SLIDE; ++k)
+        *out_impulse = fe__add_scaled(*out_impulse, slide->impulse[k][lane], lane_of(slide->u[k], lane));
+}
+
 // ---- to a lane ------------------------------------------------------------------------------------------------------
 FE_INLINE fe_dvec3 wide_lane(const wide *a, int32_t i) { return fe__widen(lane_of(a, i)); }
 FE_INLINE void add_lane(wide *to, int32_t i, double a) { (*to)[i] += (float)a; }

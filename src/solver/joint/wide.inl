@@ -352,9 +352,6 @@ FE_INLINE void scatter_spins(void *lines, const line_pair *line, const spins *e,
 }
 
 // ---- inertia that rotates -------------------------------------------------------------------------------------------
-// sin^2 of half the angle from which on a body's rotation within the step counts for its inertia: 0.02 rad
-#define ROTATED 1e-4f
-
 // > 0 where a body's inertia is not that of a ball
 FE_INLINE wide shape_of(const fe__solver *s, const line_pair *line)
 {
@@ -364,7 +361,7 @@ FE_INLINE wide shape_of(const fe__solver *s, const line_pair *line)
 FE_INLINE wide_sym change_inertia(const fe__solver *s, const int32_t *line, wide_mask shaped, wide_sym *inertia)
 {
     wide4 turn = gather_high(s->motion, line);
-    wide_mask turns = w_and(shaped, w_greater(w_dot(w_xyz(turn), w_xyz(turn)), w_set(ROTATED)));
+    wide_mask turns = w_and(shaped, w_greater(w_dot(w_xyz(turn), w_xyz(turn)), w_set(FE__ROTATED)));
     wide_sym was = *inertia, zero = {w_set(0), w_set(0), w_set(0), w_set(0), w_set(0), w_set(0)};
     if (!w_any(turns)) return zero;
     wide_sym now = turned_inertia(s, line, turn, gather_high(s->velocity, line).w);

@@ -16,14 +16,25 @@ typedef struct fe__tree_link {
     int32_t joint;   // 0: the root of a tree that hangs on nothing
     int32_t parent;  // link of the body above, counted from the tree's first; -1: the root
     int32_t holds_b; // 1: the body is B of the joint, 0: A
+    int32_t form;    // FE__TREE_BALL...
     int32_t tree;
     float carried; // mass of the body and of all below it, kg
 } fe__tree_link;
+
+// How a joint lets its bodies move against each other
+enum {
+    FE__TREE_ALONG = 7, // bits of the joint's axes x, y, z
+    FE__TREE_ABOUT = 7 << 3,
+    FE__TREE_BALL = 1 << 6, // about all, and a plain point: no other bit is set
+    FE__TREE_ROD = 1 << 7   // of fixed length, along x
+};
 
 typedef struct fe__joint_tree {
     int32_t first, count; // links
     // 1: solved in every substep; 0: from the sweep on that left a joint open, to the end of the step
     int32_t heavy;
+    uint32_t locks; // of each of its bodies
+    uint64_t form;  // of all links: trees of different ones are not alike
 } fe__joint_tree;
 
 typedef struct fe__forest {
@@ -35,5 +46,11 @@ typedef struct fe__forest {
     // joints were linked or unlinked, or masses of joined bodies changed, since the trees were found
     int32_t changed;
 } fe__forest;
+
+// A number of the form of a tree's links
+uint64_t fe__form_of_tree(const fe__tree_link *links, int32_t count, int32_t heavy, uint32_t locks);
+// 1: they have as many links, each with the same parent and the same form of joint, so that they may be solved side by
+// side
+int32_t fe__trees_are_alike(const fe__forest *forest, int32_t a, int32_t b);
 
 #endif

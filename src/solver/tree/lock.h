@@ -38,6 +38,8 @@ struct fe__solver;
 // `row` and `lane` as in fe__tree_place
 typedef struct fe__lock_lanes {
     void (*read)(int32_t part, const void *row, int32_t lane, fe__lock *out_lock);
+    // The impulse of what holds points, world axes, N s
+    void (*pull)(int32_t part, const void *row, int32_t lane, fe_vec3 *out_impulse);
     // Adds impulses in the order of the lock's rows, with `total` to the sum over the step too. Returns how many.
     int32_t (*add)(int32_t part, void *row, int32_t lane, const double *impulse, int32_t total);
     // Moves the impulses to `impulse` and leaves none. Returns how many.

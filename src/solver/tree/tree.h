@@ -1,4 +1,4 @@
-// tree.h - all locks of a tree of joints, met at once.
+// tree.h - all locks of trees of joints, met at once; trees of one form side by side, in lanes.
 //
 // Runs after the sweep over the joints, whose rows hold arms, errors and impulses, and ends what the sweep began.
 //
@@ -8,19 +8,22 @@
 // is kept.
 #ifndef FE_SOLVER_TREE_TREE_H
 #define FE_SOLVER_TREE_TREE_H
-#include "solver/tree/node.h"
+#include "solver/solver.h"
 
-// Bytes of the nodes of so many links; they begin with a whole block
-int64_t fe__tree_bytes(int32_t links);
-// `rows`: the batch's row memory; `nodes`: where the tree has its own, bytes into it
-fe__tree_job fe__tree_job_of(fe__solver *s, const fe__lock_lanes *lanes, const fe__joints *joints, int32_t tree,
-                             unsigned char *rows, int64_t nodes, const fe__step_constants *c);
+// A rotation within a substep that is no small correction any more, rad
+#define FE__SLOW_TURN 0.05
 
-// Each after the same pass over the rows of the joints
-void fe__tree_prepare(const fe__tree_job *t);
-void fe__tree_solve(const fe__tree_job *t);
-void fe__tree_relax(const fe__tree_job *t);
-// After the contacts of a soft pass, which know nothing of the joints: what was struck or pinched would fly off.
-void fe__tree_follow(const fe__tree_job *t);
+// `count` trees of one form, at most as many as the kernels have lanes
+typedef struct fe__tree_job {
+    fe__solver *solver;
+    const fe__lock_lanes *lanes;
+    const fe__forest *forest;
+    const int32_t *trees; // of the forest
+    int32_t count;
+    unsigned char *rows;  // of the batch
+    unsigned char *nodes; // fe__forest_bytes of them, whole blocks
+    double h;             // of the substep, s
+    double rate;          // share of a gap that a soft lock closes in a substep
+} fe__tree_job;
 
 #endif

@@ -1,0 +1,137 @@
+// node.inl - a link of the trees that are solved side by side. Part of tree.simd.c.
+//
+// A joint lets the body below move against the one above along some axes and about some: its freedoms s. All that is
+// said of a body is said at the point c of the joint above it, in world axes: velocities (v of c, w), forces (f, torque
+// about c). In these P is the mass of a body with all that hangs on it, p the load that hangs on it, r what its joint
+// asks for, q how fast the joint gives along its freedoms, k its damping, l the impulse of the joint. With u the change
+// of the body's velocity, X u that of the body above at c:
+//     P u = p + l,   u = X u_above + r + sum s q,   s.l = -k (q + s.slip)
+// The freedoms are eliminated one by one, from the leaves upwards, and met from the root downwards (R. Featherstone,
+// "Robot Dynamics Algorithms", 1987: articulated bodies):
+//     up     U = P s,  g = 1 / (s.U + k),  P -= g U U^T,  e = g (s.p - k s.slip),  p -= e U
+//            P_above += X^T P X,  p_above += X^T (p - P r)
+//     down   x = X u_above + r,  l = P x - p,  q = e - g U.x,  x += s q,  u = x in the end
+// The points of a joint come together to the last digit, as no row says so: there is no other velocity. The matrices
+// follow from positions: they are found once a substep.
+
+// A mass at c: f = a v + b w, torque = b^T v + d w
+typedef struct mass {
+    real_sym a;
+    real_mat b;
+    real_sym d;
+} mass;
+
+typedef struct freedom {
+    real3 v, w; // U; of a ball joint see eliminate.inl
+    real g, e;
+} freedom;
+
+enum { FREEDOMS = 6 };
+
+typedef struct tree_node {
+    // when the step began
+    real3 first_below, first_above, first_gap; // arms from the centres to a ball joint's point, m
+    real_sym first_inertia, first_inverse;     // about the centre, kg m2 and its inverse
+    real side;                                 // 1: the body below is B of the joint, -1: A
+    real mass;                                 // kg
+    // where the bodies are now
+    real_mat turn;        // since the step began
+    real_mat principal;   // the same, but of what the joints' inertia has followed: see FE__ROTATED
+    real3 shift;          // m
+    real3 below, above;   // from the centres of the body below, above to the point, m
+    real3 gap, swing;     // what the joint has to bring back to zero, m, rad
+    real3 lin[3], ang[3]; // axes of the joint, of which some are freedoms. A ball joint has none: its are the world's
+    real rod;             // length of a distance joint, m; else 0
+    real3 pull;           // impulse on the body below at the point when the matrices were found, N s
+    real_sym inertia;     // about the centre, world axes
+    real tension, expected, damping, heaviest; // see damping.inl; the largest moment about an axis that is not locked
+    // found by the elimination
+    real3 from_above; // from the point of the body above to this one, m
+    mass p;
+    freedom free[FREEDOMS];
+    // of one solution
+    real3 v, w;                 // velocities as they are
+    real3 rest;                 // what the points lack to move as one, m/s
+    real3 ask_v, ask_w;         // r
+    real3 slip;                 // of the rotations, rad/s
+    real3 load_v, load_w;       // p
+    real3 change_v, change_w;   // u
+    real3 impulse_v, impulse_w; // l
+} tree_node;
+
+// A light tree is solved from the substep on in which it opens, but left to the sweep where it was open before
+typedef enum tree_state { READY, SOLVED, SWEPT } tree_state;
+
+// In front of the nodes
+typedef struct bundle {
+    _Alignas(64) int32_t state[LANES]; // tree_state
+    int32_t loaded;                    // 1: the nodes have what they keep for the step
+} bundle;
+
+// What a pass over the nodes knows of its trees. Idle lanes do as the first tree does, and write nothing.
+typedef struct pass {
+    const fe__tree_job *job;
+    fe__solver *solver;
+    const fe__tree_link *links; // of the first tree: all have one form
+    const fe__tree_place *places[LANES];
+    const fe__tree_link *links_of[LANES];
+    int32_t count, heavy; // links
+    int32_t lanes;        // bits of those in use
+    uint32_t locks;       // of all bodies
+    bundle *head;
+    tree_node *nodes;
+    real h;
+    double rate;
+} pass;
+
+FE_INLINE tree_node *above_of(const pass *t, int32_t i)
+{
+    return t->links[i].parent < 0 ? NULL : t->nodes + t->links[i].parent;
+}
+FE_INLINE int32_t is_ball(const pass *t, int32_t i) { return t->links[i].form & FE__TREE_BALL; }
+FE_INLINE int32_t is_root(const pass *t, int32_t i) { return !t->links[i].joint; } // of a tree that hangs on nothing
+
+// ---- lines ----------------------------------------------------------------------------------------------------------
+typedef struct lines {
+    half a[FE__LINE];
+} lines;
+
+FE_INLINE lines read_lines(const void *from, const int32_t *line)
+{
+    const float *at = from;
+    lines l;
+    for (int k = 0; k < FE__LINE; ++k) {
+#define LANE(i) at[line[i] * FE__LINE + k]
+        l.a[k] = (half)PER_LANE_(LANE);
+#undef LANE
+    }
+    return l;
+}
+
+// the first `count` of a line from `from` on, in the given lanes
+FE_INLINE void write_lines(void *to, const int32_t *line, int32_t lanes, int from, int count, const half *a)
+{
+    float *at = to;
+    for (int i = 0; i < LANES; ++i)
+        for (int k = 0; k < count && lanes >> i & 1; ++k) at[line[i] * FE__LINE + from + k] = a[k][i];
+}
+
+typedef struct line_names {
+    int32_t at[LANES];
+} line_names;
+
+FE_INLINE line_names line_of(const pass *t, int32_t i)
+{
+#define LANE(k) t->places[k][i].line
+    return (line_names){PER_LANE_(LANE)};
+#undef LANE
+}
+FE_INLINE line_names line_above(const pass *t, int32_t i)
+{
+#define LANE(k) t->places[k][i].parent_line
+    return (line_names){PER_LANE_(LANE)};
+#undef LANE
+}
+FE_INLINE real3 widen3(const half *a) { return (real3){r_widen(a[0]), r_widen(a[1]), r_widen(a[2])}; }
+// b of what may be -0 is not: whether a freedom is looked at that gives nothing, nobody shall see
+FE_INLINE half narrow(real a) { return __builtin_convertvector(a + 0.0, half); }

@@ -1,0 +1,359 @@
+// tree.simd.c - what trees do in each pass over the joints: requests, and their results. Trees of one form lie side by
+// side, a lane each; see tree.h. Compiled once per SIMD set.
+#include "core/simd.h"
+#include "solver/tree/tree.h"
+#include "solver/wide_body.h"
+
+#include <string.h>
+
+#include "solver/tree/real.inl"
+#include "solver/tree/node.inl"
+#include "solver/tree/read.inl"
+#include "solver/tree/eliminate.inl"
+#include "solver/tree/damping.inl"
+#include "solver/tree/warm_start.inl"
+
+// A light tree is left to the sweep until an impact pulls a joint's points apart by more than this: four fifths of the
+// linear slop, so that the slop is kept with something to spare, m
+#define OPEN 0.004f
+// What is farther apart when the step begins was put there, by the user or by continuous collision: it comes together
+// softly, by sweeps
+#define PUT_APART (2.0f * OPEN)
+// A rotation, rad, beyond which an elimination says nothing of where an arm leads
+#define FULL_TURN 0.25
+
+// ---- requests -------------------------------------------------------------------------------------------------------
+static void read_velocities(const pass *t)
+{
+    for (int32_t i = 0; i < t->count; ++i) {
+        tree_node *n = t->nodes + i;
+        const lines l = read_lines(t->solver->velocity, line_of(t, i).at);
+        n->v = widen3(l.a), n->w = widen3(l.a + 4);
+    }
+}
+
+typedef struct velocity {
+    real3 v, w;
+} velocity;
+
+// of the body above, without changes
+FE_INLINE velocity velocity_above(const pass *t, int32_t i)
+{
+    const tree_node *above = above_of(t, i);
+    if (above) return (velocity){above->v, above->w};
+    const lines l = read_lines(t->solver->velocity, line_above(t, i).at);
+    return (velocity){widen3(l.a), widen3(l.a + 4)};
+}
+
+// a along what the joint locks
+FE_INLINE real3 locked_along(const pass *t, int32_t i, real3 a)
+{
+    for (int k = 0; k < 3 && !is_ball(t, i); ++k)
+        if (t->links[i].form >> k & 1) a = r_sub_scaled(a, r_dot(t->nodes[i].lin[k], a), t->nodes[i].lin[k]);
+    return a;
+}
+FE_INLINE real3 locked_about(const pass *t, int32_t i, real3 a)
+{
+    if (is_ball(t, i)) return r_zero3();
+    for (int k = 0; k < 3; ++k)
+        if (t->links[i].form >> (3 + k) & 1) a = r_sub_scaled(a, r_dot(t->nodes[i].ang[k], a), t->nodes[i].ang[k]);
+    return a;
+}
+
+FE_INLINE real3 minus3(real3 a) { return (real3){-a.x, -a.y, -a.z}; }
+
+// The joint's parts move as one
+static void request_rest(const pass *t)
+{
+    read_velocities(t);
+    for (int32_t i = 0; i < t->count; ++i) {
+        tree_node *n = t->nodes + i;
+        const velocity above = velocity_above(t, i);
+        const real3 apart = r_sub(r_add(n->v, r_cross(n->w, n->below)), r_add(above.v, r_cross(above.w, n->above)));
+        n->slip = r_sub(n->w, above.w);
+        n->ask_v = n->rest = locked_along(t, i, minus3(apart));
+        n->ask_w = locked_about(t, i, minus3(n->slip));
+    }
+}
+
+// Of the arcs of a rotation, by its square: beyond FE__SLOW_TURN they are left to the positions, which lose energy by
+// it instead of gaining it
+FE_INLINE real slow_share(real square)
+{
+    const double slow = FE__SLOW_TURN * FE__SLOW_TURN;
+    if (!r_bits(r_greater(square, r_set(slow)))) return r_set(1.0);
+    return r_min(r_max(2.0 - square / slow, r_set(0.0)), r_set(1.0));
+}
+
+// A point on an arm r leaves its tangent while the body turns: by integrate_positions' Q = Cayley(h w) it goes on by
+//     (Q - 1) r - h w x r = 2/(1 + u^2) (u x r + u x (u x r)) - 2 u x r,   u = h w / 2
+// The rotation about the arm itself leaves the point alone: u is at right angles to r, and with a = u x r that is
+//     -2 a^2 / (r^2 + a^2) (a + r)
+FE_INLINE real3 leave_tangent(real3 r, real3 w, real h)
+{
+    const real3 a = r_scale(0.5 * h, r_cross(w, r));
+    const real turn = r_dot(a, a), arm = r_max(r_dot(r, r), r_set(DBL_MIN)), share = slow_share(4.0 * (turn / arm));
+    return r_scale(share * (-2.0 * turn / (arm + turn)), r_add(a, r));
+}
+
+// A rod grows by the square of what its ends move across it
+FE_INLINE real leave_rod(const tree_node *n, velocity below, velocity above, real h)
+{
+    const real3 u = n->lin[0];
+    const real3 v = r_sub(r_add(below.v, r_cross(below.w, n->below)), r_add(above.v, r_cross(above.w, n->above)));
+    const real along = r_dot(v, u), length = r_max(n->rod, r_set(DBL_MIN));
+    // angle squared
+    const real turn = h * h * (r_dot(v, v) - along * along) / (length * length);
+    return r_choose(r_greater(n->rod, r_set(0.0)), slow_share(turn) * 0.5 * turn * n->rod, r_set(0.0));
+}
+
+FE_INLINE int32_t is_rod(const pass *t, int32_t i) { return t->links[i].form & FE__TREE_ROD; }
+
+// Velocities with which the points meet after the substep, on the arcs of the velocities at hand
+static void request_arcs(const pass *t)
+{
+    const real rate = 1.0 / t->h;
+    for (int32_t i = 0; i < t->count; ++i) {
+        tree_node *n = t->nodes + i;
+        const tree_node *on = above_of(t, i);
+        velocity below = {r_add(n->v, centre_change(n)), r_add(n->w, n->change_w)}, above = velocity_above(t, i);
+        if (on) above = (velocity){r_add(above.v, centre_change(on)), r_add(above.w, on->change_w)};
+        const real3 off = r_sub(leave_tangent(n->below, below.w, t->h), leave_tangent(n->above, above.w, t->h));
+        n->ask_v = r_sub_scaled(n->rest, rate, locked_along(t, i, off));
+        if (is_rod(t, i))
+            n->ask_v = r_sub_scaled(n->ask_v, rate * n->side * leave_rod(n, below, above, t->h), n->lin[0]);
+    }
+}
+
+// At most so much of an error at once; what is more follows at that rate
+FE_INLINE real share_of(real3 error, real most, double rate)
+{
+    const real square = r_dot(error, error);
+    const real_mask far = r_greater(square, most * most);
+    if (!r_bits(far)) return r_set(1.0);
+    return r_choose(far, r_max(most / r_sqrt(square), r_set(rate)), r_set(1.0));
+}
+
+// Positions are put right at once, as far as FULL_TURN of the arms takes them; what is farther apart follows as fast as
+// the softness of a lock says. Returns the lanes in which a gap is wide.
+static int32_t request_closed(const pass *t)
+{
+    int32_t wide_open = 0;
+    const real open = r_set((double)OPEN * (double)OPEN);
+    for (int32_t i = 0; i < t->count; ++i) {
+        tree_node *n = t->nodes + i;
+        const real arm = r_max(r_sqrt(r_max(r_dot(n->below, n->below), r_dot(n->above, n->above))), n->rod);
+        n->ask_v = r_scale(-share_of(n->gap, FULL_TURN * arm, t->rate), n->gap);
+        n->ask_w = n->slip = r_zero3();
+        if (!is_ball(t, i)) n->ask_w = r_scale(-share_of(n->swing, r_set(FULL_TURN), t->rate), n->swing);
+        wide_open |= r_bits(r_greater(r_dot(n->gap, n->gap), open));
+    }
+    return wide_open;
+}
+
+// ---- results --------------------------------------------------------------------------------------------------------
+// to velocities and rows; with `total` the impulses count in the sums over the step
+static void apply(const pass *t, int32_t lanes, int32_t total)
+{
+    for (int32_t i = 0; i < t->count; ++i) {
+        const tree_node *n = t->nodes + i;
+        const line_names line = line_of(t, i);
+        const real3 v = r_add(n->v, centre_change(n)), w = r_add(n->w, n->change_w);
+        const half linear[3] = {narrow(v.x), narrow(v.y), narrow(v.z)},
+                   angular[3] = {narrow(w.x), narrow(w.y), narrow(w.z)};
+        write_lines(t->solver->velocity, line.at, lanes, 0, 3, linear);
+        write_lines(t->solver->velocity, line.at, lanes, 4, 3, angular);
+        forget_damping(t, i, lanes);
+        for (int lane = 0; lane < LANES; ++lane)
+            if (lanes >> lane & 1) add_impulses(t, i, lane, total);
+    }
+}
+
+// dp += u, dq = normalize(dq + (w, 0) dq / 2), as a whole no farther than FULL_TURN
+static void move(const pass *t, int32_t lanes)
+{
+    real farthest = r_set(FULL_TURN * FULL_TURN);
+    for (int32_t i = 0; i < t->count; ++i) {
+        const real3 turn = t->nodes[i].change_w;
+        farthest = r_max(farthest, r_dot(turn, turn));
+    }
+    const real scale = FULL_TURN / r_sqrt(farthest);
+    for (int32_t i = 0; i < t->count; ++i) {
+        const tree_node *n = t->nodes + i;
+        const line_names line = line_of(t, i);
+        const lines at = read_lines(t->solver->motion, line.at);
+        const real3 v = widen3(at.a + 4), half_turn = r_scale(0.5 * scale, n->change_w);
+        const real w = r_widen(at.a[7]);
+        const real3 b = r_add(r_add_scaled(v, w, half_turn), r_cross(half_turn, v));
+        const real a = w - r_dot(half_turn, v), k = 1.0 / r_sqrt(a * a + r_dot(b, b));
+        const real3 shift = r_add_scaled(widen3(at.a), scale, centre_change(n));
+        const half moved[3] = {narrow(shift.x), narrow(shift.y), narrow(shift.z)};
+        const half rotation[4] = {narrow(k * b.x), narrow(k * b.y), narrow(k * b.z), narrow(k * a)};
+        write_lines(t->solver->motion, line.at, lanes, 0, 3, moved);
+        write_lines(t->solver->motion, line.at, lanes, 4, 4, rotation);
+    }
+}
+
+// ---- solutions ------------------------------------------------------------------------------------------------------
+// In the given lanes. What others have stays as it is, bit for bit: it is eliminated again to the same matrices
+static void reduce(const pass *t, int32_t lanes)
+{
+    read_tree(t, lanes);
+    add_damping(t, lanes, 0);
+    eliminate(t);
+}
+
+// The first solution shows the arcs, the second follows them
+static void follow_arcs(const pass *t)
+{
+    request_rest(t);
+    for (int32_t i = 0; i < t->count; ++i) t->nodes[i].change_v = t->nodes[i].change_w = r_zero3();
+    for (int k = 0; k < 2; ++k) {
+        request_arcs(t);
+        substitute(t);
+    }
+}
+
+static void follow_locks(const pass *t)
+{
+    request_rest(t);
+    substitute(t);
+}
+
+// What goes taut is damped for what it bears now, and solved again. Others ask for what they asked, and get it
+static void damp_jerk(const pass *t, int32_t lanes)
+{
+    lanes &= jerked(t);
+    if (!lanes) return;
+    const real_mask these = r_mask(lanes);
+    add_damping(t, lanes, 1);
+    eliminate(t);
+    for (int32_t i = 0; i < t->count; ++i) {
+        tree_node *n = t->nodes + i;
+        n->ask_v = r_choose3(these, n->rest, n->ask_v);
+    }
+    substitute(t);
+}
+
+// The gaps are closed as the joints see them, and again where one was wide: closing it turned the joints
+static void close_gaps(const pass *t, int32_t lanes)
+{
+    enum { MOST_CLOSINGS = 8 };
+    for (int32_t k = 0; k < MOST_CLOSINGS; ++k) {
+        const int32_t wide_open = request_closed(t) & lanes;
+        substitute(t);
+        move(t, lanes);
+        lanes = wide_open;
+        if (!lanes) return;
+        reduce(t, lanes);
+    }
+}
+
+// ---- passes ---------------------------------------------------------------------------------------------------------
+static pass pass_of(const fe__tree_job *job)
+{
+    const fe__forest *f = job->forest;
+    const fe__joint_tree *first = f->trees + job->trees[0];
+    pass t = {.job = job,
+              .solver = job->solver,
+              .links = f->links + first->first,
+              .count = first->count,
+              .heavy = first->heavy,
+              .locks = first->locks,
+              .lanes = (1 << job->count) - 1,
+              .head = (bundle *)(void *)job->nodes,
+              .nodes = (tree_node *)(void *)(job->nodes + sizeof(bundle)),
+              .h = r_set(job->h),
+              .rate = job->rate};
+    for (int lane = 0; lane < LANES; ++lane) {
+        const int32_t at = f->trees[job->trees[lane < job->count ? lane : 0]].first;
+        t.places[lane] = job->solver->places + at, t.links_of[lane] = f->links + at;
+    }
+    return t;
+}
+
+// the lanes in a state
+static int32_t lanes_in(const pass *t, tree_state state)
+{
+    int32_t lanes = 0;
+    for (int lane = 0; lane < LANES; ++lane) lanes |= (t->head->state[lane] == (int32_t)state) << lane;
+    return lanes & t->lanes;
+}
+
+// From here to the end of the step these light trees are solved
+static void engage(const pass *t, int32_t lanes)
+{
+    for (int lane = 0; lane < LANES; ++lane) {
+        if (!(lanes >> lane & 1) || t->head->state[lane] == SOLVED) continue;
+        t->head->state[lane] = SOLVED;
+        atomic_fetch_add_explicit(&t->solver->engaged, 1, memory_order_relaxed);
+    }
+}
+
+static int32_t is_open(const pass *t, int lane, float gap)
+{
+    return t->job->lanes->is_open(t->places[lane], t->count, t->job->rows, gap);
+}
+
+// by the velocities as they are
+static int32_t will_open(const pass *t, int lane)
+{
+    return t->job->lanes->opens(t->solver, t->links_of[lane], t->places[lane], t->count, t->job->rows,
+                                OPEN / (float)t->job->h);
+}
+
+static void prepare_trees(const fe__tree_job *job)
+{
+    const pass t = pass_of(job);
+    t.head->loaded = 0;
+    for (int lane = 0; lane < LANES; ++lane)
+        t.head->state[lane] = t.heavy ? SOLVED : lane < job->count && is_open(&t, lane, PUT_APART) ? SWEPT : READY;
+    if (t.heavy) reduce(&t, ALL_LANES);
+}
+
+static void solve_lanes(const pass *t, int32_t lanes)
+{
+    follow_arcs(t);
+    damp_jerk(t, lanes);
+    apply(t, lanes, 0);
+}
+
+static void solve_trees(const fe__tree_job *job)
+{
+    const pass t = pass_of(job);
+    const int32_t lanes = lanes_in(&t, SOLVED);
+    if (lanes) solve_lanes(&t, lanes);
+}
+
+static void follow_trees(const fe__tree_job *job)
+{
+    const pass t = pass_of(job);
+    const int32_t ready = lanes_in(&t, READY);
+    int32_t lanes = ready | lanes_in(&t, SOLVED);
+    for (int lane = 0; lane < LANES; ++lane)
+        if (lanes >> lane & 1 && !will_open(&t, lane)) lanes &= ~(1 << lane);
+    if (!lanes) return;
+    if (lanes & ready) reduce(&t, t.head->loaded ? lanes & ready : ALL_LANES);
+    engage(&t, lanes);
+    solve_lanes(&t, lanes);
+}
+
+static void relax_trees(const fe__tree_job *job)
+{
+    const pass t = pass_of(job);
+    const int32_t ready = lanes_in(&t, READY);
+    int32_t lanes = ready | lanes_in(&t, SOLVED);
+    for (int lane = 0; lane < LANES; ++lane)
+        if (ready >> lane & 1 && !is_open(&t, lane, OPEN)) lanes &= ~(1 << lane);
+    if (!lanes) return;
+    engage(&t, lanes);
+    reduce(&t, t.head->loaded ? lanes : ALL_LANES);
+    follow_locks(&t);
+    damp_jerk(&t, lanes);
+    apply(&t, lanes, 1);
+    if (t.heavy) forget_locks(&t, lanes);
+    close_gaps(&t, lanes);
+}
+
+const fe__forest_kernels FE_NAME(fe__forest_kernels) = {
+    LANES, (int32_t)sizeof(bundle), (int32_t)sizeof(tree_node), prepare_trees, solve_trees, follow_trees, relax_trees};

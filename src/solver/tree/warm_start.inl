@@ -1,0 +1,119 @@
+// warm_start.inl - impulses to the rows of the locks and back; heavy trees that turn fast begin a substep without those
+// of the last. Part of tree.simd.c.
+//
+// A warm start guesses that a lock pulls as it did. Where it turns by much within a substep that is wrong, and after an
+// impact by far: relax turns J^T l with the arms, so that a light link on a long arm begins with velocities of the
+// order of l M^-1 l, of ten thousand times the energy that the tree has. The tree takes them back along J exactly, but
+// limits, contacts and the sweep itself have seen them, and make motion of them. The tree needs no guess: with u = M^-1
+// J^T l it solves J (v + u) = request, from which any part of v that J^T spans drops out. So `start`, which the next
+// warm start is v less of (bodies.simd.c), takes all that the locks gave:
+//     start += M^-1 J^T l,   l = 0
+// All locks of the tree or none: one that is kept pulls at links whose others no longer balance it.
+
+// ---- between the impulse of a joint on B, in world axes, and those of a lock's rows ---------------------------------
+typedef struct wrench {
+    fe_dvec3 v, w;
+} wrench;
+
+// the axes of a lock's rows, and how many: those of world axes are the unit ones
+static int32_t row_axes(const pass *t, int32_t i, int lane, int32_t part, fe_dvec3 *axis)
+{
+    const tree_node *n = t->nodes + i;
+    const int32_t form = t->links[i].form;
+    int32_t count = 0;
+    if (part == FE__PART_DISTANCE) axis[count++] = get_lane3(n->lin, lane);
+    if (part == FE__PART_HINGE)
+        axis[count++] = get_lane3(n->ang + 1, lane), axis[count++] = get_lane3(n->ang + 2, lane);
+    for (int k = 0; k < 3 && part == FE__PART_SLIDE; ++k)
+        if (!(form >> k & 1)) axis[count++] = get_lane3(n->lin + k, lane);
+    for (int k = 0; k < 3 && (part == FE__PART_POINT || part == FE__PART_FIXED); ++k) axis[count++] = unit(k);
+    return count;
+}
+
+static int32_t is_rotation(int32_t part) { return part == FE__PART_HINGE || part == FE__PART_FIXED; }
+
+// with `total` the impulses count in the sums over the step
+static void add_impulses(const pass *t, int32_t i, int lane, int32_t total)
+{
+    const tree_node *n = t->nodes + i;
+    const fe__tree_place *p = t->places[lane] + i;
+    const double sign = t->links_of[lane][i].holds_b ? 1.0 : -1.0;
+    const wrench on_b = {fe__dscale(sign, get_lane3(&n->impulse_v, lane)),
+                         fe__dscale(sign, get_lane3(&n->impulse_w, lane))};
+    for (int32_t k = 0; k < p->locks; ++k) {
+        double l[3];
+        fe_dvec3 axis[3];
+        const int32_t count = row_axes(t, i, lane, p->lock[k].part, axis);
+        for (int32_t r = 0; r < count; ++r)
+            l[r] = 0.0 + fe__ddot(axis[r], is_rotation(p->lock[k].part) ? on_b.w : on_b.v);
+        t->job->lanes->add(p->lock[k].part, t->job->rows + p->lock[k].row, p->lock[k].lane, l, total);
+    }
+}
+
+// what the rows hold on the body below, which hold nothing afterwards
+static wrench take_impulses(const pass *t, int32_t i, int lane)
+{
+    const fe__tree_place *p = t->places[lane] + i;
+    const double sign = t->links_of[lane][i].holds_b ? 1.0 : -1.0;
+    wrench sum = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+    for (int32_t k = 0; k < p->locks; ++k) {
+        double l[3];
+        fe_dvec3 axis[3];
+        const int32_t count = row_axes(t, i, lane, p->lock[k].part, axis);
+        fe_dvec3 *to = is_rotation(p->lock[k].part) ? &sum.w : &sum.v;
+        t->job->lanes->take(p->lock[k].part, t->job->rows + p->lock[k].row, p->lock[k].lane, l);
+        for (int32_t r = 0; r < count; ++r) *to = fe__dadd(*to, fe__dscale(sign * l[r], axis[r]));
+    }
+    return sum;
+}
+
+// ---- fast trees -----------------------------------------------------------------------------------------------------
+// the lanes in which a body does, by the velocities as they are
+static int32_t turns_fast(const pass *t)
+{
+    int32_t lanes = 0;
+    for (int32_t i = 0; i < t->count; ++i) {
+        const real3 turn = r_scale(t->h, r_add(t->nodes[i].w, t->nodes[i].change_w));
+        lanes |= r_bits(r_greater(r_dot(turn, turn), r_set(FE__SLOW_TURN * FE__SLOW_TURN)));
+    }
+    return lanes;
+}
+
+FE_INLINE real3 unlocked3(real3 v, uint32_t locks)
+{
+    const real zero = r_set(0.0);
+    return (real3){locks & 1 ? zero : v.x, locks & 2 ? zero : v.y, locks & 4 ? zero : v.z};
+}
+
+// The points are those of the pose that relax turned the sweep's to. No pulls are left that a jerk would be measured
+// against.
+static void forget_locks(const pass *t, int32_t lanes)
+{
+    lanes &= turns_fast(t);
+    if (!lanes) return;
+    const real_mask these = r_mask(lanes);
+    for (int32_t i = 0; i < t->count; ++i) t->nodes[i].load_v = t->nodes[i].load_w = r_zero3();
+    for (int32_t i = 0; i < t->count; ++i) {
+        tree_node *n = t->nodes + i, *above = above_of(t, i);
+        real3 v = r_zero3(), w = v;
+        for (int lane = 0; lane < LANES; ++lane) {
+            if (!(lanes >> lane & 1)) continue;
+            const wrench given = take_impulses(t, i, lane);
+            set_lane3(&v, lane, given.v), set_lane3(&w, lane, given.w);
+        }
+        n->load_v = r_add(n->load_v, v), n->load_w = r_add(n->load_w, r_add(w, r_cross(n->below, v)));
+        n->pull = r_choose3(these, r_zero3(), n->pull);
+        if (!above) continue;
+        above->load_v = r_sub(above->load_v, v), above->load_w = r_sub(above->load_w, r_add(w, r_cross(n->above, v)));
+    }
+    for (int32_t i = 0; i < t->count; ++i) {
+        const tree_node *n = t->nodes + i;
+        const line_names line = line_of(t, i);
+        const lines start = read_lines(t->solver->start, line.at);
+        const real3 by = unlocked3(r_scale(1.0 / n->mass, n->load_v), t->locks);
+        const half v[3] = {narrow(r_widen(start.a[0]) + by.x), narrow(r_widen(start.a[1]) + by.y),
+                           narrow(r_widen(start.a[2]) + by.z)};
+        write_lines(t->solver->start, line.at, lanes, 0, 3, v);
+        add_spin(t, n, line, lanes, n->load_w);
+    }
+}
