@@ -101,7 +101,7 @@ static void print_verdict(const row *ours, const row *theirs, const char *worse)
 {
     char bound[48] = "";
     if (strcmp(ours->kind, "measure") != 0) snprintf(bound, sizeof bound, " of [%.4g, %.4g]", ours->low, ours->high);
-    printf("%-24s %d substeps: %-12s worse than %-6s  %s: %.4g%s, %.4g there\n", ours->scene, ours->substeps, worse,
+    printf("%s, %d substeps: %s worse than %s\n    %s: %.4g%s, %.4g there\n", ours->scene, ours->substeps, worse,
            theirs->engine, ours->what, ours->value, bound, theirs->value);
 }
 
@@ -128,8 +128,8 @@ int bench_worse(const char *const *paths, int32_t count)
             worse += p < THAT_COUNT && ours->substeps == DEFAULT_SUBSTEPS;
         }
     }
-    printf("%d substeps: worse than Box2D or ODE in %d measures (compared: %d with Box2D, %d with ODE; with Bullet, "
-           "who is only told, %d)\n",
+    printf("%d substeps: worse than Box2D or ODE in %d measures\n"
+           "    compared: %d with Box2D, %d with ODE; with Bullet, which does not count, %d\n",
            DEFAULT_SUBSTEPS, worse, compared[0], compared[1], compared[2]);
     free(all.items);
     return worse != 0;

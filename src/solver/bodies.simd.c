@@ -30,6 +30,11 @@ FE_INLINE void store_high(void *lines, int32_t i, wide4 high)
     scatter_high((float *)lines + (int64_t)i * FE__LINE, w_in_order, high);
 }
 
+FE_INLINE void store_moved(fe__solver *s, int32_t i, wide3 spin)
+{
+    w_scatter(s->moved_spin[i], 4, w_in_order, (wide4){spin.x, spin.y, spin.z, w_set(0.0f)});
+}
+
 // ---- records to lines, once per step --------------------------------------------------------------------------------
 enum { BODY_STRIDE = sizeof(fe__body) / sizeof(float) };
 #define BODY_QUAD(field) w_gather(bodies->field, BODY_STRIDE, index)
@@ -86,13 +91,14 @@ FE_INLINE void load_block(fe__solver *s, const fe__body *bodies, int32_t line, c
 {
     _Alignas(64) int32_t index[FE_W];
     _Alignas(64) float scale[FE_W], gyroscopic[FE_W], is_there[FE_W];
-    int locked = 0;
+    int locked = 0, joined = 0;
     for (int i = 0; i < FE_W; ++i) {
         int32_t body = s->body_of_line[line + i];
         index[i] = body < 0 ? 0 : body;
         is_there[i] = body < 0 ? 0.0f : 1.0f;
         scale[i] = bodies[index[i]].type == FE_BODY_DYNAMIC ? bodies[index[i]].gravity_scale : 0.0f;
         gyroscopic[i] = gyroscopic_kind(bodies + index[i]);
+        joined |= gyroscopic[i] == FE__GYROSCOPIC_JOINED;
         locked |= body >= 0 && bodies[body].lock_bits != 0.0f && bodies[body].type == FE_BODY_DYNAMIC;
     }
     wide zero = w_set(0.0f), one = w_set(1.0f), there = *(wide *)is_there;
@@ -114,6 +120,7 @@ FE_INLINE void load_block(fe__solver *s, const fe__body *bodies, int32_t line, c
                (wide4){i.yz, i.zz, *(wide *)gyroscopic * there, zero});
     store_line(s->drive, line, w_with(linear, damping), w_with(w_mul(&i, w_xyz(torque)), spin_damping));
     store_line(s->axes, line, axes, (wide4){inertia.x, inertia.y, inertia.z, zero});
+    if (joined) store_moved(s, line, w_sub(w_xyz(w), w_xyz(BODY_QUAD(relaxed))));
     for (int k = 0; k < FE_W && locked; ++k) {
         const fe__body *body = bodies + index[k];
         const float *a = s->axes[line + k].rotation;
@@ -163,18 +170,37 @@ FE_INLINE wide3 free_change(wide3 world, wide4 axes, wide3 in, wide half_h)
 }
 
 // ---- velocities -----------------------------------------------------------------------------------------------------
-// f(v): all that changes a velocity and is no constraint: gravity and forces, damping 1 / (1 + h c), the speed limit,
-// and the gyroscopic torque of joined bodies. Of free ones it acts while they rotate; a joint must have balanced it
-// before its bodies move, or they move apart.
-FE_INLINE void advance(const fe__solver *s, int32_t i, wide kind, const fe__step_constants *c, wide3 *v, wide3 *w)
+FE_INLINE wide_mask is_joined(wide kind) { return w_greater(kind, w_set(FE__GYROSCOPIC_FREE)); }
+
+// The gyroscopic torque of joined bodies. Of free ones it acts while they rotate; a joint must have balanced it before
+// its bodies move, or they move apart. Spins hold for the move from pose to pose, like the v of a leapfrog; the torque
+// is that of the pose between two moves, by spins w1 and w2. The midpoint rule keeps energy and momentum with the mean
+//     (w1 + w2) / 2 = w1 + (d + c) / 2,
+// d what the constraints add from move to move, c the change by the torque. Without d a heavy top tilts by some
+// h/2 w x w' per second, and a disc that a hinge holds askew slows down: there d and c are nearly opposite, and each is
+// far larger than their sum. Of d the warm start is known; what the solution will change about it is about what relax
+// changed last, back: it leads the velocities half a substep ahead. So w1, `moved`, is taken before relax.
+// A blow is no d that goes on: what is more than STEADY of the spin is left out. Nor is there a d to go by where the
+// locks' warm start was taken back (tree/warm_start.inl): what relax changed is then more than what is left of it.
+#define STEADY 0.1f
+FE_INLINE wide3 joined_change(const fe__solver *s, int32_t i, wide kind, wide3 w, wide3 warm, wide half_h)
+{
+    wide3 moved = w_xyz(w_gather(s->moved_spin[i], 4, w_in_order));
+    wide4 axes = w_product(load_high(s->motion, i), load_low(s->axes, i)), principal = load_high(s->axes, i);
+    wide3 relaxed = w_sub(w, moved), ahead = w_sub(w_scale(w_set(0.5f), warm), relaxed);
+    wide_mask blow = w_greater(w_dot(ahead, ahead), STEADY * STEADY * w_dot(w, w));
+    wide_mask steady = w_and(w_greater(w_dot(warm, warm), w_dot(relaxed, relaxed)), w_not(blow));
+    wide3 base = w_choose3(steady, w_add(w, ahead), w);
+    wide3 change = free_change(base, axes, w_xyz(principal), half_h);
+    return w_choose3(is_joined(kind), change, (wide3){w_set(0.0f), w_set(0.0f), w_set(0.0f)});
+}
+
+// f(v): all that changes a velocity and is no constraint and no gyroscopic torque: gravity and forces, damping
+// 1 / (1 + h c), the speed limit
+FE_INLINE void advance(const fe__solver *s, int32_t i, const fe__step_constants *c, wide3 *v, wide3 *w)
 {
     wide4 linear, angular;
     load_line(s->drive, i, &linear, &angular);
-    wide_mask joined = w_greater(kind, w_set(FE__GYROSCOPIC_FREE));
-    if (w_any(joined)) {
-        wide4 axes = w_product(load_high(s->motion, i), load_low(s->axes, i)), principal = load_high(s->axes, i);
-        *w = w_choose3(joined, w_add(*w, free_change(*w, axes, w_xyz(principal), w_set(0.5f * c->h))), *w);
-    }
     *v = w_scale(linear.w, w_add_scaled(*v, w_set(c->h), w_xyz(linear)));
     *w = w_scale(angular.w, w_add_scaled(*w, w_set(c->h), w_xyz(angular)));
     wide square = w_dot(*v, *v), most = w_set(c->max_speed);
@@ -190,9 +216,23 @@ static void begin_velocities(fe__solver *s, int32_t first, int32_t count, const 
         load_line(s->velocity, i, &v, &w);
         wide3 v0 = w_xyz(v), w0 = w_xyz(w);
         wide kind = load_low(s->motion, i).w;
-        advance(s, i, kind, c, &v0, &w0);
+        advance(s, i, c, &v0, &w0);
         store_line(s->velocity, i, w_with(v0, v.w), w_with(w0, w.w));
         store_line(s->start, i, w_with(v0, v.w), w_with(w0, kind));
+    }
+}
+
+// The gyroscopic torque of joined bodies in the first substep, when the rows' warm start is known
+static void balance_spins(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c)
+{
+    for (int32_t i = first; i < first + count; i += FE_W) {
+        wide4 start = load_high(s->start, i);
+        if (!w_any(is_joined(start.w))) continue;
+        wide4 spin = load_high(s->velocity, i);
+        wide3 w = w_xyz(spin), w0 = w_xyz(start);
+        wide3 change = joined_change(s, i, start.w, w0, w_sub(w, w0), w_set(0.5f * c->h));
+        store_high(s->velocity, i, w_with(w_add(w, change), spin.w));
+        store_high(s->start, i, w_with(w_add(w0, change), start.w));
     }
 }
 
@@ -204,7 +244,8 @@ static void carry_velocities(fe__solver *s, int32_t first, int32_t count, const 
         wide4 v, w, start, spin;
         load_line(s->velocity, i, &v, &w), load_line(s->start, i, &start, &spin);
         wide3 dv = w_sub(w_xyz(v), w_xyz(start)), dw = w_sub(w_xyz(w), w_xyz(spin)), v0 = w_xyz(v), w0 = w_xyz(w);
-        advance(s, i, spin.w, c, &v0, &w0);
+        if (w_any(is_joined(spin.w))) w0 = w_add(w0, joined_change(s, i, spin.w, w0, dw, w_set(0.5f * c->h)));
+        advance(s, i, c, &v0, &w0);
         store_line(s->start, i, w_with(v0, v.w), w_with(w0, spin.w));
         store_line(s->velocity, i, w_with(w_add(v0, dv), v.w), w_with(w_add(w0, dw), w.w));
     }
@@ -239,6 +280,7 @@ static void integrate_positions(fe__solver *s, int32_t first, int32_t count, con
         wide4 p, q;
         load_line(s->motion, i, &p, &q);
         wide3 v = w_xyz(load_low(s->velocity, i)), half = w_scale(w_set(0.5f * c->h), turn_freely(s, i, p.w, q, c));
+        if (w_any(is_joined(p.w))) store_moved(s, i, w_xyz(load_high(s->velocity, i)));
         wide3 u = w_add(w_xyz(q), w_add(w_scale(q.w, half), w_cross(half, w_xyz(q))));
         wide a = q.w - w_dot(half, w_xyz(q));
         wide k = 1.0f / w_sqrt(w_dot(u, u) + a * a);
@@ -248,5 +290,6 @@ static void integrate_positions(fe__solver *s, int32_t first, int32_t count, con
 
 const fe__body_kernels FE_NAME(fe__body_kernels) = {.load = load,
                                                     .begin_velocities = begin_velocities,
+                                                    .balance_spins = balance_spins,
                                                     .carry_velocities = carry_velocities,
                                                     .integrate_positions = integrate_positions};

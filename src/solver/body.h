@@ -77,6 +77,8 @@ typedef struct fe__body {
     int64_t moved_step;    // number of the last step that moved it, 0: none
     uint64_t user_data;
     int32_t order_next, order_previous; // list of all bodies in the order of creation
+    // rad/s: the spin after the last substep less the one it rotated by, 0; of joined bodies, see joined_change
+    _Alignas(16) float relaxed[4];
 } fe__body;
 _Static_assert(sizeof(fe__body) % 64 == 0, "bodies are made of cache lines");
 
@@ -87,5 +89,6 @@ FE__IS_QUAD(fe__body, spin, lock_bits);
 FE__IS_QUAD(fe__body, force, linear_damping);
 FE__IS_QUAD(fe__body, torque, angular_damping);
 FE__IS_QUAD(fe__body, inertia, mass);
+FE__IS_QUAD(fe__body, relaxed, relaxed[3]);
 
 #endif

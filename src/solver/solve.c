@@ -25,7 +25,7 @@ typedef struct paced {
     fe__step_constants usual, last, more;
 } paced;
 
-typedef enum verb { LOAD, PREPARE, SOLVE, FOLLOW, INTEGRATE, RELAX, BOUNCE, CARRY, STORE } verb;
+typedef enum verb { LOAD, PREPARE, BALANCE, SOLVE, FOLLOW, INTEGRATE, RELAX, BOUNCE, CARRY, STORE } verb;
 
 typedef struct program {
     int32_t rows_in_block;
@@ -141,6 +141,7 @@ static void make_program(program *p, fe__solver *s, const fe__batch *b, int32_t 
     number_blocks(p, s, b);
     add_pass(p, &p->prologue, LOAD, 0, 0, line_blocks, 0);
     add_colours(p, &p->prologue, s, b, PREPARE);
+    if (b->joint_count) add_pass(p, &p->prologue, BALANCE, 0, 0, line_blocks, 0);
     add_colours(p, &p->substep, s, b, SOLVE);
     if (b->tree_groups) add_pass(p, &p->substep, FOLLOW, first_tree_group(b), b->tree_groups, b->tree_groups, 0);
     add_pass(p, &p->substep, INTEGRATE, 0, 0, line_blocks, 0);
@@ -196,6 +197,7 @@ static void run_lines(const job *j, const fe__batch *b, verb verb, int32_t block
     if (verb == LOAD) k->load(j->s, j->bodies, first, count, c);
     if (verb == LOAD) k->begin_velocities(j->s, first, count, c);
     if (verb == LOAD) begin_trails(j, first, count, c);
+    if (verb == BALANCE) k->balance_spins(j->s, first, count, c);
     if (verb == INTEGRATE) k->integrate_positions(j->s, first, count, c);
     if (verb == INTEGRATE) leave_trails(j, first, count, c);
     if (verb == CARRY) k->carry_velocities(j->s, first, count, c);
@@ -221,6 +223,7 @@ static void run_joints(const job *j, const fe__group *g, verb verb, unsigned cha
         k->store(j->s, j->joints, lanes, row, count, c);
         break;
     case LOAD:
+    case BALANCE:
     case FOLLOW:
     case INTEGRATE:
     case BOUNCE:
@@ -291,6 +294,7 @@ static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char 
         if (c->division > 1) scale_impulses(j, g, lanes, count, (float)c->division);
         break;
     case LOAD:
+    case BALANCE:
     case FOLLOW:
     case INTEGRATE:
     case CARRY:
@@ -321,7 +325,7 @@ static void run_block(const job *j, const fe__batch *b, const fe__pass *p, unsig
 static void run_all(const job *j, const fe__batch *b, verb verb, unsigned char *rows, const fe__step_constants *c)
 {
     const fe__group *groups = j->s->groups + b->first_group;
-    int32_t of_lines = verb == LOAD || verb == INTEGRATE || verb == CARRY,
+    int32_t of_lines = verb == LOAD || verb == BALANCE || verb == INTEGRATE || verb == CARRY,
             line_blocks = blocks_of(b->line_count, LINES_IN_BLOCK);
     for (int32_t i = 0; i < line_blocks && of_lines; ++i) run_lines(j, b, verb, i, c);
     for (int32_t i = 0; i < b->group_count && !of_lines; ++i) run_rows(j, groups + i, verb, rows, 0, groups[i].rows, c);
@@ -333,6 +337,7 @@ static void run_batch(const job *j, const fe__batch *b, unsigned char *rows)
     const fe__step_constants *c = &pace->usual;
     run_all(j, b, LOAD, rows, c);
     run_all(j, b, PREPARE, rows, c);
+    if (b->joint_count) run_all(j, b, BALANCE, rows, c);
     for (int32_t n = 0; n < c->substeps; ++n) {
         run_all(j, b, SOLVE, rows, c);
         for (int32_t i = 0; i < b->tree_groups; ++i)

@@ -134,7 +134,7 @@ FE__IS_LINE(fe__axes_line);
 enum {
     FE__GYROSCOPIC_NONE,
     FE__GYROSCOPIC_FREE,  // while it rotates, see turn_freely
-    FE__GYROSCOPIC_JOINED // before the constraints are solved, see advance
+    FE__GYROSCOPIC_JOINED // before the constraints are solved, see joined_change
 };
 
 // Lanes of one group: `count` rows of one kind at `row` (bytes into the batch's row memory), lanes from `lane`
@@ -201,7 +201,8 @@ typedef struct fe__solver {
     fe__inertia_line *inertia;
     fe__drive_line *drive;
     fe__axes_line *axes;
-    int32_t line_count, line_capacity[6];
+    float (*moved_spin)[4]; // by line of FE__GYROSCOPIC_JOINED: by what it rotated in the last substep, rad/s, 0
+    int32_t line_count, line_capacity[7];
     int32_t *body_of_line; // -1: padding
     int32_t body_of_line_capacity;
 
@@ -289,6 +290,7 @@ typedef struct fe__joint_kernels {
 typedef struct fe__body_kernels {
     void (*load)(fe__solver *s, const fe__body *bodies, int32_t first, int32_t count, const fe__step_constants *c);
     void (*begin_velocities)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);
+    void (*balance_spins)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);
     void (*carry_velocities)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);
     void (*integrate_positions)(fe__solver *s, int32_t first, int32_t count, const fe__step_constants *c);
 } fe__body_kernels;

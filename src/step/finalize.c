@@ -79,7 +79,8 @@ static void follow_body(fe__step *step, int32_t index)
 // A body that overflowed stops where it stood, and its contacts forget their impulses.
 static void stop_lost(fe__step *step, fe__body *body)
 {
-    for (int k = 0; k < 3; ++k) body->velocity[k] = body->spin[k] = body->force[k] = body->torque[k] = 0.0f;
+    for (int k = 0; k < 3; ++k)
+        body->velocity[k] = body->spin[k] = body->force[k] = body->torque[k] = body->relaxed[k] = 0.0f;
     body->flags |= FE__BODY_LOST;
     fe__body_note_speed(step->world, body);
     body->sleep_timer = 0.0f;
@@ -106,6 +107,13 @@ FE_FETCHES fetch_box(const fe_world *w, int32_t i)
     if (shape >= 0) fe__tree_fetch(&w->moving_tree, shape);
 }
 
+// of joined bodies on which a gyroscopic torque acts
+static void note_relaxed(const fe__solver *s, fe__body *body)
+{
+    if (s->motion[body->line].gyroscopic != (float)FE__GYROSCOPIC_JOINED) return;
+    for (int k = 0; k < 3; ++k) body->relaxed[k] = body->spin[k] - s->moved_spin[body->line][k];
+}
+
 static void move_block(void *argument, int32_t first, int32_t end, int32_t worker)
 {
     fe__step *step = argument;
@@ -126,6 +134,7 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
             body->velocity[k] = velocity->v[k], body->spin[k] = velocity->w[k];
             body->force[k] = body->torque[k] = 0.0f;
         }
+        note_relaxed(&w->solver, body);
         int32_t moved = shift(body, motion->shift) | turn(body, motion->rotation);
         tick_sleep_timer(w, body, motion, step->dt);
         if (!moved) continue;

@@ -24,6 +24,7 @@ void fe__body_set_velocity(fe_world *world, int32_t index, const fe_vec3 *linear
     fe__body *body = &world->bodies[index];
     if (linear) body->velocity[0] = linear->x, body->velocity[1] = linear->y, body->velocity[2] = linear->z;
     if (angular) body->spin[0] = angular->x, body->spin[1] = angular->y, body->spin[2] = angular->z;
+    for (int k = 0; k < 3 && angular; ++k) body->relaxed[k] = 0.0f;
     fe__body_stop_locked(world, body);
     if (moves(body)) fe__body_disturb(world, index);
     fe__body_stretch_boxes(world, index);

@@ -133,7 +133,8 @@ static void swap_places(fe_world *world, int32_t i, int32_t j)
 void fe__body_fall_asleep(fe_world *world, int32_t index)
 {
     fe__body *body = world->bodies + index;
-    for (int k = 0; k < 3; ++k) body->velocity[k] = body->spin[k] = body->force[k] = body->torque[k] = 0.0f;
+    for (int k = 0; k < 3; ++k)
+        body->velocity[k] = body->spin[k] = body->force[k] = body->torque[k] = body->relaxed[k] = 0.0f;
     fe__body_note_speed(world, body);
     fe__body_retire(world, index);
 }

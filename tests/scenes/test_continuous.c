@@ -207,6 +207,22 @@ static double hills_below(double x, double z, double cell)
     return v >= u ? h00 + v * (other - h00) + u * (h11 - other) : h00 + u * (other - h00) + v * (h11 - other);
 }
 
+typedef struct fall {
+    vec from, velocity; // m, m/s
+} fall;
+
+// The k-th field, 200 m from the last, and a fall on it: at 10 m/s to 10^fastest, up to 60 degrees off the vertical,
+// from `clear` above the ground and up to a step's way more
+static fall add_field_and_fall(scene *s, dice *d, int k, fe_asset asset, double mu, double fastest, double clear)
+{
+    vec place = v3(200.0 * k, 0, 0);
+    place_field(s, asset, plus(place, v3(-50, 0, -50)), UNTURNED, friction(mu));
+    double speed = pow(10, uniform(d, 1, fastest)), angle = uniform(d, 0, 60) * DEGREES, around = uniform(d, 0, 2 * PI);
+    vec way = v3(sin(angle) * cos(around), -cos(angle), sin(angle) * sin(around));
+    double back = (clear + uniform(d, 0, 1) * speed * STEP) / cos(angle);
+    return (fall){minus(place, times(back, way)), times(speed, way)};
+}
+
 // Down on hills of 1 m cells, which have no thickness at all, at 10 to 1000 m/s and up to 60 degrees off the vertical
 static void fast_bodies_stay_above_hills(void **state)
 {
@@ -217,15 +233,9 @@ static void fast_bodies_stay_above_hills(void **state)
     set_gravity(&s, v3(0, 0, 0));
     fe_asset asset = make_field(&s, 100, 1, -50, -50, hills);
     for (int k = 0; k < count; ++k) {
-        vec place = v3(200.0 * k, 0, 0);
-        place_field(&s, asset, plus(place, v3(-50, 0, -50)), UNTURNED, friction(0.5));
-        double speed = pow(10, uniform(&d, 1, 3)), angle = uniform(&d, 0, 60) * DEGREES,
-               around = uniform(&d, 0, 2 * PI);
-        vec way = v3(sin(angle) * cos(around), -cos(angle), sin(angle) * sin(around));
-        double back = (1.2 + uniform(&d, 0, 1) * speed * STEP) / cos(angle);
-        bodies[k] = add_dynamic(&s, fast_form(&d, k % 3), minus(place, times(back, way)), any_rotation(&d),
-                                friction(0.5), WATER);
-        set_velocity(&s, bodies[k], times(speed, way), somewhere(&d, 20));
+        fall f = add_field_and_fall(&s, &d, k, asset, 0.5, 3, 1.2);
+        bodies[k] = add_dynamic(&s, fast_form(&d, k % 3), f.from, any_rotation(&d), friction(0.5), WATER);
+        set_velocity(&s, bodies[k], f.velocity, somewhere(&d, 20));
     }
     for (int step = 0; step < 20; ++step) {
         run(&s, 1);
@@ -438,15 +448,9 @@ static void ridges_give_no_energy(void **state)
     set_gravity(&s, v3(0, 0, 0));
     fe_asset asset = make_field(&s, 100, 1, -50, -50, ridges);
     for (int k = 0; k < STICKS; ++k) {
-        vec place = v3(200.0 * k, 0, 0);
-        place_field(&s, asset, plus(place, v3(-50, 0, -50)), UNTURNED, friction(0.8));
-        double speed = pow(10, uniform(&d, 1, 2.5)), angle = uniform(&d, 0, 60) * DEGREES,
-               around = uniform(&d, 0, 2 * PI);
-        vec way = v3(sin(angle) * cos(around), -cos(angle), sin(angle) * sin(around));
-        double back = (1.5 + uniform(&d, 0, 1) * speed * STEP) / cos(angle);
-        sticks[k] =
-            add_dynamic(&s, box(1, 0.1, 0.1), minus(place, times(back, way)), any_rotation(&d), friction(0.8), WATER);
-        set_velocity(&s, sticks[k], times(speed, way), somewhere(&d, 5));
+        fall f = add_field_and_fall(&s, &d, k, asset, 0.8, 2.5, 1.5);
+        sticks[k] = add_dynamic(&s, box(1, 0.1, 0.1), f.from, any_rotation(&d), friction(0.8), WATER);
+        set_velocity(&s, sticks[k], f.velocity, somewhere(&d, 5));
         before[k] = totals_of(&s, sticks + k, 1).kinetic;
     }
     for (int step = 0; step < 20; ++step) {

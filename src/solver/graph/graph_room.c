@@ -186,6 +186,7 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
         !FE_RESERVE(memory, s->inertia, s->line_capacity[3], lines) ||
         !FE_RESERVE(memory, s->drive, s->line_capacity[4], lines) ||
         !FE_RESERVE(memory, s->axes, s->line_capacity[5], lines) ||
+        !FE_RESERVE(memory, s->moved_spin, s->line_capacity[6], b->joints ? lines : 0) ||
         !FE_RESERVE(memory, s->body_of_line, s->body_of_line_capacity, lines) ||
         !FE_RESERVE(memory, s->trail_count, s->trail_capacity[0], lines) ||
         !FE_RESERVE(memory, s->trail_of, s->trail_capacity[2], lines) ||
@@ -211,6 +212,7 @@ void fe__solver_destroy(fe__solver *s, fe__memory *memory)
     FE_FREE(memory, s->inertia, s->line_capacity[3]);
     FE_FREE(memory, s->drive, s->line_capacity[4]);
     FE_FREE(memory, s->axes, s->line_capacity[5]);
+    FE_FREE(memory, s->moved_spin, s->line_capacity[6]);
     FE_FREE(memory, s->body_of_line, s->body_of_line_capacity);
     FE_FREE(memory, s->trail_count, s->trail_capacity[0]);
     FE_FREE(memory, s->trail, s->trail_capacity[1]);
