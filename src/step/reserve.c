@@ -85,12 +85,27 @@ static void forget_expected(const fe__step *step)
     }
 }
 
+static int32_t most_coming(const fe__step *step)
+{
+    int32_t most = 0;
+    for (int32_t n = 0; n < to_come(step); ++n) {
+        fe__body *body[2];
+        bodies_of(step, n, body);
+        for (int k = 0; k < 2; ++k)
+            if (body[k]->type == FE_BODY_DYNAMIC) most = fe__maxi(most, body[k]->coming_contacts);
+    }
+    return most;
+}
+
 // Colours that the contacts to come may find, `others` of unknown bodies among them. The first free colour of two
-// bodies comes after no more than theirs and those of all that may come to them; it or its mate is taken
+// bodies comes after no more than theirs and those of all that may come to them, but for the contact itself, which is
+// counted once for each of its dynamic bodies; it or its mate is taken
 static void bound_colours(const fe__step *step, int32_t others, fe__graph_bound *b)
 {
+    enum { MOST_OF_PAIR = FE__PAIR_COLOURS + 1, MOST_OF_STATIC = FE__STATIC_COLOURS };
     const fe_world *w = step->world;
-    int32_t pairs = others ? 2 * (w->most_colours + others) : 0, statics = others ? w->most_colours + others : 0;
+    int32_t of_other = others ? w->most_colours + most_coming(step) + others : 0;
+    int32_t pairs = 2 * of_other, statics = of_other;
     for (int32_t n = 0; n < to_come(step); ++n) {
         fe__body *body[2];
         bodies_of(step, n, body);
@@ -103,10 +118,10 @@ static void bound_colours(const fe__step *step, int32_t others, fe__graph_bound 
         }
         if (of_pair) pairs = fe__maxi(pairs, found);
         if (!of_pair) statics = fe__maxi(statics, found);
-        b->crowded += (found > (of_pair ? FE__PAIR_COLOURS : FE__STATIC_COLOURS)) *
-                      (is_field_candidate(step, n) ? FE__PATCHES : 1);
+        b->crowded +=
+            (found > (of_pair ? MOST_OF_PAIR : MOST_OF_STATIC)) * (is_field_candidate(step, n) ? FE__PATCHES : 1);
     }
-    if (pairs > FE__PAIR_COLOURS || statics > FE__STATIC_COLOURS) b->crowded += others;
+    if (pairs > MOST_OF_PAIR || statics > MOST_OF_STATIC) b->crowded += others;
     b->pair_colours = fe__mini(fe__maxi(pairs, w->pair_colours), FE__PAIR_COLOURS);
     b->static_colours = fe__mini(fe__maxi(statics, w->static_colours), FE__STATIC_COLOURS);
 }
@@ -153,6 +168,7 @@ static fe__graph_bound bound_of(const fe__step *step)
     int32_t all = may_wake(step);
     fe__graph_bound b = {0};
     b.bodies = all ? w->body_count : w->awake_body_count;
+    b.kinematic = w->kinematic_count;
     b.kinds = w->row_kinds;
     bound_fresh(step, all, &b);
     b.special = b.kinds >> FE__ROW_SPECIAL != 0;

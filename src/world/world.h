@@ -61,7 +61,7 @@ struct fe_world {
     int32_t use_count, use_capacity;
     uint64_t next_serial;                      // of bodies, shapes and joints alike
     int32_t first_body, last_body, body_count; // in the order of creation
-    int32_t static_count;                      // of them
+    int32_t static_count, kinematic_count;     // of them
     int32_t shape_count;
 
     // contacts: hot and cold halves by the same index; free ones are linked through links[0].next

@@ -19,6 +19,7 @@ typedef struct fe__graph_input {
 // What a graph of so many bodies and contacts may need at most
 typedef struct fe__graph_bound {
     int32_t bodies, contacts;
+    int32_t kinematic;                    // of the bodies, at most
     int32_t fresh;                        // of them, those that the last graph does not have
     int32_t pair_colours, static_colours; // the colours of these are among the first so many
     int32_t crowded;                      // of these, contacts of bodies that may run out of colours

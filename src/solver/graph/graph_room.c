@@ -91,12 +91,14 @@ static int32_t widest_kind(const fe__graph_bound *b)
     return b->special ? FE__ROW_PAIR | FE__ROW_SPECIAL : FE__ROW_PAIR;
 }
 
-// Of all contacts in one batch. None takes more than a thin row, for a group of so few has one
+// Of all contacts in one batch. None takes more than a thin row, for a group of so few has one. What has no colour
+// takes a thin row whole: as many as may be are the worst
 static int64_t all_contact_bytes(const fe__solver *s, const fe__graph_bound *b, const fe__kernels *kernels)
 {
     int32_t widest = widest_kind(b), round_up = kernels->width - 1; // fresh ones join groups that there are, too
-    int64_t wide = wide_rows(kernels, (int64_t)b->fresh + round_up, fresh_groups(b)) * wide_row(kernels, widest),
-            thin = b->fresh * thin_row(kernels, widest);
+    int32_t coloured = b->fresh - b->crowded;
+    int64_t wide = wide_rows(kernels, (int64_t)coloured + round_up, fresh_groups(b)) * wide_row(kernels, widest),
+            thin = coloured * thin_row(kernels, widest);
     for (int32_t kind = 0; kind < FE__ROW_KINDS; ++kind) {
         wide += wide_rows(kernels, s->built.contacts[kind], s->built.colours[kind]) * wide_row(kernels, kind);
         thin += s->built.contacts[kind] * thin_row(kernels, kind);
@@ -108,11 +110,11 @@ static int64_t all_contact_bytes(const fe__solver *s, const fe__graph_bound *b, 
 static int64_t contact_bytes(const fe__solver *s, const fe__graph_bound *b, const fe__kernels *kernels,
                              int32_t contacts)
 {
-    int32_t widest = widest_kind(b);
-    int64_t wide = wide_rows(kernels, contacts, group_bound(s, b)) * wide_row(kernels, widest),
-            thin = contacts * thin_row(kernels, widest),
-            overflow = fe__mini(overflow_bound(s, b), contacts) * thin_row(kernels, widest);
-    return fe__minl(fe__minl(wide, thin) + overflow, all_contact_bytes(s, b, kernels));
+    int32_t widest = widest_kind(b), overflow = fe__mini(overflow_bound(s, b), contacts);
+    int64_t coloured = contacts - overflow,
+            wide = wide_rows(kernels, coloured + kernels->width - 1, group_bound(s, b)) * wide_row(kernels, widest),
+            thin = coloured * thin_row(kernels, widest);
+    return fe__minl(fe__minl(wide, thin) + overflow * thin_row(kernels, widest), all_contact_bytes(s, b, kernels));
 }
 
 // bytes of rows of so many contacts and parts of joints; each body is in one tree at most
@@ -172,8 +174,9 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
     int64_t groups = contact_groups + joint_groups + tree_links(b);
     int64_t lanes = fe__minl(b->contacts + (width - 1) * contact_groups, (int64_t)FE__THIN_WIDTH * b->contacts) +
                     fe__minl(parts + (width - 1) * joint_groups, (int64_t)width * parts);
-    // each contact or joint of a kinematic body may bring a copy of it
-    int64_t copies = (b->special ? b->contacts : 0) + (b->joint_set ? b->joint_set->kinematic : 0);
+    // a batch has one copy of each kinematic body, which a contact or a joint of it brings
+    int64_t copies = fe__minl((int64_t)b->kinematic * batches,
+                              (b->special ? b->contacts : 0) + (b->joint_set ? b->joint_set->kinematic : 0));
     int64_t lines = FE__MAX_WIDTH + (int64_t)b->bodies + (int64_t)batches * (FE__DUMMY_LINES + FE__MAX_WIDTH) + copies;
     int64_t small, rows = all_rows(s, b, kernels, workers, &small);
     int64_t building = (int64_t)sizeof(int32_t) * scratch_bound(b);
