@@ -13,7 +13,7 @@
 #include <string.h>
 
 // How far a pair may slide or turn before it needs a new manifold: at most this, m, and a share of the thinner form.
-// Less for round forms, whose normal turns with them.
+// Less for round forms and for edges side by side, whose normal turns with them.
 #define RECYCLE_MOST 0.03f
 #define RECYCLE_SHARE 0.1f
 #define RECYCLE_ROUND 0.0005f
@@ -367,6 +367,8 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
         return;
     }
     match_impulses(p, m, &found);
-    m->surface.tolerance = ahead ? FE__AHEAD : fe__recycle_tolerance(&v);
+    float tolerance = fe__recycle_tolerance(&v);
+    if (found.round) tolerance = fe__minf(tolerance, RECYCLE_ROUND);
+    m->surface.tolerance = ahead ? FE__AHEAD : tolerance;
     fe__write_manifold(world, m, &v, &at, &found, ahead);
 }
