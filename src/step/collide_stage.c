@@ -14,7 +14,7 @@
 #include "world/proxies.h"
 #include "world/sleep.h"
 
-enum { PAIRS_IN_BLOCK = 64, PAIRS_IN_CACHE = 256 };
+enum { PAIRS_IN_BLOCK = 64, PAIRS_IN_CACHE = 256, FETCHED_AHEAD = 24 };
 
 typedef struct collide_job {
     fe__step *step;
