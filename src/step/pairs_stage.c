@@ -5,6 +5,8 @@
 // trees show. Nothing of the world is changed before all memory that the step can need is reserved.
 #include "step/pairs_stage.h"
 
+#include "step/crowd.h"
+#include "step/due.h"
 #include "step/reserve.h"
 #include "world/filter.h"
 #include "world/handles.h"
@@ -103,7 +105,7 @@ static int32_t search_all(fe__step *step)
         int32_t most = 0;
         for (int32_t i = 0; i < w->workers.count; ++i) most = fe__maxi(most, s->buffers[i].count);
         if (most <= s->candidate_room) break;
-        room = most + most / 2;
+        room = most + most / 8;
     }
     s->candidate_count = s->buffers[0].count;
     for (int32_t i = 1; i < w->workers.count; ++i)
@@ -149,11 +151,12 @@ void fe__find_new_pairs(fe__step *step)
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     fe__settle_sizes(w);
-    step->failed = !search_all(step) || !fe__reserve_step(step);
+    step->failed = !search_all(step) || !fe__thin_crowds(step) || !fe__find_due(step) || !fe__reserve_step(step);
     if (step->failed) return;
     sort_candidates(step);
     for (int32_t i = 0; i < s->candidate_count; ++i)
         fe__pair_create(w, s->candidates[i].shape_a, s->candidates[i].shape_b, is_denied(w, s->candidates + i));
     for (int32_t i = 0; i < w->moved_count; ++i) w->shapes[w->moved[i]].flags &= ~(uint32_t)FE__SHAPE_MOVED;
     w->moved_count = 0;
+    fe__keep_looking(step);
 }

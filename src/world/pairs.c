@@ -36,7 +36,6 @@ static void add_to_body(fe_world *world, int32_t pair, int32_t index)
     fe__pair_add_to_list(world, pair, index);
     body->contact_count += world->pairs[pair].next_patch >= 0 ? FE__PATCHES : 1;
     body->static_pairs += is_with_static(world, pair);
-    if (body->type == FE_BODY_DYNAMIC) world->most_contacts = fe__maxi(world->most_contacts, body->contact_count);
 }
 
 static void remove_from_body(fe_world *world, int32_t pair, int32_t index)

@@ -24,14 +24,30 @@ typedef struct fe__chase {
     int32_t stopped;
 } fe__chase;
 
+// A body in a crowd (step/crowd.c): a shape of it, how many pairs it may yet have with others of the crowd, and how
+// many it chose
+typedef struct fe__crowded {
+    int32_t shape, room, count;
+} fe__crowded;
+
+typedef struct fe__favourite {
+    uint64_t rank; // the larger, the dearer
+    int32_t candidate;
+} fe__favourite;
+
 typedef struct fe__step_scratch {
     fe__candidate *candidates; // a stretch for each worker; merged and sorted in the first
     int32_t candidate_capacity, candidate_room, candidate_count;
     int32_t candidate_patches; // further records that the candidates with heightfields need
     fe__candidate_buffer buffers[FE_MAX_WORKERS];
+    fe__crowded *crowd;
+    fe__favourite *favourites; // of each body of the crowd
+    int32_t crowd_capacity, favourite_capacity;
+    int32_t left_out; // candidates behind those that count
 
-    int32_t *busy;                 // awake pairs that do not wait
-    _Atomic int32_t some_deferred; // 0: no awake pair does
+    int32_t *busy; // awake pairs that do not wait; while a step reserves: those that just ceased to
+    _Atomic int32_t due_count, waiting_count; // see step/due.c
+    _Atomic int32_t some_deferred;            // 0: no awake pair does
     int32_t busy_capacity;
     int32_t *results; // pairs that begin, end or part in this step
     int32_t result_capacity;
