@@ -63,3 +63,11 @@ int32_t fe__find_due(fe__step *step)
     fe__parallel_for(&w->workers, w->awake_pair_count, PAIRS_IN_BLOCK, find_in_block, step);
     return 1;
 }
+
+void fe__put_due_back(fe__step *step)
+{
+    fe_world *w = step->world;
+    const fe__step_scratch *s = step->scratch;
+    for (int32_t i = 0, count = atomic_load(&s->due_count); i < count; ++i)
+        w->awake_pairs[w->pairs[s->busy[i]].awake_index] = ~s->busy[i];
+}

@@ -63,34 +63,44 @@ static void forget_expected(const fe__step *step)
     }
 }
 
-static int32_t most_coming(const fe__step *step)
+// Of the dynamic bodies that a step may move: the most pairs of one, and those of all that may run out of colours
+typedef struct neighbours {
+    int32_t most, crowded;
+} neighbours;
+
+static void count_neighbours(const fe__body *body, neighbours *n)
 {
-    int32_t most = 0;
-    for (int32_t n = 0; n < to_come(step); ++n) {
-        fe__body *body[2];
-        bodies_of(step, n, body);
-        for (int k = 0; k < 2; ++k)
-            if (body[k]->type == FE_BODY_DYNAMIC) most = fe__maxi(most, body[k]->coming_contacts);
-    }
-    return most;
+    enum { COLOURS_FOR_ALL = FE__STATIC_COLOURS < FE__PAIR_COLOURS / 2 ? FE__STATIC_COLOURS : FE__PAIR_COLOURS / 2 };
+    int32_t pairs = body->contact_count + body->coming_contacts;
+    if (body->type != FE_BODY_DYNAMIC) return;
+    n->most = fe__maxi(n->most, pairs);
+    if (pairs > COLOURS_FOR_ALL) n->crowded += pairs;
 }
 
-// Colours that the contacts to come may find, `others` of unknown bodies among them. The first free colour of two
-// bodies comes after no more than theirs and those of all that may come to them, but for the contact itself, which is
-// counted once for each of its dynamic bodies; it or its mate is taken
-static void bound_colours(const fe__step *step, int32_t others, fe__graph_bound *b)
+static neighbours find_neighbours(const fe_world *w, int32_t all)
+{
+    neighbours n = {0, 0};
+    for (int32_t i = all ? w->first_body : -1; i >= 0; i = w->bodies[i].order_next) count_neighbours(w->bodies + i, &n);
+    for (int32_t i = 0; i < w->awake_body_count && !all; ++i) count_neighbours(w->bodies + w->awake_bodies[i], &n);
+    return n;
+}
+
+// Colours that the contacts to come may find, `others` among them that are in no list of those to come. The first free
+// colour of two bodies comes after no more than theirs and those of all that may come to them, but for the contact
+// itself, which is counted once for each of its dynamic bodies; it or its mate is taken. A body has no more than pairs
+static void bound_colours(const fe__step *step, int32_t others, int32_t all, fe__graph_bound *b)
 {
     enum { MOST_OF_PAIR = FE__PAIR_COLOURS + 1, MOST_OF_STATIC = FE__STATIC_COLOURS };
     const fe_world *w = step->world;
-    int32_t of_other = others ? w->most_colours + most_coming(step) + others : 0;
-    int32_t pairs = 2 * of_other, statics = of_other;
+    neighbours of_all = others ? find_neighbours(w, all) : (neighbours){0, 0};
+    int32_t pairs = 2 * of_all.most, statics = of_all.most;
     for (int32_t n = 0; n < to_come(step); ++n) {
         fe__body *body[2];
         bodies_of(step, n, body);
         int32_t found = 0, of_pair = 1;
         for (int k = 0; k < 2; ++k) {
             if (body[k]->type == FE_BODY_DYNAMIC)
-                found += fe__colours_of(body[k]) + body[k]->coming_contacts + others;
+                found += body[k]->coming_contacts + fe__mini(fe__colours_of(body[k]) + others, body[k]->contact_count);
             else
                 of_pair = 0;
         }
@@ -99,7 +109,7 @@ static void bound_colours(const fe__step *step, int32_t others, fe__graph_bound 
         b->crowded +=
             (found > (of_pair ? MOST_OF_PAIR : MOST_OF_STATIC)) * (is_field_candidate(step, n) ? FE__PATCHES : 1);
     }
-    if (pairs > MOST_OF_PAIR || statics > MOST_OF_STATIC) b->crowded += others;
+    if (pairs > MOST_OF_PAIR || statics > MOST_OF_STATIC) b->crowded += fe__mini(others, of_all.crowded);
     b->pair_colours = fe__mini(fe__maxi(pairs, w->pair_colours), FE__PAIR_COLOURS);
     b->static_colours = fe__mini(fe__maxi(statics, w->static_colours), FE__STATIC_COLOURS);
 }
@@ -116,7 +126,7 @@ static void bound_fresh(const fe__step *step, int32_t asleep, fe__graph_bound *b
     int32_t others = unlinked - atomic_load(&s->due_count) + asleep + patches;
     b->contacts = busy + asleep + patches + coming;
     b->fresh = fe__mini(b->contacts, unlinked + asleep + patches + coming + woken);
-    bound_colours(step, fe__maxi(others, 0), b);
+    bound_colours(step, fe__maxi(others, 0), all, b);
     if (w->pair_colours == FE__PAIR_COLOURS || w->static_colours == FE__STATIC_COLOURS) b->crowded += woken + asleep;
     b->crowded = fe__mini(b->crowded, b->fresh);
     forget_expected(step);

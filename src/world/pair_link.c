@@ -26,8 +26,6 @@ static void note_uneven(fe__body *a, fe__body *b)
 
 static void note_colour(fe_world *world, const fe__contact *m)
 {
-    const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
-    world->most_colours = fe__maxi(world->most_colours, fe__maxi(fe__colours_of(a), fe__colours_of(b)));
     if (m->colour < FE__PAIR_COLOURS)
         world->pair_colours = fe__maxi(world->pair_colours, m->colour + 1);
     else if (m->colour != FE__OVERFLOW_COLOUR)

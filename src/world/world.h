@@ -76,7 +76,6 @@ struct fe_world {
     int32_t awake_linked_count;       // linked ones in the list of awake pairs
     int32_t field_pair_count;         // with a heightfield in them
     // bounds for what a step may need; they only grow
-    int32_t most_colours;                 // that contacts of one dynamic body had at a time
     int32_t pair_colours, static_colours; // all that there ever were are among the first so many
     uint32_t row_kinds;                   // 1 << FE__ROW_* of every pair
     int32_t wants_hits;                   // a shape asked for hit events
