@@ -126,7 +126,7 @@ static void bound_fresh(const fe__step *step, int32_t asleep, fe__graph_bound *b
     int32_t others = unlinked - atomic_load(&s->due_count) + asleep + patches;
     b->contacts = busy + asleep + patches + coming;
     b->fresh = fe__mini(b->contacts, unlinked + asleep + patches + coming + woken);
-    bound_colours(step, fe__maxi(others, 0), all, b);
+    bound_colours(step, fe__maxi(others, 0), asleep > 0, b);
     if (w->pair_colours == FE__PAIR_COLOURS || w->static_colours == FE__STATIC_COLOURS) b->crowded += woken + asleep;
     b->crowded = fe__mini(b->crowded, b->fresh);
     forget_expected(step);
