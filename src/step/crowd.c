@@ -110,32 +110,43 @@ static uint64_t rank(float depth, uint64_t own, uint64_t other)
     return (uint64_t)bits << 32 | (most - (distance < most ? distance : most));
 }
 
-// A heap whose root is the least dear
-static void sink(fe__favourite *heap, int32_t count, fe__favourite item)
+// A heap whose root is the least dear. Of equals, as bodies of several shapes have them, the pair created first is the
+// dearer
+static int32_t is_less(const fe__step *step, fe__favourite x, fe__favourite y)
+{
+    const fe__shape *shapes = step->world->shapes;
+    const fe__candidate *a = step->scratch->candidates + x.candidate, *b = step->scratch->candidates + y.candidate;
+    if (x.rank != y.rank) return x.rank < y.rank;
+    if (a->shape_a != b->shape_a) return shapes[a->shape_a].serial > shapes[b->shape_a].serial;
+    return shapes[a->shape_b].serial > shapes[b->shape_b].serial;
+}
+
+static void sink(const fe__step *step, fe__favourite *heap, int32_t count, fe__favourite item)
 {
     int32_t at = 0;
     for (int32_t child; (child = 2 * at + 1) < count; at = child) {
-        if (child + 1 < count && heap[child + 1].rank < heap[child].rank) ++child;
-        if (item.rank <= heap[child].rank) break;
+        if (child + 1 < count && is_less(step, heap[child + 1], heap[child])) ++child;
+        if (!is_less(step, heap[child], item)) break;
         heap[at] = heap[child];
     }
     heap[at] = item;
 }
 
-static void rise(fe__favourite *heap, int32_t at, fe__favourite item)
+static void rise(const fe__step *step, fe__favourite *heap, int32_t at, fe__favourite item)
 {
-    for (; at > 0 && item.rank < heap[(at - 1) / 2].rank; at = (at - 1) / 2) heap[at] = heap[(at - 1) / 2];
+    for (; at > 0 && is_less(step, item, heap[(at - 1) / 2]); at = (at - 1) / 2) heap[at] = heap[(at - 1) / 2];
     heap[at] = item;
 }
 
-static void offer(fe__step_scratch *s, const fe__body *body, fe__favourite item)
+static void offer(const fe__step *step, const fe__body *body, fe__favourite item)
 {
+    fe__step_scratch *s = step->scratch;
     fe__crowded *place = s->crowd + ~body->coming_contacts;
     fe__favourite *heap = s->favourites + (int64_t)MOST * ~body->coming_contacts;
     if (place->count < place->room)
-        rise(heap, place->count++, item);
-    else if (place->room && item.rank > heap[0].rank)
-        sink(heap, place->count, item);
+        rise(step, heap, place->count++, item);
+    else if (place->room && is_less(step, heap[0], item))
+        sink(step, heap, place->count, item);
 }
 
 static int32_t is_in_crowd(const fe_world *w, const fe__candidate *c)
@@ -152,8 +163,8 @@ static void find_favourites(const fe__step *step)
         if (!is_in_crowd(w, c)) continue;
         uint64_t a = w->shapes[c->shape_a].serial, b = w->shapes[c->shape_b].serial;
         float depth = depth_of(s->boxes + c->shape_a, s->boxes + c->shape_b);
-        offer(s, body_of(w, c->shape_a), (fe__favourite){rank(depth, a, b), i});
-        offer(s, body_of(w, c->shape_b), (fe__favourite){rank(depth, b, a), i});
+        offer(step, body_of(w, c->shape_a), (fe__favourite){rank(depth, a, b), i});
+        offer(step, body_of(w, c->shape_b), (fe__favourite){rank(depth, b, a), i});
     }
 }
 

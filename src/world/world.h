@@ -75,6 +75,7 @@ struct fe_world {
     int32_t pair_count, linked_count; // patches count with their head, and each that is linked
     int32_t awake_linked_count;       // linked ones in the list of awake pairs
     int32_t field_pair_count;         // with a heightfield in them
+    int32_t trigger_pair_count;       // with a trigger in them
     // bounds for what a step may need; they only grow
     int32_t pair_colours, static_colours; // all that there ever were are among the first so many
     uint32_t row_kinds;                   // 1 << FE__ROW_* of every pair
