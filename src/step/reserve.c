@@ -13,28 +13,6 @@
 
 #include <string.h>
 
-// Can anything asleep be touched in this step? Then all of it may wake.
-static int32_t may_wake(const fe__step *step)
-{
-    const fe_world *w = step->world;
-    const fe__step_scratch *s = step->scratch;
-    if (w->awake_body_count == w->body_count - w->static_count) return 0;
-    for (int32_t i = 0; i < s->candidate_count; ++i) {
-        const fe__body *a = w->bodies + w->shapes[s->candidates[i].shape_a].body,
-                       *b = w->bodies + w->shapes[s->candidates[i].shape_b].body;
-        if ((a->awake_index < 0 && a->type == FE_BODY_DYNAMIC) || (b->awake_index < 0 && b->type == FE_BODY_DYNAMIC))
-            return 1;
-    }
-    for (int32_t i = 0; i < w->awake_pair_count; ++i) {
-        const fe__contact *m = w->contacts + fe__pair_of(w->awake_pairs[i]);
-        const fe__body *a = w->bodies + m->body_a, *b = w->bodies + m->body_b;
-        if (m->colour < 0 &&
-            ((a->awake_index < 0 && a->type == FE_BODY_DYNAMIC) || (b->awake_index < 0 && b->type == FE_BODY_DYNAMIC)))
-            return 1;
-    }
-    return 0;
-}
-
 // ---- contacts to come ----------------------------------------------------------------------------------------------
 // Bodies of the n-th contact that may be linked: candidates first, then pairs that just ceased to wait
 static int32_t is_field_candidate(const fe__step *step, int32_t n)
@@ -137,19 +115,18 @@ static void bound_colours(const fe__step *step, int32_t others, int32_t all, fe_
 }
 
 // Contacts that may be linked or woken in this step
-static void bound_fresh(const fe__step *step, int32_t all, fe__graph_bound *b)
+static void bound_fresh(const fe__step *step, int32_t asleep, fe__graph_bound *b)
 {
     const fe_world *w = step->world;
     const fe__step_scratch *s = step->scratch;
     expect(step, b);
     int32_t coming = s->candidate_count + s->candidate_patches,
             busy = w->awake_pair_count - atomic_load(&s->waiting_count), unlinked = busy - w->awake_linked_count,
-            asleep = all ? w->pair_count - w->awake_pair_count : 0, patches = w->field_pair_count * (FE__PATCHES - 1),
-            woken = w->solver.unbuilt;
+            patches = w->field_pair_count * (FE__PATCHES - 1), woken = w->solver.unbuilt;
     int32_t others = unlinked - atomic_load(&s->due_count) + asleep + patches;
     b->contacts = busy + asleep + patches + coming;
     b->fresh = fe__mini(b->contacts, unlinked + asleep + patches + coming + woken);
-    bound_colours(step, fe__maxi(others, 0), all, b);
+    bound_colours(step, fe__maxi(others, 0), asleep > 0, b);
     if (w->pair_colours == FE__PAIR_COLOURS || w->static_colours == FE__STATIC_COLOURS) b->crowded += woken + asleep;
     b->crowded = fe__mini(b->crowded, b->fresh);
     forget_expected(step);
@@ -172,18 +149,20 @@ static void count_fast(const fe__step *step, fe__graph_bound *b)
     }
 }
 
-static fe__graph_bound bound_of(const fe__step *step)
+// Clusters of n lanes in all have n more bodies than clusters, at most, but for joints without rows
+static fe__graph_bound bound_of(const fe__step *step, int32_t waking_lanes, int32_t waking_clusters)
 {
     const fe_world *w = step->world;
-    int32_t all = may_wake(step);
+    int32_t asleep = fe__mini(waking_lanes, w->pair_count - w->awake_pair_count),
+            joints = waking_clusters ? w->joint_count : w->awake_joint_count;
     fe__graph_bound b = {0};
-    b.bodies = all ? w->body_count : w->awake_body_count;
+    b.bodies = fe__mini(w->body_count, w->awake_body_count + waking_lanes + waking_clusters + joints);
     b.kinematic = w->kinematic_count;
     b.kinds = w->row_kinds;
-    bound_fresh(step, all, &b);
+    bound_fresh(step, asleep, &b);
     b.special = b.kinds >> FE__ROW_SPECIAL != 0;
     b.joint_set = &w->joints;
-    b.joints = all ? w->joint_count : w->awake_joint_count;
+    b.joints = joints;
     b.largest = INT32_MAX;
     count_fast(step, &b);
     return b;
@@ -225,7 +204,10 @@ int32_t fe__reserve_step(fe__step *step)
 {
     fe_world *w = step->world;
     if (!fe__find_joint_trees(w)) return 0;
-    fe__graph_bound bound = bound_of(step);
+    int32_t lanes, clusters;
+    fe__count_candidates(step);
+    if (!fe__bound_waking(step, &lanes, &clusters)) return 0;
+    fe__graph_bound bound = bound_of(step, lanes, clusters);
     if (!fe__reserve_pairs(w, step->scratch->candidate_count + step->scratch->candidate_patches) ||
         !reserve_scratch(step, &bound))
         return 0;

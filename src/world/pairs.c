@@ -135,7 +135,7 @@ int32_t fe__pair_create(fe_world *world, int32_t shape_a, int32_t shape_b, int32
 
 void fe__pair_release(fe_world *world, int32_t pair)
 {
-    world->pairs[pair].flags = 0;
+    world->pairs[pair].flags = FE__PAIR_FREE;
     world->pairs[pair].links[0].next = world->first_free_pair;
     world->first_free_pair = pair;
 }
@@ -169,7 +169,7 @@ static void owe_exit(fe_world *world, int32_t pair)
     fe_pair_event event = fe__pair_event_of(world, pair, FE_EVENT_EXIT);
     owed_exit owed = {event.body_a, event.body_b, event.shape_a, event.shape_b, event.is_trigger};
     memcpy(world->contacts[pair].point, &owed, sizeof owed);
-    world->pairs[pair].flags = 0;
+    world->pairs[pair].flags = FE__PAIR_FREE;
     world->pairs[pair].links[0].next = world->first_owed;
     world->first_owed = pair;
     ++world->owed_count;
