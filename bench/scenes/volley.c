@@ -16,7 +16,8 @@ void bench_build_volley(bench_scene *scene, int32_t n)
         double x = side * (distance + pitch * (j % COLUMNS));
         double y = pitch * (j / COLUMNS % COLUMNS - 0.5 * (COLUMNS - 1)) + jitter * bench_random(&state);
         double z = pitch * (j / SHEET - 0.5 * n / (2 * SHEET)) + jitter * bench_random(&state);
-        bench_body *body = &scene->bodies[bench_add_dynamic(scene, forms[i / 2 % 2], x, y, z)];
+        int32_t added = bench_add_dynamic(scene, forms[i / 2 % 2], x, y, z); // which may move the array
+        bench_body *body = scene->bodies + added;
         body->linear_velocity[0] = -10.0f * (float)side;
         for (int k = 0; k < 3; k++) body->angular_velocity[k] = (float)bench_random(&state);
     }

@@ -160,14 +160,14 @@ static int32_t collide_some(fe__step *step, const int32_t *pairs, int32_t count)
     float slack[PAIRS_IN_CACHE], fall = fe__fall_in_step(w, step->dt);
     w->kernels->recycle(w->contacts, w->bodies, pairs, count, step->dt, fall, verdicts, slack);
     for (int32_t i = 0; i < count; ++i) {
-        int32_t pair = pairs[i];
+        int32_t pair = pairs[i], next = fe__mini(i + FETCHED_AHEAD, count - 1);
+        if (verdicts[next] != FE__STAYS) fe__fetch(w->pairs + pairs[next], sizeof *w->pairs);
         if (verdicts[i] == FE__STAYS) continue;
         if (verdicts[i] == FE__STAYS_APART) {
             defer(step, pair, slack[i]);
             continue;
         }
         again[left++] = pair;
-        fe__fetch(w->pairs + pair, sizeof *w->pairs);
     }
     for (int32_t i = -AHEAD; i < left; ++i) {
         if (i + AHEAD < left) fetch_pair(w, again[i + AHEAD]);

@@ -11,27 +11,46 @@
 #include "world/mass.h"
 #include "world/pairs.h"
 
-enum { SHAPES_IN_BLOCK = 32, FIRST_ROOM = 256 };
+enum {
+    SHAPES_IN_BLOCK = 32,
+    FIRST_ROOM = 256,
+    MEETINGS = 64 // that wait for what they read: enough to hide the memory's latency, few enough to stay in the cache
+};
 
+// Boxes that meet, of which most have a record already: its entry and the other shape lie anywhere, and are asked for
+// long before they are read
 typedef struct search {
     const fe_world *world;
     fe__candidate_buffer *buffer;
     int32_t room;
     int32_t shape;
+    int32_t waiting;
+    fe__candidate met[MEETINGS]; // `shape` then, and the other
 } search;
 
 // of two moved shapes the one with the lower index reports
+static void judge_meetings(search *s)
+{
+    const fe_world *w = s->world;
+    for (int32_t i = 0; i < s->waiting; ++i) {
+        int32_t shape = s->met[i].shape_a, other = s->met[i].shape_b;
+        if (w->shapes[other].flags & FE__SHAPE_MOVED && other < shape) continue;
+        if (fe__pair_set_find(&w->pair_set, shape, other) >= 0 || !fe__may_collide(w, shape, other)) continue;
+        int32_t first = w->shapes[shape].serial < w->shapes[other].serial;
+        if (s->buffer->count < s->room)
+            s->buffer->items[s->buffer->count] = first ? (fe__candidate){shape, other} : (fe__candidate){other, shape};
+        ++s->buffer->count;
+    }
+    s->waiting = 0;
+}
+
 static int32_t found(void *context, int32_t other)
 {
     search *s = context;
-    const fe_world *w = s->world;
-    if (w->shapes[other].flags & FE__SHAPE_MOVED && other < s->shape) return 1;
-    if (!fe__may_collide(w, s->shape, other) || fe__pair_set_find(&w->pair_set, s->shape, other) >= 0) return 1;
-    int32_t first = w->shapes[s->shape].serial < w->shapes[other].serial;
-    if (s->buffer->count < s->room)
-        s->buffer->items[s->buffer->count] =
-            first ? (fe__candidate){s->shape, other} : (fe__candidate){other, s->shape};
-    ++s->buffer->count;
+    fe__fetch(&s->world->shapes[other].flags, sizeof s->world->shapes->flags);
+    fe__pair_set_fetch(&s->world->pair_set, s->shape, other);
+    s->met[s->waiting++] = (fe__candidate){s->shape, other};
+    if (s->waiting == MEETINGS) judge_meetings(s);
     return 1;
 }
 
@@ -70,7 +89,7 @@ static void search_tree(search *s)
 static void search_block(void *argument, int32_t first, int32_t end, int32_t worker)
 {
     const fe__step *step = argument;
-    search s = {step->world, step->scratch->buffers + worker, step->scratch->candidate_room, 0};
+    search s = {step->world, step->scratch->buffers + worker, step->scratch->candidate_room, 0, 0, {{0}}};
     for (int32_t i = first; i < end; ++i) {
         s.shape = step->world->moved[i];
         const fe__shape *shape = step->world->shapes + s.shape;
@@ -79,13 +98,14 @@ static void search_block(void *argument, int32_t first, int32_t end, int32_t wor
         if (flags & FE__SHAPE_IN_PLANES) search_plane(&s);
         if (flags & FE__SHAPE_IN_TREE) search_tree(&s);
     }
+    judge_meetings(&s);
 }
 
 static int32_t reserve_candidates(fe__step *step, int32_t room)
 {
     fe__step_scratch *s = step->scratch;
     int32_t workers = step->world->workers.count;
-    if (!FE_RESERVE(&step->world->memory, s->candidates, s->candidate_capacity, (int64_t)room * workers)) return 0;
+    if (!FE_RENEW(&step->world->memory, s->candidates, s->candidate_capacity, (int64_t)room * workers)) return 0;
     s->candidate_room = s->candidate_capacity / workers;
     for (int32_t i = 0; i < workers; ++i)
         s->buffers[i].items = s->candidates + i * s->candidate_room, s->buffers[i].count = 0;

@@ -127,14 +127,14 @@ static int32_t reserve_scratch(fe__step *step, const fe__graph_bound *b)
     // at least one, so that an empty stretch has an address too
     int64_t sorted = 1 + fe__maxi(fe__maxi(b->contacts, step->scratch->candidate_count), w->body_count);
     sorted += w->owed_count + w->joint_count;
-    return FE_RESERVE(memory, s->results, s->result_capacity, (int64_t)b->contacts + 1) &&
+    return FE_RENEW(memory, s->results, s->result_capacity, (int64_t)b->contacts + 1) &&
            FE_RESERVE(memory, s->busy, s->busy_capacity, (int64_t)b->contacts + 1) &&
-           FE_RESERVE(memory, s->left, s->left_capacity, w->shape_count) &&
-           FE_RESERVE(memory, s->boxes, s->box_capacity, w->shape_count) &&
-           FE_RESERVE(memory, s->chased, s->chased_capacity, (int64_t)2 * b->bodies) &&
-           FE_RESERVE(memory, s->chases, s->chase_capacity, w->has_bullets ? b->bodies : 0) &&
-           FE_RESERVE(memory, s->island_timers, s->island_capacity, b->bodies) &&
-           FE_RESERVE(memory, s->sort_items, s->sort_capacity, 2 * sorted) &&
+           FE_RENEW(memory, s->left, s->left_capacity, w->shape_count) &&
+           FE_RENEW(memory, s->boxes, s->box_capacity, w->shape_count) &&
+           FE_RENEW(memory, s->chased, s->chased_capacity, (int64_t)2 * b->bodies) &&
+           FE_RENEW(memory, s->chases, s->chase_capacity, w->has_bullets ? b->bodies : 0) &&
+           FE_RENEW(memory, s->island_timers, s->island_capacity, b->bodies) &&
+           FE_RENEW(memory, s->sort_items, s->sort_capacity, 2 * sorted) &&
            FE_RESERVE(memory, w->pair_events, w->pair_event_capacity, (int64_t)b->contacts + w->owed_count) &&
            FE_RESERVE(memory, w->body_events, w->body_event_capacity, w->body_count) &&
            FE_RESERVE(memory, w->hit_events, w->hit_event_capacity, w->wants_hits ? b->contacts : 0) &&

@@ -130,6 +130,7 @@ int32_t fe__pair_create(fe_world *world, int32_t shape_a, int32_t shape_b, int32
     else if (concerns_sleepers(world, p))
         fe__pair_look_once(world, pair);
     ++world->pair_count;
+    world->trigger_pair_count += (p->flags & FE__PAIR_SENSOR) != 0;
     return pair;
 }
 
@@ -225,6 +226,7 @@ void fe__pair_destroy(fe_world *world, int32_t pair)
     remove_from_body(world, pair, p->body_b);
     fe__pair_set_remove(&world->pair_set, p->shape_a, p->shape_b);
     --world->pair_count;
+    world->trigger_pair_count -= (p->flags & FE__PAIR_SENSOR) != 0;
     if (p->flags & FE__PAIR_TOUCHING && p->events & FE_SHAPE_EVENTS_TOUCH)
         owe_exit(world, pair);
     else

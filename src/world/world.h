@@ -74,6 +74,7 @@ struct fe_world {
     int32_t first_free_pair;          // -1: none
     int32_t pair_count, linked_count; // patches count with their head, and each that is linked
     int32_t field_pair_count;         // with a heightfield in them
+    int32_t trigger_pair_count;       // with a trigger in them
     // bounds for what a step may need; they only grow
     int32_t most_contacts;   // of one dynamic body
     uint32_t row_kinds;      // 1 << FE__ROW_* of every pair

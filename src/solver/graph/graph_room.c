@@ -127,28 +127,30 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
     int32_t trees = b->joint_set ? b->joint_set->forest.tree_count : 0;
     int64_t sorted = fe__maxi(fe__maxi(fe__mini(b->crowded, b->contacts), trees),
                               b->joint_set ? fe__mini(b->joint_set->overflowing, b->joints) : 0);
-    if (!FE_RESERVE(memory, s->velocity, s->line_capacity[0], lines) ||
-        !FE_RESERVE(memory, s->motion, s->line_capacity[1], lines) ||
-        !FE_RESERVE(memory, s->start, s->line_capacity[2], lines) ||
-        !FE_RESERVE(memory, s->inertia, s->line_capacity[3], lines) ||
-        !FE_RESERVE(memory, s->drive, s->line_capacity[4], lines) ||
-        !FE_RESERVE(memory, s->axes, s->line_capacity[5], lines) ||
-        !FE_RESERVE(memory, s->moved_spin, s->line_capacity[6], b->joints ? lines : 0) ||
-        !FE_RESERVE(memory, s->body_of_line, s->body_of_line_capacity, lines) ||
-        !FE_RESERVE(memory, s->trail_count, s->trail_capacity[0], lines) ||
-        !FE_RESERVE(memory, s->trail_of, s->trail_capacity[2], lines) ||
-        !FE_RESERVE(memory, s->trail, s->trail_capacity[1], b->fast + (b->fast_kinematic ? copies : 0)) ||
-        !FE_RESERVE(memory, s->batches, s->batch_capacity, batches) ||
-        !FE_RESERVE(memory, s->groups, s->group_capacity, groups + 1) ||
-        !FE_RESERVE(memory, s->lanes, s->lane_capacity, lanes + width) ||
-        !FE_RESERVE(memory, s->places, s->place_capacity, tree_links(b)) ||
-        !FE_RESERVE(memory, s->trees, s->tree_capacity, trees) ||
-        !FE_RESERVE(memory, s->passes, s->pass_capacity, pass_bound(groups)) ||
-        !FE_RESERVE(memory, s->sort_items, s->sort_capacity, 2 * sorted) ||
-        !FE_RESERVE(memory, s->rows, s->row_capacity, fe__maxl(rows, building) / (int64_t)sizeof(fe__row_block) + 1))
-        return 0;
-    s->worker_row_bytes = fe__whole_blocks(small);
-    return 1;
+    int64_t before = memory->allocations;
+    int32_t done =
+        FE_RESERVE(memory, s->velocity, s->line_capacity[0], lines) &&
+        FE_RESERVE(memory, s->motion, s->line_capacity[1], lines) &&
+        FE_RESERVE(memory, s->start, s->line_capacity[2], lines) &&
+        FE_RESERVE(memory, s->inertia, s->line_capacity[3], lines) &&
+        FE_RESERVE(memory, s->drive, s->line_capacity[4], lines) &&
+        FE_RESERVE(memory, s->axes, s->line_capacity[5], lines) &&
+        FE_RESERVE(memory, s->moved_spin, s->line_capacity[6], b->joints ? lines : 0) &&
+        FE_RENEW(memory, s->body_of_line, s->body_of_line_capacity, lines) &&
+        FE_RENEW(memory, s->trail_count, s->trail_capacity[0], lines) &&
+        FE_RENEW(memory, s->trail_of, s->trail_capacity[2], lines) &&
+        FE_RENEW(memory, s->trail, s->trail_capacity[1], b->fast + (b->fast_kinematic ? copies : 0)) &&
+        FE_RENEW(memory, s->batches, s->batch_capacity, batches) &&
+        FE_RENEW(memory, s->groups, s->group_capacity, groups + 1) &&
+        FE_RENEW(memory, s->lanes, s->lane_capacity, lanes + width) &&
+        FE_RENEW(memory, s->places, s->place_capacity, tree_links(b)) &&
+        FE_RENEW(memory, s->trees, s->tree_capacity, trees) &&
+        FE_RENEW(memory, s->passes, s->pass_capacity, pass_bound(groups)) &&
+        FE_RENEW(memory, s->sort_items, s->sort_capacity, 2 * sorted) &&
+        FE_RENEW(memory, s->rows, s->row_capacity, fe__maxl(rows, building) / (int64_t)sizeof(fe__row_block) + 1);
+    s->graph_changed |= memory->allocations != before; // what has grown holds no graph
+    if (done) s->worker_row_bytes = fe__whole_blocks(small);
+    return done;
 }
 
 void fe__solver_destroy(fe__solver *s, fe__memory *memory)
