@@ -64,16 +64,16 @@ typedef struct fe__step_constants {
     float contact_warm_scale; // that, or 0: contacts begin without them
     float max_speed;          // m/s
     float speculative;        // m
-    // m/s; what a load of one step could do to its two bodies, from which on their island is strained
+    // m/s; what a load of one step could do to its two bodies, from which on it strains their island
     float strain;
-    float open;    // m2; square of a joint's gap from which on its island is stretched
-    float forgets; // 0: strain is what lasted for the step, FLT_MAX: what the last substep bore, m/s
+    float weightless; // 1: without gravity, where a load in any direction counts
+    float open;       // m2; square of a joint's gap from which on its island is stretched
     int32_t substeps;
-    int32_t division;     // substeps to one of the world's: 1, more in strained and stretched islands
-    int32_t sweeps;       // relax passes over the contacts in a substep
-    int32_t more;         // 1: this is not the last of them
-    int32_t finds_strain; // 1: this is the last pass of a step
-    fe_vec3 gravity;
+    int32_t division;      // substeps to one of the world's: 1, more in strained and stretched islands
+    int32_t sweeps;        // relax passes over the contacts in a substep
+    int32_t more;          // 1: this is not the last of them
+    int32_t finds_strain;  // 1: this is the last pass of a step
+    fe_vec3 gravity, down; // down: its direction, 0 without
     fe__softness between_dynamic, against_static, joint;
     float joint_hertz; // at most, 1/s
 } fe__step_constants;
@@ -207,6 +207,7 @@ typedef struct fe__solver {
     int32_t trail_capacity[3];
 
     _Atomic int32_t strained; // 1: a line is strained or stretched, in this step
+    int32_t burdened;         // 1: some body is FE__BODY_BURDENED
     _Atomic int32_t engaged;  // light trees that were solved in this step
 
     // the graph (graph.c), kept while nothing links, unlinks, wakes or sleeps

@@ -12,8 +12,9 @@
 #define MOST_WARM_SCALE 16.0f
 
 // An island is strained by a load that lasts and could accelerate a body by so many times gravity (a stack of 40 equal
-// boxes), until it is less than a quarter of that. Without gravity that of the earth counts.
+// boxes), until it is less than half of that. Without gravity that of the earth counts.
 #define STRAIN 80.0f
+#define STAYS_STRAINED 0.5f // of it
 // Impulses pass on by a body or so in a rigid pass, and the impact of a body hundreds of times as heavy needs hundreds:
 // it arrives late, with the bodies between deep in each other. In a strained island substeps are about a thousandth of
 // a second, of three passes.
@@ -31,11 +32,12 @@ static int32_t division_of(float h, float rate)
     return division;
 }
 
-static float strain_of(const fe_world *w, float dt)
+static void set_strain(fe__step_constants *c, float dt)
 {
-    const fe_vec3 g = w->gravity;
-    float square = fe__dot(g, g);
-    return STRAIN * dt * (square > 0.0f ? __builtin_sqrtf(square) : 9.81f);
+    float gravity = fe__length(c->gravity);
+    c->weightless = gravity > 0.0f ? 0.0f : 1.0f;
+    c->down = gravity > 0.0f ? fe__scale(1.0f / gravity, c->gravity) : c->gravity;
+    c->strain = STRAIN * dt * (gravity > 0.0f ? gravity : 9.81f);
 }
 
 // Hertz are limited to what the world's substeps can follow: contacts' to an eighth of their rate, against static
@@ -59,7 +61,6 @@ fe__step_constants fe__constants_of(const fe_world *w, float dt, int32_t divisio
                                               : 0.0f,
                             .max_speed = t->max_linear_speed,
                             .speculative = t->speculative_distance,
-                            .strain = strain_of(w, dt),
                             .substeps = w->substeps * division,
                             .division = division,
                             .sweeps = 1,
@@ -69,6 +70,7 @@ fe__step_constants fe__constants_of(const fe_world *w, float dt, int32_t divisio
     c.joint = fe__make_softness(fe__minf(t->joint_hertz, c.joint_hertz), t->joint_damping_ratio, h);
     c.between_dynamic = fe__make_softness(hertz, t->contact_damping_ratio, h);
     c.against_static = fe__make_softness(fe__minf(2.0f * t->contact_hertz, 0.25f * rate), t->contact_damping_ratio, h);
+    set_strain(&c, dt);
     return c;
 }
 
@@ -80,8 +82,7 @@ static void constants_of_paces(const fe_world *w, float dt, fe__step_constants p
     *usual = fe__constants_of(w, dt, 1);
     usual->open = division > 1 ? STRETCHED_GAP * STRETCHED_GAP : FLT_MAX;
     *strained = fe__constants_of(w, dt, division_of(whole, FINE_RATE));
-    strained->strain *= 0.25f;
-    strained->forgets = FLT_MAX;
+    strained->strain *= STAYS_STRAINED;
     strained->sweeps = FINE_SWEEPS;
     *stretched = fe__constants_of(w, dt, division);
     stretched->open = 0.25f * usual->open;
