@@ -66,14 +66,13 @@ typedef struct fe__step_constants {
     float speculative;        // m
     // m/s; what a load of one step could do to its two bodies, from which on it strains their island
     float strain;
-    float weightless; // 1: without gravity, where a load in any direction counts
-    float open;       // m2; square of a joint's gap from which on its island is stretched
+    float open; // m2; square of a joint's gap from which on its island is stretched
     int32_t substeps;
-    int32_t division;      // substeps to one of the world's: 1, more in strained and stretched islands
-    int32_t sweeps;        // relax passes over the contacts in a substep
-    int32_t more;          // 1: this is not the last of them
-    int32_t finds_strain;  // 1: this is the last pass of a step
-    fe_vec3 gravity, down; // down: its direction, 0 without
+    int32_t division;     // substeps to one of the world's: 1, more in strained and stretched islands
+    int32_t sweeps;       // relax passes over the contacts in a substep
+    int32_t more;         // 1: this is not the last of them
+    int32_t finds_strain; // 1: this is the last pass of a step
+    fe_vec3 gravity;
     fe__softness between_dynamic, against_static, joint;
     float joint_hertz; // at most, 1/s
 } fe__step_constants;

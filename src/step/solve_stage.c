@@ -32,12 +32,11 @@ static int32_t division_of(float h, float rate)
     return division;
 }
 
-static void set_strain(fe__step_constants *c, float dt)
+static float strain_of(const fe_world *w, float dt)
 {
-    float gravity = fe__length(c->gravity);
-    c->weightless = gravity > 0.0f ? 0.0f : 1.0f;
-    c->down = gravity > 0.0f ? fe__scale(1.0f / gravity, c->gravity) : c->gravity;
-    c->strain = STRAIN * dt * (gravity > 0.0f ? gravity : 9.81f);
+    const fe_vec3 g = w->gravity;
+    float square = fe__dot(g, g);
+    return STRAIN * dt * (square > 0.0f ? __builtin_sqrtf(square) : 9.81f);
 }
 
 // Hertz are limited to what the world's substeps can follow: contacts' to an eighth of their rate, against static
@@ -61,6 +60,7 @@ fe__step_constants fe__constants_of(const fe_world *w, float dt, int32_t divisio
                                               : 0.0f,
                             .max_speed = t->max_linear_speed,
                             .speculative = t->speculative_distance,
+                            .strain = strain_of(w, dt),
                             .substeps = w->substeps * division,
                             .division = division,
                             .sweeps = 1,
@@ -70,7 +70,6 @@ fe__step_constants fe__constants_of(const fe_world *w, float dt, int32_t divisio
     c.joint = fe__make_softness(fe__minf(t->joint_hertz, c.joint_hertz), t->joint_damping_ratio, h);
     c.between_dynamic = fe__make_softness(hertz, t->contact_damping_ratio, h);
     c.against_static = fe__make_softness(fe__minf(2.0f * t->contact_hertz, 0.25f * rate), t->contact_damping_ratio, h);
-    set_strain(&c, dt);
     return c;
 }
 

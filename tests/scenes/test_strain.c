@@ -1,5 +1,5 @@
-// Which islands have finer substeps: those in which light bodies bear heavy ones, or are about to. What is struck
-// sideways, or for a moment, has not.
+// Which islands have finer substeps: those in which light bodies bear heavy ones, or are about to. Those of what is
+// struck sideways, or for a moment, have not.
 #include "scene.h"
 #include "world/world.h"
 
@@ -107,6 +107,24 @@ static void a_load_that_lasts_strains_while_it_lasts(void **state)
     scene_end(&s);
 }
 
+// A press: 200 times the light one's weight, sideways against a wall
+static void a_load_from_the_side_strains_what_a_wall_holds(void **state)
+{
+    scene s = scene_begin(state);
+    add_ground(&s, friction(0));
+    add_static(&s, box(0.5, 2, 2), v3(-1, 2, 0), UNTURNED, friction(0.6));
+    add_cube(&s, v3(0, 0.5, 0), LIGHT, v3(0, 0, 0));
+    fe_body heavy = add_cube(&s, v3(1, 0.5, 0), 20 * LIGHT, v3(0, 0, 0));
+    int count = 0;
+    for (int i = 0; i < 60; ++i) {
+        add_force(&s, heavy, v3(-200 * LIGHT * G, 0, 0));
+        run(&s, 1);
+        count += i >= 6 && strained(&s);
+    }
+    FE_TRUE(count == 54);
+    scene_end(&s);
+}
+
 // The load of an impact is over after a step, however hard it is
 static void an_impact_is_no_load(void **state)
 {
@@ -132,6 +150,7 @@ int main(void)
         TEST(without_gravity_every_direction_counts),
         EVERY_WAY_UP(a_load_that_lasts_strains_while_it_lasts),
         WITH_4_SUBSTEPS(a_load_that_lasts_strains_while_it_lasts),
+        TEST(a_load_from_the_side_strains_what_a_wall_holds),
         TEST(an_impact_is_no_load),
         WITH_4_SUBSTEPS(an_impact_is_no_load),
     };

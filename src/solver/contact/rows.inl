@@ -439,16 +439,14 @@ static __attribute__((noinline)) void NAMED(leave_friction)(ROW *row, const fe__
 }
 
 // ---- strain ---------------------------------------------------------------------------------------------------------
-// Does the row bear so much that its island is strained? Only what bears a weight counts, the vertical part of the
-// load, and only what lasts: the last substep's, times their number, and that of the whole step are both to be large.
+// Does the row bear so much that it strains its island? What bears for a part of the step does not count: the last
+// substep's load, times their number, and that of the whole step are both to be large.
 FE_INLINE void NAMED(find_strain)(const ROW *row, fe__solver *s, wide speed, wide response, const fe__step_constants *c)
 {
     wide total = row->total[0];
     UNROLL for (int i = 1; i < POINTS; ++i) total = total + row->total[i];
-    wide3 down = {w_set(c->down.x), w_set(c->down.y), w_set(c->down.z)};
-    wide lasting = w_min((float)c->substeps * speed, total * response),
-         upright = w_max(w_abs(w_dot(load3(row->normal), down)), w_set(c->weightless));
-    wide_mask strained = w_greater(lasting * upright, w_set(c->strain));
+    wide lasting = w_min((float)c->substeps * speed, total * response);
+    wide_mask strained = w_greater(lasting, w_set(c->strain));
     if (w_any(strained)) mark_strained(s, row->line_b, strained);
 }
 
