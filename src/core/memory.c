@@ -10,8 +10,8 @@
 enum {
     BLOCK_ALIGNMENT = 64, // a cache line, and the widest SIMD load
     SMALL = 16,           // records: a smaller array grows fourfold; a world of one body stays small
-    DOUBLE_BELOW = 1024,  // records: a larger array grows by a quarter
-    GROWTH = 4,
+    DOUBLE_BELOW = 1024,  // records: a larger array grows by an eighth
+    GROWTH = 8,
     ROOM = 16, // a part of what is asked for at once is left over, so that a little more does not move the array again
 };
 
@@ -76,7 +76,7 @@ static void *load_pointer(const void *array)
 
 static void store_pointer(void *array, void *pointer) { memcpy(array, &pointer, sizeof pointer); }
 
-// As much as is asked for, then fourfold, doubling, and by a quarter once an array is large: O(log n) times, and little
+// As much as is asked for, then fourfold, doubling, and by an eighth once an array is large: O(log n) times, and little
 // room is left over. 0: more than there can be
 static int32_t grown_capacity(int32_t capacity, int64_t need, size_t size)
 {

@@ -198,6 +198,13 @@ typedef struct fe__pass {
     int32_t serial; // one block, groups in order
 } fe__pass;
 
+// What the last graph was made of, by kind of row
+typedef struct fe__built {
+    int32_t contacts[FE__ROW_KINDS]; // that have a colour
+    int32_t colours[FE__ROW_KINDS];  // of them
+    int32_t overflow;                // contacts that have none
+} fe__built;
+
 typedef struct fe__solver {
     // lines of bodies, W at a time. The block of FE__STATIC_LINE is zeros and read only
     fe__velocity_line *velocity;
@@ -223,6 +230,8 @@ typedef struct fe__solver {
 
     // the graph (graph.c), kept while nothing links, unlinks, wakes or sleeps
     int32_t graph_changed;
+    fe__built built;
+    int32_t unbuilt;    // contacts that were linked, or woke, or go to another kind of row since: at most
     fe__batch *batches; // large islands first, kinematic bodies last
     int32_t batch_count, batch_capacity, large_count;
     fe__group *groups; // of a batch: by rising colour
