@@ -5,7 +5,8 @@
 // contacts with restitution share bodies, what they gave in this substep is taken back, and the impacts happen one by
 // one, in the order in which they touch: each bounces with the velocities that the others left, again and again until
 // none closes (Ivanov, "On multiple impact", 1995, calls it the sequential hypothesis). No impact of two bodies gains
-// energy, so none of their sequence does.
+// energy, so none of their sequence does. What the passes have not reached yet, the next contacts of a chain's bodies,
+// takes part too: a column that falls would be pressed into itself.
 //
 // A body that something else held meanwhile, as the ground holds a box that is struck from above, has got what holds it
 // against the impact; without the impact it would fly off. Such bodies are known by the energy that they would have
@@ -15,9 +16,13 @@
 #include <math.h>
 
 enum {
-    ROUNDS = 64, // over the touches of a batch; what closes then is left to the next substep
-    FAST = 4,    // bits beside the count of touches: of a line, in a chain with an impact above the threshold
-    HELD = 8
+    IMPACTS = 16, // of each touch, on the mean; what closes then is left to the next substep
+    // marks of a line, beside the count of its touches: of a chain with an impact above the threshold; held
+    FAST = FE__TOUCHES_CHAINED,
+    HELD = 2 * FAST,
+    // of a touch: it is in the list; it stays as it is
+    LISTED = 1,
+    OUT = 2
 };
 
 // of its kinetic energy, and as a speed, m/s: what a body may have gained by rounding
@@ -36,7 +41,8 @@ typedef struct chain {
     unsigned char *rows;
     const fe__step_constants *c;
     fe__touch *touches;
-    int32_t count;
+    int32_t count, touched; // of them these touched, the others are near
+    int32_t first, listed;  // of a list of touches, a ring: touches[(first + i) % count].listed
 } chain;
 
 static const fe__group *group_of(const chain *k, int32_t lane)
@@ -66,12 +72,13 @@ static int32_t act_on(const chain *k, const fe__touch *t, fe__touch_act act)
     return kernels->act[g->kind](k->s, row, lane % g->width, act, k->c);
 }
 
-static void find_touches(chain *k)
+// `near`: those that did not touch, of bodies in a chain
+static void find_touches(chain *k, int32_t near)
 {
     for (const fe__group *g = k->groups, *end = g + k->group_count; g < end; ++g)
         if (g->kind < FE__ROW_KINDS && g->kind & FE__ROW_SPECIAL)
-            k->count +=
-                kernels_of(k, g)->touches[g->kind](k->s, k->rows + g->offset, g->rows, g->lane, k->touches + k->count);
+            k->count += kernels_of(k, g)->touches[g->kind](k->s, k->rows + g->offset, g->rows, g->lane, near,
+                                                           k->touches + k->count);
 }
 
 // ---- in order of time, of two at once the first lane's --------------------------------------------------------------
@@ -101,41 +108,72 @@ static void sort_touches(fe__touch *touches, int32_t count)
     }
 }
 
+// ---- touches of a line ----------------------------------------------------------------------------------------------
+static void link_touches(chain *k)
+{
+    int32_t *first = k->s->touch_of;
+    for (int32_t i = 0; i < k->count; ++i) first[k->touches[i].line[0]] = first[k->touches[i].line[1]] = FE__NO_TOUCH;
+    for (int32_t i = k->count - 1; i >= 0; --i)
+        for (int side = 0; side < 2; ++side) {
+            fe__touch *t = k->touches + i;
+            if (t->line[side] == FE__STATIC_LINE) continue;
+            t->next[side] = first[t->line[side]];
+            first[t->line[side]] = i;
+        }
+    k->first = k->listed = 0;
+}
+
+static void list_touch(chain *k, int32_t i)
+{
+    if (k->touches[i].flags) return;
+    k->touches[i].flags = LISTED;
+    k->touches[(k->first + k->listed++) % k->count].listed = i;
+}
+
+static fe__touch *listed_touch(const chain *k, int32_t i)
+{
+    return k->touches + k->touches[(k->first + i) % k->count].listed;
+}
+
+static void list_line(chain *k, int32_t line)
+{
+    if (line == FE__STATIC_LINE) return;
+    for (int32_t i = k->s->touch_of[line]; i != FE__NO_TOUCH;) {
+        const fe__touch *t = k->touches + i;
+        list_touch(k, i);
+        i = t->next[t->line[1] == line];
+    }
+}
+
+static int32_t line_has(const chain *k, const fe__touch *t, uint8_t mark)
+{
+    return (k->s->touches_of[t->line[0]] | k->s->touches_of[t->line[1]]) & mark;
+}
+
+static void mark_line(const chain *k, int32_t line, uint8_t mark)
+{
+    if (line != FE__STATIC_LINE) k->s->touches_of[line] |= mark;
+}
+
 // ---- who takes part -------------------------------------------------------------------------------------------------
-static int32_t line_has(const chain *k, const fe__touch *t, uint8_t bit)
-{
-    return (k->s->touches_of[t->line_a] | k->s->touches_of[t->line_b]) & bit;
-}
-
-static void mark_lines(const chain *k, const fe__touch *t, uint8_t bit)
-{
-    if (t->line_a != FE__STATIC_LINE) k->s->touches_of[t->line_a] |= bit;
-    k->s->touches_of[t->line_b] |= bit;
-}
-
-static int32_t is_marked(const chain *k, const fe__touch *t, uint8_t bit)
-{
-    return (t->line_a == FE__STATIC_LINE || k->s->touches_of[t->line_a] & bit) && k->s->touches_of[t->line_b] & bit;
-}
-
 // Chains without an impact above the threshold stay as they are: nothing bounces in them.
 static void keep_fast(chain *k)
 {
+    link_touches(k);
     for (int32_t i = 0; i < k->count; ++i)
-        if (act_on(k, k->touches + i, FE__TOUCH_FAST)) mark_lines(k, k->touches + i, FAST);
-    for (int32_t more = 1; more;) {
-        more = 0;
-        for (int32_t i = 0; i < k->count; ++i) {
-            const fe__touch *t = k->touches + i;
-            if (!line_has(k, t, FAST) || is_marked(k, t, FAST)) continue;
-            mark_lines(k, t, FAST);
-            more = 1;
+        if (act_on(k, k->touches + i, FE__TOUCH_FAST)) list_touch(k, i);
+    for (int32_t i = 0; i < k->listed; ++i)
+        for (int side = 0; side < 2; ++side) {
+            int32_t line = listed_touch(k, i)->line[side];
+            mark_line(k, line, FAST);
+            list_line(k, line);
         }
-    }
     int32_t kept = 0;
     for (int32_t i = 0; i < k->count; ++i)
-        if (line_has(k, k->touches + i, FAST)) k->touches[kept++] = k->touches[i];
-    k->count = kept;
+        if (k->touches[i].flags) k->touches[kept++] = k->touches[i];
+    k->count = k->touched = kept;
+    if (kept) find_touches(k, 1);
+    for (int32_t i = 0; i < k->count; ++i) k->touches[i].flags = 0;
 }
 
 // twice the kinetic energy over the mass, m2/s2
@@ -149,46 +187,82 @@ static float energy_of(const fe__solver *s, int32_t line, const float *v, const 
     return v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + s->velocity[line].inverse_mass * of_spin;
 }
 
+static float speed_of(const float *v) { return sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
 static float change_of(const fe__solver *s, int32_t line)
 {
     const float *v = s->velocity[line].v, *start = s->start[line].v;
-    float x = v[0] - start[0], y = v[1] - start[1], z = v[2] - start[2];
-    return sqrtf(x * x + y * y + z * z);
+    float change[3] = {v[0] - start[0], v[1] - start[1], v[2] - start[2]};
+    return speed_of(change);
 }
 
-static void note_changes(const chain *k)
-{
-    for (fe__touch *t = k->touches, *end = t + k->count; t < end; ++t)
-        t->change_a = change_of(k->s, t->line_a), t->change_b = change_of(k->s, t->line_b);
-}
-
+// A joint that has turned a body with its blow has given it spin: the speed of its centre tells whether it is held.
 static int32_t is_held(const chain *k, int32_t line, float change)
 {
     const fe__velocity_line *now = k->s->velocity + line;
     const fe__start_line *start = k->s->start + line;
-    float before = sqrtf(energy_of(k->s, line, start->v, start->w)),
-          of_joint = k->bodies[k->s->body_of_line[line]].joint_count ? JOINED_SHARE * change : 0.0f,
-          most = (1.0f + GAINED) * before + GAINED_SPEED + of_joint;
+    if (k->bodies[k->s->body_of_line[line]].joint_count)
+        return speed_of(now->v) > (1.0f + GAINED) * speed_of(start->v) + GAINED_SPEED + JOINED_SHARE * change;
+    float most = (1.0f + GAINED) * sqrtf(energy_of(k->s, line, start->v, start->w)) + GAINED_SPEED;
     return energy_of(k->s, line, now->v, now->w) > most * most;
 }
 
-// Of those from `first` on, what they gave is back where a body of theirs is held; they come first. Returns their end.
-static int32_t return_held(const chain *k, int32_t first)
+static void take_all(const chain *k)
 {
-    uint8_t *marks = k->s->touches_of;
-    for (int32_t i = first; i < k->count; ++i) {
-        const fe__touch *t = k->touches + i;
-        if (t->line_a != FE__STATIC_LINE && is_held(k, t->line_a, t->change_a)) marks[t->line_a] |= HELD;
-        if (is_held(k, t->line_b, t->change_b)) marks[t->line_b] |= HELD;
+    for (fe__touch *t = k->touches, *end = t + k->touched; t < end; ++t)
+        for (int side = 0; side < 2; ++side) t->change[side] = change_of(k->s, t->line[side]);
+    for (int32_t i = 0; i < k->touched; ++i) act_on(k, k->touches + i, FE__TOUCH_TAKE);
+}
+
+static void list_held(chain *k, const fe__touch *t)
+{
+    for (int side = 0; side < 2; ++side) {
+        int32_t line = t->line[side];
+        if (line == FE__STATIC_LINE || k->s->touches_of[line] & HELD || !is_held(k, line, t->change[side])) continue;
+        mark_line(k, line, HELD);
+        list_line(k, line);
     }
-    for (int32_t i = first; i < k->count; ++i) {
-        if (!line_has(k, k->touches + i, HELD)) continue;
-        fe__touch held = k->touches[i];
-        act_on(k, &held, FE__TOUCH_RETURN);
-        for (int32_t to = i; to > first; --to) k->touches[to] = k->touches[to - 1];
-        k->touches[first++] = held;
+}
+
+// What the touches of held bodies gave returns, by which others may be held. Those touches are listed.
+static void return_held(chain *k)
+{
+    link_touches(k);
+    for (int32_t i = k->touched; i < k->count; ++i) k->touches[i].flags = OUT;
+    for (int32_t i = 0; i < k->touched; ++i) list_held(k, k->touches + i);
+    for (int32_t i = 0, end; i < k->listed; i = end) {
+        end = k->listed;
+        for (int32_t j = i; j < end; ++j) act_on(k, listed_touch(k, j), FE__TOUCH_RETURN);
+        for (int32_t j = i; j < end; ++j) list_held(k, listed_touch(k, j));
     }
-    return first;
+}
+
+// ---- one after another ----------------------------------------------------------------------------------------------
+static void bounce_held(chain *k)
+{
+    for (int32_t i = 0; i < k->listed; ++i) act_on(k, listed_touch(k, i), FE__TOUCH_BOUNCE);
+    for (fe__touch *t = k->touches, *end = t + k->touched; t < end; ++t)
+        if (!t->flags) act_on(k, t, FE__TOUCH_FORGET);
+    k->first = k->listed = 0;
+}
+
+static void bounce_free(chain *k)
+{
+    for (int32_t i = 0; i < k->count; ++i) {
+        fe__touch *t = k->touches + i;
+        int32_t out = i < k->touched ? t->flags : line_has(k, t, HELD);
+        t->flags = out ? OUT : 0;
+        list_touch(k, i);
+    }
+    for (int64_t i = (int64_t)IMPACTS * k->count; i > 0 && k->listed; --i) {
+        fe__touch *t = listed_touch(k, 0);
+        k->first = (k->first + 1) % k->count;
+        --k->listed;
+        t->flags = 0;
+        if (!act_on(k, t, FE__TOUCH_PASS_ON)) continue;
+        list_line(k, t->line[0]);
+        list_line(k, t->line[1]);
+    }
 }
 
 void fe__pass_on(fe__solver *s, const fe__kernels *kernels, const fe__body *bodies, const fe__batch *b,
@@ -196,18 +270,20 @@ void fe__pass_on(fe__solver *s, const fe__kernels *kernels, const fe__body *bodi
 {
     if (!atomic_load_explicit(&s->chained, memory_order_relaxed)) return;
     const fe__group *groups = s->groups + b->first_group + b->joint_groups;
-    chain k = {s, bodies, kernels, groups, b->group_count - b->joint_groups, rows, c, s->touches + groups->lane, 0};
-    find_touches(&k);
-    keep_fast(&k);
-    sort_touches(k.touches, k.count);
-    note_changes(&k);
-    for (int32_t i = 0; i < k.count; ++i) act_on(&k, k.touches + i, FE__TOUCH_TAKE);
-    int32_t free = 0;
-    for (int32_t end; (end = return_held(&k, free)) > free;) free = end;
-    for (int32_t i = 0; i < free; ++i) act_on(&k, k.touches + i, FE__TOUCH_BOUNCE);
-    for (int32_t i = free; i < k.count; ++i) act_on(&k, k.touches + i, FE__TOUCH_FORGET);
-    for (int32_t round = 0, more = free < k.count; more && round < ROUNDS; ++round) {
-        more = 0;
-        for (int32_t i = free; i < k.count; ++i) more |= act_on(&k, k.touches + i, FE__TOUCH_PASS_ON);
-    }
+    chain k = {.s = s,
+               .bodies = bodies,
+               .kernels = kernels,
+               .groups = groups,
+               .group_count = b->group_count - b->joint_groups,
+               .rows = rows,
+               .c = c,
+               .touches = s->touches + groups->lane};
+    find_touches(&k, 0);
+    if (k.count) keep_fast(&k);
+    if (!k.count) return;
+    sort_touches(k.touches, k.touched);
+    take_all(&k);
+    return_held(&k);
+    bounce_held(&k);
+    bounce_free(&k);
 }

@@ -197,12 +197,20 @@ typedef struct fe__pass {
     int32_t serial; // one block, groups in order
 } fe__pass;
 
-// A contact with restitution that touched in this substep, and a body of which has another one
+enum {
+    FE__NO_TOUCH = -1,
+    FE__TOUCHES_CHAINED = 4 // beside the count of a line's touches: it is in a chain of impacts
+};
+
+// A contact with restitution of a chain of impacts, see pass_on.c
 typedef struct fe__touch {
-    float when;               // s into the substep
-    float change_a, change_b; // of the bodies' velocities in it, m/s; not yet known where the touch is found
-    int32_t lane;             // of the solver's
-    int32_t line_a, line_b;   // FE__STATIC_LINE for what is not dynamic
+    float when;      // s into the substep
+    float change[2]; // of the velocities of A and B in it, m/s
+    int32_t lane;    // of the solver's
+    int32_t line[2]; // FE__STATIC_LINE for what is not dynamic
+    int32_t next[2]; // touch of that line
+    int32_t listed;  // an entry of a list of touches
+    int32_t flags;
 } fe__touch;
 
 // What the last graph was made of, by kind of row
@@ -233,9 +241,9 @@ typedef struct fe__solver {
     int32_t trail_capacity[3];
 
     uint8_t *touches_of; // by line: contacts with restitution that touched in this substep, as far as two
-    int32_t touches_of_capacity;
-    fe__touch *touches; // of a batch: from its first lane, see pass_on.c
-    int32_t touch_capacity;
+    int32_t *touch_of;   // by line: the first of its touches in a chain
+    fe__touch *touches;  // of a batch: from its first lane, see pass_on.c
+    int32_t touch_capacity[3];
     _Atomic int32_t chained; // 1: two of them shared a body, in this step
 
     _Atomic int32_t strained; // 1: a line is strained or stretched, in this step
@@ -290,8 +298,9 @@ typedef struct fe__contact_kernels {
     void (*solve[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
     void (*relax[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
     void (*bounce[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
-    // touches whose bodies have another one, to `out`; `lane`: the first. How many
-    int32_t (*touches[FE__ROW_KINDS])(const fe__solver *s, const void *rows, int32_t count, int32_t lane,
+    // touches whose bodies have another one, to `out`; `near`: contacts without impulse of bodies in a chain. `lane`:
+    // the first. How many
+    int32_t (*touches[FE__ROW_KINDS])(const fe__solver *s, const void *rows, int32_t count, int32_t lane, int32_t near,
                                       fe__touch *out);
     int32_t (*act[FE__ROW_KINDS])(fe__solver *s, void *row, int32_t lane, fe__touch_act act,
                                   const fe__step_constants *c); // lane of the row

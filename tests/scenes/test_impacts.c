@@ -291,21 +291,24 @@ static void cradle_with_gaps_passes_the_speed_on(void **state)
     scene_end(&s);
 }
 
-// Simultaneous impacts have no single answer; momentum and energy still count, and nobody passes through anybody.
+// Simultaneous impacts have no single answer; momentum and energy still count, and nobody passes through anybody. The
+// substep of the impact brings balls into each other by a quarter of its way at most; contacts of 30 Hz and damping 10
+// push them apart at w / (2 z) of that a second, of which each of four balls may keep its half.
 static void touching_cradle_keeps_momentum_and_gains_no_energy(void **state)
 {
-    static const double gaps[] = {0, 0.0005, 0.001};
+    static const double gaps[] = {0, 0.0005, 0.001}, speed = 3;
     for (int i = 0; i < 3; ++i) {
         scene s = scene_begin(state);
         fe_body balls[BALLS];
-        swing_cradle(&s, balls, gaps[i], 3);
+        swing_cradle(&s, balls, gaps[i], speed);
+        double push = speed * s.h / 4 * (2 * PI * 30 / (2 * 10)), gain = ENERGY_GAIN + 4 * pow(push / 2 / speed, 2);
         totals before = totals_of(&s, balls, BALLS);
         double lowest = before.energy;
         for (int k = 0; k < 60; ++k) {
             run(&s, 1);
             totals now = totals_of(&s, balls, BALLS);
             FE_NEAR(now.momentum.x, before.momentum.x, MOMENTUM_DRIFT * before.momenta);
-            FE_WITHIN(now.energy, 0, lowest + ENERGY_GAIN * before.energy);
+            FE_WITHIN(now.energy, 0, lowest + gain * before.energy);
             lowest = fmin(lowest, now.energy);
         }
         for (int k = 1; k < BALLS; ++k)
@@ -343,33 +346,77 @@ static void close_cradle_passes_the_speed_on(void **state)
     }
 }
 
-// Hung from threads: the last ball takes all of the first one's speed, and the energy stays.
+static void hang(scene *s, fe_body beam, fe_body ball, vec pivot, double length, int rod)
+{
+    fe_joint joint;
+    if (rod) {
+        fe_ball_joint_def def;
+        fe_vec3 axis = {1, 0, 0};
+        fe_ball_joint_def_init(&def, sizeof def);
+        MUST(fe_ball_joint_def_at(s->world, &def, beam, ball, &pivot, &axis));
+        MUST(fe_ball_joint_create(s->world, &def, &joint));
+    } else {
+        fe_distance_joint_def def;
+        fe_distance_joint_def_init(&def, sizeof def);
+        def.body_a = beam, def.body_b = ball;
+        def.frame_a.position = narrow(minus(pivot, position(s, beam)));
+        def.target = (float)length;
+        MUST(fe_distance_joint_create(s->world, &def, &joint));
+    }
+}
+
+// The last ball takes all of the first one's speed, and the energy stays. On a rod that turns with the ball each impact
+// leaves 2 r^2 / (5 L^2) of it behind: what the pivot takes of a blow on the centre, L the length.
 static void hung_cradle_passes_the_speed_on(void **state)
 {
-    const double radius = 0.25, thread = 1.5, angle = 30 * DEGREES, gap = 0.001;
-    scene s = scene_begin(state);
-    fe_body balls[BALLS], beam = add_body(&s, FE_BODY_STATIC, sphere(0.01), v3(0, 5, 0), UNTURNED, friction(0), WATER);
-    for (int k = 0; k < BALLS; ++k) {
-        double x = (2 * radius + gap) * k, a = k ? 0 : angle;
-        balls[k] = add_dynamic(&s, sphere(radius), v3(x - thread * sin(a), -thread * cos(a), 0), UNTURNED, bouncy(0, 1),
-                               WATER);
-        fe_distance_joint_def def;
-        fe_joint joint;
-        fe_distance_joint_def_init(&def, sizeof def);
-        def.body_a = beam, def.body_b = balls[k];
-        def.frame_a.position = narrow(v3(x, -5, 0));
-        def.target = (float)thread;
-        MUST(fe_distance_joint_create(s.world, &def, &joint));
-    }
-    double fastest = 0;
-    for (int k = 0; k < 60 && velocity(&s, balls[BALLS - 1]).x < 0.1; ++k) {
+    static const double radii[] = {0.1, 0.25}, lengths[] = {1, 1.5};
+    const double angle = 30 * DEGREES, gap = 0.001;
+    for (int i = 0; i < 4; ++i) {
+        int rod = i / 2;
+        double radius = radii[i % 2], length = lengths[i % 2], left = rod ? 0.4 * pow(radius / length, 2) : 0;
+        scene s = scene_begin(state);
+        fe_body balls[BALLS],
+            beam = add_body(&s, FE_BODY_STATIC, sphere(0.01), v3(0, 5, 0), UNTURNED, friction(0), WATER);
+        for (int k = 0; k < BALLS; ++k) {
+            double x = (2 * radius + gap) * k, a = k ? 0 : angle;
+            balls[k] = add_dynamic(&s, sphere(radius), v3(x - length * sin(a), -length * cos(a), 0), UNTURNED,
+                                   bouncy(0, 1), WATER);
+            hang(&s, beam, balls[k], v3(x, 0, 0), length, rod);
+        }
+        double fastest = 0;
+        for (int k = 0; k < 60 && velocity(&s, balls[BALLS - 1]).x < 0.1; ++k) {
+            run(&s, 1);
+            fastest = fmax(fastest, velocity(&s, balls[0]).x);
+        }
         run(&s, 1);
-        fastest = fmax(fastest, velocity(&s, balls[0]).x);
+        double last = pow(1 - left, BALLS - 1);
+        FE_NEAR(velocity(&s, balls[BALLS - 1]).x, last * fastest, 0.03 * fastest);
+        for (int k = 0; k < BALLS - 1; ++k) FE_NEAR(velocity(&s, balls[k]).x, 0, 0.03 * fastest);
+        scene_end(&s);
     }
-    run(&s, 1);
-    FE_NEAR(velocity(&s, balls[BALLS - 1]).x, fastest, 0.03 * fastest);
-    for (int k = 0; k < BALLS - 1; ++k) FE_NEAR(velocity(&s, balls[k]).x, 0, 0.03 * fastest);
-    scene_end(&s);
+}
+
+// Balls that fly one behind the other against a wall: equal ones exchange their speeds, so that each comes back with
+// all of it. 3 %, of the overlaps that the substep of the impact leaves; and their energy.
+static void a_column_comes_back(void **state)
+{
+    const double speed = 5, radius = 0.25;
+    for (int i = 0; i < 6; ++i) {
+        int count = 3 + i / 2;
+        double gap = i % 2 ? 0.001 : 0.0001;
+        scene s = scene_begin(state);
+        fe_body balls[BALLS];
+        set_gravity(&s, v3(0, 0, 0));
+        add_ground(&s, bouncy(0, 1));
+        for (int k = 0; k < count; ++k) {
+            balls[k] = add_dynamic(&s, sphere(radius), v3(0, radius + 0.1 + (2 * radius + gap) * k, 0), UNTURNED,
+                                   bouncy(0, 1), WATER);
+            set_velocity(&s, balls[k], v3(0, -speed, 0), v3(0, 0, 0));
+        }
+        run(&s, 30);
+        for (int k = 0; k < count; ++k) FE_NEAR(velocity(&s, balls[k]).y, speed, 0.03 * speed);
+        scene_end(&s);
+    }
 }
 
 // The break of 15 balls, gaps of 1 mm: what is slower than the threshold of restitution alone loses. The gain is that
@@ -634,6 +681,8 @@ int main(void)
         WITH_4_SUBSTEPS(a_blow_on_two_that_rest_gains_nothing),
         TEST(hung_cradle_passes_the_speed_on),
         WITH_4_SUBSTEPS(hung_cradle_passes_the_speed_on),
+        TEST(a_column_comes_back),
+        WITH_4_SUBSTEPS(a_column_comes_back),
         TEST(a_break_keeps_its_energy),
         WITH_4_SUBSTEPS(a_break_keeps_its_energy),
         TEST(balls_that_overlap_have_a_contact),

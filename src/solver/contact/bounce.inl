@@ -12,8 +12,16 @@ FE_INLINE wide_mask NAMED(touched)(const SPECIAL_ROW *x, float least)
     return w_greater(approach, w_set(least));
 }
 
-// Does a dynamic body of the lane have another touch in this substep?
-FE_INLINE wide_mask NAMED(in_chain)(const SPECIAL_ROW *x, const fe__solver *s, wide_mask lanes, int kind)
+// neither touched nor bears anything
+FE_INLINE wide_mask NAMED(may_touch)(const SPECIAL_ROW *x)
+{
+    wide zero = w_set(0.0f);
+    wide_mask idle = w_not(w_or(NAMED(touched)(x, 0.0f), w_greater(NAMED(load_of)(&x->row), zero)));
+    return w_and(idle, w_greater(x->row.point[0].mass * x->restitution, zero));
+}
+
+// Does a dynamic body of the lane have more than `least` touches in this substep?
+FE_INLINE wide_mask NAMED(in_chain)(const SPECIAL_ROW *x, const fe__solver *s, wide_mask lanes, int least, int kind)
 {
     _Alignas(64) float most[FE_W];
     for (int i = 0; i < FE_W; ++i) {
@@ -21,7 +29,7 @@ FE_INLINE wide_mask NAMED(in_chain)(const SPECIAL_ROW *x, const fe__solver *s, w
                 of_b = s->touches_of[x->row.line_b[i]];
         most[i] = (float)(of_a > of_b ? of_a : of_b);
     }
-    return w_and(lanes, w_greater(*(wide *)most, w_set(1.0f)));
+    return w_and(lanes, w_greater(*(wide *)most, w_set((float)least)));
 }
 
 // The touches of a body in this substep, as far as two; colours share no dynamic body.
@@ -156,7 +164,7 @@ FE_INLINE void NAMED(bounce_row)(SPECIAL_ROW *x, fe__solver *s, const fe__step_c
 {
     wide_mask touched = NAMED(touched)(x, c->threshold);
     if (!w_any(touched)) return;
-    wide_mask chained = NAMED(in_chain)(x, s, touched, kind);
+    wide_mask chained = NAMED(in_chain)(x, s, touched, 1, kind);
     if (w_any(chained)) atomic_store_explicit(&s->chained, 1, memory_order_relaxed);
     touched = w_and(touched, w_not(chained));
     if (w_any(touched)) NAMED(bounce_lanes)(x, s, touched, c->threshold, c, kind);

@@ -166,7 +166,9 @@ FE_INLINE void NAMED(record_touch)(SPECIAL_ROW *x, int i, wide impulse, wide vn,
     // as the impulse is computed, so that none is given to a point that is not noted
     wide_mask closes = w_greater(zero, vn + w_max(distance * c->inverse_h, zero));
     wide_mask touches = w_and(closes, w_greater(x->row.point[i].mass * x->restitution, zero));
-    touches = w_and(touches, w_not(w_greater(impulse, zero)));
+    wide_mask pressed = w_greater(impulse, zero);
+    if (moved) pressed = w_and(pressed, w_or(w_greater(x->row.load, zero), w_greater(w_set(c->threshold), u)));
+    touches = w_and(touches, w_not(pressed));
     if (moved) touches = w_and(touches, w_not(w_greater(x->approach[i], w_set(c->threshold))));
     x->approach[i] = w_choose(touches, u, moved ? x->approach[i] : zero);
     x->flight[i] = w_choose(touches, w_max(flight, zero), x->flight[i]);
@@ -508,23 +510,26 @@ FE_INLINE void NAMED(bounce)(fe__solver *s, void *rows, int32_t count, const fe_
     for (int32_t i = 0; i < count; ++i) NAMED(bounce_row)((SPECIAL_ROW *)rows + i, s, c, kind);
 }
 
-// The touches of rows that share a body with another touch, see pass_on.c. `lane`: of the first row. Returns how many
-FE_INLINE int32_t NAMED(touches)(const fe__solver *s, const void *rows, int32_t count, int32_t lane, fe__touch *out,
-                                 int kind)
+// The touches of rows that share a body with another touch, see pass_on.c; or what is `near`: without impulse, of a
+// body in a chain. `lane`: of the first row. Returns how many
+FE_INLINE int32_t NAMED(touches)(const fe__solver *s, const void *rows, int32_t count, int32_t lane, int32_t near,
+                                 fe__touch *out, int kind)
 {
     int32_t found = 0;
     for (int32_t i = 0; i < count; ++i, lane += FE_W) {
         const SPECIAL_ROW *x = (const SPECIAL_ROW *)rows + i;
-        wide_mask lanes = NAMED(touched)(x, 0.0f);
+        wide_mask lanes = near ? NAMED(may_touch)(x) : NAMED(touched)(x, 0.0f);
         if (!w_any(lanes)) continue;
+        lanes = NAMED(in_chain)(x, s, lanes, near ? FE__TOUCHES_CHAINED - 1 : 1, kind);
         _Alignas(64) float is[FE_W], when[FE_W];
-        *(wide *)is = w_choose(NAMED(in_chain)(x, s, lanes, kind), w_set(1.0f), w_set(0.0f));
+        *(wide *)is = w_choose(lanes, w_set(1.0f), w_set(0.0f));
         *(wide *)when = x->when;
         for (int k = 0; k < FE_W; ++k)
             if (is[k] != 0.0f)
-                out[found++] = (fe__touch){
-                    when[k],         0.0f, 0.0f, lane + k, kind & FE__ROW_PAIR ? x->row.line_a[k] : FE__STATIC_LINE,
-                    x->row.line_b[k]};
+                out[found++] =
+                    (fe__touch){.when = when[k],
+                                .lane = lane + k,
+                                .line = {kind & FE__ROW_PAIR ? x->row.line_a[k] : FE__STATIC_LINE, x->row.line_b[k]}};
     }
     return found;
 }
@@ -552,9 +557,9 @@ FE_INLINE int32_t NAMED(touches)(const fe__solver *s, const void *rows, int32_t 
         if ((kind)&FE__ROW_SPECIAL) NAMED(bounce)(s, rows, count, c, kind);                                       \
     }                                                                                                             \
     static int32_t NAMED(touches_##kind_name)(const fe__solver *s, const void *rows, int32_t count, int32_t lane, \
-                                              fe__touch *out)                                                     \
+                                              int32_t near, fe__touch *out)                                       \
     {                                                                                                             \
-        return (kind)&FE__ROW_SPECIAL ? NAMED(touches)(s, rows, count, lane, out, kind) : 0;                      \
+        return (kind)&FE__ROW_SPECIAL ? NAMED(touches)(s, rows, count, lane, near, out, kind) : 0;                \
     }                                                                                                             \
     static int32_t NAMED(act_##kind_name)(fe__solver * s, void *row, int32_t lane, fe__touch_act act,             \
                                           const fe__step_constants *c)                                            \

@@ -196,8 +196,9 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
         FE_RENEW(memory, s->trail_count, s->trail_capacity[0], lines) &&
         FE_RENEW(memory, s->trail_of, s->trail_capacity[2], lines) &&
         FE_RENEW(memory, s->trail, s->trail_capacity[1], b->fast + (b->fast_kinematic ? copies : 0)) &&
-        FE_RENEW(memory, s->touches_of, s->touches_of_capacity, b->special ? lines : 0) &&
-        FE_RENEW(memory, s->touches, s->touch_capacity, b->special ? lanes + width : 0) &&
+        FE_RENEW(memory, s->touches_of, s->touch_capacity[0], b->special ? lines : 0) &&
+        FE_RENEW(memory, s->touch_of, s->touch_capacity[1], b->special ? lines : 0) &&
+        FE_RENEW(memory, s->touches, s->touch_capacity[2], b->special ? lanes + width : 0) &&
         FE_RENEW(memory, s->batches, s->batch_capacity, batches) &&
         FE_RENEW(memory, s->groups, s->group_capacity, groups + 1) &&
         FE_RENEW(memory, s->lanes, s->lane_capacity, lanes + width) &&
@@ -224,8 +225,9 @@ void fe__solver_destroy(fe__solver *s, fe__memory *memory)
     FE_FREE(memory, s->trail_count, s->trail_capacity[0]);
     FE_FREE(memory, s->trail, s->trail_capacity[1]);
     FE_FREE(memory, s->trail_of, s->trail_capacity[2]);
-    FE_FREE(memory, s->touches_of, s->touches_of_capacity);
-    FE_FREE(memory, s->touches, s->touch_capacity);
+    FE_FREE(memory, s->touches_of, s->touch_capacity[0]);
+    FE_FREE(memory, s->touch_of, s->touch_capacity[1]);
+    FE_FREE(memory, s->touches, s->touch_capacity[2]);
     FE_FREE(memory, s->batches, s->batch_capacity);
     FE_FREE(memory, s->groups, s->group_capacity);
     FE_FREE(memory, s->lanes, s->lane_capacity);
