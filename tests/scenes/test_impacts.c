@@ -397,7 +397,7 @@ static void hung_cradle_passes_the_speed_on(void **state)
 }
 
 // Balls that fly one behind the other against a wall: equal ones exchange their speeds, so that each comes back with
-// all of it. 3 %, of the overlaps that the substep of the impact leaves; and their energy.
+// all of it. They overlap by the way of the substep of the impact at most, which is pushed apart: 3 % of the speed.
 static void a_column_comes_back(void **state)
 {
     const double speed = 5, radius = 0.25;
@@ -413,7 +413,13 @@ static void a_column_comes_back(void **state)
                                    bouncy(0, 1), WATER);
             set_velocity(&s, balls[k], v3(0, -speed, 0), v3(0, 0, 0));
         }
-        run(&s, 30);
+        for (int step = 0; step < 30; ++step) {
+            run(&s, 1);
+            for (int k = 0; k < count; ++k) {
+                double below = k ? position(&s, balls[k - 1]).y : -radius;
+                FE_WITHIN(position(&s, balls[k]).y - below, 2 * radius - speed * s.h, 1e30);
+            }
+        }
         for (int k = 0; k < count; ++k) FE_NEAR(velocity(&s, balls[k]).y, speed, 0.03 * speed);
         scene_end(&s);
     }
