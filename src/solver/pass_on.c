@@ -63,13 +63,32 @@ static const fe__contact_kernels *kernels_of(const chain *k, const fe__group *g)
     return g->width == k->kernels->width ? k->kernels->contact : k->kernels->thin;
 }
 
-static int32_t act_on(const chain *k, const fe__touch *t, fe__touch_act act)
+static int32_t row_end(const chain *k, int32_t lane)
 {
-    const fe__group *g = group_of(k, t->lane);
+    const fe__group *g = group_of(k, lane);
+    return lane - (lane - g->lane) % g->width + g->width;
+}
+
+// On `lanes` of the row of the given lane, the first bit is that lane itself
+static int32_t act_on(const chain *k, int32_t lane, uint32_t lanes, fe__touch_act act)
+{
+    const fe__group *g = group_of(k, lane);
     const fe__contact_kernels *kernels = kernels_of(k, g);
-    int32_t lane = t->lane - g->lane;
-    unsigned char *row = k->rows + g->offset + (int64_t)(lane / g->width) * kernels->row_size[g->kind];
-    return kernels->act[g->kind](k->s, row, lane % g->width, act, k->c);
+    int32_t row = (lane - g->lane) / g->width;
+    return kernels->act[g->kind](k->s, k->rows + g->offset + (int64_t)row * kernels->row_size[g->kind],
+                                 lanes << (lane - g->lane) % g->width, act, k->c);
+}
+
+// On those that touched and have these flags, row by row: the lanes of a row share no body.
+static void act_on_all(const chain *k, int32_t flags, fe__touch_act act)
+{
+    for (int32_t i = 0, first; (first = i) < k->touched;) {
+        int32_t lane = k->touches[first].lane, row = row_end(k, lane);
+        uint32_t lanes = 0;
+        for (; i < k->touched && k->touches[i].lane < row; ++i)
+            if (k->touches[i].flags == flags) lanes |= 1u << (k->touches[i].lane - lane);
+        if (lanes) act_on(k, lane, lanes, act);
+    }
 }
 
 // `near`: those that did not touch, of bodies in a chain
@@ -77,33 +96,37 @@ static void find_touches(chain *k, int32_t near)
 {
     for (const fe__group *g = k->groups, *end = g + k->group_count; g < end; ++g)
         if (g->kind < FE__ROW_KINDS && g->kind & FE__ROW_SPECIAL)
-            k->count += kernels_of(k, g)->touches[g->kind](k->s, k->rows + g->offset, g->rows, g->lane, near,
+            k->count += kernels_of(k, g)->touches[g->kind](k->s, k->rows + g->offset, g->rows, g->lane, near, k->c,
                                                            k->touches + k->count);
 }
 
 // ---- in order of time, of two at once the first lane's --------------------------------------------------------------
-static int32_t is_later(const fe__touch *a, const fe__touch *b)
+static int32_t is_later(const fe__touch *touches, int32_t a, int32_t b)
 {
-    return a->when > b->when || (a->when == b->when && a->lane > b->lane);
+    const fe__touch *p = touches + touches[a].listed, *q = touches + touches[b].listed;
+    return p->when > q->when || (p->when == q->when && p->lane > q->lane);
 }
 
-static void sink_touch(fe__touch *heap, int32_t i, int32_t count)
+static void swap_listed(fe__touch *touches, int32_t a, int32_t b)
 {
-    fe__touch moved = heap[i];
+    int32_t listed = touches[a].listed;
+    touches[a].listed = touches[b].listed, touches[b].listed = listed;
+}
+
+static void sink_touch(fe__touch *touches, int32_t i, int32_t count)
+{
     for (int32_t child; (child = 2 * i + 1) < count; i = child) {
-        if (child + 1 < count && is_later(heap + child + 1, heap + child)) ++child;
-        if (!is_later(heap + child, &moved)) break;
-        heap[i] = heap[child];
+        if (child + 1 < count && is_later(touches, child + 1, child)) ++child;
+        if (!is_later(touches, child, i)) return;
+        swap_listed(touches, i, child);
     }
-    heap[i] = moved;
 }
 
-static void sort_touches(fe__touch *touches, int32_t count)
+static void sort_listed(fe__touch *touches, int32_t count)
 {
     for (int32_t i = count / 2 - 1; i >= 0; --i) sink_touch(touches, i, count);
     for (int32_t last = count - 1; last > 0; --last) {
-        fe__touch latest = touches[0];
-        touches[0] = touches[last], touches[last] = latest;
+        swap_listed(touches, 0, last);
         sink_touch(touches, 0, last);
     }
 }
@@ -161,7 +184,7 @@ static void keep_fast(chain *k)
 {
     link_touches(k);
     for (int32_t i = 0; i < k->count; ++i)
-        if (act_on(k, k->touches + i, FE__TOUCH_FAST)) list_touch(k, i);
+        if (k->touches[i].fast) list_touch(k, i);
     for (int32_t i = 0; i < k->listed; ++i)
         for (int side = 0; side < 2; ++side) {
             int32_t line = listed_touch(k, i)->line[side];
@@ -211,7 +234,7 @@ static void take_all(const chain *k)
 {
     for (fe__touch *t = k->touches, *end = t + k->touched; t < end; ++t)
         for (int side = 0; side < 2; ++side) t->change[side] = change_of(k->s, t->line[side]);
-    for (int32_t i = 0; i < k->touched; ++i) act_on(k, k->touches + i, FE__TOUCH_TAKE);
+    act_on_all(k, 0, FE__TOUCH_TAKE);
 }
 
 static void list_held(chain *k, const fe__touch *t)
@@ -232,7 +255,7 @@ static void return_held(chain *k)
     for (int32_t i = 0; i < k->touched; ++i) list_held(k, k->touches + i);
     for (int32_t i = 0, end; i < k->listed; i = end) {
         end = k->listed;
-        for (int32_t j = i; j < end; ++j) act_on(k, listed_touch(k, j), FE__TOUCH_RETURN);
+        for (int32_t j = i; j < end; ++j) act_on(k, listed_touch(k, j)->lane, 1, FE__TOUCH_RETURN);
         for (int32_t j = i; j < end; ++j) list_held(k, listed_touch(k, j));
     }
 }
@@ -240,26 +263,32 @@ static void return_held(chain *k)
 // ---- one after another ----------------------------------------------------------------------------------------------
 static void bounce_held(chain *k)
 {
-    for (int32_t i = 0; i < k->listed; ++i) act_on(k, listed_touch(k, i), FE__TOUCH_BOUNCE);
-    for (fe__touch *t = k->touches, *end = t + k->touched; t < end; ++t)
-        if (!t->flags) act_on(k, t, FE__TOUCH_FORGET);
-    k->first = k->listed = 0;
+    act_on_all(k, LISTED, FE__TOUCH_BOUNCE);
+    act_on_all(k, 0, FE__TOUCH_FORGET);
 }
 
-static void bounce_free(chain *k)
+static void list_free(chain *k)
 {
+    k->first = k->listed = 0;
     for (int32_t i = 0; i < k->count; ++i) {
         fe__touch *t = k->touches + i;
         int32_t out = i < k->touched ? t->flags : line_has(k, t, HELD);
         t->flags = out ? OUT : 0;
+        if (i == k->touched) sort_listed(k->touches, k->listed);
         list_touch(k, i);
     }
+    if (k->count == k->touched) sort_listed(k->touches, k->listed);
+}
+
+static void bounce_free(chain *k)
+{
+    list_free(k);
     for (int64_t i = (int64_t)IMPACTS * k->count; i > 0 && k->listed; --i) {
         fe__touch *t = listed_touch(k, 0);
         k->first = (k->first + 1) % k->count;
         --k->listed;
         t->flags = 0;
-        if (!act_on(k, t, FE__TOUCH_PASS_ON)) continue;
+        if (!act_on(k, t->lane, 1, FE__TOUCH_PASS_ON)) continue;
         list_line(k, t->line[0]);
         list_line(k, t->line[1]);
     }
@@ -281,7 +310,6 @@ void fe__pass_on(fe__solver *s, const fe__kernels *kernels, const fe__body *bodi
     find_touches(&k, 0);
     if (k.count) keep_fast(&k);
     if (!k.count) return;
-    sort_touches(k.touches, k.touched);
     take_all(&k);
     return_held(&k);
     bounce_held(&k);

@@ -210,6 +210,7 @@ typedef struct fe__touch {
     int32_t line[2]; // FE__STATIC_LINE for what is not dynamic
     int32_t next[2]; // touch of that line
     int32_t listed;  // an entry of a list of touches
+    int32_t fast;    // than the threshold of restitution
     int32_t flags;
 } fe__touch;
 
@@ -278,13 +279,12 @@ typedef struct fe__solver {
 
 static inline int32_t fe__trail_stride(int32_t substeps) { return (substeps + FE__TRAIL - 1) / FE__TRAIL; }
 
-// What is done with one touch of a chain of impacts, see pass_on.c
+// What is done with touches of a chain of impacts, see pass_on.c
 typedef enum fe__touch_act {
-    FE__TOUCH_FAST,    // is it faster than the threshold of restitution?
     FE__TOUCH_TAKE,    // what it gave in this substep leaves the velocities
     FE__TOUCH_RETURN,  // and returns
     FE__TOUCH_FORGET,  // the impulses that were taken
-    FE__TOUCH_PASS_ON, // bounces if it closes; did it?
+    FE__TOUCH_PASS_ON, // it, one alone, bounces if it closes; did it?
     FE__TOUCH_BOUNCE   // as if it were alone
 } fe__touch_act;
 
@@ -301,9 +301,9 @@ typedef struct fe__contact_kernels {
     // touches whose bodies have another one, to `out`; `near`: contacts without impulse of bodies in a chain. `lane`:
     // the first. How many
     int32_t (*touches[FE__ROW_KINDS])(const fe__solver *s, const void *rows, int32_t count, int32_t lane, int32_t near,
-                                      fe__touch *out);
-    int32_t (*act[FE__ROW_KINDS])(fe__solver *s, void *row, int32_t lane, fe__touch_act act,
-                                  const fe__step_constants *c); // lane of the row
+                                      const fe__step_constants *c, fe__touch *out);
+    int32_t (*act[FE__ROW_KINDS])(fe__solver *s, void *row, uint32_t lanes, fe__touch_act act,
+                                  const fe__step_constants *c); // lanes of the row
     void (*store[FE__ROW_KINDS])(fe__contact *contacts, fe__extra *extras, const fe__lane *lanes, const void *rows,
                                  int32_t count);
 } fe__contact_kernels;

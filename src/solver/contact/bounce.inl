@@ -104,16 +104,28 @@ FE_INLINE void NAMED(bounce_points)(ROW *row, pair *p, const wide *target, int k
     NAMED(apply)(row, p, w_scale(sum, p->normal), w_cross(moment, p->normal), kind);
 }
 
-// Friction rotates the bodies and the points turn them back, until both are as they must be: each sweep looks at the
-// bodies anew.
-FE_INLINE void NAMED(sweep_bounce)(SPECIAL_ROW *x, pair *p, const wide *target, int kind)
+// Did the last sweep change as much of the impulses of the lanes that they need another one?
+FE_INLINE int NAMED(settles)(const ROW *row, const wide *points, const wide *tangent, wide_mask lanes)
 {
-    for (int sweep = 1; sweep < BOUNCE_SWEEPS; ++sweep) {
-        NAMED(bounce_points)(&x->row, p, target, kind);
+    wide change = w_abs(row->tangent_impulse[0] - tangent[0]) + w_abs(row->tangent_impulse[1] - tangent[1]);
+    UNROLL for (int i = 0; i < POINTS; ++i) change = change + w_abs(row->point[i].impulse - points[i]);
+    return w_any(w_and(lanes, w_greater(change, BOUNCE_SETTLED * NAMED(load_of)(row)))) != 0;
+}
+
+// Friction rotates the bodies and the points turn them back, until both are as they must be: each sweep looks at the
+// bodies anew. Of a lane `alone` sweeps end when it has settled.
+FE_INLINE void NAMED(sweep_bounce)(SPECIAL_ROW *x, pair *p, const wide *target, wide_mask lanes, int alone, int kind)
+{
+    ROW *row = &x->row;
+    for (int sweep = 1, more = 1; sweep < BOUNCE_SWEEPS && more; ++sweep) {
+        wide points[POINTS], tangent[2] = {row->tangent_impulse[0], row->tangent_impulse[1]};
+        UNROLL for (int i = 0; i < POINTS; ++i) points[i] = row->point[i].impulse;
+        NAMED(bounce_points)(row, p, target, kind);
         NAMED(solve_rolling)(x, p, kind);
-        NAMED(solve_friction)(&x->row, p, kind);
+        NAMED(solve_friction)(row, p, kind);
+        if (alone) more = NAMED(settles)(row, points, tangent, lanes);
     }
-    NAMED(bounce_points)(&x->row, p, target, kind);
+    NAMED(bounce_points)(row, p, target, kind);
 }
 
 FE_INLINE wide NAMED(power_of)(const wrench *w, const pair *p)
@@ -136,10 +148,11 @@ FE_INLINE wide NAMED(part_without_gain)(const SPECIAL_ROW *x, const wrench *chan
     return w_choose(w_greater(x->gain + a + b, zero), part, one);
 }
 
-// The given lanes touched, at points that are faster than `least`.
-FE_INLINE void NAMED(bounce_lanes)(SPECIAL_ROW *x, fe__solver *s, wide_mask touched, float least,
+// The given lanes touched, at points that are faster than `least`; or one of a chain `alone`, at any speed.
+FE_INLINE void NAMED(bounce_lanes)(SPECIAL_ROW *x, fe__solver *s, wide_mask touched, int alone,
                                    const fe__step_constants *c, int kind)
 {
+    float least = alone ? 0.0f : c->threshold;
     ROW *row = &x->row;
     pair p = NAMED(gather_pair)(row, s, kind), before = p;
     PASSING was = NAMED(passing_of)(row, &p, kind);
@@ -147,7 +160,7 @@ FE_INLINE void NAMED(bounce_lanes)(SPECIAL_ROW *x, fe__solver *s, wide_mask touc
     wide target[POINTS], load = NAMED(load_of)(row);
     UNROLL for (int i = 0; i < POINTS; ++i) target[i] = NAMED(bounce_speed)(x, i, row->point[i].distance, least, c);
     wrench given = NAMED(wrench_of)(row, p.normal, kind);
-    NAMED(sweep_bounce)(x, &p, target, kind);
+    NAMED(sweep_bounce)(x, &p, target, touched, alone, kind);
     wrench all = NAMED(wrench_of)(row, p.normal, kind);
     wrench change = {w_sub(all.impulse, given.impulse), w_sub(all.moment, given.moment)};
     wide flight = (load - NAMED(load_of)(row)) * (0.5f * c->h * x->closing);
@@ -167,7 +180,7 @@ FE_INLINE void NAMED(bounce_row)(SPECIAL_ROW *x, fe__solver *s, const fe__step_c
     wide_mask chained = NAMED(in_chain)(x, s, touched, 1, kind);
     if (w_any(chained)) atomic_store_explicit(&s->chained, 1, memory_order_relaxed);
     touched = w_and(touched, w_not(chained));
-    if (w_any(touched)) NAMED(bounce_lanes)(x, s, touched, c->threshold, c, kind);
+    if (w_any(touched)) NAMED(bounce_lanes)(x, s, touched, 0, c, kind);
 }
 
 // ---- impacts of a chain, one by one: see pass_on.c ------------------------------------------------------------------
@@ -209,17 +222,14 @@ FE_INLINE int32_t NAMED(pass_on)(SPECIAL_ROW *x, fe__solver *s, wide_mask lanes,
         any = w_or(any, closes);
     }
     if (!w_any(any)) return 0;
-    NAMED(bounce_lanes)(x, s, lanes, 0.0f, c, kind);
+    NAMED(bounce_lanes)(x, s, lanes, 1, c, kind);
     return 1;
 }
 
-FE_INLINE int32_t NAMED(act)(fe__solver *s, SPECIAL_ROW *x, int32_t lane, fe__touch_act act,
+FE_INLINE int32_t NAMED(act)(fe__solver *s, SPECIAL_ROW *x, wide_mask lanes, fe__touch_act act,
                              const fe__step_constants *c, int kind)
 {
-    wide_mask lanes = only_lane(lane), fast = w_and(lanes, NAMED(touched)(x, c->threshold));
     switch (act) {
-    case FE__TOUCH_FAST:
-        return w_any(fast) != 0;
     case FE__TOUCH_TAKE:
         NAMED(take_back)(x, s, lanes, -1.0f, kind);
         return 1;
@@ -232,7 +242,8 @@ FE_INLINE int32_t NAMED(act)(fe__solver *s, SPECIAL_ROW *x, int32_t lane, fe__to
     case FE__TOUCH_PASS_ON:
         return NAMED(pass_on)(x, s, lanes, c, kind);
     case FE__TOUCH_BOUNCE:
-        if (w_any(fast)) NAMED(bounce_lanes)(x, s, fast, c->threshold, c, kind);
+        lanes = w_and(lanes, NAMED(touched)(x, c->threshold));
+        if (w_any(lanes)) NAMED(bounce_lanes)(x, s, lanes, 0, c, kind);
         return 1;
     }
     return 0;

@@ -17,8 +17,10 @@
 #define TOUCHING 1e-4f
 // in which the points of a contact reach the speeds of their bounce: each leaves a third of the last one's error
 #define BOUNCE_SWEEPS 8
+// of the impulses of an impact of a chain: sweeps end when they change less
+#define BOUNCE_SETTLED 1e-2f
 // of the points of a chain of impacts, m/s: what closes more slowly is left to the next substep
-#define CLOSING 1e-3f
+#define CLOSING 1e-2f
 // What the bodies may shift against each other, m, and rotate, rad, within a step while a contact's arms and inertia
 // stay those of its start
 #define FROZEN_SHIFT 5e-4f
@@ -168,10 +170,10 @@ FE_INLINE void store_lanes(fe__contact *contacts, const int32_t *index, wide4 no
     }
 }
 
-FE_INLINE wide_mask only_lane(int32_t lane)
+FE_INLINE wide_mask lanes_of(uint32_t bits)
 {
-    _Alignas(64) float is[FE_W] = {0};
-    is[lane] = 1.0f;
+    _Alignas(64) float is[FE_W];
+    for (int i = 0; i < FE_W; ++i) is[i] = bits >> i & 1 ? 1.0f : 0.0f;
     return w_greater(*(wide *)is, w_set(0.0f));
 }
 

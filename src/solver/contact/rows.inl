@@ -513,7 +513,7 @@ FE_INLINE void NAMED(bounce)(fe__solver *s, void *rows, int32_t count, const fe_
 // The touches of rows that share a body with another touch, see pass_on.c; or what is `near`: without impulse, of a
 // body in a chain. `lane`: of the first row. Returns how many
 FE_INLINE int32_t NAMED(touches)(const fe__solver *s, const void *rows, int32_t count, int32_t lane, int32_t near,
-                                 fe__touch *out, int kind)
+                                 const fe__step_constants *c, fe__touch *out, int kind)
 {
     int32_t found = 0;
     for (int32_t i = 0; i < count; ++i, lane += FE_W) {
@@ -521,13 +521,16 @@ FE_INLINE int32_t NAMED(touches)(const fe__solver *s, const void *rows, int32_t 
         wide_mask lanes = near ? NAMED(may_touch)(x) : NAMED(touched)(x, 0.0f);
         if (!w_any(lanes)) continue;
         lanes = NAMED(in_chain)(x, s, lanes, near ? FE__TOUCHES_CHAINED - 1 : 1, kind);
-        _Alignas(64) float is[FE_W], when[FE_W];
-        *(wide *)is = w_choose(lanes, w_set(1.0f), w_set(0.0f));
+        wide zero = w_set(0.0f), one = w_set(1.0f);
+        _Alignas(64) float is[FE_W], when[FE_W], fast[FE_W];
+        *(wide *)is = w_choose(lanes, one, zero);
         *(wide *)when = x->when;
+        *(wide *)fast = w_choose(NAMED(touched)(x, c->threshold), one, zero);
         for (int k = 0; k < FE_W; ++k)
             if (is[k] != 0.0f)
                 out[found++] =
                     (fe__touch){.when = when[k],
+                                .fast = fast[k] != 0.0f,
                                 .lane = lane + k,
                                 .line = {kind & FE__ROW_PAIR ? x->row.line_a[k] : FE__STATIC_LINE, x->row.line_b[k]}};
     }
@@ -557,14 +560,14 @@ FE_INLINE int32_t NAMED(touches)(const fe__solver *s, const void *rows, int32_t 
         if ((kind)&FE__ROW_SPECIAL) NAMED(bounce)(s, rows, count, c, kind);                                       \
     }                                                                                                             \
     static int32_t NAMED(touches_##kind_name)(const fe__solver *s, const void *rows, int32_t count, int32_t lane, \
-                                              int32_t near, fe__touch *out)                                       \
+                                              int32_t near, const fe__step_constants *c, fe__touch *out)          \
     {                                                                                                             \
-        return (kind)&FE__ROW_SPECIAL ? NAMED(touches)(s, rows, count, lane, near, out, kind) : 0;                \
+        return (kind)&FE__ROW_SPECIAL ? NAMED(touches)(s, rows, count, lane, near, c, out, kind) : 0;             \
     }                                                                                                             \
-    static int32_t NAMED(act_##kind_name)(fe__solver * s, void *row, int32_t lane, fe__touch_act act,             \
+    static int32_t NAMED(act_##kind_name)(fe__solver * s, void *row, uint32_t lanes, fe__touch_act act,           \
                                           const fe__step_constants *c)                                            \
     {                                                                                                             \
-        return (kind)&FE__ROW_SPECIAL ? NAMED(act)(s, row, lane, act, c, kind) : 0;                               \
+        return (kind)&FE__ROW_SPECIAL ? NAMED(act)(s, row, lanes_of(lanes), act, c, kind) : 0;                    \
     }                                                                                                             \
     static void NAMED(store_##kind_name)(fe__contact * contacts, fe__extra * extras, const fe__lane *lanes,       \
                                          const void *rows, int32_t count)                                         \
