@@ -369,11 +369,12 @@ static void hang(scene *s, fe_body beam, fe_body ball, vec pivot, double length,
 // leaves 2 r^2 / (5 L^2) of it behind: what the pivot takes of a blow on the centre, L the length.
 static void hung_cradle_passes_the_speed_on(void **state)
 {
-    static const double radii[] = {0.1, 0.25}, lengths[] = {1, 1.5};
-    const double angle = 30 * DEGREES, gap = 0.001;
+    static const double radii[] = {0.1, 0.25}, lengths[] = {1, 1.5}, angles[] = {30 * DEGREES, 60 * DEGREES};
+    const double gap = 0.001;
     for (int i = 0; i < 4; ++i) {
         int rod = i / 2;
-        double radius = radii[i % 2], length = lengths[i % 2], left = rod ? 0.4 * pow(radius / length, 2) : 0;
+        double radius = radii[i % 2], length = lengths[i % 2], angle = angles[i % 2],
+               left = rod ? 0.4 * pow(radius / length, 2) : 0;
         scene s = scene_begin(state);
         fe_body balls[BALLS],
             beam = add_body(&s, FE_BODY_STATIC, sphere(0.01), v3(0, 5, 0), UNTURNED, friction(0), WATER);
