@@ -143,14 +143,16 @@ static void collide_due(void *argument, int32_t first, int32_t end, int32_t work
 {
     const collide_job *job = argument;
     fe_world *w = job->step->world;
-    const int32_t *pairs = job->step->scratch->busy;
     (void)worker;
-    for (int32_t i = first; i < end; ++i) {
-        int32_t next = fe__mini(i + FETCHED_AHEAD, end - 1);
-        fe__fetch(w->pairs + pairs[next], sizeof *w->pairs);
-        w->awake_pairs[w->pairs[pairs[i]].awake_index] = pairs[i];
+    for (int32_t i = first; i < end; i += PAIRS_IN_CACHE) {
+        const int32_t *pairs = job->step->scratch->busy + i;
+        int32_t count = fe__mini(end - i, PAIRS_IN_CACHE);
+        for (int32_t k = 0; k < count; ++k) {
+            fe__fetch(w->pairs + pairs[fe__mini(k + FETCHED_AHEAD, count - 1)], sizeof *w->pairs);
+            w->awake_pairs[w->pairs[pairs[k]].awake_index] = pairs[k];
+        }
+        collide_each(job->step, pairs, count);
     }
-    collide_each(job->step, pairs + first, end - first);
     atomic_fetch_sub_explicit(&job->step->scratch->recycled, end - first, memory_order_relaxed);
 }
 
@@ -246,12 +248,13 @@ void fe__update_contacts(fe__step *step)
     atomic_store(&s->result_count, 0);
     atomic_store(&s->recycled, 0);
     // what wakes brings its pairs: they are looked at in another round
-    for (int32_t first = 0; first < w->awake_pair_count;) {
+    int32_t due = w->field_pair_count ? 0 : atomic_load(&s->due_count); // with heightfields all are recycled
+    for (int32_t first = 0; first < w->awake_pair_count; due = 0) {
         int32_t end = w->awake_pair_count, results = atomic_load(&s->result_count);
         collide_job job = {step, first};
         fe__parallel_for(&w->workers, end - first, PAIRS_IN_BLOCK, w->field_pair_count ? collide_chunks : collide_block,
                          &job);
-        if (first == 0) fe__parallel_for(&w->workers, atomic_load(&s->due_count), PAIRS_IN_BLOCK, collide_due, &job);
+        fe__parallel_for(&w->workers, due, PAIRS_IN_BLOCK, collide_due, &job);
         apply_results(step, results);
         first = end;
     }
