@@ -3,7 +3,7 @@
 
 // A box in a tree is larger than its shape by the speculative distance (what touches must have a pair) and a share of
 // its size, so that a body may move a while before its tree changes: larger ones move further before it matters.
-#define FAT_SHARE 0.12 // of the largest half extent
+#define FAT_SHARE 0.05
 #define FAT_MOST 0.05  // m
 // It also reaches where the body will be after so many steps at its velocity: what it meets in the next step must have
 // a pair before.
@@ -36,7 +36,7 @@ static fe__bounds swept(const fe_world *world, int32_t index, fe__bounds b, floa
 
 fe__bounds fe__shape_reach_bounds(const fe_world *world, int32_t index)
 {
-    return swept(world, index, fe__shape_bounds(world, index, world->tuning.speculative_distance), 1.0f);
+    return swept(world, index, fe__shape_bounds(world, index, 0.5f * world->tuning.speculative_distance), 1.0f);
 }
 
 fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t index)
@@ -45,7 +45,7 @@ fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t index)
     fe_dvec3 size = fe__dsub(b.high, b.low);
     double half = 0.5 * fe__maxd(fe__maxd(size.x, size.y), size.z);
     b = swept(world, index, b, STEPS_AHEAD);
-    return grown(b, (double)world->tuning.speculative_distance + fe__mind(FAT_MOST, FAT_SHARE * half));
+    return grown(b, 0.5 * (double)world->tuning.speculative_distance + fe__mind(FAT_MOST, FAT_SHARE * half));
 }
 
 // ---- broad phase ---------------------------------------------------------------------------------------------------
