@@ -185,13 +185,8 @@ void fe__find_new_pairs(fe__step *step)
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     fe__settle_sizes(w);
-    step->failed = !search_all(step) || !fe__thin_crowds(step) || !fe__find_due(step);
+    step->failed = !search_all(step) || !fe__thin_crowds(step) || !fe__find_due(step) || !fe__reserve_step(step);
     if (step->failed) return;
-    step->failed = !fe__reserve_step(step);
-    if (step->failed) {
-        fe__put_due_back(step);
-        return;
-    }
     sort_candidates(step);
     for (int32_t i = 0; i < s->candidate_count; ++i)
         fe__pair_create(w, s->candidates[i].shape_a, s->candidates[i].shape_b, is_denied(w, s->candidates + i));
