@@ -153,8 +153,8 @@ FE_INLINE affine NAMED(normal_velocity)(const pair *p)
                     w_cross(p->normal, w_sub(p->b.w, p->a.w))};
 }
 
-// A point without impulse is about to touch: note its speed u, its time, and the energy of its flight, exact for the
-// discrete motion v += h g, x += h v:
+// A point without impulse, or one that only pushes an overlap apart and is struck, is about to touch: note its speed u,
+// its time, and the energy of its flight, exact for the discrete motion v += h g, x += h v:
 //     Q = u (u - g h) + 2 g s  before the bodies moved in this substep,   u (u + g h) + 2 g s  after
 // (s: the gap, g: the acceleration that closes it). Only what is faster than the threshold bounces; of the others a
 // chain of impacts knows (pass_on.c).
