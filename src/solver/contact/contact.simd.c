@@ -140,6 +140,17 @@ FE_INLINE void prefetch_contact(const fe__contact *m)
     for (unsigned k = 0; k < offsetof(fe__contact, found_a); k += 64) __builtin_prefetch((const char *)m + k);
 }
 
+// FE__AHEAD, by a contact's tolerance
+FE_INLINE wide_mask found_ahead(wide tolerance)
+{
+    return w_and(w_greater(w_set(0.0f), tolerance), w_greater(tolerance, w_set(0.5f * FE__FOLLOWS)));
+}
+
+FE_INLINE wide_mask any_nonzero(wide4 a)
+{
+    return w_greater(w_abs(a.x) + w_abs(a.y) + (w_abs(a.z) + w_abs(a.w)), w_set(0.0f));
+}
+
 // Of B, which is always dynamic and in no other row of the colour
 static __attribute__((noinline)) void mark_strained(fe__solver *s, const int32_t *line, wide_mask lanes)
 {

@@ -19,6 +19,15 @@ static void join(int32_t *parent, int32_t a, int32_t b)
         parent[x] = y;
 }
 
+static int32_t bore_something(const fe__contact *m)
+{
+    float sum = 0.0f;
+    for (int k = 0; k < FE__POINTS; ++k) sum += m->total_impulse[k];
+    return sum > 0.0f;
+}
+
+static void fetch(const fe__contact *m) { __builtin_prefetch(m->total_impulse), __builtin_prefetch(&m->colour); }
+
 // B is dynamic in every contact; A may be anything
 static void join_contacts(fe__builder *b)
 {
@@ -27,10 +36,11 @@ static void join_contacts(fe__builder *b)
     for (int32_t i = 0; i < in->contact_count; ++i) {
         int32_t contact = in->awake_contacts[i];
         const fe__contact *m = in->contacts + contact;
-        if (i + AHEAD < in->contact_count) __builtin_prefetch(&in->contacts[in->awake_contacts[i + AHEAD]].colour);
+        if (i + AHEAD < in->contact_count) fetch(in->contacts + in->awake_contacts[i + AHEAD]);
         if (m->colour < 0) continue;
         int32_t awake_a = in->bodies[m->body_a].awake_index, awake_b = in->bodies[m->body_b].awake_index;
-        b->linked[b->linked_count++] = (fe__linked){contact, m->colour * FE__ROW_KINDS + m->kind, awake_a, awake_b};
+        b->linked[b->linked_count++] =
+            (fe__linked){contact, m->colour * FE__ROW_KINDS + m->kind, awake_a, awake_b, bore_something(m)};
         if (m->kind & FE__ROW_PAIR) join(b->parent, awake_a, awake_b);
     }
 }
