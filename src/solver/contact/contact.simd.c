@@ -23,6 +23,8 @@
 #define FROZEN_ROTATION 5e-3f
 // a rotation within the step, rad, up to which effective masses stay: they only decide how fast the sweeps converge
 #define FROZEN_MASS 0.02f
+// Of speeds, shifts and arms: far above what rounding does to what a point requests
+#define IDLE_ERROR 1e-5f
 // Relative spread of the principal moments below which an inertia is isotropic
 #define ROUND_INERTIA 1e-4f
 // A sticking contact may exceed its static friction by this factor before it slides. A force above the contact that

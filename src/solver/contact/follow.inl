@@ -179,7 +179,6 @@ FE_INLINE void NAMED(begin_to_follow)(ROW *row, const wide *apart, wide_mask lan
     if (!w_any(fresh)) return;
     row->follows = w_choose(fresh, w_set(1.0f), row->follows);
     row->gap = w_choose(fresh, w_set(-FLT_MAX), row->gap);
-    row->open = w_choose(fresh, w_set(-FLT_MAX), row->open);
     wide3 n = load3(row->normal);
     UNROLL for (int i = 0; i <= POINTS; ++i)
     {

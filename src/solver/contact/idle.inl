@@ -1,18 +1,18 @@
-// idle.inl - contacts that carry nothing. Part of rows.inl, once per number of points.
+// idle.inl - rows of contacts that carry nothing. Part of rows.inl, once per number of points.
 //
-// Half of a loose pile's contacts are gaps that nobody closes. A contact is idle in a pass when it carries no impulse
-// and its gap stays open for a substep at the speeds of its bodies:
+// A third of a pile's contacts, and nine tenths of a loose stack's, are gaps that nobody closes. Such a contact has no
+// impulse, and its gap stays open for a substep at the speeds of its bodies:
 //
 //     gap + h n.(vB - vA) > h reach (|wA| + |wB|)
 //     gap >= gap0 + n.shift - 2 reach (|sin(angleA / 2)| + |sin(angleB / 2)|)          since the step began
 //
-// Then vn + s / h > 0 at each point, and both passes request less than no impulse. So an idle contact is left as it is,
-// to the bit, whoever is beside it in the row. A row of none but idle contacts costs no more than that look at its
-// bodies; until another look finds something to do, it is not even prepared.
+// Then vn + s / h > 0 at each point, the passes request less than no impulse of each, and change nothing: a row of
+// none but such contacts is skipped. It is not even prepared until a pass finds something to do. IDLE_ERROR keeps the
+// bound above what rounding does to the requests, so that skipping and solving give the same bits, and who is beside
+// whom in a row does not show. What the passes add of nothing, +0 or -0, changes no velocity, as none is -0
+// (bodies.simd.c).
 //
-// Special rows are never idle: they note touches.
-
-FE_INLINE wide_mask NAMED(padding)(const ROW *row) { return w_not(w_greater(w_set(FLT_MAX), row->gap)); }
+// Special rows are never skipped: they note touches.
 
 // of the points that there are, the least separation; a padding lane has none
 FE_INLINE wide NAMED(least_gap)(wide4 separation, wide points)
@@ -24,50 +24,78 @@ FE_INLINE wide NAMED(least_gap)(wide4 separation, wide points)
     return least;
 }
 
-FE_INLINE wide_mask NAMED(carries_nothing)(const ROW *row)
+// Lanes that have an impulse
+FE_INLINE wide_mask NAMED(loaded)(const ROW *row)
 {
-    if (row->put_off) return every_lane();
-    return w_not(w_greater(NAMED(load_of)(row), w_set(0.0f)));
+    return row->put_off ? no_lane() : w_greater(NAMED(load_of)(row), w_set(0.0f));
 }
 
-// at the speeds of the bodies, within a substep
-FE_INLINE wide_mask NAMED(stays_open)(const ROW *row, const pair *p, const fe__step_constants *c)
+// Or had one when the last substep ended: relax has that to note
+FE_INLINE wide_mask NAMED(loaded_lately)(const ROW *row)
 {
-    // (|wA| + |wB|)^2 <= 2 (wA^2 + wB^2)
-    wide left = row->open + c->h * w_dot(p->normal, w_sub(p->b.v, p->a.v)), arm = c->h * row->reach;
-    wide turns = 2.0f * arm * arm * (w_dot(p->a.w, p->a.w) + w_dot(p->b.w, p->b.w));
-    return w_and(w_greater(left, w_set(0.0f)), w_greater(left * left, turns));
+    return row->put_off ? no_lane() : w_greater(NAMED(load_of)(row) + row->load, w_set(0.0f));
 }
 
-// in the soft pass: the bodies are where the last relax pass found them
-FE_INLINE wide_mask NAMED(idle_now)(const ROW *row, const pair *p, const fe__step_constants *c)
+// no more than where the bodies' motion brought the points; (2 |a| + 2 |b| + |c|)^2 <= 12 (a^2 + b^2) + 3 c^2
+FE_INLINE wide NAMED(gap_after)(const ROW *row, const motion *m)
 {
-    wide_mask idle = NAMED(carries_nothing)(row);
-    return w_any(idle) ? w_and(idle, NAMED(stays_open)(row, p, c)) : idle;
+    wide turned = sine_square(m->rotation_a) + sine_square(m->rotation_b), reach = row->reach;
+    wide shift = IDLE_ERROR * IDLE_ERROR * w_dot(m->shift, m->shift);
+    wide most = w_sqrt(12.0f * (reach * reach * turned) + 3.0f * shift);
+    return row->gap + w_dot(load3(row->normal), m->shift) - (most + IDLE_ERROR * reach);
 }
 
-// In the relax pass, after the bodies moved. What carried something at the end of the last substep is not idle: its
-// load is to be known, and its gap holds for no soft pass.
-FE_INLINE wide_mask NAMED(idle_after)(ROW *row, const pair *p, const motion *m, const fe__step_constants *c)
+// Lanes whose gap of now stays open for a substep; (|a| + |b| + |c| + |d|)^2 <= 4 (a^2 + b^2 + c^2 + d^2)
+FE_INLINE wide_mask NAMED(stays_open)(const pair *p, wide gap, wide reach, const fe__step_constants *c)
 {
-    wide_mask idle = NAMED(carries_nothing)(row);
-    if (!row->put_off) idle = w_and(idle, w_not(w_greater(row->load, w_set(0.0f))));
-    if (!w_any(idle)) {
-        row->open = w_set(-FLT_MAX);
-        return idle;
-    }
-    // (2 |a| + 2 |b|)^2 <= 8 (a^2 + b^2)
-    wide turned = w_sqrt(8.0f * (sine_square(m->rotation_a) + sine_square(m->rotation_b)));
-    wide gap = row->gap + w_dot(p->normal, m->shift) - row->reach * turned;
-    row->open = w_choose(idle, gap, w_set(-FLT_MAX));
-    return w_and(idle, NAMED(stays_open)(row, p, c));
+    wide spin = w_dot(p->a.w, p->a.w) + w_dot(p->b.w, p->b.w), speed = w_dot(p->a.v, p->a.v) + w_dot(p->b.v, p->b.v);
+    wide left = (1.0f - IDLE_ERROR) * gap + c->h * w_dot(p->normal, w_sub(p->b.v, p->a.v));
+    wide most = 4.0f * c->h * c->h * (reach * reach * spin + IDLE_ERROR * IDLE_ERROR * speed);
+    return w_and(w_greater(left, w_set(0.0f)), w_greater(left * left, most));
 }
 
-// idle lanes as before the pass, whose bodies are not scattered yet
-FE_INLINE void NAMED(leave_idle)(ROW *row, const fe__solver *s, pair *p, wide_mask idle, int kind)
+// In the soft pass: the bodies are where the last relax pass looked
+static __attribute__((noinline)) int NAMED(open_now)(const ROW *row, const fe__solver *s, const fe__step_constants *c,
+                                                     int kind)
 {
-    wide zero = w_set(0.0f);
-    pair was = NAMED(gather_pair)(row, s, kind);
-    p->a = choose_side(idle, was.a, p->a), p->b = choose_side(idle, was.b, p->b);
-    UNROLL for (int i = 0; i < POINTS; ++i) row->point[i].impulse = w_choose(idle, zero, row->point[i].impulse);
+    pair p = NAMED(gather_pair)(row, s, kind);
+    return !w_any(w_not(NAMED(stays_open)(&p, row->open, row->reach, c)));
+}
+
+FE_INLINE int NAMED(idle_now)(const ROW *row, const fe__solver *s, const fe__step_constants *c, int kind)
+{
+    if (kind & FE__ROW_SPECIAL || w_any(NAMED(loaded)(row))) return 0;
+    return NAMED(open_now)(row, s, c, kind);
+}
+
+// In the relax pass, after the bodies moved
+static __attribute__((noinline)) int NAMED(open_after)(ROW *row, const fe__solver *s, const fe__step_constants *c,
+                                                       int kind)
+{
+    pair p = NAMED(gather_pair)(row, s, kind);
+    motion m = NAMED(motion_of)(row, s, kind);
+    row->open = NAMED(gap_after)(row, &m);
+    row->behind = !w_any(w_not(NAMED(stays_open)(&p, row->open, row->reach, c)));
+    return row->behind;
+}
+
+FE_INLINE int NAMED(idle_after)(ROW *row, const fe__solver *s, const fe__step_constants *c, int kind)
+{
+    if (kind & FE__ROW_SPECIAL) return 0;
+    if (!w_any(NAMED(loaded_lately)(row))) return NAMED(open_after)(row, s, c, kind);
+    row->open = w_set(-FLT_MAX);
+    row->behind = 0;
+    return 0;
+}
+
+// Of the lanes that would follow: those that a row of idle contacts would skip do not begin to
+static __attribute__((noinline)) wide_mask NAMED(but_idle)(const ROW *row, const fe__solver *s, wide_mask moving,
+                                                           const fe__step_constants *c, int kind)
+{
+    wide_mask fresh = w_not(w_or(NAMED(loaded_lately)(row), w_greater(row->follows, w_set(0.0f))));
+    if (!w_any(w_and(fresh, moving))) return moving;
+    pair p = NAMED(gather_pair)(row, s, kind);
+    motion m = NAMED(motion_of)(row, s, kind);
+    wide_mask idle = NAMED(stays_open)(&p, NAMED(gap_after)(row, &m), row->reach, c);
+    return w_and(moving, w_not(w_and(fresh, idle)));
 }

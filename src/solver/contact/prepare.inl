@@ -113,17 +113,6 @@ FE_INLINE void NAMED(prepare_gap)(ROW *row, wide4 separation, wide points, wide 
     row->reach = reach;
 }
 
-// The stored impulses, to the bodies of lanes that have any
-FE_INLINE void NAMED(warm_start)(const ROW *row, const fe__solver *s, pair p, int kind)
-{
-    pair was = p;
-    wide size = w_abs(row->tangent_impulse[0]) + w_abs(row->tangent_impulse[1]) + w_abs(row->twist_impulse);
-    wide_mask some = w_greater(NAMED(load_of)(row) + size, w_set(0.0f));
-    NAMED(apply_all)(row, &p, kind);
-    if (!(kind & FE__ROW_SPECIAL)) p.a = choose_side(some, p.a, was.a), p.b = choose_side(some, p.b, was.b);
-    NAMED(scatter_pair)(row, s, &p, kind);
-}
-
 FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s, const fe__contact *m,
                                   const fe__extra *extras, const fe__step_constants *c, int kind)
 {
@@ -163,7 +152,8 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
     NAMED(store_masses)(row, &masses, every_lane());
     if (kind & FE__ROW_SPECIAL) NAMED(prepare_rolling)((SPECIAL_ROW *)row, s, &p, kind);
     row->load = NAMED(load_of)(row);
-    NAMED(warm_start)(row, s, p, kind);
+    NAMED(apply_all)(row, &p, kind);
+    NAMED(scatter_pair)(row, s, &p, kind);
 }
 
 // What begins the step with an impulse, or ended the last one after it had one, is prepared in any case
@@ -221,7 +211,7 @@ FE_INLINE int32_t NAMED(store)(fe__contact *contacts, fe__extra *extras, const f
             impulse[j] = row->point[j].impulse, total[j] = row->total[j];
             sum = sum + total[j];
         }
-        wide_mask bore = w_greater(sum, zero), others = w_not(w_or(bore, NAMED(padding)(row)));
+        wide_mask bore = w_greater(sum, zero), others = w_and(w_not(bore), w_greater(w_set(FLT_MAX), row->gap));
         mixed += w_any(bore) && w_any(others);
         // of -0 and +0 the latter: what was put off has it
         wide4 friction = w_with(NAMED(friction_impulse)(row, load3(row->normal)), row->twist_impulse);

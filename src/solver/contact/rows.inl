@@ -30,10 +30,10 @@ typedef struct ROW {
     wide normal[3];
     // see idle.inl; of all that is above and here, a row that is put off has nothing else
     wide gap;        // when the step began, m; FLT_MAX: a padding lane; -FLT_MAX: it follows, and is never idle
-    wide open;       // no more than the gap where the bodies are now, m; -FLT_MAX: not known
+    wide open;       // no more than the gap where the bodies are now, m; -FLT_MAX: nobody looked
     wide reach;      // longest arm, m
     int32_t put_off; // 1: not prepared
-    int32_t behind;  // 1: idle when the bodies moved, with distances from before
+    int32_t behind;  // 1: skipped when the bodies moved, with distances from before
     wide span[3];    // centre of A - centre of B
     contact_point point[POINTS];
     wide coupling[POINTS == 1 ? 1 : 6]; // m_j K_ij for i < j: 01 02 03 12 13 23
@@ -335,8 +335,9 @@ FE_INLINE wide_mask NAMED(solve_friction)(ROW *row, pair *p, int kind)
     wide stick = row->static_friction * load, slide = row->dynamic_friction * load, square = l1 * l1 + l2 * l2;
     wide most = w_choose(w_greater(square, BREAKAWAY * BREAKAWAY * stick * stick), slide, stick);
     wide shrink = w_choose(w_greater(square, stick * stick), most / w_sqrt(square), w_set(1.0f));
-    l1 = l1 * shrink;
-    l2 = l2 * shrink;
+    wide_mask bears = w_greater(load, w_set(0.0f)); // else none, however little was requested
+    l1 = w_choose(bears, l1 * shrink, w_set(0.0f));
+    l2 = w_choose(bears, l2 * shrink, w_set(0.0f));
     wide3 impulse = w_add_scaled(w_scale(l1 - row->tangent_impulse[0], t1), l2 - row->tangent_impulse[1], t2);
     row->tangent_impulse[0] = l1;
     row->tangent_impulse[1] = l2;
@@ -467,6 +468,11 @@ FE_INLINE ROW *NAMED(row_at)(void *rows, int32_t i, int kind)
 
 #include "solver/contact/prepare.inl"
 
+FE_INLINE int NAMED(is_late)(const ROW *row, int kind)
+{
+    return !(kind & FE__ROW_SPECIAL) && (row->put_off || row->behind);
+}
+
 // the row, prepared, with distances from where the bodies are
 static __attribute__((noinline)) void NAMED(catch_up)(ROW *row, fe__solver *s, const fe__contact *contacts,
                                                       const fe__lane *lanes, const fe__step_constants *c, int kind)
@@ -486,43 +492,15 @@ FE_INLINE void NAMED(solve)(fe__solver *s, const fe__contact *contacts, const fe
 {
     for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
         ROW *row = NAMED(row_at)(rows, i, kind);
+        if (NAMED(idle_now)(row, s, c, kind)) continue;
+        if (NAMED(is_late)(row, kind)) NAMED(catch_up)(row, s, contacts, lanes, c, kind);
         pair p = NAMED(gather_pair)(row, s, kind);
-        wide_mask idle = kind & FE__ROW_SPECIAL ? no_lane() : NAMED(idle_now)(row, &p, c);
-        if (!w_any(w_not(idle))) continue;
-        if (!(kind & FE__ROW_SPECIAL) && (row->put_off || row->behind)) {
-            NAMED(catch_up)(row, s, contacts, lanes, c, kind);
-            p.span = load3(row->span);
-        }
         NAMED(solve_normals)(row, c, &p, kind, 1);
-        if (w_any(w_and(idle, w_not(NAMED(padding)(row))))) NAMED(leave_idle)(row, s, &p, idle, kind);
         NAMED(scatter_pair)(row, s, &p, kind);
     }
 }
 
-// Lanes that are not idle, after the bodies moved by m
-FE_INLINE pair NAMED(relax_lanes)(ROW *row, const fe__solver *s, pair p, const motion *m, wide_mask idle,
-                                  const fe__step_constants *c, int kind)
-{
-    wide tangent[2] = {row->tangent_impulse[0], row->tangent_impulse[1]}, twist = row->twist_impulse;
-    NAMED(find_distances)(row, &p, m, kind);
-    wide_mask moving = w_and(NAMED(moving)(row, m, kind), w_not(idle));
-    if (w_any(moving)) {
-        motion moved = *m;
-        NAMED(follow)(row, s, &moved, moving, kind);
-        p.span = load3(row->span);
-    }
-    NAMED(solve_normals)(row, c, &p, kind, 0);
-    if (kind & FE__ROW_SPECIAL) NAMED(solve_rolling)((SPECIAL_ROW *)row, &p, kind);
-    wide_mask unsettled = w_and(NAMED(solve_friction)(row, &p, kind), w_not(idle));
-    if (w_any(unsettled)) p = NAMED(settle)(row, c, p, unsettled, kind);
-    if (!w_any(w_and(idle, w_not(NAMED(padding)(row))))) return p;
-    NAMED(leave_idle)(row, s, &p, idle, kind);
-    for (int i = 0; i < 2; ++i) row->tangent_impulse[i] = w_choose(idle, tangent[i], row->tangent_impulse[i]);
-    row->twist_impulse = w_choose(idle, twist, row->twist_impulse);
-    return p;
-}
-
-// what the substep did, of all lanes
+// what the substep did
 FE_INLINE void NAMED(note_load)(ROW *row, fe__solver *s, const pair *p, const fe__step_constants *c, int kind)
 {
     UNROLL for (int j = 0; j < POINTS; ++j) row->total[j] = row->total[j] + row->point[j].impulse;
@@ -540,19 +518,22 @@ FE_INLINE void NAMED(relax)(fe__solver *s, const fe__contact *contacts, const fe
 {
     for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
         ROW *row = NAMED(row_at)(rows, i, kind);
+        if (NAMED(idle_after)(row, s, c, kind)) continue;
+        if (NAMED(is_late)(row, kind)) NAMED(catch_up)(row, s, contacts, lanes, c, kind);
         pair p = NAMED(gather_pair)(row, s, kind);
         motion m = NAMED(motion_of)(row, s, kind);
-        wide_mask idle = kind & FE__ROW_SPECIAL ? no_lane() : NAMED(idle_after)(row, &p, &m, c);
-        if (!w_any(w_not(idle))) {
-            row->behind = 1;
-            continue;
-        }
-        if (!(kind & FE__ROW_SPECIAL) && row->put_off) {
-            NAMED(catch_up)(row, s, contacts, lanes, c, kind);
+        NAMED(find_distances)(row, &p, &m, kind);
+        wide_mask moving = NAMED(moving)(row, &m, kind);
+        if (w_any(moving) && !(kind & FE__ROW_SPECIAL)) moving = NAMED(but_idle)(row, s, moving, c, kind);
+        if (w_any(moving)) {
+            motion moved = m;
+            NAMED(follow)(row, s, &moved, moving, kind);
             p.span = load3(row->span);
         }
-        row->behind = 0;
-        p = NAMED(relax_lanes)(row, s, p, &m, idle, c, kind);
+        NAMED(solve_normals)(row, c, &p, kind, 0);
+        if (kind & FE__ROW_SPECIAL) NAMED(solve_rolling)((SPECIAL_ROW *)row, &p, kind);
+        wide_mask unsettled = NAMED(solve_friction)(row, &p, kind);
+        if (w_any(unsettled)) p = NAMED(settle)(row, c, p, unsettled, kind);
         NAMED(scatter_pair)(row, s, &p, kind);
         if (!c->more) NAMED(note_load)(row, s, &p, c, kind);
     }
