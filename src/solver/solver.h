@@ -212,7 +212,7 @@ typedef struct fe__solver {
 
     // the graph (graph.c), kept while nothing links, unlinks, wakes or sleeps
     int32_t graph_changed;
-    int32_t graph_age;   // steps
+    int32_t graph_age;  // steps
     fe__batch *batches; // large islands first, kinematic bodies last
     int32_t batch_count, batch_capacity, large_count;
     fe__group *groups; // of a batch: by rising colour

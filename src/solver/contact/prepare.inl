@@ -5,12 +5,11 @@
 // is computed.
 
 // fills the points, returns the friction centre: the mean of the points weighted by how close they are
-FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int32_t *index, wide points,
-                                      const fe__step_constants *c)
+FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int32_t *index, wide4 separation,
+                                      wide points, const fe__step_constants *c)
 {
     wide zero = w_set(0.0f), one = w_set(1.0f), sum = zero, apart = zero;
-    wide4 impulse = w_gather(m->normal_impulse, CONTACT_STRIDE, index),
-          separation = w_gather(m->separation, CONTACT_STRIDE, index);
+    wide4 impulse = w_gather(m->normal_impulse, CONTACT_STRIDE, index);
     wide impulses[FE__POINTS] = {impulse.x, impulse.y, impulse.z, impulse.w};
     wide separations[FE__POINTS] = {separation.x, separation.y, separation.z, separation.w};
     wide3 weighted = w_zero3();
@@ -140,8 +139,9 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
     pair p = NAMED(gather_pair)(row, s, kind);
     wide3 t1, t2;
     tangents(p.normal, &t1, &t2);
-    store3(row->centre, NAMED(prepare_points)(row, m, index, normal.w, c));
-    NAMED(prepare_gap)(row, w_gather(m->separation, CONTACT_STRIDE, index), normal.w, found.w);
+    wide4 separation = w_gather(m->separation, CONTACT_STRIDE, index);
+    store3(row->centre, NAMED(prepare_points)(row, m, index, separation, normal.w, c));
+    NAMED(prepare_gap)(row, separation, normal.w, found.w);
     row->put_off = row->behind = 0;
     NAMED(prepare_friction)(row, w_gather(m->friction_impulse, CONTACT_STRIDE, index), t1, t2, c);
     NAMED(prepare_following)(row, p.normal, kind);

@@ -505,8 +505,8 @@ FE_INLINE void NAMED(note_load)(ROW *row, fe__solver *s, const pair *p, const fe
 {
     UNROLL for (int j = 0; j < POINTS; ++j) row->total[j] = row->total[j] + row->point[j].impulse;
     wide load = NAMED(load_of)(row), response = p->a.inverse_mass + p->b.inverse_mass;
-    wide_mask rose = w_and(w_greater(load, IMPACT_RISE * row->load),
-                           w_greater((load - row->load) * response, w_set(IMPACT_SPEED)));
+    wide_mask rose =
+        w_and(w_greater(load, IMPACT_RISE * row->load), w_greater((load - row->load) * response, w_set(IMPACT_SPEED)));
     if (kind & FE__ROW_SPECIAL) rose = w_and(rose, w_not(NAMED(touched)((SPECIAL_ROW *)row)));
     if (w_any(rose)) NAMED(leave_friction)(row, s, load, rose, kind);
     row->load = load;
@@ -552,24 +552,24 @@ FE_INLINE void NAMED(bounce)(fe__solver *s, void *rows, int32_t count, const fe_
     {                                                                                                             \
         NAMED(prepare)(s, contacts, extras, lanes, rows, count, c, kind);                                         \
     }                                                                                                             \
-    static void NAMED(solve_##kind_name)(fe__solver * s, const fe__contact *contacts, const fe__lane *lanes, \
-                                         void *rows, int32_t count, const fe__step_constants *c)  \
+    static void NAMED(solve_##kind_name)(fe__solver * s, const fe__contact *contacts, const fe__lane *lanes,      \
+                                         void *rows, int32_t count, const fe__step_constants *c)                  \
     {                                                                                                             \
-        NAMED(solve)(s, contacts, lanes, rows, count, c, kind);                                                                    \
+        NAMED(solve)(s, contacts, lanes, rows, count, c, kind);                                                   \
     }                                                                                                             \
-    static void NAMED(relax_##kind_name)(fe__solver * s, const fe__contact *contacts, const fe__lane *lanes, \
-                                         void *rows, int32_t count, const fe__step_constants *c)  \
+    static void NAMED(relax_##kind_name)(fe__solver * s, const fe__contact *contacts, const fe__lane *lanes,      \
+                                         void *rows, int32_t count, const fe__step_constants *c)                  \
     {                                                                                                             \
-        NAMED(relax)(s, contacts, lanes, rows, count, c, kind);                                                                    \
+        NAMED(relax)(s, contacts, lanes, rows, count, c, kind);                                                   \
     }                                                                                                             \
     static void NAMED(bounce_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c) \
     {                                                                                                             \
         if ((kind)&FE__ROW_SPECIAL) NAMED(bounce)(s, rows, count, c, kind);                                       \
     }                                                                                                             \
-    static int32_t NAMED(store_##kind_name)(fe__contact * contacts, fe__extra * extras, const fe__lane *lanes,       \
-                                         const void *rows, int32_t count)                                         \
+    static int32_t NAMED(store_##kind_name)(fe__contact * contacts, fe__extra * extras, const fe__lane *lanes,    \
+                                            const void *rows, int32_t count)                                      \
     {                                                                                                             \
-        return NAMED(store)(contacts, extras, lanes, rows, count, kind);                                                 \
+        return NAMED(store)(contacts, extras, lanes, rows, count, kind);                                          \
     }
 
 INSTANCE(fixed, 0)

@@ -134,4 +134,4 @@ FE_INLINE line_names line_above(const pass *t, int32_t i)
 }
 FE_INLINE real3 widen3(const half *a) { return (real3){r_widen(a[0]), r_widen(a[1]), r_widen(a[2])}; }
 // b of what may be -0 is not: whether a freedom is looked at that gives nothing, nobody shall see
-FE_INLINE half narrow(real a) { return __builtin_convertvector(a + 0.0, half); }
+FE_INLINE half narrow(real a) { return __builtin_convertvector(a, half) + 0.0f; }
