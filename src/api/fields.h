@@ -41,7 +41,7 @@ typedef struct fe__fields {
     FIELD(bodies)                                                                                               \
     FIELD(shapes) FIELD(joints) FIELD(awake_bodies) FIELD(pairs) FIELD(contacts) FIELD(recycled) FIELD(islands) \
         FIELD(colours) FIELD(rows) FIELD(rows_whole) FIELD(lanes) FIELD(simd) FIELD(simd_width) FIELD(workers)  \
-            FIELD(bytes) FIELD(allocations) FIELD(trees) FIELD(reserved)
+            FIELD(bytes) FIELD(allocations) FIELD(trees) FIELD(reserved) FIELD(contacts_left_out)
 #define FE_FIELDS_fe_energy(FIELD) FIELD(struct_size) FIELD(reserved) FIELD(kinetic) FIELD(potential)
 #define FE_FIELDS_fe_body_def(FIELD)                                                                             \
     FIELD(struct_size)                                                                                           \

@@ -1,27 +1,15 @@
 // pair_set.c - see pair_set.h.
 //
-// The hash is Fibonacci's: the key times 2^64 over the golden ratio, upper bits. Shape indices of neighbours are close
-// to each other, which this spreads well. A removal closes the gap (Knuth 6.4, algorithm R), so there are no tombstones
-// and a search ends at the first empty entry.
+// A removal closes the gap (Knuth 6.4, algorithm R), so there are no tombstones and a search ends at the first empty
+// entry.
 #include "broadphase/pair_set.h"
 
 enum { FIRST_CAPACITY = 64, LARGEST_CAPACITY = 1 << 30 };
 
-static uint64_t key_of(int32_t a, int32_t b)
-{
-    uint64_t low = (uint64_t)(a < b ? a : b), high = (uint64_t)(a < b ? b : a);
-    return low << 32 | high;
-}
-
-static uint32_t home_of(const fe__pair_set *set, uint64_t key)
-{
-    return (uint32_t)(key * UINT64_C(0x9E3779B97F4A7C15) >> 32) & (uint32_t)(set->capacity - 1);
-}
-
 // The entry of the key, or the empty one where it would be.
 static uint32_t find_entry(const fe__pair_set *set, uint64_t key)
 {
-    uint32_t mask = (uint32_t)(set->capacity - 1), i = home_of(set, key);
+    uint32_t mask = (uint32_t)(set->capacity - 1), i = fe__pair_home(set, key);
     while (set->entries[i].key != 0 && set->entries[i].key != key) i = (i + 1) & mask;
     return i;
 }
@@ -51,7 +39,7 @@ int32_t fe__pair_set_reserve(fe__pair_set *set, fe__memory *memory, int32_t extr
 
 void fe__pair_set_insert(fe__pair_set *set, int32_t a, int32_t b, int32_t value)
 {
-    uint64_t key = key_of(a, b);
+    uint64_t key = fe__pair_key(a, b);
     set->entries[find_entry(set, key)] = (fe__pair_entry){.key = key, .value = value};
     set->count += 1;
 }
@@ -59,20 +47,20 @@ void fe__pair_set_insert(fe__pair_set *set, int32_t a, int32_t b, int32_t value)
 int32_t fe__pair_set_find(const fe__pair_set *set, int32_t a, int32_t b)
 {
     if (set->count == 0) return -1;
-    const fe__pair_entry *entry = &set->entries[find_entry(set, key_of(a, b))];
+    const fe__pair_entry *entry = &set->entries[find_entry(set, fe__pair_key(a, b))];
     return entry->key != 0 ? entry->value : -1;
 }
 
 void fe__pair_set_remove(fe__pair_set *set, int32_t a, int32_t b)
 {
     if (set->count == 0) return;
-    uint32_t mask = (uint32_t)(set->capacity - 1), gap = find_entry(set, key_of(a, b));
+    uint32_t mask = (uint32_t)(set->capacity - 1), gap = find_entry(set, fe__pair_key(a, b));
     if (set->entries[gap].key == 0) return;
     set->count -= 1;
     // An entry after the gap moves into it unless its home lies behind the gap: a search for it would then start too
     // late to see it.
     for (uint32_t i = (gap + 1) & mask; set->entries[i].key != 0; i = (i + 1) & mask) {
-        uint32_t home = home_of(set, set->entries[i].key);
+        uint32_t home = fe__pair_home(set, set->entries[i].key);
         if (((i - home) & mask) < ((i - gap) & mask)) continue;
         set->entries[gap] = set->entries[i];
         gap = i;

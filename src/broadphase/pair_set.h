@@ -17,6 +17,25 @@ typedef struct fe__pair_set {
     int32_t count;
 } fe__pair_set;
 
+static inline uint64_t fe__pair_key(int32_t a, int32_t b)
+{
+    uint64_t low = (uint64_t)(a < b ? a : b), high = (uint64_t)(a < b ? b : a);
+    return low << 32 | high;
+}
+
+// The hash is Fibonacci's: the key times 2^64 over the golden ratio, upper bits. Shape indices of neighbours are close
+// to each other, which this spreads well.
+static inline uint32_t fe__pair_home(const fe__pair_set *set, uint64_t key)
+{
+    return (uint32_t)(key * UINT64_C(0x9E3779B97F4A7C15) >> 32) & (uint32_t)(set->capacity - 1);
+}
+
+// Asks memory for what fe__pair_set_find will read first
+FE_FETCHES fe__pair_set_fetch(const fe__pair_set *set, int32_t a, int32_t b)
+{
+    if (set->count) __builtin_prefetch(set->entries + fe__pair_home(set, fe__pair_key(a, b)));
+}
+
 void fe__pair_set_destroy(fe__pair_set *set, fe__memory *memory);
 int32_t fe__pair_set_reserve(fe__pair_set *set, fe__memory *memory,
                              int32_t extra); // 0: no memory; the `extra` insertions that follow cannot fail

@@ -127,6 +127,7 @@ void fe__stop_fast_bodies(fe__step *step)
         w->bodies[s->chased[i]].flags &= ~(uint32_t)FE__BODY_CHASED;
         if (is_bullet(w, s->chased[i])) fe__apply_chase(w, s->chased[i], s->chases + i);
     }
+    if (!w->trigger_pair_count) return;
     for (int32_t i = 0; i < count; ++i) cross_triggers(step, s->chased[i]);
     for (int32_t i = 0; i < kinematic; ++i) cross_triggers(step, s->chased[s->kinematic_room + i]);
 }

@@ -26,6 +26,7 @@ static int32_t is_driven(const fe__body *b)
 static int32_t is_pushed_by_static_only(const fe_world *w, int32_t body)
 {
     int32_t pushed = 0;
+    if (!w->bodies[body].static_pairs) return 0;
     for (int32_t i = w->bodies[body].first_contact; i >= 0; i = fe__next_pair(w, i, body)) {
         const fe__pair *p = w->pairs + i;
         const fe__contact *m = w->contacts + i;

@@ -30,6 +30,8 @@ static inline float fe__maxf(float a, float b) { return a > b ? a : b; }
 static inline float fe__clampf(float a, float low, float high) { return fe__minf(fe__maxf(a, low), high); }
 static inline double fe__clampd(double a, double low, double high) { return a < low ? low : a > high ? high : a; }
 static inline float fe__absf(float a) { return __builtin_fabsf(a); }
+// a magnitude below `least` is 0; NaN stays
+static inline float fe__flush(float a, float least) { return fe__absf(a) < least ? 0.0f : a; }
 static inline double fe__mind(double a, double b) { return a < b ? a : b; }
 static inline double fe__maxd(double a, double b) { return a > b ? a : b; }
 static inline double fe__absd(double a) { return __builtin_fabs(a); }

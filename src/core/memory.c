@@ -10,8 +10,8 @@
 enum {
     BLOCK_ALIGNMENT = 64, // a cache line, and the widest SIMD load
     SMALL = 16,           // records: a smaller array grows fourfold; a world of one body stays small
-    DOUBLE_BELOW = 1024,  // records: a larger array grows by a quarter
-    GROWTH = 4,
+    DOUBLE_BELOW = 1024,  // records: a larger array grows by an eighth
+    GROWTH = 8,
     ROOM = 16, // a part of what is asked for at once is left over, so that a little more does not move the array again
 };
 
@@ -76,18 +76,22 @@ static void *load_pointer(const void *array)
 
 static void store_pointer(void *array, void *pointer) { memcpy(array, &pointer, sizeof pointer); }
 
-// As much as is asked for, then fourfold, doubling, and by a quarter once an array is large: O(log n) times, and little
-// room is left over
-int32_t fe__reserve(fe__memory *memory, void *array, int32_t *capacity, int64_t need, size_t size)
+// As much as is asked for, then fourfold, doubling, and by an eighth once an array is large: O(log n) times, and little
+// room is left over. 0: more than there can be
+static int32_t grown_capacity(int32_t capacity, int64_t need, size_t size)
 {
-    if (need <= *capacity) return 1;
     if (need > INT32_MAX) return 0;
-    int64_t grown = *capacity ? *capacity : need < DOUBLE_BELOW ? need : DOUBLE_BELOW;
+    int64_t grown = capacity ? capacity : need < DOUBLE_BELOW ? need : DOUBLE_BELOW;
     while (grown < need && grown < DOUBLE_BELOW) grown *= grown < SMALL ? 4 : 2;
     if (grown < need) grown = grown + grown / GROWTH > need + need / ROOM ? grown + grown / GROWTH : need + need / ROOM;
     if (grown > INT32_MAX) grown = INT32_MAX;
-    if ((uint64_t)grown > PTRDIFF_MAX / size) return 0;
+    return (uint64_t)grown > PTRDIFF_MAX / size ? 0 : (int32_t)grown;
+}
 
+int32_t fe__reserve(fe__memory *memory, void *array, int32_t *capacity, int64_t need, size_t size)
+{
+    if (need <= *capacity) return 1;
+    int32_t grown = grown_capacity(*capacity, need, size);
     size_t new_size = (size_t)grown * size, old_size = (size_t)*capacity * size;
     char *block = take(memory, new_size);
     if (!block) return 0;
@@ -96,7 +100,19 @@ int32_t fe__reserve(fe__memory *memory, void *array, int32_t *capacity, int64_t 
     memset(block + old_size, 0, new_size - old_size);
     fe__release(memory, old, old_size);
     store_pointer(array, block);
-    *capacity = (int32_t)grown;
+    *capacity = grown;
+    return 1;
+}
+
+int32_t fe__renew(fe__memory *memory, void *array, int32_t *capacity, int64_t need, size_t size)
+{
+    if (need <= *capacity) return 1;
+    int32_t grown = grown_capacity(*capacity, need, size);
+    void *block = take(memory, (size_t)grown * size);
+    if (!block) return 0;
+    fe__release(memory, load_pointer(array), (size_t)*capacity * size);
+    store_pointer(array, block);
+    *capacity = grown;
     return 1;
 }
 

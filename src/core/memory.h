@@ -3,7 +3,7 @@
 // Only the thread that uses the world allocates, or who holds the store's lock. A world and its own store share the
 // host's allocator: a guard lets one call at a time in. Growing never loses: a failed fe__reserve leaves the array as
 // it was. All blocks are aligned to 64 bytes and new memory is zeroed, so that padding lanes and spare fields hold
-// zeros.
+// zeros; but for scratch (fe__renew): pages that nobody writes cost no time.
 #ifndef FE_CORE_MEMORY_H
 #define FE_CORE_MEMORY_H
 #include "feather.h"
@@ -33,12 +33,16 @@ void fe__release(fe__memory *memory, void *block, size_t size);          // NULL
 // Makes room for `need` records of `size` bytes in *array (of *capacity records), by growing geometrically. 0 on
 // failure, with nothing changed.
 int32_t fe__reserve(fe__memory *memory, void *array, int32_t *capacity, int64_t need, size_t size);
+// The same for scratch: what was in the array is lost when it grows, and nothing is zeroed.
+int32_t fe__renew(fe__memory *memory, void *array, int32_t *capacity, int64_t need, size_t size);
 // Gives the array back and sets pointer and capacity to 0.
 void fe__free_array(fe__memory *memory, void *array, int32_t *capacity, size_t size);
 
 // FE_RESERVE(memory, world->bodies, world->body_capacity, n): typed wrapper of fe__reserve
 #define FE_RESERVE(memory, array, capacity, need) \
     fe__reserve((memory), &(array), &(capacity), (int64_t)(need), sizeof *(array))
+#define FE_RENEW(memory, array, capacity, need) \
+    fe__renew((memory), &(array), &(capacity), (int64_t)(need), sizeof *(array))
 #define FE_FREE(memory, array, capacity) fe__free_array((memory), &(array), &(capacity), sizeof *(array))
 
 #endif

@@ -45,9 +45,13 @@ FE_INLINE wide_sym world_inverse_inertia(wide4 axes, wide3 inverse)
     wide3 x = {w_set(1.0f), w_set(0.0f), w_set(0.0f)}, y = {x.y, x.x, x.y}, z = {x.y, x.y, x.x};
     x = w_add(x, w_turn(axes, x)), y = w_add(y, w_turn(axes, y)), z = w_add(z, w_turn(axes, z));
     wide3 ix = w_scale(inverse.x, x), iy = w_scale(inverse.y, y), iz = w_scale(inverse.z, z);
-    return (wide_sym){ix.x * x.x + iy.x * y.x + iz.x * z.x, ix.x * x.y + iy.x * y.y + iz.x * z.y,
-                      ix.x * x.z + iy.x * y.z + iz.x * z.z, ix.y * x.y + iy.y * y.y + iz.y * z.y,
-                      ix.y * x.z + iy.y * y.z + iz.y * z.z, ix.z * x.z + iy.z * y.z + iz.z * z.z};
+    wide least = FE__LEAST_LEAN * (inverse.x + inverse.y + inverse.z);
+    return (wide_sym){ix.x * x.x + iy.x * y.x + iz.x * z.x,
+                      w_flush(ix.x * x.y + iy.x * y.y + iz.x * z.y, least),
+                      w_flush(ix.x * x.z + iy.x * y.z + iz.x * z.z, least),
+                      ix.y * x.y + iy.y * y.y + iz.y * z.y,
+                      w_flush(ix.y * x.z + iy.y * y.z + iz.y * z.z, least),
+                      ix.z * x.z + iy.z * y.z + iz.z * z.z};
 }
 
 // A locked body's inverse inertia is the inverse of the sub-block of R I R^T over its free axes, zero elsewhere: what a
@@ -104,6 +108,7 @@ FE_INLINE void load_block(fe__solver *s, const fe__body *bodies, int32_t line, c
     wide zero = w_set(0.0f), one = w_set(1.0f), there = *(wide *)is_there;
     wide4 v = BODY_QUAD(velocity), w = BODY_QUAD(spin), force = BODY_QUAD(force), torque = BODY_QUAD(torque);
     wide4 inertia = BODY_QUAD(inertia), axes = w_product(BODY_QUAD(rotation), BODY_QUAD(inertia_axes));
+    axes = w_with(w_flush3(w_xyz(axes), w_set(FE__LEAST_LEAN)), w_flush(axes.w, w_set(FE__LEAST_LEAN)));
     wide_mask moves = w_greater(v.w * there, zero);
     wide3 inverse = {w_choose(moves, one / inertia.x, zero), w_choose(moves, one / inertia.y, zero),
                      w_choose(moves, one / inertia.z, zero)};
@@ -139,6 +144,9 @@ static void load(fe__solver *s, const fe__body *bodies, int32_t first, int32_t c
 // energy and |I w|; two Newton steps from m = w solve it. What two steps leave open may add energy: the result is then
 // shortened to the energy before.
 
+// rad/s about a principal axis, two centuries a turn; also of the axes, what they lean. The torque is quadratic in both
+#define LEAST_SPIN 1e-9f
+
 // m - J^-1 f, J = I + h/2 ([m] I - [I m]), by cofactors; m itself where J is not safe to invert
 FE_INLINE wide3 newton(wide3 m, wide3 w, wide3 in, wide3 d)
 {
@@ -159,10 +167,12 @@ FE_INLINE wide twice_energy(wide3 w, wide3 in) { return in.x * w.x * w.x + in.y 
 // what the spin changes by in h, world axes of before
 FE_INLINE wide3 free_change(wide3 world, wide4 axes, wide3 in, wide half_h)
 {
-    wide3 w = w_add(world, w_turn_back(axes, world));
+    wide least = w_set(LEAST_SPIN);
+    axes = w_with(w_flush3(w_xyz(axes), least), axes.w);
+    wide3 w = w_flush3(w_add(world, w_turn_back(axes, world)), least);
     wide3 d = {half_h * (in.z - in.y), half_h * (in.x - in.z), half_h * (in.y - in.x)};
-    wide3 m = newton(newton(w, w, in, d), w, in, d);
-    wide3 w2 = w_sub(w_add(m, m), w);
+    wide3 m = newton(w_flush3(newton(w, w, in, d), least), w, in, d);
+    wide3 w2 = w_flush3(w_sub(w_add(m, m), w), w_set(FE__LEAST_SPEED));
     wide before = twice_energy(w, in), after = twice_energy(w2, in);
     wide k = w_choose(w_greater(after, before), w_sqrt(before / after), w_set(1.0f));
     wide3 change = w_sub(w_scale(k, w2), w);
@@ -245,7 +255,8 @@ static void carry_velocities(fe__solver *s, int32_t first, int32_t count, const 
     for (int32_t i = first; i < first + count; i += FE_W) {
         wide4 v, w, start, spin;
         load_line(s->velocity, i, &v, &w), load_line(s->start, i, &start, &spin);
-        wide3 dv = w_sub(w_xyz(v), w_xyz(start)), dw = w_sub(w_xyz(w), w_xyz(spin)), v0 = w_xyz(v), w0 = w_xyz(w);
+        wide3 v0 = w_flush3(w_xyz(v), w_set(FE__LEAST_SPEED)), w0 = w_flush3(w_xyz(w), w_set(FE__LEAST_SPEED));
+        wide3 dv = w_sub(v0, w_xyz(start)), dw = w_sub(w0, w_xyz(spin));
         if (w_any(is_joined(spin.w))) w0 = w_add(w0, joined_change(s, i, spin.w, w0, dw, w_set(0.5f * c->h)));
         advance(s, i, c, &v0, &w0);
         store_line(s->start, i, w_with(v0, v.w), w_with(w0, spin.w));
@@ -260,7 +271,7 @@ static void carry_velocities(fe__solver *s, int32_t first, int32_t count, const 
 FE_INLINE wide3 turn_freely(fe__solver *s, int32_t i, wide kind, wide4 turned, const fe__step_constants *c)
 {
     wide4 stored = load_high(s->velocity, i);
-    wide3 w = w_xyz(stored);
+    wide3 w = w_flush3(w_xyz(stored), w_set(FE__LEAST_SPEED));
     wide_mask gyroscopic = w_and(w_greater(kind, w_set(0.0f)), w_not(w_greater(kind, w_set(FE__GYROSCOPIC_FREE))));
     if (!w_any(gyroscopic)) return w;
     wide4 principal = load_high(s->axes, i), start = load_high(s->start, i);
@@ -270,7 +281,7 @@ FE_INLINE wide3 turn_freely(fe__solver *s, int32_t i, wide kind, wide4 turned, c
           u = w_scale(half_h, mean);
     wide k = 1.0f / w_sqrt(1.0f + w_dot(u, u));
     change = w_add(change, w_turn(w_with(w_scale(k, u), k), half));
-    store_high(s->velocity, i, w_with(w_choose3(gyroscopic, w_add(w, change), w), stored.w));
+    store_high(s->velocity, i, w_with(w_choose3(gyroscopic, w_add(w, change), w_xyz(stored)), stored.w));
     store_high(s->start, i, w_with(w_choose3(gyroscopic, w_add(w_xyz(start), change), w_xyz(start)), start.w));
     return mean;
 }
@@ -284,6 +295,7 @@ static void integrate_positions(fe__solver *s, int32_t first, int32_t count, con
         wide3 v = w_xyz(load_low(s->velocity, i)), half = w_scale(w_set(0.5f * c->h), turn_freely(s, i, p.w, q, c));
         if (w_any(is_joined(p.w))) store_moved(s, i, w_xyz(load_high(s->velocity, i)));
         wide3 u = w_add(w_xyz(q), w_add(w_scale(q.w, half), w_cross(half, w_xyz(q))));
+        u = w_flush3(u, w_set(FE__LEAST_SPEED));
         wide a = q.w - w_dot(half, w_xyz(q));
         wide k = 1.0f / w_sqrt(w_dot(u, u) + a * a);
         store_line(s->motion, i, w_with(w_add_scaled(w_xyz(p), w_set(c->h), v), p.w), w_with(w_scale(k, u), k * a));

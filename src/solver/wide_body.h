@@ -63,6 +63,7 @@ FE_INLINE wide_sym turned_inertia(const fe__solver *s, const int32_t *index, wid
     wide_sym i = gather_inertia(s, index);
     wide zero = w_set(0.0f), one = w_set(1.0f);
     wide3 x = {one, zero, zero}, y = {zero, one, zero}, z = {zero, zero, one};
+    q = w_with(w_flush3(w_xyz(q), w_set(FE__LEAST_LEAN)), q.w);
     x = w_add(x, w_turn_back(q, x)), y = w_add(y, w_turn_back(q, y)), z = w_add(z, w_turn_back(q, z));
     wide3 ix = w_mul(&i, x), iy = w_mul(&i, y), iz = w_mul(&i, z);
     wide_mask locked = w_greater(locks, zero);

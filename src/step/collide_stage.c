@@ -11,6 +11,7 @@
 #include "step/narrow_field.h"
 #include "world/pair_link.h"
 #include "world/pairs.h"
+#include "world/proxies.h"
 #include "world/sleep.h"
 
 enum { PAIRS_IN_BLOCK = 64, PAIRS_IN_CACHE = 256, FETCHED_AHEAD = 24 };
@@ -21,40 +22,22 @@ typedef struct collide_job {
 } collide_job;
 
 // ---- one pair ------------------------------------------------------------------------------------------------------
-static void box_of(const fe_world *w, int32_t shape, fe__bounds *out)
-{
-    int32_t is_static = w->bodies[w->shapes[shape].body].type == FE_BODY_STATIC;
-    fe__tree_get(is_static ? &w->static_tree : &w->moving_tree, shape, out);
-}
-
-static int32_t boxes_part(const fe_world *w, const fe__pair *p)
-{
-    fe__bounds a, b;
-    const fe__shape *x = w->shapes + p->shape_a, *y = w->shapes + p->shape_b;
-    if (x->flags & FE__SHAPE_IN_TREE) box_of(w, p->shape_a, &a);
-    if (y->flags & FE__SHAPE_IN_TREE) box_of(w, p->shape_b, &b);
-    if (x->flags & FE__SHAPE_IN_PLANES) return !fe__plane_meets_box(&x->form, &x->pose, &b);
-    if (y->flags & FE__SHAPE_IN_PLANES) return !fe__plane_meets_box(&y->form, &y->pose, &a);
-    return a.high.x < b.low.x || b.high.x < a.low.x || a.high.y < b.low.y || b.high.y < a.low.y || a.high.z < b.low.z ||
-           b.high.z < a.low.z;
-}
-
 static int32_t judge(const fe_world *w, int32_t pair)
 {
     const fe__pair *p = w->pairs + pair;
     int32_t has_points = w->contacts[pair].point_count > 0.0f, linked = (p->flags & FE__PAIR_LINKED) != 0;
     if (has_points) return linked || p->flags & FE__PAIR_SENSOR ? FE__RESULT_NONE : FE__RESULT_BEGIN;
-    if (!(p->flags & FE__PAIR_PATCH) && boxes_part(w, p)) return FE__RESULT_APART;
+    if (!(p->flags & FE__PAIR_PATCH) && fe__boxes_part(w, p)) return FE__RESULT_APART;
     return linked ? FE__RESULT_END : FE__RESULT_NONE;
 }
 
 // A pair without points may move by `slack` before it is looked at again. One with a heightfield is asked for more than
 // its gap
-static void defer(const fe__step *step, int32_t pair, float slack)
+void fe__defer_pair(const fe__step *step, int32_t pair, float slack)
 {
     const fe_world *w = step->world;
     const fe__pair *p = w->pairs + pair;
-    if (p->flags & (FE__PAIR_PATCH | FE__PAIR_MAY_REPORT) || p->next_patch >= 0) return;
+    if (p->flags & (FE__PAIR_PATCH | FE__PAIR_MAY_REPORT) || p->next_patch >= 0 || p->awake_index < 0) return;
     fe__defer(w->deferrals + p->awake_index, w->odometers, p->body_a, p->body_b, slack, w->contacts[pair].longest_arm);
     w->awake_pairs[p->awake_index] = ~pair;
     atomic_store_explicit(&step->scratch->some_deferred, 1, memory_order_relaxed);
@@ -65,7 +48,7 @@ static void note_result(fe__step *step, int32_t pair)
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     w->pairs[pair].result = judge(w, pair);
-    if (!(w->contacts[pair].point_count > 0.0f)) defer(step, pair, w->contacts[pair].surface.tolerance);
+    if (!(w->contacts[pair].point_count > 0.0f)) fe__defer_pair(step, pair, w->contacts[pair].surface.tolerance);
     if (w->pairs[pair].result != FE__RESULT_NONE)
         s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
 }
@@ -132,19 +115,13 @@ FE_FETCHES fetch_pair(const fe_world *w, int32_t pair)
 }
 
 // The next awake pairs that do not wait, PAIRS_IN_CACHE at most. Moves *at behind them
-static int32_t list_due(fe__step *step, int32_t *at, int32_t end, int32_t *out_pairs)
+static int32_t list_due(const fe__step *step, int32_t *at, int32_t end, int32_t *out_pairs)
 {
     const fe_world *w = step->world;
     int32_t i = *at, count = 0;
     for (; i < end && count < PAIRS_IN_CACHE; ++i) {
-        int32_t entry = w->awake_pairs[i];
-        __builtin_prefetch(w->deferrals + fe__mini(i + FETCHED_AHEAD, end - 1));
-        out_pairs[count] = entry;
-        if (entry < 0) {
-            if (fe__stays_deferred(w->deferrals + i, w->odometers, step->dt)) continue;
-            out_pairs[count] = w->awake_pairs[i] = ~entry;
-        }
-        ++count;
+        out_pairs[count] = w->awake_pairs[i];
+        count += w->awake_pairs[i] >= 0;
     }
     *at = i;
     return count;
@@ -160,14 +137,14 @@ static int32_t collide_some(fe__step *step, const int32_t *pairs, int32_t count)
     float slack[PAIRS_IN_CACHE], fall = fe__fall_in_step(w, step->dt);
     w->kernels->recycle(w->contacts, w->bodies, pairs, count, step->dt, fall, verdicts, slack);
     for (int32_t i = 0; i < count; ++i) {
-        int32_t pair = pairs[i];
+        int32_t pair = pairs[i], next = fe__mini(i + FETCHED_AHEAD, count - 1);
+        if (verdicts[next] != FE__STAYS) fe__fetch(w->pairs + pairs[next], sizeof *w->pairs);
         if (verdicts[i] == FE__STAYS) continue;
         if (verdicts[i] == FE__STAYS_APART) {
-            defer(step, pair, slack[i]);
+            fe__defer_pair(step, pair, slack[i]);
             continue;
         }
         again[left++] = pair;
-        fe__fetch(w->pairs + pair, sizeof *w->pairs);
     }
     for (int32_t i = -AHEAD; i < left; ++i) {
         if (i + AHEAD < left) fetch_pair(w, again[i + AHEAD]);
@@ -215,6 +192,13 @@ static void wake_sleeping(fe_world *w, int32_t body)
     if (w->bodies[body].type == FE_BODY_DYNAMIC && w->bodies[body].awake_index < 0) fe__wake(w, body);
 }
 
+// It waits for no longer than until the next step looks how far apart they are
+static void end_contact(fe__step *step, int32_t pair)
+{
+    fe__pair_unlink(step->world, pair);
+    fe__defer_pair(step, pair, 0.0f);
+}
+
 // ends before beginnings, so that a colour given back can be taken in the same step
 static void apply_results(fe__step *step, int32_t first)
 {
@@ -224,7 +208,7 @@ static void apply_results(fe__step *step, int32_t first)
     sort_pairs(step, results, count);
     for (int32_t i = 0; i < count; ++i)
         if (w->pairs[results[i]].result == FE__RESULT_END || w->pairs[results[i]].result == FE__RESULT_APART)
-            fe__pair_unlink(w, results[i]);
+            end_contact(step, results[i]);
     for (int32_t i = 0; i < count; ++i) {
         const fe__pair *p = w->pairs + results[i];
         if (p->result != FE__RESULT_BEGIN) continue;
@@ -280,6 +264,7 @@ void fe__build_islands(fe__step *step)
     if (!s->graph_changed) return;
     if (!w->awake_body_count) { // built when somebody wakes
         s->batch_count = s->large_count = s->group_count = s->lane_count = s->line_count = s->island_count = 0;
+        s->built = (fe__built){.overflow = 0};
         return;
     }
     int32_t contact_count;

@@ -121,15 +121,17 @@ static void forget_if_asleep(fe_world *w, int32_t pair)
     if (w->bodies[p->body_a].awake_index < 0 && w->bodies[p->body_b].awake_index < 0) fe__pair_retire(w, pair);
 }
 
-static void report(fe_world *w, int32_t pair)
+static void report(fe__step *step, int32_t pair)
 {
+    fe_world *w = step->world;
     fe__pair *p = w->pairs + pair;
     int32_t kind = p->result;
     if (p->flags & FE__PAIR_ONCE) forget_if_asleep(w, pair);
     if (kind == FE_EVENT_EXIT && !(p->flags & FE__PAIR_TOUCHING)) return;
-    if (kind == FE_EVENT_EXIT)
+    if (kind == FE_EVENT_EXIT) {
         p->flags &= ~(uint32_t)FE__PAIR_TOUCHING;
-    else
+        fe__defer_pair(step, pair, 0.0f);
+    } else
         p->flags |= FE__PAIR_TOUCHING;
     if (kind != FE_EVENT_EXIT && !(p->flags & FE__PAIR_SENSOR)) add_hit(w, pair);
     if (p->events & (kind == FE_EVENT_STAY ? (uint32_t)FE_SHAPE_EVENTS_STAY : (uint32_t)FE_SHAPE_EVENTS_TOUCH))
@@ -179,7 +181,7 @@ void fe__collect_events(fe__step *step)
     look_job job = {step, fe__busy_pairs(step, &count)};
     fe__parallel_for(&w->workers, count, PAIRS_IN_BLOCK, look_block, &job);
     count = atomic_load(&s->result_count);
-    for (int32_t i = 0; i < count; ++i) report(w, s->results[i]);
+    for (int32_t i = 0; i < count; ++i) report(step, s->results[i]);
     sort_records(step, (unsigned char *)w->pair_events, w->pair_event_count, sizeof *w->pair_events);
     sort_records(step, (unsigned char *)w->hit_events, w->hit_event_count, sizeof *w->hit_events);
 }

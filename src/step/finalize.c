@@ -1,8 +1,10 @@
 // finalize.c - stages after the solver: poses and boxes from what the bodies did, then islands fall asleep.
 //
 // Each body is its own; the trees are written by the stepping thread, from a list of the shapes that left their boxes.
+#define FE_W 4
 #include "step/finalize.h"
 
+#include "core/simd.h"
 #include "solver/graph/graph.h"
 #include "solver/motion_check.h"
 #include "world/joint_list.h"
@@ -24,7 +26,7 @@ static int32_t turn(fe__body *body, const float *dq)
 {
     if (dq[0] == 0.0f && dq[1] == 0.0f && dq[2] == 0.0f) return 0;
     fe_quat q = fe__normalized(fe__product(fe__quat_of(dq), fe__rotation_of(body)));
-    body->rotation[0] = q.x, body->rotation[1] = q.y, body->rotation[2] = q.z, body->rotation[3] = q.w;
+    *(quad *)body->rotation = w_flush((wide){q.x, q.y, q.z, q.w}, w_set(FE__LEAST_SPEED));
     return 1;
 }
 
@@ -107,6 +109,14 @@ FE_FETCHES fetch_box(const fe_world *w, int32_t i)
     if (shape >= 0) fe__tree_fetch(&w->moving_tree, shape);
 }
 
+// three numbers of a quad, whose fourth is the body's own
+static void take_flushed(float *out, const float *in)
+{
+    wide a = w_flush(*(const quad *)in, w_set(FE__LEAST_SPEED));
+    a[3] = out[3];
+    *(quad *)out = a;
+}
+
 // of joined bodies on which a gyroscopic torque acts
 static void note_relaxed(const fe__solver *s, fe__body *body)
 {
@@ -130,10 +140,9 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
             stop_lost(step, body);
             continue;
         }
-        for (int k = 0; k < 3; ++k) {
-            body->velocity[k] = velocity->v[k], body->spin[k] = velocity->w[k];
-            body->force[k] = body->torque[k] = 0.0f;
-        }
+        take_flushed(body->velocity, velocity->v);
+        take_flushed(body->spin, velocity->w);
+        for (int k = 0; k < 3; ++k) body->force[k] = body->torque[k] = 0.0f;
         note_relaxed(&w->solver, body);
         int32_t moved = shift(body, motion->shift) | turn(body, motion->rotation);
         tick_sleep_timer(w, body, motion, step->dt);

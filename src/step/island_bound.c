@@ -22,7 +22,6 @@ static void join_candidates(const fe__step *step)
     const fe__step_scratch *s = step->scratch;
     for (int32_t i = 0; i < s->candidate_count; ++i)
         join_shapes(step->world, s->candidates[i].shape_a, s->candidates[i].shape_b);
-    step->world->clusters.has_grown |= s->candidate_count > 0;
 }
 
 static void join_joints(fe_world *w)
@@ -38,30 +37,88 @@ static void make_anew(fe__step *step)
     fe_world *w = step->world;
     fe__clusters *c = &w->clusters;
     fe__clusters_part(c);
-    for (int32_t i = 0; i < w->pair_set.capacity; ++i) {
-        if (w->pair_set.entries[i].key == 0) continue;
-        const fe__pair *p = w->pairs + w->pair_set.entries[i].value;
-        join_shapes(w, p->shape_a, p->shape_b);
+    for (int32_t i = 1; i < w->pair_limit; ++i) {
+        const fe__pair *p = w->pairs + i;
+        if (p->flags & FE__PAIR_FREE) continue;
+        join(w, p->body_a, p->body_b, 1); // patches are records too
     }
     join_joints(w);
     join_candidates(step);
-    c->has_grown = 0;
+    c->made = c->all;
+}
+
+void fe__count_candidates(fe__step *step)
+{
+    fe__clusters *c = &step->world->clusters;
+    if (c->body_count < step->world->body_capacity) c->is_stale = 1;
+    if (!c->is_stale) join_candidates(step);
+}
+
+// 0: no memory
+static int32_t renew(fe__step *step)
+{
+    fe_world *w = step->world;
+    if (!w->clusters.is_stale) return 1;
+    if (!fe__clusters_reserve(&w->clusters, &w->memory, w->body_capacity)) return 0;
+    make_anew(step);
+    return 1;
+}
+
+// What parts stays together in them. They are made anew when an eighth as much again has been joined since: so a step
+// that joins n pairs walks 8 n records on average.
+static int32_t may_have_parted(const fe__clusters *c) { return c->all - c->made > c->made / 8; }
+
+// ---- what may wake -------------------------------------------------------------------------------------------------
+static int32_t is_asleep(const fe__body *body) { return body->awake_index < 0 && body->type == FE_BODY_DYNAMIC; }
+
+// The sleeping body of the n-th pair by which something may wake: candidates first. -1: none
+static int32_t sleeper_of(const fe__step *step, int32_t n)
+{
+    const fe_world *w = step->world;
+    const fe__step_scratch *s = step->scratch;
+    int32_t a, b;
+    if (n < s->candidate_count) {
+        a = w->shapes[s->candidates[n].shape_a].body, b = w->shapes[s->candidates[n].shape_b].body;
+    } else {
+        const fe__contact *m = w->contacts + fe__pair_of(w->awake_pairs[n - s->candidate_count]);
+        if (m->colour >= 0) return -1;
+        a = m->body_a, b = m->body_b;
+    }
+    return is_asleep(w->bodies + a) ? a : is_asleep(w->bodies + b) ? b : -1;
+}
+
+static int32_t waking_pairs(const fe__step *step)
+{
+    return step->scratch->candidate_count + step->world->awake_pair_count;
+}
+
+int32_t fe__bound_waking(fe__step *step, int32_t *out_lanes, int32_t *out_clusters)
+{
+    fe_world *w = step->world;
+    fe__clusters *c = &w->clusters;
+    *out_lanes = *out_clusters = 0;
+    if (w->awake_body_count == w->body_count - w->static_count) return 1;
+    int32_t n = 0, end = waking_pairs(step);
+    while (n < end && sleeper_of(step, n) < 0) ++n;
+    if (n == end) return 1;
+    if (!renew(step)) return 0;
+    if (may_have_parted(c)) make_anew(step);
+    fe__clusters_ask(c);
+    for (; n < end; ++n) {
+        int32_t body = sleeper_of(step, n);
+        if (body >= 0) *out_clusters += fe__clusters_add(c, body, out_lanes);
+    }
+    return 1;
 }
 
 int32_t fe__bound_islands(fe__step *step, fe__graph_bound *bound)
 {
     fe_world *w = step->world;
-    fe__clusters *c = &w->clusters;
-    if (fe__graph_has_rows(&w->solver, w->kernels, bound, w->workers.count)) {
-        c->is_stale |= step->scratch->candidate_count > 0; // nobody asks, nobody counts
-        return 1;
-    }
-    if (c->body_count < w->body_capacity) c->is_stale = 1;
-    if (!fe__clusters_reserve(c, &w->memory, w->body_capacity)) return 0;
-    if (!c->is_stale) join_candidates(step);
+    const fe__clusters *c = &w->clusters;
+    if (fe__graph_has_rows(&w->solver, w->kernels, bound, w->workers.count)) return 1;
+    if (!renew(step)) return 0;
     bound->largest = c->most;
-    if (c->is_stale || (c->has_grown && !fe__graph_has_rows(&w->solver, w->kernels, bound, w->workers.count)))
-        make_anew(step);
+    if (may_have_parted(c) && !fe__graph_has_rows(&w->solver, w->kernels, bound, w->workers.count)) make_anew(step);
     bound->largest = c->most;
     return 1;
 }

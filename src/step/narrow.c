@@ -13,7 +13,7 @@
 #include <string.h>
 
 // How far a pair may slide or turn before it needs a new manifold: at most this, m, and a share of the thinner form.
-// Less for round forms, whose normal turns with them.
+// Less for round forms and for edges side by side, whose normal turns with them.
 #define RECYCLE_MOST 0.03f
 #define RECYCLE_SHARE 0.1f
 #define RECYCLE_ROUND 0.0005f
@@ -30,7 +30,10 @@ static void set_view(fe__view *v, const fe__shape *a, const fe__shape *b, const 
     v->a = a, v->b = b, v->form_a = a->form;
     v->origin = pose_a->position;
     v->rotation = fe__matrix(pose_a->rotation);
-    v->relative.rotation = fe__matrix(fe__product(fe__conjugate(pose_a->rotation), pose_b->rotation));
+    fe_quat q = fe__product(fe__conjugate(pose_a->rotation), pose_b->rotation);
+    const float least = FE__LEAST_LEAN;
+    v->relative.rotation = fe__matrix(
+        (fe_quat){fe__flush(q.x, least), fe__flush(q.y, least), fe__flush(q.z, least), fe__flush(q.w, least)});
     fe_dvec3 between = fe__dsub(pose_b->position, pose_a->position);
     if (fe__form_is_unbounded(&a->form)) {
         fe__plane_move_frame(&v->form_a, pose_a->rotation, between);
@@ -216,10 +219,12 @@ float fe__recycle_tolerance(const fe__view *v)
                     RECYCLE_SHARE * fe__minf(fe__form_thickness(&v->a->form), fe__form_thickness(&v->b->form)));
 }
 
-// A manifold's normal points away from fe__collide's A; the solver's A may be the other one
+// A manifold's normal points away from fe__collide's A; the solver's A may be the other one. What leans so little
+// against the world's axes that only rounding knows lies along them.
 static fe_vec3 solvers_normal(const fe__contact *m, const fe__view *v, fe_vec3 normal)
 {
     fe_vec3 n = fe__mul(&v->rotation, normal);
+    n = fe__vec3(fe__flush(n.x, FE__LEAST_LEAN), fe__flush(n.y, FE__LEAST_LEAN), fe__flush(n.z, FE__LEAST_LEAN));
     return m->body_a != v->a->body ? fe__neg(n) : n;
 }
 
@@ -367,6 +372,8 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
         return;
     }
     match_impulses(p, m, &found);
-    m->surface.tolerance = ahead ? FE__AHEAD : fe__recycle_tolerance(&v);
+    float tolerance = fe__recycle_tolerance(&v);
+    if (found.round) tolerance = fe__minf(tolerance, RECYCLE_ROUND);
+    m->surface.tolerance = ahead ? FE__AHEAD : tolerance;
     fe__write_manifold(world, m, &v, &at, &found, ahead);
 }

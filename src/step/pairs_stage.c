@@ -1,37 +1,67 @@
 // pairs_stage.c - stage 1: which shapes came near each other.
 //
 // Shapes with a new box (fe_world.moved) ask the trees and the planes; what passes the filter and has no record is a
-// candidate. Workers write to buffers of their own, merged and sorted by creation, so that neither the workers nor the
-// trees show. Nothing of the world is changed before all memory that the step can need is reserved.
+// candidate. Workers take chunks of one array to write to. What they wrote is sorted by creation, so that neither the
+// workers nor the trees show. Nothing of the world is changed before all memory that the step can need is reserved.
 #include "step/pairs_stage.h"
 
+#include "step/crowd.h"
+#include "step/due.h"
 #include "step/reserve.h"
 #include "world/filter.h"
 #include "world/handles.h"
 #include "world/mass.h"
 #include "world/pairs.h"
 
-enum { SHAPES_IN_BLOCK = 32, FIRST_ROOM = 256 };
+enum {
+    SHAPES_IN_BLOCK = 32,
+    CANDIDATES_IN_CHUNK = 64,
+    MEETINGS = 64 // that wait for what they read: enough to hide the memory's latency, few enough to stay in the cache
+};
 
+// Boxes that meet, of which most have a record already: its entry and the other shape lie anywhere, and are asked for
+// long before they are read
 typedef struct search {
     const fe_world *world;
-    fe__candidate_buffer *buffer;
-    int32_t room;
+    fe__step_scratch *scratch;
+    fe__candidate_chunk *chunk;
     int32_t shape;
+    int32_t waiting;
+    fe__candidate met[MEETINGS]; // `shape` then, and the other
 } search;
 
+static void add_candidate(search *s, fe__candidate c)
+{
+    fe__candidate_chunk *chunk = s->chunk;
+    if (chunk->at == chunk->end) {
+        chunk->at = atomic_fetch_add_explicit(&s->scratch->chunks_end, CANDIDATES_IN_CHUNK, memory_order_relaxed);
+        chunk->end = chunk->at + CANDIDATES_IN_CHUNK;
+    }
+    if (chunk->at < s->scratch->candidate_capacity) s->scratch->candidates[chunk->at] = c;
+    ++chunk->at;
+}
+
 // of two moved shapes the one with the lower index reports
+static void judge_meetings(search *s)
+{
+    const fe_world *w = s->world;
+    for (int32_t i = 0; i < s->waiting; ++i) {
+        int32_t shape = s->met[i].shape_a, other = s->met[i].shape_b;
+        if (w->shapes[other].flags & FE__SHAPE_MOVED && other < shape) continue;
+        if (fe__pair_set_find(&w->pair_set, shape, other) >= 0 || !fe__may_collide(w, shape, other)) continue;
+        int32_t first = w->shapes[shape].serial < w->shapes[other].serial;
+        add_candidate(s, first ? (fe__candidate){shape, other} : (fe__candidate){other, shape});
+    }
+    s->waiting = 0;
+}
+
 static int32_t found(void *context, int32_t other)
 {
     search *s = context;
-    const fe_world *w = s->world;
-    if (w->shapes[other].flags & FE__SHAPE_MOVED && other < s->shape) return 1;
-    if (!fe__may_collide(w, s->shape, other) || fe__pair_set_find(&w->pair_set, s->shape, other) >= 0) return 1;
-    int32_t first = w->shapes[s->shape].serial < w->shapes[other].serial;
-    if (s->buffer->count < s->room)
-        s->buffer->items[s->buffer->count] =
-            first ? (fe__candidate){s->shape, other} : (fe__candidate){other, s->shape};
-    ++s->buffer->count;
+    fe__fetch(&s->world->shapes[other].flags, sizeof s->world->shapes->flags);
+    fe__pair_set_fetch(&s->world->pair_set, s->shape, other);
+    s->met[s->waiting++] = (fe__candidate){s->shape, other};
+    if (s->waiting == MEETINGS) judge_meetings(s);
     return 1;
 }
 
@@ -70,7 +100,7 @@ static void search_tree(search *s)
 static void search_block(void *argument, int32_t first, int32_t end, int32_t worker)
 {
     const fe__step *step = argument;
-    search s = {step->world, step->scratch->buffers + worker, step->scratch->candidate_room, 0};
+    search s = {step->world, step->scratch, step->scratch->chunks + worker, 0, 0, {{0}}};
     for (int32_t i = first; i < end; ++i) {
         s.shape = step->world->moved[i];
         const fe__shape *shape = step->world->shapes + s.shape;
@@ -79,35 +109,42 @@ static void search_block(void *argument, int32_t first, int32_t end, int32_t wor
         if (flags & FE__SHAPE_IN_PLANES) search_plane(&s);
         if (flags & FE__SHAPE_IN_TREE) search_tree(&s);
     }
+    judge_meetings(&s);
 }
 
-static int32_t reserve_candidates(fe__step *step, int32_t room)
+static int32_t reserve_candidates(fe__step *step, int64_t room)
 {
     fe__step_scratch *s = step->scratch;
     int32_t workers = step->world->workers.count;
-    if (!FE_RESERVE(&step->world->memory, s->candidates, s->candidate_capacity, (int64_t)room * workers)) return 0;
-    s->candidate_room = s->candidate_capacity / workers;
-    for (int32_t i = 0; i < workers; ++i)
-        s->buffers[i].items = s->candidates + i * s->candidate_room, s->buffers[i].count = 0;
+    // the last chunk of each worker may be all but empty
+    room += (int64_t)workers * CANDIDATES_IN_CHUNK;
+    if (!FE_RENEW(&step->world->memory, s->candidates, s->candidate_capacity, room)) return 0;
+    for (int32_t i = 0; i < workers; ++i) s->chunks[i].at = s->chunks[i].end = 0;
+    atomic_store(&s->chunks_end, 0);
     return 1;
 }
 
-// A full buffer only counts: with more room the search is done again
+// Leaves no gap where a worker did not fill its last chunk
+static void close_gaps(fe__step *step)
+{
+    fe__step_scratch *s = step->scratch;
+    for (int32_t i = 0; i < step->world->workers.count; ++i)
+        for (int32_t k = s->chunks[i].at; k < s->chunks[i].end; ++k) s->candidates[k].shape_a = -1;
+    s->candidate_count = 0;
+    for (int32_t i = 0, end = atomic_load(&s->chunks_end); i < end; ++i)
+        if (s->candidates[i].shape_a >= 0) s->candidates[s->candidate_count++] = s->candidates[i];
+}
+
+// Beyond the capacity it only counts: with more room the search is done again
 static int32_t search_all(fe__step *step)
 {
     fe__step_scratch *s = step->scratch;
     const fe_world *w = step->world;
-    for (int32_t room = FIRST_ROOM;;) {
-        if (!reserve_candidates(step, room)) return 0;
+    do {
+        if (!reserve_candidates(step, atomic_load(&s->chunks_end))) return 0;
         fe__parallel_for(&w->workers, w->moved_count, SHAPES_IN_BLOCK, search_block, step);
-        int32_t most = 0;
-        for (int32_t i = 0; i < w->workers.count; ++i) most = fe__maxi(most, s->buffers[i].count);
-        if (most <= s->candidate_room) break;
-        room = most + most / 2;
-    }
-    s->candidate_count = s->buffers[0].count;
-    for (int32_t i = 1; i < w->workers.count; ++i)
-        for (int32_t k = 0; k < s->buffers[i].count; ++k) s->candidates[s->candidate_count++] = s->buffers[i].items[k];
+    } while (atomic_load(&s->chunks_end) > s->candidate_capacity);
+    close_gaps(step);
     return 1;
 }
 
@@ -149,11 +186,17 @@ void fe__find_new_pairs(fe__step *step)
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     fe__settle_sizes(w);
-    step->failed = !search_all(step) || !fe__reserve_step(step);
+    step->failed = !search_all(step) || !fe__thin_crowds(step) || !fe__find_due(step);
     if (step->failed) return;
+    step->failed = !fe__reserve_step(step);
+    if (step->failed) {
+        fe__put_due_back(step);
+        return;
+    }
     sort_candidates(step);
     for (int32_t i = 0; i < s->candidate_count; ++i)
         fe__pair_create(w, s->candidates[i].shape_a, s->candidates[i].shape_b, is_denied(w, s->candidates + i));
     for (int32_t i = 0; i < w->moved_count; ++i) w->shapes[w->moved[i]].flags &= ~(uint32_t)FE__SHAPE_MOVED;
     w->moved_count = 0;
+    fe__keep_looking(step);
 }

@@ -4,6 +4,7 @@
 // step fails with the world as it was; later stages cannot fail, so that no contact and no event is ever dropped.
 #include "step/reserve.h"
 
+#include "solver/graph/colour.h"
 #include "solver/graph/graph.h"
 #include "step/island_bound.h"
 #include "world/forest.h"
@@ -12,73 +13,123 @@
 
 #include <string.h>
 
-// with no more contacts each, two bodies have colours enough for a contact between them
-enum { CROWD = FE__STATIC_COLOURS < FE__PAIR_COLOURS / 2 ? FE__STATIC_COLOURS : FE__PAIR_COLOURS / 2 };
+// ---- contacts to come ----------------------------------------------------------------------------------------------
+// Bodies of the n-th contact that may be linked: candidates first, then pairs that just ceased to wait
+static int32_t is_field_candidate(const fe__step *step, int32_t n)
+{
+    const fe__candidate *c = step->scratch->candidates + n;
+    return n < step->scratch->candidate_count && fe__is_field_pair(step->world, c->shape_a, c->shape_b);
+}
 
-// Can anything asleep be touched in this step? Then all of it may wake.
-static int32_t may_wake(const fe__step *step)
+static void bodies_of(const fe__step *step, int32_t n, fe__body *out[2])
 {
     const fe_world *w = step->world;
     const fe__step_scratch *s = step->scratch;
-    if (w->awake_body_count == w->body_count - w->static_count) return 0;
-    for (int32_t i = 0; i < s->candidate_count; ++i) {
-        const fe__body *a = w->bodies + w->shapes[s->candidates[i].shape_a].body,
-                       *b = w->bodies + w->shapes[s->candidates[i].shape_b].body;
-        if ((a->awake_index < 0 && a->type == FE_BODY_DYNAMIC) || (b->awake_index < 0 && b->type == FE_BODY_DYNAMIC))
-            return 1;
+    if (n < s->candidate_count) {
+        out[0] = w->bodies + w->shapes[s->candidates[n].shape_a].body;
+        out[1] = w->bodies + w->shapes[s->candidates[n].shape_b].body;
+        return;
     }
-    for (int32_t i = 0; i < w->awake_pair_count; ++i) {
-        const fe__contact *m = w->contacts + fe__pair_of(w->awake_pairs[i]);
-        const fe__body *a = w->bodies + m->body_a, *b = w->bodies + m->body_b;
-        if (m->colour < 0 &&
-            ((a->awake_index < 0 && a->type == FE_BODY_DYNAMIC) || (b->awake_index < 0 && b->type == FE_BODY_DYNAMIC)))
-            return 1;
-    }
-    return 0;
+    const fe__pair *p = w->pairs + s->busy[n - s->candidate_count];
+    out[0] = w->bodies + p->body_a, out[1] = w->bodies + p->body_b;
 }
 
-// contacts of bodies that may run out of colours
-static int32_t crowded_contacts(const fe_world *w, int32_t most)
+static int32_t to_come(const fe__step *step)
 {
-    int64_t crowded = 0;
-    if (most <= CROWD) return 0;
-    for (int32_t i = w->first_body; i >= 0; i = w->bodies[i].order_next) {
-        int32_t contacts = w->bodies[i].contact_count + w->bodies[i].coming_contacts;
-        if (w->bodies[i].type == FE_BODY_DYNAMIC && contacts > CROWD) crowded += contacts;
-    }
-    return crowded < INT32_MAX ? (int32_t)crowded : INT32_MAX;
+    return step->scratch->candidate_count + atomic_load(&step->scratch->due_count);
 }
 
-// what the candidates add: contacts of one body, kinds of rows
-static void add_candidates(const fe__step *step, fe__graph_bound *b)
+static void expect(const fe__step *step, fe__graph_bound *b)
 {
-    step->scratch->candidate_patches = 0;
+    fe__step_scratch *s = step->scratch;
+    s->candidate_patches = 0;
+    for (int32_t n = 0; n < to_come(step); ++n) {
+        fe__body *body[2];
+        bodies_of(step, n, body);
+        int32_t patches = is_field_candidate(step, n) ? FE__PATCHES : 1;
+        body[0]->coming_contacts += patches, body[1]->coming_contacts += patches;
+        s->candidate_patches += patches - 1;
+        if (n < s->candidate_count)
+            b->kinds |= 1u << fe__pair_kind(step->world, s->candidates[n].shape_a, s->candidates[n].shape_b);
+    }
+}
+
+static void forget_expected(const fe__step *step)
+{
+    for (int32_t n = 0; n < to_come(step); ++n) {
+        fe__body *body[2];
+        bodies_of(step, n, body);
+        body[0]->coming_contacts = body[1]->coming_contacts = 0;
+    }
+}
+
+// Of the dynamic bodies that a step may move: the most pairs of one, and those of all that may run out of colours
+typedef struct neighbours {
+    int32_t most, crowded;
+} neighbours;
+
+static void count_neighbours(const fe__body *body, neighbours *n)
+{
+    enum { COLOURS_FOR_ALL = FE__STATIC_COLOURS < FE__PAIR_COLOURS / 2 ? FE__STATIC_COLOURS : FE__PAIR_COLOURS / 2 };
+    int32_t pairs = body->contact_count + body->coming_contacts;
+    if (body->type != FE_BODY_DYNAMIC) return;
+    n->most = fe__maxi(n->most, pairs);
+    if (pairs > COLOURS_FOR_ALL) n->crowded += pairs;
+}
+
+static neighbours find_neighbours(const fe_world *w, int32_t all)
+{
+    neighbours n = {0, 0};
+    for (int32_t i = all ? w->first_body : -1; i >= 0; i = w->bodies[i].order_next) count_neighbours(w->bodies + i, &n);
+    for (int32_t i = 0; i < w->awake_body_count && !all; ++i) count_neighbours(w->bodies + w->awake_bodies[i], &n);
+    return n;
+}
+
+// Colours that the contacts to come may find, `others` among them that are in no list of those to come. The first free
+// colour of two bodies comes after no more than theirs and those of all that may come to them, but for the contact
+// itself, which is counted once for each of its dynamic bodies; it or its mate is taken. A body has no more than pairs
+static void bound_colours(const fe__step *step, int32_t others, int32_t all, fe__graph_bound *b)
+{
+    enum { MOST_OF_PAIR = FE__PAIR_COLOURS + 1, MOST_OF_STATIC = FE__STATIC_COLOURS };
     const fe_world *w = step->world;
-    const fe__step_scratch *s = step->scratch;
-    for (int32_t i = 0; i < s->candidate_count; ++i) {
-        const fe__candidate *c = s->candidates + i;
-        const int32_t shapes[2] = {c->shape_a, c->shape_b};
-        b->kinds |= 1u << fe__pair_kind(w, c->shape_a, c->shape_b);
-        int32_t patches = fe__is_field_pair(w, c->shape_a, c->shape_b) ? FE__PATCHES : 1;
-        b->contacts += patches - 1;
-        step->scratch->candidate_patches += patches - 1;
+    neighbours of_all = others ? find_neighbours(w, all) : (neighbours){0, 0};
+    int32_t pairs = 2 * of_all.most, statics = of_all.most;
+    for (int32_t n = 0; n < to_come(step); ++n) {
+        fe__body *body[2];
+        bodies_of(step, n, body);
+        int32_t found = 0, of_pair = 1;
         for (int k = 0; k < 2; ++k) {
-            fe__body *body = w->bodies + w->shapes[shapes[k]].body;
-            body->coming_contacts += patches;
-            if (body->type == FE_BODY_DYNAMIC)
-                b->most_contacts = fe__maxi(b->most_contacts, body->contact_count + body->coming_contacts);
+            if (body[k]->type == FE_BODY_DYNAMIC)
+                found += body[k]->coming_contacts + fe__mini(fe__colours_of(body[k]) + others, body[k]->contact_count);
+            else
+                of_pair = 0;
         }
+        if (of_pair) pairs = fe__maxi(pairs, found);
+        if (!of_pair) statics = fe__maxi(statics, found);
+        b->crowded +=
+            (found > (of_pair ? MOST_OF_PAIR : MOST_OF_STATIC)) * (is_field_candidate(step, n) ? FE__PATCHES : 1);
     }
+    if (pairs > MOST_OF_PAIR || statics > MOST_OF_STATIC) b->crowded += fe__mini(others, of_all.crowded);
+    b->pair_colours = fe__mini(fe__maxi(pairs, w->pair_colours), FE__PAIR_COLOURS);
+    b->static_colours = fe__mini(fe__maxi(statics, w->static_colours), FE__STATIC_COLOURS);
 }
 
-static void forget_candidates(const fe__step *step)
+// Contacts that may be linked or woken in this step
+static void bound_fresh(const fe__step *step, int32_t asleep, fe__graph_bound *b)
 {
     const fe_world *w = step->world;
-    for (int32_t i = 0; i < step->scratch->candidate_count; ++i) {
-        const fe__candidate *c = step->scratch->candidates + i;
-        w->bodies[w->shapes[c->shape_a].body].coming_contacts = w->bodies[w->shapes[c->shape_b].body].coming_contacts =
-            0;
-    }
+    const fe__step_scratch *s = step->scratch;
+    expect(step, b);
+    int32_t coming = s->candidate_count + s->candidate_patches,
+            busy = w->awake_pair_count - atomic_load(&s->waiting_count), unlinked = busy - w->awake_linked_count,
+            patches = w->field_pair_count * (FE__PATCHES - 1), woken = w->solver.unbuilt;
+    int32_t others = unlinked - atomic_load(&s->due_count) + asleep + patches;
+    b->contacts = busy + asleep + patches + coming;
+    b->fresh = fe__mini(b->contacts, unlinked + asleep + patches + coming + woken);
+    bound_colours(step, fe__maxi(others, 0), asleep > 0, b);
+    if (w->pair_colours == FE__PAIR_COLOURS || w->static_colours == FE__STATIC_COLOURS) b->crowded += woken + asleep;
+    b->crowded = fe__mini(b->crowded, b->fresh);
+    forget_expected(step);
 }
 
 // Bodies that leave a trail, see solve.c. What wakes stands still
@@ -98,24 +149,22 @@ static void count_fast(const fe__step *step, fe__graph_bound *b)
     }
 }
 
-static fe__graph_bound bound_of(const fe__step *step)
+// Clusters of n lanes in all have n more bodies than clusters, at most, but for joints without rows
+static fe__graph_bound bound_of(const fe__step *step, int32_t waking_lanes, int32_t waking_clusters)
 {
     const fe_world *w = step->world;
-    int32_t all = may_wake(step);
+    int32_t asleep = fe__mini(waking_lanes, w->pair_count - w->awake_pair_count),
+            joints = waking_clusters ? w->joint_count : w->awake_joint_count;
     fe__graph_bound b = {0};
-    b.bodies = all ? w->body_count : w->awake_body_count;
-    b.contacts = (all ? w->pair_count : w->awake_pair_count) + step->scratch->candidate_count +
-                 w->field_pair_count * (FE__PATCHES - 1);
-    b.most_contacts = w->most_contacts;
+    b.bodies = fe__mini(w->body_count, w->awake_body_count + waking_lanes + waking_clusters + joints);
+    b.kinematic = w->kinematic_count;
     b.kinds = w->row_kinds;
-    add_candidates(step, &b);
-    b.crowded = crowded_contacts(w, b.most_contacts);
+    bound_fresh(step, asleep, &b);
     b.special = b.kinds >> FE__ROW_SPECIAL != 0;
     b.joint_set = &w->joints;
-    b.joints = all ? w->joint_count : w->awake_joint_count;
+    b.joints = joints;
     b.largest = INT32_MAX;
     count_fast(step, &b);
-    forget_candidates(step);
     return b;
 }
 
@@ -127,14 +176,14 @@ static int32_t reserve_scratch(fe__step *step, const fe__graph_bound *b)
     // at least one, so that an empty stretch has an address too
     int64_t sorted = 1 + fe__maxi(fe__maxi(b->contacts, step->scratch->candidate_count), w->body_count);
     sorted += w->owed_count + w->joint_count;
-    return FE_RESERVE(memory, s->results, s->result_capacity, (int64_t)b->contacts + 1) &&
+    return FE_RENEW(memory, s->results, s->result_capacity, (int64_t)b->contacts + 1) &&
            FE_RESERVE(memory, s->busy, s->busy_capacity, (int64_t)b->contacts + 1) &&
-           FE_RESERVE(memory, s->left, s->left_capacity, w->shape_count) &&
-           FE_RESERVE(memory, s->boxes, s->box_capacity, w->shape_count) &&
-           FE_RESERVE(memory, s->chased, s->chased_capacity, (int64_t)2 * b->bodies) &&
-           FE_RESERVE(memory, s->chases, s->chase_capacity, w->has_bullets ? b->bodies : 0) &&
-           FE_RESERVE(memory, s->island_timers, s->island_capacity, b->bodies) &&
-           FE_RESERVE(memory, s->sort_items, s->sort_capacity, 2 * sorted) &&
+           FE_RENEW(memory, s->left, s->left_capacity, w->shape_count) &&
+           FE_RENEW(memory, s->boxes, s->box_capacity, w->shape_count) &&
+           FE_RENEW(memory, s->chased, s->chased_capacity, (int64_t)2 * b->bodies) &&
+           FE_RENEW(memory, s->chases, s->chase_capacity, w->has_bullets ? b->bodies : 0) &&
+           FE_RENEW(memory, s->island_timers, s->island_capacity, b->bodies) &&
+           FE_RENEW(memory, s->sort_items, s->sort_capacity, 2 * sorted) &&
            FE_RESERVE(memory, w->pair_events, w->pair_event_capacity, (int64_t)b->contacts + w->owed_count) &&
            FE_RESERVE(memory, w->body_events, w->body_event_capacity, w->body_count) &&
            FE_RESERVE(memory, w->hit_events, w->hit_event_capacity, w->wants_hits ? b->contacts : 0) &&
@@ -155,7 +204,10 @@ int32_t fe__reserve_step(fe__step *step)
 {
     fe_world *w = step->world;
     if (!fe__find_joint_trees(w)) return 0;
-    fe__graph_bound bound = bound_of(step);
+    int32_t lanes, clusters;
+    fe__count_candidates(step);
+    if (!fe__bound_waking(step, &lanes, &clusters)) return 0;
+    fe__graph_bound bound = bound_of(step, lanes, clusters);
     if (!fe__reserve_pairs(w, step->scratch->candidate_count + step->scratch->candidate_patches) ||
         !reserve_scratch(step, &bound))
         return 0;

@@ -38,6 +38,7 @@ static void count(const fe__step *step)
     const fe__solver *s = &w->solver;
     fe_counters *c = &w->counters;
     c->recycled = atomic_load(&step->scratch->recycled);
+    c->contacts_left_out += step->scratch->left_out;
     c->islands = s->island_count;
     c->rows = c->rows_whole = c->lanes = c->colours = 0;
     c->trees = step->dt > 0.0f ? atomic_load(&s->engaged) : 0;

@@ -31,6 +31,7 @@ static void append_to_order(fe_world *world, int32_t index)
     world->last_body = index;
     world->body_count += 1;
     world->static_count += body->type == FE_BODY_STATIC;
+    world->kinematic_count += body->type == FE_BODY_KINEMATIC;
 }
 
 static void remove_from_order(fe_world *world, int32_t index)
@@ -46,6 +47,7 @@ static void remove_from_order(fe_world *world, int32_t index)
         world->last_body = body->order_previous;
     world->body_count -= 1;
     world->static_count -= body->type == FE_BODY_STATIC;
+    world->kinematic_count -= body->type == FE_BODY_KINEMATIC;
 }
 
 static void set_pose(fe__body *body, const fe_transform *transform)
@@ -172,6 +174,7 @@ fe_result fe__body_set_type(fe_world *world, int32_t index, int32_t type)
     if (body->awake_index >= 0) fe__body_retire(world, index);
     leave_shapes(world, index);
     world->static_count += (type == FE_BODY_STATIC) - (body->type == FE_BODY_STATIC);
+    world->kinematic_count += (type == FE_BODY_KINEMATIC) - (body->type == FE_BODY_KINEMATIC);
     body->type = type;
     body->sleep_timer = 0.0f;
     forget_forces(body);

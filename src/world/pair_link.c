@@ -24,6 +24,14 @@ static void note_uneven(fe__body *a, fe__body *b)
     if (of_b > UNEVEN * of_a) b->flags |= FE__BODY_STRAINED;
 }
 
+static void note_colour(fe_world *world, const fe__contact *m)
+{
+    if (m->colour < FE__PAIR_COLOURS)
+        world->pair_colours = fe__maxi(world->pair_colours, m->colour + 1);
+    else if (m->colour != FE__OVERFLOW_COLOUR)
+        world->static_colours = fe__maxi(world->static_colours, m->colour - FE__PAIR_COLOURS + 1);
+}
+
 void fe__pair_link(fe_world *world, int32_t pair)
 {
     fe__contact *m = world->contacts + pair;
@@ -32,6 +40,8 @@ void fe__pair_link(fe_world *world, int32_t pair)
     world->pairs[pair].flags |= FE__PAIR_LINKED;
     world->solver.graph_changed = 1;
     ++world->linked_count;
+    note_colour(world, m);
+    if (world->pairs[pair].awake_index >= 0) ++world->awake_linked_count, ++world->solver.unbuilt;
     if (world->pairs[pair].flags & FE__PAIR_PATCH) enter_lists(world, pair);
 }
 
@@ -48,6 +58,7 @@ void fe__pair_unlink(fe_world *world, int32_t pair)
     fe__uncolour_contact(world->bodies, m);
     fe__pair_forget_impulses(world, pair);
     world->pairs[pair].flags &= ~(uint32_t)FE__PAIR_LINKED;
+    if (world->pairs[pair].awake_index >= 0) --world->awake_linked_count;
     world->solver.graph_changed = 1;
     --world->linked_count;
 }

@@ -33,12 +33,14 @@ void fe__pair_awaken(fe_world *world, int32_t pair)
     if (world->pairs[pair].awake_index >= 0) return;
     world->pairs[pair].awake_index = world->awake_pair_count;
     world->awake_pairs[world->awake_pair_count++] = pair;
+    if (world->pairs[pair].flags & FE__PAIR_LINKED) ++world->awake_linked_count, ++world->solver.unbuilt;
 }
 
 void fe__pair_retire(fe_world *world, int32_t pair)
 {
     int32_t place = world->pairs[pair].awake_index;
     if (place < 0) return;
+    if (world->pairs[pair].flags & FE__PAIR_LINKED) --world->awake_linked_count;
     int32_t last = --world->awake_pair_count;
     world->awake_pairs[place] = world->awake_pairs[last];
     world->deferrals[place] = world->deferrals[last];

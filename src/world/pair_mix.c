@@ -83,5 +83,5 @@ void fe__pair_mix(fe_world *world, int32_t pair)
     world->row_kinds |= 1u << kind;
     if (kind == m->kind) return;
     m->kind = kind;
-    if (m->colour >= 0) world->solver.graph_changed = 1;
+    if (m->colour >= 0) world->solver.graph_changed = 1, ++world->solver.unbuilt;
 }

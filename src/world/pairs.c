@@ -36,7 +36,6 @@ static void add_to_body(fe_world *world, int32_t pair, int32_t index)
     fe__pair_add_to_list(world, pair, index);
     body->contact_count += world->pairs[pair].next_patch >= 0 ? FE__PATCHES : 1;
     body->static_pairs += is_with_static(world, pair);
-    if (body->type == FE_BODY_DYNAMIC) world->most_contacts = fe__maxi(world->most_contacts, body->contact_count);
 }
 
 static void remove_from_body(fe_world *world, int32_t pair, int32_t index)
@@ -130,12 +129,13 @@ int32_t fe__pair_create(fe_world *world, int32_t shape_a, int32_t shape_b, int32
     else if (concerns_sleepers(world, p))
         fe__pair_look_once(world, pair);
     ++world->pair_count;
+    world->trigger_pair_count += (p->flags & FE__PAIR_SENSOR) != 0;
     return pair;
 }
 
 void fe__pair_release(fe_world *world, int32_t pair)
 {
-    world->pairs[pair].flags = 0;
+    world->pairs[pair].flags = FE__PAIR_FREE;
     world->pairs[pair].links[0].next = world->first_free_pair;
     world->first_free_pair = pair;
 }
@@ -169,7 +169,7 @@ static void owe_exit(fe_world *world, int32_t pair)
     fe_pair_event event = fe__pair_event_of(world, pair, FE_EVENT_EXIT);
     owed_exit owed = {event.body_a, event.body_b, event.shape_a, event.shape_b, event.is_trigger};
     memcpy(world->contacts[pair].point, &owed, sizeof owed);
-    world->pairs[pair].flags = 0;
+    world->pairs[pair].flags = FE__PAIR_FREE;
     world->pairs[pair].links[0].next = world->first_owed;
     world->first_owed = pair;
     ++world->owed_count;
@@ -225,6 +225,7 @@ void fe__pair_destroy(fe_world *world, int32_t pair)
     remove_from_body(world, pair, p->body_b);
     fe__pair_set_remove(&world->pair_set, p->shape_a, p->shape_b);
     --world->pair_count;
+    world->trigger_pair_count -= (p->flags & FE__PAIR_SENSOR) != 0;
     if (p->flags & FE__PAIR_TOUCHING && p->events & FE_SHAPE_EVENTS_TOUCH)
         owe_exit(world, pair);
     else

@@ -122,3 +122,22 @@ void fe__body_stretch_boxes(fe_world *world, int32_t index)
         if (in_tree && !fe__tree_holds(tree_of(world, &world->shapes[i]), i, &reach)) fe__shape_touch(world, i);
     }
 }
+
+// ---- of pairs ------------------------------------------------------------------------------------------------------
+static void box_of(const fe_world *w, int32_t shape, fe__bounds *out)
+{
+    int32_t is_static = w->bodies[w->shapes[shape].body].type == FE_BODY_STATIC;
+    fe__tree_get(is_static ? &w->static_tree : &w->moving_tree, shape, out);
+}
+
+int32_t fe__boxes_part(const fe_world *w, const fe__pair *p)
+{
+    fe__bounds a, b;
+    const fe__shape *x = w->shapes + p->shape_a, *y = w->shapes + p->shape_b;
+    if (x->flags & FE__SHAPE_IN_TREE) box_of(w, p->shape_a, &a);
+    if (y->flags & FE__SHAPE_IN_TREE) box_of(w, p->shape_b, &b);
+    if (x->flags & FE__SHAPE_IN_PLANES) return !fe__plane_meets_box(&x->form, &x->pose, &b);
+    if (y->flags & FE__SHAPE_IN_PLANES) return !fe__plane_meets_box(&y->form, &y->pose, &a);
+    return a.high.x < b.low.x || b.high.x < a.low.x || a.high.y < b.low.y || b.high.y < a.low.y || a.high.z < b.low.z ||
+           b.high.z < a.low.z;
+}

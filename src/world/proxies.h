@@ -17,5 +17,6 @@ void fe__shape_leave(fe_world *world, int32_t shape);
 void fe__shape_touch(fe_world *world, int32_t shape);       // its pose or form is new: a new box, new pairs
 void fe__shape_mark_moved(fe_world *world, int32_t shape);  // looks for pairs in the next step
 void fe__body_stretch_boxes(fe_world *world, int32_t body); // boxes that no longer hold what the next step may reach
+int32_t fe__boxes_part(const fe_world *world, const fe__pair *pair);
 
 #endif

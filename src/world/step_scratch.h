@@ -12,10 +12,11 @@ typedef struct fe__candidate {
     int32_t shape_a, shape_b;
 } fe__candidate;
 
-typedef struct fe__candidate_buffer {
-    _Alignas(FE_CACHE_LINE) fe__candidate *items; // a stretch of fe__step_scratch.candidates
-    int32_t count;                                // found; those beyond the capacity were not written
-} fe__candidate_buffer;
+// Where a worker writes: a chunk of fe__step_scratch.candidates. What lies beyond the capacity is not written
+typedef struct fe__candidate_chunk {
+    _Alignas(FE_CACHE_LINE) int32_t at;
+    int32_t end;
+} fe__candidate_chunk;
 
 // Where a body ends that something stood in the way of
 typedef struct fe__chase {
@@ -24,14 +25,31 @@ typedef struct fe__chase {
     int32_t stopped;
 } fe__chase;
 
-typedef struct fe__step_scratch {
-    fe__candidate *candidates; // a stretch for each worker; merged and sorted in the first
-    int32_t candidate_capacity, candidate_room, candidate_count;
-    int32_t candidate_patches; // further records that the candidates with heightfields need
-    fe__candidate_buffer buffers[FE_MAX_WORKERS];
+// A body in a crowd (step/crowd.c): a shape of it, how many pairs it may yet have with others of the crowd, and how
+// many it chose
+typedef struct fe__crowded {
+    int32_t shape, room, count;
+} fe__crowded;
 
-    int32_t *busy;                 // awake pairs that do not wait
-    _Atomic int32_t some_deferred; // 0: no awake pair does
+typedef struct fe__favourite {
+    uint64_t rank; // the larger, the dearer
+    int32_t candidate;
+} fe__favourite;
+
+typedef struct fe__step_scratch {
+    fe__candidate *candidates;
+    int32_t candidate_capacity, candidate_count;
+    int32_t candidate_patches; // further records that the candidates with heightfields need
+    fe__candidate_chunk chunks[FE_MAX_WORKERS];
+    _Atomic int32_t chunks_end; // of those that the workers took
+    fe__crowded *crowd;
+    fe__favourite *favourites; // of each body of the crowd
+    int32_t crowd_capacity, favourite_capacity;
+    int32_t left_out; // candidates behind those that count
+
+    int32_t *busy; // awake pairs that do not wait; while a step reserves: those that just ceased to
+    _Atomic int32_t due_count, waiting_count; // see step/due.c
+    _Atomic int32_t some_deferred;            // 0: no awake pair does
     int32_t busy_capacity;
     int32_t *results; // pairs that begin, end or part in this step
     int32_t result_capacity;

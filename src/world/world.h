@@ -61,7 +61,7 @@ struct fe_world {
     int32_t use_count, use_capacity;
     uint64_t next_serial;                      // of bodies, shapes and joints alike
     int32_t first_body, last_body, body_count; // in the order of creation
-    int32_t static_count;                      // of them
+    int32_t static_count, kinematic_count;     // of them
     int32_t shape_count;
 
     // contacts: hot and cold halves by the same index; free ones are linked through links[0].next
@@ -73,13 +73,15 @@ struct fe_world {
     int32_t pair_limit;               // indices below were used
     int32_t first_free_pair;          // -1: none
     int32_t pair_count, linked_count; // patches count with their head, and each that is linked
+    int32_t awake_linked_count;       // linked ones in the list of awake pairs
     int32_t field_pair_count;         // with a heightfield in them
+    int32_t trigger_pair_count;       // with a trigger in them
     // bounds for what a step may need; they only grow
-    int32_t most_contacts;   // of one dynamic body
-    uint32_t row_kinds;      // 1 << FE__ROW_* of every pair
-    int32_t wants_hits;      // a shape asked for hit events
-    int32_t has_bullets;     // a body was one
-    int32_t has_stale_sizes; // a body has FE__BODY_SIZES_STALE
+    int32_t pair_colours, static_colours; // all that there ever were are among the first so many
+    uint32_t row_kinds;                   // 1 << FE__ROW_* of every pair
+    int32_t wants_hits;                   // a shape asked for hit events
+    int32_t has_bullets;                  // a body was one
+    int32_t has_stale_sizes;              // a body has FE__BODY_SIZES_STALE
     _Atomic int32_t
         swiftest; // speed over thickness, 1/s, of the body that has most of it: the bits of a float, which rise with it
     fe__clusters clusters;

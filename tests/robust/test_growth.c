@@ -173,12 +173,69 @@ static void a_level_forgets_the_shapes_that_are_gone(void **state)
     FE_TRUE(reach[0] == reach[1] && thickness[0] == thickness[1]);
 }
 
+// ---- what sleeps ---------------------------------------------------------------------------------------------------
+static void add_sleeper(fe_world *world, double x, double y, double z)
+{
+    fe_body_def def;
+    fe_body body = 0;
+    fe_shape shape = 0;
+    fe_geometry box;
+    fe_body_def_init(&def, sizeof def);
+    def.awake = 0;
+    def.transform = fe_make_transform(x, y, z);
+    OK(fe_body_create(world, &def, &body));
+    fe_geometry_box(&box, 0.5f, 0.5f, 0.5f);
+    OK(fe_shape_create(world, body, NULL, &box, &shape));
+}
+
+// Bytes that the world grows by while a ball rolls against a box that sleeps 100 m from a heap that sleeps too
+static double growth_by_a_touch(int32_t side, int32_t *out_heap_pairs)
+{
+    fe_world *world = new_world();
+    fe_counters counters = {.struct_size = sizeof counters};
+    fe_geometry ball;
+    fe_shape shape = 0;
+    const fe_vec3 none = {0}, speed = {5.0f, 0.0f, 0.0f};
+    OK(fe_world_set_gravity(world, &none));
+    for (int32_t i = 0; i < side * side * side; ++i)
+        add_sleeper(world, 1.002 * (i % side), 1.002 * (i / side % side), 1.002 * (i / (side * side)));
+    add_sleeper(world, -100.0, 0.0, 0.0);
+    fe_body rolling = new_body(world, FE_BODY_DYNAMIC, -110.0);
+    fe_geometry_sphere(&ball, 0.5f);
+    OK(fe_shape_create(world, rolling, NULL, &ball, &shape));
+    OK(fe_body_set_linear_velocity(world, rolling, &speed));
+    OK(fe_world_step(world, 1.0f / 60.0f));
+    OK(fe_world_get_counters(world, &counters));
+    double before = (double)counters.bytes;
+    *out_heap_pairs = counters.pairs;
+    for (int32_t i = 0; i < 180 && counters.awake_bodies == 1; ++i) {
+        OK(fe_world_step(world, 1.0f / 60.0f));
+        OK(fe_world_get_counters(world, &counters));
+    }
+    assert_int_equal(counters.awake_bodies, 2);
+    OK(fe_world_destroy(world));
+    return (double)counters.bytes - before;
+}
+
+// It reserves for what hangs together with the box, not for the heap, whose rows would take at least 230 bytes a
+// contact. What it takes more beside a heap is lists by body: of clusters 12 bytes, of the step some more.
+static void a_touch_wakes_no_memory_of_a_heap_elsewhere(void **state)
+{
+    (void)state;
+    enum { SIDE = 12, LIST_BYTES = 64 * SIDE * SIDE * SIDE };
+    int32_t few, many;
+    double alone = growth_by_a_touch(0, &few), beside = growth_by_a_touch(SIDE, &many);
+    FE_TRUE(many > 5000);
+    FE_WITHIN(beside - alone, 0.0, LIST_BYTES);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_body_goes_with_its_own_ignored_pairs),
         cmocka_unit_test(a_shape_costs_the_same_on_a_body_of_many),
         cmocka_unit_test(a_level_forgets_the_shapes_that_are_gone),
+        cmocka_unit_test(a_touch_wakes_no_memory_of_a_heap_elsewhere),
     };
     return cmocka_run_group_tests_name("growth", tests, NULL, NULL);
 }

@@ -322,6 +322,64 @@ static void a_ladder_too_flat_slides_down(void **state)
     scene_end(&s);
 }
 
+// ---- the A-frame ---------------------------------------------------------------------------------------------------
+// Two boards, `length` long and `thick`, lean on each other edge to edge at an angle from the vertical; the second is
+// turned by `askew` about the vertical. Each stands on an inner edge and leans with the inner edge of its other end, so
+// that the force H between them, level by symmetry, has the arm length cos(angle), and the weight the arm of the
+// centre:
+//     H length cos(angle) = m g (length sin(angle) - thick cos(angle)) / 2
+// They hold while H <= mu m g, or mu >= (tan(angle) - thick / length) / 2. Tolerance: 0.01, of which the depth of the
+// contacts takes half.
+typedef struct board {
+    double length, thick, wide;
+} board;
+
+static double way_of_a_frame(void **state, board of, double angle, double askew, double mu)
+{
+    scene s = scene_begin(state);
+    add_ground(&s, friction(mu));
+    vec start[2];
+    fe_body boards[2];
+    for (int i = 0; i < 2; ++i) {
+        double side = i ? 1 : -1, turn = i ? askew : 0, end = of.wide / 2 * fabs(sin(turn));
+        start[i] = v3(side * ((of.length * sin(angle) + of.thick * cos(angle)) / 2 + end),
+                      (of.length * cos(angle) + of.thick * sin(angle)) / 2, 0);
+        fe_quat leaning = turned(v3(0, 0, 1), side * angle);
+        boards[i] = add_dynamic(&s, box(of.thick / 2, of.length / 2, of.wide / 2), start[i],
+                                compose(turned(v3(0, 1, 0), turn), leaning), friction(mu), WATER);
+    }
+    run(&s, 300);
+    double way = 0;
+    for (int i = 0; i < 2; ++i) way = fmax(way, length(minus(position(&s, boards[i]), start[i])));
+    scene_end(&s);
+    return way;
+}
+
+static void boards_that_lean_on_each_other_hold_by_their_feet(void **state)
+{
+    static const board boards[] = {{2, 0.004, 0.6}, {1, 0.02, 0.4}, {0.5, 0.02, 0.3}};
+    static const double askew[] = {0, 0.5, 2};
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+            for (int degrees = 15; degrees <= 40; degrees += 5) {
+                double angle = degrees * DEGREES, mu = (tan(angle) - boards[i].thick / boards[i].length) / 2;
+                FE_WITHIN(way_of_a_frame(state, boards[i], angle, askew[k] * DEGREES, mu + 0.01), 0, LINEAR_SLOP);
+                FE_WITHIN(way_of_a_frame(state, boards[i], angle, askew[k] * DEGREES, mu - 0.01),
+                          0.1 * boards[i].length, 2 * boards[i].length);
+            }
+}
+
+// 25 degrees: 0.2321, of friction alone
+static void an_a_frame_holds_from_half_the_tangent_of_its_angle(void **state)
+{
+    static const board thin = {2, 0.004, 0.6};
+    for (int i = 0; i < 4; ++i) {
+        double mu = 0.22 + 0.01 * i, way = way_of_a_frame(state, thin, 25 * DEGREES, 0, mu);
+        if (mu < 0.23) FE_WITHIN(way, 0.2, 2);
+        if (mu > 0.235) FE_WITHIN(way, 0, LINEAR_SLOP);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -344,6 +402,9 @@ int main(void)
         TEST(a_cube_pushed_at_its_top_tips_at_half_its_weight),
         EVERY_WAY_UP(a_ladder_holds_while_the_floor_can_carry_the_walls_force),
         TEST(a_ladder_too_flat_slides_down),
+        EVERY_WAY_UP(an_a_frame_holds_from_half_the_tangent_of_its_angle),
+        TEST(boards_that_lean_on_each_other_hold_by_their_feet),
+        WITH_4_SUBSTEPS(boards_that_lean_on_each_other_hold_by_their_feet),
     };
     return cmocka_run_group_tests_name("friction", tests, NULL, NULL);
 }

@@ -51,6 +51,7 @@ static uint64_t run_crowd(int32_t riders, int32_t simd, int32_t workers)
     fe_counters counters = {.struct_size = sizeof counters};
     FE_TRUE(fe_world_get_counters(world, &counters) == FE_OK);
     FE_WITHIN(counters.contacts, riders / 2, 2 * riders); // they are aboard
+    assert_int_equal(counters.contacts_left_out, 0);
     uint64_t hash = play_hash(&p);
     assert_int_equal(p.errors, 0);
     fe_world_destroy(world);

@@ -238,15 +238,16 @@ static void box_and_capsule_are_exact_within_a_tie(void **state)
 
 // ---- box against box -----------------------------------------------------------------------------------------------
 // Overlapping boxes: the exhaustive test of 15 axes on corners gives the depth; the kernel may prefer a face twice by a
-// tie. Boxes apart have points exactly when their distance is within the margin, and none is nearer than the gap along
-// the best axis.
+// tie; edges side by side are less than 1.83 times as deep (box_edges.c). Boxes apart have points exactly when their
+// distance is within the margin, and none is nearer than the gap along the best axis.
 static void check_boxes(const fe__form *a, const fe__form *b, const fe__relative *r, const fe__manifold *m)
 {
     frame f = frame_of(r);
     double gap = brute_gap(a, b, &f), allowed = 2.0 * TIE + ROUNDING;
     if (gap <= 0.0) {
         LAW(m->count > 0);
-        LAW(fe__absd((double)deepest(m) - gap) <= allowed);
+        LAW((double)deepest(m) - gap <= allowed);
+        LAW((double)deepest(m) >= (m->round ? 1.83 : 1.0) * gap - allowed);
         if (m->count == 0) return;
         // by as much along the normal as the deepest point says, and they are apart
         f.position = fe__dadd(f.position, fe__dscale(2.0 * allowed - (double)deepest(m), fe__widen(m->normal)));

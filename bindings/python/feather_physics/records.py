@@ -311,6 +311,7 @@ class Counters(NamedTuple):
     bytes: int
     allocations: int
     trees: int
+    contacts_left_out: int
 
 
 Record = TypeVar("Record", bound=Tuple[Any, ...])

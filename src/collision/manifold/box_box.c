@@ -10,13 +10,14 @@
 // axis_separation what that test found along it: a face that has hardly moved since is cut again without another test.
 #define FE_W 4
 #include "collision/form/clip.h"
+#include "collision/manifold/box_edges.h"
 #include "collision/manifold/kernels.h"
 
 #include "core/simd.h"
 
 #include <float.h>
 
-enum { FACE_A = 0, FACE_B = 3, EDGE = 6 };
+enum { FACE_A = 0, FACE_B = 3, EDGE = 6, AXES = 15 };
 
 typedef struct box_pair {
     wide a, b, t;
@@ -91,14 +92,14 @@ static inline void keep_best(wide lanes, int32_t first, int32_t *axis, float *se
     }
 }
 
-// The best axis; stops at the first class that separates by more than the margin.
-static int32_t find_axis(const box_pair *q, float margin, float *separation)
+// The best axis; stops at the first class that separates by more than the margin. A face of B is better by `tie`.
+static int32_t find_axis(const box_pair *q, float tie, float margin, float *separation)
 {
     int32_t axis = FACE_A;
     float best = -FLT_MAX;
     keep_best(faces_of_a(q), FACE_A, &axis, &best);
     if (best <= margin) {
-        float better = best + q->tie;
+        float better = best + tie;
         int32_t found = -1;
         keep_best(faces_of_b(q), FACE_B, &found, &better);
         if (found >= 0) axis = found, best = better;
@@ -308,6 +309,13 @@ static void touch_edges(const box_pair *q, int32_t axis, float separation, float
 // deeper: what a full test would give differs from it by no more than that depth.
 #define KEEP_TIES 10.0f
 
+// Has the other box a face along this one, but for 5 degrees? Then faces meet, and no edges.
+static int32_t has_face_along(const box_pair *q, int32_t face)
+{
+    wide across = absolute(face < FACE_B ? q->row[face] : q->column[face - FACE_B]);
+    return fe__maxf(across[0], fe__maxf(across[1], across[2])) > FE_FACE_COS;
+}
+
 static int32_t is_kept(const box_pair *q, int32_t axis, float now, float before)
 {
     return axis < EDGE && fe__absf(now - before) < KEEP_TIES * q->tie && now > -KEEP_TIES * q->tie;
@@ -317,25 +325,31 @@ void fe__collide_box_box(const fe__form *a, const fe__form *b, const fe__relativ
                          fe__manifold *manifold)
 {
     box_pair q = make_pair(a, b, b_in_a);
-    if (manifold->axis >= 0) {
+    if (manifold->axis >= 0 && manifold->axis < AXES) {
         float now = separation_along(&q, manifold->axis);
         if (now > margin) {
             fe__stay_apart(manifold, now, normal_along(&q, manifold->axis));
             return;
         }
         if (is_kept(&q, manifold->axis, now, manifold->axis_separation)) {
+            if (!has_face_along(&q, manifold->axis) && fe__touch_facing_edges(a, b, b_in_a, now, margin, manifold))
+                return;
             touch_faces(&q, manifold->axis, margin, manifold);
             if (manifold->count > 0) return;
         }
     }
-    float separation;
-    int32_t axis = find_axis(&q, margin, &separation);
+    // edges side by side are followed by the face that their normal has turned to
+    float separation, tie = manifold->axis < AXES ? q.tie : 0.0f;
+    int32_t axis = find_axis(&q, tie, margin, &separation);
     manifold->axis = axis;
     manifold->axis_separation = separation;
     if (separation > margin) {
         manifold->normal = normal_along(&q, axis);
         return;
     }
+    if ((axis >= EDGE || !has_face_along(&q, axis)) &&
+        fe__touch_facing_edges(a, b, b_in_a, separation, margin, manifold))
+        return;
     if (axis < EDGE)
         touch_faces(&q, axis, margin, manifold);
     else

@@ -25,7 +25,7 @@ void fe__collide(const fe__form *a, const fe__form *b, const fe__relative *b_in_
 {
     assert(a->type >= b->type && b->type != FE__FORM_PLANE);
     manifold->normal = fe__vec3(0.0f, 0.0f, 0.0f);
-    manifold->count = 0;
+    manifold->count = manifold->round = 0;
     fe__kernel *kernel = kernels[a->type][b->type];
     if (kernel == NULL) kernel = fe__collide_convex;
     kernel(a, b, b_in_a, margin, manifold);

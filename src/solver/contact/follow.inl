@@ -58,6 +58,7 @@ FE_INLINE void NAMED(find_friction_masses)(const ROW *row, const pair *p, int ki
     wide k11 = NAMED(linear_response)(row, p, t1, t1, one, kind) + angular_response(&m1, &m1, kind);
     wide k22 = NAMED(linear_response)(row, p, t2, t2, one, kind) + angular_response(&m2, &m2, kind);
     wide k12 = NAMED(linear_response)(row, p, t1, t2, zero, kind) + angular_response(&m1, &m2, kind);
+    k12 = w_flush(k12, FE__LEAST_LEAN * (k11 + k22));
     NAMED(invert_tangents)(out, p, k11, k12, k22, kind);
     arm spin = {p->normal, p->normal, w_zero3(), w_mul(&row->inertia_b, p->normal)};
     if (kind & FE__ROW_PAIR) spin.spin_a = w_mul(&row->inertia_a, p->normal);
@@ -177,6 +178,8 @@ FE_INLINE void NAMED(begin_to_follow)(ROW *row, const wide *apart, wide_mask lan
     wide zero = w_set(0.0f);
     wide_mask fresh = w_and(lanes, w_not(w_greater(row->follows, zero)));
     if (!w_any(fresh)) return;
+    // other lanes hold what was never written: denormals too
+    wide_mask kept = w_greater(row->follows, zero);
     row->follows = w_choose(fresh, w_set(1.0f), row->follows);
     row->gap = w_choose(fresh, w_set(-FLT_MAX), row->gap);
     wide3 n = load3(row->normal);
@@ -185,9 +188,9 @@ FE_INLINE void NAMED(begin_to_follow)(ROW *row, const wide *apart, wide_mask lan
         wide3 r = load3(i < POINTS ? row->point[i].r : row->centre);
         wide half = 0.5f * apart[i];
         wide3 a = w_sub_scaled(r, half, n), b = w_add_scaled(w_add(r, load3(row->found_span)), half, n);
-        store3(row->first_b[i], w_choose3(fresh, b, load3(row->first_b[i])));
+        store3(row->first_b[i], w_choose3(fresh, b, w_choose3(kept, load3(row->first_b[i]), w_zero3())));
         if (kind & (FE__ROW_PAIR | FE__ROW_SPECIAL))
-            store3(row->first_a[i], w_choose3(fresh, a, load3(row->first_a[i])));
+            store3(row->first_a[i], w_choose3(fresh, a, w_choose3(kept, load3(row->first_a[i]), w_zero3())));
     }
 }
 

@@ -52,7 +52,8 @@ FE_INLINE wide3 shift_since_found(const centres *a, const centres *b, wide3 span
 
 FE_INLINE wide4 rotation_since_found(const fe__body *bodies, const int32_t *body, wide4 found)
 {
-    return w_product(w_gather(bodies->rotation, BODY_STRIDE, body), w_conjugate(found));
+    wide4 q = w_product(w_gather(bodies->rotation, BODY_STRIDE, body), w_conjugate(found));
+    return w_with(w_flush3(w_xyz(q), w_set(FE__LEAST_LEAN)), q.w);
 }
 
 // 0 for a static A, 1 otherwise
@@ -108,7 +109,7 @@ typedef struct {
 // and (x + y + z)^2 <= 3 (x^2 + y^2 + z^2). A patch of a heightfield goes with its head: its tolerance is below 0
 FE_INLINE wide_mask is_old(const motion *m, wide3 n, wide tolerance)
 {
-    wide3 slide = w_sub_scaled(m->shift, m->along, n);
+    wide3 slide = w_flush3(w_sub_scaled(m->shift, m->along, n), w_set(FE__LEAST_SHIFT));
     wide moved = 3.0f * (w_dot(slide, slide) + 4.0f * m->reach * m->reach * m->turned);
     wide most_along = w_choose(w_greater(w_set(0.0f), tolerance), w_set(FLT_MAX), w_set(MOST_ALONG));
     return w_or(w_not(w_greater(tolerance * tolerance, moved)), w_greater(w_abs(m->along), most_along));

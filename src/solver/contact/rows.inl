@@ -28,7 +28,7 @@
 typedef struct ROW {
     int32_t line_a[FE_W], line_b[FE_W];
     wide normal[3];
-    // see idle.inl; of all that is above and here, a row that is put off has nothing else
+    // see idle.inl. A row that is put off has what is above, these, and nothing else
     wide gap;        // when the step began, m; FLT_MAX: a padding lane; -FLT_MAX: it follows, and is never idle
     wide open;       // no more than the gap where the bodies are now, m; -FLT_MAX: nobody looked
     wide reach;      // longest arm, m
@@ -324,6 +324,7 @@ FE_INLINE wide_mask NAMED(solve_friction)(ROW *row, pair *p, int kind)
         wide twist = row->twist_impulse - row->twist_mass * w_dot(p->normal, w_sub(p->b.w, p->a.w));
         wide slide = row->dynamic_friction * twist_load, stick = row->static_friction * twist_load;
         twist = w_choose(w_greater(w_abs(twist), stick), w_clamp(twist, -slide, slide), twist);
+        twist = w_flush(twist, w_set(FE__LEAST_TWIST));
         twisted = twist - row->twist_impulse;
         row->twist_impulse = twist;
     }
@@ -331,20 +332,21 @@ FE_INLINE wide_mask NAMED(solve_friction)(ROW *row, pair *p, int kind)
     if (kind & FE__ROW_SPECIAL) slip = w_add(slip, load3(((const SPECIAL_ROW *)row)->surface));
     wide v1 = w_dot(t1, slip) + row->twist_tangent[0] * twisted, v2 = w_dot(t2, slip) + row->twist_tangent[1] * twisted;
     const wide *m = row->tangent_mass;
-    wide l1 = row->tangent_impulse[0] - (m[0] * v1 + m[1] * v2), l2 = row->tangent_impulse[1] - (m[1] * v1 + m[2] * v2);
+    wide least = w_set(FE__LEAST_IMPULSE), l1 = w_flush(row->tangent_impulse[0] - (m[0] * v1 + m[1] * v2), least),
+         l2 = w_flush(row->tangent_impulse[1] - (m[1] * v1 + m[2] * v2), least);
     wide stick = row->static_friction * load, slide = row->dynamic_friction * load, square = l1 * l1 + l2 * l2;
     wide most = w_choose(w_greater(square, BREAKAWAY * BREAKAWAY * stick * stick), slide, stick);
     wide shrink = w_choose(w_greater(square, stick * stick), most / w_sqrt(square), w_set(1.0f));
     wide_mask bears = w_greater(load, w_set(0.0f)); // else none, however little was requested
     l1 = w_choose(bears, l1 * shrink, w_set(0.0f));
     l2 = w_choose(bears, l2 * shrink, w_set(0.0f));
-    wide3 impulse = w_add_scaled(w_scale(l1 - row->tangent_impulse[0], t1), l2 - row->tangent_impulse[1], t2);
+    wide d1 = l1 - row->tangent_impulse[0], d2 = l2 - row->tangent_impulse[1];
+    wide3 impulse = w_add_scaled(w_scale(d1, t1), d2, t2);
     row->tangent_impulse[0] = l1;
     row->tangent_impulse[1] = l2;
     NAMED(apply)(row, p, impulse, w_add_scaled(w_cross(ra, impulse), twisted, p->normal), kind);
-    wide response = p->a.inverse_mass + p->b.inverse_mass, least = UNSETTLED * load * response;
-    wide_mask changes =
-        w_greater(response * response * w_dot(impulse, impulse), least * least + UNSETTLED_SPEED * UNSETTLED_SPEED);
+    wide response = p->a.inverse_mass + p->b.inverse_mass;
+    wide_mask changes = w_greater(response * (w_abs(d1) + w_abs(d2)), UNSETTLED * load * response + UNSETTLED_SPEED);
     return w_and(changes, w_greater(w_set(IMPACT_SPEED), (load - row->load) * response));
 }
 
@@ -361,7 +363,7 @@ FE_INLINE void NAMED(solve_rolling)(SPECIAL_ROW *x, pair *p, int kind)
     roll = w_sub_scaled(roll, w_dot(n, roll), n);
     wide most = x->rolling * load, square = w_dot(roll, roll);
     roll = w_scale(w_choose(w_greater(square, most * most), most / w_sqrt(square), one), roll);
-    wide3 after = w_add_scaled(roll, spin, n);
+    wide3 after = w_flush3(w_add_scaled(roll, spin, n), w_set(FE__LEAST_TWIST));
     store3(x->rolling_impulse, after);
     NAMED(apply_torque)(&x->row, p, w_sub(after, before), kind);
 }

@@ -40,6 +40,11 @@ static int32_t draw_colour(fe__body *a, fe__body *b)
     return a->drawn >> 31 ? mate : colour;
 }
 
+int32_t fe__colours_of(const fe__body *body)
+{
+    return __builtin_popcountll(body->colours[0]) + __builtin_popcountll(body->colours[1]);
+}
+
 void fe__colour_contact(fe__body *bodies, fe__contact *m)
 {
     assert(m->colour < 0);

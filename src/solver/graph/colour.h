@@ -4,6 +4,7 @@
 #include "solver/solver.h"
 
 void fe__colour_contact(fe__body *bodies, fe__contact *contact);
+int32_t fe__colours_of(const fe__body *body); // that its contacts have: how many
 void fe__uncolour_contact(fe__body *bodies, fe__contact *contact);
 
 #endif

@@ -124,6 +124,7 @@ static void add_overflow(fe__builder *b, int32_t k, const fe__kernels *kernels)
             s->sort_items[n++] = (fe__sort_item){b->in->serials[2 * c->contact + 1], b->contact_order[i], 0};
     }
     if (n == 0) return; // then there may be no items at all
+    s->built.overflow += n;
     fe__sort_keys(s->sort_items, n, s->sort_items + n);
     for (int32_t i = 0; i < n; ++i)
         s->sort_items[i].key = b->in->serials[2 * b->linked[s->sort_items[i].value].contact];
@@ -159,10 +160,12 @@ static void make_groups(fe__builder *b, int32_t k, const fe__kernels *kernels)
         batch->bounces |= key & FE__ROW_SPECIAL;
     }
     for (int32_t key = 0; key < FE__OVERFLOW_COLOUR * FE__ROW_KINDS; ++key) {
-        int32_t contacts = b->key_count[key];
-        if (contacts)
-            b->key_count[key] =
-                open_contacts(b, batch, key / FE__ROW_KINDS, key % FE__ROW_KINDS, contacts, kernels)->lane;
+        int32_t contacts = b->key_count[key], kind = key % FE__ROW_KINDS;
+        if (!contacts) continue;
+        b->key_count[key] = open_contacts(b, batch, key / FE__ROW_KINDS, kind, contacts, kernels)->lane;
+        s->built.contacts[kind] += contacts;
+        s->built.colours[kind] += !(b->seen[key / 64] >> key % 64 & 1);
+        b->seen[key / 64] |= UINT64_C(1) << key % 64;
     }
     fill_lanes(b, k, 1);
     fill_lanes(b, k, 0);
@@ -184,6 +187,8 @@ void fe__graph_build(fe__solver *s, const fe__kernels *kernels, const fe__graph_
     fe__builder b = make_builder(s, kernels, input);
     fe__graph_find_batches(&b);
     s->group_count = s->lane_count = s->line_count = s->tree_count = 0;
+    s->built = (fe__built){.overflow = 0};
+    s->unbuilt = 0;
     for (int32_t i = 0; i < FE__MAX_WIDTH; ++i) add_line(s, FE__NONE); // FE__STATIC_LINE and its block
     for (int32_t k = 0; k < s->batch_count; ++k) {
         assign_lines(&b, k);

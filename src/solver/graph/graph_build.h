@@ -50,8 +50,9 @@ typedef struct fe__builder {
     int32_t *contact_start;
     int32_t *joint_order; // joints by batch
     int32_t *joint_start;
-    int32_t *key_count;       // by colour and kind
-    int32_t *joint_key_count; // by part, colour and sides
+    int32_t *key_count;                 // by colour and kind
+    uint64_t seen[FE__GROUP_KEYS / 64]; // colours and kinds of all batches, a bit each
+    int32_t *joint_key_count;           // by part, colour and sides
     int32_t *joint_key_group;
 } fe__builder;
 

@@ -19,14 +19,16 @@ typedef struct fe__graph_input {
 // What a graph of so many bodies and contacts may need at most
 typedef struct fe__graph_bound {
     int32_t bodies, contacts;
-    int32_t most_contacts;        // of one body, linked or not
-    int32_t crowded;              // contacts of bodies with more than fit the colours
-    int32_t largest;              // contacts and parts of joints of the largest island
-    int32_t fast, fast_kinematic; // bodies that leave a trail; 1: kinematic ones do
-    uint32_t kinds;               // of rows in use: 1 << FE__ROW_*
-    int32_t special;              // 1: special rows are among them
-    const fe__joints *joint_set;  // NULL: none
-    int32_t joints;               // of them, awake or about to wake, at most
+    int32_t kinematic;                    // of the bodies, at most
+    int32_t fresh;                        // of them, those that the last graph does not have
+    int32_t pair_colours, static_colours; // the colours of these are among the first so many
+    int32_t crowded;                      // of these, contacts of bodies that may run out of colours
+    int32_t largest;                      // contacts and parts of joints of the largest island
+    int32_t fast, fast_kinematic;         // bodies that leave a trail; 1: kinematic ones do
+    uint32_t kinds;                       // of rows in use: 1 << FE__ROW_*
+    int32_t special;                      // 1: special rows are among them
+    const fe__joints *joint_set;          // NULL: none
+    int32_t joints;                       // of them, awake or about to wake, at most
 } fe__graph_bound;
 
 #endif

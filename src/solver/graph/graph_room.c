@@ -26,13 +26,25 @@ static int32_t batch_bound(const fe__graph_bound *b)
     return 2 * (lanes / FE__BATCH_CONTACTS + b->bodies / FE__BATCH_BODIES) + lanes / FE__ISLAND_LARGE + 4;
 }
 
-// distinct groups of one batch: a colour between dynamic bodies, or its mate, is below the contacts of both; one with
-// others below the body's
-static int32_t group_bound(const fe__graph_bound *b)
+// Distinct groups of one batch that the last graph did not have
+static int64_t fresh_groups(const fe__graph_bound *b)
 {
     const uint32_t pairs = 0xAA; // kinds with FE__ROW_PAIR
-    return fe__mini(2 * b->most_contacts, FE__PAIR_COLOURS) * __builtin_popcount(b->kinds & pairs) +
-           fe__mini(b->most_contacts, FE__STATIC_COLOURS) * __builtin_popcount(b->kinds & ~pairs);
+    int32_t known = b->pair_colours * __builtin_popcount(b->kinds & pairs) +
+                    b->static_colours * __builtin_popcount(b->kinds & ~pairs);
+    return fe__mini(b->fresh, known);
+}
+
+static int64_t group_bound(const fe__solver *s, const fe__graph_bound *b)
+{
+    int64_t groups = fresh_groups(b);
+    for (int32_t kind = 0; kind < FE__ROW_KINDS; ++kind) groups += s->built.colours[kind];
+    return groups;
+}
+
+static int32_t overflow_bound(const fe__solver *s, const fe__graph_bound *b)
+{
+    return (int32_t)fe__minl((int64_t)s->built.overflow + b->crowded, b->contacts);
 }
 
 static int32_t joint_group_bound(const fe__graph_bound *b)
@@ -56,21 +68,61 @@ static int64_t widest_joint(const fe__graph_bound *b, const fe__kernels *kernels
     return widest;
 }
 
-static int64_t row_bound(const fe__graph_bound *b, int32_t contacts, int32_t width)
-{
-    int64_t rows = contacts / width + fe__mini(group_bound(b), contacts) + fe__mini(b->crowded, contacts);
-    return rows < contacts ? rows : contacts;
-}
-
 static int32_t tree_links(const fe__graph_bound *b) { return b->joint_set ? b->joint_set->forest.link_count : 0; }
 
-// bytes of rows of so many contacts and parts of joints; each body is in one tree at most
-static int64_t row_bytes(const fe__graph_bound *b, const fe__kernels *kernels, int32_t contacts, int32_t joint_lanes,
-                         int64_t bodies)
+static int64_t thin_row(const fe__kernels *kernels, int32_t kind)
 {
-    int64_t widest = kernels->contact->row_size[b->special ? FE__ROW_PAIR | FE__ROW_SPECIAL : FE__ROW_PAIR];
+    return fe__whole_blocks(kernels->thin->row_size[kind]);
+}
+
+// Rows of so many contacts in so many groups, each of which may leave W - 1 lanes of a row empty
+static int64_t wide_rows(const fe__kernels *kernels, int64_t contacts, int64_t groups)
+{
+    return (contacts + (kernels->width - 1) * groups) / kernels->width;
+}
+
+static int64_t wide_row(const fe__kernels *kernels, int32_t kind)
+{
+    return fe__maxl(kernels->contact->row_size[kind], thin_row(kernels, kind));
+}
+
+static int32_t widest_kind(const fe__graph_bound *b)
+{
+    return b->special ? FE__ROW_PAIR | FE__ROW_SPECIAL : FE__ROW_PAIR;
+}
+
+// Of all contacts in one batch. None takes more than a thin row, for a group of so few has one. What has no colour
+// takes a thin row whole: as many as may be are the worst
+static int64_t all_contact_bytes(const fe__solver *s, const fe__graph_bound *b, const fe__kernels *kernels)
+{
+    int32_t widest = widest_kind(b), round_up = kernels->width - 1; // fresh ones join groups that there are, too
+    int32_t coloured = b->fresh - b->crowded;
+    int64_t wide = wide_rows(kernels, (int64_t)coloured + round_up, fresh_groups(b)) * wide_row(kernels, widest),
+            thin = coloured * thin_row(kernels, widest);
+    for (int32_t kind = 0; kind < FE__ROW_KINDS; ++kind) {
+        wide += wide_rows(kernels, s->built.contacts[kind], s->built.colours[kind]) * wide_row(kernels, kind);
+        thin += s->built.contacts[kind] * thin_row(kernels, kind);
+    }
+    return fe__minl(wide, thin) + overflow_bound(s, b) * thin_row(kernels, widest);
+}
+
+// of a batch of so many
+static int64_t contact_bytes(const fe__solver *s, const fe__graph_bound *b, const fe__kernels *kernels,
+                             int32_t contacts)
+{
+    int32_t widest = widest_kind(b), overflow = fe__mini(overflow_bound(s, b), contacts);
+    int64_t coloured = contacts - overflow,
+            wide = wide_rows(kernels, coloured + kernels->width - 1, group_bound(s, b)) * wide_row(kernels, widest),
+            thin = coloured * thin_row(kernels, widest);
+    return fe__minl(fe__minl(wide, thin) + overflow * thin_row(kernels, widest), all_contact_bytes(s, b, kernels));
+}
+
+// bytes of rows of so many contacts and parts of joints; each body is in one tree at most
+static int64_t row_bytes(const fe__solver *s, const fe__graph_bound *b, const fe__kernels *kernels, int32_t contacts,
+                         int32_t joint_lanes, int64_t bodies)
+{
     int64_t links = fe__minl(tree_links(b), bodies);
-    return row_bound(b, contacts, kernels->width) * widest +
+    return contact_bytes(s, b, kernels, contacts) +
            joint_row_bound(b, joint_lanes, kernels->width) * widest_joint(b, kernels) +
            links * (fe__forest_bytes(kernels, 1) + (int64_t)sizeof(fe__row_block));
 }
@@ -82,13 +134,15 @@ static int64_t scratch_bound(const fe__graph_bound *b)
 }
 
 // bytes of rows of the largest island, and of a worker's stretch
-static int64_t all_rows(const fe__graph_bound *b, const fe__kernels *kernels, int32_t workers, int64_t *out_small)
+static int64_t all_rows(const fe__solver *s, const fe__graph_bound *b, const fe__kernels *kernels, int32_t workers,
+                        int64_t *out_small)
 {
-    int32_t some = FE__BATCH_CONTACTS + FE__ISLAND_LARGE, parts = joint_rows(b);
+    // a batch is one small island, or several of FE__BATCH_CONTACTS together
+    int32_t some = fe__maxi(FE__BATCH_CONTACTS, FE__ISLAND_LARGE), parts = joint_rows(b);
     // an island has a body more than constraints, at most
-    int64_t small = row_bytes(b, kernels, fe__mini(b->contacts, some), fe__mini(parts, some),
+    int64_t small = row_bytes(s, b, kernels, fe__mini(b->contacts, some), fe__mini(parts, some),
                               fe__maxi(FE__BATCH_BODIES, FE__ISLAND_LARGE + 1));
-    int64_t large = b->largest > FE__ISLAND_LARGE ? row_bytes(b, kernels, fe__mini(b->contacts, b->largest),
+    int64_t large = b->largest > FE__ISLAND_LARGE ? row_bytes(s, b, kernels, fe__mini(b->contacts, b->largest),
                                                               fe__mini(parts, b->largest), (int64_t)b->largest + 1)
                                                   : 0;
     *out_small = small;
@@ -108,47 +162,51 @@ int32_t fe__graph_has_rows(const fe__solver *s, const fe__kernels *kernels, cons
                            int32_t workers)
 {
     int64_t small;
-    return all_rows(bound, kernels, workers, &small) < (int64_t)sizeof(fe__row_block) * s->row_capacity;
+    return all_rows(s, bound, kernels, workers, &small) < (int64_t)sizeof(fe__row_block) * s->row_capacity;
 }
 
 int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *kernels, const fe__graph_bound *b,
                           int32_t workers)
 {
     int32_t batches = batch_bound(b), width = kernels->width, parts = joint_rows(b);
-    int64_t all_lanes = (int64_t)b->contacts + parts;
-    int64_t groups = fe__minl((int64_t)group_bound(b) * batches, b->contacts) + fe__mini(b->crowded, b->contacts) +
-                     fe__minl((int64_t)joint_group_bound(b) * batches, parts) + overflowing_rows(b) + tree_links(b);
-    int64_t lanes = fe__minl(all_lanes + (int64_t)(width - 1) * groups, all_lanes * width);
-    // each contact or joint of a kinematic body may bring a copy of it
-    int64_t copies = (b->special ? b->contacts : 0) + (b->joint_set ? b->joint_set->kinematic : 0);
+    int64_t contact_groups = fe__minl(group_bound(s, b) * batches, b->contacts) + overflow_bound(s, b);
+    int64_t joint_groups = fe__minl((int64_t)joint_group_bound(b) * batches, parts) + overflowing_rows(b);
+    int64_t groups = contact_groups + joint_groups + tree_links(b);
+    int64_t lanes = fe__minl(b->contacts + (width - 1) * contact_groups, (int64_t)FE__THIN_WIDTH * b->contacts) +
+                    fe__minl(parts + (width - 1) * joint_groups, (int64_t)width * parts);
+    // a batch has one copy of each kinematic body, which a contact or a joint of it brings
+    int64_t copies = fe__minl((int64_t)b->kinematic * batches,
+                              (b->special ? b->contacts : 0) + (b->joint_set ? b->joint_set->kinematic : 0));
     int64_t lines = FE__MAX_WIDTH + (int64_t)b->bodies + (int64_t)batches * (FE__DUMMY_LINES + FE__MAX_WIDTH) + copies;
-    int64_t small, rows = all_rows(b, kernels, workers, &small);
+    int64_t small, rows = all_rows(s, b, kernels, workers, &small);
     int64_t building = (int64_t)sizeof(int32_t) * scratch_bound(b);
     int32_t trees = b->joint_set ? b->joint_set->forest.tree_count : 0;
-    int64_t sorted = fe__maxi(fe__maxi(fe__mini(b->crowded, b->contacts), trees),
+    int64_t sorted = fe__maxi(fe__maxi(overflow_bound(s, b), trees),
                               b->joint_set ? fe__mini(b->joint_set->overflowing, b->joints) : 0);
-    if (!FE_RESERVE(memory, s->velocity, s->line_capacity[0], lines) ||
-        !FE_RESERVE(memory, s->motion, s->line_capacity[1], lines) ||
-        !FE_RESERVE(memory, s->start, s->line_capacity[2], lines) ||
-        !FE_RESERVE(memory, s->inertia, s->line_capacity[3], lines) ||
-        !FE_RESERVE(memory, s->drive, s->line_capacity[4], lines) ||
-        !FE_RESERVE(memory, s->axes, s->line_capacity[5], lines) ||
-        !FE_RESERVE(memory, s->moved_spin, s->line_capacity[6], b->joints ? lines : 0) ||
-        !FE_RESERVE(memory, s->body_of_line, s->body_of_line_capacity, lines) ||
-        !FE_RESERVE(memory, s->trail_count, s->trail_capacity[0], lines) ||
-        !FE_RESERVE(memory, s->trail_of, s->trail_capacity[2], lines) ||
-        !FE_RESERVE(memory, s->trail, s->trail_capacity[1], b->fast + (b->fast_kinematic ? copies : 0)) ||
-        !FE_RESERVE(memory, s->batches, s->batch_capacity, batches) ||
-        !FE_RESERVE(memory, s->groups, s->group_capacity, groups + 1) ||
-        !FE_RESERVE(memory, s->lanes, s->lane_capacity, lanes + width) ||
-        !FE_RESERVE(memory, s->places, s->place_capacity, tree_links(b)) ||
-        !FE_RESERVE(memory, s->trees, s->tree_capacity, trees) ||
-        !FE_RESERVE(memory, s->passes, s->pass_capacity, pass_bound(groups)) ||
-        !FE_RESERVE(memory, s->sort_items, s->sort_capacity, 2 * sorted) ||
-        !FE_RESERVE(memory, s->rows, s->row_capacity, fe__maxl(rows, building) / (int64_t)sizeof(fe__row_block) + 1))
-        return 0;
-    s->worker_row_bytes = fe__whole_blocks(small);
-    return 1;
+    int64_t before = memory->allocations;
+    int32_t done =
+        FE_RESERVE(memory, s->velocity, s->line_capacity[0], lines) &&
+        FE_RESERVE(memory, s->motion, s->line_capacity[1], lines) &&
+        FE_RESERVE(memory, s->start, s->line_capacity[2], lines) &&
+        FE_RESERVE(memory, s->inertia, s->line_capacity[3], lines) &&
+        FE_RESERVE(memory, s->drive, s->line_capacity[4], lines) &&
+        FE_RESERVE(memory, s->axes, s->line_capacity[5], lines) &&
+        FE_RESERVE(memory, s->moved_spin, s->line_capacity[6], b->joints ? lines : 0) &&
+        FE_RENEW(memory, s->body_of_line, s->body_of_line_capacity, lines) &&
+        FE_RENEW(memory, s->trail_count, s->trail_capacity[0], lines) &&
+        FE_RENEW(memory, s->trail_of, s->trail_capacity[2], lines) &&
+        FE_RENEW(memory, s->trail, s->trail_capacity[1], b->fast + (b->fast_kinematic ? copies : 0)) &&
+        FE_RENEW(memory, s->batches, s->batch_capacity, batches) &&
+        FE_RENEW(memory, s->groups, s->group_capacity, groups + 1) &&
+        FE_RENEW(memory, s->lanes, s->lane_capacity, lanes + width) &&
+        FE_RENEW(memory, s->places, s->place_capacity, tree_links(b)) &&
+        FE_RENEW(memory, s->trees, s->tree_capacity, trees) &&
+        FE_RENEW(memory, s->passes, s->pass_capacity, pass_bound(groups)) &&
+        FE_RENEW(memory, s->sort_items, s->sort_capacity, 2 * sorted) &&
+        FE_RENEW(memory, s->rows, s->row_capacity, fe__maxl(rows, building) / (int64_t)sizeof(fe__row_block) + 1);
+    s->graph_changed |= memory->allocations != before; // what has grown holds no graph
+    if (done) s->worker_row_bytes = fe__whole_blocks(small);
+    return done;
 }
 
 void fe__solver_destroy(fe__solver *s, fe__memory *memory)
@@ -173,5 +231,6 @@ void fe__solver_destroy(fe__solver *s, fe__memory *memory)
     FE_FREE(memory, s->sort_items, s->sort_capacity);
     FE_FREE(memory, s->rows, s->row_capacity);
     s->batch_count = s->large_count = s->group_count = s->lane_count = s->line_count = s->island_count = 0;
+    s->built = (fe__built){.overflow = 0};
     s->graph_changed = 1;
 }
