@@ -12,7 +12,9 @@
 // whom in a row does not show. What the passes add of nothing, +0 or -0, changes no velocity, as none is -0
 // (bodies.simd.c).
 //
-// Special rows are never skipped: they note touches.
+// Special rows are never skipped: they note touches. Nor are those with static bodies: they bear loads, nearly all.
+
+FE_INLINE int NAMED(can_idle)(int kind) { return kind & FE__ROW_PAIR && !(kind & FE__ROW_SPECIAL); }
 
 // of the points that there are, the least separation; a padding lane has none
 FE_INLINE wide NAMED(least_gap)(wide4 separation, wide points)
@@ -64,7 +66,7 @@ static __attribute__((noinline)) int NAMED(open_now)(const ROW *row, const fe__s
 
 FE_INLINE int NAMED(idle_now)(const ROW *row, const fe__solver *s, const fe__step_constants *c, int kind)
 {
-    if (kind & FE__ROW_SPECIAL || w_any(NAMED(loaded)(row))) return 0;
+    if (!NAMED(can_idle)(kind) || w_any(NAMED(loaded)(row))) return 0;
     return NAMED(open_now)(row, s, c, kind);
 }
 
@@ -81,7 +83,7 @@ static __attribute__((noinline)) int NAMED(open_after)(ROW *row, const fe__solve
 
 FE_INLINE int NAMED(idle_after)(ROW *row, const fe__solver *s, const fe__step_constants *c, int kind)
 {
-    if (kind & FE__ROW_SPECIAL) return 0;
+    if (!NAMED(can_idle)(kind)) return 0;
     if (!w_any(NAMED(loaded_lately)(row))) return NAMED(open_after)(row, s, c, kind);
     row->open = w_set(-FLT_MAX);
     row->behind = 0;

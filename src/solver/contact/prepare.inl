@@ -141,7 +141,7 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
     tangents(p.normal, &t1, &t2);
     wide4 separation = w_gather(m->separation, CONTACT_STRIDE, index);
     store3(row->centre, NAMED(prepare_points)(row, m, index, separation, normal.w, c));
-    NAMED(prepare_gap)(row, separation, normal.w, found.w);
+    if (NAMED(can_idle)(kind)) NAMED(prepare_gap)(row, separation, normal.w, found.w);
     row->put_off = row->behind = 0;
     NAMED(prepare_friction)(row, w_gather(m->friction_impulse, CONTACT_STRIDE, index), t1, t2, c);
     NAMED(prepare_following)(row, p.normal, kind);
@@ -159,6 +159,8 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
 // What begins the step with an impulse, or ended the last one after it had one, is prepared in any case
 FE_INLINE int NAMED(may_wait)(const fe__contact *m, const int32_t *index)
 {
+    const float *first = m[index[0]].normal_impulse; // those with impulses mostly come first
+    if (first[0] + first[1] + first[2] + first[3] > 0.0f) return 0;
     if (w_any(any_nonzero(w_gather(m->normal_impulse, CONTACT_STRIDE, index)))) return 0;
     if (w_any(any_nonzero(w_gather(m->friction_impulse, CONTACT_STRIDE, index)))) return 0;
     if (w_any(any_nonzero(w_gather(m->total_impulse, CONTACT_STRIDE, index)))) return 0;
@@ -186,7 +188,7 @@ FE_INLINE void NAMED(prepare)(fe__solver *s, fe__contact *contacts, const fe__ex
     for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
         ROW *row = NAMED(row_at)(rows, i, kind);
         for (int j = 0; j < FE_W && i + 1 < count; ++j) prefetch_contact(contacts + lanes[FE_W + j].contact);
-        if (kind & FE__ROW_SPECIAL || !NAMED(put_off)(row, lanes, contacts))
+        if (!NAMED(can_idle)(kind) || !NAMED(put_off)(row, lanes, contacts))
             NAMED(prepare_row)(row, lanes, s, contacts, extras, c, kind);
     }
 }
@@ -200,7 +202,7 @@ FE_INLINE int32_t NAMED(store)(fe__contact *contacts, fe__extra *extras, const f
     for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
         const ROW *row = NAMED(row_at)((void *)(uintptr_t)rows, i, kind);
         const SPECIAL_ROW *x = (const SPECIAL_ROW *)row;
-        if (!(kind & FE__ROW_SPECIAL) && row->put_off) continue;
+        if (NAMED(can_idle)(kind) && row->put_off) continue;
         wide zero = w_set(0.0f), impulse[FE__POINTS] = {0}, total[FE__POINTS] = {0}, sum = zero;
         _Alignas(64) int32_t index[FE_W];
         for (int j = 0; j < FE_W; ++j) index[j] = lanes[j].contact;
@@ -211,8 +213,10 @@ FE_INLINE int32_t NAMED(store)(fe__contact *contacts, fe__extra *extras, const f
             impulse[j] = row->point[j].impulse, total[j] = row->total[j];
             sum = sum + total[j];
         }
-        wide_mask bore = w_greater(sum, zero), others = w_and(w_not(bore), w_greater(w_set(FLT_MAX), row->gap));
-        mixed += w_any(bore) && w_any(others);
+        if (NAMED(can_idle)(kind)) {
+            wide_mask bore = w_greater(sum, zero), others = w_and(w_not(bore), w_greater(w_set(FLT_MAX), row->gap));
+            mixed += w_any(bore) && w_any(others);
+        }
         // of -0 and +0 the latter: what was put off has it
         wide4 friction = w_with(NAMED(friction_impulse)(row, load3(row->normal)), row->twist_impulse);
         friction = (wide4){friction.x + zero, friction.y + zero, friction.z + zero, friction.w + zero};

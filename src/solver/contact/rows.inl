@@ -472,7 +472,7 @@ FE_INLINE ROW *NAMED(row_at)(void *rows, int32_t i, int kind)
 
 FE_INLINE int NAMED(is_late)(const ROW *row, int kind)
 {
-    return !(kind & FE__ROW_SPECIAL) && (row->put_off || row->behind);
+    return NAMED(can_idle)(kind) && (row->put_off || row->behind);
 }
 
 // the row, prepared, with distances from where the bodies are
@@ -526,7 +526,7 @@ FE_INLINE void NAMED(relax)(fe__solver *s, const fe__contact *contacts, const fe
         motion m = NAMED(motion_of)(row, s, kind);
         NAMED(find_distances)(row, &p, &m, kind);
         wide_mask moving = NAMED(moving)(row, &m, kind);
-        if (w_any(moving) && !(kind & FE__ROW_SPECIAL)) moving = NAMED(but_idle)(row, s, moving, c, kind);
+        if (w_any(moving) && NAMED(can_idle)(kind)) moving = NAMED(but_idle)(row, s, moving, c, kind);
         if (w_any(moving)) {
             motion moved = m;
             NAMED(follow)(row, s, &moved, moving, kind);
