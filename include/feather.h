@@ -797,9 +797,11 @@ FE_API int32_t fe_shape_get_overlaps(const fe_world *world, fe_shape shape, fe_s
 // close no loop (chains, cranes, arms, telescopes) are solved exactly instead, all at once: then they do not give,
 // whatever hangs on them. At most one joint may hold such a tree to the rest of the world. Its bodies have no locks, or
 // all those of a plane, or all rotations. The exact solver begins at a load of 32 effective masses on a joint (a chain
-// of 16 equal links), of 4 on one that locks rotations. Lighter trees use it in steps in which a blow or a pinch would
-// open a joint by more than 4 mm. A joint that is open by more than 4 mm when the step begins is closed gradually, by
-// springs. fe_counters.trees counts such trees. Limits, springs and contacts of their bodies stay what they are.
+// of 16 equal links), of 4 on one that locks rotations. A mechanism of 2 to 32 bodies without locks, held by nothing
+// but such joints (a linkage, a rope), uses it whatever it bears. Other lighter trees, with limits, springs, motors or
+// friction, use it in steps in which a blow or a pinch would open a joint by more than 4 mm. A joint that is open by
+// more than 4 mm when the step begins is closed gradually, by springs. fe_counters.trees counts such trees. Limits,
+// springs and contacts of their bodies stay what they are.
 //
 // **Springs and motors** push no harder than their cap. A motor drives to its speed; with speed 0 it is friction. A cap
 // of 0 switches it off.

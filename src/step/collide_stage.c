@@ -212,7 +212,7 @@ static void apply_results(fe__step *step, int32_t first)
     for (int32_t i = 0; i < count; ++i) {
         const fe__pair *p = w->pairs + results[i];
         if (p->result != FE__RESULT_BEGIN) continue;
-        fe__pair_link(w, results[i]);
+        fe__pair_link(w, results[i], step->dt);
         wake_sleeping(w, p->body_a);
         wake_sleeping(w, p->body_b);
     }

@@ -1,7 +1,8 @@
 // forest.c - finds the trees among the joints, see solver/tree/forest.h. Input: linked joints and masses; output:
 // fe__joints.forest.
 //
-// Only what a sweep is bad at is worth the cost: a tree in which some joint bears far more than its own bodies weigh.
+// A sweep is cheaper on large trees. They are solved exactly where it is bad: where some joint bears far more than its
+// own bodies weigh.
 #include "world/forest.h"
 
 #include "world/joint_list.h"
@@ -17,6 +18,12 @@
 // A sweep meets one joint after the other. Where these shares add up to more than this, it lets a star of joints swing,
 // and beyond that gain energy from rounding alone. A chain of spheres or boxes has 0.7, a ragdoll less.
 #define HEAVY_LEVERS 1.5f
+
+// A mechanism of locks alone, with nothing that takes energy out of it, keeps its energy and its points where it is
+// solved exactly. Up to so many links (a rope, a linkage, a crane) that is worth the cost whatever it bears. A lone
+// body is left to the sweep, which has nothing to pass on.
+#define SHORTEST_TREE 2
+#define SHORT_TREE 32
 
 // A joint with hertz of its own is a spring, unless they are at least those of all that is rigid
 static int32_t is_spring(const fe_world *w, const fe__joint *j)
@@ -240,7 +247,7 @@ static int32_t is_heavy(const fe_world *w, const component *c, fe__tree_link *li
     return 0;
 }
 
-static void keep_tree(fe__forest *f, int32_t count, int32_t heavy, uint32_t locks)
+static void keep_tree(fe__forest *f, int32_t count, fe__tree_kind kind, uint32_t locks)
 {
     for (int32_t i = f->link_count; i < f->link_count + count; ++i) {
         f->links[i].tree = f->tree_count;
@@ -249,9 +256,9 @@ static void keep_tree(fe__forest *f, int32_t count, int32_t heavy, uint32_t lock
     f->trees[f->tree_count++] =
         (fe__joint_tree){.first = f->link_count,
                          .count = count,
-                         .heavy = heavy,
+                         .kind = kind,
                          .locks = locks,
-                         .form = fe__form_of_tree(f->links + f->link_count, count, heavy, locks)};
+                         .form = fe__form_of_tree(f->links + f->link_count, count, kind, locks)};
     f->link_count += count;
 }
 
@@ -275,6 +282,31 @@ static int32_t may_be_exact(const fe_world *w, const component *c, const fe__tre
     return is_never_singular((uint32_t)locks);
 }
 
+// 1: each joint of the body is a lock of the tree: no limit, spring, motor or second hinge, which the sweep meets
+static int32_t is_only_locked(const fe_world *w, int32_t body)
+{
+    const uint32_t others = ((1u << FE__PARTS) - 1) & ~(FE__LOCKS | 1u << FE__PART_DISTANCE);
+    for (int32_t i = w->bodies[body].first_joint; i; i = fe__next_joint(w, i, body)) {
+        const fe__joint *j = w->joints.joints + i;
+        if (j->colour >= 0 && (j->rows & others || !is_edge(w, i) || is_second_hinge(w, i))) return 0;
+    }
+    return w->bodies[body].lock_bits == 0.0f;
+}
+
+static int32_t is_mechanism(const fe_world *w, const component *c, const fe__tree_link *links)
+{
+    if (c->bodies < SHORTEST_TREE || c->bodies > SHORT_TREE) return 0;
+    for (int32_t i = 0; i < c->bodies; ++i)
+        if (!is_only_locked(w, links[i].body)) return 0;
+    return 1;
+}
+
+static fe__tree_kind kind_of(const fe_world *w, const component *c, fe__tree_link *links)
+{
+    if (is_heavy(w, c, links)) return FE__TREE_HEAVY;
+    return is_mechanism(w, c, links) ? FE__TREE_SHORT : FE__TREE_LIGHT;
+}
+
 static void plant(fe_world *w, int32_t body)
 {
     fe__forest *f = &w->joints.forest;
@@ -283,7 +315,7 @@ static void plant(fe_world *w, int32_t body)
     if (c.edges != c.bodies - 1 || c.anchors > 1) return;
     arrange(w, &c, links);
     if (may_be_exact(w, &c, links))
-        keep_tree(f, c.bodies, is_heavy(w, &c, links), (uint32_t)w->bodies[links[0].body].lock_bits);
+        keep_tree(f, c.bodies, kind_of(w, &c, links), (uint32_t)w->bodies[links[0].body].lock_bits);
 }
 
 static void clear_marks(fe_world *w, int32_t joint)

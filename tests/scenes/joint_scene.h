@@ -79,6 +79,16 @@ static inline fe_joint add_rod(scene *s, fe_body a, fe_body b, vec from, vec to)
     return joint;
 }
 
+// A rope that never gets taut. Its limit is the sweep's, and a light set of joints with it: see FE__TREE_SHORT
+static inline void add_slack_rope(scene *s, fe_body a, fe_body b)
+{
+    fe_distance_joint_def rope = distance_def();
+    fe_joint joint;
+    vec p = to_world(s, position(s, a)), q = to_world(s, position(s, b));
+    MUST(fe_rope_joint_def_at(s->world, &rope, a, b, &p, &q, 100));
+    MUST(fe_distance_joint_create(s->world, &rope, &joint));
+}
+
 // between two points; the lengths are those of `d`
 static inline fe_joint add_distance(scene *s, fe_distance_joint_def d, fe_body a, fe_body b, vec from, vec to)
 {

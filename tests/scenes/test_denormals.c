@@ -1,27 +1,34 @@
 // Numbers that decay end at zero: what the solver keeps from step to step, and from substep to substep, is never
-// denormal. Arithmetic on denormals gives the right bits a hundred times as slowly, so only a count shows them.
+// denormal, and what it flushes is 0 or no less than its bounds (solver/solver.h). Arithmetic on denormals gives the
+// right bits a hundred times as slowly, so only a count shows them.
 #include "scenes/joint_scene.h"
 
 #include "world/deferral.h"
 #include "world/world.h"
 
+#include <float.h>
 #include <stddef.h>
 
-static int32_t denormals_in(const float *numbers, size_t count)
+// those that are not 0 and below `least`
+static int32_t below(float least, const float *numbers, size_t count)
 {
     int32_t sum = 0;
-    for (size_t i = 0; i < count; ++i) sum += fpclassify(numbers[i]) == FP_SUBNORMAL;
+    for (size_t i = 0; i < count; ++i) sum += numbers[i] != 0.0f && fabsf(numbers[i]) < least;
     return sum;
 }
 
-#define IN(array) denormals_in(array, sizeof(array) / sizeof(float))
+static int32_t denormals_in(const float *numbers, size_t count) { return below(FLT_MIN, numbers, count); }
+
+#define BELOW(least, array) below(least, array, sizeof(array) / sizeof(float))
+#define IN(array) BELOW(FLT_MIN, array)
 
 static int32_t in_bodies(const fe_world *w)
 {
     int32_t sum = 0;
     for (int32_t i = 0; i < w->awake_body_count; ++i) {
         const fe__body *body = w->bodies + w->awake_bodies[i];
-        sum += IN(body->velocity) + IN(body->spin) + IN(body->rotation);
+        sum += BELOW(FE__LEAST_SPEED, body->velocity) + BELOW(FE__LEAST_SPEED, body->spin) +
+               BELOW(FE__LEAST_SPEED, body->rotation);
     }
     return sum;
 }
@@ -29,8 +36,10 @@ static int32_t in_bodies(const fe_world *w)
 static int32_t in_lines(const fe__solver *s)
 {
     const size_t lines = (size_t)s->line_count * FE__LINE;
-    return denormals_in((const float *)s->velocity, lines) + denormals_in((const float *)s->motion, lines) +
-           denormals_in((const float *)s->inertia, lines) + denormals_in((const float *)s->axes, lines);
+    int32_t sum = denormals_in((const float *)s->velocity, lines) + denormals_in((const float *)s->motion, lines) +
+                  denormals_in((const float *)s->start, lines) + denormals_in((const float *)s->inertia, lines);
+    for (int32_t i = 0; i < s->line_count; ++i) sum += BELOW(FE__LEAST_LEAN, s->axes[i].rotation);
+    return sum;
 }
 
 static int32_t in_contacts(const fe_world *w)
@@ -38,8 +47,8 @@ static int32_t in_contacts(const fe_world *w)
     int32_t sum = 0;
     for (int32_t i = 0; i < w->awake_pair_count; ++i) {
         const fe__contact *m = w->contacts + fe__pair_of(w->awake_pairs[i]);
-        sum += IN(m->normal) + IN(m->normal_impulse) + IN(m->friction_impulse) + IN(m->total_impulse) +
-               denormals_in(&m->twist_impulse, 1);
+        sum += BELOW(FE__LEAST_LEAN, m->normal) + IN(m->normal_impulse) + IN(m->friction_impulse) +
+               IN(m->total_impulse) + below(FE__LEAST_TWIST, &m->twist_impulse, 1);
     }
     return sum;
 }
@@ -76,7 +85,7 @@ static void count_over(scene *s, int steps)
         const fe_world *w = s->world;
         int32_t bodies = in_bodies(w), lines = in_lines(&w->solver), contacts = in_contacts(w), joints = in_joints(w);
         if (bodies + lines + contacts + joints > 0)
-            fail_msg("step %d: denormals: %d in bodies, %d in lines, %d in contacts, %d in joints", i, (int)bodies,
+            fail_msg("step %d: too small: %d in bodies, %d in lines, %d in contacts, %d in joints", i, (int)bodies,
                      (int)lines, (int)contacts, (int)joints);
     }
 }

@@ -8,9 +8,9 @@ static uint64_t mixed(uint64_t form, uint64_t value)
     return form ^ form >> 29;
 }
 
-uint64_t fe__form_of_tree(const fe__tree_link *links, int32_t count, int32_t heavy, uint32_t locks)
+uint64_t fe__form_of_tree(const fe__tree_link *links, int32_t count, fe__tree_kind kind, uint32_t locks)
 {
-    uint64_t form = mixed((uint64_t)count, (uint64_t)locks << 1 | (uint64_t)heavy);
+    uint64_t form = mixed((uint64_t)count, (uint64_t)locks << 2 | (uint64_t)kind);
     for (const fe__tree_link *l = links; l < links + count; ++l)
         form = mixed(form, (uint64_t)(l->parent + 1) << 8 | (uint64_t)l->form);
     return form;
@@ -19,7 +19,7 @@ uint64_t fe__form_of_tree(const fe__tree_link *links, int32_t count, int32_t hea
 int32_t fe__trees_are_alike(const fe__forest *forest, int32_t a, int32_t b)
 {
     const fe__joint_tree *s = forest->trees + a, *t = forest->trees + b;
-    if (s->form != t->form || s->count != t->count || s->heavy != t->heavy || s->locks != t->locks) return 0;
+    if (s->form != t->form || s->count != t->count || s->kind != t->kind || s->locks != t->locks) return 0;
     for (int32_t i = 0; i < s->count; ++i) {
         const fe__tree_link *l = forest->links + s->first + i, *m = forest->links + t->first + i;
         if (l->parent != m->parent || l->form != m->form) return 0;

@@ -29,12 +29,18 @@ enum {
     FE__TREE_ROD = 1 << 7   // of fixed length, along x
 };
 
+// When a tree is solved
+typedef enum fe__tree_kind {
+    FE__TREE_LIGHT, // from the sweep on that left a joint open, to the end of the step
+    FE__TREE_SHORT, // in every substep
+    FE__TREE_HEAVY  // likewise; where it turns fast, without a guess from the last: see warm_start.inl
+} fe__tree_kind;
+
 typedef struct fe__joint_tree {
     int32_t first, count; // links
-    // 1: solved in every substep; 0: from the sweep on that left a joint open, to the end of the step
-    int32_t heavy;
-    uint32_t locks; // of each of its bodies
-    uint64_t form;  // of all links: trees of different ones are not alike
+    int32_t kind;         // fe__tree_kind
+    uint32_t locks;       // of each of its bodies
+    uint64_t form;        // of all links: trees of different ones are not alike
 } fe__joint_tree;
 
 typedef struct fe__forest {
@@ -48,7 +54,7 @@ typedef struct fe__forest {
 } fe__forest;
 
 // A number of the form of a tree's links
-uint64_t fe__form_of_tree(const fe__tree_link *links, int32_t count, int32_t heavy, uint32_t locks);
+uint64_t fe__form_of_tree(const fe__tree_link *links, int32_t count, fe__tree_kind kind, uint32_t locks);
 // 1: they have as many links, each with the same parent and the same form of joint, so that they may be solved side by
 // side
 int32_t fe__trees_are_alike(const fe__forest *forest, int32_t a, int32_t b);

@@ -258,7 +258,7 @@ static pass pass_of(const fe__tree_job *job)
               .solver = job->solver,
               .links = f->links + first->first,
               .count = first->count,
-              .heavy = first->heavy,
+              .kind = first->kind,
               .locks = first->locks,
               .lanes = (1 << job->count) - 1,
               .head = (bundle *)(void *)job->nodes,
@@ -307,8 +307,10 @@ static void prepare_trees(const fe__tree_job *job)
     const pass t = pass_of(job);
     t.head->loaded = 0;
     for (int lane = 0; lane < LANES; ++lane)
-        t.head->state[lane] = t.heavy ? SOLVED : lane < job->count && is_open(&t, lane, PUT_APART) ? SWEPT : READY;
-    if (t.heavy) reduce(&t, ALL_LANES);
+        t.head->state[lane] = t.kind != FE__TREE_LIGHT                            ? SOLVED
+                              : lane < job->count && is_open(&t, lane, PUT_APART) ? SWEPT
+                                                                                  : READY;
+    if (t.kind != FE__TREE_LIGHT) reduce(&t, ALL_LANES);
 }
 
 static void solve_lanes(const pass *t, int32_t lanes)
@@ -351,7 +353,7 @@ static void relax_trees(const fe__tree_job *job)
     follow_locks(&t);
     damp_jerk(&t, lanes);
     apply(&t, lanes, 1);
-    if (t.heavy) forget_locks(&t, lanes);
+    if (t.kind == FE__TREE_HEAVY) forget_locks(&t, lanes);
     close_gaps(&t, lanes);
 }
 
