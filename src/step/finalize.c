@@ -124,11 +124,16 @@ static void note_relaxed(const fe__solver *s, fe__body *body)
     for (int k = 0; k < 3; ++k) body->relaxed[k] = body->spin[k] - s->moved_spin[body->line][k];
 }
 
+// Odometers tell nothing of who went all the way round
+static void end_deferrals(fe_world *w)
+{
+    for (int32_t i = 0; i < w->awake_pair_count; ++i) w->awake_pairs[i] = fe__pair_of(w->awake_pairs[i]);
+}
+
 static void move_block(void *argument, int32_t first, int32_t end, int32_t worker)
 {
     fe__step *step = argument;
     fe_world *w = step->world;
-    int32_t some_deferred = atomic_load_explicit(&step->scratch->some_deferred, memory_order_relaxed);
     (void)worker;
     for (int32_t i = first; i < end; ++i) {
         enum { AHEAD = 4 };
@@ -147,9 +152,10 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
         int32_t moved = shift(body, motion->shift) | turn(body, motion->rotation);
         tick_sleep_timer(w, body, motion, step->dt);
         if (!moved) continue;
-        if (some_deferred)
-            fe__odometer_advance(w->odometers + w->awake_bodies[i], length_of(motion->shift),
-                                 length_of(motion->rotation));
+        fe__odometer_place(w->odometers + w->awake_bodies[i], body->centre);
+        fe__odometer_turn(w->odometers + w->awake_bodies[i], length_of(motion->rotation));
+        if (!(length_of(motion->shift) < FE__MOST_TRAVEL))
+            atomic_store_explicit(&step->scratch->some_leapt, 1, memory_order_relaxed);
         body->moved_step = w->step_number + 1;
         place_origin(body);
         follow_body(step, w->awake_bodies[i]);
@@ -170,9 +176,11 @@ void fe__move_bodies(fe__step *step)
     fe__step_scratch *s = step->scratch;
     atomic_store(&s->left_count, 0);
     atomic_store(&s->lost_count, 0);
+    atomic_store(&s->some_leapt, 0);
     atomic_store(&w->swiftest, 0);
     fe__parallel_for(&w->workers, w->awake_body_count, BODIES_IN_BLOCK, move_block, step);
     if (atomic_load(&s->lost_count)) forget_lost(w);
+    if (atomic_load(&s->some_leapt)) end_deferrals(w);
     int32_t left = atomic_load(&s->left_count);
     fe__parallel_for(&w->workers, left, BOXES_IN_BLOCK, box_block, step);
     if (left) fe__tree_move(&w->moving_tree, s->left, s->boxes, left);
