@@ -83,6 +83,12 @@ typedef struct fe__body {
 } fe__body;
 _Static_assert(sizeof(fe__body) % 64 == 0, "bodies are made of cache lines");
 
+// By body: how far it went, net, in the window of time that its sleep timer is in
+typedef struct fe__drift {
+    float shift[3]; // of the centre, m
+    float turn[3];  // rad: small rotations add as vectors
+} fe__drift;
+
 FE__IS_QUAD(fe__body, centre_low, speed);
 FE__IS_QUAD(fe__body, local_centre, reach);
 FE__IS_QUAD(fe__body, velocity, inverse_mass);

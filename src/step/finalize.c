@@ -53,16 +53,27 @@ static void place_origin(fe__body *body)
 
 static float length_of(const float *v) { return sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-// Slow is what was slow within the step, too: what is pushed out of another body moves, but has no velocity when the
-// step ends.
-static void tick_sleep_timer(fe_world *w, fe__body *body, const fe__motion_line *motion, float dt)
+// In which window of sleep_time a sleep timer is
+static int32_t window_of(float timer, float window) { return (int32_t)(timer / window); }
+
+// Slow is what has a small velocity when the step ends, and went no further in half a second, net, than at that speed.
+// What is pushed out of another body moves without a velocity. What is wedged may wobble by more than that in a step,
+// for ever: it comes back to where it was.
+static void tick_sleep_timer(fe_world *w, int32_t index, const fe__motion_line *motion, float dt)
 {
+    const float least = 1e-5f; // s: sleep_time and dt may be 0
+    fe__body *body = w->bodies + index;
+    fe__drift *drift = w->drifts + index;
+    float threshold = body->sleep_threshold, window = fe__maxf(fe__maxf(w->tuning.sleep_time, dt), least),
+          timer = body->sleep_timer + dt;
     fe__body_note_speed(w, body);
-    float threshold = body->sleep_threshold;
-    int32_t slow = body->flags & FE__BODY_SLEEP_ALLOWED && body->speed < threshold;
+    if (body->sleep_timer == 0.0f || window_of(timer, window) != window_of(body->sleep_timer, window))
+        *drift = (fe__drift){{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
     // dq = (n sin(a/2), cos(a/2)): a small turn a is twice the length of its vector
-    if (slow) slow = length_of(motion->shift) + 2.0f * length_of(motion->rotation) * body->reach < threshold * dt;
-    body->sleep_timer = slow ? body->sleep_timer + dt : 0.0f;
+    for (int k = 0; k < 3; ++k) drift->shift[k] += motion->shift[k], drift->turn[k] += 2.0f * motion->rotation[k];
+    int32_t slow = body->flags & FE__BODY_SLEEP_ALLOWED && body->speed < threshold &&
+                   length_of(drift->shift) + length_of(drift->turn) * body->reach < threshold * window;
+    body->sleep_timer = slow ? timer : 0.0f;
 }
 
 static void follow_body(fe__step *step, int32_t index)
@@ -150,7 +161,7 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
         for (int k = 0; k < 3; ++k) body->force[k] = body->torque[k] = 0.0f;
         note_relaxed(&w->solver, body);
         int32_t moved = shift(body, motion->shift) | turn(body, motion->rotation);
-        tick_sleep_timer(w, body, motion, step->dt);
+        tick_sleep_timer(w, w->awake_bodies[i], motion, step->dt);
         if (!moved) continue;
         fe__odometer_place(w->odometers + w->awake_bodies[i], body->centre);
         fe__odometer_turn(w->odometers + w->awake_bodies[i], length_of(motion->rotation));
