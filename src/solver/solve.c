@@ -18,7 +18,7 @@ enum {
     // colours are merged into one block while they have no more contacts: a barrier would cost more than they do
     SERIAL_LANES = 128,
     // the graph is built anew when it is so old, in steps, and has more than this part of its rows mixed
-    STEPS_OF_GRAPH = 8,
+    STEPS_OF_GRAPH = 32,
     MIXED_SHARE = 8,
     LANES_PER_WORKER = 128 // a large batch calls a worker for so many contacts of its largest colour
 };
@@ -487,8 +487,8 @@ static void note_strain(fe__solver *s, fe__body *bodies)
             s->graph_changed |= !has_pace(s, s->batches + i, bodies, found, joined);
 }
 
-// A group has one row at most in which contacts that bear something lie beside idle ones, when it is built. As loads
-// come and go there are more, and what could be skipped is not.
+// A group has one row at most in which loose contacts lie beside others, when it is built. As loads come and go there
+// are more, and what could be skipped is not.
 static void note_mixed(fe__solver *s, int32_t width)
 {
     int32_t rows = s->lane_count / width, mixed = atomic_load_explicit(&s->mixed, memory_order_relaxed);

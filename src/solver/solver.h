@@ -227,7 +227,7 @@ typedef struct fe__solver {
     _Atomic int32_t strained; // 1: a line is strained or stretched, in this step
     int32_t burdened;         // 1: some body is FE__BODY_BURDENED
     _Atomic int32_t engaged;  // light trees that were solved in this step
-    _Atomic int32_t mixed;    // rows of this step with contacts that bore something and others that did not
+    _Atomic int32_t mixed;    // rows of this step with loose contacts, see graph_build.h, and others
 
     // the graph (graph.c), kept while nothing links, unlinks, wakes or sleeps
     int32_t graph_changed;
@@ -271,7 +271,7 @@ typedef struct fe__contact_kernels {
     void (*relax[FE__ROW_KINDS])(fe__solver *s, const fe__contact *contacts, const fe__lane *lanes, void *rows,
                                  int32_t count, const fe__step_constants *c);
     void (*bounce[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
-    // returns how many rows have contacts that bore something in this step and others that did not
+    // returns how many rows have loose contacts and others
     int32_t (*store[FE__ROW_KINDS])(fe__contact *contacts, fe__extra *extras, const fe__lane *lanes, const void *rows,
                                     int32_t count);
 } fe__contact_kernels;

@@ -159,16 +159,22 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
 // What begins the step with an impulse, or ended the last one after it had one, is prepared in any case
 FE_INLINE int NAMED(may_wait)(const fe__contact *m, const int32_t *index)
 {
-    const float *first = m[index[0]].normal_impulse; // those with impulses mostly come first
-    if (first[0] + first[1] + first[2] + first[3] > 0.0f) return 0;
     if (w_any(any_nonzero(w_gather(m->normal_impulse, CONTACT_STRIDE, index)))) return 0;
     if (w_any(any_nonzero(w_gather(m->friction_impulse, CONTACT_STRIDE, index)))) return 0;
     if (w_any(any_nonzero(w_gather(m->total_impulse, CONTACT_STRIDE, index)))) return 0;
     return !w_any(found_ahead(w_gather(&m->surface.dynamic_friction, CONTACT_STRIDE, index).w));
 }
 
+// Loose contacts come last in a group: where the first is none, few rows are idle
+FE_INLINE int NAMED(begins_loose)(const fe__contact *m)
+{
+    const float *impulse = m->normal_impulse;
+    return m->separation[0] > 0.0f && !(impulse[0] + impulse[1] + impulse[2] + impulse[3] > 0.0f);
+}
+
 // A row that may stay idle gets what tells so, and is prepared by the first pass in which it is not
-FE_INLINE int NAMED(put_off)(ROW *row, const fe__lane *lane, const fe__contact *m)
+static __attribute__((noinline)) int NAMED(put_off)(ROW *row, const fe__lane *lane, const fe__solver *s,
+                                                    const fe__contact *m, const fe__step_constants *c, int kind)
 {
     _Alignas(64) int32_t index[FE_W];
     for (int i = 0; i < FE_W; ++i) index[i] = lane[i].contact;
@@ -179,7 +185,7 @@ FE_INLINE int NAMED(put_off)(ROW *row, const fe__lane *lane, const fe__contact *
     NAMED(prepare_gap)
     (row, w_gather(m->separation, CONTACT_STRIDE, index), normal.w, w_gather(m->found_span, CONTACT_STRIDE, index).w);
     row->put_off = 1, row->behind = 0;
-    return 1;
+    return NAMED(idle_now)(row, s, c, kind);
 }
 
 FE_INLINE void NAMED(prepare)(fe__solver *s, fe__contact *contacts, const fe__extra *extras, const fe__lane *lanes,
@@ -188,13 +194,14 @@ FE_INLINE void NAMED(prepare)(fe__solver *s, fe__contact *contacts, const fe__ex
     for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
         ROW *row = NAMED(row_at)(rows, i, kind);
         for (int j = 0; j < FE_W && i + 1 < count; ++j) prefetch_contact(contacts + lanes[FE_W + j].contact);
-        if (!NAMED(can_idle)(kind) || !NAMED(put_off)(row, lanes, contacts))
+        if (!NAMED(can_idle)(kind) || !NAMED(begins_loose)(contacts + lanes->contact) ||
+            !NAMED(put_off)(row, lanes, s, contacts, c, kind))
             NAMED(prepare_row)(row, lanes, s, contacts, extras, c, kind);
     }
 }
 
-// Returns how many rows have lanes that bore something in this step beside others that did not. What was put off to the
-// end is all zeros already
+// Returns how many rows have loose lanes beside others: with a gap, and without a load in this step. What was put off
+// to the end is all zeros already
 FE_INLINE int32_t NAMED(store)(fe__contact *contacts, fe__extra *extras, const fe__lane *lanes, const void *rows,
                                int32_t count, int kind)
 {
@@ -214,8 +221,8 @@ FE_INLINE int32_t NAMED(store)(fe__contact *contacts, fe__extra *extras, const f
             sum = sum + total[j];
         }
         if (NAMED(can_idle)(kind)) {
-            wide_mask bore = w_greater(sum, zero), others = w_and(w_not(bore), w_greater(w_set(FLT_MAX), row->gap));
-            mixed += w_any(bore) && w_any(others);
+            wide_mask loose = w_and(w_not(w_greater(sum, zero)), w_greater(row->gap, zero));
+            mixed += w_any(w_not(loose)) && w_any(w_and(loose, w_greater(w_set(FLT_MAX), row->gap)));
         }
         // of -0 and +0 the latter: what was put off has it
         wide4 friction = w_with(NAMED(friction_impulse)(row, load3(row->normal)), row->twist_impulse);
