@@ -64,16 +64,16 @@ static void tick_sleep_timer(fe_world *w, int32_t index, const fe__motion_line *
     const float least = 1e-5f; // s: sleep_time and dt may be 0
     fe__body *body = w->bodies + index;
     fe__drift *drift = w->drifts + index;
-    float threshold = body->sleep_threshold, window = fe__maxf(fe__maxf(w->tuning.sleep_time, dt), least),
-          timer = body->sleep_timer + dt;
+    float before = body->sleep_timer, threshold = body->sleep_threshold;
+    body->sleep_timer = 0.0f;
     fe__body_note_speed(w, body);
-    if (body->sleep_timer == 0.0f || window_of(timer, window) != window_of(body->sleep_timer, window))
+    if (!(body->flags & FE__BODY_SLEEP_ALLOWED && body->speed < threshold)) return;
+    float timer = before + dt, window = fe__maxf(fe__maxf(w->tuning.sleep_time, dt), least);
+    if (before == 0.0f || window_of(timer, window) != window_of(before, window))
         *drift = (fe__drift){{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
     // dq = (n sin(a/2), cos(a/2)): a small turn a is twice the length of its vector
     for (int k = 0; k < 3; ++k) drift->shift[k] += motion->shift[k], drift->turn[k] += 2.0f * motion->rotation[k];
-    int32_t slow = body->flags & FE__BODY_SLEEP_ALLOWED && body->speed < threshold &&
-                   length_of(drift->shift) + length_of(drift->turn) * body->reach < threshold * window;
-    body->sleep_timer = slow ? timer : 0.0f;
+    if (length_of(drift->shift) + length_of(drift->turn) * body->reach < threshold * window) body->sleep_timer = timer;
 }
 
 static void follow_body(fe__step *step, int32_t index)

@@ -402,7 +402,7 @@ static void the_top_of_a_pyramid_goes_to_neither_side(void **state)
 // S3: a box of 300 times their mass falls 2 m onto a pyramid of ten rows: nobody is moved by a twentieth of a box, nor
 // turned by 2 degrees
 #if defined(FE_SANITIZED)
-enum { AFTER_THE_FALL = 150 };
+enum { AFTER_THE_FALL = 300 };
 #else
 enum { AFTER_THE_FALL = 600 };
 #endif
