@@ -112,6 +112,12 @@ FE_INLINE void NAMED(prepare_gap)(ROW *row, wide4 separation, wide points, wide 
     row->reach = reach;
 }
 
+// Friction may come without a load, from other points, now gone. Relax takes it back where none follows
+FE_INLINE void NAMED(note_friction)(ROW *row, wide4 friction)
+{
+    row->gap = row->open = w_choose(any_nonzero(friction), w_set(-FLT_MAX), row->gap);
+}
+
 FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s, const fe__contact *m,
                                   const fe__extra *extras, const fe__step_constants *c, int kind)
 {
@@ -143,7 +149,9 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
     store3(row->centre, NAMED(prepare_points)(row, m, index, separation, normal.w, c));
     if (NAMED(can_idle)(kind)) NAMED(prepare_gap)(row, separation, normal.w, found.w);
     row->put_off = row->behind = 0;
-    NAMED(prepare_friction)(row, w_gather(m->friction_impulse, CONTACT_STRIDE, index), t1, t2, c);
+    wide4 friction = w_gather(m->friction_impulse, CONTACT_STRIDE, index);
+    NAMED(prepare_friction)(row, friction, t1, t2, c);
+    if (NAMED(can_idle)(kind)) NAMED(note_friction)(row, friction);
     NAMED(prepare_following)(row, p.normal, kind);
     wide_mask ahead = found_ahead(surface.w);
     if (w_any(ahead)) NAMED(place_ahead)(row, m, index, ahead, kind);

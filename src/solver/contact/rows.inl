@@ -29,9 +29,9 @@ typedef struct ROW {
     int32_t line_a[FE_W], line_b[FE_W];
     wide normal[3];
     // see idle.inl. A row that is put off has what is above, these, and nothing else
-    wide gap;        // when the step began, m; FLT_MAX: a padding lane; -FLT_MAX: it follows, and is never idle
-    wide open;       // no more than the gap where the bodies are now, m; -FLT_MAX: nobody looked
-    wide reach;      // longest arm, m
+    wide gap;   // when the step began, m; FLT_MAX: a padding lane; -FLT_MAX: never idle, it follows or had friction
+    wide open;  // no more than the gap where the bodies are now, m; -FLT_MAX: nobody looked
+    wide reach; // longest arm, m
     int32_t put_off; // 1: not prepared
     int32_t behind;  // 1: skipped when the bodies moved, with distances from before
     wide span[3];    // centre of A - centre of B
