@@ -9,11 +9,12 @@
     extern const fe__joint_kernels fe__joint_kernels_##name;     \
     extern const fe__forest_kernels fe__forest_kernels_##name;   \
     extern const fe__body_kernels fe__body_kernels_##name;       \
-    extern fe__recycle_kernel fe__recycle_##name;
+    extern fe__recycle_kernel fe__recycle_##name;                \
+    extern fe__due_kernel fe__keep_due_##name;
 #define TABLE(simd, lanes, name)                                                                         \
     {                                                                                                    \
         simd, lanes, &fe__contact_kernels_##name, &fe__joint_kernels_##name, &fe__forest_kernels_##name, \
-            &fe__body_kernels_##name, fe__recycle_##name, THIN_CONTACT_KERNELS                           \
+            &fe__body_kernels_##name, fe__recycle_##name, fe__keep_due_##name, THIN_CONTACT_KERNELS      \
     }
 
 DECLARE_SET(plain)

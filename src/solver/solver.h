@@ -14,6 +14,7 @@
 #include "core/memory.h"
 #include "core/threads.h"
 #include "solver/contact/contact.h"
+#include "solver/contact/deferral.h"
 #include "solver/body.h"
 #include "solver/joint/joint.h"
 #include "solver/tree/lock.h"
@@ -322,6 +323,11 @@ enum { FE__STAYS, FE__MOVED, FE__STAYS_APART };
 typedef void fe__recycle_kernel(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count,
                                 float dt, float fall, uint8_t *out, float *out_slack);
 
+// Of the deferred pairs at `places`, those that may meet in a step of dt seconds, by the bound of deferral.h: they are
+// brought to the front in their order. Returns how many.
+typedef int32_t fe__due_kernel(const fe__deferral *deferrals, const fe__odometer *odometers, int32_t *places,
+                               int32_t count, float dt);
+
 typedef struct fe__kernels {
     int32_t simd, width; // fe_simd, W
     const fe__contact_kernels *contact;
@@ -329,6 +335,7 @@ typedef struct fe__kernels {
     const fe__forest_kernels *forest;
     const fe__body_kernels *body;
     fe__recycle_kernel *recycle;
+    fe__due_kernel *keep_due;
     // of FE__THIN_WIDTH lanes, for groups of no more contacts: the same bits from less memory
     const fe__contact_kernels *thin;
 } fe__kernels;
