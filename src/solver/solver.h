@@ -251,9 +251,11 @@ typedef struct fe__solver {
     _Atomic int32_t strained; // 1: a line is strained or stretched, in this step
     int32_t burdened;         // 1: some body is FE__BODY_BURDENED
     _Atomic int32_t engaged;  // light trees that were solved in this step
+    _Atomic int32_t mixed;    // rows of this step with loose contacts, see graph_build.h, and others
 
     // the graph (graph.c), kept while nothing links, unlinks, wakes or sleeps
     int32_t graph_changed;
+    int32_t graph_age; // steps
     fe__built built;
     int32_t unbuilt;    // contacts that were linked, or woke, or go to another kind of row since: at most
     fe__batch *batches; // large islands first, kinematic bodies last
@@ -293,11 +295,14 @@ typedef enum fe__touch_act {
 // kind of row.
 typedef struct fe__contact_kernels {
     int32_t row_size[FE__ROW_KINDS]; // bytes of a row of W contacts
-    // contacts to rows; the stored impulses go to the bodies
+    // contacts to rows; the stored impulses go to the bodies. Rows of contacts without any are put off: solve and relax
+    // prepare those that turn out to be needed
     void (*prepare[FE__ROW_KINDS])(fe__solver *s, fe__contact *contacts, const fe__extra *extras, const fe__lane *lanes,
                                    void *rows, int32_t count, const fe__step_constants *c);
-    void (*solve[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
-    void (*relax[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
+    void (*solve[FE__ROW_KINDS])(fe__solver *s, const fe__contact *contacts, const fe__lane *lanes, void *rows,
+                                 int32_t count, const fe__step_constants *c);
+    void (*relax[FE__ROW_KINDS])(fe__solver *s, const fe__contact *contacts, const fe__lane *lanes, void *rows,
+                                 int32_t count, const fe__step_constants *c);
     void (*bounce[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
     // touches whose bodies have another one, to `out`; `near`: contacts without impulse of bodies in a chain. `lane`:
     // the first. How many
@@ -305,8 +310,9 @@ typedef struct fe__contact_kernels {
                                       const fe__step_constants *c, fe__touch *out);
     int32_t (*act[FE__ROW_KINDS])(fe__solver *s, void *row, uint32_t lanes, fe__touch_act act,
                                   const fe__step_constants *c); // lanes of the row
-    void (*store[FE__ROW_KINDS])(fe__contact *contacts, fe__extra *extras, const fe__lane *lanes, const void *rows,
-                                 int32_t count);
+    // returns how many rows have loose contacts and others
+    int32_t (*store[FE__ROW_KINDS])(fe__contact *contacts, fe__extra *extras, const fe__lane *lanes, const void *rows,
+                                    int32_t count);
 } fe__contact_kernels;
 
 // The same for one kind of part of joints. `sides`: FE__MOVES_* of all lanes

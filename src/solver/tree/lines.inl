@@ -76,16 +76,24 @@ FE_INLINE lines read_lines(const void *from, const line_names *line)
 FE_INLINE void write_lines(void *to, const line_names *line, int32_t lanes, const lines *l)
 {
     float *at = to;
+    quad low[LANES], high[LANES];
+#if FE_W == 8
+    half back[8]; // a transpose is its own inverse
+    turn_quads((const quad *)l->a, back), turn_quads((const quad *)(l->a + 4), back + 4);
+    for (int i = 0; i < LANES; ++i) low[i] = (quad)back[i], high[i] = (quad)back[4 + i];
+#else
     for (int i = 0; i < LANES; ++i) {
-        if (!(lanes >> i & 1)) continue;
-        *(quad *)LINE_OF(i) = (quad){l->a[0][i], l->a[1][i], l->a[2][i], l->a[3][i]};
-        *(quad *)(LINE_OF(i) + 4) = (quad){l->a[4][i], l->a[5][i], l->a[6][i], l->a[7][i]};
+        low[i] = (quad){l->a[0][i], l->a[1][i], l->a[2][i], l->a[3][i]};
+        high[i] = (quad){l->a[4][i], l->a[5][i], l->a[6][i], l->a[7][i]};
     }
+#endif
+    for (int i = 0; i < LANES; ++i)
+        if (lanes >> i & 1) *(quad *)LINE_OF(i) = low[i], *(quad *)(LINE_OF(i) + 4) = high[i];
 }
 #endif
 #undef LINE_OF
 
 FE_INLINE real3 widen3(const half *a) { return (real3){r_widen(a[0]), r_widen(a[1]), r_widen(a[2])}; }
 // b of what may be -0 is not: whether a freedom is looked at that gives nothing, nobody shall see
-FE_INLINE half narrow(real a) { return __builtin_convertvector(a + 0.0, half); }
+FE_INLINE half narrow(real a) { return __builtin_convertvector(a, half) + 0.0f; }
 FE_INLINE void narrow3(half *to, real3 a) { to[0] = narrow(a.x), to[1] = narrow(a.y), to[2] = narrow(a.z); }
