@@ -25,7 +25,20 @@ typedef struct paced {
     fe__step_constants usual, last, more;
 } paced;
 
-typedef enum verb { LOAD, PREPARE, BALANCE, SOLVE, FOLLOW, INTEGRATE, RELAX, BOUNCE, CARRY, STORE } verb;
+typedef enum verb {
+    LOAD,
+    PREPARE,
+    BALANCE,
+    SOLVE,
+    FOLLOW,
+    INTEGRATE,
+    RELAX,
+    BOUNCE,
+    CARRY,
+    STORE,
+    ACCEPT,
+    ACCEPT_LAST
+} verb;
 
 typedef struct program {
     int32_t rows_in_block;
@@ -141,12 +154,14 @@ static void make_program(program *p, fe__solver *s, const fe__batch *b, int32_t 
     number_blocks(p, s, b);
     add_pass(p, &p->prologue, LOAD, 0, 0, line_blocks, 0);
     add_colours(p, &p->prologue, s, b, PREPARE);
+    if (b->tree_groups) add_pass(p, &p->prologue, ACCEPT, first_tree_group(b), b->tree_groups, b->tree_groups, 0);
     if (b->joint_count) add_pass(p, &p->prologue, BALANCE, 0, 0, line_blocks, 0);
     add_colours(p, &p->substep, s, b, SOLVE);
     if (b->tree_groups) add_pass(p, &p->substep, FOLLOW, first_tree_group(b), b->tree_groups, b->tree_groups, 0);
     add_pass(p, &p->substep, INTEGRATE, 0, 0, line_blocks, 0);
     add_colours(p, &p->substep, s, b, RELAX);
     if (b->bounces) add_colours(p, &p->substep, s, b, BOUNCE);
+    if (b->tree_groups) add_pass(p, &p->substep, ACCEPT_LAST, first_tree_group(b), b->tree_groups, b->tree_groups, 0);
     add_pass(p, &p->substep, CARRY, 0, 0, line_blocks, 0);
     if (b->group_count)
         add_pass(p, &p->epilogue, STORE, b->first_group, b->group_count, block_count(p, s, b->first_group, end), 0);
@@ -228,6 +243,8 @@ static void run_joints(const job *j, const fe__group *g, verb verb, unsigned cha
     case INTEGRATE:
     case BOUNCE:
     case CARRY:
+    case ACCEPT:
+    case ACCEPT_LAST:
         break;
     }
 }
@@ -246,6 +263,8 @@ static void run_trees(const job *j, const fe__group *g, verb verb, unsigned char
     if (verb == PREPARE) j->k->forest->prepare(&trees);
     if (verb == SOLVE) j->k->forest->solve(&trees);
     if (verb == FOLLOW) j->k->forest->follow(&trees);
+    if (verb == ACCEPT) j->k->forest->accept(&trees);
+    if (verb == ACCEPT_LAST) j->k->forest->accept_last(&trees);
     if (verb == RELAX) j->k->forest->relax(&trees);
 }
 
@@ -298,6 +317,8 @@ static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char 
     case FOLLOW:
     case INTEGRATE:
     case CARRY:
+    case ACCEPT:
+    case ACCEPT_LAST:
         break;
     }
 }
@@ -337,6 +358,7 @@ static void run_batch(const job *j, const fe__batch *b, unsigned char *rows)
     const fe__step_constants *c = &pace->usual;
     run_all(j, b, LOAD, rows, c);
     run_all(j, b, PREPARE, rows, c);
+    for (int32_t i = 0; i < b->tree_groups; ++i) run_trees(j, j->s->groups + first_tree_group(b) + i, ACCEPT, rows, c);
     if (b->joint_count) run_all(j, b, BALANCE, rows, c);
     for (int32_t n = 0; n < c->substeps; ++n) {
         run_all(j, b, SOLVE, rows, c);
@@ -346,6 +368,8 @@ static void run_batch(const job *j, const fe__batch *b, unsigned char *rows)
         for (int32_t i = 1; i < c->sweeps; ++i) run_all(j, b, RELAX, rows, &pace->more);
         run_all(j, b, RELAX, rows, n + 1 < c->substeps ? c : &pace->last);
         if (b->bounces) run_all(j, b, BOUNCE, rows, c);
+        for (int32_t i = 0; i < b->tree_groups; ++i)
+            run_trees(j, j->s->groups + first_tree_group(b) + i, ACCEPT_LAST, rows, c);
         if (n + 1 < c->substeps) run_all(j, b, CARRY, rows, c);
     }
     run_all(j, b, STORE, rows, c);

@@ -291,6 +291,8 @@ typedef struct fe__forest_kernels {
     void (*solve)(const struct fe__tree_job *job);
     void (*follow)(const struct fe__tree_job *job);
     void (*relax)(const struct fe__tree_job *job);
+    void (*accept)(const struct fe__tree_job *job);
+    void (*accept_last)(const struct fe__tree_job *job);
 } fe__forest_kernels;
 
 typedef struct fe__joint_kernels {

@@ -13,6 +13,7 @@
 #define HEAVY_LOAD 32.0f
 // The same for joints that lock rotations: such a row is a beam, which bends with the cube of its length
 #define HEAVY_BEAM 4.0f
+#define HEAVY_SUPPORT 2048.0f
 
 // Levers: the rotation of a body may give way to each of its joints by a share of what the joint's stiffness counts on.
 // A sweep meets one joint after the other. Where these shares add up to more than this, it lets a star of joints swing,
@@ -203,6 +204,7 @@ static float heaviest_load(const fe_world *w, const component *c, fe__tree_link 
         float inverse = w->bodies[l->body].inverse_mass, load = l->carried;
         if (l->parent >= 0) inverse += w->bodies[links[l->parent].body].inverse_mass;
         if (!held) load = l->carried * ((total - l->carried) / total);
+        if (!held && l->parent >= 0) load = fe__maxf(load, HEAVY_LOAD / HEAVY_SUPPORT * (total - l->carried));
         most = fe__maxf(most, load * inverse / (is_beam(w, l->joint) ? HEAVY_BEAM : HEAVY_LOAD));
     }
     return most;

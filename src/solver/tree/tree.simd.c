@@ -12,6 +12,7 @@
 #include "solver/tree/eliminate.inl"
 #include "solver/tree/damping.inl"
 #include "solver/tree/warm_start.inl"
+#include "solver/tree/response.inl"
 
 // A light tree is left to the sweep until an impact pulls a joint's points apart by more than this: four fifths of the
 // linear slop, so that the slop is kept with something to spare, m
@@ -29,7 +30,32 @@ static void read_velocities(const pass *t)
         tree_node *n = t->nodes + i;
         const lines l = read_lines(t->solver->velocity, line_of(t, i).at);
         n->v = widen3(l.a), n->w = widen3(l.a + 4);
+        if (!t->head->lent) continue;
+        n->v = r_add_scaled(n->held_v, 1.0 / n->light, r_sub(n->v, n->held_v));
+        n->w = r_add_scaled(n->held_w, 1.0 / n->spins, r_sub(n->w, n->held_w));
     }
+}
+
+// the inverse mass that rows see
+static void write_masses(const pass *t, int32_t lanes, int32_t lent)
+{
+    for (int32_t i = 0; i < t->count; ++i) {
+        const tree_node *n = t->nodes + i;
+        const half inverse[1] = {narrow((lent ? n->light : r_set(1.0)) / n->mass)};
+        write_lines(t->solver->velocity, line_of(t, i).at, lanes, 3, 1, inverse);
+    }
+    t->head->lent = lent;
+}
+
+// From here on contacts change the velocities
+static void lend(const pass *t, int32_t lanes)
+{
+    if (t->kind != FE__TREE_HEAVY) return;
+    for (int32_t i = 0; i < t->count; ++i) {
+        const lines l = read_lines(t->solver->velocity, line_of(t, i).at);
+        t->nodes[i].held_v = widen3(l.a), t->nodes[i].held_w = widen3(l.a + 4);
+    }
+    write_masses(t, lanes, 1);
 }
 
 typedef struct velocity {
@@ -310,7 +336,16 @@ static void prepare_trees(const fe__tree_job *job)
         t.head->state[lane] = t.kind != FE__TREE_LIGHT                            ? SOLVED
                               : lane < job->count && is_open(&t, lane, PUT_APART) ? SWEPT
                                                                                   : READY;
+    t.head->lent = 0;
     if (t.kind != FE__TREE_LIGHT) reduce(&t, ALL_LANES);
+    if (t.kind != FE__TREE_HEAVY) return;
+    find_responses(&t);
+    for (int32_t i = 0; i < t.count; ++i)
+        for (int lane = 0; lane < job->count; ++lane) {
+            float *in = (float *)(void *)(t.solver->inertia + t.places[lane][i].line);
+            for (int k = 0; k < 6; ++k) in[k] *= (float)get_lane(&t.nodes[i].spins, lane);
+        }
+    lend(&t, t.lanes);
 }
 
 static void solve_lanes(const pass *t, int32_t lanes)
@@ -325,11 +360,29 @@ static void solve_trees(const fe__tree_job *job)
     const pass t = pass_of(job);
     const int32_t lanes = lanes_in(&t, SOLVED);
     if (lanes) solve_lanes(&t, lanes);
+    lend(&t, lanes);
 }
+
+// after contacts: what they gave goes through the tree
+static void accept_trees(const fe__tree_job *job, int32_t total)
+{
+    const pass t = pass_of(job);
+    if (!t.head->lent) return;
+    follow_locks(&t);
+    apply(&t, t.lanes, total);
+    write_masses(&t, t.lanes, 0);
+}
+static void accept_first(const fe__tree_job *job) { accept_trees(job, 0); }
+static void accept_last(const fe__tree_job *job) { accept_trees(job, 1); }
 
 static void follow_trees(const fe__tree_job *job)
 {
     const pass t = pass_of(job);
+    if (t.head->lent) {
+        solve_lanes(&t, t.lanes);
+        write_masses(&t, t.lanes, 0);
+        return;
+    }
     const int32_t ready = lanes_in(&t, READY);
     int32_t lanes = ready | lanes_in(&t, SOLVED);
     for (int lane = 0; lane < LANES; ++lane)
@@ -355,7 +408,15 @@ static void relax_trees(const fe__tree_job *job)
     apply(&t, lanes, 1);
     if (t.kind == FE__TREE_HEAVY) forget_locks(&t, lanes);
     close_gaps(&t, lanes);
+    lend(&t, lanes);
 }
 
-const fe__forest_kernels FE_NAME(fe__forest_kernels) = {
-    LANES, (int32_t)sizeof(bundle), (int32_t)sizeof(tree_node), prepare_trees, solve_trees, follow_trees, relax_trees};
+const fe__forest_kernels FE_NAME(fe__forest_kernels) = {LANES,
+                                                        (int32_t)sizeof(bundle),
+                                                        (int32_t)sizeof(tree_node),
+                                                        prepare_trees,
+                                                        solve_trees,
+                                                        follow_trees,
+                                                        relax_trees,
+                                                        accept_first,
+                                                        accept_last};
