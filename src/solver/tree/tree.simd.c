@@ -363,13 +363,29 @@ static void solve_trees(const fe__tree_job *job)
     lend(&t, lanes);
 }
 
+// the lanes in which contacts changed a velocity since
+static int32_t touched(const pass *t)
+{
+    int32_t lanes = 0;
+    for (int32_t i = 0; i < t->count; ++i) {
+        const tree_node *n = t->nodes + i;
+        const lines l = read_lines(t->solver->velocity, line_of(t, i).at);
+        const real3 v = r_sub(widen3(l.a), n->held_v), w = r_sub(widen3(l.a + 4), n->held_w);
+        lanes |= r_bits(r_greater(r_dot(v, v) + r_dot(w, w), r_set(0.0)));
+    }
+    return lanes & t->lanes;
+}
+
 // after contacts: what they gave goes through the tree
 static void accept_trees(const fe__tree_job *job, int32_t total)
 {
     const pass t = pass_of(job);
     if (!t.head->lent) return;
-    follow_locks(&t);
-    apply(&t, t.lanes, total);
+    const int32_t lanes = touched(&t);
+    if (lanes) {
+        follow_locks(&t);
+        apply(&t, lanes, total);
+    }
     write_masses(&t, t.lanes, 0);
 }
 static void accept_first(const fe__tree_job *job) { accept_trees(job, 0); }
@@ -379,9 +395,10 @@ static void follow_trees(const fe__tree_job *job)
 {
     const pass t = pass_of(job);
     if (t.head->lent) {
-        solve_lanes(&t, t.lanes);
+        const int32_t lanes = touched(&t);
+        if (lanes) solve_lanes(&t, lanes);
         write_masses(&t, t.lanes, 0);
-        return;
+        if (lanes == t.lanes) return;
     }
     const int32_t ready = lanes_in(&t, READY);
     int32_t lanes = ready | lanes_in(&t, SOLVED);
