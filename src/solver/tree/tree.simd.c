@@ -388,7 +388,19 @@ static void accept_trees(const fe__tree_job *job, int32_t total)
     }
     write_masses(&t, t.lanes, 0);
 }
-static void accept_first(const fe__tree_job *job) { accept_trees(job, 0); }
+static void accept_first(const fe__tree_job *job)
+{
+    const pass t = pass_of(job);
+    for (int32_t i = 0; i < t.count && t.head->lent; ++i)
+        for (int lane = 0; lane < job->count; ++lane) {
+            float *in = (float *)(void *)(t.solver->inertia + t.places[lane][i].line);
+            const real_sym *own = &t.nodes[i].first_inverse;
+            in[0] = (float)get_lane(&own->xx, lane), in[1] = (float)get_lane(&own->xy, lane);
+            in[2] = (float)get_lane(&own->xz, lane), in[3] = (float)get_lane(&own->yy, lane);
+            in[4] = (float)get_lane(&own->yz, lane), in[5] = (float)get_lane(&own->zz, lane);
+        }
+    accept_trees(job, 0);
+}
 static void accept_last(const fe__tree_job *job) { accept_trees(job, 1); }
 
 static void follow_trees(const fe__tree_job *job)
