@@ -1,6 +1,6 @@
 // `feather-bench scaling [--scene FAMILY[,FAMILY]] [--workers N[,N]] [--steps MOST] [--out FILE]`: time and memory of
 // scenes of 100 to 100 000 bodies, with one worker and two. Writes build/scaling.csv and, beside it, the same as a
-// plot.
+// plot. Then the memory of heaps, awake and asleep; FE_SIMD=sse2, avx2... chooses the lanes.
 //
 // The machine says how many workers can be measured. For more, what binds is told instead: how many barriers a step
 // has, on which all workers of a large island wait, and the share of the step that is not parallel.
@@ -142,6 +142,43 @@ static int run_family(const struct family *family, const bench_options *o, FILE 
     return 0;
 }
 
+// ---- memory of heaps -----------------------------------------------------------------------------------------------
+static const struct heap {
+    const char *family, *scene;
+} heaps[] = {{"debris", "debris-2000"}, {"debris", "debris-10000"}, {"balls", "balls-2000"},
+             {"balls", "balls-10000"},  {"bowl", "bowl-2000"},      {"bowl", "bowl-10000"}};
+enum { HEAPS = (int)(sizeof heaps / sizeof heaps[0]) };
+
+// The most bytes while the heap is poured, and those of the heap asleep
+static int measure_heap(const char *name)
+{
+    enum { STEPS = 300 };
+    bench_scene scene;
+    bench_counters now = {0};
+    if (bench_scene_build(name, &scene) != 0) return -1;
+    bench_world *world = bench_feather.create(&scene, 1, SUBSTEPS);
+    int64_t most = 0;
+    int32_t contacts = 0;
+    int status = world == NULL ? -1 : 0;
+    for (int32_t i = 0; i < STEPS && status == 0; i++) {
+        status = bench_feather.step(world, scene.dt);
+        bench_feather.read_counters(world, &now);
+        if (now.bytes > most) most = now.bytes;
+        contacts = now.contacts;
+    }
+    if (status == 0) {
+        bench_feather.fall_asleep(world);
+        status = bench_feather.step(world, scene.dt);
+        bench_feather.read_counters(world, &now);
+        printf("%-16s %8d %10.1f %12.0f %12.0f\n", name, scene.body_count, (double)contacts / scene.body_count,
+               (double)most / scene.body_count, (double)now.bytes / scene.body_count);
+        fflush(stdout);
+    }
+    if (world != NULL) bench_feather.destroy(world);
+    bench_scene_destroy(&scene);
+    return status;
+}
+
 static int is_asked(const bench_options *o, const char *family)
 {
     for (int32_t i = 0; i < o->scene_count; i++) {
@@ -185,5 +222,8 @@ int bench_command_scaling(int argc, char **argv)
         next += o.worker_count > 0 ? o.worker_count : 2;
     }
     fclose(csv);
+    printf("\n%-16s %8s %10s %12s %12s\n", "heap", "bodies", "contacts", "bytes awake", "asleep");
+    for (int32_t i = 0; i < HEAPS && status == 0; i++)
+        if (is_asked(&o, heaps[i].family)) status = measure_heap(heaps[i].scene);
     return status == 0 && draw(bench_svg_path(path), lines) == 0 ? 0 : 1;
 }

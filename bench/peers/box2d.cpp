@@ -299,6 +299,7 @@ const bench_engine bench_box2d = {
     nullptr,
     nullptr,
     nullptr,
+    nullptr,
 };
 
 #endif

@@ -410,6 +410,7 @@ const bench_engine bench_bullet = {
     nullptr,
     sweep,
     overlap,
+    nullptr,
 };
 
 #endif

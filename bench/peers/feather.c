@@ -472,6 +472,13 @@ static void read_counters(bench_world *w, bench_counters *out_counters)
     };
 }
 
+// What a moving kinematic body drives stays awake, and static bodies never were
+static void fall_asleep(bench_world *w)
+{
+    for (int32_t i = 0; i < w->count; i++) (void)fe_body_set_sleep_allowed(w->world, w->bodies[i], 1);
+    for (int32_t i = 0; i < w->count; i++) (void)fe_body_set_awake(w->world, w->bodies[i], 0);
+}
+
 static uint64_t read_hash(bench_world *w)
 {
     uint32_t words[2] = {0, 0};
@@ -501,6 +508,7 @@ const bench_engine bench_feather = {
     .read_phases = read_phases,
     .read_counters = read_counters,
     .read_hash = read_hash,
+    .fall_asleep = fall_asleep,
     .sweep = sweep,
     .overlap = overlap,
 };

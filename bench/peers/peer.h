@@ -85,6 +85,7 @@ typedef struct bench_engine {
     uint64_t (*read_hash)(bench_world *world);                                            ///< optional
     int32_t (*sweep)(bench_world *world, const bench_probe *probe, double *out_fraction); ///< optional; 1 on a hit
     int32_t (*overlap)(bench_world *world, const bench_probe *probe); ///< optional: how many bodies it overlaps
+    void (*fall_asleep)(bench_world *world);                          ///< optional: all bodies
 } bench_engine;
 
 extern const bench_engine bench_feather;

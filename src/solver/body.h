@@ -11,19 +11,20 @@ enum {
     FE__BODY_ENABLED = 1,
     FE__BODY_BULLET = 2,
     FE__BODY_SLEEP_ALLOWED = 4,
-    FE__BODY_MASS_GIVEN = 8,     // mass data set by hand: shapes no longer change it
-    FE__BODY_LOST = 16,          // overflowed in this step, see finalize.c
-    FE__BODY_ISOTROPIC = 32,     // equal principal moments, or a rotation lock: no gyroscopic torque
-    FE__BODY_STARTED = 64,       // scratch of a walk: over an island, over a list of handles
-    FE__BODY_IGNORES = 128,      // first_ignored is not 0
-    FE__BODY_DISTURBED = 256,    // in the list of bodies that woke or fell asleep
-    FE__BODY_SEEN_AWAKE = 512,   // when the events of the last step were written
-    FE__BODY_CHASED = 1024,      // in the list of bodies that continuous collision looks at
-    FE__BODY_STRAINED = 2048,    // bears many times its weight, or a body many times as heavy just came upon it
-    FE__BODY_HELD = 4096,        // joined to others, and stopped by continuous collision in this step, see rejoin.h
-    FE__BODY_STRETCHED = 8192,   // a joint of it is wide open
-    FE__BODY_ANCHOR = 16384,     // the end of a joint that is the world, see world/anchor.h
-    FE__BODY_SIZES_STALE = 32768 // a static one: reach and thickness are of shapes that it had
+    FE__BODY_MASS_GIVEN = 8,      // mass data set by hand: shapes no longer change it
+    FE__BODY_LOST = 16,           // overflowed in this step, see finalize.c
+    FE__BODY_ISOTROPIC = 32,      // equal principal moments, or a rotation lock: no gyroscopic torque
+    FE__BODY_STARTED = 64,        // scratch of a walk: over an island, over a list of handles
+    FE__BODY_IGNORES = 128,       // first_ignored is not 0
+    FE__BODY_DISTURBED = 256,     // in the list of bodies that woke or fell asleep
+    FE__BODY_SEEN_AWAKE = 512,    // when the events of the last step were written
+    FE__BODY_CHASED = 1024,       // in the list of bodies that continuous collision looks at
+    FE__BODY_STRAINED = 2048,     // bears many times its weight, or a body many times as heavy just fell on it
+    FE__BODY_HELD = 4096,         // joined to others, and stopped by continuous collision in this step, see rejoin.h
+    FE__BODY_STRETCHED = 8192,    // a joint of it is wide open
+    FE__BODY_ANCHOR = 16384,      // the end of a joint that is the world, see world/anchor.h
+    FE__BODY_SIZES_STALE = 32768, // a static one: reach and thickness are of shapes that it had
+    FE__BODY_BURDENED = 65536     // bore many times its weight in the last step, not in the one before
 };
 
 typedef struct fe__body {
@@ -81,6 +82,12 @@ typedef struct fe__body {
     _Alignas(16) float relaxed[4];
 } fe__body;
 _Static_assert(sizeof(fe__body) % 64 == 0, "bodies are made of cache lines");
+
+// By body: how far it went, net, in the window of time that its sleep timer is in
+typedef struct fe__drift {
+    float shift[3]; // of the centre, m
+    float turn[3];  // rad: small rotations add as vectors
+} fe__drift;
 
 FE__IS_QUAD(fe__body, centre_low, speed);
 FE__IS_QUAD(fe__body, local_centre, reach);

@@ -454,16 +454,25 @@ static void clear_static_line(fe__solver *s)
     }
 }
 
+// A load strains from its second step on: one that is over within a step was an impact
+static uint32_t flag_of_strain(fe__solver *s, const fe__batch *b, const fe__body *body)
+{
+    if (b->pace == FE__STRAINED || body->flags & FE__BODY_BURDENED) return FE__BODY_STRAINED;
+    s->burdened = 1;
+    return FE__BODY_BURDENED;
+}
+
 // the marks of the lines to the bodies, and all that is true of an island's bodies to `found`
-static void note_marks(const fe__solver *s, const fe__batch *b, fe__body *bodies, uint32_t *found, uint32_t joined)
+static void note_marks(fe__solver *s, const fe__batch *b, fe__body *bodies, uint32_t *found, uint32_t joined)
 {
     for (int32_t line = b->first_line; line < b->first_line + b->line_count; ++line) {
         fe__body *body = bodies + fe__maxi(s->body_of_line[line], 0);
         if (s->body_of_line[line] < 0 || body->type != FE_BODY_DYNAMIC) continue;
         float mark = s->inertia[line].mark;
-        body->flags &= ~(uint32_t)(FE__BODY_STRAINED | FE__BODY_STRETCHED);
-        if (mark == (float)FE__STRAINED) body->flags |= FE__BODY_STRAINED;
-        if (mark == (float)FE__STRETCHED) body->flags |= FE__BODY_STRETCHED;
+        uint32_t flag = 0;
+        if (mark == (float)FE__STRAINED) flag = flag_of_strain(s, b, body);
+        if (mark == (float)FE__STRETCHED) flag = FE__BODY_STRETCHED;
+        body->flags = (body->flags & ~(uint32_t)(FE__BODY_STRAINED | FE__BODY_BURDENED | FE__BODY_STRETCHED)) | flag;
         found[body->island] |= body->flags & (FE__BODY_STRAINED | FE__BODY_STRETCHED);
         if (body->joint_count) found[body->island] |= joined;
     }
@@ -485,10 +494,11 @@ static int32_t has_pace(const fe__solver *s, const fe__batch *b, const fe__body 
 static void note_strain(fe__solver *s, fe__body *bodies)
 {
     const uint32_t joined = 1; // a bit that is none of the two flags
-    int32_t any = atomic_load_explicit(&s->strained, memory_order_relaxed);
+    int32_t any = atomic_load_explicit(&s->strained, memory_order_relaxed) | s->burdened;
     uint32_t *found = (uint32_t *)(void *)s->rows; // no longer in use
     for (int32_t i = 0; i < s->batch_count; ++i) any |= s->batches[i].pace;
     if (!any) return;
+    s->burdened = 0;
     memset(found, 0, sizeof *found * (size_t)s->island_count);
     for (int32_t i = 0; i < s->batch_count - 1; ++i)
         if (i >= s->large_count || s->batches[i].joint_count) note_marks(s, s->batches + i, bodies, found, joined);

@@ -76,10 +76,9 @@ typedef struct fe__step_constants {
     float contact_warm_scale; // that, or 0: contacts begin without them
     float max_speed;          // m/s
     float speculative;        // m
-    // m/s; what a load of one step could do to its two bodies, from which on their island is strained
+    // m/s; what a load of one step could do to its two bodies, from which on it strains their island
     float strain;
-    float open;    // m2; square of a joint's gap from which on its island is stretched
-    float forgets; // 0: strain is what lasted for the step, FLT_MAX: what the last substep bore, m/s
+    float open; // m2; square of a joint's gap from which on its island is stretched
     int32_t substeps;
     int32_t division;     // substeps to one of the world's: 1, more in strained and stretched islands
     int32_t sweeps;       // relax passes over the contacts in a substep
@@ -226,6 +225,7 @@ typedef struct fe__solver {
     int32_t trail_capacity[3];
 
     _Atomic int32_t strained; // 1: a line is strained or stretched, in this step
+    int32_t burdened;         // 1: some body is FE__BODY_BURDENED
     _Atomic int32_t engaged;  // light trees that were solved in this step
 
     // the graph (graph.c), kept while nothing links, unlinks, wakes or sleeps

@@ -38,7 +38,7 @@ void fe__defer_pair(const fe__step *step, int32_t pair, float slack)
     const fe_world *w = step->world;
     const fe__pair *p = w->pairs + pair;
     if (p->flags & (FE__PAIR_PATCH | FE__PAIR_MAY_REPORT) || p->next_patch >= 0 || p->awake_index < 0) return;
-    fe__defer(w->deferrals + p->awake_index, w->odometers, p->body_a, p->body_b, slack, w->contacts[pair].longest_arm);
+    fe__defer(w->deferrals + p->awake_index, w->odometers, w->bodies, w->contacts + pair, slack);
     w->awake_pairs[p->awake_index] = ~pair;
     atomic_store_explicit(&step->scratch->some_deferred, 1, memory_order_relaxed);
 }
@@ -212,7 +212,7 @@ static void apply_results(fe__step *step, int32_t first)
     for (int32_t i = 0; i < count; ++i) {
         const fe__pair *p = w->pairs + results[i];
         if (p->result != FE__RESULT_BEGIN) continue;
-        fe__pair_link(w, results[i]);
+        fe__pair_link(w, results[i], step->dt);
         wake_sleeping(w, p->body_a);
         wake_sleeping(w, p->body_b);
     }

@@ -17,10 +17,8 @@ static int32_t keep_due(const fe__step *step, int32_t *places, int32_t count)
     for (int32_t i = 0; i < count; ++i) pairs[i] = ~w->awake_pairs[places[i]];
     w->kernels->recycle(w->contacts, w->bodies, pairs, count, step->dt, fe__fall_in_step(w, step->dt), verdicts, slack);
     for (int32_t i = 0; i < count; ++i) {
-        const fe__pair *p = w->pairs + pairs[i];
         if (verdicts[i] == FE__STAYS_APART) {
-            fe__defer(w->deferrals + places[i], w->odometers, p->body_a, p->body_b, slack[i],
-                      w->contacts[pairs[i]].longest_arm);
+            fe__defer(w->deferrals + places[i], w->odometers, w->bodies, w->contacts + pairs[i], slack[i]);
             continue;
         }
         places[left++] = w->awake_pairs[places[i]] = pairs[i];

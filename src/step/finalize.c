@@ -53,16 +53,27 @@ static void place_origin(fe__body *body)
 
 static float length_of(const float *v) { return sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-// Slow is what was slow within the step, too: what is pushed out of another body moves, but has no velocity when the
-// step ends.
-static void tick_sleep_timer(fe_world *w, fe__body *body, const fe__motion_line *motion, float dt)
+// In which window of sleep_time a sleep timer is
+static int32_t window_of(float timer, float window) { return (int32_t)(timer / window); }
+
+// Slow is what has a small velocity when the step ends, and went no further in half a second, net, than at that speed.
+// What is pushed out of another body moves without a velocity. What is wedged may wobble by more than that in a step,
+// for ever: it comes back to where it was.
+static void tick_sleep_timer(fe_world *w, int32_t index, const fe__motion_line *motion, float dt)
 {
+    const float least = 1e-5f; // s: sleep_time and dt may be 0
+    fe__body *body = w->bodies + index;
+    fe__drift *drift = w->drifts + index;
+    float before = body->sleep_timer, threshold = body->sleep_threshold;
+    body->sleep_timer = 0.0f;
     fe__body_note_speed(w, body);
-    float threshold = body->sleep_threshold;
-    int32_t slow = body->flags & FE__BODY_SLEEP_ALLOWED && body->speed < threshold;
+    if (!(body->flags & FE__BODY_SLEEP_ALLOWED && body->speed < threshold)) return;
+    float timer = before + dt, window = fe__maxf(fe__maxf(w->tuning.sleep_time, dt), least);
+    if (before == 0.0f || window_of(timer, window) != window_of(before, window))
+        *drift = (fe__drift){{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
     // dq = (n sin(a/2), cos(a/2)): a small turn a is twice the length of its vector
-    if (slow) slow = length_of(motion->shift) + 2.0f * length_of(motion->rotation) * body->reach < threshold * dt;
-    body->sleep_timer = slow ? body->sleep_timer + dt : 0.0f;
+    for (int k = 0; k < 3; ++k) drift->shift[k] += motion->shift[k], drift->turn[k] += 2.0f * motion->rotation[k];
+    if (length_of(drift->shift) + length_of(drift->turn) * body->reach < threshold * window) body->sleep_timer = timer;
 }
 
 static void follow_body(fe__step *step, int32_t index)
@@ -124,11 +135,16 @@ static void note_relaxed(const fe__solver *s, fe__body *body)
     for (int k = 0; k < 3; ++k) body->relaxed[k] = body->spin[k] - s->moved_spin[body->line][k];
 }
 
+// Odometers tell nothing of who went all the way round
+static void end_deferrals(fe_world *w)
+{
+    for (int32_t i = 0; i < w->awake_pair_count; ++i) w->awake_pairs[i] = fe__pair_of(w->awake_pairs[i]);
+}
+
 static void move_block(void *argument, int32_t first, int32_t end, int32_t worker)
 {
     fe__step *step = argument;
     fe_world *w = step->world;
-    int32_t some_deferred = atomic_load_explicit(&step->scratch->some_deferred, memory_order_relaxed);
     (void)worker;
     for (int32_t i = first; i < end; ++i) {
         enum { AHEAD = 4 };
@@ -145,11 +161,12 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
         for (int k = 0; k < 3; ++k) body->force[k] = body->torque[k] = 0.0f;
         note_relaxed(&w->solver, body);
         int32_t moved = shift(body, motion->shift) | turn(body, motion->rotation);
-        tick_sleep_timer(w, body, motion, step->dt);
+        tick_sleep_timer(w, w->awake_bodies[i], motion, step->dt);
         if (!moved) continue;
-        if (some_deferred)
-            fe__odometer_advance(w->odometers + w->awake_bodies[i], length_of(motion->shift),
-                                 length_of(motion->rotation));
+        fe__odometer_place(w->odometers + w->awake_bodies[i], body->centre);
+        fe__odometer_turn(w->odometers + w->awake_bodies[i], length_of(motion->rotation));
+        if (!(length_of(motion->shift) < FE__MOST_TRAVEL))
+            atomic_store_explicit(&step->scratch->some_leapt, 1, memory_order_relaxed);
         body->moved_step = w->step_number + 1;
         place_origin(body);
         follow_body(step, w->awake_bodies[i]);
@@ -170,9 +187,11 @@ void fe__move_bodies(fe__step *step)
     fe__step_scratch *s = step->scratch;
     atomic_store(&s->left_count, 0);
     atomic_store(&s->lost_count, 0);
+    atomic_store(&s->some_leapt, 0);
     atomic_store(&w->swiftest, 0);
     fe__parallel_for(&w->workers, w->awake_body_count, BODIES_IN_BLOCK, move_block, step);
     if (atomic_load(&s->lost_count)) forget_lost(w);
+    if (atomic_load(&s->some_leapt)) end_deferrals(w);
     int32_t left = atomic_load(&s->left_count);
     fe__parallel_for(&w->workers, left, BOXES_IN_BLOCK, box_block, step);
     if (left) fe__tree_move(&w->moving_tree, s->left, s->boxes, left);

@@ -47,10 +47,14 @@ static void make_anew(fe__step *step)
     c->made = c->all;
 }
 
+// What parts stays together in them. So they are made anew, once somebody asks, when an eighth as many as there are
+// records of pairs has been joined since: a step that joins n pairs walks 8 n records on average.
+static int32_t may_have_parted(const fe_world *w) { return w->clusters.all - w->clusters.made > w->pair_limit / 8; }
+
 void fe__count_candidates(fe__step *step)
 {
     fe__clusters *c = &step->world->clusters;
-    if (c->body_count < step->world->body_capacity) c->is_stale = 1;
+    if (c->body_count < step->world->body_capacity || may_have_parted(step->world)) c->is_stale = 1;
     if (!c->is_stale) join_candidates(step);
 }
 
@@ -63,10 +67,6 @@ static int32_t renew(fe__step *step)
     make_anew(step);
     return 1;
 }
-
-// What parts stays together in them. They are made anew when an eighth as much again has been joined since: so a step
-// that joins n pairs walks 8 n records on average.
-static int32_t may_have_parted(const fe__clusters *c) { return c->all - c->made > c->made / 8; }
 
 // ---- what may wake -------------------------------------------------------------------------------------------------
 static int32_t is_asleep(const fe__body *body) { return body->awake_index < 0 && body->type == FE_BODY_DYNAMIC; }
@@ -102,7 +102,6 @@ int32_t fe__bound_waking(fe__step *step, int32_t *out_lanes, int32_t *out_cluste
     while (n < end && sleeper_of(step, n) < 0) ++n;
     if (n == end) return 1;
     if (!renew(step)) return 0;
-    if (may_have_parted(c)) make_anew(step);
     fe__clusters_ask(c);
     for (; n < end; ++n) {
         int32_t body = sleeper_of(step, n);
@@ -114,11 +113,8 @@ int32_t fe__bound_waking(fe__step *step, int32_t *out_lanes, int32_t *out_cluste
 int32_t fe__bound_islands(fe__step *step, fe__graph_bound *bound)
 {
     fe_world *w = step->world;
-    const fe__clusters *c = &w->clusters;
     if (fe__graph_has_rows(&w->solver, w->kernels, bound, w->workers.count)) return 1;
     if (!renew(step)) return 0;
-    bound->largest = c->most;
-    if (may_have_parted(c) && !fe__graph_has_rows(&w->solver, w->kernels, bound, w->workers.count)) make_anew(step);
-    bound->largest = c->most;
+    bound->largest = w->clusters.most;
     return 1;
 }

@@ -12,8 +12,9 @@
 #define MOST_WARM_SCALE 16.0f
 
 // An island is strained by a load that lasts and could accelerate a body by so many times gravity (a stack of 40 equal
-// boxes), until it is less than a quarter of that. Without gravity that of the earth counts.
+// boxes), until it is less than half of that. Without gravity that of the earth counts.
 #define STRAIN 80.0f
+#define STAYS_STRAINED 0.5f // of it
 // Impulses pass on by a body or so in a rigid pass, and the impact of a body hundreds of times as heavy needs hundreds:
 // it arrives late, with the bodies between deep in each other. In a strained island substeps are about a thousandth of
 // a second, of three passes.
@@ -80,8 +81,7 @@ static void constants_of_paces(const fe_world *w, float dt, fe__step_constants p
     *usual = fe__constants_of(w, dt, 1);
     usual->open = division > 1 ? STRETCHED_GAP * STRETCHED_GAP : FLT_MAX;
     *strained = fe__constants_of(w, dt, division_of(whole, FINE_RATE));
-    strained->strain *= 0.25f;
-    strained->forgets = FLT_MAX;
+    strained->strain *= STAYS_STRAINED;
     strained->sweeps = FINE_SWEEPS;
     *stretched = fe__constants_of(w, dt, division);
     stretched->open = 0.25f * usual->open;

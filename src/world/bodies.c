@@ -50,13 +50,14 @@ static void remove_from_order(fe_world *world, int32_t index)
     world->kinematic_count -= body->type == FE_BODY_KINEMATIC;
 }
 
-static void set_pose(fe__body *body, const fe_transform *transform)
+static void set_pose(fe_world *world, fe__body *body, const fe_transform *transform)
 {
     fe_quat q = fe__unit_rotation(transform->rotation);
     body->rotation[0] = q.x, body->rotation[1] = q.y, body->rotation[2] = q.z, body->rotation[3] = q.w;
     body->origin[0] = transform->position.x, body->origin[1] = transform->position.y,
     body->origin[2] = transform->position.z;
     fe__body_place_centre(body);
+    fe__odometer_place(world->odometers + (body - world->bodies), body->centre);
 }
 
 static void set_lock_bits(fe_world *world, fe__body *body, uint32_t linear, uint32_t angular)
@@ -100,7 +101,7 @@ int32_t fe__body_create(fe_world *world, const fe_body_def *def)
     body->sleep_threshold = def->sleep_threshold;
     body->linear_damping = def->linear_damping;
     body->angular_damping = def->angular_damping;
-    set_pose(body, &def->transform);
+    set_pose(world, body, &def->transform);
     set_initial_velocities(body, def);
     set_lock_bits(world, body, def->linear_locks, def->angular_locks);
     append_to_order(world, index);
@@ -217,7 +218,7 @@ void fe__body_set_transform(fe_world *world, int32_t index, const fe_transform *
 {
     fe__body *body = &world->bodies[index];
     fe__body_disturb(world, index);
-    set_pose(body, transform);
+    set_pose(world, body, transform);
     fe__body_end_deferrals(world, index);
     fe__body_place(world, index);
     fe__body_wind_joints(world, index);

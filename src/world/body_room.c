@@ -7,7 +7,8 @@ fe_result fe__reserve_bodies(fe_world *world, int32_t extra)
     if (ids != FE_OK) return ids;
     int64_t opened = world->body_ids.slot_count, fresh = fe__maxi(0, extra - world->body_ids.free_count);
     if (!FE_RESERVE(&world->memory, world->bodies, world->body_capacity, opened + fresh) ||
-        !FE_RESERVE(&world->memory, world->odometers, world->odometer_capacity, opened + fresh))
+        !FE_RESERVE(&world->memory, world->odometers, world->odometer_capacity, opened + fresh) ||
+        !FE_RESERVE(&world->memory, world->drifts, world->drift_capacity, opened + fresh))
         return FE_ERROR_MEMORY;
     int64_t alive = (int64_t)world->body_count + extra;
     int32_t room = FE_RESERVE(&world->memory, world->awake_bodies, world->awake_body_capacity, alive) &&

@@ -2,7 +2,7 @@
 // not as many as if all bodies were one.
 //
 // Disjoint sets of bodies, joined by every pair there is, touching or not, by candidates and joints. They only grow
-// together; made anew from what is left when room would run out.
+// together; made anew from what is left.
 #ifndef FE_WORLD_CLUSTERS_H
 #define FE_WORLD_CLUSTERS_H
 #include "core/memory.h"
@@ -10,13 +10,13 @@
 typedef struct fe__clusters {
     int32_t *parent;                 // by body: another of its cluster, itself at the root
     int32_t *lanes;                  // by root: contacts and parts of joints
-    int32_t *asked;                  // by root: the sum that it was in last
+    int64_t *asked;                  // by root: the sum that it was in last
     int32_t capacity[3], body_count; // of the arrays; how many bodies have a place in all
     int32_t most;                    // lanes of one cluster
     int32_t all;                     // lanes of all
     int32_t made;                    // `all` when they were made
-    int32_t sum;                     // number of the sum that is asked for
-    int32_t is_stale;                // 1: something was joined that is not in them
+    int64_t sum;                     // number of the sum that is asked for
+    int32_t is_stale;                // 1: something was joined that is not in them, or too much may have parted
 } fe__clusters;
 
 int32_t fe__clusters_reserve(fe__clusters *clusters, fe__memory *memory, int32_t bodies); // 0: no memory

@@ -1,63 +1,101 @@
-// deferral.h - deferred pairs: awake, without points and events, whose bodies cannot have met since the narrow phase
-// looked at them.
+// deferral.h - deferred pairs: awake, without points and events, whose bodies cannot have met since they were last
+// looked at.
 //
 // Most pairs of a heap are near misses. Recycling computes exactly how far the bodies of a pair moved against each
-// other, from six cache lines that lie anywhere. The sum of both bodies' travel is an upper bound of it, from records
-// that lie one after the other and a small table of bodies. Where the bound does not decide, the exact test does, so
-// that no result depends on it. While a pair is deferred, no stage reads more of it.
+// other, from six cache lines that lie anywhere. A bound of it needs half a line beside the list of awake pairs and a
+// small table of bodies:
+//
+//   gap now  >= gap then + n . (shift of B - shift of A) - 2 arm (sines of half the turns of A and B)
+//   closing  <= max(n . (vA - vB), 0) + spins of both                          in the step that comes
+//
+// and without a normal n the same with the whole motion, times sqrt 3 as in recycle.simd.c. Where the bound does not
+// decide, the exact test does, so that no result depends on it. While a pair is deferred, no stage reads more of it.
 #ifndef FE_WORLD_DEFERRAL_H
 #define FE_WORLD_DEFERRAL_H
-#include "core/math.h"
+#include "solver/body.h"
+#include "solver/contact/contact.h"
 
-// How far a body travelled since it was made, in ticks, modulo 2^32: only differences count. No pair is deferred for so
-// long that one wraps
+#define FE__TICKS 4194304.0f // in 1 m, or 1 of a sine
+#define FE__MOST_TRAVEL \
+    128.0f // m in a step, and of a gap: four of them are 2^31 ticks. Who leaps farther ends the wait
+
+// Where a body is and how it moves. Ticks are modulo 2^32: only differences count
 typedef struct fe__odometer {
-    uint32_t shifted; // of its centre of mass, m
-    uint32_t turned;  // |sin(angle / 2)| of its rotations
-    float speed;      // fe__body.speed
+    uint32_t at[3];    // of its centre of mass, ticks
+    uint32_t turned;   // sum of |sin(angle / 2)| of its rotations since it was made, ticks
+    float velocity[3]; // of the centre of mass, m/s
+    float spin;        // of the point that rotates fastest, m/s
 } fe__odometer;
 
-// By place in the list of awake pairs
+// By place in the list of awake pairs. Bodies and normal are the contact's
 typedef struct fe__deferral {
     int32_t body_a, body_b;
-    uint32_t shifted, turned; // sums over both bodies, when it was last looked at
-    float slack;              // m; how far they may move from then on
-    float reach;              // m; arm of the rotations, fe__contact.longest_arm
+    float normal[3];   // from A to B, or 0
+    float gap;         // m, when the pair was last looked at
+    uint32_t apart[3]; // centre of B - centre of A, then, ticks
+    uint32_t turned;   // sum over both bodies, then
+    float arm;         // of the rotations, m
+    float most;        // m that the centres may move against each other from then on, in any direction
 } fe__deferral;
 
 // An entry of that list is the pair, or ~pair while it is deferred
 static inline int32_t fe__pair_of(int32_t entry) { return entry ^ entry >> 31; }
 
-#define FE__TICKS 4194304.0f   // in 1 m, or 1 of a sine
-#define FE__MOST_TRAVEL 128.0f // m in a step, and of slack: four of them are 2^31 ticks
-
-// rounded up, by more than a rotation loses in its rounding
-static inline uint32_t fe__ticks(float travel) { return (uint32_t)(FE__TICKS * fe__minf(travel, FE__MOST_TRAVEL)) + 1; }
-
-static inline void fe__odometer_advance(fe__odometer *o, float shift, float half_sine)
+static inline void fe__odometer_place(fe__odometer *o, const double *centre)
 {
-    o->shifted += fe__ticks(shift);
-    o->turned += fe__ticks(half_sine);
+    const double far = 1e12; // m: ticks of more fit no integer, and floats tell nothing there
+    for (int k = 0; k < 3; ++k)
+        o->at[k] = (uint32_t)(int64_t)((double)FE__TICKS * fe__maxd(fe__mind(centre[k], far), -far));
 }
 
-// From now on, when the recycling would let the bodies move by `slack` before it looks again
-static inline void fe__defer(fe__deferral *p, const fe__odometer *odometers, int32_t body_a, int32_t body_b,
-                             float slack, float reach)
+// rounded up, by more than a rotation loses in its rounding
+static inline void fe__odometer_turn(fe__odometer *o, float half_sine)
 {
-    const fe__odometer *a = odometers + body_a, *b = odometers + body_b;
-    const float rounding = 1e-5f * (1.0f + reach + slack); // of the exact test, m: it must come to the same
-    *p = (fe__deferral){
-        body_a, body_b, a->shifted + b->shifted, a->turned + b->turned, fe__minf(FE__MOST_TRAVEL, slack - rounding),
-        reach};
+    o->turned += (uint32_t)(FE__TICKS * fe__minf(half_sine, FE__MOST_TRAVEL)) + 1;
+}
+
+static inline int32_t fe__has_direction(const float *n) { return n[0] != 0.0f || n[1] != 0.0f || n[2] != 0.0f; }
+
+// From now on: of a contact without points, whose gap is `gap`, m
+static inline void fe__defer(fe__deferral *p, const fe__odometer *odometers, const fe__body *bodies,
+                             const fe__contact *m, float gap)
+{
+    const fe__odometer *a = odometers + m->body_a, *b = odometers + m->body_b;
+    const double *at_a = bodies[m->body_a].centre, *at_b = bodies[m->body_b].centre;
+    float square = 0.0f; // of the shift since the contact was found, m2
+    for (int k = 0; k < 3; ++k) {
+        float shift = (float)(at_b[k] - at_a[k] + (double)m->found_span[k]);
+        square += shift * shift;
+        p->normal[k] = m->normal[k];
+        p->apart[k] = b->at[k] - a->at[k];
+    }
+    p->arm = fe__has_direction(m->normal) ? fe__maxf(m->surface.radius_a, m->surface.radius_b) : m->longest_arm;
+    const float rounding = 1e-5f * (1.0f + p->arm + gap); // of the exact test, m: it must come to the same
+    p->body_a = m->body_a, p->body_b = m->body_b;
+    p->gap = fe__minf(FE__MOST_TRAVEL, gap - rounding);
+    p->turned = a->turned + b->turned;
+    p->most = fe__minf(FE__MOST_TRAVEL, fe__most_away(m) - sqrtf(square) - rounding);
 }
 
 // Has not moved too far, by the measure of recycle.simd.c, nor will within a step of dt
 static inline int32_t fe__stays_deferred(const fe__deferral *p, const fe__odometer *odometers, float dt)
 {
     const fe__odometer *a = odometers + p->body_a, *b = odometers + p->body_b;
-    const float most = 1.7322f / FE__TICKS; // sqrt 3, rounded up: (x + y + z)^2 <= 3 (x^2 + y^2 + z^2)
-    float shifted = (float)(a->shifted + b->shifted - p->shifted), turned = (float)(a->turned + b->turned - p->turned);
-    return p->slack - dt * (a->speed + b->speed) > most * (shifted + 2.0f * p->reach * turned);
+    const float *n = p->normal, tick = 1.0f / FE__TICKS, root3 = 1.7322f; // rounded up
+    float d[3], v[3];
+    for (int k = 0; k < 3; ++k) {
+        d[k] = tick * (float)(int32_t)(b->at[k] - a->at[k] - p->apart[k]);
+        v[k] = a->velocity[k] - b->velocity[k];
+    }
+    float square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+    float turns = 2.0f * p->arm * (tick * (float)(a->turned + b->turned - p->turned)), spins = a->spin + b->spin;
+    if (!(p->most > 0.0f && p->most * p->most > square)) return 0;
+    if (fe__has_direction(n)) {
+        float away = n[0] * d[0] + n[1] * d[1] + n[2] * d[2], closing = n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
+        return p->gap + away - turns > dt * ((closing <= 0.0f ? 0.0f : closing) + spins);
+    }
+    float speed = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    return p->gap - root3 * (sqrtf(square) + turns) > dt * (speed + spins);
 }
 
 #endif

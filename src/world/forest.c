@@ -258,7 +258,7 @@ static void keep_tree(fe__forest *f, int32_t count, fe__tree_kind kind, uint32_t
     f->trees[f->tree_count++] =
         (fe__joint_tree){.first = f->link_count,
                          .count = count,
-                         .kind = kind,
+                         .kind = (int32_t)kind,
                          .locks = locks,
                          .form = fe__form_of_tree(f->links + f->link_count, count, kind, locks)};
     f->link_count += count;

@@ -101,6 +101,7 @@ static void free_records(fe_world *world)
     fe__id_pool_free(&world->shape_ids, memory);
     FE_FREE(memory, world->bodies, world->body_capacity);
     FE_FREE(memory, world->odometers, world->odometer_capacity);
+    FE_FREE(memory, world->drifts, world->drift_capacity);
     FE_FREE(memory, world->shapes, world->shape_capacity);
     FE_FREE(memory, world->contacts, world->contact_capacity);
     FE_FREE(memory, world->pairs, world->pair_capacity);

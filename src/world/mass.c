@@ -45,6 +45,7 @@ static void set_local_centre(fe_world *world, fe__body *body, fe_vec3 centre)
 
     body->local_centre[0] = centre.x, body->local_centre[1] = centre.y, body->local_centre[2] = centre.z;
     fe__body_place_centre(body);
+    fe__odometer_place(world->odometers + (body - world->bodies), body->centre);
     fe__body_end_deferrals(world, (int32_t)(body - world->bodies));
 }
 

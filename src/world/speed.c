@@ -18,7 +18,9 @@ void fe__body_note_speed(fe_world *world, fe__body *body)
     const float *v = body->velocity, *w = body->spin;
     float turning = sqrtf(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) * body->reach;
     body->speed = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + turning;
-    world->odometers[body - world->bodies].speed = body->speed;
+    fe__odometer *o = world->odometers + (body - world->bodies);
+    for (int k = 0; k < 3; ++k) o->velocity[k] = v[k];
+    o->spin = turning;
     fe__body_note_swiftness(world, body);
 }
 

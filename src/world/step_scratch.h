@@ -61,6 +61,7 @@ typedef struct fe__step_scratch {
     int32_t left_capacity, box_capacity;
     _Atomic int32_t left_count;
     _Atomic int32_t lost_count; // bodies that overflowed in this step
+    _Atomic int32_t some_leapt; // 1: a body went too far in this step for its odometer
 
     int32_t
         *chased; // bodies that continuous collision looks at: dynamic ones, and kinematic ones from kinematic_room on

@@ -51,7 +51,8 @@ struct fe_world {
     fe__id_pool body_ids, shape_ids;
     fe__body *bodies;
     fe__odometer *odometers; // by body
-    int32_t body_capacity, odometer_capacity;
+    fe__drift *drifts;       // by body
+    int32_t body_capacity, odometer_capacity, drift_capacity;
     fe__shape *shapes;
     int32_t shape_capacity;
     fe_store *store; // of the assets that shapes have; its own, or of its definition

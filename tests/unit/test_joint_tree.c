@@ -104,7 +104,7 @@ static void begin(uint32_t seed)
     the.solver.inertia = the.inertia_line, the.solver.places = the.places;
     for (int32_t i = 0; i <= MOST_LINKS; ++i) the.motion[i].rotation[3] = 1.0f;
     the.forest = (fe__forest){.trees = &the.tree, .links = the.links, .tree_count = 1};
-    the.tree.heavy = 1;
+    the.tree.kind = FE__TREE_HEAVY;
     the.job = (fe__tree_job){.solver = &the.solver,
                              .lanes = &lanes,
                              .forest = &the.forest,
@@ -604,7 +604,7 @@ static void relax_leaves_no_speed_and_no_gap(void **state)
     (void)state;
     for (int32_t heavy = 0; heavy < 2; ++heavy) {
         begin(3);
-        the.tree.heavy = heavy;
+        the.tree.kind = heavy ? FE__TREE_HEAVY : FE__TREE_LIGHT;
         add_free_root(1.0f);
         for (int32_t i = 1; i < 10; ++i) {
             add_ball(i - 1, 1.0f);

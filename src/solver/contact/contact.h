@@ -12,6 +12,9 @@
 enum { FE__POINTS = 4 };
 // While a gap of this closes, m, the features of two shapes change little
 #define FE__TURNS_LITTLE 0.005f
+// How far a pair without points may go before it is looked at, whatever its gap: m, and a share of the longest arm
+#define FE__MOST_AWAY 0.25f
+#define FE__AWAY_SHARE 0.5f
 #define FE__FOLLOWS (-1e15f)
 // found ahead of time, at the poses of the touch: good for one step. Its square is 0
 #define FE__AHEAD (-1e-30f)
@@ -58,6 +61,11 @@ FE__IS_QUAD(fe__contact, friction_impulse, twist_impulse);
 FE__IS_QUAD(fe__contact, found_span, longest_arm);
 _Static_assert(offsetof(fe__contact, surface) % 16 == 0 && sizeof(fe__surface) == 16, "a surface is a quad");
 _Static_assert(offsetof(fe__contact, point) % 16 == 0 && sizeof(fe__contact_arm) == 16, "points are quads");
+
+static inline float fe__most_away(const fe__contact *m)
+{
+    return fe__maxf(m->surface.tolerance, fe__minf(FE__MOST_AWAY, FE__AWAY_SHARE * m->longest_arm));
+}
 
 static inline void fe__contact_forget_impulses(fe__contact *m)
 {

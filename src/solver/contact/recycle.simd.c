@@ -13,9 +13,6 @@
 // m along the normal, whatever the manifold's tolerance: some overlaps of a deep pile, and no more than the speculative
 // distance
 #define MOST_ALONG 0.02f
-// m, and a share of the longest arm: how far a pair without points may go before it is looked at, whatever its gap
-#define MOST_AWAY 0.25f
-#define AWAY_SHARE 0.5f
 
 enum { CONTACT_STRIDE = sizeof(fe__contact) / sizeof(float), BODY_STRIDE = sizeof(fe__body) / sizeof(float) };
 #define CONTACT_QUAD(field) w_gather((const float *)&contacts->field, CONTACT_STRIDE, index)
@@ -128,7 +125,7 @@ FE_INLINE wide gap_left(const motion *m, wide_mask has_normal, wide4 surface)
 // Whether the boxes parted shows in the narrow phase: what went so far is looked at
 FE_INLINE wide_mask went_away(const motion *m, wide tolerance)
 {
-    wide most = w_max(tolerance, w_min(w_set(MOST_AWAY), AWAY_SHARE * m->reach));
+    wide most = w_max(tolerance, w_min(w_set(FE__MOST_AWAY), FE__AWAY_SHARE * m->reach));
     return w_greater(w_dot(m->shift, m->shift), most * most);
 }
 

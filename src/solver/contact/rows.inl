@@ -441,14 +441,13 @@ static __attribute__((noinline)) void NAMED(leave_friction)(ROW *row, const fe__
 }
 
 // ---- strain ---------------------------------------------------------------------------------------------------------
-// Does the row bear so much that its island is strained? An impact does not count: the load is to last, so that the
-// last substep's, times their number, and that of the whole step are both large. In an island that is strained already,
-// the last substep's alone.
+// Does the row bear so much that it strains its island? What bears for a part of the step does not count: the last
+// substep's load, times their number, and that of the whole step are both to be large.
 FE_INLINE void NAMED(find_strain)(const ROW *row, fe__solver *s, wide speed, wide response, const fe__step_constants *c)
 {
     wide total = row->total[0];
     UNROLL for (int i = 1; i < POINTS; ++i) total = total + row->total[i];
-    wide lasting = w_min((float)c->substeps * speed, w_max(total * response, w_set(c->forgets)));
+    wide lasting = w_min((float)c->substeps * speed, total * response);
     wide_mask strained = w_greater(lasting, w_set(c->strain));
     if (w_any(strained)) mark_strained(s, row->line_b, strained);
 }
