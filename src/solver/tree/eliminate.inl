@@ -214,9 +214,9 @@ FE_INLINE load joint_up(const pass *t, int32_t i)
                   r_sub(n->load_w, r_add(r_mul_transposed(&p->b, n->ask_v), r_mul_sym(&p->d, n->ask_w)))};
 }
 
-static void hand_up(const pass *t)
+// of the loads that the nodes have
+static void pass_up(const pass *t)
 {
-    for (int32_t i = 0; i < t->count; ++i) t->nodes[i].load_v = t->nodes[i].load_w = r_zero3();
     for (int32_t i = t->count - 1; i >= 0; --i) {
         tree_node *n = t->nodes + i, *above = above_of(t, i);
         const load l = is_ball(t, i) ? ball_up(n) : joint_up(t, i);
@@ -283,7 +283,8 @@ static void hand_down(const pass *t)
 
 static void substitute(const pass *t)
 {
-    hand_up(t);
+    for (int32_t i = 0; i < t->count; ++i) t->nodes[i].load_v = t->nodes[i].load_w = r_zero3();
+    pass_up(t);
     hand_down(t);
 }
 

@@ -57,12 +57,12 @@ typedef struct tree_node {
     real3 load_v, load_w;       // p
     real3 change_v, change_w;   // u
     real3 impulse_v, impulse_w; // l
-    // what contacts see, see response.inl
-    real_sym give_v; // response of the point's velocity to a unit force at it, 1/kg
-    real_mat give_b;
-    real_sym give_w;
-    real light, spins;    // shares of the body's own inverse mass, inverse inertia
-    real3 held_v, held_w; // velocities when contacts took over
+    // of a link that contacts touch, see response.inl
+    int32_t touched;                           // lanes
+    real light, spins;                         // shares of its inverse mass, of its inverse inertia
+    real_sym root;                             // of the inertia
+    real per_root_mass;                        // 1 / sqrt(mass)
+    half held[FE__LINE], held_start[FE__LINE]; // lines of the velocities when contacts took over
 } tree_node;
 
 // A light tree is solved from the substep on in which it opens, but left to the sweep where it was open before
@@ -72,7 +72,8 @@ typedef enum tree_state { READY, SOLVED, SWEPT } tree_state;
 typedef struct bundle {
     _Alignas(64) int32_t state[LANES]; // tree_state
     int32_t loaded;                    // 1: the nodes have what they keep for the step
-    int32_t lent;                      // 1: contacts change the velocities of the bodies
+    int32_t lends;                     // lanes in which contacts see the mass of the tree
+    int32_t lent;                      // of them, while contacts do
 } bundle;
 
 // What a pass over the nodes knows of its trees. Idle lanes do as the first tree does, and write nothing.

@@ -1,116 +1,178 @@
-// response.inl - what a force on a link of a tree does to it, with all that it is joined to: the mass that contacts
-// push. Part of tree.simd.c.
+// response.inl - what the links of a tree make of forces on them: the masses that contacts push. Part of tree.simd.c.
 //
-// From the root downwards (K. Kreutz-Delgado et al., "Recursive Formulation of Operational Space Control", 1991): the
-// response G of a link at its point to a force there, with that of the link above at this point, X G_above X^T,
-//     G = prod (1 - s g U^T) X G_above X^T prod (1 - s g U^T)^T + s g s^T of each freedom
-// A contact knows one inverse mass and one inverse inertia of a body: shares of its own, at least as large as G says.
-// What it changes of a velocity by them is an impulse all the same: divided by the shares it is the change of the body
-// alone, from which the tree begins.
+// A contact of a link pushes the whole tree. With G the response of the tree's velocities to forces on the links that
+// contacts touch, impulses l that were found with masses D^-1 instead give the energy
+//     v.l + l.G l / 2  <=  v.l + l.D l / 2 = what the contacts know of
+// as long as D - G has no negative eigenvalue: then passes that take energy by D take it by G too. The masses of the
+// bodies alone are such a D, as no joint makes a body lighter; but with a wheel of 2 kg under a cart of 1000 each pass
+// takes a five-hundredth of what comes down. Sums of the norms of G's blocks are another (Gershgorin):
+//     D_i = sum_j |G_ij|              i, j: translations, rotations of a touched link
+// Contacts know bodies by one inverse mass and one inverse inertia. So D is given in shares of a body's own. Rotations
+// are counted as y = L^T w / sqrt(m), I = L L^T, in which a body alone answers y = (torque) / m.
 
-// a += k (x y^T + y x^T) / 2 of what is symmetric
-FE_INLINE void add_both(real_sym *a, real k, real3 x, real3 y)
-{
-    a->xx += k * x.x * y.x, a->yy += k * x.y * y.y, a->zz += k * x.z * y.z;
-    a->xy += 0.5 * k * (x.x * y.y + x.y * y.x), a->xz += 0.5 * k * (x.x * y.z + x.z * y.x);
-    a->yz += 0.5 * k * (x.y * y.z + x.z * y.y);
-}
-
-// b += k x y^T
-FE_INLINE void add_outer(real_mat *b, real k, real3 x, real3 y)
-{
-    b->x = r_add_scaled(b->x, k * x.x, y), b->y = r_add_scaled(b->y, k * x.y, y), b->z = r_add_scaled(b->z, k * x.z, y);
-}
-
-// From the point of the link above, from which c lies at d: v_c = v - d x w
-FE_INLINE void response_at(tree_node *n, const tree_node *from, real3 d)
-{
-    const real_sym *w = &from->give_w;
-    const real3 wx = {w->xx, w->xy, w->xz}, wy = {w->xy, w->yy, w->yz}, wz = {w->xz, w->yz, w->zz};
-    n->give_w = *w;
-    // rows of -[d] w: of a matrix with columns w., column by column -d x w.
-    const real3 cx = r_cross(wx, d), cy = r_cross(wy, d), cz = r_cross(wz, d); // columns of -[d] W
-    const real_mat *b = &from->give_b;
-    n->give_b = (real_mat){{b->x.x + cx.x, b->x.y + cy.x, b->x.z + cz.x},
-                           {b->y.x + cx.y, b->y.y + cy.y, b->y.z + cz.y},
-                           {b->z.x + cx.z, b->z.y + cy.z, b->z.z + cz.z}};
-    // A + B [d] + (B [d])^T - [d] W [d], B [d] by rows b x d; (-[d] W) [d] likewise
-    const real3 fx = r_cross(b->x, d), fy = r_cross(b->y, d), fz = r_cross(b->z, d);
-    const real3 gx = r_cross((real3){cx.x, cy.x, cz.x}, d), gy = r_cross((real3){cx.y, cy.y, cz.y}, d),
-                gz = r_cross((real3){cx.z, cy.z, cz.z}, d);
-    n->give_v = (real_sym){from->give_v.xx + 2.0 * fx.x + gx.x,  from->give_v.xy + fx.y + fy.x + gx.y,
-                           from->give_v.xz + fx.z + fz.x + gx.z, from->give_v.yy + 2.0 * fy.y + gy.y,
-                           from->give_v.yz + fy.z + fz.y + gy.z, from->give_v.zz + 2.0 * fz.z + gz.z};
-}
-
-// G' = (1 - s g U^T) G (1 - s g U^T)^T + g s s^T = G - g (s y^T + y s^T) + (g^2 U.y + g) s s^T,  y = G U
-FE_INLINE void give_freedom(tree_node *n, int k)
-{
-    const freedom *f = n->free + k;
-    const real3 s = axis_of(n, k), zero = r_zero3(), sv = k < 3 ? s : zero, sw = k < 3 ? zero : s;
-    const real3 yv = r_add(r_mul_sym(&n->give_v, f->v), r_mul(&n->give_b, f->w));
-    const real3 yw = r_add(r_mul_transposed(&n->give_b, f->v), r_mul_sym(&n->give_w, f->w));
-    const real own = f->g * f->g * (r_dot(f->v, yv) + r_dot(f->w, yw)) + f->g;
-    add_both(&n->give_v, -2.0 * f->g, sv, yv), add_both(&n->give_v, own, sv, sv);
-    add_both(&n->give_w, -2.0 * f->g, sw, yw), add_both(&n->give_w, own, sw, sw);
-    add_outer(&n->give_b, -f->g, sv, yw), add_outer(&n->give_b, -f->g, yv, sw), add_outer(&n->give_b, own, sv, sw);
-}
-
-// v = A (f - F^T t), w = D^-1 t - F v,  F = D^-1 B^T:  -A F^T beside A, D^-1 + F A F^T below
-FE_INLINE void give_ball(tree_node *n)
-{
-    const freedom *f = n->free;
-    const real one = r_set(1.0);
-    real3 column[3];
-    const real3 rows[3] = {{f[0].v.x, f[1].v.x, f[2].v.x},
-                           {f[0].v.y, f[1].v.y, f[2].v.y},
-                           {f[0].v.z, f[1].v.z, f[2].v.z}};
-    for (int k = 0; k < 3; ++k) column[k] = ball_back(f, rows[k]); // of F
-    const real_mat turn = {{column[0].x, column[1].x, column[2].x},
-                           {column[0].y, column[1].y, column[2].y},
-                           {column[0].z, column[1].z, column[2].z}};
-    const real_sym *a = &n->give_v;
-    const real3 ax = r_mul_sym(a, turn.x), ay = r_mul_sym(a, turn.y), az = r_mul_sym(a, turn.z); // columns of A F^T
-    n->give_b = (real_mat){{-ax.x, -ay.x, -az.x}, {-ax.y, -ay.y, -az.y}, {-ax.z, -ay.z, -az.z}};
-    n->give_w = (real_sym){r_dot(turn.x, ax), r_dot(turn.x, ay), r_dot(turn.x, az),
-                           r_dot(turn.y, ay), r_dot(turn.y, az), r_dot(turn.z, az)};
-    for (int k = 0; k < 3; ++k) {
-        real3 e = ball_forward(f, unit3(k));
-        e = ball_back(f, (real3){f[0].g * e.x, f[1].g * e.y, f[2].g * e.z});
-        if (k == 0) n->give_w.xx += e.x, n->give_w.xy += e.y, n->give_w.xz += e.z;
-        if (k == 1) n->give_w.yy += e.y, n->give_w.yz += e.z;
-        if (k == 2) n->give_w.zz += e.z;
-    }
-    (void)one;
-}
+// A tree lends where a touched link takes part with less than this of its own inverse mass
+#define LENDS 0.125
+// For what bodies turn within the step
+#define FOR_TURNS 1.25
+// With more touched links than these their masses stay their own: G takes time with each
+#define MOST_TOUCHED 16
 
 FE_INLINE real r_abs(real a) { return r_max(a, -a); }
 
-// Shares no smaller than the largest response of the centre, by the sums of rows; of rotations by the trace of I G
-FE_INLINE void find_shares(tree_node *n)
+// ---- who is touched -------------------------------------------------------------------------------------------------
+// lanes
+static int32_t touched_in(const pass *t, int32_t i)
 {
-    tree_node centre;
-    response_at(&centre, n, r_scale(r_set(-1.0), n->below));
-    const real_sym *a = &centre.give_v, *w = &n->give_w, *i = &n->inertia;
-    const real x = r_abs(a->xx) + r_abs(a->xy) + r_abs(a->xz), y = r_abs(a->xy) + r_abs(a->yy) + r_abs(a->yz),
-               z = r_abs(a->xz) + r_abs(a->yz) + r_abs(a->zz), one = r_set(1.0), least = r_set(1e-6);
-    const real turn =
-        i->xx * w->xx + i->yy * w->yy + i->zz * w->zz + 2.0 * (i->xy * w->xy + i->xz * w->xz + i->yz * w->yz);
-    n->light = r_max(least, r_min(one, n->mass * r_max(x, r_max(y, z))));
-    n->spins = r_max(least, r_min(one, turn));
+    int32_t lanes = 0;
+    for (int lane = 0; lane < t->job->count; ++lane) {
+        const fe__body *body = t->job->bodies + t->links_of[lane][i].body;
+        lanes |= (body->colours[0] | body->colours[1]) != 0 ? 1 << lane : 0;
+    }
+    return lanes;
 }
 
-static void find_responses(const pass *t)
+// The links that are, in any lane: at most so many of them. Returns how many there are
+static int32_t find_touched(const pass *t, int32_t *touched)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < t->count; ++i) {
+        t->nodes[i].touched = touched_in(t, i);
+        if (t->nodes[i].touched && count++ < MOST_TOUCHED) touched[count - 1] = i;
+    }
+    return count;
+}
+
+// ---- responses ------------------------------------------------------------------------------------------------------
+// What the freedoms of its own joint alone let a body's centre give, in shares of its inverse mass: no more than G does
+FE_INLINE real own_share(const pass *t, int32_t i)
+{
+    const tree_node *n = t->nodes + i;
+    real most = r_set(0.0);
+    for (int k = 0; k < 3 && is_ball(t, i); ++k) {
+        const real3 by = r_cross(ball_back(n->free, unit3(k)), n->below);
+        most = r_max(most, n->free[k].g * r_dot(by, by));
+    }
+    for (int k = 0; k < FREEDOMS && !is_ball(t, i); ++k) {
+        if (!(t->links[i].form >> k & 1)) continue;
+        const real3 s = axis_of(n, k), by = k < 3 ? s : r_cross(s, n->below);
+        return n->mass * n->free[k].g * r_dot(by, by);
+    }
+    return n->mass * most;
+}
+
+// L, lower triangle
+FE_INLINE real_sym root_of(const real_sym *i)
+{
+    real_sym l;
+    l.xx = r_sqrt(i->xx), l.xy = i->xy / l.xx, l.xz = i->xz / l.xx;
+    l.yy = r_sqrt(i->yy - l.xy * l.xy), l.yz = (i->yz - l.xy * l.xz) / l.yy;
+    l.zz = r_sqrt(i->zz - l.xz * l.xz - l.yz * l.yz);
+    return l;
+}
+
+typedef struct six {
+    real a[6];
+} six;
+
+// Velocities of a touched link
+FE_INLINE six answer_of(const tree_node *n)
+{
+    const real3 v = centre_change(n), w = n->change_w;
+    const real_sym l = n->root;
+    const real k = n->per_root_mass;
+    return (six){
+        {v.x, v.y, v.z, k * (l.xx * w.x + l.xy * w.y + l.xz * w.z), k * (l.yy * w.y + l.yz * w.z), k * (l.zz * w.z)}};
+}
+
+// A unit load k on link i: its changes are those of the whole tree
+static void push(const pass *t, int32_t i, int k)
+{
+    tree_node *n = t->nodes + i;
+    const real_sym l = n->root;
+    const real zero = r_set(0.0);
+    for (int32_t j = 0; j < t->count; ++j) t->nodes[j].load_v = t->nodes[j].load_w = r_zero3();
+    if (k < 3) {
+        n->load_v = unit3(k), n->load_w = r_cross(unit3(k), n->below); // the centre is at -below
+    } else {
+        const real3 column[3] = {{l.xx, l.xy, l.xz}, {zero, l.yy, l.yz}, {zero, zero, l.zz}};
+        n->load_w = r_scale(n->per_root_mass, column[k - 3]);
+    }
+    pass_up(t);
+    hand_down(t);
+}
+
+// |A| of a symmetric block by the sums of its rows
+FE_INLINE real size_of(const six *g, int first)
+{
+    real most = r_set(0.0);
+    for (int r = first; r < first + 3; ++r)
+        most = r_max(most, r_abs(g[first].a[r]) + r_abs(g[first + 1].a[r]) + r_abs(g[first + 2].a[r]));
+    return most;
+}
+
+FE_INLINE real square_of(const real *a) { return a[0] * a[0] + a[1] * a[1] + a[2] * a[2]; }
+
+// The blocks of a column of G. |G_ij| by Frobenius
+static void add_answers(const pass *t, const int32_t *touched, int32_t count, int32_t q)
+{
+    six own[6];
+    real square[MOST_TOUCHED][4];
+    for (int k = 0; k < 6; ++k) {
+        push(t, touched[q], k);
+        own[k] = answer_of(t->nodes + touched[q]);
+        for (int32_t p = 0; p < count; ++p) {
+            const six a = answer_of(t->nodes + touched[p]);
+            real *to = square[p] + (k < 3 ? 0 : 2);
+            for (int half_of = 0; half_of < 2; ++half_of) {
+                const real s = square_of(a.a + 3 * half_of);
+                to[half_of] = k % 3 ? to[half_of] + s : s;
+            }
+        }
+    }
+    const real_mask there = r_mask(t->nodes[touched[q]].touched);
+    for (int32_t p = 0; p < count; ++p) {
+        tree_node *n = t->nodes + touched[p];
+        const real spin = r_sqrt(square[p][1]) + (p == q ? size_of(own, 3) : r_sqrt(square[p][3])),
+                   shift = r_sqrt(square[p][2]) + (p == q ? size_of(own, 0) : r_sqrt(square[p][0]));
+        n->light += r_choose(there, n->mass * shift, r_set(0.0));
+        n->spins += r_choose(there, n->mass * spin, r_set(0.0));
+    }
+}
+
+// ---- shares ---------------------------------------------------------------------------------------------------------
+static void clear_shares(const pass *t)
 {
     for (int32_t i = 0; i < t->count; ++i) {
         tree_node *n = t->nodes + i;
-        const tree_node *above = above_of(t, i);
-        memset(&n->give_v, 0, sizeof n->give_v), memset(&n->give_b, 0, sizeof n->give_b);
-        memset(&n->give_w, 0, sizeof n->give_w);
-        if (above) response_at(n, above, n->from_above);
-        if (is_ball(t, i)) give_ball(n);
-        for (int k = FREEDOMS - 1; k >= 0 && !is_ball(t, i); --k)
-            if (t->links[i].form >> k & 1) give_freedom(n, k);
-        find_shares(n);
+        n->light = n->spins = r_set(0.0);
+        n->ask_v = n->ask_w = n->slip = r_zero3();
     }
+}
+
+// lanes in which a touched link may take part with less than LENDS
+static int32_t may_lend(const pass *t, const int32_t *touched, int32_t count)
+{
+    int32_t lanes = 0;
+    for (int32_t p = 0; p < count; ++p)
+        lanes |= r_bits(r_greater(r_set(LENDS), own_share(t, touched[p]))) & t->nodes[touched[p]].touched;
+    return lanes;
+}
+
+// Shares of all touched links. Returns the lanes in which one of them is small
+static int32_t find_shares(const pass *t, const int32_t *touched, int32_t count)
+{
+    int32_t lanes = 0;
+    clear_shares(t);
+    for (int32_t p = 0; p < count; ++p) {
+        tree_node *n = t->nodes + touched[p];
+        n->root = root_of(&n->inertia), n->per_root_mass = 1.0 / r_sqrt(n->mass);
+    }
+    for (int32_t q = 0; q < count; ++q) add_answers(t, touched, count, q);
+    for (int32_t p = 0; p < count; ++p) {
+        tree_node *n = t->nodes + touched[p];
+        n->light = r_max(FOR_TURNS * n->light, r_set(FLT_EPSILON));
+        n->spins = r_max(FOR_TURNS * n->spins, r_set(FLT_EPSILON));
+        lanes |= r_bits(r_greater(r_set(LENDS), n->light)) & n->touched;
+    }
+    return lanes;
 }

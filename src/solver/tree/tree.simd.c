@@ -13,6 +13,7 @@
 #include "solver/tree/damping.inl"
 #include "solver/tree/warm_start.inl"
 #include "solver/tree/response.inl"
+#include "solver/tree/lend.inl"
 
 // A light tree is left to the sweep until an impact pulls a joint's points apart by more than this: four fifths of the
 // linear slop, so that the slop is kept with something to spare, m
@@ -30,32 +31,7 @@ static void read_velocities(const pass *t)
         tree_node *n = t->nodes + i;
         const lines l = read_lines(t->solver->velocity, line_of(t, i).at);
         n->v = widen3(l.a), n->w = widen3(l.a + 4);
-        if (!t->head->lent) continue;
-        n->v = r_add_scaled(n->held_v, 1.0 / n->light, r_sub(n->v, n->held_v));
-        n->w = r_add_scaled(n->held_w, 1.0 / n->spins, r_sub(n->w, n->held_w));
     }
-}
-
-// the inverse mass that rows see
-static void write_masses(const pass *t, int32_t lanes, int32_t lent)
-{
-    for (int32_t i = 0; i < t->count; ++i) {
-        const tree_node *n = t->nodes + i;
-        const half inverse[1] = {narrow((lent ? n->light : r_set(1.0)) / n->mass)};
-        write_lines(t->solver->velocity, line_of(t, i).at, lanes, 3, 1, inverse);
-    }
-    t->head->lent = lent;
-}
-
-// From here on contacts change the velocities
-static void lend(const pass *t, int32_t lanes)
-{
-    if (t->kind != FE__TREE_HEAVY) return;
-    for (int32_t i = 0; i < t->count; ++i) {
-        const lines l = read_lines(t->solver->velocity, line_of(t, i).at);
-        t->nodes[i].held_v = widen3(l.a), t->nodes[i].held_w = widen3(l.a + 4);
-    }
-    write_masses(t, lanes, 1);
 }
 
 typedef struct velocity {
@@ -328,6 +304,14 @@ static int32_t will_open(const pass *t, int lane)
                                 OPEN / (float)t->job->h);
 }
 
+// The lanes whose links contacts see with the masses of their trees
+static void find_lenders(const pass *t)
+{
+    int32_t touched[MOST_TOUCHED], count = find_touched(t, touched);
+    if (count == 0 || count > MOST_TOUCHED || !may_lend(t, touched, count)) return;
+    t->head->lends = find_shares(t, touched, count) & t->lanes;
+}
+
 static void prepare_trees(const fe__tree_job *job)
 {
     const pass t = pass_of(job);
@@ -336,16 +320,10 @@ static void prepare_trees(const fe__tree_job *job)
         t.head->state[lane] = t.kind != FE__TREE_LIGHT                            ? SOLVED
                               : lane < job->count && is_open(&t, lane, PUT_APART) ? SWEPT
                                                                                   : READY;
-    t.head->lent = 0;
+    t.head->lends = t.head->lent = 0;
     if (t.kind != FE__TREE_LIGHT) reduce(&t, ALL_LANES);
-    if (t.kind != FE__TREE_HEAVY) return;
-    find_responses(&t);
-    for (int32_t i = 0; i < t.count; ++i)
-        for (int lane = 0; lane < job->count; ++lane) {
-            float *in = (float *)(void *)(t.solver->inertia + t.places[lane][i].line);
-            for (int k = 0; k < 6; ++k) in[k] *= (float)get_lane(&t.nodes[i].spins, lane);
-        }
-    lend(&t, t.lanes);
+    if (t.kind == FE__TREE_HEAVY) find_lenders(&t);
+    lend(&t);
 }
 
 static void solve_lanes(const pass *t, int32_t lanes)
@@ -360,62 +338,25 @@ static void solve_trees(const fe__tree_job *job)
     const pass t = pass_of(job);
     const int32_t lanes = lanes_in(&t, SOLVED);
     if (lanes) solve_lanes(&t, lanes);
-    lend(&t, lanes);
+    lend(&t);
 }
 
-// the lanes in which contacts changed a velocity since
-static int32_t touched(const pass *t)
+// Contacts ended their part before the first substep: what they warm-start
+static void restore_trees(const fe__tree_job *job)
 {
-    int32_t lanes = 0;
-    for (int32_t i = 0; i < t->count; ++i) {
-        const tree_node *n = t->nodes + i;
-        const lines l = read_lines(t->solver->velocity, line_of(t, i).at);
-        const real3 v = r_sub(widen3(l.a), n->held_v), w = r_sub(widen3(l.a + 4), n->held_w);
-        lanes |= r_bits(r_greater(r_dot(v, v) + r_dot(w, w), r_set(0.0)));
-    }
-    return lanes & t->lanes;
-}
-
-// after contacts: what they gave goes through the tree
-static void accept_trees(const fe__tree_job *job, int32_t total)
-{
+    if (!((const bundle *)(const void *)job->nodes)->lent) return;
     const pass t = pass_of(job);
-    if (!t.head->lent) return;
-    const int32_t lanes = touched(&t);
-    if (lanes) {
-        follow_locks(&t);
-        apply(&t, lanes, total);
-    }
-    write_masses(&t, t.lanes, 0);
+    take_back(&t);
 }
-static void accept_first(const fe__tree_job *job)
-{
-    const pass t = pass_of(job);
-    for (int32_t i = 0; i < t.count && t.head->lent; ++i)
-        for (int lane = 0; lane < job->count; ++lane) {
-            float *in = (float *)(void *)(t.solver->inertia + t.places[lane][i].line);
-            const real_sym *own = &t.nodes[i].first_inverse;
-            in[0] = (float)get_lane(&own->xx, lane), in[1] = (float)get_lane(&own->xy, lane);
-            in[2] = (float)get_lane(&own->xz, lane), in[3] = (float)get_lane(&own->yy, lane);
-            in[4] = (float)get_lane(&own->yz, lane), in[5] = (float)get_lane(&own->zz, lane);
-        }
-    accept_trees(job, 0);
-}
-static void accept_last(const fe__tree_job *job) { accept_trees(job, 1); }
 
 static void follow_trees(const fe__tree_job *job)
 {
     const pass t = pass_of(job);
-    if (t.head->lent) {
-        const int32_t lanes = touched(&t);
-        if (lanes) solve_lanes(&t, lanes);
-        write_masses(&t, t.lanes, 0);
-        if (lanes == t.lanes) return;
-    }
+    const int32_t struck = t.head->lent ? take_back(&t) : 0;
     const int32_t ready = lanes_in(&t, READY);
     int32_t lanes = ready | lanes_in(&t, SOLVED);
     for (int lane = 0; lane < LANES; ++lane)
-        if (lanes >> lane & 1 && !will_open(&t, lane)) lanes &= ~(1 << lane);
+        if (lanes & ~struck & 1 << lane && !will_open(&t, lane)) lanes &= ~(1 << lane);
     if (!lanes) return;
     if (lanes & ready) reduce(&t, t.head->loaded ? lanes & ready : ALL_LANES);
     engage(&t, lanes);
@@ -437,15 +378,28 @@ static void relax_trees(const fe__tree_job *job)
     apply(&t, lanes, 1);
     if (t.kind == FE__TREE_HEAVY) forget_locks(&t, lanes);
     close_gaps(&t, lanes);
-    lend(&t, lanes);
+    lend(&t);
+}
+
+// What contacts and their bounces gave goes through the tree
+static void receive_trees(const fe__tree_job *job)
+{
+    if (!((const bundle *)(const void *)job->nodes)->lent) return;
+    const pass t = pass_of(job);
+    const int32_t lanes = take_back(&t);
+    if (!lanes) return;
+    follow_locks(&t);
+    damp_jerk(&t, lanes);
+    apply(&t, lanes, 1);
+    forget_locks(&t, lanes);
 }
 
 const fe__forest_kernels FE_NAME(fe__forest_kernels) = {LANES,
                                                         (int32_t)sizeof(bundle),
                                                         (int32_t)sizeof(tree_node),
                                                         prepare_trees,
+                                                        restore_trees,
                                                         solve_trees,
                                                         follow_trees,
                                                         relax_trees,
-                                                        accept_first,
-                                                        accept_last};
+                                                        receive_trees};
