@@ -58,7 +58,7 @@ typedef struct tree_node {
     real3 change_v, change_w;   // u
     real3 impulse_v, impulse_w; // l
     // of a link that contacts touch, see response.inl
-    int32_t touched;                           // lanes
+    int32_t touched, heavier;                  // lanes
     real light, spins;                         // shares of its inverse mass, of its inverse inertia
     real_sym root;                             // of the inertia
     real per_root_mass;                        // 1 / sqrt(mass)

@@ -1,19 +1,27 @@
 // response.inl - what the links of a tree make of forces on them: the masses that contacts push. Part of tree.simd.c.
 //
-// A contact of a link pushes the whole tree. With G the response of the tree's velocities to forces on the links that
-// contacts touch, impulses l that were found with masses D^-1 instead give the energy
+// A contact of a link pushes the whole tree. With G the response of the tree's velocities v to impulses on the links
+// that contacts touch, impulses l that were found with inverse masses D instead give the energy
 //     v.l + l.G l / 2  <=  v.l + l.D l / 2 = what the contacts know of
 // as long as D - G has no negative eigenvalue: then passes that take energy by D take it by G too. The masses of the
 // bodies alone are such a D, as no joint makes a body lighter; but with a wheel of 2 kg under a cart of 1000 each pass
-// takes a five-hundredth of what comes down. Sums of the norms of G's blocks are another (Gershgorin):
-//     D_i = sum_j |G_ij|              i, j: translations, rotations of a touched link
+// takes a five-hundredth of what comes down. Another is a multiple of the sizes of G's own blocks,
+//     D = c A,   A_i = |G_ii|,   c the largest eigenvalue of A^-1/2 G A^-1/2
+// i: translations, rotations of a touched link. c is 1 for one block, never above their number, found by powers (R. von
+// Mises). Powers come from below, but what a pass takes is -l.D l + l.G l / 2 where it meets its contacts: at least
+// half of c will do. Bodies that the tree makes little heavier, a cart with a load on it, keep their own masses; as
+// (a + b)^2 <= 2 a^2 + 2 b^2, both kinds at once count as half as heavy.
+//
 // Contacts know bodies by one inverse mass and one inverse inertia. So D is given in shares of a body's own. Rotations
-// are counted as y = L^T w / sqrt(m), I = L L^T, in which a body alone answers y = (torque) / m.
+// are counted as y = L^T w / sqrt(m), I = L L^T, in which a body alone answers y = torque / m.
 
-// A tree lends where a touched link takes part with less than this of its own inverse mass
-#define LENDS 0.125
+// A tree lends where a touched link gets less than this share of its own inverse mass
+#define LENDS 0.5
+// Links that are heavier by the tree: their share is at most this
+#define GAINS 0.5
 // For what bodies turn within the step
 #define FOR_TURNS 1.25
+#define POWERS 8
 // With more touched links than these their masses stay their own: G takes time with each
 #define MOST_TOUCHED 16
 
@@ -84,21 +92,18 @@ FE_INLINE six answer_of(const tree_node *n)
         {v.x, v.y, v.z, k * (l.xx * w.x + l.xy * w.y + l.xz * w.z), k * (l.yy * w.y + l.yz * w.z), k * (l.zz * w.z)}};
 }
 
-// A unit load k on link i: its changes are those of the whole tree
-static void push(const pass *t, int32_t i, int k)
+FE_INLINE void clear_loads(const pass *t)
 {
-    tree_node *n = t->nodes + i;
-    const real_sym l = n->root;
-    const real zero = r_set(0.0);
     for (int32_t j = 0; j < t->count; ++j) t->nodes[j].load_v = t->nodes[j].load_w = r_zero3();
-    if (k < 3) {
-        n->load_v = unit3(k), n->load_w = r_cross(unit3(k), n->below); // the centre is at -below
-    } else {
-        const real3 column[3] = {{l.xx, l.xy, l.xz}, {zero, l.yy, l.yz}, {zero, zero, l.zz}};
-        n->load_w = r_scale(n->per_root_mass, column[k - 3]);
-    }
-    pass_up(t);
-    hand_down(t);
+}
+
+// a load on the centre, which is at -below
+FE_INLINE void load_link(tree_node *n, const six *a)
+{
+    const real3 f = {a->a[0], a->a[1], a->a[2]};
+    const real_sym l = n->root;
+    const real3 y = {l.xx * a->a[3], l.xy * a->a[3] + l.yy * a->a[4], l.xz * a->a[3] + l.yz * a->a[4] + l.zz * a->a[5]};
+    n->load_v = f, n->load_w = r_add_scaled(r_cross(f, n->below), n->per_root_mass, y);
 }
 
 // |A| of a symmetric block by the sums of its rows
@@ -110,69 +115,101 @@ FE_INLINE real size_of(const six *g, int first)
     return most;
 }
 
-FE_INLINE real square_of(const real *a) { return a[0] * a[0] + a[1] * a[1] + a[2] * a[2]; }
-
-// The blocks of a column of G. |G_ij| by Frobenius
-static void add_answers(const pass *t, const int32_t *touched, int32_t count, int32_t q)
+// A of a link
+static void find_sizes(const pass *t, int32_t i)
 {
+    tree_node *n = t->nodes + i;
     six own[6];
-    real square[MOST_TOUCHED][4];
+    n->root = root_of(&n->inertia), n->per_root_mass = 1.0 / r_sqrt(n->mass);
     for (int k = 0; k < 6; ++k) {
-        push(t, touched[q], k);
-        own[k] = answer_of(t->nodes + touched[q]);
+        six unit_load = {{r_set(0.0)}};
+        unit_load.a[k] = r_set(1.0);
+        clear_loads(t);
+        load_link(n, &unit_load);
+        pass_up(t);
+        hand_down(t);
+        own[k] = answer_of(n);
+    }
+    // what is locked answers nothing
+    n->light = r_max(n->mass * size_of(own, 0), r_set(FLT_EPSILON));
+    n->spins = r_max(n->mass * size_of(own, 3), r_set(FLT_EPSILON));
+    n->heavier = r_bits(r_greater(r_set(GAINS), n->light)) & n->touched;
+}
+
+// numbers that no symmetry of a machine has, to begin with: -1..1
+FE_INLINE double irregular(int32_t i)
+{
+    const double at = 0.618033988749895 * (double)(i + 1);
+    return 2.0 * (at - (double)(int32_t)at) - 1.0;
+}
+
+// c
+static real largest_factor(const pass *t, const int32_t *touched, int32_t count)
+{
+    six x[MOST_TOUCHED];
+    real size = r_set(1.0);
+    for (int32_t p = 0; p < 6 * count; ++p) x[p / 6].a[p % 6] = r_set(irregular(p));
+    for (int32_t power = 0; power <= POWERS; ++power) {
+        real square = r_set(0.0);
+        for (int32_t p = 0; p < count; ++p)
+            for (int k = 0; k < 6; ++k) square += x[p].a[k] * x[p].a[k];
+        size = r_sqrt(r_max(square, r_set(DBL_MIN)));
+        if (power == POWERS) break;
+        clear_loads(t);
         for (int32_t p = 0; p < count; ++p) {
-            const six a = answer_of(t->nodes + touched[p]);
-            real *to = square[p] + (k < 3 ? 0 : 2);
-            for (int half_of = 0; half_of < 2; ++half_of) {
-                const real s = square_of(a.a + 3 * half_of);
-                to[half_of] = k % 3 ? to[half_of] + s : s;
-            }
+            tree_node *n = t->nodes + touched[p];
+            const real there = r_choose(r_mask(n->heavier), 1.0 / size, r_set(0.0));
+            for (int k = 0; k < 6; ++k) x[p].a[k] *= there * r_sqrt(n->mass / (k < 3 ? n->light : n->spins));
+            load_link(n, x + p);
+        }
+        pass_up(t);
+        hand_down(t);
+        for (int32_t p = 0; p < count; ++p) {
+            const tree_node *n = t->nodes + touched[p];
+            const real there = r_choose(r_mask(n->heavier), r_set(1.0), r_set(0.0));
+            x[p] = answer_of(n);
+            for (int k = 0; k < 6; ++k) x[p].a[k] *= there * r_sqrt(n->mass / (k < 3 ? n->light : n->spins));
         }
     }
-    const real_mask there = r_mask(t->nodes[touched[q]].touched);
-    for (int32_t p = 0; p < count; ++p) {
-        tree_node *n = t->nodes + touched[p];
-        const real spin = r_sqrt(square[p][1]) + (p == q ? size_of(own, 3) : r_sqrt(square[p][3])),
-                   shift = r_sqrt(square[p][2]) + (p == q ? size_of(own, 0) : r_sqrt(square[p][0]));
-        n->light += r_choose(there, n->mass * shift, r_set(0.0));
-        n->spins += r_choose(there, n->mass * spin, r_set(0.0));
-    }
+    return size;
 }
 
 // ---- shares ---------------------------------------------------------------------------------------------------------
-static void clear_shares(const pass *t)
-{
-    for (int32_t i = 0; i < t->count; ++i) {
-        tree_node *n = t->nodes + i;
-        n->light = n->spins = r_set(0.0);
-        n->ask_v = n->ask_w = n->slip = r_zero3();
-    }
-}
-
-// lanes in which a touched link may take part with less than LENDS
+// lanes in which a touched link may be heavier by the tree
 static int32_t may_lend(const pass *t, const int32_t *touched, int32_t count)
 {
     int32_t lanes = 0;
     for (int32_t p = 0; p < count; ++p)
-        lanes |= r_bits(r_greater(r_set(LENDS), own_share(t, touched[p]))) & t->nodes[touched[p]].touched;
+        lanes |= r_bits(r_greater(r_set(GAINS), own_share(t, touched[p]))) & t->nodes[touched[p]].touched;
+    return lanes;
+}
+
+// `others`: lanes in which some links keep their own masses; `factor`: c
+static int32_t scale_shares(const pass *t, const int32_t *touched, int32_t count, int32_t others, real factor)
+{
+    const real both = r_choose(r_mask(others), r_set(2.0), r_set(1.0));
+    int32_t lanes = 0;
+    for (int32_t p = 0; p < count; ++p) {
+        tree_node *n = t->nodes + touched[p];
+        const real_mask heavier = r_mask(n->heavier);
+        n->light = both * r_choose(heavier, factor * n->light, r_set(1.0));
+        n->spins = both * r_choose(heavier, factor * n->spins, r_set(1.0));
+        lanes |= r_bits(r_greater(r_set(LENDS), n->light)) & n->touched;
+    }
     return lanes;
 }
 
 // Shares of all touched links. Returns the lanes in which one of them is small
 static int32_t find_shares(const pass *t, const int32_t *touched, int32_t count)
 {
-    int32_t lanes = 0;
-    clear_shares(t);
+    int32_t heavier = 0, others = 0;
+    for (int32_t i = 0; i < t->count; ++i) t->nodes[i].ask_v = t->nodes[i].ask_w = t->nodes[i].slip = r_zero3();
     for (int32_t p = 0; p < count; ++p) {
-        tree_node *n = t->nodes + touched[p];
-        n->root = root_of(&n->inertia), n->per_root_mass = 1.0 / r_sqrt(n->mass);
+        const tree_node *n = t->nodes + touched[p];
+        find_sizes(t, touched[p]);
+        heavier |= n->heavier, others |= n->touched & ~n->heavier;
     }
-    for (int32_t q = 0; q < count; ++q) add_answers(t, touched, count, q);
-    for (int32_t p = 0; p < count; ++p) {
-        tree_node *n = t->nodes + touched[p];
-        n->light = r_max(FOR_TURNS * n->light, r_set(FLT_EPSILON));
-        n->spins = r_max(FOR_TURNS * n->spins, r_set(FLT_EPSILON));
-        lanes |= r_bits(r_greater(r_set(LENDS), n->light)) & n->touched;
-    }
-    return lanes;
+    if (!heavier) return 0;
+    const real factor = FOR_TURNS * r_max(largest_factor(t, touched, count), r_set(1.0));
+    return scale_shares(t, touched, count, others, factor);
 }
