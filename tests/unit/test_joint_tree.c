@@ -10,11 +10,18 @@
 
 #include <float.h>
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 enum { MOST_LINKS = 32, MOST_ROWS = 6 * MOST_LINKS, DOFS = 6 * MOST_LINKS };
 
 // ---- a tree of locks in an array -----------------------------------------------------------------------------------
+// with what a row of points keeps of a lane, as the trees reach for it
+typedef struct lock_row {
+    fe__lock lock;
+    float impulse[3][FE_W], total[3][FE_W];
+} lock_row;
+
 typedef struct rig {
     fe__solver solver;
     fe__velocity_line velocity[MOST_LINKS + 1]; // line 0 is the world
@@ -25,7 +32,7 @@ typedef struct rig {
     fe__joint_tree tree;
     fe__tree_link links[MOST_LINKS];
     fe__tree_place places[MOST_LINKS];
-    fe__lock locks[MOST_LINKS];
+    lock_row locks[MOST_LINKS];
     fe__sym3 inertia[MOST_LINKS + 1];
     int32_t opens;    // what is said of every lock
     int32_t trees[1]; // 0
@@ -41,12 +48,6 @@ static void read_scalar(int32_t part, const void *row, int32_t lane, fe__lock *o
 {
     (void)part, (void)lane;
     memcpy(out_lock, row, sizeof *out_lock);
-}
-
-static void pull_scalar(int32_t part, const void *row, int32_t lane, fe_vec3 *out_impulse)
-{
-    (void)part, (void)row, (void)lane;
-    *out_impulse = fe__vec3(0.0f, 0.0f, 0.0f);
 }
 
 static int32_t rows_of(int32_t part) { return part == FE__PART_DISTANCE ? 1 : part == FE__PART_HINGE ? 2 : 3; }
@@ -77,7 +78,13 @@ static int32_t says_opens(const fe__solver *s, const fe__tree_link *links, const
     return the.opens;
 }
 
-static const fe__lock_lanes lanes = {read_scalar, pull_scalar, add_scalar, take_scalar, says_open, says_opens};
+static const fe__lock_lanes lanes = {offsetof(lock_row, impulse),
+                                     offsetof(lock_row, total),
+                                     read_scalar,
+                                     add_scalar,
+                                     take_scalar,
+                                     says_open,
+                                     says_opens};
 
 static double any(double low, double high)
 {
@@ -137,7 +144,7 @@ static int32_t form_of(int32_t part)
 static fe__lock *add_link(int32_t parent, int32_t holds_b, int32_t part, float mass, fe__sym3 inverse_inertia)
 {
     int32_t i = the.tree.count++, line = i + 1, above = parent + 1;
-    fe__lock *lock = the.locks + i;
+    fe__lock *lock = &the.locks[i].lock;
     the.velocity[line].inverse_mass = 1.0f / mass;
     the.inertia[line] = the.inertia_line[line].inverse = inverse_inertia;
     the.links[i] =
@@ -146,7 +153,6 @@ static fe__lock *add_link(int32_t parent, int32_t holds_b, int32_t part, float m
     the.places[i].lock[0].part = part;
     the.places[i].lock[0].row = (int64_t)((unsigned char *)lock - (unsigned char *)the.locks);
     lock->line_a = holds_b ? above : line, lock->line_b = holds_b ? line : above;
-    lock->inertia_a = the.inertia[lock->line_a], lock->inertia_b = the.inertia[lock->line_b];
     lock->frame = fe__identity();
     return lock;
 }
@@ -271,7 +277,7 @@ static void solve_densely(int32_t axes)
     dense *d = &by_hand;
     memset(d, 0, sizeof *d);
     for (int32_t i = 0; i < the.tree.count; ++i) {
-        const fe__lock *lock = the.locks + i;
+        const fe__lock *lock = &the.locks[i].lock;
         for (int k = 0; k < 3 && the.places[i].locks; ++k) {
             if (!(axes >> k & 1)) continue;
             const fe_dvec3 e = {k == 0, k == 1, k == 2}, ma = fe__dcross(fe__widen(lock->arm_a), e),
@@ -291,7 +297,8 @@ static pass read_now(void)
 {
     pass t = pass_of(&the.job);
     the.head.loaded = 0;
-    read_tree(&t, ALL_LANES);
+    load_bundle(&t);
+    for (int32_t i = 0; i < t.count; ++i) read_node(&t, i, ALL_LANES), lay_masses(&t, i);
     return t;
 }
 
@@ -299,17 +306,17 @@ static void solve_tree(void)
 {
     const pass t = read_now();
     for (int32_t i = 0; i < t.count; ++i) the.nodes[i].damping = r_set(0.0);
-    eliminate(&t);
-    request_rest(&t);
-    substitute(&t);
+    for (int32_t i = t.count - 1; i >= 0; --i) eliminate_joint(&t, i);
+    for (int32_t i = 0; i < t.count; ++i) request_rest(&t, i);
+    meet_requests(&t, SPEEDS);
 }
 
 // of a body's centre, and of its rotation
 static void change_of(int32_t i, double out[6])
 {
     const tree_node *n = the.nodes + i;
-    const real3 v = centre_change(n);
-    for (int k = 0; k < 3; ++k) out[k] = get_lane(&v.x + k, 0), out[3 + k] = get_lane(&n->change_w.x + k, 0);
+    const real3 v = centre_change(n, SPEEDS);
+    for (int k = 0; k < 3; ++k) out[k] = get_lane(&v.x + k, 0), out[3 + k] = get_lane(&n->of[SPEEDS].change_w.x + k, 0);
 }
 
 // on B of a joint
@@ -364,8 +371,8 @@ static void two_level_rods_begin_to_fall_as_lagrange_says(void **state)
     }
     solve_tree();
     // the velocities -g h are floats
-    FE_NEAR(get_lane(&the.nodes[0].change_w.z, 0), -9.0 / 7.0 * (double)(g * h), 1e-7 * (double)(g * h));
-    FE_NEAR(get_lane(&the.nodes[1].change_w.z, 0), 3.0 / 7.0 * (double)(g * h), 1e-7 * (double)(g * h));
+    FE_NEAR(get_lane(&the.nodes[0].of[SPEEDS].change_w.z, 0), -9.0 / 7.0 * (double)(g * h), 1e-7 * (double)(g * h));
+    FE_NEAR(get_lane(&the.nodes[1].of[SPEEDS].change_w.z, 0), 3.0 / 7.0 * (double)(g * h), 1e-7 * (double)(g * h));
 }
 
 static void chains_and_trees_are_solved_as_by_gauss(void **state)
@@ -608,7 +615,7 @@ static void relax_leaves_no_speed_and_no_gap(void **state)
         add_free_root(1.0f);
         for (int32_t i = 1; i < 10; ++i) {
             add_ball(i - 1, 1.0f);
-            the.locks[i].gap = any_vector(0.003);
+            the.locks[i].lock.gap = any_vector(0.003);
         }
         fe_dvec3 before = {0.0, 0.0, 0.0}, after = before;
         for (int32_t i = 1; i <= 10; ++i) before = fe__dadd(before, fe__widen(fe__quad_vector(the.velocity[i].v)));

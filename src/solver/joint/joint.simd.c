@@ -9,6 +9,7 @@
 #include "solver/wide_body.h"
 
 #include <float.h>
+#include <stddef.h>
 
 #include "solver/joint/wide.inl"
 #include "solver/joint/axis.inl"
@@ -38,5 +39,6 @@ const fe__joint_kernels FE_NAME(fe__joint_kernels) = {.of =
                                                               [FE__PART_SLIDE] = KERNELS(slide, slide),
                                                               [FE__PART_POINT] = KERNELS(point, point),
                                                           },
-                                                      .locks = {read_lock, pull_of, add_lock, take_lock, is_open,
-                                                                opens}};
+                                                      .locks = {offsetof(point_row, impulse),
+                                                                offsetof(point_row, total), read_lock, add_lock,
+                                                                take_lock, is_open, opens}};

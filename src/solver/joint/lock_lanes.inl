@@ -2,10 +2,6 @@
 
 FE_INLINE fe_vec3 lane_of(const wide *a, int32_t i) { return fe__vec3(a[0][i], a[1][i], a[2][i]); }
 FE_INLINE fe_quat quat_lane(const wide *a, int32_t i) { return (fe_quat){a[0][i], a[1][i], a[2][i], a[3][i]}; }
-FE_INLINE fe__sym3 sym_lane(const wide_sym *a, int32_t i)
-{
-    return (fe__sym3){a->xx[i], a->xy[i], a->xz[i], a->yy[i], a->yz[i], a->zz[i]};
-}
 
 // ---- from a lane ----------------------------------------------------------------------------------------------------
 // what rows of anchors have alike
@@ -15,12 +11,7 @@ FE_INLINE fe__sym3 sym_lane(const wide_sym *a, int32_t i)
         out->arm_b = lane_of((row)->first_arm_b, i); \
         out->gap = lane_of((row)->first_gap, i);     \
     } while (0)
-// and those of all locks
-#define READ_ENDS(row)                                                                                    \
-    do {                                                                                                  \
-        out->line_a = (row)->line.a[i], out->line_b = (row)->line.b[i];                                   \
-        out->inertia_a = sym_lane(&(row)->inertia_a, i), out->inertia_b = sym_lane(&(row)->inertia_b, i); \
-    } while (0)
+#define READ_ENDS(row) (out->line_a = (row)->line.a[i], out->line_b = (row)->line.b[i])
 
 static void read_point(const point_row *row, int32_t i, fe__lock *out)
 {
@@ -76,18 +67,6 @@ static void read_lock(int32_t part, const void *row, int32_t lane, fe__lock *out
     default:
         read_distance(row, lane, out_lock);
     }
-}
-
-static void pull_of(int32_t part, const void *row, int32_t lane, fe_vec3 *out_impulse)
-{
-    const point_row *point = row;
-    const slide_row *slide = row;
-    const linear_row *rod = row;
-    *out_impulse = fe__vec3(0.0f, 0.0f, 0.0f);
-    if (part == FE__PART_POINT) *out_impulse = lane_of(point->impulse, lane);
-    if (part == FE__PART_DISTANCE) *out_impulse = fe__scale(rod->f.under[lane], lane_of(rod->u, lane));
-    for (int k = 0; k < 3 && part == FE__PART_SLIDE; ++k)
-        *out_impulse = fe__add_scaled(*out_impulse, slide->impulse[k][lane], lane_of(slide->u[k], lane));
 }
 
 // ---- to a lane ------------------------------------------------------------------------------------------------------

@@ -15,44 +15,39 @@ FE_INLINE real tension_of(const tree_node *n, real3 pull, int end, real h)
     return r_max(along, r_set(0.0)) * h;
 }
 
-// `with_impulse`: as the solution at hand pulls, on top of what the locks bore before
-static void find_tensions(const pass *t, int with_impulse)
+// what the locks bore before, with the solution at hand on top of it
+FE_INLINE real3 pull_now(const tree_node *n) { return r_add(n->pull, n->impulse_v); }
+
+// From the root downwards, so that the bodies above have their own already
+FE_INLINE void add_tension(const pass *t, int32_t i, real3 pull)
 {
-    for (int32_t i = 0; i < t->count; ++i) t->nodes[i].tension = r_set(0.0);
-    for (int32_t i = 0; i < t->count; ++i) {
-        tree_node *n = t->nodes + i, *above = above_of(t, i);
-        const real3 pull = with_impulse ? r_add(n->pull, n->impulse_v) : n->pull;
-        n->tension += tension_of(n, pull, 0, t->h);
-        if (above) above->tension += tension_of(n, pull, 1, t->h);
-    }
+    tree_node *n = t->nodes + i, *above = above_of(t, i);
+    n->tension = 0.0 + tension_of(n, pull, 0, t->h);
+    if (above) above->tension += tension_of(n, pull, 1, t->h);
 }
 
 // share of the body's tension that is more than it can follow
 FE_INLINE real excess_of(const tree_node *n)
 {
-    return r_choose(r_greater(n->tension, n->heaviest), 1.0 - n->heaviest / n->tension, r_set(0.0));
+    const real_mask more = r_greater(n->tension, n->heaviest);
+    if (!r_bits(more)) return r_set(0.0);
+    return r_choose(more, 1.0 - n->heaviest / n->tension, r_set(0.0));
 }
 
-// For the pulls that the locks bear. In the given lanes
-static void add_damping(const pass *t, int32_t lanes, int with_impulse)
+// For these pulls and tensions. In the given lanes
+FE_INLINE void add_damping(const pass *t, int32_t i, real3 pull, real_mask lanes)
 {
-    const real_mask these = r_mask(lanes);
-    find_tensions(t, with_impulse);
-    for (int32_t i = 0; i < t->count; ++i) {
-        tree_node *n = t->nodes + i, *above = above_of(t, i);
-        const real3 pull = with_impulse ? r_add(n->pull, n->impulse_v) : n->pull;
-        real damping = tension_of(n, pull, 0, t->h) * excess_of(n);
-        if (above) damping += tension_of(n, pull, 1, t->h) * excess_of(above);
-        n->expected = r_choose(these, n->tension, n->expected);
-        n->damping = r_choose(these, damping, n->damping);
-    }
+    tree_node *n = t->nodes + i, *above = above_of(t, i);
+    real damping = tension_of(n, pull, 0, t->h) * excess_of(n);
+    if (above) damping += tension_of(n, pull, 1, t->h) * excess_of(above);
+    n->expected = r_choose(lanes, n->tension, n->expected);
+    n->damping = r_choose(lanes, damping, n->damping);
 }
 
 // The lanes in which some link bears much more than what its joints were damped for, as when a slack chain goes taut
 static int32_t jerked(const pass *t)
 {
     int32_t lanes = 0;
-    find_tensions(t, 1);
     for (int32_t i = 0; i < t->count; ++i) {
         const tree_node *n = t->nodes + i;
         lanes |= r_bits(r_greater(n->tension, n->heaviest)) & r_bits(r_greater(n->tension, 2.0 * n->expected));
@@ -61,13 +56,12 @@ static int32_t jerked(const pass *t)
 }
 
 // w += I^-1 l of a body, in the given lanes of its line
-FE_INLINE void add_spin(const pass *t, const tree_node *n, line_names line, int32_t lanes, real3 l)
+FE_INLINE void add_spin(const pass *t, const tree_node *n, int32_t lanes, real3 l)
 {
     const real3 now = r_mul(&n->principal, r_mul_sym(&n->first_inverse, r_mul_transposed(&n->principal, l)));
-    const lines start = read_lines(t->solver->start, line.at);
-    const half w[3] = {narrow(r_widen(start.a[4]) + now.x), narrow(r_widen(start.a[5]) + now.y),
-                       narrow(r_widen(start.a[6]) + now.z)};
-    write_lines(t->solver->start, line.at, lanes, 4, 3, w);
+    lines start = read_lines(t->solver->start, &n->line);
+    narrow3(start.a + 4, r_add(widen3(start.a + 4), now));
+    write_lines(t->solver->start, &n->line, lanes, &start);
 }
 
 // Damping leaves the warm start: `start` takes what it gave
@@ -82,6 +76,6 @@ static void forget_damping(const pass *t, int32_t i, int32_t lanes)
         for (int k = 0; k < 3; ++k)
             if (t->links[i].form >> (3 + k) & 1) given = r_add_scaled(given, r_dot(n->ang[k], n->impulse_w), n->ang[k]);
     }
-    add_spin(t, n, line_of(t, i), lanes, given);
-    if (above) add_spin(t, above, line_above(t, i), lanes, r_scale(r_set(-1.0), given));
+    add_spin(t, n, lanes, given);
+    if (above) add_spin(t, above, lanes, r_scale(r_set(-1.0), given));
 }

@@ -1,8 +1,6 @@
 // eliminate.inl - freedoms eliminated from the leaves upwards and met from the root downwards, see node.inl. Part of
 // tree.simd.c.
 
-FE_INLINE real inverse_or_zero(real a) { return r_choose(r_greater(a, r_set(0.0)), 1.0 / a, r_set(0.0)); }
-
 // ---- masses ---------------------------------------------------------------------------------------------------------
 // of a body alone, at a point on the arm r from its centre: [[m, m [r]], [-m [r], I - m [r][r]]]
 FE_INLINE mass mass_at(real m, const real_sym *inertia, real3 r)
@@ -166,127 +164,133 @@ static void eliminate_joint(const pass *t, int32_t i)
     if (above) hang_mass(&above->p, &n->p, n->from_above, 0);
 }
 
-static void eliminate(const pass *t)
+// the bodies alone
+FE_INLINE void lay_masses(const pass *t, int32_t i)
 {
-    for (int32_t i = 0; i < t->count; ++i) {
-        tree_node *n = t->nodes + i;
-        n->p = mass_at(n->mass, &n->inertia, n->below);
-        if (above_of(t, i)) n->from_above = r_sub(n->above, above_of(t, i)->below);
-    }
-    for (int32_t i = t->count - 1; i >= 0; --i) eliminate_joint(t, i);
+    tree_node *n = t->nodes + i;
+    const tree_node *above = above_of(t, i);
+    n->p = mass_at(n->mass, &n->inertia, n->below);
+    if (above) n->from_above = r_sub(n->above, above->below);
 }
 
-// ---- requests up, changes down --------------------------------------------------------------------------------------
+// ---- requests up ----------------------------------------------------------------------------------------------------
 // what a joint passes on of a load
 typedef struct load {
     real3 v, w;
 } load;
 
-FE_INLINE load ball_up(tree_node *n)
+FE_INLINE void clear_load(solution *s) { s->load_v = s->load_w = r_zero3(); }
+
+FE_INLINE load ball_up(const tree_node *n, solution *s)
 {
-    freedom *f = n->free;
+    const freedom *f = n->free;
     const int32_t damped = is_damped(n);
-    real3 z = n->load_w;
-    if (damped) z = r_sub_scaled(z, n->damping, n->slip);
+    real3 z = s->load_w;
+    if (damped) z = r_sub_scaled(z, n->damping, s->slip);
     z = ball_forward(f, z);
-    f[0].e = f[0].g * z.x, f[1].e = f[1].g * z.y, f[2].e = f[2].g * z.z;
-    n->load_v = r_sub_scaled(r_sub_scaled(r_sub_scaled(n->load_v, z.x, f[0].v), z.y, f[1].v), z.z, f[2].v);
-    load out = {r_sub(n->load_v, r_mul_sym(&n->p.a, n->ask_v)), r_zero3()};
+    s->e[0] = f[0].g * z.x, s->e[1] = f[1].g * z.y, s->e[2] = f[2].g * z.z;
+    s->load_v = r_sub_scaled(r_sub_scaled(r_sub_scaled(s->load_v, z.x, f[0].v), z.y, f[1].v), z.z, f[2].v);
+    load out = {r_sub(s->load_v, r_mul_sym(&n->p.a, s->ask_v)), r_zero3()};
     if (damped) {
-        const real3 e = {f[0].e, f[1].e, f[2].e};
-        out.w = r_scale(n->damping, r_add(ball_back(f, r_sub(e, ball_gives(f, n->ask_v))), n->slip));
+        const real3 e = {s->e[0], s->e[1], s->e[2]};
+        out.w = r_scale(n->damping, r_add(ball_back(f, r_sub(e, ball_gives(f, s->ask_v))), s->slip));
     }
     return out;
 }
 
-FE_INLINE load joint_up(const pass *t, int32_t i)
+FE_INLINE load joint_up(const tree_node *n, int32_t form, solution *s)
 {
-    tree_node *n = t->nodes + i;
     const mass *p = &n->p;
     for (int k = 0; k < FREEDOMS; ++k) {
-        if (!(t->links[i].form >> k & 1)) continue;
-        freedom *f = n->free + k;
-        const real3 s = axis_of(n, k);
-        f->e = f->g * (k < 3 ? r_dot(s, n->load_v) : r_dot(s, n->load_w) - n->damping * r_dot(s, n->slip));
-        n->load_v = r_sub_scaled(n->load_v, f->e, f->v), n->load_w = r_sub_scaled(n->load_w, f->e, f->w);
+        if (!(form >> k & 1)) continue;
+        const freedom *f = n->free + k;
+        const real3 a = axis_of(n, k);
+        s->e[k] = f->g * (k < 3 ? r_dot(a, s->load_v) : r_dot(a, s->load_w) - n->damping * r_dot(a, s->slip));
+        s->load_v = r_sub_scaled(s->load_v, s->e[k], f->v), s->load_w = r_sub_scaled(s->load_w, s->e[k], f->w);
     }
-    return (load){r_sub(n->load_v, r_add(r_mul_sym(&p->a, n->ask_v), r_mul(&p->b, n->ask_w))),
-                  r_sub(n->load_w, r_add(r_mul_transposed(&p->b, n->ask_v), r_mul_sym(&p->d, n->ask_w)))};
+    return (load){r_sub(s->load_v, r_add(r_mul_sym(&p->a, s->ask_v), r_mul(&p->b, s->ask_w))),
+                  r_sub(s->load_w, r_add(r_mul_transposed(&p->b, s->ask_v), r_mul_sym(&p->d, s->ask_w)))};
 }
 
-// of the loads that the nodes have
-static void pass_up(const pass *t)
+// `which`: the solution
+FE_INLINE void hand_up(const pass *t, int32_t i, int which)
 {
-    for (int32_t i = t->count - 1; i >= 0; --i) {
-        tree_node *n = t->nodes + i, *above = above_of(t, i);
-        const load l = is_ball(t, i) ? ball_up(n) : joint_up(t, i);
-        if (!above) continue;
-        above->load_v = r_add(above->load_v, l.v);
-        above->load_w = r_add(above->load_w, r_add(l.w, r_cross(n->from_above, l.v)));
-    }
+    tree_node *n = t->nodes + i, *above = above_of(t, i);
+    solution *s = n->of + which;
+    const load l = is_ball(t, i) ? ball_up(n, s) : joint_up(n, t->links[i].form, s);
+    if (!above) return;
+    solution *to = above->of + which;
+    to->load_v = r_add(to->load_v, l.v);
+    to->load_w = r_add(to->load_w, r_add(l.w, r_cross(n->from_above, l.v)));
 }
 
-FE_INLINE void ball_down(tree_node *n, real3 xv, real3 xw)
+// ---- changes down ---------------------------------------------------------------------------------------------------
+// `bears`: the impulse is wanted
+FE_INLINE void ball_down(tree_node *n, solution *s, real3 xv, real3 xw, int bears)
 {
     const freedom *f = n->free;
     const real3 gives = ball_gives(f, xv);
-    real3 q = {f[0].e - gives.x, f[1].e - gives.y, f[2].e - gives.z};
+    real3 q = {s->e[0] - gives.x, s->e[1] - gives.y, s->e[2] - gives.z};
     const int32_t damped = is_damped(n);
     if (damped) {
         const real3 held = ball_forward(f, r_scale(n->damping, xw));
         q.x += f[0].g * held.x, q.y += f[1].g * held.y, q.z += f[2].g * held.z;
     }
-    n->change_v = xv;
-    n->change_w = ball_back(f, q);
-    n->impulse_v = r_sub(r_mul_sym(&n->p.a, xv), n->load_v);
+    s->change_v = xv;
+    s->change_w = ball_back(f, q);
+    if (!bears) return;
+    n->impulse_v = r_sub(r_mul_sym(&n->p.a, xv), s->load_v);
     n->impulse_w = r_zero3();
     if (damped) {
         n->impulse_v = r_add(n->impulse_v, r_mul(&n->p.b, xw));
-        n->impulse_w = r_scale(-n->damping, r_add(r_sub(n->change_w, xw), n->slip));
+        n->impulse_w = r_scale(-n->damping, r_add(r_sub(s->change_w, xw), s->slip));
     }
 }
 
-FE_INLINE void joint_down(const pass *t, int32_t i, real3 xv, real3 xw)
+FE_INLINE void joint_down(tree_node *n, int32_t form, solution *s, real3 xv, real3 xw, int bears)
 {
-    tree_node *n = t->nodes + i;
     const mass *p = &n->p;
-    n->impulse_v = r_sub(r_add(r_mul_sym(&p->a, xv), r_mul(&p->b, xw)), n->load_v);
-    n->impulse_w = r_sub(r_add(r_mul_transposed(&p->b, xv), r_mul_sym(&p->d, xw)), n->load_w);
+    if (bears) {
+        n->impulse_v = r_sub(r_add(r_mul_sym(&p->a, xv), r_mul(&p->b, xw)), s->load_v);
+        n->impulse_w = r_sub(r_add(r_mul_transposed(&p->b, xv), r_mul_sym(&p->d, xw)), s->load_w);
+    }
     for (int k = FREEDOMS - 1; k >= 0; --k) {
-        if (!(t->links[i].form >> k & 1)) continue;
+        if (!(form >> k & 1)) continue;
         const freedom *f = n->free + k;
-        const real q = f->e - f->g * (r_dot(f->v, xv) + r_dot(f->w, xw));
+        const real q = s->e[k] - f->g * (r_dot(f->v, xv) + r_dot(f->w, xw));
         if (k < 3)
             xv = r_add_scaled(xv, q, n->lin[k]);
         else
             xw = r_add_scaled(xw, q, n->ang[k - 3]);
     }
-    n->change_v = xv, n->change_w = xw;
+    s->change_v = xv, s->change_w = xw;
 }
 
-static void hand_down(const pass *t)
+FE_INLINE void hand_down(const pass *t, int32_t i, int which, int bears)
 {
-    for (int32_t i = 0; i < t->count; ++i) {
-        tree_node *n = t->nodes + i;
-        const tree_node *above = above_of(t, i);
-        real3 xv = n->ask_v, xw = n->ask_w;
-        if (above) {
-            xv = r_add(xv, r_add(above->change_v, r_cross(above->change_w, n->from_above)));
-            xw = r_add(xw, above->change_w);
-        }
-        if (is_ball(t, i))
-            ball_down(n, xv, xw);
-        else
-            joint_down(t, i, xv, xw);
+    tree_node *n = t->nodes + i;
+    const tree_node *above = above_of(t, i);
+    solution *s = n->of + which;
+    real3 xv = s->ask_v, xw = s->ask_w;
+    if (above) {
+        const solution *from = above->of + which;
+        xv = r_add(xv, r_add(from->change_v, r_cross(from->change_w, n->from_above)));
+        xw = r_add(xw, from->change_w);
     }
-}
-
-static void substitute(const pass *t)
-{
-    for (int32_t i = 0; i < t->count; ++i) t->nodes[i].load_v = t->nodes[i].load_w = r_zero3();
-    pass_up(t);
-    hand_down(t);
+    if (is_ball(t, i))
+        ball_down(n, s, xv, xw, bears);
+    else
+        joint_down(n, t->links[i].form, s, xv, xw, bears);
 }
 
 // of the centre of a body
-FE_INLINE real3 centre_change(const tree_node *n) { return r_sub(n->change_v, r_cross(n->change_w, n->below)); }
+FE_INLINE real3 centre_change(const tree_node *n, int which)
+{
+    return r_sub(n->of[which].change_v, r_cross(n->of[which].change_w, n->below));
+}
+
+static void meet_requests(const pass *t, int which)
+{
+    for (int32_t i = t->count - 1; i >= 0; --i) hand_up(t, i, which);
+    for (int32_t i = 0; i < t->count; ++i) hand_down(t, i, which, which == SPEEDS);
+}

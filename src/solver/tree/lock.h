@@ -23,23 +23,23 @@ typedef struct fe__tree_place {
 // are those of the step's beginning.
 typedef struct fe__lock {
     int32_t line_a, line_b;
-    fe__sym3 inertia_a, inertia_b; // inverse, now
-    fe_vec3 arm_a, arm_b;          // POINT, SLIDE, DISTANCE: from the centres to the anchors, m
-    fe_vec3 gap;                   // anchor of B - anchor of A, m
-    fe_quat frame;                 // SLIDE, DISTANCE: A's; FIXED: QB QA^-1
-    fe_vec3 t1, t2, axis_b;        // HINGE
-    float keeps[3];                // SLIDE: 1 for a locked axis of the frame, 0 for a free one
-    float length;                  // DISTANCE: wanted, m
-    float impulse[3];              // POINT: world; SLIDE: along the frame's axes; DISTANCE: along the rod; N s
+    fe_vec3 arm_a, arm_b;   // POINT, SLIDE, DISTANCE: from the centres to the anchors, m
+    fe_vec3 gap;            // anchor of B - anchor of A, m
+    fe_quat frame;          // SLIDE, DISTANCE: A's; FIXED: QB QA^-1
+    fe_vec3 t1, t2, axis_b; // HINGE
+    float keeps[3];         // SLIDE: 1 for a locked axis of the frame, 0 for a free one
+    float length;           // DISTANCE: wanted, m
+    float impulse[3];       // POINT: world; SLIDE: along the frame's axes; DISTANCE: along the rod; N s
 } fe__lock;
 
 struct fe__solver;
 
 // `row` and `lane` as in fe__tree_place
 typedef struct fe__lock_lanes {
+    // from a row of POINT to the x of its impulses, and of their sums over the step, bytes; y and z follow, a row of
+    // lanes each
+    int32_t point_impulse, point_total;
     void (*read)(int32_t part, const void *row, int32_t lane, fe__lock *out_lock);
-    // The impulse of what holds points, world axes, N s
-    void (*pull)(int32_t part, const void *row, int32_t lane, fe_vec3 *out_impulse);
     // Adds impulses in the order of the lock's rows, with `total` to the sum over the step too. Returns how many.
     int32_t (*add)(int32_t part, void *row, int32_t lane, const double *impulse, int32_t total);
     // Moves the impulses to `impulse` and leaves none. Returns how many.

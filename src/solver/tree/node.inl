@@ -21,48 +21,62 @@ typedef struct mass {
     real_sym d;
 } mass;
 
-typedef struct freedom {
-    real3 v, w; // U; of a ball joint see eliminate.inl
-    real g, e;
-} freedom;
-
 enum { FREEDOMS = 6 };
 
+typedef struct freedom {
+    real3 v, w; // U; of a ball joint see eliminate.inl
+    real g;
+} freedom;
+
+// What is asked for, and what comes of it
+typedef struct solution {
+    real3 ask_v, ask_w;   // r
+    real3 slip;           // of the rotations, rad/s
+    real3 load_v, load_w; // p
+    real e[FREEDOMS];
+    real3 change_v, change_w; // u
+} solution;
+
+// of a node: of the velocities, of the positions
+enum { SPEEDS, PLACES, SOLUTIONS };
+
 typedef struct tree_node {
-    // when the step began
+    // Of the step
+    line_names line, line_above; // of the bodies below and above
+    // Of a ball joint, in each lane: to the x of its impulse in the rows, bytes
+    _Alignas(8 * LANES) int64_t point[LANES];
+    half inverse_mass, locks;                  // as the lines of the velocities have them
     real3 first_below, first_above, first_gap; // arms from the centres to a ball joint's point, m
     real_sym first_inertia, first_inverse;     // about the centre, kg m2 and its inverse
     real side;                                 // 1: the body below is B of the joint, -1: A
     real mass;                                 // kg
     // where the bodies are now
-    real_mat turn;        // since the step began
-    real_mat principal;   // the same, but of what the joints' inertia has followed: see FE__ROTATED
-    real3 shift;          // m
-    real3 below, above;   // from the centres of the body below, above to the point, m
-    real3 gap, swing;     // what the joint has to bring back to zero, m, rad
-    real3 lin[3], ang[3]; // axes of the joint, of which some are freedoms. A ball joint has none: its are the world's
-    real rod;             // length of a distance joint, m; else 0
-    real3 pull;           // impulse on the body below at the point when the matrices were found, N s
-    real_sym inertia;     // about the centre, world axes
+    real_mat turn;      // since the step began
+    real3 shift;        // m
+    real3 below, above; // from the centres of the body below, above to the point, m
+    real3 gap, swing;   // what the joint has to bring back to zero, m, rad
+    real3 pull;         // impulse on the body below at the point when the matrices were found, N s
+    real_sym inertia;   // about the centre, world axes
     real tension, expected, damping, heaviest; // see damping.inl; the largest moment about an axis that is not locked
     // found by the elimination
     real3 from_above; // from the point of the body above to this one, m
     mass p;
     freedom free[FREEDOMS];
     // of one solution
-    real3 v, w;                 // velocities as they are
-    real3 rest;                 // what the points lack to move as one, m/s
-    real3 ask_v, ask_w;         // r
-    real3 slip;                 // of the rotations, rad/s
-    real3 load_v, load_w;       // p
-    real3 change_v, change_w;   // u
+    real3 v, w; // velocities as they are
+    real3 rest; // what the points lack to move as one, m/s
+    solution of[SOLUTIONS];
     real3 impulse_v, impulse_w; // l
+    // seldom read
+    real_mat principal;   // turn, but of what the joints' inertia has followed: see FE__ROTATED
+    real3 lin[3], ang[3]; // axes of the joint, of which some are freedoms. A ball joint has none: its are the world's
+    real rod;             // length of a distance joint, m; else 0
     // of a link that contacts touch, see response.inl
-    int32_t touched, heavier;                  // lanes
-    real light, spins;                         // shares of its inverse mass, of its inverse inertia
-    real_sym root;                             // of the inertia
-    real per_root_mass;                        // 1 / sqrt(mass)
-    half held[FE__LINE], held_start[FE__LINE]; // lines of the velocities when contacts took over
+    int32_t touched, heavier; // lanes; those in which the tree makes it heavier
+    real light, spins;        // shares of its inverse mass, of its inverse inertia
+    real_sym root;            // of the inertia
+    real per_root_mass;       // 1 / sqrt(mass)
+    lines held, held_start;   // of the velocities when contacts took over
 } tree_node;
 
 // A light tree is solved from the substep on in which it opens, but left to the sweep where it was open before
@@ -99,48 +113,8 @@ FE_INLINE tree_node *above_of(const pass *t, int32_t i)
 }
 FE_INLINE int32_t is_ball(const pass *t, int32_t i) { return t->links[i].form & FE__TREE_BALL; }
 FE_INLINE int32_t is_root(const pass *t, int32_t i) { return !t->links[i].joint; } // of a tree that hangs on nothing
-
-// ---- lines ----------------------------------------------------------------------------------------------------------
-typedef struct lines {
-    half a[FE__LINE];
-} lines;
-
-FE_INLINE lines read_lines(const void *from, const int32_t *line)
+// x of the impulse of a ball joint, in the rows
+FE_INLINE float *point_of(const pass *t, const tree_node *n, int lane)
 {
-    const float *at = from;
-    lines l;
-    for (int k = 0; k < FE__LINE; ++k) {
-#define LANE(i) at[line[i] * FE__LINE + k]
-        l.a[k] = (half)PER_LANE_(LANE);
-#undef LANE
-    }
-    return l;
+    return (float *)(void *)(t->job->rows + n->point[lane]);
 }
-
-// the first `count` of a line from `from` on, in the given lanes
-FE_INLINE void write_lines(void *to, const int32_t *line, int32_t lanes, int from, int count, const half *a)
-{
-    float *at = to;
-    for (int i = 0; i < LANES; ++i)
-        for (int k = 0; k < count && lanes >> i & 1; ++k) at[line[i] * FE__LINE + from + k] = a[k][i];
-}
-
-typedef struct line_names {
-    int32_t at[LANES];
-} line_names;
-
-FE_INLINE line_names line_of(const pass *t, int32_t i)
-{
-#define LANE(k) t->places[k][i].line
-    return (line_names){PER_LANE_(LANE)};
-#undef LANE
-}
-FE_INLINE line_names line_above(const pass *t, int32_t i)
-{
-#define LANE(k) t->places[k][i].parent_line
-    return (line_names){PER_LANE_(LANE)};
-#undef LANE
-}
-FE_INLINE real3 widen3(const half *a) { return (real3){r_widen(a[0]), r_widen(a[1]), r_widen(a[2])}; }
-// b of what may be -0 is not: whether a freedom is looked at that gives nothing, nobody shall see
-FE_INLINE half narrow(real a) { return __builtin_convertvector(a + 0.0, half); }

@@ -15,43 +15,51 @@ FE_INLINE fe_dvec3 get_lane3(const real3 *a, int lane)
 {
     return (fe_dvec3){get_lane(&a->x, lane), get_lane(&a->y, lane), get_lane(&a->z, lane)};
 }
-FE_INLINE void set_lane_sym(real_sym *a, int lane, const double value[6])
-{
-    set_lane(&a->xx, lane, value[0]), set_lane(&a->xy, lane, value[1]), set_lane(&a->xz, lane, value[2]);
-    set_lane(&a->yy, lane, value[3]), set_lane(&a->yz, lane, value[4]), set_lane(&a->zz, lane, value[5]);
-}
 
 static void read_lock(const pass *t, const fe__tree_place *p, int32_t k, fe__lock *out)
 {
     t->job->lanes->read(p->lock[k].part, t->job->rows + p->lock[k].row, p->lock[k].lane, out);
 }
 
-// ---- once a step ----------------------------------------------------------------------------------------------------
-// of a symmetric matrix xx xy xz yy yz zz, 0 where it has none
-static void invert(const double i[6], double out[6])
+// of its moments about axes that are not locked
+FE_INLINE real heaviest_of(const tree_node *n, uint32_t locks)
 {
-    double xx = i[3] * i[5] - i[4] * i[4], xy = i[2] * i[4] - i[1] * i[5], xz = i[1] * i[4] - i[2] * i[3];
-    double yy = i[0] * i[5] - i[2] * i[2], yz = i[1] * i[2] - i[0] * i[4], zz = i[0] * i[3] - i[1] * i[1];
-    double d = i[0] * xx + i[1] * xy + i[2] * xz, k = d > 0.0 ? 1.0 / d : 0.0;
-    out[0] = k * xx, out[1] = k * xy, out[2] = k * xz, out[3] = k * yy, out[4] = k * yz, out[5] = k * zz;
+    real most = r_set(0.0);
+    if (!(locks & 8)) most = r_max(most, n->inertia.xx);
+    if (!(locks & 16)) most = r_max(most, n->inertia.yy);
+    if (!(locks & 32)) most = r_max(most, n->inertia.zz);
+    return most;
+}
+
+// ---- once a step ----------------------------------------------------------------------------------------------------
+// 0 where it has none
+FE_INLINE real_sym inverse_sym(const real_sym *i)
+{
+    const real xx = i->yy * i->zz - i->yz * i->yz, xy = i->xz * i->yz - i->xy * i->zz,
+               xz = i->xy * i->yz - i->xz * i->yy;
+    const real k = inverse_or_zero(i->xx * xx + i->xy * xy + i->xz * xz);
+    return (real_sym){k * xx,
+                      k * xy,
+                      k * xz,
+                      k * (i->xx * i->zz - i->xz * i->xz),
+                      k * (i->xy * i->xz - i->xx * i->yz),
+                      k * (i->xx * i->yy - i->xy * i->xy)};
 }
 
 // A locked direction gets some mass, which the elimination hides
-static void load_masses(const pass *t, int32_t i, int lane)
+static void load_masses(const pass *t, int32_t i)
 {
-    static const int diagonal[3] = {0, 3, 5};
     tree_node *n = t->nodes + i;
-    const int32_t line = t->places[lane][i].line;
-    const fe__sym3 *in = &t->solver->inertia[line].inverse;
-    double inverse[6] = {(double)in->xx, (double)in->xy, (double)in->xz,
-                         (double)in->yy, (double)in->yz, (double)in->zz},
-           inertia[6];
-    set_lane(&n->mass, lane, 1.0 / (double)t->solver->velocity[line].inverse_mass);
-    set_lane_sym(&n->first_inverse, lane, inverse);
-    for (int k = 0; k < 3; ++k)
-        if (t->locks >> (3 + k) & 1) inverse[diagonal[k]] = 1.0;
-    invert(inverse, inertia);
-    set_lane_sym(&n->first_inertia, lane, inertia);
+    const lines line = read_lines(t->solver->velocity, &n->line), in = read_lines(t->solver->inertia, &n->line);
+    const real3 first = widen3(in.a), second = widen3(in.a + 3);
+    real_sym inverse = n->first_inverse = (real_sym){first.x, first.y, first.z, second.x, second.y, second.z};
+    if (t->locks & 8) inverse.xx = r_set(1.0);
+    if (t->locks & 16) inverse.yy = r_set(1.0);
+    if (t->locks & 32) inverse.zz = r_set(1.0);
+    n->inverse_mass = line.a[3], n->locks = line.a[7];
+    n->mass = 1.0 / r_widen(line.a[3]);
+    n->inertia = n->first_inertia = inverse_sym(&inverse);
+    n->heaviest = heaviest_of(n, t->locks);
 }
 
 static void load_ball(const pass *t, int32_t i, int lane)
@@ -65,18 +73,28 @@ static void load_ball(const pass *t, int32_t i, int lane)
     set_lane3(&n->first_gap, lane, fe__dscale(holds_b ? 1.0 : -1.0, fe__widen(lock.gap)));
 }
 
+static void load_lane(const pass *t, int32_t i, int lane)
+{
+    tree_node *n = t->nodes + i;
+    const fe__tree_place *p = t->places[lane] + i;
+    n->line.at[lane] = p->line, n->line_above.at[lane] = p->parent_line;
+    set_lane(&n->side, lane, t->links_of[lane][i].holds_b ? 1.0 : -1.0);
+    if (!is_ball(t, i)) return;
+    n->point[lane] = p->lock[0].row + t->job->lanes->point_impulse + p->lock[0].lane * (int64_t)sizeof(float);
+    load_ball(t, i, lane);
+}
+
 static void load_bundle(const pass *t)
 {
     if (t->head->loaded) return;
     t->head->loaded = 1;
     for (int32_t i = 0; i < t->count; ++i) {
-        for (int lane = 0; lane < LANES; ++lane) {
-            load_masses(t, i, lane);
-            set_lane(&t->nodes[i].side, lane, t->links_of[lane][i].holds_b ? 1.0 : -1.0);
-            if (is_ball(t, i)) load_ball(t, i, lane);
-        }
-        t->nodes[i].rod = r_set(0.0);
-        t->nodes[i].principal = (real_mat){unit3(0), unit3(1), unit3(2)};
+        tree_node *n = t->nodes + i;
+        for (int lane = 0; lane < LANES; ++lane) load_lane(t, i, lane);
+        load_masses(t, i);
+        n->rod = r_set(0.0);
+        n->principal = (real_mat){unit3(0), unit3(1), unit3(2)};
+        n->of[PLACES].slip = r_zero3();
     }
 }
 
@@ -87,37 +105,35 @@ typedef struct pose {
     real angle; // sin^2 of half of it
 } pose;
 
-FE_INLINE pose pose_of(const pass *t, line_names line)
+FE_INLINE pose pose_of(const pass *t, const line_names *line)
 {
-    const lines l = read_lines(t->solver->motion, line.at);
+    const lines l = read_lines(t->solver->motion, line);
     const real3 v = widen3(l.a + 4);
     return (pose){r_matrix(v.x, v.y, v.z, r_widen(l.a[7])), widen3(l.a), r_dot(v, v)};
 }
 
-// of a joint's impulse on the body below: what the sweep and the tree gave it so far
-static real3 pull_of(const pass *t, int32_t i)
+// what the rows hold
+FE_INLINE real3 impulse_of_point(const pass *t, const tree_node *n)
 {
-    real3 pull = r_zero3();
-    for (int lane = 0; lane < LANES; ++lane) {
-        const fe__tree_place *p = t->places[lane] + i;
-        const double sign = t->links_of[lane][i].holds_b ? 1.0 : -1.0;
-        fe_vec3 l;
-        t->job->lanes->pull(p->lock[0].part, t->job->rows + p->lock[0].row, p->lock[0].lane, &l);
-        set_lane3(&pull, lane, fe__dscale(sign, fe__widen(l)));
+    half l[3];
+    for (int k = 0; k < 3; ++k) {
+#define LANE(i) point_of(t, n, i)[k * FE_W]
+        l[k] = (half)PER_LANE_(LANE);
+#undef LANE
     }
-    return pull;
+    return r_scale(n->side, widen3(l));
 }
 
 static void read_ball(const pass *t, int32_t i, real_mask lanes)
 {
     tree_node *n = t->nodes + i, *above = above_of(t, i);
-    const pose at = above ? (pose){above->turn, above->shift, r_set(0.0)} : pose_of(t, line_above(t, i));
+    const pose at = above ? (pose){above->turn, above->shift, r_set(0.0)} : pose_of(t, &n->line_above);
     const real3 below = r_mul(&n->turn, n->first_below), to = r_mul(&at.turn, n->first_above);
     const real3 swing = r_sub(r_sub(below, n->first_below), r_sub(to, n->first_above));
     const real3 gap = r_add(n->first_gap, r_add(r_sub(n->shift, at.shift), swing));
     n->below = r_choose3(lanes, below, n->below), n->above = r_choose3(lanes, to, n->above);
     n->gap = r_choose3(lanes, gap, n->gap);
-    n->pull = r_choose3(lanes, pull_of(t, i), n->pull);
+    n->pull = r_choose3(lanes, impulse_of_point(t, n), n->pull);
 }
 
 // ---- other joints ---------------------------------------------------------------------------------------------------
@@ -304,32 +320,22 @@ static void read_joint(const pass *t, int32_t i, int lane)
     put_axes(t, i, lane, &a);
 }
 
-// The pose of a lane that is not read stays, and so does this
-FE_INLINE void weigh(tree_node *n, uint32_t locks)
-{
-    n->inertia = r_turn_sym(&n->principal, &n->first_inertia);
-    n->heaviest = r_set(0.0);
-    if (!(locks & 8)) n->heaviest = r_max(n->heaviest, n->inertia.xx);
-    if (!(locks & 16)) n->heaviest = r_max(n->heaviest, n->inertia.yy);
-    if (!(locks & 32)) n->heaviest = r_max(n->heaviest, n->inertia.zz);
-}
-
 // ---- all of them ----------------------------------------------------------------------------------------------------
 // in the given lanes; others keep what they have
-static void read_tree(const pass *t, int32_t lanes)
+static void read_node(const pass *t, int32_t i, int32_t lanes)
 {
     const real_mask these = r_mask(lanes);
-    load_bundle(t);
-    for (int32_t i = 0; i < t->count; ++i) {
-        tree_node *n = t->nodes + i;
-        const pose at = pose_of(t, line_of(t, i));
-        const real_mask turned_far = r_both(these, r_greater(at.angle, r_set((double)FE__ROTATED)));
-        n->turn = r_choose_mat(these, at.turn, n->turn);
+    tree_node *n = t->nodes + i;
+    const pose at = pose_of(t, &n->line);
+    const real_mask turned_far = r_both(these, r_greater(at.angle, r_set((double)FE__ROTATED)));
+    n->turn = r_choose_mat(these, at.turn, n->turn);
+    n->shift = r_choose3(these, at.shift, n->shift);
+    if (r_bits(turned_far)) {
         n->principal = r_choose_mat(turned_far, at.turn, n->principal);
-        n->shift = r_choose3(these, at.shift, n->shift);
-        weigh(n, t->locks);
-        if (is_ball(t, i)) read_ball(t, i, these);
-        for (int lane = 0; lane < LANES && !is_ball(t, i); ++lane)
-            if (lanes >> lane & 1) read_joint(t, i, lane);
+        n->inertia = r_turn_sym(&n->principal, &n->first_inertia);
+        n->heaviest = heaviest_of(n, t->locks);
     }
+    if (is_ball(t, i)) read_ball(t, i, these);
+    for (int lane = 0; lane < LANES && !is_ball(t, i); ++lane)
+        if (lanes >> lane & 1) read_joint(t, i, lane);
 }

@@ -77,6 +77,7 @@ typedef struct real_mat {
 } real_mat;
 
 FE_INLINE real r_set(double a) { return a - (real){0}; }
+FE_INLINE real inverse_or_zero(real a) { return r_choose(r_greater(a, r_set(0.0)), 1.0 / a, r_set(0.0)); }
 FE_INLINE real3 r_zero3(void) { return (real3){r_set(0.0), r_set(0.0), r_set(0.0)}; }
 FE_INLINE real3 unit3(int k) { return (real3){r_set(k == 0), r_set(k == 1), r_set(k == 2)}; }
 FE_INLINE real3 r_add(real3 a, real3 b) { return (real3){a.x + b.x, a.y + b.y, a.z + b.z}; }

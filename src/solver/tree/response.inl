@@ -85,7 +85,7 @@ typedef struct six {
 // Velocities of a touched link
 FE_INLINE six answer_of(const tree_node *n)
 {
-    const real3 v = centre_change(n), w = n->change_w;
+    const real3 v = centre_change(n, PLACES), w = n->of[PLACES].change_w;
     const real_sym l = n->root;
     const real k = n->per_root_mass;
     return (six){
@@ -94,7 +94,7 @@ FE_INLINE six answer_of(const tree_node *n)
 
 FE_INLINE void clear_loads(const pass *t)
 {
-    for (int32_t j = 0; j < t->count; ++j) t->nodes[j].load_v = t->nodes[j].load_w = r_zero3();
+    for (int32_t i = 0; i < t->count; ++i) clear_load(t->nodes[i].of + PLACES);
 }
 
 // a load on the centre, which is at -below
@@ -103,7 +103,8 @@ FE_INLINE void load_link(tree_node *n, const six *a)
     const real3 f = {a->a[0], a->a[1], a->a[2]};
     const real_sym l = n->root;
     const real3 y = {l.xx * a->a[3], l.xy * a->a[3] + l.yy * a->a[4], l.xz * a->a[3] + l.yz * a->a[4] + l.zz * a->a[5]};
-    n->load_v = f, n->load_w = r_add_scaled(r_cross(f, n->below), n->per_root_mass, y);
+    n->of[PLACES].load_v = f;
+    n->of[PLACES].load_w = r_add_scaled(r_cross(f, n->below), n->per_root_mass, y);
 }
 
 // |A| of a symmetric block by the sums of its rows
@@ -126,8 +127,7 @@ static void find_sizes(const pass *t, int32_t i)
         unit_load.a[k] = r_set(1.0);
         clear_loads(t);
         load_link(n, &unit_load);
-        pass_up(t);
-        hand_down(t);
+        meet_requests(t, PLACES);
         own[k] = answer_of(n);
     }
     // what is locked answers nothing
@@ -162,8 +162,7 @@ static real largest_factor(const pass *t, const int32_t *touched, int32_t count)
             for (int k = 0; k < 6; ++k) x[p].a[k] *= there * r_sqrt(n->mass / (k < 3 ? n->light : n->spins));
             load_link(n, x + p);
         }
-        pass_up(t);
-        hand_down(t);
+        meet_requests(t, PLACES);
         for (int32_t p = 0; p < count; ++p) {
             const tree_node *n = t->nodes + touched[p];
             const real there = r_choose(r_mask(n->heavier), r_set(1.0), r_set(0.0));
@@ -203,7 +202,7 @@ static int32_t scale_shares(const pass *t, const int32_t *touched, int32_t count
 static int32_t find_shares(const pass *t, const int32_t *touched, int32_t count)
 {
     int32_t heavier = 0, others = 0;
-    for (int32_t i = 0; i < t->count; ++i) t->nodes[i].ask_v = t->nodes[i].ask_w = t->nodes[i].slip = r_zero3();
+    for (int32_t i = 0; i < t->count; ++i) t->nodes[i].of[PLACES].ask_v = t->nodes[i].of[PLACES].ask_w = r_zero3();
     for (int32_t p = 0; p < count; ++p) {
         const tree_node *n = t->nodes + touched[p];
         find_sizes(t, touched[p]);

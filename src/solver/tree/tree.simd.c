@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "solver/tree/real.inl"
+#include "solver/tree/lines.inl"
 #include "solver/tree/node.inl"
 #include "solver/tree/read.inl"
 #include "solver/tree/eliminate.inl"
@@ -25,26 +26,26 @@
 #define FULL_TURN 0.25
 
 // ---- requests -------------------------------------------------------------------------------------------------------
-static void read_velocities(const pass *t)
-{
-    for (int32_t i = 0; i < t->count; ++i) {
-        tree_node *n = t->nodes + i;
-        const lines l = read_lines(t->solver->velocity, line_of(t, i).at);
-        n->v = widen3(l.a), n->w = widen3(l.a + 4);
-    }
-}
-
 typedef struct velocity {
     real3 v, w;
 } velocity;
+
+FE_INLINE velocity read_velocity(const pass *t, const line_names *line)
+{
+    const lines l = read_lines(t->solver->velocity, line);
+    return (velocity){widen3(l.a), widen3(l.a + 4)};
+}
 
 // of the body above, without changes
 FE_INLINE velocity velocity_above(const pass *t, int32_t i)
 {
     const tree_node *above = above_of(t, i);
-    if (above) return (velocity){above->v, above->w};
-    const lines l = read_lines(t->solver->velocity, line_above(t, i).at);
-    return (velocity){widen3(l.a), widen3(l.a + 4)};
+    return above ? (velocity){above->v, above->w} : read_velocity(t, &t->nodes[i].line_above);
+}
+
+FE_INLINE velocity changed(const tree_node *n)
+{
+    return (velocity){r_add(n->v, centre_change(n, SPEEDS)), r_add(n->w, n->of[SPEEDS].change_w)};
 }
 
 // a along what the joint locks
@@ -65,17 +66,17 @@ FE_INLINE real3 locked_about(const pass *t, int32_t i, real3 a)
 FE_INLINE real3 minus3(real3 a) { return (real3){-a.x, -a.y, -a.z}; }
 
 // The joint's parts move as one
-static void request_rest(const pass *t)
+FE_INLINE void request_rest(const pass *t, int32_t i)
 {
-    read_velocities(t);
-    for (int32_t i = 0; i < t->count; ++i) {
-        tree_node *n = t->nodes + i;
-        const velocity above = velocity_above(t, i);
-        const real3 apart = r_sub(r_add(n->v, r_cross(n->w, n->below)), r_add(above.v, r_cross(above.w, n->above)));
-        n->slip = r_sub(n->w, above.w);
-        n->ask_v = n->rest = locked_along(t, i, minus3(apart));
-        n->ask_w = locked_about(t, i, minus3(n->slip));
-    }
+    tree_node *n = t->nodes + i;
+    solution *s = n->of + SPEEDS;
+    const velocity above = velocity_above(t, i), below = read_velocity(t, &n->line);
+    const real3 apart = r_sub(r_add(below.v, r_cross(below.w, n->below)), r_add(above.v, r_cross(above.w, n->above)));
+    n->v = below.v, n->w = below.w;
+    s->slip = r_sub(below.w, above.w);
+    s->ask_v = n->rest = locked_along(t, i, minus3(apart));
+    s->ask_w = locked_about(t, i, minus3(s->slip));
+    clear_load(s);
 }
 
 // Of the arcs of a rotation, by its square: beyond FE__SLOW_TURN they are left to the positions, which lose energy by
@@ -111,20 +112,14 @@ FE_INLINE real leave_rod(const tree_node *n, velocity below, velocity above, rea
 
 FE_INLINE int32_t is_rod(const pass *t, int32_t i) { return t->links[i].form & FE__TREE_ROD; }
 
-// Velocities with which the points meet after the substep, on the arcs of the velocities at hand
-static void request_arcs(const pass *t)
+// Velocities with which the points meet after the substep, on the arcs of these
+FE_INLINE void request_arcs(const pass *t, int32_t i, velocity below, velocity above, real rate)
 {
-    const real rate = 1.0 / t->h;
-    for (int32_t i = 0; i < t->count; ++i) {
-        tree_node *n = t->nodes + i;
-        const tree_node *on = above_of(t, i);
-        velocity below = {r_add(n->v, centre_change(n)), r_add(n->w, n->change_w)}, above = velocity_above(t, i);
-        if (on) above = (velocity){r_add(above.v, centre_change(on)), r_add(above.w, on->change_w)};
-        const real3 off = r_sub(leave_tangent(n->below, below.w, t->h), leave_tangent(n->above, above.w, t->h));
-        n->ask_v = r_sub_scaled(n->rest, rate, locked_along(t, i, off));
-        if (is_rod(t, i))
-            n->ask_v = r_sub_scaled(n->ask_v, rate * n->side * leave_rod(n, below, above, t->h), n->lin[0]);
-    }
+    tree_node *n = t->nodes + i;
+    const real3 off = r_sub(leave_tangent(n->below, below.w, t->h), leave_tangent(n->above, above.w, t->h));
+    real3 ask = r_sub_scaled(n->rest, rate, locked_along(t, i, off));
+    if (is_rod(t, i)) ask = r_sub_scaled(ask, rate * n->side * leave_rod(n, below, above, t->h), n->lin[0]);
+    n->of[SPEEDS].ask_v = ask;
 }
 
 // At most so much of an error at once; what is more follows at that rate
@@ -137,38 +132,39 @@ FE_INLINE real share_of(real3 error, real most, double rate)
 }
 
 // Positions are put right at once, as far as FULL_TURN of the arms takes them; what is farther apart follows as fast as
-// the softness of a lock says. Returns the lanes in which a gap is wide.
-static int32_t request_closed(const pass *t)
+// the softness of a lock says. Returns the lanes in which the gap is wide.
+FE_INLINE int32_t request_closed(const pass *t, int32_t i)
 {
-    int32_t wide_open = 0;
-    const real open = r_set((double)OPEN * (double)OPEN);
-    for (int32_t i = 0; i < t->count; ++i) {
-        tree_node *n = t->nodes + i;
-        const real arm = r_max(r_sqrt(r_max(r_dot(n->below, n->below), r_dot(n->above, n->above))), n->rod);
-        n->ask_v = r_scale(-share_of(n->gap, FULL_TURN * arm, t->rate), n->gap);
-        n->ask_w = n->slip = r_zero3();
-        if (!is_ball(t, i)) n->ask_w = r_scale(-share_of(n->swing, r_set(FULL_TURN), t->rate), n->swing);
-        wide_open |= r_bits(r_greater(r_dot(n->gap, n->gap), open));
-    }
-    return wide_open;
+    tree_node *n = t->nodes + i;
+    solution *s = n->of + PLACES;
+    const real arm = r_max(r_sqrt(r_max(r_dot(n->below, n->below), r_dot(n->above, n->above))), n->rod);
+    s->ask_v = r_scale(-share_of(n->gap, FULL_TURN * arm, t->rate), n->gap);
+    s->ask_w = r_zero3();
+    if (!is_ball(t, i)) s->ask_w = r_scale(-share_of(n->swing, r_set(FULL_TURN), t->rate), n->swing);
+    clear_load(s);
+    return r_bits(r_greater(r_dot(n->gap, n->gap), r_set((double)OPEN * (double)OPEN)));
 }
 
 // ---- results --------------------------------------------------------------------------------------------------------
-// to velocities and rows; with `total` the impulses count in the sums over the step
-static void apply(const pass *t, int32_t lanes, int32_t total)
+// to velocities and rows; with `total` the impulses count in the sums over the step. Returns the lanes in which a body
+// turns fast.
+static int32_t apply(const pass *t, int32_t lanes, int32_t total)
 {
+    int32_t fast = 0;
     for (int32_t i = 0; i < t->count; ++i) {
         const tree_node *n = t->nodes + i;
-        const line_names line = line_of(t, i);
-        const real3 v = r_add(n->v, centre_change(n)), w = r_add(n->w, n->change_w);
-        const half linear[3] = {narrow(v.x), narrow(v.y), narrow(v.z)},
-                   angular[3] = {narrow(w.x), narrow(w.y), narrow(w.z)};
-        write_lines(t->solver->velocity, line.at, lanes, 0, 3, linear);
-        write_lines(t->solver->velocity, line.at, lanes, 4, 3, angular);
+        const velocity now = changed(n);
+        const real3 turn = r_scale(t->h, now.w);
+        lines l = {.a = {[3] = n->inverse_mass, [7] = n->locks}};
+        narrow3(l.a, now.v), narrow3(l.a + 4, now.w);
+        write_lines(t->solver->velocity, &n->line, lanes, &l);
+        fast |= r_bits(r_greater(r_dot(turn, turn), r_set(FE__SLOW_TURN * FE__SLOW_TURN)));
         forget_damping(t, i, lanes);
-        for (int lane = 0; lane < LANES; ++lane)
+        if (is_ball(t, i)) add_to_point(t, n, lanes, total);
+        for (int lane = 0; lane < LANES && !is_ball(t, i); ++lane)
             if (lanes >> lane & 1) add_impulses(t, i, lane, total);
     }
+    return fast & lanes;
 }
 
 // dp += u, dq = normalize(dq + (w, 0) dq / 2), as a whole no farther than FULL_TURN
@@ -176,79 +172,124 @@ static void move(const pass *t, int32_t lanes)
 {
     real farthest = r_set(FULL_TURN * FULL_TURN);
     for (int32_t i = 0; i < t->count; ++i) {
-        const real3 turn = t->nodes[i].change_w;
+        const real3 turn = t->nodes[i].of[PLACES].change_w;
         farthest = r_max(farthest, r_dot(turn, turn));
     }
     const real scale = FULL_TURN / r_sqrt(farthest);
     for (int32_t i = 0; i < t->count; ++i) {
         const tree_node *n = t->nodes + i;
-        const line_names line = line_of(t, i);
-        const lines at = read_lines(t->solver->motion, line.at);
-        const real3 v = widen3(at.a + 4), half_turn = r_scale(0.5 * scale, n->change_w);
-        const real w = r_widen(at.a[7]);
+        lines l = read_lines(t->solver->motion, &n->line);
+        const real3 v = widen3(l.a + 4), half_turn = r_scale(0.5 * scale, n->of[PLACES].change_w);
+        const real w = r_widen(l.a[7]);
         const real3 b = r_add(r_add_scaled(v, w, half_turn), r_cross(half_turn, v));
         const real a = w - r_dot(half_turn, v), k = 1.0 / r_sqrt(a * a + r_dot(b, b));
-        const real3 shift = r_add_scaled(widen3(at.a), scale, centre_change(n));
-        const half moved[3] = {narrow(shift.x), narrow(shift.y), narrow(shift.z)};
-        const half rotation[4] = {narrow(k * b.x), narrow(k * b.y), narrow(k * b.z), narrow(k * a)};
-        write_lines(t->solver->motion, line.at, lanes, 0, 3, moved);
-        write_lines(t->solver->motion, line.at, lanes, 4, 4, rotation);
+        narrow3(l.a, r_add_scaled(widen3(l.a), scale, centre_change(n, PLACES)));
+        narrow3(l.a + 4, r_scale(k, b)), l.a[7] = narrow(k * a);
+        write_lines(t->solver->motion, &n->line, lanes, &l);
     }
 }
 
 // ---- solutions ------------------------------------------------------------------------------------------------------
-// In the given lanes. What others have stays as it is, bit for bit: it is eliminated again to the same matrices
-static void reduce(const pass *t, int32_t lanes)
+// Passes go from link to link, and do at each all that can be done there: nodes are large, and each waits for the one
+// before it.
+
+// In the given lanes. What others have stays as it is, bit for bit: it is eliminated again to the same matrices. With
+// `solves`, both solutions are requested and handed up. Returns the lanes in which a gap is wide.
+FE_INLINE int32_t reduce(const pass *t, int32_t lanes, int solves)
 {
-    read_tree(t, lanes);
-    add_damping(t, lanes, 0);
-    eliminate(t);
+    const real_mask these = r_mask(lanes);
+    int32_t wide_open = 0;
+    load_bundle(t);
+    for (int32_t i = 0; i < t->count; ++i) {
+        read_node(t, i, lanes);
+        lay_masses(t, i);
+        add_tension(t, i, t->nodes[i].pull);
+        if (!solves) continue;
+        request_rest(t, i);
+        wide_open |= request_closed(t, i);
+    }
+    for (int32_t i = t->count - 1; i >= 0; --i) {
+        add_damping(t, i, t->nodes[i].pull, these);
+        eliminate_joint(t, i);
+        if (solves) hand_up(t, i, SPEEDS), hand_up(t, i, PLACES);
+    }
+    return wide_open;
 }
 
 // The first solution shows the arcs, the second follows them
 static void follow_arcs(const pass *t)
 {
-    request_rest(t);
-    for (int32_t i = 0; i < t->count; ++i) t->nodes[i].change_v = t->nodes[i].change_w = r_zero3();
-    for (int k = 0; k < 2; ++k) {
-        request_arcs(t);
-        substitute(t);
+    const real rate = 1.0 / t->h;
+    for (int32_t i = 0; i < t->count; ++i) {
+        request_rest(t, i);
+        request_arcs(t, i, (velocity){t->nodes[i].v, t->nodes[i].w}, velocity_above(t, i), rate);
+    }
+    for (int32_t i = t->count - 1; i >= 0; --i) hand_up(t, i, SPEEDS);
+    for (int32_t i = 0; i < t->count; ++i) {
+        const tree_node *above = above_of(t, i);
+        hand_down(t, i, SPEEDS, 0);
+        request_arcs(t, i, changed(t->nodes + i), above ? changed(above) : velocity_above(t, i), rate);
+        clear_load(t->nodes[i].of + SPEEDS);
+    }
+    for (int32_t i = t->count - 1; i >= 0; --i) hand_up(t, i, SPEEDS);
+    for (int32_t i = 0; i < t->count; ++i) {
+        hand_down(t, i, SPEEDS, 1);
+        add_tension(t, i, pull_now(t->nodes + i));
     }
 }
 
-static void follow_locks(const pass *t)
-{
-    request_rest(t);
-    substitute(t);
-}
-
-// What goes taut is damped for what it bears now, and solved again. Others ask for what they asked, and get it
-static void damp_jerk(const pass *t, int32_t lanes)
+// What goes taut is damped for what it bears now, and solved again. Others ask for what they asked, and get it.
+// Returns the lanes in which something did.
+static int32_t damp_jerk(const pass *t, int32_t lanes)
 {
     lanes &= jerked(t);
-    if (!lanes) return;
+    if (!lanes) return 0;
     const real_mask these = r_mask(lanes);
-    add_damping(t, lanes, 1);
-    eliminate(t);
     for (int32_t i = 0; i < t->count; ++i) {
-        tree_node *n = t->nodes + i;
-        n->ask_v = r_choose3(these, n->rest, n->ask_v);
+        solution *s = t->nodes[i].of + SPEEDS;
+        lay_masses(t, i);
+        s->ask_v = r_choose3(these, t->nodes[i].rest, s->ask_v);
+        clear_load(s);
     }
-    substitute(t);
+    for (int32_t i = t->count - 1; i >= 0; --i) {
+        add_damping(t, i, pull_now(t->nodes + i), these);
+        eliminate_joint(t, i);
+    }
+    meet_requests(t, SPEEDS);
+    return lanes;
 }
 
-// The gaps are closed as the joints see them, and again where one was wide: closing it turned the joints
-static void close_gaps(const pass *t, int32_t lanes)
+// Gaps are closed again where one was wide, as the joints now see them: closing it turned the joints
+static void close_gaps(const pass *t, int32_t lanes, int32_t wide_open)
 {
     enum { MOST_CLOSINGS = 8 };
-    for (int32_t k = 0; k < MOST_CLOSINGS; ++k) {
-        const int32_t wide_open = request_closed(t) & lanes;
-        substitute(t);
-        move(t, lanes);
-        lanes = wide_open;
+    move(t, lanes);
+    for (int32_t k = 1; k < MOST_CLOSINGS; ++k) {
+        lanes &= wide_open;
         if (!lanes) return;
-        reduce(t, lanes);
+        wide_open = reduce(t, lanes, 0);
+        for (int32_t i = 0; i < t->count; ++i) wide_open |= request_closed(t, i);
+        meet_requests(t, PLACES);
+        move(t, lanes);
     }
+}
+
+// Velocities along the locks as they are after the motion, and positions that close them: both of the same matrices
+static void meet_locks(const pass *t, int32_t lanes)
+{
+    const int32_t wide_open = reduce(t, t->head->loaded ? lanes : ALL_LANES, 1);
+    for (int32_t i = 0; i < t->count; ++i) {
+        hand_down(t, i, SPEEDS, 1);
+        hand_down(t, i, PLACES, 0);
+        add_tension(t, i, pull_now(t->nodes + i));
+    }
+    if (damp_jerk(t, lanes)) { // the matrices are others
+        for (int32_t i = 0; i < t->count; ++i) clear_load(t->nodes[i].of + PLACES);
+        meet_requests(t, PLACES);
+    }
+    const int32_t fast = apply(t, lanes, 1);
+    if (t->kind == FE__TREE_HEAVY) forget_locks(t, fast);
+    close_gaps(t, lanes, wide_open);
 }
 
 // ---- passes ---------------------------------------------------------------------------------------------------------
@@ -321,9 +362,17 @@ static void prepare_trees(const fe__tree_job *job)
                               : lane < job->count && is_open(&t, lane, PUT_APART) ? SWEPT
                                                                                   : READY;
     t.head->lends = t.head->lent = 0;
-    if (t.kind != FE__TREE_LIGHT) reduce(&t, ALL_LANES);
+    if (t.kind != FE__TREE_LIGHT) reduce(&t, ALL_LANES, 0);
     if (t.kind == FE__TREE_HEAVY) find_lenders(&t);
     lend(&t);
+}
+
+// Contacts ended their part before the first substep: what they warm-start
+static void restore_trees(const fe__tree_job *job)
+{
+    if (!((const bundle *)(const void *)job->nodes)->lent) return;
+    const pass t = pass_of(job);
+    take_back(&t);
 }
 
 static void solve_lanes(const pass *t, int32_t lanes)
@@ -341,24 +390,15 @@ static void solve_trees(const fe__tree_job *job)
     lend(&t);
 }
 
-// Contacts ended their part before the first substep: what they warm-start
-static void restore_trees(const fe__tree_job *job)
-{
-    if (!((const bundle *)(const void *)job->nodes)->lent) return;
-    const pass t = pass_of(job);
-    take_back(&t);
-}
-
 static void follow_trees(const fe__tree_job *job)
 {
     const pass t = pass_of(job);
-    const int32_t struck = t.head->lent ? take_back(&t) : 0;
-    const int32_t ready = lanes_in(&t, READY);
+    const int32_t ready = lanes_in(&t, READY), struck = t.head->lent ? take_back(&t) : 0;
     int32_t lanes = ready | lanes_in(&t, SOLVED);
     for (int lane = 0; lane < LANES; ++lane)
         if (lanes & ~struck & 1 << lane && !will_open(&t, lane)) lanes &= ~(1 << lane);
     if (!lanes) return;
-    if (lanes & ready) reduce(&t, t.head->loaded ? lanes & ready : ALL_LANES);
+    if (lanes & ready) reduce(&t, t.head->loaded ? lanes & ready : ALL_LANES, 0);
     engage(&t, lanes);
     solve_lanes(&t, lanes);
 }
@@ -372,12 +412,7 @@ static void relax_trees(const fe__tree_job *job)
         if (ready >> lane & 1 && !is_open(&t, lane, OPEN)) lanes &= ~(1 << lane);
     if (!lanes) return;
     engage(&t, lanes);
-    reduce(&t, t.head->loaded ? lanes : ALL_LANES);
-    follow_locks(&t);
-    damp_jerk(&t, lanes);
-    apply(&t, lanes, 1);
-    if (t.kind == FE__TREE_HEAVY) forget_locks(&t, lanes);
-    close_gaps(&t, lanes);
+    meet_locks(&t, lanes);
     lend(&t);
 }
 
@@ -388,10 +423,11 @@ static void receive_trees(const fe__tree_job *job)
     const pass t = pass_of(job);
     const int32_t lanes = take_back(&t);
     if (!lanes) return;
-    follow_locks(&t);
+    for (int32_t i = 0; i < t.count; ++i) request_rest(&t, i);
+    meet_requests(&t, SPEEDS);
+    for (int32_t i = 0; i < t.count; ++i) add_tension(&t, i, pull_now(t.nodes + i));
     damp_jerk(&t, lanes);
-    apply(&t, lanes, 1);
-    forget_locks(&t, lanes);
+    forget_locks(&t, apply(&t, lanes, 1));
 }
 
 const fe__forest_kernels FE_NAME(fe__forest_kernels) = {LANES,

@@ -67,18 +67,31 @@ static wrench take_impulses(const pass *t, int32_t i, int lane)
     return sum;
 }
 
-// ---- fast trees -----------------------------------------------------------------------------------------------------
-// the lanes in which a body does, by the velocities as they are
-static int32_t turns_fast(const pass *t)
+// ---- of a ball joint, all lanes at once
+// -------------------------------------------------------------------------------
+static void add_to_point(const pass *t, const tree_node *n, int32_t lanes, int32_t total)
 {
-    int32_t lanes = 0;
-    for (int32_t i = 0; i < t->count; ++i) {
-        const real3 turn = r_scale(t->h, r_add(t->nodes[i].w, t->nodes[i].change_w));
-        lanes |= r_bits(r_greater(r_dot(turn, turn), r_set(FE__SLOW_TURN * FE__SLOW_TURN)));
+    const int32_t sum = (t->job->lanes->point_total - t->job->lanes->point_impulse) / (int32_t)sizeof(float);
+    half l[3];
+    narrow3(l, r_scale(n->side, n->impulse_v));
+    for (int lane = 0; lane < LANES; ++lane) {
+        if (!(lanes >> lane & 1)) continue;
+        float *at = point_of(t, n, lane);
+        for (int k = 0; k < 3; ++k) at[k * FE_W] += l[k][lane];
+        for (int k = 0; k < 3 && total; ++k) at[sum + k * FE_W] += l[k][lane];
     }
-    return lanes;
 }
 
+// in the given lanes: what a point on the body below got, and gets no more
+static real3 take_from_point(const pass *t, const tree_node *n, int32_t lanes)
+{
+    const real3 l = r_choose3(r_mask(lanes), impulse_of_point(t, n), r_zero3());
+    for (int lane = 0; lane < LANES; ++lane)
+        for (int k = 0; k < 3 && lanes >> lane & 1; ++k) point_of(t, n, lane)[k * FE_W] = 0.0f;
+    return l;
+}
+
+// ---- fast trees -----------------------------------------------------------------------------------------------------
 FE_INLINE real3 unlocked3(real3 v, uint32_t locks)
 {
     const real zero = r_set(0.0);
@@ -89,31 +102,31 @@ FE_INLINE real3 unlocked3(real3 v, uint32_t locks)
 // against.
 static void forget_locks(const pass *t, int32_t lanes)
 {
-    lanes &= turns_fast(t);
     if (!lanes) return;
     const real_mask these = r_mask(lanes);
-    for (int32_t i = 0; i < t->count; ++i) t->nodes[i].load_v = t->nodes[i].load_w = r_zero3();
+    for (int32_t i = 0; i < t->count; ++i) clear_load(t->nodes[i].of + SPEEDS);
     for (int32_t i = 0; i < t->count; ++i) {
         tree_node *n = t->nodes + i, *above = above_of(t, i);
         real3 v = r_zero3(), w = v;
-        for (int lane = 0; lane < LANES; ++lane) {
+        if (is_ball(t, i)) v = take_from_point(t, n, lanes);
+        for (int lane = 0; lane < LANES && !is_ball(t, i); ++lane) {
             if (!(lanes >> lane & 1)) continue;
             const wrench given = take_impulses(t, i, lane);
             set_lane3(&v, lane, given.v), set_lane3(&w, lane, given.w);
         }
-        n->load_v = r_add(n->load_v, v), n->load_w = r_add(n->load_w, r_add(w, r_cross(n->below, v)));
+        solution *s = n->of + SPEEDS;
+        s->load_v = r_add(s->load_v, v), s->load_w = r_add(s->load_w, r_add(w, r_cross(n->below, v)));
         n->pull = r_choose3(these, r_zero3(), n->pull);
         if (!above) continue;
-        above->load_v = r_sub(above->load_v, v), above->load_w = r_sub(above->load_w, r_add(w, r_cross(n->above, v)));
+        s = above->of + SPEEDS;
+        s->load_v = r_sub(s->load_v, v), s->load_w = r_sub(s->load_w, r_add(w, r_cross(n->above, v)));
     }
     for (int32_t i = 0; i < t->count; ++i) {
         const tree_node *n = t->nodes + i;
-        const line_names line = line_of(t, i);
-        const lines start = read_lines(t->solver->start, line.at);
-        const real3 by = unlocked3(r_scale(1.0 / n->mass, n->load_v), t->locks);
-        const half v[3] = {narrow(r_widen(start.a[0]) + by.x), narrow(r_widen(start.a[1]) + by.y),
-                           narrow(r_widen(start.a[2]) + by.z)};
-        write_lines(t->solver->start, line.at, lanes, 0, 3, v);
-        add_spin(t, n, line, lanes, n->load_w);
+        lines start = read_lines(t->solver->start, &n->line);
+        const real3 by = unlocked3(r_scale(1.0 / n->mass, n->of[SPEEDS].load_v), t->locks);
+        narrow3(start.a, r_add(widen3(start.a), by));
+        write_lines(t->solver->start, &n->line, lanes, &start);
+        add_spin(t, n, lanes, n->of[SPEEDS].load_w);
     }
 }
