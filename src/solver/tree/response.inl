@@ -71,10 +71,13 @@ FE_INLINE real own_share(const pass *t, int32_t i)
 // L, lower triangle
 FE_INLINE real_sym root_of(const real_sym *i)
 {
+    const real zero = r_set(0.0);
     real_sym l;
-    l.xx = r_sqrt(i->xx), l.xy = i->xy / l.xx, l.xz = i->xz / l.xx;
-    l.yy = r_sqrt(i->yy - l.xy * l.xy), l.yz = (i->yz - l.xy * l.xz) / l.yy;
-    l.zz = r_sqrt(i->zz - l.xz * l.xz - l.yz * l.yz);
+    l.xx = r_sqrt(r_max(i->xx, zero));
+    l.xy = i->xy * inverse_or_zero(l.xx), l.xz = i->xz * inverse_or_zero(l.xx);
+    l.yy = r_sqrt(r_max(i->yy - l.xy * l.xy, zero));
+    l.yz = (i->yz - l.xy * l.xz) * inverse_or_zero(l.yy);
+    l.zz = r_sqrt(r_max(i->zz - l.xz * l.xz - l.yz * l.yz, zero));
     return l;
 }
 
@@ -131,8 +134,8 @@ static void find_sizes(const pass *t, int32_t i)
         own[k] = answer_of(n);
     }
     // what is locked answers nothing
-    n->light = r_max(n->mass * size_of(own, 0), r_set(FLT_EPSILON));
-    n->spins = r_max(n->mass * size_of(own, 3), r_set(FLT_EPSILON));
+    n->light = r_max(r_set(FLT_EPSILON), n->mass * size_of(own, 0));
+    n->spins = r_max(r_set(FLT_EPSILON), n->mass * size_of(own, 3));
     n->heavier = r_bits(r_greater(r_set(GAINS), n->light)) & n->touched;
 }
 
