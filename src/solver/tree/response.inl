@@ -17,8 +17,8 @@
 
 // A tree lends where a touched link gets less than this share of its own inverse mass
 #define LENDS 0.5
-// Links that are heavier by the tree: their share is at most this
-#define GAINS 0.5
+// Links that are heavier by the tree: A is at most this share
+#define HEAVIER 0.125
 // For what bodies turn within the step
 #define FOR_TURNS 1.25
 #define POWERS 8
@@ -136,56 +136,59 @@ static void find_sizes(const pass *t, int32_t i)
     // what is locked answers nothing
     n->light = r_max(r_set(FLT_EPSILON), n->mass * size_of(own, 0));
     n->spins = r_max(r_set(FLT_EPSILON), n->mass * size_of(own, 3));
-    n->heavier = r_bits(r_greater(r_set(GAINS), n->light)) & n->touched;
+    n->heavier = r_bits(r_greater(r_set(HEAVIER), n->light)) & n->touched;
 }
 
-// numbers that no symmetry of a machine has, to begin with: -1..1
+// Numbers that no symmetry of a machine has, to begin with: -1..1
 FE_INLINE double irregular(int32_t i)
 {
-    const double at = 0.618033988749895 * (double)(i + 1);
+    const double golden = 0.618033988749895, at = golden * (double)(i + 1);
     return 2.0 * (at - (double)(int32_t)at) - 1.0;
+}
+
+// x = k A^-1/2 x, and 0 in lanes whose link keeps its own mass
+FE_INLINE void scale_link(const tree_node *n, real k, six *x)
+{
+    const real by = r_choose(r_mask(n->heavier), k, r_set(0.0));
+    const real shift = by * r_sqrt(n->mass / n->light), spin = by * r_sqrt(n->mass / n->spins);
+    for (int j = 0; j < 6; ++j) x->a[j] *= j < 3 ? shift : spin;
+}
+
+// x = A^-1/2 G A^-1/2 x / size
+static void raise_power(const pass *t, const int32_t *touched, int32_t count, six *x, real size)
+{
+    clear_loads(t);
+    for (int32_t p = 0; p < count; ++p) {
+        if (!t->nodes[touched[p]].heavier) continue;
+        scale_link(t->nodes + touched[p], 1.0 / size, x + p);
+        load_link(t->nodes + touched[p], x + p);
+    }
+    meet_requests(t, PLACES);
+    for (int32_t p = 0; p < count; ++p) {
+        if (!t->nodes[touched[p]].heavier) continue;
+        x[p] = answer_of(t->nodes + touched[p]);
+        scale_link(t->nodes + touched[p], r_set(1.0), x + p);
+    }
+}
+
+FE_INLINE real length_of(const six *x, int32_t count)
+{
+    real square = r_set(DBL_MIN);
+    for (int32_t p = 0; p < 6 * count; ++p) square += x[p / 6].a[p % 6] * x[p / 6].a[p % 6];
+    return r_sqrt(square);
 }
 
 // c
 static real largest_factor(const pass *t, const int32_t *touched, int32_t count)
 {
     six x[MOST_TOUCHED];
-    real size = r_set(1.0);
-    for (int32_t p = 0; p < 6 * count; ++p) x[p / 6].a[p % 6] = r_set(irregular(p));
-    for (int32_t power = 0; power <= POWERS; ++power) {
-        real square = r_set(0.0);
-        for (int32_t p = 0; p < count; ++p)
-            for (int k = 0; k < 6; ++k) square += x[p].a[k] * x[p].a[k];
-        size = r_sqrt(r_max(square, r_set(DBL_MIN)));
-        if (power == POWERS) break;
-        clear_loads(t);
-        for (int32_t p = 0; p < count; ++p) {
-            tree_node *n = t->nodes + touched[p];
-            const real there = r_choose(r_mask(n->heavier), 1.0 / size, r_set(0.0));
-            for (int k = 0; k < 6; ++k) x[p].a[k] *= there * r_sqrt(n->mass / (k < 3 ? n->light : n->spins));
-            load_link(n, x + p);
-        }
-        meet_requests(t, PLACES);
-        for (int32_t p = 0; p < count; ++p) {
-            const tree_node *n = t->nodes + touched[p];
-            const real there = r_choose(r_mask(n->heavier), r_set(1.0), r_set(0.0));
-            x[p] = answer_of(n);
-            for (int k = 0; k < 6; ++k) x[p].a[k] *= there * r_sqrt(n->mass / (k < 3 ? n->light : n->spins));
-        }
-    }
-    return size;
+    for (int32_t p = 0; p < 6 * count; ++p)
+        x[p / 6].a[p % 6] = r_set(t->nodes[touched[p / 6]].heavier ? irregular(p) : 0.0);
+    for (int power = 0; power < POWERS; ++power) raise_power(t, touched, count, x, length_of(x, count));
+    return length_of(x, count);
 }
 
 // ---- shares ---------------------------------------------------------------------------------------------------------
-// lanes in which a touched link may be heavier by the tree
-static int32_t may_lend(const pass *t, const int32_t *touched, int32_t count)
-{
-    int32_t lanes = 0;
-    for (int32_t p = 0; p < count; ++p)
-        lanes |= r_bits(r_greater(r_set(GAINS), own_share(t, touched[p]))) & t->nodes[touched[p]].touched;
-    return lanes;
-}
-
 // `others`: lanes in which some links keep their own masses; `factor`: c
 static int32_t scale_shares(const pass *t, const int32_t *touched, int32_t count, int32_t others, real factor)
 {
@@ -207,8 +210,10 @@ static int32_t find_shares(const pass *t, const int32_t *touched, int32_t count)
     int32_t heavier = 0, others = 0;
     for (int32_t i = 0; i < t->count; ++i) t->nodes[i].of[PLACES].ask_v = t->nodes[i].of[PLACES].ask_w = r_zero3();
     for (int32_t p = 0; p < count; ++p) {
-        const tree_node *n = t->nodes + touched[p];
-        find_sizes(t, touched[p]);
+        tree_node *n = t->nodes + touched[p];
+        const int32_t lanes = r_bits(r_greater(r_set(HEAVIER), own_share(t, touched[p]))) & n->touched;
+        n->light = n->spins = r_set(1.0), n->heavier = 0;
+        if (lanes) find_sizes(t, touched[p]);
         heavier |= n->heavier, others |= n->touched & ~n->heavier;
     }
     if (!heavier) return 0;

@@ -349,8 +349,7 @@ static int32_t will_open(const pass *t, int lane)
 static void find_lenders(const pass *t)
 {
     int32_t touched[MOST_TOUCHED], count = find_touched(t, touched);
-    if (count == 0 || count > MOST_TOUCHED || !may_lend(t, touched, count)) return;
-    t->head->lends = find_shares(t, touched, count) & t->lanes;
+    if (count && count <= MOST_TOUCHED) t->head->lends = find_shares(t, touched, count) & t->lanes;
 }
 
 static void prepare_trees(const fe__tree_job *job)
