@@ -107,10 +107,10 @@ FE_LANES_INLINE fe__eight fe__eight_add(fe__eight x, fe__eight y) { return _mm25
 FE_LANES_INLINE fe__eight fe__eight_mul(fe__eight x, fe__eight y) { return _mm256_mul_ps(x, y); }
 FE_LANES_INLINE fe__eight fe__eight_min(fe__eight x, fe__eight y) { return _mm256_min_ps(x, y); }
 FE_LANES_INLINE fe__eight fe__eight_max(fe__eight x, fe__eight y) { return _mm256_max_ps(x, y); }
-FE_LANES_INLINE uint32_t fe__eight_at_most(fe__eight x, fe__eight y)
-{
-    return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(x, y, _CMP_LE_OQ));
-}
+typedef __m256 fe__eight_mask;
+FE_LANES_INLINE fe__eight_mask fe__eight_below(fe__eight x, fe__eight y) { return _mm256_cmp_ps(x, y, _CMP_LE_OQ); }
+FE_LANES_INLINE fe__eight_mask fe__eight_and(fe__eight_mask x, fe__eight_mask y) { return _mm256_and_ps(x, y); }
+FE_LANES_INLINE uint32_t fe__eight_bits(fe__eight_mask x) { return (uint32_t)_mm256_movemask_ps(x); }
 #else
 typedef fe__lanes fe__eight;
 FE_LANES_INLINE fe__eight fe__eight_load(const float *row) { return fe__lanes_load(row); }
@@ -122,7 +122,20 @@ FE_LANES_INLINE fe__eight fe__eight_add(fe__eight x, fe__eight y) { return fe__l
 FE_LANES_INLINE fe__eight fe__eight_mul(fe__eight x, fe__eight y) { return fe__lanes_mul(x, y); }
 FE_LANES_INLINE fe__eight fe__eight_min(fe__eight x, fe__eight y) { return fe__lanes_min(x, y); }
 FE_LANES_INLINE fe__eight fe__eight_max(fe__eight x, fe__eight y) { return fe__lanes_max(x, y); }
-FE_LANES_INLINE uint32_t fe__eight_at_most(fe__eight x, fe__eight y) { return fe__lanes_at_most(x, y); }
+typedef struct fe__eight_mask {
+    fe__quad_int a, b;
+} fe__eight_mask;
+FE_LANES_INLINE fe__eight_mask fe__eight_below(fe__eight x, fe__eight y)
+{
+    return (fe__eight_mask){x.a <= y.a, x.b <= y.b};
+}
+FE_LANES_INLINE fe__eight_mask fe__eight_and(fe__eight_mask x, fe__eight_mask y)
+{
+    return (fe__eight_mask){x.a & y.a, x.b & y.b};
+}
+FE_LANES_INLINE uint32_t fe__eight_bits(fe__eight_mask x) { return fe__quad_signs(x.a) | fe__quad_signs(x.b) << 4; }
 #endif
+// bit i: lane i of x is at most lane i of y
+FE_LANES_INLINE uint32_t fe__eight_at_most(fe__eight x, fe__eight y) { return fe__eight_bits(fe__eight_below(x, y)); }
 
 #endif

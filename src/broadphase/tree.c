@@ -1,6 +1,7 @@
 // tree.c - the tree's memory, and what a single proxy's box is.
 //
-// tree_insert.c and tree_change.c change it; tree_build.c builds it; tree_query.c and tree_ray.simd.c ask.
+// tree_insert.c and tree_change.c change it; tree_build.c builds it; tree_query.simd.c and
+// tree_ray.simd.c ask.
 #include "broadphase/tree_node.h"
 
 // Spare nodes beyond one for each insertion, so that nodes can be split: one for each level of a deep tree, less in one
@@ -109,4 +110,28 @@ void fe__tree_get(const fe__tree *tree, int32_t proxy, fe__bounds *out_box)
     fe_dvec3 high = {(double)box.high[0], (double)box.high[1], (double)box.high[2]};
     out_box->low = outwards(fe__dadd(tree->origin, low), -1.0);
     out_box->high = outwards(fe__dadd(tree->origin, high), 1.0);
+}
+
+static void query_box(const fe__tree *tree, fe__tree_box box, fe__tree_visit visit, void *context)
+{
+    const float low[3] = {box.low[0], box.low[1], box.low[2]}, high[3] = {box.high[0], box.high[1], box.high[2]};
+    fe__kernels_of_tree(tree)->query(tree, low, high, visit, context);
+}
+
+void fe__tree_query(const fe__tree *tree, const fe__bounds *box, fe__tree_visit visit, void *context)
+{
+    if (tree->proxy_count > 0) query_box(tree, fe__tree_box_of(&tree->origin, box), visit, context);
+}
+
+void fe__tree_query_proxy(const fe__tree *tree, const fe__tree *of, int32_t proxy, fe__tree_visit visit, void *context)
+{
+    if (tree->proxy_count == 0) return;
+    if (tree == of) {
+        int32_t slot = tree->slot[proxy];
+        query_box(tree, fe__lane_box(&tree->nodes[slot / FE_TREE_WIDTH], slot % FE_TREE_WIDTH), visit, context);
+    } else {
+        fe__bounds box;
+        fe__tree_get(of, proxy, &box);
+        query_box(tree, fe__tree_box_of(&tree->origin, &box), visit, context);
+    }
 }

@@ -63,25 +63,19 @@ void fe__tree_move(fe__tree *tree, const int32_t *proxies, const fe__bounds *fat
 enum { FE_TREES = 2 };
 int32_t fe__trees_rebuild(fe__tree *const *trees, int32_t count, fe__memory *memory, int32_t force);
 
-// Proxies whose boxes meet `box`, each once. Depth first; the order is the tree's, so the caller sorts what it keeps.
-// `visit` returns 0 to stop and must not change the tree. Reads only, any thread.
 typedef int32_t (*fe__tree_visit)(void *context, int32_t proxy);
-void fe__tree_query(const fe__tree *tree, const fe__bounds *box, fe__tree_visit visit, void *context);
-// the same against the box the proxy has in `of` (margins included), which may be the same tree: then the proxy itself
-// is visited too
-void fe__tree_query_proxy(const fe__tree *tree, const fe__tree *of, int32_t proxy, fe__tree_visit visit, void *context);
-
-// Proxies of one or two trees together whose boxes meet a box of half widths `half` at origin + t * translation, 0 <= t
-// <= limit <= 1, each once, of a node's children the nearest first. `visit` gets the limit and returns the new one
-// (never greater; below 0 stops). Boxes at exactly the limit are still visited, so that ties can be decided by the
-// caller. Returns the last limit. Reads only, any thread.
 typedef double (*fe__tree_ray_visit)(void *context, int32_t proxy, double limit);
 typedef struct fe__tree_way {
     fe_dvec3 origin, translation, half;
 } fe__tree_way;
 
-// One for each SIMD set. What they visit does not depend on it.
+// ---- the walks, once for each SIMD set -----------------------------------------------------------------------------
+// What they visit, and in what order, does not depend on the set. `low` and `high` are x y z of a box relative to the
+// tree's origin; the tree is not empty.
+typedef void fe__tree_query_kernel(const fe__tree *tree, const float low[3], const float high[3], fe__tree_visit visit,
+                                   void *context);
 struct fe__tree_kernels {
+    fe__tree_query_kernel *query;
     double (*sweep)(const fe__tree *const *trees, int32_t tree_count, const fe__tree_way *way, double limit,
                     fe__tree_ray_visit visit, void *context);
     double (*nearest)(const fe__tree *tree, fe_dvec3 point, double limit, fe__tree_ray_visit visit, void *context);
@@ -93,6 +87,18 @@ static inline const fe__tree_kernels *fe__kernels_of_tree(const fe__tree *tree)
     return tree->kernels ? tree->kernels : &fe__tree_kernels_plain;
 }
 
+// ---- questions -----------------------------------------------------------------------------------------------------
+// Proxies whose boxes meet `box`, each once. Depth first; the order is the tree's, so the caller sorts what it keeps.
+// `visit` returns 0 to stop and must not change the tree. Reads only, any thread.
+void fe__tree_query(const fe__tree *tree, const fe__bounds *box, fe__tree_visit visit, void *context);
+// the same against the box the proxy has in `of` (margins included), which may be the same tree: then the proxy itself
+// is visited too
+void fe__tree_query_proxy(const fe__tree *tree, const fe__tree *of, int32_t proxy, fe__tree_visit visit, void *context);
+
+// Proxies of one or two trees together whose boxes meet a box of half widths `half` at origin + t * translation, 0 <= t
+// <= limit <= 1, each once, of a node's children the nearest first. `visit` gets the limit and returns the new one
+// (never greater; below 0 stops). Boxes at exactly the limit are still visited, so that ties can be decided by the
+// caller. Returns the last limit. Reads only, any thread.
 static inline double fe__tree_sweep(const fe__tree *const *trees, int32_t tree_count, const fe__tree_way *way,
                                     double limit, fe__tree_ray_visit visit, void *context)
 {

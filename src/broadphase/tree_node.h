@@ -109,18 +109,6 @@ static inline fe__tree_box fe__node_box(const fe__tree_node *node)
     return (fe__tree_box){fe__node_low(node), fe__node_high(node)};
 }
 
-// bit i: the box of lane i meets the box whose sides are spread over `low` and `high`
-static inline uint32_t fe__node_meets(const fe__tree_node *node, const fe__lanes low[3], const fe__lanes high[3])
-{
-    fe__quad_int a = {-1, -1, -1, -1}, b = a;
-    for (int32_t k = 0; k < 3; ++k) {
-        fe__lanes node_low = fe__lanes_load(node->box[k]), node_high = fe__lanes_load(node->box[3 + k]);
-        a &= (node_low.a <= high[k].a) & (low[k].a <= node_high.a);
-        b &= (node_low.b <= high[k].b) & (low[k].b <= node_high.b);
-    }
-    return fe__quad_signs(a) | fe__quad_signs(b) << 4;
-}
-
 // Tightens or widens the boxes above a node, up to the first that needs no change.
 void fe__tree_refit_above(fe__tree *tree, int32_t index);
 

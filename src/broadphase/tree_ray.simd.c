@@ -377,4 +377,5 @@ static double nearest(const fe__tree *tree, fe_dvec3 point, double limit, fe__tr
     return c.limit;
 }
 
-const fe__tree_kernels FE_NAME(fe__tree_kernels) = {sweep, nearest};
+fe__tree_query_kernel FE_NAME(fe__tree_query); // tree_query.simd.c
+const fe__tree_kernels FE_NAME(fe__tree_kernels) = {FE_NAME(fe__tree_query), sweep, nearest};

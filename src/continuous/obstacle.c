@@ -19,6 +19,7 @@ typedef struct search {
     fe_dvec3 base;
     double begin, end;
     fe__motion motion;
+    int32_t has_motion; // 0: it is found when the first obstacle needs it
     // the first so far
     double s; // of the leg, 1 and more: none
     uint64_t serial;
@@ -150,6 +151,7 @@ static int32_t visit(void *context, int32_t shape)
     const fe__shape *obstacle = w->shapes + shape;
     int32_t dynamic = w->bodies[obstacle->body].type == FE_BODY_DYNAMIC, wanted = s->against == FE__AGAINST_DYNAMIC;
     if (dynamic != wanted || obstacle->body == s->body || obstacle->flags & FE__SHAPE_TRIGGER) return 1;
+    if (!s->has_motion) s->motion = fe__path_motion(s->step, s->body, s->begin, s->end, s->base), s->has_motion = 1;
     try_shape(s, shape);
     return s->blocked <= 0;
 }
@@ -162,11 +164,13 @@ static void add_place(fe__bounds *box, fe_dvec3 p, double reach)
                            fe__maxd(box->high.z, p.z + reach)};
 }
 
+// In the tree of what moves, kinematic bodies alone are fixed
 static void ask(search *s, const fe__bounds *box)
 {
     const fe_world *w = s->step->world;
-    fe__tree_query(&w->moving_tree, box, visit, s);
-    if (s->against == FE__AGAINST_DYNAMIC || s->blocked > 0) return;
+    int32_t fixed = s->against == FE__AGAINST_FIXED;
+    if (!fixed || w->kinematic_count) fe__tree_query(&w->moving_tree, box, visit, s);
+    if (!fixed || s->blocked > 0) return;
     fe__tree_query(&w->static_tree, box, visit, s);
     for (int32_t i = 0; i < w->plane_count && s->blocked <= 0; ++i) visit(s, w->planes[i]);
 }
@@ -183,8 +187,14 @@ static search begin(const fe__step *step, int32_t body, int32_t against)
                     .blocked = -1};
 }
 
+static int32_t anything_fixed(const fe_world *w)
+{
+    return w->static_tree.proxy_count || w->plane_count || w->kinematic_count;
+}
+
 int32_t fe__path_is_blocked(const fe__step *step, int32_t body, int32_t against)
 {
+    if (against == FE__AGAINST_FIXED && !anything_fixed(step->world)) return 0;
     const fe__body *b = step->world->bodies + body;
     search s = begin(step, body, against);
     int32_t legs = fe__path_legs(step, body);
@@ -192,7 +202,6 @@ int32_t fe__path_is_blocked(const fe__step *step, int32_t body, int32_t against)
     fe__bounds box = {fe__centre_of(b), fe__centre_of(b)};
     for (int32_t leg = 0; leg <= legs; ++leg)
         add_place(&box, fe__dadd(s.base, fe__path_place(step, body, leg).centre), reach);
-    s.motion = fe__path_motion(step, body, 0.0, 1.0, s.base);
     s.blocked = 0;
     ask(&s, &box);
     return s.blocked;
@@ -205,6 +214,7 @@ fe__obstacle fe__first_obstacle(const fe__step *step, int32_t body, int32_t agai
     search s = begin(step, body, against);
     double reach = (double)b->reach;
     s.motion = fe__motion_of_shifts(b, from, to, s.base);
+    s.has_motion = 1;
     s.begin = begins, s.end = ends;
     fe_dvec3 at = fe__dadd(s.base, from->centre);
     fe__bounds box = {at, at};

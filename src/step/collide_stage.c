@@ -127,10 +127,38 @@ static int32_t list_due(const fe__step *step, int32_t *at, int32_t end, int32_t 
     return count;
 }
 
+static void collide_each(fe__step *step, const int32_t *pairs, int32_t count)
+{
+    enum { AHEAD = 2 };
+    for (int32_t i = -AHEAD; i < count; ++i) {
+        if (i + AHEAD < count) fetch_pair(step->world, pairs[i + AHEAD]);
+        if (i < 0) continue;
+        fe__collide_pair(step->world, pairs[i], step->dt);
+        note_result(step, pairs[i]);
+    }
+}
+
+// Pairs whose deferral ends: recycling has had its say when they were found, see due.c
+static void collide_due(void *argument, int32_t first, int32_t end, int32_t worker)
+{
+    const collide_job *job = argument;
+    fe_world *w = job->step->world;
+    (void)worker;
+    for (int32_t i = first; i < end; i += PAIRS_IN_CACHE) {
+        const int32_t *pairs = job->step->scratch->busy + i;
+        int32_t count = fe__mini(end - i, PAIRS_IN_CACHE);
+        for (int32_t k = 0; k < count; ++k) {
+            fe__fetch(w->pairs + pairs[fe__mini(k + FETCHED_AHEAD, count - 1)], sizeof *w->pairs);
+            w->awake_pairs[w->pairs[pairs[k]].awake_index] = pairs[k];
+        }
+        collide_each(job->step, pairs, count);
+    }
+    atomic_fetch_sub_explicit(&job->step->scratch->recycled, end - first, memory_order_relaxed);
+}
+
 // Recycles pairs, and looks at those that moved while their records are still in the cache. Returns how many those are
 static int32_t collide_some(fe__step *step, const int32_t *pairs, int32_t count)
 {
-    enum { AHEAD = 2 };
     fe_world *w = step->world;
     int32_t again[PAIRS_IN_CACHE], left = 0;
     uint8_t verdicts[PAIRS_IN_CACHE];
@@ -146,12 +174,7 @@ static int32_t collide_some(fe__step *step, const int32_t *pairs, int32_t count)
         }
         again[left++] = pair;
     }
-    for (int32_t i = -AHEAD; i < left; ++i) {
-        if (i + AHEAD < left) fetch_pair(w, again[i + AHEAD]);
-        if (i < 0) continue;
-        fe__collide_pair(w, again[i], step->dt);
-        note_result(step, again[i]);
-    }
+    collide_each(step, again, left);
     return left;
 }
 
@@ -225,11 +248,13 @@ void fe__update_contacts(fe__step *step)
     atomic_store(&s->result_count, 0);
     atomic_store(&s->recycled, 0);
     // what wakes brings its pairs: they are looked at in another round
-    for (int32_t first = 0; first < w->awake_pair_count;) {
+    int32_t due = w->field_pair_count ? 0 : atomic_load(&s->due_count); // with heightfields all are recycled
+    for (int32_t first = 0; first < w->awake_pair_count; due = 0) {
         int32_t end = w->awake_pair_count, results = atomic_load(&s->result_count);
         collide_job job = {step, first};
         fe__parallel_for(&w->workers, end - first, PAIRS_IN_BLOCK, w->field_pair_count ? collide_chunks : collide_block,
                          &job);
+        fe__parallel_for(&w->workers, due, PAIRS_IN_BLOCK, collide_due, &job);
         apply_results(step, results);
         first = end;
     }

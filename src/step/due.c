@@ -4,24 +4,23 @@
 
 #include "step/narrow.h"
 
-enum { PAIRS_IN_BLOCK = 256, FETCHED_AHEAD = 24 };
+enum { PAIRS_IN_BLOCK = 256 };
 
-// Of places in the list of awake pairs, those whose pair may get points in this step: their pairs, and how many. The
-// others wait until their bodies may have moved by what is left of the gap
+// Of places in the list of awake pairs, those whose pair may get points in this step: puts the pairs there, and returns
+// how many. The others wait until their bodies may have moved by what is left of the gap
 static int32_t keep_due(const fe__step *step, int32_t *places, int32_t count)
 {
     fe_world *w = step->world;
     int32_t pairs[PAIRS_IN_BLOCK], left = 0;
     uint8_t verdicts[PAIRS_IN_BLOCK];
     float slack[PAIRS_IN_BLOCK];
-    for (int32_t i = 0; i < count; ++i) pairs[i] = ~w->awake_pairs[places[i]];
+    for (int32_t i = 0; i < count; ++i) pairs[i] = fe__pair_of(w->awake_pairs[places[i]]);
     w->kernels->recycle(w->contacts, w->bodies, pairs, count, step->dt, fe__fall_in_step(w, step->dt), verdicts, slack);
     for (int32_t i = 0; i < count; ++i) {
-        if (verdicts[i] == FE__STAYS_APART) {
+        if (verdicts[i] == FE__STAYS_APART)
             fe__defer(w->deferrals + places[i], w->odometers, w->bodies, w->contacts + pairs[i], slack[i]);
-            continue;
-        }
-        places[left++] = w->awake_pairs[places[i]] = pairs[i];
+        else
+            places[left++] = pairs[i];
     }
     return left;
 }
@@ -29,19 +28,20 @@ static int32_t keep_due(const fe__step *step, int32_t *places, int32_t count)
 static void find_in_block(void *argument, int32_t first, int32_t end, int32_t worker)
 {
     const fe__step *step = argument;
-    fe_world *w = step->world;
+    const fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     (void)worker;
     int32_t due[PAIRS_IN_BLOCK], waiting = 0;
     for (int32_t start = first; start < end; start += PAIRS_IN_BLOCK) {
-        int32_t stop = fe__mini(end, start + PAIRS_IN_BLOCK), count = 0;
+        int32_t stop = fe__mini(end, start + PAIRS_IN_BLOCK), count = 0, left = 0;
         for (int32_t i = start; i < stop; ++i) {
-            __builtin_prefetch(w->deferrals + fe__mini(i + FETCHED_AHEAD, end - 1));
-            if (w->awake_pairs[i] >= 0) continue;
-            ++waiting;
-            if (!fe__stays_deferred(w->deferrals + i, w->odometers, step->dt)) due[count++] = i;
+            due[count] = i;
+            count += w->awake_pairs[i] < 0;
         }
-        int32_t left = count ? keep_due(step, due, count) : 0;
+        waiting += count;
+        if (count) left = w->kernels->keep_due(w->deferrals, w->odometers, due, count, step->dt);
+        if (left) left = keep_due(step, due, left);
+        if (!left) continue;
         int32_t at = atomic_fetch_add_explicit(&s->due_count, left, memory_order_relaxed);
         for (int32_t i = 0; i < left; ++i) s->busy[at + i] = due[i];
         waiting -= left;
@@ -60,12 +60,4 @@ int32_t fe__find_due(fe__step *step)
     if (!FE_RESERVE(&w->memory, s->busy, s->busy_capacity, w->awake_pair_count)) return 0;
     fe__parallel_for(&w->workers, w->awake_pair_count, PAIRS_IN_BLOCK, find_in_block, step);
     return 1;
-}
-
-void fe__put_due_back(fe__step *step)
-{
-    fe_world *w = step->world;
-    const fe__step_scratch *s = step->scratch;
-    for (int32_t i = 0, count = atomic_load(&s->due_count); i < count; ++i)
-        w->awake_pairs[w->pairs[s->busy[i]].awake_index] = ~s->busy[i];
 }

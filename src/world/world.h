@@ -18,7 +18,7 @@
 #include "world/event_record.h"
 #include "world/joint_record.h"
 #include "world/pair.h"
-#include "world/deferral.h"
+#include "solver/contact/deferral.h"
 #include "collision/form/heightfield.h"
 #include "collision/form/shape.h"
 #include "collision/manifold/patch.h"

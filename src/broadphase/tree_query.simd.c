@@ -1,17 +1,33 @@
-// tree_query.c - which proxies' boxes meet a box.
+// tree_query.simd.c - which proxies' boxes meet a box.
 //
 // Depth first with a stack of fixed size. Below a node for which the stack has no room, the walk needs none: parents
-// and lanes lead back up. It tests nodes again after each child, so it is slower, and gives the same proxies.
+// and lanes lead back up. It tests nodes again after each child, so it is slower, and gives the same proxies. Compiled
+// once per SIMD set: the widest test a node in one go. What is visited, and in what order, is the same with all of
+// them.
 #include "broadphase/tree_node.h"
+#include "core/simd.h"
 
 enum { STACK = 256 }; // 7 entries a level: enough for a depth of 36
 
+fe__tree_query_kernel FE_NAME(fe__tree_query);
+
 typedef struct query {
     const fe__tree *tree;
-    fe__lanes low[3], high[3];
+    fe__eight low[3], high[3];
     fe__tree_visit visit;
     void *context;
 } query;
+
+// bit i: the box of lane i meets the query's
+static inline uint32_t meet_lanes(const query *q, const fe__tree_node *node)
+{
+    fe__eight_mask meets = fe__eight_below(fe__eight_load(node->box[0]), q->high[0]);
+    for (int32_t k = 1; k < 3; ++k)
+        meets = fe__eight_and(meets, fe__eight_below(fe__eight_load(node->box[k]), q->high[k]));
+    for (int32_t k = 0; k < 3; ++k)
+        meets = fe__eight_and(meets, fe__eight_below(q->low[k], fe__eight_load(node->box[3 + k])));
+    return fe__eight_bits(meets);
+}
 
 // 0: stopped by the visitor
 static int32_t walk_without_stack(const query *q, int32_t top)
@@ -20,7 +36,7 @@ static int32_t walk_without_stack(const query *q, int32_t top)
     uint32_t from = 0;
     for (;;) {
         const fe__tree_node *node = &q->tree->nodes[index];
-        uint32_t hits = fe__node_meets(node, q->low, q->high) >> from << from;
+        uint32_t hits = meet_lanes(q, node) >> from << from;
         if (hits) {
             uint32_t lane = (uint32_t)__builtin_ctz(hits);
             int32_t child = node->child[lane];
@@ -44,7 +60,7 @@ static void walk(const query *q)
     int32_t stack[STACK], top = 0, index = 0;
     for (;;) {
         const fe__tree_node *node = &q->tree->nodes[index];
-        for (uint32_t hits = fe__node_meets(node, q->low, q->high); hits; hits &= hits - 1) {
+        for (uint32_t hits = meet_lanes(q, node); hits; hits &= hits - 1) {
             int32_t child = node->child[__builtin_ctz(hits)];
             int32_t go_on = 1;
             if (child < 0)
@@ -60,30 +76,10 @@ static void walk(const query *q)
     }
 }
 
-static void query_box(const fe__tree *tree, fe__tree_box box, fe__tree_visit visit, void *context)
+void FE_NAME(fe__tree_query)(const fe__tree *tree, const float low[3], const float high[3], fe__tree_visit visit,
+                             void *context)
 {
     query q = {.tree = tree, .visit = visit, .context = context};
-    for (int32_t k = 0; k < 3; ++k) {
-        q.low[k] = fe__lanes_set(box.low[k]);
-        q.high[k] = fe__lanes_set(box.high[k]);
-    }
+    for (int32_t k = 0; k < 3; ++k) q.low[k] = fe__eight_set(low[k]), q.high[k] = fe__eight_set(high[k]);
     walk(&q);
-}
-
-void fe__tree_query(const fe__tree *tree, const fe__bounds *box, fe__tree_visit visit, void *context)
-{
-    if (tree->proxy_count > 0) query_box(tree, fe__tree_box_of(&tree->origin, box), visit, context);
-}
-
-void fe__tree_query_proxy(const fe__tree *tree, const fe__tree *of, int32_t proxy, fe__tree_visit visit, void *context)
-{
-    if (tree->proxy_count == 0) return;
-    if (tree == of) {
-        int32_t slot = tree->slot[proxy];
-        query_box(tree, fe__lane_box(&tree->nodes[slot / FE_TREE_WIDTH], slot % FE_TREE_WIDTH), visit, context);
-    } else {
-        fe__bounds box;
-        fe__tree_get(of, proxy, &box);
-        query_box(tree, fe__tree_box_of(&tree->origin, &box), visit, context);
-    }
 }

@@ -10,8 +10,9 @@
 //
 // and without a normal n the same with the whole motion, times sqrt 3 as in recycle.simd.c. Where the bound does not
 // decide, the exact test does, so that no result depends on it. While a pair is deferred, no stage reads more of it.
-#ifndef FE_WORLD_DEFERRAL_H
-#define FE_WORLD_DEFERRAL_H
+// deferral.simd.c has the bound.
+#ifndef FE_SOLVER_CONTACT_DEFERRAL_H
+#define FE_SOLVER_CONTACT_DEFERRAL_H
 #include "solver/body.h"
 #include "solver/contact/contact.h"
 
@@ -21,22 +22,28 @@
 
 // Where a body is and how it moves. Ticks are modulo 2^32: only differences count
 typedef struct fe__odometer {
-    uint32_t at[3];    // of its centre of mass, ticks
-    uint32_t turned;   // sum of |sin(angle / 2)| of its rotations since it was made, ticks
-    float velocity[3]; // of the centre of mass, m/s
-    float spin;        // of the point that rotates fastest, m/s
+    _Alignas(32) uint32_t at[3]; // of its centre of mass, ticks
+    uint32_t turned;             // sum of |sin(angle / 2)| of its rotations since it was made, ticks
+    float velocity[3];           // of the centre of mass, m/s
+    float spin;                  // of the point that rotates fastest, m/s
 } fe__odometer;
+_Static_assert(sizeof(fe__odometer) == 32, "half a cache line");
+FE__IS_QUAD(fe__odometer, at, turned);
+FE__IS_QUAD(fe__odometer, velocity, spin);
 
 // By place in the list of awake pairs. Bodies and normal are the contact's
 typedef struct fe__deferral {
+    _Alignas(16) float normal[3]; // from A to B, or 0
+    float gap;                    // m, when the pair was last looked at
+    uint32_t apart[3];            // centre of B - centre of A, then, ticks
+    uint32_t turned;              // sum over both bodies, then
     int32_t body_a, body_b;
-    float normal[3];   // from A to B, or 0
-    float gap;         // m, when the pair was last looked at
-    uint32_t apart[3]; // centre of B - centre of A, then, ticks
-    uint32_t turned;   // sum over both bodies, then
-    float arm;         // of the rotations, m
-    float most;        // m that the centres may move against each other from then on, in any direction
+    float arm;  // of the rotations, m
+    float most; // m that the centres may move against each other from then on, in any direction
 } fe__deferral;
+_Static_assert(sizeof(fe__deferral) == 48, "a deferral is three quads");
+FE__IS_QUAD(fe__deferral, normal, gap);
+FE__IS_QUAD(fe__deferral, apart, turned);
 
 // An entry of that list is the pair, or ~pair while it is deferred
 static inline int32_t fe__pair_of(int32_t entry) { return entry ^ entry >> 31; }
@@ -75,27 +82,6 @@ static inline void fe__defer(fe__deferral *p, const fe__odometer *odometers, con
     p->gap = fe__minf(FE__MOST_TRAVEL, gap - rounding);
     p->turned = a->turned + b->turned;
     p->most = fe__minf(FE__MOST_TRAVEL, fe__most_away(m) - sqrtf(square) - rounding);
-}
-
-// Has not moved too far, by the measure of recycle.simd.c, nor will within a step of dt
-static inline int32_t fe__stays_deferred(const fe__deferral *p, const fe__odometer *odometers, float dt)
-{
-    const fe__odometer *a = odometers + p->body_a, *b = odometers + p->body_b;
-    const float *n = p->normal, tick = 1.0f / FE__TICKS, root3 = 1.7322f; // rounded up
-    float d[3], v[3];
-    for (int k = 0; k < 3; ++k) {
-        d[k] = tick * (float)(int32_t)(b->at[k] - a->at[k] - p->apart[k]);
-        v[k] = a->velocity[k] - b->velocity[k];
-    }
-    float square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-    float turns = 2.0f * p->arm * (tick * (float)(a->turned + b->turned - p->turned)), spins = a->spin + b->spin;
-    if (!(p->most > 0.0f && p->most * p->most > square)) return 0;
-    if (fe__has_direction(n)) {
-        float away = n[0] * d[0] + n[1] * d[1] + n[2] * d[2], closing = n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
-        return p->gap + away - turns > dt * ((closing <= 0.0f ? 0.0f : closing) + spins);
-    }
-    float speed = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    return p->gap - root3 * (sqrtf(square) + turns) > dt * (speed + spins);
 }
 
 #endif
