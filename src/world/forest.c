@@ -14,8 +14,8 @@
 // The same for joints that lock rotations: such a row is a beam, which bends with the cube of its length
 #define HEAVY_BEAM 4.0f
 // A light body may be all that the rest of a tree stands on: a wheel under a cart. Contacts see the mass of a tree that
-// is solved at once. From this ratio of the parts that a joint parts on, this is worth it: a contact of a link of its
-// own mass, against the ground, gives by 128 g / (4 pi 30 Hz)^2 = 9 mm under all, by a quarter of that with four wheels.
+// is solved at once, which is worth it from this ratio of the parts on that a joint divides a tree into: of its own
+// mass, such a body sinks by 128 g / (4 pi 30 Hz)^2 = 9 mm, four of them by 2.2 mm.
 #define HEAVY_SUPPORT 128.0f
 
 // Levers: the rotation of a body may give way to each of its joints by a share of what the joint's stiffness counts on.

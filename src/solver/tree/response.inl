@@ -15,11 +15,11 @@
 // Contacts know bodies by one inverse mass and one inverse inertia. So D is given in shares of a body's own. Rotations
 // are counted as y = L^T w / sqrt(m), I = L L^T, in which a body alone answers y = torque / m.
 
-// A tree lends where a touched link gets less than this share of its own inverse mass
+// A tree lends where a touched link gets less than this share of its own inverse mass: what others lose is worth it
 #define LENDS 0.5
 // Links that are heavier by the tree: A is at most this share
 #define HEAVIER 0.125
-// For what bodies turn within the step
+// What G may grow by while bodies turn within the step, and what powers may have missed
 #define FOR_TURNS 1.25
 #define POWERS 8
 // With more touched links than these their masses stay their own: G takes time with each
