@@ -294,3 +294,12 @@ static void meet_requests(const pass *t, int which)
     for (int32_t i = t->count - 1; i >= 0; --i) hand_up(t, i, which);
     for (int32_t i = 0; i < t->count; ++i) hand_down(t, i, which, which == SPEEDS);
 }
+
+typedef struct velocity {
+    real3 v, w;
+} velocity;
+
+FE_INLINE velocity changed(const tree_node *n)
+{
+    return (velocity){r_add(n->v, centre_change(n, SPEEDS)), r_add(n->w, n->of[SPEEDS].change_w)};
+}

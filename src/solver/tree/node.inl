@@ -40,6 +40,11 @@ typedef struct solution {
 // of a node: of the velocities, of the positions
 enum { SPEEDS, PLACES, SOLUTIONS };
 
+// Translation and rotation
+typedef struct six {
+    real a[6];
+} six;
+
 typedef struct tree_node {
     // Of the step
     line_names line, line_above; // of the bodies below and above
@@ -76,6 +81,7 @@ typedef struct tree_node {
     real light, spins;        // shares of its inverse mass, of its inverse inertia
     real_sym root;            // of the inertia
     real per_root_mass;       // 1 / sqrt(mass)
+    six x;                    // of the powers
     lines held, held_start;   // of the velocities when contacts took over
 } tree_node;
 

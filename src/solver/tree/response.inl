@@ -39,15 +39,17 @@ static int32_t touched_in(const pass *t, int32_t i)
     return lanes;
 }
 
-// The links that are, in any lane: at most so many of them. Returns how many there are
-static int32_t find_touched(const pass *t, int32_t *touched)
+// Returns the lanes in which links are, at most MOST_TOUCHED of them
+static int32_t find_touched(const pass *t)
 {
-    int32_t count = 0;
+    int32_t count[LANES] = {0}, lanes = 0;
     for (int32_t i = 0; i < t->count; ++i) {
-        t->nodes[i].touched = touched_in(t, i);
-        if (t->nodes[i].touched && count++ < MOST_TOUCHED) touched[count - 1] = i;
+        t->nodes[i].touched = touched_in(t, i), t->nodes[i].heavier = 0;
+        for (int lane = 0; lane < LANES; ++lane) count[lane] += t->nodes[i].touched >> lane & 1;
     }
-    return count;
+    for (int lane = 0; lane < LANES; ++lane) lanes |= (count[lane] > 0 && count[lane] <= MOST_TOUCHED) << lane;
+    for (int32_t i = 0; i < t->count; ++i) t->nodes[i].touched &= lanes;
+    return lanes;
 }
 
 // ---- responses ------------------------------------------------------------------------------------------------------
@@ -80,10 +82,6 @@ FE_INLINE real_sym root_of(const real_sym *i)
     l.zz = r_sqrt(r_max(i->zz - l.xz * l.xz - l.yz * l.yz, zero));
     return l;
 }
-
-typedef struct six {
-    real a[6];
-} six;
 
 // Velocities of a touched link
 FE_INLINE six answer_of(const tree_node *n)
@@ -119,8 +117,8 @@ FE_INLINE real size_of(const six *g, int first)
     return most;
 }
 
-// A of a link
-static void find_sizes(const pass *t, int32_t i)
+// A of a link, in the given lanes
+static void find_sizes(const pass *t, int32_t i, int32_t lanes)
 {
     tree_node *n = t->nodes + i;
     six own[6];
@@ -136,7 +134,7 @@ static void find_sizes(const pass *t, int32_t i)
     // what is locked answers nothing
     n->light = r_max(r_set(FLT_EPSILON), n->mass * size_of(own, 0));
     n->spins = r_max(r_set(FLT_EPSILON), n->mass * size_of(own, 3));
-    n->heavier = r_bits(r_greater(r_set(HEAVIER), n->light)) & n->touched;
+    n->heavier = r_bits(r_greater(r_set(HEAVIER), n->light)) & lanes;
 }
 
 // Numbers that no symmetry of a machine has, to begin with: -1..1
@@ -146,56 +144,55 @@ FE_INLINE double irregular(int32_t i)
     return 2.0 * (at - (double)(int32_t)at) - 1.0;
 }
 
-// x = k A^-1/2 x, and 0 in lanes whose link keeps its own mass
-FE_INLINE void scale_link(const tree_node *n, real k, six *x)
+// k A^-1/2 x, and 0 in lanes whose link keeps its own mass
+FE_INLINE six scaled(const tree_node *n, real k, six x)
 {
     const real by = r_choose(r_mask(n->heavier), k, r_set(0.0));
     const real shift = by * r_sqrt(n->mass / n->light), spin = by * r_sqrt(n->mass / n->spins);
-    for (int j = 0; j < 6; ++j) x->a[j] *= j < 3 ? shift : spin;
+    for (int j = 0; j < 6; ++j) x.a[j] *= j < 3 ? shift : spin;
+    return x;
 }
 
-// x = A^-1/2 G A^-1/2 x / size
-static void raise_power(const pass *t, const int32_t *touched, int32_t count, six *x, real size)
-{
-    clear_loads(t);
-    for (int32_t p = 0; p < count; ++p) {
-        if (!t->nodes[touched[p]].heavier) continue;
-        scale_link(t->nodes + touched[p], 1.0 / size, x + p);
-        load_link(t->nodes + touched[p], x + p);
-    }
-    meet_requests(t, PLACES);
-    for (int32_t p = 0; p < count; ++p) {
-        if (!t->nodes[touched[p]].heavier) continue;
-        x[p] = answer_of(t->nodes + touched[p]);
-        scale_link(t->nodes + touched[p], r_set(1.0), x + p);
-    }
-}
-
-FE_INLINE real length_of(const six *x, int32_t count)
+// x = A^-1/2 G A^-1/2 x / size, of the links that are heavier. Returns its square
+static real raise_power(const pass *t, real size)
 {
     real square = r_set(DBL_MIN);
-    for (int32_t p = 0; p < 6 * count; ++p) square += x[p / 6].a[p % 6] * x[p / 6].a[p % 6];
-    return r_sqrt(square);
+    clear_loads(t);
+    for (int32_t i = 0; i < t->count; ++i) {
+        tree_node *n = t->nodes + i;
+        if (!n->heavier) continue;
+        const six load = scaled(n, 1.0 / size, n->x);
+        load_link(n, &load);
+    }
+    meet_requests(t, PLACES);
+    for (int32_t i = 0; i < t->count; ++i) {
+        tree_node *n = t->nodes + i;
+        if (!n->heavier) continue;
+        n->x = scaled(n, r_set(1.0), answer_of(n));
+        for (int k = 0; k < 6; ++k) square += n->x.a[k] * n->x.a[k];
+    }
+    return square;
 }
 
 // c
-static real largest_factor(const pass *t, const int32_t *touched, int32_t count)
+static real largest_factor(const pass *t)
 {
-    six x[MOST_TOUCHED];
-    for (int32_t p = 0; p < 6 * count; ++p)
-        x[p / 6].a[p % 6] = r_set(t->nodes[touched[p / 6]].heavier ? irregular(p) : 0.0);
-    for (int power = 0; power < POWERS; ++power) raise_power(t, touched, count, x, length_of(x, count));
-    return length_of(x, count);
+    real size = r_set(1.0);
+    for (int32_t i = 0; i < t->count; ++i)
+        for (int k = 0; k < 6 && t->nodes[i].heavier; ++k) t->nodes[i].x.a[k] = r_set(irregular(6 * i + k));
+    for (int power = 0; power < POWERS; ++power) size = r_sqrt(raise_power(t, size));
+    return size;
 }
 
 // ---- shares ---------------------------------------------------------------------------------------------------------
 // `others`: lanes in which some links keep their own masses; `factor`: c
-static int32_t scale_shares(const pass *t, const int32_t *touched, int32_t count, int32_t others, real factor)
+static int32_t scale_shares(const pass *t, int32_t others, real factor)
 {
     const real both = r_choose(r_mask(others), r_set(2.0), r_set(1.0));
     int32_t lanes = 0;
-    for (int32_t p = 0; p < count; ++p) {
-        tree_node *n = t->nodes + touched[p];
+    for (int32_t i = 0; i < t->count; ++i) {
+        tree_node *n = t->nodes + i;
+        if (!n->touched) continue;
         const real_mask heavier = r_mask(n->heavier);
         n->light = both * r_choose(heavier, factor * n->light, r_set(1.0));
         n->spins = both * r_choose(heavier, factor * n->spins, r_set(1.0));
@@ -205,18 +202,19 @@ static int32_t scale_shares(const pass *t, const int32_t *touched, int32_t count
 }
 
 // Shares of all touched links. Returns the lanes in which one of them is small
-static int32_t find_shares(const pass *t, const int32_t *touched, int32_t count)
+static int32_t find_shares(const pass *t)
 {
     int32_t heavier = 0, others = 0;
     for (int32_t i = 0; i < t->count; ++i) t->nodes[i].of[PLACES].ask_v = t->nodes[i].of[PLACES].ask_w = r_zero3();
-    for (int32_t p = 0; p < count; ++p) {
-        tree_node *n = t->nodes + touched[p];
-        const int32_t lanes = r_bits(r_greater(r_set(HEAVIER), own_share(t, touched[p]))) & n->touched;
-        n->light = n->spins = r_set(1.0), n->heavier = 0;
-        if (lanes) find_sizes(t, touched[p]);
+    for (int32_t i = 0; i < t->count; ++i) {
+        tree_node *n = t->nodes + i;
+        if (!n->touched) continue;
+        const int32_t lanes = r_bits(r_greater(r_set(HEAVIER), own_share(t, i))) & n->touched;
+        n->light = n->spins = r_set(1.0);
+        if (lanes) find_sizes(t, i, lanes);
         heavier |= n->heavier, others |= n->touched & ~n->heavier;
     }
     if (!heavier) return 0;
-    const real factor = FOR_TURNS * r_max(largest_factor(t, touched, count), r_set(1.0));
-    return scale_shares(t, touched, count, others, factor);
+    const real factor = FOR_TURNS * r_max(largest_factor(t), r_set(1.0));
+    return scale_shares(t, others, factor);
 }
