@@ -20,8 +20,8 @@ enum {
     MEETINGS = 64 // that wait for what they read: enough to hide the memory's latency, few enough to stay in the cache
 };
 
-// Boxes that meet, of which most have a record already: its entry and the other shape lie anywhere, and are asked for
-// long before they are read
+// Boxes that meet, of which most have a record already: its entry lies anywhere, and is asked for long before it is
+// read
 typedef struct search {
     const fe_world *world;
     fe__step_scratch *scratch;
@@ -65,7 +65,6 @@ static int32_t found(void *context, int32_t other)
 {
     search *s = context;
     if (other <= s->shape && has_moved(s->scratch, other)) return 1;
-    fe__fetch(&s->world->shapes[other].flags, sizeof s->world->shapes->flags);
     fe__pair_set_fetch(&s->world->pair_set, s->shape, other);
     s->met[s->waiting++] = (fe__candidate){s->shape, other};
     if (s->waiting == MEETINGS) judge_meetings(s);

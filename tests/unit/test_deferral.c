@@ -139,8 +139,9 @@ static double left_over(const couple *c, int32_t has_direction, float dt)
     const fe__odometer *a = c->odometer, *b = c->odometer + 1;
     fe_vec3 n = fe__quad_vector(m->normal), v = fe__sub(fe__quad_vector(a->velocity), fe__quad_vector(b->velocity));
     fe_dvec3 shift = shift_of(c);
-    double spins = (double)(a->spin + b->spin), arm = (double)m->longest_arm;
+    double arm = (double)m->longest_arm, spins = arm * (double)(a->spin + b->spin);
     if (has_direction) {
+        spins = (double)m->surface.radius_a * (double)a->spin + (double)m->surface.radius_b * (double)b->spin;
         double turns =
             (double)m->surface.radius_a * turned_normal(c, 0, n) + (double)m->surface.radius_b * turned_normal(c, 1, n);
         return (double)m->surface.tolerance + fe__ddot(fe__widen(n), shift) - turns -

@@ -6,15 +6,18 @@
 // small table of bodies:
 //
 //   gap now  >= gap then + n . (shift of B - shift of A) - 2 arm (sines of half the turns of A and B)
-//   closing  <= max(n . (vA - vB), 0) + spins of both                          in the step that comes
+//   closing  <= max(n . (vA - vB), 0) + |wA| arm A + |wB| arm B                in the step that comes
 //
-// and without a normal n the same with the whole motion, times sqrt 3 as in recycle.simd.c. Where the bound does not
-// decide, the exact test does, so that no result depends on it. While a pair is deferred, no stage reads more of it.
-// deferral.simd.c has the bound.
+// where a body's arm is the pair's own: what turns about its centre, a ball, closes nothing by it. Without a normal n
+// the same with the whole motion, times sqrt 3 as in recycle.simd.c. Where the bound does not decide, the exact test
+// does, so that no result depends on it. While a pair is deferred, no stage reads more of it. deferral.simd.c has the
+// bound.
 #ifndef FE_SOLVER_CONTACT_DEFERRAL_H
 #define FE_SOLVER_CONTACT_DEFERRAL_H
 #include "solver/body.h"
 #include "solver/contact/contact.h"
+
+#include <string.h>
 
 #define FE__TICKS 4194304.0f // in 1 m, or 1 of a sine
 #define FE__MOST_TRAVEL \
@@ -38,8 +41,8 @@ typedef struct fe__deferral {
     uint32_t apart[3];            // centre of B - centre of A, then, ticks
     uint32_t turned;              // sum over both bodies, then
     int32_t body_a, body_b;
-    float arm;  // of the rotations, m
-    float most; // m that the centres may move against each other from then on, in any direction
+    uint32_t arms; // of the rotations of A and of B, m: the upper halves of two floats, rounded up
+    float most;    // m that the centres may move against each other from then on, in any direction
 } fe__deferral;
 _Static_assert(sizeof(fe__deferral) == 48, "a deferral is three quads");
 FE__IS_QUAD(fe__deferral, normal, gap);
@@ -61,6 +64,14 @@ static inline void fe__odometer_turn(fe__odometer *o, float half_sine)
     o->turned += (uint32_t)(FE__TICKS * fe__minf(half_sine, FE__MOST_TRAVEL)) + 1;
 }
 
+// the upper half of a float that is not negative, rounded up: 0.8 % at most
+static inline uint32_t fe__half_of(float a)
+{
+    uint32_t bits;
+    memcpy(&bits, &a, sizeof bits);
+    return (bits + 0xffff) >> 16;
+}
+
 static inline int32_t fe__has_direction(const float *n) { return n[0] != 0.0f || n[1] != 0.0f || n[2] != 0.0f; }
 
 // From now on: of a contact without points, whose gap is `gap`, m
@@ -76,8 +87,12 @@ static inline void fe__defer(fe__deferral *p, const fe__odometer *odometers, con
         p->normal[k] = m->normal[k];
         p->apart[k] = b->at[k] - a->at[k];
     }
-    p->arm = fe__has_direction(m->normal) ? fe__maxf(m->surface.radius_a, m->surface.radius_b) : m->longest_arm;
-    const float rounding = 1e-5f * (1.0f + p->arm + gap); // of the exact test, m: it must come to the same
+    int32_t has_direction = fe__has_direction(m->normal);
+    float arm_a = has_direction ? m->surface.radius_a : m->longest_arm,
+          arm_b = has_direction ? m->surface.radius_b : m->longest_arm;
+    p->arms = fe__half_of(arm_a) << 16 | fe__half_of(arm_b);
+    // of the exact test, m: it must come to the same
+    const float rounding = 1e-5f * (1.0f + fe__maxf(arm_a, arm_b) + gap);
     p->body_a = m->body_a, p->body_b = m->body_b;
     p->gap = fe__minf(FE__MOST_TRAVEL, gap - rounding);
     p->turned = a->turned + b->turned;

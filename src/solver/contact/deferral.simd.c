@@ -8,8 +8,10 @@
 enum {
     DEFERRAL_STRIDE = sizeof(fe__deferral) / sizeof(float),
     ODOMETER_STRIDE = sizeof(fe__odometer) / sizeof(float),
-    LOWER_BITS = 16
+    HALF_BITS = 16
 };
+#define LOWER_HALF 0xffffu
+#define UPPER_HALF 0xffff0000u
 
 typedef uint32_t wide_ticks __attribute__((vector_size(4 * FE_W)));
 typedef struct {
@@ -22,8 +24,8 @@ FE_INLINE wide metres(wide_ticks d) { return (1.0f / FE__TICKS) * __builtin_conv
 // Sines, of a sum: all 32 bits count, in two halves that floats hold, so that it is rounded once
 FE_INLINE wide sines(wide_ticks sum)
 {
-    wide high = __builtin_convertvector((wide_int)(sum >> LOWER_BITS), wide),
-         low = __builtin_convertvector((wide_int)(sum & 0xffff), wide);
+    wide high = __builtin_convertvector((wide_int)(sum >> HALF_BITS), wide),
+         low = __builtin_convertvector((wide_int)(sum & LOWER_HALF), wide);
     return (1.0f / FE__TICKS) * (65536.0f * high + low);
 }
 
@@ -46,8 +48,9 @@ FE_INLINE unsigned waiting(const fe__deferral *deferrals, const fe__odometer *od
     wide3 n = w_xyz(plane), v = w_sub(w_xyz(move_a), w_xyz(move_b)),
           d = {metres(b.x - a.x - then.x), metres(b.y - a.y - then.y), metres(b.z - a.z - then.z)};
     wide zero = w_set(0.0f), root3 = w_set(1.7322f); // rounded up
-    wide arm = rest.z, most = rest.w, gap = plane.w, square = w_dot(d, d), spins = move_a.w + move_b.w;
-    wide turns = 2.0f * arm * sines(a.turned + b.turned - then.turned);
+    wide arm_a = (wide)((wide_ticks)rest.z & UPPER_HALF), arm_b = (wide)((wide_ticks)rest.z << HALF_BITS);
+    wide most = rest.w, gap = plane.w, square = w_dot(d, d), spins = arm_a * move_a.w + arm_b * move_b.w;
+    wide turns = 2.0f * w_max(arm_a, arm_b) * sines(a.turned + b.turned - then.turned);
     wide_mask near = w_and(w_greater(most, zero), w_greater(most * most, square));
     wide_mask open = w_greater(gap + w_dot(n, d) - turns, dt * (w_max(zero, w_dot(n, v)) + spins));
     wide_mask has_normal = w_greater(w_dot(n, n), zero);
