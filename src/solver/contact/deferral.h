@@ -2,10 +2,10 @@
 // looked at.
 //
 // Most pairs of a heap are near misses. Recycling computes exactly how far the bodies of a pair moved against each
-// other, from six cache lines that lie anywhere. A bound of it needs half a line beside the list of awake pairs and a
+// other, from six cache lines that lie anywhere. A bound of it needs one line beside the list of awake pairs and a
 // small table of bodies:
 //
-//   gap now  >= gap then + n . (shift of B - shift of A) - 2 arm (sines of half the turns of A and B)
+//   gap now  >= gap then + n . (shift of B - shift of A) - 2 (arm A |sin(turn A / 2)| + arm B |sin(turn B / 2)|)
 //   closing  <= max(n . (vA - vB), 0) + |wA| arm A + |wB| arm B                in the step that comes
 //
 // where a body's arm is the pair's own: what turns about its centre, a ball, closes nothing by it. Without a normal n
@@ -17,8 +17,6 @@
 #include "solver/body.h"
 #include "solver/contact/contact.h"
 
-#include <string.h>
-
 #define FE__TICKS 4194304.0f // in 1 m, or 1 of a sine
 #define FE__MOST_TRAVEL \
     128.0f // m in a step, and of a gap: four of them are 2^31 ticks. Who leaps farther ends the wait
@@ -28,7 +26,7 @@ typedef struct fe__odometer {
     _Alignas(32) uint32_t at[3]; // of its centre of mass, ticks
     uint32_t turned;             // sum of |sin(angle / 2)| of its rotations since it was made, ticks
     float velocity[3];           // of the centre of mass, m/s
-    float spin;                  // of the point that rotates fastest, m/s
+    float spin;                  // |angular velocity|, rad/s
 } fe__odometer;
 _Static_assert(sizeof(fe__odometer) == 32, "half a cache line");
 FE__IS_QUAD(fe__odometer, at, turned);
@@ -36,17 +34,18 @@ FE__IS_QUAD(fe__odometer, velocity, spin);
 
 // By place in the list of awake pairs. Bodies and normal are the contact's
 typedef struct fe__deferral {
-    _Alignas(16) float normal[3]; // from A to B, or 0
+    _Alignas(64) float normal[3]; // from A to B, or 0
     float gap;                    // m, when the pair was last looked at
     uint32_t apart[3];            // centre of B - centre of A, then, ticks
-    uint32_t turned;              // sum over both bodies, then
-    int32_t body_a, body_b;
-    uint32_t arms; // of the rotations of A and of B, m: the upper halves of two floats, rounded up
-    float most;    // m that the centres may move against each other from then on, in any direction
+    float most;                   // m that the centres may move against each other from then on, in any direction
+    uint32_t turned_a, turned_b;  // then
+    float arm_a, arm_b;           // of the rotations, m
+    int32_t body_a, body_b, spare[2];
 } fe__deferral;
-_Static_assert(sizeof(fe__deferral) == 48, "a deferral is three quads");
+_Static_assert(sizeof(fe__deferral) == 64, "a deferral is a cache line");
 FE__IS_QUAD(fe__deferral, normal, gap);
-FE__IS_QUAD(fe__deferral, apart, turned);
+FE__IS_QUAD(fe__deferral, apart, most);
+FE__IS_QUAD(fe__deferral, turned_a, arm_b);
 
 // An entry of that list is the pair, or ~pair while it is deferred
 static inline int32_t fe__pair_of(int32_t entry) { return entry ^ entry >> 31; }
@@ -62,14 +61,6 @@ static inline void fe__odometer_place(fe__odometer *o, const double *centre)
 static inline void fe__odometer_turn(fe__odometer *o, float half_sine)
 {
     o->turned += (uint32_t)(FE__TICKS * fe__minf(half_sine, FE__MOST_TRAVEL)) + 1;
-}
-
-// the upper half of a float that is not negative, rounded up: 0.8 % at most
-static inline uint32_t fe__half_of(float a)
-{
-    uint32_t bits;
-    memcpy(&bits, &a, sizeof bits);
-    return (bits + 0xffff) >> 16;
 }
 
 static inline int32_t fe__has_direction(const float *n) { return n[0] != 0.0f || n[1] != 0.0f || n[2] != 0.0f; }
@@ -88,14 +79,13 @@ static inline void fe__defer(fe__deferral *p, const fe__odometer *odometers, con
         p->apart[k] = b->at[k] - a->at[k];
     }
     int32_t has_direction = fe__has_direction(m->normal);
-    float arm_a = has_direction ? m->surface.radius_a : m->longest_arm,
-          arm_b = has_direction ? m->surface.radius_b : m->longest_arm;
-    p->arms = fe__half_of(arm_a) << 16 | fe__half_of(arm_b);
+    p->arm_a = has_direction ? m->surface.radius_a : m->longest_arm;
+    p->arm_b = has_direction ? m->surface.radius_b : m->longest_arm;
     // of the exact test, m: it must come to the same
-    const float rounding = 1e-5f * (1.0f + fe__maxf(arm_a, arm_b) + gap);
+    const float rounding = 1e-5f * (1.0f + fe__maxf(p->arm_a, p->arm_b) + gap);
     p->body_a = m->body_a, p->body_b = m->body_b;
     p->gap = fe__minf(FE__MOST_TRAVEL, gap - rounding);
-    p->turned = a->turned + b->turned;
+    p->turned_a = a->turned, p->turned_b = b->turned;
     p->most = fe__minf(FE__MOST_TRAVEL, fe__most_away(m) - sqrtf(square) - rounding);
 }
 
