@@ -182,7 +182,7 @@ static int32_t visit_bounds(void *context, int32_t index)
     const fe__shape *shape = &s->scene->shapes[index];
     uint64_t record = (uint64_t)index;
     if (!fe__scene_counts(s->scene, shape)) return 1;
-    int32_t meets = fe__form_is_unbounded(&shape->form) ? fe__plane_meets_box(&shape->form, &shape->pose, s->box)
+    int32_t meets = fe__form_is_unbounded(&shape->form) ? fe__plane_meets_box(&shape->form, &shape->pose, s->box, 0.0)
                                                         : bounds_meet(shape, s->box);
     if (meets) fe__keep_add(&s->keep, &record);
     return 1;

@@ -12,6 +12,7 @@
 #include "world/handles.h"
 #include "world/mass.h"
 #include "world/pairs.h"
+#include "world/proxies.h"
 
 enum {
     SHAPES_IN_BLOCK = 32,
@@ -76,8 +77,7 @@ static int32_t found_by_plane(void *context, int32_t other)
     const search *s = context;
     fe__bounds box;
     fe__tree_get(&s->world->moving_tree, other, &box);
-    const fe__shape *plane = s->world->shapes + s->shape;
-    return fe__plane_meets_box(&plane->form, &plane->pose, &box) ? found(context, other) : 1;
+    return fe__plane_comes_near(s->world, s->shape, &box) ? found(context, other) : 1;
 }
 
 static void search_plane(search *s)
@@ -98,8 +98,7 @@ static void search_tree(search *s)
     fe__bounds box;
     if (w->plane_count) fe__tree_get(own, s->shape, &box);
     for (int32_t i = 0; i < w->plane_count; ++i) {
-        const fe__shape *plane = w->shapes + w->planes[i];
-        if (fe__plane_meets_box(&plane->form, &plane->pose, &box)) found(s, w->planes[i]);
+        if (fe__plane_comes_near(w, w->planes[i], &box)) found(s, w->planes[i]);
     }
 }
 

@@ -1,9 +1,11 @@
 // proxies.c - see proxies.h.
 #include "world/proxies.h"
 
-// A box in a tree is larger than its shape by the speculative distance (what touches must have a pair) and a share of
-// its size, so that a body may move a while before its tree changes: larger ones move further before it matters.
-#define FAT_SHARE 0.12 // of the largest half extent
+// A box in a tree is larger than its shape by half the speculative distance, for shapes no further apart than that must
+// have a pair, and by a share of its size, so that a body may move a while before its tree changes: larger ones move
+// further before it matters. More of it makes more pairs that never touch: in a heap of mixed bodies a share of 0.12
+// makes 1.2 times as many, and costs 3 to 11 % of a step.
+#define FAT_SHARE 0.05 // of the largest half extent
 #define FAT_MOST 0.05  // m
 // It also reaches where the body will be after so many steps at its velocity: what it meets in the next step must have
 // a pair before.
@@ -34,9 +36,11 @@ static fe__bounds swept(const fe_world *world, int32_t index, fe__bounds b, floa
     return b;
 }
 
+static float half_gap(const fe_world *world) { return 0.5f * world->tuning.speculative_distance; }
+
 fe__bounds fe__shape_reach_bounds(const fe_world *world, int32_t index)
 {
-    return swept(world, index, fe__shape_bounds(world, index, world->tuning.speculative_distance), 1.0f);
+    return swept(world, index, fe__shape_bounds(world, index, half_gap(world)), 1.0f);
 }
 
 fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t index)
@@ -45,7 +49,7 @@ fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t index)
     fe_dvec3 size = fe__dsub(b.high, b.low);
     double half = 0.5 * fe__maxd(fe__maxd(size.x, size.y), size.z);
     b = swept(world, index, b, STEPS_AHEAD);
-    return grown(b, (double)world->tuning.speculative_distance + fe__mind(FAT_MOST, FAT_SHARE * half));
+    return grown(b, (double)half_gap(world) + fe__mind(FAT_MOST, FAT_SHARE * half));
 }
 
 // ---- broad phase ---------------------------------------------------------------------------------------------------
@@ -123,6 +127,12 @@ void fe__body_stretch_boxes(fe_world *world, int32_t index)
     }
 }
 
+int32_t fe__plane_comes_near(const fe_world *world, int32_t index, const fe__bounds *box)
+{
+    const fe__shape *plane = world->shapes + index;
+    return fe__plane_meets_box(&plane->form, &plane->pose, box, (double)half_gap(world));
+}
+
 // ---- of pairs ------------------------------------------------------------------------------------------------------
 static const fe__tree *home_of(const fe_world *w, const fe__shape *shape)
 {
@@ -144,7 +154,7 @@ int32_t fe__boxes_part(const fe_world *w, const fe__pair *p)
     if (in_trees && home_x == home_y) return fe__tree_parts(home_x, p->shape_a, p->shape_b);
     if (x->flags & FE__SHAPE_IN_TREE) fe__tree_get(home_x, p->shape_a, &a);
     if (y->flags & FE__SHAPE_IN_TREE) fe__tree_get(home_y, p->shape_b, &b);
-    if (x->flags & FE__SHAPE_IN_PLANES) return !fe__plane_meets_box(&x->form, &x->pose, &b);
-    if (y->flags & FE__SHAPE_IN_PLANES) return !fe__plane_meets_box(&y->form, &y->pose, &a);
+    if (x->flags & FE__SHAPE_IN_PLANES) return !fe__plane_comes_near(w, p->shape_a, &b);
+    if (y->flags & FE__SHAPE_IN_PLANES) return !fe__plane_comes_near(w, p->shape_b, &a);
     return parts(&a, &b);
 }

@@ -57,6 +57,26 @@ static void neighbours_that_fall_together_are_not_tested_anew(void **state)
     scene_end(&s);
 }
 
+// At 1.99 cm, from the first step on: a ball over a plane, over a box that stands, over a ball. It is small: what its
+// box in a tree is larger by grows with its size
+static void what_is_as_near_as_2_cm_has_a_contact(void **state)
+{
+    const double r = 0.05, gap = 0.0199;
+    for (int kind = 0; kind < 3; ++kind) {
+        scene s = scene_begin(state);
+        set_gravity(&s, v3(0, 0, 0));
+        if (kind == 0) add_ground(&s, friction(0.6));
+        if (kind == 1) add_static(&s, box(1, 0.5, 1), v3(0, -0.5, 0), UNTURNED, friction(0.6));
+        if (kind == 2) add_dynamic(&s, sphere(r), v3(0, -r, 0), UNTURNED, friction(0.6), WATER);
+        add_dynamic(&s, sphere(r), v3(0, r + gap, 0), UNTURNED, friction(0.6), WATER);
+        for (int i = 0; i < 10; ++i) {
+            run(&s, 1);
+            assert_int_equal(counters_of(&s).contacts, 1);
+        }
+        scene_end(&s);
+    }
+}
+
 // A ball hovers over a box, by its edge, until the pair is recycled. Then it is thrown so that it touches the edge
 // within one step: not the face that it stood over. Where its centre comes to |c| = r from the edge, along n = c / r,
 // it loses its speed along n (restitution and friction 0, so nothing else): v' = v - (v.n) n. It grazes: 1 mm of its
@@ -172,6 +192,7 @@ int main(void)
         WITH_4_SUBSTEPS(neighbours_at_rest_are_not_tested_anew),
         TEST_WITH(neighbours_at_rest_are_not_tested_anew, ", z up", up_along_z),
         TEST(neighbours_that_fall_together_are_not_tested_anew),
+        EVERY_WAY_UP(what_is_as_near_as_2_cm_has_a_contact),
         EVERY_WAY_UP(a_ball_that_hovered_touches_the_edge),
         WITH_4_SUBSTEPS(a_ball_that_hovered_touches_the_edge),
         TEST(what_tumbles_by_is_seen_when_it_touches),

@@ -135,7 +135,7 @@ static inline int32_t fe__form_is_point(const fe__form *form)
 
 // ---- planes (plane.c) ----------------------------------------------------------------------------------------------
 // Does the box reach into the half space?
-int32_t fe__plane_meets_box(const fe__form *plane, const fe__pose *pose, const fe__bounds *box);
+int32_t fe__plane_meets_box(const fe__form *plane, const fe__pose *pose, const fe__bounds *box, double gap);
 // The plane in a frame whose origin is `away` (world axes) from that of its shape: as exact a thousand kilometres off
 void fe__plane_move_frame(fe__form *plane, fe_quat rotation, fe_dvec3 away);
 

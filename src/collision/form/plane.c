@@ -18,14 +18,14 @@ fe__bounds fe__plane_bounds(const fe__form *form, const fe__pose *pose)
     return bounds;
 }
 
-// n . p <= d somewhere in the box
-int32_t fe__plane_meets_box(const fe__form *plane, const fe__pose *pose, const fe__bounds *box)
+// n . p <= d + gap somewhere in the box
+int32_t fe__plane_meets_box(const fe__form *plane, const fe__pose *pose, const fe__bounds *box, double gap)
 {
     fe_dvec3 n = fe__drotate(pose->rotation, fe__widen(plane->normal));
     double d = fe__ddot(n, pose->position) + (double)plane->distance;
     fe_dvec3 low = {n.x > 0.0 ? box->low.x : box->high.x, n.y > 0.0 ? box->low.y : box->high.y,
                     n.z > 0.0 ? box->low.z : box->high.z};
-    return fe__ddot(n, low) <= d;
+    return fe__ddot(n, low) <= d + gap;
 }
 
 void fe__plane_move_frame(fe__form *plane, fe_quat rotation, fe_dvec3 away)
