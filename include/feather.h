@@ -801,8 +801,8 @@ FE_API int32_t fe_shape_get_overlaps(const fe_world *world, fe_shape shape, fe_s
 // of 16 equal links), of 4 on one that locks rotations. A mechanism of 2 to 32 bodies without locks, held by nothing
 // but such joints (a linkage, a rope), uses it whatever it bears. Other lighter trees, with limits, springs, motors or
 // friction, use it in steps in which a blow or a pinch would open a joint by more than 4 mm. A joint that is open by
-// more than 4 mm when the step begins is closed gradually, by springs. fe_counters.trees counts such trees. Limits,
-// springs and contacts of their bodies stay what they are.
+// more than 4 mm when the step begins is closed gradually, by springs. fe_counters.trees counts such trees. Limits
+// and springs of their bodies stay what they are; contacts of light links of a heavy tree push the mass of the tree.
 //
 // **Springs and motors** push no harder than their cap. A motor drives to its speed; with speed 0 it is friction. A cap
 // of 0 switches it off.

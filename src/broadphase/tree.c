@@ -86,13 +86,25 @@ int32_t fe__tree_reserve(fe__tree *tree, fe__memory *memory, int32_t limit, int3
     return 1;
 }
 
-int32_t fe__tree_holds(const fe__tree *tree, int32_t proxy, const fe__bounds *tight)
+static fe__tree_box box_of(const fe__tree *tree, int32_t proxy)
 {
     int32_t slot = tree->slot[proxy];
-    fe__tree_box fat = fe__lane_box(&tree->nodes[slot / FE_TREE_WIDTH], slot % FE_TREE_WIDTH);
+    return fe__lane_box(&tree->nodes[slot / FE_TREE_WIDTH], slot % FE_TREE_WIDTH);
+}
+
+int32_t fe__tree_holds(const fe__tree *tree, int32_t proxy, const fe__bounds *tight)
+{
+    fe__tree_box fat = box_of(tree, proxy);
     fe__tree_box box = fe__tree_box_of(&tree->origin, tight);
     fe__quad_int in = (fat.low <= box.low) & (box.high <= fat.high); // the fourth lane is 0 in all
     return fe__quad_signs(in) == 15u;
+}
+
+int32_t fe__tree_parts(const fe__tree *tree, int32_t proxy, int32_t other)
+{
+    fe__tree_box a = box_of(tree, proxy), b = box_of(tree, other);
+    fe__quad_int meets = (a.low <= b.high) & (b.low <= a.high); // the fourth lane is 0 in all
+    return fe__quad_signs(meets) != 15u;
 }
 
 // The sum of origin and offset rounds, too: one unit in the last place to the side of `sign`.
@@ -104,8 +116,7 @@ static fe_dvec3 outwards(fe_dvec3 p, double sign)
 
 void fe__tree_get(const fe__tree *tree, int32_t proxy, fe__bounds *out_box)
 {
-    int32_t slot = tree->slot[proxy];
-    fe__tree_box box = fe__lane_box(&tree->nodes[slot / FE_TREE_WIDTH], slot % FE_TREE_WIDTH);
+    fe__tree_box box = box_of(tree, proxy);
     fe_dvec3 low = {(double)box.low[0], (double)box.low[1], (double)box.low[2]};
     fe_dvec3 high = {(double)box.high[0], (double)box.high[1], (double)box.high[2]};
     out_box->low = outwards(fe__dadd(tree->origin, low), -1.0);
@@ -127,8 +138,7 @@ void fe__tree_query_proxy(const fe__tree *tree, const fe__tree *of, int32_t prox
 {
     if (tree->proxy_count == 0) return;
     if (tree == of) {
-        int32_t slot = tree->slot[proxy];
-        query_box(tree, fe__lane_box(&tree->nodes[slot / FE_TREE_WIDTH], slot % FE_TREE_WIDTH), visit, context);
+        query_box(tree, box_of(tree, proxy), visit, context);
     } else {
         fe__bounds box;
         fe__tree_get(of, proxy, &box);

@@ -55,6 +55,8 @@ FE_FETCHES fe__tree_fetch(const fe__tree *tree, int32_t proxy)
     if (slot >= 0) fe__fetch(tree->nodes + slot / FE_TREE_WIDTH, sizeof tree->nodes->box);
 }
 void fe__tree_get(const fe__tree *tree, int32_t proxy, fe__bounds *out_box);
+// 1: the boxes of two proxies do not meet
+int32_t fe__tree_parts(const fe__tree *tree, int32_t proxy, int32_t other);
 // New boxes for `count` proxies; refits what is above them (all nodes at once when many moved).
 void fe__tree_move(fe__tree *tree, const int32_t *proxies, const fe__bounds *fat, int32_t count);
 // Builds anew what of at most FE_TREES trees has degenerated (cost, dead nodes, depth, an origin far off), or all when

@@ -29,7 +29,21 @@ typedef struct paced {
     fe__step_constants usual, last, more;
 } paced;
 
-typedef enum verb { LOAD, PREPARE, BALANCE, SOLVE, FOLLOW, INTEGRATE, RELAX, BOUNCE, PASS_ON, CARRY, STORE } verb;
+typedef enum verb {
+    LOAD,
+    PREPARE,
+    BALANCE,
+    SOLVE,
+    FOLLOW,
+    INTEGRATE,
+    RELAX,
+    BOUNCE,
+    PASS_ON,
+    CARRY,
+    STORE,
+    RESTORE,
+    RECEIVE
+} verb;
 
 typedef struct program {
     int32_t rows_in_block;
@@ -134,6 +148,11 @@ static void add_colours(program *p, int32_t *part, const fe__solver *s, const fe
 
 static int32_t first_tree_group(const fe__batch *b) { return b->first_group + b->joint_groups - b->tree_groups; }
 
+static void add_trees(program *p, int32_t *part, const fe__batch *b, verb verb)
+{
+    if (b->tree_groups) add_pass(p, part, verb, first_tree_group(b), b->tree_groups, b->tree_groups, 0);
+}
+
 static void make_program(program *p, fe__solver *s, const fe__batch *b, int32_t substeps, int32_t width)
 {
     int32_t line_blocks = blocks_of(b->line_count, LINES_IN_BLOCK), end = b->first_group + b->group_count;
@@ -145,13 +164,15 @@ static void make_program(program *p, fe__solver *s, const fe__batch *b, int32_t 
     number_blocks(p, s, b);
     add_pass(p, &p->prologue, LOAD, 0, 0, line_blocks, 0);
     add_colours(p, &p->prologue, s, b, PREPARE);
+    add_trees(p, &p->prologue, b, RESTORE);
     if (b->joint_count) add_pass(p, &p->prologue, BALANCE, 0, 0, line_blocks, 0);
     add_colours(p, &p->substep, s, b, SOLVE);
-    if (b->tree_groups) add_pass(p, &p->substep, FOLLOW, first_tree_group(b), b->tree_groups, b->tree_groups, 0);
+    add_trees(p, &p->substep, b, FOLLOW);
     add_pass(p, &p->substep, INTEGRATE, 0, 0, line_blocks, 0);
     add_colours(p, &p->substep, s, b, RELAX);
     if (b->bounces) add_colours(p, &p->substep, s, b, BOUNCE);
     if (b->bounces) add_pass(p, &p->substep, PASS_ON, b->first_group, b->group_count, 1, 1);
+    add_trees(p, &p->substep, b, RECEIVE);
     add_pass(p, &p->substep, CARRY, 0, 0, line_blocks, 0);
     if (b->group_count)
         add_pass(p, &p->epilogue, STORE, b->first_group, b->group_count, block_count(p, s, b->first_group, end), 0);
@@ -235,6 +256,8 @@ static void run_joints(const job *j, const fe__group *g, verb verb, unsigned cha
     case BOUNCE:
     case PASS_ON:
     case CARRY:
+    case RESTORE:
+    case RECEIVE:
         break;
     }
 }
@@ -242,6 +265,7 @@ static void run_joints(const job *j, const fe__group *g, verb verb, unsigned cha
 static void run_trees(const job *j, const fe__group *g, verb verb, unsigned char *rows, const fe__step_constants *c)
 {
     const fe__tree_job trees = {.solver = j->s,
+                                .bodies = j->bodies,
                                 .lanes = &j->k->joint->locks,
                                 .forest = &j->joints->forest,
                                 .trees = j->s->trees + g->lane,
@@ -252,9 +276,11 @@ static void run_trees(const job *j, const fe__group *g, verb verb, unsigned char
                                 .rate = (double)(c->h * c->joint.bias_rate)};
     const fe__forest_kernels *k = fe__forest_kernels_of(j->k, g->trees);
     if (verb == PREPARE) k->prepare(&trees);
+    if (verb == RESTORE) k->restore(&trees);
     if (verb == SOLVE) k->solve(&trees);
     if (verb == FOLLOW) k->follow(&trees);
     if (verb == RELAX) k->relax(&trees);
+    if (verb == RECEIVE) k->receive(&trees);
 }
 
 // Stored impulses are those of the world's substeps
@@ -308,6 +334,8 @@ static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char 
     case INTEGRATE:
     case PASS_ON:
     case CARRY:
+    case RESTORE:
+    case RECEIVE:
         break;
     }
 }
@@ -345,22 +373,32 @@ static void run_all(const job *j, const fe__batch *b, verb verb, unsigned char *
     for (int32_t i = 0; i < b->group_count && !of_lines; ++i) run_rows(j, groups + i, verb, rows, 0, groups[i].rows, c);
 }
 
+static void run_all_trees(const job *j, const fe__batch *b, verb verb, unsigned char *rows, const fe__step_constants *c)
+{
+    const fe__group *groups = j->s->groups + first_tree_group(b);
+    for (int32_t i = 0; i < b->tree_groups; ++i) run_trees(j, groups + i, verb, rows, c);
+}
+
 static void run_batch(const job *j, const fe__batch *b, unsigned char *rows)
 {
     const paced *pace = j->paces + b->pace;
     const fe__step_constants *c = &pace->usual;
     run_all(j, b, LOAD, rows, c);
     run_all(j, b, PREPARE, rows, c);
+    run_all_trees(j, b, RESTORE, rows, c);
     if (b->joint_count) run_all(j, b, BALANCE, rows, c);
     for (int32_t n = 0; n < c->substeps; ++n) {
         run_all(j, b, SOLVE, rows, c);
-        for (int32_t i = 0; i < b->tree_groups; ++i)
-            run_trees(j, j->s->groups + first_tree_group(b) + i, FOLLOW, rows, c);
+        run_all_trees(j, b, FOLLOW, rows, c);
         run_all(j, b, INTEGRATE, rows, c);
-        for (int32_t i = 1; i < c->sweeps; ++i) run_all(j, b, RELAX, rows, &pace->more);
+        for (int32_t i = 1; i < c->sweeps; ++i) {
+            run_all(j, b, RELAX, rows, &pace->more);
+            run_all_trees(j, b, RECEIVE, rows, c);
+        }
         run_all(j, b, RELAX, rows, n + 1 < c->substeps ? c : &pace->last);
         if (b->bounces) run_all(j, b, BOUNCE, rows, c);
         if (b->bounces) fe__pass_on(j->s, j->k, j->bodies, b, rows, c);
+        run_all_trees(j, b, RECEIVE, rows, c);
         if (n + 1 < c->substeps) run_all(j, b, CARRY, rows, c);
     }
     run_all(j, b, STORE, rows, c);

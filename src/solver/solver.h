@@ -334,9 +334,11 @@ typedef struct fe__forest_kernels {
     int32_t lanes;                  // trees side by side
     int32_t head_bytes, link_bytes; // of row memory for so many links of such trees
     void (*prepare)(const struct fe__tree_job *job);
+    void (*restore)(const struct fe__tree_job *job); // after the contacts' own, see tree/lend.inl
     void (*solve)(const struct fe__tree_job *job);
     void (*follow)(const struct fe__tree_job *job);
     void (*relax)(const struct fe__tree_job *job);
+    void (*receive)(const struct fe__tree_job *job); // after the contacts' relax and bounces
 } fe__forest_kernels;
 
 typedef struct fe__joint_kernels {

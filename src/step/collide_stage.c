@@ -114,16 +114,34 @@ FE_FETCHES fetch_pair(const fe_world *w, int32_t pair)
     fe__tree_fetch(&w->moving_tree, p->shape_b);
 }
 
-// The next awake pairs that do not wait, PAIRS_IN_CACHE at most. Moves *at behind them
-static int32_t list_due(const fe__step *step, int32_t *at, int32_t end, int32_t *out_pairs)
+// Of a stretch of the list of awake pairs, those that do not wait. Writes one beyond them
+static int32_t list_busy(const int32_t *entries, int32_t count, int32_t *out_pairs)
 {
-    const fe_world *w = step->world;
-    int32_t i = *at, count = 0;
-    for (; i < end && count < PAIRS_IN_CACHE; ++i) {
-        out_pairs[count] = w->awake_pairs[i];
-        count += w->awake_pairs[i] >= 0;
+    enum { FOUR = 4 };
+    int32_t listed = 0, i = 0;
+    for (; i + FOUR <= count; i += FOUR) {
+        const int32_t *e = entries + i;
+        if ((e[0] & e[1] & e[2] & e[3]) < 0) continue; // all wait, as most do
+        for (int32_t k = 0; k < FOUR; ++k) {
+            out_pairs[listed] = e[k];
+            listed += e[k] >= 0;
+        }
     }
-    *at = i;
+    for (; i < count; ++i) {
+        out_pairs[listed] = entries[i];
+        listed += entries[i] >= 0;
+    }
+    return listed;
+}
+
+// The next awake pairs that do not wait, PAIRS_IN_CACHE at most. Moves *at behind them
+static int32_t list_next(const fe__step *step, int32_t *at, int32_t end, int32_t out_pairs[PAIRS_IN_CACHE + 1])
+{
+    int32_t count = 0;
+    for (int32_t stretch; *at < end && count <= PAIRS_IN_CACHE - PAIRS_IN_BLOCK; *at += stretch) {
+        stretch = fe__mini(end - *at, PAIRS_IN_BLOCK);
+        count += list_busy(step->world->awake_pairs + *at, stretch, out_pairs + count);
+    }
     return count;
 }
 
@@ -182,14 +200,14 @@ static void collide_block(void *argument, int32_t first, int32_t end, int32_t wo
 {
     const collide_job *job = argument;
     const fe__step_scratch *s = job->step->scratch;
-    int32_t list[PAIRS_IN_CACHE], again = 0,
-                                  some_deferred = atomic_load_explicit(&s->some_deferred, memory_order_relaxed);
+    int32_t list[PAIRS_IN_CACHE + 1], again = 0,
+                                      some_deferred = atomic_load_explicit(&s->some_deferred, memory_order_relaxed);
     (void)worker;
     for (int32_t i = job->first + first, stop = job->first + end; i < stop;) {
         const int32_t *pairs = job->step->world->awake_pairs + i;
         int32_t count = fe__mini(PAIRS_IN_CACHE, stop - i);
         if (some_deferred)
-            count = list_due(job->step, &i, stop, list), pairs = list;
+            count = list_next(job->step, &i, stop, list), pairs = list;
         else
             i += count;
         again += collide_some(job->step, pairs, count);
@@ -272,11 +290,7 @@ const int32_t *fe__busy_pairs(fe__step *step, int32_t *out_count)
     fe__step_scratch *s = step->scratch;
     *out_count = w->awake_pair_count;
     if (!atomic_load(&s->some_deferred)) return w->awake_pairs;
-    int32_t count = 0;
-    for (int32_t i = 0; i < w->awake_pair_count; ++i) {
-        s->busy[count] = w->awake_pairs[i];
-        count += w->awake_pairs[i] >= 0;
-    }
+    int32_t count = list_busy(w->awake_pairs, w->awake_pair_count, s->busy);
     atomic_store(&s->some_deferred, count < w->awake_pair_count);
     *out_count = count;
     return s->busy;

@@ -22,6 +22,14 @@
 // ground) in double.
 #define NEAR 16.0
 
+static fe__mat3 rotation_between(fe_quat a, fe_quat b)
+{
+    const float least = FE__LEAST_LEAN;
+    fe_quat q = fe__product(fe__conjugate(a), b);
+    return fe__matrix(
+        (fe_quat){fe__flush(q.x, least), fe__flush(q.y, least), fe__flush(q.z, least), fe__flush(q.w, least)});
+}
+
 // B in A's frame. A plane has no centre that matters: its frame is put at B, so that a plane is as exact a thousand
 // kilometres off.
 static void set_view(fe__view *v, const fe__shape *a, const fe__shape *b, const fe__pose *pose_a,
@@ -30,10 +38,8 @@ static void set_view(fe__view *v, const fe__shape *a, const fe__shape *b, const 
     v->a = a, v->b = b, v->form_a = a->form;
     v->origin = pose_a->position;
     v->rotation = fe__matrix(pose_a->rotation);
-    fe_quat q = fe__product(fe__conjugate(pose_a->rotation), pose_b->rotation);
-    const float least = FE__LEAST_LEAN;
-    v->relative.rotation = fe__matrix(
-        (fe_quat){fe__flush(q.x, least), fe__flush(q.y, least), fe__flush(q.z, least), fe__flush(q.w, least)});
+    v->relative.rotation =
+        fe__form_is_ball(&b->form) ? fe__matrix(fe__identity()) : rotation_between(pose_a->rotation, pose_b->rotation);
     fe_dvec3 between = fe__dsub(pose_b->position, pose_a->position);
     if (fe__form_is_unbounded(&a->form)) {
         fe__plane_move_frame(&v->form_a, pose_a->rotation, between);
@@ -269,14 +275,6 @@ static gap gap_of(const fe__view *v, const fe__manifold *found)
     return (gap){fe__dot(n, fe__sub(on_b, on_a)) - v->form_a.radius - v->b->form.radius, n};
 }
 
-// From a body's centre of mass to the farthest point of a shape's core, m. The round layer about it reaches no farther
-// when it turns
-static float arm_of(const fe__body *body, const fe__shape *shape)
-{
-    fe_vec3 from_shape = fe__sub(fe__quad_vector(body->local_centre), shape->local_position);
-    return fe__form_reach(&shape->form, fe__rotate_back(shape->local_rotation, from_shape)) - shape->form.radius;
-}
-
 // without points: not looked at again until the bodies may have closed `slack` of their gap
 static void write_apart(fe__pair *p, fe__contact *m, const fe__view *v, const fe__places *at, const fe__body *a,
                         const fe__body *b, float slack, fe_vec3 normal)
@@ -289,7 +287,8 @@ static void write_apart(fe__pair *p, fe__contact *m, const fe__view *v, const fe
     note_poses(m, at, a, b);
     set_no_points(m, a, b);
     fe__copy3(m->normal, normal);
-    m->surface.radius_a = arm_of(a, a_is_b ? v->b : v->a), m->surface.radius_b = arm_of(b, a_is_b ? v->a : v->b);
+    // what turns the core turns the round layer about it nowhere else
+    m->surface.radius_a = (a_is_b ? v->b : v->a)->arm, m->surface.radius_b = (a_is_b ? v->a : v->b)->arm;
 }
 
 static int32_t is_near(const fe__manifold *found, float distance)

@@ -17,11 +17,12 @@
 enum {
     SHAPES_IN_BLOCK = 32,
     CANDIDATES_IN_CHUNK = 64,
+    WORD_BITS = 32,
     MEETINGS = 64 // that wait for what they read: enough to hide the memory's latency, few enough to stay in the cache
 };
 
-// Boxes that meet, of which most have a record already: its entry and the other shape lie anywhere, and are asked for
-// long before they are read
+// Boxes that meet, of which most have a record already: its entry lies anywhere, and is asked for long before it is
+// read
 typedef struct search {
     const fe_world *world;
     fe__step_scratch *scratch;
@@ -42,13 +43,17 @@ static void add_candidate(search *s, fe__candidate c)
     ++chunk->at;
 }
 
-// of two moved shapes the one with the lower index reports
+// Bits, and not the shapes' own flags: those of a thousand shapes are in one cache line or two
+static int32_t has_moved(const fe__step_scratch *s, int32_t shape)
+{
+    return s->moved_bits[shape / WORD_BITS] >> shape % WORD_BITS & 1;
+}
+
 static void judge_meetings(search *s)
 {
     const fe_world *w = s->world;
     for (int32_t i = 0; i < s->waiting; ++i) {
         int32_t shape = s->met[i].shape_a, other = s->met[i].shape_b;
-        if (w->shapes[other].flags & FE__SHAPE_MOVED && other < shape) continue;
         if (fe__pair_set_find(&w->pair_set, shape, other) >= 0 || !fe__may_collide(w, shape, other)) continue;
         int32_t first = w->shapes[shape].serial < w->shapes[other].serial;
         add_candidate(s, first ? (fe__candidate){shape, other} : (fe__candidate){other, shape});
@@ -56,10 +61,11 @@ static void judge_meetings(search *s)
     s->waiting = 0;
 }
 
+// of two moved shapes the one with the lower index reports
 static int32_t found(void *context, int32_t other)
 {
     search *s = context;
-    fe__fetch(&s->world->shapes[other].flags, sizeof s->world->shapes->flags);
+    if (other <= s->shape && has_moved(s->scratch, other)) return 1;
     fe__pair_set_fetch(&s->world->pair_set, s->shape, other);
     s->met[s->waiting++] = (fe__candidate){s->shape, other};
     if (s->waiting == MEETINGS) judge_meetings(s);
@@ -134,17 +140,31 @@ static void close_gaps(fe__step *step)
         if (s->candidates[i].shape_a >= 0) s->candidates[s->candidate_count++] = s->candidates[i];
 }
 
+static void mark_moved(const fe__step *step, uint32_t bit)
+{
+    const fe_world *w = step->world;
+    for (int32_t i = 0; i < w->moved_count; ++i) {
+        uint32_t *word = step->scratch->moved_bits + w->moved[i] / WORD_BITS, mask = 1u << w->moved[i] % WORD_BITS;
+        *word = bit ? *word | mask : *word & ~mask;
+    }
+}
+
 // Beyond the capacity it only counts: with more room the search is done again
 static int32_t search_all(fe__step *step)
 {
     fe__step_scratch *s = step->scratch;
     const fe_world *w = step->world;
+    int32_t is_done =
+        FE_RESERVE(&step->world->memory, s->moved_bits, s->moved_words, w->shape_capacity / WORD_BITS + 1);
+    if (!is_done) return 0;
+    mark_moved(step, 1);
     do {
-        if (!reserve_candidates(step, atomic_load(&s->chunks_end))) return 0;
-        fe__parallel_for(&w->workers, w->moved_count, SHAPES_IN_BLOCK, search_block, step);
-    } while (atomic_load(&s->chunks_end) > s->candidate_capacity);
-    close_gaps(step);
-    return 1;
+        is_done = reserve_candidates(step, atomic_load(&s->chunks_end));
+        if (is_done) fe__parallel_for(&w->workers, w->moved_count, SHAPES_IN_BLOCK, search_block, step);
+    } while (is_done && atomic_load(&s->chunks_end) > s->candidate_capacity);
+    mark_moved(step, 0);
+    if (is_done) close_gaps(step);
+    return is_done;
 }
 
 // by the creation of A, then B

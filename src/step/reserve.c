@@ -85,6 +85,13 @@ static neighbours find_neighbours(const fe_world *w, int32_t all)
     return n;
 }
 
+// Colours of a body when `others` have come to those it has, at most
+static int32_t colours_then(const fe__body *body, int32_t others)
+{
+    int32_t pairs = body->contact_count;
+    return others >= pairs ? pairs : fe__mini(fe__colours_of(body) + others, pairs);
+}
+
 // Colours that the contacts to come may find, `others` among them that are in no list of those to come. The first free
 // colour of two bodies comes after no more than theirs and those of all that may come to them, but for the contact
 // itself, which is counted once for each of its dynamic bodies; it or its mate is taken. A body has no more than pairs
@@ -100,7 +107,7 @@ static void bound_colours(const fe__step *step, int32_t others, int32_t all, fe_
         int32_t found = 0, of_pair = 1;
         for (int k = 0; k < 2; ++k) {
             if (body[k]->type == FE_BODY_DYNAMIC)
-                found += body[k]->coming_contacts + fe__mini(fe__colours_of(body[k]) + others, body[k]->contact_count);
+                found += body[k]->coming_contacts + colours_then(body[k], others);
             else
                 of_pair = 0;
         }

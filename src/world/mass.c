@@ -50,12 +50,14 @@ static void set_local_centre(fe_world *world, fe__body *body, fe_vec3 centre)
 }
 
 // The largest reach and the least thickness: the same whatever the order of the shapes
-static void add_sizes(fe__body *body, const fe__shape *shape)
+static void add_sizes(fe__body *body, fe__shape *shape)
 {
     fe_vec3 centre = fe__quad_vector(body->local_centre);
     fe_vec3 in_form = fe__rotate_back(shape->local_rotation, fe__sub(centre, shape->local_position));
+    float reach = fe__form_reach(&shape->form, in_form);
+    shape->arm = reach - shape->form.radius;
     body->thickness = fe__minf(body->thickness, fe__form_thickness(&shape->form));
-    body->reach = fe__maxf(body->reach, fe__form_reach(&shape->form, in_form));
+    body->reach = fe__maxf(body->reach, reach);
 }
 
 static void set_sizes(fe_world *world, fe__body *body)

@@ -134,20 +134,27 @@ int32_t fe__plane_comes_near(const fe_world *world, int32_t index, const fe__bou
 }
 
 // ---- of pairs ------------------------------------------------------------------------------------------------------
-static void box_of(const fe_world *w, int32_t shape, fe__bounds *out)
+static const fe__tree *home_of(const fe_world *w, const fe__shape *shape)
 {
-    int32_t is_static = w->bodies[w->shapes[shape].body].type == FE_BODY_STATIC;
-    fe__tree_get(is_static ? &w->static_tree : &w->moving_tree, shape, out);
+    return w->bodies[shape->body].type == FE_BODY_STATIC ? &w->static_tree : &w->moving_tree;
+}
+
+static int32_t parts(const fe__bounds *a, const fe__bounds *b)
+{
+    return a->high.x < b->low.x || b->high.x < a->low.x || a->high.y < b->low.y || b->high.y < a->low.y ||
+           a->high.z < b->low.z || b->high.z < a->low.z;
 }
 
 int32_t fe__boxes_part(const fe_world *w, const fe__pair *p)
 {
     fe__bounds a, b;
     const fe__shape *x = w->shapes + p->shape_a, *y = w->shapes + p->shape_b;
-    if (x->flags & FE__SHAPE_IN_TREE) box_of(w, p->shape_a, &a);
-    if (y->flags & FE__SHAPE_IN_TREE) box_of(w, p->shape_b, &b);
+    const fe__tree *home_x = home_of(w, x), *home_y = home_of(w, y);
+    int32_t in_trees = (x->flags & y->flags & FE__SHAPE_IN_TREE) != 0;
+    if (in_trees && home_x == home_y) return fe__tree_parts(home_x, p->shape_a, p->shape_b);
+    if (x->flags & FE__SHAPE_IN_TREE) fe__tree_get(home_x, p->shape_a, &a);
+    if (y->flags & FE__SHAPE_IN_TREE) fe__tree_get(home_y, p->shape_b, &b);
     if (x->flags & FE__SHAPE_IN_PLANES) return !fe__plane_comes_near(w, p->shape_a, &b);
     if (y->flags & FE__SHAPE_IN_PLANES) return !fe__plane_comes_near(w, p->shape_b, &a);
-    return a.high.x < b.low.x || b.high.x < a.low.x || a.high.y < b.low.y || b.high.y < a.low.y || a.high.z < b.low.z ||
-           b.high.z < a.low.z;
+    return parts(&a, &b);
 }

@@ -16,11 +16,11 @@ void fe__body_note_swiftness(fe_world *world, const fe__body *body)
 void fe__body_note_speed(fe_world *world, fe__body *body)
 {
     const float *v = body->velocity, *w = body->spin;
-    float turning = sqrtf(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) * body->reach;
-    body->speed = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + turning;
+    float spin = sqrtf(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+    body->speed = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + spin * body->reach;
     fe__odometer *o = world->odometers + (body - world->bodies);
     for (int k = 0; k < 3; ++k) o->velocity[k] = v[k];
-    o->spin = turning;
+    o->spin = spin;
     fe__body_note_swiftness(world, body);
 }
 

@@ -7,6 +7,7 @@ void fe__step_scratch_destroy(fe_world *w)
     fe__memory *memory = &w->memory;
     if (!s) return;
     FE_FREE(memory, s->candidates, s->candidate_capacity);
+    FE_FREE(memory, s->moved_bits, s->moved_words);
     FE_FREE(memory, s->crowd, s->crowd_capacity);
     FE_FREE(memory, s->favourites, s->favourite_capacity);
     FE_FREE(memory, s->results, s->result_capacity);

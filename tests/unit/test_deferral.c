@@ -139,8 +139,9 @@ static double left_over(const couple *c, int32_t has_direction, float dt)
     const fe__odometer *a = c->odometer, *b = c->odometer + 1;
     fe_vec3 n = fe__quad_vector(m->normal), v = fe__sub(fe__quad_vector(a->velocity), fe__quad_vector(b->velocity));
     fe_dvec3 shift = shift_of(c);
-    double spins = (double)(a->spin + b->spin), arm = (double)m->longest_arm;
+    double arm = (double)m->longest_arm, spins = arm * (double)(a->spin + b->spin);
     if (has_direction) {
+        spins = (double)m->surface.radius_a * (double)a->spin + (double)m->surface.radius_b * (double)b->spin;
         double turns =
             (double)m->surface.radius_a * turned_normal(c, 0, n) + (double)m->surface.radius_b * turned_normal(c, 1, n);
         return (double)m->surface.tolerance + fe__ddot(fe__widen(n), shift) - turns -
@@ -277,6 +278,34 @@ static void what_is_placed_is_looked_at(void **state)
         }
 }
 
+// A board of 4 m turns about its centre towards a ball beside its end: no centre moves, the board's reach is all that
+// closes the gap. It was made so long, or grew to it beside the ball
+static void what_turns_is_looked_at(void **state)
+{
+    (void)state;
+    for (int32_t grows = 0; grows < 2; ++grows) {
+        fe_world *world = new_world();
+        OK(fe_world_set_gravity(world, &(fe_vec3){0, 0, 0}));
+        fe_body board = new_body(world, FE_BODY_DYNAMIC, 0, 0, 0), ball = new_body(world, FE_BODY_STATIC, 1.7, 0.5, 0);
+        fe_geometry of_board, at_first;
+        fe_geometry_box(&of_board, 2.0f, 0.1f, 0.1f);
+        fe_geometry_box(&at_first, grows ? 0.2f : 2.0f, 0.45f, 0.1f);
+        fe_shape shape = add_shape(world, board, grows ? &at_first : &of_board);
+        add_sphere(world, ball, 0.2f);
+        step(world, 3);
+        OK(fe_shape_set_geometry(world, shape, &of_board));
+        step(world, 3);
+        OK(fe_body_set_angular_velocity(world, board, &(fe_vec3){0.0f, 0.0f, 0.5f}));
+        int32_t met = 0;
+        for (int32_t i = 0; i < 60; ++i) {
+            step(world, 1);
+            met |= fe_world_get_pair_events(world, NULL, 0, 0) > 0;
+        }
+        FE_TRUE(met);
+        fe_world_destroy(world);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -285,6 +314,7 @@ int main(void)
         cmocka_unit_test(what_makes_no_sense_does_not_wait),
         cmocka_unit_test(who_leaps_all_the_way_round_ends_the_wait),
         cmocka_unit_test(what_is_placed_is_looked_at),
+        cmocka_unit_test(what_turns_is_looked_at),
     };
     return cmocka_run_group_tests_name("wait", tests, NULL, NULL);
 }

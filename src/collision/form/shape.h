@@ -26,6 +26,7 @@ typedef struct fe__shape {
     int32_t group;   // 0: none
     uint32_t events; // fe_shape_events
     float density;
+    float arm; // from the body's centre of mass to the farthest point of its core, m; 0 for what is static only
     fe_vec3 surface_velocity;
     fe_vec3 one_way;        // its own frame, any length but zero
     int32_t next, previous; // of the body's shapes, in the order of creation

@@ -2,15 +2,16 @@
 // looked at.
 //
 // Most pairs of a heap are near misses. Recycling computes exactly how far the bodies of a pair moved against each
-// other, from six cache lines that lie anywhere. A bound of it needs half a line beside the list of awake pairs and a
+// other, from six cache lines that lie anywhere. A bound of it needs one line beside the list of awake pairs and a
 // small table of bodies:
 //
-//   gap now  >= gap then + n . (shift of B - shift of A) - 2 arm (sines of half the turns of A and B)
-//   closing  <= max(n . (vA - vB), 0) + spins of both                          in the step that comes
+//   gap now  >= gap then + n . (shift of B - shift of A) - 2 (arm A |sin(turn A / 2)| + arm B |sin(turn B / 2)|)
+//   closing  <= max(n . (vA - vB), 0) + |wA| arm A + |wB| arm B                in the step that comes
 //
-// and without a normal n the same with the whole motion, times sqrt 3 as in recycle.simd.c. Where the bound does not
-// decide, the exact test does, so that no result depends on it. While a pair is deferred, no stage reads more of it.
-// deferral.simd.c has the bound.
+// where a body's arm is the pair's own: what turns about its centre, a ball, closes nothing by it. Without a normal n
+// the same with the whole motion, times sqrt 3 as in recycle.simd.c. Where the bound does not decide, the exact test
+// does, so that no result depends on it. While a pair is deferred, no stage reads more of it. deferral.simd.c has the
+// bound.
 #ifndef FE_SOLVER_CONTACT_DEFERRAL_H
 #define FE_SOLVER_CONTACT_DEFERRAL_H
 #include "solver/body.h"
@@ -25,7 +26,7 @@ typedef struct fe__odometer {
     _Alignas(32) uint32_t at[3]; // of its centre of mass, ticks
     uint32_t turned;             // sum of |sin(angle / 2)| of its rotations since it was made, ticks
     float velocity[3];           // of the centre of mass, m/s
-    float spin;                  // of the point that rotates fastest, m/s
+    float spin;                  // |angular velocity|, rad/s
 } fe__odometer;
 _Static_assert(sizeof(fe__odometer) == 32, "half a cache line");
 FE__IS_QUAD(fe__odometer, at, turned);
@@ -33,17 +34,18 @@ FE__IS_QUAD(fe__odometer, velocity, spin);
 
 // By place in the list of awake pairs. Bodies and normal are the contact's
 typedef struct fe__deferral {
-    _Alignas(16) float normal[3]; // from A to B, or 0
+    _Alignas(64) float normal[3]; // from A to B, or 0
     float gap;                    // m, when the pair was last looked at
     uint32_t apart[3];            // centre of B - centre of A, then, ticks
-    uint32_t turned;              // sum over both bodies, then
-    int32_t body_a, body_b;
-    float arm;  // of the rotations, m
-    float most; // m that the centres may move against each other from then on, in any direction
+    float most;                   // m that the centres may move against each other from then on, in any direction
+    uint32_t turned_a, turned_b;  // then
+    float arm_a, arm_b;           // of the rotations, m
+    int32_t body_a, body_b, spare[2];
 } fe__deferral;
-_Static_assert(sizeof(fe__deferral) == 48, "a deferral is three quads");
+_Static_assert(sizeof(fe__deferral) == 64, "a deferral is a cache line");
 FE__IS_QUAD(fe__deferral, normal, gap);
-FE__IS_QUAD(fe__deferral, apart, turned);
+FE__IS_QUAD(fe__deferral, apart, most);
+FE__IS_QUAD(fe__deferral, turned_a, arm_b);
 
 // An entry of that list is the pair, or ~pair while it is deferred
 static inline int32_t fe__pair_of(int32_t entry) { return entry ^ entry >> 31; }
@@ -76,11 +78,14 @@ static inline void fe__defer(fe__deferral *p, const fe__odometer *odometers, con
         p->normal[k] = m->normal[k];
         p->apart[k] = b->at[k] - a->at[k];
     }
-    p->arm = fe__has_direction(m->normal) ? fe__maxf(m->surface.radius_a, m->surface.radius_b) : m->longest_arm;
-    const float rounding = 1e-5f * (1.0f + p->arm + gap); // of the exact test, m: it must come to the same
+    int32_t has_direction = fe__has_direction(m->normal);
+    p->arm_a = has_direction ? m->surface.radius_a : m->longest_arm;
+    p->arm_b = has_direction ? m->surface.radius_b : m->longest_arm;
+    // of the exact test, m: it must come to the same
+    const float rounding = 1e-5f * (1.0f + fe__maxf(p->arm_a, p->arm_b) + gap);
     p->body_a = m->body_a, p->body_b = m->body_b;
     p->gap = fe__minf(FE__MOST_TRAVEL, gap - rounding);
-    p->turned = a->turned + b->turned;
+    p->turned_a = a->turned, p->turned_b = b->turned;
     p->most = fe__minf(FE__MOST_TRAVEL, fe__most_away(m) - sqrtf(square) - rounding);
 }
 

@@ -8,46 +8,44 @@
 enum {
     DEFERRAL_STRIDE = sizeof(fe__deferral) / sizeof(float),
     ODOMETER_STRIDE = sizeof(fe__odometer) / sizeof(float),
-    LOWER_BITS = 16
+    HALF_BITS = 16
 };
 
+#define LOWER_HALF 0xffffu
+#define TICKS(a) ((wide_ticks)(a))
+
 typedef uint32_t wide_ticks __attribute__((vector_size(4 * FE_W)));
-typedef struct {
-    wide_ticks x, y, z, turned;
-} odometers;
 
 // m, of a difference of places
 FE_INLINE wide metres(wide_ticks d) { return (1.0f / FE__TICKS) * __builtin_convertvector((wide_int)d, wide); }
 
-// Sines, of a sum: all 32 bits count, in two halves that floats hold, so that it is rounded once
+// Sines: all 32 bits count, in two halves that floats hold, so that they are rounded once
 FE_INLINE wide sines(wide_ticks sum)
 {
-    wide high = __builtin_convertvector((wide_int)(sum >> LOWER_BITS), wide),
-         low = __builtin_convertvector((wide_int)(sum & 0xffff), wide);
+    wide high = __builtin_convertvector((wide_int)(sum >> HALF_BITS), wide),
+         low = __builtin_convertvector((wide_int)(sum & LOWER_HALF), wide);
     return (1.0f / FE__TICKS) * (65536.0f * high + low);
 }
 
-FE_INLINE odometers ticks_of(wide4 a)
-{
-    return (odometers){(wide_ticks)a.x, (wide_ticks)a.y, (wide_ticks)a.z, (wide_ticks)a.w};
-}
-
 // The bits of the lanes whose pair cannot have moved too far, by the measure of recycle.simd.c, nor will in the step
-FE_INLINE unsigned waiting(const fe__deferral *deferrals, const fe__odometer *odometer, const int32_t *place, float dt)
+FE_INLINE unsigned waiting(const fe__deferral *deferrals, const fe__odometer *odometers, const int32_t *place, float dt)
 {
+    int32_t body_a[FE_W], body_b[FE_W];
+    for (int i = 0; i < FE_W; ++i) body_a[i] = deferrals[place[i]].body_a, body_b[i] = deferrals[place[i]].body_b;
     wide4 plane = w_gather(deferrals->normal, DEFERRAL_STRIDE, place),
-          rest = w_gather((const float *)&deferrals->body_a, DEFERRAL_STRIDE, place), move_a, move_b, at_a, at_b;
-    odometers then = ticks_of(w_gather((const float *)deferrals->apart, DEFERRAL_STRIDE, place));
-    _Alignas(64) int32_t body_a[FE_W], body_b[FE_W];
-    *(wide_int *)body_a = (wide_int)rest.x, *(wide_int *)body_b = (wide_int)rest.y;
-    w_gather_both((const float *)odometer->at, ODOMETER_STRIDE, body_a, &at_a, &move_a);
-    w_gather_both((const float *)odometer->at, ODOMETER_STRIDE, body_b, &at_b, &move_b);
-    odometers a = ticks_of(at_a), b = ticks_of(at_b);
+          apart = w_gather((const float *)deferrals->apart, DEFERRAL_STRIDE, place),
+          turned = w_gather((const float *)&deferrals->turned_a, DEFERRAL_STRIDE, place), at_a, at_b, move_a, move_b;
+    w_gather_both((const float *)odometers->at, ODOMETER_STRIDE, body_a, &at_a, &move_a);
+    w_gather_both((const float *)odometers->at, ODOMETER_STRIDE, body_b, &at_b, &move_b);
     wide3 n = w_xyz(plane), v = w_sub(w_xyz(move_a), w_xyz(move_b)),
-          d = {metres(b.x - a.x - then.x), metres(b.y - a.y - then.y), metres(b.z - a.z - then.z)};
+          d = {metres(TICKS(at_b.x) - TICKS(at_a.x) - TICKS(apart.x)),
+               metres(TICKS(at_b.y) - TICKS(at_a.y) - TICKS(apart.y)),
+               metres(TICKS(at_b.z) - TICKS(at_a.z) - TICKS(apart.z))};
     wide zero = w_set(0.0f), root3 = w_set(1.7322f); // rounded up
-    wide arm = rest.z, most = rest.w, gap = plane.w, square = w_dot(d, d), spins = move_a.w + move_b.w;
-    wide turns = 2.0f * arm * sines(a.turned + b.turned - then.turned);
+    wide arm_a = turned.z, arm_b = turned.w, gap = plane.w, most = apart.w, square = w_dot(d, d);
+    wide turns =
+        2.0f * (arm_a * sines(TICKS(at_a.w) - TICKS(turned.x)) + arm_b * sines(TICKS(at_b.w) - TICKS(turned.y)));
+    wide spins = arm_a * move_a.w + arm_b * move_b.w;
     wide_mask near = w_and(w_greater(most, zero), w_greater(most * most, square));
     wide_mask open = w_greater(gap + w_dot(n, d) - turns, dt * (w_max(zero, w_dot(n, v)) + spins));
     wide_mask has_normal = w_greater(w_dot(n, n), zero);

@@ -151,10 +151,10 @@ static int64_t all_rows(const fe__solver *s, const fe__graph_bound *b, const fe_
 
 // Passes of a large batch, see make_program in solve.c. Its groups come colour by colour, a group or more each, and
 // each of the four verbs of rows (prepare, solve, relax, bounce; joints do not bounce) has a pass a colour at most.
-// Three more are over lines, one stores, one passes impacts on, and one is the trees'.
+// Four more are over lines, one stores, one passes impacts on, and three are the trees'.
 static int64_t pass_bound(int64_t groups)
 {
-    enum { EVERY_COLOUR = 4 * FE__COLOURS + 3 * FE__CONTACT_COLOURS, OTHERS = 6 };
+    enum { EVERY_COLOUR = 4 * FE__COLOURS + 3 * FE__CONTACT_COLOURS, OTHERS = 9 };
     return fe__minl(4 * groups, EVERY_COLOUR) + OTHERS;
 }
 

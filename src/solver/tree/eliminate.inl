@@ -289,6 +289,12 @@ FE_INLINE real3 centre_change(const tree_node *n, int which)
     return r_sub(n->of[which].change_v, r_cross(n->of[which].change_w, n->below));
 }
 
+static void meet_requests(const pass *t, int which)
+{
+    for (int32_t i = t->count - 1; i >= 0; --i) hand_up(t, i, which);
+    for (int32_t i = 0; i < t->count; ++i) hand_down(t, i, which, which == SPEEDS);
+}
+
 typedef struct velocity {
     real3 v, w;
 } velocity;

@@ -40,6 +40,11 @@ typedef struct solution {
 // of a node: of the velocities, of the positions
 enum { SPEEDS, PLACES, SOLUTIONS };
 
+// Translation and rotation
+typedef struct six {
+    real a[6];
+} six;
+
 typedef struct tree_node {
     // Of the step
     line_names line, line_above; // of the bodies below and above
@@ -71,6 +76,13 @@ typedef struct tree_node {
     real_mat principal;   // turn, but of what the joints' inertia has followed: see FE__ROTATED
     real3 lin[3], ang[3]; // axes of the joint, of which some are freedoms. A ball joint has none: its are the world's
     real rod;             // length of a distance joint, m; else 0
+    // of a link that contacts touch, see response.inl
+    int32_t touched, heavier; // lanes; those in which the tree makes it heavier
+    real light, spins;        // shares of its inverse mass, of its inverse inertia
+    real_sym root;            // of the inertia
+    real per_root_mass;       // 1 / sqrt(mass)
+    six x;                    // of the powers
+    lines held, held_start;   // of the velocities when contacts took over
 } tree_node;
 
 // A light tree is solved from the substep on in which it opens, but left to the sweep where it was open before
@@ -80,6 +92,8 @@ typedef enum tree_state { READY, SOLVED, SWEPT } tree_state;
 typedef struct bundle {
     _Alignas(64) int32_t state[LANES]; // tree_state
     int32_t loaded;                    // 1: the nodes have what they keep for the step
+    int32_t lends;                     // lanes in which contacts see the mass of the tree
+    int32_t lent;                      // of them, while contacts do
 } bundle;
 
 // What a pass over the nodes knows of its trees. Idle lanes do as the first tree does, and write nothing.

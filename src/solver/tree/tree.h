@@ -8,6 +8,7 @@
 // is kept.
 #ifndef FE_SOLVER_TREE_TREE_H
 #define FE_SOLVER_TREE_TREE_H
+#include "solver/body.h"
 #include "solver/solver.h"
 
 // A rotation within a substep that is no small correction any more, rad
@@ -16,6 +17,7 @@
 // `count` trees of one form, at most as many as the kernels have lanes
 typedef struct fe__tree_job {
     fe__solver *solver;
+    const fe__body *bodies;
     const fe__lock_lanes *lanes;
     const fe__forest *forest;
     const int32_t *trees; // of the forest

@@ -13,6 +13,8 @@
 #include "solver/tree/eliminate.inl"
 #include "solver/tree/damping.inl"
 #include "solver/tree/warm_start.inl"
+#include "solver/tree/response.inl"
+#include "solver/tree/lend.inl"
 
 // A light tree is left to the sweep until an impact pulls a joint's points apart by more than this: four fifths of the
 // linear slop, so that the slop is kept with something to spare, m
@@ -210,12 +212,6 @@ FE_INLINE int32_t reduce(const pass *t, int32_t lanes, int solves)
     return wide_open;
 }
 
-static void meet_requests(const pass *t, int which)
-{
-    for (int32_t i = t->count - 1; i >= 0; --i) hand_up(t, i, which);
-    for (int32_t i = 0; i < t->count; ++i) hand_down(t, i, which, which == SPEEDS);
-}
-
 // The first solution shows the arcs, the second follows them
 static void follow_arcs(const pass *t)
 {
@@ -360,6 +356,12 @@ static int32_t will_open(const pass *t, int lane)
                                 OPEN / (float)t->job->h);
 }
 
+// The lanes whose links contacts see with the masses of their trees
+static void find_lenders(const pass *t)
+{
+    if (find_touched(t)) t->head->lends = find_shares(t) & t->lanes;
+}
+
 static void prepare_trees(const fe__tree_job *job)
 {
     const pass t = pass_of(job);
@@ -368,7 +370,18 @@ static void prepare_trees(const fe__tree_job *job)
         t.head->state[lane] = t.kind != FE__TREE_LIGHT                            ? SOLVED
                               : lane < job->count && is_open(&t, lane, PUT_APART) ? SWEPT
                                                                                   : READY;
+    t.head->lends = t.head->lent = 0;
     if (t.kind != FE__TREE_LIGHT) reduce(&t, ALL_LANES, 0);
+    if (t.kind == FE__TREE_HEAVY) find_lenders(&t);
+    lend(&t);
+}
+
+// Contacts ended their part before the first substep: what they warm-start
+static void restore_trees(const fe__tree_job *job)
+{
+    if (!((const bundle *)(const void *)job->nodes)->lent) return;
+    const pass t = pass_of(job);
+    take_back(&t);
 }
 
 static void solve_lanes(const pass *t, int32_t lanes)
@@ -383,16 +396,17 @@ static void solve_trees(const fe__tree_job *job)
     const pass t = pass_of(job);
     const int32_t lanes = lanes_in(&t, SOLVED);
     if (lanes) solve_lanes(&t, lanes);
+    lend(&t);
 }
 
 static void follow_trees(const fe__tree_job *job)
 {
     const pass t = pass_of(job);
-    const int32_t ready = lanes_in(&t, READY);
+    const int32_t ready = lanes_in(&t, READY), struck = t.head->lent ? take_back(&t) : 0;
     int32_t lanes = ready | lanes_in(&t, SOLVED);
     for (int lane = 0; lane < LANES; ++lane)
         if (ready >> lane & 1 && !will_open(&t, lane)) lanes &= ~(1 << lane);
-    if (lanes & ~ready) lanes &= ready | come_apart(&t);
+    if (lanes & ~ready) lanes &= ready | struck | come_apart(&t);
     if (!lanes) return;
     if (lanes & ready) reduce(&t, t.head->loaded ? lanes & ready : ALL_LANES, 0);
     engage(&t, lanes);
@@ -409,7 +423,29 @@ static void relax_trees(const fe__tree_job *job)
     if (!lanes) return;
     engage(&t, lanes);
     meet_locks(&t, lanes);
+    lend(&t);
 }
 
-const fe__forest_kernels FE_NAME(fe__forest_kernels) = {
-    LANES, (int32_t)sizeof(bundle), (int32_t)sizeof(tree_node), prepare_trees, solve_trees, follow_trees, relax_trees};
+// What contacts and their bounces gave goes through the tree
+static void receive_trees(const fe__tree_job *job)
+{
+    if (!((const bundle *)(const void *)job->nodes)->lent) return;
+    const pass t = pass_of(job);
+    const int32_t lanes = take_back(&t);
+    if (!lanes) return;
+    for (int32_t i = 0; i < t.count; ++i) request_rest(&t, i);
+    meet_requests(&t, SPEEDS);
+    for (int32_t i = 0; i < t.count; ++i) add_tension(&t, i, pull_now(t.nodes + i));
+    damp_jerk(&t, lanes);
+    forget_locks(&t, apply(&t, lanes, 1));
+}
+
+const fe__forest_kernels FE_NAME(fe__forest_kernels) = {LANES,
+                                                        (int32_t)sizeof(bundle),
+                                                        (int32_t)sizeof(tree_node),
+                                                        prepare_trees,
+                                                        restore_trees,
+                                                        solve_trees,
+                                                        follow_trees,
+                                                        relax_trees,
+                                                        receive_trees};
