@@ -11,10 +11,10 @@
     extern const fe__body_kernels fe__body_kernels_##name;       \
     extern fe__recycle_kernel fe__recycle_##name;                \
     extern fe__due_kernel fe__keep_due_##name;
-#define TABLE(simd, lanes, name)                                                                         \
-    {                                                                                                    \
-        simd, lanes, &fe__contact_kernels_##name, &fe__joint_kernels_##name, &fe__forest_kernels_##name, \
-            &fe__body_kernels_##name, fe__recycle_##name, fe__keep_due_##name, THIN_CONTACT_KERNELS      \
+#define TABLE(simd, lanes, name, ...)                                                                                 \
+    {                                                                                                                 \
+        simd, lanes, &fe__contact_kernels_##name, &fe__joint_kernels_##name, {__VA_ARGS__}, &fe__body_kernels_##name, \
+            fe__recycle_##name, fe__keep_due_##name, THIN_CONTACT_KERNELS                                             \
     }
 
 DECLARE_SET(plain)
@@ -40,20 +40,21 @@ DECLARE_SET(neon)
 #define THIN_CONTACT_KERNELS &fe__contact_kernels_plain
 #endif
 
+#define FOREST(name) &fe__forest_kernels_##name
 // widest last
 static const fe__kernels sets[] = {
-    TABLE(FE_SIMD_PLAIN, 4, plain),
+    TABLE(FE_SIMD_PLAIN, 4, plain, FOREST(plain)),
 #ifdef FE_HAVE_SSE2
-    TABLE(FE_SIMD_SSE2, 4, sse2),
+    TABLE(FE_SIMD_SSE2, 4, sse2, FOREST(sse2)),
 #endif
 #ifdef FE_HAVE_NEON
-    TABLE(FE_SIMD_NEON, 4, neon),
+    TABLE(FE_SIMD_NEON, 4, neon, FOREST(neon)),
 #endif
 #ifdef FE_HAVE_AVX2
-    TABLE(FE_SIMD_AVX2, 8, avx2),
+    TABLE(FE_SIMD_AVX2, 8, avx2, FOREST(sse2), FOREST(avx2)),
 #endif
 #ifdef FE_HAVE_AVX512
-    TABLE(FE_SIMD_AVX512, 16, avx512),
+    TABLE(FE_SIMD_AVX512, 16, avx512, FOREST(sse2), FOREST(avx2), FOREST(avx512)),
 #endif
 };
 enum { SET_COUNT = sizeof sets / sizeof *sets };

@@ -243,10 +243,11 @@ static void run_trees(const job *j, const fe__group *g, verb verb, unsigned char
                                 .nodes = rows + g->offset,
                                 .h = (double)c->h,
                                 .rate = (double)(c->h * c->joint.bias_rate)};
-    if (verb == PREPARE) j->k->forest->prepare(&trees);
-    if (verb == SOLVE) j->k->forest->solve(&trees);
-    if (verb == FOLLOW) j->k->forest->follow(&trees);
-    if (verb == RELAX) j->k->forest->relax(&trees);
+    const fe__forest_kernels *k = fe__forest_kernels_of(j->k, g->trees);
+    if (verb == PREPARE) k->prepare(&trees);
+    if (verb == SOLVE) k->solve(&trees);
+    if (verb == FOLLOW) k->follow(&trees);
+    if (verb == RELAX) k->relax(&trees);
 }
 
 // Stored impulses are those of the world's substeps

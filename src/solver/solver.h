@@ -285,6 +285,7 @@ typedef struct fe__joint_kernel {
 // Passes over trees of one form side by side, each after the same pass over the rows of the joints. `follow` comes
 // after the contacts of a soft pass, which know nothing of the joints: what was struck or pinched would fly off.
 struct fe__tree_job;
+enum { FE__FOREST_WIDTHS = 3 };
 typedef struct fe__forest_kernels {
     int32_t lanes;                  // trees side by side
     int32_t head_bytes, link_bytes; // of row memory for so many links of such trees
@@ -326,13 +327,23 @@ typedef struct fe__kernels {
     int32_t simd, width; // fe_simd, W
     const fe__contact_kernels *contact;
     const fe__joint_kernels *joint;
-    const fe__forest_kernels *forest;
+    // those of 2, 4 and 8 trees side by side that this set has, narrowest first, then NULL: the same bits from less
+    // memory
+    const fe__forest_kernels *forest[FE__FOREST_WIDTHS];
     const fe__body_kernels *body;
     fe__recycle_kernel *recycle;
     fe__due_kernel *keep_due;
     // of FE__THIN_WIDTH lanes, for groups of no more contacts: the same bits from less memory
     const fe__contact_kernels *thin;
 } fe__kernels;
+
+// the narrowest for so many trees, or the widest there is
+static inline const fe__forest_kernels *fe__forest_kernels_of(const fe__kernels *kernels, int32_t trees)
+{
+    int32_t i = 0;
+    while (i + 1 < FE__FOREST_WIDTHS && kernels->forest[i + 1] && kernels->forest[i]->lanes < trees) ++i;
+    return kernels->forest[i];
+}
 
 // The table of a set, NULL when it was not built or this CPU lacks it. FE_SIMD_AUTO: the environment's FE_SIMD, else
 // the widest.

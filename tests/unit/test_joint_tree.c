@@ -78,13 +78,9 @@ static int32_t says_opens(const fe__solver *s, const fe__tree_link *links, const
     return the.opens;
 }
 
-static const fe__lock_lanes lanes = {offsetof(lock_row, impulse),
-                                     offsetof(lock_row, total),
-                                     read_scalar,
-                                     add_scalar,
-                                     take_scalar,
-                                     says_open,
-                                     says_opens};
+static const fe__lock_lanes lanes = {
+    FE_W,      offsetof(lock_row, impulse), offsetof(lock_row, total), read_scalar, add_scalar, take_scalar, says_open,
+    says_opens};
 
 static double any(double low, double high)
 {

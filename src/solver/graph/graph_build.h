@@ -72,10 +72,10 @@ static inline int64_t fe__whole_blocks(int64_t bytes)
     return (bytes + block - 1) / block * block;
 }
 
-// of so many links of trees side by side
-static inline int64_t fe__forest_bytes(const fe__kernels *kernels, int32_t links)
+// of so many links of trees side by side, whole blocks
+static inline int64_t fe__forest_bytes(const fe__forest_kernels *forest, int32_t links)
 {
-    return kernels->forest->head_bytes + (int64_t)kernels->forest->link_bytes * links;
+    return fe__whole_blocks(forest->head_bytes + (int64_t)forest->link_bytes * links);
 }
 
 // Islands of bodies, batches of islands; bodies, contacts and joints in the order of their batches

@@ -83,9 +83,10 @@ static void group_trees(fe__builder *b, fe__batch *batch, int32_t first, const f
 {
     fe__solver *s = b->s;
     const fe__forest *f = &b->in->joints->forest;
+    const int32_t widest = fe__forest_kernels_of(kernels, INT32_MAX)->lanes;
     sort_trees(s, f, first);
     for (int32_t i = first, last; i < s->tree_count; i = last) {
-        for (last = i + 1; last < s->tree_count && last - i < kernels->forest->lanes; ++last)
+        for (last = i + 1; last < s->tree_count && last - i < widest; ++last)
             if (!fe__trees_are_alike(f, s->trees[i], s->trees[last])) break;
         batch->row_bytes = fe__whole_blocks(batch->row_bytes);
         s->groups[s->group_count++] = (fe__group){.width = b->width,
@@ -95,7 +96,7 @@ static void group_trees(fe__builder *b, fe__batch *batch, int32_t first, const f
                                                   .rows = 1,
                                                   .trees = last - i,
                                                   .offset = batch->row_bytes};
-        batch->row_bytes += fe__forest_bytes(kernels, f->trees[s->trees[i]].count);
+        batch->row_bytes += fe__forest_bytes(fe__forest_kernels_of(kernels, last - i), f->trees[s->trees[i]].count);
         ++batch->group_count, ++batch->tree_groups;
     }
 }

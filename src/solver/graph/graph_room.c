@@ -124,7 +124,7 @@ static int64_t row_bytes(const fe__solver *s, const fe__graph_bound *b, const fe
     int64_t links = fe__minl(tree_links(b), bodies);
     return contact_bytes(s, b, kernels, contacts) +
            joint_row_bound(b, joint_lanes, kernels->width) * widest_joint(b, kernels) +
-           links * (fe__forest_bytes(kernels, 1) + (int64_t)sizeof(fe__row_block));
+           links * (fe__forest_bytes(fe__forest_kernels_of(kernels, INT32_MAX), 1) + (int64_t)sizeof(fe__row_block));
 }
 
 static int64_t scratch_bound(const fe__graph_bound *b)

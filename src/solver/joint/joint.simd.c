@@ -39,6 +39,6 @@ const fe__joint_kernels FE_NAME(fe__joint_kernels) = {.of =
                                                               [FE__PART_SLIDE] = KERNELS(slide, slide),
                                                               [FE__PART_POINT] = KERNELS(point, point),
                                                           },
-                                                      .locks = {offsetof(point_row, impulse),
+                                                      .locks = {FE_W, offsetof(point_row, impulse),
                                                                 offsetof(point_row, total), read_lock, add_lock,
                                                                 take_lock, is_open, opens}};

@@ -36,6 +36,7 @@ struct fe__solver;
 
 // `row` and `lane` as in fe__tree_place
 typedef struct fe__lock_lanes {
+    int32_t width; // lanes of a row
     // from a row of POINT to the x of its impulses, and of their sums over the step, bytes; y and z follow, a row of
     // lanes each
     int32_t point_impulse, point_total;

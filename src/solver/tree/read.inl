@@ -115,9 +115,10 @@ FE_INLINE pose pose_of(const pass *t, const line_names *line)
 // what the rows hold
 FE_INLINE real3 impulse_of_point(const pass *t, const tree_node *n)
 {
+    const int32_t width = t->job->lanes->width;
     half l[3];
     for (int k = 0; k < 3; ++k) {
-#define LANE(i) point_of(t, n, i)[k * FE_W]
+#define LANE(i) point_of(t, n, i)[k * width]
         l[k] = (half)PER_LANE_(LANE);
 #undef LANE
     }

@@ -71,14 +71,15 @@ static wrench take_impulses(const pass *t, int32_t i, int lane)
 // -------------------------------------------------------------------------------
 static void add_to_point(const pass *t, const tree_node *n, int32_t lanes, int32_t total)
 {
-    const int32_t sum = (t->job->lanes->point_total - t->job->lanes->point_impulse) / (int32_t)sizeof(float);
+    const fe__lock_lanes *rows = t->job->lanes;
+    const int32_t sum = (rows->point_total - rows->point_impulse) / (int32_t)sizeof(float);
     half l[3];
     narrow3(l, r_scale(n->side, n->impulse_v));
     for (int lane = 0; lane < LANES; ++lane) {
         if (!(lanes >> lane & 1)) continue;
         float *at = point_of(t, n, lane);
-        for (int k = 0; k < 3; ++k) at[k * FE_W] += l[k][lane];
-        for (int k = 0; k < 3 && total; ++k) at[sum + k * FE_W] += l[k][lane];
+        for (int k = 0; k < 3; ++k) at[k * rows->width] += l[k][lane];
+        for (int k = 0; k < 3 && total; ++k) at[sum + k * rows->width] += l[k][lane];
     }
 }
 
@@ -87,7 +88,7 @@ static real3 take_from_point(const pass *t, const tree_node *n, int32_t lanes)
 {
     const real3 l = r_choose3(r_mask(lanes), impulse_of_point(t, n), r_zero3());
     for (int lane = 0; lane < LANES; ++lane)
-        for (int k = 0; k < 3 && lanes >> lane & 1; ++k) point_of(t, n, lane)[k * FE_W] = 0.0f;
+        for (int k = 0; k < 3 && lanes >> lane & 1; ++k) point_of(t, n, lane)[k * t->job->lanes->width] = 0.0f;
     return l;
 }
 
