@@ -55,12 +55,17 @@ static int32_t jerked(const pass *t)
     return lanes;
 }
 
-// w += I^-1 l of a body, in the given lanes of its line
+// I^-1 l of a body
+FE_INLINE real3 spin_of(const tree_node *n, real3 l)
+{
+    return r_mul(&n->principal, r_mul_sym(&n->first_inverse, r_mul_transposed(&n->principal, l)));
+}
+
+// to `start`, in the given lanes
 FE_INLINE void add_spin(const pass *t, const tree_node *n, int32_t lanes, real3 l)
 {
-    const real3 now = r_mul(&n->principal, r_mul_sym(&n->first_inverse, r_mul_transposed(&n->principal, l)));
     lines start = read_lines(t->solver->start, &n->line);
-    narrow3(start.a + 4, r_add(widen3(start.a + 4), now));
+    narrow3(start.a + 4, r_add(widen3(start.a + 4), spin_of(n, l)));
     write_lines(t->solver->start, &n->line, lanes, &start);
 }
 

@@ -288,3 +288,12 @@ FE_INLINE real3 centre_change(const tree_node *n, int which)
 {
     return r_sub(n->of[which].change_v, r_cross(n->of[which].change_w, n->below));
 }
+
+typedef struct velocity {
+    real3 v, w;
+} velocity;
+
+FE_INLINE velocity changed(const tree_node *n)
+{
+    return (velocity){r_add(n->v, centre_change(n, SPEEDS)), r_add(n->w, n->of[SPEEDS].change_w)};
+}

@@ -32,8 +32,8 @@ enum {
 // When a tree is solved
 typedef enum fe__tree_kind {
     FE__TREE_LIGHT, // from the sweep on that left a joint open, to the end of the step
-    FE__TREE_SHORT, // in every substep
-    FE__TREE_HEAVY  // likewise; where it turns fast, without a guess from the last: see warm_start.inl
+    FE__TREE_SHORT, // in every substep, without a guess from the last: see warm_start.inl
+    FE__TREE_HEAVY  // likewise; without a guess only where it turns fast
 } fe__tree_kind;
 
 typedef struct fe__joint_tree {

@@ -24,10 +24,6 @@
 #define FULL_TURN 0.25
 
 // ---- requests -------------------------------------------------------------------------------------------------------
-typedef struct velocity {
-    real3 v, w;
-} velocity;
-
 FE_INLINE velocity read_velocity(const pass *t, const line_names *line)
 {
     const lines l = read_lines(t->solver->velocity, line);
@@ -39,11 +35,6 @@ FE_INLINE velocity velocity_above(const pass *t, int32_t i)
 {
     const tree_node *above = above_of(t, i);
     return above ? (velocity){above->v, above->w} : read_velocity(t, &t->nodes[i].line_above);
-}
-
-FE_INLINE velocity changed(const tree_node *n)
-{
-    return (velocity){r_add(n->v, centre_change(n, SPEEDS)), r_add(n->w, n->of[SPEEDS].change_w)};
 }
 
 // a along what the joint locks
@@ -292,7 +283,7 @@ static void meet_locks(const pass *t, int32_t lanes)
         meet_requests(t, PLACES);
     }
     const int32_t fast = apply(t, lanes, 1);
-    if (t->kind == FE__TREE_HEAVY) forget_locks(t, fast);
+    if (t->kind != FE__TREE_LIGHT) forget_locks(t, t->kind == FE__TREE_SHORT ? lanes : fast);
     close_gaps(t, lanes, wide_open);
 }
 
