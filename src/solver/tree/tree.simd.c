@@ -54,16 +54,21 @@ FE_INLINE real3 locked_about(const pass *t, int32_t i, real3 a)
 
 FE_INLINE real3 minus3(real3 a) { return (real3){-a.x, -a.y, -a.z}; }
 
+// of the joint's points, the one below against the one above
+FE_INLINE real3 parting(const tree_node *n, velocity below, velocity above)
+{
+    return r_sub(r_add(below.v, r_cross(below.w, n->below)), r_add(above.v, r_cross(above.w, n->above)));
+}
+
 // The joint's parts move as one
 FE_INLINE void request_rest(const pass *t, int32_t i)
 {
     tree_node *n = t->nodes + i;
     solution *s = n->of + SPEEDS;
     const velocity above = velocity_above(t, i), below = read_velocity(t, &n->line);
-    const real3 apart = r_sub(r_add(below.v, r_cross(below.w, n->below)), r_add(above.v, r_cross(above.w, n->above)));
     n->v = below.v, n->w = below.w;
     s->slip = r_sub(below.w, above.w);
-    s->ask_v = n->rest = locked_along(t, i, minus3(apart));
+    s->ask_v = n->rest = locked_along(t, i, minus3(parting(n, below, above)));
     s->ask_w = locked_about(t, i, minus3(s->slip));
     clear_load(s);
 }
@@ -92,7 +97,7 @@ FE_INLINE real3 leave_tangent(real3 r, real3 w, real h)
 FE_INLINE real leave_rod(const tree_node *n, velocity below, velocity above, real h)
 {
     const real3 u = n->lin[0];
-    const real3 v = r_sub(r_add(below.v, r_cross(below.w, n->below)), r_add(above.v, r_cross(above.w, n->above)));
+    const real3 v = parting(n, below, above);
     const real along = r_dot(v, u), length = r_max(n->rod, r_set(DBL_MIN));
     // angle squared
     const real turn = h * h * (r_dot(v, v) - along * along) / (length * length);
@@ -333,6 +338,21 @@ static int32_t is_open(const pass *t, int lane, float gap)
     return t->job->lanes->is_open(t->places[lane], t->count, t->job->rows, gap);
 }
 
+// Of trees that were solved, the lanes in which a joint's points come apart as fast as `will_open` says
+static int32_t come_apart(const pass *t)
+{
+    const real fast = OPEN / t->h, square = fast * fast;
+    int32_t lanes = 0;
+    for (int32_t i = 0; i < t->count; ++i) {
+        tree_node *n = t->nodes + i;
+        const velocity above = velocity_above(t, i), below = read_velocity(t, &n->line);
+        n->v = below.v, n->w = below.w;
+        const real3 along = locked_along(t, i, parting(n, below, above));
+        lanes |= r_bits(r_greater(r_dot(along, along), square));
+    }
+    return lanes;
+}
+
 // by the velocities as they are
 static int32_t will_open(const pass *t, int lane)
 {
@@ -371,7 +391,8 @@ static void follow_trees(const fe__tree_job *job)
     const int32_t ready = lanes_in(&t, READY);
     int32_t lanes = ready | lanes_in(&t, SOLVED);
     for (int lane = 0; lane < LANES; ++lane)
-        if (lanes >> lane & 1 && !will_open(&t, lane)) lanes &= ~(1 << lane);
+        if (ready >> lane & 1 && !will_open(&t, lane)) lanes &= ~(1 << lane);
+    if (lanes & ~ready) lanes &= ready | come_apart(&t);
     if (!lanes) return;
     if (lanes & ready) reduce(&t, t.head->loaded ? lanes & ready : ALL_LANES, 0);
     engage(&t, lanes);
