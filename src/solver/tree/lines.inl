@@ -76,11 +76,19 @@ FE_INLINE lines read_lines(const void *from, const line_names *line)
 FE_INLINE void write_lines(void *to, const line_names *line, int32_t lanes, const lines *l)
 {
     float *at = to;
+    quad low[LANES], high[LANES];
+#if FE_W == 8
+    half back[8]; // a transpose is its own inverse
+    turn_quads((const quad *)l->a, back), turn_quads((const quad *)(l->a + 4), back + 4);
+    for (int i = 0; i < LANES; ++i) low[i] = (quad)back[i], high[i] = (quad)back[4 + i];
+#else
     for (int i = 0; i < LANES; ++i) {
-        if (!(lanes >> i & 1)) continue;
-        *(quad *)LINE_OF(i) = (quad){l->a[0][i], l->a[1][i], l->a[2][i], l->a[3][i]};
-        *(quad *)(LINE_OF(i) + 4) = (quad){l->a[4][i], l->a[5][i], l->a[6][i], l->a[7][i]};
+        low[i] = (quad){l->a[0][i], l->a[1][i], l->a[2][i], l->a[3][i]};
+        high[i] = (quad){l->a[4][i], l->a[5][i], l->a[6][i], l->a[7][i]};
     }
+#endif
+    for (int i = 0; i < LANES; ++i)
+        if (lanes >> i & 1) *(quad *)LINE_OF(i) = low[i], *(quad *)(LINE_OF(i) + 4) = high[i];
 }
 #endif
 #undef LINE_OF
