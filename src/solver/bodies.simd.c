@@ -216,6 +216,8 @@ FE_INLINE void advance(const fe__solver *s, int32_t i, const fe__step_constants 
     wide square = w_dot(*v, *v), most = w_set(c->max_speed);
     wide_mask fast = w_greater(square, most * most);
     if (w_any(fast)) *v = w_scale(w_choose(fast, most / w_sqrt(square), w_set(1.0f)), *v);
+    // no -0: then what adds nothing, +0 or -0, leaves each bit as it is, and may be left out (contact/idle.inl)
+    *v = w_add(*v, w_zero3()), *w = w_add(*w, w_zero3());
 }
 
 // the first substep: v0 = f(v). The rows' warm start adds to v; start keeps v0.

@@ -17,6 +17,9 @@ enum {
     LINES_IN_BLOCK = 256, // a multiple of FE__MAX_WIDTH
     // colours are merged into one block while they have no more contacts: a barrier would cost more than they do
     SERIAL_LANES = 128,
+    // the graph is built anew when it is so old, in steps, and has more than this part of its rows mixed
+    STEPS_OF_GRAPH = 32,
+    MIXED_SHARE = 8,
     LANES_PER_WORKER = 128 // a large batch calls a worker for so many contacts of its largest colour
 };
 
@@ -282,16 +285,17 @@ static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char 
         k->prepare[g->kind](j->s, j->contacts, j->extras, lanes, row, count, c);
         break;
     case SOLVE:
-        k->solve[g->kind](j->s, row, count, c);
+        k->solve[g->kind](j->s, j->contacts, lanes, row, count, c);
         break;
     case RELAX:
-        k->relax[g->kind](j->s, row, count, c);
+        k->relax[g->kind](j->s, j->contacts, lanes, row, count, c);
         break;
     case BOUNCE:
         k->bounce[g->kind](j->s, row, count, c);
         break;
     case STORE:
-        k->store[g->kind](j->contacts, j->extras, lanes, row, count);
+        atomic_fetch_add_explicit(&j->s->mixed, k->store[g->kind](j->contacts, j->extras, lanes, row, count),
+                                  memory_order_relaxed);
         if (c->division > 1) scale_impulses(j, g, lanes, count, (float)c->division);
         break;
     case LOAD:
@@ -484,6 +488,14 @@ static void note_strain(fe__solver *s, fe__body *bodies)
             s->graph_changed |= !has_pace(s, s->batches + i, bodies, found, joined);
 }
 
+// A group has one row at most in which loose contacts lie beside others, when it is built. As loads come and go there
+// are more, and what could be skipped is not.
+static void note_mixed(fe__solver *s, int32_t width)
+{
+    int32_t rows = s->lane_count / width, mixed = atomic_load_explicit(&s->mixed, memory_order_relaxed);
+    if (++s->graph_age >= STEPS_OF_GRAPH && mixed > s->group_count + rows / MIXED_SHARE) s->graph_changed = 1;
+}
+
 static void set_constants(job *j, const fe__step_constants *constants)
 {
     for (int32_t i = 0; i < FE__PACES; ++i) {
@@ -505,6 +517,7 @@ void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *wor
     clear_static_line(s);
     atomic_store(&s->trails, 0);
     atomic_store(&s->strained, 0);
+    atomic_store(&s->mixed, 0);
     for (int32_t i = 0; i < s->large_count; ++i) {
         j.batch = s->batches + i;
         make_program(&j.program, s, j.batch, constants[j.batch->pace].substeps, kernels->width);
@@ -515,4 +528,5 @@ void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *wor
     atomic_store(&j.next_batch, s->large_count);
     fe__run(workers, run_small_batches, &j, fe__mini(workers->count, s->batch_count - s->large_count));
     note_strain(s, bodies);
+    note_mixed(s, kernels->width);
 }

@@ -228,9 +228,11 @@ typedef struct fe__solver {
     _Atomic int32_t strained; // 1: a line is strained or stretched, in this step
     int32_t burdened;         // 1: some body is FE__BODY_BURDENED
     _Atomic int32_t engaged;  // light trees that were solved in this step
+    _Atomic int32_t mixed;    // rows of this step with loose contacts, see graph_build.h, and others
 
     // the graph (graph.c), kept while nothing links, unlinks, wakes or sleeps
     int32_t graph_changed;
+    int32_t graph_age; // steps
     fe__built built;
     int32_t unbuilt;    // contacts that were linked, or woke, or go to another kind of row since: at most
     fe__batch *batches; // large islands first, kinematic bodies last
@@ -261,14 +263,18 @@ static inline int32_t fe__trail_stride(int32_t substeps) { return (substeps + FE
 // kind of row.
 typedef struct fe__contact_kernels {
     int32_t row_size[FE__ROW_KINDS]; // bytes of a row of W contacts
-    // contacts to rows; the stored impulses go to the bodies
+    // contacts to rows; the stored impulses go to the bodies. Rows of contacts without any are put off: solve and relax
+    // prepare those that turn out to be needed
     void (*prepare[FE__ROW_KINDS])(fe__solver *s, fe__contact *contacts, const fe__extra *extras, const fe__lane *lanes,
                                    void *rows, int32_t count, const fe__step_constants *c);
-    void (*solve[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
-    void (*relax[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
+    void (*solve[FE__ROW_KINDS])(fe__solver *s, const fe__contact *contacts, const fe__lane *lanes, void *rows,
+                                 int32_t count, const fe__step_constants *c);
+    void (*relax[FE__ROW_KINDS])(fe__solver *s, const fe__contact *contacts, const fe__lane *lanes, void *rows,
+                                 int32_t count, const fe__step_constants *c);
     void (*bounce[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
-    void (*store[FE__ROW_KINDS])(fe__contact *contacts, fe__extra *extras, const fe__lane *lanes, const void *rows,
-                                 int32_t count);
+    // returns how many rows have loose contacts and others
+    int32_t (*store[FE__ROW_KINDS])(fe__contact *contacts, fe__extra *extras, const fe__lane *lanes, const void *rows,
+                                    int32_t count);
 } fe__contact_kernels;
 
 // The same for one kind of part of joints. `sides`: FE__MOVES_* of all lanes

@@ -23,6 +23,8 @@
 #define FROZEN_ROTATION 5e-3f
 // a rotation within the step, rad, up to which effective masses stay: they only decide how fast the sweeps converge
 #define FROZEN_MASS 0.02f
+// Of speeds, shifts and arms: far above what rounding does to what a point requests
+#define IDLE_ERROR 1e-5f
 // Relative spread of the principal moments below which an inertia is isotropic
 #define ROUND_INERTIA 1e-4f
 // A sticking contact may exceed its static friction by this factor before it slides. A force above the contact that
@@ -138,6 +140,17 @@ enum { CONTACT_STRIDE = sizeof(fe__contact) / sizeof(float) };
 FE_INLINE void prefetch_contact(const fe__contact *m)
 {
     for (unsigned k = 0; k < offsetof(fe__contact, found_a); k += 64) __builtin_prefetch((const char *)m + k);
+}
+
+// FE__AHEAD, by a contact's tolerance
+FE_INLINE wide_mask found_ahead(wide tolerance)
+{
+    return w_and(w_greater(w_set(0.0f), tolerance), w_greater(tolerance, w_set(0.5f * FE__FOLLOWS)));
+}
+
+FE_INLINE wide_mask any_nonzero(wide4 a)
+{
+    return w_greater(w_abs(a.x) + w_abs(a.y) + (w_abs(a.z) + w_abs(a.w)), w_set(0.0f));
 }
 
 // Of B, which is always dynamic and in no other row of the colour

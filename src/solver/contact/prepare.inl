@@ -5,12 +5,11 @@
 // is computed.
 
 // fills the points, returns the friction centre: the mean of the points weighted by how close they are
-FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int32_t *index, wide points,
-                                      const fe__step_constants *c)
+FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int32_t *index, wide4 separation,
+                                      wide points, const fe__step_constants *c)
 {
     wide zero = w_set(0.0f), one = w_set(1.0f), sum = zero, apart = zero;
-    wide4 impulse = w_gather(m->normal_impulse, CONTACT_STRIDE, index),
-          separation = w_gather(m->separation, CONTACT_STRIDE, index);
+    wide4 impulse = w_gather(m->normal_impulse, CONTACT_STRIDE, index);
     wide impulses[FE__POINTS] = {impulse.x, impulse.y, impulse.z, impulse.w};
     wide separations[FE__POINTS] = {separation.x, separation.y, separation.z, separation.w};
     wide3 weighted = w_zero3();
@@ -101,11 +100,22 @@ FE_INLINE void NAMED(prepare_rolling)(SPECIAL_ROW *x, const fe__solver *s, const
 
 // Of the arms as found. Those of a static A are counted from B's centre: no span between them. A special row has static
 // and kinematic A's
-FE_INLINE wide3 NAMED(span_found)(const ROW *row, const fe__contact *m, const int32_t *index, int kind)
+FE_INLINE wide3 NAMED(span_found)(const ROW *row, wide3 span, int kind)
 {
     if (!(kind & (FE__ROW_PAIR | FE__ROW_SPECIAL))) return w_zero3();
-    wide3 span = w_xyz(w_gather(m->found_span, CONTACT_STRIDE, index));
     return w_choose3(NAMED(static_lanes)(row), w_zero3(), span);
+}
+
+FE_INLINE void NAMED(prepare_gap)(ROW *row, wide4 separation, wide points, wide reach)
+{
+    row->gap = row->open = NAMED(least_gap)(separation, points);
+    row->reach = reach;
+}
+
+// Friction may come without a load, from other points, now gone. Relax takes it back where none follows
+FE_INLINE void NAMED(note_friction)(ROW *row, wide4 friction)
+{
+    row->gap = row->open = w_choose(any_nonzero(friction), w_set(-FLT_MAX), row->gap);
 }
 
 FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s, const fe__contact *m,
@@ -128,16 +138,22 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
     store3(row->normal, w_xyz(normal));
     store3(row->span, w_xyz(span));
     store3(row->start_span, w_xyz(span));
-    store3(row->found_span, NAMED(span_found)(row, m, index, kind));
+    wide4 found = w_gather(m->found_span, CONTACT_STRIDE, index);
+    store3(row->found_span, NAMED(span_found)(row, w_xyz(found), kind));
     if (kind & FE__ROW_SPECIAL) NAMED(prepare_special)((SPECIAL_ROW *)row, s, extras, index, c);
 
     pair p = NAMED(gather_pair)(row, s, kind);
     wide3 t1, t2;
     tangents(p.normal, &t1, &t2);
-    store3(row->centre, NAMED(prepare_points)(row, m, index, normal.w, c));
-    NAMED(prepare_friction)(row, w_gather(m->friction_impulse, CONTACT_STRIDE, index), t1, t2, c);
+    wide4 separation = w_gather(m->separation, CONTACT_STRIDE, index);
+    store3(row->centre, NAMED(prepare_points)(row, m, index, separation, normal.w, c));
+    if (NAMED(can_idle)(kind)) NAMED(prepare_gap)(row, separation, normal.w, found.w);
+    row->put_off = row->behind = 0;
+    wide4 friction = w_gather(m->friction_impulse, CONTACT_STRIDE, index);
+    NAMED(prepare_friction)(row, friction, t1, t2, c);
+    if (NAMED(can_idle)(kind)) NAMED(note_friction)(row, friction);
     NAMED(prepare_following)(row, p.normal, kind);
-    wide_mask ahead = w_and(w_greater(w_set(0.0f), surface.w), w_greater(surface.w, w_set(0.5f * FE__FOLLOWS)));
+    wide_mask ahead = found_ahead(surface.w);
     if (w_any(ahead)) NAMED(place_ahead)(row, m, index, ahead, kind);
     MASSES masses;
     NAMED(find_masses)(row, &p, kind, &masses);
@@ -148,31 +164,81 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
     NAMED(scatter_pair)(row, s, &p, kind);
 }
 
+// What begins the step with an impulse, or ended the last one after it had one, is prepared in any case
+FE_INLINE int NAMED(may_wait)(const fe__contact *m, const int32_t *index)
+{
+    if (w_any(any_nonzero(w_gather(m->normal_impulse, CONTACT_STRIDE, index)))) return 0;
+    if (w_any(any_nonzero(w_gather(m->friction_impulse, CONTACT_STRIDE, index)))) return 0;
+    if (w_any(any_nonzero(w_gather(m->total_impulse, CONTACT_STRIDE, index)))) return 0;
+    return !w_any(found_ahead(w_gather(&m->surface.dynamic_friction, CONTACT_STRIDE, index).w));
+}
+
+// Loose contacts come last in a group: where the first is none, few rows are idle
+FE_INLINE int NAMED(begins_loose)(const fe__contact *m)
+{
+    const float *impulse = m->normal_impulse;
+    return m->separation[0] > 0.0f && !(impulse[0] + impulse[1] + impulse[2] + impulse[3] > 0.0f);
+}
+
+// A row that may stay idle gets what tells so, and is prepared by the first pass in which it is not
+static __attribute__((noinline)) int NAMED(put_off)(ROW *row, const fe__lane *lane, const fe__solver *s,
+                                                    const fe__contact *m, const fe__step_constants *c, int kind)
+{
+    _Alignas(64) int32_t index[FE_W];
+    for (int i = 0; i < FE_W; ++i) index[i] = lane[i].contact;
+    if (!NAMED(may_wait)(m, index)) return 0;
+    for (int i = 0; i < FE_W; ++i) row->line_a[i] = lane[i].line_a, row->line_b[i] = lane[i].line_b;
+    wide4 normal = w_gather(m->normal, CONTACT_STRIDE, index);
+    store3(row->normal, w_xyz(normal));
+    NAMED(prepare_gap)
+    (row, w_gather(m->separation, CONTACT_STRIDE, index), normal.w, w_gather(m->found_span, CONTACT_STRIDE, index).w);
+    row->put_off = 1, row->behind = 0;
+    return NAMED(idle_now)(row, s, c, kind);
+}
+
 FE_INLINE void NAMED(prepare)(fe__solver *s, fe__contact *contacts, const fe__extra *extras, const fe__lane *lanes,
                               void *rows, int32_t count, const fe__step_constants *c, int kind)
 {
     for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
+        ROW *row = NAMED(row_at)(rows, i, kind);
         for (int j = 0; j < FE_W && i + 1 < count; ++j) prefetch_contact(contacts + lanes[FE_W + j].contact);
-        NAMED(prepare_row)(NAMED(row_at)(rows, i, kind), lanes, s, contacts, extras, c, kind);
+        if (!NAMED(can_idle)(kind) || !NAMED(begins_loose)(contacts + lanes->contact) ||
+            !NAMED(put_off)(row, lanes, s, contacts, c, kind))
+            NAMED(prepare_row)(row, lanes, s, contacts, extras, c, kind);
     }
 }
 
-FE_INLINE void NAMED(store)(fe__contact *contacts, fe__extra *extras, const fe__lane *lanes, const void *rows,
-                            int32_t count, int kind)
+// Returns how many rows have loose lanes beside others: with a gap, and without a load in this step. What was put off
+// to the end is all zeros already
+FE_INLINE int32_t NAMED(store)(fe__contact *contacts, fe__extra *extras, const fe__lane *lanes, const void *rows,
+                               int32_t count, int kind)
 {
+    int32_t mixed = 0;
     for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
         const ROW *row = NAMED(row_at)((void *)(uintptr_t)rows, i, kind);
         const SPECIAL_ROW *x = (const SPECIAL_ROW *)row;
-        wide impulse[FE__POINTS] = {0}, total[FE__POINTS] = {0};
+        if (NAMED(can_idle)(kind) && row->put_off) continue;
+        wide zero = w_set(0.0f), impulse[FE__POINTS] = {0}, total[FE__POINTS] = {0}, sum = zero;
         _Alignas(64) int32_t index[FE_W];
         for (int j = 0; j < FE_W; ++j) index[j] = lanes[j].contact;
         for (int j = 0; j < FE_W && i + 4 < count; ++j)
             __builtin_prefetch(contacts[lanes[4 * FE_W + j].contact].normal_impulse, 1);
-        UNROLL for (int j = 0; j < POINTS; ++j) impulse[j] = row->point[j].impulse, total[j] = row->total[j];
-        wide3 friction = NAMED(friction_impulse)(row, load3(row->normal));
-        store_lanes(contacts, index, (wide4){impulse[0], impulse[1], impulse[2], impulse[3]},
-                    w_with(friction, row->twist_impulse), (wide4){total[0], total[1], total[2], total[3]});
+        UNROLL for (int j = 0; j < POINTS; ++j)
+        {
+            impulse[j] = row->point[j].impulse, total[j] = row->total[j];
+            sum = sum + total[j];
+        }
+        if (NAMED(can_idle)(kind)) {
+            wide_mask loose = w_and(w_not(w_greater(sum, zero)), w_greater(row->gap, zero));
+            mixed += w_any(w_not(loose)) && w_any(w_and(loose, w_greater(w_set(FLT_MAX), row->gap)));
+        }
+        // of -0 and +0 the latter: what was put off has it
+        wide4 friction = w_with(NAMED(friction_impulse)(row, load3(row->normal)), row->twist_impulse);
+        friction = (wide4){friction.x + zero, friction.y + zero, friction.z + zero, friction.w + zero};
+        store_lanes(contacts, index, (wide4){impulse[0], impulse[1], impulse[2], impulse[3]}, friction,
+                    (wide4){total[0], total[1], total[2], total[3]});
         for (int j = 0; j < FE_W && kind & FE__ROW_SPECIAL; ++j)
             for (int k = 0; k < 3 && index[j]; ++k) extras[index[j]].rolling_impulse[k] = x->rolling_impulse[k][j];
     }
+    return mixed;
 }

@@ -28,7 +28,13 @@
 typedef struct ROW {
     int32_t line_a[FE_W], line_b[FE_W];
     wide normal[3];
-    wide span[3]; // centre of A - centre of B
+    // see idle.inl. A row that is put off has what is above, these, and nothing else
+    wide gap;   // when the step began, m; FLT_MAX: a padding lane; -FLT_MAX: never idle, it follows or had friction
+    wide open;  // no more than the gap where the bodies are now, m; -FLT_MAX: nobody looked
+    wide reach; // longest arm, m
+    int32_t put_off; // 1: not prepared
+    int32_t behind;  // 1: skipped when the bodies moved, with distances from before
+    wide span[3];    // centre of A - centre of B
     contact_point point[POINTS];
     wide coupling[POINTS == 1 ? 1 : 6]; // m_j K_ij for i < j: 01 02 03 12 13 23
     wide_sym inertia_b, inertia_a;      // inverse, world. A copy streams faster than a gather
@@ -331,8 +337,9 @@ FE_INLINE wide_mask NAMED(solve_friction)(ROW *row, pair *p, int kind)
     wide stick = row->static_friction * load, slide = row->dynamic_friction * load, square = l1 * l1 + l2 * l2;
     wide most = w_choose(w_greater(square, BREAKAWAY * BREAKAWAY * stick * stick), slide, stick);
     wide shrink = w_choose(w_greater(square, stick * stick), most / w_sqrt(square), w_set(1.0f));
-    l1 = l1 * shrink;
-    l2 = l2 * shrink;
+    wide_mask bears = w_greater(load, w_set(0.0f)); // else none, however little was requested
+    l1 = w_choose(bears, l1 * shrink, w_set(0.0f));
+    l2 = w_choose(bears, l2 * shrink, w_set(0.0f));
     wide d1 = l1 - row->tangent_impulse[0], d2 = l2 - row->tangent_impulse[1];
     wide3 impulse = w_add_scaled(w_scale(d1, t1), d2, t2);
     row->tangent_impulse[0] = l1;
@@ -412,6 +419,8 @@ static __attribute__((noinline)) pair NAMED(settle)(ROW *row, const fe__step_con
     return p;
 }
 
+#include "solver/contact/idle.inl"
+
 #include "solver/contact/follow.inl"
 
 #include "solver/contact/bounce.inl"
@@ -458,24 +467,65 @@ FE_INLINE ROW *NAMED(row_at)(void *rows, int32_t i, int kind)
     return kind & FE__ROW_SPECIAL ? &((SPECIAL_ROW *)rows)[i].row : (ROW *)rows + i;
 }
 
-FE_INLINE void NAMED(solve)(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c, int kind)
+#include "solver/contact/prepare.inl"
+
+FE_INLINE int NAMED(is_late)(const ROW *row, int kind)
 {
-    for (int32_t i = 0; i < count; ++i) {
+    return NAMED(can_idle)(kind) && (row->put_off || row->behind);
+}
+
+// the row, prepared, with distances from where the bodies are
+static __attribute__((noinline)) void NAMED(catch_up)(ROW *row, fe__solver *s, const fe__contact *contacts,
+                                                      const fe__lane *lanes, const fe__step_constants *c, int kind)
+{
+    int32_t behind = row->behind;
+    wide open = row->open;
+    if (row->put_off) NAMED(prepare_row)(row, lanes, s, contacts, 0, c, kind);
+    row->behind = 0, row->open = open;
+    if (!behind) return;
+    pair p = NAMED(gather_pair)(row, s, kind);
+    motion m = NAMED(motion_of)(row, s, kind);
+    NAMED(find_distances)(row, &p, &m, kind);
+}
+
+FE_INLINE void NAMED(solve)(fe__solver *s, const fe__contact *contacts, const fe__lane *lanes, void *rows,
+                            int32_t count, const fe__step_constants *c, int kind)
+{
+    for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
         ROW *row = NAMED(row_at)(rows, i, kind);
+        if (NAMED(idle_now)(row, s, c, kind)) continue;
+        if (NAMED(is_late)(row, kind)) NAMED(catch_up)(row, s, contacts, lanes, c, kind);
         pair p = NAMED(gather_pair)(row, s, kind);
         NAMED(solve_normals)(row, c, &p, kind, 1);
         NAMED(scatter_pair)(row, s, &p, kind);
     }
 }
 
-FE_INLINE void NAMED(relax)(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c, int kind)
+// what the substep did
+FE_INLINE void NAMED(note_load)(ROW *row, fe__solver *s, const pair *p, const fe__step_constants *c, int kind)
 {
-    for (int32_t i = 0; i < count; ++i) {
+    UNROLL for (int j = 0; j < POINTS; ++j) row->total[j] = row->total[j] + row->point[j].impulse;
+    wide load = NAMED(load_of)(row), response = p->a.inverse_mass + p->b.inverse_mass;
+    wide_mask rose =
+        w_and(w_greater(load, IMPACT_RISE * row->load), w_greater((load - row->load) * response, w_set(IMPACT_SPEED)));
+    if (kind & FE__ROW_SPECIAL) rose = w_and(rose, w_not(NAMED(touched)((SPECIAL_ROW *)row)));
+    if (w_any(rose)) NAMED(leave_friction)(row, s, load, rose, kind);
+    row->load = load;
+    if (c->finds_strain) NAMED(find_strain)(row, s, load * response, response, c);
+}
+
+FE_INLINE void NAMED(relax)(fe__solver *s, const fe__contact *contacts, const fe__lane *lanes, void *rows,
+                            int32_t count, const fe__step_constants *c, int kind)
+{
+    for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
         ROW *row = NAMED(row_at)(rows, i, kind);
+        if (NAMED(idle_after)(row, s, c, kind)) continue;
+        if (NAMED(is_late)(row, kind)) NAMED(catch_up)(row, s, contacts, lanes, c, kind);
         pair p = NAMED(gather_pair)(row, s, kind);
         motion m = NAMED(motion_of)(row, s, kind);
         NAMED(find_distances)(row, &p, &m, kind);
         wide_mask moving = NAMED(moving)(row, &m, kind);
+        if (w_any(moving) && NAMED(can_idle)(kind)) moving = NAMED(but_idle)(row, s, moving, c, kind);
         if (w_any(moving)) {
             motion moved = m;
             NAMED(follow)(row, s, &moved, moving, kind);
@@ -486,15 +536,7 @@ FE_INLINE void NAMED(relax)(fe__solver *s, void *rows, int32_t count, const fe__
         wide_mask unsettled = NAMED(solve_friction)(row, &p, kind);
         if (w_any(unsettled)) p = NAMED(settle)(row, c, p, unsettled, kind);
         NAMED(scatter_pair)(row, s, &p, kind);
-        if (c->more) continue;
-        UNROLL for (int j = 0; j < POINTS; ++j) row->total[j] = row->total[j] + row->point[j].impulse;
-        wide load = NAMED(load_of)(row), response = p.a.inverse_mass + p.b.inverse_mass;
-        wide_mask rose = w_and(w_greater(load, IMPACT_RISE * row->load),
-                               w_greater((load - row->load) * response, w_set(IMPACT_SPEED)));
-        if (kind & FE__ROW_SPECIAL) rose = w_and(rose, w_not(NAMED(touched)((SPECIAL_ROW *)row)));
-        if (w_any(rose)) NAMED(leave_friction)(row, s, load, rose, kind);
-        row->load = load;
-        if (c->finds_strain) NAMED(find_strain)(row, s, load * response, response, c);
+        if (!c->more) NAMED(note_load)(row, s, &p, c, kind);
     }
 }
 
@@ -502,8 +544,6 @@ FE_INLINE void NAMED(bounce)(fe__solver *s, void *rows, int32_t count, const fe_
 {
     for (int32_t i = 0; i < count; ++i) NAMED(bounce_row)((SPECIAL_ROW *)rows + i, s, c, kind);
 }
-
-#include "solver/contact/prepare.inl"
 
 // ---- the kernels of each kind ---------------------------------------------------------------------------------------
 #define INSTANCE(kind_name, kind)                                                                                 \
@@ -513,22 +553,24 @@ FE_INLINE void NAMED(bounce)(fe__solver *s, void *rows, int32_t count, const fe_
     {                                                                                                             \
         NAMED(prepare)(s, contacts, extras, lanes, rows, count, c, kind);                                         \
     }                                                                                                             \
-    static void NAMED(solve_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c)  \
+    static void NAMED(solve_##kind_name)(fe__solver * s, const fe__contact *contacts, const fe__lane *lanes,      \
+                                         void *rows, int32_t count, const fe__step_constants *c)                  \
     {                                                                                                             \
-        NAMED(solve)(s, rows, count, c, kind);                                                                    \
+        NAMED(solve)(s, contacts, lanes, rows, count, c, kind);                                                   \
     }                                                                                                             \
-    static void NAMED(relax_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c)  \
+    static void NAMED(relax_##kind_name)(fe__solver * s, const fe__contact *contacts, const fe__lane *lanes,      \
+                                         void *rows, int32_t count, const fe__step_constants *c)                  \
     {                                                                                                             \
-        NAMED(relax)(s, rows, count, c, kind);                                                                    \
+        NAMED(relax)(s, contacts, lanes, rows, count, c, kind);                                                   \
     }                                                                                                             \
     static void NAMED(bounce_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c) \
     {                                                                                                             \
         if ((kind)&FE__ROW_SPECIAL) NAMED(bounce)(s, rows, count, c, kind);                                       \
     }                                                                                                             \
-    static void NAMED(store_##kind_name)(fe__contact * contacts, fe__extra * extras, const fe__lane *lanes,       \
-                                         const void *rows, int32_t count)                                         \
+    static int32_t NAMED(store_##kind_name)(fe__contact * contacts, fe__extra * extras, const fe__lane *lanes,    \
+                                            const void *rows, int32_t count)                                      \
     {                                                                                                             \
-        NAMED(store)(contacts, extras, lanes, rows, count, kind);                                                 \
+        return NAMED(store)(contacts, extras, lanes, rows, count, kind);                                          \
     }
 
 INSTANCE(fixed, 0)

@@ -136,6 +136,16 @@ static void add_overflow(fe__builder *b, int32_t k, const fe__kernels *kernels)
     }
 }
 
+// Of each group loose contacts come last: rows of idle ones alone are skipped (contact/idle.inl)
+static void fill_lanes(fe__builder *b, int32_t k, int32_t loose)
+{
+    for (int32_t i = b->contact_start[k]; i < b->contact_start[k + 1]; ++i) {
+        const fe__linked *c = b->linked + b->contact_order[i];
+        if (c->loose != loose || c->key / FE__ROW_KINDS == FE__OVERFLOW_COLOUR) continue;
+        b->s->lanes[b->key_count[c->key]++] = lane_of(b, c);
+    }
+}
+
 // ---- groups ---------------------------------------------------------------------------------------------------------
 static void make_groups(fe__builder *b, int32_t k, const fe__kernels *kernels)
 {
@@ -157,10 +167,8 @@ static void make_groups(fe__builder *b, int32_t k, const fe__kernels *kernels)
         s->built.colours[kind] += !(b->seen[key / 64] >> key % 64 & 1);
         b->seen[key / 64] |= UINT64_C(1) << key % 64;
     }
-    for (int32_t i = b->contact_start[k]; i < b->contact_start[k + 1]; ++i) {
-        const fe__linked *c = b->linked + b->contact_order[i];
-        if (c->key / FE__ROW_KINDS != FE__OVERFLOW_COLOUR) s->lanes[b->key_count[c->key]++] = lane_of(b, c);
-    }
+    fill_lanes(b, k, 0);
+    fill_lanes(b, k, 1);
     add_overflow(b, k, kernels);
 }
 
@@ -190,5 +198,5 @@ void fe__graph_build(fe__solver *s, const fe__kernels *kernels, const fe__graph_
            s->group_count <= s->group_capacity);
     assert(rows_fit(s));
     (void)rows_fit; // used by the assertion alone
-    s->graph_changed = 0;
+    s->graph_changed = s->graph_age = 0;
 }

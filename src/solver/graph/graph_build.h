@@ -23,6 +23,7 @@ typedef struct fe__linked {
     int32_t contact;
     int32_t key;              // colour * FE__ROW_KINDS + kind of row
     int32_t awake_a, awake_b; // awake indices of its bodies, FE__NONE of a static one
+    int32_t loose;            // 1: bore nothing in the last step, and has a gap at each point
 } fe__linked;
 enum { FE__LINKED_INTS = sizeof(fe__linked) / sizeof(int32_t) };
 

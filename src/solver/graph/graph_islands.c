@@ -19,6 +19,22 @@ static void join(int32_t *parent, int32_t a, int32_t b)
         parent[x] = y;
 }
 
+// It bore nothing in the last step, and there is a gap at each point
+static int32_t is_loose(const fe__contact *m)
+{
+    int32_t loose = 1;
+    for (int k = 0; k < FE__POINTS; ++k) {
+        loose &= !(m->total_impulse[k] > 0.0f);
+        loose &= k >= (int32_t)m->point_count || m->separation[k] > 0.0f;
+    }
+    return loose;
+}
+
+static void fetch(const fe__contact *m)
+{
+    __builtin_prefetch(m->total_impulse), __builtin_prefetch(&m->colour), __builtin_prefetch(m->separation);
+}
+
 // B is dynamic in every contact; A may be anything
 static void join_contacts(fe__builder *b)
 {
@@ -27,10 +43,11 @@ static void join_contacts(fe__builder *b)
     for (int32_t i = 0; i < in->contact_count; ++i) {
         int32_t contact = in->awake_contacts[i];
         const fe__contact *m = in->contacts + contact;
-        if (i + AHEAD < in->contact_count) __builtin_prefetch(&in->contacts[in->awake_contacts[i + AHEAD]].colour);
+        if (i + AHEAD < in->contact_count) fetch(in->contacts + in->awake_contacts[i + AHEAD]);
         if (m->colour < 0) continue;
         int32_t awake_a = in->bodies[m->body_a].awake_index, awake_b = in->bodies[m->body_b].awake_index;
-        b->linked[b->linked_count++] = (fe__linked){contact, m->colour * FE__ROW_KINDS + m->kind, awake_a, awake_b};
+        b->linked[b->linked_count++] =
+            (fe__linked){contact, m->colour * FE__ROW_KINDS + m->kind, awake_a, awake_b, is_loose(m)};
         if (m->kind & FE__ROW_PAIR) join(b->parent, awake_a, awake_b);
     }
 }

@@ -95,5 +95,5 @@ FE_INLINE void write_lines(void *to, const line_names *line, int32_t lanes, cons
 
 FE_INLINE real3 widen3(const half *a) { return (real3){r_widen(a[0]), r_widen(a[1]), r_widen(a[2])}; }
 // b of what may be -0 is not: whether a freedom is looked at that gives nothing, nobody shall see
-FE_INLINE half narrow(real a) { return __builtin_convertvector(a + 0.0, half); }
+FE_INLINE half narrow(real a) { return __builtin_convertvector(a, half) + 0.0f; }
 FE_INLINE void narrow3(half *to, real3 a) { to[0] = narrow(a.x), to[1] = narrow(a.y), to[2] = narrow(a.z); }
