@@ -45,7 +45,7 @@ static void print_label(const bench_run *run)
 void bench_print_table(const bench_table *table)
 {
     const bench_scene *scene = &table->scene;
-    printf("\n%s: %d bodies\n", scene->name, scene->body_count);
+    printf("\n%s: %d bodies; of one worker the processor's time, of more the wall's\n", scene->name, scene->body_count);
     printf("%-16s %8s %8s %8s %8s | %15s %15s | %8s %8s %8s %8s %8s %8s\n", "", "ms mean", "median", "p99", "cpu",
            "bullet/ mean,med", "ode/ mean,med", "top m", "deep mm", "drift mm", "z mm", "gap mm", "contacts");
     for (int32_t i = 0; i < table->run_count; i++) {

@@ -19,7 +19,7 @@ typedef struct bench_run {
     const bench_engine *engine;
     int32_t workers, substeps; ///< 0 when the engine takes none
     bench_world *world;
-    double *samples; ///< ms of the steps that count
+    double *samples; ///< ms of the steps that count: of the processor with one worker, else of the wall
     int32_t sample_count;
     double cpu_ms;                   ///< of these steps, all threads
     bench_stats stats;               ///< ms a step
