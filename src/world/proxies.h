@@ -10,7 +10,7 @@ fe__bounds fe__shape_bounds(const fe_world *world, int32_t shape, float margin);
 fe__bounds fe__shape_reach_bounds(const fe_world *world, int32_t shape); // what it may touch in a step
 // Does the box of another shape, as a tree holds it, come near the plane? Planes are in no tree, and grow here
 int32_t fe__plane_comes_near(const fe_world *world, int32_t plane, const fe__bounds *box);
-fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t shape);   // as the trees hold them
+fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t shape); // as the trees hold them
 
 // Puts the shape into its tree or list, takes it out, has it look for pairs. Room was reserved by fe__reserve_proxies.
 int32_t fe__reserve_proxies(fe_world *world, int32_t body_type, int32_t extra); // 0: no memory
