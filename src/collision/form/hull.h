@@ -11,7 +11,8 @@
 //   - 4..255 vertices, V - E + F = 2; a vertex has at least two edges, a face at least three.
 //   - Vertices are points of the caller's, in their order.
 //   - No vertex is above a plane: n . v <= distance, the product taken in double. Each plane touches a vertex.
-//   - A face's vertices lie at most `flatness` below its plane, and turn left around its normal.
+//   - A face's vertices lie at most `flatness` below its plane, a quarter of the tolerance. They turn left around its
+//     normal; one that turns right lies inside of the line past it by no more than that.
 //   - Half-edges come in pairs: that of i is i ^ 1, edge k has 2 k and 2 k + 1. Of a pair the even one starts at the
 //     vertex with the lower number. next goes around the left face. A vertex's `spoke` is one half-edge that starts
 //     there; edge[h ^ 1].next is the one after it, clockwise seen from outside.

@@ -15,9 +15,10 @@
 // The least thickness: a share of the extent, and so many metres. Thinner hulls have no mass and no inertia to speak of
 #define FE__HULL_LEAST_THICKNESS 5e-4
 #define FE__HULL_LEAST_THICKNESS_SHARE 1e-4
-// The tolerance that is counted when none is given, and the least, as shares of the extent
+// The tolerance that is counted when none is given, and the least, as shares of the extent: faces that bend within less
+// have normals that floats do not tell apart
 #define FE__HULL_TOLERANCE_SHARE 1e-5
-#define FE__HULL_LEAST_TOLERANCE_SHARE 1e-6
+#define FE__HULL_LEAST_TOLERANCE_SHARE 5e-6
 
 typedef struct fe__hull_points {
     const float *points; // finite

@@ -42,6 +42,36 @@ static int32_t choose(const fe__facets *f, const int32_t *row, int32_t count, ui
     return kept;
 }
 
+// ---- loops that stay convex ----------------------------------------------------------------------------------------
+static int32_t is_left_of_slab(const fe__facets *f, const fe__grid_plane *plane, const int32_t corner[3])
+{
+    fe_dvec3 here = fe__vertex_on_grid(f->surface, corner[1]), in = fe__dsub(here, fe__vertex_on_grid(f->surface, corner[0])),
+             out = fe__dsub(fe__vertex_on_grid(f->surface, corner[2]), here), past = fe__dadd(in, out);
+    double turn = fe__ddot(fe__dcross(in, out), plane->normal) * plane->per_length;
+    return turn >= -f->slab * sqrt(fe__ddot(past, past));
+}
+
+// Without the vertices of valence 0
+static int32_t is_convex(const fe__facets *f, int32_t facet)
+{
+    const fe__facet *loop = &f->facets[facet];
+    int32_t last[3] = {-1, -1, -1}, seen = 0;
+    for (int32_t i = 0; seen < loop->count + 2 && i < 2 * loop->count; ++i) {
+        int32_t vertex = f->corner[loop->first + i % loop->count];
+        if (!f->valence[vertex]) continue;
+        last[0] = last[1], last[1] = last[2], last[2] = vertex;
+        seen += 1;
+        if (seen >= 3 && !is_left_of_slab(f, fe__facet_plane(f, facet), last)) return 0;
+    }
+    return 1;
+}
+
+static void set_valence(fe__facets *f, const int32_t *row, int32_t count, const uint8_t *stays, int32_t valence)
+{
+    for (int32_t k = 1; k < count - 1; ++k)
+        if (!stays[k]) f->valence[row[k]] = valence;
+}
+
 // The row that begins at corner i of a loop. Facets keep three corners at least.
 static void thin_row(fe__facets *f, const fe__facet *loop, int32_t i, int32_t *left)
 {
@@ -55,9 +85,11 @@ static void thin_row(fe__facets *f, const fe__facet *loop, int32_t i, int32_t *l
     if (row[0] == row[count - 1]) return;
     int32_t gone = count - 2 - choose(f, row, count, stays);
     if (left[facet] - gone < 3 || left[across] - gone < 3) return;
-    left[facet] -= gone, left[across] -= gone;
-    for (int32_t k = 1; k < count - 1; ++k)
-        if (!stays[k]) f->valence[row[k]] = 0;
+    set_valence(f, row, count, stays, 0);
+    if (is_convex(f, facet) && is_convex(f, across))
+        left[facet] -= gone, left[across] -= gone;
+    else
+        set_valence(f, row, count, stays, 2);
 }
 
 static void count_valences(fe__facets *f)

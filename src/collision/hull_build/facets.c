@@ -12,7 +12,7 @@ static const double slab_shares[SLABS] = {1.0, 0.125, 1.0 / 64.0, 0.0};
 static const double least_cosine = 0.5;
 
 // How far two neighbours must bend, rad: floats tell their normals apart
-static const double least_bend = 1e-6;
+static const double least_bend = 5e-7;
 
 // ---- triangles, the largest first ----------------------------------------------------------------------------------
 // The bits of positive doubles are in the order of their values.
@@ -101,18 +101,18 @@ static void try_edge(fe__facets *f, int32_t edge, int32_t seed, int32_t facet)
 }
 
 // ---- the rim -------------------------------------------------------------------------------------------------------
-// Does the rim turn left, or go straight on, at every vertex?
+// Does the rim turn left at every vertex, or right by no more than the slab? (How far a vertex is inside of the line past
+// it; rounding of points on one line must not divide a face.)
 static int32_t is_convex(const fe__facets *f, int32_t seed)
 {
-    static const double slack = 1e-12; // sine, of the rounding below
     const fe__surface *s = f->surface;
     const fe__grid_plane *plane = &s->triangles[seed].plane;
     for (int32_t v = 0; v < FE__SURFACE_VERTICES; ++v) {
         if (!f->in_ring[v]) continue;
         fe_dvec3 here = fe__vertex_on_grid(s, v), in = fe__dsub(here, fe__vertex_on_grid(s, f->previous[v])),
-                 out = fe__dsub(fe__vertex_on_grid(s, f->next[v]), here);
+                 out = fe__dsub(fe__vertex_on_grid(s, f->next[v]), here), past = fe__dadd(in, out);
         double turn = fe__ddot(fe__dcross(in, out), plane->normal) * plane->per_length;
-        if (turn < -slack * sqrt(fe__ddot(in, in) * fe__ddot(out, out))) return 0;
+        if (turn < -f->slab * sqrt(fe__ddot(past, past))) return 0;
     }
     return 1;
 }
@@ -132,12 +132,41 @@ static void keep_ring(fe__facets *f, int32_t seed)
     } while (v != start);
 }
 
+static void give_back(fe__facets *f)
+{
+    for (int32_t i = 0; i < f->member_count; ++i) f->facet_of[f->members[i]] = -1;
+}
+
+static int32_t make_thinner(fe__facets *f, int32_t facet)
+{
+    int32_t *thinness = &f->thinness[f->facets[facet].seed];
+    if (*thinness == SLABS - 1) return 0;
+    *thinness += 1;
+    return 1;
+}
+
+// Triangles in one plane exactly make a convex facet, unless another has taken some of them: that one is made again.
+static void claim_back(fe__facets *f, int32_t seed)
+{
+    for (int32_t i = 0; i < f->member_count; ++i) {
+        for (int32_t k = 0; k < 3; ++k) {
+            int32_t twin = fe__edge_twin(f->surface, 3 * f->members[i] + k), other = f->facet_of[twin / 3],
+                    apex = fe__edge_end(f->surface, fe__next_corner(twin));
+            if (other >= 0 && other != f->count && fits(f, seed, twin / 3, apex)) f->again |= make_thinner(f, other);
+        }
+    }
+}
+
 static void grow_facet(fe__facets *f, int32_t seed)
 {
     for (;;) {
         begin_ring(f, seed, f->count);
         while (f->try_count) try_edge(f, f->to_try[--f->try_count], seed, f->count);
-        if (f->thinness[seed] == SLABS - 1 || is_convex(f, seed)) break;
+        if (is_convex(f, seed)) break;
+        if (f->thinness[seed] == SLABS - 1) {
+            claim_back(f, seed);
+            break;
+        }
         for (int32_t i = 0; i < f->member_count; ++i) f->facet_of[f->members[i]] = -1;
         f->thinness[seed] += 1;
     }
@@ -146,7 +175,7 @@ static void grow_facet(fe__facets *f, int32_t seed)
 
 static void grow_all(fe__facets *f)
 {
-    f->count = f->corner_count = 0;
+    f->count = f->corner_count = f->again = 0;
     for (int32_t i = 0; i < FE__SURFACE_TRIANGLES; ++i) f->facet_of[i] = -1;
     for (int32_t i = 0; i < f->living; ++i)
         if (f->facet_of[f->order[i]] < 0) grow_facet(f, f->order[i]);
@@ -166,18 +195,10 @@ static double bend(const fe__facets *f, int32_t facet, int32_t i)
     return fe__ddot(fe__dcross(l, r), side) / sqrt(fe__ddot(side, side));
 }
 
-static int32_t make_thinner(fe__facets *f, int32_t facet)
-{
-    int32_t *thinness = &f->thinness[f->facets[facet].seed];
-    if (*thinness == SLABS - 1) return 0;
-    *thinness += 1;
-    return 1;
-}
-
 // 1: a slab became thinner, where neighbours do not turn away from each other
 static int32_t mend(fe__facets *f)
 {
-    int32_t thinner = 0;
+    int32_t thinner = f->again;
     for (int32_t facet = 0; facet < f->count; ++facet) {
         const fe__facet *loop = &f->facets[facet];
         for (int32_t i = loop->first; i < loop->first + loop->count; ++i) {

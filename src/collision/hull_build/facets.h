@@ -27,6 +27,7 @@ typedef struct fe__facets {
     int32_t thinness[FE__SURFACE_TRIANGLES];      // of the slab when this triangle is a seed, see facets.c
     int32_t order[FE__SURFACE_TRIANGLES], living; // triangles, the largest first
     int32_t valence[FE__SURFACE_VERTICES];        // of a vertex: facets around it
+    int32_t again;                                // a slab became thinner: all facets are to be made anew
     // scratch: the rim of the facet that grows, a ring of vertices; edge: of the facet's triangle, to the next vertex
     int32_t next[FE__SURFACE_VERTICES], previous[FE__SURFACE_VERTICES], edge[FE__SURFACE_VERTICES];
     int32_t in_ring[FE__SURFACE_VERTICES];
