@@ -42,8 +42,8 @@
 /// **Arrays.** `int32_t fe_x_get_many(world, out, stride, capacity)` returns how many there are. It writes the first
 /// `capacity` of them, `stride` bytes apart. NULL, 0, 0 asks for the number only. A record that may grow needs its
 /// stride stated: `sizeof` of the caller's record. A shorter stride gets the record's front, at least 8 bytes. For
-/// records that never grow 0 means packed: handles, floats, fe_vec3, fe_dvec3, fe_quat, fe_transform, fe_frame,
-/// fe_bounds, fe_material, fe_joint_axis.
+/// records that never grow 0 means packed: handles, floats, int32_t, fe_vec3, fe_dvec3, fe_quat, fe_transform,
+/// fe_frame, fe_bounds, fe_material, fe_joint_axis.
 ///
 /// **Growth.** A program built against this header runs with every later 1.x library. A struct that may grow begins
 /// with `struct_size`; its `_init(&x, sizeof x)` sets that and every default, and does nothing with NULL. A shorter
@@ -97,7 +97,7 @@ typedef unsigned long long fe_handle;
 typedef fe_handle fe_body;
 typedef fe_handle fe_shape;
 typedef fe_handle fe_joint;
-typedef fe_handle fe_asset; ///< what shapes of many worlds share: a heightfield
+typedef fe_handle fe_asset; ///< what shapes of many worlds share: a heightfield, a convex hull
 
 typedef struct fe_world fe_world; ///< everything that can touch each other
 typedef struct fe_pool fe_pool;   ///< worker threads that several worlds may share
@@ -285,6 +285,72 @@ FE_API fe_result fe_heightfield_set_heights(fe_store *store, fe_asset asset, int
 /// @param out_heights  rows x columns, row by row, m
 FE_API fe_result fe_heightfield_get_heights(const fe_store *store, fe_asset asset, int32_t row, int32_t column,
                                             int32_t rows, int32_t columns, float *out_heights);
+
+// ---- convex hulls ---------------------------------------------------------------------------------------------------
+
+/// The convex hull of points. No points but thin ones are refused. Where there are more vertices than `max_vertices`,
+/// those that change the form least are left out, and fe_hull_info.error tells how far they lie outside.
+typedef struct fe_hull_def {
+    uint32_t struct_size;
+    int32_t point_count;   ///< 4..1 000 000
+    int32_t max_vertices;  ///< 4..255. Default 64
+    uint32_t point_stride; ///< bytes from one point to the next, 0: packed
+    /// Points nearer than this to the hull may be left out, and faces that bend less are merged, m, 0..100000. At
+    /// least 5e-6 of the extent counts. 0: 1e-5 of the extent, the longest side of the points' bounds. Default 0
+    float tolerance;
+    uint32_t reserved;
+    const float *points; ///< x y z each, m, within +-100000, in any order; inner points and duplicates are welcome
+} fe_hull_def;
+
+FE_API void fe_hull_def_init(fe_hull_def *def, uint32_t struct_size);
+/// Builds a hull. The same points in the same order give the same hull, bit for bit, on every machine. The points are
+/// copied. fe_asset_destroy gives the hull back. Any thread may build while worlds that use the store step.
+/// @return FE_ERROR_DEGENERATE for points that are thinner, in some direction, than 0.5 mm or 1e-4 of the extent: flat,
+///         straight or in one place
+FE_API fe_result fe_hull_create(fe_store *store, const fe_hull_def *def, fe_asset *out_asset);
+
+/// What a hull is. Positions are in the frame of its points.
+typedef struct fe_hull_info {
+    uint32_t struct_size;
+    int32_t vertex_count;     ///< 4..255
+    int32_t edge_count;       ///< vertices - edges + faces = 2
+    int32_t face_count;       ///< 4..506
+    float volume;             ///< m3
+    float area;               ///< of the surface, m2
+    fe_vec3 centre;           ///< of mass, m
+    fe_vec3 inertia;          ///< principal moments about the centre at a density of 1 kg/m3, kg m2
+    fe_quat inertia_rotation; ///< from the principal axes to those of the points
+    fe_vec3 lower, upper;     ///< least and greatest corner of the bounds of the vertices, m
+    float thickness;          ///< the least distance between a face and the vertex farthest from it, m
+    float inner_radius;       ///< of the largest ball about the centre that is inside, m
+    float tolerance;          ///< what counted, m
+    float error;              ///< how far the farthest point that was left out lies outside a face's plane, m, >= 0
+    int64_t bytes;            ///< of memory
+} fe_hull_info;
+
+/// @param out_info  its struct_size must be set
+/// @return FE_ERROR_KIND for an asset that is no hull
+FE_API fe_result fe_hull_get_info(const fe_store *store, fe_asset hull, fe_hull_info *out_info);
+/// Its vertices, m: points of its definition, bit for bit, in their order. @param stride  bytes, 0: packed
+FE_API int32_t fe_hull_get_vertices(const fe_store *store, fe_asset hull, fe_vec3 *out_vertices, uint32_t stride,
+                                    int32_t capacity);
+
+/// A face of a hull: a convex polygon.
+typedef struct fe_hull_face {
+    int32_t first;  ///< of its corners in what fe_hull_get_corners writes
+    int32_t count;  ///< of corners, >= 3
+    fe_vec3 normal; ///< unit, outward
+    float distance; ///< no point p of the hull is beyond it: normal . p <= distance, m, but for the rounding of floats
+    uint32_t reserved[2];
+} fe_hull_face;
+
+/// Its faces. @param stride  bytes: sizeof of the caller's record
+FE_API int32_t fe_hull_get_faces(const fe_store *store, fe_asset hull, fe_hull_face *out_faces, uint32_t stride,
+                                 int32_t capacity);
+/// The corners of all faces, face by face: indices of vertices, counterclockwise seen from outside. To draw a face,
+/// make a fan of triangles from its first corner. @param stride  bytes, 0: packed
+FE_API int32_t fe_hull_get_corners(const fe_store *store, fe_asset hull, int32_t *out_corners, uint32_t stride,
+                                   int32_t capacity);
 
 // ---- worlds ---------------------------------------------------------------------------------------------------------
 

@@ -24,6 +24,12 @@ DEFINE(fe_store_def)
 #define THIS fe_heightfield_def
 DEFINE(fe_heightfield_def)
 #undef THIS
+#define THIS fe_hull_def
+DEFINE(fe_hull_def)
+#undef THIS
+#define THIS fe_hull_info
+DEFINE(fe_hull_info)
+#undef THIS
 #define THIS fe_task_system
 DEFINE(fe_task_system)
 #undef THIS

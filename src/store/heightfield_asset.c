@@ -9,27 +9,17 @@ static size_t heights_size(const fe__heightfield *f) { return (size_t)sample_cou
 static size_t ranges_size(const fe__heightfield *f) { return (size_t)f->rows * sizeof *f->ranges; }
 static size_t materials_size(const fe__asset *a) { return (size_t)a->material_count * sizeof *a->materials; }
 
-void fe__heightfield_free(fe_store *store, fe__asset *a)
-{
-    fe__heightfield *f = &a->field;
-    fe__release(&store->memory, f->heights, heights_size(f));
-    fe__release(&store->memory, f->ranges, ranges_size(f));
-    fe__release(&store->memory, f->cells, (size_t)cell_count(f));
-    fe__release(&store->memory, a->materials, materials_size(a));
-}
-
 // ---- birth ---------------------------------------------------------------------------------------------------------
 static int32_t allocate(fe_store *store, const fe_heightfield_def *def, fe__asset *a)
 {
     fe__heightfield *f = &a->field;
-    fe__memory *memory = &store->memory;
     int32_t has_cells = def->holes || def->cell_materials;
-    f->heights = fe__allocate(memory, heights_size(f));
-    f->ranges = fe__allocate(memory, ranges_size(f));
-    if (has_cells) f->cells = fe__allocate(memory, (size_t)cell_count(f));
-    if (a->material_count) a->materials = fe__allocate(memory, materials_size(a));
+    f->heights = fe__asset_allocate(store, a, heights_size(f));
+    f->ranges = fe__asset_allocate(store, a, ranges_size(f));
+    if (has_cells) f->cells = fe__asset_allocate(store, a, (size_t)cell_count(f));
+    if (a->material_count) a->materials = fe__asset_allocate(store, a, materials_size(a));
     if (f->heights && f->ranges && (f->cells || !has_cells) && (a->materials || !a->material_count)) return 1;
-    fe__heightfield_free(store, a);
+    fe__asset_free(store, a);
     return 0;
 }
 
@@ -58,7 +48,8 @@ static void fill_materials(fe__asset *a, const fe_heightfield_def *def)
 
 fe_result fe__heightfield_create(fe_store *store, const fe_heightfield_def *def, fe_asset *out_handle)
 {
-    fe__asset a = {.field = {.rows = def->rows,
+    fe__asset a = {.kind = FE__ASSET_HEIGHTFIELD,
+                   .field = {.rows = def->rows,
                              .columns = def->columns,
                              .cell_x = (double)def->cell_x,
                              .cell_z = (double)def->cell_z},
@@ -75,7 +66,7 @@ fe_result fe__heightfield_create(fe_store *store, const fe_heightfield_def *def,
 
     fe__store_lock(store);
     fe_result result = fe__store_put(store, &a, out_handle);
-    if (result != FE_OK) fe__heightfield_free(store, &a);
+    if (result != FE_OK) fe__asset_free(store, &a);
     fe__store_unlock(store);
     return result;
 }

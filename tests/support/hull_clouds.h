@@ -8,17 +8,17 @@
 #include <string.h>
 
 typedef enum cloud_kind {
-    CLOUD_UNIFORM,   // in a box
-    CLOUD_SPHERE,    // on a sphere
-    CLOUD_GRID,      // of a lattice, each point as likely as any
-    CLOUD_PLANES,    // on the faces of a turned box, exact up to the rounding of floats
-    CLOUD_ROUGH,     // the same, with noise of about the tolerance
-    CLOUD_TWINS,     // few places, many points in each, equal or a digit apart
-    CLOUD_NEEDLE,    // 1000 : 1, turned
-    CLOUD_PRISM,     // two rings, turned
-    CLOUD_CLUSTERS,  // dense ones, far apart
-    CLOUD_RIM,       // a lens: a sharp rim, nearly flat caps
-    CLOUD_DECADES,   // coordinates of all magnitudes, denormals among them
+    CLOUD_UNIFORM,  // in a box
+    CLOUD_SPHERE,   // on a sphere
+    CLOUD_GRID,     // of a lattice, each point as likely as any
+    CLOUD_PLANES,   // on the faces of a turned box, exact up to the rounding of floats
+    CLOUD_ROUGH,    // the same, with noise of about the tolerance
+    CLOUD_TWINS,    // few places, many points in each, equal or a digit apart
+    CLOUD_NEEDLE,   // 1000 : 1, turned
+    CLOUD_PRISM,    // two rings, turned
+    CLOUD_CLUSTERS, // dense ones, far apart
+    CLOUD_RIM,      // a lens: a sharp rim, nearly flat caps
+    CLOUD_DECADES,  // coordinates of all magnitudes, denormals among them
     CLOUD_KINDS
 } cloud_kind;
 
@@ -132,14 +132,16 @@ static inline void cloud_make(cloud *c, uint64_t seed)
     c->kind = (cloud_kind)cloud_int(&s, CLOUD_KINDS);
     int32_t few = cloud_int(&s, 2);
     c->count = 4 + cloud_int(&s, few ? 37 : CLOUD_MOST - 3);
-    int32_t cells = 2 + cloud_int(&s, 6), turned = c->kind != CLOUD_GRID && c->kind != CLOUD_DECADES && cloud_int(&s, 2);
+    int32_t cells = 2 + cloud_int(&s, 6),
+            turned = c->kind != CLOUD_GRID && c->kind != CLOUD_DECADES && cloud_int(&s, 2);
     fe_dvec3 axis = cloud_direction(&s), offset = {0.0, 0.0, 0.0};
     double angle = turned ? 3.14 * cloud_unit(&s) : 0.0, size = 1.0;
     if (!cloud_int(&s, 3)) size = cloud_int(&s, 2) ? 0.05 : 200.0;
     if (!cloud_int(&s, 4)) offset = cloud_vector(&s), offset.x *= 1e4, offset.y *= 1e4, offset.z *= 1e4;
     for (int32_t i = 0; i < c->count; ++i) {
         fe_dvec3 v = cloud_place(c, &s, i, cells);
-        if (c->kind == CLOUD_ROUGH) v.x += 1e-5 * cloud_unit(&s), v.y += 1e-5 * cloud_unit(&s), v.z += 1e-5 * cloud_unit(&s);
+        if (c->kind == CLOUD_ROUGH)
+            v.x += 1e-5 * cloud_unit(&s), v.y += 1e-5 * cloud_unit(&s), v.z += 1e-5 * cloud_unit(&s);
         // its own later points are made of the points of twins and clusters: these are turned and moved last
         c->points[i][0] = (float)v.x, c->points[i][1] = (float)v.y, c->points[i][2] = (float)v.z;
     }

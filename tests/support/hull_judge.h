@@ -18,13 +18,13 @@ static inline double judge_height(const fe__hull *h, int32_t face, fe_dvec3 p)
 }
 static inline fe_dvec3 judge_vertex(const fe__hull *h, int32_t i) { return fe__widen(fe__hull_vertex(h, i)); }
 
-#define JUDGE(condition, ...)                                              \
-    do {                                                                   \
-        if (!(condition)) {                                                \
-            fprintf(stderr, "%s does not hold: ", #condition);             \
-            fprintf(stderr, __VA_ARGS__), fprintf(stderr, "\n");           \
-            return 0;                                                      \
-        }                                                                  \
+#define JUDGE(condition, ...)                                    \
+    do {                                                         \
+        if (!(condition)) {                                      \
+            fprintf(stderr, "%s does not hold: ", #condition);   \
+            fprintf(stderr, __VA_ARGS__), fprintf(stderr, "\n"); \
+            return 0;                                            \
+        }                                                        \
     } while (0)
 
 static inline int32_t judge_topology(const fe__hull *h)
@@ -70,7 +70,8 @@ static inline int32_t judge_convexity(const fe__hull *h, double most_flat)
         fe_dvec3 n = fe__widen(fe__hull_normal(h, f));
         double highest = -1e300;
         JUDGE(fe__absd(fe__ddot(n, n) - 1.0) < 5e-7, "face %d", f);
-        for (int32_t v = 0; v < h->vertex_count; ++v) highest = fe__maxd(highest, judge_height(h, f, judge_vertex(h, v)));
+        for (int32_t v = 0; v < h->vertex_count; ++v)
+            highest = fe__maxd(highest, judge_height(h, f, judge_vertex(h, v)));
         double ulp = 2.4e-7 * fe__absd((double)h->distances[f]) + 1e-37;
         JUDGE(highest <= 0.0 && highest >= -ulp, "face %d: %g", f, highest);
         const uint8_t *corner = h->corners + h->faces[f].first;
@@ -133,7 +134,8 @@ static inline int32_t judge_hull(const fe__hull *h, const float (*points)[3], in
     JUDGE(h->vertex_count <= most_vertices, "%d vertices", h->vertex_count);
     double most_flat = 0.25 * (double)h->tolerance + JUDGE_ROUNDING * extent; // form/hull.h
     JUDGE((double)h->flatness <= most_flat, "flat to %g", (double)h->flatness);
-    return judge_topology(h) && judge_convexity(h, most_flat) && judge_lanes(h) && judge_points(h, points, count, extent);
+    return judge_topology(h) && judge_convexity(h, most_flat) && judge_lanes(h) &&
+           judge_points(h, points, count, extent);
 }
 
 #endif

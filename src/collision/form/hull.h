@@ -27,12 +27,12 @@
 #include "core/math.h"
 
 enum {
-    FE__HULL_VERTICES = 255,                      // at most
-    FE__HULL_FACES = 2 * FE__HULL_VERTICES - 4,   // of triangles alone
-    FE__HULL_EDGES = 3 * FE__HULL_VERTICES - 6,   // likewise
-    FE__HULL_CORNERS = 2 * FE__HULL_EDGES,        // each half-edge is a corner of one face
-    FE__HULL_DIRECTIONS = 32,                     // hulls with more are not worth asking direction by direction
-    FE__HULL_LANES = 16                           // the widest SIMD set
+    FE__HULL_VERTICES = 255,                    // at most
+    FE__HULL_FACES = 2 * FE__HULL_VERTICES - 4, // of triangles alone
+    FE__HULL_EDGES = 3 * FE__HULL_VERTICES - 6, // likewise
+    FE__HULL_CORNERS = 2 * FE__HULL_EDGES,      // each half-edge is a corner of one face
+    FE__HULL_DIRECTIONS = 32,                   // hulls with more are not worth asking direction by direction
+    FE__HULL_LANES = 16                         // the widest SIMD set
 };
 
 typedef struct fe__hull_edge { // a half-edge

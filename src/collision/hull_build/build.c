@@ -1,8 +1,9 @@
 // build.c - see build.h.
 #include "collision/hull_build/build.h"
 
+#include "collision/hull_build/measure.h"
+
 #include <float.h>
-#include <string.h>
 
 // Points outside may use three quarters of the tolerance, the slab of a face a quarter
 static const double outside_share = 0.75, slab_share = 0.25;
@@ -19,10 +20,10 @@ int64_t fe__hull_builder_size(int32_t count)
 
 static void begin(fe__hull_builder *b, const fe__hull_points *points)
 {
-    memset(b, 0, sizeof *b);
     b->cloud = (fe__cloud){.points = points->points, .stride = points->stride, .count = points->count};
     b->cloud.grid = (fe_dvec3 *)(void *)((char *)b + grid_offset());
     b->surface.cloud = &b->cloud;
+    b->surface.triangle_end = b->surface.free_count = 0;
     b->surface.next_point = (int32_t *)(void *)((char *)b->cloud.grid + grid_size(points->count));
     b->surface.most_vertices = points->max_vertices;
 }
@@ -30,12 +31,12 @@ static void begin(fe__hull_builder *b, const fe__hull_points *points)
 static void choose_tolerance(fe__hull_builder *b, double given)
 {
     double extent = b->cloud.extent;
-    b->tolerance = given > 0.0 ? fe__maxd(given, FE__HULL_LEAST_TOLERANCE_SHARE * extent)
-                               : FE__HULL_TOLERANCE_SHARE * extent;
+    b->tolerance =
+        given > 0.0 ? fe__maxd(given, FE__HULL_LEAST_TOLERANCE_SHARE * extent) : FE__HULL_TOLERANCE_SHARE * extent;
     b->surface.tolerance = outside_share * b->tolerance / b->cloud.step;
 }
 
-static double depth_of(const fe__surface *s, const fe__grid_plane *plane)
+static double depth_of(const fe__hull_surface *s, const fe__grid_plane *plane)
 {
     double lowest = 0.0;
     for (int32_t v = 0; v < FE__SURFACE_VERTICES; ++v)
@@ -44,7 +45,7 @@ static double depth_of(const fe__surface *s, const fe__grid_plane *plane)
 }
 
 // Of the surface: the least width between a triangle and the vertex farthest below it, m
-static int32_t thinnest_triangle(const fe__surface *s, double *out_thickness)
+static int32_t thinnest_triangle(const fe__hull_surface *s, double *out_thickness)
 {
     int32_t thinnest = -1;
     double least = DBL_MAX;

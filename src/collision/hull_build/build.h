@@ -10,7 +10,8 @@
 //   measures   mass, inertia, inner radius, error                  measure.c
 #ifndef FE_COLLISION_HULL_BUILD_BUILD_H
 #define FE_COLLISION_HULL_BUILD_BUILD_H
-#include "collision/hull_build/facets.h"
+#include "collision/hull_build/builder.h"
+#include "collision/hull_build/layout.h"
 
 // The least thickness: a share of the extent, and so many metres. Thinner hulls have no mass and no inertia to speak of
 #define FE__HULL_LEAST_THICKNESS 5e-4
@@ -34,31 +35,11 @@ typedef struct fe__hull_refusal {
     fe_dvec3 normal;         // unit, along which it is so thin; 0: along more than one
 } fe__hull_refusal;
 
-typedef struct fe__hull_builder {
-    fe__cloud cloud;
-    fe__surface surface;
-    fe__facets facets;
-    double tolerance, thickness; // m
-    int32_t vertex_count, direction_count;
-    int32_t number[FE__SURFACE_VERTICES]; // in the hull, of a vertex of the surface; -1: none
-    int32_t vertex[FE__SURFACE_VERTICES]; // the reverse
-    uint16_t half[3 * FE__SURFACE_TRIANGLES]; // half-edge of a corner of the facets
-    fe_dvec3 direction[FE__HULL_DIRECTIONS];
-    uint16_t edge_end; // half-edges so far
-} fe__hull_builder;
-
 int64_t fe__hull_builder_size(int32_t point_count);
 // `room`: so many bytes, aligned to 8. 0: the points are thinner than they may be.
 int32_t fe__hull_build(fe__hull_builder *room, const fe__hull_points *points, fe__hull_refusal *out_refusal);
-int64_t fe__hull_block_size(fe__hull_builder *builder); // after fe__hull_build
+// Then fe__hull_block_size tells what block it needs.
 // `block`: so many bytes, aligned to 64, zeroed.
 void fe__hull_write(fe__hull_builder *builder, void *block, fe__hull *out_hull);
-
-// ---- of its files --------------------------------------------------------------------------------------------------
-void fe__hull_lay_out(fe__hull_builder *builder, void *block, fe__hull *hull); // layout.c
-void fe__hull_weigh(fe__hull *hull);                                           // measure.c
-void fe__hull_measure_error(const fe__hull_builder *builder, fe__hull *hull);  // measure.c
-// The least float that is not below x
-float fe__float_above(double x);
 
 #endif

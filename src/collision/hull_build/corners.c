@@ -45,7 +45,8 @@ static int32_t choose(const fe__facets *f, const int32_t *row, int32_t count, ui
 // ---- loops that stay convex ----------------------------------------------------------------------------------------
 static int32_t is_left_of_slab(const fe__facets *f, const fe__grid_plane *plane, const int32_t corner[3])
 {
-    fe_dvec3 here = fe__vertex_on_grid(f->surface, corner[1]), in = fe__dsub(here, fe__vertex_on_grid(f->surface, corner[0])),
+    fe_dvec3 here = fe__vertex_on_grid(f->surface, corner[1]),
+             in = fe__dsub(here, fe__vertex_on_grid(f->surface, corner[0])),
              out = fe__dsub(fe__vertex_on_grid(f->surface, corner[2]), here), past = fe__dadd(in, out);
     double turn = fe__ddot(fe__dcross(in, out), plane->normal) * plane->per_length;
     return turn >= -f->slab * sqrt(fe__ddot(past, past));

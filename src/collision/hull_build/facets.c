@@ -25,7 +25,7 @@ static uint64_t falling(double x)
 
 static void sort_triangles(fe__facets *f)
 {
-    const fe__surface *s = f->surface;
+    const fe__hull_surface *s = f->surface;
     f->living = 0;
     for (int32_t i = 0; i < s->triangle_end; ++i) {
         const fe__grid_plane *plane = &s->triangles[i].plane;
@@ -39,7 +39,7 @@ static void sort_triangles(fe__facets *f)
 // ---- growth --------------------------------------------------------------------------------------------------------
 static int32_t fits(const fe__facets *f, int32_t seed, int32_t triangle, int32_t apex)
 {
-    const fe__surface *s = f->surface;
+    const fe__hull_surface *s = f->surface;
     const fe__grid_plane *plane = &s->triangles[seed].plane, *other = &s->triangles[triangle].plane;
     double cosine = fe__ddot(plane->normal, other->normal) * plane->per_length * other->per_length;
     if (cosine < least_cosine) return 0;
@@ -78,7 +78,7 @@ static void begin_ring(fe__facets *f, int32_t seed, int32_t facet)
 // the ring of one end of the edge, which then lies inside.
 static void try_edge(fe__facets *f, int32_t edge, int32_t seed, int32_t facet)
 {
-    const fe__surface *s = f->surface;
+    const fe__hull_surface *s = f->surface;
     int32_t from = fe__edge_start(s, edge), to = fe__edge_end(s, edge);
     if (!f->in_ring[from] || f->edge[from] != edge) return;
     int32_t twin = fe__edge_twin(s, edge), triangle = twin / 3, first = fe__next_corner(twin),
@@ -101,11 +101,11 @@ static void try_edge(fe__facets *f, int32_t edge, int32_t seed, int32_t facet)
 }
 
 // ---- the rim -------------------------------------------------------------------------------------------------------
-// Does the rim turn left at every vertex, or right by no more than the slab? (How far a vertex is inside of the line past
-// it; rounding of points on one line must not divide a face.)
+// Does the rim turn left at every vertex, or right by no more than the slab? (How far a vertex is inside of the line
+// past it; rounding of points on one line must not divide a face.)
 static int32_t is_convex(const fe__facets *f, int32_t seed)
 {
-    const fe__surface *s = f->surface;
+    const fe__hull_surface *s = f->surface;
     const fe__grid_plane *plane = &s->triangles[seed].plane;
     for (int32_t v = 0; v < FE__SURFACE_VERTICES; ++v) {
         if (!f->in_ring[v]) continue;
@@ -130,11 +130,6 @@ static void keep_ring(fe__facets *f, int32_t seed)
         facet->count += 1;
         v = f->next[v];
     } while (v != start);
-}
-
-static void give_back(fe__facets *f)
-{
-    for (int32_t i = 0; i < f->member_count; ++i) f->facet_of[f->members[i]] = -1;
 }
 
 static int32_t make_thinner(fe__facets *f, int32_t facet)
@@ -188,8 +183,8 @@ static double bend(const fe__facets *f, int32_t facet, int32_t i)
 {
     const fe__facet *loop = &f->facets[facet];
     int32_t next = i + 1 < loop->first + loop->count ? i + 1 : loop->first;
-    fe_dvec3 side = fe__dsub(fe__vertex_on_grid(f->surface, f->corner[next]),
-                             fe__vertex_on_grid(f->surface, f->corner[i]));
+    fe_dvec3 side =
+        fe__dsub(fe__vertex_on_grid(f->surface, f->corner[next]), fe__vertex_on_grid(f->surface, f->corner[i]));
     const fe__grid_plane *left = fe__facet_plane(f, facet), *right = fe__facet_plane(f, f->across[i]);
     fe_dvec3 l = fe__dscale(left->per_length, left->normal), r = fe__dscale(right->per_length, right->normal);
     return fe__ddot(fe__dcross(l, r), side) / sqrt(fe__ddot(side, side));
@@ -210,7 +205,7 @@ static int32_t mend(fe__facets *f)
     return thinner;
 }
 
-void fe__facets_find(fe__facets *f, const fe__surface *surface, double slab)
+void fe__facets_find(fe__facets *f, const fe__hull_surface *surface, double slab)
 {
     f->surface = surface;
     f->slab = slab;

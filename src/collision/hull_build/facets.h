@@ -17,7 +17,7 @@ typedef struct fe__facet {
 } fe__facet;
 
 typedef struct fe__facets {
-    const fe__surface *surface;
+    const fe__hull_surface *surface;
     double slab; // steps of the grid
     int32_t count, corner_count;
     fe__facet facets[FE__SURFACE_TRIANGLES];
@@ -41,7 +41,7 @@ static inline const fe__grid_plane *fe__facet_plane(const fe__facets *f, int32_t
     return &f->surface->triangles[f->facets[facet].seed].plane;
 }
 
-void fe__facets_find(fe__facets *facets, const fe__surface *surface, double slab);
+void fe__facets_find(fe__facets *facets, const fe__hull_surface *surface, double slab);
 // Corners between two facets that lie within the slab of the line past them go (corners.c).
 void fe__facets_drop_corners(fe__facets *facets);
 

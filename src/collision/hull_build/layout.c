@@ -1,5 +1,5 @@
 // layout.c - the record of a hull, from its facets. What the arrays hold, and in which order, stands in form/hull.h.
-#include "collision/hull_build/build.h"
+#include "collision/hull_build/layout.h"
 
 #include <string.h>
 
@@ -29,10 +29,7 @@ static void *take(room *r, int64_t size)
     return at;
 }
 
-static float *take_floats(room *r, int32_t count)
-{
-    return take(r, (int64_t)sizeof(float) * fe__hull_padded(count));
-}
+static float *take_floats(room *r, int32_t count) { return take(r, (int64_t)sizeof(float) * fe__hull_padded(count)); }
 
 static fe__hull_lanes take_lanes(room *r, int32_t count)
 {
@@ -167,8 +164,8 @@ static void write_topology(const fe__hull_builder *b, const fe__hull *h)
         for (int32_t k = 0; k < loop->count; ++k, i = corner_after(loop, i)) {
             int32_t vertex = b->number[f->corner[i]];
             corners[end++] = (uint8_t)vertex;
-            edges[b->half[i]] = (fe__hull_edge){
-                b->half[corner_after(loop, i)], (uint16_t)facet, (uint8_t)vertex, {0, 0, 0}};
+            edges[b->half[i]] =
+                (fe__hull_edge){b->half[corner_after(loop, i)], (uint16_t)facet, (uint8_t)vertex, {0, 0, 0}};
             spokes[vertex] = b->half[i];
         }
     }
@@ -264,7 +261,8 @@ void fe__hull_lay_out(fe__hull_builder *b, void *block, fe__hull *h)
     h->size = r.end;
     fe_dvec3 middle = b->cloud.middle;
     double extent = b->cloud.extent;
-    h->origin = fe__vec3(origin_along(middle.x, extent), origin_along(middle.y, extent), origin_along(middle.z, extent));
+    h->origin =
+        fe__vec3(origin_along(middle.x, extent), origin_along(middle.y, extent), origin_along(middle.z, extent));
     h->thickness = (float)b->thickness;
     h->extent = (float)extent;
     h->tolerance = (float)b->tolerance;

@@ -1,6 +1,7 @@
 // measure.c - what a hull weighs, and how far points that were left out lie outside.
-#include "collision/hull_build/build.h"
+#include "collision/hull_build/measure.h"
 
+#include "collision/hull_build/layout.h"
 #include "core/tensor.h"
 
 #include <float.h>
@@ -97,7 +98,7 @@ static double height_outside(const fe__hull *h, fe_dvec3 point)
 // Of the points that still wait outside, and of vertices that became none. All others are inside of these.
 void fe__hull_measure_error(const fe__hull_builder *b, fe__hull *h)
 {
-    const fe__surface *s = &b->surface;
+    const fe__hull_surface *s = &b->surface;
     double most = 0.0;
     for (int32_t i = 0; i < s->triangle_end; ++i) {
         if (!s->triangles[i].alive) continue;

@@ -5,7 +5,7 @@
 static const double least_height = 0.25;
 
 // ---- triangles -----------------------------------------------------------------------------------------------------
-int32_t fe__surface_new_triangle(fe__surface *s, int32_t a, int32_t b, int32_t c)
+int32_t fe__surface_new_triangle(fe__hull_surface *s, int32_t a, int32_t b, int32_t c)
 {
     int32_t i = s->free_count ? s->free_triangles[--s->free_count] : s->triangle_end++;
     fe__surface_triangle *t = &s->triangles[i];
@@ -15,14 +15,14 @@ int32_t fe__surface_new_triangle(fe__surface *s, int32_t a, int32_t b, int32_t c
     return i;
 }
 
-void fe__surface_join(fe__surface *s, int32_t edge, int32_t twin)
+void fe__surface_join(fe__hull_surface *s, int32_t edge, int32_t twin)
 {
     s->triangles[edge / 3].twin[edge % 3] = twin;
     s->triangles[twin / 3].twin[twin % 3] = edge;
 }
 
 // A vertex without triangles is inside: its place is free again.
-static void free_triangle(fe__surface *s, int32_t i)
+static void free_triangle(fe__hull_surface *s, int32_t i)
 {
     fe__surface_triangle *t = &s->triangles[i];
     t->alive = 0;
@@ -43,7 +43,7 @@ static int32_t is_farther(const fe__cloud *cloud, int32_t a, int32_t b)
     return fe__ddot(cloud->grid[a], cloud->grid[a]) > fe__ddot(cloud->grid[b], cloud->grid[b]);
 }
 
-static void wait_at(fe__surface *s, int32_t triangle, int32_t point, double height)
+static void wait_at(fe__hull_surface *s, int32_t triangle, int32_t point, double height)
 {
     fe__surface_triangle *t = &s->triangles[triangle];
     s->next_point[point] = t->first_point;
@@ -54,7 +54,7 @@ static void wait_at(fe__surface *s, int32_t triangle, int32_t point, double heig
     t->farthest_height = height;
 }
 
-void fe__surface_give(fe__surface *s, int32_t point, const int32_t *triangles, int32_t count)
+void fe__surface_give(fe__hull_surface *s, int32_t point, const int32_t *triangles, int32_t count)
 {
     fe_dvec3 p = s->cloud->grid[point];
     double best = least_height;
@@ -70,7 +70,7 @@ void fe__surface_give(fe__surface *s, int32_t point, const int32_t *triangles, i
 
 // ---- adding a point ------------------------------------------------------------------------------------------------
 // All that the point sees is connected: from one such triangle over the edges to the next. `seen` is the stack as well.
-static void find_seen(fe__surface *s, int32_t first, fe_dvec3 p)
+static void find_seen(fe__hull_surface *s, int32_t first, fe_dvec3 p)
 {
     s->seen_count = 0;
     s->seen[s->seen_count++] = first;
@@ -87,7 +87,7 @@ static void find_seen(fe__surface *s, int32_t first, fe_dvec3 p)
 
 // A triangle from each edge of the rim to the new vertex. None is flat: the line of an edge of the rim lies in a plane
 // that the point is above.
-static void make_fan(fe__surface *s, int32_t vertex)
+static void make_fan(fe__hull_surface *s, int32_t vertex)
 {
     s->fan_count = 0;
     for (int32_t i = 0; i < s->seen_count; ++i) {
@@ -107,7 +107,7 @@ static void make_fan(fe__surface *s, int32_t vertex)
     }
 }
 
-static void give_again(fe__surface *s, int32_t triangle, int32_t but)
+static void give_again(fe__hull_surface *s, int32_t triangle, int32_t but)
 {
     for (int32_t i = s->triangles[triangle].first_point, next; i >= 0; i = next) {
         next = s->next_point[i];
@@ -115,14 +115,14 @@ static void give_again(fe__surface *s, int32_t triangle, int32_t but)
     }
 }
 
-static int32_t free_vertex(const fe__surface *s)
+static int32_t free_vertex(const fe__hull_surface *s)
 {
     int32_t vertex = 0;
     while (s->point[vertex] >= 0) ++vertex;
     return vertex;
 }
 
-static void add_farthest(fe__surface *s, int32_t triangle)
+static void add_farthest(fe__hull_surface *s, int32_t triangle)
 {
     int32_t point = s->triangles[triangle].farthest, vertex = free_vertex(s);
     s->point[vertex] = point;
@@ -134,7 +134,7 @@ static void add_farthest(fe__surface *s, int32_t triangle)
 }
 
 // ---- the whole -----------------------------------------------------------------------------------------------------
-static int32_t highest_triangle(const fe__surface *s)
+static int32_t highest_triangle(const fe__hull_surface *s)
 {
     int32_t best = -1;
     for (int32_t i = 0; i < s->triangle_end; ++i) {
@@ -146,7 +146,7 @@ static int32_t highest_triangle(const fe__surface *s)
 }
 
 // Gives all points that wait to the triangle of the whole surface that they are highest above.
-static void look_at_all(fe__surface *s)
+static void look_at_all(fe__hull_surface *s)
 {
     int32_t living = 0, waiting = -1, all[FE__SURFACE_TRIANGLES];
     for (int32_t i = 0; i < s->triangle_end; ++i) {
@@ -167,7 +167,7 @@ static void look_at_all(fe__surface *s)
     }
 }
 
-void fe__surface_grow(fe__surface *s)
+void fe__surface_grow(fe__hull_surface *s)
 {
     for (int32_t looked = 0;;) {
         int32_t highest = highest_triangle(s);

@@ -79,7 +79,7 @@ static int32_t find_corners(const fe__cloud *cloud, double least, int32_t corner
     return 1;
 }
 
-static void make_tetrahedron(fe__surface *s)
+static void make_tetrahedron(fe__hull_surface *s)
 {
     static const int32_t corners[4][3] = {{0, 1, 2}, {1, 0, 3}, {2, 1, 3}, {0, 2, 3}};
     for (int32_t i = 0; i < 4; ++i) fe__surface_new_triangle(s, corners[i][0], corners[i][1], corners[i][2]);
@@ -90,10 +90,10 @@ static void make_tetrahedron(fe__surface *s)
     }
 }
 
-int32_t fe__surface_begin(fe__surface *s, double least_thickness, double *out_thickness, fe_dvec3 *out_normal)
+int32_t fe__surface_begin(fe__hull_surface *s, double least_thickness, double *out_thickness, fe_dvec3 *out_normal)
 {
     static const int32_t all[4] = {0, 1, 2, 3};
-    for (int32_t i = 0; i < FE__SURFACE_VERTICES; ++i) s->point[i] = -1;
+    for (int32_t i = 0; i < FE__SURFACE_VERTICES; ++i) s->point[i] = -1, s->degree[i] = 0;
     if (!find_corners(s->cloud, least_thickness, s->point, out_thickness, out_normal)) return 0;
     s->vertex_count = 4;
     make_tetrahedron(s);
