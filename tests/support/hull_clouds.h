@@ -2,6 +2,7 @@
 // cloud on every machine.
 #ifndef FE_TESTS_HULL_CLOUDS_H
 #define FE_TESTS_HULL_CLOUDS_H
+#include "core/trig.h"
 #include "feather.h"
 
 #include <math.h>
@@ -100,8 +101,9 @@ static inline fe_dvec3 cloud_place(const cloud *c, uint64_t *s, int32_t i, int32
         v = cloud_vector(s);
         return (fe_dvec3){v.x, 1e-3 * v.y, 1e-3 * v.z};
     case CLOUD_PRISM: {
-        double angle = 6.283185307179586 * (double)(i / 2) / (double)((c->count + 1) / 2);
-        return (fe_dvec3){cos(angle), i % 2 ? 0.5 : -0.5, sin(angle)};
+        double sine, cosine;
+        fe__sincos(6.283185307179586 * (double)(i / 2) / (double)((c->count + 1) / 2), &sine, &cosine);
+        return (fe_dvec3){cosine, i % 2 ? 0.5 : -0.5, sine};
     }
     case CLOUD_RIM: {
         v = cloud_direction(s);
@@ -119,7 +121,9 @@ static inline fe_dvec3 cloud_place(const cloud *c, uint64_t *s, int32_t i, int32
 
 static inline fe_dvec3 cloud_turn(fe_dvec3 v, fe_dvec3 a, double angle) // Rodrigues
 {
-    double c = cos(angle), s = sin(angle), k = (1.0 - c) * (a.x * v.x + a.y * v.y + a.z * v.z);
+    double c, s;
+    fe__sincos(angle, &s, &c);
+    double k = (1.0 - c) * (a.x * v.x + a.y * v.y + a.z * v.z);
     return (fe_dvec3){c * v.x + s * (a.y * v.z - a.z * v.y) + k * a.x, c * v.y + s * (a.z * v.x - a.x * v.z) + k * a.y,
                       c * v.z + s * (a.x * v.y - a.y * v.x) + k * a.z};
 }

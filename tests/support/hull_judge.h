@@ -110,11 +110,12 @@ static inline int32_t judge_lanes(const fe__hull *h)
 }
 
 // Vertices are points in their order; no point is farther outside than told
-static inline int32_t judge_points(const fe__hull *h, const float (*points)[3], int32_t count, double extent)
+static inline int32_t judge_points(const fe__hull *h, const float *points, int32_t count, double extent)
 {
     int32_t vertex = 0;
     for (int32_t i = 0; i < count; ++i) {
-        fe_dvec3 p = {(double)points[i][0], (double)points[i][1], (double)points[i][2]}, o = fe__widen(h->origin);
+        fe_dvec3 p = {(double)points[3 * i], (double)points[3 * i + 1], (double)points[3 * i + 2]},
+                 o = fe__widen(h->origin);
         fe_dvec3 local = fe__dsub(p, o);
         double outside = -1e300;
         for (int32_t f = 0; f < h->face_count; ++f) outside = fe__maxd(outside, judge_height(h, f, local));
@@ -128,7 +129,7 @@ static inline int32_t judge_points(const fe__hull *h, const float (*points)[3], 
     return 1;
 }
 
-static inline int32_t judge_hull(const fe__hull *h, const float (*points)[3], int32_t count, int32_t most_vertices)
+static inline int32_t judge_hull(const fe__hull *h, const float *points, int32_t count, int32_t most_vertices)
 {
     double extent = (double)h->extent;
     JUDGE(h->vertex_count <= most_vertices, "%d vertices", h->vertex_count);
