@@ -1,6 +1,8 @@
 // heightfield_asset.c - see heightfield_asset.h. Called by the API layer with checked arguments, from any thread.
 #include "store/heightfield_asset.h"
 
+#include "store/making.h"
+
 #include <string.h>
 
 static int64_t sample_count(const fe__heightfield *f) { return (int64_t)f->rows * f->columns; }
@@ -31,18 +33,13 @@ static void fill_cells(fe__heightfield *f, const fe_heightfield_def *def)
     }
 }
 
-static int32_t needs_special_rows(const fe_material *m)
-{
-    return m->restitution > 0.0f || m->rolling_resistance > 0.0f || m->spinning_resistance > 0.0f;
-}
-
 static void fill_materials(fe__asset *a, const fe_heightfield_def *def)
 {
     uint32_t stride = def->material_stride ? def->material_stride : (uint32_t)sizeof(fe_material);
     for (int32_t i = 0; i < a->material_count; ++i) {
         memcpy(a->materials + i, (const unsigned char *)def->materials + (size_t)stride * (size_t)i,
                sizeof *a->materials);
-        a->special |= needs_special_rows(a->materials + i);
+        a->special |= fe__material_is_special(a->materials + i);
     }
 }
 

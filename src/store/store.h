@@ -8,20 +8,22 @@
 #define FE_STORE_STORE_H
 #include "collision/form/heightfield.h"
 #include "collision/form/hull.h"
+#include "collision/form/mesh.h"
 #include "collision/form/shape.h"
 #include "core/id_pool.h"
 #include "core/memory.h"
 #include "core/mutex.h"
 #include "core/registry.h"
 
-typedef enum fe__asset_kind { FE__ASSET_HEIGHTFIELD, FE__ASSET_HULL } fe__asset_kind;
+typedef enum fe__asset_kind { FE__ASSET_HEIGHTFIELD, FE__ASSET_HULL, FE__ASSET_MESH } fe__asset_kind;
 
 typedef struct fe__block {
     void *memory;
     size_t size;
 } fe__block;
 
-// What shapes share: a heightfield and the materials of its cells, or a convex hull.
+// What shapes share: a heightfield and the materials of its cells, a convex hull, or a mesh
+// and the materials of its triangles.
 enum { FE__ASSET_BLOCKS = 4 };
 typedef struct fe__asset {
     int32_t kind; // fe__asset_kind
@@ -30,8 +32,9 @@ typedef struct fe__asset {
     union {
         fe__heightfield field;
         fe__hull hull;
+        fe__mesh mesh;
     };
-    fe_material *materials; // of the cells of a heightfield
+    fe_material *materials; // of the cells of a heightfield, the triangles of a mesh
     int32_t material_count;
     int32_t special;   // a material needs special rows
     int32_t users;     // worlds with shapes that have it, and calls that are about to make one

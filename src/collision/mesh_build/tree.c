@@ -225,7 +225,7 @@ static int32_t cut_at_bins(builder *b, const part *p, const binning *g, int32_t 
 static void cut(builder *b, const part *p, int32_t depth, int32_t size, part *left, part *right)
 {
     binning g = choose_bins(p);
-    int32_t count = g.axis < 0 || depth >= HALVED_DEPTH ? 0 : cut_at_bins(b, p, &g, size);
+    int32_t count = g.axis < 0 || depth >= HALVED_DEPTH || size == FE__MESH_LEAF ? 0 : cut_at_bins(b, p, &g, size);
     if (!count) {
         count = rounded(p->count / 2, p->count, size);
         find(b, p->first, p->first + p->count, p->first + count, longest_axis(p));
