@@ -4,7 +4,8 @@
 // runs along an axis. A vertex then has a place in the plane, which depends on the vertex and the ray alone; whether
 // the ray passes left of an edge is the sign of one difference of two products. That is rounded the same for both
 // triangles of the edge, with opposite signs; being monotonic, it is 0 or has the sign of the exact difference, and 0
-// counts for both. So no ray passes between them.
+// counts for both. So no ray passes between them. Where it meets an edge or a vertex, its distance is taken from that
+// alone: the triangles there agree on it, and the lowest number wins.
 //
 // Boxes are tested in float, and widened by more than its roundings: a box is never missed when a triangle in it is
 // hit. The start is moved along the ray to just before the mesh, for boxes and triangles alike: coordinates near it
@@ -49,6 +50,27 @@ static inline sheared shear(const caster *c, const float *v)
 // No less than x, as a float
 static float float_above(double x) { return (float)(x * (1.0 + 0x1p-22)); }
 
+// How far along the ray an edge is that it meets, from the edge alone, so that both its triangles say the same
+static double reach_edge(sheared a, sheared b)
+{
+    if (a.x > b.x || (a.x == b.x && (a.y > b.y || (a.y == b.y && a.z > b.z)))) {
+        sheared kept = a;
+        a = b, b = kept;
+    }
+    double x = b.x - a.x, y = b.y - a.y, square = x * x + y * y;
+    double part = square > 0.0 ? -(a.x * x + a.y * y) / square : 0.0;
+    return a.z + fe__clampd(part, 0.0, 1.0) * (b.z - a.z);
+}
+
+// u v w: of the corners. Exact when all are equally far
+static double reach_triangle(sheared a, sheared b, sheared c, double u, double v, double w)
+{
+    if (u == 0.0) return v == 0.0 ? c.z : w == 0.0 ? b.z : reach_edge(b, c);
+    if (v == 0.0) return w == 0.0 ? a.z : reach_edge(c, a);
+    if (w == 0.0) return reach_edge(a, b);
+    return a.z + (v * (b.z - a.z) + w * (c.z - a.z)) / (u + v + w);
+}
+
 static inline void meet_triangle(caster *c, int32_t slot)
 {
     const fe__mesh *m = c->mesh;
@@ -59,7 +81,7 @@ static inline void meet_triangle(caster *c, int32_t slot)
     if (!is_front && !(is_back && m->is_two_sided)) return;
     double sum = u + v + w;
     if (sum == 0.0) return; // edge-on
-    double s = (u * a.z + v * b.z + w * d.z) / sum;
+    double s = reach_triangle(a, b, d, u, v, w);
     if (!(s >= 0.0 && s <= c->limit)) return;
     int32_t number = fe__mesh_number(m, slot);
     if (s == c->limit && c->slot >= 0 && number > c->number) return;
@@ -156,14 +178,14 @@ static void walk(caster *c)
 }
 
 // ---- the ray -------------------------------------------------------------------------------------------------------
-// 2^-k so that x 2^-k is in [1, 2)
+// The power of two that brings x to 2..4: of any x that is no denormal it is a normal number
 static double scale_for(double x)
 {
     union {
         double value;
         uint64_t bits;
     } a = {x};
-    a.bits = (uint64_t)(2046 - (int32_t)(a.bits >> 52 & 2047)) << 52;
+    a.bits = (uint64_t)(2047 - (int32_t)(a.bits >> 52 & 2047)) << 52;
     return a.value;
 }
 
