@@ -16,9 +16,13 @@ int64_t fe__mesh_edges_size(const fe__mesh_source *s)
     return (int64_t)sizeof(uint32_t) * (2 * HALF_EDGES(s) + s->vertex_count + 2);
 }
 
+// Half-edge k of triangle t, from its corner k on, has the number 4 t + k.
+enum { HALF_BITS = 2, HALF_MASK = 3 };
+static const uint8_t next_corner[3] = {1, 2, 0}, last_corner[3] = {2, 0, 1};
+
 typedef struct workroom {
     fe__mesh_builder *builder;
-    uint32_t *corner; // welded, of half-edges: where each starts
+    uint32_t *corner; // welded, three a triangle
     uint32_t *half;   // half-edges by bucket
     uint32_t *first;  // of each bucket
     double least_cosine;
@@ -29,37 +33,41 @@ typedef struct half_edge {
     int32_t is_forward; // from lower to other
 } half_edge;
 
-static half_edge read_half(const workroom *w, uint32_t half)
+static inline half_edge read_half(const workroom *w, uint32_t half)
 {
-    uint32_t triangle = half / 3, k = half % 3;
-    const uint32_t *c = w->corner + 3 * (size_t)triangle;
-    uint32_t a = c[k], b = c[(k + 1) % 3], third = c[(k + 2) % 3];
+    uint32_t k = half & HALF_MASK;
+    const uint32_t *c = w->corner + 3 * (size_t)(half >> HALF_BITS);
+    uint32_t a = c[k], b = c[next_corner[k]], third = c[last_corner[k]];
     return a < b ? (half_edge){a, b, third, 1} : (half_edge){b, a, third, 0};
 }
 
 // ---- triangles without area ----------------------------------------------------------------------------------------
 static fe_dvec3 normal_of(const fe_dvec3 v[3]) { return fe__dcross(fe__dsub(v[1], v[0]), fe__dsub(v[2], v[0])); }
 
-static void read_triangle(const fe__mesh_builder *b, uint32_t triangle, fe_dvec3 v[3])
+static void read_triangle(const workroom *w, uint32_t triangle, fe_dvec3 v[3])
 {
-    fe_vec3 corner[3];
-    fe__mesh_welded_corners(b, (int32_t)triangle, corner);
-    for (int32_t k = 0; k < 3; ++k) v[k] = fe__widen(corner[k]);
+    const uint32_t *c = w->corner + 3 * (size_t)triangle;
+    for (int32_t k = 0; k < 3; ++k) v[k] = fe__widen(fe__mesh_source_vertex(w->builder->source, c[k]));
 }
 
 // Of the vertices that triangles have: others do not count
-static double longest_side(fe__mesh_builder *b)
+static double longest_side(const workroom *w)
 {
+    const fe__mesh_source *s = w->builder->source;
     fe_vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
-    for (int32_t i = 0; i < b->source->triangle_count; ++i) {
-        for (int32_t k = 0; k < 3; ++k) {
-            fe_vec3 v = fe__mesh_source_vertex(b->source, fe__mesh_welded(b, i, k));
-            low = (fe_vec3){fe__minf(low.x, v.x), fe__minf(low.y, v.y), fe__minf(low.z, v.z)};
-            high = (fe_vec3){fe__maxf(high.x, v.x), fe__maxf(high.y, v.y), fe__maxf(high.z, v.z)};
-        }
+    for (int64_t i = 0; i < HALF_EDGES(s); ++i) {
+        fe_vec3 v = fe__mesh_source_vertex(s, w->corner[i]);
+        low = (fe_vec3){fe__minf(low.x, v.x), fe__minf(low.y, v.y), fe__minf(low.z, v.z)};
+        high = (fe_vec3){fe__maxf(high.x, v.x), fe__maxf(high.y, v.y), fe__maxf(high.z, v.z)};
     }
     fe_dvec3 d = fe__dsub(fe__widen(high), fe__widen(low));
     return fe__maxd(d.x, fe__maxd(d.y, d.z));
+}
+
+static void read_corners(workroom *w)
+{
+    for (int32_t i = 0; i < w->builder->source->triangle_count; ++i)
+        for (int32_t k = 0; k < 3; ++k) w->corner[3 * (size_t)i + (size_t)k] = fe__mesh_welded(w->builder, i, k);
 }
 
 static void refuse(fe__mesh_builder *b, int32_t triangle, int32_t is_duplicate)
@@ -71,12 +79,11 @@ static void refuse(fe__mesh_builder *b, int32_t triangle, int32_t is_duplicate)
 static void drop_degenerate(workroom *w)
 {
     fe__mesh_builder *b = w->builder;
-    double extent = longest_side(b), least = 2.0 * FE__MESH_LEAST_AREA * extent * extent;
+    double extent = longest_side(w), least = 2.0 * FE__MESH_LEAST_AREA * extent * extent;
     for (int32_t i = 0; i < b->source->triangle_count; ++i) {
-        uint32_t *c = w->corner + 3 * (size_t)i;
-        for (int32_t k = 0; k < 3; ++k) c[k] = fe__mesh_welded(b, i, k);
+        const uint32_t *c = w->corner + 3 * (size_t)i;
         fe_dvec3 v[3];
-        read_triangle(b, (uint32_t)i, v);
+        read_triangle(w, (uint32_t)i, v);
         fe_dvec3 n = normal_of(v);
         if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0] && fe__ddot(n, n) > least * least) continue;
         b->edges[i] = FE__MESH_DROPPED;
@@ -86,17 +93,24 @@ static void drop_degenerate(workroom *w)
 }
 
 // ---- buckets -------------------------------------------------------------------------------------------------------
+static uint32_t lower_of(const uint32_t *c, int32_t k) { return c[k] < c[next_corner[k]] ? c[k] : c[next_corner[k]]; }
+
 static void fill_buckets(workroom *w)
 {
     const fe__mesh_builder *b = w->builder;
-    uint32_t count = (uint32_t)HALF_EDGES(b->source), vertices = (uint32_t)b->source->vertex_count;
+    uint32_t count = (uint32_t)b->source->triangle_count, vertices = (uint32_t)b->source->vertex_count;
     uint32_t *place = w->first + 1; // moved by one: filling ends with the firsts in w->first
     memset(w->first, 0, ((size_t)vertices + 2) * sizeof *w->first);
-    for (uint32_t h = 0; h < count; ++h)
-        if (b->edges[h / 3] != FE__MESH_DROPPED) place[read_half(w, h).lower + 1] += 1;
+    for (uint32_t t = 0; t < count; ++t) {
+        if (b->edges[t] == FE__MESH_DROPPED) continue;
+        for (int32_t k = 0; k < 3; ++k) place[lower_of(w->corner + 3 * (size_t)t, k) + 1] += 1;
+    }
     for (uint32_t v = 0; v < vertices; ++v) place[v + 1] += place[v];
-    for (uint32_t h = 0; h < count; ++h)
-        if (b->edges[h / 3] != FE__MESH_DROPPED) w->half[place[read_half(w, h).lower]++] = h;
+    for (uint32_t t = 0; t < count; ++t) {
+        if (b->edges[t] == FE__MESH_DROPPED) continue;
+        for (int32_t k = 0; k < 3; ++k)
+            w->half[place[lower_of(w->corner + 3 * (size_t)t, k)]++] = t << HALF_BITS | (uint32_t)k;
+    }
 }
 
 static int32_t is_before(const workroom *w, uint32_t a, uint32_t b)
@@ -120,31 +134,43 @@ static void sift(const workroom *w, uint32_t *heap, uint32_t at, uint32_t count)
 }
 
 // Few by insertion; many, as around the middle of a fan, on a heap (Williams 1964)
-static void sort_bucket(const workroom *w, uint32_t *half, uint32_t count)
+enum { FEW = 24 };
+static void sort_many(const workroom *w, uint32_t *half, uint32_t count)
 {
-    enum { FEW = 24 };
-    if (count > FEW) {
-        for (uint32_t i = count / 2; i-- > 0;) sift(w, half, i, count);
-        for (uint32_t end = count - 1; end > 0; --end) {
-            uint32_t largest = half[0];
-            half[0] = half[end], half[end] = largest;
-            sift(w, half, 0, end);
-        }
-        return;
+    for (uint32_t i = count / 2; i-- > 0;) sift(w, half, i, count);
+    for (uint32_t end = count - 1; end > 0; --end) {
+        uint32_t largest = half[0];
+        half[0] = half[end], half[end] = largest;
+        sift(w, half, 0, end);
     }
-    for (uint32_t i = 1; i < count; ++i) {
-        uint32_t moved = half[i], place = i;
-        for (; place > 0 && is_before(w, moved, half[place - 1]); --place) half[place] = half[place - 1];
-        half[place] = moved;
+}
+
+// They come in the order of their numbers: the sort is stable. Of two with the same vertices the forward one is first
+static void sort_few(const workroom *w, uint32_t *half, uint32_t count)
+{
+    struct {
+        uint64_t key;
+        uint32_t half, is_backward;
+    } sorted[FEW];
+    for (uint32_t i = 0; i < count; ++i) {
+        half_edge h = read_half(w, half[i]);
+        uint64_t key = (uint64_t)h.other << 32 | h.third;
+        uint32_t place = i, is_backward = !h.is_forward;
+        for (; place > 0 && (sorted[place - 1].key > key ||
+                             (sorted[place - 1].key == key && sorted[place - 1].is_backward > is_backward));
+             --place)
+            sorted[place] = sorted[place - 1];
+        sorted[place].key = key, sorted[place].half = half[i], sorted[place].is_backward = is_backward;
     }
+    for (uint32_t i = 0; i < count; ++i) half[i] = sorted[i].half;
 }
 
 // ---- edges ---------------------------------------------------------------------------------------------------------
 static void mark(workroom *w, uint32_t half, fe__mesh_edge edge)
 {
     static const uint32_t digit[3] = {1, FE__MESH_EDGES, FE__MESH_EDGES * FE__MESH_EDGES};
-    uint8_t *edges = w->builder->edges + half / 3;
-    *edges = (uint8_t)(*edges + (uint32_t)edge * digit[half % 3]);
+    uint8_t *edges = w->builder->edges + (half >> HALF_BITS);
+    *edges = (uint8_t)(*edges + (uint32_t)edge * digit[half & HALF_MASK]);
 }
 
 static fe__mesh_edge bend(const workroom *w, uint32_t a, uint32_t b)
@@ -152,10 +178,10 @@ static fe__mesh_edge bend(const workroom *w, uint32_t a, uint32_t b)
     half_edge x = read_half(w, a), y = read_half(w, b);
     if (x.third == y.third) return FE__MESH_EDGE_CONVEX; // back to back
     fe_dvec3 v[3], u[3];
-    read_triangle(w->builder, a / 3, v);
-    read_triangle(w->builder, b / 3, u);
+    read_triangle(w, a >> HALF_BITS, v);
+    read_triangle(w, b >> HALF_BITS, u);
     fe_dvec3 n = normal_of(v), m = normal_of(u);
-    fe_dvec3 start = v[a % 3], third = u[(b % 3 + 2) % 3];
+    fe_dvec3 start = v[a & HALF_MASK], third = u[last_corner[b & HALF_MASK]];
     if (!(fe__ddot(n, fe__dsub(third, start)) < 0.0)) return FE__MESH_EDGE_SMOOTH;
     double cosine = fe__ddot(n, m) / sqrt(fe__ddot(n, n) * fe__ddot(m, m));
     return cosine < w->least_cosine ? FE__MESH_EDGE_CONVEX : FE__MESH_EDGE_BENT;
@@ -172,11 +198,11 @@ static uint32_t drop_duplicates(workroom *w, uint32_t *half, uint32_t count)
             half[kept++] = half[i];
             continue;
         }
-        uint8_t *edges = b->edges + half[i] / 3;
+        uint8_t *edges = b->edges + (half[i] >> HALF_BITS);
         if (*edges == FE__MESH_DROPPED) continue; // by another edge
         *edges = FE__MESH_DROPPED;
         b->mesh.duplicate_count += 1;
-        refuse(b, (int32_t)(half[i] / 3), 1);
+        refuse(b, (int32_t)(half[i] >> HALF_BITS), 1);
     }
     return kept;
 }
@@ -201,7 +227,10 @@ static void judge_edge(workroom *w, uint32_t *half, uint32_t count)
 
 static void judge_bucket(workroom *w, uint32_t *half, uint32_t count)
 {
-    sort_bucket(w, half, count);
+    if (count > FEW)
+        sort_many(w, half, count);
+    else
+        sort_few(w, half, count);
     for (uint32_t i = 0, end; i < count; i = end) {
         uint32_t other = read_half(w, half[i]).other;
         for (end = i + 1; end < count && read_half(w, half[end]).other == other;) ++end;
@@ -216,6 +245,7 @@ void fe__mesh_find_edges(fe__mesh_builder *b)
     w.half = w.corner + HALF_EDGES(b->source);
     w.first = w.half + HALF_EDGES(b->source);
     fe__sincos(b->source->edge_angle, &sine, &w.least_cosine);
+    read_corners(&w);
     drop_degenerate(&w);
     fill_buckets(&w);
     for (int32_t v = 0; v < b->source->vertex_count; ++v)
