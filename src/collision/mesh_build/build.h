@@ -47,6 +47,7 @@ typedef struct fe__mesh_builder {
     fe__mesh_node *nodes;
     uint8_t *edges; // of each triangle: as fe__mesh.edges; FE__MESH_DROPPED
     uint8_t *seen;  // a bit for each triangle, for the numbers
+    fe__mesh_shortcut *shortcuts;
     int32_t node_room;
     fe__mesh mesh; // counts and measures
     fe__mesh_refusal refusal;
@@ -69,8 +70,7 @@ void fe__mesh_find_edges(fe__mesh_builder *builder);
 int64_t fe__mesh_tree_size(const fe__mesh_source *source);
 int32_t fe__mesh_node_room(int32_t triangle_count);
 void fe__mesh_build_tree(fe__mesh_builder *builder);
-// `mesh->numbers` is written; shortcuts are marked in it and counted, and written when `out` is not NULL.
-// `seen`: triangle_count / 8 + 1 zeroed bytes
+// Marks them in `numbers`, a permutation, and writes them by `from`; returns how many. `seen`: count / 8 + 1 bytes
 int32_t fe__mesh_shortcuts(uint32_t *numbers, int32_t count, uint8_t *seen, fe__mesh_shortcut *out);
 
 // ---- reading the definition ----------------------------------------------------------------------------------------

@@ -13,11 +13,17 @@ static int64_t words(int64_t count) { return padded(count * (int64_t)sizeof(uint
 
 static int64_t seen_size(const fe__mesh_source *s) { return padded(s->triangle_count / 8 + 1); }
 
+// Two in a cycle of FE__MESH_SHORTCUT + 1, one more for each further FE__MESH_SHORTCUT
+static int64_t shortcut_size(const fe__mesh_source *s)
+{
+    return padded((int64_t)sizeof(fe__mesh_shortcut) * (2 * (int64_t)s->triangle_count / (FE__MESH_SHORTCUT + 1) + 1));
+}
+
 int64_t fe__mesh_room_size(const fe__mesh_source *s)
 {
     return padded(sizeof(fe__mesh_builder)) + 2 * words(s->vertex_count) + words(s->triangle_count) +
            padded((int64_t)sizeof(fe__mesh_node) * fe__mesh_node_room(s->triangle_count)) + padded(s->triangle_count) +
-           seen_size(s);
+           seen_size(s) + shortcut_size(s);
 }
 
 static void *take(unsigned char **at, int64_t size)
@@ -38,6 +44,7 @@ static void share_room(fe__mesh_builder *b, const fe__mesh_source *s)
     b->nodes = take(&at, (int64_t)sizeof *b->nodes * b->node_room);
     b->edges = take(&at, s->triangle_count);
     b->seen = take(&at, seen_size(s));
+    b->shortcuts = take(&at, shortcut_size(s));
 }
 
 int64_t fe__mesh_scratch_size(const fe__mesh_source *s)
@@ -178,7 +185,7 @@ static places find_places(const fe__mesh_builder *b)
 int64_t fe__mesh_block_size(fe__mesh_builder *b)
 {
     b->mesh.vertex_count = make_groups(b, NULL, NULL);
-    b->mesh.shortcut_count = fe__mesh_shortcuts(b->order, b->mesh.given_count, b->seen, NULL);
+    b->mesh.shortcut_count = fe__mesh_shortcuts(b->order, b->mesh.given_count, b->seen, b->shortcuts);
     return find_places(b).size;
 }
 
@@ -205,7 +212,7 @@ void fe__mesh_write(fe__mesh_builder *b, void *block, fe__mesh *out)
 
     make_groups(b, vertices, leaves);
     memcpy(start + p.nodes, b->nodes, (size_t)m->node_count * sizeof *b->nodes);
-    fe__mesh_shortcuts(b->order, m->given_count, b->seen, shortcuts);
+    if (m->shortcut_count) memcpy(shortcuts, b->shortcuts, (size_t)m->shortcut_count * sizeof *shortcuts);
     memcpy(start + p.numbers, b->order, (size_t)m->given_count * sizeof *b->order);
     fill_slots(b, start + p.edges, data, materials);
 

@@ -11,7 +11,7 @@ static int32_t walk_cycle(uint32_t *numbers, int32_t start, uint8_t *seen, int32
     do {
         seen[at >> 3] |= (uint8_t)(1 << (at & 7));
         if (length > 0 && length % FE__MESH_SHORTCUT == 0) {
-            if (out) out[count] = (fe__mesh_shortcut){at, last};
+            out[count] = (fe__mesh_shortcut){at, last};
             numbers[at] |= FE__MESH_HAS_SHORTCUT;
             last = at;
             count += 1;
@@ -20,7 +20,7 @@ static int32_t walk_cycle(uint32_t *numbers, int32_t start, uint8_t *seen, int32
         length += 1;
     } while (at != start);
     if (count == first_count) return count;
-    if (out) out[count] = (fe__mesh_shortcut){start, last}; // over the end of the cycle
+    out[count] = (fe__mesh_shortcut){start, last}; // over the end of the cycle
     numbers[start] |= FE__MESH_HAS_SHORTCUT;
     return count + 1;
 }
@@ -52,6 +52,6 @@ int32_t fe__mesh_shortcuts(uint32_t *numbers, int32_t count, uint8_t *seen, fe__
     memset(seen, 0, (size_t)count / 8 + 1);
     for (int32_t i = 0; i < count; ++i)
         if (!is_seen(seen, i)) made = walk_cycle(numbers, i, seen, made, out);
-    if (out) sort(out, made);
+    sort(out, made);
     return made;
 }

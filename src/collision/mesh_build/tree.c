@@ -4,8 +4,8 @@
 // comes below: parts of 32 triangles become nodes over leaves, parts of 4 leaves. A cut lies where the sum of
 // area x count of both sides is least (the surface area heuristic), tried at the borders of bins along the longest axis
 // of the centres (Wald 2007), and is moved to the nearest whole number of what comes below. So all nodes over leaves
-// and all leaves but the last are full, and their number is known before. Triangles are told apart by centre, then by
-// number: the tree depends on nothing else.
+// and all leaves but the last are full, and their number is known before. What decides is the order of the
+// triangles of a part, which is the caller's, cut after cut: whoever cuts a part, it falls in the same pieces.
 //
 // Parts at FE__MESH_HALVED_DEPTH and below are halved: 27 more levels hold 2^27 triangles.
 #include "collision/mesh_build/build.h"
@@ -39,7 +39,6 @@ typedef struct part {
 typedef struct builder {
     fe__mesh_builder *mesh;
     item *items;
-    uint64_t random; // of pivots
 } builder;
 
 static int32_t pieces(int32_t count, int32_t size) { return (int32_t)(((int64_t)count + size - 1) / size); }
@@ -101,7 +100,7 @@ static binning choose_bins(const part *p)
 static int32_t bin_of(const binning *b, const item *i)
 {
     float bin = (centre_of(i, b->axis) - b->start) * b->scale;
-    return bin > 0.0f ? (int32_t)fe__minf(bin, (float)(BINS - 1)) : 0;
+    return (int32_t)fe__maxf(fe__minf(bin, (float)(BINS - 1)), 0.0f);
 }
 
 typedef struct bin {
@@ -152,17 +151,49 @@ static void swap(item *a, item *b)
     *b = swapped;
 }
 
-// How many of [first, end) lie in bins below the border: they come first
+// How many of [first, end) lie in bins below the border: they come first. Each item is swapped, so that nothing is
+// guessed of where it lies.
 static int32_t partition(item *items, int32_t first, int32_t end, const binning *b, int32_t border)
 {
-    int32_t i = first, j = end - 1;
-    while (i <= j) {
-        if (bin_of(b, items + i) < border)
-            ++i;
-        else
-            swap(items + i, items + j--);
+    int32_t below = first;
+    for (int32_t i = first; i < end; ++i) {
+        int32_t is_below = bin_of(b, items + i) < border;
+        swap(items + i, items + below);
+        below += is_below;
     }
-    return i - first;
+    return below - first;
+}
+
+// Few: the rank of each is how many come before it. Keys are the bits of centres, in their order; the last ones make
+// room for the place, so that no two are equal.
+enum { FEW = BOTTOM, PLACE_MASK = FEW - 1 };
+static int32_t key_of(const item *i, int32_t axis, int32_t place)
+{
+    union {
+        float value;
+        int32_t bits;
+    } centre = {centre_of(i, axis) + 0.0f};
+    int32_t ordered = centre.bits ^ (centre.bits >> 31 & INT32_MAX);
+    return (ordered & ~PLACE_MASK) | place;
+}
+
+static void sort_few(item *items, int32_t count, int32_t axis)
+{
+    int32_t key[FEW];
+    item sorted[FEW];
+    int32_t padded = (count + 3) / 4 * 4;
+    for (int32_t i = 0; i < count; ++i) key[i] = key_of(items + i, axis, i);
+    for (int32_t i = count; i < padded; ++i) key[i] = INT32_MAX; // before none
+    for (int32_t i = 0; i < count; ++i) {
+        fe__quad_int own = {key[i], key[i], key[i], key[i]}, before = {0};
+        for (int32_t j = 0; j < padded; j += 4) {
+            fe__quad_int four;
+            memcpy(&four, key + j, sizeof four);
+            before -= four < own;
+        }
+        sorted[before[0] + before[1] + before[2] + before[3]] = items[i];
+    }
+    memcpy(items, sorted, (size_t)count * sizeof *items);
 }
 
 static int32_t is_before(const item *a, const item *b, int32_t axis)
@@ -172,14 +203,17 @@ static int32_t is_before(const item *a, const item *b, int32_t axis)
 }
 
 // Hoare's find (1961): nothing of [first, target) comes after what is in [target, end). Pivots are drawn, so that no
-// order of triangles is slow.
-static void find(builder *b, int32_t first, int32_t end, int32_t target, int32_t axis)
+// order of triangles is slow, and drawn alike wherever the part is cut.
+static void find(item *items, int32_t first, int32_t end, int32_t target, int32_t axis)
 {
-    item *items = b->items;
-    while (target > first && target < end && end - first > 1) {
-        b->random = b->random * 0x5851f42d4c957f2du + 0x14057b7ef767814fu;
-        uint64_t drawn = (b->random >> 32) * (uint64_t)(end - first) >> 32;
-        item pivot = items[first + (int32_t)drawn];
+    uint64_t random = (uint64_t)first;
+    while (target > first && target < end) {
+        if (end - first <= FEW) {
+            sort_few(items + first, end - first, axis);
+            return;
+        }
+        random = random * 0x5851f42d4c957f2du + 0x14057b7ef767814fu;
+        item pivot = items[first + (int32_t)((random >> 32) * (uint64_t)(end - first) >> 32)];
         int32_t i = first, j = end - 1;
         while (i <= j) {
             while (is_before(items + i, &pivot, axis)) ++i;
@@ -218,7 +252,7 @@ static int32_t cut_at_bins(builder *b, const part *p, const binning *g, int32_t 
         at = first + partition(b->items, first, end, g, ++border);
     }
     if (at > middle) end = at;
-    find(b, first, end, middle, g->axis);
+    find(b->items, first, end, middle, g->axis);
     return target;
 }
 
@@ -228,7 +262,7 @@ static void cut(builder *b, const part *p, int32_t depth, int32_t size, part *le
     int32_t count = g.axis < 0 || depth >= HALVED_DEPTH || size == FE__MESH_LEAF ? 0 : cut_at_bins(b, p, &g, size);
     if (!count) {
         count = rounded(p->count / 2, p->count, size);
-        find(b, p->first, p->first + p->count, p->first + count, longest_axis(p));
+        find(b->items, p->first, p->first + p->count, p->first + count, longest_axis(p));
     }
     *left = part_of(b->items, p->first, count);
     *right = part_of(b->items, p->first + count, p->count - count);
@@ -330,7 +364,7 @@ static void make_items(builder *b)
 
 void fe__mesh_build_tree(fe__mesh_builder *m)
 {
-    builder b = {.mesh = m, .items = m->scratch, .random = 1};
+    builder b = {.mesh = m, .items = m->scratch};
     make_items(&b);
     part whole = part_of(b.items, 0, m->mesh.triangle_count);
     m->mesh.low = (fe_vec3){whole.low[0], whole.low[1], whole.low[2]};
