@@ -127,7 +127,7 @@ static void trees_of_awkward_triangles(void **state)
         for (int32_t i = 0; i < 1000; ++i) {
             double away = kind == 2 ? 9e4 : 0.0, r[3];
             for (int32_t k = 0; k < 3; ++k) r[k] = soup_random(&dice);
-            if (kind == 1) size = i % 40 == 0 ? 1e3 : size * 0.7;
+            if (kind == 1) size = i % 20 == 0 ? 1e3 : size * 0.7;
             uint32_t a = soup_vertex(&made, away + size * r[0], size * r[1], size * r[2]);
             uint32_t b = soup_vertex(&made, away - size * r[1], size * (kind == 3 ? 1.0 : -0.5) * r[0], size * r[2]);
             uint32_t c = kind == 0   ? soup_vertex(&made, -r[0] + r[1], -r[1] + 0.5 * r[0], -2.0 * r[2])

@@ -22,7 +22,7 @@ enum {
     FE__MESH_GROUP = 256,          // vertices of a group: what a byte names
     FE__MESH_DEPTH = 64,           // of the tree, at most
     FE__MESH_LEAST_EXPONENT = -40, // of a step
-    FE__MESH_SHORTCUT = 16         // elements of a cycle of `numbers` from one shortcut to the next
+    FE__MESH_SHORTCUT = 32         // elements of a cycle of `numbers` from one shortcut to the next
 };
 
 // What an edge of a triangle is
