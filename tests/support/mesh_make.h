@@ -169,11 +169,13 @@ static inline void soup_ball(soup *s, int32_t levels)
 static inline void soup_scatter(soup *s, int32_t count, double size, uint64_t *state)
 {
     for (int32_t i = 0; i < count; ++i) {
-        double at[3] = {soup_random(state), soup_random(state), soup_random(state)};
+        double at[3], r[3]; // filled one after the other: the same dice for every compiler
         uint32_t v[3];
-        for (int32_t k = 0; k < 3; ++k)
-            v[k] = soup_vertex(s, at[0] + size * soup_random(state), at[1] + size * soup_random(state),
-                               at[2] + size * soup_random(state));
+        for (int32_t k = 0; k < 3; ++k) at[k] = soup_random(state);
+        for (int32_t corner = 0; corner < 3; ++corner) {
+            for (int32_t k = 0; k < 3; ++k) r[k] = at[k] + size * soup_random(state);
+            v[corner] = soup_vertex(s, r[0], r[1], r[2]);
+        }
         soup_triangle(s, v[0], v[1], v[2]);
     }
 }

@@ -48,7 +48,7 @@ typedef struct fe__mesh_node {
     uint32_t first; // child: leaf `first` - FE__MESH_LEAVES when that bit is set, else node `first`
     uint8_t low[3][FE__MESH_WIDTH], high[3][FE__MESH_WIDTH];
 } fe__mesh_node;
-_Static_assert(sizeof(fe__mesh_node) == 68, "");
+_Static_assert(sizeof(fe__mesh_node) == 68, "a node has no padding");
 #define FE__MESH_LEAVES 0x80000000u
 
 // From element `to` of a cycle of `numbers` back to the one FE__MESH_SHORTCUT before it

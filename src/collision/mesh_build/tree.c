@@ -7,7 +7,7 @@
 // and all leaves but the last are full, and their number is known before. What decides is the order of the
 // triangles of a part, which is the caller's, cut after cut: whoever cuts a part, it falls in the same pieces.
 //
-// Parts at FE__MESH_HALVED_DEPTH and below are halved: 27 more levels hold 2^27 triangles.
+// Parts at HALVED_DEPTH and below are halved: 27 more levels hold 2^27 triangles.
 #include "collision/mesh_build/build.h"
 #include "core/lanes.h"
 
@@ -16,7 +16,7 @@ enum {
     BOTTOM = FE__MESH_WIDTH * FE__MESH_LEAF, // triangles of a node over leaves
     HALVED_DEPTH = 32,
 };
-_Static_assert(HALVED_DEPTH + 27 < FE__MESH_DEPTH, "");
+_Static_assert(HALVED_DEPTH + 27 < FE__MESH_DEPTH, "halving 2^27 triangles ends in time");
 
 typedef struct item {
     union {
@@ -28,7 +28,7 @@ typedef struct item {
     };
     fe__quad high;
 } item;
-_Static_assert(sizeof(item) == 32, "");
+_Static_assert(sizeof(item) == 32, "two quads");
 
 // items [first, first + count), the box around them and that around their doubled centres
 typedef struct part {
