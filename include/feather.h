@@ -42,8 +42,8 @@
 /// **Arrays.** `int32_t fe_x_get_many(world, out, stride, capacity)` returns how many there are. It writes the first
 /// `capacity` of them, `stride` bytes apart. NULL, 0, 0 asks for the number only. A record that may grow needs its
 /// stride stated: `sizeof` of the caller's record. A shorter stride gets the record's front, at least 8 bytes. For
-/// records that never grow 0 means packed: handles, floats, fe_vec3, fe_dvec3, fe_quat, fe_transform, fe_frame,
-/// fe_bounds, fe_material, fe_joint_axis.
+/// records that never grow 0 means packed: handles, floats, int32_t, fe_vec3, fe_dvec3, fe_quat, fe_transform,
+/// fe_frame, fe_bounds, fe_material, fe_joint_axis.
 ///
 /// **Growth.** A program built against this header runs with every later 1.x library. A struct that may grow begins
 /// with `struct_size`; its `_init(&x, sizeof x)` sets that and every default, and does nothing with NULL. A shorter
@@ -97,7 +97,7 @@ typedef unsigned long long fe_handle;
 typedef fe_handle fe_body;
 typedef fe_handle fe_shape;
 typedef fe_handle fe_joint;
-typedef fe_handle fe_asset; ///< what shapes of many worlds share: a heightfield
+typedef fe_handle fe_asset; ///< what shapes of many worlds share: a heightfield, a convex hull, a mesh
 
 typedef struct fe_world fe_world; ///< everything that can touch each other
 typedef struct fe_pool fe_pool;   ///< worker threads that several worlds may share
@@ -285,6 +285,175 @@ FE_API fe_result fe_heightfield_set_heights(fe_store *store, fe_asset asset, int
 /// @param out_heights  rows x columns, row by row, m
 FE_API fe_result fe_heightfield_get_heights(const fe_store *store, fe_asset asset, int32_t row, int32_t column,
                                             int32_t rows, int32_t columns, float *out_heights);
+
+// ---- convex hulls ---------------------------------------------------------------------------------------------------
+
+/// The convex hull of points. No points but thin ones are refused. Where there are more vertices than `max_vertices`,
+/// those that change the form least are left out, and fe_hull_info.error tells how far they lie outside.
+typedef struct fe_hull_def {
+    uint32_t struct_size;
+    int32_t point_count;   ///< 4..1 000 000
+    int32_t max_vertices;  ///< 4..255. Default 64
+    uint32_t point_stride; ///< bytes from one point to the next, 0: packed
+    /// Points nearer than this to the hull may be left out, and faces that bend less are merged, m, 0..100000. At
+    /// least 5e-6 of the extent counts. 0: 1e-5 of the extent, the longest side of the points' bounds. Default 0
+    float tolerance;
+    uint32_t reserved;
+    const float *points; ///< x y z each, m, within +-100000, in any order; inner points and duplicates are welcome
+} fe_hull_def;
+
+FE_API void fe_hull_def_init(fe_hull_def *def, uint32_t struct_size);
+/// Builds a hull. The same points in the same order give the same hull, bit for bit, on every machine. The points are
+/// copied. fe_asset_destroy gives the hull back. Any thread may build while worlds that use the store step.
+/// @return FE_ERROR_DEGENERATE for points that are thinner, in some direction, than 0.5 mm or 1e-4 of the extent: flat,
+///         straight or in one place
+FE_API fe_result fe_hull_create(fe_store *store, const fe_hull_def *def, fe_asset *out_asset);
+
+/// What a hull is. Positions are in the frame of its points.
+typedef struct fe_hull_info {
+    uint32_t struct_size;
+    int32_t vertex_count;     ///< 4..255
+    int32_t edge_count;       ///< vertices - edges + faces = 2
+    int32_t face_count;       ///< 4..506
+    float volume;             ///< m3
+    float area;               ///< of the surface, m2
+    fe_vec3 centre;           ///< of mass, m
+    fe_vec3 inertia;          ///< principal moments about the centre at a density of 1 kg/m3, kg m2
+    fe_quat inertia_rotation; ///< from the principal axes to those of the points
+    fe_vec3 lower, upper;     ///< least and greatest corner of the bounds of the vertices, m
+    float thickness;          ///< the least distance between a face and the vertex farthest from it, m
+    float inner_radius;       ///< of the largest ball about the centre that is inside, m
+    float tolerance;          ///< what counted, m
+    float error;              ///< how far the farthest point that was left out lies outside a face's plane, m, >= 0
+    int64_t bytes;            ///< of memory
+} fe_hull_info;
+
+/// @param out_info  its struct_size must be set
+/// @return FE_ERROR_KIND for an asset that is no hull
+FE_API fe_result fe_hull_get_info(const fe_store *store, fe_asset hull, fe_hull_info *out_info);
+/// Its vertices, m: points of its definition, bit for bit, in their order. @param stride  bytes, 0: packed
+FE_API int32_t fe_hull_get_vertices(const fe_store *store, fe_asset hull, fe_vec3 *out_vertices, uint32_t stride,
+                                    int32_t capacity);
+
+/// A face of a hull: a convex polygon.
+typedef struct fe_hull_face {
+    int32_t first;  ///< of its corners in what fe_hull_get_corners writes
+    int32_t count;  ///< of corners, >= 3
+    fe_vec3 normal; ///< unit, outward
+    float distance; ///< no point p of the hull is beyond it: normal . p <= distance, m, but for the rounding of floats
+    uint32_t reserved[2];
+} fe_hull_face;
+
+/// Its faces. @param stride  bytes: sizeof of the caller's record
+FE_API int32_t fe_hull_get_faces(const fe_store *store, fe_asset hull, fe_hull_face *out_faces, uint32_t stride,
+                                 int32_t capacity);
+/// The corners of all faces, face by face: indices of vertices, counterclockwise seen from outside. To draw a face,
+/// make a fan of triangles from its first corner. @param stride  bytes, 0: packed
+FE_API int32_t fe_hull_get_corners(const fe_store *store, fe_asset hull, int32_t *out_corners, uint32_t stride,
+                                   int32_t capacity);
+
+// ---- meshes ---------------------------------------------------------------------------------------------------------
+
+/// What a mesh is built as.
+typedef enum fe_mesh_flags {
+    FE_MESH_TWO_SIDED = 1, ///< both sides of its triangles count
+    FE_MESH_STRICT = 2,    ///< a triangle that would be dropped is an error
+    FE_MESH_FORCE32 = 0x7fffffff
+} fe_mesh_flags;
+
+/// The type of the indices of a mesh.
+typedef enum fe_index_type {
+    FE_INDEX_U32 = 0, ///< uint32_t
+    FE_INDEX_U16 = 1, ///< uint16_t
+    FE_INDEX_FORCE32 = 0x7fffffff
+} fe_index_type;
+
+/// Triangles of any form. Only the side from which the corners run counterclockwise counts, unless the mesh is
+/// two-sided: a mesh that is wound the wrong way lets everything pass. fe_mesh_info.volume of a closed mesh is then
+/// negative, and `flipped_edges` counts neighbours that disagree.
+///
+/// Vertices that are equal, or nearer than `weld_distance`, are one. Edges between triangles are felt where the surface
+/// is convex and bends by more than `edge_angle`, and where they have no neighbour, more than one, or one of the
+/// opposite winding. Triangles without area are dropped, and so are those that repeat an earlier one. The others keep
+/// their numbers, which hits and contacts report.
+typedef struct fe_mesh_def {
+    uint32_t struct_size;
+    uint32_t flags;           ///< fe_mesh_flags. Default 0
+    int32_t vertex_count;     ///< 3..2^28
+    int32_t triangle_count;   ///< 1..2^27
+    uint32_t vertex_stride;   ///< bytes from one vertex to the next, 0: packed
+    uint32_t index_stride;    ///< bytes from the first index of a triangle to that of the next, 0: packed
+    int32_t index_type;       ///< fe_index_type. Default FE_INDEX_U32
+    float weld_distance;      ///< m, 0..1, from 0.000001 on if not 0. Default 0: equal vertices alone
+    float edge_angle;         ///< rad, 0..1.57. Default 0.035, two degrees
+    int32_t material_count;   ///< 0..255
+    uint32_t material_stride; ///< bytes from one material to the next, 0: packed
+    uint32_t reserved;
+    const float *vertices;             ///< x y z each, m, within +-100000. All arrays are copied
+    const void *indices;               ///< three vertices a triangle, counterclockwise seen from the side that counts
+    const uint8_t *triangle_materials; ///< a triangle each: index into `materials`; NULL: all have the shape's material
+    const fe_material *materials;      ///< replace the shape's material
+    const uint32_t *triangle_data; ///< a triangle each: any number of yours, fe_mesh_get_triangle reads it; NULL: none
+} fe_mesh_def;
+
+FE_API void fe_mesh_def_init(fe_mesh_def *def, uint32_t struct_size);
+/// Builds a mesh, in time that grows little more than the number of triangles. The same definition gives the same mesh,
+/// bit for bit, on every machine. Beside the arrays of the definition it takes 50 bytes of memory a triangle, when
+/// there are half as many vertices, of which 20 stay. Any thread may build while worlds that use the store step.
+/// @return FE_ERROR_ARGUMENT for an index out of range or a coordinate that is none, with its place; FE_ERROR_LIMIT for
+///         too many triangles or vertices; FE_ERROR_DEGENERATE when no triangle has an area, or when a strict mesh has
+///         one to drop: fe_last_error names it
+FE_API fe_result fe_mesh_create(fe_store *store, const fe_mesh_def *def, fe_asset *out_asset);
+
+/// What a mesh is.
+typedef struct fe_mesh_info {
+    uint32_t struct_size;
+    int32_t triangle_count;       ///< that are kept
+    int32_t degenerate_triangles; ///< dropped: two corners in one place, or an area below 1e-12 of the extent squared
+    int32_t duplicate_triangles;  ///< dropped: the same corners and winding as an earlier one
+    int32_t vertex_count;         ///< places that differ
+    int32_t open_edges;           ///< of one triangle
+    int32_t crowded_edges;        ///< of more than two
+    int32_t flipped_edges;        ///< of two with opposite windings
+    int32_t tree_height;          ///< levels of nodes
+    int32_t material_count;
+    fe_vec3 lower, upper; ///< least and greatest corner of the bounds, m
+    double area;          ///< m2
+    double volume;        ///< m3 of a closed mesh, negative when it is wound inside out; else 0
+    int64_t bytes;        ///< of memory
+} fe_mesh_info;
+
+/// @param out_info  its struct_size must be set
+/// @return FE_ERROR_KIND for an asset that is no mesh
+FE_API fe_result fe_mesh_get_info(const fe_store *store, fe_asset mesh, fe_mesh_info *out_info);
+
+/// What an edge of a triangle of a mesh is.
+typedef enum fe_mesh_edge_flags {
+    FE_MESH_EDGE_FELT = 1,   ///< bodies touch it
+    FE_MESH_EDGE_CONVEX = 2, ///< the surface bends outwards there
+    FE_MESH_EDGE_OPEN = 4,   ///< it has no neighbour
+    FE_MESH_EDGE_FORCE32 = 0x7fffffff
+} fe_mesh_edge_flags;
+
+/// A triangle of a mesh.
+typedef struct fe_mesh_triangle {
+    uint32_t struct_size;
+    int32_t material;   ///< index into the mesh's materials, -1: the shape's
+    fe_vec3 corners[3]; ///< m, in the frame of the definition's vertices, after welding
+    uint32_t edges[3];  ///< fe_mesh_edge_flags of the edges from corner 0 to 1, 1 to 2, 2 to 0
+    uint32_t data;      ///< of the definition, else 0
+    int32_t kept;       ///< 0: it was dropped, and all above is 0
+} fe_mesh_triangle;
+
+/// @param triangle      its number in the definition
+/// @param out_triangle  its struct_size must be set
+FE_API fe_result fe_mesh_get_triangle(const fe_store *store, fe_asset mesh, int32_t triangle,
+                                      fe_mesh_triangle *out_triangle);
+/// New materials of a mesh that has some, as many as before.
+/// @param stride  bytes, 0: packed
+/// @return FE_ERROR_STEPPING, FE_ERROR_BUSY while a world that uses the mesh steps or has another thread inside
+FE_API fe_result fe_mesh_set_materials(fe_store *store, fe_asset mesh, const fe_material *materials, uint32_t stride,
+                                       int32_t count);
 
 // ---- worlds ---------------------------------------------------------------------------------------------------------
 

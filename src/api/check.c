@@ -93,6 +93,17 @@ fe_result fe__find_asset(const char *function, const char *name, const fe_store 
     return fe__fail(function, FE_ERROR_STALE, "asset 0x%llx was destroyed; it lives on for its shapes only", handle);
 }
 
+fe_result fe__find_asset_of(const char *function, const char *name, const fe_store *store, int32_t kind,
+                            fe_asset handle, int32_t *out_index)
+{
+    static const char *const kinds[] = {
+        [FE__ASSET_HEIGHTFIELD] = "heightfield", [FE__ASSET_HULL] = "hull", [FE__ASSET_MESH] = "mesh"};
+    FE_TRY(fe__find_asset(function, name, store, handle, out_index));
+    int32_t own = fe__store_asset(store, *out_index)->kind;
+    if (own == kind) return FE_OK;
+    return fe__fail(function, FE_ERROR_KIND, "%s 0x%llx is a %s, not a %s", name, handle, kinds[own], kinds[kind]);
+}
+
 // ---- words of a sentence -------------------------------------------------------------------------------------------
 
 // The checks' arguments are expressions of the code, such as &full->frame.position. The caller knows what is behind the

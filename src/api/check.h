@@ -130,6 +130,9 @@ fe_result fe__find_joint(const char *function, const char *name, const fe_world 
                          int32_t *out_index);
 fe_result fe__find_asset(const char *function, const char *name, const fe_store *store, fe_asset handle,
                          int32_t *out_index); // locked
+// FE_ERROR_KIND: an asset of another kind than `kind`, fe__asset_kind
+fe_result fe__find_asset_of(const char *function, const char *name, const fe_store *store, int32_t kind,
+                            fe_asset handle, int32_t *out_index); // locked
 fe_result fe__check_pointer(const char *function, const char *name, int32_t there);
 fe_result fe__check_number(const char *function, const char *name, const char *part, double value, double low,
                            double high);

@@ -24,6 +24,21 @@ DEFINE(fe_store_def)
 #define THIS fe_heightfield_def
 DEFINE(fe_heightfield_def)
 #undef THIS
+#define THIS fe_hull_def
+DEFINE(fe_hull_def)
+#undef THIS
+#define THIS fe_hull_info
+DEFINE(fe_hull_info)
+#undef THIS
+#define THIS fe_mesh_def
+DEFINE(fe_mesh_def)
+#undef THIS
+#define THIS fe_mesh_info
+DEFINE(fe_mesh_info)
+#undef THIS
+#define THIS fe_mesh_triangle
+DEFINE(fe_mesh_triangle)
+#undef THIS
 #define THIS fe_task_system
 DEFINE(fe_task_system)
 #undef THIS

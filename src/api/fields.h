@@ -19,6 +19,26 @@ typedef struct fe__fields {
     FIELD(rows)                                                                                             \
     FIELD(columns) FIELD(material_count) FIELD(cell_x) FIELD(cell_z) FIELD(material_stride) FIELD(reserved) \
         FIELD(heights) FIELD(holes) FIELD(cell_materials) FIELD(materials)
+#define FE_FIELDS_fe_hull_def(FIELD) \
+    FIELD(struct_size)               \
+    FIELD(point_count) FIELD(max_vertices) FIELD(point_stride) FIELD(tolerance) FIELD(reserved) FIELD(points)
+#define FE_FIELDS_fe_hull_info(FIELD)                                                                              \
+    FIELD(struct_size)                                                                                             \
+    FIELD(vertex_count) FIELD(edge_count) FIELD(face_count) FIELD(volume) FIELD(area) FIELD(centre) FIELD(inertia) \
+        FIELD(inertia_rotation) FIELD(lower) FIELD(upper) FIELD(thickness) FIELD(inner_radius) FIELD(tolerance)    \
+            FIELD(error) FIELD(bytes)
+#define FE_FIELDS_fe_mesh_def(FIELD)                                                                                  \
+    FIELD(struct_size)                                                                                                \
+    FIELD(flags) FIELD(vertex_count) FIELD(triangle_count) FIELD(vertex_stride) FIELD(index_stride) FIELD(index_type) \
+        FIELD(weld_distance) FIELD(edge_angle) FIELD(material_count) FIELD(material_stride) FIELD(reserved)           \
+            FIELD(vertices) FIELD(indices) FIELD(triangle_materials) FIELD(materials) FIELD(triangle_data)
+#define FE_FIELDS_fe_mesh_info(FIELD)                                                                                  \
+    FIELD(struct_size)                                                                                                 \
+    FIELD(triangle_count) FIELD(degenerate_triangles) FIELD(duplicate_triangles) FIELD(vertex_count) FIELD(open_edges) \
+        FIELD(crowded_edges) FIELD(flipped_edges) FIELD(tree_height) FIELD(material_count) FIELD(lower) FIELD(upper)   \
+            FIELD(area) FIELD(volume) FIELD(bytes)
+#define FE_FIELDS_fe_mesh_triangle(FIELD) \
+    FIELD(struct_size) FIELD(material) FIELD(corners) FIELD(edges) FIELD(data) FIELD(kept)
 #define FE_FIELDS_fe_task_system(FIELD) FIELD(struct_size) FIELD(worker_count) FIELD(run) FIELD(user)
 #define FE_FIELDS_fe_world_def(FIELD)                                                                               \
     FIELD(struct_size)                                                                                              \
@@ -115,6 +135,9 @@ typedef struct fe__fields {
 #define FE_EACH_STRUCT(STRUCT)                                                                                        \
     STRUCT(fe_allocator)                                                                                              \
     STRUCT(fe_store_def)                                                                                              \
+    STRUCT(fe_hull_def)                                                                                               \
+    STRUCT(fe_hull_info)                                                                                              \
+    STRUCT(fe_mesh_def) STRUCT(fe_mesh_info) STRUCT(fe_mesh_triangle)                                                 \
     STRUCT(fe_heightfield_def) STRUCT(fe_task_system) STRUCT(fe_world_def) STRUCT(fe_world_tuning) STRUCT(fe_profile) \
         STRUCT(fe_counters) STRUCT(fe_energy) STRUCT(fe_body_def) STRUCT(fe_mass_data) STRUCT(fe_geometry)            \
             STRUCT(fe_shape_def) STRUCT(fe_joint_def) STRUCT(fe_distance_joint_def) STRUCT(fe_ball_joint_def)         \

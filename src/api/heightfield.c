@@ -99,7 +99,7 @@ static fe_result check_part(const char *function, const fe__heightfield *field, 
 static fe_result find_part(const char *function, const fe_store *store, fe_asset asset, const fe__samples *part,
                            int32_t *out_index)
 {
-    FE_TRY(fe__find_asset(function, "asset", store, asset, out_index));
+    FE_TRY(fe__find_asset_of(function, "asset", store, FE__ASSET_HEIGHTFIELD, asset, out_index));
     return check_part(function, fe__store_field(store, *out_index), part);
 }
 

@@ -51,7 +51,8 @@ static fe_result read_heightfield(const char *function, const fe_world *world, c
 {
     int32_t index;
     fe__store_lock(world->store);
-    fe_result result = fe__find_asset(function, "geometry->asset", world->store, geometry->asset, &index);
+    fe_result result =
+        fe__find_asset_of(function, "geometry->asset", world->store, FE__ASSET_HEIGHTFIELD, geometry->asset, &index);
     if (result == FE_OK) {
         fe__asset_retain(world->store, index);
         *out_form = fe__heightfield_form(fe__store_field(world->store, index), index);

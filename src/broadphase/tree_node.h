@@ -6,7 +6,7 @@
 // +-FLT_MAX: the areas of what is nearer stay finite.
 #ifndef FE_BROADPHASE_TREE_NODE_H
 #define FE_BROADPHASE_TREE_NODE_H
-#include "broadphase/lanes.h"
+#include "core/lanes.h"
 #include "broadphase/tree.h"
 
 #include <float.h>

@@ -1,6 +1,8 @@
 // heightfield_asset.c - see heightfield_asset.h. Called by the API layer with checked arguments, from any thread.
 #include "store/heightfield_asset.h"
 
+#include "store/making.h"
+
 #include <string.h>
 
 static int64_t sample_count(const fe__heightfield *f) { return (int64_t)f->rows * f->columns; }
@@ -9,27 +11,17 @@ static size_t heights_size(const fe__heightfield *f) { return (size_t)sample_cou
 static size_t ranges_size(const fe__heightfield *f) { return (size_t)f->rows * sizeof *f->ranges; }
 static size_t materials_size(const fe__asset *a) { return (size_t)a->material_count * sizeof *a->materials; }
 
-void fe__heightfield_free(fe_store *store, fe__asset *a)
-{
-    fe__heightfield *f = &a->field;
-    fe__release(&store->memory, f->heights, heights_size(f));
-    fe__release(&store->memory, f->ranges, ranges_size(f));
-    fe__release(&store->memory, f->cells, (size_t)cell_count(f));
-    fe__release(&store->memory, a->materials, materials_size(a));
-}
-
 // ---- birth ---------------------------------------------------------------------------------------------------------
 static int32_t allocate(fe_store *store, const fe_heightfield_def *def, fe__asset *a)
 {
     fe__heightfield *f = &a->field;
-    fe__memory *memory = &store->memory;
     int32_t has_cells = def->holes || def->cell_materials;
-    f->heights = fe__allocate(memory, heights_size(f));
-    f->ranges = fe__allocate(memory, ranges_size(f));
-    if (has_cells) f->cells = fe__allocate(memory, (size_t)cell_count(f));
-    if (a->material_count) a->materials = fe__allocate(memory, materials_size(a));
+    f->heights = fe__asset_allocate(store, a, heights_size(f));
+    f->ranges = fe__asset_allocate(store, a, ranges_size(f));
+    if (has_cells) f->cells = fe__asset_allocate(store, a, (size_t)cell_count(f));
+    if (a->material_count) a->materials = fe__asset_allocate(store, a, materials_size(a));
     if (f->heights && f->ranges && (f->cells || !has_cells) && (a->materials || !a->material_count)) return 1;
-    fe__heightfield_free(store, a);
+    fe__asset_free(store, a);
     return 0;
 }
 
@@ -41,24 +33,20 @@ static void fill_cells(fe__heightfield *f, const fe_heightfield_def *def)
     }
 }
 
-static int32_t needs_special_rows(const fe_material *m)
-{
-    return m->restitution > 0.0f || m->rolling_resistance > 0.0f || m->spinning_resistance > 0.0f;
-}
-
 static void fill_materials(fe__asset *a, const fe_heightfield_def *def)
 {
     uint32_t stride = def->material_stride ? def->material_stride : (uint32_t)sizeof(fe_material);
     for (int32_t i = 0; i < a->material_count; ++i) {
         memcpy(a->materials + i, (const unsigned char *)def->materials + (size_t)stride * (size_t)i,
                sizeof *a->materials);
-        a->special |= needs_special_rows(a->materials + i);
+        a->special |= fe__material_is_special(a->materials + i);
     }
 }
 
 fe_result fe__heightfield_create(fe_store *store, const fe_heightfield_def *def, fe_asset *out_handle)
 {
-    fe__asset a = {.field = {.rows = def->rows,
+    fe__asset a = {.kind = FE__ASSET_HEIGHTFIELD,
+                   .field = {.rows = def->rows,
                              .columns = def->columns,
                              .cell_x = (double)def->cell_x,
                              .cell_z = (double)def->cell_z},
@@ -75,7 +63,7 @@ fe_result fe__heightfield_create(fe_store *store, const fe_heightfield_def *def,
 
     fe__store_lock(store);
     fe_result result = fe__store_put(store, &a, out_handle);
-    if (result != FE_OK) fe__heightfield_free(store, &a);
+    if (result != FE_OK) fe__asset_free(store, &a);
     fe__store_unlock(store);
     return result;
 }

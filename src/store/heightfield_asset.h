@@ -6,7 +6,6 @@
 // A copy of what a checked definition holds. The store's lock is free while samples are copied. FE_ERROR_MEMORY,
 // FE_ERROR_LIMIT: nothing changed.
 fe_result fe__heightfield_create(fe_store *store, const fe_heightfield_def *def, fe_asset *out_handle);
-void fe__heightfield_free(fe_store *store, fe__asset *asset); // its blocks; under the lock
 
 // A rectangle of samples. Under the lock; to write them, every world that uses the asset was entered.
 typedef struct fe__samples {

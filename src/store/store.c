@@ -1,8 +1,6 @@
 // store.c - see store.h. A new store holds nothing but itself: its table of chunks grows with what it is given.
 #include "store/store.h"
 
-#include "store/heightfield_asset.h"
-
 static fe__registry stores = {FE_MUTEX_INITIAL, NULL};
 
 // ---- numbers -------------------------------------------------------------------------------------------------------
@@ -50,7 +48,7 @@ static size_t chunk_size(int32_t chunk) { return sizeof(fe__asset) << (chunk + F
 static void free_store(fe_store *store)
 {
     for (int32_t i = 0; i < store->ids.slot_count; ++i)
-        if (fe__id_pool_is_alive(&store->ids, i)) fe__heightfield_free(store, fe__store_asset(store, i));
+        if (fe__id_pool_is_alive(&store->ids, i)) fe__asset_free(store, fe__store_asset(store, i));
     for (int32_t k = 0; k < FE__CHUNKS; ++k) fe__release(&store->memory, store->chunks[k], chunk_size(k));
     give_number(store->ids.number);
     fe__id_pool_free(&store->ids, &store->memory);
@@ -129,6 +127,20 @@ fe_result fe__store_find(const fe_store *store, fe_asset handle, int32_t *out_in
     return result == FE_OK && fe__store_asset(store, *out_index)->destroyed ? FE_ERROR_STALE : result;
 }
 
+void *fe__asset_allocate(fe_store *store, fe__asset *asset, size_t size)
+{
+    void *memory = fe__allocate(&store->memory, size);
+    if (memory) asset->blocks[asset->block_count++] = (fe__block){memory, size};
+    return memory;
+}
+
+void fe__asset_free(fe_store *store, fe__asset *asset)
+{
+    for (int32_t i = 0; i < asset->block_count; ++i)
+        fe__release(&store->memory, asset->blocks[i].memory, asset->blocks[i].size);
+    asset->block_count = 0;
+}
+
 static int32_t reserve_chunk(fe_store *store, int32_t index)
 {
     int32_t chunk = 31 - __builtin_clz((uint32_t)index + (1u << FE__FIRST_CHUNK_BITS)) - FE__FIRST_CHUNK_BITS;
@@ -153,7 +165,7 @@ static void free_unused(fe_store *store, int32_t index)
 {
     fe__asset *a = fe__store_asset(store, index);
     if (!a->destroyed || a->users > 0) return;
-    fe__heightfield_free(store, a);
+    fe__asset_free(store, a);
     fe__id_pool_release(&store->ids, index);
 }
 

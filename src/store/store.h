@@ -7,16 +7,34 @@
 #ifndef FE_STORE_STORE_H
 #define FE_STORE_STORE_H
 #include "collision/form/heightfield.h"
+#include "collision/form/hull.h"
+#include "collision/form/mesh.h"
 #include "collision/form/shape.h"
 #include "core/id_pool.h"
 #include "core/memory.h"
 #include "core/mutex.h"
 #include "core/registry.h"
 
-// What shapes share: a heightfield and the materials of its cells.
+typedef enum fe__asset_kind { FE__ASSET_HEIGHTFIELD, FE__ASSET_HULL, FE__ASSET_MESH } fe__asset_kind;
+
+typedef struct fe__block {
+    void *memory;
+    size_t size;
+} fe__block;
+
+// What shapes share: a heightfield and the materials of its cells, a convex hull, or a mesh
+// and the materials of its triangles.
+enum { FE__ASSET_BLOCKS = 4 };
 typedef struct fe__asset {
-    fe__heightfield field;
-    fe_material *materials; // of the cells
+    int32_t kind; // fe__asset_kind
+    int32_t block_count;
+    fe__block blocks[FE__ASSET_BLOCKS]; // all memory that it owns
+    union {
+        fe__heightfield field;
+        fe__hull hull;
+        fe__mesh mesh;
+    };
+    fe_material *materials; // of the cells of a heightfield, the triangles of a mesh
     int32_t material_count;
     int32_t special;   // a material needs special rows
     int32_t users;     // worlds with shapes that have it, and calls that are about to make one
@@ -68,10 +86,12 @@ void fe__asset_release(fe_store *store, int32_t index); // the last user of a de
 // Gives a record a place and a handle; the store owns its blocks then. FE_ERROR_MEMORY, FE_ERROR_LIMIT: nothing
 // changed.
 fe_result fe__store_put(fe_store *store, const fe__asset *asset, fe_asset *out_handle);
+// A block of an asset that is being made: zeroed, aligned to 64 bytes; NULL: no memory.
+void *fe__asset_allocate(fe_store *store, fe__asset *asset, size_t size);
+void fe__asset_free(fe_store *store, fe__asset *asset); // its blocks
 
-// ---- without the lock
-// ----------------------------------------------------------------------------------------------------------------- The
-// record of an asset that the caller uses: it stays where it is.
+// ---- without the lock ----------------------------------------------------------------------------------------------
+// The record of an asset that the caller uses: it stays where it is.
 static inline fe__asset *fe__store_asset(const fe_store *store, int32_t index)
 {
     uint32_t i = (uint32_t)index + (1u << FE__FIRST_CHUNK_BITS);

@@ -5,6 +5,7 @@
 // its owner placed. Computed in double: the parts of a large body far from its centre would cancel in float.
 #include "world/mass.h"
 
+#include "core/tensor.h"
 #include "world/joints.h"
 #include "world/pair_list.h"
 #include "world/pose.h"
@@ -22,8 +23,6 @@
 // Principal moments that differ by less are equal: the gyroscopic torque of the difference is below the solver's
 // rounding
 #define ISOTROPY 1e-6f
-
-enum { JACOBI_SWEEPS = 12 }; // converges quadratically: 5 or 6 are used
 
 typedef struct mass_properties {
     float mass;
@@ -95,13 +94,9 @@ static void apply(fe_world *world, fe__body *body, const mass_properties *p)
 
 static fe__mass shape_mass(const fe__shape *shape) { return fe__form_mass(&shape->form, shape->density); }
 
-typedef struct tensor {
-    double m[3][3];
-} tensor;
-
 // Adds the inertia of a shape about the body's centre: R diag(I) R^T + m (d^2 1 - d d^T), d from the body's centre to
 // the shape's
-static void add_shape(tensor *sum, const fe__shape *shape, const fe__mass *mass, fe_dvec3 centre)
+static void add_shape(fe__tensor *sum, const fe__shape *shape, const fe__mass *mass, fe_dvec3 centre)
 {
     fe_dvec3 d = fe__dsub(fe__widen(shape->local_position), centre);
     double offset[3] = {d.x, d.y, d.z}, square = fe__ddot(d, d),
@@ -119,65 +114,6 @@ static void add_shape(tensor *sum, const fe__shape *shape, const fe__mass *mass,
     }
 }
 
-// One Jacobi rotation in the plane (p, q) that zeroes a[p][q]; `v` collects the rotations, its columns become the axes.
-// Golub and Van Loan, Matrix Computations, 8.5
-static void rotate_plane(tensor *a, tensor *v, int p, int q)
-{
-    double apq = a->m[p][q];
-    if (apq == 0.0) return;
-    double tau = (a->m[q][q] - a->m[p][p]) / (2.0 * apq);
-    double t = (tau >= 0.0 ? 1.0 : -1.0) / (fe__absd(tau) + sqrt(1.0 + tau * tau));
-    double c = 1.0 / sqrt(1.0 + t * t), s = t * c;
-    for (int k = 0; k < 3; ++k) {
-        double x = a->m[k][p], y = a->m[k][q];
-        a->m[k][p] = c * x - s * y, a->m[k][q] = s * x + c * y;
-    }
-    for (int k = 0; k < 3; ++k) {
-        double x = a->m[p][k], y = a->m[q][k];
-        a->m[p][k] = c * x - s * y, a->m[q][k] = s * x + c * y;
-        x = v->m[k][p], y = v->m[k][q];
-        v->m[k][p] = c * x - s * y, v->m[k][q] = s * x + c * y;
-    }
-    a->m[p][q] = a->m[q][p] = 0.0;
-}
-
-static tensor diagonalise(tensor *a)
-{
-    tensor axes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-    // products of inertia at the rounding of the sums are none: symmetric bodies keep the axes they were built on
-    double none = 1e-14 * (a->m[0][0] + a->m[1][1] + a->m[2][2]);
-    for (int sweep = 0; sweep < JACOBI_SWEEPS; ++sweep) {
-        double off = fe__absd(a->m[0][1]) + fe__absd(a->m[0][2]) + fe__absd(a->m[1][2]);
-        if (off <= none) break;
-        rotate_plane(a, &axes, 0, 1);
-        rotate_plane(a, &axes, 0, 2);
-        rotate_plane(a, &axes, 1, 2);
-    }
-    return axes;
-}
-
-// The quaternion of a rotation matrix, from its largest component so that nothing cancels (Shepperd 1978). Jacobi's
-// product of rotations is one.
-static fe_quat quaternion_of(const tensor *r)
-{
-    double trace = r->m[0][0] + r->m[1][1] + r->m[2][2], q[4];
-    int k = r->m[0][0] > r->m[1][1] ? 0 : 1;
-    if (r->m[2][2] > r->m[k][k]) k = 2;
-    if (trace >= r->m[k][k]) {
-        q[3] = 0.5 * sqrt(1.0 + trace);
-        double scale = 0.25 / q[3];
-        q[0] = scale * (r->m[2][1] - r->m[1][2]), q[1] = scale * (r->m[0][2] - r->m[2][0]),
-        q[2] = scale * (r->m[1][0] - r->m[0][1]);
-    } else {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
-        q[k] = 0.5 * sqrt(1.0 + r->m[k][k] - r->m[i][i] - r->m[j][j]);
-        double scale = 0.25 / q[k];
-        q[i] = scale * (r->m[i][k] + r->m[k][i]), q[j] = scale * (r->m[j][k] + r->m[k][j]),
-        q[3] = scale * (r->m[j][i] - r->m[i][j]);
-    }
-    return fe__unit_rotation((fe_quat){(float)q[0], (float)q[1], (float)q[2], (float)q[3]});
-}
-
 static mass_properties weightless(void)
 {
     return (
@@ -187,16 +123,16 @@ static mass_properties weightless(void)
 static mass_properties combine(const fe_world *world, const fe__body *body, double total, fe_dvec3 moment)
 {
     fe_vec3 centre = fe__narrow(fe__dscale(1.0 / total, moment));
-    tensor sum = {{{0}}};
+    fe__tensor sum = {{{0}}};
     for (int32_t i = body->first_shape; i >= 0; i = world->shapes[i].next) {
         fe__mass mass = shape_mass(&world->shapes[i]);
         add_shape(&sum, &world->shapes[i], &mass, fe__widen(centre));
     }
-    tensor axes = diagonalise(&sum);
+    fe__tensor axes = fe__tensor_diagonalise(&sum);
     return (mass_properties){(float)total,
                              centre,
                              {(float)sum.m[0][0], (float)sum.m[1][1], (float)sum.m[2][2]},
-                             quaternion_of(&axes)};
+                             fe__unit_rotation(fe__tensor_rotation(&axes))};
 }
 
 static mass_properties from_shapes(const fe_world *world, const fe__body *body)

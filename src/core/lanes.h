@@ -1,12 +1,12 @@
-// lanes.h - eight floats side by side: what the tree's tests need and nothing else.
+// lanes.h - eight floats side by side: what the trees of a world and of a mesh need and nothing else.
 //
 // Two quads of 128 bits, which every 64-bit machine has, so that one compile serves all of them. + - * / and
 // comparisons are the compiler's (vector extensions of gcc and clang); min, max and the sign mask are intrinsics on x86
 // and plain C of the same meaning elsewhere (FE_PLAIN_C forces the latter). Each operation is IEEE and acts on each
 // lane alone: the bits do not depend on the machine.
 //     min(a, b) = a < b ? a : b       max(a, b) = a > b ? a : b
-#ifndef FE_BROADPHASE_LANES_H
-#define FE_BROADPHASE_LANES_H
+#ifndef FE_CORE_LANES_H
+#define FE_CORE_LANES_H
 #include <stdint.h>
 #if defined(__SSE2__) && !defined(FE_PLAIN_C)
 #ifdef __AVX__

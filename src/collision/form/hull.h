@@ -1,0 +1,107 @@
+// hull.h - a convex hull as the narrow phase reads it: half-edges, planes, vertices, and the Gauss map edge by edge.
+//
+// collision/hull_build makes it, a store owns it, and nobody changes it. One block of memory holds all arrays, without
+// pointers inside: the same points make the same bytes on every machine.
+//
+// Frame. Vertices, planes and edges are relative to `origin`, a point of the asset's frame. It is 0 on each axis unless
+// the hull lies farther than twice its extent from 0 there: floats then hold it as exactly as its points, and
+// origin + vertex is the caller's point, bit for bit.
+//
+// Invariants, for every hull:
+//   - 4..255 vertices, V - E + F = 2; a vertex has at least two edges, a face at least three.
+//   - Vertices are points of the caller's, in their order.
+//   - No vertex is above a plane: n . v <= distance, the product taken in double. Each plane touches a vertex.
+//   - A face's vertices lie at most `flatness` below its plane, a quarter of the tolerance. They turn left around its
+//     normal; one that turns right lies inside of the line past it by no more than that.
+//   - Half-edges come in pairs: that of i is i ^ 1, edge k has 2 k and 2 k + 1. Of a pair the even one starts at the
+//     vertex with the lower number. next goes around the left face. A vertex's `spoke` is one half-edge that starts
+//     there; edge[h ^ 1].next is the one after it, clockwise seen from outside.
+//   - The Gauss map: an edge's arc runs from the normal of its left face to that of its right one, and turns about the
+//     edge's vector: (normal_left x normal_right) . vector > 0.
+//
+// Lanes. What is looked at side by side stands as one array per coordinate, of a multiple of 16 floats, aligned to 64
+// bytes. Lanes past the count repeat the first: they never win against it, and a comparison that prefers the lowest
+// index never names one.
+#ifndef FE_COLLISION_FORM_HULL_H
+#define FE_COLLISION_FORM_HULL_H
+#include "core/math.h"
+
+enum {
+    FE__HULL_VERTICES = 255,                    // at most
+    FE__HULL_FACES = 2 * FE__HULL_VERTICES - 4, // of triangles alone
+    FE__HULL_EDGES = 3 * FE__HULL_VERTICES - 6, // likewise
+    FE__HULL_CORNERS = 2 * FE__HULL_EDGES,      // each half-edge is a corner of one face
+    FE__HULL_DIRECTIONS = 32,                   // hulls with more are not worth asking direction by direction
+    FE__HULL_LANES = 16                         // the widest SIMD set
+};
+
+typedef struct fe__hull_edge { // a half-edge
+    uint16_t next;             // around the left face
+    uint16_t face;             // on its left
+    uint8_t origin;            // its first vertex
+    uint8_t reserved[3];
+} fe__hull_edge;
+_Static_assert(sizeof(fe__hull_edge) == 8, "a half-edge is 8 bytes");
+
+typedef struct fe__hull_face {
+    uint16_t first; // of its corners
+    uint16_t count; // of them, >= 3
+    uint16_t edge;  // the half-edge from its first corner to its second
+    uint16_t reserved;
+} fe__hull_face;
+_Static_assert(sizeof(fe__hull_face) == 8, "a face is 8 bytes");
+
+// Three coordinates side by side
+typedef struct fe__hull_lanes {
+    const float *x, *y, *z;
+} fe__hull_lanes;
+
+// What a hull weighs at a density of 1 kg/m3, in the asset's frame.
+typedef struct fe__hull_mass {
+    double volume, area; // m3, m2
+    fe_dvec3 centre;     // of mass, m, relative to the hull's origin
+    fe_vec3 inertia;     // principal moments about the centre, kg m2
+    fe_quat axes;        // from the principal axes to the asset's
+} fe__hull_mass;
+
+typedef struct fe__hull {
+    int32_t vertex_count, face_count, edge_count;
+    int32_t direction_count; // of edges that are not parallel; 0: more than FE__HULL_DIRECTIONS, and none is kept
+    fe_vec3 origin;          // of its frame, in the asset's, m
+    fe_vec3 low, high;       // bounds of the vertices
+    float thickness;         // least width between a face and the vertex farthest below it, m
+    float inner_radius;      // of the largest ball about the centre of mass, m
+    float extent;            // longest side of the bounds of all points, m
+    float tolerance;         // counted, m
+    float error;             // how far the farthest point left out lies above a plane, m, >= 0
+    float flatness;          // m, see above
+    fe__hull_mass mass;
+
+    // into `block`
+    fe__hull_lanes vertices;    // vertex_count
+    fe__hull_lanes normals;     // face_count, unit
+    const float *distances;     // of the planes
+    fe__hull_lanes tails;       // edge_count: the edge's first vertex
+    fe__hull_lanes vectors;     // from there to its second
+    fe__hull_lanes left, right; // the normals of its faces
+    fe__hull_lanes directions;  // direction_count, unit
+    const fe__hull_edge *edges; // 2 x edge_count
+    const fe__hull_face *faces; // face_count
+    const uint16_t *spokes;     // vertex_count
+    const uint8_t *corners;     // of all faces, 2 x edge_count: vertices
+    void *block;
+    int64_t size; // of the block, bytes
+} fe__hull;
+
+static inline int32_t fe__hull_padded(int32_t count)
+{
+    return (count + FE__HULL_LANES - 1) / FE__HULL_LANES * FE__HULL_LANES;
+}
+static inline fe_vec3 fe__hull_lane(const fe__hull_lanes *lanes, int32_t i)
+{
+    return (fe_vec3){lanes->x[i], lanes->y[i], lanes->z[i]};
+}
+static inline fe_vec3 fe__hull_vertex(const fe__hull *hull, int32_t i) { return fe__hull_lane(&hull->vertices, i); }
+static inline fe_vec3 fe__hull_normal(const fe__hull *hull, int32_t i) { return fe__hull_lane(&hull->normals, i); }
+
+#endif
