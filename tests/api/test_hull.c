@@ -37,7 +37,9 @@ static fe_asset new_hull(fe_store *store, const fe_hull_def *def)
 
 static fe_hull_info info_of(const fe_store *store, fe_asset hull)
 {
-    fe_hull_info info = {.struct_size = sizeof info};
+    fe_hull_info info;
+    fe_hull_info_init(NULL, sizeof info);
+    fe_hull_info_init(&info, sizeof info);
     OK(fe_hull_get_info(store, hull, &info));
     return info;
 }
