@@ -1,18 +1,24 @@
 // hull_asset.c - see hull_asset.h. Called by the API layer with checked arguments, from any thread.
 #include "store/hull_asset.h"
 
-static void *allocate_room(fe_store *store, size_t size)
+// Scratch, which nobody zeroes: a small hull touches little of it
+typedef struct work_room {
+    double *block;
+    int32_t capacity;
+} work_room;
+
+static int32_t reserve_room(fe_store *store, work_room *room, int64_t size)
 {
     fe__store_lock(store);
-    void *room = fe__allocate(&store->memory, size);
+    int32_t reserved = FE_RENEW(&store->memory, room->block, room->capacity, size / (int64_t)sizeof(double) + 1);
     fe__store_unlock(store);
-    return room;
+    return reserved;
 }
 
-static void release_room(fe_store *store, void *room, size_t size)
+static void release_room(fe_store *store, work_room *room)
 {
     fe__store_lock(store);
-    fe__release(&store->memory, room, size);
+    FE_FREE(&store->memory, room->block, room->capacity);
     fe__store_unlock(store);
 }
 
@@ -46,10 +52,9 @@ static fe_result build(fe_store *store, const fe__hull_points *points, fe__hull_
 fe_result fe__hull_create(fe_store *store, const fe__hull_points *points, fe__hull_refusal *out_refusal,
                           fe_asset *out_handle)
 {
-    size_t size = (size_t)fe__hull_builder_size(points->count);
-    fe__hull_builder *room = allocate_room(store, size);
-    if (!room) return FE_ERROR_MEMORY;
-    fe_result result = build(store, points, room, out_refusal, out_handle);
-    release_room(store, room, size);
+    work_room room = {NULL, 0};
+    if (!reserve_room(store, &room, fe__hull_builder_size(points->count))) return FE_ERROR_MEMORY;
+    fe_result result = build(store, points, (fe__hull_builder *)(void *)room.block, out_refusal, out_handle);
+    release_room(store, &room);
     return result;
 }
