@@ -1,5 +1,5 @@
 // Where hulls end: support, facing, reach, bounds and rays, by walks over everything, on hulls of random clouds.
-#include "collision/form/hull.h"
+#include "collision/cast/nearest.h"
 #include "fe_test.h"
 #include "support/hull_clouds.h"
 #include "support/hull_make.h"
@@ -121,12 +121,45 @@ static void rays_end_on_the_surface(void **state)
     ask_hulls(ask_ray);
 }
 
+// The nearest point q of a convex body to p outside: no vertex v is ahead of it, (v - q) . (p - q) <= 0, and q is on
+// the surface. Faces are flat up to the flatness, in both.
+static void ask_nearest(const fe__hull *h, uint64_t *random)
+{
+    double size = (double)h->extent, slack = 2e-7 * size + 2.0 * (double)h->flatness;
+    double away = cloud_int(random, 2) ? 2.0 * size : 0.02 * size;
+    fe_dvec3 top = fe__widen(fe__hull_vertex(h, fe__hull_support(h, cloud_vector(random)))),
+             p = fe__dadd(top, fe__dscale(away, cloud_vector(random)));
+    fe__nearest near = fe__hull_nearest(h, p);
+    FE_TRUE(near.triangle >= 0 && near.triangle < h->face_count);
+    FE_NEAR(fe__ddot(near.normal, near.normal), 1.0, 1e-12);
+    FE_NEAR(highest_over(h, near.point), 0.0, slack);
+    fe_dvec3 back = fe__dadd(near.point, fe__dscale(near.distance, near.normal)), off = fe__dsub(back, p);
+    FE_NEAR(fe__ddot(off, off), 0.0, 1e-12 * size * size);
+    if (near.distance <= 0.0) {
+        FE_NEAR(near.distance, highest_over(h, p), 2e-7 * size);
+        return;
+    }
+    for (int32_t v = 0; v < h->vertex_count; ++v) {
+        fe_dvec3 ahead = fe__dsub(fe__widen(fe__hull_vertex(h, v)), near.point);
+        // turned by the flatness over the distance, at most: a vertex as far as the hull is long is ahead by that share
+        double turned = slack * (1.0 + 2.0 * size / near.distance);
+        FE_TRUE(fe__ddot(ahead, near.normal) <= turned);
+    }
+}
+
+static void the_nearest_point_has_nothing_ahead(void **state)
+{
+    (void)state;
+    ask_hulls(ask_nearest);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_support_is_the_lowest_of_the_farthest),
         cmocka_unit_test(bounds_are_tight),
         cmocka_unit_test(rays_end_on_the_surface),
+        cmocka_unit_test(the_nearest_point_has_nothing_ahead),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -89,11 +89,11 @@ int32_t fe__hull_ray(const fe__hull *hull, fe_dvec3 origin, fe_dvec3 translation
 {
     crossing c = cross_planes(hull, origin, translation);
     if (c.highest <= 0.0) {
-        fe_dvec3 normal = against(translation, fe__widen(fe__hull_normal(hull, c.nearest)));
+        fe_dvec3 normal = against(translation, fe__hull_unit_normal(hull, c.nearest));
         *hit = (fe__ray_hit){.normal = normal, .depth = -c.highest, .inside = 1, .triangle = c.nearest};
         return 1;
     }
     if (c.face < 0 || c.enter > c.leave || c.enter > limit) return 0;
-    *hit = (fe__ray_hit){.t = c.enter, .normal = fe__widen(fe__hull_normal(hull, c.face)), .triangle = c.face};
+    *hit = (fe__ray_hit){.t = c.enter, .normal = fe__hull_unit_normal(hull, c.face), .triangle = c.face};
     return 1;
 }

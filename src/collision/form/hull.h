@@ -104,6 +104,13 @@ static inline fe_vec3 fe__hull_lane(const fe__hull_lanes *lanes, int32_t i)
 static inline fe_vec3 fe__hull_vertex(const fe__hull *hull, int32_t i) { return fe__hull_lane(&hull->vertices, i); }
 static inline fe_vec3 fe__hull_normal(const fe__hull *hull, int32_t i) { return fe__hull_lane(&hull->normals, i); }
 
+// Of length 1, which the stored one is up to the rounding of floats
+static inline fe_dvec3 fe__hull_unit_normal(const fe__hull *hull, int32_t i)
+{
+    fe_dvec3 n = fe__widen(fe__hull_normal(hull, i));
+    return fe__dscale(1.0 / sqrt(fe__ddot(n, n)), n);
+}
+
 // ---- hull.c: in the hull's frame -----------------------------------------------------------------------------------
 int32_t fe__hull_support(const fe__hull *hull,
                          fe_dvec3 direction);                      // the vertex farthest along it; of equals the lowest
