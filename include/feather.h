@@ -328,6 +328,7 @@ typedef struct fe_hull_info {
     int64_t bytes;            ///< of memory
 } fe_hull_info;
 
+FE_API void fe_hull_info_init(fe_hull_info *info, uint32_t struct_size);
 /// @param out_info  its struct_size must be set
 /// @return FE_ERROR_KIND for an asset that is no hull
 FE_API fe_result fe_hull_get_info(const fe_store *store, fe_asset hull, fe_hull_info *out_info);

@@ -56,6 +56,8 @@ void *fe__allocate(fe__memory *memory, size_t size)
     return block;
 }
 
+void *fe__allocate_scratch(fe__memory *memory, size_t size) { return take(memory, size); }
+
 void fe__release(fe__memory *memory, void *block, size_t size)
 {
     if (!block) return;

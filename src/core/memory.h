@@ -3,7 +3,7 @@
 // Only the thread that uses the world allocates, or who holds the store's lock. A world and its own store share the
 // host's allocator: a guard lets one call at a time in. Growing never loses: a failed fe__reserve leaves the array as
 // it was. All blocks are aligned to 64 bytes and new memory is zeroed, so that padding lanes and spare fields hold
-// zeros; but for scratch (fe__renew): pages that nobody writes cost no time.
+// zeros; but for scratch (fe__renew, fe__allocate_scratch): pages that nobody writes cost no time.
 #ifndef FE_CORE_MEMORY_H
 #define FE_CORE_MEMORY_H
 #include "feather.h"
@@ -28,6 +28,7 @@ FE_FETCHES fe__fetch(const void *record, unsigned bytes)
 
 void fe__memory_init(fe__memory *memory, const fe_allocator *allocator); // NULL: malloc
 void *fe__allocate(fe__memory *memory, size_t size);                     // zeroed, 64-byte aligned, NULL on failure
+void *fe__allocate_scratch(fe__memory *memory, size_t size);             // not zeroed
 void fe__release(fe__memory *memory, void *block, size_t size);          // NULL is fine
 
 // Makes room for `need` records of `size` bytes in *array (of *capacity records), by growing geometrically. 0 on

@@ -18,7 +18,7 @@ fe_result fe__hull_create(fe_store *store, const fe__hull_points *points, fe__hu
                           fe_asset *out_handle)
 {
     int64_t size = fe__hull_builder_size(points->count);
-    fe__hull_builder *room = fe__making_room(store, size);
+    fe__hull_builder *room = fe__making_scratch(store, size);
     if (!room) return FE_ERROR_MEMORY;
     fe_result result = build(store, points, room, out_refusal, out_handle);
     fe__making_release(store, room, size);

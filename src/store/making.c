@@ -10,6 +10,16 @@ void *fe__making_room(fe_store *store, int64_t size)
     return room;
 }
 
+// a small asset touches little of it
+void *fe__making_scratch(fe_store *store, int64_t size)
+{
+    if ((uint64_t)size > SIZE_MAX) return NULL;
+    fe__store_lock(store);
+    void *room = fe__allocate_scratch(&store->memory, (size_t)size);
+    fe__store_unlock(store);
+    return room;
+}
+
 void fe__making_release(fe_store *store, void *room, int64_t size)
 {
     fe__store_lock(store);

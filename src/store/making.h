@@ -4,7 +4,8 @@
 #define FE_STORE_MAKING_H
 #include "store/store.h"
 
-void *fe__making_room(fe_store *store, int64_t size); // zeroed, aligned to 64 bytes; NULL: no memory
+void *fe__making_room(fe_store *store, int64_t size);    // zeroed, aligned to 64 bytes; NULL: no memory
+void *fe__making_scratch(fe_store *store, int64_t size); // the same, not zeroed
 void fe__making_release(fe_store *store, void *room, int64_t size);
 // A block of the asset; NULL: no memory
 void *fe__making_block(fe_store *store, fe__asset *asset, int64_t size);

@@ -24,7 +24,7 @@
 // index never names one.
 #ifndef FE_COLLISION_FORM_HULL_H
 #define FE_COLLISION_FORM_HULL_H
-#include "core/math.h"
+#include "collision/form/ray_hit.h"
 
 enum {
     FE__HULL_VERTICES = 255,                    // at most
@@ -103,5 +103,21 @@ static inline fe_vec3 fe__hull_lane(const fe__hull_lanes *lanes, int32_t i)
 }
 static inline fe_vec3 fe__hull_vertex(const fe__hull *hull, int32_t i) { return fe__hull_lane(&hull->vertices, i); }
 static inline fe_vec3 fe__hull_normal(const fe__hull *hull, int32_t i) { return fe__hull_lane(&hull->normals, i); }
+
+// Of length 1, which the stored one is up to the rounding of floats
+static inline fe_dvec3 fe__hull_unit_normal(const fe__hull *hull, int32_t i)
+{
+    fe_dvec3 n = fe__widen(fe__hull_normal(hull, i));
+    return fe__dscale(1.0 / sqrt(fe__ddot(n, n)), n);
+}
+
+// ---- hull.c: in the hull's frame -----------------------------------------------------------------------------------
+int32_t fe__hull_support(const fe__hull *hull,
+                         fe_dvec3 direction);                      // the vertex farthest along it; of equals the lowest
+int32_t fe__hull_facing(const fe__hull *hull, fe_dvec3 direction); // the face that looks that way most; likewise
+float fe__hull_reach(const fe__hull *hull, fe_vec3 centre);        // largest distance from it to a point of the hull, m
+fe__bounds fe__hull_bounds(const fe__hull *hull, const fe__pose *pose); // in the world, of a hull whose frame is there
+// As fe__form_ray. hit->triangle is the face.
+int32_t fe__hull_ray(const fe__hull *hull, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__ray_hit *hit);
 
 #endif

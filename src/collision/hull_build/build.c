@@ -36,22 +36,24 @@ static void choose_tolerance(fe__hull_builder *b, double given)
     b->surface.tolerance = outside_share * b->tolerance / b->cloud.step;
 }
 
-static double depth_of(const fe__hull_surface *s, const fe__grid_plane *plane)
+static double depth_below(const fe__grid_plane *plane, const fe_dvec3 *vertices, int32_t count)
 {
     double lowest = 0.0;
-    for (int32_t v = 0; v < FE__SURFACE_VERTICES; ++v)
-        if (s->point[v] >= 0) lowest = fe__mind(lowest, fe__grid_height(plane, fe__vertex_on_grid(s, v)));
+    for (int32_t i = 0; i < count; ++i) lowest = fe__mind(lowest, fe__grid_height(plane, vertices[i]));
     return -lowest;
 }
 
 // Of the surface: the least width between a triangle and the vertex farthest below it, m
 static int32_t thinnest_triangle(const fe__hull_surface *s, double *out_thickness)
 {
-    int32_t thinnest = -1;
+    fe_dvec3 vertices[FE__SURFACE_VERTICES];
+    int32_t thinnest = -1, count = 0;
     double least = DBL_MAX;
+    for (int32_t v = 0; v < FE__SURFACE_VERTICES; ++v)
+        if (s->point[v] >= 0) vertices[count++] = fe__vertex_on_grid(s, v);
     for (int32_t i = 0; i < s->triangle_end; ++i) {
         if (!s->triangles[i].alive) continue;
-        double depth = depth_of(s, &s->triangles[i].plane);
+        double depth = depth_below(&s->triangles[i].plane, vertices, count);
         if (depth >= least) continue;
         least = depth;
         thinnest = i;

@@ -47,8 +47,9 @@ void fe__cloud_snap(fe__cloud *cloud)
 int32_t fe__grid_plane_through(fe_dvec3 a, fe_dvec3 b, fe_dvec3 c, fe__grid_plane *out_plane)
 {
     fe_dvec3 n = fe__dcross(fe__dsub(b, a), fe__dsub(c, a)); // exact
-    double square = fe__ddot(n, n);
-    *out_plane = (fe__grid_plane){a, n, square > 0.0 ? 1.0 / sqrt(square) : 0.0};
+    double square = fe__ddot(n, n), per_length = square > 0.0 ? 1.0 / sqrt(square) : 0.0;
+    fe_dvec3 unit = fe__dscale(per_length, n);
+    *out_plane = (fe__grid_plane){a, n, per_length, unit, fe__ddot(unit, a)};
     return square > 0.0;
 }
 

@@ -38,6 +38,8 @@ typedef struct fe__grid_plane {
     fe_dvec3 base;     // one of them
     fe_dvec3 normal;   // integers below 2^54
     double per_length; // 1 / |normal|
+    fe_dvec3 unit;     // the normal of length 1, rounded
+    double offset;     // unit . base
 } fe__grid_plane;
 
 // 0: the points are on a line
@@ -47,10 +49,10 @@ static inline double fe__grid_rise(const fe__grid_plane *plane, fe_dvec3 p)
 {
     return fe__ddot(fe__dsub(p, plane->base), plane->normal);
 }
-// Height over the plane in steps of the grid, rounded
+// Height over the plane in steps of the grid: of numbers below 2^27, so that rounding is below 1e-7 steps
 static inline double fe__grid_height(const fe__grid_plane *plane, fe_dvec3 p)
 {
-    return fe__grid_rise(plane, p) * plane->per_length;
+    return fe__ddot(plane->unit, p) - plane->offset;
 }
 // 1 above the plane, 0 on it, -1 below: exact
 int32_t fe__grid_side(const fe__grid_plane *plane, fe_dvec3 p);

@@ -56,6 +56,12 @@ static void link_ring(fe__facets *f, int32_t from, int32_t to, int32_t edge)
     f->to_try[f->try_count++] = edge;
 }
 
+static void leave_ring(fe__facets *f, int32_t vertex)
+{
+    f->in_ring[vertex] = 0;
+    if (f->ring_start == vertex) f->ring_start = f->next[vertex];
+}
+
 static void take(fe__facets *f, int32_t triangle, int32_t facet)
 {
     f->facet_of[triangle] = facet;
@@ -64,12 +70,13 @@ static void take(fe__facets *f, int32_t triangle, int32_t facet)
 
 static void begin_ring(fe__facets *f, int32_t seed, int32_t facet)
 {
-    memset(f->in_ring, 0, sizeof f->in_ring);
+    f->ring += 1;
     f->try_count = f->member_count = 0;
+    f->ring_start = f->surface->triangles[seed].corner[0];
     take(f, seed, facet);
     for (int32_t k = 0; k < 3; ++k) {
         int32_t edge = 3 * seed + k;
-        f->in_ring[fe__edge_start(f->surface, edge)] = 1;
+        f->in_ring[fe__edge_start(f->surface, edge)] = f->ring;
         link_ring(f, fe__edge_start(f->surface, edge), fe__edge_end(f->surface, edge), edge);
     }
 }
@@ -80,19 +87,19 @@ static void try_edge(fe__facets *f, int32_t edge, int32_t seed, int32_t facet)
 {
     const fe__hull_surface *s = f->surface;
     int32_t from = fe__edge_start(s, edge), to = fe__edge_end(s, edge);
-    if (!f->in_ring[from] || f->edge[from] != edge) return;
+    if (f->in_ring[from] != f->ring || f->edge[from] != edge) return;
     int32_t twin = fe__edge_twin(s, edge), triangle = twin / 3, first = fe__next_corner(twin),
             second = fe__next_corner(first), apex = fe__edge_end(s, first);
     if (f->facet_of[triangle] >= 0 || !fits(f, seed, triangle, apex)) return;
-    if (!f->in_ring[apex]) {
-        f->in_ring[apex] = 1;
+    if (f->in_ring[apex] != f->ring) {
+        f->in_ring[apex] = f->ring;
         link_ring(f, from, apex, first);
         link_ring(f, apex, to, second);
     } else if (f->next[to] == apex && fe__edge_twin(s, f->edge[to]) == second) {
-        f->in_ring[to] = 0;
+        leave_ring(f, to);
         link_ring(f, from, apex, first);
     } else if (f->previous[from] == apex && fe__edge_twin(s, f->edge[apex]) == first) {
-        f->in_ring[from] = 0;
+        leave_ring(f, from);
         link_ring(f, apex, to, second);
     } else {
         return;
@@ -107,20 +114,20 @@ static int32_t is_convex(const fe__facets *f, int32_t seed)
 {
     const fe__hull_surface *s = f->surface;
     const fe__grid_plane *plane = &s->triangles[seed].plane;
-    for (int32_t v = 0; v < FE__SURFACE_VERTICES; ++v) {
-        if (!f->in_ring[v]) continue;
+    int32_t start = f->ring_start, v = start;
+    do {
         fe_dvec3 here = fe__vertex_on_grid(s, v), in = fe__dsub(here, fe__vertex_on_grid(s, f->previous[v])),
                  out = fe__dsub(fe__vertex_on_grid(s, f->next[v]), here), past = fe__dadd(in, out);
         double turn = fe__ddot(fe__dcross(in, out), plane->normal) * plane->per_length;
         if (turn < -f->slab * sqrt(fe__ddot(past, past))) return 0;
-    }
+        v = f->next[v];
+    } while (v != start);
     return 1;
 }
 
 static void keep_ring(fe__facets *f, int32_t seed)
 {
-    int32_t start = 0;
-    while (!f->in_ring[start]) ++start;
+    int32_t start = f->ring_start;
     fe__facet *facet = &f->facets[f->count++];
     *facet = (fe__facet){seed, f->corner_count, 0};
     int32_t v = start;
@@ -209,6 +216,8 @@ void fe__facets_find(fe__facets *f, const fe__hull_surface *surface, double slab
 {
     f->surface = surface;
     f->slab = slab;
+    f->ring = 0;
+    memset(f->in_ring, 0, sizeof f->in_ring);
     memset(f->thinness, 0, sizeof f->thinness);
     sort_triangles(f);
     do grow_all(f);

@@ -30,7 +30,8 @@ typedef struct fe__facets {
     int32_t again;                                // a slab became thinner: all facets are to be made anew
     // scratch: the rim of the facet that grows, a ring of vertices; edge: of the facet's triangle, to the next vertex
     int32_t next[FE__SURFACE_VERTICES], previous[FE__SURFACE_VERTICES], edge[FE__SURFACE_VERTICES];
-    int32_t in_ring[FE__SURFACE_VERTICES];
+    int32_t in_ring[FE__SURFACE_VERTICES], ring; // of a vertex: the number of the ring that it is in
+    int32_t ring_start;                          // one of its vertices
     int32_t members[FE__SURFACE_TRIANGLES], member_count;
     int32_t to_try[3 * FE__SURFACE_TRIANGLES], try_count;
     fe__sort_item items[FE__SURFACE_TRIANGLES], sorting[FE__SURFACE_TRIANGLES];

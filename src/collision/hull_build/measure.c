@@ -95,18 +95,30 @@ static double height_outside(const fe__hull *h, fe_dvec3 point)
     return most;
 }
 
+// Of points that wait at a triangle. A facet's plane is that of a triangle, lower by the slab at most: a point that is
+// no higher above the triangle that it waits at, its highest, need not be measured.
+static double error_of_waiting(const fe__hull_builder *b, const fe__hull *h, const fe__surface_triangle *t, double most)
+{
+    static const double rounding = 16.0; // steps of the grid, of the planes' floats
+    const fe__cloud *cloud = &b->cloud;
+    double lower = (b->facets.slab + rounding) * cloud->step;
+    if (t->farthest < 0 || t->farthest_height * cloud->step + lower <= most) return most;
+    most = fe__maxd(most, height_outside(h, fe__cloud_point(cloud, t->farthest)));
+    for (int32_t p = t->first_point; p >= 0; p = b->surface.next_point[p])
+        if (fe__grid_height(&t->plane, cloud->grid[p]) * cloud->step + lower > most)
+            most = fe__maxd(most, height_outside(h, fe__cloud_point(cloud, p)));
+    return most;
+}
+
 // Of the points that still wait outside, and of vertices that became none. All others are inside of these.
 void fe__hull_measure_error(const fe__hull_builder *b, fe__hull *h)
 {
     const fe__hull_surface *s = &b->surface;
     double most = 0.0;
-    for (int32_t i = 0; i < s->triangle_end; ++i) {
-        if (!s->triangles[i].alive) continue;
-        for (int32_t p = s->triangles[i].first_point; p >= 0; p = s->next_point[p])
-            most = fe__maxd(most, height_outside(h, fe__cloud_point(&b->cloud, p)));
-    }
     for (int32_t v = 0; v < FE__SURFACE_VERTICES; ++v)
         if (s->point[v] >= 0 && b->number[v] < 0)
             most = fe__maxd(most, height_outside(h, fe__cloud_point(&b->cloud, s->point[v])));
+    for (int32_t i = 0; i < s->triangle_end; ++i)
+        if (s->triangles[i].alive) most = error_of_waiting(b, h, &s->triangles[i], most);
     h->error = fe__float_above(most);
 }

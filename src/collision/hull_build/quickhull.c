@@ -54,18 +54,26 @@ static void wait_at(fe__hull_surface *s, int32_t triangle, int32_t point, double
     t->farthest_height = height;
 }
 
+void fe__surface_choose_among(fe__hull_surface *s, const int32_t *triangles, int32_t count)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        const fe__grid_plane *plane = &s->triangles[triangles[i]].plane;
+        s->faces[i] = (fe__surface_face){plane->unit, plane->offset};
+    }
+}
+
 void fe__surface_give(fe__hull_surface *s, int32_t point, const int32_t *triangles, int32_t count)
 {
     fe_dvec3 p = s->cloud->grid[point];
     double best = least_height;
     int32_t at = -1;
     for (int32_t i = 0; i < count; ++i) {
-        double height = fe__grid_height(&s->triangles[triangles[i]].plane, p);
+        double height = fe__ddot(s->faces[i].unit, p) - s->faces[i].offset;
         if (height <= best) continue;
         best = height;
-        at = triangles[i];
+        at = i;
     }
-    if (at >= 0) wait_at(s, at, point, best);
+    if (at >= 0) wait_at(s, triangles[at], point, best);
 }
 
 // ---- adding a point ------------------------------------------------------------------------------------------------
@@ -129,6 +137,7 @@ static void add_farthest(fe__hull_surface *s, int32_t triangle)
     s->vertex_count += 1;
     find_seen(s, triangle, s->cloud->grid[point]);
     make_fan(s, vertex);
+    fe__surface_choose_among(s, s->fan, s->fan_count);
     for (int32_t i = 0; i < s->seen_count; ++i) give_again(s, s->seen[i], point);
     for (int32_t i = 0; i < s->seen_count; ++i) free_triangle(s, s->seen[i]);
 }
@@ -161,6 +170,7 @@ static void look_at_all(fe__hull_surface *s)
         t->first_point = t->farthest = -1;
         t->farthest_height = 0.0;
     }
+    fe__surface_choose_among(s, all, living);
     for (int32_t p = waiting, next; p >= 0; p = next) {
         next = s->next_point[p];
         fe__surface_give(s, p, all, living);

@@ -97,6 +97,7 @@ int32_t fe__surface_begin(fe__hull_surface *s, double least_thickness, double *o
     if (!find_corners(s->cloud, least_thickness, s->point, out_thickness, out_normal)) return 0;
     s->vertex_count = 4;
     make_tetrahedron(s);
+    fe__surface_choose_among(s, all, 4);
     for (int32_t i = s->cloud->count - 1; i >= 0; --i) fe__surface_give(s, i, all, 4);
     return 1;
 }

@@ -29,6 +29,12 @@ typedef struct fe__surface_triangle {
     int32_t alive, seen; // seen: by the point that is being added
 } fe__surface_triangle;
 
+// A triangle's plane: height = unit . p - offset
+typedef struct fe__surface_face {
+    fe_dvec3 unit;
+    double offset;
+} fe__surface_face;
+
 typedef struct fe__hull_surface {
     const fe__cloud *cloud;
     int32_t *next_point;   // count: in the list of a triangle
@@ -45,6 +51,7 @@ typedef struct fe__hull_surface {
     // scratch of one addition
     int32_t seen[FE__SURFACE_TRIANGLES], seen_count;
     int32_t fan[FE__SURFACE_VERTICES], fan_count;
+    fe__surface_face faces[FE__SURFACE_TRIANGLES]; // to look at many, close together
     int32_t fan_from[FE__SURFACE_VERTICES]; // the fan's triangle over the edge of the rim that starts at a vertex
 } fe__hull_surface;
 
@@ -76,7 +83,9 @@ void fe__surface_grow(fe__hull_surface *surface);
 // ---- of both files -------------------------------------------------------------------------------------------------
 int32_t fe__surface_new_triangle(fe__hull_surface *surface, int32_t a, int32_t b, int32_t c);
 void fe__surface_join(fe__hull_surface *surface, int32_t edge, int32_t twin);
-// Gives a point to the triangle that it is highest above, of those named; one that is above none is inside.
+// Names the triangles among which fe__surface_give chooses.
+void fe__surface_choose_among(fe__hull_surface *surface, const int32_t *triangles, int32_t count);
+// Gives a point to the triangle that it is highest above; one that is above none is inside.
 void fe__surface_give(fe__hull_surface *surface, int32_t point, const int32_t *triangles, int32_t count);
 
 #endif

@@ -1,0 +1,165 @@
+// Where hulls end: support, facing, reach, bounds and rays, by walks over everything, on hulls of random clouds.
+#include "collision/cast/nearest.h"
+#include "fe_test.h"
+#include "support/hull_clouds.h"
+#include "support/hull_make.h"
+
+enum { HULLS = 300, TRIES = 20 };
+
+static double height_over(const fe__hull *h, int32_t face, fe_dvec3 p)
+{
+    return fe__ddot(fe__widen(fe__hull_normal(h, face)), p) - (double)h->distances[face];
+}
+static double highest_over(const fe__hull *h, fe_dvec3 p)
+{
+    double highest = -1e300;
+    for (int32_t i = 0; i < h->face_count; ++i) highest = fe__maxd(highest, height_over(h, i, p));
+    return highest;
+}
+
+typedef void (*asker)(const fe__hull *hull, uint64_t *random);
+
+static void ask_hulls(asker ask)
+{
+    int32_t asked = 0;
+    for (uint64_t seed = 1; asked < HULLS; ++seed) {
+        cloud c;
+        made_hull made;
+        uint64_t random = seed;
+        cloud_make(&c, seed);
+        if (!make_hull(&c.points[0][0], c.count, 64, 0.0, &made)) continue;
+        for (int32_t i = 0; i < TRIES; ++i) ask(&made.hull, &random);
+        free_hull(&made);
+        asked += 1;
+    }
+}
+
+static void ask_support(const fe__hull *h, uint64_t *random)
+{
+    fe_dvec3 d = fe__dscale(1e3, cloud_vector(random));
+    int32_t vertex = fe__hull_support(h, d), face = fe__hull_facing(h, d);
+    for (int32_t i = 0; i < h->vertex_count; ++i) {
+        double ahead =
+            fe__ddot(d, fe__widen(fe__hull_vertex(h, i))) - fe__ddot(d, fe__widen(fe__hull_vertex(h, vertex)));
+        FE_TRUE(i < vertex ? ahead < 0.0 : ahead <= 0.0);
+    }
+    for (int32_t i = 0; i < h->face_count; ++i) {
+        double ahead = fe__ddot(d, fe__widen(fe__hull_normal(h, i))) - fe__ddot(d, fe__widen(fe__hull_normal(h, face)));
+        FE_TRUE(i < face ? ahead < 0.0 : ahead <= 0.0);
+    }
+}
+
+static void the_support_is_the_lowest_of_the_farthest(void **state)
+{
+    (void)state;
+    ask_hulls(ask_support);
+}
+
+// No corner is outside of the bounds, and each side has one. A double resolves 2e-16 of the coordinates: 1e-14 of 1e6 m
+static void ask_bounds(const fe__hull *h, uint64_t *random)
+{
+    fe_dvec3 axis = cloud_direction(random), at = fe__dscale(1e6, cloud_vector(random));
+    fe__pose pose = {at, fe__normalized((fe_quat){(float)axis.x, (float)axis.y, (float)axis.z, 0.7f})};
+    fe__bounds b = fe__hull_bounds(h, &pose);
+    fe_vec3 centre = fe__narrow(cloud_vector(random));
+    double least[6] = {1e300, 1e300, 1e300, 1e300, 1e300, 1e300}, slack = 1e-9, reach = 0.0;
+    for (int32_t i = 0; i < h->vertex_count; ++i) {
+        fe_dvec3 local = fe__widen(fe__hull_vertex(h, i)), p = fe__dadd(at, fe__drotate(pose.rotation, local)),
+                 d = fe__dsub(local, fe__widen(centre));
+        const double inside[6] = {p.x - b.low.x,  p.y - b.low.y,  p.z - b.low.z,
+                                  b.high.x - p.x, b.high.y - p.y, b.high.z - p.z};
+        for (int32_t k = 0; k < 6; ++k) least[k] = fe__mind(least[k], inside[k]);
+        reach = fe__maxd(reach, sqrt(fe__ddot(d, d)));
+    }
+    for (int32_t k = 0; k < 6; ++k) FE_NEAR(least[k], 0.0, slack);
+    FE_NEAR(fe__hull_reach(h, centre), reach, 1e-7 * reach);
+}
+
+static void bounds_are_tight(void **state)
+{
+    (void)state;
+    ask_hulls(ask_bounds);
+}
+
+// A ray through a point inside: from outside it ends on the surface, on the face that it names, and no earlier point of
+// it is inside. One that starts inside hits at once. What is aimed past the farthest vertex misses.
+static void ask_ray(const fe__hull *h, uint64_t *random)
+{
+    double size = (double)h->extent, slack = 1e-9 * size;
+    fe_dvec3 inner = fe__dadd(h->mass.centre, fe__dscale(0.5 * (double)h->inner_radius, cloud_direction(random))),
+             out = cloud_direction(random), from = fe__dadd(inner, fe__dscale(4.0 * size, out)),
+             way = fe__dscale(-8.0 * size, out);
+    fe__ray_hit hit = {0};
+    assert_int_equal(fe__hull_ray(h, from, way, 1.0, &hit), 1);
+    FE_TRUE(!hit.inside && hit.t > 0.0 && hit.t < 0.5 && fe__ddot(hit.normal, way) < 0.0);
+    fe_dvec3 on = fe__dadd(from, fe__dscale(hit.t, way));
+    FE_NEAR(highest_over(h, on), 0.0, slack);
+    FE_NEAR(height_over(h, hit.triangle, on), 0.0, slack);
+    assert_int_equal(fe__hull_ray(h, from, way, 0.999 * hit.t, &hit), 0);
+    assert_int_equal(fe__hull_ray(h, from, out, 1e9, &hit), 0); // away from it
+
+    assert_int_equal(fe__hull_ray(h, inner, way, 1.0, &hit), 1);
+    FE_TRUE(hit.inside && hit.t == 0.0);
+    FE_NEAR(hit.depth, -highest_over(h, inner), slack);
+    FE_NEAR(fe__ddot(hit.normal, out), 1.0, 1e-12);
+    assert_int_equal(fe__hull_ray(h, inner, (fe_dvec3){0.0, 0.0, 0.0}, 1.0, &hit), 1);
+    FE_NEAR(fe__ddot(hit.normal, fe__widen(fe__hull_normal(h, hit.triangle))), 1.0, 1e-6);
+    assert_int_equal(fe__hull_ray(h, from, (fe_dvec3){0.0, 0.0, 0.0}, 1.0, &hit), 0);
+
+    // across `out`, just above the farthest vertex and just below it
+    fe_dvec3 top = fe__widen(fe__hull_vertex(h, fe__hull_support(h, out))),
+             side = fe__dcross(out, cloud_direction(random));
+    side = fe__dscale(2.0 * size / sqrt(fe__ddot(side, side)), side);
+    fe_dvec3 above = fe__dadd(fe__dsub(top, side), fe__dscale(1e-5 * size + (double)h->flatness, out));
+    int32_t grazes = fe__hull_ray(h, above, fe__dscale(2.0, side), 1.0, &hit);
+    if (grazes) FE_TRUE(highest_over(h, fe__dadd(above, fe__dscale(2.0 * hit.t, side))) <= slack);
+}
+
+static void rays_end_on_the_surface(void **state)
+{
+    (void)state;
+    ask_hulls(ask_ray);
+}
+
+// The nearest point q of a convex body to p outside: no vertex v is ahead of it, (v - q) . (p - q) <= 0, and q is on
+// the surface. Faces are flat up to the flatness, in both.
+static void ask_nearest(const fe__hull *h, uint64_t *random)
+{
+    double size = (double)h->extent, slack = 2e-7 * size + 2.0 * (double)h->flatness;
+    double away = cloud_int(random, 2) ? 2.0 * size : 0.02 * size;
+    fe_dvec3 top = fe__widen(fe__hull_vertex(h, fe__hull_support(h, cloud_vector(random)))),
+             p = fe__dadd(top, fe__dscale(away, cloud_vector(random)));
+    fe__nearest near = fe__hull_nearest(h, p);
+    FE_TRUE(near.triangle >= 0 && near.triangle < h->face_count);
+    FE_NEAR(fe__ddot(near.normal, near.normal), 1.0, 1e-12);
+    FE_NEAR(highest_over(h, near.point), 0.0, slack);
+    fe_dvec3 back = fe__dadd(near.point, fe__dscale(near.distance, near.normal)), off = fe__dsub(back, p);
+    FE_NEAR(fe__ddot(off, off), 0.0, 1e-12 * size * size);
+    if (near.distance <= 0.0) {
+        FE_NEAR(near.distance, highest_over(h, p), 2e-7 * size);
+        return;
+    }
+    for (int32_t v = 0; v < h->vertex_count; ++v) {
+        fe_dvec3 ahead = fe__dsub(fe__widen(fe__hull_vertex(h, v)), near.point);
+        // turned by the flatness over the distance, at most: a vertex as far as the hull is long is ahead by that share
+        double turned = slack * (1.0 + 2.0 * size / near.distance);
+        FE_TRUE(fe__ddot(ahead, near.normal) <= turned);
+    }
+}
+
+static void the_nearest_point_has_nothing_ahead(void **state)
+{
+    (void)state;
+    ask_hulls(ask_nearest);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_support_is_the_lowest_of_the_farthest),
+        cmocka_unit_test(bounds_are_tight),
+        cmocka_unit_test(rays_end_on_the_surface),
+        cmocka_unit_test(the_nearest_point_has_nothing_ahead),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
