@@ -9,9 +9,18 @@ enum { MAX_ITERATIONS = 64 }; // boxes and segments need at most 12
 #define FLAT 1e-12            // of the size: a tetrahedron no higher than that has no inside
 #define CONVERGED 1e-13       // of the squared distance
 
+// of equally far corners the first
+static fe_dvec3 farthest_of(const fe_dvec3 corners[3], fe_dvec3 direction)
+{
+    fe_dvec3 far = corners[0];
+    for (int32_t i = 1; i < 3; ++i)
+        if (fe__ddot(corners[i], direction) > fe__ddot(far, direction)) far = corners[i];
+    return far;
+}
+
 fe__vertex fe__cores_support(const fe__cores *cores, fe_dvec3 direction)
 {
-    fe_dvec3 on_a = fe__form_support(cores->a, direction);
+    fe_dvec3 on_a = cores->corners ? farthest_of(cores->corners, direction) : fe__form_support(cores->a, direction);
     fe_dvec3 local = {-fe__ddot(cores->axis_x, direction), -fe__ddot(cores->axis_y, direction),
                       -fe__ddot(cores->axis_z, direction)};
     fe_dvec3 q = fe__form_support(cores->b, local);
