@@ -141,6 +141,16 @@ static int32_t come_near(const fe__scaled_ray *r, double reach, fe_dvec3 *near, 
     return fe__absd(near->x) <= reach && fe__absd(near->y) <= reach && fe__absd(near->z) <= reach;
 }
 
+// At a tip or a rim any of many planes holds the form; one that the ray does not come from behind of.
+static fe_dvec3 against(fe_dvec3 normal, fe_dvec3 direction)
+{
+    double along = fe__ddot(normal, direction), square = fe__ddot(direction, direction);
+    if (!(along > 0.0)) return normal;
+    fe_dvec3 n = fe__dsub(normal, fe__dscale(along / square, direction));
+    double length = sqrt(fe__ddot(n, n));
+    return length > 0.0 ? fe__dscale(1.0 / length, n) : fe__dscale(-1.0 / sqrt(square), direction);
+}
+
 static int32_t meet(const fe__scaled_ray *r, stay round, stay flat, double move, fe_dvec3 side, fe_dvec3 end,
                     fe__ray_hit *hit)
 {
@@ -148,7 +158,7 @@ static int32_t meet(const fe__scaled_ray *r, stay round, stay flat, double move,
     if (!(enter <= leave) || !(leave + move >= 0.0)) return 0;
     double t = fe__maxd(enter + move, 0.0) * r->per_s;
     if (!(t <= r->limit)) return 0;
-    *hit = (fe__ray_hit){t, round.enter > flat.enter ? side : end, 0.0, 0, -1};
+    *hit = (fe__ray_hit){t, against(round.enter > flat.enter ? side : end, r->direction), 0.0, 0, -1};
     return 1;
 }
 
