@@ -87,6 +87,17 @@ static void a_cylinder_rolls_on_a_box_as_on_a_plane(void **state)
     }
 }
 
+static void a_cylinder_rolls_on_a_heightfield_as_on_a_plane(void **state)
+{
+    static const double radii[] = {0.05, 0.3, 2.0};
+    for (int i = 0; i < 3; ++i) {
+        scene s = scene_begin(state);
+        add_field(&s, 48, 0.5, -12 + 0.13, -12 + 0.21, level, friction(0.6));
+        rolls(&s, radii[i], 2 * radii[i] < 1 ? 2 * radii[i] : 1, 0);
+        scene_end(&s);
+    }
+}
+
 static void a_cylinder_rolls_down_with_two_thirds(void **state)
 {
     scene s = scene_begin(state);
@@ -231,6 +242,64 @@ static void nothing_thin_is_passed_through(void **state)
     }
 }
 
+// ---- heaps ---------------------------------------------------------------------------------------------------------
+static double hills(double x, double z) { return 0.3 * sin(1.7 * x) + 0.2 * cos(2.3 * z + x); }
+
+enum { HEAP = 60 };
+static void make_heap(scene *s, fe_body bodies[HEAP], height_at *ground)
+{
+    add_field(s, 32, 0.5, -8, -8, ground, friction(0.6));
+    for (int i = 0; i < HEAP; ++i) {
+        double h = 0.1 + 0.03 * (i % 7), r = 0.1 + 0.04 * (i % 5);
+        fe_geometry form = i % 5 == 0   ? box(h, r, h)
+                           : i % 5 == 1 ? cone(h, r)
+                           : i % 5 == 2 ? capsule(h, r)
+                                        : cylinder(h, r);
+        vec at = v3(0.8 * (i % 4) - 1.2, 1.5 + 0.7 * (i / 16), 0.8 * (i / 4 % 4) - 1.2);
+        bodies[i] = add_dynamic(s, form, at, turned(v3(1, 0.2 * (i % 3), 0.3), 0.7 * i), friction(0.6), WATER);
+    }
+}
+
+static void hills_hold_what_comes_down(void **state)
+{
+    scene s = scene_begin(state);
+    fe_body bodies[HEAP];
+    make_heap(&s, bodies, hills);
+    run(&s, 600);
+    for (int i = 0; i < HEAP; ++i) {
+        vec p = position(&s, bodies[i]);
+        if (fabs(p.x) > 7.5 || fabs(p.z) > 7.5) continue; // over the border
+        FE_WITHIN(p.y - hills(p.x, p.z), 0, 3);
+    }
+    scene_end(&s);
+}
+
+// workers and SIMD sets
+static void every_machine_part_gives_the_same_bits(void **state)
+{
+    uint32_t first[2] = {0, 0};
+    for (int32_t simd = FE_SIMD_AUTO; simd <= FE_SIMD_NEON; ++simd) {
+        for (int32_t workers = 1; workers <= 3; ++workers) {
+            scene s = scene_begin(state);
+            MUST(fe_world_destroy(s.world));
+            s.world = NULL;
+            fe_world_def def;
+            fe_world_def_init(&def, sizeof def);
+            def.worker_count = workers;
+            def.simd = simd;
+            if (fe_world_create(&def, &s.world) == FE_ERROR_UNSUPPORTED) continue; // not on this CPU
+            fe_body bodies[HEAP];
+            make_heap(&s, bodies, hills);
+            run(&s, 120);
+            uint32_t hash[2] = {0, 0};
+            MUST(fe_world_hash(s.world, hash));
+            if (!first[0] && !first[1]) first[0] = hash[0], first[1] = hash[1];
+            FE_TRUE(hash[0] == first[0] && hash[1] == first[1]);
+            scene_end(&s);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -238,6 +307,9 @@ int main(void)
         EVERY_WAY_UP(a_cylinder_rolls_straight_and_loses_nothing),
         WITH_4_SUBSTEPS(a_cylinder_rolls_straight_and_loses_nothing),
         TEST(a_cylinder_rolls_on_a_box_as_on_a_plane),
+        TEST(a_cylinder_rolls_on_a_heightfield_as_on_a_plane),
+        TEST(hills_hold_what_comes_down),
+        TEST(every_machine_part_gives_the_same_bits),
         WITH_4_SUBSTEPS(a_cylinder_rolls_on_a_box_as_on_a_plane),
         EVERY_WAY_UP(a_cylinder_rolls_down_with_two_thirds),
         TEST(caps_keep_their_points),

@@ -29,6 +29,7 @@ static fe__nearest lifted(const profile *p, double distance, double normal_out, 
 static fe__nearest from_outside(const profile *p, double out, double up)
 {
     double x = p->out - out, y = p->up - up, most = fe__maxd(fe__absd(x), fe__absd(y)), length;
+    if (!(most > 0.0)) return lifted(p, 0.0, 0.0, up < 0.0 ? -1.0 : 1.0, out, up); // a corner itself
     x /= most, y /= most, length = sqrt(x * x + y * y);
     return lifted(p, most * length, x / length, y / length, out, up);
 }
@@ -141,12 +142,14 @@ static int32_t come_near(const fe__scaled_ray *r, double reach, fe_dvec3 *near, 
     return fe__absd(near->x) <= reach && fe__absd(near->y) <= reach && fe__absd(near->z) <= reach;
 }
 
-// At a tip or a rim any of many planes holds the form; one that the ray does not come from behind of.
-static fe_dvec3 against(fe_dvec3 normal, fe_dvec3 direction)
+// At a tip or a rim many planes hold the form. When the side's normal, of rounding there, is along the ray, another is
+// not: between it and the end's, or the one across the ray that leans most to `spare`.
+static fe_dvec3 against(fe_dvec3 side, fe_dvec3 end, fe_dvec3 spare, fe_dvec3 direction)
 {
-    double along = fe__ddot(normal, direction), square = fe__ddot(direction, direction);
-    if (!(along > 0.0)) return normal;
-    fe_dvec3 n = fe__dsub(normal, fe__dscale(along / square, direction));
+    double along = fe__ddot(side, direction), back = fe__ddot(end, direction), square = fe__ddot(direction, direction);
+    if (!(along > 0.0)) return side;
+    fe_dvec3 n = back < 0.0 ? fe__dadd(fe__dscale(-back, side), fe__dscale(along, end))
+                            : fe__dsub(spare, fe__dscale(fe__ddot(spare, direction) / square, direction));
     double length = sqrt(fe__ddot(n, n));
     return length > 0.0 ? fe__dscale(1.0 / length, n) : fe__dscale(-1.0 / sqrt(square), direction);
 }
@@ -158,7 +161,7 @@ static int32_t meet(const fe__scaled_ray *r, stay round, stay flat, double move,
     if (!(enter <= leave) || !(leave + move >= 0.0)) return 0;
     double t = fe__maxd(enter + move, 0.0) * r->per_s;
     if (!(t <= r->limit)) return 0;
-    *hit = (fe__ray_hit){t, against(round.enter > flat.enter ? side : end, r->direction), 0.0, 0, -1};
+    *hit = (fe__ray_hit){t, round.enter > flat.enter ? side : end, 0.0, 0, -1};
     return 1;
 }
 
@@ -173,7 +176,8 @@ int32_t fe__ray_cylinder(const fe__form *form, const fe__scaled_ray *r, fe__ray_
     if (!come_near(r, radius + half, &o, &move)) return 0;
     stay round = in_cylinder(o.x, o.z, d.x, d.z, radius), flat = between(o.y, d.y, half);
     profile side = profile_of((fe_dvec3){o.x + round.enter * d.x, 0.0, o.z + round.enter * d.z});
-    return meet(r, round, flat, move, (fe_dvec3){side.x, 0.0, side.z}, end_normal(d.y), hit);
+    fe_dvec3 normal = {side.x, 0.0, side.z}, end = end_normal(d.y);
+    return meet(r, round, flat, move, against(normal, end, normal, d), end, hit);
 }
 
 int32_t fe__ray_cone(const fe__form *form, const fe__scaled_ray *r, fe__ray_hit *hit)
@@ -187,5 +191,7 @@ int32_t fe__ray_cone(const fe__form *form, const fe__scaled_ray *r, fe__ray_hit 
     stay round = in_cone(o, d, radius / (2.0 * half), half), flat = between(o.y, d.y, half);
     profile side = profile_of((fe_dvec3){o.x + round.enter * d.x, 0.0, o.z + round.enter * d.z});
     fe_dvec3 normal = {side.x * (2.0 * half / l), radius / l, side.z * (2.0 * half / l)};
-    return meet(r, round, flat, move, normal, end_normal(d.y), hit);
+    // going up, the base is behind where the side is met
+    fe_dvec3 up = {0.0, 1.0, 0.0}, end = end_normal(d.y);
+    return meet(r, round, flat, move, against(normal, d.y < 0.0 ? end : up, up, d), end, hit);
 }

@@ -91,6 +91,7 @@ int32_t fe__collide_terrain(const fe__terrain *t, const fe__form *b, const fe__m
     if (!g.count) *gap = gap_around(t, b, rotation, margin);
     for (int32_t i = 0; i < g.count; ++i) {
         fe__raw_patch *raw = g.patches + i;
+        if (fe__form_is_curved(b)) fe__keep_line_ends(raw, g.tie);
         fe__reduce_patch(raw, g.tie);
         patches[i] = (fe__patch){.normal = raw->normal, .count = raw->count, .triangle = raw->triangle};
         for (int32_t k = 0; k < raw->count; ++k) patches[i].points[k] = raw->points[k];

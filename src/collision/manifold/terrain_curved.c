@@ -3,6 +3,7 @@
 // Its disc, or the line on its side, over the triangle gives points along the triangle's normal. Near a convex side the
 // nearest or deepest points of both (GJK, EPA) give one along the line between them, or the disc's part over the side,
 // where the surface allows it.
+#include "collision/form/clip.h"
 #include "collision/form/epa.h"
 #include "collision/form/support.h"
 #include "collision/manifold/kernels.h"
@@ -79,6 +80,23 @@ static void touch_side(const contest *c, const fe__touch *found)
     enum { NEAREST_ID = 0xff };
     fe__gather(c->g, c->tile, found->normal, fe__scale(0.5f, fe__add(found->on_a, found->on_b)), found->separation,
                fe__tile_id(c->tile, NEAREST_ID));
+}
+
+void fe__keep_line_ends(fe__raw_patch *patch, float tie)
+{
+    enum { LINE = 1 << 16 }; // as touch_face names it: face 0, the vertices of a segment
+    const uint32_t ends[2] = {LINE | fe__clip_id(1, 0), LINE | fe__clip_id(0, 1)};
+    int32_t at[2] = {-1, -1}, kept = 2;
+    for (int32_t i = 0; i < patch->count; ++i)
+        for (int32_t k = 0; k < 2; ++k)
+            if (patch->points[i].id == ends[k]) at[k] = i;
+    if (at[0] < 0 || at[1] < 0 || patch->count == 2) return;
+    fe__manifold_point left[FE__RAW_POINTS] = {patch->points[at[0]], patch->points[at[1]]};
+    float most = fe__minf(left[0].separation, left[1].separation) - tie;
+    for (int32_t i = 0; i < patch->count; ++i)
+        if (i != at[0] && i != at[1] && patch->points[i].separation < most) left[kept++] = patch->points[i];
+    for (int32_t i = 0; i < kept; ++i) patch->points[i] = left[i];
+    patch->count = kept;
 }
 
 void fe__tile_touch_curved(fe__gathering *g, const fe__tile *tile, const fe__form *form, const fe__mat3 *rotation)
