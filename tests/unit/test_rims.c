@@ -276,6 +276,43 @@ static void sweeps_stop_before_the_form(void **state)
     FE_WITHIN(hits, CASES / 16, CASES / 4);
 }
 
+// From the smallest to the largest length there is, in any order: numbers, unit normals.
+static void extreme_sizes_give_numbers(void **state)
+{
+    (void)state;
+    for (int32_t i = 0; i < CASES; ++i) {
+        fe__form forms[2];
+        for (int32_t k = 0; k < 2; ++k) {
+            float h = (float)(1e-3 * pow(1e8, uniform(0.0, 1.0)));
+            float r = (float)(1e-3 * pow(1e8, uniform(0.0, 1.0)));
+            double kind = uniform(0.0, 4.0);
+            forms[k] = kind < 1.0 || k == 0 ? cylinder(h, r)
+                       : kind < 2.0         ? cone(h, r)
+                       : kind < 3.0         ? box(h, r, h)
+                                            : capsule(h, r);
+        }
+        int32_t swap = fe__collide_swaps(&forms[0], &forms[1]);
+        const fe__form *a = &forms[swap], *b = &forms[1 - swap];
+        double size = 1e-3 * pow(1e8, uniform(0.0, 1.0));
+        fe__relative at = relative(random_vector(size), random_rotation());
+        if (i % 4 == 0) at.position = fe__vec3(0.0f, 0.0f, 0.0f);
+        if (i % 8 < 2) at.rotation = fe__matrix(fe__identity());
+        fe__manifold m = {.axis = -1};
+        fe__collide(a, b, &at, 0.02f, &m);
+        FE_WITHIN(m.count, 0, 4);
+        for (int32_t k = 0; k < m.count; ++k) {
+            FE_WITHIN(m.points[k].separation, -4e5, 0.021);
+            FE_WITHIN(fe__length(m.points[k].point), 0.0, 1e6);
+        }
+        if (m.count) FE_NEAR(fe__dot(m.normal, m.normal), 1.0, 1e-4);
+        fe__mover mover = {b, fe__axes_of(random_rotation()), fe__widen(at.position), fe__widen(random_vector(size))};
+        fe__sweep_hit hit;
+        if (!fe__form_sweep(a, &mover, 1.0, &hit)) continue;
+        FE_WITHIN(hit.t, 0.0, 1.0);
+        FE_NEAR(fe__ddot(hit.normal, hit.normal), 1.0, 1e-4);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -286,6 +323,7 @@ int main(void)
         cmocka_unit_test(distances_and_depths_are_proved_by_their_planes),
         cmocka_unit_test(contacts_have_the_deepest_point),
         cmocka_unit_test(sweeps_stop_before_the_form),
+        cmocka_unit_test(extreme_sizes_give_numbers),
     };
     return cmocka_run_group_tests_name("rims", tests, NULL, NULL);
 }

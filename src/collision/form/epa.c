@@ -233,6 +233,7 @@ static fe__penetration curved_depth(polytope *p, const fe__cores *cores)
         int32_t nearest = nearest_face(p);
         if (nearest < 0 || !(p->face[nearest].distance >= last - CURVED * p->size)) break;
         const face *f = &p->face[nearest];
+        if (!(f->distance < (double)INFINITY)) break; // slivers alone
         last = f->distance;
         fe__vertex w = fe__cores_support(cores, f->normal);
         double depth = fe__ddot(f->normal, w.difference);
@@ -260,7 +261,10 @@ fe__penetration fe__epa_depth(const fe__cores *cores, const fe__gjk *overlap)
     take_simplex(&p, overlap);
     if (enclose_origin(&p, cores, &across) < 3) return flat_answer(cores, overlap, across);
     make_tetrahedron(&p);
-    if (is_curved(cores)) return curved_depth(&p, cores);
+    if (is_curved(cores)) {
+        fe__penetration found = curved_depth(&p, cores);
+        return found.depth < (double)INFINITY ? found : flat_answer(cores, overlap, across);
+    }
     face best = p.face[nearest_face(&p)];
     while (p.vertex_count < MAX_VERTICES) {
         int32_t nearest = nearest_face(&p);
