@@ -43,6 +43,38 @@ static void masses_are_those_of_the_closed_forms(void **state)
     scene_end(&s);
 }
 
+static void what_is_set_comes_back_and_what_is_wrong_is_refused(void **state)
+{
+    scene s = scene_begin(state);
+    fe_body body = add_static(&s, cone(0.7, 0.3), v3(0, 0, 0), UNTURNED, friction(0.5));
+    fe_shape shape;
+    fe_geometry got = {.struct_size = sizeof got},
+                bad[] = {cylinder(0, 1), cylinder(1, -1), cone(1e6, 1), cone(1, NAN)};
+    FE_NEAR(fe_body_get_shapes(s.world, body, &shape, 1), 1, 0);
+    MUST(fe_shape_get_geometry(s.world, shape, &got));
+    FE_TRUE(got.type == FE_GEOMETRY_CONE && got.half_height == 0.7f && got.radius == 0.3f && got.half_extents.x == 0);
+    for (int i = 0; i < 4; ++i) FE_NEAR(fe_shape_set_geometry(s.world, shape, &bad[i]), FE_ERROR_ARGUMENT, 0);
+    fe_geometry can = cylinder(0.2, 0.4);
+    MUST(fe_shape_set_geometry(s.world, shape, &can));
+    MUST(fe_shape_get_geometry(s.world, shape, &got));
+    FE_TRUE(got.type == FE_GEOMETRY_CYLINDER && got.half_height == 0.2f && got.radius == 0.4f);
+
+    // queries: a ray down on the cap, a cylinder swept onto it, one that overlaps it
+    fe_dvec3 from = {0.1, 5, 0}, down = {0, -10, 0};
+    fe_hit hit = {0};
+    FE_NEAR(fe_world_raycast(s.world, &from, &down, NULL, &hit), 1, 0);
+    FE_NEAR(hit.fraction, 0.48, 1e-7);
+    fe_transform at = {{0.3, 5, 0}, UNTURNED};
+    FE_NEAR(fe_world_sweep(s.world, &can, &at, &down, NULL, &hit), 1, 0);
+    FE_NEAR(hit.fraction, 0.46, 1e-6);
+    FE_NEAR(hit.normal.y, 1, 1e-6);
+    at.position = fe_make_dvec3(0.55, 0.1, 0.55);
+    FE_NEAR(fe_world_overlap_any(s.world, &can, &at, NULL), 1, 0);
+    at.position = fe_make_dvec3(0.57, 0.1, 0.57); // the boxes around them still overlap
+    FE_NEAR(fe_world_overlap_any(s.world, &can, &at, NULL), 0, 0);
+    scene_end(&s);
+}
+
 // ---- rolling -------------------------------------------------------------------------------------------------------
 // at 2 m/s for 5 s: 10 m straight on, and nothing lost
 static void rolls(scene *s, double r, double half, double y)
@@ -58,7 +90,6 @@ static void rolls(scene *s, double r, double half, double y)
     }
     vec way = minus(position(s, wheel), start), v = velocity(s, wheel), w = spin(s, wheel);
     double energy = (dot(v, v) + r * r / 2 * w.z * w.z) / (4 + 2);
-    printf("  roll r %g: way %.6f aside %.6f energy %.6f |vy| %.6f\n", r, way.x, way.z, energy, worst);
     FE_NEAR(way.x, 300 * STEP * 2, 0.005);
     FE_NEAR(way.z, 0, 0.005);
     FE_WITHIN(energy, 0.999, 1.001);
@@ -220,7 +251,6 @@ static void a_cone_rolls_about_its_tip(void **state)
     vec tip = plus(position(&s, hat), times(h, axis_of(&s, hat, v3(0, 1, 0))));
     vec now = axis_of(&s, hat, v3(0, -1, 0));
     double turned_by = atan2(now.z, -now.x);
-    printf("  cone: tip %.4f %.4f %.4f, turned %.4f, y %.4f\n", tip.x, tip.y, tip.z, turned_by, position(&s, hat).y);
     FE_WITHIN(length(tip), 0, 0.02);
     FE_NEAR(fabs(turned_by), turn * steps * STEP, 0.05 * turn * steps * STEP);
     FE_NEAR(asin(-now.y) + half_angle, 0, 2 * DEGREES);
@@ -304,6 +334,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(masses_are_those_of_the_closed_forms),
+        TEST(what_is_set_comes_back_and_what_is_wrong_is_refused),
         EVERY_WAY_UP(a_cylinder_rolls_straight_and_loses_nothing),
         WITH_4_SUBSTEPS(a_cylinder_rolls_straight_and_loses_nothing),
         TEST(a_cylinder_rolls_on_a_box_as_on_a_plane),
