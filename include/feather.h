@@ -830,6 +830,8 @@ typedef enum fe_geometry_type {
     FE_GEOMETRY_SPHERE = 1,       ///< radius
     FE_GEOMETRY_CAPSULE = 2,      ///< half_height of the axis, along local Y, and radius
     FE_GEOMETRY_BOX = 3,          ///< half_extents
+    FE_GEOMETRY_CYLINDER = 4,     ///< half_height along local Y, and radius: exact, no polygon
+    FE_GEOMETRY_CONE = 5,         ///< half_height along local Y, and radius of the base: exact; its tip is at +half_height
     FE_GEOMETRY_PLANE = 64,       ///< the half space normal . p <= distance; static bodies only
     FE_GEOMETRY_HEIGHTFIELD = 96, ///< asset: a grid of heights; static bodies only
     FE_GEOMETRY_FORCE32 = 0x7fffffff
@@ -840,7 +842,7 @@ typedef struct fe_geometry {
     uint32_t struct_size;
     int32_t type;         ///< fe_geometry_type
     float radius;         ///< m
-    float half_height;    ///< of a capsule's axis, m
+    float half_height;    ///< of a capsule's axis, of a cylinder, of a cone, m
     fe_vec3 half_extents; ///< of a box, m
     fe_vec3 normal;       ///< of a plane, any length but zero
     float distance;       ///< of a plane from the origin along its normal, m
@@ -1392,13 +1394,13 @@ FE_API int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origi
 FE_API int32_t fe_world_raycast_many(const fe_world *world, const fe_ray *rays, uint32_t ray_stride, int32_t count,
                                      const fe_query_filter *filter, int32_t spread, fe_hit *out_hits, uint32_t stride);
 
-/// The first body that a moving sphere, capsule or box touches. It does not rotate.
+/// The first body that a moving sphere, capsule, box, cylinder or cone touches. It does not rotate.
 ///
 /// It stops at most 1 micrometre before the body (0.1 mm: a box before a box), never in it. A body that it overlaps at
 /// the start is a hit at fraction 0, flagged FE_HIT_STARTED_INSIDE. One that it starts to touch is a hit at fraction 0
 /// without the flag; one that it leaves or slides along is no hit. From below, heightfields are passed. At equal
 /// fractions what overlaps comes first, then the body created first.
-/// @param geometry     sphere, capsule or box; a sphere of radius 0 sweeps as a ray
+/// @param geometry     sphere, capsule, box, cylinder or cone; a sphere of radius 0 sweeps as a ray
 /// @param start        pose of the geometry at the start
 /// @param translation  m; zero asks what overlaps
 /// @param filter       who counts; NULL: every layer, no triggers
@@ -1421,7 +1423,7 @@ FE_API int32_t fe_world_sweep_many(const fe_world *world, const fe_geometry *geo
                                    uint32_t path_stride, int32_t count, const fe_query_filter *filter, int32_t spread,
                                    fe_hit *out_hits, uint32_t stride);
 
-/// The bodies that a sphere, capsule or box overlaps, in the order of creation: exactly those that a sweep from there
+/// The bodies that a sphere, capsule, box, cylinder or cone overlaps, in the order of creation: exactly those that a sweep from there
 /// would start inside of.
 /// @param geometry  as for fe_world_sweep; a sphere of radius 0 is a point
 /// @param at        pose of the geometry
@@ -1653,6 +1655,26 @@ static inline void fe_geometry_box(fe_geometry *out_geometry, float half_x, floa
     out_geometry->half_extents.x = half_x;
     out_geometry->half_extents.y = half_y;
     out_geometry->half_extents.z = half_z;
+}
+
+/// @param half_height  along local Y
+static inline void fe_geometry_cylinder(fe_geometry *out_geometry, float half_height, float radius)
+{
+    fe_geometry_init(out_geometry, (uint32_t)sizeof *out_geometry);
+    out_geometry->type = FE_GEOMETRY_CYLINDER;
+    out_geometry->half_height = half_height;
+    out_geometry->radius = radius;
+}
+
+/// Its tip is at +half_height along local Y, its base at -half_height, its centre of mass halfway between the shape's
+/// origin and the base.
+/// @param radius  of the base
+static inline void fe_geometry_cone(fe_geometry *out_geometry, float half_height, float radius)
+{
+    fe_geometry_init(out_geometry, (uint32_t)sizeof *out_geometry);
+    out_geometry->type = FE_GEOMETRY_CONE;
+    out_geometry->half_height = half_height;
+    out_geometry->radius = radius;
 }
 
 /// The half space normal . p <= distance.

@@ -50,6 +50,12 @@ fe_result fe__read_moving_form(const char *function, const fe_geometry *geometry
         out_form->half_height = geometry->half_height;
         out_form->radius = geometry->radius;
         return FE_OK;
+    case FE_GEOMETRY_CYLINDER:
+    case FE_GEOMETRY_CONE:
+        FE_CHECK_LENGTH(geometry->half_height);
+        FE_CHECK_LENGTH(geometry->radius);
+        out_form->half = fe__vec3(geometry->radius, geometry->half_height, geometry->radius);
+        return FE_OK;
     case FE_GEOMETRY_BOX:
         FE_CHECK_LENGTH(geometry->half_extents.x);
         FE_CHECK_LENGTH(geometry->half_extents.y);
@@ -57,8 +63,8 @@ fe_result fe__read_moving_form(const char *function, const fe_geometry *geometry
         out_form->half = geometry->half_extents;
         return FE_OK;
     default:
-        return fe__fail(function, FE_ERROR_UNSUPPORTED, "type is %d, must be that of a sphere, a capsule or a box",
-                        geometry->type);
+        return fe__fail(function, FE_ERROR_UNSUPPORTED,
+                        "type is %d, must be that of a sphere, a capsule, a box, a cylinder or a cone", geometry->type);
     }
 }
 

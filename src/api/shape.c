@@ -93,6 +93,12 @@ static fe_result read_geometry(const char *function, const fe_world *world, cons
         out_form->half_height = geometry->half_height;
         out_form->radius = geometry->radius;
         return FE_OK;
+    case FE_GEOMETRY_CYLINDER:
+    case FE_GEOMETRY_CONE:
+        FE_CHECK_LENGTH(geometry->half_height);
+        FE_CHECK_LENGTH(geometry->radius);
+        out_form->half = fe__vec3(geometry->radius, geometry->half_height, geometry->radius);
+        return FE_OK;
     case FE_GEOMETRY_BOX:
         FE_CHECK_LENGTH(geometry->half_extents.x);
         FE_CHECK_LENGTH(geometry->half_extents.y);
@@ -251,6 +257,9 @@ fe_result fe_shape_get_geometry(const fe_world *world, fe_shape shape, fe_geomet
                             .radius = form->radius};
     if (fe__form_has_asset(form)) {
         geometry.asset = fe__asset_handle(world, form->field);
+    } else if (fe__form_is_curved(form)) {
+        geometry.radius = form->half.x;
+        geometry.half_height = form->half.y;
     } else {
         geometry.half_height = form->half_height;
         geometry.half_extents = form->half;

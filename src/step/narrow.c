@@ -220,7 +220,7 @@ static void step_back(fe__contact *m, const fe__places *at, const fe__body *a, c
 
 float fe__recycle_tolerance(const fe__view *v)
 {
-    if (v->a->form.radius > 0.0f || v->b->form.radius > 0.0f) return RECYCLE_ROUND;
+    if (fe__form_roundness(&v->a->form) > 0.0f || fe__form_roundness(&v->b->form) > 0.0f) return RECYCLE_ROUND;
     return fe__minf(RECYCLE_MOST,
                     RECYCLE_SHARE * fe__minf(fe__form_thickness(&v->a->form), fe__form_thickness(&v->b->form)));
 }
@@ -238,8 +238,10 @@ static void write_contact(fe__contact *m, const fe__view *v, const fe__manifold 
 {
     fe__copy3(m->normal, solvers_normal(m, v, found->normal));
     m->point_count = (float)found->count;
-    m->surface.radius_a = a_is_b ? v->b->form.radius : v->form_a.radius;
-    m->surface.radius_b = a_is_b ? v->form_a.radius : v->b->form.radius;
+    float pivot_a = fe__form_pivot(&v->form_a, found->normal),
+          pivot_b = fe__form_pivot(&v->b->form, fe__mul_transposed(&v->relative.rotation, found->normal));
+    m->surface.radius_a = a_is_b ? pivot_b : pivot_a;
+    m->surface.radius_b = a_is_b ? pivot_a : pivot_b;
 }
 
 void fe__write_manifold(const fe_world *world, fe__contact *m, const fe__view *v, const fe__places *at,

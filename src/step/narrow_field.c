@@ -61,6 +61,7 @@ static void look_at(const pair_view *p, const fe__pose *pose_field, const fe__po
     terrain.origin = fe__drotate_back(pose_field->rotation, fe__dsub(pose_other->position, pose_field->position));
     if (w->field_pair_count > 1) find_neighbours(w, l, pose_field, &terrain);
     fe__mat3 rotation = fe__matrix(fe__product(fe__conjugate(pose_field->rotation), pose_other->rotation));
+    l->v.relative.rotation = rotation;
     l->count = fe__collide_terrain(&terrain, &p->other->form, &rotation, margin, l->patches, &l->gap);
 }
 

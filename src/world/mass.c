@@ -94,11 +94,17 @@ static void apply(fe_world *world, fe__body *body, const mass_properties *p)
 
 static fe__mass shape_mass(const fe__shape *shape) { return fe__form_mass(&shape->form, shape->density); }
 
+// The shape's centre of mass, body's frame
+static fe_dvec3 centre_of(const fe__shape *shape, const fe__mass *mass)
+{
+    return fe__dadd(fe__widen(shape->local_position), fe__drotate(shape->local_rotation, fe__widen(mass->centre)));
+}
+
 // Adds the inertia of a shape about the body's centre: R diag(I) R^T + m (d^2 1 - d d^T), d from the body's centre to
 // the shape's
 static void add_shape(fe__tensor *sum, const fe__shape *shape, const fe__mass *mass, fe_dvec3 centre)
 {
-    fe_dvec3 d = fe__dsub(fe__widen(shape->local_position), centre);
+    fe_dvec3 d = fe__dsub(centre_of(shape, mass), centre);
     double offset[3] = {d.x, d.y, d.z}, square = fe__ddot(d, d),
            principal[3] = {(double)mass->inertia.x, (double)mass->inertia.y, (double)mass->inertia.z};
     double axis[3][3];
@@ -143,17 +149,17 @@ static mass_properties from_shapes(const fe_world *world, const fe__body *body)
     const fe__shape *only = NULL;
     for (int32_t i = body->first_shape; i >= 0; i = world->shapes[i].next) {
         const fe__shape *shape = &world->shapes[i];
-        double mass = (double)shape_mass(shape).mass;
-        if (mass == 0.0) continue;
-        total += mass;
-        moment = fe__dadd(moment, fe__dscale(mass, fe__widen(shape->local_position)));
+        fe__mass mass = shape_mass(shape);
+        if (mass.mass == 0.0f) continue;
+        total += (double)mass.mass;
+        moment = fe__dadd(moment, fe__dscale((double)mass.mass, centre_of(shape, &mass)));
         heavy += 1;
         only = shape;
     }
     if (total < LEAST_MASS) return weightless();
     if (heavy > 1) return combine(world, body, total, moment);
     fe__mass mass = shape_mass(only); // exactly the form's
-    return (mass_properties){mass.mass, only->local_position, mass.inertia, only->local_rotation};
+    return (mass_properties){mass.mass, fe__narrow(centre_of(only, &mass)), mass.inertia, only->local_rotation};
 }
 
 // ---- the interface -------------------------------------------------------------------------------------------------

@@ -4,7 +4,10 @@
 #include "world/material.h"
 
 // ---- materials -----------------------------------------------------------------------------------------------------
-static float form_radius(const fe__shape *a, const fe__shape *b) { return fe__maxf(a->form.radius, b->form.radius); }
+static float form_radius(const fe__shape *a, const fe__shape *b)
+{
+    return fe__maxf(fe__form_roundness(&a->form), fe__form_roundness(&b->form));
+}
 
 static int32_t has_extra(const fe_world *world, const fe__shape *shape)
 {

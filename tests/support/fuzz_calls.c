@@ -48,8 +48,8 @@ fe_geometry fuzz_geometry(fuzz *f)
     static const int32_t types[] = {FE_GEOMETRY_SPHERE,     FE_GEOMETRY_CAPSULE, FE_GEOMETRY_BOX,
                                     FE_GEOMETRY_SPHERE,     FE_GEOMETRY_CAPSULE, FE_GEOMETRY_BOX,
                                     FE_GEOMETRY_SPHERE,     FE_GEOMETRY_CAPSULE, FE_GEOMETRY_BOX,
-                                    FE_GEOMETRY_SPHERE,     FE_GEOMETRY_BOX,     FE_GEOMETRY_PLANE,
-                                    FE_GEOMETRY_PLANE,      FE_GEOMETRY_NONE,    4,
+                                    FE_GEOMETRY_CYLINDER,   FE_GEOMETRY_CONE,    FE_GEOMETRY_CYLINDER,
+                                    FE_GEOMETRY_PLANE,      FE_GEOMETRY_NONE,    6,
                                     FE_GEOMETRY_HEIGHTFIELD};
     g.type = types[fuzz_byte(f) % COUNT(types)];
     g.radius = fuzz_size(f);

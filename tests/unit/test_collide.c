@@ -28,7 +28,7 @@ typedef struct truth {
 static truth true_contact(const fe__form *a, const fe__form *b, const fe__relative *r)
 {
     frame f = frame_of(r);
-    fe__cores cores = {a, b, f.position, f.x, f.y, f.z};
+    fe__cores cores = {a, b, f.position, f.x, f.y, f.z, NULL};
     fe__gjk g;
     fe__gjk_distance(&cores, 1e30, &g);
     double radii = (double)a->radius + (double)b->radius;

@@ -14,7 +14,7 @@ enum { POSES = 20000 };
 
 static fe__cores cores_of(const fe__form *a, const fe__form *b, const frame *r)
 {
-    return (fe__cores){a, b, r->position, r->x, r->y, r->z};
+    return (fe__cores){a, b, r->position, r->x, r->y, r->z, NULL};
 }
 
 // Nearest points of the segments p, p + d and q, q + e: the pair of lines, then every end against the other segment.

@@ -1,22 +1,30 @@
 // approach.h - what the sweep's files share: two cores, one moving in the frame of the other.
 //
-// Every form but the plane is a core - a point, a segment along y, a box - swelled by its radius. Of two forms the one
-// whose core has more dimensions gives the frame, whichever of them moves: so there are six kinds of pairs. A point is
-// a box of no size, a segment one of only a height: what separates boxes serves all.
+// Every form but the plane, and what has a rim (approach_curved.c), is a core - a point, a segment along y, a box -
+// swelled by its radius. Of two forms the one whose core has more dimensions gives the frame, whichever of them moves:
+// so there are six kinds of pairs. A point is a box of no size, a segment one of only a height: what separates boxes
+// serves all.
 #ifndef FE_COLLISION_CAST_APPROACH_H
 #define FE_COLLISION_CAST_APPROACH_H
 #include "collision/cast/mover.h"
 
-typedef enum fe__core_kind { FE_CORE_POINT, FE_CORE_SEGMENT, FE_CORE_BOX, FE_CORE_TRIANGLE } fe__core_kind;
+typedef enum fe__core_kind {
+    FE_CORE_POINT,
+    FE_CORE_SEGMENT,
+    FE_CORE_BOX,
+    FE_CORE_TRIANGLE,
+    FE_CORE_CURVED
+} fe__core_kind;
 
 typedef struct fe__approach {
-    int32_t frame_kind, other_kind;      // fe__core_kind, frame_kind >= other_kind
-    double frame_half[3], other_half[3]; // of the cores, along their own axes, m
-    fe__axes axes;                       // the other's, in the frame
-    fe_dvec3 position, translation;      // of the other relative to the frame, m
-    fe_dvec3 vertex[3], normal;          // of a triangle as the frame's core; normal of length 1
-    double radius;                       // both radii: the cores touch at this distance, m
-    double gap;                          // where a sweep stops, m
+    int32_t frame_kind, other_kind;          // fe__core_kind, frame_kind >= other_kind but for a triangle
+    const fe__form *frame_form, *other_form; // NULL for a triangle
+    double frame_half[3], other_half[3];     // of the cores, along their own axes, m
+    fe__axes axes;                           // the other's, in the frame
+    fe_dvec3 position, translation;          // of the other relative to the frame, m
+    fe_dvec3 vertex[3], normal;              // of a triangle as the frame's core; normal of length 1
+    double radius;                           // both radii: the cores touch at this distance, m
+    double gap;                              // where a sweep stops, m
 } fe__approach;
 
 // Nearest points of the cores, with the other one's centre at `position`.
@@ -27,6 +35,7 @@ typedef struct fe__core_gap {
 } fe__core_gap;
 void fe__core_gap_of(const fe__approach *a, fe_dvec3 position,
                      fe__core_gap *gap); // of point and segment only, not of two boxes
+void fe__curved_gap_of(const fe__approach *a, fe_dvec3 position, fe__core_gap *gap);   // one of the two is curved
 void fe__triangle_gap_of(const fe__approach *a, fe_dvec3 position, fe__core_gap *gap); // the frame is a triangle
 fe_dvec3 fe__nearest_on_triangle(const fe_dvec3 vertex[3], fe_dvec3 normal, fe_dvec3 point);
 // Nearest points p + u a, |u| <= half, and q + w b, 0 <= w <= length, of two segments; a and b are unit.
@@ -44,6 +53,14 @@ typedef struct fe__approach_hit {
 } fe__approach_hit;
 // Two boxes, or a box and a triangle, apart at the start. 1: they meet, and the stop is at t <= limit.
 int32_t fe__boxes_sweep(const fe__approach *a, double limit, fe__approach_hit *hit);
+
+// ---- with a rim (approach_curved.c) --------------------------------------------------------------------------------
+static inline int32_t fe__is_curved_pair(const fe__approach *a)
+{
+    return a->frame_kind == FE_CORE_CURVED || a->other_kind == FE_CORE_CURVED;
+}
+double fe__curved_depth(const fe__approach *a, fe_dvec3 *way_out); // of cores that overlap
+int32_t fe__curved_sweep(const fe__approach *a, double limit, fe__approach_hit *hit);
 
 // ---- any pair (sweep.c) --------------------------------------------------------------------------------------------
 typedef struct fe__core_overlap {

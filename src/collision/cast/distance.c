@@ -37,7 +37,8 @@ void fe__form_gap(const fe__form *a, const fe__pose *pose_a, const fe__form *b, 
                        fe__turn_back(&frame, fe__dsub(pose_b->position, pose_a->position)),
                        fe__turn_back(&frame, other.x),
                        fe__turn_back(&frame, other.y),
-                       fe__turn_back(&frame, other.z)};
+                       fe__turn_back(&frame, other.z),
+                       NULL};
     fe__gjk gjk;
     fe__gjk_distance(&cores, (double)INFINITY, &gjk);
     gap->overlap = gjk.overlap;

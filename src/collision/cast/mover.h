@@ -20,7 +20,7 @@ static inline fe_dvec3 fe__turn_back(const fe__axes *m, fe_dvec3 a)
     return (fe_dvec3){fe__ddot(m->x, a), fe__ddot(m->y, a), fe__ddot(m->z, a)};
 }
 
-// The moving form (sphere, capsule or box) in the frame of the standing one.
+// The moving form (anything bounded) in the frame of the standing one.
 typedef struct fe__mover {
     const fe__form *form;
     fe__axes axes;

@@ -8,6 +8,7 @@
 
 #include "collision/cast/approach.h"
 #include "collision/cast/kinds.h"
+#include "collision/form/support.h"
 
 // Halving 10 km comes down to 1e-11 m; bodies that are met squarely need 3 to 6.
 enum { MAX_STEPS = 64 };
@@ -51,12 +52,14 @@ static int32_t set_up(const fe__form *still, const fe__mover *mover, fe__approac
     s->radius = (double)still->radius + (double)mover->form->radius;
     if (swapped) {
         s->frame_kind = mover_kind, s->other_kind = still_kind;
+        s->frame_form = mover->form, s->other_form = still;
         fe__core_half(mover->form, s->frame_half), fe__core_half(still, s->other_half);
         s->axes = (fe__axes){{m->x.x, m->y.x, m->z.x}, {m->x.y, m->y.y, m->z.y}, {m->x.z, m->y.z, m->z.z}};
         s->position = fe__dscale(-1.0, fe__turn_back(m, mover->position));
         s->translation = fe__dscale(-1.0, fe__turn_back(m, mover->translation));
     } else {
         s->frame_kind = still_kind, s->other_kind = mover_kind;
+        s->frame_form = still, s->other_form = mover->form;
         fe__core_half(still, s->frame_half), fe__core_half(mover->form, s->other_half);
         s->axes = *m, s->position = mover->position, s->translation = mover->translation;
     }
@@ -70,8 +73,11 @@ static double plane_height(const fe__form *plane, const fe__mover *mover)
     fe_dvec3 n = fe__widen(plane->normal);
     double half[3], length = sqrt(fe__ddot(n, n)); // 1 up to the rounding of floats
     fe__core_half(mover->form, half);
-    double e = half[0] * fe__absd(fe__ddot(n, mover->axes.x)) + half[1] * fe__absd(fe__ddot(n, mover->axes.y)) +
-               half[2] * fe__absd(fe__ddot(n, mover->axes.z));
+    fe_dvec3 down = fe__dscale(-1.0, fe__turn_back(&mover->axes, n));
+    double e = fe__form_is_curved(mover->form)
+                   ? fe__ddot(down, fe__form_support(mover->form, down))
+                   : half[0] * fe__absd(fe__ddot(n, mover->axes.x)) + half[1] * fe__absd(fe__ddot(n, mover->axes.y)) +
+                         half[2] * fe__absd(fe__ddot(n, mover->axes.z));
     return (fe__ddot(n, mover->position) - (double)plane->distance - e) / length - (double)mover->form->radius;
 }
 
@@ -80,7 +86,14 @@ fe__core_overlap fe__approach_overlap(const fe__approach *s)
 {
     fe__core_overlap o;
     fe__core_gap gap = {0};
-    if (s->other_kind != FE_CORE_BOX) fe__core_gap_of(s, s->position, &gap);
+    if (fe__is_curved_pair(s)) {
+        fe__curved_gap_of(s, s->position, &gap);
+        if (!(gap.distance > 0.0)) {
+            o.depth = fe__curved_depth(s, &o.way_out) + s->radius;
+            return o;
+        }
+    } else if (s->other_kind != FE_CORE_BOX)
+        fe__core_gap_of(s, s->position, &gap);
     if (gap.distance > 0.0) {
         o.depth = s->radius - gap.distance;
         o.way_out = fe__dscale(1.0 / gap.distance, gap.away);
@@ -128,6 +141,7 @@ static int32_t sweep_round(const fe__approach *s, double limit, fe__approach_hit
 
 int32_t fe__approach_sweep(const fe__approach *s, double limit, fe__approach_hit *hit)
 {
+    if (fe__is_curved_pair(s)) return fe__curved_sweep(s, limit, hit);
     return s->other_kind == FE_CORE_BOX ? fe__boxes_sweep(s, limit, hit) : sweep_round(s, limit, hit);
 }
 
@@ -156,6 +170,7 @@ static int32_t sweep_plane(const fe__form *plane, const fe__mover *mover, double
                                                     low.z > 0.0   ? -half[2]
                                                     : low.z < 0.0 ? half[2]
                                                                   : 0.0};
+    if (fe__form_is_curved(mover->form)) along = fe__form_support(mover->form, fe__dscale(-1.0, low));
     fe_dvec3 p = fe__dadd(fe__dadd(mover->position, fe__dscale(hit->t, mover->translation)), fe__turn(m, along));
     double above = fe__ddot(unit, p) - (double)plane->distance / sqrt(fe__ddot(n, n));
     hit->point = fe__dsub(p, fe__dscale(above, unit));

@@ -5,6 +5,7 @@
 // doubles: a stop is as exact as before a box.
 #include "collision/cast/approach.h"
 #include "collision/cast/sweep.h"
+#include "collision/form/support.h"
 
 // A normal that leans below a triangle by more than a rounding comes from under it.
 #define FROM_BELOW (-1e-9)
@@ -31,7 +32,7 @@ static search search_of(const fe__heightfield *field, const fe__mover *mover)
 {
     search s = {.field = field, .mover = mover, .half = bounds_of(mover)};
     fe__approach *p = &s.pair;
-    p->frame_kind = FE_CORE_TRIANGLE, p->other_kind = fe__core_kind_of(mover->form);
+    p->frame_kind = FE_CORE_TRIANGLE, p->other_kind = fe__core_kind_of(mover->form), p->other_form = mover->form;
     fe__core_half(mover->form, p->other_half);
     p->axes = mover->axes, p->position = mover->position, p->translation = mover->translation;
     p->radius = (double)mover->form->radius;
@@ -74,7 +75,8 @@ int32_t fe__heightfield_overlap(const fe__heightfield *field, const fe__mover *m
 // The mover's half width along the triangle's normal, m, and its height at t over the triangle's plane.
 static double thickness_across(const fe__approach *p)
 {
-    fe_dvec3 m = fe__turn_back(&p->axes, p->normal);
+    fe_dvec3 m = fe__turn_back(&p->axes, p->normal), down = fe__dscale(-1.0, m);
+    if (p->other_kind == FE_CORE_CURVED) return fe__ddot(down, fe__form_support(p->other_form, down)) + p->radius;
     return p->other_half[0] * fe__absd(m.x) + p->other_half[1] * fe__absd(m.y) + p->other_half[2] * fe__absd(m.z) +
            p->radius;
 }

@@ -6,8 +6,8 @@ fe__mass fe__box_mass(const fe__form *form, double density)
     fe_dvec3 h = fe__widen(form->half);
     double mass = density * 8.0 * h.x * h.y * h.z, third = mass / 3.0;
     double xx = h.x * h.x, yy = h.y * h.y, zz = h.z * h.z;
-    return (fe__mass){(float)mass,
-                      {(float)(third * (yy + zz)), (float)(third * (xx + zz)), (float)(third * (xx + yy))}};
+    return (fe__mass){.mass = (float)mass,
+                      .inertia = {(float)(third * (yy + zz)), (float)(third * (xx + zz)), (float)(third * (xx + yy))}};
 }
 
 float fe__box_thickness(const fe__form *form) { return fe__minf(form->half.x, fe__minf(form->half.y, form->half.z)); }

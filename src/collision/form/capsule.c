@@ -10,7 +10,7 @@ fe__mass fe__capsule_mass(const fe__form *form, double density)
     double ball = density * (4.0 / 3.0) * (double)FE_PI * rr * r;
     float along = (float)(cylinder * 0.5 * rr + ball * 0.4 * rr);
     float across = (float)(cylinder * (0.25 * rr + h * h / 3.0) + ball * (0.4 * rr + h * h + 0.75 * h * r));
-    return (fe__mass){(float)(cylinder + ball), {across, along, across}};
+    return (fe__mass){.mass = (float)(cylinder + ball), .inertia = {across, along, across}};
 }
 
 fe_dvec3 fe__capsule_support(const fe__form *form, fe_dvec3 direction)

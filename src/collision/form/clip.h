@@ -15,7 +15,7 @@ typedef struct fe__clip_vertex {
 
 enum {
     FE_CLIP_SIDE = 16,
-    FE_FACE_VERTICES = 8,                    // of the faces that the general path cuts, at most
+    FE_FACE_VERTICES = 16,                   // of the faces that the general path cuts, at most
     FE_CLIP_VERTICES = 2 * FE_FACE_VERTICES, // of their common polygon: each side of a convex one adds at most one
 };
 

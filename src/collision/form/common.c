@@ -6,7 +6,7 @@
 fe__mass fe__no_mass(const fe__form *form, double density)
 {
     (void)form, (void)density;
-    return (fe__mass){0.0f, {0.0f, 0.0f, 0.0f}};
+    return (fe__mass){.mass = 0.0f};
 }
 
 float fe__no_reach(const fe__form *form, fe_vec3 centre)

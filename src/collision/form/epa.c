@@ -9,6 +9,7 @@
 
 enum { MAX_VERTICES = 64, MAX_FACES = 2 * MAX_VERTICES, MAX_HORIZON = 3 * MAX_VERTICES };
 #define FLAT 1e-9   // of the size: thinner than this is flat
+#define CURVED 1e-8 // of the size: how well the depth of what is curved is told
 #define EXACT 1e-11 // of the size: two faces in one plane, two supports as far as each other
 
 typedef struct face {
@@ -206,6 +207,53 @@ static fe__penetration face_answer(const polytope *p, const face *f)
     return (fe__penetration){f->normal, fe__maxd(f->distance, 0.0), on_a, fe__dsub(on_a, foot)};
 }
 
+// The middle of where the two touch, near the origin's foot on the face
+static fe_dvec3 on_a_at(const polytope *p, const face *f)
+{
+    fe__vertex corner[3];
+    double weight[3];
+    for (int32_t k = 0; k < 3; ++k) {
+        corner[k] = p->vertex[f->corner[k]];
+        corner[k].difference = fe__dsub(corner[k].difference, fe__dscale(f->distance, f->normal));
+    }
+    int32_t count = fe__nearest_in_simplex(corner, weight, 3);
+    fe_dvec3 on_a = {0.0, 0.0, 0.0};
+    for (int32_t k = 0; k < count; ++k) on_a = fe__dadd(on_a, fe__dscale(weight[k], corner[k].on_a));
+    return on_a;
+}
+
+// A curved difference has no last face. Of all directions looked along the one with the least depth is the answer: the
+// two do part along it. Faces become slivers that lose their normal; what shows first is a nearest face that is nearer
+// than the one before.
+static fe__penetration curved_depth(polytope *p, const fe__cores *cores)
+{
+    fe__penetration found = {.depth = (double)INFINITY};
+    double last = -(double)INFINITY;
+    while (p->vertex_count < MAX_VERTICES) {
+        int32_t nearest = nearest_face(p);
+        if (nearest < 0 || !(p->face[nearest].distance >= last - CURVED * p->size)) break;
+        const face *f = &p->face[nearest];
+        if (!(f->distance < (double)INFINITY)) break; // slivers alone
+        last = f->distance;
+        fe__vertex w = fe__cores_support(cores, f->normal);
+        double depth = fe__ddot(f->normal, w.difference);
+        if (depth < found.depth) {
+            fe_dvec3 on_a = on_a_at(p, f);
+            found = (fe__penetration){f->normal, depth, on_a, fe__dsub(on_a, fe__dscale(depth, f->normal))};
+        }
+        if (depth - last <= CURVED * p->size) break;
+        p->vertex[p->vertex_count++] = w;
+        if (!grow(p, nearest)) break;
+    }
+    found.depth = fe__maxd(found.depth, 0.0);
+    return found;
+}
+
+static int32_t is_curved(const fe__cores *cores)
+{
+    return (!cores->corners && fe__form_is_curved(cores->a)) || fe__form_is_curved(cores->b);
+}
+
 fe__penetration fe__epa_depth(const fe__cores *cores, const fe__gjk *overlap)
 {
     polytope p;
@@ -213,6 +261,10 @@ fe__penetration fe__epa_depth(const fe__cores *cores, const fe__gjk *overlap)
     take_simplex(&p, overlap);
     if (enclose_origin(&p, cores, &across) < 3) return flat_answer(cores, overlap, across);
     make_tetrahedron(&p);
+    if (is_curved(cores)) {
+        fe__penetration found = curved_depth(&p, cores);
+        return found.depth < (double)INFINITY ? found : flat_answer(cores, overlap, across);
+    }
     face best = p.face[nearest_face(&p)];
     while (p.vertex_count < MAX_VERTICES) {
         int32_t nearest = nearest_face(&p);

@@ -20,6 +20,8 @@ typedef enum fe__form_type {
     FE__FORM_SPHERE,
     FE__FORM_CAPSULE,
     FE__FORM_BOX,
+    FE__FORM_CYLINDER,
+    FE__FORM_CONE,
     FE__FORM_PLANE,
     FE__FORM_HEIGHTFIELD,
     FE__FORM_TRIANGLE,
@@ -28,8 +30,9 @@ typedef enum fe__form_type {
 
 // sphere: radius.  capsule: half_height along y, radius.  box: half.  plane: the half space normal . p <= distance,
 // normal of length 1. Unused fields are 0, so that each of these is a core (point, segment, box) swelled by its radius.
-// triangle: vertices, turning left around the side that counts.  heightfield: its record's index, its bounds
-// (heightfield.h).
+// cylinder, cone: half, the half widths of the box around it: x and z are the radius of the rim, y half the height
+// along y. A cone's tip is at +half.y, its base at -half.y. They are cores of their own; their radius is 0. triangle:
+// vertices, turning left around the side that counts.  heightfield: its record's index, its bounds (heightfield.h).
 typedef struct fe__form {
     int32_t type; // fe__form_type
     float radius;
@@ -61,11 +64,12 @@ static inline fe__pose fe__compose(const fe__pose *body, fe_vec3 position, fe_qu
                       fe__normalized(fe__product(body->rotation, rotation))};
 }
 
-// mass, kg, and principal moments about the centre of mass, kg m2. Both are the form's own: its origin, its axes. A
-// static form has none
+// mass, kg, principal moments about the centre of mass, kg m2, along the form's own axes, and that centre in the form's
+// frame, m. A static form has none
 typedef struct fe__mass {
     float mass;
     fe_vec3 inertia;
+    fe_vec3 centre;
 } fe__mass;
 
 typedef struct fe__bounds {
@@ -81,6 +85,7 @@ typedef struct fe__form_traits {
     uint8_t static_only; // on static bodies alone, without mass
     uint8_t is_ball;     // no rotation changes it, and it touches at one point
     uint8_t flat_faces;  // a polyhedron
+    uint8_t curved;      // a core with a rim: cylinder, cone
     uint8_t unbounded;   // no box holds it, so that it is in no tree
     uint8_t is_field;    // a surface of triangles (heightfield.h), touched in patches
     uint8_t has_asset;   // shares what it is made of: fe__form.field
@@ -98,6 +103,7 @@ static inline const fe__form_traits *fe__traits_of(const fe__form *form) { retur
 static inline int32_t fe__form_is_static_only(const fe__form *form) { return fe__traits_of(form)->static_only; }
 static inline int32_t fe__form_is_ball(const fe__form *form) { return fe__traits_of(form)->is_ball; }
 static inline int32_t fe__form_has_flat_faces(const fe__form *form) { return fe__traits_of(form)->flat_faces; }
+static inline int32_t fe__form_is_curved(const fe__form *form) { return fe__traits_of(form)->curved; }
 static inline int32_t fe__form_is_unbounded(const fe__form *form) { return fe__traits_of(form)->unbounded; }
 static inline int32_t fe__form_is_field(const fe__form *form) { return fe__traits_of(form)->is_field; }
 static inline int32_t fe__form_has_asset(const fe__form *form) { return fe__traits_of(form)->has_asset; }
@@ -124,6 +130,19 @@ static inline float fe__form_reach(const fe__form *form, fe_vec3 centre)
 static inline float fe__form_thickness(const fe__form *form) { return fe__traits_of(form)->thickness(form); }
 // the form without its outermost layer, `by` (m, less than its thickness) thick
 static inline fe__form fe__form_shrunk(const fe__form *form, float by) { return fe__traits_of(form)->shrunk(form, by); }
+
+// radius with which the form rolls, m: 0 for a box
+static inline float fe__form_roundness(const fe__form *form)
+{
+    return fe__form_is_curved(form) ? form->half.x : form->radius;
+}
+// How far below the surface, along the unit `normal` (form's frame) on which it is touched, lies what keeps its place
+// when the form rolls, m: the radius, or what of the rim's acts along the normal (rim.c).
+float fe__rim_pivot(const fe__form *form, fe_vec3 normal);
+static inline float fe__form_pivot(const fe__form *form, fe_vec3 normal)
+{
+    return fe__form_is_curved(form) ? fe__rim_pivot(form, normal) : form->radius;
+}
 
 // ---- points --------------------------------------------------------------------------------------------------------
 // A ball without size: the probe of a ray

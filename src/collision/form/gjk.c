@@ -7,11 +7,21 @@
 enum { MAX_ITERATIONS = 64 }; // boxes and segments need at most 12
 #define OVERLAP_SIZE 1e-10    // of the cores' size: nearer than this they overlap; a million roundings
 #define FLAT 1e-12            // of the size: a tetrahedron no higher than that has no inside
+#define UNSURE 1e-15          // of the size: some roundings
 #define CONVERGED 1e-13       // of the squared distance
+
+// of equally far corners the first
+static fe_dvec3 farthest_of(const fe_dvec3 corners[3], fe_dvec3 direction)
+{
+    fe_dvec3 far = corners[0];
+    for (int32_t i = 1; i < 3; ++i)
+        if (fe__ddot(corners[i], direction) > fe__ddot(far, direction)) far = corners[i];
+    return far;
+}
 
 fe__vertex fe__cores_support(const fe__cores *cores, fe_dvec3 direction)
 {
-    fe_dvec3 on_a = fe__form_support(cores->a, direction);
+    fe_dvec3 on_a = cores->corners ? farthest_of(cores->corners, direction) : fe__form_support(cores->a, direction);
     fe_dvec3 local = {-fe__ddot(cores->axis_x, direction), -fe__ddot(cores->axis_y, direction),
                       -fe__ddot(cores->axis_z, direction)};
     fe_dvec3 q = fe__form_support(cores->b, local);
@@ -66,6 +76,23 @@ static fe_dvec3 weighted(const fe__vertex *vertex, const double *weight, int32_t
     fe_dvec3 sum = fe__dscale(weight[0], vertex[0].difference);
     for (int32_t i = 1; i < count; ++i) sum = fe__dadd(sum, fe__dscale(weight[i], vertex[i].difference));
     return sum;
+}
+
+// The same point, of a triangle or a line across it: the supports of a curved surface come so near to each other that
+// the weights of a sliver say little, but its normal is good, as long as rounding, of the size, does not make it.
+static fe_dvec3 foot(const fe__vertex *vertex, const double *weight, int32_t count, double size)
+{
+    fe_dvec3 a = vertex[0].difference;
+    if (count == 3) {
+        fe_dvec3 ab = fe__dsub(vertex[1].difference, a), ac = fe__dsub(vertex[2].difference, a), n = fe__dcross(ab, ac);
+        double along = fe__ddot(n, a), longest = fe__maxd(fe__ddot(ab, ab), fe__ddot(ac, ac));
+        double error = UNSURE * size;
+        if (along * along > error * error * longest * fe__ddot(a, a)) return fe__dscale(along / fe__ddot(n, n), n);
+    } else if (count == 2) {
+        fe_dvec3 d = fe__dsub(vertex[1].difference, a);
+        return fe__dsub(a, fe__dscale(fe__ddot(a, d) / fe__ddot(d, d), d));
+    }
+    return weighted(vertex, weight, count);
 }
 
 // 1 when the origin and d lie on different sides of the triangle's plane. In a tetrahedron as flat as rounding no side
@@ -144,18 +171,21 @@ void fe__gjk_distance(const fe__cores *cores, double limit, fe__gjk *g)
     fe_dvec3 v = fe__dscale(-1.0, cores->position);
     g->vertex[0] = fe__cores_support(cores, cores->position);
     g->count = 1, g->overlap = 0;
+    int32_t curved = (!cores->corners && fe__form_is_curved(cores->a)) || fe__form_is_curved(cores->b);
     v = g->vertex[0].difference;
     g->size = sqrt(fe__ddot(v, v));
+    double apart_by = 0.0; // no nearer than that: a sliver that seems to hold the origin does not
     for (int32_t iteration = 0; iteration < MAX_ITERATIONS; ++iteration) {
         double square = fe__ddot(v, v), near = OVERLAP_SIZE * g->size;
         if (square <= near * near) {
-            g->overlap = 1;
+            g->overlap = !(curved && apart_by > near);
             break;
         }
         fe__vertex w = fe__cores_support(cores, fe__dscale(-1.0, v));
         g->size = fe__maxd(g->size, sqrt(fe__ddot(w.difference, w.difference)));
         // the plane through w across v separates: distance >= v . w / |v|
         double along = fe__ddot(v, w.difference);
+        if (along > 0.0) apart_by = fe__maxd(apart_by, along / sqrt(square));
         int32_t apart = along > 0.0 && along * along > limit * limit * square;
         if (apart || square - along <= CONVERGED * square || is_known(g, &w)) break;
         fe__gjk last = *g;
@@ -165,11 +195,15 @@ void fe__gjk_distance(const fe__cores *cores, double limit, fe__gjk *g)
             g->count = fe__nearest_in_simplex(g->vertex, weight, g->count);
         } else if (weigh_tetrahedron(g->vertex, weight, g->size)) {
             g->count = drop_weightless(g->vertex, weight, 4);
+        } else if (curved && apart_by > near) {
+            *g = last;
+            for (int32_t i = 0; i < 4; ++i) weight[i] = last_weight[i];
+            break;
         } else {
             g->overlap = 1;
             break;
         }
-        fe_dvec3 nearer = weighted(g->vertex, weight, g->count);
+        fe_dvec3 nearer = curved ? foot(g->vertex, weight, g->count, g->size) : weighted(g->vertex, weight, g->count);
         if (fe__ddot(nearer, nearer) >= square) { // rounding: no nearer point is found
             *g = last;
             for (int32_t i = 0; i < 4; ++i) weight[i] = last_weight[i];

@@ -7,11 +7,13 @@
 #define FE_COLLISION_FORM_GJK_H
 #include "collision/form/support.h"
 
-// Two forms and B's pose in A's frame, in which all below is given.
+// Two forms and B's pose in A's frame, in which all below is given. `corners` may take the place of A: a triangle in
+// double.
 typedef struct fe__cores {
     const fe__form *a, *b;
     fe_dvec3 position;
     fe_dvec3 axis_x, axis_y, axis_z;
+    const fe_dvec3 *corners; // 3, or NULL
 } fe__cores;
 
 // A vertex of the difference, and A's part in it: B's is on_a - difference.

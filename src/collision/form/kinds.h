@@ -19,6 +19,27 @@ fe__form fe__box_shrunk(const fe__form *form, float by);
 fe_dvec3 fe__box_support(const fe__form *form, fe_dvec3 direction);
 void fe__box_face(const fe__form *form, fe_vec3 direction, fe__face *face);
 
+// cylinder.c
+fe__mass fe__cylinder_mass(const fe__form *form, double density);
+fe__bounds fe__cylinder_bounds(const fe__form *form, const fe__pose *pose);
+float fe__cylinder_reach(const fe__form *form, fe_vec3 centre);
+float fe__cylinder_thickness(const fe__form *form);
+fe_dvec3 fe__cylinder_support(const fe__form *form, fe_dvec3 direction);
+void fe__cylinder_face(const fe__form *form, fe_vec3 direction, fe__face *face);
+
+// cone.c
+fe__mass fe__cone_mass(const fe__form *form, double density);
+fe__bounds fe__cone_bounds(const fe__form *form, const fe__pose *pose);
+float fe__cone_reach(const fe__form *form, fe_vec3 centre);
+float fe__cone_thickness(const fe__form *form);
+fe__form fe__cone_shrunk(const fe__form *form, float by);
+fe_dvec3 fe__cone_support(const fe__form *form, fe_dvec3 direction);
+void fe__cone_face(const fe__form *form, fe_vec3 direction, fe__face *face);
+
+// rim.c
+fe_dvec3 fe__rim_support(float radius, double y, fe_dvec3 direction); // the rim's point farthest along it
+void fe__rim_face(float radius, float y, fe_vec3 direction, fe__face *face);
+
 // plane.c
 fe__bounds fe__plane_bounds(const fe__form *form, const fe__pose *pose);
 

@@ -5,7 +5,7 @@ fe__mass fe__sphere_mass(const fe__form *form, double density)
 {
     double r = (double)form->radius, mass = density * (4.0 / 3.0) * (double)FE_PI * r * r * r;
     float inertia = (float)(0.4 * mass * r * r);
-    return (fe__mass){(float)mass, {inertia, inertia, inertia}};
+    return (fe__mass){.mass = (float)mass, .inertia = {inertia, inertia, inertia}};
 }
 
 fe__bounds fe__sphere_bounds(const fe__form *form, const fe__pose *pose)

@@ -20,10 +20,12 @@ typedef struct fe__face {
     fe_vec3 normal; // unit; of a polygon only
     fe_vec3 vertex[FE_FACE_VERTICES];
     uint32_t id; // of the face within the form
+    float rim;   // a disc's radius, of whose rim the vertices are some points; else 0
 } fe__face;
 
 static inline void fe__form_face(const fe__form *form, fe_vec3 direction, fe__face *face)
 {
+    face->rim = 0.0f;
     fe__traits_of(form)->face(form, direction, face);
 }
 

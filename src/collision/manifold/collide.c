@@ -18,7 +18,9 @@ static fe__kernel *const kernels[FE__FORM_TYPES][FE__FORM_TYPES] = {
                       [FE__FORM_BOX] = fe__collide_box_box},
     [FE__FORM_PLANE] = {[FE__FORM_SPHERE] = fe__collide_plane_sphere,
                         [FE__FORM_CAPSULE] = fe__collide_plane_capsule,
-                        [FE__FORM_BOX] = fe__collide_plane_box},
+                        [FE__FORM_BOX] = fe__collide_plane_box,
+                        [FE__FORM_CYLINDER] = fe__collide_plane_curved,
+                        [FE__FORM_CONE] = fe__collide_plane_curved},
 };
 
 void fe__collide(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold)

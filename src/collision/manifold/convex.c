@@ -12,14 +12,6 @@
 #include <assert.h>
 #include <float.h>
 
-// What GJK or EPA found, in A's frame.
-typedef struct nearest {
-    fe_vec3 normal;     // from A to B
-    float separation;   // of the surfaces
-    fe_vec3 on_a, on_b; // of the cores
-    int32_t overlap;    // of the cores
-} nearest;
-
 static fe__cores make_cores(const fe__form *a, const fe__form *b, const fe__relative *b_in_a)
 {
     return (fe__cores){a,
@@ -27,10 +19,11 @@ static fe__cores make_cores(const fe__form *a, const fe__form *b, const fe__rela
                        fe__widen(b_in_a->position),
                        fe__widen(b_in_a->rotation.x),
                        fe__widen(b_in_a->rotation.y),
-                       fe__widen(b_in_a->rotation.z)};
+                       fe__widen(b_in_a->rotation.z),
+                       NULL};
 }
 
-static int32_t find_nearest(const fe__cores *cores, float margin, nearest *found)
+static int32_t find_nearest(const fe__cores *cores, float margin, fe__touch *found)
 {
     double radii = (double)cores->a->radius + (double)cores->b->radius, limit = radii + (double)margin;
     fe__gjk gjk;
@@ -38,11 +31,12 @@ static int32_t find_nearest(const fe__cores *cores, float margin, nearest *found
     if (gjk.distance > limit) return 0;
     if (gjk.overlap) {
         fe__penetration p = fe__epa_depth(cores, &gjk);
-        *found = (nearest){fe__narrow(p.normal), (float)(-p.depth - radii), fe__narrow(p.on_a), fe__narrow(p.on_b), 1};
+        *found =
+            (fe__touch){fe__narrow(p.normal), (float)(-p.depth - radii), fe__narrow(p.on_a), fe__narrow(p.on_b), 1};
     } else {
         fe_dvec3 normal = fe__dscale(1.0 / gjk.distance, fe__dsub(gjk.on_b, gjk.on_a));
-        *found =
-            (nearest){fe__narrow(normal), (float)(gjk.distance - radii), fe__narrow(gjk.on_a), fe__narrow(gjk.on_b), 0};
+        *found = (fe__touch){fe__narrow(normal), (float)(gjk.distance - radii), fe__narrow(gjk.on_a),
+                             fe__narrow(gjk.on_b), 0};
     }
     return 1;
 }
@@ -92,11 +86,29 @@ static float extent(const fe__face *face)
     return most;
 }
 
+// 1 - cos(11.25 degrees), of the radius: so far a rim reaches out between two of its points
+#define OUT_OF_RIM 0.0193f
+
+// A disc cuts as the polygon about its rim; what is out of the rim comes back to it.
+static void draw_in(float radius, const plane_frame *frame, const fe__face *disc, fe__clip_vertex *vertex,
+                    int32_t count)
+{
+    fe_vec3 middle = fe__scale(0.5f, fe__add(disc->vertex[0], disc->vertex[disc->count / 2]));
+    fe_vec3 d = fe__sub(middle, frame->origin);
+    float u = fe__dot(d, frame->u), v = fe__dot(d, frame->v);
+    for (int32_t i = 0; i < count; ++i) {
+        float du = vertex[i].u - u, dv = vertex[i].v - v, out = sqrtf(du * du + dv * dv);
+        if (!(out > radius)) continue;
+        vertex[i].u = u + du * (radius / out);
+        vertex[i].v = v + dv * (radius / out);
+    }
+}
+
 // Cuts `incident` by `reference` (a polygon whose normal is near the contact's) and gives the vertices below the
 // margin, when the deepest of them says the same as the nearest points do; else nothing. Where the cores overlap, what
 // hangs over the rim has to come out too. `flip` is 1 when the reference is B's.
 static int32_t clip_faces(const fe__face *reference, const fe__face *incident, float reference_radius,
-                          float incident_radius, int32_t flip, const nearest *found, float margin,
+                          float incident_radius, int32_t flip, const fe__touch *found, float margin,
                           fe__manifold *manifold)
 {
     float radii = reference_radius + incident_radius, rounding = 1e-6f * fe__maxf(extent(reference), extent(incident));
@@ -108,7 +120,9 @@ static int32_t clip_faces(const fe__face *reference, const fe__face *incident, f
     float tie = fe__tie(0.25f * fe__length(diagonal));
     float least = found->separation - tie - rounding, most = found->separation + tie + rounding;
     if (found->overlap && lowest(vertex, incident->count) - radii < least) return 0;
-    int32_t count = fe__clip_polygon(side, reference->count, vertex, incident->count, 0.1f * tie + rounding), near = 0;
+    float slack = 0.1f * tie + rounding + OUT_OF_RIM * reference->rim;
+    int32_t count = fe__clip_polygon(side, reference->count, vertex, incident->count, slack), near = 0;
+    if (reference->rim > 0.0f) draw_in(reference->rim, &frame, reference, vertex, count);
     float deepest = lowest(vertex, count) - radii;
     if (deepest < least || deepest > fe__minf(most, margin)) return 0;
     for (int32_t i = 0; i < count; ++i) {
@@ -128,14 +142,14 @@ static int32_t clip_faces(const fe__face *reference, const fe__face *incident, f
 }
 
 // midway between the surfaces
-static fe_vec3 middle_of(const nearest *found, const fe__form *a, const fe__form *b)
+static fe_vec3 middle_of(const fe__touch *found, const fe__form *a, const fe__form *b)
 {
     return fe__scale(0.5f, fe__add(fe__add_scaled(found->on_a, a->radius, found->normal),
                                    fe__add_scaled(found->on_b, -b->radius, found->normal)));
 }
 
 static int32_t touch_along_features(const fe__form *a, const fe__form *b, const fe__relative *b_in_a,
-                                    const nearest *found, float margin, fe__manifold *manifold)
+                                    const fe__touch *found, float margin, fe__manifold *manifold)
 {
     fe__face face_a, face_b;
     fe__form_face(a, found->normal, &face_a);
@@ -145,13 +159,26 @@ static int32_t touch_along_features(const fe__form *a, const fe__form *b, const 
     float cos_a = face_a.count > 2 ? fe__dot(face_a.normal, found->normal) : 0.0f;
     float cos_b = face_b.count > 2 ? -fe__dot(face_b.normal, found->normal) : 0.0f;
     const float prefer_a = 1e-3f; // equal faces: A's
-    if (cos_a > FE_FACE_COS && cos_a + prefer_a >= cos_b)
+    // a disc is rather cut: the points of its rim stay, and the deepest is one of them
+    int32_t yields = face_a.rim > 0.0f && face_b.count > 2 && face_b.rim == 0.0f && cos_b > FE_FACE_COS;
+    if (cos_a > FE_FACE_COS && cos_a + prefer_a >= cos_b && !yields)
         return clip_faces(&face_a, &face_b, a->radius, b->radius, 0, found, margin, manifold);
     if (cos_b > FE_FACE_COS) return clip_faces(&face_b, &face_a, b->radius, a->radius, 1, found, margin, manifold);
     if (face_a.count != 2 || face_b.count != 2) return 0;
     fe__segment segments[2];
     const fe__face *faces[2] = {&face_a, &face_b};
+    const fe__form *forms[2] = {a, b};
+    const fe_vec3 axes[2] = {fe__vec3(0.0f, 1.0f, 0.0f), b_in_a->rotation.y};
     for (int32_t i = 0; i < 2; ++i) {
+        if (forms[i]->type == FE__FORM_CONE) return 0; // its side is no segment with a radius
+        if (fe__form_is_curved(forms[i])) {
+            const float across = 1e-4f; // the normal's part along the axis: else its rim is touched
+            if (fe__absf(fe__dot(axes[i], found->normal)) > across) return 0;
+            segments[i].centre = i == 0 ? fe__vec3(0.0f, 0.0f, 0.0f) : b_in_a->position;
+            segments[i].half = fe__scale(forms[i]->half.y, axes[i]);
+            segments[i].radius = forms[i]->half.x;
+            continue;
+        }
         segments[i].centre = fe__scale(0.5f, fe__add(faces[i]->vertex[0], faces[i]->vertex[1]));
         segments[i].half = fe__scale(0.5f, fe__sub(faces[i]->vertex[1], faces[i]->vertex[0]));
         segments[i].radius = i == 0 ? a->radius : b->radius;
@@ -199,8 +226,9 @@ void fe__collide_convex(const fe__form *a, const fe__form *b, const fe__relative
         return;
     }
     fe__cores cores = make_cores(a, b, b_in_a);
-    nearest found;
+    fe__touch found;
     if (!find_nearest(&cores, margin, &found)) return;
+    if (fe__form_is_curved(a) || fe__form_is_curved(b)) fe__sharpen(&cores, &found);
     if (touch_along_features(a, b, b_in_a, &found, margin, manifold) > 0) return;
     enum { SINGLE_ID = 0xffff };
     manifold->normal = found.normal;

@@ -23,6 +23,7 @@ fe__kernel fe__collide_box_box;
 fe__kernel fe__collide_plane_sphere;
 fe__kernel fe__collide_plane_capsule;
 fe__kernel fe__collide_plane_box;
+fe__kernel fe__collide_plane_curved;
 
 // Two answers whose depths differ by less than this are equally right, and the steadier one (more points, the same face
 // as before) is given: a tenth of the solver's slop of 5 mm, or 2 % of the smallest width of a small shape, m.
@@ -56,6 +57,19 @@ typedef struct fe__segment {
     fe_vec3 centre, half;
     float radius;
 } fe__segment;
+
+// What GJK or EPA found, in A's frame.
+typedef struct fe__touch {
+    fe_vec3 normal;     // from A to B
+    float separation;   // of the surfaces
+    fe_vec3 on_a, on_b; // of the cores
+    int32_t overlap;    // of the cores
+} fe__touch;
+
+// Of a pair with a rim: takes one of the directions that such a pair touches along for the normal, when it is the same
+// within a tie, so that what lies still has a normal without the noise of a search (curved.c).
+struct fe__cores;
+void fe__sharpen(const struct fe__cores *cores, fe__touch *found);
 
 // Two segments whose nearest points are `separation` apart along `normal` (from a to b), `nearest` midway between the
 // surfaces there: gives the two ends of the stretch along which they run side by side, if that says the same as the

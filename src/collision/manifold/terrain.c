@@ -55,7 +55,8 @@ static void gather_all(fe__gathering *g, const fe__form *b, const fe__mat3 *rota
     if (depth > 0.0) g->felt = FLT_MAX;
     const float rounding = 1.0001f;
     fe_vec3 core = {fe__absf(axis.x), fe__absf(axis.y), fe__absf(axis.z)};
-    int32_t is_box = fe__form_has_flat_faces(b), culls = !is_box && !(depth > 0.0);
+    int32_t is_box = fe__form_has_flat_faces(b), is_curved = fe__form_is_curved(b),
+            culls = !is_box && !is_curved && !(depth > 0.0);
     fe__triangle_walk walk = fe__heightfield_walk(t->field, &box, t->origin);
     fe__form triangle;
     for (int32_t i; (i = fe__next_triangle(&walk, &triangle)) >= 0;) {
@@ -63,6 +64,8 @@ static void gather_all(fe__gathering *g, const fe__form *b, const fe__mat3 *rota
         fe__tile tile = fe__tile_of(t, &triangle, i);
         if (is_box)
             fe__tile_touch_box(g, &tile, b, rotation);
+        else if (is_curved)
+            fe__tile_touch_curved(g, &tile, b, rotation);
         else
             fe__tile_touch_round(g, &tile, ends, b->radius);
     }
@@ -88,6 +91,7 @@ int32_t fe__collide_terrain(const fe__terrain *t, const fe__form *b, const fe__m
     if (!g.count) *gap = gap_around(t, b, rotation, margin);
     for (int32_t i = 0; i < g.count; ++i) {
         fe__raw_patch *raw = g.patches + i;
+        if (fe__form_is_curved(b)) fe__keep_line_ends(raw, g.tie);
         fe__reduce_patch(raw, g.tie);
         patches[i] = (fe__patch){.normal = raw->normal, .count = raw->count, .triangle = raw->triangle};
         for (int32_t k = 0; k < raw->count; ++k) patches[i].points[k] = raw->points[k];

@@ -4,7 +4,6 @@
 // The box is centred at the origin. A direction m points out of the surface: separation(m) = -R(m) - max_i m.v_i, with
 // R(m) = sum_j half_j |m.x_j|. The face's normal is always allowed, and taken unless another is better by more than a
 // tie.
-#include "collision/form/clip.h"
 #include "collision/manifold/kernels.h"
 #include "collision/form/support.h"
 #include "collision/manifold/terrain_kernels.h"
@@ -91,57 +90,21 @@ static void prefer_face(contest *c)
 }
 
 // ---- faces ---------------------------------------------------------------------------------------------------------
-static void project(const fe_vec3 *points, int32_t count, fe_vec3 origin, const fe__mat3 *frame, fe__clip_vertex *out)
-{
-    for (int32_t i = 0; i < count; ++i) {
-        fe_vec3 p = fe__mul_transposed(frame, fe__sub(points[i], origin));
-        out[i] = (fe__clip_vertex){p.x, p.y, p.z, fe__clip_id(i > 0 ? i - 1 : count - 1, i)};
-    }
-}
-
-static void box_face(const contest *c, fe_vec3 direction, fe__face *face)
-{
-    fe__form_face(c->box, fe__mul_transposed(c->rotation, direction), face);
-    for (int32_t i = 0; i < face->count; ++i) face->vertex[i] = fe__mul(c->rotation, face->vertex[i]);
-}
-
-static int32_t is_vertex(uint32_t id) { return (id & 0xff) < FE_CLIP_SIDE && id >> 8 < FE_CLIP_SIDE; }
-
-// Cuts the incident polygon by the reference's; `out` is the reference's normal. What is near goes along `normal`, out
-// of the surface.
-static void cut_faces(contest *c, const fe_vec3 *reference, int32_t reference_count, const fe_vec3 *incident,
-                      int32_t incident_count, fe_vec3 out, fe_vec3 normal, uint32_t body_id)
-{
-    fe_vec3 edge = fe__sub(reference[1], reference[0]), u = fe__scale(1.0f / fe__length(edge), edge);
-    fe__mat3 frame = {u, fe__cross(out, u), out};
-    fe__clip_vertex side[FE_FACE_VERTICES], vertex[FE_CLIP_VERTICES];
-    project(reference, reference_count, reference[0], &frame, side);
-    project(incident, incident_count, reference[0], &frame, vertex);
-    float slack = 0.1f * c->tie + 1e-6f * c->tile->size;
-    int32_t count = fe__clip_polygon(side, reference_count, vertex, incident_count, slack);
-    for (int32_t i = 0; i < count; ++i) {
-        float height = vertex[i].height;
-        if (height > c->g->margin || !fe__tile_feels(c->g, c->tile, height)) continue;
-        fe_vec3 p = fe__add_scaled(reference[0], vertex[i].u, frame.x);
-        p = fe__add_scaled(fe__add_scaled(p, vertex[i].v, frame.y), 0.5f * height, frame.z);
-        uint32_t feature = body_id << 16 | vertex[i].id;
-        int32_t is_corner = body_id && is_vertex(vertex[i].id);
-        fe__gather(c->g, c->tile, normal, p, height, is_corner ? feature : fe__tile_id(c->tile, feature));
-    }
-}
-
 static void touch_face(contest *c)
 {
     fe__face face;
-    box_face(c, fe__neg(c->tile->normal), &face);
-    cut_faces(c, c->tile->form.vertex, 3, face.vertex, face.count, c->tile->normal, c->tile->normal, face.id + 1);
+    fe__tile_body_face(c->box, c->rotation, fe__neg(c->tile->normal), &face);
+    fe__cut cut = {c->tile->form.vertex, face.vertex,     3,           face.count,
+                   c->tile->normal,      c->tile->normal, face.id + 1, c->tie};
+    fe__tile_cut_faces(c->g, c->tile, &cut);
 }
 
 static void touch_box_face(contest *c)
 {
     fe__face face;
-    box_face(c, fe__neg(c->best.m), &face);
-    cut_faces(c, face.vertex, face.count, c->tile->form.vertex, 3, fe__neg(c->best.m), c->best.m, 0);
+    fe__tile_body_face(c->box, c->rotation, fe__neg(c->best.m), &face);
+    fe__cut cut = {face.vertex, c->tile->form.vertex, face.count, 3, fe__neg(c->best.m), c->best.m, 0, c->tie};
+    fe__tile_cut_faces(c->g, c->tile, &cut);
 }
 
 // ---- edges ---------------------------------------------------------------------------------------------------------

@@ -1,11 +1,29 @@
-// terrain_kernels.h - a form on one triangle of a heightfield (terrain_round.c, terrain_box.c). It is centred at the
-// origin.
+// terrain_kernels.h - a form on one triangle of a heightfield (terrain_round.c, terrain_box.c, terrain_curved.c). It is
+// centred at the origin.
 #ifndef FE_COLLISION_MANIFOLD_TERRAIN_KERNELS_H
 #define FE_COLLISION_MANIFOLD_TERRAIN_KERNELS_H
 #include "collision/manifold/terrain_gather.h"
 
 // `ends`: of the core, a sphere's twice the same
 void fe__tile_touch_round(fe__gathering *g, const fe__tile *tile, const fe_vec3 ends[2], float radius);
+// Of a line on a form's side that touches with both its ends, the ends carry all: what lies between, where seams cut
+// it, comes and goes as the form rolls. Points deeper than the ends by more than `tie` stay.
+void fe__keep_line_ends(fe__raw_patch *patch, float tie);
+void fe__tile_touch_curved(fe__gathering *g, const fe__tile *tile, const fe__form *form, const fe__mat3 *rotation);
+
+// Cuts the incident polygon or segment by the reference's; `out` is the reference's normal. What is near goes along
+// `normal`, out of the surface. body_id: of the incident face when it is the body's, else 0.
+typedef struct fe__cut {
+    const fe_vec3 *reference, *incident;
+    int32_t reference_count, incident_count;
+    fe_vec3 out, normal;
+    uint32_t body_id;
+    float tie;
+} fe__cut;
+struct fe__face;
+// the body's face that looks along the direction, in the common frame
+void fe__tile_body_face(const fe__form *form, const fe__mat3 *rotation, fe_vec3 direction, struct fe__face *face);
+void fe__tile_cut_faces(fe__gathering *g, const fe__tile *tile, const fe__cut *cut);
 void fe__tile_touch_box(fe__gathering *g, const fe__tile *tile, const fe__form *box, const fe__mat3 *rotation);
 
 #endif

@@ -1,0 +1,41 @@
+// terrain_cut.c - a face of a body and a triangle of a heightfield, one cut by the other.
+#include "collision/form/clip.h"
+#include "collision/form/support.h"
+#include "collision/manifold/terrain_kernels.h"
+
+static void project(const fe_vec3 *points, int32_t count, fe_vec3 origin, const fe__mat3 *frame, fe__clip_vertex *out)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        fe_vec3 p = fe__mul_transposed(frame, fe__sub(points[i], origin));
+        out[i] = (fe__clip_vertex){p.x, p.y, p.z, fe__clip_id(i > 0 ? i - 1 : count - 1, i)};
+    }
+}
+
+void fe__tile_body_face(const fe__form *form, const fe__mat3 *rotation, fe_vec3 direction, fe__face *face)
+{
+    fe__form_face(form, fe__mul_transposed(rotation, direction), face);
+    for (int32_t i = 0; i < face->count; ++i) face->vertex[i] = fe__mul(rotation, face->vertex[i]);
+}
+
+static int32_t is_vertex(uint32_t id) { return (id & 0xff) < FE_CLIP_SIDE && id >> 8 < FE_CLIP_SIDE; }
+
+void fe__tile_cut_faces(fe__gathering *g, const fe__tile *tile, const fe__cut *cut)
+{
+    const fe_vec3 *reference = cut->reference;
+    fe_vec3 edge = fe__sub(reference[1], reference[0]), u = fe__scale(1.0f / fe__length(edge), edge);
+    fe__mat3 frame = {u, fe__cross(cut->out, u), cut->out};
+    fe__clip_vertex side[FE_FACE_VERTICES], vertex[FE_CLIP_VERTICES];
+    project(reference, cut->reference_count, reference[0], &frame, side);
+    project(cut->incident, cut->incident_count, reference[0], &frame, vertex);
+    float slack = 0.1f * cut->tie + 1e-6f * tile->size;
+    int32_t count = fe__clip_polygon(side, cut->reference_count, vertex, cut->incident_count, slack);
+    for (int32_t i = 0; i < count; ++i) {
+        float height = vertex[i].height;
+        if (height > g->margin || !fe__tile_feels(g, tile, height)) continue;
+        fe_vec3 p = fe__add_scaled(reference[0], vertex[i].u, frame.x);
+        p = fe__add_scaled(fe__add_scaled(p, vertex[i].v, frame.y), 0.5f * height, frame.z);
+        uint32_t feature = cut->body_id << 16 | vertex[i].id;
+        int32_t is_corner = cut->body_id && is_vertex(vertex[i].id);
+        fe__gather(g, tile, cut->normal, p, height, is_corner ? feature : fe__tile_id(tile, feature));
+    }
+}
