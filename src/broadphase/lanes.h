@@ -93,9 +93,9 @@ FE_LANES_INLINE uint32_t fe__lanes_equal(fe__lanes x, fe__lanes y)
     return fe__quad_signs(x.a == y.a) | fe__quad_signs(x.b == y.b) << 4;
 }
 
-// ---- eight in one register
-// ---------------------------------------------------------------------------------------------------- For files that
-// are compiled once per SIMD set: the widest ones have such registers. The same eight floats in any case.
+// ---- eight in one register ------------------------------------------------------------------------------------------
+// For files that are compiled once per SIMD set: the widest ones have such registers. The same eight floats in any
+// case.
 #if FE_LANES_X86 && defined(__AVX__)
 typedef __m256 fe__eight;
 FE_LANES_INLINE fe__eight fe__eight_load(const float *row) { return _mm256_load_ps(row); } // 32-byte aligned

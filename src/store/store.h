@@ -69,9 +69,8 @@ void fe__asset_release(fe_store *store, int32_t index); // the last user of a de
 // changed.
 fe_result fe__store_put(fe_store *store, const fe__asset *asset, fe_asset *out_handle);
 
-// ---- without the lock
-// ----------------------------------------------------------------------------------------------------------------- The
-// record of an asset that the caller uses: it stays where it is.
+// ---- without the lock -----------------------------------------------------------------------------------------------
+// The record of an asset that the caller uses: it stays where it is.
 static inline fe__asset *fe__store_asset(const fe_store *store, int32_t index)
 {
     uint32_t i = (uint32_t)index + (1u << FE__FIRST_CHUNK_BITS);
