@@ -175,8 +175,11 @@ static void unlink_touch(const chain *k, int32_t i)
 // Those of the first `count` that are not out
 static void link_touches(chain *k, int32_t count)
 {
-    int32_t *first = k->s->touch_of;
-    for (int32_t i = 0; i < k->count; ++i) first[k->touches[i].line[0]] = first[k->touches[i].line[1]] = FE__NO_TOUCH;
+    for (int32_t i = 0; i < k->count; ++i)
+        for (int side = 0; side < 2; ++side) {
+            int32_t line = k->touches[i].line[side];
+            if (line != FE__STATIC_LINE) k->s->touch_of[line] = FE__NO_TOUCH;
+        }
     for (int32_t i = 0; i < count; ++i)
         if (!k->touches[i].flags) link_touch(k, i);
     k->first = k->listed = 0;
