@@ -53,8 +53,8 @@ static inline int32_t fe__pair_of(int32_t entry) { return entry ^ entry >> 31; }
 static inline void fe__odometer_place(fe__odometer *o, const double *centre)
 {
     const double far = 1e12; // m: ticks of more fit no integer, and floats tell nothing there
-    for (int k = 0; k < 3; ++k)
-        o->at[k] = (uint32_t)(int64_t)((double)FE__TICKS * fe__maxd(fe__mind(centre[k], far), -far));
+    _Pragma("GCC unroll 3") for (int k = 0; k < 3; ++k) o->at[k] =
+        (uint32_t)(int64_t)((double)FE__TICKS * fe__maxd(fe__mind(centre[k], far), -far));
 }
 
 // rounded up, by more than a rotation loses in its rounding
