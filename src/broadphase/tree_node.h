@@ -41,7 +41,7 @@ static inline float fe__tree_round_up(double x)
 }
 
 // Of coordinates beyond FE_TREE_FAR
-static inline fe__tree_box fe__tree_far_box(fe_dvec3 low, fe_dvec3 high)
+static __attribute__((noinline, unused)) fe__tree_box fe__tree_far_box(fe_dvec3 low, fe_dvec3 high)
 {
     return (fe__tree_box){{fe__tree_round_down(low.x), fe__tree_round_down(low.y), fe__tree_round_down(low.z), 0.0f},
                           {fe__tree_round_up(high.x), fe__tree_round_up(high.y), fe__tree_round_up(high.z), 0.0f}};
@@ -50,7 +50,7 @@ static inline fe__tree_box fe__tree_far_box(fe_dvec3 low, fe_dvec3 high)
 static inline fe__pair fe__tree_pad(fe__pair size) { return size * FE_TREE_ULP + FE_TREE_PAD; }
 
 // In pairs, as the six coordinates follow each other: the numbers of fe__tree_round_down and fe__tree_round_up
-static inline fe__tree_box fe__tree_box_of(const fe_dvec3 *origin, const fe__bounds *bounds)
+FE_LANES_INLINE fe__tree_box fe__tree_box_of(const fe_dvec3 *origin, const fe__bounds *bounds)
 {
     const fe_dvec3 *o = origin, *l = &bounds->low, *h = &bounds->high;
     const fe__pair far = {FE_TREE_FAR, FE_TREE_FAR}, outwards = {-1.0, 1.0};

@@ -77,12 +77,14 @@ static int32_t window_of(float timer, float window) { return (int32_t)(timer / w
 // Slow is what has a small velocity when the step ends, and went no further in half a second, net, than at that speed.
 // What is pushed out of another body moves without a velocity. What is wedged may wobble by more than that in a step,
 // for ever: it comes back to where it was.
-static void tick_sleep_timer(fe_world *w, fe__body *body, fe__drift *drift, const fe__motion_line *motion, float dt)
+static void tick_sleep_timer(fe_world *w, int32_t index, const fe__motion_line *motion, float dt)
 {
+    fe__body *body = w->bodies + index;
+    fe__drift *drift = w->drifts + index;
     const float least = 1e-5f; // s: sleep_time and dt may be 0
     float before = body->sleep_timer, threshold = body->sleep_threshold;
     body->sleep_timer = 0.0f;
-    fe__body_note_speed(w, body);
+    fe__note_speed(w, body, w->odometers + index);
     if (!(body->flags & FE__BODY_SLEEP_ALLOWED && body->speed < threshold)) return;
     float timer = before + dt, window = fe__maxf(fe__maxf(w->tuning.sleep_time, dt), least);
     if (before == 0.0f || window_of(timer, window) != window_of(before, window))
@@ -146,9 +148,9 @@ static void take_flushed(float *out, const float *in)
 }
 
 // of joined bodies on which a gyroscopic torque acts
-static void note_relaxed(const fe__solver *s, fe__body *body)
+static void note_relaxed(const fe__solver *s, const fe__motion_line *motion, fe__body *body)
 {
-    if (s->motion[body->line].gyroscopic != (float)FE__GYROSCOPIC_JOINED) return;
+    if (motion->gyroscopic != (float)FE__GYROSCOPIC_JOINED) return;
     for (int k = 0; k < 3; ++k) body->relaxed[k] = body->spin[k] - s->moved_spin[body->line][k];
 }
 
@@ -178,13 +180,13 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
         take_flushed(body->velocity, velocity->v);
         take_flushed(body->spin, velocity->w);
         for (int k = 0; k < 3; ++k) body->force[k] = body->torque[k] = 0.0f;
-        note_relaxed(&w->solver, body);
+        note_relaxed(&w->solver, motion, body);
         int32_t shifted = shift(body, motion->shift), turned = turn(body, motion->rotation);
-        tick_sleep_timer(w, body, w->drifts + index, motion, step->dt);
+        tick_sleep_timer(w, index, motion, step->dt);
         if (turned) fe__odometer_turn(odometer, length_of(motion->rotation));
         if (!(shifted | turned)) continue;
         fe__odometer_place(odometer, body->centre);
-        if (!(length_of(motion->shift) < FE__MOST_TRAVEL))
+        if (any_xyz(w_not(w_greater(w_set(FE__MOST_TRAVEL), w_abs(*(const quad *)motion->shift)))))
             atomic_store_explicit(&step->scratch->some_leapt, 1, memory_order_relaxed);
         body->moved_step = w->step_number + 1;
         place_origin(body);

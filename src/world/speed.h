@@ -15,16 +15,21 @@ static inline void fe__body_note_swiftness(fe_world *world, const fe__body *body
                                                                  memory_order_relaxed)) {}
 }
 
-// After each change of velocity; on any thread. What the narrow phase asks: how fast the fastest point may be
-static inline void fe__body_note_speed(fe_world *world, fe__body *body)
+// What the narrow phase asks: how fast the fastest point may be. o: the body's
+static inline void fe__note_speed(fe_world *world, fe__body *body, fe__odometer *o)
 {
     const float *v = body->velocity, *w = body->spin;
     float spin = sqrtf(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
     body->speed = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + spin * body->reach;
-    fe__odometer *o = world->odometers + (body - world->bodies);
     memcpy(o->velocity, v, sizeof o->velocity);
     o->spin = spin;
     fe__body_note_swiftness(world, body);
+}
+
+// After each change of velocity; on any thread
+static inline void fe__body_note_speed(fe_world *world, fe__body *body)
+{
+    fe__note_speed(world, body, world->odometers + (body - world->bodies));
 }
 
 void fe__body_stop_locked(fe_world *world, fe__body *body); // zeros the locked components of its velocities
