@@ -57,7 +57,7 @@ FE_LANES_INLINE fe__tree_box fe__tree_box_of(const fe_dvec3 *origin, const fe__b
     fe__pair a = (fe__pair){l->x, l->y} - (fe__pair){o->x, o->y}, size_a = fe__pair_abs(a);
     fe__pair b = (fe__pair){l->z, h->x} - (fe__pair){o->z, o->x}, size_b = fe__pair_abs(b);
     fe__pair c = (fe__pair){h->y, h->z} - (fe__pair){o->y, o->z}, size_c = fe__pair_abs(c);
-    if (fe__quad_signs((fe__quad_int)((size_a > far) | (size_b > far) | (size_c > far))))
+    if (fe__quad_signs((fe__quad_int)(size_a > far) | (fe__quad_int)(size_b > far) | (fe__quad_int)(size_c > far)))
         return fe__tree_far_box(fe__dsub(*l, *o), fe__dsub(*h, *o));
     a = a - fe__tree_pad(size_a), b = b + outwards * fe__tree_pad(size_b), c = c + fe__tree_pad(size_c);
     const fe__quad zero = fe__quad_set(0.0f);
