@@ -77,13 +77,12 @@ static int32_t window_of(float timer, float window) { return (int32_t)(timer / w
 // Slow is what has a small velocity when the step ends, and went no further in half a second, net, than at that speed.
 // What is pushed out of another body moves without a velocity. What is wedged may wobble by more than that in a step,
 // for ever: it comes back to where it was.
-static void tick_sleep_timer(fe_world *w, fe__body *body, int32_t index, const fe__motion_line *motion, float dt)
+static void tick_sleep_timer(const fe_world *w, fe__body *body, fe__drift *drift, const fe__motion_line *motion,
+                             float dt)
 {
-    fe__drift *drift = w->drifts + index;
     const float least = 1e-5f; // s: sleep_time and dt may be 0
     float before = body->sleep_timer, threshold = body->sleep_threshold;
     body->sleep_timer = 0.0f;
-    fe__note_speed(w, body, w->odometers + index);
     if (!(body->flags & FE__BODY_SLEEP_ALLOWED && body->speed < threshold)) return;
     float timer = before + dt, window = fe__maxf(fe__maxf(w->tuning.sleep_time, dt), least);
     if (before == 0.0f || window_of(timer, window) != window_of(before, window))
@@ -163,6 +162,7 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
 {
     fe__step *step = argument;
     fe_world *w = step->world;
+    float swiftest = 0.0f;
     (void)worker;
     for (int32_t i = first; i < end; ++i) {
         enum { AHEAD = 4 };
@@ -181,7 +181,9 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
         for (int k = 0; k < 3; ++k) body->force[k] = body->torque[k] = 0.0f;
         note_relaxed(&w->solver, motion, body);
         int32_t shifted = shift(body, motion->shift), turned = turn(body, motion->rotation);
-        tick_sleep_timer(w, body, index, motion, step->dt);
+        fe__note_speed(body, odometer);
+        swiftest = fe__maxf(swiftest, fe__swiftness_of(body));
+        tick_sleep_timer(w, body, w->drifts + index, motion, step->dt);
         if (turned) fe__odometer_turn(odometer, length_of(motion->rotation));
         if (!(shifted | turned)) continue;
         fe__odometer_place(odometer, body->centre);
@@ -191,6 +193,7 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
         place_origin(body);
         follow_body(step, index);
     }
+    fe__note_swiftness(w, swiftest);
 }
 
 static void box_block(void *argument, int32_t first, int32_t end, int32_t worker)
