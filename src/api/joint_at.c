@@ -152,9 +152,8 @@ fe_result fe_distance_joint_def_at(const fe_world *world, fe_distance_joint_def 
     return result;
 }
 
-// ---- ready-made joints
-// ---------------------------------------------------------------------------------------------------------------- A
-// definition with the defaults, whatever the caller's holds beyond its size
+// ---- ready-made joints ----------------------------------------------------------------------------------------------
+// A definition with the defaults, whatever the caller's holds beyond its size
 static fe_result begin_ready(const char *function, const fe_world *world, int32_t type, const void *def, fe_body body_a,
                              fe_body body_b, ends *out_ends, fe__joint_any *full)
 {

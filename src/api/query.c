@@ -271,9 +271,8 @@ int32_t fe_world_closest_point(const fe_world *world, const fe_dvec3 *point, dou
     return found;
 }
 
-// ---- one body, one shape
-// -------------------------------------------------------------------------------------------------------- From shape
-// `first` to before `end` in a body's list.
+// ---- one body, one shape --------------------------------------------------------------------------------------------
+// From shape `first` to before `end` in a body's list.
 static int32_t raycast_shapes(const fe_world *world, int32_t first, int32_t end, const fe_dvec3 *origin,
                               const fe_dvec3 *translation, fe_hit *out_hit)
 {

@@ -86,10 +86,10 @@ int32_t fe__tree_reserve(fe__tree *tree, fe__memory *memory, int32_t limit, int3
     return 1;
 }
 
-static fe__tree_box box_of(const fe__tree *tree, int32_t proxy)
+FE_LANES_INLINE fe__tree_box box_of(const fe__tree *tree, int32_t proxy)
 {
-    int32_t slot = tree->slot[proxy];
-    return fe__lane_box(&tree->nodes[slot / FE_TREE_WIDTH], slot % FE_TREE_WIDTH);
+    uint32_t slot = (uint32_t)tree->slot[proxy];
+    return fe__lane_box(&tree->nodes[slot / FE_TREE_WIDTH], (int32_t)(slot % FE_TREE_WIDTH));
 }
 
 int32_t fe__tree_holds(const fe__tree *tree, int32_t proxy, const fe__bounds *tight)

@@ -40,11 +40,29 @@ static inline float fe__tree_round_up(double x)
     return x > FE_TREE_FAR ? FLT_MAX : x < -FE_TREE_FAR ? -(float)FE_TREE_FAR : (float)y;
 }
 
-static inline fe__tree_box fe__tree_box_of(const fe_dvec3 *origin, const fe__bounds *bounds)
+// Of coordinates beyond FE_TREE_FAR
+static __attribute__((noinline, unused)) fe__tree_box fe__tree_far_box(fe_dvec3 low, fe_dvec3 high)
 {
-    fe_dvec3 low = fe__dsub(bounds->low, *origin), high = fe__dsub(bounds->high, *origin);
     return (fe__tree_box){{fe__tree_round_down(low.x), fe__tree_round_down(low.y), fe__tree_round_down(low.z), 0.0f},
                           {fe__tree_round_up(high.x), fe__tree_round_up(high.y), fe__tree_round_up(high.z), 0.0f}};
+}
+
+static inline fe__pair fe__tree_pad(fe__pair size) { return size * FE_TREE_ULP + FE_TREE_PAD; }
+
+// In pairs, as the six coordinates follow each other: the numbers of fe__tree_round_down and fe__tree_round_up
+FE_LANES_INLINE fe__tree_box fe__tree_box_of(const fe_dvec3 *origin, const fe__bounds *bounds)
+{
+    const fe_dvec3 *o = origin, *l = &bounds->low, *h = &bounds->high;
+    const fe__pair far = {FE_TREE_FAR, FE_TREE_FAR}, outwards = {-1.0, 1.0};
+    fe__pair a = (fe__pair){l->x, l->y} - (fe__pair){o->x, o->y}, size_a = fe__pair_abs(a);
+    fe__pair b = (fe__pair){l->z, h->x} - (fe__pair){o->z, o->x}, size_b = fe__pair_abs(b);
+    fe__pair c = (fe__pair){h->y, h->z} - (fe__pair){o->y, o->z}, size_c = fe__pair_abs(c);
+    if (fe__quad_signs((fe__quad_int)(size_a > far) | (fe__quad_int)(size_b > far) | (fe__quad_int)(size_c > far)))
+        return fe__tree_far_box(fe__dsub(*l, *o), fe__dsub(*h, *o));
+    a = a - fe__tree_pad(size_a), b = b + outwards * fe__tree_pad(size_b), c = c + fe__tree_pad(size_c);
+    const fe__quad zero = fe__quad_set(0.0f);
+    return (fe__tree_box){__builtin_shufflevector(fe__quad_narrow(a, b), zero, 0, 1, 2, 4),
+                          __builtin_shufflevector(fe__quad_narrow(b, c), zero, 1, 2, 3, 4)};
 }
 
 // ---- one lane ------------------------------------------------------------------------------------------------------

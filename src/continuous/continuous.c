@@ -9,6 +9,7 @@
 //
 // Against static and kinematic bodies each body is its own. Bullets come after, against where the dynamic bodies now
 // go; all see the same.
+#define FE_W 4
 #include "continuous/continuous.h"
 
 #include "continuous/chase.h"

@@ -4,6 +4,7 @@
 // Newton's method on the gap d:  l = -K^-1 d,  dx = l / m,  turn = I^-1 (r x l)): few bodies, once in a while, and a
 // tenth of the linear slop is enough. Poses are motions since the step began, in the solver's lines (float[8]: centre,
 // 0 | rotation).
+#define FE_W 4
 #include "continuous/rejoin.h"
 
 #include "continuous/chase.h"

@@ -37,6 +37,8 @@ FE_LANES_INLINE fe__quad fe__quad_choose(fe__quad_int mask, fe__quad yes, fe__qu
 // one lane in all four
 #define FE_QUAD_SPREAD(x, lane) __builtin_shufflevector(x, x, lane, lane, lane, lane)
 typedef double fe__pair __attribute__((vector_size(16)));
+typedef int64_t fe__pair_int __attribute__((vector_size(16)));
+FE_LANES_INLINE fe__pair fe__pair_abs(fe__pair x) { return (fe__pair)((fe__pair_int)x & INT64_MAX); }
 #if FE_LANES_X86
 FE_LANES_INLINE fe__quad fe__quad_narrow(fe__pair a, fe__pair b)
 {
@@ -93,9 +95,9 @@ FE_LANES_INLINE uint32_t fe__lanes_equal(fe__lanes x, fe__lanes y)
     return fe__quad_signs(x.a == y.a) | fe__quad_signs(x.b == y.b) << 4;
 }
 
-// ---- eight in one register
-// ---------------------------------------------------------------------------------------------------- For files that
-// are compiled once per SIMD set: the widest ones have such registers. The same eight floats in any case.
+// ---- eight in one register ------------------------------------------------------------------------------------------
+// For files that are compiled once per SIMD set: the widest ones have such registers. The same eight floats in any
+// case.
 #if FE_LANES_X86 && defined(__AVX__)
 typedef __m256 fe__eight;
 FE_LANES_INLINE fe__eight fe__eight_load(const float *row) { return _mm256_load_ps(row); } // 32-byte aligned

@@ -11,10 +11,9 @@
 
 #include <string.h>
 
-// ---- the probe
-// ------------------------------------------------------------------------------------------------------------------ In
-// this file what was just written is not copied as a whole: compilers copy 16 bytes at once, and the processor, which
-// has them in two pieces on their way to memory, waits. A ray had five such waits, a fifth of its time.
+// ---- the probe ------------------------------------------------------------------------------------------------------
+// In this file what was just written is not copied as a whole: compilers copy 16 bytes at once, and the processor,
+// which has them in two pieces on their way to memory, waits. A ray had five such waits, a fifth of its time.
 static void set(fe_dvec3 *to, const fe_dvec3 *from) { to->x = from->x, to->y = from->y, to->z = from->z; }
 
 // Zeroing it whole would cost a twentieth of a ray.
@@ -36,9 +35,8 @@ fe__probe fe__probe_form(const fe__form *form, const fe_transform *from, fe_dvec
 
 static int32_t is_ray(const fe__probe *probe) { return fe__form_is_point(&probe->form); }
 
-// ---- one shape
-// ------------------------------------------------------------------------------------------------------------------ A
-// hit in the frame of the shape. What is first in the end is turned into the world, not what is only tested.
+// ---- one shape ------------------------------------------------------------------------------------------------------
+// A hit in the frame of the shape. What is first in the end is turned into the world, not what is only tested.
 typedef struct found {
     fe__ray_hit hit;
     fe_dvec3 point; // of a form that moves

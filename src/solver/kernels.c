@@ -14,7 +14,7 @@
 #define TABLE(simd, lanes, name, ...)                                                                                 \
     {                                                                                                                 \
         simd, lanes, &fe__contact_kernels_##name, &fe__joint_kernels_##name, {__VA_ARGS__}, &fe__body_kernels_##name, \
-            fe__recycle_##name, fe__keep_due_##name, THIN_CONTACT_KERNELS                                             \
+            fe__recycle_##name, fe__keep_due_##name, THIN(contact_kernels)                                            \
     }
 
 DECLARE_SET(plain)
@@ -31,16 +31,23 @@ DECLARE_SET(avx512)
 DECLARE_SET(neon)
 #endif
 
-// Whatever CPU has a set of more than FE__THIN_WIDTH lanes has this one
+// The set of FE__THIN_WIDTH lanes: whatever CPU has a wider one has it too
 #ifdef FE_HAVE_SSE2
-#define THIN_CONTACT_KERNELS &fe__contact_kernels_sse2
+#define THIN(kernels) &fe__##kernels##_sse2
 #elif defined(FE_HAVE_NEON)
-#define THIN_CONTACT_KERNELS &fe__contact_kernels_neon
+#define THIN(kernels) &fe__##kernels##_neon
 #else
-#define THIN_CONTACT_KERNELS &fe__contact_kernels_plain
+#define THIN(kernels) &fe__##kernels##_plain
 #endif
 
 #define FOREST(name) &fe__forest_kernels_##name
+// narrower ones of avx512, as far as they were built
+#ifdef FE_HAVE_AVX2
+#define NARROW_FORESTS THIN(forest_kernels), FOREST(avx2)
+#else
+#define NARROW_FORESTS THIN(forest_kernels)
+#endif
+
 // widest last
 static const fe__kernels sets[] = {
     TABLE(FE_SIMD_PLAIN, 4, plain, FOREST(plain)),
@@ -51,10 +58,10 @@ static const fe__kernels sets[] = {
     TABLE(FE_SIMD_NEON, 4, neon, FOREST(neon)),
 #endif
 #ifdef FE_HAVE_AVX2
-    TABLE(FE_SIMD_AVX2, 8, avx2, FOREST(sse2), FOREST(avx2)),
+    TABLE(FE_SIMD_AVX2, 8, avx2, THIN(forest_kernels), FOREST(avx2)),
 #endif
 #ifdef FE_HAVE_AVX512
-    TABLE(FE_SIMD_AVX512, 16, avx512, FOREST(sse2), FOREST(avx2), FOREST(avx512)),
+    TABLE(FE_SIMD_AVX512, 16, avx512, NARROW_FORESTS, FOREST(avx512)),
 #endif
 };
 enum { SET_COUNT = sizeof sets / sizeof *sets };

@@ -16,7 +16,7 @@
 #include <math.h>
 
 enum {
-    IMPACTS = 16, // of each touch, on the mean; what closes then is left to the next substep
+    IMPACTS = 32, // of each touch at most; what closes then is left to the next substep
     // marks of a line, beside the count of its touches: of a chain with an impact above the threshold; held
     FAST = FE__TOUCHES_CHAINED,
     HELD = 2 * FAST,
@@ -35,6 +35,7 @@ enum {
 typedef struct chain {
     fe__solver *s;
     const fe__body *bodies;
+    const uint64_t *serials; // of the contacts, two each
     const fe__kernels *kernels;
     const fe__group *groups;
     int32_t group_count;
@@ -100,55 +101,93 @@ static void find_touches(chain *k, int32_t near)
                                                            k->touches + k->count);
 }
 
-// ---- in order of time, of two at once the first lane's --------------------------------------------------------------
-static int32_t is_later(const fe__touch *touches, int32_t a, int32_t b)
+// ---- in order of time, of two at once in that of the pairs' creation ------------------------------------------------
+// Lanes tell nothing: which of a group's contacts is where depends on when the graph was built.
+static int32_t is_younger(const chain *k, const fe__touch *p, const fe__touch *q)
 {
-    const fe__touch *p = touches + touches[a].listed, *q = touches + touches[b].listed;
-    return p->when > q->when || (p->when == q->when && p->lane > q->lane);
+    const uint64_t *a = k->serials + 2 * (int64_t)k->s->lanes[p->lane].contact,
+                   *b = k->serials + 2 * (int64_t)k->s->lanes[q->lane].contact;
+    return a[0] > b[0] || (a[0] == b[0] && a[1] > b[1]);
 }
 
-static void swap_listed(fe__touch *touches, int32_t a, int32_t b)
+// Entries of the list before it turns
+static int32_t is_later(const chain *k, int32_t a, int32_t b)
 {
-    int32_t listed = touches[a].listed;
-    touches[a].listed = touches[b].listed, touches[b].listed = listed;
+    const fe__touch *p = k->touches + k->touches[a].listed, *q = k->touches + k->touches[b].listed;
+    return p->when > q->when || (p->when == q->when && is_younger(k, p, q));
 }
 
-static void sink_touch(fe__touch *touches, int32_t i, int32_t count)
+static void swap_listed(const chain *k, int32_t a, int32_t b)
+{
+    int32_t listed = k->touches[a].listed;
+    k->touches[a].listed = k->touches[b].listed, k->touches[b].listed = listed;
+}
+
+static void sink_touch(const chain *k, int32_t first, int32_t i, int32_t count)
 {
     for (int32_t child; (child = 2 * i + 1) < count; i = child) {
-        if (child + 1 < count && is_later(touches, child + 1, child)) ++child;
-        if (!is_later(touches, child, i)) return;
-        swap_listed(touches, i, child);
+        if (child + 1 < count && is_later(k, first + child + 1, first + child)) ++child;
+        if (!is_later(k, first + child, first + i)) return;
+        swap_listed(k, first + i, first + child);
     }
 }
 
-static void sort_listed(fe__touch *touches, int32_t count)
+static void sort_listed(const chain *k, int32_t first, int32_t count)
 {
-    for (int32_t i = count / 2 - 1; i >= 0; --i) sink_touch(touches, i, count);
+    for (int32_t i = count / 2 - 1; i >= 0; --i) sink_touch(k, first, i, count);
     for (int32_t last = count - 1; last > 0; --last) {
-        swap_listed(touches, 0, last);
-        sink_touch(touches, 0, last);
+        swap_listed(k, first, first + last);
+        sink_touch(k, first, 0, last);
     }
 }
 
-// ---- touches of a line ----------------------------------------------------------------------------------------------
-static void link_touches(chain *k)
+// ---- touches of a line that may be listed, each in both lines' ------------------------------------------------------
+static fe__touch_link *link_of(const chain *k, int32_t i, int32_t line)
 {
-    int32_t *first = k->s->touch_of;
-    for (int32_t i = 0; i < k->count; ++i) first[k->touches[i].line[0]] = first[k->touches[i].line[1]] = FE__NO_TOUCH;
-    for (int32_t i = k->count - 1; i >= 0; --i)
+    return k->touches[i].link + (k->touches[i].line[1] == line);
+}
+
+// as the last, before the first: the list is a ring
+static void link_touch(const chain *k, int32_t i)
+{
+    for (int side = 0; side < 2; ++side) {
+        int32_t line = k->touches[i].line[side], *first = k->s->touch_of + line;
+        if (line == FE__STATIC_LINE) continue;
+        if (*first == FE__NO_TOUCH) *first = k->touches[i].link[side].previous = i;
+        int32_t last = link_of(k, *first, line)->previous;
+        k->touches[i].link[side] = (fe__touch_link){*first, last};
+        link_of(k, last, line)->next = link_of(k, *first, line)->previous = i;
+    }
+}
+
+static void unlink_touch(const chain *k, int32_t i)
+{
+    for (int side = 0; side < 2; ++side) {
+        int32_t line = k->touches[i].line[side], *first = k->s->touch_of + line;
+        if (line == FE__STATIC_LINE) continue;
+        fe__touch_link l = k->touches[i].link[side];
+        link_of(k, l.previous, line)->next = l.next;
+        link_of(k, l.next, line)->previous = l.previous;
+        if (*first == i) *first = l.next == i ? FE__NO_TOUCH : l.next;
+    }
+}
+
+// Those of the first `count` that are not out
+static void link_touches(chain *k, int32_t count)
+{
+    for (int32_t i = 0; i < k->count; ++i)
         for (int side = 0; side < 2; ++side) {
-            fe__touch *t = k->touches + i;
-            if (t->line[side] == FE__STATIC_LINE) continue;
-            t->next[side] = first[t->line[side]];
-            first[t->line[side]] = i;
+            int32_t line = k->touches[i].line[side];
+            if (line != FE__STATIC_LINE) k->s->touch_of[line] = FE__NO_TOUCH;
         }
+    for (int32_t i = 0; i < count; ++i)
+        if (!k->touches[i].flags) link_touch(k, i);
     k->first = k->listed = 0;
 }
 
 static void list_touch(chain *k, int32_t i)
 {
-    if (k->touches[i].flags) return;
+    unlink_touch(k, i);
     k->touches[i].flags = LISTED;
     k->touches[(k->first + k->listed++) % k->count].listed = i;
 }
@@ -161,11 +200,7 @@ static fe__touch *listed_touch(const chain *k, int32_t i)
 static void list_line(chain *k, int32_t line)
 {
     if (line == FE__STATIC_LINE) return;
-    for (int32_t i = k->s->touch_of[line]; i != FE__NO_TOUCH;) {
-        const fe__touch *t = k->touches + i;
-        list_touch(k, i);
-        i = t->next[t->line[1] == line];
-    }
+    while (k->s->touch_of[line] != FE__NO_TOUCH) list_touch(k, k->s->touch_of[line]);
 }
 
 static int32_t line_has(const chain *k, const fe__touch *t, uint8_t mark)
@@ -182,7 +217,7 @@ static void mark_line(const chain *k, int32_t line, uint8_t mark)
 // Chains without an impact above the threshold stay as they are: nothing bounces in them.
 static void keep_fast(chain *k)
 {
-    link_touches(k);
+    link_touches(k, k->count);
     for (int32_t i = 0; i < k->count; ++i)
         if (k->touches[i].fast) list_touch(k, i);
     for (int32_t i = 0; i < k->listed; ++i)
@@ -250,9 +285,9 @@ static void list_held(chain *k, const fe__touch *t)
 // What the touches of held bodies gave returns, by which others may be held. Those touches are listed.
 static void return_held(chain *k)
 {
-    link_touches(k);
-    for (int32_t i = k->touched; i < k->count; ++i) k->touches[i].flags = OUT;
+    link_touches(k, k->touched);
     for (int32_t i = 0; i < k->touched; ++i) list_held(k, k->touches + i);
+    sort_listed(k, 0, k->listed);
     for (int32_t i = 0, end; i < k->listed; i = end) {
         end = k->listed;
         for (int32_t j = i; j < end; ++j) act_on(k, listed_touch(k, j)->lane, 1, FE__TOUCH_RETURN);
@@ -269,38 +304,46 @@ static void bounce_held(chain *k)
 
 static void list_free(chain *k)
 {
-    k->first = k->listed = 0;
     for (int32_t i = 0; i < k->count; ++i) {
         fe__touch *t = k->touches + i;
         int32_t out = i < k->touched ? t->flags : line_has(k, t, HELD);
         t->flags = out ? OUT : 0;
-        if (i == k->touched) sort_listed(k->touches, k->listed);
-        list_touch(k, i);
     }
-    if (k->count == k->touched) sort_listed(k->touches, k->listed);
+    link_touches(k, k->count);
+    for (int32_t i = 0; i < k->touched; ++i)
+        if (!k->touches[i].flags) list_touch(k, i);
+    sort_listed(k, 0, k->listed);
+    int32_t near = k->listed;
+    for (int32_t i = k->touched; i < k->count; ++i) {
+        k->touches[i].when = 0.0f; // they have none
+        if (!k->touches[i].flags) list_touch(k, i);
+    }
+    sort_listed(k, near, k->listed - near);
 }
 
 static void bounce_free(chain *k)
 {
     list_free(k);
-    for (int64_t i = (int64_t)IMPACTS * k->count; i > 0 && k->listed; --i) {
+    while (k->listed) {
         fe__touch *t = listed_touch(k, 0);
         k->first = (k->first + 1) % k->count;
         --k->listed;
         t->flags = 0;
-        if (!act_on(k, t->lane, 1, FE__TOUCH_PASS_ON)) continue;
-        list_line(k, t->line[0]);
-        list_line(k, t->line[1]);
+        int32_t bounced = act_on(k, t->lane, 1, FE__TOUCH_PASS_ON);
+        t->impacts += bounced;
+        if (t->impacts < IMPACTS) link_touch(k, (int32_t)(t - k->touches));
+        for (int side = 0; side < 2 && bounced; ++side) list_line(k, t->line[side]);
     }
 }
 
-void fe__pass_on(fe__solver *s, const fe__kernels *kernels, const fe__body *bodies, const fe__batch *b,
-                 unsigned char *rows, const fe__step_constants *c)
+void fe__pass_on(fe__solver *s, const fe__kernels *kernels, const fe__body *bodies, const uint64_t *serials,
+                 const fe__batch *b, unsigned char *rows, const fe__step_constants *c)
 {
     if (!atomic_load_explicit(&s->chained, memory_order_relaxed)) return;
     const fe__group *groups = s->groups + b->first_group + b->joint_groups;
     chain k = {.s = s,
                .bodies = bodies,
+               .serials = serials,
                .kernels = kernels,
                .groups = groups,
                .group_count = b->group_count - b->joint_groups,

@@ -58,6 +58,7 @@ typedef struct job {
     const fe__kernels *k;
     const fe__body *bodies;
     fe__contact *contacts;
+    const uint64_t *serials; // of the contacts, two each
     fe__extra *extras;
     const fe__joints *joints;
     paced paces[FE__PACES];
@@ -349,7 +350,7 @@ static void run_block(const job *j, const fe__batch *b, const fe__pass *p, unsig
         return;
     }
     if (p->verb == PASS_ON) {
-        fe__pass_on(j->s, j->k, j->bodies, b, rows, c);
+        fe__pass_on(j->s, j->k, j->bodies, j->serials, b, rows, c);
         return;
     }
     const fe__group *g = j->s->groups + p->first_group;
@@ -397,7 +398,7 @@ static void run_batch(const job *j, const fe__batch *b, unsigned char *rows)
         }
         run_all(j, b, RELAX, rows, n + 1 < c->substeps ? c : &pace->last);
         if (b->bounces) run_all(j, b, BOUNCE, rows, c);
-        if (b->bounces) fe__pass_on(j->s, j->k, j->bodies, b, rows, c);
+        if (b->bounces) fe__pass_on(j->s, j->k, j->bodies, j->serials, b, rows, c);
         run_all_trees(j, b, RECEIVE, rows, c);
         if (n + 1 < c->substeps) run_all(j, b, CARRY, rows, c);
     }
@@ -556,10 +557,16 @@ static void set_constants(job *j, const fe__step_constants *constants)
 }
 
 void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *workers, fe__body *bodies,
-               fe__contact *contacts, fe__extra *extras, const fe__joints *joints,
+               fe__contact *contacts, const uint64_t *serials, fe__extra *extras, const fe__joints *joints,
                const fe__step_constants constants[FE__PACES])
 {
-    job j = {.s = s, .k = kernels, .bodies = bodies, .contacts = contacts, .extras = extras, .joints = joints};
+    job j = {.s = s,
+             .k = kernels,
+             .bodies = bodies,
+             .contacts = contacts,
+             .serials = serials,
+             .extras = extras,
+             .joints = joints};
     atomic_store(&s->engaged, 0);
     if (!s->batch_count) return; // all sleep; there may be no lines at all
     set_constants(&j, constants);

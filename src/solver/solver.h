@@ -203,16 +203,22 @@ enum {
     FE__TOUCHES_CHAINED = 4 // beside the count of a line's touches: it is in a chain of impacts
 };
 
+// In the ring of a line's touches
+typedef struct fe__touch_link {
+    int32_t next, previous;
+} fe__touch_link;
+
 // A contact with restitution of a chain of impacts, see pass_on.c
 typedef struct fe__touch {
     float when;      // s into the substep
     float change[2]; // of the velocities of A and B in it, m/s
     int32_t lane;    // of the solver's
     int32_t line[2]; // FE__STATIC_LINE for what is not dynamic
-    int32_t next[2]; // touch of that line
-    int32_t listed;  // an entry of a list of touches
-    int32_t fast;    // than the threshold of restitution
+    fe__touch_link link[2];
+    int32_t listed; // an entry of a list of touches
+    int32_t fast;   // than the threshold of restitution
     int32_t flags;
+    int32_t impacts; // that it had in this substep
 } fe__touch;
 
 // What the last graph was made of, by kind of row

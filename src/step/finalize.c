@@ -17,36 +17,54 @@
 #include "world/speed.h"
 
 #include <float.h>
+#include <string.h>
 
 enum { BODIES_IN_BLOCK = 64, BOXES_IN_BLOCK = 64, KEPT_LINES = 256 };
 
 // ---- poses ---------------------------------------------------------------------------------------------------------
+// x y z of a quad, whose fourth lane is something else
+static int32_t any_xyz(wide_mask m) { return (w_bits(m) & 7) != 0; }
+static int32_t is_zero(const float *v) { return !any_xyz(*(const quad *)v != w_set(0.0f)); }
+
+// dq q, each lane as fe__product sums it
+static wide product(const float *dq, wide q)
+{
+    const wide x = {1.0f, -1.0f, 1.0f, -1.0f}, y = {1.0f, 1.0f, -1.0f, -1.0f}, z = {-1.0f, 1.0f, 1.0f, -1.0f};
+    wide wzyx = __builtin_shufflevector(q, q, 3, 2, 1, 0), zwxy = __builtin_shufflevector(q, q, 2, 3, 0, 1);
+    wide yxwz = __builtin_shufflevector(q, q, 1, 0, 3, 2);
+    return dq[3] * q + dq[0] * (x * wzyx) + dq[1] * (y * zwxy) + dq[2] * (z * yxwz);
+}
+
 // q = dq q. A body that did not turn keeps its quaternion: no rounding of what stood still.
 static int32_t turn(fe__body *body, const float *dq)
 {
-    if (dq[0] == 0.0f && dq[1] == 0.0f && dq[2] == 0.0f) return 0;
-    fe_quat q = fe__normalized(fe__product(fe__quat_of(dq), fe__rotation_of(body)));
-    *(quad *)body->rotation = w_flush((wide){q.x, q.y, q.z, q.w}, w_set(FE__LEAST_SPEED));
+    if (is_zero(dq)) return 0;
+    quad *q = (quad *)body->rotation;
+    wide p = product(dq, *q);
+    fe_quat unit = fe__normalized((fe_quat){p[0], p[1], p[2], p[3]});
+    *q = w_flush((wide){unit.x, unit.y, unit.z, unit.w}, w_set(FE__LEAST_SPEED));
     return 1;
 }
 
 static int32_t shift(fe__body *body, const float *dp)
 {
-    if (dp[0] == 0.0f && dp[1] == 0.0f && dp[2] == 0.0f) return 0;
-    for (int k = 0; k < 3; ++k) {
-        body->centre[k] += (double)dp[k];
-        body->centre_high[k] = (float)body->centre[k];
-        body->centre_low[k] = (float)(body->centre[k] - (double)body->centre_high[k]);
+    if (is_zero(dp)) return 0;
+    _Pragma("GCC unroll 3") for (int k = 0; k < 3; ++k)
+    {
+        double centre = body->centre[k] + (double)dp[k];
+        float high = (float)centre;
+        body->centre[k] = centre, body->centre_high[k] = high, body->centre_low[k] = (float)(centre - (double)high);
     }
     return 1;
 }
 
 static void place_origin(fe__body *body)
 {
-    const float *c = body->local_centre;
-    fe_dvec3 arm = {0.0, 0.0, 0.0};
-    if (c[0] != 0.0f || c[1] != 0.0f || c[2] != 0.0f)
-        arm = fe__drotate(fe__rotation_of(body), fe__widen(fe__quad_vector(c)));
+    if (is_zero(body->local_centre)) {
+        memcpy(body->origin, body->centre, sizeof body->origin);
+        return;
+    }
+    fe_dvec3 arm = fe__drotate(fe__rotation_of(body), fe__widen(fe__quad_vector(body->local_centre)));
     body->origin[0] = body->centre[0] - arm.x, body->origin[1] = body->centre[1] - arm.y,
     body->origin[2] = body->centre[2] - arm.z;
 }
@@ -59,20 +77,19 @@ static int32_t window_of(float timer, float window) { return (int32_t)(timer / w
 // Slow is what has a small velocity when the step ends, and went no further in half a second, net, than at that speed.
 // What is pushed out of another body moves without a velocity. What is wedged may wobble by more than that in a step,
 // for ever: it comes back to where it was.
-static void tick_sleep_timer(fe_world *w, int32_t index, const fe__motion_line *motion, float dt)
+static void tick_sleep_timer(const fe_world *w, fe__body *body, fe__drift *drift, const fe__motion_line *motion,
+                             float dt)
 {
     const float least = 1e-5f; // s: sleep_time and dt may be 0
-    fe__body *body = w->bodies + index;
-    fe__drift *drift = w->drifts + index;
     float before = body->sleep_timer, threshold = body->sleep_threshold;
     body->sleep_timer = 0.0f;
-    fe__body_note_speed(w, body);
     if (!(body->flags & FE__BODY_SLEEP_ALLOWED && body->speed < threshold)) return;
     float timer = before + dt, window = fe__maxf(fe__maxf(w->tuning.sleep_time, dt), least);
     if (before == 0.0f || window_of(timer, window) != window_of(before, window))
         *drift = (fe__drift){{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
     // dq = (n sin(a/2), cos(a/2)): a small turn a is twice the length of its vector
-    for (int k = 0; k < 3; ++k) drift->shift[k] += motion->shift[k], drift->turn[k] += 2.0f * motion->rotation[k];
+    _Pragma("GCC unroll 3") for (int k = 0; k < 3; ++k) drift->shift[k] += motion->shift[k],
+        drift->turn[k] += 2.0f * motion->rotation[k];
     if (length_of(drift->shift) + length_of(drift->turn) * body->reach < threshold * window) body->sleep_timer = timer;
 }
 
@@ -129,9 +146,9 @@ static void take_flushed(float *out, const float *in)
 }
 
 // of joined bodies on which a gyroscopic torque acts
-static void note_relaxed(const fe__solver *s, fe__body *body)
+static void note_relaxed(const fe__solver *s, const fe__motion_line *motion, fe__body *body)
 {
-    if (s->motion[body->line].gyroscopic != (float)FE__GYROSCOPIC_JOINED) return;
+    if (motion->gyroscopic != (float)FE__GYROSCOPIC_JOINED) return;
     for (int k = 0; k < 3; ++k) body->relaxed[k] = body->spin[k] - s->moved_spin[body->line][k];
 }
 
@@ -145,11 +162,14 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
 {
     fe__step *step = argument;
     fe_world *w = step->world;
+    float swiftest = 0.0f;
     (void)worker;
     for (int32_t i = first; i < end; ++i) {
         enum { AHEAD = 4 };
         fetch_box(w, i + AHEAD);
-        fe__body *body = w->bodies + w->awake_bodies[i];
+        int32_t index = w->awake_bodies[i];
+        fe__body *body = w->bodies + index;
+        fe__odometer *odometer = w->odometers + index;
         const fe__velocity_line *velocity = w->solver.velocity + body->line;
         const fe__motion_line *motion = w->solver.motion + body->line;
         if (!fe__motion_makes_sense(&w->solver, body->line)) {
@@ -159,18 +179,21 @@ static void move_block(void *argument, int32_t first, int32_t end, int32_t worke
         take_flushed(body->velocity, velocity->v);
         take_flushed(body->spin, velocity->w);
         for (int k = 0; k < 3; ++k) body->force[k] = body->torque[k] = 0.0f;
-        note_relaxed(&w->solver, body);
-        int32_t moved = shift(body, motion->shift) | turn(body, motion->rotation);
-        tick_sleep_timer(w, w->awake_bodies[i], motion, step->dt);
-        if (!moved) continue;
-        fe__odometer_place(w->odometers + w->awake_bodies[i], body->centre);
-        fe__odometer_turn(w->odometers + w->awake_bodies[i], length_of(motion->rotation));
-        if (!(length_of(motion->shift) < FE__MOST_TRAVEL))
+        note_relaxed(&w->solver, motion, body);
+        int32_t shifted = shift(body, motion->shift), turned = turn(body, motion->rotation);
+        fe__note_speed(body, odometer);
+        swiftest = fe__maxf(swiftest, fe__swiftness_of(body));
+        tick_sleep_timer(w, body, w->drifts + index, motion, step->dt);
+        if (turned) fe__odometer_turn(odometer, length_of(motion->rotation));
+        if (!(shifted | turned)) continue;
+        fe__odometer_place(odometer, body->centre);
+        if (any_xyz(w_not(w_greater(w_set(FE__MOST_TRAVEL), w_abs(*(const quad *)motion->shift)))))
             atomic_store_explicit(&step->scratch->some_leapt, 1, memory_order_relaxed);
         body->moved_step = w->step_number + 1;
         place_origin(body);
-        follow_body(step, w->awake_bodies[i]);
+        follow_body(step, index);
     }
+    fe__note_swiftness(w, swiftest);
 }
 
 static void box_block(void *argument, int32_t first, int32_t end, int32_t worker)

@@ -184,6 +184,11 @@ static void set_points(fe__contact *m, const fe__view *v, const fe__places *at, 
         fe__copy3(m->point[i].arm, arm);
         m->point[i].separation = m->separation[i] = there ? found->points[i].separation : 0.0f;
         reach = fe__maxf(reach, fe__maxf(fe__dot(arm, arm), fe__dot(arm_b, arm_b)));
+        if (!there) continue;
+        // of a round side it is the core that rotates
+        fe_vec3 n = fe__quad_vector(m->normal), core_a = fe__add_scaled(arm, -m->surface.radius_a, n),
+                core_b = fe__add_scaled(arm_b, m->surface.radius_b, n);
+        reach = fe__maxf(reach, fe__maxf(fe__dot(core_a, core_a), fe__dot(core_b, core_b)));
     }
     m->longest_arm = sqrtf(reach);
 }

@@ -113,7 +113,8 @@ void fe__solve_islands(fe__step *step)
     }
     fe__step_constants paces[FE__PACES];
     constants_of_paces(w, step->dt, paces);
-    fe__solve(&w->solver, w->kernels, &w->workers, w->bodies, w->contacts, w->extras, &w->joints, paces);
+    fe__solve(&w->solver, w->kernels, &w->workers, w->bodies, w->contacts, w->pair_serials, w->extras, &w->joints,
+              paces);
     w->last_h = step->constants.h;
     w->last_dt = step->dt;
 }

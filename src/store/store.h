@@ -90,7 +90,7 @@ fe_result fe__store_put(fe_store *store, const fe__asset *asset, fe_asset *out_h
 void *fe__asset_allocate(fe_store *store, fe__asset *asset, size_t size);
 void fe__asset_free(fe_store *store, fe__asset *asset); // its blocks
 
-// ---- without the lock ----------------------------------------------------------------------------------------------
+// ---- without the lock -----------------------------------------------------------------------------------------------
 // The record of an asset that the caller uses: it stays where it is.
 static inline fe__asset *fe__store_asset(const fe_store *store, int32_t index)
 {

@@ -15,9 +15,8 @@ int32_t fe__reserve_asset_use(fe_world *world, const fe__form *form);
 void fe__shape_take_asset(fe_world *world, int32_t shape);    // becomes a user of its form's, if it has one
 void fe__shape_release_asset(fe_world *world, int32_t shape); // the last user of a destroyed one frees it
 
-// ---- edits, under the store's lock
-// ------------------------------------------------------------------------------------------------------ Every world
-// that uses the asset is entered for writing, or none: FE_ERROR_STEPPING, FE_ERROR_BUSY.
+// ---- edits, under the store's lock ----------------------------------------------------------------------------------
+// Every world that uses the asset is entered for writing, or none: FE_ERROR_STEPPING, FE_ERROR_BUSY.
 fe_result fe__asset_enter_worlds(fe_store *store, int32_t asset);
 void fe__asset_leave_worlds(fe_store *store, int32_t asset);
 // The worlds were entered. New heights reach the shapes' bounds and trees at once, the contacts in the next step;

@@ -1,6 +1,8 @@
 // pose.c - see pose.h.
 #include "world/pose.h"
 
+#include <string.h>
+
 // A rotation is kept bit for bit when its length is 1 to this accuracy. Rounding q/|q| to floats leaves less (half a
 // unit in the last place, 6e-8), so that normalising twice changes nothing.
 #define UNIT_TOLERANCE 1e-7
@@ -24,24 +26,26 @@ void fe__body_place_centre(fe__body *body)
     }
 }
 
-static void place(fe__shape *shape, const fe__pose *pose)
+static void place(fe__shape *shape, const fe__body *body)
 {
-    shape->pose =
-        shape->flags & FE__SHAPE_CENTRED ? *pose : fe__compose(pose, shape->local_position, shape->local_rotation);
+    if (shape->flags & FE__SHAPE_CENTRED) {
+        memcpy(&shape->pose.position, body->origin, sizeof shape->pose.position);
+        memcpy(&shape->pose.rotation, body->rotation, sizeof shape->pose.rotation);
+        return;
+    }
+    fe__pose pose = {fe__origin_of(body), fe__rotation_of(body)};
+    shape->pose = fe__compose(&pose, shape->local_position, shape->local_rotation);
 }
 
 void fe__body_place(fe_world *world, int32_t index)
 {
     const fe__body *body = &world->bodies[index];
-    fe__pose pose = {fe__origin_of(body), fe__rotation_of(body)};
-    for (int32_t i = body->first_shape; i >= 0; i = world->shapes[i].next) place(&world->shapes[i], &pose);
+    for (int32_t i = body->first_shape; i >= 0; i = world->shapes[i].next) place(&world->shapes[i], body);
 }
 
 void fe__shape_place(fe_world *world, int32_t index)
 {
-    const fe__body *body = &world->bodies[world->shapes[index].body];
-    fe__pose pose = {fe__origin_of(body), fe__rotation_of(body)};
-    place(&world->shapes[index], &pose);
+    place(&world->shapes[index], &world->bodies[world->shapes[index].body]);
 }
 
 void fe__advance(const fe_world *world, const fe__body *body, float dt, fe_dvec3 *centre, fe_quat *rotation)

@@ -20,15 +20,19 @@ static fe__bounds grown(fe__bounds b, double margin)
                         {b.high.x + margin, b.high.y + margin, b.high.z + margin}};
 }
 
-fe__bounds fe__shape_bounds(const fe_world *world, int32_t index, float margin)
+static inline fe__bounds bounds_of(const fe__shape *shape, float margin)
 {
-    const fe__shape *shape = &world->shapes[index];
     return grown(fe__form_bounds(&shape->form, &shape->pose), (double)margin);
 }
 
-static fe__bounds swept(const fe_world *world, int32_t index, fe__bounds b, float steps)
+fe__bounds fe__shape_bounds(const fe_world *world, int32_t index, float margin)
 {
-    const fe__body *body = &world->bodies[world->shapes[index].body];
+    return bounds_of(world->shapes + index, margin);
+}
+
+static fe__bounds swept(const fe_world *world, const fe__shape *shape, fe__bounds b, float steps)
+{
+    const fe__body *body = world->bodies + shape->body;
     double dt = (double)(steps * (world->last_dt > 0.0f ? world->last_dt : FIRST_DT));
     fe_dvec3 travel = fe__dscale(dt, fe__widen(fe__vec3(body->velocity[0], body->velocity[1], body->velocity[2])));
     b.low = fe__dadd(b.low, (fe_dvec3){fe__mind(travel.x, 0.0), fe__mind(travel.y, 0.0), fe__mind(travel.z, 0.0)});
@@ -40,15 +44,17 @@ static float half_gap(const fe_world *world) { return 0.5f * world->tuning.specu
 
 fe__bounds fe__shape_reach_bounds(const fe_world *world, int32_t index)
 {
-    return swept(world, index, fe__shape_bounds(world, index, half_gap(world)), 1.0f);
+    const fe__shape *shape = world->shapes + index;
+    return swept(world, shape, bounds_of(shape, half_gap(world)), 1.0f);
 }
 
 fe__bounds fe__shape_fat_bounds(const fe_world *world, int32_t index)
 {
-    fe__bounds b = fe__shape_bounds(world, index, 0.0f);
+    const fe__shape *shape = world->shapes + index;
+    fe__bounds b = bounds_of(shape, 0.0f);
     fe_dvec3 size = fe__dsub(b.high, b.low);
     double half = 0.5 * fe__maxd(fe__maxd(size.x, size.y), size.z);
-    b = swept(world, index, b, STEPS_AHEAD);
+    b = swept(world, shape, b, STEPS_AHEAD);
     return grown(b, (double)half_gap(world) + fe__mind(FAT_MOST, FAT_SHARE * half));
 }
 

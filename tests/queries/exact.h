@@ -276,10 +276,9 @@ static inline int ray_meets_triangle(vec origin, vec way, const solid *s, real e
     return inside > margin && above > margin && above + end * rate < -margin;
 }
 
-// ---- on the way
-// ----------------------------------------------------------------------------------------------------------------- The
-// gap is a convex function of t, so that its tangents bound it from below. Does it fall below -margin in [0, end]: 1;
-// is it above margin all the way: -1; or neither: 0?
+// ---- on the way -----------------------------------------------------------------------------------------------------
+// The gap is a convex function of t, so that its tangents bound it from below. Does it fall below -margin in [0, end]:
+// 1; is it above margin all the way: -1; or neither: 0?
 static inline int meets_on_the_way(const solid *mover, const solid *still, vec way, real end, real margin)
 {
     real t[2] = {0, end}, f[2], rate[2], radius = mover->radius + still->radius;

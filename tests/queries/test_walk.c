@@ -26,9 +26,8 @@ enum {
 
 static int32_t queries = QUERIES;
 
-// ---- a world of every kind
-// ---------------------------------------------------------------------------------------------------------- A shape,
-// or a triangle of a heightfield
+// ---- a world of every kind ------------------------------------------------------------------------------------------
+// A shape, or a triangle of a heightfield
 typedef struct known_shape {
     fe_shape shape;
     int32_t triangle; // else -1

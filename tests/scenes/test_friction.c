@@ -276,9 +276,8 @@ static void a_cube_pushed_at_its_top_tips_at_half_its_weight(void **state)
     scene_end(&s);
 }
 
-// ---- the ladder
-// ----------------------------------------------------------------------------------------------------------------- A
-// plank of length L and thickness t, at `angle` to the floor, between it (mu) and a smooth wall. It stands on the
+// ---- the ladder -----------------------------------------------------------------------------------------------------
+// A plank of length L and thickness t, at `angle` to the floor, between it (mu) and a smooth wall. It stands on the
 // corners of its lower side: moments about the lower one give the wall's force  N = m g (1 / (2 tan) - t / (2 L)). It
 // holds as long as N <= mu m g.
 

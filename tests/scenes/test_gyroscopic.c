@@ -177,12 +177,11 @@ static void an_upright_capsule_spins_on(void **state)
     scene_end(&s);
 }
 
-// ---- a capsule on its tip, exactly
-// ------------------------------------------------------------------------------------------------ A solid of
-// revolution whose round end of radius R, centred at L below its centre of mass, slides and rolls on a plane with
-// Coulomb's friction. The height is y = L a.y + R of its axis a, so the normal force N follows from  m (y'' + g) = N
-// with y'' linear in N:
-//     I w' = r x N (n - mu slip / |slip|) - w x I w,   a' = w x a,   m v' = -N mu slip / |slip|   (v: level)
+// ---- a capsule on its tip, exactly ----------------------------------------------------------------------------------
+// A solid of revolution whose round end of radius R, centred at L below its centre of mass, slides and rolls on a plane
+// with Coulomb's friction. The height is y = L a.y + R of its axis a, so the normal force N follows from  m (y'' + g) =
+// N with y'' linear in N:     I w' = r x N (n - mu slip / |slip|) - w x I w,   a' = w x a,   m v' = -N mu slip / |slip|
+// (v: level)
 typedef struct top {
     double mass, across, along, radius, reach, mu; // kg, kg m2, m
 } top;

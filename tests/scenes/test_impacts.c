@@ -426,13 +426,15 @@ static void a_column_comes_back(void **state)
     }
 }
 
-// The break of 15 balls, gaps of 1 mm: what is slower than the threshold of restitution alone loses. The gain is that
-// of spheres which a substep of 14 m/s brought into each other.
+// The break of 15 balls, gaps of 1 mm: what is slower than the threshold of restitution alone loses, which is a matter
+// of the order of what happens at once: little on the mean. The gain is that of spheres which a substep of 14 m/s
+// brought into each other.
 static void a_break_keeps_its_energy(void **state)
 {
-    enum { RACK = 15 };
+    enum { RACK = 15, BREAKS = 12 };
     const double radius = 0.25, apart = 2 * radius + 0.001;
-    for (int i = 0; i < 12; ++i) {
+    double kept = 0;
+    for (int i = 0; i < BREAKS; ++i) {
         scene s = scene_begin(state);
         set_gravity(&s, v3(0, 0, 0));
         fe_world_tuning tuning = {.struct_size = sizeof tuning};
@@ -452,11 +454,13 @@ static void a_break_keeps_its_energy(void **state)
         for (int k = 0; k < 120; ++k) {
             run(&s, 1);
             totals now = totals_of(&s, balls, count);
-            FE_WITHIN(now.energy, 0.99 * before.energy, 1.001 * before.energy);
+            FE_WITHIN(now.energy, 0.98 * before.energy, 1.001 * before.energy);
+            if (k == 119) kept += now.energy / before.energy / BREAKS;
             FE_NEAR(length(minus(now.momentum, before.momentum)), 0, MOMENTUM_DRIFT * before.momenta);
         }
         scene_end(&s);
     }
+    FE_WITHIN(kept, 0.995, 1.001);
 }
 
 // A ball meets one ball ahead after 2 mm and one aside after 6 mm, within a substep of 25 mm. The first stops it, so

@@ -52,15 +52,16 @@ static void set_drag(scene *s, fe_body ball, double rate)
 {
     MUST(fe_body_set_damping(s->world, ball, (float)rate, (float)rate));
 }
+#if !SLOW_BUILD
 static void set_alone(scene *s, fe_body ball, double unused)
 {
     (void)unused;
     touch_nothing(s, ball);
 }
+#endif
 
-// ---- how far it opens
-// ----------------------------------------------------------------------------------------------------------------- It
-// falls until its joints hold it, and swings. 3.3 times the gap at rest, P2: what scenes of chains are allowed.
+// ---- how far it opens -----------------------------------------------------------------------------------------------
+// It falls until its joints hold it, and swings. 3.3 times the gap at rest, P2: what scenes of chains are allowed.
 static void a_large_net_opens_by_what_it_weighs(void **state)
 {
 #if SLOW_BUILD
@@ -83,9 +84,8 @@ static void a_large_net_opens_by_what_it_weighs(void **state)
 #endif
 }
 
-// ---- what its joints bear
-// ------------------------------------------------------------------------------------------------------------- A
-// ladder of two columns. Its widest gap is that of the second row's, between two balls; the first hangs on what does
+// ---- what its joints bear -------------------------------------------------------------------------------------------
+// A ladder of two columns. Its widest gap is that of the second row's, between two balls; the first hangs on what does
 // not move.
 static void check_ladder(const scene *s, const net *n, double scale)
 {

@@ -150,9 +150,8 @@ static void a_ball_on_a_pulled_slab_follows_with_two_sevenths(void **state)
     }
 }
 
-// ---- rolling resistance
-// --------------------------------------------------------------------------------------------------------- Its torque
-// is at most c r N: a rolling sphere slows with 5/7 c g, and holds on a slope up to tan(angle) = c
+// ---- rolling resistance ---------------------------------------------------------------------------------------------
+// Its torque is at most c r N: a rolling sphere slows with 5/7 c g, and holds on a slope up to tan(angle) = c
 
 static fe_material rolling(double c)
 {

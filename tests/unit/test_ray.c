@@ -283,9 +283,8 @@ static void the_centre_has_a_way_out(void **state)
     }
 }
 
-// ---- exact cases
-// ---------------------------------------------------------------------------------------------------------------- A
-// form is closed: what touches it from outside meets it, what passes by one unit in the last place does not.
+// ---- exact cases ----------------------------------------------------------------------------------------------------
+// A form is closed: what touches it from outside meets it, what passes by one unit in the last place does not.
 static void touching_is_meeting_and_one_ulp_aside_is_not(void **state)
 {
     (void)state;

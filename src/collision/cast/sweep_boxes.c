@@ -99,9 +99,8 @@ double fe__core_depth(const fe__approach *s, fe_dvec3 *way_out)
     return depth;
 }
 
-// ---- where they touch
-// ----------------------------------------------------------------------------------------------------------- What of a
-// box lies farthest along a direction: a corner, an edge or a face, as a box with up to two free half widths.
+// ---- where they touch -----------------------------------------------------------------------------------------------
+// What of a box lies farthest along a direction: a corner, an edge or a face, as a box with up to two free half widths.
 typedef struct feature {
     fe_dvec3 centre;
     double free[3]; // half widths along the box's axes, 0: fixed

@@ -32,9 +32,8 @@ static inline lanes at(const fe__parallelogram *p, wide i, wide j)
                    p->centre.z + i * p->x.z + j * p->y.z};
 }
 
-// ---- the four edges
-// --------------------------------------------------------------------------------------------------------------- Edge
-// k runs from corner k to corner k + 1, around the parallelogram; so do the corners of the rectangle.
+// ---- the four edges -------------------------------------------------------------------------------------------------
+// Edge k runs from corner k to corner k + 1, around the parallelogram; so do the corners of the rectangle.
 static const wide corner_i = {-1.0f, 1.0f, 1.0f, -1.0f}, corner_j = {-1.0f, -1.0f, 1.0f, 1.0f};
 static const wide step_i = {2.0f, 0.0f, -2.0f, 0.0f}, step_j = {0.0f, 2.0f, 0.0f, -2.0f};
 

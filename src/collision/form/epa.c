@@ -40,9 +40,9 @@ static fe_dvec3 perpendicular(fe_dvec3 d)
     return unit(fe__dsub(axis, fe__dscale(fe__ddot(axis, d) / fe__ddot(d, d), d)));
 }
 
-// ---- the first tetrahedron
-// ---------------------------------------------------------------------------------------------------------- Adds the
-// farthest vertex along one of the directions, if it is out of the point, line or plane that the vertices span.
+// ---- the first tetrahedron ------------------------------------------------------------------------------------------
+// Adds the farthest vertex along one of the directions, if it is out of the point, line or plane that the vertices
+// span.
 static int32_t add_off_span(polytope *p, const fe__cores *cores, const fe_dvec3 *directions, int32_t count)
 {
     for (int32_t i = 0; i < 2 * count; ++i) {

@@ -30,9 +30,8 @@ fe__vertex fe__cores_support(const fe__cores *cores, fe_dvec3 direction)
     return (fe__vertex){fe__dsub(on_a, fe__dadd(cores->position, turned)), on_a};
 }
 
-// ---- nearest points of simplices
-// ------------------------------------------------------------------------------------------------ Each gives the
-// weights of the corners in the point nearest the origin; a corner outside the nearest feature has 0.
+// ---- nearest points of simplices ------------------------------------------------------------------------------------
+// Each gives the weights of the corners in the point nearest the origin; a corner outside the nearest feature has 0.
 static void weigh_line(fe_dvec3 a, fe_dvec3 b, double *weight)
 {
     fe_dvec3 ab = fe__dsub(b, a);

@@ -153,9 +153,8 @@ static fe_vec3 normal_along(const box_pair *q, int32_t axis)
     return fe__vec3(n[0], n[1], n[2]);
 }
 
-// ---- a face against a face
-// ---------------------------------------------------------------------------------------------------------- Two boxes
-// seen from the one whose face is the reference.
+// ---- a face against a face ------------------------------------------------------------------------------------------
+// Two boxes seen from the one whose face is the reference.
 typedef struct face_view {
     float half[3], other[3]; // half extents of the reference box and of the other
     float centre[3];         // of the other
@@ -236,9 +235,8 @@ static void touch_faces(const box_pair *q, int32_t axis, float margin, fe__manif
     }
 }
 
-// ---- an edge against an edge
-// -------------------------------------------------------------------------------------------------------- The face of
-// either box whose normal n is, but for 5 degrees; -1: none.
+// ---- an edge against an edge ----------------------------------------------------------------------------------------
+// The face of either box whose normal n is, but for 5 degrees; -1: none.
 static int32_t face_along(const box_pair *q, fe_vec3 n)
 {
     float most = FE_FACE_COS, of_a[3] = {n.x, n.y, n.z};

@@ -50,11 +50,16 @@ FE__IS_QUAD(fe__deferral, turned_a, arm_b);
 // An entry of that list is the pair, or ~pair while it is deferred
 static inline int32_t fe__pair_of(int32_t entry) { return entry ^ entry >> 31; }
 
+static inline uint32_t fe__ticks(double x) { return (uint32_t)(int64_t)((double)FE__TICKS * x); }
+
 static inline void fe__odometer_place(fe__odometer *o, const double *centre)
 {
     const double far = 1e12; // m: ticks of more fit no integer, and floats tell nothing there
-    for (int k = 0; k < 3; ++k)
-        o->at[k] = (uint32_t)(int64_t)((double)FE__TICKS * fe__maxd(fe__mind(centre[k], far), -far));
+    if (fe__absd(centre[0]) + fe__absd(centre[1]) + fe__absd(centre[2]) < far) {
+        o->at[0] = fe__ticks(centre[0]), o->at[1] = fe__ticks(centre[1]), o->at[2] = fe__ticks(centre[2]);
+        return;
+    }
+    for (int k = 0; k < 3; ++k) o->at[k] = fe__ticks(fe__maxd(fe__mind(centre[k], far), -far));
 }
 
 // rounded up, by more than a rotation loses in its rounding

@@ -181,7 +181,10 @@ FE_INLINE void NAMED(begin_to_follow)(ROW *row, const wide *apart, wide_mask lan
     // other lanes hold what was never written: denormals too
     wide_mask kept = w_greater(row->follows, zero);
     row->follows = w_choose(fresh, w_set(1.0f), row->follows);
-    if (NAMED(can_idle)(kind)) row->gap = w_choose(fresh, w_set(-FLT_MAX), row->gap);
+    if (NAMED(can_idle)(kind)) {
+        row->gap = w_choose(fresh, w_set(-FLT_MAX), row->gap);
+        NAMED(note_gaps)(row);
+    }
     wide3 n = load3(row->normal);
     UNROLL for (int i = 0; i <= POINTS; ++i)
     {

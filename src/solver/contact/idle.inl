@@ -64,13 +64,18 @@ static __attribute__((noinline)) int NAMED(open_now)(const ROW *row, const fe__s
     return !w_any(w_not(NAMED(stays_open)(&p, row->open, row->reach, c)));
 }
 
+// after each change of a gap
+FE_INLINE void NAMED(note_gaps)(ROW *row) { row->gaps = w_bits(w_greater(row->gap, w_set(0.0f))); }
+
 // Every lane has a gap when the step begins: others bear something soon, and nobody need ask again
-FE_INLINE int NAMED(has_gaps)(const ROW *row) { return !w_any(w_not(w_greater(row->gap, w_set(0.0f)))); }
+FE_INLINE int NAMED(may_idle)(const ROW *row, int kind)
+{
+    return NAMED(can_idle)(kind) && row->gaps == w_bits(every_lane());
+}
 
 FE_INLINE int NAMED(idle_now)(const ROW *row, const fe__solver *s, const fe__step_constants *c, int kind)
 {
-    if (!NAMED(can_idle)(kind) || !NAMED(has_gaps)(row) || w_any(NAMED(loaded)(row))) return 0;
-    return NAMED(open_now)(row, s, c, kind);
+    return !w_any(NAMED(loaded)(row)) && NAMED(open_now)(row, s, c, kind);
 }
 
 // In the relax pass, after the bodies moved
@@ -86,8 +91,7 @@ static __attribute__((noinline)) int NAMED(open_after)(ROW *row, const fe__solve
 
 FE_INLINE int NAMED(idle_after)(ROW *row, const fe__solver *s, const fe__step_constants *c, int kind)
 {
-    if (!NAMED(can_idle)(kind)) return 0;
-    if (NAMED(has_gaps)(row) && !w_any(NAMED(loaded_lately)(row))) return NAMED(open_after)(row, s, c, kind);
+    if (!w_any(NAMED(loaded_lately)(row))) return NAMED(open_after)(row, s, c, kind);
     row->open = w_set(-FLT_MAX);
     row->behind = 0;
     return 0;

@@ -116,6 +116,7 @@ FE_INLINE void NAMED(prepare_gap)(ROW *row, wide4 separation, wide points, wide 
 FE_INLINE void NAMED(note_friction)(ROW *row, wide4 friction)
 {
     row->gap = row->open = w_choose(any_nonzero(friction), w_set(-FLT_MAX), row->gap);
+    NAMED(note_gaps)(row);
 }
 
 FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s, const fe__contact *m,
@@ -193,7 +194,8 @@ static __attribute__((noinline)) int NAMED(put_off)(ROW *row, const fe__lane *la
     NAMED(prepare_gap)
     (row, w_gather(m->separation, CONTACT_STRIDE, index), normal.w, w_gather(m->found_span, CONTACT_STRIDE, index).w);
     row->put_off = 1, row->behind = 0;
-    return NAMED(idle_now)(row, s, c, kind);
+    NAMED(note_gaps)(row);
+    return NAMED(may_idle)(row, kind) && NAMED(idle_now)(row, s, c, kind);
 }
 
 FE_INLINE void NAMED(prepare)(fe__solver *s, fe__contact *contacts, const fe__extra *extras, const fe__lane *lanes,
@@ -228,7 +230,7 @@ FE_INLINE int32_t NAMED(store)(fe__contact *contacts, fe__extra *extras, const f
             impulse[j] = row->point[j].impulse, total[j] = row->total[j];
             sum = sum + total[j];
         }
-        if (NAMED(can_idle)(kind)) {
+        if (NAMED(can_idle)(kind) && row->gaps) {
             wide_mask loose = w_and(w_not(w_greater(sum, zero)), w_greater(row->gap, zero));
             mixed += w_any(w_not(loose)) && w_any(w_and(loose, w_greater(w_set(FLT_MAX), row->gap)));
         }

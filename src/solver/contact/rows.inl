@@ -29,9 +29,10 @@ typedef struct ROW {
     int32_t line_a[FE_W], line_b[FE_W];
     wide normal[3];
     // see idle.inl. A row that is put off has what is above, these, and nothing else
-    wide gap;   // when the step began, m; FLT_MAX: a padding lane; -FLT_MAX: never idle, it follows or had friction
-    wide open;  // no more than the gap where the bodies are now, m; -FLT_MAX: nobody looked
-    wide reach; // longest arm, m
+    wide gap;      // when the step began, m; FLT_MAX: a padding lane; -FLT_MAX: never idle, it follows or had friction
+    wide open;     // no more than the gap where the bodies are now, m; -FLT_MAX: nobody looked
+    wide reach;    // longest arm, m
+    uint32_t gaps; // lanes whose gap is greater than 0, a bit each
     int32_t put_off; // 1: not prepared
     int32_t behind;  // 1: skipped when the bodies moved, with distances from before
     wide span[3];    // centre of A - centre of B
@@ -475,10 +476,7 @@ FE_INLINE ROW *NAMED(row_at)(void *rows, int32_t i, int kind)
 
 #include "solver/contact/prepare.inl"
 
-FE_INLINE int NAMED(is_late)(const ROW *row, int kind)
-{
-    return NAMED(can_idle)(kind) && (row->put_off || row->behind);
-}
+FE_INLINE int NAMED(is_late)(const ROW *row) { return row->put_off || row->behind; }
 
 // the row, prepared, with distances from where the bodies are
 static __attribute__((noinline)) void NAMED(catch_up)(ROW *row, fe__solver *s, const fe__contact *contacts,
@@ -499,8 +497,10 @@ FE_INLINE void NAMED(solve)(fe__solver *s, const fe__contact *contacts, const fe
 {
     for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
         ROW *row = NAMED(row_at)(rows, i, kind);
-        if (NAMED(idle_now)(row, s, c, kind)) continue;
-        if (NAMED(is_late)(row, kind)) NAMED(catch_up)(row, s, contacts, lanes, c, kind);
+        if (NAMED(may_idle)(row, kind)) {
+            if (NAMED(idle_now)(row, s, c, kind)) continue;
+            if (NAMED(is_late)(row)) NAMED(catch_up)(row, s, contacts, lanes, c, kind);
+        }
         pair p = NAMED(gather_pair)(row, s, kind);
         NAMED(solve_normals)(row, c, &p, kind, 1);
         NAMED(scatter_pair)(row, s, &p, kind);
@@ -526,8 +526,10 @@ FE_INLINE void NAMED(relax)(fe__solver *s, const fe__contact *contacts, const fe
 {
     for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
         ROW *row = NAMED(row_at)(rows, i, kind);
-        if (NAMED(idle_after)(row, s, c, kind)) continue;
-        if (NAMED(is_late)(row, kind)) NAMED(catch_up)(row, s, contacts, lanes, c, kind);
+        if (NAMED(may_idle)(row, kind)) {
+            if (NAMED(idle_after)(row, s, c, kind)) continue;
+            if (NAMED(is_late)(row)) NAMED(catch_up)(row, s, contacts, lanes, c, kind);
+        }
         pair p = NAMED(gather_pair)(row, s, kind);
         motion m = NAMED(motion_of)(row, s, kind);
         NAMED(find_distances)(row, &p, &m, kind);

@@ -22,12 +22,9 @@ static void join(int32_t *parent, int32_t a, int32_t b)
 // It bore nothing in the last step, and there is a gap at each point
 static int32_t is_loose(const fe__contact *m)
 {
-    int32_t loose = 1;
-    for (int k = 0; k < FE__POINTS; ++k) {
-        loose &= !(m->total_impulse[k] > 0.0f);
-        loose &= k >= (int32_t)m->point_count || m->separation[k] > 0.0f;
-    }
-    return loose;
+    for (int k = 0; k < FE__POINTS; ++k)
+        if (m->total_impulse[k] > 0.0f || (k < (int32_t)m->point_count && !(m->separation[k] > 0.0f))) return 0;
+    return 1;
 }
 
 static void fetch(const fe__contact *m)

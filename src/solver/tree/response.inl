@@ -131,9 +131,12 @@ static void find_sizes(const pass *t, int32_t i, int32_t lanes)
         meet_requests(t, PLACES);
         own[k] = answer_of(n);
     }
-    // what is locked answers nothing
-    n->light = r_max(r_set(FLT_EPSILON), n->mass * size_of(own, 0));
-    n->spins = r_max(r_set(FLT_EPSILON), n->mass * size_of(own, 3));
+    // what is locked answers nothing, but no link is heavier than all of them
+    real total = r_set(0.0);
+    for (int32_t k = 0; k < t->count; ++k) total += t->nodes[k].mass;
+    const real least = n->mass / total;
+    n->light = r_max(least, n->mass * size_of(own, 0));
+    n->spins = r_max(least, n->mass * size_of(own, 3));
     n->heavier = r_bits(r_greater(r_set(HEAVIER), n->light)) & lanes;
 }
 

@@ -359,7 +359,7 @@ static int32_t will_open(const pass *t, int lane)
 // The lanes whose links contacts see with the masses of their trees
 static void find_lenders(const pass *t)
 {
-    if (find_touched(t)) t->head->lends = find_shares(t) & t->lanes;
+    if (is_root(t, 0) && find_touched(t)) t->head->lends = find_shares(t) & t->lanes;
 }
 
 static void prepare_trees(const fe__tree_job *job)

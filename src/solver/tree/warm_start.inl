@@ -71,8 +71,7 @@ static wrench take_impulses(const pass *t, int32_t i, int lane)
     return sum;
 }
 
-// ---- of a ball joint, all lanes at once
-// -------------------------------------------------------------------------------
+// ---- of a ball joint, all lanes at once -----------------------------------------------------------------------------
 static void add_to_point(const pass *t, const tree_node *n, int32_t lanes, int32_t total)
 {
     const fe__lock_lanes *rows = t->job->lanes;
