@@ -832,6 +832,7 @@ typedef enum fe_geometry_type {
     FE_GEOMETRY_BOX = 3,          ///< half_extents
     FE_GEOMETRY_CYLINDER = 4,     ///< half_height along local Y, and radius: exact, no polygon
     FE_GEOMETRY_CONE = 5,         ///< half_height along local Y, and radius of the base: exact; its tip is at +half_height
+    FE_GEOMETRY_HULL = 32,        ///< asset: a convex hull, see fe_hull_create
     FE_GEOMETRY_PLANE = 64,       ///< the half space normal . p <= distance; static bodies only
     FE_GEOMETRY_HEIGHTFIELD = 96, ///< asset: a grid of heights; static bodies only
     FE_GEOMETRY_FORCE32 = 0x7fffffff
@@ -847,7 +848,7 @@ typedef struct fe_geometry {
     fe_vec3 normal;       ///< of a plane, any length but zero
     float distance;       ///< of a plane from the origin along its normal, m
     uint32_t reserved[5];
-    fe_asset asset; ///< of a heightfield
+    fe_asset asset; ///< of a hull, of a heightfield
     uint64_t reserved_end[2];
 } fe_geometry;
 
@@ -1687,6 +1688,14 @@ static inline void fe_geometry_plane(fe_geometry *out_geometry, float normal_x, 
     out_geometry->normal.y = normal_y;
     out_geometry->normal.z = normal_z;
     out_geometry->distance = distance;
+}
+
+/// The hull's points are in the shape's frame as they were given. Its asset lives as long as the shape does.
+static inline void fe_geometry_hull(fe_geometry *out_geometry, fe_asset hull)
+{
+    fe_geometry_init(out_geometry, (uint32_t)sizeof *out_geometry);
+    out_geometry->type = FE_GEOMETRY_HULL;
+    out_geometry->asset = hull;
 }
 
 static inline void fe_geometry_heightfield(fe_geometry *out_geometry, fe_asset heightfield)

@@ -3,6 +3,8 @@
 // A form without kernels of its own needs a support function and faces only (support.h): whatever the table leaves
 // empty goes the general convex way (convex.c).
 #include "collision/manifold/collide.h"
+
+#include "collision/form/hull.h"
 #include "collision/manifold/kernels.h"
 
 #include <assert.h>
@@ -16,11 +18,13 @@ static fe__kernel *const kernels[FE__FORM_TYPES][FE__FORM_TYPES] = {
     [FE__FORM_BOX] = {[FE__FORM_SPHERE] = fe__collide_box_sphere,
                       [FE__FORM_CAPSULE] = fe__collide_box_capsule,
                       [FE__FORM_BOX] = fe__collide_box_box},
+    [FE__FORM_HULL] = {[FE__FORM_BOX] = fe__collide_hull_box, [FE__FORM_HULL] = fe__collide_hull_hull},
     [FE__FORM_PLANE] = {[FE__FORM_SPHERE] = fe__collide_plane_sphere,
                         [FE__FORM_CAPSULE] = fe__collide_plane_capsule,
                         [FE__FORM_BOX] = fe__collide_plane_box,
                         [FE__FORM_CYLINDER] = fe__collide_plane_curved,
-                        [FE__FORM_CONE] = fe__collide_plane_curved},
+                        [FE__FORM_CONE] = fe__collide_plane_curved,
+                        [FE__FORM_HULL] = fe__collide_plane_hull},
 };
 
 void fe__collide(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin, fe__manifold *manifold)
@@ -33,7 +37,11 @@ void fe__collide(const fe__form *a, const fe__form *b, const fe__relative *b_in_
     kernel(a, b, b_in_a, margin, manifold);
 }
 
-static float half_size(const fe__form *form) { return fe__maxf(fe__maxf(form->half.x, form->half.y), form->half.z); }
+static float half_size(const fe__form *form)
+{
+    if (fe__form_is_hull(form)) return form->hull->extent;
+    return fe__maxf(fe__maxf(form->half.x, form->half.y), form->half.z);
+}
 
 int32_t fe__collide_swaps(const fe__form *a, const fe__form *b)
 {
