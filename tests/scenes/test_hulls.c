@@ -242,6 +242,20 @@ static double overlap_along(const solid *a, const solid *b, vec n)
     return most - least;
 }
 
+// The least found around a direction: the normal of a manifold that moved a little since it was made
+static double overlap_around(const solid *a, const solid *b, vec n)
+{
+    uint64_t random = 1;
+    double least = overlap_along(a, b, n);
+    for (double size = 0.3; size > 1e-3; size *= 0.97) {
+        vec m = plus(n, times(size, cloud_direction(&random)));
+        m = times(1 / length(m), m);
+        double overlap = overlap_along(a, b, m);
+        if (overlap < least) least = overlap, n = m;
+    }
+    return least;
+}
+
 static int ascending(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
@@ -276,7 +290,7 @@ static void a_pile_of_rocks_rests(void **state)
             for (int j = 0; j < ROCKS; ++j) {
                 if (j == i || contacts[c].body_a != body[i] || contacts[c].body_b != body[j]) continue;
                 solid b = solid_of(&s, body[j]);
-                overlaps[count++] = overlap_along(&a, &b, from_world(&s, widen(contacts[c].normal)));
+                overlaps[count++] = overlap_around(&a, &b, from_world(&s, widen(contacts[c].normal)));
                 FE_TRUE(count < MOST);
             }
     }
@@ -352,7 +366,8 @@ static void a_heightfield_holds_hulls(void **state)
         body[i] = add_dynamic(&s, form, v3(1.2 * (i % 6) - 4, 1 + 0.2 * i, 1.2 * (i / 6) + 1), turned(v3(1, i, 2), i),
                               friction(0.6), WATER);
     run(&s, 400);
-    FE_NEAR(length(minus(position(&s, cube), v3(-3, -2.5, -3))), 0, LINEAR_SLOP);
+    vec middle = plus(position(&s, cube), axis_of(&s, cube, v3(3, 3, 3)));
+    FE_NEAR(length(minus(middle, v3(0, 0.5, 0))), 0, LINEAR_SLOP);
     for (int i = 0; i < ROCKS; ++i) {
         solid a = solid_of(&s, body[i]);
         double low = 1;
