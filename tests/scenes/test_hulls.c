@@ -534,7 +534,6 @@ int main(void)
         EVERY_WAY_UP(a_slope_holds_it_as_a_box),
         TEST(ten_stand_as_boxes_do),
         EVERY_WAY_UP(it_falls_from_its_edge_as_a_box),
-        WITH_4_SUBSTEPS(it_falls_from_its_edge_as_a_box),
         TEST(where_the_points_are_does_not_matter),
         TEST(an_arch_bears_itself),
         WITH_4_SUBSTEPS(an_arch_bears_itself),
