@@ -831,7 +831,7 @@ typedef enum fe_geometry_type {
     FE_GEOMETRY_CAPSULE = 2,      ///< half_height of the axis, along local Y, and radius
     FE_GEOMETRY_BOX = 3,          ///< half_extents
     FE_GEOMETRY_CYLINDER = 4,     ///< half_height along local Y, and radius: exact, no polygon
-    FE_GEOMETRY_CONE = 5,         ///< half_height along local Y, and radius of the base: exact; its tip is at +half_height
+    FE_GEOMETRY_CONE = 5,         ///< half_height along local Y, and radius of the base; its tip is at +half_height
     FE_GEOMETRY_HULL = 32,        ///< asset: a convex hull, see fe_hull_create
     FE_GEOMETRY_PLANE = 64,       ///< the half space normal . p <= distance; static bodies only
     FE_GEOMETRY_HEIGHTFIELD = 96, ///< asset: a grid of heights; static bodies only
@@ -1346,7 +1346,7 @@ typedef struct fe_hit {
                           ///< when that is zero
     float depth;          ///< started inside: length of the shortest way out, m; else 0
     int32_t part;         ///< of a shape made of parts, else -1
-    int32_t triangle;     ///< of a heightfield, else -1
+    int32_t triangle;     ///< of a heightfield, or the face of a hull, else -1
     float barycentric[2]; ///< weights of the triangle's second and third vertex at `point`; else 0, 0
     uint32_t flags;       ///< fe_hit_flags
     uint32_t reserved[5];
@@ -1469,7 +1469,7 @@ typedef struct fe_closest {
     uint64_t material;    ///< fe_material.user_id there
     fe_vec3 normal;       ///< unit, out of the body
     int32_t part;         ///< of a shape made of parts, else -1
-    int32_t triangle;     ///< of a heightfield, else -1
+    int32_t triangle;     ///< of a heightfield, or the face of a hull, else -1
     float barycentric[2]; ///< weights of the triangle's second and third vertex at `point`; else 0, 0
     uint32_t reserved[5];
 } fe_closest;
