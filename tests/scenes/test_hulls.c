@@ -183,6 +183,21 @@ static void where_the_points_are_does_not_matter(void **state)
     scene_end(&s);
 }
 
+// Far from the middle of a wide ground: a float of its coordinates is 6e-5 m coarse.
+static void a_wide_ground_bears_it_anywhere(void **state)
+{
+    for (int as_hull = 0; as_hull < 2; ++as_hull) {
+        scene s = scene_begin(state);
+        add_static(&s, block(&s, as_hull, 1000, 1, 1000), v3(0, -1, 0), UNTURNED, friction(0.6));
+        fe_body body = add_dynamic(&s, block(&s, 1, 0.5, 0.5, 0.5), v3(700, 0.5, -900), turned(v3(0, 1, 0), 0.4),
+                                   friction(0.6), WATER);
+        run(&s, 300);
+        FE_NEAR(length(minus(position(&s, body), v3(700, 0.5, -900))), 0, 1e-3);
+        FE_TRUE(length(velocity(&s, body)) < 1e-3 && length(spin(&s, body)) < 1e-3);
+        scene_end(&s);
+    }
+}
+
 // ---- arch ----------------------------------------------------------------------------------------------------------
 // Half a circle of 17 voussoirs between two abutments
 static void an_arch_bears_itself(void **state)
@@ -535,6 +550,7 @@ int main(void)
         TEST(ten_stand_as_boxes_do),
         EVERY_WAY_UP(it_falls_from_its_edge_as_a_box),
         TEST(where_the_points_are_does_not_matter),
+        TEST(a_wide_ground_bears_it_anywhere),
         TEST(an_arch_bears_itself),
         WITH_4_SUBSTEPS(an_arch_bears_itself),
         TEST(a_pile_of_rocks_rests),

@@ -230,35 +230,44 @@ static void touch(const hull_pair *q, float margin, fe__manifold *manifold)
         touch_face(q, axis.kind, axis.kind == FE__AXIS_OF_FACE_A ? axis.a : axis.b, margin, manifold);
 }
 
-static void touch_hulls(const fe__form *a, const fe__form *b, const fe__hull *hull_b, fe_vec3 offset_b,
-                        const fe__relative *b_in_a, float margin, fe__manifold *manifold)
+// A hull and where its frame is in the form's
+typedef struct placed_hull {
+    const fe__hull *hull;
+    fe_vec3 offset;
+} placed_hull;
+
+static void touch_hulls(const placed_hull *a, const placed_hull *b, const fe__relative *b_in_a, float margin,
+                        fe__manifold *manifold)
 {
-    assert(a->scale == 1.0f); // only casts shrink hulls
     const fe__mat3 *r = &b_in_a->rotation;
-    hull_pair q = {.a = a->hull, .b = hull_b};
+    hull_pair q = {.a = a->hull, .b = b->hull};
     q.b_in_a.rotation = *r;
-    q.b_in_a.position = fe__sub(fe__add(b_in_a->position, fe__mul(r, offset_b)), a->offset);
+    q.b_in_a.position = fe__sub(fe__add(b_in_a->position, fe__mul(r, b->offset)), a->offset);
     float smallest = fe__minf(q.a->inner_radius, q.b->inner_radius), largest = fe__maxf(q.a->extent, q.b->extent);
     q.tie = fe__tie(smallest);
     q.slack = 1e-4f * smallest + 1e-7f * largest;
     touch(&q, margin, manifold);
     for (int32_t i = 0; i < manifold->count; ++i)
         manifold->points[i].point = fe__add(manifold->points[i].point, a->offset);
+}
+
+static placed_hull place(const fe__form *form, fe__box_hull *room)
+{
+    if (fe__form_is_hull(form)) {
+        assert(form->scale == 1.0f); // only casts shrink hulls
+        return (placed_hull){form->hull, form->offset};
+    }
+    fe__box_as_hull(form, room);
+    return (placed_hull){&room->hull, {0.0f, 0.0f, 0.0f}};
+}
+
+void fe__collide_hulls(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin,
+                       fe__manifold *manifold)
+{
+    fe__box_hull room; // of one of the two: boxes have a kernel of their own
+    placed_hull first = place(a, &room), second = place(b, &room);
+    touch_hulls(&first, &second, b_in_a, margin, manifold);
     // no axis separates them by more than the margin, yet neither faces nor edges meet: a corner near a rim
     if (manifold->count == 0 && !(manifold->axis_separation > margin))
         fe__collide_convex(a, b, b_in_a, margin, manifold);
-}
-
-void fe__collide_hull_hull(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin,
-                           fe__manifold *manifold)
-{
-    touch_hulls(a, b, b->hull, b->offset, b_in_a, margin, manifold);
-}
-
-void fe__collide_hull_box(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin,
-                          fe__manifold *manifold)
-{
-    fe__box_hull box;
-    fe__box_as_hull(b, &box);
-    touch_hulls(a, b, &box.hull, fe__vec3(0.0f, 0.0f, 0.0f), b_in_a, margin, manifold);
 }
