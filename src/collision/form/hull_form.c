@@ -75,9 +75,23 @@ void fe__hull_polygon(const fe__hull *hull, int32_t face, fe_vec3 deepest, fe__f
     }
 }
 
+// Of the faces around the farthest vertex that which looks most along the direction: so that vertex is among those
+// given
+static int32_t face_there(const fe__hull *hull, fe_dvec3 direction)
+{
+    int32_t first = hull->spokes[fe__hull_support(hull, direction)], best = hull->edges[first].face;
+    double most = fe__ddot(direction, fe__widen(fe__hull_normal(hull, best)));
+    for (int32_t h = hull->edges[first ^ 1].next; h != first; h = hull->edges[h ^ 1].next) {
+        int32_t face = hull->edges[h].face;
+        double along = fe__ddot(direction, fe__widen(fe__hull_normal(hull, face)));
+        if (along > most || (along == most && face < best)) most = along, best = face;
+    }
+    return best;
+}
+
 void fe__hull_form_face(const fe__form *form, fe_vec3 direction, fe__face *face)
 {
-    fe__hull_polygon(form->hull, fe__hull_facing(form->hull, fe__widen(direction)), direction, face);
+    fe__hull_polygon(form->hull, face_there(form->hull, fe__widen(direction)), direction, face);
     for (int32_t i = 0; i < face->count; ++i)
         face->vertex[i] = fe__add_scaled(form->offset, form->scale, face->vertex[i]);
 }
