@@ -1,5 +1,5 @@
-// Points of two hulls, of a hull and a box, of a hull and a half space: the deepest is among them, they are as deep as
-// the overlap is, and keep their names.
+// Points of a hull and a hull, box, ball or capsule: the deepest is among them, they are as deep as the overlap is, and
+// their names differ.
 #include "collision/form/epa.h"
 #include "collision/form/hull_form.h"
 #include "collision/manifold/collide.h"
@@ -32,7 +32,8 @@ static double apart(const fe__form *a, const fe__form *b, const fe__relative *r)
         NULL};
     fe__gjk gjk;
     fe__gjk_distance(&cores, (double)INFINITY, &gjk);
-    return gjk.overlap ? -fe__epa_depth(&cores, &gjk).depth : gjk.distance;
+    double radii = (double)a->radius + (double)b->radius;
+    return (gjk.overlap ? -fe__epa_depth(&cores, &gjk).depth : gjk.distance) - radii;
 }
 
 static double deepest_of(const fe__manifold *m)
@@ -70,8 +71,10 @@ static void the_deepest_point_is_among_them(void **state)
         made_hull a = {0}, b = {0};
         if (make_rock(&random, &a) && make_rock(&random, &b)) {
             fe__form first = fe__hull_form(&a.hull, 0), second = fe__hull_form(&b.hull, 1),
-                     box = {.type = FE__FORM_BOX, .half = {0.3f, 0.6f, 0.9f}};
-            const fe__form *other = i % 3 ? &second : &box;
+                     box = {.type = FE__FORM_BOX, .half = {0.3f, 0.6f, 0.9f}},
+                     ball = {.type = FE__FORM_SPHERE, .radius = 0.4f},
+                     pill = {.type = FE__FORM_CAPSULE, .radius = 0.3f, .half_height = 0.5f};
+            const fe__form *others[] = {&second, &box, &ball, &pill, &second}, *other = others[i % 5];
             double wanted = 0.02 * cloud_unit(&random);
             fe__relative r = near_pose(&random, &first, other, wanted);
             double truth = apart(&first, other, &r);
@@ -93,8 +96,28 @@ static void the_deepest_point_is_among_them(void **state)
     FE_NEAR(missed, 0, 0);
 }
 
+static void a_face_has_the_farthest_vertex(void **state)
+{
+    (void)state;
+    uint64_t random = 5;
+    for (int32_t i = 0; i < PAIRS; ++i) {
+        made_hull a = {0};
+        if (make_rock(&random, &a)) {
+            fe__form form = fe__hull_form(&a.hull, 0);
+            fe_dvec3 direction = cloud_direction(&random), far = fe__form_support(&form, direction);
+            fe__face face;
+            fe__form_face(&form, fe__narrow(direction), &face);
+            double most = -INFINITY;
+            for (int32_t k = 0; k < face.count; ++k) most = fmax(most, fe__ddot(direction, fe__widen(face.vertex[k])));
+            FE_NEAR(most, fe__ddot(direction, far), 1e-6);
+        }
+        free_hull(&a);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_deepest_point_is_among_them)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_deepest_point_is_among_them),
+                                       cmocka_unit_test(a_face_has_the_farthest_vertex)};
     return cmocka_run_group_tests_name("hull manifolds", tests, NULL, NULL);
 }
