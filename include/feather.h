@@ -1424,8 +1424,8 @@ FE_API int32_t fe_world_sweep_many(const fe_world *world, const fe_geometry *geo
                                    uint32_t path_stride, int32_t count, const fe_query_filter *filter, int32_t spread,
                                    fe_hit *out_hits, uint32_t stride);
 
-/// The bodies that a sphere, capsule, box, cylinder or cone overlaps, in the order of creation: exactly those that a sweep from there
-/// would start inside of.
+/// The bodies that a sphere, capsule, box, cylinder or cone overlaps, in the order of creation: exactly those that a
+/// sweep from there would start inside of.
 /// @param geometry  as for fe_world_sweep; a sphere of radius 0 is a point
 /// @param at        pose of the geometry
 /// @return how many there are; when they are more than `capacity` those created first are written
