@@ -831,7 +831,8 @@ typedef enum fe_geometry_type {
     FE_GEOMETRY_CAPSULE = 2,      ///< half_height of the axis, along local Y, and radius
     FE_GEOMETRY_BOX = 3,          ///< half_extents
     FE_GEOMETRY_CYLINDER = 4,     ///< half_height along local Y, and radius: exact, no polygon
-    FE_GEOMETRY_CONE = 5,         ///< half_height along local Y, and radius of the base: exact; its tip is at +half_height
+    FE_GEOMETRY_CONE = 5,         ///< half_height along local Y, and radius of the base; its tip is at +half_height
+    FE_GEOMETRY_HULL = 32,        ///< asset: a convex hull, see fe_hull_create
     FE_GEOMETRY_PLANE = 64,       ///< the half space normal . p <= distance; static bodies only
     FE_GEOMETRY_HEIGHTFIELD = 96, ///< asset: a grid of heights; static bodies only
     FE_GEOMETRY_FORCE32 = 0x7fffffff
@@ -847,7 +848,7 @@ typedef struct fe_geometry {
     fe_vec3 normal;       ///< of a plane, any length but zero
     float distance;       ///< of a plane from the origin along its normal, m
     uint32_t reserved[5];
-    fe_asset asset; ///< of a heightfield
+    fe_asset asset; ///< of a hull, of a heightfield
     uint64_t reserved_end[2];
 } fe_geometry;
 
@@ -1345,7 +1346,7 @@ typedef struct fe_hit {
                           ///< when that is zero
     float depth;          ///< started inside: length of the shortest way out, m; else 0
     int32_t part;         ///< of a shape made of parts, else -1
-    int32_t triangle;     ///< of a heightfield, else -1
+    int32_t triangle;     ///< of a heightfield, or the face of a hull, else -1
     float barycentric[2]; ///< weights of the triangle's second and third vertex at `point`; else 0, 0
     uint32_t flags;       ///< fe_hit_flags
     uint32_t reserved[5];
@@ -1423,8 +1424,8 @@ FE_API int32_t fe_world_sweep_many(const fe_world *world, const fe_geometry *geo
                                    uint32_t path_stride, int32_t count, const fe_query_filter *filter, int32_t spread,
                                    fe_hit *out_hits, uint32_t stride);
 
-/// The bodies that a sphere, capsule, box, cylinder or cone overlaps, in the order of creation: exactly those that a sweep from there
-/// would start inside of.
+/// The bodies that a sphere, capsule, box, cylinder or cone overlaps, in the order of creation: exactly those that a
+/// sweep from there would start inside of.
 /// @param geometry  as for fe_world_sweep; a sphere of radius 0 is a point
 /// @param at        pose of the geometry
 /// @return how many there are; when they are more than `capacity` those created first are written
@@ -1468,7 +1469,7 @@ typedef struct fe_closest {
     uint64_t material;    ///< fe_material.user_id there
     fe_vec3 normal;       ///< unit, out of the body
     int32_t part;         ///< of a shape made of parts, else -1
-    int32_t triangle;     ///< of a heightfield, else -1
+    int32_t triangle;     ///< of a heightfield, or the face of a hull, else -1
     float barycentric[2]; ///< weights of the triangle's second and third vertex at `point`; else 0, 0
     uint32_t reserved[5];
 } fe_closest;
@@ -1687,6 +1688,14 @@ static inline void fe_geometry_plane(fe_geometry *out_geometry, float normal_x, 
     out_geometry->normal.y = normal_y;
     out_geometry->normal.z = normal_z;
     out_geometry->distance = distance;
+}
+
+/// The hull's points are in the shape's frame as they were given. Its asset lives as long as the shape does.
+static inline void fe_geometry_hull(fe_geometry *out_geometry, fe_asset hull)
+{
+    fe_geometry_init(out_geometry, (uint32_t)sizeof *out_geometry);
+    out_geometry->type = FE_GEOMETRY_HULL;
+    out_geometry->asset = hull;
 }
 
 static inline void fe_geometry_heightfield(fe_geometry *out_geometry, fe_asset heightfield)

@@ -1,6 +1,8 @@
 // shape.c - the API of shapes: geometry, material, filter, life.
 #include "api/check.h"
 
+#include "collision/form/hull_form.h"
+
 #include <inttypes.h>
 #include "core/fp_state.h"
 #include "world/handles.h"
@@ -61,6 +63,20 @@ static fe_result read_heightfield(const char *function, const fe_world *world, c
     return result;
 }
 
+static fe_result read_hull(const char *function, const fe_world *world, const fe_geometry *geometry, fe__form *out_form)
+{
+    int32_t index;
+    fe__store_lock(world->store);
+    fe_result result =
+        fe__find_asset_of(function, "geometry->asset", world->store, FE__ASSET_HULL, geometry->asset, &index);
+    if (result == FE_OK) {
+        fe__asset_retain(world->store, index);
+        *out_form = fe__hull_form(&fe__store_asset(world->store, index)->hull, index);
+    }
+    fe__store_unlock(world->store);
+    return result;
+}
+
 static void let_go_of_asset(const fe_world *world, const fe__form *form)
 {
     if (!fe__form_has_asset(form)) return;
@@ -105,6 +121,8 @@ static fe_result read_geometry(const char *function, const fe_world *world, cons
         FE_CHECK_LENGTH(geometry->half_extents.z);
         out_form->half = geometry->half_extents;
         return FE_OK;
+    case FE_GEOMETRY_HULL:
+        return read_hull(function, world, geometry, out_form);
     case FE_GEOMETRY_HEIGHTFIELD:
         return read_heightfield(function, world, geometry, out_form);
     default:

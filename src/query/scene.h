@@ -46,7 +46,7 @@ static inline void fe__scene_weights(const fe__scene *scene, const fe__shape *sh
                                      float *out_weights)
 {
     out_weights[0] = out_weights[1] = 0.0f;
-    if (triangle < 0) return;
+    if (triangle < 0 || !fe__form_is_field(&shape->form)) return;
     fe_dvec3 local = fe__drotate_back(shape->pose.rotation, fe__dsub(point, shape->pose.position));
     fe__heightfield_weights(fe__store_field(scene->store, shape->form.field), triangle, local, out_weights);
 }

@@ -100,7 +100,8 @@ void fe__shape_take_asset(fe_world *world, int32_t index)
     if (!use) use = add_use(world, asset);
     shape->next_user = use->first_user;
     use->first_user = index;
-    shape->form = fe__heightfield_form(fe__store_field(world->store, asset), asset);
+    if (fe__form_is_field(&shape->form))
+        shape->form = fe__heightfield_form(fe__store_field(world->store, asset), asset);
     fe__store_unlock(world->store);
 }
 

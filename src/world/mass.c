@@ -100,6 +100,12 @@ static fe_dvec3 centre_of(const fe__shape *shape, const fe__mass *mass)
     return fe__dadd(fe__widen(shape->local_position), fe__drotate(shape->local_rotation, fe__widen(mass->centre)));
 }
 
+// The shape's principal axes, body's frame
+static fe_quat axes_of(const fe__shape *shape, const fe__mass *mass)
+{
+    return mass->is_turned ? fe__unit_rotation(fe__product(shape->local_rotation, mass->axes)) : shape->local_rotation;
+}
+
 // Adds the inertia of a shape about the body's centre: R diag(I) R^T + m (d^2 1 - d d^T), d from the body's centre to
 // the shape's
 static void add_shape(fe__tensor *sum, const fe__shape *shape, const fe__mass *mass, fe_dvec3 centre)
@@ -108,8 +114,9 @@ static void add_shape(fe__tensor *sum, const fe__shape *shape, const fe__mass *m
     double offset[3] = {d.x, d.y, d.z}, square = fe__ddot(d, d),
            principal[3] = {(double)mass->inertia.x, (double)mass->inertia.y, (double)mass->inertia.z};
     double axis[3][3];
+    fe_quat axes = axes_of(shape, mass);
     for (int k = 0; k < 3; ++k) {
-        fe_dvec3 a = fe__drotate(shape->local_rotation, (fe_dvec3){k == 0, k == 1, k == 2});
+        fe_dvec3 a = fe__drotate(axes, (fe_dvec3){k == 0, k == 1, k == 2});
         axis[k][0] = a.x, axis[k][1] = a.y, axis[k][2] = a.z;
     }
     for (int i = 0; i < 3; ++i) {
@@ -159,7 +166,7 @@ static mass_properties from_shapes(const fe_world *world, const fe__body *body)
     if (total < LEAST_MASS) return weightless();
     if (heavy > 1) return combine(world, body, total, moment);
     fe__mass mass = shape_mass(only); // exactly the form's
-    return (mass_properties){mass.mass, fe__narrow(centre_of(only, &mass)), mass.inertia, only->local_rotation};
+    return (mass_properties){mass.mass, fe__narrow(centre_of(only, &mass)), mass.inertia, axes_of(only, &mass)};
 }
 
 // ---- the interface -------------------------------------------------------------------------------------------------

@@ -50,6 +50,7 @@ fe_geometry fuzz_geometry(fuzz *f)
                                     FE_GEOMETRY_SPHERE,     FE_GEOMETRY_CAPSULE, FE_GEOMETRY_BOX,
                                     FE_GEOMETRY_CYLINDER,   FE_GEOMETRY_CONE,    FE_GEOMETRY_CYLINDER,
                                     FE_GEOMETRY_PLANE,      FE_GEOMETRY_NONE,    6,
+                                    FE_GEOMETRY_HULL,       FE_GEOMETRY_HULL,    FE_GEOMETRY_HULL,
                                     FE_GEOMETRY_HEIGHTFIELD};
     g.type = types[fuzz_byte(f) % COUNT(types)];
     g.radius = fuzz_size(f);
@@ -57,6 +58,7 @@ fe_geometry fuzz_geometry(fuzz *f)
     g.half_extents.x = fuzz_size(f);
     g.half_extents.y = fuzz_size(f);
     g.half_extents.z = fuzz_size(f);
+    if (g.type == FE_GEOMETRY_HULL) g.asset = fuzz_asset(f);
     if (g.type == FE_GEOMETRY_PLANE) g.normal = fuzz_vec3(f), g.distance = fuzz_float(f);
     return g;
 }

@@ -47,7 +47,7 @@ typedef struct fuzz_span {
 } fuzz_span;
 
 _Noreturn void fuzz_fail(const fuzz *f, const char *what);
-void fuzz_check(fuzz *f); // all that can be read is a number
+void fuzz_check(fuzz *f);               // all that can be read is a number
 fe_result fuzz_step(fuzz *f, float dt); // fe_world_step, until memory lasts
 uint8_t fuzz_byte(fuzz *f);
 uint32_t fuzz_word(fuzz *f);
@@ -77,7 +77,8 @@ int32_t fuzz_overlap_shapes(fuzz *f);
 int32_t fuzz_overlap_bounds(fuzz *f);
 int32_t fuzz_read_overlaps(fuzz *f);
 // fuzz_terrain.c
-int32_t fuzz_create_field(fuzz *f);
+fe_asset fuzz_asset(fuzz *f);       // some asset, or what is none
+int32_t fuzz_create_field(fuzz *f); // or a hull
 int32_t fuzz_place_field(fuzz *f);
 int32_t fuzz_edit_field(fuzz *f);
 int32_t fuzz_destroy_asset(fuzz *f);

@@ -3,7 +3,7 @@
 
 enum { MOST_SAMPLES = 8, ASSETS = 8 };
 
-static fe_asset fuzz_asset(fuzz *f)
+fe_asset fuzz_asset(fuzz *f)
 {
     uint8_t kind = fuzz_byte(f);
     return kind < 6 ? fuzz_shape(f) : f->assets[kind % ASSETS];
@@ -12,6 +12,23 @@ static fe_asset fuzz_asset(fuzz *f)
 static fe_asset *next_asset(fuzz *f) { return f->assets + f->asset_count % ASSETS; }
 
 // mostly one that a game could have, under the bodies of fuzz_calls.c's create_whole
+// of points in a ball, or anywhere
+static fe_result create_hull(fuzz *f)
+{
+    enum { MOST = 24 };
+    float points[MOST][3];
+    uint8_t which = fuzz_byte(f);
+    for (int32_t i = 0; i < MOST; ++i)
+        for (int32_t k = 0; k < 3; ++k)
+            points[i][k] = which == 3 ? fuzz_float(f) : (which == 4 ? 1e4f : 0.0f) + 0.01f * (float)fuzz_byte(f);
+    fe_hull_def d;
+    fe_hull_def_init(&d, sizeof d);
+    d.points = points[0], d.point_count = 3 + which % (MOST - 2);
+    fe_result result = fe_hull_create(world_store(f->world), &d, next_asset(f));
+    if (result == FE_OK) ++f->asset_count;
+    return result;
+}
+
 int32_t fuzz_create_field(fuzz *f)
 {
     float heights[MOST_SAMPLES * MOST_SAMPLES];
@@ -38,6 +55,7 @@ int32_t fuzz_create_field(fuzz *f)
     if (which & 32) d->cell_materials = kinds, d->materials = materials, d->material_count = which == 33 ? 0 : 2;
     if (fe_asset_is_valid(world_store(f->world), *next_asset(f)))
         return fe_asset_destroy(world_store(f->world), *next_asset(f));
+    if (which & 64) return create_hull(f);
     fe_result result = fe_heightfield_create(world_store(f->world), d, next_asset(f));
     if (result == FE_OK) ++f->asset_count;
     return result;

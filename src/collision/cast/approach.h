@@ -1,9 +1,9 @@
 // approach.h - what the sweep's files share: two cores, one moving in the frame of the other.
 //
-// Every form but the plane, and what has a rim (approach_curved.c), is a core - a point, a segment along y, a box -
-// swelled by its radius. Of two forms the one whose core has more dimensions gives the frame, whichever of them moves:
-// so there are six kinds of pairs. A point is a box of no size, a segment one of only a height: what separates boxes
-// serves all.
+// Every form but the plane, hulls and what has a rim (approach_curved.c), is a core - a point, a segment along y, a box
+// - swelled by its radius. Of two forms the one whose core has more dimensions gives the frame, whichever of them
+// moves: so there are six kinds of pairs. A point is a box of no size, a segment one of only a height: what separates
+// boxes serves all.
 #ifndef FE_COLLISION_CAST_APPROACH_H
 #define FE_COLLISION_CAST_APPROACH_H
 #include "collision/cast/mover.h"
@@ -54,7 +54,8 @@ typedef struct fe__approach_hit {
 // Two boxes, or a box and a triangle, apart at the start. 1: they meet, and the stop is at t <= limit.
 int32_t fe__boxes_sweep(const fe__approach *a, double limit, fe__approach_hit *hit);
 
-// ---- with a rim (approach_curved.c) --------------------------------------------------------------------------------
+// ---- hulls, and what has a rim (approach_curved.c)
+// --------------------------------------------------------------------------------
 static inline int32_t fe__is_curved_pair(const fe__approach *a)
 {
     return a->frame_kind == FE_CORE_CURVED || a->other_kind == FE_CORE_CURVED;

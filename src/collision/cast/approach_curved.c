@@ -1,4 +1,5 @@
-// approach_curved.c - sweeps and overlaps of what has a rim, a cylinder or a cone, with anything that has a core.
+// approach_curved.c - sweeps and overlaps of what its support function alone describes, a cylinder, a cone or a hull,
+// with anything that has a core.
 //
 // Nearest points by GJK and depths by EPA, in the frame of the approach. As for the other forms the distance is a
 // convex function of the way, and its tangent never goes too far.

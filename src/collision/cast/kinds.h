@@ -23,6 +23,7 @@ int32_t fe__ray_capsule(const fe__form *form, const fe__scaled_ray *ray, fe__ray
 int32_t fe__ray_box(const fe__form *form, const fe__scaled_ray *ray, fe__ray_hit *hit);
 int32_t fe__ray_cylinder(const fe__form *form, const fe__scaled_ray *ray, fe__ray_hit *hit);
 int32_t fe__ray_cone(const fe__form *form, const fe__scaled_ray *ray, fe__ray_hit *hit);
+int32_t fe__ray_hull(const fe__form *form, const fe__scaled_ray *ray, fe__ray_hit *hit);
 int32_t fe__ray_plane(const fe__form *form, const fe__scaled_ray *ray, fe__ray_hit *hit);
 int32_t fe__ray_triangle(const fe__form *form, const fe__scaled_ray *ray, fe__ray_hit *hit);
 fe__nearest fe__nearest_on_sphere(const fe__form *form, fe_dvec3 point);
@@ -30,6 +31,7 @@ fe__nearest fe__nearest_on_capsule(const fe__form *form, fe_dvec3 point);
 fe__nearest fe__nearest_on_box(const fe__form *form, fe_dvec3 point);
 fe__nearest fe__nearest_on_cylinder(const fe__form *form, fe_dvec3 point);
 fe__nearest fe__nearest_on_cone(const fe__form *form, fe_dvec3 point);
+fe__nearest fe__nearest_on_hull(const fe__form *form, fe_dvec3 point);
 fe__nearest fe__nearest_on_plane(const fe__form *form, fe_dvec3 point);
 
 #endif

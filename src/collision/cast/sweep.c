@@ -74,7 +74,7 @@ static double plane_height(const fe__form *plane, const fe__mover *mover)
     double half[3], length = sqrt(fe__ddot(n, n)); // 1 up to the rounding of floats
     fe__core_half(mover->form, half);
     fe_dvec3 down = fe__dscale(-1.0, fe__turn_back(&mover->axes, n));
-    double e = fe__form_is_curved(mover->form)
+    double e = fe__core_kind_of(mover->form) == FE_CORE_CURVED
                    ? fe__ddot(down, fe__form_support(mover->form, down))
                    : half[0] * fe__absd(fe__ddot(n, mover->axes.x)) + half[1] * fe__absd(fe__ddot(n, mover->axes.y)) +
                          half[2] * fe__absd(fe__ddot(n, mover->axes.z));
@@ -170,7 +170,7 @@ static int32_t sweep_plane(const fe__form *plane, const fe__mover *mover, double
                                                     low.z > 0.0   ? -half[2]
                                                     : low.z < 0.0 ? half[2]
                                                                   : 0.0};
-    if (fe__form_is_curved(mover->form)) along = fe__form_support(mover->form, fe__dscale(-1.0, low));
+    if (fe__core_kind_of(mover->form) == FE_CORE_CURVED) along = fe__form_support(mover->form, fe__dscale(-1.0, low));
     fe_dvec3 p = fe__dadd(fe__dadd(mover->position, fe__dscale(hit->t, mover->translation)), fe__turn(m, along));
     double above = fe__ddot(unit, p) - (double)plane->distance / sqrt(fe__ddot(n, n));
     hit->point = fe__dsub(p, fe__dscale(above, unit));

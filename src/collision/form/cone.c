@@ -8,7 +8,9 @@ fe__mass fe__cone_mass(const fe__form *form, double density)
     double r = (double)form->half.x, h = (double)form->half.y, rr = r * r;
     double mass = density * (double)FE_PI * rr * (2.0 / 3.0) * h;
     float along = (float)(0.3 * mass * rr), across = (float)(0.15 * mass * (rr + h * h));
-    return (fe__mass){(float)mass, {across, along, across}, {0.0f, -0.5f * form->half.y, 0.0f}};
+    return (fe__mass){.mass = (float)mass,
+                      .inertia = {across, along, across},
+                      .centre = {0.0f, -0.5f * form->half.y, 0.0f}};
 }
 
 // The tip's coordinate and the base circle's span

@@ -22,6 +22,7 @@ typedef enum fe__form_type {
     FE__FORM_BOX,
     FE__FORM_CYLINDER,
     FE__FORM_CONE,
+    FE__FORM_HULL,
     FE__FORM_PLANE,
     FE__FORM_HEIGHTFIELD,
     FE__FORM_TRIANGLE,
@@ -33,6 +34,7 @@ typedef enum fe__form_type {
 // cylinder, cone: half, the half widths of the box around it: x and z are the radius of the rim, y half the height
 // along y. A cone's tip is at +half.y, its base at -half.y. They are cores of their own; their radius is 0. triangle:
 // vertices, turning left around the side that counts.  heightfield: its record's index, its bounds (heightfield.h).
+// hull: its record's index, where that is, and offset + scale x is the form's point for the hull's point x (hull.h).
 typedef struct fe__form {
     int32_t type; // fe__form_type
     float radius;
@@ -47,6 +49,12 @@ typedef struct fe__form {
         struct {
             int32_t field; // its asset in the store
             fe_vec3 low, high;
+        };
+        struct {
+            int32_t hull_field; // field
+            float scale;        // > 0
+            fe_vec3 offset;     // of the hull's frame in the form's, m
+            const struct fe__hull *hull;
         };
     };
 } fe__form;
@@ -64,12 +72,14 @@ static inline fe__pose fe__compose(const fe__pose *body, fe_vec3 position, fe_qu
                       fe__normalized(fe__product(body->rotation, rotation))};
 }
 
-// mass, kg, principal moments about the centre of mass, kg m2, along the form's own axes, and that centre in the form's
-// frame, m. A static form has none
+// mass, kg, principal moments about the centre of mass, kg m2, and that centre in the form's frame, m. `axes` turns the
+// principal axes into the form's where `is_turned`; else they are the same. A static form has none
 typedef struct fe__mass {
     float mass;
     fe_vec3 inertia;
     fe_vec3 centre;
+    int32_t is_turned;
+    fe_quat axes;
 } fe__mass;
 
 typedef struct fe__bounds {
@@ -84,8 +94,9 @@ typedef struct fe__form_traits {
     int32_t geometry;    // fe_geometry_type, -1: not public
     uint8_t static_only; // on static bodies alone, without mass
     uint8_t is_ball;     // no rotation changes it, and it touches at one point
-    uint8_t flat_faces;  // a polyhedron
+    uint8_t flat_faces;  // a polyhedron of its half widths, or a triangle
     uint8_t curved;      // a core with a rim: cylinder, cone
+    uint8_t is_hull;     // known by an asset's hull (hull.h)
     uint8_t unbounded;   // no box holds it, so that it is in no tree
     uint8_t is_field;    // a surface of triangles (heightfield.h), touched in patches
     uint8_t has_asset;   // shares what it is made of: fe__form.field
@@ -105,6 +116,7 @@ static inline int32_t fe__form_is_ball(const fe__form *form) { return fe__traits
 static inline int32_t fe__form_has_flat_faces(const fe__form *form) { return fe__traits_of(form)->flat_faces; }
 static inline int32_t fe__form_is_curved(const fe__form *form) { return fe__traits_of(form)->curved; }
 static inline int32_t fe__form_is_unbounded(const fe__form *form) { return fe__traits_of(form)->unbounded; }
+static inline int32_t fe__form_is_hull(const fe__form *form) { return fe__traits_of(form)->is_hull; }
 static inline int32_t fe__form_is_field(const fe__form *form) { return fe__traits_of(form)->is_field; }
 static inline int32_t fe__form_has_asset(const fe__form *form) { return fe__traits_of(form)->has_asset; }
 

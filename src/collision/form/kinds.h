@@ -36,6 +36,15 @@ fe__form fe__cone_shrunk(const fe__form *form, float by);
 fe_dvec3 fe__cone_support(const fe__form *form, fe_dvec3 direction);
 void fe__cone_face(const fe__form *form, fe_vec3 direction, fe__face *face);
 
+// hull_form.c
+fe__mass fe__hull_form_mass(const fe__form *form, double density);
+fe__bounds fe__hull_form_bounds(const fe__form *form, const fe__pose *pose);
+float fe__hull_form_reach(const fe__form *form, fe_vec3 centre);
+float fe__hull_form_thickness(const fe__form *form);
+fe__form fe__hull_form_shrunk(const fe__form *form, float by);
+fe_dvec3 fe__hull_form_support(const fe__form *form, fe_dvec3 direction);
+void fe__hull_form_face(const fe__form *form, fe_vec3 direction, fe__face *face);
+
 // rim.c
 fe_dvec3 fe__rim_support(float radius, double y, fe_dvec3 direction); // the rim's point farthest along it
 void fe__rim_face(float radius, float y, fe_vec3 direction, fe__face *face);

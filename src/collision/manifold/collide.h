@@ -4,8 +4,8 @@
 // arguments. All is float in the frame of form A: the caller subtracts the double positions first, so that the distance
 // from the world's origin never costs precision.
 //
-// Order: A's type is never below B's (plane > cone > cylinder > box > capsule > sphere); of two boxes A is the one with
-// the larger half extents, so that a wide ground keeps its small coordinates across the contact.
+// Order: A's type is never below B's (plane > hull > cone > cylinder > box > capsule > sphere), but of boxes and hulls
+// A is the one with the larger half extents, so that a wide ground keeps its small coordinates across the contact.
 #ifndef FE_COLLISION_MANIFOLD_COLLIDE_H
 #define FE_COLLISION_MANIFOLD_COLLIDE_H
 #include "collision/manifold/manifold.h"

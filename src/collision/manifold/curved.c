@@ -4,6 +4,7 @@
 // With other forms the general path (convex.c) finds the nearest or deepest points; EPA comes near a curved surface
 // only step by step, so its direction is compared with those that faces and sides have.
 #include "collision/form/gjk.h"
+#include "collision/form/hull.h"
 #include "collision/form/support.h"
 #include "collision/manifold/kernels.h"
 
@@ -90,6 +91,15 @@ static void place_crossing(const fe__cores *c, fe__touch *touch)
     touch->on_a = fe__narrow(on_a), touch->on_b = fe__narrow(on_b);
 }
 
+// Of the face that looks along the direction found, or against it, A's frame
+static fe_dvec3 hull_face_normal(const fe__cores *c, int32_t is_b, fe_dvec3 found)
+{
+    if (!is_b) return fe__hull_unit_normal(c->a->hull, fe__hull_facing(c->a->hull, found));
+    fe_dvec3 in_b = {-fe__ddot(c->axis_x, found), -fe__ddot(c->axis_y, found), -fe__ddot(c->axis_z, found)};
+    fe_dvec3 n = fe__hull_unit_normal(c->b->hull, fe__hull_facing(c->b->hull, in_b));
+    return fe__dadd(fe__dadd(fe__dscale(n.x, c->axis_x), fe__dscale(n.y, c->axis_y)), fe__dscale(n.z, c->axis_z));
+}
+
 void fe__sharpen(const fe__cores *cores, fe__touch *touch)
 {
     const fe__form *forms[2] = {cores->a, cores->b};
@@ -99,6 +109,10 @@ void fe__sharpen(const fe__cores *cores, fe__touch *touch)
     choice c = {cores, fe__widen(touch->normal), (double)(touch->separation - tie), touch};
     for (int32_t i = 0; i < 2; ++i) { // faces
         if (fe__form_is_curved(forms[i]) && takes(&c, axes[i][1])) return;
+        if (fe__form_is_hull(forms[i])) {
+            fe_dvec3 n = hull_face_normal(cores, i, c.found);
+            if (takes(&c, n)) return;
+        }
         for (int32_t k = 0; k < 3 && fe__form_has_flat_faces(forms[i]); ++k)
             if (takes(&c, axes[i][k])) return;
     }

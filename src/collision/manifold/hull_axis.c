@@ -1,26 +1,61 @@
-// hull_axis.c - see hull_axis.h.
+// hull_axis.c - see hull_axis.h. Four vertices, or four edges of A, are looked at side by side.
+#define FE_W 4
 #include "collision/manifold/hull_axis.h"
 
+#include "core/simd.h"
+
 #include <float.h>
+#include <string.h>
 
 // Sine of the angle below which two edges are parallel: their cross product is rounding, and a face says it better
 static const float parallel = 0.005f;
 
 // ---- faces ---------------------------------------------------------------------------------------------------------
+typedef struct lanes {
+    wide x, y, z;
+} lanes;
+
+static inline wide load(const float *from)
+{
+    wide to;
+    memcpy(&to, from, sizeof to);
+    return to;
+}
+static inline lanes lanes_at(const fe__hull_lanes *from, int32_t i)
+{
+    return (lanes){load(from->x + i), load(from->y + i), load(from->z + i)};
+}
+// as fe__dot
+static inline wide along(const lanes *a, fe_vec3 b) { return a->x * b.x + a->y * b.y + a->z * b.z; }
+
+// The vertex least far along a direction; of equals the lowest. Lanes past the last vertex repeat the first.
+static int32_t least_along(const fe__hull *hull, fe_vec3 direction, float *least)
+{
+    wide low = w_set(FLT_MAX);
+    wide_int at = {0, 0, 0, 0}, index = {0, 1, 2, 3};
+    for (int32_t v = 0; v < hull->vertex_count; v += FE_W) {
+        lanes p = lanes_at(&hull->vertices, v);
+        wide here = along(&p, direction);
+        wide_int lower = here < low;
+        low = w_min(here, low);
+        at = (index & lower) | (at & ~lower);
+        index += FE_W;
+    }
+    int32_t best = 0;
+    for (int32_t k = 1; k < FE_W; ++k)
+        if (low[k] < low[best] || (low[k] == low[best] && at[k] < at[best])) best = k;
+    *least = low[best];
+    return at[best];
+}
+
 // Of `own`, against the vertices of `other`, which stands at `position` with axes turned by `rotation`.
 static fe__hull_axis of_faces(const fe__hull *own, const fe__hull *other, fe_vec3 position, const fe__mat3 *rotation)
 {
     fe__hull_axis best = {.separation = -FLT_MAX};
     for (int32_t i = 0; i < own->face_count; ++i) {
-        fe_vec3 normal = fe__hull_normal(own, i), in_other = fe__mul_transposed(rotation, normal);
-        int32_t deepest = 0;
-        float least = FLT_MAX;
-        for (int32_t v = 0; v < other->vertex_count; ++v) {
-            float along = fe__dot(in_other, fe__hull_vertex(other, v));
-            if (along >= least) continue;
-            least = along;
-            deepest = v;
-        }
+        float least;
+        fe_vec3 normal = fe__hull_normal(own, i);
+        int32_t deepest = least_along(other, fe__mul_transposed(rotation, normal), &least);
         float separation = least + (fe__dot(normal, position) - own->distances[i]);
         if (separation > best.separation)
             best = (fe__hull_axis){.separation = separation, .normal = normal, .a = i, .b = deepest};
@@ -66,12 +101,29 @@ static arc moved(const arc *b, const fe__relative *b_in_a)
 }
 
 // Does the arc of A cross that of B turned inside out? Each arc's ends are on both sides of the other's plane, and the
-// arcs are on one half of the sphere. An edge's vector is normal to the plane of its arc.
-static int32_t arcs_cross(const arc *a, const arc *b)
+// arcs are on one half of the sphere. An edge's vector is normal to the plane of its arc. A bit for each edge of A from
+// i on.
+static uint32_t arcs_cross(const fe__hull *a, int32_t i, const arc *b)
 {
-    float bl = fe__dot(b->left, a->vector), br = fe__dot(b->right, a->vector), al = fe__dot(a->left, b->vector),
-          ar = fe__dot(a->right, b->vector);
-    return bl * br < 0.0f && al * ar < 0.0f && bl * ar < 0.0f;
+    lanes vector = lanes_at(&a->vectors, i), left = lanes_at(&a->left, i), right = lanes_at(&a->right, i);
+    const wide zero = {0.0f, 0.0f, 0.0f, 0.0f};
+    wide bl = along(&vector, b->left), br = along(&vector, b->right), al = along(&left, b->vector),
+         ar = along(&right, b->vector);
+    wide_int cross = (bl * br < zero) & (al * ar < zero) & (bl * ar < zero);
+    int32_t rest = a->edge_count - i;
+    return w_bits(cross) & (rest < FE_W ? (1u << rest) - 1u : 0xfu);
+}
+
+static void try_edges(const fe__hull *a, int32_t i, const arc *eb, int32_t j, fe__hull_axis *best)
+{
+    arc ea = arc_of(a, i);
+    fe_vec3 n = fe__cross(ea.vector, eb->vector);
+    float square = fe__dot(n, n), limit = parallel * parallel * fe__dot(ea.vector, ea.vector);
+    if (square <= limit * fe__dot(eb->vector, eb->vector)) return;
+    float k = 1.0f / sqrtf(square);
+    n = fe__scale(fe__dot(n, fe__add(ea.left, ea.right)) < 0.0f ? -k : k, n); // out of A
+    float separation = fe__dot(n, fe__sub(eb->tail, ea.tail));
+    if (separation > best->separation) *best = (fe__hull_axis){separation, n, FE__AXIS_OF_EDGES, i, j};
 }
 
 fe__hull_axis fe__hull_axis_of_edges(const fe__hull *a, const fe__hull *b, const fe__relative *b_in_a)
@@ -79,17 +131,9 @@ fe__hull_axis fe__hull_axis_of_edges(const fe__hull *a, const fe__hull *b, const
     fe__hull_axis best = {.separation = -FLT_MAX, .kind = FE__AXIS_OF_EDGES};
     for (int32_t j = 0; j < b->edge_count; ++j) {
         arc own = arc_of(b, j), eb = moved(&own, b_in_a);
-        for (int32_t i = 0; i < a->edge_count; ++i) {
-            arc ea = arc_of(a, i);
-            if (!arcs_cross(&ea, &eb)) continue;
-            fe_vec3 n = fe__cross(ea.vector, eb.vector);
-            float square = fe__dot(n, n), limit = parallel * parallel * fe__dot(ea.vector, ea.vector);
-            if (square <= limit * fe__dot(eb.vector, eb.vector)) continue;
-            float k = 1.0f / sqrtf(square);
-            n = fe__scale(fe__dot(n, fe__add(ea.left, ea.right)) < 0.0f ? -k : k, n); // out of A
-            float separation = fe__dot(n, fe__sub(eb.tail, ea.tail));
-            if (separation > best.separation) best = (fe__hull_axis){separation, n, FE__AXIS_OF_EDGES, i, j};
-        }
+        for (int32_t i = 0; i < a->edge_count; i += FE_W)
+            for (uint32_t left = arcs_cross(a, i, &eb); left != 0; left &= left - 1)
+                try_edges(a, i + __builtin_ctz(left), &eb, j, &best);
     }
     return best;
 }

@@ -24,6 +24,8 @@ fe__kernel fe__collide_plane_sphere;
 fe__kernel fe__collide_plane_capsule;
 fe__kernel fe__collide_plane_box;
 fe__kernel fe__collide_plane_curved;
+fe__kernel fe__collide_plane_hull;
+fe__kernel fe__collide_hulls; // a box is one too
 
 // Two answers whose depths differ by less than this are equally right, and the steadier one (more points, the same face
 // as before) is given: a tenth of the solver's slop of 5 mm, or 2 % of the smallest width of a small shape, m.

@@ -1,6 +1,8 @@
 // terrain.c - the triangles under a form, one by one; see terrain.h.
 #include "collision/manifold/terrain.h"
 
+#include "collision/form/hull_form.h"
+#include "collision/form/support.h"
 #include "collision/manifold/kernels.h"
 #include "collision/manifold/terrain_kernels.h"
 
@@ -20,8 +22,24 @@ static double sunk(const fe__terrain *t, const fe__form *b)
     return depth > 0.0 && depth <= (double)fe__form_reach(b, fe__vec3(0.0f, 0.0f, 0.0f)) ? depth : 0.0;
 }
 
+static fe__bounds bounds_around_hull(const fe__terrain *t, const fe__form *b, const fe__mat3 *r, double margin)
+{
+    const fe_dvec3 axes[3] = {{(double)r->x.x, (double)r->y.x, (double)r->z.x},
+                              {(double)r->x.y, (double)r->y.y, (double)r->z.y},
+                              {(double)r->x.z, (double)r->y.z, (double)r->z.z}};
+    double low[3], high[3];
+    for (int32_t k = 0; k < 3; ++k) {
+        fe_dvec3 back = fe__dscale(-1.0, axes[k]);
+        low[k] = -fe__ddot(back, fe__form_support(b, back)) - margin;
+        high[k] = fe__ddot(axes[k], fe__form_support(b, axes[k])) + margin;
+    }
+    return (fe__bounds){fe__dadd(t->origin, (fe_dvec3){low[0], low[1], low[2]}),
+                        fe__dadd(t->origin, (fe_dvec3){high[0], high[1], high[2]})};
+}
+
 static fe__bounds bounds_around(const fe__terrain *t, const fe__form *b, const fe__mat3 *r, float margin)
 {
+    if (fe__form_is_hull(b)) return bounds_around_hull(t, b, r, (double)margin);
     fe_vec3 half = b->half;
     half.y += b->half_height;
     float grow = b->radius + margin;
@@ -48,14 +66,14 @@ static int32_t is_beyond(const fe_vec3 v[3], fe_vec3 core, float reach)
 static void gather_all(fe__gathering *g, const fe__form *b, const fe__mat3 *rotation)
 {
     const fe__terrain *t = g->terrain;
-    fe_vec3 axis = fe__scale(b->half_height, rotation->y), ends[2] = {fe__neg(axis), axis};
+    fe_vec3 axis = fe__scale(fe__form_is_hull(b) ? 0.0f : b->half_height, rotation->y), ends[2] = {fe__neg(axis), axis};
     fe__bounds box = bounds_around(t, b, rotation, g->margin);
     double depth = sunk(t, b);
     box.high.y += depth;
     if (depth > 0.0) g->felt = FLT_MAX;
     const float rounding = 1.0001f;
     fe_vec3 core = {fe__absf(axis.x), fe__absf(axis.y), fe__absf(axis.z)};
-    int32_t is_box = fe__form_has_flat_faces(b), is_curved = fe__form_is_curved(b),
+    int32_t is_box = fe__form_has_flat_faces(b), is_curved = fe__form_is_curved(b) || fe__form_is_hull(b),
             culls = !is_box && !is_curved && !(depth > 0.0);
     fe__triangle_walk walk = fe__heightfield_walk(t->field, &box, t->origin);
     fe__form triangle;
@@ -80,8 +98,8 @@ static float gap_around(const fe__terrain *t, const fe__form *b, const fe__mat3 
     return fe__next_triangle(&walk, &triangle) < 0 ? wide : margin;
 }
 
-int32_t fe__collide_terrain(const fe__terrain *t, const fe__form *b, const fe__mat3 *rotation, float margin,
-                            fe__patch patches[FE__PATCHES], float *gap)
+static int32_t collide_centred(const fe__terrain *t, const fe__form *b, const fe__mat3 *rotation, float margin,
+                               fe__patch patches[FE__PATCHES], float *gap)
 {
     fe__gathering g;
     g.terrain = t, g.margin = margin, g.felt = FELT * fe__form_thickness(b), g.single = fe__form_is_ball(b),
@@ -97,4 +115,25 @@ int32_t fe__collide_terrain(const fe__terrain *t, const fe__form *b, const fe__m
         for (int32_t k = 0; k < raw->count; ++k) patches[i].points[k] = raw->points[k];
     }
     return g.count;
+}
+
+// A hull's own origin may be anywhere: what is felt of a surface is decided by its centre.
+int32_t fe__collide_terrain(const fe__terrain *t, const fe__form *b, const fe__mat3 *rotation, float margin,
+                            fe__patch patches[FE__PATCHES], float *gap)
+{
+    if (!fe__form_is_hull(b)) return collide_centred(t, b, rotation, margin, patches, gap);
+    fe_vec3 centre = fe__hull_form_centre(b), away = fe__mul(rotation, centre);
+    fe__form centred = *b;
+    centred.offset = fe__sub(b->offset, centre);
+    fe__terrain there = *t;
+    there.origin = fe__dadd(t->origin, fe__widen(away));
+    for (int32_t i = 0; i < t->neighbour_count; ++i) {
+        fe__neighbour *n = there.neighbours + i;
+        n->position = fe__dadd(n->position, fe__widen(fe__mul_transposed(&n->axes, away)));
+    }
+    int32_t count = collide_centred(&there, &centred, rotation, margin, patches, gap);
+    for (int32_t i = 0; i < count; ++i)
+        for (int32_t k = 0; k < patches[i].count; ++k)
+            patches[i].points[k].point = fe__add(patches[i].points[k].point, away);
+    return count;
 }

@@ -1,8 +1,8 @@
-// terrain_curved.c - a cylinder or a cone on a triangle of a heightfield.
+// terrain_curved.c - a cylinder, a cone or a hull on a triangle of a heightfield.
 //
-// Its disc, or the line on its side, over the triangle gives points along the triangle's normal. Near a convex side the
-// nearest or deepest points of both (GJK, EPA) give one along the line between them, or the disc's part over the side,
-// where the surface allows it.
+// Its disc, the line on its side, or the hull's face, over the triangle gives points along the triangle's normal. Near
+// a convex side the nearest or deepest points of both (GJK, EPA) give one along the line between them, or the disc's
+// part over the side, where the surface allows it.
 #include "collision/form/clip.h"
 #include "collision/form/epa.h"
 #include "collision/form/support.h"

@@ -1,0 +1,22 @@
+// hull.c - a ray on a form with a hull, and the point of one nearest to a point: those of the hull (form/hull.c,
+// nearest_hull.c), in the form's frame.
+#include "collision/cast/kinds.h"
+#include "collision/form/hull_form.h"
+
+int32_t fe__ray_hull(const fe__form *form, const fe__scaled_ray *r, fe__ray_hit *hit)
+{
+    double limit = r->per_s > 0.0 ? r->limit / r->per_s : r->limit;
+    fe_dvec3 way = fe__dscale(1.0 / (double)form->scale, r->direction);
+    if (!fe__hull_ray(form->hull, fe__in_hull(form, r->origin), way, limit, hit)) return 0;
+    hit->t *= r->per_s;
+    hit->depth *= (double)form->scale;
+    return 1;
+}
+
+fe__nearest fe__nearest_on_hull(const fe__form *form, fe_dvec3 point)
+{
+    fe__nearest n = fe__hull_nearest(form->hull, fe__in_hull(form, point));
+    n.distance *= (double)form->scale;
+    n.point = fe__from_hull(form, n.point);
+    return n;
+}

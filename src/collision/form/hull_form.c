@@ -1,0 +1,97 @@
+// hull_form.c - the hull as a form: where a scaled, shifted hull ends, and what it weighs. See hull_form.h.
+#include "collision/form/hull_form.h"
+
+#include "collision/form/kinds.h"
+
+fe__form fe__hull_form(const fe__hull *hull, int32_t index)
+{
+    return (fe__form){.type = FE__FORM_HULL, .hull_field = index, .scale = 1.0f, .offset = hull->origin, .hull = hull};
+}
+
+static fe_dvec3 wide_centre(const fe__form *form) { return fe__from_hull(form, form->hull->mass.centre); }
+fe_vec3 fe__hull_form_centre(const fe__form *form) { return fe__narrow(wide_centre(form)); }
+
+// mass grows with the cube of the scale, moments with the fifth power
+fe__mass fe__hull_form_mass(const fe__form *form, double density)
+{
+    const fe__hull_mass *m = &form->hull->mass;
+    double s = (double)form->scale, cube = density * s * s * s, fifth = cube * s * s;
+    return (fe__mass){.mass = (float)(cube * m->volume),
+                      .inertia = {(float)(fifth * (double)m->inertia.x), (float)(fifth * (double)m->inertia.y),
+                                  (float)(fifth * (double)m->inertia.z)},
+                      .centre = fe__hull_form_centre(form),
+                      .is_turned = 1,
+                      .axes = m->axes};
+}
+
+fe__bounds fe__hull_form_bounds(const fe__form *form, const fe__pose *pose)
+{
+    fe__pose at = {{0.0, 0.0, 0.0}, pose->rotation};
+    fe__bounds b = fe__hull_bounds(form->hull, &at);
+    double s = (double)form->scale;
+    fe_dvec3 origin = fe__dadd(pose->position, fe__drotate(pose->rotation, fe__widen(form->offset)));
+    return (fe__bounds){fe__dadd(origin, fe__dscale(s, b.low)), fe__dadd(origin, fe__dscale(s, b.high))};
+}
+
+float fe__hull_form_reach(const fe__form *form, fe_vec3 centre)
+{
+    return form->scale * fe__hull_reach(form->hull, fe__narrow(fe__in_hull(form, fe__widen(centre))));
+}
+
+float fe__hull_form_thickness(const fe__form *form) { return form->scale * form->hull->inner_radius; }
+
+// Each face comes nearer to the centre of mass by `by` at least: none is nearer to it than the inner radius.
+fe__form fe__hull_form_shrunk(const fe__form *form, float by)
+{
+    float keep = 1.0f - by / fe__hull_form_thickness(form);
+    fe_vec3 centre = fe__hull_form_centre(form);
+    fe__form thin = *form;
+    thin.scale = keep * form->scale;
+    thin.offset = fe__add_scaled(centre, keep, fe__sub(form->offset, centre));
+    return thin;
+}
+
+fe_dvec3 fe__hull_form_support(const fe__form *form, fe_dvec3 direction)
+{
+    return fe__from_hull(form, fe__widen(fe__hull_vertex(form->hull, fe__hull_support(form->hull, direction))));
+}
+
+void fe__hull_polygon(const fe__hull *hull, int32_t face, fe_vec3 deepest, fe__face *out)
+{
+    const fe__hull_face *f = hull->faces + face;
+    int32_t first = f->first, all = f->count, count = all < FE_FACE_VERTICES ? all : FE_FACE_VERTICES, low = 0;
+    for (int32_t i = 1; i < all; ++i)
+        if (fe__dot(deepest, fe__hull_vertex(hull, hull->corners[first + i])) >
+            fe__dot(deepest, fe__hull_vertex(hull, hull->corners[first + low])))
+            low = i;
+    out->count = count;
+    out->normal = fe__hull_normal(hull, face);
+    out->id = (uint32_t)face;
+    out->rim = 0.0f;
+    for (int32_t i = 0; i < count; ++i) {
+        int32_t begin = i * all / count, end = (i + 1) * all / count;
+        int32_t corner = low >= begin && low < end ? low : begin;
+        out->vertex[i] = fe__hull_vertex(hull, hull->corners[first + corner]);
+    }
+}
+
+// Of the faces around the farthest vertex that which looks most along the direction: so that vertex is among those
+// given
+static int32_t face_there(const fe__hull *hull, fe_dvec3 direction)
+{
+    int32_t first = hull->spokes[fe__hull_support(hull, direction)], best = hull->edges[first].face;
+    double most = fe__ddot(direction, fe__widen(fe__hull_normal(hull, best)));
+    for (int32_t h = hull->edges[first ^ 1].next; h != first; h = hull->edges[h ^ 1].next) {
+        int32_t face = hull->edges[h].face;
+        double along = fe__ddot(direction, fe__widen(fe__hull_normal(hull, face)));
+        if (along > most || (along == most && face < best)) most = along, best = face;
+    }
+    return best;
+}
+
+void fe__hull_form_face(const fe__form *form, fe_vec3 direction, fe__face *face)
+{
+    fe__hull_polygon(form->hull, face_there(form->hull, fe__widen(direction)), direction, face);
+    for (int32_t i = 0; i < face->count; ++i)
+        face->vertex[i] = fe__add_scaled(form->offset, form->scale, face->vertex[i]);
+}

@@ -1,0 +1,25 @@
+// hull_form.h - the form of a shape that has a hull.
+#ifndef FE_COLLISION_FORM_HULL_FORM_H
+#define FE_COLLISION_FORM_HULL_FORM_H
+#include "collision/form/hull.h"
+#include "collision/form/support.h"
+
+// `index`: of its asset
+fe__form fe__hull_form(const fe__hull *hull, int32_t index);
+fe_vec3 fe__hull_form_centre(const fe__form *form); // of mass, form's frame
+
+// In the hull's frame. Of a face with more corners than FE_FACE_VERTICES some are left out, never the farthest along
+// `deepest`.
+void fe__hull_polygon(const fe__hull *hull, int32_t face, fe_vec3 deepest, fe__face *out);
+
+// of a point of the form, in the hull's frame
+static inline fe_dvec3 fe__in_hull(const fe__form *form, fe_dvec3 point)
+{
+    return fe__dscale(1.0 / (double)form->scale, fe__dsub(point, fe__widen(form->offset)));
+}
+static inline fe_dvec3 fe__from_hull(const fe__form *form, fe_dvec3 point)
+{
+    return fe__dadd(fe__widen(form->offset), fe__dscale((double)form->scale, point));
+}
+
+#endif
