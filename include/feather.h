@@ -827,13 +827,14 @@ FE_API fe_result fe_body_get_bounds(const fe_world *world, fe_body body, fe_boun
 /// The kinds of forms, and the fields of fe_geometry that each reads.
 typedef enum fe_geometry_type {
     FE_GEOMETRY_NONE = 0,
-    FE_GEOMETRY_SPHERE = 1,       ///< radius
-    FE_GEOMETRY_CAPSULE = 2,      ///< half_height of the axis, along local Y, and radius
-    FE_GEOMETRY_BOX = 3,          ///< half_extents
-    FE_GEOMETRY_CYLINDER = 4,     ///< half_height along local Y, and radius: exact, no polygon
-    FE_GEOMETRY_CONE = 5,         ///< half_height along local Y, and radius of the base: exact; its tip is at +half_height
-    FE_GEOMETRY_PLANE = 64,       ///< the half space normal . p <= distance; static bodies only
+    FE_GEOMETRY_SPHERE = 1,   ///< radius
+    FE_GEOMETRY_CAPSULE = 2,  ///< half_height of the axis, along local Y, and radius
+    FE_GEOMETRY_BOX = 3,      ///< half_extents
+    FE_GEOMETRY_CYLINDER = 4, ///< half_height along local Y, and radius: exact, no polygon
+    FE_GEOMETRY_CONE = 5,     ///< half_height along local Y, and radius of the base: exact; its tip is at +half_height
+    FE_GEOMETRY_PLANE = 64,   ///< the half space normal . p <= distance; static bodies only
     FE_GEOMETRY_HEIGHTFIELD = 96, ///< asset: a grid of heights; static bodies only
+    FE_GEOMETRY_MESH = 97,        ///< asset: triangles; static and kinematic bodies only
     FE_GEOMETRY_FORCE32 = 0x7fffffff
 } fe_geometry_type;
 
@@ -847,7 +848,7 @@ typedef struct fe_geometry {
     fe_vec3 normal;       ///< of a plane, any length but zero
     float distance;       ///< of a plane from the origin along its normal, m
     uint32_t reserved[5];
-    fe_asset asset; ///< of a heightfield
+    fe_asset asset; ///< of a heightfield, a mesh
     uint64_t reserved_end[2];
 } fe_geometry;
 
@@ -1345,7 +1346,7 @@ typedef struct fe_hit {
                           ///< when that is zero
     float depth;          ///< started inside: length of the shortest way out, m; else 0
     int32_t part;         ///< of a shape made of parts, else -1
-    int32_t triangle;     ///< of a heightfield, else -1
+    int32_t triangle;     ///< of a heightfield or a mesh, else -1
     float barycentric[2]; ///< weights of the triangle's second and third vertex at `point`; else 0, 0
     uint32_t flags;       ///< fe_hit_flags
     uint32_t reserved[5];
@@ -1423,8 +1424,8 @@ FE_API int32_t fe_world_sweep_many(const fe_world *world, const fe_geometry *geo
                                    uint32_t path_stride, int32_t count, const fe_query_filter *filter, int32_t spread,
                                    fe_hit *out_hits, uint32_t stride);
 
-/// The bodies that a sphere, capsule, box, cylinder or cone overlaps, in the order of creation: exactly those that a sweep from there
-/// would start inside of.
+/// The bodies that a sphere, capsule, box, cylinder or cone overlaps, in the order of creation: exactly those that a
+/// sweep from there would start inside of.
 /// @param geometry  as for fe_world_sweep; a sphere of radius 0 is a point
 /// @param at        pose of the geometry
 /// @return how many there are; when they are more than `capacity` those created first are written
@@ -1443,7 +1444,7 @@ typedef struct fe_overlap {
     fe_vec3 direction; ///< unit, out of the shape: a translation of the geometry by `depth` along it parts the two
     float depth;       ///< m, >= 0
     int32_t part;      ///< of a shape made of parts, else -1
-    int32_t triangle;  ///< of a heightfield, where it is deepest, else -1
+    int32_t triangle;  ///< of a heightfield or a mesh, where it is deepest, else -1
     uint32_t reserved[4];
 } fe_overlap;
 
@@ -1468,7 +1469,7 @@ typedef struct fe_closest {
     uint64_t material;    ///< fe_material.user_id there
     fe_vec3 normal;       ///< unit, out of the body
     int32_t part;         ///< of a shape made of parts, else -1
-    int32_t triangle;     ///< of a heightfield, else -1
+    int32_t triangle;     ///< of a heightfield or a mesh, else -1
     float barycentric[2]; ///< weights of the triangle's second and third vertex at `point`; else 0, 0
     uint32_t reserved[5];
 } fe_closest;
@@ -1518,7 +1519,7 @@ typedef struct fe_pair_event {
     int32_t kind;                   ///< FE_EVENT_ENTER, FE_EVENT_STAY, FE_EVENT_EXIT
     int32_t is_trigger;             ///< 1 when either is a trigger
     int32_t part_a, part_b;         ///< of a shape made of parts, else -1
-    int32_t triangle_a, triangle_b; ///< of a heightfield, under the deepest point, else -1
+    int32_t triangle_a, triangle_b; ///< of a heightfield or a mesh, under the deepest point, else -1
     uint32_t reserved[4];
 } fe_pair_event;
 
@@ -1548,7 +1549,7 @@ typedef struct fe_hit_event {
     float speed;                     ///< of approach, m/s
     float impulse;                   ///< of the step, along the normal, N s
     int32_t part_a, part_b;          ///< of a shape made of parts, else -1
-    int32_t triangle_a, triangle_b;  ///< of a heightfield, else -1
+    int32_t triangle_a, triangle_b;  ///< of a heightfield or a mesh, else -1
     uint32_t reserved[5];
 } fe_hit_event;
 
@@ -1593,7 +1594,7 @@ typedef struct fe_contact {
     fe_vec3 friction_impulse;        ///< on B, of the last substep, N s
     float twist_impulse;             ///< on B, about the normal, N m s
     int32_t part_a, part_b;          ///< of a shape made of parts, else -1
-    int32_t triangle_a, triangle_b;  ///< of a heightfield, under the deepest point, else -1
+    int32_t triangle_a, triangle_b;  ///< of a heightfield or a mesh, under the deepest point, else -1
     uint32_t reserved[4];
 } fe_contact;
 
@@ -1694,6 +1695,13 @@ static inline void fe_geometry_heightfield(fe_geometry *out_geometry, fe_asset h
     fe_geometry_init(out_geometry, (uint32_t)sizeof *out_geometry);
     out_geometry->type = FE_GEOMETRY_HEIGHTFIELD;
     out_geometry->asset = heightfield;
+}
+
+static inline void fe_geometry_mesh(fe_geometry *out_geometry, fe_asset mesh)
+{
+    fe_geometry_init(out_geometry, (uint32_t)sizeof *out_geometry);
+    out_geometry->type = FE_GEOMETRY_MESH;
+    out_geometry->asset = mesh;
 }
 
 #ifndef SWIG

@@ -93,16 +93,30 @@ static void try_obstacle(search *s, const fe__shape *own, const fe__shape *obsta
     s->blocked |= !stands || may_close(s, own, other);
 }
 
+// How far a surface that turns moves past the body beside its own translation, m: the angle, twice its half's sine and
+// more, times the distance of the two centres at most.
+static double turning_past(const fe__motion *own, const fe__mobile *surface)
+{
+    fe_quat q = surface->motion.angular_displacement;
+    fe_dvec3 axis = {(double)q.x, (double)q.y, (double)q.z};
+    double sine = sqrt(fe__ddot(axis, axis));
+    if (!(sine > 0.0)) return 0.0;
+    fe_dvec3 apart = fe__dsub(own->centre, surface->motion.centre);
+    return (double)FE_PI * sine *
+           (sqrt(fe__ddot(apart, apart)) + sqrt(fe__ddot(own->translation, own->translation)) +
+            sqrt(fe__ddot(surface->motion.translation, surface->motion.translation)));
+}
+
 // The triangles under the leg that look at the body's centre: the other side does not count.
 static void try_field(search *s, const fe__shape *own, const fe__shape *obstacle, const fe__mobile *other)
 {
     const fe_world *w = s->step->world;
-    const fe__heightfield *field = fe__store_field(w->store, obstacle->form.field);
+    fe__ground surface = fe__store_ground(w->store, &obstacle->form);
     fe__pose pose = fe__mobile_at(other, 0.0);
     fe_dvec3 travel = fe__dsub(s->motion.translation, other->motion.translation);
     fe_dvec3 from = fe__drotate_back(pose.rotation, fe__dsub(s->motion.centre, pose.position));
     fe_dvec3 to = fe__dadd(from, fe__drotate_back(pose.rotation, travel));
-    double reach = (double)w->bodies[s->body].reach;
+    double reach = (double)w->bodies[s->body].reach + turning_past(&s->motion, other);
     fe_dvec3 low = {fe__mind(from.x, to.x) - reach, fe__mind(from.y, to.y) - reach, fe__mind(from.z, to.z) - reach};
     fe_dvec3 high = {fe__maxd(from.x, to.x) + reach, fe__maxd(from.y, to.y) + reach, fe__maxd(from.z, to.z) + reach};
     fe__bounds box = {low, high};
@@ -110,11 +124,13 @@ static void try_field(search *s, const fe__shape *own, const fe__shape *obstacle
     fe__mobile part = *other;
     part.form = &triangle;
     part.arm = fe__dadd(other->arm, fe__drotate(other->rotation, from));
-    fe__triangle_walk walk = fe__heightfield_walk(field, &box, from);
-    while (fe__next_triangle(&walk, &triangle) >= 0 && s->blocked <= 0) {
+    fe__ground_walk walk;
+    fe__ground_begin(&walk, &surface, &box, from);
+    while (fe__ground_next(&walk, &triangle) >= 0 && s->blocked <= 0) {
         const fe_vec3 *v = triangle.vertex;
         fe_vec3 up = fe__cross(fe__sub(v[1], v[0]), fe__sub(v[2], v[0]));
-        if (fe__dot(up, v[0]) < 0.0f) try_obstacle(s, own, obstacle, &part); // the centre is at the walk's origin
+        if (fe__dot(up, v[0]) < 0.0f || fe__ground_is_two_sided(&surface))
+            try_obstacle(s, own, obstacle, &part); // the centre is at the walk's origin
     }
 }
 
