@@ -11,6 +11,8 @@
 // A search for impacts goes on so much beyond the first one found, as a share of it: of two at once the one created
 // first counts.
 #define BEYOND 1e-9
+// More than the distance at which two forms count as touching, and than the roundings of a plane, m
+#define FAR 0.001
 
 // A leg of a body, as it is carried through the trees
 typedef struct search {
@@ -107,6 +109,14 @@ static double turning_past(const fe__motion *own, const fe__mobile *surface)
             sqrt(fe__ddot(surface->motion.translation, surface->motion.translation)));
 }
 
+// The triangle's plane, with its normal `up` of any length, through v in the frame of the body's centre: does the
+// centre stay farther than `reach` over it, on its way by `travel`? What is that far off is met by nothing of the body.
+static int32_t stays_off(fe_dvec3 up, fe_dvec3 v, fe_dvec3 travel, double reach)
+{
+    double length = sqrt(fe__ddot(up, up)), height = -fe__ddot(up, v), after = height + fe__ddot(up, travel);
+    return fe__mind(fe__absd(height), fe__absd(after)) > (reach + FAR) * length && height * after > 0.0;
+}
+
 // The triangles under the leg that look at the body's centre: the other side does not count.
 static void try_field(search *s, const fe__shape *own, const fe__shape *obstacle, const fe__mobile *other)
 {
@@ -120,6 +130,7 @@ static void try_field(search *s, const fe__shape *own, const fe__shape *obstacle
     fe_dvec3 low = {fe__mind(from.x, to.x) - reach, fe__mind(from.y, to.y) - reach, fe__mind(from.z, to.z) - reach};
     fe_dvec3 high = {fe__maxd(from.x, to.x) + reach, fe__maxd(from.y, to.y) + reach, fe__maxd(from.z, to.z) + reach};
     fe__bounds box = {low, high};
+    fe_dvec3 way = fe__dsub(to, from);
     fe__form triangle;
     fe__mobile part = *other;
     part.form = &triangle;
@@ -129,6 +140,7 @@ static void try_field(search *s, const fe__shape *own, const fe__shape *obstacle
     while (fe__ground_next(&walk, &triangle) >= 0 && s->blocked <= 0) {
         const fe_vec3 *v = triangle.vertex;
         fe_vec3 up = fe__cross(fe__sub(v[1], v[0]), fe__sub(v[2], v[0]));
+        if (s->blocked < 0 && stays_off(fe__widen(up), fe__widen(v[0]), way, reach)) continue;
         if (fe__dot(up, v[0]) < 0.0f || fe__ground_is_two_sided(&surface))
             try_obstacle(s, own, obstacle, &part); // the centre is at the walk's origin
     }

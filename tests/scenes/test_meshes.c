@@ -44,7 +44,7 @@ static double height_of(int kind) { return kind == SPHERE ? 0.5 : kind == CAPSUL
 typedef void make_ground(scene *s, fe_material m);
 static void plane_ground(scene *s, fe_material m) { add_ground(s, m); }
 static void one_mesh(scene *s, fe_material m) { add_mesh(s, 40, 1.0, -20.3, -20.4, 0.3, level, m); }
-static void fine_mesh(scene *s, fe_material m) { add_mesh(s, 140, 0.1, -7, -7, 0.3, level, m); }
+static void fine_mesh(scene *s, fe_material m) { add_mesh(s, 60, 0.2, -6, -6, 0.3, level, m); }
 static void two_meshes(scene *s, fe_material m)
 {
     add_mesh(s, 20, 1.0, -20, -10, 0.3, level, m);
@@ -127,7 +127,7 @@ static void fast_bodies_stay_above(void **state)
     fe_body bodies[RAIN];
     add_mesh(&s, 80, 0.5, -20, -20, 0.3, waves, friction(0.5));
     shower(&s, bodies, 158);
-    run(&s, 90);
+    run(&s, 60);
     for (int i = 0; i < RAIN; ++i) {
         vec p = position(&s, bodies[i]);
         if (fabs(p.x) < 19 && fabs(p.z) < 19) FE_TRUE(p.y > waves(p.x, p.z) - 0.05);
@@ -151,7 +151,7 @@ static void hash_of_shower(int32_t workers, int32_t simd, uint32_t words[2])
     fe_body bodies[RAIN];
     add_mesh(&s, 40, 1.0, -20, -20, 0.3, waves, friction(0.5));
     shower(&s, bodies, 20);
-    run(&s, 60);
+    run(&s, 30);
     MUST(fe_world_hash(s.world, words));
     scene_end(&s);
 }
