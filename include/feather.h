@@ -377,6 +377,9 @@ typedef enum fe_index_type {
 /// is convex and bends by more than `edge_angle`, and where they have no neighbour, more than one, or one of the
 /// opposite winding. Triangles without area are dropped, and so are those that repeat an earlier one. The others keep
 /// their numbers, which hits and contacts report.
+///
+/// A mesh is the form of static and kinematic bodies (fe_geometry_mesh). It has no inside: what is behind its triangles
+/// is not pushed out. Two-sided triangles push a body to the side its centre is on. Two meshes never touch each other.
 typedef struct fe_mesh_def {
     uint32_t struct_size;
     uint32_t flags;           ///< fe_mesh_flags. Default 0
@@ -1490,7 +1493,7 @@ FE_API int32_t fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_
 FE_API int32_t fe_body_raycast(const fe_world *world, fe_body body, const fe_dvec3 *origin, const fe_dvec3 *translation,
                                fe_hit *out_hit);
 /// The closest point of one shape, however far.
-/// @return 1; 0 from below a heightfield, and for one whose cells are all holes
+/// @return 1; 0 from below a heightfield, and for one whose cells are all holes. Of a mesh both sides count
 FE_API int32_t fe_shape_closest_point(const fe_world *world, fe_shape shape, const fe_dvec3 *point,
                                       fe_closest *out_closest);
 /// The closest point of one body, however far.

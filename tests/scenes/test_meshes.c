@@ -24,6 +24,39 @@ static void a_slab_rests_on_a_fine_mesh(void **state)
     scene_end(&s);
 }
 
+// A cube of 12 triangles, 2 m wide, about the origin
+static soup cube(void)
+{
+    static const uint32_t indices[36] = {0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
+                                         2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
+    soup m = {malloc(24 * sizeof(float)), malloc(sizeof indices), 8, 12};
+    memcpy(m.indices, indices, sizeof indices);
+    for (int i = 0; i < 8; ++i)
+        for (int k = 0; k < 3; ++k) m.vertices[3 * i + k] = i >> (2 - k) & 1 ? 1.0f : -1.0f;
+    return m;
+}
+
+// Its edges and corners carry: what hangs over them by less than half stays, at the height of its top; a second mesh
+// turned by 45 degrees carries a box across its edge.
+static void edges_and_corners_carry(void **state)
+{
+    scene s = scene_begin(state);
+    soup m = cube();
+    fe_asset asset = make_mesh(&s, &m, 0);
+    soup_free(&m);
+    place_mesh(&s, FE_BODY_STATIC, asset, v3(0, 0, 0), UNTURNED, friction(0.8));
+    place_mesh(&s, FE_BODY_STATIC, asset, v3(10, 0, 0), turned(v3(0, 0, 1), PI / 4), friction(0.8));
+    fe_body over_corner = add_dynamic(&s, box(0.5, 0.1, 0.5), v3(0.9, 1.12, 0.9), UNTURNED, friction(0.8), WATER),
+            over_edge = add_dynamic(&s, box(0.4, 0.1, 0.4), v3(-0.8, 1.12, -0.8), UNTURNED, friction(0.8), WATER),
+            across = add_dynamic(&s, box(0.5, 0.1, 0.5), v3(10, sqrt(2) + 0.11, 0), UNTURNED, friction(0.8), WATER);
+    run(&s, 30);
+    FE_NEAR(position(&s, across).y, sqrt(2) + 0.1, LINEAR_SLOP);
+    run(&s, 90);
+    FE_NEAR(position(&s, over_corner).y, 1.1, LINEAR_SLOP);
+    FE_NEAR(position(&s, over_edge).y, 1.1, LINEAR_SLOP);
+    scene_end(&s);
+}
+
 // ---- rides ---------------------------------------------------------------------------------------------------------
 
 enum { SPHERE, CAPSULE, BOX, CYLINDER, FORMS };
@@ -166,6 +199,41 @@ static void workers_and_lanes_change_nothing(void **state)
         hash_of_shower(1 + i % 3, sets[i], words);
         if (words[0]) assert_memory_equal(words, expected, sizeof expected);
     }
+}
+
+static int32_t allocations;
+static void *count_allocation(void *user, uint64_t size, uint64_t alignment)
+{
+    (void)user;
+    ++allocations;
+    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+}
+static void release(void *user, void *memory, uint64_t size)
+{
+    (void)user, (void)size;
+    free(memory);
+}
+
+static void steps_on_a_mesh_allocate_nothing(void **state)
+{
+    scene s = scene_begin(state);
+    MUST(fe_world_destroy(s.world));
+    fe_allocator allocator;
+    fe_allocator_init(&allocator, sizeof allocator);
+    allocator.allocate = count_allocation, allocator.release = release;
+    fe_world_def def;
+    fe_world_def_init(&def, sizeof def);
+    def.allocator = &allocator;
+    MUST(fe_world_create(&def, &s.world));
+    add_mesh(&s, 20, 0.5, -5, -5, 0.3, level, friction(0.5));
+    for (int i = 0; i < 9; ++i)
+        add_dynamic(&s, form_of(i % FORMS), v3(2.0 * (i % 3) - 2, 0.6, 2.0 * (i / 3) - 2), UNTURNED, friction(0.9),
+                    WATER);
+    run(&s, 240);
+    int32_t before = allocations;
+    run(&s, 60);
+    assert_int_equal(allocations, before);
+    scene_end(&s);
 }
 
 // ---- queries -------------------------------------------------------------------------------------------------------
@@ -360,12 +428,14 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         EVERY_WAY_UP(a_slab_rests_on_a_fine_mesh),
+        EVERY_WAY_UP(edges_and_corners_carry),
         TEST(a_flat_mesh_is_a_plane),
         TEST(a_fine_mesh_is_a_plane),
         TEST(two_meshes_side_by_side_are_one),
         TEST(a_mesh_goes_on_as_a_heightfield),
         TEST(fast_bodies_stay_above),
         TEST(workers_and_lanes_change_nothing),
+        TEST(steps_on_a_mesh_allocate_nothing),
         TEST(queries_see_every_triangle),
         TEST(two_sided_meshes_stop_rays_from_below),
         TEST(two_sided_meshes_hold_from_below),
