@@ -377,6 +377,9 @@ typedef enum fe_index_type {
 /// is convex and bends by more than `edge_angle`, and where they have no neighbour, more than one, or one of the
 /// opposite winding. Triangles without area are dropped, and so are those that repeat an earlier one. The others keep
 /// their numbers, which hits and contacts report.
+///
+/// A mesh is the form of static and kinematic bodies (fe_geometry_mesh). It has no inside: what is behind its triangles
+/// is not pushed out. Two-sided triangles push a body to the side its centre is on. Two meshes never touch each other.
 typedef struct fe_mesh_def {
     uint32_t struct_size;
     uint32_t flags;           ///< fe_mesh_flags. Default 0
@@ -835,6 +838,7 @@ typedef enum fe_geometry_type {
     FE_GEOMETRY_HULL = 32,        ///< asset: a convex hull, see fe_hull_create
     FE_GEOMETRY_PLANE = 64,       ///< the half space normal . p <= distance; static bodies only
     FE_GEOMETRY_HEIGHTFIELD = 96, ///< asset: a grid of heights; static bodies only
+    FE_GEOMETRY_MESH = 97,        ///< asset: triangles; static and kinematic bodies only
     FE_GEOMETRY_FORCE32 = 0x7fffffff
 } fe_geometry_type;
 
@@ -848,7 +852,7 @@ typedef struct fe_geometry {
     fe_vec3 normal;       ///< of a plane, any length but zero
     float distance;       ///< of a plane from the origin along its normal, m
     uint32_t reserved[5];
-    fe_asset asset; ///< of a hull, of a heightfield
+    fe_asset asset; ///< of a hull, a heightfield, a mesh
     uint64_t reserved_end[2];
 } fe_geometry;
 
@@ -1346,7 +1350,7 @@ typedef struct fe_hit {
                           ///< when that is zero
     float depth;          ///< started inside: length of the shortest way out, m; else 0
     int32_t part;         ///< of a shape made of parts, else -1
-    int32_t triangle;     ///< of a heightfield, or the face of a hull, else -1
+    int32_t triangle;     ///< of a heightfield or a mesh, or the face of a hull, else -1
     float barycentric[2]; ///< weights of the triangle's second and third vertex at `point`; else 0, 0
     uint32_t flags;       ///< fe_hit_flags
     uint32_t reserved[5];
@@ -1444,7 +1448,7 @@ typedef struct fe_overlap {
     fe_vec3 direction; ///< unit, out of the shape: a translation of the geometry by `depth` along it parts the two
     float depth;       ///< m, >= 0
     int32_t part;      ///< of a shape made of parts, else -1
-    int32_t triangle;  ///< of a heightfield, where it is deepest, else -1
+    int32_t triangle;  ///< of a heightfield or a mesh, where it is deepest, else -1
     uint32_t reserved[4];
 } fe_overlap;
 
@@ -1469,7 +1473,7 @@ typedef struct fe_closest {
     uint64_t material;    ///< fe_material.user_id there
     fe_vec3 normal;       ///< unit, out of the body
     int32_t part;         ///< of a shape made of parts, else -1
-    int32_t triangle;     ///< of a heightfield, or the face of a hull, else -1
+    int32_t triangle;     ///< of a heightfield or a mesh, or the face of a hull, else -1
     float barycentric[2]; ///< weights of the triangle's second and third vertex at `point`; else 0, 0
     uint32_t reserved[5];
 } fe_closest;
@@ -1490,7 +1494,7 @@ FE_API int32_t fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_
 FE_API int32_t fe_body_raycast(const fe_world *world, fe_body body, const fe_dvec3 *origin, const fe_dvec3 *translation,
                                fe_hit *out_hit);
 /// The closest point of one shape, however far.
-/// @return 1; 0 from below a heightfield, and for one whose cells are all holes
+/// @return 1; 0 from below a heightfield, and for one whose cells are all holes. Of a mesh both sides count
 FE_API int32_t fe_shape_closest_point(const fe_world *world, fe_shape shape, const fe_dvec3 *point,
                                       fe_closest *out_closest);
 /// The closest point of one body, however far.
@@ -1519,7 +1523,7 @@ typedef struct fe_pair_event {
     int32_t kind;                   ///< FE_EVENT_ENTER, FE_EVENT_STAY, FE_EVENT_EXIT
     int32_t is_trigger;             ///< 1 when either is a trigger
     int32_t part_a, part_b;         ///< of a shape made of parts, else -1
-    int32_t triangle_a, triangle_b; ///< of a heightfield, under the deepest point, else -1
+    int32_t triangle_a, triangle_b; ///< of a heightfield or a mesh, under the deepest point, else -1
     uint32_t reserved[4];
 } fe_pair_event;
 
@@ -1549,7 +1553,7 @@ typedef struct fe_hit_event {
     float speed;                     ///< of approach, m/s
     float impulse;                   ///< of the step, along the normal, N s
     int32_t part_a, part_b;          ///< of a shape made of parts, else -1
-    int32_t triangle_a, triangle_b;  ///< of a heightfield, else -1
+    int32_t triangle_a, triangle_b;  ///< of a heightfield or a mesh, else -1
     uint32_t reserved[5];
 } fe_hit_event;
 
@@ -1594,7 +1598,7 @@ typedef struct fe_contact {
     fe_vec3 friction_impulse;        ///< on B, of the last substep, N s
     float twist_impulse;             ///< on B, about the normal, N m s
     int32_t part_a, part_b;          ///< of a shape made of parts, else -1
-    int32_t triangle_a, triangle_b;  ///< of a heightfield, under the deepest point, else -1
+    int32_t triangle_a, triangle_b;  ///< of a heightfield or a mesh, under the deepest point, else -1
     uint32_t reserved[4];
 } fe_contact;
 
@@ -1703,6 +1707,13 @@ static inline void fe_geometry_heightfield(fe_geometry *out_geometry, fe_asset h
     fe_geometry_init(out_geometry, (uint32_t)sizeof *out_geometry);
     out_geometry->type = FE_GEOMETRY_HEIGHTFIELD;
     out_geometry->asset = heightfield;
+}
+
+static inline void fe_geometry_mesh(fe_geometry *out_geometry, fe_asset mesh)
+{
+    fe_geometry_init(out_geometry, (uint32_t)sizeof *out_geometry);
+    out_geometry->type = FE_GEOMETRY_MESH;
+    out_geometry->asset = mesh;
 }
 
 #ifndef SWIG

@@ -147,13 +147,15 @@ int32_t fe_body_is_valid(const fe_world *world, fe_body body)
 
 // ---- type and pose -------------------------------------------------------------------------------------------------
 
-// has a form that only static bodies may have
-static int32_t must_be_static(const fe_world *world, int32_t body)
+// Every form of the body may be on one of that type; else *out_form is the first that may not.
+static int32_t may_be(const fe_world *world, int32_t body, int32_t type, const fe__form **out_form)
 {
     for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next) {
-        if (fe__form_is_static_only(&world->shapes[shape].form)) return 1;
+        const fe__form *form = *out_form = &world->shapes[shape].form;
+        if (type == FE_BODY_STATIC || !fe__form_is_static_only(form)) continue;
+        if (type == FE_BODY_DYNAMIC || !fe__form_is_carried(form)) return 0;
     }
-    return 0;
+    return 1;
 }
 
 fe_result fe_body_set_type(fe_world *world, fe_body body, int32_t type)
@@ -161,9 +163,10 @@ fe_result fe_body_set_type(fe_world *world, fe_body body, int32_t type)
     FE_WRITE_ALONE(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_INT(type, FE_BODY_STATIC, FE_BODY_DYNAMIC);
-    if (type != FE_BODY_STATIC && must_be_static(world, index)) {
-        return fe__fail(function, FE_ERROR_UNSUPPORTED,
-                        "body 0x%llx has a plane or a heightfield, so that it must be static", body);
+    const fe__form *form;
+    if (!may_be(world, index, type, &form)) {
+        return fe__fail(function, FE_ERROR_UNSUPPORTED, "body 0x%llx has a %s, so that it must be static%s", body,
+                        fe__traits_of(form)->name, fe__form_is_carried(form) ? " or kinematic" : "");
     }
     fe__fp_state fp = fe__fp_enter();
     fe_result result = fe__body_set_type(world, index, type);

@@ -245,7 +245,7 @@ static fe_result set_materials(const char *function, fe_store *store, fe_asset m
         const char *why = entered == FE_ERROR_STEPPING ? "is in a step" : "has another thread inside";
         return fe__fail(function, entered, "a world that uses mesh 0x%llx %s; nothing was changed", mesh, why);
     }
-    fe__mesh_write_materials(a, materials, stride);
+    fe__mesh_edit_materials(store, index, materials, stride);
     fe__asset_leave_worlds(store, index);
     return FE_OK;
 }

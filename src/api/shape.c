@@ -48,30 +48,15 @@ static fe_result read_plane(const char *function, const fe_geometry *geometry, f
     return FE_OK;
 }
 
-static fe_result read_heightfield(const char *function, const fe_world *world, const fe_geometry *geometry,
-                                  fe__form *out_form)
+static fe_result read_shared(const char *function, const fe_world *world, const fe_geometry *geometry,
+                             fe__asset_kind kind, fe__form *out_form)
 {
     int32_t index;
     fe__store_lock(world->store);
-    fe_result result =
-        fe__find_asset_of(function, "geometry->asset", world->store, FE__ASSET_HEIGHTFIELD, geometry->asset, &index);
+    fe_result result = fe__find_asset_of(function, "geometry->asset", world->store, kind, geometry->asset, &index);
     if (result == FE_OK) {
         fe__asset_retain(world->store, index);
-        *out_form = fe__heightfield_form(fe__store_field(world->store, index), index);
-    }
-    fe__store_unlock(world->store);
-    return result;
-}
-
-static fe_result read_hull(const char *function, const fe_world *world, const fe_geometry *geometry, fe__form *out_form)
-{
-    int32_t index;
-    fe__store_lock(world->store);
-    fe_result result =
-        fe__find_asset_of(function, "geometry->asset", world->store, FE__ASSET_HULL, geometry->asset, &index);
-    if (result == FE_OK) {
-        fe__asset_retain(world->store, index);
-        *out_form = fe__hull_form(&fe__store_asset(world->store, index)->hull, index);
+        *out_form = fe__asset_form(world->store, index);
     }
     fe__store_unlock(world->store);
     return result;
@@ -122,18 +107,27 @@ static fe_result read_geometry(const char *function, const fe_world *world, cons
         out_form->half = geometry->half_extents;
         return FE_OK;
     case FE_GEOMETRY_HULL:
-        return read_hull(function, world, geometry, out_form);
+        return read_shared(function, world, geometry, FE__ASSET_HULL, out_form);
     case FE_GEOMETRY_HEIGHTFIELD:
-        return read_heightfield(function, world, geometry, out_form);
+        return read_shared(function, world, geometry, FE__ASSET_HEIGHTFIELD, out_form);
+    case FE_GEOMETRY_MESH:
+        return read_shared(function, world, geometry, FE__ASSET_MESH, out_form);
     default:
         return read_plane(function, geometry, out_form);
     }
 }
 
-// planes and heightfields are static only
+// Planes and heightfields are static only; meshes are carried by kinematic bodies too.
 static fe_result check_owner(const char *function, const fe_world *world, int32_t body, const fe__form *form)
 {
-    if (!fe__form_is_static_only(form) || world->bodies[body].type == FE_BODY_STATIC) return FE_OK;
+    int32_t type = world->bodies[body].type;
+    if (!fe__form_is_static_only(form) || type == FE_BODY_STATIC) return FE_OK;
+    if (fe__form_is_carried(form)) {
+        if (type == FE_BODY_KINEMATIC) return FE_OK;
+        return fe__fail(function, FE_ERROR_UNSUPPORTED,
+                        "body 0x%llx is dynamic, a %s needs a static or kinematic one; give it convex shapes instead",
+                        fe__body_handle(world, body), fe__traits_of(form)->name);
+    }
     return fe__fail(function, FE_ERROR_UNSUPPORTED, "body 0x%llx is not static, a %s needs a static one",
                     fe__body_handle(world, body), fe__traits_of(form)->name);
 }

@@ -11,6 +11,8 @@
 // A search for impacts goes on so much beyond the first one found, as a share of it: of two at once the one created
 // first counts.
 #define BEYOND 1e-9
+// More than the distance at which two forms count as touching, and than the roundings of a plane, m
+#define FAR 0.001
 
 // A leg of a body, as it is carried through the trees
 typedef struct search {
@@ -93,28 +95,54 @@ static void try_obstacle(search *s, const fe__shape *own, const fe__shape *obsta
     s->blocked |= !stands || may_close(s, own, other);
 }
 
+// How far a surface that turns moves past the body beside its own translation, m: the angle, twice its half's sine and
+// more, times the distance of the two centres at most.
+static double turning_past(const fe__motion *own, const fe__mobile *surface)
+{
+    fe_quat q = surface->motion.angular_displacement;
+    fe_dvec3 axis = {(double)q.x, (double)q.y, (double)q.z};
+    double sine = sqrt(fe__ddot(axis, axis));
+    if (!(sine > 0.0)) return 0.0;
+    fe_dvec3 apart = fe__dsub(own->centre, surface->motion.centre);
+    return (double)FE_PI * sine *
+           (sqrt(fe__ddot(apart, apart)) + sqrt(fe__ddot(own->translation, own->translation)) +
+            sqrt(fe__ddot(surface->motion.translation, surface->motion.translation)));
+}
+
+// The triangle's plane, with its normal `up` of any length, through v in the frame of the body's centre: does the
+// centre stay farther than `reach` over it, on its way by `travel`? What is that far off is met by nothing of the body.
+static int32_t stays_off(fe_dvec3 up, fe_dvec3 v, fe_dvec3 travel, double reach)
+{
+    double length = sqrt(fe__ddot(up, up)), height = -fe__ddot(up, v), after = height + fe__ddot(up, travel);
+    return fe__mind(fe__absd(height), fe__absd(after)) > (reach + FAR) * length && height * after > 0.0;
+}
+
 // The triangles under the leg that look at the body's centre: the other side does not count.
 static void try_field(search *s, const fe__shape *own, const fe__shape *obstacle, const fe__mobile *other)
 {
     const fe_world *w = s->step->world;
-    const fe__heightfield *field = fe__store_field(w->store, obstacle->form.field);
+    fe__ground surface = fe__store_ground(w->store, &obstacle->form);
     fe__pose pose = fe__mobile_at(other, 0.0);
     fe_dvec3 travel = fe__dsub(s->motion.translation, other->motion.translation);
     fe_dvec3 from = fe__drotate_back(pose.rotation, fe__dsub(s->motion.centre, pose.position));
     fe_dvec3 to = fe__dadd(from, fe__drotate_back(pose.rotation, travel));
-    double reach = (double)w->bodies[s->body].reach;
+    double reach = (double)w->bodies[s->body].reach + turning_past(&s->motion, other);
     fe_dvec3 low = {fe__mind(from.x, to.x) - reach, fe__mind(from.y, to.y) - reach, fe__mind(from.z, to.z) - reach};
     fe_dvec3 high = {fe__maxd(from.x, to.x) + reach, fe__maxd(from.y, to.y) + reach, fe__maxd(from.z, to.z) + reach};
     fe__bounds box = {low, high};
+    fe_dvec3 way = fe__dsub(to, from);
     fe__form triangle;
     fe__mobile part = *other;
     part.form = &triangle;
     part.arm = fe__dadd(other->arm, fe__drotate(other->rotation, from));
-    fe__triangle_walk walk = fe__heightfield_walk(field, &box, from);
-    while (fe__next_triangle(&walk, &triangle) >= 0 && s->blocked <= 0) {
+    fe__ground_walk walk;
+    fe__ground_begin(&walk, &surface, &box, from);
+    while (fe__ground_next(&walk, &triangle) >= 0 && s->blocked <= 0) {
         const fe_vec3 *v = triangle.vertex;
         fe_vec3 up = fe__cross(fe__sub(v[1], v[0]), fe__sub(v[2], v[0]));
-        if (fe__dot(up, v[0]) < 0.0f) try_obstacle(s, own, obstacle, &part); // the centre is at the walk's origin
+        if (s->blocked < 0 && stays_off(fe__widen(up), fe__widen(v[0]), way, reach)) continue;
+        if (fe__dot(up, v[0]) < 0.0f || fe__ground_is_two_sided(&surface))
+            try_obstacle(s, own, obstacle, &part); // the centre is at the walk's origin
     }
 }
 

@@ -5,6 +5,7 @@
 // then its shape created first. So neither the form of the trees nor the order of the tests shows in the answer.
 #include "query/cast.h"
 
+#include "collision/cast/mesh_ray.h"
 #include "collision/cast/ray.h"
 #include "collision/cast/sweep.h"
 #include "query/keep.h"
@@ -62,8 +63,10 @@ static inline int32_t meet_ray(const fe__scene *scene, const fe__probe *probe, c
         set(&origin, &turned);
         set(&way, &turned_way);
     }
-    if (fe__form_is_field(&shape->form))
-        return fe__heightfield_ray(fe__store_field(scene->store, shape->form.field), origin, way, limit, &f->hit);
+    if (fe__form_is_field(&shape->form)) {
+        fe__ground surface = fe__store_ground(scene->store, &shape->form);
+        return fe__ground_ray(&surface, origin, way, limit, &f->hit);
+    }
     return fe__form_ray_at(&shape->form, &origin, &way, limit, &f->hit);
 }
 
@@ -81,10 +84,13 @@ static int32_t meet_form(const fe__scene *scene, const fe__probe *probe, const f
     fe__axes m = fe__axes_of(shape->pose.rotation);
     fe__mover mover = mover_of(probe, shape, &m);
     fe__sweep_hit hit;
-    int32_t is_field = fe__form_is_field(&shape->form);
-    int32_t met = is_field
-                      ? fe__heightfield_sweep(fe__store_field(scene->store, shape->form.field), &mover, limit, &hit)
-                      : fe__form_sweep(&shape->form, &mover, limit, &hit);
+    int32_t met;
+    if (fe__form_is_field(&shape->form)) {
+        fe__ground surface = fe__store_ground(scene->store, &shape->form);
+        met = fe__ground_sweep(&surface, &mover, limit, &hit);
+    } else {
+        met = fe__form_sweep(&shape->form, &mover, limit, &hit);
+    }
     if (!met) return 0;
     *f = (found){{hit.t, hit.normal, hit.depth, hit.inside, hit.triangle}, hit.point};
     return 1;
@@ -100,8 +106,10 @@ int32_t fe__probe_overlaps(const fe__scene *scene, const fe__probe *probe, const
     }
     fe__axes m = fe__axes_of(shape->pose.rotation);
     fe__mover mover = mover_of(probe, shape, &m);
-    if (fe__form_is_field(&shape->form))
-        return fe__heightfield_overlap(fe__store_field(scene->store, shape->form.field), &mover);
+    if (fe__form_is_field(&shape->form)) {
+        fe__ground surface = fe__store_ground(scene->store, &shape->form);
+        return fe__ground_overlap(&surface, &mover);
+    }
     return fe__form_overlap(&shape->form, &mover);
 }
 

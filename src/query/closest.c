@@ -17,8 +17,10 @@ static int32_t nearest_on(const fe__scene *scene, const fe__shape *shape, fe_dve
                           fe__nearest *nearest)
 {
     fe_dvec3 p = fe__drotate_back(shape->pose.rotation, fe__dsub(point, shape->pose.position));
-    if (fe__form_is_field(&shape->form))
-        return fe__heightfield_nearest(fe__store_field(scene->store, shape->form.field), p, limit, nearest);
+    if (fe__form_is_field(&shape->form)) {
+        fe__ground surface = fe__store_ground(scene->store, &shape->form);
+        return fe__ground_nearest(&surface, p, limit, nearest);
+    }
     *nearest = fe__form_nearest(&shape->form, p);
     return nearest->distance <= limit;
 }

@@ -12,7 +12,7 @@
 
 typedef struct fe__scene {
     const fe__shape *shapes;
-    const fe_store *store; // of the heightfields that shapes have
+    const fe_store *store; // of the assets that shapes have
     const fe__tree *static_tree, *moving_tree;
     const int32_t *planes;
     int32_t plane_count;
@@ -39,7 +39,7 @@ static inline int32_t fe__scene_counts(const fe__scene *scene, const fe__shape *
 // fe_material.user_id of a shape there
 static inline uint64_t fe__scene_material(const fe__scene *scene, const fe__shape *shape, int32_t triangle)
 {
-    return fe__material_of_shape(scene->store, shape, triangle >= 0 ? triangle / 2 : -1)->user_id;
+    return fe__material_of_shape(scene->store, shape, triangle)->user_id;
 }
 // fe_hit.barycentric of a point of the world
 static inline void fe__scene_weights(const fe__scene *scene, const fe__shape *shape, int32_t triangle, fe_dvec3 point,
@@ -48,7 +48,8 @@ static inline void fe__scene_weights(const fe__scene *scene, const fe__shape *sh
     out_weights[0] = out_weights[1] = 0.0f;
     if (triangle < 0 || !fe__form_is_field(&shape->form)) return;
     fe_dvec3 local = fe__drotate_back(shape->pose.rotation, fe__dsub(point, shape->pose.position));
-    fe__heightfield_weights(fe__store_field(scene->store, shape->form.field), triangle, local, out_weights);
+    fe__ground surface = fe__store_ground(scene->store, &shape->form);
+    fe__ground_weights(&surface, triangle, local, out_weights);
 }
 
 // The order of all answers: by the body's creation, then by the shape's.

@@ -1,7 +1,8 @@
-// narrow_field.c - the narrow phase of a pair with a heightfield: patches by direction, each a contact of its own.
+// narrow_field.c - the narrow phase of a pair with a heightfield or a mesh: patches by direction, each a contact of its
+// own.
 //
 // Called by the collide stage on any thread, for heads that cannot be recycled. Only the pair's own records are
-// written. The frame has the heightfield's axes and its origin at the other shape; double positions are subtracted
+// written. The frame has the ground's axes and its origin at the other shape; double positions are subtracted
 // here.
 #include "step/narrow_field.h"
 
@@ -30,7 +31,7 @@ typedef struct pair_view {
 } pair_view;
 
 // ---- one look ------------------------------------------------------------------------------------------------------
-// Other heightfields that the same body is near: their surfaces may go on where this one ends.
+// Other heightfields and meshes that the same body is near: their surfaces may go on where this one ends.
 static void find_neighbours(const fe_world *w, const look *l, const fe__pose *pose, fe__terrain *terrain)
 {
     int32_t body = l->v.b->body;
@@ -42,7 +43,7 @@ static void find_neighbours(const fe_world *w, const look *l, const fe__pose *po
         if (terrain->neighbour_count == FE__NEIGHBOURS) return;
         fe_quat turn = fe__product(fe__conjugate(pose->rotation), field->pose.rotation);
         terrain->neighbours[terrain->neighbour_count++] =
-            (fe__neighbour){fe__store_field(w->store, field->form.field),
+            (fe__neighbour){fe__store_ground(w->store, &field->form),
                             fe__drotate_back(field->pose.rotation, fe__dsub(l->v.origin, field->pose.position)),
                             fe__matrix(turn)};
     }
@@ -57,7 +58,7 @@ static void look_at(const pair_view *p, const fe__pose *pose_field, const fe__po
                       .rotation = fe__matrix(pose_field->rotation)};
     l->v.form_a = p->field->form;
     fe__terrain terrain; // its neighbours mean something up to their count
-    terrain.field = fe__store_field(w->store, p->field->form.field), terrain.neighbour_count = 0;
+    terrain.ground = fe__store_ground(w->store, &p->field->form), terrain.neighbour_count = 0;
     terrain.origin = fe__drotate_back(pose_field->rotation, fe__dsub(pose_other->position, pose_field->position));
     if (w->field_pair_count > 1) find_neighbours(w, l, pose_field, &terrain);
     fe__mat3 rotation = fe__matrix(fe__product(fe__conjugate(pose_field->rotation), pose_other->rotation));

@@ -7,9 +7,10 @@
 #ifndef FE_STORE_STORE_H
 #define FE_STORE_STORE_H
 #include "collision/form/heightfield.h"
-#include "collision/form/hull.h"
+#include "collision/form/hull_form.h"
 #include "collision/form/mesh.h"
 #include "collision/form/shape.h"
+#include "collision/form/ground.h"
 #include "core/id_pool.h"
 #include "core/memory.h"
 #include "core/mutex.h"
@@ -103,12 +104,29 @@ static inline const fe__heightfield *fe__store_field(const fe_store *store, int3
     return &fe__store_asset(store, index)->field;
 }
 
-// Of a shape; `cell`: of its heightfield, -1: none in particular
-static inline const fe_material *fe__material_of_shape(const fe_store *store, const fe__shape *shape, int32_t cell)
+// Of a form that is a field
+static inline fe__ground fe__store_ground(const fe_store *store, const fe__form *form)
 {
-    if (!fe__form_is_field(&shape->form) || cell < 0) return &shape->material;
+    const fe__asset *a = fe__store_asset(store, form->field);
+    return a->kind == FE__ASSET_MESH ? (fe__ground){NULL, &a->mesh} : (fe__ground){&a->field, NULL};
+}
+
+// Of a shape; `triangle`: the number of one of its surface, -1: none in particular
+static inline const fe_material *fe__material_of_shape(const fe_store *store, const fe__shape *shape, int32_t triangle)
+{
+    if (!fe__form_is_field(&shape->form) || triangle < 0) return &shape->material;
     const fe__asset *a = fe__store_asset(store, shape->form.field);
-    return a->material_count ? a->materials + a->field.cells[cell] : &shape->material;
+    if (!a->material_count) return &shape->material;
+    if (a->kind == FE__ASSET_MESH) return a->materials + a->mesh.materials[fe__mesh_slot(&a->mesh, triangle)];
+    return a->materials + a->field.cells[triangle / 2];
+}
+
+// The form of a shape that has the asset
+static inline fe__form fe__asset_form(const fe_store *store, int32_t index)
+{
+    const fe__asset *a = fe__store_asset(store, index);
+    if (a->kind == FE__ASSET_HULL) return fe__hull_form(&a->hull, index);
+    return a->kind == FE__ASSET_MESH ? fe__mesh_form(&a->mesh, index) : fe__heightfield_form(&a->field, index);
 }
 
 #endif

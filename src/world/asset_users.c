@@ -6,6 +6,7 @@
 
 #include "world/pair_list.h"
 #include "world/proxies.h"
+#include "world/shapes.h"
 #include "world/sleep.h"
 
 #include <string.h>
@@ -100,8 +101,7 @@ void fe__shape_take_asset(fe_world *world, int32_t index)
     if (!use) use = add_use(world, asset);
     shape->next_user = use->first_user;
     use->first_user = index;
-    if (fe__form_is_field(&shape->form))
-        shape->form = fe__heightfield_form(fe__store_field(world->store, asset), asset);
+    shape->form = fe__asset_form(world->store, asset);
     fe__store_unlock(world->store);
 }
 
@@ -196,4 +196,28 @@ void fe__heightfield_edit(fe_store *store, int32_t asset, const fe__samples *par
     fe__form form = fe__heightfield_form(field, asset);
     fe__bounds changed = fe__samples_bounds(field, part);
     for (fe__store_member *m = store->first_member; m; m = m->next) renew_shapes(m->world, asset, &form, &changed);
+}
+
+// ---- new materials -------------------------------------------------------------------------------------------------
+// What touches the shape wakes: it may have to slide, or to stop.
+static void renew_materials(fe_world *world, int32_t index)
+{
+    const fe__shape *shape = world->shapes + index;
+    for (int32_t pair = world->bodies[shape->body].first_contact; pair >= 0;
+         pair = fe__next_pair(world, pair, shape->body)) {
+        const fe__pair *p = world->pairs + pair;
+        if (!(p->flags & FE__PAIR_LINKED) || (p->shape_a != index && p->shape_b != index)) continue;
+        fe__wake(world, world->shapes[p->shape_a == index ? p->shape_b : p->shape_a].body);
+    }
+    fe__shape_material_changed(world, index);
+}
+
+void fe__mesh_edit_materials(fe_store *store, int32_t asset, const void *materials, uint32_t stride)
+{
+    fe__mesh_write_materials(fe__store_asset(store, asset), materials, stride);
+    for (fe__store_member *m = store->first_member; m; m = m->next) {
+        const fe__asset_use *use = find_use(m->world, asset);
+        for (int32_t shape = use ? use->first_user : -1; shape >= 0; shape = m->world->shapes[shape].next_user)
+            renew_materials(m->world, shape);
+    }
 }

@@ -3,6 +3,7 @@
 #ifndef FE_WORLD_ASSET_USERS_H
 #define FE_WORLD_ASSET_USERS_H
 #include "store/heightfield_asset.h"
+#include "store/mesh_asset.h"
 #include "world/world.h"
 
 // Joins the store of the definition, or makes one of the world's own. FE_ERROR_STALE, FE_ERROR_ARGUMENT: see
@@ -22,5 +23,7 @@ void fe__asset_leave_worlds(fe_store *store, int32_t asset);
 // The worlds were entered. New heights reach the shapes' bounds and trees at once, the contacts in the next step;
 // bodies near them wake.
 void fe__heightfield_edit(fe_store *store, int32_t asset, const fe__samples *part, const float *heights);
+// Likewise the materials of a mesh: as many as it has. What touches it wakes.
+void fe__mesh_edit_materials(fe_store *store, int32_t asset, const void *materials, uint32_t stride);
 
 #endif

@@ -6,11 +6,13 @@
 
 #include "world/joint_list.h"
 
-// Contacts need a dynamic body; a trigger also reports a kinematic one. Nothing changes between two static bodies.
+// Contacts need a dynamic body; a trigger also reports a kinematic one. Nothing changes between two static bodies. Two
+// surfaces never meet.
 static int32_t types_meet(const fe_world *world, const fe__shape *a, const fe__shape *b)
 {
     int32_t type_a = world->bodies[a->body].type, type_b = world->bodies[b->body].type;
     if (type_a == FE_BODY_DYNAMIC || type_b == FE_BODY_DYNAMIC) return 1;
+    if (fe__form_is_field(&a->form) && fe__form_is_field(&b->form)) return 0;
     return (a->flags | b->flags) & FE__SHAPE_TRIGGER && (type_a == FE_BODY_KINEMATIC || type_b == FE_BODY_KINEMATIC);
 }
 

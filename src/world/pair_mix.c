@@ -60,8 +60,7 @@ void fe__pair_mix_surface(fe_world *world, int32_t pair)
     fe__contact *m = world->contacts + pair;
     fe__extra *e = world->extras + pair;
     const fe__shape *a = world->shapes + p->shape_a, *b = world->shapes + p->shape_b;
-    int32_t cell = p->triangle >= 0 ? p->triangle / 2 : -1;
-    const fe_material *x = fe__shape_material(world, a, cell), *y = fe__shape_material(world, b, cell);
+    const fe_material *x = fe__shape_material(world, a, p->triangle), *y = fe__shape_material(world, b, p->triangle);
     fe_vec3 surface = fe__sub(surface_of(b), surface_of(a));
     if (p->flags & FE__PAIR_FLIPPED) surface = fe__neg(surface);
     int32_t friction = fe__maxi(x->friction_combine, y->friction_combine);

@@ -5,7 +5,7 @@
 // nothing. Of equal t the triangle with the lowest number is hit: the answer does not depend on the tree.
 #ifndef FE_COLLISION_CAST_MESH_RAY_H
 #define FE_COLLISION_CAST_MESH_RAY_H
-#include "collision/form/mesh.h"
+#include "collision/form/ground.h"
 #include "collision/form/ray_hit.h"
 
 typedef struct fe__mesh_hit {
@@ -17,5 +17,14 @@ typedef struct fe__mesh_hit {
 
 // 1: hit
 int32_t fe__mesh_ray(const fe__mesh *mesh, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__mesh_hit *hit);
+static inline int32_t fe__ground_ray(const fe__ground *s, fe_dvec3 origin, fe_dvec3 translation, double limit,
+                                     fe__ray_hit *hit)
+{
+    if (!s->mesh) return fe__heightfield_ray(s->field, origin, translation, limit, hit);
+    fe__mesh_hit found;
+    if (!fe__mesh_ray(s->mesh, origin, translation, limit, &found)) return 0;
+    *hit = found.hit;
+    return 1;
+}
 
 #endif

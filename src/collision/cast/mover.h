@@ -1,7 +1,7 @@
 // mover.h - a form that moves in the frame of another, and where it is stopped.
 #ifndef FE_COLLISION_CAST_MOVER_H
 #define FE_COLLISION_CAST_MOVER_H
-#include "collision/form/heightfield.h"
+#include "collision/form/ground.h"
 
 #define FE_SWEEP_GAP 1e-7 // m
 
@@ -33,7 +33,7 @@ typedef struct fe__sweep_hit {
     fe_dvec3 point;   // of the standing form's surface, where it is met; inside: the mover's position
     double depth;     // inside: how far out that way, m
     int32_t inside;   // the forms overlap at the start
-    int32_t triangle; // of a heightfield, else -1
+    int32_t triangle; // number, of a heightfield or a mesh, else -1
 } fe__sweep_hit;
 
 #endif

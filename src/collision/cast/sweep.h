@@ -13,9 +13,9 @@ int32_t fe__form_sweep(const fe__form *still, const fe__mover *mover, double lim
 // 1 exactly when a sweep from there would start inside.
 int32_t fe__form_overlap(const fe__form *still, const fe__mover *mover);
 
-// The same for a heightfield, in its frame: holes are not there, and a triangle is met from its upper side only. What
-// cuts the surface overlaps it; what comes from below passes.
-int32_t fe__heightfield_sweep(const fe__heightfield *field, const fe__mover *mover, double limit, fe__sweep_hit *hit);
-int32_t fe__heightfield_overlap(const fe__heightfield *field, const fe__mover *mover);
+// The same for a heightfield or a mesh, in its frame: holes are not there, and a triangle is met from the side that
+// counts. What cuts the surface overlaps it; what comes from the other side passes.
+int32_t fe__ground_sweep(const fe__ground *surface, const fe__mover *mover, double limit, fe__sweep_hit *hit);
+int32_t fe__ground_overlap(const fe__ground *surface, const fe__mover *mover);
 
 #endif

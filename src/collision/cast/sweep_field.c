@@ -1,7 +1,7 @@
-// sweep_field.c - a moving form against a heightfield: its triangles, piece by piece along the way.
+// sweep_field.c - a moving form against a heightfield or a mesh: its triangles, piece by piece along the way.
 //
-// Input: queries, with the mover in the field's frame. The way is cut where the form has moved by about its own size or
-// a cell, so that few triangles lie under each piece; what is met within a piece is met first of all. Vertices are
+// Input: queries, with the mover in the surface's frame. The way is cut where the form has moved by about its own size
+// or a cell, so that few triangles lie under each piece; what is met within a piece is met first of all. Vertices are
 // doubles: a stop is as exact as before a box.
 #include "collision/cast/approach.h"
 #include "collision/cast/sweep.h"
@@ -12,7 +12,7 @@
 #define ON_SIDE 1e-6 // m, a point that near to a side of a triangle is on it
 
 typedef struct search {
-    const fe__heightfield *field;
+    const fe__ground *surface;
     const fe__mover *mover;
     fe_dvec3 half;     // of the mover's bounds, m
     fe__approach pair; // with each triangle in turn
@@ -28,9 +28,9 @@ static fe_dvec3 bounds_of(const fe__mover *mover)
                       half[0] * fe__absd(m->x.z) + half[1] * fe__absd(m->y.z) + half[2] * fe__absd(m->z.z) + r};
 }
 
-static search search_of(const fe__heightfield *field, const fe__mover *mover)
+static search search_of(const fe__ground *surface, const fe__mover *mover)
 {
-    search s = {.field = field, .mover = mover, .half = bounds_of(mover)};
+    search s = {.surface = surface, .mover = mover, .half = bounds_of(mover)};
     fe__approach *p = &s.pair;
     p->frame_kind = FE_CORE_TRIANGLE, p->other_kind = fe__core_kind_of(mover->form), p->other_form = mover->form;
     fe__core_half(mover->form, p->other_half);
@@ -40,10 +40,17 @@ static search search_of(const fe__heightfield *field, const fe__mover *mover)
     return s;
 }
 
+// Of a two-sided one the side on which the mover starts
 static void take_triangle(search *s, int32_t triangle)
 {
-    fe__heightfield_corners(s->field, triangle, s->pair.vertex);
-    s->pair.normal = fe__heightfield_normal(s->field, triangle);
+    fe_dvec3 *v = s->pair.vertex;
+    fe__ground_corners(s->surface, triangle, v);
+    s->pair.normal = fe__ground_normal(s->surface, triangle);
+    if (!fe__ground_is_two_sided(s->surface) || fe__ddot(s->pair.normal, fe__dsub(s->pair.position, v[0])) >= 0.0)
+        return;
+    fe_dvec3 second = v[1];
+    v[1] = v[2], v[2] = second;
+    s->pair.normal = fe__dscale(-1.0, s->pair.normal);
 }
 
 // What the mover's bounds cover from t0 to t1.
@@ -58,13 +65,14 @@ static fe__bounds covered(const search *s, double t0, double t1)
     return (fe__bounds){fe__dsub(low, h), fe__dadd(high, h)};
 }
 
-int32_t fe__heightfield_overlap(const fe__heightfield *field, const fe__mover *mover)
+int32_t fe__ground_overlap(const fe__ground *surface, const fe__mover *mover)
 {
-    search s = search_of(field, mover);
+    search s = search_of(surface, mover);
     fe__bounds box = covered(&s, 0.0, 0.0);
     fe__form unused;
-    fe__triangle_walk walk = fe__heightfield_walk(field, &box, mover->position);
-    for (int32_t i; (i = fe__next_triangle(&walk, &unused)) >= 0;) {
+    fe__ground_walk walk;
+    fe__ground_begin(&walk, surface, &box, mover->position);
+    for (int32_t i; (i = fe__ground_next(&walk, &unused)) >= 0;) {
         take_triangle(&s, i);
         if (fe__approach_overlap(&s.pair).depth >= 0.0) return 1;
     }
@@ -87,23 +95,13 @@ static double height_at(const fe__approach *p, double t)
     return fe__ddot(p->normal, fe__dsub(at, p->vertex[0]));
 }
 
-static int32_t is_open(const fe__heightfield *f, int32_t row, int32_t column)
-{
-    if (row < 0 || row >= f->rows - 1 || column < 0 || column >= f->columns - 1) return 1;
-    return fe__heightfield_is_hole(f, row * (f->columns - 1) + column);
-}
-
-// Is the point on a side behind which there is nothing, a hole or the field's end? Sides as fe__heightfield_corners
-// gives them; the diagonal never is one.
+// Is the point on a side behind which there is nothing?
 static int32_t is_on_rim(const search *s, int32_t triangle, fe_dvec3 point)
 {
-    static const int32_t step_row[2][3] = {{0, 1, 0}, {0, 0, -1}}, step_column[2][3] = {{-1, 0, 0}, {0, 1, 0}};
-    int32_t cell = triangle >> 1, half = triangle & 1, columns = s->field->columns - 1, diagonal = half ? 0 : 2;
-    const fe_dvec3 *v = s->pair.vertex;
+    fe_dvec3 v[3];
+    fe__ground_corners(s->surface, triangle, v);
     for (int32_t i = 0; i < 3; ++i) {
-        if (i == diagonal ||
-            !is_open(s->field, cell / columns + step_row[half][i], cell % columns + step_column[half][i]))
-            continue;
+        if (!fe__ground_is_rim(s->surface, triangle, i)) continue;
         fe_dvec3 side = fe__dsub(v[(i + 1) % 3], v[i]), across = fe__dcross(side, fe__dsub(point, v[i]));
         if (fe__ddot(across, across) <= ON_SIDE * ON_SIDE * fe__ddot(side, side)) return 1;
     }
@@ -117,36 +115,36 @@ static int32_t is_met(const search *s, int32_t triangle, const fe__approach_hit 
     return height_at(&s->pair, hit->t) + thickness_across(&s->pair) > 0.0 && is_on_rim(s, triangle, hit->point);
 }
 
-// Of a start inside the deepest triangle tells; of hits the first. Equal ones: the triangle with the lowest number,
-// which comes first.
+// Of a start inside the deepest triangle tells; of hits the first. Of equal ones the triangle with the lowest number.
 static void meet_triangle(search *s, int32_t triangle, fe__sweep_hit *best)
 {
+    int32_t number = fe__ground_number(s->surface, triangle);
     take_triangle(s, triangle);
     if (fe__approach_overlap(&s->pair).depth >= 0.0) {
         double depth =
             fe__maxd(thickness_across(&s->pair) - height_at(&s->pair, 0.0), 0.0); // until it is over the plane
-        if (best->inside && !(depth > best->depth)) return;
+        if (best->inside && (depth < best->depth || (depth == best->depth && number > best->triangle))) return;
         *best = (fe__sweep_hit){
-            .normal = s->pair.normal, .point = s->mover->position, .depth = depth, .inside = 1, .triangle = triangle};
+            .normal = s->pair.normal, .point = s->mover->position, .depth = depth, .inside = 1, .triangle = number};
         return;
     }
     fe__approach_hit hit;
     if (best->inside || !fe__approach_sweep(&s->pair, best->t, &hit)) return;
-    if (best->triangle >= 0 && hit.t == best->t) return;
+    if (best->triangle >= 0 && hit.t == best->t && number > best->triangle) return;
     if (!is_met(s, triangle, &hit)) return;
-    *best = (fe__sweep_hit){.t = hit.t, .normal = hit.normal, .point = hit.point, .triangle = triangle};
+    *best = (fe__sweep_hit){.t = hit.t, .normal = hit.normal, .point = hit.point, .triangle = number};
 }
 
 // ---- the way -------------------------------------------------------------------------------------------------------
-// The part of [0, limit] on which the mover's bounds meet those of the field.
+// The part of [0, limit] on which the mover's bounds meet those of the surface.
 static int32_t clip(const search *s, double limit, double *from, double *to)
 {
-    const fe__heightfield *f = s->field;
+    fe__bounds bounds = fe__ground_bounds(s->surface);
     double spare = 2.0 * s->pair.gap;
     fe_dvec3 o = s->mover->position, d = s->mover->translation;
     const double origin[3] = {o.x, o.y, o.z}, way[3] = {d.x, d.y, d.z}, half[3] = {s->half.x, s->half.y, s->half.z};
-    const double low[3] = {0.0, (double)f->low, 0.0};
-    const double high[3] = {(double)(f->columns - 1) * f->cell_x, (double)f->high, (double)(f->rows - 1) * f->cell_z};
+    const double low[3] = {bounds.low.x, bounds.low.y, bounds.low.z};
+    const double high[3] = {bounds.high.x, bounds.high.y, bounds.high.z};
     *from = 0.0, *to = limit;
     for (int32_t k = 0; k < 3; ++k) {
         double a = low[k] - half[k] - spare - origin[k], b = high[k] + half[k] + spare - origin[k];
@@ -160,22 +158,25 @@ static int32_t clip(const search *s, double limit, double *from, double *to)
     return *from <= *to;
 }
 
-int32_t fe__heightfield_sweep(const fe__heightfield *field, const fe__mover *mover, double limit, fe__sweep_hit *hit)
+int32_t fe__ground_sweep(const fe__ground *surface, const fe__mover *mover, double limit, fe__sweep_hit *hit)
 {
-    search s = search_of(field, mover);
+    search s = search_of(surface, mover);
     double t, end;
     if (!clip(&s, limit, &t, &end)) return 0;
-    double cells_x = fe__absd(mover->translation.x) / (field->cell_x + s.half.x),
-           cells_z = fe__absd(mover->translation.z) / (field->cell_z + s.half.z);
-    double cells = fe__maxd(cells_x, cells_z), piece = cells > 0.0 ? 1.0 / cells : (double)INFINITY;
+    fe_dvec3 cell = fe__ground_cell(surface);
+    double cells_x = fe__absd(mover->translation.x) / (cell.x + s.half.x),
+           cells_y = fe__absd(mover->translation.y) / (cell.y + s.half.y),
+           cells_z = fe__absd(mover->translation.z) / (cell.z + s.half.z);
+    double cells = fe__maxd(fe__maxd(cells_x, cells_y), cells_z), piece = cells > 0.0 ? 1.0 / cells : (double)INFINITY;
     *hit = (fe__sweep_hit){.t = limit, .triangle = -1};
     for (;;) {
         double to = fe__mind(t + piece, end);
         if (!(to > t)) to = end; // a piece below the rounding of t
         fe__bounds box = covered(&s, t, to);
         fe__form unused;
-        fe__triangle_walk walk = fe__heightfield_walk(field, &box, mover->position);
-        for (int32_t i; (i = fe__next_triangle(&walk, &unused)) >= 0;) meet_triangle(&s, i, hit);
+        fe__ground_walk walk;
+        fe__ground_begin(&walk, surface, &box, mover->position);
+        for (int32_t i; (i = fe__ground_next(&walk, &unused)) >= 0;) meet_triangle(&s, i, hit);
         if (hit->triangle >= 0 && hit->t <= to) return 1;
         if (to >= end) return hit->triangle >= 0;
         t = to;

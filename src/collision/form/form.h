@@ -14,8 +14,8 @@
 #define FE_COLLISION_FORM_FORM_H
 #include "core/math.h"
 
-// The kinds of forms, in the order of the kernels. A triangle is no public form: heightfields hand out theirs one by
-// one.
+// The kinds of forms, in the order of the kernels. A triangle is no public form: heightfields and meshes hand
+// out theirs one by one.
 typedef enum fe__form_type {
     FE__FORM_SPHERE,
     FE__FORM_CAPSULE,
@@ -25,6 +25,7 @@ typedef enum fe__form_type {
     FE__FORM_HULL,
     FE__FORM_PLANE,
     FE__FORM_HEIGHTFIELD,
+    FE__FORM_MESH,
     FE__FORM_TRIANGLE,
     FE__FORM_TYPES
 } fe__form_type;
@@ -33,8 +34,9 @@ typedef enum fe__form_type {
 // normal of length 1. Unused fields are 0, so that each of these is a core (point, segment, box) swelled by its radius.
 // cylinder, cone: half, the half widths of the box around it: x and z are the radius of the rim, y half the height
 // along y. A cone's tip is at +half.y, its base at -half.y. They are cores of their own; their radius is 0. triangle:
-// vertices, turning left around the side that counts.  heightfield: its record's index, its bounds (heightfield.h).
-// hull: its record's index, where that is, and offset + scale x is the form's point for the hull's point x (hull.h).
+// vertices, turning left around the side that counts. heightfield, mesh: its record's index, its bounds (heightfield.h,
+// mesh.h). hull: its record's index, where that is, and offset + scale x is the form's point for the hull's point x
+// (hull.h).
 typedef struct fe__form {
     int32_t type; // fe__form_type
     float radius;
@@ -92,13 +94,14 @@ struct fe__face; // support.h
 typedef struct fe__form_traits {
     const char *name;    // in the sentences of errors
     int32_t geometry;    // fe_geometry_type, -1: not public
-    uint8_t static_only; // on static bodies alone, without mass
+    uint8_t static_only; // without mass: on static bodies alone,
+    uint8_t is_carried;  // or on kinematic ones too
     uint8_t is_ball;     // no rotation changes it, and it touches at one point
     uint8_t flat_faces;  // a polyhedron of its half widths, or a triangle
     uint8_t curved;      // a core with a rim: cylinder, cone
     uint8_t is_hull;     // known by an asset's hull (hull.h)
     uint8_t unbounded;   // no box holds it, so that it is in no tree
-    uint8_t is_field;    // a surface of triangles (heightfield.h), touched in patches
+    uint8_t is_field;    // a surface of triangles (ground.h), touched in patches
     uint8_t has_asset;   // shares what it is made of: fe__form.field
     fe__mass (*mass)(const fe__form *form, double density);
     fe__bounds (*bounds)(const fe__form *form, const fe__pose *pose);
@@ -112,6 +115,7 @@ extern const fe__form_traits fe__forms[FE__FORM_TYPES]; // table.c
 
 static inline const fe__form_traits *fe__traits_of(const fe__form *form) { return fe__forms + form->type; }
 static inline int32_t fe__form_is_static_only(const fe__form *form) { return fe__traits_of(form)->static_only; }
+static inline int32_t fe__form_is_carried(const fe__form *form) { return fe__traits_of(form)->is_carried; }
 static inline int32_t fe__form_is_ball(const fe__form *form) { return fe__traits_of(form)->is_ball; }
 static inline int32_t fe__form_has_flat_faces(const fe__form *form) { return fe__traits_of(form)->flat_faces; }
 static inline int32_t fe__form_is_curved(const fe__form *form) { return fe__traits_of(form)->curved; }
@@ -138,7 +142,7 @@ static inline float fe__form_reach(const fe__form *form, fe_vec3 centre)
 {
     return fe__traits_of(form)->reach(form, centre);
 }
-// smallest half width of the form, m: what a fast body may not outrun; FLT_MAX for planes and heightfields
+// smallest half width of the form, m: what a fast body may not outrun; FLT_MAX for planes and what is of triangles
 static inline float fe__form_thickness(const fe__form *form) { return fe__traits_of(form)->thickness(form); }
 // the form without its outermost layer, `by` (m, less than its thickness) thick
 static inline fe__form fe__form_shrunk(const fe__form *form, float by) { return fe__traits_of(form)->shrunk(form, by); }

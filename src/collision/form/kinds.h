@@ -53,9 +53,13 @@ void fe__rim_face(float radius, float y, fe_vec3 direction, fe__face *face);
 fe__bounds fe__plane_bounds(const fe__form *form, const fe__pose *pose);
 
 // heightfield.c
-fe__bounds fe__heightfield_bounds(const fe__form *form, const fe__pose *pose);
+fe__bounds fe__heightfield_bounds(const fe__form *form, const fe__pose *pose); // and of a mesh
+
+// mesh.c
+float fe__mesh_reach(const fe__form *form, fe_vec3 centre); // to the farthest corner of its bounds
 
 // triangle.c
+float fe__triangle_reach(const fe__form *form, fe_vec3 centre);
 fe__bounds fe__triangle_bounds(const fe__form *form, const fe__pose *pose);
 fe_dvec3 fe__triangle_support(const fe__form *form, fe_dvec3 direction);
 void fe__triangle_face(const fe__form *form, fe_vec3 direction, fe__face *face);

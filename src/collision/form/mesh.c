@@ -44,3 +44,16 @@ void fe__mesh_corners(const fe__mesh *m, int32_t slot, fe_dvec3 corner[3])
         corner[k] = (fe_dvec3){(double)v[0], (double)v[1], (double)v[2]};
     }
 }
+
+// ---- the form ------------------------------------------------------------------------------------------------------
+fe__form fe__mesh_form(const fe__mesh *m, int32_t index)
+{
+    return (fe__form){.type = FE__FORM_MESH, .field = index, .low = m->low, .high = m->high};
+}
+
+float fe__mesh_reach(const fe__form *form, fe_vec3 centre)
+{
+    fe_vec3 a = fe__sub(centre, form->low), b = fe__sub(form->high, centre);
+    return fe__length(fe__vec3(fe__maxf(fe__absf(a.x), fe__absf(b.x)), fe__maxf(fe__absf(a.y), fe__absf(b.y)),
+                               fe__maxf(fe__absf(a.z), fe__absf(b.z))));
+}

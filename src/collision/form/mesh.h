@@ -14,7 +14,7 @@
 // from the node's low corner, 2^exponent m a step on each axis, and rounded outwards: no vertex is outside.
 #ifndef FE_COLLISION_FORM_MESH_H
 #define FE_COLLISION_FORM_MESH_H
-#include "core/math.h"
+#include "collision/form/form.h"
 
 enum {
     FE__MESH_WIDTH = 8,            // children of a node
@@ -105,6 +105,9 @@ static inline double fe__mesh_step(const fe__mesh_node *node, int32_t axis)
     } step = {(uint64_t)(1023 + node->exponent[axis]) << 52};
     return step.value;
 }
+
+// The form of a shape that has it; `index` is its record's.
+fe__form fe__mesh_form(const fe__mesh *mesh, int32_t index);
 
 // The slot of a triangle by its number, in at most 2 FE__MESH_SHORTCUT steps; at least triangle_count: it was dropped.
 int32_t fe__mesh_slot(const fe__mesh *mesh, int32_t number);

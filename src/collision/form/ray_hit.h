@@ -8,7 +8,7 @@ typedef struct fe__ray_hit {
     fe_dvec3 normal; // unit, form's frame
     double depth;    // > 0 when inside, else 0
     int32_t inside;
-    int32_t triangle; // of a heightfield, else -1
+    int32_t triangle; // number, of a heightfield or a mesh, else -1
 } fe__ray_hit;
 
 #endif

@@ -1,4 +1,4 @@
-// triangle.c - one of a heightfield: three vertices, turning left around the side that counts.
+// triangle.c - one of a heightfield or a mesh: three vertices, turning left around the side that counts.
 #include "collision/form/kinds.h"
 
 fe__bounds fe__triangle_bounds(const fe__form *form, const fe__pose *pose)
@@ -10,6 +10,13 @@ fe__bounds fe__triangle_bounds(const fe__form *form, const fe__pose *pose)
         high = (fe_dvec3){fe__maxd(high.x, p.x), fe__maxd(high.y, p.y), fe__maxd(high.z, p.z)};
     }
     return (fe__bounds){fe__dadd(pose->position, low), fe__dadd(pose->position, high)};
+}
+
+float fe__triangle_reach(const fe__form *form, fe_vec3 centre)
+{
+    float reach = 0.0f;
+    for (int32_t i = 0; i < 3; ++i) reach = fe__maxf(reach, fe__length(fe__sub(form->vertex[i], centre)));
+    return reach;
 }
 
 // of equally far vertices the first

@@ -13,11 +13,11 @@
 #define FELT 1.5f
 
 // How deep the centre of B is under the ground, but no deeper than B reaches: a body that was pressed or spun into the
-// ground comes up again, one far below is left alone. Else 0.
+// ground comes up again, one far below is left alone. Else 0, as for a mesh, which has no below.
 static double sunk(const fe__terrain *t, const fe__form *b)
 {
     double height;
-    if (!fe__heightfield_height(t->field, t->origin, &height)) return 0.0;
+    if (!t->ground.field || !fe__heightfield_height(t->ground.field, t->origin, &height)) return 0.0;
     double depth = height - t->origin.y;
     return depth > 0.0 && depth <= (double)fe__form_reach(b, fe__vec3(0.0f, 0.0f, 0.0f)) ? depth : 0.0;
 }
@@ -75,9 +75,10 @@ static void gather_all(fe__gathering *g, const fe__form *b, const fe__mat3 *rota
     fe_vec3 core = {fe__absf(axis.x), fe__absf(axis.y), fe__absf(axis.z)};
     int32_t is_box = fe__form_has_flat_faces(b), is_curved = fe__form_is_curved(b) || fe__form_is_hull(b),
             culls = !is_box && !is_curved && !(depth > 0.0);
-    fe__triangle_walk walk = fe__heightfield_walk(t->field, &box, t->origin);
+    fe__ground_walk walk;
+    fe__ground_begin(&walk, &t->ground, &box, t->origin);
     fe__form triangle;
-    for (int32_t i; (i = fe__next_triangle(&walk, &triangle)) >= 0;) {
+    for (int32_t i; (i = fe__ground_next(&walk, &triangle)) >= 0;) {
         if (culls && is_beyond(triangle.vertex, core, rounding * (b->radius + g->margin))) continue;
         fe__tile tile = fe__tile_of(t, &triangle, i);
         if (is_box)
@@ -93,9 +94,10 @@ static float gap_around(const fe__terrain *t, const fe__form *b, const fe__mat3 
 {
     float wide = margin + fe__form_reach(b, fe__vec3(0.0f, 0.0f, 0.0f));
     fe__bounds box = bounds_around(t, b, rotation, wide);
-    fe__triangle_walk walk = fe__heightfield_walk(t->field, &box, t->origin);
+    fe__ground_walk walk;
+    fe__ground_begin(&walk, &t->ground, &box, t->origin);
     fe__form triangle;
-    return fe__next_triangle(&walk, &triangle) < 0 ? wide : margin;
+    return fe__ground_next(&walk, &triangle) < 0 ? wide : margin;
 }
 
 static int32_t collide_centred(const fe__terrain *t, const fe__form *b, const fe__mat3 *rotation, float margin,
@@ -111,7 +113,9 @@ static int32_t collide_centred(const fe__terrain *t, const fe__form *b, const fe
         fe__raw_patch *raw = g.patches + i;
         if (fe__form_is_curved(b)) fe__keep_line_ends(raw, g.tie);
         fe__reduce_patch(raw, g.tie);
-        patches[i] = (fe__patch){.normal = raw->normal, .count = raw->count, .triangle = raw->triangle};
+        patches[i] = (fe__patch){.normal = raw->normal,
+                                 .count = raw->count,
+                                 .triangle = fe__ground_number(&t->ground, raw->triangle)};
         for (int32_t k = 0; k < raw->count; ++k) patches[i].points[k] = raw->points[k];
     }
     return g.count;

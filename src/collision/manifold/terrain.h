@@ -1,7 +1,7 @@
-// terrain.h - a form on a heightfield: manifolds by triangle, gathered into patches.
+// terrain.h - a form on a heightfield or a mesh: manifolds by triangle, gathered into patches.
 //
-// Called by the world's narrow phase (step/narrow_field.c). Everything is given in a frame with the heightfield's axes
-// and its origin at form B, so that floats are small. A direction of contact counts only where the surface has it:
+// Called by the world's narrow phase (step/narrow_field.c). Everything is given in a frame with the surface's axes and
+// its origin at form B, so that floats are small. A direction of contact counts only where the surface has it:
 // within the normal cone of the face, edge or vertex that is touched. Flat and concave edges have none but the faces'
 // own normals, so that nothing is ever caught by an inner edge.
 #ifndef FE_COLLISION_MANIFOLD_TERRAIN_H

@@ -104,8 +104,7 @@ static void merge_most_similar(fe__gathering *g)
 
 void fe__gather(fe__gathering *g, const fe__tile *tile, fe_vec3 normal, fe_vec3 point, float separation, uint32_t id)
 {
-    const fe__heightfield *f = g->terrain->field;
-    int32_t cell = tile->index >> 1, material = f->cells ? f->cells[cell] : 0;
+    int32_t material = tile->material;
     fe__manifold_point p = {point, separation, id};
     for (int32_t i = 0; i < g->count; ++i) {
         fe__raw_patch *patch = g->patches + i;

@@ -1,9 +1,10 @@
-// terrain_surface.c - normal cones of a heightfield's faces, edges and vertices; see terrain_surface.h.
+// terrain_surface.c - normal cones of the ground's faces, edges and vertices; see terrain_surface.h.
 //
 // A direction m is in the normal cone of a point of a surface when nothing near the point rises along m. For a
 // piecewise flat surface it is enough to look at the samples next to it (Connolly; van den Bergen: Voronoi regions of a
 // mesh's features). Beyond the border of the grid the neighbouring heightfields are asked for their height a little
-// further on.
+// further on. A mesh does not know what is next to what: its tree is asked for the triangles at the point. So are other
+// meshes', and what only lies there, as at a T-junction, counts too.
 #include "collision/manifold/terrain_surface.h"
 
 // Slopes below this count as flat: 0.06 degrees
@@ -20,7 +21,7 @@ static int32_t cell_present(const fe__heightfield *f, int32_t row, int32_t colum
 
 static fe_vec3 sample(const fe__terrain *t, int32_t row, int32_t column)
 {
-    const fe__heightfield *f = t->field;
+    const fe__heightfield *f = t->ground.field;
     fe_dvec3 p = {(double)column * f->cell_x, (double)f->heights[(int64_t)row * f->columns + column],
                   (double)row * f->cell_z};
     return fe__narrow(fe__dsub(p, t->origin));
@@ -43,9 +44,11 @@ static int32_t rises(fe_vec3 m, fe_vec3 way) { return fe__dot(m, way) > FLAT * f
 
 int32_t fe__tile_beyond(const fe__terrain *t, const fe__tile *tile, int32_t side)
 {
+    if (t->ground.mesh) return -1;
     const beyond *b = &sides[tile->half][side];
     int32_t row = tile->row + b->row, column = tile->column + b->column;
-    return cell_present(t->field, row, column) ? 2 * (row * (t->field->columns - 1) + column) + b->half : -1;
+    return cell_present(t->ground.field, row, column) ? 2 * (row * (t->ground.field->columns - 1) + column) + b->half
+                                                      : -1;
 }
 
 static fe_vec3 third_of(const fe__terrain *t, const fe__tile *tile, int32_t side)
@@ -64,20 +67,46 @@ static float longest_side(const fe_vec3 v[3])
     return sqrtf(square);
 }
 
+static void find_place(const fe__heightfield *f, fe__tile *tile)
+{
+    int32_t cell = tile->index >> 1, columns = f->columns - 1;
+    tile->row = cell / columns, tile->column = cell % columns, tile->half = tile->index & 1;
+    tile->material = f->cells ? f->cells[cell] : 0;
+}
+
+// Seen from its other side, a triangle runs the other way, and what was concave is convex: the tree is asked.
+static void turn_round(fe__tile *tile)
+{
+    fe_vec3 second = tile->form.vertex[1];
+    tile->form.vertex[1] = tile->form.vertex[2], tile->form.vertex[2] = second;
+    tile->normal = fe__neg(tile->normal);
+    for (int32_t k = 0; k < 3; ++k) tile->felt[k] = 1;
+}
+
+static void find_sides(const fe__mesh *m, fe__tile *tile)
+{
+    for (int32_t k = 0; k < 3; ++k) tile->felt[k] = fe__mesh_edge_of(m, tile->index, k) != FE__MESH_EDGE_SMOOTH;
+    tile->material = m->materials ? m->materials[tile->index] : 0;
+    if (m->is_two_sided && fe__dot(tile->normal, tile->form.vertex[0]) > 0.0f) turn_round(tile);
+}
+
 fe__tile fe__tile_of(const fe__terrain *t, const fe__form *triangle, int32_t index)
 {
-    int32_t cell = index >> 1, columns = t->field->columns - 1;
-    fe__tile tile = {
-        .form = *triangle, .index = index, .row = cell / columns, .column = cell % columns, .half = index & 1};
+    fe__tile tile = {.form = *triangle, .index = index};
     const fe_vec3 *v = triangle->vertex;
     fe_vec3 n = fe__cross(fe__sub(v[1], v[0]), fe__sub(v[2], v[0]));
     tile.normal = fe__scale(1.0f / fe__length(n), n);
     tile.size = longest_side(v);
+    if (t->ground.mesh)
+        find_sides(t->ground.mesh, &tile);
+    else
+        find_place(t->ground.field, &tile);
     return tile;
 }
 
 int32_t fe__tile_is_convex(const fe__terrain *t, const fe__tile *tile, int32_t side)
 {
+    if (t->ground.mesh) return tile->felt[side];
     if (fe__tile_beyond(t, tile, side) < 0) return 1;
     return fe__dot(tile->normal, fe__sub(third_of(t, tile, side), tile->form.vertex[side])) < -FLAT * tile->size;
 }
@@ -86,6 +115,17 @@ int32_t fe__tile_is_convex(const fe__terrain *t, const fe__tile *tile, int32_t s
 static fe_dvec3 into(const fe__neighbour *n, fe_vec3 p)
 {
     return fe__dadd(n->position, fe__widen(fe__mul_transposed(&n->axes, p)));
+}
+
+// What is so near to a point goes on from it: a share of a triangle's size, and m
+#define NEAR_SHARE 1e-4f
+#define NEAR 1e-3f
+
+// Does a neighbour go on at p and rise along m?
+static int32_t goes_on(const fe__neighbour *n, fe_vec3 p, fe_vec3 m, float near)
+{
+    return fe__ground_rises(&n->ground, into(n, p), fe__widen(fe__mul_transposed(&n->axes, m)),
+                            (double)fe__minf(near, NEAR));
 }
 
 int32_t fe__heightfield_height(const fe__heightfield *f, fe_dvec3 p, double *height)
@@ -107,10 +147,14 @@ static int32_t neighbour_rises(const fe__terrain *t, fe_vec3 p, fe_vec3 way, fe_
 {
     for (int32_t i = 0; i < t->neighbour_count; ++i) {
         const fe__neighbour *n = t->neighbours + i;
+        if (n->ground.mesh) {
+            if (goes_on(n, p, m, NEAR_SHARE / (float)BEYOND * fe__length(way))) return 1;
+            continue;
+        }
         fe_dvec3 here = into(n, p), there = into(n, fe__add(p, way));
         double height, further, apart = 0.1 * (double)fe__length(way);
-        if (!fe__heightfield_height(n->field, here, &height) || fe__absd(height - here.y) > apart ||
-            !fe__heightfield_height(n->field, there, &further))
+        if (!fe__heightfield_height(n->ground.field, here, &height) || fe__absd(height - here.y) > apart ||
+            !fe__heightfield_height(n->ground.field, there, &further))
             continue;
         fe_dvec3 rise = {there.x - here.x, further - height, there.z - here.z};
         if (rises(m, fe__mul(&n->axes, fe__narrow(rise)))) return 1;
@@ -120,8 +164,8 @@ static int32_t neighbour_rises(const fe__terrain *t, fe_vec3 p, fe_vec3 way, fe_
 
 static fe_vec3 way_out(const fe__terrain *t, int32_t out_row, int32_t out_column)
 {
-    return fe__vec3((float)(BEYOND * (double)out_column * t->field->cell_x), 0.0f,
-                    (float)(BEYOND * (double)out_row * t->field->cell_z));
+    return fe__vec3((float)(BEYOND * (double)out_column * t->ground.field->cell_x), 0.0f,
+                    (float)(BEYOND * (double)out_row * t->ground.field->cell_z));
 }
 
 static int32_t on_border(const fe__heightfield *f, int32_t row, int32_t column)
@@ -145,7 +189,7 @@ static int32_t side_allows(const fe__terrain *t, const fe__tile *tile, int32_t s
 
 static int32_t vertex_allows(const fe__terrain *t, const fe__tile *tile, int32_t vertex, fe_vec3 m)
 {
-    const fe__heightfield *f = t->field;
+    const fe__heightfield *f = t->ground.field;
     int32_t row = tile->row + vertices[tile->half][vertex][0], column = tile->column + vertices[tile->half][vertex][1];
     fe_vec3 p = tile->form.vertex[vertex];
     for (int32_t i = 0; i < 6; ++i) {
@@ -160,25 +204,52 @@ static int32_t vertex_allows(const fe__terrain *t, const fe__tile *tile, int32_t
     return 1;
 }
 
+// ---- cones of a mesh -----------------------------------------------------------------------------------------------
+static int32_t mesh_allows(const fe__terrain *t, const fe__tile *tile, fe_vec3 p, fe_vec3 m)
+{
+    float near = fe__minf(NEAR_SHARE * tile->size, NEAR);
+    if (fe__ground_rises(&t->ground, fe__dadd(t->origin, fe__widen(p)), fe__widen(m), (double)near)) return 0;
+    for (int32_t i = 0; i < t->neighbour_count; ++i)
+        if (goes_on(t->neighbours + i, p, m, near)) return 0;
+    return 1;
+}
+
+// At the point of the side nearest the body, which is at the origin, but not at its ends: others begin there.
+static int32_t mesh_side_allows(const fe__terrain *t, const fe__tile *tile, int32_t side, fe_vec3 m)
+{
+    const float end = 0.1f; // share of the side
+    if (!tile->felt[side]) return 0;
+    fe_vec3 v = tile->form.vertex[side], along = fe__sub(tile->form.vertex[(side + 1) % 3], v);
+    float s = fe__clampf(-fe__dot(along, v) / fe__dot(along, along), end, 1.0f - end);
+    return mesh_allows(t, tile, fe__add_scaled(v, s, along), m);
+}
+
+// Where a vertex sticks out, so do sides at it, and their triangles have it.
+static int32_t mesh_vertex_allows(const fe__terrain *t, const fe__tile *tile, int32_t vertex, fe_vec3 m)
+{
+    return (tile->felt[vertex] | tile->felt[(vertex + 2) % 3]) && mesh_allows(t, tile, tile->form.vertex[vertex], m);
+}
+
 int32_t fe__tile_allows(const fe__terrain *t, const fe__tile *tile, fe_vec3 m)
 {
     float along[3], most;
     for (int32_t i = 0; i < 3; ++i) along[i] = fe__dot(m, tile->form.vertex[i]);
     most = fe__maxf(along[0], fe__maxf(along[1], along[2])) - FLAT * tile->size;
     uint32_t touched = (along[0] >= most ? 1u : 0u) | (along[1] >= most ? 2u : 0u) | (along[2] >= most ? 4u : 0u);
+    int32_t is_mesh = t->ground.mesh != NULL;
     switch (touched) {
     case 1:
-        return vertex_allows(t, tile, 0, m);
     case 2:
-        return vertex_allows(t, tile, 1, m);
-    case 4:
-        return vertex_allows(t, tile, 2, m);
+    case 4: {
+        int32_t vertex = touched == 4 ? 2 : (int32_t)touched - 1;
+        return is_mesh ? mesh_vertex_allows(t, tile, vertex, m) : vertex_allows(t, tile, vertex, m);
+    }
     case 3:
-        return side_allows(t, tile, 0, m);
-    case 6:
-        return side_allows(t, tile, 1, m);
     case 5:
-        return side_allows(t, tile, 2, m);
+    case 6: {
+        int32_t side = touched == 3 ? 0 : touched == 6 ? 1 : 2;
+        return is_mesh ? mesh_side_allows(t, tile, side, m) : side_allows(t, tile, side, m);
+    }
     default:
         return fe__dot(m, tile->normal) > 0.0f; // the face
     }

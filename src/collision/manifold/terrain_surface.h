@@ -1,4 +1,4 @@
-// terrain_surface.h - a triangle with its place in the grid, and the directions that its surroundings allow.
+// terrain_surface.h - a triangle with its place in the ground, and the directions that its surroundings allow.
 #ifndef FE_COLLISION_MANIFOLD_TERRAIN_SURFACE_H
 #define FE_COLLISION_MANIFOLD_TERRAIN_SURFACE_H
 #include "collision/manifold/patch.h"
@@ -6,7 +6,9 @@
 // A triangle of the walk in the common frame. Side k runs from vertex k to the next.
 typedef struct fe__tile {
     fe__form form;
-    int32_t index, row, column, half;
+    int32_t index, material;
+    int32_t row, column, half; // of a heightfield
+    uint8_t felt[3];           // of a mesh: may the surface bend down, or end, beyond side k?
     fe_vec3 normal;
     float size; // longest side, m
 } fe__tile;
@@ -14,7 +16,7 @@ typedef struct fe__tile {
 fe__tile fe__tile_of(const fe__terrain *terrain, const fe__form *triangle, int32_t index);
 // Does the surface bend down, or end, beyond side k?
 int32_t fe__tile_is_convex(const fe__terrain *terrain, const fe__tile *tile, int32_t side);
-// The triangle beyond side k, -1: a hole or the border.
+// The triangle of a heightfield beyond side k, -1: a hole or the border. A mesh does not tell: -1.
 int32_t fe__tile_beyond(const fe__terrain *terrain, const fe__tile *tile, int32_t side);
 
 // May the surface be touched along m (unit, out of it) at the vertices of the tile that lie farthest along m? Exactly

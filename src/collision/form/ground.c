@@ -1,0 +1,104 @@
+// ground.c - see ground.h.
+#include "collision/form/ground.h"
+
+void fe__ground_corners(const fe__ground *s, int32_t index, fe_dvec3 corner[3])
+{
+    if (s->mesh)
+        fe__mesh_corners(s->mesh, index, corner);
+    else
+        fe__heightfield_corners(s->field, index, corner);
+}
+
+static fe_dvec3 normal_of(const fe_dvec3 v[3])
+{
+    fe_dvec3 n = fe__dcross(fe__dsub(v[1], v[0]), fe__dsub(v[2], v[0]));
+    return fe__dscale(1.0 / sqrt(fe__ddot(n, n)), n);
+}
+
+fe_dvec3 fe__ground_normal(const fe__ground *s, int32_t index)
+{
+    if (!s->mesh) return fe__heightfield_normal(s->field, index);
+    fe_dvec3 v[3];
+    fe__mesh_corners(s->mesh, index, v);
+    return normal_of(v);
+}
+
+static int32_t is_open(const fe__heightfield *f, int32_t row, int32_t column)
+{
+    if (row < 0 || row >= f->rows - 1 || column < 0 || column >= f->columns - 1) return 1;
+    return fe__heightfield_is_hole(f, row * (f->columns - 1) + column);
+}
+
+// Sides as fe__heightfield_corners gives them; the diagonal never is a rim.
+int32_t fe__ground_is_rim(const fe__ground *s, int32_t index, int32_t side)
+{
+    static const int32_t step_row[2][3] = {{0, 1, 0}, {0, 0, -1}}, step_column[2][3] = {{-1, 0, 0}, {0, 1, 0}};
+    if (s->mesh) return fe__mesh_edge_of(s->mesh, index, side) == FE__MESH_EDGE_OPEN;
+    int32_t cell = index >> 1, half = index & 1, columns = s->field->columns - 1, diagonal = half ? 0 : 2;
+    return side != diagonal &&
+           is_open(s->field, cell / columns + step_row[half][side], cell % columns + step_column[half][side]);
+}
+
+fe__bounds fe__ground_bounds(const fe__ground *s)
+{
+    if (s->mesh) return (fe__bounds){fe__widen(s->mesh->low), fe__widen(s->mesh->high)};
+    const fe__heightfield *f = s->field;
+    return (fe__bounds){{0.0, (double)f->low, 0.0},
+                        {(double)(f->columns - 1) * f->cell_x, (double)f->high, (double)(f->rows - 1) * f->cell_z}};
+}
+
+fe_dvec3 fe__ground_cell(const fe__ground *s)
+{
+    if (!s->mesh) return (fe_dvec3){s->field->cell_x, (double)INFINITY, s->field->cell_z};
+    double width = 2.0 * sqrt(s->mesh->area / (double)s->mesh->triangle_count);
+    return (fe_dvec3){width, width, width};
+}
+
+// Shares of the areas across which the point lies, of the triangle's own
+void fe__ground_weights(const fe__ground *s, int32_t number, fe_dvec3 point, float *out_weights)
+{
+    if (!s->mesh) {
+        fe__heightfield_weights(s->field, number, point, out_weights);
+        return;
+    }
+    fe_dvec3 v[3];
+    fe__mesh_corners(s->mesh, fe__mesh_slot(s->mesh, number), v);
+    fe_dvec3 a = fe__dsub(v[1], v[0]), b = fe__dsub(v[2], v[0]), p = fe__dsub(point, v[0]), n = fe__dcross(a, b);
+    double per_square = 1.0 / fe__ddot(n, n);
+    double second = fe__clampd(fe__ddot(fe__dcross(p, b), n) * per_square, 0.0, 1.0);
+    double third = fe__clampd(fe__ddot(fe__dcross(a, p), n) * per_square, 0.0, 1.0 - second);
+    out_weights[0] = (float)second;
+    out_weights[1] = (float)third;
+}
+
+// ---- what rises ----------------------------------------------------------------------------------------------------
+static int32_t is_near(const fe_dvec3 v[3], fe_dvec3 p, double near)
+{
+    fe_dvec3 n = normal_of(v);
+    if (fe__absd(fe__ddot(n, fe__dsub(p, v[0]))) > near) return 0;
+    for (int32_t k = 0; k < 3; ++k) {
+        fe_dvec3 side = fe__dsub(v[(k + 1) % 3], v[k]), out = fe__dcross(side, n);
+        if (fe__ddot(out, fe__dsub(p, v[k])) > near * sqrt(fe__ddot(side, side))) return 0;
+    }
+    return 1;
+}
+
+int32_t fe__ground_rises(const fe__ground *s, fe_dvec3 p, fe_dvec3 m, double near)
+{
+    const double flat = 1e-3; // a slope: 0.06 degrees
+    fe__bounds box = {{p.x - near, p.y - near, p.z - near}, {p.x + near, p.y + near, p.z + near}};
+    fe__ground_walk walk;
+    fe__ground_begin(&walk, s, &box, p);
+    fe__form unused;
+    for (int32_t i; (i = fe__ground_next(&walk, &unused)) >= 0;) {
+        fe_dvec3 v[3];
+        int32_t rises = 0;
+        fe__ground_corners(s, i, v);
+        for (int32_t k = 0; k < 3; ++k) {
+            fe_dvec3 way = fe__dsub(v[k], p);
+            rises |= fe__ddot(m, way) > flat * sqrt(fe__ddot(way, way)) + near;
+        }
+        if (rises && is_near(v, p, near)) return 1;
+    }
+    return 0;
+}

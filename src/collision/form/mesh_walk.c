@@ -1,0 +1,89 @@
+// mesh_walk.c - see mesh_walk.h.
+#include "collision/form/mesh_walk.h"
+
+#include "core/lanes.h"
+
+void fe__mesh_walk_begin(fe__mesh_walk *walk, const fe__mesh *mesh, const fe__bounds *box, fe_dvec3 origin)
+{
+    walk->mesh = mesh, walk->box = *box, walk->origin = origin;
+    walk->slot = walk->end = 0;
+    walk->top = 1;
+    walk->stack[0] = 0; // the root
+}
+
+// ---- nodes ---------------------------------------------------------------------------------------------------------
+typedef uint8_t bytes4 __attribute__((vector_size(4), may_alias, aligned(1)));
+
+static inline fe__lanes lanes_of(const uint8_t *bytes)
+{
+    return (fe__lanes){__builtin_convertvector(*(const bytes4 *)bytes, fe__quad),
+                       __builtin_convertvector(*(const bytes4 *)(bytes + 4), fe__quad)};
+}
+
+// A coordinate in steps of a node, from one before its boxes to one behind them
+static float in_steps(double x, double per_step) { return (float)fe__clampd(x * per_step, -1.0, 256.0); }
+
+// Bit i: the box meets that of child i. The box is widened by more than a float's rounding of 256 steps.
+static uint32_t meet_boxes(const fe__mesh_walk *w, const fe__mesh_node *node)
+{
+    const float widening = 1e-4f; // steps
+    const double low[3] = {w->box.low.x, w->box.low.y, w->box.low.z},
+                 high[3] = {w->box.high.x, w->box.high.y, w->box.high.z};
+    uint32_t met = (1u << node->count) - 1;
+    for (int32_t k = 0; k < 3; ++k) {
+        double per_step = 1.0 / fe__mesh_step(node, k), origin = (double)node->origin[k];
+        float from = in_steps(low[k] - origin, per_step) - widening,
+              to = in_steps(high[k] - origin, per_step) + widening;
+        met &= fe__lanes_at_most(fe__lanes_set(from), lanes_of(node->high[k])) &
+               fe__lanes_at_most(lanes_of(node->low[k]), fe__lanes_set(to));
+    }
+    return met;
+}
+
+// The first child on top
+static void open_node(fe__mesh_walk *w, const fe__mesh_node *node)
+{
+    uint32_t met = meet_boxes(w, node);
+    for (; met; met &= ~(1u << (31 - __builtin_clz(met))))
+        w->stack[w->top++] = node->first + (uint32_t)(31 - __builtin_clz(met));
+}
+
+// ---- triangles -----------------------------------------------------------------------------------------------------
+static int32_t reaches(const float *const v[3], int32_t axis, double low, double high)
+{
+    float a = v[0][axis], b = v[1][axis], c = v[2][axis];
+    return (double)fe__minf(fe__minf(a, b), c) <= high && (double)fe__maxf(fe__maxf(a, b), c) >= low;
+}
+
+static int32_t meet_triangle(const fe__mesh_walk *w, int32_t slot, fe__form *triangle)
+{
+    const float *const v[3] = {fe__mesh_vertex(w->mesh, slot, 0), fe__mesh_vertex(w->mesh, slot, 1),
+                               fe__mesh_vertex(w->mesh, slot, 2)};
+    const fe__bounds *box = &w->box;
+    if (!reaches(v, 0, box->low.x, box->high.x) || !reaches(v, 1, box->low.y, box->high.y) ||
+        !reaches(v, 2, box->low.z, box->high.z))
+        return 0;
+    triangle->type = FE__FORM_TRIANGLE, triangle->radius = 0.0f;
+    for (int32_t k = 0; k < 3; ++k)
+        triangle->vertex[k] =
+            fe__narrow(fe__dsub((fe_dvec3){(double)v[k][0], (double)v[k][1], (double)v[k][2]}, w->origin));
+    return 1;
+}
+
+int32_t fe__mesh_walk_next(fe__mesh_walk *w, fe__form *triangle)
+{
+    for (;;) {
+        while (w->slot < w->end) {
+            int32_t slot = w->slot++;
+            if (meet_triangle(w, slot, triangle)) return slot;
+        }
+        if (!w->top) return -1;
+        uint32_t child = w->stack[--w->top];
+        if (!(child & FE__MESH_LEAVES)) {
+            open_node(w, w->mesh->nodes + child);
+            continue;
+        }
+        w->slot = FE__MESH_LEAF * (int32_t)(child & ~FE__MESH_LEAVES);
+        w->end = fe__mini(w->slot + FE__MESH_LEAF, w->mesh->triangle_count);
+    }
+}

@@ -1,0 +1,24 @@
+// mesh_walk.h - the triangles of a mesh near a box, in the order of their slots.
+#ifndef FE_COLLISION_FORM_MESH_WALK_H
+#define FE_COLLISION_FORM_MESH_WALK_H
+#include "collision/form/form.h"
+#include "collision/form/mesh.h"
+
+// Children that wait: of each level all but the one that is looked into
+enum { FE__MESH_WALK_STACK = FE__MESH_DEPTH * (FE__MESH_WIDTH - 1) + FE__MESH_WIDTH };
+
+// All in the mesh's frame
+typedef struct fe__mesh_walk {
+    const fe__mesh *mesh;
+    fe__bounds box;
+    fe_dvec3 origin;
+    int32_t slot, end; // of the leaf
+    int32_t top;
+    uint32_t stack[FE__MESH_WALK_STACK]; // up to `top`
+} fe__mesh_walk;
+
+void fe__mesh_walk_begin(fe__mesh_walk *walk, const fe__mesh *mesh, const fe__bounds *box, fe_dvec3 origin);
+// Slot of the next triangle whose bounds meet the box, its vertices relative to the walk's origin; -1: no more.
+int32_t fe__mesh_walk_next(fe__mesh_walk *walk, fe__form *triangle);
+
+#endif
