@@ -1,8 +1,6 @@
 // shape.c - the API of shapes: geometry, material, filter, life.
 #include "api/check.h"
 
-#include "collision/form/hull_form.h"
-
 #include <inttypes.h>
 #include "core/fp_state.h"
 #include "world/handles.h"

@@ -23,6 +23,7 @@ struct play {
     fe_joint joints[PLAY_MOST_JOINTS]; // in the order of creation
     int32_t joint_count;
     int32_t groups[16]; // first actors or joints, as the script needs them
+    fe_asset assets[8]; // as the script needs them
     uint32_t seed;
     int32_t step;   // steps made
     float dt;       // s, of the steps
@@ -48,6 +49,8 @@ extern const script script_terrain; // heightfields (play_terrain.c)
 extern const script script_fast;    // bodies that outrun their thickness (play_fast.c)
 extern const script script_joints;  // joints of all types (play_joints.c)
 extern const script script_spawn;   // bodies that queries place (play_spawn.c)
+extern const script script_solids;  // hulls, cylinders and cones (play_solids.c)
+extern const script script_meshes;  // meshes under bodies of every form (play_meshes.c)
 extern const script script_people;  // 300 ragdolls (play_jointed.c)
 extern const script script_cloth;   // 10 000 balls in one island of joints (play_jointed.c)
 extern const script script_brief;   // two dozen bodies, 200 steps, every kind of call

@@ -152,12 +152,16 @@ static inline float fe__form_roundness(const fe__form *form)
 {
     return fe__form_is_curved(form) ? form->half.x : form->radius;
 }
-// How far below the surface, along the unit `normal` (form's frame) on which it is touched, lies what keeps its place
-// when the form rolls, m: the radius, or what of the rim's acts along the normal (rim.c).
-float fe__rim_pivot(const fe__form *form, fe_vec3 normal);
-static inline float fe__form_pivot(const fe__form *form, fe_vec3 normal)
+// How far below the surface, along the unit normal n (form's frame) on which it is touched, lies what keeps its place
+// when the form rolls, m: of a round one its radius. A rim's circle turns about the y axis: what it touches at stays as
+// deep. To second order in the turn, r s = pivot s^2 with s = |n across the axis|. Where the face is touched, nothing
+// rolls. A cone's side is touched along its length; the middle of it stands for all.
+static inline float fe__form_pivot(const fe__form *form, fe_vec3 n)
 {
-    return fe__form_is_curved(form) ? fe__rim_pivot(form, normal) : form->radius;
+    if (!fe__form_is_curved(form)) return form->radius;
+    float across = sqrtf(n.x * n.x + n.z * n.z);
+    if (!(across > fe__absf(n.y))) return 0.0f;
+    return (form->type == FE__FORM_CONE ? 0.5f : 1.0f) * form->half.x / across;
 }
 
 // ---- points --------------------------------------------------------------------------------------------------------

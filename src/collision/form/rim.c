@@ -1,4 +1,4 @@
-// rim.c - what cylinder and cone share: a circle about the y axis, and how a form with one rolls.
+// rim.c - what cylinder and cone share: a circle about the y axis.
 #include "collision/form/kinds.h"
 
 // A face gives as many points of its rim, the first along x, each a sector on. They stay with the body, so that what
@@ -44,14 +44,4 @@ void fe__rim_face(float radius, float y, fe_vec3 direction, fe__face *face)
         face->vertex[i] =
             fe__vec3(radius * (turn_cos * s[0] - turn_sin * s[1]), y, radius * (turn_cos * s[1] + turn_sin * s[0]));
     }
-}
-
-// The rim's circle turns about the axis: what it touches at stays as deep. To second order in the turn,
-// r s = pivot s^2 with s = |n across the axis|. Where the face is touched, nothing rolls. A cone's side is touched
-// along its length; the middle of it stands for all.
-float fe__rim_pivot(const fe__form *form, fe_vec3 n)
-{
-    float across = sqrtf(n.x * n.x + n.z * n.z);
-    if (!(across > fe__absf(n.y))) return 0.0f;
-    return (form->type == FE__FORM_CONE ? 0.5f : 1.0f) * form->half.x / across;
 }
