@@ -427,6 +427,7 @@ typedef struct fe_mesh_info {
     int64_t bytes;        ///< of memory
 } fe_mesh_info;
 
+FE_API void fe_mesh_info_init(fe_mesh_info *info, uint32_t struct_size);
 /// @param out_info  its struct_size must be set
 /// @return FE_ERROR_KIND for an asset that is no mesh
 FE_API fe_result fe_mesh_get_info(const fe_store *store, fe_asset mesh, fe_mesh_info *out_info);
@@ -449,6 +450,7 @@ typedef struct fe_mesh_triangle {
     int32_t kept;       ///< 0: it was dropped, and all above is 0
 } fe_mesh_triangle;
 
+FE_API void fe_mesh_triangle_init(fe_mesh_triangle *triangle, uint32_t struct_size);
 /// @param triangle      its number in the definition
 /// @param out_triangle  its struct_size must be set
 FE_API fe_result fe_mesh_get_triangle(const fe_store *store, fe_asset mesh, int32_t triangle,
@@ -728,7 +730,8 @@ FE_API int32_t fe_body_is_valid(const fe_world *world, fe_body body);
 /// Its touching pairs send their exit and are found anew. The body and what it touched wake. Forces not yet applied are
 /// dropped. A body that becomes static loses its velocities; one that is no longer dynamic loses a mass that was set.
 /// @param type  fe_body_type
-/// @return FE_ERROR_UNSUPPORTED for a body with a plane or a heightfield, unless `type` is static
+/// @return FE_ERROR_UNSUPPORTED for a body with a plane or a heightfield, unless `type` is static, and for one with a
+///         mesh that would be dynamic
 FE_API fe_result fe_body_set_type(fe_world *world, fe_body body, int32_t type);
 FE_API fe_result fe_body_get_type(const fe_world *world, fe_body body, int32_t *out_type);
 /// Puts the body there at once, through whatever is between, and wakes it and what it touched.

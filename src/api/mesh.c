@@ -178,6 +178,12 @@ static fe_mesh_info describe(const fe__asset *a)
                           .bytes = m->size + (int64_t)(sizeof *a + sizeof(fe_material) * (size_t)a->material_count)};
 }
 
+void fe_mesh_info_init(fe_mesh_info *info, uint32_t struct_size)
+{
+    fe_mesh_info defaults = {.struct_size = sizeof defaults};
+    fe__init_struct(info, &defaults, sizeof defaults, struct_size);
+}
+
 fe_result fe_mesh_get_info(const fe_store *store, fe_asset mesh, fe_mesh_info *out_info)
 {
     FE_BEGIN_STORE(store);
@@ -220,6 +226,12 @@ static fe_result read_triangle(const char *function, const fe_store *store, fe_a
     return FE_OK;
 }
 
+void fe_mesh_triangle_init(fe_mesh_triangle *triangle, uint32_t struct_size)
+{
+    fe_mesh_triangle defaults = {.struct_size = sizeof defaults};
+    fe__init_struct(triangle, &defaults, sizeof defaults, struct_size);
+}
+
 fe_result fe_mesh_get_triangle(const fe_store *store, fe_asset mesh, int32_t triangle, fe_mesh_triangle *out_triangle)
 {
     FE_BEGIN_STORE(store);
@@ -235,11 +247,10 @@ fe_result fe_mesh_get_triangle(const fe_store *store, fe_asset mesh, int32_t tri
 static fe_result set_materials(const char *function, fe_store *store, fe_asset mesh, const fe_material *materials,
                                uint32_t stride, int32_t count)
 {
-    fe__asset *a;
     int32_t index;
-    FE_TRY(find_mesh(function, store, mesh, &a));
     FE_TRY(fe__find_asset_of(function, "mesh", store, FE__ASSET_MESH, mesh, &index));
-    FE_CHECK_INT(count, a->material_count, a->material_count);
+    int32_t there = fe__store_asset(store, index)->material_count;
+    FE_CHECK_INT(count, there, there);
     fe_result entered = fe__asset_enter_worlds(store, index);
     if (entered != FE_OK) {
         const char *why = entered == FE_ERROR_STEPPING ? "is in a step" : "has another thread inside";
