@@ -307,6 +307,20 @@ static PyObject *from_vec3(const fe_vec3 *v)
     return numbers(vec3_type, (double[]){(double)v->x, (double)v->y, (double)v->z}, 3);
 }
 
+static PyObject *from_corners(const fe_vec3 corners[3])
+{
+    PyObject *tuple = PyTuple_New(3);
+    for (Py_ssize_t i = 0; tuple && i < 3; ++i) {
+        PyObject *corner = from_vec3(&corners[i]);
+        if (!corner) {
+            Py_DECREF(tuple);
+            return NULL;
+        }
+        PyTuple_SET_ITEM(tuple, i, corner);
+    }
+    return tuple;
+}
+
 static PyObject *from_dvec3(const fe_dvec3 *v) { return numbers(vec3_type, (double[]){v->x, v->y, v->z}, 3); }
 
 static PyObject *from_quat(const fe_quat *q)
@@ -652,7 +666,8 @@ static int to_bytes(call_state *call, PyObject *object, size_t count, const char
     return 0;
 }
 
-static int to_materials(call_state *call, PyObject *object, fe_heightfield_def *def)
+/// A sequence of at most 255 materials; None is none.
+static int to_materials(call_state *call, PyObject *object, const fe_material **out_materials, int32_t *out_count)
 {
     if (object == Py_None) return 0;
     Py_ssize_t count = PySequence_Size(object);
@@ -667,8 +682,8 @@ static int to_materials(call_state *call, PyObject *object, fe_heightfield_def *
         Py_XDECREF(item);
         if (failed) return -1;
     }
-    def->materials = materials;
-    def->material_count = (int32_t)count;
+    *out_materials = materials;
+    *out_count = (int32_t)count;
     return 0;
 }
 
@@ -694,9 +709,57 @@ static int to_heightfield(call_state *call, PyObject *object, fe_heightfield_def
     def->heights = samples;
     return to_bytes(call, holes, cell_count, "holes", &def->holes) ||
                    to_bytes(call, cells, cell_count, "cell_materials", &def->cell_materials) ||
-                   to_materials(call, materials, def)
+                   to_materials(call, materials, &def->materials, &def->material_count)
                ? -1
                : 0;
+}
+
+/// An array that has nothing to do with the others of the call, and how many records it has.
+static int to_own_input(call_state *call, PyObject *object, size_t record, const char *codes, const char *what,
+                        const void **out_array, int32_t *out_count)
+{
+    call->count = -1;
+    if (to_input(call, object, record, codes, what, out_array)) return -1;
+    return array_count(call, out_count);
+}
+
+/// (points, max_vertices, tolerance)
+static int to_hull(call_state *call, PyObject *object, fe_hull_def *def)
+{
+    PyObject *points;
+    const void *array;
+    fe_hull_def_init(def, (uint32_t)sizeof *def);
+    if (!PyTuple_Check(object)) return PyErr_SetString(PyExc_TypeError, "hull: a tuple is needed"), -1;
+    if (!PyArg_ParseTuple(object, "Oif;hull", &points, &def->max_vertices, &def->tolerance)) return -1;
+    if (to_own_input(call, points, 3 * sizeof(float), "f", "points", &array, &def->point_count)) return -1;
+    def->points = array;
+    return 0;
+}
+
+/// (vertices, triangles, index_type, flags, weld_distance, edge_angle, triangle_materials, materials, triangle_data); the
+/// last three may be None.
+static int to_mesh(call_state *call, PyObject *object, fe_mesh_def *def)
+{
+    PyObject *vertices, *triangles, *kinds, *materials, *data;
+    const void *array;
+    fe_mesh_def_init(def, (uint32_t)sizeof *def);
+    if (!PyTuple_Check(object)) return PyErr_SetString(PyExc_TypeError, "mesh: a tuple is needed"), -1;
+    if (!PyArg_ParseTuple(object, "OOiIffOOO;mesh", &vertices, &triangles, &def->index_type, &def->flags,
+                          &def->weld_distance, &def->edge_angle, &kinds, &materials, &data))
+        return -1;
+    if (to_own_input(call, vertices, 3 * sizeof(float), "f", "vertices", &array, &def->vertex_count)) return -1;
+    def->vertices = array;
+    int is_short = def->index_type == FE_INDEX_U16;
+    if (to_own_input(call, triangles, is_short ? 6 : 12, is_short ? "Hh" : "IiLl", "triangles", &def->indices,
+                     &def->triangle_count))
+        return -1;
+    if (to_bytes(call, kinds, (size_t)def->triangle_count, "triangle_materials", &def->triangle_materials) ||
+        to_materials(call, materials, &def->materials, &def->material_count))
+        return -1;
+    if (data == Py_None) return 0;
+    if (to_input(call, data, sizeof(uint32_t), "IiLl", "triangle_data", &array)) return -1; // one a triangle
+    def->triangle_data = array;
+    return 0;
 }
 
 /// Are there rows x columns floats? What is negative is left to the library.

@@ -189,6 +189,10 @@ FE_OUT(float *, PyFloat_FromDouble((double)*$1))
 
 %typemap(out) float barycentric[2] %{ $result = Py_BuildValue("(dd)", (double)$1[0], (double)$1[1]); %}
 
+// of a triangle of a mesh
+%typemap(out) fe_vec3 corners[3] %{ $result = from_corners($1); %}
+%typemap(out) uint32_t edges[3] %{ $result = Py_BuildValue("(III)", $1[0], $1[1], $1[2]); %}
+
 // `fe_vec3 *` without a name is a value that goes in, as a member's setter has it.
 %define FE_SMALL(TYPE, NAME)
 %typemap(in) TYPE * (TYPE value) {
@@ -302,6 +306,9 @@ FE_OUTPUT(fe_joint_event *out_events, sizeof *$1, "")
 FE_OUTPUT(fe_contact *out_contacts, sizeof *$1, "")
 FE_OUTPUT(float *out_floats, (ends_with("$symname", "transforms_f32") ? 7 : 6) * sizeof *$1, "f")
 FE_OUTPUT(float *out_heights, sizeof *$1, "f")
+FE_OUTPUT(fe_vec3 *out_vertices, sizeof *$1, "f")
+FE_OUTPUT(fe_hull_face *out_faces, sizeof *$1, "")
+FE_OUTPUT(int32_t *out_corners, sizeof *$1, "Iil")
 %typemap(check) const float *heights "if (heights_fit(call1.count, arg5, arg6)) SWIG_fail;"
 %typemap(check) float *out_heights "if (heights_fit(call1.capacity, arg5, arg6)) SWIG_fail;"
 
@@ -351,10 +358,32 @@ FE_OUTPUT(float *out_heights, sizeof *$1, "f")
 }
 %ignore fe_heightfield_def;
 %ignore fe_heightfield_def_init;
+%typemap(in) const fe_hull_def *def (fe_hull_def value) {
+    if (to_hull(&call1, $input, &value)) SWIG_fail;
+    $1 = &value;
+}
+%ignore fe_hull_def;
+%ignore fe_hull_def_init;
+%typemap(in) const fe_mesh_def *def (fe_mesh_def value) {
+    if (to_mesh(&call1, $input, &value)) SWIG_fail;
+    $1 = &value;
+}
+%ignore fe_mesh_def;
+%ignore fe_mesh_def_init;
+%typemap(in) const fe_material *materials {
+    int32_t length = 0;
+    if ($input == Py_None) {
+        PyErr_SetString(PyExc_TypeError, "materials: a sequence is needed");
+        SWIG_fail;
+    }
+    if (to_materials(&call1, $input, (const fe_material **)&$1, &length)) SWIG_fail;
+    call1.count = length;
+}
 
 // read from packed buffers, see records.py
 %ignore fe_ray;
 %ignore fe_path;
+%ignore fe_hull_face;
 %ignore fe_pair_event;
 %ignore fe_body_event;
 %ignore fe_hit_event;

@@ -14,7 +14,7 @@ class InvalidArgumentError(FeatherError, ValueError):
 
 
 class StaleHandleError(FeatherError, ReferenceError):
-    """The body, shape, joint or heightfield was destroyed, or its world is closed (FE_ERROR_STALE)."""
+    """The body, shape, joint or asset was destroyed, or its world is closed (FE_ERROR_STALE)."""
 
 
 class WrongKindError(FeatherError, TypeError):

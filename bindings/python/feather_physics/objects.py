@@ -9,9 +9,9 @@ from typing import overload
 from . import _flat, records
 from ._flat import Bounds, Quat, Transform, Vec3
 from .errors import InvalidArgumentError
-from .records import BODY_TYPES, JOINT_TYPES, NO_ROTATION, Box, Capsule, Filter, Geometry, Material, Plane, Sphere
-from .records import Vector
-from .store import Heightfield
+from .records import BODY_TYPES, JOINT_TYPES, NO_ROTATION, Box, Capsule, Cone, Cylinder, Filter, Geometry, Material
+from .records import Plane, Sphere, Vector
+from .store import Asset, Heightfield, Hull, Mesh
 from .words import (
     DOFS,
     EVENT_BITS,
@@ -343,6 +343,14 @@ class Body(Entity):
         """A box by half its edges; for the options see add()."""
         return self.add(Box(half_x, half_y, half_z), **options)
 
+    def add_cylinder(self, half_height: float, radius: float, **options: Any) -> "Shape":
+        """A cylinder along local Y; for the options see add()."""
+        return self.add(Cylinder(half_height, radius), **options)
+
+    def add_cone(self, half_height: float, radius: float, **options: Any) -> "Shape":
+        """A cone along local Y, its tip at +half_height; for the options see add()."""
+        return self.add(Cone(half_height, radius), **options)
+
     def add_plane(self, normal: Vector = (0.0, 1.0, 0.0), distance: float = 0.0, **options: Any) -> "Shape":
         """The half space normal . p <= distance, for static bodies; for the options see add()."""
         return self.add(Plane(normal, distance), **options)
@@ -400,7 +408,7 @@ class Shape(Entity):
 
     @property
     def geometry(self) -> Geometry:
-        """Its form: a Sphere, Capsule, Box, Plane or Heightfield."""
+        """Its form: a Sphere, Capsule, Box, Cylinder, Cone, Plane, Hull, Mesh or Heightfield."""
         flat = _flat.shape_get_geometry(self._capsule, self._id)
         if flat.type == _flat.FE_GEOMETRY_SPHERE:
             return Sphere(flat.radius)
@@ -410,6 +418,14 @@ class Shape(Entity):
             return Box(*flat.half_extents)
         if flat.type == _flat.FE_GEOMETRY_PLANE:
             return Plane(flat.normal, flat.distance)
+        if flat.type == _flat.FE_GEOMETRY_CYLINDER:
+            return Cylinder(flat.half_height, flat.radius)
+        if flat.type == _flat.FE_GEOMETRY_CONE:
+            return Cone(flat.half_height, flat.radius)
+        if flat.type == _flat.FE_GEOMETRY_HULL:
+            return Hull(self._world.store, flat.asset)
+        if flat.type == _flat.FE_GEOMETRY_MESH:
+            return Mesh(self._world.store, flat.asset)
         return Heightfield(self._world.store, flat.asset)
 
     @geometry.setter
@@ -580,8 +596,16 @@ def flat_geometry(world: "World", geometry: Geometry) -> Any:
     if isinstance(geometry, Plane):
         x, y, z = geometry.normal
         return _flat.geometry_plane(x, y, z, geometry.distance)
-    if not isinstance(geometry, Heightfield):
+    if isinstance(geometry, Cylinder):
+        return _flat.geometry_cylinder(geometry.half_height, geometry.radius)
+    if isinstance(geometry, Cone):
+        return _flat.geometry_cone(geometry.half_height, geometry.radius)
+    if not isinstance(geometry, Asset):
         raise TypeError(f"a geometry is needed, not {type(geometry).__name__!r}")
     if geometry._store is not world.store:
         raise InvalidArgumentError(f"{geometry!r} belongs to another store than the world's")
+    if isinstance(geometry, Hull):
+        return _flat.geometry_hull(geometry._id)
+    if isinstance(geometry, Mesh):
+        return _flat.geometry_mesh(geometry._id)
     return _flat.geometry_heightfield(geometry._id)

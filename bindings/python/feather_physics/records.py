@@ -11,7 +11,7 @@ from ._flat import Quat, Vec3
 
 if TYPE_CHECKING:
     from .objects import Body, Joint, Shape
-    from .store import Heightfield
+    from .store import Heightfield, Hull, Mesh
 
 Vector = Sequence[float]
 """Three numbers, or four for a rotation: any sequence."""
@@ -40,6 +40,20 @@ class Box(NamedTuple):
     half_z: float
 
 
+class Cylinder(NamedTuple):
+    """A cylinder along local Y: half its height, and its radius, m."""
+
+    half_height: float
+    radius: float
+
+
+class Cone(NamedTuple):
+    """A cone along local Y, its tip at +half_height: half its height, and the radius of its base, m."""
+
+    half_height: float
+    radius: float
+
+
 class Plane(NamedTuple):
     """The half space normal . p <= distance, for static bodies."""
 
@@ -47,7 +61,7 @@ class Plane(NamedTuple):
     distance: float = 0.0
 
 
-Geometry = Union[Sphere, Capsule, Box, Plane, "Heightfield"]
+Geometry = Union[Sphere, Capsule, Box, Cylinder, Cone, Plane, "Hull", "Mesh", "Heightfield"]
 
 
 class Material(NamedTuple):
@@ -243,6 +257,71 @@ class Contact(NamedTuple):
     triangle_b: int
 
 
+class HullInfo(NamedTuple):
+    """What a hull is; see fe_hull_info in feather.h. The inertia is that of a density of 1 kg/m3."""
+
+    vertex_count: int
+    edge_count: int
+    face_count: int
+    volume: float
+    area: float
+    centre: Vec3
+    inertia: Vec3
+    inertia_rotation: Quat
+    lower: Vec3
+    upper: Vec3
+    thickness: float
+    inner_radius: float
+    tolerance: float
+    error: float
+    bytes: int
+
+
+class HullFace(NamedTuple):
+    """A face of a hull: vertices, counterclockwise seen from outside, the outward normal, and its plane's distance."""
+
+    corners: Tuple[int, ...]
+    normal: Vec3
+    distance: float
+
+
+class MeshInfo(NamedTuple):
+    """What a mesh is; see fe_mesh_info in feather.h. A closed mesh that is wound inside out has a negative volume."""
+
+    triangle_count: int
+    degenerate_triangles: int
+    duplicate_triangles: int
+    vertex_count: int
+    open_edges: int
+    crowded_edges: int
+    flipped_edges: int
+    tree_height: int
+    material_count: int
+    lower: Vec3
+    upper: Vec3
+    area: float
+    volume: float
+    bytes: int
+
+
+class MeshEdge(NamedTuple):
+    """An edge of a triangle: do bodies touch it, does the surface bend outwards there, has it no neighbour?"""
+
+    felt: bool
+    convex: bool
+    open: bool
+
+
+class MeshTriangle(NamedTuple):
+    """A triangle of a mesh: corners, m; edges from corner 0 to 1, 1 to 2, 2 to 0; the place of its material, -1: the
+    shape's; your number."""
+
+    corners: Tuple[Vec3, Vec3, Vec3]
+    edges: Tuple[MeshEdge, MeshEdge, MeshEdge]
+    material: int
+    data: int
+
+
 class JointState(NamedTuple):
     """How a joint stands; see fe_joint_state in feather.h."""
 
@@ -372,6 +451,7 @@ PAIR_EVENT = Packed(f"{_PAIR} kind:i is_trigger:i {_PARTS} reserved:16x")
 BODY_EVENT = Packed("body:Q kind:i reserved:4x")
 HIT_EVENT = Packed(f"{_PAIR} {_SURFACES} point:3d normal:3f speed:f impulse:f {_PARTS} reserved:20x")
 JOINT_EVENT = Packed("joint:Q body_a:Q body_b:Q user_data:Q kind:i type:i force:3f torque:3f")
+HULL_FACE = Packed("first:i count:i normal:3f distance:f reserved:8x")
 CONTACT_POINT = Packed("point:3d separation:f normal_impulse:f total_impulse:f id:I")
 CONTACT = Packed(
     f"{_PAIR} {_SURFACES} normal:3f point_count:i points:4*CONTACT_POINT friction_impulse:3f twist_impulse:f {_PARTS} "

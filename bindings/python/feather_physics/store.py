@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from array import array
 from types import TracebackType
-from typing import Any, Dict, Optional, Sequence, Tuple, Type
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Type
 
 from . import _flat
+from ._flat import Vec3
 from .errors import StaleHandleError
+from .records import HULL_FACE, HullFace, HullInfo, MeshEdge, MeshInfo, MeshTriangle, copy_record, read_all
 from .words import flat_material
 
 
 class Store:
-    """Holds heightfields that several worlds may share: World(store=store). Any thread may use it while worlds step.
+    """Holds heightfields, hulls and meshes that several worlds may share: World(store=store). Any thread may use it while worlds step.
     A world that is given none has one of its own, world.store."""
 
     __slots__ = ("_capsule", "_user_data")
@@ -84,9 +86,38 @@ class Store:
         definition = (rows, columns, cell_x, cell_z, samples, holes, cell_materials, surfaces)
         return Heightfield(self, _flat.heightfield_create(self._capsule, definition))
 
+    def create_hull(self, points: Any, *, max_vertices: int = 64, tolerance: float = 0.0) -> "Hull":
+        """The convex hull of points, m: a sequence of them, or a buffer of float32, such as an array of NumPy.
+        body.add(hull) gives it to a body. Flat points are a DegenerateError."""
+        return Hull(self, _flat.hull_create(self._capsule, (_places(points), max_vertices, tolerance)))
 
-class Heightfield:
-    """A grid of heights that any number of shapes may share: body.add(heightfield)."""
+    def create_mesh(
+        self,
+        vertices: Any,
+        triangles: Any,
+        *,
+        two_sided: bool = False,
+        strict: bool = False,
+        weld_distance: float = 0.0,
+        edge_angle: float = 0.035,
+        triangle_materials: Any = None,
+        materials: Optional[Sequence[Sequence[Any]]] = None,
+        triangle_data: Any = None,
+    ) -> "Mesh":
+        """Triangles, for static and kinematic bodies: body.add(mesh). Vertices, m, are a sequence of points or a buffer
+        of float32; triangles three vertices each, counterclockwise seen from the side that counts, a sequence or a
+        buffer of 2 or 4 byte integers. Triangle_materials are bytes, one a triangle; materials at most 255;
+        triangle_data one integer of 32 bits a triangle. See fe_mesh_def in feather.h."""
+        indices, index_type = _indices(triangles)
+        flags = (_flat.FE_MESH_TWO_SIDED if two_sided else 0) | (_flat.FE_MESH_STRICT if strict else 0)
+        surfaces = None if materials is None else [flat_material(material) for material in materials]
+        data = None if triangle_data is None else _words(triangle_data)
+        definition = (_places(vertices), indices, index_type, flags, weld_distance, edge_angle, triangle_materials)
+        return Mesh(self, _flat.mesh_create(self._capsule, (*definition, surfaces, data)))
+
+
+class Asset:
+    """What any number of shapes may share: a heightfield, a hull or a mesh of a store."""
 
     __slots__ = ("_store", "_id")
 
@@ -118,6 +149,26 @@ class Heightfield:
         """False once it is destroyed, or its store closed."""
         return not self._store.closed and _flat.asset_is_valid(self._store._capsule, self._id) == 1
 
+    def destroy(self) -> None:
+        """The handle dies at once, what it names with its last shape."""
+        _flat.asset_destroy(self._store._capsule, self._id)
+        self._store._user_data.pop(self._id, None)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Asset) and other._id == self._id and other._store is self._store
+
+    def __hash__(self) -> int:
+        return hash((id(self._store), self._id))
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self._id:#x}>"
+
+
+class Heightfield(Asset):
+    """A grid of heights that any number of shapes may share: body.add(heightfield)."""
+
+    __slots__ = ()
+
     def get_heights(self, row: int, column: int, rows: int, columns: int, out: Any) -> Any:
         """Fills a buffer of float32 with a rectangle of samples, m, row by row."""
         _flat.heightfield_get_heights(self._store._capsule, self._id, row, column, rows, columns, out)
@@ -127,19 +178,102 @@ class Heightfield:
         """Changes a rectangle of samples from a buffer of float32; bodies near it wake, in every world."""
         _flat.heightfield_set_heights(self._store._capsule, self._id, row, column, rows, columns, heights)
 
-    def destroy(self) -> None:
-        """The handle dies at once, its heights with their last shape."""
-        _flat.asset_destroy(self._store._capsule, self._id)
-        self._store._user_data.pop(self._id, None)
 
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Heightfield) and other._id == self._id and other._store is self._store
+class Hull(Asset):
+    """A convex hull that any number of shapes may share: body.add(hull)."""
 
-    def __hash__(self) -> int:
-        return hash((id(self._store), self._id))
+    __slots__ = ()
 
-    def __repr__(self) -> str:
-        return f"<Heightfield {self._id:#x}>"
+    @property
+    def info(self) -> HullInfo:
+        """Volume, centre, inertia, bounds, how many vertices and faces."""
+        return copy_record(HullInfo, _flat.hull_get_info(self._store._capsule, self._id))
+
+    @property
+    def vertices(self) -> List[Vec3]:
+        """Points of those it was made of, m."""
+        count = _flat.hull_get_vertices(self._store._capsule, self._id, None)
+        places = array("f", bytes(12 * count))
+        _flat.hull_get_vertices(self._store._capsule, self._id, places)
+        return [Vec3(places[3 * i : 3 * i + 3].tolist()) for i in range(count)]
+
+    @property
+    def faces(self) -> List[HullFace]:
+        """Convex polygons, to draw: a fan of triangles from the first corner of each."""
+        corners = array("i", bytes(4 * _flat.hull_get_corners(self._store._capsule, self._id, None)))
+        _flat.hull_get_corners(self._store._capsule, self._id, corners)
+        packed = read_all(_flat.hull_get_faces, HULL_FACE, self._store._capsule, self._id)
+        return [
+            HullFace(tuple(corners[first : first + count]), Vec3((x, y, z)), distance)
+            for first, count, x, y, z, distance in packed
+        ]
+
+
+class Mesh(Asset):
+    """Triangles that any number of shapes of static and kinematic bodies may share: body.add(mesh)."""
+
+    __slots__ = ()
+
+    @property
+    def info(self) -> MeshInfo:
+        """Area, volume, bounds, how many triangles, and what was wrong with them."""
+        return copy_record(MeshInfo, _flat.mesh_get_info(self._store._capsule, self._id))
+
+    def triangle(self, number: int) -> Optional[MeshTriangle]:
+        """A triangle by its number in what the mesh was made of; None for one that was dropped."""
+        flat = _flat.mesh_get_triangle(self._store._capsule, self._id, number)
+        if not flat.kept:
+            return None
+        edges = [MeshEdge(bits & 1 != 0, bits & 2 != 0, bits & 4 != 0) for bits in flat.edges]
+        return MeshTriangle(flat.corners, (edges[0], edges[1], edges[2]), flat.material, flat.data)
+
+    def set_materials(self, materials: Sequence[Sequence[Any]]) -> None:
+        """New materials of a mesh that has some, as many as before; what touches it wakes, in every world."""
+        _flat.mesh_set_materials(self._store._capsule, self._id, [flat_material(material) for material in materials])
+
+
+def _places(points: Any) -> Any:
+    """x y z each: a buffer of float32, or a sequence of points or of numbers."""
+    try:
+        view = memoryview(points)
+        if view.format == "f":
+            return points
+        points = view.tolist()
+    except TypeError:
+        pass
+    return array("f", _flattened(points))
+
+
+def _indices(triangles: Any) -> Tuple[Any, int]:
+    """Three vertices each, and fe_index_type: a buffer of 2 or 4 byte integers, or a sequence."""
+    try:
+        view = memoryview(triangles)
+        if view.format in ("H", "I", "i", "L", "l") and view.itemsize in (2, 4):
+            return triangles, 1 if view.itemsize == 2 else 0
+        triangles = view.tolist()
+    except TypeError:
+        pass
+    return array("I", _flattened(triangles)), 0
+
+
+def _words(numbers: Any) -> Any:
+    """Integers of 32 bits: a buffer of such, or a sequence."""
+    try:
+        if memoryview(numbers).itemsize == 4:
+            return numbers
+    except TypeError:
+        pass
+    return array("I", numbers)
+
+
+def _flattened(items: Any) -> List[Any]:
+    flat: List[Any] = []
+    for item in items:
+        if isinstance(item, (int, float)):
+            flat.append(item)
+        else:
+            flat.extend(item)
+    return flat
 
 
 def _samples(heights: Any, rows: Optional[int], columns: Optional[int]) -> Tuple[Any, int, int]:

@@ -11,7 +11,7 @@ from . import _flat, records
 from ._flat import Bounds, Vec3
 from .objects import Body, Joint, Shape, flat_geometry, handle_of
 from .records import NO_ROTATION, FilterPair, Geometry, Vector
-from .store import Heightfield, Store
+from .store import Heightfield, Hull, Mesh, Store
 from .words import body_type, fill, locks_bits, word
 
 ALL_LAYERS = 0xFFFFFFFF
@@ -82,7 +82,7 @@ class World:
     ):
         """Gravity is m/s2. Workers, 1 to 64, are threads of its own unless a pool is given; results do not depend on
         them. The number, 1 to 4095, is part of the handles: worlds whose handles must agree need the same one; 0 is
-        the next of a counter. The store holds the heightfields; without one the world has its own."""
+        the next of a counter. The store holds heightfields, hulls and meshes; without one the world has its own."""
         definition = _flat.world_def()
         definition.gravity = gravity
         definition.worker_count = workers
@@ -162,7 +162,7 @@ class World:
 
     @property
     def store(self) -> Store:
-        """What holds its heightfields: the one it was given, or its own."""
+        """What holds its heightfields, hulls and meshes: the one it was given, or its own."""
         return self._store
 
     @property
@@ -295,6 +295,14 @@ class World:
     def create_heightfield(self, heights: Any, **options: Any) -> Heightfield:
         """Terrain in this world's store, see Store.create_heightfield()."""
         return self._store.create_heightfield(heights, **options)
+
+    def create_hull(self, points: Any, **options: Any) -> Hull:
+        """A convex hull in this world's store, see Store.create_hull()."""
+        return self._store.create_hull(points, **options)
+
+    def create_mesh(self, vertices: Any, triangles: Any, **options: Any) -> Mesh:
+        """Triangles in this world's store, see Store.create_mesh()."""
+        return self._store.create_mesh(vertices, triangles, **options)
 
     # ---- joints: an end of None is the world; further fields are those of the definitions in feather.h ----
 

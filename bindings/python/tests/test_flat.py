@@ -14,10 +14,12 @@ ELSEWHERE = {
     "fe_allocator_init": "allocators and task systems are functions of a host in C",
     "fe_task_system_init": "allocators and task systems are functions of a host in C",
     "fe_heightfield_def_init": "fe_heightfield_create takes a tuple, whose arrays live as long as the call",
+    "fe_hull_def_init": "fe_hull_create takes a tuple, whose arrays live as long as the call",
+    "fe_mesh_def_init": "fe_mesh_create takes a tuple, whose arrays live as long as the call",
     "fe_query_filter_init": "filters are tuples of mask, flags and excluded bodies, for the same reason",
 }
 # arrays: a buffer goes in, though the name begins with out_
-BUFFERS = re.compile(r"out_(bodies|shapes|joints|transforms|hits|overlaps|events|contacts|floats|heights)$")
+BUFFERS = re.compile(r"out_(bodies|shapes|joints|transforms|hits|overlaps|events|contacts|floats|heights|vertices|faces|corners)$")
 FOUND_FROM_BUFFERS = ("stride", "ray_stride", "path_stride", "count", "capacity", "struct_size", "user")
 
 
@@ -111,9 +113,9 @@ def struct_size(body: str, header: str) -> int:
     return (total + align - 1) // align * align
 
 
-@pytest.mark.parametrize("name", ["Tuning", "Profile", "Counters", "Energy", "JointState", "MassData"])
+@pytest.mark.parametrize("name", ["Tuning", "Profile", "Counters", "Energy", "HullInfo", "MeshInfo", "JointState", "MassData"])
 def test_record_has_the_fields_of_the_struct(name: str) -> None:
-    structs = {"Tuning": "world_tuning", "JointState": "joint_state", "MassData": "mass_data"}
+    structs = {"Tuning": "world_tuning", "JointState": "joint_state", "MassData": "mass_data", "HullInfo": "hull_info", "MeshInfo": "mesh_info"}
     struct = "fe_" + structs.get(name, name.lower())
     header = (ROOT / "include/feather.h").read_text()
     body = re.search(rf"typedef struct {struct} {{(.*?)}} {struct};", header, re.S)

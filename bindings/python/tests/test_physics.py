@@ -4,6 +4,7 @@ import math
 from array import array
 from typing import Any, List
 
+import numpy as np
 import pytest
 
 import feather_physics
@@ -11,17 +12,23 @@ from feather_physics import (
     Body,
     Box,
     Capsule,
+    Cone,
+    Cylinder,
+    DegenerateError,
     FeatherError,
     Filter,
     FilterPair,
     Heightfield,
+    Hull,
     InvalidArgumentError,
     MassData,
     Material,
+    Mesh,
     Plane,
     Pool,
     Quat,
     Sphere,
+    StaleHandleError,
     StateError,
     SteppingError,
     Store,
@@ -286,6 +293,75 @@ def test_heightfield(world: World, ball: Body) -> None:
             world.create_heightfield(**wrong)
     with pytest.raises(ValueError):
         field.set_heights(0, 0, 3, 3, array("f", [2]))
+
+
+CUBE = [(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]
+
+
+def test_hull(world: World) -> None:
+    hull = world.create_hull(CUBE + [(0, 0, 0)])
+    assert hull.vertices == CUBE and hull.info.volume == pytest.approx(1) and hull.info.centre == (0, 0, 0)
+    assert (hull.info.vertex_count, hull.info.edge_count, hull.info.face_count) == (8, 12, 6)
+    assert all(len(face.corners) == 4 and face.distance == pytest.approx(0.5) for face in hull.faces)
+    assert {tuple(face.normal) for face in hull.faces} == {(-1, 0, 0), (1, 0, 0), (0, -1, 0), (0, 1, 0), (0, 0, -1), (0, 0, 1)}
+    world.create_body("static").add_plane()
+    body = world.create_body(position=(0, 1, 0))
+    shape = body.add(hull, density=500)
+    assert shape.geometry == hull and isinstance(shape.geometry, Hull) and body.mass == pytest.approx(500)
+    run(world, 2)
+    assert body.position.y == pytest.approx(0.5, abs=1e-3)
+    for points in (np.array(CUBE, dtype=np.float32), np.array(CUBE), array("f", [x for point in CUBE for x in point])):
+        assert world.create_hull(points, max_vertices=8, tolerance=1e-4).vertices == CUBE
+    with pytest.raises(DegenerateError, match="flat"):
+        world.create_hull([(0, 0, 0), (1, 0, 0), (0, 0, 1), (1, 0, 1)])
+    with pytest.raises(InvalidArgumentError, match="points.3..z"):
+        world.create_hull([*CUBE[:3], (0, 0, math.nan)])
+    with pytest.raises(ValueError):
+        world.create_hull([1, 2, 3, 4])
+    hull.destroy()
+    assert not hull.is_valid
+    with pytest.raises(StaleHandleError):
+        hull.info
+
+
+def test_mesh(world: World) -> None:
+    vertices = [(-4, 0, -4), (4, 0, -4), (-4, 0, 4), (4, 0, 4)]
+    triangles = [(0, 2, 3), (0, 3, 1), (0, 0, 1)]
+    mesh = world.create_mesh(vertices, triangles, triangle_materials=bytes([0, 1, 0]), materials=[Material(user_id=5), Material(user_id=6)], triangle_data=[7, 8, 9])
+    info = mesh.info
+    assert (info.triangle_count, info.degenerate_triangles, info.open_edges, info.material_count) == (2, 1, 4, 2)
+    assert info.area == pytest.approx(64) and info.volume == 0 and info.lower == (-4, 0, -4) and info.upper == (4, 0, 4)
+    triangle = mesh.triangle(1)
+    assert triangle and triangle.corners == (vertices[0], vertices[3], vertices[1]) and (triangle.material, triangle.data) == (1, 8)
+    assert [edge.open for edge in triangle.edges] == [False, True, True] and triangle.edges[1].felt and not triangle.edges[0].felt
+    assert mesh.triangle(2) is None
+    shape = world.create_body("static").add(mesh)
+    assert shape.geometry == mesh and isinstance(shape.geometry, Mesh)
+    body = world.create_body(position=(1, 1, 0))
+    body.add_cylinder(0.25, 0.5)
+    assert body.shapes[0].geometry == Cylinder(0.25, 0.5)
+    cone = world.create_body(position=(-2, 1, 2))
+    assert cone.add_cone(0.5, 0.5).geometry == Cone(0.5, 0.5)
+    run(world, 2)
+    assert body.position.y == pytest.approx(0.25, abs=1e-3) and cone.position.y == pytest.approx(0.5, abs=1e-3)
+    hit = world.raycast((3, 3, -3), (0, -10, 0))
+    assert hit and hit.triangle == 1 and hit.material == 6
+    mesh.set_materials([Material(), Material(user_id=11)])
+    hit = world.raycast((3, 3, -3), (0, -10, 0))
+    assert hit and hit.material == 11
+    with pytest.raises(UnsupportedError, match="dynamic"):
+        body.add(mesh)
+    flat = np.array(triangles[:2])
+    for indices in (flat, flat.astype(np.uint16), flat.astype(np.uint32), flat.astype(np.int32), flat.ravel().tolist()):
+        other = world.create_mesh(np.array(vertices, dtype=np.float32), indices, two_sided=True, strict=True, weld_distance=1e-4, edge_angle=0.1)
+        assert other.info.triangle_count == 2 and other.triangle(1).corners == triangle.corners  # type: ignore[union-attr]
+    for wrong in ({"strict": True}, {"triangle_materials": bytes(2)}, {"triangle_data": [1]}, {"weld_distance": -1}, {"materials": [Material()] * 256}):
+        with pytest.raises(ValueError):
+            world.create_mesh(vertices, triangles, **wrong)  # type: ignore[arg-type]
+    with pytest.raises(InvalidArgumentError, match="triangle 0"):
+        world.create_mesh(vertices, [(0, 1, 4)])
+    with pytest.raises(OverflowError):
+        world.create_mesh(vertices, [(0, 1, -1)])
 
 
 def test_user_data_and_equality(world: World, ball: Body) -> None:
