@@ -17,14 +17,15 @@ NAMES = {"fe_material": "SurfaceMaterial", "fe_bounds": "WorldBounds", "fe_energ
          "fe_closest": "ClosestPoint", "fe_motion": "AxisMotion", "fe_spring": "AxisSpring",
          "fe_overlap": "ShapeOverlap"}
 PRIVATE = {"fe_query_filter": "NativeFilter",  # classes around these are written by hand
-           "fe_heightfield_def": "NativeHeightfield"}
+           "fe_heightfield_def": "NativeHeightfield", "fe_hull_def": "NativeHull", "fe_mesh_def": "NativeMesh"}
 FOR_C = {"fe_allocator", "fe_task_system"}
 HANDLES = {"fe_body": "BodyHandle", "fe_shape": "ShapeHandle", "fe_joint": "JointHandle", "fe_asset": "AssetHandle"}
 PLAIN = {"int32_t": "int", "uint32_t": "uint", "int64_t": "long", "uint64_t": "ulong", "float": "float",
          "double": "double", "fe_handle": "ulong"}
-SWITCHES = {"awake", "sleep_allowed", "bullet", "trigger", "is_trigger", "collide_connected", "pair_filter", "one_way"}
+SWITCHES = {"awake", "sleep_allowed", "bullet", "trigger", "is_trigger", "collide_connected", "pair_filter", "one_way",
+            "kept"}
 ENUM_FIELDS = {"linear_locks": "fe_axis", "angular_locks": "fe_axis", "kind": "fe_event_kind"}
-FLAGS = {"fe_axis", "fe_shape_events", "fe_query_flags", "fe_hit_flags"}
+FLAGS = {"fe_axis", "fe_shape_events", "fe_query_flags", "fe_hit_flags", "fe_mesh_flags", "fe_mesh_edge_flags"}
 AXES = ["LinearX", "LinearY", "LinearZ", "AngularX", "AngularY", "AngularZ"]  # of a configurable joint, by fe_dof
 
 

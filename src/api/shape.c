@@ -46,8 +46,8 @@ static fe_result read_plane(const char *function, const fe_geometry *geometry, f
     return FE_OK;
 }
 
-static fe_result read_shared(const char *function, const fe_world *world, const fe_geometry *geometry,
-                             fe__asset_kind kind, fe__form *out_form)
+static fe_result read_shared(const char *function, const fe_world *world, const fe_geometry *geometry, int32_t kind,
+                             fe__form *out_form)
 {
     int32_t index;
     fe__store_lock(world->store);

@@ -58,6 +58,17 @@ namespace FeatherPhysics
         {
             return Add(Geometry.Plane(normalX, normalY, normalZ, distance), def);
         }
+        public Shape AddCylinder(float halfHeight, float radius, ShapeDef def = null)
+        {
+            return Add(Geometry.Cylinder(halfHeight, radius), def);
+        }
+        public Shape AddCone(float halfHeight, float radius, ShapeDef def = null)
+        {
+            return Add(Geometry.Cone(halfHeight, radius), def);
+        }
+        public Shape AddHull(ConvexHull hull, ShapeDef def = null) { return Add(Geometry.Hull(hull), def); }
+        /// <summary>Of a static or kinematic body.</summary>
+        public Shape AddMesh(TriangleMesh mesh, ShapeDef def = null) { return Add(Geometry.Mesh(mesh), def); }
         public Shape AddTerrain(Heightfield field, ShapeDef def = null)
         {
             return Add(Geometry.Terrain(field), def);

@@ -1,4 +1,5 @@
-// A store of assets, and the heightfields in it: fe_store_*, fe_heightfield_*, fe_asset_* as members.
+// A store of assets, and the heightfields in it: fe_store_*, fe_heightfield_*, fe_asset_* as members. Hulls and meshes
+// are in Hull.cs and Mesh.cs.
 using System;
 using System.Runtime.InteropServices;
 
@@ -8,7 +9,7 @@ namespace FeatherPhysics
     /// Assets that several worlds may share. Any thread may create, read and destroy assets while worlds that use the
     /// store step. A world without one has a store of its own: <see cref="World.Store"/>.
     /// </summary>
-    public sealed unsafe class Store : IDisposable
+    public sealed unsafe partial class Store : IDisposable
     {
         internal sealed class StoreHandle : SafeHandle
         {
@@ -66,6 +67,21 @@ namespace FeatherPhysics
             if (!held) return;
             if (Safe != null) Safe.DangerousRelease();
             else owner.Release();
+        }
+
+        /// Of an asset's value, whose store may be null.
+        internal static void* Enter(Store store, string kind, ref bool held)
+        {
+            if (store == null) throw new StaleHandleException(kind + ": a default value, of no store");
+            return store.Enter(ref held);
+        }
+        internal static bool IsAlive(Store store, ulong asset)
+        {
+            if (store == null) return false;
+            bool held = false;
+            try { return Native.asset_is_valid(store.Enter(ref held), asset) != 0; }
+            catch (ObjectDisposedException) { return false; }
+            finally { store.Leave(held); }
         }
 
         /// <summary>Memory of the store and its assets.</summary>
@@ -156,17 +172,7 @@ namespace FeatherPhysics
         public Store Store { get { return store; } }
         public AssetHandle Handle { get { return new AssetHandle(id); } }
         /// <summary>False once it is destroyed, or its store disposed.</summary>
-        public bool IsValid
-        {
-            get
-            {
-                if (store == null) return false;
-                bool held = false;
-                try { return Native.asset_is_valid(store.Enter(ref held), id) != 0; }
-                catch (ObjectDisposedException) { return false; }
-                finally { store.Leave(held); }
-            }
-        }
+        public bool IsValid { get { return Store.IsAlive(store, id); } }
         /// <summary>The handle dies at once. Its heights live until the last shape that has them is gone.</summary>
         public void Destroy()
         {
@@ -201,11 +207,7 @@ namespace FeatherPhysics
             finally { Leave(held); }
         }
 
-        void* Enter(ref bool held)
-        {
-            if (store == null) throw new StaleHandleException("Heightfield: a default value, of no store");
-            return store.Enter(ref held);
-        }
+        void* Enter(ref bool held) { return Store.Enter(store, "Heightfield", ref held); }
         void Leave(bool held) { if (held) store.Leave(true); }
 
         public bool Equals(Heightfield other) { return store == other.store && id == other.id; }

@@ -146,7 +146,7 @@ namespace FeatherPhysics
         public override string ToString() { return "Joint 0x" + Value.ToString("x"); }
     }
 
-    /// <summary>Names what shapes share; see <see cref="Heightfield"/>.</summary>
+    /// <summary>Names what shapes share: a heightfield, a hull or a mesh.</summary>
     public readonly struct AssetHandle : IEquatable<AssetHandle>
     {
         public readonly ulong Value;
@@ -214,6 +214,37 @@ namespace FeatherPhysics
         {
             Geometry made;
             Native.geometry_plane(&made, normalX, normalY, normalZ, distance);
+            return made;
+        }
+        /// <summary>Along local Y: exact, no polygon.</summary>
+        /// <param name="halfHeight">m</param>
+        /// <param name="radius">m</param>
+        public static Geometry Cylinder(float halfHeight, float radius)
+        {
+            Geometry made;
+            Native.geometry_cylinder(&made, halfHeight, radius);
+            return made;
+        }
+        /// <summary>Along local Y, its tip at +halfHeight: exact.</summary>
+        /// <param name="halfHeight">m</param>
+        /// <param name="radius">of the base, m</param>
+        public static Geometry Cone(float halfHeight, float radius)
+        {
+            Geometry made;
+            Native.geometry_cone(&made, halfHeight, radius);
+            return made;
+        }
+        public static Geometry Hull(ConvexHull hull)
+        {
+            Geometry made;
+            Native.geometry_hull(&made, hull.Handle.Value);
+            return made;
+        }
+        /// <summary>Triangles, of static and kinematic bodies only.</summary>
+        public static Geometry Mesh(TriangleMesh mesh)
+        {
+            Geometry made;
+            Native.geometry_mesh(&made, mesh.Handle.Value);
             return made;
         }
         /// <summary>Terrain, of static bodies only.</summary>

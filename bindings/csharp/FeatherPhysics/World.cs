@@ -198,6 +198,17 @@ namespace FeatherPhysics
         }
         /// <summary>Terrain in <see cref="Store"/>: <c>body.AddTerrain(field)</c>.</summary>
         public Heightfield CreateHeightfield(HeightfieldDef def) { return Store.CreateHeightfield(def); }
+        /// <summary>In this world's store, see <see cref="FeatherPhysics.Store.CreateHull"/>.</summary>
+        public ConvexHull CreateHull(ReadOnlySpan<Vector3> points, int maxVertices = 64, float tolerance = 0)
+        {
+            return Store.CreateHull(points, maxVertices, tolerance);
+        }
+        /// <summary>In this world's store, see <see cref="FeatherPhysics.Store.CreateMesh(MeshDef)"/>.</summary>
+        public TriangleMesh CreateMesh(MeshDef def) { return Store.CreateMesh(def); }
+        public TriangleMesh CreateMesh(Vector3[] vertices, int[] indices)
+        {
+            return Store.CreateMesh(vertices, indices);
+        }
 
         // ---- the step, and what is read after it ----
 

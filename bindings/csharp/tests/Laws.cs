@@ -373,6 +373,94 @@ namespace FeatherPhysics.Tests
             }
         }
 
+        static readonly Vector3[] Cube =
+        {
+            new Vector3(-1, -1, -1), new Vector3(1, -1, -1), new Vector3(-1, 1, -1), new Vector3(1, 1, -1),
+            new Vector3(-1, -1, 1), new Vector3(1, -1, 1), new Vector3(-1, 1, 1), new Vector3(1, 1, 1),
+        };
+
+        public static void Hulls_fall_and_rest()
+        {
+            using (World world = new World())
+            {
+                world.CreateStatic(new DVec3()).AddPlane(0, 1, 0, 0);
+                ConvexHull hull = world.CreateHull(Cube);
+                HullInfo info = hull.Info;
+                Check.True(info.VertexCount == 8 && info.EdgeCount == 12 && info.FaceCount == 6, "a cube");
+                Check.Near(info.Volume, 8, 1e-5, "volume");
+                Vector3[] vertices = new Vector3[8];
+                HullFace[] faces = new HullFace[6];
+                int[] corners = new int[24];
+                Check.Same(hull.GetVertices(vertices), 8, "vertices");
+                Check.Same(hull.GetFaces(faces), 6, "faces");
+                Check.Same(hull.GetCorners(corners), 24, "corners");
+                Check.True(vertices[7] == Cube[7] && faces[5].First == 20 && faces[5].Count == 4, "what they are");
+                Check.Near(faces[0].Distance, 1, 1e-6, "distance");
+                Body body = world.CreateDynamic(new DVec3(0, 2, 0));
+                body.AddHull(hull);
+                Body wheel = world.CreateDynamic(new DVec3(4, 1, 0)), cone = world.CreateDynamic(new DVec3(8, 1, 0));
+                wheel.AddCylinder(0.25f, 0.5f);
+                cone.AddCone(0.5f, 0.5f);
+                Run(world, 120);
+                Check.Near(body.Position.Y, 1, Slop, "rests on a side");
+                Check.Near(wheel.Position.Y, 0.25, Slop, "a cylinder");
+                Check.Near(cone.Position.Y, 0.5, Slop, "a cone");
+                Check.Throws<DegenerateException>(() => world.CreateHull(new Vector3[5]), "one place");
+                Check.Throws<BadArgumentException>(() => world.CreateHull(new Vector3[3]), "point_count");
+                Check.Throws<BadArgumentException>(() => world.CreateHull(Cube, 3), "max_vertices");
+                hull.Destroy();
+                Check.True(!hull.IsValid && body.IsValid, "the handle dies");
+                Check.Throws<StaleHandleException>(() => { info = hull.Info; }, "hull");
+                Check.Throws<StaleHandleException>(() => { info = default(ConvexHull).Info; }, "ConvexHull");
+            }
+        }
+
+        public static void Meshes_carry()
+        {
+            using (World world = new World())
+            {
+                Vector3[] vertices = { new Vector3(-4, 0, -4), new Vector3(4, 0, -4), new Vector3(-4, 0, 4),
+                    new Vector3(4, 0, 4) };
+                SurfaceMaterial[] materials = { SurfaceMaterial.Default, SurfaceMaterial.Default };
+                materials[1].UserId = 6;
+                TriangleMesh mesh = world.CreateMesh(new MeshDef { Vertices = vertices,
+                    Indices = new[] { 0, 2, 3, 0, 3, 1, 0, 0, 1 }, TriangleMaterials = new byte[] { 0, 1, 0 },
+                    Materials = materials, TriangleData = new uint[] { 7, 8, 9 } });
+                MeshInfo info = mesh.Info;
+                Check.True(info.TriangleCount == 2 && info.DegenerateTriangles == 1 && info.OpenEdges == 4, "counts");
+                Check.Near(info.Area, 64, 1e-9, "area");
+                MeshTriangle triangle = mesh.GetTriangle(1);
+                Check.True(triangle.Kept && triangle.Corner1 == vertices[3] && triangle.Material == 1 &&
+                    triangle.Data == 8, "a triangle");
+                Check.Same(triangle.Edge1, MeshEdgeFlags.Felt | MeshEdgeFlags.Open, "an edge");
+                Check.True(!mesh.GetTriangle(2).Kept, "it has no area");
+                world.CreateStatic(new DVec3()).AddMesh(mesh);
+                Body ball = world.CreateDynamic(new DVec3(0.3, 2, 0.1));
+                ball.AddSphere(0.5f);
+                Run(world, 120);
+                Check.Near(ball.Position.Y, 0.5, Slop, "rests on it");
+                Hit hit;
+                Check.True(world.Raycast(new DVec3(3, 3, -3), new DVec3(0, -10, 0), out hit), "a ray");
+                Check.True(hit.Triangle == 1 && hit.Material == 6, "its triangle");
+                materials[1].UserId = 11;
+                mesh.SetMaterials(materials);
+                Check.True(world.Raycast(new DVec3(3, 3, -3), new DVec3(0, -10, 0), out hit), "a ray");
+                Check.Same(hit.Material, 11UL, "its material");
+                Check.True(world.CreateMesh(vertices, new[] { 0, 2, 3 }).Info.TriangleCount == 1, "in short");
+                Check.Throws<UnsupportedException>(() => ball.AddMesh(mesh), "dynamic");
+                Check.Throws<BadArgumentException>(() => world.CreateMesh(vertices, new[] { 0, 2, 4 }), "triangle 0");
+                Check.Throws<BadArgumentException>(() => world.CreateMesh(vertices, new[] { 0, 2 }), "Indices");
+                Check.Throws<BadArgumentException>(() => world.CreateMesh(null), "null");
+                Check.Throws<BadArgumentException>(() => world.CreateMesh(null, new[] { 0, 2, 3 }), "null");
+                Check.Throws<BadArgumentException>(() => mesh.SetMaterials(new SurfaceMaterial[1]), "count");
+                Check.Throws<DegenerateException>(() => world.CreateMesh(new MeshDef { Vertices = vertices,
+                    Indices = new[] { 0, 0, 1 }, TwoSided = true, Strict = true }), "triangle 0");
+                mesh.Destroy();
+                Check.True(!mesh.IsValid, "the handle dies");
+                Check.Throws<StaleHandleException>(() => mesh.GetTriangle(0), "mesh");
+            }
+        }
+
         public static void Worlds_share_a_store()
         {
             Store store = new Store(new StoreDef { Number = 77 });
@@ -847,6 +935,7 @@ namespace FeatherPhysics.Tests
             { "fe_closest", "ClosestPoint" }, { "fe_overlap", "ShapeOverlap" }, { "fe_transform", "WorldTransform" },
             { "fe_dvec3", "DVec3" }, { "fe_query_filter", "NativeFilter" }, { "fe_heightfield_def",
                 "NativeHeightfield" },
+            { "fe_hull_def", "NativeHull" }, { "fe_mesh_def", "NativeMesh" },
         };
 
         static string Pascal(string name)
