@@ -249,6 +249,15 @@ static void put_contact(lua_State *L, int *n, const fe_contact *e)
     }
 static void put_handle(lua_State *L, int *n, const fe_handle *e) { put_integer(L, n, (long long)*e); }
 static void put_float(lua_State *L, int *n, const float *e) { put(L, n, (double)*e); }
+static void put_index(lua_State *L, int *n, const int32_t *e) { put_integer(L, n, *e); }
+static void put_face(lua_State *L, int *n, const fe_hull_face *e)
+{
+    put_integer(L, n, e->first), put_integer(L, n, e->count), put_vec3(L, n, &e->normal);
+    put(L, n, (double)e->distance);
+}
+PUSH_ALL(push_vertices, fe_vec3, 3, put_vec3)
+PUSH_ALL(push_faces, fe_hull_face, 6, put_face)
+PUSH_ALL(push_corners, int32_t, 1, put_index)
 PUSH_ALL(push_handles, fe_handle, 1, put_handle)
 PUSH_ALL(push_floats, float, 1, put_float)
 PUSH_ALL(push_transforms, fe_transform, 7, put_transform)

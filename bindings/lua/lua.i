@@ -4,9 +4,9 @@
 // each Lua is made from this one source.
 %{
 #include "lua/arrays.h"
+#include "lua/assets.h"
 #include "lua/boxes.h"
 #include "lua/errors.h"
-#include "lua/heightfield.h"
 #include "lua/objects.h"
 #include "lua/pair_filter.h"
 #include "lua/values.h"
@@ -143,6 +143,10 @@ FE_OUT(fe_frame *out_frame, SWIG_arg += push_frame(L, $1))
 FE_OUT(fe_bounds *out_bounds, SWIG_arg += push_bounds(L, $1))
 FE_OUT(fe_material *out_material, SWIG_arg += push_material(L, $1))
 
+// of a triangle of a mesh: tables
+%typemap(out) fe_vec3 corners[3] "push_vertices(L, $1, 3); SWIG_arg++;"
+%typemap(out) uint32_t edges[3] "push_corners(L, (const int32_t *)$1, 3); SWIG_arg++;"
+
 // ---- records --------------------------------------------------------------------------------------------------------
 
 %typemap(in, numinputs=0) SWIGTYPE *OUT_RECORD "$1 = NULL;"
@@ -202,7 +206,7 @@ FE_OUT_RECORDS
 // all there are: asked for their number first
 %typemap(in, numinputs=0) fe_handle *out_bodies, fe_handle *out_shapes, fe_handle *out_joints, fe_overlap *out_overlaps,
     fe_pair_event *out_events, fe_body_event *out_events, fe_hit_event *out_events, fe_joint_event *out_events,
-    fe_contact *out_contacts "$1 = NULL;"
+    fe_contact *out_contacts, fe_vec3 *out_vertices, fe_hull_face *out_faces, int32_t *out_corners "$1 = NULL;"
 %define FE_ALL(FUNCTION, OUT, STATE_STRIDE, CAPACITY)
 %exception FUNCTION {
     $action
@@ -225,6 +229,9 @@ FE_ALL_HANDLES(fe_body_get_joints, arg3, arg4)
 FE_ALL_HANDLES(fe_shape_get_overlaps, arg3, arg4)
 FE_ALL_HANDLES(fe_world_overlap, arg5, arg6)
 FE_ALL_HANDLES(fe_world_overlap_bounds, arg4, arg5)
+FE_ALL_RECORDS(fe_hull_get_vertices, arg3, arg4, arg5)
+FE_ALL_RECORDS(fe_hull_get_faces, arg3, arg4, arg5)
+FE_ALL_RECORDS(fe_hull_get_corners, arg3, arg4, arg5)
 FE_ALL_RECORDS(fe_world_overlap_shapes, arg5, arg6, arg7)
 FE_ALL_RECORDS(fe_world_raycast_all, arg5, arg6, arg7)
 FE_ALL_RECORDS(fe_world_sweep_all, arg6, arg7, arg8)
@@ -249,6 +256,9 @@ FE_ALL_RECORDS(fe_shape_get_contacts, arg3, arg4, arg5)
 FE_PUSH_ALL(fe_handle *out_bodies, push_handles)
 FE_PUSH_ALL(fe_handle *out_shapes, push_handles)
 FE_PUSH_ALL(fe_handle *out_joints, push_handles)
+FE_PUSH_ALL(fe_vec3 *out_vertices, push_vertices)
+FE_PUSH_ALL(fe_hull_face *out_faces, push_faces)
+FE_PUSH_ALL(int32_t *out_corners, push_corners)
 FE_PUSH_ALL(fe_transform *out_transforms, push_transforms)
 FE_PUSH_ALL(fe_hit *out_hits, push_hits)
 FE_PUSH_ALL(fe_overlap *out_overlaps, push_overlaps)
@@ -262,8 +272,19 @@ FE_PUSH_ALL(fe_contact *out_contacts, push_contacts)
 %typemap(in) const fe_heightfield_def *def (fe_heightfield_def value) "to_heightfield(L, $input, &value); $1 = &value;"
 %ignore fe_query_filter;
 %ignore fe_query_filter_init;
+%typemap(in) const fe_hull_def *def (fe_hull_def value) "to_hull(L, $input, &value); $1 = &value;"
+%typemap(in) const fe_mesh_def *def (fe_mesh_def value) "to_mesh(L, $input, &value); $1 = &value;"
+%typemap(in) const fe_material *materials %{
+    check_table(L, $input, "materials");
+    $1 = ($1_ltype)to_materials(L, $input, &call1.count);
+%}
 %ignore fe_heightfield_def;
 %ignore fe_heightfield_def_init;
+%ignore fe_hull_def;
+%ignore fe_hull_def_init;
+%ignore fe_hull_face;
+%ignore fe_mesh_def;
+%ignore fe_mesh_def_init;
 // a loop over body_create costs the same
 %ignore fe_body_create_many;
 %ignore fe_ray;

@@ -92,7 +92,10 @@ for result, name, parameters in prototypes:gmatch("([%w_]+) (fe_[%w_]+)(%b());")
 end
 
 -- Structs with their defaults. Those of hosts in C, and those that are tables here, are left out.
-local NO_RECORD = { fe_allocator = true, fe_task_system = true, fe_query_filter = true, fe_heightfield_def = true }
+local NO_RECORD = {
+    fe_allocator = true, fe_task_system = true, fe_query_filter = true, fe_heightfield_def = true, fe_hull_def = true,
+    fe_mesh_def = true,
+}
 for name, parameters in prototypes:gmatch("void (fe_[%w_]+)_init(%b())") do
     if not NO_RECORD[name] then
         local kind, init, sized = ffi.typeof(name), C[name .. "_init"], parameters:find("struct_size")
@@ -132,10 +135,24 @@ function core.geometry_plane(normal_x, normal_y, normal_z, distance)
     made.distance = env.number(distance, "distance")
     return made
 end
-function core.geometry_heightfield(heightfield)
-    local made = geometry(C.FE_GEOMETRY_HEIGHTFIELD)
-    made.asset = env.integer(heightfield, 0, 2 ^ 53, "heightfield")
+function core.geometry_cylinder(half_height, radius)
+    local made = geometry(C.FE_GEOMETRY_CYLINDER)
+    made.half_height, made.radius = env.number(half_height, "half_height"), env.number(radius, "radius")
     return made
+end
+function core.geometry_cone(half_height, radius)
+    local made = geometry(C.FE_GEOMETRY_CONE)
+    made.half_height, made.radius = env.number(half_height, "half_height"), env.number(radius, "radius")
+    return made
+end
+for name, type in pairs({
+    heightfield = C.FE_GEOMETRY_HEIGHTFIELD, hull = C.FE_GEOMETRY_HULL, mesh = C.FE_GEOMETRY_MESH,
+}) do
+    core["geometry_" .. name] = function(asset)
+        local made = geometry(type)
+        made.asset = env.integer(asset, 0, 2 ^ 53, name)
+        return made
+    end
 end
 
 -- ---- the pair filter ------------------------------------------------------------------------------------------------

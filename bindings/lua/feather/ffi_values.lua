@@ -66,6 +66,7 @@ local function array(kind, width, value, count, name)
     return made, length
 end
 local Handles, Floats, Bytes = ffi.typeof("fe_handle[?]"), ffi.typeof("float[?]"), ffi.typeof("uint8_t[?]")
+local Words = ffi.typeof("uint32_t[?]")
 function env.handles(value, count, name)
     check_table(value, name)
     for i = 1, #value do env.integer(value[i], 0, 2 ^ 53, name) end
@@ -142,6 +143,54 @@ function env.filter(value)
     end
     return made, kept
 end
+function env.materials(value)
+    local count = #check_table(value, "materials")
+    if count > 255 then fail("materials: at most 255") end
+    local made = ffi.new("fe_material[?]", math.max(count, 1))
+    for i = 1, count do env.put_material(made[i - 1], check_table(value[i], "materials"), 0) end
+    return made, count
+end
+local function words(value, width, count, name)
+    check_table(value, name)
+    for i = 1, #value do env.integer(value[i], 0, 2 ^ 32 - 1, name) end
+    return array(Words, width, value, count, name)
+end
+local HullDef, MeshDef = ffi.typeof("fe_hull_def"), ffi.typeof("fe_mesh_def")
+function env.hull(value)
+    check_table(value, "hull")
+    local made, kept = HullDef(), nil
+    C.fe_hull_def_init(made, ffi.sizeof(HullDef))
+    kept, made.point_count = array(Floats, 3, value.points, nil, "points")
+    made.points = kept
+    made.max_vertices = env.integer(value.max_vertices, -2 ^ 31, 2 ^ 31 - 1, "max_vertices")
+    made.tolerance = env.number(value.tolerance, "tolerance")
+    return made, kept
+end
+function env.mesh(value)
+    check_table(value, "mesh")
+    local made, kept = MeshDef(), {}
+    C.fe_mesh_def_init(made, ffi.sizeof(MeshDef))
+    kept[1], made.vertex_count = array(Floats, 3, value.vertices, nil, "vertices")
+    kept[2], made.triangle_count = words(value.triangles, 3, nil, "triangles")
+    made.vertices, made.indices = kept[1], kept[2]
+    made.flags = env.integer(value.flags, 0, 2 ^ 32 - 1, "flags")
+    made.weld_distance = env.number(value.weld_distance, "weld_distance")
+    made.edge_angle = env.number(value.edge_angle, "edge_angle")
+    if value.triangle_materials ~= nil then
+        local count, name = made.triangle_count, "triangle_materials"
+        if #check_table(value.triangle_materials, name) ~= count then fail("%s: %d numbers are needed", name, count) end
+        for i = 1, count do env.integer(value.triangle_materials[i], 0, 255, name) end
+        kept[3] = array(Bytes, 1, value.triangle_materials, count, name)
+        made.triangle_materials = kept[3]
+    end
+    if value.materials ~= nil then kept[4], made.material_count = env.materials(value.materials) end
+    made.materials = kept[4]
+    if value.triangle_data ~= nil then
+        kept[5] = words(value.triangle_data, 1, made.triangle_count, "triangle_data")
+        made.triangle_data = kept[5]
+    end
+    return made, kept
+end
 function env.heightfield(value)
     check_table(value, "heightfield")
     local made, kept = Field(), {}
@@ -158,13 +207,8 @@ function env.heightfield(value)
             made[name] = kept[1 + i]
         end
     end
-    if value.materials ~= nil then
-        local count = #check_table(value.materials, "materials")
-        if count > 255 then fail("materials: at most 255") end
-        kept[4] = ffi.new("fe_material[?]", math.max(count, 1))
-        for i = 1, count do env.put_material(kept[4][i - 1], check_table(value.materials[i], "materials"), 0) end
-        made.materials, made.material_count = kept[4], count
-    end
+    if value.materials ~= nil then kept[4], made.material_count = env.materials(value.materials) end
+    made.materials = kept[4]
     return made, kept
 end
 

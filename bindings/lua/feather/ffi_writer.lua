@@ -32,12 +32,15 @@ local ARRAYS = {
     floats = 'floats(%s, 6, count, "floats")',
 }
 local BOXES = { fe_world = "world", fe_pool = "pool", fe_store = "store" }
-local TABLES = { fe_query_filter = "filter", fe_heightfield_def = "heightfield" }
+local TABLES = {
+    fe_query_filter = "filter", fe_heightfield_def = "heightfield", fe_hull_def = "hull", fe_mesh_def = "mesh",
+}
 local HANDLES = { fe_handle = true, fe_body = true, fe_shape = true, fe_joint = true, fe_asset = true }
 local RANGES = { int32_t = "-2147483648, 2147483647", uint32_t = "0, 4294967295" }
 local PLURAL = {
     out_bodies = true, out_shapes = true, out_joints = true, out_transforms = true, out_hits = true,
-    out_overlaps = true, out_events = true, out_contacts = true,
+    out_overlaps = true, out_events = true, out_contacts = true, out_vertices = true, out_faces = true,
+    out_corners = true,
 }
 local DESTROYED = { fe_world_destroy = true, fe_pool_destroy = true, fe_store_destroy = true }
 
@@ -89,6 +92,9 @@ local function write_input(f, p)
         add(f.call, "h%d", i)
     elseif p.const and p.name == "heights" then
         add(f.before, "local h%d = heights(%s, a%d, a%d, %q)", i, a, i - 2, i - 1, p.name)
+        add(f.call, "h%d", i)
+    elseif p.const and p.name == "materials" then
+        add(f.before, "local h%d h%d, count = materials(%s)", i, i, a)
         add(f.call, "h%d", i)
     elseif p.const and SMALL[p.kind] then write_small(f, p)
     else

@@ -4,7 +4,9 @@ local native = require("feather.native")
 local options = require("feather.options")
 local fail = require("feather.where").fail
 local core = native.core
-local objects = { World = {}, Body = {}, Shape = {}, Joint = {}, Store = {}, Heightfield = {}, Pool = {} }
+local objects = {
+    World = {}, Body = {}, Shape = {}, Joint = {}, Store = {}, Heightfield = {}, Hull = {}, Mesh = {}, Pool = {},
+}
 
 for name, class in pairs(objects) do
     class.__index = class

@@ -3,9 +3,9 @@ local native = require("feather.native")
 local objects = require("feather.objects")
 local options = require("feather.options")
 local fail = require("feather.where").fail
-local heightfield_of = require("feather.store").heightfield_of
+local asset_of = require("feather.store").asset_of
 local core, xyz = native.core, objects.xyz
-local Body, Shape, Heightfield = objects.Body, objects.Shape, objects.Heightfield
+local Body, Shape = objects.Body, objects.Shape
 local unpack = unpack or table.unpack
 local shapes = {}
 
@@ -18,25 +18,32 @@ objects.switches(Shape, "shape", { Trigger = "trigger" })
 
 -- ---- forms ----------------------------------------------------------------------------------------------------------
 
--- { "sphere", radius }, { "capsule", halfHeight, radius }, { "box", x, y, z }, { "plane", nx, ny, nz, distance },
+-- { "sphere", radius }, { "capsule", halfHeight, radius }, { "box", x, y, z }, { "cylinder", halfHeight, radius },
+-- { "cone", halfHeight, radius }, { "plane", nx, ny, nz, distance }, { "hull", hull }, { "mesh", mesh },
 -- { "heightfield", heightfield }: how many numbers each has
-local FORMS = { sphere = 1, capsule = 2, box = 3, plane = 4, heightfield = 1 }
+local FORMS = {
+    sphere = 1, capsule = 2, box = 3, cylinder = 2, cone = 2, plane = 4, hull = 1, mesh = 1, heightfield = 1,
+}
+local ASSETS = { hull = objects.Hull, mesh = objects.Mesh, heightfield = objects.Heightfield }
 local READ = {
     [1] = function(g) return { "sphere", g.radius } end,
     [2] = function(g) return { "capsule", g.half_height, g.radius } end,
     [3] = function(g) return { "box", g.half_extents.x, g.half_extents.y, g.half_extents.z } end,
+    [4] = function(g) return { "cylinder", g.half_height, g.radius } end,
+    [5] = function(g) return { "cone", g.half_height, g.radius } end,
     [64] = function(g) return { "plane", g.normal.x, g.normal.y, g.normal.z, g.distance } end,
 }
+local READ_ASSET = { [32] = "hull", [96] = "heightfield", [97] = "mesh" }
 
 function shapes.geometry(form)
     if type(form) ~= "table" then fail("a form is needed: { \"sphere\", 0.5 }...") end
     local count = options.word(FORMS, form[1], "form")
-    if form[1] ~= "heightfield" then return core["geometry_" .. form[1]](unpack(form, 2, 1 + count)) end
-    local field = form[2]
-    if type(field) ~= "table" or getmetatable(field) ~= Heightfield then
-        fail("a %s is needed, not a %s", Heightfield.__name, type(field))
+    local class, asset = ASSETS[form[1]], form[2]
+    if not class then return core["geometry_" .. form[1]](unpack(form, 2, 1 + count)) end
+    if type(asset) ~= "table" or getmetatable(asset) ~= class then
+        fail("a %s is needed, not a %s", class.__name, type(asset))
     end
-    return core.geometry_heightfield(field.id)
+    return core["geometry_" .. form[1]](asset.id)
 end
 
 function Shape:setForm(form) core.shape_set_geometry(self.native, self.id, shapes.geometry(form)) end
@@ -44,7 +51,8 @@ function Shape:getForm()
     local g = core.shape_get_geometry(self.native, self.id)
     local read = READ[g.type]
     if read then return read(g) end
-    return { "heightfield", heightfield_of(self.world:getStore(), native.number(g.asset)) }
+    local word = READ_ASSET[g.type]
+    return { word, asset_of(self.world:getStore(), ASSETS[word], native.number(g.asset)) }
 end
 
 -- ---- making them ----------------------------------------------------------------------------------------------------
@@ -67,6 +75,10 @@ end
 function Body:newSphere(radius, given) return self:newShape({ "sphere", radius }, given) end
 function Body:newCapsule(half_height, radius, given) return self:newShape({ "capsule", half_height, radius }, given) end
 function Body:newBox(x, y, z, given) return self:newShape({ "box", x, y, z }, given) end
+function Body:newCylinder(half_height, radius, given) return self:newShape({ "cylinder", half_height, radius }, given) end
+function Body:newCone(half_height, radius, given) return self:newShape({ "cone", half_height, radius }, given) end
+function Body:newHull(hull, given) return self:newShape({ "hull", hull }, given) end
+function Body:newMesh(mesh, given) return self:newShape({ "mesh", mesh }, given) end
 function Body:newPlane(nx, ny, nz, distance, given) return self:newShape({ "plane", nx, ny, nz, distance }, given) end
 function Body:newHeightfield(field, given) return self:newShape({ "heightfield", field }, given) end
 

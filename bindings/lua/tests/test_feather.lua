@@ -165,6 +165,76 @@ function TestPhysics.testJoints()
     lu.assertIs(broken, weak)
 end
 
+local CUBE = { -1, -1, -1, 1, -1, -1, -1, 1, -1, 1, 1, -1, -1, -1, 1, 1, -1, 1, -1, 1, 1, 1, 1, 1 }
+
+function TestPhysics.testHull()
+    local world = feather.newWorld()
+    world:newBody({ type = "static" }):newPlane(0, 1, 0, 0)
+    local hull = world:newHull({ points = CUBE })
+    local info = hull:getInfo()
+    lu.assertEquals({ info.vertexCount, info.edgeCount, info.faceCount }, { 8, 12, 6 })
+    lu.assertAlmostEquals(info.volume, 8, 1e-5)
+    lu.assertEquals(hull:getVertices(), CUBE)
+    local faces = hull:getFaces()
+    lu.assertEquals(#faces, 6)
+    lu.assertEquals(#faces[6].corners, 4)
+    lu.assertAlmostEquals(faces[1].distance, 1, 1e-6)
+    local body = world:newBody({ position = { 0, 2, 0 } })
+    local shape = body:newHull(hull)
+    lu.assertIs(shape:getForm()[2], hull)
+    local wheel, cone = world:newBody({ position = { 4, 1, 0 } }), world:newBody({ position = { 8, 1, 0 } })
+    lu.assertEquals(wheel:newCylinder(0.25, 0.5):getForm(), { "cylinder", 0.25, 0.5 })
+    lu.assertEquals(cone:newCone(0.5, 0.5):getForm(), { "cone", 0.5, 0.5 })
+    for _ = 1, 120 do world:update(STEP) end
+    for thing, height in pairs({ [body] = 1, [wheel] = 0.25, [cone] = 0.5 }) do
+        lu.assertAlmostEquals(select(2, thing:getPosition()), height, 5e-3)
+    end
+    fails("flat", world.newHull, world, { points = { 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 1 } })
+    fails("max_vertices", world.newHull, world, { points = CUBE, maxVertices = 3 })
+    fails("whole records", world.newHull, world, { points = { 1, 2 } })
+    fails("points", world.newHull, world, {})
+    fails("no", world.newHull, world, { point = CUBE })
+    hull:destroy()
+    lu.assertTrue(hull:isDestroyed())
+    fails("destroyed", hull.getInfo, hull)
+end
+
+function TestPhysics.testMesh()
+    local world = feather.newWorld()
+    local vertices, triangles = { -4, 0, -4, 4, 0, -4, -4, 0, 4, 4, 0, 4 }, { 0, 2, 3, 0, 3, 1, 0, 0, 1 }
+    local mesh = world:newMesh({ vertices = vertices, triangles = triangles, triangleMaterials = { 0, 1, 0 },
+        materials = { { friction = 1, userId = 5 }, { userId = 6 } }, triangleData = { 7, 8, 4294967295 } })
+    local info = mesh:getInfo()
+    lu.assertEquals({ info.triangleCount, info.degenerateTriangles, info.openEdges }, { 2, 1, 4 })
+    lu.assertAlmostEquals(info.area, 64, 1e-9)
+    local triangle = mesh:getTriangle(1)
+    lu.assertEquals(triangle.corners, { -4, 0, -4, 4, 0, 4, 4, 0, -4 })
+    lu.assertEquals({ triangle.material, triangle.data }, { 1, 8 })
+    lu.assertEquals(triangle.edges, { { felt = false, convex = false, open = false },
+        { felt = true, convex = false, open = true }, { felt = true, convex = false, open = true } })
+    lu.assertNil(mesh:getTriangle(2))
+    local shape = world:newBody({ type = "static" }):newMesh(mesh)
+    lu.assertIs(shape:getForm()[2], mesh)
+    local ball = world:newBody({ position = { 0.3, 2, 0.1 } })
+    ball:newSphere(0.5)
+    for _ = 1, 120 do world:update(STEP) end
+    lu.assertAlmostEquals(select(2, ball:getPosition()), 0.5, 5e-3)
+    local hit = world:rayCast(3, 3, -3, 0, -10, 0)
+    lu.assertEquals({ hit.triangle, hit.material }, { 1, 6 })
+    mesh:setMaterials({ {}, { userId = 11 } })
+    lu.assertEquals(world:rayCast(3, 3, -3, 0, -10, 0).material, 11)
+    fails("dynamic", ball.newMesh, ball, mesh)
+    fails("triangle 0", world.newMesh, world, { vertices = vertices, triangles = { 0, 1, 4 } })
+    fails("triangle 2", world.newMesh, world, { vertices = vertices, triangles = triangles, strict = true, twoSided = true })
+    fails("triangles", world.newMesh, world, { vertices = vertices, triangles = { 0, 1, -1 } })
+    fails("triangle_materials", world.newMesh, world, { vertices = vertices, triangles = triangles, triangleMaterials = { 0 } })
+    fails("triangle_data", world.newMesh, world, { vertices = vertices, triangles = triangles, triangleData = { 1 } })
+    fails("materials", mesh.setMaterials, mesh, {})
+    fails("materials", mesh.setMaterials, mesh)
+    mesh:destroy()
+    lu.assertTrue(mesh:isDestroyed())
+end
+
 function TestPhysics.testHeightfield()
     local world = feather.newWorld()
     local field = world:newHeightfield({ rows = 2, columns = 3, heights = { 0, 0, 0, 0, 0, 0 }, holes = { 1, 0 }, materials = { { friction = 1, userId = 5 } },
@@ -348,6 +418,7 @@ TestCore = {}
 -- every function of the header, or why not
 local ELSEWHERE = {
     fe_query_filter_init = "filters are tables", fe_heightfield_def_init = "heightfields are tables",
+    fe_hull_def_init = "hulls are tables", fe_mesh_def_init = "meshes are tables",
     fe_body_create_many = "a loop costs the same", fe_last_error = "the text of the error",
     fe_result_name = "the text of the error", fe_allocator_init = "for hosts in C", fe_task_system_init = "for hosts in C",
 }
@@ -371,6 +442,8 @@ function TestCore.testTheTableOfTheDocument()
     local world, _, ball = scene()
     local things = {
         feather = feather, world = world, body = ball, shape = ball:getShapes()[1], store = world:getStore(),
+        hull = world:newHull({ points = CUBE }),
+        mesh = world:newMesh({ vertices = CUBE, triangles = { 0, 2, 3 } }),
         heightfield = world:newHeightfield({ rows = 2, columns = 2, heights = { 0, 0, 0, 0 } }), pool = feather.newPool(1),
         joint = world:newBallJoint({ bodyA = ball, bodyB = world:newBody(), point = { 0, 5, 0 } }),
     }
