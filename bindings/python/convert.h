@@ -736,8 +736,8 @@ static int to_hull(call_state *call, PyObject *object, fe_hull_def *def)
     return 0;
 }
 
-/// (vertices, triangles, index_type, flags, weld_distance, edge_angle, triangle_materials, materials, triangle_data); the
-/// last three may be None.
+/// (vertices, triangles, index_type, flags, weld_distance, edge_angle, triangle_materials, materials, triangle_data);
+/// the last three may be None.
 static int to_mesh(call_state *call, PyObject *object, fe_mesh_def *def)
 {
     PyObject *vertices, *triangles, *kinds, *materials, *data;

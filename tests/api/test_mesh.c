@@ -177,6 +177,7 @@ static void dropped_triangles_are_counted_and_told(void **state)
     fe_mesh_triangle none = triangle_of(store, mesh, 0), first = triangle_of(store, mesh, 1);
     FE_TRUE(none.kept == 0 && first.kept == 1 && first.material == -1 && first.data == 0);
     assert_memory_equal(&first.corners[1], corners[2], sizeof first.corners[1]);
+    for (int32_t k = 0; k < 3; ++k) assert_int_equal(first.edges[k], FE_MESH_EDGE_FELT); // each has three triangles
     assert_int_equal(triangle_of(store, mesh, 13).kept, 0);
     assert_int_equal(triangle_of(store, mesh, 14).kept, 1);
 

@@ -1,4 +1,4 @@
-// fuzz_terrain.c - the fuzzer's calls on heightfields. See fuzz.c.
+// fuzz_terrain.c - the fuzzer's calls on heightfields, meshes and hulls: the assets of its store. See fuzz.c.
 #include "support/fuzz_state.h"
 
 enum { MOST_SAMPLES = 8, ASSETS = 8 };
@@ -11,7 +11,6 @@ fe_asset fuzz_asset(fuzz *f)
 
 static fe_asset *next_asset(fuzz *f) { return f->assets + f->asset_count % ASSETS; }
 
-// mostly one that a game could have, under the bodies of fuzz_calls.c's create_whole
 // of points in a ball, or anywhere
 static fe_result create_hull(fuzz *f)
 {
@@ -29,6 +28,38 @@ static fe_result create_hull(fuzz *f)
     return result;
 }
 
+// a grid whose triangles may be turned, missing or wild
+static fe_result create_mesh(fuzz *f)
+{
+    enum { SIDE = 5, VERTICES = SIDE * SIDE, TRIANGLES = 2 * (SIDE - 1) * (SIDE - 1) };
+    float vertices[VERTICES][3];
+    uint16_t triangles[TRIANGLES][3];
+    uint8_t kinds[TRIANGLES], which = fuzz_byte(f);
+    const fe_material materials[2] = {SURFACE(0.6f, 0.5f, 0.0f, 0.0f, 0.0f), SURFACE(0.0f, 0.0f, 0.5f, 0.1f, 0.0f)};
+    for (int32_t i = 0; i < VERTICES; ++i) {
+        vertices[i][0] = 0.7f * (float)(i % SIDE), vertices[i][2] = 0.7f * (float)(i / SIDE);
+        vertices[i][1] = which == 7 ? fuzz_float(f) : 0.01f * (float)(fuzz_byte(f) % 64);
+    }
+    for (int32_t i = 0; i < TRIANGLES; ++i) {
+        uint8_t draw = fuzz_byte(f);
+        int32_t cell = i / 2, corner = cell / (SIDE - 1) * SIDE + cell % (SIDE - 1), odd = i % 2, turned = draw == 1;
+        const int32_t v[3] = {corner, odd ? corner + SIDE + 1 : corner + SIDE, odd ? corner + 1 : corner + SIDE + 1};
+        for (int32_t k = 0; k < 3; ++k)
+            triangles[i][k] = (uint16_t)(draw == 2 ? fuzz_byte(f) % 26 : v[turned ? 2 - k : k]);
+        kinds[i] = which == 8 ? draw % 3 : (uint8_t)odd;
+    }
+    fe_mesh_def d;
+    fe_mesh_def_init(&d, sizeof d);
+    d.vertices = vertices[0], d.vertex_count = which == 9 ? fuzz_byte(f) % (VERTICES + 1) : VERTICES;
+    d.indices = triangles, d.triangle_count = TRIANGLES, d.index_type = FE_INDEX_U16;
+    d.flags = which % 4, d.weld_distance = which == 10 ? fuzz_float(f) : 0.0f;
+    if (which & 32) d.triangle_materials = kinds, d.materials = materials, d.material_count = 2;
+    fe_result result = fe_mesh_create(world_store(f->world), &d, next_asset(f));
+    if (result == FE_OK) ++f->asset_count;
+    return result;
+}
+
+// mostly one that a game could have, under the bodies of fuzz_calls.c's create_whole
 int32_t fuzz_create_field(fuzz *f)
 {
     float heights[MOST_SAMPLES * MOST_SAMPLES];
@@ -55,22 +86,25 @@ int32_t fuzz_create_field(fuzz *f)
     if (which & 32) d->cell_materials = kinds, d->materials = materials, d->material_count = which == 33 ? 0 : 2;
     if (fe_asset_is_valid(world_store(f->world), *next_asset(f)))
         return fe_asset_destroy(world_store(f->world), *next_asset(f));
-    if (which & 64) return create_hull(f);
+    if (which & 64) return which & 8 ? create_mesh(f) : create_hull(f);
     fe_result result = fe_heightfield_create(world_store(f->world), d, next_asset(f));
     if (result == FE_OK) ++f->asset_count;
     return result;
 }
 
-// a shape of one, on a static body
+// a shape of one, mostly on a static body
 int32_t fuzz_place_field(fuzz *f)
 {
     fe_body_def d;
     fe_body_def_init(&d, sizeof d);
     uint8_t which = fuzz_byte(f);
-    d.type = which > 4 ? FE_BODY_STATIC : FE_BODY_DYNAMIC;
+    d.type = which > 14 ? FE_BODY_STATIC : which > 4 ? FE_BODY_KINEMATIC : FE_BODY_DYNAMIC;
     d.transform = fe_make_transform((double)(which % 5) * 0.7 - 3.0, 0.0, (double)(which % 3) * 0.7 - 2.0);
     fe_geometry g;
-    fe_geometry_heightfield(&g, fuzz_asset(f));
+    if (which & 32)
+        fe_geometry_mesh(&g, fuzz_asset(f));
+    else
+        fe_geometry_heightfield(&g, fuzz_asset(f));
     fe_body body;
     fe_shape shape;
     fe_result result = fe_body_create(f->world, &d, &body);
@@ -99,6 +133,11 @@ int32_t fuzz_edit_field(fuzz *f)
     int32_t row = fuzz_byte(f) % 9 - 1, column = fuzz_byte(f) % 9 - 1, rows = fuzz_byte(f) % 9,
             columns = fuzz_byte(f) % 9;
     fe_asset asset = fuzz_asset(f);
+    if (which % 7 == 3) {
+        const fe_material materials[2] = {SURFACE(heights[0], 0.5f, 0.0f, 0.0f, 0.0f),
+                                          SURFACE(0.0f, 0.0f, heights[1], 0.1f, 0.0f)};
+        return fe_mesh_set_materials(world_store(f->world), asset, materials, 0, which % 2 ? 2 : 1);
+    }
     if (which % 5 == 0)
         return fe_heightfield_get_heights(world_store(f->world), asset, row, column, rows, columns, heights);
     return fe_heightfield_set_heights(world_store(f->world), asset, row, column, rows, columns,
