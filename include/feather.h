@@ -420,11 +420,11 @@ typedef struct fe_mesh_info {
     int32_t crowded_edges;        ///< of more than two
     int32_t flipped_edges;        ///< of two with opposite windings
     int32_t tree_height;          ///< levels of nodes
-    int32_t material_count;
-    fe_vec3 lower, upper; ///< least and greatest corner of the bounds, m
-    double area;          ///< m2
-    double volume;        ///< m3 of a closed mesh, negative when it is wound inside out; else 0
-    int64_t bytes;        ///< of memory
+    int32_t material_count;       ///< 0: its triangles have their shape's material
+    fe_vec3 lower, upper;         ///< least and greatest corner of the bounds, m
+    double area;                  ///< m2
+    double volume;                ///< m3 of a closed mesh, negative when it is wound inside out; else 0
+    int64_t bytes;                ///< of memory
 } fe_mesh_info;
 
 FE_API void fe_mesh_info_init(fe_mesh_info *info, uint32_t struct_size);

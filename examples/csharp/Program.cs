@@ -1,8 +1,8 @@
-// The examples, one a file: dotnet run -- hello | pile | character | ragdoll | gun. Without a name: all.
+// The examples, one a file: dotnet run -- hello | pile | character | ragdoll | gun | rocks. Without a name: all.
 var examples = new Dictionary<string, Action>
 {
     ["hello"] = Hello.Run, ["pile"] = Pile.Run, ["character"] = Character.Run, ["ragdoll"] = Ragdoll.Run,
-    ["gun"] = Gun.Run,
+    ["gun"] = Gun.Run, ["rocks"] = Rocks.Run,
 };
 foreach (var (name, run) in examples)
 {

@@ -315,7 +315,7 @@ static void queries_see_every_triangle(void **state)
 
 // ---- sides ---------------------------------------------------------------------------------------------------------
 
-static void two_sided_meshes_stop_rays_from_below(void **state)
+static void two_sided_meshes_stop_rays_and_sweeps_from_below(void **state)
 {
     scene s = scene_begin(state);
     soup m = make_soup(4, 1.0, -2, -2, 0.2, level);
@@ -327,6 +327,12 @@ static void two_sided_meshes_stop_rays_from_below(void **state)
     fe_hit hit;
     FE_TRUE(fe_world_raycast(s.world, &from, &way, NULL, &hit) == 1);
     FE_NEAR(hit.fraction, 0.5, 1e-9);
+    FE_NEAR(hit.normal.y, -1, 1e-6);
+    // a ball of 0.2 m passes the one-sided mesh, and stops where it touches the other: after 1.8 of 4 m
+    fe_geometry ball = sphere(0.2);
+    fe_transform start = fe_make_transform(from.x, from.y, from.z);
+    FE_TRUE(fe_world_sweep(s.world, &ball, &start, &way, NULL, &hit) == 1);
+    FE_NEAR(hit.fraction, 0.45, 1e-6);
     FE_NEAR(hit.normal.y, -1, 1e-6);
     scene_end(&s);
 }
@@ -437,7 +443,7 @@ int main(void)
         TEST(workers_and_lanes_change_nothing),
         TEST(steps_on_a_mesh_allocate_nothing),
         TEST(queries_see_every_triangle),
-        TEST(two_sided_meshes_stop_rays_from_below),
+        TEST(two_sided_meshes_stop_rays_and_sweeps_from_below),
         TEST(two_sided_meshes_hold_from_below),
         TEST(dynamic_bodies_cannot_have_meshes),
         TEST(kinematic_meshes_carry),
