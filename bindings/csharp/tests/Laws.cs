@@ -454,7 +454,7 @@ namespace FeatherPhysics.Tests
                 Check.Throws<BadArgumentException>(() => world.CreateMesh(null, new[] { 0, 2, 3 }), "null");
                 Check.Throws<BadArgumentException>(() => mesh.SetMaterials(new SurfaceMaterial[1]), "count");
                 Check.Throws<DegenerateException>(() => world.CreateMesh(new MeshDef { Vertices = vertices,
-                    Indices = new[] { 0, 0, 1 }, TwoSided = true, Strict = true }), "triangle 0");
+                    Indices = new[] { 0, 2, 3, 0, 0, 1 }, TwoSided = true, Strict = true }), "triangle 1");
                 mesh.Destroy();
                 Check.True(!mesh.IsValid, "the handle dies");
                 Check.Throws<StaleHandleException>(() => mesh.GetTriangle(0), "mesh");
