@@ -1402,13 +1402,13 @@ FE_API int32_t fe_world_raycast_all(const fe_world *world, const fe_dvec3 *origi
 FE_API int32_t fe_world_raycast_many(const fe_world *world, const fe_ray *rays, uint32_t ray_stride, int32_t count,
                                      const fe_query_filter *filter, int32_t spread, fe_hit *out_hits, uint32_t stride);
 
-/// The first body that a moving sphere, capsule, box, cylinder or cone touches. It does not rotate.
+/// The first body that a moving sphere, capsule, box, cylinder, cone or hull touches. It does not rotate.
 ///
 /// It stops at most 1 micrometre before the body (0.1 mm: a box before a box), never in it. A body that it overlaps at
 /// the start is a hit at fraction 0, flagged FE_HIT_STARTED_INSIDE. One that it starts to touch is a hit at fraction 0
 /// without the flag; one that it leaves or slides along is no hit. From below, heightfields are passed. At equal
 /// fractions what overlaps comes first, then the body created first.
-/// @param geometry     sphere, capsule, box, cylinder or cone; a sphere of radius 0 sweeps as a ray
+/// @param geometry     sphere, capsule, box, cylinder, cone or hull; a sphere of radius 0 sweeps as a ray
 /// @param start        pose of the geometry at the start
 /// @param translation  m; zero asks what overlaps
 /// @param filter       who counts; NULL: every layer, no triggers
@@ -1431,8 +1431,8 @@ FE_API int32_t fe_world_sweep_many(const fe_world *world, const fe_geometry *geo
                                    uint32_t path_stride, int32_t count, const fe_query_filter *filter, int32_t spread,
                                    fe_hit *out_hits, uint32_t stride);
 
-/// The bodies that a sphere, capsule, box, cylinder or cone overlaps, in the order of creation: exactly those that a
-/// sweep from there would start inside of.
+/// The bodies that a sphere, capsule, box, cylinder, cone or hull overlaps, in the order of creation: exactly those
+/// that a sweep from there would start inside of.
 /// @param geometry  as for fe_world_sweep; a sphere of radius 0 is a point
 /// @param at        pose of the geometry
 /// @return how many there are; when they are more than `capacity` those created first are written

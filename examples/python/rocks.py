@@ -25,9 +25,12 @@ for row in range(CELLS):
 
 with World() as world:
     world.create_body("static").add(world.create_mesh(vertices, triangles))
-    kinds = [world.create_hull([(draw(-0.6, 0.6), draw(-0.4, 0.4), draw(-0.5, 0.5)) for _ in range(24)]) for _ in range(3)]
-    for kind in kinds:
-        print(f"a rock of {kind.info.vertex_count} vertices and {kind.info.face_count} faces, {kind.info.volume:.3f} m3")
+    kinds = []
+    for _ in range(3):
+        kind = world.create_hull([(draw(-0.6, 0.6), draw(-0.4, 0.4), draw(-0.5, 0.5)) for _ in range(24)])
+        info = kind.info
+        print(f"a rock of {info.vertex_count} vertices and {info.face_count} faces, {info.volume:.3f} m3")
+        kinds.append(kind)
     rocks = []
     for i in range(24):
         rock = world.create_body(position=(5 - 2 * (i % 6), 8 + 0.5 * i, 4 - 2.5 * (i // 6)))

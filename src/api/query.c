@@ -31,40 +31,68 @@ fe_result fe__read_filter(const char *function, const fe_query_filter *filter, f
 
 #define FE_CHECK_LENGTH(value) FE_CHECK_FLOAT(value, FE_LEAST_LENGTH, FE_MAX_LENGTH)
 
-fe_result fe__read_moving_form(const char *function, const fe_geometry *geometry, fe__form *out_form)
+static fe_result read_hull(const char *function, const fe_world *world, const fe_geometry *geometry,
+                           fe__moving_form *out_moving)
+{
+    int32_t index;
+    fe__store_lock(world->store);
+    fe_result result =
+        fe__find_asset_of(function, "geometry->asset", world->store, FE__ASSET_HULL, geometry->asset, &index);
+    if (result == FE_OK) {
+        fe__asset_retain(world->store, index);
+        *out_moving = (fe__moving_form){fe__asset_form(world->store, index), world};
+    }
+    fe__store_unlock(world->store);
+    return result;
+}
+
+void fe__let_go_of_form(const fe__moving_form *moving)
+{
+    if (!moving->world) return;
+    fe__store_lock(moving->world->store);
+    fe__asset_release(moving->world->store, moving->form.field);
+    fe__store_unlock(moving->world->store);
+}
+
+fe_result fe__read_moving_form(const char *function, const fe_world *world, const fe_geometry *geometry,
+                               fe__moving_form *out_moving)
 {
     fe_geometry whole = {.struct_size = sizeof whole};
     FE_READ_STRUCT(geometry, &whole);
     geometry = &whole;
     FE_CHECK_RESERVED(geometry->reserved);
     FE_CHECK_RESERVED(geometry->reserved_end);
-    *out_form = (fe__form){.type = fe__form_of_geometry(geometry->type)};
+    fe__form *form = &out_moving->form;
+    *form = (fe__form){.type = fe__form_of_geometry(geometry->type)};
     switch (geometry->type) {
     case FE_GEOMETRY_SPHERE:
         if (geometry->radius != 0.0f) FE_CHECK_LENGTH(geometry->radius);
-        out_form->radius = geometry->radius;
+        form->radius = geometry->radius;
         return FE_OK;
     case FE_GEOMETRY_CAPSULE:
         FE_CHECK_LENGTH(geometry->half_height);
         FE_CHECK_LENGTH(geometry->radius);
-        out_form->half_height = geometry->half_height;
-        out_form->radius = geometry->radius;
+        form->half_height = geometry->half_height;
+        form->radius = geometry->radius;
         return FE_OK;
     case FE_GEOMETRY_CYLINDER:
     case FE_GEOMETRY_CONE:
         FE_CHECK_LENGTH(geometry->half_height);
         FE_CHECK_LENGTH(geometry->radius);
-        out_form->half = fe__vec3(geometry->radius, geometry->half_height, geometry->radius);
+        form->half = fe__vec3(geometry->radius, geometry->half_height, geometry->radius);
         return FE_OK;
     case FE_GEOMETRY_BOX:
         FE_CHECK_LENGTH(geometry->half_extents.x);
         FE_CHECK_LENGTH(geometry->half_extents.y);
         FE_CHECK_LENGTH(geometry->half_extents.z);
-        out_form->half = geometry->half_extents;
+        form->half = geometry->half_extents;
         return FE_OK;
+    case FE_GEOMETRY_HULL:
+        return read_hull(function, world, geometry, out_moving);
     default:
         return fe__fail(function, FE_ERROR_UNSUPPORTED,
-                        "type is %d, must be that of a sphere, a capsule, a box, a cylinder or a cone", geometry->type);
+                        "type is %d, must be that of a sphere, a capsule, a box, a cylinder, a cone or a hull",
+                        geometry->type);
     }
 }
 
@@ -135,14 +163,13 @@ int32_t fe_world_sweep(const fe_world *world, const fe_geometry *geometry, const
                        const fe_dvec3 *translation, const fe_query_filter *filter, fe_hit *out_hit)
 {
     FE_READ(world);
-    fe__form form;
-    FE_TRY(fe__read_moving_form(function, geometry, &form));
+    FE_READ_MOVING_FORM(world, geometry);
     FE_CHECK_TRANSFORM(start);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     FE_CHECK_POINTER(out_hit);
     fe__query query;
     FE_TRY(fe__begin_query(function, world, filter, &query));
-    fe__probe probe = fe__probe_form(&form, start, *translation);
+    fe__probe probe = fe__probe_form(&moving.form, start, *translation);
     int32_t hit = fe__cast_closest(&query.scene, &probe, out_hit);
     fe__end_query(&query);
     return hit;
@@ -152,13 +179,12 @@ int32_t fe_world_sweep_any(const fe_world *world, const fe_geometry *geometry, c
                            const fe_dvec3 *translation, const fe_query_filter *filter)
 {
     FE_READ(world);
-    fe__form form;
-    FE_TRY(fe__read_moving_form(function, geometry, &form));
+    FE_READ_MOVING_FORM(world, geometry);
     FE_CHECK_TRANSFORM(start);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     fe__query query;
     FE_TRY(fe__begin_query(function, world, filter, &query));
-    fe__probe probe = fe__probe_form(&form, start, *translation);
+    fe__probe probe = fe__probe_form(&moving.form, start, *translation);
     int32_t hit = fe__cast_any(&query.scene, &probe);
     fe__end_query(&query);
     return hit;
@@ -169,15 +195,14 @@ int32_t fe_world_sweep_all(const fe_world *world, const fe_geometry *geometry, c
                            uint32_t stride, int32_t capacity)
 {
     FE_READ(world);
-    fe__form form;
-    FE_TRY(fe__read_moving_form(function, geometry, &form));
+    FE_READ_MOVING_FORM(world, geometry);
     FE_CHECK_TRANSFORM(start);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     FE_CHECK_ARRAY(out_hits, capacity);
     FE_CHECK_RECORD_STRIDE(stride, FE_SORTED_HIT, capacity);
     fe__query query;
     FE_TRY(fe__begin_query(function, world, filter, &query));
-    fe__probe probe = fe__probe_form(&form, start, *translation);
+    fe__probe probe = fe__probe_form(&moving.form, start, *translation);
     int32_t count = fe__cast_all(&query.scene, &probe, out_hits, stride, capacity);
     fe__end_query(&query);
     return count;
@@ -190,13 +215,12 @@ int32_t fe_world_overlap(const fe_world *world, const fe_geometry *geometry, con
                          const fe_query_filter *filter, fe_body *out_bodies, int32_t capacity)
 {
     FE_READ(world);
-    fe__form form;
-    FE_TRY(fe__read_moving_form(function, geometry, &form));
+    FE_READ_MOVING_FORM(world, geometry);
     FE_CHECK_TRANSFORM(at);
     FE_CHECK_ARRAY(out_bodies, capacity);
     fe__query query;
     FE_TRY(fe__begin_query(function, world, filter, &query));
-    fe__probe probe = fe__probe_form(&form, at, nowhere);
+    fe__probe probe = fe__probe_form(&moving.form, at, nowhere);
     int32_t count = fe__overlap(&query.scene, &probe, out_bodies, capacity);
     fe__end_query(&query);
     return count;
@@ -206,12 +230,11 @@ int32_t fe_world_overlap_any(const fe_world *world, const fe_geometry *geometry,
                              const fe_query_filter *filter)
 {
     FE_READ(world);
-    fe__form form;
-    FE_TRY(fe__read_moving_form(function, geometry, &form));
+    FE_READ_MOVING_FORM(world, geometry);
     FE_CHECK_TRANSFORM(at);
     fe__query query;
     FE_TRY(fe__begin_query(function, world, filter, &query));
-    fe__probe probe = fe__probe_form(&form, at, nowhere);
+    fe__probe probe = fe__probe_form(&moving.form, at, nowhere);
     int32_t overlaps = fe__overlap_any(&query.scene, &probe);
     fe__end_query(&query);
     return overlaps;
@@ -224,14 +247,13 @@ int32_t fe_world_overlap_shapes(const fe_world *world, const fe_geometry *geomet
                                 int32_t capacity)
 {
     FE_READ(world);
-    fe__form form;
-    FE_TRY(fe__read_moving_form(function, geometry, &form));
+    FE_READ_MOVING_FORM(world, geometry);
     FE_CHECK_TRANSFORM(at);
     FE_CHECK_ARRAY(out_overlaps, capacity);
     FE_CHECK_RECORD_STRIDE(stride, LEAST_SORTED_OVERLAP, capacity);
     fe__query query;
     FE_TRY(fe__begin_query(function, world, filter, &query));
-    fe__probe probe = fe__probe_form(&form, at, nowhere);
+    fe__probe probe = fe__probe_form(&moving.form, at, nowhere);
     int32_t count = fe__overlap_shapes(&query.scene, &probe, out_overlaps, stride, capacity);
     fe__end_query(&query);
     return count;

@@ -9,8 +9,19 @@ enum { FE_LEAST_RECORD = 8 }; // bytes of a record that a caller may ask for
 
 // `copy` is whole afterwards. NULL: the defaults.
 fe_result fe__read_filter(const char *function, const fe_query_filter *filter, fe_query_filter *copy);
-// Of a query: sphere, capsule or box, and a sphere may have no radius.
-fe_result fe__read_moving_form(const char *function, const fe_geometry *geometry, fe__form *out_form);
+// What a query moves: any form with an inside but the half space, and a sphere may have no radius. A hull is kept alive
+// until fe__let_go_of_form: another thread may destroy it.
+typedef struct fe__moving_form {
+    fe__form form;
+    const fe_world *world; // whose store has the form's hull; NULL: it has none
+} fe__moving_form;
+fe_result fe__read_moving_form(const char *function, const fe_world *world, const fe_geometry *geometry,
+                               fe__moving_form *out_moving);
+void fe__let_go_of_form(const fe__moving_form *moving);
+// A form until the end of the block, whose name is `moving`.form
+#define FE_READ_MOVING_FORM(world, geometry)                                 \
+    fe__moving_form moving FE_CLEANUP(fe__let_go_of_form) = {.world = NULL}; \
+    FE_TRY(fe__read_moving_form(function, world, geometry, &moving))
 fe__scene fe__scene_of(const fe_world *world, const fe_query_filter *whole_filter);
 
 // A query from its checked arguments to its hits. The scene points to the filter: it is not copied.

@@ -135,8 +135,7 @@ int32_t fe_world_sweep_many(const fe_world *world, const fe_geometry *geometry, 
                             fe_hit *out_hits, uint32_t stride)
 {
     FE_READ(world);
-    fe__form form;
-    FE_TRY(fe__read_moving_form(function, geometry, &form));
+    FE_READ_MOVING_FORM(world, geometry);
     FE_CHECK_ARRAY(paths, count);
     FE_CHECK_RECORD_STRIDE(path_stride, LEAST_PATH, count);
     FE_CHECK_BOOL(spread);
@@ -149,7 +148,7 @@ int32_t fe_world_sweep_many(const fe_world *world, const fe_geometry *geometry, 
         FE_TRY(check_path(function, &path, i));
     }
     batch b = {.scene = fe__scene_of(world, &whole),
-               .form = &form,
+               .form = &moving.form,
                .ways = paths,
                .way_stride = path_stride,
                .out_hits = out_hits,

@@ -26,12 +26,13 @@ void fe__probe_ray(fe__probe *probe, const fe_dvec3 *origin, const fe_dvec3 *tra
     probe->way.half = (fe_dvec3){0.0, 0.0, 0.0};
 }
 
+// The box around a hull is as wide on both sides of its origin, wherever that is.
 fe__probe fe__probe_form(const fe__form *form, const fe_transform *from, fe_dvec3 translation)
 {
     fe__pose turned = {{0.0, 0.0, 0.0}, from->rotation};
-    return (fe__probe){.form = *form,
-                       .way = {from->position, translation, fe__form_bounds(form, &turned).high},
-                       .axes = fe__axes_of(from->rotation)};
+    fe__bounds b = fe__form_bounds(form, &turned);
+    fe_dvec3 half = {fe__maxd(b.high.x, -b.low.x), fe__maxd(b.high.y, -b.low.y), fe__maxd(b.high.z, -b.low.z)};
+    return (fe__probe){.form = *form, .way = {from->position, translation, half}, .axes = fe__axes_of(from->rotation)};
 }
 
 static int32_t is_ray(const fe__probe *probe) { return fe__form_is_point(&probe->form); }

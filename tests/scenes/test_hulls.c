@@ -3,7 +3,7 @@
 #include "scene.h"
 
 #include "support/hull_clouds.h"
-#include "terrain.h"
+#include "meshes.h"
 
 #include <stdlib.h>
 
@@ -470,6 +470,65 @@ static void queries_see_a_box(void **state)
     }
 }
 
+// A ground of every form: what a hull that moves may meet
+static void every_ground(scene *s)
+{
+    fe_quat q = turned(v3(1, 2, 3), 0.7);
+    add_static(s, sphere(0.7), v3(-3, 1, 0), q, friction(0.5));
+    add_static(s, capsule(0.5, 0.4), v3(3, 1, 0), q, friction(0.5));
+    add_static(s, box(0.6, 0.4, 0.5), v3(0, 1, -3), q, friction(0.5));
+    add_static(s, rock(s, 9, 0.8), v3(0, 1, 3), q, friction(0.5));
+    add_mesh(s, 16, 0.5, -4, -4, 0.3, level, friction(0.5));
+}
+
+// The same box as a box, as a hull, and as a hull whose origin is 2 m off: all that moves is met alike. A box before a
+// box stops within 0.1 mm, the ways are 8 m long.
+static void a_hull_moves_as_a_box(void **state)
+{
+    enum { TRIES = 2000 };
+    scene s = scene_begin(state);
+    every_ground(&s);
+    vec half = v3(0.3, 0.2, 0.5), aside = v3(1.2, -1.0, 1.25);
+    fe_geometry forms[3] = {box(half.x, half.y, half.z), hull_box_at(&s, half, v3(0, 0, 0)),
+                            hull_box_at(&s, half, aside)};
+    uint64_t random = 5;
+    int hits = 0, overlaps = 0;
+    for (int i = 0; i < TRIES; ++i) {
+        vec from = plus(v3(0, 2, 0), times(4, cloud_vector(&random))), way = times(8, cloud_direction(&random));
+        fe_quat q = turned(cloud_direction(&random), i);
+        fe_transform start = {from, q}, off = {minus(from, rotate(q, aside)), q};
+        fe_hit a;
+        int32_t hit = fe_world_sweep(s.world, &forms[0], &start, &way, NULL, &a),
+                over = fe_world_overlap_any(s.world, &forms[0], &start, NULL);
+        hits += hit == 1, overlaps += over == 1;
+        for (int k = 1; k < 3; ++k) {
+            fe_hit b;
+            FE_NEAR(fe_world_sweep(s.world, &forms[k], k == 1 ? &start : &off, &way, NULL, &b), hit, 0);
+            FE_NEAR(fe_world_overlap_any(s.world, &forms[k], k == 1 ? &start : &off, NULL), over, 0);
+            if (!hit) continue;
+            FE_TRUE(b.flags == a.flags && (b.flags || b.body == a.body));
+            FE_NEAR(b.fraction, a.fraction, 1e-4 / 8 + 1e-7);
+        }
+    }
+    FE_TRUE(hits > TRIES / 4 && overlaps > TRIES / 20);
+    scene_end(&s);
+}
+
+static void what_is_no_hull_is_not_moved_as_one(void **state)
+{
+    scene s = scene_begin(state), other = scene_begin(state);
+    fe_transform at = fe_make_transform(0, 3, 0);
+    fe_geometry foreign = hull_box_at(&other, v3(1, 1, 1), v3(0, 0, 0)),
+                own = hull_box_at(&s, v3(1, 1, 1), v3(0, 0, 0)), none = own;
+    FE_TRUE(fe_world_overlap_any(s.world, &own, &at, NULL) == 0);
+    FE_TRUE(fe_world_overlap_any(s.world, &foreign, &at, NULL) == FE_ERROR_STALE);
+    none.asset = 0;
+    FE_TRUE(fe_world_overlap_any(s.world, &none, &at, NULL) == FE_ERROR_STALE);
+    MUST(fe_asset_destroy(world_store(s.world), own.asset));
+    FE_TRUE(fe_world_overlap_any(s.world, &own, &at, NULL) == FE_ERROR_STALE);
+    scene_end(&s), scene_end(&other);
+}
+
 // ---- assets --------------------------------------------------------------------------------------------------------
 static void a_shape_keeps_its_hull(void **state)
 {
@@ -561,6 +620,8 @@ int main(void)
         TEST(hills_hold_rocks),
         TEST(nothing_thin_is_passed_through),
         TEST(queries_see_a_box),
+        TEST(a_hull_moves_as_a_box),
+        TEST(what_is_no_hull_is_not_moved_as_one),
         TEST(a_shape_keeps_its_hull),
         TEST(every_machine_part_gives_the_same_bits),
     };

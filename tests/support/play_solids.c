@@ -118,7 +118,7 @@ static void build(play *p)
 // A form that falls from above stays where it is stopped, if nothing is in its way there
 static void place(play *p)
 {
-    const int32_t kinds[PROBES] = {0, 1, 2, 4, 6};
+    const int32_t kinds[PROBES] = {0, 1, 3, 5, 7};
     const fe_dvec3 way = {1.0, -9.0, 0.5};
     part a = any_part(p, kinds[p->step / 10 % PROBES]);
     fe_transform *at = &a.body.transform;

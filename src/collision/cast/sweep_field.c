@@ -18,8 +18,21 @@ typedef struct search {
     fe__approach pair; // with each triangle in turn
 } search;
 
+// Of the form's farthest points both ways along an axis of the surface's frame, in the mover's
+static double reach_along(const fe__form *form, fe_dvec3 axis)
+{
+    fe_dvec3 back = fe__dscale(-1.0, axis);
+    return fe__maxd(fe__ddot(axis, fe__form_support(form, axis)), fe__ddot(back, fe__form_support(form, back)));
+}
+
 static fe_dvec3 bounds_of(const fe__mover *mover)
 {
+    if (fe__form_is_hull(mover->form)) {
+        const fe__axes *a = &mover->axes;
+        return (fe_dvec3){reach_along(mover->form, (fe_dvec3){a->x.x, a->y.x, a->z.x}),
+                          reach_along(mover->form, (fe_dvec3){a->x.y, a->y.y, a->z.y}),
+                          reach_along(mover->form, (fe_dvec3){a->x.z, a->y.z, a->z.z})};
+    }
     double half[3], r = (double)mover->form->radius;
     fe__core_half(mover->form, half);
     const fe__axes *m = &mover->axes;
@@ -80,11 +93,12 @@ int32_t fe__ground_overlap(const fe__ground *surface, const fe__mover *mover)
 }
 
 // ---- one triangle --------------------------------------------------------------------------------------------------
-// The mover's half width along the triangle's normal, m, and its height at t over the triangle's plane.
-static double thickness_across(const fe__approach *p)
+// How far the mover reaches from its origin along the triangle's normal (side 1), or against it (-1), m; and the
+// origin's height at t over the triangle's plane.
+static double reach_across(const fe__approach *p, double side)
 {
-    fe_dvec3 m = fe__turn_back(&p->axes, p->normal), down = fe__dscale(-1.0, m);
-    if (p->other_kind == FE_CORE_CURVED) return fe__ddot(down, fe__form_support(p->other_form, down)) + p->radius;
+    fe_dvec3 m = fe__turn_back(&p->axes, p->normal), way = fe__dscale(side, m);
+    if (p->other_kind == FE_CORE_CURVED) return fe__ddot(way, fe__form_support(p->other_form, way)) + p->radius;
     return p->other_half[0] * fe__absd(m.x) + p->other_half[1] * fe__absd(m.y) + p->other_half[2] * fe__absd(m.z) +
            p->radius;
 }
@@ -112,7 +126,7 @@ static int32_t is_on_rim(const search *s, int32_t triangle, fe_dvec3 point)
 static int32_t is_met(const search *s, int32_t triangle, const fe__approach_hit *hit)
 {
     if (fe__ddot(hit->normal, s->pair.normal) >= FROM_BELOW) return 1;
-    return height_at(&s->pair, hit->t) + thickness_across(&s->pair) > 0.0 && is_on_rim(s, triangle, hit->point);
+    return height_at(&s->pair, hit->t) + reach_across(&s->pair, 1.0) > 0.0 && is_on_rim(s, triangle, hit->point);
 }
 
 // Of a start inside the deepest triangle tells; of hits the first. Of equal ones the triangle with the lowest number.
@@ -122,7 +136,7 @@ static void meet_triangle(search *s, int32_t triangle, fe__sweep_hit *best)
     take_triangle(s, triangle);
     if (fe__approach_overlap(&s->pair).depth >= 0.0) {
         double depth =
-            fe__maxd(thickness_across(&s->pair) - height_at(&s->pair, 0.0), 0.0); // until it is over the plane
+            fe__maxd(reach_across(&s->pair, -1.0) - height_at(&s->pair, 0.0), 0.0); // until it is over the plane
         if (best->inside && (depth < best->depth || (depth == best->depth && number > best->triangle))) return;
         *best = (fe__sweep_hit){
             .normal = s->pair.normal, .point = s->mover->position, .depth = depth, .inside = 1, .triangle = number};
