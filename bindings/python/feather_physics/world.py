@@ -429,7 +429,7 @@ class World:
         triggers: bool = False,
         exclude: Any = (),
     ) -> Optional[records.Hit]:
-        """What a moving Sphere, Capsule or Box touches first, or None. It does not rotate."""
+        """What a moving form touches first, or None: any but a Plane, Mesh or Heightfield. It does not rotate."""
         flat, start, filter = flat_geometry(self, geometry), (position, rotation), self._filter(mask, triggers, exclude)
         return self._hit(_flat.world_sweep(self._capsule, flat, start, translation, filter))
 
