@@ -13,7 +13,7 @@
 enum { FE_SORTED_HIT = offsetof(fe_hit, flags) + sizeof(uint32_t) }; // bytes of a hit that its order depends on
 
 typedef struct fe__probe {
-    fe__form form;    // sphere, capsule or box; a sphere of radius 0: a ray
+    fe__form form;    // with an inside, and bounded; a sphere of radius 0: a ray
     fe__tree_way way; // of its centre, with the half widths of its bounds
     fe__axes axes;
 } fe__probe;

@@ -81,7 +81,7 @@ namespace FeatherPhysics
             }
         }
 
-        /// <summary>What a sphere, capsule or box that moves without rotating touches first.</summary>
+        /// <summary>What a form that moves without rotating touches first.</summary>
         public bool Sweep(Geometry geometry, WorldTransform start, DVec3 translation, out Hit hit,
             QueryFilter filter = null)
         {
@@ -143,7 +143,7 @@ namespace FeatherPhysics
         }
 
         /// <summary>
-        /// The bodies that a sphere, capsule or box overlaps, in the order of creation. Returns how many there are.
+        /// The bodies that a form overlaps, in the order of creation. Returns how many there are.
         /// </summary>
         public int Overlap(Geometry geometry, WorldTransform at, Span<BodyHandle> bodies, QueryFilter filter = null)
         {

@@ -474,7 +474,7 @@ class World:
         triggers: bool = False,
         exclude: Any = (),
     ) -> List[Body]:
-        """The bodies that a Sphere, Capsule or Box overlaps, in the order of creation."""
+        """The bodies that a form overlaps, any but a Plane, Mesh or Heightfield, in the order of creation."""
         flat, at, filter = flat_geometry(self, geometry), (position, rotation), self._filter(mask, triggers, exclude)
         ids = records.read_handles(_flat.world_overlap, self._capsule, flat, at, filter)
         return [Body(self, id) for id in ids]
