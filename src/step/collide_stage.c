@@ -101,20 +101,6 @@ static void collide_chunks(void *argument, int32_t first, int32_t end, int32_t w
 }
 
 // ---- without -------------------------------------------------------------------------------------------------------
-// Records of pairs that the narrow phase will look at lie anywhere: they are asked for while it looks at others
-FE_FETCHES fetch_pair(const fe_world *w, int32_t pair)
-{
-    const fe__pair *p = w->pairs + pair;
-    fe__fetch(w->shapes + p->shape_a, sizeof *w->shapes);
-    fe__fetch(w->shapes + p->shape_b, sizeof *w->shapes);
-    fe__fetch(w->bodies[p->body_a].centre, sizeof w->bodies->centre);
-    fe__fetch(w->bodies[p->body_b].centre, sizeof w->bodies->centre);
-    fe__fetch(w->bodies[p->body_a].velocity, sizeof w->bodies->velocity);
-    fe__fetch(w->bodies[p->body_b].velocity, sizeof w->bodies->velocity);
-    fe__tree_fetch(&w->moving_tree, p->shape_a);
-    fe__tree_fetch(&w->moving_tree, p->shape_b);
-}
-
 // Of a stretch of the list of awake pairs, those that do not wait. Writes one beyond them
 static int32_t list_busy(const int32_t *entries, int32_t count, int32_t *out_pairs)
 {
@@ -150,14 +136,14 @@ static void collide_each(fe__step *step, const int32_t *pairs, int32_t count)
 {
     enum { AHEAD = 2 };
     for (int32_t i = -AHEAD; i < count; ++i) {
-        if (i + AHEAD < count) fetch_pair(step->world, pairs[i + AHEAD]);
+        if (i + AHEAD < count) fe__fetch_pair(step->world, pairs[i + AHEAD]);
         if (i < 0) continue;
         fe__collide_pair(step->world, pairs[i], step->dt);
         note_result(step, pairs[i]);
     }
 }
 
-// Pairs whose deferral ends: recycling has had its say when they were found, see due.c
+// Pairs whose deferral ends: recycling has had its say when they were found, and most of them meet, see due.c
 static void collide_due(void *argument, int32_t first, int32_t end, int32_t worker)
 {
     const collide_job *job = argument;
@@ -265,7 +251,7 @@ void fe__update_contacts(fe__step *step)
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     atomic_store(&s->result_count, 0);
-    atomic_store(&s->recycled, 0);
+    atomic_store(&s->recycled, -atomic_load(&s->apart_count));
     // what wakes brings its pairs: they are looked at in another round
     int32_t due = w->field_pair_count ? 0 : atomic_load(&s->due_count); // with heightfields all are recycled
     for (int32_t first = 0; first < w->awake_pair_count; due = 0) {

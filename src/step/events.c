@@ -84,10 +84,8 @@ enum { PAIRS_IN_BLOCK = 256, AHEAD = 16 }; // AHEAD: records come from memory wh
 FE_FETCHES fetch_ahead(const fe_world *w, const int32_t *pairs, int32_t i, int32_t end)
 {
     if (i + 3 * AHEAD < end) __builtin_prefetch(&w->pairs[pairs[i + 3 * AHEAD]].flags);
-    if (i + 2 * AHEAD < end && w->pairs[pairs[i + 2 * AHEAD]].flags & FE__PAIR_MAY_REPORT)
-        fe__fetch(w->contacts + pairs[i + 2 * AHEAD], sizeof *w->contacts);
-    if (i + AHEAD < end && w->pairs[pairs[i + AHEAD]].flags & FE__PAIR_MAY_REPORT)
-        __builtin_prefetch(w->points + w->contacts[pairs[i + AHEAD]].points);
+    if (i + 2 * AHEAD < end) fe__fetch(w->contacts + pairs[i + 2 * AHEAD], sizeof *w->contacts);
+    if (i + AHEAD < end) __builtin_prefetch(w->points + w->contacts[pairs[i + AHEAD]].points);
 }
 
 typedef struct look_job {

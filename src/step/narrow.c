@@ -343,7 +343,8 @@ static int32_t may_touch_from_afar(const fe_world *world, const fe__pair *p, con
     return gap <= reach_along(world, world->bodies + m->body_a, world->bodies + m->body_b, normal, dt);
 }
 
-void fe__collide_pair(fe_world *world, int32_t pair, float dt)
+// 1: done. 0: it has points, which it was not to write
+static int32_t collide(fe_world *world, int32_t pair, float dt, int32_t writes_points)
 {
     fe__pair *p = world->pairs + pair;
     fe__contact *m = world->contacts + pair;
@@ -359,26 +360,42 @@ void fe__collide_pair(fe_world *world, int32_t pair, float dt)
     fe__manifold found = {.axis = p->axis, .axis_separation = p->axis_separation, .count = (int32_t)m->point_count};
     fe__collide(&v.form_a, &v.b->form, &v.relative, fe__maxf(margin, reach), &found);
     fe__mend_seam(world, &v, fe__maxf(margin, reach), &found);
-    p->axis = found.axis, p->axis_separation = found.axis_separation;
+    int32_t axis = found.axis;
+    float axis_separation = found.axis_separation;
     if (p->flags & FE__PAIR_DENIED || passes(p, &v, &found)) {
+        p->axis_separation = axis_separation;
         write_apart(p, m, fe__points_of(world, m), &v, &at, a, b, 0.0f, fe__vec3(0.0f, 0.0f, 0.0f));
-        return;
+        return 1;
     }
 
     int32_t near = is_near(&found, margin), ahead = may_touch_from_afar(world, p, m, &v, &found, dt);
     int32_t fast =
         reach > fe__minf(fe__form_thickness(&x->form), fe__form_thickness(&y->form)) && a->type != FE_BODY_DYNAMIC;
+    if (!writes_points && (near || (ahead && fast))) return 0;
     if (ahead) ahead = (fast ? look_far_ahead : look_ahead)(world, m, dt, &v, &at, &found);
+    if (ahead && !writes_points) return 0;
+    p->axis_separation = axis_separation;
     if (!ahead && !near) {
         gap left = gap_of(&v, &found);
         write_apart(p, m, fe__points_of(world, m), &v, &at, a, b, fe__slack(left.distance, margin),
                     solvers_normal(m, &v, left.normal));
-        return;
+        return 1;
     }
+    p->axis = axis;
     if (!m->points) fe__points_take(world, pair);
     match_impulses(fe__points_of(world, m), world->features + m->points, (int)m->point_count, &found);
     float tolerance = fe__recycle_tolerance(&v);
     if (found.round) tolerance = fe__minf(tolerance, RECYCLE_ROUND);
     m->surface.tolerance = ahead ? FE__AHEAD : tolerance;
     fe__write_manifold(world, m, &v, &at, &found, ahead);
+    return 1;
+}
+
+void fe__collide_pair(fe_world *world, int32_t pair, float dt) { collide(world, pair, dt, 1); }
+
+int32_t fe__collide_apart(fe_world *world, int32_t pair, float dt)
+{
+    const fe__pair *p = world->pairs + pair;
+    if ((world->shapes[p->shape_a].flags | world->shapes[p->shape_b].flags) & FE__SHAPE_ONE_WAY) return 0;
+    return collide(world, pair, dt, 0);
 }

@@ -16,6 +16,23 @@ static inline float fe__slack(float gap, float margin)
 
 // The narrow phase of one pair, for a step of dt seconds. Only the pair is written.
 void fe__collide_pair(fe_world *world, int32_t pair, float dt);
+// The same where no points are found, 1. Where they may be, and where others could tell what it writes (one-way shapes,
+// fast bodies): nothing, 0
+int32_t fe__collide_apart(fe_world *world, int32_t pair, float dt);
+
+// Records of pairs that the narrow phase will look at lie anywhere: they are asked for while it looks at others
+FE_FETCHES fe__fetch_pair(const fe_world *w, int32_t pair)
+{
+    const fe__pair *p = w->pairs + pair;
+    fe__fetch(w->shapes + p->shape_a, sizeof *w->shapes);
+    fe__fetch(w->shapes + p->shape_b, sizeof *w->shapes);
+    fe__fetch(w->bodies[p->body_a].centre, sizeof w->bodies->centre);
+    fe__fetch(w->bodies[p->body_b].centre, sizeof w->bodies->centre);
+    fe__fetch(w->bodies[p->body_a].velocity, sizeof w->bodies->velocity);
+    fe__fetch(w->bodies[p->body_b].velocity, sizeof w->bodies->velocity);
+    fe__tree_fetch(&w->moving_tree, p->shape_a);
+    fe__tree_fetch(&w->moving_tree, p->shape_b);
+}
 
 // how far gravity may bring a body towards another one in the step, m
 float fe__fall_in_step(const fe_world *world, float dt);
