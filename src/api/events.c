@@ -43,10 +43,30 @@ static int32_t write_events(const char *function, event_list list, void *out_eve
     return list.count;
 }
 
+static fe_pair_event describe_event(const fe__pair_event_record *r)
+{
+    return (fe_pair_event){.body_a = r->body_a,
+                           .body_b = r->body_b,
+                           .shape_a = r->shape_a,
+                           .shape_b = r->shape_b,
+                           .kind = r->kind,
+                           .is_trigger = r->is_trigger,
+                           .part_a = -1,
+                           .part_b = -1,
+                           .triangle_a = r->field_a ? r->triangle : -1,
+                           .triangle_b = r->field_a ? -1 : r->triangle};
+}
+
 int32_t fe_world_get_pair_events(const fe_world *world, fe_pair_event *out_events, uint32_t stride, int32_t capacity)
 {
     FE_READ(world);
-    return write_events(function, LIST_OF(pair), out_events, stride, capacity);
+    FE_CHECK_ARRAY(out_events, capacity);
+    FE_CHECK_RECORD_STRIDE(stride, LEAST_RECORD, capacity);
+    for (int32_t i = 0, written = fe__mini(world->pair_event_count, capacity); i < written; ++i) {
+        fe_pair_event event = describe_event(world->pair_events + i);
+        put(out_events, stride, i, &event, sizeof event);
+    }
+    return world->pair_event_count;
 }
 
 int32_t fe_world_get_body_events(const fe_world *world, fe_body_event *out_events, uint32_t stride, int32_t capacity)

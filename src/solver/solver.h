@@ -245,9 +245,9 @@ typedef struct fe__solver {
     // Where bodies that are fast when the step begins went: `motion` after each fe__trail_stride substeps
     int16_t *trail_count;                // by line: substeps so far; FE__NO_TRAIL: a slow one
     int32_t *trail_of;                   // by line of a fast one: its trail
-    fe__motion_line (*trail)[FE__TRAIL]; // in no order that matters
+    fe__motion_line (*trail)[FE__TRAIL]; // in no order that matters; behind the rows
     _Atomic int32_t trails;              // taken in this step
-    int32_t trail_capacity[3];
+    int32_t trail_capacity[2];
 
     uint8_t *touches_of; // by line: contacts with restitution that touched in this substep, as far as two
     int32_t *touch_of;   // by line: the first of its touches in a chain
@@ -281,7 +281,8 @@ typedef struct fe__solver {
     fe__sort_item *sort_items;
     int32_t sort_capacity;
 
-    // of the large batch at hand, or one stretch of worker_row_bytes for each worker; scratch of the graph's build
+    // of the large batch at hand, or one stretch of worker_row_bytes for each worker; scratch of the graph's build, and
+    // of whoever sorts while neither builds nor solves
     fe__row_block *rows;
     int32_t row_capacity; // blocks
     int64_t worker_row_bytes;

@@ -207,7 +207,7 @@ static void collide_block(void *argument, int32_t first, int32_t end, int32_t wo
 static void sort_pairs(fe__step *step, int32_t *pairs, int32_t count)
 {
     const fe_world *w = step->world;
-    fe__sort_item *items = step->scratch->sort_items;
+    fe__sort_item *items = fe__sort_room(step);
     for (int32_t i = 0; i < count; ++i) items[i] = (fe__sort_item){w->pair_serials[2 * pairs[i] + 1], pairs[i], 0};
     fe__sort_keys(items, count, items + count);
     for (int32_t i = 0; i < count; ++i) items[i].key = w->pair_serials[2 * items[i].value];

@@ -11,12 +11,6 @@
 #include "world/material.h"
 #include "world/pairs.h"
 
-static fe__pair_event_record record_of(const fe_world *w, int32_t pair, int32_t kind)
-{
-    return (fe__pair_event_record){w->pair_serials[2 * pair], w->pair_serials[2 * pair + 1],
-                                   fe__pair_event_of(w, pair, kind)};
-}
-
 static int32_t touches(const fe_world *w, int32_t head)
 {
     int32_t sensor = (w->pairs[head].flags & FE__PAIR_SENSOR) != 0;
@@ -58,10 +52,10 @@ static void add_hit(fe_world *w, int32_t pair)
     if (sum.approach < w->tuning.hit_event_threshold || sum.impulse <= 0.0f) return;
     const fe__contact *m = w->contacts + sum.pair;
     float sign = p->flags & FE__PAIR_FLIPPED ? -1.0f : 1.0f;
-    fe_pair_event e = fe__pair_event_of(w, pair, FE_EVENT_ENTER);
+    fe__pair_event_record e = fe__pair_event_of(w, pair, FE_EVENT_ENTER);
     fe__hit_event_record *r = w->hit_events + w->hit_event_count++;
-    *r = (fe__hit_event_record){w->pair_serials[2 * pair],
-                                w->pair_serials[2 * pair + 1],
+    *r = (fe__hit_event_record){e.serial_a,
+                                e.serial_b,
                                 {.body_a = e.body_a,
                                  .body_b = e.body_b,
                                  .shape_a = e.shape_a,
@@ -74,8 +68,8 @@ static void add_hit(fe_world *w, int32_t pair)
                                  .impulse = sum.impulse,
                                  .part_a = -1,
                                  .part_b = -1,
-                                 .triangle_a = e.triangle_a,
-                                 .triangle_b = e.triangle_b}};
+                                 .triangle_a = e.field_a ? e.triangle : -1,
+                                 .triangle_b = e.field_a ? -1 : e.triangle}};
 }
 
 // ---- looking, on any thread: pairs that have something to report go to the list of results -------------------------
@@ -136,14 +130,14 @@ static void report(fe__step *step, int32_t pair)
         p->flags |= FE__PAIR_TOUCHING;
     if (kind != FE_EVENT_EXIT && !(p->flags & FE__PAIR_SENSOR)) add_hit(w, pair);
     if (p->events & (kind == FE_EVENT_STAY ? (uint32_t)FE_SHAPE_EVENTS_STAY : (uint32_t)FE_SHAPE_EVENTS_TOUCH))
-        w->pair_events[w->pair_event_count++] = record_of(w, pair, kind);
+        w->pair_events[w->pair_event_count++] = fe__pair_event_of(w, pair, kind);
 }
 
 // ---- order ---------------------------------------------------------------------------------------------------------
 // Stable sorts by B, then by A. The records are moved once, along the cycles of the permutation.
 static void sort_records(fe__step *step, unsigned char *records, int32_t count, size_t size)
 {
-    fe__sort_item *items = step->scratch->sort_items;
+    fe__sort_item *items = fe__sort_room(step);
     for (int32_t key = 1; key >= 0; --key) {
         for (int32_t i = 0; i < count; ++i) {
             if (key) items[i].value = i;
@@ -190,7 +184,7 @@ void fe__collect_events(fe__step *step)
 void fe__collect_body_events(fe__step *step)
 {
     fe_world *w = step->world;
-    fe__sort_item *items = step->scratch->sort_items;
+    fe__sort_item *items = fe__sort_room(step);
     int32_t count = 0;
     for (int32_t i = 0; i < w->disturbed_count; ++i) {
         int32_t index = w->disturbed[i];

@@ -184,22 +184,28 @@ static fe__graph_bound bound_of(const fe__step *step, int32_t waking_lanes, int3
     return b;
 }
 
+// What is sorted, or left its box, lies where the rows do
+static int32_t reserve_rooms(const fe__step *step, const fe__graph_bound *b)
+{
+    fe_world *w = step->world;
+    int64_t sorted = fe__maxi(fe__maxi(b->contacts, step->scratch->candidate_count), w->body_count);
+    sorted += w->owed_count + w->joint_count;
+    int64_t bytes = fe__maxl(2 * sorted * (int64_t)sizeof(fe__sort_item), w->shape_count * (int64_t)sizeof(fe__bounds));
+    // at least one, so that an empty stretch has an address too
+    return FE_RENEW(&w->memory, w->solver.rows, w->solver.row_capacity, 1 + bytes / (int64_t)sizeof(fe__row_block));
+}
+
 static int32_t reserve_scratch(fe__step *step, const fe__graph_bound *b)
 {
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     fe__memory *memory = &w->memory;
-    // at least one, so that an empty stretch has an address too
-    int64_t sorted = 1 + fe__maxi(fe__maxi(b->contacts, step->scratch->candidate_count), w->body_count);
-    sorted += w->owed_count + w->joint_count;
     return FE_RENEW(memory, s->results, s->result_capacity, (int64_t)b->contacts + 1) &&
            FE_RESERVE(memory, s->busy, s->busy_capacity, (int64_t)b->contacts + 1) &&
            FE_RENEW(memory, s->left, s->left_capacity, w->shape_count) &&
-           FE_RENEW(memory, s->boxes, s->box_capacity, w->shape_count) &&
            FE_RENEW(memory, s->chased, s->chased_capacity, (int64_t)2 * b->bodies) &&
            FE_RENEW(memory, s->chases, s->chase_capacity, w->has_bullets ? b->bodies : 0) &&
            FE_RENEW(memory, s->island_timers, s->island_capacity, b->bodies) &&
-           FE_RENEW(memory, s->sort_items, s->sort_capacity, 2 * sorted) &&
            FE_RESERVE(memory, w->pair_events, w->pair_event_capacity, (int64_t)b->contacts + w->owed_count) &&
            FE_RESERVE(memory, w->body_events, w->body_event_capacity, w->body_count) &&
            FE_RESERVE(memory, w->hit_events, w->hit_event_capacity, w->wants_hits ? b->contacts : 0) &&
@@ -225,7 +231,8 @@ int32_t fe__reserve_step(fe__step *step)
     if (!fe__bound_waking(step, &lanes, &clusters)) return 0;
     fe__graph_bound bound = bound_of(step, lanes, clusters);
     if (!fe__reserve_pairs(w, step->scratch->candidate_count + step->scratch->candidate_patches) ||
-        !fe__points_reserve(w, step->scratch->points_to_come, bound.special) || !reserve_scratch(step, &bound))
+        !fe__points_reserve(w, step->scratch->points_to_come, bound.special) || !reserve_rooms(step, &bound) ||
+        !reserve_scratch(step, &bound))
         return 0;
     return (bound.bodies == 0 || (fe__bound_islands(step, &bound) &&
                                   fe__graph_reserve(&w->solver, &w->memory, w->kernels, &bound, w->workers.count))) &&

@@ -30,6 +30,7 @@ static const stage stages[] = {
     {fe__collect_events, offsetof(fe_profile, events), 0},       // touching begun, kept, ended; impacts
     {fe__put_islands_to_sleep, offsetof(fe_profile, sleep), 1},  // islands slow for long enough
     {fe__collect_body_events, offsetof(fe_profile, sleep), 0},   // who woke, who fell asleep
+    {fe__give_back_rows, offsetof(fe_profile, sleep), 1},        // of a world that sleeps
 };
 
 static void count(const fe__step *step)

@@ -52,7 +52,7 @@ static void hash_pair_events(fe__hash *h, const fe__pair_event_record *r, int32_
     for (int32_t i = 0; i < count; ++i) {
         fe__hash_u64(h, r[i].serial_a);
         fe__hash_u64(h, r[i].serial_b);
-        fe__hash_i32(h, r[i].event.kind << 1 | r[i].event.is_trigger);
+        fe__hash_i32(h, r[i].kind << 1 | r[i].is_trigger);
     }
 }
 

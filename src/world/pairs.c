@@ -140,33 +140,28 @@ void fe__pair_release(fe_world *world, int32_t pair)
 }
 
 // ---- events --------------------------------------------------------------------------------------------------------
-fe_pair_event fe__pair_event_of(const fe_world *world, int32_t pair, int32_t kind)
+fe__pair_event_record fe__pair_event_of(const fe_world *world, int32_t pair, int32_t kind)
 {
     const fe__pair *p = world->pairs + pair;
-    int32_t field_a = fe__form_is_field(&world->shapes[p->shape_a].form);
-    return (fe_pair_event){.body_a = fe__body_handle(world, p->body_a),
-                           .body_b = fe__body_handle(world, p->body_b),
-                           .shape_a = fe__shape_handle(world, p->shape_a),
-                           .shape_b = fe__shape_handle(world, p->shape_b),
-                           .kind = kind,
-                           .is_trigger = (p->flags & FE__PAIR_SENSOR) != 0,
-                           .part_a = -1,
-                           .part_b = -1,
-                           .triangle_a = field_a ? p->triangle : -1,
-                           .triangle_b = field_a ? -1 : p->triangle};
+    return (fe__pair_event_record){.serial_a = world->pair_serials[2 * pair],
+                                   .serial_b = world->pair_serials[2 * pair + 1],
+                                   .body_a = fe__body_handle(world, p->body_a),
+                                   .body_b = fe__body_handle(world, p->body_b),
+                                   .shape_a = fe__shape_handle(world, p->shape_a),
+                                   .shape_b = fe__shape_handle(world, p->shape_b),
+                                   .kind = (int16_t)kind,
+                                   .is_trigger = (p->flags & FE__PAIR_SENSOR) != 0,
+                                   .field_a = fe__form_is_field(&world->shapes[p->shape_a].form) != 0,
+                                   .triangle = p->triangle};
 }
 
 // An exit that is owed waits in the record of its contact: its handles may be stale when it is reported.
-typedef struct owed_exit {
-    fe_handle body_a, body_b, shape_a, shape_b;
-    int32_t is_trigger;
-} owed_exit;
-_Static_assert(sizeof(owed_exit) <= sizeof(fe__contact), "an exit fits into its record");
+_Static_assert(sizeof(fe__pair_event_record) <= sizeof(fe__contact), "an exit fits into its record");
 
 static void owe_exit(fe_world *world, int32_t pair)
 {
-    fe_pair_event event = fe__pair_event_of(world, pair, FE_EVENT_EXIT);
-    owed_exit owed = {event.body_a, event.body_b, event.shape_a, event.shape_b, event.is_trigger};
+    fe__pair_event_record owed = fe__pair_event_of(world, pair, FE_EVENT_EXIT);
+    owed.triangle = -1; // the pair is no longer over it
     memcpy(world->contacts + pair, &owed, sizeof owed);
     world->pairs[pair].flags = FE__PAIR_FREE;
     world->pairs[pair].links[0].next = world->first_owed;
@@ -178,21 +173,7 @@ void fe__report_owed_exits(fe_world *world)
 {
     while (world->first_owed) {
         int32_t pair = world->first_owed;
-        fe__pair_event_record *r = world->pair_events + world->pair_event_count++;
-        owed_exit owed;
-        memcpy(&owed, world->contacts + pair, sizeof owed);
-        *r = (fe__pair_event_record){world->pair_serials[2 * pair],
-                                     world->pair_serials[2 * pair + 1],
-                                     {.body_a = owed.body_a,
-                                      .body_b = owed.body_b,
-                                      .shape_a = owed.shape_a,
-                                      .shape_b = owed.shape_b,
-                                      .kind = FE_EVENT_EXIT,
-                                      .is_trigger = owed.is_trigger,
-                                      .part_a = -1,
-                                      .part_b = -1,
-                                      .triangle_a = -1,
-                                      .triangle_b = -1}};
+        memcpy(world->pair_events + world->pair_event_count++, world->contacts + pair, sizeof *world->pair_events);
         world->first_owed = world->pairs[pair].links[0].next;
         fe__pair_release(world, pair);
     }

@@ -16,7 +16,7 @@ static inline int32_t fe__is_field_pair(const fe_world *world, int32_t shape_a, 
     return fe__form_is_field(&world->shapes[shape_a].form) || fe__form_is_field(&world->shapes[shape_b].form);
 }
 
-fe_pair_event fe__pair_event_of(const fe_world *world, int32_t pair, int32_t kind);
+fe__pair_event_record fe__pair_event_of(const fe_world *world, int32_t pair, int32_t kind);
 // Exits of pairs that touched and ended since the last step: into the events of this one
 void fe__report_owed_exits(fe_world *world);
 // m, world: arms count from the centre of the solver's A, or of B when A is static; between them lies what the pair

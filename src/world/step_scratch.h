@@ -47,7 +47,8 @@ typedef struct fe__step_scratch {
     _Atomic int32_t chunks_end; // of those that the workers took
     fe__crowded *crowd;
     fe__favourite *favourites; // of each body of the crowd
-    int32_t crowd_capacity, favourite_capacity;
+    fe__bounds *boxes;         // by shape
+    int32_t crowd_capacity, favourite_capacity, box_capacity;
     int32_t left_out; // candidates behind those that count
 
     int32_t *busy; // awake pairs that do not wait; while a step reserves: those that just ceased to
@@ -60,9 +61,8 @@ typedef struct fe__step_scratch {
     _Atomic int32_t result_count;
     _Atomic int32_t recycled;
 
-    int32_t *left; // shapes that left their box in this step, and their new ones
-    fe__bounds *boxes;
-    int32_t left_capacity, box_capacity;
+    int32_t *left; // shapes that left their box in this step
+    int32_t left_capacity;
     _Atomic int32_t left_count;
     _Atomic int32_t lost_count; // bodies that overflowed in this step
     _Atomic int32_t some_leapt; // 1: a body went too far in this step for its odometer
@@ -76,8 +76,6 @@ typedef struct fe__step_scratch {
 
     float *island_timers;
     int32_t island_capacity;
-    fe__sort_item *sort_items; // two stretches
-    int32_t sort_capacity;
 } fe__step_scratch;
 
 typedef struct fe__step {
@@ -87,6 +85,14 @@ typedef struct fe__step {
     fe__step_constants constants; // of most islands
     int32_t failed;               // no memory; nothing was changed
 } fe__step;
+
+// Outside of the stages that build the graph and solve it the solver's rows are nobody's: what is sorted, two stretches
+// of it, or the new boxes of the shapes that left theirs
+static inline fe__sort_item *fe__sort_room(const fe__step *step)
+{
+    return (fe__sort_item *)(void *)step->world->solver.rows;
+}
+static inline fe__bounds *fe__box_room(const fe__step *step) { return (fe__bounds *)(void *)step->world->solver.rows; }
 
 void fe__step_scratch_destroy(fe_world *world);
 
