@@ -10,6 +10,7 @@
 #include "core/simd.h"
 #include "step/ahead.h"
 #include "step/narrow_seam.h"
+#include "world/points.h"
 #include "world/pose.h"
 
 #include <string.h>
@@ -145,15 +146,15 @@ static int32_t look_far_ahead(const fe_world *world, const fe__contact *m, float
 static void copy4(float *out, fe_quat q) { out[0] = q.x, out[1] = q.y, out[2] = q.z, out[3] = q.w; }
 
 // impulses stay with the features that meet
-static void match_impulses(fe__pair *p, fe__contact *m, const fe__manifold *found)
+static void match_impulses(fe__points *q, fe__features *features, int old_count, const fe__manifold *found)
 {
     float old[FE__POINTS];
-    memcpy(old, m->normal_impulse, sizeof old);
-    for (int i = 0; i < FE__POINTS; ++i) m->normal_impulse[i] = 0.0f;
+    memcpy(old, q->normal_impulse, sizeof old);
+    for (int i = 0; i < FE__POINTS; ++i) q->normal_impulse[i] = 0.0f;
     for (int i = 0; i < found->count; ++i)
-        for (int j = 0; j < (int)m->point_count; ++j)
-            if (p->ids[j] == found->points[i].id) m->normal_impulse[i] = old[j];
-    for (int i = 0; i < found->count; ++i) p->ids[i] = found->points[i].id;
+        for (int j = 0; j < old_count; ++j)
+            if (features->ids[j] == found->points[i].id) q->normal_impulse[i] = old[j];
+    for (int i = 0; i < found->count; ++i) features->ids[i] = found->points[i].id;
 }
 
 static void note_poses(fe__contact *m, const fe__places *at, const fe__body *a, const fe__body *b)
@@ -193,8 +194,8 @@ static inline wide4 load_points(const fe__manifold *found)
 static inline float greatest(wide a) { return fe__maxf(fe__maxf(a[0], a[1]), fe__maxf(a[2], a[3])); }
 
 // points from A's frame to arms: from the centre of the solver's A, or of B when A is static (its centre may be far)
-static void set_points(fe__contact *m, const fe__view *v, const fe__places *at, const fe__manifold *found,
-                       const fe__body *a)
+static void set_points(fe__contact *m, fe__points *q, const fe__view *v, const fe__places *at,
+                       const fe__manifold *found, const fe__body *a)
 {
     int32_t is_static = a->type == FE_BODY_STATIC;
     wide3 base = spread(fe__narrow(fe__dsub(v->origin, is_static ? at->centre_b : at->centre_a)));
@@ -208,17 +209,15 @@ static void set_points(fe__contact *m, const fe__view *v, const fe__places *at, 
     wide surfaces = w_max(w_dot(arm, arm), w_dot(arm_b, arm_b)),
          cores = w_max(w_dot(core_a, core_a), w_dot(core_b, core_b));
     wide separation = keep(there, point.w);
-    *(quad *)m->separation = separation;
-    w_scatter(m->point[0].arm, sizeof *m->point / sizeof(float), w_in_order, w_with(arm, separation));
+    *(quad *)q->separation = separation;
+    w_scatter(q->point[0].arm, sizeof *q->point / sizeof(float), w_in_order, w_with(arm, separation));
     m->longest_arm = sqrtf(greatest(w_max(surfaces, keep(there, cores))));
 }
 
-static void set_no_points(fe__contact *m, const fe__body *a, const fe__body *b)
+// A record that it has is zeros until it is released
+static void set_no_points(fe__contact *m, fe__points *q, const fe__body *a, const fe__body *b)
 {
-    for (int i = 0; i < FE__POINTS; ++i) {
-        m->separation[i] = 0.0f;
-        m->point[i] = (fe__contact_arm){{0.0f, 0.0f, 0.0f}, 0.0f};
-    }
+    if (m->points) *q = (fe__points){.twist_impulse = 0.0f};
     for (int k = 0; k < 3; ++k) m->normal[k] = 0.0f;
     m->point_count = 0.0f;
     m->longest_arm = fe__maxf(a->reach, b->reach); // whatever part of the bodies may come near
@@ -226,7 +225,7 @@ static void set_no_points(fe__contact *m, const fe__body *a, const fe__body *b)
 
 // Separations now of a manifold found ahead of time, along its normal: as in recycle.simd.c. Its arms stay those of the
 // touch, and the turns from there to now take the place of the rotations.
-static void step_back(fe__contact *m, const fe__places *at, const fe__body *a, const fe__body *b)
+static void step_back(fe__contact *m, fe__points *q, const fe__places *at, const fe__body *a, const fe__body *b)
 {
     fe_quat turn_a = fe__product(fe__rotation_of(a), fe__conjugate(at->rotation_a)),
             turn_b = fe__product(fe__rotation_of(b), fe__conjugate(at->rotation_b));
@@ -240,7 +239,7 @@ static void step_back(fe__contact *m, const fe__places *at, const fe__body *a, c
     float constant = fe__dot(n, fe__narrow(fe__dsub(now, then))) + fe__dot(nb, span) +
                      m->surface.radius_a * fe__dot(na, n) + m->surface.radius_b * fe__dot(nb, n);
     for (int i = 0; i < (int)m->point_count; ++i)
-        m->separation[i] = m->point[i].separation + constant + fe__dot(slope, fe__quad_vector(m->point[i].arm));
+        q->separation[i] = q->point[i].separation + constant + fe__dot(slope, fe__quad_vector(q->point[i].arm));
 }
 
 float fe__recycle_tolerance(const fe__view *v)
@@ -271,14 +270,15 @@ void fe__write_manifold(const fe_world *world, fe__contact *m, const fe__view *v
                         const fe__manifold *found, int32_t ahead)
 {
     const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
+    fe__points *q = fe__points_of(world, m);
     note_poses(m, at, a, b);
     if (!found->count) {
-        set_no_points(m, a, b);
+        set_no_points(m, q, a, b);
         return;
     }
     write_contact(m, v, found, m->body_a != v->a->body);
-    set_points(m, v, at, found, a);
-    if (ahead) step_back(m, at, a, b);
+    set_points(m, q, v, at, found, a);
+    if (ahead) step_back(m, q, at, a, b);
 }
 
 // A gap between two shapes without points: of two planes with this normal that have the shapes beyond them; without a
@@ -301,16 +301,15 @@ static gap gap_of(const fe__view *v, const fe__manifold *found)
 }
 
 // without points: not looked at again until the bodies may have closed `slack` of their gap
-static void write_apart(fe__pair *p, fe__contact *m, const fe__view *v, const fe__places *at, const fe__body *a,
-                        const fe__body *b, float slack, fe_vec3 normal)
+static void write_apart(fe__pair *p, fe__contact *m, fe__points *q, const fe__view *v, const fe__places *at,
+                        const fe__body *a, const fe__body *b, float slack, fe_vec3 normal)
 {
     int32_t a_is_b = m->body_a != v->a->body;
-    fe__contact_forget_impulses(m);
     p->axis = -1; // a kernel's memory begins with the first points, whenever the pair was made: unrelated bodies must
                   // not matter
     m->surface.tolerance = slack;
     note_poses(m, at, a, b);
-    set_no_points(m, a, b);
+    set_no_points(m, q, a, b);
     fe__copy3(m->normal, normal);
     // what turns the core turns the round layer about it nowhere else
     m->surface.radius_a = (a_is_b ? v->b : v->a)->arm, m->surface.radius_b = (a_is_b ? v->a : v->b)->arm;
@@ -367,7 +366,7 @@ static int32_t may_touch_from_afar(const fe__step *step, const fe__pair *p, cons
 
 void fe__collide_pair(const fe__step *step, int32_t pair)
 {
-    const fe_world *world = step->world;
+    fe_world *world = step->world;
     fe__pair *p = world->pairs + pair;
     fe__contact *m = world->contacts + pair;
     const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
@@ -384,7 +383,7 @@ void fe__collide_pair(const fe__step *step, int32_t pair)
     if (a->type == FE_BODY_STATIC) fe__mend_seam(world, &v, fe__maxf(margin, reach), &found);
     p->axis = found.axis, p->axis_separation = found.axis_separation;
     if (p->flags & FE__PAIR_DENIED || passes(p, &v, &found)) {
-        write_apart(p, m, &v, &at, a, b, 0.0f, fe__vec3(0.0f, 0.0f, 0.0f));
+        write_apart(p, m, fe__points_of(world, m), &v, &at, a, b, 0.0f, fe__vec3(0.0f, 0.0f, 0.0f));
         return;
     }
 
@@ -394,10 +393,12 @@ void fe__collide_pair(const fe__step *step, int32_t pair)
     if (ahead) ahead = (fast ? look_far_ahead : look_ahead)(world, m, step->dt, &v, &at, &found);
     if (!ahead && !near) {
         gap left = gap_of(&v, &found);
-        write_apart(p, m, &v, &at, a, b, fe__slack(left.distance, margin), solvers_normal(m, &v, left.normal));
+        write_apart(p, m, fe__points_of(world, m), &v, &at, a, b, fe__slack(left.distance, margin),
+                    solvers_normal(m, &v, left.normal));
         return;
     }
-    match_impulses(p, m, &found);
+    if (!m->points) fe__points_take(world, pair);
+    match_impulses(fe__points_of(world, m), world->features + m->points, (int)m->point_count, &found);
     float tolerance = fe__recycle_tolerance(&v);
     if (found.round) tolerance = fe__minf(tolerance, RECYCLE_ROUND);
     m->surface.tolerance = ahead ? FE__AHEAD : tolerance;
