@@ -44,7 +44,7 @@ typedef struct fe__contact {
     float twist_impulse;              // about the normal, N m s
     float total_impulse[FE__POINTS];  // along the normal over the whole step, N s
     float found_span[3];              // centre of A - centre of B when found, m
-    float longest_arm;                // m
+    float longest_arm;                // of the points and of round sides' cores, m; without points: of the bodies
     // as found
     fe__contact_arm point[FE__POINTS];
     // the bodies' rotations then; found ahead of time (it may not move): the rotations from there
