@@ -58,7 +58,7 @@ typedef struct job {
     const fe__kernels *k;
     const fe__body *bodies;
     fe__contact_arrays of;
-    const uint64_t *serials; // of the contacts, two each
+    const uint64_t *serials; // by record of the points, two each
     const fe__joints *joints;
     paced paces[FE__PACES];
     const fe__batch *batch; // large

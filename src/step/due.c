@@ -14,7 +14,7 @@ enum { PAIRS_IN_BLOCK = 256 };
 static int32_t waits_on(const fe__step *step, int32_t pair)
 {
     fe_world *w = step->world;
-    if (fe__boxes_part(w, w->pairs + pair) || !fe__collide_apart(w, pair, step->dt)) return 0;
+    if (fe__boxes_part(w, w->pairs + pair) || !fe__collide_apart(step, pair)) return 0;
     fe__defer(w->deferrals + w->pairs[pair].awake_index, w->odometers, w->bodies, w->contacts + pair,
               w->contacts[pair].surface.tolerance);
     return 1;
@@ -23,12 +23,12 @@ static int32_t waits_on(const fe__step *step, int32_t pair)
 // Of so many pairs, those that meet in this step, or end: brings them to the front, and returns how many
 static int32_t keep_meeting(const fe__step *step, int32_t *pairs, int32_t count)
 {
-    enum { AHEAD = 2 };
+    enum { OWN_AHEAD = 8, NAMED_AHEAD = 3 };
     const fe_world *w = step->world;
     int32_t left = 0;
-    for (int32_t i = 0; i < count; ++i) fe__fetch(w->pairs + pairs[i], sizeof *w->pairs);
-    for (int32_t i = -AHEAD; i < count; ++i) {
-        if (i + AHEAD < count) fe__fetch_pair(w, pairs[i + AHEAD]);
+    for (int32_t i = -OWN_AHEAD; i < count; ++i) {
+        if (i + OWN_AHEAD < count) fe__fetch_own(w, pairs[i + OWN_AHEAD]);
+        if (i >= -NAMED_AHEAD && i + NAMED_AHEAD < count) fe__fetch_named(w, pairs[i + NAMED_AHEAD]);
         if (i >= 0 && !waits_on(step, pairs[i])) pairs[left++] = pairs[i];
     }
     return left;
@@ -43,8 +43,7 @@ static int32_t keep_due(const fe__step *step, int32_t *places, int32_t count)
     uint8_t verdicts[PAIRS_IN_BLOCK];
     float slack[PAIRS_IN_BLOCK];
     for (int32_t i = 0; i < count; ++i) pairs[i] = fe__pair_of(w->awake_pairs[places[i]]);
-    w->kernels->recycle(w->contacts, w->points, w->bodies, pairs, count, step->dt, fe__fall_in_step(w, step->dt),
-                        verdicts, slack);
+    w->kernels->recycle(w->contacts, w->points, w->bodies, pairs, count, step->dt, step->fall, verdicts, slack);
     for (int32_t i = 0; i < count; ++i) {
         if (verdicts[i] == FE__STAYS_APART)
             fe__defer(w->deferrals + places[i], w->odometers, w->bodies, w->contacts + pairs[i], slack[i]);

@@ -2,10 +2,12 @@
 //
 // Called by the collide stage on any thread, for pairs that cannot be recycled. Double positions are subtracted here,
 // so that everything below is float and small. Only the pair's own records are written.
+#define FE_W 4
 #include "step/narrow.h"
 
 #include "collision/form/support.h"
 #include "collision/manifold/collide.h"
+#include "core/simd.h"
 #include "step/ahead.h"
 #include "step/narrow_seam.h"
 #include "world/points.h"
@@ -56,23 +58,20 @@ static void set_view(fe__view *v, const fe__shape *a, const fe__shape *b, const 
 // Contacts are made once per step. What will touch only later in the step needs its contact now, or it would be found a
 // step late, up to v dt deep.
 
-float fe__fall_in_step(const fe_world *world, float dt) { return fe__length(world->gravity) * dt * dt; }
-
 // speed = |v| + |w| reach; as in recycle.simd.c
 static float speed_by_spin(const fe__body *body) { return body->speed - fe__length(fe__quad_vector(body->velocity)); }
 
-float fe__reach_in_step(const fe_world *world, const fe__body *a, const fe__body *b, float dt)
+float fe__reach_in_step(const fe__step *step, const fe__body *a, const fe__body *b)
 {
     fe_vec3 v = fe__sub(fe__quad_vector(a->velocity), fe__quad_vector(b->velocity));
-    return (fe__length(v) + speed_by_spin(a) + speed_by_spin(b)) * dt + fe__fall_in_step(world, dt);
+    return (fe__length(v) + speed_by_spin(a) + speed_by_spin(b)) * step->dt + step->fall;
 }
 
 // The same along the normal from the solver's A to its B: while a gap along it stays open, they cannot touch
-static float reach_along(const fe_world *world, const fe__body *a, const fe__body *b, fe_vec3 normal, float dt)
+static float reach_along(const fe__step *step, const fe__body *a, const fe__body *b, fe_vec3 normal)
 {
     fe_vec3 v = fe__sub(fe__quad_vector(a->velocity), fe__quad_vector(b->velocity));
-    return (fe__maxf(fe__dot(normal, v), 0.0f) + speed_by_spin(a) + speed_by_spin(b)) * dt +
-           fe__fall_in_step(world, dt);
+    return (fe__maxf(fe__dot(normal, v), 0.0f) + speed_by_spin(a) + speed_by_spin(b)) * step->dt + step->fall;
 }
 
 typedef struct prediction {
@@ -92,9 +91,9 @@ static void predict_there(const fe_world *world, const fe__contact *m, const fe_
     fe__pose pose_b = a_is_b ? fe__shape_pose_at(a, v->b, at->centre_a, at->rotation_a)
                              : fe__shape_pose_at(b, v->b, at->centre_b, at->rotation_b);
     set_view(&out->v, v->a, v->b, &pose_a, &pose_b);
-    out->found = (fe__manifold){.axis = -1};
+    out->found.axis = -1, out->found.axis_separation = 0.0f, out->found.count = 0; // its points stay unwritten
     fe__collide(&out->v.form_a, &v->b->form, &out->v.relative, world->tuning.speculative_distance, &out->found);
-    fe__mend_seam(world, &out->v, world->tuning.speculative_distance, &out->found);
+    if (a->type == FE_BODY_STATIC) fe__mend_seam(world, &out->v, world->tuning.speculative_distance, &out->found);
 }
 
 static void predict(const fe_world *world, const fe__contact *m, const fe__view *v, float time, prediction *out)
@@ -170,28 +169,52 @@ static void note_poses(fe__contact *m, const fe__places *at, const fe__body *a, 
     fe__copy3(m->span, a->type == FE_BODY_STATIC ? fe__vec3(0.0f, 0.0f, 0.0f) : arms);
 }
 
+// ---- points: a lane each -------------------------------------------------------------------------------------------
+typedef float loose_quad __attribute__((vector_size(16), aligned(4), may_alias));
+_Static_assert(offsetof(fe__manifold_point, separation) == offsetof(fe__manifold_point, point) + 12,
+               "a point and its separation are loaded as one");
+_Static_assert((int)FE_W == (int)FE__POINTS && (int)FE_W == (int)FE_MAX_POINTS, "a lane for each point");
+
+static inline wide3 spread(fe_vec3 a) { return (wide3){w_set(a.x), w_set(a.y), w_set(a.z)}; }
+static inline wide keep(wide_mask lanes, wide a) { return (wide)((wide_int)lanes & (wide_int)a); } // others are 0
+static inline wide3 keep3(wide_mask lanes, wide3 a)
+{
+    return (wide3){keep(lanes, a.x), keep(lanes, a.y), keep(lanes, a.z)};
+}
+static inline wide3 turn(const fe__mat3 *m, wide3 a)
+{
+    return w_add_scaled(w_add_scaled(w_scale(a.x, spread(m->x)), a.y, spread(m->y)), a.z, spread(m->z));
+}
+// of one or more; the others are the first again
+static inline wide4 load_points(const fe__manifold *found)
+{
+    const fe__manifold_point *p = found->points;
+    const loose_quad *first = (const loose_quad *)p, *second = (const loose_quad *)(found->count > 1 ? p + 1 : p),
+                     *third = (const loose_quad *)(found->count > 2 ? p + 2 : p),
+                     *fourth = (const loose_quad *)(found->count > 3 ? p + 3 : p);
+    return w_transpose(*first, *second, *third, *fourth);
+}
+static inline float greatest(wide a) { return fe__maxf(fe__maxf(a[0], a[1]), fe__maxf(a[2], a[3])); }
+
 // points from A's frame to arms: from the centre of the solver's A, or of B when A is static (its centre may be far)
 static void set_points(fe__contact *m, fe__points *q, const fe__view *v, const fe__places *at,
                        const fe__manifold *found, const fe__body *a)
 {
     int32_t is_static = a->type == FE_BODY_STATIC;
-    fe_vec3 base = fe__narrow(fe__dsub(v->origin, is_static ? at->centre_b : at->centre_a)), zero = {0.0f, 0.0f, 0.0f};
-    fe_vec3 span = is_static ? zero : fe__quad_vector(m->found_span);
-    float reach = 0.0f;
-    for (int i = 0; i < FE__POINTS; ++i) {
-        int there = i < found->count;
-        fe_vec3 arm = there ? fe__add(base, fe__mul(&v->rotation, found->points[i].point)) : zero,
-                arm_b = fe__add(arm, span);
-        fe__copy3(q->point[i].arm, arm);
-        q->point[i].separation = q->separation[i] = there ? found->points[i].separation : 0.0f;
-        reach = fe__maxf(reach, fe__maxf(fe__dot(arm, arm), fe__dot(arm_b, arm_b)));
-        if (!there) continue;
-        // of a round side it is the core that rotates
-        fe_vec3 n = fe__quad_vector(m->normal), core_a = fe__add_scaled(arm, -m->surface.radius_a, n),
-                core_b = fe__add_scaled(arm_b, m->surface.radius_b, n);
-        reach = fe__maxf(reach, fe__maxf(fe__dot(core_a, core_a), fe__dot(core_b, core_b)));
-    }
-    m->longest_arm = sqrtf(reach);
+    wide3 base = spread(fe__narrow(fe__dsub(v->origin, is_static ? at->centre_b : at->centre_a)));
+    wide3 span = is_static ? w_zero3() : spread(fe__quad_vector(m->found_span));
+    wide_mask there = (wide_int){0, 1, 2, 3} < found->count;
+    wide4 point = load_points(found);
+    wide3 arm = keep3(there, w_add(base, turn(&v->rotation, w_xyz(point)))), arm_b = w_add(arm, span);
+    // of a round side it is the core that rotates
+    wide3 n = spread(fe__quad_vector(m->normal)), core_a = w_add_scaled(arm, w_set(-m->surface.radius_a), n),
+          core_b = w_add_scaled(arm_b, w_set(m->surface.radius_b), n);
+    wide surfaces = w_max(w_dot(arm, arm), w_dot(arm_b, arm_b)),
+         cores = w_max(w_dot(core_a, core_a), w_dot(core_b, core_b));
+    wide separation = keep(there, point.w);
+    *(quad *)q->separation = separation;
+    w_scatter(q->point[0].arm, sizeof *q->point / sizeof(float), w_in_order, w_with(arm, separation));
+    m->longest_arm = sqrtf(greatest(w_max(surfaces, keep(there, cores))));
 }
 
 // A record that it has is zeros until it is released
@@ -333,33 +356,36 @@ static int32_t passes(fe__pair *p, const fe__view *v, const fe__manifold *found)
 }
 
 // some way off now, but closing within the step: the normal may turn on that way
-static int32_t may_touch_from_afar(const fe_world *world, const fe__pair *p, const fe__contact *m, const fe__view *v,
-                                   const fe__manifold *found, float dt)
+static int32_t may_touch_from_afar(const fe__step *step, const fe__pair *p, const fe__contact *m, const fe__view *v,
+                                   const fe__manifold *found)
 {
+    const fe__body *bodies = step->world->bodies;
     if (!found->count || p->flags & FE__PAIR_SENSOR) return 0;
     float gap = deepest_of(found);
     if (gap <= FE__TURNS_LITTLE) return 0;
     fe_vec3 normal = solvers_normal(m, v, found->normal);
-    return gap <= reach_along(world, world->bodies + m->body_a, world->bodies + m->body_b, normal, dt);
+    return gap <= reach_along(step, bodies + m->body_a, bodies + m->body_b, normal);
 }
 
 // 1: done. 0: it has points, which it was not to write
-static int32_t collide(fe_world *world, int32_t pair, float dt, int32_t writes_points)
+static int32_t collide(const fe__step *step, int32_t pair, int32_t writes_points)
 {
+    fe_world *world = step->world;
     fe__pair *p = world->pairs + pair;
     fe__contact *m = world->contacts + pair;
     const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
     const fe__shape *x = world->shapes + p->shape_a, *y = world->shapes + p->shape_b;
-    float margin = world->tuning.speculative_distance, reach = fe__reach_in_step(world, a, b, dt);
+    float margin = world->tuning.speculative_distance, reach = fe__reach_in_step(step, a, b);
     fe__places at = {fe__centre_of(a), fe__centre_of(b), fe__rotation_of(a), fe__rotation_of(b)};
     fe__view v;
     if (p->flags & FE__PAIR_SWAPPED)
         set_view(&v, y, x, &y->pose, &x->pose);
     else
         set_view(&v, x, y, &x->pose, &y->pose);
-    fe__manifold found = {.axis = p->axis, .axis_separation = p->axis_separation, .count = (int32_t)m->point_count};
+    fe__manifold found; // its points stay unwritten
+    found.axis = p->axis, found.axis_separation = p->axis_separation, found.count = (int32_t)m->point_count;
     fe__collide(&v.form_a, &v.b->form, &v.relative, fe__maxf(margin, reach), &found);
-    fe__mend_seam(world, &v, fe__maxf(margin, reach), &found);
+    if (a->type == FE_BODY_STATIC) fe__mend_seam(world, &v, fe__maxf(margin, reach), &found);
     int32_t axis = found.axis;
     float axis_separation = found.axis_separation;
     if (p->flags & FE__PAIR_DENIED || passes(p, &v, &found)) {
@@ -368,11 +394,11 @@ static int32_t collide(fe_world *world, int32_t pair, float dt, int32_t writes_p
         return 1;
     }
 
-    int32_t near = is_near(&found, margin), ahead = may_touch_from_afar(world, p, m, &v, &found, dt);
+    int32_t near = is_near(&found, margin), ahead = may_touch_from_afar(step, p, m, &v, &found);
     int32_t fast =
         reach > fe__minf(fe__form_thickness(&x->form), fe__form_thickness(&y->form)) && a->type != FE_BODY_DYNAMIC;
     if (!writes_points && (near || (ahead && fast))) return 0;
-    if (ahead) ahead = (fast ? look_far_ahead : look_ahead)(world, m, dt, &v, &at, &found);
+    if (ahead) ahead = (fast ? look_far_ahead : look_ahead)(world, m, step->dt, &v, &at, &found);
     if (ahead && !writes_points) return 0;
     p->axis_separation = axis_separation;
     if (!ahead && !near) {
@@ -391,11 +417,12 @@ static int32_t collide(fe_world *world, int32_t pair, float dt, int32_t writes_p
     return 1;
 }
 
-void fe__collide_pair(fe_world *world, int32_t pair, float dt) { collide(world, pair, dt, 1); }
+void fe__collide_pair(const fe__step *step, int32_t pair) { collide(step, pair, 1); }
 
-int32_t fe__collide_apart(fe_world *world, int32_t pair, float dt)
+int32_t fe__collide_apart(const fe__step *step, int32_t pair)
 {
-    const fe__pair *p = world->pairs + pair;
-    if ((world->shapes[p->shape_a].flags | world->shapes[p->shape_b].flags) & FE__SHAPE_ONE_WAY) return 0;
-    return collide(world, pair, dt, 0);
+    const fe__pair *p = step->world->pairs + pair;
+    const fe__shape *shapes = step->world->shapes;
+    if ((shapes[p->shape_a].flags | shapes[p->shape_b].flags) & FE__SHAPE_ONE_WAY) return 0;
+    return collide(step, pair, 0);
 }

@@ -237,15 +237,16 @@ static int32_t has_near(const fe__patch *patch, float distance)
     return 0;
 }
 
-void fe__collide_field_pair(fe_world *world, int32_t head, float dt)
+void fe__collide_field_pair(const fe__step *step, int32_t head)
 {
+    fe_world *world = step->world;
     const fe__pair *p = world->pairs + head;
     const fe__contact *m = world->contacts + head;
     const fe__shape *x = world->shapes + p->shape_a, *y = world->shapes + p->shape_b;
     int32_t swapped = !fe__form_is_field(&x->form), sensor = (p->flags & FE__PAIR_SENSOR) != 0;
-    pair_view view = {world, world->bodies + m->body_a, world->bodies + m->body_b, swapped ? y : x, swapped ? x : y, dt,
-                      0.0f};
-    float margin = world->tuning.speculative_distance, reach = fe__reach_in_step(world, view.a, view.b, dt);
+    pair_view view = {
+        world, world->bodies + m->body_a, world->bodies + m->body_b, swapped ? y : x, swapped ? x : y, step->dt, 0.0f};
+    float dt = step->dt, margin = world->tuning.speculative_distance, reach = fe__reach_in_step(step, view.a, view.b);
     view.speed_limit = dt > 0.0f ? reach / dt : 0.0f;
     look now, then;
     now.at =

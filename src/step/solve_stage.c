@@ -116,7 +116,7 @@ void fe__solve_islands(fe__step *step)
     fe__step_constants paces[FE__PACES];
     constants_of_paces(w, step->dt, paces);
     const fe__contact_arrays of = {w->contacts, w->points, w->extras};
-    fe__solve(&w->solver, w->kernels, &w->workers, w->bodies, &of, w->pair_serials, &w->joints, paces);
+    fe__solve(&w->solver, w->kernels, &w->workers, w->bodies, &of, w->point_serials, &w->joints, paces);
     w->last_h = step->constants.h;
     w->last_dt = step->dt;
 }

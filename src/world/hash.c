@@ -33,8 +33,8 @@ static uint64_t hash_contact(const fe_world *w, int32_t pair)
     const fe__extra *e = fe__extra_of(w, m);
     const float none[3] = {0.0f, 0.0f, 0.0f};
     fe__hash h = fe__hash_begin();
-    fe__hash_u64(&h, w->pair_serials[2 * pair]);
-    fe__hash_u64(&h, w->pair_serials[2 * pair + 1]);
+    fe__hash_u64(&h, fe__pair_serial(w, pair, 0));
+    fe__hash_u64(&h, fe__pair_serial(w, pair, 1));
     hash_floats(&h, m->normal, 3);
     fe__hash_float(&h, m->point_count);
     hash_floats(&h, q->separation, (int)m->point_count);

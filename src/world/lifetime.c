@@ -108,9 +108,9 @@ static void free_records(fe_world *world)
     FE_FREE(memory, world->pairs, world->pair_capacity);
     FE_FREE(memory, world->points, world->point_capacity);
     FE_FREE(memory, world->features, world->feature_capacity);
+    FE_FREE(memory, world->point_serials, world->point_serial_capacity);
     FE_FREE(memory, world->extras, world->extra_capacity);
     FE_FREE(memory, world->point_order, world->point_order_capacity);
-    FE_FREE(memory, world->pair_serials, world->serial_capacity);
     fe__pair_set_destroy(&world->pair_set, memory);
     fe__pair_set_destroy(&world->ignored, memory);
     fe__record_pool_free(&world->ignores, memory);

@@ -15,7 +15,9 @@ enum {
     FE__PAIR_CROSSED = 128, // a trigger that was passed between two steps
     FE__PAIR_DENIED = 256,  // the pair filter refused it: no contact, no events, until the boxes part
     FE__PAIR_PASSING = 512, // through a one-way shape: no contact until they are apart
-    FE__PAIR_FREE = 1024    // the record is no pair
+    FE__PAIR_FREE = 1024,   // the record is no pair
+    // above these bits: the number of a patch, from 1; 0 of a head
+    FE__PAIR_NUMBER_SHIFT = 16
 };
 
 // Only of these the contact must be seen for events: the others, most of a heap, have no points and owe no exit

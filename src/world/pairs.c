@@ -17,7 +17,6 @@ int32_t fe__reserve_pairs(fe_world *world, int32_t extra)
     int64_t limit = (int64_t)world->pair_limit + extra;
     return FE_RESERVE(memory, world->contacts, world->contact_capacity, limit) &&
            FE_RESERVE(memory, world->pairs, world->pair_capacity, limit) &&
-           FE_RESERVE(memory, world->pair_serials, world->serial_capacity, 2 * limit) &&
            FE_RESERVE(memory, world->awake_pairs, world->awake_pair_capacity, limit) &&
            FE_RESERVE(memory, world->deferrals, world->deferral_capacity, limit) &&
            fe__pair_set_reserve(&world->pair_set, memory, extra);
@@ -76,10 +75,9 @@ static int32_t take_slot(fe_world *world)
     return pair;
 }
 
-// A record of its own, in no list. Patches have numbers from 1, which make their serials theirs alone.
+// A record of its own, in no list
 static int32_t create_record(fe_world *world, int32_t shape_a, int32_t shape_b, int32_t number)
 {
-    enum { NUMBER_SHIFT = 56 };
     int32_t pair = take_slot(world);
     const fe__shape *a = world->shapes + shape_a, *b = world->shapes + shape_b;
     fe__pair *p = world->pairs + pair;
@@ -88,9 +86,7 @@ static int32_t create_record(fe_world *world, int32_t shape_a, int32_t shape_b, 
     memset(m, 0, sizeof *m);
     p->shape_a = shape_a, p->shape_b = shape_b;
     p->body_a = a->body, p->body_b = b->body;
-    world->pair_serials[2 * pair] = a->serial;
-    world->pair_serials[2 * pair + 1] = b->serial | (uint64_t)number << NUMBER_SHIFT;
-    p->flags = sides(world, a, b);
+    p->flags = sides(world, a, b) | (uint32_t)number << FE__PAIR_NUMBER_SHIFT;
     if ((a->flags | b->flags) & FE__SHAPE_TRIGGER) p->flags |= FE__PAIR_SENSOR;
     if (number) p->flags |= FE__PAIR_PATCH;
     p->awake_index = p->axis = p->next_patch = p->head = p->triangle = -1;
@@ -143,8 +139,8 @@ void fe__pair_release(fe_world *world, int32_t pair)
 fe__pair_event_record fe__pair_event_of(const fe_world *world, int32_t pair, int32_t kind)
 {
     const fe__pair *p = world->pairs + pair;
-    return (fe__pair_event_record){.serial_a = world->pair_serials[2 * pair],
-                                   .serial_b = world->pair_serials[2 * pair + 1],
+    return (fe__pair_event_record){.serial_a = fe__pair_serial(world, pair, 0),
+                                   .serial_b = fe__pair_serial(world, pair, 1),
                                    .body_a = fe__body_handle(world, p->body_a),
                                    .body_b = fe__body_handle(world, p->body_b),
                                    .shape_a = fe__shape_handle(world, p->shape_a),

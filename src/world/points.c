@@ -28,8 +28,9 @@ int32_t fe__points_reserve(fe_world *world, int64_t more, int32_t with_extras)
     fe__memory *memory = &world->memory;
     int64_t need = atomic_load(&world->point_count) + more;
     return FE_RESERVE(memory, world->points, world->point_capacity, need) &&
-           FE_RESERVE(memory, world->features, world->feature_capacity, need) && grow_order(world, need) &&
-           (!with_extras || grow_extras(world, world->point_capacity));
+           FE_RESERVE(memory, world->features, world->feature_capacity, need) &&
+           FE_RESERVE(memory, world->point_serials, world->point_serial_capacity, 2 * need) &&
+           grow_order(world, need) && (!with_extras || grow_extras(world, world->point_capacity));
 }
 
 void fe__points_take(fe_world *world, int32_t pair)
@@ -39,6 +40,8 @@ void fe__points_take(fe_world *world, int32_t pair)
     int32_t points = world->contacts[pair].points = world->point_order[place];
     world->points[points] = (fe__points){.twist_impulse = 0.0f};
     world->features[points] = (fe__features){.approach = 0.0f};
+    for (int32_t side = 0; side < 2; ++side)
+        world->point_serials[2 * points + side] = fe__pair_serial(world, pair, side);
     if (points >= world->extra_capacity) return;
     world->extras[points] = (fe__extra){.restitution = 0.0f};
     if (fe__extra_of(world, world->contacts + pair)) fe__pair_mix_surface(world, pair);

@@ -82,6 +82,7 @@ typedef struct fe__step {
     fe_world *world;
     fe__step_scratch *scratch;
     float dt;                     // s
+    float fall;                   // m, how far gravity may bring a body towards another one in the step
     fe__step_constants constants; // of most islands
     int32_t failed;               // no memory; nothing was changed
 } fe__step;

@@ -210,10 +210,10 @@ void FE_NAME(fe__recycle)(const fe__contact *contacts, fe__points *points, const
     int32_t i = 0;
     for (int32_t k = 0; k < count && k < 2 * FE_W; ++k) fe__fetch(contacts + index[k], sizeof *contacts);
     for (; i + FE_W <= count; i += FE_W) {
-        for (int32_t k = i + 2 * FE_W; k < count && k < i + 3 * FE_W; ++k)
-            fe__fetch(contacts + index[k], sizeof *contacts);
-        for (int32_t k = i + FE_W; k < count && k < i + 2 * FE_W; ++k)
-            fe__fetch(points + contacts[index[k]].points, sizeof *points);
+        const int32_t *next = index + i + FE_W, *second = next + FE_W;
+        for (int k = 0; k < FE_W && i + 3 * FE_W <= count; ++k) fe__fetch(contacts + second[k], sizeof *contacts);
+        for (int k = 0; k < FE_W && i + 2 * FE_W <= count; ++k)
+            fe__fetch(points + contacts[next[k]].points, sizeof *points);
         recycle_block(contacts, points, bodies, index + i, FE_W, dt, fall, out + i, out_slack + i);
     }
     if (i == count) return;
