@@ -47,7 +47,7 @@ static void note_result(fe__step *step, int32_t pair)
 {
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
-    w->pairs[pair].result = judge(w, pair);
+    w->pairs[pair].result = (int16_t)judge(w, pair);
     if (!(w->contacts[pair].point_count > 0.0f)) fe__defer_pair(step, pair, w->contacts[pair].surface.tolerance);
     if (w->pairs[pair].result != FE__RESULT_NONE)
         s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
@@ -58,9 +58,9 @@ static void collide_with_patches(fe__step *step, int32_t head)
 {
     fe_world *w = step->world;
     if (w->pairs[head].next_patch < 0)
-        fe__collide_pair(w, head, step->dt);
+        fe__collide_pair(step, head);
     else
-        fe__collide_field_pair(w, head, step->dt);
+        fe__collide_field_pair(step, head);
     for (int32_t pair = head; pair >= 0; pair = w->pairs[pair].next_patch) note_result(step, pair);
 }
 
@@ -71,13 +71,13 @@ static void collide_chunk(fe__step *step, int32_t *entries, int32_t count)
     int32_t heads[PAIRS_IN_BLOCK], patches[PAIRS_IN_BLOCK * (FE__PATCHES - 1)], head_count = 0, patch_count = 0,
                                                                                 again = 0;
     uint8_t verdicts[PAIRS_IN_BLOCK * (FE__PATCHES - 1)];
-    float slack[PAIRS_IN_BLOCK * (FE__PATCHES - 1)], fall = fe__fall_in_step(w, step->dt);
+    float slack[PAIRS_IN_BLOCK * (FE__PATCHES - 1)];
     for (int32_t i = 0; i < count; ++i) {
         entries[i] = fe__pair_of(entries[i]); // here none waits
         if (!(w->pairs[entries[i]].flags & FE__PAIR_PATCH)) heads[head_count++] = entries[i];
     }
     if (head_count == 0) return;
-    w->kernels->recycle(w->contacts, w->bodies, heads, head_count, step->dt, fall, verdicts, slack);
+    w->kernels->recycle(w->contacts, w->points, w->bodies, heads, head_count, step->dt, step->fall, verdicts, slack);
     for (int32_t i = 0; i < head_count; ++i) {
         if (verdicts[i] == FE__MOVED) {
             heads[again++] = heads[i];
@@ -86,7 +86,9 @@ static void collide_chunk(fe__step *step, int32_t *entries, int32_t count)
         for (int32_t patch = w->pairs[heads[i]].next_patch; patch >= 0; patch = w->pairs[patch].next_patch)
             if (w->contacts[patch].point_count > 0.0f) patches[patch_count++] = patch;
     }
-    if (patch_count) w->kernels->recycle(w->contacts, w->bodies, patches, patch_count, step->dt, fall, verdicts, slack);
+    if (patch_count)
+        w->kernels->recycle(w->contacts, w->points, w->bodies, patches, patch_count, step->dt, step->fall, verdicts,
+                            slack);
     for (int32_t i = 0; i < again; ++i) collide_with_patches(step, heads[i]);
     atomic_fetch_add_explicit(&step->scratch->recycled, head_count - again, memory_order_relaxed);
 }
@@ -151,7 +153,7 @@ static void collide_each(fe__step *step, const int32_t *pairs, int32_t count)
     for (int32_t i = -AHEAD; i < count; ++i) {
         if (i + AHEAD < count) fetch_pair(step->world, pairs[i + AHEAD]);
         if (i < 0) continue;
-        fe__collide_pair(step->world, pairs[i], step->dt);
+        fe__collide_pair(step, pairs[i]);
         note_result(step, pairs[i]);
     }
 }
@@ -180,8 +182,8 @@ static int32_t collide_some(fe__step *step, const int32_t *pairs, int32_t count)
     fe_world *w = step->world;
     int32_t again[PAIRS_IN_CACHE], left = 0;
     uint8_t verdicts[PAIRS_IN_CACHE];
-    float slack[PAIRS_IN_CACHE], fall = fe__fall_in_step(w, step->dt);
-    w->kernels->recycle(w->contacts, w->bodies, pairs, count, step->dt, fall, verdicts, slack);
+    float slack[PAIRS_IN_CACHE];
+    w->kernels->recycle(w->contacts, w->points, w->bodies, pairs, count, step->dt, step->fall, verdicts, slack);
     for (int32_t i = 0; i < count; ++i) {
         int32_t pair = pairs[i], next = fe__mini(i + FETCHED_AHEAD, count - 1);
         if (verdicts[next] != FE__STAYS) fe__fetch(w->pairs + pairs[next], sizeof *w->pairs);
@@ -310,6 +312,7 @@ void fe__build_islands(fe__step *step)
     const int32_t *contacts = fe__busy_pairs(step, &contact_count);
     const fe__graph_input in = {.bodies = w->bodies,
                                 .contacts = w->contacts,
+                                .points = w->points,
                                 .serials = w->pair_serials,
                                 .awake_bodies = w->awake_bodies,
                                 .body_count = w->awake_body_count,

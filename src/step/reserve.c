@@ -10,6 +10,7 @@
 #include "world/forest.h"
 #include "world/pair_mix.h"
 #include "world/pairs.h"
+#include "world/points.h"
 
 #include <string.h>
 
@@ -121,6 +122,12 @@ static void bound_colours(const fe__step *step, int32_t others, int32_t all, fe_
     b->static_colours = fe__mini(fe__maxi(statics, w->static_colours), FE__STATIC_COLOURS);
 }
 
+// Patches count with their heads, linked ones by themselves: those of all heads are to be added, and may make up for it
+static int32_t unlinked_sleepers(const fe_world *w)
+{
+    return w->pair_count - w->awake_pair_count - (w->linked_count - w->awake_linked_count);
+}
+
 // Contacts that may be linked or woken in this step
 static void bound_fresh(const fe__step *step, int32_t asleep, fe__graph_bound *b)
 {
@@ -132,6 +139,8 @@ static void bound_fresh(const fe__step *step, int32_t asleep, fe__graph_bound *b
             patches = w->field_pair_count * (FE__PATCHES - 1), woken = w->solver.unbuilt;
     int32_t others = unlinked - atomic_load(&s->due_count) + asleep + patches;
     b->contacts = busy + asleep + patches + coming;
+    step->scratch->points_to_come =
+        unlinked + fe__mini(asleep, unlinked_sleepers(w)) + patches + coming; // pairs that may have none yet
     b->fresh = fe__mini(b->contacts, unlinked + asleep + patches + coming + woken);
     bound_colours(step, fe__maxi(others, 0), asleep > 0, b);
     if (w->pair_colours == FE__PAIR_COLOURS || w->static_colours == FE__STATIC_COLOURS) b->crowded += woken + asleep;
@@ -216,7 +225,7 @@ int32_t fe__reserve_step(fe__step *step)
     if (!fe__bound_waking(step, &lanes, &clusters)) return 0;
     fe__graph_bound bound = bound_of(step, lanes, clusters);
     if (!fe__reserve_pairs(w, step->scratch->candidate_count + step->scratch->candidate_patches) ||
-        !reserve_scratch(step, &bound))
+        !fe__points_reserve(w, step->scratch->points_to_come, bound.special) || !reserve_scratch(step, &bound))
         return 0;
     return (bound.bodies == 0 || (fe__bound_islands(step, &bound) &&
                                   fe__graph_reserve(&w->solver, &w->memory, w->kernels, &bound, w->workers.count))) &&
