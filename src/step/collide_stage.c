@@ -116,7 +116,7 @@ FE_FETCHES fetch_pair(const fe_world *w, int32_t pair)
     fe__tree_fetch(&w->moving_tree, p->shape_b);
 }
 
-// Of a stretch of the list of awake pairs, those that do not wait. Writes one beyond them
+// Of a stretch of the list of awake pairs, those that do not wait. May write an entry behind them, of `count` at most
 static int32_t list_busy(const int32_t *entries, int32_t count, int32_t *out_pairs)
 {
     enum { FOUR = 4 };
@@ -137,7 +137,7 @@ static int32_t list_busy(const int32_t *entries, int32_t count, int32_t *out_pai
 }
 
 // The next awake pairs that do not wait, PAIRS_IN_CACHE at most. Moves *at behind them
-static int32_t list_next(const fe__step *step, int32_t *at, int32_t end, int32_t out_pairs[PAIRS_IN_CACHE + 1])
+static int32_t list_next(const fe__step *step, int32_t *at, int32_t end, int32_t out_pairs[PAIRS_IN_CACHE])
 {
     int32_t count = 0;
     for (int32_t stretch; *at < end && count <= PAIRS_IN_CACHE - PAIRS_IN_BLOCK; *at += stretch) {
@@ -202,8 +202,8 @@ static void collide_block(void *argument, int32_t first, int32_t end, int32_t wo
 {
     const collide_job *job = argument;
     const fe__step_scratch *s = job->step->scratch;
-    int32_t list[PAIRS_IN_CACHE + 1], again = 0,
-                                      some_deferred = atomic_load_explicit(&s->some_deferred, memory_order_relaxed);
+    int32_t list[PAIRS_IN_CACHE], again = 0,
+                                  some_deferred = atomic_load_explicit(&s->some_deferred, memory_order_relaxed);
     (void)worker;
     for (int32_t i = job->first + first, stop = job->first + end; i < stop;) {
         const int32_t *pairs = job->step->world->awake_pairs + i;

@@ -42,7 +42,7 @@ typedef struct fe__contact {
     float static_friction;
     fe__surface surface;
     float found_span[3]; // centre of A - centre of B when found, m
-    float longest_arm;   // m
+    float longest_arm;   // of the points and of round sides' cores, m; without points: of the bodies
     // the bodies' rotations when found; found ahead of time (it may not move): the rotations from there
     float found_a[4], found_b[4];
     float found_low[3];     // what found_span left of the double difference, m

@@ -31,7 +31,7 @@ typedef struct ROW {
     // see idle.inl. A row that is put off has what is above, these, and nothing else
     wide gap;      // when the step began, m; FLT_MAX: a padding lane; -FLT_MAX: never idle, it follows or had friction
     wide open;     // no more than the gap where the bodies are now, m; -FLT_MAX: nobody looked
-    wide reach;    // longest arm, m
+    wide reach;    // longest arm of the points and, of round sides, of their cores, m
     uint32_t gaps; // lanes whose gap is greater than 0, a bit each
     int32_t put_off; // 1: not prepared
     int32_t behind;  // 1: skipped when the bodies moved, with distances from before

@@ -19,9 +19,11 @@ static void join(int32_t *parent, int32_t a, int32_t b)
         parent[x] = y;
 }
 
-// It bore nothing in the last step, and there is a gap at each point
+// It bore nothing in the last step, and there is a gap at each point. Of the kinds of rows that are never skipped
+// (contact/idle.inl) none is: their order tells nothing
 static int32_t is_loose(const fe__contact *m, const fe__points *q)
 {
+    if (!(m->kind & FE__ROW_PAIR) || m->kind & FE__ROW_SPECIAL) return 0;
     for (int k = 0; k < FE__POINTS; ++k)
         if (q->total_impulse[k] > 0.0f || (k < (int32_t)m->point_count && !(q->separation[k] > 0.0f))) return 0;
     return 1;
