@@ -102,10 +102,18 @@ static void collide_chunks(void *argument, int32_t first, int32_t end, int32_t w
 }
 
 // ---- without -------------------------------------------------------------------------------------------------------
-// Records of pairs that the narrow phase will look at lie anywhere: they are asked for while it looks at others
-FE_FETCHES fetch_pair(const fe_world *w, int32_t pair)
+// Records of pairs that the narrow phase will look at lie anywhere: they are asked for while it looks at others, a
+// pair's own first, then those that they name
+FE_FETCHES fetch_own(const fe_world *w, int32_t pair)
+{
+    fe__fetch(w->pairs + pair, sizeof *w->pairs);
+    fe__fetch(w->contacts + pair, sizeof *w->contacts);
+}
+
+FE_FETCHES fetch_named(const fe_world *w, int32_t pair)
 {
     const fe__pair *p = w->pairs + pair;
+    const fe__contact *m = w->contacts + pair;
     fe__fetch(w->shapes + p->shape_a, sizeof *w->shapes);
     fe__fetch(w->shapes + p->shape_b, sizeof *w->shapes);
     fe__fetch(w->bodies[p->body_a].centre, sizeof w->bodies->centre);
@@ -114,6 +122,14 @@ FE_FETCHES fetch_pair(const fe_world *w, int32_t pair)
     fe__fetch(w->bodies[p->body_b].velocity, sizeof w->bodies->velocity);
     fe__tree_fetch(&w->moving_tree, p->shape_a);
     fe__tree_fetch(&w->moving_tree, p->shape_b);
+    if (m->points) {
+        fe__fetch(w->points + m->points, sizeof *w->points);
+        fe__fetch(w->features + m->points, sizeof *w->features);
+        return;
+    }
+    fe__fetch(w->odometers + p->body_a, sizeof *w->odometers);
+    fe__fetch(w->odometers + p->body_b, sizeof *w->odometers);
+    if (p->awake_index >= 0) fe__fetch(w->deferrals + p->awake_index, sizeof *w->deferrals);
 }
 
 // Of a stretch of the list of awake pairs, those that do not wait. May write an entry behind them, of `count` at most
@@ -149,9 +165,10 @@ static int32_t list_next(const fe__step *step, int32_t *at, int32_t end, int32_t
 
 static void collide_each(fe__step *step, const int32_t *pairs, int32_t count)
 {
-    enum { AHEAD = 2 };
-    for (int32_t i = -AHEAD; i < count; ++i) {
-        if (i + AHEAD < count) fetch_pair(step->world, pairs[i + AHEAD]);
+    enum { OWN_AHEAD = 8, NAMED_AHEAD = 3 };
+    for (int32_t i = -OWN_AHEAD; i < count; ++i) {
+        if (i + OWN_AHEAD < count) fetch_own(step->world, pairs[i + OWN_AHEAD]);
+        if (i >= -NAMED_AHEAD && i + NAMED_AHEAD < count) fetch_named(step->world, pairs[i + NAMED_AHEAD]);
         if (i < 0) continue;
         fe__collide_pair(step, pairs[i]);
         note_result(step, pairs[i]);

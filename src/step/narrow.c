@@ -91,7 +91,7 @@ static void predict_there(const fe_world *world, const fe__contact *m, const fe_
     fe__pose pose_b = a_is_b ? fe__shape_pose_at(a, v->b, at->centre_a, at->rotation_a)
                              : fe__shape_pose_at(b, v->b, at->centre_b, at->rotation_b);
     set_view(&out->v, v->a, v->b, &pose_a, &pose_b);
-    out->found = (fe__manifold){.axis = -1};
+    out->found.axis = -1, out->found.axis_separation = 0.0f, out->found.count = 0; // its points stay unwritten
     fe__collide(&out->v.form_a, &v->b->form, &out->v.relative, world->tuning.speculative_distance, &out->found);
     if (a->type == FE_BODY_STATIC) fe__mend_seam(world, &out->v, world->tuning.speculative_distance, &out->found);
 }
@@ -185,11 +185,14 @@ static inline wide3 turn(const fe__mat3 *m, wide3 a)
 {
     return w_add_scaled(w_add_scaled(w_scale(a.x, spread(m->x)), a.y, spread(m->y)), a.z, spread(m->z));
 }
+// of one or more; the others are the first again
 static inline wide4 load_points(const fe__manifold *found)
 {
     const fe__manifold_point *p = found->points;
-    return w_transpose(*(const loose_quad *)(p + 0), *(const loose_quad *)(p + 1), *(const loose_quad *)(p + 2),
-                       *(const loose_quad *)(p + 3));
+    const loose_quad *first = (const loose_quad *)p, *second = (const loose_quad *)(found->count > 1 ? p + 1 : p),
+                     *third = (const loose_quad *)(found->count > 2 ? p + 2 : p),
+                     *fourth = (const loose_quad *)(found->count > 3 ? p + 3 : p);
+    return w_transpose(*first, *second, *third, *fourth);
 }
 static inline float greatest(wide a) { return fe__maxf(fe__maxf(a[0], a[1]), fe__maxf(a[2], a[3])); }
 
@@ -378,7 +381,8 @@ void fe__collide_pair(const fe__step *step, int32_t pair)
         set_view(&v, y, x, &y->pose, &x->pose);
     else
         set_view(&v, x, y, &x->pose, &y->pose);
-    fe__manifold found = {.axis = p->axis, .axis_separation = p->axis_separation, .count = (int32_t)m->point_count};
+    fe__manifold found; // its points stay unwritten
+    found.axis = p->axis, found.axis_separation = p->axis_separation, found.count = (int32_t)m->point_count;
     fe__collide(&v.form_a, &v.b->form, &v.relative, fe__maxf(margin, reach), &found);
     if (a->type == FE_BODY_STATIC) fe__mend_seam(world, &v, fe__maxf(margin, reach), &found);
     p->axis = found.axis, p->axis_separation = found.axis_separation;

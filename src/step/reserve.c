@@ -31,8 +31,21 @@ static void bodies_of(const fe__step *step, int32_t n, fe__body *out[2])
         out[1] = w->bodies + w->shapes[s->candidates[n].shape_b].body;
         return;
     }
-    const fe__pair *p = w->pairs + s->busy[n - s->candidate_count];
-    out[0] = w->bodies + p->body_a, out[1] = w->bodies + p->body_b;
+    // the pair's record would say the same, but only the contact was read of late
+    const fe__contact *m = w->contacts + s->busy[n - s->candidate_count];
+    out[0] = w->bodies + m->body_a, out[1] = w->bodies + m->body_b;
+}
+
+// What is counted of the bodies comes from memory while those before them are counted
+FE_FETCHES fetch_bodies(const fe__step *step, int32_t n)
+{
+    enum { AHEAD = 12 };
+    const fe__step_scratch *s = step->scratch;
+    int32_t due = n + AHEAD - s->candidate_count;
+    if (due < 0 || due >= atomic_load_explicit(&s->due_count, memory_order_relaxed)) return;
+    const fe__contact *m = step->world->contacts + s->busy[due];
+    __builtin_prefetch(&step->world->bodies[m->body_a].coming_contacts);
+    __builtin_prefetch(&step->world->bodies[m->body_b].coming_contacts);
 }
 
 static int32_t to_come(const fe__step *step)
@@ -46,6 +59,7 @@ static void expect(const fe__step *step, fe__graph_bound *b)
     s->candidate_patches = 0;
     for (int32_t n = 0; n < to_come(step); ++n) {
         fe__body *body[2];
+        fetch_bodies(step, n);
         bodies_of(step, n, body);
         int32_t patches = is_field_candidate(step, n) ? FE__PATCHES : 1;
         body[0]->coming_contacts += patches, body[1]->coming_contacts += patches;
