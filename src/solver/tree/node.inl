@@ -60,8 +60,9 @@ typedef struct tree_node {
     real3 shift;        // m
     real3 below, above; // from the centres of the body below, above to the point, m
     real3 gap, swing;   // what the joint has to bring back to zero, m, rad
-    real3 pull;         // impulse on the body below at the point when the matrices were found, N s
-    real_sym inertia;   // about the centre, world axes
+    // impulse on the body below at the point when the matrices were found, N s; of a rope, with what came since
+    real3 pull;
+    real_sym inertia;                          // about the centre, world axes
     real tension, expected, damping, heaviest; // see damping.inl; the largest moment about an axis that is not locked
     // found by the elimination
     real3 from_above; // from the point of the body above to this one, m
@@ -72,6 +73,9 @@ typedef struct tree_node {
     real3 rest; // what the points lack to move as one, m/s
     solution of[SOLUTIONS];
     real3 impulse_v, impulse_w; // l
+    // of a rope
+    real3 given_v, given_w; // by what it changed the velocities in this substep
+    real3 total, last;      // impulses of the step, of its last substep on the body below, N s
     // seldom read
     real_mat principal;   // turn, but of what the joints' inertia has followed: see FE__ROTATED
     real3 lin[3], ang[3]; // axes of the joint, of which some are freedoms. A ball joint has none: its are the world's

@@ -73,6 +73,21 @@ static void load_ball(const pass *t, int32_t i, int lane)
     set_lane3(&n->first_gap, lane, fe__dscale(holds_b ? 1.0 : -1.0, fe__widen(lock.gap)));
 }
 
+// Of a rope, whose joints have no rows
+static void load_record(const pass *t, int32_t i, int lane)
+{
+    tree_node *n = t->nodes + i;
+    const fe__tree_link *l = t->links_of[lane] + i;
+    const fe__joint *j = t->job->joints->joints + l->joint;
+    const fe__body *bodies = t->job->bodies;
+    const fe_dvec3 a = fe__joint_arm(bodies + j->body_a, j->arm_a), b = fe__joint_arm(bodies + j->body_b, j->arm_b);
+    set_lane3(&n->first_below, lane, l->holds_b ? b : a);
+    set_lane3(&n->first_above, lane, l->holds_b ? a : b);
+    set_lane3(&n->first_gap, lane, fe__dscale(l->holds_b ? 1.0 : -1.0, fe__joint_gap(j, bodies)));
+    set_lane3(&n->pull, lane,
+              fe__dscale((l->holds_b ? 1.0 : -1.0) * t->job->warm_scale, fe__widen(fe__quad_vector(j->impulse))));
+}
+
 static void load_lane(const pass *t, int32_t i, int lane)
 {
     tree_node *n = t->nodes + i;
@@ -80,6 +95,10 @@ static void load_lane(const pass *t, int32_t i, int lane)
     n->line.at[lane] = p->line, n->line_above.at[lane] = p->parent_line;
     set_lane(&n->side, lane, t->links_of[lane][i].holds_b ? 1.0 : -1.0);
     if (!is_ball(t, i)) return;
+    if (t->kind == FE__TREE_ROPE) {
+        load_record(t, i, lane);
+        return;
+    }
     n->point[lane] = p->lock[0].row + t->job->lanes->point_impulse + p->lock[0].lane * (int64_t)sizeof(float);
     load_ball(t, i, lane);
 }
@@ -90,6 +109,7 @@ static void load_bundle(const pass *t)
     t->head->loaded = 1;
     for (int32_t i = 0; i < t->count; ++i) {
         tree_node *n = t->nodes + i;
+        n->pull = n->total = n->given_v = n->given_w = r_zero3();
         for (int lane = 0; lane < LANES; ++lane) load_lane(t, i, lane);
         load_masses(t, i);
         n->rod = r_set(0.0);
@@ -134,7 +154,7 @@ static void read_ball(const pass *t, int32_t i, real_mask lanes)
     const real3 gap = r_add(n->first_gap, r_add(r_sub(n->shift, at.shift), swing));
     n->below = r_choose3(lanes, below, n->below), n->above = r_choose3(lanes, to, n->above);
     n->gap = r_choose3(lanes, gap, n->gap);
-    n->pull = r_choose3(lanes, impulse_of_point(t, n), n->pull);
+    if (t->kind != FE__TREE_ROPE) n->pull = r_choose3(lanes, impulse_of_point(t, n), n->pull);
 }
 
 // ---- other joints ---------------------------------------------------------------------------------------------------

@@ -19,13 +19,17 @@ typedef struct fe__tree_job {
     fe__solver *solver;
     const fe__body *bodies;
     const fe__lock_lanes *lanes;
-    const fe__forest *forest;
+    const fe__joints *joints;
     const int32_t *trees; // of the forest
     int32_t count;
     unsigned char *rows;  // of the batch
     unsigned char *nodes; // fe__forest_bytes of them, whole blocks
     double h;             // of the substep, s
     double rate;          // share of a gap that a soft lock closes in a substep
+    double mean;          // from the sum of a step's impulses to the mean force, 1/s
+    double warm_scale;    // from stored impulses to those of a substep
+    double stored;        // from those of a substep to stored ones
+    double open;          // square of a gap from which on the island is stretched, m2
 } fe__tree_job;
 
 #endif

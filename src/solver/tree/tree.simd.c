@@ -148,13 +148,18 @@ static int32_t apply(const pass *t, int32_t lanes, int32_t total)
 {
     int32_t fast = 0;
     for (int32_t i = 0; i < t->count; ++i) {
-        const tree_node *n = t->nodes + i;
+        tree_node *n = t->nodes + i;
         const velocity now = changed(n);
         const real3 turn = r_scale(t->h, now.w);
         lines l = {.a = {[3] = n->inverse_mass, [7] = n->locks}};
         narrow3(l.a, now.v), narrow3(l.a + 4, now.w);
         write_lines(t->solver->velocity, &n->line, lanes, &l);
         fast |= r_bits(r_greater(r_dot(turn, turn), r_set(FE__SLOW_TURN * FE__SLOW_TURN)));
+        if (t->kind == FE__TREE_ROPE) {
+            keep_rope(n, r_mask(lanes));
+            if (total) forget_rope(t, n, lanes);
+            continue;
+        }
         forget_damping(t, i, lanes);
         if (is_ball(t, i)) add_to_point(t, n, lanes, total);
         for (int lane = 0; lane < LANES && !is_ball(t, i); ++lane)
@@ -284,14 +289,15 @@ static void meet_locks(const pass *t, int32_t lanes)
         meet_requests(t, PLACES);
     }
     const int32_t fast = apply(t, lanes, 1);
-    if (t->kind != FE__TREE_LIGHT) forget_locks(t, t->kind == FE__TREE_SHORT ? lanes : fast);
+    if (t->kind == FE__TREE_SHORT || t->kind == FE__TREE_HEAVY)
+        forget_locks(t, t->kind == FE__TREE_SHORT ? lanes : fast);
     close_gaps(t, lanes, wide_open);
 }
 
 // ---- passes ---------------------------------------------------------------------------------------------------------
 static pass pass_of(const fe__tree_job *job)
 {
-    const fe__forest *f = job->forest;
+    const fe__forest *f = &job->joints->forest;
     const fe__joint_tree *first = f->trees + job->trees[0];
     pass t = {.job = job,
               .solver = job->solver,
@@ -372,6 +378,7 @@ static void prepare_trees(const fe__tree_job *job)
                                                                                   : READY;
     t.head->lends = t.head->lent = 0;
     if (t.kind != FE__TREE_LIGHT) reduce(&t, ALL_LANES, 0);
+    if (t.kind == FE__TREE_ROPE) drop_pulls(&t);
     if (t.kind == FE__TREE_HEAVY) find_lenders(&t);
     lend(&t);
 }
@@ -440,6 +447,29 @@ static void receive_trees(const fe__tree_job *job)
     forget_locks(&t, apply(&t, lanes, 1));
 }
 
+FE_INLINE void put_quad(float *to, fe_dvec3 a)
+{
+    to[0] = (float)a.x, to[1] = (float)a.y, to[2] = (float)a.z, to[3] = 0.0f;
+}
+
+// What the store of rows does for other joints
+static void store_trees(const fe__tree_job *job)
+{
+    const pass t = pass_of(job);
+    if (t.kind != FE__TREE_ROPE) return;
+    for (int32_t i = is_root(&t, 0); i < t.count; ++i) {
+        const tree_node *n = t.nodes + i;
+        const real3 force = r_scale(job->mean * n->side, n->total), last = r_scale(job->stored * n->side, n->last);
+        const int32_t open = r_bits(r_greater(r_dot(n->gap, n->gap), r_set(job->open)));
+        for (int lane = 0; lane < job->count; ++lane) {
+            const int32_t joint = t.links_of[lane][i].joint;
+            put_quad(job->joints->reactions[joint].force, get_lane3(&force, lane));
+            put_quad(job->joints->joints[joint].impulse, get_lane3(&last, lane));
+            if (open >> lane & 1) mark_stretched_ends(t.solver, n->line.at[lane], n->line_above.at[lane]);
+        }
+    }
+}
+
 const fe__forest_kernels FE_NAME(fe__forest_kernels) = {LANES,
                                                         (int32_t)sizeof(bundle),
                                                         (int32_t)sizeof(tree_node),
@@ -448,4 +478,5 @@ const fe__forest_kernels FE_NAME(fe__forest_kernels) = {LANES,
                                                         solve_trees,
                                                         follow_trees,
                                                         relax_trees,
-                                                        receive_trees};
+                                                        receive_trees,
+                                                        store_trees};

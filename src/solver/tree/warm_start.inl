@@ -148,3 +148,33 @@ static void forget_locks(const pass *t, int32_t lanes)
         write_lines(t->solver->start, &n->line, lanes, &start);
     }
 }
+
+// ---- ropes ----------------------------------------------------------------------------------------------------------
+// No row holds what their joints bear, and no limit or motor pulls at their bodies: all that the locks give is what the
+// solutions change of the velocities. Nodes add that up over a substep, and `start` takes it at its end.
+FE_INLINE void keep_rope(tree_node *n, real_mask lanes)
+{
+    n->pull = r_choose3(lanes, r_add(n->pull, n->impulse_v), n->pull);
+    n->given_v = r_choose3(lanes, r_add(n->given_v, centre_change(n, SPEEDS)), n->given_v);
+    n->given_w = r_choose3(lanes, r_add(n->given_w, n->of[SPEEDS].change_w), n->given_w);
+}
+
+// Those of the last step told what tension to expect, and nothing more
+static void drop_pulls(const pass *t)
+{
+    for (int32_t i = 0; i < t->count; ++i) t->nodes[i].pull = r_zero3();
+}
+
+FE_INLINE void forget_rope(const pass *t, tree_node *n, int32_t lanes)
+{
+    const real_mask these = r_mask(lanes);
+    const velocity now = changed(n);
+    lines start = read_lines(t->solver->start, &n->line);
+    narrow3(start.a, settled(r_add(widen3(start.a), n->given_v), now.v));
+    narrow3(start.a + 4, settled(r_add(widen3(start.a + 4), n->given_w), now.w));
+    write_lines(t->solver->start, &n->line, lanes, &start);
+    n->total = r_choose3(these, r_add(n->total, n->pull), n->total);
+    n->last = r_choose3(these, n->pull, n->last);
+    n->pull = r_choose3(these, r_zero3(), n->pull);
+    n->given_v = r_choose3(these, r_zero3(), n->given_v), n->given_w = r_choose3(these, r_zero3(), n->given_w);
+}
