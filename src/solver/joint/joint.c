@@ -97,15 +97,11 @@ void fe__joint_forget_impulses(fe__joints *joints, int32_t joint)
 static fe_quat quat_of(const float *q) { return (fe_quat){q[0], q[1], q[2], q[3]}; }
 static fe_vec3 vec_of(const float *a) { return fe__vec3(a[0], a[1], a[2]); }
 
-fe_dvec3 fe__joint_arm(const fe__body *body, const float *arm)
-{
-    return fe__drotate(quat_of(body->rotation), fe__widen(vec_of(arm)));
-}
-
 // body's anchor, m, world
 static fe_dvec3 anchor_of(const fe__body *body, const float *arm)
 {
-    return fe__dadd((fe_dvec3){body->centre[0], body->centre[1], body->centre[2]}, fe__joint_arm(body, arm));
+    return fe__dadd((fe_dvec3){body->centre[0], body->centre[1], body->centre[2]},
+                    fe__drotate(quat_of(body->rotation), fe__widen(vec_of(arm))));
 }
 
 fe_dvec3 fe__joint_gap(const fe__joint *joint, const fe__body *bodies)

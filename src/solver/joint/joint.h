@@ -179,8 +179,6 @@ typedef struct fe__joint_pose {
     float twist, swing_y, swing_z; // rad
 } fe__joint_pose;
 void fe__joint_pose_of(const fe__joints *joints, const fe__body *bodies, int32_t joint, fe__joint_pose *out_pose);
-fe_dvec3 fe__joint_arm(const fe__body *body,
-                       const float *arm); // from the centre of `body` to its anchor, m, world axes
 fe_dvec3 fe__joint_gap(const fe__joint *joint, const fe__body *bodies); // anchor of B - anchor of A, m, world axes
 // The angle next to `before` that is `twist` plus whole turns. A twist with a range is unwound: it goes on beyond pi,
 // so that a limit there holds; FE__PART_TWIST's state.x remembers where it was. Whoever makes or moves a joint writes

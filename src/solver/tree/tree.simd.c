@@ -146,6 +146,7 @@ FE_INLINE int32_t request_closed(const pass *t, int32_t i)
 // turns fast.
 static int32_t apply(const pass *t, int32_t lanes, int32_t total)
 {
+    const int32_t kept = lanes | (ALL_LANES & ~t->lanes);
     int32_t fast = 0;
     for (int32_t i = 0; i < t->count; ++i) {
         tree_node *n = t->nodes + i;
@@ -156,8 +157,8 @@ static int32_t apply(const pass *t, int32_t lanes, int32_t total)
         write_lines(t->solver->velocity, &n->line, lanes, &l);
         fast |= r_bits(r_greater(r_dot(turn, turn), r_set(FE__SLOW_TURN * FE__SLOW_TURN)));
         if (t->kind == FE__TREE_ROPE) {
-            keep_rope(n, r_mask(lanes));
-            if (total) forget_rope(t, n, lanes);
+            keep_rope(n, kept);
+            if (total) forget_rope(t, n, kept);
             continue;
         }
         forget_damping(t, i, lanes);
@@ -194,13 +195,10 @@ static void move(const pass *t, int32_t lanes)
 // Passes go from link to link, and do at each all that can be done there: nodes are large, and each waits for the one
 // before it.
 
-// In the given lanes. What others have stays as it is, bit for bit: it is eliminated again to the same matrices. With
-// `solves`, both solutions are requested and handed up. Returns the lanes in which a gap is wide.
-FE_INLINE int32_t reduce(const pass *t, int32_t lanes, int solves)
+FE_INLINE int32_t reduce_lanes(const pass *t, int32_t lanes, int solves)
 {
     const real_mask these = r_mask(lanes);
     int32_t wide_open = 0;
-    load_bundle(t);
     for (int32_t i = 0; i < t->count; ++i) {
         read_node(t, i, lanes);
         lay_masses(t, i);
@@ -215,6 +213,15 @@ FE_INLINE int32_t reduce(const pass *t, int32_t lanes, int solves)
         if (solves) hand_up(t, i, SPEEDS), hand_up(t, i, PLACES);
     }
     return wide_open;
+}
+
+// In the given lanes. What others have stays as it is, bit for bit: it is eliminated again to the same matrices. With
+// `solves`, both solutions are requested and handed up. Returns the lanes in which a gap is wide.
+FE_INLINE int32_t reduce(const pass *t, int32_t lanes, int solves)
+{
+    load_bundle(t);
+    lanes |= ALL_LANES & ~t->lanes; // idle ones do as the first
+    return lanes == ALL_LANES ? reduce_lanes(t, ALL_LANES, solves) : reduce_lanes(t, lanes, solves);
 }
 
 // The first solution shows the arcs, the second follows them
@@ -378,7 +385,7 @@ static void prepare_trees(const fe__tree_job *job)
                                                                                   : READY;
     t.head->lends = t.head->lent = 0;
     if (t.kind != FE__TREE_LIGHT) reduce(&t, ALL_LANES, 0);
-    if (t.kind == FE__TREE_ROPE) drop_pulls(&t);
+    if (t.kind == FE__TREE_ROPE) drop_pulls(&t), t.head->touched = find_touched_trees(&t);
     if (t.kind == FE__TREE_HEAVY) find_lenders(&t);
     lend(&t);
 }
@@ -413,6 +420,7 @@ static void follow_trees(const fe__tree_job *job)
     int32_t lanes = ready | lanes_in(&t, SOLVED);
     for (int lane = 0; lane < LANES; ++lane)
         if (ready >> lane & 1 && !will_open(&t, lane)) lanes &= ~(1 << lane);
+    if (t.kind == FE__TREE_ROPE) lanes &= t.head->touched; // nothing else came between
     if (lanes & ~ready) lanes &= ready | struck | come_apart(&t);
     if (!lanes) return;
     if (lanes & ready) reduce(&t, t.head->loaded ? lanes & ready : ALL_LANES, 0);

@@ -152,11 +152,11 @@ static void forget_locks(const pass *t, int32_t lanes)
 // ---- ropes ----------------------------------------------------------------------------------------------------------
 // No row holds what their joints bear, and no limit or motor pulls at their bodies: all that the locks give is what the
 // solutions change of the velocities. Nodes add that up over a substep, and `start` takes it at its end.
-FE_INLINE void keep_rope(tree_node *n, real_mask lanes)
+FE_INLINE void keep_rope(tree_node *n, int32_t lanes)
 {
-    n->pull = r_choose3(lanes, r_add(n->pull, n->impulse_v), n->pull);
-    n->given_v = r_choose3(lanes, r_add(n->given_v, centre_change(n, SPEEDS)), n->given_v);
-    n->given_w = r_choose3(lanes, r_add(n->given_w, n->of[SPEEDS].change_w), n->given_w);
+    put3(&n->pull, lanes, r_add(n->pull, n->impulse_v));
+    put3(&n->given_v, lanes, r_add(n->given_v, centre_change(n, SPEEDS)));
+    put3(&n->given_w, lanes, r_add(n->given_w, n->of[SPEEDS].change_w));
 }
 
 // Those of the last step told what tension to expect, and nothing more
@@ -167,14 +167,11 @@ static void drop_pulls(const pass *t)
 
 FE_INLINE void forget_rope(const pass *t, tree_node *n, int32_t lanes)
 {
-    const real_mask these = r_mask(lanes);
     const velocity now = changed(n);
     lines start = read_lines(t->solver->start, &n->line);
     narrow3(start.a, settled(r_add(widen3(start.a), n->given_v), now.v));
     narrow3(start.a + 4, settled(r_add(widen3(start.a + 4), n->given_w), now.w));
-    write_lines(t->solver->start, &n->line, lanes, &start);
-    n->total = r_choose3(these, r_add(n->total, n->pull), n->total);
-    n->last = r_choose3(these, n->pull, n->last);
-    n->pull = r_choose3(these, r_zero3(), n->pull);
-    n->given_v = r_choose3(these, r_zero3(), n->given_v), n->given_w = r_choose3(these, r_zero3(), n->given_w);
+    write_lines(t->solver->start, &n->line, lanes & t->lanes, &start);
+    put3(&n->total, lanes, r_add(n->total, n->pull)), put3(&n->last, lanes, n->pull);
+    put3(&n->pull, lanes, r_zero3()), put3(&n->given_v, lanes, r_zero3()), put3(&n->given_w, lanes, r_zero3());
 }
