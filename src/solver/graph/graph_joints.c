@@ -147,7 +147,8 @@ static void fill_joint_lanes(fe__builder *b, int32_t joint, const fe__kernels *k
     fe__lane lane = joint_lane(b, joint);
     int32_t link = link_of(b, joint);
     if (link >= 0) set_bodies(b, link, lane), open_tree(b, link);
-    for (int32_t part = 0; part < FE__PARTS && !is_in_rope(b, joint); ++part) {
+    if (link >= 0 && is_in_rope(b, joint)) return;
+    for (int32_t part = 0; part < FE__PARTS; ++part) {
         if (!(j->rows >> part & 1)) continue;
         int32_t key = joint_key(part, j), at = b->joint_key_count[key]++;
         b->s->lanes[at] = lane;
@@ -162,7 +163,8 @@ void fe__graph_joint_groups(fe__builder *b, int32_t k, const fe__kernels *kernel
     memset(b->joint_key_count, 0, sizeof(int32_t) * FE__JOINT_GROUP_KEYS);
     for (int32_t i = b->joint_start[k]; i < b->joint_start[k + 1]; ++i) {
         const fe__joint *j = b->in->joints->joints + b->joint_order[i];
-        for (int32_t part = 0; part < FE__PARTS && !is_in_rope(b, b->joint_order[i]); ++part)
+        if (is_in_rope(b, b->joint_order[i])) continue;
+        for (int32_t part = 0; part < FE__PARTS; ++part)
             b->joint_key_count[joint_key(part, j)] += (int32_t)(j->rows >> part & 1);
     }
     int32_t overflowing = sort_overflow(b, k), first_tree = b->s->tree_count;

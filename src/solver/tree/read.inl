@@ -354,8 +354,9 @@ static void read_joint(const pass *t, int32_t i, int lane)
 }
 
 // ---- all of them ----------------------------------------------------------------------------------------------------
-// in the given lanes; others keep what they have
-FE_INLINE void read_node(const pass *t, int32_t i, int32_t lanes)
+// In the given lanes; others keep what they have. `apart`: of them, those in which other joints than balls are read,
+// one by one
+FE_INLINE void read_node(const pass *t, int32_t i, int32_t lanes, int32_t apart)
 {
     const real_mask these = r_mask(lanes);
     tree_node *n = t->nodes + i;
@@ -370,5 +371,5 @@ FE_INLINE void read_node(const pass *t, int32_t i, int32_t lanes)
     }
     if (is_ball(t, i)) read_ball(t, i, lanes);
     for (int lane = 0; lane < LANES && !is_ball(t, i); ++lane)
-        if (lanes >> lane & 1) read_joint(t, i, lane);
+        if (apart >> lane & 1) read_joint(t, i, lane);
 }

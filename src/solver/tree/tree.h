@@ -1,6 +1,7 @@
 // tree.h - all locks of trees of joints, met at once; trees of one form side by side, in lanes.
 //
-// Runs after the sweep over the joints, whose rows hold arms, errors and impulses, and ends what the sweep began.
+// Runs after the sweep over the joints, whose rows hold arms, errors and impulses, and ends what the sweep began. Ropes
+// (FE__TREE_ROPE) have no rows: they are read from the records of their joints, and stored there.
 //
 // A substep is RATTLE's (Andersen 1983): first velocities that bring the points together at its end, then positions,
 // put right by what is left, then velocities along the locks as they now are. So no spring is in it and none is needed:

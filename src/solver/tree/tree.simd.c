@@ -195,12 +195,12 @@ static void move(const pass *t, int32_t lanes)
 // Passes go from link to link, and do at each all that can be done there: nodes are large, and each waits for the one
 // before it.
 
-FE_INLINE int32_t reduce_lanes(const pass *t, int32_t lanes, int solves)
+FE_INLINE int32_t reduce_lanes(const pass *t, int32_t lanes, int32_t apart, int solves)
 {
     const real_mask these = r_mask(lanes);
     int32_t wide_open = 0;
     for (int32_t i = 0; i < t->count; ++i) {
-        read_node(t, i, lanes);
+        read_node(t, i, lanes, apart);
         lay_masses(t, i);
         add_tension(t, i, t->nodes[i].pull);
         if (!solves) continue;
@@ -220,8 +220,9 @@ FE_INLINE int32_t reduce_lanes(const pass *t, int32_t lanes, int solves)
 FE_INLINE int32_t reduce(const pass *t, int32_t lanes, int solves)
 {
     load_bundle(t);
-    lanes |= ALL_LANES & ~t->lanes; // idle ones do as the first
-    return lanes == ALL_LANES ? reduce_lanes(t, ALL_LANES, solves) : reduce_lanes(t, lanes, solves);
+    const int32_t with_idle = lanes | (ALL_LANES & ~t->lanes);
+    return with_idle == ALL_LANES ? reduce_lanes(t, ALL_LANES, lanes, solves)
+                                  : reduce_lanes(t, with_idle, lanes, solves);
 }
 
 // The first solution shows the arcs, the second follows them
