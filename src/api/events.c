@@ -77,11 +77,12 @@ static int32_t point_count(const fe_world *world, int32_t pair)
 static fe_contact_point describe_point(const fe_world *world, int32_t pair, int32_t i)
 {
     const fe__contact *c = &world->contacts[pair];
+    const fe__points *q = fe__points_of(world, c);
     return (fe_contact_point){.point = fe__contact_point(world, pair, i),
-                              .separation = c->separation[i],
-                              .normal_impulse = c->normal_impulse[i],
-                              .total_impulse = c->total_impulse[i],
-                              .id = world->pairs[pair].ids[i]};
+                              .separation = q->separation[i],
+                              .normal_impulse = q->normal_impulse[i],
+                              .total_impulse = q->total_impulse[i],
+                              .id = world->features[c->points].ids[i]};
 }
 
 // The solver may hold the pair with its sides exchanged: what is said of its B is then the negative of what B here
@@ -90,6 +91,7 @@ static fe_contact describe(const fe_world *world, int32_t pair)
 {
     const fe__pair *p = &world->pairs[pair];
     const fe__contact *c = &world->contacts[pair];
+    const fe__points *q = fe__points_of(world, c);
     float side = p->flags & FE__PAIR_FLIPPED ? -1.0f : 1.0f;
     int32_t field_a = fe__form_is_field(&world->shapes[p->shape_a].form);
     fe_contact contact = {.body_a = fe__body_handle(world, p->body_a),
@@ -100,9 +102,9 @@ static fe_contact describe(const fe_world *world, int32_t pair)
                           .material_b = fe__pair_material(world, pair, 1)->user_id,
                           .normal = {side * c->normal[0], side * c->normal[1], side * c->normal[2]},
                           .point_count = point_count(world, pair),
-                          .friction_impulse = {side * c->friction_impulse[0], side * c->friction_impulse[1],
-                                               side * c->friction_impulse[2]},
-                          .twist_impulse = c->twist_impulse,
+                          .friction_impulse = {side * q->friction_impulse[0], side * q->friction_impulse[1],
+                                               side * q->friction_impulse[2]},
+                          .twist_impulse = q->twist_impulse,
                           .part_a = -1,
                           .part_b = -1,
                           .triangle_a = field_a ? p->triangle : -1,

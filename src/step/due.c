@@ -15,7 +15,7 @@ static int32_t keep_due(const fe__step *step, int32_t *places, int32_t count)
     uint8_t verdicts[PAIRS_IN_BLOCK];
     float slack[PAIRS_IN_BLOCK];
     for (int32_t i = 0; i < count; ++i) pairs[i] = fe__pair_of(w->awake_pairs[places[i]]);
-    w->kernels->recycle(w->contacts, w->bodies, pairs, count, step->dt, fe__fall_in_step(w, step->dt), verdicts, slack);
+    w->kernels->recycle(w->contacts, w->points, w->bodies, pairs, count, step->dt, step->fall, verdicts, slack);
     for (int32_t i = 0; i < count; ++i) {
         if (verdicts[i] == FE__STAYS_APART)
             fe__defer(w->deferrals + places[i], w->odometers, w->bodies, w->contacts + pairs[i], slack[i]);

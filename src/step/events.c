@@ -22,8 +22,9 @@ static int32_t touches(const fe_world *w, int32_t head)
     int32_t sensor = (w->pairs[head].flags & FE__PAIR_SENSOR) != 0;
     for (int32_t pair = head; pair >= 0; pair = w->pairs[pair].next_patch) {
         const fe__contact *m = w->contacts + pair;
+        const fe__points *q = fe__points_of(w, m);
         for (int32_t i = 0; i < (int32_t)m->point_count; ++i)
-            if (m->separation[i] <= 0.0f || (!sensor && m->total_impulse[i] > 0.0f)) return 1;
+            if (q->separation[i] <= 0.0f || (!sensor && q->total_impulse[i] > 0.0f)) return 1;
     }
     return 0;
 }
@@ -39,10 +40,11 @@ static impact impact_of(const fe_world *w, int32_t head)
     impact sum = {.pair = head};
     for (int32_t pair = head; pair >= 0; pair = w->pairs[pair].next_patch) {
         const fe__contact *m = w->contacts + pair;
-        if (m->point_count > 0.0f) sum.approach = fe__maxf(sum.approach, w->pairs[pair].approach);
+        const fe__points *q = fe__points_of(w, m);
+        if (m->point_count > 0.0f) sum.approach = fe__maxf(sum.approach, w->features[m->points].approach);
         for (int32_t i = 0; i < (int32_t)m->point_count; ++i) {
-            sum.impulse += m->total_impulse[i];
-            if (m->total_impulse[i] > sum.largest) sum.largest = m->total_impulse[i], sum.pair = pair, sum.point = i;
+            sum.impulse += q->total_impulse[i];
+            if (q->total_impulse[i] > sum.largest) sum.largest = q->total_impulse[i], sum.pair = pair, sum.point = i;
         }
     }
     return sum;
@@ -81,10 +83,11 @@ enum { PAIRS_IN_BLOCK = 256, AHEAD = 16 }; // AHEAD: records come from memory wh
 
 FE_FETCHES fetch_ahead(const fe_world *w, const int32_t *pairs, int32_t i, int32_t end)
 {
-    if (i + 2 * AHEAD < end) __builtin_prefetch(&w->pairs[pairs[i + 2 * AHEAD]].flags);
-    if (i + AHEAD >= end || !(w->pairs[pairs[i + AHEAD]].flags & FE__PAIR_MAY_REPORT)) return;
-    __builtin_prefetch(w->contacts[pairs[i + AHEAD]].separation);
-    __builtin_prefetch(w->contacts[pairs[i + AHEAD]].total_impulse);
+    if (i + 3 * AHEAD < end) __builtin_prefetch(&w->pairs[pairs[i + 3 * AHEAD]].flags);
+    if (i + 2 * AHEAD < end && w->pairs[pairs[i + 2 * AHEAD]].flags & FE__PAIR_MAY_REPORT)
+        fe__fetch(w->contacts + pairs[i + 2 * AHEAD], sizeof *w->contacts);
+    if (i + AHEAD < end && w->pairs[pairs[i + AHEAD]].flags & FE__PAIR_MAY_REPORT)
+        __builtin_prefetch(w->points + w->contacts[pairs[i + AHEAD]].points);
 }
 
 typedef struct look_job {
@@ -109,7 +112,7 @@ static void look_block(void *argument, int32_t first, int32_t end, int32_t worke
         int32_t before = (p->flags & FE__PAIR_TOUCHING) != 0, reports = now != before;
         if (now && before) reports = (p->events & (FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT)) != 0;
         reports |= (p->flags & FE__PAIR_ONCE) != 0;
-        p->result = now ? (before ? FE_EVENT_STAY : FE_EVENT_ENTER) : FE_EVENT_EXIT;
+        p->result = now ? (int16_t)(before ? FE_EVENT_STAY : FE_EVENT_ENTER) : (int16_t)FE_EVENT_EXIT;
         if (reports) s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
     }
 }

@@ -2,6 +2,7 @@
 #ifndef FE_STEP_NARROW_H
 #define FE_STEP_NARROW_H
 #include "step/view.h"
+#include "world/step_scratch.h"
 
 static inline void fe__copy3(float *out, fe_vec3 a) { out[0] = a.x, out[1] = a.y, out[2] = a.z; }
 
@@ -14,13 +15,11 @@ static inline float fe__slack(float gap, float margin)
     return fe__maxf(gap - least * margin, 0.0f);
 }
 
-// The narrow phase of one pair, for a step of dt seconds. Only the pair is written.
-void fe__collide_pair(fe_world *world, int32_t pair, float dt);
+// The narrow phase of one pair. Only the pair is written.
+void fe__collide_pair(const fe__step *step, int32_t pair);
 
-// how far gravity may bring a body towards another one in the step, m
-float fe__fall_in_step(const fe_world *world, float dt);
 // how far the pair can close in the step, m
-float fe__reach_in_step(const fe_world *world, const fe__body *a, const fe__body *b, float dt);
+float fe__reach_in_step(const fe__step *step, const fe__body *a, const fe__body *b);
 // how far a manifold with points may slide or turn before it is looked for anew, m
 float fe__recycle_tolerance(const fe__view *v);
 // Everything of a contact but its tolerance and impulses. `ahead`: `at` is not where the bodies are now.

@@ -69,7 +69,11 @@ fe_result fe__world_step(fe_world *w, float dt)
 {
     enum { MILLISECONDS = 1000 };
     if (open_scratch(w) != FE_OK) return FE_ERROR_MEMORY;
-    fe__step step = {.world = w, .scratch = w->scratch, .dt = dt, .constants = fe__constants_of(w, dt, 1)};
+    fe__step step = {.world = w,
+                     .scratch = w->scratch,
+                     .dt = dt,
+                     .fall = fe__length(w->gravity) * dt * dt,
+                     .constants = fe__constants_of(w, dt, 1)};
     fe_profile profile = {.struct_size = sizeof profile};
     double start = fe__clock(), mark = start;
     fe__pool_begin(w->workers.pool);

@@ -7,6 +7,7 @@
 #include "world/pair_link.h"
 #include "world/pair_list.h"
 #include "world/pair_mix.h"
+#include "world/points.h"
 
 #include <string.h>
 
@@ -16,7 +17,6 @@ int32_t fe__reserve_pairs(fe_world *world, int32_t extra)
     int64_t limit = (int64_t)world->pair_limit + extra;
     return FE_RESERVE(memory, world->contacts, world->contact_capacity, limit) &&
            FE_RESERVE(memory, world->pairs, world->pair_capacity, limit) &&
-           FE_RESERVE(memory, world->extras, world->extra_capacity, limit) &&
            FE_RESERVE(memory, world->pair_serials, world->serial_capacity, 2 * limit) &&
            FE_RESERVE(memory, world->awake_pairs, world->awake_pair_capacity, limit) &&
            FE_RESERVE(memory, world->deferrals, world->deferral_capacity, limit) &&
@@ -86,7 +86,6 @@ static int32_t create_record(fe_world *world, int32_t shape_a, int32_t shape_b, 
     fe__contact *m = world->contacts + pair;
     memset(p, 0, sizeof *p);
     memset(m, 0, sizeof *m);
-    memset(world->extras + pair, 0, sizeof *world->extras);
     p->shape_a = shape_a, p->shape_b = shape_b;
     p->body_a = a->body, p->body_b = b->body;
     world->pair_serials[2 * pair] = a->serial;
@@ -157,18 +156,18 @@ fe_pair_event fe__pair_event_of(const fe_world *world, int32_t pair, int32_t kin
                            .triangle_b = field_a ? -1 : p->triangle};
 }
 
-// An exit that is owed waits where the contact had its points: its handles may be stale when it is reported.
+// An exit that is owed waits in the record of its contact: its handles may be stale when it is reported.
 typedef struct owed_exit {
     fe_handle body_a, body_b, shape_a, shape_b;
     int32_t is_trigger;
 } owed_exit;
-_Static_assert(sizeof(owed_exit) <= sizeof((fe__contact *)0)->point, "an exit fits into its record");
+_Static_assert(sizeof(owed_exit) <= sizeof(fe__contact), "an exit fits into its record");
 
 static void owe_exit(fe_world *world, int32_t pair)
 {
     fe_pair_event event = fe__pair_event_of(world, pair, FE_EVENT_EXIT);
     owed_exit owed = {event.body_a, event.body_b, event.shape_a, event.shape_b, event.is_trigger};
-    memcpy(world->contacts[pair].point, &owed, sizeof owed);
+    memcpy(world->contacts + pair, &owed, sizeof owed);
     world->pairs[pair].flags = FE__PAIR_FREE;
     world->pairs[pair].links[0].next = world->first_owed;
     world->first_owed = pair;
@@ -181,7 +180,7 @@ void fe__report_owed_exits(fe_world *world)
         int32_t pair = world->first_owed;
         fe__pair_event_record *r = world->pair_events + world->pair_event_count++;
         owed_exit owed;
-        memcpy(&owed, world->contacts[pair].point, sizeof owed);
+        memcpy(&owed, world->contacts + pair, sizeof owed);
         *r = (fe__pair_event_record){world->pair_serials[2 * pair],
                                      world->pair_serials[2 * pair + 1],
                                      {.body_a = owed.body_a,
@@ -210,6 +209,7 @@ static void destroy_patches(fe_world *world, int32_t head)
             fe__pair_unlink(world, patch);
             fe__patch_leave(world, patch);
         }
+        fe__points_release(world, patch);
         fe__pair_release(world, patch);
     }
     --world->field_pair_count;
@@ -220,6 +220,7 @@ void fe__pair_destroy(fe_world *world, int32_t pair)
     const fe__pair *p = world->pairs + pair;
     destroy_patches(world, pair);
     fe__pair_unlink(world, pair);
+    fe__points_release(world, pair);
     fe__pair_retire(world, pair);
     remove_from_body(world, pair, p->body_a);
     remove_from_body(world, pair, p->body_b);

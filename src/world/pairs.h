@@ -1,7 +1,7 @@
 // pairs.h - the life of pairs, and what they report.
 #ifndef FE_WORLD_PAIRS_H
 #define FE_WORLD_PAIRS_H
-#include "world/world.h"
+#include "world/points.h"
 
 int32_t fe__reserve_pairs(fe_world *world, int32_t extra);
 // Room was reserved; A created first. `denied`: by the pair filter
@@ -25,7 +25,7 @@ static inline fe_dvec3 fe__contact_point(const fe_world *world, int32_t pair, in
 {
     const fe__contact *m = world->contacts + pair;
     const fe__body *a = world->bodies + m->body_a, *from = a->type == FE_BODY_STATIC ? world->bodies + m->body_b : a;
-    const float *r = m->point[point].arm;
+    const float *r = fe__points_of(world, m)->point[point].arm;
     return (fe_dvec3){from->centre[0] + (double)r[0], from->centre[1] + (double)r[1], from->centre[2] + (double)r[2]};
 }
 

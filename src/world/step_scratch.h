@@ -40,6 +40,7 @@ typedef struct fe__step_scratch {
     fe__candidate *candidates;
     int32_t candidate_capacity, candidate_count;
     int32_t candidate_patches; // further records that the candidates with heightfields need
+    int32_t points_to_come;    // records of points that pairs without may take in this step
     uint32_t *moved_bits;      // by shape: 1 while it is in fe_world.moved and the search for candidates runs, else 0
     int32_t moved_words;
     fe__candidate_chunk chunks[FE_MAX_WORKERS];
@@ -82,6 +83,7 @@ typedef struct fe__step {
     fe_world *world;
     fe__step_scratch *scratch;
     float dt;                     // s
+    float fall;                   // m, how far gravity may bring a body towards another one in the step
     fe__step_constants constants; // of most islands
     int32_t failed;               // no memory; nothing was changed
 } fe__step;

@@ -98,7 +98,7 @@ static fe__lane lane_of(const fe__builder *b, const fe__linked *c)
     int32_t line_a = c->awake_a < 0          ? FE__STATIC_LINE
                      : c->key & FE__ROW_PAIR ? b->line[c->awake_a]
                                              : b->kinematic_line[c->awake_a];
-    return (fe__lane){c->contact, line_a, b->line[c->awake_b]};
+    return (fe__lane){c->contact, c->points, line_a, b->line[c->awake_b]};
 }
 
 // Of a hub each contact has a colour to itself, or none: its group has a row, which would be empty but for a lane

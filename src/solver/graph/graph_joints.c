@@ -22,7 +22,7 @@ static fe__group *open_joints(fe__builder *b, fe__batch *batch, int32_t key, int
 static fe__lane joint_lane(const fe__builder *b, int32_t joint)
 {
     const fe__joint *j = b->in->joints->joints + joint;
-    return (fe__lane){joint, fe__line_of(b, j->body_a), fe__line_of(b, j->body_b)};
+    return (fe__lane){joint, 0, fe__line_of(b, j->body_a), fe__line_of(b, j->body_b)};
 }
 
 // joints beyond the colours of a crowded body, sorted by creation: their number

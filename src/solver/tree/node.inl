@@ -86,6 +86,7 @@ typedef struct tree_node {
     real_sym root;            // of the inertia
     real per_root_mass;       // 1 / sqrt(mass)
     six x;                    // of the powers
+    real3 place;              // of the centre, m: see whirl.inl
     lines held, held_start;   // of the velocities when contacts took over
 } tree_node;
 

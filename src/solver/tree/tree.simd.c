@@ -22,6 +22,8 @@
 // What is farther apart when the step begins was put there, by the user or by continuous collision: it comes together
 // softly, by sweeps
 #define PUT_APART (2.0f * OPEN)
+// Nobody put apart what whirls. But from so wide a gap even that comes together softly, m
+#define TORN 1.0f
 // A rotation, rad, beyond which an elimination says nothing of where an arm leads
 #define FULL_TURN 0.25
 
@@ -268,6 +270,8 @@ static int32_t damp_jerk(const pass *t, int32_t lanes)
     return lanes;
 }
 
+#include "solver/tree/whirl.inl"
+
 // Gaps are closed again where one was wide, as the joints now see them: closing it turned the joints
 static void close_gaps(const pass *t, int32_t lanes, int32_t wide_open)
 {
@@ -299,6 +303,7 @@ static void meet_locks(const pass *t, int32_t lanes)
     const int32_t fast = apply(t, lanes, 1);
     if (t->kind == FE__TREE_SHORT || t->kind == FE__TREE_HEAVY)
         forget_locks(t, t->kind == FE__TREE_SHORT ? lanes : fast);
+    calm(t, fast);
     close_gaps(t, lanes, wide_open);
 }
 
@@ -376,14 +381,30 @@ static void find_lenders(const pass *t)
     if (is_root(t, 0) && find_touched(t)) t->head->lends = find_shares(t) & t->lanes;
 }
 
+// A link turns farther in a substep than an elimination follows
+static int32_t whirls(const pass *t, int lane)
+{
+    for (int32_t i = 0; i < t->count; ++i) {
+        const float *w = t->solver->start[t->places[lane][i].line].w;
+        const double turn = t->job->h * t->job->h *
+                            ((double)w[0] * (double)w[0] + (double)w[1] * (double)w[1] + (double)w[2] * (double)w[2]);
+        if (turn > FULL_TURN * FULL_TURN) return 1;
+    }
+    return 0;
+}
+
+static tree_state first_state(const pass *t, int lane)
+{
+    if (t->kind != FE__TREE_LIGHT) return SOLVED;
+    return is_open(t, lane, whirls(t, lane) ? TORN : PUT_APART) ? SWEPT : READY;
+}
+
 static void prepare_trees(const fe__tree_job *job)
 {
     const pass t = pass_of(job);
     t.head->loaded = 0;
     for (int lane = 0; lane < LANES; ++lane)
-        t.head->state[lane] = t.kind != FE__TREE_LIGHT                            ? SOLVED
-                              : lane < job->count && is_open(&t, lane, PUT_APART) ? SWEPT
-                                                                                  : READY;
+        t.head->state[lane] = lane < job->count ? (int32_t)first_state(&t, lane) : (int32_t)READY;
     t.head->lends = t.head->lent = 0;
     if (t.kind != FE__TREE_LIGHT) reduce(&t, ALL_LANES, 0);
     if (t.kind == FE__TREE_ROPE) drop_pulls(&t), t.head->touched = find_touched_trees(&t);
@@ -453,7 +474,9 @@ static void receive_trees(const fe__tree_job *job)
     meet_requests(&t, SPEEDS);
     for (int32_t i = 0; i < t.count; ++i) add_tension(&t, i, pull_now(t.nodes + i));
     damp_jerk(&t, lanes);
-    forget_locks(&t, apply(&t, lanes, 1));
+    const int32_t fast = apply(&t, lanes, 1);
+    forget_locks(&t, fast);
+    calm(&t, fast);
 }
 
 FE_INLINE void put_quad(float *to, fe_dvec3 a)
