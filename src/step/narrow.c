@@ -318,13 +318,6 @@ static void write_apart(fe__pair *p, fe__contact *m, fe__points *q, const fe__vi
     m->surface.radius_a = (a_is_b ? v->b : v->a)->arm, m->surface.radius_b = (a_is_b ? v->a : v->b)->arm;
 }
 
-static int32_t is_near(const fe__manifold *found, float distance)
-{
-    for (int32_t i = 0; i < found->count; ++i)
-        if (found->points[i].separation <= distance) return 1;
-    return 0;
-}
-
 // ---- one-way shapes ------------------------------------------------------------------------------------------------
 // The least cosine between a one-way shape's direction and a normal that holds: 60 degrees, so that its edges do not
 // catch what passes by
@@ -367,6 +360,12 @@ static int32_t may_touch_from_afar(const fe__step *step, const fe__pair *p, cons
     return gap <= reach_along(step, bodies + m->body_a, bodies + m->body_b, normal);
 }
 
+// Against what is static or kinematic, its thickness or the other's
+static int32_t may_outrun(const fe__body *a, const fe__shape *x, const fe__shape *y, float reach)
+{
+    return a->type != FE_BODY_DYNAMIC && reach > fe__minf(fe__form_thickness(&x->form), fe__form_thickness(&y->form));
+}
+
 void fe__collide_pair(const fe__step *step, int32_t pair)
 {
     fe_world *world = step->world;
@@ -377,6 +376,7 @@ void fe__collide_pair(const fe__step *step, int32_t pair)
     float margin = world->tuning.speculative_distance, reach = fe__reach_in_step(step, a, b);
     fe__places at = {fe__centre_of(a), fe__centre_of(b), fe__rotation_of(a), fe__rotation_of(b)};
     fe__view v;
+    int32_t ahead = 0;
     if (p->flags & FE__PAIR_SWAPPED)
         set_view(&v, y, x, &y->pose, &x->pose);
     else
@@ -391,10 +391,9 @@ void fe__collide_pair(const fe__step *step, int32_t pair)
         return;
     }
 
-    int32_t near = is_near(&found, margin), ahead = may_touch_from_afar(step, p, m, &v, &found);
-    int32_t fast =
-        reach > fe__minf(fe__form_thickness(&x->form), fe__form_thickness(&y->form)) && a->type != FE_BODY_DYNAMIC;
-    if (ahead) ahead = (fast ? look_far_ahead : look_ahead)(world, m, step->dt, &v, &at, &found);
+    int32_t near = found.count && deepest_of(&found) <= margin;
+    if (may_touch_from_afar(step, p, m, &v, &found))
+        ahead = (may_outrun(a, x, y, reach) ? look_far_ahead : look_ahead)(world, m, step->dt, &v, &at, &found);
     if (!ahead && !near) {
         gap left = gap_of(&v, &found);
         write_apart(p, m, fe__points_of(world, m), &v, &at, a, b, fe__slack(left.distance, margin),

@@ -14,9 +14,8 @@
 // whom in a row does not show. What the passes add of nothing, +0 or -0, changes no velocity, as none is -0
 // (bodies.simd.c).
 //
-// Special rows are never skipped: a chain of impacts asks them, prepared, for what may still touch in the substep, and
-// their surface velocities, locks and resistances would need bounds of their own for the few that there are. Nor are
-// those with static bodies: they bear loads, nearly all.
+// Special rows are never skipped: they note touches, and a chain of impacts asks them, prepared, for what may still
+// touch in the substep. Nor are those with static bodies: they bear loads, nearly all.
 
 FE_INLINE int NAMED(can_idle)(int kind) { return kind & FE__ROW_PAIR && !(kind & FE__ROW_SPECIAL); }
 
