@@ -267,13 +267,17 @@ static void run_trees(const job *j, const fe__group *g, verb verb, unsigned char
     const fe__tree_job trees = {.solver = j->s,
                                 .bodies = j->bodies,
                                 .lanes = &j->k->joint->locks,
-                                .forest = &j->joints->forest,
+                                .joints = j->joints,
                                 .trees = j->s->trees + g->lane,
                                 .count = g->trees,
                                 .rows = rows,
                                 .nodes = rows + g->offset,
                                 .h = (double)c->h,
-                                .rate = (double)(c->h * c->joint.bias_rate)};
+                                .rate = (double)(c->h * c->joint.bias_rate),
+                                .mean = (double)(c->inverse_h / (float)c->substeps),
+                                .warm_scale = (double)c->warm_scale,
+                                .stored = (double)c->division,
+                                .open = (double)c->open};
     const fe__forest_kernels *k = fe__forest_kernels_of(j->k, g->trees);
     if (verb == PREPARE) k->prepare(&trees);
     if (verb == RESTORE) k->restore(&trees);
@@ -281,6 +285,7 @@ static void run_trees(const job *j, const fe__group *g, verb verb, unsigned char
     if (verb == FOLLOW) k->follow(&trees);
     if (verb == RELAX) k->relax(&trees);
     if (verb == RECEIVE) k->receive(&trees);
+    if (verb == STORE) k->store(&trees);
 }
 
 // Stored impulses are those of the world's substeps

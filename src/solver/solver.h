@@ -347,6 +347,7 @@ typedef struct fe__forest_kernels {
     void (*follow)(const struct fe__tree_job *job);
     void (*relax)(const struct fe__tree_job *job);
     void (*receive)(const struct fe__tree_job *job); // after the contacts' relax and bounces
+    void (*store)(const struct fe__tree_job *job);   // of ropes, whose joints have no rows
 } fe__forest_kernels;
 
 typedef struct fe__joint_kernels {
