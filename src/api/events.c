@@ -43,10 +43,30 @@ static int32_t write_events(const char *function, event_list list, void *out_eve
     return list.count;
 }
 
+static fe_pair_event describe_event(const fe__pair_event_record *r)
+{
+    return (fe_pair_event){.body_a = r->body_a,
+                           .body_b = r->body_b,
+                           .shape_a = r->shape_a,
+                           .shape_b = r->shape_b,
+                           .kind = r->kind,
+                           .is_trigger = r->is_trigger,
+                           .part_a = -1,
+                           .part_b = -1,
+                           .triangle_a = r->field_a ? r->triangle : -1,
+                           .triangle_b = r->field_a ? -1 : r->triangle};
+}
+
 int32_t fe_world_get_pair_events(const fe_world *world, fe_pair_event *out_events, uint32_t stride, int32_t capacity)
 {
     FE_READ(world);
-    return write_events(function, LIST_OF(pair), out_events, stride, capacity);
+    FE_CHECK_ARRAY(out_events, capacity);
+    FE_CHECK_RECORD_STRIDE(stride, LEAST_RECORD, capacity);
+    for (int32_t i = 0, written = fe__mini(world->pair_event_count, capacity); i < written; ++i) {
+        fe_pair_event event = describe_event(world->pair_events + i);
+        put(out_events, stride, i, &event, sizeof event);
+    }
+    return world->pair_event_count;
 }
 
 int32_t fe_world_get_body_events(const fe_world *world, fe_body_event *out_events, uint32_t stride, int32_t capacity)
@@ -77,11 +97,12 @@ static int32_t point_count(const fe_world *world, int32_t pair)
 static fe_contact_point describe_point(const fe_world *world, int32_t pair, int32_t i)
 {
     const fe__contact *c = &world->contacts[pair];
+    const fe__points *q = fe__points_of(world, c);
     return (fe_contact_point){.point = fe__contact_point(world, pair, i),
-                              .separation = c->separation[i],
-                              .normal_impulse = c->normal_impulse[i],
-                              .total_impulse = c->total_impulse[i],
-                              .id = world->pairs[pair].ids[i]};
+                              .separation = q->separation[i],
+                              .normal_impulse = q->normal_impulse[i],
+                              .total_impulse = q->total_impulse[i],
+                              .id = world->features[c->points].ids[i]};
 }
 
 // The solver may hold the pair with its sides exchanged: what is said of its B is then the negative of what B here
@@ -90,6 +111,7 @@ static fe_contact describe(const fe_world *world, int32_t pair)
 {
     const fe__pair *p = &world->pairs[pair];
     const fe__contact *c = &world->contacts[pair];
+    const fe__points *q = fe__points_of(world, c);
     float side = p->flags & FE__PAIR_FLIPPED ? -1.0f : 1.0f;
     int32_t field_a = fe__form_is_field(&world->shapes[p->shape_a].form);
     fe_contact contact = {.body_a = fe__body_handle(world, p->body_a),
@@ -100,9 +122,9 @@ static fe_contact describe(const fe_world *world, int32_t pair)
                           .material_b = fe__pair_material(world, pair, 1)->user_id,
                           .normal = {side * c->normal[0], side * c->normal[1], side * c->normal[2]},
                           .point_count = point_count(world, pair),
-                          .friction_impulse = {side * c->friction_impulse[0], side * c->friction_impulse[1],
-                                               side * c->friction_impulse[2]},
-                          .twist_impulse = c->twist_impulse,
+                          .friction_impulse = {side * q->friction_impulse[0], side * q->friction_impulse[1],
+                                               side * q->friction_impulse[2]},
+                          .twist_impulse = q->twist_impulse,
                           .part_a = -1,
                           .part_b = -1,
                           .triangle_a = field_a ? p->triangle : -1,

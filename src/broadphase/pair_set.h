@@ -13,16 +13,16 @@ typedef struct fe__pair_entry {
 
 typedef struct fe__pair_set {
     fe__pair_entry *entries;
-    int32_t capacity; // a power of two, or 0
+    int32_t capacity;
     int32_t count;
 } fe__pair_set;
 
-// The hash is Fibonacci's: low << 32 | high, times 2^64 over the golden ratio, upper bits. Shape indices of neighbours
-// are close to each other, which this spreads well.
+// The hash is Fibonacci's: low << 32 | high, times 2^64 over the golden ratio, of which the upper half says where in
+// the table, from 0 to 1. Shape indices of neighbours are close to each other, which this spreads well.
 static inline uint32_t fe__pair_home(const fe__pair_set *set, int32_t low, int32_t high)
 {
     uint64_t key = (uint64_t)low << 32 | (uint64_t)high;
-    return (uint32_t)(key * UINT64_C(0x9E3779B97F4A7C15) >> 32) & (uint32_t)(set->capacity - 1);
+    return (uint32_t)((key * UINT64_C(0x9E3779B97F4A7C15) >> 32) * (uint32_t)set->capacity >> 32);
 }
 
 // Asks memory for what fe__pair_set_find will read first

@@ -1,7 +1,6 @@
 // tree.c - the tree's memory, and what a single proxy's box is.
 //
-// tree_insert.c and tree_change.c change it; tree_build.c builds it; tree_query.simd.c and
-// tree_ray.simd.c ask.
+// tree_insert.c and tree_change.c change it; tree_build.c builds it; tree_query.simd.c and tree_ray.simd.c ask.
 #include "broadphase/tree_node.h"
 
 // Spare nodes beyond one for each insertion, so that nodes can be split: one for each level of a deep tree, less in one

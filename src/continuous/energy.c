@@ -2,6 +2,7 @@
 #include "continuous/energy.h"
 
 #include "world/pair_list.h"
+#include "world/points.h"
 #include "world/pose.h"
 
 // of the energy: what float arithmetic may add in a step
@@ -22,6 +23,11 @@ static int32_t is_driven(const fe__body *b)
     return b->first_joint != 0;
 }
 
+static int32_t slips(const fe__extra *e)
+{
+    return e->surface_velocity[0] != 0.0f || e->surface_velocity[1] != 0.0f || e->surface_velocity[2] != 0.0f;
+}
+
 // 1: something static pushed it, and nothing else did
 static int32_t is_pushed_by_static_only(const fe_world *w, int32_t body)
 {
@@ -31,10 +37,9 @@ static int32_t is_pushed_by_static_only(const fe_world *w, int32_t body)
         const fe__pair *p = w->pairs + i;
         const fe__contact *m = w->contacts + i;
         if (!(p->flags & FE__PAIR_LINKED)) continue;
-        const float *slip = w->extras[i].surface_velocity;
-        if (w->bodies[m->body_a].type != FE_BODY_STATIC || slip[0] != 0.0f || slip[1] != 0.0f || slip[2] != 0.0f)
-            return 0;
-        for (int32_t k = 0; k < FE__POINTS; ++k) pushed |= m->total_impulse[k] > 0.0f;
+        const fe__extra *e = fe__extra_of(w, m);
+        if (w->bodies[m->body_a].type != FE_BODY_STATIC || (e && slips(e))) return 0;
+        for (int32_t k = 0; k < FE__POINTS; ++k) pushed |= fe__points_of(w, m)->total_impulse[k] > 0.0f;
     }
     return pushed;
 }

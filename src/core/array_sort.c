@@ -24,18 +24,20 @@ static void sort_few(fe__sort_item *items, int32_t count)
 
 static uint32_t digit_of(uint64_t key, int digit) { return (uint32_t)(key >> (DIGIT_BITS * digit)) & (VALUES - 1); }
 
-static void count_digits(const fe__sort_item *items, int32_t count, int32_t counts[DIGITS][VALUES])
+// bits that not all keys share
+static uint64_t different_bits(const fe__sort_item *items, int32_t count)
 {
-    memset(counts, 0, sizeof(int32_t) * DIGITS * VALUES);
-    for (int32_t i = 0; i < count; ++i) {
-        for (int digit = 0; digit < DIGITS; ++digit) counts[digit][digit_of(items[i].key, digit)] += 1;
-    }
+    uint64_t different = 0;
+    for (int32_t i = 1; i < count; ++i) different |= items[i].key ^ items[0].key;
+    return different;
 }
 
-// counts of one digit -> where the first item of each value goes
-static void counts_to_places(int32_t counts[VALUES])
+// where the first item of each value of a digit goes
+static void find_places(const fe__sort_item *items, int32_t count, int digit, int32_t counts[VALUES])
 {
     int32_t place = 0;
+    memset(counts, 0, sizeof(int32_t) * VALUES);
+    for (int32_t i = 0; i < count; ++i) counts[digit_of(items[i].key, digit)] += 1;
     for (int value = 0; value < VALUES; ++value) {
         int32_t n = counts[value];
         counts[value] = place;
@@ -49,14 +51,12 @@ void fe__sort_keys(fe__sort_item *items, int32_t count, fe__sort_item *scratch)
         sort_few(items, count);
         return;
     }
-    int32_t counts[DIGITS][VALUES];
-    count_digits(items, count, counts);
-
+    int32_t places[VALUES];
+    uint64_t different = different_bits(items, count);
     fe__sort_item *from = items, *to = scratch;
     for (int digit = 0; digit < DIGITS; ++digit) {
-        int32_t *places = counts[digit];
-        if (places[digit_of(from[0].key, digit)] == count) continue; // all the same here
-        counts_to_places(places);
+        if (!digit_of(different, digit)) continue;
+        find_places(from, count, digit, places);
         for (int32_t i = 0; i < count; ++i) to[places[digit_of(from[i].key, digit)]++] = from[i];
         fe__sort_item *swap = from;
         from = to;

@@ -35,7 +35,7 @@ enum {
 typedef struct chain {
     fe__solver *s;
     const fe__body *bodies;
-    const uint64_t *serials; // of the contacts, two each
+    const uint64_t *serials; // by record of the points, two each
     const fe__kernels *kernels;
     const fe__group *groups;
     int32_t group_count;
@@ -105,8 +105,8 @@ static void find_touches(chain *k, int32_t near)
 // Lanes tell nothing: which of a group's contacts is where depends on when the graph was built.
 static int32_t is_younger(const chain *k, const fe__touch *p, const fe__touch *q)
 {
-    const uint64_t *a = k->serials + 2 * (int64_t)k->s->lanes[p->lane].contact,
-                   *b = k->serials + 2 * (int64_t)k->s->lanes[q->lane].contact;
+    const uint64_t *a = k->serials + 2 * (int64_t)k->s->lanes[p->lane].points,
+                   *b = k->serials + 2 * (int64_t)k->s->lanes[q->lane].points;
     return a[0] > b[0] || (a[0] == b[0] && a[1] > b[1]);
 }
 

@@ -57,9 +57,8 @@ typedef struct job {
     fe__solver *s;
     const fe__kernels *k;
     const fe__body *bodies;
-    fe__contact *contacts;
-    const uint64_t *serials; // of the contacts, two each
-    fe__extra *extras;
+    fe__contact_arrays of;
+    const uint64_t *serials; // by record of the points, two each
     const fe__joints *joints;
     paced paces[FE__PACES];
     const fe__batch *batch; // large
@@ -268,13 +267,17 @@ static void run_trees(const job *j, const fe__group *g, verb verb, unsigned char
     const fe__tree_job trees = {.solver = j->s,
                                 .bodies = j->bodies,
                                 .lanes = &j->k->joint->locks,
-                                .forest = &j->joints->forest,
+                                .joints = j->joints,
                                 .trees = j->s->trees + g->lane,
                                 .count = g->trees,
                                 .rows = rows,
                                 .nodes = rows + g->offset,
                                 .h = (double)c->h,
-                                .rate = (double)(c->h * c->joint.bias_rate)};
+                                .rate = (double)(c->h * c->joint.bias_rate),
+                                .mean = (double)(c->inverse_h / (float)c->substeps),
+                                .warm_scale = (double)c->warm_scale,
+                                .stored = (double)c->division,
+                                .open = (double)c->open};
     const fe__forest_kernels *k = fe__forest_kernels_of(j->k, g->trees);
     if (verb == PREPARE) k->prepare(&trees);
     if (verb == RESTORE) k->restore(&trees);
@@ -282,6 +285,7 @@ static void run_trees(const job *j, const fe__group *g, verb verb, unsigned char
     if (verb == FOLLOW) k->follow(&trees);
     if (verb == RELAX) k->relax(&trees);
     if (verb == RECEIVE) k->receive(&trees);
+    if (verb == STORE) k->store(&trees);
 }
 
 // Stored impulses are those of the world's substeps
@@ -289,11 +293,11 @@ static void scale_impulses(const job *j, const fe__group *g, const fe__lane *lan
 {
     for (const fe__lane *lane = lanes, *end = lanes + rows * g->width; lane < end; ++lane) {
         if (!lane->contact) continue;
-        fe__contact *m = j->contacts + lane->contact;
-        for (int k = 0; k < FE__POINTS; ++k) m->normal_impulse[k] *= scale;
-        for (int k = 0; k < 3; ++k) m->friction_impulse[k] *= scale;
-        m->twist_impulse *= scale;
-        for (int k = 0; k < 3 && g->kind & FE__ROW_SPECIAL; ++k) j->extras[lane->contact].rolling_impulse[k] *= scale;
+        fe__points *q = j->of.points + lane->points;
+        for (int k = 0; k < FE__POINTS; ++k) q->normal_impulse[k] *= scale;
+        for (int k = 0; k < 3; ++k) q->friction_impulse[k] *= scale;
+        q->twist_impulse *= scale;
+        for (int k = 0; k < 3 && g->kind & FE__ROW_SPECIAL; ++k) j->of.extras[lane->points].rolling_impulse[k] *= scale;
     }
 }
 
@@ -313,20 +317,19 @@ static void run_rows(const job *j, const fe__group *g, verb verb, unsigned char 
     const fe__lane *lanes = j->s->lanes + g->lane + first * g->width;
     switch (verb) {
     case PREPARE:
-        k->prepare[g->kind](j->s, j->contacts, j->extras, lanes, row, count, c);
+        k->prepare[g->kind](j->s, &j->of, lanes, row, count, c);
         break;
     case SOLVE:
-        k->solve[g->kind](j->s, j->contacts, lanes, row, count, c);
+        k->solve[g->kind](j->s, &j->of, lanes, row, count, c);
         break;
     case RELAX:
-        k->relax[g->kind](j->s, j->contacts, lanes, row, count, c);
+        k->relax[g->kind](j->s, &j->of, lanes, row, count, c);
         break;
     case BOUNCE:
         k->bounce[g->kind](j->s, row, count, c);
         break;
     case STORE:
-        atomic_fetch_add_explicit(&j->s->mixed, k->store[g->kind](j->contacts, j->extras, lanes, row, count),
-                                  memory_order_relaxed);
+        atomic_fetch_add_explicit(&j->s->mixed, k->store[g->kind](&j->of, lanes, row, count), memory_order_relaxed);
         if (c->division > 1) scale_impulses(j, g, lanes, count, (float)c->division);
         break;
     case LOAD:
@@ -557,16 +560,10 @@ static void set_constants(job *j, const fe__step_constants *constants)
 }
 
 void fe__solve(fe__solver *s, const fe__kernels *kernels, const fe__workers *workers, fe__body *bodies,
-               fe__contact *contacts, const uint64_t *serials, fe__extra *extras, const fe__joints *joints,
+               const fe__contact_arrays *of, const uint64_t *serials, const fe__joints *joints,
                const fe__step_constants constants[FE__PACES])
 {
-    job j = {.s = s,
-             .k = kernels,
-             .bodies = bodies,
-             .contacts = contacts,
-             .serials = serials,
-             .extras = extras,
-             .joints = joints};
+    job j = {.s = s, .k = kernels, .bodies = bodies, .of = *of, .serials = serials, .joints = joints};
     atomic_store(&s->engaged, 0);
     if (!s->batch_count) return; // all sleep; there may be no lines at all
     set_constants(&j, constants);

@@ -176,6 +176,7 @@ typedef struct fe__batch {
 
 typedef struct fe__lane {
     int32_t contact;        // or joint. 0 is none: record 0 is zeros
+    int32_t points;         // of the contact
     int32_t line_a, line_b; // FE__STATIC_LINE for static
 } fe__lane;
 
@@ -244,9 +245,9 @@ typedef struct fe__solver {
     // Where bodies that are fast when the step begins went: `motion` after each fe__trail_stride substeps
     int16_t *trail_count;                // by line: substeps so far; FE__NO_TRAIL: a slow one
     int32_t *trail_of;                   // by line of a fast one: its trail
-    fe__motion_line (*trail)[FE__TRAIL]; // in no order that matters
+    fe__motion_line (*trail)[FE__TRAIL]; // in no order that matters; behind the rows
     _Atomic int32_t trails;              // taken in this step
-    int32_t trail_capacity[3];
+    int32_t trail_capacity[2];
 
     uint8_t *touches_of; // by line: contacts with restitution that touched in this substep, as far as two
     int32_t *touch_of;   // by line: the first of its touches in a chain
@@ -280,7 +281,8 @@ typedef struct fe__solver {
     fe__sort_item *sort_items;
     int32_t sort_capacity;
 
-    // of the large batch at hand, or one stretch of worker_row_bytes for each worker; scratch of the graph's build
+    // of the large batch at hand, or one stretch of worker_row_bytes for each worker; scratch of the graph's build, and
+    // of whoever sorts while neither builds nor solves
     fe__row_block *rows;
     int32_t row_capacity; // blocks
     int64_t worker_row_bytes;
@@ -303,11 +305,11 @@ typedef struct fe__contact_kernels {
     int32_t row_size[FE__ROW_KINDS]; // bytes of a row of W contacts
     // contacts to rows; the stored impulses go to the bodies. Rows of contacts without any are put off: solve and relax
     // prepare those that turn out to be needed
-    void (*prepare[FE__ROW_KINDS])(fe__solver *s, fe__contact *contacts, const fe__extra *extras, const fe__lane *lanes,
-                                   void *rows, int32_t count, const fe__step_constants *c);
-    void (*solve[FE__ROW_KINDS])(fe__solver *s, const fe__contact *contacts, const fe__lane *lanes, void *rows,
+    void (*prepare[FE__ROW_KINDS])(fe__solver *s, const fe__contact_arrays *of, const fe__lane *lanes, void *rows,
+                                   int32_t count, const fe__step_constants *c);
+    void (*solve[FE__ROW_KINDS])(fe__solver *s, const fe__contact_arrays *of, const fe__lane *lanes, void *rows,
                                  int32_t count, const fe__step_constants *c);
-    void (*relax[FE__ROW_KINDS])(fe__solver *s, const fe__contact *contacts, const fe__lane *lanes, void *rows,
+    void (*relax[FE__ROW_KINDS])(fe__solver *s, const fe__contact_arrays *of, const fe__lane *lanes, void *rows,
                                  int32_t count, const fe__step_constants *c);
     void (*bounce[FE__ROW_KINDS])(fe__solver *s, void *rows, int32_t count, const fe__step_constants *c);
     // touches whose bodies have another one, to `out`; `near`: contacts without impulse of bodies in a chain. `lane`:
@@ -317,7 +319,7 @@ typedef struct fe__contact_kernels {
     int32_t (*act[FE__ROW_KINDS])(fe__solver *s, void *row, uint32_t lanes, fe__touch_act act,
                                   const fe__step_constants *c); // lanes of the row
     // returns how many rows have loose contacts and others
-    int32_t (*store[FE__ROW_KINDS])(fe__contact *contacts, fe__extra *extras, const fe__lane *lanes, const void *rows,
+    int32_t (*store[FE__ROW_KINDS])(const fe__contact_arrays *of, const fe__lane *lanes, const void *rows,
                                     int32_t count);
 } fe__contact_kernels;
 
@@ -345,6 +347,7 @@ typedef struct fe__forest_kernels {
     void (*follow)(const struct fe__tree_job *job);
     void (*relax)(const struct fe__tree_job *job);
     void (*receive)(const struct fe__tree_job *job); // after the contacts' relax and bounces
+    void (*store)(const struct fe__tree_job *job);   // of ropes, whose joints have no rows
 } fe__forest_kernels;
 
 typedef struct fe__joint_kernels {
@@ -367,8 +370,9 @@ enum { FE__STAYS, FE__MOVED, FE__STAYS_APART };
 // Separations at the start of the step, of length dt, of contacts that moved little; `fall`: what gravity may add to
 // their motion in it, m. Of contact index[i], out[i] is FE__MOVED when it needs a new manifold; FE__STAYS_APART when it
 // needs none and has no points: it may move on by out_slack[i], m.
-typedef void fe__recycle_kernel(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count,
-                                float dt, float fall, uint8_t *out, float *out_slack);
+typedef void fe__recycle_kernel(const fe__contact *contacts, fe__points *points, const fe__body *bodies,
+                                const int32_t *index, int32_t count, float dt, float fall, uint8_t *out,
+                                float *out_slack);
 
 // Of the deferred pairs at `places`, those that may meet in a step of dt seconds, by the bound of deferral.h: they are
 // brought to the front in their order. Returns how many.

@@ -84,4 +84,13 @@ FE_INLINE void add_change(const fe__solver *s, const int32_t *index, const side 
     scatter_side(s->velocity, index, &now);
 }
 
+// Other workers may be at the same bodies, with the same mark
+static inline void mark_stretched_ends(fe__solver *s, int32_t line_a, int32_t line_b)
+{
+    float mark = (float)FE__STRETCHED;
+    if (line_a != FE__STATIC_LINE) __atomic_store(&s->inertia[line_a].mark, &mark, __ATOMIC_RELAXED);
+    if (line_b != FE__STATIC_LINE) __atomic_store(&s->inertia[line_b].mark, &mark, __ATOMIC_RELAXED);
+    atomic_store_explicit(&s->strained, 1, memory_order_relaxed);
+}
+
 #endif

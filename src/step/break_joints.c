@@ -12,7 +12,7 @@ static int32_t exceeds(fe_vec3 a, float most) { return most > 0.0f && fe__dot(a,
 void fe__break_joints(fe__step *step)
 {
     fe_world *w = step->world;
-    fe__sort_item *items = step->scratch->sort_items;
+    fe__sort_item *items = fe__sort_room(step);
     int32_t count = 0;
     w->joint_event_count = 0;
     if (!w->breakable_count || step->dt == 0.0f) return;

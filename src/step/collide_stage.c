@@ -47,7 +47,7 @@ static void note_result(fe__step *step, int32_t pair)
 {
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
-    w->pairs[pair].result = judge(w, pair);
+    w->pairs[pair].result = (int16_t)judge(w, pair);
     if (!(w->contacts[pair].point_count > 0.0f)) fe__defer_pair(step, pair, w->contacts[pair].surface.tolerance);
     if (w->pairs[pair].result != FE__RESULT_NONE)
         s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
@@ -58,9 +58,9 @@ static void collide_with_patches(fe__step *step, int32_t head)
 {
     fe_world *w = step->world;
     if (w->pairs[head].next_patch < 0)
-        fe__collide_pair(w, head, step->dt);
+        fe__collide_pair(step, head);
     else
-        fe__collide_field_pair(w, head, step->dt);
+        fe__collide_field_pair(step, head);
     for (int32_t pair = head; pair >= 0; pair = w->pairs[pair].next_patch) note_result(step, pair);
 }
 
@@ -71,13 +71,13 @@ static void collide_chunk(fe__step *step, int32_t *entries, int32_t count)
     int32_t heads[PAIRS_IN_BLOCK], patches[PAIRS_IN_BLOCK * (FE__PATCHES - 1)], head_count = 0, patch_count = 0,
                                                                                 again = 0;
     uint8_t verdicts[PAIRS_IN_BLOCK * (FE__PATCHES - 1)];
-    float slack[PAIRS_IN_BLOCK * (FE__PATCHES - 1)], fall = fe__fall_in_step(w, step->dt);
+    float slack[PAIRS_IN_BLOCK * (FE__PATCHES - 1)];
     for (int32_t i = 0; i < count; ++i) {
         entries[i] = fe__pair_of(entries[i]); // here none waits
         if (!(w->pairs[entries[i]].flags & FE__PAIR_PATCH)) heads[head_count++] = entries[i];
     }
     if (head_count == 0) return;
-    w->kernels->recycle(w->contacts, w->bodies, heads, head_count, step->dt, fall, verdicts, slack);
+    w->kernels->recycle(w->contacts, w->points, w->bodies, heads, head_count, step->dt, step->fall, verdicts, slack);
     for (int32_t i = 0; i < head_count; ++i) {
         if (verdicts[i] == FE__MOVED) {
             heads[again++] = heads[i];
@@ -86,7 +86,9 @@ static void collide_chunk(fe__step *step, int32_t *entries, int32_t count)
         for (int32_t patch = w->pairs[heads[i]].next_patch; patch >= 0; patch = w->pairs[patch].next_patch)
             if (w->contacts[patch].point_count > 0.0f) patches[patch_count++] = patch;
     }
-    if (patch_count) w->kernels->recycle(w->contacts, w->bodies, patches, patch_count, step->dt, fall, verdicts, slack);
+    if (patch_count)
+        w->kernels->recycle(w->contacts, w->points, w->bodies, patches, patch_count, step->dt, step->fall, verdicts,
+                            slack);
     for (int32_t i = 0; i < again; ++i) collide_with_patches(step, heads[i]);
     atomic_fetch_add_explicit(&step->scratch->recycled, head_count - again, memory_order_relaxed);
 }
@@ -100,21 +102,7 @@ static void collide_chunks(void *argument, int32_t first, int32_t end, int32_t w
 }
 
 // ---- without -------------------------------------------------------------------------------------------------------
-// Records of pairs that the narrow phase will look at lie anywhere: they are asked for while it looks at others
-FE_FETCHES fetch_pair(const fe_world *w, int32_t pair)
-{
-    const fe__pair *p = w->pairs + pair;
-    fe__fetch(w->shapes + p->shape_a, sizeof *w->shapes);
-    fe__fetch(w->shapes + p->shape_b, sizeof *w->shapes);
-    fe__fetch(w->bodies[p->body_a].centre, sizeof w->bodies->centre);
-    fe__fetch(w->bodies[p->body_b].centre, sizeof w->bodies->centre);
-    fe__fetch(w->bodies[p->body_a].velocity, sizeof w->bodies->velocity);
-    fe__fetch(w->bodies[p->body_b].velocity, sizeof w->bodies->velocity);
-    fe__tree_fetch(&w->moving_tree, p->shape_a);
-    fe__tree_fetch(&w->moving_tree, p->shape_b);
-}
-
-// Of a stretch of the list of awake pairs, those that do not wait. Writes one beyond them
+// Of a stretch of the list of awake pairs, those that do not wait. May write an entry behind them, of `count` at most
 static int32_t list_busy(const int32_t *entries, int32_t count, int32_t *out_pairs)
 {
     enum { FOUR = 4 };
@@ -135,7 +123,7 @@ static int32_t list_busy(const int32_t *entries, int32_t count, int32_t *out_pai
 }
 
 // The next awake pairs that do not wait, PAIRS_IN_CACHE at most. Moves *at behind them
-static int32_t list_next(const fe__step *step, int32_t *at, int32_t end, int32_t out_pairs[PAIRS_IN_CACHE + 1])
+static int32_t list_next(const fe__step *step, int32_t *at, int32_t end, int32_t out_pairs[PAIRS_IN_CACHE])
 {
     int32_t count = 0;
     for (int32_t stretch; *at < end && count <= PAIRS_IN_CACHE - PAIRS_IN_BLOCK; *at += stretch) {
@@ -147,16 +135,17 @@ static int32_t list_next(const fe__step *step, int32_t *at, int32_t end, int32_t
 
 static void collide_each(fe__step *step, const int32_t *pairs, int32_t count)
 {
-    enum { AHEAD = 2 };
-    for (int32_t i = -AHEAD; i < count; ++i) {
-        if (i + AHEAD < count) fetch_pair(step->world, pairs[i + AHEAD]);
+    enum { OWN_AHEAD = 8, NAMED_AHEAD = 3 };
+    for (int32_t i = -OWN_AHEAD; i < count; ++i) {
+        if (i + OWN_AHEAD < count) fe__fetch_own(step->world, pairs[i + OWN_AHEAD]);
+        if (i >= -NAMED_AHEAD && i + NAMED_AHEAD < count) fe__fetch_named(step->world, pairs[i + NAMED_AHEAD]);
         if (i < 0) continue;
-        fe__collide_pair(step->world, pairs[i], step->dt);
+        fe__collide_pair(step, pairs[i]);
         note_result(step, pairs[i]);
     }
 }
 
-// Pairs whose deferral ends: recycling has had its say when they were found, see due.c
+// Pairs whose deferral ends: recycling has had its say when they were found, and most of them meet, see due.c
 static void collide_due(void *argument, int32_t first, int32_t end, int32_t worker)
 {
     const collide_job *job = argument;
@@ -180,8 +169,8 @@ static int32_t collide_some(fe__step *step, const int32_t *pairs, int32_t count)
     fe_world *w = step->world;
     int32_t again[PAIRS_IN_CACHE], left = 0;
     uint8_t verdicts[PAIRS_IN_CACHE];
-    float slack[PAIRS_IN_CACHE], fall = fe__fall_in_step(w, step->dt);
-    w->kernels->recycle(w->contacts, w->bodies, pairs, count, step->dt, fall, verdicts, slack);
+    float slack[PAIRS_IN_CACHE];
+    w->kernels->recycle(w->contacts, w->points, w->bodies, pairs, count, step->dt, step->fall, verdicts, slack);
     for (int32_t i = 0; i < count; ++i) {
         int32_t pair = pairs[i], next = fe__mini(i + FETCHED_AHEAD, count - 1);
         if (verdicts[next] != FE__STAYS) fe__fetch(w->pairs + pairs[next], sizeof *w->pairs);
@@ -200,8 +189,8 @@ static void collide_block(void *argument, int32_t first, int32_t end, int32_t wo
 {
     const collide_job *job = argument;
     const fe__step_scratch *s = job->step->scratch;
-    int32_t list[PAIRS_IN_CACHE + 1], again = 0,
-                                      some_deferred = atomic_load_explicit(&s->some_deferred, memory_order_relaxed);
+    int32_t list[PAIRS_IN_CACHE], again = 0,
+                                  some_deferred = atomic_load_explicit(&s->some_deferred, memory_order_relaxed);
     (void)worker;
     for (int32_t i = job->first + first, stop = job->first + end; i < stop;) {
         const int32_t *pairs = job->step->world->awake_pairs + i;
@@ -220,10 +209,10 @@ static void collide_block(void *argument, int32_t first, int32_t end, int32_t wo
 static void sort_pairs(fe__step *step, int32_t *pairs, int32_t count)
 {
     const fe_world *w = step->world;
-    fe__sort_item *items = step->scratch->sort_items;
-    for (int32_t i = 0; i < count; ++i) items[i] = (fe__sort_item){w->pair_serials[2 * pairs[i] + 1], pairs[i], 0};
+    fe__sort_item *items = fe__sort_room(step);
+    for (int32_t i = 0; i < count; ++i) items[i] = (fe__sort_item){fe__pair_serial(w, pairs[i], 1), pairs[i], 0};
     fe__sort_keys(items, count, items + count);
-    for (int32_t i = 0; i < count; ++i) items[i].key = w->pair_serials[2 * items[i].value];
+    for (int32_t i = 0; i < count; ++i) items[i].key = fe__pair_serial(w, items[i].value, 0);
     fe__sort_keys(items, count, items + count);
     for (int32_t i = 0; i < count; ++i) pairs[i] = items[i].value;
 }
@@ -264,7 +253,7 @@ void fe__update_contacts(fe__step *step)
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     atomic_store(&s->result_count, 0);
-    atomic_store(&s->recycled, 0);
+    atomic_store(&s->recycled, -atomic_load(&s->apart_count));
     // what wakes brings its pairs: they are looked at in another round
     int32_t due = w->field_pair_count ? 0 : atomic_load(&s->due_count); // with heightfields all are recycled
     for (int32_t first = 0; first < w->awake_pair_count; due = 0) {
@@ -310,7 +299,8 @@ void fe__build_islands(fe__step *step)
     const int32_t *contacts = fe__busy_pairs(step, &contact_count);
     const fe__graph_input in = {.bodies = w->bodies,
                                 .contacts = w->contacts,
-                                .serials = w->pair_serials,
+                                .points = w->points,
+                                .serials = w->point_serials,
                                 .awake_bodies = w->awake_bodies,
                                 .body_count = w->awake_body_count,
                                 .awake_contacts = contacts,

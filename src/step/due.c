@@ -1,10 +1,38 @@
-// due.c - see due.h. Where the bound of deferral.h does not decide, the exact test of recycle.simd.c does. Only a pair
-// that may get points is looked at: all others take no row, and no memory is reserved for it.
+// due.c - see due.h. Where the bound of deferral.h does not decide, the exact test of recycle.simd.c does, and where
+// that does not, the narrow phase. Most pairs that it looks at are still apart: they wait on, from where they are now,
+// and no row and no points are reserved for them. So a step that finds no memory for the others may have looked: what
+// it wrote is what the same step writes when it is repeated, or would have asked once more. The narrow phase of those
+// that meet comes in its own stage, where there is room for what it finds.
 #include "step/due.h"
 
 #include "step/narrow.h"
+#include "world/proxies.h"
 
 enum { PAIRS_IN_BLOCK = 256 };
+
+// What left its partner's box is for the collide stage, which ends it
+static int32_t waits_on(const fe__step *step, int32_t pair)
+{
+    fe_world *w = step->world;
+    if (fe__boxes_part(w, w->pairs + pair) || !fe__collide_apart(step, pair)) return 0;
+    fe__defer(w->deferrals + w->pairs[pair].awake_index, w->odometers, w->bodies, w->contacts + pair,
+              w->contacts[pair].surface.tolerance);
+    return 1;
+}
+
+// Of so many pairs, those that meet in this step, or end: brings them to the front, and returns how many
+static int32_t keep_meeting(const fe__step *step, int32_t *pairs, int32_t count)
+{
+    enum { OWN_AHEAD = 8, NAMED_AHEAD = 3 };
+    const fe_world *w = step->world;
+    int32_t left = 0;
+    for (int32_t i = -OWN_AHEAD; i < count; ++i) {
+        if (i + OWN_AHEAD < count) fe__fetch_own(w, pairs[i + OWN_AHEAD]);
+        if (i >= -NAMED_AHEAD && i + NAMED_AHEAD < count) fe__fetch_named(w, pairs[i + NAMED_AHEAD]);
+        if (i >= 0 && !waits_on(step, pairs[i])) pairs[left++] = pairs[i];
+    }
+    return left;
+}
 
 // Of places in the list of awake pairs, those whose pair may get points in this step: puts the pairs there, and returns
 // how many. The others wait until their bodies may have moved by what is left of the gap
@@ -15,7 +43,7 @@ static int32_t keep_due(const fe__step *step, int32_t *places, int32_t count)
     uint8_t verdicts[PAIRS_IN_BLOCK];
     float slack[PAIRS_IN_BLOCK];
     for (int32_t i = 0; i < count; ++i) pairs[i] = fe__pair_of(w->awake_pairs[places[i]]);
-    w->kernels->recycle(w->contacts, w->bodies, pairs, count, step->dt, fe__fall_in_step(w, step->dt), verdicts, slack);
+    w->kernels->recycle(w->contacts, w->points, w->bodies, pairs, count, step->dt, step->fall, verdicts, slack);
     for (int32_t i = 0; i < count; ++i) {
         if (verdicts[i] == FE__STAYS_APART)
             fe__defer(w->deferrals + places[i], w->odometers, w->bodies, w->contacts + pairs[i], slack[i]);
@@ -41,6 +69,9 @@ static void find_in_block(void *argument, int32_t first, int32_t end, int32_t wo
         waiting += count;
         if (count) left = w->kernels->keep_due(w->deferrals, w->odometers, due, count, step->dt);
         if (left) left = keep_due(step, due, left);
+        int32_t looked = left;
+        if (left) left = keep_meeting(step, due, left);
+        atomic_fetch_add_explicit(&s->apart_count, looked - left, memory_order_relaxed);
         if (!left) continue;
         int32_t at = atomic_fetch_add_explicit(&s->due_count, left, memory_order_relaxed);
         for (int32_t i = 0; i < left; ++i) s->busy[at + i] = due[i];
@@ -55,6 +86,7 @@ int32_t fe__find_due(fe__step *step)
     fe__step_scratch *s = step->scratch;
     atomic_store(&s->due_count, 0);
     atomic_store(&s->waiting_count, 0);
+    atomic_store(&s->apart_count, 0);
     // with heightfields none waits, see collide_stage.c
     if (w->field_pair_count || !atomic_load(&s->some_deferred)) return 1;
     if (!FE_RESERVE(&w->memory, s->busy, s->busy_capacity, w->awake_pair_count)) return 0;

@@ -11,19 +11,14 @@
 #include "world/material.h"
 #include "world/pairs.h"
 
-static fe__pair_event_record record_of(const fe_world *w, int32_t pair, int32_t kind)
-{
-    return (fe__pair_event_record){w->pair_serials[2 * pair], w->pair_serials[2 * pair + 1],
-                                   fe__pair_event_of(w, pair, kind)};
-}
-
 static int32_t touches(const fe_world *w, int32_t head)
 {
     int32_t sensor = (w->pairs[head].flags & FE__PAIR_SENSOR) != 0;
     for (int32_t pair = head; pair >= 0; pair = w->pairs[pair].next_patch) {
         const fe__contact *m = w->contacts + pair;
+        const fe__points *q = fe__points_of(w, m);
         for (int32_t i = 0; i < (int32_t)m->point_count; ++i)
-            if (m->separation[i] <= 0.0f || (!sensor && m->total_impulse[i] > 0.0f)) return 1;
+            if (q->separation[i] <= 0.0f || (!sensor && q->total_impulse[i] > 0.0f)) return 1;
     }
     return 0;
 }
@@ -39,10 +34,11 @@ static impact impact_of(const fe_world *w, int32_t head)
     impact sum = {.pair = head};
     for (int32_t pair = head; pair >= 0; pair = w->pairs[pair].next_patch) {
         const fe__contact *m = w->contacts + pair;
-        if (m->point_count > 0.0f) sum.approach = fe__maxf(sum.approach, w->pairs[pair].approach);
+        const fe__points *q = fe__points_of(w, m);
+        if (m->point_count > 0.0f) sum.approach = fe__maxf(sum.approach, w->features[m->points].approach);
         for (int32_t i = 0; i < (int32_t)m->point_count; ++i) {
-            sum.impulse += m->total_impulse[i];
-            if (m->total_impulse[i] > sum.largest) sum.largest = m->total_impulse[i], sum.pair = pair, sum.point = i;
+            sum.impulse += q->total_impulse[i];
+            if (q->total_impulse[i] > sum.largest) sum.largest = q->total_impulse[i], sum.pair = pair, sum.point = i;
         }
     }
     return sum;
@@ -56,10 +52,10 @@ static void add_hit(fe_world *w, int32_t pair)
     if (sum.approach < w->tuning.hit_event_threshold || sum.impulse <= 0.0f) return;
     const fe__contact *m = w->contacts + sum.pair;
     float sign = p->flags & FE__PAIR_FLIPPED ? -1.0f : 1.0f;
-    fe_pair_event e = fe__pair_event_of(w, pair, FE_EVENT_ENTER);
+    fe__pair_event_record e = fe__pair_event_of(w, pair, FE_EVENT_ENTER);
     fe__hit_event_record *r = w->hit_events + w->hit_event_count++;
-    *r = (fe__hit_event_record){w->pair_serials[2 * pair],
-                                w->pair_serials[2 * pair + 1],
+    *r = (fe__hit_event_record){e.serial_a,
+                                e.serial_b,
                                 {.body_a = e.body_a,
                                  .body_b = e.body_b,
                                  .shape_a = e.shape_a,
@@ -72,8 +68,8 @@ static void add_hit(fe_world *w, int32_t pair)
                                  .impulse = sum.impulse,
                                  .part_a = -1,
                                  .part_b = -1,
-                                 .triangle_a = e.triangle_a,
-                                 .triangle_b = e.triangle_b}};
+                                 .triangle_a = e.field_a ? e.triangle : -1,
+                                 .triangle_b = e.field_a ? -1 : e.triangle}};
 }
 
 // ---- looking, on any thread: pairs that have something to report go to the list of results -------------------------
@@ -81,10 +77,9 @@ enum { PAIRS_IN_BLOCK = 256, AHEAD = 16 }; // AHEAD: records come from memory wh
 
 FE_FETCHES fetch_ahead(const fe_world *w, const int32_t *pairs, int32_t i, int32_t end)
 {
-    if (i + 2 * AHEAD < end) __builtin_prefetch(&w->pairs[pairs[i + 2 * AHEAD]].flags);
-    if (i + AHEAD >= end || !(w->pairs[pairs[i + AHEAD]].flags & FE__PAIR_MAY_REPORT)) return;
-    __builtin_prefetch(w->contacts[pairs[i + AHEAD]].separation);
-    __builtin_prefetch(w->contacts[pairs[i + AHEAD]].total_impulse);
+    if (i + 3 * AHEAD < end) __builtin_prefetch(&w->pairs[pairs[i + 3 * AHEAD]].flags);
+    if (i + 2 * AHEAD < end) fe__fetch(w->contacts + pairs[i + 2 * AHEAD], sizeof *w->contacts);
+    if (i + AHEAD < end) __builtin_prefetch(w->points + w->contacts[pairs[i + AHEAD]].points);
 }
 
 typedef struct look_job {
@@ -109,7 +104,7 @@ static void look_block(void *argument, int32_t first, int32_t end, int32_t worke
         int32_t before = (p->flags & FE__PAIR_TOUCHING) != 0, reports = now != before;
         if (now && before) reports = (p->events & (FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT)) != 0;
         reports |= (p->flags & FE__PAIR_ONCE) != 0;
-        p->result = now ? (before ? FE_EVENT_STAY : FE_EVENT_ENTER) : FE_EVENT_EXIT;
+        p->result = now ? (int16_t)(before ? FE_EVENT_STAY : FE_EVENT_ENTER) : (int16_t)FE_EVENT_EXIT;
         if (reports) s->results[atomic_fetch_add_explicit(&s->result_count, 1, memory_order_relaxed)] = pair;
     }
 }
@@ -135,14 +130,14 @@ static void report(fe__step *step, int32_t pair)
         p->flags |= FE__PAIR_TOUCHING;
     if (kind != FE_EVENT_EXIT && !(p->flags & FE__PAIR_SENSOR)) add_hit(w, pair);
     if (p->events & (kind == FE_EVENT_STAY ? (uint32_t)FE_SHAPE_EVENTS_STAY : (uint32_t)FE_SHAPE_EVENTS_TOUCH))
-        w->pair_events[w->pair_event_count++] = record_of(w, pair, kind);
+        w->pair_events[w->pair_event_count++] = fe__pair_event_of(w, pair, kind);
 }
 
 // ---- order ---------------------------------------------------------------------------------------------------------
 // Stable sorts by B, then by A. The records are moved once, along the cycles of the permutation.
 static void sort_records(fe__step *step, unsigned char *records, int32_t count, size_t size)
 {
-    fe__sort_item *items = step->scratch->sort_items;
+    fe__sort_item *items = fe__sort_room(step);
     for (int32_t key = 1; key >= 0; --key) {
         for (int32_t i = 0; i < count; ++i) {
             if (key) items[i].value = i;
@@ -189,7 +184,7 @@ void fe__collect_events(fe__step *step)
 void fe__collect_body_events(fe__step *step)
 {
     fe_world *w = step->world;
-    fe__sort_item *items = step->scratch->sort_items;
+    fe__sort_item *items = fe__sort_room(step);
     int32_t count = 0;
     for (int32_t i = 0; i < w->disturbed_count; ++i) {
         int32_t index = w->disturbed[i];

@@ -201,7 +201,7 @@ static void box_block(void *argument, int32_t first, int32_t end, int32_t worker
     const fe__step *step = argument;
     (void)worker;
     for (int32_t i = first; i < end; ++i)
-        step->scratch->boxes[i] = fe__shape_fat_bounds(step->world, step->scratch->left[i]);
+        fe__box_room(step)[i] = fe__shape_fat_bounds(step->world, step->scratch->left[i]);
 }
 
 void fe__move_bodies(fe__step *step)
@@ -217,7 +217,7 @@ void fe__move_bodies(fe__step *step)
     if (atomic_load(&s->some_leapt)) end_deferrals(w);
     int32_t left = atomic_load(&s->left_count);
     fe__parallel_for(&w->workers, left, BOXES_IN_BLOCK, box_block, step);
-    if (left) fe__tree_move(&w->moving_tree, s->left, s->boxes, left);
+    if (left) fe__tree_move(&w->moving_tree, s->left, fe__box_room(step), left);
     for (int32_t i = 0; i < left; ++i) fe__shape_mark_moved(w, s->left[i]);
 }
 
@@ -269,6 +269,10 @@ void fe__put_islands_to_sleep(fe__step *step)
         if (body->type == FE_BODY_DYNAMIC ? may_sleep(w, timers[body->island]) : stands_still(body))
             fe__body_fall_asleep(w, index);
     }
-    // a sleeping world keeps no rows
+}
+
+void fe__give_back_rows(fe__step *step)
+{
+    fe_world *w = step->world;
     if (!w->awake_body_count && w->solver.line_capacity[0] > KEPT_LINES) fe__solver_destroy(&w->solver, &w->memory);
 }

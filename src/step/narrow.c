@@ -2,12 +2,15 @@
 //
 // Called by the collide stage on any thread, for pairs that cannot be recycled. Double positions are subtracted here,
 // so that everything below is float and small. Only the pair's own records are written.
+#define FE_W 4
 #include "step/narrow.h"
 
 #include "collision/form/support.h"
 #include "collision/manifold/collide.h"
+#include "core/simd.h"
 #include "step/ahead.h"
 #include "step/narrow_seam.h"
+#include "world/points.h"
 #include "world/pose.h"
 
 #include <string.h>
@@ -55,23 +58,20 @@ static void set_view(fe__view *v, const fe__shape *a, const fe__shape *b, const 
 // Contacts are made once per step. What will touch only later in the step needs its contact now, or it would be found a
 // step late, up to v dt deep.
 
-float fe__fall_in_step(const fe_world *world, float dt) { return fe__length(world->gravity) * dt * dt; }
-
 // speed = |v| + |w| reach; as in recycle.simd.c
 static float speed_by_spin(const fe__body *body) { return body->speed - fe__length(fe__quad_vector(body->velocity)); }
 
-float fe__reach_in_step(const fe_world *world, const fe__body *a, const fe__body *b, float dt)
+float fe__reach_in_step(const fe__step *step, const fe__body *a, const fe__body *b)
 {
     fe_vec3 v = fe__sub(fe__quad_vector(a->velocity), fe__quad_vector(b->velocity));
-    return (fe__length(v) + speed_by_spin(a) + speed_by_spin(b)) * dt + fe__fall_in_step(world, dt);
+    return (fe__length(v) + speed_by_spin(a) + speed_by_spin(b)) * step->dt + step->fall;
 }
 
 // The same along the normal from the solver's A to its B: while a gap along it stays open, they cannot touch
-static float reach_along(const fe_world *world, const fe__body *a, const fe__body *b, fe_vec3 normal, float dt)
+static float reach_along(const fe__step *step, const fe__body *a, const fe__body *b, fe_vec3 normal)
 {
     fe_vec3 v = fe__sub(fe__quad_vector(a->velocity), fe__quad_vector(b->velocity));
-    return (fe__maxf(fe__dot(normal, v), 0.0f) + speed_by_spin(a) + speed_by_spin(b)) * dt +
-           fe__fall_in_step(world, dt);
+    return (fe__maxf(fe__dot(normal, v), 0.0f) + speed_by_spin(a) + speed_by_spin(b)) * step->dt + step->fall;
 }
 
 typedef struct prediction {
@@ -91,9 +91,9 @@ static void predict_there(const fe_world *world, const fe__contact *m, const fe_
     fe__pose pose_b = a_is_b ? fe__shape_pose_at(a, v->b, at->centre_a, at->rotation_a)
                              : fe__shape_pose_at(b, v->b, at->centre_b, at->rotation_b);
     set_view(&out->v, v->a, v->b, &pose_a, &pose_b);
-    out->found = (fe__manifold){.axis = -1};
+    out->found.axis = -1, out->found.axis_separation = 0.0f, out->found.count = 0; // its points stay unwritten
     fe__collide(&out->v.form_a, &v->b->form, &out->v.relative, world->tuning.speculative_distance, &out->found);
-    fe__mend_seam(world, &out->v, world->tuning.speculative_distance, &out->found);
+    if (a->type == FE_BODY_STATIC) fe__mend_seam(world, &out->v, world->tuning.speculative_distance, &out->found);
 }
 
 static void predict(const fe_world *world, const fe__contact *m, const fe__view *v, float time, prediction *out)
@@ -146,15 +146,15 @@ static int32_t look_far_ahead(const fe_world *world, const fe__contact *m, float
 static void copy4(float *out, fe_quat q) { out[0] = q.x, out[1] = q.y, out[2] = q.z, out[3] = q.w; }
 
 // impulses stay with the features that meet
-static void match_impulses(fe__pair *p, fe__contact *m, const fe__manifold *found)
+static void match_impulses(fe__points *q, fe__features *features, int old_count, const fe__manifold *found)
 {
     float old[FE__POINTS];
-    memcpy(old, m->normal_impulse, sizeof old);
-    for (int i = 0; i < FE__POINTS; ++i) m->normal_impulse[i] = 0.0f;
+    memcpy(old, q->normal_impulse, sizeof old);
+    for (int i = 0; i < FE__POINTS; ++i) q->normal_impulse[i] = 0.0f;
     for (int i = 0; i < found->count; ++i)
-        for (int j = 0; j < (int)m->point_count; ++j)
-            if (p->ids[j] == found->points[i].id) m->normal_impulse[i] = old[j];
-    for (int i = 0; i < found->count; ++i) p->ids[i] = found->points[i].id;
+        for (int j = 0; j < old_count; ++j)
+            if (features->ids[j] == found->points[i].id) q->normal_impulse[i] = old[j];
+    for (int i = 0; i < found->count; ++i) features->ids[i] = found->points[i].id;
 }
 
 static void note_poses(fe__contact *m, const fe__places *at, const fe__body *a, const fe__body *b)
@@ -169,36 +169,58 @@ static void note_poses(fe__contact *m, const fe__places *at, const fe__body *a, 
     fe__copy3(m->span, a->type == FE_BODY_STATIC ? fe__vec3(0.0f, 0.0f, 0.0f) : arms);
 }
 
+// ---- points: a lane each -------------------------------------------------------------------------------------------
+typedef float loose_quad __attribute__((vector_size(16), aligned(4), may_alias));
+_Static_assert(offsetof(fe__manifold_point, separation) == offsetof(fe__manifold_point, point) + 12,
+               "a point and its separation are loaded as one");
+_Static_assert((int)FE_W == (int)FE__POINTS && (int)FE_W == (int)FE_MAX_POINTS, "a lane for each point");
+
+static inline wide3 spread(fe_vec3 a) { return (wide3){w_set(a.x), w_set(a.y), w_set(a.z)}; }
+static inline wide keep(wide_mask lanes, wide a) { return (wide)((wide_int)lanes & (wide_int)a); } // others are 0
+static inline wide3 keep3(wide_mask lanes, wide3 a)
+{
+    return (wide3){keep(lanes, a.x), keep(lanes, a.y), keep(lanes, a.z)};
+}
+static inline wide3 turn(const fe__mat3 *m, wide3 a)
+{
+    return w_add_scaled(w_add_scaled(w_scale(a.x, spread(m->x)), a.y, spread(m->y)), a.z, spread(m->z));
+}
+// of one or more; the others are the first again
+static inline wide4 load_points(const fe__manifold *found)
+{
+    const fe__manifold_point *p = found->points;
+    const loose_quad *first = (const loose_quad *)p, *second = (const loose_quad *)(found->count > 1 ? p + 1 : p),
+                     *third = (const loose_quad *)(found->count > 2 ? p + 2 : p),
+                     *fourth = (const loose_quad *)(found->count > 3 ? p + 3 : p);
+    return w_transpose(*first, *second, *third, *fourth);
+}
+static inline float greatest(wide a) { return fe__maxf(fe__maxf(a[0], a[1]), fe__maxf(a[2], a[3])); }
+
 // points from A's frame to arms: from the centre of the solver's A, or of B when A is static (its centre may be far)
-static void set_points(fe__contact *m, const fe__view *v, const fe__places *at, const fe__manifold *found,
-                       const fe__body *a)
+static void set_points(fe__contact *m, fe__points *q, const fe__view *v, const fe__places *at,
+                       const fe__manifold *found, const fe__body *a)
 {
     int32_t is_static = a->type == FE_BODY_STATIC;
-    fe_vec3 base = fe__narrow(fe__dsub(v->origin, is_static ? at->centre_b : at->centre_a)), zero = {0.0f, 0.0f, 0.0f};
-    fe_vec3 span = is_static ? zero : fe__quad_vector(m->found_span);
-    float reach = 0.0f;
-    for (int i = 0; i < FE__POINTS; ++i) {
-        int there = i < found->count;
-        fe_vec3 arm = there ? fe__add(base, fe__mul(&v->rotation, found->points[i].point)) : zero,
-                arm_b = fe__add(arm, span);
-        fe__copy3(m->point[i].arm, arm);
-        m->point[i].separation = m->separation[i] = there ? found->points[i].separation : 0.0f;
-        reach = fe__maxf(reach, fe__maxf(fe__dot(arm, arm), fe__dot(arm_b, arm_b)));
-        if (!there) continue;
-        // of a round side it is the core that rotates
-        fe_vec3 n = fe__quad_vector(m->normal), core_a = fe__add_scaled(arm, -m->surface.radius_a, n),
-                core_b = fe__add_scaled(arm_b, m->surface.radius_b, n);
-        reach = fe__maxf(reach, fe__maxf(fe__dot(core_a, core_a), fe__dot(core_b, core_b)));
-    }
-    m->longest_arm = sqrtf(reach);
+    wide3 base = spread(fe__narrow(fe__dsub(v->origin, is_static ? at->centre_b : at->centre_a)));
+    wide3 span = is_static ? w_zero3() : spread(fe__quad_vector(m->found_span));
+    wide_mask there = (wide_int){0, 1, 2, 3} < found->count;
+    wide4 point = load_points(found);
+    wide3 arm = keep3(there, w_add(base, turn(&v->rotation, w_xyz(point)))), arm_b = w_add(arm, span);
+    // of a round side it is the core that rotates
+    wide3 n = spread(fe__quad_vector(m->normal)), core_a = w_add_scaled(arm, w_set(-m->surface.radius_a), n),
+          core_b = w_add_scaled(arm_b, w_set(m->surface.radius_b), n);
+    wide surfaces = w_max(w_dot(arm, arm), w_dot(arm_b, arm_b)),
+         cores = w_max(w_dot(core_a, core_a), w_dot(core_b, core_b));
+    wide separation = keep(there, point.w);
+    *(quad *)q->separation = separation;
+    w_scatter(q->point[0].arm, sizeof *q->point / sizeof(float), w_in_order, w_with(arm, separation));
+    m->longest_arm = sqrtf(greatest(w_max(surfaces, keep(there, cores))));
 }
 
-static void set_no_points(fe__contact *m, const fe__body *a, const fe__body *b)
+// A record that it has is zeros until it is released
+static void set_no_points(fe__contact *m, fe__points *q, const fe__body *a, const fe__body *b)
 {
-    for (int i = 0; i < FE__POINTS; ++i) {
-        m->separation[i] = 0.0f;
-        m->point[i] = (fe__contact_arm){{0.0f, 0.0f, 0.0f}, 0.0f};
-    }
+    if (m->points) *q = (fe__points){.twist_impulse = 0.0f};
     for (int k = 0; k < 3; ++k) m->normal[k] = 0.0f;
     m->point_count = 0.0f;
     m->longest_arm = fe__maxf(a->reach, b->reach); // whatever part of the bodies may come near
@@ -206,7 +228,7 @@ static void set_no_points(fe__contact *m, const fe__body *a, const fe__body *b)
 
 // Separations now of a manifold found ahead of time, along its normal: as in recycle.simd.c. Its arms stay those of the
 // touch, and the turns from there to now take the place of the rotations.
-static void step_back(fe__contact *m, const fe__places *at, const fe__body *a, const fe__body *b)
+static void step_back(fe__contact *m, fe__points *q, const fe__places *at, const fe__body *a, const fe__body *b)
 {
     fe_quat turn_a = fe__product(fe__rotation_of(a), fe__conjugate(at->rotation_a)),
             turn_b = fe__product(fe__rotation_of(b), fe__conjugate(at->rotation_b));
@@ -220,7 +242,7 @@ static void step_back(fe__contact *m, const fe__places *at, const fe__body *a, c
     float constant = fe__dot(n, fe__narrow(fe__dsub(now, then))) + fe__dot(nb, span) +
                      m->surface.radius_a * fe__dot(na, n) + m->surface.radius_b * fe__dot(nb, n);
     for (int i = 0; i < (int)m->point_count; ++i)
-        m->separation[i] = m->point[i].separation + constant + fe__dot(slope, fe__quad_vector(m->point[i].arm));
+        q->separation[i] = q->point[i].separation + constant + fe__dot(slope, fe__quad_vector(q->point[i].arm));
 }
 
 float fe__recycle_tolerance(const fe__view *v)
@@ -253,14 +275,15 @@ void fe__write_manifold(const fe_world *world, fe__contact *m, const fe__view *v
                         const fe__manifold *found, int32_t ahead)
 {
     const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
+    fe__points *q = fe__points_of(world, m);
     note_poses(m, at, a, b);
     if (!found->count) {
-        set_no_points(m, a, b);
+        set_no_points(m, q, a, b);
         return;
     }
     write_contact(m, v, found, m->body_a != v->a->body);
-    set_points(m, v, at, found, a);
-    if (ahead) step_back(m, at, a, b);
+    set_points(m, q, v, at, found, a);
+    if (ahead) step_back(m, q, at, a, b);
 }
 
 // A gap between two shapes without points: of two planes with this normal that have the shapes beyond them; without a
@@ -283,26 +306,18 @@ static gap gap_of(const fe__view *v, const fe__manifold *found)
 }
 
 // without points: not looked at again until the bodies may have closed `slack` of their gap
-static void write_apart(fe__pair *p, fe__contact *m, const fe__view *v, const fe__places *at, const fe__body *a,
-                        const fe__body *b, float slack, fe_vec3 normal)
+static void write_apart(fe__pair *p, fe__contact *m, fe__points *q, const fe__view *v, const fe__places *at,
+                        const fe__body *a, const fe__body *b, float slack, fe_vec3 normal)
 {
     int32_t a_is_b = m->body_a != v->a->body;
-    fe__contact_forget_impulses(m);
     p->axis = -1; // a kernel's memory begins with the first points, whenever the pair was made: unrelated bodies must
                   // not matter
     m->surface.tolerance = slack;
     note_poses(m, at, a, b);
-    set_no_points(m, a, b);
+    set_no_points(m, q, a, b);
     fe__copy3(m->normal, normal);
     // what turns the core turns the round layer about it nowhere else
     m->surface.radius_a = (a_is_b ? v->b : v->a)->arm, m->surface.radius_b = (a_is_b ? v->a : v->b)->arm;
-}
-
-static int32_t is_near(const fe__manifold *found, float distance)
-{
-    for (int32_t i = 0; i < found->count; ++i)
-        if (found->points[i].separation <= distance) return 1;
-    return 0;
 }
 
 // ---- one-way shapes ------------------------------------------------------------------------------------------------
@@ -336,50 +351,82 @@ static int32_t passes(fe__pair *p, const fe__view *v, const fe__manifold *found)
 }
 
 // some way off now, but closing within the step: the normal may turn on that way
-static int32_t may_touch_from_afar(const fe_world *world, const fe__pair *p, const fe__contact *m, const fe__view *v,
-                                   const fe__manifold *found, float dt)
+static int32_t may_touch_from_afar(const fe__step *step, const fe__pair *p, const fe__contact *m, const fe__view *v,
+                                   const fe__manifold *found)
 {
+    const fe__body *bodies = step->world->bodies;
     if (!found->count || p->flags & FE__PAIR_SENSOR) return 0;
     float gap = deepest_of(found);
     if (gap <= FE__TURNS_LITTLE) return 0;
     fe_vec3 normal = solvers_normal(m, v, found->normal);
-    return gap <= reach_along(world, world->bodies + m->body_a, world->bodies + m->body_b, normal, dt);
+    return gap <= reach_along(step, bodies + m->body_a, bodies + m->body_b, normal);
 }
 
-void fe__collide_pair(fe_world *world, int32_t pair, float dt)
+// Against what is static or kinematic, its thickness or the other's
+static int32_t may_outrun(const fe__body *a, const fe__shape *x, const fe__shape *y, float reach)
 {
+    return a->type != FE_BODY_DYNAMIC && reach > fe__minf(fe__form_thickness(&x->form), fe__form_thickness(&y->form));
+}
+
+// 1: done. 0: it has points, which it was not to write
+static int32_t collide(const fe__step *step, int32_t pair, int32_t writes_points)
+{
+    fe_world *world = step->world;
     fe__pair *p = world->pairs + pair;
     fe__contact *m = world->contacts + pair;
     const fe__body *a = world->bodies + m->body_a, *b = world->bodies + m->body_b;
     const fe__shape *x = world->shapes + p->shape_a, *y = world->shapes + p->shape_b;
-    float margin = world->tuning.speculative_distance, reach = fe__reach_in_step(world, a, b, dt);
+    float margin = world->tuning.speculative_distance, reach = fe__reach_in_step(step, a, b);
     fe__places at = {fe__centre_of(a), fe__centre_of(b), fe__rotation_of(a), fe__rotation_of(b)};
     fe__view v;
+    int32_t ahead = 0;
     if (p->flags & FE__PAIR_SWAPPED)
         set_view(&v, y, x, &y->pose, &x->pose);
     else
         set_view(&v, x, y, &x->pose, &y->pose);
-    fe__manifold found = {.axis = p->axis, .axis_separation = p->axis_separation, .count = (int32_t)m->point_count};
+    fe__manifold found; // its points stay unwritten
+    found.axis = p->axis, found.axis_separation = p->axis_separation, found.count = (int32_t)m->point_count;
     fe__collide(&v.form_a, &v.b->form, &v.relative, fe__maxf(margin, reach), &found);
-    fe__mend_seam(world, &v, fe__maxf(margin, reach), &found);
-    p->axis = found.axis, p->axis_separation = found.axis_separation;
+    if (a->type == FE_BODY_STATIC) fe__mend_seam(world, &v, fe__maxf(margin, reach), &found);
+    int32_t axis = found.axis;
+    float axis_separation = found.axis_separation;
     if (p->flags & FE__PAIR_DENIED || passes(p, &v, &found)) {
-        write_apart(p, m, &v, &at, a, b, 0.0f, fe__vec3(0.0f, 0.0f, 0.0f));
-        return;
+        p->axis_separation = axis_separation;
+        write_apart(p, m, fe__points_of(world, m), &v, &at, a, b, 0.0f, fe__vec3(0.0f, 0.0f, 0.0f));
+        return 1;
     }
 
-    int32_t near = is_near(&found, margin), ahead = may_touch_from_afar(world, p, m, &v, &found, dt);
-    int32_t fast =
-        reach > fe__minf(fe__form_thickness(&x->form), fe__form_thickness(&y->form)) && a->type != FE_BODY_DYNAMIC;
-    if (ahead) ahead = (fast ? look_far_ahead : look_ahead)(world, m, dt, &v, &at, &found);
+    int32_t near = found.count && deepest_of(&found) <= margin;
+    if (near && !writes_points) return 0;
+    if (may_touch_from_afar(step, p, m, &v, &found)) {
+        int32_t fast = may_outrun(a, x, y, reach);
+        if (fast && !writes_points) return 0;
+        ahead = (fast ? look_far_ahead : look_ahead)(world, m, step->dt, &v, &at, &found);
+    }
+    if (ahead && !writes_points) return 0;
+    p->axis_separation = axis_separation;
     if (!ahead && !near) {
         gap left = gap_of(&v, &found);
-        write_apart(p, m, &v, &at, a, b, fe__slack(left.distance, margin), solvers_normal(m, &v, left.normal));
-        return;
+        write_apart(p, m, fe__points_of(world, m), &v, &at, a, b, fe__slack(left.distance, margin),
+                    solvers_normal(m, &v, left.normal));
+        return 1;
     }
-    match_impulses(p, m, &found);
+    p->axis = axis;
+    if (!m->points) fe__points_take(world, pair);
+    match_impulses(fe__points_of(world, m), world->features + m->points, (int)m->point_count, &found);
     float tolerance = fe__recycle_tolerance(&v);
     if (found.round) tolerance = fe__minf(tolerance, RECYCLE_ROUND);
     m->surface.tolerance = ahead ? FE__AHEAD : tolerance;
     fe__write_manifold(world, m, &v, &at, &found, ahead);
+    return 1;
+}
+
+void fe__collide_pair(const fe__step *step, int32_t pair) { collide(step, pair, 1); }
+
+int32_t fe__collide_apart(const fe__step *step, int32_t pair)
+{
+    const fe__pair *p = step->world->pairs + pair;
+    const fe__shape *shapes = step->world->shapes;
+    if ((shapes[p->shape_a].flags | shapes[p->shape_b].flags) & FE__SHAPE_ONE_WAY) return 0;
+    return collide(step, pair, 0);
 }

@@ -2,6 +2,7 @@
 #ifndef FE_STEP_NARROW_H
 #define FE_STEP_NARROW_H
 #include "step/view.h"
+#include "world/step_scratch.h"
 
 static inline void fe__copy3(float *out, fe_vec3 a) { out[0] = a.x, out[1] = a.y, out[2] = a.z; }
 
@@ -14,13 +15,44 @@ static inline float fe__slack(float gap, float margin)
     return fe__maxf(gap - least * margin, 0.0f);
 }
 
-// The narrow phase of one pair, for a step of dt seconds. Only the pair is written.
-void fe__collide_pair(fe_world *world, int32_t pair, float dt);
+// The narrow phase of one pair. Only the pair is written.
+void fe__collide_pair(const fe__step *step, int32_t pair);
+// The same where no points are found, 1. Where they may be, and where others could tell what it writes (one-way shapes,
+// fast bodies): nothing, 0
+int32_t fe__collide_apart(const fe__step *step, int32_t pair);
 
-// how far gravity may bring a body towards another one in the step, m
-float fe__fall_in_step(const fe_world *world, float dt);
+// Records of pairs that the narrow phase will look at lie anywhere: they are asked for while it looks at others, a
+// pair's own first, then those that they name
+FE_FETCHES fe__fetch_own(const fe_world *w, int32_t pair)
+{
+    fe__fetch(w->pairs + pair, sizeof *w->pairs);
+    fe__fetch(w->contacts + pair, sizeof *w->contacts);
+}
+
+FE_FETCHES fe__fetch_named(const fe_world *w, int32_t pair)
+{
+    const fe__pair *p = w->pairs + pair;
+    const fe__contact *m = w->contacts + pair;
+    fe__fetch(w->shapes + p->shape_a, sizeof *w->shapes);
+    fe__fetch(w->shapes + p->shape_b, sizeof *w->shapes);
+    fe__fetch(w->bodies[p->body_a].centre, sizeof w->bodies->centre);
+    fe__fetch(w->bodies[p->body_b].centre, sizeof w->bodies->centre);
+    fe__fetch(w->bodies[p->body_a].velocity, sizeof w->bodies->velocity);
+    fe__fetch(w->bodies[p->body_b].velocity, sizeof w->bodies->velocity);
+    fe__tree_fetch(&w->moving_tree, p->shape_a);
+    fe__tree_fetch(&w->moving_tree, p->shape_b);
+    if (m->points) {
+        fe__fetch(w->points + m->points, sizeof *w->points);
+        fe__fetch(w->features + m->points, sizeof *w->features);
+        return;
+    }
+    fe__fetch(w->odometers + p->body_a, sizeof *w->odometers);
+    fe__fetch(w->odometers + p->body_b, sizeof *w->odometers);
+    if (p->awake_index >= 0) fe__fetch(w->deferrals + p->awake_index, sizeof *w->deferrals);
+}
+
 // how far the pair can close in the step, m
-float fe__reach_in_step(const fe_world *world, const fe__body *a, const fe__body *b, float dt);
+float fe__reach_in_step(const fe__step *step, const fe__body *a, const fe__body *b);
 // how far a manifold with points may slide or turn before it is looked for anew, m
 float fe__recycle_tolerance(const fe__view *v);
 // Everything of a contact but its tolerance and impulses. `ahead`: `at` is not where the bodies are now.

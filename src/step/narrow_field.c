@@ -10,6 +10,7 @@
 #include "step/narrow.h"
 #include "world/pair_list.h"
 #include "world/pair_mix.h"
+#include "world/points.h"
 #include "world/pose.h"
 
 #include <string.h>
@@ -116,8 +117,9 @@ typedef struct plan {
 
 typedef struct memory {
     fe__contact contacts[FE__PATCHES];
-    fe__extra extras[FE__PATCHES];
-    uint32_t ids[FE__PATCHES][4];
+    fe__points points[FE__PATCHES];
+    fe__features features[FE__PATCHES];
+    float rolling[FE__PATCHES][3];
 } memory;
 
 static fe_vec3 world_normal(const plan *x) { return fe__mul(&x->from->v.rotation, x->patch->normal); }
@@ -150,19 +152,19 @@ static void assign(plan *plans, int32_t count, const memory *old, int32_t flippe
         if (slots[s].patch) slots[0] = slots[s], slots[s] = (plan){.source = -1};
 }
 
-static void copy_impulses(const plan *x, const memory *old, fe__pair *p, fe__contact *m, fe__extra *e)
+static void copy_impulses(const plan *x, const memory *old, fe__points *q, fe__features *f, fe__extra *e)
 {
-    fe__contact_forget_impulses(m);
-    for (int32_t k = 0; k < 3; ++k) e->rolling_impulse[k] = 0.0f;
-    for (int32_t i = 0; x->patch && i < x->patch->count; ++i) p->ids[i] = x->patch->points[i].id;
+    fe__points_forget_impulses(q);
+    for (int32_t k = 0; k < 3 && e; ++k) e->rolling_impulse[k] = 0.0f;
+    for (int32_t i = 0; i < x->patch->count; ++i) f->ids[i] = x->patch->points[i].id;
     if (x->source < 0) return;
-    const fe__contact *from = old->contacts + x->source;
-    memcpy(m->friction_impulse, from->friction_impulse, sizeof m->friction_impulse);
-    m->twist_impulse = from->twist_impulse;
-    memcpy(e->rolling_impulse, old->extras[x->source].rolling_impulse, sizeof e->rolling_impulse);
+    const fe__points *from = old->points + x->source;
+    memcpy(q->friction_impulse, from->friction_impulse, sizeof q->friction_impulse);
+    q->twist_impulse = from->twist_impulse;
+    for (int32_t k = 0; k < 3 && e; ++k) e->rolling_impulse[k] = old->rolling[x->source][k];
     for (int32_t i = 0; i < x->patch->count; ++i)
-        for (int32_t j = 0; j < (int32_t)from->point_count; ++j)
-            if (old->ids[x->source][j] == x->patch->points[i].id) m->normal_impulse[i] = from->normal_impulse[j];
+        for (int32_t j = 0; j < (int32_t)old->contacts[x->source].point_count; ++j)
+            if (old->features[x->source].ids[j] == f->ids[i]) q->normal_impulse[i] = from->normal_impulse[j];
 }
 
 static fe__manifold manifold_of(const fe__patch *patch)
@@ -179,7 +181,10 @@ static void write_record(fe_world *world, int32_t record, const plan *x, const l
     fe__contact *m = world->contacts + record;
     const look *l = x->patch ? x->from : now;
     fe__manifold found = x->patch ? manifold_of(x->patch) : (fe__manifold){.count = 0};
-    copy_impulses(x, old, p, m, world->extras + record);
+    if (x->patch) {
+        if (!m->points) fe__points_take(world, record);
+        copy_impulses(x, old, fe__points_of(world, m), world->features + m->points, fe__extra_of(world, m));
+    }
     fe__write_manifold(world, m, &l->v, &l->at, &found, l != now);
     m->surface.tolerance = p->flags & FE__PAIR_PATCH ? FE__FOLLOWS : tolerance;
     if (l != now) m->surface.tolerance = FE__AHEAD; // the head's tolerance is 0 then
@@ -199,8 +204,10 @@ static void write_records(fe_world *world, int32_t head, plan *plans, int32_t co
         old.contacts[n - 1].point_count = 0.0f;
         if (!(world->contacts[r].point_count > 0.0f)) continue;
         old.contacts[n - 1] = world->contacts[r];
-        old.extras[n - 1] = world->extras[r];
-        memcpy(old.ids[n - 1], world->pairs[r].ids, sizeof old.ids[n - 1]);
+        old.points[n - 1] = *fe__points_of(world, world->contacts + r);
+        old.features[n - 1] = world->features[world->contacts[r].points];
+        const fe__extra *e = fe__extra_of(world, world->contacts + r);
+        for (int32_t k = 0; k < 3; ++k) old.rolling[n - 1][k] = e ? e->rolling_impulse[k] : 0.0f;
     }
     int32_t flipped = world->contacts[head].body_a != now->v.a->body;
     assign(plans, count, &old, flipped, slots);
@@ -232,15 +239,16 @@ static int32_t has_near(const fe__patch *patch, float distance)
     return 0;
 }
 
-void fe__collide_field_pair(fe_world *world, int32_t head, float dt)
+void fe__collide_field_pair(const fe__step *step, int32_t head)
 {
+    fe_world *world = step->world;
     const fe__pair *p = world->pairs + head;
     const fe__contact *m = world->contacts + head;
     const fe__shape *x = world->shapes + p->shape_a, *y = world->shapes + p->shape_b;
     int32_t swapped = !fe__form_is_field(&x->form), sensor = (p->flags & FE__PAIR_SENSOR) != 0;
-    pair_view view = {world, world->bodies + m->body_a, world->bodies + m->body_b, swapped ? y : x, swapped ? x : y, dt,
-                      0.0f};
-    float margin = world->tuning.speculative_distance, reach = fe__reach_in_step(world, view.a, view.b, dt);
+    pair_view view = {
+        world, world->bodies + m->body_a, world->bodies + m->body_b, swapped ? y : x, swapped ? x : y, step->dt, 0.0f};
+    float dt = step->dt, margin = world->tuning.speculative_distance, reach = fe__reach_in_step(step, view.a, view.b);
     view.speed_limit = dt > 0.0f ? reach / dt : 0.0f;
     look now, then;
     now.at =

@@ -3,7 +3,7 @@
 #define FE_STEP_NARROW_SEAM_H
 #include "step/view.h"
 
-// Where static boxes lie flush, an inner edge or face gives way to the face that is open.
+// Where static boxes lie flush, an inner edge or face gives way to the face that is open. Of a pair with a static body
 void fe__mend_seam(const fe_world *world, const fe__view *v, float margin, fe__manifold *found);
 
 #endif

@@ -173,7 +173,7 @@ static void sort_candidates(fe__step *step)
     fe__step_scratch *s = step->scratch;
     const fe__shape *shapes = step->world->shapes;
     int32_t n = s->candidate_count;
-    fe__sort_item *items = s->sort_items;
+    fe__sort_item *items = fe__sort_room(step);
     for (int32_t pass = 0; pass < 2; ++pass) {
         for (int32_t i = 0; i < n; ++i) {
             if (!pass) items[i].value = s->candidates[i].shape_a, items[i].spare = s->candidates[i].shape_b;

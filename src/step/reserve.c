@@ -10,6 +10,7 @@
 #include "world/forest.h"
 #include "world/pair_mix.h"
 #include "world/pairs.h"
+#include "world/points.h"
 
 #include <string.h>
 
@@ -30,8 +31,21 @@ static void bodies_of(const fe__step *step, int32_t n, fe__body *out[2])
         out[1] = w->bodies + w->shapes[s->candidates[n].shape_b].body;
         return;
     }
-    const fe__pair *p = w->pairs + s->busy[n - s->candidate_count];
-    out[0] = w->bodies + p->body_a, out[1] = w->bodies + p->body_b;
+    // the pair's record would say the same, but only the contact was read of late
+    const fe__contact *m = w->contacts + s->busy[n - s->candidate_count];
+    out[0] = w->bodies + m->body_a, out[1] = w->bodies + m->body_b;
+}
+
+// What is counted of the bodies comes from memory while those before them are counted
+FE_FETCHES fetch_bodies(const fe__step *step, int32_t n)
+{
+    enum { AHEAD = 12 };
+    const fe__step_scratch *s = step->scratch;
+    int32_t due = n + AHEAD - s->candidate_count;
+    if (due < 0 || due >= atomic_load_explicit(&s->due_count, memory_order_relaxed)) return;
+    const fe__contact *m = step->world->contacts + s->busy[due];
+    __builtin_prefetch(&step->world->bodies[m->body_a].coming_contacts);
+    __builtin_prefetch(&step->world->bodies[m->body_b].coming_contacts);
 }
 
 static int32_t to_come(const fe__step *step)
@@ -45,6 +59,7 @@ static void expect(const fe__step *step, fe__graph_bound *b)
     s->candidate_patches = 0;
     for (int32_t n = 0; n < to_come(step); ++n) {
         fe__body *body[2];
+        fetch_bodies(step, n);
         bodies_of(step, n, body);
         int32_t patches = is_field_candidate(step, n) ? FE__PATCHES : 1;
         body[0]->coming_contacts += patches, body[1]->coming_contacts += patches;
@@ -121,6 +136,12 @@ static void bound_colours(const fe__step *step, int32_t others, int32_t all, fe_
     b->static_colours = fe__mini(fe__maxi(statics, w->static_colours), FE__STATIC_COLOURS);
 }
 
+// Patches count with their heads, linked ones by themselves: those of all heads are to be added, and may make up for it
+static int32_t unlinked_sleepers(const fe_world *w)
+{
+    return w->pair_count - w->awake_pair_count - (w->linked_count - w->awake_linked_count);
+}
+
 // Contacts that may be linked or woken in this step
 static void bound_fresh(const fe__step *step, int32_t asleep, fe__graph_bound *b)
 {
@@ -132,6 +153,8 @@ static void bound_fresh(const fe__step *step, int32_t asleep, fe__graph_bound *b
             patches = w->field_pair_count * (FE__PATCHES - 1), woken = w->solver.unbuilt;
     int32_t others = unlinked - atomic_load(&s->due_count) + asleep + patches;
     b->contacts = busy + asleep + patches + coming;
+    step->scratch->points_to_come =
+        unlinked + fe__mini(asleep, unlinked_sleepers(w)) + patches + coming; // pairs that may have none yet
     b->fresh = fe__mini(b->contacts, unlinked + asleep + patches + coming + woken);
     bound_colours(step, fe__maxi(others, 0), asleep > 0, b);
     if (w->pair_colours == FE__PAIR_COLOURS || w->static_colours == FE__STATIC_COLOURS) b->crowded += woken + asleep;
@@ -175,22 +198,28 @@ static fe__graph_bound bound_of(const fe__step *step, int32_t waking_lanes, int3
     return b;
 }
 
+// What is sorted, or left its box, lies where the rows do
+static int32_t reserve_rooms(const fe__step *step, const fe__graph_bound *b)
+{
+    fe_world *w = step->world;
+    int64_t sorted = fe__maxi(fe__maxi(b->contacts, step->scratch->candidate_count), w->body_count);
+    sorted += w->owed_count + w->joint_count;
+    int64_t bytes = fe__maxl(2 * sorted * (int64_t)sizeof(fe__sort_item), w->shape_count * (int64_t)sizeof(fe__bounds));
+    // at least one, so that an empty stretch has an address too
+    return FE_RENEW(&w->memory, w->solver.rows, w->solver.row_capacity, 1 + bytes / (int64_t)sizeof(fe__row_block));
+}
+
 static int32_t reserve_scratch(fe__step *step, const fe__graph_bound *b)
 {
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     fe__memory *memory = &w->memory;
-    // at least one, so that an empty stretch has an address too
-    int64_t sorted = 1 + fe__maxi(fe__maxi(b->contacts, step->scratch->candidate_count), w->body_count);
-    sorted += w->owed_count + w->joint_count;
     return FE_RENEW(memory, s->results, s->result_capacity, (int64_t)b->contacts + 1) &&
            FE_RESERVE(memory, s->busy, s->busy_capacity, (int64_t)b->contacts + 1) &&
            FE_RENEW(memory, s->left, s->left_capacity, w->shape_count) &&
-           FE_RENEW(memory, s->boxes, s->box_capacity, w->shape_count) &&
            FE_RENEW(memory, s->chased, s->chased_capacity, (int64_t)2 * b->bodies) &&
            FE_RENEW(memory, s->chases, s->chase_capacity, w->has_bullets ? b->bodies : 0) &&
            FE_RENEW(memory, s->island_timers, s->island_capacity, b->bodies) &&
-           FE_RENEW(memory, s->sort_items, s->sort_capacity, 2 * sorted) &&
            FE_RESERVE(memory, w->pair_events, w->pair_event_capacity, (int64_t)b->contacts + w->owed_count) &&
            FE_RESERVE(memory, w->body_events, w->body_event_capacity, w->body_count) &&
            FE_RESERVE(memory, w->hit_events, w->hit_event_capacity, w->wants_hits ? b->contacts : 0) &&
@@ -216,6 +245,7 @@ int32_t fe__reserve_step(fe__step *step)
     if (!fe__bound_waking(step, &lanes, &clusters)) return 0;
     fe__graph_bound bound = bound_of(step, lanes, clusters);
     if (!fe__reserve_pairs(w, step->scratch->candidate_count + step->scratch->candidate_patches) ||
+        !fe__points_reserve(w, step->scratch->points_to_come, bound.special) || !reserve_rooms(step, &bound) ||
         !reserve_scratch(step, &bound))
         return 0;
     return (bound.bodies == 0 || (fe__bound_islands(step, &bound) &&

@@ -4,6 +4,7 @@
 
 #include "solver/solve.h"
 #include "world/pair_list.h"
+#include "world/points.h"
 
 #include <float.h>
 
@@ -97,7 +98,7 @@ static float approach_of(const fe_world *w, int32_t pair)
     fe_vec3 vb = {b->velocity[0], b->velocity[1], b->velocity[2]}, wb = {b->spin[0], b->spin[1], b->spin[2]};
     float most = 0.0f;
     for (int32_t i = 0; i < (int32_t)m->point_count; ++i) {
-        fe_vec3 r = fe__quad_vector(m->point[i].arm);
+        fe_vec3 r = fe__quad_vector(fe__points_of(w, m)->point[i].arm);
         fe_vec3 slip = fe__sub(fe__add(vb, fe__cross(wb, fe__add(r, span))), fe__add(va, fe__cross(wa, r)));
         most = fe__maxf(most, -fe__dot(n, slip));
     }
@@ -109,12 +110,13 @@ void fe__solve_islands(fe__step *step)
     fe_world *w = step->world;
     for (int32_t i = 0; i < w->awake_pair_count && w->wants_hits; ++i) {
         int32_t pair = fe__pair_of(w->awake_pairs[i]);
-        if (w->pairs[pair].events & FE_SHAPE_EVENTS_HIT) w->pairs[pair].approach = approach_of(w, pair);
+        if (w->pairs[pair].events & FE_SHAPE_EVENTS_HIT && w->contacts[pair].points)
+            w->features[w->contacts[pair].points].approach = approach_of(w, pair);
     }
     fe__step_constants paces[FE__PACES];
     constants_of_paces(w, step->dt, paces);
-    fe__solve(&w->solver, w->kernels, &w->workers, w->bodies, w->contacts, w->pair_serials, w->extras, &w->joints,
-              paces);
+    const fe__contact_arrays of = {w->contacts, w->points, w->extras};
+    fe__solve(&w->solver, w->kernels, &w->workers, w->bodies, &of, w->point_serials, &w->joints, paces);
     w->last_h = step->constants.h;
     w->last_dt = step->dt;
 }

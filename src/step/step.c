@@ -30,6 +30,7 @@ static const stage stages[] = {
     {fe__collect_events, offsetof(fe_profile, events), 0},       // touching begun, kept, ended; impacts
     {fe__put_islands_to_sleep, offsetof(fe_profile, sleep), 1},  // islands slow for long enough
     {fe__collect_body_events, offsetof(fe_profile, sleep), 0},   // who woke, who fell asleep
+    {fe__give_back_rows, offsetof(fe_profile, sleep), 1},        // of a world that sleeps
 };
 
 static void count(const fe__step *step)
@@ -69,7 +70,11 @@ fe_result fe__world_step(fe_world *w, float dt)
 {
     enum { MILLISECONDS = 1000 };
     if (open_scratch(w) != FE_OK) return FE_ERROR_MEMORY;
-    fe__step step = {.world = w, .scratch = w->scratch, .dt = dt, .constants = fe__constants_of(w, dt, 1)};
+    fe__step step = {.world = w,
+                     .scratch = w->scratch,
+                     .dt = dt,
+                     .fall = fe__length(w->gravity) * dt * dt,
+                     .constants = fe__constants_of(w, dt, 1)};
     fe_profile profile = {.struct_size = sizeof profile};
     double start = fe__clock(), mark = start;
     fe__pool_begin(w->workers.pool);

@@ -303,16 +303,28 @@ static int32_t is_only_locked(const fe_world *w, int32_t body)
 
 static int32_t is_mechanism(const fe_world *w, const component *c, const fe__tree_link *links)
 {
-    if (c->bodies < SHORTEST_TREE || c->bodies > SHORT_TREE) return 0;
     for (int32_t i = 0; i < c->bodies; ++i)
         if (!is_only_locked(w, links[i].body)) return 0;
     return 1;
 }
 
+static int32_t is_short(const component *c) { return c->bodies >= SHORTEST_TREE && c->bodies <= SHORT_TREE; }
+
+// 1: of ball joints alone
+static int32_t has_balls_alone(const component *c, const fe__tree_link *links)
+{
+    for (int32_t i = 0; i < c->bodies; ++i)
+        if (links[i].joint && !(links[i].form & FE__TREE_BALL)) return 0;
+    return 1;
+}
+
+// A heavy tree that hangs on nothing lends its mass to contacts (tree/lend.inl), which a rope does not
 static fe__tree_kind kind_of(const fe_world *w, const component *c, fe__tree_link *links)
 {
-    if (is_heavy(w, c, links)) return FE__TREE_HEAVY;
-    return is_mechanism(w, c, links) ? FE__TREE_SHORT : FE__TREE_LIGHT;
+    const int32_t heavy = is_heavy(w, c, links), mechanism = (heavy || is_short(c)) && is_mechanism(w, c, links);
+    if (mechanism && !(heavy && !c->anchors) && has_balls_alone(c, links)) return FE__TREE_ROPE;
+    if (heavy) return FE__TREE_HEAVY;
+    return mechanism ? FE__TREE_SHORT : FE__TREE_LIGHT;
 }
 
 static void plant(fe_world *w, int32_t body)

@@ -5,6 +5,7 @@
 #include "core/hash.h"
 #include "world/joints.h"
 #include "world/pair_list.h"
+#include "world/points.h"
 
 static void hash_floats(fe__hash *h, const float *a, int count)
 {
@@ -28,17 +29,20 @@ static void hash_body(fe__hash *h, const fe__body *b)
 static uint64_t hash_contact(const fe_world *w, int32_t pair)
 {
     const fe__contact *m = w->contacts + pair;
+    const fe__points *q = fe__points_of(w, m);
+    const fe__extra *e = fe__extra_of(w, m);
+    const float none[3] = {0.0f, 0.0f, 0.0f};
     fe__hash h = fe__hash_begin();
-    fe__hash_u64(&h, w->pair_serials[2 * pair]);
-    fe__hash_u64(&h, w->pair_serials[2 * pair + 1]);
+    fe__hash_u64(&h, fe__pair_serial(w, pair, 0));
+    fe__hash_u64(&h, fe__pair_serial(w, pair, 1));
     hash_floats(&h, m->normal, 3);
     fe__hash_float(&h, m->point_count);
-    hash_floats(&h, m->separation, (int)m->point_count);
-    hash_floats(&h, m->normal_impulse, FE__POINTS);
-    hash_floats(&h, m->friction_impulse, 3);
-    fe__hash_float(&h, m->twist_impulse);
-    hash_floats(&h, m->total_impulse, FE__POINTS);
-    hash_floats(&h, w->extras[pair].rolling_impulse, 3);
+    hash_floats(&h, q->separation, (int)m->point_count);
+    hash_floats(&h, q->normal_impulse, FE__POINTS);
+    hash_floats(&h, q->friction_impulse, 3);
+    fe__hash_float(&h, q->twist_impulse);
+    hash_floats(&h, q->total_impulse, FE__POINTS);
+    hash_floats(&h, e ? e->rolling_impulse : none, 3);
     return fe__hash_end(&h);
 }
 
@@ -48,7 +52,7 @@ static void hash_pair_events(fe__hash *h, const fe__pair_event_record *r, int32_
     for (int32_t i = 0; i < count; ++i) {
         fe__hash_u64(h, r[i].serial_a);
         fe__hash_u64(h, r[i].serial_b);
-        fe__hash_i32(h, r[i].event.kind << 1 | r[i].event.is_trigger);
+        fe__hash_i32(h, r[i].kind << 1 | r[i].is_trigger);
     }
 }
 

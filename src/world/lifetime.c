@@ -84,6 +84,7 @@ fe_result fe__world_create(const fe_world_def *def, fe_world **out_world)
     world->next_serial = 1;
     world->first_body = world->last_body = world->first_free_pair = -1;
     world->pair_limit = 1; // contact 0 is no contact
+    atomic_store(&world->point_count, 1);
     fe_result result = hire_workers(world, def);
     if (result == FE_OK) result = fe__world_open_store(world, def);
     if (result != FE_OK) {
@@ -105,8 +106,11 @@ static void free_records(fe_world *world)
     FE_FREE(memory, world->shapes, world->shape_capacity);
     FE_FREE(memory, world->contacts, world->contact_capacity);
     FE_FREE(memory, world->pairs, world->pair_capacity);
+    FE_FREE(memory, world->points, world->point_capacity);
+    FE_FREE(memory, world->features, world->feature_capacity);
+    FE_FREE(memory, world->point_serials, world->point_serial_capacity);
     FE_FREE(memory, world->extras, world->extra_capacity);
-    FE_FREE(memory, world->pair_serials, world->serial_capacity);
+    FE_FREE(memory, world->point_order, world->point_order_capacity);
     fe__pair_set_destroy(&world->pair_set, memory);
     fe__pair_set_destroy(&world->ignored, memory);
     fe__record_pool_free(&world->ignores, memory);

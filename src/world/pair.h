@@ -15,7 +15,9 @@ enum {
     FE__PAIR_CROSSED = 128, // a trigger that was passed between two steps
     FE__PAIR_DENIED = 256,  // the pair filter refused it: no contact, no events, until the boxes part
     FE__PAIR_PASSING = 512, // through a one-way shape: no contact until they are apart
-    FE__PAIR_FREE = 1024    // the record is no pair
+    FE__PAIR_FREE = 1024,   // the record is no pair
+    // above these bits: the number of a patch, from 1; 0 of a head
+    FE__PAIR_NUMBER_SHIFT = 16
 };
 
 // Only of these the contact must be seen for events: the others, most of a heap, have no points and owe no exit
@@ -38,16 +40,21 @@ typedef struct fe__pair {
     fe__link links[2]; // in the lists of body A and body B
     // what the search for events reads of every pair, together
     uint32_t flags;      // FE__PAIR_*
-    uint32_t events;     // fe_shape_events of either shape
+    uint16_t events;     // fe_shape_events of either shape
+    int16_t result;      // FE__RESULT_*, or the kind of an event
     int32_t next_patch;  // of the same pair, -1: none
-    int32_t result;      // FE__RESULT_*
     int32_t awake_index; // place in the list of awake pairs, -1: both sides sleep
     int32_t axis;        // of the narrow phase: fe__manifold.axis, axis_separation
     float axis_separation;
-    uint32_t ids[4];  // features of the points
-    float approach;   // speed of the impact in this step, m/s
     int32_t head;     // of a patch
     int32_t triangle; // of the heightfield under a patch, -1: none
 } fe__pair;
+_Static_assert(sizeof(fe__pair) == 64, "a pair is a cache line");
+
+// What the solver does not read of points: the cold half of fe__points
+typedef struct fe__features {
+    uint32_t ids[4]; // of the points
+    float approach;  // speed of the impact in this step, m/s
+} fe__features;
 
 #endif

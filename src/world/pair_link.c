@@ -3,6 +3,7 @@
 
 #include "solver/graph/colour.h"
 #include "world/pair_list.h"
+#include "world/points.h"
 
 // A patch stands before its head in the bodies' lists, so that who walks them may destroy heads on the way.
 static void enter_lists(fe_world *world, int32_t patch)
@@ -67,8 +68,11 @@ void fe__pair_link(fe_world *world, int32_t pair, float dt)
 
 void fe__pair_forget_impulses(fe_world *world, int32_t pair)
 {
-    fe__contact_forget_impulses(world->contacts + pair);
-    for (int k = 0; k < 3; ++k) world->extras[pair].rolling_impulse[k] = 0.0f;
+    const fe__contact *m = world->contacts + pair;
+    if (!m->points) return;
+    fe__points_forget_impulses(fe__points_of(world, m));
+    fe__extra *e = fe__extra_of(world, m);
+    for (int k = 0; k < 3 && e; ++k) e->rolling_impulse[k] = 0.0f;
 }
 
 void fe__pair_unlink(fe_world *world, int32_t pair)
@@ -76,7 +80,7 @@ void fe__pair_unlink(fe_world *world, int32_t pair)
     fe__contact *m = world->contacts + pair;
     if (m->colour < 0) return;
     fe__uncolour_contact(world->bodies, m);
-    fe__pair_forget_impulses(world, pair);
+    fe__points_release(world, pair);
     world->pairs[pair].flags &= ~(uint32_t)FE__PAIR_LINKED;
     if (world->pairs[pair].awake_index >= 0) --world->awake_linked_count;
     world->solver.graph_changed = 1;

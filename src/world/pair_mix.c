@@ -2,6 +2,7 @@
 #include "world/pair_mix.h"
 
 #include "world/material.h"
+#include "world/points.h"
 
 // ---- materials -----------------------------------------------------------------------------------------------------
 static float form_radius(const fe__shape *a, const fe__shape *b)
@@ -58,14 +59,15 @@ void fe__pair_mix_surface(fe_world *world, int32_t pair)
 {
     const fe__pair *p = world->pairs + pair;
     fe__contact *m = world->contacts + pair;
-    fe__extra *e = world->extras + pair;
+    fe__extra *e = fe__extra_of(world, m);
     const fe__shape *a = world->shapes + p->shape_a, *b = world->shapes + p->shape_b;
     const fe_material *x = fe__shape_material(world, a, p->triangle), *y = fe__shape_material(world, b, p->triangle);
-    fe_vec3 surface = fe__sub(surface_of(b), surface_of(a));
-    if (p->flags & FE__PAIR_FLIPPED) surface = fe__neg(surface);
     int32_t friction = fe__maxi(x->friction_combine, y->friction_combine);
     m->static_friction = mix_friction(friction, x->static_friction, y->static_friction);
     m->surface.dynamic_friction = mix_friction(friction, x->dynamic_friction, y->dynamic_friction);
+    if (!e) return;
+    fe_vec3 surface = fe__sub(surface_of(b), surface_of(a));
+    if (p->flags & FE__PAIR_FLIPPED) surface = fe__neg(surface);
     e->restitution =
         mix_restitution(fe__maxi(x->restitution_combine, y->restitution_combine), x->restitution, y->restitution);
     e->rolling = fe__maxf(x->rolling_resistance, y->rolling_resistance) * form_radius(a, b);
@@ -78,12 +80,11 @@ void fe__pair_mix(fe_world *world, int32_t pair)
     fe__pair *p = world->pairs + pair;
     fe__contact *m = world->contacts + pair;
     if (p->next_patch >= 0) fe__pair_mix(world, p->next_patch);
-    fe__pair_mix_surface(world, pair);
-    p->events = world->shapes[p->shape_a].events | world->shapes[p->shape_b].events;
+    p->events = (uint16_t)(world->shapes[p->shape_a].events | world->shapes[p->shape_b].events);
     world->wants_hits |= (p->events & FE_SHAPE_EVENTS_HIT) != 0;
     int32_t kind = fe__pair_kind(world, p->shape_a, p->shape_b);
     world->row_kinds |= 1u << kind;
-    if (kind == m->kind) return;
+    if (kind != m->kind && m->colour >= 0) world->solver.graph_changed = 1, ++world->solver.unbuilt;
     m->kind = kind;
-    if (m->colour >= 0) world->solver.graph_changed = 1, ++world->solver.unbuilt;
+    fe__pair_mix_surface(world, pair);
 }

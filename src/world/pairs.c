@@ -7,6 +7,7 @@
 #include "world/pair_link.h"
 #include "world/pair_list.h"
 #include "world/pair_mix.h"
+#include "world/points.h"
 
 #include <string.h>
 
@@ -16,8 +17,6 @@ int32_t fe__reserve_pairs(fe_world *world, int32_t extra)
     int64_t limit = (int64_t)world->pair_limit + extra;
     return FE_RESERVE(memory, world->contacts, world->contact_capacity, limit) &&
            FE_RESERVE(memory, world->pairs, world->pair_capacity, limit) &&
-           FE_RESERVE(memory, world->extras, world->extra_capacity, limit) &&
-           FE_RESERVE(memory, world->pair_serials, world->serial_capacity, 2 * limit) &&
            FE_RESERVE(memory, world->awake_pairs, world->awake_pair_capacity, limit) &&
            FE_RESERVE(memory, world->deferrals, world->deferral_capacity, limit) &&
            fe__pair_set_reserve(&world->pair_set, memory, extra);
@@ -76,22 +75,18 @@ static int32_t take_slot(fe_world *world)
     return pair;
 }
 
-// A record of its own, in no list. Patches have numbers from 1, which make their serials theirs alone.
+// A record of its own, in no list
 static int32_t create_record(fe_world *world, int32_t shape_a, int32_t shape_b, int32_t number)
 {
-    enum { NUMBER_SHIFT = 56 };
     int32_t pair = take_slot(world);
     const fe__shape *a = world->shapes + shape_a, *b = world->shapes + shape_b;
     fe__pair *p = world->pairs + pair;
     fe__contact *m = world->contacts + pair;
     memset(p, 0, sizeof *p);
     memset(m, 0, sizeof *m);
-    memset(world->extras + pair, 0, sizeof *world->extras);
     p->shape_a = shape_a, p->shape_b = shape_b;
     p->body_a = a->body, p->body_b = b->body;
-    world->pair_serials[2 * pair] = a->serial;
-    world->pair_serials[2 * pair + 1] = b->serial | (uint64_t)number << NUMBER_SHIFT;
-    p->flags = sides(world, a, b);
+    p->flags = sides(world, a, b) | (uint32_t)number << FE__PAIR_NUMBER_SHIFT;
     if ((a->flags | b->flags) & FE__SHAPE_TRIGGER) p->flags |= FE__PAIR_SENSOR;
     if (number) p->flags |= FE__PAIR_PATCH;
     p->awake_index = p->axis = p->next_patch = p->head = p->triangle = -1;
@@ -141,34 +136,29 @@ void fe__pair_release(fe_world *world, int32_t pair)
 }
 
 // ---- events --------------------------------------------------------------------------------------------------------
-fe_pair_event fe__pair_event_of(const fe_world *world, int32_t pair, int32_t kind)
+fe__pair_event_record fe__pair_event_of(const fe_world *world, int32_t pair, int32_t kind)
 {
     const fe__pair *p = world->pairs + pair;
-    int32_t field_a = fe__form_is_field(&world->shapes[p->shape_a].form);
-    return (fe_pair_event){.body_a = fe__body_handle(world, p->body_a),
-                           .body_b = fe__body_handle(world, p->body_b),
-                           .shape_a = fe__shape_handle(world, p->shape_a),
-                           .shape_b = fe__shape_handle(world, p->shape_b),
-                           .kind = kind,
-                           .is_trigger = (p->flags & FE__PAIR_SENSOR) != 0,
-                           .part_a = -1,
-                           .part_b = -1,
-                           .triangle_a = field_a ? p->triangle : -1,
-                           .triangle_b = field_a ? -1 : p->triangle};
+    return (fe__pair_event_record){.serial_a = fe__pair_serial(world, pair, 0),
+                                   .serial_b = fe__pair_serial(world, pair, 1),
+                                   .body_a = fe__body_handle(world, p->body_a),
+                                   .body_b = fe__body_handle(world, p->body_b),
+                                   .shape_a = fe__shape_handle(world, p->shape_a),
+                                   .shape_b = fe__shape_handle(world, p->shape_b),
+                                   .kind = (int16_t)kind,
+                                   .is_trigger = (p->flags & FE__PAIR_SENSOR) != 0,
+                                   .field_a = fe__form_is_field(&world->shapes[p->shape_a].form) != 0,
+                                   .triangle = p->triangle};
 }
 
-// An exit that is owed waits where the contact had its points: its handles may be stale when it is reported.
-typedef struct owed_exit {
-    fe_handle body_a, body_b, shape_a, shape_b;
-    int32_t is_trigger;
-} owed_exit;
-_Static_assert(sizeof(owed_exit) <= sizeof((fe__contact *)0)->point, "an exit fits into its record");
+// An exit that is owed waits in the record of its contact: its handles may be stale when it is reported.
+_Static_assert(sizeof(fe__pair_event_record) <= sizeof(fe__contact), "an exit fits into its record");
 
 static void owe_exit(fe_world *world, int32_t pair)
 {
-    fe_pair_event event = fe__pair_event_of(world, pair, FE_EVENT_EXIT);
-    owed_exit owed = {event.body_a, event.body_b, event.shape_a, event.shape_b, event.is_trigger};
-    memcpy(world->contacts[pair].point, &owed, sizeof owed);
+    fe__pair_event_record owed = fe__pair_event_of(world, pair, FE_EVENT_EXIT);
+    owed.triangle = -1; // the pair is no longer over it
+    memcpy(world->contacts + pair, &owed, sizeof owed);
     world->pairs[pair].flags = FE__PAIR_FREE;
     world->pairs[pair].links[0].next = world->first_owed;
     world->first_owed = pair;
@@ -179,21 +169,7 @@ void fe__report_owed_exits(fe_world *world)
 {
     while (world->first_owed) {
         int32_t pair = world->first_owed;
-        fe__pair_event_record *r = world->pair_events + world->pair_event_count++;
-        owed_exit owed;
-        memcpy(&owed, world->contacts[pair].point, sizeof owed);
-        *r = (fe__pair_event_record){world->pair_serials[2 * pair],
-                                     world->pair_serials[2 * pair + 1],
-                                     {.body_a = owed.body_a,
-                                      .body_b = owed.body_b,
-                                      .shape_a = owed.shape_a,
-                                      .shape_b = owed.shape_b,
-                                      .kind = FE_EVENT_EXIT,
-                                      .is_trigger = owed.is_trigger,
-                                      .part_a = -1,
-                                      .part_b = -1,
-                                      .triangle_a = -1,
-                                      .triangle_b = -1}};
+        memcpy(world->pair_events + world->pair_event_count++, world->contacts + pair, sizeof *world->pair_events);
         world->first_owed = world->pairs[pair].links[0].next;
         fe__pair_release(world, pair);
     }
@@ -210,6 +186,7 @@ static void destroy_patches(fe_world *world, int32_t head)
             fe__pair_unlink(world, patch);
             fe__patch_leave(world, patch);
         }
+        fe__points_release(world, patch);
         fe__pair_release(world, patch);
     }
     --world->field_pair_count;
@@ -220,6 +197,7 @@ void fe__pair_destroy(fe_world *world, int32_t pair)
     const fe__pair *p = world->pairs + pair;
     destroy_patches(world, pair);
     fe__pair_unlink(world, pair);
+    fe__points_release(world, pair);
     fe__pair_retire(world, pair);
     remove_from_body(world, pair, p->body_a);
     remove_from_body(world, pair, p->body_b);

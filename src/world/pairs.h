@@ -1,7 +1,7 @@
 // pairs.h - the life of pairs, and what they report.
 #ifndef FE_WORLD_PAIRS_H
 #define FE_WORLD_PAIRS_H
-#include "world/world.h"
+#include "world/points.h"
 
 int32_t fe__reserve_pairs(fe_world *world, int32_t extra);
 // Room was reserved; A created first. `denied`: by the pair filter
@@ -16,7 +16,7 @@ static inline int32_t fe__is_field_pair(const fe_world *world, int32_t shape_a, 
     return fe__form_is_field(&world->shapes[shape_a].form) || fe__form_is_field(&world->shapes[shape_b].form);
 }
 
-fe_pair_event fe__pair_event_of(const fe_world *world, int32_t pair, int32_t kind);
+fe__pair_event_record fe__pair_event_of(const fe_world *world, int32_t pair, int32_t kind);
 // Exits of pairs that touched and ended since the last step: into the events of this one
 void fe__report_owed_exits(fe_world *world);
 // m, world: arms count from the centre of the solver's A, or of B when A is static; between them lies what the pair
@@ -25,7 +25,7 @@ static inline fe_dvec3 fe__contact_point(const fe_world *world, int32_t pair, in
 {
     const fe__contact *m = world->contacts + pair;
     const fe__body *a = world->bodies + m->body_a, *from = a->type == FE_BODY_STATIC ? world->bodies + m->body_b : a;
-    const float *r = m->point[point].arm;
+    const float *r = fe__points_of(world, m)->point[point].arm;
     return (fe_dvec3){from->centre[0] + (double)r[0], from->centre[1] + (double)r[1], from->centre[2] + (double)r[2]};
 }
 

@@ -61,7 +61,9 @@ void fe__advance(const fe_world *world, const fe__body *body, float dt, fe_dvec3
 
 fe__pose fe__shape_pose_at(const fe__body *body, const fe__shape *shape, fe_dvec3 centre, fe_quat rotation)
 {
-    fe_dvec3 arm = fe__drotate(rotation, fe__widen(fe__quad_vector(body->local_centre)));
-    fe__pose pose = {fe__dsub(centre, arm), rotation};
-    return fe__compose(&pose, shape->local_position, shape->local_rotation);
+    fe__pose pose = {centre, rotation};
+    const float *c = body->local_centre;
+    if (c[0] != 0.0f || c[1] != 0.0f || c[2] != 0.0f)
+        pose.position = fe__dsub(centre, fe__drotate(rotation, fe__widen(fe__quad_vector(c))));
+    return shape->flags & FE__SHAPE_CENTRED ? pose : fe__compose(&pose, shape->local_position, shape->local_rotation);
 }

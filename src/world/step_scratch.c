@@ -17,7 +17,6 @@ void fe__step_scratch_destroy(fe_world *w)
     FE_FREE(memory, s->chased, s->chased_capacity);
     FE_FREE(memory, s->chases, s->chase_capacity);
     FE_FREE(memory, s->island_timers, s->island_capacity);
-    FE_FREE(memory, s->sort_items, s->sort_capacity);
     fe__release(memory, s, sizeof *s);
     w->scratch = NULL;
 }

@@ -40,17 +40,20 @@ typedef struct fe__step_scratch {
     fe__candidate *candidates;
     int32_t candidate_capacity, candidate_count;
     int32_t candidate_patches; // further records that the candidates with heightfields need
+    int32_t points_to_come;    // records of points that pairs without may take in this step
     uint32_t *moved_bits;      // by shape: 1 while it is in fe_world.moved and the search for candidates runs, else 0
     int32_t moved_words;
     fe__candidate_chunk chunks[FE_MAX_WORKERS];
     _Atomic int32_t chunks_end; // of those that the workers took
     fe__crowded *crowd;
     fe__favourite *favourites; // of each body of the crowd
-    int32_t crowd_capacity, favourite_capacity;
+    fe__bounds *boxes;         // by shape
+    int32_t crowd_capacity, favourite_capacity, box_capacity;
     int32_t left_out; // candidates behind those that count
 
     int32_t *busy; // awake pairs that do not wait; while a step reserves: those that just ceased to
     _Atomic int32_t due_count, waiting_count; // see step/due.c
+    _Atomic int32_t apart_count;              // that the narrow phase found apart there
     _Atomic int32_t some_deferred;            // 0: no awake pair does
     int32_t busy_capacity;
     int32_t *results; // pairs that begin, end or part in this step
@@ -58,9 +61,8 @@ typedef struct fe__step_scratch {
     _Atomic int32_t result_count;
     _Atomic int32_t recycled;
 
-    int32_t *left; // shapes that left their box in this step, and their new ones
-    fe__bounds *boxes;
-    int32_t left_capacity, box_capacity;
+    int32_t *left; // shapes that left their box in this step
+    int32_t left_capacity;
     _Atomic int32_t left_count;
     _Atomic int32_t lost_count; // bodies that overflowed in this step
     _Atomic int32_t some_leapt; // 1: a body went too far in this step for its odometer
@@ -74,17 +76,24 @@ typedef struct fe__step_scratch {
 
     float *island_timers;
     int32_t island_capacity;
-    fe__sort_item *sort_items; // two stretches
-    int32_t sort_capacity;
 } fe__step_scratch;
 
 typedef struct fe__step {
     fe_world *world;
     fe__step_scratch *scratch;
     float dt;                     // s
+    float fall;                   // m, how far gravity may bring a body towards another one in the step
     fe__step_constants constants; // of most islands
     int32_t failed;               // no memory; nothing was changed
 } fe__step;
+
+// Outside of the stages that build the graph and solve it the solver's rows are nobody's: what is sorted, two stretches
+// of it, or the new boxes of the shapes that left theirs
+static inline fe__sort_item *fe__sort_room(const fe__step *step)
+{
+    return (fe__sort_item *)(void *)step->world->solver.rows;
+}
+static inline fe__bounds *fe__box_room(const fe__step *step) { return (fe__bounds *)(void *)step->world->solver.rows; }
 
 void fe__step_scratch_destroy(fe_world *world);
 

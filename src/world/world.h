@@ -68,9 +68,15 @@ struct fe_world {
     // contacts: hot and cold halves by the same index; free ones are linked through links[0].next
     fe__contact *contacts;
     fe__pair *pairs;
-    fe__extra *extras;      // mixed materials of special rows
-    uint64_t *pair_serials; // of shape A, of shape B: the order of everything
-    int32_t contact_capacity, pair_capacity, extra_capacity, serial_capacity;
+    int32_t contact_capacity, pair_capacity;
+    // of those that have points, by fe__contact.points; see points.h
+    fe__points *points;
+    fe__features *features;
+    uint64_t *point_serials;     // fe__pair_serial of A and of B, two a record
+    fe__extra *extras;           // mixed materials of special rows; none before the first of them
+    int32_t *point_order;        // a permutation of the records: the first point_count are in use, or record 0
+    _Atomic int32_t point_count; // record 0 among them
+    int32_t point_capacity, feature_capacity, point_serial_capacity, extra_capacity, point_order_capacity;
     int32_t pair_limit;               // indices below were used
     int32_t first_free_pair;          // -1: none
     int32_t pair_count, linked_count; // patches count with their head, and each that is linked

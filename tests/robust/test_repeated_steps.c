@@ -5,7 +5,7 @@
 #include "fe_test.h"
 #include "robust/counting_allocator.h"
 #include "support/play.h"
-#include "world/world.h"
+#include "world/points.h"
 
 static int32_t most_failures = 400; // allocations that fail, over all runs
 
@@ -73,8 +73,8 @@ static uint64_t all_of(const play *p)
     hash_indices(&h, places, sizeof places / sizeof *places);
     for (int32_t i = 0; i < w->awake_pair_count; ++i) {
         int32_t pair = w->awake_pairs[i] < 0 ? ~w->awake_pairs[i] : w->awake_pairs[i];
-        fe__hash_u64(&h, w->pair_serials[2 * pair]);
-        fe__hash_u64(&h, w->pair_serials[2 * pair + 1]);
+        fe__hash_u64(&h, fe__pair_serial(w, pair, 0));
+        fe__hash_u64(&h, fe__pair_serial(w, pair, 1));
         fe__hash_i32(&h, w->contacts[pair].colour);
     }
     return fe__hash_end(&h);

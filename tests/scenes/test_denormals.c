@@ -47,8 +47,9 @@ static int32_t in_contacts(const fe_world *w)
     int32_t sum = 0;
     for (int32_t i = 0; i < w->awake_pair_count; ++i) {
         const fe__contact *m = w->contacts + fe__pair_of(w->awake_pairs[i]);
-        sum += BELOW(FE__LEAST_LEAN, m->normal) + IN(m->normal_impulse) + IN(m->friction_impulse) +
-               IN(m->total_impulse) + below(FE__LEAST_TWIST, &m->twist_impulse, 1);
+        const fe__points *q = w->points + m->points;
+        sum += BELOW(FE__LEAST_LEAN, m->normal) + IN(q->normal_impulse) + IN(q->friction_impulse) +
+               IN(q->total_impulse) + below(FE__LEAST_TWIST, &q->twist_impulse, 1);
     }
     return sum;
 }

@@ -509,6 +509,118 @@ static void a_blow_on_two_that_rest_gains_nothing(void **state)
     }
 }
 
+// ---- chains and strangers ------------------------------------------------------------------------------------------
+
+static int same_motion(const scene *s, fe_body a, const scene *t, fe_body b)
+{
+    vec faster = minus(velocity(s, a), velocity(t, b)), turning = minus(spin(s, a), spin(t, b)),
+        apart = minus(position(s, a), position(t, b));
+    return dot(faster, faster) + dot(turning, turning) + dot(apart, apart) == 0;
+}
+
+// A light ball between two that close at 6 m/s
+static void squeeze(scene *s, fe_body *out, double y, double gap, float density)
+{
+    const double radius = 0.1, apart = 2 * radius + gap;
+    for (int k = 0; k < 3; ++k) {
+        out[k] = add_dynamic(s, sphere(radius), v3(apart * (k - 1) - (k ? 0 : 0.01), y, 0), UNTURNED, bouncy(0, 1),
+                             k == 1 ? WATER : density);
+        set_velocity(s, out[k], v3(3 * (1 - k), 0, 0), v3(0, 0, 0));
+    }
+}
+
+// Balls of m squeeze one of 1: pi / atan(sqrt((2 m + 1) / m^2)) impacts (the billiard in a wedge of that angle), 7, 22
+// and 70. These are more than a substep allows two touches, and that is not to hang on who else is in the batch.
+static void strangers_change_no_bit_of_a_squeeze(void **state)
+{
+    enum { MOST = 100 };
+    for (int i = 0; i < 9; ++i) {
+        const float ratio = i % 3 == 0 ? 10 : i % 3 == 1 ? 100 : 1000;
+        const int strangers = i < 3 ? 1 : i < 6 ? 10 : MOST;
+        scene s = scene_begin(state), t = scene_begin(state);
+        set_gravity(&s, v3(0, 0, 0)), set_gravity(&t, v3(0, 0, 0));
+        fe_body alone[3], first[3], other[3];
+        squeeze(&s, alone, 0, 0.0001, ratio * WATER), squeeze(&t, first, 0, 0.0001, ratio * WATER);
+        for (int k = 1; k <= strangers; ++k)
+            squeeze(&t, other, 10 * k, 0.0006 * (k / 4), k % 2 ? WATER : ratio * WATER);
+        for (int step = 0; step < 30; ++step) {
+            run(&s, 1), run(&t, 1);
+            for (int k = 0; k < 3; ++k) assert_true(same_motion(&s, alone[k], &t, first[k]));
+        }
+        scene_end(&s), scene_end(&t);
+    }
+}
+
+enum { PAIRS = 12, STRUCK = 2 * PAIRS + 1 };
+
+// Balls lie 0.1 mm over a beam. On each another falls, 2 mm away: all strike at once, and what they pass on reaches the
+// beam in the order of the strikes. `between`: before each so many balls two others were made that are gone. Their
+// contacts leave holes in the lists, which those of the last balls fill.
+static void build_struck_beam(scene *s, fe_body *out, int between)
+{
+    const double radius = 0.1, above = 0.5 + radius + 0.0001;
+    fe_body other[2 * PAIRS];
+    int count = 0;
+    set_gravity(s, v3(0, 0, 0));
+    for (int k = 0; k < PAIRS; ++k) {
+        vec at = v3(0.5 * k - 0.25 * PAIRS, above, 0.25 * (k % 3 - 1));
+        if (between && k % between == 0)
+            for (int i = 0; i < 2; ++i)
+                other[count++] =
+                    add_dynamic(s, sphere(radius), v3(50 + k, i * radius, 0), UNTURNED, friction(0), WATER);
+        for (int i = 0; i < 2; ++i)
+            out[2 * k + i] = add_dynamic(s, sphere(radius), plus(at, v3(0, i * (2 * radius + 0.002), 0)), UNTURNED,
+                                         bouncy(0, 0.8), WATER);
+    }
+    out[2 * PAIRS] = add_dynamic(s, box(0.5 * PAIRS, 0.5, 0.5), v3(0, 0, 0), UNTURNED, bouncy(0, 0.8), 100);
+    run(s, 1);
+    for (int i = 0; i < count; ++i) MUST(fe_body_destroy(s->world, other[i]));
+    for (int k = 0; k < PAIRS; ++k) set_velocity(s, out[2 * k + 1], v3(0, -5, 0), v3(0, 0, 0));
+}
+
+// Of impacts at the same time, that of the pair made first comes first, wherever its contact lies
+static void order_in_memory_changes_no_bit_of_a_chain(void **state)
+{
+    for (int between = 1; between <= 4; ++between) {
+        scene s = scene_begin(state), t = scene_begin(state);
+        fe_body alone[STRUCK], first[STRUCK];
+        build_struck_beam(&s, alone, 0), build_struck_beam(&t, first, between);
+        run(&s, 1), run(&t, 1);
+        for (int k = 0; k < STRUCK; ++k) assert_true(same_motion(&s, alone[k], &t, first[k]));
+        scene_end(&s), scene_end(&t);
+    }
+}
+
+static void hash_of_columns(int workers, uint32_t out_hash[2])
+{
+    enum { SIDE = 24 };
+    fe_world_def def;
+    fe_world_def_init(&def, sizeof def);
+    def.substeps = 8, def.worker_count = workers;
+    scene s = {NULL, UNTURNED, 8, STEP / 8};
+    MUST(fe_world_create(&def, &s.world));
+    add_ground(&s, bouncy(0, 0.8));
+    for (int k = 0; k < SIDE * SIDE; ++k)
+        for (int i = 0; i < 3; ++i) {
+            vec at = v3(0.5 * (k % SIDE), 0.2 + 0.001 * k / SIDE + 0.201 * i, 0.5 * (k / SIDE));
+            fe_body ball = add_dynamic(&s, sphere(0.1), at, UNTURNED, bouncy(0, 0.8), WATER);
+            set_velocity(&s, ball, v3(0, -5, 0), v3(0, 0, 0));
+        }
+    run(&s, 15);
+    MUST(fe_world_hash(s.world, out_hash));
+    scene_end(&s);
+}
+
+// Columns of three that strike the ground, each an island, are in several batches, whose chains are one worker's each.
+// Only the ground is common to them.
+static void workers_change_no_bit_of_chains_on_the_ground(void **state)
+{
+    uint32_t one[2], two[2];
+    (void)state;
+    hash_of_columns(1, one), hash_of_columns(2, two);
+    assert_memory_equal(one, two, sizeof one);
+}
+
 // ---- nobody is forgotten -------------------------------------------------------------------------------------------
 
 static int has_contact(const scene *s, fe_body a, fe_body b)
@@ -696,6 +808,10 @@ int main(void)
         WITH_4_SUBSTEPS(a_column_comes_back),
         TEST(a_break_keeps_its_energy),
         WITH_4_SUBSTEPS(a_break_keeps_its_energy),
+        TEST(strangers_change_no_bit_of_a_squeeze),
+        TEST(order_in_memory_changes_no_bit_of_a_chain),
+        WITH_4_SUBSTEPS(order_in_memory_changes_no_bit_of_a_chain),
+        TEST(workers_change_no_bit_of_chains_on_the_ground),
         TEST(balls_that_overlap_have_a_contact),
         TEST(free_cluster_keeps_momentum_and_gains_no_energy),
         WITH_4_SUBSTEPS(free_cluster_keeps_momentum_and_gains_no_energy),

@@ -54,6 +54,51 @@ static void a_shot_stack_has_the_same_bits_on_every_set(void **state)
     }
 }
 
+// A ball whose centre of mass is `off` above that of its sphere, near the point next to another ball: that point
+// hardly has an arm, the core of the ball has. Spins by w.
+static fe_body add_wobbler(scene *s, vec at, double off, double w)
+{
+    fe_body body = add_dynamic(s, sphere(0.5), at, UNTURNED, friction(0.5), WATER);
+    fe_mass_data mass = {.struct_size = sizeof mass, .mass = 10, .inertia = {1, 1, 1}};
+    mass.centre = narrow(v3(0, off, 0));
+    mass.inertia_rotation = UNTURNED;
+    MUST(fe_body_set_mass_data(s->world, body, &mass));
+    set_velocity(s, body, v3(0, 0, 0), v3(0, 0, w));
+    return body;
+}
+
+// Velocities of two whose points are `gap` apart, after two steps beside `others` far off
+static int motion_of_wobblers(int simd, int others, double gap, double w, vec out[4])
+{
+    fe_world_def def;
+    fe_world_def_init(&def, sizeof def);
+    def.substeps = 8, def.simd = simd;
+    scene s = {NULL, UNTURNED, 8, STEP / 8};
+    if (fe_world_create(&def, &s.world) < 0) return 0; // not on this processor
+    fe_body a = add_wobbler(&s, v3(0, 0, 0), 0.4999, w), b = add_wobbler(&s, v3(0, 1 + gap, 0), -0.4999, -w);
+    // these touch: the row that they share with the pair is solved
+    for (int i = 1; i <= others; ++i)
+        add_wobbler(&s, v3(20 * i, 0, 0), 0, 0), add_wobbler(&s, v3(20 * i, 0.98, 0), 0, 0);
+    run(&s, 2);
+    out[0] = velocity(&s, a), out[1] = spin(&s, a), out[2] = velocity(&s, b), out[3] = spin(&s, b);
+    scene_end(&s);
+    return 1;
+}
+
+// How far a gap may close by rotation is a matter of the cores of round forms, too. Who shares a row with a touching
+// pair hangs on what else there is, and on the row's width.
+static void off_centre_balls_have_the_same_bits_beside_others(void **state)
+{
+    (void)state;
+    for (double gap = 0.00005; gap < 0.005; gap *= 2)
+        for (double w = 1; w < 30; w *= 3) {
+            vec alone[4], beside[4];
+            FE_TRUE(motion_of_wobblers(FE_SIMD_PLAIN, 0, gap, w, alone));
+            for (int simd = FE_SIMD_PLAIN; simd <= FE_SIMD_NEON; ++simd)
+                if (motion_of_wobblers(simd, 3, gap, w, beside)) assert_memory_equal(alone, beside, sizeof alone);
+        }
+}
+
 // Stacks in a distance share rows with the first: they decide what of it is skipped, and change no bit of it.
 static void stacks_far_off_change_no_bit(void **state)
 {
@@ -135,10 +180,10 @@ static void a_row_of_gaps_hands_a_push_on(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(a_shot_stack_has_the_same_bits_on_every_set), EVERY_WAY_UP(stacks_far_off_change_no_bit),
-        WITH_4_SUBSTEPS(stacks_far_off_change_no_bit),     EVERY_WAY_UP(a_shot_stack_gains_no_energy),
-        WITH_4_SUBSTEPS(a_shot_stack_gains_no_energy),     EVERY_WAY_UP(a_row_of_gaps_hands_a_push_on),
-        WITH_4_SUBSTEPS(a_row_of_gaps_hands_a_push_on),
+        TEST(a_shot_stack_has_the_same_bits_on_every_set), TEST(off_centre_balls_have_the_same_bits_beside_others),
+        EVERY_WAY_UP(stacks_far_off_change_no_bit),        WITH_4_SUBSTEPS(stacks_far_off_change_no_bit),
+        EVERY_WAY_UP(a_shot_stack_gains_no_energy),        WITH_4_SUBSTEPS(a_shot_stack_gains_no_energy),
+        EVERY_WAY_UP(a_row_of_gaps_hands_a_push_on),       WITH_4_SUBSTEPS(a_row_of_gaps_hands_a_push_on),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

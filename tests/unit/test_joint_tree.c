@@ -28,7 +28,7 @@ typedef struct rig {
     fe__motion_line motion[MOST_LINKS + 1];
     fe__start_line start[MOST_LINKS + 1];
     fe__inertia_line inertia_line[MOST_LINKS + 1];
-    fe__forest forest;
+    fe__joints joints;
     fe__joint_tree tree;
     fe__tree_link links[MOST_LINKS];
     fe__tree_place places[MOST_LINKS];
@@ -107,12 +107,12 @@ static void begin(uint32_t seed)
     the.solver.velocity = the.velocity, the.solver.motion = the.motion, the.solver.start = the.start;
     the.solver.inertia = the.inertia_line, the.solver.places = the.places;
     for (int32_t i = 0; i <= MOST_LINKS; ++i) the.motion[i].rotation[3] = 1.0f;
-    the.forest = (fe__forest){.trees = &the.tree, .links = the.links, .tree_count = 1};
+    the.joints.forest = (fe__forest){.trees = &the.tree, .links = the.links, .tree_count = 1};
     the.tree.kind = FE__TREE_HEAVY;
     the.job = (fe__tree_job){.solver = &the.solver,
                              .bodies = the.bodies,
                              .lanes = &lanes,
-                             .forest = &the.forest,
+                             .joints = &the.joints,
                              .trees = the.trees,
                              .count = 1,
                              .rows = (unsigned char *)the.locks,
@@ -296,7 +296,7 @@ static pass read_now(void)
     pass t = pass_of(&the.job);
     the.head.loaded = 0;
     load_bundle(&t);
-    for (int32_t i = 0; i < t.count; ++i) read_node(&t, i, ALL_LANES), lay_masses(&t, i);
+    for (int32_t i = 0; i < t.count; ++i) read_node(&t, i, ALL_LANES, t.lanes), lay_masses(&t, i);
     return t;
 }
 

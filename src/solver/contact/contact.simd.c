@@ -128,7 +128,7 @@ FE_INLINE wide angular_response(const arm *m, const arm *n, int kind)
     return kind & FE__ROW_PAIR ? w_dot(m->a, n->spin_a) + b : b;
 }
 
-enum { CONTACT_STRIDE = sizeof(fe__contact) / sizeof(float) };
+enum { CONTACT_STRIDE = sizeof(fe__contact) / sizeof(float), POINTS_STRIDE = sizeof(fe__points) / sizeof(float) };
 
 // a point that opened to twice the speculative distance still counts a little for the friction centre: the weights
 // never all vanish
@@ -141,9 +141,11 @@ enum { CONTACT_STRIDE = sizeof(fe__contact) / sizeof(float) };
 // of the trace of a rolling mass, added to its diagonal
 #define REGULAR 1e-6f
 
-FE_INLINE void prefetch_contact(const fe__contact *m)
+// what a row is made of
+FE_INLINE void prefetch_contact(const fe__contact_arrays *of, const fe__lane *lane)
 {
-    for (unsigned k = 0; k < offsetof(fe__contact, found_a); k += 64) __builtin_prefetch((const char *)m + k);
+    __builtin_prefetch(of->contacts + lane->contact);
+    fe__fetch(of->points + lane->points, sizeof *of->points);
 }
 
 // FE__AHEAD, by a contact's tolerance
@@ -167,8 +169,8 @@ static __attribute__((noinline)) void mark_strained(fe__solver *s, const int32_t
     atomic_store_explicit(&s->strained, 1, memory_order_relaxed);
 }
 
-// Lanes of contact 0 are padding: record 0 stays zero and is written by nobody
-FE_INLINE void store_lanes(fe__contact *contacts, const int32_t *index, wide4 normal, wide4 friction, wide4 total)
+// Lanes of record 0 are padding: it stays zero and is written by nobody
+FE_INLINE void store_lanes(fe__points *points, const int32_t *index, wide4 normal, wide4 friction, wide4 total)
 {
     _Alignas(64) float n[FE_W][4], f[FE_W][4], t[FE_W][4];
     w_scatter(n[0], 4, w_in_order, normal);
@@ -176,10 +178,10 @@ FE_INLINE void store_lanes(fe__contact *contacts, const int32_t *index, wide4 no
     w_scatter(t[0], 4, w_in_order, total);
     for (int i = 0; i < FE_W; ++i) {
         if (!index[i]) continue;
-        fe__contact *m = contacts + index[i];
-        *(quad *)m->normal_impulse = *(const quad *)n[i];
-        *(quad *)m->friction_impulse = *(const quad *)f[i];
-        *(quad *)m->total_impulse = *(const quad *)t[i];
+        fe__points *q = points + index[i];
+        *(quad *)q->normal_impulse = *(const quad *)n[i];
+        *(quad *)q->friction_impulse = *(const quad *)f[i];
+        *(quad *)q->total_impulse = *(const quad *)t[i];
     }
 }
 

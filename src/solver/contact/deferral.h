@@ -9,9 +9,9 @@
 //   closing  <= max(n . (vA - vB), 0) + |wA| arm A + |wB| arm B                in the step that comes
 //
 // where a body's arm is the pair's own: what turns about its centre, a ball, closes nothing by it. Without a normal n
-// the same with the whole motion, times sqrt 3 as in recycle.simd.c. Where the bound does not decide, the exact test
-// does, so that no result depends on it. While a pair is deferred, no stage reads more of it. deferral.simd.c has the
-// bound.
+// both arms are the longer one of the bodies' reaches, and the whole motion counts, that since then times sqrt 3 as in
+// recycle.simd.c. Where the bound does not decide, the exact test does, so that no result depends on it. While a pair
+// is deferred, no stage reads more of it. deferral.simd.c has the bound.
 #ifndef FE_SOLVER_CONTACT_DEFERRAL_H
 #define FE_SOLVER_CONTACT_DEFERRAL_H
 #include "solver/body.h"

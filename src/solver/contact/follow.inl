@@ -236,14 +236,15 @@ FE_INLINE void NAMED(move_points)(ROW *row, const motion *m, wide3 n, wide_mask 
 
 // A contact found ahead of time: its points are those of the touch, and found_a, found_b the rotations from there to
 // where the bodies are. Until then its points on A and on B are apart.
-static __attribute__((noinline)) void NAMED(place_ahead)(ROW *row, const fe__contact *m, const int32_t *index,
-                                                         wide_mask lanes, int kind)
+static __attribute__((noinline)) void NAMED(place_ahead)(ROW *row, const fe__contact_arrays *of, const int32_t *index,
+                                                         const int32_t *points, wide_mask lanes, int kind)
 {
+    const fe__contact *m = of->contacts;
     wide zero = w_set(0.0f);
     wide3 n = load3(row->normal), span = load3(row->found_span);
     motion back = {w_zero3(), w_gather(m->found_a, CONTACT_STRIDE, index), w_gather(m->found_b, CONTACT_STRIDE, index)};
     wide apart[POINTS + 1];
-    UNROLL for (int i = 0; i < POINTS; ++i) apart[i] = w_gather(m->point[i].arm, CONTACT_STRIDE, index).w;
+    UNROLL for (int i = 0; i < POINTS; ++i) apart[i] = w_gather(of->points->point[i].arm, POINTS_STRIDE, points).w;
     apart[POINTS] = apart[0];
     NAMED(begin_to_follow)(row, apart, lanes, kind);
     UNROLL for (int i = 0; i <= POINTS; ++i)

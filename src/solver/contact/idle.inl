@@ -6,13 +6,16 @@
 //     gap + h n.(vB - vA) > h reach (|wA| + |wB|)
 //     gap >= gap0 + n.shift - 2 reach (|sin(angleA / 2)| + |sin(angleB / 2)|)          since the step began
 //
+// `reach`: the longest arm of the pair's points and, of round sides, of their cores, which are what rotates.
+//
 // Then vn + s / h > 0 at each point, the passes request less than no impulse of each, and change nothing: a row of
 // none but such contacts is skipped. It is not even prepared until a pass finds something to do. IDLE_ERROR keeps the
 // bound above what rounding does to the requests, so that skipping and solving give the same bits, and who is beside
 // whom in a row does not show. What the passes add of nothing, +0 or -0, changes no velocity, as none is -0
 // (bodies.simd.c).
 //
-// Special rows are never skipped: they note touches. Nor are those with static bodies: they bear loads, nearly all.
+// Special rows are never skipped: they note touches, and a chain of impacts asks them, prepared, for what may still
+// touch in the substep. Nor are those with static bodies: they bear loads, nearly all.
 
 FE_INLINE int NAMED(can_idle)(int kind) { return kind & FE__ROW_PAIR && !(kind & FE__ROW_SPECIAL); }
 

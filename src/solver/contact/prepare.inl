@@ -5,23 +5,23 @@
 // is computed.
 
 // fills the points, returns the friction centre: the mean of the points weighted by how close they are
-FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__contact *m, const int32_t *index, wide4 separation,
-                                      wide points, const fe__step_constants *c)
+FE_INLINE wide3 NAMED(prepare_points)(ROW *row, const fe__points *q, const int32_t *index, wide4 separation, wide count,
+                                      const fe__step_constants *c)
 {
     wide zero = w_set(0.0f), one = w_set(1.0f), sum = zero, apart = zero;
-    wide4 impulse = w_gather(m->normal_impulse, CONTACT_STRIDE, index);
+    wide4 impulse = w_gather(q->normal_impulse, POINTS_STRIDE, index);
     wide impulses[FE__POINTS] = {impulse.x, impulse.y, impulse.z, impulse.w};
     wide separations[FE__POINTS] = {separation.x, separation.y, separation.z, separation.w};
     wide3 weighted = w_zero3();
     UNROLL for (int i = 0; i < POINTS; ++i)
     {
-        contact_point *q = row->point + i;
-        wide3 r = w_xyz(w_gather(m->point[i].arm, CONTACT_STRIDE, index));
-        wide_mask there = w_greater(points, w_set((float)i));
-        store3(q->r, r);
-        q->distance = row->separation[i] = separations[i];
-        q->mass = w_choose(there, one, zero);
-        q->impulse = impulses[i] * c->contact_warm_scale;
+        contact_point *to = row->point + i;
+        wide3 r = w_xyz(w_gather(q->point[i].arm, POINTS_STRIDE, index));
+        wide_mask there = w_greater(count, w_set((float)i));
+        store3(to->r, r);
+        to->distance = row->separation[i] = separations[i];
+        to->mass = w_choose(there, one, zero);
+        to->impulse = impulses[i] * c->contact_warm_scale;
         row->total[i] = zero;
         wide weight =
             w_choose(there, w_clamp(2.0f - separations[i] * (1.0f / c->speculative), w_set(LEAST_WEIGHT), one), zero);
@@ -119,12 +119,14 @@ FE_INLINE void NAMED(note_friction)(ROW *row, wide4 friction)
     NAMED(note_gaps)(row);
 }
 
-FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s, const fe__contact *m,
-                                  const fe__extra *extras, const fe__step_constants *c, int kind)
+FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s, const fe__contact_arrays *of,
+                                  const fe__step_constants *c, int kind)
 {
-    _Alignas(64) int32_t index[FE_W];
+    _Alignas(64) int32_t index[FE_W], points[FE_W];
+    const fe__contact *m = of->contacts;
+    const fe__points *q = of->points;
     for (int i = 0; i < FE_W; ++i) {
-        index[i] = lane[i].contact;
+        index[i] = lane[i].contact, points[i] = lane[i].points;
         row->line_a[i] = lane[i].line_a;
         row->line_b[i] = lane[i].line_b;
     }
@@ -141,21 +143,21 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
     store3(row->start_span, w_xyz(span));
     wide4 found = w_gather(m->found_span, CONTACT_STRIDE, index);
     store3(row->found_span, NAMED(span_found)(row, w_xyz(found), kind));
-    if (kind & FE__ROW_SPECIAL) NAMED(prepare_special)((SPECIAL_ROW *)row, s, extras, index, c);
+    if (kind & FE__ROW_SPECIAL) NAMED(prepare_special)((SPECIAL_ROW *)row, s, of->extras, points, c);
 
     pair p = NAMED(gather_pair)(row, s, kind);
     wide3 t1, t2;
     tangents(p.normal, &t1, &t2);
-    wide4 separation = w_gather(m->separation, CONTACT_STRIDE, index);
-    store3(row->centre, NAMED(prepare_points)(row, m, index, separation, normal.w, c));
+    wide4 separation = w_gather(q->separation, POINTS_STRIDE, points);
+    store3(row->centre, NAMED(prepare_points)(row, q, points, separation, normal.w, c));
     if (NAMED(can_idle)(kind)) NAMED(prepare_gap)(row, separation, normal.w, found.w);
     row->put_off = row->behind = 0;
-    wide4 friction = w_gather(m->friction_impulse, CONTACT_STRIDE, index);
+    wide4 friction = w_gather(q->friction_impulse, POINTS_STRIDE, points);
     NAMED(prepare_friction)(row, friction, t1, t2, c);
     if (NAMED(can_idle)(kind)) NAMED(note_friction)(row, friction);
     NAMED(prepare_following)(row, p.normal, kind);
     wide_mask ahead = found_ahead(surface.w);
-    if (w_any(ahead)) NAMED(place_ahead)(row, m, index, ahead, kind);
+    if (w_any(ahead)) NAMED(place_ahead)(row, of, index, points, ahead, kind);
     MASSES masses;
     NAMED(find_masses)(row, &p, kind, &masses);
     NAMED(store_masses)(row, &masses, every_lane());
@@ -166,54 +168,57 @@ FE_INLINE void NAMED(prepare_row)(ROW *row, const fe__lane *lane, fe__solver *s,
 }
 
 // What begins the step with an impulse, or ended the last one after it had one, is prepared in any case
-FE_INLINE int NAMED(may_wait)(const fe__contact *m, const int32_t *index)
+FE_INLINE int NAMED(may_wait)(const fe__contact_arrays *of, const int32_t *index, const int32_t *points)
 {
-    if (w_any(any_nonzero(w_gather(m->normal_impulse, CONTACT_STRIDE, index)))) return 0;
-    if (w_any(any_nonzero(w_gather(m->friction_impulse, CONTACT_STRIDE, index)))) return 0;
-    if (w_any(any_nonzero(w_gather(m->total_impulse, CONTACT_STRIDE, index)))) return 0;
-    return !w_any(found_ahead(w_gather(&m->surface.dynamic_friction, CONTACT_STRIDE, index).w));
+    const fe__points *q = of->points;
+    if (w_any(any_nonzero(w_gather(q->normal_impulse, POINTS_STRIDE, points)))) return 0;
+    if (w_any(any_nonzero(w_gather(q->friction_impulse, POINTS_STRIDE, points)))) return 0;
+    if (w_any(any_nonzero(w_gather(q->total_impulse, POINTS_STRIDE, points)))) return 0;
+    return !w_any(found_ahead(w_gather(&of->contacts->surface.dynamic_friction, CONTACT_STRIDE, index).w));
 }
 
 // Loose contacts come last in a group: where the first is none, few rows are idle
-FE_INLINE int NAMED(begins_loose)(const fe__contact *m)
+FE_INLINE int NAMED(begins_loose)(const fe__points *q)
 {
-    const float *impulse = m->normal_impulse;
-    return m->separation[0] > 0.0f && !(impulse[0] + impulse[1] + impulse[2] + impulse[3] > 0.0f);
+    const float *impulse = q->normal_impulse;
+    return q->separation[0] > 0.0f && !(impulse[0] + impulse[1] + impulse[2] + impulse[3] > 0.0f);
 }
 
 // A row that may stay idle gets what tells so, and is prepared by the first pass in which it is not
 static __attribute__((noinline)) int NAMED(put_off)(ROW *row, const fe__lane *lane, const fe__solver *s,
-                                                    const fe__contact *m, const fe__step_constants *c, int kind)
+                                                    const fe__contact_arrays *of, const fe__step_constants *c, int kind)
 {
-    _Alignas(64) int32_t index[FE_W];
-    for (int i = 0; i < FE_W; ++i) index[i] = lane[i].contact;
-    if (!NAMED(may_wait)(m, index)) return 0;
+    _Alignas(64) int32_t index[FE_W], points[FE_W];
+    const fe__contact *m = of->contacts;
+    for (int i = 0; i < FE_W; ++i) index[i] = lane[i].contact, points[i] = lane[i].points;
+    if (!NAMED(may_wait)(of, index, points)) return 0;
     for (int i = 0; i < FE_W; ++i) row->line_a[i] = lane[i].line_a, row->line_b[i] = lane[i].line_b;
     wide4 normal = w_gather(m->normal, CONTACT_STRIDE, index);
     store3(row->normal, w_xyz(normal));
     NAMED(prepare_gap)
-    (row, w_gather(m->separation, CONTACT_STRIDE, index), normal.w, w_gather(m->found_span, CONTACT_STRIDE, index).w);
+    (row, w_gather(of->points->separation, POINTS_STRIDE, points), normal.w,
+     w_gather(m->found_span, CONTACT_STRIDE, index).w);
     row->put_off = 1, row->behind = 0;
     NAMED(note_gaps)(row);
     return NAMED(may_idle)(row, kind) && NAMED(idle_now)(row, s, c, kind);
 }
 
-FE_INLINE void NAMED(prepare)(fe__solver *s, fe__contact *contacts, const fe__extra *extras, const fe__lane *lanes,
-                              void *rows, int32_t count, const fe__step_constants *c, int kind)
+FE_INLINE void NAMED(prepare)(fe__solver *s, const fe__contact_arrays *of, const fe__lane *lanes, void *rows,
+                              int32_t count, const fe__step_constants *c, int kind)
 {
     for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
         ROW *row = NAMED(row_at)(rows, i, kind);
-        for (int j = 0; j < FE_W && i + 1 < count; ++j) prefetch_contact(contacts + lanes[FE_W + j].contact);
-        if (!NAMED(can_idle)(kind) || !NAMED(begins_loose)(contacts + lanes->contact) ||
-            !NAMED(put_off)(row, lanes, s, contacts, c, kind))
-            NAMED(prepare_row)(row, lanes, s, contacts, extras, c, kind);
+        for (int j = 0; j < FE_W && i + 1 < count; ++j) prefetch_contact(of, lanes + FE_W + j);
+        if (!NAMED(can_idle)(kind) || !NAMED(begins_loose)(of->points + lanes->points) ||
+            !NAMED(put_off)(row, lanes, s, of, c, kind))
+            NAMED(prepare_row)(row, lanes, s, of, c, kind);
     }
 }
 
 // Returns how many rows have loose lanes beside others: with a gap, and without a load in this step. What was put off
 // to the end is all zeros already
-FE_INLINE int32_t NAMED(store)(fe__contact *contacts, fe__extra *extras, const fe__lane *lanes, const void *rows,
-                               int32_t count, int kind)
+FE_INLINE int32_t NAMED(store)(const fe__contact_arrays *of, const fe__lane *lanes, const void *rows, int32_t count,
+                               int kind)
 {
     int32_t mixed = 0;
     for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
@@ -222,9 +227,8 @@ FE_INLINE int32_t NAMED(store)(fe__contact *contacts, fe__extra *extras, const f
         if (NAMED(can_idle)(kind) && row->put_off) continue;
         wide zero = w_set(0.0f), impulse[FE__POINTS] = {0}, total[FE__POINTS] = {0}, sum = zero;
         _Alignas(64) int32_t index[FE_W];
-        for (int j = 0; j < FE_W; ++j) index[j] = lanes[j].contact;
-        for (int j = 0; j < FE_W && i + 4 < count; ++j)
-            __builtin_prefetch(contacts[lanes[4 * FE_W + j].contact].normal_impulse, 1);
+        for (int j = 0; j < FE_W; ++j) index[j] = lanes[j].points;
+        for (int j = 0; j < FE_W && i + 4 < count; ++j) __builtin_prefetch(of->points + lanes[4 * FE_W + j].points, 1);
         UNROLL for (int j = 0; j < POINTS; ++j)
         {
             impulse[j] = row->point[j].impulse, total[j] = row->total[j];
@@ -237,10 +241,10 @@ FE_INLINE int32_t NAMED(store)(fe__contact *contacts, fe__extra *extras, const f
         // of -0 and +0 the latter: what was put off has it
         wide4 friction = w_with(NAMED(friction_impulse)(row, load3(row->normal)), row->twist_impulse);
         friction = (wide4){friction.x + zero, friction.y + zero, friction.z + zero, friction.w + zero};
-        store_lanes(contacts, index, (wide4){impulse[0], impulse[1], impulse[2], impulse[3]}, friction,
+        store_lanes(of->points, index, (wide4){impulse[0], impulse[1], impulse[2], impulse[3]}, friction,
                     (wide4){total[0], total[1], total[2], total[3]});
         for (int j = 0; j < FE_W && kind & FE__ROW_SPECIAL; ++j)
-            for (int k = 0; k < 3 && index[j]; ++k) extras[index[j]].rolling_impulse[k] = x->rolling_impulse[k][j];
+            for (int k = 0; k < 3 && index[j]; ++k) of->extras[index[j]].rolling_impulse[k] = x->rolling_impulse[k][j];
     }
     return mixed;
 }

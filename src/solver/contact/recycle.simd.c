@@ -14,7 +14,8 @@
 // distance
 #define MOST_ALONG 0.02f
 
-enum { CONTACT_STRIDE = sizeof(fe__contact) / sizeof(float), BODY_STRIDE = sizeof(fe__body) / sizeof(float) };
+enum { CONTACT_STRIDE = sizeof(fe__contact) / sizeof(float), POINTS_STRIDE = sizeof(fe__points) / sizeof(float) };
+enum { BODY_STRIDE = sizeof(fe__body) / sizeof(float) };
 #define CONTACT_QUAD(field) w_gather((const float *)&contacts->field, CONTACT_STRIDE, index)
 
 // a - b and what its rounding lost (Knuth's TwoSum): exact together
@@ -142,11 +143,14 @@ FE_INLINE void put_lanes(float *out, wide values, int32_t count)
 }
 
 // As in rows.inl: s = s0 + n.shift + (nB - nA).r + nB.span + rhoA nA.n + rhoB nB.n with nX = R(dqX)^T n - n
-static void recycle_block(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, float dt,
-                          float fall, uint8_t *out, float *out_slack)
+static void recycle_block(const fe__contact *contacts, fe__points *points, const fe__body *bodies, const int32_t *index,
+                          int32_t count, float dt, float fall, uint8_t *out, float *out_slack)
 {
-    _Alignas(64) int32_t a[FE_W], b[FE_W];
-    for (int i = 0; i < FE_W; ++i) a[i] = contacts[index[i]].body_a, b[i] = contacts[index[i]].body_b;
+    _Alignas(64) int32_t a[FE_W], b[FE_W], points_of[FE_W];
+    for (int i = 0; i < FE_W; ++i) {
+        const fe__contact *m = contacts + index[i];
+        a[i] = m->body_a, b[i] = m->body_b, points_of[i] = m->points;
+    }
     wide4 normal = CONTACT_QUAD(normal), surface = CONTACT_QUAD(surface.dynamic_friction),
           found = CONTACT_QUAD(found_span);
     wide4 found_a, found_b, point[FE__POINTS];
@@ -168,7 +172,7 @@ static void recycle_block(fe__contact *contacts, const fe__body *bodies, const i
         found.w,
     };
     for (int i = 0; i < FE__POINTS; i += 2)
-        w_gather_both(contacts->point[i].arm, CONTACT_STRIDE, index, point + i, point + i + 1);
+        w_gather_both(points->point[i].arm, POINTS_STRIDE, points_of, point + i, point + i + 1);
     wide4 separation = {separation_now(point, constant, slope), separation_now(point + 1, constant, slope),
                         separation_now(point + 2, constant, slope), separation_now(point + 3, constant, slope)};
 
@@ -193,28 +197,27 @@ static void recycle_block(fe__contact *contacts, const fe__body *bodies, const i
     w_scatter(now[0], FE__POINTS, w_in_order, separation);
     for (int i = 0; i < count; ++i) {
         out[i] = (uint8_t)(far >> i & 1 ? FE__MOVED : without >> i & 1 ? FE__STAYS_APART : FE__STAYS);
-        if (out[i] == FE__STAYS) *(quad *)contacts[index[i]].separation = *(const quad *)now[i];
+        if (out[i] == FE__STAYS) *(quad *)points[points_of[i]].separation = *(const quad *)now[i];
     }
-}
-
-// the lines of a contact come from memory while the block before it is reckoned
-FE_INLINE void fetch_ahead(const fe__contact *m)
-{
-    for (unsigned k = 0; k < sizeof *m; k += 64) __builtin_prefetch((const char *)m + k);
 }
 
 fe__recycle_kernel FE_NAME(fe__recycle);
 
-void FE_NAME(fe__recycle)(fe__contact *contacts, const fe__body *bodies, const int32_t *index, int32_t count, float dt,
-                          float fall, uint8_t *out, float *out_slack)
+// The lines of a contact come from memory two blocks before it is reckoned, those of its points, which it names, one
+void FE_NAME(fe__recycle)(const fe__contact *contacts, fe__points *points, const fe__body *bodies, const int32_t *index,
+                          int32_t count, float dt, float fall, uint8_t *out, float *out_slack)
 {
     int32_t i = 0;
+    for (int32_t k = 0; k < count && k < 2 * FE_W; ++k) fe__fetch(contacts + index[k], sizeof *contacts);
     for (; i + FE_W <= count; i += FE_W) {
-        for (int32_t k = i + FE_W; k < count && k < i + 2 * FE_W; ++k) fetch_ahead(contacts + index[k]);
-        recycle_block(contacts, bodies, index + i, FE_W, dt, fall, out + i, out_slack + i);
+        const int32_t *next = index + i + FE_W, *second = next + FE_W;
+        for (int k = 0; k < FE_W && i + 3 * FE_W <= count; ++k) fe__fetch(contacts + second[k], sizeof *contacts);
+        for (int k = 0; k < FE_W && i + 2 * FE_W <= count; ++k)
+            fe__fetch(points + contacts[next[k]].points, sizeof *points);
+        recycle_block(contacts, points, bodies, index + i, FE_W, dt, fall, out + i, out_slack + i);
     }
     if (i == count) return;
     int32_t rest[FE_W] = {0};
     for (int32_t k = i; k < count; ++k) rest[k - i] = index[k];
-    recycle_block(contacts, bodies, rest, count - i, dt, fall, out + i, out_slack + i);
+    recycle_block(contacts, points, bodies, rest, count - i, dt, fall, out + i, out_slack + i);
 }

@@ -31,7 +31,7 @@ typedef struct ROW {
     // see idle.inl. A row that is put off has what is above, these, and nothing else
     wide gap;      // when the step began, m; FLT_MAX: a padding lane; -FLT_MAX: never idle, it follows or had friction
     wide open;     // no more than the gap where the bodies are now, m; -FLT_MAX: nobody looked
-    wide reach;    // longest arm, m
+    wide reach;    // longest arm of the points and, of round sides, of their cores, m
     uint32_t gaps; // lanes whose gap is greater than 0, a bit each
     int32_t put_off; // 1: not prepared
     int32_t behind;  // 1: skipped when the bodies moved, with distances from before
@@ -479,12 +479,12 @@ FE_INLINE ROW *NAMED(row_at)(void *rows, int32_t i, int kind)
 FE_INLINE int NAMED(is_late)(const ROW *row) { return row->put_off || row->behind; }
 
 // the row, prepared, with distances from where the bodies are
-static __attribute__((noinline)) void NAMED(catch_up)(ROW *row, fe__solver *s, const fe__contact *contacts,
+static __attribute__((noinline)) void NAMED(catch_up)(ROW *row, fe__solver *s, const fe__contact_arrays *of,
                                                       const fe__lane *lanes, const fe__step_constants *c, int kind)
 {
     int32_t behind = row->behind;
     wide open = row->open;
-    if (row->put_off) NAMED(prepare_row)(row, lanes, s, contacts, 0, c, kind);
+    if (row->put_off) NAMED(prepare_row)(row, lanes, s, of, c, kind);
     row->behind = 0, row->open = open;
     if (!behind) return;
     pair p = NAMED(gather_pair)(row, s, kind);
@@ -492,14 +492,14 @@ static __attribute__((noinline)) void NAMED(catch_up)(ROW *row, fe__solver *s, c
     NAMED(find_distances)(row, &p, &m, kind);
 }
 
-FE_INLINE void NAMED(solve)(fe__solver *s, const fe__contact *contacts, const fe__lane *lanes, void *rows,
+FE_INLINE void NAMED(solve)(fe__solver *s, const fe__contact_arrays *of, const fe__lane *lanes, void *rows,
                             int32_t count, const fe__step_constants *c, int kind)
 {
     for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
         ROW *row = NAMED(row_at)(rows, i, kind);
         if (NAMED(may_idle)(row, kind)) {
             if (NAMED(idle_now)(row, s, c, kind)) continue;
-            if (NAMED(is_late)(row)) NAMED(catch_up)(row, s, contacts, lanes, c, kind);
+            if (NAMED(is_late)(row)) NAMED(catch_up)(row, s, of, lanes, c, kind);
         }
         pair p = NAMED(gather_pair)(row, s, kind);
         NAMED(solve_normals)(row, c, &p, kind, 1);
@@ -521,14 +521,14 @@ FE_INLINE void NAMED(note_load)(ROW *row, fe__solver *s, const pair *p, const fe
     if (c->finds_strain) NAMED(find_strain)(row, s, load * response, response, c);
 }
 
-FE_INLINE void NAMED(relax)(fe__solver *s, const fe__contact *contacts, const fe__lane *lanes, void *rows,
+FE_INLINE void NAMED(relax)(fe__solver *s, const fe__contact_arrays *of, const fe__lane *lanes, void *rows,
                             int32_t count, const fe__step_constants *c, int kind)
 {
     for (int32_t i = 0; i < count; ++i, lanes += FE_W) {
         ROW *row = NAMED(row_at)(rows, i, kind);
         if (NAMED(may_idle)(row, kind)) {
             if (NAMED(idle_after)(row, s, c, kind)) continue;
-            if (NAMED(is_late)(row)) NAMED(catch_up)(row, s, contacts, lanes, c, kind);
+            if (NAMED(is_late)(row)) NAMED(catch_up)(row, s, of, lanes, c, kind);
         }
         pair p = NAMED(gather_pair)(row, s, kind);
         motion m = NAMED(motion_of)(row, s, kind);
@@ -582,41 +582,40 @@ FE_INLINE int32_t NAMED(touches)(const fe__solver *s, const void *rows, int32_t 
 }
 
 // ---- the kernels of each kind ---------------------------------------------------------------------------------------
-#define INSTANCE(kind_name, kind)                                                                                 \
-    static void NAMED(prepare_##kind_name)(fe__solver * s, fe__contact * contacts, const fe__extra *extras,       \
-                                           const fe__lane *lanes, void *rows, int32_t count,                      \
-                                           const fe__step_constants *c)                                           \
-    {                                                                                                             \
-        NAMED(prepare)(s, contacts, extras, lanes, rows, count, c, kind);                                         \
-    }                                                                                                             \
-    static void NAMED(solve_##kind_name)(fe__solver * s, const fe__contact *contacts, const fe__lane *lanes,      \
-                                         void *rows, int32_t count, const fe__step_constants *c)                  \
-    {                                                                                                             \
-        NAMED(solve)(s, contacts, lanes, rows, count, c, kind);                                                   \
-    }                                                                                                             \
-    static void NAMED(relax_##kind_name)(fe__solver * s, const fe__contact *contacts, const fe__lane *lanes,      \
-                                         void *rows, int32_t count, const fe__step_constants *c)                  \
-    {                                                                                                             \
-        NAMED(relax)(s, contacts, lanes, rows, count, c, kind);                                                   \
-    }                                                                                                             \
-    static void NAMED(bounce_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c) \
-    {                                                                                                             \
-        if ((kind)&FE__ROW_SPECIAL) NAMED(bounce)(s, rows, count, c, kind);                                       \
-    }                                                                                                             \
-    static int32_t NAMED(touches_##kind_name)(const fe__solver *s, const void *rows, int32_t count, int32_t lane, \
-                                              int32_t near, const fe__step_constants *c, fe__touch *out)          \
-    {                                                                                                             \
-        return (kind)&FE__ROW_SPECIAL ? NAMED(touches)(s, rows, count, lane, near, c, out, kind) : 0;             \
-    }                                                                                                             \
-    static int32_t NAMED(act_##kind_name)(fe__solver * s, void *row, uint32_t lanes, fe__touch_act act,           \
-                                          const fe__step_constants *c)                                            \
-    {                                                                                                             \
-        return (kind)&FE__ROW_SPECIAL ? NAMED(act)(s, row, lanes_of(lanes), act, c, kind) : 0;                    \
-    }                                                                                                             \
-    static int32_t NAMED(store_##kind_name)(fe__contact * contacts, fe__extra * extras, const fe__lane *lanes,    \
-                                            const void *rows, int32_t count)                                      \
-    {                                                                                                             \
-        return NAMED(store)(contacts, extras, lanes, rows, count, kind);                                          \
+#define INSTANCE(kind_name, kind)                                                                                  \
+    static void NAMED(prepare_##kind_name)(fe__solver * s, const fe__contact_arrays *of, const fe__lane *lanes,    \
+                                           void *rows, int32_t count, const fe__step_constants *c)                 \
+    {                                                                                                              \
+        NAMED(prepare)(s, of, lanes, rows, count, c, kind);                                                        \
+    }                                                                                                              \
+    static void NAMED(solve_##kind_name)(fe__solver * s, const fe__contact_arrays *of, const fe__lane *lanes,      \
+                                         void *rows, int32_t count, const fe__step_constants *c)                   \
+    {                                                                                                              \
+        NAMED(solve)(s, of, lanes, rows, count, c, kind);                                                          \
+    }                                                                                                              \
+    static void NAMED(relax_##kind_name)(fe__solver * s, const fe__contact_arrays *of, const fe__lane *lanes,      \
+                                         void *rows, int32_t count, const fe__step_constants *c)                   \
+    {                                                                                                              \
+        NAMED(relax)(s, of, lanes, rows, count, c, kind);                                                          \
+    }                                                                                                              \
+    static void NAMED(bounce_##kind_name)(fe__solver * s, void *rows, int32_t count, const fe__step_constants *c)  \
+    {                                                                                                              \
+        if ((kind)&FE__ROW_SPECIAL) NAMED(bounce)(s, rows, count, c, kind);                                        \
+    }                                                                                                              \
+    static int32_t NAMED(touches_##kind_name)(const fe__solver *s, const void *rows, int32_t count, int32_t lane,  \
+                                              int32_t near, const fe__step_constants *c, fe__touch *out)           \
+    {                                                                                                              \
+        return (kind)&FE__ROW_SPECIAL ? NAMED(touches)(s, rows, count, lane, near, c, out, kind) : 0;              \
+    }                                                                                                              \
+    static int32_t NAMED(act_##kind_name)(fe__solver * s, void *row, uint32_t lanes, fe__touch_act act,            \
+                                          const fe__step_constants *c)                                             \
+    {                                                                                                              \
+        return (kind)&FE__ROW_SPECIAL ? NAMED(act)(s, row, lanes_of(lanes), act, c, kind) : 0;                     \
+    }                                                                                                              \
+    static int32_t NAMED(store_##kind_name)(const fe__contact_arrays *of, const fe__lane *lanes, const void *rows, \
+                                            int32_t count)                                                         \
+    {                                                                                                              \
+        return NAMED(store)(of, lanes, rows, count, kind);                                                         \
     }
 
 INSTANCE(fixed, 0)

@@ -40,9 +40,15 @@ static int32_t draw_colour(fe__body *a, fe__body *b)
     return a->drawn >> 31 ? mate : colour;
 }
 
+// Counted in pairs, fours and bytes side by side (Knuth 7.1.3, (62)), both words together from the fours on: without an
+// instruction for it, which not every machine has, the compiler calls a function for each word
 int32_t fe__colours_of(const fe__body *body)
 {
-    return __builtin_popcountll(body->colours[0]) + __builtin_popcountll(body->colours[1]);
+    const uint64_t pairs = UINT64_MAX / 3, fours = UINT64_MAX / 5, bytes = UINT64_MAX / 17, ones = UINT64_MAX / 255;
+    uint64_t low = body->colours[0], high = body->colours[1];
+    low -= low >> 1 & pairs, high -= high >> 1 & pairs;
+    low = (low & fours) + (low >> 2 & fours) + (high & fours) + (high >> 2 & fours);
+    return (int32_t)(((low & bytes) + (low >> 4 & bytes)) * ones >> 56);
 }
 
 void fe__colour_contact(fe__body *bodies, fe__contact *m)

@@ -98,7 +98,7 @@ static fe__lane lane_of(const fe__builder *b, const fe__linked *c)
     int32_t line_a = c->awake_a < 0          ? FE__STATIC_LINE
                      : c->key & FE__ROW_PAIR ? b->line[c->awake_a]
                                              : b->kinematic_line[c->awake_a];
-    return (fe__lane){c->contact, line_a, b->line[c->awake_b]};
+    return (fe__lane){c->contact, c->points, line_a, b->line[c->awake_b]};
 }
 
 // Of a hub each contact has a colour to itself, or none: its group has a row, which would be empty but for a lane
@@ -121,13 +121,13 @@ static void add_overflow(fe__builder *b, int32_t k, const fe__kernels *kernels)
     for (int32_t i = b->contact_start[k]; i < b->contact_start[k + 1]; ++i) {
         const fe__linked *c = b->linked + b->contact_order[i];
         if (c->key / FE__ROW_KINDS == FE__OVERFLOW_COLOUR)
-            s->sort_items[n++] = (fe__sort_item){b->in->serials[2 * c->contact + 1], b->contact_order[i], 0};
+            s->sort_items[n++] = (fe__sort_item){b->in->serials[2 * c->points + 1], b->contact_order[i], 0};
     }
     if (n == 0) return; // then there may be no items at all
     s->built.overflow += n;
     fe__sort_keys(s->sort_items, n, s->sort_items + n);
     for (int32_t i = 0; i < n; ++i)
-        s->sort_items[i].key = b->in->serials[2 * b->linked[s->sort_items[i].value].contact];
+        s->sort_items[i].key = b->in->serials[2 * b->linked[s->sort_items[i].value].points];
     fe__sort_keys(s->sort_items, n, s->sort_items + n);
     for (int32_t i = 0; i < n; ++i) {
         const fe__linked *c = b->linked + s->sort_items[i].value;

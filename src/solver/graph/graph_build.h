@@ -20,7 +20,7 @@ _Static_assert((int)FE__DUMMY_LINES >= (int)FE__ROW_KINDS + (int)FE__SIDES,
 
 // What a build needs of a contact in the graph. Contacts lie anywhere in memory: each is read once.
 typedef struct fe__linked {
-    int32_t contact;
+    int32_t contact, points;
     int32_t key;              // colour * FE__ROW_KINDS + kind of row
     int32_t awake_a, awake_b; // awake indices of its bodies, FE__NONE of a static one
     int32_t loose;            // 1: bore nothing in the last step, and has a gap at each point

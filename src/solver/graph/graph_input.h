@@ -6,7 +6,8 @@
 typedef struct fe__graph_input {
     fe__body *bodies;
     const fe__contact *contacts;
-    const uint64_t *serials;     // of the pairs, two a contact: orders overflowing contacts
+    const fe__points *points;
+    const uint64_t *serials;     // of the pairs, two for each record of points: orders overflowing contacts
     const int32_t *awake_bodies; // dynamic and kinematic; bodies[awake_bodies[i]].awake_index == i
     int32_t body_count;
     const int32_t *awake_contacts; // linked or not: colour -1 is not

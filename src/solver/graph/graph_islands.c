@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-enum { AHEAD = 16 }; // contacts come from the whole of memory: each is fetched so many rounds before it is read
+enum { AHEAD = 16 }; // contacts come from the whole of memory: each is fetched so many rounds before it is read, twice
 
 static void join(int32_t *parent, int32_t a, int32_t b)
 {
@@ -19,17 +19,23 @@ static void join(int32_t *parent, int32_t a, int32_t b)
         parent[x] = y;
 }
 
-// It bore nothing in the last step, and there is a gap at each point
-static int32_t is_loose(const fe__contact *m)
+// It bore nothing in the last step, and there is a gap at each point. Of the kinds of rows that are never skipped
+// (contact/idle.inl) none is: their order tells nothing
+static int32_t is_loose(const fe__contact *m, const fe__points *q)
 {
+    if (!(m->kind & FE__ROW_PAIR) || m->kind & FE__ROW_SPECIAL) return 0;
     for (int k = 0; k < FE__POINTS; ++k)
-        if (m->total_impulse[k] > 0.0f || (k < (int32_t)m->point_count && !(m->separation[k] > 0.0f))) return 0;
+        if (q->total_impulse[k] > 0.0f || (k < (int32_t)m->point_count && !(q->separation[k] > 0.0f))) return 0;
     return 1;
 }
 
-static void fetch(const fe__contact *m)
+// of the i-th contact: first its own lines, then its points', which the second names
+FE_FETCHES fetch_ahead(const fe__graph_input *in, int32_t i)
 {
-    __builtin_prefetch(m->total_impulse), __builtin_prefetch(&m->colour), __builtin_prefetch(m->separation);
+    if (i + 2 * AHEAD < in->contact_count)
+        fe__fetch(in->contacts + in->awake_contacts[i + 2 * AHEAD], sizeof *in->contacts);
+    if (i + AHEAD < in->contact_count)
+        __builtin_prefetch(in->points + in->contacts[in->awake_contacts[i + AHEAD]].points);
 }
 
 // B is dynamic in every contact; A may be anything
@@ -40,11 +46,11 @@ static void join_contacts(fe__builder *b)
     for (int32_t i = 0; i < in->contact_count; ++i) {
         int32_t contact = in->awake_contacts[i];
         const fe__contact *m = in->contacts + contact;
-        if (i + AHEAD < in->contact_count) fetch(in->contacts + in->awake_contacts[i + AHEAD]);
+        fetch_ahead(in, i);
         if (m->colour < 0) continue;
         int32_t awake_a = in->bodies[m->body_a].awake_index, awake_b = in->bodies[m->body_b].awake_index;
-        b->linked[b->linked_count++] =
-            (fe__linked){contact, m->colour * FE__ROW_KINDS + m->kind, awake_a, awake_b, is_loose(m)};
+        b->linked[b->linked_count++] = (fe__linked){contact, m->points, m->colour * FE__ROW_KINDS + m->kind,
+                                                    awake_a, awake_b,   is_loose(m, in->points + m->points)};
         if (m->kind & FE__ROW_PAIR) join(b->parent, awake_a, awake_b);
     }
 }

@@ -22,7 +22,7 @@ static fe__group *open_joints(fe__builder *b, fe__batch *batch, int32_t key, int
 static fe__lane joint_lane(const fe__builder *b, int32_t joint)
 {
     const fe__joint *j = b->in->joints->joints + joint;
-    return (fe__lane){joint, fe__line_of(b, j->body_a), fe__line_of(b, j->body_b)};
+    return (fe__lane){joint, 0, fe__line_of(b, j->body_a), fe__line_of(b, j->body_b)};
 }
 
 // joints beyond the colours of a crowded body, sorted by creation: their number
@@ -44,6 +44,14 @@ static int32_t link_of(const fe__builder *b, int32_t joint)
 {
     const fe__forest *f = &b->in->joints->forest;
     return f->link_count ? f->link_of[joint] : FE__NONE;
+}
+
+// its joints have no rows
+static int32_t is_in_rope(const fe__builder *b, int32_t joint)
+{
+    const fe__forest *f = &b->in->joints->forest;
+    const int32_t link = link_of(b, joint);
+    return link >= 0 && f->trees[f->links[link].tree].kind == FE__TREE_ROPE;
 }
 
 static void set_bodies(fe__builder *b, int32_t link, fe__lane lane)
@@ -126,7 +134,7 @@ static void open_part(fe__builder *b, fe__batch *batch, int32_t part, int32_t ov
     for (int32_t i = 0; i < overflowing; ++i) {
         int32_t joint = s->sort_items[i].value, link = link_of(b, joint);
         const fe__joint *j = b->in->joints->joints + joint;
-        if (!(j->rows >> part & 1)) continue;
+        if (!(j->rows >> part & 1) || is_in_rope(b, joint)) continue;
         int32_t group = s->group_count, lane = open_joints(b, batch, joint_key(part, j), 1, kernels)->lane;
         s->lanes[lane] = joint_lane(b, joint);
         if (link >= 0) add_lock(b, link, part, group, lane, kernels);
@@ -139,6 +147,7 @@ static void fill_joint_lanes(fe__builder *b, int32_t joint, const fe__kernels *k
     fe__lane lane = joint_lane(b, joint);
     int32_t link = link_of(b, joint);
     if (link >= 0) set_bodies(b, link, lane), open_tree(b, link);
+    if (link >= 0 && is_in_rope(b, joint)) return;
     for (int32_t part = 0; part < FE__PARTS; ++part) {
         if (!(j->rows >> part & 1)) continue;
         int32_t key = joint_key(part, j), at = b->joint_key_count[key]++;
@@ -154,6 +163,7 @@ void fe__graph_joint_groups(fe__builder *b, int32_t k, const fe__kernels *kernel
     memset(b->joint_key_count, 0, sizeof(int32_t) * FE__JOINT_GROUP_KEYS);
     for (int32_t i = b->joint_start[k]; i < b->joint_start[k + 1]; ++i) {
         const fe__joint *j = b->in->joints->joints + b->joint_order[i];
+        if (is_in_rope(b, b->joint_order[i])) continue;
         for (int32_t part = 0; part < FE__PARTS; ++part)
             b->joint_key_count[joint_key(part, j)] += (int32_t)(j->rows >> part & 1);
     }

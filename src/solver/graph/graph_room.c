@@ -20,26 +20,29 @@ static int32_t overflowing_rows(const fe__graph_bound *b)
 
 static int32_t batch_bound(const fe__graph_bound *b)
 {
-    // two neighbouring small batches together exceed a limit; large islands exceed theirs; one for kinematic bodies,
-    // two that stayed open
+    // two neighbouring small batches together exceed a limit; large islands exceed theirs, which is that of two pairs;
+    // one of each pace stays open, and one is for kinematic bodies
+    _Static_assert((int)FE__ISLAND_LARGE >= (int)FE__BATCH_CONTACTS, "an island alone takes what two batches do");
     int32_t lanes = b->contacts + joint_rows(b);
-    return 2 * (lanes / FE__BATCH_CONTACTS + b->bodies / FE__BATCH_BODIES) + lanes / FE__ISLAND_LARGE + 4;
+    return 2 * (lanes / FE__BATCH_CONTACTS + b->bodies / FE__BATCH_BODIES) + FE__PACES + 1;
 }
 
-// Distinct groups of one batch that the last graph did not have
-static int64_t fresh_groups(const fe__graph_bound *b)
+// Distinct groups of one batch, by the colours and kinds that there are
+static int32_t known_groups(const fe__graph_bound *b)
 {
     const uint32_t pairs = 0xAA; // kinds with FE__ROW_PAIR
-    int32_t known = b->pair_colours * __builtin_popcount(b->kinds & pairs) +
-                    b->static_colours * __builtin_popcount(b->kinds & ~pairs);
-    return fe__mini(b->fresh, known);
+    return b->pair_colours * __builtin_popcount(b->kinds & pairs) +
+           b->static_colours * __builtin_popcount(b->kinds & ~pairs);
 }
+
+// Those that the last graph did not have
+static int64_t fresh_groups(const fe__graph_bound *b) { return fe__mini(b->fresh, known_groups(b)); }
 
 static int64_t group_bound(const fe__solver *s, const fe__graph_bound *b)
 {
     int64_t groups = fresh_groups(b);
     for (int32_t kind = 0; kind < FE__ROW_KINDS; ++kind) groups += s->built.colours[kind];
-    return groups;
+    return fe__minl(groups, known_groups(b));
 }
 
 static int32_t overflow_bound(const fe__solver *s, const fe__graph_bound *b)
@@ -183,32 +186,35 @@ int32_t fe__graph_reserve(fe__solver *s, fe__memory *memory, const fe__kernels *
     int32_t trees = b->joint_set ? b->joint_set->forest.tree_count : 0;
     int64_t sorted = fe__maxi(fe__maxi(overflow_bound(s, b), trees),
                               b->joint_set ? fe__mini(b->joint_set->overflowing, b->joints) : 0);
+    // trails lie behind the rows: bodies are fast before they touch, and rows are many when they rest
+    const int64_t trail = sizeof *s->trail, block = sizeof(fe__row_block);
+    int64_t in_front = fe__whole_blocks(fe__maxl(rows, building)),
+            behind = (b->fast + (b->fast_kinematic ? copies : 0)) * trail;
     int64_t before = memory->allocations;
-    int32_t done =
-        FE_RESERVE(memory, s->velocity, s->line_capacity[0], lines) &&
-        FE_RESERVE(memory, s->motion, s->line_capacity[1], lines) &&
-        FE_RESERVE(memory, s->start, s->line_capacity[2], lines) &&
-        FE_RESERVE(memory, s->inertia, s->line_capacity[3], lines) &&
-        FE_RESERVE(memory, s->drive, s->line_capacity[4], lines) &&
-        FE_RESERVE(memory, s->axes, s->line_capacity[5], lines) &&
-        FE_RESERVE(memory, s->moved_spin, s->line_capacity[6], b->joints ? lines : 0) &&
-        FE_RENEW(memory, s->body_of_line, s->body_of_line_capacity, lines) &&
-        FE_RENEW(memory, s->trail_count, s->trail_capacity[0], lines) &&
-        FE_RENEW(memory, s->trail_of, s->trail_capacity[2], lines) &&
-        FE_RENEW(memory, s->trail, s->trail_capacity[1], b->fast + (b->fast_kinematic ? copies : 0)) &&
-        FE_RENEW(memory, s->touches_of, s->touch_capacity[0], b->special ? lines : 0) &&
-        FE_RENEW(memory, s->touch_of, s->touch_capacity[1], b->special ? lines : 0) &&
-        FE_RENEW(memory, s->touches, s->touch_capacity[2], b->special ? lanes + width : 0) &&
-        FE_RENEW(memory, s->batches, s->batch_capacity, batches) &&
-        FE_RENEW(memory, s->groups, s->group_capacity, groups + 1) &&
-        FE_RENEW(memory, s->lanes, s->lane_capacity, lanes + width) &&
-        FE_RENEW(memory, s->places, s->place_capacity, tree_links(b)) &&
-        FE_RENEW(memory, s->trees, s->tree_capacity, trees) &&
-        FE_RENEW(memory, s->passes, s->pass_capacity, pass_bound(groups)) &&
-        FE_RENEW(memory, s->sort_items, s->sort_capacity, 2 * sorted) &&
-        FE_RENEW(memory, s->rows, s->row_capacity, fe__maxl(rows, building) / (int64_t)sizeof(fe__row_block) + 1);
+    int32_t done = FE_RESERVE(memory, s->velocity, s->line_capacity[0], lines) &&
+                   FE_RESERVE(memory, s->motion, s->line_capacity[1], lines) &&
+                   FE_RESERVE(memory, s->start, s->line_capacity[2], lines) &&
+                   FE_RESERVE(memory, s->inertia, s->line_capacity[3], lines) &&
+                   FE_RESERVE(memory, s->drive, s->line_capacity[4], lines) &&
+                   FE_RESERVE(memory, s->axes, s->line_capacity[5], lines) &&
+                   FE_RESERVE(memory, s->moved_spin, s->line_capacity[6], b->joints ? lines : 0) &&
+                   FE_RENEW(memory, s->body_of_line, s->body_of_line_capacity, lines) &&
+                   FE_RENEW(memory, s->trail_count, s->trail_capacity[0], lines) &&
+                   FE_RENEW(memory, s->trail_of, s->trail_capacity[1], lines) &&
+                   FE_RENEW(memory, s->touches_of, s->touch_capacity[0], b->special ? lines : 0) &&
+                   FE_RENEW(memory, s->touch_of, s->touch_capacity[1], b->special ? lines : 0) &&
+                   FE_RENEW(memory, s->touches, s->touch_capacity[2], b->special ? lanes + width : 0) &&
+                   FE_RENEW(memory, s->batches, s->batch_capacity, batches) &&
+                   FE_RENEW(memory, s->groups, s->group_capacity, groups + 1) &&
+                   FE_RENEW(memory, s->lanes, s->lane_capacity, lanes + width) &&
+                   FE_RENEW(memory, s->places, s->place_capacity, tree_links(b)) &&
+                   FE_RENEW(memory, s->trees, s->tree_capacity, trees) &&
+                   FE_RENEW(memory, s->passes, s->pass_capacity, pass_bound(groups)) &&
+                   FE_RENEW(memory, s->sort_items, s->sort_capacity, 2 * sorted) &&
+                   FE_RENEW(memory, s->rows, s->row_capacity, (in_front + behind) / block + 1);
     s->graph_changed |= memory->allocations != before; // what has grown holds no graph
     if (done) s->worker_row_bytes = fe__whole_blocks(small);
+    if (done) s->trail = (fe__motion_line(*)[FE__TRAIL])(void *)(s->rows + in_front / block);
     return done;
 }
 
@@ -223,8 +229,8 @@ void fe__solver_destroy(fe__solver *s, fe__memory *memory)
     FE_FREE(memory, s->moved_spin, s->line_capacity[6]);
     FE_FREE(memory, s->body_of_line, s->body_of_line_capacity);
     FE_FREE(memory, s->trail_count, s->trail_capacity[0]);
-    FE_FREE(memory, s->trail, s->trail_capacity[1]);
-    FE_FREE(memory, s->trail_of, s->trail_capacity[2]);
+    FE_FREE(memory, s->trail_of, s->trail_capacity[1]);
+    s->trail = NULL;
     FE_FREE(memory, s->touches_of, s->touch_capacity[0]);
     FE_FREE(memory, s->touch_of, s->touch_capacity[1]);
     FE_FREE(memory, s->touches, s->touch_capacity[2]);

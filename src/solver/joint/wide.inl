@@ -164,21 +164,13 @@ FE_INLINE float mean_of(const fe__step_constants *c) { return c->inverse_h / (fl
 // Stored impulses are those of the world's substeps
 FE_INLINE wide stored_of(const fe__step_constants *c) { return w_set((float)c->division); }
 
-// Joints of a row that are open too wide mark their bodies. Other workers may be at the same bodies, with the same
-// mark.
+// Joints of a row that are open too wide mark their bodies
 static __attribute__((noinline)) void mark_stretched(fe__solver *s, const fe__lane *lanes, wide_mask open)
 {
-    float mark = (float)FE__STRETCHED;
     _Alignas(64) float is[FE_W];
     *(wide *)is = w_choose(open, w_set(1.0f), w_set(0.0f));
-    for (int i = 0; i < FE_W; ++i) {
-        if (is[i] == 0.0f || !lanes[i].contact) continue;
-        if (lanes[i].line_a != FE__STATIC_LINE)
-            __atomic_store(&s->inertia[lanes[i].line_a].mark, &mark, __ATOMIC_RELAXED);
-        if (lanes[i].line_b != FE__STATIC_LINE)
-            __atomic_store(&s->inertia[lanes[i].line_b].mark, &mark, __ATOMIC_RELAXED);
-    }
-    atomic_store_explicit(&s->strained, 1, memory_order_relaxed);
+    for (int i = 0; i < FE_W; ++i)
+        if (is[i] != 0.0f && lanes[i].contact) mark_stretched_ends(s, lanes[i].line_a, lanes[i].line_b);
 }
 
 FE_INLINE void find_stretch(fe__solver *s, const fe__lane *lanes, wide3 gap, const fe__step_constants *c)

@@ -33,7 +33,8 @@ enum {
 typedef enum fe__tree_kind {
     FE__TREE_LIGHT, // from the sweep on that left a joint open, to the end of the step
     FE__TREE_SHORT, // in every substep, without a guess from the last: see warm_start.inl
-    FE__TREE_HEAVY  // likewise; without a guess only where it turns fast
+    FE__TREE_ROPE, // likewise, short or heavy, of ball joints alone: they have no rows, the sweep knows nothing of them
+    FE__TREE_HEAVY // likewise; without a guess only where it turns fast
 } fe__tree_kind;
 
 typedef struct fe__joint_tree {

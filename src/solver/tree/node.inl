@@ -60,18 +60,22 @@ typedef struct tree_node {
     real3 shift;        // m
     real3 below, above; // from the centres of the body below, above to the point, m
     real3 gap, swing;   // what the joint has to bring back to zero, m, rad
-    real3 pull;         // impulse on the body below at the point when the matrices were found, N s
-    real_sym inertia;   // about the centre, world axes
+    // impulse on the body below at the point when the matrices were found, N s; of a rope, with what came since
+    real3 pull;
+    real_sym inertia;                          // about the centre, world axes
     real tension, expected, damping, heaviest; // see damping.inl; the largest moment about an axis that is not locked
     // found by the elimination
     real3 from_above; // from the point of the body above to this one, m
     mass p;
-    freedom free[FREEDOMS];
     // of one solution
     real3 v, w; // velocities as they are
     real3 rest; // what the points lack to move as one, m/s
     solution of[SOLUTIONS];
     real3 impulse_v, impulse_w; // l
+    // of a rope
+    real3 given_v, given_w; // by what it changed the velocities in this substep
+    real3 total, last;      // impulses of the step, of its last substep on the body below, N s
+    freedom free[FREEDOMS]; // found by the elimination, too; of a ball joint the first three
     // seldom read
     real_mat principal;   // turn, but of what the joints' inertia has followed: see FE__ROTATED
     real3 lin[3], ang[3]; // axes of the joint, of which some are freedoms. A ball joint has none: its are the world's
@@ -82,6 +86,7 @@ typedef struct tree_node {
     real_sym root;            // of the inertia
     real per_root_mass;       // 1 / sqrt(mass)
     six x;                    // of the powers
+    real3 place;              // of the centre, m: see whirl.inl
     lines held, held_start;   // of the velocities when contacts took over
 } tree_node;
 
@@ -92,6 +97,7 @@ typedef enum tree_state { READY, SOLVED, SWEPT } tree_state;
 typedef struct bundle {
     _Alignas(64) int32_t state[LANES]; // tree_state
     int32_t loaded;                    // 1: the nodes have what they keep for the step
+    int32_t touched;                   // lanes in which contacts touch a rope
     int32_t lends;                     // lanes in which contacts see the mass of the tree
     int32_t lent;                      // of them, while contacts do
 } bundle;

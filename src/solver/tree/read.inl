@@ -73,6 +73,33 @@ static void load_ball(const pass *t, int32_t i, int lane)
     set_lane3(&n->first_gap, lane, fe__dscale(holds_b ? 1.0 : -1.0, fe__widen(lock.gap)));
 }
 
+// from its centre to an anchor, world axes
+FE_INLINE fe_dvec3 arm_of(const fe__body *body, const float *arm)
+{
+    return fe__drotate(fe__quat_of(body->rotation), fe__widen(fe__quad_vector(arm)));
+}
+
+FE_INLINE fe_dvec3 centre_of(const fe__body *body)
+{
+    return (fe_dvec3){body->centre[0], body->centre[1], body->centre[2]};
+}
+
+// Of a rope, whose joints have no rows
+FE_INLINE void load_record(const pass *t, int32_t i, int lane)
+{
+    tree_node *n = t->nodes + i;
+    const int32_t b = t->links_of[lane][i].holds_b;
+    const fe__joint *j = t->job->joints->joints + t->links_of[lane][i].joint;
+    const fe__body *below = t->job->bodies + (b ? j->body_b : j->body_a),
+                   *above = t->job->bodies + (b ? j->body_a : j->body_b);
+    const fe_dvec3 from = arm_of(below, b ? j->arm_b : j->arm_a), to = arm_of(above, b ? j->arm_a : j->arm_b);
+    set_lane3(&n->first_below, lane, from);
+    set_lane3(&n->first_above, lane, to);
+    set_lane3(&n->first_gap, lane, fe__dadd(fe__dsub(centre_of(below), centre_of(above)), fe__dsub(from, to)));
+    set_lane3(&n->pull, lane,
+              fe__dscale((b ? 1.0 : -1.0) * t->job->warm_scale, fe__widen(fe__quad_vector(j->impulse))));
+}
+
 static void load_lane(const pass *t, int32_t i, int lane)
 {
     tree_node *n = t->nodes + i;
@@ -80,6 +107,10 @@ static void load_lane(const pass *t, int32_t i, int lane)
     n->line.at[lane] = p->line, n->line_above.at[lane] = p->parent_line;
     set_lane(&n->side, lane, t->links_of[lane][i].holds_b ? 1.0 : -1.0);
     if (!is_ball(t, i)) return;
+    if (t->kind == FE__TREE_ROPE) {
+        load_record(t, i, lane);
+        return;
+    }
     n->point[lane] = p->lock[0].row + t->job->lanes->point_impulse + p->lock[0].lane * (int64_t)sizeof(float);
     load_ball(t, i, lane);
 }
@@ -90,6 +121,7 @@ static void load_bundle(const pass *t)
     t->head->loaded = 1;
     for (int32_t i = 0; i < t->count; ++i) {
         tree_node *n = t->nodes + i;
+        n->pull = n->total = n->given_v = n->given_w = r_zero3();
         for (int lane = 0; lane < LANES; ++lane) load_lane(t, i, lane);
         load_masses(t, i);
         n->rod = r_set(0.0);
@@ -125,16 +157,16 @@ FE_INLINE real3 impulse_of_point(const pass *t, const tree_node *n)
     return r_scale(n->side, widen3(l));
 }
 
-static void read_ball(const pass *t, int32_t i, real_mask lanes)
+FE_INLINE void read_ball(const pass *t, int32_t i, int32_t lanes)
 {
     tree_node *n = t->nodes + i, *above = above_of(t, i);
     const pose at = above ? (pose){above->turn, above->shift, r_set(0.0)} : pose_of(t, &n->line_above);
     const real3 below = r_mul(&n->turn, n->first_below), to = r_mul(&at.turn, n->first_above);
     const real3 swing = r_sub(r_sub(below, n->first_below), r_sub(to, n->first_above));
     const real3 gap = r_add(n->first_gap, r_add(r_sub(n->shift, at.shift), swing));
-    n->below = r_choose3(lanes, below, n->below), n->above = r_choose3(lanes, to, n->above);
-    n->gap = r_choose3(lanes, gap, n->gap);
-    n->pull = r_choose3(lanes, impulse_of_point(t, n), n->pull);
+    put3(&n->below, lanes, below), put3(&n->above, lanes, to);
+    put3(&n->gap, lanes, gap);
+    if (t->kind != FE__TREE_ROPE) put3(&n->pull, lanes, impulse_of_point(t, n));
 }
 
 // ---- other joints ---------------------------------------------------------------------------------------------------
@@ -322,21 +354,22 @@ static void read_joint(const pass *t, int32_t i, int lane)
 }
 
 // ---- all of them ----------------------------------------------------------------------------------------------------
-// in the given lanes; others keep what they have
-static void read_node(const pass *t, int32_t i, int32_t lanes)
+// In the given lanes; others keep what they have. `apart`: of them, those in which other joints than balls are read,
+// one by one
+FE_INLINE void read_node(const pass *t, int32_t i, int32_t lanes, int32_t apart)
 {
     const real_mask these = r_mask(lanes);
     tree_node *n = t->nodes + i;
     const pose at = pose_of(t, &n->line);
     const real_mask turned_far = r_both(these, r_greater(at.angle, r_set((double)FE__ROTATED)));
-    n->turn = r_choose_mat(these, at.turn, n->turn);
-    n->shift = r_choose3(these, at.shift, n->shift);
+    put3(&n->turn.x, lanes, at.turn.x), put3(&n->turn.y, lanes, at.turn.y), put3(&n->turn.z, lanes, at.turn.z);
+    put3(&n->shift, lanes, at.shift);
     if (r_bits(turned_far)) {
         n->principal = r_choose_mat(turned_far, at.turn, n->principal);
         n->inertia = r_turn_sym(&n->principal, &n->first_inertia);
         n->heaviest = heaviest_of(n, t->locks);
     }
-    if (is_ball(t, i)) read_ball(t, i, these);
+    if (is_ball(t, i)) read_ball(t, i, lanes);
     for (int lane = 0; lane < LANES && !is_ball(t, i); ++lane)
-        if (lanes >> lane & 1) read_joint(t, i, lane);
+        if (apart >> lane & 1) read_joint(t, i, lane);
 }

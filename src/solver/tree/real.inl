@@ -108,6 +108,11 @@ FE_INLINE real3 r_mul_transposed(const real_mat *m, real3 a)
 {
     return r_add_scaled(r_add_scaled(r_scale(a.x, m->x), a.y, m->y), a.z, m->z);
 }
+// in the given lanes
+FE_INLINE void put3(real3 *to, int32_t lanes, real3 a)
+{
+    *to = lanes == ALL_LANES ? a : r_choose3(r_mask(lanes), a, *to);
+}
 // R S R^T
 FE_INLINE real_sym r_turn_sym(const real_mat *r, const real_sym *s)
 {

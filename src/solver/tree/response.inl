@@ -52,6 +52,14 @@ static int32_t find_touched(const pass *t)
     return lanes;
 }
 
+// lanes
+static int32_t find_touched_trees(const pass *t)
+{
+    int32_t lanes = 0;
+    for (int32_t i = 0; i < t->count; ++i) lanes |= touched_in(t, i);
+    return lanes;
+}
+
 // ---- responses ------------------------------------------------------------------------------------------------------
 // What the freedoms of its own joint alone let a body's centre give, in shares of its inverse mass: no more than G does
 FE_INLINE real own_share(const pass *t, int32_t i)

@@ -1,6 +1,7 @@
 // tree.h - all locks of trees of joints, met at once; trees of one form side by side, in lanes.
 //
-// Runs after the sweep over the joints, whose rows hold arms, errors and impulses, and ends what the sweep began.
+// Runs after the sweep over the joints, whose rows hold arms, errors and impulses, and ends what the sweep began. Ropes
+// (FE__TREE_ROPE) have no rows: they are read from the records of their joints, and stored there.
 //
 // A substep is RATTLE's (Andersen 1983): first velocities that bring the points together at its end, then positions,
 // put right by what is left, then velocities along the locks as they now are. So no spring is in it and none is needed:
@@ -19,13 +20,17 @@ typedef struct fe__tree_job {
     fe__solver *solver;
     const fe__body *bodies;
     const fe__lock_lanes *lanes;
-    const fe__forest *forest;
+    const fe__joints *joints;
     const int32_t *trees; // of the forest
     int32_t count;
     unsigned char *rows;  // of the batch
     unsigned char *nodes; // fe__forest_bytes of them, whole blocks
     double h;             // of the substep, s
     double rate;          // share of a gap that a soft lock closes in a substep
+    double mean;          // from the sum of a step's impulses to the mean force, 1/s
+    double warm_scale;    // from stored impulses to those of a substep
+    double stored;        // from those of a substep to stored ones
+    double open;          // square of a gap from which on the island is stretched, m2
 } fe__tree_job;
 
 #endif

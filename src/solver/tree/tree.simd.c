@@ -22,6 +22,8 @@
 // What is farther apart when the step begins was put there, by the user or by continuous collision: it comes together
 // softly, by sweeps
 #define PUT_APART (2.0f * OPEN)
+// Nobody put apart what whirls. But from so wide a gap even that comes together softly, m
+#define TORN 1.0f
 // A rotation, rad, beyond which an elimination says nothing of where an arm leads
 #define FULL_TURN 0.25
 
@@ -146,15 +148,21 @@ FE_INLINE int32_t request_closed(const pass *t, int32_t i)
 // turns fast.
 static int32_t apply(const pass *t, int32_t lanes, int32_t total)
 {
+    const int32_t kept = lanes | (ALL_LANES & ~t->lanes);
     int32_t fast = 0;
     for (int32_t i = 0; i < t->count; ++i) {
-        const tree_node *n = t->nodes + i;
+        tree_node *n = t->nodes + i;
         const velocity now = changed(n);
         const real3 turn = r_scale(t->h, now.w);
         lines l = {.a = {[3] = n->inverse_mass, [7] = n->locks}};
         narrow3(l.a, now.v), narrow3(l.a + 4, now.w);
         write_lines(t->solver->velocity, &n->line, lanes, &l);
         fast |= r_bits(r_greater(r_dot(turn, turn), r_set(FE__SLOW_TURN * FE__SLOW_TURN)));
+        if (t->kind == FE__TREE_ROPE) {
+            keep_rope(n, kept);
+            if (total) forget_rope(t, n, kept);
+            continue;
+        }
         forget_damping(t, i, lanes);
         if (is_ball(t, i)) add_to_point(t, n, lanes, total);
         for (int lane = 0; lane < LANES && !is_ball(t, i); ++lane)
@@ -189,15 +197,12 @@ static void move(const pass *t, int32_t lanes)
 // Passes go from link to link, and do at each all that can be done there: nodes are large, and each waits for the one
 // before it.
 
-// In the given lanes. What others have stays as it is, bit for bit: it is eliminated again to the same matrices. With
-// `solves`, both solutions are requested and handed up. Returns the lanes in which a gap is wide.
-FE_INLINE int32_t reduce(const pass *t, int32_t lanes, int solves)
+FE_INLINE int32_t reduce_lanes(const pass *t, int32_t lanes, int32_t apart, int solves)
 {
     const real_mask these = r_mask(lanes);
     int32_t wide_open = 0;
-    load_bundle(t);
     for (int32_t i = 0; i < t->count; ++i) {
-        read_node(t, i, lanes);
+        read_node(t, i, lanes, apart);
         lay_masses(t, i);
         add_tension(t, i, t->nodes[i].pull);
         if (!solves) continue;
@@ -210,6 +215,16 @@ FE_INLINE int32_t reduce(const pass *t, int32_t lanes, int solves)
         if (solves) hand_up(t, i, SPEEDS), hand_up(t, i, PLACES);
     }
     return wide_open;
+}
+
+// In the given lanes. What others have stays as it is, bit for bit: it is eliminated again to the same matrices. With
+// `solves`, both solutions are requested and handed up. Returns the lanes in which a gap is wide.
+FE_INLINE int32_t reduce(const pass *t, int32_t lanes, int solves)
+{
+    load_bundle(t);
+    const int32_t with_idle = lanes | (ALL_LANES & ~t->lanes);
+    return with_idle == ALL_LANES ? reduce_lanes(t, ALL_LANES, lanes, solves)
+                                  : reduce_lanes(t, with_idle, lanes, solves);
 }
 
 // The first solution shows the arcs, the second follows them
@@ -255,6 +270,8 @@ static int32_t damp_jerk(const pass *t, int32_t lanes)
     return lanes;
 }
 
+#include "solver/tree/whirl.inl"
+
 // Gaps are closed again where one was wide, as the joints now see them: closing it turned the joints
 static void close_gaps(const pass *t, int32_t lanes, int32_t wide_open)
 {
@@ -284,14 +301,16 @@ static void meet_locks(const pass *t, int32_t lanes)
         meet_requests(t, PLACES);
     }
     const int32_t fast = apply(t, lanes, 1);
-    if (t->kind != FE__TREE_LIGHT) forget_locks(t, t->kind == FE__TREE_SHORT ? lanes : fast);
+    if (t->kind == FE__TREE_SHORT || t->kind == FE__TREE_HEAVY)
+        forget_locks(t, t->kind == FE__TREE_SHORT ? lanes : fast);
+    calm(t, fast);
     close_gaps(t, lanes, wide_open);
 }
 
 // ---- passes ---------------------------------------------------------------------------------------------------------
 static pass pass_of(const fe__tree_job *job)
 {
-    const fe__forest *f = job->forest;
+    const fe__forest *f = &job->joints->forest;
     const fe__joint_tree *first = f->trees + job->trees[0];
     pass t = {.job = job,
               .solver = job->solver,
@@ -362,16 +381,33 @@ static void find_lenders(const pass *t)
     if (is_root(t, 0) && find_touched(t)) t->head->lends = find_shares(t) & t->lanes;
 }
 
+// A link turns farther in a substep than an elimination follows
+static int32_t whirls(const pass *t, int lane)
+{
+    for (int32_t i = 0; i < t->count; ++i) {
+        const float *w = t->solver->start[t->places[lane][i].line].w;
+        const double turn = t->job->h * t->job->h *
+                            ((double)w[0] * (double)w[0] + (double)w[1] * (double)w[1] + (double)w[2] * (double)w[2]);
+        if (turn > FULL_TURN * FULL_TURN) return 1;
+    }
+    return 0;
+}
+
+static tree_state first_state(const pass *t, int lane)
+{
+    if (t->kind != FE__TREE_LIGHT) return SOLVED;
+    return is_open(t, lane, whirls(t, lane) ? TORN : PUT_APART) ? SWEPT : READY;
+}
+
 static void prepare_trees(const fe__tree_job *job)
 {
     const pass t = pass_of(job);
     t.head->loaded = 0;
     for (int lane = 0; lane < LANES; ++lane)
-        t.head->state[lane] = t.kind != FE__TREE_LIGHT                            ? SOLVED
-                              : lane < job->count && is_open(&t, lane, PUT_APART) ? SWEPT
-                                                                                  : READY;
+        t.head->state[lane] = lane < job->count ? (int32_t)first_state(&t, lane) : (int32_t)READY;
     t.head->lends = t.head->lent = 0;
     if (t.kind != FE__TREE_LIGHT) reduce(&t, ALL_LANES, 0);
+    if (t.kind == FE__TREE_ROPE) drop_pulls(&t), t.head->touched = find_touched_trees(&t);
     if (t.kind == FE__TREE_HEAVY) find_lenders(&t);
     lend(&t);
 }
@@ -406,6 +442,7 @@ static void follow_trees(const fe__tree_job *job)
     int32_t lanes = ready | lanes_in(&t, SOLVED);
     for (int lane = 0; lane < LANES; ++lane)
         if (ready >> lane & 1 && !will_open(&t, lane)) lanes &= ~(1 << lane);
+    if (t.kind == FE__TREE_ROPE) lanes &= t.head->touched; // nothing else came between
     if (lanes & ~ready) lanes &= ready | struck | come_apart(&t);
     if (!lanes) return;
     if (lanes & ready) reduce(&t, t.head->loaded ? lanes & ready : ALL_LANES, 0);
@@ -437,7 +474,32 @@ static void receive_trees(const fe__tree_job *job)
     meet_requests(&t, SPEEDS);
     for (int32_t i = 0; i < t.count; ++i) add_tension(&t, i, pull_now(t.nodes + i));
     damp_jerk(&t, lanes);
-    forget_locks(&t, apply(&t, lanes, 1));
+    const int32_t fast = apply(&t, lanes, 1);
+    forget_locks(&t, fast);
+    calm(&t, fast);
+}
+
+FE_INLINE void put_quad(float *to, fe_dvec3 a)
+{
+    to[0] = (float)a.x, to[1] = (float)a.y, to[2] = (float)a.z, to[3] = 0.0f;
+}
+
+// What the store of rows does for other joints
+static void store_trees(const fe__tree_job *job)
+{
+    const pass t = pass_of(job);
+    if (t.kind != FE__TREE_ROPE) return;
+    for (int32_t i = is_root(&t, 0); i < t.count; ++i) {
+        const tree_node *n = t.nodes + i;
+        const real3 force = r_scale(job->mean * n->side, n->total), last = r_scale(job->stored * n->side, n->last);
+        const int32_t open = r_bits(r_greater(r_dot(n->gap, n->gap), r_set(job->open)));
+        for (int lane = 0; lane < job->count; ++lane) {
+            const int32_t joint = t.links_of[lane][i].joint;
+            put_quad(job->joints->reactions[joint].force, get_lane3(&force, lane));
+            put_quad(job->joints->joints[joint].impulse, get_lane3(&last, lane));
+            if (open >> lane & 1) mark_stretched_ends(t.solver, n->line.at[lane], n->line_above.at[lane]);
+        }
+    }
 }
 
 const fe__forest_kernels FE_NAME(fe__forest_kernels) = {LANES,
@@ -448,4 +510,5 @@ const fe__forest_kernels FE_NAME(fe__forest_kernels) = {LANES,
                                                         solve_trees,
                                                         follow_trees,
                                                         relax_trees,
-                                                        receive_trees};
+                                                        receive_trees,
+                                                        store_trees};

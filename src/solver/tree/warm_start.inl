@@ -148,3 +148,30 @@ static void forget_locks(const pass *t, int32_t lanes)
         write_lines(t->solver->start, &n->line, lanes, &start);
     }
 }
+
+// ---- ropes ----------------------------------------------------------------------------------------------------------
+// No row holds what their joints bear, and no limit or motor pulls at their bodies: all that the locks give is what the
+// solutions change of the velocities. Nodes add that up over a substep, and `start` takes it at its end.
+FE_INLINE void keep_rope(tree_node *n, int32_t lanes)
+{
+    put3(&n->pull, lanes, r_add(n->pull, n->impulse_v));
+    put3(&n->given_v, lanes, r_add(n->given_v, centre_change(n, SPEEDS)));
+    put3(&n->given_w, lanes, r_add(n->given_w, n->of[SPEEDS].change_w));
+}
+
+// Those of the last step told what tension to expect, and nothing more
+static void drop_pulls(const pass *t)
+{
+    for (int32_t i = 0; i < t->count; ++i) t->nodes[i].pull = r_zero3();
+}
+
+FE_INLINE void forget_rope(const pass *t, tree_node *n, int32_t lanes)
+{
+    const velocity now = changed(n);
+    lines start = read_lines(t->solver->start, &n->line);
+    narrow3(start.a, settled(r_add(widen3(start.a), n->given_v), now.v));
+    narrow3(start.a + 4, settled(r_add(widen3(start.a + 4), n->given_w), now.w));
+    write_lines(t->solver->start, &n->line, lanes & t->lanes, &start);
+    put3(&n->total, lanes, r_add(n->total, n->pull)), put3(&n->last, lanes, n->pull);
+    put3(&n->pull, lanes, r_zero3()), put3(&n->given_v, lanes, r_zero3()), put3(&n->given_w, lanes, r_zero3());
+}
