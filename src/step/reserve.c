@@ -148,9 +148,11 @@ static void bound_fresh(const fe__step *step, int32_t asleep, fe__graph_bound *b
     const fe_world *w = step->world;
     const fe__step_scratch *s = step->scratch;
     expect(step, b);
-    int32_t coming = s->candidate_count + s->candidate_patches,
-            busy = w->awake_pair_count - atomic_load(&s->waiting_count), unlinked = busy - w->awake_linked_count,
-            patches = w->field_pair_count * (FE__PATCHES - 1), woken = w->solver.unbuilt;
+    // beside a heightfield none waits, the first step with one included
+    int32_t waiting = w->field_pair_count || s->candidate_patches ? 0 : atomic_load(&s->waiting_count);
+    int32_t coming = s->candidate_count + s->candidate_patches, busy = w->awake_pair_count - waiting,
+            unlinked = busy - w->awake_linked_count, patches = w->field_pair_count * (FE__PATCHES - 1),
+            woken = w->solver.unbuilt;
     int32_t others = unlinked - atomic_load(&s->due_count) + asleep + patches;
     b->contacts = busy + asleep + patches + coming;
     step->scratch->points_to_come =
