@@ -217,7 +217,8 @@ static int32_t reserve_scratch(fe__step *step, const fe__graph_bound *b)
     fe__step_scratch *s = step->scratch;
     fe__memory *memory = &w->memory;
     return FE_RENEW(memory, s->results, s->result_capacity, (int64_t)b->contacts + 1) &&
-           FE_RESERVE(memory, s->busy, s->busy_capacity, (int64_t)b->contacts + 1) &&
+           // a body that leaps ends all waiting within the step
+           FE_RESERVE(memory, s->busy, s->busy_capacity, (int64_t)b->contacts + atomic_load(&s->waiting_count) + 1) &&
            FE_RENEW(memory, s->left, s->left_capacity, w->shape_count) &&
            FE_RENEW(memory, s->chased, s->chased_capacity, (int64_t)2 * b->bodies) &&
            FE_RENEW(memory, s->chases, s->chase_capacity, w->has_bullets ? b->bodies : 0) &&
