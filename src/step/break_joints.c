@@ -41,5 +41,5 @@ void fe__break_joints(fe__step *step)
         fe__joint_reaction_of(&w->joints, w->bodies, joint, &e.force, &e.torque);
         w->joint_events[i] = (fe__joint_event_record){items[i].key, e};
     }
-    for (int32_t i = 0; i < count; ++i) fe__joint_destroy(w, items[i].value);
+    for (int32_t i = 0; i < count; ++i) fe__joint_remove(w, items[i].value);
 }

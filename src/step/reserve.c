@@ -185,7 +185,9 @@ static void count_fast(const fe__step *step, fe__graph_bound *b)
 static fe__graph_bound bound_of(const fe__step *step, int32_t waking_lanes, int32_t waking_clusters)
 {
     const fe_world *w = step->world;
-    int32_t asleep = fe__mini(waking_lanes, w->pair_count - w->awake_pair_count),
+    // patches are no pairs until they are linked and awake
+    int32_t all = w->pair_count + w->field_pair_count * (FE__PATCHES - 1),
+            asleep = fe__mini(waking_lanes, all - w->awake_pair_count),
             joints = waking_clusters ? w->joint_count : w->awake_joint_count;
     fe__graph_bound b = {0};
     b.bodies = fe__mini(w->body_count, w->awake_body_count + waking_lanes + waking_clusters + joints);

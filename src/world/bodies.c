@@ -206,6 +206,7 @@ fe_result fe__body_set_enabled(fe_world *world, int32_t index, int32_t enabled)
     }
     if (!fe__reserve_proxies(world, body->type, body->shape_count)) return FE_ERROR_MEMORY;
     body->flags |= FE__BODY_ENABLED;
+    fe__body_note_swiftness(world, body); // no step looked at it meanwhile
     body->sleep_timer = 0.0f;
     enter_shapes(world, index);
     meet_neighbours(world, index);

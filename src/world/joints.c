@@ -293,10 +293,9 @@ fe_result fe__joint_change(fe_world *world, int32_t joint, const fe__joint_any *
     return FE_OK;
 }
 
-void fe__joint_destroy(fe_world *world, int32_t joint)
+void fe__joint_remove(fe_world *world, int32_t joint)
 {
     fe__joint_record *r = world->joint_records + joint;
-    wake_bodies(world, r->body);
     unlink(world, joint);
     if (r->awake_index >= 0) fe__joint_leave_awake(world, joint);
     fe__joint_remove_from_body(world, joint, r->body[0]);
@@ -311,6 +310,12 @@ void fe__joint_destroy(fe_world *world, int32_t joint)
         if (fe__is_anchor(world, r->body[k])) fe__anchor_destroy(world, r->body[k]);
     r->type = 0;
     fe__id_pool_release(&world->joint_ids, joint - 1);
+}
+
+void fe__joint_destroy(fe_world *world, int32_t joint)
+{
+    wake_bodies(world, world->joint_records[joint].body);
+    fe__joint_remove(world, joint);
 }
 
 void fe__body_drop_joints(fe_world *world, int32_t body)

@@ -11,6 +11,8 @@ fe_result fe__joint_create(fe_world *world, int32_t type, const fe__joint_any *d
                            int32_t *out_joint);
 fe_result fe__joint_change(fe_world *world, int32_t joint, const fe__joint_any *def); // all but its bodies
 void fe__joint_destroy(fe_world *world, int32_t joint);
+// Wakes nobody: within a step, which has reserved for those that it found awake
+void fe__joint_remove(fe_world *world, int32_t joint);
 void fe__joint_describe(const fe_world *world, int32_t joint,
                         fe__joint_any *out_def);          // as it was set; struct_size is that of its type
 void fe__body_drop_joints(fe_world *world, int32_t body); // in the order of creation

@@ -148,6 +148,7 @@ static int64_t all_rows(const fe__solver *s, const fe__graph_bound *b, const fe_
     int64_t large = b->largest > FE__ISLAND_LARGE ? row_bytes(s, b, kernels, fe__mini(b->contacts, b->largest),
                                                               fe__mini(parts, b->largest), (int64_t)b->largest + 1)
                                                   : 0;
+    small = fe__whole_blocks(small); // stretches begin at one
     *out_small = small;
     return small * workers > large ? small * workers : large;
 }
