@@ -228,7 +228,7 @@ static void pinned_in_the_ground(void **state, int32_t kind, double speed)
     if (kind == FE_BODY_KINEMATIC) set_velocity(&s, pin, v3(speed, 0, 0), v3(0, 0, 0));
     set_velocity(&s, ball, v3(speed, 0, 0), v3(0, 0, 0)), set_velocity(&s, block, v3(speed, 0, 0), v3(0, 0, 0));
     fe_joint joint = add_ball(&s, ball_def(), pin, ball, at, v3(0, 0, 1));
-    add_ball(&s, ball_def(), ball, block, v3(0, at.y, 0.7), v3(0, 0, 1));
+    add_hinge(&s, hinge_def(), ball, block, v3(0, at.y, 0.7), v3(1, 0, 0));
     const double force = mass * d * (2 * PI * 60) * (2 * PI * 60);
     for (int i = 0; i < 60; ++i) {
         run(&s, 1);
