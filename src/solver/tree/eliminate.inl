@@ -299,6 +299,12 @@ typedef struct velocity {
     real3 v, w;
 } velocity;
 
+FE_INLINE velocity read_velocity(const pass *t, const line_names *line)
+{
+    const lines l = read_lines(t->solver->velocity, line);
+    return (velocity){widen3(l.a), widen3(l.a + 4)};
+}
+
 FE_INLINE velocity changed(const tree_node *n)
 {
     return (velocity){r_add(n->v, centre_change(n, SPEEDS)), r_add(n->w, n->of[SPEEDS].change_w)};

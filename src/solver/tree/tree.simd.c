@@ -15,6 +15,7 @@
 #include "solver/tree/warm_start.inl"
 #include "solver/tree/response.inl"
 #include "solver/tree/lend.inl"
+#include "solver/tree/whirl.inl"
 
 // A light tree is left to the sweep until an impact pulls a joint's points apart by more than this: four fifths of the
 // linear slop, so that the slop is kept with something to spare, m
@@ -28,12 +29,6 @@
 #define FULL_TURN 0.25
 
 // ---- requests -------------------------------------------------------------------------------------------------------
-FE_INLINE velocity read_velocity(const pass *t, const line_names *line)
-{
-    const lines l = read_lines(t->solver->velocity, line);
-    return (velocity){widen3(l.a), widen3(l.a + 4)};
-}
-
 // of the body above, without changes
 FE_INLINE velocity velocity_above(const pass *t, int32_t i)
 {
@@ -270,8 +265,6 @@ static int32_t damp_jerk(const pass *t, int32_t lanes)
     return lanes;
 }
 
-#include "solver/tree/whirl.inl"
-
 // Gaps are closed again where one was wide, as the joints now see them: closing it turned the joints
 static void close_gaps(const pass *t, int32_t lanes, int32_t wide_open)
 {
@@ -385,10 +378,9 @@ static void find_lenders(const pass *t)
 static int32_t whirls(const pass *t, int lane)
 {
     for (int32_t i = 0; i < t->count; ++i) {
-        const float *w = t->solver->start[t->places[lane][i].line].w;
-        const double turn = t->job->h * t->job->h *
-                            ((double)w[0] * (double)w[0] + (double)w[1] * (double)w[1] + (double)w[2] * (double)w[2]);
-        if (turn > FULL_TURN * FULL_TURN) return 1;
+        const float *spin = t->solver->start[t->places[lane][i].line].w;
+        const fe_dvec3 turn = fe__dscale(t->job->h, fe__widen(fe__vec3(spin[0], spin[1], spin[2])));
+        if (fe__ddot(turn, turn) > FULL_TURN * FULL_TURN) return 1;
     }
     return 0;
 }

@@ -1,11 +1,10 @@
-// whirl.inl - free trees and hung ones keep their momentum, but lose what no substep can follow. Part of tree.simd.c.
+// whirl.inl - trees whose links turn too fast for a substep lose energy, but no momentum. Part of tree.simd.c.
 //
-// After an impact a light link between heavy ones may turn by several turns in a substep. Where its arms lead then, no
-// elimination says: positions and velocities that it finds hold energy that nobody gave. So the motion of such a tree
-// is parted in two. As one rigid body it has all of its momentum and of its angular momentum, and the least energy with
-// them. What moves against that has neither, and is scaled until no arm turns farther than MOST_TURN: energy falls,
-// momentum stays, and all joints move as freely as before, as each velocity along a lock is scaled too. A tree that
-// hangs on a body takes part in the motion of that body instead, which bears the difference.
+// After an impact a light link between heavy ones may turn by several turns in a substep. No elimination says where its
+// arms lead then, and what it finds holds energy that nobody gave. So the motion is parted in two. The first part is
+// that of one rigid body: it has all the momentum and angular momentum, with the least energy. The rest has none, and is
+// scaled until no arm turns farther than MOST_TURN. Velocities along locks are scaled with it: what moved as the joints
+// allow still does. If the tree hangs on a body, the first part is that body's motion.
 
 // of an arm in a substep, rad: the tangent leaves the circle by an eighth of the arm. A crank that turns so fast by
 // itself loses its spin to the positions anyway
@@ -32,15 +31,6 @@ typedef struct rigid_motion {
     real3 centre;
 } rigid_motion;
 
-FE_INLINE real3 solve_sym(const real_sym *m, real3 b)
-{
-    const real xx = m->yy * m->zz - m->yz * m->yz, xy = m->xz * m->yz - m->xy * m->zz,
-               xz = m->xy * m->yz - m->xz * m->yy;
-    const real_sym adjugate = {
-        xx, xy, xz, m->xx * m->zz - m->xz * m->xz, m->xy * m->xz - m->xx * m->yz, m->xx * m->yy - m->xy * m->xy};
-    return r_scale(1.0 / (m->xx * xx + m->xy * xy + m->xz * xz), r_mul_sym(&adjugate, b));
-}
-
 // With the momentum and the angular momentum of the tree: v = p / m, w = I^-1 L about the centre of mass
 static rigid_motion motion_as_one(const pass *t)
 {
@@ -60,7 +50,8 @@ static rigid_motion motion_as_one(const pass *t)
         momentum = r_add(momentum, r_mul_sym(&n->inertia, n->w));
         momentum = r_add_scaled(momentum, n->mass, r_cross(r, r_sub(n->v, m.of.v)));
     }
-    m.of.w = solve_sym(&inertia, momentum);
+    const real_sym inverse = inverse_sym(&inertia);
+    m.of.w = r_mul_sym(&inverse, momentum);
     return m;
 }
 
