@@ -43,22 +43,16 @@ namespace FeatherPhysics
     /// <summary>A convex hull that shapes of many worlds may share. A value that keeps its store alive.</summary>
     public readonly unsafe struct ConvexHull : IEquatable<ConvexHull>
     {
-        readonly Store store;
-        readonly ulong id;
+        readonly Asset asset;
 
-        internal ConvexHull(Store store, ulong id) { this.store = store; this.id = id; }
+        internal ConvexHull(Store store, ulong id) { asset = new Asset(store, id); }
 
-        public Store Store { get { return store; } }
-        public AssetHandle Handle { get { return new AssetHandle(id); } }
+        public Store Store { get { return asset.Store; } }
+        public AssetHandle Handle { get { return new AssetHandle(asset.Id); } }
         /// <summary>False once it is destroyed, or its store disposed.</summary>
-        public bool IsValid { get { return Store.IsAlive(store, id); } }
+        public bool IsValid { get { return asset.IsAlive; } }
         /// <summary>The handle dies at once. The hull lives until the last shape that has it is gone.</summary>
-        public void Destroy()
-        {
-            bool held = false;
-            try { Native.asset_destroy(Enter(ref held), id); }
-            finally { Leave(held); }
-        }
+        public void Destroy() { asset.Destroy("ConvexHull"); }
 
         /// <summary>Volume, centre, inertia, bounds, how many vertices and faces.</summary>
         public HullInfo Info
@@ -70,7 +64,7 @@ namespace FeatherPhysics
                 {
                     HullInfo info;
                     Native.hull_info_init(&info, (uint)sizeof(HullInfo));
-                    Native.hull_get_info(Enter(ref held), id, &info);
+                    Native.hull_get_info(Enter(ref held), asset.Id, &info);
                     return info;
                 }
                 finally { Leave(held); }
@@ -83,7 +77,7 @@ namespace FeatherPhysics
             try
             {
                 fixed (Vector3* start = &MemoryMarshal.GetReference(vertices))
-                    return Native.hull_get_vertices(Enter(ref held), id, start, 0, vertices.Length);
+                    return Native.hull_get_vertices(Enter(ref held), asset.Id, start, 0, vertices.Length);
             }
             finally { Leave(held); }
         }
@@ -94,7 +88,7 @@ namespace FeatherPhysics
             try
             {
                 fixed (HullFace* start = &MemoryMarshal.GetReference(faces))
-                    return Native.hull_get_faces(Enter(ref held), id, start, (uint)sizeof(HullFace), faces.Length);
+                    return Native.hull_get_faces(Enter(ref held), asset.Id, start, (uint)sizeof(HullFace), faces.Length);
             }
             finally { Leave(held); }
         }
@@ -107,19 +101,19 @@ namespace FeatherPhysics
             try
             {
                 fixed (int* start = &MemoryMarshal.GetReference(corners))
-                    return Native.hull_get_corners(Enter(ref held), id, start, 0, corners.Length);
+                    return Native.hull_get_corners(Enter(ref held), asset.Id, start, 0, corners.Length);
             }
             finally { Leave(held); }
         }
 
-        void* Enter(ref bool held) { return Store.Enter(store, "ConvexHull", ref held); }
-        void Leave(bool held) { if (held) store.Leave(true); }
+        void* Enter(ref bool held) { return asset.Enter("ConvexHull", ref held); }
+        void Leave(bool held) { asset.Leave(held); }
 
-        public bool Equals(ConvexHull other) { return store == other.store && id == other.id; }
+        public bool Equals(ConvexHull other) { return asset.Equals(other.asset); }
         public override bool Equals(object other) { return other is ConvexHull && Equals((ConvexHull)other); }
-        public override int GetHashCode() { return id.GetHashCode(); }
+        public override int GetHashCode() { return asset.GetHashCode(); }
         public static bool operator ==(ConvexHull a, ConvexHull b) { return a.Equals(b); }
         public static bool operator !=(ConvexHull a, ConvexHull b) { return !a.Equals(b); }
-        public override string ToString() { return "ConvexHull 0x" + id.ToString("x"); }
+        public override string ToString() { return "ConvexHull " + asset; }
     }
 }

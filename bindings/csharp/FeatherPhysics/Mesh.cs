@@ -94,22 +94,16 @@ namespace FeatherPhysics
     /// <summary>Triangles that shapes of many worlds may share. A value that keeps its store alive.</summary>
     public readonly unsafe struct TriangleMesh : IEquatable<TriangleMesh>
     {
-        readonly Store store;
-        readonly ulong id;
+        readonly Asset asset;
 
-        internal TriangleMesh(Store store, ulong id) { this.store = store; this.id = id; }
+        internal TriangleMesh(Store store, ulong id) { asset = new Asset(store, id); }
 
-        public Store Store { get { return store; } }
-        public AssetHandle Handle { get { return new AssetHandle(id); } }
+        public Store Store { get { return asset.Store; } }
+        public AssetHandle Handle { get { return new AssetHandle(asset.Id); } }
         /// <summary>False once it is destroyed, or its store disposed.</summary>
-        public bool IsValid { get { return Store.IsAlive(store, id); } }
+        public bool IsValid { get { return asset.IsAlive; } }
         /// <summary>The handle dies at once. The mesh lives until the last shape that has it is gone.</summary>
-        public void Destroy()
-        {
-            bool held = false;
-            try { Native.asset_destroy(Enter(ref held), id); }
-            finally { Leave(held); }
-        }
+        public void Destroy() { asset.Destroy("TriangleMesh"); }
 
         /// <summary>Area, volume, bounds, how many triangles, and what was wrong with them.</summary>
         public MeshInfo Info
@@ -121,7 +115,7 @@ namespace FeatherPhysics
                 {
                     MeshInfo info;
                     Native.mesh_info_init(&info, (uint)sizeof(MeshInfo));
-                    Native.mesh_get_info(Enter(ref held), id, &info);
+                    Native.mesh_get_info(Enter(ref held), asset.Id, &info);
                     return info;
                 }
                 finally { Leave(held); }
@@ -135,7 +129,7 @@ namespace FeatherPhysics
             {
                 MeshTriangle triangle;
                 Native.mesh_triangle_init(&triangle, (uint)sizeof(MeshTriangle));
-                Native.mesh_get_triangle(Enter(ref held), id, number, &triangle);
+                Native.mesh_get_triangle(Enter(ref held), asset.Id, number, &triangle);
                 return triangle;
             }
             finally { Leave(held); }
@@ -150,19 +144,19 @@ namespace FeatherPhysics
             try
             {
                 fixed (SurfaceMaterial* start = &MemoryMarshal.GetReference(materials))
-                    Native.mesh_set_materials(Enter(ref held), id, start, 0, materials.Length);
+                    Native.mesh_set_materials(Enter(ref held), asset.Id, start, 0, materials.Length);
             }
             finally { Leave(held); }
         }
 
-        void* Enter(ref bool held) { return Store.Enter(store, "TriangleMesh", ref held); }
-        void Leave(bool held) { if (held) store.Leave(true); }
+        void* Enter(ref bool held) { return asset.Enter("TriangleMesh", ref held); }
+        void Leave(bool held) { asset.Leave(held); }
 
-        public bool Equals(TriangleMesh other) { return store == other.store && id == other.id; }
+        public bool Equals(TriangleMesh other) { return asset.Equals(other.asset); }
         public override bool Equals(object other) { return other is TriangleMesh && Equals((TriangleMesh)other); }
-        public override int GetHashCode() { return id.GetHashCode(); }
+        public override int GetHashCode() { return asset.GetHashCode(); }
         public static bool operator ==(TriangleMesh a, TriangleMesh b) { return a.Equals(b); }
         public static bool operator !=(TriangleMesh a, TriangleMesh b) { return !a.Equals(b); }
-        public override string ToString() { return "TriangleMesh 0x" + id.ToString("x"); }
+        public override string ToString() { return "TriangleMesh " + asset; }
     }
 }

@@ -69,21 +69,6 @@ namespace FeatherPhysics
             else owner.Release();
         }
 
-        /// Of an asset's value, whose store may be null.
-        internal static void* Enter(Store store, string kind, ref bool held)
-        {
-            if (store == null) throw new StaleHandleException(kind + ": a default value, of no store");
-            return store.Enter(ref held);
-        }
-        internal static bool IsAlive(Store store, ulong asset)
-        {
-            if (store == null) return false;
-            bool held = false;
-            try { return Native.asset_is_valid(store.Enter(ref held), asset) != 0; }
-            catch (ObjectDisposedException) { return false; }
-            finally { store.Leave(held); }
-        }
-
         /// <summary>Memory of the store and its assets.</summary>
         public long Bytes
         {
@@ -164,22 +149,16 @@ namespace FeatherPhysics
     /// <summary>Terrain that shapes of many worlds may share. A value that keeps its store alive.</summary>
     public readonly unsafe struct Heightfield : IEquatable<Heightfield>
     {
-        readonly Store store;
-        readonly ulong id;
+        readonly Asset asset;
 
-        internal Heightfield(Store store, ulong id) { this.store = store; this.id = id; }
+        internal Heightfield(Store store, ulong id) { asset = new Asset(store, id); }
 
-        public Store Store { get { return store; } }
-        public AssetHandle Handle { get { return new AssetHandle(id); } }
+        public Store Store { get { return asset.Store; } }
+        public AssetHandle Handle { get { return new AssetHandle(asset.Id); } }
         /// <summary>False once it is destroyed, or its store disposed.</summary>
-        public bool IsValid { get { return Store.IsAlive(store, id); } }
+        public bool IsValid { get { return asset.IsAlive; } }
         /// <summary>The handle dies at once. Its heights live until the last shape that has them is gone.</summary>
-        public void Destroy()
-        {
-            bool held = false;
-            try { Native.asset_destroy(Enter(ref held), id); }
-            finally { Leave(held); }
-        }
+        public void Destroy() { asset.Destroy("Heightfield"); }
         /// <summary>
         /// Changes the samples of a rectangle. Bodies near it wake in every world. WorldSteppingException while a world
         /// that uses it steps.
@@ -191,7 +170,7 @@ namespace FeatherPhysics
             try
             {
                 fixed (float* start = &MemoryMarshal.GetReference(heights))
-                    Native.heightfield_set_heights(Enter(ref held), id, row, column, rows, columns, start);
+                    Native.heightfield_set_heights(Enter(ref held), asset.Id, row, column, rows, columns, start);
             }
             finally { Leave(held); }
         }
@@ -202,19 +181,19 @@ namespace FeatherPhysics
             try
             {
                 fixed (float* start = &MemoryMarshal.GetReference(heights))
-                    Native.heightfield_get_heights(Enter(ref held), id, row, column, rows, columns, start);
+                    Native.heightfield_get_heights(Enter(ref held), asset.Id, row, column, rows, columns, start);
             }
             finally { Leave(held); }
         }
 
-        void* Enter(ref bool held) { return Store.Enter(store, "Heightfield", ref held); }
-        void Leave(bool held) { if (held) store.Leave(true); }
+        void* Enter(ref bool held) { return asset.Enter("Heightfield", ref held); }
+        void Leave(bool held) { asset.Leave(held); }
 
-        public bool Equals(Heightfield other) { return store == other.store && id == other.id; }
+        public bool Equals(Heightfield other) { return asset.Equals(other.asset); }
         public override bool Equals(object other) { return other is Heightfield && Equals((Heightfield)other); }
-        public override int GetHashCode() { return id.GetHashCode(); }
+        public override int GetHashCode() { return asset.GetHashCode(); }
         public static bool operator ==(Heightfield a, Heightfield b) { return a.Equals(b); }
         public static bool operator !=(Heightfield a, Heightfield b) { return !a.Equals(b); }
-        public override string ToString() { return "Heightfield 0x" + id.ToString("x"); }
+        public override string ToString() { return "Heightfield " + asset; }
     }
 }

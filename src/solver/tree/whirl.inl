@@ -2,7 +2,7 @@
 //
 // After an impact a light link between heavy ones may turn by several turns in a substep. No elimination says where its
 // arms lead then, and what it finds holds energy that nobody gave. So the motion is parted in two. The first part is
-// that of one rigid body: it has all the momentum and angular momentum, with the least energy. The rest has none, and is
+// that of one rigid body: it has all the momentum and angular momentum, with the least energy. The rest has none. It is
 // scaled until no arm turns farther than MOST_TURN. Velocities along locks are scaled with it: what moved as the joints
 // allow still does. If the tree hangs on a body, the first part is that body's motion.
 
