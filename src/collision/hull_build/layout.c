@@ -37,8 +37,9 @@ static fe__hull_lanes take_lanes(room *r, int32_t count)
     return (fe__hull_lanes){x, y, z};
 }
 
-static void take_all(room *r, fe__hull *h)
+int64_t fe__hull_take_arrays(fe__hull *h, void *block)
 {
+    room of_block = {block, 0}, *r = &of_block;
     h->vertices = take_lanes(r, h->vertex_count);
     h->normals = take_lanes(r, h->face_count);
     h->distances = take_floats(r, h->face_count);
@@ -51,6 +52,9 @@ static void take_all(room *r, fe__hull *h)
     h->faces = take(r, (int64_t)sizeof(fe__hull_face) * h->face_count);
     h->spokes = take(r, (int64_t)sizeof(uint16_t) * h->vertex_count);
     h->corners = take(r, 2 * h->edge_count);
+    h->block = block;
+    h->size = r->end;
+    return r->end;
 }
 
 // ---- lanes ---------------------------------------------------------------------------------------------------------
@@ -79,11 +83,11 @@ static fe_dvec3 side_of(const fe__hull_builder *b, int32_t from, int32_t to)
     return fe__dsub(fe__cloud_point(&b->cloud, point[to]), fe__cloud_point(&b->cloud, point[from]));
 }
 
-static int32_t is_known(const fe__hull_builder *b, fe_dvec3 direction)
+int32_t fe__hull_is_known_direction(const fe_dvec3 *known, int32_t count, fe_dvec3 direction)
 {
     static const double parallel = 1e-5; // sine
-    for (int32_t i = 0; i < b->direction_count; ++i) {
-        fe_dvec3 n = fe__dcross(b->direction[i], direction);
+    for (int32_t i = 0; i < count; ++i) {
+        fe_dvec3 n = fe__dcross(known[i], direction);
         if (fe__ddot(n, n) <= parallel * parallel) return 1;
     }
     return 0;
@@ -105,7 +109,7 @@ static void find_directions(fe__hull_builder *b)
             if (f->across[i] < facet) continue;
             fe_dvec3 side = side_of(b, f->corner[i], f->corner[corner_after(loop, i)]);
             side = fe__dscale(1.0 / sqrt(fe__ddot(side, side)), side);
-            if (is_known(b, side)) continue;
+            if (fe__hull_is_known_direction(b->direction, b->direction_count, side)) continue;
             if (b->direction_count == FE__HULL_DIRECTIONS) {
                 b->direction_count = 0;
                 return;
@@ -179,21 +183,37 @@ static float origin_along(double middle, double extent)
     return fe__absd(middle) > 2.0 * extent ? (float)middle : 0.0f;
 }
 
+void fe__hull_set_vertex(fe__hull *h, int32_t i, fe_vec3 v)
+{
+    set_lane(&h->vertices, i, v);
+    h->low = i ? fe__vec3(fe__minf(h->low.x, v.x), fe__minf(h->low.y, v.y), fe__minf(h->low.z, v.z)) : v;
+    h->high = i ? fe__vec3(fe__maxf(h->high.x, v.x), fe__maxf(h->high.y, v.y), fe__maxf(h->high.z, v.z)) : v;
+}
+
 static void write_vertices(const fe__hull_builder *b, fe__hull *h)
 {
     for (int32_t i = 0; i < h->vertex_count; ++i) {
         fe_dvec3 p = fe__cloud_point(&b->cloud, b->surface.point[b->vertex[i]]);
-        fe_vec3 v = fe__narrow(fe__dsub(p, fe__widen(h->origin)));
-        set_lane(&h->vertices, i, v);
-        h->low = i ? fe__vec3(fe__minf(h->low.x, v.x), fe__minf(h->low.y, v.y), fe__minf(h->low.z, v.z)) : v;
-        h->high = i ? fe__vec3(fe__maxf(h->high.x, v.x), fe__maxf(h->high.y, v.y), fe__maxf(h->high.z, v.z)) : v;
+        fe__hull_set_vertex(h, i, fe__narrow(fe__dsub(p, fe__widen(h->origin))));
     }
-    pad_lanes(&h->vertices, h->vertex_count);
 }
 
 static double along(const fe__hull *h, fe_vec3 normal, int32_t vertex)
 {
     return fe__ddot(fe__widen(normal), fe__widen(fe__hull_vertex(h, vertex)));
+}
+
+double fe__hull_set_plane(const fe__hull *h, int32_t face, fe_vec3 normal)
+{
+    double farthest = along(h, normal, 0), flatness = 0.0;
+    for (int32_t v = 1; v < h->vertex_count; ++v) farthest = fe__maxd(farthest, along(h, normal, v));
+    float distance = fe__float_above(farthest);
+    set_lane(&h->normals, face, normal);
+    writable(h->distances)[face] = distance;
+    const uint8_t *corner = h->corners + h->faces[face].first;
+    for (int32_t k = 0; k < h->faces[face].count; ++k)
+        flatness = fe__maxd(flatness, (double)distance - along(h, normal, corner[k]));
+    return flatness;
 }
 
 static void write_planes(const fe__hull_builder *b, fe__hull *h)
@@ -202,22 +222,16 @@ static void write_planes(const fe__hull_builder *b, fe__hull *h)
     for (int32_t i = 0; i < h->face_count; ++i) {
         const fe__grid_plane *plane = fe__facet_plane(&b->facets, i);
         fe_vec3 normal = fe__narrow(fe__dscale(plane->per_length, plane->normal));
-        double farthest = along(h, normal, 0);
-        for (int32_t v = 1; v < h->vertex_count; ++v) farthest = fe__maxd(farthest, along(h, normal, v));
-        float distance = fe__float_above(farthest);
-        set_lane(&h->normals, i, normal);
-        writable(h->distances)[i] = distance;
-        const uint8_t *corner = h->corners + h->faces[i].first;
-        for (int32_t k = 0; k < h->faces[i].count; ++k)
-            flatness = fe__maxd(flatness, (double)distance - along(h, normal, corner[k]));
+        flatness = fe__maxd(flatness, fe__hull_set_plane(h, i, normal));
     }
     h->flatness = fe__float_above(flatness);
-    pad_lanes(&h->normals, h->face_count);
-    pad(h->distances, h->face_count);
 }
 
-static void write_edges(const fe__hull_builder *b, fe__hull *h)
+void fe__hull_finish(fe__hull *h, const fe_dvec3 *directions)
 {
+    pad_lanes(&h->vertices, h->vertex_count);
+    pad_lanes(&h->normals, h->face_count);
+    pad(h->distances, h->face_count);
     for (int32_t k = 0; k < h->edge_count; ++k) {
         const fe__hull_edge *edge = &h->edges[2 * k];
         fe_vec3 tail = fe__hull_vertex(h, edge[0].origin);
@@ -228,7 +242,7 @@ static void write_edges(const fe__hull_builder *b, fe__hull *h)
     }
     pad_lanes(&h->tails, h->edge_count), pad_lanes(&h->vectors, h->edge_count);
     pad_lanes(&h->left, h->edge_count), pad_lanes(&h->right, h->edge_count);
-    for (int32_t i = 0; i < h->direction_count; ++i) set_lane(&h->directions, i, fe__narrow(b->direction[i]));
+    for (int32_t i = 0; i < h->direction_count; ++i) set_lane(&h->directions, i, fe__narrow(directions[i]));
     if (h->direction_count) pad_lanes(&h->directions, h->direction_count);
 }
 
@@ -245,20 +259,15 @@ int64_t fe__hull_block_size(fe__hull_builder *b)
 {
     find_directions(b);
     fe__hull h;
-    room counting = {NULL, 0};
     set_counts(b, &h);
-    take_all(&counting, &h);
-    return counting.end;
+    return fe__hull_take_arrays(&h, NULL);
 }
 
 void fe__hull_lay_out(fe__hull_builder *b, void *block, fe__hull *h)
 {
-    room r = {block, 0};
     memset(h, 0, sizeof *h);
     set_counts(b, h);
-    take_all(&r, h);
-    h->block = block;
-    h->size = r.end;
+    fe__hull_take_arrays(h, block);
     fe_dvec3 middle = b->cloud.middle;
     double extent = b->cloud.extent;
     h->origin =
@@ -270,5 +279,5 @@ void fe__hull_lay_out(fe__hull_builder *b, void *block, fe__hull *h)
     write_topology(b, h);
     write_vertices(b, h);
     write_planes(b, h);
-    write_edges(b, h);
+    fe__hull_finish(h, b->direction);
 }

@@ -4,6 +4,7 @@
 //   edges    duplicates found, edges told by what meets there            edges.c
 //   tree     triangles sorted into leaves, and the nodes above           tree.c
 //   layout   groups of vertices, leaves, numbers, measures               layout.c, numbers.c
+//   scale    the same mesh, larger, smaller, or in a mirror               scale.c
 //
 // Memory is had in three pieces, whose sizes are known before each: `room`, which lives until the mesh is written;
 // `scratch`, which is given back before the mesh's block is had; the block. Of 2 million triangles and half as many
@@ -61,6 +62,10 @@ int32_t fe__mesh_build(fe__mesh_builder *room, void *scratch, const fe__mesh_sou
 int64_t fe__mesh_block_size(fe__mesh_builder *builder);
 // `block`: so many bytes, zeroed, aligned to 64.
 void fe__mesh_write(fe__mesh_builder *builder, void *block, fe__mesh *out_mesh);
+
+// The same triangles, in the same arrays, under a scale along the axes of the mesh. -1; else the number of a triangle
+// that has no area to speak of under it.
+int32_t fe__mesh_scale(const fe__mesh *mesh, fe_vec3 scale, fe__mesh *out_mesh);
 
 // ---- steps ---------------------------------------------------------------------------------------------------------
 int64_t fe__mesh_weld_size(const fe__mesh_source *source);

@@ -81,6 +81,7 @@ int32_t fe__mesh_build(fe__mesh_builder *b, void *scratch, const fe__mesh_source
     b->refusal.triangle = -1;
     b->mesh.given_count = source->triangle_count;
     b->mesh.is_two_sided = source->is_two_sided;
+    b->mesh.scale[0] = b->mesh.scale[1] = b->mesh.scale[2] = 1.0;
     fe__mesh_weld(b);
     fe__mesh_find_edges(b);
     if (b->mesh.triangle_count == 0) b->refusal.triangle = -1;
