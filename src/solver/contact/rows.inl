@@ -164,7 +164,8 @@ FE_INLINE affine NAMED(normal_velocity)(const pair *p)
 // its time, and the energy of its flight, exact for the discrete motion v += h g, x += h v:
 //     Q = u (u - g h) + 2 g s  before the bodies moved in this substep,   u (u + g h) + 2 g s  after
 // (s: the gap, g: the acceleration that closes it). Only what is faster than the threshold bounces; of the others a
-// chain of impacts knows (pass_on.c).
+// chain of impacts knows (pass_on.c). The points of a face that lands flat touch together: what rounding leaves for the
+// next substep does too, or the face would bounce off one corner after another.
 FE_INLINE void NAMED(record_touch)(SPECIAL_ROW *x, int i, wide impulse, wide vn, wide distance,
                                    const fe__step_constants *c, int moved)
 {
@@ -172,6 +173,7 @@ FE_INLINE void NAMED(record_touch)(SPECIAL_ROW *x, int i, wide impulse, wide vn,
     wide flight = (moved ? u * (u + c->h * g) : u * (u - c->h * g)) + 2.0f * g * gap;
     // as the impulse is computed, so that none is given to a point that is not noted
     wide_mask closes = w_greater(zero, vn + w_max(distance * c->inverse_h, zero));
+    if (POINTS > 1) closes = w_or(closes, w_greater(u, w_max(w_set(c->threshold), (gap - TOUCHING) * c->inverse_h)));
     wide_mask touches = w_and(closes, w_greater(x->row.point[i].mass * x->restitution, zero));
     wide_mask pressed = w_greater(impulse, zero);
     if (moved) pressed = w_and(pressed, w_or(w_greater(x->row.load, zero), w_greater(w_set(c->threshold), u)));
