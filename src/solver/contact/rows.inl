@@ -160,6 +160,12 @@ FE_INLINE affine NAMED(normal_velocity)(const pair *p)
                     w_cross(p->normal, w_sub(p->b.w, p->a.w))};
 }
 
+// More than one point: rows of four hold contacts of one too, whose results are those of the row of one
+FE_INLINE wide_mask NAMED(has_many)(const ROW *row)
+{
+    return POINTS > 1 ? w_greater(row->point[POINTS > 1].mass, w_set(0.0f)) : no_lane();
+}
+
 // A point without impulse, or one that only pushes an overlap apart and is struck, is about to touch: note its speed u,
 // its time, and the energy of its flight, exact for the discrete motion v += h g, x += h v:
 //     Q = u (u - g h) + 2 g s  before the bodies moved in this substep,   u (u + g h) + 2 g s  after
@@ -173,7 +179,8 @@ FE_INLINE void NAMED(record_touch)(SPECIAL_ROW *x, int i, wide impulse, wide vn,
     wide flight = (moved ? u * (u + c->h * g) : u * (u - c->h * g)) + 2.0f * g * gap;
     // as the impulse is computed, so that none is given to a point that is not noted
     wide_mask closes = w_greater(zero, vn + w_max(distance * c->inverse_h, zero));
-    if (POINTS > 1) closes = w_or(closes, w_greater(u, w_max(w_set(c->threshold), (gap - TOUCHING) * c->inverse_h)));
+    wide_mask nearly = w_greater(u, w_max(w_set(c->threshold), (gap - TOUCHING) * c->inverse_h));
+    closes = w_or(closes, w_and(nearly, NAMED(has_many)(&x->row)));
     wide_mask touches = w_and(closes, w_greater(x->row.point[i].mass * x->restitution, zero));
     wide_mask pressed = w_greater(impulse, zero);
     if (moved) pressed = w_and(pressed, w_or(w_greater(x->row.load, zero), w_greater(w_set(c->threshold), u)));
