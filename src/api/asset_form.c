@@ -62,7 +62,7 @@ static fe_result tell_refusal(const char *function, int32_t kind, const fe__scal
         return fe__fail(function, FE_ERROR_DEGENERATE,
                         "geometry->scale makes the hull %.6f m thick, must be at least %.6f m", r->hull.thickness,
                         r->hull.least);
-    return fe__fail(function, FE_ERROR_DEGENERATE, "geometry->scale leaves triangle %d of the mesh without area",
+    return fe__fail(function, FE_ERROR_DEGENERATE, "geometry->scale leaves triangle %d of the mesh without height",
                     (int)r->triangle);
 }
 
@@ -89,8 +89,8 @@ fe_result fe__read_asset_form(const char *function, fe_store *store, const fe_ge
                               fe__form *out_form)
 {
     fe_vec3 scale = {1.0f, 1.0f, 1.0f};
-    FE_TRY(kind == FE__ASSET_HEIGHTFIELD ? fe__check_unscaled(function, geometry)
-                                         : read_scale(function, geometry, &scale));
+    int32_t is_scaled = kind == FE__ASSET_HULL || kind == FE__ASSET_MESH;
+    FE_TRY(is_scaled ? read_scale(function, geometry, &scale) : fe__check_unscaled(function, geometry));
     int32_t index;
     fe__fp_state fp = fe__fp_enter();
     fe__store_lock(store);

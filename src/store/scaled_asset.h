@@ -15,7 +15,7 @@
 // Why a form has no such scale
 typedef struct fe__scale_refusal {
     fe__hull_refusal hull;
-    int32_t triangle; // of a mesh, which would have no area
+    int32_t triangle; // of a mesh, which would be too flat
 } fe__scale_refusal;
 
 // ---- under the lock ------------------------------------------------------------------------------------------------

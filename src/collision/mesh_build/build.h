@@ -65,7 +65,7 @@ int64_t fe__mesh_block_size(fe__mesh_builder *builder);
 void fe__mesh_write(fe__mesh_builder *builder, void *block, fe__mesh *out_mesh);
 
 // The same triangles, in the same arrays, under a scale along the axes of the mesh. -1; else the number of a triangle
-// that has no area to speak of under it.
+// that is too flat under it.
 int32_t fe__mesh_scale(const fe__mesh *mesh, fe_vec3 scale, fe__mesh *out_mesh);
 
 // ---- steps ---------------------------------------------------------------------------------------------------------
@@ -73,6 +73,7 @@ int64_t fe__mesh_weld_size(const fe__mesh_source *source);
 void fe__mesh_weld(fe__mesh_builder *builder);
 int64_t fe__mesh_edges_size(const fe__mesh_source *source);
 void fe__mesh_find_edges(fe__mesh_builder *builder);
+int32_t fe__mesh_is_flat(const fe_dvec3 corner[3]); // no higher than it must be
 int64_t fe__mesh_tree_size(const fe__mesh_source *source);
 int32_t fe__mesh_node_room(int32_t triangle_count);
 void fe__mesh_build_tree(fe__mesh_builder *builder);
