@@ -854,8 +854,8 @@ typedef struct fe_geometry {
     fe_vec3 half_extents; ///< of a box, m
     fe_vec3 normal;       ///< of a plane, any length but zero
     float distance;       ///< of a plane from the origin along its normal, m
-    /// Of a hull or a mesh, along the axes of its points: each 0.001..1000 in magnitude. A negative one mirrors. 0, 0, 0
-    /// counts as 1, 1, 1, and all other forms have one of these two.
+    /// Of a hull or a mesh, along the axes of its points: each 0.001..1000 in magnitude, a negative one mirrors.
+    /// 0, 0, 0 counts as 1, 1, 1. All other forms have one of these two.
     fe_vec3 scale;
     uint32_t reserved[2];
     fe_asset asset; ///< of a hull, a heightfield, a mesh

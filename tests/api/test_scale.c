@@ -431,6 +431,30 @@ static void materials_of_the_asset_are_those_of_its_scales(void **state)
     OK(fe_store_destroy(store));
 }
 
+// Of a new material that bounces too
+static void materials_bounce_under_a_scale(void **state)
+{
+    (void)state;
+    static const fe_material rubber = SURFACE(0.5f, 0.5f, 0.8f, 0, 0);
+    fe_world *world = new_world();
+    fe_store *store = store_of(world);
+    fe_asset mesh = new_mesh(store);
+    fe_body ground = new_body(world, FE_BODY_STATIC, 0, 0, 0), ball = new_body(world, FE_BODY_DYNAMIC, 0, 4, 0);
+    fe_geometry g = mesh_of(mesh, -10, 1, 10);
+    add_shape(world, ground, &g);
+    OK(fe_mesh_set_materials(store, mesh, &rubber, 0, 1));
+    add_sphere(world, ball, 0.5f);
+    double fastest = -10;
+    for (int32_t i = 0; i < 90; ++i) {
+        step(world, 1);
+        fe_vec3 v;
+        OK(fe_body_get_linear_velocity(world, ball, &v));
+        fastest = fmax(fastest, (double)v.y);
+    }
+    FE_NEAR(fastest, 0.8 * sqrt(2 * 9.81 * 2.5), 0.2); // from 2.5 m, less a step of the way
+    OK(fe_world_destroy(world));
+}
+
 // ---- memory --------------------------------------------------------------------------------------------------------
 // One call after another with each allocation failing: nothing changes, and the call can be repeated
 static void each_allocation_may_fail(void **state)
@@ -483,6 +507,7 @@ int main(void)
         cmocka_unit_test(scaled_shapes_outlive_their_asset),
         cmocka_unit_test(many_scales_leave_nothing_behind),
         cmocka_unit_test(materials_of_the_asset_are_those_of_its_scales),
+        cmocka_unit_test(materials_bounce_under_a_scale),
         cmocka_unit_test(each_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
