@@ -144,12 +144,38 @@ static void a_crowd_may_wake_beside_terrain(void **state)
     OK(fe_world_destroy(world));
 }
 
+// Lanes without a body stand for nobody: not for the first, which is joined and sleeps
+static void who_is_joined_may_sleep_from_the_start(void **state)
+{
+    (void)state;
+    fe_world *world = new_world();
+    fe_body bodies[2];
+    for (int i = 0; i < 2; ++i) {
+        fe_body_def def = place(FE_BODY_DYNAMIC, 0, 3.0 * i, 0);
+        def.awake = 0;
+        bodies[i] = add(world, def, box(0.5f, 1, 0.25f)); // a cube has no gyroscopic torque
+    }
+    fe_ball_joint_def def;
+    fe_joint joint = 0;
+    fe_ball_joint_def_init(&def, sizeof def);
+    def.body_a = bodies[0], def.body_b = bodies[1], def.frame_b.position.y = -3;
+    OK(fe_ball_joint_create(world, &def, &joint));
+    for (int i = 0; i < 2; ++i) OK(fe_body_set_awake(world, bodies[i], 0));
+    add(world, place(FE_BODY_DYNAMIC, 20, 0, 0), box(0.5f, 0.5f, 0.5f));
+    run(world, 2);
+    int32_t awake = 1;
+    OK(fe_body_get_awake(world, bodies[0], &awake));
+    assert_false(awake);
+    OK(fe_world_destroy(world));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fast_bodies_may_be_enabled),
         cmocka_unit_test(a_joint_may_break_at_a_platform_that_sleeps),
         cmocka_unit_test(a_crowd_may_wake_beside_terrain),
+        cmocka_unit_test(who_is_joined_may_sleep_from_the_start),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
