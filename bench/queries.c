@@ -1,11 +1,12 @@
 // `feather-bench queries [SCENE]...`: rays, sweeps and overlaps in Feather and Bullet, by turns, on the same scenes,
-// after their timed steps.
+// after their timed steps; then what building meshes and hulls costs (the scene "builds").
 //
 // Times are of the processor, one thread. What holds are the ratios of one run; the hits of both stand beside them, for
 // a fast answer must be the same answer. Bullet counts in floats, sweeps stop some millimetres early (its margins), so
 // that some hits differ. Writes build/queries.csv.
 #include "bench.h"
 
+#include "builds.h"
 #include "memory.h"
 #include "options.h"
 #include "peers/peer.h"
@@ -60,7 +61,7 @@ static bench_probe *make_probes(const bench_scene *scene, kind of)
         bench_probe *p = &probes[i];
         p->way = make_way(scene, &state, &places);
         p->shape = bench_make_box(0.4f, 0.3f, 0.5f);
-        if (of == SPHERE) p->shape = bench_make_sphere(0.4f);
+        if (of == SPHERE) p->shape = bench_make_sphere(scene->query_radius);
         if (of == CAPSULE) p->shape = bench_make_capsule(0.3f, 0.3f);
         if (of == OVERLAP)
             p->shape = i % 2 ? bench_make_box(1.0f, 1.0f, 1.0f) : bench_make_sphere(1.0f),
@@ -175,6 +176,10 @@ static void print_scene(const bench_scene *scene, const side sides[SIDES], FILE 
 static int run_scene(const char *name, FILE *csv)
 {
     bench_scene scene;
+    if (strcmp(name, "builds") == 0) {
+        bench_time_builds(csv);
+        return 0;
+    }
     if (bench_scene_build(name, &scene) != 0) {
         fprintf(stderr, "feather-bench: no scene \"%s\"; try: feather-bench list\n", name);
         return -1;
@@ -202,7 +207,8 @@ static int run_scene(const char *name, FILE *csv)
 
 int bench_command_queries(int argc, char **argv)
 {
-    static const char *const usual[] = {"rest-500", "many-14", "bowl-1500", "level-100000", "terrain-1024"};
+    static const char *const usual[] = {"rest-500",     "many-14",  "bowl-1500",      "level-100000",
+                                        "terrain-1024", "mesh-256", "hullcloud-2000", "builds"};
     FILE *csv = fopen("build/queries.csv", "w");
     if (csv == NULL) {
         fprintf(stderr, "feather-bench: cannot write build/queries.csv\n");

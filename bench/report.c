@@ -69,6 +69,19 @@ void bench_print_table(const bench_table *table)
     fflush(stdout);
 }
 
+void bench_print_overlaps(const bench_table *table)
+{
+    printf("%s: bodies in each other, by the bench's own measure\n%-16s %8s %10s %8s %10s %12s %6s\n",
+           table->scene.name, "", "pairs", "deepest mm", "p99 mm", "median mm", "in ground mm", "lost");
+    for (int32_t i = 0; i < table->run_count; i++) {
+        const bench_overlaps *o = &table->runs[i].overlaps;
+        print_label(&table->runs[i]);
+        printf(" %8d %10.2f %8.2f %10.3f %12.2f %6d\n", o->pairs, 1e3 * o->deepest, 1e3 * o->p99, 1e3 * o->median,
+               1e3 * o->into_ground, o->lost);
+    }
+    fflush(stdout);
+}
+
 void bench_print_rays(const bench_table *table)
 {
     printf("%s: rays\n%-16s %10s %10s %10s %15s\n", table->scene.name, "", "us a ray", "hits", "fraction",
@@ -119,7 +132,8 @@ FILE *bench_csv_open(const char *path)
     }
     fprintf(file, "scene,engine,workers,substeps,ms_per_step,ms_median,ms_p99,top_height,deepest_overlap,drift,"
                   "contacts,points,z_offset,joint_gap,"
-                  "ms_cpu,ms_least,steps,bodies,ray_us,ray_hits,islands,rows,rows_whole,fill,recycled,bytes,hash\n");
+                  "ms_cpu,ms_least,steps,bodies,ray_us,ray_hits,islands,rows,rows_whole,fill,recycled,bytes,hash,"
+                  "overlaps,overlap_deepest,overlap_p99,overlap_median,into_ground,lost\n");
     return file;
 }
 
@@ -152,7 +166,13 @@ void bench_csv_write(FILE *file, const bench_table *table)
             fprintf(file, ",,,,,,");
         }
         if (run->engine->read_hash != NULL) fprintf(file, "%016" PRIx64, run->hash);
-        fprintf(file, "\n");
+        const bench_overlaps *o = &run->overlaps;
+        if (table->scene.ground != BENCH_GROUND_NONE) {
+            fprintf(file, ",%d,%.6f,%.6f,%.6f,%.6f,%d\n", o->pairs, o->deepest, o->p99, o->median, o->into_ground,
+                    o->lost);
+        } else {
+            fprintf(file, ",,,,,,\n");
+        }
     }
     fflush(file);
 }

@@ -8,6 +8,7 @@
 #include <stdio.h>
 
 void bench_print_table(const bench_table *table);
+void bench_print_overlaps(const bench_table *table);
 void bench_print_rays(const bench_table *table);
 void bench_print_profiles(const bench_table *table);
 

@@ -4,6 +4,7 @@
 #ifndef BENCH_RUN_H
 #define BENCH_RUN_H
 
+#include "overlaps.h"
 #include "peers/peer.h"
 #include "stats.h"
 
@@ -26,6 +27,7 @@ typedef struct bench_run {
     double phases[BENCH_MAX_PHASES]; ///< ms, sum over the steps that count
     bench_quality quality;
     bench_contacts contacts;
+    bench_overlaps overlaps; ///< of scenes that tell their ground
     bench_counters counters;
     uint64_t hash;
     double ray_ms; ///< all rays

@@ -30,10 +30,19 @@ const bench_family bench_families[] = {
     {"landslide", "n boxes, spheres and capsules slide down a slope to a wall", 1, 1000000, 1000, 0,
      bench_build_landslide},
     {"blast", "n cubes and spheres burst apart in a closed room and bounce", 1, 1000000, 1000, 0, bench_build_blast},
+    {"hulls", "n convex hulls of 8 to 32 points poured into a pit", 1, 1000000, 1000, 1, bench_build_hulls},
+    {"hullpyramid", "flat pyramid of n rows of boxes given as hulls", 1, 1000, 50, 1, bench_build_hullpyramid},
+    {"rocks", "n convex hulls fall on a mesh of 131 072 triangles", 1, 20000, 2000, 1, bench_build_rocks},
+    {"mixedmesh", "n boxes, spheres, capsules and hulls thrown across that mesh", 1, 20000, 500, 1,
+     bench_build_mixedmesh},
+    {"cylinders", "n cylinders poured into a pit", 1, 1000000, 500, 1, bench_build_cylinders},
+    {"compounds", "n tables, chairs and Ts of boxes poured into a pit", 1, 1000000, 300, 1, bench_build_compounds},
     {"fall", "n boxes, spheres and capsules in the air", 1, 1000000, 500, 0, bench_build_fall},
     {"awake", "n of them tumbling on open ground", 1, 1000000, 2000, 0, bench_build_awake},
     {"level", "n static boxes, for queries", 1, 1000000, 100000, 0, bench_build_level},
     {"terrain", "a heightfield of n x n samples, for queries", 2, 4096, 1024, 0, bench_build_terrain},
+    {"mesh", "hills of n x n cells, two triangles each, for queries", 1, 4096, 256, 0, bench_build_mesh},
+    {"hullcloud", "n static hulls in the air, for queries", 1, 1000000, 2000, 0, bench_build_hullcloud},
 };
 const int32_t bench_family_count = (int32_t)(sizeof bench_families / sizeof bench_families[0]);
 
@@ -45,6 +54,7 @@ static void init_scene(bench_scene *scene, const char *family, int32_t n)
     scene->dt = 1.0f / 60.0f;
     scene->warm_up_steps = 1;
     scene->timed_steps = 200;
+    scene->query_radius = 0.4f;
 }
 
 int bench_scene_build(const char *name, bench_scene *out_scene)
@@ -67,6 +77,10 @@ int bench_scene_build(const char *name, bench_scene *out_scene)
 
 void bench_scene_destroy(bench_scene *scene)
 {
+    for (int32_t i = 0; i < scene->shape_count; i++) {
+        bench_solid_free(scene->shapes[i].solid);
+        free(scene->shapes[i].parts);
+    }
     free(scene->shapes);
     free(scene->bodies);
     free(scene->joints);
@@ -111,6 +125,39 @@ bench_shape bench_make_terrain(int32_t side, float cell)
     return shape;
 }
 
+bench_shape bench_make_cylinder(float half_height, float radius)
+{
+    bench_shape shape = make_shape(BENCH_CYLINDER);
+    shape.half_height = half_height, shape.radius = radius;
+    return shape;
+}
+
+bench_shape bench_make_mesh(int32_t cells)
+{
+    bench_shape shape = make_shape(BENCH_MESH);
+    shape.side = cells;
+    return shape;
+}
+
+bench_shape bench_make_hull(bench_solid *solid)
+{
+    bench_shape shape = make_shape(BENCH_HULL);
+    shape.solid = solid;
+    return shape;
+}
+
+bench_shape bench_make_compound(bench_part *parts, int32_t part_count)
+{
+    bench_shape shape = make_shape(BENCH_COMPOUND);
+    shape.parts = parts, shape.part_count = part_count;
+    return shape;
+}
+
+static double part_volume(const bench_part *part)
+{
+    return 8.0 * (double)part->half[0] * (double)part->half[1] * (double)part->half[2];
+}
+
 double bench_shape_volume(const bench_shape *shape)
 {
     double r = shape->radius;
@@ -121,10 +168,36 @@ double bench_shape_volume(const bench_shape *shape)
         return 4.0 / 3.0 * BENCH_PI * r * r * r;
     case BENCH_CAPSULE:
         return BENCH_PI * r * r * (2.0 * (double)shape->half_height + 4.0 / 3.0 * r);
+    case BENCH_CYLINDER:
+        return BENCH_PI * r * r * 2.0 * (double)shape->half_height;
+    case BENCH_HULL:
+        return shape->solid->volume;
+    case BENCH_COMPOUND: {
+        double sum = 0.0;
+        for (int32_t i = 0; i < shape->part_count; i++) sum += part_volume(&shape->parts[i]);
+        return sum;
+    }
     case BENCH_TERRAIN:
+    case BENCH_MESH:
         break;
     }
     return 0.0;
+}
+
+void bench_shape_inertia(const bench_shape *shape, double *out)
+{
+    memset(out, 0, 6 * sizeof *out);
+    if (shape->form == BENCH_HULL) memcpy(out, shape->solid->inertia, 6 * sizeof *out);
+    for (int32_t i = 0; i < shape->part_count; i++) {
+        const bench_part *part = &shape->parts[i];
+        const double volume = part_volume(part), *p = part->at;
+        for (int k = 0; k < 3; k++) { // steps of axes from k: its own moment and Steiner's
+            const int a = (k + 1) % 3, b = (k + 2) % 3;
+            const double half_a = (double)part->half[a], half_b = (double)part->half[b];
+            out[k] += volume * ((half_a * half_a + half_b * half_b) / 3.0 + p[a] * p[a] + p[b] * p[b]);
+            out[3 + k] -= volume * p[k] * p[a];
+        }
+    }
 }
 
 double bench_shape_area(const bench_shape *shape)
@@ -137,8 +210,12 @@ double bench_shape_area(const bench_shape *shape)
         return BENCH_PI * r * r;
     case BENCH_CAPSULE:
         return BENCH_PI * r * r + 4.0 * r * (double)shape->half_height;
+    case BENCH_CYLINDER:
+    case BENCH_HULL:
+    case BENCH_COMPOUND:
     case BENCH_TERRAIN:
-        break;
+    case BENCH_MESH:
+        break; // scenes in the plane have none
     }
     return 0.0;
 }

@@ -5,6 +5,8 @@
 #ifndef BENCH_SCENE_H
 #define BENCH_SCENE_H
 
+#include "solid.h"
+
 #include <stddef.h>
 #include <stdint.h>
 
@@ -18,9 +20,19 @@ typedef enum bench_form {
     BENCH_BOX,     ///< half
     BENCH_SPHERE,  ///< radius
     BENCH_CAPSULE, ///< half_height of the axis, along local y, and radius
-    BENCH_TERRAIN  ///< side x side samples, `cell` m apart, of bench_terrain_height, about the body's position; static,
+    BENCH_TERRAIN, ///< side x side samples, `cell` m apart, of bench_terrain_height, about the body's position; static,
                    ///< for queries
+    BENCH_HULL,    ///< solid
+    BENCH_CYLINDER, ///< half_height along local y, and radius
+    BENCH_MESH,     ///< bench_hills of `side` cells; static
+    BENCH_COMPOUND  ///< part_count boxes `parts`
 } bench_form;
+
+/// A box of a compound, not turned.
+typedef struct bench_part {
+    double at[3]; ///< its middle, m, from the body's centre of mass
+    float half[3];
+} bench_part;
 
 typedef enum bench_relief {
     BENCH_HILLS, ///< of some metres
@@ -30,17 +42,35 @@ typedef enum bench_relief {
 /// A form with its material. Bodies share shapes by their index.
 typedef struct bench_shape {
     bench_form form;
-    float half[3];     ///< of a box, m
-    float radius;      ///< of a sphere or a capsule, m
-    float half_height; ///< of a capsule, without its caps, m
-    int32_t side;      ///< of a terrain
-    int32_t relief;    ///< of a terrain, bench_relief
-    float cell;        ///< of a terrain, m
-    float density;     ///< kg/m3
-    float friction;    ///< static = dynamic; engines mix two by sqrt(a b)
-    float restitution; ///< 0..1
-    float rolling;     ///< resistance to rolling: torque over radius and normal force
+    float half[3];      ///< of a box, m
+    float radius;       ///< of a sphere, a capsule or a cylinder, m
+    float half_height;  ///< of a capsule, without its caps, or a cylinder, m
+    int32_t side;       ///< of a terrain: samples, of a mesh: cells
+    int32_t relief;     ///< of a terrain, bench_relief
+    float cell;         ///< of a terrain, m
+    float density;      ///< kg/m3
+    float friction;     ///< static = dynamic; engines mix two by sqrt(a b)
+    float restitution;  ///< 0..1
+    float rolling;      ///< resistance to rolling: torque over radius and normal force
+    bench_solid *solid; ///< of a hull; the scene frees it
+    bench_part *parts;  ///< of a compound; likewise
+    int32_t part_count;
 } bench_shape;
+
+/// Indexed triangles, counterclockwise seen from outside.
+typedef struct bench_mesh {
+    float *vertices;  ///< x y z each, m
+    int32_t *indices; ///< three a triangle
+    int32_t vertex_count, triangle_count;
+} bench_mesh;
+
+/// What stands still, for the measure of overlaps.
+typedef enum bench_ground {
+    BENCH_GROUND_NONE,  ///< not measured
+    BENCH_GROUND_FLOOR, ///< the plane y = 0
+    BENCH_GROUND_PIT,   ///< bench_add_pit
+    BENCH_GROUND_MESH   ///< bench_hills of BENCH_HILLS_CELLS
+} bench_ground;
 
 typedef struct bench_pose {
     double position[3]; ///< of the body's centre, m
@@ -93,9 +123,11 @@ typedef struct bench_scene {
     float dt;              ///< s
     int32_t warm_up_steps;
     int32_t timed_steps;
-    double query_half; ///< queries start within so many m of the middle, in x and z; 0: where the bodies of the speed
-                       ///< scenes are
-    int32_t planar;    ///< 1: all happens in the plane z = 0, see bench_make_planar
+    double query_half;  ///< queries start within so many m of the middle, in x and z; 0: where the bodies of the speed
+                        ///< scenes are
+    float query_radius; ///< of the spheres that are swept, m
+    bench_ground ground;
+    int32_t planar; ///< 1: all happens in the plane z = 0, see bench_make_planar
     bench_shape *shapes;
     bench_body *bodies;
     bench_joint *joints;
@@ -128,6 +160,12 @@ bench_shape bench_make_capsule(float half_height, float radius);
 bench_shape bench_make_terrain(int32_t side, float cell);
 /// m, of the sample in a row (along z) and a column (along x)
 float bench_terrain_height(const bench_shape *terrain, int32_t row, int32_t column);
+bench_shape bench_make_cylinder(float half_height, float radius);
+bench_shape bench_make_mesh(int32_t cells);
+bench_shape bench_make_hull(bench_solid *solid);                        ///< it belongs to the shape
+bench_shape bench_make_compound(bench_part *parts, int32_t part_count); ///< likewise
+/// About the centre of mass at 1 kg/m3, of a hull or a compound: entries xx yy zz xy yz zx, kg m2
+void bench_shape_inertia(const bench_shape *shape, double *out);
 /// A scene laid out in the plane z = 0 becomes the twin of a two-dimensional one: bodies are locked to the plane; boxes
 /// get the depth 1 m; spheres and capsules get the mass of a disc or a stadium of depth 1 m and the same density (a
 /// sphere's inertia stays 2/5 m r2 where a disc has 1/2).
@@ -152,6 +190,27 @@ void bench_turn_z(bench_body *body, double angle);
 /// @param half_height  of a wall, m; it begins 1 m below the ground's top
 void bench_add_pit(bench_scene *scene, float half_height);
 
+enum { BENCH_HILLS_CELLS = 256 }; ///< a side, of the scenes' ground
+/// Hills of cells x cells squares of 1 m, two triangles each, about the middle.
+bench_mesh bench_hills(int32_t cells);
+void bench_mesh_free(bench_mesh *mesh);
+/// Of the hills of BENCH_HILLS_CELLS: height and unit normal. 0 beyond their rim.
+int bench_hills_height(double x, double z, double *out_height, double *out_normal);
+
+/// Uniform over all rotations, a quaternion x y z w.
+void bench_draw_rotation(uint64_t *state, double *out);
+/// The hull of least to most points, 32 at most, that lie on an ellipsoid of half axes from 0.35 to 0.6 m or up to 15 %
+/// inside of it.
+bench_shape bench_draw_rock(uint64_t *state, int32_t least, int32_t most);
+
+void bench_build_hulls(bench_scene *scene, int32_t n);
+void bench_build_hullpyramid(bench_scene *scene, int32_t n);
+void bench_build_rocks(bench_scene *scene, int32_t n);
+void bench_build_mixedmesh(bench_scene *scene, int32_t n);
+void bench_build_cylinders(bench_scene *scene, int32_t n);
+void bench_build_compounds(bench_scene *scene, int32_t n);
+void bench_build_mesh(bench_scene *scene, int32_t n);
+void bench_build_hullcloud(bench_scene *scene, int32_t n);
 void bench_build_rest(bench_scene *scene, int32_t n);
 void bench_build_pyramid(bench_scene *scene, int32_t n);
 void bench_build_many(bench_scene *scene, int32_t n);

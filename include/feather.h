@@ -413,7 +413,7 @@ FE_API fe_result fe_mesh_create(fe_store *store, const fe_mesh_def *def, fe_asse
 typedef struct fe_mesh_info {
     uint32_t struct_size;
     int32_t triangle_count;       ///< that are kept
-    int32_t degenerate_triangles; ///< dropped: two corners in one place, or an area below 1e-12 of the extent squared
+    int32_t degenerate_triangles; ///< dropped: no higher than 3e-8 of their largest coordinate
     int32_t duplicate_triangles;  ///< dropped: the same corners and winding as an earlier one
     int32_t vertex_count;         ///< places that differ
     int32_t open_edges;           ///< of one triangle

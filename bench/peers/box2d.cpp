@@ -300,6 +300,8 @@ const bench_engine bench_box2d = {
     nullptr,
     nullptr,
     nullptr,
+    nullptr,
+    nullptr,
 };
 
 #endif

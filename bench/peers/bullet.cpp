@@ -4,12 +4,18 @@
 
 #ifdef FE_BENCH_BULLET
 
+extern "C" {
+#include "../stats.h"
+}
+
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wfloat-conversion"
 #pragma GCC diagnostic ignored "-Wpedantic"
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
+#include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
+#include <LinearMath/btConvexHullComputer.h>
 #include <btBulletDynamicsCommon.h>
 #pragma GCC diagnostic pop
 
@@ -18,10 +24,26 @@
 #include <memory>
 #include <vector>
 
+// A mesh's triangles, which Bullet does not copy
+struct mesh_data {
+    bench_mesh mesh;
+    btTriangleIndexVertexArray triangles;
+    explicit mesh_data(bench_mesh own)
+        : mesh(own), triangles(own.triangle_count, own.indices, 3 * sizeof(int32_t), own.vertex_count, own.vertices,
+                               3 * sizeof(float))
+    {
+    }
+    mesh_data(const mesh_data &) = delete;
+    mesh_data &operator=(const mesh_data &) = delete;
+    ~mesh_data() { bench_mesh_free(&mesh); }
+};
+
 // Members are destroyed from the last to the first: bodies and joints after the world let go of them in its own
 // destructor.
 struct bench_world {
     std::vector<std::vector<float>> heights;               // of terrains, which do not copy them
+    std::vector<std::unique_ptr<mesh_data>> meshes;        // likewise
+    std::vector<std::unique_ptr<btCollisionShape>> parts;  // of compounds
     std::vector<std::unique_ptr<btCollisionShape>> shapes; // in the scene's order
     std::vector<std::unique_ptr<btDefaultMotionState>> motions;
     std::vector<std::unique_ptr<btRigidBody>> bodies; // in the scene's order
@@ -70,16 +92,45 @@ std::unique_ptr<btConvexShape> make_convex(const bench_shape &shape)
         return std::make_unique<btSphereShape>(shape.radius);
     case BENCH_CAPSULE:
         return std::make_unique<btCapsuleShape>(shape.radius, 2.0f * shape.half_height);
+    case BENCH_CYLINDER:
+        return std::make_unique<btCylinderShape>(btVector3(shape.radius, shape.half_height, shape.radius));
+    case BENCH_HULL: {
+        auto hull = std::make_unique<btConvexHullShape>();
+        for (int32_t i = 0; i < shape.solid->point_count; i++) hull->addPoint(vector(shape.solid->points[i]), false);
+        hull->recalcLocalAabb();
+        return hull;
+    }
     case BENCH_BOX:
     case BENCH_TERRAIN:
+    case BENCH_MESH:
+    case BENCH_COMPOUND:
         break;
     }
     return std::make_unique<btBoxShape>(vector(shape.half));
 }
 
+std::unique_ptr<btCollisionShape> make_mesh(bench_world &w, const bench_shape &shape)
+{
+    w.meshes.push_back(std::make_unique<mesh_data>(bench_hills(shape.side)));
+    return std::make_unique<btBvhTriangleMeshShape>(&w.meshes.back()->triangles, true);
+}
+
+std::unique_ptr<btCollisionShape> make_compound(bench_world &w, const bench_shape &shape)
+{
+    auto compound = std::make_unique<btCompoundShape>();
+    for (int32_t i = 0; i < shape.part_count; i++) {
+        w.parts.push_back(std::make_unique<btBoxShape>(vector(shape.parts[i].half)));
+        compound->addChildShape(btTransform(btQuaternion::getIdentity(), vector(shape.parts[i].at)),
+                                w.parts.back().get());
+    }
+    return compound;
+}
+
 std::unique_ptr<btCollisionShape> make_shape(bench_world &w, const bench_shape &shape)
 {
     if (shape.form == BENCH_TERRAIN) return make_terrain(w, shape);
+    if (shape.form == BENCH_MESH) return make_mesh(w, shape);
+    if (shape.form == BENCH_COMPOUND) return make_compound(w, shape);
     return make_convex(shape);
 }
 
@@ -95,6 +146,11 @@ void add_body(bench_world *w, const bench_scene &scene, const bench_body &body)
     btScalar mass = body.dynamic ? btScalar(double(shape.density) * bench_shape_volume(&shape)) : 0.0f;
     btVector3 inertia(0, 0, 0);
     if (body.dynamic) form->calculateLocalInertia(mass, inertia);
+    if (body.dynamic && (shape.form == BENCH_HULL || shape.form == BENCH_COMPOUND)) { // Bullet's own is that of a box
+        double moments[6];                                                            // it knows no products
+        bench_shape_inertia(&shape, moments);
+        inertia = shape.density * vector(moments);
+    }
     btRigidBody::btRigidBodyConstructionInfo info(mass, w->motions.back().get(), form, inertia);
     info.m_friction = shape.friction;
     info.m_restitution = shape.restitution;
@@ -332,6 +388,7 @@ int32_t raycast(bench_world *w, const bench_ray *ray, double *out_fraction)
 {
     btVector3 from = vector(ray->origin), to = from + vector(ray->translation);
     btCollisionWorld::ClosestRayResultCallback closest(from, to);
+    closest.m_flags |= btTriangleRaycastCallback::kF_FilterBackfaces; // triangles are of one side, as Feather's
     w->world.rayTest(from, to, closest);
     if (!closest.hasHit()) return 0;
     *out_fraction = double(closest.m_closestHitFraction);
@@ -382,6 +439,32 @@ int32_t overlap(bench_world *w, const bench_probe *probe)
     return counter.count;
 }
 
+double build_mesh(const bench_mesh *mesh, int64_t *out_bytes)
+{
+    const double start = bench_cpu_ms();
+    btTriangleIndexVertexArray triangles(mesh->triangle_count, mesh->indices, 3 * sizeof(int32_t), mesh->vertex_count,
+                                         mesh->vertices, 3 * sizeof(float));
+    btBvhTriangleMeshShape shape(&triangles, true);
+    const double ms = bench_cpu_ms() - start;
+    *out_bytes = int64_t(shape.getOptimizedBvh()->calculateSerializeBufferSize()) +
+                 int64_t(mesh->triangle_count) * int64_t(3 * sizeof(int32_t)) +
+                 int64_t(mesh->vertex_count) * int64_t(3 * sizeof(float));
+    return ms;
+}
+
+// All vertices: it has no limit to them
+double build_hull(const float *points, int32_t count, int64_t *out_bytes)
+{
+    btConvexHullComputer hull;
+    const double start = bench_cpu_ms();
+    hull.compute(points, 3 * sizeof(float), count, 0.0f, 0.0f);
+    const double ms = bench_cpu_ms() - start;
+    *out_bytes = int64_t(hull.vertices.size()) * int64_t(sizeof(btVector3)) +
+                 int64_t(hull.edges.size()) * int64_t(sizeof(btConvexHullComputer::Edge)) +
+                 int64_t(hull.faces.size()) * int64_t(sizeof(int));
+    return ms;
+}
+
 } // namespace
 
 const bench_engine bench_bullet = {
@@ -411,6 +494,8 @@ const bench_engine bench_bullet = {
     sweep,
     overlap,
     nullptr,
+    build_mesh,
+    build_hull,
 };
 
 #endif

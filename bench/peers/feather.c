@@ -2,6 +2,7 @@
 #include "peer.h"
 
 #include "../memory.h"
+#include "../stats.h"
 #include "feather.h"
 
 #include <stdio.h>
@@ -11,16 +12,28 @@ struct bench_world {
     fe_world *world;
     fe_body *bodies; // in the scene's order
     int32_t count;
+    fe_asset *assets;         // of the scene's shapes, in their order: hulls and meshes
     fe_transform *transforms; // scratch of read_poses
     float (*velocities)[6];   // scratch of read_motions
 };
 
 static void complain(const char *what) { fprintf(stderr, "feather: %s: %s\n", what, fe_last_error()); }
 
-static fe_geometry geometry_of(const bench_shape *shape)
+// ---- shapes --------------------------------------------------------------------------------------------------------
+
+static fe_geometry geometry_of(const bench_shape *shape, fe_asset asset)
 {
     fe_geometry geometry;
     switch (shape->form) {
+    case BENCH_HULL:
+        fe_geometry_hull(&geometry, asset);
+        break;
+    case BENCH_MESH:
+        fe_geometry_mesh(&geometry, asset);
+        break;
+    case BENCH_CYLINDER:
+        fe_geometry_cylinder(&geometry, shape->half_height, shape->radius);
+        break;
     case BENCH_SPHERE:
         fe_geometry_sphere(&geometry, shape->radius);
         break;
@@ -33,6 +46,49 @@ static fe_geometry geometry_of(const bench_shape *shape)
         break;
     }
     return geometry;
+}
+
+static fe_result make_hull(fe_store *store, const float *points, int32_t count, fe_asset *out)
+{
+    fe_hull_def def;
+    fe_hull_def_init(&def, sizeof def);
+    def.points = points, def.point_count = count;
+    return fe_hull_create(store, &def, out);
+}
+
+static fe_result make_mesh(fe_store *store, const bench_mesh *mesh, fe_asset *out)
+{
+    fe_mesh_def def;
+    fe_mesh_def_init(&def, sizeof def);
+    def.vertices = mesh->vertices, def.vertex_count = mesh->vertex_count;
+    def.indices = mesh->indices, def.triangle_count = mesh->triangle_count;
+    return fe_mesh_create(store, &def, out);
+}
+
+static fe_result make_asset(fe_store *store, const bench_shape *shape, fe_asset *out)
+{
+    fe_result result = FE_OK;
+    if (shape->form == BENCH_MESH) {
+        bench_mesh mesh = bench_hills(shape->side);
+        result = make_mesh(store, &mesh, out);
+        bench_mesh_free(&mesh);
+    } else if (shape->form == BENCH_HULL) {
+        const bench_solid *solid = shape->solid;
+        float *points = bench_allocate((size_t)solid->point_count, 3 * sizeof *points);
+        for (int32_t i = 0; i < 3 * solid->point_count; i++) points[i] = (float)solid->points[i / 3][i % 3];
+        result = make_hull(store, points, solid->point_count, out);
+        free(points);
+    }
+    return result;
+}
+
+static fe_result make_assets(bench_world *w, const bench_scene *scene)
+{
+    fe_store *store;
+    fe_result result = fe_world_get_store(w->world, &store);
+    for (int32_t i = 0; i < scene->shape_count && result == FE_OK; i++)
+        result = make_asset(store, &scene->shapes[i], &w->assets[i]);
+    return result;
 }
 
 // Its middle is the body's position.
@@ -62,8 +118,23 @@ static fe_result add_terrain(fe_world *world, fe_body body, const bench_shape *s
     return fe_shape_create(world, body, &def, &geometry, &created);
 }
 
-static fe_result add_body(fe_world *world, const bench_scene *scene, const bench_body *body, fe_body *out_body)
+static fe_result add_parts(fe_world *world, fe_body body, fe_shape_def *def, const bench_shape *shape)
 {
+    fe_result result = FE_OK;
+    for (int32_t i = 0; i < shape->part_count && result == FE_OK; i++) {
+        const bench_part *part = &shape->parts[i];
+        fe_geometry box;
+        fe_shape created;
+        fe_geometry_box(&box, part->half[0], part->half[1], part->half[2]);
+        def->frame.position = fe_make_vec3((float)part->at[0], (float)part->at[1], (float)part->at[2]);
+        result = fe_shape_create(world, body, def, &box, &created);
+    }
+    return result;
+}
+
+static fe_result add_body(bench_world *w, const bench_scene *scene, const bench_body *body, fe_body *out_body)
+{
+    fe_world *world = w->world;
     const bench_shape *shape = &scene->shapes[body->shape];
     const double *p = body->start.position, *q = body->start.rotation;
     fe_body_def def;
@@ -89,7 +160,8 @@ static fe_result add_body(fe_world *world, const bench_scene *scene, const bench
     form.material.restitution = shape->restitution;
     form.material.rolling_resistance = shape->rolling;
     if (!body->collides) form.mask = 0;
-    fe_geometry geometry = geometry_of(shape);
+    if (shape->form == BENCH_COMPOUND) return add_parts(world, *out_body, &form, shape);
+    fe_geometry geometry = geometry_of(shape, w->assets[body->shape]);
     fe_shape created;
     return fe_shape_create(world, *out_body, &form, &geometry, &created);
 }
@@ -98,6 +170,7 @@ static void destroy(bench_world *w)
 {
     if (w->world != NULL) (void)fe_world_destroy(w->world);
     free(w->bodies);
+    free(w->assets);
     free(w->transforms);
     free(w->velocities);
     free(w);
@@ -243,6 +316,7 @@ static bench_world *create(const bench_scene *scene, int32_t workers, int32_t su
     bench_world *w = bench_allocate(1, sizeof *w);
     w->count = scene->body_count;
     w->bodies = bench_allocate((size_t)w->count, sizeof *w->bodies);
+    w->assets = bench_allocate((size_t)scene->shape_count, sizeof *w->assets);
     w->transforms = bench_allocate((size_t)w->count, sizeof *w->transforms);
     w->velocities = bench_allocate((size_t)w->count, sizeof *w->velocities);
 
@@ -252,8 +326,9 @@ static bench_world *create(const bench_scene *scene, int32_t workers, int32_t su
     def.substeps = substeps;
     def.gravity = fe_make_vec3((float)scene->gravity[0], (float)scene->gravity[1], (float)scene->gravity[2]);
     fe_result result = fe_world_create(&def, &w->world);
+    if (result == FE_OK) result = make_assets(w, scene);
     for (int32_t i = 0; i < w->count && result == FE_OK; i++)
-        result = add_body(w->world, scene, &scene->bodies[i], &w->bodies[i]);
+        result = add_body(w, scene, &scene->bodies[i], &w->bodies[i]);
     if (result == FE_OK) result = part_groups(w, scene);
     if (result == FE_OK) result = set_tuning(w->world, scene);
     for (int32_t i = 0; i < scene->joint_count && result == FE_OK; i++) result = add_joint(w, &scene->joints[i]);
@@ -420,7 +495,7 @@ static fe_transform start_of(const bench_probe *probe)
 
 static int32_t sweep(bench_world *w, const bench_probe *probe, double *out_fraction)
 {
-    fe_geometry geometry = geometry_of(&probe->shape);
+    fe_geometry geometry = geometry_of(&probe->shape, 0);
     fe_transform start = start_of(probe);
     const double *d = probe->way.translation;
     fe_dvec3 translation = fe_make_dvec3(d[0], d[1], d[2]);
@@ -436,11 +511,47 @@ static int32_t overlap(bench_world *w, const bench_probe *probe)
 {
     enum { MOST = 256 };
     fe_body bodies[MOST];
-    fe_geometry geometry = geometry_of(&probe->shape);
+    fe_geometry geometry = geometry_of(&probe->shape, 0);
     fe_transform at = start_of(probe);
     int32_t count = fe_world_overlap(w->world, &geometry, &at, NULL, bodies, MOST);
     if (count < 0) complain("overlap");
     return count;
+}
+
+// ---- building ------------------------------------------------------------------------------------------------------
+
+static double build_mesh(const bench_mesh *mesh, int64_t *out_bytes)
+{
+    fe_store *store = NULL;
+    fe_asset asset;
+    fe_mesh_info info;
+    fe_mesh_info_init(&info, sizeof info);
+    fe_result result = fe_store_create(NULL, &store);
+    const double start = bench_cpu_ms();
+    if (result == FE_OK) result = make_mesh(store, mesh, &asset);
+    const double ms = bench_cpu_ms() - start;
+    if (result == FE_OK) result = fe_mesh_get_info(store, asset, &info);
+    if (result != FE_OK) complain("mesh");
+    *out_bytes = info.bytes;
+    (void)fe_store_destroy(store);
+    return ms;
+}
+
+static double build_hull(const float *points, int32_t count, int64_t *out_bytes)
+{
+    fe_store *store = NULL;
+    fe_asset asset;
+    fe_hull_info info;
+    fe_hull_info_init(&info, sizeof info);
+    fe_result result = fe_store_create(NULL, &store);
+    const double start = bench_cpu_ms();
+    if (result == FE_OK) result = make_hull(store, points, count, &asset);
+    const double ms = bench_cpu_ms() - start;
+    if (result == FE_OK) result = fe_hull_get_info(store, asset, &info);
+    if (result != FE_OK) complain("hull");
+    *out_bytes = info.bytes;
+    (void)fe_store_destroy(store);
+    return ms;
 }
 
 static const char *const phase_names[] = {"step",       "pairs",    "collide", "islands", "solve",
@@ -511,4 +622,6 @@ const bench_engine bench_feather = {
     .fall_asleep = fall_asleep,
     .sweep = sweep,
     .overlap = overlap,
+    .build_mesh = build_mesh,
+    .build_hull = build_hull,
 };

@@ -11,6 +11,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum {
     ITERATIONS = 20,
@@ -24,6 +25,7 @@ struct bench_world {
     dJointGroupID contact_joints; // of the present step
     dGeomID *geoms;               // in the scene's order
     const bench_scene *scene;
+    struct form_data *data; // of the scene's shapes
     int32_t count;
 };
 
@@ -38,6 +40,18 @@ static void set_mass(dBodyID body, const bench_shape *shape)
     case BENCH_CAPSULE:
         dMassSetCapsule(&mass, density, DIRECTION_Y, radius, 2.0 * (double)shape->half_height);
         break;
+    case BENCH_CYLINDER:
+        dMassSetCylinder(&mass, density, DIRECTION_Y, radius, 2.0 * (double)shape->half_height);
+        break;
+    case BENCH_HULL:
+    case BENCH_COMPOUND: {
+        double i[6];
+        bench_shape_inertia(shape, i);
+        for (int k = 0; k < 6; k++) i[k] *= density;
+        dMassSetParameters(&mass, density * bench_shape_volume(shape), 0.0, 0.0, 0.0, i[0], i[1], i[2], i[3], i[5],
+                           i[4]);
+        break;
+    }
     case BENCH_BOX:
     default:
         dMassSetBox(&mass, density, 2.0 * (double)shape->half[0], 2.0 * (double)shape->half[1],
@@ -62,19 +76,86 @@ static dGeomID make_terrain(dSpaceID space, const bench_shape *shape)
     return dCreateHeightfield(space, data, 1);
 }
 
-static dGeomID make_geom(dSpaceID space, const bench_shape *shape)
+// What the engine refers to and does not copy
+typedef struct form_data {
+    double *planes, *points; // of a hull
+    unsigned int *polygons;
+    dTriMeshDataID triangles; // of a mesh
+    bench_mesh mesh;
+} form_data;
+
+static void make_hull_data(form_data *data, const bench_solid *solid)
+{
+    int32_t length = 0;
+    for (int32_t f = 0; f < solid->face_count; f++) length += 1 + solid->loops[length];
+    data->planes = bench_allocate((size_t)solid->face_count, 4 * sizeof *data->planes);
+    data->points = bench_allocate((size_t)solid->point_count, 3 * sizeof *data->points);
+    data->polygons = bench_allocate((size_t)length, sizeof *data->polygons);
+    for (int32_t f = 0; f < solid->face_count; f++) {
+        for (int k = 0; k < 3; k++) data->planes[4 * f + k] = solid->normals[f][k];
+        data->planes[4 * f + 3] = solid->offsets[f];
+    }
+    for (int32_t p = 0; p < 3 * solid->point_count; p++) data->points[p] = solid->points[p / 3][p % 3];
+    for (int32_t i = 0; i < length; i++) data->polygons[i] = (unsigned int)solid->loops[i];
+}
+
+static void make_mesh_data(form_data *data, int32_t cells)
+{
+    data->mesh = bench_hills(cells);
+    data->triangles = dGeomTriMeshDataCreate();
+    dGeomTriMeshDataBuildSingle(data->triangles, data->mesh.vertices, 3 * sizeof(float), data->mesh.vertex_count,
+                                data->mesh.indices, 3 * data->mesh.triangle_count, 3 * sizeof(int32_t));
+    dGeomTriMeshDataPreprocess2(data->triangles, 1u << dTRIDATAPREPROCESS_BUILD_FACE_ANGLES, NULL); // hulls ask for it
+}
+
+static void free_data(form_data *data)
+{
+    free(data->planes);
+    free(data->points);
+    free(data->polygons);
+    if (data->triangles != NULL) dGeomTriMeshDataDestroy(data->triangles);
+    bench_mesh_free(&data->mesh);
+}
+
+static dGeomID make_geom(dSpaceID space, const bench_shape *shape, const form_data *data)
 {
     switch (shape->form) {
+    case BENCH_HULL:
+        return dCreateConvex(space, data->planes, (unsigned int)shape->solid->face_count, data->points,
+                             (unsigned int)shape->solid->point_count, data->polygons);
+    case BENCH_MESH:
+        return dCreateTriMesh(space, data->triangles, NULL, NULL, NULL);
+    case BENCH_CYLINDER:
+        return dCreateCylinder(space, (double)shape->radius, 2.0 * (double)shape->half_height);
     case BENCH_SPHERE:
         return dCreateSphere(space, (double)shape->radius);
     case BENCH_TERRAIN:
         return make_terrain(space, shape);
     case BENCH_CAPSULE:
         return dCreateCapsule(space, (double)shape->radius, 2.0 * (double)shape->half_height);
+    case BENCH_COMPOUND:
+        return dCreateBox(space, 2.0 * (double)shape->parts[0].half[0], 2.0 * (double)shape->parts[0].half[1],
+                          2.0 * (double)shape->parts[0].half[2]);
     case BENCH_BOX:
     default:
         return dCreateBox(space, 2.0 * (double)shape->half[0], 2.0 * (double)shape->half[1],
                           2.0 * (double)shape->half[2]);
+    }
+}
+
+// The first box of a compound is the body's geom; the others join it, each at its place.
+static void add_parts(bench_world *w, const bench_body *body, dBodyID rigid, const bench_shape *shape, dGeomID first)
+{
+    for (int32_t i = 0; i < shape->part_count; i++) {
+        const bench_part *part = &shape->parts[i];
+        dGeomID geom = first;
+        if (i > 0) {
+            geom = dCreateBox(w->space, 2.0 * (double)part->half[0], 2.0 * (double)part->half[1],
+                              2.0 * (double)part->half[2]);
+            dGeomSetData(geom, (void *)(uintptr_t)body);
+            dGeomSetBody(geom, rigid);
+        }
+        dGeomSetOffsetPosition(geom, part->at[0], part->at[1], part->at[2]);
     }
 }
 
@@ -92,13 +173,14 @@ static void add_body(bench_world *w, const bench_scene *scene, const bench_body 
     const bench_shape *shape = &scene->shapes[body->shape];
     const double *p = body->start.position, *q = body->start.rotation;
     const dQuaternion rotation = {q[3], q[0], q[1], q[2]};
-    dGeomID geom = make_geom(w->space, shape);
+    dGeomID geom = make_geom(w->space, shape, &w->data[body->shape]);
     dGeomSetData(geom, (void *)(uintptr_t)body);
     if (body->dynamic) {
         dBodyID rigid = dBodyCreate(w->world);
         set_mass(rigid, shape);
         dGeomSetBody(geom, rigid);
-        if (shape->form == BENCH_CAPSULE) { // ODE's lie along z
+        add_parts(w, body, rigid, shape, geom);
+        if (shape->form == BENCH_CAPSULE || shape->form == BENCH_CYLINDER) { // ODE's lie along z
             dMatrix3 turn;
             dRFromAxisAndAngle(turn, 1.0, 0.0, 0.0, -M_PI / 2.0);
             dGeomSetOffsetRotation(geom, turn);
@@ -187,8 +269,26 @@ static void destroy(bench_world *w)
     dJointGroupDestroy(w->contact_joints);
     dSpaceDestroy(w->space);
     dWorldDestroy(w->world);
+    for (int32_t i = 0; i < w->scene->shape_count; i++) free_data(&w->data[i]);
+    free(w->data);
     free(w->geoms);
     free(w);
+}
+
+static int can_build(const bench_scene *scene)
+{
+    const char *stacked = "hullpyramid-";
+    if (strncmp(scene->name, stacked, strlen(stacked)) == 0) {
+        fprintf(stderr, "ode: %s: an assertion on hulls that lie on each other ends the program\n", scene->name);
+        return 0;
+    }
+    for (int32_t i = 0; i < scene->body_count; i++) {
+        const bench_body *body = &scene->bodies[i];
+        if (body->dynamic || scene->shapes[body->shape].form != BENCH_CAPSULE) continue;
+        fprintf(stderr, "ode: %s has a static capsule, which a geom along z without a body cannot be\n", scene->name);
+        return 0;
+    }
+    return 1;
 }
 
 static bench_world *create(const bench_scene *scene, int32_t workers, int32_t substeps)
@@ -196,15 +296,15 @@ static bench_world *create(const bench_scene *scene, int32_t workers, int32_t su
     (void)workers, (void)substeps;
     static int initialised;
     if (!initialised) initialised = dInitODE2(0);
-    for (int32_t i = 0; i < scene->body_count; i++) {
-        const bench_body *body = &scene->bodies[i];
-        if (body->dynamic || scene->shapes[body->shape].form != BENCH_CAPSULE) continue;
-        fprintf(stderr, "ode: %s has a static capsule, which a geom along z without a body cannot be\n", scene->name);
-        return NULL;
-    }
+    if (!can_build(scene)) return NULL;
     bench_world *w = bench_allocate(1, sizeof *w);
     w->geoms = bench_allocate((size_t)scene->body_count, sizeof *w->geoms);
     w->scene = scene;
+    w->data = bench_allocate((size_t)scene->shape_count, sizeof *w->data);
+    for (int32_t i = 0; i < scene->shape_count; i++) {
+        if (scene->shapes[i].form == BENCH_HULL) make_hull_data(&w->data[i], scene->shapes[i].solid);
+        if (scene->shapes[i].form == BENCH_MESH) make_mesh_data(&w->data[i], scene->shapes[i].side);
+    }
     w->world = dWorldCreate();
     w->space = dHashSpaceCreate(NULL);
     w->contact_joints = dJointGroupCreate(0);
@@ -278,7 +378,7 @@ static int32_t step(bench_world *w, float dt)
     return ok ? 0 : -1;
 }
 
-static int32_t count_bodies(bench_world *w) { return dSpaceGetNumGeoms(w->space); }
+static int32_t count_bodies(bench_world *w) { return w->count; }
 
 static double read_mass(bench_world *w)
 {

@@ -86,6 +86,10 @@ typedef struct bench_engine {
     int32_t (*sweep)(bench_world *world, const bench_probe *probe, double *out_fraction); ///< optional; 1 on a hit
     int32_t (*overlap)(bench_world *world, const bench_probe *probe); ///< optional: how many bodies it overlaps
     void (*fall_asleep)(bench_world *world);                          ///< optional: all bodies
+    /// Optional: builds a mesh, or a hull of points x y z, and lets it go. The processor's ms, without letting go; the
+    /// bytes of memory that it holds, with what it needs of the user's arrays.
+    double (*build_mesh)(const bench_mesh *mesh, int64_t *out_bytes);
+    double (*build_hull)(const float *points, int32_t count, int64_t *out_bytes);
 } bench_engine;
 
 extern const bench_engine bench_feather;

@@ -61,10 +61,13 @@ static void set_view(fe__view *v, const fe__shape *a, const fe__shape *b, const 
 // speed = |v| + |w| reach; as in recycle.simd.c
 static float speed_by_spin(const fe__body *body) { return body->speed - fe__length(fe__quad_vector(body->velocity)); }
 
+// |vA - vB|, |vA| and |vB| side by side: three roots, one after the other, are what a pair would wait for longest
 float fe__reach_in_step(const fe__step *step, const fe__body *a, const fe__body *b)
 {
-    fe_vec3 v = fe__sub(fe__quad_vector(a->velocity), fe__quad_vector(b->velocity));
-    return (fe__length(v) + speed_by_spin(a) + speed_by_spin(b)) * step->dt + step->fall;
+    wide va = *(const quad *)a->velocity, vb = *(const quad *)b->velocity;
+    wide3 v = w_xyz(w_transpose(va - vb, va, vb, w_set(0.0f)));
+    wide speed = w_sqrt(w_dot(v, v));
+    return (speed[0] + (a->speed - speed[1]) + (b->speed - speed[2])) * step->dt + step->fall;
 }
 
 // The same along the normal from the solver's A to its B: while a gap along it stays open, they cannot touch
@@ -145,18 +148,6 @@ static int32_t look_far_ahead(const fe_world *world, const fe__contact *m, float
 
 static void copy4(float *out, fe_quat q) { out[0] = q.x, out[1] = q.y, out[2] = q.z, out[3] = q.w; }
 
-// impulses stay with the features that meet
-static void match_impulses(fe__points *q, fe__features *features, int old_count, const fe__manifold *found)
-{
-    float old[FE__POINTS];
-    memcpy(old, q->normal_impulse, sizeof old);
-    for (int i = 0; i < FE__POINTS; ++i) q->normal_impulse[i] = 0.0f;
-    for (int i = 0; i < found->count; ++i)
-        for (int j = 0; j < old_count; ++j)
-            if (features->ids[j] == found->points[i].id) q->normal_impulse[i] = old[j];
-    for (int i = 0; i < found->count; ++i) features->ids[i] = found->points[i].id;
-}
-
 static void note_poses(fe__contact *m, const fe__places *at, const fe__body *a, const fe__body *b)
 {
     copy4(m->found_a, at->rotation_a);
@@ -194,6 +185,26 @@ static inline wide4 load_points(const fe__manifold *found)
                      *fourth = (const loose_quad *)(found->count > 3 ? p + 3 : p);
     return w_transpose(*first, *second, *third, *fourth);
 }
+
+// Impulses stay with the features that meet, of one point or more. All are compared with all: which are the same no
+// branch can guess
+static void match_impulses(fe__points *q, fe__features *features, int old_count, const fe__manifold *found)
+{
+    const fe__manifold_point *p = found->points;
+    int32_t last = found->count - 1;
+    wide_int there = (wide_int){0, 1, 2, 3} < found->count, before, now;
+    memcpy(&before, features->ids, sizeof before);
+    for (int32_t i = 0; i < FE_W; ++i) now[i] = (int32_t)p[fe__mini(i, last)].id;
+    wide old = *(const quad *)q->normal_impulse, impulse = w_set(0.0f);
+    for (int32_t j = 0; j < FE_W; ++j) {
+        wide_int same = (now == before[j]) & ((wide_int){0, 0, 0, 0} + j < old_count);
+        impulse = w_choose(same, w_set(old[j]), impulse);
+    }
+    *(quad *)q->normal_impulse = keep(there, impulse);
+    now = (now & there) | (before & ~there);
+    memcpy(features->ids, &now, sizeof now);
+}
+
 static inline float greatest(wide a) { return fe__maxf(fe__maxf(a[0], a[1]), fe__maxf(a[2], a[3])); }
 
 // points from A's frame to arms: from the centre of the solver's A, or of B when A is static (its centre may be far)
@@ -253,8 +264,9 @@ float fe__recycle_tolerance(const fe__view *v)
 }
 
 // A manifold's normal points away from fe__collide's A; the solver's A may be the other one. What leans so little
-// against the world's axes that only rounding knows lies along them.
-static fe_vec3 solvers_normal(const fe__contact *m, const fe__view *v, fe_vec3 normal)
+// against the world's axes that only rounding knows lies along them. Inlined: returned in halves, written and read
+// again as one, three floats cost a stall.
+FE_INLINE fe_vec3 solvers_normal(const fe__contact *m, const fe__view *v, fe_vec3 normal)
 {
     fe_vec3 n = fe__mul(&v->rotation, normal);
     n = fe__vec3(fe__flush(n.x, FE__LEAST_LEAN), fe__flush(n.y, FE__LEAST_LEAN), fe__flush(n.z, FE__LEAST_LEAN));

@@ -39,13 +39,13 @@ FE_FETCHES fe__fetch_named(const fe_world *w, int32_t pair)
     fe__fetch(w->bodies[p->body_b].centre, sizeof w->bodies->centre);
     fe__fetch(w->bodies[p->body_a].velocity, sizeof w->bodies->velocity);
     fe__fetch(w->bodies[p->body_b].velocity, sizeof w->bodies->velocity);
-    fe__tree_fetch(&w->moving_tree, p->shape_a);
-    fe__tree_fetch(&w->moving_tree, p->shape_b);
     if (m->points) {
         fe__fetch(w->points + m->points, sizeof *w->points);
         fe__fetch(w->features + m->points, sizeof *w->features);
         return;
     }
+    fe__tree_fetch(&w->moving_tree, p->shape_a); // without points, the boxes may have parted
+    fe__tree_fetch(&w->moving_tree, p->shape_b);
     fe__fetch(w->odometers + p->body_a, sizeof *w->odometers);
     fe__fetch(w->odometers + p->body_b, sizeof *w->odometers);
     if (p->awake_index >= 0) fe__fetch(w->deferrals + p->awake_index, sizeof *w->deferrals);

@@ -1,7 +1,6 @@
 // The API of convex hulls: definitions, errors, what is read back, handles of other kinds and stores, failing
 // allocations, threads.
-#include "api_test.h"
-#include "robust/counting_allocator.h"
+#include "asset_test.h"
 #include "support/hull_clouds.h"
 
 #include <pthread.h>
@@ -15,16 +14,6 @@ static fe_hull_def cube_def(void)
     fe_hull_def_init(&d, sizeof d);
     d.points = &cube[0][0], d.point_count = 8;
     return d;
-}
-
-static fe_store *new_store(const fe_allocator *allocator)
-{
-    fe_store_def def;
-    fe_store_def_init(&def, sizeof def);
-    def.allocator = allocator;
-    fe_store *store = NULL;
-    OK(fe_store_create(&def, &store));
-    return store;
 }
 
 static fe_asset new_hull(fe_store *store, const fe_hull_def *def)
@@ -252,44 +241,16 @@ static void handles_of_others_are_refused(void **state)
     OK(fe_store_destroy(other));
 }
 
-// Six hulls: their room, their blocks, two chunks of records and the table of handles. Of one that fails nothing is
-// left, and the call can be repeated.
-static int64_t make_six(counting *c, fe_store *store)
+static fe_result make_one(fe_store *store, fe_asset *out_asset)
 {
     fe_hull_def d = cube_def();
-    int64_t failed = 0;
-    for (int32_t i = 0; i < 6; ++i) {
-        fe_asset hull = 77;
-        int64_t bytes = c->bytes;
-        fe_result result = fe_hull_create(store, &d, &hull);
-        if (result == FE_OK) continue;
-        assert_int_equal(result, FE_ERROR_MEMORY);
-        SAYS("no memory");
-        FE_TRUE(hull == 0 && c->bytes - bytes <= 4096); // a chunk or table may have been made, and is used next
-        failed += 1;
-        i -= 1;
-    }
-    return failed;
+    return fe_hull_create(store, &d, out_asset);
 }
 
 static void each_allocation_may_fail(void **state)
 {
     (void)state;
-    int64_t calls = 0;
-    for (int64_t first = 0; first <= calls; ++first) {
-        counting c = {0};
-        fe_allocator allocator = counting_allocator(&c);
-        fe_store *store = new_store(&allocator);
-        int64_t before = c.calls;
-        if (first) c.fail_from = before + first, c.fail_count = 1;
-        assert_int_equal(make_six(&c, store), first != 0);
-        if (!first) calls = c.calls - before;
-        FE_TRUE(fe_store_destroy(store) == FE_OK);
-        assert_int_equal(c.blocks, 0);
-        assert_int_equal(c.bytes, 0);
-        assert_int_equal(c.wrong, 0);
-    }
-    FE_WITHIN(calls, 13, 40);
+    FE_WITHIN(fail_each_asset_allocation(make_one), 13, 40);
 }
 
 // ---- threads -------------------------------------------------------------------------------------------------------

@@ -1,7 +1,6 @@
 // The API of meshes: definitions, errors, what is read back, materials, shapes that have one, handles of other kinds
 // and stores, failing allocations, threads.
-#include "api_test.h"
-#include "robust/counting_allocator.h"
+#include "asset_test.h"
 
 #include <pthread.h>
 
@@ -29,16 +28,6 @@ static fe_mesh_def painted_def(void)
     fe_mesh_def d = cube_def();
     d.triangle_materials = kinds, d.materials = surfaces, d.material_count = 2, d.triangle_data = data;
     return d;
-}
-
-static fe_store *new_store(const fe_allocator *allocator)
-{
-    fe_store_def def;
-    fe_store_def_init(&def, sizeof def);
-    def.allocator = allocator;
-    fe_store *store = NULL;
-    OK(fe_store_create(&def, &store));
-    return store;
 }
 
 static fe_asset new_mesh(fe_store *store, const fe_mesh_def *def)
@@ -406,40 +395,16 @@ static void materials_change_under_bodies(void **state)
 
 // ---- memory, threads -----------------------------------------------------------------------------------------------
 
-static int64_t make_six(counting *c, fe_store *store)
+static fe_result make_one(fe_store *store, fe_asset *out_asset)
 {
     fe_mesh_def d = painted_def();
-    int64_t failed = 0;
-    for (int32_t i = 0; i < 6; ++i) {
-        fe_asset mesh = 77;
-        int64_t bytes = c->bytes;
-        fe_result result = fe_mesh_create(store, &d, &mesh);
-        if (result == FE_OK) continue;
-        assert_int_equal(result, FE_ERROR_MEMORY);
-        SAYS("no memory");
-        FE_TRUE(mesh == 0 && c->bytes - bytes <= 4096); // a chunk or table may have been made, and is used next
-        failed += 1;
-        i -= 1;
-    }
-    return failed;
+    return fe_mesh_create(store, &d, out_asset);
 }
 
 static void each_allocation_may_fail(void **state)
 {
     (void)state;
-    int64_t calls = 0;
-    for (int64_t first = 0; first <= calls; ++first) {
-        counting c = {0};
-        fe_allocator allocator = counting_allocator(&c);
-        fe_store *store = new_store(&allocator);
-        int64_t before = c.calls;
-        if (first) c.fail_from = before + first, c.fail_count = 1;
-        assert_int_equal(make_six(&c, store), first != 0);
-        if (!first) calls = c.calls - before;
-        FE_TRUE(fe_store_destroy(store) == FE_OK);
-        FE_TRUE(c.blocks == 0 && c.bytes == 0 && c.wrong == 0);
-    }
-    FE_WITHIN(calls, 6 * 3, 60); // each: room, scratch, block
+    FE_WITHIN(fail_each_asset_allocation(make_one), 6 * 3, 60); // each: room, scratch, block
 }
 
 enum { THREADS = 4, MESHES = 30 };

@@ -124,7 +124,9 @@ int main(void)
         TEST(flat_box_that_slides_loses_mu_of_its_bounce),
         TEST(flat_box_that_bounces_sticks),
         TEST(lying_capsule_that_slides_loses_mu_of_its_bounce),
+        WITH_4_SUBSTEPS(lying_capsule_that_slides_loses_mu_of_its_bounce),
         TEST(rolling_capsule_that_slides_loses_mu_of_its_bounce),
+        WITH_4_SUBSTEPS(rolling_capsule_that_slides_loses_mu_of_its_bounce),
         TEST(rolling_capsule_that_sticks_rolls_on),
         TEST(struck_ball_gets_the_throw_of_a_spin),
     };

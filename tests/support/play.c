@@ -218,6 +218,24 @@ part part_plane(float x, float y, float z)
     return a;
 }
 
+float play_wave(int32_t column, int32_t row)
+{
+    int32_t x = (column * 5) % 20, z = (row * 7) % 24, a = x < 10 ? x : 20 - x, b = z < 12 ? z : 24 - z;
+    return 0.06f * (float)a + 0.05f * (float)b;
+}
+
+void play_tumble(play *p, int32_t i, float fall, part *out_part)
+{
+    part *a = out_part;
+    a->body.transform.rotation.x = play_between(p, -1.0f, 1.0f);
+    a->body.transform.rotation.z = play_between(p, -1.0f, 1.0f);
+    a->shape.material.rolling_resistance = 0.2f;
+    a->shape.material.spinning_resistance = 0.02f;
+    if (i % 5 == 0) a->shape.events = FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT;
+    if (i % 17 == 3) a->shape.trigger = 1, a->body.gravity_scale = 0.2f;
+    if (i % 9 == 4) a->body.linear_velocity.x = 30.0f, a->body.linear_velocity.y = fall;
+}
+
 void play_put(play *p, int32_t actor, const part *part)
 {
     PLAY(p, fe_body_create(p->world, &part->body, p->actors + actor));

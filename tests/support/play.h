@@ -71,6 +71,7 @@ int32_t play_after(play *p, fe_result result, const char *text);
 // ---- what scripts are written with ---------------------------------------------------------------------------------
 uint32_t play_draw(play *p); // the next of 2^24 numbers
 float play_between(play *p, float low, float high);
+float play_wave(int32_t column, int32_t row); // heights of a ground, of integers: no library decides its last bit
 
 typedef struct part {
     fe_body_def body;
@@ -83,6 +84,9 @@ part part_capsule(float half_height, float radius, double x, double y, double z)
 part part_box(float half_x, float half_y, float half_z, double x, double y, double z);
 part part_static_box(float half_x, float half_y, float half_z, double x, double y, double z);
 part part_plane(float x, float y, float z);
+// Part i of a rain on uneven ground: turned by chance, with resistance to rolling; some ask for all events, are
+// triggers, or are thrown at `fall` m/s along y
+void play_tumble(play *p, int32_t i, float fall, part *out_part);
 void play_put(play *p, int32_t actor, const part *part); // makes the actor's body and first shape
 int32_t play_add(play *p, const part *part);             // as a new actor
 void play_remove(play *p, int32_t actor);                // no harm when it is not there

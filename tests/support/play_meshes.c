@@ -8,13 +8,6 @@
 enum { CELLS = 14, SAMPLES = CELLS + 1, FIELDS = 2, BODIES = 150, DRUMMED = 14, DRUM = FIELDS, ROCK, FIRST };
 enum { PILLARS = 12 }; // of the drum
 
-// a wave of integers: no library decides its last bit
-static float wave(int32_t column, int32_t row)
-{
-    int32_t x = (column * 5) % 20, z = (row * 7) % 24, a = x < 10 ? x : 20 - x, b = z < 12 ? z : 24 - z;
-    return 0.06f * (float)a + 0.05f * (float)b;
-}
-
 static const fe_material surfaces[3] = {SURFACE(0.6f, 0.5f, 0.0f, 0.1f, 0.02f), SURFACE(0.1f, 0.1f, 0.0f, 0.1f, 0.02f),
                                         SURFACE(0.6f, 0.5f, 0.6f, 0.1f, 0.02f)};
 
@@ -25,7 +18,8 @@ static fe_asset make_ground(play *p, int32_t which)
     uint8_t kinds[2 * CELLS * CELLS];
     for (int32_t i = 0; i < SAMPLES * SAMPLES; ++i) {
         int32_t column = i % SAMPLES, row = i / SAMPLES;
-        vertices[i][0] = (float)column, vertices[i][1] = wave(column + which * CELLS, row), vertices[i][2] = (float)row;
+        vertices[i][0] = (float)column, vertices[i][1] = play_wave(column + which * CELLS, row),
+        vertices[i][2] = (float)row;
     }
     for (int32_t i = 0; i < CELLS * CELLS; ++i) {
         int32_t corner = i / CELLS * SAMPLES + i % CELLS, flip = (i % CELLS + i / CELLS) % 2;
@@ -139,13 +133,7 @@ static part any_part(play *p, int32_t i)
     double x = (double)play_between(p, -12.0f, 12.0f), z = (double)play_between(p, 2.0f, 12.0f);
     part a = part_sphere(1.0f, x, 2.5 + 0.03 * i, z);
     choose_form(p, i, play_between(p, 0.15f, 0.4f), &a.geometry);
-    a.body.transform.rotation.x = play_between(p, -1.0f, 1.0f);
-    a.body.transform.rotation.z = play_between(p, -1.0f, 1.0f);
-    a.shape.material.rolling_resistance = 0.2f;
-    a.shape.material.spinning_resistance = 0.02f;
-    if (i % 5 == 0) a.shape.events = FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT;
-    if (i % 17 == 3) a.shape.trigger = 1, a.body.gravity_scale = 0.2f;
-    if (i % 9 == 4) a.body.linear_velocity.x = 30.0f, a.body.linear_velocity.y = -50.0f;
+    play_tumble(p, i, -50.0f, &a);
     return a;
 }
 

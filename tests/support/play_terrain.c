@@ -5,13 +5,6 @@
 
 enum { CELLS = 16, SAMPLES = CELLS + 1, FIELDS = 2, BODIES = 140, EDIT = 4 };
 
-// a wave of integers: no library decides its last bit
-static float wave(int32_t column, int32_t row)
-{
-    int32_t x = (column * 5) % 20, z = (row * 7) % 24, a = x < 10 ? x : 20 - x, b = z < 12 ? z : 24 - z;
-    return 0.06f * (float)a + 0.05f * (float)b;
-}
-
 static fe_asset make_field(play *p, int32_t which)
 {
     fe_asset field = 0;
@@ -19,7 +12,7 @@ static fe_asset make_field(play *p, int32_t which)
     uint8_t holes[CELLS * CELLS] = {0}, kinds[CELLS * CELLS];
     const fe_material materials[3] = {SURFACE(0.6f, 0.5f, 0.0f, 0.1f, 0.02f), SURFACE(0.1f, 0.1f, 0.0f, 0.1f, 0.02f),
                                       SURFACE(0.6f, 0.5f, 0.6f, 0.1f, 0.02f)};
-    for (int32_t i = 0; i < SAMPLES * SAMPLES; ++i) heights[i] = wave(i % SAMPLES + which * CELLS, i / SAMPLES);
+    for (int32_t i = 0; i < SAMPLES * SAMPLES; ++i) heights[i] = play_wave(i % SAMPLES + which * CELLS, i / SAMPLES);
     for (int32_t i = 0; i < CELLS * CELLS; ++i) kinds[i] = (uint8_t)(i % 11 == 0 ? 1 : i % 13 == 0 ? 2 : 0);
     holes[5 * CELLS + 5] = holes[5 * CELLS + 6] = (uint8_t)which;
     fe_heightfield_def def;
@@ -44,13 +37,7 @@ static part any_part(play *p, int32_t i)
     part a = i % 3 == 0   ? part_sphere(size, x, y, z)
              : i % 3 == 1 ? part_capsule(size, 0.6f * size, x, y, z)
                           : part_box(size, 0.5f * size, 0.8f * size, x, y, z);
-    a.body.transform.rotation.x = play_between(p, -1.0f, 1.0f);
-    a.body.transform.rotation.z = play_between(p, -1.0f, 1.0f);
-    a.shape.material.rolling_resistance = 0.2f;
-    a.shape.material.spinning_resistance = 0.02f;
-    if (i % 5 == 0) a.shape.events = FE_SHAPE_EVENTS_TOUCH | FE_SHAPE_EVENTS_STAY | FE_SHAPE_EVENTS_HIT;
-    if (i % 17 == 3) a.shape.trigger = 1, a.body.gravity_scale = 0.2f;
-    if (i % 9 == 4) a.body.linear_velocity.x = 30.0f, a.body.linear_velocity.y = -20.0f;
+    play_tumble(p, i, -20.0f, &a);
     return a;
 }
 

@@ -225,6 +225,30 @@ static void near_vertices_are_one(void **state)
     free_mesh(&m);
 }
 
+// A triangle is judged by itself: neither what is far from it counts, nor how small it is. Its height must be more than
+// 2^-25 of its largest coordinate.
+static void small_triangles_stay_whatever_else_there_is(void **state)
+{
+    (void)state;
+    const double sizes[] = {1e-6, 1e-3, 0.1, 10.0}; // m
+    for (int32_t i = 0; i < 4; ++i) {
+        double x = sizes[i];
+        uint32_t a = soup_vertex(&made, 0, 0, 0), b = soup_vertex(&made, x, 0, 0), c = soup_vertex(&made, 0, 0, x);
+        soup_triangle(&made, a, c, b);
+    }
+    soup_triangle(&made, soup_vertex(&made, 1, 5, 0), soup_vertex(&made, 1.1, 5, 0),
+                  soup_vertex(&made, 99999, 99999, 0));
+    uint32_t first = soup_vertex(&made, 1, 1, 0), second = soup_vertex(&made, 2, 1, 0);
+    soup_triangle(&made, first, second, soup_vertex(&made, 1.5, 1, 2.1 * 0x1p-25));
+    soup_triangle(&made, first, second, soup_vertex(&made, 1.5, 1, -1.9 * 0x1p-25)); // lower than a share of 2 m
+    made_mesh m = mesh_of_soup();
+    assert_int_equal(m.mesh.triangle_count, 6);
+    assert_int_equal(m.mesh.degenerate_count, 1);
+    FE_TRUE(fe__mesh_slot(&m.mesh, 6) == 6); // after those that are kept
+    check_whole(&m.mesh);
+    free_mesh(&m);
+}
+
 static void triangles_without_area_and_repeated_ones_are_dropped(void **state)
 {
     (void)state;
@@ -583,6 +607,7 @@ int main(void)
         cmocka_unit_test_setup(equal_vertices_are_one, reset),
         cmocka_unit_test_setup(zeros_of_both_signs_are_one, reset),
         cmocka_unit_test_setup(near_vertices_are_one, reset),
+        cmocka_unit_test_setup(small_triangles_stay_whatever_else_there_is, reset),
         cmocka_unit_test_setup(triangles_without_area_and_repeated_ones_are_dropped, reset),
         cmocka_unit_test_setup(small_and_thin_triangles_are_kept, reset),
         cmocka_unit_test_setup(edges_are_what_meets_there, reset),

@@ -49,6 +49,20 @@ static void move_face(fe__face *face, const fe__relative *b_in_a)
         face->vertex[i] = fe__add(b_in_a->position, fe__mul(&b_in_a->rotation, face->vertex[i]));
 }
 
+// The line on a rounded side of B that is next to the polygon, as the nearest points' normal may lean from the
+// polygon's: else a corner beside the line would seem to lie under it.
+static void turn_side_of_b(const fe__form *b, const fe__relative *b_in_a, const fe__face *polygon, fe__face *side)
+{
+    if (side->count != 2 || !fe__form_is_curved(b)) return;
+    fe__form_face(b, fe__neg(fe__mul_transposed(&b_in_a->rotation, polygon->normal)), side);
+    move_face(side, b_in_a);
+}
+
+static void turn_side_of_a(const fe__form *a, const fe__face *polygon, fe__face *side)
+{
+    if (side->count == 2 && fe__form_is_curved(a)) fe__form_face(a, fe__neg(polygon->normal), side);
+}
+
 // A frame in a polygon: origin at its first vertex, u along its first edge, n its normal.
 typedef struct plane_frame {
     fe_vec3 origin, u, v, n;
@@ -161,9 +175,14 @@ static int32_t touch_along_features(const fe__form *a, const fe__form *b, const 
     const float prefer_a = 1e-3f; // equal faces: A's
     // a disc is rather cut: the points of its rim stay, and the deepest is one of them
     int32_t yields = face_a.rim > 0.0f && face_b.count > 2 && face_b.rim == 0.0f && cos_b > FE_FACE_COS;
-    if (cos_a > FE_FACE_COS && cos_a + prefer_a >= cos_b && !yields)
+    if (cos_a > FE_FACE_COS && cos_a + prefer_a >= cos_b && !yields) {
+        turn_side_of_b(b, b_in_a, &face_a, &face_b);
         return clip_faces(&face_a, &face_b, a->radius, b->radius, 0, found, margin, manifold);
-    if (cos_b > FE_FACE_COS) return clip_faces(&face_b, &face_a, b->radius, a->radius, 1, found, margin, manifold);
+    }
+    if (cos_b > FE_FACE_COS) {
+        turn_side_of_a(a, &face_b, &face_a);
+        return clip_faces(&face_b, &face_a, b->radius, a->radius, 1, found, margin, manifold);
+    }
     if (face_a.count != 2 || face_b.count != 2) return 0;
     fe__segment segments[2];
     const fe__face *faces[2] = {&face_a, &face_b};
@@ -226,11 +245,13 @@ void fe__collide_convex(const fe__form *a, const fe__form *b, const fe__relative
         return;
     }
     fe__cores cores = make_cores(a, b, b_in_a);
-    fe__touch found;
+    fe__touch found, nearest;
     if (!find_nearest(&cores, margin, &found)) return;
-    if (fe__form_is_curved(a) || fe__form_is_curved(b)) fe__sharpen(&cores, &found);
+    nearest = found;
+    int32_t on_face = (fe__form_is_curved(a) || fe__form_is_curved(b)) && fe__sharpen(&cores, &found);
     if (touch_along_features(a, b, b_in_a, &found, margin, manifold) > 0) return;
     enum { SINGLE_ID = 0xffff };
+    if (on_face) found = nearest; // beside the face: its normal is not that of the point, which would be felt to sink
     manifold->normal = found.normal;
     fe__add_point(manifold, middle_of(&found, a, b), found.separation, SINGLE_ID);
 }

@@ -100,7 +100,7 @@ static fe_dvec3 hull_face_normal(const fe__cores *c, int32_t is_b, fe_dvec3 foun
     return fe__dadd(fe__dadd(fe__dscale(n.x, c->axis_x), fe__dscale(n.y, c->axis_y)), fe__dscale(n.z, c->axis_z));
 }
 
-void fe__sharpen(const fe__cores *cores, fe__touch *touch)
+int32_t fe__sharpen(const fe__cores *cores, fe__touch *touch)
 {
     const fe__form *forms[2] = {cores->a, cores->b};
     const fe_dvec3 axes[2][3] = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}},
@@ -108,20 +108,21 @@ void fe__sharpen(const fe__cores *cores, fe__touch *touch)
     float tie = fe__tie(fe__minf(fe__form_thickness(cores->a), fe__form_thickness(cores->b)));
     choice c = {cores, fe__widen(touch->normal), (double)(touch->separation - tie), touch};
     for (int32_t i = 0; i < 2; ++i) { // faces
-        if (fe__form_is_curved(forms[i]) && takes(&c, axes[i][1])) return;
+        if (fe__form_is_curved(forms[i]) && takes(&c, axes[i][1])) return 1;
         if (fe__form_is_hull(forms[i])) {
             fe_dvec3 n = hull_face_normal(cores, i, c.found);
-            if (takes(&c, n)) return;
+            if (takes(&c, n)) return 1;
         }
         for (int32_t k = 0; k < 3 && fe__form_has_flat_faces(forms[i]); ++k)
-            if (takes(&c, axes[i][k])) return;
+            if (takes(&c, axes[i][k])) return 1;
     }
     if (is_long(forms[0]) && is_long(forms[1]) && takes(&c, fe__dcross(axes[0][1], axes[1][1]))) {
         place_crossing(cores, touch);
-        return;
+        return 0;
     }
     for (int32_t i = 0; i < 2; ++i) // sides
         if (fe__form_is_curved(forms[i]) &&
             takes(&c, side_normal(forms[i], axes[i][1], i ? fe__dscale(-1.0, c.found) : c.found)))
-            return;
+            return 0;
+    return 0;
 }

@@ -69,9 +69,9 @@ typedef struct fe__touch {
 } fe__touch;
 
 // Of a pair with a rim: takes one of the directions that such a pair touches along for the normal, when it is the same
-// within a tie, so that what lies still has a normal without the noise of a search (curved.c).
+// within a tie, so that what lies still has a normal without the noise of a search (curved.c). 1: it is that of a face.
 struct fe__cores;
-void fe__sharpen(const struct fe__cores *cores, fe__touch *found);
+int32_t fe__sharpen(const struct fe__cores *cores, fe__touch *found);
 
 // Two segments whose nearest points are `separation` apart along `normal` (from a to b), `nearest` midway between the
 // surfaces there: gives the two ends of the stretch along which they run side by side, if that says the same as the

@@ -90,13 +90,22 @@ static void find_sides(const fe__mesh *m, fe__tile *tile)
     if (m->is_two_sided && fe__dot(tile->normal, tile->form.vertex[0]) > 0.0f) turn_round(tile);
 }
 
-fe__tile fe__tile_of(const fe__terrain *t, const fe__form *triangle, int32_t index)
+// A triangle lower than a hundredth of its longest side would have a normal of roundings: floats hold its corners
+// relative to the body. Its own coordinates are exact.
+static fe_vec3 normal_of(const fe__terrain *t, const fe__form *triangle, int32_t index, float size)
 {
-    fe__tile tile = {.form = *triangle, .index = index};
+    const float thin = 0.01f;
     const fe_vec3 *v = triangle->vertex;
     fe_vec3 n = fe__cross(fe__sub(v[1], v[0]), fe__sub(v[2], v[0]));
-    tile.normal = fe__scale(1.0f / fe__length(n), n);
-    tile.size = longest_side(v);
+    float length = fe__length(n);
+    if (length > thin * size * size) return fe__scale(1.0f / length, n);
+    return fe__narrow(fe__ground_normal(&t->ground, index));
+}
+
+fe__tile fe__tile_of(const fe__terrain *t, const fe__form *triangle, int32_t index)
+{
+    fe__tile tile = {.form = *triangle, .index = index, .size = longest_side(triangle->vertex)};
+    tile.normal = normal_of(t, triangle, index, tile.size);
     if (t->ground.mesh)
         find_sides(t->ground.mesh, &tile);
     else

@@ -14,8 +14,9 @@
 
 #include <string.h>
 
-// A triangle with less area than this share of the square of the longest side of the bounds has no normal to speak of
-#define FE__MESH_LEAST_AREA 1e-12
+// A triangle that is not higher than this share of its largest coordinate has no normal to speak of: the rounding of a
+// float moves a corner by up to twice as much
+#define FE__MESH_LEAST_HEIGHT 0x1p-25
 
 // A checked definition: indices in range, coordinates finite
 typedef struct fe__mesh_source {
@@ -33,7 +34,7 @@ typedef struct fe__mesh_source {
 // Why there is no mesh: nothing is left of it (triangle -1), or it is strict and a triangle would be dropped
 typedef struct fe__mesh_refusal {
     int32_t triangle;
-    int32_t is_duplicate; // else without area
+    int32_t is_duplicate; // else without height
 } fe__mesh_refusal;
 
 enum { FE__MESH_DROPPED = 255 }; // in fe__mesh_builder.edges

@@ -1,7 +1,7 @@
 // edges.c - which triangles count, and what their edges are.
 //
-// Triangles without area are dropped. Half-edges are sorted by their edge: into buckets by its lower vertex, in them by
-// the other vertex, then by the triangle's third one. So the half-edges of an edge follow each other, and among them
+// Triangles without height are dropped. Half-edges are sorted by their edge: into buckets by its lower vertex, in them
+// by the other vertex, then by the triangle's third one. So the half-edges of an edge follow each other, and among them
 // those of triangles that are the same: these have the same three vertices and the same winding; the first stays.
 //
 // An edge of two triangles is convex when the third vertex of one lies below the other's plane. It is felt when their
@@ -50,18 +50,24 @@ static void read_triangle(const workroom *w, uint32_t triangle, fe_dvec3 v[3])
     for (int32_t k = 0; k < 3; ++k) v[k] = fe__widen(fe__mesh_source_vertex(w->builder->source, c[k]));
 }
 
-// Of the vertices that triangles have: others do not count
-static double longest_side(const workroom *w)
+static double largest_coordinate(const fe_dvec3 v[3])
 {
-    const fe__mesh_source *s = w->builder->source;
-    fe_vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
-    for (int64_t i = 0; i < HALF_EDGES(s); ++i) {
-        fe_vec3 v = fe__mesh_source_vertex(s, w->corner[i]);
-        low = (fe_vec3){fe__minf(low.x, v.x), fe__minf(low.y, v.y), fe__minf(low.z, v.z)};
-        high = (fe_vec3){fe__maxf(high.x, v.x), fe__maxf(high.y, v.y), fe__maxf(high.z, v.z)};
+    double largest = 0.0;
+    for (int32_t k = 0; k < 3; ++k)
+        largest = fe__maxd(largest, fe__maxd(fe__absd(v[k].x), fe__maxd(fe__absd(v[k].y), fe__absd(v[k].z))));
+    return largest;
+}
+
+// Its height over its longest side s is |n| / s.
+static int32_t is_flat(const fe_dvec3 v[3])
+{
+    fe_dvec3 n = normal_of(v);
+    double least = FE__MESH_LEAST_HEIGHT * largest_coordinate(v), longest = 0.0;
+    for (int32_t k = 0; k < 3; ++k) {
+        fe_dvec3 side = fe__dsub(v[next_corner[k]], v[k]);
+        longest = fe__maxd(longest, fe__ddot(side, side));
     }
-    fe_dvec3 d = fe__dsub(fe__widen(high), fe__widen(low));
-    return fe__maxd(d.x, fe__maxd(d.y, d.z));
+    return !(fe__ddot(n, n) > least * least * longest);
 }
 
 static void read_corners(workroom *w)
@@ -79,13 +85,11 @@ static void refuse(fe__mesh_builder *b, int32_t triangle, int32_t is_duplicate)
 static void drop_degenerate(workroom *w)
 {
     fe__mesh_builder *b = w->builder;
-    double extent = longest_side(w), least = 2.0 * FE__MESH_LEAST_AREA * extent * extent;
     for (int32_t i = 0; i < b->source->triangle_count; ++i) {
         const uint32_t *c = w->corner + 3 * (size_t)i;
         fe_dvec3 v[3];
         read_triangle(w, (uint32_t)i, v);
-        fe_dvec3 n = normal_of(v);
-        if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0] && fe__ddot(n, n) > least * least) continue;
+        if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0] && !is_flat(v)) continue;
         b->edges[i] = FE__MESH_DROPPED;
         b->mesh.degenerate_count += 1;
         refuse(b, i, 0);

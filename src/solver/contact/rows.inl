@@ -160,11 +160,18 @@ FE_INLINE affine NAMED(normal_velocity)(const pair *p)
                     w_cross(p->normal, w_sub(p->b.w, p->a.w))};
 }
 
+// More than one point: rows of four hold contacts of one too, whose results are those of the row of one
+FE_INLINE wide_mask NAMED(has_many)(const ROW *row)
+{
+    return POINTS > 1 ? w_greater(row->point[POINTS > 1].mass, w_set(0.0f)) : no_lane();
+}
+
 // A point without impulse, or one that only pushes an overlap apart and is struck, is about to touch: note its speed u,
 // its time, and the energy of its flight, exact for the discrete motion v += h g, x += h v:
 //     Q = u (u - g h) + 2 g s  before the bodies moved in this substep,   u (u + g h) + 2 g s  after
 // (s: the gap, g: the acceleration that closes it). Only what is faster than the threshold bounces; of the others a
-// chain of impacts knows (pass_on.c).
+// chain of impacts knows (pass_on.c). The points of a face that lands flat touch together: what rounding leaves for the
+// next substep does too, or the face would bounce off one corner after another.
 FE_INLINE void NAMED(record_touch)(SPECIAL_ROW *x, int i, wide impulse, wide vn, wide distance,
                                    const fe__step_constants *c, int moved)
 {
@@ -172,6 +179,8 @@ FE_INLINE void NAMED(record_touch)(SPECIAL_ROW *x, int i, wide impulse, wide vn,
     wide flight = (moved ? u * (u + c->h * g) : u * (u - c->h * g)) + 2.0f * g * gap;
     // as the impulse is computed, so that none is given to a point that is not noted
     wide_mask closes = w_greater(zero, vn + w_max(distance * c->inverse_h, zero));
+    wide_mask nearly = w_greater(u, w_max(w_set(c->threshold), (gap - TOUCHING) * c->inverse_h));
+    closes = w_or(closes, w_and(nearly, NAMED(has_many)(&x->row)));
     wide_mask touches = w_and(closes, w_greater(x->row.point[i].mass * x->restitution, zero));
     wide_mask pressed = w_greater(impulse, zero);
     if (moved) pressed = w_and(pressed, w_or(w_greater(x->row.load, zero), w_greater(w_set(c->threshold), u)));

@@ -1,0 +1,113 @@
+// solid.c - see solid.h.
+#include "collision/form/solid.h"
+
+#include "collision/form/hull_form.h"
+#include "collision/form/support.h"
+
+// So far inside its rim a face is asked, m, and as a share of its half width
+#define INSIDE 0.01f
+#define INSIDE_SHARE 0.1f
+// sin^2 of what is no face's normal: 2 seconds of arc
+#define LEANS 1e-10f
+
+static fe_vec3 local_normal(const fe__form *form, int32_t face)
+{
+    if (fe__form_is_hull(form)) return fe__hull_normal(form->hull, face);
+    float sign = face & 1 ? 1.0f : -1.0f;
+    return fe__vec3(face / 2 == 0 ? sign : 0.0f, face / 2 == 1 ? sign : 0.0f, face / 2 == 2 ? sign : 0.0f);
+}
+
+// over the form's origin
+static float local_height(const fe__form *form, int32_t face)
+{
+    if (fe__form_is_hull(form))
+        return fe__dot(fe__hull_normal(form->hull, face), form->offset) + form->scale * form->hull->distances[face];
+    return face / 2 == 0 ? form->half.x : face / 2 == 1 ? form->half.y : form->half.z;
+}
+
+int32_t fe__solid_face_count(const fe__solid *s) { return fe__form_is_hull(s->form) ? s->form->hull->face_count : 6; }
+
+fe_vec3 fe__solid_normal(const fe__solid *s, int32_t face) { return fe__mul(&s->axes, local_normal(s->form, face)); }
+
+float fe__solid_height(const fe__solid *s, int32_t face)
+{
+    return fe__dot(fe__solid_normal(s, face), s->centre) + local_height(s->form, face);
+}
+
+static int32_t holds(const fe__form *form, fe_vec3 p)
+{
+    if (!fe__form_is_hull(form))
+        return fe__absf(p.x) <= form->half.x + FE__FLUSH && fe__absf(p.y) <= form->half.y + FE__FLUSH &&
+               fe__absf(p.z) <= form->half.z + FE__FLUSH;
+    for (int32_t i = 0; i < form->hull->face_count; ++i)
+        if (fe__dot(local_normal(form, i), p) > local_height(form, i) + FE__FLUSH) return 0;
+    return 1;
+}
+
+static float reach(const fe__form *form, fe_vec3 m)
+{
+    if (fe__form_is_hull(form)) return fe__dot(m, fe__narrow(fe__form_support(form, fe__widen(m))));
+    return fe__absf(m.x) * form->half.x + fe__absf(m.y) * form->half.y + fe__absf(m.z) * form->half.z;
+}
+
+int32_t fe__solid_goes_on(const fe__solid *s, fe_vec3 q, fe_vec3 m)
+{
+    fe_vec3 p = fe__mul_transposed(&s->axes, fe__sub(q, s->centre));
+    if (!holds(s->form, p)) return 0;
+    fe_vec3 along = fe__mul_transposed(&s->axes, m);
+    float far = reach(s->form, along), here = fe__dot(along, p);
+    const float least = 1e-5f, rounding = 1e-6f; // m; of the distances
+    return far - here > least + rounding * (fe__absf(far) + fe__absf(here));
+}
+
+fe_vec3 fe__solid_draw_in(const fe__solid *s, fe_vec3 q)
+{
+    const fe__form *form = s->form;
+    fe_vec3 p = fe__mul_transposed(&s->axes, fe__sub(q, s->centre));
+    if (!fe__form_is_hull(form))
+        p = fe__vec3(fe__clampf(p.x, -form->half.x, form->half.x), fe__clampf(p.y, -form->half.y, form->half.y),
+                     fe__clampf(p.z, -form->half.z, form->half.z));
+    for (int32_t i = 0; fe__form_is_hull(form) && i < form->hull->face_count; ++i) {
+        fe_vec3 n = local_normal(form, i);
+        p = fe__add_scaled(p, fe__minf(local_height(form, i) - fe__dot(n, p), 0.0f), n);
+    }
+    return fe__add(s->centre, fe__mul(&s->axes, p));
+}
+
+// ---- faces ---------------------------------------------------------------------------------------------------------
+// towards 0, unless it is the face's own axis
+static float inwards(float x, float half, int32_t is_axis)
+{
+    float step = fe__minf(fe__minf(INSIDE, INSIDE_SHARE * half), fe__absf(x));
+    return is_axis ? x : x > 0.0f ? x - step : x + step;
+}
+
+static fe_vec3 off_rim_of_box(fe_vec3 half, fe_vec3 p, fe_vec3 m)
+{
+    float xx = m.x * m.x, yy = m.y * m.y, zz = m.z * m.z;
+    int32_t x = yy + zz < LEANS, y = xx + zz < LEANS, z = xx + yy < LEANS;
+    if (!(x || y || z)) return p;
+    return fe__vec3(inwards(p.x, half.x, x), inwards(p.y, half.y, y), inwards(p.z, half.z, z));
+}
+
+// towards the middle of the face's vertices
+static fe_vec3 off_rim_of_hull(const fe__form *form, fe_vec3 p, fe_vec3 m)
+{
+    fe__face face;
+    fe__form_face(form, m, &face);
+    fe_vec3 across = fe__cross(face.normal, m), middle = {0.0f, 0.0f, 0.0f};
+    if (!(fe__dot(across, across) < LEANS)) return p;
+    for (int32_t i = 0; i < face.count; ++i) middle = fe__add_scaled(middle, 1.0f / (float)face.count, face.vertex[i]);
+    fe_vec3 way = fe__sub(middle, p);
+    way = fe__sub(way, fe__scale(fe__dot(way, face.normal), face.normal));
+    float length = fe__length(way), step = fe__minf(INSIDE, INSIDE_SHARE * length);
+    return length > 0.0f ? fe__add_scaled(p, step / length, way) : p;
+}
+
+fe_vec3 fe__solid_off_rim(const fe__solid *s, fe_vec3 q, fe_vec3 m)
+{
+    fe_vec3 along = fe__mul_transposed(&s->axes, m), p = fe__mul_transposed(&s->axes, fe__sub(q, s->centre));
+    fe_vec3 moved =
+        fe__form_is_hull(s->form) ? off_rim_of_hull(s->form, p, along) : off_rim_of_box(s->form->half, p, along);
+    return fe__add(s->centre, fe__mul(&s->axes, moved));
+}
