@@ -405,6 +405,15 @@ namespace FeatherPhysics.Tests
                 Check.Near(body.Position.Y, 1, Slop, "rests on a side");
                 Check.Near(wheel.Position.Y, 0.25, Slop, "a cylinder");
                 Check.Near(cone.Position.Y, 0.5, Slop, "a cone");
+                Shape scaled = world.CreateDynamic(new DVec3(12, 1, 0)).Add(Geometry.Hull(hull).Scaled(-1, 0.25f, 0.5f));
+                Check.Same(scaled.Geometry.Scale, new Vector3(-1, 0.25f, 0.5f), "scale");
+                Check.Near(scaled.Body.Mass, 1000, 0.01, "of a scaled hull");
+                Run(world, 120);
+                Check.Near(scaled.Body.Position.Y, 0.25, Slop, "a scaled hull");
+                scaled.Geometry = Geometry.Hull(hull);
+                Check.Same(scaled.Geometry.Scale, new Vector3(1, 1, 1), "unscaled");
+                Check.Throws<BadArgumentException>(() => body.Add(Geometry.Hull(hull).Scaled(0, 1, 1)), "scale.x");
+                Check.Throws<BadArgumentException>(() => body.Add(Geometry.Sphere(1).Scaled(2, 2, 2)), "sphere");
                 Check.Throws<DegenerateException>(() => world.CreateHull(new Vector3[5]), "one place");
                 Check.Throws<BadArgumentException>(() => world.CreateHull(new Vector3[3]), "point_count");
                 Check.Throws<BadArgumentException>(() => world.CreateHull(Cube, 3), "max_vertices");

@@ -189,6 +189,16 @@ function TestPhysics.testHull()
     for thing, height in pairs({ [body] = 1, [wheel] = 0.25, [cone] = 0.5 }) do
         lu.assertAlmostEquals(select(2, thing:getPosition()), height, 5e-3)
     end
+    local small = world:newBody({ position = { 12, 1, 0 } })
+    local scaled = small:newShape({ "hull", hull, -1, 0.25, 0.5 })
+    lu.assertEquals(scaled:getForm(), { "hull", hull, -1, 0.25, 0.5 })
+    lu.assertAlmostEquals(small:getMass(), 1000, 0.01)
+    for _ = 1, 120 do world:update(STEP) end
+    lu.assertAlmostEquals(select(2, small:getPosition()), 0.25, 5e-3)
+    scaled:setForm({ "hull", hull, 1, 1, 1 })
+    lu.assertEquals(scaled:getForm(), { "hull", hull })
+    fails("scale.y", small.newShape, small, { "hull", hull, 1, 0, 1 })
+    fails("number", small.newShape, small, { "hull", hull, 1, 2 })
     fails("flat", world.newHull, world, { points = { 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 1 } })
     fails("max_vertices", world.newHull, world, { points = CUBE, maxVertices = 3 })
     fails("whole records", world.newHull, world, { points = { 1, 2 } })
