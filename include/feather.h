@@ -1454,7 +1454,7 @@ typedef struct fe_overlap {
     fe_vec3 direction; ///< unit, out of the shape: a translation of the geometry by `depth` along it parts the two
     float depth;       ///< m, >= 0
     int32_t part;      ///< of a shape made of parts, else -1
-    int32_t triangle;  ///< of a heightfield or a mesh, where it is deepest, else -1
+    int32_t triangle;  ///< of a heightfield or a mesh, where it is deepest; the face of a hull on that way; else -1
     uint32_t reserved[4];
 } fe_overlap;
 
