@@ -602,6 +602,8 @@ def flat_geometry(world: "World", geometry: Geometry) -> Any:
     if isinstance(geometry, Cone):
         return _flat.geometry_cone(geometry.half_height, geometry.radius)
     if isinstance(geometry, Scaled):
+        if not isinstance(geometry.asset, Asset):
+            raise TypeError(f"a hull or a mesh is needed, not {type(geometry.asset).__name__!r}")
         scaled = flat_geometry(world, geometry.asset)
         x, y, z = geometry.scale
         _flat.geometry_set_scale(scaled, x, y, z)

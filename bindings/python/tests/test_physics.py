@@ -342,12 +342,20 @@ def test_scaled(world: World) -> None:
     shape.geometry = Scaled(hull, (1, 1, 1))
     assert shape.geometry == hull
     assert world.sweep(Scaled(hull, (-4, 1, 1)), (5, 9, 5), (0, -10, 0))
-    with pytest.raises(InvalidArgumentError, match="scale.x"):
-        body.add(Scaled(hull, (0, 1, 1)))
+    for wrong in (0, math.nan, math.inf, 1e-4, -1e4):
+        with pytest.raises(InvalidArgumentError, match="scale.x"):
+            body.add(Scaled(hull, (wrong, 1, 1)))
+        with pytest.raises(InvalidArgumentError, match="scale.z"):
+            shape.geometry = Scaled(hull, (1, 1, wrong))
+    assert shape.geometry == hull
     with pytest.raises(DegenerateError, match="thick"):
         body.add(Scaled(hull, (0.001, 30, 1)))
-    with pytest.raises(InvalidArgumentError, match="sphere"):
-        body.add(Scaled(Sphere(1), (2, 2, 2)))  # type: ignore[arg-type]
+    for other in (Sphere(1), Scaled(hull, (2, 2, 2))):
+        with pytest.raises(TypeError, match="a hull or a mesh is needed, not '(Sphere|Scaled)'"):
+            body.add(Scaled(other, (2, 2, 2)))  # type: ignore[arg-type]
+    field = world.create_heightfield([[0, 0], [0, 0]])
+    with pytest.raises(UnsupportedError, match="heightfield"):
+        world.create_body("static").add(Scaled(field, (2, 2, 2)))  # type: ignore[arg-type]
     with pytest.raises(ValueError):
         body.add(Scaled(hull, (1, 2)))
     hull.destroy()
