@@ -42,9 +42,9 @@ static void look_at(const pair_view *p, const fe__pose *pose_field, const fe__po
     l->v.form_a = p->field->form;
     fe__surroundings around; // their numbers say how many are written
     fe__find_surroundings(w, &l->v, p->field, p->other, &around);
-    fe__terrain terrain = {
-        fe__store_ground(w->store, &p->field->form),
-        fe__drotate_back(pose_field->rotation, fe__dsub(pose_other->position, pose_field->position)), &around};
+    fe__terrain terrain = {fe__store_ground(w->store, &p->field->form),
+                           fe__drotate_back(pose_field->rotation, fe__dsub(pose_other->position, pose_field->position)),
+                           &around};
     fe__mat3 rotation = fe__matrix(fe__product(fe__conjugate(pose_field->rotation), pose_other->rotation));
     l->v.relative.rotation = rotation;
     l->count = fe__collide_terrain(&terrain, &p->other->form, &rotation, margin, l->patches, &l->gap);

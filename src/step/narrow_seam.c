@@ -118,6 +118,15 @@ static void take_open_face(const seam *s, const fe_vec3 *q, fe_vec3 m, float sig
     if (most > none && most <= s->margin) touch_face(s, best, sign, found);
 }
 
+// What of the solid the point stands for. Of an edge touched askew, a point some way off may lie beside it: under a
+// ground, which has no inside.
+static fe_vec3 touched(const seam *s, const fe__manifold_point *p, fe_vec3 m)
+{
+    fe_vec3 q = fe__solid_draw_in(&s->solid, fe__add_scaled(p->point, -0.5f * p->separation, m));
+    if (!s->around.ground_count) return q;
+    return fe__solid_draw_in(&s->solid, fe__solid_raise(&s->solid, q, m, fe__absf(p->separation)));
+}
+
 void fe__mend_seam(const fe_world *world, const fe__view *v, float margin, fe__manifold *found)
 {
     int32_t solid_is_a = fe__is_static_solid(world, v->a);
@@ -132,8 +141,6 @@ void fe__mend_seam(const fe_world *world, const fe__view *v, float margin, fe__m
     s.solid = solid_is_a ? a : b, s.other = solid_is_a ? b : a;
     float sign = solid_is_a ? 1.0f : -1.0f;
     fe_vec3 m = fe__scale(sign, found->normal), q[FE_MAX_POINTS];
-    for (int32_t i = 0; i < found->count; ++i)
-        q[i] =
-            fe__solid_draw_in(&s.solid, fe__add_scaled(found->points[i].point, -0.5f * found->points[i].separation, m));
+    for (int32_t i = 0; i < found->count; ++i) q[i] = touched(&s, found->points + i, m);
     if (all_shut(&s, q, found->count, m)) take_open_face(&s, q, m, sign, found);
 }

@@ -39,8 +39,7 @@ void fe__find_surroundings(const fe_world *w, const fe__view *v, const fe__shape
         const fe__shape *x = w->shapes + p->shape_a, *y = w->shapes + p->shape_b, *near = x == other ? y : x;
         if (p->flags & FE__PAIR_PATCH || near == self || (x != other && y != other)) continue;
         if (p->next_patch >= 0) {
-            if (found->ground_count < FE__NEIGHBOURS)
-                found->grounds[found->ground_count++] = place_ground(w, v, near);
+            if (found->ground_count < FE__NEIGHBOURS) found->grounds[found->ground_count++] = place_ground(w, v, near);
         } else if (found->solid_count < FE__NEAR_SOLIDS && fe__is_static_solid(w, near))
             found->solids[found->solid_count++] = place_solid(v, near);
     }

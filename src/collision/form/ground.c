@@ -86,11 +86,11 @@ static int32_t is_near(const fe_dvec3 v[3], fe_dvec3 p, double near)
 
 static int32_t is_under(const fe__ground *s, const fe_dvec3 v[3], const fe__solid_rim *rim)
 {
-    const double flat = 1e-3; // a slope
+    const double least = 1e-4; // m, above the roundings of what is a kilometre wide
     fe_dvec3 n = normal_of(v);
     double up = fe__ddot(n, rim->inward);
     if (fe__ground_is_two_sided(s) && fe__ddot(n, fe__dsub(rim->from, v[0])) < 0.0) up = -up;
-    return up > flat * sqrt(fe__ddot(rim->inward, rim->inward));
+    return up > least;
 }
 
 // `rim`: NULL for any triangle
@@ -114,7 +114,10 @@ static int32_t rises(const fe__ground *s, fe_dvec3 p, fe_dvec3 m, double near, c
     return 0;
 }
 
-int32_t fe__ground_rises(const fe__ground *s, fe_dvec3 p, fe_dvec3 m, double near) { return rises(s, p, m, near, NULL); }
+int32_t fe__ground_rises(const fe__ground *s, fe_dvec3 p, fe_dvec3 m, double near)
+{
+    return rises(s, p, m, near, NULL);
+}
 
 int32_t fe__ground_rises_at(const fe__ground *s, const fe__solid_rim *rim, fe_dvec3 m, double near)
 {

@@ -9,8 +9,8 @@
 enum {
     FE__PATCHES = 6, // at most, of one pair. What has more directions than that is merged with the most similar ones:
                      // no contact is lost
-    FE__NEIGHBOURS = 4,   // other surfaces near the same body
-    FE__NEAR_SOLIDS = 8,  // other static boxes and hulls near it
+    FE__NEIGHBOURS = 4,  // other surfaces near the same body
+    FE__NEAR_SOLIDS = 8, // other static boxes and hulls near it
 };
 
 // Points with one normal and one material.

@@ -3,8 +3,8 @@
 // A direction m is in the normal cone of a point of a surface when nothing near the point rises along m. For a
 // piecewise flat surface it is enough to look at the samples next to it (Connolly; van den Bergen: Voronoi regions of a
 // mesh's features). Beyond the border of the grid the neighbouring heightfields are asked for their height a little
-// further on, and so are boxes and hulls. A mesh does not know what is next to what: its tree is asked for the triangles at the point. So are other
-// meshes', and what only lies there, as at a T-junction, counts too.
+// further on, and so are boxes and hulls. A mesh does not know what is next to what: its tree is asked for the
+// triangles at the point. So are other meshes', and what only lies there, as at a T-junction, counts too.
 #include "collision/manifold/terrain_surface.h"
 
 // Slopes below this count as flat: 0.06 degrees
