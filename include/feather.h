@@ -1373,7 +1373,9 @@ typedef struct fe_ray {
 typedef struct fe_path {
     fe_transform start;   ///< pose of the geometry there
     fe_dvec3 translation; ///< m
-    uint32_t reserved[8];
+    fe_vec3 turn;         ///< rad, world axes: the geometry turns by its length, to the right about its direction, through
+                          ///< the geometry's origin, at a constant rate. Each part in [-64, 64]: ten turns. Default 0
+    uint32_t reserved[5];
 } fe_path;
 
 /// The first body on a segment.

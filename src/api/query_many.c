@@ -47,7 +47,7 @@ static void set_probe(const batch *b, int32_t i, fe__probe *probe)
         return;
     }
     fe_path path = path_at(b->ways, b->way_stride, i);
-    *probe = fe__probe_form(b->form, &path.start, path.translation);
+    *probe = fe__probe_turning(b->form, &path.start, path.translation, path.turn);
 }
 
 static void answer(void *argument, int32_t first, int32_t end, int32_t worker)
