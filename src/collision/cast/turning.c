@@ -99,7 +99,8 @@ static double separation(const encounter *e, double t, fe_dvec3 n)
     return fe__separation_of(e->pair, now.position, n) - e->pair->radius;
 }
 
-// The distance at t; `here`: direction and point. 0: the cores overlap, `here` stays
+// Across the nearest points' direction at t, which comes into `here` with the point: how far planes hold the two apart,
+// m. 0: the cores overlap, `here` stays
 static int32_t look(const encounter *e, double t, double *distance, fe__approach_hit *here)
 {
     fe__mover now = fe__turning_at(e->way, t);
@@ -111,22 +112,23 @@ static int32_t look(const encounter *e, double t, double *distance, fe__approach
     }
     fe__core_gap gap;
     e->pair->axes = now.axes;
-    *distance = fe__sure_gap_of(e->pair, now.position, &gap) - e->pair->radius;
+    (void)fe__sure_gap_of(e->pair, now.position, &gap);
+    *distance = -e->pair->radius;
     if (!(gap.distance > 0.0)) return 0;
     *here = (fe__approach_hit){t, fe__dscale(1.0 / gap.distance, gap.away), gap.on_frame};
+    *distance = fe__separation_of(e->pair, now.position, here->normal) - e->pair->radius;
     return 1;
 }
 
-// The first zero in (0, 1) of  (1 - x) at_0 + x at_1 - c x (1 - x),  at_0 > 0; 1: none
+// The first zero in (0, 1) of  (1 - x) at_0 + x at_1 - c x (1 - x) = at_0 + b x + c x^2,  at_0 > 0; 1: none
 static double first_zero(double at_0, double at_1, double c)
 {
-    double b = at_1 - at_0 - c;
-    if (at_1 >= 0.0 && (b >= 0.0 || b * b <= 4.0 * c * at_0)) return 1.0;
-    return 2.0 * at_0 / (sqrt(fe__maxd(b * b - 4.0 * c * at_0, 0.0)) - b);
+    double b = at_1 - at_0 - c, square = b * b - 4.0 * c * at_0;
+    if (b >= 0.0 || square < 0.0) return 1.0;
+    return fe__mind(2.0 * at_0 / (sqrt(square) - b), 1.0);
 }
 
-// From t, where they are `slack` farther apart than `goal`: for how long they stay farther apart, at least. What the
-// nearest points' rounding turns n by shows at t, and is left out of what follows.
+// From here, where they are farther apart than `goal`: for how long they stay so, at least.
 static double safe_way(const encounter *e, const fe__approach_hit *here, double distance, double goal, double end)
 {
     const fe__turning *way = e->way;
@@ -134,10 +136,10 @@ static double safe_way(const encounter *e, const fe__approach_hit *here, double 
     double t = here->t, slack = distance - goal, turning = way->angle * way->reach * sqrt(fe__ddot(across, across));
     double speed = turning - fe__ddot(n, way->mover->translation), bend = 0.5 * way->angle * turning, rest = end - t;
     if (!(speed * rest > slack)) return rest;
-    double safe = slack / speed, lost = distance - separation(e, t, n), ratio = FARTHER;
+    double safe = slack / speed, ratio = FARTHER;
     for (int32_t i = 0; i < MOST_LOOKS && safe < rest; ++i) {
         double ahead = fe__mind(ratio * safe, rest);
-        double x = first_zero(slack, separation(e, t + ahead, n) + lost - goal, bend * ahead * ahead);
+        double x = first_zero(slack, separation(e, t + ahead, n) - goal, bend * ahead * ahead);
         if (x < 1.0) ratio = NEARER;
         if (!(x * ahead > safe)) break;
         safe = x * ahead;
