@@ -103,6 +103,7 @@ static fe_result check_path(const char *function, const fe_path *path, int32_t i
 {
     FE_TRY(check_part(function, "paths[%" PRId32 "].start.position", i, &path->start.position, FE_MAX_POSITION));
     FE_TRY(fe__check_quat(function, "start.rotation", &path->start.rotation));
+    FE_TRY(fe__check_vec3(function, "turn", &path->turn, FE_MAX_TURN));
     FE_CHECK_RESERVED(path->reserved);
     return check_part(function, "paths[%" PRId32 "].translation", i, &path->translation, FE_MAX_TRANSLATION);
 }

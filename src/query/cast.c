@@ -99,10 +99,7 @@ static fe__mover mover_of(const fe__probe *probe, const fe__shape *shape, const 
                        .turn = fe__turn_back(m, probe->turn)};
 }
 
-static int32_t is_turning(const fe__probe *probe)
-{
-    return !is_ray(probe) && fe__ddot(probe->turn, probe->turn) > 0.0;
-}
+static int32_t is_turning(const fe__probe *probe) { return !is_ray(probe) && fe__ddot(probe->turn, probe->turn) > 0.0; }
 
 static int32_t meet_form(const fe__scene *scene, const fe__probe *probe, const fe__shape *shape, double limit, found *f)
 {

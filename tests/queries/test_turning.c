@@ -104,7 +104,8 @@ static double outside(const solid *s, vec p)
     const fe_geometry *g = &s->g;
     double r = (double)g->radius, h = (double)g->half_height, out = sqrt(p.x * p.x + p.z * p.z);
     switch (g->type) {
-    case FE_GEOMETRY_SPHERE: return length(p) - r;
+    case FE_GEOMETRY_SPHERE:
+        return length(p) - r;
     case FE_GEOMETRY_CAPSULE: {
         double y = p.y > h ? p.y - h : p.y < -h ? p.y + h : 0;
         return sqrt(out * out + y * y) - r;
@@ -112,17 +113,42 @@ static double outside(const solid *s, vec p)
     case FE_GEOMETRY_BOX:
         return fmax(fmax(fabs(p.x) - (double)g->half_extents.x, fabs(p.y) - (double)g->half_extents.y),
                     fabs(p.z) - (double)g->half_extents.z);
-    case FE_GEOMETRY_CYLINDER: return fmax(out - r, fabs(p.y) - h);
+    case FE_GEOMETRY_CYLINDER:
+        return fmax(out - r, fabs(p.y) - h);
     case FE_GEOMETRY_CONE: {
         double l = sqrt(r * r + 4 * h * h);
         return fmax((2 * h * out + r * (p.y - h)) / l, -h - p.y);
     }
-    case FE_GEOMETRY_PLANE: return dot(wide(g->normal), p) / length(wide(g->normal)) - (double)g->distance;
+    case FE_GEOMETRY_PLANE:
+        return dot(wide(g->normal), p) / length(wide(g->normal)) - (double)g->distance;
     default: {
         double most = -INFINITY;
         for (int32_t i = 0; i < s->planes; ++i) most = fmax(most, dot(s->normal[i], p) - s->offset[i]);
         return most;
     }
+    }
+}
+
+// The largest part along the unit n of a point of it, world
+static double farthest(const solid *s, const frame *f, vec n)
+{
+    const fe_geometry *g = &s->g;
+    vec d = {dot(f->x, n), dot(f->y, n), dot(f->z, n)};
+    double r = (double)g->radius, h = (double)g->half_height, out = sqrt(d.x * d.x + d.z * d.z), most = -INFINITY;
+    switch (g->type) {
+    case FE_GEOMETRY_SPHERE:
+        return dot(f->at, n) + r;
+    case FE_GEOMETRY_CAPSULE:
+        return dot(f->at, n) + r + h * fabs(d.y);
+    case FE_GEOMETRY_CYLINDER:
+        return dot(f->at, n) + r * out + h * fabs(d.y);
+    case FE_GEOMETRY_CONE:
+        return dot(f->at, n) + fmax(h * d.y, r * out - h * d.y);
+    case FE_GEOMETRY_PLANE:
+        return dot(f->at, n) + (double)g->distance;
+    default:
+        for (int32_t i = 0; i < s->points; ++i) most = fmax(most, dot(s->point[i], d));
+        return dot(f->at, n) + most;
     }
 }
 
@@ -168,7 +194,8 @@ static void make_hull(solid *s, fe_world *world)
     fe_vec3 points[CORNERS];
     float x = size(), y = size(), z = size(), shift = (float)uniform(-1, 1);
     for (int i = 0; i < CORNERS; ++i)
-        points[i] = (fe_vec3){x * ((float)uniform(-1, 1) + shift), y * (float)uniform(-1, 1), z * (float)uniform(-1, 1)};
+        points[i] =
+            (fe_vec3){x * ((float)uniform(-1, 1) + shift), y * (float)uniform(-1, 1), z * (float)uniform(-1, 1)};
     fe_hull_def def;
     fe_hull_def_init(&def, sizeof def);
     def.points = &points[0].x, def.point_count = CORNERS;
@@ -176,8 +203,8 @@ static void make_hull(solid *s, fe_world *world)
     OK(fe_hull_create(world_store(world), &def, &hull));
     fe_geometry_hull(&s->g, hull);
     // the hull's planes and points: all triples of the points that hold the others
+    for (int i = 0; i < CORNERS; ++i) add_point(s, wide(points[i]));
     for (int i = 0; i < CORNERS; ++i) {
-        add_point(s, wide(points[i]));
         for (int j = i + 1; j < CORNERS; ++j)
             for (int k = j + 1; k < CORNERS; ++k) {
                 vec n = cross(sub(wide(points[j]), wide(points[i])), sub(wide(points[k]), wide(points[i])));
@@ -201,13 +228,26 @@ static solid make_solid(fe_world *world, int32_t type)
     solid s = {.points = 0};
     vec n = direction();
     switch (type) {
-    case FE_GEOMETRY_SPHERE: fe_geometry_sphere(&s.g, size()); break;
-    case FE_GEOMETRY_CAPSULE: fe_geometry_capsule(&s.g, size(), size()); break;
-    case FE_GEOMETRY_BOX: fe_geometry_box(&s.g, size(), size(), size()); break;
-    case FE_GEOMETRY_CYLINDER: fe_geometry_cylinder(&s.g, size(), size()); break;
-    case FE_GEOMETRY_CONE: fe_geometry_cone(&s.g, size(), size()); break;
-    case FE_GEOMETRY_PLANE: fe_geometry_plane(&s.g, (float)n.x, (float)n.y, (float)n.z, 0); break;
-    default: make_hull(&s, world);
+    case FE_GEOMETRY_SPHERE:
+        fe_geometry_sphere(&s.g, size());
+        break;
+    case FE_GEOMETRY_CAPSULE:
+        fe_geometry_capsule(&s.g, size(), size());
+        break;
+    case FE_GEOMETRY_BOX:
+        fe_geometry_box(&s.g, size(), size(), size());
+        break;
+    case FE_GEOMETRY_CYLINDER:
+        fe_geometry_cylinder(&s.g, size(), size());
+        break;
+    case FE_GEOMETRY_CONE:
+        fe_geometry_cone(&s.g, size(), size());
+        break;
+    case FE_GEOMETRY_PLANE:
+        fe_geometry_plane(&s.g, (float)n.x, (float)n.y, (float)n.z, 0);
+        break;
+    default:
+        make_hull(&s, world);
     }
     add_points(&s);
     return s;
@@ -223,12 +263,15 @@ static void let_go(fe_world *world, const solid *s)
 static double clearance(const solid *a, const frame *at_a, const solid *b, const frame *at_b)
 {
     double least = INFINITY;
-    for (int32_t i = 0; i < a->points; ++i) least = fmin(least, outside(b, to_local(at_b, to_world(at_a, a->point[i]))));
-    for (int32_t i = 0; i < b->points; ++i) least = fmin(least, outside(a, to_local(at_a, to_world(at_b, b->point[i]))));
+    for (int32_t i = 0; i < a->points; ++i)
+        least = fmin(least, outside(b, to_local(at_b, to_world(at_a, a->point[i]))));
+    for (int32_t i = 0; i < b->points; ++i)
+        least = fmin(least, outside(a, to_local(at_a, to_world(at_b, b->point[i]))));
     return least;
 }
 
-static double gap_of(const solid *mover) { return 1e-7 + 3e-7 * mover->reach; }
+// The sweeps' gap and the turn's, and a tenth more: a stop within that is one. A hull's points are floats in its frame.
+static double gap_of(const solid *mover) { return 1.1 * (1e-7 + 2.4e-7 * mover->reach) + 1e-8 * (1 + mover->reach); }
 
 static fe_quat rotation(void)
 {
@@ -245,12 +288,18 @@ static fe_path random_path(double reach, vec about_here)
     return p;
 }
 
+// Points are known to some hundred-thousandths of the forms: of two that touch along a line, or a face, any will do
 static void check_stop(const solid *mover, const fe_path *path, const solid *still, const frame *at, const fe_hit *hit)
 {
     frame f = frame_at(path, hit->fraction);
-    double gap = gap_of(mover), rounding = 1e-6 * (1 + fmax(mover->reach, still->reach)); // of normal and points
+    double gap = gap_of(mover), rounding = 3e-5 * (1 + fmax(mover->reach, still->reach));
     vec n = wide(hit->normal), there = add(hit->point, scaled(gap, n));
-    FE_WITHIN(length(n), 1 - 1e-5, 1 + 1e-5);
+    FE_WITHIN(length(n), 1 - 1e-6, 1 + 1e-6);
+    n = scaled(1 / length(n), n);
+    // the normal is rounded to floats, and with it how far the forms' edges are along it
+    double apart = -farthest(mover, &f, scaled(-1, n)) - farthest(still, at, n),
+           float_rounding = 1e-7 * (1 + mover->reach + fmin(still->reach, 100));
+    FE_WITHIN(apart, -float_rounding, gap);
     FE_WITHIN(outside(still, to_local(at, hit->point)), -rounding, rounding);
     FE_WITHIN(outside(mover, to_local(&f, there)), -INFINITY, rounding);
 }
@@ -260,8 +309,8 @@ static int32_t sweep(fe_world *world, const fe_geometry *g, const fe_path *path,
     return fe_world_sweep_many(world, g, path, sizeof *path, 1, NULL, 0, hit, sizeof *hit);
 }
 
-static const int32_t kinds[] = {FE_GEOMETRY_SPHERE,   FE_GEOMETRY_CAPSULE, FE_GEOMETRY_BOX,  FE_GEOMETRY_CYLINDER,
-                                FE_GEOMETRY_CONE,     FE_GEOMETRY_HULL,    FE_GEOMETRY_PLANE};
+static const int32_t kinds[] = {FE_GEOMETRY_SPHERE, FE_GEOMETRY_CAPSULE, FE_GEOMETRY_BOX,  FE_GEOMETRY_CYLINDER,
+                                FE_GEOMETRY_CONE,   FE_GEOMETRY_HULL,    FE_GEOMETRY_PLANE};
 enum { MOVING_KINDS = 6, KINDS = 7 };
 
 static int32_t one_case(fe_world *world, fe_body body, fe_shape shape, int32_t moving, int32_t standing)
@@ -281,7 +330,6 @@ static int32_t one_case(fe_world *world, fe_body body, fe_shape shape, int32_t m
             double s = hit.fraction * i / SAMPLES;
             frame f = frame_at(&path, s);
             double c = clearance(&mover, &f, &still, &at);
-            if (c < 0) printf("%d %d at %.17g of %.17g: %g\n", (int)moving, (int)standing, s, hit.fraction, c);
             FE_WITHIN(c, -1e-9, INFINITY); // the judge's rounding, and that of a hull's faces
         }
         if (met) check_stop(&mover, &path, &still, &at, &hit);

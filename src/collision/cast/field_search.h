@@ -1,5 +1,5 @@
-// field_search.h - what the sweeps along a heightfield or a mesh (sweep_field.c, turning_field.c) and the way out of one
-// (way_out.c) share: a mover, and one triangle after the other.
+// field_search.h - what the sweeps along a heightfield or a mesh (sweep_field.c, turning_field.c) and the way out of
+// one (way_out.c) share: a mover, and one triangle after the other.
 #ifndef FE_COLLISION_CAST_FIELD_SEARCH_H
 #define FE_COLLISION_CAST_FIELD_SEARCH_H
 #include "collision/cast/approach.h"

@@ -54,8 +54,7 @@ fe__turning fe__turning_of(const fe__mover *mover)
     double angle = sqrt(fe__ddot(mover->turn, mover->turn));
     fe__turning way = {.mover = mover, .axis = fe__dscale(1.0 / angle, mover->turn), .angle = angle};
     way.reach = fe__reach_across(mover->form, fe__turn_back(&mover->axes, way.axis));
-    way.gap = fe__stop_gap(mover) +
-              FE_TURN_ROUNDING * (double)fe__form_reach(mover->form, fe__vec3(0.0f, 0.0f, 0.0f));
+    way.gap = fe__stop_gap(mover) + FE_TURN_ROUNDING * (double)fe__form_reach(mover->form, fe__vec3(0.0f, 0.0f, 0.0f));
     return way;
 }
 
