@@ -588,6 +588,30 @@ static void triangles_are_passed_from_below(void **state)
     }
 }
 
+// One triangle on both sides of the axis: up through it on the right, down on it on the left.
+static void a_triangle_that_was_passed_stops_the_way_back(void **state)
+{
+    (void)state;
+    float vertices[3][3] = {{-30, 0, -30}, {0, 0, 30}, {30, 0, -30}};
+    uint32_t indices[3] = {0, 1, 2};
+    fe_world *world = new_world();
+    fe_mesh_def def;
+    fe_mesh_def_init(&def, sizeof def);
+    def.vertices = &vertices[0][0], def.indices = indices, def.vertex_count = 3, def.triangle_count = 1;
+    fe_asset mesh;
+    fe_geometry floor, moving = arm(world);
+    OK(fe_mesh_create(world_store(world), &def, &mesh));
+    fe_geometry_mesh(&floor, mesh);
+    stand(world, &floor, 0, 0, 0);
+    fe_transform start = origin;
+    start.rotation = (fe_quat){0, 0, -0.25881905f, 0.9659258f}; // 30 degrees down
+    const fe_vec3 up = {0, 0, FULL_TURN};
+    fe_hit hit;
+    HIT(fe_world_sweep_turning(world, &moving, &start, &nowhere, &up, NULL, &hit));
+    FE_WITHIN((double)FULL_TURN * 210 / 360 - atan(0.05 / 0.5) - hit.fraction * (double)up.z, -1e-6, 3e-6);
+    OK(fe_world_destroy(world));
+}
+
 // ---- the calls agree -----------------------------------------------------------------------------------------------
 enum { BODIES = 60, PATHS = 300 };
 
@@ -701,6 +725,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_full_turn_misses_no_thin_post),
         cmocka_unit_test(what_shows_no_turn_sweeps_as_without),
         cmocka_unit_test(triangles_are_passed_from_below),
+        cmocka_unit_test(a_triangle_that_was_passed_stops_the_way_back),
         cmocka_unit_test(all_any_first_and_many_agree),
         cmocka_unit_test(an_overlap_at_the_start_is_told_as_without_a_turn),
         cmocka_unit_test(wrong_arguments_are_refused),
