@@ -84,8 +84,10 @@ static void touch_side(fe__gathering *g, const fe__tile *tile, int32_t k, const 
     float distance = fe__length(away);
     if (distance - radius > g->margin || distance < 1e-6f * tile->size) return;
     fe_vec3 m = fe__scale(1.0f / distance, away), lean = fe__sub(m, tile->normal);
-    const float flat = 1e-3f; // rad. Of what lies so near to the face only rounding would know another direction
+    const float flat = 1e-3f; // rad. Only rounding knows the difference to the face's direction
     if (fe__dot(lean, lean) <= flat * flat) m = tile->normal;
+    // Where core and side nearly run alike, rounding shifts their nearest points: what leans inwards is over the face
+    if (fe__dot(m, fe__sub(tile->form.vertex[(k + 2) % 3], start)) > flat * tile->size) return;
     if (fe__dot(m, tile->normal) < 0.0f || !fe__tile_allows(g->terrain, tile, m)) return;
 
     // along the side the core has two points, else the nearest

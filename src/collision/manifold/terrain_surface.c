@@ -250,7 +250,7 @@ static int32_t mesh_vertex_allows(const fe__terrain *t, const fe__tile *tile, in
 }
 
 // The vertices of a triangle, lower than FLAT of its size, that are farthest along m, which is not its normal: a bit
-// each. Of two sides that are as level, the one that is higher.
+// each. All three are as level at 1 : 1000: without the lowest.
 static uint32_t touched_of_sliver(const fe__tile *tile, const float along[3])
 {
     int32_t top = along[0] >= along[1] ? (along[0] >= along[2] ? 0 : 2) : (along[1] >= along[2] ? 1 : 2), low = -1;
