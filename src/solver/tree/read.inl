@@ -115,6 +115,18 @@ static void load_lane(const pass *t, int32_t i, int lane)
     load_ball(t, i, lane);
 }
 
+// In the given lanes: inertia as when the step began
+static void face_first(const pass *t, int32_t lanes)
+{
+    const real_mask these = r_mask(lanes);
+    for (int32_t i = 0; i < t->count; ++i) {
+        tree_node *n = t->nodes + i;
+        n->principal = r_choose_mat(these, (real_mat){unit3(0), unit3(1), unit3(2)}, n->principal);
+        n->inertia = r_turn_sym(&n->principal, &n->first_inertia);
+        n->heaviest = heaviest_of(n, t->locks);
+    }
+}
+
 static void load_bundle(const pass *t)
 {
     if (t->head->loaded) return;

@@ -331,11 +331,14 @@ static int32_t lanes_in(const pass *t, tree_state state)
     return lanes & t->lanes;
 }
 
-// From here to the end of the step these light trees are solved
+// From here to the end of the step these light trees are solved. Nodes that a tree beside them had read forget it.
 static void engage(const pass *t, int32_t lanes)
 {
+    lanes &= lanes_in(t, READY);
+    if (!lanes) return;
+    if (t->head->loaded) face_first(t, lanes);
     for (int lane = 0; lane < LANES; ++lane) {
-        if (!(lanes >> lane & 1) || t->head->state[lane] == SOLVED) continue;
+        if (!(lanes >> lane & 1)) continue;
         t->head->state[lane] = SOLVED;
         atomic_fetch_add_explicit(&t->solver->engaged, 1, memory_order_relaxed);
     }
@@ -437,8 +440,8 @@ static void follow_trees(const fe__tree_job *job)
     if (t.kind == FE__TREE_ROPE) lanes &= t.head->touched; // nothing else came between
     if (lanes & ~ready) lanes &= ready | struck | come_apart(&t);
     if (!lanes) return;
-    if (lanes & ready) reduce(&t, t.head->loaded ? lanes & ready : ALL_LANES, 0);
     engage(&t, lanes);
+    if (lanes & ready) reduce(&t, t.head->loaded ? lanes & ready : ALL_LANES, 0);
     solve_lanes(&t, lanes);
 }
 
