@@ -123,8 +123,10 @@ static void take_open_face(const seam *s, const fe_vec3 *q, fe_vec3 m, float sig
 static fe_vec3 touched(const seam *s, const fe__manifold_point *p, fe_vec3 m)
 {
     fe_vec3 q = fe__solid_draw_in(&s->solid, fe__add_scaled(p->point, -0.5f * p->separation, m));
-    if (!s->around.ground_count) return q;
-    return fe__solid_draw_in(&s->solid, fe__solid_raise(&s->solid, q, m, fe__absf(p->separation)));
+    enum { TURNS = 4 }; // to the edge and back into the solid: each leaves sin^2 of the normal's lean of the way
+    for (int32_t i = 0; s->around.ground_count && i < TURNS; ++i)
+        q = fe__solid_draw_in(&s->solid, fe__solid_raise(&s->solid, q, m, fe__absf(p->separation)));
+    return q;
 }
 
 void fe__mend_seam(const fe_world *world, const fe__view *v, float margin, fe__manifold *found)

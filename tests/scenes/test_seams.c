@@ -57,24 +57,25 @@ typedef struct mover {
     const char *name;
     fe_geometry form;
     double height; // of its origin over the ground, m
-    int lies, rolls;
+    int lies, rolls, rubs;
 } mover;
 
-enum { MOVERS = KINDS + 3 };
+enum { MOVERS = KINDS + 4 };
 static void make_movers(scene *s, mover movers[MOVERS])
 {
     fe_geometry cylinder, cone;
     fe_geometry_cylinder(&cylinder, 0.25f, 0.4f);
     fe_geometry_cone(&cone, 0.3f, 0.4f);
-    const mover all[MOVERS] = {{"sphere", sphere(0.5), 0.5, 0, 0},
-                               {"capsule", capsule(0.5, 0.3), 0.3, 1, 0},
-                               {"box", box(0.5, 0.25, 0.4), 0.25, 0, 0},
-                               {"cylinder", cylinder, 0.25, 0, 0},
-                               {"cone", cone, 0.3, 0, 0},
-                               {"hull", prism(s), 0.25, 0, 0},
-                               {"ball", sphere(0.5), 0.5, 0, 1},
-                               {"roller", capsule(0.5, 0.3), 0.3, 1, 1},
-                               {"wheel", cylinder, 0.4, 1, 1}};
+    const mover all[MOVERS] = {{"sphere", sphere(0.5), 0.5, 0, 0, 0},
+                               {"capsule", capsule(0.5, 0.3), 0.3, 1, 0, 0},
+                               {"box", box(0.5, 0.25, 0.4), 0.25, 0, 0, 0},
+                               {"cylinder", cylinder, 0.25, 0, 0, 0},
+                               {"cone", cone, 0.3, 0, 0, 0},
+                               {"hull", prism(s), 0.25, 0, 0, 0},
+                               {"ball", sphere(0.5), 0.5, 0, 1, 0},
+                               {"roller", capsule(0.5, 0.3), 0.3, 1, 1, 0},
+                               {"wheel", cylinder, 0.4, 1, 1, 0},
+                               {"dragged", capsule(0.5, 0.3), 0.3, 1, 0, 1}};
     for (int i = 0; i < MOVERS; ++i) movers[i] = all[i];
 }
 
@@ -180,8 +181,8 @@ static ride go(scene *s, const mover *what, double heading, vec at)
         start = plus(at, times(-WAY / 2, along));
     fe_quat turn = turned(v3(0, 1, 0), -heading);
     if (what->lies) turn = compose(turn, turned(v3(1, 0, 0), PI / 2));
-    fe_body body =
-        add_dynamic(s, what->form, plus(start, v3(0, what->height, 0)), turn, friction(what->rolls ? 0.5 : 0), WATER);
+    fe_body body = add_dynamic(s, what->form, plus(start, v3(0, what->height, 0)), turn,
+                               friction(what->rolls || what->rubs ? 0.5 : 0), WATER);
     set_velocity(s, body, times(SPEED, along), what->rolls ? times(SPEED / what->height, axle) : v3(0, 0, 0));
     vec begun = position(s, body);
     ride r = {0};
