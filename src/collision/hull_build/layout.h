@@ -2,10 +2,9 @@
 #ifndef FE_COLLISION_HULL_BUILD_LAYOUT_H
 #define FE_COLLISION_HULL_BUILD_LAYOUT_H
 #include "collision/hull_build/builder.h"
+#include "collision/hull_build/record.h"
 
 int64_t fe__hull_block_size(fe__hull_builder *builder);
 void fe__hull_lay_out(fe__hull_builder *builder, void *block, fe__hull *out_hull); // all but the measures
-// The least float that is not below x
-float fe__float_above(double x);
 
 #endif

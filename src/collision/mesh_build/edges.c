@@ -59,7 +59,7 @@ static double largest_coordinate(const fe_dvec3 v[3])
 }
 
 // Its height over its longest side s is |n| / s.
-static int32_t is_flat(const fe_dvec3 v[3])
+int32_t fe__mesh_is_flat(const fe_dvec3 v[3])
 {
     fe_dvec3 n = normal_of(v);
     double least = FE__MESH_LEAST_HEIGHT * largest_coordinate(v), longest = 0.0;
@@ -89,7 +89,7 @@ static void drop_degenerate(workroom *w)
         const uint32_t *c = w->corner + 3 * (size_t)i;
         fe_dvec3 v[3];
         read_triangle(w, (uint32_t)i, v);
-        if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0] && !is_flat(v)) continue;
+        if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0] && !fe__mesh_is_flat(v)) continue;
         b->edges[i] = FE__MESH_DROPPED;
         b->mesh.degenerate_count += 1;
         refuse(b, i, 0);
