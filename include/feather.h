@@ -216,6 +216,9 @@ FE_API fe_result fe_store_get_bytes(const fe_store *store, int64_t *out_bytes);
 FE_API fe_result fe_asset_destroy(fe_store *store, fe_asset asset);
 /// 1 for a living asset of this store, 0 for anything else.
 FE_API int32_t fe_asset_is_valid(const fe_store *store, fe_asset asset);
+/// What it is the form of: FE_GEOMETRY_HULL, FE_GEOMETRY_HEIGHTFIELD or FE_GEOMETRY_MESH.
+/// @return a fe_geometry_type, or an error
+FE_API int32_t fe_asset_get_type(const fe_store *store, fe_asset asset);
 
 /// Writes an asset as bytes: cook hulls, meshes and heightfields when a game is built, load them when it starts. The
 /// bytes are little-endian and hold no pointers. The same asset gives the same bytes on every machine, and a loaded one

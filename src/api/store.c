@@ -70,6 +70,27 @@ int32_t fe_asset_is_valid(const fe_store *store, fe_asset asset)
     return result == FE_OK;
 }
 
+static fe_result find_type(const char *function, const fe_store *store, fe_asset asset, int32_t *out_type)
+{
+    static const int32_t types[] = {[FE__ASSET_HEIGHTFIELD] = FE_GEOMETRY_HEIGHTFIELD,
+                                    [FE__ASSET_HULL] = FE_GEOMETRY_HULL,
+                                    [FE__ASSET_MESH] = FE_GEOMETRY_MESH};
+    int32_t index;
+    FE_TRY(fe__find_asset(function, "asset", store, asset, &index));
+    *out_type = types[fe__store_asset(store, index)->kind];
+    return FE_OK;
+}
+
+int32_t fe_asset_get_type(const fe_store *store, fe_asset asset)
+{
+    FE_BEGIN_STORE(store);
+    int32_t type;
+    fe__store_lock(store);
+    fe_result result = find_type(function, store, asset, &type);
+    fe__store_unlock(store);
+    return result == FE_OK ? type : (int32_t)result;
+}
+
 // ---- bytes ---------------------------------------------------------------------------------------------------------
 
 static fe_result write_asset(const char *function, const fe_store *store, fe_asset asset, void *out, int64_t capacity,

@@ -58,6 +58,7 @@ static void check_round_trip(fe_store *store, fe_asset asset, int32_t steps)
     memcpy(odd + 1, first.bytes, (size_t)first.size);
     OK(fe_asset_load(other, odd + 1, first.size, &loaded));
     memset(odd, 0xff, (size_t)first.size + 1); // it was copied
+    FE_TRUE(fe_asset_get_type(other, loaded) == fe_asset_get_type(store, asset));
     blob second = save(other, loaded);
     check_equal(&first, &second);
     if (steps) FE_TRUE(cooked_use(store, asset, steps) == cooked_use(other, loaded, steps));
@@ -256,6 +257,19 @@ static void arguments_are_checked(void **state)
     OK(fe_asset_load(store, out, size, &loaded));
     OK(fe_store_destroy(store));
     OK(fe_store_destroy(other));
+}
+
+static void assets_tell_their_type(void **state)
+{
+    (void)state;
+    static const int32_t types[COOKED_SEEDS] = {FE_GEOMETRY_HULL, FE_GEOMETRY_HULL,        FE_GEOMETRY_MESH,
+                                                FE_GEOMETRY_MESH, FE_GEOMETRY_HEIGHTFIELD, FE_GEOMETRY_HEIGHTFIELD};
+    fe_store *store = new_store(NULL);
+    for (int32_t i = 0; i < COOKED_SEEDS; ++i)
+        assert_int_equal(fe_asset_get_type(store, cooked_seed(store, i)), types[i]);
+    REFUSES(NULL, FE_ERROR_STALE, fe_asset_get_type(store, 0));
+    REFUSES(NULL, FE_ERROR_ARGUMENT, fe_asset_get_type(NULL, 0));
+    OK(fe_store_destroy(store));
 }
 
 // ---- memory --------------------------------------------------------------------------------------------------------
@@ -550,6 +564,7 @@ int main(void)
         cmocka_unit_test(what_is_read_of_a_loaded_mesh_is_what_was_made),
         cmocka_unit_test(edits_are_saved),
         cmocka_unit_test(arguments_are_checked),
+        cmocka_unit_test(assets_tell_their_type),
         cmocka_unit_test(each_allocation_may_fail),
         cmocka_unit_test(each_byte_may_be_flipped),
         cmocka_unit_test(bytes_may_be_cut_anywhere),
