@@ -91,13 +91,23 @@ static fe_result refuse_newer(fe__cooked *c, const char *what, uint32_t number)
     return c->result = FE_ERROR_VERSION;
 }
 
-// Magic, size and hash: these are the bytes that were written, unless by intent
+// All that a version may not change is where it stands
+static fe_result check_version(fe__cooked *c, int64_t size)
+{
+    const unsigned char *at = c->begin + sizeof magic;
+    if (size < HEADER)
+        return fe__cooked_refuse(c, c->begin, "there are %lld bytes, a header has %d", (long long)size, HEADER),
+               c->result;
+    if (memcmp(c->begin, magic, sizeof magic))
+        return fe__cooked_refuse(c, c->begin, "these are no bytes of fe_asset_save"), c->result;
+    uint32_t version = fe__take_u32(&at);
+    return version > VERSION ? refuse_newer(c, "format", version) : FE_OK;
+}
+
+// Size and hash: these are the bytes that were written, unless by intent
 static int32_t check_whole(fe__cooked *c, int64_t size)
 {
     const unsigned char *bytes = c->begin, *at = bytes + SIZE_AT;
-    if (size < HEADER)
-        return fe__cooked_refuse(c, bytes, "there are %lld bytes, a header has %d", (long long)size, HEADER);
-    if (memcmp(bytes, magic, sizeof magic)) return fe__cooked_refuse(c, bytes, "these are no bytes of fe_asset_save");
     uint64_t told = fe__take_u64(&at), hash = fe__take_u64(&at);
     if (told != (uint64_t)size || size % 8)
         return fe__cooked_refuse(c, bytes + SIZE_AT, "there are %lld bytes, fe_asset_save wrote %llu", (long long)size,
@@ -110,11 +120,10 @@ static int32_t check_whole(fe__cooked *c, int64_t size)
 static fe_result read_header(fe__cooked *c, int64_t size, header *h)
 {
     static const uint32_t features[] = {[KIND_HEIGHTFIELD] = HAS_CELLS, [KIND_MESH] = IS_TWO_SIDED | HAS_DATA};
-    if (!check_whole(c, size)) return c->result;
+    if (check_version(c, size) != FE_OK || !check_whole(c, size)) return c->result;
     c->at = c->begin + sizeof magic;
     uint32_t version = fe__take_u32(&c->at), kind = fe__take_u32(&c->at);
     h->features = fe__take_u32(&c->at);
-    if (version > VERSION) return refuse_newer(c, "format", version);
     if (kind > KIND_MESH) return refuse_newer(c, "kind", kind);
     if (version == 0 || kind == 0) return fe__cooked_refuse(c, c->begin + 8, "0 is no version or kind"), c->result;
     if (h->features & ~features[kind]) return refuse_newer(c, "feature", h->features & ~features[kind]);

@@ -339,7 +339,10 @@ static void flip_each(fe_store *store, counting *c, const blob *whole, blob *bro
     for (int64_t at = 0; at < whole->size; ++at) {
         for (int32_t k = 0; k < FLIPS; ++k) {
             broken->bytes[at] ^= masks[k];
-            check_refused_without_a_trace(store, c, broken, FE_ERROR_DATA);
+            int32_t is_newer = at >= VERSION_AT && at < KIND_AT;
+            check_refused_without_a_trace(store, c, broken,
+                                          is_newer && (at > VERSION_AT || broken->bytes[at] > 1) ? FE_ERROR_VERSION
+                                                                                                 : FE_ERROR_DATA);
             cooked_stamp(broken->bytes, broken->size);
             check_refused_without_a_trace(store, c, broken, FE_OK);
             memcpy(broken->bytes, whole->bytes, (size_t)whole->size);
