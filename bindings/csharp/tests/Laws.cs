@@ -487,7 +487,7 @@ namespace FeatherPhysics.Tests
                 Check.Throws<BadDataException>(() => store.LoadHull(saved), "hash");
                 Check.Same(store.Bytes, before, "nothing is left");
                 hull.Destroy();
-                Check.Throws<StaleHandleException>(() => hull.Save(), "hull");
+                Check.Throws<StaleHandleException>(() => hull.Save(), "asset");
                 Check.Throws<StaleHandleException>(() => default(ConvexHull).Save(), "ConvexHull");
             }
         }
