@@ -874,7 +874,10 @@ typedef struct fe_geometry {
     fe_vec3 half_extents; ///< of a box, m
     fe_vec3 normal;       ///< of a plane, any length but zero
     float distance;       ///< of a plane from the origin along its normal, m
-    uint32_t reserved[5];
+    /// Of a hull or a mesh, along the axes of its points: each 0.001..1000 in magnitude, a negative one mirrors.
+    /// 0, 0, 0 counts as 1, 1, 1. All other forms have one of these two.
+    fe_vec3 scale;
+    uint32_t reserved[2];
     fe_asset asset; ///< of a hull, a heightfield, a mesh
     uint64_t reserved_end[2];
 } fe_geometry;
@@ -1471,7 +1474,7 @@ typedef struct fe_overlap {
     fe_vec3 direction; ///< unit, out of the shape: a translation of the geometry by `depth` along it parts the two
     float depth;       ///< m, >= 0
     int32_t part;      ///< of a shape made of parts, else -1
-    int32_t triangle;  ///< of a heightfield or a mesh, where it is deepest, else -1
+    int32_t triangle;  ///< of a heightfield or a mesh, where it is deepest; the face of a hull on that way; else -1
     uint32_t reserved[4];
 } fe_overlap;
 
@@ -1737,6 +1740,17 @@ static inline void fe_geometry_mesh(fe_geometry *out_geometry, fe_asset mesh)
     fe_geometry_init(out_geometry, (uint32_t)sizeof *out_geometry);
     out_geometry->type = FE_GEOMETRY_MESH;
     out_geometry->asset = mesh;
+}
+
+/// The scale of a hull or a mesh that the geometry was filled with. The asset stays as it is: shapes of one asset may
+/// each have another scale, and shapes of equal scale share what it takes. What is mirrored keeps its outside. The
+/// scaled points must lie within 100000 m. fe_shape_create and its like answer FE_ERROR_DEGENERATE when a hull would be
+/// thinner, or a triangle of a mesh smaller, than fe_hull_create and fe_mesh_create allow.
+static inline void fe_geometry_set_scale(fe_geometry *geometry, float x, float y, float z)
+{
+    geometry->scale.x = x;
+    geometry->scale.y = y;
+    geometry->scale.z = z;
 }
 
 #ifndef SWIG

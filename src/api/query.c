@@ -1,6 +1,7 @@
 // query.c - the API of queries. They only read: any number of threads may ask while none writes.
 #include "api/query.h"
 
+#include "api/asset_form.h"
 #include "query/closest.h"
 #include "query/overlap.h"
 #include "core/fp_state.h"
@@ -31,27 +32,9 @@ fe_result fe__read_filter(const char *function, const fe_query_filter *filter, f
 
 #define FE_CHECK_LENGTH(value) FE_CHECK_FLOAT(value, FE_LEAST_LENGTH, FE_MAX_LENGTH)
 
-static fe_result read_hull(const char *function, const fe_world *world, const fe_geometry *geometry,
-                           fe__moving_form *out_moving)
-{
-    int32_t index;
-    fe__store_lock(world->store);
-    fe_result result =
-        fe__find_asset_of(function, "geometry->asset", world->store, FE__ASSET_HULL, geometry->asset, &index);
-    if (result == FE_OK) {
-        fe__asset_retain(world->store, index);
-        *out_moving = (fe__moving_form){fe__asset_form(world->store, index), world};
-    }
-    fe__store_unlock(world->store);
-    return result;
-}
-
 void fe__let_go_of_form(const fe__moving_form *moving)
 {
-    if (!moving->world) return;
-    fe__store_lock(moving->world->store);
-    fe__asset_release(moving->world->store, moving->form.field);
-    fe__store_unlock(moving->world->store);
+    if (moving->store) fe__let_go_of_asset(moving->store, &moving->form);
 }
 
 fe_result fe__read_moving_form(const char *function, const fe_world *world, const fe_geometry *geometry,
@@ -64,6 +47,7 @@ fe_result fe__read_moving_form(const char *function, const fe_world *world, cons
     FE_CHECK_RESERVED(geometry->reserved_end);
     fe__form *form = &out_moving->form;
     *form = (fe__form){.type = fe__form_of_geometry(geometry->type)};
+    if (form->type >= 0 && !fe__form_has_asset(form)) FE_TRY(fe__check_unscaled(function, geometry));
     switch (geometry->type) {
     case FE_GEOMETRY_SPHERE:
         if (geometry->radius != 0.0f) FE_CHECK_LENGTH(geometry->radius);
@@ -88,7 +72,9 @@ fe_result fe__read_moving_form(const char *function, const fe_world *world, cons
         form->half = geometry->half_extents;
         return FE_OK;
     case FE_GEOMETRY_HULL:
-        return read_hull(function, world, geometry, out_moving);
+        FE_TRY(fe__read_asset_form(function, world->store, geometry, FE__ASSET_HULL, form));
+        out_moving->store = world->store;
+        return FE_OK;
     default:
         return fe__fail(function, FE_ERROR_UNSUPPORTED,
                         "type is %d, must be that of a sphere, a capsule, a box, a cylinder, a cone or a hull",

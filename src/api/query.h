@@ -13,14 +13,14 @@ fe_result fe__read_filter(const char *function, const fe_query_filter *filter, f
 // until fe__let_go_of_form: another thread may destroy it.
 typedef struct fe__moving_form {
     fe__form form;
-    const fe_world *world; // whose store has the form's hull; NULL: it has none
+    fe_store *store; // that has the form's hull; NULL: it has none
 } fe__moving_form;
 fe_result fe__read_moving_form(const char *function, const fe_world *world, const fe_geometry *geometry,
                                fe__moving_form *out_moving);
 void fe__let_go_of_form(const fe__moving_form *moving);
 // A form until the end of the block, whose name is `moving`.form
 #define FE_READ_MOVING_FORM(world, geometry)                                 \
-    fe__moving_form moving FE_CLEANUP(fe__let_go_of_form) = {.world = NULL}; \
+    fe__moving_form moving FE_CLEANUP(fe__let_go_of_form) = {.store = NULL}; \
     FE_TRY(fe__read_moving_form(function, world, geometry, &moving))
 fe__scene fe__scene_of(const fe_world *world, const fe_query_filter *whole_filter);
 

@@ -1,5 +1,5 @@
 // shape.c - the API of shapes: geometry, material, filter, life.
-#include "api/check.h"
+#include "api/asset_form.h"
 
 #include <inttypes.h>
 #include "core/fp_state.h"
@@ -46,30 +46,7 @@ static fe_result read_plane(const char *function, const fe_geometry *geometry, f
     return FE_OK;
 }
 
-static fe_result read_shared(const char *function, const fe_world *world, const fe_geometry *geometry, int32_t kind,
-                             fe__form *out_form)
-{
-    int32_t index;
-    fe__store_lock(world->store);
-    fe_result result = fe__find_asset_of(function, "geometry->asset", world->store, kind, geometry->asset, &index);
-    if (result == FE_OK) {
-        fe__asset_retain(world->store, index);
-        *out_form = fe__asset_form(world->store, index);
-    }
-    fe__store_unlock(world->store);
-    return result;
-}
-
-static void let_go_of_asset(const fe_world *world, const fe__form *form)
-{
-    if (!fe__form_has_asset(form)) return;
-    fe__store_lock(world->store);
-    fe__asset_release(world->store, form->field);
-    fe__store_unlock(world->store);
-}
-
-// What a form does not use stays 0 (see form.h). On FE_OK its asset is kept alive until let_go_of_asset: another thread
-// may destroy it.
+// What a form does not use stays 0 (see form.h). On FE_OK its asset is kept alive until fe__let_go_of_asset.
 static fe_result read_geometry(const char *function, const fe_world *world, const fe_geometry *geometry,
                                fe__form *out_form)
 {
@@ -81,6 +58,7 @@ static fe_result read_geometry(const char *function, const fe_world *world, cons
     *out_form = (fe__form){.type = fe__form_of_geometry(geometry->type)};
     if (out_form->type < 0)
         return fe__fail(function, FE_ERROR_ARGUMENT, "type is %" PRId32 ", no fe_geometry_type", geometry->type);
+    if (!fe__traits_of(out_form)->has_asset) FE_TRY(fe__check_unscaled(function, geometry));
     switch (geometry->type) {
     case FE_GEOMETRY_SPHERE:
         FE_CHECK_LENGTH(geometry->radius);
@@ -105,11 +83,11 @@ static fe_result read_geometry(const char *function, const fe_world *world, cons
         out_form->half = geometry->half_extents;
         return FE_OK;
     case FE_GEOMETRY_HULL:
-        return read_shared(function, world, geometry, FE__ASSET_HULL, out_form);
+        return fe__read_asset_form(function, world->store, geometry, FE__ASSET_HULL, out_form);
     case FE_GEOMETRY_HEIGHTFIELD:
-        return read_shared(function, world, geometry, FE__ASSET_HEIGHTFIELD, out_form);
+        return fe__read_asset_form(function, world->store, geometry, FE__ASSET_HEIGHTFIELD, out_form);
     case FE_GEOMETRY_MESH:
-        return read_shared(function, world, geometry, FE__ASSET_MESH, out_form);
+        return fe__read_asset_form(function, world->store, geometry, FE__ASSET_MESH, out_form);
     default:
         return read_plane(function, geometry, out_form);
     }
@@ -203,7 +181,7 @@ fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *def
     fe__form form;
     FE_TRY(read_geometry(function, world, geometry, &form));
     fe_result result = create_shape(function, world, index, &full, &form, out_shape);
-    let_go_of_asset(world, &form);
+    fe__let_go_of_asset(world->store, &form);
     return result;
 }
 
@@ -252,7 +230,7 @@ fe_result fe_shape_set_geometry(fe_world *world, fe_shape shape, const fe_geomet
     fe__form form;
     FE_TRY(read_geometry(function, world, geometry, &form));
     fe_result result = set_form(function, world, index, &form);
-    let_go_of_asset(world, &form);
+    fe__let_go_of_asset(world->store, &form);
     return result;
 }
 
@@ -267,6 +245,7 @@ fe_result fe_shape_get_geometry(const fe_world *world, fe_shape shape, fe_geomet
                             .radius = form->radius};
     if (fe__form_has_asset(form)) {
         geometry.asset = fe__asset_handle(world, form->field);
+        geometry.scale = fe__scale_of(world->store, form);
     } else if (fe__form_is_curved(form)) {
         geometry.radius = form->half.x;
         geometry.half_height = form->half.y;

@@ -101,7 +101,7 @@ FE_INLINE void load_block(fe__solver *s, const fe__body *bodies, int32_t line, c
         index[i] = body < 0 ? 0 : body;
         is_there[i] = body < 0 ? 0.0f : 1.0f;
         scale[i] = bodies[index[i]].type == FE_BODY_DYNAMIC ? bodies[index[i]].gravity_scale : 0.0f;
-        gyroscopic[i] = gyroscopic_kind(bodies + index[i]);
+        gyroscopic[i] = body < 0 ? FE__GYROSCOPIC_NONE : gyroscopic_kind(bodies + body);
         joined |= gyroscopic[i] == FE__GYROSCOPIC_JOINED;
         locked |= body >= 0 && bodies[body].lock_bits != 0.0f && bodies[body].type == FE_BODY_DYNAMIC;
     }

@@ -1,6 +1,8 @@
 // store.c - see store.h. A new store holds nothing but itself: its table of chunks grows with what it is given.
 #include "store/store.h"
 
+#include "store/scaled_asset.h"
+
 static fe__registry stores = {FE_MUTEX_INITIAL, NULL};
 
 // ---- numbers -------------------------------------------------------------------------------------------------------
@@ -157,7 +159,9 @@ fe_result fe__store_put(fe_store *store, const fe__asset *asset, fe_asset *out_h
     *out_handle = fe__id_pool_allocate(&store->ids);
     fe__asset *a = fe__store_asset(store, fe__id_slot_of(*out_handle));
     *a = *asset;
+    if (!a->parent) a->scale = fe__vec3(1.0f, 1.0f, 1.0f);
     a->handle = *out_handle;
+    a->index = fe__id_slot_of(*out_handle);
     return FE_OK;
 }
 
@@ -165,8 +169,11 @@ static void free_unused(fe_store *store, int32_t index)
 {
     fe__asset *a = fe__store_asset(store, index);
     if (!a->destroyed || a->users > 0) return;
+    fe__asset *parent = a->parent;
+    if (parent) fe__scaled_remove(a);
     fe__asset_free(store, a);
     fe__id_pool_release(&store->ids, index);
+    if (parent) fe__asset_release(store, parent->index);
 }
 
 void fe__asset_destroy(fe_store *store, int32_t index)

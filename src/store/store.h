@@ -38,9 +38,16 @@ typedef struct fe__asset {
     fe_material *materials; // of the cells of a heightfield, the triangles of a mesh
     int32_t material_count;
     int32_t special;   // a material needs special rows
-    int32_t users;     // worlds with shapes that have it, and calls that are about to make one
+    int32_t users;     // worlds with shapes that have it, and calls that are about to make one; its scaled ones
     int32_t destroyed; // by its owner: it goes with its last user
     fe_asset handle;   // kept here, so that it can be read without the lock
+    int32_t index;     // its own
+    // Hulls and meshes under a scale are records of their own (scaled_asset.h): of the asset
+    struct fe__asset *scaled; // the first of them
+    // and of one of them
+    struct fe__asset *parent; // NULL for an asset
+    fe_vec3 scale;            // 1 each for an asset
+    struct fe__asset *branch[2];
 } fe__asset;
 
 // Chunk k holds 4 * 2^k records: two shifts find one.
@@ -119,6 +126,13 @@ static inline const fe_material *fe__material_of_shape(const fe_store *store, co
     if (!a->material_count) return &shape->material;
     if (a->kind == FE__ASSET_MESH) return a->materials + a->mesh.materials[fe__mesh_slot(&a->mesh, triangle)];
     return a->materials + a->field.cells[triangle / 2];
+}
+
+// What the caller knows: of a record under a scale, the asset
+static inline const fe__asset *fe__store_parent(const fe_store *store, int32_t index)
+{
+    const fe__asset *a = fe__store_asset(store, index);
+    return a->parent ? a->parent : a;
 }
 
 // The form of a shape that has the asset

@@ -62,6 +62,16 @@ static fe__asset_use *find_use(const fe_world *world, int32_t asset)
     return place < world->use_count && world->uses[place].asset == asset ? world->uses + place : NULL;
 }
 
+// Has a shape of the world the asset, under whatever scale?
+static int32_t is_used(const fe_world *world, int32_t asset)
+{
+    const fe_store *store = world->store;
+    if (!fe__store_asset(store, asset)->scaled) return find_use(world, asset) != NULL;
+    for (int32_t i = 0; i < world->use_count; ++i)
+        if (fe__store_parent(store, world->uses[i].asset)->index == asset) return 1;
+    return 0;
+}
+
 static fe__asset_use *add_use(fe_world *world, int32_t asset)
 {
     fe__asset_use *use = world->uses + place_of(world, asset);
@@ -135,13 +145,13 @@ static fe_result enter(fe_world *world)
 static void leave_until(fe_store *store, int32_t asset, const fe__store_member *end)
 {
     for (fe__store_member *m = store->first_member; m != end; m = m->next)
-        if (find_use(m->world, asset)) fe__owner_leave(&m->world->owner);
+        if (is_used(m->world, asset)) fe__owner_leave(&m->world->owner);
 }
 
 fe_result fe__asset_enter_worlds(fe_store *store, int32_t asset)
 {
     for (fe__store_member *m = store->first_member; m; m = m->next) {
-        fe_result entered = find_use(m->world, asset) ? enter(m->world) : FE_OK;
+        fe_result entered = is_used(m->world, asset) ? enter(m->world) : FE_OK;
         if (entered == FE_OK) continue;
         leave_until(store, asset, m);
         return entered;
@@ -212,12 +222,18 @@ static void renew_materials(fe_world *world, int32_t index)
     fe__shape_material_changed(world, index);
 }
 
+static void renew_users(fe_world *world, int32_t asset)
+{
+    for (int32_t i = 0; i < world->use_count; ++i) {
+        const fe__asset_use *use = world->uses + i;
+        if (fe__store_parent(world->store, use->asset)->index != asset) continue;
+        for (int32_t shape = use->first_user; shape >= 0; shape = world->shapes[shape].next_user)
+            renew_materials(world, shape);
+    }
+}
+
 void fe__mesh_edit_materials(fe_store *store, int32_t asset, const void *materials, uint32_t stride)
 {
     fe__mesh_write_materials(fe__store_asset(store, asset), materials, stride);
-    for (fe__store_member *m = store->first_member; m; m = m->next) {
-        const fe__asset_use *use = find_use(m->world, asset);
-        for (int32_t shape = use ? use->first_user : -1; shape >= 0; shape = m->world->shapes[shape].next_user)
-            renew_materials(m->world, shape);
-    }
+    for (fe__store_member *m = store->first_member; m; m = m->next) renew_users(m->world, asset);
 }

@@ -13,7 +13,7 @@ static inline fe_handle fe__shape_handle(const fe_world *world, int32_t shape)
 }
 static inline fe_handle fe__asset_handle(const fe_world *world, int32_t asset)
 {
-    return fe__store_asset(world->store, asset)->handle;
+    return fe__store_parent(world->store, asset)->handle;
 }
 static inline fe_handle fe__joint_handle(const fe_world *world, int32_t joint)
 {

@@ -12,7 +12,7 @@ static float form_radius(const fe__shape *a, const fe__shape *b)
 
 static int32_t has_extra(const fe_world *world, const fe__shape *shape)
 {
-    if (fe__form_is_field(&shape->form) && fe__store_asset(world->store, shape->form.field)->special) return 1;
+    if (fe__form_is_field(&shape->form) && fe__store_parent(world->store, shape->form.field)->special) return 1;
     const fe_material *m = &shape->material;
     fe_vec3 s = shape->surface_velocity;
     return m->restitution > 0.0f || m->rolling_resistance > 0.0f || m->spinning_resistance > 0.0f || s.x != 0.0f ||

@@ -4,7 +4,7 @@
 #include "api_test.h"
 #include "robust/counting_allocator.h"
 
-static fe_store *new_store(const fe_allocator *allocator)
+static inline fe_store *new_store(const fe_allocator *allocator)
 {
     fe_store_def def;
     fe_store_def_init(&def, sizeof def);
@@ -18,7 +18,7 @@ typedef fe_result asset_maker(fe_store *store, fe_asset *out_asset);
 
 // Six assets: their room, their blocks, two chunks of records and the table of handles. Of one that fails nothing is
 // left, and the call can be repeated.
-static int64_t make_six_assets(counting *c, fe_store *store, asset_maker *make)
+static inline int64_t make_six_assets(counting *c, fe_store *store, asset_maker *make)
 {
     int64_t failed = 0;
     for (int32_t i = 0; i < 6; ++i) {
@@ -36,7 +36,7 @@ static int64_t make_six_assets(counting *c, fe_store *store, asset_maker *make)
 }
 
 // Fails each allocation in turn; how many there are when none fails
-static int64_t fail_each_asset_allocation(asset_maker *make)
+static inline int64_t fail_each_asset_allocation(asset_maker *make)
 {
     int64_t calls = 0;
     for (int64_t first = 0; first <= calls; ++first) {

@@ -16,13 +16,13 @@ static int is_asked(const script *s, int count, char **arguments)
 
 int main(int count, char **arguments)
 {
-    const script *const scripts[] = {&script_crowd, &script_mixed,  &script_terrain, &script_fast,  &script_joints,
-                                     &script_spawn, &script_solids, &script_meshes,  &script_cooked};
+    const script *const scripts[] = {&script_crowd, &script_mixed,  &script_terrain, &script_fast,   &script_joints,
+                                     &script_spawn, &script_solids, &script_meshes,  &script_cooked, &script_scales};
     fe_world_def def;
     fe_world_def_init(&def, sizeof def);
     int32_t steps = count > 2 ? atoi(arguments[2]) : INT32_MAX;
     def.simd = count > 1 ? atoi(arguments[1]) : FE_SIMD_AUTO;
-    for (int32_t i = 0; i < 9; ++i) {
+    for (size_t i = 0; i < sizeof scripts / sizeof *scripts; ++i) {
         fe_world *world;
         if (!is_asked(scripts[i], count, arguments)) continue;
         if (fe_world_create(&def, &world) != FE_OK) {

@@ -94,11 +94,88 @@ static void a_joint_may_break_at_a_platform_that_sleeps(void **state)
     OK(fe_world_destroy(world));
 }
 
+static void keep_awake(fe_world *world)
+{
+    fe_world_tuning tuning = {.struct_size = sizeof tuning};
+    OK(fe_world_get_tuning(world, &tuning));
+    tuning.sleep_enabled = 0;
+    OK(fe_world_set_tuning(world, &tuning));
+}
+
+// A heightfield of ridges: a ball in a trough lies on two sides of it
+static fe_geometry troughs(fe_world *world, int count)
+{
+    enum { ROWS = 3 };
+    const int columns = 2 * count + 3;
+    float *heights = test_malloc((size_t)(columns * ROWS) * sizeof *heights);
+    for (int i = 0; i < columns * ROWS; ++i) heights[i] = (float)(i % columns % 2);
+    fe_heightfield_def def;
+    fe_heightfield_def_init(&def, sizeof def);
+    def.rows = ROWS, def.columns = columns, def.cell_x = 1, def.cell_z = 4, def.heights = heights;
+    fe_store *store = NULL;
+    fe_asset field = 0;
+    OK(fe_world_get_store(world, &store));
+    OK(fe_heightfield_create(store, &def, &field));
+    test_free(heights);
+    fe_geometry form;
+    fe_geometry_heightfield(&form, field);
+    return form;
+}
+
+// Pairs with terrain have more lists of contacts than there are pairs. Of a crowd that falls asleep on a platform,
+// which wakes with a part of it, each contact has its room besides
+static void a_crowd_may_wake_beside_terrain(void **state)
+{
+    (void)state;
+    enum { TROUGHS = 1200, FIRST = 97, ALL = 450 };
+    fe_world *world = new_world();
+    keep_awake(world);
+    fe_geometry ball;
+    fe_geometry_sphere(&ball, 0.3f);
+    add(world, place(FE_BODY_STATIC, 0, 0, 0), troughs(world, TROUGHS));
+    for (int i = 0; i < TROUGHS; ++i) add(world, place(FE_BODY_DYNAMIC, 2.0 * i, 0.45, 3), ball);
+    add(world, place(FE_BODY_STATIC, 0, -20, -200), box(60, 0.5f, 60));
+    add(world, place(FE_BODY_DYNAMIC, 0, -19, -200), box(40, 0.5f, 40));
+    for (int i = 0; i < ALL; ++i) {
+        add(world, place(FE_BODY_DYNAMIC, 2.0 * (i % ROW) - ROW, -18, 2.0 * (i / ROW) - 220), box(0.5f, 0.5f, 0.5f));
+        if (i + 1 == FIRST) run(world, 60);
+    }
+    run(world, 5);
+    OK(fe_world_destroy(world));
+}
+
+// Lanes without a body stand for nobody: not for the first, which is joined and sleeps
+static void who_is_joined_may_sleep_from_the_start(void **state)
+{
+    (void)state;
+    fe_world *world = new_world();
+    fe_body bodies[2];
+    for (int i = 0; i < 2; ++i) {
+        fe_body_def def = place(FE_BODY_DYNAMIC, 0, 3.0 * i, 0);
+        def.awake = 0;
+        bodies[i] = add(world, def, box(0.5f, 1, 0.25f)); // a cube has no gyroscopic torque
+    }
+    fe_ball_joint_def def;
+    fe_joint joint = 0;
+    fe_ball_joint_def_init(&def, sizeof def);
+    def.body_a = bodies[0], def.body_b = bodies[1], def.frame_b.position.y = -3;
+    OK(fe_ball_joint_create(world, &def, &joint));
+    for (int i = 0; i < 2; ++i) OK(fe_body_set_awake(world, bodies[i], 0));
+    add(world, place(FE_BODY_DYNAMIC, 20, 0, 0), box(0.5f, 0.5f, 0.5f));
+    run(world, 2);
+    int32_t awake = 1;
+    OK(fe_body_get_awake(world, bodies[0], &awake));
+    assert_false(awake);
+    OK(fe_world_destroy(world));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fast_bodies_may_be_enabled),
         cmocka_unit_test(a_joint_may_break_at_a_platform_that_sleeps),
+        cmocka_unit_test(a_crowd_may_wake_beside_terrain),
+        cmocka_unit_test(who_is_joined_may_sleep_from_the_start),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -313,6 +313,95 @@ static void queries_see_every_triangle(void **state)
     scene_end(&s);
 }
 
+// ---- the way out ---------------------------------------------------------------------------------------------------
+
+static int32_t overlap_of(const scene *s, const fe_geometry *form, vec at, fe_overlap *out)
+{
+    fe_transform pose = fe_make_transform(at.x, at.y, at.z);
+    return fe_world_overlap_shapes(s->world, form, &pose, NULL, out, sizeof *out, 1);
+}
+
+static int32_t parts(const scene *s, const fe_geometry *form, vec at, const fe_overlap *way)
+{
+    vec there = plus(at, times((double)way->depth + 1e-5, widen(way->direction)));
+    fe_transform pose = fe_make_transform(there.x, there.y, there.z);
+    return fe_world_overlap_any(s->world, form, &pose, NULL) == 0;
+}
+
+// From outside a cube of triangles lets out as a box does, over its faces, edges and corners.
+static void the_way_out_of_a_cube_is_that_of_a_box(void **state)
+{
+    const double places[][3] = {{0, 1.2, 0},      {0.9, 1.2, 0.1},  {1.2, 0.9, -0.1},   {1.1, 1.15, 0},
+                                {1.05, 0.3, 0.2}, {1.1, 1.2, 1.15}, {-1.2, 1.1, -1.15}, {0.7, -1.3, 0.95}};
+    const fe_geometry forms[] = {sphere(0.4), box(0.4, 0.4, 0.4), capsule(0.5, 0.3)};
+    for (uint32_t flags = 0; flags <= FE_MESH_TWO_SIDED; flags += FE_MESH_TWO_SIDED) {
+        scene s = scene_begin(state);
+        soup m = cube();
+        place_mesh(&s, FE_BODY_STATIC, make_mesh(&s, &m, flags), v3(0, 0, 0), UNTURNED, friction(0.5));
+        soup_free(&m);
+        add_static(&s, box(1, 1, 1), v3(10, 0, 0), UNTURNED, friction(0.5));
+        run(&s, 1);
+        for (int i = 0; i < 24; ++i) {
+            const fe_geometry *form = forms + i % 3;
+            vec at = v3(places[i / 3][0], places[i / 3][1], places[i / 3][2]);
+            fe_overlap of_mesh, of_box;
+            int32_t found = overlap_of(&s, form, at, &of_mesh);
+            assert_int_equal(found, overlap_of(&s, form, plus(at, v3(10, 0, 0)), &of_box));
+            if (!found) continue;
+            FE_TRUE(parts(&s, form, at, &of_mesh));
+            FE_WITHIN(of_mesh.depth, 0, 1.01 * (double)of_box.depth + 1e-5);
+        }
+        scene_end(&s);
+    }
+}
+
+// 0.1 m into each of three sides that meet in an inner corner: sqrt(3) times as far is the least that parts all
+static void the_way_out_of_a_corner_leads_from_all_sides(void **state)
+{
+    scene s = scene_begin(state);
+    soup m = cube();
+    for (int i = 0; i < 12; ++i) {
+        uint32_t second = m.indices[3 * i + 1];
+        m.indices[3 * i + 1] = m.indices[3 * i + 2], m.indices[3 * i + 2] = second; // seen from inside
+    }
+    place_mesh(&s, FE_BODY_STATIC, make_mesh(&s, &m, 0), v3(0, 0, 0), UNTURNED, friction(0.5));
+    soup_free(&m);
+    run(&s, 1);
+    const fe_geometry forms[] = {sphere(0.4), box(0.4, 0.4, 0.4)};
+    for (int i = 0; i < 2; ++i) {
+        fe_overlap way;
+        vec at = v3(0.7, -0.7, 0.7);
+        assert_int_equal(overlap_of(&s, forms + i, at, &way), 1);
+        FE_TRUE(parts(&s, forms + i, at, &way));
+        FE_NEAR(way.depth, 0.1 * sqrt(3), 1e-4);
+        FE_NEAR(length(minus(times(sqrt(3), widen(way.direction)), v3(-1, 1, -1))), 0, 1e-2);
+    }
+    scene_end(&s);
+}
+
+// Whatever lies across a rough surface comes free, whichever sides count.
+static void the_way_out_parts(void **state)
+{
+    enum { TRIES = 200 };
+    for (uint32_t flags = 0; flags <= FE_MESH_TWO_SIDED; flags += FE_MESH_TWO_SIDED) {
+        scene s = scene_begin(state);
+        soup m = make_soup(22, 0.5, -5.5, -5.5, 0.4, steep);
+        place_mesh(&s, FE_BODY_STATIC, make_mesh(&s, &m, flags), v3(0, 0, 0), UNTURNED, friction(0.5));
+        soup_free(&m);
+        run(&s, 1);
+        fe_geometry cylinder;
+        fe_geometry_cylinder(&cylinder, 0.4f, 0.3f);
+        const fe_geometry forms[] = {sphere(0.4), box(0.4, 0.3, 0.5), capsule(0.5, 0.3), cylinder};
+        for (uint32_t i = 0; i < TRIES; ++i) {
+            double x = 4 * noise(3 * i), z = 4 * noise(3 * i + 1);
+            vec at = v3(x, steep(x, z) + 0.3 * noise(3 * i + 2), z);
+            fe_overlap way;
+            if (overlap_of(&s, forms + i % 4, at, &way) == 1) FE_TRUE(parts(&s, forms + i % 4, at, &way));
+        }
+        scene_end(&s);
+    }
+}
+
 // ---- sides ---------------------------------------------------------------------------------------------------------
 
 static void two_sided_meshes_stop_rays_and_sweeps_from_below(void **state)
@@ -443,6 +532,9 @@ int main(void)
         TEST(workers_and_lanes_change_nothing),
         TEST(steps_on_a_mesh_allocate_nothing),
         TEST(queries_see_every_triangle),
+        TEST(the_way_out_of_a_cube_is_that_of_a_box),
+        TEST(the_way_out_of_a_corner_leads_from_all_sides),
+        TEST(the_way_out_parts),
         TEST(two_sided_meshes_stop_rays_and_sweeps_from_below),
         TEST(two_sided_meshes_hold_from_below),
         TEST(dynamic_bodies_cannot_have_meshes),

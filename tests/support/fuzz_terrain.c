@@ -9,6 +9,18 @@ fe_asset fuzz_asset(fuzz *f)
     return kind < 6 ? fuzz_shape(f) : f->assets[kind % ASSETS];
 }
 
+// Of a few, so that shapes share them, or anything
+void fuzz_scale(fuzz *f, fe_geometry *geometry)
+{
+    static const float some[8] = {1.0f, -1.0f, 0.5f, 2.0f, 1.0f, -0.7f, 0.001f, 30.0f};
+    uint8_t which = fuzz_byte(f), more = fuzz_byte(f);
+    if (which < 100) return;
+    if (which > 240)
+        geometry->scale = fuzz_vec3(f);
+    else
+        fe_geometry_set_scale(geometry, some[more & 7], some[more >> 3 & 3], some[more >> 5]);
+}
+
 static fe_asset *next_asset(fuzz *f) { return f->assets + f->asset_count % ASSETS; }
 
 // of points in a ball, or anywhere
@@ -121,7 +133,7 @@ int32_t fuzz_place_field(fuzz *f)
     d.transform = fe_make_transform((double)(which % 5) * 0.7 - 3.0, 0.0, (double)(which % 3) * 0.7 - 2.0);
     fe_geometry g;
     if (which & 32)
-        fe_geometry_mesh(&g, fuzz_asset(f));
+        fe_geometry_mesh(&g, fuzz_asset(f)), fuzz_scale(f, &g);
     else
         fe_geometry_heightfield(&g, fuzz_asset(f));
     fe_body body;

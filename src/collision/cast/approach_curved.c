@@ -7,7 +7,9 @@
 #include "collision/form/epa.h"
 
 enum { MAX_STEPS = 64 };
-#define TOLERANCE 0.1 // of the gap: a stop within that of it is one
+#define TOLERANCE 0.1       // of the gap: a stop within that of it is one
+#define ROUNDINGS 1e-14     // of the cores' size: how well the nearest points are known
+#define NEARLY_ALONG 0.9999 // a direction within a degree
 
 static fe__cores cores_at(const fe__approach *s, fe_dvec3 position)
 {
@@ -20,39 +22,97 @@ static fe__cores cores_at(const fe__approach *s, fe_dvec3 position)
                        s->frame_kind == FE_CORE_TRIANGLE ? s->vertex : NULL};
 }
 
+// Returns the size of the cores' difference, against which the distance is precise.
+static double gap_of(const fe__cores *cores, fe__core_gap *gap)
+{
+    fe__gjk gjk;
+    fe__gjk_distance_closely(cores, &gjk);
+    *gap = (fe__core_gap){gjk.distance, gjk.on_a, gjk.way};
+    return gjk.size;
+}
+
 void fe__curved_gap_of(const fe__approach *s, fe_dvec3 position, fe__core_gap *gap)
 {
     fe__cores cores = cores_at(s, position);
-    fe__gjk gjk;
-    fe__gjk_distance(&cores, (double)INFINITY, &gjk);
-    gap->distance = gjk.distance;
-    gap->on_frame = gjk.on_a;
-    gap->away = fe__dsub(gjk.on_b, gjk.on_a);
+    (void)gap_of(&cores, gap);
 }
 
 double fe__curved_depth(const fe__approach *s, fe_dvec3 *way_out)
 {
     fe__cores cores = cores_at(s, s->position);
     fe__gjk gjk;
-    fe__gjk_distance(&cores, (double)INFINITY, &gjk);
+    fe__gjk_distance_closely(&cores, &gjk);
     fe__penetration p = fe__epa_depth(&cores, &gjk);
     *way_out = p.normal;
     return p.depth;
 }
 
+// ---- planes that hold the two apart ---------------------------------------------------------------------------------
+// The cores are no nearer than the planes across `n` (unit, from the frame to the other) that hold them: what is sure
+// of a distance, whatever rounding made of the nearest points of a large form.
+static double sure_distance(const fe__cores *cores, fe_dvec3 n)
+{
+    return -fe__ddot(n, fe__cores_support(cores, n).difference);
+}
+
+static void keep_nearest_axis(fe_dvec3 axis, fe_dvec3 n, fe_dvec3 *best)
+{
+    double cosine = fe__ddot(axis, n);
+    if (fe__absd(cosine) > fe__absd(fe__ddot(*best, n))) *best = cosine < 0.0 ? fe__dscale(-1.0, axis) : axis;
+}
+
+// Of the flat sides that are known without rounding the one that looks most along n: caps, and faces of boxes
+static void keep_nearest_side(int32_t type, const fe__axes *axes, fe_dvec3 n, fe_dvec3 *best)
+{
+    if (type == FE__FORM_BOX) {
+        keep_nearest_axis(axes->x, n, best);
+        keep_nearest_axis(axes->z, n, best);
+    }
+    if (type == FE__FORM_BOX || type == FE__FORM_CYLINDER || type == FE__FORM_CONE) keep_nearest_axis(axes->y, n, best);
+}
+
+static fe_dvec3 nearest_side(const fe__approach *s, fe_dvec3 n)
+{
+    static const fe__axes own = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    fe_dvec3 best = {0.0, 0.0, 0.0};
+    if (s->frame_kind == FE_CORE_TRIANGLE)
+        keep_nearest_axis(s->normal, n, &best);
+    else
+        keep_nearest_side(s->frame_form->type, &own, n, &best);
+    keep_nearest_side(s->other_form->type, &s->axes, n, &best);
+    return best;
+}
+
+// A rounding e of the nearest points turns a way d between them by e / d, far more than it turns a side of one of the
+// two. So where a side near it holds them apart by more, it gives the direction; and it does where the nearest points
+// are none, because more than that turn takes of the size is between their distance and what is sure of it. Returns the
+// distance, then what is sure of it.
+static double make_sure(const fe__approach *s, const fe__cores *cores, double size, fe__core_gap *gap)
+{
+    fe_dvec3 n = fe__dscale(1.0 / gap->distance, gap->away), side = nearest_side(s, n);
+    double sure = sure_distance(cores, n), least = gap->distance - ROUNDINGS * size * (size / gap->distance);
+    if (sure < least || fe__ddot(side, n) > NEARLY_ALONG) {
+        double by_side = sure_distance(cores, side);
+        if (by_side > sure) sure = by_side, gap->away = fe__dscale(gap->distance, side);
+    }
+    return sure >= least ? gap->distance : sure;
+}
+
 // From `t` to where the distance is `goal`, or a little more. 0: it never comes so near. Cores that are nearer than GJK
-// can tell have met.
+// can tell have met: `gap` is that of the step before, or stays.
 static int32_t advance(const fe__approach *s, double goal, double tolerance, double *t, fe__core_gap *gap)
 {
     for (int32_t i = 0;; ++i) {
+        fe__cores cores = cores_at(s, fe__dadd(s->position, fe__dscale(*t, s->translation)));
         fe__core_gap here;
-        fe__curved_gap_of(s, fe__dadd(s->position, fe__dscale(*t, s->translation)), &here);
-        if (!(here.distance > 0.0)) return i > 0;
+        double size = gap_of(&cores, &here);
+        if (!(here.distance > 0.0)) return 1;
+        double way = make_sure(s, &cores, size, &here) - goal;
         *gap = here;
         double rate = fe__ddot(here.away, s->translation) / here.distance; // of the distance, m per t
         if (!(rate < 0.0)) return 0;
-        if (here.distance <= goal + tolerance || i == MAX_STEPS) return 1;
-        *t += (here.distance - goal) / -rate;
+        if (here.distance <= goal + tolerance || !(way > 0.0) || i == MAX_STEPS) return 1;
+        *t += way / -rate;
         if (!(*t <= 1.0)) return 0;
     }
 }
@@ -60,7 +120,7 @@ static int32_t advance(const fe__approach *s, double goal, double tolerance, dou
 int32_t fe__curved_sweep(const fe__approach *s, double limit, fe__approach_hit *hit)
 {
     double t = 0.0;
-    fe__core_gap gap, nearer;
+    fe__core_gap gap = {0}, nearer;
     if (!advance(s, s->radius + s->gap, TOLERANCE * s->gap, &t, &gap) || !(t <= limit)) return 0;
     *hit = (fe__approach_hit){t, fe__dscale(1.0 / gap.distance, gap.away), gap.on_frame};
     double clearance = fe__mind(gap.distance - s->radius, s->gap);

@@ -33,5 +33,7 @@ fe__nearest fe__nearest_on_cylinder(const fe__form *form, fe_dvec3 point);
 fe__nearest fe__nearest_on_cone(const fe__form *form, fe_dvec3 point);
 fe__nearest fe__nearest_on_hull(const fe__form *form, fe_dvec3 point);
 fe__nearest fe__nearest_on_plane(const fe__form *form, fe_dvec3 point);
+// Of the faces of a hull on which the point lies the one that looks most along `normal`; of equals the lowest.
+int32_t fe__hull_face_at(const fe__form *form, fe_dvec3 point, fe_dvec3 normal);
 
 #endif

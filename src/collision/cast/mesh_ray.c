@@ -9,7 +9,7 @@
 //
 // Boxes are tested in float, and widened by more than its roundings: a box is never missed when a triangle in it is
 // hit. The start is moved along the ray to just before the mesh, for boxes and triangles alike: coordinates near it
-// lose nothing to a far start.
+// lose nothing to a far start. All is done in the scaled frame: the products of floats that scale are exact in double.
 #include "collision/cast/mesh_ray.h"
 
 #include "core/lanes.h"
@@ -42,9 +42,10 @@ typedef struct sheared {
 
 static inline sheared shear(const caster *c, const float *v)
 {
-    double z = (double)v[c->kz] - c->origin[c->kz];
-    return (sheared){(double)v[c->kx] - c->origin[c->kx] - c->shear_x * z,
-                     (double)v[c->ky] - c->origin[c->ky] - c->shear_y * z, c->scale_z * z};
+    const double *s = c->mesh->scale;
+    double z = s[c->kz] * (double)v[c->kz] - c->origin[c->kz];
+    return (sheared){s[c->kx] * (double)v[c->kx] - c->origin[c->kx] - c->shear_x * z,
+                     s[c->ky] * (double)v[c->ky] - c->origin[c->ky] - c->shear_y * z, c->scale_z * z};
 }
 
 // No less than x, as a float
@@ -78,6 +79,10 @@ static inline void meet_triangle(caster *c, int32_t slot)
             d = shear(c, fe__mesh_vertex(m, slot, 2));
     double u = d.x * b.y - d.y * b.x, v = a.x * d.y - a.y * d.x, w = b.x * a.y - b.y * a.x;
     int32_t is_front = (u >= 0.0) & (v >= 0.0) & (w >= 0.0), is_back = (u <= 0.0) & (v <= 0.0) & (w <= 0.0);
+    if (m->is_mirrored) {
+        int32_t kept = is_front;
+        is_front = is_back, is_back = kept;
+    }
     if (!is_front && !(is_back && m->is_two_sided)) return;
     double sum = u + v + w;
     if (sum == 0.0) return; // edge-on
@@ -110,8 +115,9 @@ static inline uint32_t meet_boxes(const caster *c, const fe__mesh_node *node, fl
 {
     fe__lanes enter = fe__lanes_set(0.0f), leave = fe__lanes_set(c->last);
     for (int32_t k = 0; k < 3; ++k) {
-        float base = (float)(((double)node->origin[k] - c->origin[k]) * c->inverse[k]);
-        float step = (float)(fe__mesh_step(node, k) * c->inverse[k]);
+        double scale = c->mesh->scale[k];
+        float base = (float)((scale * (double)node->origin[k] - c->origin[k]) * c->inverse[k]);
+        float step = (float)(fe__mesh_step(node, k) * scale * c->inverse[k]);
         float widening = WIDENING * (fe__absf(base) + 255.0f * fe__absf(step));
         const uint8_t *close = step > 0.0f ? node->low[k] : node->high[k];
         const uint8_t *far = step > 0.0f ? node->high[k] : node->low[k];

@@ -33,7 +33,7 @@ typedef struct fe__sweep_hit {
     fe_dvec3 point;   // of the standing form's surface, where it is met; inside: the mover's position
     double depth;     // inside: how far out that way, m
     int32_t inside;   // the forms overlap at the start
-    int32_t triangle; // number, of a heightfield or a mesh, else -1
+    int32_t triangle; // number, of a heightfield or a mesh; the face of a hull; else -1
 } fe__sweep_hit;
 
 #endif

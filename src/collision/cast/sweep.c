@@ -194,6 +194,7 @@ static void report(const fe__form *still, const fe__mover *mover, int32_t swappe
     }
     hit->normal = normal;
     hit->point = point;
+    if (fe__form_is_hull(still)) hit->triangle = fe__hull_face_at(still, point, normal);
 }
 
 int32_t fe__form_sweep(const fe__form *still, const fe__mover *mover, double limit, fe__sweep_hit *hit)
@@ -206,6 +207,7 @@ int32_t fe__form_sweep(const fe__form *still, const fe__mover *mover, double lim
     if (o.depth >= 0.0) {
         fe_dvec3 out = swapped ? fe__turn(&mover->axes, fe__dscale(-1.0, o.way_out)) : o.way_out;
         *hit = (fe__sweep_hit){.normal = out, .point = mover->position, .depth = o.depth, .inside = 1, .triangle = -1};
+        if (fe__form_is_hull(still)) hit->triangle = fe__hull_facing(still->hull, out);
         return 1;
     }
     fe__approach_hit h;

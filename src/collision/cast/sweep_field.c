@@ -3,20 +3,13 @@
 // Input: queries, with the mover in the surface's frame. The way is cut where the form has moved by about its own size
 // or a cell, so that few triangles lie under each piece; what is met within a piece is met first of all. Vertices are
 // doubles: a stop is as exact as before a box.
-#include "collision/cast/approach.h"
+#include "collision/cast/field_search.h"
 #include "collision/cast/sweep.h"
 #include "collision/form/support.h"
 
 // A normal that leans below a triangle by more than a rounding comes from under it.
 #define FROM_BELOW (-1e-9)
 #define ON_SIDE 1e-6 // m, a point that near to a side of a triangle is on it
-
-typedef struct search {
-    const fe__ground *surface;
-    const fe__mover *mover;
-    fe_dvec3 half;     // of the mover's bounds, m
-    fe__approach pair; // with each triangle in turn
-} search;
 
 // Of the form's farthest points both ways along an axis of the surface's frame, in the mover's
 static double reach_along(const fe__form *form, fe_dvec3 axis)
@@ -41,9 +34,9 @@ static fe_dvec3 bounds_of(const fe__mover *mover)
                       half[0] * fe__absd(m->x.z) + half[1] * fe__absd(m->y.z) + half[2] * fe__absd(m->z.z) + r};
 }
 
-static search search_of(const fe__ground *surface, const fe__mover *mover)
+fe__field_search fe__field_search_of(const fe__ground *surface, const fe__mover *mover)
 {
-    search s = {.surface = surface, .mover = mover, .half = bounds_of(mover)};
+    fe__field_search s = {.surface = surface, .mover = mover, .half = bounds_of(mover)};
     fe__approach *p = &s.pair;
     p->frame_kind = FE_CORE_TRIANGLE, p->other_kind = fe__core_kind_of(mover->form), p->other_form = mover->form;
     fe__core_half(mover->form, p->other_half);
@@ -53,8 +46,7 @@ static search search_of(const fe__ground *surface, const fe__mover *mover)
     return s;
 }
 
-// Of a two-sided one the side on which the mover starts
-static void take_triangle(search *s, int32_t triangle)
+void fe__field_take(fe__field_search *s, int32_t triangle)
 {
     fe_dvec3 *v = s->pair.vertex;
     fe__ground_corners(s->surface, triangle, v);
@@ -66,8 +58,7 @@ static void take_triangle(search *s, int32_t triangle)
     s->pair.normal = fe__dscale(-1.0, s->pair.normal);
 }
 
-// What the mover's bounds cover from t0 to t1.
-static fe__bounds covered(const search *s, double t0, double t1)
+fe__bounds fe__field_covered(const fe__field_search *s, double t0, double t1)
 {
     double spare = 2.0 * s->pair.gap;
     fe_dvec3 a = fe__dadd(s->mover->position, fe__dscale(t0, s->mover->translation));
@@ -80,13 +71,13 @@ static fe__bounds covered(const search *s, double t0, double t1)
 
 int32_t fe__ground_overlap(const fe__ground *surface, const fe__mover *mover)
 {
-    search s = search_of(surface, mover);
-    fe__bounds box = covered(&s, 0.0, 0.0);
+    fe__field_search s = fe__field_search_of(surface, mover);
+    fe__bounds box = fe__field_covered(&s, 0.0, 0.0);
     fe__form unused;
     fe__ground_walk walk;
     fe__ground_begin(&walk, surface, &box, mover->position);
     for (int32_t i; (i = fe__ground_next(&walk, &unused)) >= 0;) {
-        take_triangle(&s, i);
+        fe__field_take(&s, i);
         if (fe__approach_overlap(&s.pair).depth >= 0.0) return 1;
     }
     return 0;
@@ -109,8 +100,13 @@ static double height_at(const fe__approach *p, double t)
     return fe__ddot(p->normal, fe__dsub(at, p->vertex[0]));
 }
 
+double fe__field_depth(const fe__field_search *s)
+{
+    return fe__maxd(reach_across(&s->pair, -1.0) - height_at(&s->pair, 0.0), 0.0);
+}
+
 // Is the point on a side behind which there is nothing?
-static int32_t is_on_rim(const search *s, int32_t triangle, fe_dvec3 point)
+static int32_t is_on_rim(const fe__field_search *s, int32_t triangle, fe_dvec3 point)
 {
     fe_dvec3 v[3];
     fe__ground_corners(s->surface, triangle, v);
@@ -122,21 +118,19 @@ static int32_t is_on_rim(const search *s, int32_t triangle, fe_dvec3 point)
     return 0;
 }
 
-// From below nothing is met, but for a rim, which stops from aside whatever has a part above the triangle's plane.
-static int32_t is_met(const search *s, int32_t triangle, const fe__approach_hit *hit)
+int32_t fe__field_is_met(const fe__field_search *s, int32_t triangle, const fe__approach_hit *hit)
 {
     if (fe__ddot(hit->normal, s->pair.normal) >= FROM_BELOW) return 1;
     return height_at(&s->pair, hit->t) + reach_across(&s->pair, 1.0) > 0.0 && is_on_rim(s, triangle, hit->point);
 }
 
-// Of a start inside the deepest triangle tells; of hits the first. Of equal ones the triangle with the lowest number.
-static void meet_triangle(search *s, int32_t triangle, fe__sweep_hit *best)
+// Of a start inside the deepest triangle is told; of hits the first. Of equal ones the triangle with the lowest number.
+static void meet_triangle(fe__field_search *s, int32_t triangle, fe__sweep_hit *best)
 {
     int32_t number = fe__ground_number(s->surface, triangle);
-    take_triangle(s, triangle);
+    fe__field_take(s, triangle);
     if (fe__approach_overlap(&s->pair).depth >= 0.0) {
-        double depth =
-            fe__maxd(reach_across(&s->pair, -1.0) - height_at(&s->pair, 0.0), 0.0); // until it is over the plane
+        double depth = fe__field_depth(s);
         if (best->inside && (depth < best->depth || (depth == best->depth && number > best->triangle))) return;
         *best = (fe__sweep_hit){
             .normal = s->pair.normal, .point = s->mover->position, .depth = depth, .inside = 1, .triangle = number};
@@ -145,13 +139,13 @@ static void meet_triangle(search *s, int32_t triangle, fe__sweep_hit *best)
     fe__approach_hit hit;
     if (best->inside || !fe__approach_sweep(&s->pair, best->t, &hit)) return;
     if (best->triangle >= 0 && hit.t == best->t && number > best->triangle) return;
-    if (!is_met(s, triangle, &hit)) return;
+    if (!fe__field_is_met(s, triangle, &hit)) return;
     *best = (fe__sweep_hit){.t = hit.t, .normal = hit.normal, .point = hit.point, .triangle = number};
 }
 
 // ---- the way -------------------------------------------------------------------------------------------------------
 // The part of [0, limit] on which the mover's bounds meet those of the surface.
-static int32_t clip(const search *s, double limit, double *from, double *to)
+static int32_t clip(const fe__field_search *s, double limit, double *from, double *to)
 {
     fe__bounds bounds = fe__ground_bounds(s->surface);
     double spare = 2.0 * s->pair.gap;
@@ -174,7 +168,7 @@ static int32_t clip(const search *s, double limit, double *from, double *to)
 
 int32_t fe__ground_sweep(const fe__ground *surface, const fe__mover *mover, double limit, fe__sweep_hit *hit)
 {
-    search s = search_of(surface, mover);
+    fe__field_search s = fe__field_search_of(surface, mover);
     double t, end;
     if (!clip(&s, limit, &t, &end)) return 0;
     fe_dvec3 cell = fe__ground_cell(surface);
@@ -186,13 +180,16 @@ int32_t fe__ground_sweep(const fe__ground *surface, const fe__mover *mover, doub
     for (;;) {
         double to = fe__mind(t + piece, end);
         if (!(to > t)) to = end; // a piece below the rounding of t
-        fe__bounds box = covered(&s, t, to);
+        fe__bounds box = fe__field_covered(&s, t, to);
         fe__form unused;
         fe__ground_walk walk;
         fe__ground_begin(&walk, surface, &box, mover->position);
         for (int32_t i; (i = fe__ground_next(&walk, &unused)) >= 0;) meet_triangle(&s, i, hit);
-        if (hit->triangle >= 0 && hit->t <= to) return 1;
-        if (to >= end) return hit->triangle >= 0;
+        if (hit->triangle >= 0 && (hit->t <= to || to >= end)) {
+            if (hit->inside) fe__field_way_out(&s, hit);
+            return 1;
+        }
+        if (to >= end) return 0;
         t = to;
     }
 }

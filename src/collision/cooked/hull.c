@@ -104,7 +104,7 @@ static int32_t read_vertices(fe__cooked *c, fe__hull *h)
         const double most = (double)FE_MAX_LENGTH;
         if (fe__absd(p.x) > most || fe__absd(p.y) > most || fe__absd(p.z) > most)
             return fe__cooked_refuse(c, at, "vertex %d is farther than %.9g m", (int)i, most);
-        fe__hull_set_lane(&h->vertices, i, v);
+        fe__hull_set_vertex(h, i, v);
     }
     return 1;
 }
@@ -228,7 +228,7 @@ static int32_t check_sizes(fe__cooked *c, const fe__hull *h, const unsigned char
         return fe__cooked_refuse(c, measures + 16, "the hull is %.9g m long, and its points are %.9g m", longest,
                                  extent);
     double width = least_width(h), slack = ROUNDING * extent;
-    double least = THICKNESS_LEFT * fe__maxd(FE__HULL_LEAST_THICKNESS, FE__HULL_LEAST_THICKNESS_SHARE * extent);
+    double least = THICKNESS_LEFT * fe__hull_least_thickness(extent);
     if (width < least || (double)h->thickness > width * (1.0 + 2.0 * FLAT_OF_THICKNESS) + slack)
         return fe__cooked_refuse(c, measures + 12, "the hull is %.9g m thick, must be at least %.9g and %.9g", width,
                                  least, (double)h->thickness);
@@ -311,7 +311,8 @@ int32_t fe__cooked_hull_read(fe__cooked *c, fe__hull *h, void *block)
     if (!read_measures(c, h) || !read_vertices(c, h) || !read_units(c, "normal", &h->normals, h->face_count) ||
         !read_units(c, "direction", &h->directions, h->direction_count) || !read_topology(c, h))
         return 0;
-    fe__hull_complete(h);
+    fe__hull_place_planes(h);
+    fe__hull_finish(h);
     return check_sizes(c, h, measures) && check_faces(c, h, normals) && check_bends(c, h, normals) &&
            check_directions(c, h, directions) && weigh(c, h, measures);
 }

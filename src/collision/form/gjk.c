@@ -6,6 +6,7 @@
 
 enum { MAX_ITERATIONS = 64 }; // boxes and segments need at most 12
 #define OVERLAP_SIZE 1e-10    // of the cores' size: nearer than this they overlap; a million roundings
+#define CLOSE_SIZE 2e-14      // the same, where a hundred roundings are told apart
 #define FLAT 1e-12            // of the size: a tetrahedron no higher than that has no inside
 #define UNSURE 1e-15          // of the size: some roundings
 #define CONVERGED 1e-13       // of the squared distance
@@ -161,11 +162,13 @@ static void set_points(fe__gjk *g, const double *weight, fe_dvec3 v)
     g->on_a = (fe_dvec3){0.0, 0.0, 0.0};
     for (int32_t i = 0; i < g->count; ++i) g->on_a = fe__dadd(g->on_a, fe__dscale(weight[i], g->vertex[i].on_a));
     g->on_b = fe__dsub(g->on_a, v);
+    g->way = fe__dscale(-1.0, v);
     g->distance = sqrt(fe__ddot(v, v));
 }
 
-void fe__gjk_distance(const fe__cores *cores, double limit, fe__gjk *g)
+static void approach_origin(const fe__cores *cores, double limit, int32_t closely, fe__gjk *g)
 {
+    double overlap_size = closely ? CLOSE_SIZE : OVERLAP_SIZE;
     double weight[4] = {1.0};
     fe_dvec3 v = fe__dscale(-1.0, cores->position);
     g->vertex[0] = fe__cores_support(cores, cores->position);
@@ -175,7 +178,7 @@ void fe__gjk_distance(const fe__cores *cores, double limit, fe__gjk *g)
     g->size = sqrt(fe__ddot(v, v));
     double apart_by = 0.0; // no nearer than that: a sliver that seems to hold the origin does not
     for (int32_t iteration = 0; iteration < MAX_ITERATIONS; ++iteration) {
-        double square = fe__ddot(v, v), near = OVERLAP_SIZE * g->size;
+        double square = fe__ddot(v, v), near = overlap_size * g->size;
         if (square <= near * near) {
             g->overlap = !(curved && apart_by > near);
             break;
@@ -202,7 +205,8 @@ void fe__gjk_distance(const fe__cores *cores, double limit, fe__gjk *g)
             g->overlap = 1;
             break;
         }
-        fe_dvec3 nearer = curved ? foot(g->vertex, weight, g->count, g->size) : weighted(g->vertex, weight, g->count);
+        fe_dvec3 nearer =
+            curved || closely ? foot(g->vertex, weight, g->count, g->size) : weighted(g->vertex, weight, g->count);
         if (fe__ddot(nearer, nearer) >= square) { // rounding: no nearer point is found
             *g = last;
             for (int32_t i = 0; i < 4; ++i) weight[i] = last_weight[i];
@@ -213,3 +217,7 @@ void fe__gjk_distance(const fe__cores *cores, double limit, fe__gjk *g)
     set_points(g, weight, v);
     if (g->overlap) g->distance = 0.0;
 }
+
+void fe__gjk_distance(const fe__cores *cores, double limit, fe__gjk *g) { approach_origin(cores, limit, 0, g); }
+
+void fe__gjk_distance_closely(const fe__cores *cores, fe__gjk *g) { approach_origin(cores, (double)INFINITY, 1, g); }

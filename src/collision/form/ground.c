@@ -67,8 +67,9 @@ void fe__ground_weights(const fe__ground *s, int32_t number, fe_dvec3 point, flo
     double per_square = 1.0 / fe__ddot(n, n);
     double second = fe__clampd(fe__ddot(fe__dcross(p, b), n) * per_square, 0.0, 1.0);
     double third = fe__clampd(fe__ddot(fe__dcross(a, p), n) * per_square, 0.0, 1.0 - second);
-    out_weights[0] = (float)second;
-    out_weights[1] = (float)third;
+    int32_t is_mirrored = s->mesh->is_mirrored; // the weights are those of the asset's corners
+    out_weights[is_mirrored] = (float)second;
+    out_weights[!is_mirrored] = (float)third;
 }
 
 // ---- what rises ----------------------------------------------------------------------------------------------------

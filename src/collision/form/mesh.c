@@ -34,14 +34,15 @@ int32_t fe__mesh_slot(const fe__mesh *m, int32_t number)
 fe__mesh_edge fe__mesh_edge_of(const fe__mesh *m, int32_t slot, int32_t corner)
 {
     static const int32_t digit[3] = {1, FE__MESH_EDGES, FE__MESH_EDGES * FE__MESH_EDGES};
-    return (fe__mesh_edge)(m->edges[slot] / digit[corner] % FE__MESH_EDGES);
+    int32_t side = m->is_mirrored ? 2 - corner : corner;
+    return (fe__mesh_edge)(m->edges[slot] / digit[side] % FE__MESH_EDGES);
 }
 
 void fe__mesh_corners(const fe__mesh *m, int32_t slot, fe_dvec3 corner[3])
 {
     for (int32_t k = 0; k < 3; ++k) {
-        const float *v = fe__mesh_vertex(m, slot, k);
-        corner[k] = (fe_dvec3){(double)v[0], (double)v[1], (double)v[2]};
+        const float *v = fe__mesh_vertex(m, slot, fe__mesh_own_corner(m, k));
+        corner[k] = (fe_dvec3){m->scale[0] * (double)v[0], m->scale[1] * (double)v[1], m->scale[2] * (double)v[2]};
     }
 }
 

@@ -12,6 +12,10 @@
 //
 // Nodes. A node's children are all nodes, or all leaves, and stand one after another. Their boxes are counted in steps
 // from the node's low corner, 2^exponent m a step on each axis, and rounded outwards: no vertex is outside.
+//
+// Scale. A mesh under a scale has the arrays of its asset: vertices and nodes are the asset's, m. Who reads a vertex
+// multiplies it, in double, where the product is exact; who goes down the tree does so with the boxes, or divides what
+// is looked for. In a mirror the second and the third corner change places, so that the outside stays outside.
 #ifndef FE_COLLISION_FORM_MESH_H
 #define FE_COLLISION_FORM_MESH_H
 #include "collision/form/form.h"
@@ -67,7 +71,9 @@ typedef struct fe__mesh {
     int32_t node_count, depth; // of the tree
     int32_t shortcut_count;
     int32_t is_two_sided;
-    fe_vec3 low, high; // bounds
+    int32_t is_scaled, is_mirrored;
+    double scale[3];   // 1 each, or that of the shapes that have it
+    fe_vec3 low, high; // bounds, scaled
     // of the definition
     int32_t welded_count; // vertices that differ
     int32_t degenerate_count, duplicate_count, open_count, odd_count, flipped_count;
@@ -94,6 +100,12 @@ static inline int32_t fe__mesh_number(const fe__mesh *mesh, int32_t slot)
 {
     return (int32_t)(mesh->numbers[slot] & ~FE__MESH_HAS_SHORTCUT);
 }
+// The corner of the asset's triangle that is corner `corner` of the scaled one
+static inline int32_t fe__mesh_own_corner(const fe__mesh *mesh, int32_t corner)
+{
+    return mesh->is_mirrored && corner ? 3 - corner : corner;
+}
+// Unscaled
 static inline const float *fe__mesh_vertex(const fe__mesh *mesh, int32_t slot, int32_t corner)
 {
     const fe__mesh_leaf *leaf = mesh->leaves + slot / FE__MESH_LEAF;
@@ -114,6 +126,7 @@ fe__form fe__mesh_form(const fe__mesh *mesh, int32_t index);
 
 // The slot of a triangle by its number, in at most 2 FE__MESH_SHORTCUT steps; at least triangle_count: it was dropped.
 int32_t fe__mesh_slot(const fe__mesh *mesh, int32_t number);
+// Of the side from that corner to the next, and the corners: of the scaled triangle
 fe__mesh_edge fe__mesh_edge_of(const fe__mesh *mesh, int32_t slot, int32_t corner);
 void fe__mesh_corners(const fe__mesh *mesh, int32_t slot, fe_dvec3 corner[3]);
 

@@ -3,9 +3,22 @@
 
 #include "core/lanes.h"
 
+// Wider by more than a quotient is rounded
+static void unscale(double scale, double *low, double *high)
+{
+    const double rounding = 0x1p-51;
+    double a = *low / scale, b = *high / scale, from = fe__mind(a, b), to = fe__maxd(a, b);
+    *low = from - rounding * fe__absd(from), *high = to + rounding * fe__absd(to);
+}
+
 void fe__mesh_walk_begin(fe__mesh_walk *walk, const fe__mesh *mesh, const fe__bounds *box, fe_dvec3 origin)
 {
     walk->mesh = mesh, walk->box = *box, walk->origin = origin;
+    if (mesh->is_scaled) {
+        unscale(mesh->scale[0], &walk->box.low.x, &walk->box.high.x);
+        unscale(mesh->scale[1], &walk->box.low.y, &walk->box.high.y);
+        unscale(mesh->scale[2], &walk->box.low.z, &walk->box.high.z);
+    }
     walk->slot = walk->end = 0;
     walk->top = 1;
     walk->stack[0] = 0; // the root
@@ -64,9 +77,12 @@ static int32_t meet_triangle(const fe__mesh_walk *w, int32_t slot, fe__form *tri
         !reaches(v, 2, box->low.z, box->high.z))
         return 0;
     triangle->type = FE__FORM_TRIANGLE, triangle->radius = 0.0f;
-    for (int32_t k = 0; k < 3; ++k)
-        triangle->vertex[k] =
-            fe__narrow(fe__dsub((fe_dvec3){(double)v[k][0], (double)v[k][1], (double)v[k][2]}, w->origin));
+    const double *s = w->mesh->scale;
+    for (int32_t k = 0; k < 3; ++k) {
+        const float *p = v[fe__mesh_own_corner(w->mesh, k)];
+        fe_dvec3 corner = {s[0] * (double)p[0], s[1] * (double)p[1], s[2] * (double)p[2]};
+        triangle->vertex[k] = fe__narrow(fe__dsub(corner, w->origin));
+    }
     return 1;
 }
 

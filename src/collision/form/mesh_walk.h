@@ -7,18 +7,18 @@
 // Children that wait: of each level all but the one that is looked into
 enum { FE__MESH_WALK_STACK = FE__MESH_DEPTH * (FE__MESH_WIDTH - 1) + FE__MESH_WIDTH };
 
-// All in the mesh's frame
 typedef struct fe__mesh_walk {
     const fe__mesh *mesh;
-    fe__bounds box;
-    fe_dvec3 origin;
+    fe__bounds box;    // in the frame of its vertices, unscaled
+    fe_dvec3 origin;   // in the mesh's
     int32_t slot, end; // of the leaf
     int32_t top;
     uint32_t stack[FE__MESH_WALK_STACK]; // up to `top`
 } fe__mesh_walk;
 
 void fe__mesh_walk_begin(fe__mesh_walk *walk, const fe__mesh *mesh, const fe__bounds *box, fe_dvec3 origin);
-// Slot of the next triangle whose bounds meet the box, its vertices relative to the walk's origin; -1: no more.
+// Slot of the next triangle whose bounds meet the box or, of a scaled mesh, all but meet it, its vertices relative to
+// the walk's origin; -1: no more.
 int32_t fe__mesh_walk_next(fe__mesh_walk *walk, fe__form *triangle);
 
 #endif

@@ -100,7 +100,7 @@ int32_t fe__hull_build(fe__hull_builder *b, const fe__hull_points *points, fe__h
 {
     begin(b, points);
     fe__cloud_measure(&b->cloud);
-    double least = fe__maxd(FE__HULL_LEAST_THICKNESS, FE__HULL_LEAST_THICKNESS_SHARE * b->cloud.extent), thickness;
+    double least = fe__hull_least_thickness(b->cloud.extent), thickness;
     fe_dvec3 normal;
     refusal->least = least;
     if (b->cloud.extent < least) return refuse(refusal, b->cloud.extent, (fe_dvec3){0.0, 0.0, 0.0});

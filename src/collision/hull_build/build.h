@@ -8,6 +8,7 @@
 //   facets     coplanar triangles merged, needless corners gone    facets.c, corners.c
 //   layout     half-edges, planes, lanes                           layout.c
 //   measures   mass, inertia, inner radius, error                  measure.c
+//   scale      a copy that is larger, smaller, or in a mirror       scale.c
 #ifndef FE_COLLISION_HULL_BUILD_BUILD_H
 #define FE_COLLISION_HULL_BUILD_BUILD_H
 #include "collision/hull_build/builder.h"
@@ -34,6 +35,12 @@ typedef struct fe__hull_refusal {
     double thickness, least; // m
     fe_dvec3 normal;         // unit, along which it is so thin; 0: along more than one
 } fe__hull_refusal;
+
+// m, of a hull of that extent
+static inline double fe__hull_least_thickness(double extent)
+{
+    return fe__maxd(FE__HULL_LEAST_THICKNESS, FE__HULL_LEAST_THICKNESS_SHARE * extent);
+}
 
 int64_t fe__hull_builder_size(int32_t point_count);
 // `room`: so many bytes, aligned to 8. 0: the points are thinner than they may be.

@@ -10,11 +10,11 @@ static fe_dvec3 side_of(const fe__hull_builder *b, int32_t from, int32_t to)
     return fe__dsub(fe__cloud_point(&b->cloud, point[to]), fe__cloud_point(&b->cloud, point[from]));
 }
 
-static int32_t is_known(const fe__hull_builder *b, fe_dvec3 direction)
+int32_t fe__hull_is_known_direction(const fe_dvec3 *known, int32_t count, fe_dvec3 direction)
 {
     static const double parallel = 1e-5; // sine
-    for (int32_t i = 0; i < b->direction_count; ++i) {
-        fe_dvec3 n = fe__dcross(b->direction[i], direction);
+    for (int32_t i = 0; i < count; ++i) {
+        fe_dvec3 n = fe__dcross(known[i], direction);
         if (fe__ddot(n, n) <= parallel * parallel) return 1;
     }
     return 0;
@@ -36,7 +36,7 @@ static void find_directions(fe__hull_builder *b)
             if (f->across[i] < facet) continue;
             fe_dvec3 side = side_of(b, f->corner[i], f->corner[corner_after(loop, i)]);
             side = fe__dscale(1.0 / sqrt(fe__ddot(side, side)), side);
-            if (is_known(b, side)) continue;
+            if (fe__hull_is_known_direction(b->direction, b->direction_count, side)) continue;
             if (b->direction_count == FE__HULL_DIRECTIONS) {
                 b->direction_count = 0;
                 return;
@@ -105,11 +105,11 @@ static float origin_along(double middle, double extent)
     return fe__absd(middle) > 2.0 * extent ? (float)middle : 0.0f;
 }
 
-static void write_vertices(const fe__hull_builder *b, const fe__hull *h)
+static void write_vertices(const fe__hull_builder *b, fe__hull *h)
 {
     for (int32_t i = 0; i < h->vertex_count; ++i) {
         fe_dvec3 p = fe__cloud_point(&b->cloud, b->surface.point[b->vertex[i]]);
-        fe__hull_set_lane(&h->vertices, i, fe__narrow(fe__dsub(p, fe__widen(h->origin))));
+        fe__hull_set_vertex(h, i, fe__narrow(fe__dsub(p, fe__widen(h->origin))));
     }
 }
 
@@ -155,5 +155,6 @@ void fe__hull_lay_out(fe__hull_builder *b, void *block, fe__hull *h)
     write_topology(b, h);
     write_vertices(b, h);
     write_directions(b, h);
-    fe__hull_complete(h);
+    fe__hull_place_planes(h);
+    fe__hull_finish(h);
 }

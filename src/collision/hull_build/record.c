@@ -37,8 +37,9 @@ static fe__hull_lanes take_lanes(room *r, int32_t count)
     return (fe__hull_lanes){x, y, z};
 }
 
-static void take_all(room *r, fe__hull *h)
+int64_t fe__hull_share(fe__hull *h, void *block)
 {
+    room of_block = {block, 0}, *r = &of_block;
     h->vertices = take_lanes(r, h->vertex_count);
     h->normals = take_lanes(r, h->face_count);
     h->distances = take_floats(r, h->face_count);
@@ -51,15 +52,9 @@ static void take_all(room *r, fe__hull *h)
     h->faces = take(r, (int64_t)sizeof(fe__hull_face) * h->face_count);
     h->spokes = take(r, (int64_t)sizeof(uint16_t) * h->vertex_count);
     h->corners = take(r, 2 * h->edge_count);
-}
-
-int64_t fe__hull_share(fe__hull *h, void *block)
-{
-    room r = {block, 0};
-    take_all(&r, h);
     h->block = block;
-    h->size = r.end;
-    return r.end;
+    h->size = r->end;
+    return r->end;
 }
 
 // ---- lanes ---------------------------------------------------------------------------------------------------------
@@ -91,13 +86,11 @@ void fe__hull_connect(fe__hull *h, const uint16_t *half)
 }
 
 // ---- geometry ------------------------------------------------------------------------------------------------------
-static void measure_bounds(fe__hull *h)
+void fe__hull_set_vertex(fe__hull *h, int32_t i, fe_vec3 v)
 {
-    for (int32_t i = 0; i < h->vertex_count; ++i) {
-        fe_vec3 v = fe__hull_vertex(h, i);
-        h->low = i ? fe__vec3(fe__minf(h->low.x, v.x), fe__minf(h->low.y, v.y), fe__minf(h->low.z, v.z)) : v;
-        h->high = i ? fe__vec3(fe__maxf(h->high.x, v.x), fe__maxf(h->high.y, v.y), fe__maxf(h->high.z, v.z)) : v;
-    }
+    fe__hull_set_lane(&h->vertices, i, v);
+    h->low = i ? fe__vec3(fe__minf(h->low.x, v.x), fe__minf(h->low.y, v.y), fe__minf(h->low.z, v.z)) : v;
+    h->high = i ? fe__vec3(fe__maxf(h->high.x, v.x), fe__maxf(h->high.y, v.y), fe__maxf(h->high.z, v.z)) : v;
 }
 
 static double along(const fe__hull *h, fe_vec3 normal, int32_t vertex)
@@ -105,23 +98,28 @@ static double along(const fe__hull *h, fe_vec3 normal, int32_t vertex)
     return fe__ddot(fe__widen(normal), fe__widen(fe__hull_vertex(h, vertex)));
 }
 
-static void place_planes(fe__hull *h)
+double fe__hull_set_plane(const fe__hull *h, int32_t face, fe_vec3 normal)
+{
+    double farthest = along(h, normal, 0), flatness = 0.0;
+    for (int32_t v = 1; v < h->vertex_count; ++v) farthest = fe__maxd(farthest, along(h, normal, v));
+    float distance = fe__float_above(farthest);
+    fe__hull_set_lane(&h->normals, face, normal);
+    fe__hull_writable(h->distances)[face] = distance;
+    const uint8_t *corner = h->corners + h->faces[face].first;
+    for (int32_t k = 0; k < h->faces[face].count; ++k)
+        flatness = fe__maxd(flatness, (double)distance - along(h, normal, corner[k]));
+    return flatness;
+}
+
+void fe__hull_place_planes(fe__hull *h)
 {
     double flatness = 0.0;
-    for (int32_t i = 0; i < h->face_count; ++i) {
-        fe_vec3 normal = fe__hull_normal(h, i);
-        double farthest = along(h, normal, 0);
-        for (int32_t v = 1; v < h->vertex_count; ++v) farthest = fe__maxd(farthest, along(h, normal, v));
-        float distance = fe__float_above(farthest);
-        fe__hull_writable(h->distances)[i] = distance;
-        const uint8_t *corner = h->corners + h->faces[i].first;
-        for (int32_t k = 0; k < h->faces[i].count; ++k)
-            flatness = fe__maxd(flatness, (double)distance - along(h, normal, corner[k]));
-    }
+    for (int32_t i = 0; i < h->face_count; ++i)
+        flatness = fe__maxd(flatness, fe__hull_set_plane(h, i, fe__hull_normal(h, i)));
     h->flatness = fe__float_above(flatness);
 }
 
-static void write_edges(const fe__hull *h)
+void fe__hull_finish(const fe__hull *h)
 {
     for (int32_t k = 0; k < h->edge_count; ++k) {
         const fe__hull_edge *edge = &h->edges[2 * k];
@@ -131,13 +129,6 @@ static void write_edges(const fe__hull *h)
         fe__hull_set_lane(&h->left, k, fe__hull_normal(h, edge[0].face));
         fe__hull_set_lane(&h->right, k, fe__hull_normal(h, edge[1].face));
     }
-}
-
-void fe__hull_complete(fe__hull *h)
-{
-    measure_bounds(h);
-    place_planes(h);
-    write_edges(h);
     pad_lanes(&h->vertices, h->vertex_count);
     pad_lanes(&h->normals, h->face_count);
     pad(h->distances, h->face_count);

@@ -1,5 +1,5 @@
 // record.h - the arrays of a hull in its block, and what of them follows from the rest: from a builder's facets
-// (layout.c) as from bytes (collision/cooked).
+// (layout.c), from another hull (scale.c), from bytes (collision/cooked).
 #ifndef FE_COLLISION_HULL_BUILD_RECORD_H
 #define FE_COLLISION_HULL_BUILD_RECORD_H
 #include "collision/form/hull.h"
@@ -21,10 +21,15 @@ static inline fe__hull_face *fe__hull_own_faces(const fe__hull *hull)
 }
 static inline uint8_t *fe__hull_own_corners(const fe__hull *hull) { return (uint8_t *)(uintptr_t)hull->corners; }
 
+void fe__hull_set_vertex(fe__hull *hull, int32_t vertex, fe_vec3 position); // in their order: the bounds grow
+
 // Then the half-edges: `half` is that from each corner to the next of its face
 void fe__hull_connect(fe__hull *hull, const uint16_t *half);
-// Then the rest but the measures: bounds, distances and flatness of the planes, what stands by edges, lanes past counts
-void fe__hull_complete(fe__hull *hull);
+// Then the planes, which touch the hull. Of one: returns how far the face's corners lie below it, m
+double fe__hull_set_plane(const fe__hull *hull, int32_t face, fe_vec3 normal);
+void fe__hull_place_planes(fe__hull *hull); // of all, along the normals that are written; and their flatness
+// Then the rest but the measures: what edges repeat of vertices and planes, lanes past the counts
+void fe__hull_finish(const fe__hull *hull);
 
 // The least float that is not below x
 float fe__float_above(double x);

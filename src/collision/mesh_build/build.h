@@ -4,6 +4,7 @@
 //   edges    duplicates found, edges told by what meets there            edges.c
 //   tree     triangles sorted into leaves, and the nodes above           tree.c
 //   layout   groups of vertices, leaves, numbers, measures               layout.c, numbers.c
+//   scale    the same mesh, larger, smaller, or in a mirror               scale.c
 //
 // Memory is had in three pieces, whose sizes are known before each: `room`, which lives until the mesh is written;
 // `scratch`, which is given back before the mesh's block is had; the block. Of 2 million triangles and half as many
@@ -63,23 +64,27 @@ int64_t fe__mesh_block_size(fe__mesh_builder *builder);
 // `block`: so many bytes, zeroed, aligned to 64.
 void fe__mesh_write(fe__mesh_builder *builder, void *block, fe__mesh *out_mesh);
 
+// The same triangles, in the same arrays, under a scale along the axes of the mesh. -1; else the number of a triangle
+// that is too flat under it.
+int32_t fe__mesh_scale(const fe__mesh *mesh, fe_vec3 scale, fe__mesh *out_mesh);
+
 // ---- steps ---------------------------------------------------------------------------------------------------------
 int64_t fe__mesh_weld_size(const fe__mesh_source *source);
 void fe__mesh_weld(fe__mesh_builder *builder);
 int64_t fe__mesh_edges_size(const fe__mesh_source *source);
 void fe__mesh_find_edges(fe__mesh_builder *builder);
+int32_t fe__mesh_is_flat(const fe_dvec3 corner[3]); // no higher than FE__MESH_LEAST_HEIGHT allows
 int64_t fe__mesh_tree_size(const fe__mesh_source *source);
 int32_t fe__mesh_node_room(int32_t triangle_count);
 void fe__mesh_build_tree(fe__mesh_builder *builder);
 // Marks them in `numbers`, a permutation, and writes them by `from`; returns how many. `seen`: count / 8 + 1 bytes
 int32_t fe__mesh_shortcuts(uint32_t *numbers, int32_t count, uint8_t *seen, fe__mesh_shortcut *out);
 
-// ---- what is made alike from bytes (collision/cooked)
-// -----------------------------------------------------------------
+// ---- what is made alike from bytes (collision/cooked) --------------------------------------------------------------
 int64_t fe__mesh_seen_size(int32_t count); // bytes of what fe__mesh_shortcuts needs, and of what it writes at most
 int64_t fe__mesh_shortcuts_size(int32_t count);
-// Points the arrays into a block of so many bytes, which is returned, aligned to 64. The counts are set. NULL: only the
-// size.
+// Points the arrays into a block of so many bytes, which is returned, aligned to 64: they are its own, and so is their
+// scale, 1. The counts are set. NULL: only the size.
 int64_t fe__mesh_share(fe__mesh *mesh, void *block, int32_t has_data, int32_t has_materials);
 
 typedef struct fe__mesh_arrays { // of a mesh that is being made
@@ -102,9 +107,6 @@ static inline fe__mesh_arrays fe__mesh_own_arrays(const fe__mesh *m)
                              (uint8_t *)(uintptr_t)m->edges,
                              (uint8_t *)(uintptr_t)m->materials};
 }
-
-// Is the triangle no higher than FE__MESH_LEAST_HEIGHT allows?
-int32_t fe__mesh_is_flat(const fe_dvec3 corner[3]);
 
 // Frame and boxes of a node, whose count is set, from the bounds of all and of each child
 typedef struct fe__mesh_box {

@@ -171,6 +171,7 @@ int64_t fe__mesh_share(fe__mesh *m, void *block, int32_t has_data, int32_t has_m
     m->data = has_data ? place(&p, 4 * count) : NULL;
     m->edges = place(&p, count);
     m->materials = has_materials ? place(&p, count) : NULL;
+    m->scale[0] = m->scale[1] = m->scale[2] = 1.0;
     m->block = block;
     m->size = p.end;
     return p.end;

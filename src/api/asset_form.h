@@ -1,0 +1,16 @@
+// asset_form.h - geometries with an asset: the form that shapes and queries get, and the scale.
+#ifndef FE_API_ASSET_FORM_H
+#define FE_API_ASSET_FORM_H
+#include "api/check.h"
+
+// Of a geometry that is no hull and no mesh: a scale that counts is refused.
+fe_result fe__check_unscaled(const char *function, const fe_geometry *geometry);
+// The form of a geometry with an asset of `kind`, fe__asset_kind. On FE_OK the record that it has is kept alive until
+// fe__let_go_of_asset: another thread may destroy the asset.
+fe_result fe__read_asset_form(const char *function, fe_store *store, const fe_geometry *geometry, int32_t kind,
+                              fe__form *out_form);
+void fe__let_go_of_asset(fe_store *store, const fe__form *form); // of any form
+// Of a form with an asset; 0, 0, 0 of any other
+fe_vec3 fe__scale_of(const fe_store *store, const fe__form *form);
+
+#endif
