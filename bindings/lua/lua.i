@@ -282,7 +282,8 @@ FE_PUSH_ALL(fe_contact *out_contacts, push_contacts)
 %typemap(argout) (void *out, int64_t capacity) %{ lua_pushlstring(L, $1, (size_t)result); SWIG_arg++; %}
 %typemap(in) (const void *bytes, int64_t size) {
     size_t size = 0;
-    if (lua_type(L, $input) != LUA_TSTRING) fail(L, "feather: $1_name: a string is needed, not a %s", luaL_typename(L, $input));
+    if (lua_type(L, $input) != LUA_TSTRING)
+        fail(L, "feather: $1_name: a string is needed, not a %s", luaL_typename(L, $input));
     $1 = ($1_ltype)lua_tolstring(L, $input, &size);
     $2 = (int64_t)size;
 }

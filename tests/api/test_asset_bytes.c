@@ -9,7 +9,7 @@
 #ifdef FE_SANITIZED
 enum { HULLS = 200, MESHES = 60, FLIPS = 1 };
 #else
-enum { HULLS = 2000, MESHES = 400, FLIPS = 3 };
+enum { HULLS = 2000, MESHES = 400, FLIPS = 2 };
 #endif
 enum { HEADER = 40, VERSION_AT = 8, KIND_AT = 12, FEATURES_AT = 16, MATERIALS_AT = 20, SIZE_AT = 24 };
 
@@ -137,7 +137,7 @@ static void random_meshes_return(void **state)
 static void a_large_mesh_returns(void **state)
 {
     (void)state;
-    enum { CELLS = 250, SAMPLES = CELLS + 1 };
+    enum { CELLS = 150, SAMPLES = CELLS + 1 };
     fe_store *store = new_store(NULL);
     float(*vertices)[3] = calloc(SAMPLES * SAMPLES, sizeof *vertices);
     uint32_t(*triangles)[3] = calloc(2 * CELLS * CELLS, sizeof *triangles);
@@ -335,7 +335,7 @@ static void break_each_seed(breaker *breaking)
 
 static void flip_each(fe_store *store, counting *c, const blob *whole, blob *broken)
 {
-    static const unsigned char masks[3] = {1, 0x80, 0xff};
+    static const unsigned char masks[2] = {1, 0xff};
     for (int64_t at = 0; at < whole->size; ++at) {
         for (int32_t k = 0; k < FLIPS; ++k) {
             broken->bytes[at] ^= masks[k];

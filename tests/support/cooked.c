@@ -196,6 +196,14 @@ static void ask(const using *u)
     }
 }
 
+// The asset once more, in a mirror, where it is met too: none if that would be too thin, or of a heightfield
+static void put_scaled(using *u)
+{
+    fe_geometry scaled = u->geometry;
+    fe_geometry_set_scale(&scaled, -0.75f, 1.25f, 0.9f);
+    put(u, FE_BODY_STATIC, &scaled, at(u, 0.3, 0.2, 0.1));
+}
+
 static void drop_forms(using *u, fe_body *out)
 {
     float s = (float)fmin(fmax(0.15 * fmax(u->half.x, u->half.z), 0.01), 100.0);
@@ -228,6 +236,7 @@ uint64_t cooked_use(fe_store *store, fe_asset asset, int32_t steps)
                           0.5 * (u.bounds.lower.z + u.bounds.upper.z)};
     u.half = (fe_dvec3){0.5 * (u.bounds.upper.x - u.bounds.lower.x), 0.5 * (u.bounds.upper.y - u.bounds.lower.y),
                         0.5 * (u.bounds.upper.z - u.bounds.lower.z)};
+    put_scaled(&u);
     ask(&u);
     drop_forms(&u, bodies);
     for (int32_t i = 0; i < steps; ++i) value_must(fe_world_step(u.world, 1.0f / 60.0f));

@@ -12,8 +12,8 @@ fe_asset cooked_seed(fe_store *store, int32_t which);
 // and a multiple of 8
 void cooked_stamp(unsigned char *bytes, int64_t size);
 
-// A world with the asset: bodies fall on it, or it falls; rays, sweeps, overlaps and nearest points. Every pose and hit
-// stays finite, or the program ends. Returns the world's hash
+// A world with the asset, once as it is and once scaled: bodies fall on it, or it falls; rays, sweeps, overlaps and
+// nearest points. Every pose and hit stays finite, or the program ends. Returns the world's hash
 uint64_t cooked_use(fe_store *store, fe_asset asset, int32_t steps);
 
 #endif

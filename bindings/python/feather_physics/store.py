@@ -116,8 +116,8 @@ class Store:
         return Mesh(self, _flat.mesh_create(self._capsule, (*definition, surfaces, data)))
 
     def load(self, data: Any) -> "Asset":
-        """The heightfield, hull or mesh of which asset.save() made these bytes, several times faster than it was
-        made: cook when a game is built, load when it starts. Bytes from anywhere may be given: what is accepted
+        """The heightfield, hull or mesh of which asset.save() made these bytes, in less time than it was made:
+        cook when a game is built, load when it starts. Bytes from anywhere may be given: what is accepted
         is sound, the rest a DataError or a VersionError that tells what is wrong with it."""
         return self._asset(_flat.asset_load(self._capsule, data))
 
