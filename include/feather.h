@@ -228,9 +228,9 @@ FE_API int32_t fe_asset_get_type(const fe_store *store, fe_asset asset);
 /// @param capacity  bytes; with less than the size nothing is written
 /// @return the size in bytes, or an error
 FE_API int64_t fe_asset_save(const fe_store *store, fe_asset asset, void *out, int64_t capacity);
-/// Makes the asset that fe_asset_save wrote, in less time than it was built. It moves every world as the saved one does,
-/// bit for bit. Bytes from anywhere may be given: each number in them is checked, and what is accepted is sound, even if
-/// nobody saved it. Any thread may load while worlds that use the store step.
+/// Makes the asset that fe_asset_save wrote, in less time than it was built. It moves every world as the saved one
+/// does, bit for bit. Bytes from anywhere may be given: each number in them is checked, and what is accepted is sound,
+/// even if nobody saved it. Any thread may load while worlds that use the store step.
 /// @param bytes  copied; at any alignment
 /// @param size   of them, as fe_asset_save returned it
 /// @return FE_ERROR_DATA for bytes that are cut, altered or of something else, fe_last_error tells what is wrong and at
