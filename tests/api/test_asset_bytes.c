@@ -1,5 +1,7 @@
 // Assets as bytes: what is saved is what is loaded, bit for bit, and moves worlds alike; bytes that are cut, altered or
 // made up are refused with their place, or are sound.
+//
+//     build/tests/api/test_asset_bytes 1000000            that many random hulls
 #include "api/asset_test.h"
 #include "support/cooked.h"
 #include "support/hull_clouds.h"
@@ -11,6 +13,7 @@ enum { HULLS = 200, MESHES = 60, FLIPS = 1 };
 #else
 enum { HULLS = 2000, MESHES = 400, FLIPS = 2 };
 #endif
+static int32_t hulls = HULLS;
 enum { HEADER = 40, VERSION_AT = 8, KIND_AT = 12, FEATURES_AT = 16, MATERIALS_AT = 20, SIZE_AT = 24 };
 
 typedef struct blob {
@@ -71,7 +74,7 @@ static void check_round_trip(fe_store *store, fe_asset asset, int32_t steps)
 static void random_hulls_return(void **state)
 {
     (void)state;
-    for (int32_t i = 0; i < HULLS; ++i) {
+    for (int32_t i = 0; i < hulls; ++i) {
         fe_store *store = new_store(NULL);
         cloud c;
         fe_asset hull;
@@ -557,8 +560,9 @@ static void an_altered_byte_is_told_by_the_hash(void **state)
     OK(fe_store_destroy(store));
 }
 
-int main(void)
+int main(int argument_count, char **arguments)
 {
+    if (argument_count > 1) hulls = atoi(arguments[1]);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_hulls_return),
         cmocka_unit_test(random_meshes_return),
