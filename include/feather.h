@@ -1748,6 +1748,7 @@ static inline void fe_geometry_mesh(fe_geometry *out_geometry, fe_asset mesh)
 /// thinner, or a triangle of a mesh smaller, than fe_hull_create and fe_mesh_create allow.
 static inline void fe_geometry_set_scale(fe_geometry *geometry, float x, float y, float z)
 {
+    if (!geometry) return;
     geometry->scale.x = x;
     geometry->scale.y = y;
     geometry->scale.z = z;
