@@ -7,14 +7,22 @@
 #include "collision/hull_build/measure.h"
 #include "core/ranges.h"
 
-#define ROUNDING 1e-6 // in extents: of planes as floats, see fe__hull.flatness
-// |n|^2 of a unit vector in floats is off by some 2e-7
+// What floats and the builder's grid round, in extents e. A plane's distance is the next float, of 4.4 e at most from
+// the origin: 5.3e-7. A normal is off by 5.2e-8, over 1.8 e; a vertex by half a step of the grid on each axis, 2^-26 e
+#define ROUNDING 1e-6
+// |n|^2 of a unit vector in floats is off by some 1.1e-7
 #define UNIT_SLACK 1e-6
 // A slab of a face is at most a quarter of the tolerance, and a 32nd of the thickness (hull_build/build.c)
 #define FLAT_OF_TOLERANCE 0.25
 #define FLAT_OF_THICKNESS (1.0 / 32.0)
-// Few vertices make a hull thinner than its points, which have the least thickness
-#define THICKNESS_LEFT 0.01
+// Corners that were dropped lay in the slab on either side
+#define WIDTH_LEFT (1.0 - 2.0 * FLAT_OF_THICKNESS)
+// Few vertices make a hull thinner than its points, which have the least thickness d. The tetrahedron that it grew from
+// (hull_build/simplex.c) has a height of d / 2 at least over a base of area A. No point is farther from the base's
+// longest side L than the base's third corner, or farther from its ends than sqrt 3 L: the other sides have 1, 4.2 and
+// 4.2 A at most. So the ball in it has a radius of d / 2 / 10.4, and no width of the hull is less than d / 10.4, of
+// which WIDTH_LEFT and ROUNDING leave 0.08 d
+#define THICKNESS_LEFT (1.0 / 16.0)
 #define PARALLEL 2e-5 // sine: twice that below which the builder takes edges for parallel
 
 // ---- writing -------------------------------------------------------------------------------------------------------
@@ -229,7 +237,7 @@ static int32_t check_sizes(fe__cooked *c, const fe__hull *h, const unsigned char
                                  extent);
     double width = least_width(h), slack = ROUNDING * extent;
     double least = THICKNESS_LEFT * fe__hull_least_thickness(extent);
-    if (width < least || (double)h->thickness > width * (1.0 + 2.0 * FLAT_OF_THICKNESS) + slack)
+    if (width < least || WIDTH_LEFT * (double)h->thickness > width + slack)
         return fe__cooked_refuse(c, measures + 12, "the hull is %.9g m thick, must be at least %.9g and %.9g", width,
                                  least, (double)h->thickness);
     double most = fe__mind(FLAT_OF_TOLERANCE * (double)h->tolerance, FLAT_OF_THICKNESS * (double)h->thickness);
@@ -239,25 +247,26 @@ static int32_t check_sizes(fe__cooked *c, const fe__hull *h, const unsigned char
     return 1;
 }
 
-// How far the face lies to the left of the line past its corner k, m
-static double turn_at(const fe__hull *h, const fe__hull_face *face, int32_t k)
+// How far the face turns to the right at its corner k, m: by as much the corner lies inside of the line past it.
+// Rounding moves each corner, and a tip between two that are near each other is moved by as many times more as its
+// sides are longer than the line
+static double turn_right_at(const fe__hull *h, const fe__hull_face *face, int32_t k)
 {
     const uint8_t *corner = h->corners + face->first;
     fe_dvec3 v[3], n = fe__widen(fe__hull_normal(h, h->edges[face->edge].face));
     for (int32_t i = 0; i < 3; ++i) v[i] = fe__widen(fe__hull_vertex(h, corner[(k + i) % face->count]));
-    fe_dvec3 past = fe__dsub(v[2], v[0]);
-    double square = fe__ddot(past, past);
-    if (square == 0.0) return -(double)INFINITY;
-    return fe__ddot(fe__dcross(fe__dsub(v[1], v[0]), fe__dsub(v[2], v[1])), n) / sqrt(square);
+    fe_dvec3 in = fe__dsub(v[1], v[0]), out = fe__dsub(v[2], v[1]), past = fe__dadd(in, out);
+    double square = fe__ddot(past, past), sides = sqrt(fe__ddot(in, in)) + sqrt(fe__ddot(out, out));
+    if (square == 0.0) return (double)INFINITY;
+    return (-fe__ddot(fe__dcross(in, out), n) - ROUNDING * (double)h->extent * sides) / sqrt(square);
 }
 
 static int32_t check_faces(fe__cooked *c, const fe__hull *h, const unsigned char *normals)
 {
-    double most = fe__mind(FLAT_OF_TOLERANCE * (double)h->tolerance, FLAT_OF_THICKNESS * (double)h->thickness) +
-                  ROUNDING * (double)h->extent;
+    double most = fe__mind(FLAT_OF_TOLERANCE * (double)h->tolerance, FLAT_OF_THICKNESS * (double)h->thickness);
     for (int32_t i = 0; i < h->face_count; ++i)
         for (int32_t k = 0; k < h->faces[i].count; ++k)
-            if (!(turn_at(h, h->faces + i, k) >= -most))
+            if (!(turn_right_at(h, h->faces + i, k) <= most))
                 return fe__cooked_refuse(c, normals + 12 * i, "face %d turns right at its corner %d", (int)i,
                                          (int)((k + 1) % h->faces[i].count));
     return 1;
