@@ -269,6 +269,26 @@ FE_PUSH_ALL(fe_hit_event *out_events, push_hit_events)
 FE_PUSH_ALL(fe_joint_event *out_events, push_joint_events)
 FE_PUSH_ALL(fe_contact *out_contacts, push_contacts)
 
+// bytes of an asset: a string, whose size is asked for first
+%typemap(in, numinputs=0) (void *out, int64_t capacity) "$1 = NULL; $2 = 0;"
+%exception fe_asset_save {
+    $action
+    if (result > 0) {
+        arg3 = lua_newuserdata(L, (size_t)result);
+        arg4 = result;
+        $action
+    }
+    if (result < 0) raise_last(L);
+}
+%typemap(argout) (void *out, int64_t capacity) %{ lua_pushlstring(L, $1, (size_t)result); SWIG_arg++; %}
+%typemap(in) (const void *bytes, int64_t size) {
+    size_t size = 0;
+    if (lua_type(L, $input) != LUA_TSTRING)
+        fail(L, "feather: $1_name: a string is needed, not a %s", luaL_typename(L, $input));
+    $1 = ($1_ltype)lua_tolstring(L, $input, &size);
+    $2 = (int64_t)size;
+}
+
 %typemap(in) const fe_query_filter *filter (fe_query_filter value) "$1 = to_filter(L, $input, &value);"
 %typemap(in) const fe_heightfield_def *def (fe_heightfield_def value) "to_heightfield(L, $input, &value); $1 = &value;"
 %ignore fe_query_filter;

@@ -380,6 +380,36 @@ FE_OUTPUT(int32_t *out_corners, sizeof *$1, "Iil")
     call1.count = length;
 }
 
+// bytes of an asset: written into an object of Python's, whose size is asked for first
+%typemap(in, numinputs=0) (void *out, int64_t capacity) (PyObject *saved = NULL) "$1 = NULL; $2 = 0;"
+%typemap(argout) (void *out, int64_t capacity) %{
+    $result = saved$argnum;
+    saved$argnum = NULL;
+%}
+%typemap(freearg) (void *out, int64_t capacity) "Py_XDECREF(saved$argnum);"
+%typemap(out) int64_t fe_asset_save {
+    if ($1 < 0) {
+        raise_result((int32_t)$1);
+        SWIG_fail;
+    }
+}
+%exception fe_asset_save {
+    $action
+    if (result > 0) {
+        saved3 = PyBytes_FromStringAndSize(NULL, (Py_ssize_t)result);
+        if (!saved3) SWIG_fail;
+        arg3 = PyBytes_AS_STRING(saved3);
+        arg4 = result;
+        $action
+    }
+}
+%typemap(in) (const void *bytes, int64_t size) {
+    const void *array;
+    if (to_input(&call1, $input, 1, "", "$1_name", &array)) SWIG_fail;
+    $1 = ($1_ltype)array;
+    $2 = call1.count;
+}
+
 // read from packed buffers, see records.py
 %ignore fe_ray;
 %ignore fe_path;

@@ -15,29 +15,9 @@
 #define FE_API_CHECK_H
 #include "api/error.h"
 #include "api/fields.h"
+#include "core/ranges.h"
 #include "world/world.h"
 
-// The largest numbers taken. Squares and products of them stay far inside a float, so that no argument can make an
-// infinity.
-#define FE_MAX_POSITION 1e9     // m, each coordinate: a double resolves 0.1 um there
-#define FE_MAX_TRANSLATION 1e10 // m, of a query
-#define FE_MAX_TURN 64.0f       // rad, of a query: ten turns. What a sweep costs grows with them
-#define FE_MAX_LOCAL 1e6f       // m, in a body's frame
-#define FE_MAX_SPEED 1e6f       // m/s, rad/s, m/s2
-#define FE_MAX_FORCE 1e15f      // N, N m, N s, N m s
-#define FE_MAX_VALUE 1e6f       // dampings, hertz, ratios, frictions...
-#define FE_LEAST_VALUE 1e-6f    // of what must be above 0
-#define FE_MAX_DENSITY 1e7f     // kg/m3
-#define FE_LEAST_MASS 1e-9f     // kg
-#define FE_MAX_MASS 1e18f
-#define FE_LEAST_INERTIA 1e-18f // kg m2
-#define FE_MAX_INERTIA 1e30f
-#define FE_LEAST_LENGTH 1e-3f // m, of a form
-#define FE_MAX_LENGTH 1e5f
-#define FE_MAX_DT 1.0f // s
-// s. A float's last digit of a speed of 16 m/s, over so short a time, is 0.1 m/s2, a hundredth of gravity: what
-// impulses over shorter times would tell of forces is rounding
-#define FE_LEAST_DT 1e-5f
 enum { FE_MAX_SUBSTEPS = 64 };
 
 // A step that is too short counts as one of no time

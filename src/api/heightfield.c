@@ -3,8 +3,6 @@
 #include "core/fp_state.h"
 #include "world/asset_users.h"
 
-enum { MOST_LINES = 32768, MOST_SAMPLES = 1 << 28, MOST_MATERIALS = FE__CELL_HOLE };
-
 // ---- birth and death -----------------------------------------------------------------------------------------------
 
 static fe_heightfield_def default_heightfield(void)
@@ -20,9 +18,9 @@ void fe_heightfield_def_init(fe_heightfield_def *def, uint32_t struct_size)
 
 static fe_result check_size(const char *function, const fe_heightfield_def *def)
 {
-    FE_CHECK_INT(def->rows, 2, MOST_LINES);
-    FE_CHECK_INT(def->columns, 2, MOST_LINES);
-    FE_CHECK_INT((int64_t)def->rows * def->columns, 4, MOST_SAMPLES);
+    FE_CHECK_INT(def->rows, 2, FE__FIELD_LINES);
+    FE_CHECK_INT(def->columns, 2, FE__FIELD_LINES);
+    FE_CHECK_INT((int64_t)def->rows * def->columns, 4, FE__FIELD_SAMPLES);
     FE_CHECK_FLOAT(def->cell_x, FE_LEAST_LENGTH, FE_MAX_LENGTH);
     FE_CHECK_FLOAT(def->cell_z, FE_LEAST_LENGTH, FE_MAX_LENGTH);
     FE_CHECK_FLOAT((float)(def->columns - 1) * def->cell_x, 0.0f, FE_MAX_LOCAL);
@@ -60,7 +58,7 @@ static fe_result read_heightfield(const char *function, const fe_heightfield_def
     int64_t cells = (int64_t)(full->rows - 1) * (full->columns - 1);
     FE_TRY(check_cells(function, "holes", full->holes, cells, 1));
     if (!full->cell_materials) return FE_OK;
-    FE_CHECK_INT(full->material_count, 1, MOST_MATERIALS);
+    FE_CHECK_INT(full->material_count, 1, FE__FIELD_MATERIALS);
     FE_CHECK_ARRAY(full->materials, full->material_count);
     FE_CHECK_STRIDE(full->material_stride, sizeof *full->materials, sizeof *full->materials);
     FE_TRY(check_cells(function, "cell_materials", full->cell_materials, cells, full->material_count - 1));

@@ -4,7 +4,6 @@
 #include "store/mesh_asset.h"
 #include "world/asset_users.h"
 
-enum { MOST_TRIANGLES = 1 << 27, MOST_VERTICES = 1 << 28, MOST_MATERIALS = 255 };
 #define LEAST_WELD_DISTANCE 1e-6f // m
 #define MOST_WELD_DISTANCE 1.0f
 #define MOST_EDGE_ANGLE 1.57f // rad: at a right angle all edges of boxes would be lost
@@ -32,10 +31,10 @@ static fe_result check_count(const char *function, const char *name, int32_t cou
 static fe_result check_numbers(const char *function, fe_mesh_def *def)
 {
     FE_CHECK_BITS(def->flags, FE_MESH_TWO_SIDED | FE_MESH_STRICT);
-    FE_TRY(check_count(function, "vertex_count", def->vertex_count, MOST_VERTICES));
-    FE_TRY(check_count(function, "triangle_count", def->triangle_count, MOST_TRIANGLES));
-    FE_CHECK_INT(def->vertex_count, 3, MOST_VERTICES);
-    FE_CHECK_INT(def->triangle_count, 1, MOST_TRIANGLES);
+    FE_TRY(check_count(function, "vertex_count", def->vertex_count, FE__MESH_VERTICES));
+    FE_TRY(check_count(function, "triangle_count", def->triangle_count, FE__MESH_TRIANGLES));
+    FE_CHECK_INT(def->vertex_count, 3, FE__MESH_VERTICES);
+    FE_CHECK_INT(def->triangle_count, 1, FE__MESH_TRIANGLES);
     FE_CHECK_INT(def->index_type, FE_INDEX_U32, FE_INDEX_U16);
     FE_CHECK_INT(def->reserved, 0, 0);
     if (def->weld_distance != 0.0f) FE_CHECK_FLOAT(def->weld_distance, LEAST_WELD_DISTANCE, MOST_WELD_DISTANCE);
@@ -95,7 +94,7 @@ static fe_result check_indices(const char *function, const fe__mesh_source *s)
 static fe_result check_materials(const char *function, fe_mesh_def *def)
 {
     if (!def->triangle_materials) return FE_OK;
-    FE_CHECK_INT(def->material_count, 1, MOST_MATERIALS);
+    FE_CHECK_INT(def->material_count, 1, FE__MESH_MATERIALS);
     FE_CHECK_ARRAY(def->materials, def->material_count);
     FE_CHECK_STRIDE(def->material_stride, sizeof *def->materials, sizeof *def->materials);
     for (int32_t i = 0; i < def->triangle_count; ++i) {

@@ -12,16 +12,23 @@ static size_t ranges_size(const fe__heightfield *f) { return (size_t)f->rows * s
 static size_t materials_size(const fe__asset *a) { return (size_t)a->material_count * sizeof *a->materials; }
 
 // ---- birth ---------------------------------------------------------------------------------------------------------
-static int32_t allocate(fe_store *store, const fe_heightfield_def *def, fe__asset *a)
+int32_t fe__heightfield_allocate(fe_store *store, fe__asset *a, int32_t has_cells)
 {
     fe__heightfield *f = &a->field;
-    int32_t has_cells = def->holes || def->cell_materials;
+    fe__store_lock(store);
     f->heights = fe__asset_allocate(store, a, heights_size(f));
     f->ranges = fe__asset_allocate(store, a, ranges_size(f));
     if (has_cells) f->cells = fe__asset_allocate(store, a, (size_t)cell_count(f));
-    if (a->material_count) a->materials = fe__asset_allocate(store, a, materials_size(a));
-    if (f->heights && f->ranges && (f->cells || !has_cells) && (a->materials || !a->material_count)) return 1;
-    fe__asset_free(store, a);
+    fe__store_unlock(store);
+    return f->heights && f->ranges && (f->cells || !has_cells);
+}
+
+static int32_t allocate(fe_store *store, const fe_heightfield_def *def, fe__asset *a)
+{
+    int32_t is_whole = fe__heightfield_allocate(store, a, def->holes || def->cell_materials);
+    if (a->material_count) a->materials = fe__making_block(store, a, (int64_t)materials_size(a));
+    if (is_whole && (a->materials || !a->material_count)) return 1;
+    fe__making_drop(store, a);
     return 0;
 }
 
@@ -51,21 +58,14 @@ fe_result fe__heightfield_create(fe_store *store, const fe_heightfield_def *def,
                              .cell_x = (double)def->cell_x,
                              .cell_z = (double)def->cell_z},
                    .material_count = def->cell_materials ? def->material_count : 0};
-    fe__store_lock(store);
-    int32_t allocated = allocate(store, def, &a);
-    fe__store_unlock(store);
-    if (!allocated) return FE_ERROR_MEMORY;
+    if (!allocate(store, def, &a)) return FE_ERROR_MEMORY;
 
     memcpy(a.field.heights, def->heights, heights_size(&a.field));
     fe__heightfield_measure(&a.field, 0, a.field.rows);
     fill_cells(&a.field, def);
     fill_materials(&a, def);
 
-    fe__store_lock(store);
-    fe_result result = fe__store_put(store, &a, out_handle);
-    if (result != FE_OK) fe__asset_free(store, &a);
-    fe__store_unlock(store);
-    return result;
+    return fe__making_put(store, &a, out_handle);
 }
 
 // ---- samples -------------------------------------------------------------------------------------------------------

@@ -7,6 +7,10 @@
 // FE_ERROR_LIMIT: nothing changed.
 fe_result fe__heightfield_create(fe_store *store, const fe_heightfield_def *def, fe_asset *out_handle);
 
+// The arrays of a heightfield that is being made: its rows and columns are set. 0: no memory; the asset has what there
+// was.
+int32_t fe__heightfield_allocate(fe_store *store, fe__asset *asset, int32_t has_cells);
+
 // A rectangle of samples. Under the lock; to write them, every world that uses the asset was entered.
 typedef struct fe__samples {
     int32_t row, column, rows, columns;

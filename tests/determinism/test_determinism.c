@@ -188,9 +188,9 @@ static int update(void)
 {
     FILE *file = fopen(GOLDEN, "w");
     if (!file) return 1;
-    const script *const scripts[] = {&script_crowd,  &script_mixed, &script_terrain, &script_fast,
-                                     &script_joints, &script_spawn, &script_solids,  &script_meshes,
-                                     &script_scales, &script_turns, &script_people,  &script_cloth};
+    const script *const scripts[] = {&script_crowd, &script_mixed,  &script_terrain, &script_fast,   &script_joints,
+                                     &script_spawn, &script_solids, &script_meshes,  &script_cooked, &script_scales,
+                                     &script_turns, &script_people, &script_cloth};
     for (size_t i = 0; i < sizeof scripts / sizeof *scripts; ++i) {
         fe_world *world = new_world(FE_SIMD_PLAIN, 1);
         play_print(file, scripts[i], world, scripts[i]->steps);
@@ -212,6 +212,7 @@ int main(int count, char **arguments)
         GOLDEN_TEST(spawn, "plain", FE_SIMD_PLAIN),
         GOLDEN_TEST(solids, "plain", FE_SIMD_PLAIN),
         GOLDEN_TEST(meshes, "plain", FE_SIMD_PLAIN),
+        GOLDEN_TEST(cooked, "plain", FE_SIMD_PLAIN),
         GOLDEN_TEST(scales, "plain", FE_SIMD_PLAIN),
         GOLDEN_TEST(turns, "plain", FE_SIMD_PLAIN),
 #if defined(__x86_64__)
@@ -230,16 +231,19 @@ int main(int count, char **arguments)
         GOLDEN_TEST(spawn, "sse2", FE_SIMD_SSE2),
         GOLDEN_TEST(solids, "sse2", FE_SIMD_SSE2),
         GOLDEN_TEST(meshes, "sse2", FE_SIMD_SSE2),
+        GOLDEN_TEST(cooked, "sse2", FE_SIMD_SSE2),
         GOLDEN_TEST(scales, "sse2", FE_SIMD_SSE2),
         GOLDEN_TEST(turns, "sse2", FE_SIMD_SSE2),
         GOLDEN_TEST(spawn, "avx2", FE_SIMD_AVX2),
         GOLDEN_TEST(solids, "avx2", FE_SIMD_AVX2),
         GOLDEN_TEST(meshes, "avx2", FE_SIMD_AVX2),
+        GOLDEN_TEST(cooked, "avx2", FE_SIMD_AVX2),
         GOLDEN_TEST(scales, "avx2", FE_SIMD_AVX2),
         GOLDEN_TEST(turns, "avx2", FE_SIMD_AVX2),
         GOLDEN_TEST(spawn, "avx512", FE_SIMD_AVX512),
         GOLDEN_TEST(solids, "avx512", FE_SIMD_AVX512),
         GOLDEN_TEST(meshes, "avx512", FE_SIMD_AVX512),
+        GOLDEN_TEST(cooked, "avx512", FE_SIMD_AVX512),
         GOLDEN_TEST(scales, "avx512", FE_SIMD_AVX512),
         GOLDEN_TEST(turns, "avx512", FE_SIMD_AVX512),
         GOLDEN_TEST(mixed, "sse2", FE_SIMD_SSE2),
@@ -254,6 +258,7 @@ int main(int count, char **arguments)
         GOLDEN_TEST(spawn, "neon", FE_SIMD_NEON),
         GOLDEN_TEST(solids, "neon", FE_SIMD_NEON),
         GOLDEN_TEST(meshes, "neon", FE_SIMD_NEON),
+        GOLDEN_TEST(cooked, "neon", FE_SIMD_NEON),
         GOLDEN_TEST(scales, "neon", FE_SIMD_NEON),
         GOLDEN_TEST(turns, "neon", FE_SIMD_NEON),
 #endif

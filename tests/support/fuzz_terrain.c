@@ -71,6 +71,24 @@ static fe_result create_mesh(fuzz *f)
     return result;
 }
 
+// saved and loaded, at times with a byte that is another or missing, or with too little room
+static fe_result cook(fuzz *f)
+{
+    enum { ROOM = 1 << 13 };
+    unsigned char bytes[ROOM];
+    fe_store *store = world_store(f->world);
+    uint8_t which = fuzz_byte(f);
+    fe_asset asset = fuzz_asset(f);
+    int64_t size = fe_asset_save(store, asset, bytes, which == 1 ? fuzz_byte(f) : ROOM);
+    if (size < 0) return (fe_result)size;
+    if (size > ROOM || which == 1) return FE_OK;
+    if (which % 4 == 2) bytes[(fuzz_byte(f) << 8 | fuzz_byte(f)) % size] ^= fuzz_byte(f);
+    fe_result result = fe_asset_load(store, bytes, which == 3 ? fuzz_byte(f) : size, next_asset(f));
+    if (result == FE_OK) ++f->asset_count;
+    fe__hash_u64(&f->told, (uint64_t)fe_asset_get_type(store, asset));
+    return result;
+}
+
 // mostly one that a game could have, under the bodies of fuzz_calls.c's create_whole
 int32_t fuzz_create_field(fuzz *f)
 {
@@ -98,6 +116,7 @@ int32_t fuzz_create_field(fuzz *f)
     if (which & 32) d->cell_materials = kinds, d->materials = materials, d->material_count = which == 33 ? 0 : 2;
     if (fe_asset_is_valid(world_store(f->world), *next_asset(f)))
         return fe_asset_destroy(world_store(f->world), *next_asset(f));
+    if (which > 192) return cook(f);
     if (which & 64) return which & 8 ? create_mesh(f) : create_hull(f);
     fe_result result = fe_heightfield_create(world_store(f->world), d, next_asset(f));
     if (result == FE_OK) ++f->asset_count;

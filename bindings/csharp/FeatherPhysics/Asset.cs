@@ -27,6 +27,23 @@ namespace FeatherPhysics
             try { Native.asset_destroy(Enter(kind, ref held), Id); }
             finally { Leave(held); }
         }
+        internal byte[] Save(string kind)
+        {
+            bool held = false;
+            try
+            {
+                void* store = Enter(kind, ref held);
+                byte[] bytes = new byte[Checked(Native.asset_save(store, Id, null, 0))];
+                fixed (byte* start = bytes) Checked(Native.asset_save(store, Id, start, bytes.Length));
+                return bytes;
+            }
+            finally { Leave(held); }
+        }
+        static long Checked(long size)
+        {
+            if (size < 0) FeatherException.Throw((int)size);
+            return size;
+        }
         internal void* Enter(string kind, ref bool held)
         {
             if (Store == null) throw new StaleHandleException(kind + ": a default value, of no store");

@@ -38,6 +38,15 @@ namespace FeatherPhysics
             }
             finally { Leave(held); }
         }
+
+        /// <summary>
+        /// The hull of which Save() made the bytes. Bytes from anywhere may be given:
+        /// BadDataException, NewerVersionException for what is not sound, WrongKindException for another asset's.
+        /// </summary>
+        public ConvexHull LoadHull(ReadOnlySpan<byte> bytes)
+        {
+            return new ConvexHull(this, Load(bytes, GeometryType.Hull, "Store.LoadHull"));
+        }
     }
 
     /// <summary>A convex hull that shapes of many worlds may share. A value that keeps its store alive.</summary>
@@ -53,6 +62,8 @@ namespace FeatherPhysics
         public bool IsValid { get { return asset.IsAlive; } }
         /// <summary>The handle dies at once. The hull lives until the last shape that has it is gone.</summary>
         public void Destroy() { asset.Destroy("ConvexHull"); }
+        /// <summary>As bytes, the same on every machine, for <see cref="Store.LoadHull"/>.</summary>
+        public byte[] Save() { return asset.Save("ConvexHull"); }
 
         /// <summary>Volume, centre, inertia, bounds, how many vertices and faces.</summary>
         public HullInfo Info

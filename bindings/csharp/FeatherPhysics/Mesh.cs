@@ -67,6 +67,15 @@ namespace FeatherPhysics
             }
             finally { Leave(held); }
         }
+
+        /// <summary>
+        /// The mesh of which Save() made the bytes. Bytes from anywhere may be given:
+        /// BadDataException, NewerVersionException for what is not sound, WrongKindException for another asset's.
+        /// </summary>
+        public TriangleMesh LoadMesh(ReadOnlySpan<byte> bytes)
+        {
+            return new TriangleMesh(this, Load(bytes, GeometryType.Mesh, "Store.LoadMesh"));
+        }
     }
 
     /// <summary>What a mesh is made of, see <see cref="Store.CreateMesh(MeshDef)"/>.</summary>
@@ -104,6 +113,8 @@ namespace FeatherPhysics
         public bool IsValid { get { return asset.IsAlive; } }
         /// <summary>The handle dies at once. The mesh lives until the last shape that has it is gone.</summary>
         public void Destroy() { asset.Destroy("TriangleMesh"); }
+        /// <summary>As bytes, the same on every machine, for <see cref="Store.LoadMesh"/>.</summary>
+        public byte[] Save() { return asset.Save("TriangleMesh"); }
 
         /// <summary>Area, volume, bounds, how many triangles, and what was wrong with them.</summary>
         public MeshInfo Info

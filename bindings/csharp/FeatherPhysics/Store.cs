@@ -125,6 +125,32 @@ namespace FeatherPhysics
             }
             finally { Leave(held); }
         }
+
+        /// <summary>
+        /// The heightfield of which Save() made the bytes. Bytes from anywhere may be given:
+        /// BadDataException, NewerVersionException for what is not sound, WrongKindException for another asset's.
+        /// </summary>
+        public Heightfield LoadHeightfield(ReadOnlySpan<byte> bytes)
+        {
+            return new Heightfield(this, Load(bytes, GeometryType.Heightfield, "Store.LoadHeightfield"));
+        }
+        internal ulong Load(ReadOnlySpan<byte> bytes, GeometryType type, string where)
+        {
+            bool held = false;
+            try
+            {
+                void* store = Enter(ref held);
+                ulong made;
+                // an empty span has no start, and the library takes none
+                byte none = 0;
+                fixed (byte* start = &MemoryMarshal.GetReference(bytes))
+                    Native.asset_load(store, start == null ? &none : start, bytes.Length, &made);
+                if ((GeometryType)Native.asset_get_type(store, made) == type) return made;
+                Native.asset_destroy(store, made);
+                throw new WrongKindException(where + ": the bytes are those of another kind of asset");
+            }
+            finally { Leave(held); }
+        }
     }
 
     /// <summary>
@@ -159,6 +185,8 @@ namespace FeatherPhysics
         public bool IsValid { get { return asset.IsAlive; } }
         /// <summary>The handle dies at once. Its heights live until the last shape that has them is gone.</summary>
         public void Destroy() { asset.Destroy("Heightfield"); }
+        /// <summary>As bytes, the same on every machine, for <see cref="Store.LoadHeightfield"/>.</summary>
+        public byte[] Save() { return asset.Save("Heightfield"); }
         /// <summary>
         /// Changes the samples of a rectangle. Bodies near it wake in every world. WorldSteppingException while a world
         /// that uses it steps.

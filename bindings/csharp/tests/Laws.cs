@@ -476,6 +476,37 @@ namespace FeatherPhysics.Tests
             }
         }
 
+        static bool Equal(byte[] a, byte[] b) { return a.AsSpan().SequenceEqual(b); }
+
+        public static void Saved_assets_return()
+        {
+            using (World world = new World())
+            using (Store store = new Store())
+            {
+                Vector3[] corners = { new Vector3(-4, 0, -4), new Vector3(4, 0, -4), new Vector3(-4, 0, 4) };
+                ConvexHull hull = world.CreateHull(Cube);
+                TriangleMesh mesh = world.CreateMesh(corners, new[] { 0, 2, 1 });
+                Heightfield field = world.Store.CreateHeightfield(new HeightfieldDef { Rows = 2, Columns = 2,
+                    Heights = new float[] { 0, 1, 2, 3 } });
+                byte[] saved = hull.Save();
+                ConvexHull loaded = store.LoadHull(saved);
+                Check.True(loaded.Store == store && Equal(loaded.Save(), saved), "a hull");
+                Check.True(Equal(store.LoadMesh(mesh.Save()).Save(), mesh.Save()), "a mesh");
+                Check.True(Equal(store.LoadHeightfield(field.Save()).Save(), field.Save()), "a heightfield");
+                long before = store.Bytes;
+                Check.Throws<WrongKindException>(() => store.LoadMesh(saved), "another kind");
+                Check.Throws<BadDataException>(() => store.LoadHull(new byte[0]), "at byte 0");
+                Check.Throws<BadDataException>(() => store.LoadHull(null), "at byte 0");
+                Check.Throws<BadDataException>(() => store.LoadHull(saved.AsSpan(0, saved.Length - 8)), "wrote");
+                saved[60] ^= 1;
+                Check.Throws<BadDataException>(() => store.LoadHull(saved), "hash");
+                Check.Same(store.Bytes, before, "nothing is left");
+                hull.Destroy();
+                Check.Throws<StaleHandleException>(() => hull.Save(), "asset");
+                Check.Throws<StaleHandleException>(() => default(ConvexHull).Save(), "ConvexHull");
+            }
+        }
+
         public static void Worlds_share_a_store()
         {
             Store store = new Store(new StoreDef { Number = 77 });

@@ -85,6 +85,7 @@ core.to_u64, core.from_u64 = env.to_u64, env.from_u64
 -- what the C module has otherwise, or not at all
 local ABSENT = {
     fe_body_create_many = true, fe_last_error = true, fe_result_name = true, fe_world_set_pair_filter = true,
+    fe_asset_save = true, fe_asset_load = true,
 }
 local prototypes = header:gsub("%s+", " "):gsub("typedef [%w_]+ [%w_]+ %b{} [%w_]+;", "")
 for result, name, parameters in prototypes:gmatch("([%w_]+) (fe_[%w_]+)(%b());") do
@@ -155,6 +156,26 @@ for name, type in pairs({
     end
 end
 function core.geometry_set_scale(made, x, y, z) env.put_vec3(made.scale, { x, y, z }, 0) end
+
+-- ---- bytes of assets: strings --------------------------------------------------------------------------------------
+
+-- Its size too, as the C module has it.
+function core.asset_save(store, asset)
+    local pointer, id = env.store(store), env.integer(asset, 0, 2 ^ 53, "asset")
+    local size = tonumber(C.fe_asset_save(pointer, id, nil, 0))
+    if size < 0 then env.check(size) end
+    local bytes = ffi.new("char[?]", size)
+    size = tonumber(C.fe_asset_save(pointer, id, bytes, size))
+    if size < 0 then env.check(size) end
+    return size, ffi.string(bytes, size)
+end
+local loaded = ffi.new("fe_asset[1]")
+function core.asset_load(store, bytes)
+    local pointer = env.store(store)
+    if type(bytes) ~= "string" then fail("bytes: a string is needed, not a %s", type(bytes)) end
+    env.check(tonumber(C.fe_asset_load(pointer, bytes, #bytes, loaded)))
+    return tonumber(loaded[0])
+end
 
 -- ---- the pair filter ------------------------------------------------------------------------------------------------
 

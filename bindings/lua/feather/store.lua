@@ -51,7 +51,20 @@ for _, class in ipairs({ Heightfield, Hull, Mesh }) do
     function class:destroy() core.asset_destroy(self.native, self.id) end
     function class:isDestroyed() return self.store:isDestroyed() or core.asset_is_valid(self.native, self.id) == 0 end
     function class:getStore() return self.store end
+    -- a string for Store:load, the same on every machine
+    function class:save() return (select(2, core.asset_save(self.native, self.id))) end
 end
+
+local CLASSES = {
+    [tonumber(core.geometry_heightfield(0).type)] = Heightfield, [tonumber(core.geometry_hull(0).type)] = Hull,
+    [tonumber(core.geometry_mesh(0).type)] = Mesh,
+}
+-- The heightfield, hull or mesh of which save() made the string. Any string may be given: it is sound, or an error.
+function Store:load(bytes)
+    local id = core.asset_load(self.native, bytes)
+    return shared.asset_of(self, CLASSES[core.asset_get_type(self.native, id)], id)
+end
+function World:load(bytes) return self:getStore():load(bytes) end
 
 local function numbers_of_materials(materials)
     if materials == nil then return nil end

@@ -262,6 +262,29 @@ function TestPhysics.testMesh()
     lu.assertTrue(mesh:isDestroyed())
 end
 
+function TestPhysics.testSavedAssets()
+    local world, store = feather.newWorld(), feather.newStore()
+    local vertices = { -4, 0, -4, 4, 0, -4, -4, 0, 4, 4, 0, 4 }
+    local hull = world:newHull({ points = CUBE })
+    for _, asset in ipairs({ hull, world:newMesh({ vertices = vertices, triangles = { 0, 2, 3, 0, 3, 1 } }),
+        world:newHeightfield({ rows = 2, columns = 2, heights = { 0, 1, 2, 3 } }) }) do
+        local saved = asset:save()
+        local loaded = store:load(saved)
+        lu.assertEquals(loaded:save(), saved)
+        lu.assertIs(getmetatable(loaded), getmetatable(asset))
+        lu.assertIs(loaded:getStore(), store)
+        fails("at byte", store.load, store, "")
+        fails("at byte", store.load, store, saved:sub(1, -9))
+        fails("hash", store.load, store, saved:sub(1, -2) .. "\1")
+    end
+    local body = world:newBody({ position = { 0, 2, 0 } })
+    lu.assertEquals(body:newHull(world:load(hull:save())):getForm()[1], "hull")
+    fails("a string is needed", store.load, store, 5)
+    fails("a string is needed", store.load, store)
+    hull:destroy()
+    fails("destroyed", hull.save, hull)
+end
+
 function TestPhysics.testHeightfield()
     local world = feather.newWorld()
     local field = world:newHeightfield({ rows = 2, columns = 3, heights = { 0, 0, 0, 0, 0, 0 }, holes = { 1, 0 }, materials = { { friction = 1, userId = 5 } },

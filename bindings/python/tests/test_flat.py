@@ -20,11 +20,14 @@ ELSEWHERE = {
 }
 # arrays: a buffer goes in, though the name begins with out_
 BUFFERS = re.compile(r"out_(bodies|shapes|joints|transforms|hits|overlaps|events|contacts|floats|heights|vertices|faces|corners)$")
+BYTES = ("fe_asset_save", "fe_asset_load")  # an object with the bytes goes in, or comes out
 FOUND_FROM_BUFFERS = ("stride", "ray_stride", "path_stride", "count", "capacity", "struct_size", "user")
 
 
 def python_arguments(function: Function) -> int:
     count = 0
+    if function.name in BYTES:
+        return 2
     for parameter in function.parameters:
         if parameter.name in FOUND_FROM_BUFFERS:
             continue

@@ -14,6 +14,7 @@ from feather_physics import (
     Capsule,
     Cone,
     Cylinder,
+    DataError,
     DegenerateError,
     FeatherError,
     Filter,
@@ -35,6 +36,7 @@ from feather_physics import (
     Store,
     UnsupportedError,
     Vec3,
+    VersionError,
     World,
 )
 
@@ -332,6 +334,34 @@ def test_hull(world: World) -> None:
     assert not hull.is_valid
     with pytest.raises(StaleHandleError):
         hull.info
+
+
+def test_saved_assets(world: World) -> None:
+    vertices = [(-4, 0, -4), (4, 0, -4), (-4, 0, 4), (4, 0, 4)]
+    mesh = world.create_mesh(vertices, [(0, 2, 3), (0, 3, 1)], triangle_data=[7, 8])
+    field = world.store.create_heightfield([[0, 1], [2, 3]])
+    hull = world.create_hull(CUBE)
+    with Store() as store:
+        for asset, kind in ((hull, Hull), (mesh, Mesh), (field, Heightfield)):
+            saved = asset.save()
+            loaded = store.load(saved)
+            assert type(saved) is bytes and type(loaded) is kind and loaded.store is store and loaded.save() == saved
+            assert store.load(memoryview(bytearray(saved))).save() == saved
+            assert store.load(np.frombuffer(saved, dtype=np.uint8)).save() == saved
+            before = store.bytes
+            for wrong in (b"", saved[:-8], bytes(len(saved)), saved[:50] + bytes([saved[50] ^ 1]) + saved[51:]):
+                with pytest.raises(DataError, match="at byte"):
+                    store.load(wrong)
+            with pytest.raises(VersionError, match="newer"):
+                store.load(saved[:8] + bytes([2]) + saved[9:])
+            assert store.bytes == before
+        assert store.load(mesh.save()).triangle(1).data == 8  # type: ignore[union-attr, attr-defined]
+        for wrong in ("bytes", 5, None):  # type: ignore[assignment]
+            with pytest.raises(TypeError):
+                store.load(wrong)
+    hull.destroy()
+    with pytest.raises(StaleHandleError):
+        hull.save()
 
 
 def test_scaled(world: World) -> None:

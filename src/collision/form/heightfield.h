@@ -14,7 +14,12 @@
 #define FE_COLLISION_FORM_HEIGHTFIELD_H
 #include "collision/form/ray_hit.h"
 
-enum { FE__CELL_HOLE = 255 }; // in fe__heightfield.cells; else the index of a material
+enum {
+    FE__CELL_HOLE = 255,         // in fe__heightfield.cells; else the index of a material
+    FE__FIELD_LINES = 32768,     // rows, or columns, at most
+    FE__FIELD_SAMPLES = 1 << 28, // likewise
+    FE__FIELD_MATERIALS = FE__CELL_HOLE
+};
 
 typedef struct fe__heightfield {
     int32_t rows, columns; // of samples, >= 2

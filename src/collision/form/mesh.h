@@ -21,6 +21,9 @@
 #include "collision/form/form.h"
 
 enum {
+    FE__MESH_TRIANGLES = 1 << 27, // of a definition, at most
+    FE__MESH_VERTICES = 1 << 28,  // likewise
+    FE__MESH_MATERIALS = 255,
     FE__MESH_WIDTH = 8,            // children of a node
     FE__MESH_LEAF = 4,             // triangles of a leaf
     FE__MESH_GROUP = 256,          // vertices of a group: what a byte names

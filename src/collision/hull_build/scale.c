@@ -43,7 +43,7 @@ int64_t fe__hull_scaled_size(const fe__hull *hull, fe_vec3 scale)
     fe_dvec3 direction[FE__HULL_DIRECTIONS];
     fe__hull h;
     set_counts(hull, find_directions(hull, scale, direction), &h);
-    return fe__hull_take_arrays(&h, NULL);
+    return fe__hull_share(&h, NULL);
 }
 
 // ---- topology ------------------------------------------------------------------------------------------------------
@@ -69,8 +69,8 @@ static void turn_round(const fe__hull *from, fe__hull_edge *edges, fe__hull_face
 static void write_topology(const fe__hull *from, int32_t is_mirrored, const fe__hull *h)
 {
     fe__hull_edge *edges = (fe__hull_edge *)(uintptr_t)h->edges;
-    fe__hull_face *faces = (fe__hull_face *)(uintptr_t)h->faces;
-    uint8_t *corners = (uint8_t *)(uintptr_t)h->corners;
+    fe__hull_face *faces = fe__hull_own_faces(h);
+    uint8_t *corners = fe__hull_own_corners(h);
     memcpy(edges, from->edges, sizeof *edges * 2 * (size_t)from->edge_count);
     memcpy(faces, from->faces, sizeof *faces * (size_t)from->face_count);
     memcpy(corners, from->corners, 2 * (size_t)from->edge_count);
@@ -150,11 +150,12 @@ int32_t fe__hull_write_scaled(const fe__hull *hull, fe_vec3 scale, void *block, 
     fe_dvec3 direction[FE__HULL_DIRECTIONS];
     memset(h, 0, sizeof *h);
     set_counts(hull, find_directions(hull, scale, direction), h);
-    fe__hull_take_arrays(h, block);
+    fe__hull_share(h, block);
     write_topology(hull, scale.x * scale.y * scale.z < 0.0f, h);
     write_vertices(hull, scale, h);
     write_planes(hull, scale, h);
-    fe__hull_finish(h, direction);
+    for (int32_t i = 0; i < h->direction_count; ++i) fe__hull_set_lane(&h->directions, i, fe__narrow(direction[i]));
+    fe__hull_finish(h);
     float longest = fe__maxf(fe__absf(scale.x), fe__maxf(fe__absf(scale.y), fe__absf(scale.z)));
     h->tolerance = longest * hull->tolerance;
     h->error = longest * hull->error;

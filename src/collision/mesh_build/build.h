@@ -73,12 +73,69 @@ int64_t fe__mesh_weld_size(const fe__mesh_source *source);
 void fe__mesh_weld(fe__mesh_builder *builder);
 int64_t fe__mesh_edges_size(const fe__mesh_source *source);
 void fe__mesh_find_edges(fe__mesh_builder *builder);
-int32_t fe__mesh_is_flat(const fe_dvec3 corner[3]); // no higher than it must be
+int32_t fe__mesh_is_flat(const fe_dvec3 corner[3]); // no higher than FE__MESH_LEAST_HEIGHT allows
 int64_t fe__mesh_tree_size(const fe__mesh_source *source);
 int32_t fe__mesh_node_room(int32_t triangle_count);
 void fe__mesh_build_tree(fe__mesh_builder *builder);
 // Marks them in `numbers`, a permutation, and writes them by `from`; returns how many. `seen`: count / 8 + 1 bytes
 int32_t fe__mesh_shortcuts(uint32_t *numbers, int32_t count, uint8_t *seen, fe__mesh_shortcut *out);
+
+// ---- what is made alike from bytes (collision/cooked) --------------------------------------------------------------
+int64_t fe__mesh_seen_size(int32_t count); // bytes of what fe__mesh_shortcuts needs, and of what it writes at most
+int64_t fe__mesh_shortcuts_size(int32_t count);
+// Points the arrays into a block of so many bytes, which is returned, aligned to 64: they are its own, and so is their
+// scale, 1. The counts are set. NULL: only the size.
+int64_t fe__mesh_share(fe__mesh *mesh, void *block, int32_t has_data, int32_t has_materials);
+
+typedef struct fe__mesh_arrays { // of a mesh that is being made
+    float *vertices;
+    fe__mesh_leaf *leaves;
+    fe__mesh_node *nodes;
+    uint32_t *numbers;
+    fe__mesh_shortcut *shortcuts;
+    uint32_t *data;
+    uint8_t *edges, *materials;
+} fe__mesh_arrays;
+static inline fe__mesh_arrays fe__mesh_own_arrays(const fe__mesh *m)
+{
+    return (fe__mesh_arrays){(float *)(uintptr_t)m->vertices,
+                             (fe__mesh_leaf *)(uintptr_t)m->leaves,
+                             (fe__mesh_node *)(uintptr_t)m->nodes,
+                             (uint32_t *)(uintptr_t)m->numbers,
+                             (fe__mesh_shortcut *)(uintptr_t)m->shortcuts,
+                             (uint32_t *)(uintptr_t)m->data,
+                             (uint8_t *)(uintptr_t)m->edges,
+                             (uint8_t *)(uintptr_t)m->materials};
+}
+
+// Frame and boxes of a node, whose count is set, from the bounds of all and of each child
+typedef struct fe__mesh_box {
+    float low[3], high[3];
+} fe__mesh_box;
+void fe__mesh_set_boxes(fe__mesh_node *node, const fe__mesh_box *whole, const fe__mesh_box *children);
+
+// Area and volume: triangles are added in the caller's order, tetrahedra from the middle of the bounds
+typedef struct fe__mesh_measures {
+    fe_dvec3 middle;
+    double area, volume;
+} fe__mesh_measures;
+static inline fe__mesh_measures fe__mesh_measures_begin(const fe__mesh *m)
+{
+    return (fe__mesh_measures){fe__dscale(0.5, fe__dadd(fe__widen(m->low), fe__widen(m->high))), 0.0, 0.0};
+}
+static inline void fe__mesh_measures_add(fe__mesh_measures *sum, const fe_vec3 corner[3])
+{
+    fe_dvec3 v[3];
+    for (int32_t k = 0; k < 3; ++k) v[k] = fe__dsub(fe__widen(corner[k]), sum->middle);
+    fe_dvec3 n = fe__dcross(fe__dsub(v[1], v[0]), fe__dsub(v[2], v[0]));
+    sum->area += 0.5 * sqrt(fe__ddot(n, n));
+    sum->volume += fe__ddot(v[0], n) / 6.0;
+}
+static inline void fe__mesh_measures_end(const fe__mesh_measures *sum, fe__mesh *m)
+{
+    m->area = sum->area;
+    m->volume = m->open_count + m->odd_count + m->flipped_count == 0 ? sum->volume : 0.0;
+}
 
 // ---- reading the definition ----------------------------------------------------------------------------------------
 static inline uint32_t fe__mesh_source_index(const fe__mesh_source *s, int32_t triangle, int32_t corner)

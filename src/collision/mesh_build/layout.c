@@ -11,19 +11,19 @@ enum { PLACE_BITS = 8, NO_GROUP = 0 }; // fe__mesh_builder.place: group << 8 | w
 
 static int64_t words(int64_t count) { return padded(count * (int64_t)sizeof(uint32_t)); }
 
-static int64_t seen_size(const fe__mesh_source *s) { return padded(s->triangle_count / 8 + 1); }
+int64_t fe__mesh_seen_size(int32_t count) { return padded((int64_t)count / 8 + 1); }
 
 // Two in a cycle of FE__MESH_SHORTCUT + 1, one more for each further FE__MESH_SHORTCUT
-static int64_t shortcut_size(const fe__mesh_source *s)
+int64_t fe__mesh_shortcuts_size(int32_t count)
 {
-    return padded((int64_t)sizeof(fe__mesh_shortcut) * (2 * (int64_t)s->triangle_count / (FE__MESH_SHORTCUT + 1) + 1));
+    return padded((int64_t)sizeof(fe__mesh_shortcut) * (2 * (int64_t)count / (FE__MESH_SHORTCUT + 1) + 1));
 }
 
 int64_t fe__mesh_room_size(const fe__mesh_source *s)
 {
     return padded(sizeof(fe__mesh_builder)) + 2 * words(s->vertex_count) + words(s->triangle_count) +
            padded((int64_t)sizeof(fe__mesh_node) * fe__mesh_node_room(s->triangle_count)) + padded(s->triangle_count) +
-           seen_size(s) + shortcut_size(s);
+           fe__mesh_seen_size(s->triangle_count) + fe__mesh_shortcuts_size(s->triangle_count);
 }
 
 static void *take(unsigned char **at, int64_t size)
@@ -43,8 +43,8 @@ static void share_room(fe__mesh_builder *b, const fe__mesh_source *s)
     b->node_room = fe__mesh_node_room(s->triangle_count);
     b->nodes = take(&at, (int64_t)sizeof *b->nodes * b->node_room);
     b->edges = take(&at, s->triangle_count);
-    b->seen = take(&at, seen_size(s));
-    b->shortcuts = take(&at, shortcut_size(s));
+    b->seen = take(&at, fe__mesh_seen_size(s->triangle_count));
+    b->shortcuts = take(&at, fe__mesh_shortcuts_size(s->triangle_count));
 }
 
 int64_t fe__mesh_scratch_size(const fe__mesh_source *s)
@@ -53,24 +53,16 @@ int64_t fe__mesh_scratch_size(const fe__mesh_source *s)
 }
 
 // ---- measures ------------------------------------------------------------------------------------------------------
-// Tetrahedra from the middle of the bounds; in the caller's order
 static void measure(fe__mesh_builder *b)
 {
-    fe__mesh *m = &b->mesh;
-    fe_dvec3 middle = fe__dscale(0.5, fe__dadd(fe__widen(m->low), fe__widen(m->high)));
-    double area = 0.0, volume = 0.0;
+    fe__mesh_measures sum = fe__mesh_measures_begin(&b->mesh);
     for (int32_t i = 0; i < b->source->triangle_count; ++i) {
         if (b->edges[i] == FE__MESH_DROPPED) continue;
         fe_vec3 corner[3];
-        fe_dvec3 v[3];
         fe__mesh_welded_corners(b, i, corner);
-        for (int32_t k = 0; k < 3; ++k) v[k] = fe__dsub(fe__widen(corner[k]), middle);
-        fe_dvec3 n = fe__dcross(fe__dsub(v[1], v[0]), fe__dsub(v[2], v[0]));
-        area += 0.5 * sqrt(fe__ddot(n, n));
-        volume += fe__ddot(v[0], n) / 6.0;
+        fe__mesh_measures_add(&sum, corner);
     }
-    m->area = area;
-    m->volume = m->open_count + m->odd_count + m->flipped_count == 0 ? volume : 0.0;
+    fe__mesh_measures_end(&sum, &b->mesh);
 }
 
 int32_t fe__mesh_build(fe__mesh_builder *b, void *scratch, const fe__mesh_source *source)
@@ -81,7 +73,6 @@ int32_t fe__mesh_build(fe__mesh_builder *b, void *scratch, const fe__mesh_source
     b->refusal.triangle = -1;
     b->mesh.given_count = source->triangle_count;
     b->mesh.is_two_sided = source->is_two_sided;
-    b->mesh.scale[0] = b->mesh.scale[1] = b->mesh.scale[2] = 1.0;
     fe__mesh_weld(b);
     fe__mesh_find_edges(b);
     if (b->mesh.triangle_count == 0) b->refusal.triangle = -1;
@@ -156,76 +147,68 @@ static int32_t make_groups(fe__mesh_builder *b, float *vertices, fe__mesh_leaf *
 
 // ---- the block -----------------------------------------------------------------------------------------------------
 typedef struct places {
-    int64_t vertices, leaves, nodes, numbers, shortcuts, data, edges, materials, size;
+    unsigned char *block;
+    int64_t end;
 } places;
 
-static int64_t put(int64_t *size, int64_t bytes)
+static void *place(places *p, int64_t bytes)
 {
-    int64_t at = *size;
-    *size += (bytes + 15) / 16 * 16;
+    void *at = p->block ? p->block + p->end : NULL;
+    p->end += (bytes + 15) / 16 * 16;
     return at;
 }
 
-static places find_places(const fe__mesh_builder *b)
+int64_t fe__mesh_share(fe__mesh *m, void *block, int32_t has_data, int32_t has_materials)
 {
-    const fe__mesh *m = &b->mesh;
+    places p = {block, 0};
     int64_t count = m->triangle_count;
-    places p = {0};
     // the last vertex and the last node may be read 16 bytes wide
-    p.vertices = put(&p.size, 12 * (int64_t)m->vertex_count + 4);
-    p.leaves = put(&p.size, (int64_t)sizeof(fe__mesh_leaf) * fe__mesh_leaf_count(m->triangle_count));
-    p.nodes = put(&p.size, (int64_t)sizeof(fe__mesh_node) * m->node_count);
-    p.numbers = put(&p.size, 4 * (int64_t)m->given_count);
-    p.shortcuts = put(&p.size, (int64_t)sizeof(fe__mesh_shortcut) * m->shortcut_count);
-    p.data = put(&p.size, b->source->data ? 4 * count : 0);
-    p.edges = put(&p.size, count);
-    p.materials = put(&p.size, b->source->materials ? count : 0);
-    return p;
+    m->vertices = place(&p, 12 * (int64_t)m->vertex_count + 4);
+    m->leaves = place(&p, (int64_t)sizeof(fe__mesh_leaf) * fe__mesh_leaf_count(m->triangle_count));
+    m->nodes = place(&p, (int64_t)sizeof(fe__mesh_node) * m->node_count);
+    m->numbers = place(&p, 4 * (int64_t)m->given_count);
+    m->shortcuts = place(&p, (int64_t)sizeof(fe__mesh_shortcut) * m->shortcut_count);
+    m->data = has_data ? place(&p, 4 * count) : NULL;
+    m->edges = place(&p, count);
+    m->materials = has_materials ? place(&p, count) : NULL;
+    m->scale[0] = m->scale[1] = m->scale[2] = 1.0;
+    m->block = block;
+    m->size = p.end;
+    return p.end;
+}
+
+static int64_t share(const fe__mesh_builder *b, fe__mesh *m, void *block)
+{
+    return fe__mesh_share(m, block, b->source->data != NULL, b->source->materials != NULL);
 }
 
 int64_t fe__mesh_block_size(fe__mesh_builder *b)
 {
     b->mesh.vertex_count = make_groups(b, NULL, NULL);
     b->mesh.shortcut_count = fe__mesh_shortcuts(b->order, b->mesh.given_count, b->seen, b->shortcuts);
-    return find_places(b).size;
+    fe__mesh counted = b->mesh;
+    return share(b, &counted, NULL);
 }
 
-static void fill_slots(const fe__mesh_builder *b, uint8_t *edges, uint32_t *data, uint8_t *materials)
+static void fill_slots(const fe__mesh_builder *b, const fe__mesh_arrays *out)
 {
     for (int32_t slot = 0; slot < b->mesh.triangle_count; ++slot) {
         int32_t number = slot_number(b, slot);
-        edges[slot] = b->edges[number];
-        if (data) data[slot] = b->source->data[number];
-        if (materials) materials[slot] = b->source->materials[number];
+        out->edges[slot] = b->edges[number];
+        if (out->data) out->data[slot] = b->source->data[number];
+        if (out->materials) out->materials[slot] = b->source->materials[number];
     }
 }
 
 void fe__mesh_write(fe__mesh_builder *b, void *block, fe__mesh *out)
 {
-    unsigned char *start = block;
-    places p = find_places(b);
     fe__mesh *m = &b->mesh;
-    float *vertices = (float *)(void *)(start + p.vertices);
-    fe__mesh_leaf *leaves = (fe__mesh_leaf *)(void *)(start + p.leaves);
-    fe__mesh_shortcut *shortcuts = (fe__mesh_shortcut *)(void *)(start + p.shortcuts);
-    uint32_t *data = b->source->data ? (uint32_t *)(void *)(start + p.data) : NULL;
-    uint8_t *materials = b->source->materials ? start + p.materials : NULL;
-
-    make_groups(b, vertices, leaves);
-    memcpy(start + p.nodes, b->nodes, (size_t)m->node_count * sizeof *b->nodes);
-    if (m->shortcut_count) memcpy(shortcuts, b->shortcuts, (size_t)m->shortcut_count * sizeof *shortcuts);
-    memcpy(start + p.numbers, b->order, (size_t)m->given_count * sizeof *b->order);
-    fill_slots(b, start + p.edges, data, materials);
-
     *out = *m;
-    out->vertices = vertices;
-    out->leaves = leaves;
-    out->nodes = (const fe__mesh_node *)(const void *)(start + p.nodes);
-    out->numbers = (const uint32_t *)(const void *)(start + p.numbers);
-    out->shortcuts = shortcuts;
-    out->data = data;
-    out->edges = start + p.edges;
-    out->materials = materials;
-    out->block = block;
-    out->size = p.size;
+    share(b, out, block);
+    fe__mesh_arrays own = fe__mesh_own_arrays(out);
+    make_groups(b, own.vertices, own.leaves);
+    memcpy(own.nodes, b->nodes, (size_t)m->node_count * sizeof *b->nodes);
+    if (m->shortcut_count) memcpy(own.shortcuts, b->shortcuts, (size_t)m->shortcut_count * sizeof *b->shortcuts);
+    memcpy(own.numbers, b->order, (size_t)m->given_count * sizeof *b->order);
+    fill_slots(b, &own);
 }

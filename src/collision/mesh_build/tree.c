@@ -300,7 +300,7 @@ static int8_t exponent_for(double low, double high)
     return (int8_t)exponent;
 }
 
-static void set_frame(fe__mesh_node *node, const part *whole)
+static void set_frame(fe__mesh_node *node, const fe__mesh_box *whole)
 {
     for (int32_t k = 0; k < 3; ++k) {
         node->origin[k] = whole->low[k];
@@ -308,11 +308,11 @@ static void set_frame(fe__mesh_node *node, const part *whole)
     }
 }
 
-static void set_box(fe__mesh_node *node, int32_t lane, const part *p)
+static void set_box(fe__mesh_node *node, int32_t lane, const fe__mesh_box *child)
 {
     for (int32_t k = 0; k < 3; ++k) {
         double origin = (double)node->origin[k], step = fe__mesh_step(node, k);
-        double low = (double)p->low[k], high = (double)p->high[k];
+        double low = (double)child->low[k], high = (double)child->high[k];
         int32_t from = (int32_t)fe__mind((low - origin) / step, 255.0);
         int32_t to = (int32_t)fe__mind((high - origin) / step, 255.0);
         while (from > 0 && origin + (double)from * step > low) --from;
@@ -320,6 +320,19 @@ static void set_box(fe__mesh_node *node, int32_t lane, const part *p)
         node->low[k][lane] = (uint8_t)from;
         node->high[k][lane] = (uint8_t)to;
     }
+}
+
+void fe__mesh_set_boxes(fe__mesh_node *node, const fe__mesh_box *whole, const fe__mesh_box *children)
+{
+    set_frame(node, whole);
+    for (int32_t k = 0; k < node->count; ++k) set_box(node, k, children + k);
+    for (int32_t k = node->count; k < FE__MESH_WIDTH; ++k)
+        for (int32_t axis = 0; axis < 3; ++axis) node->low[axis][k] = 255; // and high 0: empty
+}
+
+static fe__mesh_box box_of(const part *p)
+{
+    return (fe__mesh_box){{p->low[0], p->low[1], p->low[2]}, {p->high[0], p->high[1], p->high[2]}};
 }
 
 static void fill_node(builder *b, uint32_t index, const part *whole, int32_t depth)
@@ -331,10 +344,9 @@ static void fill_node(builder *b, uint32_t index, const part *whole, int32_t dep
     int32_t count = make_parts(b, whole, depth, is_bottom ? FE__MESH_LEAF : BOTTOM, parts);
     fe__mesh_node *node = b->mesh->nodes + index;
     node->count = (uint8_t)count;
-    set_frame(node, whole);
-    for (int32_t k = 0; k < count; ++k) set_box(node, k, parts + k);
-    for (int32_t k = count; k < FE__MESH_WIDTH; ++k)
-        for (int32_t axis = 0; axis < 3; ++axis) node->low[axis][k] = 255; // and high 0: empty
+    fe__mesh_box box = box_of(whole), boxes[FE__MESH_WIDTH];
+    for (int32_t k = 0; k < count; ++k) boxes[k] = box_of(parts + k);
+    fe__mesh_set_boxes(node, &box, boxes);
     node->first = is_bottom ? FE__MESH_LEAVES | (uint32_t)(whole->first / FE__MESH_LEAF) : (uint32_t)m->node_count;
     if (is_bottom) return;
     uint32_t first = node->first;
