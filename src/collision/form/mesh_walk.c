@@ -19,6 +19,9 @@ void fe__mesh_walk_begin(fe__mesh_walk *walk, const fe__mesh *mesh, const fe__bo
         unscale(mesh->scale[1], &walk->box.low.y, &walk->box.high.y);
         unscale(mesh->scale[2], &walk->box.low.z, &walk->box.high.z);
     }
+    const double low[4] = {walk->box.low.x, walk->box.low.y, walk->box.low.z, 0.0},
+                 high[4] = {walk->box.high.x, walk->box.high.y, walk->box.high.z, 0.0};
+    for (int32_t k = 0; k < 4; ++k) walk->low[k] = fe__float_above(low[k]), walk->high[k] = -fe__float_above(-high[k]);
     walk->slot = walk->end = 0;
     walk->top = 1;
     walk->stack[0] = 0; // the root
@@ -44,7 +47,7 @@ static uint32_t meet_boxes(const fe__mesh_walk *w, const fe__mesh_node *node)
                  high[3] = {w->box.high.x, w->box.high.y, w->box.high.z};
     uint32_t met = (1u << node->count) - 1;
     for (int32_t k = 0; k < 3; ++k) {
-        double per_step = 1.0 / fe__mesh_step(node, k), origin = (double)node->origin[k];
+        double per_step = fe__mesh_per_step(node, k), origin = (double)node->origin[k];
         float from = in_steps(low[k] - origin, per_step) - widening,
               to = in_steps(high[k] - origin, per_step) + widening;
         met &= fe__lanes_at_most(fe__lanes_set(from), lanes_of(node->high[k])) &
@@ -62,20 +65,17 @@ static void open_node(fe__mesh_walk *w, const fe__mesh_node *node)
 }
 
 // ---- triangles -----------------------------------------------------------------------------------------------------
-static int32_t reaches(const float *const v[3], int32_t axis, double low, double high)
-{
-    float a = v[0][axis], b = v[1][axis], c = v[2][axis];
-    return (double)fe__minf(fe__minf(a, b), c) <= high && (double)fe__maxf(fe__maxf(a, b), c) >= low;
-}
+typedef float loose_quad __attribute__((vector_size(16), aligned(4), may_alias));
 
 static int32_t meet_triangle(const fe__mesh_walk *w, int32_t slot, fe__form *triangle)
 {
+    enum { THREE = 7 }; // the fourth lane is another vertex's, or none
     const float *const v[3] = {fe__mesh_vertex(w->mesh, slot, 0), fe__mesh_vertex(w->mesh, slot, 1),
                                fe__mesh_vertex(w->mesh, slot, 2)};
-    const fe__bounds *box = &w->box;
-    if (!reaches(v, 0, box->low.x, box->high.x) || !reaches(v, 1, box->low.y, box->high.y) ||
-        !reaches(v, 2, box->low.z, box->high.z))
-        return 0;
+    fe__quad a = *(const loose_quad *)v[0], b = *(const loose_quad *)v[1], c = *(const loose_quad *)v[2];
+    fe__quad low = fe__quad_min(fe__quad_min(a, b), c), high = fe__quad_max(fe__quad_max(a, b), c);
+    fe__quad_int met = (low <= *(const fe__quad *)w->high) & (high >= *(const fe__quad *)w->low);
+    if ((fe__quad_signs(met) & THREE) != THREE) return 0;
     triangle->type = FE__FORM_TRIANGLE, triangle->radius = 0.0f;
     const double *s = w->mesh->scale;
     for (int32_t k = 0; k < 3; ++k) {

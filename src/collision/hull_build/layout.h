@@ -5,8 +5,6 @@
 
 int64_t fe__hull_block_size(fe__hull_builder *builder);
 void fe__hull_lay_out(fe__hull_builder *builder, void *block, fe__hull *out_hull); // all but the measures
-// The least float that is not below x
-float fe__float_above(double x);
 
 // ---- of any hull in the making, whose counts are set ---------------------------------------------------------------
 // Places its arrays in the block; returns how many bytes they take. NULL: only that
