@@ -36,6 +36,7 @@ FE_LANES_INLINE fe__quad fe__quad_choose(fe__quad_int mask, fe__quad yes, fe__qu
 }
 // one lane in all four
 #define FE_QUAD_SPREAD(x, lane) __builtin_shufflevector(x, x, lane, lane, lane, lane)
+// two doubles
 typedef double fe__pair __attribute__((vector_size(16)));
 typedef int64_t fe__pair_int __attribute__((vector_size(16)));
 FE_LANES_INLINE fe__pair fe__pair_abs(fe__pair x) { return (fe__pair)((fe__pair_int)x & INT64_MAX); }

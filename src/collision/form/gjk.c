@@ -9,8 +9,7 @@ enum { MAX_ITERATIONS = 64 }; // boxes and segments need at most 12
 #define CLOSE_SIZE 2e-14      // the same, where a hundred roundings are told apart
 #define FLAT 1e-12            // of the size: a tetrahedron no higher than that has no inside
 #define UNSURE 1e-15          // of the size: some roundings
-#define CONVERGED 1e-13       // of the squared distance: the square of how far the points are off, of the distance
-#define TOUCH_CONVERGED 4e-10 // the same, for contacts
+#define CONVERGED 1e-13       // of the squared distance
 
 // of equally far corners the first
 static fe_dvec3 farthest_of(const fe_dvec3 corners[3], fe_dvec3 direction)
@@ -167,14 +166,10 @@ static void set_points(fe__gjk *g, const double *weight, fe_dvec3 v)
     g->distance = sqrt(fe__ddot(v, v));
 }
 
-typedef struct precision {
-    double overlap_size, converged; // see above
-    int32_t closely;
-} precision;
-
 // From the vertices that the result has, one to three
-static void approach_origin(const fe__cores *cores, double limit, const precision *to, fe__gjk *g)
+static void approach_origin(const fe__cores *cores, double limit, int32_t closely, fe__gjk *g)
 {
+    double overlap_size = closely ? CLOSE_SIZE : OVERLAP_SIZE;
     double weight[4];
     int32_t curved = (!cores->corners && fe__form_is_curved(cores->a)) || fe__form_is_curved(cores->b);
     g->overlap = 0, g->size = 0.0;
@@ -184,7 +179,7 @@ static void approach_origin(const fe__cores *cores, double limit, const precisio
     fe_dvec3 v = weighted(g->vertex, weight, g->count);
     double apart_by = 0.0; // no nearer than that: a sliver that seems to hold the origin does not
     for (int32_t iteration = 0; iteration < MAX_ITERATIONS; ++iteration) {
-        double square = fe__ddot(v, v), near = to->overlap_size * g->size;
+        double square = fe__ddot(v, v), near = overlap_size * g->size;
         if (square <= near * near) {
             g->overlap = !(curved && apart_by > near);
             break;
@@ -195,7 +190,7 @@ static void approach_origin(const fe__cores *cores, double limit, const precisio
         double along = fe__ddot(v, w.difference);
         if (along > 0.0) apart_by = fe__maxd(apart_by, along / sqrt(square));
         int32_t apart = along > 0.0 && along * along > limit * limit * square;
-        if (apart || square - along <= to->converged * square || is_known(g, &w)) break;
+        if (apart || square - along <= CONVERGED * square || is_known(g, &w)) break;
         fe__gjk last = *g;
         double last_weight[4] = {weight[0], weight[1], weight[2], weight[3]};
         g->vertex[g->count++] = w;
@@ -212,7 +207,7 @@ static void approach_origin(const fe__cores *cores, double limit, const precisio
             break;
         }
         fe_dvec3 nearer =
-            curved || to->closely ? foot(g->vertex, weight, g->count, g->size) : weighted(g->vertex, weight, g->count);
+            curved || closely ? foot(g->vertex, weight, g->count, g->size) : weighted(g->vertex, weight, g->count);
         if (fe__ddot(nearer, nearer) >= square) { // rounding: no nearer point is found
             *g = last;
             for (int32_t i = 0; i < 4; ++i) weight[i] = last_weight[i];
@@ -224,25 +219,22 @@ static void approach_origin(const fe__cores *cores, double limit, const precisio
     if (g->overlap) g->distance = 0.0;
 }
 
-static void begin_along(const fe__cores *cores, fe__gjk *g)
+static void begin(const fe__cores *cores, fe__gjk *g)
 {
     g->vertex[0] = fe__cores_support(cores, cores->position);
     g->count = 1;
 }
 
+void fe__gjk_distance_from(const fe__cores *cores, double limit, fe__gjk *g) { approach_origin(cores, limit, 0, g); }
+
 void fe__gjk_distance(const fe__cores *cores, double limit, fe__gjk *g)
 {
-    begin_along(cores, g);
-    approach_origin(cores, limit, &(precision){OVERLAP_SIZE, CONVERGED, 0}, g);
-}
-
-void fe__gjk_touch(const fe__cores *cores, double limit, fe__gjk *g)
-{
-    approach_origin(cores, limit, &(precision){OVERLAP_SIZE, TOUCH_CONVERGED, 0}, g);
+    begin(cores, g);
+    approach_origin(cores, limit, 0, g);
 }
 
 void fe__gjk_distance_closely(const fe__cores *cores, fe__gjk *g)
 {
-    begin_along(cores, g);
-    approach_origin(cores, (double)INFINITY, &(precision){CLOSE_SIZE, CONVERGED, 1}, g);
+    begin(cores, g);
+    approach_origin(cores, (double)INFINITY, 1, g);
 }

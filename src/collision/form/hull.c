@@ -3,7 +3,77 @@
 
 #include "core/lanes.h"
 
-// ---- pairs of lanes, in double -------------------------------------------------------------------------------------
+#include <float.h>
+
+// ---- the farthest --------------------------------------------------------------------------------------------------
+// Floats tell which lanes may be the farthest, double which of those is. A float product n . x of three terms, its
+// factors rounded to floats, is off by less than 6 u (|n1 x1| + |n2 x2| + |n3 x3|), u = 2^-24, or by what underflows.
+enum { MOST_LANES = (FE__HULL_FACES + FE__HULL_LANES - 1) / FE__HULL_LANES * FE__HULL_LANES };
+static const float rounding = 6.0f * 0x1p-24f, underflow = 1e-30f;
+
+// n . x of each lane, in floats, and the greatest of them
+static inline float look_along(const fe__hull_lanes *lanes, int32_t count, fe_vec3 n, float *out_along)
+{
+    const fe__quad *px = (const fe__quad *)lanes->x, *py = (const fe__quad *)lanes->y, *pz = (const fe__quad *)lanes->z;
+    const fe__quad x = fe__quad_set(n.x), y = fe__quad_set(n.y), z = fe__quad_set(n.z);
+    fe__quad most = fe__quad_set(-FLT_MAX);
+    for (int32_t i = 0; i < count; i += 4) {
+        fe__quad along = x * *px++ + y * *py++ + z * *pz++;
+        *(fe__quad *)(out_along + i) = along;
+        most = fe__quad_max(along, most);
+    }
+    most = fe__quad_max(most, __builtin_shufflevector(most, most, 2, 3, 0, 1));
+    return fe__maxf(most[0], most[1]);
+}
+
+// No coordinate of a lane is larger than that of `most`. What is no number rules nothing out
+static int32_t farthest_lane(const fe__hull_lanes *lanes, int32_t count, fe_vec3 most, fe_dvec3 direction)
+{
+    _Alignas(16) float along[MOST_LANES];
+    fe_vec3 n = fe__narrow(direction);
+    float sum = fe__absf(n.x) * most.x + fe__absf(n.y) * most.y + fe__absf(n.z) * most.z;
+    fe__quad least = fe__quad_set(look_along(lanes, count, n, along) - 2.0f * (rounding * sum + underflow));
+    int32_t best = 0;
+    double farthest = -(double)INFINITY;
+    for (int32_t i = 0; i < count; i += 4) {
+        uint32_t left = 0xfu & ~fe__quad_signs(*(const fe__quad *)(along + i) < least);
+        for (; left; left &= left - 1) {
+            int32_t lane = i + __builtin_ctz(left);
+            double distance = fe__ddot(fe__widen(fe__hull_lane(lanes, lane)), direction);
+            if (distance > farthest) farthest = distance, best = lane;
+        }
+    }
+    return best;
+}
+
+static inline fe_vec3 most_of_corners(fe_vec3 a, fe_vec3 b)
+{
+    return fe__vec3(fe__maxf(fe__absf(a.x), fe__absf(b.x)), fe__maxf(fe__absf(a.y), fe__absf(b.y)),
+                    fe__maxf(fe__absf(a.z), fe__absf(b.z)));
+}
+
+int32_t fe__hull_support(const fe__hull *hull, fe_dvec3 direction)
+{
+    return farthest_lane(&hull->vertices, hull->vertex_count, most_of_corners(hull->low, hull->high), direction);
+}
+
+int32_t fe__hull_facing(const fe__hull *hull, fe_dvec3 direction)
+{
+    const fe_vec3 unit = {1.0f, 1.0f, 1.0f};
+    return farthest_lane(&hull->normals, hull->face_count, unit, direction);
+}
+
+float fe__hull_reach(const fe__hull *hull, fe_vec3 centre)
+{
+    double most = 0.0;
+    for (int32_t i = 0; i < hull->vertex_count; ++i) {
+        fe_dvec3 d = fe__dsub(fe__widen(fe__hull_vertex(hull, i)), fe__widen(centre));
+        most = fe__maxd(most, fe__ddot(d, d));
+    }
+    return (float)sqrt(most);
+}
+
+// ---- bounds: pairs of lanes, in double -----------------------------------------------------------------------------
 typedef struct pairs {
     fe__pair x, y, z;
 } pairs;
@@ -15,55 +85,6 @@ static inline pairs low_of(const fe__quad *x, const fe__quad *y, const fe__quad 
 static inline pairs high_of(const fe__quad *x, const fe__quad *y, const fe__quad *z)
 {
     return (pairs){fe__pair_high(*x), fe__pair_high(*y), fe__pair_high(*z)};
-}
-
-// The first of the farthest among every other pair of lanes, and how far
-typedef struct farthest {
-    fe__pair along, lane;
-} farthest;
-
-static inline farthest farther(farthest f, pairs p, fe__pair lane, fe_dvec3 direction)
-{
-    fe__pair along = p.x * direction.x + p.y * direction.y + p.z * direction.z; // as fe__ddot
-    fe__pair_int more = along > f.along;
-    return (farthest){fe__pair_choose(more, along, f.along), fe__pair_choose(more, lane, f.lane)};
-}
-
-// Four lanes at a time; those past the count repeat the first and never win against it
-static int32_t farthest_lane(const fe__hull_lanes *lanes, int32_t count, fe_dvec3 direction)
-{
-    const double none = -(double)INFINITY;
-    const fe__quad *x = (const fe__quad *)lanes->x, *y = (const fe__quad *)lanes->y, *z = (const fe__quad *)lanes->z;
-    farthest a = {{none, none}, {0.0, 0.0}}, b = a;
-    fe__pair lane = {0.0, 1.0};
-    for (int32_t i = 0; i < count; i += 4, ++x, ++y, ++z, lane += 4.0) {
-        a = farther(a, low_of(x, y, z), lane, direction);
-        b = farther(b, high_of(x, y, z), lane + 2.0, direction);
-    }
-    fe__pair_int more = (b.along > a.along) | ((b.along == a.along) & (b.lane < a.lane));
-    a = (farthest){fe__pair_choose(more, b.along, a.along), fe__pair_choose(more, b.lane, a.lane)};
-    int32_t second = a.along[1] > a.along[0] || (a.along[1] == a.along[0] && a.lane[1] < a.lane[0]);
-    return (int32_t)a.lane[second];
-}
-
-int32_t fe__hull_support(const fe__hull *hull, fe_dvec3 direction)
-{
-    return farthest_lane(&hull->vertices, hull->vertex_count, direction);
-}
-
-int32_t fe__hull_facing(const fe__hull *hull, fe_dvec3 direction)
-{
-    return farthest_lane(&hull->normals, hull->face_count, direction);
-}
-
-float fe__hull_reach(const fe__hull *hull, fe_vec3 centre)
-{
-    double most = 0.0;
-    for (int32_t i = 0; i < hull->vertex_count; ++i) {
-        fe_dvec3 d = fe__dsub(fe__widen(fe__hull_vertex(hull, i)), fe__widen(centre));
-        most = fe__maxd(most, fe__ddot(d, d));
-    }
-    return (float)sqrt(most);
 }
 
 // As fe__drotate: a + k w t + k u x t, t = u x a

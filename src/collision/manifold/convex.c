@@ -23,14 +23,11 @@ static fe__cores make_cores(const fe__form *a, const fe__form *b, const fe__rela
                        NULL};
 }
 
-// `towards`: a guess of the normal, of any length
-static int32_t find_nearest(const fe__cores *cores, fe_dvec3 towards, float margin, fe__touch *found)
+static int32_t find_nearest(const fe__cores *cores, float margin, fe__touch *found)
 {
     double radii = (double)cores->a->radius + (double)cores->b->radius, limit = radii + (double)margin;
-    fe__gjk gjk; // its vertices mean something up to their count
-    gjk.count = 1;
-    gjk.vertex[0] = fe__cores_support(cores, towards);
-    fe__gjk_touch(cores, limit, &gjk);
+    fe__gjk gjk;
+    fe__gjk_distance(cores, limit, &gjk);
     if (gjk.distance > limit) return 0;
     if (gjk.overlap) {
         fe__penetration p = fe__epa_depth(cores, &gjk);
@@ -249,7 +246,7 @@ void fe__collide_convex(const fe__form *a, const fe__form *b, const fe__relative
     }
     fe__cores cores = make_cores(a, b, b_in_a);
     fe__touch found, nearest;
-    if (!find_nearest(&cores, cores.position, margin, &found)) return;
+    if (!find_nearest(&cores, margin, &found)) return;
     nearest = found;
     int32_t on_face = (fe__form_is_curved(a) || fe__form_is_curved(b)) && fe__sharpen(&cores, &found);
     if (touch_along_features(a, b, b_in_a, &found, margin, manifold) > 0) return;

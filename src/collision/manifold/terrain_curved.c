@@ -2,7 +2,8 @@
 //
 // Its disc, the line on its side, or the hull's face, over the triangle gives points along the triangle's normal. Near
 // a convex side the nearest or deepest points of both (GJK, EPA) give one along the line between them, or the disc's
-// part over the side, where the surface allows it.
+// part over the side, where the surface allows it. A form whose lowest point lies well inside the triangle is not
+// looked at so.
 #include "collision/form/clip.h"
 #include "collision/form/epa.h"
 #include "collision/form/support.h"
@@ -68,7 +69,33 @@ static void touch_face(const contest *c)
     fe__tile_cut_faces(c->g, c->tile, &cut);
 }
 
-// From the lowest point and the triangle on. 0: apart
+// Where a hull's lowest point lies over one side, that and the triangle are all but the answer. A thin triangle, or one
+// that is small from there, would be a sliver to begin with, and what has a rim would make one.
+static int32_t begins_with_triangle(const contest *c, fe_dvec3 lowest)
+{
+    const float thin = 0.01f, far = 1e3f; // height of the triangle, distance of the point, in its longest side
+    const fe_vec3 *v = c->tile->form.vertex;
+    fe_vec3 n = fe__cross(fe__sub(v[1], v[0]), fe__sub(v[2], v[0])), away = fe__sub(fe__narrow(lowest), v[0]);
+    float square = c->tile->size * c->tile->size;
+    return fe__form_is_hull(c->form) && fe__dot(n, n) > thin * thin * square * square &&
+           fe__dot(away, away) < far * far * square;
+}
+
+static void find_distance(const contest *c, const fe__cores *cores, fe_dvec3 lowest, fe__gjk *gjk)
+{
+    if (!begins_with_triangle(c, lowest)) {
+        fe__gjk_distance(cores, (double)c->g->margin, gjk);
+        return;
+    }
+    gjk->count = 3;
+    for (int32_t k = 0; k < 3; ++k) {
+        fe_dvec3 corner = fe__widen(c->tile->form.vertex[k]);
+        gjk->vertex[k] = (fe__vertex){fe__dsub(corner, lowest), corner};
+    }
+    fe__gjk_distance_from(cores, (double)c->g->margin, gjk);
+}
+
+// 0: apart
 static int32_t find_nearest(const contest *c, fe_dvec3 lowest, fe__touch *found)
 {
     fe__cores cores = {.a = &c->tile->form,
@@ -76,13 +103,8 @@ static int32_t find_nearest(const contest *c, fe_dvec3 lowest, fe__touch *found)
                        .axis_x = fe__widen(c->rotation->x),
                        .axis_y = fe__widen(c->rotation->y),
                        .axis_z = fe__widen(c->rotation->z)};
-    fe__gjk gjk; // its vertices mean something up to their count
-    gjk.count = 3;
-    for (int32_t k = 0; k < 3; ++k) {
-        fe_dvec3 corner = fe__widen(c->tile->form.vertex[k]);
-        gjk.vertex[k] = (fe__vertex){fe__dsub(corner, lowest), corner};
-    }
-    fe__gjk_touch(&cores, (double)c->g->margin, &gjk);
+    fe__gjk gjk;
+    find_distance(c, &cores, lowest, &gjk);
     if (gjk.distance > (double)c->g->margin) return 0;
     if (gjk.overlap) {
         fe__penetration p = fe__epa_depth(&cores, &gjk);
