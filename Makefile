@@ -139,10 +139,13 @@ $(SHARED): $(BUILD)/$(SONAME)
 # For who types `make demo` and nothing more: as many compilers at once as there are processors.
 PARALLEL = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell getconf _NPROCESSORS_ONLN 2>/dev/null))
 
-EXAMPLES := $(patsubst examples/%.c,$(BUILD)/feather-%,$(sort $(wildcard examples/*.c)))
+# examples/level.c reads its files with assimp. `make examples` leaves it out where there is none.
+WITHOUT_ASSIMP := $(shell pkg-config --exists assimp 2>/dev/null || echo examples/level.c)
+EXAMPLES := $(patsubst examples/%.c,$(BUILD)/feather-%,$(filter-out $(WITHOUT_ASSIMP),$(sort $(wildcard examples/*.c))))
 
 $(BUILD)/feather-%: $(BUILD)/examples/%.o $(STATIC)
-	$(RUN)$(CC) $< $(STATIC) $(LINK_FLAGS) -lm -o $@
+	$(RUN)$(CC) $< $(STATIC) $(LINK_FLAGS) $(READER) -lm -o $@
+$(BUILD)/feather-level: READER = $(shell pkg-config --libs assimp)
 $(BUILD)/examples/%.o: examples/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(RUN)$(CC) $(C_FLAGS) $(STRICT) $(DEPENDENCIES) -c $< -o $@

@@ -142,10 +142,10 @@ typedef enum fe_result {
     FE_END = 3,                ///< done, and there is no more
     FE_ERROR_ARGUMENT = -1,    ///< NULL, NaN, infinity, out of range
     FE_ERROR_STALE = -2,       ///< the handle of something destroyed, of another world, or of nothing
-    FE_ERROR_KIND = -3,        ///< a shape's handle where a body's is expected
+    FE_ERROR_KIND = -3,        ///< a shape's handle where a body's is expected, a hull's where a mesh's is
     FE_ERROR_STEPPING = -4,    ///< the world is in a step
     FE_ERROR_MEMORY = -5,      ///< the allocator returned NULL
-    FE_ERROR_LIMIT = -6,       ///< more than a world or a handle can hold
+    FE_ERROR_LIMIT = -6,       ///< more than a world, a store, a mesh or a handle can hold
     FE_ERROR_UNSUPPORTED = -7, ///< this CPU, this kind of body or this geometry cannot
     FE_ERROR_STATE = -8,       ///< not now: the pool still has worlds, the body is not kinematic...
     FE_ERROR_BUSY = -9,        ///< another thread is inside the world
@@ -230,7 +230,8 @@ typedef enum fe_combine {
     FE_COMBINE_FORCE32 = 0x7fffffff
 } fe_combine;
 
-/// A surface. Rolling and spinning resistance of a pair are the larger of the two. Never grows.
+/// A surface. Rolling and spinning resistance of a pair are the larger of the two, and so is its radius: of a cone that
+/// of the base, of boxes and hulls 0. Never grows.
 typedef struct fe_material {
     float static_friction;       ///< while the contact sticks, >= 0. Default 0.6
     float dynamic_friction;      ///< when it slides, >= 0. Default 0.5
@@ -273,13 +274,14 @@ typedef struct fe_heightfield_def {
 
 FE_API void fe_heightfield_def_init(fe_heightfield_def *def, uint32_t struct_size);
 /// Any number of shapes, in any world that uses the store, may share it (fe_geometry_heightfield).
+/// @return FE_ERROR_ARGUMENT for a count, a height or a cell out of range, with its place
 FE_API fe_result fe_heightfield_create(fe_store *store, const fe_heightfield_def *def, fe_asset *out_asset);
 /// Changes the samples of a rectangle. Bodies near it wake in every world, and touch the new surface in the next step.
 /// @param row, column    its first sample
 /// @param rows, columns  its size, >= 1
 /// @param heights        rows x columns, row by row, m
 /// @return FE_ERROR_STEPPING while a world that uses it steps; FE_ERROR_BUSY while another thread is inside such a
-///         world
+///         world; FE_ERROR_KIND for an asset that is no heightfield
 FE_API fe_result fe_heightfield_set_heights(fe_store *store, fe_asset asset, int32_t row, int32_t column, int32_t rows,
                                             int32_t columns, const float *heights);
 /// @param out_heights  rows x columns, row by row, m
@@ -305,8 +307,8 @@ typedef struct fe_hull_def {
 FE_API void fe_hull_def_init(fe_hull_def *def, uint32_t struct_size);
 /// Builds a hull. The same points in the same order give the same hull, bit for bit, on every machine. The points are
 /// copied. fe_asset_destroy gives the hull back. Any thread may build while worlds that use the store step.
-/// @return FE_ERROR_DEGENERATE for points that are thinner, in some direction, than 0.5 mm or 1e-4 of the extent: flat,
-///         straight or in one place
+/// @return FE_ERROR_ARGUMENT for a count or a coordinate out of range, with its place; FE_ERROR_DEGENERATE for points
+///         that are thinner, in some direction, than 0.5 mm or 1e-4 of the extent: flat, straight or in one place
 FE_API fe_result fe_hull_create(fe_store *store, const fe_hull_def *def, fe_asset *out_asset);
 
 /// What a hull is. Positions are in the frame of its points.
@@ -379,7 +381,8 @@ typedef enum fe_index_type {
 /// their numbers, which hits and contacts report.
 ///
 /// A mesh is the form of static and kinematic bodies (fe_geometry_mesh). It has no inside: what is behind its triangles
-/// is not pushed out. Two-sided triangles push a body to the side its centre is on. Two meshes never touch each other.
+/// is not pushed out. Two-sided triangles push a body to the side its centre is on. Meshes and heightfields never touch
+/// each other, not even as triggers.
 typedef struct fe_mesh_def {
     uint32_t struct_size;
     uint32_t flags;           ///< fe_mesh_flags. Default 0
@@ -404,8 +407,8 @@ FE_API void fe_mesh_def_init(fe_mesh_def *def, uint32_t struct_size);
 /// Builds a mesh, in time that grows little more than the number of triangles. The same definition gives the same mesh,
 /// bit for bit, on every machine. Beside the arrays of the definition it takes 50 bytes of memory a triangle, when
 /// there are half as many vertices, of which 20 stay. Any thread may build while worlds that use the store step.
-/// @return FE_ERROR_ARGUMENT for an index out of range or a coordinate that is none, with its place; FE_ERROR_LIMIT for
-///         too many triangles or vertices; FE_ERROR_DEGENERATE when no triangle has an area, or when a strict mesh has
+/// @return FE_ERROR_ARGUMENT for an index or a coordinate out of range, with its place; FE_ERROR_LIMIT for too many
+///         triangles or vertices; FE_ERROR_DEGENERATE when no triangle has an area, or when a strict mesh has
 ///         one to drop: fe_last_error names it
 FE_API fe_result fe_mesh_create(fe_store *store, const fe_mesh_def *def, fe_asset *out_asset);
 
@@ -887,7 +890,7 @@ typedef struct fe_shape_def {
     int32_t group;             ///< 0: none. Default 0
     uint32_t events;           ///< fe_shape_events; a pair has what either shape asks for. Default touch
     int32_t pair_filter;       ///< 1: the world's pair filter judges its new pairs. Default 0
-    int32_t one_way;           ///< 1: holds only what comes against `one_way_direction`; no plane, no field. Default 0
+    int32_t one_way;           ///< 1: holds only what comes against `one_way_direction`; convex forms. Default 0
     fe_vec3 one_way_direction; ///< shape frame, any length but zero: up, for a floor to jump through. Default 0, 1, 0
     fe_vec3 surface_velocity;  ///< of a conveyor belt, m/s, shape frame; only its part along the contact acts
     uint64_t user_data;        ///< any number of yours. Default 0
@@ -896,8 +899,9 @@ typedef struct fe_shape_def {
 FE_API void fe_shape_def_init(fe_shape_def *def, uint32_t struct_size);
 /// Mass and inertia of the body follow; it is not woken.
 /// @param def  NULL: the defaults
-/// @return FE_ERROR_UNSUPPORTED for a plane or a heightfield on a body that is not static, or one-way; FE_ERROR_STALE
-///         for an asset of another store than the world's
+/// @return FE_ERROR_UNSUPPORTED for a plane or a heightfield on a body that is not static, for a mesh on a dynamic one,
+///         and for each of the three one-way; FE_ERROR_STALE for an asset that is gone, or of another store than the
+///         world's; FE_ERROR_KIND for one that is not what the type says; for scales see fe_geometry_set_scale
 FE_API fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *def, const fe_geometry *geometry,
                                  fe_shape *out_shape);
 /// Its touching pairs send their exit. Mass and inertia of the body follow, unless they were set. The body and what it
@@ -907,7 +911,7 @@ FE_API fe_result fe_shape_destroy(fe_world *world, fe_shape shape);
 FE_API int32_t fe_shape_is_valid(const fe_world *world, fe_shape shape);
 FE_API fe_result fe_shape_get_body(const fe_world *world, fe_shape shape, fe_body *out_body);
 /// Another form in the same place. Pairs, mass and sleep follow as for fe_shape_destroy.
-/// @return FE_ERROR_UNSUPPORTED for a plane or a heightfield on a body that is not static
+/// @return the errors of fe_shape_create
 FE_API fe_result fe_shape_set_geometry(fe_world *world, fe_shape shape, const fe_geometry *geometry);
 /// @param out_geometry  its struct_size must be set
 FE_API fe_result fe_shape_get_geometry(const fe_world *world, fe_shape shape, fe_geometry *out_geometry);
@@ -918,7 +922,7 @@ FE_API fe_result fe_shape_get_frame(const fe_world *world, fe_shape shape, fe_fr
 FE_API fe_result fe_shape_set_density(fe_world *world, fe_shape shape, float density);
 FE_API fe_result fe_shape_get_density(const fe_world *world, fe_shape shape, float *out_density);
 /// Takes effect at the next step, also where the shape touches already. The body and what it touches wake. Cells of a
-/// heightfield with materials of their own keep them.
+/// heightfield and triangles of a mesh with materials of their own keep them.
 FE_API fe_result fe_shape_set_material(fe_world *world, fe_shape shape, const fe_material *material);
 FE_API fe_result fe_shape_get_material(const fe_world *world, fe_shape shape, fe_material *out_material);
 /// Takes effect at the next step. The pair filter judges anew the pairs that it refused.
@@ -930,8 +934,9 @@ FE_API fe_result fe_shape_get_filter(const fe_world *world, fe_shape shape, uint
 FE_API fe_result fe_shape_set_pair_filter(fe_world *world, fe_shape shape, int32_t enabled);
 FE_API fe_result fe_shape_get_pair_filter(const fe_world *world, fe_shape shape, int32_t *out_enabled);
 /// See fe_shape_def. A body that comes from behind or from a side passes, until the two are apart. A change wakes the
-/// body and what it touches; what is inside the shape then passes. FE_ERROR_UNSUPPORTED for planes and heightfields.
+/// body and what it touches; what is inside the shape then passes.
 /// @param direction  shape frame, any length but zero; NULL: as it is
+/// @return FE_ERROR_UNSUPPORTED for planes, heightfields and meshes, unless `enabled` is 0
 FE_API fe_result fe_shape_set_one_way(fe_world *world, fe_shape shape, int32_t enabled, const fe_vec3 *direction);
 /// @param out_direction  as it was set
 FE_API fe_result fe_shape_get_one_way(const fe_world *world, fe_shape shape, int32_t *out_enabled,
@@ -1378,10 +1383,11 @@ typedef struct fe_path {
 
 /// The first body on a segment.
 ///
-/// Exact on every shape. At equal fractions what the ray starts in comes first, then the body created first, whatever
-/// the number of workers.
+/// Exact on every shape. Heightfields are passed from below, one-sided meshes from behind. At equal fractions what the
+/// ray starts in comes first, then the body created first, whatever the number of workers.
 /// @param origin       start, m, world space
-/// @param translation  from the start to the end, m; zero asks whether the start is inside a shape
+/// @param translation  from the start to the end, m; zero asks whether the start is inside a shape; heightfields and
+///                     meshes have no inside
 /// @param filter       who counts; NULL: every layer, no triggers
 /// @param out_hit      written only on a hit
 /// @return 1 on a hit, 0 on a miss
@@ -1409,14 +1415,16 @@ FE_API int32_t fe_world_raycast_many(const fe_world *world, const fe_ray *rays, 
 ///
 /// It stops at most 1 micrometre before the body (0.1 mm: a box before a box), never in it. A body that it overlaps at
 /// the start is a hit at fraction 0, flagged FE_HIT_STARTED_INSIDE. One that it starts to touch is a hit at fraction 0
-/// without the flag; one that it leaves or slides along is no hit. From below, heightfields are passed. At equal
-/// fractions what overlaps comes first, then the body created first.
+/// without the flag; one that it leaves or slides along is no hit. Heightfields are passed from below, one-sided meshes
+/// from behind; what cuts their surface overlaps them. At equal fractions what overlaps comes first, then the body
+/// created first.
 /// @param geometry     sphere, capsule, box, cylinder, cone or hull; a sphere of radius 0 sweeps as a ray
 /// @param start        pose of the geometry at the start
 /// @param translation  m; zero asks what overlaps
 /// @param filter       who counts; NULL: every layer, no triggers
 /// @param out_hit      written only on a hit
-/// @return 1 on a hit, 0 on a miss; FE_ERROR_UNSUPPORTED for other geometries
+/// @return 1 on a hit, 0 on a miss; FE_ERROR_UNSUPPORTED for other geometries; for assets and scales the errors of
+///         fe_shape_create
 FE_API int32_t fe_world_sweep(const fe_world *world, const fe_geometry *geometry, const fe_transform *start,
                               const fe_dvec3 *translation, const fe_query_filter *filter, fe_hit *out_hit);
 /// Does it touch anything? Faster than the first hit: it stops at whatever it finds.
@@ -1477,7 +1485,7 @@ typedef struct fe_closest {
     fe_dvec3 point;       ///< of the shape's surface, m, world space
     double distance;      ///< to the surface, m; below 0 inside
     uint64_t material;    ///< fe_material.user_id there
-    fe_vec3 normal;       ///< unit, out of the body
+    fe_vec3 normal;       ///< unit, out of the body; of a mesh towards the side that the point is on
     int32_t part;         ///< of a shape made of parts, else -1
     int32_t triangle;     ///< of a heightfield or a mesh, or the face of a hull, else -1
     float barycentric[2]; ///< weights of the triangle's second and third vertex at `point`; else 0, 0
@@ -1485,7 +1493,8 @@ typedef struct fe_closest {
 } fe_closest;
 
 /// The point of all surfaces that is closest to a point. Inside a body its distance is below 0. The smallest distance
-/// wins, then the body created first. A heightfield has no inside; from below it is not seen.
+/// wins, then the body created first. Heightfields and meshes have no inside. A heightfield is not seen from below;
+/// both sides of a mesh count.
 /// @param max_distance  farther ones do not count, m, >= 0
 /// @param out_closest   written only when there is one
 /// @return 1, or 0 when there is none
@@ -1593,7 +1602,7 @@ typedef struct fe_contact_point {
     uint32_t id;          ///< of the features that meet; stays while they do
 } fe_contact_point;
 
-/// A pair of shapes has one; with a heightfield one for each direction in which it is touched.
+/// A pair of shapes has one; with a heightfield or a mesh one for each direction in which it is touched, at most 6.
 typedef struct fe_contact {
     fe_body body_a, body_b;
     fe_shape shape_a, shape_b;
@@ -1708,6 +1717,7 @@ static inline void fe_geometry_hull(fe_geometry *out_geometry, fe_asset hull)
     out_geometry->asset = hull;
 }
 
+/// See fe_heightfield_def for its frame. Its asset lives as long as the shape does.
 static inline void fe_geometry_heightfield(fe_geometry *out_geometry, fe_asset heightfield)
 {
     fe_geometry_init(out_geometry, (uint32_t)sizeof *out_geometry);
@@ -1715,6 +1725,7 @@ static inline void fe_geometry_heightfield(fe_geometry *out_geometry, fe_asset h
     out_geometry->asset = heightfield;
 }
 
+/// The mesh's vertices are in the shape's frame as they were given. Its asset lives as long as the shape does.
 static inline void fe_geometry_mesh(fe_geometry *out_geometry, fe_asset mesh)
 {
     fe_geometry_init(out_geometry, (uint32_t)sizeof *out_geometry);
@@ -1723,11 +1734,14 @@ static inline void fe_geometry_mesh(fe_geometry *out_geometry, fe_asset mesh)
 }
 
 /// The scale of a hull or a mesh that the geometry was filled with. The asset stays as it is: shapes of one asset may
-/// each have another scale, and shapes of equal scale share what it takes. What is mirrored keeps its outside. The
-/// scaled points must lie within 100000 m. fe_shape_create and its like answer FE_ERROR_DEGENERATE when a hull would be
-/// thinner, or a triangle of a mesh smaller, than fe_hull_create and fe_mesh_create allow.
+/// each have another scale, and shapes of equal scale share what it takes. What is mirrored keeps its outside.
+///
+/// A scale that cannot be is found where the geometry is used. FE_ERROR_ARGUMENT: it is out of range, takes a point
+/// beyond 100000 m, or is that of another form. FE_ERROR_UNSUPPORTED: it is that of a heightfield. FE_ERROR_DEGENERATE:
+/// a hull would be thinner, or a triangle of a mesh smaller, than fe_hull_create and fe_mesh_create allow.
 static inline void fe_geometry_set_scale(fe_geometry *geometry, float x, float y, float z)
 {
+    if (!geometry) return;
     geometry->scale.x = x;
     geometry->scale.y = y;
     geometry->scale.z = z;

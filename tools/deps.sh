@@ -78,6 +78,8 @@ missing_for_docs() {
 missing_for_hulls() {
     echo '#include <libqhull_r/libqhull_r.h>' | "$CC" -x c -fsyntax-only - 2> /dev/null || echo libqhull-dev
 }
+# What the example that loads files reads them with; likewise
+missing_for_examples() { pkg-config --exists assimp 2> /dev/null || echo libassimp-dev; }
 missing_for_abi() { has abidiff || echo abigail-tools; }
 
 # Another machine's bits, in an emulator; without it the tests say so and go on
@@ -108,7 +110,7 @@ missing() {
     links "$CC" -fsanitize=address,undefined "$work/empty.c" && links "$CC" -fsanitize=thread "$work/empty.c" ||
         echo "$("$CC" --version | awk '/clang/ && match($0, /version [0-9]+/) { print "libclang-rt-" substr($0, RSTART + 8, RLENGTH - 8) "-dev" }')"
     if test "$wanted" != fuzz; then missing_for_wasm; fi
-    if test "$wanted" != fuzz && test -z "${essential:-}"; then missing_for_aarch64; missing_for_foreign; missing_for_docs; missing_for_abi; missing_for_hulls; fi
+    if test "$wanted" != fuzz && test -z "${essential:-}"; then missing_for_aarch64; missing_for_foreign; missing_for_docs; missing_for_abi; missing_for_hulls; missing_for_examples; fi
     has cmake || echo cmake
     has pkg-config || echo pkg-config
     has valgrind || echo valgrind

@@ -11,16 +11,16 @@
 static int32_t is_each(fe_vec3 s, float x) { return s.x == x && s.y == x && s.z == x; }
 static int32_t is_one(fe_vec3 s) { return is_each(s, 0.0f) || is_each(s, 1.0f); }
 
-fe_result fe__check_unscaled(const char *function, const fe_geometry *geometry)
+fe_result fe__check_has_scale(const char *function, const fe_geometry *geometry)
 {
+    int32_t kind = fe__form_of_geometry(geometry->type);
     fe_vec3 s = geometry->scale;
-    if (is_one(s)) return FE_OK;
-    int32_t is_field = geometry->type == FE_GEOMETRY_HEIGHTFIELD;
-    const char *name = fe__forms[fe__form_of_geometry(geometry->type)].name;
-    return fe__fail(function, is_field ? FE_ERROR_UNSUPPORTED : FE_ERROR_ARGUMENT,
+    if (kind < 0 || fe__forms[kind].has_scale || is_one(s)) return FE_OK;
+    int32_t has_asset = fe__forms[kind].has_asset;
+    return fe__fail(function, has_asset ? FE_ERROR_UNSUPPORTED : FE_ERROR_ARGUMENT,
                     "geometry->scale is (%.9g, %.9g, %.9g), of a %s it must be 0 or 1 on each axis; %s", (double)s.x,
-                    (double)s.y, (double)s.z, name,
-                    is_field ? "scale its cells and heights" : "hulls and meshes have a scale");
+                    (double)s.y, (double)s.z, fe__forms[kind].name,
+                    has_asset ? "scale what it is made of" : "hulls and meshes have a scale");
 }
 
 static fe_result read_scale(const char *function, const fe_geometry *geometry, fe_vec3 *out_scale)
@@ -89,8 +89,7 @@ fe_result fe__read_asset_form(const char *function, fe_store *store, const fe_ge
                               fe__form *out_form)
 {
     fe_vec3 scale = {1.0f, 1.0f, 1.0f};
-    int32_t is_scaled = kind == FE__ASSET_HULL || kind == FE__ASSET_MESH;
-    FE_TRY(is_scaled ? read_scale(function, geometry, &scale) : fe__check_unscaled(function, geometry));
+    if (fe__forms[fe__form_of_geometry(geometry->type)].has_scale) FE_TRY(read_scale(function, geometry, &scale));
     int32_t index;
     fe__fp_state fp = fe__fp_enter();
     fe__store_lock(store);

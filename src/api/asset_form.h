@@ -3,8 +3,8 @@
 #define FE_API_ASSET_FORM_H
 #include "api/check.h"
 
-// Of a geometry that is no hull and no mesh: a scale that counts is refused.
-fe_result fe__check_unscaled(const char *function, const fe_geometry *geometry);
+// A scale that counts is refused of a form that has none.
+fe_result fe__check_has_scale(const char *function, const fe_geometry *geometry);
 // The form of a geometry with an asset of `kind`, fe__asset_kind. On FE_OK the record that it has is kept alive until
 // fe__let_go_of_asset: another thread may destroy the asset.
 fe_result fe__read_asset_form(const char *function, fe_store *store, const fe_geometry *geometry, int32_t kind,

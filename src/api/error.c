@@ -29,7 +29,7 @@ fe_result fe__report(const char *function, fe_result result)
     case FE_ERROR_MEMORY:
         return fe__fail(function, result, "the allocator gave no memory; nothing was changed");
     case FE_ERROR_LIMIT:
-        return fe__fail(function, result, "more than a world can hold; nothing was changed");
+        return fe__fail(function, result, "more than a world or a store can hold; nothing was changed");
     default:
         return fe__fail(function, result, "%s", fe_result_name(result));
     }

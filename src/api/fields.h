@@ -74,8 +74,8 @@ typedef struct fe__fields {
 #define FE_FIELDS_fe_geometry(FIELD)                                                                                \
     FIELD(struct_size)                                                                                              \
     FIELD(type)                                                                                                     \
-    FIELD(radius) FIELD(half_height) FIELD(half_extents) FIELD(normal) FIELD(distance) FIELD(scale) FIELD(reserved) FIELD(asset) \
-        FIELD(reserved_end)
+    FIELD(radius) FIELD(half_height) FIELD(half_extents) FIELD(normal) FIELD(distance) FIELD(scale) FIELD(reserved) \
+        FIELD(asset) FIELD(reserved_end)
 #define FE_FIELDS_fe_shape_def(FIELD)                                                                                  \
     FIELD(struct_size)                                                                                                 \
     FIELD(density)                                                                                                     \

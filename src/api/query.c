@@ -47,7 +47,7 @@ fe_result fe__read_moving_form(const char *function, const fe_world *world, cons
     FE_CHECK_RESERVED(geometry->reserved_end);
     fe__form *form = &out_moving->form;
     *form = (fe__form){.type = fe__form_of_geometry(geometry->type)};
-    if (form->type >= 0 && !fe__form_has_asset(form)) FE_TRY(fe__check_unscaled(function, geometry));
+    FE_TRY(fe__check_has_scale(function, geometry));
     switch (geometry->type) {
     case FE_GEOMETRY_SPHERE:
         if (geometry->radius != 0.0f) FE_CHECK_LENGTH(geometry->radius);

@@ -58,7 +58,7 @@ static fe_result read_geometry(const char *function, const fe_world *world, cons
     *out_form = (fe__form){.type = fe__form_of_geometry(geometry->type)};
     if (out_form->type < 0)
         return fe__fail(function, FE_ERROR_ARGUMENT, "type is %" PRId32 ", no fe_geometry_type", geometry->type);
-    if (!fe__traits_of(out_form)->has_asset) FE_TRY(fe__check_unscaled(function, geometry));
+    FE_TRY(fe__check_has_scale(function, geometry));
     switch (geometry->type) {
     case FE_GEOMETRY_SPHERE:
         FE_CHECK_LENGTH(geometry->radius);

@@ -8,7 +8,7 @@
 
 #include "collision/manifold/terrain.h"
 #include "step/narrow.h"
-#include "world/pair_list.h"
+#include "step/surroundings.h"
 #include "world/pair_mix.h"
 #include "world/points.h"
 #include "world/pose.h"
@@ -32,24 +32,6 @@ typedef struct pair_view {
 } pair_view;
 
 // ---- one look ------------------------------------------------------------------------------------------------------
-// Other heightfields and meshes that the same body is near: their surfaces may go on where this one ends.
-static void find_neighbours(const fe_world *w, const look *l, const fe__pose *pose, fe__terrain *terrain)
-{
-    int32_t body = l->v.b->body;
-    for (int32_t pair = w->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(w, pair, body)) {
-        const fe__pair *p = w->pairs + pair;
-        const fe__shape *x = w->shapes + p->shape_a, *y = w->shapes + p->shape_b,
-                        *field = fe__form_is_field(&x->form) ? x : y;
-        if (p->flags & FE__PAIR_PATCH || p->next_patch < 0 || field == l->v.a || (x != l->v.b && y != l->v.b)) continue;
-        if (terrain->neighbour_count == FE__NEIGHBOURS) return;
-        fe_quat turn = fe__product(fe__conjugate(pose->rotation), field->pose.rotation);
-        terrain->neighbours[terrain->neighbour_count++] =
-            (fe__neighbour){fe__store_ground(w->store, &field->form),
-                            fe__drotate_back(field->pose.rotation, fe__dsub(l->v.origin, field->pose.position)),
-                            fe__matrix(turn)};
-    }
-}
-
 static void look_at(const pair_view *p, const fe__pose *pose_field, const fe__pose *pose_other, float margin, look *l)
 {
     const fe_world *w = p->world;
@@ -58,10 +40,11 @@ static void look_at(const pair_view *p, const fe__pose *pose_field, const fe__po
                       .origin = pose_other->position,
                       .rotation = fe__matrix(pose_field->rotation)};
     l->v.form_a = p->field->form;
-    fe__terrain terrain; // its neighbours mean something up to their count
-    terrain.ground = fe__store_ground(w->store, &p->field->form), terrain.neighbour_count = 0;
-    terrain.origin = fe__drotate_back(pose_field->rotation, fe__dsub(pose_other->position, pose_field->position));
-    if (w->field_pair_count > 1) find_neighbours(w, l, pose_field, &terrain);
+    fe__surroundings around; // their numbers say how many are written
+    fe__find_surroundings(w, &l->v, p->field, p->other, &around);
+    fe__terrain terrain = {fe__store_ground(w->store, &p->field->form),
+                           fe__drotate_back(pose_field->rotation, fe__dsub(pose_other->position, pose_field->position)),
+                           &around};
     fe__mat3 rotation = fe__matrix(fe__product(fe__conjugate(pose_field->rotation), pose_other->rotation));
     l->v.relative.rotation = rotation;
     l->count = fe__collide_terrain(&terrain, &p->other->form, &rotation, margin, l->patches, &l->gap);

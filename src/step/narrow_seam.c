@@ -10,51 +10,34 @@
 #include "collision/form/clip.h"
 #include "collision/form/solid.h"
 #include "collision/form/support.h"
-#include "world/pair_list.h"
+#include "step/surroundings.h"
 
 #include <float.h>
 
-enum { MOST_NEAR = 8, SEAM_ID = 0x20000000 };
+enum { SEAM_ID = 0x20000000 };
 
 typedef struct seam {
-    fe__solid solid, near[MOST_NEAR];
-    int32_t near_count;
+    fe__solid solid;
+    fe__surroundings around;
     fe__solid other; // what touches the solid: any form
     float margin;
 } seam;
 
-static fe__solid place(const fe__view *v, const fe__shape *shape)
+static int32_t ground_shuts(const seam *s, const fe__neighbour *n, fe_vec3 q, fe_vec3 m, fe_vec3 off)
 {
-    fe__mat3 r = fe__matrix(shape->pose.rotation);
-    fe__solid p = {.form = &shape->form,
-                   .centre = fe__mul_transposed(&v->rotation, fe__narrow(fe__dsub(shape->pose.position, v->origin)))};
-    p.axes = (fe__mat3){fe__mul_transposed(&v->rotation, r.x), fe__mul_transposed(&v->rotation, r.y),
-                        fe__mul_transposed(&v->rotation, r.z)};
-    return p;
-}
-
-static int32_t is_static_solid(const fe_world *w, const fe__shape *shape)
-{
-    return fe__form_is_solid(&shape->form) && w->bodies[shape->body].type == FE_BODY_STATIC &&
-           !(shape->flags & FE__SHAPE_TRIGGER);
-}
-
-// Other static solids that the same shape is near
-static void find_near(const fe_world *w, const fe__view *v, const fe__shape *solid, const fe__shape *other, seam *s)
-{
-    for (int32_t pair = w->bodies[other->body].first_contact; pair >= 0 && s->near_count < MOST_NEAR;
-         pair = fe__next_pair(w, pair, other->body)) {
-        const fe__pair *p = w->pairs + pair;
-        const fe__shape *x = w->shapes + p->shape_a, *y = w->shapes + p->shape_b, *n = x == other ? y : x;
-        if ((x == other || y == other) && n != solid && is_static_solid(w, n)) s->near[s->near_count++] = place(v, n);
-    }
+    fe__solid_rim rim = {fe__dadd(n->position, fe__widen(fe__mul_transposed(&n->axes, q))),
+                         fe__widen(fe__mul_transposed(&n->axes, fe__sub(off, q))),
+                         fe__dadd(n->position, fe__widen(fe__mul_transposed(&n->axes, s->other.centre)))};
+    return fe__ground_rises_at(&n->ground, &rim, fe__widen(fe__mul_transposed(&n->axes, m)), (double)FE__FLUSH);
 }
 
 static int32_t is_shut(const seam *s, fe_vec3 q, fe_vec3 m)
 {
-    q = fe__solid_off_rim(&s->solid, q, m);
-    for (int32_t i = 0; i < s->near_count; ++i)
-        if (fe__solid_goes_on(s->near + i, q, m)) return 1;
+    fe_vec3 off = fe__solid_off_rim(&s->solid, q, m);
+    for (int32_t i = 0; i < s->around.solid_count; ++i)
+        if (fe__solid_goes_on(s->around.solids + i, off, m)) return 1;
+    for (int32_t i = 0; i < s->around.ground_count; ++i)
+        if (ground_shuts(s, s->around.grounds + i, q, m, off)) return 1;
     return 0;
 }
 
@@ -135,21 +118,29 @@ static void take_open_face(const seam *s, const fe_vec3 *q, fe_vec3 m, float sig
     if (most > none && most <= s->margin) touch_face(s, best, sign, found);
 }
 
+// What of the solid the point stands for. Of an edge touched askew, a point some way off may lie beside it: under a
+// ground, which has no inside.
+static fe_vec3 touched(const seam *s, const fe__manifold_point *p, fe_vec3 m)
+{
+    fe_vec3 q = fe__solid_draw_in(&s->solid, fe__add_scaled(p->point, -0.5f * p->separation, m));
+    if (!s->around.ground_count) return q;
+    return fe__solid_draw_in(&s->solid, fe__solid_raise(&s->solid, q, m, fe__absf(p->separation)));
+}
+
 void fe__mend_seam(const fe_world *world, const fe__view *v, float margin, fe__manifold *found)
 {
-    int32_t solid_is_a = is_static_solid(world, v->a);
+    int32_t solid_is_a = fe__is_static_solid(world, v->a);
     const fe__shape *solid = solid_is_a ? v->a : v->b, *other = solid_is_a ? v->b : v->a;
-    if (!found->count || !is_static_solid(world, solid) || world->bodies[other->body].static_pairs < 2) return;
-    seam s = {.margin = margin};
-    find_near(world, v, solid, other, &s);
-    if (!s.near_count) return;
+    if (!found->count || !fe__is_static_solid(world, solid) || world->bodies[other->body].static_pairs < 2) return;
+    seam s; // the numbers of what is around say how many are written
+    s.margin = margin;
+    fe__find_surroundings(world, v, solid, other, &s.around);
+    if (!(s.around.solid_count | s.around.ground_count)) return;
     fe__solid a = {.form = &v->a->form, .axes = {{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}}};
     fe__solid b = {.form = &v->b->form, .centre = v->relative.position, .axes = v->relative.rotation};
     s.solid = solid_is_a ? a : b, s.other = solid_is_a ? b : a;
     float sign = solid_is_a ? 1.0f : -1.0f;
     fe_vec3 m = fe__scale(sign, found->normal), q[FE_MAX_POINTS];
-    for (int32_t i = 0; i < found->count; ++i)
-        q[i] =
-            fe__solid_draw_in(&s.solid, fe__add_scaled(found->points[i].point, -0.5f * found->points[i].separation, m));
+    for (int32_t i = 0; i < found->count; ++i) q[i] = touched(&s, found->points + i, m);
     if (all_shut(&s, q, found->count, m)) take_open_face(&s, q, m, sign, found);
 }

@@ -109,10 +109,26 @@ static void two_meshes(scene *s, vec at, fe_material m)
     soup side = make_soup(15, 1.0, 0, -7.2, 0.3, level);
     mesh_side(s, at, m), lay(s, &side, at, m);
 }
+static void mesh_and_box(scene *s, vec at, fe_material m)
+{
+    mesh_side(s, at, m);
+    add_static(s, box(7, 0.5, 7), plus(at, v3(7, -0.5, 0)), UNTURNED, m);
+}
+static void mesh_and_hull(scene *s, vec at, fe_material m)
+{
+    mesh_side(s, at, m);
+    add_static(s, block(s, 7, 0.5, 7), plus(at, v3(7, -0.5, 0)), UNTURNED, m);
+}
 static void mesh_and_field(scene *s, vec at, fe_material m)
 {
     mesh_side(s, at, m);
     place_field(s, make_field(s, 15, 1.0, 0, -7.2, level), plus(at, v3(0, 0, -7.2)), UNTURNED, m);
+}
+
+static void field_and_box(scene *s, vec at, fe_material m)
+{
+    place_field(s, make_field(s, 15, 1.0, 0, -7.2, level), plus(at, v3(0, 0, -7.2)), UNTURNED, m);
+    add_static(s, box(7, 0.5, 7), plus(at, v3(-7, -0.5, 0)), UNTURNED, m);
 }
 
 static void tiles(scene *s, fe_geometry form, vec at, fe_material m)
@@ -174,6 +190,9 @@ static void rides_on(void **state, make_ground *ground) { rides_on_at(state, gro
 static void jittered_cells_are_a_plane(void **state) { rides_on(state, jittered_cells); }
 static void two_meshes_are_one(void **state) { rides_on(state, two_meshes); }
 static void a_mesh_goes_on_as_a_heightfield(void **state) { rides_on(state, mesh_and_field); }
+static void a_mesh_goes_on_as_a_box(void **state) { rides_on(state, mesh_and_box); }
+static void a_mesh_goes_on_as_a_hull(void **state) { rides_on(state, mesh_and_hull); }
+static void a_heightfield_goes_on_as_a_box(void **state) { rides_on(state, field_and_box); }
 static void box_tiles_are_a_plane(void **state) { rides_on(state, box_tiles); }
 static void hull_tiles_are_a_plane(void **state) { rides_on(state, hull_tiles); }
 
@@ -181,7 +200,51 @@ static void hull_tiles_are_a_plane(void **state) { rides_on(state, hull_tiles); 
 static void so_they_are_far_out(void **state)
 {
     rides_on_at(state, jittered_cells, v3(1e6, 0, -1e6));
+    rides_on_at(state, mesh_and_box, v3(1e6, 0, -1e6));
     rides_on_at(state, hull_tiles, v3(1e6, 0, -1e6));
+}
+
+// ---- walls ---------------------------------------------------------------------------------------------------------
+static fe_geometry wall(scene *s, int is_hull) { return is_hull ? block(s, 0.5, 0.5, 7) : box(0.5, 0.5, 7); }
+
+static void wall_on_mesh(scene *s, vec at, fe_material m)
+{
+    jittered_cells(s, at, m), add_static(s, wall(s, 0), plus(at, v3(0.5, 0.5, 0)), UNTURNED, m);
+}
+static void hull_on_field(scene *s, vec at, fe_material m)
+{
+    place_field(s, make_field(s, 17, 1.0, 0, -8.2, level), plus(at, v3(-8.1, 0, -8.2)), UNTURNED, m);
+    add_static(s, wall(s, 1), plus(at, v3(0.5, 0.5, 0)), UNTURNED, m);
+}
+// Of triangles, upright on the top of a box
+static void mesh_on_box(scene *s, vec at, fe_material m)
+{
+    soup upright = make_soup(14, 1.0, 0, -7, 0.3, level);
+    for (int i = 0; i < upright.vertex_count; ++i)
+        upright.vertices[3 * i + 1] = upright.vertices[3 * i], upright.vertices[3 * i] = 0.0f;
+    lay(s, &upright, at, m), add_static(s, box(8, 0.5, 8), plus(at, v3(0, -0.5, 0)), UNTURNED, m);
+}
+
+// Where two grounds make an inner corner, what slides over one is stopped by the other, even what touches only its
+// foot, as a cone does.
+static void walls_stop_at(void **state, make_ground *ground)
+{
+    const double heading = 0.1, slop = 0.005, least = 0.3; // rad; m, LINEAR_SLOP; m, of what moves before its origin
+    // to the wall, and along it for the rest
+    const double most = (WAY / 2 * cos(heading) - least + slop) * cos(heading) + WAY * sin(heading) * sin(heading);
+    scene s = scene_begin(state);
+    mover movers[MOVERS];
+    make_movers(&s, movers);
+    ground(&s, v3(0, 0, 0), friction(1));
+    for (int k = 0; k < MOVERS; ++k) {
+        ride r = go(&s, movers + k, heading, v3(0, 0, 0));
+        FE_WITHIN(r.way, 0, most);
+    }
+    scene_end(&s);
+}
+static void walls_stop(void **state)
+{
+    walls_stop_at(state, wall_on_mesh), walls_stop_at(state, hull_on_field), walls_stop_at(state, mesh_on_box);
 }
 
 int main(void)
@@ -193,11 +256,17 @@ int main(void)
         TEST(two_meshes_are_one),
         TEST_WITH(two_meshes_are_one, ", tilted", tilted),
         TEST(a_mesh_goes_on_as_a_heightfield),
+        TEST(a_mesh_goes_on_as_a_box),
+        TEST_WITH(a_mesh_goes_on_as_a_box, ", tilted", tilted),
+        TEST(a_mesh_goes_on_as_a_hull),
+        TEST(a_heightfield_goes_on_as_a_box),
+        TEST_WITH(a_heightfield_goes_on_as_a_box, ", tilted", tilted),
         TEST(box_tiles_are_a_plane),
         TEST_WITH(box_tiles_are_a_plane, ", tilted", tilted),
         TEST(hull_tiles_are_a_plane),
         TEST_WITH(hull_tiles_are_a_plane, ", tilted", tilted),
         TEST(so_they_are_far_out),
+        TEST(walls_stop),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -234,6 +234,14 @@ namespace FeatherPhysics
             Native.geometry_cone(&made, halfHeight, radius);
             return made;
         }
+        /// <summary>A hull or a mesh under another scale, along the axes of its points.</summary>
+        /// <param name="x">0.001 to 1000 in magnitude, as y and z; a negative one mirrors</param>
+        public Geometry Scaled(float x, float y, float z)
+        {
+            Geometry made = this;
+            Native.geometry_set_scale(&made, x, y, z);
+            return made;
+        }
         public static Geometry Hull(ConvexHull hull)
         {
             Geometry made;

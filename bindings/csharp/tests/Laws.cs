@@ -405,6 +405,16 @@ namespace FeatherPhysics.Tests
                 Check.Near(body.Position.Y, 1, Slop, "rests on a side");
                 Check.Near(wheel.Position.Y, 0.25, Slop, "a cylinder");
                 Check.Near(cone.Position.Y, 0.5, Slop, "a cone");
+                Shape scaled = world.CreateDynamic(new DVec3(12, 1, 0)).Add(Geometry.Hull(hull).Scaled(-1, 0.25f, 0.5f));
+                Check.Same(scaled.Geometry.Scale, new Vector3(-1, 0.25f, 0.5f), "scale");
+                Check.Near(scaled.Body.Mass, 1000, 0.01, "of a scaled hull");
+                Run(world, 120);
+                Check.Near(scaled.Body.Position.Y, 0.25, Slop, "a scaled hull");
+                scaled.Geometry = Geometry.Hull(hull);
+                Check.Same(scaled.Geometry.Scale, new Vector3(1, 1, 1), "unscaled");
+                Check.Throws<BadArgumentException>(() => body.Add(Geometry.Hull(hull).Scaled(0, 1, 1)), "scale.x");
+                Check.Throws<BadArgumentException>(() => body.Add(Geometry.Hull(hull).Scaled(1, float.NaN, 1)), "scale.y");
+                Check.Throws<BadArgumentException>(() => body.Add(Geometry.Sphere(1).Scaled(2, 2, 2)), "sphere");
                 Check.Throws<DegenerateException>(() => world.CreateHull(new Vector3[5]), "one place");
                 Check.Throws<BadArgumentException>(() => world.CreateHull(new Vector3[3]), "point_count");
                 Check.Throws<BadArgumentException>(() => world.CreateHull(Cube, 3), "max_vertices");
@@ -446,6 +456,11 @@ namespace FeatherPhysics.Tests
                 mesh.SetMaterials(materials);
                 Check.True(world.Raycast(new DVec3(3, 3, -3), new DVec3(0, -10, 0), out hit), "a ray");
                 Check.Same(hit.Material, 11UL, "its material");
+                Shape mirrored = world.CreateStatic(new DVec3(20, 0, 0)).Add(Geometry.Mesh(mesh).Scaled(-0.5f, 1, 0.5f));
+                Check.Same(mirrored.Geometry.Scale, new Vector3(-0.5f, 1, 0.5f), "a mesh's scale");
+                Check.True(world.Raycast(new DVec3(18.5, 3, -1.5), new DVec3(0, -10, 0), out hit), "of a scaled mesh");
+                Check.True(hit.Shape == mirrored && hit.Triangle == 1 && hit.Normal.Y > 0.999f, "mirrored");
+                Check.True(!world.Raycast(new DVec3(23, 3, 0), new DVec3(0, -10, 0), out hit), "half as wide");
                 Check.True(world.CreateMesh(vertices, new[] { 0, 2, 3 }).Info.TriangleCount == 1, "in short");
                 Check.Throws<UnsupportedException>(() => ball.AddMesh(mesh), "dynamic");
                 Check.Throws<BadArgumentException>(() => world.CreateMesh(vertices, new[] { 0, 2, 4 }), "triangle 0");

@@ -1,4 +1,4 @@
-// As much of UnityEngine as the layer and the sample use, so that both are compiled the way Unity does. Runs nothing.
+// As much of UnityEngine as the layer and the sample use, so that both are compiled the way Unity does. Holds a mesh, and runs nothing else.
 namespace UnityEngine
 {
     public struct Vector3
@@ -16,6 +16,15 @@ namespace UnityEngine
     public class Object { public static void Destroy(Object it) { } }
     public class Transform : Object { public void SetPositionAndRotation(Vector3 position, Quaternion rotation) { } }
     public class Collider : Object { }
+    public enum MeshTopology { Triangles, Quads = 2, Lines, LineStrip, Points }
+    public class Mesh : Object
+    {
+        public Vector3[] vertices;
+        public int[][] submeshes;
+        public int subMeshCount { get { return submeshes.Length; } }
+        public MeshTopology GetTopology(int submesh) { return MeshTopology.Triangles; }
+        public int[] GetTriangles(int submesh) { return submeshes[submesh]; }
+    }
     public class MonoBehaviour : Object { }
     public enum PrimitiveType { Cube }
     public class GameObject : Object

@@ -154,6 +154,7 @@ for name, type in pairs({
         return made
     end
 end
+function core.geometry_set_scale(made, x, y, z) env.put_vec3(made.scale, { x, y, z }, 0) end
 
 -- ---- the pair filter ------------------------------------------------------------------------------------------------
 

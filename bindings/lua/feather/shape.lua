@@ -20,7 +20,7 @@ objects.switches(Shape, "shape", { Trigger = "trigger" })
 
 -- { "sphere", radius }, { "capsule", halfHeight, radius }, { "box", x, y, z }, { "cylinder", halfHeight, radius },
 -- { "cone", halfHeight, radius }, { "plane", nx, ny, nz, distance }, { "hull", hull }, { "mesh", mesh },
--- { "heightfield", heightfield }: how many numbers each has
+-- { "heightfield", heightfield }: how many numbers each has. Assets may be followed by three more: their scale
 local FORMS = {
     sphere = 1, capsule = 2, box = 3, cylinder = 2, cone = 2, plane = 4, hull = 1, mesh = 1, heightfield = 1,
 }
@@ -43,7 +43,9 @@ function shapes.geometry(form)
     if type(asset) ~= "table" or getmetatable(asset) ~= class then
         fail("a %s is needed, not a %s", class.__name, type(asset))
     end
-    return core["geometry_" .. form[1]](asset.id)
+    local made = core["geometry_" .. form[1]](asset.id)
+    if form[3] ~= nil then core.geometry_set_scale(made, form[3], form[4], form[5]) end
+    return made
 end
 
 function Shape:setForm(form) core.shape_set_geometry(self.native, self.id, shapes.geometry(form)) end
@@ -51,8 +53,10 @@ function Shape:getForm()
     local g = core.shape_get_geometry(self.native, self.id)
     local read = READ[g.type]
     if read then return read(g) end
-    local word = READ_ASSET[g.type]
-    return { word, asset_of(self.world:getStore(), ASSETS[word], native.number(g.asset)) }
+    local word, s = READ_ASSET[g.type], g.scale
+    local form = { word, asset_of(self.world:getStore(), ASSETS[word], native.number(g.asset)) }
+    if s.x ~= 1 or s.y ~= 1 or s.z ~= 1 then form[3], form[4], form[5] = s.x, s.y, s.z end
+    return form
 end
 
 -- ---- making them ----------------------------------------------------------------------------------------------------

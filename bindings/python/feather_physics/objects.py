@@ -10,7 +10,7 @@ from . import _flat, records
 from ._flat import Bounds, Quat, Transform, Vec3
 from .errors import InvalidArgumentError
 from .records import BODY_TYPES, JOINT_TYPES, NO_ROTATION, Box, Capsule, Cone, Cylinder, Filter, Geometry, Material
-from .records import Plane, Sphere, Vector
+from .records import Plane, Scaled, Sphere, Vector
 from .store import Asset, Heightfield, Hull, Mesh
 from .words import (
     DOFS,
@@ -408,7 +408,8 @@ class Shape(Entity):
 
     @property
     def geometry(self) -> Geometry:
-        """Its form: a Sphere, Capsule, Box, Cylinder, Cone, Plane, Hull, Mesh or Heightfield."""
+        """Its form: a Sphere, Capsule, Box, Cylinder, Cone, Plane, Hull, Mesh or Heightfield; a hull or a mesh with
+        another scale than 1 is a Scaled."""
         flat = _flat.shape_get_geometry(self._capsule, self._id)
         if flat.type == _flat.FE_GEOMETRY_SPHERE:
             return Sphere(flat.radius)
@@ -422,11 +423,11 @@ class Shape(Entity):
             return Cylinder(flat.half_height, flat.radius)
         if flat.type == _flat.FE_GEOMETRY_CONE:
             return Cone(flat.half_height, flat.radius)
-        if flat.type == _flat.FE_GEOMETRY_HULL:
-            return Hull(self._world.store, flat.asset)
-        if flat.type == _flat.FE_GEOMETRY_MESH:
-            return Mesh(self._world.store, flat.asset)
-        return Heightfield(self._world.store, flat.asset)
+        if flat.type == _flat.FE_GEOMETRY_HEIGHTFIELD:
+            return Heightfield(self._world.store, flat.asset)
+        is_hull, store = flat.type == _flat.FE_GEOMETRY_HULL, self._world.store
+        asset: Union[Hull, Mesh] = Hull(store, flat.asset) if is_hull else Mesh(store, flat.asset)
+        return asset if flat.scale == (1, 1, 1) else Scaled(asset, flat.scale)
 
     @geometry.setter
     def geometry(self, value: Geometry) -> None:
@@ -600,6 +601,13 @@ def flat_geometry(world: "World", geometry: Geometry) -> Any:
         return _flat.geometry_cylinder(geometry.half_height, geometry.radius)
     if isinstance(geometry, Cone):
         return _flat.geometry_cone(geometry.half_height, geometry.radius)
+    if isinstance(geometry, Scaled):
+        if not isinstance(geometry.asset, Asset):
+            raise TypeError(f"a hull or a mesh is needed, not {type(geometry.asset).__name__!r}")
+        scaled = flat_geometry(world, geometry.asset)
+        x, y, z = geometry.scale
+        _flat.geometry_set_scale(scaled, x, y, z)
+        return scaled
     if not isinstance(geometry, Asset):
         raise TypeError(f"a geometry is needed, not {type(geometry).__name__!r}")
     if geometry._store is not world.store:

@@ -61,7 +61,15 @@ class Plane(NamedTuple):
     distance: float = 0.0
 
 
-Geometry = Union[Sphere, Capsule, Box, Cylinder, Cone, Plane, "Hull", "Mesh", "Heightfield"]
+class Scaled(NamedTuple):
+    """A hull or a mesh under a scale along the axes of its points: each number 0.001 to 1000 in magnitude, a negative
+    one mirrors."""
+
+    asset: Union["Hull", "Mesh"]
+    scale: Vector
+
+
+Geometry = Union[Sphere, Capsule, Box, Cylinder, Cone, Plane, Scaled, "Hull", "Mesh", "Heightfield"]
 
 
 class Material(NamedTuple):

@@ -27,6 +27,7 @@ from feather_physics import (
     Plane,
     Pool,
     Quat,
+    Scaled,
     Sphere,
     StaleHandleError,
     StateError,
@@ -322,6 +323,45 @@ def test_hull(world: World) -> None:
     assert not hull.is_valid
     with pytest.raises(StaleHandleError):
         hull.info
+
+
+def test_scaled(world: World) -> None:
+    hull = world.create_hull(CUBE)
+    mesh = world.create_mesh([(-1, 0, -1), (1, 0, -1), (-1, 0, 1), (1, 0, 1)], [(0, 2, 3), (0, 3, 1)])
+    floor = world.create_body("static").add(Scaled(mesh, (-9, 1, 9)))
+    assert floor.geometry == Scaled(mesh, (-9, 1, 9))
+    body = world.create_body(position=(5, 2, 5))
+    shape = body.add(Scaled(hull, (-2, 0.5, 1)), density=500)
+    assert shape.geometry == Scaled(hull, (-2, 0.5, 1)) and body.mass == pytest.approx(500)
+    run(world, 2)
+    assert body.position.y == pytest.approx(0.25, abs=1e-3)
+    hit = world.raycast((5, 5, 5), (0, -10, 0))
+    assert hit and hit.shape == shape and hit.normal == pytest.approx((0, 1, 0), abs=1e-3)
+    shape.geometry = Scaled(hull, (3, 3, 3))
+    assert body.mass == pytest.approx(27 * 500)
+    shape.geometry = Scaled(hull, (1, 1, 1))
+    assert shape.geometry == hull
+    assert world.sweep(Scaled(hull, (-4, 1, 1)), (5, 9, 5), (0, -10, 0))
+    for wrong in (0, math.nan, math.inf, 1e-4, -1e4):
+        with pytest.raises(InvalidArgumentError, match="scale.x"):
+            body.add(Scaled(hull, (wrong, 1, 1)))
+        with pytest.raises(InvalidArgumentError, match="scale.z"):
+            shape.geometry = Scaled(hull, (1, 1, wrong))
+    assert shape.geometry == hull
+    with pytest.raises(DegenerateError, match="thick"):
+        body.add(Scaled(hull, (0.001, 30, 1)))
+    for other in (Sphere(1), Scaled(hull, (2, 2, 2))):
+        with pytest.raises(TypeError, match="a hull or a mesh is needed, not '(Sphere|Scaled)'"):
+            body.add(Scaled(other, (2, 2, 2)))  # type: ignore[arg-type]
+    field = world.create_heightfield([[0, 0], [0, 0]])
+    with pytest.raises(UnsupportedError, match="heightfield"):
+        world.create_body("static").add(Scaled(field, (2, 2, 2)))  # type: ignore[arg-type]
+    with pytest.raises(ValueError):
+        body.add(Scaled(hull, (1, 2)))
+    hull.destroy()
+    run(world, 0.1)
+    with pytest.raises(StaleHandleError):
+        body.add(Scaled(hull, (2, 2, 2)))
 
 
 def test_mesh(world: World) -> None:

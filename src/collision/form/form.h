@@ -102,7 +102,8 @@ typedef struct fe__form_traits {
     uint8_t is_hull;     // known by an asset's hull (hull.h)
     uint8_t unbounded;   // no box holds it, so that it is in no tree
     uint8_t is_field;    // a surface of triangles (ground.h), touched in patches
-    uint8_t has_asset;   // shares what it is made of: fe__form.field
+    uint8_t has_asset;   // shares what it is made of: fe__form.field,
+    uint8_t has_scale;   // of which there are records for each scale
     fe__mass (*mass)(const fe__form *form, double density);
     fe__bounds (*bounds)(const fe__form *form, const fe__pose *pose);
     float (*reach)(const fe__form *form, fe_vec3 centre);

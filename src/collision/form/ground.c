@@ -84,7 +84,17 @@ static int32_t is_near(const fe_dvec3 v[3], fe_dvec3 p, double near)
     return 1;
 }
 
-int32_t fe__ground_rises(const fe__ground *s, fe_dvec3 p, fe_dvec3 m, double near)
+static int32_t is_under(const fe__ground *s, const fe_dvec3 v[3], const fe__solid_rim *rim)
+{
+    const double least = 1e-4; // m, above the roundings of what is a kilometre wide
+    fe_dvec3 n = normal_of(v);
+    double up = fe__ddot(n, rim->inward);
+    if (fe__ground_is_two_sided(s) && fe__ddot(n, fe__dsub(rim->from, v[0])) < 0.0) up = -up;
+    return up > least;
+}
+
+// `rim`: NULL for any triangle
+static int32_t rises(const fe__ground *s, fe_dvec3 p, fe_dvec3 m, double near, const fe__solid_rim *rim)
 {
     const double flat = 1e-3; // a slope: 0.06 degrees
     fe__bounds box = {{p.x - near, p.y - near, p.z - near}, {p.x + near, p.y + near, p.z + near}};
@@ -93,13 +103,23 @@ int32_t fe__ground_rises(const fe__ground *s, fe_dvec3 p, fe_dvec3 m, double nea
     fe__form unused;
     for (int32_t i; (i = fe__ground_next(&walk, &unused)) >= 0;) {
         fe_dvec3 v[3];
-        int32_t rises = 0;
+        int32_t is_higher = 0;
         fe__ground_corners(s, i, v);
         for (int32_t k = 0; k < 3; ++k) {
             fe_dvec3 way = fe__dsub(v[k], p);
-            rises |= fe__ddot(m, way) > flat * sqrt(fe__ddot(way, way)) + near;
+            is_higher |= fe__ddot(m, way) > flat * sqrt(fe__ddot(way, way)) + near;
         }
-        if (rises && is_near(v, p, near)) return 1;
+        if (is_higher && is_near(v, p, near) && !(rim && is_under(s, v, rim))) return 1;
     }
     return 0;
+}
+
+int32_t fe__ground_rises(const fe__ground *s, fe_dvec3 p, fe_dvec3 m, double near)
+{
+    return rises(s, p, m, near, NULL);
+}
+
+int32_t fe__ground_rises_at(const fe__ground *s, const fe__solid_rim *rim, fe_dvec3 m, double near)
+{
+    return rises(s, rim->p, m, near, rim);
 }

@@ -59,4 +59,12 @@ static inline int32_t fe__ground_next(fe__ground_walk *walk, fe__form *triangle)
 // Does the surface go on at p and rise along the unit m from there? A triangle nearer to p than `near`, m, counts.
 int32_t fe__ground_rises(const fe__ground *s, fe_dvec3 p, fe_dvec3 m, double near);
 
+// A face of a solid that ends at p and lies along `inward` from there, touched by what is at `from`
+typedef struct fe__solid_rim {
+    fe_dvec3 p, inward, from;
+} fe__solid_rim;
+// The same at the rim of a face with the normal m. A triangle does not count when the face rises over it: the two make
+// an inner corner there.
+int32_t fe__ground_rises_at(const fe__ground *s, const fe__solid_rim *rim, fe_dvec3 m, double near);
+
 #endif

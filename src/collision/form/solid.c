@@ -60,6 +60,12 @@ int32_t fe__solid_goes_on(const fe__solid *s, fe_vec3 q, fe_vec3 m)
     return far - here > least + rounding * (fe__absf(far) + fe__absf(here));
 }
 
+fe_vec3 fe__solid_raise(const fe__solid *s, fe_vec3 q, fe_vec3 m, float most)
+{
+    float below = reach(s->form, fe__mul_transposed(&s->axes, m)) - fe__dot(m, fe__sub(q, s->centre));
+    return fe__add_scaled(q, fe__clampf(below, 0.0f, most), m);
+}
+
 fe_vec3 fe__solid_draw_in(const fe__solid *s, fe_vec3 q)
 {
     const fe__form *form = s->form;

@@ -26,6 +26,8 @@ float fe__solid_height(const fe__solid *solid, int32_t face);   // of its plane 
 int32_t fe__solid_goes_on(const fe__solid *solid, fe_vec3 q, fe_vec3 m);
 // The point of the solid next to q, of which it may be off by roundings or by a lean of the normal.
 fe_vec3 fe__solid_draw_in(const fe__solid *solid, fe_vec3 q);
+// q raised along the unit m towards what of the solid is farthest along m, by at most `most`, m
+fe_vec3 fe__solid_raise(const fe__solid *solid, fe_vec3 q, fe_vec3 m, float most);
 // A point of the face whose normal m is, a little farther from the face's rim than q; q when m is no face's normal.
 // The rim itself lies in every inner corner.
 fe_vec3 fe__solid_off_rim(const fe__solid *solid, fe_vec3 q, fe_vec3 m);

@@ -3,12 +3,14 @@
 #ifndef FE_COLLISION_MANIFOLD_PATCH_H
 #define FE_COLLISION_MANIFOLD_PATCH_H
 #include "collision/form/ground.h"
+#include "collision/form/solid.h"
 #include "collision/manifold/manifold.h"
 
 enum {
     FE__PATCHES = 6, // at most, of one pair. What has more directions than that is merged with the most similar ones:
                      // no contact is lost
-    FE__NEIGHBOURS = 4, // other surfaces under the same body
+    FE__NEIGHBOURS = 4,  // other surfaces near the same body
+    FE__NEAR_SOLIDS = 8, // other static boxes and hulls near it
 };
 
 // Points with one normal and one material.
@@ -26,11 +28,17 @@ typedef struct fe__neighbour {
     fe__mat3 axes;
 } fe__neighbour;
 
+// What else lies near the body, in the common frame: it may go on where a surface ends.
+typedef struct fe__surroundings {
+    int32_t ground_count, solid_count;
+    fe__neighbour grounds[FE__NEIGHBOURS];
+    fe__solid solids[FE__NEAR_SOLIDS];
+} fe__surroundings;
+
 typedef struct fe__terrain {
     fe__ground ground;
     fe_dvec3 origin; // of the common frame, in the surface's
-    int32_t neighbour_count;
-    fe__neighbour neighbours[FE__NEIGHBOURS];
+    const fe__surroundings *around;
 } fe__terrain;
 
 #endif

@@ -121,6 +121,21 @@ static int32_t collide_centred(const fe__terrain *t, const fe__form *b, const fe
     return g.count;
 }
 
+// into a frame whose origin is at `away`
+static void move_surroundings(const fe__surroundings *from, fe_vec3 away, fe__surroundings *to)
+{
+    to->ground_count = from->ground_count, to->solid_count = from->solid_count;
+    for (int32_t i = 0; i < from->ground_count; ++i) {
+        fe__neighbour *n = to->grounds + i;
+        *n = from->grounds[i];
+        n->position = fe__dadd(n->position, fe__widen(fe__mul_transposed(&n->axes, away)));
+    }
+    for (int32_t i = 0; i < from->solid_count; ++i) {
+        to->solids[i] = from->solids[i];
+        to->solids[i].centre = fe__sub(from->solids[i].centre, away);
+    }
+}
+
 // A hull's own origin may be anywhere: what is felt of a surface is decided by its centre.
 int32_t fe__collide_terrain(const fe__terrain *t, const fe__form *b, const fe__mat3 *rotation, float margin,
                             fe__patch patches[FE__PATCHES], float *gap)
@@ -129,12 +144,9 @@ int32_t fe__collide_terrain(const fe__terrain *t, const fe__form *b, const fe__m
     fe_vec3 centre = fe__hull_form_centre(b), away = fe__mul(rotation, centre);
     fe__form centred = *b;
     centred.offset = fe__sub(b->offset, centre);
-    fe__terrain there = *t;
-    there.origin = fe__dadd(t->origin, fe__widen(away));
-    for (int32_t i = 0; i < t->neighbour_count; ++i) {
-        fe__neighbour *n = there.neighbours + i;
-        n->position = fe__dadd(n->position, fe__widen(fe__mul_transposed(&n->axes, away)));
-    }
+    fe__surroundings around; // their numbers say how many are written
+    move_surroundings(t->around, away, &around);
+    fe__terrain there = {t->ground, fe__dadd(t->origin, fe__widen(away)), &around};
     int32_t count = collide_centred(&there, &centred, rotation, margin, patches, gap);
     for (int32_t i = 0; i < count; ++i)
         for (int32_t k = 0; k < patches[i].count; ++k)

@@ -3,8 +3,8 @@
 // A direction m is in the normal cone of a point of a surface when nothing near the point rises along m. For a
 // piecewise flat surface it is enough to look at the samples next to it (Connolly; van den Bergen: Voronoi regions of a
 // mesh's features). Beyond the border of the grid the neighbouring heightfields are asked for their height a little
-// further on. A mesh does not know what is next to what: its tree is asked for the triangles at the point. So are other
-// meshes', and what only lies there, as at a T-junction, counts too.
+// further on, and so are boxes and hulls. A mesh does not know what is next to what: its tree is asked for the
+// triangles at the point. So are other meshes', and what only lies there, as at a T-junction, counts too.
 #include "collision/manifold/terrain_surface.h"
 
 // Slopes below this count as flat: 0.06 degrees
@@ -137,6 +137,15 @@ static int32_t goes_on(const fe__neighbour *n, fe_vec3 p, fe_vec3 m, float near)
                             (double)fe__minf(near, NEAR));
 }
 
+static int32_t solid_rises(const fe__terrain *t, fe_vec3 p, fe_vec3 m)
+{
+    for (int32_t i = 0; i < t->around->solid_count; ++i)
+        if (fe__solid_goes_on(t->around->solids + i, p, m)) return 1;
+    return 0;
+}
+
+static int32_t is_alone(const fe__terrain *t) { return !(t->around->ground_count | t->around->solid_count); }
+
 int32_t fe__heightfield_height(const fe__heightfield *f, fe_dvec3 p, double *height)
 {
     double x = p.x / f->cell_x, z = p.z / f->cell_z, columns = (double)(f->columns - 1), rows = (double)(f->rows - 1);
@@ -151,11 +160,12 @@ int32_t fe__heightfield_height(const fe__heightfield *f, fe_dvec3 p, double *hei
     return 1;
 }
 
-// Does a neighbour's surface go on from the point p of the border, and rise along m? `way`: out of this field, x and z.
+// Does a neighbour go on from the point p of the border, and rise along m? `way`: out of this field, x and z.
 static int32_t neighbour_rises(const fe__terrain *t, fe_vec3 p, fe_vec3 way, fe_vec3 m)
 {
-    for (int32_t i = 0; i < t->neighbour_count; ++i) {
-        const fe__neighbour *n = t->neighbours + i;
+    if (solid_rises(t, p, m)) return 1;
+    for (int32_t i = 0; i < t->around->ground_count; ++i) {
+        const fe__neighbour *n = t->around->grounds + i;
         if (n->ground.mesh) {
             if (goes_on(n, p, m, NEAR_SHARE / (float)BEYOND * fe__length(way))) return 1;
             continue;
@@ -188,7 +198,7 @@ static int32_t side_allows(const fe__terrain *t, const fe__tile *tile, int32_t s
     const fe_vec3 *v = tile->form.vertex;
     if (!fe__tile_is_convex(t, tile, side)) return 0;
     if (fe__tile_beyond(t, tile, side) >= 0) return !rises(m, fe__sub(third_of(t, tile, side), v[side]));
-    if (!t->neighbour_count) return 1;
+    if (is_alone(t)) return 1;
     // at the point of the side nearest the body, which is at the origin
     fe_vec3 along = fe__sub(v[(side + 1) % 3], v[side]);
     float s = fe__clampf(-fe__dot(along, v[side]) / fe__dot(along, along), 0.0f, 1.0f);
@@ -206,7 +216,7 @@ static int32_t vertex_allows(const fe__terrain *t, const fe__tile *tile, int32_t
         if (!cell_present(f, row + s[2], column + s[3]) && !cell_present(f, row + s[4], column + s[5])) continue;
         if (rises(m, fe__sub(sample(t, row + s[0], column + s[1]), p))) return 0;
     }
-    if (!t->neighbour_count || !on_border(f, row, column)) return 1;
+    if (is_alone(t) || !on_border(f, row, column)) return 1;
     for (int32_t i = 0; i < 9; ++i) {
         if (i != 4 && neighbour_rises(t, p, way_out(t, i / 3 - 1, i % 3 - 1), m)) return 0;
     }
@@ -218,9 +228,9 @@ static int32_t mesh_allows(const fe__terrain *t, const fe__tile *tile, fe_vec3 p
 {
     float near = fe__minf(NEAR_SHARE * tile->size, NEAR);
     if (fe__ground_rises(&t->ground, fe__dadd(t->origin, fe__widen(p)), fe__widen(m), (double)near)) return 0;
-    for (int32_t i = 0; i < t->neighbour_count; ++i)
-        if (goes_on(t->neighbours + i, p, m, near)) return 0;
-    return 1;
+    for (int32_t i = 0; i < t->around->ground_count; ++i)
+        if (goes_on(t->around->grounds + i, p, m, near)) return 0;
+    return !solid_rises(t, p, m);
 }
 
 // At the point of the side nearest the body, which is at the origin, but not at its ends: others begin there.

@@ -1,0 +1,31 @@
+// A stand-in's mesh of Godot becomes a floor of two surfaces and a hull: the same sides count as in Godot.
+using System;
+using FeatherPhysics;
+using Godot;
+
+static void Must(bool held, string what) { if (!held) throw new Exception(what); }
+
+// seen from above, in axes where x goes right, z towards the eye and y up (right-handed), all triangles run clockwise
+var near = new Godot.Collections.Array();
+near[(int)Mesh.ArrayType.Vertex] = new Variant { Value = new Vector3[] { new(0, 0, 0), new(1, 0, 0), new(0, 0, 1) } };
+near[(int)Mesh.ArrayType.Index] = new Variant { Value = new[] { 0, 1, 2 } };
+var far = new Godot.Collections.Array(); // without indices: three vertices a triangle
+far[(int)Mesh.ArrayType.Vertex] = new Variant { Value = new Vector3[] { new(1, 0, 0), new(1, 0, 1), new(0, 0, 1) } };
+var floor = new ArrayMesh();
+floor.AddSurfaceFromArrays(Mesh.PrimitiveType.Triangles, near);
+floor.AddSurfaceFromArrays(Mesh.PrimitiveType.Triangles, far);
+
+using var world = new World();
+TriangleMesh mesh = world.CreateMesh(floor);
+world.CreateStatic(new DVec3()).AddMesh(mesh);
+Must(world.Raycast(new DVec3(0.9, 1, 0.9), new DVec3(0, -2, 0), out Hit hit), "a ray from above meets it");
+Must(hit.Triangle == 1 && mesh.GetTriangle(1).Data == 1, "the second triangle is of the second surface");
+Must(!world.Raycast(new DVec3(0.9, -1, 0.9), new DVec3(0, 2, 0), out hit), "its back does not count");
+
+var corners = new Vector3[8];
+for (int i = 0; i < 8; ++i) corners[i] = new Vector3(i & 1, i >> 1 & 1, i >> 2);
+var cube = new Godot.Collections.Array();
+cube[(int)Mesh.ArrayType.Vertex] = new Variant { Value = corners };
+var crate = new ArrayMesh();
+crate.AddSurfaceFromArrays(Mesh.PrimitiveType.Triangles, cube);
+Must(Math.Abs(world.CreateHull(crate).Info.Volume - 1) < 1e-5, "a cube of a cubic metre");

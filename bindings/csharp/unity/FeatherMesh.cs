@@ -1,0 +1,52 @@
+// Unity's meshes as Feather's: the triangles of a Mesh, or the convex hull of its vertices.
+using UnityEngine;
+
+namespace FeatherPhysics
+{
+    /// <summary>Meshes of Unity in a store. They must be readable (Read/Write in their import settings).</summary>
+    /// <remarks>Vertices and triangles go over as they are: the front of a triangle is clockwise in Unity's axes and
+    /// counterclockwise in right-handed ones, which is the same side.</remarks>
+    public static class UnityMeshes
+    {
+        /// <summary>The triangles of all submeshes; <see cref="MeshTriangle.Data"/> tells which submesh one is of.
+        /// </summary>
+        public static TriangleMesh CreateMesh(this Store store, Mesh mesh)
+        {
+            return store.CreateMesh(DefinitionOf(mesh));
+        }
+        /// <summary>In this world's store.</summary>
+        public static TriangleMesh CreateMesh(this World world, Mesh mesh) { return world.Store.CreateMesh(mesh); }
+
+        /// <summary>Feather's definition of a mesh, to be given materials or a weld distance before it is built.
+        /// </summary>
+        public static MeshDef DefinitionOf(Mesh mesh)
+        {
+            int count = 0;
+            for (int part = 0; part < mesh.subMeshCount; ++part)
+                if (mesh.GetTopology(part) == MeshTopology.Triangles) count += mesh.GetTriangles(part).Length;
+            var indices = new int[count];
+            var parts = new uint[count / 3];
+            count = 0;
+            for (int part = 0; part < mesh.subMeshCount; ++part)
+            {
+                if (mesh.GetTopology(part) != MeshTopology.Triangles) continue;
+                int[] triangles = mesh.GetTriangles(part);
+                triangles.CopyTo(indices, count);
+                for (int i = 0; i < triangles.Length / 3; ++i) parts[count / 3 + i] = (uint)part;
+                count += triangles.Length;
+            }
+            return new MeshDef { Vertices = mesh.vertices, Indices = indices, TriangleData = parts };
+        }
+
+        /// <summary>The convex hull of a mesh's vertices.</summary>
+        public static ConvexHull CreateHull(this Store store, Mesh mesh, int maxVertices = 64, float tolerance = 0)
+        {
+            return store.CreateHull(mesh.vertices, maxVertices, tolerance);
+        }
+        /// <summary>In this world's store.</summary>
+        public static ConvexHull CreateHull(this World world, Mesh mesh, int maxVertices = 64, float tolerance = 0)
+        {
+            return world.Store.CreateHull(mesh, maxVertices, tolerance);
+        }
+    }
+}
