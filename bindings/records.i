@@ -62,6 +62,8 @@ FE_OUT_RECORD(fe_joint_state, out_state)
 %apply SWIGTYPE *OUT_HIT { fe_hit *out_hit };
 %apply SWIGTYPE *OUT_HIT { fe_closest *out_closest };
 %enddef
-#define FE_FOUND int32_t fe_world_raycast, int32_t fe_world_sweep, int32_t fe_world_closest_point, \
+#define FE_FOUND int32_t fe_world_raycast, int32_t fe_world_sweep, int32_t fe_world_sweep_turning, \
+    int32_t fe_world_closest_point, \
     int32_t fe_shape_raycast, int32_t fe_body_raycast, int32_t fe_shape_closest_point, int32_t fe_body_closest_point
-#define FE_ANY int32_t fe_world_raycast_any, int32_t fe_world_sweep_any, int32_t fe_world_overlap_any
+#define FE_ANY int32_t fe_world_raycast_any, int32_t fe_world_sweep_any, int32_t fe_world_sweep_turning_any, \
+    int32_t fe_world_overlap_any

@@ -515,7 +515,7 @@ static int to_material(PyObject *object, fe_material *material, const char *what
 // ---- arrays ---------------------------------------------------------------------------------------------------------
 
 enum { MAX_VIEWS = 6 };
-enum { RAY_SIZE = offsetof(fe_ray, reserved), PATH_SIZE = offsetof(fe_path, reserved) };
+enum { RAY_SIZE = offsetof(fe_ray, reserved), PATH_SIZE = offsetof(fe_path, turn) };
 
 /// The buffers that a call borrows, and how many records each has room for.
 typedef struct call_state {

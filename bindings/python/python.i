@@ -287,7 +287,7 @@ FE_OUT_HITS
 %enddef
 FE_INPUT(const fe_handle *, sizeof *$1, "QqLl")
 FE_INPUT(const fe_transform *transforms, sizeof *$1, "")
-// the front of fe_ray and fe_path, without what is reserved
+// the front of fe_ray, without what is reserved, and of fe_path, without the turn
 FE_INPUT(const fe_ray *rays, RAY_SIZE, "")
 FE_INPUT(const fe_path *paths, PATH_SIZE, "")
 FE_INPUT(const float *floats, 6 * sizeof *$1, "f")

@@ -21,6 +21,7 @@
 // infinity.
 #define FE_MAX_POSITION 1e9     // m, each coordinate: a double resolves 0.1 um there
 #define FE_MAX_TRANSLATION 1e10 // m, of a query
+#define FE_MAX_TURN 64.0f       // rad, of a query: ten turns. What a sweep costs grows with them
 #define FE_MAX_LOCAL 1e6f       // m, in a body's frame
 #define FE_MAX_SPEED 1e6f       // m/s, rad/s, m/s2
 #define FE_MAX_FORCE 1e15f      // N, N m, N s, N m s

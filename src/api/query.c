@@ -194,6 +194,60 @@ int32_t fe_world_sweep_all(const fe_world *world, const fe_geometry *geometry, c
     return count;
 }
 
+// ---- what a form meets that turns ----------------------------------------------------------------------------------
+int32_t fe_world_sweep_turning(const fe_world *world, const fe_geometry *geometry, const fe_transform *start,
+                               const fe_dvec3 *translation, const fe_vec3 *turn, const fe_query_filter *filter,
+                               fe_hit *out_hit)
+{
+    FE_READ(world);
+    FE_READ_MOVING_FORM(world, geometry);
+    FE_CHECK_TRANSFORM(start);
+    FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
+    FE_CHECK_VEC3(turn, FE_MAX_TURN);
+    FE_CHECK_POINTER(out_hit);
+    fe__query query;
+    FE_TRY(fe__begin_query(function, world, filter, &query));
+    fe__probe probe = fe__probe_turning(&moving.form, start, *translation, *turn);
+    int32_t hit = fe__cast_closest(&query.scene, &probe, out_hit);
+    fe__end_query(&query);
+    return hit;
+}
+
+int32_t fe_world_sweep_turning_any(const fe_world *world, const fe_geometry *geometry, const fe_transform *start,
+                                   const fe_dvec3 *translation, const fe_vec3 *turn, const fe_query_filter *filter)
+{
+    FE_READ(world);
+    FE_READ_MOVING_FORM(world, geometry);
+    FE_CHECK_TRANSFORM(start);
+    FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
+    FE_CHECK_VEC3(turn, FE_MAX_TURN);
+    fe__query query;
+    FE_TRY(fe__begin_query(function, world, filter, &query));
+    fe__probe probe = fe__probe_turning(&moving.form, start, *translation, *turn);
+    int32_t hit = fe__cast_any(&query.scene, &probe);
+    fe__end_query(&query);
+    return hit;
+}
+
+int32_t fe_world_sweep_turning_all(const fe_world *world, const fe_geometry *geometry, const fe_transform *start,
+                                   const fe_dvec3 *translation, const fe_vec3 *turn, const fe_query_filter *filter,
+                                   fe_hit *out_hits, uint32_t stride, int32_t capacity)
+{
+    FE_READ(world);
+    FE_READ_MOVING_FORM(world, geometry);
+    FE_CHECK_TRANSFORM(start);
+    FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
+    FE_CHECK_VEC3(turn, FE_MAX_TURN);
+    FE_CHECK_ARRAY(out_hits, capacity);
+    FE_CHECK_RECORD_STRIDE(stride, FE_SORTED_HIT, capacity);
+    fe__query query;
+    FE_TRY(fe__begin_query(function, world, filter, &query));
+    fe__probe probe = fe__probe_turning(&moving.form, start, *translation, *turn);
+    int32_t count = fe__cast_all(&query.scene, &probe, out_hits, stride, capacity);
+    fe__end_query(&query);
+    return count;
+}
+
 // ---- what a form overlaps ------------------------------------------------------------------------------------------
 static const fe_dvec3 nowhere = {0.0, 0.0, 0.0};
 

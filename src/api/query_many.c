@@ -47,7 +47,7 @@ static void set_probe(const batch *b, int32_t i, fe__probe *probe)
         return;
     }
     fe_path path = path_at(b->ways, b->way_stride, i);
-    *probe = fe__probe_form(b->form, &path.start, path.translation);
+    *probe = fe__probe_turning(b->form, &path.start, path.translation, path.turn);
 }
 
 static void answer(void *argument, int32_t first, int32_t end, int32_t worker)
@@ -103,6 +103,7 @@ static fe_result check_path(const char *function, const fe_path *path, int32_t i
 {
     FE_TRY(check_part(function, "paths[%" PRId32 "].start.position", i, &path->start.position, FE_MAX_POSITION));
     FE_TRY(fe__check_quat(function, "start.rotation", &path->start.rotation));
+    FE_TRY(fe__check_vec3(function, "turn", &path->turn, FE_MAX_TURN));
     FE_CHECK_RESERVED(path->reserved);
     return check_part(function, "paths[%" PRId32 "].translation", i, &path->translation, FE_MAX_TRANSLATION);
 }

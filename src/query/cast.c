@@ -8,6 +8,7 @@
 #include "collision/cast/mesh_ray.h"
 #include "collision/cast/ray.h"
 #include "collision/cast/sweep.h"
+#include "collision/cast/turning.h"
 #include "query/keep.h"
 
 #include <string.h>
@@ -33,6 +34,23 @@ fe__probe fe__probe_form(const fe__form *form, const fe_transform *from, fe_dvec
     fe__bounds b = fe__form_bounds(form, &turned);
     fe_dvec3 half = {fe__maxd(b.high.x, -b.low.x), fe__maxd(b.high.y, -b.low.y), fe__maxd(b.high.z, -b.low.z)};
     return (fe__probe){.form = *form, .way = {from->position, translation, half}, .axes = fe__axes_of(from->rotation)};
+}
+
+// No point of it leaves the box that it starts in by more than its arc across an axis, nor the ball of its reach.
+fe__probe fe__probe_turning(const fe__form *form, const fe_transform *from, fe_dvec3 translation, fe_vec3 turn)
+{
+    fe__probe probe = fe__probe_form(form, from, translation);
+    fe_dvec3 w = fe__widen(turn);
+    if (!fe__form_shows_turn(form, &probe.axes, w)) return probe;
+    const double rounding = 1.000001; // a reach is a float
+    double angle = sqrt(fe__ddot(w, w)), ball = rounding * (double)fe__form_reach(form, fe__vec3(0.0f, 0.0f, 0.0f));
+    fe_dvec3 axis = fe__dscale(1.0 / angle, w), *half = &probe.way.half;
+    double arc = angle * fe__reach_across(form, fe__turn_back(&probe.axes, axis));
+    half->x = fe__mind(half->x + arc * sqrt(fe__maxd(1.0 - axis.x * axis.x, 0.0)), ball);
+    half->y = fe__mind(half->y + arc * sqrt(fe__maxd(1.0 - axis.y * axis.y, 0.0)), ball);
+    half->z = fe__mind(half->z + arc * sqrt(fe__maxd(1.0 - axis.z * axis.z, 0.0)), ball);
+    probe.turn = w;
+    return probe;
 }
 
 static int32_t is_ray(const fe__probe *probe) { return fe__form_is_point(&probe->form); }
@@ -77,8 +95,11 @@ static fe__mover mover_of(const fe__probe *probe, const fe__shape *shape, const 
     return (fe__mover){.form = &probe->form,
                        .axes = {fe__turn_back(m, a->x), fe__turn_back(m, a->y), fe__turn_back(m, a->z)},
                        .position = fe__turn_back(m, fe__dsub(probe->way.origin, shape->pose.position)),
-                       .translation = fe__turn_back(m, probe->way.translation)};
+                       .translation = fe__turn_back(m, probe->way.translation),
+                       .turn = fe__turn_back(m, probe->turn)};
 }
+
+static int32_t is_turning(const fe__probe *probe) { return !is_ray(probe) && fe__ddot(probe->turn, probe->turn) > 0.0; }
 
 static int32_t meet_form(const fe__scene *scene, const fe__probe *probe, const fe__shape *shape, double limit, found *f)
 {
@@ -88,9 +109,11 @@ static int32_t meet_form(const fe__scene *scene, const fe__probe *probe, const f
     int32_t met;
     if (fe__form_is_field(&shape->form)) {
         fe__ground surface = fe__store_ground(scene->store, &shape->form);
-        met = fe__ground_sweep(&surface, &mover, limit, &hit);
+        met = is_turning(probe) ? fe__ground_turn(&surface, &mover, limit, &hit)
+                                : fe__ground_sweep(&surface, &mover, limit, &hit);
     } else {
-        met = fe__form_sweep(&shape->form, &mover, limit, &hit);
+        met = is_turning(probe) ? fe__form_turn(&shape->form, &mover, limit, &hit)
+                                : fe__form_sweep(&shape->form, &mover, limit, &hit);
     }
     if (!met) return 0;
     *f = (found){{hit.t, hit.normal, hit.depth, hit.inside, hit.triangle}, hit.point};
@@ -151,7 +174,7 @@ static void report(const fe__scene *scene, const fe__probe *probe, int32_t index
     out->shape = fe__id_pool_handle(scene->shape_ids, index);
     set(&out->point, &point);
     out->fraction = hit->t;
-    out->normal = against_way(normal, way);
+    out->normal = is_turning(probe) ? fe__narrow(normal) : against_way(normal, way);
     out->depth = (float)hit->depth;
     out->flags = hit->inside ? FE_HIT_STARTED_INSIDE : 0u;
     out->material = fe__scene_material(scene, shape, hit->triangle);

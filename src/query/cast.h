@@ -14,12 +14,15 @@ enum { FE_SORTED_HIT = offsetof(fe_hit, flags) + sizeof(uint32_t) }; // bytes of
 
 typedef struct fe__probe {
     fe__form form;    // with an inside, and bounded; a sphere of radius 0: a ray
-    fe__tree_way way; // of its centre, with the half widths of its bounds
-    fe__axes axes;
+    fe__tree_way way; // of its centre, with the half widths of its bounds, of a form that turns those of all its poses
+    fe__axes axes;    // at the start; of a ray they mean nothing, nor does the turn
+    fe_dvec3 turn;    // rad, until the end of the way; 0 where it does not show
 } fe__probe;
 
-void fe__probe_ray(fe__probe *probe, const fe_dvec3 *origin, const fe_dvec3 *translation); // its axes mean nothing
+void fe__probe_ray(fe__probe *probe, const fe_dvec3 *origin, const fe_dvec3 *translation);
 fe__probe fe__probe_form(const fe__form *form, const fe_transform *from, fe_dvec3 translation);
+// One that turns on its way by |turn| rad about the turn's direction
+fe__probe fe__probe_turning(const fe__form *form, const fe_transform *from, fe_dvec3 translation, fe_vec3 turn);
 
 // Does it overlap the shape where it starts? Exactly when a cast would start inside.
 int32_t fe__probe_overlaps(const fe__scene *scene, const fe__probe *probe, const fe__shape *shape);

@@ -459,7 +459,7 @@ static void try_inputs(void)
     fe_hit hits[2];
     fe_geometry sphere;
     fe_geometry_sphere(&sphere, 0.1f);
-    const fe_path path = {{above, {0.0f, 0.0f, 0.0f, 1.0f}}, downwards, {0}};
+    const fe_path path = {.start = {above, {0.0f, 0.0f, 0.0f, 1.0f}}, .translation = downwards};
     const fe_ray ray = {above, downwards, {0}};
     for (uint32_t stride = 0; stride <= sizeof path + LONGER; stride += 8) {
         memset(rays, 0, sizeof rays), memset(paths, 0, sizeof paths);

@@ -166,7 +166,8 @@ static void many_at_once_answer_as_one_by_one(void **state)
     static fe_hit one[MANY], many[MANY], spread[MANY];
     for (int i = 0; i < MANY; ++i) {
         rays[i] = (fe_ray){{0.01 * i - 2.5, 10, 0.02 * i - 2}, {0.3, -12 + 0.05 * (i % 100), 0.1}, {0}};
-        paths[i] = (fe_path){fe_make_transform(rays[i].origin.x, 10, rays[i].origin.z), rays[i].translation, {0}};
+        paths[i] =
+            (fe_path){fe_make_transform(rays[i].origin.x, 10, rays[i].origin.z), rays[i].translation, {0, 0, 0}, {0}};
     }
     for (int kind = 0; kind < 2; ++kind) {
         int32_t hits = 0;
@@ -289,7 +290,7 @@ static void bad_batches_are_refused(void **state)
     fe_hit h[2], untouched[2];
     memset(h, 0x55, sizeof h), memcpy(untouched, h, sizeof h);
     fe_ray rays[2] = {{a.above, a.down, {0}}, {a.above, {0, (double)NAN, 0}, {0}}};
-    fe_path paths[2] = {{a.far, a.down, {0}}, {a.far, {0, 0, (double)INFINITY}, {0}}};
+    fe_path paths[2] = {{a.far, a.down, {0, 0, 0}, {0}}, {a.far, {0, 0, (double)INFINITY}, {0, 0, 0}, {0}}};
     REFUSES(w, FE_ERROR_ARGUMENT,
             fe_world_raycast_many(w, rays, sizeof(fe_ray), 2, NULL, 0, h, sizeof(fe_hit))); // the second
     REFUSES(w, FE_ERROR_ARGUMENT, fe_world_raycast_many(w, rays, 44, 1, NULL, 0, h, sizeof *h));
@@ -361,7 +362,7 @@ static void intrude(void *user, fe_task task, void *argument, int32_t count)
     fe_closest c;
     fe_body b;
     fe_ray ray = {a->above, a->down, {0}};
-    fe_path path = {a->at, a->down, {0}};
+    fe_path path = {a->at, a->down, {0, 0, 0}, {0}};
     const int32_t results[] = {
         fe_world_raycast(a->world, &a->above, &a->down, NULL, &h),
         fe_world_raycast_any(a->world, &a->above, &a->down, NULL),

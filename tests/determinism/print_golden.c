@@ -16,8 +16,8 @@ static int is_asked(const script *s, int count, char **arguments)
 
 int main(int count, char **arguments)
 {
-    const script *const scripts[] = {&script_crowd, &script_mixed,  &script_terrain, &script_fast,  &script_joints,
-                                     &script_spawn, &script_solids, &script_meshes,  &script_scales};
+    const script *const scripts[] = {&script_crowd, &script_mixed,  &script_terrain, &script_fast,   &script_joints,
+                                     &script_spawn, &script_solids, &script_meshes,  &script_scales, &script_turns};
     fe_world_def def;
     fe_world_def_init(&def, sizeof def);
     int32_t steps = count > 2 ? atoi(arguments[2]) : INT32_MAX;

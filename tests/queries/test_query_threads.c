@@ -163,6 +163,7 @@ static void batches_do_not_depend_on_who_answers(void **state)
         rays[i].origin = place(&random, 20), rays[i].translation = place(&random, 20);
         paths[i] = (fe_path){fe_make_transform(rays[i].origin.x, rays[i].origin.y, rays[i].origin.z),
                              rays[i].translation,
+                             {(float)(i % 3), 2, 3},
                              {0}};
     }
     pthread_t threads[3];

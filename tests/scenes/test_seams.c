@@ -6,9 +6,9 @@
 #include "scenes/meshes.h"
 
 #if defined(FE_SANITIZED)
-enum { HEADINGS = 2 };
+static int headings = 2;
 #else
-enum { HEADINGS = 16 };
+static int headings = 5; // with an argument 16
 #endif
 
 #define SPEED 5.0 // m/s
@@ -99,6 +99,36 @@ static void jittered_cells(scene *s, vec at, fe_material m)
     lay(s, &cells, at, m);
 }
 
+static void fine_cells(scene *s, vec at, fe_material m)
+{
+    soup cells = make_soup(160, 0.1, -8.03, -8.04, 0.3, level);
+    lay(s, &cells, at, m);
+}
+
+// A band of triangles of 5 m by 5 mm, with wide ones on both sides
+static void slivers(scene *s, vec at, fe_material m)
+{
+    enum { ROWS = 3, COLUMNS = 200 };
+    soup band = make_soup(COLUMNS, 1.0, 0, 0, 0, level);
+    for (int i = 0; i < band.vertex_count; ++i) {
+        float *v = band.vertices + 3 * i;
+        v[0] = 0.005f * v[0] - 0.5f, v[2] = 5.0f * v[2] - 7.5f;
+    }
+    band.triangle_count = 2 * ROWS * COLUMNS;
+    soup left = make_soup(5, 3.0, -15.5, -7.5, 0.2, level), right = make_soup(5, 3.0, 0.5, -7.5, 0.2, level);
+    lay(s, &band, at, m), lay(s, &left, at, m), lay(s, &right, at, m);
+}
+
+// Tiles of 2 m, cut into 3 x 3 or 4 x 4
+static void t_junctions(scene *s, vec at, fe_material m)
+{
+    for (int i = 0; i < 64; ++i) {
+        int column = i % 8, row = i / 8, cells = 3 + (column + row) % 2;
+        soup tile = make_soup(cells, 2.0 / cells, 0, 0, 0.2, level);
+        lay(s, &tile, plus(at, v3(2 * column - 8.3, 0, 2 * row - 8.4)), m);
+    }
+}
+
 static void mesh_side(scene *s, vec at, fe_material m)
 {
     soup side = make_soup(19, 0.75, -14.25, -7, 0.3, level);
@@ -175,8 +205,8 @@ static void rides_on_at(void **state, make_ground *ground, vec at)
     for (int k = 0; k < MOVERS; ++k) {
         ride p = go(&even, on_plane + k, 0, at);
         double way = 0, aside = 0, kick = 0;
-        for (int i = 0; i < HEADINGS; ++i) {
-            ride r = go(&s, movers + k, 2 * PI * i / HEADINGS + 0.1, at);
+        for (int i = 0; i < headings; ++i) {
+            ride r = go(&s, movers + k, 2 * PI * i / headings + 0.1, at);
             way = fmax(way, fabs(r.way - p.way)), aside = fmax(aside, r.aside - p.aside), kick = fmax(kick, r.kick);
         }
         FE_WITHIN(way, 0, 1e-3 * p.way);
@@ -188,6 +218,9 @@ static void rides_on_at(void **state, make_ground *ground, vec at)
 static void rides_on(void **state, make_ground *ground) { rides_on_at(state, ground, v3(0, 0, 0)); }
 
 static void jittered_cells_are_a_plane(void **state) { rides_on(state, jittered_cells); }
+static void fine_cells_are_a_plane(void **state) { rides_on(state, fine_cells); }
+static void slivers_are_a_plane(void **state) { rides_on(state, slivers); }
+static void t_junctions_are_a_plane(void **state) { rides_on(state, t_junctions); }
 static void two_meshes_are_one(void **state) { rides_on(state, two_meshes); }
 static void a_mesh_goes_on_as_a_heightfield(void **state) { rides_on(state, mesh_and_field); }
 static void a_mesh_goes_on_as_a_box(void **state) { rides_on(state, mesh_and_box); }
@@ -247,12 +280,19 @@ static void walls_stop(void **state)
     walls_stop_at(state, wall_on_mesh), walls_stop_at(state, hull_on_field), walls_stop_at(state, mesh_on_box);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
+    (void)argv;
+    if (argc > 1) headings = 16;
     static setup tilted = {{0, 0, 0.147809f, 0.989016f}, 8}; // by 17 degrees
     const struct CMUnitTest tests[] = {
         TEST(jittered_cells_are_a_plane),
         TEST_WITH(jittered_cells_are_a_plane, ", tilted", tilted),
+        TEST(fine_cells_are_a_plane),
+        TEST(slivers_are_a_plane),
+        TEST_WITH(slivers_are_a_plane, ", tilted", tilted),
+        TEST(t_junctions_are_a_plane),
+        TEST_WITH(t_junctions_are_a_plane, ", tilted", tilted),
         TEST(two_meshes_are_one),
         TEST_WITH(two_meshes_are_one, ", tilted", tilted),
         TEST(a_mesh_goes_on_as_a_heightfield),

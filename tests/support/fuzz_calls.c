@@ -180,6 +180,17 @@ static void check_fuzz_hit(fuzz *f, const fe_hit *hit)
     fe__hash_double(&f->told, hit->fraction);
 }
 
+// None, anything at all, or up to a turn
+static fe_vec3 fuzz_turn(fuzz *f)
+{
+    const float scale = 0.05f;
+    int32_t which = fuzz_byte(f) % 4;
+    if (which == 0) return (fe_vec3){0.0f, 0.0f, 0.0f};
+    if (which == 1) return fuzz_vec3(f);
+    float x = (float)fuzz_byte(f) - 128.0f, y = (float)fuzz_byte(f) - 128.0f, z = (float)fuzz_byte(f) - 128.0f;
+    return (fe_vec3){scale * x, scale * y, scale * z};
+}
+
 static int32_t query_many(fuzz *f)
 {
     enum { MOST = 4 };
@@ -191,6 +202,7 @@ static int32_t query_many(fuzz *f)
         rays[i].origin = fuzz_dvec3(f);
         rays[i].translation = paths[i].translation = fuzz_dvec3(f);
         paths[i].start = fuzz_transform(f);
+        paths[i].turn = fuzz_turn(f);
     }
     int32_t spread = fuzz_byte(f) % 3, count = fuzz_byte(f) % (MOST + 1);
     int32_t found = fuzz_byte(f) & 1 ? fe_world_raycast_many(f->world, or_null(f, rays), sizeof *rays, count, NULL,
@@ -221,6 +233,11 @@ static int32_t query_forms(fuzz *f)
     if (first == 1) check_fuzz_hit(f, hits);
     fe__hash_u64(&f->told, (uint64_t)(uint32_t)all);
     fe__hash_u64(&f->told, (uint64_t)(uint32_t)overlap);
+    fe_vec3 turn = fuzz_turn(f);
+    if (fe_world_sweep_turning(f->world, &g, &t, &way, &turn, &filter, hits) == 1) check_fuzz_hit(f, hits);
+    all = fe_world_sweep_turning_all(f->world, &g, &t, &way, or_null(f, &turn), &filter, hits, sizeof *hits, room);
+    fe__hash_u64(&f->told, (uint64_t)(uint32_t)all);
+    (void)fe_world_sweep_turning_any(f->world, or_null(f, &g), &t, &way, &turn, NULL);
     return fe_world_sweep_any(f->world, &g, &t, or_null(f, &way), &filter);
 }
 

@@ -52,6 +52,7 @@ extern const script script_spawn;   // bodies that queries place (play_spawn.c)
 extern const script script_solids;  // hulls, cylinders and cones (play_solids.c)
 extern const script script_meshes;  // meshes under bodies of every form (play_meshes.c)
 extern const script script_scales;  // hulls and meshes under scales (play_scales.c)
+extern const script script_turns;   // forms that move and turn, put where they stop (play_turns.c)
 extern const script script_people;  // 300 ragdolls (play_jointed.c)
 extern const script script_cloth;   // 10 000 balls in one island of joints (play_jointed.c)
 extern const script script_brief;   // two dozen bodies, 200 steps, every kind of call

@@ -250,8 +250,8 @@ static void sweeps_stop_before_the_form(void **state)
         fe__form x = random_rim(), y = random_partner();
         const fe__form *still = i & 1 ? &x : &y, *moving = i & 1 ? &y : &x;
         fe_dvec3 from = fe__widen(random_vector(4.0));
-        fe__mover mover = {moving, fe__axes_of(random_rotation()), from,
-                           fe__dadd(fe__dscale(-2.0, from), fe__widen(random_vector(1.0)))};
+        fe__mover mover = {.form = moving, .axes = fe__axes_of(random_rotation()), .position = from};
+        mover.translation = fe__dadd(fe__dscale(-2.0, from), fe__widen(random_vector(1.0)));
         fe__sweep_hit hit;
         double radii = (double)still->radius + (double)moving->radius;
         int32_t met = fe__form_sweep(still, &mover, 1.0, &hit);
@@ -305,7 +305,8 @@ static void extreme_sizes_give_numbers(void **state)
             FE_WITHIN(fe__length(m.points[k].point), 0.0, 1e6);
         }
         if (m.count) FE_NEAR(fe__dot(m.normal, m.normal), 1.0, 1e-4);
-        fe__mover mover = {b, fe__axes_of(random_rotation()), fe__widen(at.position), fe__widen(random_vector(size))};
+        fe__mover mover = {.form = b, .axes = fe__axes_of(random_rotation()), .position = fe__widen(at.position)};
+        mover.translation = fe__widen(random_vector(size));
         fe__sweep_hit hit;
         if (!fe__form_sweep(a, &mover, 1.0, &hit)) continue;
         FE_WITHIN(hit.t, 0.0, 1.0);

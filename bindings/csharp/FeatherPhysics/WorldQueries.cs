@@ -123,6 +123,54 @@ namespace FeatherPhysics
                 return count;
             }
         }
+        /// <summary>
+        /// What a form touches first that turns on its way by the length of <paramref name="turn"/>, rad, about its
+        /// direction, at a constant rate.
+        /// </summary>
+        public bool SweepTurning(Geometry geometry, WorldTransform start, DVec3 translation, Vec3 turn, out Hit hit,
+            QueryFilter filter = null)
+        {
+            Hit found = default(Hit);
+            BodyHandle[] excluded = Excluded(filter);
+            NativeFilter own;
+            int count;
+            fixed (BodyHandle* first = excluded)
+                count = Native.world_sweep_turning(P, &geometry, &start, &translation, &turn,
+                    Given(filter, excluded, first, &own), &found);
+            GC.KeepAlive(this);
+            hit = found;
+            return count == 1;
+        }
+        /// <summary>Does it touch anything while it moves and turns? Faster than the first.</summary>
+        public bool SweepTurningAny(Geometry geometry, WorldTransform start, DVec3 translation, Vec3 turn,
+            QueryFilter filter = null)
+        {
+            BodyHandle[] excluded = Excluded(filter);
+            NativeFilter own;
+            int count;
+            fixed (BodyHandle* first = excluded)
+                count = Native.world_sweep_turning_any(P, &geometry, &start, &translation, &turn,
+                    Given(filter, excluded, first, &own));
+            GC.KeepAlive(this);
+            return count == 1;
+        }
+        /// <summary>
+        /// Every body that it touches while it moves and turns, nearest first. Returns how many there are.
+        /// </summary>
+        public int SweepTurningAll(Geometry geometry, WorldTransform start, DVec3 translation, Vec3 turn,
+            Span<Hit> hits, QueryFilter filter = null)
+        {
+            BodyHandle[] excluded = Excluded(filter);
+            NativeFilter own;
+            fixed (BodyHandle* first = excluded)
+            fixed (Hit* out_ = &MemoryMarshal.GetReference(hits))
+            {
+                int count = Native.world_sweep_turning_all(P, &geometry, &start, &translation, &turn,
+                    Given(filter, excluded, first, &own), out_, (uint)sizeof(Hit), hits.Length);
+                GC.KeepAlive(this);
+                return count;
+            }
+        }
         /// <summary>One geometry along many paths; see <see cref="RaycastMany"/>.</summary>
         public int SweepMany(Geometry geometry, ReadOnlySpan<SweepPath> paths, Span<Hit> hits,
             QueryFilter filter = null,

@@ -757,6 +757,19 @@ namespace FeatherPhysics.Tests
                 Check.True(world.SweepAny(probe, new WorldTransform(from), way), "sweep any");
                 SweepPath[] paths = { new SweepPath { Start = new WorldTransform(from), Translation = way } };
                 Check.Same(world.SweepMany(probe, paths, hits), 1, "sweep many");
+                Geometry rod = Geometry.Box(6, 0.1f, 0.1f);
+                Vec3 turn = new Vec3(0, 6.2831853f, 0);
+                WorldTransform beside = new WorldTransform(new DVec3(from.X, from.Y, from.Z));
+                DVec3 nowhere = new DVec3(0, 0, 0);
+                Check.True(!world.Sweep(rod, beside, nowhere, out hit), "a rod beside");
+                Check.True(world.SweepTurning(rod, beside, nowhere, turn, out hit) && hit.Fraction > 0 &&
+                    hit.Fraction < 0.5, "a rod turns");
+                Check.True(world.SweepTurningAny(rod, beside, nowhere, turn), "any that a rod meets");
+                Check.True(world.SweepTurningAll(rod, beside, nowhere, turn, hits) >= 1, "all that a rod meets");
+                SweepPath[] turning = { new SweepPath { Start = beside, Turn = turn } };
+                Hit[] same = new Hit[1];
+                Check.Same(world.SweepMany(rod, turning, same), 1, "many that a rod meets");
+                Check.Same(same[0].Fraction, hit.Fraction, "the same stop");
                 BodyHandle[] inside = new BodyHandle[4];
                 Check.Same(world.Overlap(Geometry.Box(5, 5, 5), new WorldTransform(new DVec3(0, 0, 0)), inside), 2,
                     "overlap");

@@ -9,9 +9,10 @@ local geometry, pose, xyz, xyz2 = shapes.geometry, objects.pose, objects.xyz, ob
 local World, Body, Shape = objects.World, objects.Body, objects.Shape
 
 local KNOWN = { mask = true, triggers = true, exclude = true }
-local function filter(world, given)
+local OF_SWEEPS = { mask = true, triggers = true, exclude = true, turn = true }
+local function filter(world, given, known)
     if given == nil then return nil end
-    options.check(given, KNOWN, "filter")
+    options.check(given, known or KNOWN, "filter")
     local excluded = given.exclude
     if excluded ~= nil then
         excluded = handles(world, getmetatable(excluded) == Body and { excluded } or excluded)
@@ -66,14 +67,17 @@ function World:rayCastMany(rays, given) return core.world_raycast_many(self.nati
 
 -- ---- sweeps and overlaps: a form as for newShape, its place { x, y, z } or { x, y, z, qx, qy, qz, qw } --------------
 
-function World:sweep(form, place, translation, given)
-    return hit_of(self, core.world_sweep(self.native, geometry(form), pose(place), translation, filter(self, given)))
+-- `given` may have turn = { x, y, z }, rad: the form turns so far about it on its way
+local function sweep(call, turning, self, form, place, translation, given)
+    if given and given.turn then
+        return turning(self.native, geometry(form), pose(place), translation, given.turn, filter(self, given, OF_SWEEPS))
+    end
+    return call(self.native, geometry(form), pose(place), translation, filter(self, given))
 end
-function World:sweepAny(form, place, translation, given)
-    return core.world_sweep_any(self.native, geometry(form), pose(place), translation, filter(self, given))
-end
-function World:sweepAll(form, place, translation, given)
-    local _, n = core.world_sweep_all(self.native, geometry(form), pose(place), translation, filter(self, given))
+function World:sweep(...) return hit_of(self, sweep(core.world_sweep, core.world_sweep_turning, self, ...)) end
+function World:sweepAny(...) return sweep(core.world_sweep_any, core.world_sweep_turning_any, self, ...) end
+function World:sweepAll(...)
+    local _, n = sweep(core.world_sweep_all, core.world_sweep_turning_all, self, ...)
     return hits_of(self, n)
 end
 -- Paths are 10 numbers each: place, rotation, translation.

@@ -425,13 +425,17 @@ class World:
         translation: Vector,
         *,
         rotation: Vector = NO_ROTATION,
+        turn: Optional[Vector] = None,
         mask: int = ALL_LAYERS,
         triggers: bool = False,
         exclude: Any = (),
     ) -> Optional[records.Hit]:
-        """What a moving form touches first, or None: any but a Plane, Mesh or Heightfield. It does not rotate."""
+        """What a moving form touches first, or None: any but a Plane, Mesh or Heightfield. It turns by the length of
+        `turn` (rad) about its direction, at a constant rate; see fe_world_sweep_turning in feather.h."""
         flat, start, filter = flat_geometry(self, geometry), (position, rotation), self._filter(mask, triggers, exclude)
-        return self._hit(_flat.world_sweep(self._capsule, flat, start, translation, filter))
+        if turn is None:
+            return self._hit(_flat.world_sweep(self._capsule, flat, start, translation, filter))
+        return self._hit(_flat.world_sweep_turning(self._capsule, flat, start, translation, turn, filter))
 
     def sweep_any(
         self,
@@ -440,13 +444,18 @@ class World:
         translation: Vector,
         *,
         rotation: Vector = NO_ROTATION,
+        turn: Optional[Vector] = None,
         mask: int = ALL_LAYERS,
         triggers: bool = False,
         exclude: Any = (),
     ) -> bool:
         """Does it touch anything?"""
         flat, start, filter = flat_geometry(self, geometry), (position, rotation), self._filter(mask, triggers, exclude)
-        found: bool = _flat.world_sweep_any(self._capsule, flat, start, translation, filter)
+        found: bool
+        if turn is None:
+            found = _flat.world_sweep_any(self._capsule, flat, start, translation, filter)
+        else:
+            found = _flat.world_sweep_turning_any(self._capsule, flat, start, translation, turn, filter)
         return found
 
     def sweep_all(
@@ -456,13 +465,16 @@ class World:
         translation: Vector,
         *,
         rotation: Vector = NO_ROTATION,
+        turn: Optional[Vector] = None,
         mask: int = ALL_LAYERS,
         triggers: bool = False,
         exclude: Any = (),
     ) -> List[records.Hit]:
         """Every body that it touches on its motion, nearest first."""
         flat, start, filter = flat_geometry(self, geometry), (position, rotation), self._filter(mask, triggers, exclude)
-        return self._hits(_flat.world_sweep_all, flat, start, translation, filter)
+        if turn is None:
+            return self._hits(_flat.world_sweep_all, flat, start, translation, filter)
+        return self._hits(_flat.world_sweep_turning_all, flat, start, translation, turn, filter)
 
     def overlap(
         self,

@@ -210,6 +210,15 @@ def test_queries(world: World, ground: Body, ball: Body) -> None:
     assert swept and swept.body == ball and swept.fraction == pytest.approx(0.2, abs=1e-4)
     assert world.sweep_any(Box(1, 1, 1), (0, 10, 0), (0, -20, 0), rotation=(0, 0, 0, 1))
     assert [h.body for h in world.sweep_all(Capsule(1, 0.5), (0, 10, 0), (0, -20, 0))] == [ball, ground]
+    turn = (0, 0, 6.2831853)
+    rod, at = Box(7, 0.1, 0.1), (0, 12, 0)
+    assert world.sweep(rod, at, (0, 0, 0)) is None and world.sweep_any(rod, at, (0, 0, 0)) is False
+    turned = world.sweep(rod, at, (0, 0, 0), turn=turn)
+    assert turned and turned.body == ball and 0 < turned.fraction < 0.25
+    assert world.sweep_any(rod, at, (0, 0, 0), turn=turn)
+    assert [h.body for h in world.sweep_all(rod, at, (0, -8, 0), turn=turn)] == [ball, ground]
+    with pytest.raises(InvalidArgumentError):
+        world.sweep(rod, at, (0, 0, 0), turn=(0, 65, 0))
     assert world.overlap(Sphere(1), (0, 4, 0)) == [ball] and world.overlap(Sphere(1), (9, 9, 9)) == []
     assert world.overlap_any(Sphere(1), (0, 4, 0))
     near = world.closest_point((0, 7, 0), 10)

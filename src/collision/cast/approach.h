@@ -61,6 +61,10 @@ static inline int32_t fe__is_curved_pair(const fe__approach *a)
     return a->frame_kind == FE_CORE_CURVED || a->other_kind == FE_CORE_CURVED;
 }
 double fe__curved_depth(const fe__approach *a, fe_dvec3 *way_out); // of cores that overlap
+// Of any two cores: returns the distance that is sure, whatever rounding made of the nearest points; 0: they overlap.
+double fe__sure_gap_of(const fe__approach *a, fe_dvec3 position, fe__core_gap *gap);
+// How far the planes across `n` (unit, from the frame to the other) hold the cores apart; below 0: they do not.
+double fe__separation_of(const fe__approach *a, fe_dvec3 position, fe_dvec3 n);
 int32_t fe__curved_sweep(const fe__approach *a, double limit, fe__approach_hit *hit);
 
 // ---- any pair (sweep.c) --------------------------------------------------------------------------------------------
@@ -74,5 +78,10 @@ fe__core_overlap fe__approach_overlap(const fe__approach *a);
 int32_t fe__approach_sweep(const fe__approach *a, double limit, fe__approach_hit *hit); // apart at the start
 int32_t fe__core_kind_of(const fe__form *form);
 void fe__core_half(const fe__form *form, double half[3]);
+
+// ---- half spaces (sweep.c) -----------------------------------------------------------------------------------------
+double fe__height_over_plane(const fe__form *plane, const fe__mover *mover); // of the lowest point, at the start, m
+// The plane's point under the mover's lowest one, of several their middle; `unit` is its normal.
+fe_dvec3 fe__point_of_plane(const fe__form *plane, fe_dvec3 unit, const fe__mover *mover);
 
 #endif

@@ -98,16 +98,28 @@ static double make_sure(const fe__approach *s, const fe__cores *cores, double si
     return sure >= least ? gap->distance : sure;
 }
 
+double fe__sure_gap_of(const fe__approach *s, fe_dvec3 position, fe__core_gap *gap)
+{
+    fe__cores cores = cores_at(s, position);
+    double size = gap_of(&cores, gap);
+    return gap->distance > 0.0 ? make_sure(s, &cores, size, gap) : 0.0;
+}
+
+double fe__separation_of(const fe__approach *s, fe_dvec3 position, fe_dvec3 n)
+{
+    fe__cores cores = cores_at(s, position);
+    return sure_distance(&cores, n);
+}
+
 // From `t` to where the distance is `goal`, or a little more. 0: it never comes so near. Cores that are nearer than GJK
 // can tell have met: `gap` is that of the step before, or stays.
 static int32_t advance(const fe__approach *s, double goal, double tolerance, double *t, fe__core_gap *gap)
 {
     for (int32_t i = 0;; ++i) {
-        fe__cores cores = cores_at(s, fe__dadd(s->position, fe__dscale(*t, s->translation)));
         fe__core_gap here;
-        double size = gap_of(&cores, &here);
+        double sure = fe__sure_gap_of(s, fe__dadd(s->position, fe__dscale(*t, s->translation)), &here);
         if (!(here.distance > 0.0)) return 1;
-        double way = make_sure(s, &cores, size, &here) - goal;
+        double way = sure - goal;
         *gap = here;
         double rate = fe__ddot(here.away, s->translation) / here.distance; // of the distance, m per t
         if (!(rate < 0.0)) return 0;

@@ -1,5 +1,5 @@
-// field_search.h - what the sweeps along a heightfield or a mesh (sweep_field.c) and the way out of one (way_out.c)
-// share: a mover, and one triangle after the other.
+// field_search.h - what the sweeps along a heightfield or a mesh (sweep_field.c, turning_field.c) and the way out of
+// one (way_out.c) share: a mover, and one triangle after the other.
 #ifndef FE_COLLISION_CAST_FIELD_SEARCH_H
 #define FE_COLLISION_CAST_FIELD_SEARCH_H
 #include "collision/cast/approach.h"
@@ -16,6 +16,8 @@ fe__field_search fe__field_search_of(const fe__ground *surface, const fe__mover 
 void fe__field_take(fe__field_search *search, int32_t triangle);
 // What the mover's bounds cover from t0 to t1
 fe__bounds fe__field_covered(const fe__field_search *search, double t0, double t1);
+// The part of [0, limit] on which the mover's bounds meet those of the surface; 0: none
+int32_t fe__field_clip(const fe__field_search *search, double limit, double *from, double *to);
 // How far out along the triangle's normal the mover is over its plane, m, >= 0
 double fe__field_depth(const fe__field_search *search);
 // From below nothing is met, but for a rim, which stops from aside whatever has a part above the triangle's plane.

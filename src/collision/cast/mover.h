@@ -25,6 +25,7 @@ typedef struct fe__mover {
     const fe__form *form;
     fe__axes axes;
     fe_dvec3 position, translation; // m
+    fe_dvec3 turn;                  // rad: the axes turn so far about it on the way, about the position; 0: not at all
 } fe__mover;
 
 typedef struct fe__sweep_hit {

@@ -68,7 +68,7 @@ static int32_t set_up(const fe__form *still, const fe__mover *mover, fe__approac
 }
 
 // ---- overlap -------------------------------------------------------------------------------------------------------
-static double plane_height(const fe__form *plane, const fe__mover *mover)
+double fe__height_over_plane(const fe__form *plane, const fe__mover *mover)
 {
     fe_dvec3 n = fe__widen(plane->normal);
     double half[3], length = sqrt(fe__ddot(n, n)); // 1 up to the rounding of floats
@@ -106,7 +106,7 @@ fe__core_overlap fe__approach_overlap(const fe__approach *s)
 
 int32_t fe__form_overlap(const fe__form *still, const fe__mover *mover)
 {
-    if (fe__form_is_unbounded(still)) return plane_height(still, mover) <= 0.0;
+    if (fe__form_is_unbounded(still)) return fe__height_over_plane(still, mover) <= 0.0;
     fe__approach s;
     (void)set_up(still, mover, &s);
     return fe__approach_overlap(&s).depth >= 0.0;
@@ -145,19 +145,8 @@ int32_t fe__approach_sweep(const fe__approach *s, double limit, fe__approach_hit
     return s->other_kind == FE_CORE_BOX ? fe__boxes_sweep(s, limit, hit) : sweep_round(s, limit, hit);
 }
 
-static int32_t sweep_plane(const fe__form *plane, const fe__mover *mover, double limit, fe__sweep_hit *hit)
+fe_dvec3 fe__point_of_plane(const fe__form *plane, fe_dvec3 unit, const fe__mover *mover)
 {
-    fe_dvec3 n = fe__widen(plane->normal), unit = fe__dscale(1.0 / sqrt(fe__ddot(n, n)), n);
-    double height = plane_height(plane, mover), rate = fe__ddot(unit, mover->translation);
-    *hit = (fe__sweep_hit){.normal = unit, .point = mover->position, .triangle = -1};
-    if (height <= 0.0) {
-        hit->inside = 1, hit->depth = -height;
-        return 1;
-    }
-    if (!(rate < 0.0) || height > -rate) return 0;
-    hit->t = fe__maxd((height - fe__stop_gap(mover)) / -rate, 0.0);
-    if (!(hit->t <= limit)) return 0;
-    // the lowest point of the mover: of several the middle
     const fe__axes *m = &mover->axes;
     double half[3];
     fe__core_half(mover->form, half);
@@ -171,9 +160,26 @@ static int32_t sweep_plane(const fe__form *plane, const fe__mover *mover, double
                                                     : low.z < 0.0 ? half[2]
                                                                   : 0.0};
     if (fe__core_kind_of(mover->form) == FE_CORE_CURVED) along = fe__form_support(mover->form, fe__dscale(-1.0, low));
-    fe_dvec3 p = fe__dadd(fe__dadd(mover->position, fe__dscale(hit->t, mover->translation)), fe__turn(m, along));
+    fe_dvec3 p = fe__dadd(mover->position, fe__turn(m, along)), n = fe__widen(plane->normal);
     double above = fe__ddot(unit, p) - (double)plane->distance / sqrt(fe__ddot(n, n));
-    hit->point = fe__dsub(p, fe__dscale(above, unit));
+    return fe__dsub(p, fe__dscale(above, unit));
+}
+
+static int32_t sweep_plane(const fe__form *plane, const fe__mover *mover, double limit, fe__sweep_hit *hit)
+{
+    fe_dvec3 n = fe__widen(plane->normal), unit = fe__dscale(1.0 / sqrt(fe__ddot(n, n)), n);
+    double height = fe__height_over_plane(plane, mover), rate = fe__ddot(unit, mover->translation);
+    *hit = (fe__sweep_hit){.normal = unit, .point = mover->position, .triangle = -1};
+    if (height <= 0.0) {
+        hit->inside = 1, hit->depth = -height;
+        return 1;
+    }
+    if (!(rate < 0.0) || height > -rate) return 0;
+    hit->t = fe__maxd((height - fe__stop_gap(mover)) / -rate, 0.0);
+    if (!(hit->t <= limit)) return 0;
+    fe__mover stopped = *mover;
+    stopped.position = fe__dadd(mover->position, fe__dscale(hit->t, mover->translation));
+    hit->point = fe__point_of_plane(plane, unit, &stopped);
     return 1;
 }
 

@@ -144,8 +144,7 @@ static void meet_triangle(fe__field_search *s, int32_t triangle, fe__sweep_hit *
 }
 
 // ---- the way -------------------------------------------------------------------------------------------------------
-// The part of [0, limit] on which the mover's bounds meet those of the surface.
-static int32_t clip(const fe__field_search *s, double limit, double *from, double *to)
+int32_t fe__field_clip(const fe__field_search *s, double limit, double *from, double *to)
 {
     fe__bounds bounds = fe__ground_bounds(s->surface);
     double spare = 2.0 * s->pair.gap;
@@ -170,7 +169,7 @@ int32_t fe__ground_sweep(const fe__ground *surface, const fe__mover *mover, doub
 {
     fe__field_search s = fe__field_search_of(surface, mover);
     double t, end;
-    if (!clip(&s, limit, &t, &end)) return 0;
+    if (!fe__field_clip(&s, limit, &t, &end)) return 0;
     fe_dvec3 cell = fe__ground_cell(surface);
     double cells_x = fe__absd(mover->translation.x) / (cell.x + s.half.x),
            cells_y = fe__absd(mover->translation.y) / (cell.y + s.half.y),

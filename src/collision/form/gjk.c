@@ -9,6 +9,7 @@ enum { MAX_ITERATIONS = 64 }; // boxes and segments need at most 12
 #define CLOSE_SIZE 2e-14      // the same, where a hundred roundings are told apart
 #define FLAT 1e-12            // of the size: a tetrahedron no higher than that has no inside
 #define UNSURE 1e-15          // of the size: some roundings
+#define SLIVER 1e-5           // of its longest side: a triangle no higher than that is taken for that side
 #define CONVERGED 1e-13       // of the squared distance
 
 // of equally far corners the first
@@ -166,6 +167,26 @@ static void set_points(fe__gjk *g, const double *weight, fe_dvec3 v)
     g->distance = sqrt(fe__ddot(v, v));
 }
 
+// Of a sliver the weights say nothing, and would put the nearest points anywhere along it: those of its longest side
+// do.
+static void weigh_sliver(const fe__gjk *g, double *weight)
+{
+    if (g->count != 3) return;
+    double longest = -1.0;
+    int32_t from = 0;
+    for (int32_t i = 0; i < 3; ++i) {
+        fe_dvec3 side = fe__dsub(g->vertex[(i + 1) % 3].difference, g->vertex[i].difference);
+        double square = fe__ddot(side, side);
+        if (square > longest) longest = square, from = i;
+    }
+    fe_dvec3 a = g->vertex[from].difference, b = g->vertex[(from + 1) % 3].difference,
+             c = g->vertex[(from + 2) % 3].difference, n = fe__dcross(fe__dsub(b, a), fe__dsub(c, a));
+    if (fe__ddot(n, n) > SLIVER * SLIVER * longest * longest) return;
+    double along[2];
+    weigh_line(a, b, along);
+    weight[from] = along[0], weight[(from + 1) % 3] = along[1], weight[(from + 2) % 3] = 0.0;
+}
+
 // From the vertices that the result has, one to three
 static void approach_origin(const fe__cores *cores, double limit, int32_t closely, fe__gjk *g)
 {
@@ -215,6 +236,7 @@ static void approach_origin(const fe__cores *cores, double limit, int32_t closel
         }
         v = nearer;
     }
+    if (closely) weigh_sliver(g, weight);
     set_points(g, weight, v);
     if (g->overlap) g->distance = 0.0;
 }

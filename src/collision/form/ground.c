@@ -73,6 +73,9 @@ void fe__ground_weights(const fe__ground *s, int32_t number, fe_dvec3 point, flo
 }
 
 // ---- what rises ----------------------------------------------------------------------------------------------------
+// a slope: 0.06 degrees
+#define FLAT 1e-3
+
 static int32_t is_near(const fe_dvec3 v[3], fe_dvec3 p, double near)
 {
     fe_dvec3 n = normal_of(v);
@@ -93,22 +96,38 @@ static int32_t is_under(const fe__ground *s, const fe_dvec3 v[3], const fe__soli
     return up > least;
 }
 
+// How far does the triangle rise along m from p, which is near it, m? In its plane, and 0 when it is flat
+static double length_of_rise(const fe_dvec3 v[3], fe_dvec3 p, fe_dvec3 m)
+{
+    fe_dvec3 n = normal_of(v), way = fe__dsub(m, fe__dscale(fe__ddot(n, m), n));
+    double slope = sqrt(fe__ddot(way, way)), most = (double)INFINITY;
+    if (slope < FLAT) return 0.0;
+    for (int32_t k = 0; k < 3; ++k) {
+        fe_dvec3 out = fe__dcross(fe__dsub(v[(k + 1) % 3], v[k]), n);
+        double speed = fe__ddot(out, way), left = -fe__ddot(out, fe__dsub(p, v[k]));
+        if (speed > 0.0) most = fe__mind(most, left / speed);
+    }
+    return most * slope;
+}
+
 // `rim`: NULL for any triangle
 static int32_t rises(const fe__ground *s, fe_dvec3 p, fe_dvec3 m, double near, const fe__solid_rim *rim)
 {
-    const double flat = 1e-3; // a slope: 0.06 degrees
     fe__bounds box = {{p.x - near, p.y - near, p.z - near}, {p.x + near, p.y + near, p.z + near}};
     fe__ground_walk walk;
     fe__ground_begin(&walk, s, &box, p);
     fe__form unused;
     for (int32_t i; (i = fe__ground_next(&walk, &unused)) >= 0;) {
         fe_dvec3 v[3];
-        int32_t is_higher = 0;
+        int32_t is_higher = 0, may_rise = 0;
         fe__ground_corners(s, i, v);
         for (int32_t k = 0; k < 3; ++k) {
             fe_dvec3 way = fe__dsub(v[k], p);
-            is_higher |= fe__ddot(m, way) > flat * sqrt(fe__ddot(way, way)) + near;
+            double rise = fe__ddot(m, way);
+            is_higher |= rise > FLAT * sqrt(fe__ddot(way, way)) + near, may_rise |= rise > FLAT * near;
         }
+        // across a sliver, whose corners are far off, each to one side
+        if (!is_higher && may_rise) is_higher = length_of_rise(v, p, m) > near;
         if (is_higher && is_near(v, p, near) && !(rim && is_under(s, v, rim))) return 1;
     }
     return 0;

@@ -111,7 +111,8 @@ static int32_t collide_centred(const fe__terrain *t, const fe__form *b, const fe
     if (!g.count) *gap = gap_around(t, b, rotation, margin);
     for (int32_t i = 0; i < g.count; ++i) {
         fe__raw_patch *raw = g.patches + i;
-        if (fe__form_is_curved(b)) fe__keep_line_ends(raw, g.tie);
+        if (fe__form_is_curved(b)) fe__keep_side_ends(raw, g.tie);
+        if (b->radius > 0.0f && !g.single) fe__keep_core_ends(raw, rotation->y, g.tie);
         fe__reduce_patch(raw, g.tie);
         patches[i] = (fe__patch){.normal = raw->normal,
                                  .count = raw->count,

@@ -138,21 +138,15 @@ static void touch_side(const contest *c, const fe__touch *found)
                fe__tile_id(c->tile, NEAREST_ID));
 }
 
-void fe__keep_line_ends(fe__raw_patch *patch, float tie)
+void fe__keep_side_ends(fe__raw_patch *patch, float tie)
 {
     enum { LINE = 1 << 16 }; // as touch_face names it: face 0, the vertices of a segment
-    const uint32_t ends[2] = {LINE | fe__clip_id(1, 0), LINE | fe__clip_id(0, 1)};
-    int32_t at[2] = {-1, -1}, kept = 2;
-    for (int32_t i = 0; i < patch->count; ++i)
-        for (int32_t k = 0; k < 2; ++k)
-            if (patch->points[i].id == ends[k]) at[k] = i;
-    if (at[0] < 0 || at[1] < 0 || patch->count == 2) return;
-    fe__manifold_point left[FE__RAW_POINTS] = {patch->points[at[0]], patch->points[at[1]]};
-    float most = fe__minf(left[0].separation, left[1].separation) - tie;
-    for (int32_t i = 0; i < patch->count; ++i)
-        if (i != at[0] && i != at[1] && patch->points[i].separation < most) left[kept++] = patch->points[i];
-    for (int32_t i = 0; i < kept; ++i) patch->points[i] = left[i];
-    patch->count = kept;
+    int32_t from = -1, to = -1;
+    for (int32_t i = 0; i < patch->count; ++i) {
+        if (patch->points[i].id == (LINE | fe__clip_id(1, 0))) from = i;
+        if (patch->points[i].id == (LINE | fe__clip_id(0, 1))) to = i;
+    }
+    if (from >= 0 && to >= 0) fe__keep_line_ends(patch, from, to, tie);
 }
 
 void fe__tile_touch_curved(fe__gathering *g, const fe__tile *tile, const fe__form *form, const fe__mat3 *rotation)

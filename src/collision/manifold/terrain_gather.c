@@ -65,6 +65,18 @@ void fe__reduce_patch(fe__raw_patch *p, float tie)
     p->count = FE_MAX_POINTS;
 }
 
+void fe__keep_line_ends(fe__raw_patch *patch, int32_t from, int32_t to, float tie)
+{
+    if (patch->count == 2) return;
+    fe__manifold_point left[FE__RAW_POINTS] = {patch->points[from], patch->points[to]};
+    float most = fe__minf(left[0].separation, left[1].separation) - tie;
+    int32_t kept = 2;
+    for (int32_t i = 0; i < patch->count; ++i)
+        if (i != from && i != to && patch->points[i].separation < most) left[kept++] = patch->points[i];
+    for (int32_t i = 0; i < kept; ++i) patch->points[i] = left[i];
+    patch->count = kept;
+}
+
 static void add_point(const fe__gathering *g, fe__raw_patch *p, const fe__manifold_point *point, int32_t triangle)
 {
     if (g->single && p->count) {

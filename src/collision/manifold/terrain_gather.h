@@ -31,6 +31,9 @@ static inline int32_t fe__tile_feels(const fe__gathering *g, const fe__tile *til
 }
 
 void fe__gather(fe__gathering *g, const fe__tile *tile, fe_vec3 normal, fe_vec3 point, float separation, uint32_t id);
+// Of a line that touches from one of two points to the other, these carry all: what lies between, where seams cut it,
+// comes and goes as the line rolls. Points deeper than the two by more than `tie` stay.
+void fe__keep_line_ends(fe__raw_patch *patch, int32_t from, int32_t to, float tie);
 void fe__reduce_patch(fe__raw_patch *patch, float tie); // leaves at most FE_MAX_POINTS
 
 #endif

@@ -6,9 +6,9 @@
 
 // `ends`: of the core, a sphere's twice the same
 void fe__tile_touch_round(fe__gathering *g, const fe__tile *tile, const fe_vec3 ends[2], float radius);
-// Of a line on a form's side that touches with both its ends, the ends carry all: what lies between, where seams cut
-// it, comes and goes as the form rolls. Points deeper than the ends by more than `tie` stay.
-void fe__keep_line_ends(fe__raw_patch *patch, float tie);
+// fe__keep_line_ends of a capsule's core, which lies along `axis`, and of a line on a form's side
+void fe__keep_core_ends(fe__raw_patch *patch, fe_vec3 axis, float tie);
+void fe__keep_side_ends(fe__raw_patch *patch, float tie);
 void fe__tile_touch_curved(fe__gathering *g, const fe__tile *tile, const fe__form *form, const fe__mat3 *rotation);
 
 // Cuts the incident polygon or segment by the reference's; `out` is the reference's normal. What is near goes along

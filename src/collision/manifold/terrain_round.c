@@ -83,7 +83,11 @@ static void touch_side(fe__gathering *g, const fe__tile *tile, int32_t k, const 
     fe_vec3 q = fe__add_scaled(start, u, side), away = fe__sub(core_point(ends, s), q);
     float distance = fe__length(away);
     if (distance - radius > g->margin || distance < 1e-6f * tile->size) return;
-    fe_vec3 m = fe__scale(1.0f / distance, away);
+    fe_vec3 m = fe__scale(1.0f / distance, away), lean = fe__sub(m, tile->normal);
+    const float flat = 1e-3f; // rad. Only rounding knows the difference to the face's direction
+    if (fe__dot(lean, lean) <= flat * flat) m = tile->normal;
+    // Where core and side nearly run alike, rounding shifts their nearest points: what leans inwards is over the face
+    if (fe__dot(m, fe__sub(tile->form.vertex[(k + 2) % 3], start)) > flat * tile->size) return;
     if (fe__dot(m, tile->normal) < 0.0f || !fe__tile_allows(g->terrain, tile, m)) return;
 
     // along the side the core has two points, else the nearest
@@ -106,6 +110,21 @@ static void touch_side(fe__gathering *g, const fe__tile *tile, int32_t k, const 
                is_end ? (uint32_t)(END_ID + i) : fe__tile_id(tile, (uint32_t)(SIDE_ID * (k + 1) + i)));
         if (part.from >= part.to) return;
     }
+}
+
+// All points of a patch are in one line. Where several surfaces are touched, none may have both ends of the core. The
+// two that carry are named as the core's ends are: so they keep their impulses from triangle to triangle.
+void fe__keep_core_ends(fe__raw_patch *patch, fe_vec3 axis, float tie)
+{
+    int32_t from = 0, to = 0;
+    for (int32_t i = 1; i < patch->count; ++i) {
+        float at = fe__dot(axis, patch->points[i].point);
+        if (at < fe__dot(axis, patch->points[from].point)) from = i;
+        if (at > fe__dot(axis, patch->points[to].point)) to = i;
+    }
+    if (from == to) return;
+    patch->points[from].id = END_ID, patch->points[to].id = END_ID + 1;
+    fe__keep_line_ends(patch, from, to, tie);
 }
 
 void fe__tile_touch_round(fe__gathering *g, const fe__tile *tile, const fe_vec3 ends[2], float radius)

@@ -249,12 +249,33 @@ static int32_t mesh_vertex_allows(const fe__terrain *t, const fe__tile *tile, in
     return (tile->felt[vertex] | tile->felt[(vertex + 2) % 3]) && mesh_allows(t, tile, tile->form.vertex[vertex], m);
 }
 
+// The vertices of a triangle, lower than FLAT of its size, that are farthest along m, which is not its normal: a bit
+// each. All three are as level at 1 : 1000: without the lowest.
+static uint32_t touched_of_sliver(const fe__tile *tile, const float along[3])
+{
+    int32_t top = along[0] >= along[1] ? (along[0] >= along[2] ? 0 : 2) : (along[1] >= along[2] ? 1 : 2), low = -1;
+    uint32_t touched = 1u << top;
+    for (int32_t i = 0; i < 3; ++i) {
+        fe_vec3 side = fe__sub(tile->form.vertex[i], tile->form.vertex[top]);
+        float drop = along[top] - along[i];
+        if (i == top || drop * drop > FLAT * FLAT * fe__dot(side, side)) continue;
+        touched |= 1u << i;
+        if (low < 0 || along[i] < along[low]) low = i;
+    }
+    return touched == 7 ? touched & ~(1u << low) : touched;
+}
+
 int32_t fe__tile_allows(const fe__terrain *t, const fe__tile *tile, fe_vec3 m)
 {
     float along[3], most;
     for (int32_t i = 0; i < 3; ++i) along[i] = fe__dot(m, tile->form.vertex[i]);
     most = fe__maxf(along[0], fe__maxf(along[1], along[2])) - FLAT * tile->size;
     uint32_t touched = (along[0] >= most ? 1u : 0u) | (along[1] >= most ? 2u : 0u) | (along[2] >= most ? 4u : 0u);
+    if (touched == 7) {
+        fe_vec3 lean = fe__sub(m, tile->normal);
+        if (fe__dot(lean, lean) <= FLAT * FLAT) return 1; // the face
+        touched = touched_of_sliver(tile, along);
+    }
     int32_t is_mesh = t->ground.mesh != NULL;
     switch (touched) {
     case 1:
@@ -263,13 +284,9 @@ int32_t fe__tile_allows(const fe__terrain *t, const fe__tile *tile, fe_vec3 m)
         int32_t vertex = touched == 4 ? 2 : (int32_t)touched - 1;
         return is_mesh ? mesh_vertex_allows(t, tile, vertex, m) : vertex_allows(t, tile, vertex, m);
     }
-    case 3:
-    case 5:
-    case 6: {
+    default: {
         int32_t side = touched == 3 ? 0 : touched == 6 ? 1 : 2;
         return is_mesh ? mesh_side_allows(t, tile, side, m) : side_allows(t, tile, side, m);
     }
-    default:
-        return fe__dot(m, tile->normal) > 0.0f; // the face
     }
 }

@@ -1,0 +1,197 @@
+// turning.c - see turning.h.
+//
+// Conservative advancement (Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996, 2.3) with a bound of
+// second order. Across a unit n, from what stands to what moves, planes hold the two apart by
+//   g(t) = min over the mover's points p of n . p(t)  -  max over the standing form's points q of n . q
+// which is never more than their distance. With the turn w about c + t d,
+//   n . p(t) = n . (c + t d) + n . R(t w) r,   |n . p''(t)| <= M = |w|^2 |n x axis| reach.
+// A function f with f'' <= M lies above its chord less a parabola. So does the least of many: between t and t + s, at
+// t + x s,
+//   g >= (1 - x) g(t) + x g(t + s) - c x (1 - x),   c = M s^2 / 2
+// and up to the first zero of the right side nothing is met, however thin. The approach to a touch is quadratic, past
+// one it is by shares; no step is shorter than (2 g / M)^(1/2), and the gap gives g a least value.
+#include "collision/cast/turning.h"
+
+#include "collision/cast/kinds.h"
+#include "collision/cast/sweep.h"
+#include "collision/form/support.h"
+#include "core/trig.h"
+
+enum {
+    MOST_STEPS = 16384, // three turns' worth of the shortest steps; what takes longer is taken for a touch
+    MOST_LOOKS = 8      // ahead, along one direction
+};
+#define TOLERANCE 0.1 // of the gap: a stop within that of it is one
+#define FARTHER 4.0   // a look ahead, against what is known to be safe
+#define NEARER 1.5    // the same, once the end of what is safe has been seen
+#define LEFT 2.0      // gaps: what is farther off again has not touched
+
+// ---- the mover -----------------------------------------------------------------------------------------------------
+double fe__reach_across(const fe__form *form, fe_dvec3 axis)
+{
+    const double rounding = 1.000001; // a reach is a float
+    if (fe__form_is_hull(form)) return rounding * (double)fe__form_reach(form, fe__vec3(0.0f, 0.0f, 0.0f));
+    double half[3], most = 0.0;
+    fe__core_half(form, half);
+    for (int32_t i = 0; i < 4; ++i) {
+        fe_dvec3 corner = {i & 1 ? -half[0] : half[0], i & 2 ? -half[1] : half[1], half[2]};
+        fe_dvec3 across = fe__dcross(axis, corner);
+        most = fe__maxd(most, fe__ddot(across, across));
+    }
+    return sqrt(most);
+}
+
+int32_t fe__form_shows_turn(const fe__form *form, const fe__axes *axes, fe_dvec3 turn)
+{
+    fe_dvec3 across = fe__dcross(axes->y, turn);
+    double square = fe__ddot(turn, turn);
+    if (fe__form_is_ball(form) || !(square > 0.0)) return 0;
+    return !fe__form_is_curved(form) || fe__ddot(across, across) > FE_TURN_ROUNDING * FE_TURN_ROUNDING * square;
+}
+
+fe__turning fe__turning_of(const fe__mover *mover)
+{
+    double angle = sqrt(fe__ddot(mover->turn, mover->turn));
+    fe__turning way = {.mover = mover, .axis = fe__dscale(1.0 / angle, mover->turn), .angle = angle};
+    way.reach = fe__reach_across(mover->form, fe__turn_back(&mover->axes, way.axis));
+    way.gap = fe__stop_gap(mover) + FE_TURN_ROUNDING * (double)fe__form_reach(mover->form, fe__vec3(0.0f, 0.0f, 0.0f));
+    return way;
+}
+
+// R a = a cos f + (k x a) sin f + k (k . a) (1 - cos f), about the unit k
+static fe_dvec3 turned(fe_dvec3 k, double sine, double cosine, fe_dvec3 a)
+{
+    fe_dvec3 along = fe__dscale((1.0 - cosine) * fe__ddot(k, a), k);
+    return fe__dadd(fe__dadd(fe__dscale(cosine, a), fe__dscale(sine, fe__dcross(k, a))), along);
+}
+
+fe__mover fe__turning_at(const fe__turning *way, double t)
+{
+    fe__mover now = *way->mover;
+    double sine, cosine;
+    fe__sincos(t * way->angle, &sine, &cosine);
+    now.position = fe__dadd(now.position, fe__dscale(t, now.translation));
+    now.axes = (fe__axes){turned(way->axis, sine, cosine, now.axes.x), turned(way->axis, sine, cosine, now.axes.y),
+                          turned(way->axis, sine, cosine, now.axes.z)};
+    now.turn = (fe_dvec3){0.0, 0.0, 0.0};
+    return now;
+}
+
+double fe__turning_speed(const fe__turning *way)
+{
+    fe_dvec3 d = way->mover->translation;
+    return sqrt(fe__ddot(d, d)) + way->angle * way->reach;
+}
+
+// ---- what stands ---------------------------------------------------------------------------------------------------
+typedef struct encounter {
+    const fe__turning *way;
+    fe__approach *pair;
+    const fe__form *plane;
+} encounter;
+
+static double separation(const encounter *e, double t, fe_dvec3 n)
+{
+    fe__mover now = fe__turning_at(e->way, t);
+    if (e->plane) return fe__height_over_plane(e->plane, &now);
+    e->pair->axes = now.axes;
+    return fe__separation_of(e->pair, now.position, n) - e->pair->radius;
+}
+
+// Across the nearest points' direction at t, which comes into `here` with the point: how far planes hold the two apart,
+// m. 0: the cores overlap, `here` stays
+static int32_t look(const encounter *e, double t, double *distance, fe__approach_hit *here)
+{
+    fe__mover now = fe__turning_at(e->way, t);
+    if (e->plane) {
+        fe_dvec3 n = fe__widen(e->plane->normal);
+        *distance = fe__height_over_plane(e->plane, &now);
+        *here = (fe__approach_hit){t, fe__dscale(1.0 / sqrt(fe__ddot(n, n)), n), now.position};
+        return *distance > 0.0;
+    }
+    fe__core_gap gap;
+    e->pair->axes = now.axes;
+    (void)fe__sure_gap_of(e->pair, now.position, &gap);
+    *distance = -e->pair->radius;
+    if (!(gap.distance > 0.0)) return 0;
+    *here = (fe__approach_hit){t, fe__dscale(1.0 / gap.distance, gap.away), gap.on_frame};
+    *distance = fe__separation_of(e->pair, now.position, here->normal) - e->pair->radius;
+    return 1;
+}
+
+// The first zero in (0, 1) of  (1 - x) at_0 + x at_1 - c x (1 - x) = at_0 + b x + c x^2,  at_0 > 0; 1: none
+static double first_zero(double at_0, double at_1, double c)
+{
+    double b = at_1 - at_0 - c, square = b * b - 4.0 * c * at_0;
+    if (b >= 0.0 || square < 0.0) return 1.0;
+    return fe__mind(2.0 * at_0 / (sqrt(square) - b), 1.0);
+}
+
+// From here, where they are farther apart than `goal`: for how long they stay so, at least.
+static double safe_way(const encounter *e, const fe__approach_hit *here, double distance, double goal, double end)
+{
+    const fe__turning *way = e->way;
+    fe_dvec3 n = here->normal, across = fe__dcross(n, way->axis);
+    double t = here->t, slack = distance - goal, turning = way->angle * way->reach * sqrt(fe__ddot(across, across));
+    double speed = turning - fe__ddot(n, way->mover->translation), bend = 0.5 * way->angle * turning, rest = end - t;
+    if (!(speed * rest > slack)) return rest;
+    double safe = slack / speed, ratio = FARTHER;
+    for (int32_t i = 0; i < MOST_LOOKS && safe < rest; ++i) {
+        double ahead = fe__mind(ratio * safe, rest);
+        double x = first_zero(slack, separation(e, t + ahead, n) - goal, bend * ahead * ahead);
+        if (x < 1.0) ratio = NEARER;
+        if (!(x * ahead > safe)) break;
+        safe = x * ahead;
+    }
+    return safe;
+}
+
+// Where the gap begins, or at once within it; and only what comes on through half of that is met, for what slides along
+// a surface must not stick to it by a rounding. What leaves the gap again has met nothing.
+int32_t fe__turning_meets(const fe__turning *way, fe__approach *pair, const fe__form *plane, double from, double until,
+                          fe__approach_hit *hit)
+{
+    const encounter e = {way, pair, plane};
+    fe__approach_hit here = {from, {0.0, 1.0, 0.0}, way->mover->position};
+    double t = from, goal = way->gap, clearance = way->gap, distance;
+    int32_t entered = 0, met = 0;
+    for (int32_t i = 0; !met; ++i) {
+        int32_t apart = look(&e, t, &distance, &here);
+        if (entered && distance > LEFT * way->gap) entered = 0, clearance = goal = way->gap;
+        if (!entered && (!apart || distance <= (1.0 + TOLERANCE) * way->gap || i == MOST_STEPS)) {
+            here.t = t, *hit = here, entered = 1;
+            clearance = fe__mind(distance, way->gap), goal = 0.5 * clearance;
+        }
+        if (!entered && t >= until) return 0;
+        met = entered && (!apart || distance <= goal + TOLERANCE * clearance || i >= MOST_STEPS);
+        double end = entered ? 1.0 : until, step = met ? 0.0 : safe_way(&e, &here, distance, goal, end);
+        if (!met && step >= end - t) return 0;
+        met |= !met && t + step <= t; // below the rounding of t
+        t += step;
+    }
+    if (pair) pair->axes = fe__turning_at(way, hit->t).axes;
+    return hit->t <= until;
+}
+
+// ---- a form --------------------------------------------------------------------------------------------------------
+int32_t fe__form_turn(const fe__form *still, const fe__mover *mover, double limit, fe__sweep_hit *hit)
+{
+    fe__turning way = fe__turning_of(mover);
+    fe__mover start = fe__turning_at(&way, 0.0);
+    start.translation = (fe_dvec3){0.0, 0.0, 0.0};
+    if (fe__form_sweep(still, &start, limit, hit)) return 1; // inside
+    int32_t unbounded = fe__form_is_unbounded(still);
+    fe__approach pair = {.frame_kind = fe__core_kind_of(still),
+                         .other_kind = fe__core_kind_of(mover->form),
+                         .frame_form = still,
+                         .other_form = mover->form,
+                         .radius = (double)still->radius + (double)mover->form->radius};
+    fe__approach_hit h;
+    if (!fe__turning_meets(&way, unbounded ? NULL : &pair, unbounded ? still : NULL, 0.0, limit, &h)) return 0;
+    fe__mover stopped = fe__turning_at(&way, h.t);
+    fe_dvec3 point = unbounded ? fe__point_of_plane(still, h.normal, &stopped)
+                               : fe__dadd(h.point, fe__dscale((double)still->radius, h.normal));
+    *hit = (fe__sweep_hit){.t = h.t, .normal = h.normal, .point = point, .triangle = -1};
+    if (fe__form_is_hull(still)) hit->triangle = fe__hull_face_at(still, point, h.normal);
+    return 1;
+}
