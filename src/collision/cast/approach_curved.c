@@ -111,20 +111,31 @@ double fe__separation_of(const fe__approach *s, fe_dvec3 position, fe_dvec3 n)
     return sure_distance(&cores, n);
 }
 
-// From `t` to where the distance is `goal`, or a little more. 0: it never comes so near. Cores that are nearer than GJK
-// can tell have met: `gap` is that of the step before, or stays.
+// From `t` to where the distance is `goal`, or a little more. 0: it never comes so near. A distance that GJK finds too
+// long takes a step too far: then the way from where they were apart is halved.
 static int32_t advance(const fe__approach *s, double goal, double tolerance, double *t, fe__core_gap *gap)
 {
+    double apart = *t, inside = (double)INFINITY;
     for (int32_t i = 0;; ++i) {
         fe__core_gap here;
         double sure = fe__sure_gap_of(s, fe__dadd(s->position, fe__dscale(*t, s->translation)), &here);
-        if (!(here.distance > 0.0)) return 1;
-        double way = sure - goal;
-        *gap = here;
-        double rate = fe__ddot(here.away, s->translation) / here.distance; // of the distance, m per t
-        if (!(rate < 0.0)) return 0;
-        if (here.distance <= goal + tolerance || !(way > 0.0) || i == MAX_STEPS) return 1;
-        *t += way / -rate;
+        if (i == 0 && !(here.distance > 0.0)) return 1;
+        if (i > 0 && !(here.distance > s->radius)) {
+            inside = *t;
+        } else {
+            double way = sure - goal;
+            *gap = here;
+            double rate = fe__ddot(here.away, s->translation) / here.distance; // of the distance, m per t
+            if (!(rate < 0.0)) return inside <= 1.0;                           // then they do meet
+            if (here.distance <= goal + tolerance || !(way > 0.0)) return 1;
+            apart = *t;
+            *t += way / -rate;
+        }
+        if (i >= MAX_STEPS) {
+            *t = apart;
+            return 1;
+        }
+        if (!(*t < inside)) *t = 0.5 * (apart + inside);
         if (!(*t <= 1.0)) return 0;
     }
 }

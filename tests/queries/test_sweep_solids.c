@@ -1,0 +1,299 @@
+// How far before a body a sweep of or onto a cylinder, a cone, a hull or a mesh stops: at most 1 micrometre, never in
+// it.
+//
+//     build/tests/queries/test_sweep_solids 20000     that many cases a pair of forms, and the table of docs/QUERIES.md
+//
+// Shapes of 1 cm to 2 m, ways of 1 mm to 10 km, at the world's origin and 1e6 m off it. The judge is separation.h, in
+// long double, and sure of a distance to 1e-9 m.
+#include "api/api_test.h"
+#include "queries/separation.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#if defined(FE_SANITIZED)
+enum { CASES = 100 };
+#else
+enum { CASES = 500 };
+#endif
+
+static int32_t cases = CASES;
+
+typedef struct bench {
+    fe_world *world;
+    fe_store *store;
+    fe_body body;
+    fe_shape shape;
+    uint64_t random;
+} bench;
+
+static double uniform(bench *b, double low, double high)
+{
+    b->random ^= b->random << 13, b->random ^= b->random >> 7, b->random ^= b->random << 17;
+    return low + (high - low) * (double)(b->random >> 11) * 0x1p-53;
+}
+
+static double spread(bench *b, double low, double high) { return low * pow(high / low, uniform(b, 0, 1)); }
+
+static fe_dvec3 along(fe_dvec3 p, double s, fe_dvec3 d)
+{
+    return fe_make_dvec3(p.x + s * d.x, p.y + s * d.y, p.z + s * d.z);
+}
+
+static fe_dvec3 direction(bench *b)
+{
+    for (;;) {
+        double x = uniform(b, -1, 1), y = uniform(b, -1, 1), z = uniform(b, -1, 1), square = x * x + y * y + z * z;
+        if (square > 1 || square < 0.01) continue;
+        return along(fe_make_dvec3(0, 0, 0), 1 / sqrt(square), fe_make_dvec3(x, y, z));
+    }
+}
+
+// Now and then along the axes: caps on caps, sides along sides.
+static fe_quat rotation(bench *b)
+{
+    if (uniform(b, 0, 1) < 0.2) return (fe_quat){0, 0, 0, 1};
+    float x = (float)uniform(b, -1, 1), y = (float)uniform(b, -1, 1), z = (float)uniform(b, -1, 1),
+          w = (float)uniform(b, 0.1, 1);
+    return (fe_quat){x, y, z, w};
+}
+
+// ---- forms ---------------------------------------------------------------------------------------------------------
+
+enum { SAMPLES = 4, TRIANGLES = 2 * (SAMPLES - 1) * (SAMPLES - 1) };
+
+typedef struct solid_form {
+    fe_geometry geometry;
+    fe_asset asset;      // 0: none
+    float points[64][3]; // of a hull, or of a mesh's samples
+    int32_t count;       // of them
+    int32_t corners[TRIANGLES][3];
+    double reach; // m, of its farthest point from the origin
+} solid_form;
+
+static void make_hull(bench *b, solid_form *f)
+{
+    double size = spread(b, 0.01, 2), a = spread(b, 0.1, 1), c = spread(b, 0.1, 1);
+    float points[MOST_POINTS][3];
+    for (int32_t i = 0; i < MOST_POINTS; ++i) {
+        points[i][0] = (float)(size * uniform(b, -1, 1));
+        points[i][1] = (float)(size * a * uniform(b, -1, 1));
+        points[i][2] = (float)(size * c * uniform(b, -1, 1));
+    }
+    fe_hull_def d;
+    fe_hull_def_init(&d, sizeof d);
+    d.points = points[0], d.point_count = MOST_POINTS;
+    fe_result made = fe_hull_create(b->store, &d, &f->asset);
+    if (made == FE_ERROR_DEGENERATE) {
+        make_hull(b, f);
+        return;
+    }
+    OK(made);
+    fe_geometry_hull(&f->geometry, f->asset);
+    f->count = fe_hull_get_vertices(b->store, f->asset, (fe_vec3 *)f->points, 0, MOST_POINTS);
+    FE_WITHIN(f->count, 4, MOST_POINTS);
+}
+
+// A rough sheet, no steeper than 45 degrees
+static void make_mesh(bench *b, solid_form *f)
+{
+    double cell = spread(b, 0.05, 1);
+    uint32_t indices[TRIANGLES][3];
+    f->count = SAMPLES * SAMPLES;
+    for (int32_t i = 0; i < f->count; ++i) {
+        f->points[i][0] = (float)(cell * (i % SAMPLES - 0.5 * (SAMPLES - 1)));
+        f->points[i][1] = (float)(cell * uniform(b, -0.2, 0.2));
+        f->points[i][2] = (float)(cell * (i / SAMPLES - 0.5 * (SAMPLES - 1)));
+    }
+    for (int32_t i = 0; i < TRIANGLES; ++i) {
+        int32_t cell_of = i / 2, at = cell_of / (SAMPLES - 1) * SAMPLES + cell_of % (SAMPLES - 1);
+        const int32_t first[3] = {at, at + SAMPLES, at + SAMPLES + 1}, second[3] = {at, at + SAMPLES + 1, at + 1};
+        memcpy(f->corners[i], i % 2 ? second : first, sizeof first);
+        for (int32_t k = 0; k < 3; ++k) indices[i][k] = (uint32_t)f->corners[i][k];
+    }
+    fe_mesh_def d;
+    fe_mesh_def_init(&d, sizeof d);
+    d.vertices = f->points[0], d.vertex_count = f->count, d.indices = indices, d.triangle_count = TRIANGLES;
+    OK(fe_mesh_create(b->store, &d, &f->asset));
+    fe_geometry_mesh(&f->geometry, f->asset);
+}
+
+static void make_form(bench *b, int32_t type, solid_form *f)
+{
+    memset(f, 0, sizeof *f);
+    float x = (float)spread(b, 0.01, 2), y = (float)spread(b, 0.01, 2), z = (float)spread(b, 0.01, 2);
+    if (type == FE_GEOMETRY_SPHERE) fe_geometry_sphere(&f->geometry, x);
+    if (type == FE_GEOMETRY_CAPSULE) fe_geometry_capsule(&f->geometry, x, y);
+    if (type == FE_GEOMETRY_BOX) fe_geometry_box(&f->geometry, x, y, z);
+    if (type == FE_GEOMETRY_CYLINDER) fe_geometry_cylinder(&f->geometry, x, y);
+    if (type == FE_GEOMETRY_CONE) fe_geometry_cone(&f->geometry, x, y);
+    if (type == FE_GEOMETRY_HULL) make_hull(b, f);
+    if (type == FE_GEOMETRY_MESH) make_mesh(b, f);
+    const fe_geometry *g = &f->geometry;
+    fe_vec3 h = g->half_extents;
+    f->reach = sqrt((double)(h.x * h.x + h.y * h.y + h.z * h.z)) + (double)g->radius + (double)g->half_height;
+    for (int32_t i = 0; i < f->count; ++i) {
+        const float *p = f->points[i];
+        f->reach = fmax(f->reach, sqrt((double)(p[0] * p[0] + p[1] * p[1] + p[2] * p[2])));
+    }
+}
+
+// ---- the judge -----------------------------------------------------------------------------------------------------
+
+typedef struct judged {
+    const solid_form *mover, *still;
+    fe_transform start, pose;
+} judged;
+
+#define SURE 1e-9L // m
+
+static separation judge(const judged *j, vec shift, int32_t triangle)
+{
+    convex mover =
+        convex_of(&j->mover->geometry, j->mover->points, j->mover->count, v_of(j->start.position), j->start.rotation);
+    const solid_form *f = j->still;
+    if (f->geometry.type != FE_GEOMETRY_MESH) {
+        convex still = convex_of(&f->geometry, f->points, f->count, v_of(j->pose.position), j->pose.rotation);
+        return separation_of(&mover, shift, &still, SURE);
+    }
+    separation best = {INFINITY, INFINITY, {0, 0, 0}};
+    for (int32_t i = 0; i < TRIANGLES; ++i) {
+        convex still = convex_at(FE_GEOMETRY_HULL, v_of(j->pose.position), j->pose.rotation);
+        for (int32_t k = 0; k < 3; ++k) {
+            const float *p = f->points[f->corners[i][k]];
+            convex_add(&still, v_add(still.centre, v_turn(j->pose.rotation, (vec){p[0], p[1], p[2]})));
+        }
+        separation s = separation_of(&mover, shift, &still, SURE);
+        if (i == triangle) best.away = s.away; // two triangles may be as near
+        best.least = fminl(best.least, s.least), best.most = fminl(best.most, s.most);
+    }
+    return best;
+}
+
+typedef struct tally {
+    int32_t hits, unsure;
+    double least, most, normal; // m, m, sine of the largest error
+} tally;
+
+static void count(const judged *j, const fe_hit *hit, fe_dvec3 translation, tally *t)
+{
+    vec shift = v_scale(hit->fraction, v_of(translation));
+    separation s = judge(j, shift, hit->triangle);
+    if (!(s.most - s.least <= SURE)) {
+        t->unsure += 1;
+        return;
+    }
+    double radii = j->mover->geometry.type <= FE_GEOMETRY_CAPSULE ? (double)j->mover->geometry.radius : 0;
+    if (j->still->geometry.type <= FE_GEOMETRY_CAPSULE) radii += (double)j->still->geometry.radius;
+    double error = (double)(v_length(v_cross(s.away, v_off(hit->normal))) / v_length(s.away));
+    t->hits += 1;
+    t->least = fmin(t->least, (double)s.least - radii), t->most = fmax(t->most, (double)s.most - radii);
+    t->normal = fmax(t->normal, error);
+}
+
+// A way that meets the body somewhere in the middle: aimed from afar first, then taken from a start nearer by. A mesh
+// is met from above, at most 27 degrees off the vertical.
+static void one_case(bench *b, int32_t moving, int32_t standing, tally *t)
+{
+    static solid_form still, mover;
+    make_form(b, standing, &still), make_form(b, moving, &mover);
+    double middle = uniform(b, 0, 1) < 0.5 ? 0 : 1e6, reach = mover.reach + still.reach;
+    int32_t is_mesh = standing == FE_GEOMETRY_MESH;
+    judged j = {.mover = &mover, .still = &still};
+    j.pose = (fe_transform){fe_make_dvec3(middle, -middle, uniform(b, -10, 10)), rotation(b)};
+    if (is_mesh) j.pose.rotation = (fe_quat){(float)uniform(b, -0.1, 0.1), 0, (float)uniform(b, -0.1, 0.1), 1};
+    OK(fe_shape_set_geometry(b->world, b->shape, &still.geometry));
+    OK(fe_body_set_transform(b->world, b->body, &j.pose));
+    OK(fe_body_get_transform(b->world, b->body, &j.pose)); // its rotation brought to length 1, in floats
+    fe_dvec3 way = direction(b), aside = direction(b);
+    if (is_mesh) {
+        way.y = -2 - fabs(way.y);
+        way = along(fe_make_dvec3(0, 0, 0), 1 / sqrt(way.x * way.x + way.y * way.y + way.z * way.z), way);
+    }
+    double off = uniform(b, 0, is_mesh ? 0.5 * still.reach : 0.7 * reach);
+    j.start = (fe_transform){along(along(j.pose.position, off, aside), -3 * reach, way), rotation(b)};
+    fe_dvec3 far = along(fe_make_dvec3(0, 0, 0), 6 * reach, way);
+    fe_hit hit;
+    int32_t met = fe_world_sweep(b->world, &mover.geometry, &j.start, &far, NULL, &hit) == 1 && !hit.flags;
+    if (met) {
+        double length = spread(b, 1e-3, 1e4);
+        j.start.position =
+            along(along(j.start.position, hit.fraction * 6 * reach, way), -length * uniform(b, 0, 1), way);
+        fe_dvec3 translation = along(fe_make_dvec3(0, 0, 0), length, way);
+        met = fe_world_sweep(b->world, &mover.geometry, &j.start, &translation, NULL, &hit) == 1 && !hit.flags;
+        if (met) count(&j, &hit, translation, t);
+    }
+    if (mover.asset) OK(fe_asset_destroy(b->store, mover.asset));
+    if (still.asset) OK(fe_asset_destroy(b->store, still.asset));
+}
+
+// ---- the table -----------------------------------------------------------------------------------------------------
+
+static const struct {
+    const char *name;
+    int32_t type;
+} kinds[] = {{"sphere", FE_GEOMETRY_SPHERE},     {"capsule", FE_GEOMETRY_CAPSULE}, {"box", FE_GEOMETRY_BOX},
+             {"cylinder", FE_GEOMETRY_CYLINDER}, {"cone", FE_GEOMETRY_CONE},       {"hull", FE_GEOMETRY_HULL},
+             {"mesh", FE_GEOMETRY_MESH}};
+enum { OLD_KINDS = 3, MOVING_KINDS = 6, KINDS = 7 };
+
+static tally tally_of(int32_t mover, int32_t still)
+{
+    bench b = {.world = new_world(), .random = UINT64_C(0x9e3779b97f4a7c15) + (uint32_t)(mover * 8 + still)};
+    OK(fe_world_get_store(b.world, &b.store));
+    b.body = new_body(b.world, FE_BODY_STATIC, 0, 0, 0);
+    b.shape = add_box(b.world, b.body, 1);
+    tally t = {0, 0, INFINITY, -INFINITY, 0};
+    for (int32_t i = 0; i < cases; ++i) one_case(&b, kinds[mover].type, kinds[still].type, &t);
+    OK(fe_world_destroy(b.world));
+    printf("| %-8s | %-8s | %6d | %9.4f | %9.4f | %7.1e |\n", kinds[mover].name, kinds[still].name, (int)t.hits,
+           1e6 * t.least, 1e6 * t.most, t.normal);
+    return t;
+}
+
+static void a_sweep_stops_before_the_body(void **state)
+{
+    (void)state;
+    printf("| moving   | stands   | hits   | least, um | most, um  | normal  |\n|---|---|---|---|---|---|\n");
+    for (int32_t mover = 0; mover < MOVING_KINDS; ++mover) {
+        for (int32_t still = 0; still < KINDS; ++still) {
+            if (mover < OLD_KINDS && still < OLD_KINDS) continue; // test_sweep_stop.c
+            tally t = tally_of(mover, still);
+            FE_WITHIN(t.hits, cases / 4, cases);
+            FE_WITHIN(t.unsure, 0, cases / 100);
+            FE_WITHIN(t.least, 2 * (double)SURE, 1e-6);
+            FE_WITHIN(t.most, 0, 1e-6);
+            FE_WITHIN(t.normal, 0, 0.02); // of a way of a ten-millionth of a metre
+        }
+    }
+}
+
+// Both stand upright, 160 m and 130 m high: what GJK makes of the box's edge before the cylinder's side is too far off
+// by more than the gap. Seen from above it is a rectangle before a circle.
+static void a_tall_box_stops_beside_a_tall_cylinder(void **state)
+{
+    (void)state;
+    fe_world *world = new_world();
+    const fe_dvec3 centre = {1e6, -1e6, 4.0194179626032156};
+    fe_geometry cylinder, box;
+    fe_geometry_cylinder(&cylinder, 66.2803116f, 1.4644295f);
+    fe_geometry_box(&box, 0.770100832f, 80.5934067f, 0.122352712f);
+    add_shape(world, new_body(world, FE_BODY_STATIC, centre.x, centre.y, centre.z), &cylinder);
+    fe_transform start = fe_make_transform(1000040.1465341228, -1e6 - 30, -8.9362006859532066);
+    fe_dvec3 way = {-61.511983071647016, 44.84424902130516, 19.816476913594187};
+    fe_hit hit;
+    HIT(fe_world_sweep(world, &box, &start, &way, NULL, &hit));
+    real x = (real)start.position.x - centre.x + (real)hit.fraction * way.x,
+         z = (real)start.position.z - centre.z + (real)hit.fraction * way.z,
+         out_x = fabsl(x) - (real)box.half_extents.x, out_z = fabsl(z) - (real)box.half_extents.z;
+    FE_WITHIN((double)(sqrtl(out_x * out_x + out_z * out_z) - (real)cylinder.radius), 1e-9, 1e-6);
+    OK(fe_world_destroy(world));
+}
+
+int main(int argc, char **argv)
+{
+    if (argc > 1) cases = atoi(argv[1]);
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_sweep_stops_before_the_body),
+                                       cmocka_unit_test(a_tall_box_stops_beside_a_tall_cylinder)};
+    return cmocka_run_group_tests_name("sweep_solids", tests, NULL, NULL);
+}
