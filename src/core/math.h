@@ -35,6 +35,18 @@ static inline float fe__flush(float a, float least) { return fe__absf(a) < least
 static inline double fe__mind(double a, double b) { return a < b ? a : b; }
 static inline double fe__maxd(double a, double b) { return a > b ? a : b; }
 static inline double fe__absd(double a) { return __builtin_fabs(a); }
+// The least float that is not below x
+static inline float fe__float_above(double x)
+{
+    union {
+        float value;
+        int32_t bits;
+    } f = {(float)x};
+    if ((double)f.value >= x) return f.value;
+    // the next float: its bits are the next integer, for x > 0, or the one before
+    f.bits = f.value == 0.0f ? 1 : f.bits + (f.value > 0.0f ? 1 : -1);
+    return f.value;
+}
 static inline int32_t fe__mini(int32_t a, int32_t b) { return a < b ? a : b; }
 static inline int64_t fe__minl(int64_t a, int64_t b) { return a < b ? a : b; }
 static inline int64_t fe__maxl(int64_t a, int64_t b) { return a > b ? a : b; }

@@ -211,6 +211,30 @@ static void a_limit_only_cuts_what_is_farther(void **state)
     }
 }
 
+// Whatever points of the difference it begins with
+static void a_guess_changes_no_distance(void **state)
+{
+    (void)state;
+    for (int32_t i = 0; i < POSES; ++i) {
+        fe__form a = random_form(FE__FORM_BOX), b = random_form(FE__FORM_BOX);
+        fe__relative r = relative(random_vector(2.5), random_rotation());
+        frame f = frame_of(&r);
+        fe__cores cores = cores_of(&a, &b, &f);
+        fe__gjk known, found;
+        fe__gjk_distance(&cores, NO_LIMIT, &known);
+        found.count = 1 + i % 3;
+        for (int32_t k = 0; k < found.count; ++k)
+            found.vertex[k] = fe__cores_support(&cores, fe__widen(random_vector(1.0)));
+        fe_dvec3 p = found.vertex[0].difference;
+        if (found.count == 3) {
+            fe_dvec3 n = fe__dcross(fe__dsub(found.vertex[1].difference, p), fe__dsub(found.vertex[2].difference, p));
+            if (fe__ddot(n, n) < 1e-4) found.count = 2; // no triangle
+        }
+        fe__gjk_distance_from(&cores, NO_LIMIT, &found);
+        FE_NEAR(found.distance, known.distance, PRECISION * 4.0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -220,6 +244,7 @@ int main(void)
         cmocka_unit_test(crossing_segments_part_across_both),
         cmocka_unit_test(points_and_segments_in_one_place_part_somewhere),
         cmocka_unit_test(a_limit_only_cuts_what_is_farther),
+        cmocka_unit_test(a_guess_changes_no_distance),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

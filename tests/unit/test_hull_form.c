@@ -34,9 +34,8 @@ static void ask_hulls(asker ask)
     }
 }
 
-static void ask_support(const fe__hull *h, uint64_t *random)
+static void ask_along(const fe__hull *h, fe_dvec3 d)
 {
-    fe_dvec3 d = fe__dscale(1e3, cloud_vector(random));
     int32_t vertex = fe__hull_support(h, d), face = fe__hull_facing(h, d);
     for (int32_t i = 0; i < h->vertex_count; ++i) {
         double ahead =
@@ -47,6 +46,13 @@ static void ask_support(const fe__hull *h, uint64_t *random)
         double ahead = fe__ddot(d, fe__widen(fe__hull_normal(h, i))) - fe__ddot(d, fe__widen(fe__hull_normal(h, face)));
         FE_TRUE(i < face ? ahead < 0.0 : ahead <= 0.0);
     }
+}
+
+// Directions of any length, those that are no floats too
+static void ask_support(const fe__hull *h, uint64_t *random)
+{
+    const double lengths[] = {1e-42, 1e3, 1e60};
+    for (int32_t i = 0; i < 3; ++i) ask_along(h, fe__dscale(lengths[i], cloud_vector(random)));
 }
 
 static void the_support_is_the_lowest_of_the_farthest(void **state)

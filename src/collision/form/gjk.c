@@ -187,16 +187,17 @@ static void weigh_sliver(const fe__gjk *g, double *weight)
     weight[from] = along[0], weight[(from + 1) % 3] = along[1], weight[(from + 2) % 3] = 0.0;
 }
 
+// From the vertices that the result has, one to three
 static void approach_origin(const fe__cores *cores, double limit, int32_t closely, fe__gjk *g)
 {
     double overlap_size = closely ? CLOSE_SIZE : OVERLAP_SIZE;
-    double weight[4] = {1.0};
-    fe_dvec3 v = fe__dscale(-1.0, cores->position);
-    g->vertex[0] = fe__cores_support(cores, cores->position);
-    g->count = 1, g->overlap = 0;
+    double weight[4];
     int32_t curved = (!cores->corners && fe__form_is_curved(cores->a)) || fe__form_is_curved(cores->b);
-    v = g->vertex[0].difference;
-    g->size = sqrt(fe__ddot(v, v));
+    g->overlap = 0, g->size = 0.0;
+    for (int32_t i = 0; i < g->count; ++i)
+        g->size = fe__maxd(g->size, sqrt(fe__ddot(g->vertex[i].difference, g->vertex[i].difference)));
+    g->count = fe__nearest_in_simplex(g->vertex, weight, g->count);
+    fe_dvec3 v = weighted(g->vertex, weight, g->count);
     double apart_by = 0.0; // no nearer than that: a sliver that seems to hold the origin does not
     for (int32_t iteration = 0; iteration < MAX_ITERATIONS; ++iteration) {
         double square = fe__ddot(v, v), near = overlap_size * g->size;
@@ -240,6 +241,22 @@ static void approach_origin(const fe__cores *cores, double limit, int32_t closel
     if (g->overlap) g->distance = 0.0;
 }
 
-void fe__gjk_distance(const fe__cores *cores, double limit, fe__gjk *g) { approach_origin(cores, limit, 0, g); }
+static void begin(const fe__cores *cores, fe__gjk *g)
+{
+    g->vertex[0] = fe__cores_support(cores, cores->position);
+    g->count = 1;
+}
 
-void fe__gjk_distance_closely(const fe__cores *cores, fe__gjk *g) { approach_origin(cores, (double)INFINITY, 1, g); }
+void fe__gjk_distance_from(const fe__cores *cores, double limit, fe__gjk *g) { approach_origin(cores, limit, 0, g); }
+
+void fe__gjk_distance(const fe__cores *cores, double limit, fe__gjk *g)
+{
+    begin(cores, g);
+    approach_origin(cores, limit, 0, g);
+}
+
+void fe__gjk_distance_closely(const fe__cores *cores, fe__gjk *g)
+{
+    begin(cores, g);
+    approach_origin(cores, (double)INFINITY, 1, g);
+}

@@ -40,6 +40,8 @@ typedef struct fe__gjk {
 
 // Stops early, with a distance above `limit`, as soon as they are known to be farther apart.
 void fe__gjk_distance(const fe__cores *cores, double limit, fe__gjk *result);
+// The same from a guess: one to three vertices of the difference, which the result has already. Three are no sliver.
+void fe__gjk_distance_from(const fe__cores *cores, double limit, fe__gjk *result);
 // Cores overlap from 1e-10 of their size on, where a normal is known to the last digit of a float. This one tells 2e-14
 // of it, 1e-8 m of two forms of 100 km, with a normal of fewer digits: for sweeps, which stop 1e-7 m apart.
 void fe__gjk_distance_closely(const fe__cores *cores, fe__gjk *result);

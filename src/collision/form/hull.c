@@ -1,27 +1,66 @@
 // hull.c - where a hull ends, in a direction, in the world, and along a ray. See hull.h.
 #include "collision/form/hull.h"
 
-static int32_t farthest_lane(const fe__hull_lanes *lanes, int32_t count, fe_dvec3 direction)
+#include "core/lanes.h"
+
+#include <float.h>
+
+// ---- the farthest --------------------------------------------------------------------------------------------------
+// Floats tell which lanes may be the farthest, double which of those is. A float product n . x of three terms, its
+// factors rounded to floats, is off by less than 6 u (|n1 x1| + |n2 x2| + |n3 x3|), u = 2^-24, or by what underflows.
+enum { MOST_LANES = (FE__HULL_FACES + FE__HULL_LANES - 1) / FE__HULL_LANES * FE__HULL_LANES };
+static const float rounding = 6.0f * 0x1p-24f, underflow = 1e-30f;
+
+// n . x of each lane, in floats, and the greatest of them
+static inline float look_along(const fe__hull_lanes *lanes, int32_t count, fe_vec3 n, float *out_along)
 {
+    const fe__quad *px = (const fe__quad *)lanes->x, *py = (const fe__quad *)lanes->y, *pz = (const fe__quad *)lanes->z;
+    const fe__quad x = fe__quad_set(n.x), y = fe__quad_set(n.y), z = fe__quad_set(n.z);
+    fe__quad most = fe__quad_set(-FLT_MAX);
+    for (int32_t i = 0; i < count; i += 4) {
+        fe__quad along = x * *px++ + y * *py++ + z * *pz++;
+        *(fe__quad *)(out_along + i) = along;
+        most = fe__quad_max(along, most);
+    }
+    most = fe__quad_max(most, __builtin_shufflevector(most, most, 2, 3, 0, 1));
+    return fe__maxf(most[0], most[1]);
+}
+
+// No coordinate of a lane is larger than that of `most`. What is no number rules nothing out
+static int32_t farthest_lane(const fe__hull_lanes *lanes, int32_t count, fe_vec3 most, fe_dvec3 direction)
+{
+    _Alignas(16) float along[MOST_LANES];
+    fe_vec3 n = fe__narrow(direction);
+    float sum = fe__absf(n.x) * most.x + fe__absf(n.y) * most.y + fe__absf(n.z) * most.z;
+    fe__quad least = fe__quad_set(look_along(lanes, count, n, along) - 2.0f * (rounding * sum + underflow));
     int32_t best = 0;
-    double farthest = fe__ddot(fe__widen(fe__hull_lane(lanes, 0)), direction);
-    for (int32_t i = 1; i < count; ++i) {
-        double distance = fe__ddot(fe__widen(fe__hull_lane(lanes, i)), direction);
-        if (distance <= farthest) continue;
-        farthest = distance;
-        best = i;
+    double farthest = -(double)INFINITY;
+    for (int32_t i = 0; i < count; i += 4) {
+        uint32_t left = 0xfu & ~fe__quad_signs(*(const fe__quad *)(along + i) < least);
+        for (; left; left &= left - 1) {
+            int32_t lane = i + __builtin_ctz(left);
+            double distance = fe__ddot(fe__widen(fe__hull_lane(lanes, lane)), direction);
+            if (distance > farthest) farthest = distance, best = lane;
+        }
     }
     return best;
 }
 
+static inline fe_vec3 most_of_corners(fe_vec3 a, fe_vec3 b)
+{
+    return fe__vec3(fe__maxf(fe__absf(a.x), fe__absf(b.x)), fe__maxf(fe__absf(a.y), fe__absf(b.y)),
+                    fe__maxf(fe__absf(a.z), fe__absf(b.z)));
+}
+
 int32_t fe__hull_support(const fe__hull *hull, fe_dvec3 direction)
 {
-    return farthest_lane(&hull->vertices, hull->vertex_count, direction);
+    return farthest_lane(&hull->vertices, hull->vertex_count, most_of_corners(hull->low, hull->high), direction);
 }
 
 int32_t fe__hull_facing(const fe__hull *hull, fe_dvec3 direction)
 {
-    return farthest_lane(&hull->normals, hull->face_count, direction);
+    const fe_vec3 unit = {1.0f, 1.0f, 1.0f};
+    return farthest_lane(&hull->normals, hull->face_count, unit, direction);
 }
 
 float fe__hull_reach(const fe__hull *hull, fe_vec3 centre)
@@ -34,16 +73,59 @@ float fe__hull_reach(const fe__hull *hull, fe_vec3 centre)
     return (float)sqrt(most);
 }
 
+// ---- bounds: pairs of lanes, in double -----------------------------------------------------------------------------
+typedef struct pairs {
+    fe__pair x, y, z;
+} pairs;
+
+static inline pairs low_of(const fe__quad *x, const fe__quad *y, const fe__quad *z)
+{
+    return (pairs){fe__pair_low(*x), fe__pair_low(*y), fe__pair_low(*z)};
+}
+static inline pairs high_of(const fe__quad *x, const fe__quad *y, const fe__quad *z)
+{
+    return (pairs){fe__pair_high(*x), fe__pair_high(*y), fe__pair_high(*z)};
+}
+
+// As fe__drotate: a + k w t + k u x t, t = u x a
+static inline pairs cross(fe_dvec3 u, pairs a)
+{
+    return (pairs){u.y * a.z - u.z * a.y, u.z * a.x - u.x * a.z, u.x * a.y - u.y * a.x};
+}
+
+static inline fe__pair least(fe__pair a, fe__pair b) { return fe__pair_choose(a < b, a, b); }
+static inline fe__pair most(fe__pair a, fe__pair b) { return fe__pair_choose(a > b, a, b); }
+static double least_of(fe__pair a) { return fe__mind(a[0], a[1]); }
+static double most_of(fe__pair a) { return fe__maxd(a[0], a[1]); }
+
+typedef struct span {
+    pairs low, high;
+} span;
+
+static inline span grown(span s, fe_dvec3 u, double kw, double k, pairs a)
+{
+    pairs t = cross(u, a), ut = cross(u, t);
+    pairs p = {a.x + kw * t.x + k * ut.x, a.y + kw * t.y + k * ut.y, a.z + kw * t.z + k * ut.z};
+    return (span){{least(s.low.x, p.x), least(s.low.y, p.y), least(s.low.z, p.z)},
+                  {most(s.high.x, p.x), most(s.high.y, p.y), most(s.high.z, p.z)}};
+}
+
 fe__bounds fe__hull_bounds(const fe__hull *hull, const fe__pose *pose)
 {
     const double far = (double)INFINITY;
-    fe__bounds b = {{far, far, far}, {-far, -far, -far}};
-    for (int32_t i = 0; i < hull->vertex_count; ++i) {
-        fe_dvec3 p = fe__drotate(pose->rotation, fe__widen(fe__hull_vertex(hull, i)));
-        b.low = (fe_dvec3){fe__mind(b.low.x, p.x), fe__mind(b.low.y, p.y), fe__mind(b.low.z, p.z)};
-        b.high = (fe_dvec3){fe__maxd(b.high.x, p.x), fe__maxd(b.high.y, p.y), fe__maxd(b.high.z, p.z)};
+    const fe__hull_lanes *v = &hull->vertices;
+    const fe__quad *x = (const fe__quad *)v->x, *y = (const fe__quad *)v->y, *z = (const fe__quad *)v->z;
+    fe_dvec3 u = {(double)pose->rotation.x, (double)pose->rotation.y, (double)pose->rotation.z};
+    double w = (double)pose->rotation.w, k = 2.0 / (fe__ddot(u, u) + w * w), kw = k * w;
+    span s = {{{far, far}, {far, far}, {far, far}}, {{-far, -far}, {-far, -far}, {-far, -far}}};
+    for (int32_t i = 0; i < hull->vertex_count; i += 4, ++x, ++y, ++z) {
+        s = grown(s, u, kw, k, low_of(x, y, z));
+        s = grown(s, u, kw, k, high_of(x, y, z));
     }
-    return (fe__bounds){fe__dadd(pose->position, b.low), fe__dadd(pose->position, b.high)};
+    return (fe__bounds){
+        fe__dadd(pose->position, (fe_dvec3){least_of(s.low.x), least_of(s.low.y), least_of(s.low.z)}),
+        fe__dadd(pose->position, (fe_dvec3){most_of(s.high.x), most_of(s.high.y), most_of(s.high.z)}),
+    };
 }
 
 // ---- rays ----------------------------------------------------------------------------------------------------------

@@ -111,14 +111,22 @@ static inline const float *fe__mesh_vertex(const fe__mesh *mesh, int32_t slot, i
     const fe__mesh_leaf *leaf = mesh->leaves + slot / FE__MESH_LEAF;
     return mesh->vertices + 3 * ((size_t)leaf->first_vertex + leaf->corner[slot % FE__MESH_LEAF][corner]);
 }
-// 2^exponent, m
-static inline double fe__mesh_step(const fe__mesh_node *node, int32_t axis)
+static inline double fe__mesh_power(int32_t exponent) // of 2
 {
     union {
         uint64_t bits;
         double value;
-    } step = {(uint64_t)(1023 + node->exponent[axis]) << 52};
-    return step.value;
+    } power = {(uint64_t)(1023 + exponent) << 52};
+    return power.value;
+}
+// 2^exponent, m, and what of it is 1
+static inline double fe__mesh_step(const fe__mesh_node *node, int32_t axis)
+{
+    return fe__mesh_power(node->exponent[axis]);
+}
+static inline double fe__mesh_per_step(const fe__mesh_node *node, int32_t axis)
+{
+    return fe__mesh_power(-node->exponent[axis]);
 }
 
 // The form of a shape that has it; `index` is its record's.

@@ -3,6 +3,8 @@
 
 #include "core/lanes.h"
 
+#include <string.h>
+
 // Wider by more than a quotient is rounded
 static void unscale(double scale, double *low, double *high)
 {
@@ -19,38 +21,58 @@ void fe__mesh_walk_begin(fe__mesh_walk *walk, const fe__mesh *mesh, const fe__bo
         unscale(mesh->scale[1], &walk->box.low.y, &walk->box.high.y);
         unscale(mesh->scale[2], &walk->box.low.z, &walk->box.high.z);
     }
+    const double low[4] = {walk->box.low.x, walk->box.low.y, walk->box.low.z, 0.0},
+                 high[4] = {walk->box.high.x, walk->box.high.y, walk->box.high.z, 0.0};
+    for (int32_t k = 0; k < 4; ++k) walk->low[k] = fe__float_above(low[k]), walk->high[k] = -fe__float_above(-high[k]);
     walk->slot = walk->end = 0;
     walk->top = 1;
     walk->stack[0] = 0; // the root
 }
 
 // ---- nodes ---------------------------------------------------------------------------------------------------------
-typedef uint8_t bytes4 __attribute__((vector_size(4), may_alias, aligned(1)));
-
-static inline fe__lanes lanes_of(const uint8_t *bytes)
+// Eight bytes in a word. Bit 7 of each byte: byte of x is at least that of y (Warren, Hacker's Delight, 2-18)
+#define BYTES 0x0101010101010101u
+#define TOPS (0x80 * BYTES)
+static inline uint64_t at_least(uint64_t x, uint64_t y)
 {
-    return (fe__lanes){__builtin_convertvector(*(const bytes4 *)bytes, fe__quad),
-                       __builtin_convertvector(*(const bytes4 *)(bytes + 4), fe__quad)};
+    uint64_t rest = (x | TOPS) - (y & ~TOPS);
+    return (x & ~y) | (~(x ^ y) & rest);
 }
 
-// A coordinate in steps of a node, from one before its boxes to one behind them
-static float in_steps(double x, double per_step) { return (float)fe__clampd(x * per_step, -1.0, 256.0); }
+static inline uint64_t word_of(const uint8_t bytes[FE__MESH_WIDTH])
+{
+    uint64_t word;
+    memcpy(&word, bytes, sizeof word);
+    return word;
+}
 
-// Bit i: the box meets that of child i. The box is widened by more than a float's rounding of 256 steps.
+// Bit i: the top bit of byte i of memory. The products of one byte each meet in no bit
+static inline uint32_t gather_tops(uint64_t tops)
+{
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+    tops = __builtin_bswap64(tops);
+#endif
+    return (uint32_t)((tops >> 7) * 0x0102040810204080u >> 56);
+}
+
+// Bit i: the box meets that of child i. Steps are whole; the box is widened by more than what is rounded.
 static uint32_t meet_boxes(const fe__mesh_walk *w, const fe__mesh_node *node)
 {
-    const float widening = 1e-4f; // steps
+    const double widening = 1e-4; // steps
+    const int32_t last = 255;
     const double low[3] = {w->box.low.x, w->box.low.y, w->box.low.z},
                  high[3] = {w->box.high.x, w->box.high.y, w->box.high.z};
-    uint32_t met = (1u << node->count) - 1;
+    uint64_t met = TOPS;
     for (int32_t k = 0; k < 3; ++k) {
-        double per_step = 1.0 / fe__mesh_step(node, k), origin = (double)node->origin[k];
-        float from = in_steps(low[k] - origin, per_step) - widening,
-              to = in_steps(high[k] - origin, per_step) + widening;
-        met &= fe__lanes_at_most(fe__lanes_set(from), lanes_of(node->high[k])) &
-               fe__lanes_at_most(lanes_of(node->low[k]), fe__lanes_set(to));
+        double per_step = fe__mesh_per_step(node, k), origin = (double)node->origin[k];
+        double from = fe__clampd((low[k] - origin) * per_step, -1.0, 256.0) - widening,
+               to = fe__clampd((high[k] - origin) * per_step, -1.0, 256.0) + widening;
+        int32_t first = (int32_t)(from + 1.0), end = (int32_t)(to + 1.0); // truncated: none is below -1
+        if (first > last || end < 1) return 0;
+        met &= at_least(word_of(node->high[k]), (uint64_t)first * BYTES) &
+               at_least((uint64_t)fe__mini(end - 1, last) * BYTES, word_of(node->low[k]));
     }
-    return met;
+    return gather_tops(met & TOPS) & ((1u << node->count) - 1);
 }
 
 // The first child on top
@@ -62,20 +84,17 @@ static void open_node(fe__mesh_walk *w, const fe__mesh_node *node)
 }
 
 // ---- triangles -----------------------------------------------------------------------------------------------------
-static int32_t reaches(const float *const v[3], int32_t axis, double low, double high)
-{
-    float a = v[0][axis], b = v[1][axis], c = v[2][axis];
-    return (double)fe__minf(fe__minf(a, b), c) <= high && (double)fe__maxf(fe__maxf(a, b), c) >= low;
-}
+typedef float loose_quad __attribute__((vector_size(16), aligned(4), may_alias));
 
 static int32_t meet_triangle(const fe__mesh_walk *w, int32_t slot, fe__form *triangle)
 {
+    enum { THREE = 7 }; // the fourth lane is another vertex's, or none
     const float *const v[3] = {fe__mesh_vertex(w->mesh, slot, 0), fe__mesh_vertex(w->mesh, slot, 1),
                                fe__mesh_vertex(w->mesh, slot, 2)};
-    const fe__bounds *box = &w->box;
-    if (!reaches(v, 0, box->low.x, box->high.x) || !reaches(v, 1, box->low.y, box->high.y) ||
-        !reaches(v, 2, box->low.z, box->high.z))
-        return 0;
+    fe__quad a = *(const loose_quad *)v[0], b = *(const loose_quad *)v[1], c = *(const loose_quad *)v[2];
+    fe__quad low = fe__quad_min(fe__quad_min(a, b), c), high = fe__quad_max(fe__quad_max(a, b), c);
+    fe__quad_int met = (low <= *(const fe__quad *)w->high) & (high >= *(const fe__quad *)w->low);
+    if ((fe__quad_signs(met) & THREE) != THREE) return 0;
     triangle->type = FE__FORM_TRIANGLE, triangle->radius = 0.0f;
     const double *s = w->mesh->scale;
     for (int32_t k = 0; k < 3; ++k) {

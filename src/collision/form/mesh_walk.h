@@ -9,9 +9,10 @@ enum { FE__MESH_WALK_STACK = FE__MESH_DEPTH * (FE__MESH_WIDTH - 1) + FE__MESH_WI
 
 typedef struct fe__mesh_walk {
     const fe__mesh *mesh;
-    fe__bounds box;    // in the frame of its vertices, unscaled
-    fe_dvec3 origin;   // in the mesh's
-    int32_t slot, end; // of the leaf
+    fe__bounds box;                     // in the frame of its vertices, unscaled
+    _Alignas(16) float low[4], high[4]; // the least and the greatest of the floats in it; the fourth is 0
+    fe_dvec3 origin;                    // in the mesh's
+    int32_t slot, end;                  // of the leaf
     int32_t top;
     uint32_t stack[FE__MESH_WALK_STACK]; // up to `top`
 } fe__mesh_walk;

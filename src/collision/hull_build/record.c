@@ -1,20 +1,6 @@
 // record.c - see record.h. What the arrays hold, and in which order, stands in form/hull.h.
 #include "collision/hull_build/record.h"
 
-#include <string.h>
-
-float fe__float_above(double x)
-{
-    float f = (float)x;
-    if ((double)f >= x) return f;
-    // the next float: its bits are the next integer, for x > 0, or the one before
-    int32_t bits;
-    memcpy(&bits, &f, sizeof bits);
-    bits = f == 0.0f ? 1 : bits + (f > 0.0f ? 1 : -1);
-    memcpy(&f, &bits, sizeof f);
-    return f;
-}
-
 // ---- room ----------------------------------------------------------------------------------------------------------
 // Hands out arrays one after another; without a block it only counts.
 typedef struct room {

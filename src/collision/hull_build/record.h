@@ -31,7 +31,4 @@ void fe__hull_place_planes(fe__hull *hull); // of all, along the normals that ar
 // Then the rest but the measures: what edges repeat of vertices and planes, lanes past the counts
 void fe__hull_finish(const fe__hull *hull);
 
-// The least float that is not below x
-float fe__float_above(double x);
-
 #endif

@@ -18,15 +18,16 @@ static const uint8_t edges[EDGES][4] = {{0, 4, 0, 2}, {4, 6, 0, 5}, {2, 6, 3, 0}
                                         {0, 1, 2, 4}, {4, 5, 5, 2}, {6, 7, 3, 5}, {2, 3, 4, 3}};
 
 // unit normals, of the faces, and of those left and right of each edge; lanes past the count repeat the first
-static const float normals[3][FE__HULL_LANES] = {{-1, 1, 0, 0, 0, 0, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1},
-                                                 {0, 0, -1, 1, 0, 0},
-                                                 {0, 0, 0, 0, -1, 1}};
-static const float left[3][FE__HULL_LANES] = {{-1, -1, 0, 0, 1, 1, 0, 0, 0, 0, 0, 0, -1, -1, -1, -1},
-                                              {0, 0, 1, 0, 0, 0, 0, -1, -1, 0, 1, 0},
-                                              {0, 0, 0, -1, 0, 0, 1, 0, 0, 1, 0, -1}};
-static const float right[3][FE__HULL_LANES] = {{0, 0, -1, -1, 0, 0, 1, 1, 0, 0, 0, 0},
-                                               {-1, 0, 0, 0, 0, 1, 0, 0, 0, -1, 0, 1, -1, -1, -1, -1},
-                                               {0, 1, 0, 0, -1, 0, 0, 0, -1, 0, 1, 0}};
+_Alignas(64) static const
+    float normals[3][FE__HULL_LANES] = {{-1, 1, 0, 0, 0, 0, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1},
+                                        {0, 0, -1, 1, 0, 0},
+                                        {0, 0, 0, 0, -1, 1}};
+_Alignas(64) static const float left[3][FE__HULL_LANES] = {{-1, -1, 0, 0, 1, 1, 0, 0, 0, 0, 0, 0, -1, -1, -1, -1},
+                                                           {0, 0, 1, 0, 0, 0, 0, -1, -1, 0, 1, 0},
+                                                           {0, 0, 0, -1, 0, 0, 1, 0, 0, 1, 0, -1}};
+_Alignas(64) static const float right[3][FE__HULL_LANES] = {{0, 0, -1, -1, 0, 0, 1, 1, 0, 0, 0, 0},
+                                                            {-1, 0, 0, 0, 0, 1, 0, 0, 0, -1, 0, 1, -1, -1, -1, -1},
+                                                            {0, 1, 0, 0, -1, 0, 0, 0, -1, 0, 1, 0}};
 
 static float along(float half, int32_t vertex, int32_t axis) { return vertex >> axis & 1 ? half : -half; }
 

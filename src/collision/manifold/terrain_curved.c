@@ -2,7 +2,8 @@
 //
 // Its disc, the line on its side, or the hull's face, over the triangle gives points along the triangle's normal. Near
 // a convex side the nearest or deepest points of both (GJK, EPA) give one along the line between them, or the disc's
-// part over the side, where the surface allows it.
+// part over the side, where the surface allows it. A form whose lowest point lies well inside the triangle is not
+// looked at so.
 #include "collision/form/clip.h"
 #include "collision/form/epa.h"
 #include "collision/form/support.h"
@@ -17,11 +18,40 @@ typedef struct contest {
     float tie;
 } contest;
 
-// Height over the triangle's plane of the form's lowest, or highest, point
-static float height_of(const contest *c, fe_vec3 direction)
+// The form's point farthest along a direction, as GJK finds it
+static fe_dvec3 farthest(const contest *c, fe_vec3 direction)
 {
-    fe_vec3 p = fe__narrow(fe__form_support(c->form, fe__widen(fe__mul_transposed(c->rotation, direction))));
-    return fe__dot(c->tile->normal, fe__sub(fe__mul(c->rotation, p), c->tile->form.vertex[0]));
+    const fe__mat3 *r = c->rotation;
+    fe_dvec3 p = fe__form_support(c->form, fe__widen(fe__mul_transposed(r, direction)));
+    return fe__dadd(fe__dadd(fe__dscale(p.x, fe__widen(r->x)), fe__dscale(p.y, fe__widen(r->y))),
+                    fe__dscale(p.z, fe__widen(r->z)));
+}
+
+static float height_of(const contest *c, fe_dvec3 p)
+{
+    return fe__dot(c->tile->normal, fe__sub(fe__narrow(p), c->tile->form.vertex[0]));
+}
+
+// A surface has no inside, see fe__tile_feels: the form's highest point tells how deep all of it is
+static int32_t is_felt(const contest *c)
+{
+    fe_vec3 n = c->tile->normal;
+    return fe__dot(n, c->tile->form.vertex[0]) <= 0.0f || height_of(c, farthest(c, n)) >= -c->g->felt;
+}
+
+// Is the form's lowest point p over the triangle, at least as far from its sides as it is deep? With e >= d >= 0 these
+// two, a direction m at an angle t from the normal, up to 90 degrees, has a separation of -d cos t - e sin t at most,
+// which is no more than the normal's, -d; and what is apart is nearest there.
+static int32_t lies_inside(const contest *c, fe_dvec3 p, float low)
+{
+    const fe__tile *tile = c->tile;
+    float depth = fe__maxf(-low, 0.0f);
+    for (int32_t k = 0; k < 3; ++k) {
+        fe_vec3 v = tile->form.vertex[k], side = fe__sub(tile->form.vertex[(k + 1) % 3], v);
+        float inwards = fe__dot(fe__cross(tile->normal, side), fe__sub(fe__narrow(p), v)); // times the side's length
+        if (!(inwards > 0.0f && inwards * inwards >= depth * depth * fe__dot(side, side))) return 0;
+    }
+    return 1;
 }
 
 static void touch_face(const contest *c)
@@ -39,8 +69,34 @@ static void touch_face(const contest *c)
     fe__tile_cut_faces(c->g, c->tile, &cut);
 }
 
+// Where a hull's lowest point lies over one side, that and the triangle are all but the answer. A thin triangle, or one
+// that is small from there, would be a sliver to begin with, and what has a rim would make one.
+static int32_t begins_with_triangle(const contest *c, fe_dvec3 lowest)
+{
+    const float thin = 0.01f, far = 1e3f; // height of the triangle, distance of the point, in its longest side
+    const fe_vec3 *v = c->tile->form.vertex;
+    fe_vec3 n = fe__cross(fe__sub(v[1], v[0]), fe__sub(v[2], v[0])), away = fe__sub(fe__narrow(lowest), v[0]);
+    float square = c->tile->size * c->tile->size;
+    return fe__form_is_hull(c->form) && fe__dot(n, n) > thin * thin * square * square &&
+           fe__dot(away, away) < far * far * square;
+}
+
+static void find_distance(const contest *c, const fe__cores *cores, fe_dvec3 lowest, fe__gjk *gjk)
+{
+    if (!begins_with_triangle(c, lowest)) {
+        fe__gjk_distance(cores, (double)c->g->margin, gjk);
+        return;
+    }
+    gjk->count = 3;
+    for (int32_t k = 0; k < 3; ++k) {
+        fe_dvec3 corner = fe__widen(c->tile->form.vertex[k]);
+        gjk->vertex[k] = (fe__vertex){fe__dsub(corner, lowest), corner};
+    }
+    fe__gjk_distance_from(cores, (double)c->g->margin, gjk);
+}
+
 // 0: apart
-static int32_t find_nearest(const contest *c, fe__touch *found)
+static int32_t find_nearest(const contest *c, fe_dvec3 lowest, fe__touch *found)
 {
     fe__cores cores = {.a = &c->tile->form,
                        .b = c->form,
@@ -48,7 +104,7 @@ static int32_t find_nearest(const contest *c, fe__touch *found)
                        .axis_y = fe__widen(c->rotation->y),
                        .axis_z = fe__widen(c->rotation->z)};
     fe__gjk gjk;
-    fe__gjk_distance(&cores, (double)c->g->margin, &gjk);
+    find_distance(c, &cores, lowest, &gjk);
     if (gjk.distance > (double)c->g->margin) return 0;
     if (gjk.overlap) {
         fe__penetration p = fe__epa_depth(&cores, &gjk);
@@ -97,14 +153,19 @@ void fe__tile_touch_curved(fe__gathering *g, const fe__tile *tile, const fe__for
 {
     contest c = {g, tile, form, rotation, fe__tie(fe__form_thickness(form))};
     fe_vec3 n = tile->normal;
-    float low = height_of(&c, fe__neg(n));
-    if (low > g->margin || !fe__tile_feels(g, tile, height_of(&c, n))) return;
+    fe_dvec3 lowest = farthest(&c, fe__neg(n));
+    float low = height_of(&c, lowest);
+    if (low > g->margin || !is_felt(&c)) return;
     int32_t convex = 0;
     for (int32_t k = 0; k < 3; ++k) convex |= fe__tile_is_convex(g->terrain, tile, k);
+    if (!convex || lies_inside(&c, lowest, low)) {
+        touch_face(&c);
+        return;
+    }
     fe__touch found;
-    if (convex && !find_nearest(&c, &found)) return;
-    if (convex && found.separation > low + c.tie && fe__dot(found.normal, n) <= FE_FACE_COS &&
-        fe__dot(found.normal, n) >= 0.0f && fe__tile_allows(g->terrain, tile, found.normal))
+    if (!find_nearest(&c, lowest, &found)) return;
+    if (found.separation > low + c.tie && fe__dot(found.normal, n) <= FE_FACE_COS && fe__dot(found.normal, n) >= 0.0f &&
+        fe__tile_allows(g->terrain, tile, found.normal))
         touch_side(&c, &found);
     else
         touch_face(&c);
