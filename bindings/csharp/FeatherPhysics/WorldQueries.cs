@@ -1,6 +1,11 @@
 // Queries of a world: nothing is allocated, arrays are the caller's. A hit names its body by a handle: world[hit.Body].
 using System;
 using System.Runtime.InteropServices;
+#if UNITY_5_3_OR_NEWER
+using UnityEngine;
+#else
+using System.Numerics;
+#endif
 
 namespace FeatherPhysics
 {
@@ -127,7 +132,7 @@ namespace FeatherPhysics
         /// What a form touches first that turns on its way by the length of <paramref name="turn"/>, rad, about its
         /// direction, at a constant rate.
         /// </summary>
-        public bool SweepTurning(Geometry geometry, WorldTransform start, DVec3 translation, Vec3 turn, out Hit hit,
+        public bool SweepTurning(Geometry geometry, WorldTransform start, DVec3 translation, Vector3 turn, out Hit hit,
             QueryFilter filter = null)
         {
             Hit found = default(Hit);
@@ -142,7 +147,7 @@ namespace FeatherPhysics
             return count == 1;
         }
         /// <summary>Does it touch anything while it moves and turns? Faster than the first.</summary>
-        public bool SweepTurningAny(Geometry geometry, WorldTransform start, DVec3 translation, Vec3 turn,
+        public bool SweepTurningAny(Geometry geometry, WorldTransform start, DVec3 translation, Vector3 turn,
             QueryFilter filter = null)
         {
             BodyHandle[] excluded = Excluded(filter);
@@ -157,7 +162,7 @@ namespace FeatherPhysics
         /// <summary>
         /// Every body that it touches while it moves and turns, nearest first. Returns how many there are.
         /// </summary>
-        public int SweepTurningAll(Geometry geometry, WorldTransform start, DVec3 translation, Vec3 turn,
+        public int SweepTurningAll(Geometry geometry, WorldTransform start, DVec3 translation, Vector3 turn,
             Span<Hit> hits, QueryFilter filter = null)
         {
             BodyHandle[] excluded = Excluded(filter);

@@ -789,7 +789,7 @@ namespace FeatherPhysics.Tests
                 SweepPath[] paths = { new SweepPath { Start = new WorldTransform(from), Translation = way } };
                 Check.Same(world.SweepMany(probe, paths, hits), 1, "sweep many");
                 Geometry rod = Geometry.Box(6, 0.1f, 0.1f);
-                Vec3 turn = new Vec3(0, 6.2831853f, 0);
+                Vector3 turn = new Vector3(0, 6.2831853f, 0);
                 WorldTransform beside = new WorldTransform(new DVec3(from.X, from.Y, from.Z));
                 DVec3 nowhere = new DVec3(0, 0, 0);
                 Check.True(!world.Sweep(rod, beside, nowhere, out hit), "a rod beside");
