@@ -86,6 +86,7 @@ fe__scene fe__scene_of(const fe_world *world, const fe_query_filter *whole_filte
 {
     return (fe__scene){.shapes = world->shapes,
                        .store = world->store,
+                       .mesh_casts = world->mesh_casts,
                        .static_tree = &world->static_tree,
                        .moving_tree = &world->moving_tree,
                        .planes = world->planes,

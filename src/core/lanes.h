@@ -30,6 +30,7 @@ typedef struct fe__lanes {
 
 // ---- four ----------------------------------------------------------------------------------------------------------
 FE_LANES_INLINE fe__quad fe__quad_set(float x) { return (fe__quad){x, x, x, x}; }
+FE_LANES_INLINE fe__quad fe__quad_abs(fe__quad x) { return (fe__quad)((fe__quad_int)x & INT32_MAX); }
 FE_LANES_INLINE fe__quad fe__quad_choose(fe__quad_int mask, fe__quad yes, fe__quad no)
 {
     return (fe__quad)((mask & (fe__quad_int)yes) | (~mask & (fe__quad_int)no));
@@ -148,6 +149,27 @@ FE_LANES_INLINE fe__eight_mask fe__eight_and(fe__eight_mask x, fe__eight_mask y)
     return (fe__eight_mask){x.a & y.a, x.b & y.b};
 }
 FE_LANES_INLINE uint32_t fe__eight_bits(fe__eight_mask x) { return fe__quad_signs(x.a) | fe__quad_signs(x.b) << 4; }
+#endif
+#if FE_LANES_X86 && defined(__AVX2__)
+FE_LANES_INLINE fe__eight fe__eight_of_bytes(const uint8_t bytes[8])
+{
+    return _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)(const void *)bytes)));
+}
+#elif FE_LANES_X86 && !defined(__AVX__)
+FE_LANES_INLINE fe__eight fe__eight_of_bytes(const uint8_t bytes[8])
+{
+    const __m128i zero = _mm_setzero_si128(),
+                  words = _mm_unpacklo_epi8(_mm_loadl_epi64((const __m128i *)(const void *)bytes), zero);
+    return (fe__eight){(fe__quad)_mm_cvtepi32_ps(_mm_unpacklo_epi16(words, zero)),
+                       (fe__quad)_mm_cvtepi32_ps(_mm_unpackhi_epi16(words, zero))};
+}
+#else
+FE_LANES_INLINE fe__eight fe__eight_of_bytes(const uint8_t bytes[8])
+{
+    _Alignas(32) float row[8];
+    for (int32_t i = 0; i < 8; ++i) row[i] = (float)bytes[i];
+    return fe__eight_load(row);
+}
 #endif
 // bit i: lane i of x is at most lane i of y
 FE_LANES_INLINE uint32_t fe__eight_at_most(fe__eight x, fe__eight y) { return fe__eight_bits(fe__eight_below(x, y)); }

@@ -83,7 +83,7 @@ static inline int32_t meet_ray(const fe__scene *scene, const fe__probe *probe, c
         set(&way, &turned_way);
     }
     if (fe__form_is_field(&shape->form)) {
-        fe__ground surface = fe__store_ground(scene->store, &shape->form);
+        fe__ground surface = fe__scene_ground(scene, shape);
         return fe__ground_ray(&surface, origin, way, limit, &f->hit);
     }
     return fe__form_ray_at(&shape->form, &origin, &way, limit, &f->hit);
@@ -108,7 +108,7 @@ static int32_t meet_form(const fe__scene *scene, const fe__probe *probe, const f
     fe__sweep_hit hit;
     int32_t met;
     if (fe__form_is_field(&shape->form)) {
-        fe__ground surface = fe__store_ground(scene->store, &shape->form);
+        fe__ground surface = fe__scene_ground(scene, shape);
         met = is_turning(probe) ? fe__ground_turn(&surface, &mover, limit, &hit)
                                 : fe__ground_sweep(&surface, &mover, limit, &hit);
     } else {
@@ -116,7 +116,7 @@ static int32_t meet_form(const fe__scene *scene, const fe__probe *probe, const f
                                 : fe__form_sweep(&shape->form, &mover, limit, &hit);
     }
     if (!met) return 0;
-    *f = (found){{hit.t, hit.normal, hit.depth, hit.inside, hit.triangle}, hit.point};
+    *f = (found){{hit.t, hit.normal, hit.depth, hit.inside, hit.triangle, hit.index}, hit.point};
     return 1;
 }
 
@@ -131,7 +131,7 @@ int32_t fe__probe_overlaps(const fe__scene *scene, const fe__probe *probe, const
     fe__axes m = fe__axes_of(shape->pose.rotation);
     fe__mover mover = mover_of(probe, shape, &m);
     if (fe__form_is_field(&shape->form)) {
-        fe__ground surface = fe__store_ground(scene->store, &shape->form);
+        fe__ground surface = fe__scene_ground(scene, shape);
         return fe__ground_overlap(&surface, &mover);
     }
     return fe__form_overlap(&shape->form, &mover);
@@ -177,10 +177,10 @@ static void report(const fe__scene *scene, const fe__probe *probe, int32_t index
     out->normal = is_turning(probe) ? fe__narrow(normal) : against_way(normal, way);
     out->depth = (float)hit->depth;
     out->flags = hit->inside ? FE_HIT_STARTED_INSIDE : 0u;
-    out->material = fe__scene_material(scene, shape, hit->triangle);
+    out->material = fe__scene_material(scene, shape, hit->index);
     out->part = -1;
     out->triangle = hit->triangle;
-    fe__scene_weights(scene, shape, hit->triangle, point, out->barycentric);
+    fe__scene_weights(scene, shape, hit->index, point, out->barycentric);
     memset(out->reserved, 0, sizeof out->reserved);
 }
 

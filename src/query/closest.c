@@ -18,7 +18,7 @@ static int32_t nearest_on(const fe__scene *scene, const fe__shape *shape, fe_dve
 {
     fe_dvec3 p = fe__drotate_back(shape->pose.rotation, fe__dsub(point, shape->pose.position));
     if (fe__form_is_field(&shape->form)) {
-        fe__ground surface = fe__store_ground(scene->store, &shape->form);
+        fe__ground surface = fe__scene_ground(scene, shape);
         return fe__ground_nearest(&surface, p, limit, nearest);
     }
     *nearest = fe__form_nearest(&shape->form, p);
@@ -33,11 +33,11 @@ static fe_closest closest_of(const fe__scene *scene, int32_t index, const fe__ne
                           .shape = fe__id_pool_handle(scene->shape_ids, index),
                           .point = fe__dadd(shape->pose.position, fe__drotate(q, found->point)),
                           .distance = found->distance,
-                          .material = fe__scene_material(scene, shape, found->triangle),
+                          .material = fe__scene_material(scene, shape, found->index),
                           .normal = fe__narrow(fe__drotate(q, found->normal)),
                           .part = -1,
                           .triangle = found->triangle};
-    fe__scene_weights(scene, shape, found->triangle, closest.point, closest.barycentric);
+    fe__scene_weights(scene, shape, found->index, closest.point, closest.barycentric);
     return closest;
 }
 

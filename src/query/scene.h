@@ -12,7 +12,8 @@
 
 typedef struct fe__scene {
     const fe__shape *shapes;
-    const fe_store *store; // of the assets that shapes have
+    const fe_store *store;            // of the assets that shapes have
+    const fe__mesh_casts *mesh_casts; // of the world's SIMD set
     const fe__tree *static_tree, *moving_tree;
     const int32_t *planes;
     int32_t plane_count;
@@ -36,20 +37,27 @@ static inline int32_t fe__scene_counts(const fe__scene *scene, const fe__shape *
     return 1;
 }
 
-// fe_material.user_id of a shape there
-static inline uint64_t fe__scene_material(const fe__scene *scene, const fe__shape *shape, int32_t triangle)
+// Of a shape that is a field
+static inline fe__ground fe__scene_ground(const fe__scene *scene, const fe__shape *shape)
 {
-    return fe__material_of_shape(scene->store, shape, triangle)->user_id;
+    fe__ground ground = fe__store_ground(scene->store, &shape->form);
+    ground.casts = scene->mesh_casts;
+    return ground;
+}
+// fe_material.user_id of a shape there; `index`: of a triangle of a field (collision/form/ground.h), -1: none
+static inline uint64_t fe__scene_material(const fe__scene *scene, const fe__shape *shape, int32_t index)
+{
+    return fe__material_of_index(scene->store, shape, index)->user_id;
 }
 // fe_hit.barycentric of a point of the world
-static inline void fe__scene_weights(const fe__scene *scene, const fe__shape *shape, int32_t triangle, fe_dvec3 point,
+static inline void fe__scene_weights(const fe__scene *scene, const fe__shape *shape, int32_t index, fe_dvec3 point,
                                      float *out_weights)
 {
     out_weights[0] = out_weights[1] = 0.0f;
-    if (triangle < 0 || !fe__form_is_field(&shape->form)) return;
+    if (!fe__form_is_field(&shape->form) || index < 0) return;
     fe_dvec3 local = fe__drotate_back(shape->pose.rotation, fe__dsub(point, shape->pose.position));
-    fe__ground surface = fe__store_ground(scene->store, &shape->form);
-    fe__ground_weights(&surface, triangle, local, out_weights);
+    fe__ground surface = fe__scene_ground(scene, shape);
+    fe__ground_weights(&surface, index, local, out_weights);
 }
 
 // The order of all answers: by the body's creation, then by the shape's.

@@ -115,7 +115,7 @@ static inline const fe__heightfield *fe__store_field(const fe_store *store, int3
 static inline fe__ground fe__store_ground(const fe_store *store, const fe__form *form)
 {
     const fe__asset *a = fe__store_asset(store, form->field);
-    return a->kind == FE__ASSET_MESH ? (fe__ground){NULL, &a->mesh} : (fe__ground){&a->field, NULL};
+    return a->kind == FE__ASSET_MESH ? (fe__ground){.mesh = &a->mesh} : (fe__ground){.field = &a->field};
 }
 
 // Of a shape; `triangle`: the number of one of its surface, -1: none in particular
@@ -126,6 +126,13 @@ static inline const fe_material *fe__material_of_shape(const fe_store *store, co
     if (!a->material_count) return &shape->material;
     if (a->kind == FE__ASSET_MESH) return a->materials + a->mesh.materials[fe__mesh_slot(&a->mesh, triangle)];
     return a->materials + a->field.cells[triangle / 2];
+}
+// The same by the triangle's index (collision/form/ground.h)
+static inline const fe_material *fe__material_of_index(const fe_store *store, const fe__shape *shape, int32_t index)
+{
+    const fe__asset *a = fe__form_is_field(&shape->form) ? fe__store_asset(store, shape->form.field) : NULL;
+    if (!a || index < 0 || !a->material_count) return &shape->material;
+    return a->materials + (a->kind == FE__ASSET_MESH ? a->mesh.materials[index] : a->field.cells[index / 2]);
 }
 
 // What the caller knows: of a record under a scale, the asset

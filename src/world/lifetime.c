@@ -3,6 +3,7 @@
 // Called by the API layer. A new world holds nothing but itself: its arrays grow with what it is given.
 #include "world/lifetime.h"
 
+#include "collision/cast/mesh_ray.h"
 #include "solver/graph/graph.h"
 #include "world/asset_users.h"
 #include "world/ignore.h"
@@ -72,6 +73,7 @@ fe_result fe__world_create(const fe_world_def *def, fe_world **out_world)
     world->kernels = kernels;
     world->simd = kernels->simd;
     world->static_tree.kernels = world->moving_tree.kernels = fe__tree_kernels_of(kernels->simd);
+    world->mesh_casts = fe__mesh_casts_of(kernels->simd);
     world->gravity = def->gravity;
     world->substeps = def->substeps;
     world->number = def->number ? (int32_t)def->number : fe__id_draw_number();

@@ -44,8 +44,9 @@ struct fe_world {
     fe_vec3 gravity;
     int32_t substeps;
     fe_world_tuning tuning;
-    const fe__kernels *kernels; // of the SIMD set
-    int32_t simd;               // fe_simd
+    const fe__kernels *kernels;       // of the SIMD set
+    const fe__mesh_casts *mesh_casts; // likewise
+    int32_t simd;                     // fe_simd
 
     // records
     fe__id_pool body_ids, shape_ids;

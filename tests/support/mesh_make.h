@@ -3,8 +3,10 @@
 #define FE_TESTS_MESH_MAKE_H
 #include "collision/cast/mesh_ray.h"
 #include "collision/mesh_build/build.h"
+#include "solver/solver.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct soup { // what a caller has
     float (*vertices)[3];
@@ -54,6 +56,25 @@ static inline int32_t make_mesh_of(const fe__mesh_source *source, made_mesh *out
     }
     free(room);
     return is_made;
+}
+
+// The ray, cast by each SIMD set that this machine has: all give the same bits
+static inline int32_t mesh_ray(const fe__mesh *mesh, fe_dvec3 origin, fe_dvec3 translation, double limit,
+                               fe__mesh_hit *hit)
+{
+    int32_t is_hit = fe__mesh_casts_plain.ray(mesh, origin, translation, limit, hit);
+    for (int32_t simd = FE_SIMD_PLAIN + 1; simd <= FE_SIMD_NEON; ++simd) {
+        if (!fe__kernels_of(simd)) continue;
+        fe__mesh_hit other;
+        assert_int_equal(fe__mesh_casts_of(simd)->ray(mesh, origin, translation, limit, &other), is_hit);
+        if (!is_hit) continue;
+        assert_int_equal(other.hit.index, hit->hit.index);
+        assert_int_equal(other.is_back, hit->is_back);
+        assert_memory_equal(&other.hit.t, &hit->hit.t, sizeof hit->hit.t);
+        assert_memory_equal(&other.hit.normal, &hit->hit.normal, sizeof hit->hit.normal);
+        assert_memory_equal(other.weights, hit->weights, sizeof hit->weights);
+    }
+    return is_hit;
 }
 
 static inline int32_t make_mesh(const soup *s, made_mesh *out)

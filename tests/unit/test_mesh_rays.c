@@ -72,13 +72,13 @@ static void no_ray_slips_through_a_terrain(void **state)
         double up = (0.6 - aim.y) / side.y + 1.0, down = (aim.y + 0.6) / side.y + 1.0;
         fe_dvec3 from = fe__dadd(aim, fe__dscale(up, side)), to = fe__dsub(aim, fe__dscale(down, side));
         fe__mesh_hit hit;
-        if (!fe__mesh_ray(&m.mesh, from, fe__dsub(to, from), 1.0, &hit)) {
+        if (!mesh_ray(&m.mesh, from, fe__dsub(to, from), 1.0, &hit)) {
             if (!missed++) print_error("ray %d at (%.17g %.17g %.17g)\n", (int)i, aim.x, aim.y, aim.z);
             continue;
         }
         FE_TRUE(hit.hit.normal.y > 0.0);
         if (side.x == 0.0 && side.z == 0.0) // a slanted one may come out and in again
-            FE_TRUE(!fe__mesh_ray(&m.mesh, to, fe__dsub(from, to), 1.0, &hit));
+            FE_TRUE(!mesh_ray(&m.mesh, to, fe__dsub(from, to), 1.0, &hit));
     }
     assert_int_equal(missed, 0);
     free_mesh(&m);
@@ -99,12 +99,12 @@ static void closed_meshes_let_nothing_out(void **state)
             fe_dvec3 from = random_point(0.5 * scales[round]);
             fe_dvec3 way = fe__dsub(target_on(&two.mesh, i % 4, 1e-7 * scales[round]), from);
             fe__mesh_hit hit;
-            FE_TRUE(fe__mesh_ray(&two.mesh, from, way, 5.0, &hit));
+            FE_TRUE(mesh_ray(&two.mesh, from, way, 5.0, &hit));
             FE_TRUE(hit.is_back && fe__ddot(hit.hit.normal, way) < 0.0);
             FE_WITHIN(hit.hit.t, 0.98, 1.001);
-            FE_TRUE(!fe__mesh_ray(&one.mesh, from, way, 5.0, &hit));
+            FE_TRUE(!mesh_ray(&one.mesh, from, way, 5.0, &hit));
             fe_dvec3 outside = fe__dadd(from, fe__dscale(5.0, way)); // and from outside
-            FE_TRUE(fe__mesh_ray(&one.mesh, outside, fe__dscale(-1.0, way), 5.0, &hit));
+            FE_TRUE(mesh_ray(&one.mesh, outside, fe__dscale(-1.0, way), 5.0, &hit));
             FE_TRUE(!hit.is_back && fe__ddot(hit.hit.normal, way) > 0.0);
         }
         free_mesh(&one);
@@ -124,7 +124,7 @@ static void far_starts_lose_nothing(void **state)
         if (length(out) < 0.1) continue;
         fe_dvec3 from = fe__dadd(aim, fe__dscale(far / length(out), out)), way = fe__dscale(2.0, fe__dsub(aim, from));
         fe__mesh_hit hit;
-        FE_TRUE(fe__mesh_ray(&m.mesh, from, way, 1.0, &hit));
+        FE_TRUE(mesh_ray(&m.mesh, from, way, 1.0, &hit));
         double r = length(fe__dadd(from, fe__dscale(hit.hit.t, way)));
         FE_WITHIN(r, 0.985 - 1e-15 * far, 1.0 + 1e-15 * far);
     }
@@ -160,14 +160,14 @@ static void check_against_all(const fe__mesh *m, fe_dvec3 from, fe_dvec3 way, in
     }
     if (doubt < 1e-9) return; // a rim: either answer may be right
     fe__mesh_hit hit;
-    int32_t is_hit = fe__mesh_ray(m, from, way, 1.0, &hit);
+    int32_t is_hit = mesh_ray(m, from, way, 1.0, &hit);
     assert_int_equal(is_hit, number >= 0);
     if (!is_hit) return;
     *out_hits += 1;
     FE_NEAR(hit.hit.t, best, 1e-9);
     if (hit.hit.triangle == number) {
         fe_dvec3 v[3], at = {0.0, 0.0, 0.0};
-        fe__mesh_corners(m, hit.slot, v);
+        fe__mesh_corners(m, hit.hit.index, v);
         for (int32_t k = 0; k < 3; ++k) at = fe__dadd(at, fe__dscale(hit.weights[k], v[k]));
         FE_WITHIN(length(fe__dsub(at, fe__dadd(from, fe__dscale(hit.hit.t, way)))), 0.0, 1e-9);
         return;
@@ -231,7 +231,7 @@ static void of_equal_distances_the_lowest_number_is_hit(void **state)
     made_mesh m = mesh_of_soup(0);
     fe__mesh_hit hit;
     fe_dvec3 from = {0.0625, 2.0, 0.125}, way = {0.0, -4.0, 0.0};
-    FE_TRUE(fe__mesh_ray(&m.mesh, from, way, 1.0, &hit));
+    FE_TRUE(mesh_ray(&m.mesh, from, way, 1.0, &hit));
     assert_int_equal(hit.hit.triangle, 0);
     FE_NEAR(hit.hit.t, 0.5, 0.0);
     free_mesh(&m);
@@ -250,7 +250,7 @@ static void at_a_vertex_the_lowest_number_is_hit(void **state)
         while (t[first][0] != vertex && t[first][1] != vertex && t[first][2] != vertex) ++first;
         const float *v = made.vertices[vertex];
         fe__mesh_hit hit;
-        FE_TRUE(fe__mesh_ray(&m.mesh, (fe_dvec3){v[0], 2.0, v[2]}, (fe_dvec3){0.0, -4.0, 0.0}, 1.0, &hit));
+        FE_TRUE(mesh_ray(&m.mesh, (fe_dvec3){v[0], 2.0, v[2]}, (fe_dvec3){0.0, -4.0, 0.0}, 1.0, &hit));
         assert_int_equal(hit.hit.triangle, first);
         FE_NEAR(2.0 - 4.0 * hit.hit.t, v[1], 1e-15);
     }
@@ -264,24 +264,24 @@ static void odd_rays(void **state)
     made_mesh m = mesh_of_soup(0);
     fe__mesh_hit hit;
     const fe_dvec3 above = {0.3, 1.0, 0.2}, down = {0.0, -1.0, 0.0}, still = {0.0, 0.0, 0.0}, on = {0.3, 0.0, 0.2};
-    FE_TRUE(!fe__mesh_ray(&m.mesh, above, still, 1.0, &hit));
-    FE_TRUE(!fe__mesh_ray(&m.mesh, on, (fe_dvec3){1.0, 0.0, 0.0}, 1.0, &hit)); // in the plane
-    FE_TRUE(fe__mesh_ray(&m.mesh, on, down, 1.0, &hit));                       // begins on it
+    FE_TRUE(!mesh_ray(&m.mesh, above, still, 1.0, &hit));
+    FE_TRUE(!mesh_ray(&m.mesh, on, (fe_dvec3){1.0, 0.0, 0.0}, 1.0, &hit)); // in the plane
+    FE_TRUE(mesh_ray(&m.mesh, on, down, 1.0, &hit));                       // begins on it
     FE_NEAR(hit.hit.t, 0.0, 0.0);
-    FE_TRUE(fe__mesh_ray(&m.mesh, above, down, 1.0, &hit)); // ends on it
+    FE_TRUE(mesh_ray(&m.mesh, above, down, 1.0, &hit)); // ends on it
     FE_NEAR(hit.hit.t, 1.0, 0.0);
-    FE_TRUE(!fe__mesh_ray(&m.mesh, above, down, 0.999999, &hit));
-    FE_TRUE(!fe__mesh_ray(&m.mesh, above, fe__dscale(-1.0, down), 1.0, &hit));
+    FE_TRUE(!mesh_ray(&m.mesh, above, down, 0.999999, &hit));
+    FE_TRUE(!mesh_ray(&m.mesh, above, fe__dscale(-1.0, down), 1.0, &hit));
     static const double sizes[] = {5e-324, 1e-300, 1e-150, 1e-30, 1e150, 1e308};
     for (int32_t i = 0; i < 6; ++i) {
-        int32_t is_hit = fe__mesh_ray(&m.mesh, above, fe__dscale(sizes[i], down), 1.0, &hit);
+        int32_t is_hit = mesh_ray(&m.mesh, above, fe__dscale(sizes[i], down), 1.0, &hit);
         assert_int_equal(is_hit, sizes[i] > 1.0);
         if (is_hit) FE_NEAR(hit.hit.t * sizes[i], 1.0, 1e-12);
-        is_hit = fe__mesh_ray(&m.mesh, fe__dscale(sizes[i], above), down, 1.0, &hit);
+        is_hit = mesh_ray(&m.mesh, fe__dscale(sizes[i], above), down, 1.0, &hit);
         assert_int_equal(is_hit, sizes[i] < 1.0);
     }
     fe_dvec3 slow = {1e-308, -2.0, 1e-200};
-    FE_TRUE(fe__mesh_ray(&m.mesh, above, slow, 1.0, &hit));
+    FE_TRUE(mesh_ray(&m.mesh, above, slow, 1.0, &hit));
     FE_NEAR(hit.hit.t, 0.5, 1e-12);
     free_mesh(&m);
 }

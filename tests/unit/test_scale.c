@@ -241,8 +241,8 @@ static void rays_meet_what_the_scaled_mesh_has(void **state)
             if (i % 5 == 0) way.x = 0.0;
             if (i % 7 == 0) way.z = 0.0;
             fe__mesh_hit a, b;
-            int32_t is_hit = fe__mesh_ray(&other.mesh, from, way, 1.5, &a);
-            assert_int_equal(fe__mesh_ray(&scaled, from, way, 1.5, &b), is_hit);
+            int32_t is_hit = mesh_ray(&other.mesh, from, way, 1.5, &a);
+            assert_int_equal(mesh_ray(&scaled, from, way, 1.5, &b), is_hit);
             if (is_hit) is_same_hit(&a, &b, is_mirror(scale), 1e-12);
             hits += is_hit;
         }
@@ -274,9 +274,9 @@ static void no_ray_slips_through_a_scaled_mesh(void **state)
         for (int32_t k = 0; k < RAYS / SCALES; ++k) {
             fe_dvec3 from = times(scales[i], random_point(0.5)), way = fe__dsub(target_on(&scaled, k % 3), from);
             fe__mesh_hit hit;
-            FE_TRUE(!fe__mesh_ray(&scaled, from, way, 5.0, &hit)); // from inside
+            FE_TRUE(!mesh_ray(&scaled, from, way, 5.0, &hit)); // from inside
             fe_dvec3 outside = fe__dadd(from, fe__dscale(5.0, way));
-            FE_TRUE(fe__mesh_ray(&scaled, outside, fe__dscale(-1.0, way), 5.0, &hit));
+            FE_TRUE(mesh_ray(&scaled, outside, fe__dscale(-1.0, way), 5.0, &hit));
             FE_TRUE(!hit.is_back && fe__ddot(hit.hit.normal, way) > 0.0);
             FE_WITHIN(hit.hit.t, 3.99, 4.05);
         }
@@ -293,7 +293,7 @@ static void walks_find_every_triangle(void **state)
     for (int32_t i = 0; i < SCALES; ++i) {
         fe__mesh scaled;
         assert_int_equal(fe__mesh_scale(&own.mesh, scales[i], &scaled), -1);
-        fe__ground ground = {NULL, &scaled};
+        fe__ground ground = {.mesh = &scaled};
         for (int32_t round = 0; round < 40; ++round) {
             fe_dvec3 at = times(scales[i], random_point(1.2)), half = times(scales[i], random_point(0.4));
             half = (fe_dvec3){fe__absd(half.x), fe__absd(half.y), fe__absd(half.z)};
@@ -366,7 +366,7 @@ static void the_nearest_point_is_that_of_the_scaled_mesh(void **state)
     assert_int_equal(fe__mesh_scale(&own.mesh, scale, &scaled), -1);
     scale_soup(scale);
     made_mesh other = mesh_of_soup(0);
-    fe__ground a = {NULL, &other.mesh}, b = {NULL, &scaled};
+    fe__ground a = {.mesh = &other.mesh}, b = {.mesh = &scaled};
     for (int32_t i = 0; i < 2000; ++i) {
         fe_dvec3 p = times(scale, random_point(1.5));
         fe__nearest x, y;
@@ -376,7 +376,7 @@ static void the_nearest_point_is_that_of_the_scaled_mesh(void **state)
         FE_NEAR(y.distance, x.distance, 1e-12);
         assert_int_equal(y.triangle, x.triangle);
         float u[2], v[2];
-        fe__ground_weights(&a, x.triangle, x.point, u), fe__ground_weights(&b, y.triangle, y.point, v);
+        fe__ground_weights(&a, x.index, x.point, u), fe__ground_weights(&b, y.index, y.point, v);
         FE_NEAR(v[0], u[1], 1e-6), FE_NEAR(v[1], u[0], 1e-6);
     }
     free_mesh(&own), free_mesh(&other);

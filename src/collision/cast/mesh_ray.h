@@ -9,20 +9,26 @@
 #include "collision/form/ray_hit.h"
 
 typedef struct fe__mesh_hit {
-    fe__ray_hit hit; // .triangle: the caller's number
-    int32_t slot;
+    fe__ray_hit hit;   // .triangle: the caller's number, .index: the slot
     int32_t is_back;   // from the side around which corners turn right
     double weights[3]; // of the corners, their sum is 1
 } fe__mesh_hit;
 
-// 1: hit
-int32_t fe__mesh_ray(const fe__mesh *mesh, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__mesh_hit *hit);
+// Once for each SIMD set, with the same answers
+struct fe__mesh_casts {
+    int32_t (*ray)(const fe__mesh *mesh, fe_dvec3 origin, fe_dvec3 translation, double limit,
+                   fe__mesh_hit *hit); // 1: hit
+};
+extern const fe__mesh_casts fe__mesh_casts_plain;
+const fe__mesh_casts *fe__mesh_casts_of(int32_t simd); // of a set that was built, else of plain C
+
 static inline int32_t fe__ground_ray(const fe__ground *s, fe_dvec3 origin, fe_dvec3 translation, double limit,
                                      fe__ray_hit *hit)
 {
     if (!s->mesh) return fe__heightfield_ray(s->field, origin, translation, limit, hit);
     fe__mesh_hit found;
-    if (!fe__mesh_ray(s->mesh, origin, translation, limit, &found)) return 0;
+    const fe__mesh_casts *casts = s->casts ? s->casts : &fe__mesh_casts_plain;
+    if (!casts->ray(s->mesh, origin, translation, limit, &found)) return 0;
     *hit = found.hit;
     return 1;
 }

@@ -35,6 +35,7 @@ typedef struct fe__sweep_hit {
     double depth;     // inside: how far out that way, m
     int32_t inside;   // the forms overlap at the start
     int32_t triangle; // number, of a heightfield or a mesh; the face of a hull; else -1
+    int32_t index;    // of a triangle of the ground: see ground.h
 } fe__sweep_hit;
 
 #endif

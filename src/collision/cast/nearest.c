@@ -11,7 +11,7 @@ static fe__nearest on_round(fe_dvec3 point, fe_dvec3 core, double radius, fe_dve
     fe_dvec3 away = fe__dsub(point, core);
     double distance = sqrt(fe__ddot(away, away));
     fe_dvec3 normal = distance > 0.0 ? fe__dscale(1.0 / distance, away) : flat;
-    return (fe__nearest){distance - radius, normal, fe__dadd(core, fe__dscale(radius, normal)), -1};
+    return (fe__nearest){distance - radius, normal, fe__dadd(core, fe__dscale(radius, normal)), -1, -1};
 }
 
 static fe__nearest on_box_from_inside(fe_dvec3 point, fe_dvec3 half)
@@ -23,7 +23,7 @@ static fe__nearest on_box_from_inside(fe_dvec3 point, fe_dvec3 half)
     }
     double side = p[axis] < 0.0 ? -1.0 : 1.0, on[3] = {p[0], p[1], p[2]}, n[3] = {0.0, 0.0, 0.0};
     on[axis] = side * h[axis], n[axis] = side;
-    return (fe__nearest){fe__absd(p[axis]) - h[axis], {n[0], n[1], n[2]}, {on[0], on[1], on[2]}, -1};
+    return (fe__nearest){fe__absd(p[axis]) - h[axis], {n[0], n[1], n[2]}, {on[0], on[1], on[2]}, -1, -1};
 }
 
 fe__nearest fe__nearest_on_sphere(const fe__form *form, fe_dvec3 point)
@@ -51,7 +51,7 @@ fe__nearest fe__nearest_on_plane(const fe__form *form, fe_dvec3 point)
     double length = sqrt(fe__ddot(n, n)); // 1 up to the rounding of floats
     double height = (fe__ddot(n, point) - (double)form->distance) / length;
     fe_dvec3 unit = fe__dscale(1.0 / length, n);
-    return (fe__nearest){height, unit, fe__dsub(point, fe__dscale(height, unit)), -1};
+    return (fe__nearest){height, unit, fe__dsub(point, fe__dscale(height, unit)), -1, -1};
 }
 
 fe__nearest fe__form_nearest(const fe__form *form, fe_dvec3 point)

@@ -10,7 +10,8 @@ typedef struct fe__nearest {
     double distance;  // m, below 0 inside
     fe_dvec3 normal;  // unit, out of the form; where several are as near, always the same
     fe_dvec3 point;   // on the surface
-    int32_t triangle; // of a heightfield or a mesh, or the face of a hull, else -1
+    int32_t triangle; // number, of a heightfield or a mesh; the face of a hull; else -1
+    int32_t index;    // of a triangle of the ground: see ground.h
 } fe__nearest;
 
 fe__nearest fe__form_nearest(const fe__form *form, fe_dvec3 point);

@@ -34,7 +34,7 @@ static void nearest_in(const fe__ground *s, fe_dvec3 p, double width, fe__neares
         fe_dvec3 q = fe__nearest_on_triangle(v, n, p), away = fe__dsub(p, q);
         double distance = sqrt(fe__ddot(away, away));
         if (!(distance < best->distance) && !(distance == best->distance && number < best->triangle)) continue;
-        *best = (fe__nearest){distance, distance > 0.0 ? fe__dscale(1.0 / distance, away) : n, q, number};
+        *best = (fe__nearest){distance, distance > 0.0 ? fe__dscale(1.0 / distance, away) : n, q, number, i};
     }
 }
 

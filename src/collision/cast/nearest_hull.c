@@ -42,7 +42,7 @@ static fe__nearest from_inside(const fe__hull *hull, fe_dvec3 point, int32_t fac
 {
     fe_dvec3 normal = fe__hull_unit_normal(hull, face);
     double distance = height * fe__ddot(normal, fe__widen(fe__hull_normal(hull, face)));
-    return (fe__nearest){distance, normal, fe__dsub(point, fe__dscale(distance, normal)), face};
+    return (fe__nearest){distance, normal, fe__dsub(point, fe__dscale(distance, normal)), face, -1};
 }
 
 fe__nearest fe__hull_nearest(const fe__hull *hull, fe_dvec3 point)

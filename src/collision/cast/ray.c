@@ -24,7 +24,7 @@ static double scale_for(double size) { return size > longest ? scale_down : size
 // Field by field: hits are read at once, and what was written in pieces is not copied whole without a wait.
 static int32_t report(fe__ray_hit *hit, double t, fe_dvec3 normal, double depth, int32_t inside)
 {
-    hit->t = t, hit->depth = depth, hit->inside = inside, hit->triangle = -1;
+    hit->t = t, hit->depth = depth, hit->inside = inside, hit->triangle = hit->index = -1;
     hit->normal.x = normal.x, hit->normal.y = normal.y, hit->normal.z = normal.z;
     return 1;
 }

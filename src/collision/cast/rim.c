@@ -23,7 +23,8 @@ static profile profile_of(fe_dvec3 p)
 // the surface's point and normal (unit) in the half plane
 static fe__nearest lifted(const profile *p, double distance, double normal_out, double normal_up, double out, double up)
 {
-    return (fe__nearest){distance, {normal_out * p->x, normal_up, normal_out * p->z}, {out * p->x, up, out * p->z}, -1};
+    return (
+        fe__nearest){distance, {normal_out * p->x, normal_up, normal_out * p->z}, {out * p->x, up, out * p->z}, -1, -1};
 }
 
 static fe__nearest from_outside(const profile *p, double out, double up)
@@ -123,7 +124,7 @@ static int32_t start_inside(const fe__scaled_ray *r, const fe__nearest *n, fe__r
 {
     double speed = sqrt(fe__ddot(r->direction, r->direction));
     fe_dvec3 normal = speed > 0.0 ? fe__dscale(-1.0 / speed, r->direction) : n->normal;
-    *hit = (fe__ray_hit){0.0, normal, fe__maxd(-n->distance, 0.0), 1, -1};
+    *hit = (fe__ray_hit){0.0, normal, fe__maxd(-n->distance, 0.0), 1, -1, -1};
     return 1;
 }
 
@@ -161,7 +162,7 @@ static int32_t meet(const fe__scaled_ray *r, stay round, stay flat, double move,
     if (!(enter <= leave) || !(leave + move >= 0.0)) return 0;
     double t = fe__maxd(enter + move, 0.0) * r->per_s;
     if (!(t <= r->limit)) return 0;
-    *hit = (fe__ray_hit){t, round.enter > flat.enter ? side : end, 0.0, 0, -1};
+    *hit = (fe__ray_hit){t, round.enter > flat.enter ? side : end, 0.0, 0, -1, -1};
     return 1;
 }
 

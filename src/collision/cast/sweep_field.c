@@ -132,15 +132,20 @@ static void meet_triangle(fe__field_search *s, int32_t triangle, fe__sweep_hit *
     if (fe__approach_overlap(&s->pair).depth >= 0.0) {
         double depth = fe__field_depth(s);
         if (best->inside && (depth < best->depth || (depth == best->depth && number > best->triangle))) return;
-        *best = (fe__sweep_hit){
-            .normal = s->pair.normal, .point = s->mover->position, .depth = depth, .inside = 1, .triangle = number};
+        *best = (fe__sweep_hit){.normal = s->pair.normal,
+                                .point = s->mover->position,
+                                .depth = depth,
+                                .inside = 1,
+                                .triangle = number,
+                                .index = triangle};
         return;
     }
     fe__approach_hit hit;
     if (best->inside || !fe__approach_sweep(&s->pair, best->t, &hit)) return;
     if (best->triangle >= 0 && hit.t == best->t && number > best->triangle) return;
     if (!fe__field_is_met(s, triangle, &hit)) return;
-    *best = (fe__sweep_hit){.t = hit.t, .normal = hit.normal, .point = hit.point, .triangle = number};
+    *best =
+        (fe__sweep_hit){.t = hit.t, .normal = hit.normal, .point = hit.point, .triangle = number, .index = triangle};
 }
 
 // ---- the way -------------------------------------------------------------------------------------------------------

@@ -47,7 +47,8 @@ static void meet_triangle(field_turn *f, int32_t triangle, double from, double u
     while (fe__turning_meets(&f->way, &s->pair, NULL, t, end, &hit)) {
         if (two_sided || fe__field_is_met(s, triangle, &hit)) {
             if (best->triangle >= 0 && hit.t == best->t && number > best->triangle) return;
-            *best = (fe__sweep_hit){.t = hit.t, .normal = hit.normal, .point = hit.point, .triangle = number};
+            *best = (fe__sweep_hit){
+                .t = hit.t, .normal = hit.normal, .point = hit.point, .triangle = number, .index = triangle};
             return;
         }
         t = hit.t;

@@ -55,14 +55,14 @@ fe_dvec3 fe__ground_cell(const fe__ground *s)
 }
 
 // Shares of the areas across which the point lies, of the triangle's own
-void fe__ground_weights(const fe__ground *s, int32_t number, fe_dvec3 point, float *out_weights)
+void fe__ground_weights(const fe__ground *s, int32_t index, fe_dvec3 point, float *out_weights)
 {
     if (!s->mesh) {
-        fe__heightfield_weights(s->field, number, point, out_weights);
+        fe__heightfield_weights(s->field, index, point, out_weights);
         return;
     }
     fe_dvec3 v[3];
-    fe__mesh_corners(s->mesh, fe__mesh_slot(s->mesh, number), v);
+    fe__mesh_corners(s->mesh, index, v);
     fe_dvec3 a = fe__dsub(v[1], v[0]), b = fe__dsub(v[2], v[0]), p = fe__dsub(point, v[0]), n = fe__dcross(a, b);
     double per_square = 1.0 / fe__ddot(n, n);
     double second = fe__clampd(fe__ddot(fe__dcross(p, b), n) * per_square, 0.0, 1.0);

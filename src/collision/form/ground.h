@@ -6,10 +6,12 @@
 #include "collision/form/heightfield.h"
 #include "collision/form/mesh_walk.h"
 
-// One of the two, the other is NULL
+typedef struct fe__mesh_casts fe__mesh_casts; // collision/cast/mesh_ray.h
+
 typedef struct fe__ground {
-    const fe__heightfield *field;
+    const fe__heightfield *field; // one of the two, the other is NULL
     const fe__mesh *mesh;
+    const fe__mesh_casts *casts; // of a SIMD set, NULL: of plain C
 } fe__ground;
 
 // The number by which the caller knows the triangle
@@ -26,8 +28,8 @@ int32_t fe__ground_is_rim(const fe__ground *s, int32_t index, int32_t side);
 fe__bounds fe__ground_bounds(const fe__ground *s);
 // Widths of a box that holds few triangles, m; infinite along an axis that has no share in it
 fe_dvec3 fe__ground_cell(const fe__ground *s);
-// fe_hit.barycentric of a point of the triangle with that number
-void fe__ground_weights(const fe__ground *s, int32_t number, fe_dvec3 point, float *out_weights);
+// fe_hit.barycentric of a point of the triangle
+void fe__ground_weights(const fe__ground *s, int32_t index, fe_dvec3 point, float *out_weights);
 
 // The triangles near a box: of a heightfield by row, column, half; of a mesh by slot. The box may reach anywhere.
 //

@@ -174,7 +174,8 @@ static int32_t cross_triangle(traverse *r, double to, double g, int32_t half, fe
     if (!(before >= 0.0 && g <= 0.0) || before == g) return 0;
     int32_t cell = r->row * (r->field->columns - 1) + r->column;
     if (fe__heightfield_is_hole(r->field, cell)) return 0;
-    *hit = (fe__ray_hit){.t = from + (to - from) * (before / (before - g)), .triangle = 2 * cell + half};
+    int32_t number = 2 * cell + half;
+    *hit = (fe__ray_hit){.t = from + (to - from) * (before / (before - g)), .triangle = number, .index = number};
     hit->normal = fe__heightfield_normal(r->field, hit->triangle);
     // at a corner, or along the surface, the signs of g are those of roundings
     fe_dvec3 n = hit->normal, way = {r->way.x * r->field->cell_x, r->way.y, r->way.z * r->field->cell_z};

@@ -8,7 +8,8 @@ typedef struct fe__ray_hit {
     fe_dvec3 normal; // unit, form's frame
     double depth;    // > 0 when inside, else 0
     int32_t inside;
-    int32_t triangle; // number, of a heightfield or a mesh, else -1
+    int32_t triangle; // number, of a heightfield or a mesh; the face of a hull; else -1
+    int32_t index;    // of a triangle of the ground: see ground.h
 } fe__ray_hit;
 
 #endif

@@ -1,18 +1,20 @@
-// mesh_ray.c - see mesh_ray.h.
+// mesh_ray.simd.c - see mesh_ray.h.
 //
 // Triangles: Woop, Benthin and Wald, Watertight Ray/Triangle Intersection (JCGT 2013). Space is sheared so that the ray
 // runs along an axis. A vertex then has a place in the plane, which depends on the vertex and the ray alone; whether
 // the ray passes left of an edge is the sign of one difference of two products. That is rounded the same for both
 // triangles of the edge, with opposite signs; being monotonic, it is 0 or has the sign of the exact difference, and 0
 // counts for both. So no ray passes between them. Where it meets an edge or a vertex, its distance is taken from that
-// alone: the triangles there agree on it, and the lowest number wins.
+// alone: the triangles there agree on it, and the lowest number wins. The four triangles of a leaf are asked side by
+// side, in double; one that is met is met again by itself.
 //
 // Boxes are tested in float, and widened by more than its roundings: a box is never missed when a triangle in it is
 // hit. The start is moved along the ray to just before the mesh, for boxes and triangles alike: coordinates near it
 // lose nothing to a far start. All is done in the scaled frame: the products of floats that scale are exact in double.
 #include "collision/cast/mesh_ray.h"
 
-#include "core/lanes.h"
+#include "core/fours.h"
+#include "core/simd.h"
 
 enum { STACK = FE__MESH_DEPTH * (FE__MESH_WIDTH - 1) + FE__MESH_WIDTH };
 
@@ -20,13 +22,26 @@ enum { STACK = FE__MESH_DEPTH * (FE__MESH_WIDTH - 1) + FE__MESH_WIDTH };
 #define STILL 1e-200
 // A slope is taken for no less: over the length of any mesh, 2e5 m, it moves a ray by less than any box is widened
 #define LEAST_SLOPE 1e-30
-// Of distances along the ray: four roundings of floats, twice
+// Of distances along the ray: five roundings of floats, one and a half times
 #define WIDENING 0x1p-21f
 
+// x y z, the fourth is of no meaning
+typedef union axes {
+    _Alignas(32) double at[4];
+    fe__four all;
+} axes;
+typedef union floats {
+    _Alignas(16) float at[4];
+    fe__quad all;
+} floats;
+
 typedef struct caster {
+    axes origin, inverse, scale; // near the mesh; of the way; of the mesh
+    floats unit, half;           // of s: what 1 m of the mesh is, and half a box that moves
     const fe__mesh *mesh;
-    double origin[3], inverse[3]; // near the mesh; of the way
-    int32_t kx, ky, kz;           // kz: the longest axis of the way; the others so that the frame is right-handed
+    int32_t near_row[3], far_row[3]; // of a node: where the sides stand that are met first, and the others, bytes
+    int32_t kx, ky, kz;              // kz: the longest axis of the way; the others so that the frame is right-handed
+    int64_t meets_front, meets_back; // triangles that turn left around the ray, right
     double shear_x, shear_y, scale_z;
     double moved, per_s; // t = (moved + s) per_s
     double limit;        // of s, the nearest hit so far
@@ -35,17 +50,17 @@ typedef struct caster {
     double weights[3];
 } caster;
 
-// ---- triangles -----------------------------------------------------------------------------------------------------
+// ---- one triangle --------------------------------------------------------------------------------------------------
 typedef struct sheared {
     double x, y, z;
 } sheared;
 
 static inline sheared shear(const caster *c, const float *v)
 {
-    const double *s = c->mesh->scale;
-    double z = s[c->kz] * (double)v[c->kz] - c->origin[c->kz];
-    return (sheared){s[c->kx] * (double)v[c->kx] - c->origin[c->kx] - c->shear_x * z,
-                     s[c->ky] * (double)v[c->ky] - c->origin[c->ky] - c->shear_y * z, c->scale_z * z};
+    const double *s = c->scale.at, *o = c->origin.at;
+    double z = s[c->kz] * (double)v[c->kz] - o[c->kz];
+    return (sheared){s[c->kx] * (double)v[c->kx] - o[c->kx] - c->shear_x * z,
+                     s[c->ky] * (double)v[c->ky] - o[c->ky] - c->shear_y * z, c->scale_z * z};
 }
 
 // No less than x, as a float
@@ -72,18 +87,13 @@ static double reach_triangle(sheared a, sheared b, sheared c, double u, double v
     return a.z + (v * (b.z - a.z) + w * (c.z - a.z)) / (u + v + w);
 }
 
-static inline void meet_triangle(caster *c, int32_t slot)
+// One that the ray passes through, from a side that counts
+static void meet_triangle(caster *c, int32_t slot)
 {
     const fe__mesh *m = c->mesh;
     sheared a = shear(c, fe__mesh_vertex(m, slot, 0)), b = shear(c, fe__mesh_vertex(m, slot, 1)),
             d = shear(c, fe__mesh_vertex(m, slot, 2));
     double u = d.x * b.y - d.y * b.x, v = a.x * d.y - a.y * d.x, w = b.x * a.y - b.y * a.x;
-    int32_t is_front = (u >= 0.0) & (v >= 0.0) & (w >= 0.0), is_back = (u <= 0.0) & (v <= 0.0) & (w <= 0.0);
-    if (m->is_mirrored) {
-        int32_t kept = is_front;
-        is_front = is_back, is_back = kept;
-    }
-    if (!is_front && !(is_back && m->is_two_sided)) return;
     double sum = u + v + w;
     if (sum == 0.0) return; // edge-on
     double s = reach_triangle(a, b, d, u, v, w);
@@ -91,49 +101,81 @@ static inline void meet_triangle(caster *c, int32_t slot)
     int32_t number = fe__mesh_number(m, slot);
     if (s == c->limit && c->slot >= 0 && number > c->number) return;
     c->limit = s, c->last = float_above(s);
-    c->slot = slot, c->number = number, c->is_back = !is_front;
+    c->slot = slot, c->number = number, c->is_back = (sum < 0.0) != m->is_mirrored;
     c->weights[0] = u / sum, c->weights[1] = v / sum, c->weights[2] = w / sum;
 }
 
-static void meet_leaf(caster *c, uint32_t leaf)
+// ---- the four of a leaf --------------------------------------------------------------------------------------------
+typedef float loose_quad __attribute__((vector_size(16), aligned(4), may_alias));
+
+// Places of corner k of all four, x and y alone: as shear()
+typedef struct places {
+    fe__four x, y;
+} places;
+static inline places shear_corners(const caster *c, const float *vertices, const fe__mesh_leaf *leaf, int32_t k)
 {
-    int32_t first = FE__MESH_LEAF * (int32_t)leaf, end = fe__mini(first + FE__MESH_LEAF, c->mesh->triangle_count);
-    for (int32_t slot = first; slot < end; ++slot) meet_triangle(c, slot);
+    fe__quad p[FE__MESH_LEAF];
+    for (int32_t i = 0; i < FE__MESH_LEAF; ++i) p[i] = *(const loose_quad *)(vertices + 3 * (size_t)leaf->corner[i][k]);
+    fe__quad xy = __builtin_shufflevector(p[0], p[1], 0, 4, 1, 5), zw = __builtin_shufflevector(p[0], p[1], 2, 6, 3, 7),
+             XY = __builtin_shufflevector(p[2], p[3], 0, 4, 1, 5), ZW = __builtin_shufflevector(p[2], p[3], 2, 6, 3, 7);
+    const fe__quad row[3] = {__builtin_shufflevector(xy, XY, 0, 1, 4, 5), __builtin_shufflevector(xy, XY, 2, 3, 6, 7),
+                             __builtin_shufflevector(zw, ZW, 0, 1, 4, 5)};
+    const double *s = c->scale.at, *o = c->origin.at;
+    fe__four z = s[c->kz] * fe__four_of(row[c->kz]) - o[c->kz];
+    return (places){s[c->kx] * fe__four_of(row[c->kx]) - o[c->kx] - c->shear_x * z,
+                    s[c->ky] * fe__four_of(row[c->ky]) - o[c->ky] - c->shear_y * z};
+}
+
+static inline void meet_leaf(caster *c, uint32_t index)
+{
+    const fe__mesh *m = c->mesh;
+    const fe__mesh_leaf *leaf = m->leaves + index;
+    const float *vertices = m->vertices + 3 * (size_t)leaf->first_vertex;
+    places a = shear_corners(c, vertices, leaf, 0), b = shear_corners(c, vertices, leaf, 1),
+           d = shear_corners(c, vertices, leaf, 2);
+    fe__four u = d.x * b.y - d.y * b.x, v = a.x * d.y - a.y * d.x, w = b.x * a.y - b.y * a.x;
+    const fe__four zero = fe__four_set(0.0);
+    fe__four_int met = ((u >= zero) & (v >= zero) & (w >= zero) & c->meets_front) |
+                       ((u <= zero) & (v <= zero) & (w <= zero) & c->meets_back);
+    int32_t first = FE__MESH_LEAF * (int32_t)index, count = fe__mini(m->triangle_count - first, FE__MESH_LEAF);
+    for (uint32_t hits = fe__four_signs(met) & ((1u << count) - 1); hits; hits &= hits - 1)
+        meet_triangle(c, first + __builtin_ctz(hits));
 }
 
 // ---- nodes ---------------------------------------------------------------------------------------------------------
-typedef uint8_t bytes4 __attribute__((vector_size(4), may_alias, aligned(1)));
-
-static inline fe__lanes lanes_of(const uint8_t *bytes)
+// 2^exponent of x y z; the fourth is of no meaning
+static inline fe__quad steps_of(const fe__mesh_node *node)
 {
-    return (fe__lanes){__builtin_convertvector(*(const bytes4 *)bytes, fe__quad),
-                       __builtin_convertvector(*(const bytes4 *)(bytes + 4), fe__quad)};
+    const fe__quad_int exponents = {node->exponent[0], node->exponent[1], node->exponent[2], 0};
+    return (fe__quad)((exponents + 127) << 23);
 }
 
-// Bit i: the ray meets the box of child i, from `near` on
+// Bit i: the ray, or the box that moves along it, meets the box of child i, from `near` on
+//
+//   s = ((scale (origin + step byte) - o) -+ half) inverse = base + (step unit) byte -+ half |inverse|
 static inline uint32_t meet_boxes(const caster *c, const fe__mesh_node *node, float *near)
 {
-    fe__lanes enter = fe__lanes_set(0.0f), leave = fe__lanes_set(c->last);
+    fe__quad base = fe__four_narrow((c->scale.all * fe__four_of(*(const loose_quad *)node->origin) - c->origin.all) *
+                                    c->inverse.all);
+    floats step = {.all = c->unit.all * steps_of(node)}, first, last;
+    fe__quad wider = WIDENING * (fe__quad_abs(base) + 255.0f * fe__quad_abs(step.all) + c->half.all) + c->half.all;
+    first.all = base - wider, last.all = base + wider;
+    fe__eight enter = fe__eight_set(0.0f), leave = fe__eight_set(c->last);
     for (int32_t k = 0; k < 3; ++k) {
-        double scale = c->mesh->scale[k];
-        float base = (float)((scale * (double)node->origin[k] - c->origin[k]) * c->inverse[k]);
-        float step = (float)(fe__mesh_step(node, k) * scale * c->inverse[k]);
-        float widening = WIDENING * (fe__absf(base) + 255.0f * fe__absf(step));
-        const uint8_t *close = step > 0.0f ? node->low[k] : node->high[k];
-        const uint8_t *far = step > 0.0f ? node->high[k] : node->low[k];
-        fe__lanes steps = fe__lanes_set(step);
-        enter =
-            fe__lanes_max(enter, fe__lanes_add(fe__lanes_set(base - widening), fe__lanes_mul(lanes_of(close), steps)));
-        leave =
-            fe__lanes_min(leave, fe__lanes_add(fe__lanes_set(base + widening), fe__lanes_mul(lanes_of(far), steps)));
+        const uint8_t *close = (const uint8_t *)node + c->near_row[k], *far = (const uint8_t *)node + c->far_row[k];
+        fe__eight steps = fe__eight_spread(step.at + k);
+        enter = fe__eight_max(enter, fe__eight_add(fe__eight_spread(first.at + k),
+                                                   fe__eight_mul(fe__eight_of_bytes(close), steps)));
+        leave = fe__eight_min(leave, fe__eight_add(fe__eight_spread(last.at + k),
+                                                   fe__eight_mul(fe__eight_of_bytes(far), steps)));
     }
-    fe__lanes_store(near, enter);
-    return fe__lanes_at_most(enter, leave) & ((1u << node->count) - 1);
+    fe__eight_store(near, enter);
+    return fe__eight_at_most(enter, leave) & ((1u << node->count) - 1);
 }
 
 // What waits: where the ray enters it, whose bits are in the order of floats as it is not negative, and the child
 typedef uint64_t entry;
-static entry entry_of(float near, uint32_t child)
+static inline entry entry_of(float near, uint32_t child)
 {
     union {
         float value;
@@ -141,17 +183,9 @@ static entry entry_of(float near, uint32_t child)
     } t = {near + 0.0f}; // -0 is 0
     return (entry)t.bits << 32 | child;
 }
-static float near_of(entry e)
-{
-    union {
-        uint32_t bits;
-        float value;
-    } t = {(uint32_t)(e >> 32)};
-    return t.value;
-}
 
 // Children that are met, the nearest on top
-static int32_t push(entry *stack, int32_t top, uint32_t hits, const float *near, uint32_t first)
+static inline int32_t push(entry *stack, int32_t top, uint32_t hits, const float *near, uint32_t first)
 {
     int32_t base = top;
     for (; hits; hits &= hits - 1) {
@@ -164,15 +198,15 @@ static int32_t push(entry *stack, int32_t top, uint32_t hits, const float *near,
     return top;
 }
 
-static void walk(caster *c)
+static inline void walk(caster *c)
 {
-    _Alignas(16) float near[FE__MESH_WIDTH];
+    _Alignas(32) float near[FE__MESH_WIDTH];
     entry stack[STACK];
     int32_t top = 1;
     stack[0] = 0; // the root
     while (top > 0) {
         entry next = stack[--top];
-        if (near_of(next) > c->last) continue;
+        if (next > entry_of(c->last, UINT32_MAX)) continue;
         uint32_t child = (uint32_t)next;
         if (child & FE__MESH_LEAVES) {
             meet_leaf(c, child & ~FE__MESH_LEAVES);
@@ -203,7 +237,7 @@ static int32_t clip(const caster *c, const double way[3], double *enter)
     double leave = (double)INFINITY;
     *enter = 0.0;
     for (int32_t k = 0; k < 3; ++k) {
-        double o = c->origin[k];
+        double o = c->origin.at[k];
         double spare = 1e-3 + 0.01 * ((double)high[k] - (double)low[k]) + 1e-12 * fe__absd(o);
         double a = (double)low[k] - spare - o, b = (double)high[k] + spare - o;
         if (way[k] == 0.0) {
@@ -217,7 +251,7 @@ static int32_t clip(const caster *c, const double way[3], double *enter)
     return *enter <= leave && *enter < (double)INFINITY;
 }
 
-static void choose_axes(caster *c, const double way[3])
+static inline void choose_axes(caster *c, const double way[3])
 {
     double x = fe__absd(way[0]), y = fe__absd(way[1]), z = fe__absd(way[2]);
     c->kz = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
@@ -227,8 +261,23 @@ static void choose_axes(caster *c, const double way[3])
         c->kx = c->ky, c->ky = kept;
     }
     c->shear_x = way[c->kx] / way[c->kz], c->shear_y = way[c->ky] / way[c->kz], c->scale_z = 1.0 / way[c->kz];
-    for (int32_t k = 0; k < 3; ++k)
-        c->inverse[k] = 1.0 / (fe__absd(way[k]) > LEAST_SLOPE ? way[k] : __builtin_copysign(LEAST_SLOPE, way[k]));
+}
+
+static inline void choose_sides(caster *c, const double way[3])
+{
+    const fe__mesh *m = c->mesh;
+    for (int32_t k = 0; k < 3; ++k) {
+        c->scale.at[k] = m->scale[k];
+        c->inverse.at[k] = 1.0 / (fe__absd(way[k]) > LEAST_SLOPE ? way[k] : __builtin_copysign(LEAST_SLOPE, way[k]));
+        c->unit.at[k] = (float)(c->scale.at[k] * c->inverse.at[k]);
+        int32_t low = (int32_t)offsetof(fe__mesh_node, low) + FE__MESH_WIDTH * k,
+                high = (int32_t)offsetof(fe__mesh_node, high) + FE__MESH_WIDTH * k;
+        c->near_row[k] = c->unit.at[k] > 0.0f ? low : high, c->far_row[k] = c->unit.at[k] > 0.0f ? high : low;
+        c->half.at[k] = 0.0f;
+    }
+    c->scale.at[3] = c->origin.at[3] = c->inverse.at[3] = 0.0, c->unit.at[3] = c->half.at[3] = 0.0f;
+    c->meets_front = -(int64_t)(!m->is_mirrored || m->is_two_sided);
+    c->meets_back = -(int64_t)(m->is_mirrored || m->is_two_sided);
 }
 
 // 0: the ray passes by the mesh
@@ -238,15 +287,16 @@ static int32_t prepare(caster *c, fe_dvec3 origin, fe_dvec3 translation, double 
     if (!(longest > STILL)) return 0;
     double scale = scale_for(longest);
     const double way[3] = {scale * translation.x, scale * translation.y, scale * translation.z};
-    c->origin[0] = origin.x, c->origin[1] = origin.y, c->origin[2] = origin.z;
+    c->origin.at[0] = origin.x, c->origin.at[1] = origin.y, c->origin.at[2] = origin.z;
     c->per_s = scale;
     if (!clip(c, way, &c->moved)) return 0;
     c->limit = limit / scale - c->moved;
     if (!(c->limit >= 0.0)) return 0;
     c->limit = fe__mind(c->limit, 1e30); // any mesh ends before
     c->last = float_above(c->limit);
-    for (int32_t k = 0; k < 3; ++k) c->origin[k] += c->moved * way[k];
+    for (int32_t k = 0; k < 3; ++k) c->origin.at[k] += c->moved * way[k];
     choose_axes(c, way);
+    choose_sides(c, way);
     c->slot = -1;
     return 1;
 }
@@ -259,13 +309,13 @@ static void report(const caster *c, double limit, fe__mesh_hit *out)
     double k = (c->is_back ? -1.0 : 1.0) / sqrt(fe__ddot(n, n));
     *out = (fe__mesh_hit){.hit = {.t = fe__mind((c->moved + c->limit) * c->per_s, limit),
                                   .normal = fe__dscale(k, n),
-                                  .triangle = c->number},
-                          .slot = c->slot,
+                                  .triangle = c->number,
+                                  .index = c->slot},
                           .is_back = c->is_back,
                           .weights = {c->weights[0], c->weights[1], c->weights[2]}};
 }
 
-int32_t fe__mesh_ray(const fe__mesh *mesh, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__mesh_hit *hit)
+static int32_t ray(const fe__mesh *mesh, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__mesh_hit *hit)
 {
     caster c;
     c.mesh = mesh;
@@ -275,3 +325,5 @@ int32_t fe__mesh_ray(const fe__mesh *mesh, fe_dvec3 origin, fe_dvec3 translation
     report(&c, limit, hit);
     return 1;
 }
+
+const fe__mesh_casts FE_NAME(fe__mesh_casts) = {ray};
