@@ -98,15 +98,6 @@ FE_LANES_INLINE fe__lanes fe__lanes_max(fe__lanes x, fe__lanes y)
 {
     return (fe__lanes){fe__quad_max(x.a, y.a), fe__quad_max(x.b, y.b)};
 }
-// bit i: lane i of x is at most, or equal to, lane i of y
-FE_LANES_INLINE uint32_t fe__lanes_at_most(fe__lanes x, fe__lanes y)
-{
-    return fe__quad_signs(x.a <= y.a) | fe__quad_signs(x.b <= y.b) << 4;
-}
-FE_LANES_INLINE uint32_t fe__lanes_equal(fe__lanes x, fe__lanes y)
-{
-    return fe__quad_signs(x.a == y.a) | fe__quad_signs(x.b == y.b) << 4;
-}
 
 // ---- eight in one register ------------------------------------------------------------------------------------------
 // For files that are compiled once per SIMD set: the widest ones have such registers. The same eight floats in any

@@ -8,16 +8,28 @@
 #include "collision/form/ground.h"
 #include "collision/form/ray_hit.h"
 
+// A translation that moves less than this moves by nothing, m
+#define FE__MESH_STILL 1e-200
+
 typedef struct fe__mesh_hit {
     fe__ray_hit hit;   // .triangle: the caller's number, .index: the slot
     int32_t is_back;   // from the side around which corners turn right
     double weights[3]; // of the corners, their sum is 1
 } fe__mesh_hit;
 
+// A box along its way. `visit` gets the slot of a triangle and returns what is left of the way, t
+typedef struct fe__mesh_way {
+    fe_dvec3 origin, translation, half;
+} fe__mesh_way;
+typedef double (*fe__mesh_visit)(void *context, int32_t slot);
+
 // Once for each SIMD set, with the same answers
 struct fe__mesh_casts {
     int32_t (*ray)(const fe__mesh *mesh, fe_dvec3 origin, fe_dvec3 translation, double limit,
                    fe__mesh_hit *hit); // 1: hit
+    // Triangles whose bounds the box meets at 0 <= t <= limit, of a node's children the nearest first. None for a
+    // translation that moves by nothing.
+    void (*sweep)(const fe__mesh *mesh, const fe__mesh_way *way, double limit, fe__mesh_visit visit, void *context);
 };
 extern const fe__mesh_casts fe__mesh_casts_plain;
 const fe__mesh_casts *fe__mesh_casts_of(int32_t simd); // of a set that was built, else of plain C

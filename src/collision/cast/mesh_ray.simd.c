@@ -16,10 +16,11 @@
 #include "core/fours.h"
 #include "core/simd.h"
 
-enum { STACK = FE__MESH_DEPTH * (FE__MESH_WIDTH - 1) + FE__MESH_WIDTH };
+// The triangles of one leaf wait, too
+enum { STACK = FE__MESH_DEPTH * (FE__MESH_WIDTH - 1) + FE__MESH_WIDTH + FE__MESH_LEAF };
+#define TRIANGLE 0x40000000u // of a child: the rest is its slot
+_Static_assert(FE__MESH_TRIANGLES <= TRIANGLE, "slots leave the bit free");
 
-// A translation that moves less than this moves by nothing, m
-#define STILL 1e-200
 // A slope is taken for no less: over the length of any mesh, 2e5 m, it moves a ray by less than any box is widened
 #define LEAST_SLOPE 1e-30
 // Of distances along the ray: five roundings of floats, one and a half times
@@ -37,7 +38,8 @@ typedef union floats {
 
 typedef struct caster {
     axes origin, inverse, scale; // near the mesh; of the way; of the mesh
-    floats unit, half;           // of s: what 1 m of the mesh is, and half a box that moves
+    axes reach;                  // of s: half a box that moves
+    floats unit, half;           // of s: what 1 m of the mesh is; `reach`
     const fe__mesh *mesh;
     int32_t near_row[3], far_row[3]; // of a node: where the sides stand that are met first, and the others, bytes
     int32_t kx, ky, kz;              // kz: the longest axis of the way; the others so that the frame is right-handed
@@ -46,8 +48,12 @@ typedef struct caster {
     double moved, per_s; // t = (moved + s) per_s
     double limit;        // of s, the nearest hit so far
     float last;          // of boxes: no less
+    // of a ray
     int32_t slot, number, is_back;
     double weights[3];
+    // of a box
+    fe__mesh_visit visit;
+    void *context;
 } caster;
 
 // ---- one triangle --------------------------------------------------------------------------------------------------
@@ -108,38 +114,68 @@ static void meet_triangle(caster *c, int32_t slot)
 // ---- the four of a leaf --------------------------------------------------------------------------------------------
 typedef float loose_quad __attribute__((vector_size(16), aligned(4), may_alias));
 
-// Places of corner k of all four, x and y alone: as shear()
-typedef struct places {
-    fe__four x, y;
-} places;
-static inline places shear_corners(const caster *c, const float *vertices, const fe__mesh_leaf *leaf, int32_t k)
+// Corner k of all four: x, y and z of each
+typedef struct rows {
+    fe__quad row[3];
+} rows;
+static inline rows corners_of(const fe__mesh *m, const fe__mesh_leaf *leaf, int32_t k)
 {
+    const float *vertices = m->vertices + 3 * (size_t)leaf->first_vertex;
     fe__quad p[FE__MESH_LEAF];
     for (int32_t i = 0; i < FE__MESH_LEAF; ++i) p[i] = *(const loose_quad *)(vertices + 3 * (size_t)leaf->corner[i][k]);
     fe__quad xy = __builtin_shufflevector(p[0], p[1], 0, 4, 1, 5), zw = __builtin_shufflevector(p[0], p[1], 2, 6, 3, 7),
              XY = __builtin_shufflevector(p[2], p[3], 0, 4, 1, 5), ZW = __builtin_shufflevector(p[2], p[3], 2, 6, 3, 7);
-    const fe__quad row[3] = {__builtin_shufflevector(xy, XY, 0, 1, 4, 5), __builtin_shufflevector(xy, XY, 2, 3, 6, 7),
-                             __builtin_shufflevector(zw, ZW, 0, 1, 4, 5)};
+    return (rows){{__builtin_shufflevector(xy, XY, 0, 1, 4, 5), __builtin_shufflevector(xy, XY, 2, 3, 6, 7),
+                   __builtin_shufflevector(zw, ZW, 0, 1, 4, 5)}};
+}
+
+// bit i: slot i of the leaf is a triangle
+static inline uint32_t slots_of(const fe__mesh *m, uint32_t leaf)
+{
+    return (1u << fe__mini(m->triangle_count - FE__MESH_LEAF * (int32_t)leaf, FE__MESH_LEAF)) - 1;
+}
+
+// As shear(), x and y alone
+typedef struct places {
+    fe__four x, y;
+} places;
+static inline places shear_corners(const caster *c, const fe__mesh_leaf *leaf, int32_t k)
+{
+    rows v = corners_of(c->mesh, leaf, k);
     const double *s = c->scale.at, *o = c->origin.at;
-    fe__four z = s[c->kz] * fe__four_of(row[c->kz]) - o[c->kz];
-    return (places){s[c->kx] * fe__four_of(row[c->kx]) - o[c->kx] - c->shear_x * z,
-                    s[c->ky] * fe__four_of(row[c->ky]) - o[c->ky] - c->shear_y * z};
+    fe__four z = s[c->kz] * fe__four_of(v.row[c->kz]) - o[c->kz];
+    return (places){s[c->kx] * fe__four_of(v.row[c->kx]) - o[c->kx] - c->shear_x * z,
+                    s[c->ky] * fe__four_of(v.row[c->ky]) - o[c->ky] - c->shear_y * z};
 }
 
 static inline void meet_leaf(caster *c, uint32_t index)
 {
-    const fe__mesh *m = c->mesh;
-    const fe__mesh_leaf *leaf = m->leaves + index;
-    const float *vertices = m->vertices + 3 * (size_t)leaf->first_vertex;
-    places a = shear_corners(c, vertices, leaf, 0), b = shear_corners(c, vertices, leaf, 1),
-           d = shear_corners(c, vertices, leaf, 2);
+    const fe__mesh_leaf *leaf = c->mesh->leaves + index;
+    places a = shear_corners(c, leaf, 0), b = shear_corners(c, leaf, 1), d = shear_corners(c, leaf, 2);
     fe__four u = d.x * b.y - d.y * b.x, v = a.x * d.y - a.y * d.x, w = b.x * a.y - b.y * a.x;
     const fe__four zero = fe__four_set(0.0);
     fe__four_int met = ((u >= zero) & (v >= zero) & (w >= zero) & c->meets_front) |
                        ((u <= zero) & (v <= zero) & (w <= zero) & c->meets_back);
-    int32_t first = FE__MESH_LEAF * (int32_t)index, count = fe__mini(m->triangle_count - first, FE__MESH_LEAF);
-    for (uint32_t hits = fe__four_signs(met) & ((1u << count) - 1); hits; hits &= hits - 1)
-        meet_triangle(c, first + __builtin_ctz(hits));
+    for (uint32_t hits = fe__four_signs(met) & slots_of(c->mesh, index); hits; hits &= hits - 1)
+        meet_triangle(c, FE__MESH_LEAF * (int32_t)index + __builtin_ctz(hits));
+}
+
+// Bit i: the box that moves meets the bounds of slot i, from `near` on
+static inline uint32_t meet_bounds(const caster *c, uint32_t index, float *near)
+{
+    const fe__mesh_leaf *leaf = c->mesh->leaves + index;
+    rows a = corners_of(c->mesh, leaf, 0), b = corners_of(c->mesh, leaf, 1), d = corners_of(c->mesh, leaf, 2);
+    fe__four enter = fe__four_set(0.0), leave = fe__four_set((double)c->last);
+    for (int32_t k = 0; k < 3; ++k) {
+        fe__quad low = fe__quad_min(fe__quad_min(a.row[k], b.row[k]), d.row[k]),
+                 high = fe__quad_max(fe__quad_max(a.row[k], b.row[k]), d.row[k]);
+        fe__four s = (c->scale.at[k] * fe__four_of(low) - c->origin.at[k]) * c->inverse.at[k],
+                 t = (c->scale.at[k] * fe__four_of(high) - c->origin.at[k]) * c->inverse.at[k];
+        enter = fe__four_max(enter, fe__four_min(s, t) - c->reach.at[k]);
+        leave = fe__four_min(leave, fe__four_max(s, t) + c->reach.at[k]);
+    }
+    *(fe__quad *)near = fe__four_narrow(enter * (1.0 - 0x1p-22)); // no later, as a float
+    return fe__four_signs(enter <= leave) & slots_of(c->mesh, index);
 }
 
 // ---- nodes ---------------------------------------------------------------------------------------------------------
@@ -198,7 +234,10 @@ static inline int32_t push(entry *stack, int32_t top, uint32_t hits, const float
     return top;
 }
 
-static inline void walk(caster *c)
+typedef enum question { RAY, BOX } question;
+static void set_limit(caster *c, double limit);
+
+static inline __attribute__((always_inline)) void walk(question q, caster *c)
 {
     _Alignas(32) float near[FE__MESH_WIDTH];
     entry stack[STACK];
@@ -209,7 +248,15 @@ static inline void walk(caster *c)
         if (next > entry_of(c->last, UINT32_MAX)) continue;
         uint32_t child = (uint32_t)next;
         if (child & FE__MESH_LEAVES) {
-            meet_leaf(c, child & ~FE__MESH_LEAVES);
+            uint32_t leaf = child & ~FE__MESH_LEAVES;
+            if (q == RAY)
+                meet_leaf(c, leaf);
+            else
+                top = push(stack, top, meet_bounds(c, leaf, near), near, TRIANGLE | FE__MESH_LEAF * leaf);
+            continue;
+        }
+        if (q == BOX && child & TRIANGLE) {
+            set_limit(c, c->visit(c->context, (int32_t)(child & ~TRIANGLE)));
             continue;
         }
         const fe__mesh_node *node = c->mesh->nodes + child;
@@ -230,7 +277,7 @@ static double scale_for(double x)
 }
 
 // Where the way comes into the bounds, widened by more than the move is rounded; 0: it does not, or it begins there
-static int32_t clip(const caster *c, const double way[3], double *enter)
+static int32_t clip(const caster *c, const double way[3], const double half[3], double *enter)
 {
     const fe__mesh *m = c->mesh;
     const float low[3] = {m->low.x, m->low.y, m->low.z}, high[3] = {m->high.x, m->high.y, m->high.z};
@@ -238,7 +285,7 @@ static int32_t clip(const caster *c, const double way[3], double *enter)
     *enter = 0.0;
     for (int32_t k = 0; k < 3; ++k) {
         double o = c->origin.at[k];
-        double spare = 1e-3 + 0.01 * ((double)high[k] - (double)low[k]) + 1e-12 * fe__absd(o);
+        double spare = 1e-3 + 0.01 * ((double)high[k] - (double)low[k]) + 1e-12 * fe__absd(o) + half[k];
         double a = (double)low[k] - spare - o, b = (double)high[k] + spare - o;
         if (way[k] == 0.0) {
             if (a > 0.0 || b < 0.0) return 0;
@@ -263,7 +310,7 @@ static inline void choose_axes(caster *c, const double way[3])
     c->shear_x = way[c->kx] / way[c->kz], c->shear_y = way[c->ky] / way[c->kz], c->scale_z = 1.0 / way[c->kz];
 }
 
-static inline void choose_sides(caster *c, const double way[3])
+static inline void choose_sides(caster *c, const double way[3], const double half[3])
 {
     const fe__mesh *m = c->mesh;
     for (int32_t k = 0; k < 3; ++k) {
@@ -273,31 +320,31 @@ static inline void choose_sides(caster *c, const double way[3])
         int32_t low = (int32_t)offsetof(fe__mesh_node, low) + FE__MESH_WIDTH * k,
                 high = (int32_t)offsetof(fe__mesh_node, high) + FE__MESH_WIDTH * k;
         c->near_row[k] = c->unit.at[k] > 0.0f ? low : high, c->far_row[k] = c->unit.at[k] > 0.0f ? high : low;
-        c->half.at[k] = 0.0f;
+        c->reach.at[k] = half[k] * fe__absd(c->inverse.at[k]);
+        c->half.at[k] = float_above(c->reach.at[k]);
     }
     c->scale.at[3] = c->origin.at[3] = c->inverse.at[3] = 0.0, c->unit.at[3] = c->half.at[3] = 0.0f;
     c->meets_front = -(int64_t)(!m->is_mirrored || m->is_two_sided);
     c->meets_back = -(int64_t)(m->is_mirrored || m->is_two_sided);
 }
 
-// 0: the ray passes by the mesh
-static int32_t prepare(caster *c, fe_dvec3 origin, fe_dvec3 translation, double limit)
+// 0: the ray, or the box of those half widths that moves along it, passes by the mesh
+static inline int32_t prepare(caster *c, fe_dvec3 origin, fe_dvec3 translation, const double half[3], double limit)
 {
     double longest = fe__maxd(fe__maxd(fe__absd(translation.x), fe__absd(translation.y)), fe__absd(translation.z));
-    if (!(longest > STILL)) return 0;
+    if (!(longest > FE__MESH_STILL)) return 0;
     double scale = scale_for(longest);
     const double way[3] = {scale * translation.x, scale * translation.y, scale * translation.z};
     c->origin.at[0] = origin.x, c->origin.at[1] = origin.y, c->origin.at[2] = origin.z;
     c->per_s = scale;
-    if (!clip(c, way, &c->moved)) return 0;
+    if (!clip(c, way, half, &c->moved)) return 0;
     c->limit = limit / scale - c->moved;
     if (!(c->limit >= 0.0)) return 0;
     c->limit = fe__mind(c->limit, 1e30); // any mesh ends before
     c->last = float_above(c->limit);
     for (int32_t k = 0; k < 3; ++k) c->origin.at[k] += c->moved * way[k];
     choose_axes(c, way);
-    choose_sides(c, way);
-    c->slot = -1;
+    choose_sides(c, way, half);
     return 1;
 }
 
@@ -318,12 +365,30 @@ static void report(const caster *c, double limit, fe__mesh_hit *out)
 static int32_t ray(const fe__mesh *mesh, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__mesh_hit *hit)
 {
     caster c;
-    c.mesh = mesh;
-    if (!prepare(&c, origin, translation, limit)) return 0;
-    walk(&c);
+    c.mesh = mesh, c.slot = -1;
+    if (!prepare(&c, origin, translation, (const double[3]){0.0, 0.0, 0.0}, limit)) return 0;
+    walk(RAY, &c);
     if (c.slot < 0) return 0;
     report(&c, limit, hit);
     return 1;
 }
 
-const fe__mesh_casts FE_NAME(fe__mesh_casts) = {ray};
+// ---- boxes ---------------------------------------------------------------------------------------------------------
+// No less than what is left of the way: s is known to some roundings of what was moved
+static void set_limit(caster *c, double limit)
+{
+    double s = limit / c->per_s - c->moved;
+    c->last = float_above(fe__mind(fe__maxd(s, 0.0) + 1e-15 * c->moved, 1e30));
+}
+
+static void sweep(const fe__mesh *mesh, const fe__mesh_way *way, double limit, fe__mesh_visit visit, void *context)
+{
+    caster c;
+    c.mesh = mesh, c.visit = visit, c.context = context;
+    if (!prepare(&c, way->origin, way->translation, (const double[3]){way->half.x, way->half.y, way->half.z}, limit))
+        return;
+    set_limit(&c, limit);
+    walk(BOX, &c);
+}
+
+const fe__mesh_casts FE_NAME(fe__mesh_casts) = {ray, sweep};

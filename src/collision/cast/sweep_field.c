@@ -1,9 +1,10 @@
 // sweep_field.c - a moving form against a heightfield or a mesh: its triangles, piece by piece along the way.
 //
-// Input: queries, with the mover in the surface's frame. The way is cut where the form has moved by about its own size
-// or a cell, so that few triangles lie under each piece; what is met within a piece is met first of all. Vertices are
-// doubles: a stop is as exact as before a box.
+// Input: queries, with the mover in the surface's frame. The tree of a mesh offers triangles along the way. On a
+// heightfield the way is cut where the form has moved by about its own size or a cell, so that few triangles lie under
+// each piece; what is met within a piece is met first of all. Vertices are doubles: a stop is as exact as before a box.
 #include "collision/cast/field_search.h"
+#include "collision/cast/mesh_ray.h"
 #include "collision/cast/sweep.h"
 #include "collision/form/support.h"
 
@@ -170,30 +171,62 @@ int32_t fe__field_clip(const fe__field_search *s, double limit, double *from, do
     return *from <= *to;
 }
 
+typedef struct field_sweep {
+    fe__field_search *search;
+    fe__sweep_hit *hit;
+} field_sweep;
+
+static double visit_triangle(void *context, int32_t triangle)
+{
+    field_sweep *f = context;
+    meet_triangle(f->search, triangle, f->hit);
+    return f->hit->t;
+}
+
+// A mesh's tree offers its triangles along the way, the nearest first; what stands still asks as an overlap does.
+static void sweep_mesh(fe__field_search *s, double limit, fe__sweep_hit *hit)
+{
+    const fe__mesh_casts *casts = s->surface->casts ? s->surface->casts : &fe__mesh_casts_plain;
+    double spare = 2.0 * s->pair.gap;
+    fe__mesh_way way = {
+        s->mover->position, s->mover->translation, {s->half.x + spare, s->half.y + spare, s->half.z + spare}};
+    field_sweep f = {s, hit};
+    casts->sweep(s->surface->mesh, &way, limit, visit_triangle, &f);
+}
+
+static void sweep_pieces(fe__field_search *s, double t, double end, fe__sweep_hit *hit)
+{
+    const fe__mover *mover = s->mover;
+    fe_dvec3 cell = fe__ground_cell(s->surface);
+    double cells_x = fe__absd(mover->translation.x) / (cell.x + s->half.x),
+           cells_y = fe__absd(mover->translation.y) / (cell.y + s->half.y),
+           cells_z = fe__absd(mover->translation.z) / (cell.z + s->half.z);
+    double cells = fe__maxd(fe__maxd(cells_x, cells_y), cells_z), piece = cells > 0.0 ? 1.0 / cells : (double)INFINITY;
+    for (;;) {
+        double to = fe__mind(t + piece, end);
+        if (!(to > t)) to = end; // a piece below the rounding of t
+        fe__bounds box = fe__field_covered(s, t, to);
+        fe__form unused;
+        fe__ground_walk walk;
+        fe__ground_begin(&walk, s->surface, &box, mover->position);
+        for (int32_t i; (i = fe__ground_next(&walk, &unused)) >= 0;) meet_triangle(s, i, hit);
+        if (to >= end || (hit->triangle >= 0 && hit->t <= to)) return;
+        t = to;
+    }
+}
+
 int32_t fe__ground_sweep(const fe__ground *surface, const fe__mover *mover, double limit, fe__sweep_hit *hit)
 {
     fe__field_search s = fe__field_search_of(surface, mover);
     double t, end;
     if (!fe__field_clip(&s, limit, &t, &end)) return 0;
-    fe_dvec3 cell = fe__ground_cell(surface);
-    double cells_x = fe__absd(mover->translation.x) / (cell.x + s.half.x),
-           cells_y = fe__absd(mover->translation.y) / (cell.y + s.half.y),
-           cells_z = fe__absd(mover->translation.z) / (cell.z + s.half.z);
-    double cells = fe__maxd(fe__maxd(cells_x, cells_y), cells_z), piece = cells > 0.0 ? 1.0 / cells : (double)INFINITY;
     *hit = (fe__sweep_hit){.t = limit, .triangle = -1};
-    for (;;) {
-        double to = fe__mind(t + piece, end);
-        if (!(to > t)) to = end; // a piece below the rounding of t
-        fe__bounds box = fe__field_covered(&s, t, to);
-        fe__form unused;
-        fe__ground_walk walk;
-        fe__ground_begin(&walk, surface, &box, mover->position);
-        for (int32_t i; (i = fe__ground_next(&walk, &unused)) >= 0;) meet_triangle(&s, i, hit);
-        if (hit->triangle >= 0 && (hit->t <= to || to >= end)) {
-            if (hit->inside) fe__field_way_out(&s, hit);
-            return 1;
-        }
-        if (to >= end) return 0;
-        t = to;
-    }
+    fe_dvec3 way = mover->translation;
+    if (surface->mesh && fe__maxd(fe__maxd(fe__absd(way.x), fe__absd(way.y)), fe__absd(way.z)) > FE__MESH_STILL)
+        sweep_mesh(&s, limit, hit);
+    else
+        sweep_pieces(&s, t, end, hit);
+    if (hit->triangle < 0) return 0;
+    if (hit->inside) fe__field_way_out(&s, hit);
+    return 1;
 }
