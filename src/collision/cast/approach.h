@@ -32,6 +32,7 @@ typedef struct fe__core_gap {
     double distance; // 0: they overlap
     fe_dvec3 on_frame;
     fe_dvec3 away; // from there to the other core's nearest point
+    double size;   // of curved cores: of their difference, against which the distance is precise, m
 } fe__core_gap;
 void fe__core_gap_of(const fe__approach *a, fe_dvec3 position,
                      fe__core_gap *gap); // of point and segment only, not of two boxes
@@ -65,17 +66,26 @@ double fe__curved_depth(const fe__approach *a, fe_dvec3 *way_out); // of cores t
 double fe__sure_gap_of(const fe__approach *a, fe_dvec3 position, fe__core_gap *gap);
 // How far the planes across `n` (unit, from the frame to the other) hold the cores apart; below 0: they do not.
 double fe__separation_of(const fe__approach *a, fe_dvec3 position, fe_dvec3 n);
-int32_t fe__curved_sweep(const fe__approach *a, double limit, fe__approach_hit *hit);
+// `start`: the gap at the start
+int32_t fe__curved_sweep(const fe__approach *a, const fe__core_gap *start, double limit, fe__approach_hit *hit);
+
+// Where `t` of the way leads
+static inline fe_dvec3 fe__approach_at(const fe__approach *a, double t)
+{
+    return fe__dadd(a->position, fe__dscale(t, a->translation));
+}
 
 // ---- any pair (sweep.c) --------------------------------------------------------------------------------------------
 typedef struct fe__core_overlap {
     double depth; // below 0: apart
     fe_dvec3 way_out;
+    fe__core_gap gap; // of round cores that are apart
 } fe__core_overlap;
 
 double fe__stop_gap(const fe__mover *mover);
 fe__core_overlap fe__approach_overlap(const fe__approach *a);
-int32_t fe__approach_sweep(const fe__approach *a, double limit, fe__approach_hit *hit); // apart at the start
+// Apart at the start, as `overlap` tells
+int32_t fe__approach_sweep(const fe__approach *a, const fe__core_overlap *overlap, double limit, fe__approach_hit *hit);
 int32_t fe__core_kind_of(const fe__form *form);
 void fe__core_half(const fe__form *form, double half[3]);
 

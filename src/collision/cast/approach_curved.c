@@ -6,6 +6,8 @@
 #include "collision/cast/approach.h"
 #include "collision/form/epa.h"
 
+#include <string.h>
+
 enum { MAX_STEPS = 64 };
 #define TOLERANCE 0.1       // of the gap: a stop within that of it is one
 #define ROUNDINGS 1e-14     // of the cores' size: how well the nearest points are known
@@ -22,19 +24,17 @@ static fe__cores cores_at(const fe__approach *s, fe_dvec3 position)
                        s->frame_kind == FE_CORE_TRIANGLE ? s->vertex : NULL};
 }
 
-// Returns the size of the cores' difference, against which the distance is precise.
-static double gap_of(const fe__cores *cores, fe__core_gap *gap)
+static void gap_of(const fe__cores *cores, fe__core_gap *gap)
 {
     fe__gjk gjk;
     fe__gjk_distance_closely(cores, &gjk);
-    *gap = (fe__core_gap){gjk.distance, gjk.on_a, gjk.way};
-    return gjk.size;
+    *gap = (fe__core_gap){gjk.distance, gjk.on_a, gjk.way, gjk.size};
 }
 
 void fe__curved_gap_of(const fe__approach *s, fe_dvec3 position, fe__core_gap *gap)
 {
     fe__cores cores = cores_at(s, position);
-    (void)gap_of(&cores, gap);
+    gap_of(&cores, gap);
 }
 
 double fe__curved_depth(const fe__approach *s, fe_dvec3 *way_out)
@@ -87,8 +87,9 @@ static fe_dvec3 nearest_side(const fe__approach *s, fe_dvec3 n)
 // two. So where a side near it holds them apart by more, it gives the direction; and it does where the nearest points
 // are none, because more than that turn takes of the size is between their distance and what is sure of it. Returns the
 // distance, then what is sure of it.
-static double make_sure(const fe__approach *s, const fe__cores *cores, double size, fe__core_gap *gap)
+static double make_sure(const fe__approach *s, const fe__cores *cores, fe__core_gap *gap)
 {
+    double size = gap->size;
     fe_dvec3 n = fe__dscale(1.0 / gap->distance, gap->away), side = nearest_side(s, n);
     double sure = sure_distance(cores, n), least = gap->distance - ROUNDINGS * size * (size / gap->distance);
     if (sure < least || fe__ddot(side, n) > NEARLY_ALONG) {
@@ -101,8 +102,8 @@ static double make_sure(const fe__approach *s, const fe__cores *cores, double si
 double fe__sure_gap_of(const fe__approach *s, fe_dvec3 position, fe__core_gap *gap)
 {
     fe__cores cores = cores_at(s, position);
-    double size = gap_of(&cores, gap);
-    return gap->distance > 0.0 ? make_sure(s, &cores, size, gap) : 0.0;
+    gap_of(&cores, gap);
+    return gap->distance > 0.0 ? make_sure(s, &cores, gap) : 0.0;
 }
 
 double fe__separation_of(const fe__approach *s, fe_dvec3 position, fe_dvec3 n)
@@ -111,23 +112,46 @@ double fe__separation_of(const fe__approach *s, fe_dvec3 position, fe_dvec3 n)
     return sure_distance(&cores, n);
 }
 
+typedef struct sure_gap {
+    fe__core_gap gap;
+    double sure; // of its distance
+} sure_gap;
+
+static sure_gap sure_gap_at(const fe__approach *s, double t)
+{
+    sure_gap here;
+    here.sure = fe__sure_gap_of(s, fe__approach_at(s, t), &here.gap);
+    return here;
+}
+
+// What GJK found at the start is what it would find again, where position + 0 translation has the position's bits.
+static sure_gap sure_gap_at_start(const fe__approach *s, const fe__core_gap *known)
+{
+    fe_dvec3 start = fe__approach_at(s, 0.0);
+    if (memcmp(&start, &s->position, sizeof start) != 0) return sure_gap_at(s, 0.0);
+    fe__cores cores = cores_at(s, start);
+    sure_gap here = {.gap = *known};
+    here.sure = make_sure(s, &cores, &here.gap);
+    return here;
+}
+
 // From `t` to where the distance is `goal`, or a little more. 0: it never comes so near. A distance that GJK finds too
-// long takes a step too far: then the way from where they were apart is halved.
-static int32_t advance(const fe__approach *s, double goal, double tolerance, double *t, fe__core_gap *gap)
+// long takes a step too far: then the way from where they were apart is halved. `at` is the gap at t, before and after.
+static int32_t advance(const fe__approach *s, double goal, double tolerance, double *t, sure_gap *at)
 {
     double apart = *t, inside = (double)INFINITY;
+    sure_gap here = *at;
     for (int32_t i = 0;; ++i) {
-        fe__core_gap here;
-        double sure = fe__sure_gap_of(s, fe__dadd(s->position, fe__dscale(*t, s->translation)), &here);
-        if (i == 0 && !(here.distance > 0.0)) return 1;
-        if (i > 0 && !(here.distance > s->radius)) {
+        if (i > 0) here = sure_gap_at(s, *t);
+        if (i == 0 && !(here.gap.distance > 0.0)) return 1;
+        if (i > 0 && !(here.gap.distance > s->radius)) {
             inside = *t;
         } else {
-            double way = sure - goal;
-            *gap = here;
-            double rate = fe__ddot(here.away, s->translation) / here.distance; // of the distance, m per t
-            if (!(rate < 0.0)) return inside <= 1.0;                           // then they do meet
-            if (here.distance <= goal + tolerance || !(way > 0.0)) return 1;
+            double way = here.sure - goal;
+            *at = here;
+            double rate = fe__ddot(here.gap.away, s->translation) / here.gap.distance; // of the distance, m per t
+            if (!(rate < 0.0)) return inside <= 1.0;                                   // then they do meet
+            if (here.gap.distance <= goal + tolerance || !(way > 0.0)) return 1;
             apart = *t;
             *t += way / -rate;
         }
@@ -140,12 +164,12 @@ static int32_t advance(const fe__approach *s, double goal, double tolerance, dou
     }
 }
 
-int32_t fe__curved_sweep(const fe__approach *s, double limit, fe__approach_hit *hit)
+int32_t fe__curved_sweep(const fe__approach *s, const fe__core_gap *start, double limit, fe__approach_hit *hit)
 {
     double t = 0.0;
-    fe__core_gap gap = {0}, nearer;
-    if (!advance(s, s->radius + s->gap, TOLERANCE * s->gap, &t, &gap) || !(t <= limit)) return 0;
-    *hit = (fe__approach_hit){t, fe__dscale(1.0 / gap.distance, gap.away), gap.on_frame};
-    double clearance = fe__mind(gap.distance - s->radius, s->gap);
-    return advance(s, s->radius + 0.5 * clearance, TOLERANCE * clearance, &t, &nearer);
+    sure_gap at = sure_gap_at_start(s, start);
+    if (!advance(s, s->radius + s->gap, TOLERANCE * s->gap, &t, &at) || !(t <= limit)) return 0;
+    double distance = at.gap.distance, clearance = fe__mind(distance - s->radius, s->gap);
+    *hit = (fe__approach_hit){t, fe__dscale(1.0 / distance, at.gap.away), at.gap.on_frame};
+    return advance(s, s->radius + 0.5 * clearance, TOLERANCE * clearance, &t, &at);
 }

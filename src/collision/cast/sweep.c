@@ -10,6 +10,8 @@
 #include "collision/cast/kinds.h"
 #include "collision/form/support.h"
 
+#include <string.h>
+
 // Halving 10 km comes down to 1e-11 m; bodies that are met squarely need 3 to 6.
 enum { MAX_STEPS = 64 };
 #define ROUNDING 2e-15     // of the lengths involved: how well f is known
@@ -84,19 +86,18 @@ double fe__height_over_plane(const fe__form *plane, const fe__mover *mover)
 // In the approach's frame.
 fe__core_overlap fe__approach_overlap(const fe__approach *s)
 {
-    fe__core_overlap o;
-    fe__core_gap gap = {0};
+    fe__core_overlap o = {.gap = {0}};
     if (fe__is_curved_pair(s)) {
-        fe__curved_gap_of(s, s->position, &gap);
-        if (!(gap.distance > 0.0)) {
+        fe__curved_gap_of(s, s->position, &o.gap);
+        if (!(o.gap.distance > 0.0)) {
             o.depth = fe__curved_depth(s, &o.way_out) + s->radius;
             return o;
         }
     } else if (s->other_kind != FE_CORE_BOX)
-        fe__core_gap_of(s, s->position, &gap);
-    if (gap.distance > 0.0) {
-        o.depth = s->radius - gap.distance;
-        o.way_out = fe__dscale(1.0 / gap.distance, gap.away);
+        fe__core_gap_of(s, s->position, &o.gap);
+    if (o.gap.distance > 0.0) {
+        o.depth = s->radius - o.gap.distance;
+        o.way_out = fe__dscale(1.0 / o.gap.distance, o.gap.away);
     } else {
         o.depth = fe__core_depth(s, &o.way_out) + s->radius;
         if (s->other_kind != FE_CORE_BOX) o.depth = fe__maxd(o.depth, s->radius); // cores that touch
@@ -114,11 +115,11 @@ int32_t fe__form_overlap(const fe__form *still, const fe__mover *mover)
 
 // ---- sweeps --------------------------------------------------------------------------------------------------------
 // Newton's method from `t` to where the distance is `goal`, to the left of it by at most `tolerance`. 0: it never comes
-// so near.
+// so near. `gap` is that at t, before and after.
 static int32_t advance(const fe__approach *s, double goal, double tolerance, double *t, fe__core_gap *gap)
 {
     for (int32_t i = 0;; ++i) {
-        fe__core_gap_of(s, fe__dadd(s->position, fe__dscale(*t, s->translation)), gap);
+        if (i > 0) fe__core_gap_of(s, fe__approach_at(s, *t), gap);
         double rate = fe__ddot(gap->away, s->translation) / gap->distance; // of the distance, m per t
         if (!(rate < 0.0)) return 0;
         if (gap->distance <= goal + tolerance || i == MAX_STEPS) return 1;
@@ -129,20 +130,22 @@ static int32_t advance(const fe__approach *s, double goal, double tolerance, dou
 
 // It stops where the gap begins, or at once within it; and only when it would come through half of that, for what
 // slides along a surface must not stick to it by a rounding.
-static int32_t sweep_round(const fe__approach *s, double limit, fe__approach_hit *hit)
+static int32_t sweep_round(const fe__approach *s, const fe__core_gap *start, double limit, fe__approach_hit *hit)
 {
     double tolerance = (double)GAP_TOLERANCE * s->gap, t = 0.0, clearance;
-    fe__core_gap gap, nearer;
+    fe__core_gap gap = *start;
+    fe_dvec3 first = fe__approach_at(s, 0.0);
+    if (memcmp(&first, &s->position, sizeof first) != 0) fe__core_gap_of(s, first, &gap); // -0 became 0
     if (!advance(s, s->radius + s->gap, tolerance, &t, &gap) || !(t <= limit)) return 0;
     *hit = (fe__approach_hit){t, fe__dscale(1.0 / gap.distance, gap.away), gap.on_frame};
     clearance = fe__mind(gap.distance - s->radius, s->gap);
-    return advance(s, s->radius + 0.5 * clearance, (double)GAP_TOLERANCE * clearance, &t, &nearer);
+    return advance(s, s->radius + 0.5 * clearance, (double)GAP_TOLERANCE * clearance, &t, &gap);
 }
 
-int32_t fe__approach_sweep(const fe__approach *s, double limit, fe__approach_hit *hit)
+int32_t fe__approach_sweep(const fe__approach *s, const fe__core_overlap *overlap, double limit, fe__approach_hit *hit)
 {
-    if (fe__is_curved_pair(s)) return fe__curved_sweep(s, limit, hit);
-    return s->other_kind == FE_CORE_BOX ? fe__boxes_sweep(s, limit, hit) : sweep_round(s, limit, hit);
+    if (fe__is_curved_pair(s)) return fe__curved_sweep(s, &overlap->gap, limit, hit);
+    return s->other_kind == FE_CORE_BOX ? fe__boxes_sweep(s, limit, hit) : sweep_round(s, &overlap->gap, limit, hit);
 }
 
 fe_dvec3 fe__point_of_plane(const fe__form *plane, fe_dvec3 unit, const fe__mover *mover)
@@ -217,7 +220,7 @@ int32_t fe__form_sweep(const fe__form *still, const fe__mover *mover, double lim
         return 1;
     }
     fe__approach_hit h;
-    if (!fe__approach_sweep(&s, limit, &h)) return 0;
+    if (!fe__approach_sweep(&s, &o, limit, &h)) return 0;
     report(still, mover, swapped, &h, hit);
     return 1;
 }

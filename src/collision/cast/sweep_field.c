@@ -125,12 +125,57 @@ int32_t fe__field_is_met(const fe__field_search *s, int32_t triangle, const fe__
     return height_at(&s->pair, hit->t) + reach_across(&s->pair, 1.0) > 0.0 && is_on_rim(s, triangle, hit->point);
 }
 
+static double size(fe_dvec3 a) { return fe__absd(a.x) + fe__absd(a.y) + fe__absd(a.z); }
+
+// How far the core reaches along m, times m's length, in the surface's frame
+static double core_along(const fe__approach *p, fe_dvec3 m)
+{
+    if (p->other_kind == FE_CORE_POINT) return 0.0;
+    fe_dvec3 way = fe__turn_back(&p->axes, m);
+    if (p->other_kind == FE_CORE_CURVED) return fe__ddot(way, fe__form_support(p->other_form, way));
+    return p->other_half[0] * fe__absd(way.x) + p->other_half[1] * fe__absd(way.y) + p->other_half[2] * fe__absd(way.z);
+}
+
+// Over the plane of the triangle, or under it, until `limit`, by more than any stop
+static int32_t stays_on_one_side(const fe__approach *p, double limit)
+{
+    const fe_dvec3 *v = p->vertex, n = p->normal;
+    double b = fe__ddot(n, fe__dsub(v[1], v[0])), c = fe__ddot(n, fe__dsub(v[2], v[0])),
+           spare = p->radius + 2.0 * p->gap;
+    double start = height_at(p, 0.0), end = height_at(p, limit), lowest = fe__mind(start, end) - spare,
+           highest = fe__maxd(start, end) + spare;
+    if (lowest > 0.0) return lowest - core_along(p, fe__dscale(-1.0, n)) > fe__maxd(fe__maxd(b, c), 0.0);
+    if (highest < 0.0) return highest + core_along(p, n) < fe__mind(fe__mind(b, c), 0.0);
+    return 0;
+}
+
+// The planes through a side and along the way: beyond one of them, by more than any stop, nothing is met
+static int32_t passes_beside(const fe__approach *p)
+{
+    const double rounding = 1e-14; // of the lengths involved
+    const fe_dvec3 *v = p->vertex;
+    double clear = p->radius + 2.0 * p->gap;
+    for (int32_t i = 0; i < 3; ++i) {
+        fe_dvec3 side = fe__dsub(v[(i + 1) % 3], v[i]), other = fe__dsub(v[(i + 2) % 3], v[i]);
+        fe_dvec3 from = fe__dsub(p->position, v[i]), m = fe__dcross(p->translation, side);
+        if (fe__ddot(m, other) > 0.0) m = fe__dscale(-1.0, m);
+        double rest = fe__ddot(m, from);
+        if (!(rest > 0.0)) continue;
+        rest -= core_along(p, fe__dscale(-1.0, m)) +
+                rounding * size(p->translation) * size(side) * (size(from) + size(other) + size(p->translation));
+        if (rest > 0.0 && rest * rest > clear * clear * fe__ddot(m, m)) return 1;
+    }
+    return 0;
+}
+
 // Of a start inside the deepest triangle is told; of hits the first. Of equal ones the triangle with the lowest number.
 static void meet_triangle(fe__field_search *s, int32_t triangle, fe__sweep_hit *best)
 {
     int32_t number = fe__ground_number(s->surface, triangle);
     fe__field_take(s, triangle);
-    if (fe__approach_overlap(&s->pair).depth >= 0.0) {
+    if (stays_on_one_side(&s->pair, best->t) || passes_beside(&s->pair)) return;
+    fe__core_overlap overlap = fe__approach_overlap(&s->pair);
+    if (overlap.depth >= 0.0) {
         double depth = fe__field_depth(s);
         if (best->inside && (depth < best->depth || (depth == best->depth && number > best->triangle))) return;
         *best = (fe__sweep_hit){.normal = s->pair.normal,
@@ -142,7 +187,7 @@ static void meet_triangle(fe__field_search *s, int32_t triangle, fe__sweep_hit *
         return;
     }
     fe__approach_hit hit;
-    if (best->inside || !fe__approach_sweep(&s->pair, best->t, &hit)) return;
+    if (best->inside || !fe__approach_sweep(&s->pair, &overlap, best->t, &hit)) return;
     if (best->triangle >= 0 && hit.t == best->t && number > best->triangle) return;
     if (!fe__field_is_met(s, triangle, &hit)) return;
     *best =
@@ -188,8 +233,9 @@ static void sweep_mesh(fe__field_search *s, double limit, fe__sweep_hit *hit)
 {
     const fe__mesh_casts *casts = s->surface->casts ? s->surface->casts : &fe__mesh_casts_plain;
     double spare = 2.0 * s->pair.gap;
-    fe__mesh_way way = {
-        s->mover->position, s->mover->translation, {s->half.x + spare, s->half.y + spare, s->half.z + spare}};
+    fe__mesh_way way = {s->mover->position,
+                        s->mover->translation,
+                        {s->half.x + spare, s->half.y + spare, s->half.z + spare}};
     field_sweep f = {s, hit};
     casts->sweep(s->surface->mesh, &way, limit, visit_triangle, &f);
 }

@@ -98,8 +98,9 @@ static double way_along(const fe__field_search *from, fe_dvec3 direction, double
     fe__ground_begin(&walk, s.surface, &box, mover.position);
     for (int32_t i; (i = fe__ground_next(&walk, &unused)) >= 0;) {
         fe__field_take(&s, i);
-        if (fe__approach_overlap(&s.pair).depth >= 0.0) return (double)INFINITY;
-        if (!fe__approach_sweep(&s.pair, first.t, &hit) || !(hit.t < first.t)) continue;
+        fe__core_overlap overlap = fe__approach_overlap(&s.pair);
+        if (overlap.depth >= 0.0) return (double)INFINITY;
+        if (!fe__approach_sweep(&s.pair, &overlap, first.t, &hit) || !(hit.t < first.t)) continue;
         first = hit;
         is_right = fe__ground_is_two_sided(s.surface) || fe__field_is_met(&s, i, &hit);
     }
