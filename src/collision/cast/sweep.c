@@ -8,6 +8,7 @@
 
 #include "collision/cast/approach.h"
 #include "collision/cast/kinds.h"
+#include "collision/form/hull_form.h"
 #include "collision/form/support.h"
 
 #include <string.h>
@@ -206,9 +207,38 @@ static void report(const fe__form *still, const fe__mover *mover, int32_t swappe
     if (fe__form_is_hull(still)) hit->triangle = fe__hull_face_at(still, point, normal);
 }
 
+// Half widths of a box around the origin of a form that holds its core, m
+static fe_dvec3 box_of_core(const fe__form *form)
+{
+    if (!fe__form_is_hull(form)) {
+        double half[3];
+        fe__core_half(form, half);
+        return (fe_dvec3){half[0], half[1], half[2]};
+    }
+    const fe__hull *hull = form->hull;
+    fe_dvec3 a = fe__from_hull(form, fe__widen(hull->low)), b = fe__from_hull(form, fe__widen(hull->high));
+    return (fe_dvec3){fe__maxd(fe__absd(a.x), fe__absd(b.x)), fe__maxd(fe__absd(a.y), fe__absd(b.y)),
+                      fe__maxd(fe__absd(a.z), fe__absd(b.z))};
+}
+
+// Of a hull, without asking for any distance
+static int32_t passes_hull(const fe__form *still, const fe__mover *mover, double limit)
+{
+    const double per_scale = 1.0 / (double)still->scale,
+                 clear = (double)mover->form->radius + 2.0 * fe__stop_gap(mover);
+    fe_dvec3 half = box_of_core(mover->form);
+    fe__hull_passer p = {fe__in_hull(still, mover->position),
+                         fe__dscale(per_scale, mover->translation),
+                         {fe__dscale(per_scale * half.x, mover->axes.x), fe__dscale(per_scale * half.y, mover->axes.y),
+                          fe__dscale(per_scale * half.z, mover->axes.z)},
+                         per_scale * clear};
+    return fe__hull_is_passed(still->hull, &p, limit);
+}
+
 int32_t fe__form_sweep(const fe__form *still, const fe__mover *mover, double limit, fe__sweep_hit *hit)
 {
     if (fe__form_is_unbounded(still)) return sweep_plane(still, mover, limit, hit);
+    if (fe__form_is_hull(still) && passes_hull(still, mover, limit)) return 0;
     fe__approach s;
     int32_t swapped = set_up(still, mover, &s);
     fe__core_overlap o = fe__approach_overlap(&s);

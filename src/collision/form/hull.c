@@ -128,6 +128,49 @@ fe__bounds fe__hull_bounds(const fe__hull *hull, const fe__pose *pose)
     };
 }
 
+// ---- what passes by ------------------------------------------------------------------------------------------------
+// Where the passer's lowest point is over a plane, at t, is  height + t rate.  It is in the hull from the last plane
+// that it comes in through to the first that it goes out through, if at all.
+//
+// Floats: a height is off by some roundings of the lengths involved, 2^-24 of their sum each, so `rounding` of that is
+// taken from it. That covers what t is rounded by: it moves the passer by no more.
+typedef struct floats3 {
+    fe__quad x, y, z;
+} floats3;
+static floats3 spread(fe_dvec3 a)
+{
+    return (floats3){fe__quad_set((float)a.x), fe__quad_set((float)a.y), fe__quad_set((float)a.z)};
+}
+static inline fe__quad dot(const floats3 *a, const floats3 *b) { return a->x * b->x + a->y * b->y + a->z * b->z; }
+static double size(fe_dvec3 a) { return fe__absd(a.x) + fe__absd(a.y) + fe__absd(a.z); }
+
+static float largest(fe__quad a) { return fe__maxf(fe__maxf(a[0], a[1]), fe__maxf(a[2], a[3])); }
+
+int32_t fe__hull_is_passed(const fe__hull *hull, const fe__hull_passer *p, double limit)
+{
+    const double rounding = 0x1p-19;
+    const double farthest = 1e25; // m: floats hold products of it and of unit vectors
+    const float least = 1e-30f;   // what is no faster is still
+    double arms = size(p->half[0]) + size(p->half[1]) + size(p->half[2]), radius = p->radius;
+    radius += rounding * (size(p->origin) + size(p->translation) + arms + radius + (double)hull->extent);
+    if (!(radius < rounding * farthest)) return 0;
+    const floats3 origin = spread(p->origin), way = spread(p->translation), a = spread(p->half[0]),
+                  b = spread(p->half[1]), c = spread(p->half[2]);
+    const fe__quad clear = fe__quad_set((float)radius), none = fe__quad_set(0.0f), slow = fe__quad_set(least);
+    fe__quad enter = none, stay = fe__quad_set((float)-limit); // `stay` is the last t, negative
+    for (int32_t i = 0; i < hull->face_count; i += 4) {
+        const floats3 n = {*(const fe__quad *)(hull->normals.x + i), *(const fe__quad *)(hull->normals.y + i),
+                           *(const fe__quad *)(hull->normals.z + i)};
+        fe__quad height = dot(&n, &origin) - *(const fe__quad *)(hull->distances + i) - clear, rate = dot(&n, &way);
+        if (arms > 0.0) height -= fe__quad_abs(dot(&n, &a)) + fe__quad_abs(dot(&n, &b)) + fe__quad_abs(dot(&n, &c));
+        fe__quad_int comes = rate <= none;
+        fe__quad t = height / fe__quad_choose(comes, slow - rate, rate);
+        enter = fe__quad_max(fe__quad_choose(comes, t, none), enter);
+        stay = fe__quad_max(fe__quad_choose(comes, stay, t), stay);
+    }
+    return largest(enter) > -largest(stay);
+}
+
 // ---- rays ----------------------------------------------------------------------------------------------------------
 // Height over a plane at t: height + t * rate. The ray is inside from the last plane that it comes in through to the
 // first that it goes out through (Cyrus and Beck 1978).
@@ -169,6 +212,8 @@ static fe_dvec3 against(fe_dvec3 translation, fe_dvec3 way_out)
 
 int32_t fe__hull_ray(const fe__hull *hull, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__ray_hit *hit)
 {
+    const fe__hull_passer point = {.origin = origin, .translation = translation};
+    if (fe__hull_is_passed(hull, &point, limit)) return 0;
     crossing c = cross_planes(hull, origin, translation);
     if (c.highest <= 0.0) {
         fe_dvec3 normal = against(translation, fe__hull_unit_normal(hull, c.nearest));

@@ -117,6 +117,14 @@ int32_t fe__hull_support(const fe__hull *hull,
 int32_t fe__hull_facing(const fe__hull *hull, fe_dvec3 direction); // the face that looks that way most; likewise
 float fe__hull_reach(const fe__hull *hull, fe_vec3 centre);        // largest distance from it to a point of the hull, m
 fe__bounds fe__hull_bounds(const fe__hull *hull, const fe__pose *pose); // in the world, of a hull whose frame is there
+// A box that moves and does not turn, with a ball around each of its points
+typedef struct fe__hull_passer {
+    fe_dvec3 origin, translation; // of its middle, m
+    fe_dvec3 half[3];             // its axes times its half widths, m
+    double radius;
+} fe__hull_passer;
+// 1: it stays outside until t = limit. 0: it may meet the hull. Planes tell, in floats.
+int32_t fe__hull_is_passed(const fe__hull *hull, const fe__hull_passer *passer, double limit);
 // As fe__form_ray. hit->triangle is the face.
 int32_t fe__hull_ray(const fe__hull *hull, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__ray_hit *hit);
 
