@@ -24,9 +24,12 @@ static fe_dvec3 farthest_of(const fe_dvec3 corners[3], fe_dvec3 direction)
 fe__vertex fe__cores_support(const fe__cores *cores, fe_dvec3 direction)
 {
     fe_dvec3 on_a = cores->corners ? farthest_of(cores->corners, direction) : fe__form_support(cores->a, direction);
-    fe_dvec3 local = {-fe__ddot(cores->axis_x, direction), -fe__ddot(cores->axis_y, direction),
-                      -fe__ddot(cores->axis_z, direction)};
-    fe_dvec3 q = fe__form_support(cores->b, local);
+    fe_dvec3 q = {0.0, 0.0, 0.0};
+    if (!fe__form_is_ball(cores->b)) {
+        fe_dvec3 local = {-fe__ddot(cores->axis_x, direction), -fe__ddot(cores->axis_y, direction),
+                          -fe__ddot(cores->axis_z, direction)};
+        q = fe__form_support(cores->b, local);
+    }
     fe_dvec3 turned = fe__dadd(fe__dadd(fe__dscale(q.x, cores->axis_x), fe__dscale(q.y, cores->axis_y)),
                                fe__dscale(q.z, cores->axis_z));
     return (fe__vertex){fe__dsub(on_a, fe__dadd(cores->position, turned)), on_a};
