@@ -159,6 +159,38 @@ static void the_nearest_point_has_nothing_ahead(void **state)
     ask_hulls(ask_nearest);
 }
 
+// A box with a ball around each of its points is put where it touches a point of the hull at some t: it does not pass.
+// Beyond a face by a hundredth of the lengths, and along it, it does: that is far more than floats lose.
+static void ask_passing(const fe__hull *h, uint64_t *random)
+{
+    double size = (double)h->extent, t = (double)cloud_int(random, 1001) / 1000.0;
+    fe_dvec3 toward = cloud_direction(random), way = fe__dscale(size, cloud_vector(random));
+    fe__hull_passer p = {.translation = way, .radius = 0.2 * size};
+    fe_dvec3 on = fe__dscale(-p.radius, toward); // of the passer, from its middle: what lies farthest against `toward`
+    for (int32_t k = 0; k < 3; ++k) {
+        p.half[k] = fe__dscale(0.1 * size * (double)(k + 1), cloud_direction(random));
+        on = fe__dadd(on, fe__dscale(fe__ddot(p.half[k], toward) > 0.0 ? -1.0 : 1.0, p.half[k]));
+    }
+    fe_dvec3 touched = fe__dsub(fe__widen(fe__hull_vertex(h, fe__hull_support(h, toward))), on);
+    p.origin = fe__dsub(touched, fe__dscale(t, way));
+    assert_int_equal(fe__hull_is_passed(h, &p, 1.0), 0);
+    assert_int_equal(fe__hull_is_passed(h, &p, t), 0);
+
+    int32_t face = cloud_int(random, h->face_count);
+    fe_dvec3 n = fe__hull_unit_normal(h, face);
+    double reach = p.radius + 0.01 * size;
+    for (int32_t k = 0; k < 3; ++k) reach += fe__absd(fe__ddot(p.half[k], n));
+    p.translation = fe__dsub(way, fe__dscale(fe__ddot(way, n), n));
+    p.origin = fe__dadd(p.origin, fe__dscale(reach - height_over(h, face, p.origin), n));
+    assert_int_equal(fe__hull_is_passed(h, &p, 1.0), 1);
+}
+
+static void what_touches_does_not_pass(void **state)
+{
+    (void)state;
+    ask_hulls(ask_passing);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -166,6 +198,7 @@ int main(void)
         cmocka_unit_test(bounds_are_tight),
         cmocka_unit_test(rays_end_on_the_surface),
         cmocka_unit_test(the_nearest_point_has_nothing_ahead),
+        cmocka_unit_test(what_touches_does_not_pass),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -218,6 +218,80 @@ static void slivers_are_met(void **state)
     free_mesh(&m);
 }
 
+// ---- boxes that move -----------------------------------------------------------------------------------------------
+typedef struct offers {
+    int32_t times[1200]; // by slot
+} offers;
+
+static double count_offer(void *context, int32_t slot)
+{
+    offers *o = context;
+    o->times[slot] += 1;
+    return 1.0;
+}
+
+// Does the box, `wider` on each side, meet the bounds of a triangle on its way?
+static int32_t meets_bounds(const fe__mesh *m, int32_t slot, const fe__mesh_way *way, double wider)
+{
+    fe_dvec3 v[3];
+    fe__mesh_corners(m, slot, v);
+    const double o[3] = {way->origin.x, way->origin.y, way->origin.z},
+                 half[3] = {way->half.x, way->half.y, way->half.z},
+                 d[3] = {way->translation.x, way->translation.y, way->translation.z};
+    const double a[3] = {v[0].x, v[0].y, v[0].z}, b[3] = {v[1].x, v[1].y, v[1].z}, c[3] = {v[2].x, v[2].y, v[2].z};
+    double enter = 0.0, leave = 1.0;
+    for (int32_t k = 0; k < 3; ++k) {
+        double least = fe__mind(fe__mind(a[k], b[k]), c[k]) - half[k] - wider - o[k],
+               most = fe__maxd(fe__maxd(a[k], b[k]), c[k]) + half[k] + wider - o[k];
+        if (d[k] == 0.0) {
+            if (least > 0.0 || most < 0.0) return 0;
+            continue;
+        }
+        enter = fe__maxd(enter, fe__mind(least / d[k], most / d[k]));
+        leave = fe__mind(leave, fe__maxd(least / d[k], most / d[k]));
+    }
+    return enter <= leave;
+}
+
+static int32_t check_offers(const fe__mesh *m, const fe__mesh_way *way, int32_t simd)
+{
+    const double doubt = 1e-9;
+    offers o = {{0}};
+    int32_t met = 0;
+    fe__mesh_casts_of(simd)->sweep(m, way, 1.0, count_offer, &o);
+    for (int32_t slot = 0; slot < m->triangle_count; ++slot) {
+        int32_t must = meets_bounds(m, slot, way, -doubt), may = meets_bounds(m, slot, way, doubt);
+        FE_WITHIN(o.times[slot], must, may);
+        met += must;
+    }
+    return met;
+}
+
+// Each triangle whose bounds the box meets is offered, once, and no other
+static void boxes_are_offered_what_lies_on_their_way(void **state)
+{
+    (void)state;
+    int32_t met = 0;
+    for (int32_t round = 0; round < 6; ++round) {
+        free_soup(&made);
+        soup_scatter(&made, 1000, round % 2 ? 0.1 : 0.4, &dice);
+        made_mesh m = mesh_of_soup(0);
+        fe__mesh scaled;
+        assert_int_equal(fe__mesh_scale(&m.mesh, (fe_vec3){-1.5f, 0.5f, 2.0f}, &scaled), -1);
+        for (int32_t i = 1; i < 20; ++i) {
+            fe_dvec3 half = random_point(0.2);
+            fe__mesh_way way = {random_point(1.5), random_point(2.0), {fe__absd(half.x), fe__absd(half.y), half.z}};
+            way.half.z = i % 3 ? fe__absd(half.z) : 0.0;
+            if (i % 5 == 0) way.translation.x = 0.0;
+            if (i % 7 == 0) way.translation.y = way.translation.z = 0.0;
+            for (int32_t simd = FE_SIMD_PLAIN; simd <= FE_SIMD_NEON; ++simd)
+                if (fe__kernels_of(simd)) met += check_offers(i % 2 ? &scaled : &m.mesh, &way, simd);
+        }
+        free_mesh(&m);
+    }
+    FE_TRUE(met > 1000);
+}
+
 // ---- laws ----------------------------------------------------------------------------------------------------------
 // The same triangle twice from other corners is dropped; here its vertices differ by what the ray does not see: z
 static void of_equal_distances_the_lowest_number_is_hit(void **state)
@@ -295,6 +369,7 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup(far_starts_lose_nothing, reset),
         cmocka_unit_test_setup(rays_are_those_of_all_triangles, reset),
         cmocka_unit_test_setup(slivers_are_met, reset),
+        cmocka_unit_test_setup(boxes_are_offered_what_lies_on_their_way, reset),
         cmocka_unit_test_setup(of_equal_distances_the_lowest_number_is_hit, reset),
         cmocka_unit_test_setup(at_a_vertex_the_lowest_number_is_hit, reset),
         cmocka_unit_test_setup(odd_rays, reset),
