@@ -354,12 +354,10 @@ static void report(const caster *c, double limit, fe__mesh_hit *out)
     fe__mesh_corners(c->mesh, c->slot, v);
     fe_dvec3 n = fe__dcross(fe__dsub(v[1], v[0]), fe__dsub(v[2], v[0]));
     double k = (c->is_back ? -1.0 : 1.0) / sqrt(fe__ddot(n, n));
-    *out = (fe__mesh_hit){.hit = {.t = fe__mind((c->moved + c->limit) * c->per_s, limit),
-                                  .normal = fe__dscale(k, n),
-                                  .triangle = c->number,
-                                  .index = c->slot},
-                          .is_back = c->is_back,
-                          .weights = {c->weights[0], c->weights[1], c->weights[2]}};
+    out->hit.t = fe__mind((c->moved + c->limit) * c->per_s, limit), out->hit.normal = fe__dscale(k, n);
+    out->hit.depth = 0.0, out->hit.inside = 0, out->hit.triangle = c->number, out->hit.index = c->slot;
+    out->is_back = c->is_back;
+    for (int32_t i = 0; i < 3; ++i) out->weights[i] = c->weights[i];
 }
 
 static int32_t ray(const fe__mesh *mesh, fe_dvec3 origin, fe_dvec3 translation, double limit, fe__mesh_hit *hit)

@@ -190,6 +190,23 @@ static void weigh_sliver(const fe__gjk *g, double *weight)
     weight[from] = along[0], weight[(from + 1) % 3] = along[1], weight[(from + 2) % 3] = 0.0;
 }
 
+// The simplex before its last vertex
+typedef struct kept {
+    fe__vertex vertex[3];
+    double weight[3];
+    int32_t count;
+} kept;
+static void keep(const fe__gjk *g, const double *weight, kept *k)
+{
+    k->count = g->count;
+    for (int32_t i = 0; i < g->count; ++i) k->vertex[i] = g->vertex[i], k->weight[i] = weight[i];
+}
+static void take_back(const kept *k, fe__gjk *g, double *weight)
+{
+    g->count = k->count;
+    for (int32_t i = 0; i < k->count; ++i) g->vertex[i] = k->vertex[i], weight[i] = k->weight[i];
+}
+
 // From the vertices that the result has, one to three
 static void approach_origin(const fe__cores *cores, double limit, int32_t closely, fe__gjk *g)
 {
@@ -215,16 +232,15 @@ static void approach_origin(const fe__cores *cores, double limit, int32_t closel
         if (along > 0.0) apart_by = fe__maxd(apart_by, along / sqrt(square));
         int32_t apart = along > 0.0 && along * along > limit * limit * square;
         if (apart || square - along <= CONVERGED * square || is_known(g, &w)) break;
-        fe__gjk last = *g;
-        double last_weight[4] = {weight[0], weight[1], weight[2], weight[3]};
+        kept last;
+        keep(g, weight, &last);
         g->vertex[g->count++] = w;
         if (g->count < 4) {
             g->count = fe__nearest_in_simplex(g->vertex, weight, g->count);
         } else if (weigh_tetrahedron(g->vertex, weight, g->size)) {
             g->count = drop_weightless(g->vertex, weight, 4);
         } else if (curved && apart_by > near) {
-            *g = last;
-            for (int32_t i = 0; i < 4; ++i) weight[i] = last_weight[i];
+            take_back(&last, g, weight);
             break;
         } else {
             g->overlap = 1;
@@ -233,8 +249,7 @@ static void approach_origin(const fe__cores *cores, double limit, int32_t closel
         fe_dvec3 nearer =
             curved || closely ? foot(g->vertex, weight, g->count, g->size) : weighted(g->vertex, weight, g->count);
         if (fe__ddot(nearer, nearer) >= square) { // rounding: no nearer point is found
-            *g = last;
-            for (int32_t i = 0; i < 4; ++i) weight[i] = last_weight[i];
+            take_back(&last, g, weight);
             break;
         }
         v = nearer;
