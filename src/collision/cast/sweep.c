@@ -116,8 +116,8 @@ int32_t fe__form_overlap(const fe__form *still, const fe__mover *mover)
 
 // ---- sweeps --------------------------------------------------------------------------------------------------------
 // Newton's method from `t` to where the distance is `goal`, to the left of it by at most `tolerance`. 0: it never comes
-// so near. `gap` is that at t, before and after.
-static int32_t advance(const fe__approach *s, double goal, double tolerance, double *t, fe__core_gap *gap)
+// so near until `limit`. `gap` is that at t, before and after.
+static int32_t advance(const fe__approach *s, double goal, double tolerance, double limit, double *t, fe__core_gap *gap)
 {
     for (int32_t i = 0;; ++i) {
         if (i > 0) fe__core_gap_of(s, fe__approach_at(s, *t), gap);
@@ -125,7 +125,7 @@ static int32_t advance(const fe__approach *s, double goal, double tolerance, dou
         if (!(rate < 0.0)) return 0;
         if (gap->distance <= goal + tolerance || i == MAX_STEPS) return 1;
         *t += (gap->distance - goal) / -rate;
-        if (!(*t <= 1.0)) return 0;
+        if (!(*t <= limit)) return 0;
     }
 }
 
@@ -137,10 +137,10 @@ static int32_t sweep_round(const fe__approach *s, const fe__core_gap *start, dou
     fe__core_gap gap = *start;
     fe_dvec3 first = fe__approach_at(s, 0.0);
     if (memcmp(&first, &s->position, sizeof first) != 0) fe__core_gap_of(s, first, &gap); // -0 became 0
-    if (!advance(s, s->radius + s->gap, tolerance, &t, &gap) || !(t <= limit)) return 0;
+    if (!advance(s, s->radius + s->gap, tolerance, fe__mind(limit, 1.0), &t, &gap) || !(t <= limit)) return 0;
     *hit = (fe__approach_hit){t, fe__dscale(1.0 / gap.distance, gap.away), gap.on_frame};
     clearance = fe__mind(gap.distance - s->radius, s->gap);
-    return advance(s, s->radius + 0.5 * clearance, (double)GAP_TOLERANCE * clearance, &t, &gap);
+    return advance(s, s->radius + 0.5 * clearance, (double)GAP_TOLERANCE * clearance, 1.0, &t, &gap);
 }
 
 int32_t fe__approach_sweep(const fe__approach *s, const fe__core_overlap *overlap, double limit, fe__approach_hit *hit)
