@@ -181,12 +181,12 @@ static fe__mesh_edge bend(const workroom *w, uint32_t a, uint32_t b)
 {
     half_edge x = read_half(w, a), y = read_half(w, b);
     if (x.third == y.third) return FE__MESH_EDGE_CONVEX; // back to back
-    fe_dvec3 v[3], u[3];
+    fe_dvec3 v[3], u[3], third = fe__widen(fe__mesh_source_vertex(w->builder->source, y.third));
     read_triangle(w, a >> HALF_BITS, v);
+    fe_dvec3 n = normal_of(v);
+    if (!(fe__ddot(n, fe__dsub(third, v[a & HALF_MASK])) < 0.0)) return FE__MESH_EDGE_SMOOTH;
     read_triangle(w, b >> HALF_BITS, u);
-    fe_dvec3 n = normal_of(v), m = normal_of(u);
-    fe_dvec3 start = v[a & HALF_MASK], third = u[last_corner[b & HALF_MASK]];
-    if (!(fe__ddot(n, fe__dsub(third, start)) < 0.0)) return FE__MESH_EDGE_SMOOTH;
+    fe_dvec3 m = normal_of(u);
     double cosine = fe__ddot(n, m) / sqrt(fe__ddot(n, n) * fe__ddot(m, m));
     return cosine < w->least_cosine ? FE__MESH_EDGE_CONVEX : FE__MESH_EDGE_BENT;
 }

@@ -95,18 +95,26 @@ static int32_t slot_number(const fe__mesh_builder *b, int32_t slot)
     return (int32_t)(b->order[slot] & ~FE__MESH_HAS_SHORTCUT);
 }
 
-// Vertices that a leaf would bring to the group
-static uint32_t count_new(const grouping *g, int32_t leaf, int32_t end)
+enum { CORNERS = 3 * FE__MESH_LEAF };
+
+// Of a leaf, corner by corner; returns how many
+static int32_t read_vertices(const fe__mesh_builder *b, int32_t leaf, uint32_t vertex[CORNERS])
 {
-    const fe__mesh_builder *b = g->builder;
-    uint32_t seen[3 * FE__MESH_LEAF], count = 0;
-    for (int32_t slot = FE__MESH_LEAF * leaf; slot < end; ++slot) {
-        for (int32_t k = 0; k < 3; ++k) {
-            uint32_t vertex = fe__mesh_welded(b, slot_number(b, slot), k), i = 0;
-            if (b->place[vertex] >> PLACE_BITS == g->group) continue;
-            while (i < count && seen[i] != vertex) ++i;
-            if (i == count) seen[count++] = vertex;
-        }
+    int32_t end = fe__mini(FE__MESH_LEAF * leaf + FE__MESH_LEAF, b->mesh.triangle_count), count = 0;
+    for (int32_t slot = FE__MESH_LEAF * leaf; slot < end; ++slot)
+        for (int32_t k = 0; k < 3; ++k) vertex[count++] = fe__mesh_welded(b, slot_number(b, slot), k);
+    return count;
+}
+
+// Of these vertices, those that are new to the group
+static uint32_t count_new(const grouping *g, const uint32_t *vertex, int32_t vertex_count)
+{
+    uint32_t seen[CORNERS], count = 0;
+    for (int32_t k = 0; k < vertex_count; ++k) {
+        uint32_t i = 0;
+        if (g->builder->place[vertex[k]] >> PLACE_BITS == g->group) continue;
+        while (i < count && seen[i] != vertex[k]) ++i;
+        if (i == count) seen[count++] = vertex[k];
     }
     return count;
 }
@@ -116,23 +124,24 @@ static uint32_t count_new(const grouping *g, int32_t leaf, int32_t end)
 static void add_leaf(grouping *g, int32_t leaf, float *vertices, fe__mesh_leaf *out)
 {
     fe__mesh_builder *b = g->builder;
-    int32_t end = fe__mini(FE__MESH_LEAF * leaf + FE__MESH_LEAF, b->mesh.triangle_count);
-    if (g->count + count_new(g, leaf, end) > FE__MESH_GROUP) {
+    uint32_t vertex[CORNERS];
+    int32_t corners = read_vertices(b, leaf, vertex);
+    if (g->count + count_new(g, vertex, corners) > FE__MESH_GROUP) {
         g->first += g->count;
         g->group += 1;
         g->count = 0;
     }
     if (out) out->first_vertex = g->first;
-    for (int32_t slot = FE__MESH_LEAF * leaf; slot < end; ++slot) {
-        for (int32_t k = 0; k < 3; ++k) {
-            uint32_t vertex = fe__mesh_welded(b, slot_number(b, slot), k), *place = b->place + vertex;
-            if (*place >> PLACE_BITS != g->group) {
-                fe_vec3 v = fe__mesh_source_vertex(b->source, vertex);
-                if (vertices) memcpy(vertices + 3 * ((size_t)g->first + g->count), &v, sizeof v);
-                *place = g->group << PLACE_BITS | g->count++;
+    for (int32_t k = 0; k < corners; ++k) {
+        uint32_t *place = b->place + vertex[k];
+        if (*place >> PLACE_BITS != g->group) {
+            if (vertices) {
+                fe_vec3 v = fe__mesh_source_vertex(b->source, vertex[k]);
+                memcpy(vertices + 3 * ((size_t)g->first + g->count), &v, sizeof v);
             }
-            if (out) out->corner[slot % FE__MESH_LEAF][k] = (uint8_t)(*place & (FE__MESH_GROUP - 1));
+            *place = g->group << PLACE_BITS | g->count++;
         }
+        if (out) out->corner[k / 3][k % 3] = (uint8_t)(*place & (FE__MESH_GROUP - 1));
     }
 }
 
