@@ -108,10 +108,11 @@ static int32_t find_nearest(const contest *c, fe_dvec3 lowest, fe__touch *found)
     if (gjk.distance > (double)c->g->margin) return 0;
     if (gjk.overlap) {
         fe__penetration p = fe__epa_depth(&cores, &gjk);
-        *found = (fe__touch){fe__narrow(p.normal), (float)-p.depth, fe__narrow(p.on_a), fe__narrow(p.on_b), 1};
+        *found = (fe__touch){fe__narrow(p.normal), (float)-p.depth, fe__narrow(p.on_a), fe__narrow(p.on_b), 1, -1};
     } else {
         fe_dvec3 normal = fe__dscale(1.0 / gjk.distance, fe__dsub(gjk.on_b, gjk.on_a));
-        *found = (fe__touch){fe__narrow(normal), (float)gjk.distance, fe__narrow(gjk.on_a), fe__narrow(gjk.on_b), 0};
+        *found =
+            (fe__touch){fe__narrow(normal), (float)gjk.distance, fe__narrow(gjk.on_a), fe__narrow(gjk.on_b), 0, -1};
     }
     return 1;
 }

@@ -120,6 +120,21 @@ int32_t fe__tile_is_convex(const fe__terrain *t, const fe__tile *tile, int32_t s
     return fe__dot(tile->normal, fe__sub(third_of(t, tile, side), tile->form.vertex[side])) < -FLAT * tile->size;
 }
 
+static int32_t goes_on_beyond(const fe__terrain *t, const fe__tile *tile, int32_t side)
+{
+    const fe__mesh *m = t->ground.mesh;
+    if (m) return !m->is_two_sided && fe__mesh_edge_of(m, tile->index, side) < FE__MESH_EDGE_OPEN;
+    return fe__tile_beyond(t, tile, side) >= 0;
+}
+
+int32_t fe__tile_is_known(const fe__terrain *t, const fe__tile *tile)
+{
+    int32_t known = 0;
+    for (int32_t i = 0; i < t->known_count; ++i) known |= fe__dot(t->known[i], tile->normal) > FE__SAME_NORMAL;
+    for (int32_t k = 0; k < 3 && known; ++k) known = goes_on_beyond(t, tile, k);
+    return known;
+}
+
 // ---- beyond the border ---------------------------------------------------------------------------------------------
 static fe_dvec3 into(const fe__neighbour *n, fe_vec3 p)
 {
