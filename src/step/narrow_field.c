@@ -29,10 +29,36 @@ typedef struct pair_view {
     const fe__shape *field, *other;
     fe_vec3 known[FE__PATCHES]; // normals of what touches now, the field's frame
     int32_t known_count;
-    float dt, speed_limit; // s; m/s that no point of either body exceeds
+    const fe__mesh_near *near; // triangles of all looks, or NULL
+    float dt, speed_limit;     // s; m/s that no point of either body exceeds
 } pair_view;
 
 // ---- one look ------------------------------------------------------------------------------------------------------
+static fe__terrain terrain_of(const pair_view *p, const fe__pose *pose_field, const fe__pose *pose_other,
+                              const fe__surroundings *around)
+{
+    fe__ground ground = fe__store_ground(p->world->store, &p->field->form);
+    ground.near = p->near;
+    return (fe__terrain){ground,
+                         fe__drotate_back(pose_field->rotation, fe__dsub(pose_other->position, pose_field->position)),
+                         around, p->known, p->known_count};
+}
+
+static fe__mat3 rotation_of(const fe__pose *pose_field, const fe__pose *pose_other)
+{
+    return fe__matrix(fe__product(fe__conjugate(pose_field->rotation), pose_other->rotation));
+}
+
+// Those that a look may ask for, which begins where the bodies are and ends no more than `reach` from there
+static const fe__mesh_near *find_near(const pair_view *p, float margin, float reach, fe__mesh_near *room)
+{
+    const fe__pose *field = &p->field->pose, *other = &p->other->pose;
+    fe__terrain terrain = terrain_of(p, field, other, NULL);
+    fe__mat3 rotation = rotation_of(field, other);
+    float most = reach > margin ? reach + margin : margin;
+    return fe__find_near_triangles(&terrain, &p->other->form, &rotation, most, room) ? room : NULL;
+}
+
 static void look_at(const pair_view *p, const fe__pose *pose_field, const fe__pose *pose_other, float margin,
                     float *gap, look *l)
 {
@@ -44,10 +70,8 @@ static void look_at(const pair_view *p, const fe__pose *pose_field, const fe__po
     l->v.form_a = p->field->form;
     fe__surroundings around; // their numbers say how many are written
     fe__find_surroundings(w, &l->v, p->field, p->other, &around);
-    fe__terrain terrain = {fe__store_ground(w->store, &p->field->form),
-                           fe__drotate_back(pose_field->rotation, fe__dsub(pose_other->position, pose_field->position)),
-                           &around, p->known, p->known_count};
-    fe__mat3 rotation = fe__matrix(fe__product(fe__conjugate(pose_field->rotation), pose_other->rotation));
+    fe__terrain terrain = terrain_of(p, pose_field, pose_other, &around);
+    fe__mat3 rotation = rotation_of(pose_field, pose_other);
     l->v.relative.rotation = rotation;
     l->count = fe__collide_terrain(&terrain, &p->other->form, &rotation, margin, l->patches, gap);
 }
@@ -238,6 +262,8 @@ void fe__collide_field_pair(const fe__step *step, int32_t head)
                       .dt = step->dt};
     float dt = step->dt, margin = world->tuning.speculative_distance, reach = fe__reach_in_step(step, view.a, view.b);
     view.speed_limit = dt > 0.0f ? reach / dt : 0.0f;
+    fe__mesh_near room;
+    view.near = find_near(&view, margin, reach, &room);
     look now, then;
     float gap; // without patches
     now.at =

@@ -115,7 +115,7 @@ static inline const fe__heightfield *fe__store_field(const fe_store *store, int3
 static inline fe__ground fe__store_ground(const fe_store *store, const fe__form *form)
 {
     const fe__asset *a = fe__store_asset(store, form->field);
-    return a->kind == FE__ASSET_MESH ? (fe__ground){NULL, &a->mesh} : (fe__ground){&a->field, NULL};
+    return a->kind == FE__ASSET_MESH ? (fe__ground){NULL, &a->mesh, NULL} : (fe__ground){&a->field, NULL, NULL};
 }
 
 // Of a shape; `triangle`: the number of one of its surface, -1: none in particular

@@ -293,7 +293,7 @@ static void walks_find_every_triangle(void **state)
     for (int32_t i = 0; i < SCALES; ++i) {
         fe__mesh scaled;
         assert_int_equal(fe__mesh_scale(&own.mesh, scales[i], &scaled), -1);
-        fe__ground ground = {NULL, &scaled};
+        fe__ground ground = {NULL, &scaled, NULL};
         for (int32_t round = 0; round < 40; ++round) {
             fe_dvec3 at = times(scales[i], random_point(1.2)), half = times(scales[i], random_point(0.4));
             half = (fe_dvec3){fe__absd(half.x), fe__absd(half.y), fe__absd(half.z)};
@@ -366,7 +366,7 @@ static void the_nearest_point_is_that_of_the_scaled_mesh(void **state)
     assert_int_equal(fe__mesh_scale(&own.mesh, scale, &scaled), -1);
     scale_soup(scale);
     made_mesh other = mesh_of_soup(0);
-    fe__ground a = {NULL, &other.mesh}, b = {NULL, &scaled};
+    fe__ground a = {NULL, &other.mesh, NULL}, b = {NULL, &scaled, NULL};
     for (int32_t i = 0; i < 2000; ++i) {
         fe_dvec3 p = times(scale, random_point(1.5));
         fe__nearest x, y;

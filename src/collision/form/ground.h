@@ -6,10 +6,11 @@
 #include "collision/form/heightfield.h"
 #include "collision/form/mesh_walk.h"
 
-// One of the two, the other is NULL
+// One of the first two, the other is NULL
 typedef struct fe__ground {
     const fe__heightfield *field;
     const fe__mesh *mesh;
+    const fe__mesh_near *near; // of the mesh, or NULL
 } fe__ground;
 
 // The number by which the caller knows the triangle
@@ -46,7 +47,7 @@ static inline void fe__ground_begin(fe__ground_walk *walk, const fe__ground *s, 
 {
     walk->is_mesh = s->mesh != NULL;
     if (walk->is_mesh)
-        fe__mesh_walk_begin(&walk->mesh, s->mesh, box, origin);
+        fe__mesh_walk_begin(&walk->mesh, s->mesh, s->near, box, origin);
     else
         walk->field = fe__heightfield_walk(s->field, box, origin);
 }

@@ -49,6 +49,16 @@ static fe__bounds bounds_around(const fe__terrain *t, const fe__form *b, const f
     return (fe__bounds){fe__dsub(t->origin, fe__widen(w)), fe__dadd(t->origin, fe__widen(w))};
 }
 
+int32_t fe__find_near_triangles(const fe__terrain *t, const fe__form *b, const fe__mat3 *rotation, float margin,
+                                fe__mesh_near *near)
+{
+    const float more = 0.002f; // m: what is asked for at the rim of a look's box lies inside
+    if (!t->ground.mesh) return 0;
+    fe__bounds box = bounds_around(t, b, rotation, margin + more);
+    fe__mesh_find_near(t->ground.mesh, &box, near);
+    return 1;
+}
+
 // Is a triangle farther than `reach` from a round form's core, whose box has the half widths `core`? Then it has no
 // point of it.
 static int32_t is_beyond(const fe_vec3 v[3], fe_vec3 core, float reach)
