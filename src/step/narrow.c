@@ -273,6 +273,13 @@ FE_INLINE fe_vec3 solvers_normal(const fe__contact *m, const fe__view *v, fe_vec
     return m->body_a != v->a->body ? fe__neg(n) : n;
 }
 
+// and back
+static fe_vec3 kernels_normal(const fe__contact *m, const fe__view *v)
+{
+    fe_vec3 n = fe__mul_transposed(&v->rotation, fe__quad_vector(m->normal));
+    return m->body_a != v->a->body ? fe__neg(n) : n;
+}
+
 static void write_contact(fe__contact *m, const fe__view *v, const fe__manifold *found, int32_t a_is_b)
 {
     fe__copy3(m->normal, solvers_normal(m, v, found->normal));
@@ -398,6 +405,7 @@ static int32_t collide(const fe__step *step, int32_t pair, int32_t writes_points
         set_view(&v, x, y, &x->pose, &y->pose);
     fe__manifold found; // its points stay unwritten
     found.axis = p->axis, found.axis_separation = p->axis_separation, found.count = (int32_t)m->point_count;
+    if (p->axis >= 0) found.last = kernels_normal(m, &v);
     fe__collide(&v.form_a, &v.b->form, &v.relative, fe__maxf(margin, reach), &found);
     if (a->type == FE_BODY_STATIC) fe__mend_seam(world, &v, fe__maxf(margin, reach), &found);
     int32_t axis = found.axis;

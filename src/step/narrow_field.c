@@ -21,18 +21,46 @@ typedef struct look {
     fe__places at;
     fe__patch patches[FE__PATCHES];
     int32_t count;
-    float gap; // without patches
 } look;
 
 typedef struct pair_view {
     const fe_world *world;
     const fe__body *a, *b; // the solver's
     const fe__shape *field, *other;
-    float dt, speed_limit; // s; m/s that no point of either body exceeds
+    fe_vec3 known[FE__PATCHES]; // normals of what touches now, the field's frame
+    int32_t known_count;
+    const fe__mesh_near *near; // triangles of all looks, or NULL
+    float dt, speed_limit;     // s; m/s that no point of either body exceeds
 } pair_view;
 
 // ---- one look ------------------------------------------------------------------------------------------------------
-static void look_at(const pair_view *p, const fe__pose *pose_field, const fe__pose *pose_other, float margin, look *l)
+static fe__terrain terrain_of(const pair_view *p, const fe__pose *pose_field, const fe__pose *pose_other,
+                              const fe__surroundings *around)
+{
+    fe__ground ground = fe__store_ground(p->world->store, &p->field->form);
+    ground.near = p->near;
+    return (fe__terrain){ground,
+                         fe__drotate_back(pose_field->rotation, fe__dsub(pose_other->position, pose_field->position)),
+                         around, p->known, p->known_count};
+}
+
+static fe__mat3 rotation_of(const fe__pose *pose_field, const fe__pose *pose_other)
+{
+    return fe__matrix(fe__product(fe__conjugate(pose_field->rotation), pose_other->rotation));
+}
+
+// Those that a look may ask for, which begins where the bodies are and ends no more than `reach` from there
+static const fe__mesh_near *find_near(const pair_view *p, float margin, float reach, fe__mesh_near *room)
+{
+    const fe__pose *field = &p->field->pose, *other = &p->other->pose;
+    fe__terrain terrain = terrain_of(p, field, other, NULL);
+    fe__mat3 rotation = rotation_of(field, other);
+    float most = reach > margin ? reach + margin : margin;
+    return fe__find_near_triangles(&terrain, &p->other->form, &rotation, most, room) ? room : NULL;
+}
+
+static void look_at(const pair_view *p, const fe__pose *pose_field, const fe__pose *pose_other, float margin,
+                    float *gap, look *l)
 {
     const fe_world *w = p->world;
     l->v = (fe__view){.a = p->field,
@@ -42,12 +70,10 @@ static void look_at(const pair_view *p, const fe__pose *pose_field, const fe__po
     l->v.form_a = p->field->form;
     fe__surroundings around; // their numbers say how many are written
     fe__find_surroundings(w, &l->v, p->field, p->other, &around);
-    fe__terrain terrain = {fe__store_ground(w->store, &p->field->form),
-                           fe__drotate_back(pose_field->rotation, fe__dsub(pose_other->position, pose_field->position)),
-                           &around};
-    fe__mat3 rotation = fe__matrix(fe__product(fe__conjugate(pose_field->rotation), pose_other->rotation));
+    fe__terrain terrain = terrain_of(p, pose_field, pose_other, &around);
+    fe__mat3 rotation = rotation_of(pose_field, pose_other);
     l->v.relative.rotation = rotation;
-    l->count = fe__collide_terrain(&terrain, &p->other->form, &rotation, margin, l->patches, &l->gap);
+    l->count = fe__collide_terrain(&terrain, &p->other->form, &rotation, margin, l->patches, gap);
 }
 
 static void look_after(const pair_view *p, float time, float margin, look *l)
@@ -58,7 +84,7 @@ static void look_after(const pair_view *p, float time, float margin, look *l)
     int32_t field_is_a = p->world->bodies + p->field->body == p->a;
     fe__pose pose_a = fe__shape_pose_at(p->a, field_is_a ? p->field : p->other, at->centre_a, at->rotation_a);
     fe__pose pose_b = fe__shape_pose_at(p->b, field_is_a ? p->other : p->field, at->centre_b, at->rotation_b);
-    look_at(p, field_is_a ? &pose_a : &pose_b, field_is_a ? &pose_b : &pose_a, margin, l);
+    look_at(p, field_is_a ? &pose_a : &pose_b, field_is_a ? &pose_b : &pose_a, margin, NULL, l);
 }
 
 static float deepest_of(const look *l)
@@ -204,12 +230,11 @@ static void write_records(fe_world *world, int32_t head, plan *plans, int32_t co
 // Patches with a normal that `now` does not have
 static int32_t add_new_directions(plan *plans, int32_t count, const look *then)
 {
-    const float same = 0.9995f; // cosine: 1.8 degrees
     int32_t old = count;
     for (int32_t i = 0; i < then->count && count < FE__PATCHES; ++i) {
         plan x = {.from = then, .patch = then->patches + i};
         int32_t known = 0;
-        for (int32_t k = 0; k < old; ++k) known |= fe__dot(world_normal(plans + k), world_normal(&x)) > same;
+        for (int32_t k = 0; k < old; ++k) known |= fe__dot(world_normal(plans + k), world_normal(&x)) > FE__SAME_NORMAL;
         if (!known) plans[count++] = x;
     }
     return count;
@@ -229,14 +254,21 @@ void fe__collide_field_pair(const fe__step *step, int32_t head)
     const fe__contact *m = world->contacts + head;
     const fe__shape *x = world->shapes + p->shape_a, *y = world->shapes + p->shape_b;
     int32_t swapped = !fe__form_is_field(&x->form), sensor = (p->flags & FE__PAIR_SENSOR) != 0;
-    pair_view view = {
-        world, world->bodies + m->body_a, world->bodies + m->body_b, swapped ? y : x, swapped ? x : y, step->dt, 0.0f};
+    pair_view view = {.world = world,
+                      .a = world->bodies + m->body_a,
+                      .b = world->bodies + m->body_b,
+                      .field = swapped ? y : x,
+                      .other = swapped ? x : y,
+                      .dt = step->dt};
     float dt = step->dt, margin = world->tuning.speculative_distance, reach = fe__reach_in_step(step, view.a, view.b);
     view.speed_limit = dt > 0.0f ? reach / dt : 0.0f;
+    fe__mesh_near room;
+    view.near = find_near(&view, margin, reach, &room);
     look now, then;
+    float gap; // without patches
     now.at =
         (fe__places){fe__centre_of(view.a), fe__centre_of(view.b), fe__rotation_of(view.a), fe__rotation_of(view.b)};
-    look_at(&view, &view.field->pose, &view.other->pose, fe__maxf(margin, reach), &now);
+    look_at(&view, &view.field->pose, &view.other->pose, fe__maxf(margin, reach), &gap, &now);
 
     plan plans[FE__PATCHES];
     int32_t count = 0, ahead = 0;
@@ -247,12 +279,14 @@ void fe__collide_field_pair(const fe__step *step, int32_t head)
             ahead = look_ahead(&view, &now, &then);
             if (ahead) count = add_new_directions(plans, 0, &then);
         } else if (reach > margin) { // it rolls or slides: into what rises before it
+            for (int32_t i = 0; i < count; ++i) view.known[i] = plans[i].patch->normal;
+            view.known_count = count;
             look_after(&view, dt, margin, &then);
-            ahead = then.count > 0;
-            if (ahead) count = add_new_directions(plans, count, &then);
+            ahead = 1;
+            count = add_new_directions(plans, count, &then);
         }
     }
-    float tolerance = ahead ? 0.0f : now.count ? fe__recycle_tolerance(&now.v) : fe__slack(now.gap, margin);
+    float tolerance = ahead ? 0.0f : now.count ? fe__recycle_tolerance(&now.v) : fe__slack(gap, margin);
     if (!count && now.count) tolerance = 0.0f;
     write_records(world, head, plans, count, &now, tolerance);
 }

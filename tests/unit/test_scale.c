@@ -299,6 +299,10 @@ static void walks_find_every_triangle(void **state)
             half = (fe_dvec3){fe__absd(half.x), fe__absd(half.y), fe__absd(half.z)};
             fe__bounds box = {fe__dsub(at, half), fe__dadd(at, half)};
             if (round == 0) box = (fe__bounds){{-1e300, -1e300, -(double)INFINITY}, {1e300, 1e300, (double)INFINITY}};
+            fe__bounds wide = {fe__dsub(box.low, half), fe__dadd(box.high, half)};
+            fe__mesh_near near;
+            fe__mesh_find_near(&scaled, &wide, &near); // and the same from what was found for a wider one
+            ground.near = round % 2 ? &near : NULL;
             uint8_t seen[8 * 64] = {0};
             fe__ground_walk walk;
             fe__form triangle;

@@ -223,8 +223,12 @@ static void take_back(const kept *k, fe__gjk *g, double *weight)
     for (int32_t i = 0; i < k->count; ++i) g->vertex[i] = k->vertex[i], weight[i] = k->weight[i];
 }
 
-// From the vertices that the result has, one to three
-static void approach_origin(const fe__cores *cores, double limit, int32_t closely, fe__gjk *g)
+// of the distance: what the plane between two that are apart has to show
+#define GAP_SHARE 0.5
+
+// From the vertices that the result has, one to three. `share`: of the distance, that a plane shows before what is
+// farther than the limit is left
+static void approach_origin(const fe__cores *cores, double limit, double share, int32_t closely, fe__gjk *g)
 {
     double overlap_size = closely ? CLOSE_SIZE : OVERLAP_SIZE;
     double weight[4];
@@ -234,19 +238,21 @@ static void approach_origin(const fe__cores *cores, double limit, int32_t closel
         g->size = fe__maxd(g->size, sqrt(fe__ddot(g->vertex[i].difference, g->vertex[i].difference)));
     g->count = fe__nearest_in_simplex(g->vertex, weight, g->count);
     fe_dvec3 v = weighted(g->vertex, weight, g->count);
-    double apart_by = 0.0; // no nearer than that: a sliver that seems to hold the origin does not
+    g->apart_by = 0.0; // no nearer than that: a sliver that seems to hold the origin does not
+    g->across = (fe_dvec3){0.0, 0.0, 0.0};
     for (int32_t iteration = 0; iteration < MAX_ITERATIONS; ++iteration) {
         double square = fe__ddot(v, v), near = overlap_size * g->size;
         if (square <= near * near) {
-            g->overlap = !(curved && apart_by > near);
+            g->overlap = !(curved && g->apart_by > near);
             break;
         }
         fe__vertex w = fe__cores_support(cores, fe__dscale(-1.0, v));
         g->size = fe__maxd(g->size, sqrt(fe__ddot(w.difference, w.difference)));
         // the plane through w across v separates: distance >= v . w / |v|
         double along = fe__ddot(v, w.difference);
-        if (along > 0.0) apart_by = fe__maxd(apart_by, along / sqrt(square));
-        int32_t apart = along > 0.0 && along * along > limit * limit * square;
+        double bound = along / sqrt(square);
+        if (bound > g->apart_by) g->apart_by = bound, g->across = v;
+        int32_t apart = along > share * square && along * along > limit * limit * square;
         if (apart || square - along <= CONVERGED * square || is_known(g, &w)) break;
         kept last;
         keep(g, weight, &last);
@@ -255,7 +261,7 @@ static void approach_origin(const fe__cores *cores, double limit, int32_t closel
             g->count = fe__nearest_in_simplex(g->vertex, weight, g->count);
         } else if (weigh_tetrahedron(g->vertex, weight, g->size)) {
             g->count = drop_weightless(g->vertex, weight, 4);
-        } else if (curved && apart_by > near) {
+        } else if (curved && g->apart_by > near) {
             take_back(&last, g, weight);
             break;
         } else {
@@ -281,16 +287,25 @@ static void begin(const fe__cores *cores, fe__gjk *g)
     g->count = 1;
 }
 
-void fe__gjk_distance_from(const fe__cores *cores, double limit, fe__gjk *g) { approach_origin(cores, limit, 0, g); }
+void fe__gjk_distance_from(const fe__cores *cores, double limit, fe__gjk *g)
+{
+    approach_origin(cores, limit, 0.0, 0, g);
+}
 
 void fe__gjk_distance(const fe__cores *cores, double limit, fe__gjk *g)
 {
     begin(cores, g);
-    approach_origin(cores, limit, 0, g);
+    approach_origin(cores, limit, 0.0, 0, g);
+}
+
+void fe__gjk_distance_or_gap(const fe__cores *cores, double limit, fe__gjk *g)
+{
+    begin(cores, g);
+    approach_origin(cores, limit, GAP_SHARE, 0, g);
 }
 
 void fe__gjk_distance_closely(const fe__cores *cores, fe__gjk *g)
 {
     begin(cores, g);
-    approach_origin(cores, (double)INFINITY, 1, g);
+    approach_origin(cores, (double)INFINITY, 0.0, 1, g);
 }

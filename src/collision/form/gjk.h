@@ -36,10 +36,15 @@ typedef struct fe__gjk {
     int32_t count; // 1..4 vertices: around the nearest point, or around the origin
     fe__vertex vertex[4];
     double size; // of the largest difference met, m: what distances are precise against
+    // the best of the planes met: A lies against `across` of it, B `apart_by` beyond; 0 where none parts them
+    double apart_by;
+    fe_dvec3 across; // of any length
 } fe__gjk;
 
 // Stops early, with a distance above `limit`, as soon as they are known to be farther apart.
 void fe__gjk_distance(const fe__cores *cores, double limit, fe__gjk *result);
+// The same, but of what is farther apart a plane is found that has half the distance, or more, between the two.
+void fe__gjk_distance_or_gap(const fe__cores *cores, double limit, fe__gjk *result);
 // The same from a guess: one to three vertices of the difference, which the result has already. Three are no sliver.
 void fe__gjk_distance_from(const fe__cores *cores, double limit, fe__gjk *result);
 // Cores overlap from 1e-10 of their size on, where a normal is known to the last digit of a float. This one tells 2e-14

@@ -124,7 +124,8 @@ static int32_t rises(const fe__ground *s, fe_dvec3 p, fe_dvec3 m, double near, c
         for (int32_t k = 0; k < 3; ++k) {
             fe_dvec3 way = fe__dsub(v[k], p);
             double rise = fe__ddot(m, way);
-            is_higher |= rise > FLAT * sqrt(fe__ddot(way, way)) + near, may_rise |= rise > FLAT * near;
+            may_rise |= rise > FLAT * near;
+            if (rise > near) is_higher |= rise > FLAT * sqrt(fe__ddot(way, way)) + near;
         }
         // across a sliver, whose corners are far off, each to one side
         if (!is_higher && may_rise) is_higher = length_of_rise(v, p, m) > near;

@@ -12,6 +12,7 @@ typedef struct fe__ground {
     const fe__heightfield *field; // one of the two, the other is NULL
     const fe__mesh *mesh;
     const fe__mesh_casts *casts; // of a SIMD set, NULL: of plain C
+    const fe__mesh_near *near;   // of the mesh, or NULL
 } fe__ground;
 
 // The number by which the caller knows the triangle
@@ -48,7 +49,7 @@ static inline void fe__ground_begin(fe__ground_walk *walk, const fe__ground *s, 
 {
     walk->is_mesh = s->mesh != NULL;
     if (walk->is_mesh)
-        fe__mesh_walk_begin(&walk->mesh, s->mesh, box, origin);
+        fe__mesh_walk_begin(&walk->mesh, s->mesh, s->near, box, origin);
     else
         walk->field = fe__heightfield_walk(s->field, box, origin);
 }

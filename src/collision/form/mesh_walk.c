@@ -13,7 +13,15 @@ static void unscale(double scale, double *low, double *high)
     *low = from - rounding * fe__absd(from), *high = to + rounding * fe__absd(to);
 }
 
-void fe__mesh_walk_begin(fe__mesh_walk *walk, const fe__mesh *mesh, const fe__bounds *box, fe_dvec3 origin)
+static int32_t serves(const fe__mesh_near *near, const fe__bounds *box)
+{
+    const fe_dvec3 *low = &near->box.low, *high = &near->box.high;
+    return near->count >= 0 && box->low.x >= low->x && box->low.y >= low->y && box->low.z >= low->z &&
+           box->high.x <= high->x && box->high.y <= high->y && box->high.z <= high->z;
+}
+
+void fe__mesh_walk_begin(fe__mesh_walk *walk, const fe__mesh *mesh, const fe__mesh_near *near, const fe__bounds *box,
+                         fe_dvec3 origin)
 {
     walk->mesh = mesh, walk->box = *box, walk->origin = origin;
     if (mesh->is_scaled) {
@@ -24,8 +32,9 @@ void fe__mesh_walk_begin(fe__mesh_walk *walk, const fe__mesh *mesh, const fe__bo
     const double low[4] = {walk->box.low.x, walk->box.low.y, walk->box.low.z, 0.0},
                  high[4] = {walk->box.high.x, walk->box.high.y, walk->box.high.z, 0.0};
     for (int32_t k = 0; k < 4; ++k) walk->low[k] = fe__float_above(low[k]), walk->high[k] = -fe__float_above(-high[k]);
-    walk->slot = walk->end = 0;
-    walk->top = 1;
+    walk->near = near && serves(near, box) ? near : NULL;
+    walk->slot = 0, walk->end = walk->near ? near->count : 0;
+    walk->top = !walk->near;
     walk->stack[0] = 0; // the root
 }
 
@@ -109,7 +118,8 @@ int32_t fe__mesh_walk_next(fe__mesh_walk *w, fe__form *triangle)
 {
     for (;;) {
         while (w->slot < w->end) {
-            int32_t slot = w->slot++;
+            int32_t slot = w->near ? w->near->slots[w->slot] : w->slot;
+            ++w->slot;
             if (meet_triangle(w, slot, triangle)) return slot;
         }
         if (!w->top) return -1;
@@ -120,5 +130,19 @@ int32_t fe__mesh_walk_next(fe__mesh_walk *w, fe__form *triangle)
         }
         w->slot = FE__MESH_LEAF * (int32_t)(child & ~FE__MESH_LEAVES);
         w->end = fe__mini(w->slot + FE__MESH_LEAF, w->mesh->triangle_count);
+    }
+}
+
+void fe__mesh_find_near(const fe__mesh *mesh, const fe__bounds *box, fe__mesh_near *near)
+{
+    fe__mesh_walk walk;
+    fe__form unused;
+    near->box = *box, near->count = 0;
+    fe__mesh_walk_begin(&walk, mesh, NULL, box, box->low);
+    for (int32_t slot; near->count >= 0 && (slot = fe__mesh_walk_next(&walk, &unused)) >= 0;) {
+        if (near->count < FE__MESH_NEAR)
+            near->slots[near->count++] = slot;
+        else
+            near->count = -1;
     }
 }

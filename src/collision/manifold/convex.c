@@ -23,20 +23,34 @@ static fe__cores make_cores(const fe__form *a, const fe__form *b, const fe__rela
                        NULL};
 }
 
-static int32_t find_nearest(const fe__cores *cores, float margin, fe__touch *found)
+// A plane between the two, as far as a search that ended early knows one
+static void note_gap(const fe__gjk *gjk, double radii, fe__manifold *manifold)
+{
+    manifold->axis_separation = 0.0f;
+    if (!(gjk->apart_by > radii)) return;
+    double length = sqrt(fe__ddot(gjk->across, gjk->across));
+    fe_vec3 normal = fe__narrow(fe__dscale(-1.0 / length, gjk->across));
+    fe__stay_apart(manifold, (float)(gjk->apart_by - radii), normal);
+}
+
+// 0: farther apart than the margin
+static int32_t find_nearest(const fe__cores *cores, float margin, fe__manifold *manifold, fe__touch *found)
 {
     double radii = (double)cores->a->radius + (double)cores->b->radius, limit = radii + (double)margin;
     fe__gjk gjk;
-    fe__gjk_distance(cores, limit, &gjk);
-    if (gjk.distance > limit) return 0;
+    fe__gjk_distance_or_gap(cores, limit, &gjk);
+    if (gjk.distance > limit) {
+        note_gap(&gjk, radii, manifold);
+        return 0;
+    }
     if (gjk.overlap) {
         fe__penetration p = fe__epa_depth(cores, &gjk);
         *found =
-            (fe__touch){fe__narrow(p.normal), (float)(-p.depth - radii), fe__narrow(p.on_a), fe__narrow(p.on_b), 1};
+            (fe__touch){fe__narrow(p.normal), (float)(-p.depth - radii), fe__narrow(p.on_a), fe__narrow(p.on_b), 1, -1};
     } else {
         fe_dvec3 normal = fe__dscale(1.0 / gjk.distance, fe__dsub(gjk.on_b, gjk.on_a));
-        *found = (fe__touch){fe__narrow(normal), (float)(gjk.distance - radii), fe__narrow(gjk.on_a),
-                             fe__narrow(gjk.on_b), 0};
+        *found = (fe__touch){
+            fe__narrow(normal), (float)(gjk.distance - radii), fe__narrow(gjk.on_a), fe__narrow(gjk.on_b), 0, -1};
     }
     return 1;
 }
@@ -234,6 +248,34 @@ static void touch_plane(const fe__form *plane, const fe__form *b, const fe__rela
     }
 }
 
+static void touch_point(const fe__cores *cores, const fe__touch *found, fe__manifold *manifold)
+{
+    enum { SINGLE_ID = 0xffff };
+    manifold->normal = found->normal;
+    fe__add_point(manifold, middle_of(found, cores->a, cores->b), found->separation, SINGLE_ID);
+}
+
+// A direction is kept while the separation along it is within this many ties (5 mm) of what the last search found, and
+// no deeper: as of hulls.
+#define KEEP_TIES 10.0f
+
+// Of a pair with a rim. 1: the answer is that along the direction of the last search
+static int32_t touch_again(const fe__cores *cores, const fe__relative *b_in_a, float margin, fe__manifold *manifold)
+{
+    fe__touch found;
+    if (manifold->axis < 0 || !fe__look_again(cores, manifold->axis, manifold->last, &found)) return 0;
+    if (found.separation > margin) {
+        fe__stay_apart(manifold, found.separation, found.normal);
+        return 1;
+    }
+    float tied = KEEP_TIES * fe__tie(fe__minf(fe__form_thickness(cores->a), fe__form_thickness(cores->b)));
+    if (!(fe__absf(found.separation - manifold->axis_separation) < tied && found.separation > -tied)) return 0;
+    if (touch_along_features(cores->a, cores->b, b_in_a, &found, margin, manifold) > 0) return 1;
+    if (fe__axis_is_of_face(manifold->axis)) return 0; // beside it
+    touch_point(cores, &found, manifold);
+    return 1;
+}
+
 void fe__collide_convex(const fe__form *a, const fe__form *b, const fe__relative *b_in_a, float margin,
                         fe__manifold *manifold)
 {
@@ -245,13 +287,14 @@ void fe__collide_convex(const fe__form *a, const fe__form *b, const fe__relative
         return;
     }
     fe__cores cores = make_cores(a, b, b_in_a);
+    int32_t curved = fe__form_is_curved(a) || fe__form_is_curved(b);
+    if (curved && touch_again(&cores, b_in_a, margin, manifold)) return;
     fe__touch found, nearest;
-    if (!find_nearest(&cores, margin, &found)) return;
+    if (!find_nearest(&cores, margin, manifold, &found)) return;
     nearest = found;
-    int32_t on_face = (fe__form_is_curved(a) || fe__form_is_curved(b)) && fe__sharpen(&cores, &found);
+    int32_t on_face = curved && fe__sharpen(&cores, &found);
+    if (curved) manifold->axis = found.axis, manifold->axis_separation = found.separation;
     if (touch_along_features(a, b, b_in_a, &found, margin, manifold) > 0) return;
-    enum { SINGLE_ID = 0xffff };
     if (on_face) found = nearest; // beside the face: its normal is not that of the point, which would be felt to sink
-    manifold->normal = found.normal;
-    fe__add_point(manifold, middle_of(&found, a, b), found.separation, SINGLE_ID);
+    touch_point(&cores, &found, manifold);
 }

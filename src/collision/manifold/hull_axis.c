@@ -126,14 +126,49 @@ static void try_edges(const fe__hull *a, int32_t i, const arc *eb, int32_t j, fe
     if (separation > best->separation) *best = (fe__hull_axis){separation, n, FE__AXIS_OF_EDGES, i, j};
 }
 
-fe__hull_axis fe__hull_axis_of_edges(const fe__hull *a, const fe__hull *b, const fe__relative *b_in_a)
+// Which edges of a hull, four from i on, can part it from a point q of the other by more than `least`, which is 0 or
+// less? All axes n of an edge lie on its arc, between the normals l and r of its faces, and separate by no more than
+// n . (q - tail). Where  l . (q - tail)  and  r . (q - tail)  are below 0, that is no more than the larger of the two.
+static uint32_t edges_near(const fe__hull *hull, int32_t i, fe_vec3 q, float least)
 {
+    lanes left = lanes_at(&hull->left, i), right = lanes_at(&hull->right, i), tail = lanes_at(&hull->tails, i);
+    lanes way = {q.x - tail.x, q.y - tail.y, q.z - tail.z};
+    wide over_left = left.x * way.x + left.y * way.y + left.z * way.z,
+         over_right = right.x * way.x + right.y * way.y + right.z * way.z;
+    int32_t rest = hull->edge_count - i;
+    return w_bits((over_left >= least) | (over_right >= least)) & (rest < FE_W ? (1u << rest) - 1u : 0xfu);
+}
+
+// Fours of edges of which one or more is near
+static int32_t find_fours(const fe__hull *hull, fe_vec3 q, float least, int16_t *out_first)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < hull->edge_count; i += FE_W) {
+        out_first[count] = (int16_t)i;
+        count += edges_near(hull, i, q, least) != 0;
+    }
+    return count;
+}
+
+fe__hull_axis fe__hull_axis_of_edges(const fe__hull *a, const fe__hull *b, const fe__relative *b_in_a, float least,
+                                     int32_t vertex_a, int32_t vertex_b)
+{
+    const float rounding = 1e-5f; // of the sizes
+    float apart = fe__minf(least, 0.0f) - rounding * (a->extent + b->extent);
+    const fe__mat3 *r = &b_in_a->rotation;
+    fe_vec3 p = fe__mul_transposed(r, fe__sub(fe__hull_vertex(a, vertex_a), b_in_a->position)),
+            q = fe__add(b_in_a->position, fe__mul(r, fe__hull_vertex(b, vertex_b)));
+    int16_t fours[FE__HULL_EDGES / FE_W + 2]; // one is written behind the last
+    int32_t count = find_fours(a, q, apart, fours);
     fe__hull_axis best = {.separation = -FLT_MAX, .kind = FE__AXIS_OF_EDGES};
-    for (int32_t j = 0; j < b->edge_count; ++j) {
-        arc own = arc_of(b, j), eb = moved(&own, b_in_a);
-        for (int32_t i = 0; i < a->edge_count; i += FE_W)
-            for (uint32_t left = arcs_cross(a, i, &eb); left != 0; left &= left - 1)
-                try_edges(a, i + __builtin_ctz(left), &eb, j, &best);
+    for (int32_t first = 0; first < b->edge_count; first += FE_W) {
+        for (uint32_t near = edges_near(b, first, p, apart); near != 0; near &= near - 1) {
+            int32_t j = first + __builtin_ctz(near);
+            arc own = arc_of(b, j), eb = moved(&own, b_in_a);
+            for (int32_t k = 0; k < count; ++k)
+                for (uint32_t left = arcs_cross(a, fours[k], &eb); left != 0; left &= left - 1)
+                    try_edges(a, fours[k] + __builtin_ctz(left), &eb, j, &best);
+        }
     }
     return best;
 }

@@ -21,7 +21,9 @@ typedef struct fe__hull_axis {
 // frame of A's.
 fe__hull_axis fe__hull_axis_of_faces_a(const fe__hull *a, const fe__hull *b, const fe__relative *b_in_a);
 fe__hull_axis fe__hull_axis_of_faces_b(const fe__hull *a, const fe__hull *b, const fe__relative *b_in_a);
-// separation: -FLT_MAX when no arcs cross, or only those of edges that are nearly parallel
-fe__hull_axis fe__hull_axis_of_edges(const fe__hull *a, const fe__hull *b, const fe__relative *b_in_a);
+// separation: -FLT_MAX when no arcs cross, or only those of edges that are nearly parallel. Edges along which the hulls
+// are not farther apart than `least`, m, may be left out: a vertex of each, best one near the other hull, tells which.
+fe__hull_axis fe__hull_axis_of_edges(const fe__hull *a, const fe__hull *b, const fe__relative *b_in_a, float least,
+                                     int32_t vertex_a, int32_t vertex_b);
 
 #endif

@@ -29,9 +29,10 @@ static fe__hull_axis find_axis(const hull_pair *q, float margin)
     fe__hull_axis best = fe__hull_axis_of_faces_a(q->a, q->b, &q->b_in_a);
     if (best.separation > margin) return best;
     fe__hull_axis other = fe__hull_axis_of_faces_b(q->a, q->b, &q->b_in_a);
+    int32_t deepest_of_a = other.a, deepest_of_b = best.b;
     if (other.separation > best.separation + q->tie) best = other;
     if (best.separation > margin) return best;
-    other = fe__hull_axis_of_edges(q->a, q->b, &q->b_in_a);
+    other = fe__hull_axis_of_edges(q->a, q->b, &q->b_in_a, best.separation + q->tie, deepest_of_a, deepest_of_b);
     return other.separation > best.separation + q->tie ? other : best;
 }
 

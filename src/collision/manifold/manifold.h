@@ -19,6 +19,7 @@ typedef struct fe__manifold {
     int32_t count;  // 0..4
     int32_t axis;   // kernel's own, -1: none yet
     float axis_separation;
+    fe_vec3 last;  // with an axis: the normal that was found last, A's frame
     int32_t round; // 1: the normal turns when the forms shift by little, as between round forms
     fe__manifold_point points[FE_MAX_POINTS];
 } fe__manifold;

@@ -13,6 +13,9 @@ enum {
     FE__NEAR_SOLIDS = 8, // other static boxes and hulls near it
 };
 
+// cos 1.8 degrees: of normals of one patch
+#define FE__SAME_NORMAL 0.9995f
+
 // Points with one normal and one material.
 typedef struct fe__patch {
     fe_vec3 normal;   // unit, from the surface to B
@@ -39,6 +42,10 @@ typedef struct fe__terrain {
     fe__ground ground;
     fe_dvec3 origin; // of the common frame, in the surface's
     const fe__surroundings *around;
+    // Faces whose normals are among these need not be looked at: they are touched already. Points of others may still
+    // have such a normal
+    const fe_vec3 *known;
+    int32_t known_count;
 } fe__terrain;
 
 #endif

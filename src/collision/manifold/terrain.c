@@ -49,6 +49,16 @@ static fe__bounds bounds_around(const fe__terrain *t, const fe__form *b, const f
     return (fe__bounds){fe__dsub(t->origin, fe__widen(w)), fe__dadd(t->origin, fe__widen(w))};
 }
 
+int32_t fe__find_near_triangles(const fe__terrain *t, const fe__form *b, const fe__mat3 *rotation, float margin,
+                                fe__mesh_near *near)
+{
+    const float more = 0.002f; // m: what is asked for at the rim of a look's box lies inside
+    if (!t->ground.mesh) return 0;
+    fe__bounds box = bounds_around(t, b, rotation, margin + more);
+    fe__mesh_find_near(t->ground.mesh, &box, near);
+    return 1;
+}
+
 // Is a triangle farther than `reach` from a round form's core, whose box has the half widths `core`? Then it has no
 // point of it.
 static int32_t is_beyond(const fe_vec3 v[3], fe_vec3 core, float reach)
@@ -74,13 +84,14 @@ static void gather_all(fe__gathering *g, const fe__form *b, const fe__mat3 *rota
     const float rounding = 1.0001f;
     fe_vec3 core = {fe__absf(axis.x), fe__absf(axis.y), fe__absf(axis.z)};
     int32_t is_box = fe__form_has_flat_faces(b), is_curved = fe__form_is_curved(b) || fe__form_is_hull(b),
-            culls = !is_box && !is_curved && !(depth > 0.0);
+            has_flat_parts = is_box || is_curved, culls = !has_flat_parts && !(depth > 0.0);
     fe__ground_walk walk;
     fe__ground_begin(&walk, &t->ground, &box, t->origin);
     fe__form triangle;
     for (int32_t i; (i = fe__ground_next(&walk, &triangle)) >= 0;) {
         if (culls && is_beyond(triangle.vertex, core, rounding * (b->radius + g->margin))) continue;
         fe__tile tile = fe__tile_of(t, &triangle, i);
+        if (t->known_count && has_flat_parts && fe__tile_is_known(t, &tile)) continue;
         if (is_box)
             fe__tile_touch_box(g, &tile, b, rotation);
         else if (is_curved)
@@ -108,7 +119,7 @@ static int32_t collide_centred(const fe__terrain *t, const fe__form *b, const fe
     g.count = 0;
     g.tie = 0.1f * fe__tie(fe__form_thickness(b)), g.same_place = fe__minf(0.002f, 0.02f * fe__form_thickness(b));
     gather_all(&g, b, rotation);
-    if (!g.count) *gap = gap_around(t, b, rotation, margin);
+    if (!g.count && gap) *gap = gap_around(t, b, rotation, margin);
     for (int32_t i = 0; i < g.count; ++i) {
         fe__raw_patch *raw = g.patches + i;
         if (fe__form_is_curved(b)) fe__keep_side_ends(raw, g.tie);
@@ -147,7 +158,7 @@ int32_t fe__collide_terrain(const fe__terrain *t, const fe__form *b, const fe__m
     centred.offset = fe__sub(b->offset, centre);
     fe__surroundings around; // their numbers say how many are written
     move_surroundings(t->around, away, &around);
-    fe__terrain there = {t->ground, fe__dadd(t->origin, fe__widen(away)), &around};
+    fe__terrain there = {t->ground, fe__dadd(t->origin, fe__widen(away)), &around, t->known, t->known_count};
     int32_t count = collide_centred(&there, &centred, rotation, margin, patches, gap);
     for (int32_t i = 0; i < count; ++i)
         for (int32_t k = 0; k < patches[i].count; ++k)

@@ -8,7 +8,12 @@
 #define FE_COLLISION_MANIFOLD_TERRAIN_H
 #include "collision/manifold/patch.h"
 
-// Patches of points closer than `margin`. Without any, *gap is a distance that the two are not closer than.
+// The triangles closer than `margin` or a little more: for several looks from near there (fe__ground.near). A
+// heightfield needs none: 0, and nothing is written.
+int32_t fe__find_near_triangles(const fe__terrain *terrain, const fe__form *b, const fe__mat3 *rotation, float margin,
+                                fe__mesh_near *near);
+// Patches of points closer than `margin`. Without any, *gap is a distance that the two are not closer than; NULL: who
+// asks does not need it.
 int32_t fe__collide_terrain(const fe__terrain *terrain, const fe__form *b, const fe__mat3 *rotation, float margin,
                             fe__patch patches[FE__PATCHES], float *gap);
 

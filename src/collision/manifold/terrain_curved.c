@@ -41,12 +41,14 @@ static int32_t is_felt(const contest *c)
 
 // Is the form's lowest point p over the triangle, at least as far from its sides as it is deep? With e >= d >= 0 these
 // two, a direction m at an angle t from the normal, up to 90 degrees, has a separation of -d cos t - e sin t at most,
-// which is no more than the normal's, -d; and what is apart is nearest there.
-static int32_t lies_inside(const contest *c, fe_dvec3 p, float low)
+// which is no more than the normal's, -d; and what is apart is nearest there. Beyond a side that is not convex the
+// surface rises: what lies there touches the next triangle first, and no direction of that side is allowed.
+static int32_t lies_inside(const contest *c, uint32_t convex, fe_dvec3 p, float low)
 {
     const fe__tile *tile = c->tile;
     float depth = fe__maxf(-low, 0.0f);
     for (int32_t k = 0; k < 3; ++k) {
+        if (!(convex >> k & 1)) continue;
         fe_vec3 v = tile->form.vertex[k], side = fe__sub(tile->form.vertex[(k + 1) % 3], v);
         float inwards = fe__dot(fe__cross(tile->normal, side), fe__sub(fe__narrow(p), v)); // times the side's length
         if (!(inwards > 0.0f && inwards * inwards >= depth * depth * fe__dot(side, side))) return 0;
@@ -108,10 +110,11 @@ static int32_t find_nearest(const contest *c, fe_dvec3 lowest, fe__touch *found)
     if (gjk.distance > (double)c->g->margin) return 0;
     if (gjk.overlap) {
         fe__penetration p = fe__epa_depth(&cores, &gjk);
-        *found = (fe__touch){fe__narrow(p.normal), (float)-p.depth, fe__narrow(p.on_a), fe__narrow(p.on_b), 1};
+        *found = (fe__touch){fe__narrow(p.normal), (float)-p.depth, fe__narrow(p.on_a), fe__narrow(p.on_b), 1, -1};
     } else {
         fe_dvec3 normal = fe__dscale(1.0 / gjk.distance, fe__dsub(gjk.on_b, gjk.on_a));
-        *found = (fe__touch){fe__narrow(normal), (float)gjk.distance, fe__narrow(gjk.on_a), fe__narrow(gjk.on_b), 0};
+        *found =
+            (fe__touch){fe__narrow(normal), (float)gjk.distance, fe__narrow(gjk.on_a), fe__narrow(gjk.on_b), 0, -1};
     }
     return 1;
 }
@@ -156,9 +159,9 @@ void fe__tile_touch_curved(fe__gathering *g, const fe__tile *tile, const fe__for
     fe_dvec3 lowest = farthest(&c, fe__neg(n));
     float low = height_of(&c, lowest);
     if (low > g->margin || !is_felt(&c)) return;
-    int32_t convex = 0;
-    for (int32_t k = 0; k < 3; ++k) convex |= fe__tile_is_convex(g->terrain, tile, k);
-    if (!convex || lies_inside(&c, lowest, low)) {
+    uint32_t convex = 0; // a bit for each side
+    for (int32_t k = 0; k < 3; ++k) convex |= fe__tile_is_convex(g->terrain, tile, k) ? 1u << k : 0u;
+    if (lies_inside(&c, convex, lowest, low)) {
         touch_face(&c);
         return;
     }

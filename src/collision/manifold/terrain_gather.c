@@ -5,8 +5,6 @@
 
 #include <float.h>
 
-// cos 1.8 degrees: normals of one patch
-#define SAME_NORMAL 0.9995f
 // Leaves at most four of the first `count` points; a point's index goes through the clipper's id.
 static int32_t widest_four(fe__raw_patch *p, int32_t count, float tie)
 {
@@ -120,7 +118,7 @@ void fe__gather(fe__gathering *g, const fe__tile *tile, fe_vec3 normal, fe_vec3 
     fe__manifold_point p = {point, separation, id};
     for (int32_t i = 0; i < g->count; ++i) {
         fe__raw_patch *patch = g->patches + i;
-        if (patch->material != material || fe__dot(patch->normal, normal) < SAME_NORMAL) continue;
+        if (patch->material != material || fe__dot(patch->normal, normal) < FE__SAME_NORMAL) continue;
         if (separation < patch->deepest) patch->normal = normal;
         add_point(g, patch, &p, tile->index);
         return;

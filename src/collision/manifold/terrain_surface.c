@@ -85,7 +85,9 @@ static void turn_round(fe__tile *tile)
 
 static void find_sides(const fe__mesh *m, fe__tile *tile)
 {
-    for (int32_t k = 0; k < 3; ++k) tile->felt[k] = fe__mesh_edge_of(m, tile->index, k) != FE__MESH_EDGE_SMOOTH;
+    int32_t digits = m->edges[tile->index]; // as fe__mesh_edge_of, all three at once
+    for (int32_t k = 0; k < 3; ++k, digits /= FE__MESH_EDGES)
+        tile->felt[m->is_mirrored ? 2 - k : k] = digits % FE__MESH_EDGES != FE__MESH_EDGE_SMOOTH;
     tile->material = m->materials ? m->materials[tile->index] : 0;
     if (m->is_two_sided && fe__dot(tile->normal, tile->form.vertex[0]) > 0.0f) turn_round(tile);
 }
@@ -118,6 +120,21 @@ int32_t fe__tile_is_convex(const fe__terrain *t, const fe__tile *tile, int32_t s
     if (t->ground.mesh) return tile->felt[side];
     if (fe__tile_beyond(t, tile, side) < 0) return 1;
     return fe__dot(tile->normal, fe__sub(third_of(t, tile, side), tile->form.vertex[side])) < -FLAT * tile->size;
+}
+
+static int32_t goes_on_beyond(const fe__terrain *t, const fe__tile *tile, int32_t side)
+{
+    const fe__mesh *m = t->ground.mesh;
+    if (m) return !m->is_two_sided && fe__mesh_edge_of(m, tile->index, side) < FE__MESH_EDGE_OPEN;
+    return fe__tile_beyond(t, tile, side) >= 0;
+}
+
+int32_t fe__tile_is_known(const fe__terrain *t, const fe__tile *tile)
+{
+    int32_t known = 0;
+    for (int32_t i = 0; i < t->known_count; ++i) known |= fe__dot(t->known[i], tile->normal) > FE__SAME_NORMAL;
+    for (int32_t k = 0; k < 3 && known; ++k) known = goes_on_beyond(t, tile, k);
+    return known;
 }
 
 // ---- beyond the border ---------------------------------------------------------------------------------------------

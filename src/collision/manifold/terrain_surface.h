@@ -19,6 +19,10 @@ int32_t fe__tile_is_convex(const fe__terrain *terrain, const fe__tile *tile, int
 // The triangle of a heightfield beyond side k, -1: a hole or the border. A mesh does not tell: -1.
 int32_t fe__tile_beyond(const fe__terrain *terrain, const fe__tile *tile, int32_t side);
 
+// Is the tile one of a face that is known (fe__terrain.known), and all that it could show beside that its neighbours'
+// to show? Who lies on a triangle beyond whose sides nothing goes on may be about to leave it.
+int32_t fe__tile_is_known(const fe__terrain *terrain, const fe__tile *tile);
+
 // May the surface be touched along m (unit, out of it) at the vertices of the tile that lie farthest along m? Exactly
 // when nothing of the surface around them rises along m. `m` need not be perpendicular to what is touched beyond a
 // tolerance of a thousandth.
