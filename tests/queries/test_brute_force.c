@@ -10,13 +10,13 @@
 #include <stdio.h>
 
 #if defined(FE_SANITIZED)
-enum { CASES = 100 };
+enum { CASES = 200, SWEEPS = 100 };
 #else
-enum { CASES = 1000 };
+enum { CASES = 3000, SWEEPS = 300 };
 #endif
 enum { STANDS = 5, PER_STAND = 20, ROWS = 20, COLUMNS = 25, TRIANGLES = 2 * ROWS * COLUMNS, HULL_POINTS = 12 };
 
-static int32_t cases = CASES;
+static int32_t cases = CASES, sweeps = SWEEPS; // of each moving form
 
 typedef struct bench {
     fe_world *world;
@@ -392,6 +392,10 @@ static double check_sweep(const bench *b, const query *q, int32_t met, const fe_
     separation s = at_stop(b, &m, triangle, stop);
     double gap = (double)(s.most - m.radius);
     must(gap <= most + 2 * (double)TOUCH, "a sweep stops before what it meets", b, q, gap, triangle);
+    if (triangle >= 0 && !b->judge.is_two_sided) {
+        real up = v_dot(s.away, b->judge.triangles[triangle].normal) / v_length(s.away);
+        must(up > -0.9999L, "from behind it passes", b, q, (double)up, triangle);
+    }
     real sine = v_length(v_cross(s.away, v_off(hit->normal))) / v_length(s.away);
     must(sine <= 0.02L, "the normal is that of the stop", b, q, (double)sine, triangle);
     return gap;
@@ -404,7 +408,7 @@ static void sweeps_of_every_form(void **state)
         bench b = begin(3 + (uint64_t)k);
         int32_t hits = 0;
         double most = 0;
-        for (int32_t i = 0; i < cases; ++i) {
+        for (int32_t i = 0; i < sweeps; ++i) {
             if (i % PER_STAND == 0) set_up(&b, i / PER_STAND % STANDS);
             solid_form mover;
             make_form(b.store, &b.dice, movers[k], 0.02, 2, HULL_POINTS, &mover);
@@ -416,8 +420,8 @@ static void sweeps_of_every_form(void **state)
             most = fmax(most, check_sweep(&b, &q, met, &hit));
             free_form(b.store, &mover);
         }
-        FE_WITHIN(hits, cases / 4, cases);
-        printf("%d sweeps of %s, %d hits, stops within %.4f um\n", (int)cases, names[k], (int)hits, 1e6 * most);
+        FE_WITHIN(hits, sweeps / 4, sweeps);
+        printf("%d sweeps of %s, %d hits, stops within %.4f um\n", (int)sweeps, names[k], (int)hits, 1e6 * most);
         end(&b);
     }
 }
@@ -463,7 +467,7 @@ static void closest_points(void **state)
 
 int main(int argc, char **argv)
 {
-    if (argc > 1) cases = atoi(argv[1]);
+    if (argc > 1) cases = sweeps = atoi(argv[1]);
     const struct CMUnitTest tests[] = {cmocka_unit_test(rays), cmocka_unit_test(overlaps_of_every_form),
                                        cmocka_unit_test(sweeps_of_every_form), cmocka_unit_test(closest_points)};
     return cmocka_run_group_tests_name("brute_force", tests, NULL, NULL);
