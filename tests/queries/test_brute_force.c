@@ -2,6 +2,7 @@
 // and cones: what the library answers against every triangle, every face, every form asked one by one in long double.
 //
 //     build/tests/queries/test_brute_force 100000     that many of each kind, sweeps that many of each moving form
+//     build/tests/queries/test_brute_force 100000 sweeps_of_cones   these alone
 //
 // Forms of 2 cm to 2 m, in any pose, at the world's origin and 1e6 m off it; meshes under scales and mirrored, too. The
 // judge is judge.h. A case that fails is printed.
@@ -327,7 +328,6 @@ static int overlaps(const bench *b, const moving *m)
 static const int32_t movers[] = {FE_GEOMETRY_SPHERE,   FE_GEOMETRY_CAPSULE, FE_GEOMETRY_BOX,
                                  FE_GEOMETRY_CYLINDER, FE_GEOMETRY_CONE,    FE_GEOMETRY_HULL};
 enum { MOVERS = sizeof movers / sizeof *movers };
-static const char *const names[MOVERS] = {"spheres", "capsules", "boxes", "cylinders", "cones", "hulls"};
 
 static void overlaps_of_every_form(void **state)
 {
@@ -401,30 +401,34 @@ static double check_sweep(const bench *b, const query *q, int32_t met, const fe_
     return gap;
 }
 
-static void sweeps_of_every_form(void **state)
+static void sweep(int32_t kind)
 {
-    (void)state;
-    for (int32_t k = 0; k < MOVERS; ++k) {
-        bench b = begin(3 + (uint64_t)k);
-        int32_t hits = 0;
-        double most = 0;
-        for (int32_t i = 0; i < sweeps; ++i) {
-            if (i % PER_STAND == 0) set_up(&b, i / PER_STAND % STANDS);
-            solid_form mover;
-            make_form(b.store, &b.dice, movers[k], 0.02, 2, HULL_POINTS, &mover);
-            query q = draw(&b, &mover, 0.6 * (b.reach + mover.reach));
-            fe_hit hit;
-            int32_t met = fe_world_sweep(b.world, &mover.geometry, &q.start, &q.way, NULL, &hit);
-            FE_WITHIN(met, 0, 1);
-            hits += met;
-            most = fmax(most, check_sweep(&b, &q, met, &hit));
-            free_form(b.store, &mover);
-        }
-        FE_WITHIN(hits, sweeps / 4, sweeps);
-        printf("%d sweeps of %s, %d hits, stops within %.4f um\n", (int)sweeps, names[k], (int)hits, 1e6 * most);
-        end(&b);
+    bench b = begin(3 + (uint64_t)kind);
+    int32_t hits = 0;
+    double most = 0;
+    for (int32_t i = 0; i < sweeps; ++i) {
+        if (i % PER_STAND == 0) set_up(&b, i / PER_STAND % STANDS);
+        solid_form mover;
+        make_form(b.store, &b.dice, movers[kind], 0.02, 2, HULL_POINTS, &mover);
+        query q = draw(&b, &mover, 0.6 * (b.reach + mover.reach));
+        fe_hit hit;
+        int32_t met = fe_world_sweep(b.world, &mover.geometry, &q.start, &q.way, NULL, &hit);
+        FE_WITHIN(met, 0, 1);
+        hits += met;
+        most = fmax(most, check_sweep(&b, &q, met, &hit));
+        free_form(b.store, &mover);
     }
+    FE_WITHIN(hits, sweeps / 4, sweeps);
+    printf("%d sweeps, %d hits, stops within %.4f um\n", (int)sweeps, (int)hits, 1e6 * most);
+    end(&b);
 }
+
+static void sweeps_of_spheres(void **state) { (void)state, sweep(0); }
+static void sweeps_of_capsules(void **state) { (void)state, sweep(1); }
+static void sweeps_of_boxes(void **state) { (void)state, sweep(2); }
+static void sweeps_of_cylinders(void **state) { (void)state, sweep(3); }
+static void sweeps_of_cones(void **state) { (void)state, sweep(4); }
+static void sweeps_of_hulls(void **state) { (void)state, sweep(5); }
 
 // ---- closest points ------------------------------------------------------------------------------------------------
 static void check_closest(const bench *b, const query *q, const fe_closest *c)
@@ -468,7 +472,17 @@ static void closest_points(void **state)
 int main(int argc, char **argv)
 {
     if (argc > 1) cases = sweeps = atoi(argv[1]);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(rays), cmocka_unit_test(overlaps_of_every_form),
-                                       cmocka_unit_test(sweeps_of_every_form), cmocka_unit_test(closest_points)};
+    if (argc > 2) cmocka_set_test_filter(argv[2]);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rays),
+        cmocka_unit_test(overlaps_of_every_form),
+        cmocka_unit_test(sweeps_of_spheres),
+        cmocka_unit_test(sweeps_of_capsules),
+        cmocka_unit_test(sweeps_of_boxes),
+        cmocka_unit_test(sweeps_of_cylinders),
+        cmocka_unit_test(sweeps_of_cones),
+        cmocka_unit_test(sweeps_of_hulls),
+        cmocka_unit_test(closest_points),
+    };
     return cmocka_run_group_tests_name("brute_force", tests, NULL, NULL);
 }
