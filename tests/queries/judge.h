@@ -195,8 +195,8 @@ static inline int passes_triangle(const moving *m, real end, const solid *t)
     return 0;
 }
 
-// Does it meet the triangle from a side that counts: 1 surely, -1 not, 0 perhaps. What comes at a side of the triangle
-// from below is for the neighbour there to tell.
+// Does it meet the triangle from a side that counts: 1 surely, -1 not, 0 perhaps, for what comes at a side of the
+// triangle from below may pass or not.
 static inline int meets_triangle(const moving *m, const standing *s, int triangle, real end)
 {
     solid t = seen_from(s, triangle, m->convex.centre);
@@ -207,7 +207,14 @@ static inline int meets_triangle(const moving *m, const standing *s, int triangl
     int near = comes_near(m, &still, end, &at, &away);
     if (near <= 0 || at == 0) return near;
     real up = v_dot(away, t.normal) / v_length(away);
-    return up > 0.01L ? 1 : up < -0.9999L ? -1 : 0;
+    return up > 0.01L;
+}
+
+// The height of its highest point over the triangle's plane
+static inline real highest_over(const moving *m, real t, const solid *triangle)
+{
+    vec top = v_add(support_of(&m->convex, triangle->normal), v_scale(t, m->way));
+    return v_dot(triangle->normal, v_sub(top, triangle->vertex[0])) + m->radius;
 }
 
 #endif

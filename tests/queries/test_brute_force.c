@@ -28,6 +28,7 @@ typedef struct bench {
     solid_form form; // that stands, unless it is a mesh
     fe_geometry geometry;
     fe_asset mesh;
+    int32_t is_sheet;
     fe_transform pose;
     double reach, extent, bend; // m; of a hull's faces below their planes
     standing judge;
@@ -109,12 +110,12 @@ static void make_sheet(dice *d, soup *m)
     }
 }
 
-static void stand_mesh(bench *b, int32_t is_sheet, fe_quat rotation)
+static void stand_mesh(bench *b, fe_quat rotation)
 {
     static soup m;
     static solid triangles[TRIANGLES];
     standing *s = &b->judge;
-    if (is_sheet)
+    if (b->is_sheet)
         make_sheet(&b->dice, &m);
     else
         scatter(&b->dice, &m);
@@ -183,7 +184,8 @@ static void set_up(bench *b, int32_t stand)
         double sizes[3];
         for (int32_t k = 0; k < 3; ++k) sizes[k] = spread(d, 0.2, 5) * (chance(d, 0.5) ? 1 : -1);
         if (chance(d, 0.7)) fe_geometry_set_scale(&b->geometry, (float)sizes[0], (float)sizes[1], (float)sizes[2]);
-        stand_mesh(b, stand, b->pose.rotation);
+        b->is_sheet = stand;
+        stand_mesh(b, b->pose.rotation);
     } else {
         make_form(b->store, d, types[stand], 0.02, 2, HULL_POINTS, &b->form);
         b->geometry = b->form.geometry, b->reach = b->form.reach;
@@ -371,6 +373,13 @@ static separation at_stop(const bench *b, const moving *m, int32_t triangle, rea
     return separation_of(&m->convex, v_scale(stop, m->way), &still, TOUCH);
 }
 
+// Of the sheet's border, or one of those that have no neighbours
+static int is_on_rim(const bench *b, int32_t triangle)
+{
+    int32_t row = triangle / 2 / COLUMNS, column = triangle / 2 % COLUMNS;
+    return !b->is_sheet || row == 0 || row == ROWS - 1 || column == 0 || column == COLUMNS - 1;
+}
+
 static double check_sweep(const bench *b, const query *q, int32_t met, const fe_hit *hit)
 {
     const double most = 1e-6;
@@ -393,8 +402,10 @@ static double check_sweep(const bench *b, const query *q, int32_t met, const fe_
     double gap = (double)(s.most - m.radius);
     must(gap <= most + 2 * (double)TOUCH, "a sweep stops before what it meets", b, q, gap, triangle);
     if (triangle >= 0 && !b->judge.is_two_sided) {
-        real up = v_dot(s.away, b->judge.triangles[triangle].normal) / v_length(s.away);
-        must(up > -0.9999L, "from behind it passes", b, q, (double)up, triangle);
+        const solid *met_there = &b->judge.triangles[triangle];
+        real up = v_dot(s.away, met_there->normal) / v_length(s.away);
+        must(up > -0.01L || is_on_rim(b, triangle), "inner sides are passed from behind", b, q, (double)up, triangle);
+        must(up > -0.01L || highest_over(&m, stop, met_there) > 0, "from behind it passes", b, q, (double)up, triangle);
     }
     real sine = v_length(v_cross(s.away, v_off(hit->normal))) / v_length(s.away);
     must(sine <= 0.02L, "the normal is that of the stop", b, q, (double)sine, triangle);
