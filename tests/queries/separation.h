@@ -7,7 +7,7 @@
 #define FE_QUERIES_SEPARATION_H
 #include "queries/exact.h"
 
-enum { MOST_POINTS = 8, MOST_SEARCH = 4000 };
+enum { MOST_POINTS = 24, MOST_SEARCH = 4000 };
 
 // A sphere and a capsule are a point and a segment; their radius is the caller's.
 typedef struct convex {

@@ -1,7 +1,6 @@
 // Which face of a hull a query met: one on which the point lies, and the one that a ray there meets.
 #include "api/api_test.h"
-
-#include <math.h>
+#include "queries/dice.h"
 
 enum { POINTS = 40, CASES = 4000, FACES = 2 * POINTS };
 
@@ -9,14 +8,8 @@ typedef struct bench {
     fe_world *world;
     fe_hull_face faces[FACES];
     int32_t face_count;
-    uint64_t random;
+    dice dice;
 } bench;
-
-static double uniform(bench *b, double low, double high)
-{
-    b->random ^= b->random << 13, b->random ^= b->random >> 7, b->random ^= b->random << 17;
-    return low + (high - low) * (double)(b->random >> 11) * 0x1p-53;
-}
 
 static fe_dvec3 sum(fe_dvec3 a, double s, fe_dvec3 b)
 {
@@ -24,26 +17,12 @@ static fe_dvec3 sum(fe_dvec3 a, double s, fe_dvec3 b)
 }
 static double product(fe_dvec3 a, fe_vec3 b) { return a.x * (double)b.x + a.y * (double)b.y + a.z * (double)b.z; }
 
-static fe_dvec3 direction(bench *b)
-{
-    for (;;) {
-        fe_dvec3 d = {uniform(b, -1, 1), uniform(b, -1, 1), uniform(b, -1, 1)};
-        double square = d.x * d.x + d.y * d.y + d.z * d.z;
-        if (square > 0.01 && square < 1) return sum(fe_make_dvec3(0, 0, 0), 1 / sqrt(square), d);
-    }
-}
-
-static fe_quat rotation(bench *b)
-{
-    return (fe_quat){(float)uniform(b, -1, 1), (float)uniform(b, -1, 1), (float)uniform(b, -1, 1), 0.5f};
-}
-
 // Unturned, so that the faces' planes are those of the world
 static void make_rock(bench *b)
 {
     float points[POINTS][3];
     for (int32_t i = 0; i < POINTS; ++i) {
-        fe_dvec3 p = direction(b);
+        fe_dvec3 p = direction(&b->dice);
         points[i][0] = (float)p.x, points[i][1] = 2 * (float)p.y, points[i][2] = (float)p.z;
     }
     fe_hull_def def;
@@ -97,13 +76,13 @@ static int32_t is_on_one_face(const bench *b, fe_dvec3 point)
 static void a_sweep_tells_the_face_that_it_met(void **state)
 {
     (void)state;
-    bench b = {.world = new_world(), .random = 88172645463325252};
+    bench b = {.world = new_world(), .dice = {88172645463325252}};
     make_rock(&b);
     int32_t flat = 0;
     for (int32_t i = 0; i < CASES; ++i) {
         fe_geometry mover = mover_of(i % 5);
-        fe_dvec3 way = direction(&b), aside = direction(&b), far = sum(fe_make_dvec3(0, 0, 0), 20, way);
-        fe_transform start = {sum(sum(fe_make_dvec3(0, 0, 0), -10, way), 0.5, aside), rotation(&b)};
+        fe_dvec3 way = direction(&b.dice), aside = direction(&b.dice), far = sum(fe_make_dvec3(0, 0, 0), 20, way);
+        fe_transform start = {sum(sum(fe_make_dvec3(0, 0, 0), -10, way), 0.5, aside), random_rotation(&b.dice)};
         fe_hit hit, there;
         if (fe_world_sweep(b.world, &mover, &start, &far, NULL, &hit) != 1) continue;
         check_face(&b, hit.triangle, hit.point, hit.normal);
@@ -121,12 +100,12 @@ static void a_sweep_tells_the_face_that_it_met(void **state)
 static void an_overlap_tells_the_face_of_its_way_out(void **state)
 {
     (void)state;
-    bench b = {.world = new_world(), .random = 12345};
+    bench b = {.world = new_world(), .dice = {12345}};
     make_rock(&b);
     int32_t found = 0;
     for (int32_t i = 0; i < CASES; ++i) {
         fe_geometry mover = mover_of(i % 5);
-        fe_transform at = {sum(fe_make_dvec3(0, 0, 0), 1.1, direction(&b)), rotation(&b)};
+        fe_transform at = {sum(fe_make_dvec3(0, 0, 0), 1.1, direction(&b.dice)), random_rotation(&b.dice)};
         fe_overlap overlap;
         if (fe_world_overlap_shapes(b.world, &mover, &at, NULL, &overlap, sizeof overlap, 1) != 1) continue;
         const fe_hull_face *f = &b.faces[overlap.triangle];

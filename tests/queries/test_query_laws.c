@@ -5,6 +5,7 @@
 // The inputs like edges: whole numbers, equal sizes, no rotation, zero translations, so that surfaces touch exactly and
 // edges lie along edges.
 #include "api/api_test.h"
+#include "queries/dice.h"
 
 #include <stdlib.h>
 
@@ -18,19 +19,13 @@ enum { BODIES = 24, PER_WORLD = 200 };
 static int32_t inputs = INPUTS;
 
 typedef struct source {
-    uint64_t random;
+    dice dice;
     int32_t round; // whole numbers
 } source;
 
-static double uniform(source *s, double low, double high)
-{
-    s->random ^= s->random << 13, s->random ^= s->random >> 7, s->random ^= s->random << 17;
-    return low + (high - low) * (double)(s->random >> 11) * 0x1p-53;
-}
-static int32_t one_of(source *s, int32_t count) { return (int32_t)uniform(s, 0, count); }
 static double number(source *s, double most)
 {
-    double x = uniform(s, -most, most);
+    double x = uniform(&s->dice, -most, most);
     return s->round ? (double)(int64_t)x : x;
 }
 static fe_dvec3 place(source *s, double most)
@@ -42,23 +37,23 @@ static fe_dvec3 place(source *s, double most)
 static fe_quat rotation(source *s)
 {
     static const fe_quat simple[] = {{0, 0, 0, 1}, {1, 0, 0, 0}, {0, 0, 1, 1}, {1, 1, 1, 1}};
-    if (s->round || one_of(s, 4) == 0) return simple[one_of(s, 4)];
-    float x = (float)uniform(s, -1, 1), y = (float)uniform(s, -1, 1), z = (float)uniform(s, -1, 1),
-          w = (float)uniform(s, 0.1, 1);
+    if (s->round || one_of(&s->dice, 4) == 0) return simple[one_of(&s->dice, 4)];
+    float x = (float)uniform(&s->dice, -1, 1), y = (float)uniform(&s->dice, -1, 1), z = (float)uniform(&s->dice, -1, 1),
+          w = (float)uniform(&s->dice, 0.1, 1);
     return (fe_quat){x, y, z, w};
 }
 
 static float length_of(source *s)
 {
     static const float sizes[] = {0.5f, 1, 1, 2, 0.001f, 100};
-    return s->round ? sizes[one_of(s, 6)] : (float)(0.01 * pow(1000, uniform(s, 0, 1)));
+    return s->round ? sizes[one_of(&s->dice, 6)] : (float)(0.01 * pow(1000, uniform(&s->dice, 0, 1)));
 }
 
 static fe_geometry geometry(source *s, int32_t types)
 {
     fe_geometry g;
     float a = length_of(s), b = length_of(s), c = length_of(s);
-    switch (one_of(s, types)) {
+    switch (one_of(&s->dice, types)) {
     case 0:
         fe_geometry_sphere(&g, a);
         break;
@@ -85,7 +80,7 @@ static void add_field(source *s, fe_world *world, double middle)
     float heights[SAMPLES * SAMPLES];
     uint8_t holes[(SAMPLES - 1) * (SAMPLES - 1)];
     for (int32_t i = 0; i < SAMPLES * SAMPLES; ++i) heights[i] = (float)number(s, 2);
-    for (size_t i = 0; i < sizeof holes; ++i) holes[i] = one_of(s, 8) == 0;
+    for (size_t i = 0; i < sizeof holes; ++i) holes[i] = one_of(&s->dice, 8) == 0;
     fe_heightfield_def def;
     fe_heightfield_def_init(&def, sizeof def);
     def.rows = def.columns = SAMPLES, def.cell_x = 2, def.cell_z = 3, def.heights = heights, def.holes = holes;
@@ -99,23 +94,23 @@ static void add_field(source *s, fe_world *world, double middle)
 static fe_world *random_world(source *s)
 {
     fe_world *world = new_world();
-    double middle = one_of(s, 3) == 0 ? 1e6 : 0;
+    double middle = one_of(&s->dice, 3) == 0 ? 1e6 : 0;
     add_field(s, world, middle);
     for (int32_t i = 1; i < BODIES; ++i) {
         fe_body_def def;
         fe_body_def_init(&def, sizeof def);
-        def.type = one_of(s, 3);
+        def.type = one_of(&s->dice, 3);
         def.transform.position = place(s, 10);
         def.transform.position.x += middle;
         def.transform.rotation = rotation(s);
         fe_body body;
         OK(fe_body_create(world, &def, &body));
-        for (int32_t shapes = one_of(s, 3) == 0 ? 3 : 1; shapes > 0; --shapes) {
+        for (int32_t shapes = one_of(&s->dice, 3) == 0 ? 3 : 1; shapes > 0; --shapes) {
             fe_shape_def shape;
             fe_shape_def_init(&shape, sizeof shape);
             if (shapes > 1)
                 shape.frame.position = fe_make_vec3((float)number(s, 3), (float)number(s, 3), (float)number(s, 3));
-            shape.trigger = one_of(s, 5) == 0;
+            shape.trigger = one_of(&s->dice, 5) == 0;
             fe_geometry g = geometry(s, def.type == FE_BODY_STATIC && i < 3 ? 4 : 3);
             fe_shape handle;
             OK(fe_shape_create(world, body, &shape, &g, &handle));
@@ -138,13 +133,13 @@ static input random_input(source *s, const fe_world *world)
     if (in.geometry.type == FE_GEOMETRY_PLANE) fe_geometry_sphere(&in.geometry, 0);
     fe_world_get_bodies(world, bodies, BODIES);
     in.start = fe_make_transform(0, 0, 0);
-    in.start.position = body_transform(world, bodies[one_of(s, BODIES)]).position;
+    in.start.position = body_transform(world, bodies[one_of(&s->dice, BODIES)]).position;
     fe_dvec3 off = place(s, 12);
     in.start.position.x += off.x, in.start.position.y += off.y, in.start.position.z += off.z;
     in.start.rotation = rotation(s);
-    in.way = place(s, lengths[one_of(s, 6)]);
-    if (one_of(s, 3) == 0) in.way.y = 0; // along surfaces
-    if (one_of(s, 4) == 0) in.way.x = 0;
+    in.way = place(s, lengths[one_of(&s->dice, 6)]);
+    if (one_of(&s->dice, 3) == 0) in.way.y = 0; // along surfaces
+    if (one_of(&s->dice, 4) == 0) in.way.x = 0;
     return in;
 }
 
@@ -250,7 +245,7 @@ static void the_laws_of_queries_hold(void **state)
                                                                            broken_by_stop, broken_by_nan};
     for (int32_t w = 0; w * PER_WORLD < inputs; ++w) {
         uint64_t seed = UINT64_C(88172645463325252) + (uint64_t)(uint32_t)w * UINT64_C(0x9e3779b97f4a7c15);
-        source s = {.random = seed, .round = w % 2};
+        source s = {.dice = {seed}, .round = w % 2};
         fe_world *world = random_world(&s);
         for (int32_t i = 0; i < PER_WORLD; ++i) {
             input in = random_input(&s, world);

@@ -3,6 +3,7 @@
 //
 // For ThreadSanitizer above all: queries read and write nothing that is shared.
 #include "api/api_test.h"
+#include "queries/dice.h"
 #include "robust/counting_allocator.h"
 
 #include <pthread.h>
@@ -14,23 +15,11 @@ enum { QUERIES = 3000 };
 #endif
 enum { THREADS = 8, BODIES = 300, MOST = 40 };
 
-static double uniform(uint64_t *random, double low, double high)
-{
-    *random ^= *random << 13, *random ^= *random >> 7, *random ^= *random << 17;
-    return low + (high - low) * (double)(*random >> 11) * 0x1p-53;
-}
-
-static fe_dvec3 place(uint64_t *random, double most)
-{
-    double x = uniform(random, -most, most), y = uniform(random, -most, most);
-    return fe_make_dvec3(x, y, uniform(random, -most, most));
-}
-
-static fe_geometry geometry(uint64_t *random)
+static fe_geometry geometry(dice *d)
 {
     fe_geometry g;
-    float a = (float)uniform(random, 0.2, 2), b = (float)uniform(random, 0.2, 2), c = (float)uniform(random, 0.2, 2);
-    double kind = uniform(random, 0, 3);
+    float a = (float)uniform(d, 0.2, 2), b = (float)uniform(d, 0.2, 2), c = (float)uniform(d, 0.2, 2);
+    double kind = uniform(d, 0, 3);
     fe_geometry_box(&g, a, b, c);
     if (kind < 1) fe_geometry_sphere(&g, a);
     if (kind > 2) fe_geometry_capsule(&g, a, b);
@@ -46,13 +35,13 @@ static fe_world *crowded_world(counting *memory, int32_t workers)
     def.allocator = &allocator;
     def.worker_count = workers;
     fe_world *world;
-    uint64_t random = UINT64_C(88172645463325252);
+    dice d = {UINT64_C(88172645463325252)};
     OK(fe_world_create(&def, &world));
     for (int32_t i = 0; i < BODIES; ++i) {
-        fe_dvec3 p = place(&random, 15);
+        fe_dvec3 p = random_vector(&d, 15);
         fe_body body = new_body(world, i % 3, p.x, p.y, p.z);
         for (int32_t shapes = 1 + i % 3; shapes > 0; --shapes) {
-            fe_geometry g = geometry(&random);
+            fe_geometry g = geometry(&d);
             add_shape(world, body, &g);
         }
     }
@@ -78,12 +67,12 @@ typedef struct asker {
 static void *ask(void *argument)
 {
     asker *a = argument;
-    uint64_t random = a->seed;
+    dice d = {a->seed};
     for (int32_t i = 0; i < QUERIES; ++i) {
-        fe_geometry g = geometry(&random);
+        fe_geometry g = geometry(&d);
         fe_transform t = fe_make_transform(0, 0, 0);
-        t.position = place(&random, 20);
-        fe_dvec3 way = place(&random, 20);
+        t.position = random_vector(&d, 20);
+        fe_dvec3 way = random_vector(&d, 20);
         fe_hit hits[MOST];
         fe_body bodies[MOST];
         fe_closest c;
@@ -157,10 +146,10 @@ static void batches_do_not_depend_on_who_answers(void **state)
     counting memory = {0};
     fe_world *world = crowded_world(&memory, 4);
     int64_t calls = memory.calls;
-    uint64_t random = 12345;
-    fe_geometry g = geometry(&random);
+    dice d = {12345};
+    fe_geometry g = geometry(&d);
     for (int32_t i = 0; i < QUERIES; ++i) {
-        rays[i].origin = place(&random, 20), rays[i].translation = place(&random, 20);
+        rays[i].origin = random_vector(&d, 20), rays[i].translation = random_vector(&d, 20);
         paths[i] = (fe_path){fe_make_transform(rays[i].origin.x, rays[i].origin.y, rays[i].origin.z),
                              rays[i].translation,
                              {(float)(i % 3), 2, 3},

@@ -4,8 +4,7 @@
 // The grounds' upper sides are flat: the gap is known without a judge. Doubles of lengths of 100 km are known to 1e-11
 // m.
 #include "api/api_test.h"
-
-#include <math.h>
+#include "queries/dice.h"
 
 enum { SPHERE, CAPSULE, BOX, CYLINDER, CONE, HULL, MOVERS };
 enum { ON_BOX, ON_HULL, ON_CYLINDER, ON_FIELD, ON_MESH, GROUNDS };
@@ -14,14 +13,8 @@ typedef struct bench {
     fe_world *world;
     fe_body ground;
     fe_shape shape;
-    uint64_t random;
+    dice dice;
 } bench;
-
-static double uniform(bench *b, double low, double high)
-{
-    b->random ^= b->random << 13, b->random ^= b->random >> 7, b->random ^= b->random << 17;
-    return low + (high - low) * (double)(b->random >> 11) * 0x1p-53;
-}
 
 static fe_asset cuboid(bench *b, float x, float y, float z)
 {
@@ -142,13 +135,15 @@ static void fall_on(bench *b, int32_t ground, int32_t mover, float s, float m)
     for (int32_t turned = 0; turned < 2; ++turned) {
         fe_transform frame = {fe_make_dvec3(0, 0, 0), {0, 0, 0, 1}};
         if (turned) {
-            frame.rotation = (fe_quat){(float)uniform(b, -1, 1), (float)uniform(b, -1, 1), (float)uniform(b, -1, 1), 1};
+            frame.rotation = (fe_quat){(float)uniform(&b->dice, -1, 1), (float)uniform(&b->dice, -1, 1),
+                                       (float)uniform(&b->dice, -1, 1), 1};
         }
         OK(fe_body_set_transform(b->world, b->ground, &frame));
         OK(fe_body_get_transform(b->world, b->ground, &frame)); // of length 1
         const double distances[] = {1e-3, 1, 100, 1e4};
         for (int32_t d = 0; d < 4; ++d) {
-            double x = corner + uniform(b, -0.6, 0.6) * (double)s, z = corner + uniform(b, -0.6, 0.6) * (double)s;
+            double x = corner + uniform(&b->dice, -0.6, 0.6) * (double)s,
+                   z = corner + uniform(&b->dice, -0.6, 0.6) * (double)s;
             double lengths = 3 * (double)s + 3 * (double)m + 3 * distances[d];
             one_fall(b, &frame, &moving, x, z, top + below, distances[d], ROUNDING * lengths);
         }
@@ -162,7 +157,7 @@ static void every_size_is_met(void **state)
     enum { SIZES = sizeof sizes / sizeof *sizes };
     for (int32_t ground = 0; ground < GROUNDS; ++ground) {
         for (int32_t mover = 0; mover < MOVERS; ++mover) {
-            bench b = {.world = new_world(), .random = UINT64_C(0x9e3779b97f4a7c15) + (uint32_t)(ground * 8 + mover)};
+            bench b = {.world = new_world(), .dice = {UINT64_C(0x9e3779b97f4a7c15) + (uint32_t)(ground * 8 + mover)}};
             b.ground = new_body(b.world, FE_BODY_STATIC, 0, 0, 0);
             b.shape = add_box(b.world, b.ground, 1);
             for (int32_t i = 0; i < SIZES; ++i) {

@@ -5,8 +5,7 @@
 //
 // Shapes of 1 cm to 2 m, ways of 1 mm to 10 km, at the world's origin and 1e6 m off it. The judge is separation.h, in
 // long double, and sure of a distance to 1e-9 m.
-#include "api/api_test.h"
-#include "queries/separation.h"
+#include "queries/forms.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,86 +23,35 @@ typedef struct bench {
     fe_store *store;
     fe_body body;
     fe_shape shape;
-    uint64_t random;
+    dice dice;
 } bench;
-
-static double uniform(bench *b, double low, double high)
-{
-    b->random ^= b->random << 13, b->random ^= b->random >> 7, b->random ^= b->random << 17;
-    return low + (high - low) * (double)(b->random >> 11) * 0x1p-53;
-}
-
-static double spread(bench *b, double low, double high) { return low * pow(high / low, uniform(b, 0, 1)); }
 
 static fe_dvec3 along(fe_dvec3 p, double s, fe_dvec3 d)
 {
     return fe_make_dvec3(p.x + s * d.x, p.y + s * d.y, p.z + s * d.z);
 }
 
-static fe_dvec3 direction(bench *b)
-{
-    for (;;) {
-        double x = uniform(b, -1, 1), y = uniform(b, -1, 1), z = uniform(b, -1, 1), square = x * x + y * y + z * z;
-        if (square > 1 || square < 0.01) continue;
-        return along(fe_make_dvec3(0, 0, 0), 1 / sqrt(square), fe_make_dvec3(x, y, z));
-    }
-}
-
-// Now and then along the axes: caps on caps, sides along sides.
-static fe_quat rotation(bench *b)
-{
-    if (uniform(b, 0, 1) < 0.2) return (fe_quat){0, 0, 0, 1};
-    float x = (float)uniform(b, -1, 1), y = (float)uniform(b, -1, 1), z = (float)uniform(b, -1, 1),
-          w = (float)uniform(b, 0.1, 1);
-    return (fe_quat){x, y, z, w};
-}
-
 // ---- forms ---------------------------------------------------------------------------------------------------------
 
-enum { SAMPLES = 4, TRIANGLES = 2 * (SAMPLES - 1) * (SAMPLES - 1) };
+enum { HULL_POINTS = 8, SAMPLES = 4, TRIANGLES = 2 * (SAMPLES - 1) * (SAMPLES - 1) };
 
-typedef struct solid_form {
-    fe_geometry geometry;
-    fe_asset asset;      // 0: none
-    float points[64][3]; // of a hull, or of a mesh's samples
-    int32_t count;       // of them
+typedef struct sheet { // a rough one, no steeper than 45 degrees
+    fe_asset asset;
+    float points[SAMPLES * SAMPLES][3];
     int32_t corners[TRIANGLES][3];
-    double reach; // m, of its farthest point from the origin
-} solid_form;
+} sheet;
 
-static void make_hull(bench *b, solid_form *f)
+static fe_geometry make_sheet(bench *b, sheet *f, double *out_reach)
 {
-    double size = spread(b, 0.01, 2), a = spread(b, 0.1, 1), c = spread(b, 0.1, 1);
-    float points[MOST_POINTS][3];
-    for (int32_t i = 0; i < MOST_POINTS; ++i) {
-        points[i][0] = (float)(size * uniform(b, -1, 1));
-        points[i][1] = (float)(size * a * uniform(b, -1, 1));
-        points[i][2] = (float)(size * c * uniform(b, -1, 1));
-    }
-    fe_hull_def d;
-    fe_hull_def_init(&d, sizeof d);
-    d.points = points[0], d.point_count = MOST_POINTS;
-    fe_result made = fe_hull_create(b->store, &d, &f->asset);
-    if (made == FE_ERROR_DEGENERATE) {
-        make_hull(b, f);
-        return;
-    }
-    OK(made);
-    fe_geometry_hull(&f->geometry, f->asset);
-    f->count = fe_hull_get_vertices(b->store, f->asset, (fe_vec3 *)f->points, 0, MOST_POINTS);
-    FE_WITHIN(f->count, 4, MOST_POINTS);
-}
-
-// A rough sheet, no steeper than 45 degrees
-static void make_mesh(bench *b, solid_form *f)
-{
-    double cell = spread(b, 0.05, 1);
+    double cell = spread(&b->dice, 0.05, 1);
     uint32_t indices[TRIANGLES][3];
-    f->count = SAMPLES * SAMPLES;
-    for (int32_t i = 0; i < f->count; ++i) {
-        f->points[i][0] = (float)(cell * (i % SAMPLES - 0.5 * (SAMPLES - 1)));
-        f->points[i][1] = (float)(cell * uniform(b, -0.2, 0.2));
-        f->points[i][2] = (float)(cell * (i / SAMPLES - 0.5 * (SAMPLES - 1)));
+    *out_reach = 0;
+    for (int32_t i = 0; i < SAMPLES * SAMPLES; ++i) {
+        float *p = f->points[i];
+        p[0] = (float)(cell * (i % SAMPLES - 0.5 * (SAMPLES - 1)));
+        p[1] = (float)(cell * uniform(&b->dice, -0.2, 0.2));
+        p[2] = (float)(cell * (i / SAMPLES - 0.5 * (SAMPLES - 1)));
+        *out_reach = fmax(*out_reach, sqrt((double)(p[0] * p[0] + p[1] * p[1] + p[2] * p[2])));
     }
     for (int32_t i = 0; i < TRIANGLES; ++i) {
         int32_t cell_of = i / 2, at = cell_of / (SAMPLES - 1) * SAMPLES + cell_of % (SAMPLES - 1);
@@ -113,35 +61,18 @@ static void make_mesh(bench *b, solid_form *f)
     }
     fe_mesh_def d;
     fe_mesh_def_init(&d, sizeof d);
-    d.vertices = f->points[0], d.vertex_count = f->count, d.indices = indices, d.triangle_count = TRIANGLES;
+    d.vertices = f->points[0], d.vertex_count = SAMPLES * SAMPLES, d.indices = indices, d.triangle_count = TRIANGLES;
     OK(fe_mesh_create(b->store, &d, &f->asset));
-    fe_geometry_mesh(&f->geometry, f->asset);
-}
-
-static void make_form(bench *b, int32_t type, solid_form *f)
-{
-    memset(f, 0, sizeof *f);
-    float x = (float)spread(b, 0.01, 2), y = (float)spread(b, 0.01, 2), z = (float)spread(b, 0.01, 2);
-    if (type == FE_GEOMETRY_SPHERE) fe_geometry_sphere(&f->geometry, x);
-    if (type == FE_GEOMETRY_CAPSULE) fe_geometry_capsule(&f->geometry, x, y);
-    if (type == FE_GEOMETRY_BOX) fe_geometry_box(&f->geometry, x, y, z);
-    if (type == FE_GEOMETRY_CYLINDER) fe_geometry_cylinder(&f->geometry, x, y);
-    if (type == FE_GEOMETRY_CONE) fe_geometry_cone(&f->geometry, x, y);
-    if (type == FE_GEOMETRY_HULL) make_hull(b, f);
-    if (type == FE_GEOMETRY_MESH) make_mesh(b, f);
-    const fe_geometry *g = &f->geometry;
-    fe_vec3 h = g->half_extents;
-    f->reach = sqrt((double)(h.x * h.x + h.y * h.y + h.z * h.z)) + (double)g->radius + (double)g->half_height;
-    for (int32_t i = 0; i < f->count; ++i) {
-        const float *p = f->points[i];
-        f->reach = fmax(f->reach, sqrt((double)(p[0] * p[0] + p[1] * p[1] + p[2] * p[2])));
-    }
+    fe_geometry g;
+    fe_geometry_mesh(&g, f->asset);
+    return g;
 }
 
 // ---- the judge -----------------------------------------------------------------------------------------------------
 
 typedef struct judged {
     const solid_form *mover, *still;
+    const sheet *sheet; // stands instead of `still`, or NULL
     fe_transform start, pose;
 } judged;
 
@@ -149,11 +80,10 @@ typedef struct judged {
 
 static separation judge(const judged *j, vec shift, int32_t triangle)
 {
-    convex mover =
-        convex_of(&j->mover->geometry, j->mover->points, j->mover->count, v_of(j->start.position), j->start.rotation);
-    const solid_form *f = j->still;
-    if (f->geometry.type != FE_GEOMETRY_MESH) {
-        convex still = convex_of(&f->geometry, f->points, f->count, v_of(j->pose.position), j->pose.rotation);
+    convex mover = convex_of_form(j->mover, v_of(j->start.position), j->start.rotation);
+    const sheet *f = j->sheet;
+    if (!f) {
+        convex still = convex_of_form(j->still, v_of(j->pose.position), j->pose.rotation);
         return separation_of(&mover, shift, &still, SURE);
     }
     separation best = {INFINITY, INFINITY, {0, 0, 0}};
@@ -183,8 +113,7 @@ static void count(const judged *j, const fe_hit *hit, fe_dvec3 translation, tall
         t->unsure += 1;
         return;
     }
-    double radii = j->mover->geometry.type <= FE_GEOMETRY_CAPSULE ? (double)j->mover->geometry.radius : 0;
-    if (j->still->geometry.type <= FE_GEOMETRY_CAPSULE) radii += (double)j->still->geometry.radius;
+    double radii = radius_of(j->mover) + (j->sheet ? 0 : radius_of(j->still));
     double error = (double)(v_length(v_cross(s.away, v_off(hit->normal))) / v_length(s.away));
     t->hits += 1;
     t->least = fmin(t->least, (double)s.least - radii), t->most = fmax(t->most, (double)s.most - radii);
@@ -196,35 +125,40 @@ static void count(const judged *j, const fe_hit *hit, fe_dvec3 translation, tall
 static void one_case(bench *b, int32_t moving, int32_t standing, tally *t)
 {
     static solid_form still, mover;
-    make_form(b, standing, &still), make_form(b, moving, &mover);
-    double middle = uniform(b, 0, 1) < 0.5 ? 0 : 1e6, reach = mover.reach + still.reach;
+    static sheet mesh;
     int32_t is_mesh = standing == FE_GEOMETRY_MESH;
-    judged j = {.mover = &mover, .still = &still};
-    j.pose = (fe_transform){fe_make_dvec3(middle, -middle, uniform(b, -10, 10)), rotation(b)};
-    if (is_mesh) j.pose.rotation = (fe_quat){(float)uniform(b, -0.1, 0.1), 0, (float)uniform(b, -0.1, 0.1), 1};
+    make_form(b->store, &b->dice, standing, 0.01, 2, HULL_POINTS, &still);
+    make_form(b->store, &b->dice, moving, 0.01, 2, HULL_POINTS, &mover);
+    if (is_mesh) still.geometry = make_sheet(b, &mesh, &still.reach);
+    double middle = uniform(&b->dice, 0, 1) < 0.5 ? 0 : 1e6, reach = mover.reach + still.reach;
+    judged j = {.mover = &mover, .still = &still, .sheet = is_mesh ? &mesh : NULL};
+    j.pose = (fe_transform){fe_make_dvec3(middle, -middle, uniform(&b->dice, -10, 10)), random_rotation(&b->dice)};
+    if (is_mesh)
+        j.pose.rotation = (fe_quat){(float)uniform(&b->dice, -0.1, 0.1), 0, (float)uniform(&b->dice, -0.1, 0.1), 1};
     OK(fe_shape_set_geometry(b->world, b->shape, &still.geometry));
     OK(fe_body_set_transform(b->world, b->body, &j.pose));
     OK(fe_body_get_transform(b->world, b->body, &j.pose)); // its rotation brought to length 1, in floats
-    fe_dvec3 way = direction(b), aside = direction(b);
+    fe_dvec3 way = direction(&b->dice), aside = direction(&b->dice);
     if (is_mesh) {
         way.y = -2 - fabs(way.y);
         way = along(fe_make_dvec3(0, 0, 0), 1 / sqrt(way.x * way.x + way.y * way.y + way.z * way.z), way);
     }
-    double off = uniform(b, 0, is_mesh ? 0.5 * still.reach : 0.7 * reach);
-    j.start = (fe_transform){along(along(j.pose.position, off, aside), -3 * reach, way), rotation(b)};
+    double off = uniform(&b->dice, 0, is_mesh ? 0.5 * still.reach : 0.7 * reach);
+    j.start = (fe_transform){along(along(j.pose.position, off, aside), -3 * reach, way), random_rotation(&b->dice)};
     fe_dvec3 far = along(fe_make_dvec3(0, 0, 0), 6 * reach, way);
     fe_hit hit;
     int32_t met = fe_world_sweep(b->world, &mover.geometry, &j.start, &far, NULL, &hit) == 1 && !hit.flags;
     if (met) {
-        double length = spread(b, 1e-3, 1e4);
+        double length = spread(&b->dice, 1e-3, 1e4);
         j.start.position =
-            along(along(j.start.position, hit.fraction * 6 * reach, way), -length * uniform(b, 0, 1), way);
+            along(along(j.start.position, hit.fraction * 6 * reach, way), -length * uniform(&b->dice, 0, 1), way);
         fe_dvec3 translation = along(fe_make_dvec3(0, 0, 0), length, way);
         met = fe_world_sweep(b->world, &mover.geometry, &j.start, &translation, NULL, &hit) == 1 && !hit.flags;
         if (met) count(&j, &hit, translation, t);
     }
-    if (mover.asset) OK(fe_asset_destroy(b->store, mover.asset));
-    if (still.asset) OK(fe_asset_destroy(b->store, still.asset));
+    if (is_mesh) OK(fe_asset_destroy(b->store, mesh.asset));
+    free_form(b->store, &mover);
+    free_form(b->store, &still);
 }
 
 // ---- the table -----------------------------------------------------------------------------------------------------
@@ -239,7 +173,7 @@ enum { OLD_KINDS = 3, MOVING_KINDS = 6, KINDS = 7 };
 
 static tally tally_of(int32_t mover, int32_t still)
 {
-    bench b = {.world = new_world(), .random = UINT64_C(0x9e3779b97f4a7c15) + (uint32_t)(mover * 8 + still)};
+    bench b = {.world = new_world(), .dice = {UINT64_C(0x9e3779b97f4a7c15) + (uint32_t)(mover * 8 + still)}};
     OK(fe_world_get_store(b.world, &b.store));
     b.body = new_body(b.world, FE_BODY_STATIC, 0, 0, 0);
     b.shape = add_box(b.world, b.body, 1);

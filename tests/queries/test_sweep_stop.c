@@ -5,6 +5,7 @@
 // Shapes of 1 cm to 1 km, ways of 1 mm to 10 km, at the world's origin and 1e6 m off it. The judge is exact.h, in long
 // double.
 #include "api/api_test.h"
+#include "queries/dice.h"
 #include "queries/exact.h"
 
 #include <stdio.h>
@@ -22,45 +23,18 @@ typedef struct bench {
     fe_world *world;
     fe_body body;
     fe_shape shape;
-    uint64_t random;
+    dice dice;
 } bench;
-
-static double uniform(bench *b, double low, double high)
-{
-    b->random ^= b->random << 13, b->random ^= b->random >> 7, b->random ^= b->random << 17;
-    return low + (high - low) * (double)(b->random >> 11) * 0x1p-53;
-}
-
-static double spread(bench *b, double low, double high) { return low * pow(high / low, uniform(b, 0, 1)); }
-
-static fe_dvec3 direction(bench *b)
-{
-    for (;;) {
-        double x = uniform(b, -1, 1), y = uniform(b, -1, 1), z = uniform(b, -1, 1), square = x * x + y * y + z * z;
-        if (square > 1 || square < 0.01) continue;
-        double k = 1 / sqrt(square);
-        return fe_make_dvec3(k * x, k * y, k * z);
-    }
-}
-
-// Now and then along the axes: faces on faces, edges along edges.
-static fe_quat rotation(bench *b)
-{
-    if (uniform(b, 0, 1) < 0.2) return (fe_quat){0, 0, 0, 1};
-    float x = (float)uniform(b, -1, 1), y = (float)uniform(b, -1, 1), z = (float)uniform(b, -1, 1),
-          w = (float)uniform(b, 0.1, 1);
-    return (fe_quat){x, y, z, w};
-}
 
 static fe_geometry geometry_of(bench *b, int32_t type)
 {
     fe_geometry g;
     float sizes[3];
-    for (int k = 0; k < 3; ++k) sizes[k] = (float)spread(b, 0.01, 1000);
+    for (int k = 0; k < 3; ++k) sizes[k] = (float)spread(&b->dice, 0.01, 1000);
     if (type == FE_GEOMETRY_SPHERE) fe_geometry_sphere(&g, sizes[0]);
     if (type == FE_GEOMETRY_CAPSULE) fe_geometry_capsule(&g, sizes[0], sizes[1]);
     if (type == FE_GEOMETRY_BOX) fe_geometry_box(&g, sizes[0], sizes[1], sizes[2]);
-    fe_dvec3 n = direction(b);
+    fe_dvec3 n = direction(&b->dice);
     if (type == FE_GEOMETRY_PLANE) fe_geometry_plane(&g, (float)n.x, (float)n.y, (float)n.z, sizes[0]);
     return g;
 }
@@ -78,25 +52,27 @@ typedef struct tally {
 // A way that meets the body somewhere in the middle: aimed from afar first, then taken from a start nearer by.
 static void one_case(bench *b, int32_t moving, int32_t standing, tally *t)
 {
-    double middle = uniform(b, 0, 1) < 0.5 ? 0 : 1e6;
+    double middle = uniform(&b->dice, 0, 1) < 0.5 ? 0 : 1e6;
     fe_geometry still = geometry_of(b, standing), mover = geometry_of(b, moving);
-    fe_transform pose = {fe_make_dvec3(middle + uniform(b, -10, 10), -middle + uniform(b, -10, 10),
-                                       uniform(b, -10, 10)),
-                         rotation(b)};
-    fe_transform start = {pose.position, rotation(b)};
+    fe_transform pose = {fe_make_dvec3(middle + uniform(&b->dice, -10, 10), -middle + uniform(&b->dice, -10, 10),
+                                       uniform(&b->dice, -10, 10)),
+                         random_rotation(&b->dice)};
+    fe_transform start = {pose.position, random_rotation(&b->dice)};
     OK(fe_shape_set_geometry(b->world, b->shape, &still));
     OK(fe_body_set_transform(b->world, b->body, &pose));
     OK(fe_body_get_transform(b->world, b->body, &pose)); // its rotation brought to length 1, in floats
     solid of_still = make_solid(&still, v_of(pose.position), pose.rotation),
           of_mover = make_solid(&mover, v_of(start.position), start.rotation);
     double reach = (double)of_mover.reach + (standing == FE_GEOMETRY_PLANE ? 1000 : (double)of_still.reach);
-    fe_dvec3 way = direction(b), far;
-    start.position = along(along(pose.position, uniform(b, 0, 0.7) * reach, direction(b)), -3 * reach, way);
+    fe_dvec3 way = direction(&b->dice), far;
+    start.position =
+        along(along(pose.position, uniform(&b->dice, 0, 0.7) * reach, direction(&b->dice)), -3 * reach, way);
     far = along(fe_make_dvec3(0, 0, 0), 6 * reach, way);
     fe_hit hit;
     if (fe_world_sweep(b->world, &mover, &start, &far, NULL, &hit) != 1 || hit.flags) return;
-    double length = spread(b, 1e-3, 1e4);
-    start.position = along(along(start.position, hit.fraction * 6 * reach, way), -length * uniform(b, 0, 1), way);
+    double length = spread(&b->dice, 1e-3, 1e4);
+    start.position =
+        along(along(start.position, hit.fraction * 6 * reach, way), -length * uniform(&b->dice, 0, 1), way);
     fe_dvec3 translation = along(fe_make_dvec3(0, 0, 0), length, way);
     if (fe_world_sweep(b->world, &mover, &start, &translation, NULL, &hit) != 1 || hit.flags) return;
     of_mover = make_solid(&mover, v_of(start.position), start.rotation);
@@ -129,14 +105,14 @@ static nearness nearest_triangle(const solid *mover, vec shift, const solid *tri
 // From above, steeply: what comes from below or the rim from aside is judged elsewhere.
 static void one_field_case(bench *b, int32_t moving, tally *t)
 {
-    float heights[SAMPLES * SAMPLES], cell = (float)spread(b, 0.05, 200);
-    for (int32_t i = 0; i < SAMPLES * SAMPLES; ++i) heights[i] = (float)uniform(b, -0.2, 0.2) * cell;
+    float heights[SAMPLES * SAMPLES], cell = (float)spread(&b->dice, 0.05, 200);
+    for (int32_t i = 0; i < SAMPLES * SAMPLES; ++i) heights[i] = (float)uniform(&b->dice, -0.2, 0.2) * cell;
     fe_heightfield_def def;
     fe_heightfield_def_init(&def, sizeof def);
     def.rows = def.columns = SAMPLES, def.cell_x = def.cell_z = cell, def.heights = heights;
-    double middle = uniform(b, 0, 1) < 0.5 ? 0 : 1e6;
+    double middle = uniform(&b->dice, 0, 1) < 0.5 ? 0 : 1e6;
     fe_transform pose = {fe_make_dvec3(middle, -middle, 1),
-                         {(float)uniform(b, -0.1, 0.1), 0, (float)uniform(b, -0.1, 0.1), 1}};
+                         {(float)uniform(&b->dice, -0.1, 0.1), 0, (float)uniform(&b->dice, -0.1, 0.1), 1}};
     fe_asset asset;
     fe_geometry g, mover = geometry_of(b, moving);
     OK(fe_heightfield_create(world_store(b->world), &def, &asset));
@@ -149,20 +125,22 @@ static void one_field_case(bench *b, int32_t moving, tally *t)
     for (int32_t i = 0; i < TRIANGLES; ++i)
         triangles[i] = make_field_solid(&def, i / 2 / (SAMPLES - 1), i / 2 % (SAMPLES - 1), i % 2, v_of(pose.position),
                                         pose.rotation);
-    fe_transform start = {pose.position, rotation(b)};
+    fe_transform start = {pose.position, random_rotation(&b->dice)};
     solid of_mover = make_solid(&mover, v_of(start.position), start.rotation);
     double reach = (double)of_mover.reach + 4 * (double)cell;
-    fe_dvec3 way = direction(b), goal = pose.position;
+    fe_dvec3 way = direction(&b->dice), goal = pose.position;
     way.y = -2 - fabs(way.y); // at most 27 degrees off the vertical, the ground at most 45: never from below
     double size = sqrt(way.x * way.x + way.y * way.y + way.z * way.z);
     way = fe_make_dvec3(way.x / size, way.y / size, way.z / size);
-    goal.x += uniform(b, 1, SAMPLES - 2) * (double)cell, goal.z += uniform(b, 1, SAMPLES - 2) * (double)cell;
+    goal.x += uniform(&b->dice, 1, SAMPLES - 2) * (double)cell,
+        goal.z += uniform(&b->dice, 1, SAMPLES - 2) * (double)cell;
     start.position = along(goal, -3 * reach, way);
     fe_dvec3 far = along(fe_make_dvec3(0, 0, 0), 6 * reach, way);
     fe_hit hit;
     if (fe_world_sweep(b->world, &mover, &start, &far, NULL, &hit) != 1 || hit.flags) return;
-    double length = spread(b, 1e-3, 1e4);
-    start.position = along(along(start.position, hit.fraction * 6 * reach, way), -length * uniform(b, 0, 1), way);
+    double length = spread(&b->dice, 1e-3, 1e4);
+    start.position =
+        along(along(start.position, hit.fraction * 6 * reach, way), -length * uniform(&b->dice, 0, 1), way);
     fe_dvec3 translation = along(fe_make_dvec3(0, 0, 0), length, way);
     if (fe_world_sweep(b->world, &mover, &start, &translation, NULL, &hit) != 1 || hit.flags) return;
     of_mover = make_solid(&mover, v_of(start.position), start.rotation);
@@ -189,7 +167,7 @@ enum { MOVING_KINDS = 3, KINDS = 5 };
 static tally tally_of(int32_t mover, int32_t still)
 {
     const int32_t moving = kinds[mover].type, standing = kinds[still].type;
-    bench b = {.world = new_world(), .random = UINT64_C(0x9e3779b97f4a7c15) + (uint32_t)(mover * 8 + still)};
+    bench b = {.world = new_world(), .dice = {UINT64_C(0x9e3779b97f4a7c15) + (uint32_t)(mover * 8 + still)}};
     b.body = new_body(b.world, FE_BODY_STATIC, 0, 0, 0);
     b.shape = add_box(b.world, b.body, 1);
     tally t = {0, INFINITY, -INFINITY, 0};

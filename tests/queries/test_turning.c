@@ -7,8 +7,8 @@
 // the plane across the reported normal; and they are near, for the reported point is on the standing form, and the gap
 // away along the normal the moving one begins.
 #include "api/api_test.h"
+#include "queries/dice.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -20,15 +20,7 @@ enum { CASES = 200 };
 enum { MOST_POINTS = 96, CORNERS = 12, SAMPLES = 64 };
 
 static int32_t cases = CASES;
-static uint64_t random_state = UINT64_C(0x9e3779b97f4a7c15);
-
-static double uniform(double low, double high)
-{
-    random_state ^= random_state << 13, random_state ^= random_state >> 7, random_state ^= random_state << 17;
-    return low + (high - low) * (double)(random_state >> 11) * 0x1p-53;
-}
-static double spread(double low, double high) { return low * pow(high / low, uniform(0, 1)); }
-static int32_t pick(int32_t count) { return (int32_t)uniform(0, (double)count); }
+static dice rolled = {UINT64_C(0x9e3779b97f4a7c15)};
 
 typedef fe_dvec3 vec;
 static vec add(vec a, vec b) { return (vec){a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -38,14 +30,6 @@ static double dot(vec a, vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 static vec cross(vec a, vec b) { return (vec){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 static double length(vec a) { return sqrt(dot(a, a)); }
 static vec wide(fe_vec3 a) { return (vec){a.x, a.y, a.z}; }
-static vec direction(void)
-{
-    for (;;) {
-        vec v = {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
-        double l = length(v);
-        if (l > 0.1 && l < 1) return scaled(1 / l, v);
-    }
-}
 
 // ---- poses in double -----------------------------------------------------------------------------------------------
 typedef struct frame {
@@ -180,22 +164,22 @@ static void add_points(solid *s)
         if (i % 4 == 0) add_edge(s, low, high);
     }
     for (int i = 0; i < 32 && (g->type == FE_GEOMETRY_SPHERE || g->type == FE_GEOMETRY_CAPSULE); ++i) {
-        vec p = scaled(r, direction());
+        vec p = scaled(r, direction(&rolled));
         if (g->type == FE_GEOMETRY_CAPSULE) p.y += p.y > 0 ? h : -h;
         add_point(s, p);
     }
     for (int32_t i = 0; i < s->points; ++i) s->reach = fmax(s->reach, length(s->point[i]));
 }
 
-static float size(void) { return (float)spread(0.05, 10); }
+static float size(void) { return (float)spread(&rolled, 0.05, 10); }
 
 static void make_hull(solid *s, fe_world *world)
 {
     fe_vec3 points[CORNERS];
-    float x = size(), y = size(), z = size(), shift = (float)uniform(-1, 1);
+    float x = size(), y = size(), z = size(), shift = (float)uniform(&rolled, -1, 1);
     for (int i = 0; i < CORNERS; ++i)
-        points[i] =
-            (fe_vec3){x * ((float)uniform(-1, 1) + shift), y * (float)uniform(-1, 1), z * (float)uniform(-1, 1)};
+        points[i] = (fe_vec3){x * ((float)uniform(&rolled, -1, 1) + shift), y * (float)uniform(&rolled, -1, 1),
+                              z * (float)uniform(&rolled, -1, 1)};
     fe_hull_def def;
     fe_hull_def_init(&def, sizeof def);
     def.points = &points[0].x, def.point_count = CORNERS;
@@ -226,7 +210,7 @@ static void make_hull(solid *s, fe_world *world)
 static solid make_solid(fe_world *world, int32_t type)
 {
     solid s = {.points = 0};
-    vec n = direction();
+    vec n = direction(&rolled);
     switch (type) {
     case FE_GEOMETRY_SPHERE:
         fe_geometry_sphere(&s.g, size());
@@ -273,17 +257,12 @@ static double clearance(const solid *a, const frame *at_a, const solid *b, const
 // The sweeps' gap and the turn's, and a tenth more: a stop within that is one. A hull's points are floats in its frame.
 static double gap_of(const solid *mover) { return 1.1 * (1e-7 + 2.4e-7 * mover->reach) + 1e-8 * (1 + mover->reach); }
 
-static fe_quat rotation(void)
-{
-    if (uniform(0, 1) < 0.2) return (fe_quat){0, 0, 0, 1};
-    return (fe_quat){(float)uniform(-1, 1), (float)uniform(-1, 1), (float)uniform(-1, 1), (float)uniform(0.1, 1)};
-}
-
 static fe_path random_path(double reach, vec about_here)
 {
-    fe_path p = {.start = {add(about_here, scaled(uniform(0, 3) * reach, direction())), rotation()}};
-    if (pick(4)) p.translation = scaled(spread(0.1, 4) * reach, direction());
-    vec w = scaled(pick(4) ? uniform(0, 7) : 6.2831853, direction());
+    fe_path p = {.start = {add(about_here, scaled(uniform(&rolled, 0, 3) * reach, direction(&rolled))),
+                           random_rotation(&rolled)}};
+    if (one_of(&rolled, 4)) p.translation = scaled(spread(&rolled, 0.1, 4) * reach, direction(&rolled));
+    vec w = scaled(one_of(&rolled, 4) ? uniform(&rolled, 0, 7) : 6.2831853, direction(&rolled));
     p.turn = (fe_vec3){(float)w.x, (float)w.y, (float)w.z};
     return p;
 }
@@ -316,7 +295,8 @@ enum { MOVING_KINDS = 6, KINDS = 7 };
 static int32_t one_case(fe_world *world, fe_body body, fe_shape shape, int32_t moving, int32_t standing)
 {
     solid mover = make_solid(world, moving), still = make_solid(world, standing);
-    fe_transform pose = {{uniform(-10, 10), uniform(-10, 10), uniform(-10, 10)}, rotation()};
+    fe_transform pose = {{uniform(&rolled, -10, 10), uniform(&rolled, -10, 10), uniform(&rolled, -10, 10)},
+                         random_rotation(&rolled)};
     OK(fe_shape_set_geometry(world, shape, &still.g));
     OK(fe_body_set_transform(world, body, &pose));
     OK(fe_body_get_transform(world, body, &pose));
@@ -376,12 +356,12 @@ static int32_t one_mesh_case(fe_world *world, fe_body body, fe_shape shape, int3
     solid mover = make_solid(world, moving);
     float vertices[3 * TRIANGLES][3];
     uint32_t indices[3 * TRIANGLES];
-    double extent = spread(0.1, 20);
+    double extent = spread(&rolled, 0.1, 20);
     for (int i = 0; i < 3 * TRIANGLES; ++i) {
         indices[i] = (uint32_t)i;
         for (int k = 0; k < 3; ++k)
-            vertices[i][k] = (float)(uniform(-0.3, 0.3) * extent) +
-                             (i % 3 ? vertices[i - i % 3][k] : (float)(extent * uniform(-1, 1)));
+            vertices[i][k] = (float)(uniform(&rolled, -0.3, 0.3) * extent) +
+                             (i % 3 ? vertices[i - i % 3][k] : (float)(extent * uniform(&rolled, -1, 1)));
     }
     fe_mesh_def def;
     fe_mesh_def_init(&def, sizeof def);
@@ -394,7 +374,8 @@ static int32_t one_mesh_case(fe_world *world, fe_body body, fe_shape shape, int3
     fe_geometry_mesh(&g, mesh);
     OK(fe_shape_set_geometry(world, shape, &g));
     OK(fe_asset_destroy(world_store(world), mesh));
-    fe_transform pose = {{uniform(-10, 10), uniform(-10, 10), uniform(-10, 10)}, rotation()};
+    fe_transform pose = {{uniform(&rolled, -10, 10), uniform(&rolled, -10, 10), uniform(&rolled, -10, 10)},
+                         random_rotation(&rolled)};
     OK(fe_body_set_transform(world, body, &pose));
     OK(fe_body_get_transform(world, body, &pose));
     frame at = frame_of(&pose);
@@ -620,8 +601,8 @@ static void all_any_first_and_many_agree(void **state)
     (void)state;
     fe_world *world = new_world();
     for (int i = 0; i < BODIES; ++i) {
-        solid s = make_solid(world, kinds[pick(KINDS - 1)]);
-        stand(world, &s.g, uniform(-30, 30), uniform(-30, 30), uniform(-30, 30));
+        solid s = make_solid(world, kinds[one_of(&rolled, KINDS - 1)]);
+        stand(world, &s.g, uniform(&rolled, -30, 30), uniform(&rolled, -30, 30), uniform(&rolled, -30, 30));
     }
     fe_geometry rod;
     fe_geometry_box(&rod, 3, 0.1f, 0.2f);

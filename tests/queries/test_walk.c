@@ -4,6 +4,7 @@
 //
 // What passes within 2 micrometres without a touch, or goes as little in, may count either way.
 #include "api/api_test.h"
+#include "queries/dice.h"
 #include "queries/exact.h"
 
 #include "collision/form/form.h"
@@ -18,6 +19,7 @@ enum { QUERIES = 2500 };
 enum {
     BODIES = 300,
     FIELDS = 2,
+    PLANES = 3,
     SAMPLES = 8,
     TRIANGLES = 2 * (SAMPLES - 1) * (SAMPLES - 1),
     SHAPES = 800 + FIELDS * TRIANGLES
@@ -44,35 +46,15 @@ typedef struct known_world {
     fe_body bodies[BODIES];
     known_shape shapes[SHAPES];
     int32_t count;
-    uint64_t random;
+    dice dice;
 } known_world;
-
-static double uniform(known_world *k, double low, double high)
-{
-    k->random ^= k->random << 13, k->random ^= k->random >> 7, k->random ^= k->random << 17;
-    return low + (high - low) * (double)(k->random >> 11) * 0x1p-53;
-}
-static int32_t one_of(known_world *k, int32_t count) { return (int32_t)uniform(k, 0, count); }
-static int32_t chance(known_world *k, double share) { return uniform(k, 0, 1) < share; }
-
-static fe_dvec3 random_vector(known_world *k, double most)
-{
-    double x = uniform(k, -most, most), y = uniform(k, -most, most);
-    return fe_make_dvec3(x, y, uniform(k, -most, most));
-}
-
-static fe_quat random_rotation(known_world *k)
-{
-    if (chance(k, 0.2)) return fe__identity();
-    fe_vec3 u = fe__narrow(random_vector(k, 1));
-    return (fe_quat){u.x, u.y, u.z, (float)uniform(k, 0.1, 1)};
-}
 
 static fe_geometry random_geometry(known_world *k, int32_t types)
 {
     fe_geometry g;
-    float a = (float)uniform(k, 0.05, 2), b = (float)uniform(k, 0.05, 2), c = (float)uniform(k, 0.05, 2);
-    int32_t type = FE_GEOMETRY_SPHERE + one_of(k, types); // then capsule, box
+    float a = (float)uniform(&k->dice, 0.05, 2), b = (float)uniform(&k->dice, 0.05, 2),
+          c = (float)uniform(&k->dice, 0.05, 2);
+    int32_t type = FE_GEOMETRY_SPHERE + one_of(&k->dice, types); // then capsule, box
     if (type == FE_GEOMETRY_SPHERE) fe_geometry_sphere(&g, a);
     if (type == FE_GEOMETRY_CAPSULE) fe_geometry_capsule(&g, a, b);
     if (type == FE_GEOMETRY_BOX) fe_geometry_box(&g, a, b, c);
@@ -84,9 +66,10 @@ static void add_known_shape(known_world *k, int32_t body, const fe_geometry *g)
     known_shape *s = &k->shapes[k->count++];
     fe_shape_def def;
     fe_shape_def_init(&def, sizeof def);
-    if (chance(k, 0.6)) def.frame.position = fe__narrow(random_vector(k, 2)), def.frame.rotation = random_rotation(k);
-    def.layer = s->layer = 1u << one_of(k, 3);
-    def.trigger = s->trigger = chance(k, 0.2);
+    if (chance(&k->dice, 0.6))
+        def.frame.position = fe__narrow(random_vector(&k->dice, 2)), def.frame.rotation = random_rotation(&k->dice);
+    def.layer = s->layer = 1u << one_of(&k->dice, 3);
+    def.trigger = s->trigger = chance(&k->dice, 0.2);
     s->body = body, s->triangle = -1;
     OK(fe_shape_create(k->world, k->bodies[body], &def, g, &s->shape));
 }
@@ -103,17 +86,17 @@ static void add_field(known_world *k, int32_t body)
 {
     float heights[SAMPLES * SAMPLES];
     uint8_t holes[(SAMPLES - 1) * (SAMPLES - 1)];
-    for (int32_t i = 0; i < SAMPLES * SAMPLES; ++i) heights[i] = (float)uniform(k, -2, 2);
-    for (int32_t i = 0; i < (SAMPLES - 1) * (SAMPLES - 1); ++i) holes[i] = (uint8_t)chance(k, 0.1);
+    for (int32_t i = 0; i < SAMPLES * SAMPLES; ++i) heights[i] = (float)uniform(&k->dice, -2, 2);
+    for (int32_t i = 0; i < (SAMPLES - 1) * (SAMPLES - 1); ++i) holes[i] = (uint8_t)chance(&k->dice, 0.1);
     fe_heightfield_def def;
     fe_heightfield_def_init(&def, sizeof def);
     def.rows = def.columns = SAMPLES, def.cell_x = 4.5f, def.cell_z = 5.25f, def.heights = heights, def.holes = holes;
     fe_asset asset;
     fe_geometry g;
     fe_shape shape;
-    fe_transform t = {fe__dadd(k->middle,
-                               fe_make_dvec3(uniform(k, -25, -10), uniform(k, -15, 15), uniform(k, -25, -10))),
-                      {(float)uniform(k, -0.2, 0.2), 0, (float)uniform(k, -0.2, 0.2), 1}};
+    fe_transform t = {fe__dadd(k->middle, fe_make_dvec3(uniform(&k->dice, -25, -10), uniform(&k->dice, -15, 15),
+                                                        uniform(&k->dice, -25, -10))),
+                      {(float)uniform(&k->dice, -0.2, 0.2), 0, (float)uniform(&k->dice, -0.2, 0.2), 1}};
     OK(fe_heightfield_create(world_store(k->world), &def, &asset));
     OK(fe_body_set_type(k->world, k->bodies[body], FE_BODY_STATIC));
     OK(fe_body_set_transform(k->world, k->bodies[body], &t));
@@ -134,23 +117,26 @@ static void add_body(known_world *k, int32_t index)
 {
     fe_body_def def;
     fe_body_def_init(&def, sizeof def);
-    def.type = one_of(k, 3);
-    def.transform.position = fe__dadd(k->middle, random_vector(k, 25));
-    def.transform.rotation = random_rotation(k);
-    def.awake = one_of(k, 2);
-    if (chance(k, 0.3)) def.linear_locks = (uint32_t)one_of(k, 8), def.angular_locks = (uint32_t)one_of(k, 8);
+    int32_t has_plane = index % (BODIES / PLANES) == 9;
+    def.type = has_plane ? FE_BODY_STATIC : one_of(&k->dice, 3);
+    def.transform.position = fe__dadd(k->middle, random_vector(&k->dice, 25));
+    def.transform.rotation = random_rotation(&k->dice);
+    def.awake = one_of(&k->dice, 2);
+    if (chance(&k->dice, 0.3))
+        def.linear_locks = (uint32_t)one_of(&k->dice, 8), def.angular_locks = (uint32_t)one_of(&k->dice, 8);
     OK(fe_body_create(k->world, &def, &k->bodies[index]));
     if (index % (BODIES / FIELDS) == 7) {
         add_field(k, index);
         return;
     }
-    for (int32_t shapes = 1 + (int32_t)(2.5 * uniform(k, 0, 1) * uniform(k, 0, 1)); shapes > 0; --shapes) {
+    for (int32_t shapes = 1 + (int32_t)(2.5 * uniform(&k->dice, 0, 1) * uniform(&k->dice, 0, 1)); shapes > 0;
+         --shapes) {
         fe_geometry g = random_geometry(k, 3);
         add_known_shape(k, index, &g);
     }
-    if (def.type == FE_BODY_STATIC && chance(k, 0.03)) {
+    if (has_plane) {
         fe_geometry g;
-        fe_geometry_plane(&g, (float)uniform(k, -0.2, 0.2), 1, 0, -22);
+        fe_geometry_plane(&g, (float)uniform(&k->dice, -0.2, 0.2), 1, 0, -22);
         add_known_shape(k, index, &g);
     }
 }
@@ -176,7 +162,7 @@ static void learn_poses(known_world *k)
 
 static void make_world(known_world *k, double middle, uint64_t seed)
 {
-    *k = (known_world){.world = new_world(), .middle = fe_make_dvec3(middle, -middle, middle / 2), .random = seed};
+    *k = (known_world){.world = new_world(), .middle = fe_make_dvec3(middle, -middle, middle / 2), .dice = {seed}};
     for (int32_t i = 0; i < BODIES; ++i) add_body(k, i);
     step(k->world, 2);
     learn_poses(k);
@@ -196,17 +182,17 @@ typedef struct query {
 static void random_query(known_world *k, query *q, int32_t is_ray)
 {
     fe_query_filter_init(&q->filter, sizeof q->filter);
-    if (chance(k, 0.3)) q->filter.mask = 1u << one_of(k, 4);
-    if (chance(k, 0.3)) q->filter.flags = FE_QUERY_TRIGGERS;
-    if (chance(k, 0.3)) {
-        for (int32_t i = 0; i < 3; ++i) q->excluded[i] = k->bodies[one_of(k, BODIES)];
+    if (chance(&k->dice, 0.3)) q->filter.mask = 1u << one_of(&k->dice, 4);
+    if (chance(&k->dice, 0.3)) q->filter.flags = FE_QUERY_TRIGGERS;
+    if (chance(&k->dice, 0.3)) {
+        for (int32_t i = 0; i < 3; ++i) q->excluded[i] = k->bodies[one_of(&k->dice, BODIES)];
         q->filter.excluded = q->excluded, q->filter.excluded_count = 3;
     }
     q->is_ray = is_ray;
-    q->start.position = fe__dadd(k->middle, random_vector(k, 35));
-    q->start.rotation = random_rotation(k);
-    q->way = fe__dsub(fe__dadd(k->middle, random_vector(k, 35)), q->start.position);
-    if (chance(k, 0.2)) q->way = fe__dscale(uniform(k, 0, 0.2), q->way);
+    q->start.position = fe__dadd(k->middle, random_vector(&k->dice, 35));
+    q->start.rotation = random_rotation(&k->dice);
+    q->way = fe__dsub(fe__dadd(k->middle, random_vector(&k->dice, 35)), q->start.position);
+    if (chance(&k->dice, 0.2)) q->way = fe__dscale(uniform(&k->dice, 0, 0.2), q->way);
     q->geometry = random_geometry(k, 3);
     if (is_ray) fe_geometry_sphere(&q->geometry, 0);
     q->mover = make_solid(&q->geometry, v_of(q->start.position), q->start.rotation);
@@ -506,7 +492,7 @@ static void the_closest_point_is_that_of_a_walk(void **state)
     int32_t found = 0;
     for (int32_t i = 0; i < queries; ++i) {
         random_query(&k, &q, 1);
-        double most = chance(&k, 0.5) ? uniform(&k, 0, 2) : 1e4;
+        double most = chance(&k.dice, 0.5) ? uniform(&k.dice, 0, 2) : 1e4;
         real best = INFINITY;
         vec p = v_of(q.start.position);
         for (int32_t s = 0; s < k.count; ++s) {

@@ -201,4 +201,24 @@ static inline void soup_scatter(soup *s, int32_t count, double size, uint64_t *s
     }
 }
 
+// ---- of one test case ----------------------------------------------------------------------------------------------
+static soup made;
+static uint64_t dice = 1;
+
+// cmocka's setup, and the teardown of the group
+static inline int reset(void **state)
+{
+    (void)state;
+    free_soup(&made);
+    dice = 1;
+    return 0;
+}
+
+static inline fe_dvec3 random_point(double size)
+{
+    fe_dvec3 p;
+    p.x = soup_random(&dice), p.y = soup_random(&dice), p.z = soup_random(&dice);
+    return fe__dscale(size, p);
+}
+
 #endif

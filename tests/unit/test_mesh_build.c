@@ -4,17 +4,6 @@
 #include "support/mesh_make.h"
 #include "support/values.h"
 
-static soup made;
-static uint64_t dice = 1;
-
-static int reset(void **state)
-{
-    (void)state;
-    free_soup(&made);
-    dice = 1;
-    return 0;
-}
-
 static made_mesh mesh_of_soup(void)
 {
     made_mesh m;

@@ -12,17 +12,6 @@ enum { RAYS = 100000 };
 #endif
 static int32_t rays = RAYS;
 
-static soup made;
-static uint64_t dice = 1;
-
-static int reset(void **state)
-{
-    (void)state;
-    free_soup(&made);
-    dice = 1;
-    return 0;
-}
-
 static made_mesh mesh_of_soup(int32_t is_two_sided)
 {
     made_mesh m;
@@ -30,12 +19,6 @@ static made_mesh mesh_of_soup(int32_t is_two_sided)
     source.is_two_sided = is_two_sided;
     FE_TRUE(make_mesh_of(&source, &m));
     return m;
-}
-
-static fe_dvec3 random_point(double size)
-{
-    fe_dvec3 p = {soup_random(&dice), soup_random(&dice), soup_random(&dice)};
-    return fe__dscale(size, p);
 }
 
 static double length(fe_dvec3 a) { return sqrt(fe__ddot(a, a)); }

@@ -14,23 +14,6 @@ enum { RAYS = 3000 };
 enum { RAYS = 60000 };
 #endif
 
-static soup made;
-static uint64_t dice = 1;
-
-static int reset(void **state)
-{
-    (void)state;
-    free_soup(&made);
-    dice = 1;
-    return 0;
-}
-
-static fe_dvec3 random_point(double size)
-{
-    fe_dvec3 p = {soup_random(&dice), soup_random(&dice), soup_random(&dice)};
-    return fe__dscale(size, p);
-}
-
 static double length(fe_dvec3 a) { return sqrt(fe__ddot(a, a)); }
 
 static fe_dvec3 times(fe_vec3 s, fe_dvec3 p)
