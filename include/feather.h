@@ -97,7 +97,7 @@ typedef unsigned long long fe_handle;
 typedef fe_handle fe_body;
 typedef fe_handle fe_shape;
 typedef fe_handle fe_joint;
-typedef fe_handle fe_asset; ///< what shapes of many worlds share: a heightfield, a convex hull, a mesh
+typedef fe_handle fe_asset; ///< what shapes of many worlds share: a heightfield, a convex hull, a mesh, a compound
 
 typedef struct fe_world fe_world; ///< everything that can touch each other
 typedef struct fe_pool fe_pool;   ///< worker threads that several worlds may share
@@ -216,7 +216,7 @@ FE_API fe_result fe_store_get_bytes(const fe_store *store, int64_t *out_bytes);
 FE_API fe_result fe_asset_destroy(fe_store *store, fe_asset asset);
 /// 1 for a living asset of this store, 0 for anything else.
 FE_API int32_t fe_asset_is_valid(const fe_store *store, fe_asset asset);
-/// What it is the form of: FE_GEOMETRY_HULL, FE_GEOMETRY_HEIGHTFIELD or FE_GEOMETRY_MESH.
+/// What it is the form of: FE_GEOMETRY_HULL, FE_GEOMETRY_HEIGHTFIELD, FE_GEOMETRY_MESH or FE_GEOMETRY_COMPOUND.
 /// @return a fe_geometry_type, or an error
 FE_API int32_t fe_asset_get_type(const fe_store *store, fe_asset asset);
 
@@ -226,7 +226,7 @@ FE_API int32_t fe_asset_get_type(const fe_store *store, fe_asset asset);
 /// triangle_data and numbers; a scale is the shape's, and not among them. Any later 1.x library loads them.
 /// @param out       at any alignment; NULL, 0 asks for the size only
 /// @param capacity  bytes; with less than the size nothing is written
-/// @return the size in bytes, or an error
+/// @return the size in bytes, or an error; FE_ERROR_UNSUPPORTED for a compound: save the assets of its parts
 FE_API int64_t fe_asset_save(const fe_store *store, fe_asset asset, void *out, int64_t capacity);
 /// Makes the asset that fe_asset_save wrote, in less time than it was built. It moves every world as the saved one
 /// does, bit for bit. Bytes from anywhere may be given: each number in them is checked, and what is accepted is sound,
@@ -865,6 +865,7 @@ typedef enum fe_geometry_type {
     FE_GEOMETRY_PLANE = 64,       ///< the half space normal . p <= distance; static bodies only
     FE_GEOMETRY_HEIGHTFIELD = 96, ///< asset: a grid of heights; static bodies only
     FE_GEOMETRY_MESH = 97,        ///< asset: triangles; static and kinematic bodies only
+    FE_GEOMETRY_COMPOUND = 98,    ///< asset: parts, see fe_compound_create; the bodies that each part may be on
     FE_GEOMETRY_FORCE32 = 0x7fffffff
 } fe_geometry_type;
 
@@ -881,7 +882,7 @@ typedef struct fe_geometry {
     /// 0, 0, 0 counts as 1, 1, 1. All other forms have one of these two.
     fe_vec3 scale;
     uint32_t reserved[2];
-    fe_asset asset; ///< of a hull, a heightfield, a mesh
+    fe_asset asset; ///< of a hull, a heightfield, a mesh, a compound
     uint64_t reserved_end[2];
 } fe_geometry;
 
@@ -901,7 +902,7 @@ typedef enum fe_shape_events {
 /// the same one: above 0 they always collide, below 0 never.
 typedef struct fe_shape_def {
     uint32_t struct_size;
-    float density;   ///< kg/m3, >= 0; a trigger weighs too. Default 1000
+    float density;   ///< kg/m3, >= 0; a trigger weighs too. Parts of a compound may have their own. Default 1000
     fe_frame frame;  ///< of the shape, in the body's space. Default the body's own
     int32_t trigger; ///< 1: reports dynamic and kinematic bodies that touch it, pushes nothing. Default 0
     fe_material material;
@@ -920,8 +921,9 @@ FE_API void fe_shape_def_init(fe_shape_def *def, uint32_t struct_size);
 /// Mass and inertia of the body follow; it is not woken.
 /// @param def  NULL: the defaults
 /// @return FE_ERROR_UNSUPPORTED for a plane or a heightfield on a body that is not static, for a mesh on a dynamic one,
-///         and for each of the three one-way; FE_ERROR_STALE for an asset that is gone, or of another store than the
-///         world's; FE_ERROR_KIND for one that is not what the type says; for scales see fe_geometry_set_scale
+///         for each of the three one-way, and likewise for a compound with such a part; FE_ERROR_STALE for an asset
+///         that is gone, or of another store than the world's; FE_ERROR_KIND for one that is not what the type says;
+///         for scales see fe_geometry_set_scale; FE_ERROR_LIMIT for more shapes and parts than a world can hold
 FE_API fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *def, const fe_geometry *geometry,
                                  fe_shape *out_shape);
 /// Its touching pairs send their exit. Mass and inertia of the body follow, unless they were set. The body and what it
@@ -938,11 +940,12 @@ FE_API fe_result fe_shape_get_geometry(const fe_world *world, fe_shape shape, fe
 /// In the body's space. Pairs, mass and sleep follow as for fe_shape_destroy.
 FE_API fe_result fe_shape_set_frame(fe_world *world, fe_shape shape, const fe_frame *frame);
 FE_API fe_result fe_shape_get_frame(const fe_world *world, fe_shape shape, fe_frame *out_frame);
-/// kg/m3, >= 0. Mass and inertia of the body follow, unless they were set. A change wakes it.
+/// kg/m3, >= 0. Mass and inertia of the body follow, unless they were set. A change wakes it. Parts of a compound with
+/// a density of their own keep it.
 FE_API fe_result fe_shape_set_density(fe_world *world, fe_shape shape, float density);
 FE_API fe_result fe_shape_get_density(const fe_world *world, fe_shape shape, float *out_density);
 /// Takes effect at the next step, also where the shape touches already. The body and what it touches wake. Cells of a
-/// heightfield and triangles of a mesh with materials of their own keep them.
+/// heightfield, triangles of a mesh and parts of a compound with materials of their own keep them.
 FE_API fe_result fe_shape_set_material(fe_world *world, fe_shape shape, const fe_material *material);
 FE_API fe_result fe_shape_get_material(const fe_world *world, fe_shape shape, fe_material *out_material);
 /// Takes effect at the next step. The pair filter judges anew the pairs that it refused.
@@ -956,7 +959,7 @@ FE_API fe_result fe_shape_get_pair_filter(const fe_world *world, fe_shape shape,
 /// See fe_shape_def. A body that comes from behind or from a side passes, until the two are apart. A change wakes the
 /// body and what it touches; what is inside the shape then passes.
 /// @param direction  shape frame, any length but zero; NULL: as it is
-/// @return FE_ERROR_UNSUPPORTED for planes, heightfields and meshes, unless `enabled` is 0
+/// @return FE_ERROR_UNSUPPORTED for planes, heightfields, meshes and compounds with such a part, unless `enabled` is 0
 FE_API fe_result fe_shape_set_one_way(fe_world *world, fe_shape shape, int32_t enabled, const fe_vec3 *direction);
 /// @param out_direction  as it was set
 FE_API fe_result fe_shape_get_one_way(const fe_world *world, fe_shape shape, int32_t *out_enabled,
@@ -976,6 +979,55 @@ FE_API fe_result fe_shape_get_user_data(const fe_world *world, fe_shape shape, u
 FE_API fe_result fe_shape_get_bounds(const fe_world *world, fe_shape shape, fe_bounds *out_bounds);
 /// Shapes that touched it at the end of the last step, in the order of creation: who is inside a trigger now.
 FE_API int32_t fe_shape_get_overlaps(const fe_world *world, fe_shape shape, fe_shape *out_shapes, int32_t capacity);
+
+// ---- compounds ------------------------------------------------------------------------------------------------------
+
+/// A part of a compound.
+typedef struct fe_compound_part {
+    uint32_t struct_size;
+    float density;        ///< kg/m3, >= 0; -1: that of the shape (fe_shape_def). Default -1
+    fe_frame frame;       ///< of the part, in the compound's space. Default the compound's own
+    int32_t own_material; ///< 1: it has `material`; 0: that of the shape. Default 0
+    fe_geometry geometry; ///< any but a plane and a compound. Default FE_GEOMETRY_NONE
+    fe_material material; ///< counts with own_material
+    uint64_t user_data;   ///< any number of yours: fe_compound_get_part reads it. Default 0
+} fe_compound_part;
+
+FE_API void fe_compound_part_init(fe_compound_part *part, uint32_t struct_size);
+/// Makes one form of several: a table, a tree, a tiled floor. Its shape (fe_geometry_compound) has one handle, filter
+/// and user data; mass, centre and inertia are those of its parts together. Hits, contacts and events name the shape,
+/// and the number of the part: its place in `parts`. A pair of shapes begins to touch with the first two of their
+/// parts that do, and ends with the last two. Parts may overlap; each weighs what it weighs alone. They move, touch and
+/// answer queries as single shapes of the body do. To change one, make another compound and give it to the shape
+/// (fe_shape_set_geometry). Parts of a body that need their own filter, events or handle are better single shapes.
+///
+/// The parts are copied. Their assets live as long as the compound does, whoever destroys their handles. Any number of
+/// shapes, in any world that uses the store, may share it; fe_asset_destroy gives it back. A compound has no scale:
+/// hulls and meshes among its parts have. Any thread may make one while worlds that use the store step.
+/// @param stride  bytes from one part to the next: sizeof(fe_compound_part)
+/// @param count   1..65535
+/// @return FE_ERROR_ARGUMENT for a part out of range, fe_last_error names it; FE_ERROR_UNSUPPORTED for a plane or a
+///         compound among the parts; FE_ERROR_STALE, FE_ERROR_KIND for the asset of a part, as in fe_shape_create
+FE_API fe_result fe_compound_create(fe_store *store, const fe_compound_part *parts, uint32_t stride, int32_t count,
+                                    fe_asset *out_asset);
+
+/// What a compound is.
+typedef struct fe_compound_info {
+    uint32_t struct_size;
+    int32_t part_count;
+    fe_vec3 lower, upper; ///< least and greatest corner of the bounds of its parts, m, in the compound's space
+    int64_t bytes;        ///< of memory, without the assets of its parts
+} fe_compound_info;
+
+FE_API void fe_compound_info_init(fe_compound_info *info, uint32_t struct_size);
+/// @param out_info  its struct_size must be set
+/// @return FE_ERROR_KIND for an asset that is no compound
+FE_API fe_result fe_compound_get_info(const fe_store *store, fe_asset compound, fe_compound_info *out_info);
+/// A part as it was given; a rotation comes back with length 1, a scale of 0, 0, 0 as 1, 1, 1.
+/// @param part      its number, 0..part_count - 1
+/// @param out_part  its struct_size must be set
+FE_API fe_result fe_compound_get_part(const fe_store *store, fe_asset compound, int32_t part,
+                                      fe_compound_part *out_part);
 
 // ---- joints ---------------------------------------------------------------------------------------------------------
 //
@@ -1380,7 +1432,7 @@ typedef struct fe_hit {
     fe_vec3 normal;       ///< unit, out of the body; started inside: against the translation, or the shortest way out
                           ///< when that is zero
     float depth;          ///< started inside: length of the shortest way out, m; else 0
-    int32_t part;         ///< of a shape made of parts, else -1
+    int32_t part;         ///< of a compound, else -1
     int32_t triangle;     ///< of a heightfield or a mesh, or the face of a hull, else -1
     float barycentric[2]; ///< weights of the triangle's second and third vertex at `point`; else 0, 0
     uint32_t flags;       ///< fe_hit_flags
@@ -1506,12 +1558,13 @@ typedef struct fe_overlap {
     uint64_t material; ///< fe_material.user_id where it is deepest
     fe_vec3 direction; ///< unit, out of the shape: a translation of the geometry by `depth` along it parts the two
     float depth;       ///< m, >= 0
-    int32_t part;      ///< of a shape made of parts, else -1
+    int32_t part;      ///< of a compound, where it is deepest; else -1
     int32_t triangle;  ///< of a heightfield or a mesh, where it is deepest; the face of a hull on that way; else -1
     uint32_t reserved[4];
 } fe_overlap;
 
 /// The shapes that a geometry overlaps, in the order of creation, with direction and depth: to move a character out.
+/// A compound counts once, with the part that is overlapped deepest: it is that part which the translation parts.
 /// @param stride  sizeof(fe_overlap), at least 16
 /// @return how many there are; when they are more than `capacity` those created first are written
 FE_API int32_t fe_world_overlap_shapes(const fe_world *world, const fe_geometry *geometry, const fe_transform *at,
@@ -1531,7 +1584,7 @@ typedef struct fe_closest {
     double distance;      ///< to the surface, m; below 0 inside
     uint64_t material;    ///< fe_material.user_id there
     fe_vec3 normal;       ///< unit, out of the body; of a mesh towards the side that the point is on
-    int32_t part;         ///< of a shape made of parts, else -1
+    int32_t part;         ///< of a compound, else -1
     int32_t triangle;     ///< of a heightfield or a mesh, or the face of a hull, else -1
     float barycentric[2]; ///< weights of the triangle's second and third vertex at `point`; else 0, 0
     uint32_t reserved[5];
@@ -1582,7 +1635,7 @@ typedef struct fe_pair_event {
     fe_shape shape_a, shape_b;
     int32_t kind;                   ///< FE_EVENT_ENTER, FE_EVENT_STAY, FE_EVENT_EXIT
     int32_t is_trigger;             ///< 1 when either is a trigger
-    int32_t part_a, part_b;         ///< of a shape made of parts, else -1
+    int32_t part_a, part_b;         ///< of compounds: those of the deepest point; -1 at an exit, and of others
     int32_t triangle_a, triangle_b; ///< of a heightfield or a mesh, under the deepest point, else -1
     uint32_t reserved[4];
 } fe_pair_event;
@@ -1612,7 +1665,7 @@ typedef struct fe_hit_event {
     fe_vec3 normal;                  ///< from A to B
     float speed;                     ///< of approach, m/s
     float impulse;                   ///< of the step, along the normal, N s
-    int32_t part_a, part_b;          ///< of a shape made of parts, else -1
+    int32_t part_a, part_b;          ///< of compounds: where the impulse was largest, else -1
     int32_t triangle_a, triangle_b;  ///< of a heightfield or a mesh, else -1
     uint32_t reserved[5];
 } fe_hit_event;
@@ -1647,7 +1700,8 @@ typedef struct fe_contact_point {
     uint32_t id;          ///< of the features that meet; stays while they do
 } fe_contact_point;
 
-/// A pair of shapes has one; with a heightfield or a mesh one for each direction in which it is touched, at most 6.
+/// A pair of shapes has one, with compounds each pair of parts; with a heightfield or a mesh one for each direction in
+/// which it is touched, at most 6.
 typedef struct fe_contact {
     fe_body body_a, body_b;
     fe_shape shape_a, shape_b;
@@ -1657,7 +1711,7 @@ typedef struct fe_contact {
     fe_contact_point points[4];      ///< the first point_count of them
     fe_vec3 friction_impulse;        ///< on B, of the last substep, N s
     float twist_impulse;             ///< on B, about the normal, N m s
-    int32_t part_a, part_b;          ///< of a shape made of parts, else -1
+    int32_t part_a, part_b;          ///< of compounds, else -1
     int32_t triangle_a, triangle_b;  ///< of a heightfield or a mesh, under the deepest point, else -1
     uint32_t reserved[4];
 } fe_contact;
@@ -1778,12 +1832,21 @@ static inline void fe_geometry_mesh(fe_geometry *out_geometry, fe_asset mesh)
     out_geometry->asset = mesh;
 }
 
+/// The compound's parts are in the shape's frame as they were given. Its asset lives as long as the shape does.
+static inline void fe_geometry_compound(fe_geometry *out_geometry, fe_asset compound)
+{
+    fe_geometry_init(out_geometry, (uint32_t)sizeof *out_geometry);
+    out_geometry->type = FE_GEOMETRY_COMPOUND;
+    out_geometry->asset = compound;
+}
+
 /// The scale of a hull or a mesh that the geometry was filled with. The asset stays as it is: shapes of one asset may
 /// each have another scale, and shapes of equal scale share what it takes. What is mirrored keeps its outside.
 ///
 /// A scale that cannot be is found where the geometry is used. FE_ERROR_ARGUMENT: it is out of range, takes a point
-/// beyond 100000 m, or is that of another form. FE_ERROR_UNSUPPORTED: it is that of a heightfield. FE_ERROR_DEGENERATE:
-/// a hull would be thinner, or a triangle of a mesh smaller, than fe_hull_create and fe_mesh_create allow.
+/// beyond 100000 m, or is that of another form. FE_ERROR_UNSUPPORTED: it is that of a heightfield or a compound.
+/// FE_ERROR_DEGENERATE: a hull would be thinner, or a triangle of a mesh smaller, than fe_hull_create and
+/// fe_mesh_create allow.
 static inline void fe_geometry_set_scale(fe_geometry *geometry, float x, float y, float z)
 {
     if (!geometry) return;

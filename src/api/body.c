@@ -152,7 +152,7 @@ static int32_t may_be(const fe_world *world, int32_t body, int32_t type, const f
 {
     for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next) {
         const fe__form *form = *out_form = &world->shapes[shape].form;
-        if (type == FE_BODY_STATIC || !fe__form_is_static_only(form)) continue;
+        if (type == FE_BODY_STATIC || !fe__form_is_static_only(form) || fe__form_is_of_parts(form)) continue;
         if (type == FE_BODY_DYNAMIC || !fe__form_is_carried(form)) return 0;
     }
     return 1;
@@ -539,9 +539,10 @@ fe_result fe_body_set_filter(fe_world *world, fe_body body, uint32_t layer, uint
     FE_CHECK_FILTER(layer);
     if (world->bodies[index].shape_count == 0)
         return fe__fail(function, FE_ERROR_STATE, "body 0x%llx has no shapes to filter", body);
-    for (int32_t shape = world->bodies[index].first_shape; shape >= 0; shape = world->shapes[shape].next) {
-        fe__shape_set_filter(world, shape, layer, mask, group);
-    }
+    fe__fp_state fp = fe__fp_enter();
+    for (int32_t shape = world->bodies[index].first_shape; shape >= 0; shape = world->shapes[shape].next)
+        if (world->shapes[shape].parent < 0) fe__shape_set_filter(world, shape, layer, mask, group);
+    fe__fp_leave(fp);
     return FE_OK;
 }
 
@@ -567,15 +568,25 @@ fe_result fe_body_get_filter(const fe_world *world, fe_body body, uint32_t *out_
     return FE_OK;
 }
 
+// Without the parts of compounds
+static int32_t count_shapes(const fe_world *world, int32_t body)
+{
+    int32_t count = 0;
+    for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next)
+        count += world->shapes[shape].parent < 0;
+    return count;
+}
+
 int32_t fe_body_get_shapes(const fe_world *world, fe_body body, fe_shape *out_shapes, int32_t capacity)
 {
     FE_READ(world);
     FE_FIND_BODY(index, body);
     FE_CHECK_ARRAY(out_shapes, capacity);
-    int32_t count = 0;
+    int32_t count = 0, all = world->bodies[index].shape_count;
+    if (world->part_count) all = count_shapes(world, index);
     for (int32_t shape = world->bodies[index].first_shape; shape >= 0 && count < capacity;
          shape = world->shapes[shape].next) {
-        out_shapes[count++] = fe__shape_handle(world, shape);
+        if (world->shapes[shape].parent < 0) out_shapes[count++] = fe__shape_handle(world, shape);
     }
-    return world->bodies[index].shape_count;
+    return all;
 }

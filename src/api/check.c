@@ -96,8 +96,10 @@ fe_result fe__find_asset(const char *function, const char *name, const fe_store 
 fe_result fe__find_asset_of(const char *function, const char *name, const fe_store *store, int32_t kind,
                             fe_asset handle, int32_t *out_index)
 {
-    static const char *const kinds[] = {
-        [FE__ASSET_HEIGHTFIELD] = "heightfield", [FE__ASSET_HULL] = "hull", [FE__ASSET_MESH] = "mesh"};
+    static const char *const kinds[] = {[FE__ASSET_HEIGHTFIELD] = "heightfield",
+                                        [FE__ASSET_HULL] = "hull",
+                                        [FE__ASSET_MESH] = "mesh",
+                                        [FE__ASSET_COMPOUND] = "compound"};
     FE_TRY(fe__find_asset(function, name, store, handle, out_index));
     int32_t own = fe__store_asset(store, *out_index)->kind;
     if (own == kind) return FE_OK;

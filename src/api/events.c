@@ -1,6 +1,7 @@
 // events.c - the API of what a step left behind: events and contacts.
 #include "api/check.h"
 #include "core/fp_state.h"
+#include "world/encounter.h"
 #include "world/handles.h"
 #include "world/material.h"
 #include "world/pair_list.h"
@@ -51,8 +52,8 @@ static fe_pair_event describe_event(const fe__pair_event_record *r)
                            .shape_b = r->shape_b,
                            .kind = r->kind,
                            .is_trigger = r->is_trigger,
-                           .part_a = -1,
-                           .part_b = -1,
+                           .part_a = fe__part_of_serial(r->serial_a),
+                           .part_b = fe__part_of_serial(r->serial_b),
                            .triangle_a = r->field_a ? r->triangle : -1,
                            .triangle_b = r->field_a ? -1 : r->triangle};
 }
@@ -125,12 +126,18 @@ static fe_contact describe(const fe_world *world, int32_t pair)
                           .friction_impulse = {side * q->friction_impulse[0], side * q->friction_impulse[1],
                                                side * q->friction_impulse[2]},
                           .twist_impulse = q->twist_impulse,
-                          .part_a = -1,
-                          .part_b = -1,
+                          .part_a = fe__part_of_serial(world->shapes[p->shape_a].serial),
+                          .part_b = fe__part_of_serial(world->shapes[p->shape_b].serial),
                           .triangle_a = field_a ? p->triangle : -1,
                           .triangle_b = field_a ? -1 : p->triangle};
     for (int32_t i = 0; i < contact.point_count; ++i) contact.points[i] = describe_point(world, pair, i);
     return contact;
+}
+
+// The shape, or a part of it
+static int32_t is_in(const fe_world *world, const fe__pair *p, int32_t shape)
+{
+    return fe__is_of_whole(world, p->shape_a, shape) || fe__is_of_whole(world, p->shape_b, shape);
 }
 
 // Of a body, or of one of its shapes (-1: all)
@@ -140,7 +147,7 @@ static int32_t write_contacts(const fe_world *world, int32_t body, int32_t shape
     int32_t count = 0;
     for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, body)) {
         const fe__pair *p = &world->pairs[pair];
-        if (shape >= 0 && p->shape_a != shape && p->shape_b != shape) continue;
+        if (shape >= 0 && !is_in(world, p, shape)) continue;
         if (point_count(world, pair) == 0) continue;
         if (count < capacity) {
             fe_contact contact = describe(world, pair);
@@ -200,10 +207,10 @@ int32_t fe_shape_get_overlaps(const fe_world *world, fe_shape shape, fe_shape *o
     int32_t body = world->shapes[index].body, count = 0;
     for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, body)) {
         const fe__pair *p = &world->pairs[pair];
-        if (p->flags & FE__PAIR_PATCH || !(p->flags & FE__PAIR_TOUCHING) ||
-            (p->shape_a != index && p->shape_b != index))
-            continue;
-        count = add_overlap(world, p->shape_a == index ? p->shape_b : p->shape_a, out_shapes, count, capacity);
+        if (p->flags & FE__PAIR_PATCH || !(p->flags & FE__PAIR_TOUCHING) || !is_in(world, p, index)) continue;
+        if (p->flags & FE__PAIR_OF_PARTS && fe__encounter_of(world, pair)->lead != pair) continue;
+        int32_t other = fe__is_of_whole(world, p->shape_a, index) ? p->shape_b : p->shape_a;
+        count = add_overlap(world, fe__whole_shape(world->shapes, other), out_shapes, count, capacity);
     }
     return count;
 }

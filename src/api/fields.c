@@ -39,6 +39,12 @@ DEFINE(fe_mesh_info)
 #define THIS fe_mesh_triangle
 DEFINE(fe_mesh_triangle)
 #undef THIS
+#define THIS fe_compound_part
+DEFINE(fe_compound_part)
+#undef THIS
+#define THIS fe_compound_info
+DEFINE(fe_compound_info)
+#undef THIS
 #define THIS fe_task_system
 DEFINE(fe_task_system)
 #undef THIS

@@ -102,7 +102,7 @@ fe_result fe_shape_get_bounds(const fe_world *world, fe_shape shape, fe_bounds *
         return fe__fail(function, FE_ERROR_UNSUPPORTED, "shape 0x%llx is a plane, which has no bounds", shape);
     }
     fe__fp_state fp = fe__fp_enter();
-    fe__bounds bounds = fe__shape_bounds(world, index, 0.0f);
+    fe__bounds bounds = fe__whole_bounds(world, index);
     fe__fp_leave(fp);
     *out_bounds = public_bounds(&bounds);
     return FE_OK;

@@ -335,6 +335,14 @@ int32_t fe_world_closest_point(const fe_world *world, const fe_dvec3 *point, dou
 }
 
 // ---- one body, one shape --------------------------------------------------------------------------------------------
+// The first record in the body's list that is not the shape's, nor that of a part of it
+static int32_t end_of_shape(const fe_world *world, int32_t shape)
+{
+    int32_t last = shape;
+    for (int32_t i = shape; i >= 0; i = fe__next_of_whole(world, shape, i)) last = i;
+    return world->shapes[last].next;
+}
+
 // From shape `first` to before `end` in a body's list.
 static int32_t raycast_shapes(const fe_world *world, int32_t first, int32_t end, const fe_dvec3 *origin,
                               const fe_dvec3 *translation, fe_hit *out_hit)
@@ -370,7 +378,7 @@ int32_t fe_shape_raycast(const fe_world *world, fe_shape shape, const fe_dvec3 *
     FE_CHECK_DVEC3(origin, FE_MAX_POSITION);
     FE_CHECK_DVEC3(translation, FE_MAX_TRANSLATION);
     FE_CHECK_POINTER(out_hit);
-    return raycast_shapes(world, index, world->shapes[index].next, origin, translation, out_hit);
+    return raycast_shapes(world, index, end_of_shape(world, index), origin, translation, out_hit);
 }
 
 int32_t fe_body_raycast(const fe_world *world, fe_body body, const fe_dvec3 *origin, const fe_dvec3 *translation,
@@ -390,7 +398,7 @@ int32_t fe_shape_closest_point(const fe_world *world, fe_shape shape, const fe_d
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_DVEC3(point, FE_MAX_POSITION);
     FE_CHECK_POINTER(out_closest);
-    return closest_of_shapes(world, index, world->shapes[index].next, point, out_closest);
+    return closest_of_shapes(world, index, end_of_shape(world, index), point, out_closest);
 }
 
 int32_t fe_body_closest_point(const fe_world *world, fe_body body, const fe_dvec3 *point, fe_closest *out_closest)

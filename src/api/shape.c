@@ -1,5 +1,6 @@
 // shape.c - the API of shapes: geometry, material, filter, life.
 #include "api/asset_form.h"
+#include "api/geometry.h"
 
 #include <inttypes.h>
 #include "core/fp_state.h"
@@ -8,93 +9,11 @@
 #include "world/shapes.h"
 #include "world/sleep.h"
 
-// ---- geometry ------------------------------------------------------------------------------------------------------
-
-void fe_geometry_init(fe_geometry *geometry, uint32_t struct_size)
-{
-    fe_geometry defaults = {.struct_size = sizeof defaults};
-    fe__init_struct(geometry, &defaults, sizeof defaults, struct_size);
-}
-
-#define FE_CHECK_LENGTH(value) FE_CHECK_FLOAT(value, FE_LEAST_LENGTH, FE_MAX_LENGTH)
-
-// Kept as given when its length is 1 to the rounding of floats, so that reading a plane and setting it again changes
-// nothing.
-static fe_vec3 unit_normal(fe_vec3 n)
-{
-    const double tolerance = 1e-7;
-    fe__fp_state fp = fe__fp_enter();
-    fe_dvec3 wide = fe__widen(n);
-    double length = sqrt(fe__ddot(wide, wide));
-    if (fe__absd(length - 1.0) >= tolerance) n = fe__narrow(fe__dscale(1.0 / length, wide));
-    fe__fp_leave(fp);
-    return n;
-}
-
-static fe_result read_plane(const char *function, const fe_geometry *geometry, fe__form *out_form)
-{
-    const fe_vec3 *normal = &geometry->normal;
-    int32_t finite = __builtin_isfinite(normal->x) && __builtin_isfinite(normal->y) && __builtin_isfinite(normal->z);
-    if (!finite || (normal->x == 0.0f && normal->y == 0.0f && normal->z == 0.0f)) {
-        return fe__fail(function, FE_ERROR_ARGUMENT,
-                        "geometry->normal is (%.9g, %.9g, %.9g), must be finite and not zero", (double)normal->x,
-                        (double)normal->y, (double)normal->z);
-    }
-    FE_CHECK_FLOAT(geometry->distance, -FE_MAX_LOCAL, FE_MAX_LOCAL);
-    out_form->normal = unit_normal(*normal);
-    out_form->distance = geometry->distance;
-    return FE_OK;
-}
-
-// What a form does not use stays 0 (see form.h). On FE_OK its asset is kept alive until fe__let_go_of_asset.
-static fe_result read_geometry(const char *function, const fe_world *world, const fe_geometry *geometry,
-                               fe__form *out_form)
-{
-    fe_geometry whole = {.struct_size = sizeof whole};
-    FE_READ_STRUCT(geometry, &whole);
-    geometry = &whole;
-    FE_CHECK_RESERVED(geometry->reserved);
-    FE_CHECK_RESERVED(geometry->reserved_end);
-    *out_form = (fe__form){.type = fe__form_of_geometry(geometry->type)};
-    if (out_form->type < 0)
-        return fe__fail(function, FE_ERROR_ARGUMENT, "type is %" PRId32 ", no fe_geometry_type", geometry->type);
-    FE_TRY(fe__check_has_scale(function, geometry));
-    switch (geometry->type) {
-    case FE_GEOMETRY_SPHERE:
-        FE_CHECK_LENGTH(geometry->radius);
-        out_form->radius = geometry->radius;
-        return FE_OK;
-    case FE_GEOMETRY_CAPSULE:
-        FE_CHECK_LENGTH(geometry->half_height);
-        FE_CHECK_LENGTH(geometry->radius);
-        out_form->half_height = geometry->half_height;
-        out_form->radius = geometry->radius;
-        return FE_OK;
-    case FE_GEOMETRY_CYLINDER:
-    case FE_GEOMETRY_CONE:
-        FE_CHECK_LENGTH(geometry->half_height);
-        FE_CHECK_LENGTH(geometry->radius);
-        out_form->half = fe__vec3(geometry->radius, geometry->half_height, geometry->radius);
-        return FE_OK;
-    case FE_GEOMETRY_BOX:
-        FE_CHECK_LENGTH(geometry->half_extents.x);
-        FE_CHECK_LENGTH(geometry->half_extents.y);
-        FE_CHECK_LENGTH(geometry->half_extents.z);
-        out_form->half = geometry->half_extents;
-        return FE_OK;
-    case FE_GEOMETRY_HULL:
-        return fe__read_asset_form(function, world->store, geometry, FE__ASSET_HULL, out_form);
-    case FE_GEOMETRY_HEIGHTFIELD:
-        return fe__read_asset_form(function, world->store, geometry, FE__ASSET_HEIGHTFIELD, out_form);
-    case FE_GEOMETRY_MESH:
-        return fe__read_asset_form(function, world->store, geometry, FE__ASSET_MESH, out_form);
-    default:
-        return read_plane(function, geometry, out_form);
-    }
-}
+// ---- what may be
+// -----------------------------------------------------------------------------------------------------
 
 // Planes and heightfields are static only; meshes are carried by kinematic bodies too.
-static fe_result check_owner(const char *function, const fe_world *world, int32_t body, const fe__form *form)
+static fe_result check_form_owner(const char *function, const fe_world *world, int32_t body, const fe__form *form)
 {
     int32_t type = world->bodies[body].type;
     if (!fe__form_is_static_only(form) || type == FE_BODY_STATIC) return FE_OK;
@@ -108,10 +27,29 @@ static fe_result check_owner(const char *function, const fe_world *world, int32_
                     fe__body_handle(world, body), fe__traits_of(form)->name);
 }
 
-static fe_result check_one_way(const char *function, const fe__form *form, uint32_t one_way)
+// Of a compound: each part. The caller keeps its asset alive.
+static fe_result check_owner(const char *function, const fe_world *world, int32_t body, const fe__form *form)
 {
-    if (!one_way || !fe__form_is_static_only(form)) return FE_OK;
+    if (!fe__form_is_of_parts(form)) return check_form_owner(function, world, body, form);
+    const fe__compound *compound = &fe__store_asset(world->store, form->field)->compound;
+    for (int32_t i = 0; i < compound->count; ++i)
+        FE_TRY(check_form_owner(function, world, body, &compound->parts[i].form));
+    return FE_OK;
+}
+
+static fe_result check_form_one_way(const char *function, const fe__form *form)
+{
+    if (!fe__form_is_static_only(form)) return FE_OK;
     return fe__fail(function, FE_ERROR_UNSUPPORTED, "a %s cannot be one-way", fe__traits_of(form)->name);
+}
+
+static fe_result check_one_way(const char *function, const fe_world *world, const fe__form *form, uint32_t one_way)
+{
+    if (!one_way) return FE_OK;
+    if (!fe__form_is_of_parts(form)) return check_form_one_way(function, form);
+    const fe__compound *compound = &fe__store_asset(world->store, form->field)->compound;
+    for (int32_t i = 0; i < compound->count; ++i) FE_TRY(check_form_one_way(function, &compound->parts[i].form));
+    return FE_OK;
 }
 
 // ---- life ----------------------------------------------------------------------------------------------------------
@@ -160,7 +98,7 @@ static fe_result create_shape(const char *function, fe_world *world, int32_t bod
                               const fe__form *form, fe_shape *out_shape)
 {
     FE_TRY(check_owner(function, world, body, form));
-    FE_TRY(check_one_way(function, form, (uint32_t)def->one_way));
+    FE_TRY(check_one_way(function, world, form, (uint32_t)def->one_way));
     fe__fp_state fp = fe__fp_enter();
     int32_t shape = fe__shape_create(world, body, def, form);
     fe__fp_leave(fp);
@@ -179,7 +117,7 @@ fe_result fe_shape_create(fe_world *world, fe_body body, const fe_shape_def *def
     fe_shape_def full;
     FE_TRY(read_shape_def(function, def, &full));
     fe__form form;
-    FE_TRY(read_geometry(function, world, geometry, &form));
+    FE_TRY(fe__read_geometry(function, world->store, geometry, &form));
     fe_result result = create_shape(function, world, index, &full, &form, out_shape);
     fe__let_go_of_asset(world->store, &form);
     return result;
@@ -216,7 +154,7 @@ fe_result fe_shape_get_body(const fe_world *world, fe_shape shape, fe_body *out_
 static fe_result set_form(const char *function, fe_world *world, int32_t shape, const fe__form *form)
 {
     FE_TRY(check_owner(function, world, world->shapes[shape].body, form));
-    FE_TRY(check_one_way(function, form, world->shapes[shape].flags & FE__SHAPE_ONE_WAY));
+    FE_TRY(check_one_way(function, world, form, world->shapes[shape].flags & FE__SHAPE_ONE_WAY));
     fe__fp_state fp = fe__fp_enter();
     fe_result result = fe__shape_set_form(world, shape, form);
     fe__fp_leave(fp);
@@ -228,7 +166,7 @@ fe_result fe_shape_set_geometry(fe_world *world, fe_shape shape, const fe_geomet
     FE_WRITE_ALONE(world);
     FE_FIND_SHAPE(index, shape);
     fe__form form;
-    FE_TRY(read_geometry(function, world, geometry, &form));
+    FE_TRY(fe__read_geometry(function, world->store, geometry, &form));
     fe_result result = set_form(function, world, index, &form);
     fe__let_go_of_asset(world->store, &form);
     return result;
@@ -239,22 +177,7 @@ fe_result fe_shape_get_geometry(const fe_world *world, fe_shape shape, fe_geomet
     FE_READ(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_STRUCT_SIZE(out_geometry);
-    const fe__form *form = &world->shapes[index].form;
-    fe_geometry geometry = {.struct_size = sizeof geometry,
-                            .type = fe__traits_of(form)->geometry,
-                            .radius = form->radius};
-    if (fe__form_has_asset(form)) {
-        geometry.asset = fe__asset_handle(world, form->field);
-        geometry.scale = fe__scale_of(world->store, form);
-    } else if (fe__form_is_curved(form)) {
-        geometry.radius = form->half.x;
-        geometry.half_height = form->half.y;
-    } else {
-        geometry.half_height = form->half_height;
-        geometry.half_extents = form->half;
-        geometry.normal = form->normal;
-        geometry.distance = form->distance;
-    }
+    fe_geometry geometry = fe__geometry_of(world->store, &world->shapes[index].form);
     fe__write_struct(out_geometry, &geometry, sizeof geometry);
     return FE_OK;
 }
@@ -288,9 +211,7 @@ fe_result fe_shape_set_density(fe_world *world, fe_shape shape, float density)
     FE_CHECK_FLOAT(density, 0.0f, FE_MAX_DENSITY);
     if (world->shapes[index].density == density) return FE_OK;
     fe__fp_state fp = fe__fp_enter();
-    world->shapes[index].density = density;
-    fe__body_disturb(world, world->shapes[index].body);
-    fe__body_densities_changed(world, world->shapes[index].body);
+    fe__shape_set_density(world, index, density);
     fe__fp_leave(fp);
     return FE_OK;
 }
@@ -306,22 +227,14 @@ fe_result fe_shape_get_density(const fe_world *world, fe_shape shape, float *out
 
 // ---- surface -------------------------------------------------------------------------------------------------------
 
-// What rests by friction may start to slide, what lies on a belt to move.
-static void renew_surface(fe_world *world, int32_t index)
-{
-    fe__fp_state fp = fe__fp_enter();
-    fe__body_disturb(world, world->shapes[index].body);
-    fe__shape_material_changed(world, index);
-    fe__fp_leave(fp);
-}
-
 fe_result fe_shape_set_material(fe_world *world, fe_shape shape, const fe_material *material)
 {
     FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     FE_TRY(fe__check_material(function, material));
-    world->shapes[index].material = *material;
-    renew_surface(world, index);
+    fe__fp_state fp = fe__fp_enter();
+    fe__shape_set_material(world, index, material);
+    fe__fp_leave(fp);
     return FE_OK;
 }
 
@@ -339,8 +252,9 @@ fe_result fe_shape_set_surface_velocity(fe_world *world, fe_shape shape, const f
     FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_VEC3(velocity, FE_MAX_SPEED);
-    world->shapes[index].surface_velocity = *velocity;
-    renew_surface(world, index);
+    fe__fp_state fp = fe__fp_enter();
+    fe__shape_set_surface_velocity(world, index, *velocity);
+    fe__fp_leave(fp);
     return FE_OK;
 }
 
@@ -360,7 +274,9 @@ fe_result fe_shape_set_filter(fe_world *world, fe_shape shape, uint32_t layer, u
     FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_FILTER(layer);
+    fe__fp_state fp = fe__fp_enter();
     fe__shape_set_filter(world, index, layer, mask, group);
+    fe__fp_leave(fp);
     return FE_OK;
 }
 
@@ -383,7 +299,9 @@ fe_result fe_shape_set_pair_filter(fe_world *world, fe_shape shape, int32_t enab
     FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_BOOL(enabled);
+    fe__fp_state fp = fe__fp_enter();
     fe__shape_set_judged(world, index, enabled);
+    fe__fp_leave(fp);
     return FE_OK;
 }
 
@@ -405,7 +323,7 @@ fe_result fe_shape_set_one_way(fe_world *world, fe_shape shape, int32_t enabled,
         FE_CHECK_DIRECTION(direction);
         FE_CHECK_VEC3(direction, FE_MAX_VALUE);
     }
-    FE_TRY(check_one_way(function, &world->shapes[index].form, (uint32_t)enabled));
+    FE_TRY(check_one_way(function, world, &world->shapes[index].form, (uint32_t)enabled));
     fe__fp_state fp = fe__fp_enter();
     fe__shape_set_one_way(world, index, enabled, direction);
     fe__fp_leave(fp);
@@ -428,7 +346,9 @@ fe_result fe_shape_set_trigger(fe_world *world, fe_shape shape, int32_t trigger)
     FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_BOOL(trigger);
+    fe__fp_state fp = fe__fp_enter();
     fe__shape_set_trigger(world, index, trigger);
+    fe__fp_leave(fp);
     return FE_OK;
 }
 
@@ -446,9 +366,8 @@ fe_result fe_shape_set_events(fe_world *world, fe_shape shape, uint32_t events)
     FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_BITS(events, ALL_EVENTS);
-    world->shapes[index].events = events;
     fe__fp_state fp = fe__fp_enter();
-    fe__shape_material_changed(world, index);
+    fe__shape_set_events(world, index, events);
     fe__fp_leave(fp);
     return FE_OK;
 }

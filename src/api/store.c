@@ -74,7 +74,8 @@ static fe_result find_type(const char *function, const fe_store *store, fe_asset
 {
     static const int32_t types[] = {[FE__ASSET_HEIGHTFIELD] = FE_GEOMETRY_HEIGHTFIELD,
                                     [FE__ASSET_HULL] = FE_GEOMETRY_HULL,
-                                    [FE__ASSET_MESH] = FE_GEOMETRY_MESH};
+                                    [FE__ASSET_MESH] = FE_GEOMETRY_MESH,
+                                    [FE__ASSET_COMPOUND] = FE_GEOMETRY_COMPOUND};
     int32_t index;
     FE_TRY(fe__find_asset(function, "asset", store, asset, &index));
     *out_type = types[fe__store_asset(store, index)->kind];
@@ -99,6 +100,9 @@ static fe_result write_asset(const char *function, const fe_store *store, fe_ass
     int32_t index;
     FE_TRY(fe__find_asset(function, "asset", store, asset, &index));
     const fe__asset *a = fe__store_asset(store, index);
+    if (a->kind == FE__ASSET_COMPOUND)
+        return fe__fail(function, FE_ERROR_UNSUPPORTED,
+                        "asset 0x%llx is a compound: save the assets of its parts, and make it anew", asset);
     *out_size = fe__asset_bytes(a);
     if (*out_size <= capacity) fe__asset_write(a, out);
     return FE_OK;
@@ -109,7 +113,7 @@ int64_t fe_asset_save(const fe_store *store, fe_asset asset, void *out, int64_t 
     FE_BEGIN_STORE(store);
     FE_CHECK_INT(capacity, 0, INT64_MAX);
     if (capacity > 0) FE_CHECK_POINTER(out);
-    int64_t size;
+    int64_t size = 0;
     fe__store_lock(store);
     fe_result result = write_asset(function, store, asset, out, capacity, &size);
     fe__store_unlock(store);

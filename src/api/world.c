@@ -315,10 +315,10 @@ fe_result fe_world_get_counters(const fe_world *world, fe_counters *out_counters
     FE_CHECK_STRUCT_SIZE(out_counters);
     fe_counters c = world->counters;
     c.bodies = world->body_count;
-    c.shapes = world->shape_count;
+    c.shapes = world->shape_count - world->part_count;
     c.joints = world->joint_count;
     c.awake_bodies = world->awake_body_count;
-    c.pairs = world->pair_count;
+    c.pairs = world->pair_count - world->part_pair_count + world->encounter_count;
     c.contacts = world->linked_count;
     c.simd = world->simd;
     c.simd_width = world->kernels->width;

@@ -171,14 +171,14 @@ static void report(const fe__scene *scene, const fe__probe *probe, int32_t index
     else
         point = fe__dadd(shape->pose.position, fe__drotate(shape->pose.rotation, f->point));
     out->body = fe__id_pool_handle(scene->body_ids, shape->body);
-    out->shape = fe__id_pool_handle(scene->shape_ids, index);
+    out->shape = fe__scene_handle(scene, index);
     set(&out->point, &point);
     out->fraction = hit->t;
     out->normal = is_turning(probe) ? fe__narrow(normal) : against_way(normal, way);
     out->depth = (float)hit->depth;
     out->flags = hit->inside ? FE_HIT_STARTED_INSIDE : 0u;
     out->material = fe__scene_material(scene, shape, hit->index);
-    out->part = -1;
+    out->part = fe__part_of_serial(shape->serial);
     out->triangle = hit->triangle;
     fe__scene_weights(scene, shape, hit->index, point, out->barycentric);
     memset(out->reserved, 0, sizeof out->reserved);
@@ -251,7 +251,8 @@ int32_t fe__cast_shapes(const fe__scene *scene, const fe__probe *probe, int32_t 
 {
     cast c = {.scene = scene, .probe = probe, .body = FE_ANY_BODY, .shape = -1};
     double limit = 1.0;
-    for (int32_t i = first; i != end; i = scene->shapes[i].next) limit = visit_nearest(&c, i, limit);
+    for (int32_t i = first; i != end; i = scene->shapes[i].next)
+        if (!fe__form_is_of_parts(&scene->shapes[i].form)) limit = visit_nearest(&c, i, limit);
     return report_nearest(&c, out_hit);
 }
 

@@ -30,12 +30,12 @@ static fe_closest closest_of(const fe__scene *scene, int32_t index, const fe__ne
     const fe__shape *shape = &scene->shapes[index];
     fe_quat q = shape->pose.rotation;
     fe_closest closest = {.body = fe__id_pool_handle(scene->body_ids, shape->body),
-                          .shape = fe__id_pool_handle(scene->shape_ids, index),
+                          .shape = fe__scene_handle(scene, index),
                           .point = fe__dadd(shape->pose.position, fe__drotate(q, found->point)),
                           .distance = found->distance,
                           .material = fe__scene_material(scene, shape, found->index),
                           .normal = fe__narrow(fe__drotate(q, found->normal)),
-                          .part = -1,
+                          .part = fe__part_of_serial(shape->serial),
                           .triangle = found->triangle};
     fe__scene_weights(scene, shape, found->index, closest.point, closest.barycentric);
     return closest;
@@ -79,6 +79,7 @@ int32_t fe__closest_on_shapes(const fe__scene *scene, fe_dvec3 point, int32_t fi
 {
     search s = {.scene = scene, .point = point, .shape = -1};
     double limit = (double)INFINITY;
-    for (int32_t i = first; i != end; i = scene->shapes[i].next) limit = visit(&s, i, limit);
+    for (int32_t i = first; i != end; i = scene->shapes[i].next)
+        if (!fe__form_is_of_parts(&scene->shapes[i].form)) limit = visit(&s, i, limit);
     return report(&s, out_closest);
 }

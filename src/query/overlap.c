@@ -22,16 +22,21 @@ static int32_t touches(const search *s, const fe__shape *shape)
            fe__probe_overlaps(s->scene, s->probe, shape);
 }
 
+// What may be near the probe where it starts
+static void walk_box(const fe__scene *scene, const fe__tree_way *way, fe__tree_visit visit, void *context)
+{
+    fe__bounds bounds = {fe__dsub(way->origin, way->half), fe__dadd(way->origin, way->half)};
+    fe__tree_query(scene->static_tree, &bounds, visit, context);
+    fe__tree_query(scene->moving_tree, &bounds, visit, context);
+}
+
 static void walk(search *s, fe__tree_visit visit)
 {
     const fe__scene *scene = s->scene;
     for (int32_t i = 0; i < scene->plane_count; ++i) {
         if (!visit(s, scene->planes[i])) return;
     }
-    fe__bounds bounds = {fe__dsub(s->probe->way.origin, s->probe->way.half),
-                         fe__dadd(s->probe->way.origin, s->probe->way.half)};
-    fe__tree_query(scene->static_tree, &bounds, visit, s);
-    fe__tree_query(scene->moving_tree, &bounds, visit, s);
+    walk_box(scene, &s->probe->way, visit, s);
 }
 
 // Goes on until the shape created first is found.
@@ -117,11 +122,40 @@ static int32_t overlap_before(const void *context, const void *a, const void *b)
     return fe__created_before(&scene->shapes[fe__id_slot_of(of_a.shape)], &scene->shapes[fe__id_slot_of(of_b.shape)]);
 }
 
+typedef struct deepest {
+    const fe__scene *scene;
+    const fe__probe *probe;
+    int32_t whole, part; // of it, the deepest so far, or -1
+    float depth;
+} deepest;
+
+static int32_t visit_part(void *context, int32_t index)
+{
+    deepest *d = context;
+    const fe__shape *shapes = d->scene->shapes;
+    fe_hit hit;
+    if (shapes[index].parent != d->whole || !fe__cast_inside(d->scene, d->probe, index, &hit)) return 1;
+    int32_t is_first = d->part < 0 || shapes[index].serial < shapes[d->part].serial;
+    if (d->part < 0 || hit.depth > d->depth || (hit.depth == d->depth && is_first))
+        d->part = index, d->depth = hit.depth;
+    return 1;
+}
+
+// A compound is reported once, by the part that is overlapped deepest: this one?
+static int32_t is_deepest_part(const search *s, int32_t index)
+{
+    deepest d = {.scene = s->scene, .probe = s->probe, .whole = s->scene->shapes[index].parent, .part = -1};
+    if (d.whole < 0) return 1;
+    walk_box(s->scene, &s->probe->way, visit_part, &d);
+    return d.part == index;
+}
+
 static int32_t visit_shapes(void *context, int32_t index)
 {
     search *s = context;
     fe_hit hit;
-    if (!fe__scene_counts(s->scene, &s->scene->shapes[index]) || !fe__cast_inside(s->scene, s->probe, index, &hit))
+    if (!fe__scene_counts(s->scene, &s->scene->shapes[index]) || !fe__cast_inside(s->scene, s->probe, index, &hit) ||
+        !is_deepest_part(s, index))
         return 1;
     fe_overlap overlap = {.body = hit.body,
                           .shape = hit.shape,
@@ -176,6 +210,32 @@ static int32_t bounds_meet(const fe__shape *shape, const fe__bounds *box)
            b.low.z <= box->high.z && b.high.z >= box->low.z;
 }
 
+typedef struct first_in_box {
+    const bounds_search *search;
+    int32_t whole, part; // of it, the first so far
+} first_in_box;
+
+static int32_t visit_first_in_box(void *context, int32_t index)
+{
+    first_in_box *f = context;
+    const fe__shape *shapes = f->search->scene->shapes;
+    if (shapes[index].parent == f->whole && shapes[index].serial < shapes[f->part].serial &&
+        bounds_meet(&shapes[index], f->search->box))
+        f->part = index;
+    return 1;
+}
+
+// A compound is reported once, by the first of its parts that meets the box: this one?
+static int32_t is_first_in_box(const bounds_search *s, int32_t index)
+{
+    const fe__shape *shapes = s->scene->shapes, *shape = &shapes[index];
+    if (shape->parent < 0) return 1;
+    first_in_box first = {s, shape->parent, index};
+    fe__tree_query(s->scene->static_tree, s->box, visit_first_in_box, &first);
+    fe__tree_query(s->scene->moving_tree, s->box, visit_first_in_box, &first);
+    return first.part == index;
+}
+
 static int32_t visit_bounds(void *context, int32_t index)
 {
     bounds_search *s = context;
@@ -184,7 +244,7 @@ static int32_t visit_bounds(void *context, int32_t index)
     if (!fe__scene_counts(s->scene, shape)) return 1;
     int32_t meets = fe__form_is_unbounded(&shape->form) ? fe__plane_meets_box(&shape->form, &shape->pose, s->box, 0.0)
                                                         : bounds_meet(shape, s->box);
-    if (meets) fe__keep_add(&s->keep, &record);
+    if (meets && is_first_in_box(s, index)) fe__keep_add(&s->keep, &record);
     return 1;
 }
 
@@ -202,7 +262,6 @@ int32_t fe__overlap_bounds(const fe__scene *scene, const fe__bounds *box, fe_sha
     fe__tree_query(scene->static_tree, box, visit_bounds, &s);
     fe__tree_query(scene->moving_tree, box, visit_bounds, &s);
     fe__keep_sort(&s.keep);
-    for (int32_t i = 0; i < s.keep.kept; ++i)
-        out_shapes[i] = fe__id_pool_handle(scene->shape_ids, (int32_t)out_shapes[i]);
+    for (int32_t i = 0; i < s.keep.kept; ++i) out_shapes[i] = fe__scene_handle(scene, (int32_t)out_shapes[i]);
     return (int32_t)s.keep.found;
 }

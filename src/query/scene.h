@@ -37,6 +37,12 @@ static inline int32_t fe__scene_counts(const fe__scene *scene, const fe__shape *
     return 1;
 }
 
+// What the caller knows: of a part, its compound
+static inline fe_shape fe__scene_handle(const fe__scene *scene, int32_t shape)
+{
+    return fe__id_pool_handle(scene->shape_ids, fe__whole_shape(scene->shapes, shape));
+}
+
 // Of a shape that is a field
 static inline fe__ground fe__scene_ground(const fe__scene *scene, const fe__shape *shape)
 {

@@ -205,8 +205,7 @@ static void collide_block(void *argument, int32_t first, int32_t end, int32_t wo
 }
 
 // ---- results -------------------------------------------------------------------------------------------------------
-// by the creation of their shapes
-static void sort_pairs(fe__step *step, int32_t *pairs, int32_t count)
+void fe__sort_pairs(fe__step *step, int32_t *pairs, int32_t count)
 {
     const fe_world *w = step->world;
     fe__sort_item *items = fe__sort_room(step);
@@ -235,7 +234,7 @@ static void apply_results(fe__step *step, int32_t first)
     fe_world *w = step->world;
     fe__step_scratch *s = step->scratch;
     int32_t *results = s->results + first, count = atomic_load(&s->result_count) - first;
-    sort_pairs(step, results, count);
+    fe__sort_pairs(step, results, count);
     for (int32_t i = 0; i < count; ++i)
         if (w->pairs[results[i]].result == FE__RESULT_END || w->pairs[results[i]].result == FE__RESULT_APART)
             end_contact(step, results[i]);

@@ -7,6 +7,7 @@ void fe__update_contacts(fe__step *step); // narrow phase or recycling -> manifo
 void fe__build_islands(fe__step *step);   // the graph, when it changed
 // A pair without points may move by `slack`, m, before it is looked at again
 void fe__defer_pair(const fe__step *step, int32_t pair, float slack);
+void fe__sort_pairs(fe__step *step, int32_t *pairs, int32_t count); // by the creation of their shapes
 // Awake pairs that do not wait, good until one of them does
 const int32_t *fe__busy_pairs(fe__step *step, int32_t *out_count);
 

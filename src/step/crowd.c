@@ -161,7 +161,7 @@ static void find_favourites(const fe__step *step)
     for (int32_t i = 0; i < s->candidate_count; ++i) {
         const fe__candidate *c = s->candidates + i;
         if (!is_in_crowd(w, c)) continue;
-        uint64_t a = w->shapes[c->shape_a].serial, b = w->shapes[c->shape_b].serial;
+        uint64_t a = w->shapes[c->shape_a].serial >> FE__PART_BITS, b = w->shapes[c->shape_b].serial >> FE__PART_BITS;
         float depth = depth_of(s->boxes + c->shape_a, s->boxes + c->shape_b);
         offer(step, body_of(w, c->shape_a), (fe__favourite){rank(depth, a, b), i});
         offer(step, body_of(w, c->shape_b), (fe__favourite){rank(depth, b, a), i});

@@ -6,6 +6,8 @@
 #include "step/events.h"
 
 #include "step/collide_stage.h"
+#include "step/encounters.h"
+#include "world/encounter.h"
 #include "world/handles.h"
 #include "world/pair_list.h"
 #include "world/material.h"
@@ -23,15 +25,9 @@ static int32_t touches(const fe_world *w, int32_t head)
     return 0;
 }
 
-// Of a pair: sum of the impulses, fastest approach; point and normal where the impulse is largest.
-typedef struct impact {
-    float impulse, largest, approach;
-    int32_t pair, point;
-} impact;
-
-static impact impact_of(const fe_world *w, int32_t head)
+fe__hit_impact fe__impact_of(const fe_world *w, int32_t head)
 {
-    impact sum = {.pair = head};
+    fe__hit_impact sum = {.pair = head};
     for (int32_t pair = head; pair >= 0; pair = w->pairs[pair].next_patch) {
         const fe__contact *m = w->contacts + pair;
         const fe__points *q = fe__points_of(w, m);
@@ -44,13 +40,11 @@ static impact impact_of(const fe_world *w, int32_t head)
     return sum;
 }
 
-static void add_hit(fe_world *w, int32_t pair)
+void fe__add_hit(fe_world *w, int32_t pair, const fe__hit_impact *sum)
 {
     const fe__pair *p = w->pairs + pair;
-    if (!(p->events & FE_SHAPE_EVENTS_HIT)) return;
-    impact sum = impact_of(w, pair);
-    if (sum.approach < w->tuning.hit_event_threshold || sum.impulse <= 0.0f) return;
-    const fe__contact *m = w->contacts + sum.pair;
+    if (sum->approach < w->tuning.hit_event_threshold || sum->impulse <= 0.0f) return;
+    const fe__contact *m = w->contacts + sum->pair;
     float sign = p->flags & FE__PAIR_FLIPPED ? -1.0f : 1.0f;
     fe__pair_event_record e = fe__pair_event_of(w, pair, FE_EVENT_ENTER);
     fe__hit_event_record *r = w->hit_events + w->hit_event_count++;
@@ -60,14 +54,14 @@ static void add_hit(fe_world *w, int32_t pair)
                                  .body_b = e.body_b,
                                  .shape_a = e.shape_a,
                                  .shape_b = e.shape_b,
-                                 .material_a = fe__pair_material(w, sum.pair, 0)->user_id,
-                                 .material_b = fe__pair_material(w, sum.pair, 1)->user_id,
-                                 .point = fe__contact_point(w, sum.pair, sum.point),
+                                 .material_a = fe__pair_material(w, sum->pair, 0)->user_id,
+                                 .material_b = fe__pair_material(w, sum->pair, 1)->user_id,
+                                 .point = fe__contact_point(w, sum->pair, sum->point),
                                  .normal = fe__scale(sign, fe__vec3(m->normal[0], m->normal[1], m->normal[2])),
-                                 .speed = sum.approach,
-                                 .impulse = sum.impulse,
-                                 .part_a = -1,
-                                 .part_b = -1,
+                                 .speed = sum->approach,
+                                 .impulse = sum->impulse,
+                                 .part_a = fe__part_of_serial(e.serial_a),
+                                 .part_b = fe__part_of_serial(e.serial_b),
                                  .triangle_a = e.field_a ? e.triangle : -1,
                                  .triangle_b = e.field_a ? -1 : e.triangle}};
 }
@@ -116,32 +110,51 @@ static void forget_if_asleep(fe_world *w, int32_t pair)
     if (w->bodies[p->body_a].awake_index < 0 && w->bodies[p->body_b].awake_index < 0) fe__pair_retire(w, pair);
 }
 
+static void set_touching(fe_world *w, int32_t pair, int32_t touches)
+{
+    fe__pair *p = w->pairs + pair;
+    if (p->flags & FE__PAIR_OF_PARTS)
+        fe__encounter_touch(w, pair, touches);
+    else
+        p->flags = touches ? p->flags | FE__PAIR_TOUCHING : p->flags & ~(uint32_t)FE__PAIR_TOUCHING;
+}
+
+int32_t fe__settle_pair(fe__step *step, int32_t pair)
+{
+    fe_world *w = step->world;
+    const fe__pair *p = w->pairs + pair;
+    int32_t kind = p->result, before = (p->flags & FE__PAIR_TOUCHING) != 0, now = kind != FE_EVENT_EXIT;
+    if (p->flags & FE__PAIR_ONCE) forget_if_asleep(w, pair);
+    if (!now && !before) return 0;
+    if (now != before) set_touching(w, pair, now);
+    if (!now) fe__defer_pair(step, pair, 0.0f);
+    return kind;
+}
+
 static void report(fe__step *step, int32_t pair)
 {
     fe_world *w = step->world;
-    fe__pair *p = w->pairs + pair;
-    int32_t kind = p->result;
-    if (p->flags & FE__PAIR_ONCE) forget_if_asleep(w, pair);
-    if (kind == FE_EVENT_EXIT && !(p->flags & FE__PAIR_TOUCHING)) return;
-    if (kind == FE_EVENT_EXIT) {
-        p->flags &= ~(uint32_t)FE__PAIR_TOUCHING;
-        fe__defer_pair(step, pair, 0.0f);
-    } else
-        p->flags |= FE__PAIR_TOUCHING;
-    if (kind != FE_EVENT_EXIT && !(p->flags & FE__PAIR_SENSOR)) add_hit(w, pair);
+    const fe__pair *p = w->pairs + pair;
+    int32_t kind = fe__settle_pair(step, pair);
+    if (!kind) return;
+    if (kind != FE_EVENT_EXIT && !(p->flags & FE__PAIR_SENSOR) && p->events & FE_SHAPE_EVENTS_HIT) {
+        fe__hit_impact sum = fe__impact_of(w, pair);
+        fe__add_hit(w, pair, &sum);
+    }
     if (p->events & (kind == FE_EVENT_STAY ? (uint32_t)FE_SHAPE_EVENTS_STAY : (uint32_t)FE_SHAPE_EVENTS_TOUCH))
         w->pair_events[w->pair_event_count++] = fe__pair_event_of(w, pair, kind);
 }
 
 // ---- order ---------------------------------------------------------------------------------------------------------
-// Stable sorts by B, then by A. The records are moved once, along the cycles of the permutation.
+// Stable sorts by B, then by A, of whole shapes. The records are moved once, along the cycles of the permutation.
 static void sort_records(fe__step *step, unsigned char *records, int32_t count, size_t size)
 {
     fe__sort_item *items = fe__sort_room(step);
     for (int32_t key = 1; key >= 0; --key) {
         for (int32_t i = 0; i < count; ++i) {
             if (key) items[i].value = i;
-            items[i].key = ((const uint64_t *)(const void *)(records + (size_t)items[i].value * size))[key];
+            items[i].key =
+                ((const uint64_t *)(const void *)(records + (size_t)items[i].value * size))[key] >> FE__PART_BITS;
         }
         fe__sort_keys(items, count, items + count);
     }
@@ -176,7 +189,14 @@ void fe__collect_events(fe__step *step)
     look_job job = {step, fe__busy_pairs(step, &count)};
     fe__parallel_for(&w->workers, count, PAIRS_IN_BLOCK, look_block, &job);
     count = atomic_load(&s->result_count);
-    for (int32_t i = 0; i < count; ++i) report(step, s->results[i]);
+    int32_t of_parts = 0; // gathered at the front
+    for (int32_t i = 0; i < count; ++i) {
+        if (w->pairs[s->results[i]].flags & FE__PAIR_OF_PARTS)
+            s->results[of_parts++] = s->results[i];
+        else
+            report(step, s->results[i]);
+    }
+    if (of_parts || w->first_changed) fe__report_encounters(step, s->results, of_parts);
     sort_records(step, (unsigned char *)w->pair_events, w->pair_event_count, sizeof *w->pair_events);
     sort_records(step, (unsigned char *)w->hit_events, w->hit_event_count, sizeof *w->hit_events);
 }

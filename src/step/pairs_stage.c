@@ -8,6 +8,7 @@
 #include "step/crowd.h"
 #include "step/due.h"
 #include "step/reserve.h"
+#include "world/encounter.h"
 #include "world/filter.h"
 #include "world/handles.h"
 #include "world/mass.h"
@@ -189,14 +190,17 @@ static int32_t is_denied(const fe_world *w, const fe__candidate *c)
 {
     const fe__shape *a = w->shapes + c->shape_a, *b = w->shapes + c->shape_b;
     if (!w->pair_filter || !((a->flags | b->flags) & FE__SHAPE_JUDGED)) return 0;
+    const fe__encounter *known =
+        a->parent >= 0 || b->parent >= 0 ? fe__find_encounter(w, c->shape_a, c->shape_b) : NULL;
+    if (known) return known->denied;
     fe_filter_pair pair = {.body_a = fe__body_handle(w, a->body),
                            .body_b = fe__body_handle(w, b->body),
                            .shape_a = fe__shape_handle(w, c->shape_a),
                            .shape_b = fe__shape_handle(w, c->shape_b),
                            .body_user_data_a = w->bodies[a->body].user_data,
                            .body_user_data_b = w->bodies[b->body].user_data,
-                           .shape_user_data_a = a->user_data,
-                           .shape_user_data_b = b->user_data};
+                           .shape_user_data_a = w->shapes[fe__whole_shape(w->shapes, c->shape_a)].user_data,
+                           .shape_user_data_b = w->shapes[fe__whole_shape(w->shapes, c->shape_b)].user_data};
     return w->pair_filter(w->pair_filter_user, &pair) == 0;
 }
 

@@ -207,7 +207,7 @@ static int32_t reserve_rooms(const fe__step *step, const fe__graph_bound *b)
 {
     fe_world *w = step->world;
     int64_t sorted = fe__maxi(fe__maxi(b->contacts, step->scratch->candidate_count), w->body_count);
-    sorted += w->owed_count + w->joint_count;
+    sorted += w->owed_count + w->joint_count + w->encounter_count;
     int64_t bytes = fe__maxl(2 * sorted * (int64_t)sizeof(fe__sort_item), w->shape_count * (int64_t)sizeof(fe__bounds));
     // at least one, so that an empty stretch has an address too
     return FE_RENEW(&w->memory, w->solver.rows, w->solver.row_capacity, 1 + bytes / (int64_t)sizeof(fe__row_block));
@@ -225,7 +225,8 @@ static int32_t reserve_scratch(fe__step *step, const fe__graph_bound *b)
            FE_RENEW(memory, s->chased, s->chased_capacity, (int64_t)2 * b->bodies) &&
            FE_RENEW(memory, s->chases, s->chase_capacity, w->has_bullets ? b->bodies : 0) &&
            FE_RENEW(memory, s->island_timers, s->island_capacity, b->bodies) &&
-           FE_RESERVE(memory, w->pair_events, w->pair_event_capacity, (int64_t)b->contacts + w->owed_count) &&
+           FE_RESERVE(memory, w->pair_events, w->pair_event_capacity,
+                      (int64_t)b->contacts + w->owed_count + w->encounter_count) &&
            FE_RESERVE(memory, w->body_events, w->body_event_capacity, w->body_count) &&
            FE_RESERVE(memory, w->hit_events, w->hit_event_capacity, w->wants_hits ? b->contacts : 0) &&
            FE_RESERVE(memory, w->joint_events, w->joint_event_capacity, w->breakable_count);

@@ -165,12 +165,20 @@ fe_result fe__store_put(fe_store *store, const fe__asset *asset, fe_asset *out_h
     return FE_OK;
 }
 
+// A compound's parts have no compound among them: they go one by one, before the array that names them.
+void fe__compound_release_parts(fe_store *store, const fe__compound *compound)
+{
+    for (int32_t i = 0; i < compound->count; ++i)
+        if (fe__form_has_asset(&compound->parts[i].form)) fe__asset_release(store, compound->parts[i].form.field);
+}
+
 static void free_unused(fe_store *store, int32_t index)
 {
     fe__asset *a = fe__store_asset(store, index);
     if (!a->destroyed || a->users > 0) return;
     fe__asset *parent = a->parent;
     if (parent) fe__scaled_remove(a);
+    if (a->kind == FE__ASSET_COMPOUND) fe__compound_release_parts(store, &a->compound);
     fe__asset_free(store, a);
     fe__id_pool_release(&store->ids, index);
     if (parent) fe__asset_release(store, parent->index);

@@ -6,6 +6,7 @@
 // uses it has been entered (world/asset_users.h).
 #ifndef FE_STORE_STORE_H
 #define FE_STORE_STORE_H
+#include "collision/form/compound.h"
 #include "collision/form/heightfield.h"
 #include "collision/form/hull_form.h"
 #include "collision/form/mesh.h"
@@ -16,15 +17,20 @@
 #include "core/mutex.h"
 #include "core/registry.h"
 
-typedef enum fe__asset_kind { FE__ASSET_HEIGHTFIELD, FE__ASSET_HULL, FE__ASSET_MESH } fe__asset_kind;
+typedef enum fe__asset_kind {
+    FE__ASSET_HEIGHTFIELD,
+    FE__ASSET_HULL,
+    FE__ASSET_MESH,
+    FE__ASSET_COMPOUND
+} fe__asset_kind;
 
 typedef struct fe__block {
     void *memory;
     size_t size;
 } fe__block;
 
-// What shapes share: a heightfield and the materials of its cells, a convex hull, or a mesh
-// and the materials of its triangles.
+// What shapes share: a heightfield and the materials of its cells, a convex hull, a mesh and the materials of its
+// triangles, or a compound, which uses the records of its parts.
 enum { FE__ASSET_BLOCKS = 4 };
 typedef struct fe__asset {
     int32_t kind; // fe__asset_kind
@@ -34,11 +40,13 @@ typedef struct fe__asset {
         fe__heightfield field;
         fe__hull hull;
         fe__mesh mesh;
+        fe__compound compound;
     };
     fe_material *materials; // of the cells of a heightfield, the triangles of a mesh
     int32_t material_count;
     int32_t special;   // a material needs special rows
-    int32_t users;     // worlds with shapes that have it, and calls that are about to make one; its scaled ones
+    int32_t users;     // worlds with shapes that have it, and calls that are about to make one; its scaled ones;
+                       // parts of compounds
     int32_t destroyed; // by its owner: it goes with its last user
     fe_asset handle;   // kept here, so that it can be read without the lock
     int32_t index;     // its own
@@ -91,6 +99,7 @@ fe_result fe__store_find(const fe_store *store, fe_asset handle, int32_t *out_in
 void fe__asset_destroy(fe_store *store, int32_t index); // now, or with its last user
 void fe__asset_retain(fe_store *store, int32_t index);
 void fe__asset_release(fe_store *store, int32_t index); // the last user of a destroyed one frees it
+void fe__compound_release_parts(fe_store *store, const fe__compound *compound);
 // Gives a record a place and a handle; the store owns its blocks then. FE_ERROR_MEMORY, FE_ERROR_LIMIT: nothing
 // changed.
 fe_result fe__store_put(fe_store *store, const fe__asset *asset, fe_asset *out_handle);
@@ -147,6 +156,7 @@ static inline fe__form fe__asset_form(const fe_store *store, int32_t index)
 {
     const fe__asset *a = fe__store_asset(store, index);
     if (a->kind == FE__ASSET_HULL) return fe__hull_form(&a->hull, index);
+    if (a->kind == FE__ASSET_COMPOUND) return fe__compound_form(index);
     return a->kind == FE__ASSET_MESH ? fe__mesh_form(&a->mesh, index) : fe__heightfield_form(&a->field, index);
 }
 

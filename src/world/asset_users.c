@@ -90,11 +90,21 @@ static void remove_use(fe_world *world, fe__asset_use *use)
     fe__asset_release(world->store, asset);
 }
 
+static int32_t assets_of(const fe_world *world, const fe__form *form)
+{
+    int32_t assets = fe__form_has_asset(form);
+    if (!fe__form_is_of_parts(form)) return assets;
+    const fe__compound *compound = &fe__store_asset(world->store, form->field)->compound;
+    for (int32_t i = 0; i < compound->count; ++i) assets += fe__form_has_asset(&compound->parts[i].form);
+    return assets;
+}
+
 int32_t fe__reserve_asset_use(fe_world *world, const fe__form *form)
 {
-    if (!fe__form_has_asset(form)) return 1;
+    int32_t assets = assets_of(world, form);
+    if (!assets) return 1;
     fe__store_lock(world->store);
-    int32_t reserved = FE_RESERVE(&world->memory, world->uses, world->use_capacity, world->use_count + 1);
+    int32_t reserved = FE_RESERVE(&world->memory, world->uses, world->use_capacity, world->use_count + assets);
     fe__store_unlock(world->store);
     return reserved;
 }

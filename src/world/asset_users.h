@@ -11,7 +11,8 @@
 fe_result fe__world_open_store(fe_world *world, const fe_world_def *def);
 void fe__world_close_store(fe_world *world); // whatever its shapes have
 
-// Room for one more asset in use: the next fe__shape_take_asset of that form is certain. 0: no memory.
+// Room for the assets that a shape of that form has, with its parts: the next fe__shape_take_asset of each is certain.
+// 0: no memory.
 int32_t fe__reserve_asset_use(fe_world *world, const fe__form *form);
 void fe__shape_take_asset(fe_world *world, int32_t shape);    // becomes a user of its form's, if it has one
 void fe__shape_release_asset(fe_world *world, int32_t shape); // the last user of a destroyed one frees it

@@ -137,9 +137,7 @@ void fe__body_destroy(fe_world *world, int32_t index)
     // without pairs and out of the awake lists nothing is left to disturb: the shapes only have to leave the trees
     for (int32_t shape = body->first_shape; shape >= 0; shape = world->shapes[shape].next) {
         fe__shape_leave(world, shape);
-        fe__shape_release_asset(world, shape);
-        fe__id_pool_release(&world->shape_ids, shape);
-        world->shape_count -= 1;
+        fe__shape_forget(world, shape);
     }
     // the slot's next body must not inherit whom this one ignored
     fe__body_ignore_none(world, index);

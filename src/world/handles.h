@@ -7,13 +7,10 @@ static inline fe_handle fe__body_handle(const fe_world *world, int32_t body)
 {
     return fe__id_pool_handle(&world->body_ids, body);
 }
+// Of a part: that of its compound
 static inline fe_handle fe__shape_handle(const fe_world *world, int32_t shape)
 {
-    return fe__id_pool_handle(&world->shape_ids, shape);
-}
-static inline fe_handle fe__asset_handle(const fe_world *world, int32_t asset)
-{
-    return fe__store_parent(world->store, asset)->handle;
+    return fe__id_pool_handle(&world->shape_ids, fe__whole_shape(world->shapes, shape));
 }
 static inline fe_handle fe__joint_handle(const fe_world *world, int32_t joint)
 {

@@ -25,6 +25,15 @@ static void hash_body(fe__hash *h, const fe__body *b)
     fe__hash_float(h, b->sleep_timer);
 }
 
+// As if there were no parts, and then the part's number. The number of a patch is above (points.h)
+static void hash_serial(fe__hash *h, uint64_t serial)
+{
+    uint64_t patch = serial >> FE__PATCH_SHIFT << FE__PATCH_SHIFT;
+    int32_t part = fe__part_of_serial(serial);
+    fe__hash_u64(h, (serial - patch) >> FE__PART_BITS | patch);
+    if (part >= 0) fe__hash_i32(h, part);
+}
+
 // contacts have no order of their own: their fingerprints are summed
 static uint64_t hash_contact(const fe_world *w, int32_t pair)
 {
@@ -33,8 +42,8 @@ static uint64_t hash_contact(const fe_world *w, int32_t pair)
     const fe__extra *e = fe__extra_of(w, m);
     const float none[3] = {0.0f, 0.0f, 0.0f};
     fe__hash h = fe__hash_begin();
-    fe__hash_u64(&h, fe__pair_serial(w, pair, 0));
-    fe__hash_u64(&h, fe__pair_serial(w, pair, 1));
+    hash_serial(&h, fe__pair_serial(w, pair, 0));
+    hash_serial(&h, fe__pair_serial(w, pair, 1));
     hash_floats(&h, m->normal, 3);
     fe__hash_float(&h, m->point_count);
     hash_floats(&h, q->separation, (int)m->point_count);
@@ -50,8 +59,8 @@ static void hash_pair_events(fe__hash *h, const fe__pair_event_record *r, int32_
 {
     fe__hash_i32(h, count);
     for (int32_t i = 0; i < count; ++i) {
-        fe__hash_u64(h, r[i].serial_a);
-        fe__hash_u64(h, r[i].serial_b);
+        hash_serial(h, r[i].serial_a);
+        hash_serial(h, r[i].serial_b);
         fe__hash_i32(h, r[i].kind << 1 | r[i].is_trigger);
     }
 }
@@ -66,8 +75,8 @@ static void hash_other_events(fe__hash *h, const fe_world *w)
     fe__hash_i32(h, w->hit_event_count);
     for (int32_t i = 0; i < w->hit_event_count; ++i) {
         const fe__hit_event_record *r = w->hit_events + i;
-        fe__hash_u64(h, r->serial_a);
-        fe__hash_u64(h, r->serial_b);
+        hash_serial(h, r->serial_a);
+        hash_serial(h, r->serial_b);
         fe__hash_dvec3(h, r->event.point);
         fe__hash_vec3(h, r->event.normal);
         fe__hash_floats2(h, r->event.speed, r->event.impulse);

@@ -6,6 +6,7 @@
 #include "collision/cast/mesh_ray.h"
 #include "solver/graph/graph.h"
 #include "world/asset_users.h"
+#include "world/encounter.h"
 #include "world/ignore.h"
 #include "world/joints.h"
 #include "world/step_scratch.h"
@@ -83,6 +84,7 @@ fe_result fe__world_create(const fe_world_def *def, fe_world **out_world)
     fe__id_pool_init(&world->shape_ids, FE_KIND_SHAPE, world->number);
     fe__joints_init(world);
     fe__record_pool_init(&world->ignores, sizeof(fe__ignore));
+    fe__record_pool_init(&world->encounters, sizeof(fe__encounter));
     world->next_serial = 1;
     world->first_body = world->last_body = world->first_free_pair = -1;
     world->pair_limit = 1; // contact 0 is no contact
@@ -116,6 +118,8 @@ static void free_records(fe_world *world)
     fe__pair_set_destroy(&world->pair_set, memory);
     fe__pair_set_destroy(&world->ignored, memory);
     fe__record_pool_free(&world->ignores, memory);
+    fe__pair_set_destroy(&world->encounter_set, memory);
+    fe__record_pool_free(&world->encounters, memory);
     fe__clusters_free(&world->clusters, memory);
     FE_FREE(memory, world->awake_bodies, world->awake_body_capacity);
     FE_FREE(memory, world->awake_pairs, world->awake_pair_capacity);

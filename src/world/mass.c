@@ -203,7 +203,7 @@ void fe__body_gain_shape(fe_world *world, int32_t index, int32_t shape)
         fe__body_update_mass(world, index);
         return;
     }
-    add_sizes(body, &world->shapes[shape]);
+    for (int32_t i = shape; i >= 0; i = fe__next_of_whole(world, shape, i)) add_sizes(body, &world->shapes[i]);
     fe__body_note_swiftness(world, body);
 }
 

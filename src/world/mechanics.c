@@ -49,26 +49,31 @@ void fe__world_momentum(const fe_world *world, fe_dvec3 about, fe_dvec3 *out_lin
     *out_angular = angular;
 }
 
-static void grow(fe__bounds *all, const fe__bounds *b)
+static int32_t add_shape(const fe_world *world, int32_t shape, int32_t found, fe__bounds *all)
 {
-    all->low =
-        (fe_dvec3){fe__mind(all->low.x, b->low.x), fe__mind(all->low.y, b->low.y), fe__mind(all->low.z, b->low.z)};
-    all->high = (fe_dvec3){fe__maxd(all->high.x, b->high.x), fe__maxd(all->high.y, b->high.y),
-                           fe__maxd(all->high.z, b->high.z)};
+    const fe__form *form = &world->shapes[shape].form;
+    if (fe__form_is_unbounded(form) || fe__form_is_of_parts(form)) return found;
+    fe__bounds b = fe__shape_bounds(world, shape, 0.0f);
+    if (found)
+        fe__bounds_add(all, &b);
+    else
+        *all = b;
+    return 1;
 }
 
 static int32_t add_body(const fe_world *world, int32_t body, int32_t found, fe__bounds *all)
 {
-    for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next) {
-        if (fe__form_is_unbounded(&world->shapes[shape].form)) continue;
-        fe__bounds b = fe__shape_bounds(world, shape, 0.0f);
-        if (found)
-            grow(all, &b);
-        else
-            *all = b;
-        found = 1;
-    }
+    for (int32_t shape = world->bodies[body].first_shape; shape >= 0; shape = world->shapes[shape].next)
+        found = add_shape(world, shape, found, all);
     return found;
+}
+
+fe__bounds fe__whole_bounds(const fe_world *world, int32_t shape)
+{
+    fe__bounds bounds = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+    int32_t found = 0;
+    for (int32_t i = shape; i >= 0; i = fe__next_of_whole(world, shape, i)) found = add_shape(world, i, found, &bounds);
+    return bounds;
 }
 
 int32_t fe__body_bounds(const fe_world *world, int32_t body, fe__bounds *out_bounds)

@@ -5,17 +5,18 @@
 #include "core/math.h"
 
 enum {
-    FE__PAIR_SENSOR = 1,    // a trigger is in it: no contact, only events
-    FE__PAIR_TOUCHING = 2,  // entered: an exit is owed
-    FE__PAIR_LINKED = 4,    // has points and is in the constraint graph
-    FE__PAIR_FLIPPED = 8,   // the solver's A is shape B
-    FE__PAIR_SWAPPED = 16,  // fe__collide's A is shape B
-    FE__PAIR_ONCE = 32,     // looked at in the next step although both sides sleep
-    FE__PAIR_PATCH = 64,    // a further patch of a pair with a heightfield
-    FE__PAIR_CROSSED = 128, // a trigger that was passed between two steps
-    FE__PAIR_DENIED = 256,  // the pair filter refused it: no contact, no events, until the boxes part
-    FE__PAIR_PASSING = 512, // through a one-way shape: no contact until they are apart
-    FE__PAIR_FREE = 1024,   // the record is no pair
+    FE__PAIR_SENSOR = 1,      // a trigger is in it: no contact, only events
+    FE__PAIR_TOUCHING = 2,    // entered: an exit is owed
+    FE__PAIR_LINKED = 4,      // has points and is in the constraint graph
+    FE__PAIR_FLIPPED = 8,     // the solver's A is shape B
+    FE__PAIR_SWAPPED = 16,    // fe__collide's A is shape B
+    FE__PAIR_ONCE = 32,       // looked at in the next step although both sides sleep
+    FE__PAIR_PATCH = 64,      // a further patch of a pair with a heightfield
+    FE__PAIR_CROSSED = 128,   // a trigger that was passed between two steps
+    FE__PAIR_DENIED = 256,    // the pair filter refused it: no contact, no events, until the boxes part
+    FE__PAIR_PASSING = 512,   // through a one-way shape: no contact until they are apart
+    FE__PAIR_FREE = 1024,     // the record is no pair
+    FE__PAIR_OF_PARTS = 2048, // of compounds: their events are the encounter's (encounter.h)
     // above these bits: the number of a patch, from 1; 0 of a head
     FE__PAIR_NUMBER_SHIFT = 16
 };

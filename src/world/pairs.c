@@ -2,6 +2,7 @@
 #include "world/pairs.h"
 
 #include "collision/manifold/collide.h"
+#include "world/encounter.h"
 #include "world/filter.h"
 #include "world/handles.h"
 #include "world/pair_link.h"
@@ -19,7 +20,7 @@ int32_t fe__reserve_pairs(fe_world *world, int32_t extra)
            FE_RESERVE(memory, world->pairs, world->pair_capacity, limit) &&
            FE_RESERVE(memory, world->awake_pairs, world->awake_pair_capacity, limit) &&
            FE_RESERVE(memory, world->deferrals, world->deferral_capacity, limit) &&
-           fe__pair_set_reserve(&world->pair_set, memory, extra);
+           fe__pair_set_reserve(&world->pair_set, memory, extra) && fe__reserve_encounters(world, extra);
 }
 
 static int32_t is_with_static(const fe_world *world, int32_t pair)
@@ -88,6 +89,7 @@ static int32_t create_record(fe_world *world, int32_t shape_a, int32_t shape_b, 
     p->body_a = a->body, p->body_b = b->body;
     p->flags = sides(world, a, b) | (uint32_t)number << FE__PAIR_NUMBER_SHIFT;
     if ((a->flags | b->flags) & FE__SHAPE_TRIGGER) p->flags |= FE__PAIR_SENSOR;
+    if (a->parent >= 0 || b->parent >= 0) p->flags |= FE__PAIR_OF_PARTS;
     if (number) p->flags |= FE__PAIR_PATCH;
     p->awake_index = p->axis = p->next_patch = p->head = p->triangle = -1;
     m->colour = m->kind = -1;
@@ -119,6 +121,7 @@ int32_t fe__pair_create(fe_world *world, int32_t shape_a, int32_t shape_b, int32
     add_to_body(world, pair, p->body_a);
     add_to_body(world, pair, p->body_b);
     fe__pair_set_insert(&world->pair_set, shape_a, shape_b, pair);
+    if (p->flags & FE__PAIR_OF_PARTS) fe__encounter_gain(world, pair);
     if (world->bodies[p->body_a].awake_index >= 0 || world->bodies[p->body_b].awake_index >= 0)
         fe__pair_awaken(world, pair);
     else if (concerns_sleepers(world, p))
@@ -157,7 +160,8 @@ _Static_assert(sizeof(fe__pair_event_record) <= sizeof(fe__contact), "an exit fi
 static void owe_exit(fe_world *world, int32_t pair)
 {
     fe__pair_event_record owed = fe__pair_event_of(world, pair, FE_EVENT_EXIT);
-    owed.triangle = -1; // the pair is no longer over it
+    owed.triangle = -1; // the pair is no longer over it, nor at a part
+    owed.serial_a = fe__serial_of_whole(owed.serial_a), owed.serial_b = fe__serial_of_whole(owed.serial_b);
     memcpy(world->contacts + pair, &owed, sizeof owed);
     world->pairs[pair].flags = FE__PAIR_FREE;
     world->pairs[pair].links[0].next = world->first_owed;
@@ -195,6 +199,8 @@ static void destroy_patches(fe_world *world, int32_t head)
 void fe__pair_destroy(fe_world *world, int32_t pair)
 {
     const fe__pair *p = world->pairs + pair;
+    int32_t touched = (p->flags & FE__PAIR_TOUCHING) != 0;
+    if (p->flags & FE__PAIR_OF_PARTS) touched = fe__encounter_lose(world, pair);
     destroy_patches(world, pair);
     fe__pair_unlink(world, pair);
     fe__points_release(world, pair);
@@ -204,7 +210,7 @@ void fe__pair_destroy(fe_world *world, int32_t pair)
     fe__pair_set_remove(&world->pair_set, p->shape_a, p->shape_b);
     --world->pair_count;
     world->trigger_pair_count -= (p->flags & FE__PAIR_SENSOR) != 0;
-    if (p->flags & FE__PAIR_TOUCHING && p->events & FE_SHAPE_EVENTS_TOUCH)
+    if (touched && p->events & FE_SHAPE_EVENTS_TOUCH)
         owe_exit(world, pair);
     else
         fe__pair_release(world, pair);

@@ -16,12 +16,12 @@ void fe__points_take(fe_world *world, int32_t pair);
 void fe__points_release(fe_world *world, int32_t pair); // nothing, if it has none
 
 // Of shape A (0) or B (1): the order of everything. Numbers of patches make their serials theirs alone
+enum { FE__PATCH_SHIFT = 56 };
 static inline uint64_t fe__pair_serial(const fe_world *world, int32_t pair, int32_t side)
 {
-    enum { ABOVE_SERIALS = 56 };
     const fe__pair *p = world->pairs + pair;
     if (!side) return world->shapes[p->shape_a].serial;
-    return world->shapes[p->shape_b].serial | (uint64_t)(p->flags >> FE__PAIR_NUMBER_SHIFT) << ABOVE_SERIALS;
+    return world->shapes[p->shape_b].serial | (uint64_t)(p->flags >> FE__PAIR_NUMBER_SHIFT) << FE__PATCH_SHIFT;
 }
 
 static inline fe__points *fe__points_of(const fe_world *world, const fe__contact *m)

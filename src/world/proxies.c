@@ -90,6 +90,7 @@ void fe__shape_mark_moved(fe_world *world, int32_t index)
 void fe__shape_enter(fe_world *world, int32_t index)
 {
     fe__shape *shape = &world->shapes[index];
+    if (fe__form_is_of_parts(&shape->form)) return;
     if (fe__form_is_unbounded(&shape->form)) {
         shape->flags |= FE__SHAPE_IN_PLANES;
         world->planes[world->plane_count++] = index;

@@ -7,6 +7,7 @@
 #include "world/mass.h"
 #include "world/pair_list.h"
 #include "world/pair_mix.h"
+#include "world/parts.h"
 #include "world/pairs.h"
 #include "world/pose.h"
 #include "world/proxies.h"
@@ -14,47 +15,18 @@
 
 #include <string.h>
 
-// ---- birth and death -----------------------------------------------------------------------------------------------
+// ---- room ----------------------------------------------------------------------------------------------------------
 
-static fe_result reserve_shape(fe_world *world, int32_t body, const fe__form *form)
+// `records`: that are to be made
+static fe_result reserve_shapes(fe_world *world, int32_t body, const fe__form *form, int32_t records)
 {
-    fe_result ids = fe__id_pool_reserve(&world->shape_ids, &world->memory, 1);
+    int32_t proxies = fe__maxi(fe__part_count(world, form), 1);
+    fe_result ids = fe__id_pool_reserve(&world->shape_ids, &world->memory, records);
     if (ids != FE_OK) return ids;
-    int64_t need = (int64_t)world->shape_ids.slot_count + (world->shape_ids.free_count ? 0 : 1);
+    int64_t need = (int64_t)world->shape_ids.slot_count + fe__maxi(records - world->shape_ids.free_count, 0);
     if (!FE_RESERVE(&world->memory, world->shapes, world->shape_capacity, need)) return FE_ERROR_MEMORY;
     if (!fe__reserve_asset_use(world, form)) return FE_ERROR_MEMORY;
-    return fe__reserve_proxies(world, world->bodies[body].type, 1) ? FE_OK : FE_ERROR_MEMORY;
-}
-
-static void append_to_body(fe_world *world, int32_t index)
-{
-    fe__shape *shape = &world->shapes[index];
-    fe__body *body = &world->bodies[shape->body];
-    shape->next = -1;
-    shape->previous = body->last_shape;
-    if (body->last_shape >= 0)
-        world->shapes[body->last_shape].next = index;
-    else
-        body->first_shape = index;
-    body->last_shape = index;
-    body->shape_count += 1;
-    world->shape_count += 1;
-}
-
-static void remove_from_body(fe_world *world, int32_t index)
-{
-    const fe__shape *shape = &world->shapes[index];
-    fe__body *body = &world->bodies[shape->body];
-    if (shape->previous >= 0)
-        world->shapes[shape->previous].next = shape->next;
-    else
-        body->first_shape = shape->next;
-    if (shape->next >= 0)
-        world->shapes[shape->next].previous = shape->previous;
-    else
-        body->last_shape = shape->previous;
-    body->shape_count -= 1;
-    world->shape_count -= 1;
+    return fe__reserve_proxies(world, world->bodies[body].type, proxies) ? FE_OK : FE_ERROR_MEMORY;
 }
 
 static void set_local_pose(fe__shape *shape, fe_vec3 position, fe_quat rotation)
@@ -74,10 +46,48 @@ static void note_events(fe_world *world, uint32_t events)
     if (events & FE_SHAPE_EVENTS_HIT) world->wants_hits = 1;
 }
 
+// ---- of the shape and of its parts ---------------------------------------------------------------------------------
+
+static void create_parts(fe_world *world, int32_t index)
+{
+    fe__parts_create(world, index);
+    for (int32_t i = index; (i = fe__next_of_whole(world, index, i)) >= 0;) fe__shape_take_asset(world, i);
+}
+
+static void destroy_parts(fe_world *world, int32_t index)
+{
+    for (int32_t i; (i = fe__next_of_whole(world, index, index)) >= 0;) {
+        fe__shape_unlist(world, i);
+        fe__shape_forget(world, i);
+    }
+}
+
+static void enter(fe_world *world, int32_t index)
+{
+    for (int32_t i = index; i >= 0; i = fe__next_of_whole(world, index, i)) fe__shape_enter(world, i);
+}
+
+static void leave(fe_world *world, int32_t index)
+{
+    for (int32_t i = index; i >= 0; i = fe__next_of_whole(world, index, i)) fe__shape_leave(world, i);
+}
+
+static void mark_moved(fe_world *world, int32_t index)
+{
+    for (int32_t i = index; i >= 0; i = fe__next_of_whole(world, index, i)) fe__shape_mark_moved(world, i);
+}
+
+static int32_t is_in(const fe_world *world, const fe__pair *p, int32_t index)
+{
+    return fe__is_of_whole(world, p->shape_a, index) || fe__is_of_whole(world, p->shape_b, index);
+}
+
+// ---- birth and death -----------------------------------------------------------------------------------------------
+
 // A sleeping body goes on sleeping: a level may be built asleep.
 int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *def, const fe__form *form)
 {
-    fe_result reserved = reserve_shape(world, body, form);
+    fe_result reserved = reserve_shapes(world, body, form, 1 + fe__part_count(world, form));
     if (reserved != FE_OK) return reserved;
     int32_t index = fe__id_slot_of(fe__id_pool_allocate(&world->shape_ids));
     fe__shape *shape = &world->shapes[index];
@@ -96,14 +106,16 @@ int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *def,
     shape->one_way = def->one_way_direction;
     shape->user_data = def->user_data;
     shape->body = body;
-    shape->serial = world->next_serial++;
+    shape->serial = world->next_serial++ << FE__PART_BITS;
+    shape->parent = -1;
     shape->body_serial = world->bodies[body].serial;
     set_local_pose(shape, def->frame.position, def->frame.rotation);
-    append_to_body(world, index);
+    fe__shape_list(world, index, -1);
     fe__shape_take_asset(world, index);
-    fe__body_gain_shape(world, body, index);
     fe__shape_place(world, index);
-    if (world->bodies[body].flags & FE__BODY_ENABLED) fe__shape_enter(world, index);
+    if (fe__form_is_of_parts(form)) create_parts(world, index);
+    fe__body_gain_shape(world, body, index);
+    if (world->bodies[body].flags & FE__BODY_ENABLED) enter(world, index);
     note_events(world, def->events);
     return index;
 }
@@ -115,7 +127,7 @@ static void drop_pairs(fe_world *world, int32_t index)
         next = fe__next_pair(world, pair, body);
         const fe__pair *p = &world->pairs[pair];
         if (p->flags & FE__PAIR_PATCH) continue;
-        if (p->shape_a == index || p->shape_b == index) fe__pair_destroy(world, pair);
+        if (is_in(world, p, index)) fe__pair_destroy(world, pair);
     }
 }
 
@@ -126,7 +138,7 @@ static void drop_denied(fe_world *world, int32_t index)
     for (int32_t pair = world->bodies[body].first_contact, next; pair >= 0; pair = next) {
         next = fe__next_pair(world, pair, body);
         const fe__pair *p = &world->pairs[pair];
-        if (p->flags & FE__PAIR_DENIED && (p->shape_a == index || p->shape_b == index)) fe__pair_destroy(world, pair);
+        if (p->flags & FE__PAIR_DENIED && is_in(world, p, index)) fe__pair_destroy(world, pair);
     }
 }
 
@@ -135,11 +147,21 @@ void fe__shape_destroy(fe_world *world, int32_t index)
     int32_t body = world->shapes[index].body;
     fe__body_disturb(world, body);
     drop_pairs(world, index);
-    fe__shape_leave(world, index);
-    remove_from_body(world, index);
-    fe__shape_release_asset(world, index);
-    fe__id_pool_release(&world->shape_ids, index);
+    leave(world, index);
+    destroy_parts(world, index);
+    fe__shape_unlist(world, index);
+    fe__shape_forget(world, index);
     fe__body_sizes_changed(world, body);
+}
+
+void fe__shape_forget(fe_world *world, int32_t index)
+{
+    int32_t is_part = world->shapes[index].parent >= 0;
+    fe__shape_release_asset(world, index);
+    if (is_part) fe__id_pool_show(&world->shape_ids, index);
+    fe__id_pool_release(&world->shape_ids, index);
+    world->shape_count -= 1;
+    world->part_count -= is_part;
 }
 
 // ---- change --------------------------------------------------------------------------------------------------------
@@ -156,35 +178,41 @@ static void exchange_asset(fe_world *world, int32_t index, const fe__form *befor
 }
 
 // The shape's pairs end and are found anew: a manifold of the old form means nothing on the new one.
-static void change(fe_world *world, int32_t index, const fe__form *form, fe_vec3 position, fe_quat rotation)
+static void begin_change(fe_world *world, int32_t index)
 {
-    fe__shape *shape = &world->shapes[index];
-    int32_t body = shape->body;
-    fe__body_disturb(world, body);
+    fe__body_disturb(world, world->shapes[index].body);
     drop_pairs(world, index);
-    fe__shape_leave(world, index);
-    fe__form before = shape->form;
-    shape->form = *form;
-    if (fe__form_has_asset(&before) || fe__form_has_asset(form)) exchange_asset(world, index, &before);
-    set_local_pose(shape, position, rotation);
+    leave(world, index);
+}
+
+static void end_change(fe_world *world, int32_t index)
+{
+    int32_t body = world->shapes[index].body;
     fe__body_sizes_changed(world, body);
-    fe__shape_place(world, index);
-    if (world->bodies[body].flags & FE__BODY_ENABLED) fe__shape_enter(world, index);
+    for (int32_t i = index; i >= 0; i = fe__next_of_whole(world, index, i)) fe__shape_place(world, i);
+    if (world->bodies[body].flags & FE__BODY_ENABLED) enter(world, index);
 }
 
 fe_result fe__shape_set_form(fe_world *world, int32_t index, const fe__form *form)
 {
-    const fe__shape *shape = &world->shapes[index];
-    if (!fe__reserve_asset_use(world, form)) return FE_ERROR_MEMORY;
-    if (!fe__reserve_proxies(world, world->bodies[shape->body].type, 1)) return FE_ERROR_MEMORY;
-    change(world, index, form, shape->local_position, shape->local_rotation);
+    fe_result reserved = reserve_shapes(world, world->shapes[index].body, form, fe__part_count(world, form));
+    if (reserved != FE_OK) return reserved;
+    begin_change(world, index);
+    destroy_parts(world, index);
+    fe__form before = world->shapes[index].form;
+    world->shapes[index].form = *form;
+    if (fe__form_has_asset(&before) || fe__form_has_asset(form)) exchange_asset(world, index, &before);
+    if (fe__form_is_of_parts(form)) create_parts(world, index);
+    end_change(world, index);
     return FE_OK;
 }
 
 void fe__shape_set_local_pose(fe_world *world, int32_t index, fe_vec3 position, fe_quat rotation)
 {
-    fe__form form = world->shapes[index].form;
-    change(world, index, &form, position, rotation);
+    begin_change(world, index);
+    set_local_pose(&world->shapes[index], position, rotation);
+    fe__parts_follow(world, index);
+    end_change(world, index);
 }
 
 // Pairs that the new filter forbids end now, their exits come with the next step; those that it allows are found by the
@@ -197,9 +225,10 @@ void fe__shape_set_filter(fe_world *world, int32_t index, uint32_t layer, uint32
     shape->layer = layer;
     shape->mask = mask;
     shape->group = group;
+    fe__parts_follow(world, index);
     fe__body_refilter(world, shape->body);
     drop_denied(world, index);
-    fe__shape_mark_moved(world, index);
+    mark_moved(world, index);
 }
 
 void fe__world_judge_anew(fe_world *world)
@@ -218,7 +247,8 @@ static void renew(fe_world *world, int32_t index)
 {
     fe__body_disturb(world, world->shapes[index].body);
     drop_pairs(world, index);
-    fe__shape_mark_moved(world, index);
+    fe__parts_follow(world, index);
+    mark_moved(world, index);
 }
 
 void fe__shape_set_judged(fe_world *world, int32_t index, int32_t judged)
@@ -244,7 +274,43 @@ void fe__shape_set_trigger(fe_world *world, int32_t index, int32_t trigger)
     fe__body_disturb(world, shape->body);
     drop_pairs(world, index);
     shape->flags ^= FE__SHAPE_TRIGGER;
-    fe__shape_mark_moved(world, index);
+    fe__parts_follow(world, index);
+    mark_moved(world, index);
+}
+
+void fe__shape_set_density(fe_world *world, int32_t index, float density)
+{
+    world->shapes[index].density = density;
+    fe__parts_follow(world, index);
+    fe__body_disturb(world, world->shapes[index].body);
+    fe__body_densities_changed(world, world->shapes[index].body);
+}
+
+// What rests by friction may start to slide, what lies on a belt to move.
+static void renew_surface(fe_world *world, int32_t index)
+{
+    fe__parts_follow(world, index);
+    fe__body_disturb(world, world->shapes[index].body);
+    fe__shape_material_changed(world, index);
+}
+
+void fe__shape_set_material(fe_world *world, int32_t index, const fe_material *material)
+{
+    world->shapes[index].material = *material;
+    renew_surface(world, index);
+}
+
+void fe__shape_set_surface_velocity(fe_world *world, int32_t index, fe_vec3 velocity)
+{
+    world->shapes[index].surface_velocity = velocity;
+    renew_surface(world, index);
+}
+
+void fe__shape_set_events(fe_world *world, int32_t index, uint32_t events)
+{
+    world->shapes[index].events = events;
+    fe__parts_follow(world, index);
+    fe__shape_material_changed(world, index);
 }
 
 void fe__shape_material_changed(fe_world *world, int32_t index)
@@ -253,6 +319,6 @@ void fe__shape_material_changed(fe_world *world, int32_t index)
     note_events(world, world->shapes[index].events);
     for (int32_t pair = world->bodies[body].first_contact; pair >= 0; pair = fe__next_pair(world, pair, body)) {
         const fe__pair *p = &world->pairs[pair];
-        if (p->shape_a == index || p->shape_b == index) fe__pair_mix(world, pair);
+        if (is_in(world, p, index)) fe__pair_mix(world, pair);
     }
 }

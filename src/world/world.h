@@ -64,7 +64,7 @@ struct fe_world {
     uint64_t next_serial;                      // of bodies, shapes and joints alike
     int32_t first_body, last_body, body_count; // in the order of creation
     int32_t static_count, kinematic_count;     // of them
-    int32_t shape_count;
+    int32_t shape_count, part_count;           // parts of compounds count among the shapes
 
     // contacts: hot and cold halves by the same index; free ones are linked through links[0].next
     fe__contact *contacts;
@@ -94,6 +94,11 @@ struct fe_world {
         swiftest; // speed over thickness, 1/s, of the body that has most of it: the bits of a float, which rise with it
     fe__clusters clusters;
     fe__pair_set pair_set; // by shape indices
+    // of two shapes, one of which is a compound at least: record of their parts' pairs (encounter.h)
+    fe__pair_set encounter_set; // by the indices of the whole shapes
+    fe__record_pool encounters;
+    int32_t encounter_count, part_pair_count; // pairs that are in one
+    int32_t first_changed;                    // encounter to report of, 0: none
     // fe_world_ignore_collision: by body indices, index of the record, which is in the lists of both bodies (ignore.h)
     fe__pair_set ignored;
     fe__record_pool ignores;
@@ -148,5 +153,17 @@ struct fe_world {
     fe_profile profile;
     fe_counters counters;
 };
+
+// The records of a shape: its own, then those of its parts. -1: no more
+static inline int32_t fe__next_of_whole(const fe_world *world, int32_t whole, int32_t record)
+{
+    int32_t next = world->shapes[record].next;
+    return next >= 0 && world->shapes[next].parent == whole ? next : -1;
+}
+// Is the record the shape's, or that of a part of it?
+static inline int32_t fe__is_of_whole(const fe_world *world, int32_t record, int32_t whole)
+{
+    return record == whole || world->shapes[record].parent == whole;
+}
 
 #endif

@@ -15,7 +15,7 @@
 #include "core/math.h"
 
 // The kinds of forms, in the order of the kernels. A triangle is no public form: heightfields and meshes hand
-// out theirs one by one.
+// out theirs one by one. A compound is no form to touch: its parts are (compound.h).
 typedef enum fe__form_type {
     FE__FORM_SPHERE,
     FE__FORM_CAPSULE,
@@ -27,6 +27,7 @@ typedef enum fe__form_type {
     FE__FORM_HEIGHTFIELD,
     FE__FORM_MESH,
     FE__FORM_TRIANGLE,
+    FE__FORM_COMPOUND,
     FE__FORM_TYPES
 } fe__form_type;
 
@@ -35,8 +36,8 @@ typedef enum fe__form_type {
 // cylinder, cone: half, the half widths of the box around it: x and z are the radius of the rim, y half the height
 // along y. A cone's tip is at +half.y, its base at -half.y. They are cores of their own; their radius is 0. triangle:
 // vertices, turning left around the side that counts. heightfield, mesh: its record's index, its bounds (heightfield.h,
-// mesh.h). hull: its record's index, where that is, and offset + scale x is the form's point for the hull's point x
-// (hull.h).
+// mesh.h). compound: its record's index. hull: its record's index, where that is, and offset + scale x is the form's
+// point for the hull's point x (hull.h).
 typedef struct fe__form {
     int32_t type; // fe__form_type
     float radius;
@@ -88,6 +89,14 @@ typedef struct fe__bounds {
     fe_dvec3 low, high;
 } fe__bounds;
 
+static inline void fe__bounds_add(fe__bounds *all, const fe__bounds *b)
+{
+    all->low =
+        (fe_dvec3){fe__mind(all->low.x, b->low.x), fe__mind(all->low.y, b->low.y), fe__mind(all->low.z, b->low.z)};
+    all->high = (fe_dvec3){fe__maxd(all->high.x, b->high.x), fe__maxd(all->high.y, b->high.y),
+                           fe__maxd(all->high.z, b->high.z)};
+}
+
 struct fe__face; // support.h
 
 // ---- traits --------------------------------------------------------------------------------------------------------
@@ -104,6 +113,7 @@ typedef struct fe__form_traits {
     uint8_t is_field;    // a surface of triangles (ground.h), touched in patches
     uint8_t has_asset;   // shares what it is made of: fe__form.field,
     uint8_t has_scale;   // of which there are records for each scale
+    uint8_t of_parts;    // stands for its parts, and is in no tree
     fe__mass (*mass)(const fe__form *form, double density);
     fe__bounds (*bounds)(const fe__form *form, const fe__pose *pose);
     float (*reach)(const fe__form *form, fe_vec3 centre);
@@ -124,6 +134,7 @@ static inline int32_t fe__form_is_unbounded(const fe__form *form) { return fe__t
 static inline int32_t fe__form_is_hull(const fe__form *form) { return fe__traits_of(form)->is_hull; }
 static inline int32_t fe__form_is_field(const fe__form *form) { return fe__traits_of(form)->is_field; }
 static inline int32_t fe__form_has_asset(const fe__form *form) { return fe__traits_of(form)->has_asset; }
+static inline int32_t fe__form_is_of_parts(const fe__form *form) { return fe__traits_of(form)->of_parts; }
 
 int32_t fe__form_of_geometry(int32_t geometry); // the kind with that public number, -1: none
 

@@ -111,6 +111,18 @@ const fe__form_traits fe__forms[FE__FORM_TYPES] = {
                            .shrunk = fe__less_radius,
                            .support = fe__triangle_support,
                            .face = fe__triangle_face},
+    [FE__FORM_COMPOUND] = {.name = "compound",
+                           .geometry = FE_GEOMETRY_COMPOUND,
+                           .static_only = 1,
+                           .has_asset = 1,
+                           .of_parts = 1,
+                           .mass = fe__no_mass,
+                           .bounds = fe__heightfield_bounds,
+                           .reach = fe__no_reach,
+                           .thickness = fe__no_thickness,
+                           .shrunk = fe__less_radius,
+                           .support = fe__point_support,
+                           .face = fe__point_face},
 };
 
 int32_t fe__form_of_geometry(int32_t geometry)
