@@ -1,9 +1,7 @@
 // parts.c - see parts.h.
 #include "world/parts.h"
 
-#include "world/asset_users.h"
 #include "world/pose.h"
-#include "world/shapes.h"
 
 #include <string.h>
 
@@ -133,17 +131,8 @@ void fe__parts_create(fe_world *world, int32_t whole)
     for (int32_t number = 0, last = whole; number < compound->count; ++number) {
         int32_t index = create(world, whole, number, compound->parts + number);
         fe__shape_list(world, index, last);
-        fe__shape_take_asset(world, index);
         fe__shape_place(world, index);
         last = index;
     }
     world->part_count += compound->count;
-}
-
-void fe__parts_destroy(fe_world *world, int32_t whole)
-{
-    for (int32_t i; (i = fe__next_of_whole(world, whole, whole)) >= 0;) {
-        fe__shape_unlist(world, i);
-        fe__shape_forget(world, i);
-    }
 }

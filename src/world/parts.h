@@ -9,10 +9,8 @@
 
 // How many a form has; 0 of any but a compound
 int32_t fe__part_count(const fe_world *world, const fe__form *form);
-// Makes the shapes of the parts of a compound's: reserved, not in a tree yet
+// Makes the shapes of the parts of a compound's: reserved, no users of their assets and in no tree yet
 void fe__parts_create(fe_world *world, int32_t whole);
-// They must be without pairs and out of the trees
-void fe__parts_destroy(fe_world *world, int32_t whole);
 // What they take over from the whole: place, density, material and all else that is set on it
 void fe__parts_follow(fe_world *world, int32_t whole);
 

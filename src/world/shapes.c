@@ -48,6 +48,20 @@ static void note_events(fe_world *world, uint32_t events)
 
 // ---- of the shape and of its parts ---------------------------------------------------------------------------------
 
+static void create_parts(fe_world *world, int32_t index)
+{
+    fe__parts_create(world, index);
+    for (int32_t i = index; (i = fe__next_of_whole(world, index, i)) >= 0;) fe__shape_take_asset(world, i);
+}
+
+static void destroy_parts(fe_world *world, int32_t index)
+{
+    for (int32_t i; (i = fe__next_of_whole(world, index, index)) >= 0;) {
+        fe__shape_unlist(world, i);
+        fe__shape_forget(world, i);
+    }
+}
+
 static void enter(fe_world *world, int32_t index)
 {
     for (int32_t i = index; i >= 0; i = fe__next_of_whole(world, index, i)) fe__shape_enter(world, i);
@@ -99,7 +113,7 @@ int32_t fe__shape_create(fe_world *world, int32_t body, const fe_shape_def *def,
     fe__shape_list(world, index, -1);
     fe__shape_take_asset(world, index);
     fe__shape_place(world, index);
-    if (fe__form_is_of_parts(form)) fe__parts_create(world, index);
+    if (fe__form_is_of_parts(form)) create_parts(world, index);
     fe__body_gain_shape(world, body, index);
     if (world->bodies[body].flags & FE__BODY_ENABLED) enter(world, index);
     note_events(world, def->events);
@@ -134,7 +148,7 @@ void fe__shape_destroy(fe_world *world, int32_t index)
     fe__body_disturb(world, body);
     drop_pairs(world, index);
     leave(world, index);
-    fe__parts_destroy(world, index);
+    destroy_parts(world, index);
     fe__shape_unlist(world, index);
     fe__shape_forget(world, index);
     fe__body_sizes_changed(world, body);
@@ -184,11 +198,11 @@ fe_result fe__shape_set_form(fe_world *world, int32_t index, const fe__form *for
     fe_result reserved = reserve_shapes(world, world->shapes[index].body, form, fe__part_count(world, form));
     if (reserved != FE_OK) return reserved;
     begin_change(world, index);
-    fe__parts_destroy(world, index);
+    destroy_parts(world, index);
     fe__form before = world->shapes[index].form;
     world->shapes[index].form = *form;
     if (fe__form_has_asset(&before) || fe__form_has_asset(form)) exchange_asset(world, index, &before);
-    if (fe__form_is_of_parts(form)) fe__parts_create(world, index);
+    if (fe__form_is_of_parts(form)) create_parts(world, index);
     end_change(world, index);
     return FE_OK;
 }

@@ -18,7 +18,7 @@ int main(int count, char **arguments)
 {
     const script *const scripts[] = {&script_crowd,  &script_mixed,  &script_terrain, &script_fast,
                                      &script_joints, &script_spawn,  &script_solids,  &script_meshes,
-                                     &script_cooked, &script_scales, &script_turns};
+                                     &script_cooked, &script_scales, &script_turns,   &script_compounds};
     fe_world_def def;
     fe_world_def_init(&def, sizeof def);
     int32_t steps = count > 2 ? atoi(arguments[2]) : INT32_MAX;

@@ -188,9 +188,9 @@ static int update(void)
 {
     FILE *file = fopen(GOLDEN, "w");
     if (!file) return 1;
-    const script *const scripts[] = {&script_crowd, &script_mixed,  &script_terrain, &script_fast,   &script_joints,
-                                     &script_spawn, &script_solids, &script_meshes,  &script_cooked, &script_scales,
-                                     &script_turns, &script_people, &script_cloth};
+    const script *const scripts[] = {&script_crowd, &script_mixed,     &script_terrain, &script_fast,   &script_joints,
+                                     &script_spawn, &script_solids,    &script_meshes,  &script_cooked, &script_scales,
+                                     &script_turns, &script_compounds, &script_people,  &script_cloth};
     for (size_t i = 0; i < sizeof scripts / sizeof *scripts; ++i) {
         fe_world *world = new_world(FE_SIMD_PLAIN, 1);
         play_print(file, scripts[i], world, scripts[i]->steps);
@@ -215,6 +215,7 @@ int main(int count, char **arguments)
         GOLDEN_TEST(cooked, "plain", FE_SIMD_PLAIN),
         GOLDEN_TEST(scales, "plain", FE_SIMD_PLAIN),
         GOLDEN_TEST(turns, "plain", FE_SIMD_PLAIN),
+        GOLDEN_TEST(compounds, "plain", FE_SIMD_PLAIN),
 #if defined(__x86_64__)
         GOLDEN_TEST(crowd, "sse2", FE_SIMD_SSE2),
         GOLDEN_TEST(crowd, "avx2", FE_SIMD_AVX2),
@@ -234,18 +235,21 @@ int main(int count, char **arguments)
         GOLDEN_TEST(cooked, "sse2", FE_SIMD_SSE2),
         GOLDEN_TEST(scales, "sse2", FE_SIMD_SSE2),
         GOLDEN_TEST(turns, "sse2", FE_SIMD_SSE2),
+        GOLDEN_TEST(compounds, "sse2", FE_SIMD_SSE2),
         GOLDEN_TEST(spawn, "avx2", FE_SIMD_AVX2),
         GOLDEN_TEST(solids, "avx2", FE_SIMD_AVX2),
         GOLDEN_TEST(meshes, "avx2", FE_SIMD_AVX2),
         GOLDEN_TEST(cooked, "avx2", FE_SIMD_AVX2),
         GOLDEN_TEST(scales, "avx2", FE_SIMD_AVX2),
         GOLDEN_TEST(turns, "avx2", FE_SIMD_AVX2),
+        GOLDEN_TEST(compounds, "avx2", FE_SIMD_AVX2),
         GOLDEN_TEST(spawn, "avx512", FE_SIMD_AVX512),
         GOLDEN_TEST(solids, "avx512", FE_SIMD_AVX512),
         GOLDEN_TEST(meshes, "avx512", FE_SIMD_AVX512),
         GOLDEN_TEST(cooked, "avx512", FE_SIMD_AVX512),
         GOLDEN_TEST(scales, "avx512", FE_SIMD_AVX512),
         GOLDEN_TEST(turns, "avx512", FE_SIMD_AVX512),
+        GOLDEN_TEST(compounds, "avx512", FE_SIMD_AVX512),
         GOLDEN_TEST(mixed, "sse2", FE_SIMD_SSE2),
         GOLDEN_TEST(mixed, "avx2", FE_SIMD_AVX2),
         GOLDEN_TEST(mixed, "avx512", FE_SIMD_AVX512),
@@ -261,6 +265,7 @@ int main(int count, char **arguments)
         GOLDEN_TEST(cooked, "neon", FE_SIMD_NEON),
         GOLDEN_TEST(scales, "neon", FE_SIMD_NEON),
         GOLDEN_TEST(turns, "neon", FE_SIMD_NEON),
+        GOLDEN_TEST(compounds, "neon", FE_SIMD_NEON),
 #endif
         cmocka_unit_test(crowd_has_more_than_1000_contacts),
         cmocka_unit_test(every_kind_of_query_spawns),

@@ -58,7 +58,11 @@ fe_geometry fuzz_geometry(fuzz *f)
     g.half_extents.x = fuzz_size(f);
     g.half_extents.y = fuzz_size(f);
     g.half_extents.z = fuzz_size(f);
-    if (g.type == FE_GEOMETRY_HULL) g.asset = fuzz_asset(f), fuzz_scale(f, &g);
+    if (g.type == FE_GEOMETRY_HULL) {
+        g.asset = fuzz_asset(f);
+        if (fe_asset_get_type(world_store(f->world), g.asset) == FE_GEOMETRY_COMPOUND) g.type = FE_GEOMETRY_COMPOUND;
+        fuzz_scale(f, &g);
+    }
     if (g.type == FE_GEOMETRY_PLANE) g.normal = fuzz_vec3(f), g.distance = fuzz_float(f);
     return g;
 }

@@ -71,6 +71,31 @@ static fe_result create_mesh(fuzz *f)
     return result;
 }
 
+// of any forms, in any places
+static fe_result create_compound(fuzz *f)
+{
+    enum { MOST = 6 };
+    fe_compound_part parts[MOST], read;
+    uint8_t which = fuzz_byte(f);
+    for (int32_t i = 0; i < MOST; ++i) {
+        fe_compound_part_init(parts + i, sizeof *parts);
+        uint8_t draw = fuzz_byte(f);
+        fe_geometry_box(&parts[i].geometry, 0.3f, 0.2f, 0.1f);
+        if (draw & 1) parts[i].geometry = fuzz_geometry(f);
+        if (draw & 2) parts[i].frame.position = fuzz_vec3(f);
+        if (draw & 4) parts[i].frame.rotation = fuzz_quat(f);
+        if (draw & 8) parts[i].density = fuzz_float(f);
+        parts[i].own_material = draw == 255 ? 2 : draw >> 4 & 1;
+    }
+    fe_result result =
+        fe_compound_create(world_store(f->world), or_null(f, parts), sizeof *parts, which % (MOST + 1), next_asset(f));
+    if (result != FE_OK) return result;
+    fe_compound_part_init(&read, sizeof read);
+    result = fe_compound_get_part(world_store(f->world), *next_asset(f), which % 9 - 1, &read);
+    ++f->asset_count;
+    return result;
+}
+
 // saved and loaded, at times with a byte that is another or missing, or with too little room
 static fe_result cook(fuzz *f)
 {
@@ -116,6 +141,7 @@ int32_t fuzz_create_field(fuzz *f)
     if (which & 32) d->cell_materials = kinds, d->materials = materials, d->material_count = which == 33 ? 0 : 2;
     if (fe_asset_is_valid(world_store(f->world), *next_asset(f)))
         return fe_asset_destroy(world_store(f->world), *next_asset(f));
+    if (which > 224) return create_compound(f);
     if (which > 192) return cook(f);
     if (which & 64) return which & 8 ? create_mesh(f) : create_hull(f);
     fe_result result = fe_heightfield_create(world_store(f->world), d, next_asset(f));

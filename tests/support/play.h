@@ -43,20 +43,21 @@ typedef struct script {
     void (*act)(play *p); // calls before step p->step + 1
 } script;
 
-extern const script script_crowd;   // 1000 contacts, every feature, bodies come and go (play_crowd.c)
-extern const script script_mixed;   // 300 bodies fall and come to rest
-extern const script script_terrain; // heightfields (play_terrain.c)
-extern const script script_fast;    // bodies that outrun their thickness (play_fast.c)
-extern const script script_joints;  // joints of all types (play_joints.c)
-extern const script script_spawn;   // bodies that queries place (play_spawn.c)
-extern const script script_solids;  // hulls, cylinders and cones (play_solids.c)
-extern const script script_meshes;  // meshes under bodies of every form (play_meshes.c)
-extern const script script_cooked;  // assets that were saved and loaded (play_cooked.c)
-extern const script script_scales;  // hulls and meshes under scales (play_scales.c)
-extern const script script_turns;   // forms that move and turn, put where they stop (play_turns.c)
-extern const script script_people;  // 300 ragdolls (play_jointed.c)
-extern const script script_cloth;   // 10 000 balls in one island of joints (play_jointed.c)
-extern const script script_brief;   // two dozen bodies, 200 steps, every kind of call
+extern const script script_crowd;     // 1000 contacts, every feature, bodies come and go (play_crowd.c)
+extern const script script_mixed;     // 300 bodies fall and come to rest
+extern const script script_terrain;   // heightfields (play_terrain.c)
+extern const script script_fast;      // bodies that outrun their thickness (play_fast.c)
+extern const script script_joints;    // joints of all types (play_joints.c)
+extern const script script_spawn;     // bodies that queries place (play_spawn.c)
+extern const script script_solids;    // hulls, cylinders and cones (play_solids.c)
+extern const script script_meshes;    // meshes under bodies of every form (play_meshes.c)
+extern const script script_cooked;    // assets that were saved and loaded (play_cooked.c)
+extern const script script_scales;    // hulls and meshes under scales (play_scales.c)
+extern const script script_turns;     // forms that move and turn, put where they stop (play_turns.c)
+extern const script script_compounds; // compounds under compounds (play_compounds.c)
+extern const script script_people;    // 300 ragdolls (play_jointed.c)
+extern const script script_cloth;     // 10 000 balls in one island of joints (play_jointed.c)
+extern const script script_brief;     // two dozen bodies, 200 steps, every kind of call
 
 void play_begin(play *p, fe_world *world);               // an empty play; `world` has been made
 void play_until(play *p, const script *s, int32_t step); // builds before the first step
