@@ -24,6 +24,7 @@ FE_RECORD(fe_fixed_joint_def)
 FE_RECORD(fe_configurable_joint_def)
 FE_RECORD(fe_mass_data)
 FE_RECORD(fe_geometry)
+FE_RECORD(fe_compound_part)
 // A definition's own init writes as much as the object holds.
 %typemap(in, numinputs=0) uint32_t struct_size "$1 = 0;"
 %typemap(check) uint32_t struct_size "$1 = arg1 ? (uint32_t)sizeof *arg1 : 0;"
@@ -44,6 +45,8 @@ FE_OUT_RECORD(fe_counters, out_counters)
 FE_OUT_RECORD(fe_energy, out_energy)
 FE_OUT_RECORD(fe_hull_info, out_info)
 FE_OUT_RECORD(fe_mesh_info, out_info)
+FE_OUT_RECORD(fe_compound_info, out_info)
+FE_OUT_RECORD(fe_compound_part, out_part)
 FE_OUT_RECORD(fe_mesh_triangle, out_triangle)
 FE_OUT_RECORD(fe_mass_data, out_data)
 FE_OUT_RECORD(fe_geometry, out_geometry)

@@ -23,7 +23,7 @@ HANDLES = {"fe_body": "BodyHandle", "fe_shape": "ShapeHandle", "fe_joint": "Join
 PLAIN = {"int32_t": "int", "uint32_t": "uint", "int64_t": "long", "uint64_t": "ulong", "float": "float",
          "double": "double", "fe_handle": "ulong"}
 SWITCHES = {"awake", "sleep_allowed", "bullet", "trigger", "is_trigger", "collide_connected", "pair_filter", "one_way",
-            "kept"}
+            "kept", "own_material"}
 ENUM_FIELDS = {"linear_locks": "fe_axis", "angular_locks": "fe_axis", "kind": "fe_event_kind"}
 FLAGS = {"fe_axis", "fe_shape_events", "fe_query_flags", "fe_hit_flags", "fe_mesh_flags", "fe_mesh_edge_flags"}
 AXES = ["LinearX", "LinearY", "LinearZ", "AngularX", "AngularY", "AngularZ"]  # of a configurable joint, by fe_dof

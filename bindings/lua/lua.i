@@ -299,6 +299,21 @@ FE_PUSH_ALL(fe_contact *out_contacts, push_contacts)
     check_table(L, $input, "materials");
     $1 = ($1_ltype)to_materials(L, $input, &call1.count);
 %}
+%typemap(in) const fe_compound_part *parts %{
+    $1 = ($1_ltype)new_array(L, records_in(L, $input, 1, &call1, "$1_name"), sizeof *$1);
+    for (int i = 0; i < call1.count; ++i) {
+        void *part = NULL;
+        lua_rawgeti(L, $input, i + 1);
+        if (!SWIG_IsOK(SWIG_ConvertPtr(L, -1, &part, $1_descriptor, 0)) || !part)
+            fail(L, "feather: $1_name: parts of a compound are needed, not a %s", luaL_typename(L, -1));
+        (($*1_ltype *)$1)[i] = *($1_ltype)part;
+        lua_pop(L, 1);
+    }
+%}
+%exception fe_compound_create {
+    arg3 = (uint32_t)sizeof *arg2;
+    $action
+}
 %ignore fe_heightfield_def;
 %ignore fe_heightfield_def_init;
 %ignore fe_hull_def;

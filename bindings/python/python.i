@@ -9,7 +9,7 @@
     if (add_types(m) || forget_ownership_methods(SwigPyObject_type())) return NULL;
 %}
 // a part keeps the object that it is of
-%typemap(ret) fe_joint_axis *axis %{
+%typemap(ret) fe_joint_axis *axis, fe_geometry *geometry %{
     if (resultobj && resultobj != Py_None) {
         ((SwigPyObject *)resultobj)->dict = Py_BuildValue("{sO}", "of", self);
         if (!((SwigPyObject *)resultobj)->dict) SWIG_fail;
@@ -319,11 +319,12 @@ FE_OUTPUT(int32_t *out_corners, sizeof *$1, "Iil")
 %typemap(check) int32_t count "if (array_count(&call1, &$1)) SWIG_fail;"
 %typemap(check) int32_t capacity "$1 = array_capacity(&call1);"
 
-// a sequence of definitions
-%typemap(in) const fe_body_def *defs {
+// a sequence of records, whose copies go in
+%define FE_RECORDS(TYPE, WHAT)
+%typemap(in) TYPE {
     Py_ssize_t length = PySequence_Size($input);
     if (length < 0) SWIG_fail;
-    fe_body_def *copies = calloc((size_t)length + 1, sizeof *copies);
+    $*1_ltype *copies = calloc((size_t)length + 1, sizeof *copies);
     if (!copies) {
         PyErr_NoMemory();
         SWIG_fail;
@@ -331,12 +332,12 @@ FE_OUTPUT(int32_t *out_corners, sizeof *$1, "Iil")
     call1.memory = copies;
     for (Py_ssize_t i = 0; i < length; ++i) {
         PyObject *item = PySequence_GetItem($input, i);
-        void *definition = NULL;
-        int converted = item ? SWIG_ConvertPtr(item, &definition, $1_descriptor, 0) : SWIG_ERROR;
-        if (SWIG_IsOK(converted) && definition) copies[i] = *(const fe_body_def *)definition;
+        void *record = NULL;
+        int converted = item ? SWIG_ConvertPtr(item, &record, $1_descriptor, 0) : SWIG_ERROR;
+        if (SWIG_IsOK(converted) && record) copies[i] = *($1_ltype)record;
         Py_XDECREF(item);
-        if (!SWIG_IsOK(converted) || !definition) {
-            if (!PyErr_Occurred()) PyErr_SetString(PyExc_TypeError, "definitions: definitions of bodies are needed");
+        if (!SWIG_IsOK(converted) || !record) {
+            if (!PyErr_Occurred()) PyErr_SetString(PyExc_TypeError, WHAT " are needed");
             SWIG_fail;
         }
     }
@@ -344,6 +345,9 @@ FE_OUTPUT(int32_t *out_corners, sizeof *$1, "Iil")
     call1.stride = (uint32_t)sizeof *copies;
     $1 = copies;
 }
+%enddef
+FE_RECORDS(const fe_body_def *defs, "definitions: definitions of bodies")
+FE_RECORDS(const fe_compound_part *parts, "parts: parts of a compound")
 
 %typemap(in) const fe_query_filter *filter (fe_query_filter value) {
     const fe_query_filter *found;

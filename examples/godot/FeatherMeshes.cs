@@ -1,7 +1,9 @@
-// Meshes of Godot 4 (C#) as Feather's: the triangles of a Mesh, or the convex hull of its vertices.
+// Meshes of Godot 4 (C#) as Feather's: the triangles of a Mesh, the convex hull of its vertices, or a compound of the
+// convex hulls of its surfaces.
 //
 //     World.CreateStatic(new DVec3()).AddMesh(World.CreateMesh(level.Mesh));
 //     World.CreateDynamic(new DVec3(0, 5, 0)).AddHull(World.CreateHull(rock.Mesh));
+//     World.CreateDynamic(new DVec3(5, 5, 0)).AddCompound(World.CreateCompound(chair.Mesh));
 using System.Collections.Generic;
 using FeatherPhysics;
 using Godot;
@@ -44,6 +46,29 @@ public static class FeatherMeshes
         for (int surface = 0; surface < mesh.GetSurfaceCount(); ++surface)
             AddVertices(points, mesh.SurfaceGetArrays(surface));
         return world.CreateHull(points.ToArray(), maxVertices, tolerance);
+    }
+
+    /// The convex hulls of its surfaces, for bodies that move: hits and contacts tell the surface as their part.
+    /// DegenerateException for a surface that is flat.
+    public static Compound CreateCompound(this World world, Mesh mesh, int maxVertices = 64, float tolerance = 0)
+    {
+        var parts = new CompoundPart[mesh.GetSurfaceCount()];
+        var hulls = new List<ConvexHull>();
+        try
+        {
+            for (int surface = 0; surface < parts.Length; ++surface)
+            {
+                var points = new List<System.Numerics.Vector3>();
+                AddVertices(points, mesh.SurfaceGetArrays(surface));
+                hulls.Add(world.CreateHull(points.ToArray(), maxVertices, tolerance));
+                parts[surface] = new CompoundPart(Geometry.Hull(hulls[surface]));
+            }
+            return world.CreateCompound(parts);
+        }
+        finally
+        {
+            foreach (ConvexHull hull in hulls) hull.Destroy(); // the compound keeps what they named
+        }
     }
 
     static void AddVertices(List<System.Numerics.Vector3> to, Godot.Collections.Array arrays)

@@ -1,4 +1,4 @@
-// What heightfields, hulls and meshes are: a handle in a store, which it keeps alive.
+// What heightfields, hulls, meshes and compounds are: a handle in a store, which it keeps alive.
 using System;
 
 namespace FeatherPhysics

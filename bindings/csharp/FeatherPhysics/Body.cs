@@ -69,6 +69,10 @@ namespace FeatherPhysics
         public Shape AddHull(ConvexHull hull, ShapeDef def = null) { return Add(Geometry.Hull(hull), def); }
         /// <summary>Of a static or kinematic body.</summary>
         public Shape AddMesh(TriangleMesh mesh, ShapeDef def = null) { return Add(Geometry.Mesh(mesh), def); }
+        public Shape AddCompound(Compound compound, ShapeDef def = null)
+        {
+            return Add(Geometry.Compound(compound), def);
+        }
         public Shape AddTerrain(Heightfield field, ShapeDef def = null)
         {
             return Add(Geometry.Terrain(field), def);

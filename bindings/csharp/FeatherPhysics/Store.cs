@@ -1,5 +1,5 @@
-// A store of assets, and the heightfields in it: fe_store_*, fe_heightfield_*, fe_asset_* as members. Hulls and meshes
-// are in Hull.cs and Mesh.cs.
+// A store of assets, and the heightfields in it: fe_store_*, fe_heightfield_*, fe_asset_* as members. Hulls, meshes
+// and compounds are in Hull.cs, Mesh.cs and Compound.cs.
 using System;
 using System.Runtime.InteropServices;
 

@@ -146,7 +146,7 @@ namespace FeatherPhysics
         public override string ToString() { return "Joint 0x" + Value.ToString("x"); }
     }
 
-    /// <summary>Names what shapes share: a heightfield, a hull or a mesh.</summary>
+    /// <summary>Names what shapes share: a heightfield, a hull, a mesh or a compound.</summary>
     public readonly struct AssetHandle : IEquatable<AssetHandle>
     {
         public readonly ulong Value;
@@ -253,6 +253,13 @@ namespace FeatherPhysics
         {
             Geometry made;
             Native.geometry_mesh(&made, mesh.Handle.Value);
+            return made;
+        }
+        /// <summary>Several parts, for the bodies that each of them may be on.</summary>
+        public static Geometry Compound(Compound compound)
+        {
+            Geometry made;
+            Native.geometry_compound(&made, compound.Handle.Value);
             return made;
         }
         /// <summary>Terrain, of static bodies only.</summary>

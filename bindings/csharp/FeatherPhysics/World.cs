@@ -209,6 +209,11 @@ namespace FeatherPhysics
         {
             return Store.CreateMesh(vertices, indices);
         }
+        /// <summary>
+        /// In this world's store, see <see cref="FeatherPhysics.Store.CreateCompound(ReadOnlySpan{CompoundPart})"/>.
+        /// </summary>
+        public Compound CreateCompound(ReadOnlySpan<CompoundPart> parts) { return Store.CreateCompound(parts); }
+        public Compound CreateCompound(params CompoundPart[] parts) { return Store.CreateCompound(parts); }
 
         // ---- the step, and what is read after it ----
 

@@ -29,3 +29,14 @@ cube[(int)Mesh.ArrayType.Vertex] = new Variant { Value = corners };
 var crate = new ArrayMesh();
 crate.AddSurfaceFromArrays(Mesh.PrimitiveType.Triangles, cube);
 Must(Math.Abs(world.CreateHull(crate).Info.Volume - 1) < 1e-5, "a cube of a cubic metre");
+
+// the cube, and a pyramid of a sixth of a cubic metre above one corner of it
+var pyramid = new Godot.Collections.Array();
+pyramid[(int)Mesh.ArrayType.Vertex] =
+    new Variant { Value = new Vector3[] { new(0, 1, 0), new(1, 1, 0), new(0, 2, 0), new(0, 1, 1) } };
+crate.AddSurfaceFromArrays(Mesh.PrimitiveType.Triangles, pyramid);
+Body body = world.CreateDynamic(new DVec3(10, 0, 0));
+body.AddCompound(world.CreateCompound(crate));
+Must(Math.Abs(body.Mass - 1000 * (1 + 1.0 / 6)) < 0.1, "each surface is a part");
+Must(world.Raycast(new DVec3(10.9, 5, 0.9), new DVec3(0, -9, 0), out hit) && hit.Part == 0, "the cube");
+Must(world.Raycast(new DVec3(10.1, 5, 0.1), new DVec3(0, -9, 0), out hit) && hit.Part == 1, "the pyramid");

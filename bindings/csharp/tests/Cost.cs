@@ -96,6 +96,8 @@ namespace FeatherPhysics.Tests
                 body[i].AddSphere(0.5f,
                     new ShapeDef { Events = ShapeEvents.Touch | ShapeEvents.Stay | ShapeEvents.Hit });
             }
+            body[1].AddCompound(world.CreateCompound(new CompoundPart(Geometry.Box(0.4f, 0.4f, 0.4f)),
+                new CompoundPart(Geometry.Sphere(0.3f), new Vector3(0, 0.5f, 0))));
             return world;
         }
 
@@ -108,6 +110,8 @@ namespace FeatherPhysics.Tests
             WorldTransform[] at = new WorldTransform[16];
             Contact[] contacts = new Contact[16];
             QueryFilter filter = new QueryFilter { Excluded = new BodyHandle[1] };
+            Span<CompoundPart> parts = stackalloc CompoundPart[2];
+            parts[0] = parts[1] = new CompoundPart(Geometry.Sphere(1));
             long told = 0, before = 0;
             using (World world = Busy(body))
             {
@@ -124,7 +128,13 @@ namespace FeatherPhysics.Tests
                         out hit)) ++told;
                     told += world.Overlap(Geometry.Sphere(2), new WorldTransform(new DVec3()), bodies);
                     if (world.GetClosestPoint(new DVec3(0, 5, 0), 10, out closest)) ++told;
-                    foreach (PairEvent e in world.PairEvents) told += (int)e.Kind;
+                    foreach (PairEvent e in world.PairEvents) told += (int)e.Kind + e.PartA;
+                    if (i % 100 == 0)
+                    {
+                        Compound made = world.CreateCompound(parts);
+                        told += made.Info.PartCount + (int)made.GetPart(1).UserData;
+                        made.Destroy();
+                    }
                     told += world.BodyEvents.Length + world.HitEvents.Length + world.JointEvents.Length;
                     told += world.GetMoved(bodies, at) + body[0].GetContacts(contacts);
                     if (body[0].Position.Y < -100) ++told;

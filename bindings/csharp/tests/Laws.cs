@@ -478,6 +478,197 @@ namespace FeatherPhysics.Tests
 
         static bool Equal(byte[] a, byte[] b) { return a.AsSpan().SequenceEqual(b); }
 
+        // Balls of 0.5 m at x = -1 and 1, the second of ice and heavy, and a rod between them
+        static Compound Dumbbell(World world)
+        {
+            SurfaceMaterial ice = new SurfaceMaterial { UserId = 5 };
+            return world.CreateCompound(
+                new CompoundPart(Geometry.Sphere(0.5f), new Vector3(-1, 0, 0)),
+                new CompoundPart(Geometry.Sphere(0.5f), new Vector3(1, 0, 0)) { Density = 3000, UserData = 77 }
+                    .WithMaterial(ice),
+                new CompoundPart(Geometry.Cylinder(0.5f, 0.1f), new Vector3(), new Quaternion(0, 0, 2, 2)));
+        }
+
+        public static void Compounds_are_what_their_parts_are()
+        {
+            using (World world = new World())
+            {
+                Compound compound = Dumbbell(world);
+                CompoundInfo info = compound.Info;
+                Check.True(info.PartCount == 3 && info.Bytes > 0 && compound.Store == world.Store, "three parts");
+                Check.Near((info.Lower - new Vector3(-1.5f, -0.5f, -0.5f)).Length(), 0, 1e-6, "lower corner");
+                Check.Near((info.Upper - new Vector3(1.5f, 0.5f, 0.5f)).Length(), 0, 1e-6, "upper corner");
+                CompoundPart part = compound.GetPart(1);
+                Check.True(part.Geometry.Type == GeometryType.Sphere && part.Geometry.Radius == 0.5f, "its form");
+                Check.True(part.Frame.Position == new Vector3(1, 0, 0) && part.Density == 3000, "where and how heavy");
+                Check.True(part.OwnMaterial && part.Material.UserId == 5 && part.UserData == 77, "its own material");
+                part = compound.GetPart(2);
+                Check.True(!part.OwnMaterial && part.Density == -1, "those of the shape");
+                Check.Near(part.Frame.Rotation.W, Math.Sqrt(0.5), 1e-6, "a rotation of length 1");
+                Body body = world.CreateDynamic(new DVec3());
+                Shape shape = body.AddCompound(compound, new ShapeDef { Density = 2000 });
+                double ball = Math.PI / 6, rod = Math.PI * 0.01;
+                Check.Near(body.Mass, 2000 * (ball + rod) + 3000 * ball, 0.01, "mass");
+                Check.Same(shape.Geometry.Type, GeometryType.Compound, "type");
+                Check.Same(shape.Geometry.Asset, compound.Handle, "asset");
+                Span<CompoundPart> two = stackalloc CompoundPart[2];
+                two[0] = compound.GetPart(0);
+                two[1] = new CompoundPart(Geometry.Hull(world.CreateHull(Cube)).Scaled(1, -2, 1));
+                Compound second = world.CreateCompound(two);
+                Check.Same(second.GetPart(1).Geometry.Scale, new Vector3(1, -2, 1), "a scaled part");
+                shape.Geometry = Geometry.Compound(second);
+                Check.Near(body.Mass, 2000 * (ball + 16), 0.05, "another compound");
+                second.Destroy();
+                Check.True(!second.IsValid && compound.IsValid && second != compound, "the handle dies");
+                Check.True(shape.Raycast(new DVec3(0, 0, 9), new DVec3(0, 0, -20), out Hit hit) && hit.Part == 1,
+                    "its parts live");
+            }
+        }
+
+        public static void Results_tell_the_part()
+        {
+            using (World world = new World())
+            {
+                Shape floor = world.CreateStatic(new DVec3(0, -9, 0)).AddCompound(Dumbbell(world));
+                for (int part = 0; part < 3; ++part)
+                {
+                    DVec3 above = new DVec3(part == 2 ? 0 : 2 * part - 1, -5, 0);
+                    Hit hit;
+                    ClosestPoint closest;
+                    Check.True(world.Raycast(above, new DVec3(0, -9, 0), out hit), "a ray");
+                    Check.True(hit.Part == part && hit.Shape == floor.Handle && hit.Triangle == -1, "its part");
+                    Check.Same(hit.Material, part == 1 ? 5ul : 0ul, "material");
+                    Check.True(world.Sweep(Geometry.Sphere(0.05f), new WorldTransform(above), new DVec3(0, -9, 0),
+                        out hit) && hit.Part == part, "a sweep");
+                    Check.True(world.GetClosestPoint(new DVec3(above.X, -8.2, 0), 5, out closest) &&
+                        closest.Part == part, "closest");
+                }
+                ShapeOverlap[] overlaps = new ShapeOverlap[2];
+                Check.Same(world.OverlapShapes(Geometry.Sphere(0.25f), new WorldTransform(new DVec3(1, -8.5, 0)),
+                    overlaps), 1, "an overlap");
+                Check.True(overlaps[0].Part == 1 && overlaps[0].Material == 5, "the part of an overlap");
+
+                Body body = world.CreateDynamic(new DVec3(50, 0.51, 0));
+                world.CreateStatic(new DVec3(50, -1, 0)).AddBox(9, 1, 9);
+                Shape shape = body.AddCompound(Dumbbell(world), new ShapeDef { Density = 3000,
+                    Events = ShapeEvents.Touch | ShapeEvents.Hit });
+                body.LinearVelocity = new Vector3(0, -4, 0);
+                int enters = 0, hits = 0;
+                for (int i = 0; i < 30; ++i)
+                {
+                    world.Step(Dt);
+                    foreach (PairEvent e in world.PairEvents)
+                    {
+                        ++enters;
+                        Check.True(e.Kind == EventKind.Enter && (e.ShapeA == shape.Handle ? e.PartA >= 0 && e.PartB == -1
+                            : e.PartB >= 0 && e.PartA == -1), "part of an enter");
+                    }
+                    foreach (HitEvent e in world.HitEvents)
+                    {
+                        ++hits;
+                        Check.True(Math.Max(e.PartA, e.PartB) < 2 && Math.Min(e.PartA, e.PartB) == -1, "of a hit");
+                    }
+                }
+                Check.True(enters == 1 && hits > 0, "one enter of the shape");
+                Contact[] contacts = new Contact[8];
+                Check.Same(shape.GetContacts(contacts), 2, "a contact for each ball");
+                int parts = 0;
+                for (int i = 0; i < 2; ++i)
+                {
+                    bool first = contacts[i].ShapeA == shape.Handle;
+                    int part = first ? contacts[i].PartA : contacts[i].PartB;
+                    parts |= 1 << part;
+                    Check.Same(first ? contacts[i].MaterialA : contacts[i].MaterialB, part == 1 ? 5ul : 0ul, "material");
+                }
+                Check.Same(parts, 3, "both balls");
+                body.Position = new DVec3(50, 9, 0);
+                world.Step(Dt);
+                PairEvent last = world.PairEvents[0];
+                Check.True(last.Kind == EventKind.Exit && last.PartA == -1 && last.PartB == -1, "an exit has none");
+            }
+        }
+
+        static WorldTransform[] Table(bool compound)
+        {
+            CompoundPart[] parts =
+            {
+                new CompoundPart(Geometry.Box(1, 0.05f, 0.6f), new Vector3(0, 0.4f, 0)),
+                new CompoundPart(Geometry.Cylinder(0.35f, 0.05f), new Vector3(-0.9f, 0, -0.5f)),
+                new CompoundPart(Geometry.Sphere(0.35f), new Vector3(0.9f, 0, 0)),
+                new CompoundPart(Geometry.Box(0.2f, 0.2f, 0.2f), new Vector3(0.9f, 0, 0.5f), new Quaternion(0, 0.1f, 0, 1)),
+            };
+            using (World world = new World())
+            {
+                Ground(world);
+                BodyHandle[] bodies = new BodyHandle[4];
+                for (int i = 0; i < bodies.Length; ++i)
+                {
+                    Body body = world.CreateDynamic(new DVec3(0.1 * i, 1 + 2 * i, 0));
+                    body.Rotation = new Quaternion(0.1f, 0.2f, 0.3f, 1);
+                    if (compound) body.AddCompound(world.CreateCompound(parts));
+                    else foreach (CompoundPart part in parts) body.Add(part.Geometry, new ShapeDef { Frame = part.Frame });
+                    bodies[i] = body;
+                }
+                Run(world, 100);
+                WorldTransform[] poses = new WorldTransform[4];
+                world.GetTransforms(bodies, poses);
+                return poses;
+            }
+        }
+
+        public static void A_compound_moves_as_single_shapes_do()
+        {
+            WorldTransform[] one = Table(true), many = Table(false);
+            for (int i = 0; i < one.Length; ++i)
+                Check.True(one[i].Position == many[i].Position && one[i].Rotation == many[i].Rotation, "body " + i);
+        }
+
+        public static void Wrong_parts_are_named()
+        {
+            using (World world = new World())
+            using (Store other = new Store())
+            {
+                CompoundPart ball = new CompoundPart(Geometry.Sphere(0.5f)), wrong = ball;
+                Action make = () => world.CreateCompound(ball, wrong);
+                wrong.Density = -2;
+                Check.Throws<BadArgumentException>(make, "parts[1]: density");
+                wrong = new CompoundPart(Geometry.Sphere(0.5f), new Vector3(0, float.NaN, 0));
+                Check.Throws<BadArgumentException>(make, "position.y");
+                wrong = new CompoundPart(Geometry.Sphere(0.5f), new Vector3(), new Quaternion());
+                Check.Throws<BadArgumentException>(make, "rotation");
+                wrong = ball.WithMaterial(new SurfaceMaterial { StaticFriction = -1 });
+                Check.Throws<BadArgumentException>(make, "static_friction");
+                wrong = new CompoundPart(Geometry.Sphere(-1));
+                Check.Throws<BadArgumentException>(make, "radius");
+                wrong = default(CompoundPart);
+                Check.Throws<BadArgumentException>(make, "parts[1]");
+                wrong = new CompoundPart(Geometry.Plane(0, 1, 0, 0));
+                Check.Throws<UnsupportedException>(make, "plane");
+                Compound compound = world.CreateCompound(ball);
+                wrong = new CompoundPart(Geometry.Compound(compound));
+                Check.Throws<UnsupportedException>(make, "compound");
+                wrong = new CompoundPart(Geometry.Hull(other.CreateHull(Cube)));
+                Check.Throws<StaleHandleException>(make, "parts[1]");
+                Check.Throws<BadArgumentException>(() => world.CreateCompound(), "count");
+                Check.Throws<BadArgumentException>(() => world.CreateCompound(ReadOnlySpan<CompoundPart>.Empty), "count");
+                Check.Throws<BadArgumentException>(() => world.CreateCompound(new CompoundPart[65536]), "count");
+                Check.Throws<BadArgumentException>(() => world.CreateCompound((CompoundPart[])null), "null");
+                Check.Throws<BadArgumentException>(() => compound.GetPart(1), "part");
+                Check.Throws<BadArgumentException>(() => compound.GetPart(-1), "part");
+                Body body = world.CreateDynamic(new DVec3());
+                Check.Throws<UnsupportedException>(() => body.Add(Geometry.Compound(compound).Scaled(2, 2, 2)), "compound");
+                Vector3[] corners = { new Vector3(-4, 0, -4), new Vector3(4, 0, -4), new Vector3(-4, 0, 4) };
+                TriangleMesh mesh = world.CreateMesh(corners, new[] { 0, 2, 1 });
+                Compound with = world.CreateCompound(ball, new CompoundPart(Geometry.Mesh(mesh)));
+                Check.Throws<UnsupportedException>(() => body.AddCompound(with), "mesh");
+                world.CreateStatic(new DVec3()).AddCompound(with);
+                compound.Destroy();
+                Check.Throws<StaleHandleException>(() => { CompoundInfo info = compound.Info; }, "compound");
+                Check.Throws<StaleHandleException>(() => body.AddCompound(compound), "asset");
+                Check.Throws<StaleHandleException>(() => default(Compound).GetPart(0), "Compound");
+            }
+        }
+
         public static void Saved_assets_return()
         {
             using (World world = new World())

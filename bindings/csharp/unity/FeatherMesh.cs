@@ -1,4 +1,5 @@
 // Unity's meshes as Feather's: the triangles of a Mesh, or the convex hull of its vertices.
+using System.Collections.Generic;
 using UnityEngine;
 
 namespace FeatherPhysics
@@ -47,6 +48,34 @@ namespace FeatherPhysics
         public static ConvexHull CreateHull(this World world, Mesh mesh, int maxVertices = 64, float tolerance = 0)
         {
             return world.Store.CreateHull(mesh, maxVertices, tolerance);
+        }
+
+        /// <summary>The convex hulls of its submeshes, for bodies that move: hits and contacts tell the submesh as
+        /// their part. DegenerateException for a submesh that is flat.</summary>
+        public static Compound CreateCompound(this Store store, Mesh mesh, int maxVertices = 64, float tolerance = 0)
+        {
+            Vector3[] vertices = mesh.vertices;
+            var parts = new CompoundPart[mesh.subMeshCount];
+            var hulls = new List<ConvexHull>();
+            try
+            {
+                for (int part = 0; part < parts.Length; ++part)
+                {
+                    Vector3[] points = System.Array.ConvertAll(mesh.GetIndices(part), i => vertices[i]);
+                    hulls.Add(store.CreateHull(points, maxVertices, tolerance));
+                    parts[part] = new CompoundPart(Geometry.Hull(hulls[part]));
+                }
+                return store.CreateCompound(parts);
+            }
+            finally
+            {
+                foreach (ConvexHull hull in hulls) hull.Destroy(); // the compound keeps what they named
+            }
+        }
+        /// <summary>In this world's store.</summary>
+        public static Compound CreateCompound(this World world, Mesh mesh, int maxVertices = 64, float tolerance = 0)
+        {
+            return world.Store.CreateCompound(mesh, maxVertices, tolerance);
         }
     }
 }

@@ -24,6 +24,7 @@ namespace UnityEngine
         public int subMeshCount { get { return submeshes.Length; } }
         public MeshTopology GetTopology(int submesh) { return MeshTopology.Triangles; }
         public int[] GetTriangles(int submesh) { return submeshes[submesh]; }
+        public int[] GetIndices(int submesh) { return submeshes[submesh]; }
     }
     public class MonoBehaviour : Object { }
     public enum PrimitiveType { Cube }

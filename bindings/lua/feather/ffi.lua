@@ -148,6 +148,7 @@ function core.geometry_cone(half_height, radius)
 end
 for name, type in pairs({
     heightfield = C.FE_GEOMETRY_HEIGHTFIELD, hull = C.FE_GEOMETRY_HULL, mesh = C.FE_GEOMETRY_MESH,
+    compound = C.FE_GEOMETRY_COMPOUND,
 }) do
     core["geometry_" .. name] = function(asset)
         local made = geometry(type)

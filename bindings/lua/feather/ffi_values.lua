@@ -150,6 +150,16 @@ function env.materials(value)
     for i = 1, count do env.put_material(made[i - 1], check_table(value[i], "materials"), 0) end
     return made, count
 end
+local Part = ffi.typeof("fe_compound_part")
+function env.parts(value)
+    local count = #check_table(value, "parts")
+    local made = ffi.new("fe_compound_part[?]", math.max(count, 1))
+    for i = 1, count do
+        if not ffi.istype(Part, value[i]) then fail("parts: %s is needed, not a %s", tostring(Part), type(value[i])) end
+        made[i - 1] = value[i]
+    end
+    return made, count
+end
 local function words(value, width, count, name)
     check_table(value, name)
     for i = 1, #value do env.integer(value[i], 0, 2 ^ 32 - 1, name) end

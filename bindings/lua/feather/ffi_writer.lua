@@ -96,6 +96,10 @@ local function write_input(f, p)
     elseif p.const and p.name == "materials" then
         add(f.before, "local h%d h%d, count = materials(%s)", i, i, a)
         add(f.call, "h%d", i)
+    elseif p.const and p.name == "parts" then
+        f.grows = p.kind
+        add(f.before, "local h%d h%d, count = parts(%s)", i, i, a)
+        add(f.call, "h%d", i)
     elseif p.const and SMALL[p.kind] then write_small(f, p)
     else
         add(f.upvalues, "local T%d = ffi.typeof(%q)", i, p.kind)

@@ -7,6 +7,7 @@ local shared = require("feather.store")
 local worlds = require("feather.world")
 require("feather.body")
 require("feather.shape")
+require("feather.compound")
 require("feather.joint")
 require("feather.query")
 

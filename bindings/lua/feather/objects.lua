@@ -5,7 +5,8 @@ local options = require("feather.options")
 local fail = require("feather.where").fail
 local core = native.core
 local objects = {
-    World = {}, Body = {}, Shape = {}, Joint = {}, Store = {}, Heightfield = {}, Hull = {}, Mesh = {}, Pool = {},
+    World = {}, Body = {}, Shape = {}, Joint = {}, Store = {}, Heightfield = {}, Hull = {}, Mesh = {}, Compound = {},
+    Pool = {},
 }
 
 for name, class in pairs(objects) do

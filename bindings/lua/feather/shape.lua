@@ -20,11 +20,15 @@ objects.switches(Shape, "shape", { Trigger = "trigger" })
 
 -- { "sphere", radius }, { "capsule", halfHeight, radius }, { "box", x, y, z }, { "cylinder", halfHeight, radius },
 -- { "cone", halfHeight, radius }, { "plane", nx, ny, nz, distance }, { "hull", hull }, { "mesh", mesh },
--- { "heightfield", heightfield }: how many numbers each has. Assets may be followed by three more: their scale
+-- { "heightfield", heightfield }, { "compound", compound }: how many numbers each has. Hulls and meshes may be followed
+-- by three more: their scale
 local FORMS = {
     sphere = 1, capsule = 2, box = 3, cylinder = 2, cone = 2, plane = 4, hull = 1, mesh = 1, heightfield = 1,
+    compound = 1,
 }
-local ASSETS = { hull = objects.Hull, mesh = objects.Mesh, heightfield = objects.Heightfield }
+local ASSETS = {
+    hull = objects.Hull, mesh = objects.Mesh, heightfield = objects.Heightfield, compound = objects.Compound,
+}
 local READ = {
     [1] = function(g) return { "sphere", g.radius } end,
     [2] = function(g) return { "capsule", g.half_height, g.radius } end,
@@ -33,7 +37,7 @@ local READ = {
     [5] = function(g) return { "cone", g.half_height, g.radius } end,
     [64] = function(g) return { "plane", g.normal.x, g.normal.y, g.normal.z, g.distance } end,
 }
-local READ_ASSET = { [32] = "hull", [96] = "heightfield", [97] = "mesh" }
+local READ_ASSET = { [32] = "hull", [96] = "heightfield", [97] = "mesh", [98] = "compound" }
 
 function shapes.geometry(form)
     if type(form) ~= "table" then fail("a form is needed: { \"sphere\", 0.5 }...") end
@@ -48,15 +52,19 @@ function shapes.geometry(form)
     return made
 end
 
-function Shape:setForm(form) core.shape_set_geometry(self.native, self.id, shapes.geometry(form)) end
-function Shape:getForm()
-    local g = core.shape_get_geometry(self.native, self.id)
+-- The reverse, of assets of this store
+function shapes.form_of(store, g)
     local read = READ[g.type]
     if read then return read(g) end
     local word, s = READ_ASSET[g.type], g.scale
-    local form = { word, asset_of(self.world:getStore(), ASSETS[word], native.number(g.asset)) }
+    local form = { word, asset_of(store, ASSETS[word], native.number(g.asset)) }
     if s.x ~= 1 or s.y ~= 1 or s.z ~= 1 then form[3], form[4], form[5] = s.x, s.y, s.z end
     return form
+end
+
+function Shape:setForm(form) core.shape_set_geometry(self.native, self.id, shapes.geometry(form)) end
+function Shape:getForm()
+    return shapes.form_of(self.world:getStore(), core.shape_get_geometry(self.native, self.id))
 end
 
 -- ---- making them ----------------------------------------------------------------------------------------------------

@@ -1,4 +1,5 @@
--- Stores, their heightfields, hulls and meshes, and pools: what several worlds may share.
+-- Stores, their heightfields, hulls and meshes, and pools: what several worlds may share. Compounds are in
+-- feather.compound.
 local native = require("feather.native")
 local objects = require("feather.objects")
 local options = require("feather.options")
@@ -47,11 +48,11 @@ function shared.asset_of(store, class, id)
     return found
 end
 
-for _, class in ipairs({ Heightfield, Hull, Mesh }) do
+for _, class in ipairs({ Heightfield, Hull, Mesh, objects.Compound }) do
     function class:destroy() core.asset_destroy(self.native, self.id) end
     function class:isDestroyed() return self.store:isDestroyed() or core.asset_is_valid(self.native, self.id) == 0 end
     function class:getStore() return self.store end
-    -- a string for Store:load, the same on every machine
+    -- a string for Store:load, the same on every machine; an error for a compound: save the assets of its parts
     function class:save() return (select(2, core.asset_save(self.native, self.id))) end
 end
 

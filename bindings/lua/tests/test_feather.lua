@@ -494,6 +494,7 @@ function TestCore.testTheTableOfTheDocument()
         feather = feather, world = world, body = ball, shape = ball:getShapes()[1], store = world:getStore(),
         hull = world:newHull({ points = CUBE }),
         mesh = world:newMesh({ vertices = CUBE, triangles = { 0, 2, 3 } }),
+        compound = world:newCompound({ { "sphere", 1 } }),
         heightfield = world:newHeightfield({ rows = 2, columns = 2, heights = { 0, 0, 0, 0 } }), pool = feather.newPool(1),
         joint = world:newBallJoint({ bodyA = ball, bodyB = world:newBody(), point = { 0, 5, 0 } }),
     }

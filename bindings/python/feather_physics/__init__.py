@@ -37,6 +37,7 @@ from .records import (
     Box,
     Capsule,
     Closest,
+    CompoundInfo,
     Cone,
     Contact,
     ContactPoint,
@@ -62,6 +63,7 @@ from .records import (
     Overlap,
     Packed,
     PairEvent,
+    Part,
     Plane,
     Profile,
     Scaled,
@@ -69,7 +71,7 @@ from .records import (
     Tuning,
     Vector,
 )
-from .store import Asset, Heightfield, Hull, Mesh, Store
+from .store import Asset, Compound, Heightfield, Hull, Mesh, Store
 from .world import Pool, World
 
 __all__ = [
@@ -81,6 +83,8 @@ __all__ = [
     "BusyError",
     "Capsule",
     "Closest",
+    "Compound",
+    "CompoundInfo",
     "Cone",
     "Contact",
     "ContactPoint",
@@ -117,6 +121,7 @@ __all__ = [
     "Overlap",
     "Packed",
     "PairEvent",
+    "Part",
     "Plane",
     "Pool",
     "Profile",

@@ -10,8 +10,8 @@ from . import _flat, records
 from ._flat import Bounds, Quat, Transform, Vec3
 from .errors import InvalidArgumentError
 from .records import BODY_TYPES, JOINT_TYPES, NO_ROTATION, Box, Capsule, Cone, Cylinder, Filter, Geometry, Material
-from .records import Plane, Scaled, Sphere, Vector
-from .store import Asset, Heightfield, Hull, Mesh
+from .records import Plane, Sphere, Vector
+from .store import flat_geometry, geometry_of
 from .words import (
     DOFS,
     EVENT_BITS,
@@ -328,7 +328,7 @@ class Body(Entity):
             definition.one_way, definition.one_way_direction = 1, one_way
         definition.surface_velocity = surface_velocity
         definition.user_data = tag
-        shape = _flat.shape_create(self._capsule, self._id, definition, flat_geometry(self._world, geometry))
+        shape = _flat.shape_create(self._capsule, self._id, definition, flat_geometry(self._world.store, geometry))
         return Shape(self._world, shape)
 
     def add_sphere(self, radius: float, **options: Any) -> "Shape":
@@ -408,30 +408,13 @@ class Shape(Entity):
 
     @property
     def geometry(self) -> Geometry:
-        """Its form: a Sphere, Capsule, Box, Cylinder, Cone, Plane, Hull, Mesh or Heightfield; a hull or a mesh with
-        another scale than 1 is a Scaled."""
-        flat = _flat.shape_get_geometry(self._capsule, self._id)
-        if flat.type == _flat.FE_GEOMETRY_SPHERE:
-            return Sphere(flat.radius)
-        if flat.type == _flat.FE_GEOMETRY_CAPSULE:
-            return Capsule(flat.half_height, flat.radius)
-        if flat.type == _flat.FE_GEOMETRY_BOX:
-            return Box(*flat.half_extents)
-        if flat.type == _flat.FE_GEOMETRY_PLANE:
-            return Plane(flat.normal, flat.distance)
-        if flat.type == _flat.FE_GEOMETRY_CYLINDER:
-            return Cylinder(flat.half_height, flat.radius)
-        if flat.type == _flat.FE_GEOMETRY_CONE:
-            return Cone(flat.half_height, flat.radius)
-        if flat.type == _flat.FE_GEOMETRY_HEIGHTFIELD:
-            return Heightfield(self._world.store, flat.asset)
-        is_hull, store = flat.type == _flat.FE_GEOMETRY_HULL, self._world.store
-        asset: Union[Hull, Mesh] = Hull(store, flat.asset) if is_hull else Mesh(store, flat.asset)
-        return asset if flat.scale == (1, 1, 1) else Scaled(asset, flat.scale)
+        """Its form: a Sphere, Capsule, Box, Cylinder, Cone, Plane, Hull, Mesh, Heightfield or Compound; a hull or a
+        mesh with another scale than 1 is a Scaled."""
+        return geometry_of(self._world.store, _flat.shape_get_geometry(self._capsule, self._id))
 
     @geometry.setter
     def geometry(self, value: Geometry) -> None:
-        _flat.shape_set_geometry(self._capsule, self._id, flat_geometry(self._world, value))
+        _flat.shape_set_geometry(self._capsule, self._id, flat_geometry(self._world.store, value))
 
     @property
     def material(self) -> Material:
@@ -584,36 +567,3 @@ class Joint(Entity):
         """Its bodies wake, and may collide again from the next step on."""
         _flat.joint_destroy(self._capsule, self._id)
         self._world._user_data.pop(self._id, None)
-
-
-def flat_geometry(world: "World", geometry: Geometry) -> Any:
-    """A geometry as the flat functions take it."""
-    if isinstance(geometry, Sphere):
-        return _flat.geometry_sphere(geometry.radius)
-    if isinstance(geometry, Capsule):
-        return _flat.geometry_capsule(geometry.half_height, geometry.radius)
-    if isinstance(geometry, Box):
-        return _flat.geometry_box(*geometry)
-    if isinstance(geometry, Plane):
-        x, y, z = geometry.normal
-        return _flat.geometry_plane(x, y, z, geometry.distance)
-    if isinstance(geometry, Cylinder):
-        return _flat.geometry_cylinder(geometry.half_height, geometry.radius)
-    if isinstance(geometry, Cone):
-        return _flat.geometry_cone(geometry.half_height, geometry.radius)
-    if isinstance(geometry, Scaled):
-        if not isinstance(geometry.asset, Asset):
-            raise TypeError(f"a hull or a mesh is needed, not {type(geometry.asset).__name__!r}")
-        scaled = flat_geometry(world, geometry.asset)
-        x, y, z = geometry.scale
-        _flat.geometry_set_scale(scaled, x, y, z)
-        return scaled
-    if not isinstance(geometry, Asset):
-        raise TypeError(f"a geometry is needed, not {type(geometry).__name__!r}")
-    if geometry._store is not world.store:
-        raise InvalidArgumentError(f"{geometry!r} belongs to another store than the world's")
-    if isinstance(geometry, Hull):
-        return _flat.geometry_hull(geometry._id)
-    if isinstance(geometry, Mesh):
-        return _flat.geometry_mesh(geometry._id)
-    return _flat.geometry_heightfield(geometry._id)

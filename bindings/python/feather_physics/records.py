@@ -11,7 +11,7 @@ from ._flat import Quat, Vec3
 
 if TYPE_CHECKING:
     from .objects import Body, Joint, Shape
-    from .store import Heightfield, Hull, Mesh
+    from .store import Compound, Heightfield, Hull, Mesh
 
 Vector = Sequence[float]
 """Three numbers, or four for a rotation: any sequence."""
@@ -69,7 +69,7 @@ class Scaled(NamedTuple):
     scale: Vector
 
 
-Geometry = Union[Sphere, Capsule, Box, Cylinder, Cone, Plane, Scaled, "Hull", "Mesh", "Heightfield"]
+Geometry = Union[Sphere, Capsule, Box, Cylinder, Cone, Plane, Scaled, "Hull", "Mesh", "Heightfield", "Compound"]
 
 
 class Material(NamedTuple):
@@ -85,6 +85,18 @@ class Material(NamedTuple):
     friction_combine: str = "default"
     restitution_combine: str = "default"
     user_id: int = 0
+
+
+class Part(NamedTuple):
+    """A part of a compound: any geometry but a plane or a compound, its place in the compound's space, m, a density,
+    kg/m3 (None: the shape's), a material (None: the shape's), and an integer of yours below 2^64."""
+
+    geometry: Geometry
+    position: Vector = (0.0, 0.0, 0.0)
+    rotation: Vector = NO_ROTATION
+    density: Optional[float] = None
+    material: Optional[Material] = None
+    tag: int = 0
 
 
 class Filter(NamedTuple):
@@ -328,6 +340,16 @@ class MeshTriangle(NamedTuple):
     edges: Tuple[MeshEdge, MeshEdge, MeshEdge]
     material: int
     data: int
+
+
+class CompoundInfo(NamedTuple):
+    """What a compound is: how many parts, their bounds, m, in its own space, and bytes of memory without their
+    assets."""
+
+    part_count: int
+    lower: Vec3
+    upper: Vec3
+    bytes: int
 
 
 class JointState(NamedTuple):

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from array import array
 from types import TracebackType
-from typing import Any, Dict, List, Optional, Sequence, Tuple, Type
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Type, Union
 
 from . import _flat
 from ._flat import Vec3
-from .errors import StaleHandleError
-from .records import HULL_FACE, HullFace, HullInfo, MeshEdge, MeshInfo, MeshTriangle, copy_record, read_all
-from .words import flat_material
+from .errors import InvalidArgumentError, StaleHandleError
+from .records import HULL_FACE, Box, Capsule, CompoundInfo, Cone, Cylinder, Geometry, HullFace, HullInfo, MeshEdge
+from .records import MeshInfo, MeshTriangle, Part, Plane, Scaled, Sphere, copy_record, read_all
+from .words import flat_material, material_of
 
 
 class Store:
-    """Holds heightfields, hulls and meshes that several worlds may share: World(store=store). Any thread may use it while worlds step.
-    A world that is given none has one of its own, world.store."""
+    """Holds heightfields, hulls, meshes and compounds that several worlds may share: World(store=store). Any thread may
+    use it while worlds step. A world that is given none has one of its own, world.store."""
 
     __slots__ = ("_capsule", "_user_data")
     _capsule: Any
@@ -115,6 +116,12 @@ class Store:
         definition = (_places(vertices), indices, index_type, flags, weld_distance, edge_angle, triangle_materials)
         return Mesh(self, _flat.mesh_create(self._capsule, (*definition, surfaces, data)))
 
+    def create_compound(self, parts: Iterable[Union[Part, Mapping[str, Any]]]) -> "Compound":
+        """One form of several, each a Part or a dictionary of its fields: create_compound([Part(Box(1, 0.1, 1)),
+        {"geometry": Sphere(0.2), "position": (0, 0.3, 0)}]). Hits, contacts and events tell the place of the part.
+        Assets among the parts are of this store, and live as long as the compound."""
+        return Compound(self, _flat.compound_create(self._capsule, [self._flat_part(part) for part in parts]))
+
     def load(self, data: Any) -> "Asset":
         """The heightfield, hull or mesh of which asset.save() made these bytes, in less time than it was made:
         cook when a game is built, load when it starts. Bytes from anywhere may be given: what is accepted
@@ -127,9 +134,24 @@ class Store:
             return Hull(self, id)
         return Mesh(self, id) if kind == _flat.FE_GEOMETRY_MESH else Heightfield(self, id)
 
+    def _flat_part(self, part: Union[Part, Mapping[str, Any]]) -> Any:
+        if not isinstance(part, Part):
+            if not isinstance(part, Mapping):
+                raise TypeError(f"parts: a Part or a dictionary of its fields is needed, not {type(part).__name__!r}")
+            part = Part(**part)
+        flat = _flat.compound_part()
+        flat.geometry = flat_geometry(self, part.geometry)
+        flat.frame = (part.position, part.rotation)
+        if part.density is not None:
+            flat.density = part.density
+        if part.material is not None:
+            flat.own_material, flat.material = 1, flat_material(part.material)
+        flat.user_data = part.tag
+        return flat
+
 
 class Asset:
-    """What any number of shapes may share: a heightfield, a hull or a mesh of a store."""
+    """What any number of shapes may share: a heightfield, a hull, a mesh or a compound of a store."""
 
     __slots__ = ("_store", "_id")
 
@@ -162,7 +184,8 @@ class Asset:
         return not self._store.closed and _flat.asset_is_valid(self._store._capsule, self._id) == 1
 
     def save(self) -> bytes:
-        """The asset as bytes, the same on every machine, for store.load()."""
+        """The asset as bytes, the same on every machine, for store.load(). An UnsupportedError for a compound: save
+        the assets of its parts."""
         saved: bytes = _flat.asset_save(self._store._capsule, self._id)
         return saved
 
@@ -247,6 +270,93 @@ class Mesh(Asset):
     def set_materials(self, materials: Sequence[Sequence[Any]]) -> None:
         """New materials of a mesh that has some, as many as before; what touches it wakes, in every world."""
         _flat.mesh_set_materials(self._store._capsule, self._id, [flat_material(material) for material in materials])
+
+
+class Compound(Asset):
+    """One form of several parts, for any number of shapes: body.add(compound)."""
+
+    __slots__ = ()
+
+    @property
+    def info(self) -> CompoundInfo:
+        """How many parts, their bounds, memory."""
+        return copy_record(CompoundInfo, _flat.compound_get_info(self._store._capsule, self._id))
+
+    @property
+    def parts(self) -> List[Part]:
+        """All parts, as they were given; rotations have length 1."""
+        return [self.part(number) for number in range(self.info.part_count)]
+
+    def part(self, number: int) -> Part:
+        """A part by its place, as hits, contacts and events tell it."""
+        flat = _flat.compound_get_part(self._store._capsule, self._id, number)
+        density = None if flat.density == -1 else flat.density
+        material = material_of(flat.material) if flat.own_material else None
+        return Part(geometry_of(self._store, flat.geometry), *flat.frame, density, material, flat.user_data)
+
+
+# ---- forms -------------------------------------------------------------------------------------------------------
+
+
+def flat_geometry(store: Store, geometry: Geometry) -> Any:
+    """A geometry as the flat functions take it; its asset is of this store."""
+    if isinstance(geometry, Sphere):
+        return _flat.geometry_sphere(geometry.radius)
+    if isinstance(geometry, Capsule):
+        return _flat.geometry_capsule(geometry.half_height, geometry.radius)
+    if isinstance(geometry, Box):
+        return _flat.geometry_box(*geometry)
+    if isinstance(geometry, Plane):
+        x, y, z = geometry.normal
+        return _flat.geometry_plane(x, y, z, geometry.distance)
+    if isinstance(geometry, Cylinder):
+        return _flat.geometry_cylinder(geometry.half_height, geometry.radius)
+    if isinstance(geometry, Cone):
+        return _flat.geometry_cone(geometry.half_height, geometry.radius)
+    if isinstance(geometry, Scaled):
+        if not isinstance(geometry.asset, Asset):
+            raise TypeError(f"a hull or a mesh is needed, not {type(geometry.asset).__name__!r}")
+        scaled = flat_geometry(store, geometry.asset)
+        x, y, z = geometry.scale
+        _flat.geometry_set_scale(scaled, x, y, z)
+        return scaled
+    if not isinstance(geometry, Asset):
+        raise TypeError(f"a geometry is needed, not {type(geometry).__name__!r}")
+    if geometry._store is not store:
+        raise InvalidArgumentError(f"{geometry!r} belongs to another store than the one it is used with")
+    if isinstance(geometry, Hull):
+        return _flat.geometry_hull(geometry._id)
+    if isinstance(geometry, Mesh):
+        return _flat.geometry_mesh(geometry._id)
+    if isinstance(geometry, Compound):
+        return _flat.geometry_compound(geometry._id)
+    return _flat.geometry_heightfield(geometry._id)
+
+
+def geometry_of(store: Store, flat: Any) -> Geometry:
+    """The reverse of flat_geometry."""
+    if flat.type == _flat.FE_GEOMETRY_SPHERE:
+        return Sphere(flat.radius)
+    if flat.type == _flat.FE_GEOMETRY_CAPSULE:
+        return Capsule(flat.half_height, flat.radius)
+    if flat.type == _flat.FE_GEOMETRY_BOX:
+        return Box(*flat.half_extents)
+    if flat.type == _flat.FE_GEOMETRY_PLANE:
+        return Plane(flat.normal, flat.distance)
+    if flat.type == _flat.FE_GEOMETRY_CYLINDER:
+        return Cylinder(flat.half_height, flat.radius)
+    if flat.type == _flat.FE_GEOMETRY_CONE:
+        return Cone(flat.half_height, flat.radius)
+    if flat.type == _flat.FE_GEOMETRY_HEIGHTFIELD:
+        return Heightfield(store, flat.asset)
+    if flat.type == _flat.FE_GEOMETRY_COMPOUND:
+        return Compound(store, flat.asset)
+    is_hull = flat.type == _flat.FE_GEOMETRY_HULL
+    asset: Union[Hull, Mesh] = Hull(store, flat.asset) if is_hull else Mesh(store, flat.asset)
+    return asset if flat.scale == (1, 1, 1) else Scaled(asset, flat.scale)
+
+
+# ---- numbers that go in ------------------------------------------------------------------------------------------
 
 
 def _places(points: Any) -> Any:

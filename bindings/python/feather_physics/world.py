@@ -5,13 +5,13 @@ from __future__ import annotations
 import weakref
 from array import array
 from types import TracebackType
-from typing import Any, Callable, Dict, Iterable, List, Optional, Sequence, Tuple, Type, Union, overload
+from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Type, Union, overload
 
 from . import _flat, records
 from ._flat import Bounds, Vec3
-from .objects import Body, Joint, Shape, flat_geometry, handle_of
+from .objects import Body, Joint, Shape, handle_of
 from .records import NO_ROTATION, FilterPair, Geometry, Vector
-from .store import Heightfield, Hull, Mesh, Store
+from .store import Compound, Heightfield, Hull, Mesh, Store, flat_geometry
 from .words import body_type, fill, locks_bits, word
 
 ALL_LAYERS = 0xFFFFFFFF
@@ -162,7 +162,7 @@ class World:
 
     @property
     def store(self) -> Store:
-        """What holds its heightfields, hulls and meshes: the one it was given, or its own."""
+        """What holds its heightfields, hulls, meshes and compounds: the one it was given, or its own."""
         return self._store
 
     @property
@@ -304,6 +304,10 @@ class World:
         """Triangles in this world's store, see Store.create_mesh()."""
         return self._store.create_mesh(vertices, triangles, **options)
 
+    def create_compound(self, parts: Iterable[Union[records.Part, Mapping[str, Any]]]) -> Compound:
+        """One form of several in this world's store, see Store.create_compound()."""
+        return self._store.create_compound(parts)
+
     # ---- joints: an end of None is the world; further fields are those of the definitions in feather.h ----
 
     def create_distance_joint(
@@ -432,7 +436,7 @@ class World:
     ) -> Optional[records.Hit]:
         """What a moving form touches first, or None: any but a Plane, Mesh or Heightfield. It turns by the length of
         `turn` (rad) about its direction, at a constant rate; see fe_world_sweep_turning in feather.h."""
-        flat, start, filter = flat_geometry(self, geometry), (position, rotation), self._filter(mask, triggers, exclude)
+        flat, start, filter = self._form(geometry), (position, rotation), self._filter(mask, triggers, exclude)
         if turn is None:
             return self._hit(_flat.world_sweep(self._capsule, flat, start, translation, filter))
         return self._hit(_flat.world_sweep_turning(self._capsule, flat, start, translation, turn, filter))
@@ -450,7 +454,7 @@ class World:
         exclude: Any = (),
     ) -> bool:
         """Does it touch anything?"""
-        flat, start, filter = flat_geometry(self, geometry), (position, rotation), self._filter(mask, triggers, exclude)
+        flat, start, filter = self._form(geometry), (position, rotation), self._filter(mask, triggers, exclude)
         found: bool
         if turn is None:
             found = _flat.world_sweep_any(self._capsule, flat, start, translation, filter)
@@ -471,7 +475,7 @@ class World:
         exclude: Any = (),
     ) -> List[records.Hit]:
         """Every body that it touches on its motion, nearest first."""
-        flat, start, filter = flat_geometry(self, geometry), (position, rotation), self._filter(mask, triggers, exclude)
+        flat, start, filter = self._form(geometry), (position, rotation), self._filter(mask, triggers, exclude)
         if turn is None:
             return self._hits(_flat.world_sweep_all, flat, start, translation, filter)
         return self._hits(_flat.world_sweep_turning_all, flat, start, translation, turn, filter)
@@ -487,7 +491,7 @@ class World:
         exclude: Any = (),
     ) -> List[Body]:
         """The bodies that a form overlaps, any but a Plane, Mesh or Heightfield, in the order of creation."""
-        flat, at, filter = flat_geometry(self, geometry), (position, rotation), self._filter(mask, triggers, exclude)
+        flat, at, filter = self._form(geometry), (position, rotation), self._filter(mask, triggers, exclude)
         ids = records.read_handles(_flat.world_overlap, self._capsule, flat, at, filter)
         return [Body(self, id) for id in ids]
 
@@ -502,7 +506,7 @@ class World:
         exclude: Any = (),
     ) -> bool:
         """Does it overlap anything?"""
-        flat, at, filter = flat_geometry(self, geometry), (position, rotation), self._filter(mask, triggers, exclude)
+        flat, at, filter = self._form(geometry), (position, rotation), self._filter(mask, triggers, exclude)
         found: bool = _flat.world_overlap_any(self._capsule, flat, at, filter)
         return found
 
@@ -518,7 +522,7 @@ class World:
     ) -> List[records.Overlap]:
         """The shapes that it overlaps, with direction and depth: to move a character out. In the order of
         creation."""
-        flat, at, filter = flat_geometry(self, geometry), (position, rotation), self._filter(mask, triggers, exclude)
+        flat, at, filter = self._form(geometry), (position, rotation), self._filter(mask, triggers, exclude)
         found = records.read_all(_flat.world_overlap_shapes, records.OVERLAP, self._capsule, flat, at, filter)
         return [
             records.Overlap(Body(self, o[0]), Shape(self, o[1]), Vec3(o[3:6]), o[6], o[7], o[8], o[2]) for o in found
@@ -571,7 +575,7 @@ class World:
         """sweep() of one geometry for a buffer of paths (64 bytes each, see records.PATH), like raycast_many()."""
         if out is None:
             out = bytearray(memoryview(paths).nbytes // records.PATH.size * records.HIT.size)
-        flat, filter = flat_geometry(self, geometry), self._filter(mask, triggers, exclude)
+        flat, filter = self._form(geometry), self._filter(mask, triggers, exclude)
         _flat.world_sweep_many(self._capsule, flat, paths, filter, 1 if spread else 0, out)
         return out
 
@@ -669,6 +673,9 @@ class World:
         return ids, transforms
 
     # ---- within the package ----
+
+    def _form(self, geometry: Geometry) -> Any:
+        return flat_geometry(self._store, geometry)
 
     def _body(self, body: Body) -> int:
         return handle_of(self, body, Body)
