@@ -33,6 +33,17 @@ static int32_t look_at(fe__drawing *d, fe__shape_walk *walk)
     return !walk->is_cut || meets(&d->box, &bounds);
 }
 
+// Bodies and shapes mostly lie in the order of their creation: records ahead of the walk are likely to be its next
+// ones. Where they are not, nothing is lost
+static inline void fetch_ahead(const fe_world *w, int32_t body, int32_t shape)
+{
+    enum { BODIES_AHEAD = 6, SHAPES_AHEAD = 4 };
+    const fe__body *b = w->bodies + body + BODIES_AHEAD;
+    const fe__shape *s = w->shapes + shape + SHAPES_AHEAD;
+    if (body + BODIES_AHEAD < w->body_capacity) fe__fetch(&b->line, sizeof *b - (unsigned)offsetof(fe__body, line));
+    if (shape >= 0 && shape + SHAPES_AHEAD < w->shape_capacity) fe__fetch(s, sizeof *s);
+}
+
 // Every body is met, drawn or not: the first of an island decides its colour
 static int32_t open_next_body(fe__drawing *d, fe__shape_walk *walk)
 {
@@ -40,6 +51,7 @@ static int32_t open_next_body(fe__drawing *d, fe__shape_walk *walk)
     if (walk->next_body < 0) return 0;
     walk->body = walk->next_body;
     const fe__body *body = w->bodies + walk->body;
+    fetch_ahead(w, walk->body, body->first_shape);
     walk->next_body = body->order_next;
     walk->body_colour = fe__body_colour(d, walk->body);
     walk->next_shape = fe__is_drawn(d, walk->body) ? body->first_shape : -1;
@@ -100,19 +112,35 @@ static fe_draw_instance describe(const fe__drawing *d, const fe__shape_walk *wal
     return i;
 }
 
+// 0: nothing of it is in the box
+static int32_t stance_of(const fe__drawing *d, const fe__shape_walk *walk, fe__stance *out)
+{
+    const fe__shape *shape = d->world->shapes + walk->shape;
+    if (fe__form_is_unbounded(&shape->form)) {
+        fe__drawn plane = fe__shape_surface(d, walk);
+        fe__surface_place(&plane);
+        return fe__plane_stance(&plane, out);
+    }
+    *out = (fe__stance){fe__in_drawing(d, shape->pose.position), shape->pose.rotation,
+                        fe__surface_half_extents(&shape->form)};
+    return 1;
+}
+
 int32_t fe__draw_instances(fe__drawing *d, void *out, uint32_t stride, uint32_t size, int32_t capacity)
 {
     if (!(d->parts & FE_DRAW_SHAPES)) return 0;
     int32_t count = 0;
     fe__shape_walk walk = fe__shapes_begin(d);
     while (fe__shapes_next(d, &walk)) {
-        fe__drawn s = fe__shape_surface(d, &walk);
         fe__stance stance;
-        if (fe__form_is_unbounded(s.form)) fe__surface_place(&s);
-        if (!fe__surface_stance(&s, &stance)) continue;
+        if (!stance_of(d, &walk, &stance)) continue;
         if (count < capacity) {
             fe_draw_instance instance = describe(d, &walk, &stance);
-            memcpy((unsigned char *)out + (size_t)stride * (size_t)count, &instance, size);
+            void *at = (unsigned char *)out + (size_t)stride * (size_t)count;
+            if (size == sizeof instance)
+                memcpy(at, &instance, sizeof instance);
+            else
+                memcpy(at, &instance, size);
         }
         count += 1;
     }

@@ -20,7 +20,6 @@ void fe__draw_hull_lines(const fe__drawn *s, fe__pen *pen);
 // plane.c
 void fe__draw_plane(const fe__drawn *s, fe__pen *pen);
 void fe__draw_plane_lines(const fe__drawn *s, fe__pen *pen);
-int32_t fe__plane_stance(const fe__drawn *s, fe__stance *out_stance);
 
 // field.c: heightfields and meshes
 void fe__draw_field(const fe__drawn *s, fe__pen *pen);

@@ -28,7 +28,11 @@ static inline void fe__pen_vertex(fe__pen *pen, fe_vec3 at)
     int64_t i = pen->count++;
     if (i >= pen->capacity) return;
     fe_draw_vertex vertex = {at.x, at.y, at.z, pen->rgba, pen->owner};
-    memcpy(pen->out + (size_t)pen->stride * (size_t)i, &vertex, pen->size);
+    unsigned char *out = pen->out + (size_t)pen->stride * (size_t)i;
+    if (pen->size == sizeof vertex)
+        memcpy(out, &vertex, sizeof vertex); // of a size that the compiler knows: a few moves
+    else
+        memcpy(out, &vertex, pen->size);
 }
 
 static inline void fe__pen_line(fe__pen *pen, fe_vec3 from, fe_vec3 to)

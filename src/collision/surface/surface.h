@@ -48,8 +48,9 @@ typedef struct fe__stance {
     fe_quat rotation;
     fe_vec3 half_extents;
 } fe__stance;
-// 0: nothing of it is in the box
-int32_t fe__surface_stance(const fe__drawn *s, fe__stance *out_stance);
+fe_vec3 fe__surface_half_extents(const fe__form *form);
+// Of a plane, of which there is a piece; 0: nothing of it is in the box
+int32_t fe__plane_stance(const fe__drawn *s, fe__stance *out_stance);
 
 static inline fe_vec3 fe__surface_point(const fe__drawn *s, fe_dvec3 p)
 {

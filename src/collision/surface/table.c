@@ -21,7 +21,7 @@ static const draw_traits traits[FE__FORM_TYPES] = {
 void fe__surface_triangles(const fe__drawn *s, fe__pen *pen) { traits[s->form->type].triangles(s, pen); }
 void fe__surface_lines(const fe__drawn *s, fe__pen *pen) { traits[s->form->type].lines(s, pen); }
 
-static fe_vec3 half_extents_of(const fe__form *form)
+fe_vec3 fe__surface_half_extents(const fe__form *form)
 {
     switch (form->type) {
     case FE__FORM_SPHERE:
@@ -35,13 +35,4 @@ static fe_vec3 half_extents_of(const fe__form *form)
     default:
         return fe__vec3(1.0f, 1.0f, 1.0f);
     }
-}
-
-int32_t fe__surface_stance(const fe__drawn *s, fe__stance *out)
-{
-    if (fe__form_is_unbounded(s->form)) return fe__plane_stance(s, out);
-    out->position = fe__narrow(fe__dsub(s->pose.position, s->origin));
-    out->rotation = s->pose.rotation;
-    out->half_extents = half_extents_of(s->form);
-    return 1;
 }
