@@ -9,6 +9,7 @@ require("feather.body")
 require("feather.shape")
 require("feather.joint")
 require("feather.query")
+require("feather.draw")
 
 local version = core.version()
 return {
