@@ -466,7 +466,7 @@ CONTACT = Packed(
     "reserved:16x"
 )
 
-DRAW_VERTEX = Packed("position:3f rgba:I owner:Q")
+DRAW_VERTEX = Packed("x:f y:f z:f rgba:I owner:Q")
 DRAW_INSTANCE = Packed(
     "type:i rgba:I shape:Q body:Q asset:Q position:3f rotation:4f half_extents:3f part:i reserved:12x"
 )

@@ -673,7 +673,8 @@ class World:
     # "contacts"...), origin, lower, upper, only=a body, scale, segments ----
 
     def draw_lines(self, **options: Any) -> bytearray:
-        """Two vertices a line: numpy.frombuffer(world.draw_lines(), records.DRAW_VERTEX.dtype)."""
+        """Two vertices a line, see records.DRAW_VERTEX: numpy.frombuffer(world.draw_lines(), np.float32).reshape(-1, 6)
+        has x, y, z in its first three columns."""
         return self._draw(_flat.world_draw_lines, records.DRAW_VERTEX, options)
 
     def draw_triangles(self, **options: Any) -> bytearray:

@@ -1,5 +1,7 @@
 """Drawing into buffers of NumPy and others."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -9,8 +11,13 @@ VERTEX = np.dtype(records.DRAW_VERTEX.dtype)
 INSTANCE = np.dtype(records.DRAW_INSTANCE.dtype)
 
 
-def vertices(data: bytearray) -> "np.ndarray":
+def vertices(data: bytearray) -> "np.ndarray[Any, Any]":
     return np.frombuffer(data, VERTEX)
+
+
+def positions(data: bytearray) -> "np.ndarray[Any, Any]":
+    """x, y, z of each: a view, as a renderer would take it."""
+    return np.frombuffer(data, np.float32).reshape(-1, 6)[:, :3]
 
 
 def test_records_are_those_of_the_header() -> None:
@@ -22,11 +29,11 @@ def test_a_box_as_triangles_lines_and_instance(world: World) -> None:
     shape = box.add_box(0.5, 1, 1.5)
     triangles = vertices(world.draw_triangles())
     assert len(triangles) == 36 and (triangles["owner"] == shape.id).all()
-    p = triangles["position"].reshape(-1, 3, 3).astype(float)
+    p = positions(world.draw_triangles()).reshape(-1, 3, 3).astype(float)
     volume = np.einsum("ij,ij->i", p[:, 0], np.cross(p[:, 1], p[:, 2])).sum() / 6
     assert volume == pytest.approx(6, rel=1e-5)
-    lines = vertices(world.draw_lines(parts="shapes", origin=(10, 0, 0)))
-    assert len(lines) == 24 and abs(lines["position"][:, 0]).max() == 0.5
+    lines = positions(world.draw_lines(parts="shapes", origin=(10, 0, 0)))
+    assert len(lines) == 24 and abs(lines[:, 0]).max() == 0.5
     (instance,) = np.frombuffer(world.draw_instances(), INSTANCE)
     assert instance["body"] == box.id and instance["half_extents"].tolist() == [0.5, 1, 1.5] and instance["part"] == -1
 
@@ -48,8 +55,8 @@ def test_points_of_contacts(world: World) -> None:
     ball.add_sphere(0.5)
     for _ in range(10):
         world.step(1 / 60)
-    (point,) = vertices(world.draw_points(parts=("contacts",), only=ball))
-    assert point["position"].tolist() == pytest.approx([3, 0, 0], abs=0.01)
+    (point,) = positions(world.draw_points(parts=("contacts",), only=ball))
+    assert point.tolist() == pytest.approx([3, 0, 0], abs=0.01)
     assert len(world.draw_points(parts=("contacts",), lower=(4, -1, -1), upper=(5, 1, 1))) == 0
 
 
