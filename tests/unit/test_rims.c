@@ -13,6 +13,8 @@
 
 #include "collision_cases.h"
 
+#include <float.h>
+
 enum { CASES = 20000, DIRECTIONS = 400 };
 
 static fe__form cylinder(float half_height, float radius)
@@ -170,6 +172,8 @@ static fe__form random_partner(void)
                         : random_rim();
 }
 
+static void distance_of(const fe__cores *c, fe__gjk *g) { fe__gjk_distance(c, 1e30, g); }
+
 static double gap_on(const fe__cores *c, fe_dvec3 n) { return -fe__ddot(n, fe__cores_support(c, n).difference); }
 
 // The largest gap along any direction, or a little less: from `n` on uphill.
@@ -208,6 +212,39 @@ static void distances_and_depths_are_proved_by_their_planes(void **state)
         double best = best_gap(&c, p.normal);
         FE_WITHIN(best, -10.0, -p.depth + 1e-4); // as many corners as EPA has, of forms of 2 m
     }
+}
+
+// Rims, caps and faces side by side, 0.1 um to 1 mm apart: the supports of a round side come so near to each other that
+// they span slivers. Of one of height h the areas give weights good to rounding / h, and a side is no farther off than
+// h: the better is within the root of a rounding, of the size. A foot is taken while rounding turns its triangle's
+// normal by less than distance / |corner|.
+static void near_points_lie_on_their_forms(void **state)
+{
+    (void)state;
+    const fe_dvec3 axes[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    const double root = sqrt(DBL_EPSILON);
+    int32_t near = 0;
+    for (int32_t i = 0; i < 5 * CASES; ++i) {
+        fe__form a = random_rim(), b = uniform(0.0, 3.0) < 1.0 ? random_form(FE__FORM_BOX) : random_rim();
+        int32_t x = (int32_t)uniform(0.0, 6.0), y = (x / 2 * 2 + 2 + (int32_t)uniform(0.0, 4.0)) % 6;
+        frame f = {fe__widen(random_vector(2.0)), axes[x], axes[y], fe__dcross(axes[x], axes[y])};
+        fe__cores c = {&a, &b, f.position, f.x, f.y, f.z, NULL};
+        fe__gjk g;
+        fe__gjk_distance(&c, 1e30, &g);
+        double gap = pow(10.0, uniform(-7.0, -3.0));
+        if (g.overlap || g.distance < gap) continue;
+        c.position = fe__dsub(c.position, fe__dscale(1.0 - gap / g.distance, g.way)), f.position = c.position;
+        void (*const distances[2])(const fe__cores *, fe__gjk *) = {fe__gjk_distance_closely, distance_of};
+        for (int32_t k = 0; k < 2; ++k) {
+            distances[k](&c, &g);
+            fe_dvec3 corner = g.vertex[0].difference, on_b = into_b(&f, g.on_b);
+            double slack = root * g.size + g.distance * g.distance / sqrt(fe__ddot(corner, corner));
+            FE_TRUE(!g.overlap && is_in(&a, g.on_a, slack));
+            FE_TRUE(b.type == FE__FORM_BOX ? surface_distance(&b, on_b) <= slack : is_in(&b, on_b, slack));
+        }
+        ++near;
+    }
+    FE_WITHIN(near, CASES, 5 * CASES);
 }
 
 static void contacts_have_the_deepest_point(void **state)
@@ -322,6 +359,7 @@ int main(void)
         cmocka_unit_test(rays_meet_the_surface),
         cmocka_unit_test(extreme_rays_give_numbers),
         cmocka_unit_test(distances_and_depths_are_proved_by_their_planes),
+        cmocka_unit_test(near_points_lie_on_their_forms),
         cmocka_unit_test(contacts_have_the_deepest_point),
         cmocka_unit_test(sweeps_stop_before_the_form),
         cmocka_unit_test(extreme_sizes_give_numbers),

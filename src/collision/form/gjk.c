@@ -9,7 +9,7 @@ enum { MAX_ITERATIONS = 64 }; // boxes and segments need at most 12
 #define CLOSE_SIZE 2e-14      // the same, where a hundred roundings are told apart
 #define FLAT 1e-12            // of the size: a tetrahedron no higher than that has no inside
 #define UNSURE 1e-15          // of the size: some roundings
-#define SLIVER 1e-5           // of its longest side: a triangle no higher than that is taken for that side
+#define ROUGH 1e-12           // of the size: where weights put the nearest points no farther off, they will do
 #define CONVERGED 1e-13       // of the squared distance
 
 // of equally far corners the first
@@ -91,7 +91,8 @@ static fe_dvec3 foot(const fe__vertex *vertex, const double *weight, int32_t cou
         if (along * along > error * error * longest * fe__ddot(a, a)) return fe__dscale(along / fe__ddot(n, n), n);
     } else if (count == 2) {
         fe_dvec3 d = fe__dsub(vertex[1].difference, a);
-        return fe__dsub(a, fe__dscale(fe__ddot(a, d) / fe__ddot(d, d), d));
+        double along = -fe__ddot(a, d), square = fe__ddot(d, d);
+        if (along >= 0.0 && along <= square) return fe__dadd(a, fe__dscale(along / square, d));
     }
     return weighted(vertex, weight, count);
 }
@@ -167,24 +168,39 @@ static void set_points(fe__gjk *g, const double *weight, fe_dvec3 v)
     g->distance = sqrt(fe__ddot(v, v));
 }
 
-// Of a sliver the weights say nothing, and would put the nearest points anywhere along it: those of its longest side
-// do.
-static void weigh_sliver(const fe__gjk *g, double *weight)
+// How far the weighted point is from v, squared
+static double miss_of(const fe__gjk *g, const double *weight, fe_dvec3 v)
 {
-    if (g->count != 3) return;
-    double longest = -1.0;
-    int32_t from = 0;
+    fe_dvec3 d = fe__dsub(weighted(g->vertex, weight, g->count), v);
+    return fe__ddot(d, d);
+}
+
+static void keep_nearer(const fe__gjk *g, const double try[3], fe_dvec3 v, double *best, double *weight)
+{
+    double miss = miss_of(g, try, v);
+    if (miss < *best) *best = miss, set_weights(weight, try[0], try[1], try[2]);
+}
+
+// The weights of a sliver, known from products of whole lengths, say little: they put the nearest points anywhere along
+// it. The areas that v, its foot, cuts from the triangle are as exact as the corners are about v; where they are none,
+// because the sliver is as flat as rounding, v lies at one of its sides.
+static void weigh_sliver(const fe__gjk *g, fe_dvec3 v, double *weight)
+{
+    double best = g->count == 3 ? miss_of(g, weight, v) : 0.0, rough = ROUGH * g->size;
+    if (best <= rough * rough) return;
+    fe_dvec3 p[3];
+    for (int32_t i = 0; i < 3; ++i) p[i] = fe__dsub(g->vertex[i].difference, v);
+    fe_dvec3 n = fe__dcross(fe__dsub(p[1], p[0]), fe__dsub(p[2], p[0]));
+    double area[3], sum = 0.0;
+    for (int32_t i = 0; i < 3; ++i)
+        sum += area[i] = fe__maxd(fe__ddot(n, fe__dcross(p[(i + 1) % 3], p[(i + 2) % 3])), 0.0);
+    if (sum > 0.0) keep_nearer(g, (double[3]){area[0] / sum, area[1] / sum, area[2] / sum}, v, &best, weight);
     for (int32_t i = 0; i < 3; ++i) {
-        fe_dvec3 side = fe__dsub(g->vertex[(i + 1) % 3].difference, g->vertex[i].difference);
-        double square = fe__ddot(side, side);
-        if (square > longest) longest = square, from = i;
+        double along[2], side[3] = {0.0, 0.0, 0.0};
+        weigh_line(p[i], p[(i + 1) % 3], along);
+        side[i] = along[0], side[(i + 1) % 3] = along[1];
+        keep_nearer(g, side, v, &best, weight);
     }
-    fe_dvec3 a = g->vertex[from].difference, b = g->vertex[(from + 1) % 3].difference,
-             c = g->vertex[(from + 2) % 3].difference, n = fe__dcross(fe__dsub(b, a), fe__dsub(c, a));
-    if (fe__ddot(n, n) > SLIVER * SLIVER * longest * longest) return;
-    double along[2];
-    weigh_line(a, b, along);
-    weight[from] = along[0], weight[(from + 1) % 3] = along[1], weight[(from + 2) % 3] = 0.0;
 }
 
 // From the vertices that the result has, one to three
@@ -236,7 +252,7 @@ static void approach_origin(const fe__cores *cores, double limit, int32_t closel
         }
         v = nearer;
     }
-    if (closely) weigh_sliver(g, weight);
+    weigh_sliver(g, v, weight);
     set_points(g, weight, v);
     if (g->overlap) g->distance = 0.0;
 }
