@@ -16,6 +16,7 @@ build = {
             ["feather.init"] = "bindings/lua/feather/init.lua",
             ["feather.body"] = "bindings/lua/feather/body.lua",
             ["feather.compound"] = "bindings/lua/feather/compound.lua",
+            ["feather.draw"] = "bindings/lua/feather/draw.lua",
             ["feather.events"] = "bindings/lua/feather/events.lua",
             ["feather.ffi"] = "bindings/lua/feather/ffi.lua",
             ["feather.ffi_values"] = "bindings/lua/feather/ffi_values.lua",

@@ -1747,6 +1747,92 @@ FE_API fe_result fe_world_set_velocities(fe_world *world, const fe_body *bodies,
 FE_API fe_result fe_world_add_forces(fe_world *world, const fe_body *bodies, const float *floats, uint32_t stride,
                                      int32_t count);
 
+// ---- drawing --------------------------------------------------------------------------------------------------------
+//
+// What the world looks like from inside, as arrays for whoever draws: a debug view, a picture, a renderer's first day.
+// Nothing is called back and nothing is allocated. Any thread may draw while others read. Ask for the number first, or
+// draw into a buffer that grew in the frame before; with less room the first ones are written. Shapes come in the
+// order in which their bodies were created, then the other parts in the order of fe_draw_flags.
+//
+// **Colours** are safe for the colour-blind. Static bodies are grey, kinematic ones blue. Awake dynamic bodies have one
+// of eight warm and green hues, sleeping ones are dim. Triggers and disabled bodies are see-through. Contact points and
+// forces go from pale to dark with what they carry. Limits go from green to red as they are used.
+
+/// What is drawn, as bits.
+typedef enum fe_draw_flags {
+    FE_DRAW_NONE = 0,
+    FE_DRAW_SHAPES = 1,    ///< triangles: surfaces; lines: edges; instances
+    FE_DRAW_CONTACTS = 2,  ///< points: where shapes touch; lines: their normals, `scale` long
+    FE_DRAW_FORCES = 4,    ///< lines: forces of contacts and joints in the last step, and those added for the next one
+    FE_DRAW_JOINTS = 8,    ///< points: where joints are fixed; lines: from there to the bodies' centres, axes of frames
+    FE_DRAW_LIMITS = 16,   ///< lines: the ranges of joints, and where they are now
+    FE_DRAW_ISLANDS = 32,  ///< each island has a hue, that of its body created first; else all have one
+    FE_DRAW_SLEEP = 64,    ///< who sleeps is dim
+    FE_DRAW_BOUNDS = 128,  ///< lines: the box around each shape
+    FE_DRAW_CENTRES = 256, ///< points: centres of mass; lines: principal axes
+    FE_DRAW_TREES = 512,   ///< lines: the boxes of the trees that serve pairs and queries
+    FE_DRAW_FORCE32 = 0x7fffffff
+} fe_draw_flags;
+
+/// What to draw, and how.
+typedef struct fe_draw_options {
+    uint32_t struct_size;
+    uint32_t parts;        ///< fe_draw_flags. Default FE_DRAW_SHAPES | FE_DRAW_ISLANDS | FE_DRAW_SLEEP
+    fe_dvec3 origin;       ///< what is drawn is relative to it: the camera, for worlds that are large, m. Default 0
+    fe_dvec3 lower, upper; ///< only what meets this box; of heightfields and meshes triangles near it. Default all
+    fe_body only;          ///< only this body, its contacts and its joints; 0: all. Default 0
+    float scale;           ///< of a normal, and of a force that would carry the lighter body, m, > 0. Default 0.5
+    int32_t segments;      ///< of a circle, 3..128. Default 16
+} fe_draw_options;
+
+FE_API void fe_draw_options_init(fe_draw_options *options, uint32_t struct_size);
+
+/// A corner of a triangle, an end of a line, or a point.
+typedef struct fe_draw_vertex {
+    float x, y, z;   ///< relative to fe_draw_options.origin, m, world axes
+    uint32_t rgba;   ///< red | green << 8 | blue << 16 | alpha << 24: in memory of most machines red comes first
+    fe_handle owner; ///< the shape or the joint that it is of, A of a contact, the body of a centre; 0: an inner box
+} fe_draw_vertex;
+
+/// A shape, for renderers that have a mesh for each form and draw all of a form at once.
+typedef struct fe_draw_instance {
+    int32_t type;  ///< fe_geometry_type
+    uint32_t rgba; ///< as in fe_draw_vertex
+    fe_shape shape;
+    fe_body body;
+    fe_asset asset;       ///< of a hull, a heightfield, a mesh; else 0
+    fe_vec3 position;     ///< relative to fe_draw_options.origin, m
+    fe_quat rotation;     ///< to the world's axes
+    fe_vec3 half_extents; ///< of a box; of what is round: radius, half height (of a capsule without its caps), radius;
+                          ///< of a hull, a mesh, a heightfield: its scale; of a plane: x and z of a piece of it, whose
+                          ///< outside is along Y
+    int32_t part;         ///< of a shape made of parts, else -1
+    uint32_t reserved[3];
+} fe_draw_instance;
+
+/// Lines: two vertices each. Edges of meshes and heightfields come once. A plane is a grid, as far as 100 m around the
+/// point of it that is nearest to the origin.
+/// @param options       NULL: the defaults
+/// @param out_vertices  `stride` bytes apart
+/// @param stride        sizeof(fe_draw_vertex), at least 16
+/// @return how many vertices there are; FE_ERROR_STALE for a body that is gone; FE_ERROR_LIMIT for more than 2^31 - 1
+FE_API int32_t fe_world_draw_lines(const fe_world *world, const fe_draw_options *options, fe_draw_vertex *out_vertices,
+                                   uint32_t stride, int32_t capacity);
+/// Triangles: three vertices each, counterclockwise seen from outside. Those of a closed form are a closed surface.
+/// Both sides of a two-sided mesh are one triangle. The rest is as for fe_world_draw_lines.
+FE_API int32_t fe_world_draw_triangles(const fe_world *world, const fe_draw_options *options,
+                                       fe_draw_vertex *out_vertices, uint32_t stride, int32_t capacity);
+/// Points: a vertex each. The rest is as for fe_world_draw_lines.
+FE_API int32_t fe_world_draw_points(const fe_world *world, const fe_draw_options *options, fe_draw_vertex *out_vertices,
+                                    uint32_t stride, int32_t capacity);
+/// Shapes as forms and poses. Of the parts only FE_DRAW_SHAPES and its colours count.
+/// @param options        NULL: the defaults
+/// @param out_instances  `stride` bytes apart
+/// @param stride         sizeof(fe_draw_instance), at least 16
+/// @return how many there are; FE_ERROR_STALE for a body that is gone
+FE_API int32_t fe_world_draw_instances(const fe_world *world, const fe_draw_options *options,
+                                       fe_draw_instance *out_instances, uint32_t stride, int32_t capacity);
+
 // ---- sugar, compiled by the caller: no part of the ABI --------------------------------------------------------------
 
 /// Each fills a geometry. What is out of range is found where the geometry is used.

@@ -3,7 +3,7 @@
 
     records.py include/feather.h Records.cs
 
-A definition (fe_..._def, fe_world_tuning) becomes a class whose constructor fills it by its `_init`. Every other struct
+A definition (fe_..._def, fe_world_tuning, fe_draw_options) becomes a class whose constructor fills it by its `_init`. Every other struct
 becomes a struct. Both have C's layout. Names of C in the comments become those of C#.
 """
 import re
@@ -25,7 +25,8 @@ PLAIN = {"int32_t": "int", "uint32_t": "uint", "int64_t": "long", "uint64_t": "u
 SWITCHES = {"awake", "sleep_allowed", "bullet", "trigger", "is_trigger", "collide_connected", "pair_filter", "one_way",
             "kept", "own_material"}
 ENUM_FIELDS = {"linear_locks": "fe_axis", "angular_locks": "fe_axis", "kind": "fe_event_kind"}
-FLAGS = {"fe_axis", "fe_shape_events", "fe_query_flags", "fe_hit_flags", "fe_mesh_flags", "fe_mesh_edge_flags"}
+FLAGS = {"fe_axis", "fe_shape_events", "fe_query_flags", "fe_hit_flags", "fe_mesh_flags", "fe_mesh_edge_flags",
+         "fe_draw_flags"}
 AXES = ["LinearX", "LinearY", "LinearZ", "AngularX", "AngularY", "AngularZ"]  # of a configurable joint, by fe_dof
 
 
@@ -38,7 +39,7 @@ def type_name(name):
 
 
 def is_definition(name):
-    return (name.endswith("_def") or name == "fe_world_tuning") and name not in PRIVATE
+    return (name.endswith("_def") or name in ("fe_world_tuning", "fe_draw_options")) and name not in PRIVATE
 
 
 def prefix_words(items):

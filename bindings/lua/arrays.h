@@ -239,6 +239,22 @@ static void put_contact(lua_State *L, int *n, const fe_contact *e)
     put_places(L, n, e->part_a, e->part_b, e->triangle_a, e->triangle_b);
 }
 
+static void put_draw_vertex(lua_State *L, int *n, const fe_draw_vertex *e)
+{
+    put(L, n, (double)e->x), put(L, n, (double)e->y), put(L, n, (double)e->z);
+    put_integer(L, n, e->rgba), put_integer(L, n, (long long)e->owner);
+}
+
+static void put_draw_instance(lua_State *L, int *n, const fe_draw_instance *e)
+{
+    put_integer(L, n, e->type), put_integer(L, n, e->rgba);
+    put_handles(L, n, e->shape, e->body), put_integer(L, n, (long long)e->asset);
+    put_vec3(L, n, &e->position);
+    put(L, n, (double)e->rotation.x), put(L, n, (double)e->rotation.y), put(L, n, (double)e->rotation.z);
+    put(L, n, (double)e->rotation.w);
+    put_vec3(L, n, &e->half_extents), put_integer(L, n, e->part);
+}
+
 #define PUSH_ALL(NAME, TYPE, WIDTH, PUT)                           \
     static void NAME(lua_State *L, const TYPE *all, int32_t count) \
     {                                                              \
@@ -268,6 +284,8 @@ PUSH_ALL(push_body_events, fe_body_event, 2, put_body_event)
 PUSH_ALL(push_hit_events, fe_hit_event, 18, put_hit_event)
 PUSH_ALL(push_joint_events, fe_joint_event, 12, put_joint_event)
 PUSH_ALL(push_contacts, fe_contact, 46, put_contact)
+PUSH_ALL(push_draw_vertices, fe_draw_vertex, 5, put_draw_vertex)
+PUSH_ALL(push_draw_instances, fe_draw_instance, 16, put_draw_instance)
 #undef PUSH_ALL
 
 #endif

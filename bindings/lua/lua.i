@@ -206,7 +206,8 @@ FE_OUT_RECORDS
 // all there are: asked for their number first
 %typemap(in, numinputs=0) fe_handle *out_bodies, fe_handle *out_shapes, fe_handle *out_joints, fe_overlap *out_overlaps,
     fe_pair_event *out_events, fe_body_event *out_events, fe_hit_event *out_events, fe_joint_event *out_events,
-    fe_contact *out_contacts, fe_vec3 *out_vertices, fe_hull_face *out_faces, int32_t *out_corners "$1 = NULL;"
+    fe_contact *out_contacts, fe_draw_vertex *out_vertices, fe_draw_instance *out_instances, fe_vec3 *out_vertices,
+    fe_hull_face *out_faces, int32_t *out_corners "$1 = NULL;"
 %define FE_ALL(FUNCTION, OUT, STATE_STRIDE, CAPACITY)
 %exception FUNCTION {
     $action
@@ -242,6 +243,10 @@ FE_ALL_RECORDS(fe_world_get_hit_events, arg2, arg3, arg4)
 FE_ALL_RECORDS(fe_world_get_joint_events, arg2, arg3, arg4)
 FE_ALL_RECORDS(fe_body_get_contacts, arg3, arg4, arg5)
 FE_ALL_RECORDS(fe_shape_get_contacts, arg3, arg4, arg5)
+FE_ALL_RECORDS(fe_world_draw_lines, arg3, arg4, arg5)
+FE_ALL_RECORDS(fe_world_draw_triangles, arg3, arg4, arg5)
+FE_ALL_RECORDS(fe_world_draw_points, arg3, arg4, arg5)
+FE_ALL_RECORDS(fe_world_draw_instances, arg3, arg4, arg5)
 %exception fe_world_get_moved {
     $action
     if (result > 0) {
@@ -268,6 +273,8 @@ FE_PUSH_ALL(fe_body_event *out_events, push_body_events)
 FE_PUSH_ALL(fe_hit_event *out_events, push_hit_events)
 FE_PUSH_ALL(fe_joint_event *out_events, push_joint_events)
 FE_PUSH_ALL(fe_contact *out_contacts, push_contacts)
+FE_PUSH_ALL(fe_draw_vertex *out_vertices, push_draw_vertices)
+FE_PUSH_ALL(fe_draw_instance *out_instances, push_draw_instances)
 
 // bytes of an asset: a string, whose size is asked for first
 %typemap(in, numinputs=0) (void *out, int64_t capacity) "$1 = NULL; $2 = 0;"
@@ -334,4 +341,6 @@ FE_PUSH_ALL(fe_contact *out_contacts, push_contacts)
 %ignore fe_joint_event;
 %ignore fe_contact;
 %ignore fe_contact_point;
+%ignore fe_draw_vertex;
+%ignore fe_draw_instance;
 %ignore fe_bounds;

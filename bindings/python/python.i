@@ -105,6 +105,10 @@ FE_WITHOUT_GIL(fe_world_get_moved, enter_read, leave_read)
 FE_WITHOUT_GIL(fe_world_get_transforms, enter_read, leave_read)
 FE_WITHOUT_GIL(fe_world_get_transforms_f32, enter_read, leave_read)
 FE_WITHOUT_GIL(fe_world_get_velocities, enter_read, leave_read)
+FE_WITHOUT_GIL(fe_world_draw_lines, enter_read, leave_read)
+FE_WITHOUT_GIL(fe_world_draw_triangles, enter_read, leave_read)
+FE_WITHOUT_GIL(fe_world_draw_points, enter_read, leave_read)
+FE_WITHOUT_GIL(fe_world_draw_instances, enter_read, leave_read)
 
 // A callable that takes a filter_pair and returns whether the two may collide, or None. The world keeps it.
 %typemap(in) (fe_pair_filter filter, void *user) {
@@ -304,6 +308,8 @@ FE_OUTPUT(fe_body_event *out_events, sizeof *$1, "")
 FE_OUTPUT(fe_hit_event *out_events, sizeof *$1, "")
 FE_OUTPUT(fe_joint_event *out_events, sizeof *$1, "")
 FE_OUTPUT(fe_contact *out_contacts, sizeof *$1, "")
+FE_OUTPUT(fe_draw_vertex *out_vertices, sizeof *$1, "")
+FE_OUTPUT(fe_draw_instance *out_instances, sizeof *$1, "")
 FE_OUTPUT(float *out_floats, (ends_with("$symname", "transforms_f32") ? 7 : 6) * sizeof *$1, "f")
 FE_OUTPUT(float *out_heights, sizeof *$1, "f")
 FE_OUTPUT(fe_vec3 *out_vertices, sizeof *$1, "f")
@@ -424,4 +430,6 @@ FE_RECORDS(const fe_compound_part *parts, "parts: parts of a compound")
 %ignore fe_joint_event;
 %ignore fe_contact;
 %ignore fe_contact_point;
+%ignore fe_draw_vertex;
+%ignore fe_draw_instance;
 %ignore fe_overlap;

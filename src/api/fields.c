@@ -99,3 +99,6 @@ DEFINE(fe_joint_state)
 #define THIS fe_query_filter
 DEFINE(fe_query_filter)
 #undef THIS
+#define THIS fe_draw_options
+DEFINE(fe_draw_options)
+#undef THIS

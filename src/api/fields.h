@@ -145,6 +145,9 @@ typedef struct fe__fields {
         FIELD(linear_error) FIELD(angular_error)
 #define FE_FIELDS_fe_query_filter(FIELD) \
     FIELD(struct_size) FIELD(mask) FIELD(flags) FIELD(excluded_count) FIELD(excluded)
+#define FE_FIELDS_fe_draw_options(FIELD) \
+    FIELD(struct_size)                   \
+    FIELD(parts) FIELD(origin) FIELD(lower) FIELD(upper) FIELD(only) FIELD(scale) FIELD(segments)
 
 #define FE_EACH_STRUCT(STRUCT)                                                                                \
     STRUCT(fe_allocator)                                                                                      \
@@ -157,7 +160,7 @@ typedef struct fe__fields {
             STRUCT(fe_profile) STRUCT(fe_counters) STRUCT(fe_energy) STRUCT(fe_body_def) STRUCT(fe_mass_data) \
                 STRUCT(fe_geometry) STRUCT(fe_shape_def) STRUCT(fe_joint_def) STRUCT(fe_distance_joint_def)   \
                     STRUCT(fe_ball_joint_def) STRUCT(fe_hinge_joint_def) STRUCT(fe_fixed_joint_def)           \
-                        STRUCT(fe_configurable_joint_def) STRUCT(fe_joint_state) STRUCT(fe_query_filter)
+                        STRUCT(fe_configurable_joint_def) STRUCT(fe_joint_state) STRUCT(fe_query_filter) STRUCT(fe_draw_options)
 
 #define FE_DECLARE_FIELDS(type) extern const fe__fields fe__fields_of_##type;
 FE_EACH_STRUCT(FE_DECLARE_FIELDS)

@@ -32,6 +32,42 @@ namespace FeatherPhysics.Tests
             return ground;
         }
 
+        // ---- drawing ----
+
+        public static void A_world_is_drawn_into_spans()
+        {
+            using (World world = new World())
+            {
+                Body box = world.CreateDynamic(new DVec3(10, 2, 0));
+                Shape shape = box.AddBox(0.5f, 1, 1.5f);
+                DrawVertex[] vertices = new DrawVertex[40];
+                Check.Same(world.DrawTriangles(default(Span<DrawVertex>)), 36, "counted");
+                Check.Same(world.DrawTriangles(vertices), 36, "drawn");
+                double volume = 0;
+                for (int i = 0; i < 36; i += 3)
+                {
+                    DrawVertex a = vertices[i], b = vertices[i + 1], c = vertices[i + 2];
+                    volume += ((double)a.X * ((double)b.Y * c.Z - (double)b.Z * c.Y) +
+                        (double)a.Y * ((double)b.Z * c.X - (double)b.X * c.Z) +
+                        (double)a.Z * ((double)b.X * c.Y - (double)b.Y * c.X)) / 6;
+                    Check.Same(a.Owner, shape.Handle.Value, "owner");
+                }
+                Check.Near(volume, 6, 1e-3, "volume");
+                DrawOptions options = new DrawOptions { Origin = new DVec3(10, 2, 0), Only = box.Handle };
+                Check.Same(options.Segments, 16, "the library's defaults");
+                DrawInstance[] instances = new DrawInstance[1];
+                Check.Same(world.DrawInstances(instances, options), 1, "instances");
+                Check.Same(instances[0].HalfExtents, new Vector3(0.5f, 1, 1.5f), "half extents");
+                Check.Same(instances[0].Position, Vector3.Zero, "relative to the origin");
+                options.Parts = DrawFlags.Shapes | DrawFlags.Bounds;
+                Check.Same(world.DrawLines(vertices, options), 48, "edges and a box");
+                options.Parts = DrawFlags.Centres;
+                Check.Same(world.DrawPoints(vertices, options), 1, "a centre");
+                options.Segments = 2;
+                Check.Throws<FeatherException>(() => world.DrawLines(vertices, options), "segments");
+            }
+        }
+
         // ---- motion ----
 
         public static void A_body_falls_by_gravity()

@@ -178,6 +178,28 @@ function core.asset_load(store, bytes)
     return tonumber(loaded[0])
 end
 
+-- ---- drawing into the caller's own array ----------------------------------------------------------------------------
+
+local DRAWS = {
+    lines = C.fe_world_draw_lines, triangles = C.fe_world_draw_triangles, points = C.fe_world_draw_points,
+    instances = C.fe_world_draw_instances,
+}
+local Vertices, Instances = ffi.typeof("fe_draw_vertex[?]"), ffi.typeof("fe_draw_instance[?]")
+-- `array` is what an earlier call returned, or nil: it comes back, or a larger one, and how many records are in it.
+function core.draw_array(world, kind, options, array)
+    local pointer, draw = env.world(world), DRAWS[kind]
+    local made = kind == "instances" and Instances or Vertices
+    local size = ffi.sizeof(kind == "instances" and "fe_draw_instance" or "fe_draw_vertex")
+    local room = array and ffi.sizeof(array) / size or 0
+    if array ~= nil and not ffi.istype(made, array) then fail("array: %s is needed", tostring(made)) end
+    local count = env.check(tonumber(draw(pointer, options, array, size, room)))
+    if count > room then
+        array = made(count + math.floor(count / 4))
+        env.check(tonumber(draw(pointer, options, array, size, count)))
+    end
+    return array or made(1), count
+end
+
 -- ---- the pair filter ------------------------------------------------------------------------------------------------
 
 local filters = setmetatable({}, { __mode = "k" }) -- the function of each world that has one

@@ -40,7 +40,7 @@ local RANGES = { int32_t = "-2147483648, 2147483647", uint32_t = "0, 4294967295"
 local PLURAL = {
     out_bodies = true, out_shapes = true, out_joints = true, out_transforms = true, out_hits = true,
     out_overlaps = true, out_events = true, out_contacts = true, out_vertices = true, out_faces = true,
-    out_corners = true,
+    out_corners = true, out_instances = true,
 }
 local DESTROYED = { fe_world_destroy = true, fe_pool_destroy = true, fe_store_destroy = true }
 

@@ -10,6 +10,7 @@ require("feather.shape")
 require("feather.compound")
 require("feather.joint")
 require("feather.query")
+require("feather.draw")
 
 local version = core.version()
 return {

@@ -488,6 +488,11 @@ CONTACT = Packed(
     "reserved:16x"
 )
 
+DRAW_VERTEX = Packed("x:f y:f z:f rgba:I owner:Q")
+DRAW_INSTANCE = Packed(
+    "type:i rgba:I shape:Q body:Q asset:Q position:3f rotation:4f half_extents:3f part:i reserved:12x"
+)
+
 EVENT_KINDS = {1: "enter", 2: "stay", 3: "exit", 4: "sleep", 5: "wake", 6: "break"}
 BODY_TYPES = ("static", "kinematic", "dynamic")
 JOINT_TYPES = {1: "distance", 2: "ball", 3: "hinge", 4: "fixed", 5: "configurable"}

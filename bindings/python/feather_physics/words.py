@@ -13,6 +13,18 @@ COMBINES = ("default", "average", "minimum", "multiply", "maximum")
 MOTIONS = ("locked", "limited", "free")
 SPRINGS = ("none", "hertz", "stiffness")
 DOFS = ("linear_x", "linear_y", "linear_z", "angular_x", "angular_y", "angular_z")
+DRAW_PARTS = (
+    "shapes",
+    "contacts",
+    "forces",
+    "joints",
+    "limits",
+    "islands",
+    "sleep",
+    "bounds",
+    "centres",
+    "trees",
+)
 HIDDEN = ("this", "thisown", "struct_size", "of")
 
 
@@ -32,6 +44,12 @@ def events_bits(events: Iterable[str]) -> int:
     """fe_shape_events of words."""
     words = (events,) if isinstance(events, str) else events
     return sum({1 << word(tuple(EVENT_BITS), event, "events") for event in words})
+
+
+def draw_bits(parts: Iterable[str]) -> int:
+    """fe_draw_flags of words."""
+    words = (parts,) if isinstance(parts, str) else parts
+    return sum({1 << word(DRAW_PARTS, part, "parts") for part in words})
 
 
 def axes_bits(text: str) -> int:

@@ -12,11 +12,12 @@ from ._flat import Bounds, Vec3
 from .objects import Body, Joint, Shape, handle_of
 from .records import NO_ROTATION, FilterPair, Geometry, Vector
 from .store import Compound, Heightfield, Hull, Mesh, Store, flat_geometry
-from .words import body_type, fill, locks_bits, word
+from .words import body_type, draw_bits, fill, locks_bits, word
 
 ALL_LAYERS = 0xFFFFFFFF
 SIMD_SETS = ("auto", "plain", "sse2", "avx2", "avx512", "neon")
 EVENTS = ("pair", "body", "hit", "joint")
+DRAWN = ("lines", "triangles", "points", "instances")
 ZERO = (0.0, 0.0, 0.0)
 X = (1.0, 0.0, 0.0)
 
@@ -672,10 +673,59 @@ class World:
         _flat.world_get_moved(self._capsule, ids, transforms)
         return ids, transforms
 
+    # ---- drawing: what there is to see, as packed vertices. Options are the fields of fe_draw_options: parts=("shapes",
+    # "contacts"...), origin, lower, upper, only=a body, scale, segments ----
+
+    def draw_lines(self, **options: Any) -> bytearray:
+        """Two vertices a line, see records.DRAW_VERTEX: numpy.frombuffer(world.draw_lines(), np.float32).reshape(-1, 6)
+        has x, y, z in its first three columns."""
+        return self._draw(_flat.world_draw_lines, records.DRAW_VERTEX, options)
+
+    def draw_triangles(self, **options: Any) -> bytearray:
+        """Three vertices a triangle, counterclockwise seen from outside."""
+        return self._draw(_flat.world_draw_triangles, records.DRAW_VERTEX, options)
+
+    def draw_points(self, **options: Any) -> bytearray:
+        """A vertex a point."""
+        return self._draw(_flat.world_draw_points, records.DRAW_VERTEX, options)
+
+    def draw_instances(self, **options: Any) -> bytearray:
+        """Shapes as forms and poses, see records.DRAW_INSTANCE."""
+        return self._draw(_flat.world_draw_instances, records.DRAW_INSTANCE, options)
+
+    def draw_into(self, kind: str, out: Any, **options: Any) -> int:
+        """Fills a buffer with "lines", "triangles", "points" or "instances", as far as it goes, and returns how many
+        records there are. A NumPy array of records.DRAW_VERTEX.dtype will do, or of DRAW_INSTANCE.dtype; None asks for
+        the number only."""
+        draw: Callable[..., int] = (
+            _flat.world_draw_lines,
+            _flat.world_draw_triangles,
+            _flat.world_draw_points,
+            _flat.world_draw_instances,
+        )[word(DRAWN, kind, "kind")]
+        return draw(self._capsule, self._draw_options(options), out)
+
     # ---- within the package ----
 
     def _form(self, geometry: Geometry) -> Any:
         return flat_geometry(self._store, geometry)
+
+    def _draw(self, draw: Callable[..., int], record: records.Packed, options: Dict[str, Any]) -> bytearray:
+        given = self._draw_options(options)
+        out = bytearray(draw(self._capsule, given, None) * record.size)
+        draw(self._capsule, given, out)
+        return out
+
+    def _draw_options(self, fields: Dict[str, Any]) -> Any:
+        options = _flat.draw_options()
+        if "parts" in fields:
+            fields["parts"] = draw_bits(fields["parts"])
+        if fields.get("only") is not None:
+            fields["only"] = self._body(fields["only"])
+        else:
+            fields.pop("only", None)
+        fill(options, fields)
+        return options
 
     def _body(self, body: Body) -> int:
         return handle_of(self, body, Body)

@@ -19,7 +19,7 @@ ELSEWHERE = {
     "fe_query_filter_init": "filters are tuples of mask, flags and excluded bodies, for the same reason",
 }
 # arrays: a buffer goes in, though the name begins with out_
-BUFFERS = re.compile(r"out_(bodies|shapes|joints|transforms|hits|overlaps|events|contacts|floats|heights|vertices|faces|corners)$")
+BUFFERS = re.compile(r"out_(bodies|shapes|joints|transforms|hits|overlaps|events|contacts|floats|heights|vertices|faces|corners|instances)$")
 BYTES = ("fe_asset_save", "fe_asset_load")  # an object with the bytes goes in, or comes out
 FOUND_FROM_BUFFERS = ("stride", "ray_stride", "path_stride", "count", "capacity", "struct_size", "user")
 

@@ -1,0 +1,28 @@
+// kinds.h - what draws each kind of form (table.c).
+#ifndef FE_COLLISION_SURFACE_KINDS_H
+#define FE_COLLISION_SURFACE_KINDS_H
+#include "collision/surface/surface.h"
+
+// round.c: surfaces of revolution
+void fe__draw_ball(const fe__drawn *s, fe__pen *pen); // spheres, and capsules
+void fe__draw_ball_lines(const fe__drawn *s, fe__pen *pen);
+void fe__draw_cylinder(const fe__drawn *s, fe__pen *pen);
+void fe__draw_cylinder_lines(const fe__drawn *s, fe__pen *pen);
+void fe__draw_cone(const fe__drawn *s, fe__pen *pen);
+void fe__draw_cone_lines(const fe__drawn *s, fe__pen *pen);
+
+// flat.c
+void fe__draw_box(const fe__drawn *s, fe__pen *pen);
+void fe__draw_box_lines(const fe__drawn *s, fe__pen *pen);
+void fe__draw_hull(const fe__drawn *s, fe__pen *pen);
+void fe__draw_hull_lines(const fe__drawn *s, fe__pen *pen);
+
+// plane.c
+void fe__draw_plane(const fe__drawn *s, fe__pen *pen);
+void fe__draw_plane_lines(const fe__drawn *s, fe__pen *pen);
+
+// field.c: heightfields and meshes
+void fe__draw_field(const fe__drawn *s, fe__pen *pen);
+void fe__draw_field_lines(const fe__drawn *s, fe__pen *pen);
+
+#endif
