@@ -64,8 +64,9 @@ int32_t fe__shapes_next(fe__drawing *d, fe__shape_walk *walk)
         while (walk->next_shape < 0)
             if (!open_next_body(d, walk)) return 0;
         walk->shape = walk->next_shape;
-        walk->next_shape = d->world->shapes[walk->shape].next;
-        if (look_at(d, walk)) return 1;
+        const fe__shape *shape = d->world->shapes + walk->shape;
+        walk->next_shape = shape->next;
+        if (!fe__form_is_of_parts(&shape->form) && look_at(d, walk)) return 1; // its parts come behind it
     }
 }
 
@@ -105,9 +106,9 @@ static fe_draw_instance describe(const fe__drawing *d, const fe__shape_walk *wal
                           .position = stance->position,
                           .rotation = stance->rotation,
                           .half_extents = stance->half_extents,
-                          .part = -1};
+                          .part = fe__part_of_serial(w->shapes[walk->shape].serial)};
     if (!fe__form_has_asset(form)) return i;
-    i.asset = fe__asset_handle(w, form->field);
+    i.asset = fe__store_parent(w->store, form->field)->handle;
     i.half_extents = fe__store_asset(w->store, form->field)->scale;
     return i;
 }
