@@ -4,7 +4,7 @@
 #   make demo       builds the library and runs examples/demo.c; needs a C compiler and make, nothing else
 #   make check      what a change is tried with first: builds, and asks the fast tests, in under two minutes on 2 cores
 #   make test       everything that is checked before a change is accepted (TESTS=pattern: the matching programs only)
-#   make test-long  in 40 minutes: 30 minutes of fuzz, the random tests with their full numbers (LONG=pattern)
+#   make test-long  in an hour and a half: 30 minutes of fuzz, the random tests with their full numbers (LONG=pattern)
 #   make python     the Python package in build/python; make test-python: its tests; likewise for the other languages of bindings/
 #   make fuzz       FUZZ_SECONDS=600 of random calls of the API, then COOKED_SECONDS=120 of broken bytes of assets,
 #                   with clang's libFuzzer and sanitizers
