@@ -539,8 +539,10 @@ fe_result fe_body_set_filter(fe_world *world, fe_body body, uint32_t layer, uint
     FE_CHECK_FILTER(layer);
     if (world->bodies[index].shape_count == 0)
         return fe__fail(function, FE_ERROR_STATE, "body 0x%llx has no shapes to filter", body);
+    fe__fp_state fp = fe__fp_enter();
     for (int32_t shape = world->bodies[index].first_shape; shape >= 0; shape = world->shapes[shape].next)
         if (world->shapes[shape].parent < 0) fe__shape_set_filter(world, shape, layer, mask, group);
+    fe__fp_leave(fp);
     return FE_OK;
 }
 

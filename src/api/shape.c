@@ -274,7 +274,9 @@ fe_result fe_shape_set_filter(fe_world *world, fe_shape shape, uint32_t layer, u
     FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_FILTER(layer);
+    fe__fp_state fp = fe__fp_enter();
     fe__shape_set_filter(world, index, layer, mask, group);
+    fe__fp_leave(fp);
     return FE_OK;
 }
 
@@ -297,7 +299,9 @@ fe_result fe_shape_set_pair_filter(fe_world *world, fe_shape shape, int32_t enab
     FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_BOOL(enabled);
+    fe__fp_state fp = fe__fp_enter();
     fe__shape_set_judged(world, index, enabled);
+    fe__fp_leave(fp);
     return FE_OK;
 }
 
@@ -342,7 +346,9 @@ fe_result fe_shape_set_trigger(fe_world *world, fe_shape shape, int32_t trigger)
     FE_WRITE(world);
     FE_FIND_SHAPE(index, shape);
     FE_CHECK_BOOL(trigger);
+    fe__fp_state fp = fe__fp_enter();
     fe__shape_set_trigger(world, index, trigger);
+    fe__fp_leave(fp);
     return FE_OK;
 }
 

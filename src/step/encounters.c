@@ -73,8 +73,9 @@ static void report(fe_world *w, fe__encounter *e)
 {
     report_touch(w, e);
     if (e->hit_pair) {
+        const fe__pair *p = w->pairs + e->hit_pair;
         fe__hit_impact sum = {e->impulse, e->largest, e->approach, e->hit_pair, e->hit_point};
-        fe__add_hit(w, e->hit_pair, &sum);
+        fe__add_hit(w, p->flags & FE__PAIR_PATCH ? p->head : e->hit_pair, &sum);
     }
     e->deepest = e->hit_pair = 0;
     e->impulse = e->largest = e->approach = 0.0f;
