@@ -14,7 +14,7 @@ namespace FeatherPhysics.Tests
         static readonly double[] Odd = { 0, -0.0, 1, -1, 0.5, 1e-3, 1e-30, 1e5, 1e9, 1e15, 1e300, double.NaN,
             double.PositiveInfinity, double.NegativeInfinity };
         static readonly Type[] Kinds = { typeof(World), typeof(Body), typeof(Shape), typeof(Joint), typeof(Heightfield),
-            typeof(Store) };
+            typeof(Compound), typeof(Store) };
 
         readonly Random random;
         readonly World[] worlds = new World[3];
@@ -83,6 +83,7 @@ namespace FeatherPhysics.Tests
             if (type == typeof(ShapeHandle)) return new ShapeHandle(Handle(typeof(Shape)));
             if (type == typeof(JointHandle)) return new JointHandle(Handle(typeof(Joint)));
             if (type == typeof(Geometry) && random.Next(4) != 0) return Form();
+            if (type == typeof(CompoundPart) && random.Next(8) != 0) return new CompoundPart(Form());
             if (made.ContainsKey(type)) return Object(type);
             if (type == typeof(HeightfieldDef) && random.Next(4) != 0) return Terrain();
             if (type.IsArray)
@@ -111,8 +112,9 @@ namespace FeatherPhysics.Tests
         Geometry Form()
         {
             float size = (float)random.NextDouble() + 0.1f;
-            switch (random.Next(4))
+            switch (random.Next(5))
             {
+                case 4: return Geometry.Compound((Compound)Object(typeof(Compound)));
                 case 0: return Geometry.Sphere(size);
                 case 1: return Geometry.Box(size, 0.5f, 1);
                 case 2: return Geometry.Capsule(size, 0.5f);

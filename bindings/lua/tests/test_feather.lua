@@ -552,7 +552,7 @@ function TestCore.testRandomCalls()
         local body = core.body_create(world, nil)
         kept = {
             body, core.shape_create(world, body, nil, core.geometry_sphere(0.5)), core.body_create(world, nil), { body },
-            core.store_create(nil), core.world_get_store(world), core.world_def(),
+            core.store_create(nil), core.world_get_store(world), core.world_def(), { core.compound_part() },
         }
         for _ = 1, 300 do
             local arguments = { random(10) == 1 and value() or world }
@@ -588,7 +588,8 @@ function TestCore.testRandomMethods()
             { "heightfield", kept[random(#kept)] }, { mask = 1, triggers = true, exclude = { kept[random(#kept)] } }, { kept[random(#kept)] },
             { "touch", "hit" }, { density = number(), colour = 1 }, { pairFilter = true, oneWay = true },
             function(...) return random(2) == 1 or error(...) end, { type = "kinematic", position = { 0, number(), 0 } }, print, io.stdout,
-            { rows = 2, columns = 2, heights = { 0, 0, 0, number() } },
+            { rows = 2, columns = 2, heights = { 0, 0, 0, number() } }, { "compound", kept[random(#kept)] },
+            { { "sphere", 0.5, density = number() }, { "box", 1, 1, 1, position = { 0, number(), 0 }, material = { friction = number() } } },
             { rows = 2, columns = 2, heights = { 0, 0, 0, 0 }, materials = { { userId = number(), frictionCombine = "minimum" } } }, { linearX = { motion = "free", lower = number() } }, { motorSpeed = number() },
             { bodyA = kept[random(#kept)], bodyB = kept[random(#kept)], point = { 0, 0, 0 }, axis = { 0, 0, 1 }, pointA = { 0, 0, 0 },
                 pointB = { 1, 0, 0 }, up = { 0, 1, 0 }, hertz = 1, dampingRatio = 1, travel = 1, maxLength = 2, maxForce = 1, maxTorque = number() },

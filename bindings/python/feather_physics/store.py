@@ -292,7 +292,8 @@ class Compound(Asset):
         flat = _flat.compound_get_part(self._store._capsule, self._id, number)
         density = None if flat.density == -1 else flat.density
         material = material_of(flat.material) if flat.own_material else None
-        return Part(geometry_of(self._store, flat.geometry), *flat.frame, density, material, flat.user_data)
+        position, rotation = flat.frame
+        return Part(geometry_of(self._store, flat.geometry), position, rotation, density, material, flat.user_data)
 
 
 # ---- forms -------------------------------------------------------------------------------------------------------

@@ -10,7 +10,7 @@ from typing import Any, Callable, List
 from conftest import header_functions
 from test_flat import python_arguments
 
-from feather_physics import Body, Box, Capsule, FeatherError, Material, Plane, Pool, Quat, Sphere, Vec3, World, _flat
+from feather_physics import Body, Box, Capsule, FeatherError, Material, Part, Plane, Pool, Quat, Sphere, Vec3, World, _flat
 
 SECONDS = float(os.environ.get("FUZZ_SECONDS", "2"))
 ALLOWED = (FeatherError, TypeError, ValueError, OverflowError, AttributeError, BufferError, MemoryError, NotImplementedError)  # the last: Python's own memoryviews
@@ -67,7 +67,8 @@ class Values:
         return r.choice([
             None, "", "dynamic", "static", "hit", b"abc", [], {}, object(), Sphere(0.5), Box(1, 1, 1), Capsule(1, 0.5), Plane(), Material(),
             (self.vector(), self.vector(4)), (1, 1, self.buffer()), (2, 2, 1.0, 1.0, array("f", bytes(16)), None, None, None),
-            Vec3((1, 2, 3)), Quat((0, 0, 0, 1)), range(3), int, lambda: 1,
+            Vec3((1, 2, 3)), Quat((0, 0, 0, 1)), range(3), int, lambda: 1, [_flat.compound_part()],
+            [Part(Sphere(0.5), self.vector()), {"geometry": r.choice(self.kept or [None]), "density": self.number()}],
         ])  # fmt: skip
 
 
@@ -84,7 +85,7 @@ def test_random_calls_of_the_flat_module() -> None:
         for f in header_functions()
         if hasattr(_flat, f.name[3:]) and f.name != "fe_pool_create"
     ]
-    functions += [(name, getattr(_flat, name), 0) for name in dir(_flat) if name.endswith("_def")]
+    functions += [(name, getattr(_flat, name), 0) for name in dir(_flat) if name.endswith(("_def", "compound_part"))]
     end = time.process_time() + SECONDS / 2
     seed = 0
     calls = good = 0
@@ -129,6 +130,7 @@ def test_random_calls_of_the_package() -> None:
         for world in worlds:
             body = world.create_body()
             values.keep([body, body.add(Box(1, 1, 1)), world.create_heightfield([[0, 0], [0, 0]])])
+            values.keep(world.create_compound([Part(Sphere(0.5)), Part(Box(1, 1, 1), (1, 0, 0))]))
             values.keep(world.create_ball_joint(body, world.create_body(), (0, 0, 0)))
         for _ in range(300):
             target = values.random.choice([v for v in values.kept if isinstance(v, (World, Body)) or hasattr(v, "world")])
