@@ -25,6 +25,7 @@ static int32_t holds(const fe__bounds *a, const fe__bounds *b)
 static int32_t look_at(fe__drawing *d, fe__shape_walk *walk)
 {
     const fe__shape *shape = d->world->shapes + walk->shape;
+    if (fe__form_is_of_parts(&shape->form)) return 0; // its parts follow
     walk->rgba = fe__shape_colour(walk->body_colour, shape);
     walk->is_cut = 0;
     if (!d->has_box || fe__form_is_unbounded(&shape->form)) return 1; // a plane is cut as it is drawn
@@ -97,7 +98,8 @@ void fe__draw_shapes(fe__drawing *d, fe__pen *pen, void draw(const fe__drawn *su
 static fe_draw_instance describe(const fe__drawing *d, const fe__shape_walk *walk, const fe__stance *stance)
 {
     const fe_world *w = d->world;
-    const fe__form *form = &w->shapes[walk->shape].form;
+    const fe__shape *shape = w->shapes + walk->shape;
+    const fe__form *form = &shape->form;
     fe_draw_instance i = {.type = fe__traits_of(form)->geometry,
                           .rgba = walk->rgba,
                           .shape = fe__shape_handle(w, walk->shape),
@@ -105,9 +107,9 @@ static fe_draw_instance describe(const fe__drawing *d, const fe__shape_walk *wal
                           .position = stance->position,
                           .rotation = stance->rotation,
                           .half_extents = stance->half_extents,
-                          .part = -1};
+                          .part = fe__part_of_serial(shape->serial)};
     if (!fe__form_has_asset(form)) return i;
-    i.asset = fe__asset_handle(w, form->field);
+    i.asset = fe__store_parent(w->store, form->field)->handle;
     i.half_extents = fe__store_asset(w->store, form->field)->scale;
     return i;
 }
