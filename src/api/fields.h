@@ -160,7 +160,8 @@ typedef struct fe__fields {
             STRUCT(fe_profile) STRUCT(fe_counters) STRUCT(fe_energy) STRUCT(fe_body_def) STRUCT(fe_mass_data) \
                 STRUCT(fe_geometry) STRUCT(fe_shape_def) STRUCT(fe_joint_def) STRUCT(fe_distance_joint_def)   \
                     STRUCT(fe_ball_joint_def) STRUCT(fe_hinge_joint_def) STRUCT(fe_fixed_joint_def)           \
-                        STRUCT(fe_configurable_joint_def) STRUCT(fe_joint_state) STRUCT(fe_query_filter) STRUCT(fe_draw_options)
+                        STRUCT(fe_configurable_joint_def) STRUCT(fe_joint_state) STRUCT(fe_query_filter)      \
+                            STRUCT(fe_draw_options)
 
 #define FE_DECLARE_FIELDS(type) extern const fe__fields fe__fields_of_##type;
 FE_EACH_STRUCT(FE_DECLARE_FIELDS)
